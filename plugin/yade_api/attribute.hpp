@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+// One attribute of a plugin class, as given by the attributes() list of that class.
+#include "yade_api/conversion.hpp"
+#include "yade_api/validators.hpp"
+#include <stdexcept>
+
+namespace yade {
+
+// Bits of an attribute's flags, with YADE's values.
+enum AttributeFlag : unsigned {
+	noSave          = 1, // not part of saved files
+	readonly        = 2, // from Python; still saved, copied and restored
+	triggerPostLoad = 4, // assignment is followed by postLoad()
+	hidden          = 8, // not shown in Python
+};
+
+template <class D, class T, class Validator> struct Attribute {
+	using Type = T;
+
+	const char* name;
+	T D::*const member;
+	unsigned    flags;
+	const char* doc;
+	Validator   validator;
+
+	bool is(AttributeFlag flag) const { return flags & flag; }
+
+	// TypeError or ValueError leave the old value in place.
+	void assign(D& object, const py::object& value) const
+	{
+		const std::optional<T> converted = Conversion<T>::fromPython(value);
+		if (!converted) raisePython(PyExc_TypeError, qualifiedName() + " = " + repr(value) + ": expected " + Conversion<T>::expected() + ".");
+		requireAdmitted(*converted);
+		object.*member = *converted;
+	}
+
+	// A Python ValueError.
+	void requireAdmitted(const T& value) const
+	{
+		if (validator(value)) return;
+		throw std::invalid_argument(
+		        qualifiedName() + " = " + repr(Conversion<T>::toPython(value)) + " is not admitted: expected " + validator.description() + ".");
+	}
+
+private:
+	string qualifiedName() const { return string(D::staticName()) + "." + name; }
+};
+
+template <class D, class T, class Owner, class Validator = AnyValue>
+Attribute<D, T, Validator> makeAttribute(const char* name, T Owner::*member, unsigned flags, const char* doc, Validator validator = {})
+{
+	return { name, member, flags, doc, validator };
+}
+
+} // namespace yade

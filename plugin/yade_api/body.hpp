@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+// Bodies and what they consist of. Members marked (feature) exist because Debian builds YADE with that feature.
+#include "yade_api/serializable.hpp"
+#include <map>
+#include <mutex>
+
+#pragma GCC visibility push(default)
+namespace yade {
+class Bound;
+class BoundFunctor;
+class Interaction;
+class InternalForceFunctor;
+
+class State : public Serializable, public Indexable {
+public:
+	enum { DOF_X = 1, DOF_Y = 2, DOF_Z = 4, DOF_RX = 8, DOF_RY = 16, DOF_RZ = 32, DOF_ALL = 63 }; // bits of blockedDOFs
+	Vector3r&    pos;                                                                             // se3.position
+	Quaternionr& ori;                                                                             // se3.orientation
+	std::mutex   updateMutex;
+	Se3r         se3;
+	Vector3r     vel;
+	Real         mass;
+	Vector3r     angVel, angMom, inertia, refPos;
+	Quaternionr  refOri;
+	unsigned     blockedDOFs;
+	bool         isDamped;
+	Real         densityScaling;
+	State();
+	~State() override;
+	YADE_API_OVERRIDES(State)
+	YADE_API_INDEX_ROOT
+};
+
+class Shape : public Serializable, public Indexable {
+public:
+	Shape()
+	        : color(1, 1, 1)
+	        , wire(false)
+	        , highlight(false)
+	{
+	}
+	~Shape() override;
+	shared_ptr<BoundFunctor>         boundFunctor;
+	shared_ptr<InternalForceFunctor> internalforcefunctor; // (FEMLIKE)
+	Vector3r                         color;
+	bool                             wire, highlight;
+	YADE_API_OVERRIDES(Shape)
+	YADE_API_INDEX_ROOT
+};
+
+class Sphere : public Shape {
+public:
+	Sphere();
+	~Sphere() override;
+	Real radius;
+	YADE_API_OVERRIDES(Sphere)
+	YADE_API_INDEX_DERIVED
+};
+
+class Material : public Serializable, public Indexable {
+public:
+	Material()
+	        : id(-1)
+	        , density(1000)
+	{
+	}
+	~Material() override;
+	virtual shared_ptr<State> newAssocState() const;
+	virtual bool              stateTypeOk(State*) const;
+	int                       id;
+	string                    label;
+	Real                      density;
+	YADE_API_OVERRIDES(Material)
+	YADE_API_INDEX_ROOT
+};
+
+class Body : public Serializable {
+public:
+	using id_t = int;
+	enum { FLAG_BOUNDED = 1, FLAG_ASPHERICAL = 2 }; // bits of flags
+	id_t                                    id;
+	int                                     groupMask;
+	int                                     flags;
+	int                                     subdomain; // (MPI)
+	shared_ptr<Material>                    material;
+	shared_ptr<State>                       state;
+	shared_ptr<Shape>                       shape;
+	shared_ptr<Bound>                       bound;
+	std::map<id_t, shared_ptr<Interaction>> intrs;
+	id_t                                    clumpId;
+	long                                    iterBorn;
+	Real                                    timeBorn;
+	Body();
+	~Body() override;
+	virtual void userForcedDisplacementRedrawHook();
+	bool         isBounded() const { return flags & FLAG_BOUNDED; }
+	YADE_API_OVERRIDES(Body)
+};
+
+class BodyContainer : public Serializable { // only its exported functions are used: members are left out, and so is its constructor
+	BodyContainer();
+
+public:
+	~BodyContainer() override;
+	size_t                  size() const;
+	shared_ptr<Body>&       operator[](unsigned);
+	const shared_ptr<Body>& operator[](unsigned) const; // null after O.bodies.erase()
+	Body::id_t              insert(shared_ptr<Body>);
+	bool                    exists(Body::id_t) const;
+	YADE_API_OVERRIDES(BodyContainer)
+};
+
+static_assert(sizeof(State) == 320 && sizeof(Shape) == 96 && sizeof(Sphere) == 104, "layout of YADE 2023.02a");
+static_assert(sizeof(Material) == 80 && sizeof(Body) == 176, "layout of YADE 2023.02a");
+} // namespace yade
+#pragma GCC visibility pop

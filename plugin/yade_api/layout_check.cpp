@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "yade_api/layout_check.hpp"
+#include "yade_api/scene.hpp"
+
+namespace yade {
+
+static void checkMembersOfBody(LayoutCheck& check)
+{
+	const auto body = check.make<Body>();
+	check.require(*body, "material", body->material, check.make<Material>());
+	check.require(*body, "state", body->state, check.make<State>());
+	check.require(*body, "shape", body->shape, check.make<Shape>());
+	check.require(!body->bound && body->intrs.empty(), "Body.bound, Body.intrs");
+
+	const auto state = check.make<State>();
+	check.require(*state, "vel", state->vel, Vector3r(1, 2, 3));
+	check.require(*state, "angVel", state->angVel, Vector3r(4, 5, 6));
+	check.require(*state, "angMom", state->angMom, Vector3r(7, 8, 9));
+	check.require(*state, "inertia", state->inertia, Vector3r(1, 5, 9));
+	check.require(*state, "refPos", state->refPos, Vector3r(3, 5, 7));
+	check.require(state->refOri.w() == 1 && state->refOri.vec().isZero(0), "State.refOri");
+
+	const auto shape = check.make<Shape>();
+	check.require(*shape, "color", shape->color, Vector3r(.1, .2, .3));
+}
+
+static void checkForces(LayoutCheck& check, ForceContainer& forces)
+{
+	const Vector3r force(1, 2, 3);
+	forces.addForce(3, force);
+	check.require(!forces.synced, "ForceContainer.synced before sync()");
+	forces.sync();
+	check.require(forces.synced && forces.lastReset == 0, "ForceContainer.synced after sync()");
+	check.require(forces.getForce(3) == force, "ForceContainer.getForce()");
+}
+
+static void checkMembersOfScene(LayoutCheck& check)
+{
+	const auto scene = check.make<Scene>();
+	check.require(!scene->renderer, "Scene.renderer");
+	check.require(scene->tags.size() >= 3, "Scene.tags"); // author, creation date, identifier
+	check.require(scene->engines.empty() && scene->_nextEngines.empty() && scene->materials.empty(), "Scene.engines, Scene.materials");
+	check.require(scene->bodies && scene->interactions && scene->energy && scene->cell, "Scene.bodies ... Scene.cell");
+	check.require(!scene->bound && scene->miscParams.empty() && scene->dispParams.empty(), "Scene.bound ... Scene.dispParams");
+	check.require(!scene->timeStepperActive(), "Scene::timeStepperActive()");
+	checkForces(check, scene->forces);
+	if (!scene->bodies) return;
+
+	const auto       body = check.make<Body>();
+	const Body::id_t id   = scene->bodies->insert(body);
+	check.require(id == 0 && scene->bodies->size() == 1 && (*scene->bodies)[0] == body, "BodyContainer");
+	check.require(scene->bodies->exists(0) && !scene->bodies->exists(1), "BodyContainer::exists()");
+}
+
+static void checkThreadRunner(LayoutCheck& check)
+{
+	Omega& omega = Singleton<Omega>::instance();
+	if (!omega.simulationLoop || omega.isRunning()) return;
+	const ThreadRunner& runner = *omega.simulationLoop;
+	const size_t        size   = malloc_usable_size(omega.simulationLoop.get());
+	check.require(sizeof(ThreadRunner) <= size && size < sizeof(ThreadRunner) + 16, "size of ThreadRunner");
+	check.require(!runner.looping && !runner.workerThrew, "ThreadRunner.workerThrew");
+}
+
+vector<string> findLayoutErrors()
+{
+	LayoutCheck check([](const string& className) { return Singleton<ClassFactory>::instance().createShared(className); });
+	check.checkSizesAndScalars();
+	checkMembersOfBody(check);
+	checkMembersOfScene(check);
+	checkThreadRunner(check);
+	return check.errors();
+}
+
+} // namespace yade
