@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Grid basis functions of one axis as seen by one material point.
+#pragma once
+#include <cmath>
+
+namespace gimpm {
+
+enum class Basis { linear, gimp };
+
+/// Values and derivatives of the basis functions of one axis. The point's domain lies in one cell (2 nodes) or in two (3 nodes).
+struct AxisBasis {
+	int    cell  = 0; ///< lowest cell
+	int    cells = 1; ///< 1 or 2
+	double value[3];
+	double slope[3];    ///< [1/m]
+	double fraction[2]; ///< share of the domain's length in each cell
+};
+
+/// Round-off must not populate a cell: an overlap smaller than this fraction of the half length does not count.
+constexpr double overlapTolerance = 1.5e-8; // sqrt(machine epsilon)
+
+/// A point on a cell face (within this fraction of a cell) belongs to the lower cell.
+constexpr double faceTolerance = 1e-9;
+
+/// Linear (hat) functions at coordinate x, measured from the grid's origin in cells of size h, as seen from the given cell. They are
+/// also the exact average over any domain inside that cell.
+inline AxisBasis linearBasis(double x, double h, int cell)
+{
+	const double xi = x / h - cell;
+	return { cell, 1, { 1 - xi, xi, 0 }, { -1 / h, 1 / h, 0 }, { 1, 0 } };
+}
+
+inline int centreCell(double x, double h) { return int(std::ceil(x / h - faceTolerance)) - 1; }
+
+/// Hat functions averaged over the domain [x - l, x + l], l <= h/2 (Bardenhagen and Kober 2004). With the overlaps a and b of the
+/// domain with the lower and the upper cell the pieces are S = a^2/4lh, 1 - S_lower - S_upper, b^2/4lh: their sum is one, their
+/// slopes add up to zero and sum S x_v = x, all to round-off.
+inline AxisBasis gimpBasis(double x, double l, double h)
+{
+	const double reach = l * (1 - overlapTolerance);
+	const int    lower = int(std::floor((x - reach) / h)), upper = int(std::ceil((x + reach) / h)) - 1;
+	if (lower >= upper) return linearBasis(x, h, lower);
+	const double face = h * upper, a = face - (x - l), b = (x + l) - face, w = 1 / (2 * l * h);
+	const double sa = 0.5 * w * a * a, sb = 0.5 * w * b * b;
+	return { upper - 1, 2, { sa, 1 - sa - sb, sb }, { -w * a, w * (a - b), w * b }, { a / (2 * l), b / (2 * l) } };
+}
+
+} // namespace gimpm

@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "core/cloud_basis.hpp"
+#include <algorithm>
+
+namespace gimpm {
+namespace {
+
+template <int Dim> Index<Dim> corner(const Index<Dim>& cell, int bits)
+{
+	Index<Dim> i = cell;
+	for (int a = 0; a < Dim; ++a)
+		i[a] += bits >> a & 1;
+	return i;
+}
+
+template <int Dim> Key keyOffset(int bits)
+{
+	Key k = 0;
+	for (int a = 0; a < Dim; ++a)
+		if (bits >> a & 1) k += Grid<Dim>::keyStep(a);
+	return k;
+}
+
+/// The cell that holds the point's centre. On a face it is the lower cell, unless that lies behind the wall of that face.
+template <int Dim> Index<Dim> containingCell(const Vec<Dim>& x, double h, const Boundary<Dim>& boundary)
+{
+	Index<Dim> cell;
+	for (int a = 0; a < Dim; ++a)
+		cell[a] = centreCell(x[a], h);
+	for (int a = 0; a < Dim; ++a) {
+		const Index<Dim> upper = cell + Index<Dim>::Unit(a), beyond = upper + Index<Dim>::Unit(a);
+		const bool       onUpperFace = std::abs(x[a] / h - upper[a]) <= faceTolerance;
+		if (onUpperFace && boundary.lowerFaceIsWall(upper, a) && boundary.lowerFaceIsWall(cell, a) && !boundary.lowerFaceIsWall(beyond, a)) cell = upper;
+	}
+	return cell;
+}
+
+/// The cells of a window that can be reached from the cell of the centre through faces which are no walls.
+template <int Dim> int reachableCells(const Index<Dim>& lowest, int span, int centre, const Boundary<Dim>& boundary)
+{
+	int reached = 1 << centre;
+	for (int round = 0; round < Dim; ++round)
+		for (int c = 0; c < 1 << Dim; ++c) {
+			if (!(reached >> c & 1)) continue;
+			for (int a = 0; a < Dim; ++a) {
+				const int neighbour = c ^ 1 << a;
+				if (!(span >> a & 1) || (reached >> neighbour & 1)) continue;
+				if (!boundary.lowerFaceIsWall(corner<Dim>(lowest, c | 1 << a), a)) reached |= 1 << neighbour;
+			}
+		}
+	return reached;
+}
+
+
+template <int Dim> struct Place { // of one point
+	Key                        cell;
+	int                        span, cells, point;
+	std::array<AxisBasis, Dim> axes;
+
+	auto patch() const { return std::make_tuple(cell, span, cells); }
+	bool operator<(const Place& o) const { return std::make_tuple(cell, span, cells, point) < std::make_tuple(o.cell, o.span, o.cells, o.point); }
+};
+
+/// How far the domain reaches behind walls: its share in hidden cells, as a length of its own axis.
+template <int Dim> double hiddenLength(const Place<Dim>& p, const Vec<Dim>& halfSize, int centre)
+{
+	double length = 0;
+	for (int a = 0; a < Dim; ++a)
+		if ((p.span >> a & 1) && !(p.cells >> (centre ^ 1 << a) & 1))
+			length = std::max(length, 2 * halfSize[a] * p.axes[a].fraction[1 - (centre >> a & 1)]);
+	return length;
+}
+
+template <int Dim>
+Place<Dim> place(const PointCloud<Dim>& cloud, int point, const Grid<Dim>& grid, Basis basis, const Boundary<Dim>& boundary, double& hidden)
+{
+	const Vec<Dim>   x      = cloud.position[point] - grid.origin;
+	const Index<Dim> centre = containingCell<Dim>(x, grid.cellSize, boundary);
+	Place<Dim>       p { 0, 0, 1, point, {} };
+	Index<Dim>       lowest;
+	int              centreBits = 0; // which cell of the window holds the centre
+	for (int a = 0; a < Dim; ++a) {
+		p.axes[a] = basis == Basis::gimp ? gimpBasis(x[a], cloud.halfSize[point][a], grid.cellSize) : linearBasis(x[a], grid.cellSize, centre[a]);
+		lowest[a] = p.axes[a].cell;
+		if (p.axes[a].cells == 1) continue;
+		p.span |= 1 << a;
+		if (centre[a] > lowest[a]) centreBits |= 1 << a;
+	}
+	p.cell  = Grid<Dim>::key(lowest);
+	p.cells = reachableCells<Dim>(lowest, p.span, centreBits, boundary);
+	hidden  = std::max(hidden, hiddenLength<Dim>(p, cloud.halfSize[point], centreBits));
+	return p;
+}
+
+/// Bits of the cells of the window that touch a node given by its position in the window.
+inline int cellsAtNode(const int* n, int dim)
+{
+	int cells = 0;
+	for (int c = 0; c < 1 << dim; ++c) {
+		bool touches = true;
+		for (int a = 0; a < dim; ++a)
+			touches &= n[a] == (c >> a & 1) || n[a] == (c >> a & 1) + 1;
+		cells |= touches << c;
+	}
+	return cells;
+}
+
+void sortUnique(std::vector<Key>& keys)
+{
+	std::sort(keys.begin(), keys.end());
+	keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
+}
+
+/// Calls f(position in patch.node, key) for every node of the patch that touches a reached cell.
+template <int Dim, class F> void forPatchNodes(const Patch<Dim>& patch, F&& f)
+{
+	int n[3] = { 0, 0, 0 }, local = 0;
+	for (n[2] = 0; n[2] < (Dim == 3 ? patch.nodesAlong(Dim - 1) : 1); ++n[2])
+		for (n[1] = 0; n[1] < patch.nodesAlong(1); ++n[1])
+			for (n[0] = 0; n[0] < patch.nodesAlong(0); ++n[0], ++local) {
+				if (!(cellsAtNode(n, Dim) & patch.cells)) continue;
+				Key key = patch.cell;
+				for (int a = 0; a < Dim; ++a)
+					key += n[a] * Grid<Dim>::keyStep(a);
+				f(local, key);
+			}
+}
+
+template <int Dim> void makePatches(const std::vector<Place<Dim>>& places, CloudBasis<Dim>& b)
+{
+	for (int i = 0; i < int(places.size()); ++i) {
+		if (i == 0 || places[i].patch() != places[i - 1].patch()) {
+			b.patches.push_back({ places[i].cell, places[i].span, places[i].cells, i, 0, {} });
+			b.patches.back().node.fill(-1);
+		}
+		++b.patches.back().count;
+		b.order.push_back(places[i].point);
+		b.axes.push_back(places[i].axes);
+	}
+}
+
+template <int Dim> void numberNodes(CloudBasis<Dim>& b)
+{
+	for (const auto& patch : b.patches) {
+		forPatchNodes(patch, [&](int, Key key) { b.nodes.push_back(key); });
+		for (int c = 0; c < 1 << Dim; ++c)
+			if (patch.cells >> c & 1) b.cells.push_back(patch.cell + keyOffset<Dim>(c));
+	}
+	sortUnique(b.nodes);
+	sortUnique(b.cells);
+	for (auto& patch : b.patches)
+		forPatchNodes(patch, [&](int local, Key key) {
+			patch.node[local] = int(std::lower_bound(b.nodes.begin(), b.nodes.end(), key) - b.nodes.begin());
+		});
+}
+
+template <int Dim> void colourPatches(CloudBasis<Dim>& b)
+{
+	for (int i = 0; i < int(b.patches.size());) {
+		int last = i;
+		while (last < int(b.patches.size()) && b.patches[last].cell == b.patches[i].cell)
+			++last;
+		const Index<Dim> cell   = Grid<Dim>::index(b.patches[i].cell);
+		int              colour = 0;
+		for (int a = Dim - 1; a >= 0; --a)
+			colour = 3 * colour + (cell[a] % 3 + 3) % 3;
+		b.colours[colour].push_back({ i, last });
+		i = last;
+	}
+}
+
+} // namespace
+
+template <int Dim> CloudBasis<Dim> cloudBasis(const PointCloud<Dim>& cloud, const Grid<Dim>& grid, Basis basis, const Boundary<Dim>& boundary)
+{
+	CloudBasis<Dim>         b;
+	std::vector<Place<Dim>> places(cloud.size());
+	double                  hidden = 0;
+#pragma omp parallel for reduction(max : hidden)
+	for (int p = 0; p < int(cloud.size()); ++p)
+		places[p] = place(cloud, p, grid, basis, boundary, hidden);
+	b.largestWallOverlap = hidden;
+	std::sort(places.begin(), places.end());
+	makePatches(places, b);
+	numberNodes(b);
+	colourPatches(b);
+	return b;
+}
+
+template CloudBasis<2> cloudBasis(const PointCloud<2>&, const Grid<2>&, Basis, const Boundary<2>&);
+template CloudBasis<3> cloudBasis(const PointCloud<3>&, const Grid<3>&, Basis, const Boundary<3>&);
+
+} // namespace gimpm

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Step 4: the symmetric linear system on the free degrees of freedom.
+#pragma once
+#include "core/node_matrix.hpp"
+#include <memory>
+
+namespace gimpm {
+
+/// Lower triangle of a symmetric sparse matrix in compressed columns; rows ascend within a column.
+struct SymmetricCsc {
+	std::vector<int>    start, row; ///< pattern: column c has entries start[c] ... start[c + 1] - 1
+	std::vector<double> value;
+
+	int  size() const { return int(start.size()) - 1; }
+	bool samePattern(const SymmetricCsc& o) const { return start == o.start && row == o.row; }
+};
+
+/// The free degrees of freedom among Dim a node: number of each, -1 for the held ones.
+struct FreeDofs {
+	std::vector<int> number;
+	int              count = 0;
+};
+
+/// Copies the pattern and the values of the free rows and columns of K.
+template <int Dim> void reduce(const NodeMatrix<Dim>& K, const FreeDofs&, SymmetricCsc& out);
+
+struct SolverTimes {
+	double analyse = 0, factorise = 0, solve = 0; ///< [s]
+};
+
+/// Direct solver: supernodal Cholesky (CHOLMOD), and LU with pivoting (UMFPACK) for a matrix that is not positive definite. The symbolic
+/// analysis is repeated only when the pattern changes. One object serves one thread.
+class LinearSolver {
+public:
+	enum class Status { cholesky, lu, singular };
+
+	LinearSolver();
+	~LinearSolver();
+	LinearSolver(LinearSolver&&) noexcept;
+	LinearSolver& operator=(LinearSolver&&) noexcept;
+
+	/// K x = b. On `singular` (to working precision) x is meaningless.
+	Status solve(const SymmetricCsc& K, const Eigen::VectorXd& b, Eigen::VectorXd& x);
+
+	const SolverTimes& times() const { return times_; }
+	void               resetTimes() { times_ = {}; }
+
+private:
+	struct Cholmod;
+	std::unique_ptr<Cholmod> cholmod_;
+	SymmetricCsc             analysed_; // pattern of the symbolic analysis
+	SolverTimes              times_;
+};
+
+} // namespace gimpm

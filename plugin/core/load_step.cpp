@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "core/load_step.hpp"
+#include "core/newton.hpp"
+#include "core/point_kernel.hpp"
+#include "core/restraint.hpp"
+#include "core/stopwatch.hpp"
+
+namespace gimpm {
+namespace {
+
+/// Step 5: the points take over the converged displacements, and their domains follow the stretch along the grid axes.
+template <int Dim> void updatePoints(PointCloud<Dim>& cloud, const StepSystem<Dim>& system, const Eigen::VectorXd& d, StepReport& report)
+{
+	const Stopwatch watch(report.times.update);
+	const double    limit   = 0.5 * system.model.grid.cellSize;
+	std::vector<char> clamped(cloud.size(), 0);
+	forUpdatedPoints(system.basis, system.points, system.model.materials, d, [&](int p, const PointUpdate<Dim>& u) {
+		cloud.position[p] += u.displacement;
+		cloud.defGrad[p]       = (cloud.defGrad[p] + u.gradient * cloud.defGrad[p]).eval();
+		cloud.elasticStrain[p] = u.elasticStrain;
+		cloud.plasticStrain[p] = u.plasticStrain;
+		cloud.stress[p].c      = u.kirchhoffStress.c / cloud.defGrad[p].determinant();
+		if (system.model.basis == Basis::gimp) {
+			const Vec<Dim> size = cloud.halfSize0[p].cwiseProduct(stretchAlongAxes(cloud.defGrad[p]));
+			clamped[p]          = (size.array() > limit).any();
+			cloud.halfSize[p]   = size.cwiseMin(limit);
+		}
+	});
+	for (const char c : clamped)
+		report.clampedDomains += c;
+}
+
+} // namespace
+
+template <int Dim> StepReport loadStep(PointCloud<Dim>& cloud, const Model<Dim>& model, const Load<Dim>& load, LinearSolver& solver)
+{
+	StepReport report;
+	solver.resetTimes();
+	// 1. basis functions and populated cells; boundary cells, ghost faces and K_g
+	const StepSystem<Dim> system(cloud, model, load, report);
+	const std::string     motion = freeRigidMotion(system.basis, model.grid, model.boundary);
+	if (!motion.empty()) {
+		report.failure = Failure::unrestrained;
+		report.cause   = "nothing restrains the " + motion;
+		return report;
+	}
+	// 2. to 4. points to nodes, assembly and Newton's method on the nodes
+	const Eigen::VectorXd d = equilibrium(system, solver, report);
+	report.times.linear     = solver.times();
+	// 5. nodes to points; 6. the grid is reset by not being kept
+	if (report.converged()) updatePoints(cloud, system, d, report);
+	return report;
+}
+
+template <int Dim> SymmetricCsc tangentStiffness(const PointCloud<Dim>& cloud, const Model<Dim>& model)
+{
+	StepReport            report;
+	const StepSystem<Dim> system(cloud, model, Load<Dim>(), report);
+	NodeMatrix<Dim>       K;
+	Eigen::VectorXd       force;
+	system.prepare(K);
+	system.evaluate(Eigen::VectorXd::Zero(system.nodalSize()), force, &K);
+	SymmetricCsc reduced;
+	reduce(K, system.dofs, reduced);
+	return reduced;
+}
+
+double conditionNumber(const SymmetricCsc& K)
+{
+	Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(K.size(), K.size());
+	for (int c = 0; c < K.size(); ++c)
+		for (int e = K.start[c]; e < K.start[c + 1]; ++e)
+			dense(K.row[e], c) = K.value[e];
+	const Eigen::VectorXd size = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(dense, Eigen::EigenvaluesOnly).eigenvalues().cwiseAbs();
+	return size.maxCoeff() / size.minCoeff();
+}
+
+template StepReport   loadStep(PointCloud<2>&, const Model<2>&, const Load<2>&, LinearSolver&);
+template StepReport   loadStep(PointCloud<3>&, const Model<3>&, const Load<3>&, LinearSolver&);
+template SymmetricCsc tangentStiffness(const PointCloud<2>&, const Model<2>&);
+template SymmetricCsc tangentStiffness(const PointCloud<3>&, const Model<3>&);
+
+} // namespace gimpm

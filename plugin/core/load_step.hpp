@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// One load step of the ghost-stabilised implicit GIMPM (Coombs 2023, section 2).
+#pragma once
+#include "core/linear_solver.hpp"
+#include "core/model.hpp"
+#include "core/report.hpp"
+
+namespace gimpm {
+
+/// Advances the points to equilibrium under the load. If the step does not converge, the report says why and the points are unchanged.
+/// The solver may be kept between steps to save symbolic analyses; the result does not depend on it.
+template <int Dim> StepReport loadStep(PointCloud<Dim>&, const Model<Dim>&, const Load<Dim>&, LinearSolver&);
+
+/// Reduced tangent K + K_g (free degrees of freedom) of the current configuration.
+template <int Dim> SymmetricCsc tangentStiffness(const PointCloud<Dim>&, const Model<Dim>&);
+
+/// 2-norm condition number of a symmetric matrix, from all its eigenvalues: for small systems.
+double conditionNumber(const SymmetricCsc&);
+
+} // namespace gimpm

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// What a load step is given besides the points.
+#pragma once
+#include "core/basis.hpp"
+#include "core/boundary.hpp"
+#include "core/ghost.hpp"
+#include "core/materials/law.hpp"
+
+namespace gimpm {
+
+struct GhostSettings {
+	double       factor  = 1e-2; ///< gamma_k over the modulus; 0: plain GIMPM, no faces are looked for
+	GhostScaling scaling = GhostScaling::meshIndependent;
+};
+
+struct NewtonSettings {
+	double tolerance     = 1e-6; ///< on |residual| / |external forces + reactions|
+	int    maxIterations = 20;   ///< linear solves
+};
+
+template <int Dim> struct Model {
+	Grid<Dim>             grid;
+	Basis                 basis = Basis::gimp;
+	std::vector<Material> materials;
+	Boundary<Dim>         boundary;
+	GhostSettings         ghost;
+	NewtonSettings        newton;
+};
+
+template <int Dim> struct Load {
+	Vec<Dim> gravity   = Vec<Dim>::Zero(); ///< at load factor 1 [m/s2]
+	double   factor    = 1;                ///< load factor at the end of the step
+	double   increment = 1;                ///< its growth in the step: the share of the prescribed displacements
+};
+
+} // namespace gimpm

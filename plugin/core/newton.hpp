@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Step 4 of the method: Newton's method on the incremental nodal displacements.
+#pragma once
+#include "core/step_system.hpp"
+
+namespace gimpm {
+
+/// Finds d with external - internal(d) - K_g d = 0 on the free degrees of freedom, starting from d = 0; prescribed displacements enter
+/// with the first solve. Converged when |residual| <= tolerance |external forces + reactions|. Fills the report's failure, iterations,
+/// residuals and worst degree of freedom.
+template <int Dim> Eigen::VectorXd equilibrium(const StepSystem<Dim>&, LinearSolver&, StepReport&);
+
+} // namespace gimpm

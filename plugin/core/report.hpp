@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// How a load step went. Failure is a value.
+#pragma once
+#include "core/linear_solver.hpp"
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace gimpm {
+
+enum class Failure { none, unrestrained, singular, inverted, notFinite, tooManyIterations };
+
+struct StepTimes {
+	double      basis = 0, ghost = 0, assembly = 0, update = 0; ///< [s]
+	SolverTimes linear;
+};
+
+struct StepReport {
+	Failure             failure = Failure::none;
+	std::string         cause;          ///< one clause for the user, empty when converged
+	int                 iterations = 0; ///< linear solves
+	std::vector<double> residuals;      ///< |residual| / |external forces + reactions| before the first solve and after each
+	int                 luSolves = 0;   ///< solves for which K was not positive definite
+
+	int nodes = 0, dofs = 0, populatedCells = 0, boundaryCells = 0, ghostFaces = 0;
+
+	/// Free degree of freedom with the largest out-of-balance force.
+	struct {
+		Vec3   position = Vec3::Constant(std::numeric_limits<double>::quiet_NaN()); ///< of the node [m]
+		int    axis     = -1;
+		double force    = 0; ///< [N]
+	} worst;
+
+	int    clampedDomains     = 0; ///< points whose domain would have outgrown half a cell in this step
+	double largestWallOverlap = 0; ///< largest length by which a domain reached behind a wall [m]
+
+	StepTimes times;
+
+	bool   converged() const { return failure == Failure::none; }
+	double residual() const { return residuals.empty() ? std::numeric_limits<double>::quiet_NaN() : residuals.back(); }
+};
+
+} // namespace gimpm

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "core/step_system.hpp"
+#include "core/stopwatch.hpp"
+#include <Eigen/LU>
+
+namespace gimpm {
+namespace {
+
+template <int Dim>
+std::vector<GhostFace<Dim>> stabilise(const PointCloud<Dim>& cloud, const Model<Dim>& model, const CloudBasis<Dim>& basis, StepReport& report)
+{
+	if (model.ghost.factor == 0) return {};
+	const Stopwatch watch(report.times.ghost);
+	const auto      boundary = boundaryCells(basis.cells, model.boundary);
+	auto            faces    = ghostFaces<Dim>(basis.cells, boundary, model.boundary);
+	report.boundaryCells     = int(boundary.size());
+	report.ghostFaces        = int(faces.size());
+	std::vector<double> volume(cloud.size()), modulus(cloud.size());
+	for (std::size_t p = 0; p < cloud.size(); ++p) {
+		volume[p]  = cloud.volume0[p] * cloud.defGrad[p].determinant();
+		modulus[p] = model.materials[cloud.material[p]].young();
+	}
+	weighGhostFaces(faces, basis, volume, modulus, model.grid.cellSize, model.ghost.factor, model.ghost.scaling);
+	return faces;
+}
+
+template <int Dim> Eigen::VectorXd externalForce(const PointCloud<Dim>& cloud, const Model<Dim>& model, const CloudBasis<Dim>& basis, const Load<Dim>& load)
+{
+	std::vector<Vec<Dim>> force(cloud.size());
+	for (std::size_t p = 0; p < cloud.size(); ++p) {
+		force[p] = model.materials[cloud.material[p]].density * cloud.volume0[p] * load.factor * load.gravity;
+		if (!cloud.force.empty()) force[p] += load.factor * cloud.force[p];
+	}
+	Eigen::VectorXd f = Eigen::VectorXd::Zero(Dim * basis.nodes.size());
+	addPointForces(basis, force, f);
+	return f;
+}
+
+} // namespace
+
+template <int Dim>
+StepSystem<Dim>::StepSystem(const PointCloud<Dim>& cloud, const Model<Dim>& m, const Load<Dim>& load, StepReport& report)
+        : model(m)
+{
+	{
+		const Stopwatch watch(report.times.basis);
+		basis    = cloudBasis(cloud, model.grid, model.basis, model.boundary);
+		points   = stepPoints(cloud, basis);
+		external = externalForce(cloud, model, basis, load);
+	}
+	faces      = stabilise(cloud, model, basis, report);
+	prescribed = Eigen::VectorXd::Zero(nodalSize());
+	dofs.number.assign(nodalSize(), -1);
+	for (std::size_t n = 0; n < basis.nodes.size(); ++n)
+		for (int a = 0; a < Dim; ++a) {
+			if (const auto* box = model.boundary.holder(Grid<Dim>::index(basis.nodes[n]), a)) prescribed[Dim * n + a] = load.increment * box->displacement[a];
+			else
+				dofs.number[Dim * n + a] = dofs.count++;
+		}
+	report.nodes              = int(basis.nodes.size());
+	report.dofs               = dofs.count;
+	report.populatedCells     = int(basis.cells.size());
+	report.largestWallOverlap = basis.largestWallOverlap;
+}
+
+template <int Dim> void StepSystem<Dim>::prepare(NodeMatrix<Dim>& K) const
+{
+	K.reset(basis.nodes);
+	markPointPattern(basis, K);
+	markGhostPattern(faces, K);
+}
+
+template <int Dim> InvertedPoint StepSystem<Dim>::evaluate(const Eigen::VectorXd& d, Eigen::VectorXd& force, NodeMatrix<Dim>* K) const
+{
+	force = Eigen::VectorXd::Zero(nodalSize());
+	if (K) K->setZero();
+	const InvertedPoint inverted = addInternalForce(basis, points, model.materials, d, force, K);
+	addGhostForce(faces, model.grid.cellSize, d, force);
+	if (K) addGhostStiffness(faces, model.grid.cellSize, *K);
+	return inverted;
+}
+
+template struct StepSystem<2>;
+template struct StepSystem<3>;
+
+} // namespace gimpm

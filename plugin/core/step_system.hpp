@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The discrete equilibrium of one load step: everything that stays the same while Newton's method iterates.
+#pragma once
+#include "core/assembly.hpp"
+#include "core/ghost.hpp"
+#include "core/linear_solver.hpp"
+#include "core/model.hpp"
+#include "core/report.hpp"
+
+namespace gimpm {
+
+template <int Dim> struct StepSystem {
+	/// Step 1 and the ghost faces; reports sizes and times.
+	StepSystem(const PointCloud<Dim>&, const Model<Dim>&, const Load<Dim>&, StepReport&);
+
+	const Model<Dim>&           model;
+	CloudBasis<Dim>             basis;
+	StepPoints<Dim>             points;
+	std::vector<GhostFace<Dim>> faces;
+	FreeDofs                    dofs;
+	Eigen::VectorXd             external;   ///< body and point forces, Dim components a node [N]
+	Eigen::VectorXd             prescribed; ///< increments of the held degrees of freedom, zero elsewhere [m]
+
+	int nodalSize() const { return Dim * int(basis.nodes.size()); }
+
+	/// Sets K up for evaluate(): pattern and zeros.
+	void prepare(NodeMatrix<Dim>& K) const;
+
+	/// force = f_int + K_g d; also K + K_g when K is given.
+	InvertedPoint evaluate(const Eigen::VectorXd& d, Eigen::VectorXd& force, NodeMatrix<Dim>* K) const;
+};
+
+} // namespace gimpm

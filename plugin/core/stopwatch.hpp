@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Adds the time until its end of life to a counter.
+#pragma once
+#include <chrono>
+
+namespace gimpm {
+
+class Stopwatch {
+public:
+	explicit Stopwatch(double& seconds) : seconds_(seconds), begin_(Clock::now()) { }
+	~Stopwatch() { seconds_ += std::chrono::duration<double>(Clock::now() - begin_).count(); }
+	Stopwatch(const Stopwatch&)            = delete;
+	Stopwatch& operator=(const Stopwatch&) = delete;
+
+private:
+	using Clock = std::chrono::steady_clock;
+	double&           seconds_;
+	Clock::time_point begin_;
+};
+
+} // namespace gimpm
