@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "engine/MaterialPoints.hpp"
+
+namespace yade {
+
+namespace {
+	[[noreturn]] void refuse(const Body& body, const string& why) { throw std::invalid_argument("Body #" + std::to_string(body.id) + ": " + why); }
+
+	template <class T> string classOf(const shared_ptr<T>& part) { return part ? part->getClassName() : "none"; }
+
+	MaterialPoint complete(const Body& body, MpmPoint& shape)
+	{
+		auto* material = dynamic_cast<MpmMaterial*>(body.material.get());
+		if (!material)
+			refuse(body, "an MpmPoint shape needs a material for material points, such as MpmElasticMat; there is " + classOf(body.material) + ".");
+		auto* state = dynamic_cast<MpmState*>(body.state.get());
+		if (!state) refuse(body, "an MpmPoint shape needs an MpmState, as from material.newAssocState(); there is " + classOf(body.state) + ".");
+		if (body.isBounded() || state->blockedDOFs != State::DOF_ALL)
+			refuse(body, "YADE's collider and integrator must leave material points alone: set bounded = False and state.blockedDOFs = 'xyzXYZ'.");
+		return { &body, &shape, state, material };
+	}
+
+	void refuseOtherShape(const Body& body)
+	{
+		if (!dynamic_cast<MpmMaterial*>(body.material.get())) return;
+		refuse(body,
+		       "material '" + body.material->label + "' (" + body.material->getClassName() + ") is for material points, but the shape is "
+		               + classOf(body.shape) + ". Functions such as sphere() take the last material of O.materials unless given one.");
+	}
+
+	// Whatever the two-dimensional computation would leave out has to be zero.
+	void requirePlaneStrain(const MpmState& state)
+	{
+		for (const auto& [name, tensor, normal] : { std::tuple { "stress", &state.stress, state.stress(2, 2) },
+		                                            std::tuple { "elasticStrain", &state.elasticStrain, state.elasticStrain(2, 2) },
+		                                            std::tuple { "defGrad", &state.defGrad, 1. } })
+			if (tensor->topRightCorner<2, 1>().any() || tensor->bottomLeftCorner<1, 2>().any() || (*tensor)(2, 2) != normal)
+				throw std::invalid_argument(
+				        string("MpmState.") + name
+				        + " has shear or stretch out of the x-y plane, which a grid with dim=2 (plane strain) does not admit.");
+		if (state.force[2] != 0)
+			throw std::invalid_argument("MpmState.force has a z component, which a grid with dim=2 (plane strain) does not admit.");
+	}
+}
+
+void MaterialPoint::requireAdmissible(int dim) const
+{
+	try {
+		shape->requireAdmissible();
+		state->requireAdmissible();
+		if (dim == 2) requirePlaneStrain(*state);
+	} catch (const std::invalid_argument& error) {
+		refuse(*body, error.what());
+	}
+}
+
+vector<MaterialPoint> materialPoints(const Scene& scene)
+{
+	const BodyContainer&  bodies = *scene.bodies;
+	vector<MaterialPoint> points;
+	for (size_t id = 0; id < bodies.size(); ++id) {
+		const shared_ptr<Body>& body = bodies[id];
+		if (!body) continue; // erased
+		if (auto* shape = dynamic_cast<MpmPoint*>(body->shape.get())) points.push_back(complete(*body, *shape));
+		else
+			refuseOtherShape(*body);
+	}
+	return points;
+}
+
+} // namespace yade

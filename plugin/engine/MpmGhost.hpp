@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+#include "yade_api/registration.hpp"
+
+namespace yade {
+
+class MpmGhost : public Exposed<MpmGhost, Serializable> {
+public:
+	Real   factor  = 1e-2;
+	string scaling = "mesh-independent";
+
+	YADE_API_NAME(MpmGhost)
+	static const char* doc()
+	{
+		return "Ghost stabilisation of the cells at the edge of the body (Coombs 2023, section 3): penalises jumps of the displacement gradient across "
+		       "their faces, so that the linear system is well conditioned however little of a cell is filled.";
+	}
+	template <class V> static void attributes(V&& v)
+	{
+		v("factor",
+		  &MpmGhost::factor,
+		  0,
+		  "Strength [-] >= 0: gamma_k of eq. 2 is this times Young's modulus of the points around a face. 0 switches the stabilisation off.",
+		  nonNegative);
+		v("scaling",
+		  &MpmGhost::scaling,
+		  0,
+		  "What the integral over a face is multiplied by. 'mesh-independent': gamma_k h / 3, in proportion to the stiffness of cells of any size h; "
+		  "'paper': gamma_k h^3 / 3 as printed in eq. 2, with h in metres, which fades on fine grids. They agree at h = 1 m.",
+		  oneOf("mesh-independent", "paper"));
+	}
+};
+
+} // namespace yade
+
+BOOST_CLASS_EXPORT_KEY(yade::MpmGhost)

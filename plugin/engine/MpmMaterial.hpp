@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+#include "yade_api/registration.hpp"
+
+namespace yade {
+
+class MpmMaterial : public ExposedIndexed<MpmMaterial, Material> {
+public:
+	YADE_API_NAME(MpmMaterial)
+	static const char*             doc() { return "Base of the materials of material points. It has no constitutive law itself and is refused when used."; }
+	template <class V> static void attributes(V&& v)
+	{
+		// saved by YADE's Material, which admits every number
+		v("density", &MpmMaterial::density, noSave, "Density [kg/m³] > 0 of the initial configuration.", positive);
+	}
+	shared_ptr<State> newAssocState() const override;
+	bool              stateTypeOk(State*) const override;
+	void              requireAdmissible() const override;
+};
+
+} // namespace yade
+
+BOOST_CLASS_EXPORT_KEY(yade::MpmMaterial)

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+#include "yade_api/registration.hpp"
+
+namespace yade {
+
+class MpmState : public ExposedIndexed<MpmState, State> {
+public:
+	Matrix3r stress        = Matrix3r::Zero();
+	Matrix3r defGrad       = Matrix3r::Identity();
+	Matrix3r elasticStrain = Matrix3r::Zero();
+	Vector3r force         = Vector3r::Zero();
+	Real     volume        = std::numeric_limits<Real>::quiet_NaN(); // must be given
+	Real     volume0       = std::numeric_limits<Real>::quiet_NaN(); // must be given
+	Real     plasticStrain = 0;
+
+	YADE_API_NAME(MpmState)
+	static const char* doc()
+	{
+		return "State of a material point. *pos* and *refPos* (inherited) are its current and initial position [m], *mass* [kg] is constant. "
+		       "Tensors are 3x3 in plane strain too, with the normal component out of the plane.";
+	}
+	template <class V> static void attributes(V&& v)
+	{
+		const auto symmetric = admitting("a symmetric matrix of finite numbers", isSymmetric);
+		const auto volumes   = admitting("a finite number > 0 [m³]; there is no default", positive);
+		v("stress", &MpmState::stress, 0, "Cauchy stress [Pa], symmetric, positive in tension.", symmetric);
+		v("defGrad",
+		  &MpmState::defGrad,
+		  0,
+		  "Deformation gradient [-] from the initial configuration, determinant > 0.",
+		  admitting("a matrix of finite numbers with a determinant > 0: matter cannot turn inside out", preservesOrientation));
+		v("elasticStrain",
+		  &MpmState::elasticStrain,
+		  0,
+		  "Elastic logarithmic strain [-], symmetric, positive in extension: half the logarithm of the elastic left Cauchy-Green tensor. The "
+		  "next step starts from it (Coombs 2023, section 2).",
+		  symmetric);
+		v("force", &MpmState::force, 0, "Point load [N] at load factor 1; per metre of thickness in plane strain.", finite);
+		v("volume", &MpmState::volume, 0, "Current volume [m³] > 0; that of 1 m of thickness in plane strain.", volumes);
+		v("volume0", &MpmState::volume0, 0, "Initial volume [m³] > 0; that of 1 m of thickness in plane strain.", volumes);
+		v("plasticStrain",
+		  &MpmState::plasticStrain,
+		  0,
+		  "Equivalent plastic strain [-] >= 0: sqrt(2/3) times the accumulated length of the increments of plastic logarithmic strain.",
+		  nonNegative);
+	}
+
+	// Position and initial position belong to YADE's State, which admits every number.
+	void requireAdmissible() const override;
+
+	static bool isSymmetric(const Matrix3r&); // to round-off
+	static bool preservesOrientation(const Matrix3r&);
+};
+
+} // namespace yade
+
+BOOST_CLASS_EXPORT_KEY(yade::MpmState)
