@@ -123,6 +123,14 @@ private:
 	vector<string> found;
 };
 
+inline string joined(const vector<string>& items)
+{
+	string text;
+	for (const string& item : items)
+		text += (text.empty() ? "" : ", ") + item;
+	return text;
+}
+
 // All checks, for use after `import yade` when Python can convert vectors and objects: what is wrong, one entry each.
 vector<string> findLayoutErrors();
 

@@ -12,9 +12,11 @@
 //		template <class V> static void attributes(V&& v) { v("size", &MpmThing::size, 0, "Size [m], > 0.", positive); }
 //	};
 //
-// and its source file, or one for several classes, enters it into YADE's lists:
+//	BOOST_CLASS_EXPORT_KEY(yade::MpmThing)
 //
-//	BOOST_CLASS_EXPORT(yade::MpmThing)
+// and its source file enters it into YADE's lists:
+//
+//	BOOST_CLASS_EXPORT_IMPLEMENT(yade::MpmThing)
 //	static const yade::PluginClasses<yade::MpmThing> registered(__FILE__);
 //
 // An attribute of a YADE base class listed again, with the flag noSave because its own class saves it, gets the documentation and

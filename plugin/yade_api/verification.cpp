@@ -1,19 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The plugin is also a Python extension module, imported by yade.mpm for what can be checked only when YADE has started.
+#include "yade_api/verification.hpp"
 #include "yade_api/layout_check.hpp"
 #include "yade_api/registration.hpp"
 
 namespace yade {
 
-static string joined(const vector<string>& items)
-{
-	string text;
-	for (const string& item : items)
-		text += (text.empty() ? "" : ", ") + item;
-	return text;
-}
-
-// YADE registers Python classes in a loop that swallows errors, so a class can be missing without a word.
+// YADE registers Python classes in a loop that swallows errors, so one can be missing without a word.
 static vector<string> findMissingClasses()
 {
 	const py::object wrapper = py::import("yade.wrapper");
@@ -23,7 +15,7 @@ static vector<string> findMissingClasses()
 	return missing;
 }
 
-static void verify()
+void verifyPlugin()
 {
 	const vector<string> layoutErrors = findLayoutErrors();
 	if (!layoutErrors.empty())
@@ -33,8 +25,3 @@ static void verify()
 }
 
 } // namespace yade
-
-BOOST_PYTHON_MODULE(mpm_engine)
-{
-	boost::python::def("verify", &yade::verify, "ImportError if YADE does not fit the plugin, or has not registered all of its classes.");
-}
