@@ -1,0 +1,26 @@
+#!/usr/bin/python3.11
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""YADE with the material point plugin, for one user: the system's yade, made to look for libraries in this overlay.
+
+Installed by scripts/setup as bin/yade of the overlay.
+"""
+import importlib.machinery
+import os
+import sys
+
+_overlay = os.path.dirname(os.path.dirname(os.path.realpath(__file__)))
+os.environ['YADE_PREFIX'] = _overlay
+
+
+class _OverlayFinder:
+	"""Finds yade.mpm in the overlay; the package yade itself is the system's."""
+
+	@staticmethod
+	def find_spec(name, path=None, target=None):
+		if name == 'yade.mpm':
+			return importlib.machinery.PathFinder.find_spec(name, [os.path.join(_overlay, 'python')], target)
+
+
+sys.meta_path.insert(0, _OverlayFinder)
+with open('/usr/bin/yade') as _yade:
+	exec(compile(_yade.read(), _yade.name, 'exec'))
