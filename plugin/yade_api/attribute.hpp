@@ -39,6 +39,7 @@ template <class D, class T, class Validator> struct Attribute {
 	void requireAdmitted(const T& value) const
 	{
 		if (validator(value)) return;
+		const PythonLock lock; // an engine asks, too
 		throw std::invalid_argument(
 		        qualifiedName() + " = " + repr(Conversion<T>::toPython(value)) + " is not admitted: expected " + validator.description() + ".");
 	}
