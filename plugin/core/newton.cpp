@@ -89,9 +89,8 @@ template <int Dim> Eigen::VectorXd equilibrium(const StepSystem<Dim>& system, Li
 			inverted = system.evaluate(d, force, &K);
 		}
 		if (inverted >= 0) {
-			std::ostringstream text;
-			text << "material point " << inverted << " was turned inside out (det F <= 0)";
-			fail(report, Failure::inverted, text.str());
+			report.invertedPoint = inverted;
+			fail(report, Failure::inverted, "a material point was turned inside out (det F <= 0)");
 			break;
 		}
 		const Balance b = balance(system.dofs, system.external, force);

@@ -21,6 +21,7 @@ struct StepReport {
 	int                 iterations = 0; ///< linear solves
 	std::vector<double> residuals;      ///< |residual| / |external forces + reactions| before the first solve and after each
 	int                 luSolves = 0;   ///< solves for which K was not positive definite
+	int                 invertedPoint = -1; ///< its index in the cloud, for Failure::inverted
 
 	int nodes = 0, dofs = 0, populatedCells = 0, boundaryCells = 0, ghostFaces = 0;
 

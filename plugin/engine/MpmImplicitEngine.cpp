@@ -1,0 +1,236 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "engine/MpmImplicitEngine.hpp"
+#include "core/load_step.hpp"
+#include "core/stopwatch.hpp"
+#include "engine/exchange.hpp"
+#include "yade_api/exceptions.hpp"
+#include <omp.h>
+
+namespace yade {
+
+namespace {
+	// Engine.ompThreads, if set, for the time of a step.
+	class Threads {
+	public:
+		explicit Threads(int wanted)
+		        : before(omp_get_max_threads())
+		{
+			if (wanted > 0) omp_set_num_threads(wanted);
+		}
+		~Threads() { omp_set_num_threads(before); }
+
+	private:
+		int before;
+	};
+
+	string placeOf(const MaterialPoint& point)
+	{
+		std::ostringstream text;
+		text << " (body #" << point.body->id << " at " << point.state->pos.transpose() << ")";
+		return text.str();
+	}
+
+	template <class T> py::object numpyArray(const vector<T>& values, const char* type)
+	{
+		const char* bytes = reinterpret_cast<const char*>(values.data());
+		py::object  copy { py::handle<>(PyByteArray_FromStringAndSize(bytes, values.size() * sizeof(T))) };
+		return py::import("numpy").attr("frombuffer")(copy, type);
+	}
+}
+
+MpmImplicitEngine::MpmImplicitEngine()
+{
+	iterPeriod   = 1;
+	initRun      = true;
+	timingDeltas = boost::make_shared<TimingDeltas>();
+}
+
+bool MpmImplicitEngine::isLoadCurve(const vector<std::pair<Real, Real>>& curve)
+{
+	for (size_t i = 0; i < curve.size(); ++i)
+		if (!std::isfinite(curve[i].first) || !std::isfinite(curve[i].second) || (i > 0 && curve[i].first <= curve[i - 1].first)) return false;
+	return !curve.empty();
+}
+
+bool MpmImplicitEngine::isActivated()
+{
+	beforeActivation = { virtLast, realLast, iterLast, nDone };
+	return PeriodicEngine::isActivated();
+}
+
+void MpmImplicitEngine::action()
+{
+	deliveringErrors([&] {
+		try {
+			run();
+		} catch (...) {
+			virtLast = beforeActivation.virtLast;
+			realLast = beforeActivation.realLast;
+			iterLast = beforeActivation.iterLast;
+			nDone    = beforeActivation.nDone;
+			if (!scene->subStepping) scene->subStep = -1; // YADE would count the iteration as begun, and finish it later
+			throw;
+		}
+	});
+}
+
+void MpmImplicitEngine::run()
+{
+	const std::lock_guard<std::mutex> lock(busy);
+	const Threads                     threads(ompThreads);
+	requireRunnable();
+	const Real target = scene->time + scene->dt;
+	if (grid->dim == 2) step<2>(target);
+	else
+		step<3>(target);
+}
+
+void MpmImplicitEngine::requireRunnable() const
+{
+	requireAdmissible();
+	std::ostringstream text;
+	const bool everyIteration = iterPeriod == 1;
+	if (!(scene->dt > 0) || !std::isfinite(scene->dt))
+		text << "O.dt = " << scene->dt << " is not admitted: expected a finite number > 0, the load time of one step (with the default loadCurve, 1/80 gives 80 steps).";
+	else if (everyIteration && scene->timeStepperActive())
+		text << "an active TimeStepper among O.engines sets O.dt, which is the load increment of a step: remove it, set its active=False, or run this engine "
+		        "every N iterations with iterPeriod=N.";
+	else if (scene->isPeriodic)
+		text << "a periodic scene (O.periodic) is not supported.";
+	else if (scene->time + scene->dt <= loadTime)
+		text << "O.time + O.dt = " << scene->time + scene->dt << " is not after the last converged load time " << loadTime
+		     << ". After O.resetTime() set loadTime = O.time.";
+	else
+		return;
+	throw std::invalid_argument("MpmImplicitEngine: " + text.str());
+}
+
+Real MpmImplicitEngine::loadFactorAt(Real time) const
+{
+	if (time <= loadCurve.front().first) return loadCurve.front().second;
+	for (size_t i = 1; i < loadCurve.size(); ++i) {
+		const auto [t0, f0] = loadCurve[i - 1];
+		const auto [t1, f1] = loadCurve[i];
+		if (time <= t1) return f0 + (f1 - f0) * (time - t0) / (t1 - t0);
+	}
+	return loadCurve.back().second;
+}
+
+template <int Dim> void MpmImplicitEngine::step(Real target)
+{
+	double                 gathering = 0, scattering = 0;
+	gimpm::Model<Dim>      model = toModel<Dim>(*grid, basis, boundaries, *ghost, *newton);
+	vector<MaterialPoint>  points;
+	gimpm::PointCloud<Dim> cloud;
+	{
+		const gimpm::Stopwatch watch(gathering);
+		points = materialPoints(*scene);
+		if (points.empty()) throw std::invalid_argument("MpmImplicitEngine: the scene has no material points; add them with O.bodies.append(mpm.fill(...)).");
+		cloud = gather(points, model);
+	}
+	const Real              factor = loadFactorAt(target);
+	const gimpm::Load<Dim>  load { gravity.head<Dim>(), factor, factor - loadFactorAt(loadTime) };
+	const gimpm::StepReport report = gimpm::loadStep(cloud, model, load, solver);
+	take(report);
+	if (!report.converged()) raise(report, target, report.invertedPoint >= 0 ? placeOf(points[report.invertedPoint]) : "");
+	{
+		const gimpm::Stopwatch watch(scattering);
+		scatter(cloud, points);
+	}
+	loadTime   = target;
+	loadFactor = factor;
+	recordTimes(report, gathering, scattering);
+}
+
+void MpmImplicitEngine::take(const gimpm::StepReport& report)
+{
+	converged      = report.converged();
+	iterations     = report.iterations;
+	residual       = report.residual();
+	residuals      = report.residuals;
+	activeCells    = report.populatedCells;
+	boundaryCells  = report.boundaryCells;
+	ghostFaces     = report.ghostFaces;
+	dofs           = report.dofs;
+	substeps       = report.converged() ? 1 : 0;
+	clampedDomains = report.clampedDomains;
+	wallOverlap    = report.largestWallOverlap;
+}
+
+void MpmImplicitEngine::recordTimes(const gimpm::StepReport& report, double gathering, double scattering)
+{
+	const auto& t = report.times;
+	for (const auto& [phase, seconds] : { std::pair { "gather", gathering },
+	                                      { "basis", t.basis },
+	                                      { "ghost", t.ghost },
+	                                      { "assembly", t.assembly },
+	                                      { "analyse", t.linear.analyse },
+	                                      { "factorise", t.linear.factorise },
+	                                      { "solve", t.linear.solve },
+	                                      { "update", t.update },
+	                                      { "scatter", scattering } })
+		timingDeltas->add(phase, std::chrono::nanoseconds(std::llround(1e9 * seconds)));
+}
+
+void MpmImplicitEngine::raise(const gimpm::StepReport& report, Real target, const string& point) const
+{
+	std::ostringstream text;
+	text << "MpmImplicitEngine: the load step from factor " << loadFactor << " to " << loadFactorAt(target) << " failed: " << report.cause << point << ".";
+	if (report.failure == gimpm::Failure::unrestrained) text << " Hold nodes of that material with MpmBoundary.";
+	if (!report.residuals.empty()) {
+		text << " Residuals:";
+		for (const Real r : report.residuals)
+			text << " " << r;
+		text << "; largest out-of-balance force " << report.worst.force << " N along " << "xyz"[std::max(0, report.worst.axis)] << " at node ("
+		     << report.worst.position.head(grid->dim).transpose() << ").";
+		if (ghost->factor == 0) text << " The ghost stabilisation is off (factor=0): small overlaps of material and cells make the system ill conditioned.";
+	}
+	text << " The scene is as it was at load factor " << loadFactor << ", iteration " << scene->iter << ".";
+	throw std::runtime_error(text.str());
+}
+
+gimpm::SymmetricCsc MpmImplicitEngine::reducedStiffness()
+{
+	const std::lock_guard<std::mutex> lock(busy);
+	const Threads                     threads(ompThreads);
+	requireAdmissible();
+	const auto points  = materialPoints(*Singleton<Omega>::instance().getScene());
+	const auto inSpace = [&](auto dim) {
+		constexpr int Dim   = decltype(dim)::value;
+		auto          model = toModel<Dim>(*grid, basis, boundaries, *ghost, *newton);
+		const auto    cloud = gather(points, model);
+		return gimpm::tangentStiffness(cloud, model);
+	};
+	return grid->dim == 2 ? inSpace(std::integral_constant<int, 2>()) : inSpace(std::integral_constant<int, 3>());
+}
+
+py::tuple MpmImplicitEngine::stiffness()
+{
+	const auto      K = reducedStiffness();
+	vector<int64_t> rows, columns;
+	vector<Real>    values;
+	for (int c = 0; c < K.size(); ++c)
+		for (int e = K.start[c]; e < K.start[c + 1]; ++e)
+			for (const auto& [row, column] : { std::pair { K.row[e], c }, std::pair { c, K.row[e] } }) {
+				rows.push_back(row);
+				columns.push_back(column);
+				values.push_back(K.value[e]);
+				if (row == column) break;
+			}
+	return py::make_tuple(numpyArray(rows, "int64"), numpyArray(columns, "int64"), numpyArray(values, "float64"), K.size());
+}
+
+Real MpmImplicitEngine::conditionNumber()
+{
+	constexpr int largest = 4000;
+	const auto    K       = reducedStiffness();
+	if (K.size() > 0 && K.size() <= largest) return gimpm::conditionNumber(K);
+	throw std::invalid_argument(
+	        "MpmImplicitEngine.conditionNumber() needs all eigenvalues: the scene has " + std::to_string(K.size()) + " unknowns, admitted are 1 to "
+	        + std::to_string(largest) + ".");
+}
+
+} // namespace yade
+
+BOOST_CLASS_EXPORT_IMPLEMENT(yade::MpmImplicitEngine)
+static const yade::PluginClasses<yade::MpmImplicitEngine> registered(__FILE__);

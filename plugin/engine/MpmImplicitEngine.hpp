@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+#include "core/report.hpp"
+#include "engine/MpmBoundary.hpp"
+#include "engine/MpmGhost.hpp"
+#include "engine/MpmGrid.hpp"
+#include "engine/MpmNewton.hpp"
+#include "yade_api/yade_api.hpp"
+#include <mutex>
+
+namespace yade {
+
+class MpmImplicitEngine : public Exposed<MpmImplicitEngine, PeriodicEngine> {
+public:
+	shared_ptr<MpmGrid>             grid;
+	string                          basis   = "gimp";
+	Vector3r                        gravity = Vector3r::Zero();
+	vector<std::pair<Real, Real>>   loadCurve { { 0, 0 }, { 1, 1 } };
+	vector<shared_ptr<MpmBoundary>> boundaries;
+	shared_ptr<MpmGhost>            ghost { new MpmGhost };
+	shared_ptr<MpmNewton>           newton { new MpmNewton };
+	Real                            loadTime = 0;
+
+	bool         converged  = false;
+	int          iterations = 0;
+	Real         residual   = std::numeric_limits<Real>::quiet_NaN();
+	vector<Real> residuals;
+	Real         loadFactor  = 0;
+	int          activeCells = 0, boundaryCells = 0, ghostFaces = 0, dofs = 0, substeps = 0, clampedDomains = 0;
+	Real         wallOverlap = 0;
+
+	MpmImplicitEngine();
+
+	YADE_API_NAME(MpmImplicitEngine)
+	static const char* doc()
+	{
+		return "Implicit quasi-static analysis by the ghost-stabilised generalised interpolation material point method (Coombs 2023). Each run advances "
+		       "all material points of the scene from the last converged load time to O.time + O.dt by one load step: Newton's method for the "
+		       "incremental displacements of the nodes of a background grid that is then reset. A step that does not converge raises RuntimeError and "
+		       "leaves the scene as it was. Bodies of other kinds are left alone. Quasi-static analysis uses YADE's time as its load clock; with an "
+		       "active TimeStepper in the scene set *iterPeriod* > 1 or *virtPeriod*.";
+	}
+	template <class V> static void attributes(V&& v)
+	{
+		v("grid", &MpmImplicitEngine::grid, 0, "Background grid (MpmGrid); must be given.", notNull);
+		v("basis",
+		  &MpmImplicitEngine::basis,
+		  0,
+		  "Basis functions: 'gimp', averaged over the points' domains, or 'mpm', the linear functions of the grid (points that cross cells then disturb "
+		  "the solution).",
+		  oneOf("gimp", "mpm"));
+		v("gravity", &MpmImplicitEngine::gravity, 0, "Acceleration [m/s²] of all material points at load factor 1, finite.", finite);
+		v("loadCurve",
+		  &MpmImplicitEngine::loadCurve,
+		  0,
+		  "Load factor [-] as a sequence of (time [s], factor), times increasing; linear between, constant before and after. Gravity, point loads and "
+		  "prescribed displacements are multiplied by it. Default: from 0 to 1 during the first second.",
+		  admitting("one or more (time, factor), all finite, with increasing times", isLoadCurve));
+		v("boundaries", &MpmImplicitEngine::boundaries, 0, "Essential boundary conditions (MpmBoundary); read as a tuple, so assign a new one to change it.");
+		v("ghost", &MpmImplicitEngine::ghost, 0, "Ghost stabilisation (MpmGhost).", notNull);
+		v("newton", &MpmImplicitEngine::newton, 0, "Solution of a load step (MpmNewton).", notNull);
+		v("loadTime",
+		  &MpmImplicitEngine::loadTime,
+		  0,
+		  "Time [s] of the last converged state, where the next step starts. After O.resetTime() set it to O.time.",
+		  finite);
+		v("converged", &MpmImplicitEngine::converged, readonly, "Whether the last step converged.");
+		v("iterations", &MpmImplicitEngine::iterations, readonly, "Linear solves of the last step.");
+		v("residual", &MpmImplicitEngine::residual, readonly, "Last out-of-balance force over external forces and reactions [-].");
+		v("residuals", &MpmImplicitEngine::residuals, readonly, "The same [-] before the first solve of the last step and after each.");
+		v("loadFactor", &MpmImplicitEngine::loadFactor, readonly, "Load factor [-] of the last converged state.");
+		v("activeCells", &MpmImplicitEngine::activeCells, readonly, "Cells that held material in the last step.");
+		v("boundaryCells", &MpmImplicitEngine::boundaryCells, readonly, "Those of them with an empty neighbour (0 without stabilisation).");
+		v("ghostFaces", &MpmImplicitEngine::ghostFaces, readonly, "Faces stabilised in the last step.");
+		v("dofs", &MpmImplicitEngine::dofs, readonly, "Free degrees of freedom of the last step.");
+		v("substeps", &MpmImplicitEngine::substeps, readonly, "Load steps solved in the last run: 1, or 0 if it failed.");
+		v("clampedDomains", &MpmImplicitEngine::clampedDomains, readonly, "Points whose domain was kept at half a cell in the last step.");
+		v("wallOverlap",
+		  &MpmImplicitEngine::wallOverlap,
+		  readonly,
+		  "Largest length [m] by which a domain reached behind a wall in the last step; that part was left out.");
+	}
+	template <class C> static void python(C& c)
+	{
+		c.def("stiffness",
+		      &MpmImplicitEngine::stiffness,
+		      "stiffness() -> (rows, columns, values, size)\n\nReduced tangent stiffness K + K_g [N/m] of the current configuration: the free degrees of "
+		      "freedom only, both triangles, as NumPy arrays (M,) of int64, int64 and float, and the number of unknowns. Usable before any step. Raises "
+		      "ValueError as a step does.");
+		c.def("conditionNumber",
+		      &MpmImplicitEngine::conditionNumber,
+		      "conditionNumber() -> float\n\nCondition number [-] of stiffness() in the 2-norm, from all eigenvalues of the dense matrix (Coombs 2023, figure "
+		      "2). For small scenes: raises ValueError above 4000 unknowns.");
+	}
+
+	bool isActivated() override;
+	void action() override;
+
+	py::tuple stiffness();
+	Real      conditionNumber();
+
+	static bool isLoadCurve(const vector<std::pair<Real, Real>>&);
+
+private:
+	// Counters of PeriodicEngine, which move on before action() is called: after a failed step the same iteration must run again.
+	struct Counters {
+		Real virtLast = 0, realLast = 0;
+		long iterLast = 0, nDone = 0;
+	};
+
+	void                       run();
+	void                       requireRunnable() const;
+	Real                       loadFactorAt(Real time) const;
+	template <int Dim> void    step(Real target);
+	void                       take(const gimpm::StepReport&);
+	void                       recordTimes(const gimpm::StepReport&, double gatherSeconds, double scatterSeconds);
+	[[noreturn]] void          raise(const gimpm::StepReport&, Real target, const string& point) const;
+	gimpm::SymmetricCsc        reducedStiffness();
+
+	Counters            beforeActivation;
+	gimpm::LinearSolver solver; // keeps the symbolic analysis; results do not depend on it
+	std::mutex          busy;   // stiffness() may be asked for from Python while the scene runs in the background
+};
+
+} // namespace yade
+
+BOOST_CLASS_EXPORT_KEY(yade::MpmImplicitEngine)
