@@ -1,0 +1,104 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""What a user meets when something goes wrong: a reason, an exit code, and a scene that is still usable."""
+import json
+
+import pytest
+
+failing = '''
+from scenes import *
+solver = slope()
+solver.newton.maxIterations = 2 # the elastic steps at the beginning need no more, those near failure do
+'''
+
+
+@pytest.mark.parametrize('call', ['O.run(40, wait=True)', '[O.step() for i in range(40)]', 'O.run(40)\nO.wait()'])
+def test_a_failed_script_ends_with_a_reason_and_an_exit_code(yade, call):
+	run = yade(failing + call, fails=True)
+	assert 'is above the tolerance 1e-06 after 2 iterations' in run.stderr + run.stdout
+	assert run.exitCode == 1
+
+
+def test_a_failure_in_the_first_step_of_a_background_run_is_not_lost(yade):
+	"""The worker has then often ended before O.wait() looks at it."""
+	for attempt in range(5):
+		run = yade(failing + 'solver.newton.maxIterations = 1\nO.run(40, wait=True)\nprint("went on")', fails=True)
+		assert 'went on' not in run.stdout
+
+
+def test_a_failed_step_leaves_the_scene_as_it_was_and_can_be_repeated(yade):
+	yade(
+	        failing + '''
+message = ''
+try:
+	while O.iter < 40:
+		before, time, factor = mpm.arrays(), O.time, solver.loadFactor
+		O.step()
+except RuntimeError as error:
+	message = str(error)
+after, failedAt = mpm.arrays(), O.iter
+assert 0 < failedAt < 40, failedAt
+assert 'largest out-of-balance force' in message and f'iteration {failedAt}' in message, message
+assert all(np.array_equal(before[k], after[k]) for k in before)
+assert (O.time, solver.loadFactor, solver.converged) == (time, factor, False)
+
+solver.newton.maxIterations = 20
+O.step() # not skipped by the engine's period
+assert O.iter == failedAt + 1 and solver.converged and solver.loadFactor > factor
+assert not np.array_equal(mpm.arrays()['pos'], after['pos'])
+'''
+	)
+
+
+mistakes = [
+        ('solver.boundaries = []', 'nothing restrains the translation along x'),
+        ('solver.boundaries = solver.boundaries[:2]', 'nothing restrains the translation along y'),
+        ('O.dt = 0', 'O.dt = 0'),
+        ('O.dt = float("nan")', 'O.dt = nan'),
+        ('solver.grid = MpmGrid()', 'MpmGrid.cellSize = nan'),
+        ('solver.grid.cellSize = 0.25', 'Body #0: MpmPoint.halfSize'),
+        ('solver.boundaries = [MpmBoundary(min=(0.2, 0.2, -1), max=(0.8, 0.8, 1), fix="x")]', 'holds no grid node'),
+        ('solver.boundaries = [MpmBoundary(fix="z")]', "no direction z"),
+        ('solver.boundaries += (MpmBoundary(max=(inf, 0, inf), fix="y", displacement=(0, 1, 0)),)', 'different displacements along y'),
+        ('O.bodies[7].state.pos = (float("nan"), 0, 0)', 'Body #7'),
+        ('O.bodies[7].state.pos = (1e12, 0, 0)', 'Body #7'),
+        ('O.bodies[7].material = FrictMat()', 'Body #7'),
+        ('O.bodies[7].material = MpmMaterial(density=1)', 'Body #7'),
+        ('O.bodies[7].material = MpmElasticMat(density=1, young=1)', 'Body #7'),
+        ('O.bodies[7].state = State()', 'state'),
+        ('O.bodies.clear()', 'no material points'),
+        ('O.periodic = True', 'periodic'),
+        ('O.materials["soil"].young = -1', 'MpmElasticMat.young = -1'),
+        ('O.materials["soil"].yieldStress = 0', 'MpmVonMisesMat.yieldStress = 0'),
+        ('O.materials["soil"].poisson = 0.5', 'MpmElasticMat.poisson = 0.5'),
+        ('O.materials["soil"].density = float("nan")', 'MpmMaterial.density = nan'),
+        ('solver.loadCurve = []', 'MpmImplicitEngine.loadCurve'),
+        ('solver.loadCurve = [(0, 0), (0, 1)]', 'MpmImplicitEngine.loadCurve'),
+        ('solver.gravity = (0, float("inf"), 0)', 'MpmImplicitEngine.gravity'),
+        ('solver.basis = "cubic"', 'MpmImplicitEngine.basis'),
+        ('solver.grid = None', 'MpmImplicitEngine.grid'),
+        ('solver.tolerance = 1e-6', 'tolerance'),
+        ('MpmGrid(cellSize=1, dim=4)', 'MpmGrid.dim = 4'),
+]
+
+
+def test_bad_input_names_itself(yade):
+	run = yade(
+	        f'''
+import json
+from scenes import *
+messages = []
+for change in json.loads({json.dumps(json.dumps([change for change, words in mistakes]))}):
+	O.reset()
+	solver = slope()
+	try:
+		exec(change)
+		O.step()
+		messages.append(None)
+	except (ValueError, RuntimeError, AttributeError, TypeError) as error:
+		messages.append(str(error))
+	assert O.iter == 0 or messages[-1] is None, change
+print(json.dumps(messages))
+'''
+	)
+	for (change, words), message in zip(mistakes, run.result):
+		assert message and words in message, f'{change}: {message}'
