@@ -89,15 +89,22 @@ class polygon(pack.Predicate):
 		:param pad: as in ``__call__``
 		:return: (N,) array of bool
 		"""
-		x, y = np.asarray(points, dtype=float).reshape(-1, 2).T
-		inside = np.zeros(len(x), dtype=bool)
-		distance2 = np.full(len(x), np.inf)
-		for (ax, ay), (bx, by) in zip(self.vertices, np.roll(self.vertices, -1, axis=0)):
-			# a ray towards +x crosses the edge: half-open in y, so that one through a vertex counts it once
-			if ay != by:
-				inside ^= ((ay > y) != (by > y)) & (x < ax + (y - ay) * ((bx - ax) / (by - ay)))
-			np.minimum(distance2, _squaredDistance(x, y, ax, ay, bx, by), out=distance2)
-		return np.where(inside, 1., -1.) * np.sqrt(distance2) >= pad - self.tolerance
+		points = np.asarray(points, dtype=float).reshape(-1, 2)
+		inside = np.empty(len(points), dtype=bool)
+		block = 1 + 2**15 // len(self.vertices)  # keeps points x edges in cache
+		for start in range(0, len(points), block):
+			inside[start:start + block] = self._signedDistance(points[start:start + block]) >= pad - self.tolerance
+		return inside
+
+	def _signedDistance(self, points):
+		"""(N,) distances from the edge [m], positive inside."""
+		x, y = points.T[:, :, None]  # one row for each point, one column for each edge
+		(ax, ay), (bx, by) = self.vertices.T, np.roll(self.vertices, -1, axis=0).T
+		# a ray towards +x crosses the edge: half-open in y, so that one through a vertex counts it once
+		spans = (ay > y) != (by > y)
+		crossings = spans & (x < ax + (y - ay) * np.divide(bx - ax, by - ay, out=np.zeros(len(ax)), where=by != ay))
+		inside = crossings.sum(axis=1) % 2 == 1
+		return np.where(inside, 1, -1) * np.sqrt(_squaredDistance(x, y, ax, ay, bx, by).min(axis=1))
 
 
 def _outline(vertices):
@@ -120,12 +127,12 @@ def _refuseSelfContact(vertices, tolerance):
 	"""Raise ValueError unless edges meet only where one follows the other: inside and outside would be ambiguous."""
 	n = len(vertices)
 	following = np.roll(vertices, -1, axis=0)
+	for i in np.flatnonzero(np.hypot(*(following - vertices).T) <= tolerance):
+		hint = '; the last vertex is joined to the first by itself: do not repeat it' if i == n - 1 else ''
+		raise ValueError(f'polygon: vertices[{i}] and vertices[{(i + 1) % n}] coincide at {tuple(vertices[i])}{hint}')
 	for i, (a, b) in enumerate(zip(vertices, following)):
 		others = np.delete(np.arange(n), [i, (i + 1) % n])
 		near = others[_squaredDistance(*vertices[others].T, *a, *b) <= tolerance**2]
-		if np.hypot(*(b - a)) <= tolerance:
-			hint = ' (the last vertex is joined to the first by itself: do not repeat it)' if i == n - 1 else ''
-			raise ValueError(f'polygon: vertices[{i}] and vertices[{(i + 1) % n}] coincide at {tuple(a)}{hint}')
 		if near.size:
 			raise ValueError(f'polygon: vertices[{near[0]}] = {tuple(vertices[near[0]])} lies on the edge from {tuple(a)} to {tuple(b)}; '
 			                 'the outline must not touch itself or enclose no area')
@@ -147,8 +154,7 @@ def _side(p, a, b):
 def _squaredDistance(x, y, ax, ay, bx, by):
 	"""Squared distance of the points (x, y) from the segment a-b."""
 	dx, dy = bx - ax, by - ay
-	length2 = dx * dx + dy * dy
-	t = np.clip(((x - ax) * dx + (y - ay) * dy) / length2, 0, 1) if length2 > 0 else 0.
+	t = np.clip(((x - ax) * dx + (y - ay) * dy) / (dx * dx + dy * dy), 0, 1)
 	return (x - ax - t * dx)**2 + (y - ay - t * dy)**2
 
 
@@ -171,6 +177,7 @@ def fill(predicate, grid, pointsPerCell, material):
 	"""
 	if not isinstance(grid, wrapper.MpmGrid):
 		raise TypeError(f'fill: grid = {grid!r} must be an MpmGrid')
+	grid.updateAttrs(grid.dict())  # looks again at all values: cellSize may not have been given
 	n = _pointsPerCell(pointsPerCell)
 	positions = _latticePoints(predicate, grid, n)
 	labels, index = _materialOf(positions, material)
@@ -194,14 +201,10 @@ def _pointsPerCell(value):
 
 def _latticePoints(predicate, grid, n):
 	"""(N, 3) centres inside the predicate of the n^dim points in each cell, cell by cell."""
-	low, high = _cellRange(predicate, grid)
-	cells = [np.arange(a, b) for a, b in zip(low, high)]
-	layer = n**grid.dim * math.prod(len(c) for c in cells[:-1])
-	if layer * len(cells[-1]) > 2**31:
-		raise ValueError(f'fill: {layer * len(cells[-1]):.3g} points would have to be tested, more than YADE can number; is the grid\'s '
-		                 f'cellSize = {grid.cellSize} in m, and pointsPerCell = {n} per axis?')
+	cells = [np.arange(a, b) for a, b in zip(*_cellRange(predicate, grid, n))]
+	candidates = math.prod(len(c) * n for c in cells)
 	# in slabs across the last axis, which bounds the memory of the points that are rejected
-	slabs = np.array_split(cells[-1], math.ceil(layer * len(cells[-1]) / 2**20))
+	slabs = np.array_split(cells[-1], candidates // 2**20 + 1)
 	kept = []
 	for slab in slabs:
 		points = _cellPoints(cells[:-1] + [slab], grid, n)
@@ -214,7 +217,7 @@ def _latticePoints(predicate, grid, n):
 	return positions
 
 
-def _cellRange(predicate, grid):
+def _cellRange(predicate, grid, n):
 	"""First cell and one past the last cell of each axis that may have points inside the predicate."""
 	if not callable(predicate) or not callable(getattr(predicate, 'aabb', None)):
 		raise TypeError(f'fill: predicate = {predicate!r} must be an mpm.polygon or a predicate of yade.pack')
@@ -224,7 +227,12 @@ def _cellRange(predicate, grid):
 		                 'intersect it with a bounded one, such as pack.inAlignedBox: predicate & pack.inAlignedBox(low, high)')
 	origin = np.array([grid.origin[i] for i in range(grid.dim)])
 	# one spare cell on each side: the predicate decides, not the round-off of its box
-	return (np.floor((low - origin) / grid.cellSize).astype(np.int64) - 1, np.ceil((high - origin) / grid.cellSize).astype(np.int64) + 1)
+	first, last = np.floor((low - origin) / grid.cellSize) - 1, np.ceil((high - origin) / grid.cellSize) + 1
+	candidates = np.prod((last - first) * n)
+	if candidates > 2**31:
+		raise ValueError(f'fill: {candidates:.3g} points would have to be tested, more than YADE can number: cellSize = {grid.cellSize} m or '
+		                 f'pointsPerCell = {n} per axis do not suit a region from {tuple(low)} to {tuple(high)}')
+	return first.astype(np.int64), last.astype(np.int64)
 
 
 def _cellPoints(cells, grid, n):
