@@ -116,7 +116,7 @@ def _outline(vertices):
 	if len(points) < 3:
 		raise ValueError(f'polygon: vertices = {vertices!r}: at least 3 are needed to enclose an area, {len(points)} given')
 	if points.ndim != 2 or points.shape[1] != 2:
-		raise TypeError(f'polygon: vertices[0] = {tuple(vertices[0])!r} must be an (x, y) pair; the profile lies in the x-y plane')
+		raise TypeError(f'polygon: vertices[0] = {tuple(points[0])!r} must be an (x, y) pair; the profile lies in the x-y plane')
 	for i, point in enumerate(points):
 		if not np.isfinite(point).all():
 			raise ValueError(f'polygon: vertices[{i}] = {tuple(point)} must be finite')

@@ -5,7 +5,7 @@ import json
 import pytest
 from conftest import Yade
 
-# (statement in a YADE script, exception, what its sentence must contain)
+nan, inf = float('nan'), float('inf')
 material = dict(young=1e6, poisson=0.3, density=2400, yieldStress=15e3)
 
 
@@ -13,8 +13,9 @@ def made(**changes):
 	return 'MpmVonMisesMat(**' + repr(material | changes).replace('nan', 'float("nan")').replace('inf', 'float("inf")') + ')'
 
 
-nan, inf = float('nan'), float('inf')
 notPositive = [0., -1., nan, inf]
+
+# (statement in a YADE script, exception, what its sentence must contain)
 refused = (
         # parameters of materials
         [(made(**{name: value}), 'ValueError', [f'.{name} = {value!r}', 'a finite number > 0']) for name in ('young', 'density', 'yieldStress')
@@ -65,7 +66,7 @@ refused = (
                 ('mpm.polygon([])', 'ValueError', ['vertices', 'at least 3']),
                 ('mpm.polygon(7)', 'TypeError', ['vertices = 7']),
                 ('mpm.polygon([(0, 0), (1, 0), "ab"])', 'TypeError', ['vertices', 'pairs']),
-                ('mpm.polygon([(0, 0, 0), (1, 0, 0), (1, 1, 0)])', 'TypeError', ['(0, 0, 0)', 'pair']),
+                ('mpm.polygon([(0, 0, 0), (1, 0, 0), (1, 1, 0)])', 'TypeError', ['(0.0, 0.0, 0.0)', 'pair']),
                 ('mpm.polygon([(0, 0), (1, 0), (1, float("nan"))])', 'ValueError', ['vertices[2]', 'finite']),
                 ('mpm.polygon([(0, 0), (2, 2), (2, 0), (0, 2)])', 'ValueError', ['crosses', 'in order']),
                 ('mpm.polygon([(0, 0), (1, 0), (1, 1), (0, 1), (0, 0)])', 'ValueError', ['vertices[4]', 'do not repeat']),
@@ -104,6 +105,21 @@ refused = (
                 ('point(bounded=True)', 'ValueError', ['Body #0', 'bounded']),
                 ('point(dynamic=True)', 'ValueError', ['Body #0', 'blockedDOFs']),
                 ('point(shape=Sphere(radius=1))', 'ValueError', ['Body #0', "'soil'", 'Sphere', 'last material']),
+        ] +
+        # what only the engine sees: positions, elements changed in place, values that do not go together
+        [
+                ('step("b.state.pos = (nan, 0, 0)")', 'ValueError', ['Body #5', '.pos = (nan, 0, 0)']),
+                ('step("b.state.refPos = (0, inf, 0)")', 'ValueError', ['Body #5', '.refPos = (0, inf, 0)']),
+                ('step("b.state.force[1] = nan")', 'ValueError', ['Body #5', '.force', 'nan']),
+                ('step("b.shape.halfSize0[0] = 0")', 'ValueError', ['Body #5', '.halfSize0', '> 0']),
+                ('step("b.state = MpmState()")', 'ValueError', ['Body #5', 'blockedDOFs']),
+                ('step("b.state = MpmState(blockedDOFs=63)")', 'ValueError', ['Body #5', '.volume', 'no default']),
+                ('step("b.state.elasticStrain = Matrix3(0,0,.1, 0,0,0, .1,0,0)")', 'ValueError', ['Body #5', '.elasticStrain', 'plane strain']),
+                ('step("b.state.force = (0, 0, 1)")', 'ValueError', ['Body #5', '.force', 'plane strain']),
+                ('step("base.min = (0, 1, 0)")', 'ValueError', ['MpmBoundary.min', 'max', 'swapped']),
+                ('step("base.displacement = (1, 0, 0); base.fix = chr(121)")', 'ValueError', ['.displacement', "fix = 'y'"]),
+                ('step("soil.density = 1; b.mat = MpmElasticMat(young=1)")', 'ValueError', ['.poisson = nan', 'no default']),
+                ('step("b.state.force[1] = nan", lambda: O.run(1, wait=True))', 'RuntimeError', ['Body #5', '.force', 'nan']),
         ])
 
 setting = '''
@@ -125,6 +141,17 @@ def point(**changes):
 		setattr(body, name, value)
 	O.bodies.append(body)
 	mpm.arrays()
+
+nan = float('nan')
+
+def step(change, go=O.step):
+	"""One step of a sound scene but for the change, which may speak of a body b, the boundary base, and the material soil."""
+	bodies, base = fill(), MpmBoundary(max=(inf, 0, inf), fix='xy')
+	O.bodies.append(bodies)
+	O.engines = [MpmImplicitEngine(grid=MpmGrid(cellSize=1), gravity=(0, -1, 0), boundaries=[base])]
+	O.dt = 1
+	exec(change, globals(), dict(b=bodies[5], base=base, soil=bodies[5].mat))
+	go()
 
 outcomes = []
 for statement in json.load(open('statements.json')):
@@ -160,6 +187,9 @@ def test_correct_input_is_accepted(yade):
 	"""The statements above fail for what they say, not because nothing passes."""
 	script = setting.split('outcomes = []')[0] + '''
 O.materials.append(soil())
+step('b.state.force[1] = -1')
+assert O.iter == 1
+O.bodies.clear()
 point()
 MpmGrid(cellSize=1e-3, origin=(-1, 2, 3), dim=3)
 MpmBoundary(min=(-inf, 0, 0), max=(inf, 0, 0), fix='zx', displacement=(1, 0, 0))

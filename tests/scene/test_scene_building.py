@@ -301,3 +301,19 @@ report(state=type(elastic.newAssocState()).__name__, mismatch=mismatch,
 	assert 'Body #0' in result['mismatch'] and 'MpmState' in result['mismatch']
 	assert result['names'] == [['MpmVonMisesMat', 'MpmElasticMat', 'MpmMaterial', 'Material'], ['MpmElasticMat', 'MpmMaterial', 'Material']]
 	assert result['shape'] == ['MpmPoint', 'Sphere', 'Shape']
+
+
+def test_example_of_the_module_runs(yade):
+	"""The script in the documentation of module mpm, for one of its 80 steps."""
+	result = yade(
+	        '''
+import json, textwrap
+from yade import mpm
+lines = mpm.__doc__.splitlines()
+script = textwrap.dedent('\\n'.join(line for line in lines if line.startswith('    ') or not line))
+assert 'O.run(80, wait=True)' in script
+exec(script.replace('O.run(80,', 'O.run(1,'))
+print(json.dumps([O.iter, O.engines[0].converged, len(O.bodies)]))
+'''
+	).result
+	assert result == [1, True, 9825]
