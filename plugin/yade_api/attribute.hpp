@@ -2,6 +2,7 @@
 #pragma once
 // One attribute of a plugin class, as given by the attributes() list of that class.
 #include "yade_api/conversion.hpp"
+#include "yade_api/python_lock.hpp"
 #include "yade_api/validators.hpp"
 #include <stdexcept>
 

@@ -17,16 +17,6 @@ namespace yade {
 	std::abort(); // not reached: the line above throws
 }
 
-// Python's lock, for code that may run in YADE's background thread, which does not hold it during O.run().
-class PythonLock {
-	const PyGILState_STATE state = PyGILState_Ensure();
-
-public:
-	PythonLock() = default;
-	PythonLock(const PythonLock&) = delete;
-	~PythonLock() { PyGILState_Release(state); }
-};
-
 // repr(value), shortened to what fits into an error message
 inline string repr(const py::object& value)
 {

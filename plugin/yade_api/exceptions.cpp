@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "yade_api/exceptions.hpp"
+#include "yade_api/python_lock.hpp"
 #include "yade_api/scene.hpp"
 
 namespace yade {
 
 // Run by Python in its main thread, between two instructions of the script.
-static int raisePending(void*)
+static int raiseIfUnseen(void*)
 {
 	Omega& omega = Singleton<Omega>::instance();
-	if (omega.isRunning()) return Py_AddPendingCall(&raisePending, nullptr); // the exception is still on its way out of the thread
+	if (omega.isRunning()) return Py_AddPendingCall(&raiseIfUnseen, nullptr); // the exception is still on its way out of the thread
 
 	const shared_ptr<ThreadRunner>& runner = omega.simulationLoop;
 	if (!runner || !runner->workerThrew.exchange(false)) return 0; // O.wait() has raised it
@@ -16,9 +17,12 @@ static int raisePending(void*)
 	return -1;
 }
 
-void raiseInMainThread()
+void announceError()
 {
-	if (Singleton<Omega>::instance().isRunning()) Py_AddPendingCall(&raisePending, nullptr);
+	if (!Singleton<Omega>::instance().isRunning()) return;
+	// O.run(n, wait=True) holds the lock until it waits: having got it, this thread cannot end too early.
+	const PythonLock lock;
+	Py_AddPendingCall(&raiseIfUnseen, nullptr); // for O.run(n)
 }
 
 } // namespace yade

@@ -6,6 +6,8 @@
 // it says so in one sentence, and YADE starts as if it were not there.
 #include "yade_api/layout_check.hpp"
 #include <dlfcn.h>
+#include <elf.h>
+#include <fstream>
 #include <iostream>
 
 namespace yade {
@@ -40,12 +42,25 @@ namespace {
 			throw std::runtime_error("this build of YADE " + string(supportedVersion) + " differs in " + joined(check.errors()));
 	}
 
+	// The dynamic linker crashes on a file that has been cut off. Its section headers come last.
+	void requireComplete(const string& library)
+	{
+		std::ifstream file(library, std::ios::binary | std::ios::ate);
+		if (!file) throw std::runtime_error(library + " is missing or not readable");
+		const auto size = file.tellg();
+		Elf64_Ehdr header {};
+		file.seekg(0).read(reinterpret_cast<char*>(&header), sizeof(header));
+		if (!file || size < std::streamoff(header.e_shoff + header.e_shnum * header.e_shentsize))
+			throw std::runtime_error(library + " is incomplete; install it again");
+	}
+
 	void openPlugin()
 	{
 		Dl_info self;
 		if (!dladdr(reinterpret_cast<void*>(&openPlugin), &self)) throw std::runtime_error("its folder is unknown");
 		const string loader = self.dli_fname;
 		const string plugin = loader.substr(0, loader.rfind('/') + 1) + "mpm/mpm_engine.so";
+		requireComplete(plugin);
 		if (!dlopen(plugin.c_str(), RTLD_NOW)) throw std::runtime_error(dlerror());
 	}
 

@@ -1,0 +1,98 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Fixtures for tests that drive the real YADE: each script runs in a YADE process of its own.
+
+The environment variable YADE names the command to test; scripts/test sets it. By default it is the installed yade.
+"""
+import json
+import os
+import shutil
+import subprocess
+from dataclasses import dataclass
+from pathlib import Path
+
+import pytest
+
+root = Path(__file__).resolve().parents[2]
+build = root / 'build'
+systemYade = Path('/usr/lib/x86_64-linux-gnu/yade-double')
+
+
+@dataclass
+class Run:
+	"""What a YADE process left."""
+	exitCode: int
+	stdout: str
+	stderr: str
+	folder: Path  # working folder, with the files that the script wrote
+
+	@property
+	def result(self):
+		"""What the script printed last, read as JSON: print(json.dumps(...))"""
+		return json.loads(self.stdout.splitlines()[-1])
+
+	def __str__(self):
+		return f'exit code {self.exitCode}\n--- stdout\n{self.stdout}\n--- stderr\n{self.stderr}'
+
+
+class Yade:
+	"""Runs scripts in YADE without windows."""
+
+	def __init__(self, folder):
+		self.folder = folder
+		self.command = os.environ.get('YADE', 'yade')
+		self.environment = {}  # variables in addition to those of this process
+
+	def __call__(self, script, *arguments, threads=1, timeout=120, fails=False, environment={}, options=()):
+		"""Run a script to its end; the test fails unless the exit code is 0, or with *fails* unless it is not 0.
+
+		:param script: its text, or its path as a pathlib.Path
+		:param arguments: of the script
+		:param threads: for YADE's option -j
+		:param timeout: [s], after which the process is ended and the test fails
+		:param environment: variables for this run only
+		:param options: of YADE, in addition to -n -x -j
+		:return: Run
+		"""
+		if not isinstance(script, Path):
+			text, script = script, self.folder / 'script.py'
+			script.write_text(text)
+		ended = subprocess.run(
+		        [self.command, '-n', '-x', f'-j{threads}', *options, str(script), *map(str, arguments)],
+		        cwd=self.folder,
+		        env=os.environ | self.ownSettings() | self.environment | environment,
+		        timeout=timeout,
+		        capture_output=True,
+		        stdin=subprocess.DEVNULL,
+		        text=True,
+		        errors='replace'
+		)
+		run = Run(ended.returncode, ended.stdout, ended.stderr, self.folder)
+		assert (run.exitCode != 0) == fails, str(run)
+		return run
+
+	def ownSettings(self):
+		"""Variables that keep the process from reading or writing the settings of the user, and find scenes.py."""
+		return {'PYTHONPATH': str(root / 'tests' / 'scene'), 'XDG_CONFIG_HOME': str(self.folder / 'config'), 'MPLCONFIGDIR': str(self.folder / 'config'), 'MPLBACKEND': 'Agg'}
+
+
+@pytest.fixture
+def yade(tmp_path):
+	"""The YADE under test, with the plugin: yade(script, ...) runs a script and returns a Run."""
+	return Yade(tmp_path)
+
+
+@pytest.fixture
+def libraries(yade):
+	"""Makes `yade` start from a folder of its own: the system's libraries and the loader. What the loader shall open is up to the test.
+
+	:return: the folder; the loader looks for mpm/mpm_engine.so in it
+	"""
+	folder = yade.folder / 'prefix/lib/x86_64-linux-gnu/yade-double'
+	(folder / 'mpm').mkdir(parents=True)
+	for path in [*systemYade.glob('*.so'), systemYade / 'py']:
+		(folder / path.name).symlink_to(path)
+	(folder / 'libpkg_mpm.so').unlink(missing_ok=True)
+	shutil.copy(build / 'libpkg_mpm.so', folder)
+	yade.command = '/usr/bin/yade'
+	yade.environment['YADE_PREFIX'] = str(yade.folder / 'prefix')
+	return folder

@@ -1,0 +1,27 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Dependencies point downwards: python -> engine -> core, and engine -> yade_api."""
+import re
+
+import pytest
+from conftest import root
+
+plugin = root / 'plugin'
+
+# what the core may include besides the standard library, whose headers have no folder and no suffix
+coreIncludes = re.compile(r'<\w+>|<Eigen/\w+>|<(cholmod|umfpack|omp)\.h>|"core/[\w/]+\.hpp"')
+# the interface to YADE may include anything but the classes and numerics that are built on it
+interfaceIncludes = re.compile(r'<.*>|"yade_api/\w+\.hpp"')
+
+
+def includes(folder):
+	sources = [path for path in folder.rglob('*') if path.suffix in ('.hpp', '.cpp')]
+	assert sources
+	for path in sources:
+		for included in re.findall(r'^\s*#\s*include\s*(\S+)', path.read_text(), re.MULTILINE):
+			yield path, included
+
+
+@pytest.mark.parametrize('folder, admitted', [('core', coreIncludes), ('yade_api', interfaceIncludes)])
+def test_includesPointDownwards(folder, admitted):
+	wrong = [f'{path.relative_to(plugin)}: {included}' for path, included in includes(plugin / folder) if not admitted.fullmatch(included)]
+	assert not wrong
