@@ -1,0 +1,81 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Pictures of the results: plain Python, no YADE needed. Each function takes rows of a table, numbers already converted."""
+import matplotlib
+matplotlib.use('Agg')
+import matplotlib.pyplot as plt
+from matplotlib.collections import PolyCollection
+import numpy as np
+
+names = {'mpm': 'MPM', 'gimp': 'GIMPM', 'none': 'GIMPM', 'ghost': 'ghost-stabilised GIMPM', 'mesh-independent': 'ghost, $h^1$', 'paper': "ghost, paper's $h^3$"}
+colours = {'mpm': '0.55', 'gimp': 'tab:red', 'none': 'tab:red', 'ghost': 'tab:blue', 'mesh-independent': 'tab:blue', 'paper': 'tab:green'}
+stressScale = -13, 13 # [kPa]: yield in pure shear is at a Kirchhoff stress of 15 / sqrt(2) = 10.6 kPa; Cauchy stress is that over det F
+
+
+def save(figure, path):
+	figure.savefig(path, dpi=150, bbox_inches='tight')
+	plt.close(figure)
+
+
+def conditionNumbers(rows, path):
+	"""Figure 2."""
+	figure, axes = plt.subplots(figsize=(6.5, 4))
+	for name in 'gimp', 'ghost', 'mpm':
+		axes.semilogy([row['offset'] for row in rows], [row[name] for row in rows], color=colours[name], label=names[name])
+	axes.set(xlabel='offset $a/h$', ylabel='condition number $\\kappa([K])$', xlim=(0, 2))
+	axes.legend(frameon=False)
+	save(figure, path)
+
+
+def columnErrors(series, path):
+	"""Figure 4; *series* maps (ghost, kind of load steps) to lists of (cells, error)."""
+	figure, axes = plt.subplots(figsize=(6.5, 4.5))
+	for (ghost, steps), points in series.items():
+		axes.loglog(*zip(*points), 'o-' if steps == '40 steps' else 's--', color=colours[ghost], markersize=4, label=f'{names[ghost]}, {steps}')
+	cells = np.array(axes.get_xlim())
+	for order in 1, 2:
+		axes.loglog(cells, 0.06 * (cells / 4.)**-order, 'k:', linewidth=0.8)
+		axes.annotate(f'order {order}', (cells[1], 0.06 * (cells[1] / 4.)**-order), fontsize=8)
+	axes.set(xlabel='cells over the height', ylabel='stress error (eq. 7)', ylim=(1e-5, 0.1))
+	axes.legend(frameon=False, fontsize=8)
+	save(figure, path)
+
+
+def oscillation(runs, path):
+	"""Stress oscillation along B-C during loading; *runs* maps 'none' and 'ghost' to rows of steps."""
+	figure, axes = plt.subplots(figsize=(6.5, 3.5))
+	for name, rows in runs.items():
+		axes.plot([row['step'] for row in rows], [row['oscillation'] for row in rows], color=colours[name], label=names[name])
+	axes.set(xlabel='load step', ylabel='stress oscillation along B-C', ylim=(0, None))
+	axes.legend(frameon=False)
+	save(figure, path)
+
+
+def deformedSlope(state, title, path):
+	"""Figures 6 and 7: the deformed domains shaded by sigma_xy, all and near the face B-C; the same colours for the same stress in all pictures."""
+	figure, (whole, near) = plt.subplots(2, 1, figsize=(9, 9.5), height_ratios=[1, 1.5])
+	(x, y), (a, b) = state['pos'].T, state['halfSize'].T
+	corners = np.stack([np.stack([x + i * a, y + j * b], axis=1) for i, j in ((-1, -1), (1, -1), (1, 1), (-1, 1))], axis=1)
+	for axes in whole, near:
+		domains = PolyCollection(corners, array=state['shearStress'] / 1e3, cmap='RdBu_r', clim=stressScale, linewidths=0)
+		axes.add_collection(domains)
+		axes.plot([0, 10, 15, 30], [12, 12, 7, 7], 'k--', linewidth=0.8, label='initial surface')
+		axes.plot([0, 30], [7, 7], 'k:', [0, 14.5], [7.5, 7.5], 'k:', linewidth=0.6, label='initial weak layer')
+		axes.set(aspect='equal', xlabel='x [m]', ylabel='y [m]')
+	whole.set(xlim=(-0.5, 30.5), ylim=(-0.5, 12.5), title=title)
+	whole.legend(*map(lambda entries: entries[:2], whole.get_legend_handles_labels()), frameon=False, fontsize=8)
+	near.set(xlim=(7.5, 18.5), ylim=(5.5, 12.5))
+	figure.colorbar(domains, ax=[whole, near], label='shear stress $\\sigma_{xy}$ [kPa]', fraction=0.03)
+	save(figure, path)
+
+
+def scalings(rows, path):
+	"""Condition number and column error against the cell size."""
+	figure, panels = plt.subplots(1, 2, figsize=(10, 3.8), layout='constrained')
+	for axes, column, label in zip(panels, ('conditionNumber', 'error'), ('condition number $\\kappa([K])$', 'stress error (eq. 7)')):
+		for ghost in 'none', 'paper', 'mesh-independent':
+			ours = sorted((row['cellSize'], row[column]) for row in rows if row['ghost'] == ghost)
+			axes.loglog(*zip(*ours), 'o-', color=colours[ghost], markersize=4, label=names[ghost])
+		axes.set(xlabel='cell size $h$ [m]', ylabel=label)
+	panels[1].set(ylim=(1e-3, 1e-2))
+	panels[0].legend(frameon=False)
+	save(figure, path)

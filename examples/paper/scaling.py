@@ -1,0 +1,23 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Beyond the paper: both scalings of the ghost stabilisation on grids from millimetres to kilometres."""
+import os
+import sys
+sys.path.insert(0, os.path.dirname(sys.argv[0]))
+from common import *
+
+options = commandLine(__doc__)
+cells = 16
+stabilisations = {'none': dict(factor=0), 'mesh-independent': dict(scaling='mesh-independent'), 'paper': dict(scaling='paper')}
+worst = max([i / 100 for i in range(201)], key=lambda offset: block(offset).conditionNumber()) # of figure 2
+
+results = Results(options.out, 'scaling', ['cellSize', 'ghost'], ['offset', 'conditionNumber', 'error', 'failure'])
+for cellSize in [10.**i for i in range(-3, 4)]:
+	for ghost, settings in stabilisations.items():
+		if (cellSize, ghost) in results: continue
+		conditionNumber = block(worst, cellSize=cellSize, **settings).conditionNumber()
+		height = cells * cellSize
+		column(cells, height=height, **settings)
+		failure = runSteps(40)
+		error = 'nan' if failure else columnError(height)
+		results.add([dict(zip(results.columns, (cellSize, ghost, worst, conditionNumber, error, failure)))])
+		print(*results.row((cellSize, ghost)).values(), flush=True)

@@ -1,0 +1,79 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""One slope of section 4.2 and what is noted of it; tables 1 and 2 and figures 6 and 7 share these runs."""
+from common import *
+
+B, C, weakTop = np.array([10., 12.]), np.array([15., 7.]), 7.5 # [m], figure 5
+
+
+def faceLayer(position, cellSize):
+	"""Indices of the points within one cell of the slope's face B-C, above the weak layer, whose stress differs by itself."""
+	tangent = (C - B) / np.linalg.norm(C - B)
+	along, depth = (position - B) @ tangent, -(position - B) @ [-tangent[1], tangent[0]]
+	return np.flatnonzero((along >= 0) & (depth <= cellSize * (1 + 1e-9)) & (position[:, 1] > weakTop))
+
+
+def smoothing(position, radius):
+	"""(N, N) matrix that replaces values at the points by local linear fits (moving least squares).
+
+	The weight of a neighbour at the distance r is (1 - (r / radius)^2)^2.
+	"""
+	matrix = np.zeros((len(position), len(position)))
+	for i, centre in enumerate(position):
+		away = (position - centre) / radius
+		squared = (away**2).sum(axis=1)
+		near = np.flatnonzero(squared < 1)
+		root = 1 - squared[near] # of the weight
+		linear = np.column_stack([np.ones(len(near)), away[near]])
+		matrix[i, near] = np.linalg.pinv(linear * root[:, None])[0] * root
+	return matrix
+
+
+class Oscillation:
+	"""Stress oscillation along B-C [-]: RMS deviation of sigma_xy from its local linear fit over two cells around, over the RMS of sigma_xy.
+
+	Points and fit go by initial positions, so that all steps of all runs with the same points are measured alike.
+	"""
+
+	def __init__(self, cellSize):
+		position = mpm.arrays()['pos0'][:, :2]
+		self.layer = faceLayer(position, cellSize)
+		self.smoothing = smoothing(position[self.layer], 2 * cellSize)
+
+	def __call__(self):
+		stress = mpm.arrays()['stress'][self.layer, 0, 1]
+		return np.linalg.norm(stress - self.smoothing @ stress) / np.linalg.norm(stress)
+
+
+def saveState(path):
+	"""What the pictures show: positions, half sizes [m] and sigma_xy [Pa]."""
+	points = mpm.arrays()
+	os.makedirs(os.path.dirname(path), exist_ok=True)
+	state = {name: points[name][:, :2] for name in ('pos', 'pos0', 'halfSize')} | dict(shearStress=points['stress'][:, 0, 1])
+	np.savez_compressed(path, **{name: values.astype(np.float32) for name, values in state.items()})
+
+
+def runSlope(out, cellSize, pointsPerCell, factor):
+	"""Run one slope to its end, or to the step that fails, unless its results are there already.
+
+	Adds a row to slope.csv and one for each converged step to slope-steps.csv, and keeps the last converged state in
+	<out>/states. Iterations are linear solves.
+	"""
+	key = cellSize, pointsPerCell, factor
+	keys = ['cellSize', 'pointsPerCell', 'factor']
+	runs = Results(out, 'slope', keys, ['points', 'steps', 'completed', 'meanIterations', 'maxIterations', 'displacement', 'oscillation', 'failure'])
+	state = os.path.join(out, 'states', 'slope-{:g}-{}-{:g}.npz'.format(*key))
+	if key in runs and os.path.exists(state): return
+
+	engine, steps = slope(cellSize, pointsPerCell, factor=factor)
+	oscillation, history = Oscillation(cellSize), []
+	failure = runSteps(steps, lambda: history.append((len(history) + 1, engine.iterations, engine.residual, oscillation())))
+	saveState(state)
+	Results(out, 'slope-steps', keys + ['step'], ['iterations', 'residual', 'oscillation']).add(
+	        dict(zip(keys + ['step', 'iterations', 'residual', 'oscillation'], (*key, *row))) for row in history)
+	points = mpm.arrays()
+	solves = [row[1] for row in history]
+	values = (
+	        len(points['id']), steps, len(history), np.mean(solves), max(solves), np.linalg.norm(points['pos'] - points['pos0'], axis=1).max(),
+	        history[-1][-1], failure)
+	runs.add([dict(zip(runs.columns, (*key, *values)))])
+	print(*runs.row(key).values(), flush=True)
