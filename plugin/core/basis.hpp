@@ -34,15 +34,15 @@ inline int centreCell(double x, double h) { return int(std::ceil(x / h - faceTol
 
 /// Hat functions averaged over the domain [x - l, x + l], l <= h/2 (Bardenhagen and Kober 2004). With the overlaps a and b of the
 /// domain with the lower and the upper cell the pieces are S = a^2/4lh, 1 - S_lower - S_upper, b^2/4lh: their sum is one, their
-/// slopes add up to zero and sum S x_v = x, all to round-off.
+/// slopes add up to zero, sum S x_v = x and sum dS/dx x_v = 1, all to round-off: a + b = 2l however far the point is from the origin.
 inline AxisBasis gimpBasis(double x, double l, double h)
 {
-	const double reach = l * (1 - overlapTolerance);
-	const int    lower = int(std::floor((x - reach) / h)), upper = int(std::ceil((x + reach) / h)) - 1;
-	if (lower >= upper) return linearBasis(x, h, lower);
-	const double face = h * upper, a = face - (x - l), b = (x + l) - face, w = 1 / (2 * l * h);
+	const int    face   = int(std::floor(x / h + 0.5)); // the only one that the domain can cross
+	const double offset = h * face - x;
+	if (std::abs(offset) >= l * (1 - overlapTolerance)) return linearBasis(x, h, offset > 0 ? face - 1 : face);
+	const double a = l + offset, b = l - offset, w = 1 / (2 * l * h);
 	const double sa = 0.5 * w * a * a, sb = 0.5 * w * b * b;
-	return { upper - 1, 2, { sa, 1 - sa - sb, sb }, { -w * a, w * (a - b), w * b }, { a / (2 * l), b / (2 * l) } };
+	return { face - 1, 2, { sa, 1 - sa - sb, sb }, { -w * a, w * (a - b), w * b }, { a / (2 * l), b / (2 * l) } };
 }
 
 } // namespace gimpm

@@ -39,7 +39,8 @@ template <int Dim> Index<Dim> containingCell(const Vec<Dim>& x, double h, const 
 template <int Dim> int reachableCells(const Index<Dim>& lowest, int span, int centre, const Boundary<Dim>& boundary)
 {
 	int reached = 1 << centre;
-	for (int round = 0; round < Dim; ++round)
+	for (int before = 0; before != reached;) {
+		before = reached;
 		for (int c = 0; c < 1 << Dim; ++c) {
 			if (!(reached >> c & 1)) continue;
 			for (int a = 0; a < Dim; ++a) {
@@ -48,9 +49,9 @@ template <int Dim> int reachableCells(const Index<Dim>& lowest, int span, int ce
 				if (!boundary.lowerFaceIsWall(corner<Dim>(lowest, c | 1 << a), a)) reached |= 1 << neighbour;
 			}
 		}
+	}
 	return reached;
 }
-
 
 template <int Dim> struct Place { // of one point
 	Key                        cell;

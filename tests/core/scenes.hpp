@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Scenes for the tests of the core: points, regular blocks of them, held boxes of nodes, random numbers.
+#pragma once
+#include "core/load_step.hpp"
+#include <gtest/gtest.h>
+#include <limits>
+#include <random>
+
+namespace gimpm {
+
+constexpr double infinity  = std::numeric_limits<double>::infinity();
+constexpr double precision = std::numeric_limits<double>::epsilon();
+
+/// Tests written once for both dimensions: TYPED_TEST_SUITE(Suite, BothDimensions, DimensionName); Dim is TypeParam::value.
+using BothDimensions = ::testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
+struct DimensionName {
+	template <class T> static std::string GetName(int) { return std::to_string(T::value) + "D"; }
+};
+
+/// The same random numbers in every run.
+class Random {
+public:
+	explicit Random(unsigned seed = 1)
+	        : engine_(seed)
+	{
+	}
+
+	double in(double low, double high) { return std::uniform_real_distribution<double>(low, high)(engine_); }
+	int    integer(int low, int high) { return std::uniform_int_distribution<int>(low, high)(engine_); }
+	template <int Rows, int Cols = 1> Eigen::Matrix<double, Rows, Cols> matrix(double size = 1)
+	{
+		return Eigen::Matrix<double, Rows, Cols>::NullaryExpr([&]() { return in(-size, size); });
+	}
+	Eigen::VectorXd vector(int length, double size = 1)
+	{
+		return Eigen::VectorXd::NullaryExpr(length, [&]() { return in(-size, size); });
+	}
+	template <int Dim> Mat<Dim> rotation();
+
+private:
+	std::mt19937_64 engine_;
+};
+
+inline Mat<2> planeRotation(double angle) { return (Mat<2>() << std::cos(angle), -std::sin(angle), std::sin(angle), std::cos(angle)).finished(); }
+
+/// Rotation by an angle about an axis (Rodrigues).
+inline Mat3 rotation(const Vec3& axis, double angle)
+{
+	const Vec3 n = axis.normalized();
+	const Mat3 N = (Mat3() << 0, -n[2], n[1], n[2], 0, -n[0], -n[1], n[0], 0).finished();
+	return Mat3::Identity() + std::sin(angle) * N + (1 - std::cos(angle)) * N * N;
+}
+
+template <> inline Mat<2> Random::rotation<2>() { return planeRotation(in(-3, 3)); }
+template <> inline Mat3   Random::rotation<3>() { return gimpm::rotation(matrix<3>(), in(-3, 3)); }
+
+template <int Dim> Index<Dim> cellsOf(int x, int y, int z)
+{
+	Index<Dim> i;
+	i[0] = x, i[1] = y;
+	if (Dim == 3) i[Dim - 1] = z;
+	return i;
+}
+
+/// An undeformed point with a box domain.
+template <int Dim> void addPoint(PointCloud<Dim>& cloud, const Vec<Dim>& position, const Vec<Dim>& halfSize, int material = 0)
+{
+	const std::size_t i = cloud.size();
+	cloud.resize(i + 1);
+	cloud.position[i] = position;
+	cloud.halfSize[i] = cloud.halfSize0[i] = halfSize;
+	cloud.volume0[i]                       = (2 * halfSize).prod();
+	cloud.defGrad[i].setIdentity();
+	cloud.material[i] = material;
+}
+
+/// Calls f(index) for all lowest <= index < lowest + size, x fastest.
+template <int Dim, class F> void forIndices(const Index<Dim>& lowest, const Index<Dim>& size, F&& f)
+{
+	for (int i = 0, count = size.prod(); i < count; ++i) {
+		Index<Dim> index = lowest;
+		for (int a = 0, rest = i; a < Dim; rest /= size[a], ++a)
+			index[a] += rest % size[a];
+		f(index);
+	}
+}
+
+/// perAxis^Dim equally spaced points in each of size cells from the lowest one.
+template <int Dim> PointCloud<Dim> block(const Grid<Dim>& grid, const Index<Dim>& size, int perAxis, const Index<Dim>& lowest = Index<Dim>::Zero())
+{
+	PointCloud<Dim> cloud;
+	const double    spacing = grid.cellSize / perAxis;
+	forIndices<Dim>(perAxis * lowest, perAxis * size, [&](const Index<Dim>& i) {
+		const Vec<Dim> x = grid.origin + spacing * (i.template cast<double>() + Vec<Dim>::Constant(0.5));
+		addPoint<Dim>(cloud, x, Vec<Dim>::Constant(spacing / 2));
+	});
+	return cloud;
+}
+
+/// A box of nodes held in the directions named by letters out of "xyz".
+template <int Dim>
+HeldBox<Dim> held(const Grid<Dim>& grid, const Vec<Dim>& min, const Vec<Dim>& max, const std::string& fix, const Vec<Dim>& displacement = Vec<Dim>::Zero())
+{
+	HeldBox<Dim> box = HeldBox<Dim>::from(grid, min, max);
+	for (const char letter : fix)
+		box.fixed[letter - 'x'] = true;
+	box.displacement = displacement;
+	return box;
+}
+
+/// All nodes on one side of a plane held along its normal: a wall at x[axis] = place with everything below (or above) it behind it.
+template <int Dim> HeldBox<Dim> wallBelow(const Grid<Dim>& grid, int axis, double place)
+{
+	Vec<Dim> max = Vec<Dim>::Constant(infinity);
+	max[axis]    = place;
+	return held<Dim>(grid, Vec<Dim>::Constant(-infinity), max, std::string(1, "xyz"[axis]));
+}
+template <int Dim> HeldBox<Dim> wallAbove(const Grid<Dim>& grid, int axis, double place)
+{
+	Vec<Dim> min = Vec<Dim>::Constant(-infinity);
+	min[axis]    = place;
+	return held<Dim>(grid, min, Vec<Dim>::Constant(infinity), std::string(1, "xyz"[axis]));
+}
+
+/// Nodes held in all directions, each with its own displacement(position), given as one box a node.
+template <int Dim, class Displacement>
+void prescribe(std::vector<HeldBox<Dim>>& boxes, const Grid<Dim>& grid, const Index<Dim>& node, Displacement&& displacement)
+{
+	HeldBox<Dim> box { node, node, {}, displacement(grid.nodePosition(node)) };
+	box.fixed.fill(true);
+	boxes.push_back(box);
+}
+
+/// Prescribes displacement(position) at the nodes on the surface of a box of size cells from node 0 (of which inner nodes stay free).
+template <int Dim, class Displacement> std::vector<HeldBox<Dim>> prescribedSurface(const Grid<Dim>& grid, const Index<Dim>& size, Displacement&& displacement)
+{
+	std::vector<HeldBox<Dim>> boxes;
+	forIndices<Dim>(Index<Dim>::Zero(), size + Index<Dim>::Ones(), [&](const Index<Dim>& node) {
+		if ((node.array() == 0).any() || (node.array() == size.array()).any()) prescribe<Dim>(boxes, grid, node, displacement);
+	});
+	return boxes;
+}
+
+inline Eigen::MatrixXd dense(const SymmetricCsc& K)
+{
+	Eigen::MatrixXd full = Eigen::MatrixXd::Zero(K.size(), K.size());
+	for (int c = 0; c < K.size(); ++c)
+		for (int e = K.start[c]; e < K.start[c + 1]; ++e)
+			full(K.row[e], c) = full(c, K.row[e]) = K.value[e];
+	return full;
+}
+
+/// Dense form of a matrix over nodes.
+template <int Dim> Eigen::MatrixXd dense(const NodeMatrix<Dim>& K)
+{
+	Eigen::MatrixXd full(Dim * K.nodes(), Dim * K.nodes());
+	for (int i = 0; i < full.cols(); ++i) {
+		Eigen::VectorXd column = Eigen::VectorXd::Zero(full.rows());
+		K.multiplyAdd(Eigen::VectorXd::Unit(full.cols(), i), column);
+		full.col(i) = column;
+	}
+	return full;
+}
+
+/// Positions of the active nodes.
+template <int Dim> std::vector<Vec<Dim>> nodePositions(const CloudBasis<Dim>& basis, const Grid<Dim>& grid)
+{
+	std::vector<Vec<Dim>> x;
+	for (const Key node : basis.nodes)
+		x.push_back(grid.nodePosition(Grid<Dim>::index(node)));
+	return x;
+}
+
+/// Nodal vector of a field f(position).
+template <int Dim, class Field> Eigen::VectorXd nodal(const CloudBasis<Dim>& basis, const Grid<Dim>& grid, Field&& f)
+{
+	Eigen::VectorXd d(Dim * basis.nodes.size());
+	const auto      x = nodePositions(basis, grid);
+	for (std::size_t n = 0; n < x.size(); ++n)
+		d.template segment<Dim>(Dim * n) = f(x[n]);
+	return d;
+}
+
+} // namespace gimpm
