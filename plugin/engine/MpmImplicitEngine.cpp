@@ -2,6 +2,7 @@
 #include "engine/MpmImplicitEngine.hpp"
 #include "core/load_step.hpp"
 #include "core/stopwatch.hpp"
+#include "engine/LoadStepObserver.hpp"
 #include "engine/exchange.hpp"
 #include "yade_api/exceptions.hpp"
 #include <omp.h>
@@ -69,9 +70,20 @@ void MpmImplicitEngine::action()
 			iterLast = beforeActivation.iterLast;
 			nDone    = beforeActivation.nDone;
 			if (!scene->subStepping) scene->subStep = -1; // YADE would count the iteration as begun, and finish it later
+			tellObservers([this](LoadStepObserver& observer) { observer.stepEnds(*this, false); });
 			throw;
 		}
+		tellObservers([this](LoadStepObserver& observer) { observer.stepEnds(*this, true); });
 	});
+}
+
+template <class F> void MpmImplicitEngine::tellObservers(F tell) const
+{
+	for (const auto& engine : scene->engines)
+		if (auto* observer = dynamic_cast<LoadStepObserver*>(engine.get()); observer && !engine->dead) {
+			engine->scene = scene;
+			tell(*observer);
+		}
 }
 
 void MpmImplicitEngine::run()
@@ -128,6 +140,7 @@ template <int Dim> void MpmImplicitEngine::step(Real target)
 		if (points.empty()) throw std::invalid_argument("MpmImplicitEngine: the scene has no material points; add them with O.bodies.append(mpm.fill(...)).");
 		cloud = gather(points, model);
 	}
+	tellObservers([this](LoadStepObserver& observer) { observer.stepBegins(*this); });
 	const Real              factor = loadFactorAt(target);
 	const gimpm::Load<Dim>  load { gravity.head<Dim>(), factor, factor - loadFactorAt(loadTime) };
 	const gimpm::StepReport report = gimpm::loadStep(cloud, model, load, solver);

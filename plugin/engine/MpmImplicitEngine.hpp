@@ -112,6 +112,7 @@ private:
 	void                       requireRunnable() const;
 	Real                       loadFactorAt(Real time) const;
 	template <int Dim> void    step(Real target);
+	template <class F> void    tellObservers(F) const;
 	void                       take(const gimpm::StepReport&);
 	void                       recordTimes(const gimpm::StepReport&, double gatherSeconds, double scatterSeconds);
 	[[noreturn]] void          raise(const gimpm::StepReport&, Real target, const string& point) const;

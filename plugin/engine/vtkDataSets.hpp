@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+// The state of an analysis as VTK data: cells with fields. In plane strain all lies in a plane of constant z.
+#include "core/point_cloud.hpp"
+#include "core/model.hpp"
+#include "engine/MaterialPoints.hpp"
+#include <vtkSmartPointer.h>
+
+class vtkUnstructuredGrid;
+
+namespace yade {
+
+using VtkCells = vtkSmartPointer<vtkUnstructuredGrid>;
+
+// The domain of each material point, in the order given, with its fields.
+VtkCells pointDomains(const vector<MaterialPoint>&, int dim);
+
+// The background grid where it holds material, in the same configuration. `z` is the height of the plane in plane strain.
+template <int Dim> VtkCells populatedCells(const gimpm::PointCloud<Dim>&, const gimpm::Model<Dim>&, Real z);
+
+// The faces that the ghost stabilisation acts on, with their stiffness; none if it is switched off.
+template <int Dim> VtkCells stabilisedFaces(const gimpm::PointCloud<Dim>&, const gimpm::Model<Dim>&, Real z);
+
+} // namespace yade

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+// Files for ParaView. A file is written under another name and then renamed: what has its final name is complete. Missing folders
+// are created. std::runtime_error names the file that cannot be written, and says why.
+#include "yade_api/types.hpp"
+#include <utility>
+
+class vtkUnstructuredGrid;
+
+namespace yade {
+
+struct VtkFormat {
+	bool ascii    = false;
+	bool compress = true; // has no effect on ascii
+};
+
+// One state of a series as .vtu, with its time [s].
+void writeVtu(vtkUnstructuredGrid&, Real time, const string& path, VtkFormat);
+
+// The .pvd of a series: paths and times of its files, which are in the same folder.
+void writePvd(const vector<std::pair<string, Real>>& series, const string& path);
+
+} // namespace yade
