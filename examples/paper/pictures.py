@@ -31,10 +31,10 @@ def columnErrors(series, path):
 	figure, axes = plt.subplots(figsize=(6.5, 4.5))
 	for (ghost, steps), points in series.items():
 		axes.loglog(*zip(*points), 'o-' if steps == '40 steps' else 's--', color=colours[ghost], markersize=4, label=f'{names[ghost]}, {steps}')
-	cells = np.array(axes.get_xlim())
-	for order in 1, 2:
-		axes.loglog(cells, 0.06 * (cells / 4.)**-order, 'k:', linewidth=0.8)
-		axes.annotate(f'order {order}', (cells[1], 0.06 * (cells[1] / 4.)**-order), fontsize=8)
+	cells = np.array([32., 256.])
+	for order, top in (1, 1.6e-3), (2, 8e-4):
+		axes.loglog(cells, top * (cells / cells[0])**-order, 'k:', linewidth=0.8)
+		axes.annotate(f'order {order}', (cells[1], top * 8.**-order), fontsize=8)
 	axes.set(xlabel='cells over the height', ylabel='stress error (eq. 7)', ylim=(1e-5, 0.1))
 	axes.legend(frameon=False, fontsize=8)
 	save(figure, path)
