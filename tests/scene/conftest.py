@@ -75,6 +75,13 @@ class Yade:
 		return {'PYTHONPATH': str(root / 'tests' / 'scene'), 'XDG_CONFIG_HOME': str(self.folder / 'config'), 'MPLCONFIGDIR': str(self.folder / 'config'), 'MPLBACKEND': 'Agg'}
 
 
+def compiled(source, library):
+	"""A shared library from C++ text; with LD_PRELOAD it replaces functions of YADE."""
+	compiler = ['g++', '-shared', '-fPIC', '-x', 'c++', '-', '-o', str(library), '-ldl']
+	subprocess.run(compiler, input=source, text=True, check=True)
+	return library
+
+
 @pytest.fixture
 def yade(tmp_path):
 	"""The YADE under test, with the plugin: yade(script, ...) runs a script and returns a Run."""

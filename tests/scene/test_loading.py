@@ -5,7 +5,7 @@ import subprocess
 import time
 
 import pytest
-from conftest import build, root
+from conftest import build, compiled, root
 
 # Prints whether YADE works and knows the plugin's classes.
 probe = '''
@@ -22,13 +22,6 @@ withoutPlugin = {'iterations': 2, 'knowsPlugin': False}
 @pytest.fixture
 def complete(libraries):
 	shutil.copy(build / 'mpm/mpm_engine.so', libraries / 'mpm')
-
-
-def compiled(source, library):
-	"""A shared library from C++ text."""
-	compiler = ['g++', '-shared', '-fPIC', '-x', 'c++', '-', '-o', str(library), '-ldl']
-	subprocess.run(compiler, input=source, text=True, check=True)
-	return library
 
 
 def explanation(run):
