@@ -223,41 +223,51 @@ h = 1 m, 3 x 3 points per cell; notes as for table 1.
 
 
 def figures67():
-	runs = {row['factor']: row for row in results('slope') if row['pointsPerCell'] == 4}
-	finest = min((row['cellSize'] for row in results('slope') if row['pointsPerCell'] == 4), default=None)
-	runs = {row['factor']: row for row in results('slope') if (row['pointsPerCell'], row['cellSize']) == (4, finest) and row['factor'] in (0, 0.01)}
+	rows = [row for row in results('slope') if row['pointsPerCell'] == 4 and row['factor'] in (0, 0.01)]
+	finest = min((row['cellSize'] for row in rows), default=None)
+	runs = {'none' if row['factor'] == 0 else 'ghost': row for row in rows if row['cellSize'] == finest}
 	if not runs: return ''
-	history = {factor: [row for row in results('slope-steps') if all(row[k] == run[k] for k in slopeKey)] for factor, run in runs.items()}
-	parts = []
-	for factor, figure, kind in (0, 6, 'without'), (0.01, 7, 'with'):
-		state = os.path.join(folder, 'states', f'slope-{finest:g}-4-{factor:g}.npz')
-		if factor in runs and os.path.exists(state):
-			run = runs[factor]
-			title = f"{kind} ghost stabilisation, h = {finest:g} m, 4 x 4 points per cell, load step {run['completed']:g} of {run['steps']:g}"
-			pictures.deformedSlope(np.load(state), title, inFolder(f'fig{figure}.png'))
-		if factor in runs: parts.append(f'![Figure {figure}](fig{figure}.png)\n')
-	pictures.oscillation({name: history[factor] for factor, name in ((0, 'none'), (0.01, 'ghost')) if factor in history}, inFolder('oscillation.png'))
-	return '## Figures 6 and 7: shear stress in the deformed slope\n\n' + '\n'.join(parts) + oscillationText(runs, history)
+	history = {name: [row for row in results('slope-steps') if all(row[k] == run[k] for k in slopeKey)] for name, run in runs.items()}
+	files = {name: os.path.join(folder, 'states', f'slope-{finest:g}-4-{run["factor"]:g}.npz') for name, run in runs.items()}
+	states = {name: np.load(path) for name, path in files.items() if os.path.exists(path)} # without them the pictures stay as they are
+	figures = {'none': (6, 'without'), 'ghost': (7, 'with')}
+	for name, state in states.items():
+		number, kind = figures[name]
+		steps = f"load step {runs[name]['completed']:g} of {runs[name]['steps']:g}"
+		pictures.deformedSlope(state, f'{kind} ghost stabilisation, h = {finest:g} m, 4 x 4 points per cell, {steps}', inFolder(f'fig{number}.png'))
+	pictures.oscillation(history, inFolder('oscillation.png'))
+	text = f'''## Figures 6 and 7: shear stress in the deformed slope
+
+h = {finest:g} m, 4 x 4 points per cell, without and with ghost stabilisation (factor 0.01), same colours for the same stress.
+'''
+	for name, run in runs.items():
+		number, kind = figures[name]
+		text += f"\n![Figure {number}](fig{number}.png)\n"
+		if not completed(run): text += f"\n{kind.capitalize()} ghost stabilisation load step {run['completed'] + 1:g} fails: {run['failure']}. The picture shows the last converged state.\n"
+	if len(runs) == 2:
+		step = int(min(run['completed'] for run in runs.values()))
+		if len(states) == 2: pictures.faceStress(states, step, inFolder('face.png'))
+		text += oscillationText(history, step)
+	return text
 
 
-def oscillationText(runs, history):
-	if len(runs) < 2: return ''
-	last = int(runs[0]['completed'])
-	at = {factor: history[factor][last - 1]['oscillation'] for factor in runs if len(history[factor]) >= last}
-	mean = {factor: np.mean([row['oscillation'] for row in history[factor][:last]]) for factor in runs}
-	end = history[0.01][-1]
+def oscillationText(history, step):
+	at = {name: rows[step - 1]['oscillation'] for name, rows in history.items()}
+	mean = {name: np.mean([row['oscillation'] for row in rows[:step]]) for name, rows in history.items()}
+	worst = {name: max(row['oscillation'] for row in rows[:step]) for name, rows in history.items()}
+	end = {name: f"{rows[-1]['oscillation']:.4f} (step {rows[-1]['step']:g})" for name, rows in history.items()}
 	return f'''
-The weak layer shows by its low shear stress in both.
+**Stress oscillation along B-C**, of the points that started within one cell of the face and above the weak layer: RMS of the deviation of sigma_xy from a local
+linear fit (moving least squares over the points of this layer, weight (1 - (r / 2h)²)², initial positions), over the RMS of sigma_xy.
 
-**Stress oscillation along B-C**: of the points that started within one cell of the face B-C, above the weak layer, the RMS of the deviation of sigma_xy
-from a local linear fit (moving least squares over the points of this layer, weight (1 - (r / 2h)²)², initial positions), over the RMS of sigma_xy.
+{table(['', 'paper', 'without ghost', 'with ghost', 'ratio'], [
+        [what, 'removed (by eye)', *(f'{values[name]:.4f}' for name in ('none', 'ghost')), f"{values['none'] / values['ghost']:.2f}"]
+        for what, values in ((f'mean of load steps 1 to {step}, which both completed', mean), ('largest in these steps', worst), (f'load step {step}', at))]
+        + [['last converged step of each', '', end['none'], end['ghost'], '']])}
+
+![Stress along the face](face.png)
 
 ![Stress oscillation during loading](oscillation.png)
-
-{table(['', 'paper', 'without ghost', 'with ghost'], [
-        [f'at load step {last}, the last one that converged without ghost', 'oscillations removed (by eye)', *(f'{at[factor]:.4f}' for factor in (0, 0.01))],
-        [f'mean of steps 1 to {last}', '', *(f'{mean[factor]:.4f}' for factor in (0, 0.01))],
-        [f"at load step {end['step']:g}, the last one with ghost", '', '' if end['step'] > last else f'{at[0]:.4f}', f"{end['oscillation']:.4f}"]])}
 '''
 
 

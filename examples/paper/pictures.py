@@ -50,6 +50,16 @@ def oscillation(runs, path):
 	save(figure, path)
 
 
+def faceStress(states, step, path):
+	"""sigma_xy of the points near the face B-C after a load step; *states* maps 'none' and 'ghost' to saved states."""
+	figure, axes = plt.subplots(figsize=(6.5, 3.5))
+	for name, state in states.items():
+		axes.plot(state['along'], state['faceStress'][step - 1] / 1e3, '.', color=colours[name], markersize=3, label=names[name])
+	axes.set(xlabel='initial distance from B towards C [m]', ylabel='$\\sigma_{xy}$ [kPa]', title=f'load step {step}')
+	axes.legend(frameon=False)
+	save(figure, path)
+
+
 def deformedSlope(state, title, path):
 	"""Figures 6 and 7: the deformed domains shaded by sigma_xy, all and near the face B-C; the same colours for the same stress in all pictures."""
 	figure, (whole, near) = plt.subplots(2, 1, figsize=(9, 9.5), height_ratios=[1, 1.5])
@@ -62,7 +72,8 @@ def deformedSlope(state, title, path):
 		axes.plot([0, 30], [7, 7], 'k:', [0, 14.5], [7.5, 7.5], 'k:', linewidth=0.6, label='initial weak layer')
 		axes.set(aspect='equal', xlabel='x [m]', ylabel='y [m]')
 	whole.set(xlim=(-0.5, 30.5), ylim=(-0.5, 12.5), title=title)
-	whole.legend(*map(lambda entries: entries[:2], whole.get_legend_handles_labels()), frameon=False, fontsize=8)
+	handles, labels = whole.get_legend_handles_labels()
+	whole.legend(handles[:2], labels[:2], frameon=False, fontsize=8)
 	near.set(xlim=(7.5, 18.5), ylim=(5.5, 12.5))
 	figure.colorbar(domains, ax=[whole, near], label='shear stress $\\sigma_{xy}$ [kPa]', fraction=0.03)
 	save(figure, path)

@@ -5,13 +5,6 @@ from common import *
 B, C, weakTop = np.array([10., 12.]), np.array([15., 7.]), 7.5 # [m], figure 5
 
 
-def faceLayer(position, cellSize):
-	"""Indices of the points within one cell of the slope's face B-C, above the weak layer, whose stress differs by itself."""
-	tangent = (C - B) / np.linalg.norm(C - B)
-	along, depth = (position - B) @ tangent, -(position - B) @ [-tangent[1], tangent[0]]
-	return np.flatnonzero((along >= 0) & (depth <= cellSize * (1 + 1e-9)) & (position[:, 1] > weakTop))
-
-
 def smoothing(position, radius):
 	"""(N, N) matrix that replaces values at the points by local linear fits (moving least squares).
 
@@ -28,28 +21,34 @@ def smoothing(position, radius):
 	return matrix
 
 
-class Oscillation:
-	"""Stress oscillation along B-C [-]: RMS deviation of sigma_xy from its local linear fit over two cells around, over the RMS of sigma_xy.
+class FaceStress:
+	"""sigma_xy [Pa] of the points within one cell of the slope's face B-C, above the weak layer, whose stress differs by itself.
 
-	Points and fit go by initial positions, so that all steps of all runs with the same points are measured alike.
+	Points, and the neighbours in the fit, go by initial positions: all steps of all runs with the same points are measured alike.
 	"""
 
 	def __init__(self, cellSize):
 		position = mpm.arrays()['pos0'][:, :2]
-		self.layer = faceLayer(position, cellSize)
-		self.smoothing = smoothing(position[self.layer], 2 * cellSize)
+		tangent = (C - B) / np.linalg.norm(C - B)
+		along, depth = (position - B) @ tangent, (position - B) @ [tangent[1], -tangent[0]]
+		self.points = np.flatnonzero((along >= 0) & (depth <= cellSize * (1 + 1e-9)) & (position[:, 1] > weakTop))
+		self.along = along[self.points] # [m] from B
+		self.smoothing = smoothing(position[self.points], 2 * cellSize)
+		self.history = []
 
-	def __call__(self):
-		stress = mpm.arrays()['stress'][self.layer, 0, 1]
+	def record(self):
+		"""Take the stress of this step; returns its oscillation [-]: RMS deviation from the local linear fit over two cells around, over the RMS."""
+		stress = mpm.arrays()['stress'][self.points, 0, 1]
+		self.history.append(stress)
 		return np.linalg.norm(stress - self.smoothing @ stress) / np.linalg.norm(stress)
 
 
-def saveState(path):
-	"""What the pictures show: positions, half sizes [m] and sigma_xy [Pa]."""
+def saveState(path, face):
+	"""What the pictures show: positions, half sizes [m] and sigma_xy [Pa] of the last converged state, and of the face for all steps."""
 	points = mpm.arrays()
 	os.makedirs(os.path.dirname(path), exist_ok=True)
-	state = {name: points[name][:, :2] for name in ('pos', 'pos0', 'halfSize')} | dict(shearStress=points['stress'][:, 0, 1])
-	np.savez_compressed(path, **{name: values.astype(np.float32) for name, values in state.items()})
+	state = {name: points[name][:, :2] for name in ('pos', 'halfSize')} | dict(shearStress=points['stress'][:, 0, 1], along=face.along, faceStress=face.history)
+	np.savez_compressed(path, **{name: np.asarray(values, np.float32) for name, values in state.items()})
 
 
 def runSlope(out, cellSize, pointsPerCell, factor):
@@ -65,9 +64,9 @@ def runSlope(out, cellSize, pointsPerCell, factor):
 	if key in runs and os.path.exists(state): return
 
 	engine, steps = slope(cellSize, pointsPerCell, factor=factor)
-	oscillation, history = Oscillation(cellSize), []
-	failure = runSteps(steps, lambda: history.append((len(history) + 1, engine.iterations, engine.residual, oscillation())))
-	saveState(state)
+	face, history = FaceStress(cellSize), []
+	failure = runSteps(steps, lambda: history.append((len(history) + 1, engine.iterations, engine.residual, face.record())))
+	saveState(state, face)
 	Results(out, 'slope-steps', keys + ['step'], ['iterations', 'residual', 'oscillation']).add(
 	        dict(zip(keys + ['step', 'iterations', 'residual', 'oscillation'], (*key, *row))) for row in history)
 	points = mpm.arrays()
