@@ -48,7 +48,8 @@ template <int Dim> StepReport loadStep(PointCloud<Dim>& cloud, const Model<Dim>&
 	const Eigen::VectorXd d = equilibrium(system, solver, report);
 	report.times.linear     = solver.times();
 	// 5. nodes to points; 6. the grid is reset by not being kept
-	if (report.converged()) updatePoints(cloud, system, d, report);
+	report.accepted = report.failure == Failure::tooManyIterations && model.newton.acceptUnconverged;
+	if (report.converged() || report.accepted) updatePoints(cloud, system, d, report);
 	return report;
 }
 

@@ -5,6 +5,7 @@
 #include "core/boundary.hpp"
 #include "core/ghost.hpp"
 #include "core/materials/law.hpp"
+#include <functional>
 
 namespace gimpm {
 
@@ -14,8 +15,11 @@ struct GhostSettings {
 };
 
 struct NewtonSettings {
-	double tolerance     = 1e-6; ///< on |residual| / |external forces + reactions|
-	int    maxIterations = 20;   ///< linear solves
+	double                tolerance         = 1e-6; ///< on |residual| / |external forces + reactions|
+	int                   maxIterations     = 20;   ///< linear solves
+	int                   lineSearchTrials  = 5;    ///< shorter steps tried when a full one does not reduce the residual; 0: none
+	bool                  acceptUnconverged = false; ///< take over the last iterate after maxIterations
+	std::function<bool()> interrupted;               ///< asked once per iteration; may be empty
 };
 
 template <int Dim> struct Model {

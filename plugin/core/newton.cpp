@@ -8,14 +8,15 @@ namespace {
 
 /// Out-of-balance forces on the free degrees of freedom, and their size relative to external forces and reactions.
 struct Balance {
-	Eigen::VectorXd residual; // by number of the free degree of freedom
-	double          relative; // |residual| / |external forces + reactions|
-	int             worst = -1; // nodal degree of freedom
+	Eigen::VectorXd residual;      // by number of the free degree of freedom
+	double          size     = 0;  // |residual| [N]
+	double          relative = 0;  // |residual| / |external forces + reactions|
+	int             worst    = -1; // nodal degree of freedom
 };
 
 Balance balance(const FreeDofs& dofs, const Eigen::VectorXd& external, const Eigen::VectorXd& force)
 {
-	Balance b { Eigen::VectorXd(dofs.count), 0 };
+	Balance b { Eigen::VectorXd(dofs.count) };
 	// scaled, so that forces as small as 1e-200 N do not vanish when they are squared
 	const double scale     = std::max({ external.lpNorm<Eigen::Infinity>(), force.lpNorm<Eigen::Infinity>(), std::numeric_limits<double>::min() });
 	double       imbalance = 0, reference = 0, largest = -1;
@@ -30,92 +31,171 @@ Balance balance(const FreeDofs& dofs, const Eigen::VectorXd& external, const Eig
 		reference += std::pow(external[i] / scale, 2);
 		if (std::abs(r) > largest) largest = std::abs(r), b.worst = i;
 	}
+	b.size     = scale * std::sqrt(imbalance);
 	b.relative = imbalance == 0 ? 0 : std::sqrt(imbalance / reference); // without any load: converged, not 0/0
 	return b;
 }
 
-template <int Dim> void reportWorst(const StepSystem<Dim>& system, const Balance& b, StepReport& report)
-{
-	if (b.worst < 0) return;
-	report.worst.position.setZero();
-	report.worst.position.head<Dim>() = system.model.grid.nodePosition(Grid<Dim>::index(system.basis.nodes[b.worst / Dim]));
-	report.worst.axis                 = b.worst % Dim;
-	report.worst.force                = b.residual[system.dofs.number[b.worst]];
-}
-
-void fail(StepReport& report, Failure failure, const std::string& cause)
-{
-	report.failure = failure;
-	report.cause   = cause;
-}
-
-/// One solve: d += K^-1 (residual - K_fc prescribed), with the prescribed displacements themselves. False if K is singular.
-template <int Dim>
-bool correct(const StepSystem<Dim>& system, const NodeMatrix<Dim>& K, const Eigen::VectorXd& prescribed, const Balance& b, LinearSolver& solver, Eigen::VectorXd& d, StepReport& report)
-{
-	Eigen::VectorXd right = b.residual, correction;
-	if (prescribed.size() > 0) {
-		Eigen::VectorXd held = Eigen::VectorXd::Zero(system.nodalSize());
-		K.multiplyAdd(prescribed, held);
-		for (int i = 0; i < held.size(); ++i)
-			if (system.dofs.number[i] >= 0) right[system.dofs.number[i]] -= held[i];
-		d += prescribed;
+/// State of the iteration.
+template <int Dim> class Newton {
+public:
+	Newton(const StepSystem<Dim>& system, LinearSolver& solver, StepReport& report)
+	        : system_(system)
+	        , settings_(system.model.newton)
+	        , solver_(solver)
+	        , report_(report)
+	        , d_(Eigen::VectorXd::Zero(system.nodalSize()))
+	{
+		if (system.prescribed.any()) prescribed_ = system.prescribed;
+		system.prepare(K_);
 	}
-	if (system.dofs.count > 0) {
+
+	Eigen::VectorXd run()
+	{
+		evaluate(d_, true);
+		while (!finished() && correct())
+			++report_.iterations;
+		return d_;
+	}
+
+private:
+	/// Balance at d, and K on demand. An inverted point or a residual that is not a number leaves balance_.size infinite.
+	void evaluate(const Eigen::VectorXd& d, bool withStiffness)
+	{
+		const Stopwatch watch(report_.times.assembly);
+		inverted_     = system_.evaluate(d, force_, withStiffness ? &K_ : nullptr);
+		hasStiffness_ = withStiffness;
+		balance_      = balance(system_.dofs, system_.external, force_);
+		if (inverted_ >= 0 || !std::isfinite(balance_.relative)) balance_.size = std::numeric_limits<double>::infinity();
+	}
+
+	bool finished()
+	{
+		report_.residuals.push_back(balance_.relative);
+		reportWorst();
+		// At least one solve: a load increment below the tolerance must not be lost.
+		const bool converged = report_.iterations > 0 ? balance_.relative <= settings_.tolerance : balance_.relative == 0 && prescribed_.size() == 0;
+		std::ostringstream text;
+		if (inverted_ >= 0) {
+			report_.invertedPoint = inverted_;
+			return fail(Failure::inverted, "a material point was turned inside out (det F <= 0)");
+		}
+		if (!std::isfinite(balance_.relative)) return fail(Failure::notFinite, "the residual is not finite");
+		if (converged) return true;
+		if (settings_.interrupted && settings_.interrupted()) return fail(Failure::interrupted, "it was interrupted");
+		if (report_.iterations == settings_.maxIterations) {
+			text << "the residual " << balance_.relative << " is above the tolerance " << settings_.tolerance << " after " << report_.iterations << " iterations";
+			return fail(Failure::tooManyIterations, text.str());
+		}
+		return false;
+	}
+
+	bool fail(Failure failure, const std::string& cause)
+	{
+		report_.failure = failure;
+		report_.cause   = cause;
+		return true;
+	}
+
+	/// One solve and the step that it gives. False if the iteration has to end.
+	bool correct()
+	{
+		if (!hasStiffness_) evaluate(d_, true);
+		Eigen::VectorXd step = Eigen::VectorXd::Zero(d_.size());
+		if (!solve(step)) {
+			fail(Failure::singular, "the stiffness matrix is singular to working precision");
+			return false;
+		}
+		const double before = balance_.size;
+		const bool   first  = prescribed_.size() > 0; // the residual before says nothing of the prescribed displacements
+		evaluate(d_ + step, !willConverge());
+		if (!first && !(balance_.size < before)) return search(step, before);
+		d_ += step;
+		return true;
+	}
+
+	/// step = K^-1 (residual - K_fc prescribed), with the prescribed displacements themselves.
+	bool solve(Eigen::VectorXd& step)
+	{
+		Eigen::VectorXd right = balance_.residual, correction;
+		if (prescribed_.size() > 0) {
+			Eigen::VectorXd held = Eigen::VectorXd::Zero(d_.size());
+			K_.multiplyAdd(prescribed_, held);
+			for (int i = 0; i < held.size(); ++i)
+				if (system_.dofs.number[i] >= 0) right[system_.dofs.number[i]] -= held[i];
+			step = prescribed_;
+			prescribed_.resize(0);
+		}
+		if (system_.dofs.count == 0) return true;
 		SymmetricCsc reduced;
-		reduce(K, system.dofs, reduced);
-		const auto status = solver.solve(reduced, right, correction);
+		reduce(K_, system_.dofs, reduced);
+		const auto status = solver_.solve(reduced, right, correction);
 		if (status == LinearSolver::Status::singular) return false;
-		report.luSolves += status == LinearSolver::Status::lu;
-		for (int i = 0; i < d.size(); ++i)
-			if (system.dofs.number[i] >= 0) d[i] += correction[system.dofs.number[i]];
+		report_.luSolves += status == LinearSolver::Status::lu;
+		for (int i = 0; i < step.size(); ++i)
+			if (system_.dofs.number[i] >= 0) step[i] += correction[system_.dofs.number[i]];
+		return true;
 	}
-	return true;
-}
+
+	/// Quadratic convergence foretells the next residual: if it is below the tolerance, no further stiffness will be needed.
+	bool willConverge() const
+	{
+		const auto& r = report_.residuals;
+		if (r.size() < 2) return false;
+		const double last = r.back(), previous = r[r.size() - 2];
+		return last < previous && last * std::pow(last / previous, 2) <= settings_.tolerance;
+	}
+
+	/// The full step did not reduce the residual: tries shorter ones (Armijo's condition) and takes the best.
+	bool search(const Eigen::VectorXd& step, double before)
+	{
+		const double full = balance_.size;
+		double       best = full, length = 1, share = 1;
+		for (int trial = 0; trial < settings_.lineSearchTrials; ++trial) {
+			share /= 2;
+			evaluate(d_ + share * step, false);
+			++report_.lineSearchTrials;
+			if (balance_.size < best) best = balance_.size, length = share;
+			if (balance_.size <= (1 - 1e-4 * share) * before) break;
+		}
+		const double largest = step.template lpNorm<Eigen::Infinity>();
+		if (settings_.lineSearchTrials > 0 && best >= before && length * largest > system_.model.grid.cellSize) {
+			std::ostringstream text;
+			text << "it diverges: a correction of " << length * largest << " m, more than a cell, does not reduce the residual";
+			report_.residuals.push_back(balance_.relative);
+			fail(Failure::diverging, text.str());
+			return false;
+		}
+		d_ += length * step;
+		evaluate(d_, true);
+		return true;
+	}
+
+	void reportWorst()
+	{
+		if (balance_.worst < 0) return;
+		report_.worst.position.setZero();
+		report_.worst.position.head<Dim>() = system_.model.grid.nodePosition(Grid<Dim>::index(system_.basis.nodes[balance_.worst / Dim]));
+		report_.worst.axis                 = balance_.worst % Dim;
+		report_.worst.force                = balance_.residual[system_.dofs.number[balance_.worst]];
+	}
+
+	const StepSystem<Dim>& system_;
+	const NewtonSettings&  settings_;
+	LinearSolver&          solver_;
+	StepReport&            report_;
+	Eigen::VectorXd        d_, force_, prescribed_; // prescribed_: empty once it is part of d
+	NodeMatrix<Dim>        K_;
+	Balance                balance_;
+	InvertedPoint          inverted_     = -1;
+	bool                   hasStiffness_ = false;
+};
 
 } // namespace
 
 template <int Dim> Eigen::VectorXd equilibrium(const StepSystem<Dim>& system, LinearSolver& solver, StepReport& report)
 {
-	const auto&     newton     = system.model.newton;
-	Eigen::VectorXd d          = Eigen::VectorXd::Zero(system.nodalSize()), force;
-	Eigen::VectorXd prescribed = system.prescribed.any() ? system.prescribed : Eigen::VectorXd();
-	NodeMatrix<Dim> K;
-	system.prepare(K);
-	while (true) {
-		InvertedPoint inverted;
-		{
-			const Stopwatch watch(report.times.assembly);
-			inverted = system.evaluate(d, force, &K);
-		}
-		if (inverted >= 0) {
-			report.invertedPoint = inverted;
-			fail(report, Failure::inverted, "a material point was turned inside out (det F <= 0)");
-			break;
-		}
-		const Balance b = balance(system.dofs, system.external, force);
-		report.residuals.push_back(b.relative);
-		reportWorst(system, b, report);
-		if (!std::isfinite(b.relative)) {
-			fail(report, Failure::notFinite, "the residual is not finite");
-			break;
-		}
-		// At least one solve: a load increment below the tolerance must not be lost.
-		if ((report.iterations > 0 && b.relative <= newton.tolerance) || (b.relative == 0 && prescribed.size() == 0)) break;
-		if (report.iterations == newton.maxIterations) {
-			std::ostringstream text;
-			text << "the residual " << b.relative << " is above the tolerance " << newton.tolerance << " after " << report.iterations << " iterations";
-			fail(report, Failure::tooManyIterations, text.str());
-			break;
-		}
-		if (!correct(system, K, prescribed, b, solver, d, report)) {
-			fail(report, Failure::singular, "the stiffness matrix is singular to working precision");
-			break;
-		}
-		prescribed.resize(0);
-		++report.iterations;
-	}
-	return d;
+	return Newton<Dim>(system, solver, report).run();
 }
 
 template Eigen::VectorXd equilibrium(const StepSystem<2>&, LinearSolver&, StepReport&);

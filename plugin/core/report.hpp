@@ -8,7 +8,7 @@
 
 namespace gimpm {
 
-enum class Failure { none, unrestrained, singular, inverted, notFinite, tooManyIterations };
+enum class Failure { none, unrestrained, singular, inverted, notFinite, diverging, tooManyIterations, interrupted };
 
 struct StepTimes {
 	double      basis = 0, ghost = 0, assembly = 0, update = 0; ///< [s]
@@ -18,7 +18,9 @@ struct StepTimes {
 struct StepReport {
 	Failure             failure = Failure::none;
 	std::string         cause;          ///< one clause for the user, empty when converged
+	bool                accepted = false; ///< the points took over an iterate that had not converged
 	int                 iterations = 0; ///< linear solves
+	int                 lineSearchTrials = 0; ///< evaluations of the residual for steps shorter than Newton's
 	std::vector<double> residuals;      ///< |residual| / |external forces + reactions| before the first solve and after each
 	int                 luSolves = 0;   ///< solves for which K was not positive definite
 	int                 invertedPoint = -1; ///< its index in the cloud, for Failure::inverted

@@ -5,6 +5,7 @@
 #include "engine/LoadStepObserver.hpp"
 #include "engine/exchange.hpp"
 #include "yade_api/exceptions.hpp"
+#include "yade_api/logging.hpp"
 #include <omp.h>
 
 namespace yade {
@@ -29,6 +30,13 @@ namespace {
 		std::ostringstream text;
 		text << " (body #" << point.body->id << " at " << point.state->pos.transpose() << ")";
 		return text.str();
+	}
+
+	bool canBeCut(gimpm::Failure failure)
+	{
+		using gimpm::Failure;
+		return failure == Failure::singular || failure == Failure::inverted || failure == Failure::notFinite || failure == Failure::diverging
+		        || failure == Failure::tooManyIterations;
 	}
 
 	template <class T> py::object numpyArray(const vector<T>& values, const char* type)
@@ -141,65 +149,127 @@ template <int Dim> void MpmImplicitEngine::step(Real target)
 		cloud = gather(points, model);
 	}
 	tellObservers([this](LoadStepObserver& observer) { observer.stepBegins(*this); });
-	const Real              factor = loadFactorAt(target);
-	const gimpm::Load<Dim>  load { gravity.head<Dim>(), factor, factor - loadFactorAt(loadTime) };
-	const gimpm::StepReport report = gimpm::loadStep(cloud, model, load, solver);
-	take(report);
-	if (!report.converged()) raise(report, target, report.invertedPoint >= 0 ? placeOf(points[report.invertedPoint]) : "");
+	advance(cloud, model, points, target);
 	{
 		const gimpm::Stopwatch watch(scattering);
 		scatter(cloud, points);
 	}
-	loadTime   = target;
-	loadFactor = factor;
-	recordTimes(report, gathering, scattering);
+	addTime("gather", gathering);
+	addTime("scatter", scattering);
+}
+
+// Load steps up to the target: a step that fails is undone and tried with half the increment, down to newton.minStep; after an easy
+// one the increment doubles. All parts are halves of halves of the whole, so that their sum is exact.
+template <int Dim>
+void MpmImplicitEngine::advance(gimpm::PointCloud<Dim>& cloud, gimpm::Model<Dim>& model, const vector<MaterialPoint>& points, Real target)
+{
+	const Real begin         = loadTime;
+	const bool inBackground  = Singleton<Omega>::instance().isRunning();
+	model.newton.interrupted = [inBackground] { return inBackground && !Singleton<Omega>::instance().isRunning(); };
+	iterations = lineSearchTrials = luSolves = substeps = cuts = 0;
+	for (Real done = 0; done < 1;) {
+		const Real              part   = std::min(stepPart, 1 - done);
+		const Real              time   = done + part == 1 ? target : begin + (done + part) * (target - begin);
+		const gimpm::Load<Dim>  load { gravity.head<Dim>(), loadFactorAt(time), loadFactorAt(time) - loadFactorAt(loadTime) };
+		model.newton.acceptUnconverged = newton->acceptUnconverged && part / 2 < newton->minStep;
+		const gimpm::StepReport report = gimpm::loadStep(cloud, model, load, solver);
+		take(report);
+		if (report.converged() || report.accepted) {
+			if (report.accepted) warnOfAccepted(report, time);
+			done += part;
+			++substeps;
+			loadTime   = time;
+			loadFactor = load.factor;
+			if (report.iterations <= newton->maxIterations / 3) stepPart = std::min(1., 2 * stepPart);
+		} else if (canBeCut(report.failure) && part / 2 >= newton->minStep) {
+			stepPart = part / 2;
+			++cuts;
+		} else {
+			stepPart = 1;
+			if (substeps > 0) scatter(cloud, points);
+			raise(report, time, part, points);
+		}
+	}
 }
 
 void MpmImplicitEngine::take(const gimpm::StepReport& report)
 {
 	converged      = report.converged();
-	iterations     = report.iterations;
 	residual       = report.residual();
 	residuals      = report.residuals;
 	activeCells    = report.populatedCells;
 	boundaryCells  = report.boundaryCells;
 	ghostFaces     = report.ghostFaces;
 	dofs           = report.dofs;
-	substeps       = report.converged() ? 1 : 0;
 	clampedDomains = report.clampedDomains;
 	wallOverlap    = report.largestWallOverlap;
-}
-
-void MpmImplicitEngine::recordTimes(const gimpm::StepReport& report, double gathering, double scattering)
-{
+	iterations += report.iterations;
+	lineSearchTrials += report.lineSearchTrials;
+	luSolves += report.luSolves;
 	const auto& t = report.times;
-	for (const auto& [phase, seconds] : { std::pair { "gather", gathering },
-	                                      { "basis", t.basis },
+	for (const auto& [phase, seconds] : { std::pair { "basis", t.basis },
 	                                      { "ghost", t.ghost },
 	                                      { "assembly", t.assembly },
 	                                      { "analyse", t.linear.analyse },
 	                                      { "factorise", t.linear.factorise },
 	                                      { "solve", t.linear.solve },
-	                                      { "update", t.update },
-	                                      { "scatter", scattering } })
-		timingDeltas->add(phase, std::chrono::nanoseconds(std::llround(1e9 * seconds)));
+	                                      { "update", t.update } })
+		addTime(phase, seconds);
 }
 
-void MpmImplicitEngine::raise(const gimpm::StepReport& report, Real target, const string& point) const
+void MpmImplicitEngine::addTime(const char* phase, double seconds) { timingDeltas->add(phase, std::chrono::nanoseconds(std::llround(1e9 * seconds))); }
+
+void MpmImplicitEngine::warnOfAccepted(const gimpm::StepReport& report, Real time) const
 {
 	std::ostringstream text;
-	text << "MpmImplicitEngine: the load step from factor " << loadFactor << " to " << loadFactorAt(target) << " failed: " << report.cause << point << ".";
-	if (report.failure == gimpm::Failure::unrestrained) text << " Hold nodes of that material with MpmBoundary.";
-	if (!report.residuals.empty()) {
-		text << " Residuals:";
-		for (const Real r : report.residuals)
-			text << " " << r;
-		text << "; largest out-of-balance force " << report.worst.force << " N along " << "xyz"[std::max(0, report.worst.axis)] << " at node ("
-		     << report.worst.position.head(grid->dim).transpose() << ").";
-		if (ghost->factor == 0) text << " The ghost stabilisation is off (factor=0): small overlaps of material and cells make the system ill conditioned.";
-	}
-	text << " The scene is as it was at load factor " << loadFactor << ", iteration " << scene->iter << ".";
+	text << "the load step from factor " << loadFactor << " to " << loadFactorAt(time) << " has not converged and is accepted (newton.acceptUnconverged): "
+	     << report.cause << ".";
+	log(Severity::warning, staticName(), text.str());
+}
+
+void MpmImplicitEngine::raise(const gimpm::StepReport& report, Real time, Real part, const vector<MaterialPoint>& points) const
+{
+	std::ostringstream text;
+	text << "MpmImplicitEngine: the load step from factor " << loadFactor << " to " << loadFactorAt(time);
+	if (part < 1) text << " (" << part << " of O.dt, after " << cuts << " cuts)";
+	text << " failed: " << report.cause;
+	if (report.invertedPoint >= 0) text << placeOf(points[report.invertedPoint]);
+	text << "." << placeOfImbalance(report, points) << adviceOn(report, part);
+	text << " The scene is at load factor " << loadFactor << ", the last converged state, in iteration " << scene->iter << ".";
 	throw std::runtime_error(text.str());
+}
+
+string MpmImplicitEngine::placeOfImbalance(const gimpm::StepReport& report, const vector<MaterialPoint>& points) const
+{
+	if (report.residuals.empty() || report.worst.axis < 0) return "";
+	std::ostringstream text;
+	text << " Residuals:";
+	for (const Real r : report.residuals)
+		text << " " << r;
+	text << "; largest out-of-balance force " << report.worst.force << " N along " << "xyz"[report.worst.axis] << " at node ("
+	     << report.worst.position.head(grid->dim).transpose() << ")";
+	constexpr int listed = 5;
+	int           found  = 0;
+	for (const MaterialPoint& point : points)
+		if ((point.state->pos - report.worst.position).head(grid->dim).cwiseAbs().maxCoeff() < grid->cellSize && ++found <= listed)
+			text << (found == 1 ? ", near it bodies #" : ", #") << point.body->id;
+	if (found > listed) text << " and " << found - listed << " more";
+	text << ".";
+	return text.str();
+}
+
+string MpmImplicitEngine::adviceOn(const gimpm::StepReport& report, Real part) const
+{
+	using gimpm::Failure;
+	string advice;
+	if (report.failure == Failure::unrestrained) return " Hold nodes of that material with MpmBoundary.";
+	if (report.failure == Failure::interrupted) return " O.run() goes on from there.";
+	if (ghost->factor == 0) advice += " The ghost stabilisation is off (factor=0): small overlaps of material and cells make the system ill conditioned.";
+	if (part < 1) advice += " The load may be more than the body can carry in equilibrium.";
+	else
+		advice += " Smaller load steps (O.dt), or newton.minStep < 1, may help.";
+	if (report.clampedDomains > 0) advice += " " + std::to_string(report.clampedDomains) + " domains had outgrown half a cell.";
+	return advice;
 }
 
 gimpm::SymmetricCsc MpmImplicitEngine::reducedStiffness()

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 #include "core/report.hpp"
+#include "core/model.hpp"
+#include "core/point_cloud.hpp"
+#include "engine/MaterialPoints.hpp"
 #include "engine/MpmBoundary.hpp"
 #include "engine/MpmGhost.hpp"
 #include "engine/MpmGrid.hpp"
@@ -26,8 +29,9 @@ public:
 	Real         residual   = std::numeric_limits<Real>::quiet_NaN();
 	vector<Real> residuals;
 	Real         loadFactor  = 0;
-	int          activeCells = 0, boundaryCells = 0, ghostFaces = 0, dofs = 0, substeps = 0, clampedDomains = 0;
-	Real         wallOverlap = 0;
+	int          activeCells = 0, boundaryCells = 0, ghostFaces = 0, dofs = 0, clampedDomains = 0;
+	int          substeps = 0, cuts = 0, lineSearchTrials = 0, luSolves = 0;
+	Real         wallOverlap = 0, stepPart = 1;
 
 	MpmImplicitEngine();
 
@@ -36,8 +40,8 @@ public:
 	{
 		return "Implicit quasi-static analysis by the ghost-stabilised generalised interpolation material point method (Coombs 2023). Each run advances "
 		       "all material points of the scene from the last converged load time to O.time + O.dt by one load step: Newton's method for the "
-		       "incremental displacements of the nodes of a background grid that is then reset. A step that does not converge raises RuntimeError and "
-		       "leaves the scene as it was. Bodies of other kinds are left alone. Quasi-static analysis uses YADE's time as its load clock; with an "
+		       "incremental displacements of the nodes of a background grid that is then reset. A step that does not converge is cut (see MpmNewton), "
+		       "at last it raises RuntimeError, and the scene stays at the last converged state. Bodies of other kinds are left alone. Quasi-static analysis uses YADE's time as its load clock; with an "
 		       "active TimeStepper in the scene set *iterPeriod* > 1 or *virtPeriod*.";
 	}
 	template <class V> static void attributes(V&& v)
@@ -65,7 +69,7 @@ public:
 		  "Time [s] of the last converged state, where the next step starts. After O.resetTime() set it to O.time.",
 		  finite);
 		v("converged", &MpmImplicitEngine::converged, readonly, "Whether the last step converged.");
-		v("iterations", &MpmImplicitEngine::iterations, readonly, "Linear solves of the last step.");
+		v("iterations", &MpmImplicitEngine::iterations, readonly, "Linear solves of the last run, those of steps that were undone included.");
 		v("residual", &MpmImplicitEngine::residual, readonly, "Last out-of-balance force over external forces and reactions [-].");
 		v("residuals", &MpmImplicitEngine::residuals, readonly, "The same [-] before the first solve of the last step and after each.");
 		v("loadFactor", &MpmImplicitEngine::loadFactor, readonly, "Load factor [-] of the last converged state.");
@@ -73,7 +77,11 @@ public:
 		v("boundaryCells", &MpmImplicitEngine::boundaryCells, readonly, "Those of them with an empty neighbour (0 without stabilisation).");
 		v("ghostFaces", &MpmImplicitEngine::ghostFaces, readonly, "Faces stabilised in the last step.");
 		v("dofs", &MpmImplicitEngine::dofs, readonly, "Free degrees of freedom of the last step.");
-		v("substeps", &MpmImplicitEngine::substeps, readonly, "Load steps solved in the last run: 1, or 0 if it failed.");
+		v("substeps", &MpmImplicitEngine::substeps, readonly, "Load steps that converged in the last run: 1 unless steps were cut.");
+		v("cuts", &MpmImplicitEngine::cuts, readonly, "Load steps of the last run that were undone and tried again with half the increment.");
+		v("lineSearchTrials", &MpmImplicitEngine::lineSearchTrials, readonly, "Shortened Newton steps that were tried in the last run.");
+		v("luSolves", &MpmImplicitEngine::luSolves, readonly, "Solves of the last run whose stiffness matrix was not positive definite.");
+		v("stepPart", &MpmImplicitEngine::stepPart, readonly, "Part of O.dt [-] that the next load step tries.");
 		v("clampedDomains", &MpmImplicitEngine::clampedDomains, readonly, "Points whose domain was kept at half a cell in the last step.");
 		v("wallOverlap",
 		  &MpmImplicitEngine::wallOverlap,
@@ -113,9 +121,13 @@ private:
 	Real                       loadFactorAt(Real time) const;
 	template <int Dim> void    step(Real target);
 	template <class F> void    tellObservers(F) const;
+	template <int Dim> void    advance(gimpm::PointCloud<Dim>&, gimpm::Model<Dim>&, const vector<MaterialPoint>&, Real target);
 	void                       take(const gimpm::StepReport&);
-	void                       recordTimes(const gimpm::StepReport&, double gatherSeconds, double scatterSeconds);
-	[[noreturn]] void          raise(const gimpm::StepReport&, Real target, const string& point) const;
+	void                       addTime(const char* phase, double seconds);
+	void                       warnOfAccepted(const gimpm::StepReport&, Real time) const;
+	[[noreturn]] void          raise(const gimpm::StepReport&, Real time, Real part, const vector<MaterialPoint>&) const;
+	string                     placeOfImbalance(const gimpm::StepReport&, const vector<MaterialPoint>&) const;
+	string                     adviceOn(const gimpm::StepReport&, Real part) const;
 	gimpm::SymmetricCsc        reducedStiffness();
 
 	Counters            beforeActivation;

@@ -8,6 +8,9 @@ class MpmNewton : public Exposed<MpmNewton, Serializable> {
 public:
 	Real tolerance     = 1e-6;
 	int  maxIterations = 20;
+	Real minStep           = 1. / 1024;
+	int  lineSearchTrials  = 5;
+	bool acceptUnconverged = false;
 
 	YADE_API_NAME(MpmNewton)
 	static const char*             doc() { return "Settings of the Newton-Raphson solution of a load step (Coombs 2023, section 2.1)."; }
@@ -20,6 +23,22 @@ public:
 		  "and 1, both excluded.",
 		  strictlyBetween(0, 1));
 		v("maxIterations", &MpmNewton::maxIterations, 0, "Linear solves allowed in a step, at least 1.", atLeast(1));
+		v("minStep",
+		  &MpmNewton::minStep,
+		  0,
+		  "Smallest load step [-] as a part of O.dt, > 0 and <= 1: a step that does not converge is undone and tried again with half the increment, down "
+		  "to this. 1: no cutting.",
+		  admitting("a number > 0 and <= 1", [](Real part) { return part > 0 && part <= 1; }));
+		v("lineSearchTrials",
+		  &MpmNewton::lineSearchTrials,
+		  0,
+		  "Shorter steps (a half, a quarter, ...) that are tried when a full Newton step does not reduce the residual, at least 0; 0 takes every full step.",
+		  atLeast(0));
+		v("acceptUnconverged",
+		  &MpmNewton::acceptUnconverged,
+		  0,
+		  "Whether a step that has not converged after *maxIterations*, at *minStep*, is taken over all the same, with a warning: for reproducing analyses "
+		  "that did so.");
 	}
 };
 

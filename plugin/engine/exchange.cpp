@@ -93,7 +93,9 @@ gimpm::Model<Dim> toModel(const MpmGrid& grid, const string& basis, const vector
 	model.basis    = basis == "mpm" ? gimpm::Basis::linear : gimpm::Basis::gimp;
 	model.boundary = gimpm::Boundary<Dim>(boxes);
 	model.ghost    = { ghost.factor, ghost.scaling == "paper" ? gimpm::GhostScaling::paper : gimpm::GhostScaling::meshIndependent };
-	model.newton   = { newton.tolerance, newton.maxIterations };
+	model.newton.tolerance        = newton.tolerance;
+	model.newton.maxIterations    = newton.maxIterations;
+	model.newton.lineSearchTrials = newton.lineSearchTrials;
 	return model;
 }
 

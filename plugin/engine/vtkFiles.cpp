@@ -40,6 +40,16 @@ namespace {
 		refuse(path, why);
 	}
 
+	// VTK's writer does not report all failures, but after one it writes nothing more.
+	bool isComplete(const string& path)
+	{
+		const string  end = "</VTKFile>\n";
+		string        found(end.size(), ' ');
+		std::ifstream file(path, std::ios::binary);
+		file.seekg(-std::streamoff(end.size()), std::ios::end);
+		return file.read(found.data(), found.size()) && found == end;
+	}
+
 	string inXml(const string& text)
 	{
 		string escaped;
@@ -76,7 +86,7 @@ void writeVtu(vtkUnstructuredGrid& cells, Real time, const string& path, VtkForm
 	if (!format.compress) writer->SetCompressorTypeToNone();
 	writeWhole(path, [&](const string& temporary) {
 		writer->SetFileName(temporary.c_str());
-		return writer->Write() == 1;
+		return writer->Write() == 1 && isComplete(temporary);
 	});
 }
 

@@ -10,6 +10,10 @@ public:
 	/// yieldStress > 0 [Pa] bounds rho = sqrt(2 J2) of the Kirchhoff stress.
 	VonMises(double young, double poisson, double yieldStress) : elastic_(young, poisson), yield_(yieldStress) { }
 
+	/// Relative. A point that was returned to the yield surface lies on it to round-off, which must not decide between the elastic and
+	/// the plastic tangent with which its next step starts.
+	static constexpr double yieldTolerance = 1e-9;
+
 	double young() const { return elastic_.young(); }
 
 	/// Radial return: exact for perfect plasticity with an associated rule, because the deviator only shrinks.
@@ -19,7 +23,7 @@ public:
 		const double third  = trialStrain.sum() / 3;
 		const Vec3   dev    = trialStrain.array() - third;
 		const double length = dev.norm(), rho = 2 * G * length;
-		if (rho <= yield_) return elastic_.respond(trialStrain, plasticStrain);
+		if (rho <= yield_ * (1 + yieldTolerance)) return elastic_.respond(trialStrain, plasticStrain);
 		const double theta = yield_ / rho; // remaining share of the trial deviator
 		const Vec3   n     = dev / length;
 		Response     r;
