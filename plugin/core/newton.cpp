@@ -36,6 +36,9 @@ Balance balance(const FreeDofs& dofs, const Eigen::VectorXd& external, const Eig
 	return b;
 }
 
+/// A full step may raise the residual by this much: points that begin to yield do so in steps that converge well.
+constexpr double toleratedGrowth = 1.1;
+
 /// State of the iteration.
 template <int Dim> class Newton {
 public:
@@ -109,7 +112,7 @@ private:
 		const double before = balance_.size;
 		const bool   first  = prescribed_.size() > 0; // the residual before says nothing of the prescribed displacements
 		evaluate(d_ + step, !willConverge());
-		if (!first && !(balance_.size < before)) return search(step, before);
+		if (!first && !(balance_.size < toleratedGrowth * before)) return search(step, before);
 		d_ += step;
 		return true;
 	}
@@ -146,7 +149,7 @@ private:
 		return last < previous && last * std::pow(last / previous, 2) <= settings_.tolerance;
 	}
 
-	/// The full step did not reduce the residual: tries shorter ones (Armijo's condition) and takes the best.
+	/// The full step raised the residual: tries shorter ones (Armijo's condition) and takes the best.
 	bool search(const Eigen::VectorXd& step, double before)
 	{
 		const double full = balance_.size;

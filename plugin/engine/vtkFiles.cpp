@@ -18,7 +18,17 @@ namespace {
 
 	[[noreturn]] void refuse(const string& path, const string& why) { throw std::runtime_error("cannot write file " + path + ": " + why + "."); }
 
-	// Calls write(temporary path), which returns whether it succeeded; a failure leaves an earlier file of this name as it was.
+	// VTK's writer does not report all failures, but after one nothing more is written.
+	bool isComplete(const string& path)
+	{
+		const string  end = "</VTKFile>\n";
+		string        found(end.size(), ' ');
+		std::ifstream file(path, std::ios::binary);
+		file.seekg(-std::streamoff(end.size()), std::ios::end);
+		return file.read(found.data(), found.size()) && found == end;
+	}
+
+	// Calls write(temporary path). A failure leaves an earlier file of this name as it was.
 	template <class Write> void writeWhole(const string& path, Write write)
 	{
 		const string    temporary = path + ".part";
@@ -28,26 +38,15 @@ namespace {
 		errno = 0;
 		if (!std::ofstream(temporary)) refuse(path, std::strerror(errno));
 		errno = 0;
-		if (!write(temporary)) {
-			const string why = errno ? std::strerror(errno) : "writing failed";
-			fs::remove(temporary, error);
-			refuse(path, why);
+		write(temporary);
+		const int reason = errno;
+		if (isComplete(temporary)) {
+			fs::rename(temporary, path, error);
+			if (!error) return;
 		}
-		fs::rename(temporary, path, error);
-		if (!error) return;
-		const string why = error.message();
+		const string why = error ? error.message() : reason ? std::strerror(reason) : "writing failed";
 		fs::remove(temporary, error);
 		refuse(path, why);
-	}
-
-	// VTK's writer does not report all failures, but after one it writes nothing more.
-	bool isComplete(const string& path)
-	{
-		const string  end = "</VTKFile>\n";
-		string        found(end.size(), ' ');
-		std::ifstream file(path, std::ios::binary);
-		file.seekg(-std::streamoff(end.size()), std::ios::end);
-		return file.read(found.data(), found.size()) && found == end;
 	}
 
 	string inXml(const string& text)
@@ -86,7 +85,7 @@ void writeVtu(vtkUnstructuredGrid& cells, Real time, const string& path, VtkForm
 	if (!format.compress) writer->SetCompressorTypeToNone();
 	writeWhole(path, [&](const string& temporary) {
 		writer->SetFileName(temporary.c_str());
-		return writer->Write() == 1 && isComplete(temporary);
+		writer->Write();
 	});
 }
 
@@ -98,8 +97,6 @@ void writePvd(const vector<std::pair<string, Real>>& series, const string& path)
 		for (const auto& [member, time] : series)
 			file << "<DataSet timestep=\"" << exactly(time) << "\" part=\"0\" file=\"" << inXml(fs::path(member).filename()) << "\"/>\n";
 		file << "</Collection>\n</VTKFile>\n";
-		file.close();
-		return bool(file);
 	});
 }
 
