@@ -8,6 +8,7 @@ failing = '''
 from scenes import *
 solver = slope()
 solver.newton.maxIterations = 2 # the elastic steps at the beginning need no more, those near failure do
+solver.newton.minStep = 1
 '''
 
 
@@ -47,6 +48,56 @@ assert O.iter == failedAt + 1 and solver.converged and solver.loadFactor > facto
 assert not np.array_equal(mpm.arrays()['pos'], after['pos'])
 '''
 	)
+
+
+def test_a_step_that_does_not_converge_is_cut(yade):
+	"""The whole load at once, without line search: it converges in parts, and the next step starts with the part that worked."""
+	yade(
+	        '''
+from scenes import *
+solver = slope(steps=1)
+solver.newton.lineSearchTrials = 0
+O.step()
+assert (O.iter, solver.loadFactor, solver.converged) == (1, 1, True)
+assert solver.cuts > 0 and solver.substeps > 1 and solver.iterations > 20, (solver.cuts, solver.substeps, solver.iterations)
+largest = np.linalg.norm(mpm.arrays()['pos'] - mpm.arrays()['pos0'], axis=1).max()
+assert abs(largest - 2.6124) < 0.02, largest # as in 40 steps
+'''
+	)
+
+
+def test_cutting_ends_with_a_reason_at_the_last_converged_state(yade):
+	"""Two iterations are not enough near failure however small the step."""
+	yade(
+	        failing + '''
+solver.newton.minStep = 1 / 8
+solver.newton.maxIterations = 1
+solver.loadCurve = [(0, 0), (1, 20)]
+try:
+	O.step()
+	assert False, solver.cuts
+except RuntimeError as error:
+	message = str(error)
+assert '0.125 of O.dt, after 3 cuts' in message and 'more than the body can carry' in message, message
+assert O.iter == 0 and solver.loadTime == 0 and not solver.converged
+assert np.array_equal(mpm.arrays()['pos'], mpm.arrays()['pos0'])
+'''
+	)
+
+
+def test_unconverged_steps_pass_only_on_request_and_with_a_warning(yade):
+	run = yade(failing + '''
+solver.newton.maxIterations = 3
+solver.newton.acceptUnconverged = True
+accepted = 0
+for step in range(40):
+	O.step()
+	accepted += not solver.converged
+assert 0 < accepted < 40 and solver.loadFactor > 0.99
+print('accepted', accepted)
+''')
+	accepted = int(run.stdout.splitlines()[-1].split()[1])
+	assert (run.stdout + run.stderr).count('has not converged and is accepted') == accepted
 
 
 mistakes = [
