@@ -104,15 +104,16 @@ private:
 	bool correct()
 	{
 		if (!hasStiffness_) evaluate(d_, true);
-		Eigen::VectorXd step = Eigen::VectorXd::Zero(d_.size());
+		// Prescribed displacements enter in full: the residual before says nothing of them, and a shorter step would lose a part.
+		const bool      prescribes = prescribed_.size() > 0;
+		const double    before     = balance_.size;
+		Eigen::VectorXd step       = Eigen::VectorXd::Zero(d_.size());
 		if (!solve(step)) {
 			fail(Failure::singular, "the stiffness matrix is singular to working precision");
 			return false;
 		}
-		const double before = balance_.size;
-		const bool   first  = prescribed_.size() > 0; // the residual before says nothing of the prescribed displacements
 		evaluate(d_ + step, !willConverge());
-		if (!first && !(balance_.size < toleratedGrowth * before)) return search(step, before);
+		if (!prescribes && !(balance_.size < toleratedGrowth * before)) return search(step, before);
 		d_ += step;
 		return true;
 	}

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Load steps driven by prescribed displacements of nodes.
+#include "scenes.hpp"
+
+namespace gimpm {
+namespace {
+
+	template <class Dimension> class PrescribedDisplacement : public ::testing::Test {
+	public:
+		static constexpr int Dim = Dimension::value;
+
+		Model<Dim>      model;
+		PointCloud<Dim> cloud;
+		LinearSolver    solver;
+
+		/// A block of 2 cells a side on rollers (nu = 0), whose top (y = 2) is moved along y.
+		PrescribedDisplacement()
+		        : cloud(block<Dim>(model.grid, Index<Dim>::Constant(2), 2))
+		{
+			model.materials        = { { Hencky(1e6, 0), 1 } };
+			model.newton.tolerance = 1e-12;
+		}
+		void move(double displacement)
+		{
+			Vec<Dim> min = Vec<Dim>::Constant(-infinity);
+			min[1]       = 2;
+			std::vector<HeldBox<Dim>> boxes { held<Dim>(model.grid, min, Vec<Dim>::Constant(infinity), "y", displacement * Vec<Dim>::Unit(1)) };
+			for (int axis = 0; axis < Dim; ++axis)
+				boxes.push_back(wallBelow<Dim>(model.grid, axis, 0));
+			model.boundary = Boundary<Dim>(boxes);
+		}
+	};
+	TYPED_TEST_SUITE(PrescribedDisplacement, BothDimensions, DimensionName);
+
+	TYPED_TEST(PrescribedDisplacement, AloneItIsFullyApplied)
+	{
+		// uniaxial stress with nu = 0: strain log(lambda), Kirchhoff stress E log(lambda), J = lambda
+		for (const double displacement : { -0.5, -1e-3, 1e-9, 0.5 }) {
+			auto cloud = this->cloud;
+			this->move(displacement);
+			const auto report = loadStep(cloud, this->model, {}, this->solver);
+			ASSERT_TRUE(report.converged()) << report.cause;
+			EXPECT_EQ(report.residuals.front(), 0);
+			EXPECT_GE(report.iterations, 1);
+			const double strain = std::log1p(displacement / 2), lambda = 1 + displacement / 2;
+			for (std::size_t p = 0; p < cloud.size(); ++p) {
+				EXPECT_NEAR(cloud.elasticStrain[p].c[1] / strain, 1, 1e-9);
+				EXPECT_NEAR(cloud.stress[p].c[1] / (1e6 * strain / lambda), 1, 1e-9);
+				EXPECT_NEAR(cloud.position[p][1], this->cloud.position[p][1] * lambda, 1e-12);
+				EXPECT_NEAR(cloud.position[p][0], this->cloud.position[p][0], 1e-12);
+			}
+		}
+	}
+
+	TYPED_TEST(PrescribedDisplacement, AStepAppliesItsShareOfTheTotal)
+	{
+		constexpr int Dim = TypeParam::value;
+		this->move(-0.4);
+		Load<Dim> load;
+		load.factor    = 0.75;
+		load.increment = 0.25;
+		ASSERT_TRUE(loadStep(this->cloud, this->model, load, this->solver).converged());
+		for (const auto& F : this->cloud.defGrad)
+			EXPECT_NEAR(F(1, 1), 1 - 0.1 / 2, 1e-12);
+	}
+
+	TYPED_TEST(PrescribedDisplacement, ItActsTogetherWithGravity)
+	{
+		// Gravity makes the compression uneven; its mean is what the top prescribes.
+		constexpr int Dim = TypeParam::value;
+		this->move(-0.2);
+		this->model.materials[0].density = 1e3;
+		Load<Dim> load;
+		load.gravity = -10 * Vec<Dim>::Unit(1);
+		ASSERT_TRUE(loadStep(this->cloud, this->model, load, this->solver).converged());
+		double meanStretch = 0;
+		for (const auto& F : this->cloud.defGrad)
+			meanStretch += F(1, 1) / this->cloud.size();
+		EXPECT_NEAR(meanStretch, 0.9, 1e-12);
+		EXPECT_LT(this->cloud.stress[0].c[1], this->cloud.stress[this->cloud.size() - 1].c[1] - 9e3)
+		        << "more compressed below, by about half the weight";
+	}
+
+} // namespace
+} // namespace gimpm
