@@ -144,8 +144,8 @@ const MpmImplicitEngine& MpmVtkRecorder::followed() const
 	if (candidates.size() == 1) return *candidates.front();
 	const string wanted = solver.empty() ? "" : " labelled '" + solver + "', as the attribute solver says";
 	throw std::invalid_argument(
-	        "MpmVtkRecorder follows one MpmImplicitEngine, and O.engines holds " + (candidates.empty() ? "none" : std::to_string(candidates.size())) + wanted
-	        + (candidates.empty() ? "." : ". Label them, and give the label of one as solver."));
+	        "MpmVtkRecorder follows one MpmImplicitEngine, and O.engines holds " + (candidates.empty() ? "none" : std::to_string(candidates.size()))
+	        + wanted + (candidates.empty() ? "." : ". Label them, and give the label of one as solver."));
 }
 
 // The state in the bodies: a step counts as soon as it is made, though O.iter follows at the end of the iteration.
@@ -213,7 +213,7 @@ void MpmVtkRecorder::write(const string& kind, const Moment& now, const MpmImpli
 
 	const bool inPlane = engine.grid->dim == 2;
 	const auto cells   = kind == "points" ? pointData(*scene, engine.grid->dim)
-	          : inPlane                  ? gridData<2>(kind, *scene, engine)
+	          : inPlane                   ? gridData<2>(kind, *scene, engine)
 	                                      : gridData<3>(kind, *scene, engine);
 	writeVtu(*cells, now.time, file, { ascii, compress });
 

@@ -19,16 +19,16 @@ public:
 	YADE_API_NAME(MpmVtkRecorder)
 	static const char* doc()
 	{
-		return "Writes the states of an implicit material point analysis for ParaView: files <fileName><kind>.<O.iter at the end of the iteration>.vtu, and "
-		       "<fileName><kind>.pvd, to be opened there, which lists them with their times. The time is that of the state, *loadTime* of the "
-		       "MpmImplicitEngine.\n\n"
-		       "*iterPeriod* (1 by default), *virtPeriod* and the other attributes of PeriodicEngine count completed steps. The initial state is written too "
-		       "(unless *initRun* is set to False), and so is the last one, due or not: at the end of O.run(n) or at O.stopAtIter or O.stopAtTime, when a step "
-		       "fails (the last converged state) and when YADE ends. After O.pause() or O.step(), and before O.reset() or O.load(), call the recorder, as in "
-		       "recorder(), to have the state that has been reached written. No state is written twice. The place among O.engines does not matter, "
-		       "but after the MpmImplicitEngine states are written as soon as they are reached.\n\n"
-		       "Every file is complete when it gets its name. RuntimeError names a file that cannot be written and says why; ValueError if O.engines holds "
-		       "no MpmImplicitEngine, or several of which *solver* does not choose one. A loaded scene continues its series.";
+		return "Writes the states of an implicit material point analysis for ParaView: files <fileName><kind>.<O.iter at the end of the "
+		       "iteration>.vtu, and <fileName><kind>.pvd, to be opened there, which lists them with their times. The time is that of the state, "
+		       "*loadTime* of the MpmImplicitEngine.\n\n"
+		       "*iterPeriod* (1 by default), *virtPeriod* and the other attributes of PeriodicEngine count completed steps. The initial state is "
+		       "written too (unless *initRun* is set to False), and so is the last one, due or not: at the end of O.run(n), at O.stopAtIter or "
+		       "O.stopAtTime, when a step fails (the last converged state), and when YADE ends. After O.pause() or O.step(), and before O.reset() or "
+		       "O.load(), call the recorder, as in recorder(), to have the state written that has been reached. No state is written twice. The place "
+		       "among O.engines is free; behind the MpmImplicitEngine, states are written as soon as they are reached.\n\n"
+		       "Every file is complete when it gets its name. RuntimeError names a file that cannot be written and says why; ValueError if O.engines "
+		       "holds no MpmImplicitEngine, or several of which *solver* does not choose one. A loaded scene continues its series.";
 	}
 	template <class V> static void attributes(V&& v)
 	{
@@ -40,11 +40,12 @@ public:
 		v("recorders",
 		  &MpmVtkRecorder::recorders,
 		  0,
-		  "What to write. 'points': the domain of each material point (quadrilateral or hexahedron) with displacement [m], stress (Cauchy [Pa], 9 components), "
-		  "meanStress [Pa] (positive in tension), sqrt2J2 (sqrt(s:s) of the Cauchy stress's deviator s [Pa]), plasticStrain [-], volume [m³], material "
-		  "(index into O.materials) and id of the body. 'grid': the cells of the background grid that hold material, boundary = 1 where one is a boundary "
-		  "cell of the ghost stabilisation. 'ghostFaces': the faces that are stabilised, with ghostStiffness [N/m], the factor before the integral of eq. 2 in "
-		  "Coombs (2023); none with MpmGhost.factor = 0. 'all': all of these. Read as a tuple, so assign a new one to change it.",
+		  "What to write. 'points': the domain of each material point (quadrilateral or hexahedron) with displacement [m], stress (Cauchy [Pa], 9 "
+		  "components), meanStress [Pa] (positive in tension), sqrt2J2 (sqrt(s:s) of the Cauchy stress's deviator s [Pa]), plasticStrain [-], "
+		  "volume [m³], material (index into O.materials) and id of the body. 'grid': the cells of the background grid that hold material; boundary "
+		  "is 1 in the boundary cells of the ghost stabilisation, else 0. 'ghostFaces': the faces that are stabilised, with ghostStiffness [N/m], "
+		  "the factor before the integral of eq. 2 in Coombs (2023); none with MpmGhost.factor = 0. 'all': all of these. Read as a tuple, so assign "
+		  "a new one to change it.",
 		  admitting("one or more of 'points', 'grid', 'ghostFaces' and 'all'", areKinds));
 		v("ascii", &MpmVtkRecorder::ascii, 0, "Write numbers as text, in larger files.");
 		v("compress", &MpmVtkRecorder::compress, 0, "Compress the data with zlib, unless *ascii*.");
@@ -81,9 +82,9 @@ private:
 	void                     write(const string& kind, const Moment&, const MpmImplicitEngine&);
 
 	// Of this process, so they are not saved:
-	long lastStepIter = -1;                                       // O.iter in the last step
+	long lastStepIter = -1;                                     // O.iter in the last step
 	Real knownTime    = std::numeric_limits<Real>::quiet_NaN(); // time of the state that was met last
-	bool isUnwritten  = false;                                    // whether no file has that state, which this process has reached
+	bool isUnwritten  = false;                                  // whether no file has that state, which this process has reached
 };
 
 } // namespace yade

@@ -27,7 +27,7 @@ namespace {
 		{
 			points->SetDataTypeToDouble();
 		}
-		vtkIdType addPoint(const Vector3r& x) { return points->InsertNextPoint(x.data()); }
+		vtkIdType                addPoint(const Vector3r& x) { return points->InsertNextPoint(x.data()); }
 		template <size_t N> void addCell(const std::array<vtkIdType, N>& pointIds, int used = N) { cells->InsertNextCell(used, pointIds.data()); }
 
 		VtkCells dataSet() const
@@ -45,7 +45,8 @@ namespace {
 	};
 
 	// One field: write(item, first of its components) for each item.
-	template <class Array, class Items, class Write> void addField(vtkUnstructuredGrid& cells, const char* name, int components, const Items& items, Write write)
+	template <class Array, class Items, class Write>
+	void addField(vtkUnstructuredGrid& cells, const char* name, int components, const Items& items, Write write)
 	{
 		vtkNew<Array> field;
 		field->SetName(name);
@@ -95,8 +96,8 @@ VtkCells pointDomains(const vector<MaterialPoint>& points, int dim)
 		}
 		domains.addCell(box, 1 << dim);
 	}
-	using Point        = const MaterialPoint&;
-	const auto   cells = domains.dataSet();
+	using Point      = const MaterialPoint&;
+	const auto cells = domains.dataSet();
 	addField<vtkDoubleArray>(*cells, "displacement", 3, points, [](Point p, Real* u) { Eigen::Map<Vector3r> { u } = p.state->pos - p.state->refPos; });
 	addField<vtkDoubleArray>(*cells, "stress", 9, points, [](Point p, Real* s) { Eigen::Map<Matrix3r> { s } = p.state->stress; });
 	addReals(*cells, "meanStress", points, meanStress);
@@ -133,9 +134,9 @@ template <int Dim> VtkCells populatedCells(const gimpm::PointCloud<Dim>& cloud, 
 template <int Dim> VtkCells stabilisedFaces(const gimpm::PointCloud<Dim>& cloud, const gimpm::Model<Dim>& model, Real z)
 {
 	using Face = gimpm::GhostFace<Dim>;
-	gimpm::StepReport              report;
+	gimpm::StepReport            report;
 	const gimpm::StepSystem<Dim> system(cloud, model, gimpm::Load<Dim>(), report);
-	Cells                          surfaces(Dim == 2 ? VTK_LINE : VTK_QUAD);
+	Cells                        surfaces(Dim == 2 ? VTK_LINE : VTK_QUAD);
 	addNodes(surfaces, system.basis.nodes, model.grid, z);
 	for (const Face& face : system.faces) {
 		std::array<vtkIdType, Face::tangentialNodes> surface;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 // The state of an analysis as VTK data: cells with fields. In plane strain all lies in a plane of constant z.
-#include "core/point_cloud.hpp"
-#include "core/model.hpp"
 #include "engine/MaterialPoints.hpp"
+#include "core/model.hpp"
+#include "core/point_cloud.hpp"
 #include <vtkSmartPointer.h>
 
 class vtkUnstructuredGrid;
