@@ -24,7 +24,10 @@ public:
 	{
 		const auto symmetric = admitting("a symmetric matrix of finite numbers", isSymmetric);
 		const auto volumes   = admitting("a finite number > 0 [m³]; there is no default", positive);
-		v("stress", &MpmState::stress, 0, "Cauchy stress [Pa], symmetric, positive in tension.", symmetric);
+		v("stress",
+		  &MpmState::stress,
+		  readonly,
+		  "Cauchy stress [Pa], symmetric, positive in tension: a result. To start from a stress, give the elastic strain that causes it.");
 		v("defGrad",
 		  &MpmState::defGrad,
 		  0,

@@ -33,10 +33,15 @@ public:
 	// An object made by YADE, of a class that is declared with the right size.
 	template <class T> shared_ptr<T> make(const char* className = T::staticName())
 	{
-		shared_ptr<T> object = boost::static_pointer_cast<T>(create(className));
-		const size_t  size   = malloc_usable_size(object.get()); // rounded up to 8 modulo 16
+		const shared_ptr<Factorable>   object = create(className);
+		size_t                         size   = malloc_usable_size(object.get()); // rounded up to 8 modulo 16
+		vector<shared_ptr<Factorable>> others; // sometimes a piece of memory is 16 bytes larger than needed, but not always
+		while (size >= sizeof(T) + 16 && others.size() < 20) {
+			others.push_back(create(className));
+			size = std::min(size, malloc_usable_size(others.back().get()));
+		}
 		require(sizeof(T) <= size && size < sizeof(T) + 16, string("size of ") + className);
-		return object;
+		return boost::static_pointer_cast<T>(object);
 	}
 
 	template <class T, class Member> void require(T& object, const char* attribute, const Member& member, const Member& value)

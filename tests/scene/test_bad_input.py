@@ -52,7 +52,8 @@ refused = (
         ] +
         # the state and shape of a point
         [
-                ('MpmState(stress=Matrix3(0,1,0, 2,0,0, 0,0,0))', 'ValueError', ['.stress', 'symmetric']),
+                ('MpmState(stress=Matrix3.Identity)', 'AttributeError', ['.stress', 'can only be read']),
+                ('MpmState(elasticStrain=Matrix3(0,1,0, 2,0,0, 0,0,0))', 'ValueError', ['.elasticStrain', 'symmetric']),
                 ('MpmState(elasticStrain=Matrix3(float("nan"),0,0, 0,0,0, 0,0,0))', 'ValueError', ['.elasticStrain', 'finite']),
                 ('MpmState(defGrad=Matrix3(-1,0,0, 0,1,0, 0,0,1))', 'ValueError', ['.defGrad', 'determinant > 0']),
                 ('MpmState(volume=0)', 'ValueError', ['.volume = 0.0', '> 0']),
@@ -196,7 +197,7 @@ MpmBoundary(min=(-inf, 0, 0), max=(inf, 0, 0), fix='zx', displacement=(1, 0, 0))
 MpmGhost(factor=0, scaling='paper')
 MpmNewton(tolerance=0.5, maxIterations=1)
 MpmElasticMat(young=1, poisson=-0.99, density=1e-3)
-MpmState(stress=Matrix3(1,2,3, 2,4,5, 3,5,6), defGrad=Matrix3(2,1,0, 0,1,0, 0,0,1), force=(0, -1, 0), volume=2, volume0=1)
+MpmState(elasticStrain=Matrix3(1,2,3, 2,4,5, 3,5,6), defGrad=Matrix3(2,1,0, 0,1,0, 0,0,1), force=(0, -1, 0), volume=2, volume0=1)
 print(json.dumps(len(mpm.arrays()['id'])))
 '''
 	assert yade(script).result == 1

@@ -183,7 +183,7 @@ O.bodies.erase(3)
 random = np.random.default_rng(2)
 for b in O.bodies:
 	skew = [Matrix3(*random.uniform(-1, 1, 9)) for i in range(3)]
-	b.state.stress, b.state.elasticStrain = skew[0] + skew[0].transpose(), skew[1] + skew[1].transpose()
+	b.state.elasticStrain = skew[1] + skew[1].transpose()
 	b.state.defGrad = Matrix3.Identity + 0.1 * skew[2]
 	b.state.pos, b.state.refPos, b.shape.halfSize = (Vector3(*random.uniform(0.1, 1, 3)) for i in range(3))
 	b.state.volume, b.state.plasticStrain = random.uniform(0.1, 1, 2)
@@ -214,7 +214,7 @@ from yade.wrapper import *
 originals = dict(
     elastic=MpmElasticMat(young=2.5, poisson=-0.25, density=7, label='elastic'),
     mises=MpmVonMisesMat(young=3.5, poisson=0.25, density=9, yieldStress=1 / 3, label='mises'),
-    state=MpmState(stress=Matrix3(1,2,3, 2,4,5, 3,5,6), defGrad=Matrix3(2,.1,.2, .3,3,.4, .5,.6,4), elasticStrain=Matrix3(-1,2,3, 2,-4,5, 3,5,-6) / 7,
+    state=MpmState(defGrad=Matrix3(2,.1,.2, .3,3,.4, .5,.6,4), elasticStrain=Matrix3(-1,2,3, 2,-4,5, 3,5,-6) / 7,
                    force=(1, 2, 3), volume=1 / 7, volume0=1 / 9, plasticStrain=1 / 11, refPos=(4, 5, 6), vel=(7, 8, 9), mass=10),
     point=MpmPoint(halfSize=(1 / 3, 2, 3), halfSize0=(4, 5, 6), radius=7),
     grid=MpmGrid(cellSize=1 / 3, origin=(1, 2, 3), dim=3),
