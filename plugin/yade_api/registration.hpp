@@ -25,6 +25,7 @@
 // Optional: void postLoad(), run after loading, after construction from keywords and after assignments that ask for it; and
 // template <class C> static void python(C& c), which adds methods and properties to the Python class c.
 #include "yade_api/attribute.hpp"
+#include "yade_api/plugin_classes.hpp"
 #include "yade_api/serialization.hpp"
 
 #pragma GCC visibility push(default)
@@ -229,13 +230,6 @@ public:
 		return depth == 1 ? base->getClassIndex() : base->getBaseClassIndex(depth - 1);
 	}
 };
-
-// Names of all classes that this plugin has made known.
-inline vector<string>& pluginClassNames()
-{
-	static vector<string> names;
-	return names;
-}
 
 // A static object of this type makes classes known to YADE when the plugin is opened.
 template <class... Classes> struct PluginClasses {

@@ -39,12 +39,19 @@ template <class Archive> void serialize(Archive& archive, yade::Matrix3r& matrix
 }
 } // namespace boost::serialization
 
+// Only the functions that name the members of a class; the rest of boost's machinery is the same for all.
+#define YADE_API_EXTERN_LOAD(Archive, Class)                                                                                                                   \
+	extern template void boost::archive::detail::iserializer<boost::archive::Archive, Class>::load_object_data(                                            \
+	        boost::archive::detail::basic_iarchive&, void*, unsigned) const;
+#define YADE_API_EXTERN_SAVE(Archive, Class)                                                                                                                   \
+	extern template void boost::archive::detail::oserializer<boost::archive::Archive, Class>::save_object_data(                                            \
+	        boost::archive::detail::basic_oarchive&, const void*) const;
 #define YADE_API_EXTERN_SERIALIZERS(Class)                                                                                                                     \
 	BOOST_CLASS_EXPORT_KEY(Class)                                                                                                                          \
-	extern template class boost::archive::detail::iserializer<boost::archive::xml_iarchive, Class>;                                                        \
-	extern template class boost::archive::detail::iserializer<boost::archive::binary_iarchive, Class>;                                                     \
-	extern template class boost::archive::detail::oserializer<boost::archive::xml_oarchive, Class>;                                                        \
-	extern template class boost::archive::detail::oserializer<boost::archive::binary_oarchive, Class>;
+	YADE_API_EXTERN_LOAD(xml_iarchive, Class)                                                                                                              \
+	YADE_API_EXTERN_LOAD(binary_iarchive, Class)                                                                                                           \
+	YADE_API_EXTERN_SAVE(xml_oarchive, Class)                                                                                                              \
+	YADE_API_EXTERN_SAVE(binary_oarchive, Class)
 YADE_API_EXTERN_SERIALIZERS(yade::Serializable)
 YADE_API_EXTERN_SERIALIZERS(yade::GlobalEngine)
 YADE_API_EXTERN_SERIALIZERS(yade::PeriodicEngine)
@@ -53,4 +60,6 @@ YADE_API_EXTERN_SERIALIZERS(yade::State)
 YADE_API_EXTERN_SERIALIZERS(yade::Shape)
 YADE_API_EXTERN_SERIALIZERS(yade::Sphere)
 #undef YADE_API_EXTERN_SERIALIZERS
+#undef YADE_API_EXTERN_SAVE
+#undef YADE_API_EXTERN_LOAD
 #pragma GCC visibility pop

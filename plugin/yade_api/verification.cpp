@@ -1,9 +1,16 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "yade_api/verification.hpp"
+#include "yade_api/conversion.hpp"
 #include "yade_api/layout_check.hpp"
-#include "yade_api/registration.hpp"
+#include "yade_api/plugin_classes.hpp"
 
 namespace yade {
+
+vector<string>& pluginClassNames()
+{
+	static vector<string> names;
+	return names;
+}
 
 // YADE registers Python classes in a loop that swallows errors, so one can be missing without a word.
 static vector<string> findMissingClasses()
