@@ -91,8 +91,8 @@ def columnError(height=50.):
 	return np.mean(np.abs(points['stress'][:, 1, 1] / 4e4 + 1 - points['pos0'][:, 1] / height))
 
 
-def slope(cellSize, pointsPerCell, **ghost):
-	"""Section 4.2: slope with a weak layer; returns the engine and the number of load steps."""
+def slope(cellSize, pointsPerCell, lineSearchTrials=0, **ghost):
+	"""Section 4.2: slope with a weak layer, as in the paper without cutting of load steps; returns the engine and the number of load steps."""
 	O.reset()
 	O.materials.append(MpmVonMisesMat(young=1e6, poisson=0.3, density=2400, yieldStress=15e3, label='soil'))
 	O.materials.append(MpmVonMisesMat(young=1e6, poisson=0.3, density=2400, yieldStress=7.5e3, label='weak'))
@@ -100,7 +100,7 @@ def slope(cellSize, pointsPerCell, **ghost):
 	profile = mpm.polygon([(0, 0), (30, 0), (30, 7), (15, 7), (10, 12), (0, 12)])
 	O.bodies.append(mpm.fill(profile, grid, pointsPerCell=pointsPerCell, material=lambda x: 'weak' if 7 <= x[1] <= 7.5 else 'soil'))
 	sides = [MpmBoundary(max=(0, inf, inf), fix='x'), MpmBoundary(min=(30, -inf, -inf), fix='x'), MpmBoundary(max=(inf, 0, inf), fix='xy')]
-	newton = MpmNewton(tolerance=1e-6, maxIterations=20)
+	newton = MpmNewton(tolerance=1e-6, maxIterations=20, minStep=1, lineSearchTrials=lineSearchTrials)
 	O.engines = [MpmImplicitEngine(grid=grid, gravity=(0, -9.81, 0), boundaries=sides, ghost=MpmGhost(**ghost), newton=newton)]
 	steps = round(40 / cellSize)
 	O.dt = 1 / steps
@@ -113,6 +113,6 @@ def runSteps(steps, after=lambda: None):
 		try:
 			O.step()
 		except RuntimeError as error:
-			return str(error).partition(' failed: ')[2].partition('. ')[0] or str(error)
+			return ' '.join(str(error).partition(' failed: ')[2].partition('. ')[0].split()) or str(error)
 		after()
 	return ''

@@ -51,19 +51,19 @@ def saveState(path, face):
 	np.savez_compressed(path, **{name: np.asarray(values, np.float32) for name, values in state.items()})
 
 
-def runSlope(out, cellSize, pointsPerCell, factor):
+def runSlope(out, cellSize, pointsPerCell, factor, lineSearchTrials=0):
 	"""Run one slope to its end, or to the step that fails, unless its results are there already.
 
 	Adds a row to slope.csv and one for each converged step to slope-steps.csv, and keeps the last converged state in
 	<out>/states. Iterations are linear solves.
 	"""
-	key = cellSize, pointsPerCell, factor
-	keys = ['cellSize', 'pointsPerCell', 'factor']
+	key = cellSize, pointsPerCell, factor, lineSearchTrials
+	keys = ['cellSize', 'pointsPerCell', 'factor', 'lineSearchTrials']
 	runs = Results(out, 'slope', keys, ['points', 'steps', 'completed', 'meanIterations', 'maxIterations', 'displacement', 'oscillation', 'failure'])
-	state = os.path.join(out, 'states', 'slope-{:g}-{}-{:g}.npz'.format(*key))
+	state = os.path.join(out, 'states', 'slope-{:g}-{}-{:g}-{}.npz'.format(*key))
 	if key in runs and os.path.exists(state): return
 
-	engine, steps = slope(cellSize, pointsPerCell, factor=factor)
+	engine, steps = slope(cellSize, pointsPerCell, lineSearchTrials, factor=factor)
 	face, history = FaceStress(cellSize), []
 	failure = runSteps(steps, lambda: history.append((len(history) + 1, engine.iterations, engine.residual, face.record())))
 	saveState(state, face)
