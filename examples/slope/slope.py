@@ -87,7 +87,7 @@ print(f'crest (0, 12) settles by {-(points["pos"] - points["pos0"])[np.lexsort((
 (x, y), (a, b) = points['pos'][:, :2].T, points['halfSize'][:, :2].T
 corners = np.stack([np.stack([x - a, y - b], 1), np.stack([x + a, y - b], 1), np.stack([x + a, y + b], 1), np.stack([x - a, y + b], 1)], axis=1)
 figure, axes = plt.subplots(figsize=(10, 4.6))
-domains = PolyCollection(corners, array=points['stress'][:, 0, 1] / 1e3, cmap='RdBu_r', clim=(-12, 12), linewidths=0)
+domains = PolyCollection(corners, array=points['stress'][:, 0, 1] / 1e3, cmap='RdBu_r', clim=(-12, 12), edgecolors='face', linewidths=0.4)
 axes.add_collection(domains)
 axes.plot([0, 10, 15, 30], [12, 12, 7, 7], 'k--', linewidth=0.8, label='initial surface')
 axes.set(aspect='equal', xlim=(-0.5, 30.5), ylim=(-0.5, 12.5), xlabel='x [m]', ylabel='y [m]', title='Slope under its own weight')

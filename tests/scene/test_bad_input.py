@@ -48,6 +48,11 @@ refused = (
         ] + [(f'MpmNewton(tolerance={text})', 'ValueError', ['.tolerance', 'between 0 and 1']) for text in ('0', '1', '-1e-6', 'float("nan")')] + [
                 ('MpmNewton(maxIterations=0)', 'ValueError', ['.maxIterations = 0', '>= 1']),
                 ('MpmNewton(maxIterations=2.0)', 'TypeError', ['.maxIterations = 2.0', 'an integer']),
+                ('MpmNewton(minStep=0)', 'ValueError', ['.minStep = 0', '> 0 and <= 1']),
+                ('MpmNewton(minStep=2)', 'ValueError', ['.minStep = 2', '> 0 and <= 1']),
+                ('MpmNewton(minStep=float("nan"))', 'ValueError', ['.minStep = nan']),
+                ('MpmNewton(lineSearchTrials=-1)', 'ValueError', ['.lineSearchTrials = -1', '>= 0']),
+                ('MpmNewton(acceptUnconverged=1)', 'TypeError', ['.acceptUnconverged = 1', 'True or False']),
                 ('MpmNewton(maxIterations=True)', 'TypeError', ['.maxIterations = True', 'an integer']),
         ] +
         # the state and shape of a point
