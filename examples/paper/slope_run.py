@@ -76,3 +76,21 @@ def runSlope(out, cellSize, pointsPerCell, factor, lineSearchTrials=0):
 	        history[-1][-1], failure)
 	runs.add([dict(zip(runs.columns, (*key, *values)))])
 	print(*runs.row(key).values(), flush=True)
+
+
+def countByTolerance(out, cellSize, pointsPerCell):
+	"""Iterations of the slope with ghost stabilisation if the tolerance were tighter: adds rows to table1-tolerance.csv.
+
+	All are read from the residuals of one run that meets the tightest tolerance.
+	"""
+	results = Results(out, 'table1-tolerance', ['cellSize', 'pointsPerCell', 'tolerance'], ['meanIterations', 'maxIterations'])
+	tolerances = [1e-6, 5e-7, 3e-7]
+	if all((cellSize, pointsPerCell, tolerance) in results for tolerance in tolerances): return
+	engine, steps = slope(cellSize, pointsPerCell, factor=1e-2)
+	engine.newton.tolerance = tolerances[-1]
+	history = []
+	failure = runSteps(steps, lambda: history.append(engine.residuals))
+	if failure: raise RuntimeError(failure)
+	for tolerance in tolerances:
+		solves = [next(i for i, residual in enumerate(residuals) if i > 0 and residual <= tolerance) for residuals in history]
+		results.add([dict(zip(results.columns, (cellSize, pointsPerCell, tolerance, np.mean(solves), max(solves))))])

@@ -10,3 +10,6 @@ for cellSize in [1.] if options.quick else [1., 0.5, 0.25]:
 	for pointsPerCell in 2, 3, 4:
 		for factor in 0., 1e-2:
 			runSlope(options.out, cellSize, pointsPerCell, factor)
+for cellSize in [1.] if options.quick else [1., 0.5]:
+	for pointsPerCell in 2, 3, 4:
+		countByTolerance(options.out, cellSize, pointsPerCell)
