@@ -35,7 +35,7 @@ import numpy as np
 from yade import config, pack, wrapper
 from yade.minieigenHP import Vector3
 
-__all__ = ['polygon', 'fill', 'arrays']
+__all__ = ['polygon', 'fill', 'arrays', 'save']
 
 
 def _loadEngine():
@@ -342,3 +342,29 @@ def arrays():
 	"""
 	data = _engine.columnsOfPoints()
 	return {name: np.frombuffer(data[name], kind).reshape((-1, ) + shape) for name, (kind, shape) in _columns.items()}
+
+
+def save(file):
+	"""Save the scene as ``O.save`` does, but whole or not at all: a process that is killed meanwhile leaves the file as it was.
+
+	For saving during a run: ``PyRunner(iterPeriod=10, command="mpm.save('slope.yade.gz')")`` behind the solver.
+
+	:param file: path with one of YADE's endings, ``.xml``, ``.xml.gz``, ``.xml.bz2``, ``.yade``, ``.yade.gz`` or ``.yade.bz2``
+	:raise ValueError: another ending
+	:raise OSError: the file cannot be written
+	"""
+	file = os.fspath(file)
+	endings = '.xml', '.xml.gz', '.xml.bz2', '.yade', '.yade.gz', '.yade.bz2'
+	if not file.endswith(endings):
+		raise ValueError(f"save: file = {file!r} does not end in one of {', '.join(endings)}, which choose the format")
+	folder, name = os.path.split(os.path.abspath(file))
+	temporary = os.path.join(folder, f'.{os.getpid()}-{name}')
+	try:
+		with open(temporary, 'wb'):
+			pass  # so that a folder which cannot be written to is an OSError with its reason
+		wrapper.Omega().save(temporary, quiet=True)
+		with open(temporary, 'rb+') as written:
+			os.fsync(written.fileno())
+		os.replace(temporary, file)
+	finally:
+		if os.path.exists(temporary): os.remove(temporary)

@@ -100,6 +100,31 @@ print('accepted', accepted)
 	assert (run.stdout + run.stderr).count('has not converged and is accepted') == accepted
 
 
+def test_pause_stops_within_an_iteration_and_the_run_can_go_on(yade):
+	yade(
+	        '''
+import time
+from scenes import *
+solver = slope(cellSize=0.5, pointsPerCell=4, steps=4)
+O.run(4)
+while O.iter < 1: # past failure in the second half: many iterations of some 20 ms
+	time.sleep(0.005)
+time.sleep(0.05)
+O.pause()
+begin = time.time()
+while not solver.residuals or O.running:
+	time.sleep(0.001)
+time.sleep(0.5)
+stopped, factor, positions = O.iter, solver.loadFactor, mpm.arrays()['pos']
+assert stopped < 4 and solver.loadTime == O.time, (stopped, solver.loadTime, O.time)
+time.sleep(0.5)
+assert np.array_equal(mpm.arrays()['pos'], positions) # nothing runs any more
+O.run(4 - stopped, wait=True)
+assert O.iter == 4 and solver.loadFactor == 1
+'''
+	)
+
+
 mistakes = [
         ('solver.boundaries = []', 'nothing restrains the translation along x'),
         ('solver.boundaries = solver.boundaries[:2]', 'nothing restrains the translation along y'),

@@ -1,5 +1,10 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """A saved scene, loaded in a new process, goes on as if nothing had happened: bit for bit."""
+import os
+import signal
+import subprocess
+import time
+
 import numpy as np
 import pytest
 
@@ -25,6 +30,71 @@ np.savez('continued.npz', **mpm.arrays(), iterations=solver.iterations)
 	assert len(whole['pos']) == 1095
 	for name in whole:
 		assert np.array_equal(whole[name], parts[name]), name
+
+
+def test_a_killed_run_continues_from_its_last_save_with_the_same_bits(yade):
+	"""Saved by an engine in the middle of an iteration, and killed while it is at work."""
+	script = yade.folder / 'script.py'
+	script.write_text('''
+from scenes import *
+solver = slope(steps=400)
+O.engines = O.engines + [PyRunner(iterPeriod=7, initRun=False, command="mpm.save('state.yade.gz')")]
+O.run(400, wait=True)
+''')
+	state = yade.folder / 'state.yade.gz'
+	process = subprocess.Popen([yade.command, '-n', '-x', '-j1', str(script)], cwd=yade.folder, env=os.environ | yade.ownSettings(),
+	                           stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, stdin=subprocess.DEVNULL)
+	deadline = time.time() + 60
+	while not state.exists() and time.time() < deadline:
+		time.sleep(0.05)
+	time.sleep(0.3)
+	process.send_signal(signal.SIGKILL)
+	process.wait()
+	yade('''
+import json
+from scenes import *
+from yade.wrapper import *
+O.load('state.yade.gz')
+saved = O.iter # of the iteration that had not ended
+O.engines = O.engines[:1]
+O.run(10, wait=True)
+continued, factor = mpm.arrays(), solver.loadFactor
+O.reset()
+solver = slope(steps=400)
+while solver.loadFactor < factor:
+	O.step()
+assert saved > 0 and solver.loadFactor == factor, (saved, solver.loadFactor, factor)
+whole = mpm.arrays()
+assert all(np.array_equal(whole[name], continued[name]) for name in whole)
+''')
+
+
+def test_saving_fails_with_a_reason(yade):
+	yade('''
+from scenes import *
+slope()
+for file, error, words in ('state.txt', ValueError, 'state.txt'), ('/nowhere/state.xml', OSError, '/nowhere'), ('.', ValueError, 'format'):
+	try:
+		mpm.save(file)
+		assert False, file
+	except error as raised:
+		assert words in str(raised), raised
+import os
+assert not [name for name in os.listdir('.') if 'state' in name]
+''')
+
+
+@pytest.mark.parametrize('damage', ['truncated', 'foreign'])
+def test_a_damaged_file_is_an_error_and_no_crash(yade, damage):
+	run = yade(f'''
+from scenes import *
+slope()
+mpm.save('state.xml.gz')
+content = open('state.xml.gz', 'rb').read()
+open('state.xml.gz', 'wb').write(content[:len(content) // 2] if '{damage}' == 'truncated' else b'not a scene')
+O.load('state.xml.gz')
+''', fails=True)
+	assert run.exitCode == 1, str(run)
 
 
 def test_results_do_not_depend_on_the_number_of_threads(yade):
