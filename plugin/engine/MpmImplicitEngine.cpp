@@ -6,6 +6,7 @@
 #include "engine/exchange.hpp"
 #include "yade_api/exceptions.hpp"
 #include "yade_api/logging.hpp"
+#include "yade_api/python_lock.hpp"
 #include <omp.h>
 
 namespace yade {
@@ -274,6 +275,7 @@ string MpmImplicitEngine::adviceOn(const gimpm::StepReport& report, Real part) c
 
 gimpm::SymmetricCsc MpmImplicitEngine::reducedStiffness()
 {
+	const PythonUnlock                python; // a step in the background needs it to refuse a value
 	const std::lock_guard<std::mutex> lock(busy);
 	const Threads                     threads(ompThreads);
 	requireAdmissible();

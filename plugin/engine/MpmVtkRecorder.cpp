@@ -51,9 +51,10 @@ namespace {
 
 	void finishAll()
 	{
-		PyThreadState* const python = PyEval_SaveThread(); // the simulation may wait for it
-		stopRunning();
-		PyEval_RestoreThread(python);
+		{
+			const PythonUnlock python; // the simulation may wait for it
+			stopRunning();
+		}
 		for (const auto& engine : Singleton<Omega>::instance().getScene()->engines)
 			if (auto* recorder = dynamic_cast<MpmVtkRecorder*>(engine.get())) recorder->finish();
 	}

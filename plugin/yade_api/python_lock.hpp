@@ -14,4 +14,14 @@ public:
 	~PythonLock() { PyGILState_Release(state); }
 };
 
+// The opposite, for a call from Python that waits for something which may itself need that lock.
+class PythonUnlock {
+	PyThreadState* const state = PyEval_SaveThread();
+
+public:
+	PythonUnlock()                    = default;
+	PythonUnlock(const PythonUnlock&) = delete;
+	~PythonUnlock() { PyEval_RestoreThread(state); }
+};
+
 } // namespace yade

@@ -178,3 +178,26 @@ print(json.dumps(messages))
 	)
 	for (change, words), message in zip(mistakes, run.result):
 		assert message and words in message, f'{change}: {message}'
+
+
+def test_stiffness_can_be_asked_for_while_the_scene_runs(yade):
+	"""It waits for the step at work; also when that step is about to be refused."""
+	yade(
+	        '''
+from scenes import *
+solver = slope(cellSize=0.5)
+O.run(20)
+sizes = {solver.stiffness()[3] for i in range(5)}
+assert all(1900 < size < 2300 for size in sizes), sizes
+O.wait()
+O.reset()
+solver = slope()
+O.bodies[7].state.pos = (float('nan'), 0, 0)
+O.run(5)
+try:
+	solver.stiffness()
+	assert False
+except (ValueError, RuntimeError) as error:
+	assert 'Body #7' in str(error)
+'''
+	)
