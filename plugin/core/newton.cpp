@@ -6,12 +6,12 @@
 namespace gimpm {
 namespace {
 
-/// Out-of-balance forces on the free degrees of freedom, and their size relative to external forces and reactions.
+/// Out-of-balance forces on the free degrees of freedom, and what they are compared with.
 struct Balance {
-	Eigen::VectorXd residual;      // by number of the free degree of freedom
-	double          size     = 0;  // |residual| [N]
-	double          relative = 0;  // |residual| / |external forces + reactions|
-	int             worst    = -1; // nodal degree of freedom
+	Eigen::VectorXd residual;       // by number of the free degree of freedom
+	double          size      = 0;  // |residual| [N]
+	double          reference = 0;  // |external forces + reactions| [N]
+	int             worst     = -1; // nodal degree of freedom
 };
 
 Balance balance(const FreeDofs& dofs, const Eigen::VectorXd& external, const Eigen::VectorXd& force)
@@ -31,8 +31,8 @@ Balance balance(const FreeDofs& dofs, const Eigen::VectorXd& external, const Eig
 		reference += std::pow(external[i] / scale, 2);
 		if (std::abs(r) > largest) largest = std::abs(r), b.worst = i;
 	}
-	b.size     = scale * std::sqrt(imbalance);
-	b.relative = imbalance == 0 ? 0 : std::sqrt(imbalance / reference); // without any load: converged, not 0/0
+	b.size      = scale * std::sqrt(imbalance);
+	b.reference = scale * std::sqrt(reference);
 	return b;
 }
 
@@ -56,6 +56,8 @@ public:
 	Eigen::VectorXd run()
 	{
 		evaluate(d_, true);
+		initial_  = std::max(balance_.size, balance_.reference);
+		roundOff_ = roundOff();
 		while (!finished() && correct())
 			++report_.iterations;
 		return d_;
@@ -69,25 +71,46 @@ private:
 		inverted_     = system_.evaluate(d, force_, withStiffness ? &K_ : nullptr);
 		hasStiffness_ = withStiffness;
 		balance_      = balance(system_.dofs, system_.external, force_);
-		if (inverted_ >= 0 || !std::isfinite(balance_.relative)) balance_.size = std::numeric_limits<double>::infinity();
+		if (inverted_ >= 0 || !std::isfinite(balance_.size)) balance_.size = std::numeric_limits<double>::infinity();
+	}
+
+	/// |residual| / |external forces + reactions|. Where both end at zero, as in unloading, the forces at the start of the step are what
+	/// the residual is compared with; and it is zero where it is round-off of stresses that balance each other.
+	double relative() const
+	{
+		if (report_.iterations > 0 && balance_.size <= roundOff_) return 0;
+		return balance_.size == 0 ? 0 : balance_.size / std::max(balance_.reference, initial_);
+	}
+
+	/// Of the internal forces, from the stresses at the start of the step [N].
+	double roundOff() const
+	{
+		const auto&     points = system_.points;
+		Eigen::VectorXd force(points.volume0.size());
+		for (int i = 0; i < int(force.size()); ++i) {
+			const double young = system_.model.materials[points.material[i]].young();
+			force[i]           = points.volume0[i] * young * points.leftCauchyGreen[i].c.norm() / system_.model.grid.cellSize;
+		}
+		return 10 * std::numeric_limits<double>::epsilon() * force.stableNorm();
 	}
 
 	bool finished()
 	{
-		report_.residuals.push_back(balance_.relative);
+		const double residual = relative();
+		report_.residuals.push_back(residual);
 		reportWorst();
 		// At least one solve: a load increment below the tolerance must not be lost.
-		const bool converged = report_.iterations > 0 ? balance_.relative <= settings_.tolerance : balance_.relative == 0 && prescribed_.size() == 0;
+		const bool converged = report_.iterations > 0 ? residual <= settings_.tolerance : residual == 0 && prescribed_.size() == 0;
 		std::ostringstream text;
 		if (inverted_ >= 0) {
 			report_.invertedPoint = inverted_;
 			return fail(Failure::inverted, "a material point was turned inside out (det F <= 0)");
 		}
-		if (!std::isfinite(balance_.relative)) return fail(Failure::notFinite, "the residual is not finite");
+		if (!std::isfinite(residual)) return fail(Failure::notFinite, "the residual is not finite");
 		if (converged) return true;
 		if (settings_.interrupted && settings_.interrupted()) return fail(Failure::interrupted, "it was interrupted");
 		if (report_.iterations == settings_.maxIterations) {
-			text << "the residual " << balance_.relative << " is above the tolerance " << settings_.tolerance << " after " << report_.iterations << " iterations";
+			text << "the residual " << residual << " is above the tolerance " << settings_.tolerance << " after " << report_.iterations << " iterations";
 			return fail(Failure::tooManyIterations, text.str());
 		}
 		return false;
@@ -166,7 +189,7 @@ private:
 		if (settings_.lineSearchTrials > 0 && best >= before && length * largest > system_.model.grid.cellSize) {
 			std::ostringstream text;
 			text << "it diverges: a correction of " << length * largest << " m, more than a cell, does not reduce the residual";
-			report_.residuals.push_back(balance_.relative);
+			report_.residuals.push_back(relative());
 			fail(Failure::diverging, text.str());
 			return false;
 		}
@@ -193,6 +216,8 @@ private:
 	Balance                balance_;
 	InvertedPoint          inverted_     = -1;
 	bool                   hasStiffness_ = false;
+	double                 initial_      = 0; // |residual| or |external forces + reactions| at the start of the step [N]
+	double                 roundOff_     = 0; // [N]
 };
 
 } // namespace

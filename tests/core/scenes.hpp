@@ -181,4 +181,49 @@ template <int Dim, class Field> Eigen::VectorXd nodal(const CloudBasis<Dim>& bas
 	return d;
 }
 
+/// Compaction of a column under its own weight (Coombs 2023, section 4.1): nu = 0, one cell wide on rollers, 2 points per axis and cell.
+/// Lengths and stresses may be given other units.
+template <int Dim> struct Column {
+	double          height, young, weight; // l0 [m], E [Pa], b [N/m3]
+	Model<Dim>      model;
+	PointCloud<Dim> cloud;
+	LinearSolver    solver;
+
+	explicit Column(int cells, GhostSettings ghost = {}, double length = 1, double pressure = 1)
+	        : height(50 * length)
+	        , young(1e4 * pressure)
+	        , weight(800 * pressure / length)
+	{
+		const double h         = height / cells;
+		model.grid.cellSize    = h;
+		model.materials        = { { Hencky(young, 0), weight / 10 } };
+		model.ghost            = ghost;
+		model.newton.tolerance = 1e-9;
+		std::vector<HeldBox<Dim>> walls { wallBelow<Dim>(model.grid, 1, 0) };
+		for (int axis = 0; axis < Dim; ++axis)
+			if (axis != 1) walls.push_back(wallBelow<Dim>(model.grid, axis, 0)), walls.push_back(wallAbove<Dim>(model.grid, axis, h));
+		model.boundary = Boundary<Dim>(walls);
+		cloud          = block<Dim>(model.grid, cellsOf<Dim>(1, cells, 1), 2);
+	}
+	/// Step number `step` of `steps`.
+	StepReport step(int step, int steps)
+	{
+		Load<Dim> load;
+		load.gravity   = -10 * Vec<Dim>::Unit(1);
+		load.factor    = double(step) / steps;
+		load.increment = 1. / steps;
+		return loadStep(cloud, model, load, solver);
+	}
+	/// Error of eq. (7), from the points' original heights.
+	double error(const std::vector<Vec<Dim>>& original) const
+	{
+		double sum = 0, volume = 0;
+		for (std::size_t p = 0; p < cloud.size(); ++p) {
+			sum += std::abs(cloud.stress[p].c[1] + weight * (height - original[p][1])) * cloud.volume0[p];
+			volume += cloud.volume0[p];
+		}
+		return sum / (weight * height * volume);
+	}
+};
+
 } // namespace gimpm

@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Cholesky, its fallback to LU, and what is singular.
+#include "scenes.hpp"
+#include <Eigen/LU>
+
+namespace gimpm {
+namespace {
+
+	using Status = LinearSolver::Status;
+
+	/// The entries of the lower triangle that are not zero, and the whole diagonal.
+	SymmetricCsc sparse(const Eigen::MatrixXd& full)
+	{
+		SymmetricCsc K;
+		K.start = { 0 };
+		for (int c = 0; c < full.cols(); ++c) {
+			for (int r = c; r < full.rows(); ++r)
+				if (r == c || full(r, c) != 0) K.row.push_back(r), K.value.push_back(full(r, c));
+			K.start.push_back(int(K.row.size()));
+		}
+		return K;
+	}
+
+	/// Random symmetric matrix with a share of entries that are not zero.
+	Eigen::MatrixXd symmetric(int size, double filling, unsigned seed)
+	{
+		Random          random(seed);
+		Eigen::MatrixXd m = Eigen::MatrixXd::Zero(size, size);
+		for (int c = 0; c < size; ++c)
+			for (int r = c; r < size; ++r)
+				if (r == c || random.in(0, 1) < filling) m(r, c) = m(c, r) = random.in(-1, 1);
+		return m;
+	}
+
+	Eigen::MatrixXd definite(int size, double filling, unsigned seed)
+	{
+		Eigen::MatrixXd m = symmetric(size, filling, seed);
+		m.diagonal()      = m.cwiseAbs().rowwise().sum().array() + 0.1; // dominant
+		return m;
+	}
+
+	/// Laplace's difference operator on n^3 nodes: large enough for a supernodal factorisation.
+	SymmetricCsc laplace(int n, double diagonal)
+	{
+		SymmetricCsc K;
+		K.start = { 0 };
+		for (int i = 0; i < n * n * n; ++i) {
+			K.row.push_back(i), K.value.push_back(diagonal);
+			if (i % n < n - 1) K.row.push_back(i + 1), K.value.push_back(-1);
+			if (i / n % n < n - 1) K.row.push_back(i + n), K.value.push_back(-1);
+			if (i / (n * n) < n - 1) K.row.push_back(i + n * n), K.value.push_back(-1);
+			K.start.push_back(int(K.row.size()));
+		}
+		return K;
+	}
+
+	Eigen::VectorXd product(const SymmetricCsc& K, const Eigen::VectorXd& x)
+	{
+		Eigen::VectorXd y = Eigen::VectorXd::Zero(x.size());
+		for (int c = 0; c < K.size(); ++c)
+			for (int e = K.start[c]; e < K.start[c + 1]; ++e) {
+				y[K.row[e]] += K.value[e] * x[c];
+				if (K.row[e] != c) y[c] += K.value[e] * x[K.row[e]];
+			}
+		return y;
+	}
+
+	void expectSolves(LinearSolver& solver, const SymmetricCsc& K, Status expected, double tolerance = 1e-12)
+	{
+		Random                random(99);
+		const Eigen::VectorXd x = random.vector(K.size());
+		Eigen::VectorXd       found;
+		ASSERT_EQ(solver.solve(K, product(K, x), found), expected);
+		EXPECT_LT((found - x).norm(), tolerance * x.norm());
+	}
+
+	TEST(LinearSolver, SolvesDefiniteMatricesByCholesky)
+	{
+		LinearSolver solver;
+		for (const int size : { 1, 2, 10, 300 })
+			expectSolves(solver, sparse(definite(size, 0.1, size)), Status::cholesky);
+		expectSolves(solver, laplace(12, 6), Status::cholesky); // supernodal
+	}
+
+	TEST(LinearSolver, AgreesWithADenseSolution)
+	{
+		LinearSolver          solver;
+		const Eigen::MatrixXd m = definite(80, 0.2, 3), indefinite = symmetric(80, 0.3, 4);
+		const Eigen::VectorXd b = Random(5).vector(80);
+		Eigen::VectorXd       x;
+		ASSERT_EQ(solver.solve(sparse(m), b, x), Status::cholesky);
+		EXPECT_LT((x - m.partialPivLu().solve(b)).norm(), 1e-13 * x.norm());
+		ASSERT_EQ(solver.solve(sparse(indefinite), b, x), Status::lu);
+		EXPECT_LT((x - indefinite.partialPivLu().solve(b)).norm(), 1e-10 * x.norm());
+	}
+
+	TEST(LinearSolver, SolvesIndefiniteMatricesByLu)
+	{
+		LinearSolver solver;
+		expectSolves(solver, sparse(-definite(50, 0.2, 1)), Status::lu);
+		expectSolves(solver, sparse((Eigen::MatrixXd(2, 2) << 0, 1, 1, 0).finished()), Status::lu);
+		expectSolves(solver, sparse((Eigen::MatrixXd(3, 3) << 1e-20, 1, 0, 1, 1e-20, 1, 0, 1, 2).finished()), Status::lu);
+		expectSolves(solver, laplace(12, 3.3), Status::lu, 1e-9); // supernodal refused
+	}
+
+	TEST(LinearSolver, ReportsSingularMatrices)
+	{
+		LinearSolver    solver;
+		Eigen::VectorXd x;
+		// a free chain of springs, a zero row, a zero matrix, a singular indefinite one, a row twice but for round-off
+		Eigen::MatrixXd chain = Eigen::MatrixXd::Zero(5, 5);
+		for (int i = 0; i < 4; ++i)
+			chain.block<2, 2>(i, i) += (Eigen::Matrix2d() << 1, -1, -1, 1).finished();
+		Eigen::MatrixXd empty = definite(5, 1, 1);
+		empty.row(2).setZero(), empty.col(2).setZero();
+		const Eigen::MatrixXd saddle = (Eigen::MatrixXd(3, 3) << 1, 2, 1, 2, 1, 2, 1, 2, 1).finished();
+		const Eigen::MatrixXd twice  = (Eigen::MatrixXd(2, 2) << -1, 1, 1, -1 - precision / 2).finished();
+		for (const auto& m : { chain, empty, Eigen::MatrixXd(Eigen::MatrixXd::Zero(3, 3)), saddle, twice })
+			EXPECT_EQ(solver.solve(sparse(m), Eigen::VectorXd::Ones(m.rows()), x), Status::singular) << m;
+	}
+
+	TEST(LinearSolver, ReportsMatricesThatAreNotNumbers)
+	{
+		for (const double bad : { std::nan(""), infinity, -infinity }) {
+			LinearSolver    solver;
+			Eigen::VectorXd x;
+			auto            K = sparse(definite(20, 0.3, 1));
+			K.value[30]       = bad;
+			EXPECT_EQ(solver.solve(K, Eigen::VectorXd::Ones(20), x), Status::singular) << bad;
+			K.value[0] = bad;
+			EXPECT_EQ(solver.solve(K, Eigen::VectorXd::Ones(20), x), Status::singular) << bad;
+			expectSolves(solver, sparse(definite(20, 0.3, 1)), Status::cholesky);
+		}
+	}
+
+	TEST(LinearSolver, AnswersDoNotDependOnWhatWasSolvedBefore)
+	{
+		const auto small = sparse(definite(60, 0.2, 1)), large = laplace(12, 6.1);
+		for (const auto& K : { small, large }) {
+			const Eigen::VectorXd b = Random(7).vector(K.size());
+			Eigen::VectorXd       expected, x;
+			ASSERT_EQ(LinearSolver().solve(K, b, expected), Status::cholesky);
+
+			LinearSolver solver;
+			auto         scaled = K, indefinite = K;
+			for (double& v : scaled.value)
+				v *= 3.7;
+			for (int c = 0; c < K.size(); ++c)
+				indefinite.value[K.start[c]] -= 3.5;
+			solver.solve(scaled, b, x); // same pattern
+			ASSERT_EQ(solver.solve(K, b, x), Status::cholesky);
+			EXPECT_TRUE(x == expected) << "after other values";
+			EXPECT_EQ(solver.solve(indefinite, b, x), Status::lu);
+			ASSERT_EQ(solver.solve(K, b, x), Status::cholesky);
+			EXPECT_TRUE(x == expected) << "after a failed factorisation";
+			solver.solve(sparse(definite(30, 0.5, 8)), Eigen::VectorXd::Ones(30), x);
+			ASSERT_EQ(solver.solve(K, b, x), Status::cholesky);
+			EXPECT_TRUE(x == expected) << "after another pattern";
+		}
+	}
+
+	TEST(LinearSolver, PatternsOfTheSameSizeAreToldApart)
+	{
+		Eigen::MatrixXd a = 4 * Eigen::MatrixXd::Identity(4, 4), b = a;
+		a(1, 0) = a(0, 1) = 1;
+		b(3, 2) = b(2, 3) = 1;
+		LinearSolver solver;
+		expectSolves(solver, sparse(a), Status::cholesky);
+		expectSolves(solver, sparse(b), Status::cholesky);
+	}
+
+	TEST(LinearSolver, AnalysesAPatternOnce)
+	{
+		LinearSolver    solver;
+		const auto      K = laplace(12, 6.1);
+		Eigen::VectorXd x;
+		solver.solve(K, Eigen::VectorXd::Ones(K.size()), x);
+		EXPECT_GT(solver.times().analyse, 0);
+		solver.resetTimes();
+		solver.solve(K, Eigen::VectorXd::Ones(K.size()), x);
+		EXPECT_EQ(solver.times().analyse, 0);
+		EXPECT_GT(solver.times().factorise, 0);
+	}
+
+	TEST(LinearSolver, UnitsDoNotMatter)
+	{
+		LinearSolver solver;
+		for (const double unit : { 1e-150, 1e-30, 1e30, 1e150 }) {
+			expectSolves(solver, sparse(unit * definite(40, 0.2, 1)), Status::cholesky);
+			expectSolves(solver, sparse(unit * symmetric(40, 0.3, 4)), Status::lu, 1e-10);
+		}
+	}
+
+	TEST(LinearSolver, PrintsNothing)
+	{
+		LinearSolver    solver;
+		Eigen::VectorXd x;
+		testing::internal::CaptureStdout();
+		testing::internal::CaptureStderr();
+		solver.solve(laplace(12, 3.3), Eigen::VectorXd::Ones(1728), x);
+		solver.solve(sparse(-definite(20, 0.2, 1)), Eigen::VectorXd::Ones(20), x);
+		solver.solve(sparse(Eigen::MatrixXd::Zero(3, 3)), Eigen::VectorXd::Ones(3), x);
+		solver.solve(sparse(Eigen::MatrixXd::Constant(3, 3, std::nan(""))), Eigen::VectorXd::Ones(3), x);
+		EXPECT_EQ(testing::internal::GetCapturedStdout(), "");
+		EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+	}
+
+	TEST(ConditionNumber, IsTheRatioOfTheLargestToTheSmallestEigenvalue)
+	{
+		EXPECT_NEAR(conditionNumber(sparse(Eigen::Vector3d(2, -8, 0.5).asDiagonal())), 16, 1e-13);
+		EXPECT_NEAR(conditionNumber(sparse((Eigen::MatrixXd(2, 2) << 2, 1, 1, 2).finished())), 3, 1e-14);
+	}
+
+} // namespace
+} // namespace gimpm

@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Newton's method: quadratic convergence, and what ends it.
+#include "scenes.hpp"
+#include <cstdio>
+
+namespace gimpm {
+namespace {
+
+	/// Order of convergence in the last three residuals above round-off.
+	double order(const std::vector<double>& residuals)
+	{
+		std::size_t n = residuals.size();
+		while (n > 0 && residuals[n - 1] < 1e-14)
+			--n;
+		if (n < 3) return 0;
+		return std::log(residuals[n - 1] / residuals[n - 2]) / std::log(residuals[n - 2] / residuals[n - 3]);
+	}
+
+	void print(const char* name, int dim, const std::vector<double>& residuals)
+	{
+		std::printf("%s, %dD:", name, dim);
+		for (const double r : residuals)
+			std::printf(" %.2e", r);
+		std::printf(", order %.2f\n", order(residuals));
+	}
+
+	/// A block of 3 cells a side on a floor that holds it, free at the other faces.
+	template <int Dim> struct Block {
+		Model<Dim>      model;
+		PointCloud<Dim> cloud = block<Dim>(model.grid, Index<Dim>::Constant(3), 2);
+		Load<Dim>       load;
+		LinearSolver    solver;
+
+		explicit Block(const Law& law)
+		{
+			Vec<Dim> max           = Vec<Dim>::Constant(infinity);
+			max[1]                 = 0;
+			model.materials        = { { law, 1e3 } };
+			model.boundary         = Boundary<Dim>({ held<Dim>(model.grid, Vec<Dim>::Constant(-infinity), max, Dim == 2 ? "xy" : "xyz") });
+			model.newton.tolerance = 1e-13;
+			load.gravity           = -10 * Vec<Dim>::Unit(1);
+		}
+		StepReport step() { return loadStep(cloud, model, load, solver); }
+	};
+
+	template <class Dimension> class Newton : public ::testing::Test {
+	};
+	TYPED_TEST_SUITE(Newton, BothDimensions, DimensionName);
+
+	TYPED_TEST(Newton, ConvergesQuadraticallyInFiniteElasticity)
+	{
+		Block<TypeParam::value> block(Hencky(1.5e5, 0.3)); // settles by about a tenth
+		const auto              report = block.step();
+		print("elastic block", TypeParam::value, report.residuals);
+		ASSERT_TRUE(report.converged()) << report.cause;
+		EXPECT_GT(order(report.residuals), 1.8);
+		EXPECT_EQ(report.iterations + 1, int(report.residuals.size()));
+	}
+
+	TYPED_TEST(Newton, ConvergesQuadraticallyInPlasticity)
+	{
+		Block<TypeParam::value> block(VonMises(2e6, 0.3, 1e4));
+		const auto              report = block.step();
+		print("plastic block", TypeParam::value, report.residuals);
+		ASSERT_TRUE(report.converged()) << report.cause;
+		EXPECT_GT(*std::max_element(block.cloud.plasticStrain.begin(), block.cloud.plasticStrain.end()), 1e-3);
+		EXPECT_GT(order(report.residuals), 1.8);
+	}
+
+	TYPED_TEST(Newton, EndsAtTheToleranceAndNotBefore)
+	{
+		for (const double tolerance : { 1e-3, 1e-6, 1e-10 }) {
+			Block<TypeParam::value> block(Hencky(1.5e5, 0.3));
+			block.model.newton.tolerance = tolerance;
+			const auto report            = block.step();
+			ASSERT_TRUE(report.converged());
+			EXPECT_LE(report.residual(), tolerance);
+			EXPECT_GT(report.residuals[report.residuals.size() - 2], tolerance);
+		}
+	}
+
+	TYPED_TEST(Newton, ResidualIsRelativeToExternalForcesAndReactions)
+	{
+		// At the start of the first step nothing is stressed: no reactions, and all of the load on free nodes is out of balance.
+		Block<TypeParam::value> block(Hencky(1.5e5, 0.3));
+		EXPECT_NEAR(block.step().residuals.front(), 1, 1e-15);
+	}
+
+	TYPED_TEST(Newton, GivesUpAfterTheLargestNumberOfIterations)
+	{
+		Block<TypeParam::value> block(Hencky(1.5e5, 0.3));
+		block.model.newton.maxIterations = 2;
+		const auto report                = block.step();
+		EXPECT_EQ(report.failure, Failure::tooManyIterations);
+		EXPECT_EQ(report.iterations, 2);
+		EXPECT_NE(report.cause.find("after 2 iterations"), std::string::npos) << report.cause;
+		EXPECT_GT(std::abs(report.worst.force), 0);
+		EXPECT_GT(report.worst.position[1], 0) << "a node on the floor is held and cannot be out of balance";
+	}
+
+	TYPED_TEST(Newton, TakesOverAnUnconvergedIterateOnlyOnRequest)
+	{
+		Block<TypeParam::value> block(Hencky(1.5e5, 0.3));
+		block.model.newton.maxIterations     = 2;
+		block.model.newton.acceptUnconverged = true;
+		const auto start                     = block.cloud.position;
+		const auto report                    = block.step();
+		EXPECT_FALSE(report.converged());
+		EXPECT_TRUE(report.accepted);
+		EXPECT_FALSE(block.cloud.position == start);
+	}
+
+	TYPED_TEST(Newton, IsInterruptedWithinOneIteration)
+	{
+		Block<TypeParam::value> block(Hencky(1.5e5, 0.3));
+		int                     asked        = 0;
+		block.model.newton.interrupted       = [&]() { return ++asked == 2; };
+		block.model.newton.acceptUnconverged = true;
+		const auto start                     = block.cloud.position;
+		const auto report                    = block.step();
+		EXPECT_EQ(report.failure, Failure::interrupted);
+		EXPECT_EQ(report.iterations, 1);
+		EXPECT_FALSE(report.accepted);
+		EXPECT_TRUE(block.cloud.position == start);
+	}
+
+	TYPED_TEST(Newton, ALoadBelowTheToleranceIsNotLost)
+	{
+		Block<TypeParam::value> block(Hencky(1.5e5, 0.3));
+		ASSERT_TRUE(block.step().converged());
+		const auto before            = block.cloud.position;
+		block.model.newton.tolerance = 1e-3;
+		block.load.factor += 1e-6;
+		const auto report = block.step();
+		EXPECT_EQ(report.iterations, 1);
+		EXPECT_LT(block.cloud.position.back()[1], before.back()[1]);
+	}
+
+	TYPED_TEST(Newton, LoadsThatAreNotNumbersEndIt)
+	{
+		for (const double bad : { std::nan(""), infinity }) {
+			Block<TypeParam::value> block(Hencky(1.5e5, 0.3));
+			block.load.gravity[0] = bad;
+			const auto start      = block.cloud.position;
+			EXPECT_EQ(block.step().failure, Failure::notFinite);
+			EXPECT_TRUE(block.cloud.position == start);
+		}
+	}
+
+} // namespace
+} // namespace gimpm

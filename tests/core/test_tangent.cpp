@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// K + K_g against the finite-difference derivative of the nodal forces, for random clouds in finite strain.
+#include "scenes.hpp"
+#include "core/point_kernel.hpp"
+#include "core/step_system.hpp"
+
+namespace gimpm {
+namespace {
+
+	/// Random overlapping domains on 3 cells a side, partly against a wall, of an elastic and a plastic material, with ghost faces.
+	template <int Dim> struct Scene {
+		Random          random { 11 };
+		Model<Dim>      model;
+		PointCloud<Dim> cloud;
+
+		Scene()
+		{
+			model.materials = { { Hencky(3e3, 0.3), 1 }, { VonMises(1e3, 0.2, 50), 1 } };
+			model.ghost     = { 0.1 };
+			model.boundary  = Boundary<Dim>({ wallBelow<Dim>(model.grid, 0, 0) });
+			for (int i = 0; i < (Dim == 2 ? 40 : 25); ++i) {
+				const Vec<Dim> x = 1.2 * (random.matrix<Dim>() + Vec<Dim>::Ones());
+				addPoint<Dim>(cloud, x, Vec<Dim>::NullaryExpr([&]() { return random.in(0.1, 0.5); }), i % 2);
+			}
+		}
+		void strain(const Vec3& principalStrains, double scatter)
+		{
+			for (auto& e : cloud.elasticStrain)
+				e = assemble(principalStrains + random.matrix<3>(scatter), random.rotation<Dim>());
+		}
+		/// The largest difference between K and the derivative of the forces (fourth-order central), relative to the largest entry of K.
+		/// The displacements are those of an affine deformation plus random ones.
+		double error(const Mat<Dim>& deformation, double scatter)
+		{
+			StepReport            report;
+			const StepSystem<Dim> system(cloud, model, {}, report);
+			EXPECT_GT(report.ghostFaces, 5);
+			EXPECT_EQ(report.largestWallOverlap > 0, model.basis == Basis::gimp);
+			Eigen::VectorXd d = nodal<Dim>(system.basis, model.grid, [&](const Vec<Dim>& x) { return Vec<Dim>(deformation * x - x); });
+			d += random.vector(d.size(), scatter);
+			NodeMatrix<Dim> K;
+			Eigen::VectorXd force;
+			system.prepare(K);
+			EXPECT_EQ(system.evaluate(d, force, &K), -1);
+			Eigen::MatrixXd differences(d.size(), d.size());
+			const double    step = 1e-4;
+			for (int i = 0; i < d.size(); ++i) {
+				const auto at = [&](double s) {
+					Eigen::VectorXd f;
+					system.evaluate(d + s * step * Eigen::VectorXd::Unit(d.size(), i), f, nullptr);
+					return f;
+				};
+				differences.col(i) = (8 * (at(1) - at(-1)) - (at(2) - at(-2))) / (12 * step);
+			}
+			return (dense(K) - differences).cwiseAbs().maxCoeff() / differences.cwiseAbs().maxCoeff();
+		}
+		int plasticPoints(const Mat<Dim>& deformation)
+		{
+			StepReport            report;
+			const StepSystem<Dim> system(cloud, model, {}, report);
+			int                   count = 0;
+			const auto            d     = nodal<Dim>(system.basis, model.grid, [&](const Vec<Dim>& x) { return Vec<Dim>(deformation * x - x); });
+			forUpdatedPoints<Dim>(
+			        system.basis, system.points, model.materials, d, [&](int, const PointUpdate<Dim>& u) { count += u.plasticStrain > 0; });
+			return count;
+		}
+	};
+
+	template <class Dimension> class Tangent : public ::testing::Test {
+	public:
+		static constexpr int Dim = Dimension::value;
+
+		Scene<Dim> scene;
+		Mat<Dim>   identity = Mat<Dim>::Identity();
+
+		/// Sheared by 0.5, stretched, and rotated by about 60 degrees.
+		Mat<Dim> deformation() const
+		{
+			Mat<Dim> F = identity;
+			F(0, 1) = 0.5, F(0, 0) = 1.3;
+			return turned() * F;
+		}
+		Mat<Dim> turned() const
+		{
+			if constexpr (Dim == 2) return planeRotation(1);
+			else
+				return rotation({ 1, 2, -1 }, 1);
+		}
+	};
+	TYPED_TEST_SUITE(Tangent, BothDimensions, DimensionName);
+
+	TYPED_TEST(Tangent, OfTheUndeformedState) { EXPECT_LT(this->scene.error(this->identity, 0), 1e-9); }
+
+	TYPED_TEST(Tangent, OfAShearedRotatedAndPlasticState)
+	{
+		this->scene.strain({ 0.1, -0.05, 0 }, 0.1);
+		EXPECT_GT(this->scene.plasticPoints(this->deformation()), 10);
+		EXPECT_LT(this->scene.error(this->deformation(), 0.05), 1e-7);
+	}
+
+	TYPED_TEST(Tangent, WithCoincidingPrincipalStretches)
+	{
+		// rotation leaves the stretches together, to round-off; yield begins at a deviator of 50 / 2G = 0.06
+		for (const Vec3& strain : { Vec3(0.1, 0.1, -0.2), Vec3(-0.2, 0.1, 0.1), Vec3(0.02, 0.02, 0), Vec3(0.2, 0.2, 0.2), Vec3(0, 0, 0) }) {
+			this->scene.strain(strain, 0);
+			EXPECT_LT(this->scene.error(this->identity, 0), 1e-7) << strain.transpose();
+			EXPECT_LT(this->scene.error(this->turned(), 0), 1e-7) << strain.transpose();
+		}
+	}
+
+	TYPED_TEST(Tangent, WithLinearBasisFunctions)
+	{
+		this->scene.model.basis = Basis::linear;
+		this->scene.strain({ 0.1, -0.05, 0 }, 0.1);
+		EXPECT_LT(this->scene.error(this->deformation(), 0.05), 1e-7);
+	}
+
+} // namespace
+} // namespace gimpm
