@@ -44,7 +44,7 @@ namespace {
 
 	template <class Tensor> bool sameBits(const std::vector<Tensor>& a, const std::vector<Tensor>& b)
 	{
-		return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(Tensor)) == 0;
+		return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(Tensor)) == 0);
 	}
 
 	template <int Dim> void expectSameBits(const PointCloud<Dim>& a, const PointCloud<Dim>& b)
