@@ -2,7 +2,7 @@
 #include "core/linear_solver.hpp"
 #include "core/stopwatch.hpp"
 #include <cholmod.h>
-#include <limits>
+#include <cmath>
 #include <omp.h>
 #include <umfpack.h>
 
@@ -45,6 +45,33 @@ private:
 	int levels_;
 };
 
+/// A pivot that is left of a row's diagonal of about one. Below it, round-off of the rows before is what it consists of.
+constexpr double smallestPivot = 1e-12;
+
+/// Copies the values of K, with rows and columns scaled by powers of two that bring the diagonal close to one, and returns those. This is
+/// exact, and lets pivots be judged: a node that the body hardly touches has a small diagonal and is not singular for that.
+Eigen::VectorXd scale(const SymmetricCsc& K, std::vector<double>& scaled)
+{
+	const int       n       = K.size();
+	Eigen::VectorXd largest = Eigen::VectorXd::Zero(n), factor(n);
+	for (int c = 0; c < n; ++c)
+		for (int e = K.start[c]; e < K.start[c + 1]; ++e) {
+			const double size = std::abs(K.value[e]);
+			largest[c]        = std::max(largest[c], size);
+			largest[K.row[e]] = std::max(largest[K.row[e]], size);
+		}
+	for (int c = 0; c < n; ++c) {
+		const double diagonal = K.start[c] < K.start[c + 1] && K.row[K.start[c]] == c ? std::abs(K.value[K.start[c]]) : 0;
+		const double size     = diagonal > 0 ? diagonal : largest[c];
+		factor[c]             = size > 0 && std::isfinite(size) ? std::ldexp(1, -std::ilogb(size) / 2) : 1;
+	}
+	scaled.resize(K.value.size());
+	for (int c = 0; c < n; ++c)
+		for (int e = K.start[c]; e < K.start[c + 1]; ++e)
+			scaled[e] = K.value[e] * factor[c] * factor[K.row[e]];
+	return factor;
+}
+
 /// LU of a matrix that Cholesky refused. Returns false if it is singular to working precision.
 bool solveByLu(const SymmetricCsc& K, const Eigen::VectorXd& b, Eigen::VectorXd& x)
 {
@@ -65,7 +92,7 @@ bool solveByLu(const SymmetricCsc& K, const Eigen::VectorXd& b, Eigen::VectorXd&
 	void * symbolic = nullptr, *numeric = nullptr;
 	bool   ok = umfpack_di_symbolic(n, n, start.data(), row.data(), value.data(), &symbolic, nullptr, info) == UMFPACK_OK
 	        && umfpack_di_numeric(start.data(), row.data(), value.data(), symbolic, &numeric, nullptr, info) == UMFPACK_OK
-	        && info[UMFPACK_RCOND] > std::numeric_limits<double>::epsilon();
+	        && info[UMFPACK_RCOND] > smallestPivot;
 	if (ok) {
 		x.resize(n);
 		ok = umfpack_di_solve(UMFPACK_A, start.data(), row.data(), value.data(), x.data(), b.data(), numeric, nullptr, info) == UMFPACK_OK;
@@ -132,23 +159,27 @@ LinearSolver& LinearSolver::operator=(LinearSolver&&) noexcept = default;
 LinearSolver::Status LinearSolver::solve(const SymmetricCsc& K, const Eigen::VectorXd& b, Eigen::VectorXd& x)
 {
 	const WithoutNestedThreads guard;
-	auto&                      common = cholmod_->common;
-	cholmod_sparse             A      = Cholmod::view(K);
-	if (!cholmod_->factor || !K.samePattern(analysed_)) {
+	auto&                      common      = cholmod_->common;
+	const bool                 knowPattern = cholmod_->factor && K.samePattern(scaled_);
+	if (!knowPattern) scaled_.start = K.start, scaled_.row = K.row;
+	const Eigen::VectorXd factor = scale(K, scaled_.value);
+	cholmod_sparse        A      = Cholmod::view(scaled_);
+	if (!knowPattern) {
 		const Stopwatch watch(times_.analyse);
 		cholmod_free_factor(&cholmod_->factor, &common);
 		cholmod_->factor = cholmod_analyze(&A, &common);
-		analysed_.start  = K.start;
-		analysed_.row    = K.row;
 	}
 	bool definite = false;
 	if (cholmod_->factor) {
 		const Stopwatch watch(times_.factorise);
 		definite = cholmod_factorize(&A, cholmod_->factor, &common) && common.status == CHOLMOD_OK;
 	}
-	const Stopwatch watch(times_.solve);
-	if (definite && cholmod_->solve(b, x)) return Status::cholesky;
-	return solveByLu(K, b, x) ? Status::lu : Status::singular;
+	const Stopwatch       watch(times_.solve);
+	const Eigen::VectorXd right = factor.cwiseProduct(b);
+	if (definite && cholmod_rcond(cholmod_->factor, &common) < smallestPivot) return Status::singular;
+	const Status status = definite && cholmod_->solve(right, x) ? Status::cholesky : solveByLu(scaled_, right, x) ? Status::lu : Status::singular;
+	if (status != Status::singular) x = x.cwiseProduct(factor).eval();
+	return status;
 }
 
 } // namespace gimpm

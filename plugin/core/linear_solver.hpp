@@ -39,7 +39,7 @@ public:
 	LinearSolver(LinearSolver&&) noexcept;
 	LinearSolver& operator=(LinearSolver&&) noexcept;
 
-	/// K x = b. On `singular` (to working precision) x is meaningless.
+	/// K x = b. On `singular` (a pivot is lost in round-off, whatever the scale of its row) x is meaningless.
 	Status solve(const SymmetricCsc& K, const Eigen::VectorXd& b, Eigen::VectorXd& x);
 
 	const SolverTimes& times() const { return times_; }
@@ -48,7 +48,7 @@ public:
 private:
 	struct Cholmod;
 	std::unique_ptr<Cholmod> cholmod_;
-	SymmetricCsc             analysed_; // pattern of the symbolic analysis
+	SymmetricCsc             scaled_; // the last matrix; its pattern is that of the symbolic analysis
 	SolverTimes              times_;
 };
 

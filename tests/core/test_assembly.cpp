@@ -3,6 +3,7 @@
 #include "scenes.hpp"
 #include "core/point_kernel.hpp"
 #include "core/step_system.hpp"
+#include <algorithm>
 #include <omp.h>
 
 namespace gimpm {
@@ -195,10 +196,11 @@ namespace {
 		        = nodal<Dim>(system.basis, scene.model.grid, [](const Vec<Dim>& x) { return Vec<Dim>(-2 * std::max(0., x[0]) * Vec<Dim>::Unit(0)); });
 		const int inverted = system.evaluate(d, force, nullptr);
 		ASSERT_GE(inverted, 0);
-		int first = 300;
+		std::vector<char> isInverted(300);
 		forUpdatedPoints<Dim>(system.basis, system.points, scene.model.materials, d, [&](int p, const PointUpdate<Dim>& u) {
-			if ((Mat<Dim>::Identity() + u.gradient).determinant() <= 0) first = std::min(first, p);
+			isInverted[p] = (Mat<Dim>::Identity() + u.gradient).determinant() <= 0;
 		});
+		const int first = int(std::find(isInverted.begin(), isInverted.end(), 1) - isInverted.begin());
 		EXPECT_EQ(inverted, first);
 	}
 

@@ -3,6 +3,7 @@
 #include "scenes.hpp"
 #include "core/point_kernel.hpp"
 #include "core/step_system.hpp"
+#include <algorithm>
 
 namespace gimpm {
 namespace {
@@ -58,11 +59,11 @@ namespace {
 		{
 			StepReport            report;
 			const StepSystem<Dim> system(cloud, model, {}, report);
-			int                   count = 0;
-			const auto            d     = nodal<Dim>(system.basis, model.grid, [&](const Vec<Dim>& x) { return Vec<Dim>(deformation * x - x); });
+			std::vector<char>     isPlastic(cloud.size());
+			const auto            d = nodal<Dim>(system.basis, model.grid, [&](const Vec<Dim>& x) { return Vec<Dim>(deformation * x - x); });
 			forUpdatedPoints<Dim>(
-			        system.basis, system.points, model.materials, d, [&](int, const PointUpdate<Dim>& u) { count += u.plasticStrain > 0; });
-			return count;
+			        system.basis, system.points, model.materials, d, [&](int p, const PointUpdate<Dim>& u) { isPlastic[p] = u.plasticStrain > 0; });
+			return int(std::count(isPlastic.begin(), isPlastic.end(), 1));
 		}
 	};
 
