@@ -4,6 +4,7 @@
 #include "core/point_kernel.hpp"
 #include "core/restraint.hpp"
 #include "core/stopwatch.hpp"
+#include <sstream>
 
 namespace gimpm {
 namespace {
@@ -30,6 +31,22 @@ template <int Dim> void updatePoints(PointCloud<Dim>& cloud, const StepSystem<Di
 		report.clampedDomains += c;
 }
 
+/// Equilibrium may have been found where no state can be: a point that hardly anything held has left the grid. The report says so.
+template <int Dim> bool requireOnGrid(const PointCloud<Dim>& cloud, const Grid<Dim>& grid, StepReport& report)
+{
+	const double limit = Grid<Dim>::indexLimit * grid.cellSize;
+	for (std::size_t p = 0; p < cloud.size(); ++p) {
+		if (((cloud.position[p] - grid.origin).array().abs() < limit).all() && cloud.stress[p].c.allFinite()) continue;
+		std::ostringstream text;
+		text << "a material point was thrown off the grid, to (" << cloud.position[p].transpose() << ")";
+		report.failure  = Failure::diverging;
+		report.accepted = false;
+		report.cause    = text.str();
+		return false;
+	}
+	return true;
+}
+
 } // namespace
 
 template <int Dim> StepReport loadStep(PointCloud<Dim>& cloud, const Model<Dim>& model, const Load<Dim>& load, LinearSolver& solver)
@@ -49,7 +66,11 @@ template <int Dim> StepReport loadStep(PointCloud<Dim>& cloud, const Model<Dim>&
 	report.times.linear     = solver.times();
 	// 5. nodes to points; 6. the grid is reset by not being kept
 	report.accepted = report.failure == Failure::tooManyIterations && model.newton.acceptUnconverged;
-	if (report.converged() || report.accepted) updatePoints(cloud, system, d, report);
+	if (report.converged() || report.accepted) {
+		PointCloud<Dim> updated = cloud;
+		updatePoints(updated, system, d, report);
+		if (requireOnGrid(updated, model.grid, report)) cloud = std::move(updated);
+	}
 	return report;
 }
 
