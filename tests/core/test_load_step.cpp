@@ -3,6 +3,7 @@
 #include "scenes.hpp"
 #include <Eigen/LU>
 #include <cstring>
+#include <omp.h>
 
 namespace gimpm {
 namespace {
@@ -92,6 +93,22 @@ namespace {
 		again.model.newton.maxIterations = 20;
 		ASSERT_TRUE(again.step().converged());
 		expectSameBits(once.cloud, again.cloud);
+	}
+
+	TYPED_TEST(LoadStep, AnyNumberOfThreadsGivesTheSameBits)
+	{
+		constexpr int   Dim    = TypeParam::value;
+		const int       before = omp_get_max_threads();
+		PointCloud<Dim> expected;
+		for (int threads = 1; threads <= 3; ++threads) {
+			omp_set_num_threads(threads);
+			Standing<Dim> scene(VonMises(1e6, 0.3, 1e4));
+			for (int i = 1; i <= 3; ++i)
+				ASSERT_TRUE(scene.step(i / 3.).converged());
+			if (threads == 1) expected = scene.cloud;
+			expectSameBits(scene.cloud, expected);
+		}
+		omp_set_num_threads(before);
 	}
 
 	TYPED_TEST(LoadStep, WithoutLoadIsConvergedAtOnce)
