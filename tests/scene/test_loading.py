@@ -162,7 +162,7 @@ def test_overlayForOneUser(yade):
 	yade.command = str(build / 'overlay/bin/yade')
 	run = yade('from yade import mpm, config; import json; print(json.dumps([mpm.__file__, config.libDir, str(MpmGrid)]))')
 	file, folder, grid = run.result
-	assert file == str(build / 'overlay/python/mpm.py')
+	assert file == str(build / 'overlay/python/mpm/__init__.py')
 	assert folder == str(build / 'overlay/lib/x86_64-linux-gnu/yade-double')
 	assert grid == "<class 'yade.wrapper.MpmGrid'>"
 

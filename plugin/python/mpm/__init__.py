@@ -1,0 +1,33 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Scene building and data access for the implicit, ghost-stabilised material point method.
+
+The classes (``MpmImplicitEngine``, ``MpmGrid``, ``MpmVonMisesMat``, ...) live beside YADE's own; this module adds what
+is written more easily in Python. A slope under its own weight, with a weak layer::
+
+    from yade import mpm
+
+    O.materials.append(MpmVonMisesMat(young=1e6, poisson=0.3, density=2400, yieldStress=15e3, label='soil'))
+    O.materials.append(MpmVonMisesMat(young=1e6, poisson=0.3, density=2400, yieldStress=7.5e3, label='weak'))
+    grid = MpmGrid(cellSize=0.5, dim=2)  # unbounded; dim=2 is plane strain in x-y
+
+    profile = mpm.polygon([(0, 0), (30, 0), (30, 7), (15, 7), (10, 12), (0, 12)])
+    O.bodies.append(mpm.fill(profile, grid, pointsPerCell=3, material=lambda x: 'weak' if 7 <= x[1] <= 7.5 else 'soil'))
+
+    O.engines = [
+        MpmImplicitEngine(
+            grid=grid, gravity=(0, -9.81, 0), ghost=MpmGhost(factor=1e-2), newton=MpmNewton(tolerance=1e-6, maxIterations=20),
+            boundaries=[MpmBoundary(max=(0, inf, inf), fix='x'),  # rollers left and right, the base is held
+                        MpmBoundary(min=(30, -inf, -inf), fix='x'),
+                        MpmBoundary(max=(inf, 0, inf), fix='xy')])]
+    O.dt = 1 / 80  # quasi-static: O.time is the load factor, one O.iter is one load step
+    O.run(80, wait=True)
+    print(mpm.arrays()['pos'].min(axis=0))
+
+Units are SI; stress is positive in tension; strains are logarithmic; plane strain is per metre of thickness.
+"""
+from .data import arrays
+from .files import save
+from .filling import fill
+from .outline import polygon
+
+__all__ = ['polygon', 'fill', 'arrays', 'save']

@@ -1,0 +1,169 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Filling regions with material points."""
+import math
+import operator
+
+import numpy as np
+from yade import pack, wrapper
+from yade.minieigenHP import Vector3
+
+from .library import engine
+from .outline import polygon
+
+
+def fill(predicate, grid, pointsPerCell, material):
+	"""Fill a region with material points, equally spaced in the cells of a grid.
+
+	Cells are counted from ``grid.origin``; the points are returned cell by cell. In two dimensions they lie in the plane
+	z = ``grid.origin[2]`` and stand for 1 m of thickness.
+
+	:param predicate: the region [m]: :class:`polygon` or any bounded predicate of ``yade.pack``, also a combination of them
+	:param grid: the ``MpmGrid`` of the analysis
+	:param pointsPerCell: points per cell and axis, at least 1; points whose centre is inside the region are kept
+	:param material: label of a material in ``O.materials``; or a list of (predicate, label), of which the first that
+		contains the point applies; or a function that takes the position and returns a label
+	:return: list of bodies for ``O.bodies.append``. Each has an ``MpmPoint`` shape, the state that belongs to its material,
+		mass and initial volume of its share of the cell, and is invisible to YADE's collider and integrator.
+	:raises TypeError: an argument of the wrong kind.
+	:raises ValueError: a value that is not admitted, no point inside the region, or a point without material.
+	:raises KeyError: a label that is not in ``O.materials``.
+	"""
+	if not isinstance(grid, wrapper.MpmGrid):
+		raise TypeError(f'fill: grid = {grid!r} must be an MpmGrid')
+	grid.updateAttrs(grid.dict())  # looks again at all values: cellSize may not have been given
+	n = _pointsPerCell(pointsPerCell)
+	positions = _latticePoints(predicate, grid, n)
+	labels, index = _materialOf(positions, material)
+	materials = [_material(label) for label in labels]
+	half = grid.cellSize / (2 * n)
+	halfSize = Vector3(half, half, half if grid.dim == 3 else 0.5)
+	return engine.newBodies(positions, halfSize, materials, index)
+
+
+def _pointsPerCell(value):
+	try:
+		n = operator.index(value)
+	except TypeError:
+		raise TypeError(f'fill: pointsPerCell = {value!r} must be an integer') from None
+	if isinstance(value, bool):
+		raise TypeError(f'fill: pointsPerCell = {value!r} must be an integer')
+	if n < 1:
+		raise ValueError(f'fill: pointsPerCell = {value!r} must be at least 1 (points per cell and axis)')
+	return n
+
+
+def _latticePoints(predicate, grid, n):
+	"""(N, 3) centres inside the predicate of the n^dim points in each cell, cell by cell."""
+	cells = [np.arange(a, b) for a, b in zip(*_cellRange(predicate, grid, n))]
+	candidates = math.prod(len(c) * n for c in cells)
+	# in slabs across the last axis, which bounds the memory of the points that are rejected
+	slabs = np.array_split(cells[-1], candidates // 2**20 + 1)
+	kept = []
+	for slab in slabs:
+		points = _cellPoints(cells[:-1] + [slab], grid, n)
+		kept.append(points[_inside(predicate, points)])
+	positions = np.concatenate(kept)
+	if not len(positions):
+		plane = f' in the plane z = {grid.origin[2]}' if grid.dim == 2 else ''
+		raise ValueError(f'fill: no point of the lattice with spacing {grid.cellSize / n} m{plane} is inside the predicate {predicate!r}; '
+		                 f'is the region smaller than that, or somewhere else?')
+	return positions
+
+
+def _cellRange(predicate, grid, n):
+	"""First cell and one past the last cell of each axis that may have points inside the predicate."""
+	if not callable(predicate) or not callable(getattr(predicate, 'aabb', None)):
+		raise TypeError(f'fill: predicate = {predicate!r} must be an mpm.polygon or a predicate of yade.pack')
+	low, high = (np.array([corner[i] for i in range(grid.dim)], dtype=float) for corner in predicate.aabb())
+	if not np.isfinite([low, high]).all():
+		raise ValueError(f'fill: predicate = {predicate!r} has no bounds (its box reaches from {tuple(low)} to {tuple(high)}); '
+		                 'intersect it with a bounded one, such as pack.inAlignedBox: predicate & pack.inAlignedBox(low, high)')
+	origin = np.array([grid.origin[i] for i in range(grid.dim)])
+	# one spare cell on each side: the predicate decides, not the round-off of its box
+	first, last = np.floor((low - origin) / grid.cellSize) - 1, np.ceil((high - origin) / grid.cellSize) + 1
+	candidates = np.prod((last - first) * n)
+	if candidates > 2**31:
+		raise ValueError(f'fill: {candidates:.3g} points would have to be tested, more than YADE can number: cellSize = {grid.cellSize} m or '
+		                 f'pointsPerCell = {n} per axis do not suit a region from {tuple(low)} to {tuple(high)}')
+	return first.astype(np.int64), last.astype(np.int64)
+
+
+def _cellPoints(cells, grid, n):
+	"""(N, 3) centres of the n^dim points in each cell of a block, given by its cell numbers per axis."""
+	dim = grid.dim
+	shape = [len(c) for c in reversed(cells)] + [n] * dim
+	points = np.full(shape + [3], grid.origin[2])
+	for axis, numbers in enumerate(cells):
+		# h (2k + 1) / 2n with integer k: exactly odd about the origin, so a symmetric scene is symmetric to the last bit
+		odd = 2 * (n * numbers[:, None] + np.arange(n)) + 1
+		along = [1] * (2 * dim)
+		along[dim - 1 - axis], along[2 * dim - 1 - axis] = odd.shape
+		points[..., axis] = (grid.origin[axis] + grid.cellSize * odd / (2 * n)).reshape(along)
+	return points.reshape(-1, 3)
+
+
+def _inside(predicate, points):
+	"""Mask of the points inside; combinations are taken apart, so that the polygons in them are tested in bulk."""
+	if isinstance(predicate, polygon):
+		return predicate.contains(points[:, :2])
+	for kind, combine in _combinations.items():
+		if isinstance(predicate, kind):
+			return combine(_inside(predicate.A, points), _inside(predicate.B, points))
+	return np.fromiter((predicate(Vector3(*p), 0.) for p in points.tolist()), bool, len(points))
+
+
+_combinations = {
+        pack.PredicateUnion: np.logical_or,
+        pack.PredicateIntersection: np.logical_and,
+        pack.PredicateDifference: np.greater,  # in the first and not in the second
+        pack.PredicateSymmetricDifference: np.logical_xor,
+}
+
+
+def _materialOf(positions, material):
+	"""Labels in use, and for each point the index of its label."""
+	if isinstance(material, str):
+		return [material], np.zeros(len(positions), dtype=np.int64)
+	if callable(material):
+		return _labelsFromFunction(positions, material)
+	if isinstance(material, (list, tuple)):
+		return _labelsFromList(positions, material)
+	hint = '; append it to O.materials and give its label' if isinstance(material, wrapper.Material) else ''
+	raise TypeError(f'fill: material = {material!r} must be a label, a list of (predicate, label), or a function of the position{hint}')
+
+
+def _labelsFromFunction(positions, function):
+	numbers, index = {}, np.empty(len(positions), dtype=np.int64)
+	for i, position in enumerate(positions.tolist()):
+		label = function(Vector3(*position))
+		if not isinstance(label, str):
+			raise TypeError(f'fill: the material function returned {label!r} at {tuple(position)}; it must return the label of a material')
+		index[i] = numbers.setdefault(label, len(numbers))
+	return list(numbers), index
+
+
+def _labelsFromList(positions, pairs):
+	index = np.full(len(positions), -1, dtype=np.int64)
+	labels = []
+	for i, pair in enumerate(pairs):
+		if not (isinstance(pair, (list, tuple)) and len(pair) == 2 and callable(pair[0]) and isinstance(pair[1], str)):
+			raise TypeError(f'fill: material[{i}] = {pair!r} must be a (predicate, label) pair')
+		open_ = np.flatnonzero(index < 0)
+		index[open_[_inside(pair[0], positions[open_])]] = i
+		labels.append(pair[1])
+	left = np.flatnonzero(index < 0)
+	if left.size:
+		raise ValueError(f'fill: no predicate of the material list contains the point at {tuple(positions[left[0]])} '
+		                 f'({left.size} of {len(positions)} points have no material); pack.inSpace() as the last one contains them all')
+	return labels, index
+
+
+def _material(label):
+	try:
+		found = wrapper.Omega().materials[label]
+	except KeyError:
+		known = [m.label for m in wrapper.Omega().materials if m.label]
+		raise KeyError(f'fill: material {label!r} is not in O.materials, which has {known}') from None
+	if not isinstance(found, wrapper.MpmMaterial):
+		raise TypeError(f'fill: material {label!r} is a {type(found).__name__}; material points need one of the Mpm materials')
+	return found
