@@ -30,6 +30,8 @@ public:
 	/// The box that holds the node in this direction (the last one given, where several do), or null.
 	const HeldBox<Dim>* holder(const Index<Dim>& node, int axis) const;
 
+	const std::vector<HeldBox<Dim>>& boxes() const { return boxes_; }
+
 	/// Whether all nodes of the lower face of this cell in this direction are held in the face's normal direction.
 	bool lowerFaceIsWall(const Index<Dim>& cell, int axis) const;
 

@@ -60,6 +60,7 @@ public:
 		roundOff_ = roundOff();
 		while (!finished() && correct())
 			++report_.iterations;
+		reportReactions();
 		return d_;
 	}
 
@@ -205,6 +206,18 @@ private:
 		report_.worst.position.head<Dim>() = system_.model.grid.nodePosition(Grid<Dim>::index(system_.basis.nodes[balance_.worst / Dim]));
 		report_.worst.axis                 = balance_.worst % Dim;
 		report_.worst.force                = balance_.residual[system_.dofs.number[balance_.worst]];
+	}
+
+	/// The last evaluation was at d.
+	void reportReactions()
+	{
+		const auto& boundary = system_.model.boundary;
+		report_.reactions.assign(boundary.boxes().size(), Vec3::Zero());
+		for (int i = 0; i < force_.size(); ++i) {
+			if (system_.dofs.number[i] >= 0) continue;
+			const auto* box = boundary.holder(Grid<Dim>::index(system_.basis.nodes[i / Dim]), i % Dim);
+			report_.reactions[box - boundary.boxes().data()][i % Dim] += force_[i] - system_.external[i];
+		}
 	}
 
 	const StepSystem<Dim>& system_;

@@ -34,6 +34,9 @@ struct StepReport {
 		double force    = 0; ///< [N]
 	} worst;
 
+	/// For each of Boundary's boxes, the sum of the forces with which it holds its nodes; of a node in several boxes the last one is given.
+	std::vector<Vec3> reactions; ///< [N]
+
 	int    clampedDomains     = 0; ///< points whose domain would have outgrown half a cell in this step
 	double largestWallOverlap = 0; ///< largest length by which a domain reached behind a wall [m]
 

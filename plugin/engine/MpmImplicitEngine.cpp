@@ -78,6 +78,7 @@ void MpmImplicitEngine::action()
 			realLast = beforeActivation.realLast;
 			iterLast = beforeActivation.iterLast;
 			nDone    = beforeActivation.nDone;
+			progressLine.end();
 			if (!scene->subStepping) scene->subStep = -1; // YADE would count the iteration as begun, and finish it later
 			tellObservers([this](LoadStepObserver& observer) { observer.stepEnds(*this, false); });
 			throw;
@@ -100,6 +101,7 @@ void MpmImplicitEngine::run()
 	const std::lock_guard<std::mutex> lock(busy);
 	const Threads                     threads(ompThreads);
 	requireRunnable();
+	progressLine.start(scene->iter);
 	const Real target = scene->time + scene->dt;
 	if (grid->dim == 2) step<2>(target);
 	else
@@ -176,7 +178,10 @@ void MpmImplicitEngine::advance(gimpm::PointCloud<Dim>& cloud, gimpm::Model<Dim>
 		const gimpm::StepReport report = gimpm::loadStep(cloud, model, load, solver);
 		take(report);
 		if (report.converged() || report.accepted) {
-			if (report.accepted) warnOfAccepted(report, time);
+			if (report.accepted) {
+				progressLine.breakLine();
+				warnOfAccepted(report, time);
+			}
 			done += part;
 			++substeps;
 			loadTime   = time;
@@ -190,6 +195,7 @@ void MpmImplicitEngine::advance(gimpm::PointCloud<Dim>& cloud, gimpm::Model<Dim>
 			if (substeps > 0) scatter(cloud, points);
 			raise(report, time, part, points);
 		}
+		showProgress(points.size(), done == 1);
 	}
 }
 
@@ -198,6 +204,7 @@ void MpmImplicitEngine::take(const gimpm::StepReport& report)
 	converged      = report.converged();
 	residual       = report.residual();
 	residuals      = report.residuals;
+	if (report.converged() || report.accepted) reactions = report.reactions;
 	activeCells    = report.populatedCells;
 	boundaryCells  = report.boundaryCells;
 	ghostFaces     = report.ghostFaces;

@@ -8,6 +8,7 @@
 #include "engine/MpmGhost.hpp"
 #include "engine/MpmGrid.hpp"
 #include "engine/MpmNewton.hpp"
+#include "engine/ProgressLine.hpp"
 #include "yade_api/yade_api.hpp"
 #include <mutex>
 
@@ -23,6 +24,7 @@ public:
 	shared_ptr<MpmGhost>            ghost { new MpmGhost };
 	shared_ptr<MpmNewton>           newton { new MpmNewton };
 	Real                            loadTime = 0;
+	int                             verbosity = 1;
 
 	bool         converged  = false;
 	int          iterations = 0;
@@ -32,6 +34,8 @@ public:
 	int          activeCells = 0, boundaryCells = 0, ghostFaces = 0, dofs = 0, clampedDomains = 0;
 	int          substeps = 0, cuts = 0, lineSearchTrials = 0, luSolves = 0;
 	Real         wallOverlap = 0, stepPart = 1;
+
+	vector<Vector3r> reactions;
 
 	MpmImplicitEngine();
 
@@ -68,6 +72,13 @@ public:
 		  0,
 		  "Time [s] of the last converged state, where the next step starts. After O.resetTime() set it to O.time.",
 		  finite);
+		v("verbosity",
+		  &MpmImplicitEngine::verbosity,
+		  0,
+		  "What is said on stderr while the scene runs. 0: nothing. 1: one line with load factor, step (O.iter) and last step if an end is known, "
+		  "elapsed and remaining time [min:s], iterations, cuts, residual and number of points; redrawn in place on a terminal during O.run(), otherwise "
+		  "repeated every 10 s and at the end of the run. 2: this line for every step.",
+		  oneOf(0, 1, 2));
 		v("converged", &MpmImplicitEngine::converged, readonly, "Whether the last step converged.");
 		v("iterations", &MpmImplicitEngine::iterations, readonly, "Linear solves of the last run, those of steps that were undone included.");
 		v("residual", &MpmImplicitEngine::residual, readonly, "Last out-of-balance force over external forces and reactions [-].");
@@ -82,6 +93,11 @@ public:
 		v("lineSearchTrials", &MpmImplicitEngine::lineSearchTrials, readonly, "Shortened Newton steps that were tried in the last run.");
 		v("luSolves", &MpmImplicitEngine::luSolves, readonly, "Solves of the last run whose stiffness matrix was not positive definite.");
 		v("stepPart", &MpmImplicitEngine::stepPart, readonly, "Part of O.dt [-] that the next load step tries.");
+		v("reactions",
+		  &MpmImplicitEngine::reactions,
+		  readonly,
+		  "For each of *boundaries*, the sum of the forces [N] along x, y, z with which it held its nodes at the end of the last converged step; per metre "
+		  "of thickness in plane strain. A node in several boxes counts for the last one. Empty before the first step.");
 		v("clampedDomains", &MpmImplicitEngine::clampedDomains, readonly, "Points whose domain was kept at half a cell in the last step.");
 		v("wallOverlap",
 		  &MpmImplicitEngine::wallOverlap,
@@ -99,6 +115,16 @@ public:
 		      &MpmImplicitEngine::conditionNumber,
 		      "conditionNumber() -> float\n\nCondition number [-] of stiffness() in the 2-norm, from all eigenvalues of the dense matrix (Coombs 2023, figure "
 		      "2). For small scenes: raises ValueError above 4000 unknowns.");
+		c.def("plotData",
+		      &MpmImplicitEngine::plotData,
+		      "plotData() -> dict\n\nNumbers of the current state for YADE's plot: plot.addData(**solver.plotData()). They are worked out in the call, NaN "
+		      "where there is no such number.\n\n"
+		      "step: load steps made; loadFactor [-], iterations, cuts, residual [-]: of the last step; points: their number; settlement: largest displacement "
+		      "along gravity [m]; displacement: the largest in any direction [m]; plasticShare: part of the initial volume with plasticStrain > 0 [-]; "
+		      "elasticEnergy: strain energy of linear (Hencky) elasticity [J]; gravityPotential: minus load factor times weight times displacement, summed "
+		      "over the points [J], zero at the initial positions; reaction_x, reaction_y and, in 3D, reaction_z: sum of the attribute *reactions* [N]; "
+		      "reaction0_y: that of boundaries[0], for all directions that a boundary fixes. Energies and forces are per metre of thickness in plane "
+		      "strain.\n\nRaises ValueError for a body that is no complete material point.");
 	}
 
 	bool isActivated() override;
@@ -106,6 +132,7 @@ public:
 
 	py::tuple stiffness();
 	Real      conditionNumber();
+	py::dict  plotData();
 
 	static bool isLoadCurve(const vector<std::pair<Real, Real>>&);
 
@@ -129,8 +156,11 @@ private:
 	string                     placeOfImbalance(const gimpm::StepReport&, const vector<MaterialPoint>&) const;
 	string                     adviceOn(const gimpm::StepReport&, Real part) const;
 	gimpm::SymmetricCsc        reducedStiffness();
+	void                       showProgress(size_t points, bool stepIsDone);
+	long                       lastIteration() const;
 
 	Counters            beforeActivation;
+	ProgressLine        progressLine;
 	gimpm::LinearSolver solver; // keeps the symbolic analysis; results do not depend on it
 	std::mutex          busy;   // stiffness() may be asked for from Python while the scene runs in the background
 };

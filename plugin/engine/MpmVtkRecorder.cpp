@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "engine/MpmVtkRecorder.hpp"
 #include "engine/MpmImplicitEngine.hpp"
-#include "engine/exchange.hpp"
+#include "engine/gridCells.hpp"
 #include "engine/vtkDataSets.hpp"
 #include "engine/vtkFiles.hpp"
 #include "yade_api/exceptions.hpp"
@@ -22,14 +22,6 @@ namespace {
 	bool endsWithThisIteration(const Scene& scene)
 	{
 		return (scene.stopAtIter > 0 && scene.iter + 1 == scene.stopAtIter) || (scene.stopAtTime > 0 && scene.time + scene.dt >= scene.stopAtTime);
-	}
-
-	template <int Dim> VtkCells gridData(const string& kind, const Scene& scene, const MpmImplicitEngine& solver)
-	{
-		auto       model = toModel<Dim>(*solver.grid, solver.basis, solver.boundaries, *solver.ghost, *solver.newton);
-		const auto cloud = gather(materialPoints(scene), model);
-		const Real z     = solver.grid->origin[2];
-		return kind == "grid" ? populatedCells(cloud, model, z) : stabilisedFaces(cloud, model, z);
 	}
 
 	VtkCells pointData(const Scene& scene, int dim)
@@ -212,10 +204,7 @@ void MpmVtkRecorder::write(const string& kind, const Moment& now, const MpmImpli
 	const auto   latest     = std::find_if(written.rbegin(), written.rend(), isOfSeries);
 	if (latest != written.rend() && latest->second == now.time) return;
 
-	const bool inPlane = engine.grid->dim == 2;
-	const auto cells   = kind == "points" ? pointData(*scene, engine.grid->dim)
-	          : inPlane                   ? gridData<2>(kind, *scene, engine)
-	                                      : gridData<3>(kind, *scene, engine);
+	const auto cells = kind == "points" ? pointData(*scene, engine.grid->dim) : gridCells(kind, *scene, engine);
 	writeVtu(*cells, now.time, file, { ascii, compress });
 
 	auto       entries    = written;

@@ -1,29 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "engine/bulkAccess.hpp"
 #include "engine/MaterialPoints.hpp"
+#include "engine/buffers.hpp"
 
 namespace yade {
 
 namespace {
-	// Read access to the memory of a NumPy array, or of any contiguous buffer, for the time of this object's life.
-	template <class T> class Column {
-	public:
-		Column(const py::object& array, const char* name)
-		{
-			if (PyObject_GetBuffer(array.ptr(), &buffer, PyBUF_C_CONTIGUOUS) != 0) py::throw_error_already_set();
-			if (buffer.itemsize == sizeof(T)) return;
-			PyBuffer_Release(&buffer);
-			throw std::invalid_argument(string(name) + ": items of " + std::to_string(sizeof(T)) + " bytes are needed");
-		}
-		Column(const Column&) = delete;
-		~Column() { PyBuffer_Release(&buffer); }
-		size_t   size() const { return buffer.len / sizeof(T); }
-		const T* data() const { return static_cast<const T*>(buffer.buf); }
-
-	private:
-		Py_buffer buffer;
-	};
-
 	shared_ptr<Body> newBody(const Vector3r& position, const Vector3r& halfSize, const shared_ptr<MpmMaterial>& material)
 	{
 		const shared_ptr<MpmPoint> shape(new MpmPoint);
@@ -101,6 +83,8 @@ py::dict columnsOfPoints()
 	columns["pos"]           = vectors(points, [](Point p) { return p.state->pos; });
 	columns["pos0"]          = vectors(points, [](Point p) { return p.state->refPos; });
 	columns["halfSize"]      = vectors(points, [](Point p) { return p.shape->halfSize; });
+	columns["halfSize0"]     = vectors(points, [](Point p) { return p.shape->halfSize0; });
+	columns["force"]         = vectors(points, [](Point p) { return p.state->force; });
 	columns["stress"]        = tensors(points, [](Point p) { return p.state->stress; });
 	columns["defGrad"]       = tensors(points, [](Point p) { return p.state->defGrad; });
 	columns["elasticStrain"] = tensors(points, [](Point p) { return p.state->elasticStrain; });

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The plugin is also a Python extension module, imported by yade.mpm for what can be checked only when YADE has started, and for
 // work on all material points at once.
+#include "engine/assignment.hpp"
 #include "engine/bulkAccess.hpp"
+#include "engine/gridCells.hpp"
 #include "yade_api/verification.hpp"
 
 BOOST_PYTHON_MODULE(mpm_engine)
@@ -10,4 +12,6 @@ BOOST_PYTHON_MODULE(mpm_engine)
 	py::def("verify", &verifyPlugin, "ImportError if YADE does not fit the plugin, or has not registered all of its classes.");
 	py::def("newBodies", &newBodies, "For mpm.fill: bodies from positions, half size, materials, and the index of each body's material.");
 	py::def("columnsOfPoints", &columnsOfPoints, "For mpm.arrays: dict of bytearrays with the data of all material points in order of body id.");
+	py::def("assignColumns", &assignColumns, "For mpm.assign: values of the material points with these body ids, from a dict of arrays; all or none.");
+	py::def("gridCells", &gridCellsForPython, "For mpm.plot: corners and first field of the cells of 'grid' or 'ghostFaces' around the material points.");
 }

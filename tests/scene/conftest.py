@@ -42,7 +42,7 @@ class Yade:
 		self.command = os.environ.get('YADE', 'yade')
 		self.environment = {}  # variables in addition to those of this process
 
-	def __call__(self, script, *arguments, threads=1, timeout=120, fails=False, environment={}, options=()):
+	def __call__(self, script, *arguments, threads=1, timeout=120, fails=False, environment={}, options=(), stderr=subprocess.PIPE):
 		"""Run a script to its end; the test fails unless the exit code is 0, or with *fails* unless it is not 0.
 
 		:param script: its text, or its path as a pathlib.Path
@@ -51,6 +51,7 @@ class Yade:
 		:param timeout: [s], after which the process is ended and the test fails
 		:param environment: variables for this run only
 		:param options: of YADE, in addition to -n -x -j
+		:param stderr: file descriptor to which it goes instead of the Run
 		:return: Run
 		"""
 		if not isinstance(script, Path):
@@ -61,7 +62,8 @@ class Yade:
 		        cwd=self.folder,
 		        env=os.environ | self.ownSettings() | self.environment | environment,
 		        timeout=timeout,
-		        capture_output=True,
+		        stdout=subprocess.PIPE,
+		        stderr=stderr,
 		        stdin=subprocess.DEVNULL,
 		        text=True,
 		        errors='replace'

@@ -25,9 +25,13 @@ is written more easily in Python. A slope under its own weight, with a weak laye
 
 Units are SI; stress is positive in tension; strains are logarithmic; plane strain is per metre of thickness.
 """
-from .data import arrays
+from .colouring import colour
+from .data import arrays, assign
 from .files import save
 from .filling import fill
+from .geostatics import geostatic
 from .outline import polygon
+from .plotting import plot
+from .tables import export
 
-__all__ = ['polygon', 'fill', 'arrays', 'save']
+__all__ = ['polygon', 'fill', 'arrays', 'assign', 'geostatic', 'plot', 'colour', 'export', 'save']

@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""The data of all material points as NumPy arrays."""
+"""The data of all material points as NumPy arrays, out and in."""
+import operator
+
 import numpy as np
 
 from .library import engine
@@ -9,6 +11,8 @@ _columns = {  # kind of a number and shape of a row
         'pos': (float, (3, )),
         'pos0': (float, (3, )),
         'halfSize': (float, (3, )),
+        'halfSize0': (float, (3, )),
+        'force': (float, (3, )),
         'stress': (float, (3, 3)),
         'defGrad': (float, (3, 3)),
         'elasticStrain': (float, (3, 3)),
@@ -21,8 +25,11 @@ _columns = {  # kind of a number and shape of a row
 def arrays():
 	"""Copies of the data of all material points of the scene, as NumPy arrays in order of body id.
 
-	:return: dict of ``id`` (N,) body ids; ``pos``, ``pos0`` (N, 3) current and initial position [m]; ``halfSize`` (N, 3) half the
-		current size of the domain [m]; ``stress`` (N, 3, 3) Cauchy stress [Pa]; ``defGrad`` (N, 3, 3) deformation gradient;
+	The points are YADE bodies, each with memory of its own, so there is nothing that an array could share with them: writing to
+	these arrays changes nothing in the scene. :func:`assign` is the way back.
+
+	:return: dict of ``id`` (N,) body ids; ``pos``, ``pos0`` (N, 3) current and initial position [m]; ``halfSize``, ``halfSize0`` (N, 3)
+		half the current and the initial size of the domain [m]; ``force`` (N, 3) point load at load factor 1 [N]; ``stress`` (N, 3, 3) Cauchy stress [Pa]; ``defGrad`` (N, 3, 3) deformation gradient;
 		``elasticStrain`` (N, 3, 3) logarithmic elastic strain; ``volume`` (N,) current volume [m3]; ``plasticStrain`` (N,)
 		accumulated plastic strain; ``material`` (N,) index into ``O.materials`` (-1: not in there). A scene without material
 		points gives arrays of length 0.
@@ -30,3 +37,70 @@ def arrays():
 	"""
 	data = engine.columnsOfPoints()
 	return {name: np.frombuffer(data[name], kind).reshape((-1, ) + shape) for name, (kind, shape) in _columns.items()}
+
+
+_assignable = 'pos', 'pos0', 'defGrad', 'elasticStrain', 'stress', 'plasticStrain', 'force'
+
+
+def assign(ids=None, **columns):
+	"""Give material points values from arrays: initial states, point loads. All values are taken, or after an error none.
+
+	Stress and elastic strain follow from each other through the law of each point's material, and the volume from ``defGrad``. ::
+
+		points = mpm.arrays()
+		stress = np.zeros((len(points['id']), 3, 3))
+		stress[:, 1, 1] = -20e3
+		mpm.assign(stress=stress)
+		top = points['pos'][:, 1] > 4.9
+		mpm.assign(ids=points['id'][top], force=[(0, -500, 0)] * top.sum())
+
+	:param ids: (N,) body ids of the points, in the order of the rows; all points in order of body id (that of :func:`arrays`) if
+		not given
+	:param columns: arrays of N rows, named and shaped as those of :func:`arrays`: ``pos``, ``pos0`` [m], ``defGrad``,
+		``elasticStrain``, ``stress`` [Pa] (the Cauchy stress, instead of ``elasticStrain``), ``plasticStrain``, ``force`` [N]; all finite.
+		There are no velocities in a quasi-static analysis.
+	:raises TypeError: a name that is not in this list, or values that are no numbers.
+	:raises ValueError: a wrong shape; a value that is not finite, or not admitted for that column (``MpmState`` says what is); a stress
+		that the material cannot carry without yielding; ids of no material points, or given twice.
+	"""
+	rows = _idsOfPoints() if ids is None else _ids(ids)
+	values = {name: _column(name, column, len(rows)) for name, column in columns.items()}
+	if not values: raise TypeError(f"assign: no column is given; there are {', '.join(_assignable)}")
+	if 'stress' in values and 'elasticStrain' in values:
+		raise ValueError('assign: stress and elasticStrain follow from each other; give one of them')
+	try:
+		engine.assignColumns(rows, values)
+	except ValueError as error:
+		raise ValueError(f'assign: {error}') from None
+
+
+def _idsOfPoints():
+	return np.frombuffer(engine.columnsOfPoints()['id'], np.int64)
+
+
+def _ids(ids):
+	try:
+		rows = np.array([operator.index(i) for i in ids], dtype=np.int64)
+	except TypeError:
+		raise TypeError(f'assign: ids = {ids!r} must be a sequence of body ids') from None
+	values, counts = np.unique(rows, return_counts=True)
+	if (counts > 1).any(): raise ValueError(f'assign: ids has body #{values[counts > 1][0]} more than once')
+	return rows
+
+
+def _column(name, values, rows):
+	if name not in _assignable:
+		if name in ('vel', 'velocity', 'velocities'): hint = 'a quasi-static analysis has no velocities'
+		elif name in _columns: hint = f'{name} is a result'
+		else: hint = 'there is no such column'
+		raise TypeError(f"assign: {name} cannot be assigned: {hint}; there are {', '.join(_assignable)}")
+	try:
+		array = np.ascontiguousarray(values, dtype=float)
+	except (TypeError, ValueError):
+		raise TypeError(f'assign: {name} must be an array of numbers') from None
+	shape = (rows, ) + _columns[name][1]
+	if array.shape != shape:
+		raise ValueError(f'assign: {name} has the shape {array.shape}; expected is {shape}, one row for each of {rows} material points')
+	finite = np.isfinite(array).reshape(rows, -1).all(axis=1)
+	if not finite.all(): raise ValueError(f'assign: {name}[{np.flatnonzero(~finite)[0]}] = {array[~finite][0].tolist()} must be finite')
+	return array

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+// What a user sees while an analysis runs: one line on stderr, redrawn in place on a terminal and now and then repeated in a log.
+#include <chrono>
+#include <string>
+
+namespace yade {
+
+struct Progress {
+	double      loadFactor;
+	long        step, lastStep; ///< O.iter at the end of this step and of the run; lastStep < step: no end is known
+	int         iterations, cuts;
+	double      residual;
+	std::size_t points;
+	bool        inBackground; ///< by O.run(), so that nothing but the script's output can come between two steps
+	bool        ends;         ///< with this step the run comes to its end
+};
+
+class ProgressLine {
+public:
+	ProgressLine() = default;
+	ProgressLine(const ProgressLine&) { } // a copied engine starts a line of its own
+	~ProgressLine() { breakLine(); }
+
+	// A step begins in this iteration.
+	void start(long iter);
+
+	// Level 1: as said above; level 2: a line for each call.
+	void show(const Progress&, int level);
+
+	// Whatever comes next on the terminal starts on a line of its own.
+	void breakLine();
+
+	// The run is over.
+	void end();
+
+private:
+	using Clock = std::chrono::steady_clock;
+
+	bool        isDue(const Progress&, int level, bool inPlace) const;
+	std::string text(const Progress&) const;
+
+	bool              isRunning = false, isOpen = false; // isOpen: the cursor stands behind the text
+	long              first = 0, latest = 0; // iterations where the run and its latest step began
+	Clock::time_point begin, shown;
+};
+
+} // namespace yade

@@ -1,0 +1,68 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Colours of the material points in YADE's 3D view."""
+import numpy as np
+
+from .data import arrays
+from .fields import scalar
+from .library import engine
+
+
+def colour(field, range=None, colormap='viridis'):
+	"""Colour the material points in YADE's 3D view by a scalar field.
+
+	To keep the colours up to date behind the solver: ``PyRunner(iterPeriod=1, command="mpm.colour('plasticStrain')")``.
+
+	:param field: name as in :func:`plot`, or an (N,) array in order of body id
+	:param range: (low, high): values with the first and last colour, beyond which colours do not change; by default the smallest and
+		largest value at this moment, a little beyond if they are equal
+	:param colormap: name of a colour map of matplotlib
+	:return: the range used
+	:raises TypeError: *range* is no pair of numbers.
+	:raises ValueError: a field or colour map that does not exist, an array of another length or with values that are not finite, or a range that
+		is not increasing.
+	"""
+	points = arrays()
+	values = scalarOrArray('colour', field, points)
+	low, high = limits('colour', range, values)
+	share = np.clip((values - low) / (high - low), 0, 1)
+	rgb = np.ascontiguousarray(colourMap('colour', colormap)(share)[:, :3], dtype=float)
+	engine.assignColumns(points['id'], {'color': rgb})
+	return low, high
+
+
+def colourMap(who, name):
+	"""matplotlib's colour map of this name."""
+	import matplotlib
+	try:
+		return matplotlib.colormaps[name]
+	except KeyError:
+		raise ValueError(f"{who}: colormap = {name!r} is not a colour map of matplotlib, such as 'viridis' or 'RdBu_r'") from None
+
+
+def scalarOrArray(who, field, points):
+	"""Values (N,) of a field given by name or as they are."""
+	if isinstance(field, str): return scalar(who, field, points)
+	values = np.asarray(field)
+	if values.shape != points['id'].shape or values.dtype.kind not in 'biuf':
+		raise ValueError(f'{who}: field must be a name, or an array of one number for each of {len(points["id"])} material points; given is {field!r}')
+	if not np.isfinite(values).all(): raise ValueError(f'{who}: field[{np.flatnonzero(~np.isfinite(values))[0]}] is not finite')
+	return values.astype(float)
+
+
+def limits(who, range, values):
+	"""(low, high) as given, or of the values."""
+	if range is None: return _ownLimits(values)
+	try:
+		low, high = map(float, range)
+	except (TypeError, ValueError):
+		raise TypeError(f'{who}: range = {range!r} must be a pair of numbers, (low, high)') from None
+	if not (np.isfinite([low, high]).all() and low < high): raise ValueError(f'{who}: range = {range!r} must be finite and increasing')
+	return low, high
+
+
+def _ownLimits(values):
+	if not len(values): return 0., 1.
+	low, high = float(values.min()), float(values.max())
+	size = max(abs(low), abs(high))
+	if high - low > 1e-9 * size: return low, high
+	return low - (0.01 * size or 1.), high + (0.01 * size or 1.)  # constant but for round-off, which is not to be coloured

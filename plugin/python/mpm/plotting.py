@@ -1,0 +1,191 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Pictures of the material points by matplotlib, which is imported when the first one is drawn."""
+import os
+
+import numpy as np
+
+from .analysis import solverOf
+from .colouring import colourMap, limits, scalarOrArray
+from .data import arrays
+from .fields import labelled
+from .files import replacing
+from .library import engine
+
+_axes = 'xyz'
+_signs = np.array([(x, y, z) for z in (-1, 1) for y in (-1, 1) for x in (-1, 1)])  # of the corners of a box
+_around = [0, 1, 3, 2]  # those of its lower face, in order
+_edges = np.array([(i, j) for i in range(8) for j in range(i) if np.abs(_signs[i] - _signs[j]).sum() == 2])
+_faceColour, _cellColour, _boundaryColour = '#d9480f', '#868e96', '#ffe8cc'
+
+
+def plot(field='displacement', deformed=True, grid=None, ghost=None, fileName=None, ax=None, range=None, colormap=None, plane=None, solver=None):
+	"""Draw the material points, coloured by a scalar field, and the background grid around them.
+
+	Each point is drawn as the box of matter that it stands for, deformed by its deformation gradient. In 3D the picture is a slice.
+
+	:param field: ``displacement`` (its length), ``meanStress``, ``sqrt2J2``, or a column of :func:`arrays`, of which a vector or tensor
+		needs its component: ``displacement_y``, ``stress_xy``, ``plasticStrain``, ``elasticStrain_yy``, ``defGrad_xx``, ``material``, ...; or an
+		(N,) array in order of body id
+	:param deformed: draw the current configuration, otherwise the initial one
+	:param grid: draw the cells that hold material, with a tint those at the boundary of the body; by default if *deformed*, as the
+		grid belongs to the current configuration
+	:param ghost: draw the faces on which the ghost stabilisation acts; default as for *grid*
+	:param fileName: write the picture to this file, whole or not at all; its ending chooses the format (png, pdf, svg, ...). Folders that
+		are missing are made.
+	:param ax: matplotlib axes to draw into; by default a new figure
+	:param range: (low, high) of the colours, in the field's SI unit; by default the smallest and largest value drawn, or symmetric to zero
+		if there are values of both signs
+	:param colormap: name of a colour map of matplotlib; by default viridis, or RdBu_r for values of both signs
+	:param plane: in 3D, axis and coordinate [m] of the slice, as in ``('z', 0.5)``; by default across z, through the point nearest to the middle
+	:param solver: ``MpmImplicitEngine`` whose grid is drawn; needed if there are several
+	:return: the axes
+	:raises TypeError: *range* is no pair of numbers, or *plane* no pair of an axis and a number.
+	:raises ValueError: a field or colour map that does not exist, *grid* or *ghost* without *deformed*, *plane* in plane strain or beside the
+		body, a scene without material points, or what the engine refuses about the scene.
+	:raises OSError: the file cannot be written.
+	"""
+	if not deformed and (grid or ghost): raise ValueError('plot: the grid belongs to the current configuration, so grid and ghost need deformed=True')
+	grid, ghost = (deformed if wanted is None else wanted for wanted in (grid, ghost))
+	solver = solverOf('plot', solver)
+	points = arrays()
+	if not len(points['id']): raise ValueError('plot: the scene has no material points')
+	values = scalarOrArray('plot', field, points)
+	section = _Section(solver, points, plane)
+	matter, kept = section.through(_corners(points, deformed))
+	ax = ax or _newAxes(fileName, np.concatenate(matter))
+	if grid: _drawGrid(ax, section, solver)
+	_drawMatter(ax, matter, values[kept], field, range, colormap)
+	if ghost: _drawFaces(ax, section, solver)
+	_finish(ax, section)
+	if fileName is not None: _write(ax.figure, os.fspath(fileName))
+	return ax
+
+
+class _Section:
+	"""The plane of the picture: all there is in plane strain, a slice in 3D."""
+
+	def __init__(self, solver, points, plane):
+		self.normal, self.at = None, None
+		if solver.grid.dim == 3: self.normal, self.at = _slicePlane(plane, points)
+		elif plane is not None: raise ValueError(f'plot: plane = {plane!r}: with dim=2 (plane strain) the picture is in the plane x-y')
+		self.shown = [i for i in (0, 1, 2) if i != (2 if self.normal is None else self.normal)]
+
+	def boxes(self, low, high):
+		"""Lower and upper corners (M, 2) in the picture of the boxes that the section meets, and their indices."""
+		if self.normal is None: kept = np.arange(len(low))
+		else: kept = np.flatnonzero((low[:, self.normal] <= self.at) & (self.at < high[:, self.normal]))
+		return low[kept][:, self.shown], high[kept][:, self.shown], kept
+
+	def through(self, corners):
+		"""Outlines in the picture, each (K, 2), of the deformed boxes (N, 8, 3) that the section meets, and their indices."""
+		if self.normal is None: return corners[:, _around][:, :, self.shown], np.arange(len(corners))
+		above = corners[..., self.normal] > self.at
+		kept = np.flatnonzero(above.any(axis=1) & ~above.all(axis=1))
+		return [self._outline(corners[i], above[i]) for i in kept], kept
+
+	def _outline(self, corners, above):
+		low, high = _edges[above[_edges[:, 0]] != above[_edges[:, 1]]].T
+		share = (self.at - corners[low, self.normal]) / (corners[high, self.normal] - corners[low, self.normal])
+		cut = (corners[low] + share[:, None] * (corners[high] - corners[low]))[:, self.shown]
+		middle = cut.mean(axis=0)
+		return cut[np.argsort(np.arctan2(*(cut - middle).T))]  # convex: in order around its middle
+
+
+def _slicePlane(plane, points):
+	low, high = (points['pos'] - points['halfSize']).min(axis=0), (points['pos'] + points['halfSize']).max(axis=0)
+	if plane is None:
+		z = points['pos'][:, 2]
+		return 2, z[np.argmin(np.abs(z - (low[2] + high[2]) / 2))]
+	try:
+		axis, at = _axes.index(plane[0]), float(plane[1])
+	except (TypeError, ValueError, IndexError):
+		raise TypeError(f"plot: plane = {plane!r} must be a pair of an axis and a coordinate, as in ('z', 0.5)") from None
+	if not low[axis] <= at < high[axis]:
+		raise ValueError(f'plot: plane = {plane!r} is beside the body, which reaches from {_axes[axis]} = {low[axis]} to {high[axis]} m')
+	return axis, at + 1e-6 * points['halfSize'][:, axis].min()  # not where boxes meet, but for round-off
+
+
+def _corners(points, deformed):
+	"""(N, 8, 3) corners of the matter of each point."""
+	box = _signs * points['halfSize0'][:, None, :]
+	return points['pos'][:, None, :] + np.einsum('pij,pcj->pci', points['defGrad'], box) if deformed else points['pos0'][:, None, :] + box
+
+
+def _newAxes(fileName, outlines):
+	width, height = np.ptp(outlines.reshape(-1, 2), axis=0)
+	scale = min(8 / width, 7 / height)
+	size = max(2.5, scale * width) + 1.6, max(1.5, scale * height) + 0.9  # with room for labels and colour bar
+	if fileName is None:
+		import matplotlib.pyplot as pyplot
+		return pyplot.figure(figsize=size).add_subplot()
+	from matplotlib.figure import Figure  # needs no window
+	return Figure(figsize=size).add_subplot()
+
+
+def _rectangles(low, high):
+	"""(M, 4, 2) corners in order around each box."""
+	return np.stack([low, np.stack([high[:, 0], low[:, 1]], 1), high, np.stack([low[:, 0], high[:, 1]], 1)], 1)
+
+
+def _gridBoxes(kind, section, solver):
+	"""Corners in the picture of cells or faces, and the value of their field."""
+	data = engine.gridCells(kind, solver)
+	field = np.frombuffer(data['field'])
+	if not len(field): return np.empty((0, 2)), np.empty((0, 2)), field
+	corners = np.frombuffer(data['corners']).reshape(len(field), -1, 3)
+	low, high, kept = section.boxes(corners.min(axis=1), corners.max(axis=1))
+	return low, high, field[kept]
+
+
+def _drawGrid(ax, section, solver):
+	from matplotlib.collections import PolyCollection
+	low, high, boundary = _gridBoxes('grid', section, solver)
+	cells = _rectangles(low, high)
+	isBoundary = boundary == 1
+	ax.add_collection(PolyCollection(cells[isBoundary], facecolors=_boundaryColour, edgecolors='none', zorder=0, label='boundary cells'))
+	ax.add_collection(PolyCollection(cells, facecolors='none', edgecolors=_cellColour, linewidths=0.4, zorder=3))
+	ax.update_datalim(cells.reshape(-1, 2))
+
+
+def _drawFaces(ax, section, solver):
+	from matplotlib.collections import LineCollection
+	low, high, _ = _gridBoxes('ghostFaces', section, solver)
+	ax.add_collection(LineCollection(np.stack([low, high], 1), colors=_faceColour, linewidths=1.1, zorder=4, label='ghost faces'))
+
+
+def _drawMatter(ax, matter, values, field, range, colormap):
+	from matplotlib.collections import PolyCollection
+	bothSigns = values.min() < 0 < values.max()
+	bounds = limits('plot', range, values)
+	if range is None and bothSigns: bounds = -np.abs(values).max(), np.abs(values).max()
+	unit, label = labelled(field, values) if isinstance(field, str) else (1, None)
+	drawn = PolyCollection(
+	        matter,
+	        array=values / unit,
+	        cmap=colourMap('plot', colormap or ('RdBu_r' if bothSigns else 'viridis')),
+	        clim=(bounds[0] / unit, bounds[1] / unit),
+	        edgecolors='face',
+	        linewidths=0.2,
+	        zorder=2
+	)
+	ax.add_collection(drawn)
+	ax.update_datalim(np.concatenate(matter))
+	ax.figure.colorbar(drawn, cax=ax.inset_axes([1.02, 0, 0.025, 1]), label=label)
+
+
+def _finish(ax, section):
+	ax.margins(0.02)
+	ax.autoscale_view()
+	place = '' if section.normal is None else f'  (at {_axes[section.normal]} = {section.at:.4g} m)'
+	ax.set(aspect='equal', xlabel=f'{_axes[section.shown[0]]} [m]{place}', ylabel=f'{_axes[section.shown[1]]} [m]')
+	handles, names = ax.get_legend_handles_labels()
+	if handles: ax.legend(handles, names, loc='lower right', bbox_to_anchor=(1, 1), ncols=2, frameon=False, fontsize='small', borderaxespad=0.2)
+
+
+def _write(figure, fileName):
+	ending = os.path.splitext(fileName)[1][1:]
+	known = figure.canvas.get_supported_filetypes()
+	if ending not in known: raise ValueError(f"plot: fileName = {fileName!r} must end in one of {', '.join('.' + kind for kind in known)}")
+	os.makedirs(os.path.dirname(os.path.abspath(fileName)), exist_ok=True)
+	with replacing(fileName) as temporary:
+		figure.savefig(temporary, dpi=200, bbox_inches='tight', format=ending)

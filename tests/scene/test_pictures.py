@@ -1,0 +1,111 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""mpm.plot and mpm.colour: what they draw, taken from matplotlib's objects and YADE's shapes."""
+import json
+
+import pytest
+from conftest import Yade
+
+refused = [
+        ('mpm.plot("sress_xy")', 'ValueError', ["'sress_xy'", 'stress', 'displacement']),
+        ('mpm.plot("stress")', 'ValueError', ["'stress'", 'stress_xy']),
+        ('mpm.plot("stress_x")', 'ValueError', ["'stress_x'", 'stress_xx']),
+        ('mpm.plot(np.zeros(3))', 'ValueError', ['field', '32 material points']),
+        ('mpm.plot(np.full(32, nan))', 'ValueError', ['field[0]', 'finite']),
+        ('mpm.plot(range=(1, 0))', 'ValueError', ['range = (1, 0)', 'increasing']),
+        ('mpm.plot(range=3)', 'TypeError', ['range = 3', 'pair']),
+        ('mpm.plot(colormap="rainbows")', 'ValueError', ["'rainbows'", 'viridis']),
+        ('mpm.plot(deformed=False, grid=True)', 'ValueError', ['grid', 'deformed=True']),
+        ('mpm.plot(plane=("z", 0))', 'ValueError', ['plane', 'dim=2']),
+        ('mpm.plot(fileName="x.docx")', 'ValueError', ["'x.docx'", '.png']),
+        ('mpm.plot(solver=3)', 'TypeError', ['solver = 3', 'MpmImplicitEngine']),
+        ('O.engines += [MpmImplicitEngine()]; mpm.plot()', 'ValueError', ['2 MpmImplicitEngine', 'solver']),
+        ('O.bodies.clear(); mpm.plot()', 'ValueError', ['no material points']),
+        ('mpm.colour("plasticstrain")', 'ValueError', ["'plasticstrain'", 'plasticStrain']),
+        ('mpm.colour("volume", range=(2, 1))', 'ValueError', ['colour: range = (2, 1)']),
+]
+
+
+@pytest.fixture(scope='module')
+def outcomes(tmp_path_factory):
+	yade = Yade(tmp_path_factory.mktemp('pictures'))
+	(yade.folder / 'statements.json').write_text(json.dumps([statement for statement, _, _ in refused]))
+	return yade('''
+import json
+from math import nan
+from scenes import *
+outcomes = {}
+for statement in json.load(open('statements.json')):
+	O.reset()
+	column(8)
+	try:
+		exec(statement)
+		outcomes[statement] = ['no exception', '']
+	except Exception as error:
+		outcomes[statement] = [type(error).__name__, str(error)]
+print(json.dumps(outcomes))
+''').result
+
+
+@pytest.mark.parametrize('statement, exception, words', refused, ids=[statement for statement, _, _ in refused])
+def test_isRefused(outcomes, statement, exception, words):
+	kind, sentence = outcomes[statement]
+	assert kind == exception, sentence
+	for word in words:
+		assert word in sentence
+
+
+def test_planeStrain(yade):
+	run = yade('''
+import json
+from scenes import *
+solver = slope()
+O.run(20, wait=True)
+points = mpm.arrays()
+ax = mpm.plot('stress_xy', fileName='out/slope.png')
+boundary, cells, matter, faces = ax.collections
+area = lambda q: abs(0.5 * sum(a[0] * b[1] - a[1] * b[0] for a, b in zip(q, np.roll(q, -1, axis=0))))
+areas = [area(path.vertices[:4]) for path in matter.get_paths()]
+result = dict(
+    boundary=[len(boundary.get_paths()), solver.boundaryCells], cells=[len(cells.get_paths()), solver.activeCells], faces=[len(faces.get_paths()), solver.ghostFaces],
+    volume=float(np.abs(np.array(areas) / points['volume'] - 1).max()), value=float(np.abs(matter.get_array() * 1e3 - points['stress'][:, 0, 1]).max()),
+    label=ax.child_axes[0].get_ylabel(), aspect=ax.get_aspect(), symmetric=sum(matter.get_clim()))
+first = mpm.plot('displacement_y', deformed=False, range=(-1, 0), fileName='out/first.pdf')
+result['first'] = [len(first.collections), sorted(first.dataLim.get_points()[1]), first.collections[0].get_clim()]
+result['array'] = mpm.plot(points['pos0'][:, 0], grid=False, ghost=False, ax=first) is first
+print(json.dumps(result))
+''')
+	result = run.result
+	# the engine counted at the start of its last step, the picture shows its end: the same kind of numbers, not always the same
+	for name in 'boundary', 'cells', 'faces':
+		drawn, counted = result[name]
+		assert drawn > 0 and abs(drawn - counted) <= 0.1 * counted
+	assert result['volume'] < 1e-9 and result['value'] < 1e-9
+	assert result['label'] == 'stress $\\sigma_{xy}$ [kPa]' and result['aspect'] == 1 and result['symmetric'] == 0
+	assert result['first'] == [1, [12, 30], [-1, 0]] and result['array']
+	assert (run.folder / 'out/slope.png').stat().st_size > 30000 and (run.folder / 'out/first.pdf').read_bytes()[:4] == b'%PDF'
+
+
+def test_sliceAndColours(yade):
+	"""Slices of a column of cubes have the area that its volume tells, wherever they are; colours are those of the map."""
+	areas, cells, colours, limits, constant = yade('''
+import json
+from scenes import *
+solver = column(8, dim=3, width=2)
+O.run(10, wait=True)
+def area(q): return abs(0.5 * sum(a[0] * b[1] - a[1] * b[0] for a, b in zip(q, np.roll(q, -1, axis=0))))
+def drawn(plane): return [c for c in mpm.plot('stress_yy', plane=plane, fileName='out.png').collections]
+h, points = solver.grid.cellSize, mpm.arrays()
+side = points['volume'].sum() / (2 * h)
+areas = [sum(area(path.vertices[:-1]) for path in drawn(plane)[2].get_paths()) / expected for plane, expected in
+         ((('z', h), side), (None, side), (('x', 1.3 * h), side), (('y', 3 * h), 4 * h * h))]
+cells = [len(drawn(plane)[1].get_paths()) for plane in (('z', h), ('y', 3 * h))]
+low, high = mpm.colour('pos0_y')
+import matplotlib
+share = (points['pos0'][:, 1] - low) / (high - low)
+colours = max((O.bodies[int(i)].shape.color - Vector3(*matplotlib.colormaps['viridis'](s)[:3])).norm() for i, s in zip(points['id'], share))
+limits = mpm.colour('stress_yy', range=(-1e3, 0), colormap='RdBu_r')
+print(json.dumps([areas, cells, colours, limits, mpm.colour('material')]))
+''').result
+	assert all(abs(a - 1) < 1e-6 for a in areas), areas
+	assert cells == [2 * 8, 4] or cells == [2 * 7, 4]
+	assert colours < 1e-9 and limits == [-1000, 0] and constant == [-1, 1]
