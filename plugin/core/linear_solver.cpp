@@ -162,8 +162,8 @@ LinearSolver::Status LinearSolver::solve(const SymmetricCsc& K, const Eigen::Vec
 	auto&                      common      = cholmod_->common;
 	const bool                 knowPattern = cholmod_->factor && K.samePattern(scaled_);
 	if (!knowPattern) scaled_.start = K.start, scaled_.row = K.row;
-	const Eigen::VectorXd factor = scale(K, scaled_.value);
-	cholmod_sparse        A      = Cholmod::view(scaled_);
+	scale_           = scale(K, scaled_.value);
+	cholmod_sparse A = Cholmod::view(scaled_);
 	if (!knowPattern) {
 		const Stopwatch watch(times_.analyse);
 		cholmod_free_factor(&cholmod_->factor, &common);
@@ -175,11 +175,19 @@ LinearSolver::Status LinearSolver::solve(const SymmetricCsc& K, const Eigen::Vec
 		definite = cholmod_factorize(&A, cholmod_->factor, &common) && common.status == CHOLMOD_OK;
 	}
 	const Stopwatch       watch(times_.solve);
-	const Eigen::VectorXd right = factor.cwiseProduct(b);
+	const Eigen::VectorXd right = scale_.cwiseProduct(b);
 	if (definite && cholmod_rcond(cholmod_->factor, &common) < smallestPivot) return Status::singular;
 	const Status status = definite && cholmod_->solve(right, x) ? Status::cholesky : solveByLu(scaled_, right, x) ? Status::lu : Status::singular;
-	if (status != Status::singular) x = x.cwiseProduct(factor).eval();
+	if (status != Status::singular) x = x.cwiseProduct(scale_).eval();
 	return status;
+}
+
+bool LinearSolver::solveAgain(const Eigen::VectorXd& b, Eigen::VectorXd& x)
+{
+	const WithoutNestedThreads guard;
+	const bool                 solved = cholmod_->solve(scale_.cwiseProduct(b), x);
+	if (solved) x = x.cwiseProduct(scale_).eval();
+	return solved;
 }
 
 } // namespace gimpm

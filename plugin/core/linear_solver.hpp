@@ -42,6 +42,9 @@ public:
 	/// K x = b. On `singular` (a pivot is lost in round-off, whatever the scale of its row) x is meaningless.
 	Status solve(const SymmetricCsc& K, const Eigen::VectorXd& b, Eigen::VectorXd& x);
 
+	/// Another right side for the matrix of the last solve(), which must have been by Cholesky.
+	bool solveAgain(const Eigen::VectorXd& b, Eigen::VectorXd& x);
+
 	const SolverTimes& times() const { return times_; }
 	void               resetTimes() { times_ = {}; }
 
@@ -49,6 +52,7 @@ private:
 	struct Cholmod;
 	std::unique_ptr<Cholmod> cholmod_;
 	SymmetricCsc             scaled_; // the last matrix; its pattern is that of the symbolic analysis
+	Eigen::VectorXd          scale_;  // of its rows and columns
 	SolverTimes              times_;
 };
 

@@ -87,16 +87,6 @@ template <int Dim> SymmetricCsc tangentStiffness(const PointCloud<Dim>& cloud, c
 	return reduced;
 }
 
-double conditionNumber(const SymmetricCsc& K)
-{
-	Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(K.size(), K.size());
-	for (int c = 0; c < K.size(); ++c)
-		for (int e = K.start[c]; e < K.start[c + 1]; ++e)
-			dense(K.row[e], c) = K.value[e];
-	const Eigen::VectorXd size = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(dense, Eigen::EigenvaluesOnly).eigenvalues().cwiseAbs();
-	return size.maxCoeff() / size.minCoeff();
-}
-
 template StepReport   loadStep(PointCloud<2>&, const Model<2>&, const Load<2>&, LinearSolver&);
 template StepReport   loadStep(PointCloud<3>&, const Model<3>&, const Load<3>&, LinearSolver&);
 template SymmetricCsc tangentStiffness(const PointCloud<2>&, const Model<2>&);

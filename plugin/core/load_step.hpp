@@ -14,7 +14,4 @@ template <int Dim> StepReport loadStep(PointCloud<Dim>&, const Model<Dim>&, cons
 /// Reduced tangent K + K_g (free degrees of freedom) of the current configuration.
 template <int Dim> SymmetricCsc tangentStiffness(const PointCloud<Dim>&, const Model<Dim>&);
 
-/// 2-norm condition number of a symmetric matrix, from all its eigenvalues: for small systems.
-double conditionNumber(const SymmetricCsc&);
-
 } // namespace gimpm

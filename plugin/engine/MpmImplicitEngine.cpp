@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "engine/MpmImplicitEngine.hpp"
+#include "core/condition.hpp"
 #include "core/load_step.hpp"
 #include "core/stopwatch.hpp"
 #include "engine/LoadStepObserver.hpp"
@@ -320,6 +321,13 @@ Real MpmImplicitEngine::conditionNumber()
 	throw std::invalid_argument(
 	        "MpmImplicitEngine.conditionNumber() needs all eigenvalues: the scene has " + std::to_string(K.size()) + " unknowns, admitted are 1 to "
 	        + std::to_string(largest) + ".");
+}
+
+Real MpmImplicitEngine::conditionEstimate()
+{
+	const auto K = reducedStiffness();
+	if (K.size() == 0) throw std::invalid_argument("MpmImplicitEngine.conditionEstimate(): the scene has no unknowns.");
+	return gimpm::conditionEstimate(K);
 }
 
 } // namespace yade

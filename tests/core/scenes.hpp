@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Scenes for the tests of the core: points, regular blocks of them, held boxes of nodes, random numbers.
 #pragma once
+#include "core/condition.hpp"
 #include "core/load_step.hpp"
 #include <gtest/gtest.h>
 #include <limits>

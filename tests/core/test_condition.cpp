@@ -80,5 +80,49 @@ namespace {
 		EXPECT_GT(scaled(1e-3, GhostScaling::paper), 1e3 * expected) << "h^3 fades on fine grids";
 	}
 
+	/// A block of 3 x 12 cells on a rough floor, moved to the right and upwards by a; stiff above a soft layer.
+	SymmetricCsc columnOnSoftSoil(double a, double ghostFactor, double contrast)
+	{
+		Model<2> model;
+		model.materials = { { Hencky(1, 0.3), 1 }, { Hencky(contrast, 0.3), 1 } };
+		model.ghost     = { ghostFactor };
+		model.boundary  = Boundary<2>({ held<2>(model.grid, { -infinity, -infinity }, { infinity, 0 }, "xy") });
+		auto cloud      = block<2>(model.grid, { 3, 12 }, 2);
+		for (std::size_t p = 0; p < cloud.size(); ++p) {
+			cloud.material[p] = cloud.position[p][1] > 4;
+			cloud.position[p] += Vec<2>(a, a);
+		}
+		return tangentStiffness(cloud, model);
+	}
+
+	TEST(ConditionEstimate, IsWithinAFactorOfThree)
+	{
+		for (const double a : { 0., 0.2, 1e-3, 1e-5 })
+			for (const double factor : { 0., 1e-6, 1e-2, 1e2 })
+				for (const double contrast : { 1., 1e3, 1e5 }) {
+					const auto   K     = columnOnSoftSoil(a, factor, contrast);
+					const double exact = conditionNumber(K);
+					if (exact > 1e13) continue; // round-off of the eigenvalues
+					const double estimate = conditionEstimate(K);
+					EXPECT_LT(estimate, 1.01 * exact) << a << " " << factor << " " << contrast;
+					EXPECT_GT(estimate, exact / 3) << a << " " << factor << " " << contrast;
+				}
+	}
+
+	TEST(ConditionEstimate, GoesOnWhereEigenvaluesAreRoundOff)
+	{
+		// of the node at the free corner: gradients fall as a^3, so the stiffness as a^6
+		const double kappa = conditionEstimate(columnOnSoftSoil(1e-6, 0, 1));
+		EXPECT_GT(kappa, 1e30);
+		EXPECT_NEAR(conditionEstimate(columnOnSoftSoil(1e-7, 0, 1)) / kappa, 1e6, 1e4);
+	}
+
+	TEST(ConditionEstimate, OfMatricesThatAreNotDefinite)
+	{
+		const auto matrix = [](double a, double b, double c) { return SymmetricCsc { { 0, 2, 3 }, { 0, 1, 1 }, { a, b, c } }; };
+		EXPECT_NEAR(conditionEstimate(matrix(1, 2, 1)), 3, 1e-12); // eigenvalues 3 and -1: LU
+		EXPECT_EQ(conditionEstimate(matrix(1, 1, 1)), infinity);
+	}
+
 } // namespace
 } // namespace gimpm
