@@ -21,9 +21,11 @@ template <int Dim> double faceMass(int s, int t, double h)
 	return m;
 }
 
-/// Sums over the points of each populated cell.
+/// Sums over the points of a populated cell.
 struct CellSums {
 	double volume = 0, weightedModulus = 0;
+
+	double modulus() const { return weightedModulus / volume; }
 };
 
 template <int Dim>
@@ -113,7 +115,7 @@ void weighGhostFaces(
 	for (auto& face : faces) {
 		const Key       above = face.lower + Grid<Dim>::keyStep(face.axis);
 		const CellSums &s = sums[position(basis.cells, face.lower)], &t = sums[position(basis.cells, above)];
-		face.stiffness = factor * (s.weightedModulus + t.weightedModulus) / (s.volume + t.volume) * power / 3;
+		face.stiffness = factor * std::min(s.modulus(), t.modulus()) * power / 3;
 		for (int i = 0; i < 3; ++i)
 			for (int s = 0; s < GhostFace<Dim>::tangentialNodes; ++s) {
 				Key node = face.lower + i * Grid<Dim>::keyStep(face.axis);

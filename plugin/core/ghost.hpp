@@ -25,8 +25,9 @@ template <int Dim> struct GhostFace {
 /// Faces of a body, sorted. There are none across walls.
 template <int Dim> std::vector<GhostFace<Dim>> ghostFaces(const std::vector<Key>& populated, const std::vector<Key>& boundary, const Boundary<Dim>&);
 
-/// Sets node numbers and stiffness = factor * modulus * (h or h^3) / 3. The modulus is the mean of Young's moduli of the points around
-/// the face, weighted by the volumes of their domains' overlaps with the face's two cells.
+/// Sets node numbers and stiffness = factor * modulus * (h or h^3) / 3. A cell's modulus is the mean of Young's moduli of its points,
+/// weighted by the volumes of their domains' overlaps with it; a face has that of the softer of its two cells. With the stiffer one or a
+/// mean, soft layers could not be strained beside stiff ones: the kink of the displacements is what equilibrium asks for there.
 template <int Dim>
 void weighGhostFaces(
         std::vector<GhostFace<Dim>>&,

@@ -20,7 +20,7 @@ public:
 		v("factor",
 		  &MpmGhost::factor,
 		  0,
-		  "Strength [-] >= 0: gamma_k of eq. 2 is this times Young's modulus of the points around a face. 0 switches the stabilisation off.",
+		  "Strength [-] >= 0: gamma_k of eq. 2 is this times Young's modulus, that of the softer of a face's two cells. 0 switches the stabilisation off.",
 		  nonNegative);
 		v("scaling",
 		  &MpmGhost::scaling,
