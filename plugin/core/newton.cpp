@@ -75,22 +75,27 @@ private:
 		if (inverted_ >= 0 || !std::isfinite(balance_.size)) balance_.size = std::numeric_limits<double>::infinity();
 	}
 
-	/// |residual| / |external forces + reactions|. Where both end at zero, as in unloading, the forces at the start of the step are what
-	/// the residual is compared with; and it is zero where it is round-off of stresses that balance each other.
+	/// |residual| / |external forces + reactions|. Where both end at zero, the residual is compared with the forces at the start of the
+	/// step, as in unloading, or with those that prescribed displacements cause at first, as in a rigid motion; and it is zero where it is
+	/// round-off of stresses that balance each other.
 	double relative() const
 	{
 		if (report_.iterations > 0 && balance_.size <= roundOff_) return 0;
-		return balance_.size == 0 ? 0 : balance_.size / std::max(balance_.reference, initial_);
+		const bool   vanish    = std::max(balance_.size, balance_.reference) <= settings_.tolerance * entering_;
+		const double reference = std::max({ balance_.reference, initial_, vanish ? entering_ : 0 });
+		return balance_.size == 0 ? 0 : balance_.size / reference;
 	}
 
-	/// Of the internal forces, from the stresses at the start of the step [N].
+	/// Of the internal forces, from the stresses at the start of the step and the displacements prescribed in it [N].
 	double roundOff() const
 	{
 		const auto&     points = system_.points;
+		const double    h      = system_.model.grid.cellSize;
 		Eigen::VectorXd force(points.volume0.size());
 		for (int i = 0; i < int(force.size()); ++i) {
 			const double young = system_.model.materials[points.material[i]].young();
-			force[i]           = points.volume0[i] * young * points.leftCauchyGreen[i].c.norm() / system_.model.grid.cellSize;
+			const double strain = points.leftCauchyGreen[i].c.norm() + system_.prescribed.template lpNorm<Eigen::Infinity>() / h;
+			force[i]            = points.volume0[i] * young * strain / h;
 		}
 		return 10 * std::numeric_limits<double>::epsilon() * force.stableNorm();
 	}
@@ -138,6 +143,7 @@ private:
 		}
 		evaluate(d_ + step, !willConverge());
 		if (!prescribes && !(balance_.size < toleratedGrowth * before)) return search(step, before);
+		if (prescribes) entering_ = std::max(balance_.size, balance_.reference);
 		d_ += step;
 		return true;
 	}
@@ -230,6 +236,7 @@ private:
 	InvertedPoint          inverted_     = -1;
 	bool                   hasStiffness_ = false;
 	double                 initial_      = 0; // |residual| or |external forces + reactions| at the start of the step [N]
+	double                 entering_     = 0; // the same after the solve in which prescribed displacements entered [N]
 	double                 roundOff_     = 0; // [N]
 };
 

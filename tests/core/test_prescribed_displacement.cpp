@@ -81,5 +81,46 @@ namespace {
 		        << "more compressed below, by about half the weight";
 	}
 
+	/// Turns and moves four lines of nodes in the middle of a bar, whose ends are free, in two steps: stresses must vanish.
+	template <int Dim> void moveRigidly(double angle, const Vec<Dim>& by)
+	{
+		Model<Dim> model;
+		model.materials = { { Hencky(1e6, 0.3), 1 } };
+		Index<Dim> size = Index<Dim>::Constant(2);
+		size[0]         = 6;
+		auto     cloud  = block<Dim>(model.grid, size, 2, Index<Dim>::Constant(-1));
+		Vec<Dim> centre = Vec<Dim>::Zero();
+		Mat<Dim> turn   = Mat<Dim>::Identity();
+		turn.template topLeftCorner<2, 2>() << std::cos(angle), -std::sin(angle), std::sin(angle), std::cos(angle);
+		LinearSolver solver;
+		for (int step = 0; step < 2; ++step) {
+			std::vector<HeldBox<Dim>> boxes; // no two of these lines bound a face of a cell: none is a wall
+			for (const auto& [i, j] : { std::pair { 1, 0 }, { 0, 1 }, { -1, 0 }, { 0, -1 } }) {
+				Vec<Dim> low = Vec<Dim>::Constant(-infinity), high = Vec<Dim>::Constant(infinity), place = Vec<Dim>::Zero();
+				low.template head<2>() = high.template head<2>() = place.template head<2>() = Eigen::Vector2d(i, j);
+				boxes.push_back(held<Dim>(model.grid, low, high, Dim == 2 ? "xy" : "xyz", turn * (place - centre) + centre + by - place));
+			}
+			model.boundary    = Boundary<Dim>(boxes);
+			const auto before = cloud.position;
+			const auto report = loadStep(cloud, model, {}, solver);
+			ASSERT_TRUE(report.converged()) << report.cause;
+			EXPECT_LE(report.iterations, 8);
+			for (std::size_t p = 0; p < cloud.size(); ++p) {
+				EXPECT_LT((cloud.position[p] - (turn * (before[p] - centre) + centre + by)).norm(), 1e-5);
+				EXPECT_LT(cloud.stress[p].c.norm(), 10);
+			}
+			centre += by;
+		}
+	}
+
+	TYPED_TEST(PrescribedDisplacement, RigidMotionsConverge)
+	{
+		constexpr int Dim = TypeParam::value;
+		moveRigidly<Dim>(0.2, Vec<Dim>::Zero());
+		moveRigidly<Dim>(-1e-3, 0.01 * Vec<Dim>::Ones());
+		moveRigidly<Dim>(0, 0.1 * Vec<Dim>::Ones());
+		moveRigidly<Dim>(0, 1e-9 * Vec<Dim>::Ones());
+	}
+
 } // namespace
 } // namespace gimpm
