@@ -76,8 +76,8 @@ public:
 		  &MpmImplicitEngine::verbosity,
 		  0,
 		  "What is said on stderr while the scene runs. 0: nothing. 1: one line with load factor, step (O.iter) and last step if an end is known, "
-		  "elapsed and remaining time [min:s], iterations, cuts, residual and number of points; redrawn in place on a terminal during O.run(), otherwise "
-		  "repeated every 10 s and at the end of the run. 2: this line for every step.",
+		  "elapsed and remaining time [min:s], iterations, cuts, residual and number of points; redrawn in place on a terminal during O.run(), but at "
+		  "YADE's prompt and in a log repeated every 10 s and at the end of the run. 2: this line for every step.",
 		  oneOf(0, 1, 2));
 		v("converged", &MpmImplicitEngine::converged, readonly, "Whether the last step converged.");
 		v("iterations", &MpmImplicitEngine::iterations, readonly, "Linear solves of the last run, those of steps that were undone included.");

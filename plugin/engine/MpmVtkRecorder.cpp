@@ -8,12 +8,14 @@
 #include "yade_api/logging.hpp"
 #include <algorithm>
 #include <cstdlib>
+#include <vtkCellData.h>
 #include <vtkUnstructuredGrid.h>
 
 namespace yade {
 
 namespace {
 	const vector<string> kinds { "points", "grid", "ghostFaces" };
+	const vector<string> pointFields { "displacement", "stress", "meanStress", "sqrt2J2", "plasticStrain", "volume", "material", "id" };
 
 	bool contains(const vector<string>& list, const string& item) { return std::find(list.begin(), list.end(), item) != list.end(); }
 
@@ -24,12 +26,16 @@ namespace {
 		return (scene.stopAtIter > 0 && scene.iter + 1 == scene.stopAtIter) || (scene.stopAtTime > 0 && scene.time + scene.dt >= scene.stopAtTime);
 	}
 
-	VtkCells pointData(const Scene& scene, int dim)
+	VtkCells pointData(const Scene& scene, int dim, const vector<string>& fields)
 	{
 		const auto points = materialPoints(scene);
 		for (const MaterialPoint& point : points)
 			point.requireAdmissible(dim);
-		return pointDomains(points, dim);
+		const auto domains = pointDomains(points, dim);
+		if (!contains(fields, "all"))
+			for (const string& name : pointFields)
+				if (!contains(fields, name)) domains->GetCellData()->RemoveArray(name.c_str());
+		return domains;
 	}
 
 	// A simulation that still runs when the script has ended is stopped after the current iteration.
@@ -73,6 +79,11 @@ MpmVtkRecorder::MpmVtkRecorder()
 bool MpmVtkRecorder::areKinds(const vector<string>& names)
 {
 	return !names.empty() && std::all_of(names.begin(), names.end(), [](const string& name) { return name == "all" || contains(kinds, name); });
+}
+
+bool MpmVtkRecorder::areFields(const vector<string>& names)
+{
+	return std::all_of(names.begin(), names.end(), [](const string& name) { return name == "all" || contains(pointFields, name); });
 }
 
 bool MpmVtkRecorder::isActivated()
@@ -204,7 +215,7 @@ void MpmVtkRecorder::write(const string& kind, const Moment& now, const MpmImpli
 	const auto   latest     = std::find_if(written.rbegin(), written.rend(), isOfSeries);
 	if (latest != written.rend() && latest->second == now.time) return;
 
-	const auto cells = kind == "points" ? pointData(*scene, engine.grid->dim) : gridCells(kind, *scene, engine);
+	const auto cells = kind == "points" ? pointData(*scene, engine.grid->dim, fields) : gridCells(kind, *scene, engine);
 	writeVtu(*cells, now.time, file, { ascii, compress });
 
 	auto       entries    = written;

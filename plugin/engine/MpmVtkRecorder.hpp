@@ -9,6 +9,7 @@ class MpmVtkRecorder : public Exposed<MpmVtkRecorder, PeriodicEngine>, public Lo
 public:
 	string                          fileName; // must be given
 	vector<string>                  recorders { "points" };
+	vector<string>                  fields { "all" };
 	bool                            ascii    = false;
 	bool                            compress = true;
 	string                          solver;
@@ -47,6 +48,12 @@ public:
 		  "the factor before the integral of eq. 2 in Coombs (2023); none with MpmGhost.factor = 0. 'all': all of these. Read as a tuple, so assign "
 		  "a new one to change it.",
 		  admitting("one or more of 'points', 'grid', 'ghostFaces' and 'all'", areKinds));
+		v("fields",
+		  &MpmVtkRecorder::fields,
+		  0,
+		  "Which fields of 'points' are written, by the names given there, or 'all'; an empty sequence leaves the domains alone. Few fields make small "
+		  "files. Read as a tuple.",
+		  admitting("names of the fields of 'points': displacement, stress, meanStress, sqrt2J2, plasticStrain, volume, material, id, or 'all'", areFields));
 		v("ascii", &MpmVtkRecorder::ascii, 0, "Write numbers as text, in larger files.");
 		v("compress", &MpmVtkRecorder::compress, 0, "Compress the data with zlib, unless *ascii*.");
 		v("solver", &MpmVtkRecorder::solver, 0, "Label of the MpmImplicitEngine to follow; needed only if there are several.");
@@ -63,6 +70,7 @@ public:
 
 	static bool isGiven(const string& text) { return !text.empty(); }
 	static bool areKinds(const vector<string>&);
+	static bool areFields(const vector<string>&);
 
 private:
 	struct Moment {

@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <sstream>
 #include <sys/ioctl.h>
+#include <termios.h>
 #include <unistd.h>
 
 namespace yade {
@@ -18,6 +19,13 @@ namespace {
 		else
 			std::snprintf(text, sizeof text, "%ld:%02ld:%02ld", whole / 3600, whole / 60 % 60, whole % 60);
 		return text;
+	}
+
+	// YADE's prompt waits for keys, one by one: redrawing would wipe out what has been typed.
+	bool somebodyTypes()
+	{
+		termios settings {};
+		return tcgetattr(STDIN_FILENO, &settings) == 0 && !(settings.c_lflag & ICANON);
 	}
 
 	// A line that wraps could not be redrawn.
@@ -42,7 +50,7 @@ void ProgressLine::start(long iter)
 void ProgressLine::show(const Progress& now, int level)
 {
 	if (level == 0) return;
-	const bool inPlace = level == 1 && now.inBackground && isatty(STDERR_FILENO);
+	const bool inPlace = level == 1 && now.inBackground && isatty(STDERR_FILENO) && !somebodyTypes();
 	if (isDue(now, level, inPlace)) {
 		shown = Clock::now();
 		if (inPlace) std::fprintf(stderr, "\r\033[K%s", fitted(text(now)).c_str());

@@ -439,3 +439,47 @@ O.run(2, wait=True)
 ''')
 	for kind in ('points', 'grid', 'ghostFaces'):
 		assert iterations(yade.folder / f'column-{kind}.pvd') == [0, 1, 2]
+
+
+def test_chosen_fields(yade):
+	yade(
+	        '''
+from scenes import *
+solver = slope()
+O.engines += [MpmVtkRecorder(fileName='all-'), MpmVtkRecorder(fileName='few-', fields=['displacement', 'stress']), MpmVtkRecorder(fileName='none-', fields=[])]
+O.step()
+try: O.engines[1].fields = ['displacment']
+except ValueError as error: assert "'displacment'" in str(error) and 'plasticStrain' in str(error)
+else: raise AssertionError('accepted')
+'''
+	)
+	every, few, none = (Vtu(yade.folder / f'{name}-points.0.vtu') for name in ('all', 'few', 'none'))
+	assert set(few.fields) == {'displacement', 'stress'} and not none.fields
+	assert len(every) == len(few) == len(none) == 1095
+	assert np.array_equal(few.fields['stress'], every.fields['stress'])
+
+
+def test_yades_own_writers(yade):
+	"""VTKRecorder and export.VTKExporter know material points as spheres."""
+	yade(
+	        '''
+from scenes import *
+from yade import export
+solver = slope()
+O.engines += [VTKRecorder(fileName='yade-', recorders=['spheres', 'colors', 'materialId'], iterPeriod=1, initRun=True)]
+O.run(2, wait=True)
+mpm.colour('displacement')
+export.VTKExporter('exported').exportSpheres(what=dict(sxy='b.state.stress[0, 1]', plastic='b.state.plasticStrain', u='b.state.displ()'))
+points = mpm.arrays()
+np.savez('points.npz', **points)
+'''
+	)
+	points = np.load(yade.folder / 'points.npz')
+	spheres = Vtu(max(yade.folder.glob('yade-spheres.*.vtu'))).cells
+	data = spheres.GetPointData()
+	assert np.allclose(vtk_to_numpy(spheres.GetPoints().GetData()), points['pos'], atol=1e-6)  # single precision
+	assert np.allclose(vtk_to_numpy(data.GetArray('radii')), 0.25) and np.array_equal(vtk_to_numpy(data.GetArray('materialId')), points['material'])
+	lines = next(yade.folder.glob('exported-spheres-*.vtk')).read_text().split()
+	assert int(lines[lines.index('POINTS') + 1]) == 1095
+	first = lines.index('sxy')
+	assert np.allclose(np.array(lines[first + 5:first + 5 + 1095], dtype=float), points['stress'][:, 0, 1])
