@@ -26,3 +26,29 @@ def test_column(yade):
 def test_column_of_cubes(yade):
 	run = yade(root / 'examples' / 'column' / 'column.py', '--dim', 3, '--cells', 8)
 	assert 'stress error (eq. 7): 1.12729015e-02' in run.stdout
+
+
+def numbers(pattern, run):
+	return list(map(float, re.search(pattern, run.stdout).groups()))
+
+
+def test_cantilever(yade):
+	run = yade(root / 'examples' / 'cantilever' / 'cantilever.py', '--cells', 2)
+	down, elastica = numbers(r'= 10: tip down (\S+) L, elastica (\S+) L', run)
+	assert abs(down / elastica - 1) < 0.005 and elastica == 0.81061
+	assert (run.folder / 'out/cantilever/cantilever.png').stat().st_size > 20000
+
+
+def test_collapse(yade):
+	"""A coarse grid is too strong, by the figure that its page gives."""
+	run = yade(root / 'examples' / 'collapse' / 'collapse.py', '--cellSize', 0.5, '--stepSize', 0.1, '--end', 5)
+	failed, limit = numbers(r'fails at N = (\S+), limit analysis: \S+ to (\S+)', run)
+	assert abs(failed - 4.345) < 0.01 and limit == 3.7776
+	assert (run.folder / 'out/collapse/collapse.png').stat().st_size > 20000
+
+
+def test_footing3d(yade):
+	run = yade(root / 'examples' / 'footing3d' / 'footing3d.py', '--cells', 2, '--steps', 8)
+	ratio, published = numbers(r'square over strip (\S+), published (\S+)', run)
+	assert abs(ratio / published - 1) < 0.03
+	assert (run.folder / 'out/footing3d/footing3d.png').stat().st_size > 20000
