@@ -13,14 +13,6 @@ template <int Dim> Index<Dim> corner(const Index<Dim>& cell, int bits)
 	return i;
 }
 
-template <int Dim> Key keyOffset(int bits)
-{
-	Key k = 0;
-	for (int a = 0; a < Dim; ++a)
-		if (bits >> a & 1) k += Grid<Dim>::keyStep(a);
-	return k;
-}
-
 /// The cell that holds the point's centre. On a face it is the lower cell, unless that lies behind the wall of that face.
 template <int Dim> Index<Dim> containingCell(const Vec<Dim>& x, double h, const Boundary<Dim>& boundary)
 {
@@ -145,7 +137,7 @@ template <int Dim> void numberNodes(CloudBasis<Dim>& b)
 	for (const auto& patch : b.patches) {
 		forPatchNodes(patch, [&](int, Key key) { b.nodes.push_back(key); });
 		for (int c = 0; c < 1 << Dim; ++c)
-			if (patch.cells >> c & 1) b.cells.push_back(patch.cell + keyOffset<Dim>(c));
+			if (patch.cells >> c & 1) b.cells.push_back(patch.cell + Grid<Dim>::keyOffset(c));
 	}
 	sortUnique(b.nodes);
 	sortUnique(b.cells);

@@ -19,6 +19,14 @@ template <int Dim> struct Grid {
 	static constexpr int indexLimit = (1 << (keyBits - 1)) - 2;
 
 	static constexpr Key keyStep(int axis) { return Key(1) << (keyBits * axis); }
+	/// From a cell to the one above it along each axis whose bit is set.
+	static constexpr Key keyOffset(int bits)
+	{
+		Key k = 0;
+		for (int a = 0; a < Dim; ++a)
+			if (bits >> a & 1) k += keyStep(a);
+		return k;
+	}
 	static Key           key(const Index<Dim>& i)
 	{
 		Key k = 0;

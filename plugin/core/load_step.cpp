@@ -55,10 +55,11 @@ template <int Dim> StepReport loadStep(PointCloud<Dim>& cloud, const Model<Dim>&
 	solver.resetTimes();
 	// 1. basis functions and populated cells; boundary cells, ghost faces and K_g
 	const StepSystem<Dim> system(cloud, model, load, report);
-	const std::string     motion = freeRigidMotion(system.basis, model.grid, model.boundary);
-	if (!motion.empty()) {
+	const Restraint       held = restraint(system.basis, model.grid, model.boundary);
+	report.parts               = held.parts;
+	if (!held.freeMotion.empty()) {
 		report.failure = Failure::unrestrained;
-		report.cause   = "nothing restrains the " + motion;
+		report.cause   = "nothing restrains the " + held.freeMotion;
 		return report;
 	}
 	// 2. to 4. points to nodes, assembly and Newton's method on the nodes

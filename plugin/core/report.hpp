@@ -26,6 +26,8 @@ struct StepReport {
 	int                 invertedPoint = -1; ///< its index in the cloud, for Failure::inverted
 
 	int nodes = 0, dofs = 0, populatedCells = 0, boundaryCells = 0, ghostFaces = 0;
+	int mixedCells = 0; ///< populated by points of several materials
+	int parts      = 0; ///< of the body that share no node
 
 	/// Free degree of freedom with the largest out-of-balance force.
 	struct {

@@ -81,7 +81,7 @@ template <int Dim> std::string describe(const Part<Dim>& part, const Grid<Dim>& 
 
 } // namespace
 
-template <int Dim> std::string freeRigidMotion(const CloudBasis<Dim>& basis, const Grid<Dim>& grid, const Boundary<Dim>& boundary)
+template <int Dim> Restraint restraint(const CloudBasis<Dim>& basis, const Grid<Dim>& grid, const Boundary<Dim>& boundary)
 {
 	const auto               root = parts(basis);
 	std::map<int, Part<Dim>> found;
@@ -102,14 +102,13 @@ template <int Dim> std::string freeRigidMotion(const CloudBasis<Dim>& basis, con
 				const auto m    = part.rigidModes(place(n), a);
 				part.gram += m * m.transpose();
 			}
-	for (const auto& [node, part] : found) {
-		const std::string motion = describe(part, grid);
-		if (!motion.empty()) return motion;
-	}
-	return "";
+	Restraint result { int(found.size()), "" };
+	for (auto part = found.begin(); part != found.end() && result.freeMotion.empty(); ++part)
+		result.freeMotion = describe(part->second, grid);
+	return result;
 }
 
-template std::string freeRigidMotion(const CloudBasis<2>&, const Grid<2>&, const Boundary<2>&);
-template std::string freeRigidMotion(const CloudBasis<3>&, const Grid<3>&, const Boundary<3>&);
+template Restraint restraint(const CloudBasis<2>&, const Grid<2>&, const Boundary<2>&);
+template Restraint restraint(const CloudBasis<3>&, const Grid<3>&, const Boundary<3>&);
 
 } // namespace gimpm

@@ -6,7 +6,11 @@
 
 namespace gimpm {
 
-/// Description of the first part found that can move freely ("translation along y of the material around (1, 2)"), or empty.
-template <int Dim> std::string freeRigidMotion(const CloudBasis<Dim>&, const Grid<Dim>&, const Boundary<Dim>&);
+struct Restraint {
+	int         parts = 0;  ///< of the body that share no node
+	std::string freeMotion; ///< of the first part found that can move freely ("translation along y of the material around (1, 2)"), or empty
+};
+
+template <int Dim> Restraint restraint(const CloudBasis<Dim>&, const Grid<Dim>&, const Boundary<Dim>&);
 
 } // namespace gimpm

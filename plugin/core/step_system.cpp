@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "core/step_system.hpp"
+#include "core/mixed_cells.hpp"
 #include "core/stopwatch.hpp"
 #include <Eigen/LU>
 
@@ -60,6 +61,8 @@ StepSystem<Dim>::StepSystem(const PointCloud<Dim>& cloud, const Model<Dim>& m, c
 	report.nodes              = int(basis.nodes.size());
 	report.dofs               = dofs.count;
 	report.populatedCells     = int(basis.cells.size());
+	for (const char mixed : mixedCells(basis, cloud.material))
+		report.mixedCells += mixed;
 	report.largestWallOverlap = basis.largestWallOverlap;
 }
 

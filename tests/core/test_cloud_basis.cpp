@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Populated cells, active nodes, patches and colours of a cloud of points, without walls.
 #include "scenes.hpp"
+#include "core/mixed_cells.hpp"
 #include <algorithm>
+#include <map>
 #include <numeric>
 #include <set>
 
@@ -54,6 +56,31 @@ namespace {
 			size[a] = patch.nodesAlong(a);
 		int local = 0;
 		forIndices<Dim>(Grid<Dim>::index(patch.cell), size, [&](const Index<Dim>& i) { f(Grid<Dim>::key(i), patch.node[local++]); });
+	}
+
+	TYPED_TEST(CloudBasisTest, MixedCellsAreThoseThatDomainsOfTwoMaterialsOverlap)
+	{
+		constexpr int Dim = TypeParam::value;
+		auto          c   = this->cloud(60);
+		Random        random(11);
+		for (int& material : c.material)
+			material = random.integer(0, 2);
+		std::map<Key, std::set<int>> materials;
+		for (int p = 0; p < int(c.size()); ++p)
+			for (const Key cell : this->overlapped(c, p))
+				materials[cell].insert(c.material[p]);
+		const auto basis = cloudBasis<Dim>(c, this->grid, Basis::gimp, {});
+		const auto mixed = mixedCells(basis, c.material);
+		int        count = 0;
+		for (std::size_t i = 0; i < basis.cells.size(); ++i) {
+			EXPECT_EQ(bool(mixed[i]), materials.at(basis.cells[i]).size() > 1);
+			count += mixed[i];
+		}
+		EXPECT_GT(count, 0);
+		EXPECT_LT(count, int(mixed.size()));
+		std::fill(c.material.begin(), c.material.end(), 1);
+		for (const char m : mixedCells(basis, c.material))
+			EXPECT_FALSE(m);
 	}
 
 	TYPED_TEST(CloudBasisTest, PopulatedCellsAreThoseThatADomainOverlaps)

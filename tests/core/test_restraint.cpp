@@ -10,11 +10,13 @@ namespace {
 		Grid<Dim>       grid { 0.5, Vec<Dim>::Ones() };
 		PointCloud<Dim> cloud = block<Dim>(grid, Index<Dim>::Constant(2), 2); // from (1, 1) to (2, 2), its middle at 1.5
 
-		std::string motion(const std::vector<HeldBox<Dim>>& boxes) const
+		Restraint restraint(const std::vector<HeldBox<Dim>>& boxes) const
 		{
 			const Boundary<Dim> boundary(boxes);
-			return freeRigidMotion<Dim>(cloudBasis<Dim>(cloud, grid, Basis::gimp, boundary), grid, boundary);
+			return gimpm::restraint<Dim>(cloudBasis<Dim>(cloud, grid, Basis::gimp, boundary), grid, boundary);
 		}
+		std::string motion(const std::vector<HeldBox<Dim>>& boxes) const { return restraint(boxes).freeMotion; }
+		int         parts() const { return restraint({}).parts; }
 		/// One node held.
 		HeldBox<Dim> pin(const Vec<Dim>& place, const std::string& fix) const { return held<Dim>(grid, place, place, fix); }
 	};
@@ -67,6 +69,7 @@ namespace {
 		EXPECT_EQ(body.motion({ left }), "translation along x of the material around (6.5, 1.5)");
 		EXPECT_EQ(body.motion({ right }), "translation along x of the material around (1.5, 1.5)");
 		EXPECT_EQ(body.motion({ left, right }), "");
+		EXPECT_EQ(body.parts(), 2);
 		// a roller below both leaves both
 		EXPECT_EQ(body.motion({ wallBelow<2>(body.grid, 1, 1) }), "translation along x of the material around (1.5, 1.5)");
 	}
@@ -78,6 +81,7 @@ namespace {
 		for (const auto& x : neighbour.position)
 			addPoint<2>(body.cloud, x, neighbour.halfSize[0]);
 		EXPECT_EQ(body.motion({ held<2>(body.grid, { 1, 1 }, { 1, 2 }, "xy") }), "");
+		EXPECT_EQ(body.parts(), 1);
 	}
 
 	TEST(Restraint, FarAndLargeBodiesAreJudgedAlike)
