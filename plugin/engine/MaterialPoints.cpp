@@ -4,26 +4,26 @@
 namespace yade {
 
 namespace {
-	[[noreturn]] void refuse(const Body& body, const string& why) { throw std::invalid_argument("Body #" + std::to_string(body.id) + ": " + why); }
+	[[noreturn]] void refuse(Body::id_t id, const string& why) { throw std::invalid_argument("Body #" + std::to_string(id) + ": " + why); }
 
 	template <class T> string classOf(const shared_ptr<T>& part) { return part ? part->getClassName() : "none"; }
 
-	MaterialPoint complete(const Body& body, MpmPoint& shape)
+	MaterialPoint complete(const Body& body, const shared_ptr<MpmPoint>& shape)
 	{
-		auto* material = dynamic_cast<MpmMaterial*>(body.material.get());
+		const auto material = boost::dynamic_pointer_cast<MpmMaterial>(body.material);
 		if (!material)
-			refuse(body, "an MpmPoint shape needs a material for material points, such as MpmElasticMat; there is " + classOf(body.material) + ".");
-		auto* state = dynamic_cast<MpmState*>(body.state.get());
-		if (!state) refuse(body, "an MpmPoint shape needs an MpmState, as from material.newAssocState(); there is " + classOf(body.state) + ".");
+			refuse(body.id, "an MpmPoint shape needs a material for material points, such as MpmElasticMat; there is " + classOf(body.material) + ".");
+		const auto state = boost::dynamic_pointer_cast<MpmState>(body.state);
+		if (!state) refuse(body.id, "an MpmPoint shape needs an MpmState, as from material.newAssocState(); there is " + classOf(body.state) + ".");
 		if (body.isBounded() || state->blockedDOFs != State::DOF_ALL)
-			refuse(body, "YADE's collider and integrator must leave material points alone: set bounded = False and state.blockedDOFs = 'xyzXYZ'.");
-		return { &body, &shape, state, material };
+			refuse(body.id, "YADE's collider and integrator must leave material points alone: set bounded = False and state.blockedDOFs = 'xyzXYZ'.");
+		return { body.id, shape, state, material };
 	}
 
 	void refuseOtherShape(const Body& body)
 	{
 		if (!dynamic_cast<MpmMaterial*>(body.material.get())) return;
-		refuse(body,
+		refuse(body.id,
 		       "material '" + body.material->label + "' (" + body.material->getClassName() + ") is for material points, but the shape is "
 		               + classOf(body.shape) + ". Functions such as sphere() take the last material of O.materials unless given one.");
 	}
@@ -50,18 +50,18 @@ void MaterialPoint::requireAdmissible(int dim) const
 		state->requireAdmissible();
 		if (dim == 2) requirePlaneStrain(*state);
 	} catch (const std::invalid_argument& error) {
-		refuse(*body, error.what());
+		refuse(id, error.what());
 	}
 }
 
-vector<MaterialPoint> materialPoints(const Scene& scene)
+vector<MaterialPoint> materialPoints(const Scene& scene, int mask)
 {
 	const BodyContainer&  bodies = *scene.bodies;
 	vector<MaterialPoint> points;
 	for (size_t id = 0; id < bodies.size(); ++id) {
 		const shared_ptr<Body>& body = bodies[id];
-		if (!body) continue; // erased
-		if (auto* shape = dynamic_cast<MpmPoint*>(body->shape.get())) points.push_back(complete(*body, *shape));
+		if (!body || !isMeant(*body, mask)) continue; // null: erased
+		if (const auto shape = boost::dynamic_pointer_cast<MpmPoint>(body->shape)) points.push_back(complete(*body, shape));
 		else
 			refuseOtherShape(*body);
 	}

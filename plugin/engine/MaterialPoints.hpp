@@ -7,18 +7,22 @@
 
 namespace yade {
 
+// Keeps its parts alive when the script erases the body while the scene runs in the background.
 struct MaterialPoint {
-	const Body*  body;
-	MpmPoint*    shape;
-	MpmState*    state;
-	MpmMaterial* material;
+	Body::id_t              id;
+	shared_ptr<MpmPoint>    shape;
+	shared_ptr<MpmState>    state;
+	shared_ptr<MpmMaterial> material;
 
 	// std::invalid_argument unless all its values can be computed with in this dimension (2 or 3). Its material is not looked at.
 	void requireAdmissible(int dim) const;
 };
 
-// All bodies with an MpmPoint shape, in order of body id; valid until the scene changes. std::invalid_argument if one of them is
-// incomplete, is left to YADE's collider or integrator, or if another body has a material that is for material points only.
-vector<MaterialPoint> materialPoints(const Scene&);
+// Whether an engine with this mask is to look at the body, as YADE's own engines decide.
+inline bool isMeant(const Body& body, int mask) { return mask == 0 || (body.groupMask & mask) != 0; }
+
+// All bodies with an MpmPoint shape that the mask means, in order of body id. std::invalid_argument if one of them is incomplete, is
+// left to YADE's collider or integrator, or if another body has a material that is for material points only.
+vector<MaterialPoint> materialPoints(const Scene&, int mask = 0);
 
 } // namespace yade

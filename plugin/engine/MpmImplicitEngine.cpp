@@ -6,8 +6,10 @@
 #include "engine/LoadStepObserver.hpp"
 #include "engine/exchange.hpp"
 #include "yade_api/exceptions.hpp"
+#include "yade_api/interruption.hpp"
 #include "yade_api/logging.hpp"
-#include "yade_api/python_lock.hpp"
+#include "yade_api/value_lock.hpp"
+#include <atomic>
 #include <omp.h>
 
 namespace yade {
@@ -27,11 +29,34 @@ namespace {
 		int before;
 	};
 
+	std::atomic_int stepsAtWork { 0 };
+
+	struct AtWork {
+		AtWork() { ++stepsAtWork; }
+		~AtWork() { --stepsAtWork; }
+	};
+
 	string placeOf(const MaterialPoint& point)
 	{
 		std::ostringstream text;
-		text << " (body #" << point.body->id << " at " << point.state->pos.transpose() << ")";
+		text << " (body #" << point.id << " at " << point.state->pos.transpose() << ")";
 		return text.str();
+	}
+
+	const char* nameOf(gimpm::Failure failure)
+	{
+		using gimpm::Failure;
+		switch (failure) {
+			case Failure::none: return "none";
+			case Failure::unrestrained: return "unrestrained";
+			case Failure::singular: return "singular";
+			case Failure::inverted: return "inverted";
+			case Failure::notFinite: return "notFinite";
+			case Failure::diverging: return "diverging";
+			case Failure::tooManyIterations: return "tooManyIterations";
+			case Failure::interrupted: return "interrupted";
+		}
+		return "";
 	}
 
 	bool canBeCut(gimpm::Failure failure)
@@ -63,6 +88,8 @@ bool MpmImplicitEngine::isLoadCurve(const vector<std::pair<Real, Real>>& curve)
 	return !curve.empty();
 }
 
+bool MpmImplicitEngine::isStepAtWork() { return stepsAtWork > 0; }
+
 bool MpmImplicitEngine::isActivated()
 {
 	beforeActivation = { virtLast, realLast, iterLast, nDone };
@@ -72,6 +99,8 @@ bool MpmImplicitEngine::isActivated()
 void MpmImplicitEngine::action()
 {
 	deliveringErrors([&] {
+		if (PyGILState_Check() && Singleton<Omega>::instance().isRunning())
+			throw std::runtime_error("MpmImplicitEngine: called while the scene runs in the background; call O.wait() or O.pause() first.");
 		try {
 			run();
 		} catch (...) {
@@ -99,19 +128,16 @@ template <class F> void MpmImplicitEngine::tellObservers(F tell) const
 
 void MpmImplicitEngine::run()
 {
-	const std::lock_guard<std::mutex> lock(busy);
-	const Threads                     threads(ompThreads);
-	requireRunnable();
-	progressLine.start(scene->iter);
-	const Real target = scene->time + scene->dt;
-	if (grid->dim == 2) step<2>(target);
+	const Threads threads(ompThreads);
+	if (grid && grid->dim == 3) step<3>();
 	else
-		step<3>(target);
+		step<2>();
 }
 
 void MpmImplicitEngine::requireRunnable() const
 {
 	requireAdmissible();
+	requireOnlyClaim();
 	std::ostringstream text;
 	const bool everyIteration = iterPeriod == 1;
 	if (!(scene->dt > 0) || !std::isfinite(scene->dt))
@@ -129,6 +155,33 @@ void MpmImplicitEngine::requireRunnable() const
 	throw std::invalid_argument("MpmImplicitEngine: " + text.str());
 }
 
+// Of several engines none may claim a point of another: it would be moved twice.
+void MpmImplicitEngine::requireOnlyClaim() const
+{
+	vector<const MpmImplicitEngine*> others;
+	int                              entries = 0;
+	for (const auto& engine : scene->engines) {
+		const auto* other = dynamic_cast<const MpmImplicitEngine*>(engine.get());
+		if (other == this) ++entries;
+		else if (other && !other->dead)
+			others.push_back(other);
+	}
+	if (entries > 1) throw std::invalid_argument("MpmImplicitEngine: the same engine is listed " + std::to_string(entries) + " times in O.engines.");
+	for (const auto* other : others)
+		for (const MaterialPoint& point : materialPoints(*scene, mask))
+			if (isMeant(*(*scene->bodies)[point.id], other->mask))
+				throw std::invalid_argument(
+				        "Body #" + std::to_string(point.id) + ": two MpmImplicitEngines in O.engines claim it, with mask = " + std::to_string(mask) + " and "
+				        + std::to_string(other->mask) + "; give each body a groupMask that goes with one of them.");
+}
+
+string MpmImplicitEngine::noPoints() const
+{
+	const string hint = "; add them with O.bodies.append(mpm.fill(...)).";
+	if (materialPoints(*scene).empty()) return "MpmImplicitEngine: the scene has no material points" + hint;
+	return "MpmImplicitEngine: the scene has no material points whose groupMask goes with mask = " + std::to_string(mask) + ".";
+}
+
 Real MpmImplicitEngine::loadFactorAt(Real time) const
 {
 	if (time <= loadCurve.front().first) return loadCurve.front().second;
@@ -140,26 +193,32 @@ Real MpmImplicitEngine::loadFactorAt(Real time) const
 	return loadCurve.back().second;
 }
 
-template <int Dim> void MpmImplicitEngine::step(Real target)
+template <int Dim> void MpmImplicitEngine::step()
 {
-	double                 gathering = 0, scattering = 0;
-	gimpm::Model<Dim>      model = toModel<Dim>(*grid, basis, boundaries, *ghost, *newton);
+	const AtWork           during;
+	Real                   target    = 0;
+	double                 gathering = 0;
+	gimpm::Model<Dim>      model;
 	vector<MaterialPoint>  points;
 	gimpm::PointCloud<Dim> cloud;
 	{
+		const ValueLock        lock;
 		const gimpm::Stopwatch watch(gathering);
-		points = materialPoints(*scene);
-		if (points.empty()) throw std::invalid_argument("MpmImplicitEngine: the scene has no material points; add them with O.bodies.append(mpm.fill(...)).");
+		requireRunnable();
+		progressLine.start(scene->iter);
+		target = scene->time + scene->dt;
+		model  = toModel<Dim>(*grid, basis, boundaries, *ghost, *newton);
+		points = materialPoints(*scene, mask);
+		if (points.empty()) throw std::invalid_argument(noPoints());
 		cloud = gather(points, model);
-	}
-	tellObservers([this](LoadStepObserver& observer) { observer.stepBegins(*this); });
-	advance(cloud, model, points, target);
-	{
-		const gimpm::Stopwatch watch(scattering);
-		scatter(cloud, points);
+		last  = gimpm::StepReport();
+		times.clear();
+		iterations = lineSearchTrials = luSolves = substeps = cuts = 0;
+		lastPoints = points.size();
 	}
 	addTime("gather", gathering);
-	addTime("scatter", scattering);
+	tellObservers([this](LoadStepObserver& observer) { observer.stepBegins(*this); });
+	advance(cloud, model, points, target);
 }
 
 // Load steps up to the target: a step that fails is undone and tried with half the increment, down to newton.minStep; after an easy
@@ -167,16 +226,21 @@ template <int Dim> void MpmImplicitEngine::step(Real target)
 template <int Dim>
 void MpmImplicitEngine::advance(gimpm::PointCloud<Dim>& cloud, gimpm::Model<Dim>& model, const vector<MaterialPoint>& points, Real target)
 {
-	const Real begin         = loadTime;
-	const bool inBackground  = Singleton<Omega>::instance().isRunning();
-	model.newton.interrupted = [inBackground] { return inBackground && !Singleton<Omega>::instance().isRunning(); };
-	iterations = lineSearchTrials = luSolves = substeps = cuts = 0;
+	const Real   begin = loadTime;
+	Interruption interruption;
+	model.newton.interrupted = [&] { return interruption.isRequested(); };
 	for (Real done = 0; done < 1;) {
-		const Real              part   = std::min(stepPart, 1 - done);
-		const Real              time   = done + part == 1 ? target : begin + (done + part) * (target - begin);
-		const gimpm::Load<Dim>  load { gravity.head<Dim>(), loadFactorAt(time), loadFactorAt(time) - loadFactorAt(loadTime) };
-		model.newton.acceptUnconverged = newton->acceptUnconverged && part / 2 < newton->minStep;
+		Real             part = 0, time = 0;
+		gimpm::Load<Dim> load;
+		{
+			const ValueLock lock;
+			part = std::min(stepPart, 1 - done);
+			time = done + part == 1 ? target : begin + (done + part) * (target - begin);
+			load = { gravity.head<Dim>(), loadFactorAt(time), loadFactorAt(time) - loadFactorAt(loadTime) };
+			model.newton.acceptUnconverged = newton->acceptUnconverged && part / 2 < newton->minStep;
+		}
 		const gimpm::StepReport report = gimpm::loadStep(cloud, model, load, solver);
+		const ValueLock         lock;
 		take(report);
 		if (report.converged() || report.accepted) {
 			if (report.accepted) {
@@ -184,24 +248,38 @@ void MpmImplicitEngine::advance(gimpm::PointCloud<Dim>& cloud, gimpm::Model<Dim>
 				warnOfAccepted(report, time);
 			}
 			done += part;
-			++substeps;
-			loadTime   = time;
-			loadFactor = load.factor;
+			reach(cloud, points, time, load.factor);
 			if (report.iterations <= newton->maxIterations / 3) stepPart = std::min(1., 2 * stepPart);
 		} else if (canBeCut(report.failure) && part / 2 >= newton->minStep) {
 			stepPart = part / 2;
 			++cuts;
 		} else {
 			stepPart = 1;
-			if (substeps > 0) scatter(cloud, points);
-			raise(report, time, part, points);
+			const string reason = reasonOf(report, time, part, points);
+			if (report.failure == gimpm::Failure::interrupted) interruption.raise(reason);
+			throw std::runtime_error(reason);
 		}
 		showProgress(points.size(), done == 1);
 	}
 }
 
+// Points and load time move on together: whoever reads or saves the scene at any moment finds a converged state.
+template <int Dim> void MpmImplicitEngine::reach(const gimpm::PointCloud<Dim>& cloud, const vector<MaterialPoint>& points, Real time, Real factor)
+{
+	double scattering = 0;
+	{
+		const gimpm::Stopwatch watch(scattering);
+		scatter(cloud, points);
+	}
+	addTime("scatter", scattering);
+	++substeps;
+	loadTime   = time;
+	loadFactor = factor;
+}
+
 void MpmImplicitEngine::take(const gimpm::StepReport& report)
 {
+	last           = report;
 	converged      = report.converged();
 	residual       = report.residual();
 	residuals      = report.residuals;
@@ -226,7 +304,53 @@ void MpmImplicitEngine::take(const gimpm::StepReport& report)
 		addTime(phase, seconds);
 }
 
-void MpmImplicitEngine::addTime(const char* phase, double seconds) { timingDeltas->add(phase, std::chrono::nanoseconds(std::llround(1e9 * seconds))); }
+void MpmImplicitEngine::addTime(const char* phase, double seconds)
+{
+	timingDeltas->add(phase, std::chrono::nanoseconds(std::llround(1e9 * seconds)));
+	times[phase] += seconds;
+}
+
+py::dict MpmImplicitEngine::report() const
+{
+	const ValueLock lock;
+	py::dict        result;
+	if (times.empty()) return result;
+	result["loadTime"]         = loadTime;
+	result["loadFactor"]       = loadFactor;
+	result["stepPart"]         = stepPart;
+	result["iterations"]       = iterations;
+	result["substeps"]         = substeps;
+	result["cuts"]             = cuts;
+	result["lineSearchTrials"] = lineSearchTrials;
+	result["luSolves"]         = luSolves;
+	result["converged"] = last.converged();
+	result["accepted"]  = last.accepted;
+	result["failure"]   = nameOf(last.failure);
+	result["cause"]     = last.cause;
+	py::list history;
+	for (const Real r : last.residuals)
+		history.append(r);
+	result["residuals"]      = history;
+	result["residual"]       = last.residual();
+	result["worstNode"]      = Vector3r(last.worst.position);
+	result["worstAxis"]      = last.worst.axis < 0 ? string() : string(1, "xyz"[last.worst.axis]);
+	result["worstForce"]     = last.worst.force;
+	result["points"]         = lastPoints;
+	result["nodes"]          = last.nodes;
+	result["dofs"]           = last.dofs;
+	result["activeCells"]    = last.populatedCells;
+	result["boundaryCells"]  = last.boundaryCells;
+	result["ghostFaces"]     = last.ghostFaces;
+	result["clampedDomains"] = last.clampedDomains;
+	result["wallOverlap"]    = last.largestWallOverlap;
+	result["mixedCells"]     = last.mixedCells;
+	result["islands"]        = last.parts;
+	py::dict seconds;
+	for (const auto& [phase, time] : times)
+		seconds[phase] = time;
+	result["times"] = seconds;
+	return result;
+}
 
 void MpmImplicitEngine::warnOfAccepted(const gimpm::StepReport& report, Real time) const
 {
@@ -236,7 +360,7 @@ void MpmImplicitEngine::warnOfAccepted(const gimpm::StepReport& report, Real tim
 	log(Severity::warning, staticName(), text.str());
 }
 
-void MpmImplicitEngine::raise(const gimpm::StepReport& report, Real time, Real part, const vector<MaterialPoint>& points) const
+string MpmImplicitEngine::reasonOf(const gimpm::StepReport& report, Real time, Real part, const vector<MaterialPoint>& points) const
 {
 	std::ostringstream text;
 	text << "MpmImplicitEngine: the load step from factor " << loadFactor << " to " << loadFactorAt(time);
@@ -245,7 +369,7 @@ void MpmImplicitEngine::raise(const gimpm::StepReport& report, Real time, Real p
 	if (report.invertedPoint >= 0) text << placeOf(points[report.invertedPoint]);
 	text << "." << placeOfImbalance(report, points) << adviceOn(report, part);
 	text << " The scene is at load factor " << loadFactor << ", the last converged state, in iteration " << scene->iter << ".";
-	throw std::runtime_error(text.str());
+	return text.str();
 }
 
 string MpmImplicitEngine::placeOfImbalance(const gimpm::StepReport& report, const vector<MaterialPoint>& points) const
@@ -261,7 +385,7 @@ string MpmImplicitEngine::placeOfImbalance(const gimpm::StepReport& report, cons
 	int           found  = 0;
 	for (const MaterialPoint& point : points)
 		if ((point.state->pos - report.worst.position).head(grid->dim).cwiseAbs().maxCoeff() < grid->cellSize && ++found <= listed)
-			text << (found == 1 ? ", near it bodies #" : ", #") << point.body->id;
+			text << (found == 1 ? ", near it bodies #" : ", #") << point.id;
 	if (found > listed) text << " and " << found - listed << " more";
 	text << ".";
 	return text.str();
@@ -283,18 +407,21 @@ string MpmImplicitEngine::adviceOn(const gimpm::StepReport& report, Real part) c
 
 gimpm::SymmetricCsc MpmImplicitEngine::reducedStiffness()
 {
-	const PythonUnlock                python; // a step in the background needs it to refuse a value
-	const std::lock_guard<std::mutex> lock(busy);
-	const Threads                     threads(ompThreads);
-	requireAdmissible();
-	const auto points  = materialPoints(*Singleton<Omega>::instance().getScene());
-	const auto inSpace = [&](auto dim) {
-		constexpr int Dim   = decltype(dim)::value;
-		auto          model = toModel<Dim>(*grid, basis, boundaries, *ghost, *newton);
-		const auto    cloud = gather(points, model);
+	const Threads threads(ompThreads);
+	const auto    inSpace = [&](auto dim) {
+		constexpr int          Dim = decltype(dim)::value;
+		gimpm::Model<Dim>      model;
+		gimpm::PointCloud<Dim> cloud;
+		{
+			const ValueLock lock;
+			requireAdmissible();
+			model = toModel<Dim>(*grid, basis, boundaries, *ghost, *newton);
+			cloud = gather(materialPoints(*Singleton<Omega>::instance().getScene(), mask), model);
+		}
+		const PythonUnlock python;
 		return gimpm::tangentStiffness(cloud, model);
 	};
-	return grid->dim == 2 ? inSpace(std::integral_constant<int, 2>()) : inSpace(std::integral_constant<int, 3>());
+	return grid && grid->dim == 3 ? inSpace(std::integral_constant<int, 3>()) : inSpace(std::integral_constant<int, 2>());
 }
 
 py::tuple MpmImplicitEngine::stiffness()

@@ -9,8 +9,9 @@
 #include "engine/MpmGrid.hpp"
 #include "engine/MpmNewton.hpp"
 #include "engine/ProgressLine.hpp"
+#include "yade_api/interruption.hpp"
 #include "yade_api/yade_api.hpp"
-#include <mutex>
+#include <map>
 
 namespace yade {
 
@@ -23,6 +24,7 @@ public:
 	vector<shared_ptr<MpmBoundary>> boundaries;
 	shared_ptr<MpmGhost>            ghost { new MpmGhost };
 	shared_ptr<MpmNewton>           newton { new MpmNewton };
+	int                             mask     = -1;
 	Real                            loadTime = 0;
 	int                             verbosity = 1;
 
@@ -46,7 +48,13 @@ public:
 		       "all material points of the scene from the last converged load time to O.time + O.dt by one load step: Newton's method for the "
 		       "incremental displacements of the nodes of a background grid that is then reset. A step that does not converge is cut (see MpmNewton), "
 		       "at last it raises RuntimeError, and the scene stays at the last converged state. Bodies of other kinds are left alone. Quasi-static analysis uses YADE's time as its load clock; with an "
-		       "active TimeStepper in the scene set *iterPeriod* > 1 or *virtPeriod*.";
+		       "active TimeStepper in the scene set *iterPeriod* > 1 or *virtPeriod*.\n\n"
+		       "Bodies may be added and erased, and materials changed, between steps: the next step starts from what it finds. A changed modulus acts on the "
+		       "elastic strain that is there, a lowered yield stress returns it to the new surface. Several engines, each with its own grid, may share a scene "
+		       "if their *mask* gives every material point to one of them at most. While the scene runs in the background, what is read is "
+		       "the last converged state, and settings that are assigned act from the next step on; change material points, O.bodies and O.engines after "
+		       "O.pause() only. Ctrl-C in O.run(n, wait=True) and O.wait() stops the step within an iteration and raises KeyboardInterrupt; O.run() goes on "
+		       "from the last converged state.";
 	}
 	template <class V> static void attributes(V&& v)
 	{
@@ -67,6 +75,11 @@ public:
 		v("boundaries", &MpmImplicitEngine::boundaries, 0, "Essential boundary conditions (MpmBoundary); read as a tuple, so assign a new one to change it.");
 		v("ghost", &MpmImplicitEngine::ghost, 0, "Ghost stabilisation (MpmGhost).", notNull);
 		v("newton", &MpmImplicitEngine::newton, 0, "Solution of a load step (MpmNewton).", notNull);
+		v("mask",
+		  &MpmImplicitEngine::mask,
+		  0,
+		  "Material points to move: those whose body.groupMask has a bit in common with it; 0 or -1 (the default): all. The others stay as they are. "
+		  "ValueError in the step if several engines claim a point.");
 		v("loadTime",
 		  &MpmImplicitEngine::loadTime,
 		  0,
@@ -98,7 +111,7 @@ public:
 		  readonly,
 		  "For each of *boundaries*, the sum of the forces [N] along x, y, z with which it held its nodes at the end of the last converged step; per metre "
 		  "of thickness in plane strain. A node in several boxes counts for the last one. Empty before the first step.");
-		v("clampedDomains", &MpmImplicitEngine::clampedDomains, readonly, "Points whose domain was kept at half a cell in the last step.");
+		v("clampedDomains", &MpmImplicitEngine::clampedDomains, readonly, "Points whose domain was kept at half a cell at the end of the last step.");
 		v("wallOverlap",
 		  &MpmImplicitEngine::wallOverlap,
 		  readonly,
@@ -106,11 +119,29 @@ public:
 	}
 	template <class C> static void python(C& c)
 	{
+		Interruption::prepare();
 		c.def("stiffness",
 		      &MpmImplicitEngine::stiffness,
 		      "stiffness() -> (rows, columns, values, size)\n\nReduced tangent stiffness K + K_g [N/m] of the current configuration: the free degrees of "
 		      "freedom only, both triangles, as NumPy arrays (M,) of int64, int64 and float, and the number of unknowns. Usable before any step. Raises "
 		      "ValueError as a step does.");
+		c.def("report",
+		      &MpmImplicitEngine::report,
+		      "report() -> dict\n\nHow the last run of this engine in this process went; empty before the first.\n\n"
+		      "Outcome: 'converged'; 'accepted' (see MpmNewton.acceptUnconverged); 'failure', one of 'none', 'unrestrained', 'singular', 'inverted', "
+		      "'notFinite', 'diverging', 'tooManyIterations', 'interrupted'; 'cause', a clause, empty when converged; 'loadTime' [s] and 'loadFactor' of the "
+		      "last converged state; 'stepPart', part of O.dt that the next step tries.\n\n"
+		      "Effort of the run, undone tries included: 'iterations' (linear solves), 'substeps', 'cuts', 'lineSearchTrials', 'luSolves'; 'times' [s], dict "
+		      "by phase.\n\n"
+		      "Of the last load step that was tried: 'residuals', list; 'residual', the last of them [-]; 'worstNode' (position [m], NaN if none), "
+		      "'worstAxis' ('x', 'y', 'z' or '') and 'worstForce' [N] of the largest out-of-balance force; 'points', 'nodes', 'dofs', 'activeCells', "
+		      "'boundaryCells', 'ghostFaces'.\n\n"
+		      "What deserves a look there, with the rule for it: 'clampedDomains', points whose domain would outgrow half a cell: it is kept at half a cell, "
+		      "the rest of the point's volume acts within it. 'wallOverlap' [m], the largest length by which a domain reached behind a wall: nothing lies "
+		      "behind a wall, and the part in front of it stands for the whole. 'mixedCells', cells populated by points of different materials: each point "
+		      "keeps its own law, so the cell's stiffness is the sum, and the interface is resolved to one cell. 'islands', parts of the body that share "
+		      "no grid node, 1 for a body in one piece (0 if the step was refused before they were counted): the body may break up as long as every part is held against rigid motion; a part that is not "
+		      "ends the run as 'unrestrained', with its place, since no equilibrium determines where it goes.");
 		c.def("conditionNumber",
 		      &MpmImplicitEngine::conditionNumber,
 		      "conditionNumber() -> float\n\nCondition number [-] of stiffness() in the 2-norm, from all eigenvalues of the dense matrix (Coombs 2023, figure "
@@ -136,9 +167,13 @@ public:
 	void action() override;
 
 	py::tuple stiffness();
+	py::dict  report() const;
 	Real      conditionNumber();
 	Real      conditionEstimate();
 	py::dict  plotData();
+
+	// Of any engine, between taking over the values of the material points and giving them back.
+	static bool isStepAtWork();
 
 	static bool isLoadCurve(const vector<std::pair<Real, Real>>&);
 
@@ -151,14 +186,17 @@ private:
 
 	void                       run();
 	void                       requireRunnable() const;
+	void                       requireOnlyClaim() const;
 	Real                       loadFactorAt(Real time) const;
-	template <int Dim> void    step(Real target);
+	template <int Dim> void    step();
+	string                     noPoints() const;
+	template <int Dim> void    reach(const gimpm::PointCloud<Dim>&, const vector<MaterialPoint>&, Real time, Real factor);
 	template <class F> void    tellObservers(F) const;
 	template <int Dim> void    advance(gimpm::PointCloud<Dim>&, gimpm::Model<Dim>&, const vector<MaterialPoint>&, Real target);
 	void                       take(const gimpm::StepReport&);
 	void                       addTime(const char* phase, double seconds);
 	void                       warnOfAccepted(const gimpm::StepReport&, Real time) const;
-	[[noreturn]] void          raise(const gimpm::StepReport&, Real time, Real part, const vector<MaterialPoint>&) const;
+	string                     reasonOf(const gimpm::StepReport&, Real time, Real part, const vector<MaterialPoint>&) const;
 	string                     placeOfImbalance(const gimpm::StepReport&, const vector<MaterialPoint>&) const;
 	string                     adviceOn(const gimpm::StepReport&, Real part) const;
 	gimpm::SymmetricCsc        reducedStiffness();
@@ -168,7 +206,11 @@ private:
 	Counters            beforeActivation;
 	ProgressLine        progressLine;
 	gimpm::LinearSolver solver; // keeps the symbolic analysis; results do not depend on it
-	std::mutex          busy;   // stiffness() may be asked for from Python while the scene runs in the background
+
+	// for report(): the last load step that was tried, the points in it, and the times of the last run by phase [s]
+	gimpm::StepReport      last;
+	size_t                 lastPoints = 0;
+	std::map<string, Real> times;
 };
 
 } // namespace yade

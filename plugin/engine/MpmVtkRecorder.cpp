@@ -15,7 +15,7 @@ namespace yade {
 
 namespace {
 	const vector<string> kinds { "points", "grid", "ghostFaces" };
-	const vector<string> pointFields { "displacement", "stress", "meanStress", "sqrt2J2", "plasticStrain", "volume", "material", "id" };
+	const vector<string> pointFields { "displacement", "stress", "meanStress", "sqrt2J2", "plasticStrain", "volume", "material", "clamped", "id" };
 
 	bool contains(const vector<string>& list, const string& item) { return std::find(list.begin(), list.end(), item) != list.end(); }
 
@@ -26,12 +26,13 @@ namespace {
 		return (scene.stopAtIter > 0 && scene.iter + 1 == scene.stopAtIter) || (scene.stopAtTime > 0 && scene.time + scene.dt >= scene.stopAtTime);
 	}
 
-	VtkCells pointData(const Scene& scene, int dim, const vector<string>& fields)
+	VtkCells pointData(const Scene& scene, const MpmImplicitEngine& solver, const vector<string>& fields)
 	{
-		const auto points = materialPoints(scene);
+		const ValueLock lock;
+		const auto      points = materialPoints(scene, solver.mask);
 		for (const MaterialPoint& point : points)
-			point.requireAdmissible(dim);
-		const auto domains = pointDomains(points, dim);
+			point.requireAdmissible(solver.grid->dim);
+		const auto domains = pointDomains(points, *solver.grid, solver.basis == "gimp");
 		if (!contains(fields, "all"))
 			for (const string& name : pointFields)
 				if (!contains(fields, name)) domains->GetCellData()->RemoveArray(name.c_str());
@@ -215,7 +216,7 @@ void MpmVtkRecorder::write(const string& kind, const Moment& now, const MpmImpli
 	const auto   latest     = std::find_if(written.rbegin(), written.rend(), isOfSeries);
 	if (latest != written.rend() && latest->second == now.time) return;
 
-	const auto cells = kind == "points" ? pointData(*scene, engine.grid->dim, fields) : gridCells(kind, *scene, engine);
+	const auto cells = kind == "points" ? pointData(*scene, engine, fields) : gridCells(kind, *scene, engine);
 	writeVtu(*cells, now.time, file, { ascii, compress });
 
 	auto       entries    = written;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "engine/assignment.hpp"
-#include "engine/MaterialPoints.hpp"
+#include "engine/MpmImplicitEngine.hpp"
 #include "engine/buffers.hpp"
 #include "engine/laws.hpp"
 #include <Eigen/LU>
@@ -124,14 +124,17 @@ namespace {
 
 	const MaterialPoint& pointWith(Body::id_t id, const vector<MaterialPoint>& points)
 	{
-		const auto found = std::lower_bound(points.begin(), points.end(), id, [](const MaterialPoint& p, Body::id_t i) { return p.body->id < i; });
-		if (found != points.end() && found->body->id == id) return *found;
+		const auto found = std::lower_bound(points.begin(), points.end(), id, [](const MaterialPoint& p, Body::id_t i) { return p.id < i; });
+		if (found != points.end() && found->id == id) return *found;
 		throw std::invalid_argument("there is no material point with body id " + std::to_string(id) + ".");
 	}
 }
 
 void assignColumns(const py::object& ids, const py::dict& given)
 {
+	const ValueLock lock;
+	if (MpmImplicitEngine::isStepAtWork()) 
+		throw std::runtime_error("assign: a load step is at work in the background and would overwrite the values; call O.pause() or O.wait() first.");
 	const auto            points = materialPoints(*Singleton<Omega>::instance().getScene());
 	const Column<int64_t> rows(ids, "ids");
 	const Columns         columns(given, rows.size());
@@ -145,7 +148,7 @@ void assignColumns(const py::object& ids, const py::dict& given)
 			if (!materials.count(material)) materials.emplace(material, coreMaterial(*material));
 			values.push_back(changed(point, columns, row, materials.at(material)));
 		} catch (const std::invalid_argument& error) {
-			throw std::invalid_argument("Body #" + std::to_string(point.body->id) + ": " + error.what());
+			throw std::invalid_argument("Body #" + std::to_string(point.id) + ": " + error.what());
 		}
 	}
 	for (size_t row = 0; row < rows.size(); ++row)

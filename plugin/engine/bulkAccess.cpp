@@ -74,12 +74,19 @@ py::list newBodies(const py::object& positions, const Vector3r& halfSize, const 
 	return bodies;
 }
 
+void betweenSteps(const py::object& f)
+{
+	const ValueLock lock;
+	f();
+}
+
 py::dict columnsOfPoints()
 {
-	using Point       = const MaterialPoint&;
-	const auto points = materialPoints(*Singleton<Omega>::instance().getScene());
-	py::dict   columns;
-	columns["id"]            = integers(points, [](Point p) { return p.body->id; });
+	using Point = const MaterialPoint&;
+	const ValueLock lock;
+	const auto      points = materialPoints(*Singleton<Omega>::instance().getScene());
+	py::dict        columns;
+	columns["id"]            = integers(points, [](Point p) { return p.id; });
 	columns["pos"]           = vectors(points, [](Point p) { return p.state->pos; });
 	columns["pos0"]          = vectors(points, [](Point p) { return p.state->refPos; });
 	columns["halfSize"]      = vectors(points, [](Point p) { return p.shape->halfSize; });

@@ -9,6 +9,9 @@ namespace yade {
 // that of the domain; its box is the initial volume. std::invalid_argument if a material is not admissible.
 py::list newBodies(const py::object& positions, const Vector3r& halfSize, const py::list& materials, const py::object& index);
 
+// Calls f while no step in the background changes the material points or the engines.
+void betweenSteps(const py::object& f);
+
 // For each column of mpm.arrays() its values in order of body id, one row after the other, as a bytearray of double or int64.
 py::dict columnsOfPoints();
 

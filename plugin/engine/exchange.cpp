@@ -41,7 +41,7 @@ namespace {
 	template <int Dim> void requireOnGrid(const MaterialPoint& point, const gimpm::Grid<Dim>& grid, gimpm::Basis basis)
 	{
 		std::ostringstream text;
-		text << "Body #" << point.body->id << ": ";
+		text << "Body #" << point.id << ": ";
 		if (((point.state->pos.head<Dim>() - grid.origin) / grid.cellSize).cwiseAbs().maxCoeff() >= grid.indexLimit) {
 			text << "the material point at (" << point.state->pos.transpose() << ") is more than " << grid.indexLimit << " cells from the grid's origin.";
 			throw std::invalid_argument(text.str());
@@ -63,11 +63,11 @@ namespace {
 		}
 		int of(const MaterialPoint& point)
 		{
-			const auto [found, isNew] = index.try_emplace(point.material, int(list.size()));
+			const auto [found, isNew] = index.try_emplace(point.material.get(), int(list.size()));
 			if (isNew) try {
 					list.push_back(coreMaterial(*point.material));
 				} catch (const std::invalid_argument& error) {
-					throw std::invalid_argument("Body #" + std::to_string(point.body->id) + ": " + error.what());
+					throw std::invalid_argument("Body #" + std::to_string(point.id) + ": " + error.what());
 				}
 			return found->second;
 		}

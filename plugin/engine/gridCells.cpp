@@ -11,9 +11,10 @@ namespace yade {
 namespace {
 	template <int Dim> VtkCells cells(const string& kind, const Scene& scene, const MpmImplicitEngine& solver)
 	{
-		auto       model = toModel<Dim>(*solver.grid, solver.basis, solver.boundaries, *solver.ghost, *solver.newton);
-		const auto cloud = gather(materialPoints(scene), model);
-		const Real z     = solver.grid->origin[2];
+		const ValueLock lock;
+		auto            model = toModel<Dim>(*solver.grid, solver.basis, solver.boundaries, *solver.ghost, *solver.newton);
+		const auto      cloud = gather(materialPoints(scene, solver.mask), model);
+		const Real      z     = solver.grid->origin[2];
 		return kind == "grid" ? populatedCells(cloud, model, z) : stabilisedFaces(cloud, model, z);
 	}
 

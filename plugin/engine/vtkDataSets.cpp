@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "engine/vtkDataSets.hpp"
+#include "core/kinematics.hpp"
+#include "core/mixed_cells.hpp"
 #include "core/step_system.hpp"
 #include <algorithm>
 #include <vtkCellArray.h>
@@ -71,6 +73,12 @@ namespace {
 	Real meanStress(const MaterialPoint& point) { return point.state->stress.trace() / 3; }
 	Real sqrt2J2(const MaterialPoint& point) { return (point.state->stress - meanStress(point) * Matrix3r::Identity()).norm(); }
 
+	template <int Dim> bool isClamped(const MaterialPoint& point, Real cellSize)
+	{
+		const gimpm::Mat<Dim> F = point.state->defGrad.topLeftCorner<Dim, Dim>();
+		return (point.shape->halfSize0.head<Dim>().cwiseProduct(gimpm::stretchAlongAxes<Dim>(F)).array() > 0.5 * cellSize).any();
+	}
+
 	template <int Dim> void addNodes(Cells& cells, const vector<gimpm::Key>& nodes, const gimpm::Grid<Dim>& grid, Real z)
 	{
 		for (const gimpm::Key node : nodes) {
@@ -83,8 +91,9 @@ namespace {
 	vtkIdType numberOf(gimpm::Key node, const vector<gimpm::Key>& nodes) { return std::lower_bound(nodes.begin(), nodes.end(), node) - nodes.begin(); }
 }
 
-VtkCells pointDomains(const vector<MaterialPoint>& points, int dim)
+VtkCells pointDomains(const vector<MaterialPoint>& points, const MpmGrid& grid, bool deform)
 {
+	const int dim = grid.dim;
 	Cells domains(boxType(dim));
 	for (const MaterialPoint& point : points) {
 		std::array<vtkIdType, 8> box {};
@@ -105,7 +114,8 @@ VtkCells pointDomains(const vector<MaterialPoint>& points, int dim)
 	addReals(*cells, "plasticStrain", points, [](Point p) { return p.state->plasticStrain; });
 	addReals(*cells, "volume", points, [](Point p) { return p.state->volume; });
 	addIntegers(*cells, "material", points, [](Point p) { return p.material->id; });
-	addIntegers(*cells, "id", points, [](Point p) { return p.body->id; });
+	addIntegers(*cells, "clamped", points, [&](Point p) { return deform && (dim == 2 ? isClamped<2>(p, grid.cellSize) : isClamped<3>(p, grid.cellSize)); });
+	addIntegers(*cells, "id", points, [](Point p) { return p.id; });
 	return cells;
 }
 
@@ -128,6 +138,8 @@ template <int Dim> VtkCells populatedCells(const gimpm::PointCloud<Dim>& cloud, 
 	const auto cells      = boxes.dataSet();
 	const auto atBoundary = gimpm::boundaryCells(basis.cells, model.boundary);
 	addIntegers(*cells, "boundary", basis.cells, [&](gimpm::Key cell) { return std::binary_search(atBoundary.begin(), atBoundary.end(), cell); });
+	const auto mixed = gimpm::mixedCells(basis, cloud.material);
+	addIntegers(*cells, "mixed", mixed, [](char isMixed) { return isMixed; });
 	return cells;
 }
 

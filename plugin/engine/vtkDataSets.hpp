@@ -2,6 +2,7 @@
 #pragma once
 // The state of an analysis as VTK data: cells with fields. In plane strain all lies in a plane of constant z.
 #include "engine/MaterialPoints.hpp"
+#include "engine/MpmGrid.hpp"
 #include "core/model.hpp"
 #include "core/point_cloud.hpp"
 #include <vtkSmartPointer.h>
@@ -12,8 +13,8 @@ namespace yade {
 
 using VtkCells = vtkSmartPointer<vtkUnstructuredGrid>;
 
-// The domain of each material point, in the order given, with its fields.
-VtkCells pointDomains(const vector<MaterialPoint>&, int dim);
+// The domain of each material point, in the order given, with its fields. `deform`: the domains follow the deformation.
+VtkCells pointDomains(const vector<MaterialPoint>&, const MpmGrid&, bool deform);
 
 // The background grid where it holds material, in the same configuration. `z` is the height of the plane in plane strain.
 template <int Dim> VtkCells populatedCells(const gimpm::PointCloud<Dim>&, const gimpm::Model<Dim>&, Real z);

@@ -2,7 +2,7 @@
 #pragma once
 // One attribute of a plugin class, as given by the attributes() list of that class.
 #include "yade_api/conversion.hpp"
-#include "yade_api/python_lock.hpp"
+#include "yade_api/value_lock.hpp"
 #include "yade_api/validators.hpp"
 #include <stdexcept>
 
@@ -33,19 +33,31 @@ template <class D, class T, class Validator> struct Attribute {
 		const std::optional<T> converted = Conversion<T>::fromPython(value);
 		if (!converted) raisePython(PyExc_TypeError, qualifiedName() + " = " + repr(value) + ": expected " + Conversion<T>::expected() + ".");
 		requireAdmitted(*converted);
+		const ValueLock lock;
 		object.*member = *converted;
+	}
+
+	py::object read(const D& object) const
+	{
+		const T value = copy(object);
+		return Conversion<T>::toPython(value);
 	}
 
 	// A Python ValueError.
 	void requireAdmitted(const T& value) const
 	{
 		if (validator(value)) return;
-		const PythonLock lock; // an engine asks, too
-		throw std::invalid_argument(
-		        qualifiedName() + " = " + repr(Conversion<T>::toPython(value)) + " is not admitted: expected " + validator.description() + ".");
+		// An engine in the background must not wait for Python's lock, which O.reset() keeps while it waits for the engine.
+		const string text = PyGILState_Check() ? repr(Conversion<T>::toPython(value)) : textOf(value);
+		throw std::invalid_argument(qualifiedName() + " = " + text + " is not admitted: expected " + validator.description() + ".");
 	}
 
 private:
+	T copy(const D& object) const
+	{
+		const ValueLock lock;
+		return object.*member;
+	}
 	string qualifiedName() const { return string(D::staticName()) + "." + name; }
 };
 

@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <limits>
 #include <optional>
+#include <sstream>
 #include <utility>
 
 namespace yade {
@@ -25,6 +26,32 @@ inline string repr(const py::object& value)
 	return text.size() <= longest ? text : text.substr(0, longest) + "...";
 }
 
+// The same in threads without Python's lock: as Python writes it, but for the digits of numbers.
+inline string textOf(const string& text) { return "'" + text + "'"; }
+inline string textOf(bool value) { return value ? "True" : "False"; }
+template <class T> string textOf(const shared_ptr<T>& object) { return object ? string("<") + T::staticName() + ">" : "None"; }
+template <class T> std::enable_if_t<std::is_arithmetic_v<T>, string> textOf(T value)
+{
+	std::ostringstream text;
+	text << value;
+	return text.str();
+}
+template <class T, int Rows, int Columns> string textOf(const Eigen::Matrix<T, Rows, Columns>& value)
+{
+	std::ostringstream text;
+	text << (Columns == 1 ? "Vector" : "Matrix") << Rows
+	     << value.format(Eigen::IOFormat(Eigen::StreamPrecision, Eigen::DontAlignCols, ",", Columns == 1 ? "," : ", ", "", "", "(", ")"));
+	return text.str();
+}
+template <class First, class Second> string textOf(const std::pair<First, Second>& value) { return "(" + textOf(value.first) + ", " + textOf(value.second) + ")"; }
+template <class T> string textOf(const vector<T>& values)
+{
+	string text;
+	for (const T& value : values)
+		text += (text.empty() ? "" : ", ") + textOf(value);
+	return "(" + text + ")";
+}
+
 // Conversion<T>: expected() says what Python values become a T; fromPython() returns nothing for any other; toPython().
 template <class T> struct Conversion;
 
@@ -37,13 +64,18 @@ template <class T> struct RegisteredConversion {
 			if (extracted.check()) return T(extracted());
 		} catch (const py::error_already_set&) { // the converter accepted the object, but not its items
 			PyErr_Clear();
+		} catch (const std::exception&) { // so did that of matrices
 		}
 		return std::nullopt;
 	}
 	static py::object toPython(const T& value) { return py::object(value); }
 };
 template <> struct Conversion<string> : RegisteredConversion<string> {
-	static string expected() { return "a string"; }
+	static string                expected() { return "a string"; }
+	static std::optional<string> fromPython(const py::object& value)
+	{
+		return PyUnicode_Check(value.ptr()) ? RegisteredConversion<string>::fromPython(value) : std::nullopt; // bytes are none
+	}
 };
 template <> struct Conversion<Vector3r> : RegisteredConversion<Vector3r> {
 	static string expected() { return "three numbers"; }

@@ -19,10 +19,10 @@ static int raiseIfUnseen(void*)
 
 void announceError()
 {
-	if (!Singleton<Omega>::instance().isRunning()) return;
-	// O.run(n, wait=True) holds the lock until it waits: having got it, this thread cannot end too early.
-	const PythonLock lock;
-	Py_AddPendingCall(&raiseIfUnseen, nullptr); // for O.run(n)
+	const ThreadRunner* const runner = Singleton<Omega>::instance().simulationLoop.get();
+	if (PyGILState_Check() || !runner || !runner->looping) return;
+	// O.run(n, wait=True) holds Python's lock until it waits: when someone has got it, this thread cannot end too early.
+	withPython(runner->looping, [] { Py_AddPendingCall(&raiseIfUnseen, nullptr); }); // the call is for O.run(n)
 }
 
 } // namespace yade

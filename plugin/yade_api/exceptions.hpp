@@ -4,9 +4,14 @@
 //
 // YADE keeps an exception of that thread for O.wait() to raise. But O.run(n, wait=True) returns silently if the thread has already
 // ended when it begins to wait, and O.run(n) only writes a line to the log.
-#include <exception>
+#include <stdexcept>
 
 namespace yade {
+
+// Ends a step that is given up on request: whoever asked knows.
+struct Interrupted : std::runtime_error {
+	using runtime_error::runtime_error;
+};
 
 // Sees to it that the script gets the exception that is about to end YADE's background thread. Does nothing outside that thread.
 void announceError();
@@ -16,6 +21,8 @@ template <class Step> void deliveringErrors(Step&& step)
 {
 	try {
 		step();
+	} catch (const Interrupted&) {
+		throw;
 	} catch (const std::exception&) {
 		announceError();
 		throw;

@@ -141,7 +141,7 @@ private:
 		if (Archive::is_loading::value) self().postLoad();
 	}
 
-	template <class A> py::object toPython(const A& attribute) const { return Conversion<typename A::Type>::toPython(self().*attribute.member); }
+	template <class A> py::object toPython(const A& attribute) const { return attribute.read(self()); }
 
 	template <class A> static void addProperty(PythonClass& c, const A& attribute)
 	{

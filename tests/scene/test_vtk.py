@@ -63,7 +63,7 @@ def equal(fields, arrays):
 	"""Whether the cell data of a 'points' file are those of mpm.arrays(), to the last bit where nothing is computed."""
 	mean = np.trace(arrays['stress'], axis1=1, axis2=2) / 3
 	deviator = arrays['stress'] - mean[:, None, None] * np.eye(3)
-	assert set(fields) == {'displacement', 'stress', 'meanStress', 'sqrt2J2', 'plasticStrain', 'volume', 'material', 'id'}
+	assert set(fields) == {'displacement', 'stress', 'meanStress', 'sqrt2J2', 'plasticStrain', 'volume', 'material', 'clamped', 'id'}
 	assert all(np.isfinite(field).all() for field in fields.values())
 	assert np.array_equal(fields['displacement'], arrays['pos'] - arrays['pos0'])
 	assert np.array_equal(fields['stress'].reshape(-1, 3, 3), arrays['stress'])

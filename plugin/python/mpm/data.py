@@ -62,6 +62,7 @@ def assign(ids=None, **columns):
 	:raises TypeError: a name that is not in this list, or values that are no numbers.
 	:raises ValueError: a wrong shape; a value that is not finite, or not admitted for that column (``MpmState`` says what is); a stress
 		that the material cannot carry without yielding; ids of no material points, or given twice.
+	:raises RuntimeError: a load step is at work in the background; it would overwrite the values.
 	"""
 	rows = _idsOfPoints() if ids is None else _ids(ids)
 	values = {name: _column(name, column, len(rows)) for name, column in columns.items()}

@@ -5,6 +5,8 @@ import os
 
 from yade import wrapper
 
+from .library import engine
+
 
 @contextlib.contextmanager
 def replacing(file):
@@ -28,7 +30,8 @@ def replacing(file):
 def save(file):
 	"""Save the scene as ``O.save`` does, but whole or not at all: a process that is killed meanwhile leaves the file as it was.
 
-	For saving during a run: ``PyRunner(iterPeriod=10, command="mpm.save('slope.yade.gz')")`` behind the solver.
+	For saving during a run: ``PyRunner(iterPeriod=10, command="mpm.save('slope.yade.gz')")`` behind the solver. While the scene runs
+	in the background, the script may save, too: the file has the last converged state, and its run goes on from there.
 
 	:param file: path with one of YADE's endings, ``.xml``, ``.xml.gz``, ``.xml.bz2``, ``.yade``, ``.yade.gz`` or ``.yade.bz2``
 	:raise ValueError: another ending
@@ -39,4 +42,4 @@ def save(file):
 	if not file.endswith(endings):
 		raise ValueError(f"save: file = {file!r} does not end in one of {', '.join(endings)}, which choose the format")
 	with replacing(file) as temporary:
-		wrapper.Omega().save(temporary, quiet=True)
+		engine.betweenSteps(lambda: wrapper.Omega().save(temporary, quiet=True))
