@@ -1,0 +1,262 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Every attribute of every class of the plugin, set to what it cannot mean; the list is the classes' own, so none can be forgotten.
+
+What is refused at once names itself. What is admitted goes into a scene: its step then ends with a finite state, or with a reason.
+The environment variable BAD_INPUT_TABLE names a file for the outcomes, as a table in Markdown.
+"""
+import json
+import os
+
+import pytest
+from conftest import Yade
+
+# Values beyond the limits, as Python text. None: there are no limits beside being finite, or of the kind that the attribute has.
+outOfRange = {
+        'MpmMaterial.density': ['0.', '-1.'],
+        'MpmElasticMat.young': ['0.', '-1.'],
+        'MpmElasticMat.poisson': ['-1.', '0.5', '7.'],
+        'MpmVonMisesMat.yieldStress': ['0.', '-1.'],
+        'MpmState.defGrad': ['Matrix3(-1,0,0, 0,1,0, 0,0,1)', 'Matrix3.Zero'],
+        'MpmState.elasticStrain': ['Matrix3(0,1,0, 2,0,0, 0,0,0)'],
+        'MpmState.force': None,
+        'MpmState.volume': ['0.', '-1.'],
+        'MpmState.volume0': ['0.', '-1.'],
+        'MpmState.plasticStrain': ['-1e-3'],
+        'MpmPoint.halfSize': ['(0.1, 0, 0.1)', '(-1, 1, 1)'],
+        'MpmPoint.halfSize0': ['(0.1, 0, 0.1)', '(-1, 1, 1)'],
+        'MpmGrid.cellSize': ['0.', '-1.'],
+        'MpmGrid.origin': None,
+        'MpmGrid.dim': ['1', '4', '-2'],
+        'MpmBoundary.min': None,
+        'MpmBoundary.max': None,
+        'MpmBoundary.fix': ['"w"', '"X"', '"xx"', '"x y"'],
+        'MpmBoundary.displacement': None,
+        'MpmGhost.factor': ['-1e-2'],
+        'MpmGhost.scaling': ['"Paper"'],
+        'MpmNewton.tolerance': ['0.', '1.', '-1e-6'],
+        'MpmNewton.maxIterations': ['0', '-1'],
+        'MpmNewton.minStep': ['0.', '-1.', '2.'],
+        'MpmNewton.lineSearchTrials': ['-1'],
+        'MpmNewton.acceptUnconverged': None,
+        'MpmImplicitEngine.grid': ['None'],
+        'MpmImplicitEngine.basis': ['"cubic"'],
+        'MpmImplicitEngine.gravity': None,
+        'MpmImplicitEngine.loadCurve': ['[(0, 0), (0, 1)]', '[(1, 0), (0, 1)]'],
+        'MpmImplicitEngine.boundaries': None,
+        'MpmImplicitEngine.ghost': ['None'],
+        'MpmImplicitEngine.newton': ['None'],
+        'MpmImplicitEngine.mask': None,
+        'MpmImplicitEngine.loadTime': None,
+        'MpmVtkRecorder.fileName': None,
+        'MpmVtkRecorder.recorders': ['["lines"]'],
+        'MpmVtkRecorder.ascii': None,
+        'MpmVtkRecorder.compress': None,
+        'MpmVtkRecorder.solver': None,
+}
+
+# Of each kind of value, by the type of its default: what has the wrong type, is NaN, infinite, empty, huge.
+kinds = {
+        'float': (['"1"', 'None', 'True', '(1, 2)', 'object()', '1j'], ['nan'], ['inf', '-inf'], ['()', '""'], ['1e308', '10**400']),
+        'int': (['"1"', 'None', 'True', '2.0', 'object()'], ['nan'], ['inf'], ['()', '""'], ['2**31 - 1', '10**30']),
+        'bool': (['"1"', 'None', '1', 'object()'], ['nan'], ['inf'], ['()', '""'], ['10**30']),
+        'str': (['1', 'None', 'b"x"', '["x"]'], ['nan'], ['inf'], ['""', '()'], ['"x" * 10**5']),
+        'Vector3': (['"xyz"', 'None', '1', '(1, 2)', '(1, 2, "3")', '(1, 2, 3, 4)'], ['(nan, 0, 0)', '(0, 0, nan)'], ['(inf, 0, 0)', '(0, -inf, 0)'], ['()', '""'],
+                    ['(1e308, 0, 0)', '(0, -1e308, 0)', '(0, 10**400, 0)']),
+        'Matrix3': (['"xyz"', 'None', '1', '(1, 2, 3)'], ['Matrix3(nan,0,0, 0,1,0, 0,0,1)'], ['Matrix3(inf,0,0, 0,1,0, 0,0,1)'], ['()', '""'],
+                    ['Matrix3(1e308,0,0, 0,1e308,0, 0,0,1)', '1e200 * Matrix3.Identity']),
+        'tuple': (['1', 'None', '"ab"', '[None]', '[1]', '{}'], ['[nan]', '[(0, nan)]'], ['[inf]', '[(inf, 1)]'], ['()'], ['[(0, 0), (1, 1e308)]', '[(t, t) for t in range(10**5)]']),
+        'object': (['1', '"x"', 'MpmState()', 'object()', '[]'], ['nan'], ['inf'], ['()', '""'], ['10**30']),
+}
+categories = ['wrong type', 'NaN', 'infinite', 'empty', 'huge', 'out of range']
+
+# Admitted though odd: by attribute and text of the value.
+admitted = {
+        **{(f'MpmBoundary.{side}', text): 'no limit on that side' for side in ('min', 'max') for text in ('(inf, 0, 0)', '(0, -inf, 0)')},
+        ('MpmImplicitEngine.boundaries', '()'): 'nothing is held',
+        ('MpmVtkRecorder.solver', '""'): 'the only one',
+}
+
+setting = '''
+import json, sys
+from yade import mpm, pack, wrapper
+nan = float('nan')
+
+def scene():
+	"""A sound scene; {class: the object of it that takes part}."""
+	O.reset()
+	materials = dict(density=2400, young=1e6, poisson=0.3)
+	O.materials.append([MpmElasticMat(label='elastic', **materials), MpmVonMisesMat(yieldStress=15e3, label='plastic', **materials)])
+	grid, base, ghost, newton = MpmGrid(cellSize=1), MpmBoundary(max=(inf, 0, inf), fix='xy'), MpmGhost(), MpmNewton()
+	O.bodies.append(mpm.fill(mpm.polygon([(0, 0), (2, 0), (2, 2), (0, 2)]), grid, 2, lambda x: 'elastic' if x[0] < 1 else 'plastic'))
+	solver = MpmImplicitEngine(grid=grid, gravity=(0, -1, 0), boundaries=[base], ghost=ghost, newton=newton)
+	O.engines = [solver, MpmVtkRecorder(fileName='out-', recorders=['all'])]
+	O.dt = 1
+	objects = [*O.engines, *O.materials, O.bodies[5].state, O.bodies[5].shape, grid, base, ghost, newton]
+	return {type(o).__name__: o for o in objects}
+
+def attributes():
+	"""(class, attribute, class of the object to set it on, kind, whether it can only be read) from the classes themselves."""
+	classes = [c for name, c in vars(wrapper).items() if isinstance(c, type) and name.startswith('Mpm')]
+	for c in classes:
+		users = [name for name in scene() if issubclass(getattr(wrapper, name), c)]
+		for name, value in vars(c).items():
+			if not isinstance(value, property): continue
+			default = getattr(c(), name)
+			kind = 'object' if default is None or isinstance(default, wrapper.Serializable) else type(default).__name__
+			yield c.__name__, name, users, kind, value.fset is None
+
+def outcome(user, name, text):
+	"""(name of the exception or None, its sentence, whether it was raised by the assignment)."""
+	target, value = scene()[user], eval(text)
+	try:
+		before = repr(getattr(target, name))
+		setattr(target, name, value)
+	except Exception as error:
+		assert repr(getattr(target, name)) == before, (user, name, text) # as it was
+		return type(error).__name__, str(error), True
+	points = mpm.arrays()
+	try:
+		O.step()
+	except Exception as error:
+		return type(error).__name__, str(error), False
+	assert all(np.isfinite(values).all() for values in mpm.arrays().values()), (user, name, text)
+	return None, '', False
+
+import numpy as np
+values = json.load(open('values.json')) # {kind: texts}, {attribute: texts}
+results = []
+for class_, name, users, kind, readonly in attributes():
+	if readonly:
+		for user in users[:1]:
+			try:
+				setattr(scene()[user], name, getattr(scene()[user], name))
+				results.append([class_, name, kind, 'readonly', '', None, '', True])
+			except AttributeError as error:
+				results.append([class_, name, kind, 'readonly', '', 'AttributeError', str(error), True])
+		continue
+	if not users:
+		results.append([class_, name, kind, 'unused', '', None, '', True])
+		continue
+	for category, text in values['kinds'][kind] + [['out of range', text] for text in values['outOfRange'].get(f'{class_}.{name}') or []]:
+		results.append([class_, name, kind, category, text, *outcome(users[0], name, text)])
+print(json.dumps(results))
+'''
+
+
+@pytest.fixture(scope='module')
+def outcomes(tmp_path_factory):
+	yade = Yade(tmp_path_factory.mktemp('attributes'))
+	texts = {kind: [[category, text] for category, list_ in zip(categories, lists) for text in list_] for kind, lists in kinds.items()}
+	(yade.folder / 'values.json').write_text(json.dumps(dict(kinds=texts, outOfRange=outOfRange)))
+	results = yade(setting).result
+	if 'BAD_INPUT_TABLE' in os.environ: writeTable(results, os.environ['BAD_INPUT_TABLE'])
+	return results
+
+
+def writeTable(results, path):
+	with open(path, 'w') as table:
+		print('| attribute |', ' | '.join(categories), '|', file=table)
+		print('|---' * (len(categories) + 1) + '|', file=table)
+		for name in dict.fromkeys(f'{r[0]}.{r[1]}' for r in results if r[3] in categories):
+			row = []
+			for category in categories:
+				cells = {}
+				for class_, attribute, kind, which, text, error, sentence, atOnce in results:
+					if f'{class_}.{attribute}' != name or which != category: continue
+					what = f'{error}' if atOnce and error else f'step: {error}' if error else 'runs'
+					cells.setdefault(what, []).append(text if len(text) < 40 else text[:37] + '...')
+				row.append('; '.join(f"{what}: {', '.join(f'`{text}`' for text in found)}" for what, found in cells.items()) or 'no limit')
+			print(f'| {name} |', ' | '.join(row), '|', file=table)
+		print('\nOnly to be read:', ', '.join(f'{r[0]}.{r[1]}' for r in results if r[3] == 'readonly'), file=table)
+
+
+def test_every_attribute_is_in_the_table(outcomes):
+	assert {f'{r[0]}.{r[1]}' for r in outcomes if r[3] != 'readonly'} == set(outOfRange)
+	assert not [r for r in outcomes if r[3] == 'unused']
+
+
+def test_what_can_only_be_read_says_so(outcomes):
+	for class_, name, _, _, _, error, sentence, _ in (r for r in outcomes if r[3] == 'readonly'):
+		assert error == 'AttributeError' and name in sentence, (class_, name, sentence)
+
+
+def test_what_cannot_be_meant_is_refused_by_the_assignment(outcomes):
+	"""With the old value kept; the sentence names class and attribute and says what is admitted."""
+	for class_, name, kind, category, text, error, sentence, atOnce in outcomes:
+		if category in ('huge', 'readonly') or (f'{class_}.{name}', text) in admitted: continue
+		where = f'{class_}.{name} = {text}: {error} {sentence}'
+		assert atOnce and error == ('TypeError' if 'TypeError' == error else 'ValueError'), where
+		if category == 'wrong type': assert error == 'TypeError', where
+		if category == 'out of range': assert error == 'ValueError', where
+		assert f'{class_}.{name} = ' in sentence and 'expected' in sentence, where
+
+
+def test_what_is_admitted_gives_a_finite_state_or_a_reason(outcomes):
+	for class_, name, kind, category, text, error, sentence, atOnce in outcomes:
+		if not error or atOnce: continue
+		assert error in ('ValueError', 'RuntimeError') and len(sentence) > 30, f'{class_}.{name} = {text}: {error} {sentence}'
+
+
+files = '''
+import json, os
+from scenes import *
+
+def tried(statement):
+	try:
+		exec(statement)
+		return None
+	except Exception as error:
+		return f'{type(error).__name__}: {error}'
+
+def record(path):
+	"""Writes the recorder's files in a step; the scene stays usable."""
+	O.reset()
+	slope()
+	O.engines = O.engines + [MpmVtkRecorder(fileName=path)]
+	O.step()
+
+def save(path):
+	mpm.save(path)
+
+def load(path):
+	O.load(path)
+	if not len(O.bodies): raise ValueError('nothing in it')
+
+slope()
+O.step()
+mpm.save('whole.yade.gz')
+mpm.save('whole.xml')
+for ending in 'yade.gz', 'xml':
+	content = open(f'whole.{ending}', 'rb').read()
+	open(f'cut.{ending}', 'wb').write(content[:len(content) // 2])
+	open(f'foreign.{ending}', 'wb').write(b'Not a scene.')
+	open(f'empty.{ending}', 'wb')
+os.mkdir('folder.xml')
+results = {statement: tried(statement) for statement in json.load(open("statements.json"))}
+record('good/new-')
+load('whole.yade.gz')
+load('whole.xml')
+O.step()
+print(json.dumps([results, sorted(os.listdir('.'))]))
+'''
+
+# (statement, what its error must contain)
+refusedFiles = [(f'record({path!r})', word) for path, word in [('', 'fileName'), ('whole.xml/x-', 'whole.xml'), ('a\0b-', 'fileName'), ('n' * 300, 'File name too long'), ('/proc/x-', '/proc')]] + [
+        (f'save({path!r})', word) for path, word in [('', 'save: file'), ('x.txt', 'x.txt'), ('missing/x.xml', 'missing'), ('folder.xml', 'folder.xml'), ('whole.xml/x.xml', 'whole.xml'), ('a\0b.xml', 'null'),
+                                                     ('n' * 300 + '.xml', 'too long')]
+] + [('save(7)', 'int')] + [(f'load({path!r})', '') for path in ('missing.xml', 'missing.yade.gz', 'cut.xml', 'cut.yade.gz', 'foreign.xml', 'foreign.yade.gz', 'empty.xml', 'empty.yade.gz', 'folder.xml', '')]
+
+
+def test_files_that_cannot_be_written_or_read(yade):
+	(yade.folder / 'statements.json').write_text(json.dumps([statement for statement, _ in refusedFiles]))
+	run = yade(files)
+	results, left = run.result
+	if 'BAD_INPUT_TABLE' in os.environ:
+		with open(os.environ['BAD_INPUT_TABLE'], 'a') as table:
+			print('\n| file argument | outcome |\n|---|---|', file=table)
+			for statement, message in results.items():
+				print(f'| `{statement[:60]}` | {(message or "accepted")[:150]} |', file=table)
+	for statement, word in refusedFiles:
+		message = results[statement]
+		assert message and word in message, (statement, message)
+	assert not [name for name in left if name.startswith('.') or 'n' * 10 in name], left
