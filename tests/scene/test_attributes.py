@@ -47,8 +47,10 @@ outOfRange = {
         'MpmImplicitEngine.newton': ['None'],
         'MpmImplicitEngine.mask': None,
         'MpmImplicitEngine.loadTime': None,
+        'MpmImplicitEngine.verbosity': ['-1', '3'],
         'MpmVtkRecorder.fileName': None,
         'MpmVtkRecorder.recorders': ['["lines"]'],
+        'MpmVtkRecorder.fields': ['["lines"]'],
         'MpmVtkRecorder.ascii': None,
         'MpmVtkRecorder.compress': None,
         'MpmVtkRecorder.solver': None,
@@ -74,6 +76,7 @@ admitted = {
         **{(f'MpmBoundary.{side}', text): 'no limit on that side' for side in ('min', 'max') for text in ('(inf, 0, 0)', '(0, -inf, 0)')},
         ('MpmImplicitEngine.boundaries', '()'): 'nothing is held',
         ('MpmVtkRecorder.solver', '""'): 'the only one',
+        ('MpmVtkRecorder.fields', '()'): 'the domains alone',
 }
 
 setting = '''

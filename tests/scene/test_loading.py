@@ -156,6 +156,39 @@ def test_importWithoutPlugin(yade, libraries):
 	assert 'ImportError: yade.mpm: YADE has not loaded the plugin' in run.stderr
 
 
+@pytest.mark.parametrize('importsFirst', [True, False])
+def test_pluginInstalledAnewUnderARunningYade(yade, importable, libraries, importsFirst):
+	"""It goes on with what it has opened, as if nothing had happened, or says that it cannot."""
+	setup = (root / 'scripts/setup').read_text()
+	replace = setup[setup.index('replace() {'):setup.index('# installInto')]
+	other = yade.folder / 'other.so'
+	other.write_bytes((build / 'mpm/mpm_engine.so').read_bytes() + b'newer')
+	yade(
+	        f'''
+import subprocess
+if {importsFirst}:
+	from scenes import slope, mpm
+	solver = slope()
+	O.run(5)
+subprocess.run(['bash', '-c', {replace!r} + 'replace {other} {libraries}/mpm/mpm_engine.so; replace {other} {libraries}/libpkg_mpm.so'], check=True)
+if {importsFirst}:
+	O.wait()
+	O.run(5, wait=True)
+	assert O.iter == 10 and solver.report()['converged'] and len(mpm.arrays()['id']) == 1095
+	O.saveTmp()
+	O.loadTmp()
+	O.step()
+else:
+	MpmGrid(cellSize=1)
+	try:
+		from yade import mpm
+		assert False
+	except ImportError as error:
+		assert 'start YADE again' in str(error), error
+'''
+	)
+
+
 def test_overlayForOneUser(yade):
 	"""What scripts/setup installs without the rights of root."""
 	subprocess.run([root / 'scripts/setup', '--user'], check=True)

@@ -32,6 +32,28 @@ np.savez('continued.npz', **mpm.arrays(), iterations=solver.iterations)
 		assert np.array_equal(whole[name], parts[name]), name
 
 
+def test_a_scene_saved_in_memory_continues_with_the_same_bits(yade):
+	"""O.saveTmp and O.loadTmp, also after other steps have been made, and with cut steps among them."""
+	yade('''
+from scenes import *
+solver = slope(steps=8)
+solver.newton.maxIterations = 5
+O.run(5, wait=True)
+O.saveTmp()
+O.run(3, wait=True)
+whole, outcome = mpm.arrays(), (solver.iterations, solver.cuts, solver.substeps, solver.loadFactor, solver.stepPart)
+for attempt in range(2):
+	O.loadTmp()
+	solver = O.engines[0]
+	assert O.iter == 5
+	O.run(3, wait=True)
+	points = mpm.arrays()
+	assert all(np.array_equal(whole[name], points[name]) for name in whole)
+	assert (solver.iterations, solver.cuts, solver.substeps, solver.loadFactor, solver.stepPart) == outcome
+	solver.boundaries[0].fix = 'y' # of the loaded scene, not of the saved one
+''')
+
+
 def test_a_killed_run_continues_from_its_last_save_with_the_same_bits(yade):
 	"""Saved by an engine in the middle of an iteration, and killed while it is at work."""
 	script = yade.folder / 'script.py'

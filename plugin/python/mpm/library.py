@@ -12,11 +12,21 @@ def _loadEngine():
 	if not hasattr(wrapper, 'MpmPoint'):
 		raise ImportError('yade.mpm: YADE has not loaded the plugin; what it printed at the start says why, or libpkg_mpm.so is not in ' + config.libDir)
 	name = 'mpm_engine'
-	loader = importlib.machinery.ExtensionFileLoader(name, os.path.join(config.libDir, 'mpm', name + '.so'))
+	path = os.path.join(config.libDir, 'mpm', name + '.so')
+	_requireTheOneInUse(path)
+	loader = importlib.machinery.ExtensionFileLoader(name, path)
 	module = importlib.util.module_from_spec(importlib.util.spec_from_loader(name, loader))
 	loader.exec_module(module)
 	module.verify()
 	return module
+
+
+def _requireTheOneInUse(path):
+	"""ImportError if the file has been replaced since YADE opened it: a second library beside the first would have objects of its own."""
+	with open('/proc/self/maps') as maps:
+		replaced = any(line.rstrip().endswith(os.path.realpath(path) + ' (deleted)') for line in maps)
+	if replaced:
+		raise ImportError(f'yade.mpm: {path} has been installed anew since this YADE started; start YADE again')
 
 
 engine = _loadEngine()
