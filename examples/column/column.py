@@ -12,26 +12,23 @@
 Run it with `scripts/run examples/column/column.py [options]`, or by yade-batch with the options as columns of a parameter table.
 It prints the error of the stress (eq. 7 of the paper) and the height beside the exact one, and draws stress against depth.
 """
-import argparse
 import os
+import sys
 
 from yade import mpm
 import matplotlib
 matplotlib.use('Agg')
 import matplotlib.pyplot as plt
 import numpy as np
+sys.path.insert(0, os.path.join(os.path.dirname(sys.argv[0]), '..'))
+from options import readOptions
 
-readParamsFromTable(noTableOk=True, cells=16, pointsPerCell=2, ghostFactor=1e-2, scaling='mesh-independent', dim=2, out='out/column')
-from yade.params import table
-
-options = argparse.ArgumentParser(prog='column.py', description='Elastic column under its own weight (Coombs 2023, section 4.1).')
-options.add_argument('--cells', type=int, default=table.cells, help='cells over the height (default %(default)s)')
-options.add_argument('--pointsPerCell', type=int, default=table.pointsPerCell, help='material points per cell and axis (default %(default)s)')
-options.add_argument('--ghostFactor', type=float, default=table.ghostFactor, help='ghost stabilisation; 0 switches it off (default %(default)s)')
-options.add_argument('--scaling', default=table.scaling, help="of the ghost stabilisation: 'mesh-independent' or 'paper' (default %(default)s)")
-options.add_argument('--dim', type=int, default=table.dim, help='2, or 3 for a column of cubes (default %(default)s)')
-options.add_argument('--out', default=table.out, help='folder for the picture (default %(default)s)')
-options = options.parse_args()
+options = readOptions('Elastic column under its own weight (Coombs 2023, section 4.1).',
+        cells=(16, 'cells over the height'),
+        pointsPerCell=(2, 'material points per cell and axis'),
+        ghostFactor=(1e-2, 'ghost stabilisation; 0 switches it off'),
+        scaling=('mesh-independent', "of the ghost stabilisation: 'mesh-independent' or 'paper'"),
+        dim=(2, '2, or 3 for a column of cubes'))
 
 l0, E, b, steps = 50., 1e4, 800., 40
 h = l0 / options.cells
@@ -82,7 +79,6 @@ known = options.cells in reference and options.pointsPerCell == 2 and options.gh
 print(f', reference: {reference[options.cells][kind]:.8e}' if known else '')
 print(f'height: {top:.4f} m, exact: {height:.4f} m')
 
-os.makedirs(options.out, exist_ok=True)
 figure, axes = plt.subplots(figsize=(4.5, 5.5))
 order = np.argsort(depth)
 axes.plot(-b * depth[order] / 1e3, depth[order], 'k-', linewidth=1, label='exact')

@@ -16,29 +16,22 @@ Run it with `scripts/run examples/slope/slope.py [options]`, or by yade-batch wi
 It prints the number of iterations beside those of the paper (table 1) and writes to the folder --out a picture of the deformed
 slope and files for ParaView.
 """
-import argparse
 import os
+import sys
 import time
 
 from yade import mpm
 import matplotlib
 matplotlib.use('Agg')
-import matplotlib.pyplot as plt
-from matplotlib.collections import PolyCollection
 import numpy as np
+sys.path.insert(0, os.path.join(os.path.dirname(sys.argv[0]), '..'))
+from options import readOptions
 
-readParamsFromTable(noTableOk=True, cellSize=1.0, pointsPerCell=2, ghostFactor=1e-2, out='out/slope')
-from yade.params import table
-
-options = argparse.ArgumentParser(prog='slope.py', description='Slope failure with a weak layer (Coombs 2023, section 4.2).')
-options.add_argument('--cellSize', type=float, default=table.cellSize, help='h [m]; the load comes in 40/h steps (default %(default)s)')
-options.add_argument('--pointsPerCell', type=int, default=table.pointsPerCell, help='material points per cell and axis (default %(default)s)')
-options.add_argument('--ghostFactor', type=float, default=table.ghostFactor, help='ghost stabilisation; 0 switches it off (default %(default)s)')
-options.add_argument('--out', default=table.out, help='folder for picture and ParaView files (default %(default)s)')
-options = options.parse_args()
+options = readOptions('Slope failure with a weak layer (Coombs 2023, section 4.2).',
+        cellSize=(1., 'h [m]; the load comes in 40/h steps'),
+        pointsPerCell=(2, 'material points per cell and axis'),
+        ghostFactor=(1e-2, 'ghost stabilisation; 0 switches it off'))
 h, steps = options.cellSize, round(40 / options.cellSize)
-
-os.makedirs(options.out, exist_ok=True)
 
 ## the soil, as material points
 O.materials.append(MpmVonMisesMat(young=1e6, poisson=0.3, density=2400, yieldStress=15e3, label='soil'))
@@ -84,14 +77,9 @@ print(f'largest displacement: {displacement.max():.6f} m')
 print(f'crest (0, 12) settles by {-(points["pos"] - points["pos0"])[np.lexsort((points["pos0"][:, 0], -points["pos0"][:, 1]))[0], 1]:.4f} m')
 
 ## the deformed domains, coloured by shear stress
-(x, y), (a, b) = points['pos'][:, :2].T, points['halfSize'][:, :2].T
-corners = np.stack([np.stack([x - a, y - b], 1), np.stack([x + a, y - b], 1), np.stack([x + a, y + b], 1), np.stack([x - a, y + b], 1)], axis=1)
-figure, axes = plt.subplots(figsize=(10, 4.6))
-domains = PolyCollection(corners, array=points['stress'][:, 0, 1] / 1e3, cmap='RdBu_r', clim=(-12, 12), edgecolors='face', linewidths=0.4)
-axes.add_collection(domains)
+axes = mpm.plot('stress_xy', grid=False, ghost=False, range=(-12e3, 12e3))
 axes.plot([0, 10, 15, 30], [12, 12, 7, 7], 'k--', linewidth=0.8, label='initial surface')
-axes.set(aspect='equal', xlim=(-0.5, 30.5), ylim=(-0.5, 12.5), xlabel='x [m]', ylabel='y [m]', title='Slope under its own weight')
+axes.set(title='Slope under its own weight')
 axes.legend(frameon=False)
-figure.colorbar(domains, label='shear stress $\\sigma_{xy}$ [kPa]', fraction=0.03)
-figure.savefig(os.path.join(options.out, 'slope.png'), dpi=150, bbox_inches='tight')
+axes.figure.savefig(os.path.join(options.out, 'slope.png'), dpi=150, bbox_inches='tight')
 print(f'written: {options.out}/slope.png, and for ParaView {options.out}/slope-points.pvd')

@@ -25,3 +25,21 @@ chooseMode() {
 	yade=/usr/bin/yade
 	if [ "$mode" = user ]; then yade=$overlay/bin/yade; fi
 }
+
+# Installs those of the given Debian packages that are missing, as root or through sudo.
+installPackages() {
+	local installed missing
+	installed=$(dpkg-query --show --showformat '${db:Status-Status} ${binary:Package}\n' | sed -n 's/^installed \([^:]*\).*/\1/p')
+	missing=$(comm -23 <(printf '%s\n' "$@" | sort) <(sort <<<"$installed") | tr '\n' ' ')
+	[ -n "$missing" ] || return 0
+
+	local asRoot=()
+	if [ "$(id -u)" != 0 ]; then
+		asRoot=(sudo)
+		command -v sudo >/dev/null || fail "these Debian packages are missing, and only root can install them: $missing"
+	fi
+	echo "Installing packages: $missing"
+	"${asRoot[@]}" apt-get update -q
+	# shellcheck disable=SC2086 # a list of words
+	"${asRoot[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -q -y --no-install-recommends $missing
+}

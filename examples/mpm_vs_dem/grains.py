@@ -1,0 +1,163 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Cohesive grains for mpm_vs_dem.py: one layer of spheres that move in the x-y plane only, without friction between them.
+
+The layer counts as one mean diameter thick, which turns forces into stresses. A contact resists tension and shear up to its adhesion;
+after slip in shear it stays, and new contacts have adhesion, too: a ductile material whose strength is cohesion, with hardly any
+friction.
+"""
+import numpy as np
+from yade import utils
+from yade.minieigenHP import Matrix3
+from yade.wrapper import *
+
+O = Omega()
+
+young, adhesion, density = 2e7, 8e4, 2500.  # of grains: stiffness and strength of contacts [Pa], density [kg/m3]
+stretch = 0.2  # mean diameters by which a contact can be pulled apart before it breaks
+spread = 0.3  # radii are within this part of the mean
+compaction = 5e3  # pressure [Pa] under which grains are packed
+
+
+def _grain(position, radius, moves=True):
+	grain = utils.sphere(position, radius, material='grains', fixed=not moves)
+	if moves: grain.state.blockedDOFs = 'zXY'
+	return grain
+
+
+def _materials():
+	O.materials.append(CohFrictMat(young=young, poisson=0.3, density=density, frictionAngle=0, normalCohesion=adhesion, shearCohesion=adhesion, fragile=False, label='grains'))
+	O.materials.append(FrictMat(young=young, poisson=0.3, density=density, frictionAngle=0, label='wall'))
+
+
+def _engines(diameter, adhesive, further=[], gravity=(0, 0, 0)):
+	contacts = Ip2_CohFrictMat_CohFrictMat_CohFrictPhys(setCohesionOnNewContacts=adhesive)
+	return [
+	        ForceResetter(),
+	        InsertionSortCollider([Bo1_Sphere_Aabb(), Bo1_Wall_Aabb()], verletDist=0.075 * diameter),
+	        InteractionLoop([Ig2_Sphere_Sphere_ScGeom6D(), Ig2_Wall_Sphere_ScGeom()], [contacts, Ip2_FrictMat_FrictMat_FrictPhys()],
+	                        [Law2_ScGeom6D_CohFrictPhys_CohesionMoment(), Law2_ScGeom_FrictPhys_CundallStrack()]),
+	        *further,
+	        *([PyRunner(iterPeriod=50, initRun=True, command=f'import sys; sys.modules["grains"].makeDuctile({stretch * diameter})')] if adhesive else []),
+	        NewtonIntegrator(damping=0.2, gravity=gravity, label='newton'),
+	]
+
+
+def makeAdhesive():
+	"""Give the contacts that exist the adhesion that new ones have."""
+	for contact in O.interactions:
+		if isinstance(contact.phys, CohFrictPhys): contact.phys.initCohesion = True
+
+
+def makeDuctile(unpMax):
+	"""Contacts in tension flow at their strength until they are pulled apart by *unpMax* [m]; YADE would break them at once."""
+	for contact in O.interactions:
+		if isinstance(contact.phys, CohFrictPhys) and contact.phys.unpMax == 0: contact.phys.unpMax = unpMax
+
+
+class Layer:
+	"""A periodic layer of grains, about *width* by *height* [m], packed without adhesion, which is then switched on."""
+
+	def __init__(self, width, height, diameter, seed=1):
+		self.diameter = self.thickness = diameter
+		self.depth = 4 * diameter # of the periodic cell
+		O.reset()
+		O.periodic = True
+		_materials()
+		random, loose = np.random.default_rng(seed), 1.25
+		columns, rows = round(width / diameter * 1.03), round(height / diameter * 1.03)
+		O.cell.setBox(loose * width, loose * height, self.depth)
+		for i in range(columns):
+			for j in range(rows):
+				x, y = (np.array([i, j]) + 0.5 + random.uniform(-0.15, 0.15, 2)) * (loose * width / columns, loose * height / rows)
+				O.bodies.append(_grain((x, y, self.depth / 2), diameter / 2 * random.uniform(1 - spread, 1 + spread)))
+		O.dt = 0.4 * utils.PWaveTimeStep()
+		packing = self._control((compaction, compaction), 0b011, (0.5, 0.5))
+		packing.doneHook = 'O.pause()'
+		O.engines = _engines(diameter, adhesive=False, further=[packing])
+		O.run(300000, wait=True)
+		self.width, self.height = O.cell.size[0], O.cell.size[1]
+		self.density = sum(b.state.mass for b in O.bodies) / (self.width * self.height * self.thickness)
+		O.cell.velGrad = Matrix3.Zero
+		O.cell.trsf = Matrix3.Identity
+		O.engines = _engines(diameter, adhesive=True)
+		makeAdhesive()
+		O.run(1000, wait=True)
+
+	def _control(self, goal, pressures, rates):
+		"""YADE's engine that brings the cell to a pressure [Pa] or strain along x and y; bits of *pressures* say to which."""
+		share = self.thickness / self.depth # YADE averages stress over the depth of the cell
+		goal = [-g * share if pressures & 1 << axis else -g for axis, g in enumerate(goal)]
+		return PeriTriaxController(dynCell=True, mass=2 * sum(b.state.mass for b in O.bodies), goal=(*goal, 0), stressMask=pressures,
+		                           maxStrainRate=(*rates, 0), maxUnbalanced=5e-3, relStressTol=2e-2, globUpdate=5)
+
+	def stress(self):
+		"""Mean stress (sigma_xx, sigma_yy) [Pa], positive in tension."""
+		return np.array(utils.getStress().diagonal())[:2] * self.depth / self.thickness
+
+	def oedometer(self, strain=1e-3, rate=0.01):
+		"""Young's modulus [Pa] and Poisson's ratio from a small compression along y without strain along x."""
+		O.saveTmp()
+		before = self.stress()
+		O.cell.velGrad = Matrix3(0, 0, 0, 0, -rate, 0, 0, 0, 0)
+		O.run(round(strain / rate / O.dt), wait=True)
+		sideways, axial = before - self.stress()
+		O.loadTmp()
+		nu = sideways / (axial + sideways)
+		return axial / strain * (1 + nu) * (1 - 2 * nu) / (1 - nu), nu
+
+	def biaxial(self, pressure, strain, rate=0.05, readings=60):
+		"""Compression along y under constant pressure [Pa] along x: (readings, 2) of strain and (sigma_xx - sigma_yy) / 2 [Pa]."""
+		O.saveTmp()
+		O.engines = _engines(self.diameter, adhesive=True, further=[self._control((pressure, 1.5 * strain), 0b001, (0.5, rate))])
+		curve = []
+		for _ in range(readings):
+			O.run(round(strain / readings / rate / O.dt), wait=True)
+			stress = self.stress()
+			curve.append((-np.log(O.cell.trsf[1, 1]), (stress[0] - stress[1]) / 2))
+		O.loadTmp()
+		return np.array(curve)
+
+	def grains(self):
+		"""(N, 3) x, y, radius [m] of the grains, with a corner of the cell in the origin."""
+		wrapped = [O.cell.wrap(b.state.pos) for b in O.bodies]
+		return np.array([(p[0], p[1], b.shape.radius) for p, b in zip(wrapped, O.bodies)])
+
+
+def cutScene(layer, height, length, front):
+	"""Replace the scene by a cut of *height* and *length* [m] out of a layer, on a base of fixed grains that reaches as far as x = *front*.
+
+	The left side, at x = 0, is a smooth wall. The base ends at y = 0.
+	"""
+	x, y, radius = layer.grains().T
+	diameter, width = layer.diameter, layer.width
+	O.reset()
+	_materials()
+	O.dt = 0.4 * np.sqrt(density / young) * radius.min()  # that of utils.PWaveTimeStep
+	base = y < diameter
+	for shift in np.arange(0, front, width):
+		O.bodies.append([_grain((i + shift, j - diameter, 0), r, moves=False) for i, j, r in zip(x[base], y[base], radius[base]) if i + shift < front])
+	inside = ~base & (x > radius) & (x < length) & (y < height + diameter)
+	O.bodies.append([_grain((i, j - diameter, 0), r) for i, j, r in zip(x[inside], y[inside], radius[inside])])
+	O.bodies.append(utils.wall(0, axis=0, material='wall'))
+	O.engines = _engines(diameter, adhesive=True)
+	O.step()
+	makeAdhesive()
+	O.run(3000, wait=True)
+	for b in O.bodies:
+		b.state.refPos = b.state.pos
+	O.resetTime()
+
+
+def grainArrays(thickness):
+	"""Of the grains that move, as mpm.arrays() of points: ``pos``, ``pos0``, ``halfSize``, and ``force``, sigma_yy times volume [N m].
+
+	Forces are per metre of thickness.
+	"""
+	tensors = utils.bodyStressTensors()
+	moving = [b for b in O.bodies if isinstance(b.shape, Sphere) and b.dynamic]
+	return {
+	        'pos': np.array([b.state.pos for b in moving]),
+	        'pos0': np.array([b.state.refPos for b in moving]),
+	        'halfSize': np.array([[b.shape.radius] * 3 for b in moving]),
+	        'force': np.array([tensors[b.id][1, 1] * 4 / 3 * np.pi * b.shape.radius**3 for b in moving]) / thickness,
+	}

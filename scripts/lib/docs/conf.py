@@ -1,0 +1,13 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Settings of Sphinx for scripts/docs, whose source folder is the whole project: pages stand where their links are right on any viewer of Markdown."""
+project = 'Implicit material point method for YADE'
+root_doc = 'scripts/lib/docs/index'
+include_patterns = ['README.md', 'examples/README.md', 'examples/*/README.md', 'scripts/lib/docs/*.md', 'build/docs/reference.rst']
+extensions = ['myst_parser', 'sphinx.ext.mathjax']
+myst_enable_extensions = ['dollarmath']
+myst_heading_anchors = 3
+mathjax_path = 'mathjax/MathJax.js?config=TeX-AMS_CHTML'
+html_theme = 'alabaster'
+html_theme_options = {'page_width': '1100px', 'fixed_sidebar': True, 'description': 'Reference and course'}
+html_sidebars = {'**': ['about.html', 'navigation.html', 'searchbox.html']}
+html_copy_source = False

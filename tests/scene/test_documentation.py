@@ -1,0 +1,89 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""What users read: links lead somewhere, and everything public says what it is, in which unit."""
+import re
+
+from conftest import root
+
+pages = [path for path in root.rglob('*.md') if not {'build', 'out'} & set(path.relative_to(root).parts)]
+
+
+def anchorsOf(page):
+	"""Anchors of the headings, as viewers of Markdown make them."""
+	headings = re.findall(r'^#+ (.*)$', page.read_text(), re.MULTILINE)
+	return {re.sub(r'[^\w\- ]', '', heading.lower()).replace(' ', '-') for heading in headings}
+
+
+def test_every_relative_link_leads_somewhere():
+	assert len(pages) > 8
+	links = [(page, link) for page in pages for link in re.findall(r'\]\(([^)\s]+)\)', page.read_text()) if not re.match(r'\w+:', link)]
+	assert len(links) > 40
+	broken = []
+	for page, link in links:
+		file, _, anchor = link.partition('#')
+		target = (page.parent / file).resolve() if file else page
+		if not target.exists() or anchor and anchor not in anchorsOf(target): broken.append(f'{page.relative_to(root)}: {link}')
+	assert not broken
+
+
+def test_every_command_of_the_pages_names_a_file_that_is_there():
+	commands = [(page, line.strip()) for page in pages for line in page.read_text().splitlines() if re.match(r' {4}(scripts/|yade-batch )', line)]
+	assert len(commands) > 15
+	missing = []
+	for page, line in commands:
+		for word in line.partition('#')[0].split():
+			if not re.match(r'(scripts|examples)/', word) or (root / word).exists(): continue
+			missing.append(f'{page.relative_to(root)}: {line}')
+		run = re.match(r'scripts/run (\w+)( |$)', line)
+		if run and not (root / f'examples/{run[1]}/{run[1]}.py').exists(): missing.append(f'{page.relative_to(root)}: {line}')
+	assert not missing
+
+
+def test_every_example_has_a_page_in_the_course():
+	course = (root / 'examples/README.md').read_text()
+	for script in (root / 'examples').glob('*/*.py'):
+		if script.stem != script.parent.name: continue
+		assert f'{script.stem}/README.md' in course and f'{script.stem}.png' in course, script
+		assert (script.parent / 'README.md').read_text().count('scripts/run ') > 0, script
+
+
+# Run in YADE: the undocumented, one line for each. A real number needs a unit, [-] if it has none.
+check = '''
+import inspect, re, sys
+from yade import mpm, wrapper
+sys.argv = ['reference.py', 'reference.rst']
+exec(open(REFERENCE).read())
+
+number = float, Vector3, Matrix3
+found = units = 0
+for name in classes():
+	cls = getattr(wrapper, name)
+	if len(cls.__doc__ or '') < 20: print('no description:', name)
+	values = cls().dict()
+	for entry, value in entries(cls):
+		found += 1
+		text = docOf(value)
+		if len(text) < 10: print('no description:', name, entry)
+		if isinstance(value, property) and isinstance(values.get(entry), number):
+			units += 1
+			if not re.search(r'\\[[^\\]]+\\]', text): print('no unit:', name, entry, text)
+		if not isinstance(value, property) and not re.match(entry + r'\\(.*\\)( -> |$)', text): print('no signature:', name, entry, text)
+for name in mpm.__all__:
+	value = getattr(mpm, name)
+	text = inspect.getdoc(value) or ''
+	found += 1
+	for parameter in inspect.signature(value).parameters:
+		if not re.search(rf':param {parameter}:', text): print('not described:', name, parameter)
+	if not re.search(r':raises? ', text): print('errors not described:', name)
+written = open('reference.rst').read()
+for name in classes() + list(mpm.__all__):
+	if f':: {name}(' not in written: print('not on the page:', name)
+print('checked', found, units)
+'''
+
+
+def test_everything_public_is_described(yade):
+	run = yade(f'REFERENCE = {str(root / "scripts/lib/docs/reference.py")!r}\n' + check)
+	lines = [line for line in run.stdout.splitlines() if re.match(r'no |not |errors |checked', line)]
+	assert len(lines) == 1, lines
+	found, units = map(int, lines[0].split()[1:])
+	assert found > 60 and units > 20 # the check has looked at something
