@@ -69,7 +69,7 @@ namespace {
 		for (int p = 0; p < int(c.size()); ++p)
 			for (const Key cell : this->overlapped(c, p))
 				materials[cell].insert(c.material[p]);
-		const auto basis = cloudBasis<Dim>(c, this->grid, Basis::gimp, {});
+		const auto basis = cloudBasis<Dim>(c, this->grid, Basis::gimp, this->none);
 		const auto mixed = mixedCells(basis, c.material);
 		int        count = 0;
 		for (std::size_t i = 0; i < basis.cells.size(); ++i) {
