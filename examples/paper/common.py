@@ -1,13 +1,16 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """The scenes of Coombs (2023) and the tables of results that the scripts of this folder fill, one script for each figure and table."""
 import argparse
-import csv
 import os
+import sys
 from math import inf
 
 import numpy as np
 from yade import mpm, pack
 from yade.wrapper import MpmBoundary, MpmElasticMat, MpmGhost, MpmGrid, MpmImplicitEngine, MpmNewton, MpmVonMisesMat, Omega
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), '..', '..', 'scripts', 'lib'))
+from results import Results
 
 O = Omega()
 
@@ -18,43 +21,6 @@ def commandLine(what):
 	parser.add_argument('--out', default='out/paper', help='folder of the results; what a table in it already holds is not run again (default %(default)s)')
 	parser.add_argument('--quick', action='store_true', help='only a part that runs within seconds')
 	return parser.parse_args()
-
-
-class Results:
-	"""A table in <out>/results/<name>.csv. Each row is written when it is known, so that an interrupted run can be continued.
-
-	:param keys: names of the leading columns, which say what was run
-	:param values: names of the other columns
-	"""
-
-	def __init__(self, out, name, keys, values):
-		self.path = os.path.join(out, 'results', name + '.csv')
-		self.keys, self.columns = keys, keys + values
-		self.rows = {}
-		if os.path.exists(self.path):
-			with open(self.path, newline='') as file:
-				self.rows = {self._key(row): row for row in csv.DictReader(file)}
-
-	def __contains__(self, key):
-		return tuple(map(str, key)) in self.rows
-
-	def row(self, key):
-		return self.rows[tuple(map(str, key))]
-
-	def add(self, rows):
-		"""Add dictionaries of numbers or texts; each replaces a row of the same key."""
-		for row in rows:
-			row = {name: str(row[name]) for name in self.columns}
-			self.rows[self._key(row)] = row
-		os.makedirs(os.path.dirname(self.path), exist_ok=True)
-		with open(self.path + '.new', 'w', newline='') as file:
-			table = csv.DictWriter(file, self.columns, lineterminator='\n')
-			table.writeheader()
-			table.writerows(self.rows.values())
-		os.replace(self.path + '.new', self.path)
-
-	def _key(self, row):
-		return tuple(row[name] for name in self.keys)
 
 
 def block(offset, basis='gimp', cellSize=1., **ghost):

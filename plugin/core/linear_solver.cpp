@@ -156,19 +156,26 @@ LinearSolver::~LinearSolver()                                  = default;
 LinearSolver::LinearSolver(LinearSolver&&) noexcept            = default;
 LinearSolver& LinearSolver::operator=(LinearSolver&&) noexcept = default;
 
+LinearSolver::FactorSize LinearSolver::analyse(const SymmetricCsc& K)
+{
+	const WithoutNestedThreads guard;
+	if (!cholmod_->factor || !K.samePattern(scaled_)) {
+		const Stopwatch watch(times_.analyse);
+		scaled_          = K;
+		cholmod_sparse A = Cholmod::view(scaled_);
+		cholmod_free_factor(&cholmod_->factor, &cholmod_->common);
+		cholmod_->factor = cholmod_analyze(&A, &cholmod_->common);
+	}
+	return { cholmod_->common.lnz, cholmod_->common.fl };
+}
+
 LinearSolver::Status LinearSolver::solve(const SymmetricCsc& K, const Eigen::VectorXd& b, Eigen::VectorXd& x)
 {
 	const WithoutNestedThreads guard;
-	auto&                      common      = cholmod_->common;
-	const bool                 knowPattern = cholmod_->factor && K.samePattern(scaled_);
-	if (!knowPattern) scaled_.start = K.start, scaled_.row = K.row;
+	auto&                      common = cholmod_->common;
+	analyse(K);
 	scale_           = scale(K, scaled_.value);
 	cholmod_sparse A = Cholmod::view(scaled_);
-	if (!knowPattern) {
-		const Stopwatch watch(times_.analyse);
-		cholmod_free_factor(&cholmod_->factor, &common);
-		cholmod_->factor = cholmod_analyze(&A, &common);
-	}
 	bool definite = false;
 	if (cholmod_->factor) {
 		const Stopwatch watch(times_.factorise);

@@ -42,6 +42,12 @@ public:
 	/// K x = b. On `singular` (a pivot is lost in round-off, whatever the scale of its row) x is meaningless.
 	Status solve(const SymmetricCsc& K, const Eigen::VectorXd& b, Eigen::VectorXd& x);
 
+	/// Size of the Cholesky factor of K, and operations that it takes.
+	struct FactorSize {
+		double entries, flops;
+	};
+	FactorSize analyse(const SymmetricCsc& K);
+
 	/// Another right side for the matrix of the last solve(), which must have been by Cholesky.
 	bool solveAgain(const Eigen::VectorXd& b, Eigen::VectorXd& x);
 

@@ -3,6 +3,7 @@
 #include "core/condition.hpp"
 #include "core/load_step.hpp"
 #include "core/stopwatch.hpp"
+#include "core/workload.hpp"
 #include "engine/LoadStepObserver.hpp"
 #include "engine/exchange.hpp"
 #include "yade_api/exceptions.hpp"
@@ -405,7 +406,7 @@ string MpmImplicitEngine::adviceOn(const gimpm::StepReport& report, Real part) c
 	return advice;
 }
 
-gimpm::SymmetricCsc MpmImplicitEngine::reducedStiffness()
+template <class F> auto MpmImplicitEngine::onCurrentState(F f)
 {
 	const Threads threads(ompThreads);
 	const auto    inSpace = [&](auto dim) {
@@ -419,9 +420,14 @@ gimpm::SymmetricCsc MpmImplicitEngine::reducedStiffness()
 			cloud = gather(materialPoints(*Singleton<Omega>::instance().getScene(), mask), model);
 		}
 		const PythonUnlock python;
-		return gimpm::tangentStiffness(cloud, model);
+		return f(cloud, model);
 	};
 	return grid && grid->dim == 3 ? inSpace(std::integral_constant<int, 3>()) : inSpace(std::integral_constant<int, 2>());
+}
+
+gimpm::SymmetricCsc MpmImplicitEngine::reducedStiffness()
+{
+	return onCurrentState([](const auto& cloud, const auto& model) { return gimpm::tangentStiffness(cloud, model); });
 }
 
 py::tuple MpmImplicitEngine::stiffness()
@@ -455,6 +461,40 @@ Real MpmImplicitEngine::conditionEstimate()
 	const auto K = reducedStiffness();
 	if (K.size() == 0) throw std::invalid_argument("MpmImplicitEngine.conditionEstimate(): the scene has no unknowns.");
 	return gimpm::conditionEstimate(K);
+}
+
+py::dict MpmImplicitEngine::workload()
+{
+	// the quickest of three: other programs can only slow them down
+	double          perStep = std::numeric_limits<double>::infinity(), perSolve = perStep;
+	gimpm::Workload w;
+	for (int time = 0; time < 3; ++time) {
+		double gathering = 0, rest = 0;
+		{
+			const gimpm::Stopwatch watch(gathering);
+			w = onCurrentState([&](const auto& cloud, const auto& model) {
+				const gimpm::Stopwatch watch(rest);
+				return gimpm::workload(cloud, model);
+			});
+		}
+		const auto& t = w.times;
+		// scattering takes as long as gathering, the update of the points and the last residual as long as an assembly
+		perStep  = std::min(perStep, 2 * (gathering - rest) + t.basis + t.ghost + t.linear.analyse + t.assembly);
+		perSolve = std::min(perSolve, t.assembly + t.linear.factorise + t.linear.solve);
+	}
+	py::dict d;
+	d["points"]          = w.points;
+	d["nodes"]           = w.nodes;
+	d["dofs"]            = w.dofs;
+	d["activeCells"]     = w.populatedCells;
+	d["ghostFaces"]      = w.ghostFaces;
+	d["blockEntries"]    = w.blockEntries;
+	d["matrixEntries"]   = w.matrixEntries;
+	d["factorEntries"]   = w.factorEntries;
+	d["factorFlops"]     = w.factorFlops;
+	d["secondsPerStep"]  = perStep;
+	d["secondsPerSolve"] = perSolve;
+	return d;
 }
 
 } // namespace yade

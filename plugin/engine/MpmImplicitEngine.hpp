@@ -146,6 +146,13 @@ public:
 		      &MpmImplicitEngine::conditionNumber,
 		      "conditionNumber() -> float\n\nCondition number [-] of stiffness() in the 2-norm, from all eigenvalues of the dense matrix (Coombs 2023, figure "
 		      "2). For small scenes: raises ValueError above 4000 unknowns.");
+		c.def("workload",
+		      &MpmImplicitEngine::workload,
+		      "workload() -> dict\n\nSize of a load step from the current state, found by doing its parts, without load, and leaving the scene alone: points, "
+		      "nodes, dofs, activeCells, ghostFaces; blockEntries, matrixEntries, factorEntries: numbers that the stiffness matrix takes by blocks, reduced, and "
+		      "factorised; factorFlops: operations of a factorisation; secondsPerStep and secondsPerSolve: of what is done once a step, and with each solve. "
+		      "A factorisation of more than 2e10 operations is not made: its time is that at 5e9 a second. mpm.advise says it in words. Raises ValueError as "
+		      "a step does.");
 		c.def("conditionEstimate",
 		      &MpmImplicitEngine::conditionEstimate,
 		      "conditionEstimate() -> float\n\nEstimate [-] of the same, as a rule a few percent below it, for scenes of any size: Lanczos' method with the "
@@ -170,6 +177,7 @@ public:
 	py::dict  report() const;
 	Real      conditionNumber();
 	Real      conditionEstimate();
+	py::dict  workload();
 	py::dict  plotData();
 
 	// Of any engine, between taking over the values of the material points and giving them back.
@@ -199,6 +207,7 @@ private:
 	string                     reasonOf(const gimpm::StepReport&, Real time, Real part, const vector<MaterialPoint>&) const;
 	string                     placeOfImbalance(const gimpm::StepReport&, const vector<MaterialPoint>&) const;
 	string                     adviceOn(const gimpm::StepReport&, Real part) const;
+	template <class F> auto    onCurrentState(F); // f(cloud, model) with the points and settings of now
 	gimpm::SymmetricCsc        reducedStiffness();
 	void                       showProgress(size_t points, bool stepIsDone);
 	long                       lastIteration() const;

@@ -25,6 +25,7 @@ is written more easily in Python. A slope under its own weight, with a weak laye
 
 Units are SI; stress is positive in tension; strains are logarithmic; plane strain is per metre of thickness.
 """
+from .advice import advise
 from .colouring import colour
 from .data import arrays, assign
 from .files import save
@@ -34,4 +35,4 @@ from .outline import polygon
 from .plotting import plot
 from .tables import export
 
-__all__ = ['polygon', 'fill', 'arrays', 'assign', 'geostatic', 'plot', 'colour', 'export', 'save']
+__all__ = ['polygon', 'fill', 'arrays', 'assign', 'geostatic', 'plot', 'colour', 'export', 'save', 'advise']

@@ -1,0 +1,63 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""The axes of the stability atlas: which parameter is driven to which extremes. Plain Python, read by the driver, the runs and the page."""
+
+ghosts = ['none', 'mesh-independent', 'paper'] # the last two are scalings
+
+
+class Axis:
+	"""One parameter and the values it takes.
+
+	:param title: of the parameter, with its unit
+	:param values: numbers or texts, from harmless to extreme
+	:param dims: dimensions in which it is run
+	:param quick: values of the short form
+	:param ghosts: kinds of stabilisation
+	:param listed: whether it has a place of its own in the tables and maps
+	"""
+
+	def __init__(self, title, values, dims=(2, 3), quick=(), ghosts=ghosts, listed=True):
+		self.title, self.values, self.dims, self.quick, self.ghosts, self.listed = title, values, dims, quick, ghosts, listed
+
+
+def powers(first, last, step=1):
+	return [float(f'1e{i}') for i in range(first, last + (1 if step > 0 else -1), step)]
+
+
+factors = [1e-6, 1e-4, 1e-3, 1e-2, 1e-1, 1.]
+corners = [0, .5, 1e-1, 1e-2, 1e-3, 1e-4, 1e-6, 1e-8]
+
+axes = {
+        'overlap': Axis('overlap of the body with its outermost cells [h]', powers(-1, -15, -1), quick=[1e-3, 1e-12]),
+        'factor': Axis('ghost factor, overlap 1e-4 h [-]', powers(-12, 3), quick=[1e-12, 1e-2], ghosts=ghosts[1:]),
+        'poisson': Axis("Poisson's ratio [-]", [-.99, -.9, -.5, 0., .3, .45, .49, .499, .4999, .499999], quick=[.4999]),
+        'contrast': Axis('stiffness of every other layer of cells over the rest, small strains [-]', powers(0, 16, 2), quick=[1e8]),
+        'mixed': Axis('the same, but the layers move through the grid [-]', powers(0, 8), quick=[1e2]),
+        'yield': Axis("yield stress over Young's modulus [-]", powers(0, -8, -1) + [1e-12, 1e-16], quick=[1e-6]),
+        'length': Axis('size of a cell [m]', powers(-7, 7, 1), quick=[1e-6]),
+        'young': Axis("Young's modulus [Pa]", powers(-6, 15, 3), quick=[1e12]),
+        'strain': Axis('strain that the load causes [-]', powers(0, -18, -2) + [1e-30, 1e-100], quick=[1e-12]),
+        'steps': Axis('load steps to half the height', [1, 2, 3, 5, 10, 30, 100, 300, 1000], dims=(2, ), quick=[10]),
+        'points': Axis('points per cell and axis', [1, 2, 3, 4, 6, 8], quick=[1]),
+        'jitter': Axis('random shift of points [half of their spacing]', [0., .1, .25, .5, .75, 1., 1.5, 2., 4.], quick=[.5]),
+        'missing': Axis('share of points taken out at random [-]', [0., .05, .1, .2, .3, .4, .5, .6, .7, .8, .9], quick=[.5]),
+        'compression': Axis('height after loading over the one before, between walls [-]', [.9, .7, .5, .3, .2, .15, .1, .07, .05], quick=[.3]),
+        'free': Axis('the same without walls: the column may buckle [-]', [.9, .7, .5, .3, .2, .15, .1], quick=[.3]),
+        'turns': Axis('turns of a bar, 24 steps each', [.25, .5, 1., 2., 4., 8.], quick=[.25]),
+        'turnStep': Axis('rotation of a bar in one step [degrees]', [1., 5., 15., 30., 45., 60., 75., 90.], dims=(2, ), quick=[15.]),
+        'thin': Axis('columns of points / points per cell along x', ['2/2', '1/1', '1/2', '1/4', '1/8', '2/4', '2/8', '4/8'], quick=['1/2']),
+        'slender': Axis('length of a bar of one cell thickness [cells]', [4, 16, 64, 256, 1024, 4096], dims=(2, ), quick=[4]),
+        'columnFactor': Axis('cells over the height of a column that shrinks to half of it / ghost factor', [f'{n}/{f:g}' for n in (8, 32, 128) for f in factors], dims=(2, ), quick=['8/0.01'], ghosts=ghosts[1:2], listed=False),
+        'slopeFactor': Axis('cells in a metre of the slope / ghost factor', [f'{n}/{f:g}' for n in (1, 2) for f in factors], dims=(2, ), ghosts=ghosts[1:2], listed=False),
+        'corner': Axis('overlap along x / along y [h]', [f'{x:g}/{y:g}' for x in corners for y in corners], dims=(2, ), quick=['0.001/0.1'], listed=False),
+}
+
+
+
+def cases(names, quick):
+	"""Keys of all runs: (axis, dim, ghost, value)."""
+	for name in names:
+		axis = axes[name]
+		for dim in axis.dims[:1] if quick else axis.dims:
+			for ghost in axis.ghosts:
+				for value in axis.quick if quick else axis.values:
+					yield name, dim, ghost, value

@@ -1,0 +1,171 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Page and maps of the stability atlas, from the table in its folder results/."""
+import csv
+import math
+import os
+
+import pictures
+from axes import axes, ghosts
+
+here = os.path.dirname(os.path.abspath(__file__))
+names = {'none': 'no ghost', 'mesh-independent': 'ghost, h¹', 'paper': 'ghost, h³'}
+
+
+def read(folder):
+	"""Rows of the table, numbers converted: {(axis, dim, ghost, value as in axes.py): row}."""
+	rows = {}
+	with open(os.path.join(folder, 'results', 'atlas.csv'), newline='') as file:
+		for row in csv.DictReader(file):
+			row = {name: _number(text) for name, text in row.items()} | dict(value=row['value'], failure=row['failure'])
+			rows[row['axis'], int(row['dim']), row['ghost'], row['value']] = row
+	return rows
+
+
+def _number(text):
+	try:
+		return float(text)
+	except ValueError:
+		return text
+
+
+def ran(row):
+	return row['failure'] == ''
+
+
+def outcome(row):
+	"""A cell of a table: error and most iterations of a step, or how it failed."""
+	if row is None: return ''
+	if not ran(row): return f"**{row['failure']}**" + (f" after {row['completed']:.0f}/{row['steps']:.0f}" if row['completed'] > 0 else '')
+	error = '' if math.isnan(row['error']) else f"{row['error']:.1e}, "
+	cuts = f", {row['cuts']:.0f} cuts" if row['cuts'] > 0 else ''
+	return f"{error}{row['maxIterations']:.0f}{cuts}"
+
+
+def table(heads, lines):
+	return '\n'.join(f"| {' | '.join(map(str, line))} |" for line in [heads, ['---'] * len(heads), *lines])
+
+
+def columnsOf(rows, name):
+	"""(dim, ghost) that the table has of an axis."""
+	return [(dim, ghost) for dim in axes[name].dims for ghost in axes[name].ghosts if any((name, dim, ghost, str(v)) in rows for v in axes[name].values)]
+
+
+def valuesOf(rows, name):
+	return [str(v) for v in axes[name].values if any(key[0] == name and key[3] == str(v) for key in rows)]
+
+
+def safe(row, harmless):
+	"""It ran, and is not much worse than the best of its axis."""
+	return row is not None and ran(row) and (math.isnan(row['error']) or row['error'] <= max(3 * harmless, 0.05))
+
+
+def safeRange(rows, name, column):
+	found = [(value, rows.get((name, *column, value))) for value in valuesOf(rows, name)]
+	errors = [row['error'] for _, row in found if row and ran(row) and not math.isnan(row['error'])]
+	good = [value for value, row in found if safe(row, min(errors, default=math.nan))]
+	if len(good) == len(found): return f'all: {good[0]} … {good[-1]}' if len(good) > 1 else f'all: {good[0]}'
+	if not good: return 'none'
+	return ', '.join(_runs([value for value, _ in found], good))
+
+
+def _runs(values, good):
+	"""Neighbouring good values joined to 'first … last'."""
+	runs = []
+	for value in values:
+		if value not in good: runs.append([])
+		elif runs: runs[-1].append(value)
+		else: runs = [[value]]
+	return [run[0] if len(run) == 1 else f'{run[0]} … {run[-1]}' for run in runs if run]
+
+
+def outside(rows, name):
+	"""What the user sees where it does not run."""
+	kinds = {}
+	for key, row in rows.items():
+		if key[0] == name and not ran(row): kinds[row['failure']] = kinds.get(row['failure'], 0) + 1
+	return '; '.join(f'{kind} ({count})' for kind, count in sorted(kinds.items(), key=lambda item: -item[1])) or 'always runs'
+
+
+def section(rows, name):
+	columns = columnsOf(rows, name)
+	heads = ['value', *(f'{dim}D, {names[ghost]}' for dim, ghost in columns)]
+	lines = [[value, *(outcome(rows.get((name, *column, value))) for column in columns)] for value in valuesOf(rows, name)]
+	return f"## `{name}`: {axes[name].title}\n\n{table(heads, lines)}\n"
+
+
+def factorTable(rows):
+	"""Condition numbers, counts and errors against the ghost factor."""
+	lines = []
+	for name, unit in ('columnFactor', 'column, {} cells'), ('slopeFactor', 'slope, h = 1/{} m'):
+		for (axis, _, _, value), row in rows.items():
+			if axis != name: continue
+			cells, factor = value.split('/')
+			error = '' if math.isnan(row['error']) else f"{row['error']:.2e}"
+			excess = float(factor) * row['worstCondition']
+			lines.append([unit.format(cells), factor, f"{row['condition']:.0f}", f"{row['worstCondition']:.2e}", f'{excess:.0f}', f"{row['meanIterations']:.2f} ({row['maxIterations']:.0f})", error])
+	heads = ['scene', 'factor', 'κ at the start', 'largest κ of all steps', 'factor times that', 'solves a step, mean (max)', 'error']
+	return FACTORS + table(heads, lines) + '\n'
+
+
+def rangeTable(rows, present):
+	lines = []
+	for name in present:
+		for dim in axes[name].dims:
+			if not any(key[:2] == (name, dim) for key in rows): continue
+			ranges = [safeRange(rows, name, (dim, ghost)) if (dim, ghost) in columnsOf(rows, name) else '' for ghost in ghosts]
+			lines.append([f'`{name}`', axes[name].title, f'{dim}D', *ranges, outside(rows, name)])
+	return table(['axis', 'parameter', '', *(names[g] for g in ghosts), 'seen where it does not run (cases)'], lines)
+
+
+def write(folder):
+	rows = read(folder)
+	present = [name for name in axes if any(key[0] == name for key in rows)]
+	listed = [name for name in present if axes[name].listed]
+	pictures.outcomes(rows, listed, os.path.join(folder, 'outcomes.png'))
+	parts = [INTRODUCTION, RANGES, rangeTable(rows, listed), '\n![Outcome of all cases](outcomes.png)\n']
+	curves = [name for name in ('overlap', 'factor', 'poisson', 'contrast', 'slender', 'thin') if name in present]
+	if curves:
+		pictures.conditions(rows, curves, os.path.join(folder, 'condition.png'))
+		parts.append('![Condition numbers](condition.png)\n')
+	if 'corner' in present:
+		pictures.cornerMaps(rows, os.path.join(folder, 'corner.png'))
+		parts.append('![Condition number against both overlaps of a corner](corner.png)\n')
+	pictures.pivots(rows, os.path.join(folder, 'pivots.png'))
+	parts.append('![Smallest pivot and error of a solve](pivots.png)\n')
+	if 'columnFactor' in present: parts.append(factorTable(rows))
+	findings = os.path.join(here, 'findings.md')
+	if os.path.exists(findings):
+		with open(findings) as file:
+			parts.append(file.read())
+	parts += ['# All cases\n', OUTCOMES, *(section(rows, name) for name in listed)]
+	with open(os.path.join(folder, 'README.md.new'), 'w') as file:
+		file.write('\n'.join(parts))
+	os.replace(os.path.join(folder, 'README.md.new'), os.path.join(folder, 'README.md'))
+
+
+INTRODUCTION = """# Stability at the extremes
+
+Each parameter below is driven to extremes until the method breaks down: without ghost stabilisation, with it (`factor=1e-2`) in its
+mesh-independent scaling h¹, and in the paper's h³, in 2D and 3D. `scripts/extremes` runs all of it and writes this page (see `--help`); the scenes
+are in [runs.py](runs.py), the values in [axes.py](axes.py), the numbers in [results/atlas.csv](results/atlas.csv).
+
+Unless an axis says otherwise, the scene is an elastic column of 2 x 6 [x 2] cells of 0.1 m, 2 points per cell and axis, free at its sides, that
+its own weight compresses in 5 load steps (b l0 = E / 2, Poisson's ratio 0). Its vertical stress is known from equilibrium whatever the material,
+so that the error, eq. 7 of Coombs (2023), is exact. Cells of 0.1 m tell the two scalings apart: the paper's is 100 times weaker there.
+"""
+
+RANGES = """## Safe ranges
+
+A value is safe if the analysis runs to its end and its error is at most 5 %, or three times the smallest of its axis. What
+the user sees outside is how the analysis ended there.
+"""
+
+FACTORS = """## Which ghost factor
+
+Columns shrink to half their height, the slope is that of Coombs (2023), both in 20 steps: the overlaps are whatever the motion brings.
+
+"""
+
+OUTCOMES = """Each cell gives the error of the stress and the most iterations (linear solves) of a step, with the number of times a step was cut if it was; or, in
+bold, how the analysis ended, and after how many steps.
+"""

@@ -1,0 +1,255 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Runs cases of the stability atlas in one YADE process: `yade -n -x runs.py cases.json` prints one line of JSON before and after each.
+
+A case is (axis, dim, ghost, value), see axes.py. Most are columns of 2 x 6 [x 2] cells under their own weight, whose vertical
+stress is known from equilibrium, whatever the material: -b (l0 - Y) at the initial height Y.
+"""
+import json
+import os
+import re
+import sys
+import time
+from math import cos, inf, nan, radians, sin, tau
+
+import numpy as np
+from yade import mpm, pack
+from yade.wrapper import MpmBoundary, MpmElasticMat, MpmGhost, MpmGrid, MpmImplicitEngine, MpmVonMisesMat, Omega
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(sys.argv[0])))
+import pivots
+
+O = Omega()
+cellSize = 0.1 # [m] where it is not the parameter: at 1 m the two scalings would be the same
+young = 1e6
+
+
+class Column:
+	"""A column on a smooth floor; between smooth walls if *confined*, else held by one side only and free on the others.
+
+	:param weight: b l0 / E, the strain at the base in small deformations
+	:param overlap: the column is stretched by this part of a cell in all directions in which it is free
+	"""
+
+	def __init__(self, dim, ghost, steps=5, weight=.5, confined=False, overlap=(0, 0), h=cellSize, E=young, poisson=0., points=2, contrast=1, yieldStress=None,
+	             factor=1e-2, width=2, rows=6):
+		self.steps = steps
+		size = np.array([width, rows, 2 if dim == 3 else 1]) * h
+		density = weight * E / size[1]
+		for label, modulus in ('soft', E), ('stiff', E * contrast):
+			values = dict(young=modulus, poisson=poisson, density=density, label=label)
+			O.materials.append(MpmElasticMat(**values) if yieldStress is None else MpmVonMisesMat(yieldStress=yieldStress * E, **values))
+		grid = MpmGrid(cellSize=h, dim=dim)
+		box = pack.inAlignedBox((0, 0, -1 * h if dim == 2 else 0), tuple(size))
+		O.bodies.append(mpm.fill(box, grid, points, lambda x: 'stiff' if int(x[1] / h) % 2 else 'soft'))
+		self.stretch(size, np.array([overlap[0], overlap[1], overlap[0]]) * h, dim)
+		sides = [MpmBoundary(max=(0, inf, inf), fix='x'), MpmBoundary(max=(inf, 0, inf), fix='y')]
+		if dim == 3: sides.append(MpmBoundary(max=(inf, inf, 0), fix='z'))
+		if confined: sides.append(MpmBoundary(min=(size[0], -inf, -inf), fix='x'))
+		if confined and dim == 3: sides.append(MpmBoundary(min=(-inf, -inf, size[2]), fix='z'))
+		self.engine = MpmImplicitEngine(grid=grid, gravity=(0, -1, 0), boundaries=sides, ghost=stabilisation(ghost, factor))
+		self.height, self.unit = size[1] + overlap[1] * h, weight * E / size[1]
+
+	def stretch(self, size, by, dim):
+		scale = 1 + by / size
+		if dim == 2: scale[2] = 1
+		if (scale == 1).all(): return
+		for body in O.bodies:
+			body.state.pos = body.state.refPos = tuple(np.array(body.state.pos) * scale)
+			body.shape.halfSize = body.shape.halfSize0 = tuple(np.array(body.shape.halfSize) * scale)
+			body.state.volume = body.state.volume0 = body.state.volume * scale.prod()
+
+	def error(self):
+		points = mpm.arrays()
+		volume = [b.state.volume0 for b in O.bodies]
+		exact = -self.unit * (self.height - points['pos0'][:, 1])
+		return np.average(np.abs(points['stress'][:, 1, 1] - exact), weights=volume) / (self.unit * self.height)
+
+	def beforeStep(self, step):
+		pass
+
+
+class Bar:
+	"""A bar of 6 x 2 [x 2] cells whose middle is turned about z; exact is the rotation of the whole without stress.
+
+	:param turns: rotation in all
+	:param steps: load steps for it
+	"""
+
+	def __init__(self, dim, ghost, turns, steps):
+		self.steps, self.angle, h = steps, tau * turns / steps, cellSize
+		O.materials.append(MpmElasticMat(young=young, poisson=.3, density=1, label='bar'))
+		grid = MpmGrid(cellSize=h, dim=dim)
+		O.bodies.append(mpm.fill(pack.inAlignedBox((-3 * h, -h, -h), (3 * h, h, h)), grid, 2, 'bar'))
+		# not all nodes of any cell face, which would make it a wall
+		self.nodes = [np.array([i, j, k]) * h for i, j in ((1, 0), (0, 1), (-1, 0), (0, -1)) for k in ((-1, 1) if dim == 3 else [0])]
+		margin = np.full(3, h / 4)
+		held = [MpmBoundary(min=tuple(x - margin), max=tuple(x + margin), fix='xyz'[:dim]) for x in self.nodes]
+		self.engine = MpmImplicitEngine(grid=grid, boundaries=held, ghost=stabilisation(ghost))
+
+	def beforeStep(self, step):
+		c, s = cos(self.angle), sin(self.angle)
+		for held, x in zip(self.engine.boundaries, self.nodes):
+			held.displacement = tuple(self.steps * np.array([c * x[0] - s * x[1] - x[0], s * x[0] + c * x[1] - x[1], 0]))
+
+	def error(self):
+		points = mpm.arrays()
+		c, s = cos(self.angle * self.steps), sin(self.angle * self.steps)
+		exact = points['pos0'] @ np.array([[c, s, 0], [-s, c, 0], [0, 0, 1]])
+		return np.abs(points['pos'] - exact).max() / (3 * cellSize)
+
+
+class Slope:
+	"""The slope of Coombs (2023), section 4.2, in 20 steps."""
+
+	def __init__(self, ghost, cells, factor):
+		self.steps = 20
+		for label, strength in ('soil', 15e3), ('weak', 7.5e3):
+			O.materials.append(MpmVonMisesMat(young=1e6, poisson=.3, density=2400, yieldStress=strength, label=label))
+		grid = MpmGrid(cellSize=1 / cells)
+		profile = mpm.polygon([(0, 0), (30, 0), (30, 7), (15, 7), (10, 12), (0, 12)])
+		O.bodies.append(mpm.fill(profile, grid, 2, lambda x: 'weak' if 7 <= x[1] <= 7.5 else 'soil'))
+		sides = [MpmBoundary(max=(0, inf, inf), fix='x'), MpmBoundary(min=(30, -inf, -inf), fix='x'), MpmBoundary(max=(inf, 0, inf), fix='xy')]
+		self.engine = MpmImplicitEngine(grid=grid, gravity=(0, -9.81, 0), boundaries=sides, ghost=stabilisation(ghost, factor))
+
+	def beforeStep(self, step):
+		pass
+
+	def error(self):
+		return nan
+
+
+class Cantilever:
+	"""A horizontal bar fixed at its end under a small part of its weight: its stiffness matrix is the worse the longer it is. No exact solution is used."""
+
+	def __init__(self, ghost, length):
+		self.steps, h = 1, cellSize
+		weight = 1e-3 * young * h / (length * h)**4 * h**3
+		O.materials.append(MpmElasticMat(young=young, poisson=.3, density=weight, label='bar'))
+		grid = MpmGrid(cellSize=h)
+		O.bodies.append(mpm.fill(pack.inAlignedBox((0, 0, -1), (length * h, h, 1)), grid, 2, 'bar'))
+		self.engine = MpmImplicitEngine(grid=grid, gravity=(0, -1, 0), boundaries=[MpmBoundary(max=(0, inf, inf), fix='xy')], ghost=stabilisation(ghost))
+
+	def beforeStep(self, step):
+		pass
+
+	def error(self):
+		return nan
+
+
+def stabilisation(ghost, factor=1e-2):
+	return MpmGhost(factor=0) if ghost == 'none' else MpmGhost(factor=factor, scaling=ghost)
+
+
+def weightForHeight(ratio):
+	"""b l0 / E that compresses a column of nu = 0 to this part of its height: s with (W + W^2 / 2) / s = ratio, W exp(W) = s."""
+	low, high = 1e-6, 20.
+	for _ in range(200):
+		W = (low + high) / 2
+		low, high = (W, high) if (1 + W / 2) * np.exp(-W) > ratio else (low, W)
+	return W * np.exp(W)
+
+
+def shiftedAtRandom(column, part, points=2):
+	"""Move each point by up to *part* of half the spacing, but not through walls."""
+	random, spacing = np.random.default_rng(1), cellSize / points
+	dim = column.engine.grid.dim
+	for body in O.bodies:
+		by = random.uniform(-1, 1, 3) * part * spacing / 2
+		by[dim:] = 0
+		x = np.array(body.state.pos) + by
+		x[:dim] = np.maximum(x[:dim], spacing / 100)
+		body.state.pos = tuple(x)
+	return column
+
+
+def thinnedAtRandom(column, part):
+	random = np.random.default_rng(1)
+	for body in list(O.bodies):
+		if random.uniform() < part: O.bodies.erase(body.id)
+	column.error = lambda: nan # the weight is not that of a column
+	return column
+
+
+def scene(axis, dim, ghost, value):
+	"""The scene of a case."""
+	if axis == 'overlap': return Column(dim, ghost, overlap=(value, value))
+	if axis == 'factor': return Column(dim, ghost, overlap=(1e-4, 1e-4), factor=value)
+	if axis == 'poisson': return Column(dim, ghost, confined=True, poisson=value)
+	if axis == 'contrast': return Column(dim, ghost, contrast=value, weight=1e-3, steps=1)
+	if axis == 'mixed': return Column(dim, ghost, contrast=value)
+	if axis == 'yield': return Column(dim, ghost, confined=True, poisson=.3, yieldStress=value)
+	if axis == 'length': return Column(dim, ghost, h=value)
+	if axis == 'young': return Column(dim, ghost, E=value)
+	if axis == 'strain': return Column(dim, ghost, weight=value)
+	if axis == 'steps': return Column(dim, ghost, confined=True, weight=4, steps=value)
+	if axis == 'points': return Column(dim, ghost, points=value)
+	if axis == 'jitter': return shiftedAtRandom(Column(dim, ghost), value)
+	if axis == 'missing': return thinnedAtRandom(Column(dim, ghost), value)
+	if axis == 'compression': return Column(dim, ghost, confined=True, weight=weightForHeight(value), steps=40)
+	if axis == 'free': return Column(dim, ghost, weight=weightForHeight(value), steps=40)
+	if axis == 'turns': return Bar(dim, ghost, value, round(24 * value))
+	if axis == 'turnStep': return Bar(dim, ghost, max(1, round(90 / value)) * value / 360, max(1, round(90 / value)))
+	if axis == 'thin':
+		columns, points = map(int, value.split('/'))
+		return Column(dim, ghost, points=points, width=columns / points)
+	if axis == 'slender': return Cantilever(ghost, value)
+	if axis == 'columnFactor':
+		cells, factor = value.split('/')
+		return Column(dim, ghost, confined=True, weight=4, steps=20, h=.5, rows=int(cells), width=1, factor=float(factor))
+	if axis == 'slopeFactor': return Slope(ghost, *map(float, value.split('/')))
+	if axis == 'corner': return Column(dim, ghost, overlap=tuple(map(float, value.split('/'))))
+	raise ValueError(f'no axis {axis}')
+
+
+conditionOfSteps = 'overlap', 'factor', 'columnFactor', 'slopeFactor' # axes for which the condition number is estimated after each step
+kinds = [ # of failures, by what the exception says
+        ('nothing restrains', 'refused: mechanism'),
+        ('singular', 'singular'),
+        ('inside out', 'inverted'),
+        ('not finite', 'not finite'),
+        ('thrown off', 'thrown off the grid'),
+        ('diverges', 'diverging'),
+        ('above the tolerance', 'not converging'),
+]
+
+
+def kindOf(error):
+	return next((kind for text, kind in kinds if text in str(error)), 'refused: ' + re.sub(r'[0-9.e+-]+', '#', str(error))[:80])
+
+
+def run(axis, dim, ghost, value):
+	"""One case; returns a dictionary of results."""
+	O.reset()
+	result = dict(
+	        dofs=0, steps=0, completed=0, condition=nan, worstCondition=nan, pivot=nan, solveError=nan, meanIterations=nan, maxIterations=0, cuts=0, luSolves=0, clamped=0, error=nan,
+	        failure='')
+	begin = time.process_time()
+	try:
+		tried = scene(axis, dim, ghost, value)
+		engine = tried.engine
+		O.engines, O.dt = [engine], 1 / tried.steps
+		result['steps'] = tried.steps
+		result['condition'] = engine.conditionEstimate()
+		result['pivot'], result['solveError'] = pivots.measure(*engine.stiffness())
+		solves = []
+		for step in range(tried.steps):
+			tried.beforeStep(step)
+			O.step()
+			solves.append(engine.iterations)
+			result |= dict(completed=step + 1, dofs=engine.dofs, meanIterations=np.mean(solves), maxIterations=max(solves))
+			result['cuts'] += engine.cuts
+			result['luSolves'] += engine.luSolves
+			if axis in conditionOfSteps: result['worstCondition'] = np.nanmax([result['worstCondition'], engine.conditionEstimate()])
+			result['clamped'] = max(result['clamped'], engine.clampedDomains)
+		result['error'] = tried.error()
+	except (RuntimeError, ValueError) as error:
+		result['failure'] = kindOf(error)
+	return result | dict(seconds=time.process_time() - begin)
+
+
+if __name__ == '__main__':
+	with open(sys.argv[1]) as file:
+		cases = json.load(file)
+	for number, case in enumerate(cases):
+		print(json.dumps(dict(begins=number)), flush=True)
+		print(json.dumps(dict(ends=number, result=run(*case))), flush=True)

@@ -1,0 +1,100 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Which settings of which scenes scripts/trade runs."""
+import itertools
+import os
+from dataclasses import dataclass, field, replace
+
+here = os.path.dirname(os.path.abspath(__file__))
+
+
+@dataclass
+class Plan:
+	"""Runs of one script. Values of parameters are texts, as in a parameter table.
+
+	:param parameters: all parameters with the values from which single ones are moved
+	:param together: values of the parameters that are combined with each other
+	:param alone: values of others, which are moved one by one
+	:param around: settings in which they are moved
+	:param errors: variables of the script that are errors
+	:param quantities: variables that are compared with those of the reference
+	:param reference, check: parameters of the reference run, and of a coarser one that tells how far it is to be trusted
+	:param quick: values of the combined parameters in the short form, whose reference is quickReference
+	"""
+	script: str
+	parameters: dict
+	together: dict
+	alone: dict = field(default_factory=dict)
+	around: list = field(default_factory=lambda: [{}])
+	errors: list = field(default_factory=list)
+	quantities: list = field(default_factory=list)
+	reference: dict = None
+	check: dict = None
+	quick: dict = field(default_factory=dict)
+	quickReference: dict = None
+
+
+def shortened(plan):
+	return replace(plan, together=plan.quick, alone={}, reference=plan.quickReference, check=None)
+
+
+def settings(plan):
+	"""All runs of a plan."""
+	runs = [plan.parameters | dict(zip(plan.together, combined)) for combined in itertools.product(*plan.together.values())]
+	for name, values in plan.alone.items():
+		runs += [plan.parameters | centre | {name: value} for centre in plan.around for value in values]
+	runs += [plan.parameters | special for special in (plan.check, plan.reference) if special]
+	distinct = {tuple(run.values()): run for run in runs}
+	return list(distinct.values())
+
+
+def ownPlan(options):
+	"""Plan of a user's script, from the command line of scripts/trade."""
+	vary = dict(options.vary)
+	others = (options.reference or {}) | (options.check or {})
+	parameters = {name: values[0] for name, values in vary.items()}
+	for name in others:
+		if name not in parameters: raise SystemExit(f'scripts/trade: {name} of the reference is not among the --vary parameters')
+	return Plan(
+	        script=os.path.abspath(options.scene[0]), parameters=parameters, together=vary, errors=options.error, quantities=options.quantity, reference=options.reference,
+	        check=options.check)
+
+
+def plan(scene, steps, centre, dim=2, **others):
+	"""Plan of a scene in scenes.py; *centre* is the setting around which single parameters are moved."""
+	parameters = dict(
+	        scene=f"'{scene}'", dim=str(dim), cells='1', pointsPerCell='2', steps=steps, tolerance='1e-6', basis="'gimp'", ghostFactor='1e-2', scaling="'mesh-independent'",
+	        threads='1')
+	alone = dict(tolerance=['1e-1', '1e-2', '1e-3', '1e-4', '1e-9'], basis=["'mpm'"], ghostFactor=['0', '1e-4', '1', '100'], scaling=["'paper'"], threads=['2'])
+	return Plan(script=os.path.join(here, 'scenes.py'), parameters=parameters, alone=alone, around=[centre], **others)
+
+
+plans = {
+        'column':
+                plan(
+                        'column', '20', dict(cells='32'), errors=['stressError'],
+                        together=dict(cells=['4', '8', '16', '32', '64', '128'], pointsPerCell=['1', '2', '3'], steps=['5', '20', '80']),
+                        quick=dict(cells=['4', '8'], pointsPerCell=['2'], steps=['5', '10'])),
+        'column3d':
+                plan(
+                        'column', '20', dict(cells='16'), dim=3, errors=['stressError'],
+                        together=dict(cells=['4', '8', '16', '32'], pointsPerCell=['2', '3'], steps=['5', '20', '80']),
+                        quick=dict(cells=['4'], pointsPerCell=['2'], steps=['5'])),
+        'slope':
+                plan(
+                        'slope', '40', dict(cells='1'), quantities=['crest', 'toe'],
+                        together=dict(cells=['1', '2', '3'], pointsPerCell=['2', '3'], steps=['10', '40']),
+                        reference=dict(cells='4', steps='160'), check=dict(cells='3', steps='160'),
+                        quick=dict(cells=['1'], pointsPerCell=['2'], steps=['10']), quickReference=dict(cells='1', steps='20')),
+        'collapse':
+                plan(
+                        'collapse', '20', dict(cells='2'), quantities=['settlement', 'spread'],
+                        together=dict(cells=['1', '2', '4'], pointsPerCell=['2', '3'], steps=['10', '20', '40']),
+                        reference=dict(cells='12', steps='80'), check=dict(cells='8', steps='80'),
+                        quick=dict(cells=['1'], pointsPerCell=['2'], steps=['10']), quickReference=dict(cells='1', steps='20')),
+        'cantilever':
+                plan(
+                        'cantilever', '20', dict(cells='2'), quantities=['tipX', 'tipY'],
+                        together=dict(cells=['1', '2', '4'], pointsPerCell=['2', '3', '4'], steps=['5', '20', '80']),
+                        reference=dict(cells='8', pointsPerCell='3', steps='80'), check=dict(cells='4', pointsPerCell='3', steps='80'),
+                        quick=dict(cells=['1'], pointsPerCell=['2'], steps=['5']), quickReference=dict(cells='2', steps='10')),
+}

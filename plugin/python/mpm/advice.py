@@ -1,0 +1,125 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""What an analysis will cost, and what it could do without."""
+import math
+
+import numpy as np
+from yade import wrapper
+
+from .analysis import solverOf
+from .data import arrays
+
+# Cost of a load step in solves, elastic and elasto-plastic: small, usual, large (examples/trade). Plastic steps need 5 solves as a rule, of which
+# each costs more than the one that is measured, because points yield and the body spreads over more cells.
+_solves = {False: (3, 4, 20), True: (4, 7, 15)}
+# Memory that a step needs on top of the bodies, fitted to examples/trade/estimates.py: a part for YADE's threads and libraries, one for each
+# point, and four times the bytes of the matrices' entries, which stand for the working space of ordering and factorisation too.
+_bytes, _bytesOfPoint = 6e5, {2: 1150, 3: 1600}
+_bytesOfEntry = {'blockEntries': 32, 'matrixEntries': 96, 'factorEntries': 44}
+_bytesOfOutput = 320  # of a point in an MpmVtkRecorder's files
+
+
+def advise(solver=None):
+	"""Print what the analysis will cost and what it could do without; nothing is run, and the scene is left alone.
+
+	The number of unknowns is exact. The parts of one load step are done three times, without load, to see how long they take on this machine: so the
+	call takes about as long as a step. How many solves a step will need is not known before; what is printed are the usual number and the range that the
+	scenes of ``examples/trade`` needed. Bodies that bend by large angles, and soil that fails, are at its upper end. Memory is on top of the bodies.
+
+	:param solver: the ``MpmImplicitEngine``; may be left out when ``O.engines`` holds one
+	:return: dict of ``points``, ``dofs`` (unknowns), ``steps`` (load steps that are left), ``memory`` [bytes], ``secondsPerStep`` and its range
+		``fastest``, ``slowest``, and ``advice``, a list of the sentences that were printed
+	:raises TypeError: *solver* is no MpmImplicitEngine.
+	:raises ValueError: none or several of them among O.engines, no material points, or a value that a load step would refuse.
+	"""
+	solver = solverOf('advise', solver)
+	scene = _Scene(solver)
+	few, usual, many = _solves[scene.plastic]
+	work = scene.work
+	seconds = {name: work['secondsPerStep'] + n * work['secondsPerSolve'] for name, n in (('fastest', few), ('secondsPerStep', usual), ('slowest', many))}
+	memory = _bytes + scene.points * _bytesOfPoint[scene.dim] + sum(size * work[name] for name, size in _bytesOfEntry.items())
+	found = dict(points=scene.points, dofs=work['dofs'], steps=scene.steps, memory=memory, advice=_notNeeded(scene) + _next(scene), **seconds)
+	law = 'elasto-plastic' if scene.plastic else 'elastic'
+	print(f"{scene.dim}D, {law}, {scene.points} points in {work['activeCells']} cells, {scene.pointsPerCell:.3g} a cell and axis")
+	print(f"unknowns: {work['dofs']}; memory: about {memory / 2**20:.0f} MiB on top of the bodies")
+	print(
+	        f"a load step: about {_time(seconds['secondsPerStep'])} ({_time(seconds['fastest'])} to {_time(seconds['slowest'])}), of which "
+	        f"{_time(work['secondsPerSolve'])} a solve; {scene.steps} steps to the end of the load curve: about {_time(scene.steps * seconds['secondsPerStep'])}"
+	)
+	for sentence in found['advice']:
+		print('- ' + sentence)
+	return found
+
+
+class _Scene:
+	"""What advice depends on."""
+
+	def __init__(self, solver):
+		self.solver, self.work = solver, solver.workload()
+		self.dim, self.h = solver.grid.dim, solver.grid.cellSize
+		data, omega = arrays(), wrapper.Omega()
+		self.points = self.work['points']
+		if self.points == 0: raise ValueError('advise: the scene has no material points; add them with O.bodies.append(mpm.fill(...))')
+		self.low, self.high = data['pos'].min(axis=0) - data['halfSize'].min(axis=0), data['pos'].max(axis=0) + data['halfSize'].min(axis=0)
+		self.pointsPerCell = (self.points / self.work['activeCells'])**(1 / self.dim)
+		self.materials = [omega.materials[int(i)] for i in np.unique(data['material']) if i >= 0]
+		self.plastic = any(isinstance(material, wrapper.MpmVonMisesMat) for material in self.materials)
+		last = solver.loadCurve[-1][0]
+		self.steps = max(0, math.ceil((last - omega.time) / omega.dt - 1e-6)) if omega.dt > 0 else 0
+		self.recorders = [engine for engine in omega.engines if isinstance(engine, wrapper.MpmVtkRecorder)]
+
+	def neverYield(self):
+		"""Labels of materials that the weight of all that could lie above cannot bring to yield."""
+		extent = max(self.high[:self.dim] - self.low[:self.dim])
+		stress = max(material.density for material in self.materials) * np.linalg.norm(self.solver.gravity) * extent
+		return [m.label or m.id for m in self.materials if stress > 0 and isinstance(m, wrapper.MpmVonMisesMat) and m.yieldStress > stress]
+
+	def contrast(self):
+		moduli = [material.young for material in self.materials]
+		return max(moduli) / min(moduli)
+
+	def uniformAlongZ(self):
+		"""Both ends held along z, and nothing acts along it: plane strain."""
+		tolerance = 1e-6 * self.h
+		ends = [any('z' in b.fix and b.min[2] <= z + tolerance and b.max[2] >= z - tolerance for b in self.solver.boundaries) for z in (self.low[2], self.high[2])]
+		return all(ends) and self.solver.gravity[2] == 0
+
+
+def _notNeeded(scene):
+	"""What the scene uses and does not need, or lacks; numbers are those of examples/trade and examples/extremes."""
+	solver, found = scene.solver, []
+	if scene.dim == 3 and scene.uniformAlongZ():
+		found.append('dim: both ends are held along z, where gravity has no part. If the section is the same all along, dim=2 (plane strain) will do.')
+	strong = scene.neverYield()
+	if strong: found.append(f'plasticity: the weight cannot bring {strong} to yield; unless other loads do, MpmElasticMat does the same.')
+	contrast = scene.contrast()
+	if contrast >= 10:
+		found.append(
+		        f'layers: moduli differ by a factor of {contrast:.3g}. Where such layers move through the grid, stresses beside their boundary are off, by 24 % '
+		        'for a factor of 10, 76 % for 100.'
+		)
+	if solver.ghost.factor == 0: found.append('stabilisation: it is off; one point that leaves its row can make a step fail. MpmGhost() costs next to nothing.')
+	if solver.ghost.factor > 1: found.append(f'stabilisation: factor={solver.ghost.factor:g} stiffens the edge of the body; 1e-2 is enough.')
+	if solver.basis == 'mpm': found.append("basis: 'mpm' has had up to 50 times the error of 'gimp', and saves at best half of the time.")
+	if solver.newton.tolerance < 1e-6: found.append(f'tolerance: {solver.newton.tolerance:g} has given the same results as 1e-4 in all our measurements.')
+	if solver.newton.tolerance > 1e-3: found.append('tolerance: 1e-1 has changed displacements of a slope by up to 44 %, 1e-2 by 7 %, 1e-3 by 0.1 %.')
+	output = sum(_bytesOfOutput * scene.points * scene.steps / max(1, recorder.iterPeriod) for recorder in scene.recorders)
+	if output > 2**30: found.append(f'output: the recorders will write about {output / 2**30:.0f} GiB; a larger iterPeriod writes less.')
+	return found
+
+
+def _next(scene):
+	"""Next cheaper and next more accurate setting, by what they gave in examples/trade."""
+	cheaper, better = [], []
+	if scene.pointsPerCell > 2.6: cheaper.append('pointsPerCell=2: two thirds of the time at about the same error')
+	if scene.steps > 20: cheaper.append('O.dt twice as large: half of the time; 10 steps instead of 40 changed displacements of the slope by less than 1 %')
+	cheaper.append(f"cellSize={2 * scene.h:g}: {'a fourth to a fifth' if scene.dim == 2 else 'a tenth'} of the time, about twice the error")
+	if scene.pointsPerCell < 1.5: better.append('pointsPerCell=2: half of the error')
+	better.append(f"cellSize={scene.h / 2:g}: half of the error for {'4 to 6' if scene.dim == 2 else '10 or more'} times the time")
+	if 0 < scene.steps < 10: better.append('O.dt a fourth of this: 0.6 times the error in an elastic column, for twice the time')
+	return [f'next cheaper: {cheaper[0]}.', f'next more accurate: {better[0]}.'] + [f'also: {text}.' for text in cheaper[1:] + better[1:]]
+
+
+def _time(seconds):
+	if seconds < 0.995: return f'{float(f"{seconds * 1e3:.2g}"):g} ms'
+	if seconds < 120: return f'{float(f"{seconds:.2g}"):g} s'
+	return f'{seconds / 60:.0f} min' if seconds < 7200 else f'{seconds / 3600:.1f} h'

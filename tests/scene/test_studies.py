@@ -1,0 +1,139 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""scripts/extremes, scripts/trade and mpm.advise, in their shortest forms."""
+import csv
+import os
+import shutil
+import subprocess
+import sys
+
+import pytest
+from conftest import root
+
+sys.path.insert(0, str(root / 'scripts' / 'lib'))
+from worker import runCases
+
+
+@pytest.fixture
+def study(yade):
+	"""study(script, ...) runs one of scripts/ with the YADE under test and returns what it printed."""
+
+	def run(script, *arguments, fails=False):
+		environment = os.environ | yade.ownSettings() | {'YADE': shutil.which(yade.command)}
+		ended = subprocess.run([root / 'scripts' / script, *map(str, arguments)], cwd=yade.folder, env=environment, capture_output=True, text=True, timeout=120)
+		assert (ended.returncode != 0) == fails, ended.stdout + ended.stderr
+		return ended.stderr if fails else ended.stdout
+
+	return run
+
+
+def rows(path):
+	with open(path, newline='') as file:
+		return list(csv.DictReader(file))
+
+
+def test_extremes(study, tmp_path):
+	arguments = 'contrast', 'turns', 'points', '--quick', '--out', tmp_path / 'out'
+	assert '9 cases to run' in study('extremes', *arguments)
+	results = {(row['axis'], row['ghost']): row for row in rows(tmp_path / 'out/results/atlas.csv')}
+	for ghost in 'none', 'mesh-independent', 'paper':
+		assert float(results['contrast', ghost]['error']) < .05 # soft layers are not locked by the stabilisation of stiff ones
+	assert float(results['turns', 'mesh-independent']['error']) < 1e-6 and int(results['turns', 'mesh-independent']['maxIterations']) <= 6
+	assert results['turns', 'none']['failure'] == results['points', 'none']['failure'] == 'singular'
+	page = (tmp_path / 'out/README.md').read_text()
+	assert '| `contrast` |' in page and '**singular**' in page
+	assert (tmp_path / 'out/outcomes.png').stat().st_size > 10000
+	assert '0 cases to run' in study('extremes', *arguments)
+
+
+def test_cases_that_end_their_process(tmp_path):
+	worker = tmp_path / 'worker.py'
+	worker.write_text('''
+import json, os, sys, time
+for i, case in enumerate(json.load(open(sys.argv[1]))):
+	print(json.dumps(dict(begins=i)), flush=True)
+	if case == 'crash': os.abort()
+	if case == 'hang': time.sleep(60)
+	print('{ no JSON')
+	print(json.dumps(dict(ends=i, result=[case])), flush=True)
+''')
+	cases = ['a', 'crash', 'hang', 'crash', 'b']
+	assert list(runCases([sys.executable, worker], cases, timeLimit=1)) == [('a', ['a']), ('crash', 'crash'), ('hang', 'timeout'), ('crash', 'crash'), ('b', ['b'])]
+	worker.write_text('raise SystemExit(3)')
+	with pytest.raises(RuntimeError, match='exit code 3'):
+		list(runCases([sys.executable, worker], cases, timeLimit=1))
+
+
+def test_trade_of_a_scene_of_ones_own(study, tmp_path):
+	script = tmp_path / 'own.py'
+	script.write_text('''
+import sys
+sys.path.insert(0, {scenes!r})
+readParamsFromTable(noTableOk=True, cells=4, steps=5)
+from yade.params import table
+from scenes import column, columnError
+engine = column(table.cells)
+O.dt = 1 / table.steps
+O.run(table.steps, wait=True)
+if table.cells == 8 and table.steps == 2: raise RuntimeError('on purpose')
+stress, exactly = columnError() + 1, columnError()
+'''.format(scenes=str(root / 'tests' / 'scene')))
+	arguments = 'trade', script, '--vary', 'cells=4,8', '--vary', 'steps=2,10', '--quantity', 'stress', '--reference', 'cells=16,steps=10', '--out', tmp_path / 'out'
+	assert 'own: 5 of 5 runs to do' in study(*arguments)
+	results = {(row['cells'], row['steps']): row for row in rows(tmp_path / 'out/results/own.csv')}
+	assert 'on purpose' in results['8', '2']['failure']
+	assert float(results['16', '10']['stress']) < float(results['8', '10']['stress']) < float(results['4', '10']['stress'])
+	assert float(results['4', '2']['cpu']) > 0
+	page = (tmp_path / 'out/README.md').read_text()
+	assert '10.0% error: **cells 4' in page and (tmp_path / 'out/own.png').stat().st_size > 10000
+	assert 'own: 0 of 5 runs to do' in study(*arguments)
+	assert '--quantity or --error' in study('trade', script, fails=True)
+
+
+def test_trade_of_a_built_in_scene(study, tmp_path):
+	study('trade', 'cantilever', '--quick', '--out', tmp_path / 'out')
+	assert '## cantilever' in (tmp_path / 'out/README.md').read_text()
+
+
+writers = { # without the pictures, which take long
+        'extremes': 'import page; page.pictures.outcomes = page.pictures.conditions = page.pictures.cornerMaps = page.pictures.pivots = lambda *a: None; page.write({!r})',
+        'trade': 'import page, plans; page.picture = lambda *a: None; page.write({!r}, plans.plans)'
+}
+
+
+@pytest.mark.parametrize('study', writers)
+def test_kept_pages_are_made_from_the_kept_tables(study, tmp_path):
+	kept = root / 'examples' / study
+	shutil.copytree(kept / 'results', tmp_path / 'results')
+	subprocess.run(['/usr/bin/python3.11', '-c', writers[study].format(str(tmp_path))], cwd=kept, check=True)
+	assert (tmp_path / 'README.md').read_text() == (kept / 'README.md').read_text()
+
+
+def test_advice(yade):
+	run = yade('''
+import json
+from scenes import *
+found = {}
+for name, engine in ('slope', lambda: slope(1, 3)), ('column', lambda: column(8, dim=3)), ('weak', lambda: slope(1, 1, factor=0)):
+	O.reset()
+	solver = engine()
+	before = mpm.arrays()
+	advice = mpm.advise(solver)
+	assert all((before[k] == v).all() for k, v in mpm.arrays().items()) and O.iter == 0
+	if name != 'weak': O.step()
+	found[name] = dict(advice, stepped=solver.dofs)
+O.reset()
+for wrong in 1, None:
+	try: mpm.advise(wrong)
+	except (TypeError, ValueError) as error: found[str(wrong)] = str(error)
+print(json.dumps(found))
+''')
+	slope, column, weak = (run.result[name] for name in ('slope', 'column', 'weak'))
+	for scene, points, steps in (slope, 2460, 40), (column, 64, 40):
+		assert scene['dofs'] == scene['stepped'] > 0
+		assert (scene['points'], scene['steps']) == (points, steps)
+		assert 0 < scene['fastest'] < scene['secondsPerStep'] < scene['slowest'] and scene['memory'] > 1e6
+	says = lambda scene, text: any(text in sentence for sentence in scene['advice'])
+	assert says(slope, 'pointsPerCell=2') and says(column, 'dim=2') and says(column, 'tolerance') and says(weak, 'stabilisation: it is off')
+	assert not says(slope, 'dim=2') and not says(slope, 'stabilisation')
+	assert 'unknowns: ' in run.stdout
+	assert 'must be an MpmImplicitEngine' in run.result['1'] and 'O.engines holds no' in run.result['None']
