@@ -6,6 +6,8 @@ include_patterns = ['README.md', 'examples/README.md', 'examples/*/README.md', '
 extensions = ['myst_parser', 'sphinx.ext.mathjax']
 myst_enable_extensions = ['dollarmath']
 myst_heading_anchors = 3
+myst_update_mathjax = False  # it writes settings for MathJax 3; Debian has version 2
+mathjax2_config = {'tex2jax': {'processClass': 'math'}}
 mathjax_path = 'mathjax/MathJax.js?config=TeX-AMS_CHTML'
 html_theme = 'alabaster'
 html_theme_options = {'page_width': '1100px', 'fixed_sidebar': True, 'description': 'Reference and course'}
