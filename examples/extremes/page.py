@@ -55,8 +55,8 @@ def valuesOf(rows, name):
 
 
 def safe(row, harmless):
-	"""It ran, and is not much worse than the best of its axis."""
-	return row is not None and ran(row) and (math.isnan(row['error']) or row['error'] <= max(3 * harmless, 0.05))
+	"""It ran without cutting a step, and is not much worse than the best of its axis."""
+	return row is not None and ran(row) and row['cuts'] == 0 and (math.isnan(row['error']) or row['error'] <= max(3 * harmless, 0.05))
 
 
 def safeRange(rows, name, column):
@@ -156,7 +156,7 @@ so that the error, eq. 7 of Coombs (2023), is exact. Cells of 0.1 m tell the two
 
 RANGES = """## Safe ranges
 
-A value is safe if the analysis runs to its end and its error is at most 5 %, or three times the smallest of its axis. What
+A value is safe if the analysis runs to its end without cutting a step and its error is at most 5 %, or three times the smallest of its axis. What
 the user sees outside is how the analysis ended there.
 """
 

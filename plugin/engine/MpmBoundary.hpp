@@ -15,7 +15,9 @@ public:
 	static const char* doc()
 	{
 		return "Essential boundary condition: every grid node inside a box that is fixed in space is held, or moved, in the directions *fix*. Faces of "
-		       "the box belong to it, with a tolerance of 1e-9 cells. A box that holds no node is an error.";
+		       "the box belong to it, with a tolerance of 1e-9 cells. A box that holds no node is an error. A face of a cell whose nodes are all held "
+		       "along its normal is a wall, inside of a body too: points do not reach through it. To move a body by nodes inside of it, hold nodes that "
+		       "do not make up a face.";
 	}
 	template <class V> static void attributes(V&& v)
 	{
