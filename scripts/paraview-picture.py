@@ -3,8 +3,13 @@
 
 Makes a picture with ParaView of what MpmVtkRecorder has written with fileName=<prefix>, such as out/slope-: the domains of the material
 points, coloured by one of their fields, and, if there are files of them, the background grid with its boundary cells and the ghost
-faces. pvbatch is in Debian's packages paraview and python3-paraview. With --state the same can be opened in ParaView's window, to go on
-from there.
+faces. With --state the same can be opened in ParaView, to go on from there.
+
+pvbatch is in Debian's package paraview; without a screen: xvfb-run -a pvbatch ... Its Python modules are in python3-paraview, which Debian 12
+does not install beside the libvtk9-dev that builds the plugin. To have both, unpack it:
+
+  apt-get download python3-paraview && dpkg -x python3-paraview_*.deb paraview-python
+  PYTHONPATH=paraview-python/usr/lib/python3/dist-packages pvbatch scripts/paraview-picture.py out/slope-
 """
 import argparse
 import glob
@@ -22,7 +27,7 @@ grey, orange, tint, black = [0.53, 0.56, 0.59], [0.85, 0.28, 0.06], [1, 0.91, 0.
 
 def arguments():
 	usage, description = __doc__.split('\n\n', 1)
-	parser = argparse.ArgumentParser(usage=usage[7:], description=description)
+	parser = argparse.ArgumentParser(usage=usage[7:], description=description, formatter_class=argparse.RawDescriptionHelpFormatter)
 	parser.add_argument('prefix', help='start of the files, the fileName of the MpmVtkRecorder')
 	parser.add_argument('--field', default='stress_xy', help='of the points, with its component: stress_xy, displacement (its length), displacement_y, plasticStrain, ... (default %(default)s)')
 	parser.add_argument('--range', type=float, nargs=2, metavar=('LOW', 'HIGH'), help='of the colours, in the unit of the colour bar (default: that of the values)')

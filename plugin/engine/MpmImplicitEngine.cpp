@@ -6,6 +6,7 @@
 #include "core/workload.hpp"
 #include "engine/LoadStepObserver.hpp"
 #include "engine/exchange.hpp"
+#include "engine/plausibility.hpp"
 #include "yade_api/exceptions.hpp"
 #include "yade_api/interruption.hpp"
 #include "yade_api/logging.hpp"
@@ -207,12 +208,15 @@ template <int Dim> void MpmImplicitEngine::step()
 		const gimpm::Stopwatch watch(gathering);
 		requireRunnable();
 		progressLine.start(scene->iter);
+		warnOfEnd();
 		target = scene->time + scene->dt;
 		model  = toModel<Dim>(*grid, basis, boundaries, *ghost, *newton);
 		points = materialPoints(*scene, mask);
 		if (points.empty()) throw std::invalid_argument(noPoints());
 		cloud = gather(points, model);
-		last  = gimpm::StepReport();
+		if (points.size() != lookedAt) requirePlausible(*this, points);
+		lookedAt = points.size();
+		last     = gimpm::StepReport();
 		times.clear();
 		iterations = lineSearchTrials = luSolves = substeps = cuts = 0;
 		lastPoints = points.size();
@@ -353,6 +357,17 @@ py::dict MpmImplicitEngine::report() const
 	return result;
 }
 
+void MpmImplicitEngine::warnOfEnd()
+{
+	if (warnedOfEnd || loadCurve.size() < 2 || loadTime < loadCurve.back().first - 1e-9 * scene->dt) return;
+	warnedOfEnd = true;
+	std::ostringstream text;
+	text << "loadCurve has ended at time " << loadCurve.back().first << ": the load factor stays at " << loadCurve.back().second
+	     << ", and further steps change nothing unless something else does.";
+	progressLine.breakLine();
+	log(Severity::warning, staticName(), text.str());
+}
+
 void MpmImplicitEngine::warnOfAccepted(const gimpm::StepReport& report, Real time) const
 {
 	std::ostringstream text;
@@ -369,6 +384,7 @@ string MpmImplicitEngine::reasonOf(const gimpm::StepReport& report, Real time, R
 	text << " failed: " << report.cause;
 	if (report.invertedPoint >= 0) text << placeOf(points[report.invertedPoint]);
 	text << "." << placeOfImbalance(report, points) << adviceOn(report, part);
+	if (report.failure == gimpm::Failure::unrestrained) text << idleBoundaries(*this, points);
 	text << " The scene is at load factor " << loadFactor << ", the last converged state, in iteration " << scene->iter << ".";
 	return text.str();
 }

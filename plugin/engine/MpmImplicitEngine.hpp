@@ -58,7 +58,7 @@ public:
 	}
 	template <class V> static void attributes(V&& v)
 	{
-		v("grid", &MpmImplicitEngine::grid, 0, "Background grid (MpmGrid); must be given.", notNull);
+		v("grid", &MpmImplicitEngine::grid, 0, "Background grid (MpmGrid); must be given.", admitting("the MpmGrid that mpm.fill was given, as in grid=MpmGrid(cellSize=1)", notNull));
 		v("basis",
 		  &MpmImplicitEngine::basis,
 		  0,
@@ -203,6 +203,7 @@ private:
 	template <int Dim> void    advance(gimpm::PointCloud<Dim>&, gimpm::Model<Dim>&, const vector<MaterialPoint>&, Real target);
 	void                       take(const gimpm::StepReport&);
 	void                       addTime(const char* phase, double seconds);
+	void                       warnOfEnd();
 	void                       warnOfAccepted(const gimpm::StepReport&, Real time) const;
 	string                     reasonOf(const gimpm::StepReport&, Real time, Real part, const vector<MaterialPoint>&) const;
 	string                     placeOfImbalance(const gimpm::StepReport&, const vector<MaterialPoint>&) const;
@@ -214,6 +215,8 @@ private:
 
 	Counters            beforeActivation;
 	ProgressLine        progressLine;
+	size_t              lookedAt      = 0;     // number of points in the scene that was found plausible
+	bool                warnedOfEnd = false; // of the load curve
 	gimpm::LinearSolver solver; // keeps the symbolic analysis; results do not depend on it
 
 	// for report(): the last load step that was tried, the points in it, and the times of the last run by phase [s]

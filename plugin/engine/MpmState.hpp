@@ -27,7 +27,8 @@ public:
 		v("stress",
 		  &MpmState::stress,
 		  readonly,
-		  "Cauchy stress [Pa], symmetric, positive in tension: a result. To start from a stress, give the elastic strain that causes it.");
+		  "Cauchy stress [Pa], symmetric, positive in tension: a result. To start from a stress: mpm.assign(stress=...), mpm.geostatic(K0=...), or "
+		  "the elastic strain that causes it.");
 		v("defGrad",
 		  &MpmState::defGrad,
 		  0,

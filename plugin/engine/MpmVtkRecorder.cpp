@@ -150,7 +150,7 @@ const MpmImplicitEngine& MpmVtkRecorder::followed() const
 	const string wanted = solver.empty() ? "" : " labelled '" + solver + "', as the attribute solver says";
 	throw std::invalid_argument(
 	        "MpmVtkRecorder follows one MpmImplicitEngine, and O.engines holds " + (candidates.empty() ? "none" : std::to_string(candidates.size()))
-	        + wanted + (candidates.empty() ? "." : ". Label them, and give the label of one as solver."));
+	        + wanted + (candidates.empty() ? ". Put it into O.engines, too." : ". Label them, and give the label of one as solver."));
 }
 
 // The state in the bodies: a step counts as soon as it is made, though O.iter follows at the end of the iteration.

@@ -31,7 +31,10 @@ template <class D, class T, class Validator> struct Attribute {
 	void assign(D& object, const py::object& value) const
 	{
 		const std::optional<T> converted = Conversion<T>::fromPython(value);
-		if (!converted) raisePython(PyExc_TypeError, qualifiedName() + " = " + repr(value) + ": expected " + Conversion<T>::expected() + ".");
+		if (!converted)
+			raisePython(
+			        PyExc_TypeError,
+			        qualifiedName() + " = " + repr(value) + ": expected " + Conversion<T>::expected() + "." + (ItemOf<T>::is(value) ? " For one item write [item]." : ""));
 		requireAdmitted(*converted);
 		const ValueLock lock;
 		object.*member = *converted;

@@ -188,4 +188,12 @@ template <class T> struct Conversion<vector<T>> {
 	}
 };
 
+// Whether a value is what a sequence of type T wants as item: somebody has forgotten the brackets.
+template <class T> struct ItemOf {
+	static bool is(const py::object&) { return false; }
+};
+template <class T> struct ItemOf<vector<T>> {
+	static bool is(const py::object& value) { return !value.is_none() && Conversion<T>::fromPython(value); }
+};
+
 } // namespace yade

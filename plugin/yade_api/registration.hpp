@@ -105,6 +105,16 @@ protected:
 		return names;
 	}
 
+	static string documentation(const string& name)
+	{
+		string result;
+		if constexpr (baseIsExposed(static_cast<B*>(nullptr))) result = B::documentation(name);
+		forEachAttribute([&](const auto& attribute) {
+			if (name == attribute.name) result = attribute.doc;
+		});
+		return result;
+	}
+
 	static bool isReadonly(const string& name)
 	{
 		bool result = false;
@@ -198,7 +208,7 @@ private:
 	{
 		if (!PyObject_HasAttrString(reinterpret_cast<PyObject*>(pythonType()), name.c_str()))
 			raisePython(PyExc_AttributeError, string(D::staticName()) + " has no attribute '" + name + "'; it has " + attributeNames() + ".");
-		if (isReadonly(name)) raisePython(PyExc_AttributeError, string(D::staticName()) + "." + name + " can only be read.");
+		if (isReadonly(name)) raisePython(PyExc_AttributeError, string(D::staticName()) + "." + name + " can only be read. " + documentation(name));
 	}
 
 	// A misspelt name would otherwise become a new Python attribute without effect. Classes derived in Python may add theirs.

@@ -29,6 +29,7 @@ from .advice import advise
 from .colouring import colour
 from .data import arrays, assign
 from .files import save
+from . import ending
 from .filling import fill
 from .geostatics import geostatic
 from .outline import polygon

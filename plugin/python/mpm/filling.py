@@ -65,9 +65,13 @@ def _latticePoints(predicate, grid, n):
 	positions = np.concatenate(kept)
 	if not len(positions):
 		plane = f' in the plane z = {grid.origin[2]}' if grid.dim == 2 else ''
-		raise ValueError(f'fill: no point of the lattice with spacing {grid.cellSize / n} m{plane} is inside the predicate {predicate!r}; '
-		                 f'is the region smaller than that, or somewhere else?')
+		raise ValueError(f'fill: no point of the lattice with spacing {grid.cellSize / n} m{plane} is inside the predicate, whose box reaches '
+		                 f'from {_text(predicate.aabb()[0])} to {_text(predicate.aabb()[1])}; is the region smaller than that, or does it miss the plane?')
 	return positions
+
+
+def _text(corner):
+	return f"({', '.join(f'{x:g}' for x in corner)})"
 
 
 def _cellRange(predicate, grid, n):
@@ -147,7 +151,8 @@ def _labelsFromList(positions, pairs):
 	labels = []
 	for i, pair in enumerate(pairs):
 		if not (isinstance(pair, (list, tuple)) and len(pair) == 2 and callable(pair[0]) and isinstance(pair[1], str)):
-			raise TypeError(f'fill: material[{i}] = {pair!r} must be a (predicate, label) pair')
+			hint = '; that is a body: the label of a material is meant, not what mpm.fill has returned' if isinstance(pair, wrapper.Body) else ''
+			raise TypeError(f'fill: material[{i}] = {pair!r} must be a (predicate, label) pair{hint}')
 		open_ = np.flatnonzero(index < 0)
 		index[open_[_inside(pair[0], positions[open_])]] = i
 		labels.append(pair[1])
@@ -163,7 +168,8 @@ def _material(label):
 		found = wrapper.Omega().materials[label]
 	except KeyError:
 		known = [m.label for m in wrapper.Omega().materials if m.label]
-		raise KeyError(f'fill: material {label!r} is not in O.materials, which has {known}') from None
+		there = f'which has {known}' if known else 'which has no material with a label yet; append it there before filling'
+		raise KeyError(f'fill: material {label!r} is not in O.materials, {there}') from None
 	if not isinstance(found, wrapper.MpmMaterial):
 		raise TypeError(f'fill: material {label!r} is a {type(found).__name__}; material points need one of the Mpm materials')
 	return found

@@ -21,12 +21,16 @@ class polygon(pack.Predicate):
 	Points on the edge are inside, with a tolerance of 1e-9 of the polygon's larger extent.
 	"""
 
-	def __init__(self, vertices):
+	def __init__(self, vertices, *more):
+		if more: raise TypeError('polygon: the vertices go into one list: mpm.polygon([(x, y), (x, y), ...])')
 		super().__init__()  # YADE's boolean operators need the C++ part of the object
 		self.vertices = _outline(vertices)
 		self.low, self.high = self.vertices.min(axis=0), self.vertices.max(axis=0)
 		self.tolerance = 1e-9 * (self.high - self.low).max()
 		_refuseSelfContact(self.vertices, self.tolerance)
+
+	def __repr__(self):
+		return f'mpm.polygon({[tuple(v) for v in self.vertices.tolist()]})'
 
 	def __call__(self, pt, pad=0.):
 		"""True if the point is inside, no closer than *pad* [m] to the edge (a negative *pad* widens the polygon)."""

@@ -1,0 +1,15 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""A word when the script ends before the simulation does."""
+import atexit
+import sys
+
+from yade import wrapper
+
+
+@atexit.register
+def _sayIfRunning():
+	scene = wrapper.Omega()
+	if not scene.running: return
+	sys.stderr.write(
+	        f'\nyade.mpm: the script ends while the simulation runs, in iteration {scene.iter}: the rest is lost. O.run(n, wait=True) or O.wait() waits for it.\n'
+	)
