@@ -110,7 +110,8 @@ public:
 		  &MpmImplicitEngine::reactions,
 		  readonly,
 		  "For each of *boundaries*, the sum of the forces [N] along x, y, z with which it held its nodes at the end of the last converged step; per metre "
-		  "of thickness in plane strain. A node in several boxes counts for the last one. Empty before the first step.");
+		  "of thickness in plane strain. A node in several boxes counts for the last one. Their sum balances the loads, but for the parts of domains "
+		  "that walls cut off (*wallOverlap*). Empty before the first step.");
 		v("clampedDomains", &MpmImplicitEngine::clampedDomains, readonly, "Points whose domain was kept at half a cell at the end of the last step.");
 		v("wallOverlap",
 		  &MpmImplicitEngine::wallOverlap,
