@@ -35,6 +35,7 @@ While it runs, one line tells how far it is (``verbosity`` of the engine); ``plo
 :func:`colour`     colours of the points in YADE's 3D view
 :func:`export`     table of the points, CSV or NPZ
 :func:`save`       the scene, whole or not at all
+:func:`advise`     what an analysis will cost, and what it could do without
 =================  ============================================================================
 
 Units are SI; stress is positive in tension; strains are logarithmic; plane strain is per metre of thickness.

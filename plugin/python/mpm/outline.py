@@ -15,7 +15,8 @@ class polygon(pack.Predicate):
 
 	:param vertices: sequence of at least three (x, y) in m, in order around the polygon, either way round; the last one
 		is joined to the first by itself. Concave outlines are welcome.
-	:raises TypeError: vertices are not pairs of numbers.
+	:param more: none; vertices that are given one by one, without a list, are refused
+	:raises TypeError: vertices are not pairs of numbers in one sequence.
 	:raises ValueError: fewer than three vertices, a coordinate that is not finite, or an outline that crosses or touches itself.
 
 	Points on the edge are inside, with a tolerance of 1e-9 of the polygon's larger extent.
