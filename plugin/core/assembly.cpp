@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "core/point_kernel.hpp"
+#include "core/patch_stiffness.hpp"
 #include <atomic>
 #include <climits>
 
@@ -12,13 +12,11 @@ template <int Dim, int Span> struct PairCodes {
 	int                  code[N][N];
 	PairCodes()
 	{
-		std::array<int, Dim> place[N];
-		PatchBasis<Dim, Span>::forNodes([&](int local, const std::array<int, Dim>& n) { place[local] = n; });
 		for (int a = 0; a < N; ++a)
 			for (int b = 0; b < N; ++b) {
 				std::array<int, Dim> offset;
 				for (int k = 0; k < Dim; ++k)
-					offset[k] = place[b][k] - place[a][k];
+					offset[k] = PatchNodes<Dim, Span>::along(b, k) - PatchNodes<Dim, Span>::along(a, k);
 				code[a][b] = NodeMatrix<Dim>::code(offset);
 			}
 	}
@@ -29,71 +27,123 @@ template <int Dim, int Span> struct PairCodes {
 	}
 };
 
-/// Stiffness of a patch, by pairs of displacement components (i <= k): block(i, k)(a, b) = K_(a,i)(b,k).
-template <int Dim, int N> struct PatchStiffness {
-	using Nodal = Eigen::Matrix<double, N, N>;
-	Nodal block[Dim][Dim];
-
-	PatchStiffness()
-	{
-		for (int i = 0; i < Dim; ++i)
-			for (int k = i; k < Dim; ++k)
-				block[i][k].setZero();
-	}
-	/// K_ab,ik += grad_a,j A_ijkl grad_b,l
-	void add(const Eigen::Matrix<double, N, Dim>& grad, const Moduli<Dim>& A)
-	{
-		for (int i = 0; i < Dim; ++i)
-			for (int k = i; k < Dim; ++k) {
-				const Eigen::Matrix<double, Dim, N> flux = A.template block<Dim, Dim>(i * Dim, k * Dim).lazyProduct(grad.transpose());
-				block[i][k] += grad.lazyProduct(flux);
-			}
-	}
-	template <class Codes> void scatterAdd(const int* node, const Codes& codes, NodeMatrix<Dim>& K) const
-	{
-		for (int a = 0; a < N; ++a)
-			for (int b = a; b < N; ++b) {
-				if (node[a] < 0 || node[b] < 0) continue;
-				double* out = K.at(node[a], codes.code[a][b]);
-				for (int i = 0; i < Dim; ++i)
-					for (int k = 0; k < Dim; ++k)
-						out[i * Dim + k] += i <= k ? block[i][k](a, b) : block[k][i](b, a);
-			}
-	}
+/// What a pass over the points reads and writes.
+template <int Dim> struct Pass {
+	const CloudBasis<Dim>&       basis;
+	const StepPoints<Dim>&       points;
+	const std::vector<Material>& materials;
+	const Eigen::VectorXd&       d;
+	Eigen::VectorXd&             force;
+	NodeMatrix<Dim>*             K;
 };
 
-/// Internal force (and stiffness) of the points of one patch. Returns the first inverted point (index in the cloud), or INT_MAX.
-template <int Dim, int Span, bool WithStiffness>
-int addPatch(
-        const Patch<Dim>&            patch,
-        const CloudBasis<Dim>&       basis,
-        const StepPoints<Dim>&       points,
-        const std::vector<Material>& materials,
-        const Eigen::VectorXd&       d,
-        Eigen::VectorXd&             f,
-        NodeMatrix<Dim>*             K)
+/// First point of a batch with J <= 0 or not finite (position in the order of the basis), or -1.
+GIMPM_INLINE int invertedIn(const Batch& batch, const Lanes& J)
 {
-	using B           = PatchBasis<Dim, Span>;
-	const auto  local = B::gather(patch, d);
-	auto        force = B::Gradients::Zero().eval();
-	std::conditional_t<WithStiffness, PatchStiffness<Dim, B::N>, int> stiffness {};
-	for (int i = patch.first; i < patch.first + patch.count; ++i) {
-		const auto     grad     = B::gradients(basis.axes[i]);
-		const Mat<Dim> gradient = local.transpose().lazyProduct(grad);
-		const Mat<Dim> dF       = Mat<Dim>::Identity() + gradient;
-		const double   J        = dF.determinant();
-		if (!(J > 0) || !std::isfinite(J)) return basis.order[i];
-		const auto r      = respond(points, i, materials, gradient);
-		const auto stress = assemble(r.law.stress, r.trial.axes).inPlane().eval();
-		// current volume times Cauchy stress is initial volume times Kirchhoff stress; the same holds for the moduli
-		const typename B::Gradients spatial = grad.lazyProduct(dF.inverse());
-		force += spatial.lazyProduct(points.volume0[i] * stress);
-		if constexpr (WithStiffness) stiffness.add(spatial, points.volume0[i] * spatialModuli<Dim>(r.law, r.strain, r.trial.axes));
-	}
-	B::scatterAdd(patch, force, f);
-	if constexpr (WithStiffness) stiffness.scatterAdd(patch.node.data(), PairCodes<Dim, Span>::get(), *K);
-	return INT_MAX;
+	if (everywhere(J > Lanes(0)) && everywhere(J <= Lanes(std::numeric_limits<double>::max()))) return -1;
+	for (int lane = 0; lane < Lanes::count; ++lane)
+		if (!(J[lane] > 0) || !std::isfinite(J[lane])) return batch.point[lane];
+	return -1;
 }
+
+/// Flux and moduli of one batch of a chunk. Returns an inverted point (position in the order of the basis), or -1.
+///
+/// With principal axes q_k and Kirchhoff stresses t_k, and w_k = F^-1 q_k, the flux is V_0 sum_k t_k q_k w_k: current volume times Cauchy
+/// stress is initial volume times Kirchhoff stress. It goes with gradients in the configuration at the start of the step.
+template <int Dim> GIMPM_INLINE int respond(const Pass<Dim>& pass, Chunk<Dim>& chunk, int b)
+{
+	using M = MatrixOf<Dim, Lanes>;
+	const Batch batch(chunk.first + b * Lanes::count, chunk.last());
+	M           gradient;
+	for (int i = 0; i < Dim; ++i)
+		for (int j = 0; j < Dim; ++j)
+			gradient(i, j) = chunk.gradient[b][i][j];
+	const M F = gradient + M::Identity();
+	if (const int point = invertedIn(batch, F.determinant()); point >= 0) return point;
+	const BatchResponse<Dim> response(batch, pass.points, pass.materials, gradient);
+	const Lanes              volume = batch.load([&](int p) GIMPM_INLINE_LAMBDA { return pass.points.volume0[p]; });
+	const M&                 q      = response.trial.axes;
+	const M                  w      = F.inverse().lazyProduct(q);
+	for (int i = 0; i < Dim; ++i)
+		for (int j = 0; j < Dim; ++j) {
+			Lanes flux(0);
+			for (int k = 0; k < Dim; ++k)
+				flux += volume * response.law.stress[k] * q(i, k) * w(j, k);
+			chunk.flux[b][i][j] = flux;
+		}
+	if (!pass.K) return -1;
+	const auto a = moduli<Dim, Lanes>(response.law, response.strain, q, w);
+	for (int i = 0, pair = 0; i < Dim; ++i)
+		for (int k = i; k < Dim; ++k, ++pair)
+			for (int j = 0; j < Dim; ++j)
+				for (int l = 0; l < Dim; ++l)
+					chunk.moduli[b].value[pair][j][l] = volume * a(i * Dim + j, k * Dim + l);
+	return -1;
+}
+
+/// Internal force (and stiffness) of the points [begin, end) of a patch.
+template <class Kernels, int Dim, int Span> GIMPM_INLINE void addPiece(const Pass<Dim>& pass, const Chunk<Dim>& chunk, const Patch<Dim>& patch, int begin, int end)
+{
+	using Nodes = PatchNodes<Dim, Span>;
+	PatchVectors<Dim, Span> force;
+	for (int p = begin; p < end; ++p)
+		for (int r = 0; r < Nodes::rows; ++r)
+			for (int j = 0; j < Dim; ++j) {
+				const Lanes grad = loadLanes(chunk.basisAt(p, j) + r * Nodes::inRow);
+				for (int i = 0; i < Dim; ++i)
+					force.row[i][r] += Lanes(chunk.fluxAt(p, i, j)) * grad;
+			}
+	force.scatterAdd(patch, pass.force);
+	if (!pass.K) return;
+	PatchStiffness<Dim, Nodes::N> stiffness;
+	Kernels::multiply(stiffness, chunk, begin, end);
+	stiffness.scatterAdd(patch.node.data(), PairCodes<Dim, Span>::get(), *pass.K);
+}
+
+/// Adds the patches [first, last). Returns an inverted point (index in the cloud), or INT_MAX.
+template <class Kernels, int Dim> GIMPM_INLINE int addPatches(const Pass<Dim>& pass, int first, int last)
+{
+	int inverted = INT_MAX;
+	forChunks(pass.basis, first, last, [&](Chunk<Dim>& chunk, int patch) GIMPM_INLINE_LAMBDA {
+		forPieces(pass.basis, chunk, patch, [&](auto span, const Patch<Dim>& p, int begin, int end) GIMPM_INLINE_LAMBDA {
+			prepare(pass.basis, PatchVectors<Dim, decltype(span)::value>(p, pass.d), begin, end, chunk);
+		});
+		if (const int point = Kernels::respond(pass, chunk); point >= 0) {
+			inverted = pass.basis.order[point];
+			return false;
+		}
+		forPieces(pass.basis, chunk, patch, [&](auto span, const Patch<Dim>& p, int begin, int end) GIMPM_INLINE_LAMBDA {
+			addPiece<Kernels, Dim, decltype(span)::value>(pass, chunk, p, begin, end);
+		});
+		return true;
+	});
+	return inverted;
+}
+
+// The same source twice: for all processors that Debian runs on, and for those with AVX2 and FMA (nearly all since 2013). What does not
+// depend on the kind of patch is not inlined into the code for all kinds.
+#define GIMPM_KERNELS(Name, ...)                                                                                                                               \
+	struct Name {                                                                                                                                          \
+		template <int Dim> [[gnu::flatten, gnu::noinline]] __VA_ARGS__ static int respond(const Pass<Dim>& pass, Chunk<Dim>& chunk)                    \
+		{                                                                                                                                              \
+			int inverted = -1;                                                                                                                     \
+			for (int batch = 0; batch * Lanes::count < chunk.count && inverted < 0; ++batch)                                                       \
+				inverted = gimpm::respond(pass, chunk, batch);                                                                                 \
+			return inverted;                                                                                                                       \
+		}                                                                                                                                              \
+		template <int Dim, int N>                                                                                                                      \
+		[[gnu::noinline]] __VA_ARGS__ static void multiply(PatchStiffness<Dim, N>& stiffness, const Chunk<Dim>& chunk, int begin, int end)             \
+		{                                                                                                                                              \
+			stiffness.multiply(chunk, begin, end);                                                                                                 \
+		}                                                                                                                                              \
+		template <int Dim> __VA_ARGS__ static int addPatches(const Pass<Dim>& pass, int first, int last)                                               \
+		{                                                                                                                                              \
+			return gimpm::addPatches<Name>(pass, first, last);                                                                                     \
+		}                                                                                                                                              \
+	};
+GIMPM_KERNELS(PortableKernels)
+GIMPM_KERNELS(Avx2Kernels, [[gnu::target("arch=x86-64-v3")]])
+#undef GIMPM_KERNELS
 
 void keepSmallest(std::atomic<int>& smallest, int value)
 {
@@ -132,17 +182,12 @@ InvertedPoint addInternalForce(
         NodeMatrix<Dim>*             K)
 {
 	std::atomic<int> inverted { INT_MAX };
+	const Pass<Dim>  pass { basis, points, materials, d, f, K };
+	const auto       add = __builtin_cpu_supports("x86-64-v3") ? Avx2Kernels::addPatches<Dim> : PortableKernels::addPatches<Dim>;
 	for (const auto& colour : basis.colours) {
 #pragma omp parallel for schedule(dynamic, 4)
 		for (int range = 0; range < int(colour.size()); ++range)
-			for (int p = colour[range].first; p < colour[range].second; ++p)
-				withSpan<Dim>(basis.patches[p].span, [&](auto span) {
-					constexpr int S = decltype(span)::value;
-					keepSmallest(
-					        inverted,
-					        K ? addPatch<Dim, S, true>(basis.patches[p], basis, points, materials, d, f, K)
-					          : addPatch<Dim, S, false>(basis.patches[p], basis, points, materials, d, f, K));
-				});
+			keepSmallest(inverted, add(pass, colour[range].first, colour[range].second));
 	}
 	return inverted == INT_MAX ? -1 : int(inverted);
 }
@@ -163,11 +208,15 @@ template <int Dim> void addPointForces(const CloudBasis<Dim>& basis, const std::
 {
 	for (const auto& patch : basis.patches)
 		withSpan<Dim>(patch.span, [&](auto span) {
-			using B    = PatchBasis<Dim, decltype(span)::value>;
-			auto local = B::Gradients::Zero().eval();
-			for (int i = patch.first; i < patch.first + patch.count; ++i)
-				local += B::values(basis.axes[i]) * force[basis.order[i]].transpose();
-			B::scatterAdd(patch, local, f);
+			using Nodes = PatchNodes<Dim, decltype(span)::value>;
+			PatchVectors<Dim, decltype(span)::value> local;
+			for (int p = patch.first; p < patch.first + patch.count; ++p)
+				for (int r = 0; r < Nodes::rows; ++r) {
+					const Lanes value = loadLanes(basis.axes[p][0].value) * Lanes(Nodes::rowFactor(basis.axes[p], r, 0));
+					for (int i = 0; i < Dim; ++i)
+						local.row[i][r] += Lanes(force[basis.order[p]][i]) * value;
+				}
+			local.scatterAdd(patch, f);
 		});
 }
 

@@ -32,16 +32,4 @@ template <int Dim> void markPointPattern(const CloudBasis<Dim>&, NodeMatrix<Dim>
 /// f += S^T (m g + point force), with the force per point in the order of the cloud [N].
 template <int Dim> void addPointForces(const CloudBasis<Dim>&, const std::vector<Vec<Dim>>& force, Eigen::VectorXd& f);
 
-/// State of one point for displacements d.
-template <int Dim> struct PointUpdate {
-	Vec<Dim>       displacement;
-	Mat<Dim>       gradient; ///< of the increment, with respect to the configuration at the start of the step
-	SymTensor<Dim> elasticStrain, kirchhoffStress;
-	double         plasticStrain;
-};
-
-/// Step 5: nodes to points. Calls f(index in the cloud, PointUpdate) for every point; f must not touch other points.
-template <int Dim, class F>
-void forUpdatedPoints(const CloudBasis<Dim>&, const StepPoints<Dim>&, const std::vector<Material>&, const Eigen::VectorXd& d, F&& f);
-
 } // namespace gimpm

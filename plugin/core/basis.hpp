@@ -11,8 +11,8 @@ enum class Basis { linear, gimp };
 struct AxisBasis {
 	int    cell  = 0; ///< lowest cell
 	int    cells = 1; ///< 1 or 2
-	double value[3];
-	double slope[3];    ///< [1/m]
+	double value[4];    ///< the last one is zero: four numbers fill a row of lanes
+	double slope[4];    ///< [1/m]
 	double fraction[2]; ///< share of the domain's length in each cell
 };
 
@@ -27,7 +27,7 @@ constexpr double faceTolerance = 1e-9;
 inline AxisBasis linearBasis(double x, double h, int cell)
 {
 	const double xi = x / h - cell;
-	return { cell, 1, { 1 - xi, xi, 0 }, { -1 / h, 1 / h, 0 }, { 1, 0 } };
+	return { cell, 1, { 1 - xi, xi }, { -1 / h, 1 / h }, { 1 } };
 }
 
 inline int centreCell(double x, double h) { return int(std::ceil(x / h - faceTolerance)) - 1; }

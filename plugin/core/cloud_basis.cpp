@@ -47,11 +47,17 @@ template <int Dim> int reachableCells(const Index<Dim>& lowest, int span, int ce
 
 template <int Dim> struct Place { // of one point
 	Key                        cell;
-	int                        span, cells, point;
+	int                        span, cells;
 	std::array<AxisBasis, Dim> axes;
+};
 
-	auto patch() const { return std::make_tuple(cell, span, cells); }
-	bool operator<(const Place& o) const { return std::make_tuple(cell, span, cells, point) < std::make_tuple(o.cell, o.span, o.cells, o.point); }
+/// What the points are sorted by: small, because sorting moves it around.
+struct SortKey {
+	Key      cell;
+	unsigned kind; // span and cells
+	int      point;
+
+	bool operator<(const SortKey& o) const { return cell != o.cell ? cell < o.cell : kind != o.kind ? kind < o.kind : point < o.point; }
 };
 
 /// How far the domain reaches behind walls: its share in hidden cells, as a length of its own axis.
@@ -69,7 +75,7 @@ Place<Dim> place(const PointCloud<Dim>& cloud, int point, const Grid<Dim>& grid,
 {
 	const Vec<Dim>   x      = cloud.position[point] - grid.origin;
 	const Index<Dim> centre = containingCell<Dim>(x, grid.cellSize, boundary);
-	Place<Dim>       p { 0, 0, 1, point, {} };
+	Place<Dim>       p { 0, 0, 1, {} };
 	Index<Dim>       lowest;
 	int              centreBits = 0; // which cell of the window holds the centre
 	for (int a = 0; a < Dim; ++a) {
@@ -119,32 +125,50 @@ template <int Dim, class F> void forPatchNodes(const Patch<Dim>& patch, F&& f)
 			}
 }
 
+template <int Dim> std::vector<SortKey> sorted(const std::vector<Place<Dim>>& places)
+{
+	std::vector<SortKey> keys(places.size());
+	for (int p = 0; p < int(places.size()); ++p)
+		keys[p] = { places[p].cell, unsigned(places[p].span) << (1 << Dim) | unsigned(places[p].cells), p };
+	std::sort(keys.begin(), keys.end());
+	return keys;
+}
+
 template <int Dim> void makePatches(const std::vector<Place<Dim>>& places, CloudBasis<Dim>& b)
 {
-	for (int i = 0; i < int(places.size()); ++i) {
-		if (i == 0 || places[i].patch() != places[i - 1].patch()) {
-			b.patches.push_back({ places[i].cell, places[i].span, places[i].cells, i, 0, {} });
+	const auto keys = sorted(places);
+	b.order.resize(keys.size());
+	b.axes.resize(keys.size());
+	for (int i = 0; i < int(keys.size()); ++i) {
+		const auto& place = places[keys[i].point];
+		if (i == 0 || keys[i].cell != keys[i - 1].cell || keys[i].kind != keys[i - 1].kind) {
+			b.patches.push_back({ place.cell, place.span, place.cells, i, 0, {} });
 			b.patches.back().node.fill(-1);
 		}
 		++b.patches.back().count;
-		b.order.push_back(places[i].point);
-		b.axes.push_back(places[i].axes);
+		b.order[i] = keys[i].point;
+		b.axes[i]  = place.axes;
 	}
 }
 
+/// The active nodes are the corners of the populated cells.
 template <int Dim> void numberNodes(CloudBasis<Dim>& b)
 {
-	for (const auto& patch : b.patches) {
-		forPatchNodes(patch, [&](int, Key key) { b.nodes.push_back(key); });
+	for (const auto& patch : b.patches)
 		for (int c = 0; c < 1 << Dim; ++c)
 			if (patch.cells >> c & 1) b.cells.push_back(patch.cell + Grid<Dim>::keyOffset(c));
-	}
-	sortUnique(b.nodes);
 	sortUnique(b.cells);
-	for (auto& patch : b.patches)
+	for (const Key cell : b.cells)
+		for (int c = 0; c < 1 << Dim; ++c)
+			b.nodes.push_back(cell + Grid<Dim>::keyOffset(c));
+	sortUnique(b.nodes);
+	for (auto& patch : b.patches) {
+		int next = 0; // nodes of a row follow each other, mostly
 		forPatchNodes(patch, [&](int local, Key key) {
-			patch.node[local] = int(std::lower_bound(b.nodes.begin(), b.nodes.end(), key) - b.nodes.begin());
+			if (next == int(b.nodes.size()) || b.nodes[next] != key) next = int(std::lower_bound(b.nodes.begin(), b.nodes.end(), key) - b.nodes.begin());
+			patch.node[local] = next++;
 		});
+	}
 }
 
 template <int Dim> void colourPatches(CloudBasis<Dim>& b)
@@ -173,7 +197,6 @@ template <int Dim> CloudBasis<Dim> cloudBasis(const PointCloud<Dim>& cloud, cons
 	for (int p = 0; p < int(cloud.size()); ++p)
 		places[p] = place(cloud, p, grid, basis, boundary, hidden);
 	b.largestWallOverlap = hidden;
-	std::sort(places.begin(), places.end());
 	makePatches(places, b);
 	numberNodes(b);
 	colourPatches(b);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "core/load_step.hpp"
 #include "core/newton.hpp"
-#include "core/point_kernel.hpp"
+#include "core/point_update.hpp"
 #include "core/restraint.hpp"
 #include "core/stopwatch.hpp"
 #include <sstream>

@@ -16,49 +16,46 @@ template <int Dim> using Index = Eigen::Matrix<int, Dim, 1>;
 
 /// Symmetric second-order tensor. Plane strain keeps the out-of-plane normal component.
 /// Components: 2D (xx, yy, xy, zz), 3D (xx, yy, zz, xy, yz, zx).
-template <int Dim> struct SymTensor;
+template <int Dim, class T = double> struct SymTensor {
+	static constexpr int size = Dim == 2 ? 4 : 6;
+	using Components          = Eigen::Matrix<T, size, 1>;
+	using InPlane             = Eigen::Matrix<T, Dim, Dim>;
+	using Full                = Eigen::Matrix<T, 3, 3>;
 
-template <> struct SymTensor<2> {
-	Eigen::Vector4d c = Eigen::Vector4d::Zero();
+	Components c = Components::Constant(T(0));
 
-	Mat<2>        inPlane() const
+	InPlane inPlane() const
 	{
-		Mat<2> m;
-		m(0, 0) = c[0], m(1, 1) = c[1], m(0, 1) = m(1, 0) = c[2];
+		InPlane m;
+		m(0, 0) = c[0], m(1, 1) = c[1];
+		if constexpr (Dim == 2) m(0, 1) = m(1, 0) = c[2];
+		else {
+			m(2, 2) = c[2];
+			m(0, 1) = m(1, 0) = c[3], m(1, 2) = m(2, 1) = c[4], m(2, 0) = m(0, 2) = c[5];
+		}
 		return m;
 	}
-	Mat3          full() const
+	Full full() const
 	{
-		Mat3 m = Mat3::Zero();
-		m.topLeftCorner<2, 2>() = inPlane(), m(2, 2) = c[3];
-		return m;
+		if constexpr (Dim == 3) return inPlane();
+		else {
+			Full m                           = Full::Constant(T(0));
+			m.template topLeftCorner<2, 2>() = inPlane(), m(2, 2) = c[3];
+			return m;
+		}
 	}
-	static SymTensor from(const Mat<2>& m, double zz)
+	/// From the components in the plane and the normal one out of it (in 3D: from all components; zz is not used).
+	static SymTensor from(const InPlane& m, const T& zz)
 	{
 		SymTensor t;
-		t.c[0] = m(0, 0), t.c[1] = m(1, 1), t.c[2] = 0.5 * (m(0, 1) + m(1, 0)), t.c[3] = zz;
+		t.c[0] = m(0, 0), t.c[1] = m(1, 1);
+		const T xy = T(0.5) * (m(0, 1) + m(1, 0));
+		if constexpr (Dim == 2) t.c[2] = xy, t.c[3] = zz;
+		else
+			t.c[2] = m(2, 2), t.c[3] = xy, t.c[4] = T(0.5) * (m(1, 2) + m(2, 1)), t.c[5] = T(0.5) * (m(2, 0) + m(0, 2));
 		return t;
 	}
-	static SymTensor from(const Mat3& m) { return from(Mat<2>(m.topLeftCorner<2, 2>()), m(2, 2)); }
-};
-
-template <> struct SymTensor<3> {
-	Eigen::Matrix<double, 6, 1> c = Eigen::Matrix<double, 6, 1>::Zero();
-
-	Mat3          inPlane() const { return full(); }
-	Mat3          full() const
-	{
-		Mat3 m;
-		m(0, 0) = c[0], m(1, 1) = c[1], m(2, 2) = c[2];
-		m(0, 1) = m(1, 0) = c[3], m(1, 2) = m(2, 1) = c[4], m(2, 0) = m(0, 2) = c[5];
-		return m;
-	}
-	static SymTensor from(const Mat3& m)
-	{
-		SymTensor t;
-		t.c << m(0, 0), m(1, 1), m(2, 2), 0.5 * (m(0, 1) + m(1, 0)), 0.5 * (m(1, 2) + m(2, 1)), 0.5 * (m(2, 0) + m(0, 2));
-		return t;
-	}
+	static SymTensor from(const Full& m) { return from(InPlane(m.template topLeftCorner<Dim, Dim>()), m(2, 2)); }
 };
 
 } // namespace gimpm

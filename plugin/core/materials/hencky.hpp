@@ -14,18 +14,21 @@ public:
 	double bulk() const { return bulk_; }
 	double shear() const { return shear_; }
 
-	Response respond(const Vec3& trialStrain, double plasticStrain) const
+	template <class T> ResponseOf<T> respond(const PrincipalValues<T>& trialStrain, const T& plasticStrain) const
 	{
-		Response r;
-		const double volumetric = trialStrain.sum();
-		r.stress                = (2 * shear_ * trialStrain).array() + (bulk_ - 2. / 3 * shear_) * volumetric;
-		r.tangent.setConstant(bulk_ - 2. / 3 * shear_);
-		r.tangent.diagonal().array() += 2 * shear_;
-		r.shear.setConstant(shear_);
+		const T       lambda = bulk_ - 2. / 3 * shear_, pressure = lambda * (trialStrain[0] + trialStrain[1] + trialStrain[2]);
+		ResponseOf<T> r;
+		for (int i = 0; i < 3; ++i) {
+			r.stress[i] = T(2 * shear_) * trialStrain[i] + pressure;
+			for (int j = 0; j < 3; ++j)
+				r.tangent(i, j) = i == j ? lambda + T(2 * shear_) : lambda;
+		}
+		r.shear.fill(T(shear_));
 		r.elasticStrain = trialStrain;
 		r.plasticStrain = plasticStrain;
 		return r;
 	}
+	Response respond(const Vec3& trialStrain, double plasticStrain) const { return respond<double>(trialStrain, plasticStrain); }
 
 private:
 	double young_, bulk_, shear_;

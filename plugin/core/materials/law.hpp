@@ -9,6 +9,16 @@ namespace gimpm {
 
 using Law = std::variant<Hencky, VonMises>;
 
+/// f(the law). Unlike std::visit it is inlined.
+template <class F, std::size_t Entry = 0> GIMPM_INLINE auto withLaw(const Law& law, F&& f)
+{
+	if constexpr (Entry + 1 == std::variant_size_v<Law>) return f(*std::get_if<Entry>(&law));
+	else {
+		if (const auto* l = std::get_if<Entry>(&law)) return f(*l);
+		return withLaw<F, Entry + 1>(law, std::forward<F>(f));
+	}
+}
+
 struct Material {
 	Law    law;
 	double density; ///< initial density [kg/m3]

@@ -1,17 +1,35 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // What a constitutive law answers, in the principal axes of the trial elastic strain.
 #pragma once
+#include "core/lanes.hpp"
 #include "core/types.hpp"
 
 namespace gimpm {
 
-/// Isotropic law: stress and trial strain share their principal axes, so that a law needs principal values only.
-struct Response {
-	Vec3   stress;        ///< principal Kirchhoff stresses [Pa]
-	Mat3   tangent;       ///< consistent tangent d stress_i / d trialStrain_j [Pa]
-	Vec3   shear;         ///< G_s of the axis pairs (0,1), (1,2), (2,0): stress_i - stress_j = 2 G_s (trialStrain_i - trialStrain_j)
-	Vec3   elasticStrain; ///< principal elastic logarithmic strains after the return
-	double plasticStrain; ///< equivalent plastic strain after the return
+template <class T> using PrincipalValues = Eigen::Matrix<T, 3, 1>;
+
+/// Isotropic law: stress and trial strain share their principal axes, so that a law needs principal values only. T is double, or Lanes
+/// for several points at once.
+template <class T> struct ResponseOf {
+	PrincipalValues<T>     stress;        ///< principal Kirchhoff stresses [Pa]
+	Eigen::Matrix<T, 3, 3> tangent;       ///< consistent tangent d stress_i / d trialStrain_j [Pa]
+	PrincipalValues<T>     shear;         ///< G_s of the axis pairs (0,1), (1,2), (2,0): stress_i - stress_j = 2 G_s (trialStrain_i - trialStrain_j)
+	PrincipalValues<T>     elasticStrain; ///< principal elastic logarithmic strains after the return
+	T                      plasticStrain; ///< equivalent plastic strain after the return
+
+	/// The numbers of one lane from another response.
+	void takeLane(int lane, const ResponseOf& o)
+	{
+		for (int i = 0; i < 3; ++i) {
+			stress[i].v[lane]        = o.stress[i][lane];
+			shear[i].v[lane]         = o.shear[i][lane];
+			elasticStrain[i].v[lane] = o.elasticStrain[i][lane];
+			for (int j = 0; j < 3; ++j)
+				tangent(i, j).v[lane] = o.tangent(i, j)[lane];
+		}
+		plasticStrain.v[lane] = o.plasticStrain[lane];
+	}
 };
+using Response = ResponseOf<double>;
 
 } // namespace gimpm

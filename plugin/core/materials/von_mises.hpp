@@ -17,25 +17,29 @@ public:
 	double young() const { return elastic_.young(); }
 
 	/// Radial return: exact for perfect plasticity with an associated rule, because the deviator only shrinks.
-	Response respond(const Vec3& trialStrain, double plasticStrain) const
+	template <class T> ResponseOf<T> respond(const PrincipalValues<T>& trialStrain, const T& plasticStrain) const
 	{
-		const double G      = elastic_.shear();
-		const double third  = trialStrain.sum() / 3;
-		const Vec3   dev    = trialStrain.array() - third;
-		const double length = dev.norm(), rho = 2 * G * length;
-		if (rho <= yield_ * (1 + yieldTolerance)) return elastic_.respond(trialStrain, plasticStrain);
-		const double theta = yield_ / rho; // remaining share of the trial deviator
-		const Vec3   n     = dev / length;
-		Response     r;
-		r.elasticStrain = (theta * dev).array() + third;
-		r.stress        = (2 * G * theta * dev).array() + 3 * elastic_.bulk() * third;
-		r.tangent       = -2 * G * theta * n * n.transpose();
-		r.tangent.array() += elastic_.bulk() - 2. / 3 * G * theta;
-		r.tangent.diagonal().array() += 2 * G * theta;
-		r.shear.setConstant(G * theta);
-		r.plasticStrain = plasticStrain + std::sqrt(2. / 3) * (1 - theta) * length;
+		const double             G = elastic_.shear();
+		const T                  third = T(1. / 3) * (trialStrain[0] + trialStrain[1] + trialStrain[2]), pressure = T(3 * elastic_.bulk()) * third;
+		const PrincipalValues<T> dev     = trialStrain - PrincipalValues<T>::Constant(third);
+		const T                  length  = sqrt(dev[0] * dev[0] + dev[1] * dev[1] + dev[2] * dev[2]), rho = T(2 * G) * length;
+		const auto               yields  = rho > T(yield_ * (1 + yieldTolerance));
+		const T                  theta   = select(yields, T(yield_) / rho, T(1)); // remaining share of the trial deviator
+		const T                  shear   = T(G) * theta, lambda = T(elastic_.bulk()) - T(2. / 3) * shear;
+		const PrincipalValues<T> n       = dev * (T(1) / select(yields, length, T(1)));
+		const T                  plastic = select(yields, T(-2) * shear, T(0));
+		ResponseOf<T>            r;
+		for (int i = 0; i < 3; ++i) {
+			r.elasticStrain[i] = select(yields, theta * dev[i] + third, trialStrain[i]);
+			r.stress[i]        = T(2) * shear * dev[i] + pressure;
+			for (int j = 0; j < 3; ++j)
+				r.tangent(i, j) = plastic * n[i] * n[j] + (i == j ? lambda + T(2) * shear : lambda);
+		}
+		r.shear.fill(shear);
+		r.plasticStrain = plasticStrain + T(std::sqrt(2. / 3)) * (T(1) - theta) * length;
 		return r;
 	}
+	Response respond(const Vec3& trialStrain, double plasticStrain) const { return respond<double>(trialStrain, plasticStrain); }
 
 private:
 	Hencky elastic_;

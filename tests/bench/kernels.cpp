@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Times of the parts of a load step, per point or per unknown, on a slope half way through its failure.
+#include "bench/scenes.hpp"
+#include "core/point_update.hpp"
+#include "core/step_system.hpp"
+#include <benchmark/benchmark.h>
+#include <map>
+
+namespace gimpm {
+namespace {
+
+/// A slope of which many points have begun to yield and to cross cells, and a load step from there.
+template <int Dim> struct MidRun {
+	BenchScene<Dim> scene;
+	Load<Dim>       load;
+	StepReport      report;
+	StepSystem<Dim> system;
+	Eigen::VectorXd d, force;
+	NodeMatrix<Dim> K;
+
+	explicit MidRun(BenchScene<Dim> s)
+	        : scene(halfLoaded(std::move(s)))
+	        , load { scene.gravity, 0.6, 0.01 }
+	        , system(scene.cloud, scene.model, load, report)
+	        , d(Eigen::VectorXd::Zero(system.nodalSize()))
+	{
+		system.prepare(K);
+	}
+	static BenchScene<Dim> halfLoaded(BenchScene<Dim> s)
+	{
+		s.steps = 20;
+		while (s.done < 12)
+			if (const auto report = s.step(); !report.converged()) throw std::runtime_error(report.cause);
+		return s;
+	}
+	double points() const { return double(scene.cloud.size()); }
+	double unknowns() const { return system.dofs.count; }
+};
+
+template <int Dim> MidRun<Dim>& midRun();
+template <> MidRun<2>&          midRun()
+{
+	static MidRun<2> run(slope<2>(0.5, 4));
+	return run;
+}
+template <> MidRun<3>& midRun()
+{
+	static MidRun<3> run(slope<3>(1, 2, 4));
+	return run;
+}
+
+void perItem(benchmark::State& state, const char* name, double items)
+{
+	state.counters[name] = benchmark::Counter(items, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+}
+
+template <int Dim> void basis(benchmark::State& state)
+{
+	auto& run = midRun<Dim>();
+	for (auto _ : state)
+		benchmark::DoNotOptimize(cloudBasis(run.scene.cloud, run.scene.model.grid, run.scene.model.basis, run.scene.model.boundary));
+	perItem(state, "s_per_point", run.points());
+}
+
+template <int Dim, bool WithStiffness> void evaluate(benchmark::State& state)
+{
+	auto& run = midRun<Dim>();
+	for (auto _ : state)
+		benchmark::DoNotOptimize(run.system.evaluate(run.d, run.force, WithStiffness ? &run.K : nullptr));
+	perItem(state, "s_per_point", run.points());
+}
+
+template <int Dim> void update(benchmark::State& state)
+{
+	auto&  run = midRun<Dim>();
+	double sum = 0;
+	for (auto _ : state)
+		forUpdatedPoints(run.system.basis, run.system.points, run.scene.model.materials, run.d, [&](int p, const PointUpdate<Dim>& u) {
+			if (p == 0) sum += u.displacement[0];
+		});
+	benchmark::DoNotOptimize(sum);
+	perItem(state, "s_per_point", run.points());
+}
+
+template <int Dim> void linearSolve(benchmark::State& state)
+{
+	auto& run = midRun<Dim>();
+	run.system.evaluate(run.d, run.force, &run.K);
+	SymmetricCsc K;
+	reduce(run.K, run.system.dofs, K);
+	LinearSolver          solver;
+	Eigen::VectorXd       x;
+	const Eigen::VectorXd b = Eigen::VectorXd::Ones(K.size());
+	solver.solve(K, b, x);
+	solver.resetTimes();
+	for (auto _ : state)
+		solver.solve(K, b, x);
+	state.counters["factorise"] = solver.times().factorise / state.iterations();
+	state.counters["solve"]     = solver.times().solve / state.iterations();
+	perItem(state, "s_per_unknown", run.unknowns());
+}
+
+template <int Dim> void reduction(benchmark::State& state)
+{
+	auto&        run = midRun<Dim>();
+	SymmetricCsc K;
+	for (auto _ : state)
+		reduce(run.K, run.system.dofs, K);
+	perItem(state, "s_per_unknown", run.unknowns());
+}
+
+template <int Dim> void wholeStep(benchmark::State& state)
+{
+	auto& run    = midRun<Dim>();
+	int   solves = 0;
+	for (auto _ : state) {
+		auto cloud = run.scene.cloud;
+		solves     = loadStep(cloud, run.scene.model, { run.scene.gravity, 0.65, 0.05 }, run.scene.solver).iterations;
+	}
+	state.counters["solves"] = solves;
+	perItem(state, "s_per_point", run.points());
+}
+
+BENCHMARK(basis<2>);
+BENCHMARK(evaluate<2, false>)->Name("residual<2>");
+BENCHMARK(evaluate<2, true>)->Name("stiffness<2>");
+BENCHMARK(update<2>);
+BENCHMARK(reduction<2>);
+BENCHMARK(linearSolve<2>);
+BENCHMARK(wholeStep<2>)->Unit(benchmark::kMillisecond);
+BENCHMARK(basis<3>);
+BENCHMARK(evaluate<3, false>)->Name("residual<3>");
+BENCHMARK(evaluate<3, true>)->Name("stiffness<3>");
+BENCHMARK(update<3>);
+BENCHMARK(reduction<3>);
+BENCHMARK(linearSolve<3>);
+BENCHMARK(wholeStep<3>)->Unit(benchmark::kMillisecond);
+
+} // namespace
+} // namespace gimpm
+
+BENCHMARK_MAIN();
