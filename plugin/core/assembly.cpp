@@ -37,16 +37,17 @@ template <int Dim> struct Pass {
 	NodeMatrix<Dim>*             K;
 };
 
-/// First point of a batch with J <= 0 or not finite (position in the order of the basis), or -1.
-GIMPM_INLINE int invertedIn(const Batch& batch, const Lanes& J)
+/// Smallest index in the cloud of the points of a batch with J <= 0 or not finite, or INT_MAX.
+GIMPM_INLINE int invertedIn(const Batch& batch, const std::vector<int>& order, const Lanes& J)
 {
-	if (everywhere(J > Lanes(0)) && everywhere(J <= Lanes(std::numeric_limits<double>::max()))) return -1;
+	if (everywhere(J > Lanes(0)) && everywhere(J <= Lanes(std::numeric_limits<double>::max()))) return INT_MAX;
+	int smallest = INT_MAX;
 	for (int lane = 0; lane < Lanes::count; ++lane)
-		if (!(J[lane] > 0) || !std::isfinite(J[lane])) return batch.point[lane];
-	return -1;
+		if (!(J[lane] > 0) || !std::isfinite(J[lane])) smallest = std::min(smallest, order[batch.point[lane]]);
+	return smallest;
 }
 
-/// Flux and moduli of one batch of a chunk. Returns an inverted point (position in the order of the basis), or -1.
+/// Flux and moduli of one batch of a chunk. Returns an inverted point (index in the cloud), or INT_MAX.
 ///
 /// With principal axes q_k and Kirchhoff stresses t_k, and w_k = F^-1 q_k, the flux is V_0 sum_k t_k q_k w_k: current volume times Cauchy
 /// stress is initial volume times Kirchhoff stress. It goes with gradients in the configuration at the start of the step.
@@ -59,7 +60,7 @@ template <int Dim> GIMPM_INLINE int respond(const Pass<Dim>& pass, Chunk<Dim>& c
 		for (int j = 0; j < Dim; ++j)
 			gradient(i, j) = chunk.gradient[b][i][j];
 	const M F = gradient + M::Identity();
-	if (const int point = invertedIn(batch, F.determinant()); point >= 0) return point;
+	if (const int point = invertedIn(batch, pass.basis.order, F.determinant()); point != INT_MAX) return point;
 	const BatchResponse<Dim> response(batch, pass.points, pass.materials, gradient);
 	const Lanes              volume = batch.load([&](int p) GIMPM_INLINE_LAMBDA { return pass.points.volume0[p]; });
 	const M&                 q      = response.trial.axes;
@@ -71,14 +72,14 @@ template <int Dim> GIMPM_INLINE int respond(const Pass<Dim>& pass, Chunk<Dim>& c
 				flux += volume * response.law.stress[k] * q(i, k) * w(j, k);
 			chunk.flux[b][i][j] = flux;
 		}
-	if (!pass.K) return -1;
+	if (!pass.K) return INT_MAX;
 	const auto a = moduli<Dim, Lanes>(response.law, response.strain, q, w);
 	for (int i = 0, pair = 0; i < Dim; ++i)
 		for (int k = i; k < Dim; ++k, ++pair)
 			for (int j = 0; j < Dim; ++j)
 				for (int l = 0; l < Dim; ++l)
 					chunk.moduli[b].value[pair][j][l] = volume * a(i * Dim + j, k * Dim + l);
-	return -1;
+	return INT_MAX;
 }
 
 /// Internal force (and stiffness) of the points [begin, end) of a patch.
@@ -108,14 +109,11 @@ template <class Kernels, int Dim> GIMPM_INLINE int addPatches(const Pass<Dim>& p
 		forPieces(pass.basis, chunk, patch, [&](auto span, const Patch<Dim>& p, int begin, int end) GIMPM_INLINE_LAMBDA {
 			prepare(pass.basis, PatchVectors<Dim, decltype(span)::value>(p, pass.d), begin, end, chunk);
 		});
-		if (const int point = Kernels::respond(pass, chunk); point >= 0) {
-			inverted = pass.basis.order[point];
-			return false;
-		}
+		inverted = std::min(inverted, Kernels::respond(pass, chunk));
+		if (inverted != INT_MAX) return; // the rest of the pass is of no use, but for the points it names
 		forPieces(pass.basis, chunk, patch, [&](auto span, const Patch<Dim>& p, int begin, int end) GIMPM_INLINE_LAMBDA {
 			addPiece<Kernels, Dim, decltype(span)::value>(pass, chunk, p, begin, end);
 		});
-		return true;
 	});
 	return inverted;
 }
@@ -126,9 +124,9 @@ template <class Kernels, int Dim> GIMPM_INLINE int addPatches(const Pass<Dim>& p
 	struct Name {                                                                                                                                          \
 		template <int Dim> [[gnu::flatten, gnu::noinline]] __VA_ARGS__ static int respond(const Pass<Dim>& pass, Chunk<Dim>& chunk)                    \
 		{                                                                                                                                              \
-			int inverted = -1;                                                                                                                     \
-			for (int batch = 0; batch * Lanes::count < chunk.count && inverted < 0; ++batch)                                                       \
-				inverted = gimpm::respond(pass, chunk, batch);                                                                                 \
+			int inverted = INT_MAX;                                                                                                                \
+			for (int batch = 0; batch * Lanes::count < chunk.count; ++batch)                                                                       \
+				inverted = std::min(inverted, gimpm::respond(pass, chunk, batch));                                                             \
 			return inverted;                                                                                                                       \
 		}                                                                                                                                              \
 		template <int Dim, int N>                                                                                                                      \

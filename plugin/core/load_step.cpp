@@ -49,7 +49,7 @@ template <int Dim> bool requireOnGrid(const PointCloud<Dim>& cloud, const Grid<D
 
 } // namespace
 
-template <int Dim> StepReport loadStep(PointCloud<Dim>& cloud, const Model<Dim>& model, const Load<Dim>& load, LinearSolver& solver)
+template <int Dim> StepReport loadStep(PointCloud<Dim>& cloud, const Model<Dim>& model, const Load<Dim>& load, LinearSolver& solver, LastIncrement<Dim>* last)
 {
 	StepReport report;
 	solver.resetTimes();
@@ -63,14 +63,17 @@ template <int Dim> StepReport loadStep(PointCloud<Dim>& cloud, const Model<Dim>&
 		return report;
 	}
 	// 2. to 4. points to nodes, assembly and Newton's method on the nodes
-	const Eigen::VectorXd d = equilibrium(system, solver, report);
+	const Eigen::VectorXd prediction = last ? predict(*last, system.basis.nodes, load.increment) : Eigen::VectorXd();
+	const Eigen::VectorXd d          = equilibrium(system, solver, report, prediction);
 	report.times.linear     = solver.times();
 	// 5. nodes to points; 6. the grid is reset by not being kept
 	report.accepted = report.failure == Failure::tooManyIterations && model.newton.acceptUnconverged;
 	if (report.converged() || report.accepted) {
 		PointCloud<Dim> updated = cloud;
 		updatePoints(updated, system, d, report);
-		if (requireOnGrid(updated, model.grid, report)) cloud = std::move(updated);
+		if (!requireOnGrid(updated, model.grid, report)) return report;
+		cloud = std::move(updated);
+		if (last) *last = { system.basis.nodes, d, load.increment };
 	}
 	return report;
 }
@@ -88,8 +91,8 @@ template <int Dim> SymmetricCsc tangentStiffness(const PointCloud<Dim>& cloud, c
 	return reduced;
 }
 
-template StepReport   loadStep(PointCloud<2>&, const Model<2>&, const Load<2>&, LinearSolver&);
-template StepReport   loadStep(PointCloud<3>&, const Model<3>&, const Load<3>&, LinearSolver&);
+template StepReport   loadStep(PointCloud<2>&, const Model<2>&, const Load<2>&, LinearSolver&, LastIncrement<2>*);
+template StepReport   loadStep(PointCloud<3>&, const Model<3>&, const Load<3>&, LinearSolver&, LastIncrement<3>*);
 template SymmetricCsc tangentStiffness(const PointCloud<2>&, const Model<2>&);
 template SymmetricCsc tangentStiffness(const PointCloud<3>&, const Model<3>&);
 

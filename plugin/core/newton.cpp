@@ -53,16 +53,21 @@ public:
 		system.prepare(K_);
 	}
 
-	Eigen::VectorXd run()
+	/// Starts from zero, or from the prediction (which may be empty) if that is closer to equilibrium.
+	Eigen::VectorXd run(const Eigen::VectorXd& prediction)
 	{
-		evaluate(d_, true);
+		const bool predicts = prediction.size() > 0;
+		evaluate(d_, !predicts);
 		initial_  = std::max(balance_.size, balance_.reference);
 		roundOff_ = roundOff();
+		if (predicts) startFrom(prediction);
 		while (!finished() && correct())
-			++report_.iterations;
+			++iterations_;
+		report_.iterations += iterations_;
 		reportReactions();
 		return d_;
 	}
+	bool hasPredicted() const { return predicted_; }
 
 private:
 	/// Balance at d, and K on demand. An inverted point or a residual that is not a number leaves balance_.size infinite.
@@ -75,12 +80,29 @@ private:
 		if (inverted_ >= 0 || !std::isfinite(balance_.size)) balance_.size = std::numeric_limits<double>::infinity();
 	}
 
+	/// Takes the prediction as the start if its residual is the smaller one. Zero is given the prescribed displacements for that, without
+	/// which its residual says nothing of them.
+	void startFrom(Eigen::VectorXd prediction)
+	{
+		const Eigen::VectorXd held = system_.prescribed;
+		if (prescribed_.size() > 0) evaluate(held, false);
+		const double fromZero = balance_.size, entering = std::max(balance_.size, balance_.reference);
+		for (int i = 0; i < prediction.size(); ++i)
+			if (system_.dofs.number[i] < 0) prediction[i] = held[i];
+		evaluate(prediction, true);
+		predicted_ = balance_.size < fromZero;
+		if (!predicted_) return evaluate(d_, true);
+		d_ = std::move(prediction);
+		if (prescribed_.size() > 0) entering_ = entering;
+		prescribed_.resize(0);
+	}
+
 	/// |residual| / |external forces + reactions|. Where both end at zero, the residual is compared with the forces at the start of the
 	/// step, as in unloading, or with those that prescribed displacements cause at first, as in a rigid motion; and it is zero where it is
 	/// round-off of stresses that balance each other.
 	double relative() const
 	{
-		if (report_.iterations > 0 && balance_.size <= roundOff_) return 0;
+		if (iterations_ > 0 && balance_.size <= roundOff_) return 0;
 		const bool   vanish    = std::max(balance_.size, balance_.reference) <= settings_.tolerance * entering_;
 		const double reference = std::max({ balance_.reference, initial_, vanish ? entering_ : 0 });
 		return balance_.size == 0 ? 0 : balance_.size / reference;
@@ -106,7 +128,7 @@ private:
 		report_.residuals.push_back(residual);
 		reportWorst();
 		// At least one solve: a load increment below the tolerance must not be lost.
-		const bool converged = report_.iterations > 0 ? residual <= settings_.tolerance : residual == 0 && prescribed_.size() == 0;
+		const bool converged = iterations_ > 0 ? residual <= settings_.tolerance : residual == 0 && prescribed_.size() == 0;
 		std::ostringstream text;
 		if (inverted_ >= 0) {
 			report_.invertedPoint = inverted_;
@@ -115,8 +137,8 @@ private:
 		if (!std::isfinite(residual)) return fail(Failure::notFinite, "the residual is not finite");
 		if (converged) return true;
 		if (settings_.interrupted && settings_.interrupted()) return fail(Failure::interrupted, "it was interrupted");
-		if (report_.iterations == settings_.maxIterations) {
-			text << "the residual " << residual << " is above the tolerance " << settings_.tolerance << " after " << report_.iterations << " iterations";
+		if (iterations_ == settings_.maxIterations) {
+			text << "the residual " << residual << " is above the tolerance " << settings_.tolerance << " after " << iterations_ << " iterations";
 			return fail(Failure::tooManyIterations, text.str());
 		}
 		return false;
@@ -234,7 +256,8 @@ private:
 	NodeMatrix<Dim>        K_;
 	Balance                balance_;
 	InvertedPoint          inverted_     = -1;
-	bool                   hasStiffness_ = false;
+	bool                   hasStiffness_ = false, predicted_ = false;
+	int                    iterations_   = 0;
 	double                 initial_      = 0; // |residual| or |external forces + reactions| at the start of the step [N]
 	double                 entering_     = 0; // the same after the solve in which prescribed displacements entered [N]
 	double                 roundOff_     = 0; // [N]
@@ -242,12 +265,24 @@ private:
 
 } // namespace
 
-template <int Dim> Eigen::VectorXd equilibrium(const StepSystem<Dim>& system, LinearSolver& solver, StepReport& report)
+template <int Dim>
+Eigen::VectorXd equilibrium(const StepSystem<Dim>& system, LinearSolver& solver, StepReport& report, const Eigen::VectorXd& prediction)
 {
-	return Newton<Dim>(system, solver, report).run();
+	if (prediction.size() > 0) {
+		StepReport      attempt = report;
+		Newton<Dim>     newton(system, solver, attempt);
+		Eigen::VectorXd d = newton.run(prediction);
+		if (attempt.converged() || attempt.failure == Failure::interrupted || !newton.hasPredicted()) {
+			attempt.predicted = newton.hasPredicted();
+			report            = std::move(attempt);
+			return d;
+		}
+		report.takeEffort(attempt);
+	}
+	return Newton<Dim>(system, solver, report).run({});
 }
 
-template Eigen::VectorXd equilibrium(const StepSystem<2>&, LinearSolver&, StepReport&);
-template Eigen::VectorXd equilibrium(const StepSystem<3>&, LinearSolver&, StepReport&);
+template Eigen::VectorXd equilibrium(const StepSystem<2>&, LinearSolver&, StepReport&, const Eigen::VectorXd&);
+template Eigen::VectorXd equilibrium(const StepSystem<3>&, LinearSolver&, StepReport&, const Eigen::VectorXd&);
 
 } // namespace gimpm

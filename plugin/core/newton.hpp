@@ -8,6 +8,10 @@ namespace gimpm {
 /// Finds d with external - internal(d) - K_g d = 0 on the free degrees of freedom, starting from d = 0; prescribed displacements enter
 /// with the first solve. Converged when |residual| <= tolerance |external forces + reactions| (those at the start of the step, if they
 /// were larger) or when it is zero to working precision. Fills the report's failure, iterations, residuals and worst degree of freedom.
-template <int Dim> Eigen::VectorXd equilibrium(const StepSystem<Dim>&, LinearSolver&, StepReport&);
+///
+/// A prediction (not empty) is the start if its residual is smaller than that of zero; should the iteration fail from there, it begins
+/// again at zero. The solution is the same to the tolerance.
+template <int Dim>
+Eigen::VectorXd equilibrium(const StepSystem<Dim>&, LinearSolver&, StepReport&, const Eigen::VectorXd& prediction);
 
 } // namespace gimpm

@@ -205,7 +205,7 @@ template <int Dim, class F> GIMPM_INLINE void forChunks(const CloudBasis<Dim>& b
 		chunk.count = std::min(Chunk<Dim>::capacity, end - begin);
 		while (basis.patches[first].first + basis.patches[first].count <= begin)
 			++first;
-		if (!f(chunk, first)) return;
+		f(chunk, first);
 	}
 }
 

@@ -58,7 +58,6 @@ void forUpdatedPoints(const CloudBasis<Dim>& basis, const StepPoints<Dim>& point
 					                     response.law.plasticStrain[lane] });
 				}
 			}
-			return true;
 		});
 }
 

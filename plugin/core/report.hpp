@@ -20,6 +20,7 @@ struct StepReport {
 	std::string         cause;          ///< one clause for the user, empty when converged
 	bool                accepted = false; ///< the points took over an iterate that had not converged
 	int                 iterations = 0; ///< linear solves
+	bool                predicted = false; ///< Newton's method started from the prediction
 	int                 lineSearchTrials = 0; ///< evaluations of the residual for steps shorter than Newton's
 	std::vector<double> residuals;      ///< |residual| / |external forces + reactions| before the first solve and after each
 	int                 luSolves = 0;   ///< solves for which K was not positive definite
@@ -44,6 +45,14 @@ struct StepReport {
 
 	StepTimes times;
 
+	/// What an attempt that came to nothing has cost.
+	void takeEffort(const StepReport& attempt)
+	{
+		iterations       = attempt.iterations;
+		lineSearchTrials = attempt.lineSearchTrials;
+		luSolves         = attempt.luSolves;
+		times            = attempt.times;
+	}
 	bool   converged() const { return failure == Failure::none; }
 	double residual() const { return residuals.empty() ? std::numeric_limits<double>::quiet_NaN() : residuals.back(); }
 };

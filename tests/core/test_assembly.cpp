@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Nodal forces of a cloud: balance, virial, external forces, and independence of the number of threads.
 #include "scenes.hpp"
-#include "core/point_kernel.hpp"
+#include "core/point_update.hpp"
 #include "core/step_system.hpp"
 #include <algorithm>
 #include <omp.h>

@@ -39,7 +39,7 @@ namespace {
 
 	TEST(Hencky, StressByHand)
 	{
-		const Response r = elastic.respond({ 0.1, -0.05, 0.02 }, 0.7); // volumetric strain 0.07
+		const Response r = elastic.respond(Vec3(0.1, -0.05, 0.02), 0.7); // volumetric strain 0.07
 		EXPECT_NEAR(r.stress[0], 0.2 + 1.5 * 0.07, 1e-15);
 		EXPECT_NEAR(r.stress[1], -0.1 + 1.5 * 0.07, 1e-15);
 		EXPECT_NEAR(r.stress[2], 0.04 + 1.5 * 0.07, 1e-15);
@@ -122,7 +122,7 @@ namespace {
 			EXPECT_NEAR(r.plasticStrain, 0.25 + std::sqrt(2. / 3) * (e - r.elasticStrain).norm(), 1e-14);
 		}
 		// pure shear by hand: |dev e| = 0.1 sqrt(2), of which 0.05/2 remains elastic
-		EXPECT_NEAR(plastic.respond({ 0.1, -0.1, 0 }, 0).plasticStrain, std::sqrt(2. / 3) * (0.1 * std::sqrt(2.) - 0.025), 1e-15);
+		EXPECT_NEAR(plastic.respond(Vec3(0.1, -0.1, 0), 0).plasticStrain, std::sqrt(2. / 3) * (0.1 * std::sqrt(2.) - 0.025), 1e-15);
 	}
 
 	TEST(VonMises, TangentIsTheDerivativeOfStress)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // K + K_g against the finite-difference derivative of the nodal forces, for random clouds in finite strain.
 #include "scenes.hpp"
-#include "core/point_kernel.hpp"
+#include "core/point_update.hpp"
 #include "core/step_system.hpp"
 #include <algorithm>
 
@@ -27,7 +27,7 @@ namespace {
 		void strain(const Vec3& principalStrains, double scatter)
 		{
 			for (auto& e : cloud.elasticStrain)
-				e = assemble(principalStrains + random.matrix<3>(scatter), random.rotation<Dim>());
+				e = assemble(Vec3(principalStrains + random.matrix<3>(scatter)), random.rotation<Dim>());
 		}
 		/// The largest difference between K and the derivative of the forces (fourth-order central), relative to the largest entry of K.
 		/// The displacements are those of an affine deformation plus random ones.

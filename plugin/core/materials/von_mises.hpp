@@ -19,24 +19,23 @@ public:
 	/// Radial return: exact for perfect plasticity with an associated rule, because the deviator only shrinks.
 	template <class T> ResponseOf<T> respond(const PrincipalValues<T>& trialStrain, const T& plasticStrain) const
 	{
-		const double             G = elastic_.shear();
-		const T                  third = T(1. / 3) * (trialStrain[0] + trialStrain[1] + trialStrain[2]), pressure = T(3 * elastic_.bulk()) * third;
-		const PrincipalValues<T> dev     = trialStrain - PrincipalValues<T>::Constant(third);
-		const T                  length  = sqrt(dev[0] * dev[0] + dev[1] * dev[1] + dev[2] * dev[2]), rho = T(2 * G) * length;
-		const auto               yields  = rho > T(yield_ * (1 + yieldTolerance));
-		const T                  theta   = select(yields, T(yield_) / rho, T(1)); // remaining share of the trial deviator
-		const T                  shear   = T(G) * theta, lambda = T(elastic_.bulk()) - T(2. / 3) * shear;
-		const PrincipalValues<T> n       = dev * (T(1) / select(yields, length, T(1)));
-		const T                  plastic = select(yields, T(-2) * shear, T(0));
-		ResponseOf<T>            r;
-		for (int i = 0; i < 3; ++i) {
-			r.elasticStrain[i] = select(yields, theta * dev[i] + third, trialStrain[i]);
-			r.stress[i]        = T(2) * shear * dev[i] + pressure;
+		const double             G      = elastic_.shear();
+		const T                  third  = T(1. / 3) * (trialStrain[0] + trialStrain[1] + trialStrain[2]);
+		const PrincipalValues<T> dev    = trialStrain - PrincipalValues<T>::Constant(third);
+		const T                  length = sqrt(dev[0] * dev[0] + dev[1] * dev[1] + dev[2] * dev[2]), rho = T(2 * G) * length;
+		const auto               yields = rho > T(yield_ * (1 + yieldTolerance));
+		const T                  theta  = select(yields, T(yield_) / rho, T(1)); // remaining share of the trial deviator
+		PrincipalValues<T>       elasticStrain;
+		for (int i = 0; i < 3; ++i)
+			elasticStrain[i] = select(yields, theta * dev[i] + third, trialStrain[i]);
+		ResponseOf<T> r = elastic_.respond<T>(elasticStrain, plasticStrain + T(std::sqrt(2. / 3)) * (T(1) - theta) * length);
+
+		const PrincipalValues<T> n     = dev * (T(1) / select(yields, length, T(1)));
+		const T                  shear = T(G) * theta, lambda = T(elastic_.bulk()) - T(2. / 3) * shear, along = select(yields, T(-2) * shear, T(0));
+		for (int i = 0; i < 3; ++i)
 			for (int j = 0; j < 3; ++j)
-				r.tangent(i, j) = plastic * n[i] * n[j] + (i == j ? lambda + T(2) * shear : lambda);
-		}
+				r.tangent(i, j) = along * n[i] * n[j] + (i == j ? lambda + T(2) * shear : lambda);
 		r.shear.fill(shear);
-		r.plasticStrain = plasticStrain + T(std::sqrt(2. / 3)) * (T(1) - theta) * length;
 		return r;
 	}
 	Response respond(const Vec3& trialStrain, double plasticStrain) const { return respond<double>(trialStrain, plasticStrain); }
