@@ -68,6 +68,35 @@ namespace {
 		        || failure == Failure::tooManyIterations;
 	}
 
+	// A scene that is saved carries the last increment along, so that it continues with the same bits: of each node the grid coordinates
+	// and the displacement, three numbers each.
+	template <int Dim> gimpm::LastIncrement<Dim> lastIncrement(const vector<Real>& flat, Real load)
+	{
+		const size_t              nodes = flat.size() / 6;
+		gimpm::LastIncrement<Dim> last { vector<gimpm::Key>(nodes), Eigen::VectorXd(Dim * nodes), load };
+		for (size_t n = 0; n < nodes; ++n) {
+			gimpm::Index<Dim> place;
+			for (int a = 0; a < Dim; ++a) {
+				place[a]                       = int(flat[6 * n + a]);
+				last.displacement[Dim * n + a] = flat[6 * n + 3 + a];
+			}
+			last.nodes[n] = gimpm::Grid<Dim>::key(place);
+		}
+		return last;
+	}
+	template <int Dim> vector<Real> flat(const gimpm::LastIncrement<Dim>& last)
+	{
+		vector<Real> numbers(6 * last.nodes.size(), 0);
+		for (size_t n = 0; n < last.nodes.size(); ++n) {
+			const auto place = gimpm::Grid<Dim>::index(last.nodes[n]);
+			for (int a = 0; a < Dim; ++a) {
+				numbers[6 * n + a]     = place[a];
+				numbers[6 * n + 3 + a] = last.displacement[Dim * n + a];
+			}
+		}
+		return numbers;
+	}
+
 	template <class T> py::object numpyArray(const vector<T>& values, const char* type)
 	{
 		const char* bytes = reinterpret_cast<const char*>(values.data());
@@ -244,9 +273,12 @@ void MpmImplicitEngine::advance(gimpm::PointCloud<Dim>& cloud, gimpm::Model<Dim>
 			load = { gravity.head<Dim>(), loadFactorAt(time), loadFactorAt(time) - loadFactorAt(loadTime) };
 			model.newton.acceptUnconverged = newton->acceptUnconverged && part / 2 < newton->minStep;
 		}
-		const gimpm::StepReport report = gimpm::loadStep(cloud, model, load, solver);
+		auto                    last   = newton->predictor ? lastIncrement<Dim>(lastDisplacements, lastLoadIncrement) : gimpm::LastIncrement<Dim>();
+		const gimpm::StepReport report = gimpm::loadStep(cloud, model, load, solver, newton->predictor ? &last : nullptr);
 		const ValueLock         lock;
 		take(report);
+		lastDisplacements = flat(last);
+		lastLoadIncrement = last.load;
 		if (report.converged() || report.accepted) {
 			if (report.accepted) {
 				progressLine.breakLine();

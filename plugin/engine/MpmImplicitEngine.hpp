@@ -36,6 +36,8 @@ public:
 	int          activeCells = 0, boundaryCells = 0, ghostFaces = 0, dofs = 0, clampedDomains = 0;
 	int          substeps = 0, cuts = 0, lineSearchTrials = 0, luSolves = 0;
 	Real         wallOverlap = 0, stepPart = 1;
+	vector<Real> lastDisplacements; // of the nodes in the last step, for newton.predictor
+	Real         lastLoadIncrement = 0;
 
 	vector<Vector3r> reactions;
 
@@ -105,6 +107,8 @@ public:
 		v("cuts", &MpmImplicitEngine::cuts, readonly, "Load steps of the last run that were undone and tried again with half the increment.");
 		v("lineSearchTrials", &MpmImplicitEngine::lineSearchTrials, readonly, "Shortened Newton steps that were tried in the last run.");
 		v("luSolves", &MpmImplicitEngine::luSolves, readonly, "Solves of the last run whose stiffness matrix was not positive definite.");
+		v("lastDisplacements", &MpmImplicitEngine::lastDisplacements, hidden, "");
+		v("lastLoadIncrement", &MpmImplicitEngine::lastLoadIncrement, hidden, "");
 		v("stepPart", &MpmImplicitEngine::stepPart, readonly, "Part of O.dt [-] that the next load step tries.");
 		v("reactions",
 		  &MpmImplicitEngine::reactions,

@@ -11,6 +11,7 @@ public:
 	Real minStep           = 1. / 1024;
 	int  lineSearchTrials  = 5;
 	bool acceptUnconverged = false;
+	bool predictor         = false;
 
 	YADE_API_NAME(MpmNewton)
 	static const char*             doc() { return "Settings of the Newton-Raphson solution of a load step (Coombs 2023, section 2.1)."; }
@@ -39,6 +40,11 @@ public:
 		  0,
 		  "Whether a step that has not converged after *maxIterations*, at *minStep*, is taken over all the same, with a warning: for reproducing analyses "
 		  "that did so.");
+		v("predictor",
+		  &MpmNewton::predictor,
+		  0,
+		  "Whether a step starts from the nodal displacements of the last one, in the ratio of the load increments, if their residual is smaller than that "
+		  "of zero; should it fail from there it begins again at zero. The same states to *tolerance*; with small load steps about half the solves.");
 	}
 };
 
