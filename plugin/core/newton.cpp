@@ -113,11 +113,11 @@ private:
 	{
 		const auto&     points = system_.points;
 		const double    h      = system_.model.grid.cellSize;
+		const double    entering = system_.prescribed.template lpNorm<Eigen::Infinity>() / h;
 		Eigen::VectorXd force(points.volume0.size());
 		for (int i = 0; i < int(force.size()); ++i) {
 			const double young = system_.model.materials[points.material[i]].young();
-			const double strain = points.leftCauchyGreen[i].c.norm() + system_.prescribed.template lpNorm<Eigen::Infinity>() / h;
-			force[i]            = points.volume0[i] * young * strain / h;
+			force[i]           = points.volume0[i] * young * (points.leftCauchyGreen[i].c.norm() + entering) / h;
 		}
 		return 10 * std::numeric_limits<double>::epsilon() * force.stableNorm();
 	}

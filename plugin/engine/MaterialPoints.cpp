@@ -1,23 +1,32 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "engine/MaterialPoints.hpp"
+#include <typeinfo>
 
 namespace yade {
 
 namespace {
 	[[noreturn]] void refuse(Body::id_t id, const string& why) { throw std::invalid_argument("Body #" + std::to_string(id) + ": " + why); }
 
+	// A cast that costs little where the object is of this very class, as nearly always.
+	template <class T, class Base> shared_ptr<T> castTo(const shared_ptr<Base>& object)
+	{
+		if (!object) return nullptr;
+		const Base& known = *object;
+		return typeid(known) == typeid(T) ? boost::static_pointer_cast<T>(object) : boost::dynamic_pointer_cast<T>(object);
+	}
+
 	template <class T> string classOf(const shared_ptr<T>& part) { return part ? part->getClassName() : "none"; }
 
-	MaterialPoint complete(const Body& body, const shared_ptr<MpmPoint>& shape)
+	MaterialPoint complete(const Body& body, shared_ptr<MpmPoint>&& shape, const MaterialPoint* previous)
 	{
-		const auto material = boost::dynamic_pointer_cast<MpmMaterial>(body.material);
+		auto material = previous && previous->material.get() == body.material.get() ? previous->material : boost::dynamic_pointer_cast<MpmMaterial>(body.material);
 		if (!material)
 			refuse(body.id, "an MpmPoint shape needs a material for material points, such as MpmElasticMat; there is " + classOf(body.material) + ".");
-		const auto state = boost::dynamic_pointer_cast<MpmState>(body.state);
+		auto state = castTo<MpmState>(body.state);
 		if (!state) refuse(body.id, "an MpmPoint shape needs an MpmState, as from material.newAssocState(); there is " + classOf(body.state) + ".");
 		if (body.isBounded() || state->blockedDOFs != State::DOF_ALL)
 			refuse(body.id, "YADE's collider and integrator must leave material points alone: set bounded = False and state.blockedDOFs = 'xyzXYZ'.");
-		return { body.id, shape, state, material };
+		return { body.id, std::move(shape), std::move(state), std::move(material) };
 	}
 
 	void refuseOtherShape(const Body& body)
@@ -58,10 +67,11 @@ vector<MaterialPoint> materialPoints(const Scene& scene, int mask)
 {
 	const BodyContainer&  bodies = *scene.bodies;
 	vector<MaterialPoint> points;
+	points.reserve(bodies.size());
 	for (size_t id = 0; id < bodies.size(); ++id) {
 		const shared_ptr<Body>& body = bodies[id];
 		if (!body || !isMeant(*body, mask)) continue; // null: erased
-		if (const auto shape = boost::dynamic_pointer_cast<MpmPoint>(body->shape)) points.push_back(complete(*body, shape));
+		if (auto shape = castTo<MpmPoint>(body->shape)) points.push_back(complete(*body, std::move(shape), points.empty() ? nullptr : &points.back()));
 		else
 			refuseOtherShape(*body);
 	}

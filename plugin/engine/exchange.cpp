@@ -63,6 +63,14 @@ namespace {
 		}
 		int of(const MaterialPoint& point)
 		{
+			if (point.material.get() == last) return lastIndex;
+			last = point.material.get();
+			return lastIndex = find(point);
+		}
+
+	private:
+		int find(const MaterialPoint& point)
+		{
 			const auto [found, isNew] = index.try_emplace(point.material.get(), int(list.size()));
 			if (isNew) try {
 					list.push_back(coreMaterial(*point.material));
@@ -72,7 +80,8 @@ namespace {
 			return found->second;
 		}
 
-	private:
+		const MpmMaterial* last      = nullptr; // points of one material follow each other
+		int                lastIndex = 0;
 		std::vector<gimpm::Material>&               list;
 		std::unordered_map<const MpmMaterial*, int> index;
 	};
