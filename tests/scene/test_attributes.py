@@ -38,6 +38,7 @@ outOfRange = {
         'MpmNewton.minStep': ['0.', '-1.', '2.'],
         'MpmNewton.lineSearchTrials': ['-1'],
         'MpmNewton.acceptUnconverged': None,
+        'MpmNewton.predictor': None,
         'MpmImplicitEngine.grid': ['None'],
         'MpmImplicitEngine.basis': ['"cubic"'],
         'MpmImplicitEngine.gravity': None,

@@ -9,11 +9,12 @@ import numpy as np
 import pytest
 
 
-@pytest.mark.parametrize('file', ['half.xml.gz', 'half.yade.gz'])
-def test_saved_scene_continues_with_the_same_bits(yade, file):
+@pytest.mark.parametrize('file, predictor', [('half.xml.gz', False), ('half.xml.gz', True), ('half.yade.gz', True)])
+def test_saved_scene_continues_with_the_same_bits(yade, file, predictor):
 	yade(f'''
 from scenes import *
-slope()
+solver = slope()
+solver.newton.predictor = {predictor}
 O.run(20, wait=True)
 O.save('{file}')
 O.run(20, wait=True)
