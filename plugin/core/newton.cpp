@@ -164,6 +164,10 @@ private:
 			return false;
 		}
 		evaluate(d_ + step, !willConverge());
+		if (predicted_ && !(balance_.size < before)) {
+			fail(Failure::diverging, "the prediction leads nowhere"); // and zero is tried
+			return false;
+		}
 		if (!prescribes && !(balance_.size < toleratedGrowth * before)) return search(step, before);
 		if (prescribes) entering_ = std::max(balance_.size, balance_.reference);
 		d_ += step;
