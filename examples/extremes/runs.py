@@ -13,7 +13,7 @@ from math import cos, inf, nan, radians, sin, tau
 
 import numpy as np
 from yade import mpm, pack
-from yade.wrapper import MpmBoundary, MpmElasticMat, MpmGhost, MpmGrid, MpmImplicitEngine, MpmVonMisesMat, Omega
+from yade.wrapper import MpmBoundary, MpmElasticMat, MpmGhost, MpmGrid, MpmImplicitEngine, MpmNewton, MpmVonMisesMat, Omega
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(sys.argv[0])))
 import pivots
@@ -46,7 +46,7 @@ class Column:
 		if dim == 3: sides.append(MpmBoundary(max=(inf, inf, 0), fix='z'))
 		if confined: sides.append(MpmBoundary(min=(size[0], -inf, -inf), fix='x'))
 		if confined and dim == 3: sides.append(MpmBoundary(min=(-inf, -inf, size[2]), fix='z'))
-		self.engine = MpmImplicitEngine(grid=grid, gravity=(0, -1, 0), boundaries=sides, ghost=stabilisation(ghost, factor))
+		self.engine = MpmImplicitEngine(grid=grid, gravity=(0, -1, 0), boundaries=sides, ghost=stabilisation(ghost, factor), newton=MpmNewton(predictor=False))
 		self.height, self.unit = size[1] + overlap[1] * h, weight * E / size[1]
 
 	def stretch(self, size, by, dim):
@@ -84,7 +84,7 @@ class Bar:
 		self.nodes = [np.array([i, j, k]) * h for i, j in ((1, 0), (0, 1), (-1, 0), (0, -1)) for k in ((-1, 1) if dim == 3 else [0])]
 		margin = np.full(3, h / 4)
 		held = [MpmBoundary(min=tuple(x - margin), max=tuple(x + margin), fix='xyz'[:dim]) for x in self.nodes]
-		self.engine = MpmImplicitEngine(grid=grid, boundaries=held, ghost=stabilisation(ghost))
+		self.engine = MpmImplicitEngine(grid=grid, boundaries=held, ghost=stabilisation(ghost), newton=MpmNewton(predictor=False))
 
 	def beforeStep(self, step):
 		c, s = cos(self.angle), sin(self.angle)
@@ -109,7 +109,7 @@ class Slope:
 		profile = mpm.polygon([(0, 0), (30, 0), (30, 7), (15, 7), (10, 12), (0, 12)])
 		O.bodies.append(mpm.fill(profile, grid, 2, lambda x: 'weak' if 7 <= x[1] <= 7.5 else 'soil'))
 		sides = [MpmBoundary(max=(0, inf, inf), fix='x'), MpmBoundary(min=(30, -inf, -inf), fix='x'), MpmBoundary(max=(inf, 0, inf), fix='xy')]
-		self.engine = MpmImplicitEngine(grid=grid, gravity=(0, -9.81, 0), boundaries=sides, ghost=stabilisation(ghost, factor))
+		self.engine = MpmImplicitEngine(grid=grid, gravity=(0, -9.81, 0), boundaries=sides, ghost=stabilisation(ghost, factor), newton=MpmNewton(predictor=False))
 
 	def beforeStep(self, step):
 		pass
@@ -127,7 +127,7 @@ class Cantilever:
 		O.materials.append(MpmElasticMat(young=young, poisson=.3, density=weight, label='bar'))
 		grid = MpmGrid(cellSize=h)
 		O.bodies.append(mpm.fill(pack.inAlignedBox((0, 0, -1), (length * h, h, 1)), grid, 2, 'bar'))
-		self.engine = MpmImplicitEngine(grid=grid, gravity=(0, -1, 0), boundaries=[MpmBoundary(max=(0, inf, inf), fix='xy')], ghost=stabilisation(ghost))
+		self.engine = MpmImplicitEngine(grid=grid, gravity=(0, -1, 0), boundaries=[MpmBoundary(max=(0, inf, inf), fix='xy')], ghost=stabilisation(ghost), newton=MpmNewton(predictor=False))
 
 	def beforeStep(self, step):
 		pass

@@ -11,7 +11,7 @@ public:
 	Real minStep           = 1. / 1024;
 	int  lineSearchTrials  = 5;
 	bool acceptUnconverged = false;
-	bool predictor         = false;
+	bool predictor         = true;
 
 	YADE_API_NAME(MpmNewton)
 	static const char*             doc() { return "Settings of the Newton-Raphson solution of a load step (Coombs 2023, section 2.1)."; }
@@ -44,7 +44,7 @@ public:
 		  &MpmNewton::predictor,
 		  0,
 		  "Whether a step starts from the nodal displacements of the last one, in the ratio of the load increments, if their residual is smaller than that "
-		  "of zero; should it fail from there it begins again at zero. The same states to *tolerance*; with small load steps about half the solves.");
+		  "of zero; should it fail from there it begins again at zero. The same states to *tolerance*; with small load steps about half the solves. False: every step starts from zero, as in the paper.");
 	}
 };
 

@@ -40,18 +40,18 @@ namespace {
 
 	template <int Dim> void requireOnGrid(const MaterialPoint& point, const gimpm::Grid<Dim>& grid, gimpm::Basis basis)
 	{
-		std::ostringstream text;
-		text << "Body #" << point.id << ": ";
-		if (((point.state->pos.head<Dim>() - grid.origin) / grid.cellSize).cwiseAbs().maxCoeff() >= grid.indexLimit) {
-			text << "the material point at (" << point.state->pos.transpose() << ") is more than " << grid.indexLimit << " cells from the grid's origin.";
-			throw std::invalid_argument(text.str());
-		}
+		const bool onGrid  = ((point.state->pos.head<Dim>() - grid.origin) / grid.cellSize).cwiseAbs().maxCoeff() < grid.indexLimit;
 		const Real largest = point.shape->halfSize.head<Dim>().maxCoeff(), limit = 0.5 * grid.cellSize;
-		if (basis == gimpm::Basis::gimp && largest > limit * (1 + 1e-9)) {
+		const bool fits    = basis != gimpm::Basis::gimp || largest <= limit * (1 + 1e-9);
+		if (onGrid && fits) return;
+		std::ostringstream text; // costly: not before there is something to say
+		text << "Body #" << point.id << ": ";
+		if (!onGrid)
+			text << "the material point at (" << point.state->pos.transpose() << ") is more than " << grid.indexLimit << " cells from the grid's origin.";
+		else
 			text << "MpmPoint.halfSize = " << largest << " m is more than half a cell (cellSize = " << grid.cellSize
 			     << " m); was the point made for another grid?";
-			throw std::invalid_argument(text.str());
-		}
+		throw std::invalid_argument(text.str());
 	}
 
 	// Position in the model's list of materials, which grows by each material on its first point.

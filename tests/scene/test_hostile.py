@@ -264,7 +264,7 @@ while O.running:
 	seen.update(found)
 	len(solver.residuals), solver.report(), solver.dict()
 	solver.boundaries, solver.loadCurve = solver.boundaries, solver.loadCurve
-	solver.grid, solver.newton, solver.ghost = MpmGrid(cellSize=1), MpmNewton(), MpmGhost()
+	solver.grid, solver.newton, solver.ghost = MpmGrid(cellSize=1), MpmNewton(predictor=False), MpmGhost()
 	mpm.save('now.yade.gz')
 	solver.stiffness()
 assert len(seen) > 3, seen

@@ -37,7 +37,7 @@ def test_onATerminal(tmp_path):
 	"""Redrawn in place, no longer than the terminal is wide, and ended before anything else is said."""
 	terminal, side = os.openpty()
 	yade = Yade(tmp_path)
-	(tmp_path / 'script.py').write_text('from scenes import *\nsolver = slope()\nO.run(20, wait=True)\nimport sys; sys.stderr.write("done\\n")')
+	(tmp_path / 'script.py').write_text('from scenes import *\nsolver = slope(0.5, 4)\nO.run(40, wait=True)\nimport sys; sys.stderr.write("done\\n")')
 	yade(tmp_path / 'script.py', stderr=side)
 	os.close(side)
 	shown = b''
