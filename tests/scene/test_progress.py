@@ -47,7 +47,7 @@ def test_onATerminal(tmp_path):
 	drawn = text.split('\r\x1b[K')[1:]
 	assert len(drawn) >= 2, repr(text)
 	assert not any('\n' in part for part in drawn[:-1])
-	assert 'step 20/20' in drawn[-1] and drawn[-1].splitlines()[1] == 'done'
+	assert 'step 40/40' in drawn[-1] and drawn[-1].splitlines()[1] == 'done'
 
 
 def _read(terminal):
