@@ -5,11 +5,8 @@ Makes a picture with ParaView of what MpmVtkRecorder has written with fileName=<
 points, coloured by one of their fields, and, if there are files of them, the background grid with its boundary cells and the ghost
 faces. With --state the same can be opened in ParaView, to go on from there.
 
-pvbatch is in Debian's package paraview; without a screen: xvfb-run -a pvbatch ... Its Python modules are in python3-paraview, which Debian 12
-does not install beside the libvtk9-dev that builds the plugin. To have both, unpack it:
-
-  apt-get download python3-paraview && dpkg -x python3-paraview_*.deb paraview-python
-  PYTHONPATH=paraview-python/usr/lib/python3/dist-packages pvbatch scripts/paraview-picture.py out/slope-
+pvbatch is in Debian's package paraview, and its Python modules in python3-paraview; without a screen: xvfb-run -a pvbatch ... Debian 12 does
+not have python3-paraview beside libvtk9-dev: installing it removes that. The plugin stays, and scripts/setup does without.
 """
 import argparse
 import glob

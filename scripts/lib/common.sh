@@ -26,6 +26,10 @@ chooseMode() {
 	if [ "$mode" = user ]; then yade=$overlay/bin/yade; fi
 }
 
+isInstalled() {
+	dpkg-query --show --showformat '${db:Status-Status}' "$1" 2>/dev/null | grep -q '^installed'
+}
+
 # Installs those of the given Debian packages that are missing, as root or through sudo.
 installPackages() {
 	local installed missing
