@@ -1,0 +1,113 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Runs a scene in YADE and prints where time and memory went, as a line of JSON: `yade -n -x scene.py '{"cellSize": 0.5}'`, for scripts/bench."""
+import json
+import os
+import sys
+import tempfile
+import time
+from types import SimpleNamespace
+
+from yade import mpm, pack, utils
+
+defaults = dict(
+        scene='slope', # of this script's functions
+        count=0, # of points or spheres
+        cellSize=.5, # [m]
+        pointsPerCell=4, # per axis
+        steps=None, # load steps to make of 40/cellSize, all if None
+        depth=0, # cells along z, between smooth walls; 0: plane strain
+        basis='gimp',
+        ghost=1e-2,
+        predictor=True,
+        elastic=False,
+        recorder=False, # writes all material points after every step
+        arrays=False, # reads all material points after every step
+)
+setting = SimpleNamespace(**defaults | json.loads(sys.argv[1]))
+
+
+def memory(entry='VmRSS'):
+	"""Of this process [bytes]."""
+	with open('/proc/self/status') as file:
+		return next(1024 * int(line.split()[1]) for line in file if line.startswith(entry + ':'))
+
+
+def timed(act, *arguments):
+	"""Seconds that a call takes, and what it returns."""
+	begin = time.perf_counter()
+	result = act(*arguments)
+	return time.perf_counter() - begin, result
+
+
+def slope():
+	"""The slope of the paper, or in 3D a slice of it."""
+	h, steps = setting.cellSize, setting.steps or round(40 / setting.cellSize)
+	law = dict(young=1e6, poisson=.3, density=2400)
+	for label, strength in ('soil', 15e3), ('weak', 7.5e3):
+		O.materials.append(MpmElasticMat(label=label, **law) if setting.elastic else MpmVonMisesMat(label=label, yieldStress=strength, **law))
+	grid = MpmGrid(cellSize=h, dim=3 if setting.depth else 2)
+	soil = mpm.polygon([(0, 0), (30, 0), (30, 7), (15, 7), (10, 12), (0, 12)])
+	if setting.depth: soil = soil & pack.inAlignedBox((0, 0, 0), (30, 12, setting.depth * h))
+	layers = [(pack.inAlignedBox((-1, 7, -100), (31, 7.5, 100)), 'weak'), (soil, 'soil')]
+	start = memory()
+	fill, _ = timed(lambda: O.bodies.append(mpm.fill(soil, grid, setting.pointsPerCell, layers)))
+	filled = memory()
+
+	global solver # for afterStep
+	solver = MpmImplicitEngine(grid=grid, gravity=(0, -9.81, 0), basis=setting.basis, boundaries=walls(h), ghost=MpmGhost(factor=setting.ghost))
+	if hasattr(solver.newton, 'predictor'): solver.newton.predictor = setting.predictor # other revisions may have none
+	engines = [solver]
+	O.dt = h / 40
+	with tempfile.TemporaryDirectory() as folder:
+		if setting.recorder: engines.append(MpmVtkRecorder(fileName=os.path.join(folder, 'slope-'), iterPeriod=1, recorders=['points']))
+		O.engines = engines + [PyRunner(iterPeriod=1, initRun=True, command='afterStep()')]
+		begin = time.perf_counter()
+		O.run(steps, wait=True)
+	peak, points, work = memory('VmHWM'), mpm.arrays(), solver.workload()
+	return dict(
+	        points=len(points['id']), unknowns=work['dofs'], steps=steps, **count, times=times, fill=fill, run=ended - begin, factorFlops=work['factorFlops'],
+	        sceneMemory=filled - start, runMemory=peak - filled, displacement=abs(points['pos'] - points['pos0']).max()
+	)
+
+
+def walls(h):
+	held = [MpmBoundary(max=(0, inf, inf), fix='x'), MpmBoundary(min=(30, -inf, -inf), fix='x'), MpmBoundary(max=(inf, 0, inf), fix='xyz' if setting.depth else 'xy')]
+	if setting.depth: held += [MpmBoundary(max=(inf, inf, 0), fix='z'), MpmBoundary(min=(-inf, -inf, setting.depth * h), fix='z')]
+	return held
+
+
+times, count = {}, dict(solves=0, passes=0)
+
+
+def afterStep():
+	"""Adds up times and passes over the points: one before the first solve (two with a prediction), one after each."""
+	report = solver.report()
+	for phase, seconds in report['times'].items():
+		times[phase] = times.get(phase, 0) + seconds
+	count['solves'] += report['iterations']
+	count['passes'] += report['iterations'] + report['lineSearchTrials'] + report['substeps'] * (2 if setting.predictor else 1)
+	if setting.arrays: mpm.arrays()
+	global ended # O.run() comes back up to 20 ms later
+	ended = time.perf_counter()
+
+
+def appended(make):
+	"""Makes bodies and appends them."""
+	start = memory()
+	making, bodies = timed(make)
+	appending, _ = timed(O.bodies.append, bodies)
+	return dict(bodies=len(O.bodies), make=making, append=appending, memory=memory() - start)
+
+
+def spheres():
+	side = round(setting.count**.5)
+	return appended(lambda: [utils.sphere((i % side, i // side, 0), .25) for i in range(side**2)])
+
+
+def points():
+	side = round(setting.count**.5)
+	O.materials.append(MpmElasticMat(young=1e6, poisson=.3, density=2400, label='soil'))
+	return appended(lambda: mpm.fill(pack.inAlignedBox((0, 0, -1), (side / 2, side / 2, 1)), MpmGrid(cellSize=1), 2, 'soil'))
+
+
+print(json.dumps(dict(slope=slope, points=points, spheres=spheres)[setting.scene]()), flush=True)
