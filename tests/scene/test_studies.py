@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""scripts/extremes, scripts/trade and mpm.advise, in their shortest forms."""
+"""scripts/extremes, scripts/trade, scripts/bench and mpm.advise, in their shortest forms."""
 import csv
+import json
 import os
 import shutil
 import subprocess
@@ -137,3 +138,16 @@ print(json.dumps(found))
 	assert not says(slope, 'dim=2') and not says(slope, 'stabilisation')
 	assert 'unknowns: ' in run.stdout
 	assert 'must be an MpmImplicitEngine' in run.result['1'] and 'O.engines holds no' in run.result['None']
+
+
+def test_bench(study, tmp_path):
+	study('bench', 'sizes', 'bodies', '--quick', '--out', tmp_path / 'out')
+	results = json.loads((tmp_path / 'out/results/bench.json').read_text())
+	assert [(r['points'], r['steps']) for r in results['sizes']] == [(1095, 2), (4370, 2)]
+	for r, loaded in zip(results['sizes'], (2 / 20, 2 / 40)):
+		assert r['solves'] < r['passes'] and 0 < r['times']['assembly'] < r['run']
+		assert r['displacement'] == pytest.approx(1.27 * loaded, rel=.02) # elastic so far
+	assert results['bodies']['points']['bodies'] == results['bodies']['spheres']['bodies'] == 10000
+	page = (tmp_path / 'out/README.md').read_text()
+	assert '## Size' in page and '| 10000 spheres |' in page
+	assert 'no part nonsense' in study('bench', 'nonsense', fails=True)
