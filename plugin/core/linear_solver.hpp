@@ -28,11 +28,19 @@ struct SolverTimes {
 	double analyse = 0, factorise = 0, solve = 0; ///< [s]
 };
 
+struct IterativeEffort {
+	int iterations = 0; ///< of conjugate gradients
+	int fallbacks  = 0; ///< solves that they left to the direct solver
+};
+
+/// `automatic`: conjugate gradients where a Cholesky factor would take much longer.
+enum class LinearMethod { automatic, direct, iterative };
+
 /// Direct solver: supernodal Cholesky (CHOLMOD), and LU with pivoting (UMFPACK) for a matrix that is not positive definite. The symbolic
-/// analysis is repeated only when the pattern changes. One object serves one thread.
+/// analysis is repeated only when the pattern changes. Conjugate gradients on demand. One object serves one thread.
 class LinearSolver {
 public:
-	enum class Status { cholesky, lu, singular };
+	enum class Status { cholesky, lu, singular, iterative };
 
 	LinearSolver();
 	~LinearSolver();
@@ -41,6 +49,13 @@ public:
 
 	/// K x = b. On `singular` (a pivot is lost in round-off, whatever the scale of its row) x is meaningless.
 	Status solve(const SymmetricCsc& K, const Eigen::VectorXd& b, Eigen::VectorXd& x);
+
+	/// The same by the given method; where that is conjugate gradients, to |b - K x| <= tolerance |b|. What they cannot solve is solved
+	/// directly. They find no singular matrix whose range contains b.
+	Status solve(const SymmetricCsc& K, const Eigen::VectorXd& b, Eigen::VectorXd& x, LinearMethod, double tolerance);
+
+	/// Whether `automatic` stands for conjugate gradients.
+	bool prefersIterative(const SymmetricCsc& K);
 
 	/// Size of the Cholesky factor of K, and operations that it takes.
 	struct FactorSize {
@@ -52,7 +67,9 @@ public:
 	bool solveAgain(const Eigen::VectorXd& b, Eigen::VectorXd& x);
 
 	const SolverTimes& times() const { return times_; }
-	void               resetTimes() { times_ = {}; }
+	void               resetTimes() { times_ = {}, effort_ = {}; }
+
+	const IterativeEffort& iterativeEffort() const { return effort_; }
 
 private:
 	struct Cholmod;
@@ -60,6 +77,7 @@ private:
 	SymmetricCsc             scaled_; // the last matrix; its pattern is that of the symbolic analysis
 	Eigen::VectorXd          scale_;  // of its rows and columns
 	SolverTimes              times_;
+	IterativeEffort          effort_;
 };
 
 } // namespace gimpm

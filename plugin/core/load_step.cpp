@@ -65,7 +65,8 @@ template <int Dim> StepReport loadStep(PointCloud<Dim>& cloud, const Model<Dim>&
 	// 2. to 4. points to nodes, assembly and Newton's method on the nodes
 	const Eigen::VectorXd prediction = last ? predict(*last, system.basis.nodes, load.increment) : Eigen::VectorXd();
 	const Eigen::VectorXd d          = equilibrium(system, solver, report, prediction);
-	report.times.linear     = solver.times();
+	report.times.linear       = solver.times();
+	report.conjugateGradients = solver.iterativeEffort();
 	// 5. nodes to points; 6. the grid is reset by not being kept
 	report.accepted = report.failure == Failure::tooManyIterations && model.newton.acceptUnconverged;
 	if (report.converged() || report.accepted) {

@@ -4,6 +4,7 @@
 #include "core/basis.hpp"
 #include "core/boundary.hpp"
 #include "core/ghost.hpp"
+#include "core/linear_solver.hpp"
 #include "core/materials/law.hpp"
 #include <functional>
 
@@ -19,6 +20,7 @@ struct NewtonSettings {
 	int                   maxIterations     = 20;   ///< linear solves
 	int                   lineSearchTrials  = 5;    ///< shorter steps tried when a full one does not reduce the residual; 0: none
 	bool                  acceptUnconverged = false; ///< take over the last iterate after maxIterations
+	LinearMethod          linearSolver = LinearMethod::automatic;
 	std::function<bool()> interrupted;               ///< asked once per iteration; may be empty
 };
 

@@ -46,6 +46,7 @@ public:
 	        : system_(system)
 	        , settings_(system.model.newton)
 	        , solver_(solver)
+	        , method_(system.model.newton.linearSolver)
 	        , report_(report)
 	        , d_(Eigen::VectorXd::Zero(system.nodalSize()))
 	{
@@ -189,12 +190,24 @@ private:
 		if (system_.dofs.count == 0) return true;
 		SymmetricCsc reduced;
 		reduce(K_, system_.dofs, reduced);
-		const auto status = solver_.solve(reduced, right, correction);
+		const auto status = solver_.solve(reduced, right, correction, method_, forcing());
+		if (status != LinearSolver::Status::iterative) method_ = LinearMethod::direct; // what they could not solve once stays difficult
 		if (status == LinearSolver::Status::singular) return false;
 		report_.luSolves += status == LinearSolver::Status::lu;
 		for (int i = 0; i < step.size(); ++i)
 			if (system_.dofs.number[i] >= 0) step[i] += correction[system_.dofs.number[i]];
 		return true;
+	}
+
+	/// Part of the residual that an iterative solver may leave (inexact Newton): in proportion to the residual, which keeps the convergence
+	/// quadratic, but no less than the step needs in the end; and just that if this solve is foretold to be the last one.
+	double forcing() const
+	{
+		constexpr double first = 1e-3, share = 0.1, attainable = 1e-13;
+		const double     residual = report_.residuals.back();
+		const double     enough   = residual > 0 ? share * settings_.tolerance / residual : first;
+		const double     wanted   = willConverge() ? enough : std::max(share * residual, enough);
+		return std::max(attainable, std::min(first, wanted));
 	}
 
 	/// Quadratic convergence foretells the next residual: if it is below the tolerance, no further stiffness will be needed.
@@ -255,6 +268,7 @@ private:
 	const StepSystem<Dim>& system_;
 	const NewtonSettings&  settings_;
 	LinearSolver&          solver_;
+	LinearMethod           method_;
 	StepReport&            report_;
 	Eigen::VectorXd        d_, force_, prescribed_; // prescribed_: empty once it is part of d
 	NodeMatrix<Dim>        K_;

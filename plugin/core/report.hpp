@@ -24,6 +24,7 @@ struct StepReport {
 	int                 lineSearchTrials = 0; ///< evaluations of the residual for steps shorter than Newton's
 	std::vector<double> residuals;      ///< |residual| / |external forces + reactions| before the first solve and after each
 	int                 luSolves = 0;   ///< solves for which K was not positive definite
+	IterativeEffort     conjugateGradients; ///< of all attempts at the step
 	int                 invertedPoint = -1; ///< its index in the cloud, for Failure::inverted
 
 	int nodes = 0, dofs = 0, populatedCells = 0, boundaryCells = 0, ghostFaces = 0;

@@ -1,17 +1,42 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "core/workload.hpp"
+#include "core/conjugate_gradients.hpp"
 #include "core/step_system.hpp"
 #include "core/stopwatch.hpp"
 
 namespace gimpm {
+namespace {
+
+/// The solve of a step and what it stores.
+void addSolve(const SymmetricCsc& K, LinearMethod method, Workload& w)
+{
+	constexpr double      longFactorisation = 2e10, flopsPerSecond = 5e9, precise = 1e-3;
+	LinearSolver          solver;
+	const Eigen::VectorXd b = Eigen::VectorXd::Ones(K.size());
+	Eigen::VectorXd       x;
+	const bool            iterative = method == LinearMethod::iterative || (method == LinearMethod::automatic && solver.prefersIterative(K));
+	if (iterative) {
+		const Stopwatch watch(w.times.linear.solve);
+		int             iterations = 0;
+		conjugateGradients(K, b, precise, x, iterations);
+	} else {
+		const auto factor = solver.analyse(K);
+		w.factorEntries = factor.entries, w.factorFlops = factor.flops;
+		if (w.factorFlops < longFactorisation) solver.solve(K, b, x);
+	}
+	w.times.linear.analyse   = solver.times().analyse;
+	w.times.linear.factorise = w.factorFlops < longFactorisation ? solver.times().factorise : w.factorFlops / flopsPerSecond;
+	w.times.linear.solve += solver.times().solve;
+}
+
+} // namespace
 
 template <int Dim> Workload workload(const PointCloud<Dim>& cloud, const Model<Dim>& model)
 {
-	constexpr double     longFactorisation = 2e10, flopsPerSecond = 5e9;
 	StepReport           report;
 	const StepSystem<Dim> system(cloud, model, Load<Dim>(), report);
 	NodeMatrix<Dim>      K;
-	Eigen::VectorXd      force, x;
+	Eigen::VectorXd      force;
 	SymmetricCsc         reduced;
 	{
 		const Stopwatch watch(report.times.assembly);
@@ -22,15 +47,8 @@ template <int Dim> Workload workload(const PointCloud<Dim>& cloud, const Model<D
 	Workload w { int(cloud.size()), report.nodes, report.dofs, report.populatedCells, report.ghostFaces };
 	w.blockEntries  = double(report.nodes) * NodeMatrix<Dim>::codes * NodeMatrix<Dim>::block;
 	w.matrixEntries = double(reduced.row.size());
-	LinearSolver solver;
-	if (w.dofs > 0) {
-		const auto factor = solver.analyse(reduced);
-		w.factorEntries = factor.entries, w.factorFlops = factor.flops;
-		if (w.factorFlops < longFactorisation) solver.solve(reduced, Eigen::VectorXd::Ones(w.dofs), x);
-	}
-	w.times        = report.times;
-	w.times.linear = solver.times();
-	if (w.factorFlops >= longFactorisation) w.times.linear.factorise = w.factorFlops / flopsPerSecond;
+	w.times = report.times;
+	if (w.dofs > 0) addSolve(reduced, model.newton.linearSolver, w);
 	return w;
 }
 

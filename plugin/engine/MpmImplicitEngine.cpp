@@ -247,7 +247,7 @@ template <int Dim> void MpmImplicitEngine::step()
 		lookedAt = points.size();
 		last     = gimpm::StepReport();
 		times.clear();
-		iterations = lineSearchTrials = luSolves = substeps = cuts = 0;
+		iterations = lineSearchTrials = luSolves = cgIterations = cgFallbacks = substeps = cuts = 0;
 		lastPoints = points.size();
 	}
 	addTime("gather", gathering);
@@ -330,6 +330,8 @@ void MpmImplicitEngine::take(const gimpm::StepReport& report)
 	iterations += report.iterations;
 	lineSearchTrials += report.lineSearchTrials;
 	luSolves += report.luSolves;
+	cgIterations += report.conjugateGradients.iterations;
+	cgFallbacks += report.conjugateGradients.fallbacks;
 	const auto& t = report.times;
 	for (const auto& [phase, seconds] : { std::pair { "basis", t.basis },
 	                                      { "ghost", t.ghost },
@@ -360,6 +362,8 @@ py::dict MpmImplicitEngine::report() const
 	result["cuts"]             = cuts;
 	result["lineSearchTrials"] = lineSearchTrials;
 	result["luSolves"]         = luSolves;
+	result["cgIterations"]     = cgIterations;
+	result["cgFallbacks"]      = cgFallbacks;
 	result["converged"] = last.converged();
 	result["accepted"]  = last.accepted;
 	result["failure"]   = nameOf(last.failure);

@@ -34,7 +34,7 @@ public:
 	vector<Real> residuals;
 	Real         loadFactor  = 0;
 	int          activeCells = 0, boundaryCells = 0, ghostFaces = 0, dofs = 0, clampedDomains = 0;
-	int          substeps = 0, cuts = 0, lineSearchTrials = 0, luSolves = 0;
+	int          substeps = 0, cuts = 0, lineSearchTrials = 0, luSolves = 0, cgIterations = 0, cgFallbacks = 0;
 	Real         wallOverlap = 0, stepPart = 1;
 	vector<Real> lastDisplacements; // of the nodes in the last step, for newton.predictor
 	Real         lastLoadIncrement = 0;
@@ -107,6 +107,8 @@ public:
 		v("cuts", &MpmImplicitEngine::cuts, readonly, "Load steps of the last run that were undone and tried again with half the increment.");
 		v("lineSearchTrials", &MpmImplicitEngine::lineSearchTrials, readonly, "Shortened Newton steps that were tried in the last run.");
 		v("luSolves", &MpmImplicitEngine::luSolves, readonly, "Solves of the last run whose stiffness matrix was not positive definite.");
+		v("cgIterations", &MpmImplicitEngine::cgIterations, readonly, "Iterations of conjugate gradients in the last run (see MpmNewton.linearSolver).");
+		v("cgFallbacks", &MpmImplicitEngine::cgFallbacks, readonly, "Solves of the last run that conjugate gradients left to the direct solver.");
 		v("lastDisplacements", &MpmImplicitEngine::lastDisplacements, hidden, "");
 		v("lastLoadIncrement", &MpmImplicitEngine::lastLoadIncrement, hidden, "");
 		v("stepPart", &MpmImplicitEngine::stepPart, readonly, "Part of O.dt [-] that the next load step tries.");
@@ -136,7 +138,7 @@ public:
 		      "Outcome: 'converged'; 'accepted' (see MpmNewton.acceptUnconverged); 'failure', one of 'none', 'unrestrained', 'singular', 'inverted', "
 		      "'notFinite', 'diverging', 'tooManyIterations', 'interrupted'; 'cause', a clause, empty when converged; 'loadTime' [s] and 'loadFactor' of the "
 		      "last converged state; 'stepPart', part of O.dt that the next step tries.\n\n"
-		      "Effort of the run, undone tries included: 'iterations' (linear solves), 'substeps', 'cuts', 'lineSearchTrials', 'luSolves'; 'times' [s], dict "
+		      "Effort of the run, undone tries included: 'iterations' (linear solves), 'substeps', 'cuts', 'lineSearchTrials', 'luSolves', 'cgIterations', 'cgFallbacks'; 'times' [s], dict "
 		      "by phase.\n\n"
 		      "Of the last load step that was tried: 'residuals', list; 'residual', the last of them [-]; 'worstNode' (position [m], NaN if none), "
 		      "'worstAxis' ('x', 'y', 'z' or '') and 'worstForce' [N] of the largest out-of-balance force; 'points', 'nodes', 'dofs', 'activeCells', "
@@ -155,7 +157,7 @@ public:
 		      &MpmImplicitEngine::workload,
 		      "workload() -> dict\n\nSize of a load step from the current state, found by doing its parts, without load, and leaving the scene alone: points, "
 		      "nodes, dofs, activeCells, ghostFaces; blockEntries, matrixEntries, factorEntries: numbers that the stiffness matrix takes by blocks, reduced, and "
-		      "factorised; factorFlops: operations of a factorisation; secondsPerStep and secondsPerSolve: of what is done once a step, and with each solve. "
+		      "factorised; factorFlops: operations of a factorisation (both 0 with conjugate gradients, see MpmNewton.linearSolver); secondsPerStep and secondsPerSolve: of what is done once a step, and with each solve. "
 		      "A factorisation of more than 2e10 operations is not made: its time is that at 5e9 a second. mpm.advise says it in words. Raises ValueError as "
 		      "a step does.");
 		c.def("conditionEstimate",

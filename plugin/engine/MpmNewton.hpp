@@ -12,6 +12,7 @@ public:
 	int  lineSearchTrials  = 5;
 	bool acceptUnconverged = false;
 	bool predictor         = true;
+	string linearSolver    = "auto";
 
 	YADE_API_NAME(MpmNewton)
 	static const char*             doc() { return "Settings of the Newton-Raphson solution of a load step (Coombs 2023, section 2.1)."; }
@@ -45,6 +46,16 @@ public:
 		  0,
 		  "Whether a step starts from the nodal displacements of the last one, in the ratio of the load increments, if their residual is smaller than that "
 		  "of zero; should it fail from there it begins again at zero. The same states to *tolerance*; with small load steps about half the solves. False: every step starts from zero, as in the paper.");
+		v("linearSolver",
+		  &MpmNewton::linearSolver,
+		  0,
+		  "'direct': Cholesky factorisation, or LU of a matrix that is not positive definite; the only one that finds singular matrices. 'iterative': "
+		  "conjugate gradients with the diagonal as preconditioner, as precise as Newton's method needs at the time, so the same states to *tolerance*; "
+		  "it stores no factor. A step whose matrix is not positive definite or too ill-conditioned for it goes on with 'direct' (solver.cgFallbacks). It does "
+		  "not notice a singular matrix whose equations have a solution all the same; bodies that nothing restrains are found "
+		  "with both. 'auto': 'iterative' where the factorisation takes more than 10000 operations for each entry of the matrix: 3D from some "
+		  "30000 unknowns, 2D from some millions.",
+		  oneOf("auto", "direct", "iterative"));
 	}
 };
 

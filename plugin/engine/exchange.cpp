@@ -54,6 +54,12 @@ namespace {
 		throw std::invalid_argument(text.str());
 	}
 
+	gimpm::LinearMethod linearMethod(const string& name)
+	{
+		if (name == "auto") return gimpm::LinearMethod::automatic;
+		return name == "direct" ? gimpm::LinearMethod::direct : gimpm::LinearMethod::iterative;
+	}
+
 	// Position in the model's list of materials, which grows by each material on its first point.
 	class MaterialIndex {
 	public:
@@ -105,6 +111,7 @@ gimpm::Model<Dim> toModel(const MpmGrid& grid, const string& basis, const vector
 	model.newton.tolerance        = newton.tolerance;
 	model.newton.maxIterations    = newton.maxIterations;
 	model.newton.lineSearchTrials = newton.lineSearchTrials;
+	model.newton.linearSolver     = linearMethod(newton.linearSolver);
 	return model;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Cholesky, its fallback to LU, and what is singular.
+// Cholesky, its fallback to LU, what is singular, and conjugate gradients.
 #include "scenes.hpp"
 #include <Eigen/LU>
 
@@ -253,6 +253,92 @@ namespace {
 			expectSolves(solver, sparse(unit * definite(40, 0.2, 1)), Status::cholesky);
 			expectSolves(solver, sparse(unit * symmetric(40, 0.3, 4)), Status::lu, 1e-10);
 		}
+	}
+
+	// Of conjugate gradients: what they solve and what they leave to the direct solver.
+	Status iteratively(LinearSolver& solver, const SymmetricCsc& K, double tolerance, double* residual = nullptr)
+	{
+		const Eigen::VectorXd b = Random(7).vector(K.size());
+		Eigen::VectorXd       x;
+		const Status          status = solver.solve(K, b, x, LinearMethod::iterative, tolerance);
+		if (residual) *residual = (product(K, x) - b).norm() / b.norm();
+		return status;
+	}
+
+	TEST(LinearSolver, SolvesIterativelyToTheTolerance)
+	{
+		LinearSolver solver;
+		double       residual = 0;
+		for (const double tolerance : { 1e-2, 1e-6, 1e-10 }) {
+			const int before = solver.iterativeEffort().iterations;
+			ASSERT_EQ(iteratively(solver, laplace(12, 6), tolerance, &residual), Status::iterative);
+			EXPECT_LE(residual, 1.01 * tolerance);
+			EXPECT_GT(residual, 1e-3 * tolerance) << "more iterations than asked for";
+			EXPECT_GT(solver.iterativeEffort().iterations, before);
+		}
+		EXPECT_EQ(solver.iterativeEffort().fallbacks, 0);
+		Eigen::VectorXd x;
+		ASSERT_EQ(solver.solve(laplace(3, 6), Eigen::VectorXd::Zero(27), x, LinearMethod::iterative, 1e-6), Status::iterative);
+		EXPECT_EQ(x, Eigen::VectorXd::Zero(27));
+	}
+
+	TEST(LinearSolver, UnitsDoNotMatterToConjugateGradients)
+	{
+		LinearSolver          solver;
+		const auto            m = definite(40, 0.2, 1);
+		const Eigen::VectorXd b = Random(5).vector(40);
+		Eigen::VectorXd       expected, x;
+		ASSERT_EQ(solver.solve(sparse(m), b, expected), Status::cholesky);
+		for (const double unit : { 1e-200, 1., 1e200 }) {
+			ASSERT_EQ(solver.solve(sparse(unit * m), unit * b, x, LinearMethod::iterative, 1e-10), Status::iterative);
+			EXPECT_LT((x - expected).norm(), 1e-8 * expected.norm()) << unit;
+		}
+	}
+
+	TEST(LinearSolver, LeavesWhatIsNotDefiniteToTheDirectSolver)
+	{
+		LinearSolver solver;
+		double       residual = 0;
+		// negative on the diagonal; negative curvature behind a positive diagonal; nothing on the diagonal
+		EXPECT_EQ(iteratively(solver, sparse(-definite(50, 0.2, 1)), 1e-6, &residual), Status::lu);
+		EXPECT_LT(residual, 1e-12);
+		EXPECT_EQ(iteratively(solver, laplace(12, 3.3), 1e-6, &residual), Status::lu);
+		EXPECT_LT(residual, 1e-9);
+		EXPECT_EQ(iteratively(solver, sparse((Eigen::MatrixXd(2, 2) << 0, 1, 1, 0).finished()), 1e-6), Status::lu);
+		EXPECT_EQ(solver.iterativeEffort().fallbacks, 3);
+		auto K     = sparse(definite(20, 0.3, 1));
+		K.value[3] = std::numeric_limits<double>::quiet_NaN();
+		EXPECT_EQ(iteratively(solver, K, 1e-6), Status::singular);
+	}
+
+	TEST(LinearSolver, LeavesWhatIsTooIllConditionedToTheDirectSolver)
+	{
+		// a chain of 6000 springs held at one end: as many iterations as unknowns
+		SymmetricCsc chain;
+		chain.start = { 0 };
+		for (int i = 0; i < 6000; ++i) {
+			chain.row.push_back(i), chain.value.push_back(i < 5999 ? 2 : 1);
+			if (i < 5999) chain.row.push_back(i + 1), chain.value.push_back(-1);
+			chain.start.push_back(int(chain.row.size()));
+		}
+		LinearSolver solver;
+		double       residual = 0;
+		EXPECT_EQ(iteratively(solver, chain, 1e-8, &residual), Status::cholesky);
+		EXPECT_LT(residual, 1e-8);
+		EXPECT_EQ(solver.iterativeEffort().fallbacks, 1);
+	}
+
+	TEST(LinearSolver, ChoosesByTheSizeOfTheFactor)
+	{
+		LinearSolver solver;
+		EXPECT_FALSE(solver.prefersIterative(laplace(12, 6)));
+		EXPECT_TRUE(solver.prefersIterative(laplace(45, 6)));
+		EXPECT_EQ(solver.times().factorise, 0);
+		Eigen::VectorXd x;
+		const auto      small = laplace(12, 6);
+		EXPECT_EQ(solver.solve(small, Eigen::VectorXd::Ones(small.size()), x, LinearMethod::automatic, 1e-6), Status::cholesky);
+		EXPECT_EQ(solver.solve(small, Eigen::VectorXd::Ones(small.size()), x, LinearMethod::direct, 1e-6), Status::cholesky);
+		EXPECT_EQ(solver.iterativeEffort().iterations, 0);
 	}
 
 	TEST(LinearSolver, PrintsNothing)

@@ -124,6 +124,41 @@ namespace {
 		EXPECT_TRUE(block.cloud.position == start);
 	}
 
+	TYPED_TEST(Newton, ConjugateGradientsGiveTheSameState)
+	{
+		for (const Law& law : { Law(Hencky(1.5e5, 0.3)), Law(VonMises(2e6, 0.3, 1e4)) }) {
+			Block<TypeParam::value> direct(law), iterative(law);
+			direct.model.newton.linearSolver = LinearMethod::direct, iterative.model.newton.linearSolver = LinearMethod::iterative;
+			direct.model.newton.tolerance = iterative.model.newton.tolerance = 1e-10;
+			const auto expected = direct.step(), report = iterative.step();
+			ASSERT_TRUE(expected.converged() && report.converged()) << report.cause;
+			EXPECT_GT(report.conjugateGradients.iterations, report.iterations);
+			EXPECT_EQ(report.conjugateGradients.fallbacks, 0);
+			EXPECT_LE(report.iterations, expected.iterations + 1) << "inexact solves must hardly add any";
+			EXPECT_EQ(expected.conjugateGradients.iterations, 0);
+			for (std::size_t p = 0; p < direct.cloud.size(); ++p)
+				EXPECT_LT((direct.cloud.position[p] - iterative.cloud.position[p]).norm(), 1e-8) << p;
+		}
+	}
+
+	TYPED_TEST(Newton, ConjugateGradientsSolveTheColumn)
+	{
+		// 0: without stabilisation, ill-conditioned wherever a node is hardly touched
+		for (const double factor : { 1e-2, 0. }) {
+			Column<TypeParam::value> direct(16, { factor }), iterative(16, { factor });
+			direct.model.newton.linearSolver = LinearMethod::direct, iterative.model.newton.linearSolver = LinearMethod::iterative;
+			int expected = 0, solves = 0;
+			for (int i = 1; i <= 10; ++i) {
+				const auto a = direct.step(i, 10), b = iterative.step(i, 10);
+				ASSERT_TRUE(a.converged() && b.converged()) << i << ": " << a.cause << b.cause;
+				expected += a.iterations, solves += b.iterations;
+			}
+			EXPECT_LE(solves, 1.2 * expected) << factor;
+			for (std::size_t p = 0; p < direct.cloud.size(); ++p)
+				EXPECT_LT((direct.cloud.position[p] - iterative.cloud.position[p]).norm(), 1e-6 * direct.height) << p;
+		}
+	}
+
 	TYPED_TEST(Newton, ALoadBelowTheToleranceIsNotLost)
 	{
 		Block<TypeParam::value> block(Hencky(1.5e5, 0.3));

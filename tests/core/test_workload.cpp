@@ -27,6 +27,9 @@ namespace {
 		EXPECT_GE(w.factorEntries, w.matrixEntries) << "fill only adds";
 		EXPECT_LE(w.factorEntries, 0.5 * w.dofs * (w.dofs + 1.));
 		EXPECT_GT(w.factorFlops, w.factorEntries);
+		model.newton.linearSolver = LinearMethod::iterative;
+		EXPECT_EQ(workload(cloud, model).factorEntries, 0);
+		EXPECT_GT(workload(cloud, model).times.linear.solve, 0);
 		LinearSolver solver;
 		const auto   report = loadStep(cloud, model, Load<Dim>(), solver);
 		EXPECT_EQ(report.dofs, w.dofs);
