@@ -87,14 +87,14 @@ private:
 	{
 		const Eigen::VectorXd held = system_.prescribed;
 		if (prescribed_.size() > 0) evaluate(held, false);
-		const double fromZero = balance_.size, entering = std::max(balance_.size, balance_.reference);
+		const double fromZero = balance_.size;
 		for (int i = 0; i < prediction.size(); ++i)
 			if (system_.dofs.number[i] < 0) prediction[i] = held[i];
 		evaluate(prediction, true);
 		predicted_ = balance_.size < fromZero;
 		if (!predicted_) return evaluate(d_, true);
 		d_ = std::move(prediction);
-		if (prescribed_.size() > 0) entering_ = entering;
+		if (prescribed_.size() > 0) entering_ = std::max(balance_.size, balance_.reference);
 		prescribed_.resize(0);
 	}
 
@@ -277,7 +277,7 @@ private:
 	bool                   hasStiffness_ = false, predicted_ = false;
 	int                    iterations_   = 0;
 	double                 initial_      = 0; // |residual| or |external forces + reactions| at the start of the step [N]
-	double                 entering_     = 0; // the same after the solve in which prescribed displacements entered [N]
+	double                 entering_     = 0; // the same where prescribed displacements entered, after the first solve or with the prediction [N]
 	double                 roundOff_     = 0; // [N]
 };
 
