@@ -42,7 +42,7 @@ GIMPM_INLINE int invertedIn(const Batch& batch, const std::vector<int>& order, c
 {
 	if (everywhere(J > Lanes(0)) && everywhere(J <= Lanes(std::numeric_limits<double>::max()))) return INT_MAX;
 	int smallest = INT_MAX;
-	for (int lane = 0; lane < Lanes::count; ++lane)
+	for (int lane = 0; lane < batch.count; ++lane)
 		if (!(J[lane] > 0) || !std::isfinite(J[lane])) smallest = std::min(smallest, order[batch.point[lane]]);
 	return smallest;
 }

@@ -127,8 +127,10 @@ GIMPM_INLINE void prepare(const CloudBasis<Dim>& basis, const PatchVectors<Dim, 
 /// Points side by side. Lanes beyond the last point of a chunk repeat it.
 struct Batch {
 	int point[Lanes::count];
+	int count; ///< of points that are no repetition
 
 	GIMPM_INLINE Batch(int first, int last)
+	        : count(std::min(Lanes::count, last - first))
 	{
 		for (int lane = 0; lane < Lanes::count; ++lane)
 			point[lane] = std::min(first + lane, last - 1);

@@ -204,5 +204,19 @@ namespace {
 		EXPECT_EQ(inverted, first);
 	}
 
+	// Points are handled sixteen at a time, four side by side. The last one of seventeen is alone, beside what is left of those before.
+	TEST(Assembly, APointIsNotInvertedBesideInvertedOnes)
+	{
+		RandomScene<2> scene(0);
+		scene.model.grid = { 1, Vec<2>::Zero() };
+		addPoint<2>(scene.cloud, { 0.9, 0.5 }, { 0.2, 0.2 }); // reaches the next cell, and is sorted behind the others for that
+		for (int i = 0; i < 16; ++i)
+			addPoint<2>(scene.cloud, { 0.5, 0.5 }, { 0.2, 0.2 });
+		const auto      system = scene.system();
+		Eigen::VectorXd force;
+		const auto      d = nodal<2>(system.basis, scene.model.grid, [](const Vec<2>& x) { return x[0] == 1 ? Vec<2>(-1.5, 0) : Vec<2>(0, 0); });
+		EXPECT_EQ(system.evaluate(d, force, nullptr), 1);
+	}
+
 } // namespace
 } // namespace gimpm
