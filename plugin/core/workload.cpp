@@ -44,10 +44,15 @@ template <int Dim> Workload workload(const PointCloud<Dim>& cloud, const Model<D
 		system.evaluate(Eigen::VectorXd::Zero(system.nodalSize()), force, &K);
 		reduce(K, system.dofs, reduced);
 	}
-	Workload w { int(cloud.size()), report.nodes, report.dofs, report.populatedCells, report.ghostFaces };
-	w.blockEntries  = double(report.nodes) * NodeMatrix<Dim>::codes * NodeMatrix<Dim>::block;
-	w.matrixEntries = double(reduced.row.size());
-	w.times = report.times;
+	Workload w;
+	w.points         = int(cloud.size());
+	w.nodes          = report.nodes;
+	w.dofs           = report.dofs;
+	w.populatedCells = report.populatedCells;
+	w.ghostFaces     = report.ghostFaces;
+	w.blockEntries   = double(report.nodes) * NodeMatrix<Dim>::codes * NodeMatrix<Dim>::block;
+	w.matrixEntries  = double(reduced.row.size());
+	w.times          = report.times;
 	if (w.dofs > 0) addSolve(reduced, model.newton.linearSolver, w);
 	return w;
 }
