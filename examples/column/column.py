@@ -48,6 +48,7 @@ O.engines = [
                 label='solver',
         ),
         PyRunner(iterPeriod=1, initRun=True, command='solves.append(solver.iterations)'),
+        MpmVtkRecorder(fileName=os.path.join(options.out, 'column-'), iterPeriod=4),
 ]
 O.dt = 1 / steps
 solves = []
@@ -86,4 +87,4 @@ axes.plot(stress / 1e3, depth, '.', markersize=4, label='material points')
 axes.set(xlabel='vertical stress $\\sigma_{yy}$ [kPa]', ylabel='initial depth [m]', ylim=(l0, 0), title=f'Column, {options.cells} cells')
 axes.legend(frameon=False)
 figure.savefig(os.path.join(options.out, 'column.png'), dpi=150, bbox_inches='tight')
-print(f'written: {options.out}/column.png')
+print(f'written: {options.out}/column.png, and for ParaView {options.out}/column-points.pvd')

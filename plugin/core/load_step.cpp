@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "core/load_step.hpp"
+#include "core/beyond_walls.hpp"
 #include "core/newton.hpp"
 #include "core/point_update.hpp"
 #include "core/restraint.hpp"
@@ -63,18 +64,19 @@ template <int Dim> StepReport loadStep(PointCloud<Dim>& cloud, const Model<Dim>&
 		return report;
 	}
 	// 2. to 4. points to nodes, assembly and Newton's method on the nodes
-	const Eigen::VectorXd prediction = last ? predict(*last, system.basis.nodes, load.increment) : Eigen::VectorXd();
+	const Eigen::VectorXd prediction = last ? predict(*last, system.basis.nodes, load.growth()) : Eigen::VectorXd();
 	const Eigen::VectorXd d          = equilibrium(system, solver, report, prediction);
 	report.times.linear       = solver.times();
 	report.conjugateGradients = solver.iterativeEffort();
 	// 5. nodes to points; 6. the grid is reset by not being kept
 	report.accepted = report.failure == Failure::tooManyIterations && model.newton.acceptUnconverged;
 	if (report.converged() || report.accepted) {
+		addReactionsBeyondWalls(system, pointForces(cloud, model, load), d, report.reactions);
 		PointCloud<Dim> updated = cloud;
 		updatePoints(updated, system, d, report);
 		if (!requireOnGrid(updated, model.grid, report)) return report;
 		cloud = std::move(updated);
-		if (last) *last = { system.basis.nodes, d, load.increment };
+		if (last) *last = { system.basis.nodes, d, load.growth() };
 	}
 	return report;
 }

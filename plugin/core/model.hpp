@@ -7,6 +7,7 @@
 #include "core/linear_solver.hpp"
 #include "core/materials/law.hpp"
 #include <functional>
+#include <optional>
 
 namespace gimpm {
 
@@ -37,6 +38,11 @@ template <int Dim> struct Load {
 	Vec<Dim> gravity   = Vec<Dim>::Zero(); ///< at load factor 1 [m/s2]
 	double   factor    = 1;                ///< load factor at the end of the step
 	double   increment = 1;                ///< its growth in the step: the share of the prescribed displacements
+	std::optional<double> ofGravity {};    ///< the factor of gravity, if it has its own
+	double                growthOfGravity = 0; ///< in the step
+
+	/// What the displacements of the step are in proportion to, as far as that can be known.
+	double growth() const { return increment != 0 ? increment : growthOfGravity; }
 };
 
 } // namespace gimpm

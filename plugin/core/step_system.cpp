@@ -25,19 +25,18 @@ std::vector<GhostFace<Dim>> stabilise(const PointCloud<Dim>& cloud, const Model<
 	return faces;
 }
 
-template <int Dim> Eigen::VectorXd externalForce(const PointCloud<Dim>& cloud, const Model<Dim>& model, const CloudBasis<Dim>& basis, const Load<Dim>& load)
+} // namespace
+
+template <int Dim> std::vector<Vec<Dim>> pointForces(const PointCloud<Dim>& cloud, const Model<Dim>& model, const Load<Dim>& load)
 {
+	const double          ofGravity = load.ofGravity.value_or(load.factor);
 	std::vector<Vec<Dim>> force(cloud.size());
 	for (std::size_t p = 0; p < cloud.size(); ++p) {
-		force[p] = model.materials[cloud.material[p]].density * cloud.volume0[p] * load.factor * load.gravity;
+		force[p] = model.materials[cloud.material[p]].density * cloud.volume0[p] * ofGravity * load.gravity;
 		if (!cloud.force.empty()) force[p] += load.factor * cloud.force[p];
 	}
-	Eigen::VectorXd f = Eigen::VectorXd::Zero(Dim * basis.nodes.size());
-	addPointForces(basis, force, f);
-	return f;
+	return force;
 }
-
-} // namespace
 
 template <int Dim>
 StepSystem<Dim>::StepSystem(const PointCloud<Dim>& cloud, const Model<Dim>& m, const Load<Dim>& load, StepReport& report)
@@ -47,7 +46,8 @@ StepSystem<Dim>::StepSystem(const PointCloud<Dim>& cloud, const Model<Dim>& m, c
 		const Stopwatch watch(report.times.basis);
 		basis    = cloudBasis(cloud, model.grid, model.basis, model.boundary);
 		points   = stepPoints(cloud, basis);
-		external = externalForce(cloud, model, basis, load);
+		external = Eigen::VectorXd::Zero(nodalSize());
+		addPointForces(basis, pointForces(cloud, model, load), external);
 	}
 	faces      = stabilise(cloud, model, basis, report);
 	prescribed = Eigen::VectorXd::Zero(nodalSize());
@@ -83,6 +83,8 @@ template <int Dim> InvertedPoint StepSystem<Dim>::evaluate(const Eigen::VectorXd
 	return inverted;
 }
 
+template std::vector<Vec<2>> pointForces(const PointCloud<2>&, const Model<2>&, const Load<2>&);
+template std::vector<Vec<3>> pointForces(const PointCloud<3>&, const Model<3>&, const Load<3>&);
 template struct StepSystem<2>;
 template struct StepSystem<3>;
 

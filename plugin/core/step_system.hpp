@@ -9,6 +9,9 @@
 
 namespace gimpm {
 
+/// Weight and point load of each point at the end of the step [N].
+template <int Dim> std::vector<Vec<Dim>> pointForces(const PointCloud<Dim>&, const Model<Dim>&, const Load<Dim>&);
+
 template <int Dim> struct StepSystem {
 	/// Step 1 and the ghost faces; reports sizes and times.
 	StepSystem(const PointCloud<Dim>&, const Model<Dim>&, const Load<Dim>&, StepReport&);

@@ -97,6 +97,17 @@ namespace {
 		return numbers;
 	}
 
+	Real valueAt(const vector<std::pair<Real, Real>>& curve, Real time)
+	{
+		if (time <= curve.front().first) return curve.front().second;
+		for (size_t i = 1; i < curve.size(); ++i) {
+			const auto [t0, f0] = curve[i - 1];
+			const auto [t1, f1] = curve[i];
+			if (time <= t1) return f0 + (f1 - f0) * (time - t0) / (t1 - t0);
+		}
+		return curve.back().second;
+	}
+
 	template <class T> py::object numpyArray(const vector<T>& values, const char* type)
 	{
 		const char* bytes = reinterpret_cast<const char*>(values.data());
@@ -213,15 +224,21 @@ string MpmImplicitEngine::noPoints() const
 	return "MpmImplicitEngine: the scene has no material points whose groupMask goes with mask = " + std::to_string(mask) + ".";
 }
 
-Real MpmImplicitEngine::loadFactorAt(Real time) const
+Real MpmImplicitEngine::loadFactorAt(Real time) const { return valueAt(loadCurve, time); }
+Real MpmImplicitEngine::gravityFactorAt(Real time) const { return valueAt(gravityCurve.empty() ? loadCurve : gravityCurve, time); }
+Real MpmImplicitEngine::loadsEnd() const
 {
-	if (time <= loadCurve.front().first) return loadCurve.front().second;
-	for (size_t i = 1; i < loadCurve.size(); ++i) {
-		const auto [t0, f0] = loadCurve[i - 1];
-		const auto [t1, f1] = loadCurve[i];
-		if (time <= t1) return f0 + (f1 - f0) * (time - t0) / (t1 - t0);
-	}
-	return loadCurve.back().second;
+	const Real loads = loadCurve.back().first;
+	return gravityCurve.empty() ? loads : std::max(loads, gravityCurve.back().first);
+}
+
+template <int Dim> gimpm::Load<Dim> MpmImplicitEngine::loadAt(Real time) const
+{
+	gimpm::Load<Dim> load { gravity.head<Dim>(), loadFactorAt(time), loadFactorAt(time) - loadFactorAt(loadTime) };
+	if (gravityCurve.empty()) return load;
+	load.ofGravity       = gravityFactorAt(time);
+	load.growthOfGravity = gravityFactorAt(time) - gravityFactorAt(loadTime);
+	return load;
 }
 
 template <int Dim> void MpmImplicitEngine::step()
@@ -270,7 +287,7 @@ void MpmImplicitEngine::advance(gimpm::PointCloud<Dim>& cloud, gimpm::Model<Dim>
 			const ValueLock lock;
 			part = std::min(stepPart, 1 - done);
 			time = done + part == 1 ? target : begin + (done + part) * (target - begin);
-			load = { gravity.head<Dim>(), loadFactorAt(time), loadFactorAt(time) - loadFactorAt(loadTime) };
+			load = loadAt<Dim>(time);
 			model.newton.acceptUnconverged = newton->acceptUnconverged && part / 2 < newton->minStep;
 		}
 		auto                    last   = newton->predictor ? lastIncrement<Dim>(lastDisplacements, lastLoadIncrement) : gimpm::LastIncrement<Dim>();
@@ -395,10 +412,11 @@ py::dict MpmImplicitEngine::report() const
 
 void MpmImplicitEngine::warnOfEnd()
 {
-	if (warnedOfEnd || loadCurve.size() < 2 || loadTime < loadCurve.back().first - 1e-9 * scene->dt) return;
+	if (warnedOfEnd || std::max(loadCurve.size(), gravityCurve.size()) < 2 || loadTime < loadsEnd() - 1e-9 * scene->dt) return;
 	warnedOfEnd = true;
 	std::ostringstream text;
-	text << "loadCurve has ended at time " << loadCurve.back().first << ": the load factor stays at " << loadCurve.back().second
+	text << (gravityCurve.size() < 2 ? "loadCurve has" : "loadCurve and gravityCurve have") << " ended at time " << loadsEnd() << ": the load factor stays at "
+	     << loadCurve.back().second
 	     << ", and further steps change nothing unless something else does.";
 	progressLine.breakLine();
 	log(Severity::warning, staticName(), text.str());
@@ -416,6 +434,7 @@ string MpmImplicitEngine::reasonOf(const gimpm::StepReport& report, Real time, R
 {
 	std::ostringstream text;
 	text << "MpmImplicitEngine: the load step from factor " << loadFactor << " to " << loadFactorAt(time);
+	if (!gravityCurve.empty()) text << ", of gravity from " << gravityFactorAt(loadTime) << " to " << gravityFactorAt(time) << ",";
 	if (part < 1) text << " (" << part << " of O.dt, after " << cuts << " cuts)";
 	text << " failed: " << report.cause;
 	if (report.invertedPoint >= 0) text << placeOf(points[report.invertedPoint]);

@@ -21,6 +21,7 @@ public:
 	string                          basis   = "gimp";
 	Vector3r                        gravity = Vector3r::Zero();
 	vector<std::pair<Real, Real>>   loadCurve { { 0, 0 }, { 1, 1 } };
+	vector<std::pair<Real, Real>>   gravityCurve; // empty: loadCurve
 	vector<shared_ptr<MpmBoundary>> boundaries;
 	shared_ptr<MpmGhost>            ghost { new MpmGhost };
 	shared_ptr<MpmNewton>           newton { new MpmNewton };
@@ -71,9 +72,16 @@ public:
 		v("loadCurve",
 		  &MpmImplicitEngine::loadCurve,
 		  0,
-		  "Load factor [-] as a sequence of (time [s], factor), times increasing; linear between, constant before and after. Gravity, point loads and "
-		  "prescribed displacements are multiplied by it. Default: from 0 to 1 during the first second.",
+		  "Load factor [-] as a sequence of (time [s], factor), times increasing; linear between, constant before and after. Gravity (unless *gravityCurve* "
+		  "says otherwise), point loads and prescribed displacements are multiplied by it. Default: from 0 to 1 during the first second.",
 		  admitting("one or more (time, factor), all finite, with increasing times", isLoadCurve));
+		v("gravityCurve",
+		  &MpmImplicitEngine::gravityCurve,
+		  0,
+		  "Factor [-] of gravity, where it shall not go with the other loads: as *loadCurve*, which it goes with if this is empty (the default). "
+		  "[(0, 1)]: gravity acts from the beginning, as after mpm.geostatic, while *loadCurve* makes point loads and prescribed displacements grow. "
+		  "[(0, 0), (1, 1)] with loadCurve=[(1, 0), (2, 1)]: first the weight, then the loads.",
+		  admitting("nothing, or (time, factor), all finite, with increasing times", [](const auto& curve) { return curve.empty() || isLoadCurve(curve); }));
 		v("boundaries", &MpmImplicitEngine::boundaries, 0, "Essential boundary conditions (MpmBoundary); read as a tuple, so assign a new one to change it.");
 		v("ghost", &MpmImplicitEngine::ghost, 0, "Ghost stabilisation (MpmGhost).", notNull);
 		v("newton", &MpmImplicitEngine::newton, 0, "Solution of a load step (MpmNewton).", notNull);
@@ -116,13 +124,14 @@ public:
 		  &MpmImplicitEngine::reactions,
 		  readonly,
 		  "For each of *boundaries*, the sum of the forces [N] along x, y, z with which it held its nodes at the end of the last converged step; per metre "
-		  "of thickness in plane strain. A node in several boxes counts for the last one. Their sum balances the loads, but for the parts of domains "
-		  "that walls cut off (*wallOverlap*). Empty before the first step.");
+		  "of thickness in plane strain. A node in several boxes counts for the last one. Their sum balances weight and point loads to *residual*. A domain "
+		  "that has outgrown a wall (*wallOverlap*) is held behind it in all directions, so a smooth wall then shows some force along its face: it is the "
+		  "error of that. Empty before the first step.");
 		v("clampedDomains", &MpmImplicitEngine::clampedDomains, readonly, "Points whose domain was kept at half a cell at the end of the last step.");
 		v("wallOverlap",
 		  &MpmImplicitEngine::wallOverlap,
 		  readonly,
-		  "Largest length [m] by which a domain reached behind a wall in the last step; that part was left out.");
+		  "Largest length [m] by which a domain reached behind a wall in the last step; nodes there count as held.");
 	}
 	template <class C> static void python(C& c)
 	{
@@ -144,8 +153,8 @@ public:
 		      "'worstAxis' ('x', 'y', 'z' or '') and 'worstForce' [N] of the largest out-of-balance force; 'points', 'nodes', 'dofs', 'activeCells', "
 		      "'boundaryCells', 'ghostFaces'.\n\n"
 		      "What deserves a look there, with the rule for it: 'clampedDomains', points whose domain would outgrow half a cell: it is kept at half a cell, "
-		      "the rest of the point's volume acts within it. 'wallOverlap' [m], the largest length by which a domain reached behind a wall: nothing lies "
-		      "behind a wall, and the part in front of it stands for the whole. 'mixedCells', cells populated by points of different materials: each point "
+		      "the rest of the point's volume acts within it. 'wallOverlap' [m], the largest length by which a domain reached behind a wall: no cell is "
+		      "populated there, and the point's share in nodes behind the wall counts as held. 'mixedCells', cells populated by points of different materials: each point "
 		      "keeps its own law, so the cell's stiffness is the sum, and the interface is resolved to one cell. 'islands', parts of the body that share "
 		      "no grid node, 1 for a body in one piece (0 if the step was refused before they were counted): the body may break up as long as every part is held against rigid motion; a part that is not "
 		      "ends the run as 'unrestrained', with its place, since no equilibrium determines where it goes.");
@@ -171,7 +180,7 @@ public:
 		      "where there is no such number.\n\n"
 		      "step: load steps made; loadFactor [-], iterations, cuts, residual [-]: of the last step; points: their number; settlement: largest displacement "
 		      "along gravity [m]; displacement: the largest in any direction [m]; plasticShare: part of the initial volume with plasticStrain > 0 [-]; "
-		      "elasticEnergy: strain energy of linear (Hencky) elasticity [J]; gravityPotential: minus load factor times weight times displacement, summed "
+		      "elasticEnergy: strain energy of linear (Hencky) elasticity [J]; gravityPotential: minus weight (times its load factor) times displacement, summed "
 		      "over the points [J], zero at the initial positions; reaction_x, reaction_y and, in 3D, reaction_z: sum of the attribute *reactions* [N]; "
 		      "reaction0_y: that of boundaries[0], for all directions that a boundary fixes. Energies and forces are per metre of thickness in plane "
 		      "strain.\n\nRaises ValueError for a body that is no complete material point.");
@@ -192,6 +201,9 @@ public:
 
 	static bool isLoadCurve(const vector<std::pair<Real, Real>>&);
 
+	// When the last of the loads has come to rest, at the last knee of the curves.
+	Real loadsEnd() const;
+
 private:
 	// Counters of PeriodicEngine, which move on before action() is called: after a failed step the same iteration must run again.
 	struct Counters {
@@ -203,6 +215,8 @@ private:
 	void                       requireRunnable() const;
 	void                       requireOnlyClaim() const;
 	Real                       loadFactorAt(Real time) const;
+	Real                       gravityFactorAt(Real time) const;
+	template <int Dim> gimpm::Load<Dim> loadAt(Real time) const; // at the end of a step from loadTime
 	template <int Dim> void    step();
 	string                     noPoints() const;
 	template <int Dim> void    reach(const gimpm::PointCloud<Dim>&, const vector<MaterialPoint>&, Real time, Real factor);

@@ -26,14 +26,14 @@ namespace {
 	{
 		constexpr Real mostSteps = 1e6;
 		const auto&    curve     = engine.loadCurve;
-		const Real     dt = engine.scene->dt, left = curve.back().first - engine.scene->time, length = curve.back().first - curve.front().first;
+		const Real     dt = engine.scene->dt, left = engine.loadsEnd() - engine.scene->time, length = engine.loadsEnd() - curve.front().first;
 		if (engine.iterPeriod != 1 || left <= 0) return;
 		if (left / dt > mostSteps)
 			refuse("MpmImplicitEngine: with O.dt = ", dt, " the load curve would take ", left / dt,
 			       " steps; was O.dt forgotten? It is the load time of one step: 1/80 gives 80 steps with the default loadCurve.");
 		if (curve.size() > 1 && dt > length * (1 + 1e-9))
 			refuse("MpmImplicitEngine: O.dt = ", dt, ", the load time of one step, is more than the whole loadCurve, from ", curve.front().first, " to ",
-			       curve.back().first, ": 1/80 of that gives 80 steps.");
+			       engine.loadsEnd(), ": 1/80 of that gives 80 steps.");
 	}
 
 	// As long as they have not been deformed, points must not claim the same place.

@@ -55,7 +55,7 @@ py::dict MpmImplicitEngine::plotData()
 	data["displacement"]     = points.empty() ? unknown : t.largestDisplacement;
 	data["plasticShare"]     = points.empty() ? unknown : t.plasticVolume0 / t.volume0;
 	data["elasticEnergy"]    = t.elasticEnergy;
-	data["gravityPotential"] = -loadFactor * gravity.dot(t.massTimesDisplacement);
+	data["gravityPotential"] = -gravityFactorAt(loadTime) * gravity.dot(t.massTimesDisplacement);
 	for (int axis = 0; axis < grid->dim; ++axis)
 		data[reactionName("", axis)] = isKnown && !reactions.empty() ? total[axis] : unknown;
 	for (size_t b = 0; b < boundaries.size(); ++b)
@@ -72,13 +72,13 @@ void MpmImplicitEngine::showProgress(size_t points, bool stepIsDone)
 	progressLine.show({ loadFactor, step, last, iterations, cuts, residual, points, isRunning, stepIsDone && runEnds }, verbosity);
 }
 
-// Of the run: where it is to stop, or where the load curve ends; 0 if both are behind.
+// Of the run: where it is to stop, or where the load curves end; 0 if both are behind.
 long MpmImplicitEngine::lastIteration() const
 {
 	const auto iterationAt = [&](Real time) { return scene->iter + long(std::ceil((time - scene->time) / scene->dt - 1e-6)); };
 	if (scene->stopAtIter > scene->iter) return scene->stopAtIter;
 	if (scene->stopAtTime > scene->time) return iterationAt(scene->stopAtTime);
-	return loadCurve.back().first > scene->time ? iterationAt(loadCurve.back().first) : 0;
+	return loadsEnd() > scene->time ? iterationAt(loadsEnd()) : 0;
 }
 
 } // namespace yade

@@ -147,6 +147,44 @@ namespace {
 		EXPECT_EQ(cloudBasis<2>(cloud, plane, Basis::gimp, Boundary<2>()).largestWallOverlap, 0);
 	}
 
+	template <class Dimension> class WallReactions : public ::testing::Test {
+	};
+	TYPED_TEST_SUITE(WallReactions, BothDimensions, DimensionName);
+
+	TYPED_TEST(WallReactions, BalanceTheLoadsThoughDomainsReachBehind)
+	{
+		// soft soil on a rough base, along smooth walls, that a weight which acts obliquely shears away from one of them; and a point load
+		constexpr int Dim = TypeParam::value;
+		Model<Dim>    model;
+		auto          cloud = block<Dim>(model.grid, Index<Dim>::Constant(2), 2);
+		Vec<Dim>      base  = Vec<Dim>::Constant(infinity);
+		base[1]             = 0;
+		std::vector<HeldBox<Dim>> boxes { wallBelow<Dim>(model.grid, 0, 0), held<Dim>(model.grid, Vec<Dim>::Constant(-infinity), base, Dim == 2 ? "xy" : "xyz") };
+		if (Dim == 3) boxes.push_back(wallBelow<Dim>(model.grid, 2, 0));
+		model.boundary         = Boundary<Dim>(boxes);
+		model.materials        = { { Hencky(1e3, 0.3), 10 } };
+		model.newton.tolerance = 1e-10;
+		cloud.force.assign(cloud.size(), Vec<Dim>::Zero());
+		cloud.force.back()[1] = -20;
+		LinearSolver solver;
+		Load<Dim>    load;
+		load.gravity = 14 * Vec<Dim>::Unit(0) - 16 * Vec<Dim>::Unit(1);
+		StepReport report;
+		for (int i = 1; i <= 4; ++i) {
+			load.factor = i / 4.;
+			report      = loadStep(cloud, model, load, solver);
+			ASSERT_TRUE(report.converged()) << report.cause;
+			Vec<Dim> sum = load.factor * cloud.force.back();
+			for (std::size_t p = 0; p < cloud.size(); ++p)
+				sum += 10 * cloud.volume0[p] * load.factor * load.gravity;
+			const double size = sum.norm();
+			for (const Vec3& reaction : report.reactions)
+				sum += reaction.template head<Dim>();
+			EXPECT_LT(sum.norm(), 1e-9 * size);
+		}
+		EXPECT_GT(report.largestWallOverlap, 1e-3);
+	}
+
 	TEST(Wall, PointsAtItAndPointsAwayFromItShareTheNodesOnIt)
 	{
 		// the first point's window reaches behind the wall, the second one's does not

@@ -53,7 +53,7 @@ refused = [
         ('mpm.geostatic(K0=50)', 'ValueError', ['K0 = 50', 'yields']),
         ('mpm.geostatic(K0=0.5, surface=2)', 'ValueError', ['surface = 2', '3.0 m']),
         ('mpm.geostatic(K0=0.5, surface="top")', 'TypeError', ["surface = 'top'"]),
-        ('solver.loadCurve = [(0, 0), (1, 1)]; mpm.geostatic(K0=0.5)', 'ValueError', ['load factor', 'loadCurve = [(0, 1)]']),
+        ('solver.loadCurve = [(0, 0), (1, 1)]; mpm.geostatic(K0=0.5)', 'ValueError', ['factor of gravity is not 1', 'loadCurve = ((0', 'gravityCurve = [(0, 1)]']),
         ('solver.gravity = (1, -10, 0); mpm.geostatic(K0=0.5)', 'ValueError', ['gravity', 'along one of the axes']),
         ('ground(layers=lambda y: "firm").grid; O.bodies.erase(0); mpm.geostatic(K0=0.5)', 'ValueError', ['not level']),
         ('O.bodies[7].mat = O.materials["soft"]; mpm.geostatic(K0=0.5)', 'ValueError', ['differ in density', 'horizontal layers']),

@@ -44,6 +44,7 @@ outOfRange = {
         'MpmImplicitEngine.basis': ['"cubic"'],
         'MpmImplicitEngine.gravity': None,
         'MpmImplicitEngine.loadCurve': ['[(0, 0), (0, 1)]', '[(1, 0), (0, 1)]'],
+        'MpmImplicitEngine.gravityCurve': ['[(0, 0), (0, 1)]', '[(1, 0), (0, 1)]'],
         'MpmImplicitEngine.boundaries': None,
         'MpmImplicitEngine.ghost': ['None'],
         'MpmImplicitEngine.newton': ['None'],
@@ -77,6 +78,7 @@ categories = ['wrong type', 'NaN', 'infinite', 'empty', 'huge', 'out of range']
 admitted = {
         **{(f'MpmBoundary.{side}', text): 'no limit on that side' for side in ('min', 'max') for text in ('(inf, 0, 0)', '(0, -inf, 0)')},
         ('MpmImplicitEngine.boundaries', '()'): 'nothing is held',
+        ('MpmImplicitEngine.gravityCurve', '()'): 'loadCurve',
         ('MpmVtkRecorder.solver', '""'): 'the only one',
         ('MpmVtkRecorder.fields', '()'): 'the domains alone',
 }

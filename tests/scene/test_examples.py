@@ -1,11 +1,41 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""The examples run, in a short form where they are long, and leave something to look at."""
+"""The examples run, in a short form where they are long, and leave something to look at; each by itself or in yade-batch, most in both."""
 import os
 import re
 import shutil
 import subprocess
+import time
+import urllib.request
 
+import pytest
 from conftest import root
+
+
+@pytest.fixture
+def batch(yade):
+	"""batch(example, table): starts yade-batch with the lines of a table, words to be separated by blanks, and returns the process."""
+
+	def start(example, table):
+		(yade.folder / 'short.table').write_text(table)
+		script = root / 'examples' / example / f'{example}.py'
+		command = ['/usr/bin/yade-batch', '--executable', shutil.which(yade.command), '--jobs', '1', '--log', str(yade.folder / '@.log'), 'short.table', str(script)]
+		return subprocess.Popen(command, cwd=yade.folder, env=os.environ | yade.ownSettings(), stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+
+	return start
+
+
+@pytest.fixture
+def short(yade, batch):
+	"""short(example, name=value, ...): runs it in yade-batch with these options; returns the folder of its results and what it said."""
+
+	def run(example, **options):
+		process = batch(example, f"description {' '.join(options)}\nshort {' '.join(map(str, options.values()))}\n")
+		said = process.communicate(timeout=120)[0]
+		log = (yade.folder / 'short.log').read_text()
+		assert process.returncode == 0, said + log
+		return yade.folder / f'out/{example}-short', log
+
+	return run
 
 
 def test_slope(yade):
@@ -31,52 +61,69 @@ def test_column_of_cubes(yade):
 	assert 'stress error (eq. 7): 1.12729015e-02' in run.stdout
 
 
-def numbers(pattern, run):
-	return list(map(float, re.search(pattern, run.stdout).groups()))
+def numbers(pattern, text):
+	return list(map(float, re.search(pattern, text).groups()))
 
 
-def test_cantilever(yade):
-	run = yade(root / 'examples' / 'cantilever' / 'cantilever.py', '--cells', 2)
-	down, elastica = numbers(r'= 10: tip down (\S+) L, elastica (\S+) L', run)
+def test_cantilever(short):
+	out, said = short('cantilever', cells=2)
+	down, elastica = numbers(r'= 10: tip down (\S+) L, elastica (\S+) L', said)
 	assert abs(down / elastica - 1) < 0.005 and elastica == 0.81061
-	assert (run.folder / 'out/cantilever/cantilever.png').stat().st_size > 20000
+	assert (out / 'cantilever.png').stat().st_size > 20000
 
 
-def test_collapse(yade):
+def test_collapse(short):
 	"""A coarse grid is too strong, by the figure that its page gives."""
-	run = yade(root / 'examples' / 'collapse' / 'collapse.py', '--cellSize', 0.5, '--stepSize', 0.1, '--end', 5)
-	failed, limit = numbers(r'fails at N = (\S+), limit analysis: \S+ to (\S+)', run)
+	out, said = short('collapse', cellSize=0.5, stepSize=0.1, end=5)
+	failed, limit = numbers(r'fails at N = (\S+), limit analysis: \S+ to (\S+)', said)
 	assert abs(failed - 4.345) < 0.01 and limit == 3.7776
-	assert (run.folder / 'out/collapse/collapse.png').stat().st_size > 20000
+	assert (out / 'collapse.png').stat().st_size > 20000
 
 
-def test_footing3d(yade):
-	run = yade(root / 'examples' / 'footing3d' / 'footing3d.py', '--cells', 2, '--steps', 8)
-	ratio, published = numbers(r'square over strip (\S+), published (\S+)', run)
+def test_footing3d(short):
+	out, said = short('footing3d', cells=2, steps=8)
+	ratio, published = numbers(r'square over strip (\S+), published (\S+)', said)
 	assert abs(ratio / published - 1) < 0.03
-	assert (run.folder / 'out/footing3d/footing3d.png').stat().st_size > 20000
+	assert (out / 'footing3d.png').stat().st_size > 20000
 
 
-def test_mpm_vs_dem(yade):
+def test_mpm_vs_dem(short):
 	"""So few grains say little of a continuum, but all parts run, and both carry the weight above before the cut fails."""
-	run = yade(root / 'examples' / 'mpm_vs_dem' / 'mpm_vs_dem.py', '--grains', 8, '--sample', 10, '--cells', 8, '--duration', 4)
-	E, nu = numbers(r'E = (\S+) MPa, nu = (\S+),', run)
+	out, said = short('mpm_vs_dem', grains=8, sample=10, cells=8, duration=4)
+	E, nu = numbers(r'E = (\S+) MPa, nu = (\S+),', said)
 	assert 3 < E < 8 and 0.15 < nu < 0.35
 	for name in 'DEM', 'MPM':
-		pressure, weight = numbers(name + r': mean vertical pressure over 0 < x < H: (\S+) kPa at N = 3 \(weight: (\S+)\)', run)
+		pressure, weight = numbers(name + r': mean vertical pressure over 0 < x < H: (\S+) kPa at N = 3 \(weight: (\S+)\)', said)
 		assert abs(pressure / weight - 1) < 0.15
-	assert (run.folder / 'out/mpm_vs_dem/mpm_vs_dem.png').stat().st_size > 50000
-	parts = re.findall(r'timestep="(\S+)" part="(\d)" file="(\S+)"', (run.folder / 'out/mpm_vs_dem/both.pvd').read_text())
-	assert all((run.folder / 'out/mpm_vs_dem' / file).exists() for _, _, file in parts)
+	assert (out / 'mpm_vs_dem.png').stat().st_size > 50000
+	parts = re.findall(r'timestep="(\S+)" part="(\d)" file="(\S+)"', (out / 'both.pvd').read_text())
+	assert all((out / file).exists() for _, _, file in parts)
 	assert len({time for time, part, _ in parts if part == '0'} & {time for time, part, _ in parts if part == '1'}) == 21
 
 
-def test_batch_of_an_example(yade):
-	"""Lines of a table become runs with their own options and folders; the rest of the options keep their defaults."""
-	(yade.folder / 'cells.table').write_text('description cells ghostFactor\ncoarse 8 0.01\nplain 16 0\n')
-	command = ['/usr/bin/yade-batch', '--executable', shutil.which(yade.command), '--jobs', '1', '--log', str(yade.folder / '@.log'), 'cells.table', str(root / 'examples/column/column.py')]
-	subprocess.run(command, cwd=yade.folder, env=os.environ | yade.ownSettings(), timeout=120, check=True, stdin=subprocess.DEVNULL, capture_output=True)
+def test_lines_of_a_batch(yade, batch):
+	"""They become runs with their own options and folders; the rest of the options keep their defaults."""
+	process = batch('column', 'description cells ghostFactor\ncoarse 8 0.01\nplain 16 0\n')
+	said = process.communicate(timeout=120)[0]
+	assert process.returncode == 0, said
 	for name, error in ('coarse', '1.12729015e-02'), ('plain', '3.65890602e-03'):
 		log = (yade.folder / f'{name}.log').read_text()
 		assert f'stress error (eq. 7): {error}' in log, log
 		assert (yade.folder / f'out/column-{name}/column.png').exists()
+
+
+def test_progress_page_of_a_batch(batch):
+	"""One iteration is one load step, so the page of yade-batch knows how far a job is, and when it will end."""
+	process = batch('slope', 'description cellSize pointsPerCell\nshort 0.5 3\n')
+	address = next(match[1] for line in process.stdout if (match := re.match(r'(http://localhost:\d+) shows', line)))
+	shown = []
+	while process.poll() is None:
+		try:
+			shown += re.findall(r'<nobr>(\S+)% done</nobr><br/><nobr>step (\d+)/(\d+)', urllib.request.urlopen(address, timeout=10).read().decode())
+		except OSError:
+			pass  # it has ended meanwhile
+		time.sleep(0.1)
+	process.communicate()
+	between = [(float(percent), int(step)) for percent, step, last in shown if last == '80' and 0 < int(step) < 80]
+	assert between and all(abs(percent - step / 0.8) < 0.01 for percent, step in between), shown
+	assert process.returncode == 0

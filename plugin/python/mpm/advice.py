@@ -63,7 +63,7 @@ class _Scene:
 		self.pointsPerCell = (self.points / self.work['activeCells'])**(1 / self.dim)
 		self.materials = [omega.materials[int(i)] for i in np.unique(data['material']) if i >= 0]
 		self.plastic = any(isinstance(material, wrapper.MpmVonMisesMat) for material in self.materials)
-		last = solver.loadCurve[-1][0]
+		last = max(curve[-1][0] for curve in (solver.loadCurve, solver.gravityCurve) if curve)
 		self.steps = max(0, math.ceil((last - omega.time) / omega.dt - 1e-6)) if omega.dt > 0 else 0
 		self.recorders = [engine for engine in omega.engines if isinstance(engine, wrapper.MpmVtkRecorder)]
 

@@ -14,12 +14,13 @@ def geostatic(K0, surface=None, solver=None):
 
 	The vertical stress is the weight of the soil above, of whatever density its horizontal layers have; the horizontal one is *K0*
 	times that, in all directions. The first step then finds nothing to move, if the sides are held in their normal direction and gravity
-	acts in full from the beginning::
+	acts in full from the beginning. Point loads and prescribed displacements may grow meanwhile, with ``loadCurve``::
 
-		solver.loadCurve = [(0, 1)]
+		solver.gravityCurve = [(0, 1)]
 		mpm.geostatic(K0=0.5)
 
-	To be called when ``O.engines`` and ``O.bodies`` are complete, before the first step.
+	To be called when ``O.engines`` and ``O.bodies`` are complete, before the first step. Other shapes than level ground have no such stress: let
+	gravity grow first, and then the loads, by ``gravityCurve=[(0, 0), (1, 1)]`` and ``loadCurve=[(1, 0), (2, 1)]``.
 
 	:param K0: ratio of horizontal to vertical stress, a number >= 0, or a dict of one for each material label
 	:param surface: height of the ground's surface [m]: the coordinate against gravity's direction; by default the top of the highest
@@ -70,12 +71,13 @@ def _upwards(solver):
 
 
 def _requireFullGravity(solver):
-	curve = np.array(solver.loadCurve)
+	name = 'gravityCurve' if solver.gravityCurve else 'loadCurve'
+	curve = np.array(getattr(solver, name))
 	now = wrapper.Omega().time
 	if np.interp(now, *curve.T) != 1 or (curve[curve[:, 0] > now, 1] != 1).any():
 		raise ValueError(
-		        f'geostatic: the load factor is not 1 from now on (O.time = {now}, loadCurve = {solver.loadCurve}), so gravity would not balance the stress; '
-		        'set loadCurve = [(0, 1)] of the MpmImplicitEngine'
+		        f'geostatic: the factor of gravity is not 1 from now on (O.time = {now}, {name} = {getattr(solver, name)}), so gravity would not balance the '
+		        'stress; set gravityCurve = [(0, 1)] of the MpmImplicitEngine'
 		)
 
 
@@ -114,7 +116,8 @@ def _weightAbove(points, axis, height, half, density, cover):
 	if unequal.size:
 		raise ValueError(
 		        f'geostatic: the ground is not level: the points at the height {level[0]} m cover {area[0]} m2, those at '
-		        f'{level[unequal[0]]} m cover {area[unequal[0]]} m2 (in plane strain per metre of thickness)'
+		        f'{level[unequal[0]]} m cover {area[unequal[0]]} m2 (in plane strain per metre of thickness). Let gravity grow first, and then the loads: '
+		        'gravityCurve = [(0, 0), (1, 1)], loadCurve = [(1, 0), (2, 1)]'
 		)
 	gaps = np.flatnonzero(np.abs(level[:-1] - level[1:] - (thickness[:-1] + thickness[1:]) / 2) > 1e-6 * step)
 	if gaps.size: raise ValueError(f'geostatic: the ground has a gap or an overlap between the heights {level[gaps[0] + 1]} and {level[gaps[0]]} m')
