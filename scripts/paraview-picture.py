@@ -3,14 +3,16 @@
 
 Makes a picture with ParaView of what MpmVtkRecorder has written with fileName=<prefix>, such as out/slope-: the domains of the material
 points, coloured by one of their fields, and, if there are files of them, the background grid with its boundary cells and the ghost
-faces. With --state the same can be opened in ParaView, to go on from there.
+faces; with --spheres DEM grains in front of them. With --state the same can be opened in ParaView, to go on from there.
 
 pvbatch is in Debian's package paraview, and its Python modules in python3-paraview; without a screen: xvfb-run -a pvbatch ... Debian 12 does
 not have python3-paraview beside libvtk9-dev: installing it removes that. The plugin stays, and scripts/setup does without.
 """
 import argparse
 import glob
+import math
 import os
+import re
 import sys
 
 import paraview.simple
@@ -19,7 +21,7 @@ from paraview.simple import *
 kilopascals = 'stress', 'meanStress', 'sqrt2J2'
 units = {field: 'kPa' for field in kilopascals} | {'displacement': 'm', 'plasticStrain': '-', 'volume': 'm3', 'material': '-', 'id': '-'}
 components = {'displacement': ['x', 'y', 'z'], 'stress': [a + b for a in 'xyz' for b in 'xyz']}
-grey, orange, tint, black = [0.53, 0.56, 0.59], [0.85, 0.28, 0.06], [1, 0.91, 0.8], [0, 0, 0]
+grey, orange, tint, black, grain = [0.53, 0.56, 0.59], [0.85, 0.28, 0.06], [1, 0.91, 0.8], [0, 0, 0], [0.85, 0.75, 0.6]
 
 
 def arguments():
@@ -29,11 +31,13 @@ def arguments():
 	parser.add_argument('--field', default='stress_xy', help='of the points, with its component: stress_xy, displacement (its length), displacement_y, plasticStrain, ... (default %(default)s)')
 	parser.add_argument('--range', type=float, nargs=2, metavar=('LOW', 'HIGH'), help='of the colours, in the unit of the colour bar (default: that of the values)')
 	parser.add_argument('--time', type=float, help='load time of the state (default: the last)')
+	parser.add_argument('--spheres', metavar='FILE', help='series of the files that YADE\'s VTKRecorder has written with recorders=["spheres"] (.pvd)')
 	parser.add_argument('--up', choices='xyz', default='y', help='axis that points upwards in a three-dimensional picture (default %(default)s)')
+	parser.add_argument('--turn', type=float, default=0, metavar='DEGREES', help='turn a three-dimensional body about that axis: 180 shows its other side')
 	parser.add_argument('--width', type=int, default=1600, help='of the picture [pixels] (default %(default)s)')
 	parser.add_argument('--out', help='picture (default: <prefix>paraview.png)')
 	parser.add_argument('--state', help='also write a state of ParaView to this file (.pvsm)')
-	return parser.parse_args()
+	return parser.parse_args([re.sub(r'^--(?=[.\d])', '-', word) for word in sys.argv[1:]])  # pvbatch writes -12 as --12
 
 
 def opened(prefix, kind):
@@ -96,8 +100,19 @@ def showGrid(prefix, view, lift):
 	if faces: lines(faces, view, orange, 3, 2 * lift)
 
 
-def lookAt(view, bounds, up, width):
-	"""The plane x-y from in front, or a body in space from a corner; returns the size of the picture."""
+def showSpheres(file, view, lift):
+	"""As translucent discs or spheres, so that what is behind them can be compared with them."""
+	grains = PVDReader(registrationName='spheres', FileName=os.path.abspath(file))
+	drawn = Glyph(registrationName='grains', Input=grains, GlyphType='Sphere', ScaleArray=['POINTS', 'radii'], ScaleFactor=2, GlyphMode='All Points')
+	drawn.GlyphType.ThetaResolution = drawn.GlyphType.PhiResolution = 24
+	display = Show(drawn, view)
+	display.ColorArrayName = ['POINTS', '']
+	display.AmbientColor = display.DiffuseColor = grain
+	display.Opacity, display.Position = 0.5, [0, 0, lift]
+
+
+def lookAt(view, bounds, up, turn, width):
+	"""The plane x-y from in front, or a body in space from a corner, turned by an angle about the axis *up*; returns the size of the picture."""
 	sides = [bounds[2 * a + 1] - bounds[2 * a] for a in range(3)]
 	middle = [(bounds[2 * a + 1] + bounds[2 * a]) / 2 for a in range(3)]
 	view.CameraParallelProjection = 1
@@ -110,6 +125,9 @@ def lookAt(view, bounds, up, width):
 		size, height = [width, int(0.75 * width)], 1.1 * sum(side**2 for side in sides)**0.5
 		upwards = [axis == up for axis in 'xyz']
 		towards = [0.45 if u else s for u, s in zip(upwards, (1, 0.9, 0.8))]
+		a, b = (axis for axis in range(3) if not upwards[axis])
+		cosine, sine = math.cos(math.radians(turn)), math.sin(math.radians(turn))
+		towards[a], towards[b] = cosine * towards[a] - sine * towards[b], sine * towards[a] + cosine * towards[b]
 	view.CameraFocalPoint, view.CameraViewUp, view.CameraParallelScale = middle, [float(u) for u in upwards], height / 2
 	view.CameraPosition = [m + 10 * sum(sides) * t for m, t in zip(middle, towards)]
 	return size
@@ -118,13 +136,15 @@ def lookAt(view, bounds, up, width):
 def main():
 	options = arguments()
 	points = opened(options.prefix, 'points')
+	if options.spheres and not os.path.exists(options.spheres): sys.exit(f'paraview-picture.py: there is no {options.spheres}')
 	if not points: sys.exit(f'paraview-picture.py: there is no {options.prefix}points.pvd; there are {glob.glob(options.prefix + "*.pvd") or "no files of that start"}')
 	paraview.simple._DisableFirstRenderCameraReset()
 	view = CreateRenderView(UseColorPaletteForBackground=0, Background=[1, 1, 1], OrientationAxesLabelColor=black)
 	view.ViewTime = points.TimestepValues[-1] if options.time is None else options.time
 	bounds = colour(points, options.field, options.range, view).GetDataInformation().GetBounds()
-	view.ViewSize = lookAt(view, bounds, options.up, options.width)
+	view.ViewSize = lookAt(view, bounds, options.up, options.turn, options.width)
 	showGrid(options.prefix, view, 1e-3 * (bounds[1] - bounds[0]) if bounds[4] == bounds[5] else 0)
+	if options.spheres: showSpheres(options.spheres, view, (bounds[1] - bounds[0]) if bounds[4] == bounds[5] else 0)
 	note = Show(Text(Text=f'load time {view.ViewTime:g}'), view)
 	note.Color, note.WindowLocation = black, 'Upper Left Corner'
 	picture = options.out or f'{options.prefix}paraview.png'

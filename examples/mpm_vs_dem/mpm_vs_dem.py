@@ -176,9 +176,10 @@ def dataSet(part, N, name):
 
 with open(os.path.join(options.out, 'mpm-points.pvd')) as file:
 	entries = [dataSet(1, float(N), name) for N, name in re.findall(r'timestep="([^"]+)".*file="([^"]+)"', file.read())]
-entries += [dataSet(0, N, f'dem-spheres.{iteration}.vtu') for N, iteration in stages]
-with open(os.path.join(options.out, 'both.pvd'), 'w') as file:
-	file.write('<VTKFile type="Collection" version="0.1">\n<Collection>\n' + ''.join(entries) + '</Collection>\n</VTKFile>\n')
+grainEntries = [dataSet(0, N, f'dem-spheres.{iteration}.vtu') for N, iteration in stages]
+for name, listed in ('dem-spheres.pvd', grainEntries), ('both.pvd', entries + grainEntries):
+	with open(os.path.join(options.out, name), 'w') as file:
+		file.write('<VTKFile type="Collection" version="0.1">\n<Collection>\n' + ''.join(listed) + '</Collection>\n</VTKFile>\n')
 
 colours = {'DEM': 'tab:orange', 'MPM': 'tab:blue'}
 figure, axes = plt.subplots(3, 2, figsize=(12, 11), layout='constrained')

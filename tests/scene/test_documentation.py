@@ -26,7 +26,7 @@ def test_every_relative_link_leads_somewhere():
 
 
 def test_every_command_of_the_pages_names_a_file_that_is_there():
-	commands = [(page, line.strip()) for page in pages for line in page.read_text().splitlines() if re.match(r' {4}(scripts/|yade-batch )', line)]
+	commands = [(page, line.strip()) for page in pages for line in page.read_text().splitlines() if re.match(r' {4}(scripts/|yade-batch |pvbatch )', line)]
 	assert len(commands) > 15
 	missing = []
 	for page, line in commands:
@@ -43,7 +43,8 @@ def test_every_example_has_a_page_in_the_course():
 	for script in (root / 'examples').glob('*/*.py'):
 		if script.stem != script.parent.name: continue
 		assert f'{script.stem}/README.md' in course and f'{script.stem}.png' in course, script
-		assert (script.parent / 'README.md').read_text().count('scripts/run ') > 0, script
+		page = (script.parent / 'README.md').read_text()
+		assert 'scripts/run ' in page and f'pvbatch scripts/paraview-picture.py out/{script.stem}/' in page, script
 
 
 # Run in YADE: the undocumented, one line for each. A real number needs a unit, [-] if it has none.

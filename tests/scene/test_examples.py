@@ -54,6 +54,7 @@ def test_column(yade):
 	height, exact = map(float, re.search(r'height: (\S+) m, exact: (\S+) m', run.stdout).groups())
 	assert abs(height - exact) < 0.06 and exact == 24.0596
 	assert (run.folder / 'out/column/column.png').stat().st_size > 5000
+	assert (run.folder / 'out/column/column-points.pvd').read_text().count('<DataSet') == 11
 
 
 def test_column_of_cubes(yade):
