@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """What users read: links lead somewhere, and everything public says what it is, in which unit."""
+import json
 import re
 
 from conftest import root
@@ -88,3 +89,28 @@ def test_everything_public_is_described(yade):
 	assert len(lines) == 1, lines
 	found, units = map(int, lines[0].split()[1:])
 	assert found > 60 and units > 20 # the check has looked at something
+
+
+def test_recipes(yade):
+	"""Each of them on a scene of its own: it runs, and so does the next step."""
+	block = re.search(r'```python\n(.*?)```', (root / 'examples/README.md').read_text().partition('## Recipes')[2], re.DOTALL)[1]
+	recipes = [recipe.strip() for recipe in re.split(r'\n\n', block)]
+	assert len(recipes) > 10 and all(recipe.startswith('# ') for recipe in recipes)
+	(yade.folder / 'recipes.json').write_text(json.dumps(recipes))
+	run = yade('''
+import json
+from yade import mpm, timing
+for recipe in json.load(open('recipes.json')):
+	O.reset()
+	O.materials.append(MpmVonMisesMat(young=1e6, poisson=0.3, density=2000, yieldStress=5e4, label='soil'))
+	grid = MpmGrid(cellSize=0.5)
+	O.bodies.append(mpm.fill(mpm.polygon([(0, 0), (4, 0), (4, 3), (0, 3)]), grid, 2, 'soil'))
+	sides = [MpmBoundary(max=(0, inf, inf), fix='x'), MpmBoundary(min=(4, -inf, -inf), fix='x'), MpmBoundary(max=(inf, 0, inf), fix='xy')]
+	O.engines = [MpmImplicitEngine(grid=grid, gravity=(0, -10, 0), boundaries=sides, label='solver', verbosity=0)]
+	O.dt = 1 / 10
+	exec(recipe, globals())
+	O.run(2, wait=True)
+	print('ran:', recipe.splitlines()[0])
+''')
+	assert run.stdout.count('ran: ') == len(recipes), run
+	assert (run.folder / 'plastic.png').exists() and (run.folder / 'points.csv').exists() and '"solver"' in run.stdout  # the table of times
