@@ -94,7 +94,7 @@ private:
 		predicted_ = balance_.size < fromZero;
 		if (!predicted_) return evaluate(d_, true);
 		d_ = std::move(prediction);
-		if (prescribed_.size() > 0) entering_ = std::max(balance_.size, balance_.reference);
+		if (prescribed_.size() > 0) noteEntry();
 		prescribed_.resize(0);
 	}
 
@@ -109,18 +109,32 @@ private:
 		return balance_.size == 0 ? 0 : balance_.size / reference;
 	}
 
+	/// Norm of the points' internal forces if each had an elastic strain of this size, strain(point) [N].
+	template <class F> double elasticForce(F&& strain) const
+	{
+		const auto&     points = system_.points;
+		Eigen::VectorXd force(points.volume0.size());
+		for (int i = 0; i < int(force.size()); ++i)
+			force[i] = points.volume0[i] * system_.model.materials[points.material[i]].young() * strain(i) / system_.model.grid.cellSize;
+		return force.stableNorm();
+	}
+
+	/// Strain of a cell of which one side is held while the displacements prescribed in this step move the other.
+	double prescribedStrain() const { return system_.prescribed.template lpNorm<Eigen::Infinity>() / system_.model.grid.cellSize; }
+
 	/// Of the internal forces, from the stresses at the start of the step and the displacements prescribed in it [N].
 	double roundOff() const
 	{
-		const auto&     points = system_.points;
-		const double    h      = system_.model.grid.cellSize;
-		const double    entering = system_.prescribed.template lpNorm<Eigen::Infinity>() / h;
-		Eigen::VectorXd force(points.volume0.size());
-		for (int i = 0; i < int(force.size()); ++i) {
-			const double young = system_.model.materials[points.material[i]].young();
-			force[i]           = points.volume0[i] * young * (points.leftCauchyGreen[i].c.norm() + entering) / h;
-		}
-		return 10 * std::numeric_limits<double>::epsilon() * force.stableNorm();
+		const double entering = prescribedStrain();
+		return 10 * std::numeric_limits<double>::epsilon() * elasticForce([&](int i) { return system_.points.leftCauchyGreen[i].c.norm() + entering; });
+	}
+
+	/// Takes note of the forces with which prescribed displacements enter: no more than they can cause by themselves, for points that other
+	/// loads have nearly turned inside out resist with any force.
+	void noteEntry()
+	{
+		const double strain = prescribedStrain();
+		entering_           = std::min(std::max(balance_.size, balance_.reference), elasticForce([&](int) { return strain; }));
 	}
 
 	bool finished()
@@ -170,7 +184,7 @@ private:
 			return false;
 		}
 		if (!prescribes && !(balance_.size < toleratedGrowth * before)) return search(step, before);
-		if (prescribes) entering_ = std::max(balance_.size, balance_.reference);
+		if (prescribes) noteEntry();
 		d_ += step;
 		return true;
 	}
