@@ -180,7 +180,8 @@ template <int Dim> Vec<Dim> stretchAlongAxes(const Mat<Dim>& F)
 		return Vec<2>(cxx + J, cyy + J) / std::sqrt(cxx + cyy + 2 * J);
 	} else {
 		const Eigen::SelfAdjointEigenSolver<Mat3> eigen(Mat3(F.transpose() * F));
-		return eigen.operatorSqrt().diagonal();
+		const Vec3                                stretch = eigen.eigenvalues().cwiseMax(0).cwiseSqrt(); // one of 1e-8 others is lost in round-off
+		return eigen.eigenvectors().cwiseAbs2() * stretch;
 	}
 }
 

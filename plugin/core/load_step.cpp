@@ -32,14 +32,16 @@ template <int Dim> void updatePoints(PointCloud<Dim>& cloud, const StepSystem<Di
 		report.clampedDomains += c;
 }
 
-/// Equilibrium may have been found where no state can be: a point that hardly anything held has left the grid. The report says so.
-template <int Dim> bool requireOnGrid(const PointCloud<Dim>& cloud, const Grid<Dim>& grid, StepReport& report)
+/// Equilibrium may have been found where no state can be: a point that hardly anything held has left the grid, or has become so flat that
+/// numbers do not tell its size. The report says so.
+template <int Dim> bool requireState(const PointCloud<Dim>& cloud, const Grid<Dim>& grid, StepReport& report)
 {
 	const double limit = Grid<Dim>::indexLimit * grid.cellSize;
 	for (std::size_t p = 0; p < cloud.size(); ++p) {
-		if (((cloud.position[p] - grid.origin).array().abs() < limit).all() && cloud.stress[p].c.allFinite()) continue;
+		const bool isOnGrid = ((cloud.position[p] - grid.origin).array().abs() < limit).all() && cloud.stress[p].c.allFinite();
+		if (isOnGrid && cloud.halfSize[p].minCoeff() > 0 && cloud.defGrad[p].determinant() > 0) continue;
 		std::ostringstream text;
-		text << "a material point was thrown off the grid, to (" << cloud.position[p].transpose() << ")";
+		text << "a material point was " << (isOnGrid ? "flattened to nothing, at (" : "thrown off the grid, to (") << cloud.position[p].transpose() << ")";
 		report.failure  = Failure::diverging;
 		report.accepted = false;
 		report.cause    = text.str();
@@ -74,7 +76,7 @@ template <int Dim> StepReport loadStep(PointCloud<Dim>& cloud, const Model<Dim>&
 		addReactionsBeyondWalls(system, pointForces(cloud, model, load), d, report.reactions);
 		PointCloud<Dim> updated = cloud;
 		updatePoints(updated, system, d, report);
-		if (!requireOnGrid(updated, model.grid, report)) return report;
+		if (!requireState(updated, model.grid, report)) return report;
 		cloud = std::move(updated);
 		if (last) *last = { system.basis.nodes, d, load.growth() };
 	}

@@ -117,6 +117,16 @@ namespace {
 		EXPECT_LT((stretchAlongAxes<Dim>(quarterTurn) - Vec<Dim>::Ones()).norm(), 1e-14);
 	}
 
+	TYPED_TEST(Kinematics, AFlattenedDomainHasASize)
+	{
+		constexpr int Dim = TypeParam::value;
+		for (int i = 0; i < 100; ++i) {
+			const Mat<Dim> R = this->random.template rotation<Dim>(), F = 1e9 * R.col(0) * R.col(Dim - 1).transpose();
+			const auto     size = stretchAlongAxes<Dim>(F + 1e-9 * Mat<Dim>::Identity());
+			EXPECT_GE(size.minCoeff(), 0) << size.transpose(); // and is a number
+		}
+	}
+
 	TYPED_TEST(Kinematics, StretchOfSimpleShearByHand)
 	{
 		// F = 1 + g e_x e_y: C = [1 g; g 1 + g^2]; sqrt(C) = (C + 1 sqrt(det C)) / sqrt(tr C + 2 sqrt(det C)) with det C = 1 in the plane
