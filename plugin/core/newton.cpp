@@ -39,6 +39,34 @@ Balance balance(const FreeDofs& dofs, const Eigen::VectorXd& external, const Eig
 /// A full step may raise the residual by this much: points that begin to yield do so in steps that converge well.
 constexpr double toleratedGrowth = 1.1;
 
+/// Full steps after one that raised the residual, which may be the way all the same, as in bending: the stretch that straight displacements
+/// cause is gone after the next solve. They must bring the residual down quickly, at least to a half each time, until it is smaller than
+/// before; else the iteration goes back and shortens the first one (the watchdog technique: Chamberlain et al. 1982).
+class Detour {
+public:
+	Eigen::VectorXd from, step;
+	double          before = 0, raised = 0; ///< residual before the first step and after it [N]
+
+	void begin(const Eigen::VectorXd& d, const Eigen::VectorXd& firstStep, double residualBefore, double residual)
+	{
+		from = d, step = firstStep, before = residualBefore, raised = bound_ = residual, isOpen_ = true;
+	}
+	/// Whether the next full step, which ended with this residual, is taken.
+	bool leadsOn(double residual)
+	{
+		bound_ /= 2;
+		isOpen_ = residual >= before;
+		return residual <= bound_;
+	}
+	void giveUp() { isOpen_ = false, wasVain_ = true; }
+	bool isOpen() const { return isOpen_; }
+	bool wasVain() const { return wasVain_; }
+
+private:
+	double bound_  = 0;
+	bool   isOpen_ = false, wasVain_ = false;
+};
+
 /// State of the iteration.
 template <int Dim> class Newton {
 public:
@@ -175,6 +203,7 @@ private:
 		const double    before     = balance_.size;
 		Eigen::VectorXd step       = Eigen::VectorXd::Zero(d_.size());
 		if (!solve(step)) {
+			if (detour_.isOpen()) return goBack();
 			fail(Failure::singular, "the stiffness matrix is singular to working precision");
 			return false;
 		}
@@ -183,10 +212,25 @@ private:
 			fail(Failure::diverging, "the prediction leads nowhere"); // and zero is tried
 			return false;
 		}
-		if (!prescribes && !(balance_.size < toleratedGrowth * before)) return search(step, before);
+		if (detour_.isOpen()) {
+			if (!detour_.leadsOn(balance_.size)) return goBack();
+		} else if (!prescribes && !(balance_.size < toleratedGrowth * before)) {
+			if (!mayTakeDetour()) return search(d_, step, before, balance_.size);
+			detour_.begin(d_, step, before, balance_.size);
+		}
 		if (prescribes) noteEntry();
 		d_ += step;
 		return true;
+	}
+	/// One in vain is enough for a load step.
+	bool mayTakeDetour() const
+	{
+		return settings_.lineSearchTrials > 0 && !detour_.wasVain() && std::isfinite(balance_.size) && iterations_ + 1 < settings_.maxIterations;
+	}
+	bool goBack()
+	{
+		detour_.giveUp();
+		return search(detour_.from, detour_.step, detour_.before, detour_.raised);
 	}
 
 	/// step = K^-1 (residual - K_fc prescribed), with the prescribed displacements themselves.
@@ -233,14 +277,13 @@ private:
 		return last < previous && last * std::pow(last / previous, 2) <= settings_.tolerance;
 	}
 
-	/// The full step raised the residual: tries shorter ones (Armijo's condition) and takes the best.
-	bool search(const Eigen::VectorXd& step, double before)
+	/// A full step from d raised the residual to `full`: tries shorter ones (Armijo's condition) and takes the best.
+	bool search(const Eigen::VectorXd& d, const Eigen::VectorXd& step, double before, double full)
 	{
-		const double full = balance_.size;
-		double       best = full, length = 1, share = 1;
+		double best = full, length = 1, share = 1;
 		for (int trial = 0; trial < settings_.lineSearchTrials; ++trial) {
 			share /= 2;
-			evaluate(d_ + share * step, false);
+			evaluate(d + share * step, false);
 			++report_.lineSearchTrials;
 			if (balance_.size < best) best = balance_.size, length = share;
 			if (balance_.size <= (1 - 1e-4 * share) * before) break;
@@ -253,7 +296,7 @@ private:
 			fail(Failure::diverging, text.str());
 			return false;
 		}
-		d_ += length * step;
+		d_ = d + length * step;
 		evaluate(d_, true);
 		return true;
 	}
@@ -287,6 +330,7 @@ private:
 	Eigen::VectorXd        d_, force_, prescribed_; // prescribed_: empty once it is part of d
 	NodeMatrix<Dim>        K_;
 	Balance                balance_;
+	Detour                 detour_;
 	InvertedPoint          inverted_     = -1;
 	bool                   hasStiffness_ = false, predicted_ = false;
 	int                    iterations_   = 0;

@@ -34,7 +34,8 @@ public:
 		v("lineSearchTrials",
 		  &MpmNewton::lineSearchTrials,
 		  0,
-		  "Shorter steps (a half, a quarter, ...) that are tried when a full Newton step raises the residual by more than a tenth, at least 0; 0 takes every full step.",
+		  "Shorter steps (a half, a quarter, ...) that are tried when a full Newton step raises the residual by more than a tenth, and full steps after "
+		  "it do not halve it each time until it is smaller than before, as they do in bending; at least 0; 0 takes every full step.",
 		  atLeast(0));
 		v("acceptUnconverged",
 		  &MpmNewton::acceptUnconverged,

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Newton's method: quadratic convergence, and what ends it.
+#include "bench/scenes.hpp"
 #include "scenes.hpp"
 #include <cstdio>
 
@@ -180,6 +181,43 @@ namespace {
 			EXPECT_EQ(block.step().failure, Failure::notFinite);
 			EXPECT_TRUE(block.cloud.position == start);
 		}
+	}
+
+	/// A cantilever, eight times as long as high, under its own weight at once.
+	StepReport bend(double gravity, int lineSearchTrials)
+	{
+		Model<2> model;
+		auto     wall                 = wallBelow<2>(model.grid, 0, 0);
+		wall.fixed[1]                 = true;
+		model.boundary                = Boundary<2>({ wall });
+		model.materials               = { { Hencky(1e6, 0.3), 100 } };
+		model.newton.lineSearchTrials = lineSearchTrials;
+		PointCloud<2> cloud           = block<2>(model.grid, { 8, 1 }, 2);
+		LinearSolver  solver;
+		return loadStep(cloud, model, { Vec<2>(0, -gravity) }, solver);
+	}
+
+	// The residual rises by up to a factor of sixteen in the first step and falls below its first value within two.
+	TEST(Newton, LineSearchDoesNotHinderBending)
+	{
+		for (const double gravity : { 0.3, 1., 3., 5. }) {
+			const auto full = bend(gravity, 0), searched = bend(gravity, 5);
+			EXPECT_TRUE(full.converged()) << full.cause;
+			EXPECT_GT(full.residuals[1], full.residuals[0]);
+			EXPECT_EQ(searched.residuals, full.residuals);
+			EXPECT_EQ(searched.lineSearchTrials, 0);
+		}
+	}
+
+	// The first full step that raises the residual leads nowhere: the way back costs one solve.
+	TEST(Newton, LineSearchCarriesTheSlopeThroughItsWholeLoad)
+	{
+		auto scene        = slope<2>(1, 3);
+		scene.steps       = 1;
+		const auto report = scene.step();
+		EXPECT_TRUE(report.converged()) << report.cause;
+		EXPECT_LE(report.iterations, 12);
+		EXPECT_GT(report.lineSearchTrials, 0);
 	}
 
 } // namespace
