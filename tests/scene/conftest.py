@@ -6,6 +6,7 @@ The environment variable YADE names the command to test; scripts/test sets it. B
 import json
 import os
 import shutil
+import signal
 import subprocess
 from dataclasses import dataclass
 from pathlib import Path
@@ -66,7 +67,8 @@ class Yade:
 		        stderr=stderr,
 		        stdin=subprocess.DEVNULL,
 		        text=True,
-		        errors='replace'
+		        errors='replace',
+		        preexec_fn=interruptible
 		)
 		run = Run(ended.returncode, ended.stdout, ended.stderr, self.folder)
 		assert (run.exitCode != 0) == fails, str(run)
@@ -75,6 +77,11 @@ class Yade:
 	def ownSettings(self):
 		"""Variables that keep the process from reading or writing the settings of the user, and find scenes.py."""
 		return {'PYTHONPATH': str(root / 'tests' / 'scene'), 'XDG_CONFIG_HOME': str(self.folder / 'config'), 'MPLCONFIGDIR': str(self.folder / 'config'), 'MPLBACKEND': 'Agg'}
+
+
+def interruptible():
+	"""A shell that runs the tests in the background has Ctrl-C ignored, which the processes that they start would inherit."""
+	signal.signal(signal.SIGINT, signal.SIG_DFL)
 
 
 def compiled(source, library):
