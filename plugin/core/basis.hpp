@@ -7,42 +7,59 @@ namespace gimpm {
 
 enum class Basis { linear, gimp };
 
-/// Values and derivatives of the basis functions of one axis. The point's domain lies in one cell (2 nodes) or in two (3 nodes).
-struct AxisBasis {
-	int    cell  = 0; ///< lowest cell
-	int    cells = 1; ///< 1 or 2
-	double value[4];    ///< the last one is zero: four numbers fill a row of lanes
-	double slope[4];    ///< [1/m]
-	double fraction[2]; ///< share of the domain's length in each cell
-};
-
 /// Round-off must not populate a cell: an overlap smaller than this fraction of the half length does not count.
 constexpr double overlapTolerance = 1.5e-8; // sqrt(machine epsilon)
 
 /// A point on a cell face (within this fraction of a cell) belongs to the lower cell.
 constexpr double faceTolerance = 1e-9;
 
-/// Linear (hat) functions at coordinate x, measured from the grid's origin in cells of size h, as seen from the given cell. They are
-/// also the exact average over any domain inside that cell.
-inline AxisBasis linearBasis(double x, double h, int cell)
+/// Largest integer <= x, for |x| < 2^31: std::floor() is a call of the library on processors without an instruction for it.
+inline int floorToInt(double x)
 {
-	const double xi = x / h - cell;
-	return { cell, 1, { 1 - xi, xi }, { -1 / h, 1 / h }, { 1 } };
+	const int truncated = int(x);
+	return truncated - (truncated > x);
 }
 
-inline int centreCell(double x, double h) { return int(std::ceil(x / h - faceTolerance)) - 1; }
+inline int centreCell(double x, double h) { return -floorToInt(faceTolerance - x / h) - 1; }
 
-/// Hat functions averaged over the domain [x - l, x + l], l <= h/2 (Bardenhagen and Kober 2004). With the overlaps a and b of the
-/// domain with the lower and the upper cell the pieces are S = a^2/4lh, 1 - S_lower - S_upper, b^2/4lh: their sum is one, their
-/// slopes add up to zero, sum S x_v = x and sum dS/dx x_v = 1, all to round-off: a + b = 2l however far the point is from the origin.
-inline AxisBasis gimpBasis(double x, double l, double h)
-{
-	const int    face   = int(std::floor(x / h + 0.5)); // the only one that the domain can cross
-	const double offset = h * face - x;
-	if (std::abs(offset) >= l * (1 - overlapTolerance)) return linearBasis(x, h, offset > 0 ? face - 1 : face);
-	const double a = l + offset, b = l - offset, w = 1 / (2 * l * h);
-	const double sa = 0.5 * w * a * a, sb = 0.5 * w * b * b;
-	return { face - 1, 2, { sa, 1 - sa - sb, sb }, { -w * a, w * (a - b), w * b }, { a / (2 * l), b / (2 * l) } };
-}
+/// Values and derivatives of the basis functions of one axis. The point's domain lies in one cell (2 nodes) or in two (3 nodes).
+struct AxisBasis {
+	int    cell;        ///< lowest cell
+	int    cells;       ///< 1 or 2
+	double value[4];    ///< the last one is zero: four numbers fill a row of lanes
+	double slope[4];    ///< [1/m]
+	double fraction[2]; ///< share of the domain's length in each cell
+
+	/// Linear (hat) functions at coordinate x, measured from the grid's origin in cells of size h, as seen from the given cell. They are
+	/// also the exact average over any domain inside that cell.
+	void setLinear(double x, double h, int lowest)
+	{
+		const double xi = x / h - lowest, w = 1 / h;
+		set(lowest, 1, 1 - xi, xi, 0, -w, w, 0, 1, 0);
+	}
+
+	/// Hat functions averaged over the domain [x - l, x + l], l <= h/2 (Bardenhagen and Kober 2004). With the overlaps a and b of the
+	/// domain with the lower and the upper cell the pieces are S = a^2/4lh, 1 - S_lower - S_upper, b^2/4lh: their sum is one, their
+	/// slopes add up to zero, sum S x_v = x and sum dS/dx x_v = 1, all to round-off: a + b = 2l however far the point is from the origin.
+	void setGimp(double x, double l, double h)
+	{
+		const int    face   = floorToInt(x / h + 0.5); // the only one that the domain can cross
+		const double offset = h * face - x;
+		if (std::abs(offset) >= l * (1 - overlapTolerance)) return setLinear(x, h, offset > 0 ? face - 1 : face);
+		const double a = l + offset, b = l - offset, w = 1 / (2 * l * h);
+		const double sa = 0.5 * w * a * a, sb = 0.5 * w * b * b;
+		set(face - 1, 2, sa, 1 - sa - sb, sb, -w * a, w * (a - b), w * b, w * h * a, w * h * b);
+	}
+
+private:
+	/// Number by number: a whole that is put together elsewhere and then copied takes twice the time.
+	void set(int lowest, int count, double v0, double v1, double v2, double s0, double s1, double s2, double f0, double f1)
+	{
+		cell = lowest, cells = count;
+		value[0] = v0, value[1] = v1, value[2] = v2, value[3] = 0;
+		slope[0] = s0, slope[1] = s1, slope[2] = s2, slope[3] = 0;
+		fraction[0] = f0, fraction[1] = f1;
+	}
+};
 
 } // namespace gimpm

@@ -45,28 +45,39 @@ template <int Dim> int reachableCells(const Index<Dim>& lowest, int span, int ce
 	return reached;
 }
 
-template <int Dim> struct Place { // of one point
-	Key                        cell;
-	int                        span, cells;
-	std::array<AxisBasis, Dim> axes;
-};
-
-/// What the points are sorted by: small, because sorting moves it around.
-struct SortKey {
+/// What the points are sorted by. It is kept small: the basis functions are computed again once the order is known, which takes less
+/// time than moving them around.
+template <int Dim> struct Place {
 	Key      cell;
 	unsigned kind; // span and cells
 	int      point;
 
-	bool operator<(const SortKey& o) const { return cell != o.cell ? cell < o.cell : kind != o.kind ? kind < o.kind : point < o.point; }
+	Place() = default;
+	Place(Key cell, int span, int cells, int point) : cell(cell), kind(unsigned(span) << (1 << Dim) | unsigned(cells)), point(point) { }
+	int  span() const { return int(kind >> (1 << Dim)); }
+	int  cells() const { return int(kind & ((1 << (1 << Dim)) - 1)); }
+	bool samePatch(const Place& o) const { return cell == o.cell && kind == o.kind; }
+	bool operator<(const Place& o) const { return cell != o.cell ? cell < o.cell : kind != o.kind ? kind < o.kind : point < o.point; }
 };
 
+template <int Dim> using Axes = std::array<AxisBasis, Dim>;
+
+/// Basis functions of a point at x from the origin of the grid; `cell` holds it if its domain is not looked at.
+template <int Dim> void setAxes(Axes<Dim>& axes, const Vec<Dim>& x, const Vec<Dim>& halfSize, double h, Basis basis, const Index<Dim>& cell)
+{
+	for (int a = 0; a < Dim; ++a)
+		if (basis == Basis::gimp) axes[a].setGimp(x[a], halfSize[a], h);
+		else
+			axes[a].setLinear(x[a], h, cell[a]);
+}
+
 /// How far the domain reaches behind walls: its share in hidden cells, as a length of its own axis.
-template <int Dim> double hiddenLength(const Place<Dim>& p, const Vec<Dim>& halfSize, int centre)
+template <int Dim> double hiddenLength(const Place<Dim>& p, const Axes<Dim>& axes, const Vec<Dim>& halfSize, int centre)
 {
 	double length = 0;
 	for (int a = 0; a < Dim; ++a)
-		if ((p.span >> a & 1) && !(p.cells >> (centre ^ 1 << a) & 1))
-			length = std::max(length, 2 * halfSize[a] * p.axes[a].fraction[1 - (centre >> a & 1)]);
+		if ((p.span() >> a & 1) && !(p.cells() >> (centre ^ 1 << a) & 1))
+			length = std::max(length, 2 * halfSize[a] * axes[a].fraction[1 - (centre >> a & 1)]);
 	return length;
 }
 
@@ -75,19 +86,18 @@ Place<Dim> place(const PointCloud<Dim>& cloud, int point, const Grid<Dim>& grid,
 {
 	const Vec<Dim>   x      = cloud.position[point] - grid.origin;
 	const Index<Dim> centre = containingCell<Dim>(x, grid.cellSize, boundary);
-	Place<Dim>       p { 0, 0, 1, {} };
+	Axes<Dim>        axes;
 	Index<Dim>       lowest;
-	int              centreBits = 0; // which cell of the window holds the centre
+	int              span = 0, centreBits = 0; // which cell of the window holds the centre
+	setAxes<Dim>(axes, x, cloud.halfSize[point], grid.cellSize, basis, centre);
 	for (int a = 0; a < Dim; ++a) {
-		p.axes[a] = basis == Basis::gimp ? gimpBasis(x[a], cloud.halfSize[point][a], grid.cellSize) : linearBasis(x[a], grid.cellSize, centre[a]);
-		lowest[a] = p.axes[a].cell;
-		if (p.axes[a].cells == 1) continue;
-		p.span |= 1 << a;
+		lowest[a] = axes[a].cell;
+		if (axes[a].cells == 1) continue;
+		span |= 1 << a;
 		if (centre[a] > lowest[a]) centreBits |= 1 << a;
 	}
-	p.cell  = Grid<Dim>::key(lowest);
-	p.cells = reachableCells<Dim>(lowest, p.span, centreBits, boundary);
-	hidden  = std::max(hidden, hiddenLength<Dim>(p, cloud.halfSize[point], centreBits));
+	const Place<Dim> p(Grid<Dim>::key(lowest), span, reachableCells<Dim>(lowest, span, centreBits, boundary), point);
+	hidden = std::max(hidden, hiddenLength<Dim>(p, axes, cloud.halfSize[point], centreBits));
 	return p;
 }
 
@@ -125,29 +135,32 @@ template <int Dim, class F> void forPatchNodes(const Patch<Dim>& patch, F&& f)
 			}
 }
 
-template <int Dim> std::vector<SortKey> sorted(const std::vector<Place<Dim>>& places)
-{
-	std::vector<SortKey> keys(places.size());
-	for (int p = 0; p < int(places.size()); ++p)
-		keys[p] = { places[p].cell, unsigned(places[p].span) << (1 << Dim) | unsigned(places[p].cells), p };
-	std::sort(keys.begin(), keys.end());
-	return keys;
-}
-
+/// From sorted places.
 template <int Dim> void makePatches(const std::vector<Place<Dim>>& places, CloudBasis<Dim>& b)
 {
-	const auto keys = sorted(places);
-	b.order.resize(keys.size());
-	b.axes.resize(keys.size());
-	for (int i = 0; i < int(keys.size()); ++i) {
-		const auto& place = places[keys[i].point];
-		if (i == 0 || keys[i].cell != keys[i - 1].cell || keys[i].kind != keys[i - 1].kind) {
-			b.patches.push_back({ place.cell, place.span, place.cells, i, 0, {} });
+	b.order.resize(places.size());
+	for (int i = 0; i < int(places.size()); ++i) {
+		const auto& place = places[i];
+		if (i == 0 || !place.samePatch(places[i - 1])) {
+			b.patches.push_back({ place.cell, place.span(), place.cells(), i, 0, {} });
 			b.patches.back().node.fill(-1);
 		}
 		++b.patches.back().count;
-		b.order[i] = keys[i].point;
-		b.axes[i]  = place.axes;
+		b.order[i] = place.point;
+	}
+}
+
+template <int Dim> void fillAxes(const PointCloud<Dim>& cloud, const Grid<Dim>& grid, Basis basis, CloudBasis<Dim>& b)
+{
+	b.axes.resize(cloud.size());
+#pragma omp parallel for schedule(static)
+	for (int k = 0; k < int(b.patches.size()); ++k) {
+		const auto&      patch = b.patches[k];
+		const Index<Dim> cell  = Grid<Dim>::index(patch.cell);
+		for (int i = patch.first; i < patch.first + patch.count; ++i) {
+			const int p = b.order[i];
+			setAxes<Dim>(b.axes[i], cloud.position[p] - grid.origin, cloud.halfSize[p], grid.cellSize, basis, cell);
+		}
 	}
 }
 
@@ -197,7 +210,9 @@ template <int Dim> CloudBasis<Dim> cloudBasis(const PointCloud<Dim>& cloud, cons
 	for (int p = 0; p < int(cloud.size()); ++p)
 		places[p] = place(cloud, p, grid, basis, boundary, hidden);
 	b.largestWallOverlap = hidden;
+	std::sort(places.begin(), places.end());
 	makePatches(places, b);
+	fillAxes(cloud, grid, basis, b);
 	numberNodes(b);
 	colourPatches(b);
 	return b;

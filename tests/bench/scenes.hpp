@@ -54,15 +54,20 @@ template <int Dim> BenchScene<Dim> slope(double h, int perAxis, int depth = 1)
 	if constexpr (Dim == 3) walls.push_back(s.wall(2, 0, false, { 2 })), walls.push_back(s.wall(2, depth * h, true, { 2 }));
 	s.model.boundary = Boundary<Dim>(walls);
 
-	const double d = h / perAxis;
-	for (int k = 0; k < (Dim == 3 ? depth * perAxis : 1); ++k)
-		for (int j = 0; (j + 0.5) * d < 12; ++j)
-			for (int i = 0; (i + 0.5) * d < 30; ++i) {
-				Vec<Dim> x = Vec<Dim>::Constant((k + 0.5) * d);
-				x[0] = (i + 0.5) * d, x[1] = (j + 0.5) * d;
-				const double top = x[0] < 10 ? 12 : x[0] < 15 ? 12 - (x[0] - 10) : 7;
-				if (x[1] <= top + 1e-9) s.addPoint(x, d / 2, x[1] >= 7 && x[1] <= 7.5);
-			}
+	const double d         = h / perAxis;
+	const int    layers    = Dim == 3 ? depth : 1;
+	const auto   fillPoint = [&](int i, int j, int k) {
+		Vec<Dim> x = Vec<Dim>::Constant((k + 0.5) * d);
+		x[0] = (i + 0.5) * d, x[1] = (j + 0.5) * d;
+		const double top = x[0] < 10 ? 12 : x[0] < 15 ? 12 - (x[0] - 10) : 7;
+		if (x[1] <= top + 1e-9) s.addPoint(x, d / 2, x[1] >= 7 && x[1] <= 7.5);
+	};
+	// cell by cell, as mpm.fill does
+	for (int z = 0; z < layers; ++z)
+		for (int y = 0; y * h < 12; ++y)
+			for (int x = 0; x * h < 30; ++x)
+				for (int n = 0; n < int(std::lround(std::pow(perAxis, Dim))); ++n)
+					fillPoint(x * perAxis + n % perAxis, y * perAxis + n / perAxis % perAxis, z * perAxis + n / perAxis / perAxis);
 	return s;
 }
 

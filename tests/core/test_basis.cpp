@@ -5,6 +5,13 @@
 namespace gimpm {
 namespace {
 
+	AxisBasis gimpBasis(double x, double l, double h)
+	{
+		AxisBasis b;
+		b.setGimp(x, l, h);
+		return b;
+	}
+
 	struct Domain {
 		double x, l, h;
 	};
@@ -154,7 +161,8 @@ namespace {
 
 	TEST(LinearBasis, InterpolatesInItsCell)
 	{
-		const AxisBasis b = linearBasis(2.75, 0.5, 5);
+		AxisBasis b;
+		b.setLinear(2.75, 0.5, 5);
 		EXPECT_EQ(b.cell, 5);
 		EXPECT_EQ(b.cells, 1);
 		EXPECT_DOUBLE_EQ(b.value[0], 0.5);
