@@ -19,6 +19,7 @@ defaults = dict(
         basis='gimp',
         ghost=1e-2,
         predictor=True,
+        reuseFactor=True,
         elastic=False,
         recorder=False, # writes all material points after every step
         arrays=False, # reads all material points after every step
@@ -55,7 +56,8 @@ def slope():
 
 	global solver # for afterStep
 	solver = MpmImplicitEngine(grid=grid, gravity=(0, -9.81, 0), basis=setting.basis, boundaries=walls(h), ghost=MpmGhost(factor=setting.ghost))
-	if hasattr(solver.newton, 'predictor'): solver.newton.predictor = setting.predictor # other revisions may have none
+	for name in 'predictor', 'reuseFactor':
+		if hasattr(solver.newton, name): setattr(solver.newton, name, getattr(setting, name)) # other revisions may have none
 	engines = [solver]
 	O.dt = h / 40
 	with tempfile.TemporaryDirectory() as folder:
@@ -76,7 +78,7 @@ def walls(h):
 	return held
 
 
-times, count = {}, dict(solves=0, passes=0)
+times, count = {}, dict(solves=0, factorisations=0, passes=0)
 
 
 def afterStep():
@@ -85,6 +87,7 @@ def afterStep():
 	for phase, seconds in report['times'].items():
 		times[phase] = times.get(phase, 0) + seconds
 	count['solves'] += report['iterations']
+	count['factorisations'] += report['iterations'] - report.get('reusedFactors', 0)
 	count['passes'] += report['iterations'] + report['lineSearchTrials'] + report['substeps'] * (2 if setting.predictor else 1)
 	if setting.arrays: mpm.arrays()
 	global ended # O.run() comes back up to 20 ms later

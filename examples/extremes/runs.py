@@ -21,6 +21,7 @@ import pivots
 O = Omega()
 cellSize = 0.1 # [m] where it is not the parameter: at 1 m the two scalings would be the same
 young = 1e6
+fullNewton = dict(predictor=False, reuseFactor=False) # steps start from zero: the number of iterations tells how hard one is
 
 
 class Column:
@@ -46,7 +47,7 @@ class Column:
 		if dim == 3: sides.append(MpmBoundary(max=(inf, inf, 0), fix='z'))
 		if confined: sides.append(MpmBoundary(min=(size[0], -inf, -inf), fix='x'))
 		if confined and dim == 3: sides.append(MpmBoundary(min=(-inf, -inf, size[2]), fix='z'))
-		self.engine = MpmImplicitEngine(grid=grid, gravity=(0, -1, 0), boundaries=sides, ghost=stabilisation(ghost, factor), newton=MpmNewton(predictor=False))
+		self.engine = MpmImplicitEngine(grid=grid, gravity=(0, -1, 0), boundaries=sides, ghost=stabilisation(ghost, factor), newton=MpmNewton(**fullNewton))
 		self.height, self.unit = size[1] + overlap[1] * h, weight * E / size[1]
 
 	def stretch(self, size, by, dim):
@@ -84,7 +85,7 @@ class Bar:
 		self.nodes = [np.array([i, j, k]) * h for i, j in ((1, 0), (0, 1), (-1, 0), (0, -1)) for k in ((-1, 1) if dim == 3 else [0])]
 		margin = np.full(3, h / 4)
 		held = [MpmBoundary(min=tuple(x - margin), max=tuple(x + margin), fix='xyz'[:dim]) for x in self.nodes]
-		self.engine = MpmImplicitEngine(grid=grid, boundaries=held, ghost=stabilisation(ghost), newton=MpmNewton(predictor=False))
+		self.engine = MpmImplicitEngine(grid=grid, boundaries=held, ghost=stabilisation(ghost), newton=MpmNewton(**fullNewton))
 
 	def beforeStep(self, step):
 		c, s = cos(self.angle), sin(self.angle)
@@ -109,7 +110,7 @@ class Slope:
 		profile = mpm.polygon([(0, 0), (30, 0), (30, 7), (15, 7), (10, 12), (0, 12)])
 		O.bodies.append(mpm.fill(profile, grid, 2, lambda x: 'weak' if 7 <= x[1] <= 7.5 else 'soil'))
 		sides = [MpmBoundary(max=(0, inf, inf), fix='x'), MpmBoundary(min=(30, -inf, -inf), fix='x'), MpmBoundary(max=(inf, 0, inf), fix='xy')]
-		self.engine = MpmImplicitEngine(grid=grid, gravity=(0, -9.81, 0), boundaries=sides, ghost=stabilisation(ghost, factor), newton=MpmNewton(predictor=False))
+		self.engine = MpmImplicitEngine(grid=grid, gravity=(0, -9.81, 0), boundaries=sides, ghost=stabilisation(ghost, factor), newton=MpmNewton(**fullNewton))
 
 	def beforeStep(self, step):
 		pass
@@ -127,7 +128,7 @@ class Cantilever:
 		O.materials.append(MpmElasticMat(young=young, poisson=.3, density=weight, label='bar'))
 		grid = MpmGrid(cellSize=h)
 		O.bodies.append(mpm.fill(pack.inAlignedBox((0, 0, -1), (length * h, h, 1)), grid, 2, 'bar'))
-		self.engine = MpmImplicitEngine(grid=grid, gravity=(0, -1, 0), boundaries=[MpmBoundary(max=(0, inf, inf), fix='xy')], ghost=stabilisation(ghost), newton=MpmNewton(predictor=False))
+		self.engine = MpmImplicitEngine(grid=grid, gravity=(0, -1, 0), boundaries=[MpmBoundary(max=(0, inf, inf), fix='xy')], ghost=stabilisation(ghost), newton=MpmNewton(**fullNewton))
 
 	def beforeStep(self, step):
 		pass

@@ -46,7 +46,7 @@ def column(cells, pointsPerCell=2, steps=40, height=50., **ghost):
 	grid = MpmGrid(cellSize=h)
 	O.bodies.append(mpm.fill(pack.inAlignedBox((0, 0, -1), (h, height, 1)), grid, pointsPerCell=pointsPerCell, material='soil'))
 	sides = [MpmBoundary(max=(0, inf, inf), fix='x'), MpmBoundary(min=(h, -inf, -inf), fix='x'), MpmBoundary(max=(inf, 0, inf), fix='y')]
-	O.engines = [MpmImplicitEngine(grid=grid, gravity=(0, -10, 0), boundaries=sides, ghost=MpmGhost(**ghost), newton=MpmNewton(tolerance=1e-9, predictor=False))]
+	O.engines = [MpmImplicitEngine(grid=grid, gravity=(0, -10, 0), boundaries=sides, ghost=MpmGhost(**ghost), newton=MpmNewton(tolerance=1e-9, predictor=False, reuseFactor=False))]
 	O.dt = 1 / steps
 	return O.engines[0]
 
@@ -66,7 +66,7 @@ def slope(cellSize, pointsPerCell, lineSearchTrials=0, **ghost):
 	profile = mpm.polygon([(0, 0), (30, 0), (30, 7), (15, 7), (10, 12), (0, 12)])
 	O.bodies.append(mpm.fill(profile, grid, pointsPerCell=pointsPerCell, material=lambda x: 'weak' if 7 <= x[1] <= 7.5 else 'soil'))
 	sides = [MpmBoundary(max=(0, inf, inf), fix='x'), MpmBoundary(min=(30, -inf, -inf), fix='x'), MpmBoundary(max=(inf, 0, inf), fix='xy')]
-	newton = MpmNewton(tolerance=1e-6, maxIterations=20, minStep=1, lineSearchTrials=lineSearchTrials, predictor=False)
+	newton = MpmNewton(tolerance=1e-6, maxIterations=20, minStep=1, lineSearchTrials=lineSearchTrials, predictor=False, reuseFactor=False)
 	O.engines = [MpmImplicitEngine(grid=grid, gravity=(0, -9.81, 0), boundaries=sides, ghost=MpmGhost(**ghost), newton=newton)]
 	steps = round(40 / cellSize)
 	O.dt = 1 / steps

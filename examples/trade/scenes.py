@@ -34,7 +34,7 @@ def analyse(grid, boundaries, gravity):
 	O.engines = [
 	        MpmImplicitEngine(
 	                grid=grid, basis=table.basis, gravity=(0, -gravity, 0), boundaries=boundaries, ghost=MpmGhost(factor=table.ghostFactor, scaling=table.scaling),
-	                newton=MpmNewton(tolerance=table.tolerance, predictor=False), label='solver'),
+	                newton=MpmNewton(tolerance=table.tolerance, predictor=False, reuseFactor=False), label='solver'),
 	        PyRunner(iterPeriod=1, initRun=True, command='solves.append(solver.iterations)'),
 	]
 	O.dt = 1 / table.steps

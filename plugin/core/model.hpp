@@ -22,6 +22,7 @@ struct NewtonSettings {
 	int                   lineSearchTrials  = 5;    ///< shorter steps tried when a full one does not reduce the residual; 0: none
 	bool                  acceptUnconverged = false; ///< take over the last iterate after maxIterations
 	LinearMethod          linearSolver = LinearMethod::automatic;
+	bool                  reuseFactor  = true;      ///< of the last solve, where the convergence history says that it suffices
 	std::function<bool()> interrupted;               ///< asked once per iteration; may be empty
 };
 

@@ -9,8 +9,8 @@ namespace gimpm {
 /// with the first solve. Converged when |residual| <= tolerance |external forces + reactions| (those at the start of the step, if they
 /// were larger) or when it is zero to working precision. Fills the report's failure, iterations, residuals and worst degree of freedom.
 ///
-/// A prediction (not empty) is the start if its residual is smaller than that of zero; should the iteration fail from there, it begins
-/// again at zero. The solution is the same to the tolerance.
+/// A prediction (not empty) is the start unless its residual is more than twice that of zero; should the iteration fail from there, or its
+/// first step not reduce the residual, it begins again at zero. The solution is the same to the tolerance.
 template <int Dim>
 Eigen::VectorXd equilibrium(const StepSystem<Dim>&, LinearSolver&, StepReport&, const Eigen::VectorXd& prediction);
 

@@ -20,6 +20,7 @@ struct StepReport {
 	std::string         cause;          ///< one clause for the user, empty when converged
 	bool                accepted = false; ///< the points took over an iterate that had not converged
 	int                 iterations = 0; ///< linear solves
+	int                 reusedFactors = 0; ///< solves with the factor of the solve before
 	bool                predicted = false; ///< Newton's method started from the prediction
 	int                 lineSearchTrials = 0; ///< evaluations of the residual for steps shorter than Newton's
 	std::vector<double> residuals;      ///< |residual| / |external forces + reactions| before the first solve and after each
@@ -50,6 +51,7 @@ struct StepReport {
 	void takeEffort(const StepReport& attempt)
 	{
 		iterations       = attempt.iterations;
+		reusedFactors    = attempt.reusedFactors;
 		lineSearchTrials = attempt.lineSearchTrials;
 		luSolves         = attempt.luSolves;
 		times            = attempt.times;

@@ -264,7 +264,7 @@ template <int Dim> void MpmImplicitEngine::step()
 		lookedAt = points.size();
 		last     = gimpm::StepReport();
 		times.clear();
-		iterations = lineSearchTrials = luSolves = cgIterations = cgFallbacks = substeps = cuts = 0;
+		iterations = lineSearchTrials = reusedFactors = luSolves = cgIterations = cgFallbacks = substeps = cuts = 0;
 		lastPoints = points.size();
 	}
 	addTime("gather", gathering);
@@ -346,6 +346,7 @@ void MpmImplicitEngine::take(const gimpm::StepReport& report)
 	wallOverlap    = report.largestWallOverlap;
 	iterations += report.iterations;
 	lineSearchTrials += report.lineSearchTrials;
+	reusedFactors += report.reusedFactors;
 	luSolves += report.luSolves;
 	cgIterations += report.conjugateGradients.iterations;
 	cgFallbacks += report.conjugateGradients.fallbacks;
@@ -378,6 +379,7 @@ py::dict MpmImplicitEngine::report() const
 	result["substeps"]         = substeps;
 	result["cuts"]             = cuts;
 	result["lineSearchTrials"] = lineSearchTrials;
+	result["reusedFactors"]    = reusedFactors;
 	result["luSolves"]         = luSolves;
 	result["cgIterations"]     = cgIterations;
 	result["cgFallbacks"]      = cgFallbacks;

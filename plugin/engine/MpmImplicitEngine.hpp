@@ -35,7 +35,7 @@ public:
 	vector<Real> residuals;
 	Real         loadFactor  = 0;
 	int          activeCells = 0, boundaryCells = 0, ghostFaces = 0, dofs = 0, clampedDomains = 0;
-	int          substeps = 0, cuts = 0, lineSearchTrials = 0, luSolves = 0, cgIterations = 0, cgFallbacks = 0;
+	int          substeps = 0, cuts = 0, lineSearchTrials = 0, reusedFactors = 0, luSolves = 0, cgIterations = 0, cgFallbacks = 0;
 	Real         wallOverlap = 0, stepPart = 1;
 	vector<Real> lastDisplacements; // of the nodes in the last step, for newton.predictor
 	Real         lastLoadIncrement = 0;
@@ -114,6 +114,7 @@ public:
 		v("substeps", &MpmImplicitEngine::substeps, readonly, "Load steps that converged in the last run: 1 unless steps were cut.");
 		v("cuts", &MpmImplicitEngine::cuts, readonly, "Load steps of the last run that were undone and tried again with half the increment.");
 		v("lineSearchTrials", &MpmImplicitEngine::lineSearchTrials, readonly, "Shortened Newton steps that were tried in the last run.");
+		v("reusedFactors", &MpmImplicitEngine::reusedFactors, readonly, "Solves of the last run with the factor of the solve before.");
 		v("luSolves", &MpmImplicitEngine::luSolves, readonly, "Solves of the last run whose stiffness matrix was not positive definite.");
 		v("cgIterations", &MpmImplicitEngine::cgIterations, readonly, "Iterations of conjugate gradients in the last run (see MpmNewton.linearSolver).");
 		v("cgFallbacks", &MpmImplicitEngine::cgFallbacks, readonly, "Solves of the last run that conjugate gradients left to the direct solver.");
@@ -147,7 +148,7 @@ public:
 		      "Outcome: 'converged'; 'accepted' (see MpmNewton.acceptUnconverged); 'failure', one of 'none', 'unrestrained', 'singular', 'inverted', "
 		      "'notFinite', 'diverging', 'tooManyIterations', 'interrupted'; 'cause', a clause, empty when converged; 'loadTime' [s] and 'loadFactor' of the "
 		      "last converged state; 'stepPart', part of O.dt that the next step tries.\n\n"
-		      "Effort of the run, undone tries included: 'iterations' (linear solves), 'substeps', 'cuts', 'lineSearchTrials', 'luSolves', 'cgIterations', 'cgFallbacks'; 'times' [s], dict "
+		      "Effort of the run, undone tries included: 'iterations' (linear solves), 'substeps', 'cuts', 'lineSearchTrials', 'reusedFactors', 'luSolves', 'cgIterations', 'cgFallbacks'; 'times' [s], dict "
 		      "by phase.\n\n"
 		      "Of the last load step that was tried: 'residuals', list; 'residual', the last of them [-]; 'worstNode' (position [m], NaN if none), "
 		      "'worstAxis' ('x', 'y', 'z' or '') and 'worstForce' [N] of the largest out-of-balance force; 'points', 'nodes', 'dofs', 'activeCells', "

@@ -12,6 +12,7 @@ public:
 	int  lineSearchTrials  = 5;
 	bool acceptUnconverged = false;
 	bool predictor         = true;
+	bool reuseFactor       = true;
 	string linearSolver    = "auto";
 
 	YADE_API_NAME(MpmNewton)
@@ -45,8 +46,15 @@ public:
 		v("predictor",
 		  &MpmNewton::predictor,
 		  0,
-		  "Whether a step starts from the nodal displacements of the last one, in the ratio of the load increments, if their residual is smaller than that "
-		  "of zero; should it fail from there it begins again at zero. The same states to *tolerance*; with small load steps about half the solves. False: every step starts from zero, as in the paper.");
+		  "Whether a step starts from the nodal displacements of the last one, in the ratio of the load increments, unless their residual is more than twice "
+		  "that of zero; should it fail from there it begins again at zero. The same states to *tolerance*; with small load steps about half the solves. "
+		  "False: every step starts from zero, as in the paper.");
+		v("reuseFactor",
+		  &MpmNewton::reuseFactor,
+		  0,
+		  "Whether the last iterations of a step keep the factorised stiffness matrix of the one before (modified Newton) where the convergence so far says "
+		  "that this suffices. The same states to *tolerance*; more iterations (solver.reusedFactors of them with that factor), fewer factorisations. "
+		  "False: every iteration has its own, as in the paper.");
 		v("linearSolver",
 		  &MpmNewton::linearSolver,
 		  0,

@@ -111,6 +111,7 @@ gimpm::Model<Dim> toModel(const MpmGrid& grid, const string& basis, const vector
 	model.newton.tolerance        = newton.tolerance;
 	model.newton.maxIterations    = newton.maxIterations;
 	model.newton.lineSearchTrials = newton.lineSearchTrials;
+	model.newton.reuseFactor      = newton.reuseFactor;
 	model.newton.linearSolver     = linearMethod(newton.linearSolver);
 	return model;
 }

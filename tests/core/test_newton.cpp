@@ -38,7 +38,8 @@ namespace {
 			max[1]                 = 0;
 			model.materials        = { { law, 1e3 } };
 			model.boundary         = Boundary<Dim>({ held<Dim>(model.grid, Vec<Dim>::Constant(-infinity), max, Dim == 2 ? "xy" : "xyz") });
-			model.newton.tolerance = 1e-13;
+			model.newton.tolerance   = 1e-13;
+			model.newton.reuseFactor = false; // whose convergence is linear
 			load.gravity           = -10 * Vec<Dim>::Unit(1);
 		}
 		StepReport step() { return loadStep(cloud, model, load, solver); }
@@ -158,6 +159,21 @@ namespace {
 			for (std::size_t p = 0; p < direct.cloud.size(); ++p)
 				EXPECT_LT((direct.cloud.position[p] - iterative.cloud.position[p]).norm(), 1e-6 * direct.height) << p;
 		}
+	}
+
+	TYPED_TEST(Newton, ReusedFactorsGiveTheSameState)
+	{
+		Block<TypeParam::value> each(VonMises(2e6, 0.3, 1e4)), reusing(VonMises(2e6, 0.3, 1e4));
+		reusing.model.newton.reuseFactor = true;
+		each.model.newton.tolerance = reusing.model.newton.tolerance = 1e-8;
+		const auto expected = each.step(), report = reusing.step();
+		ASSERT_TRUE(expected.converged() && report.converged()) << report.cause;
+		EXPECT_EQ(expected.reusedFactors, 0);
+		EXPECT_GT(report.reusedFactors, 0);
+		EXPECT_LT(report.iterations - report.reusedFactors, expected.iterations) << "they must save factorisations";
+		EXPECT_LE(report.residual(), 1e-8);
+		for (std::size_t p = 0; p < each.cloud.size(); ++p)
+			EXPECT_LT((each.cloud.position[p] - reusing.cloud.position[p]).norm(), 1e-7) << p;
 	}
 
 	TYPED_TEST(Newton, ALoadBelowTheToleranceIsNotLost)

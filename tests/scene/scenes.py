@@ -22,7 +22,7 @@ def slope(cellSize=1.0, pointsPerCell=2, steps=None, **ghost):
 	                gravity=(0, -9.81, 0),
 	                boundaries=[MpmBoundary(max=(0, inf, inf), fix='x'), MpmBoundary(min=(30, -inf, -inf), fix='x'), MpmBoundary(max=(inf, 0, inf), fix='xy')],
 	                ghost=MpmGhost(**ghost),
-	                newton=MpmNewton(predictor=False),  # steps start from zero in the paper
+	                newton=MpmNewton(predictor=False, reuseFactor=False),  # steps start from zero in the paper
 	                label='solver'
 	        )
 	]
@@ -40,7 +40,7 @@ def column(cells, dim=2, width=1, **ghost):
 	if dim == 3: sides += [MpmBoundary(max=(inf, inf, 0), fix='z'), MpmBoundary(min=(-inf, -inf, width * h), fix='z')]
 	O.engines = [
 	        MpmImplicitEngine(
-	                grid=grid, gravity=(0, -10, 0), boundaries=sides, ghost=MpmGhost(**ghost), newton=MpmNewton(tolerance=1e-9, predictor=False), label='solver'
+	                grid=grid, gravity=(0, -10, 0), boundaries=sides, ghost=MpmGhost(**ghost), newton=MpmNewton(tolerance=1e-9, predictor=False, reuseFactor=False), label='solver'
 	        )
 	]
 	O.dt = 1 / 40

@@ -39,6 +39,7 @@ outOfRange = {
         'MpmNewton.lineSearchTrials': ['-1'],
         'MpmNewton.acceptUnconverged': None,
         'MpmNewton.predictor': None,
+        'MpmNewton.reuseFactor': None,
         'MpmNewton.linearSolver': ['"cg"'],
         'MpmImplicitEngine.grid': ['None'],
         'MpmImplicitEngine.basis': ['"cubic"'],
