@@ -23,8 +23,9 @@ def _loadEngine():
 
 def _requireTheOneInUse(path):
 	"""ImportError if the file has been replaced since YADE opened it: a second library beside the first would have objects of its own."""
+	former = os.path.realpath(path) + ' (deleted)\n'
 	with open('/proc/self/maps') as maps:
-		replaced = any(line.rstrip().endswith(os.path.realpath(path) + ' (deleted)') for line in maps)
+		replaced = any(line.endswith(former) for line in maps)
 	if replaced:
 		raise ImportError(f'yade.mpm: {path} has been installed anew since this YADE started; start YADE again')
 
