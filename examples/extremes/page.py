@@ -59,11 +59,20 @@ def safe(row, harmless):
 	return row is not None and ran(row) and row['cuts'] == 0 and (math.isnan(row['error']) or row['error'] <= max(3 * harmless, 0.05))
 
 
+def shown(value):
+	"""1e+08 rather than 100000000.0; what cannot be written shorter as it is."""
+	try:
+		short = f'{float(value):g}'
+		return short if float(short) == float(value) else value
+	except ValueError:
+		return value
+
+
 def safeRange(rows, name, column):
 	found = [(value, rows.get((name, *column, value))) for value in valuesOf(rows, name)]
 	errors = [row['error'] for _, row in found if row and ran(row) and not math.isnan(row['error'])]
 	good = [value for value, row in found if safe(row, min(errors, default=math.nan))]
-	if len(good) == len(found): return f'all: {good[0]} … {good[-1]}' if len(good) > 1 else f'all: {good[0]}'
+	if len(good) == len(found): return 'all: ' + _run(good)
 	if not good: return 'none'
 	return ', '.join(_runs([value for value, _ in found], good))
 
@@ -75,7 +84,11 @@ def _runs(values, good):
 		if value not in good: runs.append([])
 		elif runs: runs[-1].append(value)
 		else: runs = [[value]]
-	return [run[0] if len(run) == 1 else f'{run[0]} … {run[-1]}' for run in runs if run]
+	return [_run(run) for run in runs if run]
+
+
+def _run(values):
+	return shown(values[0]) if len(values) == 1 else f'{shown(values[0])} … {shown(values[-1])}'
 
 
 def outside(rows, name):
@@ -89,7 +102,7 @@ def outside(rows, name):
 def section(rows, name):
 	columns = columnsOf(rows, name)
 	heads = ['value', *(f'{dim}D, {names[ghost]}' for dim, ghost in columns)]
-	lines = [[value, *(outcome(rows.get((name, *column, value))) for column in columns)] for value in valuesOf(rows, name)]
+	lines = [[shown(value), *(outcome(rows.get((name, *column, value))) for column in columns)] for value in valuesOf(rows, name)]
 	return f"## `{name}`: {axes[name].title}\n\n{table(heads, lines)}\n"
 
 
