@@ -182,8 +182,11 @@ InvertedPoint addInternalForce(
 	std::atomic<int> inverted { INT_MAX };
 	const Pass<Dim>  pass { basis, points, materials, d, f, K };
 	const auto       add = __builtin_cpu_supports("x86-64-v3") ? Avx2Kernels::addPatches<Dim> : PortableKernels::addPatches<Dim>;
+	// Threads meet after each colour. Of few points a pass is over before they have: alone that costs little, but where another program takes
+	// a processor away they wait for its time slice, a thousand times as long as the pass.
+	const bool threadsPay = points.volume0.size() >= (Dim == 2 ? 4000 : 1000);
 	for (const auto& colour : basis.colours) {
-#pragma omp parallel for schedule(dynamic, 4)
+#pragma omp parallel for schedule(dynamic, 4) if (threadsPay)
 		for (int range = 0; range < int(colour.size()); ++range)
 			keepSmallest(inverted, add(pass, colour[range].first, colour[range].second));
 	}

@@ -163,7 +163,7 @@ namespace {
 	TYPED_TEST(Assembly, AnyNumberOfThreadsGivesTheSameBits)
 	{
 		constexpr int    Dim = TypeParam::value;
-		RandomScene<Dim> scene(2000);
+		RandomScene<Dim> scene(4500); // enough for threads to pay
 		const auto       d      = scene.displacements(scene.system());
 		const int        before = omp_get_max_threads();
 		Eigen::VectorXd  expected;
