@@ -281,17 +281,20 @@ void MpmImplicitEngine::advance(gimpm::PointCloud<Dim>& cloud, gimpm::Model<Dim>
 	Interruption interruption;
 	model.newton.interrupted = [&] { return interruption.isRequested(); };
 	for (Real done = 0; done < 1;) {
-		Real             part = 0, time = 0;
-		gimpm::Load<Dim> load;
+		Real                      part = 0, time = 0;
+		bool                      predicts = false;
+		gimpm::Load<Dim>          load;
+		gimpm::LastIncrement<Dim> last;
 		{
 			const ValueLock lock;
 			part = std::min(stepPart, 1 - done);
 			time = done + part == 1 ? target : begin + (done + part) * (target - begin);
 			load = loadAt<Dim>(time);
 			model.newton.acceptUnconverged = newton->acceptUnconverged && part / 2 < newton->minStep;
+			predicts = newton->predictor;
+			if (predicts) last = lastIncrement<Dim>(lastDisplacements, lastLoadIncrement);
 		}
-		auto                    last   = newton->predictor ? lastIncrement<Dim>(lastDisplacements, lastLoadIncrement) : gimpm::LastIncrement<Dim>();
-		const gimpm::StepReport report = gimpm::loadStep(cloud, model, load, solver, newton->predictor ? &last : nullptr);
+		const gimpm::StepReport report = gimpm::loadStep(cloud, model, load, solver, predicts ? &last : nullptr);
 		const ValueLock         lock;
 		take(report);
 		lastDisplacements = flat(last);

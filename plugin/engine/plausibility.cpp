@@ -99,6 +99,24 @@ namespace {
 				warn(string("gravity acts along +") + "xyz"[axis] + ", upwards as most would draw it; downwards it has a minus.");
 	}
 
+	Real largestPoint(const MpmImplicitEngine& engine, const vector<MaterialPoint>& points)
+	{
+		Real largest = 0;
+		for (const MaterialPoint& p : points)
+			largest = std::max(largest, 2 * p.shape->halfSize0.head(engine.grid->dim).maxCoeff());
+		return largest;
+	}
+
+	// No fill puts so many points into a cell that they are as small.
+	void requireCellsForPoints(const MpmImplicitEngine& engine, const vector<MaterialPoint>& points)
+	{
+		constexpr Real most    = 1e5; // points per cell and axis
+		const Real     largest = largestPoint(engine, points), h = engine.grid->cellSize;
+		if (h / most > largest)
+			refuse("MpmGrid.cellSize = ", h, " m is ", h / largest, " times the size of the largest material point (", largest,
+			       " m), so that all of them would move as one cell does; is it the grid that mpm.fill was given, in the same unit?");
+	}
+
 	void warnOfLargeCells(const MpmImplicitEngine& engine, const vector<MaterialPoint>& points)
 	{
 		constexpr Real most     = 20; // points per cell and axis
@@ -117,6 +135,7 @@ void requirePlausible(const MpmImplicitEngine& engine, const vector<MaterialPoin
 {
 	requireGravityInPlane(engine);
 	requireSensibleIncrement(engine);
+	requireCellsForPoints(engine, points);
 	Places(points, engine.grid->dim).requireDistinct();
 	warnOfGravityUpwards(engine);
 	warnOfLargeCells(engine, points);

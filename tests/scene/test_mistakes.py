@@ -85,6 +85,8 @@ mistakes = [
         ('scene(); O.dt = 0; O.step()', 'ValueError', ['O.dt = 0', 'load time of one step']),
         ('scene(); O.dt = 80; O.step()', 'ValueError', ['O.dt = 80', 'more than the whole loadCurve']),
         ('scene(); O.run(3, wait=True); O.resetTime(); O.run(2, wait=True)', 'RuntimeError', ['not after the last converged load time', 'loadTime = O.time']),
+        ('scene(grid=MpmGrid(cellSize=1e6)); O.step()', 'ValueError', ['cellSize = 1e+06 m is 2e+06 times', 'mpm.fill']),
+        ('scene(grid=MpmGrid(cellSize=1e308)); O.step()', 'ValueError', ['cellSize = 1e+308 m is', '(0.5 m)']),
         ('scene(); O.periodic = True; O.step()', 'ValueError', ['O.periodic']),
 ]
 
