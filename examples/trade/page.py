@@ -161,7 +161,7 @@ def write(folder, plans):
 ESTIMATES = """## How well mpm.advise tells
 
 `examples/trade/estimates.py` compares what `mpm.advise` says before a run with the run. Its constants were fitted to the first twelve of these scenes. The
-number of unknowns is exact for the first step. The cantilever needs four times the solves of other elastic bodies, which nothing foretells.
+number of unknowns is exact for the first step. The cantilever needs more solves than other elastic bodies, which nothing foretells.
 
 """
 

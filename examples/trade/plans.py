@@ -63,8 +63,9 @@ def plan(scene, steps, centre, dim=2, **others):
 	"""Plan of a scene in scenes.py; *centre* is the setting around which single parameters are moved."""
 	parameters = dict(
 	        scene=f"'{scene}'", dim=str(dim), cells='1', pointsPerCell='2', steps=steps, tolerance='1e-6', basis="'gimp'", ghostFactor='1e-2', scaling="'mesh-independent'",
-	        threads='1')
-	alone = dict(tolerance=['1e-1', '1e-2', '1e-3', '1e-4', '1e-9'], basis=["'mpm'"], ghostFactor=['0', '1e-4', '1', '100'], scaling=["'paper'"], threads=['2'])
+	        predictor='True', threads='1')
+	alone = dict(tolerance=['1e-1', '1e-2', '1e-3', '1e-4', '1e-9'], basis=["'mpm'"], ghostFactor=['0', '1e-4', '1', '100'], scaling=["'paper'"], predictor=['False'],
+	             threads=['2'])
 	return Plan(script=os.path.join(here, 'scenes.py'), parameters=parameters, alone=alone, around=[centre], **others)
 
 
@@ -82,13 +83,13 @@ plans = {
         'slope':
                 plan(
                         'slope', '40', dict(cells='1'), quantities=['crest', 'toe'],
-                        together=dict(cells=['1', '2', '3'], pointsPerCell=['2', '3'], steps=['10', '40']),
+                        together=dict(cells=['1', '2', '3'], pointsPerCell=['2', '3'], steps=['10', '40', '160']),
                         reference=dict(cells='4', steps='160'), check=dict(cells='3', steps='160'),
                         quick=dict(cells=['1'], pointsPerCell=['2'], steps=['10']), quickReference=dict(cells='1', steps='20')),
         'collapse':
                 plan(
                         'collapse', '20', dict(cells='2'), quantities=['settlement', 'spread'],
-                        together=dict(cells=['1', '2', '4'], pointsPerCell=['2', '3'], steps=['10', '20', '40']),
+                        together=dict(cells=['1', '2', '4'], pointsPerCell=['2', '3'], steps=['10', '20', '40', '80']),
                         reference=dict(cells='12', steps='80'), check=dict(cells='8', steps='80'),
                         quick=dict(cells=['1'], pointsPerCell=['2'], steps=['10']), quickReference=dict(cells='1', steps='20')),
         'cantilever':

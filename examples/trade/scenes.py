@@ -17,7 +17,7 @@ import numpy as np
 from yade import mpm
 
 readParamsFromTable(noTableOk=True, scene='column', dim=2, cells=16, pointsPerCell=2, steps=40, tolerance=1e-6, basis='gimp', ghostFactor=1e-2,
-                    scaling='mesh-independent', advise=False)
+                    scaling='mesh-independent', predictor=True, advise=False)
 from yade.params import table
 
 rollers = {'left': MpmBoundary(max=(0, inf, inf), fix='x'), 'floor': MpmBoundary(max=(inf, 0, inf), fix='y'), 'base': MpmBoundary(max=(inf, 0, inf), fix='xy'),
@@ -34,7 +34,7 @@ def analyse(grid, boundaries, gravity):
 	O.engines = [
 	        MpmImplicitEngine(
 	                grid=grid, basis=table.basis, gravity=(0, -gravity, 0), boundaries=boundaries, ghost=MpmGhost(factor=table.ghostFactor, scaling=table.scaling),
-	                newton=MpmNewton(tolerance=table.tolerance, predictor=False, reuseFactor=False), label='solver'),
+	                newton=MpmNewton(tolerance=table.tolerance, predictor=table.predictor, reuseFactor=False), label='solver'),
 	        PyRunner(iterPeriod=1, initRun=True, command='solves.append(solver.iterations)'),
 	]
 	O.dt = 1 / table.steps

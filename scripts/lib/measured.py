@@ -9,6 +9,7 @@ import sys
 
 def measure(script, results, *names):
 	import json, os, resource, time # here, where the script cannot give their names another meaning
+	import yade.mpm # belongs to YADE's start, not to the script
 
 	def peakMemory():
 		return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
