@@ -44,7 +44,7 @@ O.engines = [
                 gravity=(0, -10, 0),
                 boundaries=sides,
                 ghost=MpmGhost(factor=options.ghostFactor, scaling=options.scaling),
-                newton=MpmNewton(tolerance=1e-9, predictor=False, reuseFactor=False),  # as in the paper; with it half the solves
+                newton=MpmNewton(tolerance=1e-9, predictor=False, reuseFactor=False),  # as in the paper; with them half the factorisations
                 label='solver',
         ),
         PyRunner(iterPeriod=1, initRun=True, command='solves.append(solver.iterations)'),

@@ -51,7 +51,7 @@ O.engines = [
                         MpmBoundary(max=(inf, 0, inf), fix='xy'),
                 ],
                 ghost=MpmGhost(factor=options.ghostFactor),
-                newton=MpmNewton(tolerance=1e-6, maxIterations=20, predictor=False, reuseFactor=False),  # as in the paper; with it half the solves
+                newton=MpmNewton(tolerance=1e-6, maxIterations=20, predictor=False, reuseFactor=False),  # as in the paper; with them half the factorisations
                 label='solver',
         ),
         PyRunner(iterPeriod=1, initRun=True, command='solves.append(solver.iterations)'),
