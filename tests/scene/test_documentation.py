@@ -26,6 +26,12 @@ def test_every_relative_link_leads_somewhere():
 	assert not broken
 
 
+def test_every_page_of_an_example_is_in_the_index_of_the_documentation():
+	index = (root / 'scripts/lib/docs/index.md').read_text()
+	for page in (root / 'examples').glob('*/README.md'):
+		assert f'../../../examples/{page.parent.name}/README\n' in index, page
+
+
 def test_every_command_of_the_pages_names_a_file_that_is_there():
 	commands = [(page, line.strip()) for page in pages for line in page.read_text().splitlines() if re.match(r' {4}(scripts/|yade-batch |pvbatch )', line)]
 	assert len(commands) > 15
