@@ -140,7 +140,11 @@ template <class Kernels, int Dim> GIMPM_INLINE int addPatches(const Pass<Dim>& p
 		}                                                                                                                                              \
 	};
 GIMPM_KERNELS(PortableKernels)
+#ifdef __AVX2__ // the compiler was told to use it and more (-march=native)
+using Avx2Kernels = PortableKernels;
+#else
 GIMPM_KERNELS(Avx2Kernels, [[gnu::target("arch=x86-64-v3")]])
+#endif
 #undef GIMPM_KERNELS
 
 void keepSmallest(std::atomic<int>& smallest, int value)
