@@ -353,7 +353,7 @@ try:
 except KeyboardInterrupt:
 	assert time.time() - pressed < 2, time.time() - pressed
 assert not O.running and O.iter == 1 and (solver.loadFactor, solver.loadTime) == (factor, O.time)
-assert not solver.converged and solver.report()['failure'] == 'interrupted' and 0 < solver.iterations < 900
+assert not solver.converged and solver.report()['failure'] == 'interrupted' and solver.iterations < 900
 assert all(np.array_equal(half[name], values) for name, values in mpm.arrays().items())
 '''
 	)
