@@ -3,8 +3,11 @@
 import json
 import os
 import subprocess
+import sys
 
 here = os.path.dirname(os.path.abspath(__file__))
+sys.path.insert(0, os.path.join(here, '..', '..', 'scripts', 'lib'))
+import pages
 
 
 def load(folder):
@@ -18,12 +21,10 @@ def load(folder):
 def write(folder, results):
 	"""Results and page."""
 	os.makedirs(os.path.join(folder, 'results'), exist_ok=True)
-	_replace(os.path.join(folder, 'results', 'bench.json'), json.dumps(results, indent='\t') + '\n')
-	parts = [INTRODUCTION.format(**results['machine'])]
-	findings = os.path.join(folder, 'findings.md')
-	if os.path.exists(findings): parts.append(_read(findings))
+	pages.replace(os.path.join(folder, 'results', 'bench.json'), json.dumps(results, indent='\t') + '\n')
+	parts = [INTRODUCTION.format(**results['machine']), *pages.texts(os.path.join(folder, 'findings.md'))]
 	parts += [section(results[name]) for name, section in sections.items() if name in results]
-	_replace(os.path.join(folder, 'README.md'), '\n'.join(parts))
+	pages.write(folder, parts)
 
 
 def machine():
@@ -125,18 +126,7 @@ def comparison(found, revision):
 
 
 def table(heads, rows):
-	return '\n'.join(f"| {' | '.join(map(str, row))} |" for row in [heads, ['---'] * len(heads), *rows]) + '\n'
-
-
-def _read(path):
-	with open(path) as file:
-		return file.read()
-
-
-def _replace(path, text):
-	with open(path + '.new', 'w') as file:
-		file.write(text)
-	os.replace(path + '.new', path)
+	return pages.table(heads, rows) + '\n'
 
 
 INTRODUCTION = """# Where time and memory go

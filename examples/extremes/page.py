@@ -3,11 +3,16 @@
 import csv
 import math
 import os
+import sys
 
 import pictures
 from axes import axes, ghosts
 
 here = os.path.dirname(os.path.abspath(__file__))
+sys.path.insert(0, os.path.join(here, '..', '..', 'scripts', 'lib'))
+import pages
+from pages import number, table
+
 names = {'none': 'no ghost', 'mesh-independent': 'ghost, h¹', 'paper': 'ghost, h³'}
 
 
@@ -16,16 +21,9 @@ def read(folder):
 	rows = {}
 	with open(os.path.join(folder, 'results', 'atlas.csv'), newline='') as file:
 		for row in csv.DictReader(file):
-			row = {name: _number(text) for name, text in row.items()} | dict(value=row['value'], failure=row['failure'])
+			row = {name: number(text) for name, text in row.items()} | dict(value=row['value'], failure=row['failure'])
 			rows[row['axis'], int(row['dim']), row['ghost'], row['value']] = row
 	return rows
-
-
-def _number(text):
-	try:
-		return float(text)
-	except ValueError:
-		return text
 
 
 def ran(row):
@@ -39,10 +37,6 @@ def outcome(row):
 	error = '' if math.isnan(row['error']) else f"{row['error']:.1e}, "
 	cuts = f", {row['cuts']:.0f} cuts" if row['cuts'] > 0 else ''
 	return f"{error}{row['maxIterations']:.0f}{cuts}"
-
-
-def table(heads, lines):
-	return '\n'.join(f"| {' | '.join(map(str, line))} |" for line in [heads, ['---'] * len(heads), *lines])
 
 
 def columnsOf(rows, name):
@@ -146,14 +140,9 @@ def write(folder):
 	pictures.pivots(rows, os.path.join(folder, 'pivots.png'))
 	parts.append('![Smallest pivot and error of a solve](pivots.png)\n')
 	if 'columnFactor' in present: parts.append(factorTable(rows))
-	findings = os.path.join(here, 'findings.md')
-	if os.path.exists(findings):
-		with open(findings) as file:
-			parts.append(file.read())
+	parts += pages.texts(os.path.join(here, 'findings.md'))
 	parts += ['# All cases\n', OUTCOMES, *(section(rows, name) for name in listed)]
-	with open(os.path.join(folder, 'README.md.new'), 'w') as file:
-		file.write('\n'.join(parts))
-	os.replace(os.path.join(folder, 'README.md.new'), os.path.join(folder, 'README.md'))
+	pages.write(folder, parts)
 
 
 INTRODUCTION = """# Stability at the extremes

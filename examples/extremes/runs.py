@@ -15,8 +15,10 @@ import numpy as np
 from yade import mpm, pack
 from yade.wrapper import MpmBoundary, MpmElasticMat, MpmGhost, MpmGrid, MpmImplicitEngine, MpmNewton, MpmVonMisesMat, Omega
 
-sys.path.insert(0, os.path.dirname(os.path.abspath(sys.argv[0])))
+here = os.path.dirname(os.path.abspath(sys.argv[0]))
+sys.path[:0] = [here, os.path.join(here, '..', '..', 'scripts', 'lib')]
 import pivots
+from slopes import weakLayerSlope
 
 O = Omega()
 cellSize = 0.1 # [m] where it is not the parameter: at 1 m the two scalings would be the same
@@ -104,12 +106,7 @@ class Slope:
 
 	def __init__(self, ghost, cells, factor):
 		self.steps = 20
-		for label, strength in ('soil', 15e3), ('weak', 7.5e3):
-			O.materials.append(MpmVonMisesMat(young=1e6, poisson=.3, density=2400, yieldStress=strength, label=label))
-		grid = MpmGrid(cellSize=1 / cells)
-		profile = mpm.polygon([(0, 0), (30, 0), (30, 7), (15, 7), (10, 12), (0, 12)])
-		O.bodies.append(mpm.fill(profile, grid, 2, lambda x: 'weak' if 7 <= x[1] <= 7.5 else 'soil'))
-		sides = [MpmBoundary(max=(0, inf, inf), fix='x'), MpmBoundary(min=(30, -inf, -inf), fix='x'), MpmBoundary(max=(inf, 0, inf), fix='xy')]
+		grid, sides = weakLayerSlope(1 / cells, 2)
 		self.engine = MpmImplicitEngine(grid=grid, gravity=(0, -9.81, 0), boundaries=sides, ghost=stabilisation(ghost, factor), newton=MpmNewton(**fullNewton))
 
 	def beforeStep(self, step):

@@ -7,10 +7,11 @@ from math import inf
 
 import numpy as np
 from yade import mpm, pack
-from yade.wrapper import MpmBoundary, MpmElasticMat, MpmGhost, MpmGrid, MpmImplicitEngine, MpmNewton, MpmVonMisesMat, Omega
+from yade.wrapper import MpmBoundary, MpmElasticMat, MpmGhost, MpmGrid, MpmImplicitEngine, MpmNewton, Omega
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), '..', '..', 'scripts', 'lib'))
 from results import Results
+from slopes import weakLayerSlope
 
 O = Omega()
 
@@ -60,12 +61,7 @@ def columnError(height=50.):
 def slope(cellSize, pointsPerCell, lineSearchTrials=0, **ghost):
 	"""Section 4.2: slope with a weak layer, as in the paper without cutting of load steps; returns the engine and the number of load steps."""
 	O.reset()
-	O.materials.append(MpmVonMisesMat(young=1e6, poisson=0.3, density=2400, yieldStress=15e3, label='soil'))
-	O.materials.append(MpmVonMisesMat(young=1e6, poisson=0.3, density=2400, yieldStress=7.5e3, label='weak'))
-	grid = MpmGrid(cellSize=cellSize)
-	profile = mpm.polygon([(0, 0), (30, 0), (30, 7), (15, 7), (10, 12), (0, 12)])
-	O.bodies.append(mpm.fill(profile, grid, pointsPerCell=pointsPerCell, material=lambda x: 'weak' if 7 <= x[1] <= 7.5 else 'soil'))
-	sides = [MpmBoundary(max=(0, inf, inf), fix='x'), MpmBoundary(min=(30, -inf, -inf), fix='x'), MpmBoundary(max=(inf, 0, inf), fix='xy')]
+	grid, sides = weakLayerSlope(cellSize, pointsPerCell)
 	newton = MpmNewton(tolerance=1e-6, maxIterations=20, minStep=1, lineSearchTrials=lineSearchTrials, predictor=False, reuseFactor=False)
 	O.engines = [MpmImplicitEngine(grid=grid, gravity=(0, -9.81, 0), boundaries=sides, ghost=MpmGhost(**ghost), newton=newton)]
 	steps = round(40 / cellSize)

@@ -4,21 +4,19 @@ import argparse
 import csv
 import math
 import os
+import sys
 
 import numpy as np
 import pictures
 
 here = os.path.dirname(os.path.abspath(__file__))
+sys.path.insert(0, os.path.join(here, '..', '..', 'scripts', 'lib'))
+import pages
+from pages import number, table
+
 options = argparse.ArgumentParser(description=__doc__)
 options.add_argument('--out', default='out/paper', help='folder of the results (default %(default)s)')
 folder = options.parse_args().out
-
-
-def number(text):
-	try:
-		return float(text)
-	except ValueError:
-		return text
 
 
 def read(path):
@@ -34,11 +32,6 @@ def results(name):
 
 def inFolder(name):
 	return os.path.join(folder, name)
-
-
-def table(heads, rows):
-	lines = [heads, ['---'] * len(heads), *rows]
-	return '\n'.join('| ' + ' | '.join(map(str, line)) + ' |' for line in lines)
 
 
 def kappa(value):
@@ -349,6 +342,5 @@ with this plugin by `scripts/reproduce all`, which writes this page, the picture
 '''
 
 sections = [introduction, figure2(), figure4(), table1(), table2(), figures67(), scaling()]
-with open(inFolder('README.md'), 'w') as file:
-	file.write('\n'.join(section for section in sections if section))
+pages.write(folder, [section for section in sections if section])
 print(f'written: {inFolder("README.md")}')

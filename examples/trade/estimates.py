@@ -7,6 +7,7 @@ import sys
 
 here = os.path.dirname(os.path.abspath(__file__))
 sys.path[:0] = [here, os.path.join(here, '..', '..', 'scripts', 'lib')]
+from fronts import judged
 from plans import Plan
 from sweep import Sweep
 
@@ -28,8 +29,7 @@ sweep = Sweep('estimates', plan, options.out, 600, options.user)
 sweep.run(settings)
 within = 0
 for row in sweep.table.rows.values():
-	measured, usual = float(row['measuredTime']), float(row['usual'])
-	within += .5 <= usual / measured <= 2
-	inRange = float(row['fastest']) <= measured <= float(row['slowest'])
-	print(*(row[name] for name in names), f"time {usual / measured:.2f} {'' if inRange else 'not '}in range, memory {float(row['estimatedMemory']) / max(1, float(row['measuredMemory'])):.2f}")
+	ratio, inRange = judged(row)
+	within += .5 <= ratio <= 2
+	print(*(row[name] for name in names), f"time {ratio:.2f} {'' if inRange else 'not '}in range, memory {float(row['estimatedMemory']) / max(1, float(row['measuredMemory'])):.2f}")
 print(f'time within a factor of 2: {within} of {len(scenes)}')

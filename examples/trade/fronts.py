@@ -38,6 +38,12 @@ def _run(row, plan, reference):
 	return Run({name: row[name] for name in plan.parameters}, error=math.nan if failed else max(errors.values()), errors=errors, failure=row['failure'], **numbers)
 
 
+def judged(row):
+	"""Of an estimate and the run after it: told over measured time of a step, and whether that lay inside the range told."""
+	fastest, usual, slowest, measured = (float(row[name]) for name in ('fastest', 'usual', 'slowest', 'measuredTime'))
+	return usual / measured, fastest <= measured <= slowest
+
+
 def comparable(runs):
 	"""Those whose times can be compared: they ended, with one thread."""
 	return [run for run in runs if not run.failure and run.setting.get('threads', '1') == '1' and not math.isnan(run.error)]

@@ -3,6 +3,7 @@
 import csv
 import math
 import os
+import sys
 
 import fronts
 import matplotlib
@@ -10,12 +11,12 @@ matplotlib.use('Agg')
 import matplotlib.pyplot as plt
 
 here = os.path.dirname(os.path.abspath(__file__))
+sys.path.insert(0, os.path.join(here, '..', '..', 'scripts', 'lib'))
+import pages
+from pages import table
+
 targets = .1, .03, .01, .003
 marks = {'o': 'circle', 's': 'square', 'D': 'diamond', '^': 'triangle'}
-
-
-def table(heads, lines):
-	return '\n'.join(f"| {' | '.join(map(str, line))} |" for line in [heads, ['---'] * len(heads), *lines]) + '\n'
 
 
 def described(setting, plan):
@@ -56,7 +57,7 @@ def section(folder, name, plan):
 	failed = [run for run in runs if run.failure]
 	parts = [
 	        f'## {name}\n', measureOf(plan, uncertainty), f'![Error against time]({name}.png)\n', answers(plan, runs, uncertainty), 'The front:\n',
-	        table(['error', 'time [s]', 'solves', 'memory [MiB]', 'setting'], [(f'{run.error:.2%}', f'{run.cpu:.2f}', f'{run.solves:.0f}', f'{run.memory:.0f}', described(run.setting, plan)) for run in front]),
+	        table(['error', 'time [s]', 'solves', 'memory [MiB]', 'setting'], [(f'{run.error:.2%}', f'{run.cpu:.2f}', f'{run.solves:.0f}', f'{run.memory:.0f}', described(run.setting, plan)) for run in front]) + '\n',
 	        knobs(plan, runs), dominated(plan, runs, front), others(plan, runs), threads(runs)
 	]
 	if failed: parts.append('Did not come to an end: ' + '; '.join(f'{described(run.setting, plan)}' for run in failed) + '.\n')
@@ -89,7 +90,7 @@ def knobs(plan, runs):
 	order = sorted(found, key=lambda name: -(worth[name] if worth[name] is not None else -math.inf))
 	lines = [(name, f'{a} → {b}', pairs, f'× {error:.2f}', f'× {time:.2f}') for name in order for a, b, pairs, error, time in found[name]]
 	ranking = ', then '.join(f'`{name}` (error ~ time^{-worth[name]:.2f})' for name in order if worth[name] is not None)
-	return f"What buys accuracy, in this order: {ranking}. Means over pairs of runs that differ in nothing else:\n\n" + table(['knob', 'move', 'pairs', 'error', 'time'], lines)
+	return f"What buys accuracy, in this order: {ranking}. Means over pairs of runs that differ in nothing else:\n\n" + table(['knob', 'move', 'pairs', 'error', 'time'], lines) + '\n'
 
 
 def dominated(plan, runs, front):
@@ -107,7 +108,7 @@ def others(plan, runs):
 	if not found: return ''
 	lines = [(f'{name} {value}', ', '.join(f'{k} {v}' for k, v in centre.items()), failure.partition(' failed: ')[2] or failure or f'× {error:.3f}', '' if failure else f'× {time:.2f}', verdict(error, time, failure))
 	         for name, value, centre, error, time, failure in found]
-	return 'Other settings, against the usual one:\n\n' + table(['setting', 'at', 'error', 'time', ''], lines)
+	return 'Other settings, against the usual one:\n\n' + table(['setting', 'at', 'error', 'time', ''], lines) + '\n'
 
 
 def verdict(error, time, failure):
@@ -134,28 +135,24 @@ def estimates(folder):
 	for row in rows:
 		time = {name: 1e3 * float(row[name]) for name in ('fastest', 'usual', 'slowest', 'measuredTime')}
 		memory = [float(row[name]) / 2**20 for name in ('estimatedMemory', 'measuredMemory')]
-		within += .5 <= time['usual'] / time['measuredTime'] <= 2
-		inRange += time['fastest'] <= time['measuredTime'] <= time['slowest']
+		ratio, isInRange = fronts.judged(row)
+		within += .5 <= ratio <= 2
+		inRange += isInRange
 		lines.append([
 		        f"{row['scene'].strip(chr(39))} {row['dim']}D, {row['cells']} cells, {row['pointsPerCell']} points, {row['steps']} steps", row['unknowns'],
-		        f"{time['usual']:.3g} ({time['fastest']:.3g} to {time['slowest']:.3g})", f"{time['measuredTime']:.3g}", f"{time['usual'] / time['measuredTime']:.2f}",
+		        f"{time['usual']:.3g} ({time['fastest']:.3g} to {time['slowest']:.3g})", f"{time['measuredTime']:.3g}", f'{ratio:.2f}',
 		        f'{memory[0]:.1f}', f'{memory[1]:.1f}'
 		])
 	heads = ['scene', 'unknowns', 'told: time of a step (range) [ms]', 'measured', 'ratio', 'told: memory [MiB]', 'measured']
-	return ESTIMATES + table(heads, lines) + f'\nTimes are within a factor of 2 in {within} of {len(rows)} scenes, and inside the range that was told in {inRange}.\n'
+	return ESTIMATES + table(heads, lines) + f'\n\nTimes are within a factor of 2 in {within} of {len(rows)} scenes, and inside the range that was told in {inRange}.\n'
 
 
 def write(folder, plans):
 	parts = [INTRODUCTION]
-	findings = os.path.join(here, 'findings.md')
-	if os.path.exists(findings) and 'column' in plans:
-		with open(findings) as file:
-			parts.append(file.read())
+	if 'column' in plans: parts += pages.texts(os.path.join(here, 'findings.md'))
 	parts += [section(folder, name, plan) for name, plan in plans.items()]
 	if os.path.exists(os.path.join(folder, 'results', 'estimates.csv')): parts.append(estimates(folder))
-	with open(os.path.join(folder, 'README.md.new'), 'w') as file:
-		file.write('\n'.join(parts))
-	os.replace(os.path.join(folder, 'README.md.new'), os.path.join(folder, 'README.md'))
+	pages.write(folder, parts)
 
 
 ESTIMATES = """## How well mpm.advise tells

@@ -9,7 +9,9 @@
 
 `cells` counts the cells over the height of the column, 1 m of the others. One 2D run: `scripts/run examples/trade/scenes.py`.
 """
+import os
 import resource
+import sys
 import time
 from math import inf
 
@@ -19,6 +21,8 @@ from yade import mpm
 readParamsFromTable(noTableOk=True, scene='column', dim=2, cells=16, pointsPerCell=2, steps=40, tolerance=1e-6, basis='gimp', ghostFactor=1e-2,
                     scaling='mesh-independent', predictor=True, advise=False)
 from yade.params import table
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(sys.argv[0])), '..', '..', 'scripts', 'lib'))
+from slopes import weakLayerSlope
 
 rollers = {'left': MpmBoundary(max=(0, inf, inf), fix='x'), 'floor': MpmBoundary(max=(inf, 0, inf), fix='y'), 'base': MpmBoundary(max=(inf, 0, inf), fix='xy'),
            'clamp': MpmBoundary(max=(0, inf, inf), fix='xy')}
@@ -54,10 +58,6 @@ def displacementAt(place, radius=1.5):
 	return np.linalg.lstsq(fit, (points['pos'] - points['pos0'])[near, :2], rcond=None)[0][0]
 
 
-def soil(yieldStress, label):
-	O.materials.append(MpmVonMisesMat(young=1e6, poisson=0.3, density=2400, yieldStress=yieldStress, label=label))
-
-
 if table.scene == 'column':
 	l0, E, b = 50., 1e4, 800.
 	h = l0 / table.cells
@@ -71,14 +71,10 @@ if table.scene == 'column':
 	stressError = np.mean(np.abs(points['stress'][:, 1, 1] + b * (l0 - points['pos0'][:, 1]))) / (b * l0) # eq. 7
 	height = (points['pos'] + points['halfSize'])[:, 1].max()
 elif table.scene == 'slope':
-	soil(15e3, 'soil'), soil(7.5e3, 'weak')
-	grid = MpmGrid(cellSize=1 / table.cells)
-	profile = mpm.polygon([(0, 0), (30, 0), (30, 7), (15, 7), (10, 12), (0, 12)])
-	O.bodies.append(mpm.fill(profile, grid, table.pointsPerCell, lambda x: 'weak' if 7 <= x[1] <= 7.5 else 'soil'))
-	analyse(grid, [rollers['left'], MpmBoundary(min=(30, -inf, -inf), fix='x'), rollers['base']], 9.81)
+	analyse(*weakLayerSlope(1 / table.cells, table.pointsPerCell), 9.81)
 	crest, toe = -displacementAt((10, 12))[1], displacementAt((15, 7))[0]
 elif table.scene == 'collapse':
-	soil(15e3, 'soil')
+	O.materials.append(MpmVonMisesMat(young=1e6, poisson=0.3, density=2400, yieldStress=15e3, label='soil'))
 	grid = MpmGrid(cellSize=1 / table.cells)
 	O.bodies.append(mpm.fill(pack.inAlignedBox((0, 0, -1), (4, 4, 1)), grid, table.pointsPerCell, 'soil'))
 	analyse(grid, [rollers['left'], rollers['base']], 9.81)

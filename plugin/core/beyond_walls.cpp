@@ -84,14 +84,14 @@ private:
 } // namespace
 
 template <int Dim>
-void addReactionsBeyondWalls(const StepSystem<Dim>& system, const std::vector<Vec<Dim>>& pointForces, const Eigen::VectorXd& d, std::vector<Vec3>& reactions)
+void addReactionsBeyondWalls(const StepSystem<Dim>& system, const PointCloud<Dim>& cloud, const Load<Dim>& load, const Eigen::VectorXd& d, std::vector<Vec3>& reactions)
 {
 	const CutPatches<Dim> cut(system);
 	if (cut.nodes.empty()) return;
 	Eigen::VectorXd displacement = Eigen::VectorXd::Zero(cut.size()), internal = displacement, external = displacement;
 	displacement.head(d.size())  = d;
 	addInternalForce<Dim>(cut.basis, cut.points, system.model.materials, displacement, internal, nullptr);
-	addPointForces(cut.basis, pointForces, external);
+	addPointForces(cut.basis, pointForces(cloud, system.model, load), external);
 	const auto& boundary = system.model.boundary;
 	for (std::size_t n = 0; n < cut.nodes.size(); ++n)
 		for (int i = 0; i < Dim; ++i) {
@@ -102,7 +102,7 @@ void addReactionsBeyondWalls(const StepSystem<Dim>& system, const std::vector<Ve
 		}
 }
 
-template void addReactionsBeyondWalls(const StepSystem<2>&, const std::vector<Vec<2>>&, const Eigen::VectorXd&, std::vector<Vec3>&);
-template void addReactionsBeyondWalls(const StepSystem<3>&, const std::vector<Vec<3>>&, const Eigen::VectorXd&, std::vector<Vec3>&);
+template void addReactionsBeyondWalls(const StepSystem<2>&, const PointCloud<2>&, const Load<2>&, const Eigen::VectorXd&, std::vector<Vec3>&);
+template void addReactionsBeyondWalls(const StepSystem<3>&, const PointCloud<3>&, const Load<3>&, const Eigen::VectorXd&, std::vector<Vec3>&);
 
 } // namespace gimpm

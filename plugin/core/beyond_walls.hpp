@@ -9,6 +9,6 @@ namespace gimpm {
 /// place in all directions. Adds the forces that hold them to the reactions of the walls, so that reactions and loads are in balance.
 /// A component along which a wall's own nodes are free goes to the box that makes the wall.
 template <int Dim>
-void addReactionsBeyondWalls(const StepSystem<Dim>&, const std::vector<Vec<Dim>>& pointForces, const Eigen::VectorXd& d, std::vector<Vec3>& reactions);
+void addReactionsBeyondWalls(const StepSystem<Dim>&, const PointCloud<Dim>&, const Load<Dim>&, const Eigen::VectorXd& d, std::vector<Vec3>& reactions);
 
 } // namespace gimpm

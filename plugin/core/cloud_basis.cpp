@@ -178,7 +178,7 @@ template <int Dim> void numberNodes(CloudBasis<Dim>& b)
 	for (auto& patch : b.patches) {
 		int next = 0; // nodes of a row follow each other, mostly
 		forPatchNodes(patch, [&](int local, Key key) {
-			if (next == int(b.nodes.size()) || b.nodes[next] != key) next = int(std::lower_bound(b.nodes.begin(), b.nodes.end(), key) - b.nodes.begin());
+			if (next == int(b.nodes.size()) || b.nodes[next] != key) next = position(b.nodes, key);
 			patch.node[local] = next++;
 		});
 	}

@@ -6,17 +6,6 @@
 namespace gimpm {
 namespace {
 
-Eigen::VectorXd product(const SymmetricCsc& K, const Eigen::VectorXd& x)
-{
-	Eigen::VectorXd y = Eigen::VectorXd::Zero(x.size());
-	for (int c = 0; c < K.size(); ++c)
-		for (int e = K.start[c]; e < K.start[c + 1]; ++e) {
-			y[K.row[e]] += K.value[e] * x[c];
-			if (K.row[e] != c) y[c] += K.value[e] * x[K.row[e]];
-		}
-	return y;
-}
-
 /// A direction that is no eigenvector of anything: the same in every run.
 Eigen::VectorXd startVector(int size)
 {
@@ -74,7 +63,7 @@ double conditionEstimate(const SymmetricCsc& K)
 			solver.solve(K, b, x); // LU keeps no factor; such matrices are rare
 		return x;
 	};
-	return largestEigenvalue(K.size(), [&](const Eigen::VectorXd& v) { return product(K, v); }) * largestEigenvalue(K.size(), inverse);
+	return largestEigenvalue(K.size(), [&](const Eigen::VectorXd& v) { return K * v; }) * largestEigenvalue(K.size(), inverse);
 }
 
 } // namespace gimpm

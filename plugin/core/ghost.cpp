@@ -7,8 +7,6 @@ namespace {
 
 bool contains(const std::vector<Key>& sorted, Key k) { return std::binary_search(sorted.begin(), sorted.end(), k); }
 
-int position(const std::vector<Key>& sorted, Key k) { return int(std::lower_bound(sorted.begin(), sorted.end(), k) - sorted.begin()); }
-
 /// Jump of dN/dn across a face for the nodes below, on and above it, times h.
 constexpr double jump[3] = { -1, 2, -1 };
 
@@ -35,10 +33,7 @@ std::vector<CellSums> sumOverCells(const CloudBasis<Dim>& basis, const std::vect
 	for (const auto& patch : basis.patches)
 		for (int c = 0; c < 1 << Dim; ++c) {
 			if (!(patch.cells >> c & 1)) continue;
-			Key cell = patch.cell;
-			for (int a = 0; a < Dim; ++a)
-				if (c >> a & 1) cell += Grid<Dim>::keyStep(a);
-			CellSums& sum = sums[position(basis.cells, cell)];
+			CellSums& sum = sums[position(basis.cells, patch.cell + Grid<Dim>::keyOffset(c))];
 			for (int i = patch.first; i < patch.first + patch.count; ++i) {
 				double overlap = pointVolume[basis.order[i]];
 				for (int a = 0; a < Dim; ++a)

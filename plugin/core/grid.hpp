@@ -2,13 +2,18 @@
 // Unbounded background grid of square or cubic cells.
 #pragma once
 #include "core/types.hpp"
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace gimpm {
 
 /// Sortable name of a cell or node: its integer coordinates packed so that x runs fastest. A cell is named after its lowest node,
 /// and the key of a neighbour is the key plus a constant, whatever the place in the grid.
 using Key = std::uint64_t;
+
+/// Where a key stands among sorted ones, or would stand.
+inline int position(const std::vector<Key>& sorted, Key key) { return int(std::lower_bound(sorted.begin(), sorted.end(), key) - sorted.begin()); }
 
 template <int Dim> struct Grid {
 	double   cellSize = 1;                 ///< edge length h of a cell [m]

@@ -2,6 +2,7 @@
 #include "core/linear_solver.hpp"
 #include "core/conjugate_gradients.hpp"
 #include "core/stopwatch.hpp"
+#include <Eigen/SparseCore>
 #include <cholmod.h>
 #include <cmath>
 #include <omp.h>
@@ -12,6 +13,12 @@ extern "C" __attribute__((weak)) int  openblas_get_num_threads();
 extern "C" __attribute__((weak)) void openblas_set_num_threads(int);
 
 namespace gimpm {
+
+Eigen::VectorXd SymmetricCsc::operator*(const Eigen::VectorXd& x) const
+{
+	const Eigen::Map<const Eigen::SparseMatrix<double>> lower(size(), size(), row.size(), start.data(), row.data(), value.data());
+	return lower.selfadjointView<Eigen::Lower>() * x;
+}
 
 template <int Dim> void reduce(const NodeMatrix<Dim>& K, const FreeDofs& dofs, SymmetricCsc& out)
 {
@@ -230,7 +237,7 @@ bool LinearSolver::prefersIterative(const SymmetricCsc& K)
 
 LinearSolver::Status LinearSolver::solve(const SymmetricCsc& K, const Eigen::VectorXd& b, Eigen::VectorXd& x, LinearMethod method, double tolerance)
 {
-	if (method == LinearMethod::iterative || (method == LinearMethod::automatic && prefersIterative(K))) {
+	if (isIterative(method, K)) {
 		const Stopwatch watch(times_.solve);
 		if (conjugateGradients(K, b, tolerance, x, effort_.iterations)) return Status::iterative;
 		++effort_.fallbacks;

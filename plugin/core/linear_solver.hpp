@@ -13,6 +13,8 @@ struct SymmetricCsc {
 
 	int  size() const { return int(start.size()) - 1; }
 	bool samePattern(const SymmetricCsc& o) const { return start == o.start && row == o.row; }
+
+	Eigen::VectorXd operator*(const Eigen::VectorXd&) const;
 };
 
 /// The free degrees of freedom among Dim a node: number of each, -1 for the held ones.
@@ -56,6 +58,10 @@ public:
 
 	/// Whether `automatic` stands for conjugate gradients.
 	bool prefersIterative(const SymmetricCsc& K);
+	bool isIterative(LinearMethod method, const SymmetricCsc& K)
+	{
+		return method == LinearMethod::iterative || (method == LinearMethod::automatic && prefersIterative(K));
+	}
 
 	/// Size of the Cholesky factor of K, and operations that it takes.
 	struct FactorSize {

@@ -73,7 +73,7 @@ template <int Dim> StepReport loadStep(PointCloud<Dim>& cloud, const Model<Dim>&
 	// 5. nodes to points; 6. the grid is reset by not being kept
 	report.accepted = report.failure == Failure::tooManyIterations && model.newton.acceptUnconverged;
 	if (report.converged() || report.accepted) {
-		addReactionsBeyondWalls(system, pointForces(cloud, model, load), d, report.reactions);
+		addReactionsBeyondWalls(system, cloud, load, d, report.reactions);
 		PointCloud<Dim> updated = cloud;
 		updatePoints(updated, system, d, report);
 		if (!requireState(updated, model.grid, report)) return report;
@@ -85,15 +85,8 @@ template <int Dim> StepReport loadStep(PointCloud<Dim>& cloud, const Model<Dim>&
 
 template <int Dim> SymmetricCsc tangentStiffness(const PointCloud<Dim>& cloud, const Model<Dim>& model)
 {
-	StepReport            report;
-	const StepSystem<Dim> system(cloud, model, Load<Dim>(), report);
-	NodeMatrix<Dim>       K;
-	Eigen::VectorXd       force;
-	system.prepare(K);
-	system.evaluate(Eigen::VectorXd::Zero(system.nodalSize()), force, &K);
-	SymmetricCsc reduced;
-	reduce(K, system.dofs, reduced);
-	return reduced;
+	StepReport report;
+	return StepSystem<Dim>(cloud, model, Load<Dim>(), report).tangent();
 }
 
 template StepReport   loadStep(PointCloud<2>&, const Model<2>&, const Load<2>&, LinearSolver&, LastIncrement<2>*);

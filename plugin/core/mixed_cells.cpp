@@ -16,7 +16,7 @@ template <int Dim> std::vector<char> mixedCells(const CloudBasis<Dim>& basis, co
 		const bool isMixedPatch = std::any_of(points, points + patch.count, [&](int p) { return material[p] != first; });
 		for (int c = 0; c < windowCells<Dim>; ++c) {
 			if (!(patch.cells >> c & 1)) continue;
-			const auto cell = std::lower_bound(basis.cells.begin(), basis.cells.end(), patch.cell + Grid<Dim>::keyOffset(c)) - basis.cells.begin();
+			const int cell = position(basis.cells, patch.cell + Grid<Dim>::keyOffset(c));
 			if (found[cell] < 0) found[cell] = first;
 			mixed[cell] |= isMixedPatch || found[cell] != first;
 		}

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "core/predictor.hpp"
-#include <algorithm>
 
 namespace gimpm {
 namespace {
 
 int find(const std::vector<Key>& keys, Key key)
 {
-	const auto place = std::lower_bound(keys.begin(), keys.end(), key);
-	return place != keys.end() && *place == key ? int(place - keys.begin()) : -1;
+	const int place = position(keys, key);
+	return place < int(keys.size()) && keys[place] == key ? place : -1;
 }
 
 /// Mean over the neighbours along the axes that are known; false if there are none.

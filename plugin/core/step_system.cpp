@@ -73,6 +73,17 @@ template <int Dim> void StepSystem<Dim>::prepare(NodeMatrix<Dim>& K) const
 	markGhostPattern(faces, K);
 }
 
+template <int Dim> SymmetricCsc StepSystem<Dim>::tangent() const
+{
+	NodeMatrix<Dim> K;
+	Eigen::VectorXd force;
+	SymmetricCsc    reduced;
+	prepare(K);
+	evaluate(Eigen::VectorXd::Zero(nodalSize()), force, &K);
+	reduce(K, dofs, reduced);
+	return reduced;
+}
+
 template <int Dim> InvertedPoint StepSystem<Dim>::evaluate(const Eigen::VectorXd& d, Eigen::VectorXd& force, NodeMatrix<Dim>* K) const
 {
 	force = Eigen::VectorXd::Zero(nodalSize());

@@ -29,6 +29,9 @@ template <int Dim> struct StepSystem {
 	/// Sets K up for evaluate(): pattern and zeros.
 	void prepare(NodeMatrix<Dim>& K) const;
 
+	/// Reduced tangent K + K_g at the start of the step.
+	SymmetricCsc tangent() const;
+
 	/// force = f_int + K_g d; also K + K_g when K is given.
 	InvertedPoint evaluate(const Eigen::VectorXd& d, Eigen::VectorXd& force, NodeMatrix<Dim>* K) const;
 };

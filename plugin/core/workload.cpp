@@ -14,8 +14,7 @@ void addSolve(const SymmetricCsc& K, LinearMethod method, Workload& w)
 	LinearSolver          solver;
 	const Eigen::VectorXd b = Eigen::VectorXd::Ones(K.size());
 	Eigen::VectorXd       x;
-	const bool            iterative = method == LinearMethod::iterative || (method == LinearMethod::automatic && solver.prefersIterative(K));
-	if (iterative) {
+	if (solver.isIterative(method, K)) {
 		const Stopwatch watch(w.times.linear.solve);
 		int             iterations = 0;
 		conjugateGradients(K, b, precise, x, iterations);
@@ -35,14 +34,10 @@ template <int Dim> Workload workload(const PointCloud<Dim>& cloud, const Model<D
 {
 	StepReport           report;
 	const StepSystem<Dim> system(cloud, model, Load<Dim>(), report);
-	NodeMatrix<Dim>      K;
-	Eigen::VectorXd      force;
 	SymmetricCsc         reduced;
 	{
 		const Stopwatch watch(report.times.assembly);
-		system.prepare(K);
-		system.evaluate(Eigen::VectorXd::Zero(system.nodalSize()), force, &K);
-		reduce(K, system.dofs, reduced);
+		reduced = system.tangent();
 	}
 	Workload w;
 	w.points         = int(cloud.size());

@@ -74,25 +74,36 @@ namespace {
 		EXPECT_LE(runs.solves[1], 1.5 * runs.solves[0]) << runs.solves[1] << " instead of " << runs.solves[0];
 	}
 
-	TEST(Predictor, PrescribedDisplacementsEnterInFull)
-	{
-		const Grid<2>   grid { 1, Vec<2>::Zero() };
-		Model<2>        model;
-		PointCloud<2>   cloud = block<2>(grid, { 4, 4 }, 2), other = cloud;
-		model.grid      = grid;
-		model.materials = { { Hencky(1e6, 0.3), 1000 } };
-		auto base       = wallBelow<2>(grid, 1, 0), top = held<2>(grid, { -infinity, 4 }, { infinity, 4 }, "y", { 0, -0.8 });
-		base.fixed[0]   = true;
-		model.boundary  = Boundary<2>({ base, top });
+	/// An elastic block in cells of 1 m, with and without prediction.
+	struct Blocks {
+		Model<2>         model;
+		PointCloud<2>    zero, predicted;
 		LinearSolver     solver;
 		LastIncrement<2> last;
+
+		Blocks(const Index<2>& cells, const std::vector<HeldBox<2>>& boxes) : zero(block<2>(model.grid, cells, 2)), predicted(zero)
+		{
+			model.materials = { { Hencky(1e6, 0.3), 1000 } };
+			model.boundary  = Boundary<2>(boxes);
+		}
+		std::pair<StepReport, StepReport> step(const Load<2>& load)
+		{
+			return { loadStep(zero, model, load, solver), loadStep(predicted, model, load, solver, &last) };
+		}
+	};
+
+	TEST(Predictor, PrescribedDisplacementsEnterInFull)
+	{
+		const Grid<2> grid;
+		auto          base = wallBelow<2>(grid, 1, 0), top = held<2>(grid, { -infinity, 4 }, { infinity, 4 }, "y", { 0, -0.8 });
+		base.fixed[0]      = true;
+		Blocks blocks({ 4, 4 }, { base, top });
 		for (int i = 1; i <= 4; ++i) { // the top of the body leaves the nodes that move it after less than half a cell
-			const Load<2> load { Vec<2>::Zero(), i / 16., 1 / 16. };
-			const auto    a = loadStep(cloud, model, load, solver), b = loadStep(other, model, load, solver, &last);
+			const auto [a, b] = blocks.step({ Vec<2>::Zero(), i / 16., 1 / 16. });
 			ASSERT_TRUE(a.converged() && b.converged()) << a.cause << b.cause;
 			EXPECT_EQ(b.predicted, i > 1);
-			for (std::size_t p = 0; p < cloud.size(); ++p)
-				EXPECT_LT((cloud.position[p] - other.position[p]).norm(), 1e-5);
+			for (std::size_t p = 0; p < blocks.zero.size(); ++p)
+				EXPECT_LT((blocks.zero.position[p] - blocks.predicted.position[p]).norm(), 1e-5);
 		}
 	}
 
@@ -100,22 +111,15 @@ namespace {
 	// out: its forces are no measure for the prediction.
 	TEST(Predictor, IsNoSolutionBecauseZeroIsFarFromOne)
 	{
-		const Grid<2>    grid { 1, Vec<2>::Zero() };
-		Model<2>         model;
-		PointCloud<2>    cloud = block<2>(grid, { 6, 2 }, 2), other = cloud;
-		model.grid      = grid;
-		model.materials = { { Hencky(1e6, 0.3), 1000 } };
-		model.boundary  = Boundary<2>({ wallBelow<2>(grid, 1, 0), held<2>(grid, { -infinity, -infinity }, { 4, infinity }, "x", { 3, 0 }) });
-		LinearSolver     solver;
-		LastIncrement<2> last;
+		const Grid<2> grid;
+		Blocks        blocks({ 6, 2 }, { wallBelow<2>(grid, 1, 0), held<2>(grid, { -infinity, -infinity }, { 4, infinity }, "x", { 3, 0 }) });
 		for (int i = 1; i <= 2; ++i) {
-			const Load<2> load { (i - 1) * Vec<2>(0, -10), i / 2., 1 / 2. };
-			const auto    a = loadStep(cloud, model, load, solver), b = loadStep(other, model, load, solver, &last);
+			const auto [a, b] = blocks.step({ (i - 1) * Vec<2>(0, -10), i / 2., 1 / 2. });
 			ASSERT_TRUE(a.converged() && b.converged()) << a.cause << b.cause;
 			EXPECT_GT(b.iterations, 0);
 		}
-		for (std::size_t p = 0; p < cloud.size(); ++p)
-			EXPECT_LT((cloud.stress[p].c - other.stress[p].c).norm(), 1) << p; // of stresses of 20 kPa
+		for (std::size_t p = 0; p < blocks.zero.size(); ++p)
+			EXPECT_LT((blocks.zero.stress[p].c - blocks.predicted.stress[p].c).norm(), 1) << p; // of stresses of 20 kPa
 	}
 
 } // namespace

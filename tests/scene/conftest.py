@@ -84,6 +84,28 @@ def interruptible():
 	signal.signal(signal.SIGINT, signal.SIG_DFL)
 
 
+def outcomesOf(folder, setting, statements, before='O.reset()'):
+	"""What becomes of statements that are each tried after *before*, all in one YADE process.
+
+	:return: dict of [name of the exception, its sentence] by statement
+	"""
+	(folder / 'statements.json').write_text(json.dumps(statements))
+	return Yade(folder)(
+	        setting + f'''
+import json
+outcomes = {{}}
+for statement in json.load(open('statements.json')):
+	{before}
+	try:
+		exec(statement)
+		outcomes[statement] = ['no exception', '']
+	except Exception as error:
+		outcomes[statement] = [type(error).__name__, str(error)]
+print(json.dumps(outcomes))
+'''
+	).result
+
+
 def compiled(source, library):
 	"""A shared library from C++ text; with LD_PRELOAD it replaces functions of YADE."""
 	compiler = ['g++', '-shared', '-fPIC', '-x', 'c++', '-', '-o', str(library), '-ldl']

@@ -1,9 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """What cannot be meant is refused with the kind of exception that Python has for it, and a sentence that names parameter and value."""
-import json
-
 import pytest
-from conftest import Yade
+from conftest import outcomesOf
 
 nan, inf = float('nan'), float('inf')
 material = dict(young=1e6, poisson=0.3, density=2400, yieldStress=15e3)
@@ -158,27 +156,14 @@ def step(change, go=O.step):
 	O.dt = 1
 	exec(change, globals(), dict(b=bodies[5], base=base, soil=bodies[5].mat))
 	go()
-
-outcomes = []
-for statement in json.load(open('statements.json')):
-	O.reset()
-	O.materials.append([soil(), FrictMat(label='steel'), MpmMaterial(label='bare'), MpmElasticMat(young=1, label='unfinished')])
-	try:
-		exec(statement)
-		outcomes.append(['no exception', ''])
-	except Exception as error:
-		outcomes.append([type(error).__name__, str(error)])
-print(json.dumps(outcomes))
 '''
 
 
 @pytest.fixture(scope='module')
 def outcomes(tmp_path_factory):
 	"""{statement: [name of the exception, its sentence]}, all from one YADE process."""
-	yade = Yade(tmp_path_factory.mktemp('bad_input'))
-	statements = [statement for statement, _, _ in refused]
-	(yade.folder / 'statements.json').write_text(json.dumps(statements))
-	return dict(zip(statements, yade(setting).result))
+	before = "O.reset(); O.materials.append([soil(), FrictMat(label='steel'), MpmMaterial(label='bare'), MpmElasticMat(young=1, label='unfinished')])"
+	return outcomesOf(tmp_path_factory.mktemp('bad_input'), setting, [statement for statement, _, _ in refused], before)
 
 
 @pytest.mark.parametrize('statement, exception, words', refused, ids=[statement for statement, _, _ in refused])
@@ -191,7 +176,7 @@ def test_is_refused(outcomes, statement, exception, words):
 
 def test_correct_input_is_accepted(yade):
 	"""The statements above fail for what they say, not because nothing passes."""
-	script = setting.split('outcomes = []')[0] + '''
+	script = setting + '''
 O.materials.append(soil())
 step('b.state.force[1] = -1')
 assert O.iter == 1

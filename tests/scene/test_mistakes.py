@@ -1,9 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """What somebody gets wrong who writes a first script: each message says what to do instead. (Single values: test_bad_input.py.)"""
-import json
-
 import pytest
-from conftest import Yade
+from conftest import outcomesOf
 
 setting = '''
 import json, sys
@@ -93,19 +91,7 @@ mistakes = [
 
 @pytest.fixture(scope='module')
 def outcomes(tmp_path_factory):
-	yade = Yade(tmp_path_factory.mktemp('mistakes'))
-	(yade.folder / 'scripts.json').write_text(json.dumps([script for script, _, _ in mistakes]))
-	return yade(setting + '''
-outcomes = {}
-for script in json.load(open('scripts.json')):
-	O.reset()
-	try:
-		exec(script)
-		outcomes[script] = ['no exception', '']
-	except Exception as error:
-		outcomes[script] = [type(error).__name__, str(error)]
-print(json.dumps(outcomes))
-''').result
+	return outcomesOf(tmp_path_factory.mktemp('mistakes'), setting, [script for script, _, _ in mistakes])
 
 
 @pytest.mark.parametrize('script, exception, words', mistakes, ids=[script for script, _, _ in mistakes])

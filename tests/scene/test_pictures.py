@@ -1,9 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """mpm.plot and mpm.colour: what they draw, taken from matplotlib's objects and YADE's shapes."""
-import json
-
 import pytest
-from conftest import Yade
+from conftest import outcomesOf
 
 refused = [
         ('mpm.plot("sress_xy")', 'ValueError', ["'sress_xy'", 'stress', 'displacement']),
@@ -27,23 +25,8 @@ refused = [
 
 @pytest.fixture(scope='module')
 def outcomes(tmp_path_factory):
-	yade = Yade(tmp_path_factory.mktemp('pictures'))
-	(yade.folder / 'statements.json').write_text(json.dumps([statement for statement, _, _ in refused]))
-	return yade('''
-import json
-from math import nan
-from scenes import *
-outcomes = {}
-for statement in json.load(open('statements.json')):
-	O.reset()
-	column(8)
-	try:
-		exec(statement)
-		outcomes[statement] = ['no exception', '']
-	except Exception as error:
-		outcomes[statement] = [type(error).__name__, str(error)]
-print(json.dumps(outcomes))
-''').result
+	setting = 'from math import nan\nfrom scenes import *\n'
+	return outcomesOf(tmp_path_factory.mktemp('pictures'), setting, [statement for statement, _, _ in refused], before='O.reset(), column(8)')
 
 
 @pytest.mark.parametrize('statement, exception, words', refused, ids=[statement for statement, _, _ in refused])

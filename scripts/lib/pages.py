@@ -1,0 +1,34 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Markdown pages of results."""
+import os
+
+
+def number(text):
+	"""The number that a text of a table stands for, or the text itself."""
+	try:
+		return float(text)
+	except ValueError:
+		return text
+
+
+def table(heads, rows):
+	return '\n'.join(f"| {' | '.join(map(str, row))} |" for row in [heads, ['---'] * len(heads), *rows])
+
+
+def texts(path):
+	"""What a file says, as a list of one text; empty if there is no such file."""
+	if not os.path.exists(path): return []
+	with open(path) as file:
+		return [file.read()]
+
+
+def replace(path, text):
+	"""Write a file at once and as a whole."""
+	with open(path + '.new', 'w') as file:
+		file.write(text)
+	os.replace(path + '.new', path)
+
+
+def write(folder, parts):
+	"""The page of a folder, README.md."""
+	replace(os.path.join(folder, 'README.md'), '\n'.join(parts))
