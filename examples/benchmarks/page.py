@@ -20,7 +20,6 @@ def load(folder):
 
 def write(folder, results):
 	"""Results and page."""
-	os.makedirs(os.path.join(folder, 'results'), exist_ok=True)
 	pages.replace(os.path.join(folder, 'results', 'bench.json'), json.dumps(results, indent='\t') + '\n')
 	parts = [INTRODUCTION.format(**results['machine']), *pages.texts(os.path.join(folder, 'findings.md'))]
 	parts += [section(results[name]) for name, section in sections.items() if name in results]

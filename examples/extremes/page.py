@@ -128,8 +128,10 @@ def write(folder):
 	rows = read(folder)
 	present = [name for name in axes if any(key[0] == name for key in rows)]
 	listed = [name for name in present if axes[name].listed]
-	pictures.outcomes(rows, listed, os.path.join(folder, 'outcomes.png'))
-	parts = [INTRODUCTION, RANGES, rangeTable(rows, listed), '\n![Outcome of all cases](outcomes.png)\n']
+	parts = [INTRODUCTION]
+	if listed:
+		pictures.outcomes(rows, listed, os.path.join(folder, 'outcomes.png'))
+		parts += [RANGES, rangeTable(rows, listed), '\n![Outcome of all cases](outcomes.png)\n']
 	curves = [name for name in ('overlap', 'factor', 'poisson', 'contrast', 'slender', 'thin') if name in present]
 	if curves:
 		pictures.conditions(rows, curves, os.path.join(folder, 'condition.png'))
@@ -139,9 +141,9 @@ def write(folder):
 		parts.append('![Condition number against both overlaps of a corner](corner.png)\n')
 	pictures.pivots(rows, os.path.join(folder, 'pivots.png'))
 	parts.append('![Smallest pivot and error of a solve](pivots.png)\n')
-	if 'columnFactor' in present: parts.append(factorTable(rows))
+	if 'columnFactor' in present or 'slopeFactor' in present: parts.append(factorTable(rows))
 	parts += pages.texts(os.path.join(here, 'findings.md'))
-	parts += ['# All cases\n', OUTCOMES, *(section(rows, name) for name in listed)]
+	if listed: parts += ['# All cases\n', OUTCOMES, *(section(rows, name) for name in listed)]
 	pages.write(folder, parts)
 
 

@@ -90,8 +90,8 @@ ghosts = {'none': 'no ghost', 'paper': 'ghost, h³ (paper)', 'mesh-independent':
 
 
 def errorTable(series):
-	"""Errors and observed orders of several lists of (cells, error) over the same numbers of cells, by name."""
-	cells = [n for n, error in next(iter(series.values()))]
+	"""Errors and observed orders of several lists of (cells, error) over the same numbers of cells, by name; as far as all of them have been run."""
+	cells = [n for n, error in min(series.values(), key=len)]
 	columns = []
 	for name, points in series.items():
 		columns.append([name] + [f'{error:.4e}' for n, error in points])
@@ -100,7 +100,7 @@ def errorTable(series):
 
 
 def between(values):
-	return f'{min(values):.2f} to {max(values):.2f}'
+	return f'{min(values):.2f} to {max(values):.2f}' if values else '–'
 
 
 def figure4():
@@ -108,8 +108,8 @@ def figure4():
 	if not rows: return ''
 	fixed = {n: {ghosts[g]: errorsByCells(rows, n, g, lambda cells: 40) for g in ghosts} for n in sorted({row['pointsPerCell'] for row in rows})}
 	refined = {g: errorsByCells(rows, 2, g, lambda cells: 5 * cells) for g in ghosts}
-	pictures.columnErrors(
-	        {(g, '40 steps'): fixed[2][ghosts[g]] for g in ghosts} | {(g, 'steps refined'): series for g, series in refined.items()}, inFolder('fig4.png'))
+	curves = {(g, '40 steps'): fixed[2][ghosts[g]] for g in ghosts} | {(g, 'steps refined'): series for g, series in refined.items()}
+	pictures.columnErrors({name: series for name, series in curves.items() if series}, inFolder('fig4.png'))
 	allOrders = [order for tables in fixed.values() for series in tables.values() for order in orders(series)]
 	allRefined = [order for series in refined.values() for order in orders(series)]
 	without, stabilised = ([order for tables in fixed.values() for g in names for order in orders(tables[ghosts[g]])] for names in (['none'], ['paper', 'mesh-independent']))

@@ -12,12 +12,14 @@ worst = max([i / 100 for i in range(101)], key=lambda offset: block(offset).cond
 
 results = Results(options.out, 'scaling', ['cellSize', 'ghost'], ['offset', 'conditionNumber', 'error', 'failure'])
 for cellSize in [10.**i for i in range(-3, 4)]:
+	if all((cellSize, ghost) in results for ghost in stabilisations): continue
+	rows = []
 	for ghost, settings in stabilisations.items():
-		if (cellSize, ghost) in results: continue
 		conditionNumber = block(worst, cellSize=cellSize, **settings).conditionNumber()
 		height = cells * cellSize
 		column(cells, height=height, **settings)
 		failure = runSteps(40)
 		error = 'nan' if failure else columnError(height)
-		results.add([dict(zip(results.columns, (cellSize, ghost, worst, conditionNumber, error, failure)))])
-		print(*results.row((cellSize, ghost)).values(), flush=True)
+		rows.append(dict(zip(results.columns, (cellSize, ghost, worst, conditionNumber, error, failure))))
+		print(*rows[-1].values(), flush=True)
+	results.add(rows)

@@ -91,6 +91,8 @@ def countByTolerance(out, cellSize, pointsPerCell):
 	history = []
 	failure = runSteps(steps, lambda: history.append(engine.residuals))
 	if failure: raise RuntimeError(failure)
+	rows = []
 	for tolerance in tolerances:
 		solves = [next(i for i, residual in enumerate(residuals) if i > 0 and residual <= tolerance) for residuals in history]
-		results.add([dict(zip(results.columns, (cellSize, pointsPerCell, tolerance, np.mean(solves), max(solves))))])
+		rows.append(dict(zip(results.columns, (cellSize, pointsPerCell, tolerance, np.mean(solves), max(solves)))))
+	results.add(rows)

@@ -18,12 +18,23 @@ class Run:
 	failure: str
 
 
+class NoReference(Exception):
+	"""Why nothing can be compared with the reference run of a plan."""
+
+
 def read(folder, name, plan):
-	"""Runs of a plan's table, the reference left out, and the uncertainty of the reference (0 if errors are exact, NaN if unknown)."""
+	"""Runs of a plan's table, the reference left out, and the uncertainty of the reference (0 if errors are exact, NaN if unknown).
+
+	NoReference is raised if it did not come to its end, or a quantity is zero there.
+	"""
 	with open(os.path.join(folder, 'results', name + '.csv'), newline='') as file:
 		rows = list(csv.DictReader(file))
 	find = lambda special: next((row for row in rows if special and all(row[k] == v for k, v in (plan.parameters | special).items())), None)
 	reference, check = find(plan.reference), find(plan.check)
+	if plan.quantities and reference:
+		if reference['failure']: raise NoReference(f"The reference run has not come to its end: {reference['failure']}")
+		for quantity in plan.quantities:
+			if not float(reference[quantity]): raise NoReference(f'The reference run gives {quantity} = 0, so that no error can be relative to it')
 	runs = [_run(row, plan, reference) for row in rows if row is not reference]
 	if not plan.quantities: return runs, 0.
 	return runs, _run(check, plan, reference).error if check and reference else math.nan

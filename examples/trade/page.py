@@ -50,7 +50,10 @@ def picture(name, plan, runs, front, uncertainty, path):
 
 
 def section(folder, name, plan):
-	runs, uncertainty = fronts.read(folder, name, plan)
+	try:
+		runs, uncertainty = fronts.read(folder, name, plan)
+	except fronts.NoReference as reason:
+		return f'## {name}\n\n{reason}.\n'
 	front = fronts.front(runs)
 	if not front: return f'## {name}\n\nNo run has come to its end.\n'
 	picture(name, plan, runs, front, uncertainty, os.path.join(folder, name + '.png'))

@@ -1,11 +1,36 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Tables of results that survive an interruption."""
+import argparse
 import csv
 import os
+import sys
+import tempfile
+
+
+def seconds(text):
+	"""Type of an option on the command line: a time limit [s]."""
+	try:
+		limit = float(text)
+	except ValueError:
+		limit = 0
+	if not 0 < limit <= 1e6: raise argparse.ArgumentTypeError(f'{text} is not a time > 0 and <= 1e6 s')
+	return limit
+
+
+def makeFolder(out):
+	"""Make the folder <out>/results before anything is run; the script ends with the reason if nothing can be written there."""
+	folder = os.path.join(out, 'results')
+	try:
+		os.makedirs(folder, exist_ok=True)
+		tempfile.TemporaryFile(dir=folder).close()
+	except OSError as error:
+		sys.exit(f'{os.path.basename(sys.argv[0])}: nothing can be written to the folder {folder} (--out): {error.strerror}')
 
 
 class Results:
 	"""A table in <out>/results/<name>.csv. Each row is written when it is known, so that an interrupted run can be continued.
+
+	SystemExit is raised if the file there has other columns.
 
 	:param keys: names of the leading columns, which say what was run
 	:param values: names of the other columns
@@ -17,7 +42,11 @@ class Results:
 		self.rows = {}
 		if os.path.exists(self.path):
 			with open(self.path, newline='') as file:
-				self.rows = {self._key(row): row for row in csv.DictReader(file)}
+				found = csv.DictReader(file)
+				if found.fieldnames != self.columns:
+					raise SystemExit(f"{self.path} is a table of other runs: its columns are {', '.join(found.fieldnames or ['none'])}, "
+					                 f"and not {', '.join(self.columns)}; remove it, or write to another folder (--out)")
+				self.rows = {self._key(row): row for row in found}
 
 	def __contains__(self, key):
 		return tuple(map(str, key)) in self.rows

@@ -38,8 +38,9 @@ class Sweep:
 			inTable = {name: value for name, value in setting.items() if name != 'threads'}
 			with open(parameters, 'w') as file:
 				file.write(f"{' '.join(inTable)}\n{' '.join(inTable.values())}\n")
+			batch = {'YADE_BATCH': f'{parameters}:2'} if inTable else {} # YADE reads no table without columns
 			command = [*yadeCommand(self.forUser, setting.get('threads', 1)), os.path.join(root, 'scripts', 'lib', 'measured.py'), self.plan.script, results, *names]
-			failure = self._process(command, os.environ | {'YADE_BATCH': f'{parameters}:2'})
+			failure = self._process(command, os.environ | batch)
 			result = dict.fromkeys(measured + names, float('nan'))
 			if not failure:
 				with open(results) as file:

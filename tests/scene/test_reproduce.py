@@ -97,6 +97,15 @@ def test_an_interrupted_run_continues(quick):
 	assert table.read_text().splitlines() == [head, '0.0,1,2,3', *others, second]
 
 
+def test_the_page_of_an_interrupted_run(tmp_path):
+	(tmp_path / 'results').mkdir()
+	for name, count in ('fig4', 5), ('scaling', 3), ('table1-tolerance', 3):
+		lines = (paper / 'results' / f'{name}.csv').read_text().splitlines()
+		(tmp_path / 'results' / f'{name}.csv').write_text('\n'.join(lines[:1 + count]) + '\n')
+	page = writePage(tmp_path)
+	assert '## Figure 4' in page and '## Beyond the paper' in page
+
+
 def test_the_kept_page_is_made_from_the_kept_tables(tmp_path):
 	shutil.copytree(paper / 'results', tmp_path / 'results')
 	assert writePage(tmp_path) == (paper / 'README.md').read_text()

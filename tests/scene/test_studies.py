@@ -22,6 +22,7 @@ def study(yade):
 		environment = os.environ | yade.ownSettings() | {'YADE': shutil.which(yade.command)}
 		ended = subprocess.run([root / 'scripts' / script, *map(str, arguments)], cwd=yade.folder, env=environment, capture_output=True, text=True, timeout=120)
 		assert (ended.returncode != 0) == fails, ended.stdout + ended.stderr
+		assert 'Traceback' not in ended.stderr, ended.stderr
 		return ended.stderr if fails else ended.stdout
 
 	return run
@@ -44,6 +45,32 @@ def test_extremes(study, tmp_path):
 	assert '| `contrast` |' in page and '**singular**' in page
 	assert (tmp_path / 'out/outcomes.png').stat().st_size > 10000
 	assert '0 cases to run' in study('extremes', *arguments)
+
+
+def test_what_cannot_be_run_is_refused_in_a_sentence(study, tmp_path):
+	(tmp_path / 'file').touch()
+	(tmp_path / 'own.py').touch()
+	own, vary = ('trade', 'own.py', '--quantity', 'x', '--reference', 'h=4'), ('--vary', 'h=1,2')
+	(tmp_path / 'other/results').mkdir(parents=True)
+	(tmp_path / 'other/results/own.csv').write_text('n,wall\n1,2\n')
+	for arguments, said in {
+	        ('extremes', 'slopeFactor', '--quick'): 'axis slopeFactor has no quick values',
+	        ('extremes', 'points', '--quick', '--out', 'file'): 'nothing can be written to the folder file/results (--out): Not a directory',
+	        ('extremes', 'points', '--time-limit', 'inf'): 'inf is not a time > 0',
+	        (*own[:2], *vary): '--quantity or --error',
+	        own: 'name what is to be varied',
+	        (*own, *vary, *vary): 'given twice',
+	        (*own, '--vary', 'h=1,,2'): 'is not NAME=VALUE,VALUE',
+	        (*own, *vary, '--out', 'file'): 'nothing can be written',
+	        (*own, *vary, '--out', 'other'): 'own.csv is a table of other runs: its columns are n, wall, and not h, wall,',
+	        ('trade', 'none.py', *vary): 'no such script: none.py',
+	        ('trade', 'slope', *vary): 'for a script of your own',
+	        ('bench', 'nonsense'): 'no part nonsense',
+	        ('bench', 'start', '--out', 'file'): 'nothing can be written',
+	        ('bench', '--compare', 'nonsense'): 'rev-parse --verify nonsense^{commit} ended with exit code',
+	        ('reproduce', 'fig2', '--out', 'file'): 'nothing can be written'
+	}.items():
+		assert said in study(*arguments, fails=True), arguments
 
 
 def test_cases_that_end_their_process(tmp_path):
@@ -87,7 +114,16 @@ stress, exactly = columnError() + 1, columnError()
 	page = (tmp_path / 'out/README.md').read_text()
 	assert '10.0% error: **cells 4' in page and (tmp_path / 'out/own.png').stat().st_size > 10000
 	assert 'own: 0 of 5 runs to do' in study(*arguments)
-	assert '--quantity or --error' in study('trade', script, fails=True)
+
+
+def test_trade_where_nothing_can_be_compared(study, tmp_path):
+	(tmp_path / 'own.py').write_text('error = .5')
+	study('trade', 'own.py', '--vary', 'threads=1', '--error', 'error') # a table of parameters without columns
+	assert '50.00%' in (tmp_path / 'out/trade/README.md').read_text()
+	for reference, said in ('0,', 'gives x = 0'), ('nan,on purpose', 'has not come to its end: on purpose'):
+		(tmp_path / 'out/trade/results/own.csv').write_text('h,wall,cpu,memory,solves,x,failure\n1,1,1,1,1,1,\n4,1,1,1,1,' + reference + '\n')
+		study('trade', 'own.py', '--vary', 'h=1', '--quantity', 'x', '--reference', 'h=4')
+		assert said in (tmp_path / 'out/trade/README.md').read_text()
 
 
 def test_trade_of_a_built_in_scene(study, tmp_path):
@@ -150,4 +186,3 @@ def test_bench(study, tmp_path):
 	assert results['bodies']['points']['bodies'] == results['bodies']['spheres']['bodies'] == 10000
 	page = (tmp_path / 'out/README.md').read_text()
 	assert '## Size' in page and '| 10000 spheres |' in page
-	assert 'no part nonsense' in study('bench', 'nonsense', fails=True)
