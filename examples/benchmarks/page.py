@@ -2,6 +2,7 @@
 """Page of where time and memory go, from results/bench.json."""
 import json
 import os
+import shutil
 import subprocess
 import sys
 
@@ -30,8 +31,9 @@ def machine():
 	"""What the times depend on."""
 	with open('/proc/cpuinfo') as file:
 		model = next(line.partition(':')[2].strip() for line in file if line.startswith('model name'))
-	git = subprocess.run(['git', '-C', here, 'describe', '--always', '--dirty'], capture_output=True, text=True)
-	return dict(processor=model, processors=os.cpu_count(), revision=git.stdout.strip() or 'unknown')
+	describe = ['git', '-C', here, 'describe', '--always', '--dirty']
+	revision = subprocess.run(describe, capture_output=True, text=True).stdout.strip() if shutil.which('git') else ''
+	return dict(processor=model, processors=os.cpu_count(), revision=revision or 'unknown')
 
 
 def kernels(results):
