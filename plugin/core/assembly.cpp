@@ -190,7 +190,7 @@ InvertedPoint addInternalForce(
 	// a processor away they wait for its time slice, a thousand times as long as the pass.
 	const bool threadsPay = points.volume0.size() >= (Dim == 2 ? 4000 : 1000);
 	for (const auto& colour : basis.colours) {
-#pragma omp parallel for schedule(dynamic, 4) if (threadsPay)
+#pragma omp parallel for schedule(dynamic) if (threadsPay)
 		for (int range = 0; range < int(colour.size()); ++range)
 			keepSmallest(inverted, add(pass, colour[range].first, colour[range].second));
 	}

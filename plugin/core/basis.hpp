@@ -22,44 +22,65 @@ inline int floorToInt(double x)
 
 inline int centreCell(double x, double h) { return -floorToInt(faceTolerance - x / h) - 1; }
 
-/// Values and derivatives of the basis functions of one axis. The point's domain lies in one cell (2 nodes) or in two (3 nodes).
-struct AxisBasis {
-	int    cell;        ///< lowest cell
-	int    cells;       ///< 1 or 2
-	double value[4];    ///< the last one is zero: four numbers fill a row of lanes
-	double slope[4];    ///< [1/m]
-	double fraction[2]; ///< share of the domain's length in each cell
+/// The cells along one axis that the domain of a point lies in.
+struct AxisCells {
+	int lowest, count; ///< count: 1 or 2
 
-	/// Linear (hat) functions at coordinate x, measured from the grid's origin in cells of size h, as seen from the given cell. They are
-	/// also the exact average over any domain inside that cell.
-	void setLinear(double x, double h, int lowest)
-	{
-		const double xi = x / h - lowest, w = 1 / h;
-		set(lowest, 1, 1 - xi, xi, 0, -w, w, 0, 1, 0);
-	}
-
-	/// Hat functions averaged over the domain [x - l, x + l], l <= h/2 (Bardenhagen and Kober 2004). With the overlaps a and b of the
-	/// domain with the lower and the upper cell the pieces are S = a^2/4lh, 1 - S_lower - S_upper, b^2/4lh: their sum is one, their
-	/// slopes add up to zero, sum S x_v = x and sum dS/dx x_v = 1, all to round-off: a + b = 2l however far the point is from the origin.
-	void setGimp(double x, double l, double h)
+	/// Of the domain [x - l, x + l], l <= h/2, measured from the grid's origin in cells of size h.
+	static AxisCells reached(double x, double l, double h)
 	{
 		const int    face   = floorToInt(x / h + 0.5); // the only one that the domain can cross
 		const double offset = h * face - x;
-		if (std::abs(offset) >= l * (1 - overlapTolerance)) return setLinear(x, h, offset > 0 ? face - 1 : face);
-		const double a = l + offset, b = l - offset, w = 1 / (2 * l * h);
-		const double sa = 0.5 * w * a * a, sb = 0.5 * w * b * b;
-		set(face - 1, 2, sa, 1 - sa - sb, sb, -w * a, w * (a - b), w * b, w * h * a, w * h * b);
+		if (std::abs(offset) >= l * (1 - overlapTolerance)) return { offset > 0 ? face - 1 : face, 1 };
+		return { face - 1, 2 };
 	}
+};
+
+/// Values and derivatives of the basis functions of one axis. The point's domain lies in one cell (2 nodes) or in two (3 nodes).
+struct AxisBasis {
+	double value[4]; ///< the last one is zero: four numbers fill a row of lanes
+	double slope[4]; ///< [1/m]
+
+	/// Linear (hat) functions at coordinate x, measured from the grid's origin in cells of size h, as seen from the given cell. They are
+	/// also the exact average over any domain inside that cell.
+	void setLinear(double x, double h, int cell)
+	{
+		const double xi = x / h - cell, w = 1 / h;
+		set(1 - xi, xi, 0, -w, w, 0);
+	}
+
+	/// Hat functions averaged over the domain [x - l, x + l] in its cells (Bardenhagen and Kober 2004). With the overlaps a and b of the
+	/// domain with the lower and the upper cell the pieces are S = a^2/4lh, 1 - S_lower - S_upper, b^2/4lh: their sum is one, their
+	/// slopes add up to zero, sum S x_v = x and sum dS/dx x_v = 1, all to round-off: a + b = 2l however far the point is from the origin.
+	void setGimp(double x, double l, double h, const AxisCells& cells)
+	{
+		if (cells.count == 1) return setLinear(x, h, cells.lowest);
+		const double offset = h * (cells.lowest + 1) - x, a = l + offset, b = l - offset, w = 1 / (2 * l * h);
+		const double sa = 0.5 * w * a * a, sb = 0.5 * w * b * b;
+		set(sa, 1 - sa - sb, sb, -w * a, w * (a - b), w * b);
+	}
+
+	/// Share of the length of a domain in two cells that lies in the lower (0) or the upper one (1): there the outer functions have the
+	/// slope 1/h, elsewhere none.
+	double share(int cell, double h) const { return h * (cell == 0 ? -slope[0] : slope[2]); }
 
 private:
 	/// Number by number: a whole that is put together elsewhere and then copied takes twice the time.
-	void set(int lowest, int count, double v0, double v1, double v2, double s0, double s1, double s2, double f0, double f1)
+	void set(double v0, double v1, double v2, double s0, double s1, double s2)
 	{
-		cell = lowest, cells = count;
 		value[0] = v0, value[1] = v1, value[2] = v2, value[3] = 0;
 		slope[0] = s0, slope[1] = s1, slope[2] = s2, slope[3] = 0;
-		fraction[0] = f0, fraction[1] = f1;
 	}
+};
+
+/// The basis functions of a point.
+template <int Dim> struct PointBasis {
+	AxisBasis axis[Dim];
+
+	PointBasis() { } // no numbers yet: there may be millions of them, and all are set
+
+	AxisBasis&       operator[](int a) { return axis[a]; }
+	const AxisBasis& operator[](int a) const { return axis[a]; }
 };
 
 } // namespace gimpm

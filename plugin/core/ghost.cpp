@@ -19,30 +19,36 @@ template <int Dim> double faceMass(int s, int t, double h)
 	return m;
 }
 
-/// Sums over the points of a populated cell.
-struct CellSums {
-	double volume = 0, weightedModulus = 0;
-
-	double modulus() const { return weightedModulus / volume; }
-};
-
-template <int Dim>
-std::vector<CellSums> sumOverCells(const CloudBasis<Dim>& basis, const std::vector<double>& pointVolume, const std::vector<double>& pointModulus)
+/// Numbers of the cells below and above a face.
+template <int Dim> std::array<int, 2> cellsAt(const GhostFace<Dim>& face, const CloudBasis<Dim>& basis)
 {
-	std::vector<CellSums> sums(basis.cells.size());
+	return { position(basis.cells, face.lower), position(basis.cells, face.lower + Grid<Dim>::keyStep(face.axis)) };
+}
+
+/// Young's moduli of the cells at the faces, by number: the means of their points, weighted by the volumes of the overlaps.
+template <int Dim>
+std::vector<double> cellModuli(const std::vector<GhostFace<Dim>>& faces, const CloudBasis<Dim>& basis, const PointStiffness& stiffnessOf, double h)
+{
+	std::vector<char> isAtFace(basis.cells.size(), 0);
+	for (const auto& face : faces)
+		for (const int cell : cellsAt(face, basis))
+			isAtFace[cell] = 1;
+	std::vector<double> volume(basis.cells.size(), 0), modulus(basis.cells.size(), 0);
 	for (const auto& patch : basis.patches)
-		for (int c = 0; c < 1 << Dim; ++c) {
-			if (!(patch.cells >> c & 1)) continue;
-			CellSums& sum = sums[position(basis.cells, patch.cell + Grid<Dim>::keyOffset(c))];
+		for (int c = 0; c < windowCells<Dim>; ++c) {
+			const int cell = patch.reached[c];
+			if (cell < 0 || !isAtFace[cell]) continue;
 			for (int i = patch.first; i < patch.first + patch.count; ++i) {
-				double overlap = pointVolume[basis.order[i]];
+				auto [overlap, young] = stiffnessOf(basis.order[i]);
 				for (int a = 0; a < Dim; ++a)
-					overlap *= basis.axes[i][a].fraction[c >> a & 1];
-				sum.volume += overlap;
-				sum.weightedModulus += overlap * pointModulus[basis.order[i]];
+					if (patch.span >> a & 1) overlap *= basis.axes[i][a].share(c >> a & 1, h);
+				volume[cell] += overlap;
+				modulus[cell] += overlap * young;
 			}
 		}
-	return sums;
+	for (std::size_t cell = 0; cell < modulus.size(); ++cell)
+		if (isAtFace[cell]) modulus[cell] /= volume[cell];
+	return modulus;
 }
 
 /// Calls f(node a, s-th position of a, node b >= a, code, coefficient) for the node pairs of a face; the coefficient is the same for
@@ -96,21 +102,13 @@ std::vector<GhostFace<Dim>> ghostFaces(const std::vector<Key>& populated, const 
 
 template <int Dim>
 void weighGhostFaces(
-        std::vector<GhostFace<Dim>>& faces,
-        const CloudBasis<Dim>&       basis,
-        const std::vector<double>&   pointVolume,
-        const std::vector<double>&   pointModulus,
-        double                       h,
-        double                       factor,
-        GhostScaling                 scaling)
+        std::vector<GhostFace<Dim>>& faces, const CloudBasis<Dim>& basis, const PointStiffness& stiffnessOf, double h, double factor, GhostScaling scaling)
 {
-	if (faces.empty()) return;
-	const auto   sums  = sumOverCells(basis, pointVolume, pointModulus);
-	const double power = scaling == GhostScaling::paper ? h * h * h : h;
+	const auto   modulus = cellModuli(faces, basis, stiffnessOf, h);
+	const double power   = scaling == GhostScaling::paper ? h * h * h : h;
 	for (auto& face : faces) {
-		const Key       above = face.lower + Grid<Dim>::keyStep(face.axis);
-		const CellSums &s = sums[position(basis.cells, face.lower)], &t = sums[position(basis.cells, above)];
-		face.stiffness = factor * std::min(s.modulus(), t.modulus()) * power / 3;
+		const auto [lower, upper] = cellsAt(face, basis);
+		face.stiffness            = factor * std::min(modulus[lower], modulus[upper]) * power / 3;
 		for (int i = 0; i < 3; ++i)
 			for (int s = 0; s < GhostFace<Dim>::tangentialNodes; ++s) {
 				Key node = face.lower + i * Grid<Dim>::keyStep(face.axis);
@@ -161,7 +159,7 @@ template <int Dim> void addGhostForce(const std::vector<GhostFace<Dim>>& faces, 
 	template std::vector<Key>            boundaryCells(const std::vector<Key>&, const Boundary<Dim>&);                                                     \
 	template std::vector<GhostFace<Dim>> ghostFaces(const std::vector<Key>&, const std::vector<Key>&, const Boundary<Dim>&);                               \
 	template void weighGhostFaces(                                                                                                                         \
-	        std::vector<GhostFace<Dim>>&, const CloudBasis<Dim>&, const std::vector<double>&, const std::vector<double>&, double, double, GhostScaling);   \
+	        std::vector<GhostFace<Dim>>&, const CloudBasis<Dim>&, const PointStiffness&, double, double, GhostScaling);                                    \
 	template void markGhostPattern(const std::vector<GhostFace<Dim>>&, NodeMatrix<Dim>&);                                                                  \
 	template void addGhostStiffness(const std::vector<GhostFace<Dim>>&, double, NodeMatrix<Dim>&);                                                         \
 	template void addGhostForce(const std::vector<GhostFace<Dim>>&, double, const Eigen::VectorXd&, Eigen::VectorXd&);

@@ -3,6 +3,7 @@
 #pragma once
 #include "core/cloud_basis.hpp"
 #include "core/node_matrix.hpp"
+#include <functional>
 
 namespace gimpm {
 
@@ -25,18 +26,17 @@ template <int Dim> struct GhostFace {
 /// Faces of a body, sorted. There are none across walls.
 template <int Dim> std::vector<GhostFace<Dim>> ghostFaces(const std::vector<Key>& populated, const std::vector<Key>& boundary, const Boundary<Dim>&);
 
+/// Current volume [m3] and Young's modulus [Pa] of a point of the cloud.
+struct VolumeAndModulus {
+	double volume, modulus;
+};
+using PointStiffness = std::function<VolumeAndModulus(int point)>;
+
 /// Sets node numbers and stiffness = factor * modulus * (h or h^3) / 3. A cell's modulus is the mean of Young's moduli of its points,
 /// weighted by the volumes of their domains' overlaps with it; a face has that of the softer of its two cells. With the stiffer one or a
 /// mean, soft layers could not be strained beside stiff ones: the kink of the displacements is what equilibrium asks for there.
 template <int Dim>
-void weighGhostFaces(
-        std::vector<GhostFace<Dim>>&,
-        const CloudBasis<Dim>&,
-        const std::vector<double>& pointVolume,  ///< current volumes, in the order of the cloud [m3]
-        const std::vector<double>& pointModulus, ///< Young's moduli, in the order of the cloud [Pa]
-        double                     h,
-        double                     factor,
-        GhostScaling);
+void weighGhostFaces(std::vector<GhostFace<Dim>>&, const CloudBasis<Dim>&, const PointStiffness&, double h, double factor, GhostScaling);
 
 /// K += K_g, and the pattern of K_g.
 template <int Dim> void addGhostStiffness(const std::vector<GhostFace<Dim>>&, double h, NodeMatrix<Dim>& K);

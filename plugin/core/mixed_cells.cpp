@@ -14,9 +14,8 @@ template <int Dim> std::vector<char> mixedCells(const CloudBasis<Dim>& basis, co
 		const auto points       = basis.order.begin() + patch.first;
 		const int  first        = material[*points];
 		const bool isMixedPatch = std::any_of(points, points + patch.count, [&](int p) { return material[p] != first; });
-		for (int c = 0; c < windowCells<Dim>; ++c) {
-			if (!(patch.cells >> c & 1)) continue;
-			const int cell = position(basis.cells, patch.cell + Grid<Dim>::keyOffset(c));
+		for (const int cell : patch.reached) {
+			if (cell < 0) continue;
 			if (found[cell] < 0) found[cell] = first;
 			mixed[cell] |= isMixedPatch || found[cell] != first;
 		}

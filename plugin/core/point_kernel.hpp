@@ -30,7 +30,7 @@ template <int Dim, int Span> struct PatchNodes {
 	static constexpr int rowAlong(int row, int axis) { return along(row * inRow, axis); }
 
 	/// Product of the values of all axes but x, with the slope instead of the value for one of them (or for none).
-	GIMPM_INLINE static double rowFactor(const std::array<AxisBasis, Dim>& axes, int row, int sloped)
+	GIMPM_INLINE static double rowFactor(const PointBasis<Dim>& axes, int row, int sloped)
 	{
 		double product = 1;
 		for (int a = 1; a < Dim; ++a)

@@ -14,7 +14,7 @@ template <int Dim> struct PointUpdate {
 };
 
 /// Value at one point of a field given by nodal vectors.
-template <int Dim, int Span> Vec<Dim> interpolate(const std::array<AxisBasis, Dim>& axes, const PatchVectors<Dim, Span>& u)
+template <int Dim, int Span> Vec<Dim> interpolate(const PointBasis<Dim>& axes, const PatchVectors<Dim, Span>& u)
 {
 	using Nodes = PatchNodes<Dim, Span>;
 	Vec<Dim> value;

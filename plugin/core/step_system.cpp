@@ -16,12 +16,10 @@ std::vector<GhostFace<Dim>> stabilise(const PointCloud<Dim>& cloud, const Model<
 	auto            faces    = ghostFaces<Dim>(basis.cells, boundary, model.boundary);
 	report.boundaryCells     = int(boundary.size());
 	report.ghostFaces        = int(faces.size());
-	std::vector<double> volume(cloud.size()), modulus(cloud.size());
-	for (std::size_t p = 0; p < cloud.size(); ++p) {
-		volume[p]  = cloud.volume0[p] * cloud.defGrad[p].determinant();
-		modulus[p] = model.materials[cloud.material[p]].young();
-	}
-	weighGhostFaces(faces, basis, volume, modulus, model.grid.cellSize, model.ghost.factor, model.ghost.scaling);
+	const auto stiffnessOf   = [&](int p) {
+		return VolumeAndModulus { cloud.volume0[p] * cloud.defGrad[p].determinant(), model.materials[cloud.material[p]].young() };
+	};
+	weighGhostFaces(faces, basis, stiffnessOf, model.grid.cellSize, model.ghost.factor, model.ghost.scaling);
 	return faces;
 }
 

@@ -161,7 +161,7 @@ namespace {
 					const Index<Dim> node   = Grid<Dim>::index(key);
 					double           weight = 1;
 					for (int a = 0; a < Dim; ++a)
-						weight *= basis.axes[i][a].value[node[a] - basis.axes[i][a].cell];
+						weight *= basis.axes[i][a].value[node[a] - Grid<Dim>::index(patch.cell)[a]];
 					x += weight * this->grid.nodePosition(node);
 					sum += weight;
 				});

@@ -17,7 +17,8 @@ namespace {
 		        , basis(cloudBasis<Dim>(cloud, g, Basis::gimp, Boundary<Dim>()))
 		        , faces(ghostFaces<Dim>(basis.cells, boundaryCells<Dim>(basis.cells, Boundary<Dim>()), Boundary<Dim>()))
 		{
-			weighGhostFaces<Dim>(faces, basis, cloud.volume0, std::vector<double>(cloud.size(), young), g.cellSize, factor, scaling);
+			const auto stiffnessOf = [&](int p) { return VolumeAndModulus { cloud.volume0[p], young }; };
+			weighGhostFaces<Dim>(faces, basis, stiffnessOf, g.cellSize, factor, scaling);
 		}
 		Eigen::VectorXd force(const Eigen::VectorXd& d) const
 		{
