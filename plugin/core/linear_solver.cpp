@@ -89,8 +89,28 @@ constexpr double smallestPivot = 1e-12;
 /// that finds singular matrices and is not slowed down by ill-conditioned ones; 2D would at some 3 million.
 constexpr double worthwhileFlops = 1e4;
 
-/// Copies the values of K, with rows and columns scaled by powers of two that bring the diagonal close to one, and returns those. This is
-/// exact, and lets pivots be judged: a node that the body hardly touches has a small diagonal and is not singular for that.
+Eigen::VectorXd reversed(const Eigen::VectorXd& x) { return x.reverse(); }
+
+/// Pattern of the matrix with rows and columns in the opposite order. Its lower triangle has become the upper one, which CHOLMOD factorises
+/// with one transposition less.
+void reverse(const SymmetricCsc& K, SymmetricCsc& reversed)
+{
+	const int n = K.size(), entries = int(K.row.size());
+	reversed.start.resize(n + 1);
+	reversed.row.resize(entries);
+	std::transform(K.start.rbegin(), K.start.rend(), reversed.start.begin(), [entries](int start) { return entries - start; });
+	std::transform(K.row.rbegin(), K.row.rend(), reversed.row.begin(), [n](int row) { return n - 1 - row; });
+}
+bool isReverse(const SymmetricCsc& K, const SymmetricCsc& reversed)
+{
+	const int n = K.size(), entries = int(K.row.size());
+	return std::equal(K.start.rbegin(), K.start.rend(), reversed.start.begin(), reversed.start.end(), [=](int a, int b) { return a + b == entries; })
+	        && std::equal(K.row.rbegin(), K.row.rend(), reversed.row.begin(), reversed.row.end(), [=](int a, int b) { return a + b == n - 1; });
+}
+
+/// Copies the values of K in the opposite order, with rows and columns scaled by powers of two that bring the diagonal close to one, and
+/// returns those of K. This is exact, and lets pivots be judged: a node that the body hardly touches has a small diagonal and is not
+/// singular for that.
 Eigen::VectorXd scale(const SymmetricCsc& K, std::vector<double>& scaled)
 {
 	const int       n       = K.size();
@@ -107,13 +127,14 @@ Eigen::VectorXd scale(const SymmetricCsc& K, std::vector<double>& scaled)
 		factor[c]             = size > 0 && std::isfinite(size) ? std::ldexp(1, -std::ilogb(size) / 2) : 1;
 	}
 	scaled.resize(K.value.size());
+	double* out = scaled.data() + scaled.size();
 	for (int c = 0; c < n; ++c)
 		for (int e = K.start[c]; e < K.start[c + 1]; ++e)
-			scaled[e] = K.value[e] * factor[c] * factor[K.row[e]];
+			*--out = K.value[e] * factor[c] * factor[K.row[e]];
 	return factor;
 }
 
-/// LU of a matrix that Cholesky refused. Returns false if it is singular to working precision.
+/// LU of a matrix that Cholesky refused, given by one of its triangles. Returns false if it is singular to working precision.
 bool solveByLu(const SymmetricCsc& K, const Eigen::VectorXd& b, Eigen::VectorXd& x)
 {
 	const int           n = K.size();
@@ -161,7 +182,7 @@ struct LinearSolver::Cholmod {
 		cholmod_free_factor(&factor, &common);
 		cholmod_finish(&common);
 	}
-	static cholmod_sparse view(const SymmetricCsc& K)
+	static cholmod_sparse upper(const SymmetricCsc& K)
 	{
 		cholmod_sparse A {};
 		A.nrow = A.ncol = K.size();
@@ -169,7 +190,7 @@ struct LinearSolver::Cholmod {
 		A.p             = const_cast<int*>(K.start.data());
 		A.i             = const_cast<int*>(K.row.data());
 		A.x             = const_cast<double*>(K.value.data());
-		A.stype         = -1;
+		A.stype         = 1;
 		A.itype         = CHOLMOD_INT;
 		A.xtype         = CHOLMOD_REAL;
 		A.dtype         = CHOLMOD_DOUBLE;
@@ -200,10 +221,11 @@ LinearSolver& LinearSolver::operator=(LinearSolver&&) noexcept = default;
 LinearSolver::FactorSize LinearSolver::analyse(const SymmetricCsc& K)
 {
 	const FewerThreads guard(0);
-	if (!cholmod_->factor || !K.samePattern(scaled_)) {
+	if (!cholmod_->factor || !isReverse(K, scaled_)) {
 		const Stopwatch watch(times_.analyse);
-		scaled_          = K;
-		cholmod_sparse A = Cholmod::view(scaled_);
+		reverse(K, scaled_);
+		scaled_.value.resize(K.value.size());
+		cholmod_sparse A = Cholmod::upper(scaled_);
 		cholmod_free_factor(&cholmod_->factor, &cholmod_->common);
 		cholmod_->factor = cholmod_analyze(&A, &cholmod_->common);
 	}
@@ -215,17 +237,17 @@ LinearSolver::Status LinearSolver::solve(const SymmetricCsc& K, const Eigen::Vec
 	auto&              common = cholmod_->common;
 	const FewerThreads guard(analyse(K).flops);
 	scale_           = scale(K, scaled_.value);
-	cholmod_sparse A = Cholmod::view(scaled_);
+	cholmod_sparse A = Cholmod::upper(scaled_);
 	bool definite = false;
 	if (cholmod_->factor) {
 		const Stopwatch watch(times_.factorise);
 		definite = cholmod_factorize(&A, cholmod_->factor, &common) && common.status == CHOLMOD_OK;
 	}
 	const Stopwatch       watch(times_.solve);
-	const Eigen::VectorXd right = scale_.cwiseProduct(b);
+	const Eigen::VectorXd right = reversed(scale_.cwiseProduct(b));
 	if (definite && cholmod_rcond(cholmod_->factor, &common) < smallestPivot) return Status::singular;
 	const Status status = definite && cholmod_->solve(right, x) ? Status::cholesky : solveByLu(scaled_, right, x) ? Status::lu : Status::singular;
-	if (status != Status::singular) x = x.cwiseProduct(scale_).eval();
+	if (status != Status::singular) x = reversed(x).cwiseProduct(scale_);
 	return status;
 }
 
@@ -248,8 +270,8 @@ LinearSolver::Status LinearSolver::solve(const SymmetricCsc& K, const Eigen::Vec
 bool LinearSolver::solveAgain(const Eigen::VectorXd& b, Eigen::VectorXd& x)
 {
 	const FewerThreads guard(0);
-	const bool         solved = cholmod_->solve(scale_.cwiseProduct(b), x);
-	if (solved) x = x.cwiseProduct(scale_).eval();
+	const bool         solved = cholmod_->solve(reversed(scale_.cwiseProduct(b)), x);
+	if (solved) x = reversed(x).cwiseProduct(scale_);
 	return solved;
 }
 

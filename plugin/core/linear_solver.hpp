@@ -11,8 +11,7 @@ struct SymmetricCsc {
 	std::vector<int>    start, row; ///< pattern: column c has entries start[c] ... start[c + 1] - 1
 	std::vector<double> value;
 
-	int  size() const { return int(start.size()) - 1; }
-	bool samePattern(const SymmetricCsc& o) const { return start == o.start && row == o.row; }
+	int size() const { return int(start.size()) - 1; }
 
 	Eigen::VectorXd operator*(const Eigen::VectorXd&) const;
 };
@@ -80,8 +79,8 @@ public:
 private:
 	struct Cholmod;
 	std::unique_ptr<Cholmod> cholmod_;
-	SymmetricCsc             scaled_; // the last matrix; its pattern is that of the symbolic analysis
-	Eigen::VectorXd          scale_;  // of its rows and columns
+	SymmetricCsc             scaled_; // the last matrix, rows and columns in the opposite order; its pattern is that of the symbolic analysis
+	Eigen::VectorXd          scale_;  // of rows and columns, in their own order
 	SolverTimes              times_;
 	IterativeEffort          effort_;
 };
