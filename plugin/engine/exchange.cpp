@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "engine/exchange.hpp"
 #include "engine/laws.hpp"
+#include "engine/parallel.hpp"
 #include <Eigen/LU>
+#include <atomic>
 #include <unordered_map>
 
 namespace yade {
@@ -120,41 +122,47 @@ template <int Dim> gimpm::PointCloud<Dim> gather(const vector<MaterialPoint>& po
 {
 	gimpm::PointCloud<Dim> cloud;
 	cloud.resize(points.size());
-	MaterialIndex materials(model.materials);
-	for (size_t p = 0; p < points.size(); ++p) {
-		const MaterialPoint& point = points[p];
-		point.requireAdmissible(Dim);
-		requireOnGrid<Dim>(point, model.grid, model.basis);
-		cloud.position[p]      = point.state->pos.template head<Dim>();
-		cloud.halfSize[p]      = point.shape->halfSize.template head<Dim>();
-		cloud.halfSize0[p]     = point.shape->halfSize0.template head<Dim>();
-		cloud.volume0[p]       = point.state->volume0;
-		cloud.defGrad[p]       = point.state->defGrad.template topLeftCorner<Dim, Dim>();
-		cloud.elasticStrain[p] = gimpm::SymTensor<Dim>::from(point.state->elasticStrain);
-		cloud.stress[p]        = gimpm::SymTensor<Dim>::from(point.state->stress);
-		cloud.plasticStrain[p] = point.state->plasticStrain;
-		cloud.material[p]      = materials.of(point);
-		if (!point.state->force.isZero(0)) {
-			cloud.force.resize(points.size(), gimpm::Vec<Dim>::Zero());
-			cloud.force[p] = point.state->force.template head<Dim>();
+	std::atomic_bool hasForce { false };
+	inRanges(points.size(), [&](size_t begin, size_t end) {
+		for (size_t p = begin; p < end; ++p) {
+			const MaterialPoint& point = points[p];
+			point.requireAdmissible(Dim);
+			requireOnGrid<Dim>(point, model.grid, model.basis);
+			cloud.position[p]      = point.state->pos.template head<Dim>();
+			cloud.halfSize[p]      = point.shape->halfSize.template head<Dim>();
+			cloud.halfSize0[p]     = point.shape->halfSize0.template head<Dim>();
+			cloud.volume0[p]       = point.state->volume0;
+			cloud.defGrad[p]       = point.state->defGrad.template topLeftCorner<Dim, Dim>();
+			cloud.elasticStrain[p] = gimpm::SymTensor<Dim>::from(point.state->elasticStrain);
+			cloud.stress[p]        = gimpm::SymTensor<Dim>::from(point.state->stress);
+			cloud.plasticStrain[p] = point.state->plasticStrain;
+			if (!point.state->force.isZero(0)) hasForce = true;
 		}
-	}
+	});
+	MaterialIndex materials(model.materials);
+	for (size_t p = 0; p < points.size(); ++p)
+		cloud.material[p] = materials.of(points[p]);
+	if (hasForce)
+		for (const MaterialPoint& point : points)
+			cloud.force.push_back(point.state->force.template head<Dim>());
 	return cloud;
 }
 
 // Plane strain leaves the components out of the plane alone, but for the zz component of strain and stress.
 template <int Dim> void scatter(const gimpm::PointCloud<Dim>& cloud, const vector<MaterialPoint>& points)
 {
-	for (size_t p = 0; p < points.size(); ++p) {
-		MpmState& state = *points[p].state;
-		state.pos.head<Dim>() = cloud.position[p];
-		state.defGrad.topLeftCorner<Dim, Dim>()      = cloud.defGrad[p];
-		state.elasticStrain                          = cloud.elasticStrain[p].full();
-		state.stress                                 = cloud.stress[p].full();
-		state.plasticStrain                          = cloud.plasticStrain[p];
-		state.volume                                 = cloud.volume0[p] * cloud.defGrad[p].determinant();
-		points[p].shape->halfSize.template head<Dim>() = cloud.halfSize[p];
-	}
+	inRanges(points.size(), [&](size_t begin, size_t end) {
+		for (size_t p = begin; p < end; ++p) {
+			MpmState& state                          = *points[p].state;
+			state.pos.head<Dim>()                    = cloud.position[p];
+			state.defGrad.topLeftCorner<Dim, Dim>()  = cloud.defGrad[p];
+			state.elasticStrain                      = cloud.elasticStrain[p].full();
+			state.stress                             = cloud.stress[p].full();
+			state.plasticStrain                      = cloud.plasticStrain[p];
+			state.volume                             = cloud.volume0[p] * cloud.defGrad[p].determinant();
+			points[p].shape->halfSize.template head<Dim>() = cloud.halfSize[p];
+		}
+	});
 }
 
 #define MPM_INSTANTIATE(Dim)                                                                                                                                   \

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+// Work on many bodies, shared among the threads that YADE was given (yade -j).
+#include <exception>
+#include <omp.h>
+#include <vector>
+
+namespace yade {
+
+// Calls f(begin, end) for ranges that make up [0, n), a thread each. Of what they throw, that of the first range is thrown.
+template <class F> void inRanges(size_t n, F f)
+{
+	constexpr size_t                worthwhile = 2000; // bodies for which to wake another thread
+	const int                       ranges     = int(std::min<size_t>(omp_get_max_threads(), 1 + n / worthwhile));
+	std::vector<std::exception_ptr> thrown(ranges);
+#pragma omp parallel for num_threads(ranges) schedule(static, 1)
+	for (int r = 0; r < ranges; ++r)
+		try {
+			f(n * r / ranges, n * (r + 1) / ranges);
+		} catch (...) {
+			thrown[r] = std::current_exception();
+		}
+	for (const auto& exception : thrown)
+		if (exception) std::rethrow_exception(exception);
+}
+
+} // namespace yade
