@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+#include "core/instruction_set.hpp"
 #include "core/patch_stiffness.hpp"
 #include <atomic>
 #include <climits>
@@ -118,8 +119,7 @@ template <class Kernels, int Dim> GIMPM_INLINE int addPatches(const Pass<Dim>& p
 	return inverted;
 }
 
-// The same source twice: for all processors that Debian runs on, and for those with AVX2 and FMA (nearly all since 2013). What does not
-// depend on the kind of patch is not inlined into the code for all kinds.
+// What does not depend on the kind of patch is not inlined into the code for all kinds.
 #define GIMPM_KERNELS(Name, ...)                                                                                                                               \
 	struct Name {                                                                                                                                          \
 		template <int Dim> [[gnu::flatten, gnu::noinline]] __VA_ARGS__ static int respond(const Pass<Dim>& pass, Chunk<Dim>& chunk)                    \
@@ -140,11 +140,7 @@ template <class Kernels, int Dim> GIMPM_INLINE int addPatches(const Pass<Dim>& p
 		}                                                                                                                                              \
 	};
 GIMPM_KERNELS(PortableKernels)
-#ifdef __AVX2__ // the compiler was told to use it and more (-march=native)
-using Avx2Kernels = PortableKernels;
-#else
-GIMPM_KERNELS(Avx2Kernels, [[gnu::target("arch=x86-64-v3")]])
-#endif
+GIMPM_KERNELS(Avx2Kernels, GIMPM_TARGET_AVX2)
 #undef GIMPM_KERNELS
 
 void keepSmallest(std::atomic<int>& smallest, int value)
@@ -185,7 +181,7 @@ InvertedPoint addInternalForce(
 {
 	std::atomic<int> inverted { INT_MAX };
 	const Pass<Dim>  pass { basis, points, materials, d, f, K };
-	const auto       add = __builtin_cpu_supports("x86-64-v3") ? Avx2Kernels::addPatches<Dim> : PortableKernels::addPatches<Dim>;
+	const auto       add = processorHasAvx2() ? Avx2Kernels::addPatches<Dim> : PortableKernels::addPatches<Dim>;
 	// Threads meet after each colour. Of few points a pass is over before they have: alone that costs little, but where another program takes
 	// a processor away they wait for its time slice, a thousand times as long as the pass.
 	const bool threadsPay = points.volume0.size() >= (Dim == 2 ? 4000 : 1000);

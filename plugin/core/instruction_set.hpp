@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The same source for all processors that Debian runs on, and for those with AVX2 and FMA (nearly all since 2013).
+#pragma once
+
+namespace gimpm {
+
+#ifdef __AVX2__ // the compiler was told to use it and more (-march=native)
+#define GIMPM_TARGET_AVX2
+#else
+#define GIMPM_TARGET_AVX2 [[gnu::target("arch=x86-64-v3")]]
+#endif
+
+inline bool processorHasAvx2() { return __builtin_cpu_supports("x86-64-v3"); }
+
+/// f(), with all that it calls compiled into one function, for AVX2 if the processor has it.
+template <class F> [[gnu::flatten, gnu::noinline]] void callPortable(F&& f) { f(); }
+template <class F> [[gnu::flatten, gnu::noinline]] GIMPM_TARGET_AVX2 void callAvx2(F&& f) { f(); }
+template <class F> void callForProcessor(F&& f)
+{
+	if (processorHasAvx2()) callAvx2(f);
+	else
+		callPortable(f);
+}
+
+} // namespace gimpm
