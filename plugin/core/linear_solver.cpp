@@ -47,7 +47,7 @@ template void reduce(const NodeMatrix<3>&, const FreeDofs&, SymmetricCsc&);
 
 namespace {
 
-/// Operations of a factorisation above which the threads of the BLAS have enough to do. Seconds with one and two of them: 2D, 33 MFLOP,
+/// Operations of a factorisation above which the threads of the BLAS have enough to do. Seconds with one and two of them: 2D, 0.2 GFLOP,
 /// 0.0133 and 0.0195; 3D, 0.46 GFLOP, 0.042 and 0.040; 3.5 GFLOP, 0.234 and 0.217.
 constexpr double flopsForThreads = 1e9;
 
