@@ -4,7 +4,7 @@
 #include "core/kinematics.hpp"
 #include <Eigen/Eigenvalues>
 
-namespace gimpm {
+namespace gimpm::testAffine {
 namespace {
 
 	constexpr double young = 2.6e6, poisson = 0.3, yield = 5e4, G = 1e6, K = 13e6 / 6;
@@ -130,4 +130,4 @@ namespace {
 	}
 
 } // namespace
-} // namespace gimpm
+} // namespace gimpm::testAffine

@@ -3,7 +3,7 @@
 #include "scenes.hpp"
 #include <Eigen/Eigenvalues>
 
-namespace gimpm {
+namespace gimpm::testGhostForce {
 namespace {
 
 	/// A body of points with one Young's modulus, all surfaces free, and its ghost faces.
@@ -180,4 +180,4 @@ namespace {
 	}
 
 } // namespace
-} // namespace gimpm
+} // namespace gimpm::testGhostForce

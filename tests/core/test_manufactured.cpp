@@ -7,7 +7,7 @@
 #include <complex>
 #include <cstdio>
 
-namespace gimpm {
+namespace gimpm::testManufactured {
 namespace {
 
 	constexpr double pi = 3.14159265358979323846, young = 1e6, poisson = 0.3;
@@ -192,4 +192,4 @@ namespace {
 	TEST(ManufacturedSolution, StrongGhostStabilisationKeepsTheOrders) { expectOrdersOfMovedPoints(orders<FreeTop, 2>({ 8, 16, 32 }, 4, { 1 })); }
 
 } // namespace
-} // namespace gimpm
+} // namespace gimpm::testManufactured

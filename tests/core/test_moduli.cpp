@@ -7,7 +7,7 @@
 #include "core/kinematics.hpp"
 #include "core/materials/law.hpp"
 
-namespace gimpm {
+namespace gimpm::testModuli {
 namespace {
 
 	template <class Dimension> class SpatialModuli : public ::testing::Test {
@@ -131,4 +131,4 @@ namespace {
 	}
 
 } // namespace
-} // namespace gimpm
+} // namespace gimpm::testModuli

@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <cstring>
 
-namespace gimpm {
+namespace gimpm::testRandomScenes {
 namespace {
 
 	template <int Dim> struct RandomScene {
@@ -201,4 +201,4 @@ namespace {
 	}
 
 } // namespace
-} // namespace gimpm
+} // namespace gimpm::testRandomScenes

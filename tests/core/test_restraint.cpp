@@ -3,7 +3,7 @@
 #include "scenes.hpp"
 #include "core/restraint.hpp"
 
-namespace gimpm {
+namespace gimpm::testRestraint {
 namespace {
 
 	template <int Dim> struct Body {
@@ -114,4 +114,4 @@ namespace {
 	}
 
 } // namespace
-} // namespace gimpm
+} // namespace gimpm::testRestraint

@@ -5,7 +5,7 @@
 #include "core/materials/law.hpp"
 #include <cstdio>
 
-namespace gimpm {
+namespace gimpm::testReturnPaths {
 namespace {
 
 	/// The state of one point that follows increments of the deformation gradient.
@@ -192,4 +192,4 @@ namespace {
 	}
 
 } // namespace
-} // namespace gimpm
+} // namespace gimpm::testReturnPaths

@@ -3,7 +3,7 @@
 #include "scenes.hpp"
 #include <set>
 
-namespace gimpm {
+namespace gimpm::testWalls {
 namespace {
 
 	template <int Dim> std::set<Key> keys(const std::vector<Index<Dim>>& cells)
@@ -205,4 +205,4 @@ namespace {
 	}
 
 } // namespace
-} // namespace gimpm
+} // namespace gimpm::testWalls
