@@ -111,7 +111,8 @@ class Layer:
 		O.engines = _engines(self.diameter, adhesive=True, further=[self._control((pressure, 1.5 * strain), 0b001, (0.5, rate))])
 		curve = []
 		for _ in range(readings):
-			O.run(round(strain / readings / rate / O.dt), wait=True)
+			for _ in range(round(strain / readings / rate / O.dt)):
+				O.step() # O.run(n, wait=True) looks only every 40 ms whether it has ended: longer than it takes here
 			stress = self.stress()
 			curve.append((-np.log(O.cell.trsf[1, 1]), (stress[0] - stress[1]) / 2))
 		O.loadTmp()

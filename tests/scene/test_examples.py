@@ -8,34 +8,48 @@ import time
 import urllib.request
 
 import pytest
-from conftest import root
+from conftest import Yade, root
+
+
+def startBatch(yade, example, table):
+	"""Start yade-batch with the lines of a table, words to be separated by blanks, and return the process."""
+	(yade.folder / 'short.table').write_text(table)
+	script = root / 'examples' / example / f'{example}.py'
+	command = ['/usr/bin/yade-batch', '--executable', shutil.which(yade.command), '--jobs', '1', '--log', str(yade.folder / '@.log'), 'short.table', str(script)]
+	return subprocess.Popen(command, cwd=yade.folder, env=os.environ | yade.ownSettings(), stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+
+
+shortForms = {
+        'cantilever': dict(cells=2),
+        'collapse': dict(cellSize=0.5, stepSize=0.1, end=5),
+        'footing3d': dict(cells=2, steps=8),
+        'mpm_vs_dem': dict(grains=8, sample=10, cells=8, duration=4),
+}
+
+
+@pytest.fixture(scope='module')
+def shortRuns(tmp_path_factory):
+	"""Folder, exit code and output of yade-batch for each of the short forms; they run side by side, since much of their time is waiting."""
+	folders, processes = {}, {}
+	for example, options in shortForms.items():
+		folders[example] = tmp_path_factory.mktemp(example)
+		table = f"description {' '.join(options)}\nshort {' '.join(map(str, options.values()))}\n"
+		processes[example] = startBatch(Yade(folders[example]), example, table)
+	said = {example: process.communicate(timeout=240)[0] for example, process in processes.items()}
+	return {example: (folders[example], processes[example].returncode, said[example]) for example in shortForms}
 
 
 @pytest.fixture
-def batch(yade):
-	"""batch(example, table): starts yade-batch with the lines of a table, words to be separated by blanks, and returns the process."""
+def short(shortRuns):
+	"""short(example): the folder of the results of its short form in yade-batch, and what it said."""
 
-	def start(example, table):
-		(yade.folder / 'short.table').write_text(table)
-		script = root / 'examples' / example / f'{example}.py'
-		command = ['/usr/bin/yade-batch', '--executable', shutil.which(yade.command), '--jobs', '1', '--log', str(yade.folder / '@.log'), 'short.table', str(script)]
-		return subprocess.Popen(command, cwd=yade.folder, env=os.environ | yade.ownSettings(), stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+	def find(example):
+		folder, exitCode, said = shortRuns[example]
+		log = (folder / 'short.log').read_text()
+		assert exitCode == 0, said + log
+		return folder / f'out/{example}-short', log
 
-	return start
-
-
-@pytest.fixture
-def short(yade, batch):
-	"""short(example, name=value, ...): runs it in yade-batch with these options; returns the folder of its results and what it said."""
-
-	def run(example, **options):
-		process = batch(example, f"description {' '.join(options)}\nshort {' '.join(map(str, options.values()))}\n")
-		said = process.communicate(timeout=120)[0]
-		log = (yade.folder / 'short.log').read_text()
-		assert process.returncode == 0, said + log
-		return yade.folder / f'out/{example}-short', log
-
-	return run
+	return find
 
 
 def test_slope(yade):
@@ -67,7 +81,7 @@ def numbers(pattern, text):
 
 
 def test_cantilever(short):
-	out, said = short('cantilever', cells=2)
+	out, said = short('cantilever')
 	down, elastica = numbers(r'= 10: tip down (\S+) L, elastica (\S+) L', said)
 	assert abs(down / elastica - 1) < 0.005 and elastica == 0.81061
 	assert (out / 'cantilever.png').stat().st_size > 20000
@@ -75,14 +89,14 @@ def test_cantilever(short):
 
 def test_collapse(short):
 	"""A coarse grid is too strong, by the figure that its page gives."""
-	out, said = short('collapse', cellSize=0.5, stepSize=0.1, end=5)
+	out, said = short('collapse')
 	failed, limit = numbers(r'fails at N = (\S+), limit analysis: \S+ to (\S+)', said)
 	assert abs(failed - 4.345) < 0.01 and limit == 3.7776
 	assert (out / 'collapse.png').stat().st_size > 20000
 
 
 def test_footing3d(short):
-	out, said = short('footing3d', cells=2, steps=8)
+	out, said = short('footing3d')
 	ratio, published = numbers(r'square over strip (\S+), published (\S+)', said)
 	assert abs(ratio / published - 1) < 0.03
 	assert (out / 'footing3d.png').stat().st_size > 20000
@@ -90,7 +104,7 @@ def test_footing3d(short):
 
 def test_mpm_vs_dem(short):
 	"""So few grains say little of a continuum, but all parts run, and both carry the weight above before the cut fails."""
-	out, said = short('mpm_vs_dem', grains=8, sample=10, cells=8, duration=4)
+	out, said = short('mpm_vs_dem')
 	E, nu = numbers(r'E = (\S+) MPa, nu = (\S+),', said)
 	assert 3 < E < 8 and 0.15 < nu < 0.35
 	for name in 'DEM', 'MPM':
@@ -102,9 +116,9 @@ def test_mpm_vs_dem(short):
 	assert len({time for time, part, _ in parts if part == '0'} & {time for time, part, _ in parts if part == '1'}) == 21
 
 
-def test_lines_of_a_batch(yade, batch):
+def test_lines_of_a_batch(yade):
 	"""They become runs with their own options and folders; the rest of the options keep their defaults."""
-	process = batch('column', 'description cells ghostFactor\ncoarse 8 0.01\nplain 16 0\n')
+	process = startBatch(yade, 'column', 'description cells ghostFactor\ncoarse 8 0.01\nplain 16 0\n')
 	said = process.communicate(timeout=120)[0]
 	assert process.returncode == 0, said
 	for name, error in ('coarse', '1.12729015e-02'), ('plain', '3.65890602e-03'):
@@ -113,9 +127,9 @@ def test_lines_of_a_batch(yade, batch):
 		assert (yade.folder / f'out/column-{name}/column.png').exists()
 
 
-def test_progress_page_of_a_batch(batch):
+def test_progress_page_of_a_batch(yade):
 	"""One iteration is one load step, so the page of yade-batch knows how far a job is, and when it will end."""
-	process = batch('slope', 'description cellSize pointsPerCell\nshort 0.5 3\n')
+	process = startBatch(yade, 'slope', 'description cellSize pointsPerCell\nshort 0.5 3\n')
 	address = next(match[1] for line in process.stdout if (match := re.match(r'(http://localhost:\d+) shows', line)))
 	shown = []
 	while process.poll() is None:

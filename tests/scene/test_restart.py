@@ -7,27 +7,38 @@ import time
 
 import numpy as np
 import pytest
+from conftest import Yade
 
 
-@pytest.mark.parametrize('file, predictor', [('half.xml.gz', False), ('half.xml.gz', True), ('half.yade.gz', True)])
-def test_saved_scene_continues_with_the_same_bits(yade, file, predictor):
-	yade(f'''
+@pytest.fixture(scope='module')
+def saved(tmp_path_factory):
+	"""Folder of scenes saved half way, in both formats, and of what became of them: without and with the predictor."""
+	folder = tmp_path_factory.mktemp('saved')
+	Yade(folder)('''
 from scenes import *
-solver = slope()
-solver.newton.predictor = {predictor}
-O.run(20, wait=True)
-O.save('{file}')
-O.run(20, wait=True)
-np.savez('uninterrupted.npz', **mpm.arrays(), iterations=solver.iterations)
+for predictor in False, True:
+	O.reset()
+	solver = slope()
+	solver.newton.predictor = predictor
+	O.run(20, wait=True)
+	O.save(f'half-{predictor}.xml.gz')
+	O.save(f'half-{predictor}.yade.gz')
+	O.run(20, wait=True)
+	np.savez(f'uninterrupted-{predictor}.npz', **mpm.arrays(), iterations=solver.iterations)
 ''')
+	return folder
+
+
+@pytest.mark.parametrize('format, predictor', [('xml.gz', False), ('xml.gz', True), ('yade.gz', True)])
+def test_saved_scene_continues_with_the_same_bits(yade, saved, format, predictor):
 	yade(f'''
 from scenes import *
-O.load('{file}')
+O.load('{saved}/half-{predictor}.{format}')
 assert O.iter == 20 and solver.loadFactor > 0.49, (O.iter, solver.loadFactor)
 O.run(20, wait=True)
 np.savez('continued.npz', **mpm.arrays(), iterations=solver.iterations)
 ''')
-	whole, parts = (np.load(yade.folder / f'{name}.npz') for name in ('uninterrupted', 'continued'))
+	whole, parts = np.load(saved / f'uninterrupted-{predictor}.npz'), np.load(yade.folder / 'continued.npz')
 	assert len(whole['pos']) == 1095
 	for name in whole:
 		assert np.array_equal(whole[name], parts[name]), name

@@ -5,6 +5,7 @@ from itertools import product
 
 import numpy as np
 import pytest
+from conftest import Yade
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkFiltersVerdict import vtkCellSizeFilter
 from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
@@ -72,24 +73,31 @@ def equal(fields, arrays):
 	return all(np.array_equal(fields[name], arrays[name]) for name in ('plasticStrain', 'volume', 'material', 'id'))
 
 
-@pytest.mark.parametrize('format', ['ascii=True', 'compress=False', 'compress=True'])
-def test_points(yade, format):
-	"""The slope when it has yielded, with a body among the points that is none."""
-	yade(
-	        f'''
+@pytest.fixture(scope='module')
+def yielded(tmp_path_factory):
+	"""Folder with files of the slope when it has yielded, with a body among the points that is none, in all formats."""
+	folder = tmp_path_factory.mktemp('yielded')
+	Yade(folder)(
+	        '''
 from scenes import *
 O.bodies.append(utils.sphere((0, 20, 0), 1, material=FrictMat()))
 slope(steps=4)
-O.engines += [MpmVtkRecorder(fileName='out/slope-', iterPeriod=4, {format})]
+for format in dict(ascii=True), dict(compress=False), dict(compress=True):
+	O.engines += [MpmVtkRecorder(fileName='{}-{}/slope-'.format(*list(format.items())[0]), iterPeriod=4, **format)]
 O.run(4, wait=True)
 np.savez('arrays.npz', **mpm.arrays())
 '''
 	)
-	arrays = np.load(yade.folder / 'arrays.npz')
-	file = Vtu(yade.folder / 'out/slope-points.4.vtu')
-	text = (yade.folder / 'out/slope-points.4.vtu').read_bytes()
-	assert (b'format="ascii"' in text) == (format == 'ascii=True')
-	assert (b'compressor=' in text) == (format != 'compress=False')
+	return folder
+
+
+@pytest.mark.parametrize('format', ['ascii-True', 'compress-False', 'compress-True'])
+def test_points(yielded, format):
+	arrays = np.load(yielded / 'arrays.npz')
+	path = yielded / format / 'slope-points.4.vtu'
+	file, text = Vtu(path), path.read_bytes()
+	assert (b'format="ascii"' in text) == (format == 'ascii-True')
+	assert (b'compressor=' in text) == (format != 'compress-False')
 	assert len(file) == len(arrays['id']) == 1095
 	assert file.types == {9} # VTK_QUAD
 	assert arrays['plasticStrain'].max() > 0.1 and set(arrays['material']) == {0, 1} and arrays['id'][0] == 1
