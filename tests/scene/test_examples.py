@@ -16,7 +16,8 @@ def startBatch(yade, example, table):
 	(yade.folder / 'short.table').write_text(table)
 	script = root / 'examples' / example / f'{example}.py'
 	command = ['/usr/bin/yade-batch', '--executable', shutil.which(yade.command), '--jobs', '1', '--log', str(yade.folder / '@.log'), 'short.table', str(script)]
-	return subprocess.Popen(command, cwd=yade.folder, env=os.environ | yade.ownSettings(), stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+	streams = dict(stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+	return subprocess.Popen(command, cwd=yade.folder, env=os.environ | yade.ownSettings(), **streams)
 
 
 shortForms = {
