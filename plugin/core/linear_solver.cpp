@@ -237,12 +237,12 @@ LinearSolver::Status LinearSolver::solve(const SymmetricCsc& K, const Eigen::Vec
 {
 	auto&              common = cholmod_->common;
 	const FewerThreads guard(analyse(K).flops);
-	scale_           = scale(K, scaled_.value);
-	cholmod_sparse A = Cholmod::upper(scaled_);
-	bool definite = false;
-	if (cholmod_->factor) {
+	bool               definite = false;
+	{
 		const Stopwatch watch(times_.factorise);
-		definite = cholmod_factorize(&A, cholmod_->factor, &common) && common.status == CHOLMOD_OK;
+		scale_           = scale(K, scaled_.value);
+		cholmod_sparse A = Cholmod::upper(scaled_);
+		definite         = cholmod_->factor && cholmod_factorize(&A, cholmod_->factor, &common) && common.status == CHOLMOD_OK;
 	}
 	const Stopwatch       watch(times_.solve);
 	const Eigen::VectorXd right = reversed(scale_.cwiseProduct(b));

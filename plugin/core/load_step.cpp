@@ -13,8 +13,7 @@ namespace {
 /// Step 5: the points take over the converged displacements, and their domains follow the stretch along the grid axes.
 template <int Dim> void updatePoints(PointCloud<Dim>& cloud, const StepSystem<Dim>& system, const Eigen::VectorXd& d, StepReport& report)
 {
-	const Stopwatch watch(report.times.update);
-	const double    limit   = 0.5 * system.model.grid.cellSize;
+	const double limit = 0.5 * system.model.grid.cellSize;
 	std::vector<char> clamped(cloud.size(), 0);
 	forUpdatedPoints(system.basis, system.points, system.model.materials, d, [&](int p, const PointUpdate<Dim>& u) {
 		cloud.position[p] += u.displacement;
@@ -58,7 +57,10 @@ template <int Dim> StepReport loadStep(PointCloud<Dim>& cloud, const Model<Dim>&
 	solver.resetTimes();
 	// 1. basis functions and populated cells; boundary cells, ghost faces and K_g
 	const StepSystem<Dim> system(cloud, model, load, report);
-	const Restraint       held = restraint(system.basis, model.grid, model.boundary);
+	const Restraint       held = [&] {
+		const Stopwatch watch(report.times.basis);
+		return restraint(system.basis, model.grid, model.boundary);
+	}();
 	report.parts               = held.parts;
 	if (!held.freeMotion.empty()) {
 		report.failure = Failure::unrestrained;
@@ -73,6 +75,7 @@ template <int Dim> StepReport loadStep(PointCloud<Dim>& cloud, const Model<Dim>&
 	// 5. nodes to points; 6. the grid is reset by not being kept
 	report.accepted = report.failure == Failure::tooManyIterations && model.newton.acceptUnconverged;
 	if (report.converged() || report.accepted) {
+		const Stopwatch watch(report.times.update);
 		addReactionsBeyondWalls(system, cloud, load, d, report.reactions);
 		PointCloud<Dim> updated = cloud;
 		updatePoints(updated, system, d, report);

@@ -84,6 +84,7 @@ public:
 	        , d_(Eigen::VectorXd::Zero(system.nodalSize()))
 	{
 		if (system.prescribed.any()) prescribed_ = system.prescribed;
+		const Stopwatch watch(report.times.assembly);
 		system.prepare(K_);
 	}
 
@@ -253,7 +254,10 @@ private:
 		}
 		if (system_.dofs.count == 0) return true;
 		SymmetricCsc reduced;
-		reduce(K_, system_.dofs, reduced);
+		{
+			const Stopwatch watch(report_.times.assembly);
+			reduce(K_, system_.dofs, reduced);
+		}
 		const auto status = solver_.solve(reduced, right, correction, method_, forcing());
 		factored_         = status == LinearSolver::Status::cholesky;
 		if (status != LinearSolver::Status::iterative) method_ = LinearMethod::direct; // what they could not solve once stays difficult

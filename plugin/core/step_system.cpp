@@ -47,7 +47,8 @@ StepSystem<Dim>::StepSystem(const PointCloud<Dim>& cloud, const Model<Dim>& m, c
 		external = Eigen::VectorXd::Zero(nodalSize());
 		addPointForces(basis, pointForces(cloud, model, load), external);
 	}
-	faces      = stabilise(cloud, model, basis, report);
+	faces = stabilise(cloud, model, basis, report);
+	const Stopwatch watch(report.times.basis);
 	prescribed = Eigen::VectorXd::Zero(nodalSize());
 	dofs.number.assign(nodalSize(), -1);
 	for (std::size_t n = 0; n < basis.nodes.size(); ++n)

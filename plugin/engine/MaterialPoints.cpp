@@ -17,6 +17,15 @@ namespace {
 
 	template <class T> string classOf(const shared_ptr<T>& part) { return part ? part->getClassName() : "none"; }
 
+	// By YADE's collider and integrator.
+	bool isLeftAlone(const Body& body, const MpmState& state) { return !body.isBounded() && state.blockedDOFs == State::DOF_ALL; }
+
+	bool isStillOf(const MaterialPoint& point, const Body& body)
+	{
+		return point.id == body.id && point.shape.get() == body.shape.get() && point.state.get() == body.state.get()
+		        && point.material.get() == body.material.get() && isLeftAlone(body, *point.state);
+	}
+
 	MaterialPoint complete(const Body& body, shared_ptr<MpmPoint>&& shape, const MaterialPoint* previous)
 	{
 		auto material = previous && previous->material.get() == body.material.get() ? previous->material : boost::dynamic_pointer_cast<MpmMaterial>(body.material);
@@ -24,7 +33,7 @@ namespace {
 			refuse(body.id, "an MpmPoint shape needs a material for material points, such as MpmElasticMat; there is " + classOf(body.material) + ".");
 		auto state = castTo<MpmState>(body.state);
 		if (!state) refuse(body.id, "an MpmPoint shape needs an MpmState, as from material.newAssocState(); there is " + classOf(body.state) + ".");
-		if (body.isBounded() || state->blockedDOFs != State::DOF_ALL)
+		if (!isLeftAlone(body, *state))
 			refuse(body.id, "YADE's collider and integrator must leave material points alone: set bounded = False and state.blockedDOFs = 'xyzXYZ'.");
 		return { body.id, std::move(shape), std::move(state), std::move(material) };
 	}
@@ -63,18 +72,31 @@ void MaterialPoint::requireAdmissible(int dim) const
 	}
 }
 
-vector<MaterialPoint> materialPoints(const Scene& scene, int mask)
+void updateMaterialPoints(vector<MaterialPoint>& points, const Scene& scene, int mask)
 {
-	const BodyContainer&  bodies = *scene.bodies;
-	vector<MaterialPoint> points;
-	points.reserve(bodies.size());
+	const BodyContainer& bodies = *scene.bodies;
+	size_t               n      = 0;
 	for (size_t id = 0; id < bodies.size(); ++id) {
 		const shared_ptr<Body>& body = bodies[id];
 		if (!body || !isMeant(*body, mask)) continue; // null: erased
-		if (auto shape = castTo<MpmPoint>(body->shape)) points.push_back(complete(*body, std::move(shape), points.empty() ? nullptr : &points.back()));
-		else
+		if (n < points.size() && isStillOf(points[n], *body)) ++n;
+		else if (auto shape = castTo<MpmPoint>(body->shape)) {
+			auto point = complete(*body, std::move(shape), n == 0 ? nullptr : &points[n - 1]);
+			if (n < points.size()) points[n] = std::move(point);
+			else
+				points.push_back(std::move(point));
+			++n;
+		} else
 			refuseOtherShape(*body);
 	}
+	points.erase(points.begin() + n, points.end());
+}
+
+vector<MaterialPoint> materialPoints(const Scene& scene, int mask)
+{
+	vector<MaterialPoint> points;
+	points.reserve(scene.bodies->size());
+	updateMaterialPoints(points, scene, mask);
 	return points;
 }
 

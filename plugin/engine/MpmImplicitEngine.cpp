@@ -245,37 +245,41 @@ template <int Dim> void MpmImplicitEngine::step()
 {
 	const AtWork           during;
 	Real                   target    = 0;
-	double                 gathering = 0;
+	double                 gathering = 0, checking = 0;
 	gimpm::Model<Dim>      model;
-	vector<MaterialPoint>  points;
 	gimpm::PointCloud<Dim> cloud;
 	{
-		const ValueLock        lock;
-		const gimpm::Stopwatch watch(gathering);
+		const ValueLock lock;
 		requireRunnable();
 		progressLine.start(scene->iter);
 		warnOfEnd();
 		target = scene->time + scene->dt;
-		model  = toModel<Dim>(*grid, basis, boundaries, *ghost, *newton);
-		points = materialPoints(*scene, mask);
-		if (points.empty()) throw std::invalid_argument(noPoints());
-		cloud = gather(points, model);
-		if (points.size() != lookedAt) requirePlausible(*this, points);
+		{
+			const gimpm::Stopwatch watch(gathering);
+			model  = toModel<Dim>(*grid, basis, boundaries, *ghost, *newton);
+			updateMaterialPoints(points, *scene, mask);
+			if (points.empty()) throw std::invalid_argument(noPoints());
+			cloud = gather(points, model);
+		}
+		if (points.size() != lookedAt) {
+			const gimpm::Stopwatch watch(checking);
+			requirePlausible(*this, points);
+		}
 		lookedAt = points.size();
 		last     = gimpm::StepReport();
 		times.clear();
 		iterations = lineSearchTrials = reusedFactors = luSolves = cgIterations = cgFallbacks = substeps = cuts = 0;
-		lastPoints = points.size();
 	}
 	addTime("gather", gathering);
+	if (checking > 0) addTime("check", checking);
 	tellObservers([this](LoadStepObserver& observer) { observer.stepBegins(*this); });
-	advance(cloud, model, points, target);
+	advance(cloud, model, target);
 }
 
 // Load steps up to the target: a step that fails is undone and tried with half the increment, down to newton.minStep; after an easy
 // one the increment doubles. All parts are halves of halves of the whole, so that their sum is exact.
 template <int Dim>
-void MpmImplicitEngine::advance(gimpm::PointCloud<Dim>& cloud, gimpm::Model<Dim>& model, const vector<MaterialPoint>& points, Real target)
+void MpmImplicitEngine::advance(gimpm::PointCloud<Dim>& cloud, gimpm::Model<Dim>& model, Real target)
 {
 	const Real   begin = loadTime;
 	Interruption interruption;
@@ -305,14 +309,14 @@ void MpmImplicitEngine::advance(gimpm::PointCloud<Dim>& cloud, gimpm::Model<Dim>
 				warnOfAccepted(report, time);
 			}
 			done += part;
-			reach(cloud, points, time, load.factor);
+			reach(cloud, time, load.factor);
 			if (report.iterations <= newton->maxIterations / 3) stepPart = std::min(1., 2 * stepPart);
 		} else if (canBeCut(report.failure) && part / 2 >= newton->minStep) {
 			stepPart = part / 2;
 			++cuts;
 		} else {
 			stepPart = 1;
-			const string reason = reasonOf(report, time, part, points);
+			const string reason = reasonOf(report, time, part);
 			if (report.failure == gimpm::Failure::interrupted) interruption.raise(reason);
 			throw std::runtime_error(reason);
 		}
@@ -321,7 +325,7 @@ void MpmImplicitEngine::advance(gimpm::PointCloud<Dim>& cloud, gimpm::Model<Dim>
 }
 
 // Points and load time move on together: whoever reads or saves the scene at any moment finds a converged state.
-template <int Dim> void MpmImplicitEngine::reach(const gimpm::PointCloud<Dim>& cloud, const vector<MaterialPoint>& points, Real time, Real factor)
+template <int Dim> void MpmImplicitEngine::reach(const gimpm::PointCloud<Dim>& cloud, Real time, Real factor)
 {
 	double scattering = 0;
 	{
@@ -398,7 +402,7 @@ py::dict MpmImplicitEngine::report() const
 	result["worstNode"]      = Vector3r(last.worst.position);
 	result["worstAxis"]      = last.worst.axis < 0 ? string() : string(1, "xyz"[last.worst.axis]);
 	result["worstForce"]     = last.worst.force;
-	result["points"]         = lastPoints;
+	result["points"]         = points.size();
 	result["nodes"]          = last.nodes;
 	result["dofs"]           = last.dofs;
 	result["activeCells"]    = last.populatedCells;
@@ -435,7 +439,7 @@ void MpmImplicitEngine::warnOfAccepted(const gimpm::StepReport& report, Real tim
 	log(Severity::warning, staticName(), text.str());
 }
 
-string MpmImplicitEngine::reasonOf(const gimpm::StepReport& report, Real time, Real part, const vector<MaterialPoint>& points) const
+string MpmImplicitEngine::reasonOf(const gimpm::StepReport& report, Real time, Real part) const
 {
 	std::ostringstream text;
 	text << "MpmImplicitEngine: the load step from factor " << loadFactor << " to " << loadFactorAt(time);
@@ -443,13 +447,13 @@ string MpmImplicitEngine::reasonOf(const gimpm::StepReport& report, Real time, R
 	if (part < 1) text << " (" << part << " of O.dt, after " << cuts << " cuts)";
 	text << " failed: " << report.cause;
 	if (report.invertedPoint >= 0) text << placeOf(points[report.invertedPoint]);
-	text << "." << placeOfImbalance(report, points) << adviceOn(report, part);
+	text << "." << placeOfImbalance(report) << adviceOn(report, part);
 	if (report.failure == gimpm::Failure::unrestrained) text << idleBoundaries(*this, points);
 	text << " The scene is at load factor " << loadFactor << ", the last converged state, in iteration " << scene->iter << ".";
 	return text.str();
 }
 
-string MpmImplicitEngine::placeOfImbalance(const gimpm::StepReport& report, const vector<MaterialPoint>& points) const
+string MpmImplicitEngine::placeOfImbalance(const gimpm::StepReport& report) const
 {
 	if (report.residuals.empty() || report.worst.axis < 0) return "";
 	std::ostringstream text;

@@ -149,7 +149,7 @@ public:
 		      "'notFinite', 'diverging', 'tooManyIterations', 'interrupted'; 'cause', a clause, empty when converged; 'loadTime' [s] and 'loadFactor' of the "
 		      "last converged state; 'stepPart', part of O.dt that the next step tries.\n\n"
 		      "Effort of the run, undone tries included: 'iterations' (linear solves), 'substeps', 'cuts', 'lineSearchTrials', 'reusedFactors', 'luSolves', 'cgIterations', 'cgFallbacks'; 'times' [s], dict "
-		      "by phase.\n\n"
+		      "by phase: 'check' (of new points), 'gather', 'basis', 'ghost', 'assembly', 'analyse', 'factorise', 'solve', 'update', 'scatter'.\n\n"
 		      "Of the last load step that was tried: 'residuals', list; 'residual', the last of them [-]; 'worstNode' (position [m], NaN if none), "
 		      "'worstAxis' ('x', 'y', 'z' or '') and 'worstForce' [N] of the largest out-of-balance force; 'points', 'nodes', 'dofs', 'activeCells', "
 		      "'boundaryCells', 'ghostFaces'.\n\n"
@@ -220,30 +220,30 @@ private:
 	template <int Dim> gimpm::Load<Dim> loadAt(Real time) const; // at the end of a step from loadTime
 	template <int Dim> void    step();
 	string                     noPoints() const;
-	template <int Dim> void    reach(const gimpm::PointCloud<Dim>&, const vector<MaterialPoint>&, Real time, Real factor);
+	template <int Dim> void    reach(const gimpm::PointCloud<Dim>&, Real time, Real factor);
 	template <class F> void    tellObservers(F) const;
-	template <int Dim> void    advance(gimpm::PointCloud<Dim>&, gimpm::Model<Dim>&, const vector<MaterialPoint>&, Real target);
+	template <int Dim> void    advance(gimpm::PointCloud<Dim>&, gimpm::Model<Dim>&, Real target);
 	void                       take(const gimpm::StepReport&);
 	void                       addTime(const char* phase, double seconds);
 	void                       warnOfEnd();
 	void                       warnOfAccepted(const gimpm::StepReport&, Real time) const;
-	string                     reasonOf(const gimpm::StepReport&, Real time, Real part, const vector<MaterialPoint>&) const;
-	string                     placeOfImbalance(const gimpm::StepReport&, const vector<MaterialPoint>&) const;
+	string                     reasonOf(const gimpm::StepReport&, Real time, Real part) const;
+	string                     placeOfImbalance(const gimpm::StepReport&) const;
 	string                     adviceOn(const gimpm::StepReport&, Real part) const;
 	template <class F> auto    onCurrentState(F); // f(cloud, model) with the points and settings of now
 	gimpm::SymmetricCsc        reducedStiffness();
 	void                       showProgress(size_t points, bool stepIsDone);
 	long                       lastIteration() const;
 
+	vector<MaterialPoint> points; // of the step; kept for the next one
 	Counters            beforeActivation;
 	ProgressLine        progressLine;
 	size_t              lookedAt      = 0;     // number of points in the scene that was found plausible
 	bool                warnedOfEnd = false; // of the load curve
 	gimpm::LinearSolver solver; // keeps the symbolic analysis; results do not depend on it
 
-	// for report(): the last load step that was tried, the points in it, and the times of the last run by phase [s]
+	// for report(): the last load step that was tried, and the times of the last run by phase [s]
 	gimpm::StepReport      last;
-	size_t                 lastPoints = 0;
 	std::map<string, Real> times;
 };
 
