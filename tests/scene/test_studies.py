@@ -112,7 +112,9 @@ stress, exactly = columnError() + 1, columnError()
 	assert float(results['16', '10']['stress']) < float(results['8', '10']['stress']) < float(results['4', '10']['stress'])
 	assert float(results['4', '2']['cpu']) > 0
 	page = (tmp_path / 'out/README.md').read_text()
-	assert '10.0% error: **cells 4' in page and (tmp_path / 'out/own.png').stat().st_size > 10000
+	ended = [row for row in results.values() if not row['failure'] and row['cells'] != '16'] # all of them within 5 % of the reference
+	cheapest = min(ended, key=lambda row: float(row['cpu'])) # whichever it is: they take milliseconds
+	assert f"10.0% error: **cells {cheapest['cells']}, steps {cheapest['steps']}**" in page and (tmp_path / 'out/own.png').stat().st_size > 10000
 	assert 'own: 0 of 5 runs to do' in study(*arguments)
 
 
