@@ -202,6 +202,7 @@ def scene(axis, dim, ghost, value):
 conditionOfSteps = 'overlap', 'factor', 'columnFactor', 'slopeFactor' # axes for which the condition number is estimated after each step
 kinds = [ # of failures, by what the exception says
         ('nothing restrains', 'refused: mechanism'),
+        ('in the same place', 'refused: points in the same place'),
         ('singular', 'singular'),
         ('inside out', 'inverted'),
         ('not finite', 'not finite'),
