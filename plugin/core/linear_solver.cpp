@@ -48,9 +48,9 @@ template void reduce(const NodeMatrix<3>&, const FreeDofs&, SymmetricCsc&);
 namespace {
 
 /// Operations of a factorisation above which the threads of the BLAS have enough to do. Seconds with one and two of them: 2D, 0.2 GFLOP,
-/// 0.0133 and 0.0195; 3D, 5 GFLOP, 0.147 and 0.119; 30 GFLOP, 0.253 and 0.229; 140 GFLOP, 1.38 and 0.97. Beside another program, which keeps one
-/// of the two waiting, 5 GFLOP take 0.66 and 140 GFLOP 4.1 with two, 0.165 and 1.32 with one: a gain of a fifth is not worth that.
-constexpr double flopsForThreads = 5e10;
+/// 0.0133 and 0.0195; 3D, 5 GFLOP, 0.147 and 0.119; 49 GFLOP, 1.42 and 0.93. Beside another program, which keeps one of the two waiting, two take
+/// three to four times as long as one: a gain of a fifth is not worth that.
+constexpr double flopsForThreads = 2e10;
 
 /// CHOLMOD opens its own OpenMP threads for every supernode, which costs more than it gains; so do the threads of the BLAS if the matrix is
 /// not large.
