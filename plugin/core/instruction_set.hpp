@@ -10,11 +10,17 @@ namespace gimpm {
 #define GIMPM_TARGET_AVX2 [[gnu::target("arch=x86-64-v3")]]
 #endif
 
+#ifdef __SANITIZE_ADDRESS__ // with its checks, one large function would keep the compiler busy for a quarter of an hour
+#define GIMPM_FLATTEN
+#else
+#define GIMPM_FLATTEN gnu::flatten,
+#endif
+
 inline bool processorHasAvx2() { return __builtin_cpu_supports("x86-64-v3"); }
 
 /// f(), with all that it calls compiled into one function, for AVX2 if the processor has it.
-template <class F> [[gnu::flatten, gnu::noinline]] void callPortable(F&& f) { f(); }
-template <class F> [[gnu::flatten, gnu::noinline]] GIMPM_TARGET_AVX2 void callAvx2(F&& f) { f(); }
+template <class F> [[GIMPM_FLATTEN gnu::noinline]] void callPortable(F&& f) { f(); }
+template <class F> [[GIMPM_FLATTEN gnu::noinline]] GIMPM_TARGET_AVX2 void callAvx2(F&& f) { f(); }
 template <class F> void callForProcessor(F&& f)
 {
 	if (processorHasAvx2()) callAvx2(f);
