@@ -20,6 +20,7 @@ defaults = dict(
         ghost=1e-2,
         predictor=True,
         reuseFactor=True,
+        linearSolver='auto',
         elastic=False,
         recorder=False, # writes all material points after every step
         arrays=False, # reads all material points after every step
@@ -56,7 +57,7 @@ def slope():
 
 	global solver # for afterStep
 	solver = MpmImplicitEngine(grid=grid, gravity=(0, -9.81, 0), basis=setting.basis, boundaries=walls(h), ghost=MpmGhost(factor=setting.ghost))
-	for name in 'predictor', 'reuseFactor':
+	for name in 'predictor', 'reuseFactor', 'linearSolver':
 		if hasattr(solver.newton, name): setattr(solver.newton, name, getattr(setting, name)) # other revisions may have none
 	engines = [solver]
 	O.dt = h / 40
