@@ -36,6 +36,7 @@ template <int Dim> struct Pass {
 	const Eigen::VectorXd&       d;
 	Eigen::VectorXd&             force;
 	NodeMatrix<Dim>*             K;
+	Eigen::VectorXd*             sizes; ///< of the patches' forces, or null
 };
 
 /// Smallest index in the cloud of the points of a batch with J <= 0 or not finite, or INT_MAX.
@@ -96,6 +97,7 @@ template <class Kernels, int Dim, int Span> GIMPM_INLINE void addPiece(const Pas
 					force.row[i][r] += Lanes(chunk.fluxAt(p, i, j)) * grad;
 			}
 	force.scatterAdd(patch, pass.force);
+	if (pass.sizes) force.scatterAddSizes(patch, *pass.sizes);
 	if (!pass.K) return;
 	PatchStiffness<Dim, Nodes::N> stiffness;
 	Kernels::multiply(stiffness, chunk, begin, end);
@@ -177,10 +179,11 @@ InvertedPoint addInternalForce(
         const std::vector<Material>& materials,
         const Eigen::VectorXd&       d,
         Eigen::VectorXd&             f,
-        NodeMatrix<Dim>*             K)
+        NodeMatrix<Dim>*             K,
+        Eigen::VectorXd*             sizes)
 {
 	std::atomic<int> inverted { INT_MAX };
-	const Pass<Dim>  pass { basis, points, materials, d, f, K };
+	const Pass<Dim>  pass { basis, points, materials, d, f, K, sizes };
 	const auto       add = processorHasAvx2() ? Avx2Kernels::addPatches<Dim> : PortableKernels::addPatches<Dim>;
 	// Threads meet after each colour. Of few points a pass is over before they have: alone that costs little, but where another program takes
 	// a processor away they wait for its time slice, a thousand times as long as the pass.
@@ -224,7 +227,7 @@ template <int Dim> void addPointForces(const CloudBasis<Dim>& basis, const std::
 #define GIMPM_INSTANTIATE(Dim)                                                                                                                                 \
 	template StepPoints<Dim> stepPoints(const PointCloud<Dim>&, const CloudBasis<Dim>&);                                                                   \
 	template InvertedPoint   addInternalForce(                                                                                                             \
-                const CloudBasis<Dim>&, const StepPoints<Dim>&, const std::vector<Material>&, const Eigen::VectorXd&, Eigen::VectorXd&, NodeMatrix<Dim>*);     \
+                const CloudBasis<Dim>&, const StepPoints<Dim>&, const std::vector<Material>&, const Eigen::VectorXd&, Eigen::VectorXd&, NodeMatrix<Dim>*, Eigen::VectorXd*);     \
 	template void markPointPattern(const CloudBasis<Dim>&, NodeMatrix<Dim>&);                                                                              \
 	template void addPointForces(const CloudBasis<Dim>&, const std::vector<Vec<Dim>>&, Eigen::VectorXd&);
 GIMPM_INSTANTIATE(2)

@@ -21,10 +21,17 @@ template <int Dim> StepPoints<Dim> stepPoints(const PointCloud<Dim>&, const Clou
 using InvertedPoint = int;
 
 /// f += internal force of the nodal displacements d (Dim components a node, from the start of the step), and K += its derivative when
-/// K is given (already reset and marked). The result does not depend on the number of threads.
+/// K is given (already reset and marked). `sizes`, when given, += the sizes of the parts that make up f, those of the patches. The result
+/// does not depend on the number of threads.
 template <int Dim>
 InvertedPoint addInternalForce(
-        const CloudBasis<Dim>&, const StepPoints<Dim>&, const std::vector<Material>&, const Eigen::VectorXd& d, Eigen::VectorXd& f, NodeMatrix<Dim>* K);
+        const CloudBasis<Dim>&,
+        const StepPoints<Dim>&,
+        const std::vector<Material>&,
+        const Eigen::VectorXd& d,
+        Eigen::VectorXd&       f,
+        NodeMatrix<Dim>*       K,
+        Eigen::VectorXd*       sizes = nullptr);
 
 /// Marks the blocks that addInternalForce writes.
 template <int Dim> void markPointPattern(const CloudBasis<Dim>&, NodeMatrix<Dim>& K);

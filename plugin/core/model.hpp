@@ -17,7 +17,7 @@ struct GhostSettings {
 };
 
 struct NewtonSettings {
-	double                tolerance         = 1e-6; ///< on |residual| / |external forces + reactions|
+	double                tolerance         = 1e-6; ///< on |residual| / |external forces + reactions|; three times it around each node
 	int                   maxIterations     = 20;   ///< linear solves
 	int                   lineSearchTrials  = 5;    ///< shorter steps tried when a full one does not reduce the residual; 0: none
 	bool                  acceptUnconverged = false; ///< take over the last iterate after maxIterations

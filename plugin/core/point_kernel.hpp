@@ -63,6 +63,13 @@ template <int Dim, int Span> struct PatchVectors {
 			for (int i = 0; i < Dim; ++i)
 				if (patch.node[n] >= 0) x[Dim * patch.node[n] + i] += row[i][n / Nodes::inRow][n % Nodes::inRow];
 	}
+	/// Magnitudes, whatever the signs.
+	void scatterAddSizes(const Patch<Dim>& patch, Eigen::VectorXd& x) const
+	{
+		for (int n = 0; n < Nodes::N; ++n)
+			for (int i = 0; i < Dim; ++i)
+				if (patch.node[n] >= 0) x[Dim * patch.node[n] + i] += std::abs(row[i][n / Nodes::inRow][n % Nodes::inRow]);
+	}
 };
 
 /// Moduli times volume of points side by side, by pairs of displacement components i <= k: value(i, k)[j][l] = V a_ijkl.

@@ -8,7 +8,10 @@
 
 namespace gimpm {
 
-enum class Failure { none, unrestrained, singular, inverted, notFinite, diverging, tooManyIterations, interrupted };
+enum class Failure { none, unrestrained, singular, inverted, notFinite, diverging, tooManyIterations, stalled, interrupted };
+
+/// Of a stiffness matrix, as far as its factorisation told: an equilibrium may be unstable where it is not positive definite.
+enum class Definiteness { notChecked, positive, indefinite };
 
 struct StepTimes {
 	double      basis = 0, ghost = 0, assembly = 0, update = 0; ///< [s]
@@ -24,6 +27,8 @@ struct StepReport {
 	bool                predicted = false; ///< Newton's method started from the prediction
 	int                 lineSearchTrials = 0; ///< evaluations of the residual for steps shorter than Newton's
 	std::vector<double> residuals;      ///< |residual| / |external forces + reactions| before the first solve and after each
+	double              localResidual = std::numeric_limits<double>::quiet_NaN(); ///< largest |residual| / |forces| around a node, or a bound of it
+	Definiteness        definiteness  = Definiteness::notChecked; ///< of the last matrix that was factorised
 	int                 luSolves = 0;   ///< solves for which K was not positive definite
 	IterativeEffort     conjugateGradients; ///< of all attempts at the step
 	int                 invertedPoint = -1; ///< its index in the cloud, for Failure::inverted
@@ -54,6 +59,7 @@ struct StepReport {
 		reusedFactors    = attempt.reusedFactors;
 		lineSearchTrials = attempt.lineSearchTrials;
 		luSolves         = attempt.luSolves;
+		definiteness     = attempt.definiteness;
 		times            = attempt.times;
 	}
 	bool   converged() const { return failure == Failure::none; }

@@ -83,12 +83,15 @@ template <int Dim> SymmetricCsc StepSystem<Dim>::tangent() const
 	return reduced;
 }
 
-template <int Dim> InvertedPoint StepSystem<Dim>::evaluate(const Eigen::VectorXd& d, Eigen::VectorXd& force, NodeMatrix<Dim>* K) const
+template <int Dim> InvertedPoint StepSystem<Dim>::evaluate(const Eigen::VectorXd& d, Eigen::VectorXd& force, NodeMatrix<Dim>* K, Eigen::VectorXd* sizes) const
 {
 	force = Eigen::VectorXd::Zero(nodalSize());
 	if (K) K->setZero();
-	const InvertedPoint inverted = addInternalForce(basis, points, model.materials, d, force, K);
+	if (sizes) *sizes = force;
+	const InvertedPoint inverted = addInternalForce(basis, points, model.materials, d, force, K, sizes);
+	const Eigen::VectorXd internal = sizes ? force : Eigen::VectorXd();
 	addGhostForce(faces, model.grid.cellSize, d, force);
+	if (sizes) *sizes += (force - internal).cwiseAbs();
 	if (K) addGhostStiffness(faces, model.grid.cellSize, *K);
 	return inverted;
 }

@@ -32,8 +32,8 @@ template <int Dim> struct StepSystem {
 	/// Reduced tangent K + K_g at the start of the step.
 	SymmetricCsc tangent() const;
 
-	/// force = f_int + K_g d; also K + K_g when K is given.
-	InvertedPoint evaluate(const Eigen::VectorXd& d, Eigen::VectorXd& force, NodeMatrix<Dim>* K) const;
+	/// force = f_int + K_g d; also K + K_g when K is given, and when `sizes` is given the sizes of the parts that make up the force.
+	InvertedPoint evaluate(const Eigen::VectorXd& d, Eigen::VectorXd& force, NodeMatrix<Dim>* K, Eigen::VectorXd* sizes = nullptr) const;
 };
 
 } // namespace gimpm

@@ -56,7 +56,19 @@ namespace {
 			case Failure::notFinite: return "notFinite";
 			case Failure::diverging: return "diverging";
 			case Failure::tooManyIterations: return "tooManyIterations";
+			case Failure::stalled: return "stalled";
 			case Failure::interrupted: return "interrupted";
+		}
+		return "";
+	}
+
+	const char* nameOf(gimpm::Definiteness definiteness)
+	{
+		using gimpm::Definiteness;
+		switch (definiteness) {
+			case Definiteness::notChecked: return "not checked";
+			case Definiteness::positive: return "positive definite";
+			case Definiteness::indefinite: return "indefinite";
 		}
 		return "";
 	}
@@ -399,6 +411,8 @@ py::dict MpmImplicitEngine::report() const
 		history.append(r);
 	result["residuals"]      = history;
 	result["residual"]       = last.residual();
+	result["localResidual"]  = last.localResidual;
+	result["stiffness"]      = nameOf(last.definiteness);
 	result["worstNode"]      = Vector3r(last.worst.position);
 	result["worstAxis"]      = last.worst.axis < 0 ? string() : string(1, "xyz"[last.worst.axis]);
 	result["worstForce"]     = last.worst.force;
@@ -478,6 +492,7 @@ string MpmImplicitEngine::adviceOn(const gimpm::StepReport& report, Real part) c
 	string advice;
 	if (report.failure == Failure::unrestrained) return " Hold nodes of that material with MpmBoundary.";
 	if (report.failure == Failure::interrupted) return " O.run() goes on from there.";
+	if (report.failure == Failure::stalled) return " Set newton.tolerance to that or more.";
 	if (ghost->factor == 0) advice += " The ghost stabilisation is off (factor=0): small overlaps of material and cells make the system ill conditioned.";
 	if (part < 1) advice += " The load may be more than the body can carry in equilibrium.";
 	else

@@ -22,8 +22,8 @@ public:
 		v("tolerance",
 		  &MpmNewton::tolerance,
 		  0,
-		  "A step has converged when the residual on the free degrees of freedom is at most this part [-] of external forces and reactions; between 0 "
-		  "and 1, both excluded.",
+		  "A step has converged when the residual on the free degrees of freedom is at most this part [-] of external forces and reactions, and around "
+		  "each node at most three times this part of the forces there; between 0 and 1, both excluded.",
 		  strictlyBetween(0, 1));
 		v("maxIterations", &MpmNewton::maxIterations, 0, "Linear solves allowed in a step, at least 1.", atLeast(1));
 		v("minStep",
