@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The plugin is also a Python extension module, imported by yade.mpm for what can be checked only when YADE has started, and for
 // work on all material points at once.
-#include "engine/assignment.hpp"
-#include "engine/bulkAccess.hpp"
-#include "engine/gridCells.hpp"
+#include "engine/points/assignment.hpp"
+#include "engine/points/bulkAccess.hpp"
+#include "engine/output/gridCells.hpp"
 #include "yade_api/verification.hpp"
 
 BOOST_PYTHON_MODULE(mpm_engine)

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Times of the parts of a load step, per point or per unknown, on a slope half way through its failure.
 #include "bench/scenes.hpp"
-#include "core/point_update.hpp"
-#include "core/step_system.hpp"
+#include "core/terms/point_update.hpp"
+#include "core/stepping/step_system.hpp"
 #include <benchmark/benchmark.h>
 
 extern "C" void dgemm_(const char*, const char*, const int*, const int*, const int*, const double*, const double*, const int*, const double*, const int*,

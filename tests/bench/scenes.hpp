@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Scenes for the benchmarks of the core.
 #pragma once
-#include "core/load_step.hpp"
+#include "core/stepping/load_step.hpp"
 #include <limits>
 #include <stdexcept>
 

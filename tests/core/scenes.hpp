@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Scenes for the tests of the core: points, regular blocks of them, held boxes of nodes, random numbers.
 #pragma once
-#include "core/condition.hpp"
-#include "core/load_step.hpp"
+#include "core/solvers/condition.hpp"
+#include "core/stepping/load_step.hpp"
 #include <gtest/gtest.h>
 #include <limits>
 #include <random>

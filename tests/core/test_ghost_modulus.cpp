@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The modulus of a ghost face is that of the softer of its two cells: the mean of its points, weighted by their overlap with the cell.
 #include "scenes.hpp"
-#include "core/step_system.hpp"
+#include "core/stepping/step_system.hpp"
 
 namespace gimpm {
 namespace {

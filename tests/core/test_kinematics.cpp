@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Finite-strain kinematics of one point.
 #include "scenes.hpp"
-#include "core/kinematics.hpp"
+#include "core/materials/kinematics.hpp"
 #include "core/materials/hencky.hpp"
 
 namespace gimpm {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "core/predictor.hpp"
+#include "core/stepping/predictor.hpp"
 #include "bench/scenes.hpp"
 #include "scenes.hpp"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Random small scenes, hostile ones among them: a load step ends, with a state that is finite and complete or with the old one.
-#include "core/step_system.hpp"
+#include "core/stepping/step_system.hpp"
 #include "scenes.hpp"
 #include <Eigen/LU>
 #include <cstdlib>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Paths of one point in finite strain, against closed forms.
 #include "scenes.hpp"
-#include "core/kinematics.hpp"
+#include "core/materials/kinematics.hpp"
 #include "core/materials/law.hpp"
 #include <cstdio>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Sizes of a load step before it is made.
 #include "scenes.hpp"
-#include "core/workload.hpp"
+#include "core/stepping/workload.hpp"
 
 namespace gimpm {
 namespace {

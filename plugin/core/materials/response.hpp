@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // What a constitutive law answers, in the principal axes of the trial elastic strain.
 #pragma once
-#include "core/lanes.hpp"
-#include "core/types.hpp"
+#include "core/base/lanes.hpp"
+#include "core/base/types.hpp"
 
 namespace gimpm {
 

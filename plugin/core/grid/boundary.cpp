@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "core/grid/boundary.hpp"
+#include <algorithm>
+
+namespace gimpm {
+
+template <int Dim> HeldBox<Dim> HeldBox<Dim>::from(const Grid<Dim>& grid, const Vec<Dim>& min, const Vec<Dim>& max)
+{
+	constexpr double tolerance = 1e-9, limit = Grid<Dim>::indexLimit + 2;
+	HeldBox          box;
+	for (int a = 0; a < Dim; ++a) {
+		box.lower[a] = int(std::clamp(std::ceil((min[a] - grid.origin[a]) / grid.cellSize - tolerance), -limit, limit));
+		box.upper[a] = int(std::clamp(std::floor((max[a] - grid.origin[a]) / grid.cellSize + tolerance), -limit, limit));
+	}
+	return box;
+}
+
+template <int Dim> const HeldBox<Dim>* Boundary<Dim>::holder(const Index<Dim>& node, int axis) const
+{
+	for (auto b = boxes_.rbegin(); b != boxes_.rend(); ++b)
+		if (b->holds(node, axis)) return &*b;
+	return nullptr;
+}
+
+template <int Dim> bool Boundary<Dim>::lowerFaceIsWall(const Index<Dim>& cell, int axis) const
+{
+	const bool planeIsTouched = std::any_of(boxes_.begin(), boxes_.end(), [&](const HeldBox<Dim>& b) {
+		return b.fixed[axis] && b.lower[axis] <= cell[axis] && cell[axis] <= b.upper[axis];
+	});
+	if (!planeIsTouched) return false;
+	for (int corner = 0; corner < 1 << Dim; ++corner) {
+		if (corner >> axis & 1) continue;
+		Index<Dim> node = cell;
+		for (int a = 0; a < Dim; ++a)
+			node[a] += corner >> a & 1;
+		if (!holder(node, axis)) return false;
+	}
+	return true;
+}
+
+template struct HeldBox<2>;
+template struct HeldBox<3>;
+template class Boundary<2>;
+template class Boundary<3>;
+
+} // namespace gimpm

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Essential boundary conditions: boxes of grid nodes held in some directions, and the walls they form.
+#pragma once
+#include "core/grid/grid.hpp"
+#include <array>
+#include <vector>
+
+namespace gimpm {
+
+/// All nodes with lower <= index <= upper are held in the directions of `fixed`.
+template <int Dim> struct HeldBox {
+	Index<Dim>            lower, upper;
+	std::array<bool, Dim> fixed {};
+	Vec<Dim>              displacement = Vec<Dim>::Zero(); ///< prescribed total at load factor 1 [m]
+
+	/// The nodes of a box in space; a coordinate on a node within 1e-9 h holds it. Infinite limits are admitted.
+	static HeldBox from(const Grid<Dim>& grid, const Vec<Dim>& min, const Vec<Dim>& max);
+
+	bool empty() const { return (lower.array() > upper.array()).any(); }
+	bool holds(const Index<Dim>& node, int axis) const
+	{
+		return fixed[axis] && (node.array() >= lower.array()).all() && (node.array() <= upper.array()).all();
+	}
+};
+
+template <int Dim> class Boundary {
+public:
+	explicit Boundary(std::vector<HeldBox<Dim>> boxes = {}) : boxes_(std::move(boxes)) { }
+
+	/// The box that holds the node in this direction (the last one given, where several do), or null.
+	const HeldBox<Dim>* holder(const Index<Dim>& node, int axis) const;
+
+	const std::vector<HeldBox<Dim>>& boxes() const { return boxes_; }
+
+	/// Whether all nodes of the lower face of this cell in this direction are held in the face's normal direction.
+	bool lowerFaceIsWall(const Index<Dim>& cell, int axis) const;
+
+private:
+	std::vector<HeldBox<Dim>> boxes_;
+};
+
+} // namespace gimpm

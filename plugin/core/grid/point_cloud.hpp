@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Material points as structure of arrays; all arrays have the same length.
+#pragma once
+#include "core/base/types.hpp"
+#include <vector>
+
+namespace gimpm {
+
+template <int Dim> struct PointCloud {
+	std::vector<Vec<Dim>>       position;      ///< [m]
+	std::vector<Vec<Dim>>       halfSize;      ///< current half lengths of the domains [m], at most half a cell
+	std::vector<Vec<Dim>>       halfSize0;     ///< initial half lengths [m]
+	std::vector<double>         volume0;       ///< initial volume [m3], per metre of thickness in plane strain
+	std::vector<Mat<Dim>>       defGrad;       ///< deformation gradient
+	std::vector<SymTensor<Dim>> elasticStrain; ///< logarithmic
+	std::vector<SymTensor<Dim>> stress;        ///< Cauchy stress [Pa], a result
+	std::vector<double>         plasticStrain; ///< equivalent plastic strain
+	std::vector<Vec<Dim>>       force;         ///< point load at load factor 1 [N]; empty: no point loads
+	std::vector<int>            material;      ///< position in the list of materials
+
+	std::size_t size() const { return position.size(); }
+	void        resize(std::size_t n)
+	{
+		position.resize(n);
+		halfSize.resize(n);
+		halfSize0.resize(n);
+		volume0.resize(n);
+		defGrad.resize(n);
+		elasticStrain.resize(n);
+		stress.resize(n);
+		plasticStrain.resize(n);
+		material.resize(n);
+	}
+};
+
+} // namespace gimpm

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "core/solvers/node_matrix.hpp"
+#include <algorithm>
+
+namespace gimpm {
+
+namespace {
+	/// What to add to a node's key to get the key of the node at this offset.
+	template <int Dim> Key keyOffset(int code)
+	{
+		constexpr int centre = (Dim == 2 ? 25 : 125) / 2;
+		int           rest   = code + centre;
+		Key           k      = 0;
+		for (int a = 0; a < Dim; ++a, rest /= 5)
+			k += Key(std::int64_t(rest % 5 - 2)) * Grid<Dim>::keyStep(a);
+		return k;
+	}
+}
+
+template <int Dim> void NodeMatrix<Dim>::reset(const std::vector<Key>& nodes)
+{
+	values_.assign(nodes.size() * codes * block, 0.);
+	used_.assign(nodes.size(), 0);
+	neighbour_.assign(nodes.size() * codes, -1);
+	for (int c = 0; c < codes; ++c) {
+		const Key   offset = keyOffset<Dim>(c);
+		std::size_t b      = 0; // keys rise together with those of the neighbours: one sweep for each offset
+		for (std::size_t a = 0; a < nodes.size(); ++a) {
+			while (b < nodes.size() && nodes[b] < nodes[a] + offset)
+				++b;
+			if (b < nodes.size() && nodes[b] == nodes[a] + offset) neighbour_[a * codes + c] = int(b);
+		}
+	}
+}
+
+template <int Dim> void NodeMatrix<Dim>::setZero() { std::fill(values_.begin(), values_.end(), 0.); }
+
+template <int Dim> void NodeMatrix<Dim>::multiplyAdd(const Eigen::VectorXd& x, Eigen::VectorXd& y) const
+{
+	using Block = Eigen::Map<const Eigen::Matrix<double, Dim, Dim, Eigen::RowMajor>>;
+	for (int a = 0; a < nodes(); ++a)
+		for (int c = 0; c < codes; ++c) {
+			if (!used(a, c)) continue;
+			const Block K(at(a, c));
+			const int   b = neighbour(a, c);
+			y.segment<Dim>(Dim * a) += K * x.segment<Dim>(Dim * b);
+			if (b != a) y.segment<Dim>(Dim * b) += K.transpose() * x.segment<Dim>(Dim * a);
+		}
+}
+
+template class NodeMatrix<2>;
+template class NodeMatrix<3>;
+
+} // namespace gimpm

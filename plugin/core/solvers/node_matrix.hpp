@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Symmetric matrix over the active grid nodes, addressed by node and by the offset to the neighbour.
+#pragma once
+#include "core/grid/grid.hpp"
+#include <array>
+#include <vector>
+
+namespace gimpm {
+
+/// Blocks of Dim x Dim for a node a and the nodes b >= a (in key order) at most two cells away along each axis: GIMP functions and
+/// ghost faces reach no further. Block (a, b) is K_ab row by row.
+template <int Dim> class NodeMatrix {
+public:
+	static constexpr int width  = 5;                                  ///< offsets -2 ... 2 per axis
+	static constexpr int codes  = (Dim == 2 ? 25 : 125) / 2 + 1;      ///< offsets to nodes b >= a
+	static constexpr int block  = Dim * Dim;
+
+	/// Code of the offset b - a, which must not point to a lower node.
+	template <class Offset> static constexpr int code(const Offset& o) { return Dim == 2 ? o[0] + 5 * o[1] : o[0] + 5 * o[1] + 25 * o[2]; }
+
+	/// Sets up a zero matrix for these nodes (sorted).
+	void reset(const std::vector<Key>& nodes);
+	void setZero();
+
+	double*       at(int node, int code) { return values_.data() + (std::size_t(node) * codes + code) * block; }
+	const double* at(int node, int code) const { return values_.data() + (std::size_t(node) * codes + code) * block; }
+	void          markUsed(int node, int code) { used_[node] |= std::uint64_t(1) << code; }
+	bool          used(int node, int code) const { return used_[node] >> code & 1; }
+	int           neighbour(int node, int code) const { return neighbour_[std::size_t(node) * codes + code]; }
+	int           nodes() const { return int(used_.size()); }
+
+	/// y += K x, for nodal vectors of Dim components a node.
+	void multiplyAdd(const Eigen::VectorXd& x, Eigen::VectorXd& y) const;
+
+private:
+	std::vector<double>        values_;
+	std::vector<std::uint64_t> used_;
+	std::vector<int>           neighbour_; // number of the node at each offset; -1: not active
+};
+
+} // namespace gimpm

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "core/stepping/load_step.hpp"
+#include "core/stepping/beyond_walls.hpp"
+#include "core/stepping/newton.hpp"
+#include "core/terms/point_update.hpp"
+#include "core/stepping/restraint.hpp"
+#include "core/base/stopwatch.hpp"
+#include <sstream>
+
+namespace gimpm {
+namespace {
+
+/// Step 5: the points take over the converged displacements, and their domains follow the stretch along the grid axes.
+template <int Dim> void updatePoints(PointCloud<Dim>& cloud, const StepSystem<Dim>& system, const Eigen::VectorXd& d, StepReport& report)
+{
+	const double limit = 0.5 * system.model.grid.cellSize;
+	std::vector<char> clamped(cloud.size(), 0);
+	forUpdatedPoints(system.basis, system.points, system.model.materials, d, [&](int p, const PointUpdate<Dim>& u) {
+		cloud.position[p] += u.displacement;
+		cloud.defGrad[p]       = (cloud.defGrad[p] + u.gradient * cloud.defGrad[p]).eval();
+		cloud.elasticStrain[p] = u.elasticStrain;
+		cloud.plasticStrain[p] = u.plasticStrain;
+		cloud.stress[p].c      = u.kirchhoffStress.c / cloud.defGrad[p].determinant();
+		if (system.model.basis == Basis::gimp) {
+			const Vec<Dim> size = cloud.halfSize0[p].cwiseProduct(stretchAlongAxes(cloud.defGrad[p]));
+			clamped[p]          = (size.array() > limit).any();
+			cloud.halfSize[p]   = size.cwiseMin(limit);
+		}
+	});
+	for (const char c : clamped)
+		report.clampedDomains += c;
+}
+
+/// Equilibrium may have been found where no state can be: a point that hardly anything held has left the grid, or has become so flat that
+/// numbers do not tell its size. The report says so.
+template <int Dim> bool requireState(const PointCloud<Dim>& cloud, const Grid<Dim>& grid, StepReport& report)
+{
+	const double limit = Grid<Dim>::indexLimit * grid.cellSize;
+	for (std::size_t p = 0; p < cloud.size(); ++p) {
+		const bool isOnGrid = ((cloud.position[p] - grid.origin).array().abs() < limit).all() && cloud.stress[p].c.allFinite();
+		if (isOnGrid && cloud.halfSize[p].minCoeff() > 0 && cloud.defGrad[p].determinant() > 0) continue;
+		std::ostringstream text;
+		text << "a material point was " << (isOnGrid ? "flattened to nothing, at (" : "thrown off the grid, to (") << cloud.position[p].transpose() << ")";
+		report.failure  = Failure::diverging;
+		report.accepted = false;
+		report.cause    = text.str();
+		return false;
+	}
+	return true;
+}
+
+} // namespace
+
+template <int Dim> StepReport loadStep(PointCloud<Dim>& cloud, const Model<Dim>& model, const Load<Dim>& load, LinearSolver& solver, LastIncrement<Dim>* last)
+{
+	StepReport report;
+	solver.resetTimes();
+	// 1. basis functions and populated cells; boundary cells, ghost faces and K_g
+	const StepSystem<Dim> system(cloud, model, load, report);
+	const Restraint       held = [&] {
+		const Stopwatch watch(report.times.basis);
+		return restraint(system.basis, model.grid, model.boundary);
+	}();
+	report.parts               = held.parts;
+	if (!held.freeMotion.empty()) {
+		report.failure = Failure::unrestrained;
+		report.cause   = "nothing restrains the " + held.freeMotion;
+		return report;
+	}
+	// 2. to 4. points to nodes, assembly and Newton's method on the nodes
+	const Eigen::VectorXd prediction = last ? predict(*last, system.basis.nodes, load.growth()) : Eigen::VectorXd();
+	const Eigen::VectorXd d          = equilibrium(system, solver, report, prediction);
+	report.times.linear       = solver.times();
+	report.conjugateGradients = solver.iterativeEffort();
+	// 5. nodes to points; 6. the grid is reset by not being kept
+	report.accepted = report.failure == Failure::tooManyIterations && model.newton.acceptUnconverged;
+	if (report.converged() || report.accepted) {
+		const Stopwatch watch(report.times.update);
+		addReactionsBeyondWalls(system, cloud, load, d, report.reactions);
+		PointCloud<Dim> updated = cloud;
+		updatePoints(updated, system, d, report);
+		if (!requireState(updated, model.grid, report)) return report;
+		cloud = std::move(updated);
+		if (last) *last = { system.basis.nodes, d, load.growth() };
+	}
+	return report;
+}
+
+template <int Dim> SymmetricCsc tangentStiffness(const PointCloud<Dim>& cloud, const Model<Dim>& model)
+{
+	StepReport report;
+	return StepSystem<Dim>(cloud, model, Load<Dim>(), report).tangent();
+}
+
+template StepReport   loadStep(PointCloud<2>&, const Model<2>&, const Load<2>&, LinearSolver&, LastIncrement<2>*);
+template StepReport   loadStep(PointCloud<3>&, const Model<3>&, const Load<3>&, LinearSolver&, LastIncrement<3>*);
+template SymmetricCsc tangentStiffness(const PointCloud<2>&, const Model<2>&);
+template SymmetricCsc tangentStiffness(const PointCloud<3>&, const Model<3>&);
+
+} // namespace gimpm

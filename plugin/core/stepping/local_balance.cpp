@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "core/stepping/local_balance.hpp"
+
+namespace gimpm {
+namespace {
+
+/// Codes of the offsets to the neighbours at most one cell away along each axis, the node itself left out; the others are their opposites.
+template <int Dim> const std::vector<int>& neighbourCodes()
+{
+	static const std::vector<int> codes = [] {
+		std::vector<int> found;
+		for (int n = (Dim == 2 ? 9 : 27) / 2 + 1; n < (Dim == 2 ? 9 : 27); ++n)
+			found.push_back(NodeMatrix<Dim>::code(std::array<int, 3> { n % 3 - 1, n / 3 % 3 - 1, Dim == 2 ? 0 : n / 9 - 1 }));
+		return found;
+	}();
+	return codes;
+}
+
+/// Calls f(node, neighbour) once for each pair of neighbours.
+template <int Dim, class F> void forNeighbours(const NodeMatrix<Dim>& K, F&& f)
+{
+	for (int a = 0; a < K.nodes(); ++a)
+		for (const int code : neighbourCodes<Dim>())
+			if (const int b = K.neighbour(a, code); b >= 0) f(a, b);
+}
+
+} // namespace
+
+template <int Dim>
+double LocalBalance<Dim>::ratio(const Eigen::VectorXd& residual, const Eigen::VectorXd& sizes, const Eigen::VectorXd& d, double enough)
+{
+	// Strains this much smaller than the largest of the scene count for nothing: parts that carry no load need not be as exact as those that do.
+	constexpr double negligible = 1e-4;
+	Eigen::VectorXd  nodal = Eigen::VectorXd::Zero(d.size()), forces = sizes + system_.external.cwiseAbs();
+	for (int i = 0; i < nodal.size(); ++i)
+		if (system_.dofs.number[i] >= 0) nodal[i] = residual[system_.dofs.number[i]];
+	const Eigen::VectorXd left = around(lengths(nodal)), there = around(lengths(forces));
+	const double          found = largest(left, there);
+	if (found <= enough) return found;
+	const double          h = system_.model.grid.cellSize, strain = negligible * largestStrain(d) + system_.prescribed.template lpNorm<Eigen::Infinity>() / h;
+	const double          precision = 10 * std::numeric_limits<double>::epsilon(), motion = d.template lpNorm<Eigen::Infinity>() / h;
+	const auto            atStart = [&](int i) { return system_.points.leftCauchyGreen[i].c.norm(); };
+	const Eigen::VectorXd before = elasticForces([&](int i) { return atStart(i) + strain; });
+	const Eigen::VectorXd roundOff = elasticForces([&](int i) { return precision * (atStart(i) + motion); });
+	return largest((left - around(roundOff)).cwiseMax(0), there + around(before));
+}
+
+template <int Dim> double LocalBalance<Dim>::largest(const Eigen::VectorXd& residual, const Eigen::VectorXd& sizes)
+{
+	double ratio = 0;
+	worst_       = -1;
+	for (int n = 0; n < residual.size(); ++n)
+		if (residual[n] > ratio * sizes[n]) ratio = residual[n] / sizes[n], worst_ = n;
+	return ratio;
+}
+
+/// Of the vectors at the nodes.
+template <int Dim> Eigen::VectorXd LocalBalance<Dim>::lengths(const Eigen::VectorXd& nodal) const
+{
+	return Eigen::Map<const Eigen::Matrix<double, Dim, Eigen::Dynamic>>(nodal.data(), Dim, nodal.size() / Dim).colwise().template lpNorm<1>();
+}
+
+/// Sums over the nodes and their neighbours.
+template <int Dim> Eigen::VectorXd LocalBalance<Dim>::around(const Eigen::VectorXd& ofNode) const
+{
+	Eigen::VectorXd sum = ofNode;
+	forNeighbours(K_, [&](int a, int b) { sum[a] += ofNode[b], sum[b] += ofNode[a]; });
+	return sum;
+}
+
+/// Before the step, or of the displacements d.
+template <int Dim> double LocalBalance<Dim>::largestStrain(const Eigen::VectorXd& d) const
+{
+	double before = 0, difference = 0;
+	for (const auto& b : system_.points.leftCauchyGreen)
+		before = std::max(before, b.c.norm());
+	forNeighbours(K_, [&](int a, int b) {
+		difference = std::max(difference, (d.segment<Dim>(Dim * a) - d.segment<Dim>(Dim * b)).template lpNorm<Eigen::Infinity>());
+	});
+	return before + difference / system_.model.grid.cellSize;
+}
+
+/// At the nodes of each point, what its stress would be the forces of if it had an elastic strain of this size, strain(point).
+template <int Dim> template <class F> Eigen::VectorXd LocalBalance<Dim>::elasticForces(F&& strain) const
+{
+	const auto&     points = system_.points;
+	Eigen::VectorXd force  = Eigen::VectorXd::Zero(K_.nodes());
+	for (const auto& patch : system_.basis.patches) {
+		double sum = 0;
+		for (int i = patch.first; i < patch.first + patch.count; ++i)
+			sum += points.volume0[i] * system_.model.materials[points.material[i]].young() * strain(i) / system_.model.grid.cellSize;
+		for (const int node : patch.node)
+			if (node >= 0) force[node] += sum;
+	}
+	return force;
+}
+
+template class LocalBalance<2>;
+template class LocalBalance<3>;
+
+} // namespace gimpm

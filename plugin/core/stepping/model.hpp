@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// What a load step is given besides the points.
+#pragma once
+#include "core/grid/basis.hpp"
+#include "core/grid/boundary.hpp"
+#include "core/terms/ghost.hpp"
+#include "core/solvers/linear_solver.hpp"
+#include "core/materials/law.hpp"
+#include <functional>
+#include <optional>
+
+namespace gimpm {
+
+struct GhostSettings {
+	double       factor  = 1e-2; ///< gamma_k over the modulus; 0: plain GIMPM, no faces are looked for
+	GhostScaling scaling = GhostScaling::meshIndependent;
+};
+
+struct NewtonSettings {
+	double                tolerance         = 1e-6; ///< on |residual| / |external forces + reactions|; three times it around each node
+	int                   maxIterations     = 20;   ///< linear solves
+	int                   lineSearchTrials  = 5;    ///< shorter steps tried when a full one does not reduce the residual; 0: none
+	bool                  acceptUnconverged = false; ///< take over the last iterate after maxIterations
+	LinearMethod          linearSolver = LinearMethod::automatic;
+	bool                  reuseFactor  = true;      ///< of the last solve, where the convergence history says that it suffices
+	std::function<bool()> interrupted;               ///< asked once per iteration; may be empty
+};
+
+template <int Dim> struct Model {
+	Grid<Dim>             grid;
+	Basis                 basis = Basis::gimp;
+	std::vector<Material> materials;
+	Boundary<Dim>         boundary;
+	GhostSettings         ghost;
+	NewtonSettings        newton;
+};
+
+template <int Dim> struct Load {
+	Vec<Dim> gravity   = Vec<Dim>::Zero(); ///< at load factor 1 [m/s2]
+	double   factor    = 1;                ///< load factor at the end of the step
+	double   increment = 1;                ///< its growth in the step: the share of the prescribed displacements
+	std::optional<double> ofGravity {};    ///< the factor of gravity, if it has its own
+	double                growthOfGravity = 0; ///< in the step
+
+	/// What the displacements of the step are in proportion to, as far as that can be known.
+	double growth() const { return increment != 0 ? increment : growthOfGravity; }
+};
+
+} // namespace gimpm

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Where Newton's method may start: the displacements of the last step, in the ratio of the load increments.
+#pragma once
+#include "core/grid/grid.hpp"
+#include <vector>
+
+namespace gimpm {
+
+/// Nodal displacements of the last converged step.
+template <int Dim> struct LastIncrement {
+	std::vector<Key> nodes;         ///< sorted
+	Eigen::VectorXd  displacement;  ///< Dim components a node [m]
+	double           load = 0;      ///< growth of the load factor in that step
+};
+
+/// Start for a step in which the load factor grows by `load`; empty where the last step says nothing of it: there was none, or its load
+/// did not grow in the same direction. A node that was not active takes the mean of its neighbours that were, layer by layer.
+template <int Dim> Eigen::VectorXd predict(const LastIncrement<Dim>&, const std::vector<Key>& nodes, double load);
+
+} // namespace gimpm

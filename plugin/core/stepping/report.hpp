@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// How a load step went. Failure is a value.
+#pragma once
+#include "core/solvers/linear_solver.hpp"
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace gimpm {
+
+enum class Failure { none, unrestrained, singular, inverted, notFinite, diverging, tooManyIterations, stalled, interrupted };
+
+/// Of a stiffness matrix, as far as its factorisation told: an equilibrium may be unstable where it is not positive definite.
+enum class Definiteness { notChecked, positive, indefinite };
+
+struct StepTimes {
+	double      basis = 0, ghost = 0, assembly = 0, update = 0; ///< [s]
+	SolverTimes linear;
+};
+
+struct StepReport {
+	Failure             failure = Failure::none;
+	std::string         cause;          ///< one clause for the user, empty when converged
+	bool                accepted = false; ///< the points took over an iterate that had not converged
+	int                 iterations = 0; ///< linear solves
+	int                 reusedFactors = 0; ///< solves with the factor of the solve before
+	bool                predicted = false; ///< Newton's method started from the prediction
+	int                 lineSearchTrials = 0; ///< evaluations of the residual for steps shorter than Newton's
+	std::vector<double> residuals;      ///< |residual| / |external forces + reactions| before the first solve and after each
+	double              localResidual = std::numeric_limits<double>::quiet_NaN(); ///< largest |residual| / |forces| around a node, or a bound of it
+	Definiteness        definiteness  = Definiteness::notChecked; ///< of the last matrix that was factorised
+	int                 luSolves = 0;   ///< solves for which K was not positive definite
+	IterativeEffort     conjugateGradients; ///< of all attempts at the step
+	int                 invertedPoint = -1; ///< its index in the cloud, for Failure::inverted
+
+	int nodes = 0, dofs = 0, populatedCells = 0, boundaryCells = 0, ghostFaces = 0;
+	int mixedCells = 0; ///< populated by points of several materials
+	int parts      = 0; ///< of the body that share no node
+
+	/// Free degree of freedom with the largest out-of-balance force.
+	struct {
+		Vec3   position = Vec3::Constant(std::numeric_limits<double>::quiet_NaN()); ///< of the node [m]
+		int    axis     = -1;
+		double force    = 0; ///< [N]
+	} worst;
+
+	/// For each of Boundary's boxes, the sum of the forces with which it holds its nodes; of a node in several boxes the last one is given.
+	std::vector<Vec3> reactions; ///< [N]
+
+	int    clampedDomains     = 0; ///< points whose domain would have outgrown half a cell in this step
+	double largestWallOverlap = 0; ///< largest length by which a domain reached behind a wall [m]
+
+	StepTimes times;
+
+	/// What an attempt that came to nothing has cost.
+	void takeEffort(const StepReport& attempt)
+	{
+		iterations       = attempt.iterations;
+		reusedFactors    = attempt.reusedFactors;
+		lineSearchTrials = attempt.lineSearchTrials;
+		luSolves         = attempt.luSolves;
+		definiteness     = attempt.definiteness;
+		times            = attempt.times;
+	}
+	bool   converged() const { return failure == Failure::none; }
+	double residual() const { return residuals.empty() ? std::numeric_limits<double>::quiet_NaN() : residuals.back(); }
+};
+
+} // namespace gimpm

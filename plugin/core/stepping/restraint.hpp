@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Whether the held nodes keep every connected part of the body from moving as a rigid body.
+#pragma once
+#include "core/grid/cloud_basis.hpp"
+#include <string>
+
+namespace gimpm {
+
+struct Restraint {
+	int         parts = 0;  ///< of the body that share no node
+	std::string freeMotion; ///< of the first part found that can move freely ("translation along y of the material around (1, 2)"), or empty
+};
+
+template <int Dim> Restraint restraint(const CloudBasis<Dim>&, const Grid<Dim>&, const Boundary<Dim>&);
+
+} // namespace gimpm

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "core/stepping/step_system.hpp"
+#include "core/grid/mixed_cells.hpp"
+#include "core/base/stopwatch.hpp"
+#include <Eigen/LU>
+
+namespace gimpm {
+namespace {
+
+template <int Dim>
+std::vector<GhostFace<Dim>> stabilise(const PointCloud<Dim>& cloud, const Model<Dim>& model, const CloudBasis<Dim>& basis, StepReport& report)
+{
+	if (model.ghost.factor == 0) return {};
+	const Stopwatch watch(report.times.ghost);
+	const auto      boundary = boundaryCells(basis.cells, model.boundary);
+	auto            faces    = ghostFaces<Dim>(basis.cells, boundary, model.boundary);
+	report.boundaryCells     = int(boundary.size());
+	report.ghostFaces        = int(faces.size());
+	const auto stiffnessOf   = [&](int p) {
+		return VolumeAndModulus { cloud.volume0[p] * cloud.defGrad[p].determinant(), model.materials[cloud.material[p]].young() };
+	};
+	weighGhostFaces(faces, basis, stiffnessOf, model.grid.cellSize, model.ghost.factor, model.ghost.scaling);
+	return faces;
+}
+
+} // namespace
+
+template <int Dim> std::vector<Vec<Dim>> pointForces(const PointCloud<Dim>& cloud, const Model<Dim>& model, const Load<Dim>& load)
+{
+	const double          ofGravity = load.ofGravity.value_or(load.factor);
+	std::vector<Vec<Dim>> force(cloud.size());
+	for (std::size_t p = 0; p < cloud.size(); ++p) {
+		force[p] = model.materials[cloud.material[p]].density * cloud.volume0[p] * ofGravity * load.gravity;
+		if (!cloud.force.empty()) force[p] += load.factor * cloud.force[p];
+	}
+	return force;
+}
+
+template <int Dim>
+StepSystem<Dim>::StepSystem(const PointCloud<Dim>& cloud, const Model<Dim>& m, const Load<Dim>& load, StepReport& report)
+        : model(m)
+{
+	{
+		const Stopwatch watch(report.times.basis);
+		basis    = cloudBasis(cloud, model.grid, model.basis, model.boundary);
+		points   = stepPoints(cloud, basis);
+		external = Eigen::VectorXd::Zero(nodalSize());
+		addPointForces(basis, pointForces(cloud, model, load), external);
+	}
+	faces = stabilise(cloud, model, basis, report);
+	const Stopwatch watch(report.times.basis);
+	prescribed = Eigen::VectorXd::Zero(nodalSize());
+	dofs.number.assign(nodalSize(), -1);
+	for (std::size_t n = 0; n < basis.nodes.size(); ++n)
+		for (int a = 0; a < Dim; ++a) {
+			if (const auto* box = model.boundary.holder(Grid<Dim>::index(basis.nodes[n]), a)) prescribed[Dim * n + a] = load.increment * box->displacement[a];
+			else
+				dofs.number[Dim * n + a] = dofs.count++;
+		}
+	report.nodes              = int(basis.nodes.size());
+	report.dofs               = dofs.count;
+	report.populatedCells     = int(basis.cells.size());
+	for (const char mixed : mixedCells(basis, cloud.material))
+		report.mixedCells += mixed;
+	report.largestWallOverlap = basis.largestWallOverlap;
+}
+
+template <int Dim> void StepSystem<Dim>::prepare(NodeMatrix<Dim>& K) const
+{
+	K.reset(basis.nodes);
+	markPointPattern(basis, K);
+	markGhostPattern(faces, K);
+}
+
+template <int Dim> SymmetricCsc StepSystem<Dim>::tangent() const
+{
+	NodeMatrix<Dim> K;
+	Eigen::VectorXd force;
+	SymmetricCsc    reduced;
+	prepare(K);
+	evaluate(Eigen::VectorXd::Zero(nodalSize()), force, &K);
+	reduce(K, dofs, reduced);
+	return reduced;
+}
+
+template <int Dim> InvertedPoint StepSystem<Dim>::evaluate(const Eigen::VectorXd& d, Eigen::VectorXd& force, NodeMatrix<Dim>* K, Eigen::VectorXd* sizes) const
+{
+	force = Eigen::VectorXd::Zero(nodalSize());
+	if (K) K->setZero();
+	if (sizes) *sizes = force;
+	const InvertedPoint inverted = addInternalForce(basis, points, model.materials, d, force, K, sizes);
+	const Eigen::VectorXd internal = sizes ? force : Eigen::VectorXd();
+	addGhostForce(faces, model.grid.cellSize, d, force);
+	if (sizes) *sizes += (force - internal).cwiseAbs();
+	if (K) addGhostStiffness(faces, model.grid.cellSize, *K);
+	return inverted;
+}
+
+template std::vector<Vec<2>> pointForces(const PointCloud<2>&, const Model<2>&, const Load<2>&);
+template std::vector<Vec<3>> pointForces(const PointCloud<3>&, const Model<3>&, const Load<3>&);
+template struct StepSystem<2>;
+template struct StepSystem<3>;
+
+} // namespace gimpm

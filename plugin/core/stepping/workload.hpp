@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// What a load step will cost, before it is made.
+#pragma once
+#include "core/stepping/model.hpp"
+#include "core/grid/point_cloud.hpp"
+#include "core/stepping/report.hpp"
+
+namespace gimpm {
+
+struct Workload {
+	int       points = 0, nodes = 0, dofs = 0, populatedCells = 0, ghostFaces = 0;
+	double    blockEntries  = 0; ///< numbers that the matrix takes before it is reduced
+	double    matrixEntries = 0; ///< of the reduced matrix, lower triangle
+	double    factorEntries = 0; ///< of its Cholesky factor; 0 if conjugate gradients take its place
+	double    factorFlops   = 0; ///< operations of a factorisation
+	StepTimes times;             ///< of the parts of a step with one solve; measured, but for a factorisation that would take long
+};
+
+/// Does the parts of a load step once, from the current state and without load, and leaves the points alone. A factorisation of more than
+/// some 1e10 operations is not made; its time is that at the speed of a core of 2020.
+template <int Dim> Workload workload(const PointCloud<Dim>&, const Model<Dim>&);
+
+} // namespace gimpm

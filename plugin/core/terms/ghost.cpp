@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "core/terms/ghost.hpp"
+#include <algorithm>
+
+namespace gimpm {
+namespace {
+
+bool contains(const std::vector<Key>& sorted, Key k) { return std::binary_search(sorted.begin(), sorted.end(), k); }
+
+/// Jump of dN/dn across a face for the nodes below, on and above it, times h.
+constexpr double jump[3] = { -1, 2, -1 };
+
+/// Integral over the face of N_s N_t for the nodes of the face: the linear mass matrix h/6 [2 1; 1 2] of each tangential axis.
+template <int Dim> double faceMass(int s, int t, double h)
+{
+	double m = 1;
+	for (int a = 0; a < Dim - 1; ++a)
+		m *= h / 6 * ((s >> a & 1) == (t >> a & 1) ? 2 : 1);
+	return m;
+}
+
+/// Numbers of the cells below and above a face.
+template <int Dim> std::array<int, 2> cellsAt(const GhostFace<Dim>& face, const CloudBasis<Dim>& basis)
+{
+	return { position(basis.cells, face.lower), position(basis.cells, face.lower + Grid<Dim>::keyStep(face.axis)) };
+}
+
+/// Young's moduli of the cells at the faces, by number: the means of their points, weighted by the volumes of the overlaps.
+template <int Dim>
+std::vector<double> cellModuli(const std::vector<GhostFace<Dim>>& faces, const CloudBasis<Dim>& basis, const PointStiffness& stiffnessOf, double h)
+{
+	std::vector<char> isAtFace(basis.cells.size(), 0);
+	for (const auto& face : faces)
+		for (const int cell : cellsAt(face, basis))
+			isAtFace[cell] = 1;
+	std::vector<double> volume(basis.cells.size(), 0), modulus(basis.cells.size(), 0);
+	for (const auto& patch : basis.patches)
+		for (int c = 0; c < windowCells<Dim>; ++c) {
+			const int cell = patch.reached[c];
+			if (cell < 0 || !isAtFace[cell]) continue;
+			for (int i = patch.first; i < patch.first + patch.count; ++i) {
+				auto [overlap, young] = stiffnessOf(basis.order[i]);
+				for (int a = 0; a < Dim; ++a)
+					if (patch.span >> a & 1) overlap *= basis.axes[i][a].share(c >> a & 1, h);
+				volume[cell] += overlap;
+				modulus[cell] += overlap * young;
+			}
+		}
+	for (std::size_t cell = 0; cell < modulus.size(); ++cell)
+		if (isAtFace[cell]) modulus[cell] /= volume[cell];
+	return modulus;
+}
+
+/// Calls f(node a, s-th position of a, node b >= a, code, coefficient) for the node pairs of a face; the coefficient is the same for
+/// every displacement component, because [m] = [n][n]^T (eq. 5) picks the normal derivative of each.
+template <int Dim, class F> void forNodePairs(const GhostFace<Dim>& face, double h, F&& f)
+{
+	constexpr int T = GhostFace<Dim>::tangentialNodes;
+	for (int i = 0; i < 3; ++i)
+		for (int s = 0; s < T; ++s)
+			for (int j = 0; j < 3; ++j)
+				for (int t = 0; t < T; ++t) {
+					if (face.node[j][t] < face.node[i][s]) continue;
+					std::array<int, Dim> offset {};
+					offset[face.axis] = j - i;
+					for (int a = 0, bit = 0; a < Dim; ++a)
+						if (a != face.axis) offset[a] = (t >> bit & 1) - (s >> bit & 1), ++bit;
+					f(face.node[i][s], NodeMatrix<Dim>::code(offset), face.stiffness * jump[i] * jump[j] / (h * h) * faceMass<Dim>(s, t, h));
+				}
+}
+
+} // namespace
+
+template <int Dim> std::vector<Key> boundaryCells(const std::vector<Key>& populated, const Boundary<Dim>& boundary)
+{
+	std::vector<Key> cells;
+	for (const Key cell : populated) {
+		const Index<Dim> i  = Grid<Dim>::index(cell);
+		bool             is = false;
+		for (int a = 0; a < Dim && !is; ++a) {
+			const Key step = Grid<Dim>::keyStep(a);
+			is = (!contains(populated, cell - step) && !boundary.lowerFaceIsWall(i, a))
+			        || (!contains(populated, cell + step) && !boundary.lowerFaceIsWall(i + Index<Dim>::Unit(a), a));
+		}
+		if (is) cells.push_back(cell);
+	}
+	return cells;
+}
+
+template <int Dim>
+std::vector<GhostFace<Dim>> ghostFaces(const std::vector<Key>& populated, const std::vector<Key>& boundaryCells, const Boundary<Dim>& boundary)
+{
+	std::vector<GhostFace<Dim>> faces;
+	for (const Key cell : populated)
+		for (int a = 0; a < Dim; ++a) {
+			const Key above = cell + Grid<Dim>::keyStep(a);
+			if (!contains(populated, above) || (!contains(boundaryCells, cell) && !contains(boundaryCells, above))) continue;
+			if (!boundary.lowerFaceIsWall(Grid<Dim>::index(above), a)) faces.push_back({ a, cell });
+		}
+	return faces;
+}
+
+template <int Dim>
+void weighGhostFaces(
+        std::vector<GhostFace<Dim>>& faces, const CloudBasis<Dim>& basis, const PointStiffness& stiffnessOf, double h, double factor, GhostScaling scaling)
+{
+	const auto   modulus = cellModuli(faces, basis, stiffnessOf, h);
+	const double power   = scaling == GhostScaling::paper ? h * h * h : h;
+	for (auto& face : faces) {
+		const auto [lower, upper] = cellsAt(face, basis);
+		face.stiffness            = factor * std::min(modulus[lower], modulus[upper]) * power / 3;
+		for (int i = 0; i < 3; ++i)
+			for (int s = 0; s < GhostFace<Dim>::tangentialNodes; ++s) {
+				Key node = face.lower + i * Grid<Dim>::keyStep(face.axis);
+				for (int a = 0, bit = 0; a < Dim; ++a)
+					if (a != face.axis) node += (s >> bit & 1) * Grid<Dim>::keyStep(a), ++bit;
+				face.node[i][s] = position(basis.nodes, node);
+			}
+	}
+}
+
+template <int Dim> void markGhostPattern(const std::vector<GhostFace<Dim>>& faces, NodeMatrix<Dim>& K)
+{
+	for (const auto& face : faces)
+		forNodePairs(face, 1, [&](int node, int code, double) { K.markUsed(node, code); });
+}
+
+template <int Dim> void addGhostStiffness(const std::vector<GhostFace<Dim>>& faces, double h, NodeMatrix<Dim>& K)
+{
+	for (const auto& face : faces)
+		forNodePairs(face, h, [&](int node, int code, double k) {
+			double* block = K.at(node, code);
+			for (int i = 0; i < Dim; ++i)
+				block[i * (Dim + 1)] += k;
+		});
+}
+
+template <int Dim> void addGhostForce(const std::vector<GhostFace<Dim>>& faces, double h, const Eigen::VectorXd& d, Eigen::VectorXd& f)
+{
+	constexpr int T = GhostFace<Dim>::tangentialNodes;
+	for (const auto& face : faces) {
+		Vec<Dim> slopeJump[T]; // h times the jump of the normal derivative at each node of the face
+		for (int s = 0; s < T; ++s) {
+			slopeJump[s].setZero();
+			for (int i = 0; i < 3; ++i)
+				slopeJump[s] += jump[i] * d.template segment<Dim>(Dim * face.node[i][s]);
+		}
+		for (int s = 0; s < T; ++s) {
+			Vec<Dim> force = Vec<Dim>::Zero();
+			for (int t = 0; t < T; ++t)
+				force += face.stiffness / (h * h) * faceMass<Dim>(s, t, h) * slopeJump[t];
+			for (int i = 0; i < 3; ++i)
+				f.template segment<Dim>(Dim * face.node[i][s]) += jump[i] * force;
+		}
+	}
+}
+
+#define GIMPM_INSTANTIATE(Dim)                                                                                                                                 \
+	template std::vector<Key>            boundaryCells(const std::vector<Key>&, const Boundary<Dim>&);                                                     \
+	template std::vector<GhostFace<Dim>> ghostFaces(const std::vector<Key>&, const std::vector<Key>&, const Boundary<Dim>&);                               \
+	template void weighGhostFaces(                                                                                                                         \
+	        std::vector<GhostFace<Dim>>&, const CloudBasis<Dim>&, const PointStiffness&, double, double, GhostScaling);                                    \
+	template void markGhostPattern(const std::vector<GhostFace<Dim>>&, NodeMatrix<Dim>&);                                                                  \
+	template void addGhostStiffness(const std::vector<GhostFace<Dim>>&, double, NodeMatrix<Dim>&);                                                         \
+	template void addGhostForce(const std::vector<GhostFace<Dim>>&, double, const Eigen::VectorXd&, Eigen::VectorXd&);
+GIMPM_INSTANTIATE(2)
+GIMPM_INSTANTIATE(3)
+#undef GIMPM_INSTANTIATE
+
+} // namespace gimpm

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Ghost stabilisation (Coombs 2023, section 3): boundary elements, ghost faces and the stiffness on them.
+#pragma once
+#include "core/grid/cloud_basis.hpp"
+#include "core/solvers/node_matrix.hpp"
+#include <functional>
+
+namespace gimpm {
+
+/// Power of the cell size h in the ghost stiffness. Eq. (2) has h^3, which fades against K on fine grids; h keeps the ratio. The two
+/// agree for h = 1 m.
+enum class GhostScaling { meshIndependent, paper };
+
+/// Populated cells that share a face with an unpopulated one. A wall is no free surface: what lies behind it does not count.
+template <int Dim> std::vector<Key> boundaryCells(const std::vector<Key>& populated, const Boundary<Dim>&);
+
+/// Face between two populated cells of which at least one is a boundary cell.
+template <int Dim> struct GhostFace {
+	static constexpr int tangentialNodes = 1 << (Dim - 1);
+	int                  axis;                         ///< normal direction
+	Key                  lower;                        ///< the cell below; the one above is its neighbour along the axis
+	int                  node[3][tangentialNodes] {};  ///< numbers of the nodes below, on and above the face
+	double               stiffness = 0;                ///< gamma_k h^3/3 of eq. (2), or gamma_k h/3
+};
+
+/// Faces of a body, sorted. There are none across walls.
+template <int Dim> std::vector<GhostFace<Dim>> ghostFaces(const std::vector<Key>& populated, const std::vector<Key>& boundary, const Boundary<Dim>&);
+
+/// Current volume [m3] and Young's modulus [Pa] of a point of the cloud.
+struct VolumeAndModulus {
+	double volume, modulus;
+};
+using PointStiffness = std::function<VolumeAndModulus(int point)>;
+
+/// Sets node numbers and stiffness = factor * modulus * (h or h^3) / 3. A cell's modulus is the mean of Young's moduli of its points,
+/// weighted by the volumes of their domains' overlaps with it; a face has that of the softer of its two cells. With the stiffer one or a
+/// mean, soft layers could not be strained beside stiff ones: the kink of the displacements is what equilibrium asks for there.
+template <int Dim>
+void weighGhostFaces(std::vector<GhostFace<Dim>>&, const CloudBasis<Dim>&, const PointStiffness&, double h, double factor, GhostScaling);
+
+/// K += K_g, and the pattern of K_g.
+template <int Dim> void addGhostStiffness(const std::vector<GhostFace<Dim>>&, double h, NodeMatrix<Dim>& K);
+template <int Dim> void markGhostPattern(const std::vector<GhostFace<Dim>>&, NodeMatrix<Dim>& K);
+
+/// f += K_g d (eq. 6).
+template <int Dim> void addGhostForce(const std::vector<GhostFace<Dim>>&, double h, const Eigen::VectorXd& d, Eigen::VectorXd& f);
+
+} // namespace gimpm

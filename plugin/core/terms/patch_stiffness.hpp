@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Stiffness of the points of a patch: a product of small dense matrices, with the columns side by side.
+#pragma once
+#include "core/terms/point_kernel.hpp"
+
+namespace gimpm {
+
+/// Sum over points of grad_a,j V a_ijkl grad_b,l for the N nodes of a patch, by pairs of displacement components i <= k:
+/// block(i, k)(a, b) = K_(a,i)(b,k).
+template <int Dim, int N> class PatchStiffness {
+	static constexpr int pairs      = Dim * (Dim + 1) / 2;
+	static constexpr int width      = (N + Lanes::count - 1) / Lanes::count; ///< of a row, in Lanes
+	static constexpr int rowsAtOnce = width > 3 ? 2 : width > 2 ? 3 : 4;     ///< whose sums fit into registers
+
+public:
+	/// Of the points [begin, end).
+	GIMPM_INLINE void multiply(const Chunk<Dim>& chunk, int begin, int end)
+	{
+		for (int i = 0, pair = 0; i < Dim; ++i)
+			for (int k = i; k < Dim; ++k, ++pair) {
+				formFlux(chunk, pair, begin, end);
+				if (i == k) sumRows<true, 0>(chunk, sum_[pair], begin, end);
+				else
+					sumRows<false, 0>(chunk, sum_[pair], begin, end);
+			}
+	}
+	template <class Codes> GIMPM_INLINE void scatterAdd(const int* node, const Codes& codes, NodeMatrix<Dim>& K) const
+	{
+		for (int a = 0; a < N; ++a)
+			for (int b = a; b < N; ++b) {
+				if (node[a] < 0 || node[b] < 0) continue;
+				double* out = K.at(node[a], codes.code[a][b]);
+				for (int i = 0, pair = 0; i < Dim; ++i)
+					for (int k = i; k < Dim; ++k, ++pair) {
+						out[i * Dim + k] += at(sum_[pair][a], b);
+						if (i != k) out[k * Dim + i] += at(sum_[pair][b], a);
+					}
+			}
+	}
+
+private:
+	static double at(const Lanes* row, int n) { return reinterpret_cast<const double*>(row)[n]; }
+
+	/// flux_j,b = V a_ijkl grad_b,l of each point, for the pair (i, k).
+	GIMPM_INLINE void formFlux(const Chunk<Dim>& chunk, int pair, int begin, int end)
+	{
+		for (int p = begin; p < end; ++p) {
+			const int   q = p - chunk.first, lane = q % Lanes::count;
+			const auto& a = chunk.moduli[q / Lanes::count].value[pair];
+			for (int j = 0; j < Dim; ++j)
+				for (int v = 0; v < width; ++v) {
+					Lanes sum = Lanes(at(&a[j][0], lane)) * chunk.basis[q][0][v];
+					for (int l = 1; l < Dim; ++l)
+						sum += Lanes(at(&a[j][l], lane)) * chunk.basis[q][l][v];
+					flux_[p - begin][j][v] = sum;
+				}
+		}
+	}
+	/// Rows from First on; of a symmetric block only the columns from the diagonal on are needed.
+	template <bool Symmetric, int First> GIMPM_INLINE void sumRows(const Chunk<Dim>& chunk, Lanes (&block)[N][width], int begin, int end) const
+	{
+		if constexpr (First < N) {
+			constexpr int rows = N - First < rowsAtOnce ? N - First : rowsAtOnce, from = Symmetric ? First / Lanes::count : 0;
+			Lanes         sum[rows][width - from];
+			for (auto& row : sum)
+				for (auto& lanes : row)
+					lanes = Lanes(0);
+			for (int p = begin; p < end; ++p)
+				for (int j = 0; j < Dim; ++j) {
+					const double* grad = chunk.basisAt(p, j) + First;
+					const Lanes*  flux = flux_[p - begin][j] + from;
+					for (int r = 0; r < rows; ++r)
+						for (int v = 0; v < width - from; ++v)
+							sum[r][v] += Lanes(grad[r]) * flux[v];
+				}
+			for (int r = 0; r < rows; ++r)
+				for (int v = from; v < width; ++v)
+					block[First + r][v] = sum[r][v - from];
+			sumRows<Symmetric, First + rows>(chunk, block, begin, end);
+		}
+	}
+
+	Lanes sum_[pairs][N][width];
+	Lanes flux_[Chunk<Dim>::capacity][Dim][width];
+};
+
+} // namespace gimpm

@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The way of the material points through a pass. What depends on the number of nodes is computed point by point, with the nodes of its
+// patch side by side; the response of the material, which does not, with several points side by side.
+#pragma once
+#include "core/terms/internal_force.hpp"
+#include "core/materials/kinematics.hpp"
+
+namespace gimpm {
+
+template <int Dim, int Span> constexpr int nodesOfSpan()
+{
+	int n = 1;
+	for (int a = 0; a < Dim; ++a)
+		n *= 2 + (Span >> a & 1);
+	return n;
+}
+
+/// The nodes of a patch, x fastest: rows of 2 or 3 nodes.
+template <int Dim, int Span> struct PatchNodes {
+	static constexpr int N = nodesOfSpan<Dim, Span>(), inRow = 2 + (Span & 1), rows = N / inRow;
+
+	/// Position of a node along an axis: 0, 1 or 2.
+	static constexpr int along(int node, int axis)
+	{
+		for (int a = 0; a < axis; ++a)
+			node /= 2 + (Span >> a & 1);
+		return node % (2 + (Span >> axis & 1));
+	}
+	/// The same of all nodes of a row, for the other axes.
+	static constexpr int rowAlong(int row, int axis) { return along(row * inRow, axis); }
+
+	/// Product of the values of all axes but x, with the slope instead of the value for one of them (or for none).
+	GIMPM_INLINE static double rowFactor(const PointBasis<Dim>& axes, int row, int sloped)
+	{
+		double product = 1;
+		for (int a = 1; a < Dim; ++a)
+			product *= (a == sloped ? axes[a].slope : axes[a].value)[rowAlong(row, a)];
+		return product;
+	}
+};
+
+/// Components of a nodal vector at the nodes of a patch, row by row; zero beyond walls and beyond the end of a row.
+template <int Dim, int Span> struct PatchVectors {
+	using Nodes = PatchNodes<Dim, Span>;
+	Lanes row[Dim][Nodes::rows];
+
+	PatchVectors()
+	{
+		for (auto& component : row)
+			for (auto& lanes : component)
+				lanes = Lanes(0);
+	}
+	PatchVectors(const Patch<Dim>& patch, const Eigen::VectorXd& x)
+	        : PatchVectors()
+	{
+		for (int n = 0; n < Nodes::N; ++n)
+			for (int i = 0; i < Dim; ++i)
+				if (patch.node[n] >= 0) row[i][n / Nodes::inRow].v[n % Nodes::inRow] = x[Dim * patch.node[n] + i];
+	}
+	void scatterAdd(const Patch<Dim>& patch, Eigen::VectorXd& x) const
+	{
+		for (int n = 0; n < Nodes::N; ++n)
+			for (int i = 0; i < Dim; ++i)
+				if (patch.node[n] >= 0) x[Dim * patch.node[n] + i] += row[i][n / Nodes::inRow][n % Nodes::inRow];
+	}
+	/// Magnitudes, whatever the signs.
+	void scatterAddSizes(const Patch<Dim>& patch, Eigen::VectorXd& x) const
+	{
+		for (int n = 0; n < Nodes::N; ++n)
+			for (int i = 0; i < Dim; ++i)
+				if (patch.node[n] >= 0) x[Dim * patch.node[n] + i] += std::abs(row[i][n / Nodes::inRow][n % Nodes::inRow]);
+	}
+};
+
+/// Moduli times volume of points side by side, by pairs of displacement components i <= k: value(i, k)[j][l] = V a_ijkl.
+template <int Dim> struct PairModuli {
+	Lanes value[Dim * (Dim + 1) / 2][Dim][Dim];
+};
+
+/// Some points that follow each other in the order of the basis, on their way through a pass.
+template <int Dim> struct Chunk {
+	static constexpr int batches = 4, capacity = batches * Lanes::count;
+	static constexpr int width = (windowNodes<Dim> + Lanes::count - 1) / Lanes::count;
+
+	int             first = 0, count = 0;
+	Lanes           basis[capacity][Dim][width];          ///< gradients of the basis functions of a point, node by node
+	Lanes           gradient[batches][Dim][Dim];          ///< of the displacements, a point in each lane
+	Lanes           flux[batches][Dim][Dim];              ///< the force on node a is flux . grad_a
+	PairModuli<Dim> moduli[batches];
+
+	Chunk() // what lies beyond the last node or point is computed with, and not used
+	{
+		for (auto& point : basis)
+			for (auto& axis : point)
+				for (auto& lanes : axis)
+					lanes = Lanes(0);
+		for (auto& batch : gradient)
+			for (auto& row : batch)
+				for (auto& lanes : row)
+					lanes = Lanes(0);
+	}
+	int           last() const { return first + count; }
+	double*       basisAt(int point, int axis) { return reinterpret_cast<double*>(basis[point - first][axis]); }
+	const double* basisAt(int point, int axis) const { return reinterpret_cast<const double*>(basis[point - first][axis]); }
+	double        fluxAt(int point, int i, int j) const { return flux[(point - first) / Lanes::count][i][j][(point - first) % Lanes::count]; }
+	double&       gradientAt(int point, int i, int j) { return gradient[(point - first) / Lanes::count][i][j].v[(point - first) % Lanes::count]; }
+};
+
+/// Basis functions of the points [begin, end) of one patch, and the gradients of the displacements u there.
+template <int Dim, int Span>
+GIMPM_INLINE void prepare(const CloudBasis<Dim>& basis, const PatchVectors<Dim, Span>& u, int begin, int end, Chunk<Dim>& chunk)
+{
+	using Nodes = PatchNodes<Dim, Span>;
+	for (int p = begin; p < end; ++p) {
+		const auto& axes  = basis.axes[p];
+		const Lanes value = loadLanes(axes[0].value), slope = loadLanes(axes[0].slope);
+		Lanes       gradient[Dim][Dim];
+		for (auto& row : gradient)
+			for (auto& lanes : row)
+				lanes = Lanes(0);
+		for (int r = 0; r < Nodes::rows; ++r)
+			for (int j = 0; j < Dim; ++j) {
+				const Lanes g = (j == 0 ? slope : value) * Lanes(Nodes::rowFactor(axes, r, j));
+				storeLanes(chunk.basisAt(p, j) + r * Nodes::inRow, g); // the next row begins where the nodes of this one end
+				for (int i = 0; i < Dim; ++i)
+					gradient[i][j] += u.row[i][r] * g;
+			}
+		for (int i = 0; i < Dim; ++i)
+			for (int j = 0; j < Dim; ++j)
+				chunk.gradientAt(p, i, j) = sum(gradient[i][j]);
+	}
+}
+
+/// Points side by side. Lanes beyond the last point of a chunk repeat it.
+struct Batch {
+	int point[Lanes::count];
+	int count; ///< of points that are no repetition
+
+	GIMPM_INLINE Batch(int first, int last)
+	        : count(std::min(Lanes::count, last - first))
+	{
+		for (int lane = 0; lane < Lanes::count; ++lane)
+			point[lane] = std::min(first + lane, last - 1);
+	}
+	template <class F> GIMPM_INLINE Lanes load(F&& f) const
+	{
+		return lanes([&](int lane) GIMPM_INLINE_LAMBDA { return f(point[lane]); });
+	}
+};
+
+/// Response of points to the gradient of the incremental displacement.
+template <int Dim> struct BatchResponse {
+	Principal<Dim, Lanes>  trial; ///< of b - 1
+	PrincipalValues<Lanes> strain;
+	ResponseOf<Lanes>      law;
+
+	GIMPM_INLINE BatchResponse(const Batch& batch, const StepPoints<Dim>& points, const std::vector<Material>& materials, const MatrixOf<Dim, Lanes>& gradient)
+	        : trial(principal(pushForward(leftCauchyGreen(batch, points), gradient)))
+	        , strain(logStrain(trial.value))
+	{
+		const Lanes plasticStrain = batch.load([&](int p) GIMPM_INLINE_LAMBDA { return points.plasticStrain[p]; });
+		respond(materials[points.material[batch.point[0]]], plasticStrain, law);
+		for (int lane = 1; lane < Lanes::count; ++lane) { // seldom: another material among them
+			const int material = points.material[batch.point[lane]];
+			if (material == points.material[batch.point[lane - 1]]) continue;
+			ResponseOf<Lanes> other;
+			respond(materials[material], plasticStrain, other);
+			for (int l = lane; l < Lanes::count; ++l)
+				law.takeLane(l, other);
+		}
+	}
+
+private:
+	GIMPM_INLINE static SymTensor<Dim, Lanes> leftCauchyGreen(const Batch& batch, const StepPoints<Dim>& points)
+	{
+		SymTensor<Dim, Lanes> b1;
+		for (int k = 0; k < b1.size; ++k)
+			b1.c[k] = batch.load([&](int p) GIMPM_INLINE_LAMBDA { return points.leftCauchyGreen[p].c[k]; });
+		return b1;
+	}
+	GIMPM_INLINE void respond(const Material& material, const Lanes& plasticStrain, ResponseOf<Lanes>& response) const
+	{
+		withLaw(material.law, [&](const auto& l) GIMPM_INLINE_LAMBDA { response = l.template respond<Lanes>(strain, plasticStrain); });
+	}
+};
+
+/// Calls f(std::integral_constant<int, span>) with the patch's span as a compile-time constant.
+template <int Dim, int Span = (1 << Dim) - 1, class F> GIMPM_INLINE void withSpan(int span, F&& f)
+{
+	if constexpr (Span >= 0) {
+		if (span == Span) f(std::integral_constant<int, Span>());
+		else
+			withSpan<Dim, Span - 1>(span, f);
+	}
+}
+
+/// Calls f(span, patch, begin, end) for the points of each patch that are in the chunk; `patch` is the first that may be.
+template <int Dim, class F> GIMPM_INLINE void forPieces(const CloudBasis<Dim>& basis, const Chunk<Dim>& chunk, int patch, F&& f)
+{
+	for (; patch < int(basis.patches.size()) && basis.patches[patch].first < chunk.last(); ++patch) {
+		const auto& p     = basis.patches[patch];
+		const int   begin = std::max(p.first, chunk.first), end = std::min(p.first + p.count, chunk.last());
+		if (begin < end) withSpan<Dim>(p.span, [&](auto span) GIMPM_INLINE_LAMBDA { f(span, p, begin, end); });
+	}
+}
+
+/// Calls f(chunk, first patch) for all points of the patches [first, last).
+template <int Dim, class F> GIMPM_INLINE void forChunks(const CloudBasis<Dim>& basis, int first, int last, F&& f)
+{
+	const int  end = basis.patches[last - 1].first + basis.patches[last - 1].count;
+	Chunk<Dim> chunk;
+	for (int begin = basis.patches[first].first; begin < end; begin += chunk.count) {
+		chunk.first = begin;
+		chunk.count = std::min(Chunk<Dim>::capacity, end - begin);
+		while (basis.patches[first].first + basis.patches[first].count <= begin)
+			++first;
+		f(chunk, first);
+	}
+}
+
+} // namespace gimpm

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Step 5 of the method: nodes to points.
+#pragma once
+#include "core/base/instruction_set.hpp"
+#include "core/terms/point_kernel.hpp"
+
+namespace gimpm {
+
+/// State of one point for displacements d.
+template <int Dim> struct PointUpdate {
+	Vec<Dim>       displacement;
+	Mat<Dim>       gradient; ///< of the increment, with respect to the configuration at the start of the step
+	SymTensor<Dim> elasticStrain, kirchhoffStress;
+	double         plasticStrain;
+};
+
+/// Value at one point of a field given by nodal vectors.
+template <int Dim, int Span> Vec<Dim> interpolate(const PointBasis<Dim>& axes, const PatchVectors<Dim, Span>& u)
+{
+	using Nodes = PatchNodes<Dim, Span>;
+	Vec<Dim> value;
+	for (int i = 0; i < Dim; ++i) {
+		Lanes products(0);
+		for (int r = 0; r < Nodes::rows; ++r)
+			products += u.row[i][r] * Lanes(Nodes::rowFactor(axes, r, 0));
+		value[i] = sum(products * loadLanes(axes[0].value));
+	}
+	return value;
+}
+
+/// Calls f(index in the cloud, PointUpdate) for the points of the patches [first, last).
+template <int Dim, class F>
+void forUpdatedPoints(
+        const CloudBasis<Dim>& basis, const StepPoints<Dim>& points, const std::vector<Material>& materials, const Eigen::VectorXd& d, int first, int last, F&& f)
+{
+	forChunks(basis, first, last, [&](Chunk<Dim>& chunk, int patch) {
+		Vec<Dim> displacement[Chunk<Dim>::capacity];
+		forPieces(basis, chunk, patch, [&](auto span, const Patch<Dim>& p, int begin, int end) {
+			const PatchVectors<Dim, decltype(span)::value> u(p, d);
+			prepare(basis, u, begin, end, chunk);
+			for (int q = begin; q < end; ++q)
+				displacement[q - chunk.first] = interpolate<Dim, decltype(span)::value>(basis.axes[q], u);
+		});
+		for (int b = 0; b * Lanes::count < chunk.count; ++b) {
+			const Batch          batch(chunk.first + b * Lanes::count, chunk.last());
+			MatrixOf<Dim, Lanes> gradient;
+			for (int i = 0; i < Dim; ++i)
+				for (int j = 0; j < Dim; ++j)
+					gradient(i, j) = chunk.gradient[b][i][j];
+			const BatchResponse<Dim> response(batch, points, materials, gradient);
+			const auto               elasticStrain = assemble<Lanes, Dim>(response.law.elasticStrain, response.trial.axes);
+			const auto               stress        = assemble<Lanes, Dim>(response.law.stress, response.trial.axes);
+			for (int lane = 0, q = b * Lanes::count; lane < Lanes::count && q < chunk.count; ++lane, ++q) {
+				const auto one = [lane](const Lanes& x) { return x[lane]; };
+				f(basis.order[chunk.first + q],
+				  PointUpdate<Dim> { displacement[q], gradient.unaryExpr(one), { elasticStrain.c.unaryExpr(one) }, { stress.c.unaryExpr(one) },
+				                     response.law.plasticStrain[lane] });
+			}
+		}
+	});
+}
+
+/// The same for every point, from several threads; f must not touch other points.
+template <int Dim, class F>
+void forUpdatedPoints(const CloudBasis<Dim>& basis, const StepPoints<Dim>& points, const std::vector<Material>& materials, const Eigen::VectorXd& d, F&& f)
+{
+	constexpr int patchesAtOnce = 64;
+	const int     patches       = int(basis.patches.size());
+#pragma omp parallel for schedule(dynamic)
+	for (int first = 0; first < patches; first += patchesAtOnce)
+		callForProcessor([&] { forUpdatedPoints(basis, points, materials, d, first, std::min(first + patchesAtOnce, patches), f); });
+}
+
+} // namespace gimpm

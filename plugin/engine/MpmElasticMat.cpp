@@ -1,5 +1,0 @@
-// SPDX-License-Identifier: GPL-2.0-or-later
-#include "engine/MpmElasticMat.hpp"
-
-BOOST_CLASS_EXPORT_IMPLEMENT(yade::MpmElasticMat)
-static const yade::PluginClasses<yade::MpmElasticMat> registered(__FILE__);

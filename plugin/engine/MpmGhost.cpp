@@ -1,5 +1,0 @@
-// SPDX-License-Identifier: GPL-2.0-or-later
-#include "engine/MpmGhost.hpp"
-
-BOOST_CLASS_EXPORT_IMPLEMENT(yade::MpmGhost)
-static const yade::PluginClasses<yade::MpmGhost> registered(__FILE__);

@@ -1,5 +1,0 @@
-// SPDX-License-Identifier: GPL-2.0-or-later
-#include "engine/MpmNewton.hpp"
-
-BOOST_CLASS_EXPORT_IMPLEMENT(yade::MpmNewton)
-static const yade::PluginClasses<yade::MpmNewton> registered(__FILE__);

@@ -1,0 +1,5 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "engine/materials/MpmElasticMat.hpp"
+
+BOOST_CLASS_EXPORT_IMPLEMENT(yade::MpmElasticMat)
+static const yade::PluginClasses<yade::MpmElasticMat> registered(__FILE__);

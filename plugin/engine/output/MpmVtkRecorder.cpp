@@ -1,0 +1,237 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "engine/output/MpmVtkRecorder.hpp"
+#include "engine/solver/MpmImplicitEngine.hpp"
+#include "engine/output/gridCells.hpp"
+#include "engine/output/vtkDataSets.hpp"
+#include "engine/output/vtkFiles.hpp"
+#include "yade_api/exceptions.hpp"
+#include "yade_api/logging.hpp"
+#include <algorithm>
+#include <cstdlib>
+#include <vtkCellData.h>
+#include <vtkUnstructuredGrid.h>
+
+namespace yade {
+
+namespace {
+	const vector<string> kinds { "points", "grid", "ghostFaces" };
+	const vector<string> pointFields { "displacement", "stress", "meanStress", "sqrt2J2", "plasticStrain", "volume", "material", "clamped", "id" };
+
+	bool contains(const vector<string>& list, const string& item) { return std::find(list.begin(), list.end(), item) != list.end(); }
+
+	Real secondsNow() { return std::chrono::duration<Real>(std::chrono::system_clock::now().time_since_epoch()).count(); }
+
+	bool endsWithThisIteration(const Scene& scene)
+	{
+		return (scene.stopAtIter > 0 && scene.iter + 1 == scene.stopAtIter) || (scene.stopAtTime > 0 && scene.time + scene.dt >= scene.stopAtTime);
+	}
+
+	VtkCells pointData(const Scene& scene, const MpmImplicitEngine& solver, const vector<string>& fields)
+	{
+		const ValueLock lock;
+		const auto      points = materialPoints(scene, solver.mask);
+		for (const MaterialPoint& point : points)
+			point.requireAdmissible(solver.grid->dim);
+		const auto domains = pointDomains(points, *solver.grid, solver.basis == "gimp");
+		if (!contains(fields, "all"))
+			for (const string& name : pointFields)
+				if (!contains(fields, name)) domains->GetCellData()->RemoveArray(name.c_str());
+		return domains;
+	}
+
+	// A simulation that still runs when the script has ended is stopped after the current iteration.
+	void stopRunning()
+	{
+		const shared_ptr<ThreadRunner> runner = Singleton<Omega>::instance().simulationLoop;
+		if (!runner) return;
+		runner->looping = false;
+		const std::lock_guard<std::mutex> untilItHasEnded(runner->runMutex);
+	}
+
+	void finishAll()
+	{
+		{
+			const PythonUnlock python; // the simulation may wait for it
+			stopRunning();
+		}
+		for (const auto& engine : Singleton<Omega>::instance().getScene()->engines)
+			if (auto* recorder = dynamic_cast<MpmVtkRecorder*>(engine.get())) recorder->finish();
+	}
+
+	// YADE's script mode ends Python first. Its prompt ends the process with Python alive, and leaves out what Python would do at
+	// its end. Called when VTK has been used, so that this comes before VTK's own end.
+	bool finishAtExit()
+	{
+		const PythonLock lock;
+		py::import("atexit").attr("register")(py::make_function(&finishAll));
+		std::atexit([] {
+			if (Py_IsInitialized() && PyGILState_Check()) finishAll();
+		});
+		return true;
+	}
+}
+
+MpmVtkRecorder::MpmVtkRecorder()
+{
+	iterPeriod = 1;
+	initRun    = true;
+}
+
+bool MpmVtkRecorder::areKinds(const vector<string>& names)
+{
+	return !names.empty() && std::all_of(names.begin(), names.end(), [](const string& name) { return name == "all" || contains(kinds, name); });
+}
+
+bool MpmVtkRecorder::areFields(const vector<string>& names)
+{
+	return std::all_of(names.begin(), names.end(), [](const string& name) { return name == "all" || contains(pointFields, name); });
+}
+
+bool MpmVtkRecorder::isActivated()
+{
+	bool activated = false;
+	deliveringErrors([&] {
+		const MpmImplicitEngine& engine = followed();
+		activated                       = isDue(momentOf(engine)) || (lastIsMissing() && endsWithThisIteration(*scene) && standsBehind(engine));
+	});
+	return activated;
+}
+
+void MpmVtkRecorder::action()
+{
+	deliveringErrors([&] { record(followed()); });
+}
+
+void MpmVtkRecorder::stepBegins(const MpmImplicitEngine& engine)
+{
+	if (&engine != &followed()) return;
+	lastStepIter = -1;
+	knownTime    = engine.loadTime;
+	if (isDue(momentOf(engine))) record(engine); // the initial state
+}
+
+void MpmVtkRecorder::stepEnds(const MpmImplicitEngine& engine, bool converged)
+{
+	if (!converged) return stepFailed(engine);
+	if (&engine != &followed()) return;
+	lastStepIter = scene->iter;
+	knownTime    = engine.loadTime;
+	isUnwritten  = true;
+	if (lastIsMissing() && endsWithThisIteration(*scene)) record(engine);
+}
+
+void MpmVtkRecorder::stepFailed(const MpmImplicitEngine& engine)
+{
+	const bool hasAdvanced = engine.loadTime > knownTime; // by a part of the step
+	if (hasAdvanced) lastStepIter = scene->iter;
+	isUnwritten |= hasAdvanced;
+	finish();
+	lastStepIter = -1;
+}
+
+void MpmVtkRecorder::finish()
+{
+	if (dead || !lastIsMissing()) return;
+	isUnwritten = false; // one attempt
+	try {
+		writeAll(followed());
+	} catch (const std::exception& error) { // must not take the place of what has ended the simulation
+		log(Severity::error, getClassName(), string("the last state is missing: ") + error.what());
+	}
+}
+
+const MpmImplicitEngine& MpmVtkRecorder::followed() const
+{
+	vector<const MpmImplicitEngine*> candidates;
+	for (const auto& engine : scene->engines)
+		if (const auto* found = dynamic_cast<MpmImplicitEngine*>(engine.get()))
+			if (solver.empty() || found->label == solver) candidates.push_back(found);
+	if (candidates.size() == 1) return *candidates.front();
+	const string wanted = solver.empty() ? "" : " labelled '" + solver + "', as the attribute solver says";
+	throw std::invalid_argument(
+	        "MpmVtkRecorder follows one MpmImplicitEngine, and O.engines holds " + (candidates.empty() ? "none" : std::to_string(candidates.size()))
+	        + wanted + (candidates.empty() ? ". Put it into O.engines, too." : ". Label them, and give the label of one as solver."));
+}
+
+// The state in the bodies: a step counts as soon as it is made, though O.iter follows at the end of the iteration.
+MpmVtkRecorder::Moment MpmVtkRecorder::momentOf(const MpmImplicitEngine& engine) const
+{
+	return { scene->iter + (scene->iter == lastStepIter ? 1 : 0), engine.loadTime };
+}
+
+// As PeriodicEngine decides, but for the state to be written instead of the time when the iteration began.
+bool MpmVtkRecorder::isDue(const Moment& now)
+{
+	if (now.iter < iterLast) nDone = 0; // O.resetTime()
+	if (nDone == 0) {
+		if (firstIterRun > 0) return now.iter >= firstIterRun;
+		if (!initRun) restartPeriods(now);
+		return initRun;
+	}
+	if (nDo >= 0 && nDone >= nDo) return false;
+	const Real passed = now.time - virtLast, roundOff = 1e-9 * virtPeriod;
+	return (iterPeriod > 0 && now.iter - iterLast >= iterPeriod) || (virtPeriod > 0 && passed >= virtPeriod - roundOff)
+	        || (realPeriod > 0 && secondsNow() - realLast >= realPeriod);
+}
+
+void MpmVtkRecorder::restartPeriods(const Moment& now)
+{
+	iterLast = now.iter;
+	virtLast = now.time;
+	realLast = secondsNow();
+	++nDone;
+}
+
+bool MpmVtkRecorder::lastIsMissing() const { return isUnwritten && nDone > 0 && (nDo < 0 || nDone < nDo); }
+
+bool MpmVtkRecorder::standsBehind(const MpmImplicitEngine& engine) const
+{
+	const auto first = std::find_if(scene->engines.begin(), scene->engines.end(), [&](const auto& e) { return e.get() == this || e.get() == &engine; });
+	return first->get() == &engine;
+}
+
+void MpmVtkRecorder::record(const MpmImplicitEngine& engine)
+{
+	writeAll(engine);
+	const Moment now = momentOf(engine);
+	if (isDue(now)) restartPeriods(now);
+	isUnwritten                    = false;
+	static const bool isRegistered = finishAtExit();
+	(void)isRegistered;
+}
+
+void MpmVtkRecorder::writeAll(const MpmImplicitEngine& engine)
+{
+	requireAdmissible();
+	engine.requireAdmissible();
+	engine.grid->requireAdmissible();
+	for (const string& kind : kinds)
+		if (contains(recorders, kind) || contains(recorders, "all")) write(kind, momentOf(engine), engine);
+}
+
+void MpmVtkRecorder::write(const string& kind, const Moment& now, const MpmImplicitEngine& engine)
+{
+	const string series = fileName + kind + ".", file = series + std::to_string(now.iter) + ".vtu";
+	const auto   isOfSeries = [&](const auto& entry) { return entry.first.compare(0, series.size(), series) == 0; };
+	const auto   latest     = std::find_if(written.rbegin(), written.rend(), isOfSeries);
+	if (latest != written.rend() && latest->second == now.time) return;
+
+	const auto cells = kind == "points" ? pointData(*scene, engine, fields) : gridCells(kind, *scene, engine);
+	writeVtu(*cells, now.time, file, { ascii, compress });
+
+	auto       entries    = written;
+	const auto isReplaced = [&](const auto& entry) { // by a repeated step, or after O.resetTime()
+		return isOfSeries(entry) && (entry.first == file || entry.second >= now.time);
+	};
+	entries.erase(std::remove_if(entries.begin(), entries.end(), isReplaced), entries.end());
+	entries.emplace_back(file, now.time);
+	vector<std::pair<string, Real>> own;
+	std::copy_if(entries.begin(), entries.end(), std::back_inserter(own), isOfSeries);
+	writePvd(own, series + "pvd");
+	written = entries;
+}
+
+} // namespace yade
+
+BOOST_CLASS_EXPORT_IMPLEMENT(yade::MpmVtkRecorder)
+static const yade::PluginClasses<yade::MpmVtkRecorder> registered(__FILE__);

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+#include "engine/solver/LoadStepObserver.hpp"
+#include "yade_api/registration.hpp"
+
+namespace yade {
+
+class MpmVtkRecorder : public Exposed<MpmVtkRecorder, PeriodicEngine>, public LoadStepObserver {
+public:
+	string                          fileName; // must be given
+	vector<string>                  recorders { "points" };
+	vector<string>                  fields { "all" };
+	bool                            ascii    = false;
+	bool                            compress = true;
+	string                          solver;
+	vector<std::pair<string, Real>> written;
+
+	MpmVtkRecorder();
+
+	YADE_API_NAME(MpmVtkRecorder)
+	static const char* doc()
+	{
+		return "Writes the states of an implicit material point analysis for ParaView: files <fileName><kind>.<O.iter at the end of the "
+		       "iteration>.vtu, and <fileName><kind>.pvd, to be opened there, which lists them with their times. The time is that of the state, "
+		       "*loadTime* of the MpmImplicitEngine.\n\n"
+		       "*iterPeriod* (1 by default), *virtPeriod* and the other attributes of PeriodicEngine count completed steps. The initial state is "
+		       "written too (unless *initRun* is set to False), and so is the last one, due or not: at the end of O.run(n), at O.stopAtIter or "
+		       "O.stopAtTime, when a step fails (the last converged state), and when YADE ends. After O.pause() or O.step(), and before O.reset() or "
+		       "O.load(), call the recorder, as in recorder(), to have the state written that has been reached. No state is written twice. The place "
+		       "among O.engines is free; behind the MpmImplicitEngine, states are written as soon as they are reached.\n\n"
+		       "Every file is complete when it gets its name. RuntimeError names a file that cannot be written and says why; ValueError if O.engines "
+		       "holds no MpmImplicitEngine, or several of which *solver* does not choose one. A loaded scene continues its series.";
+	}
+	template <class V> static void attributes(V&& v)
+	{
+		v("fileName",
+		  &MpmVtkRecorder::fileName,
+		  0,
+		  "Start of all file names, as in 'out/slope-'; without default. Missing folders are created.",
+		  admitting("the start of the files' names, as in 'out/slope-', without null characters; there is no default", isFileName));
+		v("recorders",
+		  &MpmVtkRecorder::recorders,
+		  0,
+		  "What to write. 'points': the domain of each material point (quadrilateral or hexahedron) with displacement [m], stress (Cauchy [Pa], 9 "
+		  "components), meanStress [Pa] (positive in tension), sqrt2J2 (sqrt(s:s) of the Cauchy stress's deviator s [Pa]), plasticStrain [-], "
+		  "volume [m³], material (index into O.materials), clamped (1 where the domain would outgrow half a cell and is kept there, else 0) and id of the "
+		  "body. 'grid': the cells of the background grid that hold material; boundary is 1 in the boundary cells of the ghost stabilisation, else 0; "
+		  "mixed is 1 where points of several materials meet, else 0. 'ghostFaces': the faces that are stabilised, with ghostStiffness [N/m], "
+		  "the factor before the integral of eq. 2 in Coombs (2023); none with MpmGhost.factor = 0. 'all': all of these. Read as a tuple, so assign "
+		  "a new one to change it.",
+		  admitting("one or more of 'points', 'grid', 'ghostFaces' and 'all'", areKinds));
+		v("fields",
+		  &MpmVtkRecorder::fields,
+		  0,
+		  "Which fields of 'points' are written, by the names given there, or 'all'; an empty sequence leaves the domains alone. Few fields make small "
+		  "files. Read as a tuple.",
+		  admitting("names of the fields of 'points': displacement, stress, meanStress, sqrt2J2, plasticStrain, volume, material, clamped, id, or 'all'", areFields));
+		v("ascii", &MpmVtkRecorder::ascii, 0, "Write numbers as text, in larger files.");
+		v("compress", &MpmVtkRecorder::compress, 0, "Compress the data with zlib, unless *ascii*.");
+		v("solver", &MpmVtkRecorder::solver, 0, "Label of the MpmImplicitEngine to follow; needed only if there are several.");
+		v("written", &MpmVtkRecorder::written, readonly, "Files that the .pvd files list, each with the time [s] of its state.");
+	}
+
+	bool isActivated() override;
+	void action() override;
+	void stepBegins(const MpmImplicitEngine&) override;
+	void stepEnds(const MpmImplicitEngine&, bool converged) override;
+
+	// Writes the last state of this process if no file has it.
+	void finish();
+
+	static bool isFileName(const string& text) { return !text.empty() && text.find('\0') == string::npos; }
+	static bool areKinds(const vector<string>&);
+	static bool areFields(const vector<string>&);
+
+private:
+	struct Moment {
+		long iter; // completed iterations
+		Real time;
+	};
+
+	const MpmImplicitEngine& followed() const;
+	Moment                   momentOf(const MpmImplicitEngine&) const;
+	bool                     isDue(const Moment&);
+	void                     restartPeriods(const Moment&);
+	bool                     lastIsMissing() const;
+	bool                     standsBehind(const MpmImplicitEngine&) const;
+	void                     stepFailed(const MpmImplicitEngine&);
+	void                     record(const MpmImplicitEngine&);
+	void                     writeAll(const MpmImplicitEngine&);
+	void                     write(const string& kind, const Moment&, const MpmImplicitEngine&);
+
+	// Of this process, so they are not saved:
+	long lastStepIter = -1;                                     // O.iter in the last step
+	Real knownTime    = std::numeric_limits<Real>::quiet_NaN(); // time of the state that was met last
+	bool isUnwritten  = false;                                  // whether no file has that state, which this process has reached
+};
+
+} // namespace yade
+
+BOOST_CLASS_EXPORT_KEY(yade::MpmVtkRecorder)

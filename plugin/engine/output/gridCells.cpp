@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "engine/output/gridCells.hpp"
+#include "engine/solver/exchange.hpp"
+#include <vtkCellData.h>
+#include <vtkDataArray.h>
+#include <vtkIdList.h>
+#include <vtkUnstructuredGrid.h>
+
+namespace yade {
+
+namespace {
+	template <int Dim> VtkCells cells(const string& kind, const Scene& scene, const MpmImplicitEngine& solver)
+	{
+		const ValueLock lock;
+		auto            model = toModel<Dim>(*solver.grid, solver.basis, solver.boundaries, *solver.ghost, *solver.newton);
+		const auto      cloud = gather(materialPoints(scene, solver.mask), model);
+		const Real      z     = solver.grid->origin[2];
+		return kind == "grid" ? populatedCells(cloud, model, z) : stabilisedFaces(cloud, model, z);
+	}
+
+	py::object bytes(const vector<Real>& values)
+	{
+		const char* begin = reinterpret_cast<const char*>(values.data());
+		return py::object(py::handle<>(PyByteArray_FromStringAndSize(begin, values.size() * sizeof(Real))));
+	}
+}
+
+VtkCells gridCells(const string& kind, const Scene& scene, const MpmImplicitEngine& solver)
+{
+	return solver.grid->dim == 2 ? cells<2>(kind, scene, solver) : cells<3>(kind, scene, solver);
+}
+
+py::dict gridCellsForPython(const string& kind, const shared_ptr<MpmImplicitEngine>& solver)
+{
+	solver->requireAdmissible();
+	const VtkCells    grid = gridCells(kind, *Singleton<Omega>::instance().getScene(), *solver);
+	vtkDataArray&     values = *grid->GetCellData()->GetArray(0);
+	vector<Real>      corners, field;
+	vtkNew<vtkIdList> nodes;
+	for (vtkIdType cell = 0; cell < grid->GetNumberOfCells(); ++cell) {
+		grid->GetCellPoints(cell, nodes);
+		for (vtkIdType n = 0; n < nodes->GetNumberOfIds(); ++n) {
+			const double* x = grid->GetPoint(nodes->GetId(n));
+			corners.insert(corners.end(), x, x + 3);
+		}
+		field.push_back(values.GetComponent(cell, 0));
+	}
+	py::dict result;
+	result["corners"] = bytes(corners);
+	result["field"]   = bytes(field);
+	return result;
+}
+
+} // namespace yade

@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "engine/output/vtkDataSets.hpp"
+#include "core/materials/kinematics.hpp"
+#include "core/grid/mixed_cells.hpp"
+#include "core/stepping/step_system.hpp"
+#include <algorithm>
+#include <vtkCellArray.h>
+#include <vtkCellData.h>
+#include <vtkCellType.h>
+#include <vtkDoubleArray.h>
+#include <vtkIntArray.h>
+#include <vtkNew.h>
+#include <vtkPoints.h>
+#include <vtkUnstructuredGrid.h>
+
+namespace yade {
+
+namespace {
+	// Corners of quadrilateral (the first four) and hexahedron in VTK's order: bit a set for the upper end along axis a.
+	constexpr int corners[] = { 0, 1, 3, 2, 4, 5, 7, 6 };
+
+	constexpr int boxType(int dim) { return dim == 2 ? VTK_QUAD : VTK_HEXAHEDRON; }
+
+	// Cell type and number of corners belong together.
+	class Cells {
+	public:
+		explicit Cells(int type)
+		        : type(type)
+		{
+			points->SetDataTypeToDouble();
+		}
+		vtkIdType                addPoint(const Vector3r& x) { return points->InsertNextPoint(x.data()); }
+		template <size_t N> void addCell(const std::array<vtkIdType, N>& pointIds, int used = N) { cells->InsertNextCell(used, pointIds.data()); }
+
+		VtkCells dataSet() const
+		{
+			const auto result = VtkCells::New();
+			result->SetPoints(points);
+			result->SetCells(type, cells);
+			return result;
+		}
+
+	private:
+		int                  type;
+		vtkNew<vtkPoints>    points;
+		vtkNew<vtkCellArray> cells;
+	};
+
+	// One field: write(item, first of its components) for each item.
+	template <class Array, class Items, class Write>
+	void addField(vtkUnstructuredGrid& cells, const char* name, int components, const Items& items, Write write)
+	{
+		vtkNew<Array> field;
+		field->SetName(name);
+		field->SetNumberOfComponents(components);
+		field->SetNumberOfTuples(items.size());
+		auto* value = field->GetPointer(0);
+		for (const auto& item : items) {
+			write(item, value);
+			value += components;
+		}
+		cells.GetCellData()->AddArray(field);
+	}
+	template <class Items, class Get> void addReals(vtkUnstructuredGrid& cells, const char* name, const Items& items, Get get)
+	{
+		addField<vtkDoubleArray>(cells, name, 1, items, [&](const auto& item, double* value) { *value = get(item); });
+	}
+	template <class Items, class Get> void addIntegers(vtkUnstructuredGrid& cells, const char* name, const Items& items, Get get)
+	{
+		addField<vtkIntArray>(cells, name, 1, items, [&](const auto& item, int* value) { *value = get(item); });
+	}
+
+	Real meanStress(const MaterialPoint& point) { return point.state->stress.trace() / 3; }
+	Real sqrt2J2(const MaterialPoint& point) { return (point.state->stress - meanStress(point) * Matrix3r::Identity()).norm(); }
+
+	template <int Dim> bool isClamped(const MaterialPoint& point, Real cellSize)
+	{
+		const gimpm::Mat<Dim> F = point.state->defGrad.topLeftCorner<Dim, Dim>();
+		return (point.shape->halfSize0.head<Dim>().cwiseProduct(gimpm::stretchAlongAxes<Dim>(F)).array() > 0.5 * cellSize).any();
+	}
+
+	template <int Dim> void addNodes(Cells& cells, const vector<gimpm::Key>& nodes, const gimpm::Grid<Dim>& grid, Real z)
+	{
+		for (const gimpm::Key node : nodes) {
+			Vector3r x(0, 0, z);
+			x.head<Dim>() = grid.nodePosition(grid.index(node));
+			cells.addPoint(x);
+		}
+	}
+
+	vtkIdType numberOf(gimpm::Key node, const vector<gimpm::Key>& nodes) { return std::lower_bound(nodes.begin(), nodes.end(), node) - nodes.begin(); }
+}
+
+VtkCells pointDomains(const vector<MaterialPoint>& points, const MpmGrid& grid, bool deform)
+{
+	const int dim = grid.dim;
+	Cells domains(boxType(dim));
+	for (const MaterialPoint& point : points) {
+		std::array<vtkIdType, 8> box {};
+		for (int c = 0; c < 1 << dim; ++c) {
+			Vector3r x = point.state->pos;
+			for (int a = 0; a < dim; ++a)
+				x[a] += (corners[c] >> a & 1 ? 1 : -1) * point.shape->halfSize[a];
+			box[c] = domains.addPoint(x);
+		}
+		domains.addCell(box, 1 << dim);
+	}
+	using Point      = const MaterialPoint&;
+	const auto cells = domains.dataSet();
+	addField<vtkDoubleArray>(*cells, "displacement", 3, points, [](Point p, Real* u) { Eigen::Map<Vector3r> { u } = p.state->pos - p.state->refPos; });
+	addField<vtkDoubleArray>(*cells, "stress", 9, points, [](Point p, Real* s) { Eigen::Map<Matrix3r> { s } = p.state->stress; });
+	addReals(*cells, "meanStress", points, meanStress);
+	addReals(*cells, "sqrt2J2", points, sqrt2J2);
+	addReals(*cells, "plasticStrain", points, [](Point p) { return p.state->plasticStrain; });
+	addReals(*cells, "volume", points, [](Point p) { return p.state->volume; });
+	addIntegers(*cells, "material", points, [](Point p) { return p.material->id; });
+	addIntegers(*cells, "clamped", points, [&](Point p) { return deform && (dim == 2 ? isClamped<2>(p, grid.cellSize) : isClamped<3>(p, grid.cellSize)); });
+	addIntegers(*cells, "id", points, [](Point p) { return p.id; });
+	return cells;
+}
+
+template <int Dim> VtkCells populatedCells(const gimpm::PointCloud<Dim>& cloud, const gimpm::Model<Dim>& model, Real z)
+{
+	using Grid       = gimpm::Grid<Dim>;
+	const auto basis = gimpm::cloudBasis(cloud, model.grid, model.basis, model.boundary);
+	Cells      boxes(boxType(Dim));
+	addNodes(boxes, basis.nodes, model.grid, z);
+	for (const gimpm::Key cell : basis.cells) {
+		std::array<vtkIdType, 1 << Dim> box;
+		for (int c = 0; c < 1 << Dim; ++c) {
+			gimpm::Key node = cell; // a cell is named after its lowest node
+			for (int a = 0; a < Dim; ++a)
+				node += (corners[c] >> a & 1) * Grid::keyStep(a);
+			box[c] = numberOf(node, basis.nodes);
+		}
+		boxes.addCell(box);
+	}
+	const auto cells      = boxes.dataSet();
+	const auto atBoundary = gimpm::boundaryCells(basis.cells, model.boundary);
+	addIntegers(*cells, "boundary", basis.cells, [&](gimpm::Key cell) { return std::binary_search(atBoundary.begin(), atBoundary.end(), cell); });
+	const auto mixed = gimpm::mixedCells(basis, cloud.material);
+	addIntegers(*cells, "mixed", mixed, [](char isMixed) { return isMixed; });
+	return cells;
+}
+
+template <int Dim> VtkCells stabilisedFaces(const gimpm::PointCloud<Dim>& cloud, const gimpm::Model<Dim>& model, Real z)
+{
+	using Face = gimpm::GhostFace<Dim>;
+	gimpm::StepReport            report;
+	const gimpm::StepSystem<Dim> system(cloud, model, gimpm::Load<Dim>(), report);
+	Cells                        surfaces(Dim == 2 ? VTK_LINE : VTK_QUAD);
+	addNodes(surfaces, system.basis.nodes, model.grid, z);
+	for (const Face& face : system.faces) {
+		std::array<vtkIdType, Face::tangentialNodes> surface;
+		for (int c = 0; c < Face::tangentialNodes; ++c)
+			surface[c] = face.node[1][corners[c]]; // of the nodes below, on and above the face
+		surfaces.addCell(surface);
+	}
+	const auto cells = surfaces.dataSet();
+	addReals(*cells, "ghostStiffness", system.faces, [](const Face& face) { return face.stiffness; });
+	return cells;
+}
+
+template VtkCells populatedCells(const gimpm::PointCloud<2>&, const gimpm::Model<2>&, Real);
+template VtkCells populatedCells(const gimpm::PointCloud<3>&, const gimpm::Model<3>&, Real);
+template VtkCells stabilisedFaces(const gimpm::PointCloud<2>&, const gimpm::Model<2>&, Real);
+template VtkCells stabilisedFaces(const gimpm::PointCloud<3>&, const gimpm::Model<3>&, Real);
+
+} // namespace yade

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+// The state of an analysis as VTK data: cells with fields. In plane strain all lies in a plane of constant z.
+#include "engine/points/MaterialPoints.hpp"
+#include "engine/solver/MpmGrid.hpp"
+#include "core/stepping/model.hpp"
+#include "core/grid/point_cloud.hpp"
+#include <vtkSmartPointer.h>
+
+class vtkUnstructuredGrid;
+
+namespace yade {
+
+using VtkCells = vtkSmartPointer<vtkUnstructuredGrid>;
+
+// The domain of each material point, in the order given, with its fields. `deform`: the domains follow the deformation.
+VtkCells pointDomains(const vector<MaterialPoint>&, const MpmGrid&, bool deform);
+
+// The background grid where it holds material, in the same configuration. `z` is the height of the plane in plane strain.
+template <int Dim> VtkCells populatedCells(const gimpm::PointCloud<Dim>&, const gimpm::Model<Dim>&, Real z);
+
+// The faces that the ghost stabilisation acts on, with their stiffness; none if it is switched off.
+template <int Dim> VtkCells stabilisedFaces(const gimpm::PointCloud<Dim>&, const gimpm::Model<Dim>&, Real z);
+
+} // namespace yade

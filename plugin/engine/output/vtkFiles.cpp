@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "engine/output/vtkFiles.hpp"
+#include <cerrno>
+#include <charconv>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <vtkDoubleArray.h>
+#include <vtkFieldData.h>
+#include <vtkNew.h>
+#include <vtkUnstructuredGrid.h>
+#include <vtkXMLUnstructuredGridWriter.h>
+
+namespace yade {
+
+namespace {
+	namespace fs = std::filesystem;
+
+	[[noreturn]] void refuse(const string& path, const string& why) { throw std::runtime_error("cannot write file " + path + ": " + why + "."); }
+
+	// VTK's writer does not report all failures, but after one nothing more is written.
+	bool isComplete(const string& path)
+	{
+		const string  end = "</VTKFile>\n";
+		string        found(end.size(), ' ');
+		std::ifstream file(path, std::ios::binary);
+		file.seekg(-std::streamoff(end.size()), std::ios::end);
+		return file.read(found.data(), found.size()) && found == end;
+	}
+
+	// Calls write(temporary path). A failure leaves an earlier file of this name as it was.
+	template <class Write> void writeWhole(const string& path, Write write)
+	{
+		const string    temporary = path + ".part";
+		std::error_code error;
+		if (const fs::path folder = fs::path(path).parent_path(); !folder.empty()) fs::create_directories(folder, error);
+		if (error) refuse(path, "its folder cannot be created (" + error.message() + ")");
+		errno = 0;
+		if (!std::ofstream(temporary)) refuse(path, std::strerror(errno));
+		errno = 0;
+		write(temporary);
+		const int reason = errno;
+		if (isComplete(temporary)) {
+			fs::rename(temporary, path, error);
+			if (!error) return;
+		}
+		const string why = error ? error.message() : reason ? std::strerror(reason) : "writing failed";
+		fs::remove(temporary, error);
+		refuse(path, why);
+	}
+
+	string inXml(const string& text)
+	{
+		string escaped;
+		for (const char c : text) {
+			if (c == '&') escaped += "&amp;";
+			else if (c == '<')
+				escaped += "&lt;";
+			else if (c == '"')
+				escaped += "&quot;";
+			else
+				escaped += c;
+		}
+		return escaped;
+	}
+
+	// the shortest text that reads back as the same number
+	string exactly(Real number)
+	{
+		char digits[32];
+		return string(digits, std::to_chars(digits, digits + sizeof digits, number).ptr);
+	}
+}
+
+void writeVtu(vtkUnstructuredGrid& cells, Real time, const string& path, VtkFormat format)
+{
+	vtkNew<vtkDoubleArray> timeValue;
+	timeValue->SetName("TimeValue"); // the name by which VTK's reader finds it
+	timeValue->InsertNextValue(time);
+	cells.GetFieldData()->AddArray(timeValue);
+
+	vtkNew<vtkXMLUnstructuredGridWriter> writer;
+	writer->SetInputData(&cells);
+	if (format.ascii) writer->SetDataModeToAscii();
+	if (!format.compress) writer->SetCompressorTypeToNone();
+	writeWhole(path, [&](const string& temporary) {
+		writer->SetFileName(temporary.c_str());
+		writer->Write();
+	});
+}
+
+void writePvd(const vector<std::pair<string, Real>>& series, const string& path)
+{
+	writeWhole(path, [&](const string& temporary) {
+		std::ofstream file(temporary);
+		file << "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n<Collection>\n";
+		for (const auto& [member, time] : series)
+			file << "<DataSet timestep=\"" << exactly(time) << "\" part=\"0\" file=\"" << inXml(fs::path(member).filename()) << "\"/>\n";
+		file << "</Collection>\n</VTKFile>\n";
+	});
+}
+
+} // namespace yade

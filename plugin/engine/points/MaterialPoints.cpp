@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "engine/points/MaterialPoints.hpp"
+#include <typeinfo>
+
+namespace yade {
+
+namespace {
+	[[noreturn]] void refuse(Body::id_t id, const string& why) { throw std::invalid_argument("Body #" + std::to_string(id) + ": " + why); }
+
+	// A cast that costs little where the object is of this very class, as nearly always.
+	template <class T, class Base> shared_ptr<T> castTo(const shared_ptr<Base>& object)
+	{
+		if (!object) return nullptr;
+		const Base& known = *object;
+		return typeid(known) == typeid(T) ? boost::static_pointer_cast<T>(object) : boost::dynamic_pointer_cast<T>(object);
+	}
+
+	template <class T> string classOf(const shared_ptr<T>& part) { return part ? part->getClassName() : "none"; }
+
+	// By YADE's collider and integrator.
+	bool isLeftAlone(const Body& body, const MpmState& state) { return !body.isBounded() && state.blockedDOFs == State::DOF_ALL; }
+
+	bool isStillOf(const MaterialPoint& point, const Body& body)
+	{
+		return point.id == body.id && point.shape.get() == body.shape.get() && point.state.get() == body.state.get()
+		        && point.material.get() == body.material.get() && isLeftAlone(body, *point.state);
+	}
+
+	MaterialPoint complete(const Body& body, shared_ptr<MpmPoint>&& shape, const MaterialPoint* previous)
+	{
+		auto material = previous && previous->material.get() == body.material.get() ? previous->material : boost::dynamic_pointer_cast<MpmMaterial>(body.material);
+		if (!material)
+			refuse(body.id, "an MpmPoint shape needs a material for material points, such as MpmElasticMat; there is " + classOf(body.material) + ".");
+		auto state = castTo<MpmState>(body.state);
+		if (!state) refuse(body.id, "an MpmPoint shape needs an MpmState, as from material.newAssocState(); there is " + classOf(body.state) + ".");
+		if (!isLeftAlone(body, *state))
+			refuse(body.id, "YADE's collider and integrator must leave material points alone: set bounded = False and state.blockedDOFs = 'xyzXYZ'.");
+		return { body.id, std::move(shape), std::move(state), std::move(material) };
+	}
+
+	void refuseOtherShape(const Body& body)
+	{
+		if (!dynamic_cast<MpmMaterial*>(body.material.get())) return;
+		refuse(body.id,
+		       "material '" + body.material->label + "' (" + body.material->getClassName() + ") is for material points, but the shape is "
+		               + classOf(body.shape) + ". Functions such as sphere() take the last material of O.materials unless given one.");
+	}
+
+	// Whatever the two-dimensional computation would leave out has to be zero.
+	void requirePlaneStrain(const MpmState& state)
+	{
+		for (const auto& [name, tensor, normal] : { std::tuple { "stress", &state.stress, state.stress(2, 2) },
+		                                            std::tuple { "elasticStrain", &state.elasticStrain, state.elasticStrain(2, 2) },
+		                                            std::tuple { "defGrad", &state.defGrad, 1. } })
+			if (tensor->topRightCorner<2, 1>().any() || tensor->bottomLeftCorner<1, 2>().any() || (*tensor)(2, 2) != normal)
+				throw std::invalid_argument(
+				        string("MpmState.") + name
+				        + " has shear or stretch out of the x-y plane, which a grid with dim=2 (plane strain) does not admit.");
+		if (state.force[2] != 0)
+			throw std::invalid_argument("MpmState.force has a z component, which a grid with dim=2 (plane strain) does not admit.");
+	}
+}
+
+void MaterialPoint::requireAdmissible(int dim) const
+{
+	try {
+		shape->requireAdmissible();
+		state->requireAdmissible();
+		if (dim == 2) requirePlaneStrain(*state);
+	} catch (const std::invalid_argument& error) {
+		refuse(id, error.what());
+	}
+}
+
+void updateMaterialPoints(vector<MaterialPoint>& points, const Scene& scene, int mask)
+{
+	const BodyContainer& bodies = *scene.bodies;
+	size_t               n      = 0;
+	for (size_t id = 0; id < bodies.size(); ++id) {
+		const shared_ptr<Body>& body = bodies[id];
+		if (!body || !isMeant(*body, mask)) continue; // null: erased
+		if (n < points.size() && isStillOf(points[n], *body)) ++n;
+		else if (auto shape = castTo<MpmPoint>(body->shape)) {
+			auto point = complete(*body, std::move(shape), n == 0 ? nullptr : &points[n - 1]);
+			if (n < points.size()) points[n] = std::move(point);
+			else
+				points.push_back(std::move(point));
+			++n;
+		} else
+			refuseOtherShape(*body);
+	}
+	points.erase(points.begin() + n, points.end());
+}
+
+vector<MaterialPoint> materialPoints(const Scene& scene, int mask)
+{
+	vector<MaterialPoint> points;
+	points.reserve(scene.bodies->size());
+	updateMaterialPoints(points, scene, mask);
+	return points;
+}
+
+} // namespace yade

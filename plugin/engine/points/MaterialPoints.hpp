@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+// The material points among the bodies of a scene.
+#include "engine/materials/MpmMaterial.hpp"
+#include "engine/points/MpmPoint.hpp"
+#include "engine/points/MpmState.hpp"
+
+namespace yade {
+
+// Keeps its parts alive when the script erases the body while the scene runs in the background.
+struct MaterialPoint {
+	Body::id_t              id;
+	shared_ptr<MpmPoint>    shape;
+	shared_ptr<MpmState>    state;
+	shared_ptr<MpmMaterial> material;
+
+	// std::invalid_argument unless all its values can be computed with in this dimension (2 or 3). Its material is not looked at.
+	void requireAdmissible(int dim) const;
+};
+
+// Whether an engine with this mask is to look at the body, as YADE's own engines decide.
+inline bool isMeant(const Body& body, int mask) { return mask == 0 || (body.groupMask & mask) != 0; }
+
+// All bodies with an MpmPoint shape that the mask means, in order of body id. std::invalid_argument if one of them is incomplete, is
+// left to YADE's collider or integrator, or if another body has a material that is for material points only.
+vector<MaterialPoint> materialPoints(const Scene&, int mask = 0);
+
+// The same, from those of before, which are kept as far as they are still there: that takes half the time.
+void updateMaterialPoints(vector<MaterialPoint>&, const Scene&, int mask);
+
+} // namespace yade

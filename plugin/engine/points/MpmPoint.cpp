@@ -1,0 +1,5 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "engine/points/MpmPoint.hpp"
+
+BOOST_CLASS_EXPORT_IMPLEMENT(yade::MpmPoint)
+static const yade::PluginClasses<yade::MpmPoint> registered(__FILE__);

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "engine/points/bulkAccess.hpp"
+#include "engine/points/MaterialPoints.hpp"
+#include "engine/points/buffers.hpp"
+
+namespace yade {
+
+namespace {
+	shared_ptr<Body> newBody(const Vector3r& position, const Vector3r& halfSize, const shared_ptr<MpmMaterial>& material)
+	{
+		const shared_ptr<MpmPoint> shape(new MpmPoint);
+		shape->halfSize = shape->halfSize0 = halfSize;
+		shape->radius                      = halfSize[0];
+
+		const shared_ptr<MpmState> state = boost::dynamic_pointer_cast<MpmState>(material->newAssocState());
+		state->pos = state->refPos = position;
+		state->volume = state->volume0 = 8 * halfSize.prod();
+		state->mass                    = material->density * state->volume0;
+		state->blockedDOFs             = State::DOF_ALL;
+
+		const shared_ptr<Body> body(new Body);
+		body->material = material;
+		body->shape    = shape;
+		body->state    = state;
+		body->flags &= ~Body::FLAG_BOUNDED;
+		return body;
+	}
+
+	// One column of the result: `rows` items of `width` numbers, each row written by write(point, first number).
+	template <class T, class Write> py::object column(const vector<MaterialPoint>& points, int width, Write write)
+	{
+		py::object bytes { py::handle<>(PyByteArray_FromStringAndSize(nullptr, points.size() * width * sizeof(T))) };
+		T*         row = reinterpret_cast<T*>(PyByteArray_AS_STRING(bytes.ptr()));
+		for (const MaterialPoint& point : points) {
+			write(point, row);
+			row += width;
+		}
+		return bytes;
+	}
+	template <class Get> py::object scalars(const vector<MaterialPoint>& points, Get get)
+	{
+		return column<Real>(points, 1, [&](const MaterialPoint& point, Real* row) { *row = get(point); });
+	}
+	template <class Get> py::object integers(const vector<MaterialPoint>& points, Get get)
+	{
+		return column<int64_t>(points, 1, [&](const MaterialPoint& point, int64_t* row) { *row = get(point); });
+	}
+	template <class Get> py::object vectors(const vector<MaterialPoint>& points, Get get)
+	{
+		return column<Real>(points, 3, [&](const MaterialPoint& point, Real* row) { Eigen::Map<Vector3r> { row } = get(point); });
+	}
+	template <class Get> py::object tensors(const vector<MaterialPoint>& points, Get get)
+	{
+		using RowByRow = Eigen::Matrix<Real, 3, 3, Eigen::RowMajor>;
+		return column<Real>(points, 9, [&](const MaterialPoint& point, Real* row) { Eigen::Map<RowByRow> { row } = get(point); });
+	}
+}
+
+py::list newBodies(const py::object& positions, const Vector3r& halfSize, const py::list& materials, const py::object& index)
+{
+	vector<shared_ptr<MpmMaterial>> known;
+	for (py::ssize_t i = 0; i < py::len(materials); ++i) {
+		known.push_back(py::extract<shared_ptr<MpmMaterial>>(materials[i]));
+		known.back()->requireAdmissible();
+	}
+	const Column<Real>    coordinates(positions, "positions");
+	const Column<int64_t> choice(index, "index");
+	if (coordinates.size() != 3 * choice.size()) throw std::invalid_argument("positions and index differ in length");
+	py::list bodies;
+	for (size_t i = 0; i < choice.size(); ++i) {
+		const Eigen::Map<const Vector3r> position(coordinates.data() + 3 * i);
+		bodies.append(newBody(position, halfSize, known.at(choice.data()[i])));
+	}
+	return bodies;
+}
+
+void betweenSteps(const py::object& f)
+{
+	const ValueLock lock;
+	f();
+}
+
+py::dict columnsOfPoints()
+{
+	using Point = const MaterialPoint&;
+	const ValueLock lock;
+	const auto      points = materialPoints(*Singleton<Omega>::instance().getScene());
+	py::dict        columns;
+	columns["id"]            = integers(points, [](Point p) { return p.id; });
+	columns["pos"]           = vectors(points, [](Point p) { return p.state->pos; });
+	columns["pos0"]          = vectors(points, [](Point p) { return p.state->refPos; });
+	columns["halfSize"]      = vectors(points, [](Point p) { return p.shape->halfSize; });
+	columns["halfSize0"]     = vectors(points, [](Point p) { return p.shape->halfSize0; });
+	columns["force"]         = vectors(points, [](Point p) { return p.state->force; });
+	columns["stress"]        = tensors(points, [](Point p) { return p.state->stress; });
+	columns["defGrad"]       = tensors(points, [](Point p) { return p.state->defGrad; });
+	columns["elasticStrain"] = tensors(points, [](Point p) { return p.state->elasticStrain; });
+	columns["volume"]        = scalars(points, [](Point p) { return p.state->volume; });
+	columns["plasticStrain"] = scalars(points, [](Point p) { return p.state->plasticStrain; });
+	columns["material"]      = integers(points, [](Point p) { return p.material->id; });
+	return columns;
+}
+
+} // namespace yade

@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "engine/solver/exchange.hpp"
+#include "engine/materials/laws.hpp"
+#include "engine/points/parallel.hpp"
+#include <Eigen/LU>
+#include <atomic>
+#include <unordered_map>
+
+namespace yade {
+
+namespace {
+	template <int Dim> gimpm::HeldBox<Dim> heldBox(const MpmBoundary& boundary, const MpmGrid& grid, const gimpm::Grid<Dim>& lattice)
+	{
+		boundary.requireAdmissible();
+		auto box         = gimpm::HeldBox<Dim>::from(lattice, boundary.min.head<Dim>(), boundary.max.head<Dim>());
+		box.displacement = boundary.displacement.head<Dim>();
+		for (int axis = 0; axis < Dim; ++axis)
+			box.fixed[axis] = boundary.fixes(axis);
+		if (Dim == 2 && boundary.fixes(2))
+			throw std::invalid_argument("MpmBoundary.fix = '" + boundary.fix + "': there is no direction z on a grid with dim=2 (plane strain in x-y).");
+		const bool missesPlane = Dim == 2 && (boundary.min[2] > grid.origin[2] || boundary.max[2] < grid.origin[2]);
+		if (!box.empty() && !missesPlane) return box;
+		std::ostringstream text;
+		text << "MpmBoundary from min = (" << boundary.min.transpose() << ") to max = (" << boundary.max.transpose()
+		     << ") holds no grid node; nodes are at " << grid.origin.transpose() << " plus multiples of cellSize = " << grid.cellSize << ".";
+		throw std::invalid_argument(text.str());
+	}
+
+	template <int Dim> void refuseConflicts(const vector<gimpm::HeldBox<Dim>>& boxes)
+	{
+		for (size_t i = 0; i < boxes.size(); ++i)
+			for (size_t j = 0; j < i; ++j)
+				for (int axis = 0; axis < Dim; ++axis) {
+					const bool meet = (boxes[i].lower.cwiseMax(boxes[j].lower).array() <= boxes[i].upper.cwiseMin(boxes[j].upper).array()).all();
+					if (!meet || !boxes[i].fixed[axis] || !boxes[j].fixed[axis] || boxes[i].displacement[axis] == boxes[j].displacement[axis]) continue;
+					std::ostringstream text;
+					text << "boundaries[" << j << "] and boundaries[" << i << "] prescribe different displacements along " << "xyz"[axis] << " ("
+					     << boxes[j].displacement[axis] << " and " << boxes[i].displacement[axis] << " m) to the nodes that lie in both boxes.";
+					throw std::invalid_argument(text.str());
+				}
+	}
+
+	template <int Dim> void requireOnGrid(const MaterialPoint& point, const gimpm::Grid<Dim>& grid, gimpm::Basis basis)
+	{
+		const bool onGrid  = ((point.state->pos.head<Dim>() - grid.origin) / grid.cellSize).cwiseAbs().maxCoeff() < grid.indexLimit;
+		const Real largest = point.shape->halfSize.head<Dim>().maxCoeff(), limit = 0.5 * grid.cellSize;
+		const bool fits    = basis != gimpm::Basis::gimp || largest <= limit * (1 + 1e-9);
+		if (onGrid && fits) return;
+		std::ostringstream text; // costly: not before there is something to say
+		text << "Body #" << point.id << ": ";
+		if (!onGrid)
+			text << "the material point at (" << point.state->pos.transpose() << ") is more than " << grid.indexLimit << " cells from the grid's origin.";
+		else
+			text << "MpmPoint.halfSize = " << largest << " m is more than half a cell (cellSize = " << grid.cellSize
+			     << " m); was the point made for another grid?";
+		throw std::invalid_argument(text.str());
+	}
+
+	gimpm::LinearMethod linearMethod(const string& name)
+	{
+		if (name == "auto") return gimpm::LinearMethod::automatic;
+		return name == "direct" ? gimpm::LinearMethod::direct : gimpm::LinearMethod::iterative;
+	}
+
+	// Position in the model's list of materials, which grows by each material on its first point.
+	class MaterialIndex {
+	public:
+		explicit MaterialIndex(std::vector<gimpm::Material>& list)
+		        : list(list)
+		{
+		}
+		int of(const MaterialPoint& point)
+		{
+			if (point.material.get() == last) return lastIndex;
+			last = point.material.get();
+			return lastIndex = find(point);
+		}
+
+	private:
+		int find(const MaterialPoint& point)
+		{
+			const auto [found, isNew] = index.try_emplace(point.material.get(), int(list.size()));
+			if (isNew) try {
+					list.push_back(coreMaterial(*point.material));
+				} catch (const std::invalid_argument& error) {
+					throw std::invalid_argument("Body #" + std::to_string(point.id) + ": " + error.what());
+				}
+			return found->second;
+		}
+
+		const MpmMaterial* last      = nullptr; // points of one material follow each other
+		int                lastIndex = 0;
+		std::vector<gimpm::Material>&               list;
+		std::unordered_map<const MpmMaterial*, int> index;
+	};
+}
+
+template <int Dim>
+gimpm::Model<Dim> toModel(const MpmGrid& grid, const string& basis, const vector<shared_ptr<MpmBoundary>>& boundaries, const MpmGhost& ghost, const MpmNewton& newton)
+{
+	grid.requireAdmissible();
+	ghost.requireAdmissible();
+	newton.requireAdmissible();
+	gimpm::Model<Dim> model;
+	model.grid = { grid.cellSize, grid.origin.head<Dim>() };
+	vector<gimpm::HeldBox<Dim>> boxes;
+	for (const auto& boundary : boundaries)
+		boxes.push_back(heldBox<Dim>(*boundary, grid, model.grid));
+	refuseConflicts(boxes);
+	model.basis    = basis == "mpm" ? gimpm::Basis::linear : gimpm::Basis::gimp;
+	model.boundary = gimpm::Boundary<Dim>(boxes);
+	model.ghost    = { ghost.factor, ghost.scaling == "paper" ? gimpm::GhostScaling::paper : gimpm::GhostScaling::meshIndependent };
+	model.newton.tolerance        = newton.tolerance;
+	model.newton.maxIterations    = newton.maxIterations;
+	model.newton.lineSearchTrials = newton.lineSearchTrials;
+	model.newton.reuseFactor      = newton.reuseFactor;
+	model.newton.linearSolver     = linearMethod(newton.linearSolver);
+	return model;
+}
+
+template <int Dim> gimpm::PointCloud<Dim> gather(const vector<MaterialPoint>& points, gimpm::Model<Dim>& model)
+{
+	gimpm::PointCloud<Dim> cloud;
+	cloud.resize(points.size());
+	std::atomic_bool hasForce { false };
+	inRanges(points.size(), [&](size_t begin, size_t end) {
+		for (size_t p = begin; p < end; ++p) {
+			const MaterialPoint& point = points[p];
+			point.requireAdmissible(Dim);
+			requireOnGrid<Dim>(point, model.grid, model.basis);
+			cloud.position[p]      = point.state->pos.template head<Dim>();
+			cloud.halfSize[p]      = point.shape->halfSize.template head<Dim>();
+			cloud.halfSize0[p]     = point.shape->halfSize0.template head<Dim>();
+			cloud.volume0[p]       = point.state->volume0;
+			cloud.defGrad[p]       = point.state->defGrad.template topLeftCorner<Dim, Dim>();
+			cloud.elasticStrain[p] = gimpm::SymTensor<Dim>::from(point.state->elasticStrain);
+			cloud.stress[p]        = gimpm::SymTensor<Dim>::from(point.state->stress);
+			cloud.plasticStrain[p] = point.state->plasticStrain;
+			if (!point.state->force.isZero(0)) hasForce = true;
+		}
+	});
+	MaterialIndex materials(model.materials);
+	for (size_t p = 0; p < points.size(); ++p)
+		cloud.material[p] = materials.of(points[p]);
+	if (hasForce)
+		for (const MaterialPoint& point : points)
+			cloud.force.push_back(point.state->force.template head<Dim>());
+	return cloud;
+}
+
+// Plane strain leaves the components out of the plane alone, but for the zz component of strain and stress.
+template <int Dim> void scatter(const gimpm::PointCloud<Dim>& cloud, const vector<MaterialPoint>& points)
+{
+	inRanges(points.size(), [&](size_t begin, size_t end) {
+		for (size_t p = begin; p < end; ++p) {
+			MpmState& state                          = *points[p].state;
+			state.pos.head<Dim>()                    = cloud.position[p];
+			state.defGrad.topLeftCorner<Dim, Dim>()  = cloud.defGrad[p];
+			state.elasticStrain                      = cloud.elasticStrain[p].full();
+			state.stress                             = cloud.stress[p].full();
+			state.plasticStrain                      = cloud.plasticStrain[p];
+			state.volume                             = cloud.volume0[p] * cloud.defGrad[p].determinant();
+			points[p].shape->halfSize.template head<Dim>() = cloud.halfSize[p];
+		}
+	});
+}
+
+#define MPM_INSTANTIATE(Dim)                                                                                                                                   \
+	template gimpm::Model<Dim>      toModel(const MpmGrid&, const string&, const vector<shared_ptr<MpmBoundary>>&, const MpmGhost&, const MpmNewton&);     \
+	template gimpm::PointCloud<Dim> gather(const vector<MaterialPoint>&, gimpm::Model<Dim>&);                                                              \
+	template void                   scatter(const gimpm::PointCloud<Dim>&, const vector<MaterialPoint>&);
+MPM_INSTANTIATE(2)
+MPM_INSTANTIATE(3)
+#undef MPM_INSTANTIATE
+
+} // namespace yade

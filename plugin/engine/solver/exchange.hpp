@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+// Between the bodies of a scene and the flat arrays of the core.
+#include "core/stepping/model.hpp"
+#include "core/grid/point_cloud.hpp"
+#include "engine/points/MaterialPoints.hpp"
+#include "engine/conditions/MpmBoundary.hpp"
+#include "engine/solver/MpmGhost.hpp"
+#include "engine/solver/MpmGrid.hpp"
+#include "engine/solver/MpmNewton.hpp"
+
+namespace yade {
+
+// What an engine is set to, as the core understands it.
+template <int Dim>
+gimpm::Model<Dim> toModel(const MpmGrid&, const string& basis, const vector<shared_ptr<MpmBoundary>>&, const MpmGhost&, const MpmNewton&);
+
+// Copies the points and adds their materials to the model. std::invalid_argument names the body that cannot be computed with.
+template <int Dim> gimpm::PointCloud<Dim> gather(const vector<MaterialPoint>&, gimpm::Model<Dim>&);
+
+// Writes a converged state back.
+template <int Dim> void scatter(const gimpm::PointCloud<Dim>&, const vector<MaterialPoint>&);
+
+} // namespace yade
