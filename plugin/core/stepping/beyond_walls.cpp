@@ -90,7 +90,7 @@ void addReactionsBeyondWalls(const StepSystem<Dim>& system, const PointCloud<Dim
 	if (cut.nodes.empty()) return;
 	Eigen::VectorXd displacement = Eigen::VectorXd::Zero(cut.size()), internal = displacement, external = displacement;
 	displacement.head(d.size())  = d;
-	addInternalForce<Dim>(cut.basis, cut.points, system.model.materials, displacement, internal, nullptr);
+	addInternalForce<Dim>(cut.basis, cut.points, system.model.materials, displacement, { internal });
 	addPointForces(cut.basis, pointForces(cloud, system.model, load), external);
 	const auto& boundary = system.model.boundary;
 	for (std::size_t n = 0; n < cut.nodes.size(); ++n)

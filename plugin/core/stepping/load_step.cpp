@@ -59,7 +59,7 @@ template <int Dim> StepReport loadStep(PointCloud<Dim>& cloud, const Model<Dim>&
 	const StepSystem<Dim> system(cloud, model, load, report);
 	const Restraint       held = [&] {
 		const Stopwatch watch(report.times.basis);
-		return restraint(system.basis, model.grid, model.boundary);
+		return restraint(system.basis, model.grid, model.boundary, system.terms);
 	}();
 	report.parts               = held.parts;
 	if (!held.freeMotion.empty()) {
@@ -81,6 +81,8 @@ template <int Dim> StepReport loadStep(PointCloud<Dim>& cloud, const Model<Dim>&
 		updatePoints(updated, system, d, report);
 		if (!requireState(updated, model.grid, report)) return report;
 		cloud = std::move(updated);
+		for (const auto& term : system.terms)
+			term->commit(d);
 		if (last) *last = { system.basis.nodes, d, load.growth() };
 	}
 	return report;

@@ -24,34 +24,31 @@ template <int Dim, class F> void forNeighbours(const NodeMatrix<Dim>& K, F&& f)
 			if (const int b = K.neighbour(a, code); b >= 0) f(a, b);
 }
 
+double largestRatio(const Eigen::VectorXd& residual, const Eigen::VectorXd& forces)
+{
+	double ratio = 0;
+	for (int n = 0; n < residual.size(); ++n)
+		if (residual[n] > ratio * forces[n]) ratio = residual[n] / forces[n];
+	return ratio;
+}
+
 } // namespace
 
 template <int Dim>
-double LocalBalance<Dim>::ratio(const Eigen::VectorXd& residual, const Eigen::VectorXd& sizes, const Eigen::VectorXd& d, double enough)
+double LocalBalance<Dim>::ratio(const Eigen::VectorXd& residual, const Eigen::VectorXd& sizes, const Eigen::VectorXd& d, double enough) const
 {
 	// Strains this much smaller than the largest of the scene count for nothing: parts that carry no load need not be as exact as those that do.
 	constexpr double negligible = 1e-4;
-	Eigen::VectorXd  nodal = Eigen::VectorXd::Zero(d.size()), forces = sizes + system_.external.cwiseAbs();
+	Eigen::VectorXd  nodal      = Eigen::VectorXd::Zero(d.size());
 	for (int i = 0; i < nodal.size(); ++i)
 		if (system_.dofs.number[i] >= 0) nodal[i] = residual[system_.dofs.number[i]];
-	const Eigen::VectorXd left = around(lengths(nodal)), there = around(lengths(forces));
-	const double          found = largest(left, there);
+	const Eigen::VectorXd left = around(lengths(nodal)), there = around(lengths(sizes + system_.external.cwiseAbs()));
+	const double          found = largestRatio(left, there);
 	if (found <= enough) return found;
-	const double          h = system_.model.grid.cellSize, strain = negligible * largestStrain(d) + system_.prescribed.template lpNorm<Eigen::Infinity>() / h;
-	const double          precision = 10 * std::numeric_limits<double>::epsilon(), motion = d.template lpNorm<Eigen::Infinity>() / h;
-	const auto            atStart = [&](int i) { return system_.points.leftCauchyGreen[i].c.norm(); };
-	const Eigen::VectorXd before = elasticForces([&](int i) { return atStart(i) + strain; });
-	const Eigen::VectorXd roundOff = elasticForces([&](int i) { return precision * (atStart(i) + motion); });
-	return largest((left - around(roundOff)).cwiseMax(0), there + around(before));
-}
-
-template <int Dim> double LocalBalance<Dim>::largest(const Eigen::VectorXd& residual, const Eigen::VectorXd& sizes)
-{
-	double ratio = 0;
-	worst_       = -1;
-	for (int n = 0; n < residual.size(); ++n)
-		if (residual[n] > ratio * sizes[n]) ratio = residual[n] / sizes[n], worst_ = n;
-	return ratio;
+	const double          strain = negligible * largestStrain(d) + elastic_.prescribedStrain(), motion = elastic_.strainOf(d);
+	const Eigen::VectorXd before   = elastic_.atNodes([&](int i) { return elastic_.strainAtStart(i) + strain; });
+	const Eigen::VectorXd roundOff = elastic_.atNodes([&](int i) { return elastic_.roundOff * (elastic_.strainAtStart(i) + motion); });
+	return largestRatio((left - around(roundOff)).cwiseMax(0), there + around(before));
 }
 
 /// Of the vectors at the nodes.
@@ -72,27 +69,12 @@ template <int Dim> Eigen::VectorXd LocalBalance<Dim>::around(const Eigen::Vector
 template <int Dim> double LocalBalance<Dim>::largestStrain(const Eigen::VectorXd& d) const
 {
 	double before = 0, difference = 0;
-	for (const auto& b : system_.points.leftCauchyGreen)
-		before = std::max(before, b.c.norm());
+	for (int i = 0; i < int(system_.points.volume0.size()); ++i)
+		before = std::max(before, elastic_.strainAtStart(i));
 	forNeighbours(K_, [&](int a, int b) {
 		difference = std::max(difference, (d.segment<Dim>(Dim * a) - d.segment<Dim>(Dim * b)).template lpNorm<Eigen::Infinity>());
 	});
 	return before + difference / system_.model.grid.cellSize;
-}
-
-/// At the nodes of each point, what its stress would be the forces of if it had an elastic strain of this size, strain(point).
-template <int Dim> template <class F> Eigen::VectorXd LocalBalance<Dim>::elasticForces(F&& strain) const
-{
-	const auto&     points = system_.points;
-	Eigen::VectorXd force  = Eigen::VectorXd::Zero(K_.nodes());
-	for (const auto& patch : system_.basis.patches) {
-		double sum = 0;
-		for (int i = patch.first; i < patch.first + patch.count; ++i)
-			sum += points.volume0[i] * system_.model.materials[points.material[i]].young() * strain(i) / system_.model.grid.cellSize;
-		for (const int node : patch.node)
-			if (node >= 0) force[node] += sum;
-	}
-	return force;
 }
 
 template class LocalBalance<2>;

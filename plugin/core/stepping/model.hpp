@@ -33,6 +33,7 @@ template <int Dim> struct Model {
 	Boundary<Dim>         boundary;
 	GhostSettings         ghost;
 	NewtonSettings        newton;
+	std::vector<TermOfStep<Dim>> terms {}; ///< besides the points' resistance and the ghost stabilisation
 };
 
 template <int Dim> struct Load {

@@ -31,7 +31,7 @@ struct StepReport {
 	Definiteness        definiteness  = Definiteness::notChecked; ///< of the last matrix that was factorised
 	int                 luSolves = 0;   ///< solves for which K was not positive definite
 	IterativeEffort     conjugateGradients; ///< of all attempts at the step
-	int                 invertedPoint = -1; ///< its index in the cloud, for Failure::inverted
+	int                 failedPoint = -1; ///< its index in the cloud, for Failure::inverted
 
 	int nodes = 0, dofs = 0, populatedCells = 0, boundaryCells = 0, ghostFaces = 0;
 	int mixedCells = 0; ///< populated by points of several materials

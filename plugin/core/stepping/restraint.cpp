@@ -45,6 +45,16 @@ template <int Dim> struct Part {
 
 	Vec<Dim> centre() const { return sum / nodes; }
 
+	/// What resists a displacement in this direction at this place.
+	void hold(const Vec<Dim>& place, const Vec<Dim>& direction)
+	{
+		Eigen::Matrix<double, modes, 1> m = Eigen::Matrix<double, modes, 1>::Zero();
+		for (int a = 0; a < Dim; ++a)
+			if (direction[a] != 0) m += direction[a] * rigidModes(place, a);
+		gram += m * m.transpose();
+	}
+
+private:
 	/// Value of the rigid modes in a direction at a place: translations, then rotations of unit displacement at `reach`.
 	Eigen::Matrix<double, modes, 1> rigidModes(const Vec<Dim>& place, int axis) const
 	{
@@ -81,7 +91,7 @@ template <int Dim> std::string describe(const Part<Dim>& part, const Grid<Dim>& 
 
 } // namespace
 
-template <int Dim> Restraint restraint(const CloudBasis<Dim>& basis, const Grid<Dim>& grid, const Boundary<Dim>& boundary)
+template <int Dim> Restraint restraint(const CloudBasis<Dim>& basis, const Grid<Dim>& grid, const Boundary<Dim>& boundary, const Terms<Dim>& terms)
 {
 	const auto               root = parts(basis);
 	std::map<int, Part<Dim>> found;
@@ -97,18 +107,16 @@ template <int Dim> Restraint restraint(const CloudBasis<Dim>& basis, const Grid<
 	}
 	for (std::size_t n = 0; n < root.size(); ++n)
 		for (int a = 0; a < Dim; ++a)
-			if (boundary.holder(Grid<Dim>::index(basis.nodes[n]), a)) {
-				Part<Dim>& part = found[root[n]];
-				const auto m    = part.rigidModes(place(n), a);
-				part.gram += m * m.transpose();
-			}
+			if (boundary.holder(Grid<Dim>::index(basis.nodes[n]), a)) found[root[n]].hold(place(n), Vec<Dim>::Unit(a));
+	for (const auto& term : terms)
+		term->restrain([&](int n, const Vec<Dim>& direction) { found[root[n]].hold(place(n), direction.normalized()); });
 	Restraint result { int(found.size()), "" };
 	for (auto part = found.begin(); part != found.end() && result.freeMotion.empty(); ++part)
 		result.freeMotion = describe(part->second, grid);
 	return result;
 }
 
-template Restraint restraint(const CloudBasis<2>&, const Grid<2>&, const Boundary<2>&);
-template Restraint restraint(const CloudBasis<3>&, const Grid<3>&, const Boundary<3>&);
+template Restraint restraint(const CloudBasis<2>&, const Grid<2>&, const Boundary<2>&, const Terms<2>&);
+template Restraint restraint(const CloudBasis<3>&, const Grid<3>&, const Boundary<3>&, const Terms<3>&);
 
 } // namespace gimpm

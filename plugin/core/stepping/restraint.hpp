@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Whether the held nodes keep every connected part of the body from moving as a rigid body.
+// Whether the held nodes and the terms keep every connected part of the body from moving as a rigid body.
 #pragma once
-#include "core/grid/cloud_basis.hpp"
+#include "core/terms/term.hpp"
 #include <string>
 
 namespace gimpm {
@@ -11,6 +11,6 @@ struct Restraint {
 	std::string freeMotion; ///< of the first part found that can move freely ("translation along y of the material around (1, 2)"), or empty
 };
 
-template <int Dim> Restraint restraint(const CloudBasis<Dim>&, const Grid<Dim>&, const Boundary<Dim>&);
+template <int Dim> Restraint restraint(const CloudBasis<Dim>&, const Grid<Dim>&, const Boundary<Dim>&, const Terms<Dim>& = {});
 
 } // namespace gimpm

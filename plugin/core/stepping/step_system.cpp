@@ -3,6 +3,7 @@
 #include "core/grid/mixed_cells.hpp"
 #include "core/base/stopwatch.hpp"
 #include <Eigen/LU>
+#include <algorithm>
 
 namespace gimpm {
 namespace {
@@ -49,6 +50,10 @@ StepSystem<Dim>::StepSystem(const PointCloud<Dim>& cloud, const Model<Dim>& m, c
 	}
 	faces = stabilise(cloud, model, basis, report);
 	const Stopwatch watch(report.times.basis);
+	terms.push_back(std::make_unique<InternalForce<Dim>>(basis, points, model.materials));
+	if (!faces.empty()) terms.push_back(std::make_unique<GhostForce<Dim>>(faces, model.grid.cellSize));
+	for (const auto& make : model.terms)
+		terms.push_back(make(basis, model.grid));
 	prescribed = Eigen::VectorXd::Zero(nodalSize());
 	dofs.number.assign(nodalSize(), -1);
 	for (std::size_t n = 0; n < basis.nodes.size(); ++n)
@@ -68,8 +73,8 @@ StepSystem<Dim>::StepSystem(const PointCloud<Dim>& cloud, const Model<Dim>& m, c
 template <int Dim> void StepSystem<Dim>::prepare(NodeMatrix<Dim>& K) const
 {
 	K.reset(basis.nodes);
-	markPointPattern(basis, K);
-	markGhostPattern(faces, K);
+	for (const auto& term : terms)
+		term->mark(K);
 }
 
 template <int Dim> SymmetricCsc StepSystem<Dim>::tangent() const
@@ -83,17 +88,28 @@ template <int Dim> SymmetricCsc StepSystem<Dim>::tangent() const
 	return reduced;
 }
 
-template <int Dim> InvertedPoint StepSystem<Dim>::evaluate(const Eigen::VectorXd& d, Eigen::VectorXd& force, NodeMatrix<Dim>* K, Eigen::VectorXd* sizes) const
+template <int Dim>
+std::optional<PointFailure> StepSystem<Dim>::evaluate(const Eigen::VectorXd& d, Eigen::VectorXd& force, NodeMatrix<Dim>* K, Eigen::VectorXd* sizes) const
 {
 	force = Eigen::VectorXd::Zero(nodalSize());
 	if (K) K->setZero();
 	if (sizes) *sizes = force;
-	const InvertedPoint inverted = addInternalForce(basis, points, model.materials, d, force, K, sizes);
-	const Eigen::VectorXd internal = sizes ? force : Eigen::VectorXd();
-	addGhostForce(faces, model.grid.cellSize, d, force);
-	if (sizes) *sizes += (force - internal).cwiseAbs();
-	if (K) addGhostStiffness(faces, model.grid.cellSize, *K);
-	return inverted;
+	for (const auto& term : terms)
+		if (const auto failure = term->add(d, { force, K, sizes })) return failure;
+	return std::nullopt;
+}
+
+template <int Dim> bool StepSystem<Dim>::isSymmetric() const
+{
+	return std::all_of(terms.begin(), terms.end(), [](const auto& term) { return term->isSymmetric(); });
+}
+
+template <int Dim> double StepSystem<Dim>::fromOutside(const Eigen::VectorXd& d) const
+{
+	double squares = 0;
+	for (const auto& term : terms)
+		squares += std::pow(term->fromOutside(d), 2);
+	return std::sqrt(squares);
 }
 
 template std::vector<Vec<2>> pointForces(const PointCloud<2>&, const Model<2>&, const Load<2>&);

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The discrete equilibrium of one load step: everything that stays the same while Newton's method iterates.
 #pragma once
-#include "core/terms/internal_force.hpp"
-#include "core/terms/ghost.hpp"
-#include "core/solvers/linear_solver.hpp"
 #include "core/stepping/model.hpp"
 #include "core/stepping/report.hpp"
+#include "core/terms/ghost.hpp"
+#include "core/terms/internal_force.hpp"
 
 namespace gimpm {
 
@@ -15,25 +14,32 @@ template <int Dim> std::vector<Vec<Dim>> pointForces(const PointCloud<Dim>&, con
 template <int Dim> struct StepSystem {
 	/// Step 1 and the ghost faces; reports sizes and times.
 	StepSystem(const PointCloud<Dim>&, const Model<Dim>&, const Load<Dim>&, StepReport&);
+	StepSystem(const StepSystem&) = delete; // the terms refer to what is here
 
 	const Model<Dim>&           model;
 	CloudBasis<Dim>             basis;
 	StepPoints<Dim>             points;
 	std::vector<GhostFace<Dim>> faces;
+	Terms<Dim>                  terms; ///< whose sum balances the external forces
 	FreeDofs                    dofs;
 	Eigen::VectorXd             external;   ///< body and point forces, Dim components a node [N]
 	Eigen::VectorXd             prescribed; ///< increments of the held degrees of freedom, zero elsewhere [m]
 
 	int nodalSize() const { return Dim * int(basis.nodes.size()); }
 
+	bool isSymmetric() const;
+
 	/// Sets K up for evaluate(): pattern and zeros.
 	void prepare(NodeMatrix<Dim>& K) const;
 
-	/// Reduced tangent K + K_g at the start of the step.
+	/// Reduced tangent of all terms at the start of the step.
 	SymmetricCsc tangent() const;
 
-	/// force = f_int + K_g d; also K + K_g when K is given, and when `sizes` is given the sizes of the parts that make up the force.
-	InvertedPoint evaluate(const Eigen::VectorXd& d, Eigen::VectorXd& force, NodeMatrix<Dim>* K, Eigen::VectorXd* sizes = nullptr) const;
+	/// The sum of the terms at d: sets `force`, and K and the sizes of the forces where they are given.
+	std::optional<PointFailure> evaluate(const Eigen::VectorXd& d, Eigen::VectorXd& force, NodeMatrix<Dim>* K, Eigen::VectorXd* sizes = nullptr) const;
+
+	/// Forces from outside among the terms at d [N].
+	double fromOutside(const Eigen::VectorXd& d) const;
 };
 
 } // namespace gimpm

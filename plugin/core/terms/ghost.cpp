@@ -155,6 +155,15 @@ template <int Dim> void addGhostForce(const std::vector<GhostFace<Dim>>& faces, 
 	}
 }
 
+template <int Dim> std::optional<PointFailure> GhostForce<Dim>::add(const Eigen::VectorXd& d, const TermSum<Dim>& sum) const
+{
+	const Eigen::VectorXd before = sum.sizes ? sum.force : Eigen::VectorXd();
+	addGhostForce(faces_, h_, d, sum.force);
+	if (sum.sizes) *sum.sizes += (sum.force - before).cwiseAbs();
+	if (sum.K) addGhostStiffness(faces_, h_, *sum.K);
+	return std::nullopt;
+}
+
 #define GIMPM_INSTANTIATE(Dim)                                                                                                                                 \
 	template std::vector<Key>            boundaryCells(const std::vector<Key>&, const Boundary<Dim>&);                                                     \
 	template std::vector<GhostFace<Dim>> ghostFaces(const std::vector<Key>&, const std::vector<Key>&, const Boundary<Dim>&);                               \
@@ -162,7 +171,8 @@ template <int Dim> void addGhostForce(const std::vector<GhostFace<Dim>>& faces, 
 	        std::vector<GhostFace<Dim>>&, const CloudBasis<Dim>&, const PointStiffness&, double, double, GhostScaling);                                    \
 	template void markGhostPattern(const std::vector<GhostFace<Dim>>&, NodeMatrix<Dim>&);                                                                  \
 	template void addGhostStiffness(const std::vector<GhostFace<Dim>>&, double, NodeMatrix<Dim>&);                                                         \
-	template void addGhostForce(const std::vector<GhostFace<Dim>>&, double, const Eigen::VectorXd&, Eigen::VectorXd&);
+	template void addGhostForce(const std::vector<GhostFace<Dim>>&, double, const Eigen::VectorXd&, Eigen::VectorXd&);                                     \
+	template class GhostForce<Dim>;
 GIMPM_INSTANTIATE(2)
 GIMPM_INSTANTIATE(3)
 #undef GIMPM_INSTANTIATE

@@ -2,7 +2,7 @@
 // Ghost stabilisation (Coombs 2023, section 3): boundary elements, ghost faces and the stiffness on them.
 #pragma once
 #include "core/grid/cloud_basis.hpp"
-#include "core/solvers/node_matrix.hpp"
+#include "core/terms/term.hpp"
 #include <functional>
 
 namespace gimpm {
@@ -44,5 +44,18 @@ template <int Dim> void markGhostPattern(const std::vector<GhostFace<Dim>>&, Nod
 
 /// f += K_g d (eq. 6).
 template <int Dim> void addGhostForce(const std::vector<GhostFace<Dim>>&, double h, const Eigen::VectorXd& d, Eigen::VectorXd& f);
+
+/// K_g d with the faces of a step.
+template <int Dim> class GhostForce : public Term<Dim> {
+public:
+	GhostForce(const std::vector<GhostFace<Dim>>& faces, double h) : faces_(faces), h_(h) { }
+
+	void mark(NodeMatrix<Dim>& K) const override { markGhostPattern(faces_, K); }
+	std::optional<PointFailure> add(const Eigen::VectorXd& d, const TermSum<Dim>& sum) const override;
+
+private:
+	const std::vector<GhostFace<Dim>>& faces_;
+	double                             h_;
+};
 
 } // namespace gimpm

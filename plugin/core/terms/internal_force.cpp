@@ -34,9 +34,7 @@ template <int Dim> struct Pass {
 	const StepPoints<Dim>&       points;
 	const std::vector<Material>& materials;
 	const Eigen::VectorXd&       d;
-	Eigen::VectorXd&             force;
-	NodeMatrix<Dim>*             K;
-	Eigen::VectorXd*             sizes; ///< of the patches' forces, or null
+	const TermSum<Dim>&          sum;
 };
 
 /// Smallest index in the cloud of the points of a batch with J <= 0 or not finite, or INT_MAX.
@@ -74,7 +72,7 @@ template <int Dim> GIMPM_INLINE int respond(const Pass<Dim>& pass, Chunk<Dim>& c
 				flux += volume * response.law.stress[k] * q(i, k) * w(j, k);
 			chunk.flux[b][i][j] = flux;
 		}
-	if (!pass.K) return INT_MAX;
+	if (!pass.sum.K) return INT_MAX;
 	const auto a = moduli<Dim, Lanes>(response.law, response.strain, q, w);
 	for (int i = 0, pair = 0; i < Dim; ++i)
 		for (int k = i; k < Dim; ++k, ++pair)
@@ -96,12 +94,12 @@ template <class Kernels, int Dim, int Span> GIMPM_INLINE void addPiece(const Pas
 				for (int i = 0; i < Dim; ++i)
 					force.row[i][r] += Lanes(chunk.fluxAt(p, i, j)) * grad;
 			}
-	force.scatterAdd(patch, pass.force);
-	if (pass.sizes) force.scatterAddSizes(patch, *pass.sizes);
-	if (!pass.K) return;
+	force.scatterAdd(patch, pass.sum.force);
+	if (pass.sum.sizes) force.scatterAddSizes(patch, *pass.sum.sizes);
+	if (!pass.sum.K) return;
 	PatchStiffness<Dim, Nodes::N> stiffness;
 	Kernels::multiply(stiffness, chunk, begin, end);
-	stiffness.scatterAdd(patch.node.data(), PairCodes<Dim, Span>::get(), *pass.K);
+	stiffness.scatterAdd(patch.node.data(), PairCodes<Dim, Span>::get(), *pass.sum.K);
 }
 
 /// Adds the patches [first, last). Returns an inverted point (index in the cloud), or INT_MAX.
@@ -173,17 +171,11 @@ template <int Dim> StepPoints<Dim> stepPoints(const PointCloud<Dim>& cloud, cons
 }
 
 template <int Dim>
-InvertedPoint addInternalForce(
-        const CloudBasis<Dim>&       basis,
-        const StepPoints<Dim>&       points,
-        const std::vector<Material>& materials,
-        const Eigen::VectorXd&       d,
-        Eigen::VectorXd&             f,
-        NodeMatrix<Dim>*             K,
-        Eigen::VectorXd*             sizes)
+std::optional<PointFailure> addInternalForce(
+        const CloudBasis<Dim>& basis, const StepPoints<Dim>& points, const std::vector<Material>& materials, const Eigen::VectorXd& d, const TermSum<Dim>& sum)
 {
 	std::atomic<int> inverted { INT_MAX };
-	const Pass<Dim>  pass { basis, points, materials, d, f, K, sizes };
+	const Pass<Dim>  pass { basis, points, materials, d, sum };
 	const auto       add = processorHasAvx2() ? Avx2Kernels::addPatches<Dim> : PortableKernels::addPatches<Dim>;
 	// Threads meet after each colour. Of few points a pass is over before they have: alone that costs little, but where another program takes
 	// a processor away they wait for its time slice, a thousand times as long as the pass.
@@ -193,7 +185,8 @@ InvertedPoint addInternalForce(
 		for (int range = 0; range < int(colour.size()); ++range)
 			keepSmallest(inverted, add(pass, colour[range].first, colour[range].second));
 	}
-	return inverted == INT_MAX ? -1 : int(inverted);
+	if (inverted == INT_MAX) return std::nullopt;
+	return PointFailure { inverted };
 }
 
 template <int Dim> void markPointPattern(const CloudBasis<Dim>& basis, NodeMatrix<Dim>& K)
@@ -226,8 +219,8 @@ template <int Dim> void addPointForces(const CloudBasis<Dim>& basis, const std::
 
 #define GIMPM_INSTANTIATE(Dim)                                                                                                                                 \
 	template StepPoints<Dim> stepPoints(const PointCloud<Dim>&, const CloudBasis<Dim>&);                                                                   \
-	template InvertedPoint   addInternalForce(                                                                                                             \
-                const CloudBasis<Dim>&, const StepPoints<Dim>&, const std::vector<Material>&, const Eigen::VectorXd&, Eigen::VectorXd&, NodeMatrix<Dim>*, Eigen::VectorXd*);     \
+	template std::optional<PointFailure> addInternalForce(                                                                                                 \
+	        const CloudBasis<Dim>&, const StepPoints<Dim>&, const std::vector<Material>&, const Eigen::VectorXd&, const TermSum<Dim>&);                   \
 	template void markPointPattern(const CloudBasis<Dim>&, NodeMatrix<Dim>&);                                                                              \
 	template void addPointForces(const CloudBasis<Dim>&, const std::vector<Vec<Dim>>&, Eigen::VectorXd&);
 GIMPM_INSTANTIATE(2)

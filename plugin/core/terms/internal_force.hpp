@@ -3,7 +3,7 @@
 #pragma once
 #include "core/grid/cloud_basis.hpp"
 #include "core/materials/law.hpp"
-#include "core/solvers/node_matrix.hpp"
+#include "core/terms/term.hpp"
 
 namespace gimpm {
 
@@ -17,24 +17,33 @@ template <int Dim> struct StepPoints {
 
 template <int Dim> StepPoints<Dim> stepPoints(const PointCloud<Dim>&, const CloudBasis<Dim>&);
 
-/// Index in the cloud of the first point with det F <= 0 or not finite, or -1.
-using InvertedPoint = int;
-
-/// f += internal force of the nodal displacements d (Dim components a node, from the start of the step), and K += its derivative when
-/// K is given (already reset and marked). `sizes`, when given, += the sizes of the parts that make up f, those of the patches. The result
-/// does not depend on the number of threads.
+/// force += internal force of the nodal displacements d (from the start of the step), K += its derivative, and sizes += the magnitudes of the
+/// patches' forces, as far as they are asked for. Fails for points with det F <= 0. The result does not depend on the number of threads.
 template <int Dim>
-InvertedPoint addInternalForce(
-        const CloudBasis<Dim>&,
-        const StepPoints<Dim>&,
-        const std::vector<Material>&,
-        const Eigen::VectorXd& d,
-        Eigen::VectorXd&       f,
-        NodeMatrix<Dim>*       K,
-        Eigen::VectorXd*       sizes = nullptr);
+std::optional<PointFailure>
+addInternalForce(const CloudBasis<Dim>&, const StepPoints<Dim>&, const std::vector<Material>&, const Eigen::VectorXd& d, const TermSum<Dim>&);
 
 /// Marks the blocks that addInternalForce writes.
 template <int Dim> void markPointPattern(const CloudBasis<Dim>&, NodeMatrix<Dim>& K);
+
+/// The points' resistance, of which what stays the same in a step is kept elsewhere.
+template <int Dim> class InternalForce : public Term<Dim> {
+public:
+	InternalForce(const CloudBasis<Dim>& basis, const StepPoints<Dim>& points, const std::vector<Material>& materials)
+	        : basis_(basis), points_(points), materials_(materials)
+	{
+	}
+	void mark(NodeMatrix<Dim>& K) const override { markPointPattern(basis_, K); }
+	std::optional<PointFailure> add(const Eigen::VectorXd& d, const TermSum<Dim>& sum) const override
+	{
+		return addInternalForce(basis_, points_, materials_, d, sum);
+	}
+
+private:
+	const CloudBasis<Dim>&       basis_;
+	const StepPoints<Dim>&       points_;
+	const std::vector<Material>& materials_;
+};
 
 /// f += S^T (m g + point force), with the force per point in the order of the cloud [N].
 template <int Dim> void addPointForces(const CloudBasis<Dim>&, const std::vector<Vec<Dim>>& force, Eigen::VectorXd& f);

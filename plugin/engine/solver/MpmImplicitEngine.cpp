@@ -460,7 +460,7 @@ string MpmImplicitEngine::reasonOf(const gimpm::StepReport& report, Real time, R
 	if (!gravityCurve.empty()) text << ", of gravity from " << gravityFactorAt(loadTime) << " to " << gravityFactorAt(time) << ",";
 	if (part < 1) text << " (" << part << " of O.dt, after " << cuts << " cuts)";
 	text << " failed: " << report.cause;
-	if (report.invertedPoint >= 0) text << placeOf(points[report.invertedPoint]);
+	if (report.failedPoint >= 0) text << placeOf(points[report.failedPoint]);
 	text << "." << placeOfImbalance(report) << adviceOn(report, part);
 	if (report.failure == gimpm::Failure::unrestrained) text << idleBoundaries(*this, points);
 	text << " The scene is at load factor " << loadFactor << ", the last converged state, in iteration " << scene->iter << ".";

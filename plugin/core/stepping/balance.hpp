@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// What is out of balance at an iterate, and what it is compared with.
+#pragma once
+#include "core/stepping/step_system.hpp"
+
+namespace gimpm {
+
+/// Out-of-balance forces on the free degrees of freedom.
+struct Balance {
+	Eigen::VectorXd residual;       ///< by number of the free degree of freedom [N]
+	double          size      = 0;  ///< |residual|, infinite where there is no such number [N]
+	double          reference = 0;  ///< |external forces + reactions| [N]
+	int             worst     = -1; ///< nodal degree of freedom
+};
+
+/// The points' stiffness as a measure of forces.
+template <int Dim> class ElasticForces {
+public:
+	explicit ElasticForces(const StepSystem<Dim>& system) : system_(system) { }
+
+	/// Norm of the points' internal forces if each had an elastic strain of this size, strain(point) [N].
+	template <class F> double norm(F&& strain) const
+	{
+		const auto&     points = system_.points;
+		Eigen::VectorXd force(points.volume0.size());
+		for (int i = 0; i < int(force.size()); ++i)
+			force[i] = of(i, strain(i));
+		return force.stableNorm();
+	}
+	/// Their sum over the points around each node [N].
+	template <class F> Eigen::VectorXd atNodes(F&& strain) const
+	{
+		Eigen::VectorXd force = Eigen::VectorXd::Zero(system_.basis.nodes.size());
+		for (const auto& patch : system_.basis.patches) {
+			double sum = 0;
+			for (int i = patch.first; i < patch.first + patch.count; ++i)
+				sum += of(i, strain(i));
+			for (const int node : patch.node)
+				if (node >= 0) force[node] += sum;
+		}
+		return force;
+	}
+	/// Size of the elastic strain of a point at the start of the step.
+	double strainAtStart(int i) const { return system_.points.leftCauchyGreen[i].c.norm(); }
+
+	/// Strain of a cell of which one side is held while the displacements prescribed in the step move the other.
+	double prescribedStrain() const { return strainOf(system_.prescribed); }
+
+	/// Strain of a cell of which one side is held and the other moves like the node that moves most.
+	double strainOf(const Eigen::VectorXd& d) const { return d.template lpNorm<Eigen::Infinity>() / system_.model.grid.cellSize; }
+
+	static constexpr double roundOff = 10 * std::numeric_limits<double>::epsilon(); ///< of strains, a part of them
+
+private:
+	double of(int i, double strain) const
+	{
+		return system_.points.volume0[i] * system_.model.materials[system_.points.material[i]].young() * strain / system_.model.grid.cellSize;
+	}
+	const StepSystem<Dim>& system_;
+};
+
+/// The residual of the whole body, iterate by iterate.
+template <int Dim> class WholeBalance {
+public:
+	explicit WholeBalance(const StepSystem<Dim>& system) : system_(system), elastic_(system) { }
+
+	/// Of this sum of the terms at d.
+	Balance of(const Eigen::VectorXd& d, const Eigen::VectorXd& force) const;
+
+	/// The one at the start of the step: forces of this size are its scale to the end.
+	void begin(const Balance&);
+
+	/// The one with which prescribed displacements entered: no more than they can cause by themselves, for points that other loads have nearly
+	/// turned inside out resist with any force.
+	void enter(const Balance&);
+
+	/// |residual| / |external forces + reactions|. Where both end at zero, the residual is compared with the forces at the start of the
+	/// step, as in unloading, or with those that prescribed displacements cause at first, as in a rigid motion; and it is zero where it is
+	/// round-off of stresses that balance each other, at an iterate that a solve has led to.
+	double relative(const Balance&, bool isSolved) const;
+
+	/// What round-off of the displacements d and of the strains at the start of the step leaves of any residual [N].
+	double roundOff(const Eigen::VectorXd& d) const;
+
+private:
+	const StepSystem<Dim>& system_;
+	ElasticForces<Dim>     elastic_;
+	double                 initial_ = 0, entering_ = 0, vanishing_ = 0; // [N]
+};
+
+} // namespace gimpm

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// What the system answers to displacements of the nodes.
+#pragma once
+#include "core/base/stopwatch.hpp"
+#include "core/stepping/balance.hpp"
+#include "core/stepping/local_balance.hpp"
+
+namespace gimpm {
+
+/// Forces, balance and, on demand, stiffness at the last displacements that were looked at.
+template <int Dim> class Iterate {
+public:
+	Iterate(const StepSystem<Dim>& system, StepReport& report) : whole(system), system_(system), report_(report), local_(system, K)
+	{
+		const Stopwatch watch(report.times.assembly);
+		system.prepare(K);
+	}
+
+	/// A failure of a point or a residual that is not a number leaves balance.size infinite.
+	void evaluate(const Eigen::VectorXd& d, bool withStiffness)
+	{
+		const Stopwatch watch(report_.times.assembly);
+		failure      = system_.evaluate(d, force, withStiffness ? &K : nullptr, withStiffness ? nullptr : &sizes_);
+		hasStiffness = withStiffness;
+		hasSizes_    = !withStiffness; // where no stiffness is needed the iteration is about to end
+		balance      = whole.of(d, force);
+		if (failure || !std::isfinite(balance.size)) balance.size = std::numeric_limits<double>::infinity();
+	}
+
+	/// Largest residual around a node over the forces there, at d, where the last evaluation was; exact if above `enough`.
+	double localResidual(const Eigen::VectorXd& d, double enough)
+	{
+		const Stopwatch watch(report_.times.assembly);
+		Eigen::VectorXd again;
+		if (!hasSizes_) system_.evaluate(d, again, nullptr, &sizes_);
+		hasSizes_ = true;
+		return local_.ratio(balance.residual, sizes_, d, enough);
+	}
+
+	WholeBalance<Dim>           whole;
+	NodeMatrix<Dim>             K; ///< of the last evaluation with stiffness
+	Eigen::VectorXd             force;
+	Balance                     balance;
+	std::optional<PointFailure> failure;
+	bool                        hasStiffness = false; ///< K is that of the last evaluation
+
+private:
+	const StepSystem<Dim>& system_;
+	StepReport&            report_;
+	LocalBalance<Dim>      local_;
+	Eigen::VectorXd        sizes_; // of the forces
+	bool                   hasSizes_ = false;
+};
+
+} // namespace gimpm

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "core/stepping/linear_step.hpp"
+#include "core/base/stopwatch.hpp"
+
+namespace gimpm {
+
+template <int Dim>
+LinearStep<Dim>::LinearStep(const StepSystem<Dim>& system, LinearSolver& solver, StepReport& report)
+        : system_(system), solver_(solver), report_(report), method_(system.model.newton.linearSolver)
+{
+	if (system.prescribed.any()) prescribed_ = system.prescribed;
+}
+
+template <int Dim> bool LinearStep<Dim>::solve(const NodeMatrix<Dim>& K, Eigen::VectorXd residual, double forcing, Eigen::VectorXd& step)
+{
+	step = Eigen::VectorXd::Zero(system_.nodalSize());
+	if (prescribes()) {
+		Eigen::VectorXd held = step;
+		K.multiplyAdd(prescribed_, held);
+		for (int i = 0; i < held.size(); ++i)
+			if (system_.dofs.number[i] >= 0) residual[system_.dofs.number[i]] -= held[i];
+		step = prescribed_;
+		hasPrescribed();
+	}
+	if (system_.dofs.count == 0) return true;
+	SymmetricCsc reduced;
+	{
+		const Stopwatch watch(report_.times.assembly);
+		reduce(K, system_.dofs, reduced);
+	}
+	Eigen::VectorXd correction;
+	const auto      status = solver_.solve(reduced, residual, correction, method_, forcing);
+	keepsFactor_           = status == LinearSolver::Status::cholesky;
+	if (status != LinearSolver::Status::iterative) {
+		method_              = LinearMethod::direct; // what conjugate gradients could not solve once stays difficult
+		report_.definiteness = keepsFactor_ ? Definiteness::positive : Definiteness::indefinite;
+	}
+	if (status == LinearSolver::Status::singular) return false;
+	report_.luSolves += status == LinearSolver::Status::lu;
+	addTo(step, correction);
+	return true;
+}
+
+template <int Dim> bool LinearStep<Dim>::solveAgain(const Eigen::VectorXd& residual, Eigen::VectorXd& step)
+{
+	Eigen::VectorXd correction;
+	step = Eigen::VectorXd::Zero(system_.nodalSize());
+	if (!solver_.solveAgain(residual, correction)) return false;
+	addTo(step, correction);
+	return true;
+}
+
+template <int Dim> void LinearStep<Dim>::addTo(Eigen::VectorXd& step, const Eigen::VectorXd& correction) const
+{
+	for (int i = 0; i < step.size(); ++i)
+		if (system_.dofs.number[i] >= 0) step[i] += correction[system_.dofs.number[i]];
+}
+
+template class LinearStep<2>;
+template class LinearStep<3>;
+
+} // namespace gimpm

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// One linear solve of Newton's method, with the displacements that are prescribed and the factor that is kept.
+#pragma once
+#include "core/stepping/step_system.hpp"
+
+namespace gimpm {
+
+template <int Dim> class LinearStep {
+public:
+	LinearStep(const StepSystem<Dim>&, LinearSolver&, StepReport&);
+
+	/// Whether the next solve moves the held nodes to where they are prescribed.
+	bool prescribes() const { return prescribed_.size() > 0; }
+	void hasPrescribed() { prescribed_.resize(0); } ///< The iterate contains these displacements.
+
+	/// step = K^-1 (residual - K_fc prescribed), with the prescribed displacements themselves; an iterative solver may leave the part `forcing`
+	/// of the right side. False where K is singular.
+	bool solve(const NodeMatrix<Dim>& K, Eigen::VectorXd residual, double forcing, Eigen::VectorXd& step);
+
+	/// The same with the factor that is kept.
+	bool solveAgain(const Eigen::VectorXd& residual, Eigen::VectorXd& step);
+
+	bool keepsFactor() const { return keepsFactor_; } ///< of the last solve, by Cholesky
+	void dropFactor() { keepsFactor_ = false; }
+
+private:
+	void addTo(Eigen::VectorXd& step, const Eigen::VectorXd& correction) const;
+
+	const StepSystem<Dim>& system_;
+	LinearSolver&          solver_;
+	StepReport&            report_;
+	LinearMethod           method_;
+	Eigen::VectorXd        prescribed_; // empty once it is part of the iterate
+	bool                   keepsFactor_ = false;
+};
+
+} // namespace gimpm

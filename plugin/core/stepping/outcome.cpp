@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "core/stepping/outcome.hpp"
+#include <sstream>
+
+namespace gimpm {
+namespace {
+
+template <class... Parts> std::string sentence(const Parts&... parts)
+{
+	std::ostringstream text;
+	(text << ... << parts);
+	return text.str();
+}
+
+} // namespace
+
+bool fail(StepReport& report, Failure failure, const std::string& cause)
+{
+	report.failure = failure;
+	report.cause   = cause;
+	return true;
+}
+
+bool fail(StepReport& report, const PointFailure& failure)
+{
+	report.failedPoint = failure.point;
+	return fail(report, Failure::inverted, "a material point was turned inside out (det F <= 0)");
+}
+
+std::string causeOfStall(const Convergence& convergence, double tolerance)
+{
+	const double attainable = std::pow(10, std::ceil(std::log10(2 * convergence.attained())));
+	return sentence("the residual stays at ", convergence.residual(), ", which is round-off here, above the tolerance ", tolerance,
+	                "; what can be attained is a tolerance of about ", attainable);
+}
+
+std::string causeOfTooMany(const StepReport& report, double tolerance, bool isWholeInBalance, int iterations)
+{
+	const std::string after = sentence(" after ", iterations, " iterations");
+	if (!isWholeInBalance) return sentence("the residual ", report.residual(), " is above the tolerance ", tolerance, after);
+	return sentence("the residual ", report.residual(), " of the whole is small, but around a node it is still ", report.localResidual,
+	                " of the forces there, more than ", localTolerance, " times the tolerance ", tolerance, ",", after);
+}
+
+std::string causeOfDivergence(double correction)
+{
+	return sentence("it diverges: a correction of ", correction, " m, more than a cell, does not reduce the residual");
+}
+
+template <int Dim> void reportWorst(const StepSystem<Dim>& system, const Balance& balance, StepReport& report)
+{
+	if (balance.worst < 0) return;
+	report.worst.position.setZero();
+	report.worst.position.template head<Dim>() = system.model.grid.nodePosition(Grid<Dim>::index(system.basis.nodes[balance.worst / Dim]));
+	report.worst.axis                          = balance.worst % Dim;
+	report.worst.force                         = balance.residual[system.dofs.number[balance.worst]];
+}
+
+template <int Dim> std::vector<Vec3> reactions(const StepSystem<Dim>& system, const Eigen::VectorXd& force)
+{
+	const auto&       boundary = system.model.boundary;
+	std::vector<Vec3> sums(boundary.boxes().size(), Vec3::Zero());
+	for (int i = 0; i < force.size(); ++i) {
+		if (system.dofs.number[i] >= 0) continue;
+		const auto* box = boundary.holder(Grid<Dim>::index(system.basis.nodes[i / Dim]), i % Dim);
+		sums[box - boundary.boxes().data()][i % Dim] += force[i] - system.external[i];
+	}
+	return sums;
+}
+
+template void              reportWorst(const StepSystem<2>&, const Balance&, StepReport&);
+template void              reportWorst(const StepSystem<3>&, const Balance&, StepReport&);
+template std::vector<Vec3> reactions(const StepSystem<2>&, const Eigen::VectorXd&);
+template std::vector<Vec3> reactions(const StepSystem<3>&, const Eigen::VectorXd&);
+
+} // namespace gimpm

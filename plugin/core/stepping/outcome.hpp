@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// How an iteration ended, for the report.
+#pragma once
+#include "core/stepping/balance.hpp"
+#include "core/stepping/convergence.hpp"
+
+namespace gimpm {
+
+/// Notes the failure; true, as the iteration is over.
+bool fail(StepReport&, Failure, const std::string& cause);
+bool fail(StepReport&, const PointFailure&);
+
+std::string causeOfStall(const Convergence&, double tolerance);
+std::string causeOfTooMany(const StepReport&, double tolerance, bool isWholeInBalance, int iterations);
+std::string causeOfDivergence(double correction);
+
+/// Where the largest out-of-balance force is.
+template <int Dim> void reportWorst(const StepSystem<Dim>&, const Balance&, StepReport&);
+
+/// Of each of the boundary's boxes, from the sum of the terms [N].
+template <int Dim> std::vector<Vec3> reactions(const StepSystem<Dim>&, const Eigen::VectorXd& force);
+
+} // namespace gimpm

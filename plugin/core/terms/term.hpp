@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// What the discrete equilibrium of a load step is the sum of.
+#pragma once
+#include "core/grid/cloud_basis.hpp"
+#include "core/solvers/node_matrix.hpp"
+#include <functional>
+#include <memory>
+#include <optional>
+
+namespace gimpm {
+
+/// A point that has no force at these displacements: the iterate cannot be evaluated.
+struct PointFailure {
+	enum class Reason { inverted }; ///< det F <= 0 or not finite
+	int    point; ///< index in the cloud; of several the smallest
+	Reason reason = Reason::inverted;
+};
+
+/// Where a term adds its part. Vectors have Dim components a node.
+template <int Dim> struct TermSum {
+	Eigen::VectorXd& force;           ///< [N]
+	NodeMatrix<Dim>* K     = nullptr; ///< derivative of the force [N/m], when it is asked for; reset and marked
+	Eigen::VectorXd* sizes = nullptr; ///< of the parts that make up the force, whatever their signs, when they are asked for [N]
+};
+
+/// One kind of forces that resist the displacements d of the nodes in the step: residual = external forces - sum of the terms. It lives for one
+/// attempt at a load step; what it remembers from step to step belongs to whoever makes it (TermOfStep), and is written in commit().
+template <int Dim> class Term {
+public:
+	virtual ~Term() = default;
+
+	/// Marks the blocks of K that add() writes.
+	virtual void mark(NodeMatrix<Dim>&) const = 0;
+
+	/// Adds force, stiffness and sizes at d. After a failure the sums are of no use.
+	virtual std::optional<PointFailure> add(const Eigen::VectorXd& d, const TermSum<Dim>&) const = 0;
+
+	/// Whether what it adds to K is symmetric.
+	virtual bool isSymmetric() const { return true; }
+
+	/// Forces from outside among those it adds at d, as those of a support [N], for what the residual is compared with; 0 for forces within the body.
+	virtual double fromOutside(const Eigen::VectorXd&) const { return 0; }
+
+	/// Calls hold(node, direction) for what keeps the body from moving there, however softly.
+	using Hold = std::function<void(int node, const Vec<Dim>& direction)>;
+	virtual void restrain(const Hold&) const { }
+
+	/// The step has been accepted with these displacements.
+	virtual void commit(const Eigen::VectorXd&) { }
+};
+
+template <int Dim> using Terms = std::vector<std::unique_ptr<Term<Dim>>>;
+
+/// Makes a term for a step that begins with these basis functions.
+template <int Dim> using TermOfStep = std::function<std::unique_ptr<Term<Dim>>(const CloudBasis<Dim>&, const Grid<Dim>&)>;
+
+} // namespace gimpm
