@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "core/stepping/load_step.hpp"
 #include "core/stepping/beyond_walls.hpp"
-#include "core/stepping/newton.hpp"
+#include "core/stepping/equilibrium.hpp"
 #include "core/terms/point_update.hpp"
 #include "core/stepping/restraint.hpp"
 #include "core/base/stopwatch.hpp"
