@@ -78,11 +78,11 @@ print(f'largest displacement: {displacement.max():.6f} m')
 print(f'crest (0, 12) settles by {-(points["pos"] - points["pos0"])[np.lexsort((points["pos0"][:, 0], -points["pos0"][:, 1]))[0], 1]:.4f} m')
 
 ## the deformed domains, coloured by shear stress and, beside it, by the plastic strain, which shows where it slips
-figure, (stress, slip) = plt.subplots(2, 1, figsize=(8.4, 7.6), sharex=True, layout='constrained')
+figure, (stress, slip) = plt.subplots(2, 1, figsize=(8.4, 7.2), sharex=True, layout='constrained')
 mpm.plot('stress_xy', grid=False, ghost=False, ax=stress, range=(-12e3, 12e3))
-mpm.plot('plasticStrain', grid=False, ghost=False, ax=slip, range=(0, 2), colormap='YlOrRd')
+mpm.plot('plasticStrain', grid=False, ghost=False, ax=slip, range=(0, 0.8), colormap='YlOrRd')
 stress.set(title=f'Shear stress in the slope at load factor {solver.loadFactor:g} (gravity 9.81 m/s²)', xlabel='')
-slip.set(title='Plastic strain: where it has slipped')
+slip.set(title='Plastic strain at the same load: where it has slipped')
 
 weak = points['material'] == O.materials.index('weak')
 height = points['pos0'][:, 1]
@@ -94,5 +94,5 @@ for axes in stress, slip:
 		along = points['pos'] + side * points['defGrad'][:, :, 1] * points['halfSize0'][:, 1:2]  # middle of the upper or lower side of each domain
 		axes.plot(*along[edge, :2].T, 'k', linewidth=1.2, label='weak layer' if side == 1 else None)
 	axes.legend(frameon=False)
-figure.savefig(os.path.join(options.out, 'slope.png'), dpi=150)
+figure.savefig(os.path.join(options.out, 'slope.png'), dpi=150, bbox_inches='tight')
 print(f'written: {options.out}/slope.png, and for ParaView {options.out}/slope-points.pvd')

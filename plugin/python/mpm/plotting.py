@@ -35,7 +35,7 @@ def plot(field='displacement', deformed=True, grid=None, ghost=None, fileName=No
 		are missing are made.
 	:param ax: matplotlib axes to draw into; by default a new figure
 	:param range: (low, high) of the colours, in the field's SI unit; by default the smallest and largest value drawn, or symmetric to zero
-		if there are values of both signs
+		if there are values of both signs. Where values are beyond, the colour bar ends in an arrow.
 	:param colormap: name of a colour map of matplotlib; by default viridis, or RdBu_r for values of both signs
 	:param plane: in 3D, axis and coordinate [m] of the slice, as in ``('z', 0.5)``; by default across z, through the point nearest to the middle
 	:param solver: ``MpmImplicitEngine`` whose grid is drawn; needed if there are several
@@ -171,7 +171,9 @@ def _drawMatter(ax, matter, values, field, range, colormap):
 	)
 	ax.add_collection(drawn)
 	ax.update_datalim(np.concatenate(matter))
-	ax.figure.colorbar(drawn, cax=ax.inset_axes([1.02, 0, 0.025, 1]), label=label)
+	beyond = values.min() < bounds[0], values.max() > bounds[1]
+	extend = {(False, False): 'neither', (True, False): 'min', (False, True): 'max', (True, True): 'both'}[beyond]
+	ax.figure.colorbar(drawn, cax=ax.inset_axes([1.02, 0, 0.025, 1]), label=label, extend=extend)
 
 
 def _finish(ax, section, title):
