@@ -120,3 +120,25 @@ for recipe in json.load(open('recipes.json')):
 ''')
 	assert run.stdout.count('ran: ') == len(recipes), run
 	assert (run.folder / 'plastic.png').exists() and (run.folder / 'points.csv').exists() and '"solver"' in run.stdout  # the table of times
+
+
+def test_readme(yade):
+	"""Its script runs, also with the two lines that it suggests, and what it says of grains is so."""
+	readme = (root / 'README.md').read_text()
+	script = re.search(r'```python\n(.*?)```', readme, re.DOTALL)[1]
+	plot, advise = (re.search(rf'`({call}\(.*?\))`', readme)[1] for call in ('mpm.plot', 'mpm.advise'))
+	assert 'O.run(40, wait=True)\n' in script
+	run = yade(script.replace('O.run(', advise + '\nO.run(') + plot + '''
+assert O.iter == 40 and O.engines[0].report()['converged']
+O.materials.append(FrictMat(label='grain'))
+grain = O.bodies[O.bodies.append(sphere((12, 14, 0), 0.5, material='grain'))]
+O.engines[0].iterPeriod = 100
+O.engines[1].dead = True
+O.engines = [ForceResetter(), InsertionSortCollider([Bo1_Sphere_Aabb()]), InteractionLoop([Ig2_Sphere_Sphere_ScGeom()], [Ip2_FrictMat_FrictMat_FrictPhys()],
+	[Law2_ScGeom_FrictPhys_CundallStrack()]), NewtonIntegrator(gravity=(0, -9.81, 0)), *O.engines]
+O.dt = 0.01
+O.run(200, wait=True)
+print(grain.state.pos[1])
+''')
+	assert (run.folder / 'slope.png').stat().st_size > 30000 and (run.folder / 'out/my-slope-points.pvd').exists()
+	assert float(run.stdout.splitlines()[-1]) < 0 and 'a sphere falls through the soil' in ' '.join(readme.split())
