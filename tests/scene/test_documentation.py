@@ -2,6 +2,7 @@
 """What users read: links lead somewhere, and everything public says what it is, in which unit."""
 import json
 import re
+import struct
 
 from conftest import root
 
@@ -30,6 +31,15 @@ def test_every_page_of_an_example_is_in_the_index_of_the_documentation():
 	index = (root / 'scripts/lib/docs/index.md').read_text()
 	for page in (root / 'examples').glob('*/README.md'):
 		assert f'../../../examples/{page.parent.name}/README\n' in index, page
+
+
+def test_every_picture_is_on_a_page_and_can_be_seen_as_a_whole():
+	shown = {(page.parent / link).resolve() for page in pages for link in re.findall(r'!\[[^\]]+\]\(([^)\s]+)\)', page.read_text())}
+	pictures = [path for path in root.glob('examples/*/*.png')]
+	assert len(pictures) > 20 and set(pictures) <= shown
+	for picture in pictures:
+		width, height = struct.unpack('>II', picture.read_bytes()[16:24])
+		assert 400 < width < 1900 and 300 < height < 1300, picture
 
 
 def test_every_command_of_the_pages_names_a_file_that_is_there():
