@@ -245,6 +245,10 @@ class OtherFolder:
 		shutil.copytree(build / 'overlay' / self.libraries / 'mpm', folder / 'mpm')
 		shutil.copy(build / 'overlay' / self.libraries / 'libpkg_mpm.so', folder)
 
+	def librariesOf(self, options):
+		"""The folder that scripts/setup with these options installs into."""
+		return self.overlay / self.libraries if options else self.system
+
 	def command(self, *arguments):
 		environment = {name: value for name, value in os.environ.items() if name != 'CXXFLAGS'} | {'PATH': f'{self.tools}:{os.environ["PATH"]}'}
 		return dict(args=arguments, env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
@@ -256,6 +260,10 @@ class OtherFolder:
 		ended = subprocess.run(**command)
 		assert (ended.returncode != 0) == ('compiles' in ended.stdout), ended.stdout
 		return ended.stdout
+
+
+forUserAndForAll = pytest.mark.parametrize(
+        'options', [['--user'], pytest.param([], marks=pytest.mark.skipif(os.geteuid() != 0, reason='only root installs for all users'))], ids=['user', 'all'])
 
 
 @pytest.fixture
@@ -284,10 +292,10 @@ def test_whatIsInstalledForAllUsersIsNotCompiledAgain(yade, second):
 	assert second.setup('--user') == ''
 
 
-@pytest.mark.parametrize('options', [['--user'], pytest.param([], marks=pytest.mark.skipif(os.geteuid() != 0, reason='only root installs for all users'))])
+@forUserAndForAll
 def test_whatIsNotThatPluginIsCompiled(second, options):
 	"""Other sources, and what somebody else has left of it."""
-	libraries = second.overlay / second.libraries if options else second.system
+	libraries = second.librariesOf(options)
 	source = 'plugin/core/newton.cpp'
 	text = second.read(source)
 	damages = [
@@ -310,14 +318,18 @@ def test_whatIsNotThatPluginIsCompiled(second, options):
 	assert 'compiles' not in second.setup(*options)
 
 
-def test_setupWaitsForAnother(second):
+@forUserAndForAll
+def test_setupWaitsForAnotherAndTakesWhatThatHasInstalled(second, options):
 	second.setup('--user')
-	with open(second.folder / 'build/.setup-lock') as lock:
-		fcntl.flock(lock, fcntl.LOCK_EX)
-		waiting = subprocess.Popen(**second.command(second.folder / 'scripts/setup', '--user'))
-		assert 'Waiting for another scripts/setup' in waiting.stdout.readline()
-		assert waiting.poll() is None
-	assert waiting.communicate(timeout=20)[0] == '' and waiting.returncode == 0
+	libraries = second.librariesOf(options)
+	shutil.rmtree(libraries / 'mpm', ignore_errors=True)
+	lock = os.open(second.folder / 'build/.setup-lock' if options else second.system, os.O_RDONLY)
+	fcntl.flock(lock, fcntl.LOCK_EX)
+	waiting = subprocess.Popen(**second.command(second.folder / 'scripts/setup', *options))
+	assert 'Waiting for another scripts/setup' in waiting.stdout.readline()
+	second.plugin(libraries)
+	os.close(lock)
+	assert 'compiles' not in waiting.communicate(timeout=20)[0] and waiting.returncode == 0
 
 
 def test_packagesWaitForAnotherInstallation(second, tmp_path):
