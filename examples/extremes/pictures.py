@@ -60,9 +60,10 @@ def outcomes(rows, title, present, path):
 	bar = figure.colorbar(plt.cm.ScalarMappable(scale, 'viridis_r'), ax=panels, shrink=.6, aspect=30, extend='min')
 	bar.set_label('log10 of the relative error of the stress (number: most iterations of a load step)', fontsize=8)
 	seen = {kind for name in present for kind in failures for key, row in rows.items() if key[0] == name and row['failure'].startswith(kind)}
-	key = [plt.Rectangle((0, 0), 1, 1, color=colour, label=f'{letter}: {kind}') for kind, (letter, colour) in failures.items() if kind in seen]
-	key.append(plt.Rectangle((0, 0), 1, 1, color='#cfe8cf', label='ran, no exact solution'))
-	figure.legend(handles=key, loc='upper center', bbox_to_anchor=(.5, 0), ncols=len(key), fontsize=8, frameon=False)
+	handles = [plt.Rectangle((0, 0), 1, 1, color=colour, label=f'{letter}: {kind}') for kind, (letter, colour) in failures.items() if kind in seen]
+	if any(key[0] in present and not row['failure'] and math.isnan(row['error']) for key, row in rows.items()):
+		handles.append(plt.Rectangle((0, 0), 1, 1, color='#cfe8cf', label='ran, no exact solution'))
+	if handles: figure.legend(handles=handles, loc='upper center', bbox_to_anchor=(.5, 0), ncols=len(handles), fontsize=8, frameon=False)
 	figure.suptitle(f'{title}: how each analysis ended, against the parameter', fontsize=11)
 	save(figure, path)
 
@@ -156,7 +157,7 @@ def pivots(rows, path):
 	for refused, marker, label in (False, 'o', 'solved'), (True, 'x', 'refused as singular'):
 		found = [row for row in rows.values() if row['pivot'] > 0 and row['solveError'] > 0 and (row['condition'] == math.inf) == refused]
 		axis.loglog([row['pivot'] for row in found], [row['solveError'] for row in found], marker, markersize=3, linestyle='none', label=f'{label} ({len(found)} cases)')
-	axis.axvline(1e-12, color='k', linewidth=.8, linestyle=':', label='1e-12: the solver refuses below')
+	axis.axvline(1e-12, color='k', linewidth=.8, linestyle=':', label='limit of the solver, 1e-12')
 	axis.set(xlabel='smallest pivot of the matrix, its diagonal scaled to 1 [-]', ylabel='relative error of the solution in energy [-]')
 	axis.legend(frameon=False)
 	save(figure, path)
