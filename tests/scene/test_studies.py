@@ -43,7 +43,7 @@ def test_extremes(study, tmp_path):
 	assert results['turns', 'none']['failure'] == results['points', 'none']['failure'] == 'singular'
 	page = (tmp_path / 'out/README.md').read_text()
 	assert '| `contrast` |' in page and '**singular**' in page
-	assert (tmp_path / 'out/outcomes.png').stat().st_size > 10000
+	assert (tmp_path / 'out/outcomes-grid.png').stat().st_size > 10000
 	assert '0 cases to run' in study('extremes', *arguments)
 
 

@@ -21,7 +21,8 @@ _faceColour, _cellColour, _boundaryColour = '#d9480f', '#868e96', '#ffe8cc'
 def plot(field='displacement', deformed=True, grid=None, ghost=None, fileName=None, ax=None, range=None, colormap=None, plane=None, solver=None):
 	"""Draw the material points, coloured by a scalar field, and the background grid around them.
 
-	Each point is drawn as the box of matter that it stands for, deformed by its deformation gradient. In 3D the picture is a slice.
+	Each point is drawn as the box of matter that it stands for, deformed by its deformation gradient. In 3D the picture is a slice. Its title is
+	the load factor, unless the axes have a title.
 
 	:param field: ``displacement`` (its length), ``meanStress``, ``sqrt2J2``, or a column of :func:`arrays`, of which a vector or tensor
 		needs its component: ``displacement_y``, ``stress_xy``, ``plasticStrain``, ``elasticStrain_yy``, ``defGrad_xx``, ``material``, ...; or an
@@ -34,7 +35,7 @@ def plot(field='displacement', deformed=True, grid=None, ghost=None, fileName=No
 		are missing are made.
 	:param ax: matplotlib axes to draw into; by default a new figure
 	:param range: (low, high) of the colours, in the field's SI unit; by default the smallest and largest value drawn, or symmetric to zero
-		if there are values of both signs
+		if there are values of both signs. Where values are beyond, the colour bar ends in an arrow.
 	:param colormap: name of a colour map of matplotlib; by default viridis, or RdBu_r for values of both signs
 	:param plane: in 3D, axis and coordinate [m] of the slice, as in ``('z', 0.5)``; by default across z, through the point nearest to the middle
 	:param solver: ``MpmImplicitEngine`` whose grid is drawn; needed if there are several
@@ -56,7 +57,7 @@ def plot(field='displacement', deformed=True, grid=None, ghost=None, fileName=No
 	if grid: _drawGrid(ax, section, solver)
 	_drawMatter(ax, matter, values[kept], field, range, colormap)
 	if ghost: _drawFaces(ax, section, solver)
-	_finish(ax, section)
+	_finish(ax, section, f'load factor {solver.loadFactor:.4g}' + ('' if deformed else ', at the initial positions'))
 	if fileName is not None: _write(ax.figure, os.fspath(fileName))
 	return ax
 
@@ -170,16 +171,19 @@ def _drawMatter(ax, matter, values, field, range, colormap):
 	)
 	ax.add_collection(drawn)
 	ax.update_datalim(np.concatenate(matter))
-	ax.figure.colorbar(drawn, cax=ax.inset_axes([1.02, 0, 0.025, 1]), label=label)
+	beyond = values.min() < bounds[0], values.max() > bounds[1]
+	extend = {(False, False): 'neither', (True, False): 'min', (False, True): 'max', (True, True): 'both'}[beyond]
+	ax.figure.colorbar(drawn, cax=ax.inset_axes([1.02, 0, 0.025, 1]), label=label, extend=extend)
 
 
-def _finish(ax, section):
+def _finish(ax, section, title):
 	ax.margins(0.02)
 	ax.autoscale_view()
 	place = '' if section.normal is None else f'  (at {_axes[section.normal]} = {section.at:.4g} m)'
 	ax.set(aspect='equal', xlabel=f'{_axes[section.shown[0]]} [m]{place}', ylabel=f'{_axes[section.shown[1]]} [m]')
 	handles, names = ax.get_legend_handles_labels()
 	if handles: ax.legend(handles, names, loc='lower right', bbox_to_anchor=(1, 1), ncols=2, frameon=False, fontsize='small', borderaxespad=0.2)
+	if not ax.get_title(): ax.set_title(title, fontsize='medium', pad=22 if handles else None)  # above the legend
 
 
 def _write(figure, fileName):
