@@ -10,6 +10,7 @@ from .data import arrays
 from .fields import labelled
 from .files import replacing
 from .library import engine
+from .messages import brief, pathOf
 
 _axes = 'xyz'
 _signs = np.array([(x, y, z) for z in (-1, 1) for y in (-1, 1) for x in (-1, 1)])  # of the corners of a box
@@ -58,7 +59,7 @@ def plot(field='displacement', deformed=True, grid=None, ghost=None, fileName=No
 	_drawMatter(ax, matter, values[kept], field, range, colormap)
 	if ghost: _drawFaces(ax, section, solver)
 	_finish(ax, section, f'load factor {solver.loadFactor:.4g}' + ('' if deformed else ', at the initial positions'))
-	if fileName is not None: _write(ax.figure, os.fspath(fileName))
+	if fileName is not None: _write(ax.figure, pathOf('plot', 'fileName', fileName))
 	return ax
 
 
@@ -68,7 +69,7 @@ class _Section:
 	def __init__(self, solver, points, plane):
 		self.normal, self.at = None, None
 		if solver.grid.dim == 3: self.normal, self.at = _slicePlane(plane, points)
-		elif plane is not None: raise ValueError(f'plot: plane = {plane!r}: with dim=2 (plane strain) the picture is in the plane x-y')
+		elif plane is not None: raise ValueError(f'plot: plane = {brief(plane)}: with dim=2 (plane strain) the picture is in the plane x-y')
 		self.shown = [i for i in (0, 1, 2) if i != (2 if self.normal is None else self.normal)]
 
 	def boxes(self, low, high):
@@ -100,9 +101,9 @@ def _slicePlane(plane, points):
 	try:
 		axis, at = _axes.index(plane[0]), float(plane[1])
 	except (TypeError, ValueError, IndexError):
-		raise TypeError(f"plot: plane = {plane!r} must be a pair of an axis and a coordinate, as in ('z', 0.5)") from None
+		raise TypeError(f"plot: plane = {brief(plane)} must be a pair of an axis and a coordinate, as in ('z', 0.5)") from None
 	if not low[axis] <= at < high[axis]:
-		raise ValueError(f'plot: plane = {plane!r} is beside the body, which reaches from {_axes[axis]} = {low[axis]} to {high[axis]} m')
+		raise ValueError(f'plot: plane = {brief(plane)} is beside the body, which reaches from {_axes[axis]} = {low[axis]} to {high[axis]} m')
 	return axis, at + 1e-6 * points['halfSize'][:, axis].min()  # not where boxes meet, but for round-off
 
 
@@ -190,6 +191,5 @@ def _write(figure, fileName):
 	ending = os.path.splitext(fileName)[1][1:]
 	known = figure.canvas.get_supported_filetypes()
 	if ending not in known: raise ValueError(f"plot: fileName = {fileName!r} must end in one of {', '.join('.' + kind for kind in known)}")
-	os.makedirs(os.path.dirname(os.path.abspath(fileName)), exist_ok=True)
 	with replacing(fileName) as temporary:
 		figure.savefig(temporary, dpi=200, bbox_inches='tight', format=ending)
