@@ -19,6 +19,13 @@ class Axis:
 		self.title, self.values, self.dims, self.quick, self.ghosts, self.listed = title, values, dims, quick, ghosts, listed
 
 
+groups = { # a map of outcomes for each
+        'grid': ('Grid and points', ['overlap', 'factor', 'length', 'points', 'jitter', 'missing', 'thin', 'slender']),
+        'material': ('Material', ['poisson', 'contrast', 'mixed', 'yield', 'young']),
+        'motion': ('Load and motion', ['strain', 'steps', 'compression', 'free', 'turns', 'turnStep']),
+}
+
+
 def powers(first, last, step=1):
 	return [float(f'1e{i}') for i in range(first, last + (1 if step > 0 else -1), step)]
 
@@ -50,7 +57,6 @@ axes = {
         'slopeFactor': Axis('cells in a metre of the slope / ghost factor', [f'{n}/{f:g}' for n in (1, 2) for f in factors], dims=(2, ), ghosts=ghosts[1:2], listed=False),
         'corner': Axis('overlap along x / along y [h]', [f'{x:g}/{y:g}' for x in corners for y in corners], dims=(2, ), quick=['0.001/0.1'], listed=False),
 }
-
 
 
 def cases(names, quick):

@@ -6,7 +6,7 @@ import os
 import sys
 
 import pictures
-from axes import axes, ghosts
+from axes import axes, ghosts, groups
 
 here = os.path.dirname(os.path.abspath(__file__))
 sys.path.insert(0, os.path.join(here, '..', '..', 'scripts', 'lib'))
@@ -130,8 +130,12 @@ def write(folder):
 	listed = [name for name in present if axes[name].listed]
 	parts = [INTRODUCTION]
 	if listed:
-		pictures.outcomes(rows, listed, os.path.join(folder, 'outcomes.png'))
-		parts += [RANGES, rangeTable(rows, listed), '\n![Outcome of all cases](outcomes.png)\n']
+		parts += [RANGES, rangeTable(rows, listed), '']
+		for name, (title, members) in groups.items():
+			shown = [axis for axis in members if axis in listed]
+			if not shown: continue
+			pictures.outcomes(rows, title, shown, os.path.join(folder, f'outcomes-{name}.png'))
+			parts.append(f'![{title}: outcome of all cases](outcomes-{name}.png)\n')
 	curves = [name for name in ('overlap', 'factor', 'poisson', 'contrast', 'slender', 'thin') if name in present]
 	if curves:
 		pictures.conditions(rows, curves, os.path.join(folder, 'condition.png'))

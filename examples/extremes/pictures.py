@@ -37,27 +37,34 @@ def short(value):
 	return f'{number:.0e}'.replace('e-0', 'e-').replace('e+0', 'e') if number and (abs(number) < 1e-2 or abs(number) >= 1e4) else f'{number:g}'
 
 
-def outcomes(rows, present, path):
+def outcomes(rows, title, present, path):
 	"""One strip an axis: error by colour where it ran, kind of failure elsewhere, most iterations as a number."""
-	heights = [len(axes[name].dims) * len(axes[name].ghosts) + 3.2 for name in present]
-	figure, panels = plt.subplots(len(present), 1, figsize=(11, sum(heights) * .2), gridspec_kw=dict(height_ratios=heights, hspace=.75), squeeze=False)
+	columns = min(2, len(present))
+	height = 1.2 + max(len(axes[name].dims) * len(axes[name].ghosts) for name in present) * .17
+	count = math.ceil(len(present) / columns)
+	figure, panels = plt.subplots(count, columns, figsize=(6.6 * columns, height * count + 1), squeeze=False, layout='constrained')
 	scale = plt.Normalize(-8, 0)
-	for name, panel in zip(present, panels[:, 0]):
+	for name, panel in zip(present, panels.flat):
 		strips = [(dim, ghost) for dim in axes[name].dims for ghost in axes[name].ghosts]
 		for y, strip in enumerate(strips):
 			for x, value in enumerate(axes[name].values):
 				row = rows.get((name, *strip, str(value)))
 				if row is not None: _cell(panel, x, y, row, scale)
 		panel.set(xlim=(-.5, len(axes[name].values) - .5), ylim=(len(strips) - .5, -.5))
-		panel.set_title(f'{name}: {axes[name].title}', fontsize=8, loc='left', pad=3)
-		panel.set_xticks(range(len(axes[name].values)), map(short, axes[name].values), fontsize=6)
-		panel.set_yticks(range(len(strips)), [f'{dim}D {labels[ghost]}' for dim, ghost in strips], fontsize=6)
+		panel.set_title(f'{name}: {axes[name].title}', fontsize=9, loc='left', pad=4)
+		panel.set_xticks(range(len(axes[name].values)), map(short, axes[name].values), fontsize=7, rotation=40 if len(axes[name].values) > 12 else 0)
+		panel.set_yticks(range(len(strips)), [f'{dim}D {labels[ghost]}' for dim, ghost in strips], fontsize=8)
 		panel.tick_params(length=0)
-	bar = figure.colorbar(plt.cm.ScalarMappable(scale, 'viridis_r'), ax=panels[:, 0].tolist(), fraction=.015, pad=.01, shrink=.3, anchor=(0, 1))
-	bar.set_label('log10 of the error of the stress', fontsize=7)
-	figure.legend(
-	        handles=[plt.Rectangle((0, 0), 1, 1, color=colour, label=f'{letter}: {kind}') for kind, (letter, colour) in failures.items()]
-	        + [plt.Rectangle((0, 0), 1, 1, color='#cfe8cf', label='ran, no exact solution')], loc='upper left', bbox_to_anchor=(.91, .45), fontsize=7, frameon=False)
+	for panel in panels.flat[len(present):]:
+		panel.axis('off')
+	bar = figure.colorbar(plt.cm.ScalarMappable(scale, 'viridis_r'), ax=panels, shrink=.6, aspect=30, extend='min')
+	bar.set_label('log10 of the relative error of the stress (number: most iterations of a load step)', fontsize=8)
+	seen = {kind for name in present for kind in failures for key, row in rows.items() if key[0] == name and row['failure'].startswith(kind)}
+	handles = [plt.Rectangle((0, 0), 1, 1, color=colour, label=f'{letter}: {kind}') for kind, (letter, colour) in failures.items() if kind in seen]
+	if any(key[0] in present and not row['failure'] and math.isnan(row['error']) for key, row in rows.items()):
+		handles.append(plt.Rectangle((0, 0), 1, 1, color='#cfe8cf', label='ran, no exact solution'))
+	if handles: figure.legend(handles=handles, loc='upper center', bbox_to_anchor=(.5, 0), ncols=len(handles), fontsize=8, frameon=False)
+	figure.suptitle(f'{title}: how each analysis ended, against the parameter', fontsize=11)
 	save(figure, path)
 
 
@@ -69,31 +76,50 @@ def _cell(panel, x, y, row, scale):
 		colour = '#cfe8cf' if math.isnan(row['error']) else plt.cm.viridis_r(scale(math.log10(max(row['error'], 1e-30))))
 	panel.add_patch(plt.Rectangle((x - .5, y - .5), 1, 1, facecolor=colour, edgecolor='white', linewidth=.5))
 	dark = sum(matplotlib.colors.to_rgb(colour)) < 1.5
-	panel.text(x, y, text, ha='center', va='center', fontsize=6, color='white' if dark else 'black')
+	panel.text(x, y, text, ha='center', va='center', fontsize=7, color='white' if dark else 'black')
+
+
+mostShown = 1e20 # condition numbers beyond 1e16 leave a solution no digit: how far is of no interest
 
 
 def conditions(rows, names, path):
-	"""Condition number at the start against the parameter; crosses where the analysis failed."""
-	figure, panels = plt.subplots(2, (len(names) + 1) // 2, figsize=(4.2 * ((len(names) + 1) // 2), 7), squeeze=False)
+	"""Condition number at the start against the parameter; crosses where the analysis failed, arrows where it is beyond the picture."""
+	figure, panels = plt.subplots(2, (len(names) + 1) // 2, figsize=(4.4 * ((len(names) + 1) // 2), 7.4), squeeze=False, layout='constrained')
 	for name, panel in zip(names, panels.flat):
 		for dim in axes[name].dims:
 			for ghost in ghosts:
 				found = [(x, row) for x, value in enumerate(axes[name].values) if (row := rows.get((name, dim, ghost, str(value)))) is not None]
-				if not found: continue
-				x, y = np.array([x for x, _ in found]), np.array([row['condition'] for _, row in found])
-				panel.semilogy(x, y, '-' if dim == 2 else '--', color=colours[ghost], linewidth=1, label=f'{dim}D {labels[ghost]}')
-				bad = np.array([row['failure'] != '' for _, row in found])
-				panel.semilogy(x[bad], y[bad], 'x', color=colours[ghost], markersize=5)
-		panel.set_xticks(range(len(axes[name].values)), map(short, axes[name].values), fontsize=6, rotation=60)
-		panel.set_title(axes[name].title, fontsize=7)
+				if found: _condition(panel, dim, ghost, *map(np.array, zip(*((x, row['condition'], row['failure'] != '') for x, row in found))))
+		if panel.get_ylim()[1] > 1e16: panel.axhline(1e16, color='k', linewidth=.8, linestyle=':')
+		panel.set_ylim(10, min(panel.get_ylim()[1], 3 * mostShown))
+		panel.set_xticks(range(len(axes[name].values)), map(short, axes[name].values), fontsize=7, rotation=60)
+		panel.set_xlabel(axes[name].title, fontsize=8)
 		panel.grid(alpha=.3)
 	for panel in panels.flat[len(names):]:
 		panel.axis('off')
-	panels[0, 0].set_ylabel('condition number of K + K_g')
-	panels[0, 0].legend(fontsize=6, frameon=False)
-	figure.text(.5, .03, 'crosses: the analysis fails', ha='center', fontsize=8)
-	figure.subplots_adjust(hspace=.4)
+	for panel in panels[:, 0]:
+		panel.set_ylabel('condition number of K + K_g [-]')
+	handles = [plt.Line2D([], [], label=f'{dim}D {labels[ghost]}', **_line(dim, ghost)) for dim in (2, 3) for ghost in ghosts]
+	handles += [plt.Line2D([], [], color='k', marker='x', linestyle='none', label='the analysis fails'), plt.Line2D([], [], color='k', marker='^', linestyle='none', label='beyond 1e20, or infinite'),
+	            plt.Line2D([], [], color='k', linewidth=.8, linestyle=':', label='1e16: no digit is left')]
+	figure.legend(handles=handles, loc='upper center', bbox_to_anchor=(.5, 0), ncols=5, fontsize=8, frameon=False)
+	figure.suptitle('Condition number of the first load step against the parameter', fontsize=11)
 	save(figure, path)
+
+
+def _line(dim, ghost):
+	"""Style of a curve: wide below and narrow above, so that those of the same values show each other."""
+	width = {'none': 6, 'paper': 3, 'mesh-independent': 1.2}[ghost]
+	return dict(color=colours[ghost], linewidth=width, alpha=.35 if ghost == 'none' else .8, linestyle='-' if dim == 2 else (0, (3, 1)), marker='o' if dim == 2 else 's', markersize=width + 1.5)
+
+
+def _condition(panel, dim, ghost, x, condition, failed):
+	shown = np.minimum(condition, mostShown)
+	order = ['none', 'paper', 'mesh-independent'].index(ghost)
+	panel.semilogy(x, shown, zorder=2 + order, **_line(dim, ghost))
+	panel.semilogy(x[failed], shown[failed], 'x', color='k', markersize=7, zorder=6)
+	beyond = condition > mostShown
+	panel.semilogy(x[beyond], shown[beyond], '^', color='k', markersize=6, zorder=6)
 
 
 def cornerGrid(rows, ghost):
@@ -110,7 +136,7 @@ def cornersThatFail(rows, ghost):
 
 
 def cornerMaps(rows, path):
-	figure, panels = plt.subplots(1, 3, figsize=(13, 4), sharey=True)
+	figure, panels = plt.subplots(1, 3, figsize=(13, 4.4), sharey=True, layout='constrained')
 	for ghost, panel in zip(ghosts, panels):
 		image = panel.imshow(cornerGrid(rows, ghost), origin='lower', vmin=1, vmax=20, cmap='magma_r')
 		for i, j in cornersThatFail(rows, ghost):
@@ -119,7 +145,9 @@ def cornerMaps(rows, path):
 		panel.set_yticks(range(len(corners)), [f'{c:g}' for c in corners])
 		panel.set(title=labels[ghost], xlabel='overlap along x [h]')
 	panels[0].set_ylabel('overlap along y [h]')
-	figure.colorbar(image, ax=panels.tolist(), label='log10 of the condition number (x: the analysis fails)', fraction=.02)
+	figure.colorbar(image, ax=panels.tolist(), label='log10 of the condition number', fraction=.02, extend='max')
+	failing = any(cornersThatFail(rows, ghost) for ghost in ghosts)
+	figure.suptitle('Condition number of a body that overlaps its outermost cells along x and y' + (' (x: the analysis fails)' if failing else ''), fontsize=11)
 	save(figure, path)
 
 
@@ -129,7 +157,7 @@ def pivots(rows, path):
 	for refused, marker, label in (False, 'o', 'solved'), (True, 'x', 'refused as singular'):
 		found = [row for row in rows.values() if row['pivot'] > 0 and row['solveError'] > 0 and (row['condition'] == math.inf) == refused]
 		axis.loglog([row['pivot'] for row in found], [row['solveError'] for row in found], marker, markersize=3, linestyle='none', label=f'{label} ({len(found)} cases)')
-	axis.axvline(1e-12, color='k', linewidth=.8, linestyle=':')
-	axis.set(xlabel='smallest pivot, diagonal scaled to 1', ylabel='relative error of the solution in energy')
+	axis.axvline(1e-12, color='k', linewidth=.8, linestyle=':', label='limit of the solver, 1e-12')
+	axis.set(xlabel='smallest pivot of the matrix, its diagonal scaled to 1 [-]', ylabel='relative error of the solution in energy [-]')
 	axis.legend(frameon=False)
 	save(figure, path)

@@ -265,11 +265,12 @@ def figures67():
 	files = {name: os.path.join(folder, 'states', f'slope-{finest:g}-4-{run["factor"]:g}-0.npz') for name, run in runs.items()}
 	states = {name: np.load(path) for name, path in files.items() if os.path.exists(path)} # without them the pictures stay as they are
 	figures = {'none': (6, 'without'), 'ghost': (7, 'with')}
+	steps = next(iter(runs.values()))['steps']
 	for name, state in states.items():
 		number, kind = figures[name]
-		steps = f"load step {runs[name]['completed']:g} of {runs[name]['steps']:g}"
-		pictures.deformedSlope(state, f'{kind} ghost stabilisation, h = {finest:g} m, 4 x 4 points per cell, {steps}', inFolder(f'fig{number}.png'))
-	pictures.oscillation(history, inFolder('oscillation.png'))
+		at = f"load factor {runs[name]['completed'] / steps:g} (step {runs[name]['completed']:g} of {steps:g})"
+		pictures.deformedSlope(state, f'Shear stress {kind} ghost stabilisation at {at}\nh = {finest:g} m, 4 x 4 points per cell', inFolder(f'fig{number}.png'))
+	pictures.oscillation(history, steps, inFolder('oscillation.png'))
 	text = f'''## Figures 6 and 7: shear stress in the deformed slope
 
 h = {finest:g} m, 4 x 4 points per cell, without and with ghost stabilisation (factor 0.01), same colours for the same stress.
@@ -280,7 +281,7 @@ h = {finest:g} m, 4 x 4 points per cell, without and with ghost stabilisation (f
 		if not completed(run): text += f"\n{kind.capitalize()} ghost stabilisation load step {run['completed'] + 1:g} fails: {run['failure']}. The picture shows the last converged state.\n"
 	if len(runs) == 2:
 		step = int(min(run['completed'] for run in runs.values()))
-		if len(states) == 2: pictures.faceStress(states, step, inFolder('face.png'))
+		if len(states) == 2: pictures.faceStress(states, step, steps, inFolder('face.png'))
 		text += oscillationText(history, step)
 	return text
 

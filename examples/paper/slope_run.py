@@ -44,10 +44,12 @@ class FaceStress:
 
 
 def saveState(path, face):
-	"""What the pictures show: positions, half sizes [m] and sigma_xy [Pa] of the last converged state, and of the face for all steps."""
+	"""What the pictures show: corners of the deformed domains [m] and sigma_xy [Pa] of the last converged state, and of the face for all steps."""
 	points = mpm.arrays()
+	box = points['halfSize0'][:, None, :] * np.array([(-1, -1, 0), (1, -1, 0), (1, 1, 0), (-1, 1, 0)])
+	corners = points['pos'][:, None, :] + np.einsum('pij,pcj->pci', points['defGrad'], box)
 	os.makedirs(os.path.dirname(path), exist_ok=True)
-	state = {name: points[name][:, :2] for name in ('pos', 'halfSize')} | dict(shearStress=points['stress'][:, 0, 1], along=face.along, faceStress=face.history)
+	state = dict(corners=corners[:, :, :2], shearStress=points['stress'][:, 0, 1], along=face.along, faceStress=face.history)
 	np.savez_compressed(path, **{name: np.asarray(values, np.float32) for name, values in state.items()})
 
 

@@ -23,6 +23,7 @@ import time
 from yade import mpm
 import matplotlib
 matplotlib.use('Agg')
+import matplotlib.pyplot as plt
 import numpy as np
 sys.path.insert(0, os.path.join(os.path.dirname(sys.argv[0]), '..'))
 from options import readOptions
@@ -76,10 +77,22 @@ print(f', paper: {published[h, options.pointsPerCell]}' if options.ghostFactor =
 print(f'largest displacement: {displacement.max():.6f} m')
 print(f'crest (0, 12) settles by {-(points["pos"] - points["pos0"])[np.lexsort((points["pos0"][:, 0], -points["pos0"][:, 1]))[0], 1]:.4f} m')
 
-## the deformed domains, coloured by shear stress
-axes = mpm.plot('stress_xy', grid=False, ghost=False, range=(-12e3, 12e3))
-axes.plot([0, 10, 15, 30], [12, 12, 7, 7], 'k--', linewidth=0.8, label='initial surface')
-axes.set(title='Slope under its own weight')
-axes.legend(frameon=False)
-axes.figure.savefig(os.path.join(options.out, 'slope.png'), dpi=150, bbox_inches='tight')
+## the deformed domains, coloured by shear stress and, beside it, by the plastic strain, which shows where it slips
+figure, (stress, slip) = plt.subplots(2, 1, figsize=(8.4, 7.2), sharex=True, layout='constrained')
+mpm.plot('stress_xy', grid=False, ghost=False, ax=stress, range=(-12e3, 12e3))
+mpm.plot('plasticStrain', grid=False, ghost=False, ax=slip, range=(0, 0.8), colormap='YlOrRd')
+stress.set(title=f'Shear stress in the slope at load factor {solver.loadFactor:g} (gravity 9.81 m/s²)', xlabel='')
+slip.set(title='Plastic strain at the same load: where it has slipped')
+
+weak = points['material'] == O.materials.index('weak')
+height = points['pos0'][:, 1]
+for axes in stress, slip:
+	axes.plot([0, 10, 15, 30], [12, 12, 7, 7], 'k--', linewidth=0.8, label='initial surface')
+	for row, side in (height[weak].min(), -1), (height[weak].max(), 1):
+		edge = np.flatnonzero(weak & (np.abs(height - row) < 1e-6))
+		edge = edge[np.argsort(points['pos0'][edge, 0])]
+		along = points['pos'] + side * points['defGrad'][:, :, 1] * points['halfSize0'][:, 1:2]  # middle of the upper or lower side of each domain
+		axes.plot(*along[edge, :2].T, 'k', linewidth=1.2, label='weak layer' if side == 1 else None)
+	axes.legend(frameon=False)
+figure.savefig(os.path.join(options.out, 'slope.png'), dpi=150, bbox_inches='tight')
 print(f'written: {options.out}/slope.png, and for ParaView {options.out}/slope-points.pvd')

@@ -35,18 +35,25 @@ def picture(name, plan, runs, front, uncertainty, path):
 	for i, a in enumerate(first):
 		for j, b in enumerate(second):
 			chosen = [run for run in usual if run.setting[names[0]] == a and (b == '' or run.setting[names[1]] == b)]
-			label = f'{names[0]} {a}' if j == 0 else None
+			label = f'{plan.words.get(names[0], names[0])}: {a}' if j == 0 else None
 			axes.loglog([run.cpu for run in chosen], [run.error for run in chosen], list(marks)[j % len(marks)], color=plt.cm.viridis(i / max(1, len(first) - 1)), markersize=5, label=label)
 	others = [run for run in fronts.comparable(runs) if run not in usual]
 	if others: axes.loglog([run.cpu for run in others], [run.error for run in others], '+', color='0.6', markersize=5, label='other settings')
 	axes.loglog([run.cpu for run in front], [run.error for run in front], 'k-', linewidth=1, label='front')
 	if uncertainty > 0: axes.axhspan(axes.get_ylim()[0], uncertainty, color='0.9', label='uncertainty of the reference')
-	axes.set(xlabel='processor time of the script [s], one thread', ylabel='error', title=name)
+	axes.set(xlabel='processor time of the whole script [s], one thread', title=f'{name}: what accuracy costs')
+	axes.set_ylabel(errorLabel(plan), fontsize=9)
 	axes.grid(alpha=.3)
 	axes.legend(fontsize=7, frameon=False)
-	if len(second) > 1: figure.text(.5, -.01, f"marks: {names[1]} {', '.join(f'{b} {list(marks.values())[j % len(marks)]}' for j, b in enumerate(second))}", ha='center', fontsize=7)
+	if len(second) > 1: figure.text(.5, -.01, f"marks: {plan.words.get(names[1], names[1])}: {', '.join(f'{b} {list(marks.values())[j % len(marks)]}' for j, b in enumerate(second))}", ha='center', fontsize=7)
 	figure.savefig(path, dpi=120, bbox_inches='tight')
 	plt.close(figure)
+
+
+def errorLabel(plan):
+	"""Of what the error is."""
+	what = [plan.words.get(name, name) for name in plan.errors + plan.quantities]
+	return f"relative error of the {' and '.join(what)} [-]" + (',\nthe largest of them' if len(what) > 1 else '')
 
 
 def section(folder, name, plan):

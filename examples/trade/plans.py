@@ -16,6 +16,7 @@ class Plan:
 	:param alone: values of others, which are moved one by one
 	:param around: settings in which they are moved
 	:param errors: variables of the script that are errors
+	:param words: what variables of the script are, where their name does not say it, and so parameters
 	:param quantities: variables that are compared with those of the reference
 	:param reference, check: parameters of the reference run, and of a coarser one that tells how far it is to be trusted
 	:param quick: values of the combined parameters in the short form, whose reference is quickReference
@@ -31,6 +32,7 @@ class Plan:
 	check: dict = None
 	quick: dict = field(default_factory=dict)
 	quickReference: dict = None
+	words: dict = field(default_factory=dict)
 
 
 def shortened(plan):
@@ -69,32 +71,36 @@ def plan(scene, steps, centre, dim=2, **others):
 	return Plan(script=os.path.join(here, 'scenes.py'), parameters=parameters, alone=alone, around=[centre], **others)
 
 
+perMetre = dict(cells='cells in a metre', pointsPerCell='points per cell and axis')
+perHeight = dict(cells='cells over the height', pointsPerCell='points per cell and axis', stressError='vertical stress, mean over all points')
+
 plans = {
         'column':
                 plan(
-                        'column', '20', dict(cells='32'), errors=['stressError'],
+                        'column', '20', dict(cells='32'), errors=['stressError'], words=perHeight,
                         together=dict(cells=['4', '8', '16', '32', '64', '128'], pointsPerCell=['1', '2', '3'], steps=['5', '20', '80']),
                         quick=dict(cells=['4', '8'], pointsPerCell=['2'], steps=['5', '10'])),
         'column3d':
                 plan(
-                        'column', '20', dict(cells='16'), dim=3, errors=['stressError'],
+                        'column', '20', dict(cells='16'), dim=3, errors=['stressError'], words=perHeight,
                         together=dict(cells=['4', '8', '16', '32'], pointsPerCell=['2', '3'], steps=['5', '20', '80']),
                         quick=dict(cells=['4'], pointsPerCell=['2'], steps=['5'])),
         'slope':
                 plan(
-                        'slope', '40', dict(cells='1'), quantities=['crest', 'toe'],
+                        'slope', '40', dict(cells='1'), quantities=['crest', 'toe'], words=perMetre | dict(crest='settlement of the crest', toe='run-out of the toe'),
                         together=dict(cells=['1', '2', '3'], pointsPerCell=['2', '3'], steps=['10', '40', '160']),
                         reference=dict(cells='4', steps='160'), check=dict(cells='3', steps='160'),
                         quick=dict(cells=['1'], pointsPerCell=['2'], steps=['10']), quickReference=dict(cells='1', steps='20')),
         'collapse':
                 plan(
-                        'collapse', '20', dict(cells='2'), quantities=['settlement', 'spread'],
+                        'collapse', '20', dict(cells='2'), quantities=['settlement', 'spread'], words=perMetre | dict(settlement='mean settlement', spread='mean run-out'),
                         together=dict(cells=['1', '2', '4'], pointsPerCell=['2', '3'], steps=['10', '20', '40', '80']),
                         reference=dict(cells='12', steps='80'), check=dict(cells='8', steps='80'),
                         quick=dict(cells=['1'], pointsPerCell=['2'], steps=['10']), quickReference=dict(cells='1', steps='20')),
         'cantilever':
                 plan(
                         'cantilever', '20', dict(cells='2'), quantities=['tipX', 'tipY'],
+                        words=perMetre | dict(tipX='displacement of the tip along x', tipY='along y'),
                         together=dict(cells=['1', '2', '4'], pointsPerCell=['2', '3', '4'], steps=['5', '20', '80']),
                         reference=dict(cells='8', pointsPerCell='3', steps='80'), check=dict(cells='4', pointsPerCell='3', steps='80'),
                         quick=dict(cells=['1'], pointsPerCell=['2'], steps=['5']), quickReference=dict(cells='2', steps='10')),

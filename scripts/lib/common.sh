@@ -30,20 +30,28 @@ isInstalled() {
 	dpkg-query --show --showformat '${db:Status-Status}' "$1" 2>/dev/null | grep -q '^installed'
 }
 
+# apt-get as root, which waits while another one is at work. Its option for that, DPkg::Lock::Timeout, is for one of its three locks only.
+aptGet() {
+	local asRoot=() said='' waiting=no deadline=$((SECONDS + 1200))
+	[ "$(id -u)" = 0 ] || asRoot=(sudo)
+	until said=$("${asRoot[@]}" env LC_ALL=C DEBIAN_FRONTEND=noninteractive apt-get -q "$@" 2>&1 >&3); do
+		[[ $said = *'Could not get lock'* ]] && [ $SECONDS -lt $deadline ] || fail "apt-get $1: $said"
+		[ $waiting = yes ] || echo "Waiting for another program that installs packages. ${said%%$'\n'*}"
+		waiting=yes
+		sleep 2
+	done 3>&1
+	[ -z "$said" ] || echo "$said" >&2
+}
+
 # Installs those of the given Debian packages that are missing, as root or through sudo.
 installPackages() {
 	local installed missing
 	installed=$(dpkg-query --show --showformat '${db:Status-Status} ${binary:Package}\n' | sed -n 's/^installed \([^:]*\).*/\1/p')
 	missing=$(comm -23 <(printf '%s\n' "$@" | sort) <(sort <<<"$installed") | tr '\n' ' ')
 	[ -n "$missing" ] || return 0
-
-	local asRoot=()
-	if [ "$(id -u)" != 0 ]; then
-		asRoot=(sudo)
-		command -v sudo >/dev/null || fail "these Debian packages are missing, and only root can install them: $missing"
-	fi
+	[ "$(id -u)" = 0 ] || command -v sudo >/dev/null || fail "these Debian packages are missing, and only root can install them: $missing"
 	echo "Installing packages: $missing"
-	"${asRoot[@]}" apt-get update -q
+	aptGet update
 	# shellcheck disable=SC2086 # a list of words
-	"${asRoot[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -q -y --no-install-recommends $missing
+	aptGet install -y --no-install-recommends $missing
 }

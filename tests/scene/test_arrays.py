@@ -28,6 +28,11 @@ def ground(dim=2, up=1, layers=lambda height: 'soft' if 1 <= height <= 2 else 'f
 	O.engines = [MpmImplicitEngine(grid=grid, gravity=gravity, loadCurve=[(0, 1)], boundaries=sides, verbosity=0)]
 	O.dt = 1
 	return O.engines[0]
+
+def give(material, bodies=None):
+	"""A material that need not be in O.materials."""
+	for body in bodies or O.bodies:
+		body.mat = material
 '''
 
 refused = [
@@ -42,6 +47,14 @@ refused = [
         ('mpm.assign(plasticStrain=-np.ones(n))', 'ValueError', ['Body #0', 'plasticStrain = -1', '>= 0']),
         ('mpm.assign(stress=[[[0, 1, 0], [2, 0, 0], [0, 0, 0]]] * n)', 'ValueError', ['Body #0', 'stress', 'symmetric']),
         ('mpm.assign(stress=[np.diag([0, 2e5, 0])] * n)', 'ValueError', ['Body #0', 'yields']),
+        ('mpm.assign(stress=[np.diag([1e5, 4e5, 1e5])] * n)', 'ValueError', ['Body #0', 'yields', 'mean tension', 'has a minus']),
+        ('mpm.assign(elasticStrain=[np.diag([0, .9, 0])] * n)', 'ValueError', ['Body #0', 'yields', 'mean tension']),
+        ('mpm.assign(force=np.full((n, 3), 1j))', 'TypeError', ['force', 'real']),
+        ('mpm.assign(force=[("1", "2", "3")] * n)', 'TypeError', ['force', 'array of numbers']),
+        ('mpm.assign(force=np.ma.masked_less(np.zeros((n, 3)), 1))', 'TypeError', ['force', 'masked']),
+        ('mpm.assign(ids=mpm.arrays()["pos"][:, 1] > 2, force=np.zeros((n, 3)))', 'TypeError', ['ids = array([', "mpm.arrays()['id'][mask]"]),
+        ('mpm.assign(ids=[True, False], force=np.zeros((2, 3)))', 'TypeError', ["mpm.arrays()['id'][mask]"]),
+        ('mpm.assign(ids=[2**70], force=np.zeros((1, 3)))', 'TypeError', ['sequence of body ids']),
         ('mpm.assign(defGrad=[-np.eye(3)] * n)', 'ValueError', ['Body #0', 'defGrad', 'inside out']),
         ('mpm.assign(stress=[np.eye(3)] * n, elasticStrain=[np.eye(3)] * n)', 'ValueError', ['one of them']),
         ('mpm.assign(ids=[0, 0], force=np.zeros((2, 3)))', 'ValueError', ['#0', 'more than once']),
@@ -50,6 +63,9 @@ refused = [
         ('mpm.geostatic(K0="half")', 'TypeError', ["K0 = 'half'", 'ratio']),
         ('mpm.geostatic(K0=-1)', 'ValueError', ['K0 = -1', '>= 0']),
         ('mpm.geostatic(K0={"firm": 0.5})', 'ValueError', ["'soft'", 'no entry']),
+        ('solver.mask = 2; mpm.geostatic(K0=0.5)', 'ValueError', ['groupMask', 'mask = 2']),
+        ('O.bodies.clear(); mpm.geostatic(K0=0.5)', 'ValueError', ['no material points', 'mpm.fill']),
+        ('give(MpmElasticMat(young=1e6, poisson=0, density=1)); mpm.geostatic(K0={"firm": 0.5})', 'ValueError', ["''", 'needs a label']),
         ('mpm.geostatic(K0=50)', 'ValueError', ['K0 = 50', 'yields']),
         ('mpm.geostatic(K0=0.5, surface=2)', 'ValueError', ['surface = 2', '3.0 m']),
         ('mpm.geostatic(K0=0.5, surface="top")', 'TypeError', ["surface = 'top'"]),
@@ -115,6 +131,139 @@ print(json.dumps([np.abs(after['stress'] / 1e4 - sigma / 1e4).max(), np.abs(afte
 ''').result
 	assert stress < 1e-12 and strain < 1e-15 and kirchhoff < 1e-12 and volume < 1e-12
 	assert force == [-i for i in range(16)] and others == 0 and pushed == 0.25
+
+
+def test_domainsFollowTheDeformation(yade):
+	"""At once, as after a step, in the plane and in space; a step limits them to half a cell, as every step does."""
+	yade(scene + '''
+F2 = np.eye(3) + np.pad([[-0.3, 0.2], [0.1, -0.1]], (0, 1))
+F3 = np.array([[0.8, 0.1, 0.2], [-0.1, 0.7, 0.1], [0, 0.2, 0.6]])
+for dim, F in (2, F2), (3, F3):
+	ground(dim, width=1)
+	before = mpm.arrays()
+	mpm.assign(defGrad=[F] * len(before['id']))
+	after = mpm.arrays()
+	squares, axes = np.linalg.eigh(F.T @ F)
+	stretch = np.diag(axes * squares**0.5 @ axes.T) # of U; one out of the plane
+	assert np.abs(after['halfSize'] / (before['halfSize'] * stretch) - 1).max() < 1e-12
+	assert (after['halfSize0'] == before['halfSize0']).all() and (after['halfSize'][:, 2] == before['halfSize'][:, 2]).all() == (dim == 2)
+	mpm.assign(defGrad=[np.eye(3)] * len(before['id']))
+	assert (mpm.arrays()['halfSize'] == before['halfSize']).all()
+
+# a state that steps have made, given to new points, one a cell, with domains that have outgrown it: the next step is the same
+def pulled():
+	O.reset()
+	O.materials.append(MpmElasticMat(young=1e4, poisson=0, density=80, label='soil'))
+	grid = MpmGrid(cellSize=1)
+	O.bodies.append(mpm.fill(pack.inAlignedBox((0, 0, -1), (2, 2, 1)), grid, 1, 'soil'))
+	end = MpmBoundary(min=(2, -inf, -inf), max=(2, inf, inf), fix='x', displacement=(0.4, 0, 0))
+	O.engines = [MpmImplicitEngine(grid=grid, boundaries=[MpmBoundary(max=(0, inf, inf), fix='x'), MpmBoundary(max=(inf, 0, inf), fix='y'), end], newton=MpmNewton(predictor=False), verbosity=0)]
+	O.dt = 0.25
+	return O.engines[0]
+pulled()
+O.run(2, wait=True)
+half = mpm.arrays()
+O.step()
+expected = mpm.arrays()
+assert half['halfSize'][:, 0].max() == 0.5 and half['defGrad'][:, 0, 0].max() > 1.02
+solver = pulled()
+solver.loadCurve = [(0, 0.5), (0.5, 1)]
+mpm.assign(**{name: half[name] for name in ('pos', 'pos0', 'defGrad', 'elasticStrain')})
+assert mpm.arrays()['halfSize'][:, 0].max() > 0.51
+assert solver.stiffness()[3] > 0
+O.step()
+for name, values in mpm.arrays().items():
+	assert np.abs(values - expected[name]).max() <= 1e-12 * np.abs(expected[name]).max(), name
+for halfSize in (0.6, 0.5, 0.5), (0.51, 0.5, 0.5): # which no deformation has made
+	pulled()
+	O.bodies[0].shape.halfSize = halfSize
+	try: O.step()
+	except ValueError as error: assert 'Body #0: MpmPoint.halfSize' in str(error) and 'more than half a cell' in str(error), error
+	else: assert False, halfSize
+''')
+
+
+def test_tensionInTheGroundIsTold(yade):
+	"""Where gravity acts: in other scenes it is ordinary."""
+	run = yade(scene + '''
+import sys
+def assign(sign, share=1.):
+	n = len(O.bodies)
+	mpm.assign(stress=[np.eye(3) * (sign * 1e3 if i < share * n else -sign) for i in range(n)])
+ground()
+assign(1)
+sys.stderr.write('# silent\\n')
+assign(-1)
+assign(1, 0.6)
+mpm.geostatic(K0=0.5)
+O.engines[0].gravity = (0, 0, 0)
+assign(1)
+O.engines = []
+assign(1)
+''')
+	told, silent = run.stderr.split('# silent')
+	assert told.count('mean tension') == 1 and 'WARNING' not in silent
+
+
+def test_materialsThatAreNotInTheList(yade):
+	"""Bodies may have materials of their own: each point counts with its own, not with another one of O.materials."""
+	run = yade(scene + '''
+own = dict(young=1e6, poisson=0.3, yieldStress=1e5)
+def rest():
+	before = mpm.arrays()['pos']
+	O.step()
+	return np.abs(mpm.arrays()['pos'] - before).max()
+
+solver = ground() # the last of O.materials is of 1500 kg/m3
+give(MpmVonMisesMat(density=1000, **own))
+assert (mpm.arrays()['material'] == -1).all()
+mpm.geostatic(K0=0.4)
+assert abs(mpm.arrays()['stress'][:, 1, 1].min() + 10 * 1000 * 2.875) < 1e-6 and rest() < 1e-9
+advice = mpm.advise()
+assert advice['points'] == 192
+
+solver = ground() # one layer of its own
+heavy = MpmVonMisesMat(density=4000, label='heavy', **own)
+give(heavy, [body for body in O.bodies if body.mat.label == 'soft'])
+mpm.geostatic(K0=dict(firm=0.4, heavy=0.7))
+points = mpm.arrays()
+assert sorted(set(points['material'])) == [-1, 0]
+ratio = points['stress'][:, 0, 0] / points['stress'][:, 1, 1]
+assert np.allclose(ratio, np.where(points['material'] == -1, 0.7, 0.4)) and rest() < 1e-9
+advice = mpm.advise()
+assert any('plasticity' in sentence and 'heavy' in sentence for sentence in advice['advice']) == any('firm' in sentence for sentence in advice['advice'])
+mpm.plot('material', fileName='material.png')
+mpm.export('own.csv')
+mpm.colour('material')
+
+# the number of a material in the list of another scene says nothing here
+O.reset()
+ground()
+foreign = O.materials[1]
+O.switchScene()
+solver = ground()
+give(foreign)
+O.engines += [MpmVtkRecorder(fileName='foreign-')]
+assert foreign.id == 1 and (mpm.arrays()['material'] == -1).all()
+O.step()
+
+# only the points of the engine: ground beside it, higher and heavier
+solver = ground()
+n = len(O.bodies)
+beside = O.bodies.append(mpm.fill(pack.inAlignedBox((10, 0, -1), (12, 6, 1)), solver.grid, 2, 'soft'))
+for id in beside:
+	O.bodies[id].groupMask = 2
+	O.bodies[id].mat = heavy
+solver.mask = 1
+mpm.geostatic(K0=0.5)
+points = mpm.arrays()
+assert not points['stress'][n:].any() and abs(points['stress'][:, 1, 1].min() + 10 * (0.875 * 2000 + 1000 * 1.5 + 1000 * 2)) < 1e-6
+advice = mpm.advise()
+assert advice['points'] == n and not any('plasticity' in sentence and 'heavy' in sentence for sentence in advice['advice'])
+assert rest() < 1e-9
+''')
+	from test_vtk import Vtu
+	assert set(Vtu(run.folder / 'foreign-points.1.vtu').fields['material']) == {-1}
 
 
 def test_geostaticStressIsInEquilibrium(yade):

@@ -249,10 +249,10 @@ print(json.dumps([results, sorted(os.listdir('.'))]))
 '''
 
 # (statement, what its error must contain)
-refusedFiles = [(f'record({path!r})', word) for path, word in [('', 'fileName'), ('whole.xml/x-', 'whole.xml'), ('a\0b-', 'fileName'), ('n' * 300, 'File name too long'), ('/proc/x-', '/proc')]] + [
-        (f'save({path!r})', word) for path, word in [('', 'save: file'), ('x.txt', 'x.txt'), ('missing/x.xml', 'missing'), ('folder.xml', 'folder.xml'), ('whole.xml/x.xml', 'whole.xml'), ('a\0b.xml', 'null'),
+refusedFiles = [(f'record({path!r})', word) for path, word in [('', 'fileName'), ('whole.xml/x-', 'whole.xml'), ('a\0b-', 'fileName'), ('a\nb-', 'line breaks'), ('n' * 300, 'File name too long'), ('/proc/x-', '/proc')]] + [
+        (f'save({path!r})', word) for path, word in [('', 'save: file'), ('x.txt', 'x.txt'), ('/proc/missing/x.xml', '/proc/missing/x.xml'), ('folder.xml', 'folder.xml'), ('whole.xml/x.xml', 'whole.xml'), ('a\0b.xml', 'null'),
                                                      ('n' * 300 + '.xml', 'too long')]
-] + [('save(7)', 'int')] + [(f'load({path!r})', '') for path in ('missing.xml', 'missing.yade.gz', 'cut.xml', 'cut.yade.gz', 'foreign.xml', 'foreign.yade.gz', 'empty.xml', 'empty.yade.gz', 'folder.xml', '')]
+] + [('save(7)', 'file = 7 must be a path')] + [(f'load({path!r})', '') for path in ('missing.xml', 'missing.yade.gz', 'cut.xml', 'cut.yade.gz', 'foreign.xml', 'foreign.yade.gz', 'empty.xml', 'empty.yade.gz', 'folder.xml', '')]
 
 
 def test_files_that_cannot_be_written_or_read(yade):

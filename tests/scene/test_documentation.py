@@ -2,6 +2,7 @@
 """What users read: links lead somewhere, and everything public says what it is, in which unit."""
 import json
 import re
+import struct
 
 from conftest import root
 
@@ -30,6 +31,15 @@ def test_every_page_of_an_example_is_in_the_index_of_the_documentation():
 	index = (root / 'scripts/lib/docs/index.md').read_text()
 	for page in (root / 'examples').glob('*/README.md'):
 		assert f'../../../examples/{page.parent.name}/README\n' in index, page
+
+
+def test_every_picture_is_on_a_page_and_can_be_seen_as_a_whole():
+	shown = {(page.parent / link).resolve() for page in pages for link in re.findall(r'!\[[^\]]+\]\(([^)\s]+)\)', page.read_text())}
+	pictures = [path for path in root.glob('examples/*/*.png')]
+	assert len(pictures) > 20 and set(pictures) <= shown
+	for picture in pictures:
+		width, height = struct.unpack('>II', picture.read_bytes()[16:24])
+		assert 400 < width < 1900 and 300 < height < 1300, picture
 
 
 def test_every_command_of_the_pages_names_a_file_that_is_there():
@@ -120,3 +130,25 @@ for recipe in json.load(open('recipes.json')):
 ''')
 	assert run.stdout.count('ran: ') == len(recipes), run
 	assert (run.folder / 'plastic.png').exists() and (run.folder / 'points.csv').exists() and '"solver"' in run.stdout  # the table of times
+
+
+def test_readme(yade):
+	"""Its script runs, also with the two lines that it suggests, and what it says of grains is so."""
+	readme = (root / 'README.md').read_text()
+	script = re.search(r'```python\n(.*?)```', readme, re.DOTALL)[1]
+	plot, advise = (re.search(rf'`({call}\(.*?\))`', readme)[1] for call in ('mpm.plot', 'mpm.advise'))
+	assert 'O.run(40, wait=True)\n' in script
+	run = yade(script.replace('O.run(', advise + '\nO.run(') + plot + '''
+assert O.iter == 40 and O.engines[0].report()['converged']
+O.materials.append(FrictMat(label='grain'))
+grain = O.bodies[O.bodies.append(sphere((12, 14, 0), 0.5, material='grain'))]
+O.engines[0].iterPeriod = 100
+O.engines[1].dead = True
+O.engines = [ForceResetter(), InsertionSortCollider([Bo1_Sphere_Aabb()]), InteractionLoop([Ig2_Sphere_Sphere_ScGeom()], [Ip2_FrictMat_FrictMat_FrictPhys()],
+	[Law2_ScGeom_FrictPhys_CundallStrack()]), NewtonIntegrator(gravity=(0, -9.81, 0)), *O.engines]
+O.dt = 0.01
+O.run(200, wait=True)
+print(grain.state.pos[1])
+''')
+	assert (run.folder / 'slope.png').stat().st_size > 30000 and (run.folder / 'out/my-slope-points.pvd').exists()
+	assert float(run.stdout.splitlines()[-1]) < 0 and 'a sphere falls through the soil' in ' '.join(readme.split())

@@ -1,11 +1,13 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """YADE starts with the plugin if everything fits, and otherwise without it and with one sentence that says why."""
+import fcntl
+import os
 import shutil
 import subprocess
 import time
 
 import pytest
-from conftest import build, compiled, root
+from conftest import build, compiled, root, systemYade
 
 # Prints whether YADE works and knows the plugin's classes.
 probe = '''
@@ -160,7 +162,7 @@ def test_importWithoutPlugin(yade, libraries):
 def test_pluginInstalledAnewUnderARunningYade(yade, importable, libraries, importsFirst):
 	"""It goes on with what it has opened, as if nothing had happened, or says that it cannot."""
 	setup = (root / 'scripts/setup').read_text()
-	replace = setup[setup.index('replace() {'):setup.index('# installInto')]
+	replace = setup[setup.index('replace() {'):setup.index('# copyPlugin')]
 	other = yade.folder / 'other.so'
 	other.write_bytes((build / 'mpm/mpm_engine.so').read_bytes() + b'newer')
 	yade(
@@ -206,3 +208,144 @@ def test_setupThatChangesNothingIsQuick(yade):
 	second = subprocess.run([root / 'scripts/setup', '--user'], check=True, capture_output=True, text=True)
 	assert time.monotonic() - start < 2
 	assert second.stdout == ''
+
+
+class OtherFolder:
+	"""A second folder with the sources of this one, and a YADE of its own in place of the system's. What would be compiled there is only named."""
+	libraries = 'lib/x86_64-linux-gnu/yade-double'
+
+	def __init__(self, folder):
+		self.folder, self.system, self.overlay = folder / 'second clone', folder / 'system', folder / 'second clone/build/overlay'
+		for part in 'scripts', 'plugin':
+			shutil.copytree(root / part, self.folder / part, ignore=shutil.ignore_patterns('__pycache__'))
+		shutil.copy(root / 'CMakeLists.txt', self.folder)
+		(self.system / 'py/yade').mkdir(parents=True)
+		for path in [*systemYade.glob('*.so'), *(systemYade / 'py').iterdir(), *(systemYade / 'py/yade').iterdir()]:
+			copy = self.system / path.relative_to(systemYade)
+			if path.name not in ('libpkg_mpm.so', 'mpm', 'yade'): copy.symlink_to(path)
+		self.write('scripts/lib/common.sh', self.read('scripts/lib/common.sh').replace(str(systemYade), str(self.system)))
+		self.tools = folder / 'tools'
+		self.tools.mkdir()
+		self.tool('cmake', 'echo compiles; exit 1')
+
+	def tool(self, name, text):
+		"""A program that is found before the system's."""
+		(self.tools / name).write_text('#!/bin/sh\n' + text + '\n')
+		(self.tools / name).chmod(0o755)
+
+	def read(self, name):
+		return (self.folder / name).read_text()
+
+	def write(self, name, text):
+		(self.folder / name).write_text(text)
+
+	def plugin(self, folder):
+		"""Puts the plugin there that is installed for this folder."""
+		shutil.rmtree(folder / 'mpm', ignore_errors=True)
+		shutil.copytree(build / 'overlay' / self.libraries / 'mpm', folder / 'mpm')
+		shutil.copy(build / 'overlay' / self.libraries / 'libpkg_mpm.so', folder)
+
+	def librariesOf(self, options):
+		"""The folder that scripts/setup with these options installs into."""
+		return self.overlay / self.libraries if options else self.system
+
+	def command(self, *arguments):
+		environment = {name: value for name, value in os.environ.items() if name != 'CXXFLAGS'} | {'PATH': f'{self.tools}:{os.environ["PATH"]}'}
+		return dict(args=arguments, env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+
+	def setup(self, *options, **environment):
+		"""What scripts/setup says."""
+		command = self.command(self.folder / 'scripts/setup', *options)
+		command['env'] |= environment
+		ended = subprocess.run(**command)
+		assert (ended.returncode != 0) == ('compiles' in ended.stdout), ended.stdout
+		return ended.stdout
+
+
+forUserAndForAll = pytest.mark.parametrize(
+        'options', [['--user'], pytest.param([], marks=pytest.mark.skipif(os.geteuid() != 0, reason='only root installs for all users'))], ids=['user', 'all'])
+
+
+@pytest.fixture
+def second(tmp_path):
+	subprocess.run([root / 'scripts/setup', '--user'], check=True)
+	folder = OtherFolder(tmp_path)
+	folder.plugin(folder.overlay / folder.libraries)
+	return folder
+
+
+def test_sameSourcesInAnotherFolderAreNotCompiledAgain(yade, second):
+	assert 'compiles' not in second.setup('--user')
+	yade.command = str(second.overlay / 'bin/yade')
+	assert yade('from yade import mpm; print(mpm.__file__, MpmGrid())').stdout.splitlines()[-1].startswith(str(second.overlay / 'python/mpm'))
+	assert second.setup('--user') == ''
+	second.write('plugin/python/mpm/outline.py', second.read('plugin/python/mpm/outline.py') + '# more')
+	assert second.setup('--user') == f'Installed {second.overlay}/python/mpm/outline.py\n'
+
+
+def test_whatIsInstalledForAllUsersIsNotCompiledAgain(yade, second):
+	shutil.rmtree(second.overlay)
+	second.plugin(second.system)
+	assert 'compiles' not in second.setup('--user')
+	yade.command = str(second.overlay / 'bin/yade')
+	assert yade(probe).result == {'iterations': 2, 'knowsPlugin': True}
+	assert second.setup('--user') == ''
+
+
+@forUserAndForAll
+def test_whatIsNotThatPluginIsCompiled(second, options):
+	"""Other sources, and what somebody else has left of it."""
+	libraries = second.librariesOf(options)
+	source = 'plugin/core/newton.cpp'
+	text = second.read(source)
+	damages = [
+	        lambda: second.write(source, text + '// more\n'),
+	        lambda: second.write('plugin/core/added.cpp', ''),
+	        lambda: (libraries / 'libpkg_mpm.so').unlink(),
+	        lambda: (libraries / 'mpm/mpm_engine.so').write_bytes((build / 'mpm/mpm_engine.so').read_bytes()[:1000]),
+	        lambda: (libraries / 'libpkg_mpm.so').write_bytes(b'of another revision'),
+	        lambda: (libraries / 'mpm/made-from').write_text(''),
+	        lambda: shutil.rmtree(libraries / 'mpm'),
+	]
+	for damage in damages:
+		second.plugin(libraries)
+		damage()
+		assert 'compiles' in second.setup(*options)
+		second.write(source, text)
+		(second.folder / 'plugin/core/added.cpp').unlink(missing_ok=True)
+	second.plugin(libraries)
+	assert 'compiles' in second.setup(*options, CXXFLAGS='-march=native')
+	assert 'compiles' not in second.setup(*options)
+
+
+@forUserAndForAll
+def test_setupWaitsForAnotherAndTakesWhatThatHasInstalled(second, options):
+	second.setup('--user')
+	libraries = second.librariesOf(options)
+	shutil.rmtree(libraries / 'mpm', ignore_errors=True)
+	lock = os.open(second.folder / 'build/.setup-lock' if options else second.system, os.O_RDONLY)
+	fcntl.flock(lock, fcntl.LOCK_EX)
+	waiting = subprocess.Popen(**second.command(second.folder / 'scripts/setup', *options))
+	assert 'Waiting for another scripts/setup' in waiting.stdout.readline()
+	second.plugin(libraries)
+	os.close(lock)
+	assert 'compiles' not in waiting.communicate(timeout=20)[0] and waiting.returncode == 0
+
+
+def test_packagesWaitForAnotherInstallation(second, tmp_path):
+	"""apt has locks for its lists, its downloads and dpkg, and ends at once where it finds one taken."""
+	install = second.command('bash', '-eu', '-o', 'pipefail', '-c', f'source "{second.folder}/scripts/lib/common.sh"; installPackages there-is-no-such-package')
+	second.tool('sudo', 'exec "$@"')
+	second.tool('sleep', '')
+	second.tool('apt-get', f'''echo "$*" >>{tmp_path}/calls
+case $(grep -c . {tmp_path}/calls) in
+	1) echo "E: Could not get lock /var/lib/apt/lists/lock. It is held by process 1 (apt-get)" >&2; exit 100 ;;
+	3) echo "E: Could not get lock /var/lib/dpkg/lock-frontend. It is held by process 1 (apt-get)" >&2; exit 100 ;;
+esac''')
+	said = subprocess.run(**install)
+	assert said.returncode == 0 and said.stdout.count('Waiting for another program that installs packages') == 2, said.stdout
+	update, install2 = '-q update', '-q install -y --no-install-recommends there-is-no-such-package'
+	assert (tmp_path / 'calls').read_text().splitlines() == [update, update, install2, install2]
+	second.tool('apt-get', 'echo "E: No network" >&2; exit 100')
+	said = subprocess.run(**install)
+	assert said.returncode == 1 and 'apt-get update: E: No network' in said.stdout, said.stdout

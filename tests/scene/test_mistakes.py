@@ -13,6 +13,12 @@ sides = [MpmBoundary(max=(0, inf, inf), fix='x'), MpmBoundary(min=(4, -inf, -inf
 def fill(predicate=square, grid=MpmGrid(cellSize=1), pointsPerCell=2, material='soil'):
 	return mpm.fill(predicate, grid, pointsPerCell, material)
 
+many = mpm.polygon([(i, (i % 2) * i) for i in range(100)] + [(99, -1), (0, -1)])
+
+def surface():
+	"""A long list of something else."""
+	return [facet(((0, 0, 0), (1, 0, 0), (0, 1, i * 1e-3)), material=FrictMat()) for i in range(200)]
+
 def solver(**changes):
 	"""A sound engine but for the changes."""
 	return MpmImplicitEngine(**(dict(grid=MpmGrid(cellSize=1), gravity=(0, -10, 0), boundaries=sides, label='solver', verbosity=0) | changes))
@@ -46,6 +52,31 @@ mistakes = [
         ('scene(); fill(grid=MpmGrid(cellSize=1000))', 'ValueError', ['spacing 500', 'from (0, 0, -inf) to (4, 4, inf)', 'smaller than that']),
         ('scene(); fill(grid=MpmGrid(cellSize=1e-4))', 'ValueError', ['cellSize = 0.0001', 'do not suit a region']),
         ('scene(); fill(pack.inAlignedBox((0, 0, 1), (4, 4, 2)))', 'ValueError', ['plane z = 0', 'from (0, 0, 1)', 'miss the plane']),
+        ('scene(); fill(surface())', 'TypeError', ['<Body instance', '...', 'pack.inGtsSurface(surface)']),
+        ('scene(); import gts; fill(gts.sphere(2))', 'TypeError', ['gts.Surface', 'pack.inGtsSurface(surface)']),
+        ('scene(); fill([(0, 0), (4, 0), (4, 4)])', 'TypeError', ['mpm.polygon([(x, y), ...])']),
+        ('scene(); fill(pack.inSphere)', 'TypeError', ['this is a class']),
+        ('scene(); fill(grid=surface())', 'TypeError', ['must be an MpmGrid']),
+        ('scene(); fill(pointsPerCell=surface())', 'TypeError', ['must be an integer']),
+        ('scene(); fill(material=[(many, "soil")] * 2 + surface())', 'TypeError', ['material[2] = <Body']),
+        ('scene(); fill(material=lambda x: surface())', 'TypeError', ['the label of a material']),
+        ('scene(); fill(material=surface())', 'TypeError', ['the label of a material is meant']),
+        ('scene(); fill(material="x" * 5000)', 'KeyError', ['is not in O.materials']),
+        ('mpm.polygon(surface())', 'TypeError', ['(x, y) pairs']),
+        ('fill(many, MpmGrid(cellSize=1, dim=3))', 'ValueError', ['no bounds']),
+        ('scene(); mpm.assign(ids=surface(), force=[])', 'TypeError', ['sequence of body ids']),
+        ('scene(); mpm.assign(force=surface())', 'TypeError', ['an array of numbers']),
+        ('scene(); mpm.colour(surface())', 'ValueError', ['one number for each of 64']),
+        ('scene(); mpm.colour("material", colormap=surface())', 'ValueError', ['viridis']),
+        ('scene(); mpm.plot("material", range=surface())', 'TypeError', ['(low, high)']),
+        ('scene(); mpm.plot("material", plane=surface())', 'ValueError', ['in the plane x-y']),
+        ('scene(); mpm.plot("x" * 5000)', 'ValueError', ['is not known']),
+        ('scene(); mpm.plot(fileName=3)', 'TypeError', ['plot: fileName = 3 must be a path']),
+        ('scene(); mpm.export(None)', 'TypeError', ['export: fileName = None must be a path']),
+        ('scene(); mpm.geostatic(K0=[0.5] * 5000)', 'ValueError', ['factor of gravity']),
+        ('scene(gravityCurve=[(0, 1)]); mpm.geostatic(K0=[0.5] * 5000)', 'TypeError', ['ratio of horizontal']),
+        ('scene(); mpm.advise(surface())', 'TypeError', ['must be an MpmImplicitEngine']),
+        ('scene(boundaries=surface())', 'TypeError', ['MpmBoundary']),
         ('scene(); fill(pointsPerCell=0)', 'ValueError', ['pointsPerCell = 0', 'at least 1']),
         ('scene(); fill(pointsPerCell=(2, 2))', 'TypeError', ['pointsPerCell = (2, 2)', 'integer']),
         ('scene(); O.bodies.append(fill()); O.step()', 'ValueError', ['#0 and #64', 'same place', 'filled twice']),
@@ -100,6 +131,7 @@ def test_isExplained(outcomes, script, exception, words):
 	assert kind == exception, sentence
 	for word in words:
 		assert word in sentence, sentence
+	assert len(sentence) < 700, sentence
 
 
 def test_warnings(yade):

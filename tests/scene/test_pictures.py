@@ -51,10 +51,15 @@ areas = [area(path.vertices[:4]) for path in matter.get_paths()]
 result = dict(
     boundary=[len(boundary.get_paths()), solver.boundaryCells], cells=[len(cells.get_paths()), solver.activeCells], faces=[len(faces.get_paths()), solver.ghostFaces],
     volume=float(np.abs(np.array(areas) / points['volume'] - 1).max()), value=float(np.abs(matter.get_array() * 1e3 - points['stress'][:, 0, 1]).max()),
-    label=ax.child_axes[0].get_ylabel(), aspect=ax.get_aspect(), symmetric=sum(matter.get_clim()))
+    label=ax.child_axes[0].get_ylabel(), axes=[ax.get_xlabel(), ax.get_ylabel(), ax.get_title()], aspect=ax.get_aspect(), symmetric=sum(matter.get_clim()))
 first = mpm.plot('displacement_y', deformed=False, range=(-1, 0), fileName='out/first.pdf')
-result['first'] = [len(first.collections), sorted(first.dataLim.get_points()[1]), first.collections[0].get_clim()]
+result['first'] = [len(first.collections), sorted(first.dataLim.get_points()[1]), first.collections[0].get_clim(), first.get_title()]
+from matplotlib.figure import Figure
+arrows = lambda *limits: mpm.plot('displacement_y', deformed=False, range=limits, ax=Figure().add_subplot()).child_axes[0]._colorbar.extend
+result['arrows'] = [arrows(-1, -.5), arrows(-1, 9), arrows(-9, -.5), arrows(-9, 9)]
+first.set_title('mine')
 result['array'] = mpm.plot(points['pos0'][:, 0], grid=False, ghost=False, ax=first) is first
+result['titles'] = [result['first'].pop(), first.get_title()]
 print(json.dumps(result))
 ''')
 	result = run.result
@@ -64,6 +69,8 @@ print(json.dumps(result))
 		assert drawn > 0 and abs(drawn - counted) <= 0.1 * counted
 	assert result['volume'] < 1e-9 and result['value'] < 1e-9
 	assert result['label'] == 'stress $\\sigma_{xy}$ [kPa]' and result['aspect'] == 1 and result['symmetric'] == 0
+	assert result['axes'] == ['x [m]', 'y [m]', 'load factor 0.5'] and result['titles'] == ['load factor 0.5, at the initial positions', 'mine']
+	assert result['arrows'] == ['both', 'min', 'max', 'neither']
 	assert result['first'] == [1, [12, 30], [-1, 0]] and result['array']
 	assert (run.folder / 'out/slope.png').stat().st_size > 30000 and (run.folder / 'out/first.pdf').read_bytes()[:4] == b'%PDF'
 

@@ -107,14 +107,43 @@ def test_saving_fails_with_a_reason(yade):
 	yade('''
 from scenes import *
 slope()
-for file, error, words in ('state.txt', ValueError, 'state.txt'), ('/nowhere/state.xml', OSError, '/nowhere'), ('.', ValueError, 'format'):
+import os, resource
+open('plain', 'w').close()
+os.mkdir('folder.xml')
+def refused(file, error, words):
 	try:
 		mpm.save(file)
-		assert False, file
 	except error as raised:
-		assert words in str(raised), raised
+		assert words in str(raised) and f'.{os.getpid()}-' not in str(raised), raised
+	else:
+		assert False, file
+for attempt in ('state.txt', ValueError, "'state.txt'"), ('.', ValueError, 'format'), (3, TypeError, 'save: file = 3 must be a path'), \
+		('/proc/none/state.xml', OSError, "cannot be made: No such file or directory: '/proc/none/state.xml'"), \
+		('plain/state.xml', OSError, "its folder cannot be made: File exists: 'plain/state.xml'"), ('folder.xml', OSError, "Is a directory: 'folder.xml'"):
+	refused(*attempt)
+resource.setrlimit(resource.RLIMIT_FSIZE, (4096, resource.RLIM_INFINITY)) # in the place of a full disk
+for name in 'state.xml', 'state.yade.gz', 'state.xml.bz2':
+	refused(name, OSError, f"File too large: '{name}'")
+resource.setrlimit(resource.RLIMIT_FSIZE, (resource.RLIM_INFINITY, resource.RLIM_INFINITY))
+assert not [name for name in os.listdir('.') if 'state' in name], os.listdir('.')
+''')
+
+
+def test_missing_folders_are_made(yade):
+	"""By all that writes files, without leaving anything else in them."""
+	yade('''
 import os
-assert not [name for name in os.listdir('.') if 'state' in name]
+from scenes import *
+solver = slope()
+mpm.save('saved/deep/state.xml.gz')
+mpm.export('exported/deep/points.csv')
+mpm.plot(fileName='drawn/deep/slope.png')
+O.engines += [MpmVtkRecorder(fileName='recorded/deep/slope-')]
+O.engines[-1]()
+assert os.listdir('saved/deep') == ['state.xml.gz'] and os.listdir('exported/deep') == ['points.csv'] and os.listdir('drawn/deep') == ['slope.png']
+assert sorted(os.listdir('recorded/deep')) == ['slope-points.0.vtu', 'slope-points.pvd']
+O.load('saved/deep/state.xml.gz')
+assert len(O.bodies) == 1095
 ''')
 
 

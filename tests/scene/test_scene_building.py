@@ -32,6 +32,51 @@ report(counts=[[len(mpm.fill(slope, MpmGrid(cellSize=h), n, 'soil')) for n in (2
 	assert result['counts'] == [[1095, 2460, 4370], [4370, 9825, 17460], [17460, 39270, 69800]]
 
 
+def test_a_fill_that_misses_the_volume_of_its_region_is_told(yade):
+	"""A layer thinner than the points' boxes, oblique; the paper's slope, aligned boxes and fine round bodies are silent."""
+	run = yade(
+	        setting + '''
+import sys
+import gts
+def say(name):
+	sys.stdout.flush()
+	sys.stderr.write(f'\\n# {name}\\n')
+	sys.stderr.flush()
+layer = [(0, 0), (6, 1), (6, 1.3), (0, 0.3)] # 0.3 m thick, 1.8 m2
+round_ = gts.sphere(3)
+round_.scale(1.2, 1.2, 1.2)
+warned = dict(
+    thin=(mpm.polygon(layer), 1, 2, (1, 2, 3, 4)),
+    sampled=(mpm.polygon(layer) & pack.inAlignedBox((-1, -1, -1), (9, 9, 1)), 1, 2, (1, 2, 3)),
+    solid=(mpm.polygon(layer) & pack.inAlignedBox((-1, -1, 0), (9, 9, 1)), 1, 3, (1, 2)),
+    plate=(pack.inAlignedBox((0, 0.25, -1), (4, 0.35, 1)), 1, 2, (2,)),
+    flat=(pack.inAlignedBox((0, 0.25, -1), (4, 0.25, 1)), 1, 2, (2,)),
+    coarse=(pack.inSphere((0, 0, 0), 2), 1, 2, (1,)),
+    surface=(pack.inGtsSurface(round_), 1, 3, (1,)))
+silent = dict(
+    slope=(slope, 1, 2, (1, 2, 3, 4)),
+    half=(slope, 0.5, 2, (2, 3, 4)),
+    solidSlope=(slope & pack.inAlignedBox((0, 0, 0), (30, 12, 2)), 1, 3, (2,)),
+    box=(pack.inAlignedBox((0, 0, -1), (0.7, 0.7, 1)), 0.7 / 3, 2, (1, 2, 3)),
+    beams=(pack.inAlignedBox((0, 0, -1), (9, 0.3, 1)) | pack.inAlignedBox((0, 5.1, -1), (9, 5.4, 1)), 0.3, 2, (1, 2)),
+    disc=(pack.inSphere((0, 0, 0), 5), 1, 2, (2, 3, 4)),
+    pipe=(pack.inCylinder((0, 0, 0), (0, 0, 4), 4) - pack.inCylinder((0, 0, 0), (0, 0, 4), 2), 1, 3, (3,)))
+for name, (region, cellSize, dim, numbers) in (warned | silent).items():
+	for n in numbers:
+		say(f'{name} {n}')
+		mpm.fill(region, MpmGrid(cellSize=cellSize, dim=dim), n, 'soil')
+report(warned=[f'{name} {n}' for name, (*_, numbers) in warned.items() for n in numbers])
+'''
+	)
+	said = dict(part.split('\n', 1) for part in run.stderr.split('\n# ')[1:])
+	assert len(said) > 20
+	told = {name: text for name, text in said.items() if 'WARNING' in text}
+	assert sorted(told) == sorted(run.result['warned'])
+	for name, ratio in ('thin 1', '0.9'), ('thin 2', '0.9'), ('thin 3', '1.08'), ('plate 2', '0.2'), ('flat 2', '0'):
+		assert f'fill: the region has {ratio} times the volume' in told[name], told[name]
+		assert 'More points per cell help, smaller cells' in told[name]
+
+
 def test_points_are_equally_spaced_in_their_cells(yade):
 	"""Against the definition, for a rectangle in an oblique place of the plane and for a box."""
 	result = yade(

@@ -43,7 +43,7 @@ def test_extremes(study, tmp_path):
 	assert results['turns', 'none']['failure'] == results['points', 'none']['failure'] == 'singular'
 	page = (tmp_path / 'out/README.md').read_text()
 	assert '| `contrast` |' in page and '**singular**' in page
-	assert (tmp_path / 'out/outcomes.png').stat().st_size > 10000
+	assert (tmp_path / 'out/outcomes-grid.png').stat().st_size > 10000
 	assert '0 cases to run' in study('extremes', *arguments)
 
 
@@ -161,6 +161,16 @@ for name, engine in ('slope', lambda: slope(1, 3)), ('column', lambda: column(8,
 	if name != 'weak': O.step()
 	found[name] = dict(advice, stepped=solver.dofs)
 O.reset()
+solver = slope()
+O.engines += [MpmVtkRecorder(fileName='slope-', iterPeriod=2)]
+for dt in 1 / 100, 1e-6, 1e-320, 0.1:
+	O.dt = dt
+	advice = mpm.advise()
+	found[f'{dt:g}'] = [advice['steps'] if dt > 1e-300 else 'inf', ' '.join(sentence for sentence in advice['advice'] if any(word in sentence for word in ('steps', 'output')))]
+O.dt, solver.iterPeriod = 1e-6, 1000
+advice = mpm.advise()
+found['by iterPeriod'] = [advice['steps'], ' '.join(advice['advice'])]
+O.reset()
 for wrong in 1, None:
 	try: mpm.advise(wrong)
 	except (TypeError, ValueError) as error: found[str(wrong)] = str(error)
@@ -175,6 +185,11 @@ print(json.dumps(found))
 	assert says(slope, 'pointsPerCell=2') and says(column, 'dim=2') and says(column, 'tolerance') and says(weak, 'stabilisation: it is off')
 	assert not says(slope, 'dim=2') and not says(slope, 'stabilisation')
 	assert 'unknowns: ' in run.stdout
+	many = {name: run.result[name] for name in ('0.01', '1e-06', '9.99989e-321', '0.1', 'by iterPeriod')}
+	assert [steps for steps, _ in many.values()] == [100, 1000000, 'inf', 10, 1000]
+	assert '25 steps instead of 100' in many['0.01'][1] and '160 steps instead of 1000000' in many['1e-06'][1] and "instead" not in many["0.1"][1]
+	assert 'iterPeriod 6.2 times as large: 160 steps instead of 1000' in many['by iterPeriod'][1]
+	assert 'about 163 GiB' in many['1e-06'][1] and 'was O.dt forgotten?' in many['9.99989e-321'][1] and 'forgotten' not in many['1e-06'][1]
 	assert 'must be an MpmImplicitEngine' in run.result['1'] and 'O.engines holds no' in run.result['None']
 
 

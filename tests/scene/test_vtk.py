@@ -413,6 +413,13 @@ mistakes = {
         "O.engines = [MpmVtkRecorder(fileName='x-')]; O.step()": (ValueError, 'follows one MpmImplicitEngine, and O.engines holds none'),
         "O.engines += [MpmImplicitEngine(grid=solver.grid, label='second')]; record(fileName='x-')":
                 (ValueError, 'O.engines holds 2. Label them, and give the label of one as solver'),
+        r"MpmVtkRecorder(fileName='x-\nline-')": (ValueError, r"MpmVtkRecorder.fileName = 'x-\nline-' is not admitted: expected the start of the files' names, as in 'out/slope-', without line breaks"),
+        r"MpmVtkRecorder(fileName='x-\x7f')": (ValueError, 'other control characters'),
+        "O.engines += [MpmVtkRecorder(fileName='./x-', recorders=['grid', 'points'])]; record(fileName='x-')":
+                (ValueError, "MpmVtkRecorder.fileName = 'x-': another MpmVtkRecorder among O.engines writes the same files, "),
+        "os.symlink('.', 'same'); O.engines += [MpmVtkRecorder(fileName='same/x-', recorders=['all'])]; record(fileName='x-', recorders=['ghostFaces'])":
+                (ValueError, 'x-ghostFaces.*, so that one would replace the other'),
+        "O.engines += [MpmVtkRecorder(fileName='x-'), MpmVtkRecorder(fileName='x-', iterPeriod=2)]; O.step()": (ValueError, 'Give each a fileName of its own'),
         "O.bodies[3].state.pos = (nan, 0, 0); record(fileName='x-')": (ValueError, 'Body #3: MpmState.pos'),
 }
 
@@ -420,7 +427,7 @@ mistakes = {
 def test_mistakes(yade):
 	run = yade(
 	        f'''
-import json
+import json, os
 from math import nan
 from scenes import *
 messages = []
@@ -441,6 +448,17 @@ print(json.dumps(messages))
 	for (mistake, (kind, text)), message in zip(mistakes.items(), run.result, strict=True):
 		assert message.startswith(kind.__name__) and text in message, (mistake, message)
 	assert not list(yade.folder.glob('x-*'))
+
+
+def test_recorders_may_share_a_name_if_their_files_differ(yade):
+	"""By kind, or because only one of them is alive."""
+	yade('''
+from scenes import *
+column(4)
+O.engines += [MpmVtkRecorder(fileName='x-', recorders=['points']), MpmVtkRecorder(fileName='x-', recorders=['grid']), MpmVtkRecorder(fileName='x-', dead=True)]
+O.run(2, wait=True)
+''')
+	assert iterations(yade.folder / 'x-points.pvd') == iterations(yade.folder / 'x-grid.pvd') == [0, 1, 2]
 
 
 def test_a_solver_is_chosen_by_its_label(yade):

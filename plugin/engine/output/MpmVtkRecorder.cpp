@@ -8,6 +8,7 @@
 #include "yade_api/logging.hpp"
 #include <algorithm>
 #include <cstdlib>
+#include <filesystem>
 #include <vtkCellData.h>
 #include <vtkUnstructuredGrid.h>
 
@@ -32,7 +33,7 @@ namespace {
 		const auto      points = materialPoints(scene, solver.mask);
 		for (const MaterialPoint& point : points)
 			point.requireAdmissible(solver.grid->dim);
-		const auto domains = pointDomains(points, *solver.grid, solver.basis == "gimp");
+		const auto domains = pointDomains(points, scene, *solver.grid, solver.basis == "gimp");
 		if (!contains(fields, "all"))
 			for (const string& name : pointFields)
 				if (!contains(fields, name)) domains->GetCellData()->RemoveArray(name.c_str());
@@ -75,6 +76,11 @@ MpmVtkRecorder::MpmVtkRecorder()
 {
 	iterPeriod = 1;
 	initRun    = true;
+}
+
+bool MpmVtkRecorder::isFileName(const string& text)
+{
+	return !text.empty() && std::none_of(text.begin(), text.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; });
 }
 
 bool MpmVtkRecorder::areKinds(const vector<string>& names)
@@ -200,9 +206,38 @@ void MpmVtkRecorder::record(const MpmImplicitEngine& engine)
 	(void)isRegistered;
 }
 
+// Start of the names of all files of each kind, whichever way the path is written.
+vector<string> MpmVtkRecorder::seriesWritten() const
+{
+	vector<string> series;
+	for (const string& kind : kinds) {
+		if (!contains(recorders, kind) && !contains(recorders, "all")) continue;
+		const auto      path = std::filesystem::absolute(fileName + kind + ".");
+		std::error_code error; // to be told of when the file is written
+		const auto      resolved = std::filesystem::weakly_canonical(path, error);
+		series.push_back(error ? path : resolved);
+	}
+	return series;
+}
+
+void MpmVtkRecorder::requireOwnFiles() const
+{
+	const vector<string> own = seriesWritten();
+	for (const auto& engine : scene->engines) {
+		const auto* other = dynamic_cast<MpmVtkRecorder*>(engine.get());
+		if (!other || other == this || other->dead) continue;
+		for (const string& series : other->seriesWritten())
+			if (contains(own, series))
+				throw std::invalid_argument(
+				        "MpmVtkRecorder.fileName = '" + fileName + "': another MpmVtkRecorder among O.engines writes the same files, " + series
+				        + "*, so that one would replace the other's. Give each a fileName of its own.");
+	}
+}
+
 void MpmVtkRecorder::writeAll(const MpmImplicitEngine& engine)
 {
 	requireAdmissible();
+	requireOwnFiles();
 	engine.requireAdmissible();
 	engine.grid->requireAdmissible();
 	for (const string& kind : kinds)

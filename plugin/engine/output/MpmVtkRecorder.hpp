@@ -29,7 +29,10 @@ public:
 		       "O.load(), call the recorder, as in recorder(), to have the state written that has been reached. No state is written twice. The place "
 		       "among O.engines is free; behind the MpmImplicitEngine, states are written as soon as they are reached.\n\n"
 		       "Every file is complete when it gets its name. RuntimeError names a file that cannot be written and says why; ValueError if O.engines "
-		       "holds no MpmImplicitEngine, or several of which *solver* does not choose one. A loaded scene continues its series.";
+		       "holds no MpmImplicitEngine, or several of which *solver* does not choose one, or if two recorders would write the same files. A loaded "
+		       "scene continues its series.\n\n"
+		       "YADE's own VTKRecorder knows material points as spheres and not their stress or strain, and with recorders=['all'] it ends YADE by a "
+		       "segmentation fault, in scenes without material points too: use MpmVtkRecorder.";
 	}
 	template <class V> static void attributes(V&& v)
 	{
@@ -37,7 +40,7 @@ public:
 		  &MpmVtkRecorder::fileName,
 		  0,
 		  "Start of all file names, as in 'out/slope-'; without default. Missing folders are created.",
-		  admitting("the start of the files' names, as in 'out/slope-', without null characters; there is no default", isFileName));
+		  admitting("the start of the files' names, as in 'out/slope-', without line breaks and other control characters; there is no default", isFileName));
 		v("recorders",
 		  &MpmVtkRecorder::recorders,
 		  0,
@@ -69,7 +72,7 @@ public:
 	// Writes the last state of this process if no file has it.
 	void finish();
 
-	static bool isFileName(const string& text) { return !text.empty() && text.find('\0') == string::npos; }
+	static bool isFileName(const string&);
 	static bool areKinds(const vector<string>&);
 	static bool areFields(const vector<string>&);
 
@@ -80,6 +83,8 @@ private:
 	};
 
 	const MpmImplicitEngine& followed() const;
+	void                     requireOwnFiles() const;
+	vector<string>           seriesWritten() const;
 	Moment                   momentOf(const MpmImplicitEngine&) const;
 	bool                     isDue(const Moment&);
 	void                     restartPeriods(const Moment&);

@@ -91,7 +91,7 @@ namespace {
 	vtkIdType numberOf(gimpm::Key node, const vector<gimpm::Key>& nodes) { return std::lower_bound(nodes.begin(), nodes.end(), node) - nodes.begin(); }
 }
 
-VtkCells pointDomains(const vector<MaterialPoint>& points, const MpmGrid& grid, bool deform)
+VtkCells pointDomains(const vector<MaterialPoint>& points, const Scene& scene, const MpmGrid& grid, bool deform)
 {
 	const int dim = grid.dim;
 	Cells domains(boxType(dim));
@@ -113,7 +113,7 @@ VtkCells pointDomains(const vector<MaterialPoint>& points, const MpmGrid& grid, 
 	addReals(*cells, "sqrt2J2", points, sqrt2J2);
 	addReals(*cells, "plasticStrain", points, [](Point p) { return p.state->plasticStrain; });
 	addReals(*cells, "volume", points, [](Point p) { return p.state->volume; });
-	addIntegers(*cells, "material", points, [](Point p) { return p.material->id; });
+	addIntegers(*cells, "material", points, [&](Point p) { return p.materialIndex(scene); });
 	addIntegers(*cells, "clamped", points, [&](Point p) { return deform && (dim == 2 ? isClamped<2>(p, grid.cellSize) : isClamped<3>(p, grid.cellSize)); });
 	addIntegers(*cells, "id", points, [](Point p) { return p.id; });
 	return cells;

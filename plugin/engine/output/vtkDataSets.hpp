@@ -14,7 +14,7 @@ namespace yade {
 using VtkCells = vtkSmartPointer<vtkUnstructuredGrid>;
 
 // The domain of each material point, in the order given, with its fields. `deform`: the domains follow the deformation.
-VtkCells pointDomains(const vector<MaterialPoint>&, const MpmGrid&, bool deform);
+VtkCells pointDomains(const vector<MaterialPoint>&, const Scene&, const MpmGrid&, bool deform);
 
 // The background grid where it holds material, in the same configuration. `z` is the height of the plane in plane strain.
 template <int Dim> VtkCells populatedCells(const gimpm::PointCloud<Dim>&, const gimpm::Model<Dim>&, Real z);

@@ -72,6 +72,13 @@ void MaterialPoint::requireAdmissible(int dim) const
 	}
 }
 
+int MaterialPoint::materialIndex(const Scene& scene) const
+{
+	const int  id     = material->id;
+	const bool isThis = id >= 0 && size_t(id) < scene.materials.size() && scene.materials[id].get() == material.get();
+	return isThis ? id : -1;
+}
+
 void updateMaterialPoints(vector<MaterialPoint>& points, const Scene& scene, int mask)
 {
 	const BodyContainer& bodies = *scene.bodies;

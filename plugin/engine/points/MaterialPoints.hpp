@@ -16,6 +16,9 @@ struct MaterialPoint {
 
 	// std::invalid_argument unless all its values can be computed with in this dimension (2 or 3). Its material is not looked at.
 	void requireAdmissible(int dim) const;
+
+	// Index into O.materials, -1 if it is not in there. The number in the material itself may be that of another scene's list.
+	int materialIndex(const Scene&) const;
 };
 
 // Whether an engine with this mask is to look at the body, as YADE's own engines decide.

@@ -2,6 +2,7 @@
 #include "engine/points/assignment.hpp"
 #include "engine/solver/MpmImplicitEngine.hpp"
 #include "engine/points/buffers.hpp"
+#include "engine/solver/exchange.hpp"
 #include "engine/materials/laws.hpp"
 #include <Eigen/LU>
 #include <algorithm>
@@ -56,7 +57,7 @@ namespace {
 
 	// Of a material point, what a column can change.
 	struct Values {
-		Vector3r pos, pos0, force, color;
+		Vector3r pos, pos0, force, color, halfSize;
 		Matrix3r defGrad, elasticStrain, stress;
 		Real     plasticStrain, volume;
 
@@ -65,6 +66,7 @@ namespace {
 		        , pos0(p.state->refPos)
 		        , force(p.state->force)
 		        , color(p.shape->color)
+		        , halfSize(p.shape->halfSize)
 		        , defGrad(p.state->defGrad)
 		        , elasticStrain(p.state->elasticStrain)
 		        , stress(p.state->stress)
@@ -83,12 +85,20 @@ namespace {
 			p.state->plasticStrain = plasticStrain;
 			p.state->volume        = volume;
 			p.shape->color         = color;
+			p.shape->halfSize      = halfSize;
 		}
 	};
 
 	void requireSymmetric(const char* name, const Matrix3r& tensor)
 	{
 		if (!MpmState::isSymmetric(tensor)) throw std::invalid_argument(string(name) + " is not a symmetric matrix of finite numbers.");
+	}
+
+	// Volume and domain are those that the deformation gradient makes of the initial ones.
+	void followDeformation(Values& v, const MaterialPoint& point)
+	{
+		v.volume   = point.state->volume0 * v.defGrad.determinant();
+		v.halfSize = stretched(point.shape->halfSize0, v.defGrad);
 	}
 
 	// Stress and elastic strain depend on each other.
@@ -117,7 +127,7 @@ namespace {
 		columns.read("plasticStrain", row, v.plasticStrain);
 		if (!MpmState::preservesOrientation(v.defGrad)) throw std::invalid_argument("defGrad has no determinant > 0: matter cannot turn inside out.");
 		if (!(v.plasticStrain >= 0)) throw std::invalid_argument("plasticStrain = " + std::to_string(v.plasticStrain) + " is not >= 0.");
-		if (columns.has("defGrad")) v.volume = point.state->volume0 * v.defGrad.determinant();
+		if (columns.has("defGrad")) followDeformation(v, point);
 		followStress(v, columns, material);
 		return v;
 	}

@@ -2,6 +2,8 @@
 #include "engine/points/bulkAccess.hpp"
 #include "engine/points/MaterialPoints.hpp"
 #include "engine/points/buffers.hpp"
+#include "yade_api/logging.hpp"
+#include <unordered_map>
 
 namespace yade {
 
@@ -54,6 +56,19 @@ namespace {
 		using RowByRow = Eigen::Matrix<Real, 3, 3, Eigen::RowMajor>;
 		return column<Real>(points, 9, [&](const MaterialPoint& point, Real* row) { Eigen::Map<RowByRow> { row } = get(point); });
 	}
+
+	// The materials that the bodies have, whether in O.materials or not, and which of them each point has.
+	void addMaterials(py::dict& columns, const vector<MaterialPoint>& points)
+	{
+		py::list                                        list;
+		std::unordered_map<const MpmMaterial*, int64_t> numbers;
+		columns["materialNumber"] = integers(points, [&](const MaterialPoint& point) {
+			const auto [found, isNew] = numbers.try_emplace(point.material.get(), numbers.size());
+			if (isNew) list.append(point.material);
+			return found->second;
+		});
+		columns["materials"]      = list;
+	}
 }
 
 py::list newBodies(const py::object& positions, const Vector3r& halfSize, const py::list& materials, const py::object& index)
@@ -74,17 +89,20 @@ py::list newBodies(const py::object& positions, const Vector3r& halfSize, const 
 	return bodies;
 }
 
+void warn(const string& text) { log(Severity::warning, "mpm", text); }
+
 void betweenSteps(const py::object& f)
 {
 	const ValueLock lock;
 	f();
 }
 
-py::dict columnsOfPoints()
+py::dict columnsOfPoints(int mask)
 {
 	using Point = const MaterialPoint&;
 	const ValueLock lock;
-	const auto      points = materialPoints(*Singleton<Omega>::instance().getScene());
+	const Scene&    scene  = *Singleton<Omega>::instance().getScene();
+	const auto      points = materialPoints(scene, mask);
 	py::dict        columns;
 	columns["id"]            = integers(points, [](Point p) { return p.id; });
 	columns["pos"]           = vectors(points, [](Point p) { return p.state->pos; });
@@ -97,7 +115,8 @@ py::dict columnsOfPoints()
 	columns["elasticStrain"] = tensors(points, [](Point p) { return p.state->elasticStrain; });
 	columns["volume"]        = scalars(points, [](Point p) { return p.state->volume; });
 	columns["plasticStrain"] = scalars(points, [](Point p) { return p.state->plasticStrain; });
-	columns["material"]      = integers(points, [](Point p) { return p.material->id; });
+	columns["material"]      = integers(points, [&](Point p) { return p.materialIndex(scene); });
+	addMaterials(columns, points);
 	return columns;
 }
 

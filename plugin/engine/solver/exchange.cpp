@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "engine/solver/exchange.hpp"
+#include "core/materials/kinematics.hpp"
 #include "engine/materials/laws.hpp"
 #include "engine/points/parallel.hpp"
 #include <Eigen/LU>
@@ -40,11 +41,18 @@ namespace {
 				}
 	}
 
+	// By its deformation, as after mpm.assign; a domain that was too large from the beginning is none of this grid.
+	template <int Dim> bool hasOutgrown(const MaterialPoint& point, Real limit)
+	{
+		const Vector3r grown = stretched(point.shape->halfSize0, point.state->defGrad) * (1 + 1e-9);
+		return point.shape->halfSize0.head<Dim>().maxCoeff() <= limit && (point.shape->halfSize - grown).head<Dim>().maxCoeff() <= 0;
+	}
+
 	template <int Dim> void requireOnGrid(const MaterialPoint& point, const gimpm::Grid<Dim>& grid, gimpm::Basis basis)
 	{
 		const bool onGrid  = ((point.state->pos.head<Dim>() - grid.origin) / grid.cellSize).cwiseAbs().maxCoeff() < grid.indexLimit;
-		const Real largest = point.shape->halfSize.head<Dim>().maxCoeff(), limit = 0.5 * grid.cellSize;
-		const bool fits    = basis != gimpm::Basis::gimp || largest <= limit * (1 + 1e-9);
+		const Real largest = point.shape->halfSize.head<Dim>().maxCoeff(), limit = 0.5 * grid.cellSize * (1 + 1e-9);
+		const bool fits    = basis != gimpm::Basis::gimp || largest <= limit || hasOutgrown<Dim>(point, limit);
 		if (onGrid && fits) return;
 		std::ostringstream text; // costly: not before there is something to say
 		text << "Body #" << point.id << ": ";
@@ -54,6 +62,13 @@ namespace {
 			text << "MpmPoint.halfSize = " << largest << " m is more than half a cell (cellSize = " << grid.cellSize
 			     << " m); was the point made for another grid?";
 		throw std::invalid_argument(text.str());
+	}
+
+	// As at the end of a step, no domain of the basis 'gimp' reaches farther than half a cell.
+	template <int Dim> gimpm::Vec<Dim> domainIn(const gimpm::Model<Dim>& model, const MaterialPoint& point)
+	{
+		const gimpm::Vec<Dim> half = point.shape->halfSize.head<Dim>();
+		return model.basis == gimpm::Basis::gimp ? gimpm::Vec<Dim>(half.cwiseMin(0.5 * model.grid.cellSize)) : half;
 	}
 
 	gimpm::LinearMethod linearMethod(const string& name)
@@ -95,6 +110,14 @@ namespace {
 	};
 }
 
+Vector3r stretched(const Vector3r& halfSize0, const Matrix3r& defGrad)
+{
+	const Matrix3r change = defGrad - Matrix3r::Identity();
+	if (!change.col(2).isZero(0) || !change.row(2).isZero(0)) return halfSize0.cwiseProduct(gimpm::stretchAlongAxes<3>(defGrad));
+	const gimpm::Vec<2> stretch = gimpm::stretchAlongAxes<2>(defGrad.topLeftCorner<2, 2>());
+	return halfSize0.cwiseProduct(Vector3r(stretch[0], stretch[1], 1));
+}
+
 template <int Dim>
 gimpm::Model<Dim> toModel(const MpmGrid& grid, const string& basis, const vector<shared_ptr<MpmBoundary>>& boundaries, const MpmGhost& ghost, const MpmNewton& newton)
 {
@@ -129,7 +152,7 @@ template <int Dim> gimpm::PointCloud<Dim> gather(const vector<MaterialPoint>& po
 			point.requireAdmissible(Dim);
 			requireOnGrid<Dim>(point, model.grid, model.basis);
 			cloud.position[p]      = point.state->pos.template head<Dim>();
-			cloud.halfSize[p]      = point.shape->halfSize.template head<Dim>();
+			cloud.halfSize[p]      = domainIn(model, point);
 			cloud.halfSize0[p]     = point.shape->halfSize0.template head<Dim>();
 			cloud.volume0[p]       = point.state->volume0;
 			cloud.defGrad[p]       = point.state->defGrad.template topLeftCorner<Dim, Dim>();

@@ -18,6 +18,9 @@ gimpm::Model<Dim> toModel(const MpmGrid&, const string& basis, const vector<shar
 // Copies the points and adds their materials to the model. std::invalid_argument names the body that cannot be computed with.
 template <int Dim> gimpm::PointCloud<Dim> gather(const vector<MaterialPoint>&, gimpm::Model<Dim>&);
 
+// Half the size of the domain into which the deformation gradient stretches an initial one; a step limits it to half a cell.
+Vector3r stretched(const Vector3r& halfSize0, const Matrix3r& defGrad);
+
 // Writes a converged state back.
 template <int Dim> void scatter(const gimpm::PointCloud<Dim>&, const vector<MaterialPoint>&);
 

@@ -5,8 +5,8 @@ import math
 import numpy as np
 from yade import wrapper
 
-from .analysis import solverOf
-from .data import arrays
+from .analysis import noPoints, solverOf
+from .data import pointsOf
 
 # Cost of a load step in solves, elastic and elasto-plastic: small, usual, large (examples/trade). Plastic steps need 2 to 6 solves as a rule, but also
 # residuals without a solve, and cost more than the one that is measured, because points yield and the body spreads over more cells.
@@ -56,22 +56,28 @@ class _Scene:
 	def __init__(self, solver):
 		self.solver, self.work = solver, solver.workload()
 		self.dim, self.h = solver.grid.dim, solver.grid.cellSize
-		data, omega = arrays(), wrapper.Omega()
+		data, self.materials, _ = pointsOf(solver)
 		self.points = self.work['points']
-		if self.points == 0: raise ValueError('advise: the scene has no material points; add them with O.bodies.append(mpm.fill(...))')
+		if self.points == 0: raise ValueError(noPoints('advise', solver))
 		self.low, self.high = data['pos'].min(axis=0) - data['halfSize'].min(axis=0), data['pos'].max(axis=0) + data['halfSize'].min(axis=0)
 		self.pointsPerCell = (self.points / self.work['activeCells'])**(1 / self.dim)
-		self.materials = [omega.materials[int(i)] for i in np.unique(data['material']) if i >= 0]
 		self.plastic = any(isinstance(material, wrapper.MpmVonMisesMat) for material in self.materials)
 		last = max(curve[-1][0] for curve in (solver.loadCurve, solver.gravityCurve) if curve)
-		self.steps = max(0, math.ceil((last - omega.time) / omega.dt - 1e-6)) if omega.dt > 0 else 0
-		self.recorders = [engine for engine in omega.engines if isinstance(engine, wrapper.MpmVtkRecorder)]
+		self.left = max(0, last - wrapper.Omega().time)
+		self.steps = self.runsOf(solver)
+		self.recorders = [e for e in wrapper.Omega().engines if isinstance(e, wrapper.MpmVtkRecorder) and not e.dead and e.solver in ('', solver.label)]
+
+	def runsOf(self, engine):
+		"""How often a PeriodicEngine runs until the loads have come to rest; 0 if that is not known."""
+		periods = [period for period in (engine.iterPeriod * wrapper.Omega().dt, engine.virtPeriod) if period > 0]
+		runs = self.left / min(periods) if periods else 0
+		return math.ceil(runs - 1e-6) if math.isfinite(runs) else runs
 
 	def neverYield(self):
 		"""Labels of materials that the weight of all that could lie above cannot bring to yield."""
 		extent = max(self.high[:self.dim] - self.low[:self.dim])
 		stress = max(material.density for material in self.materials) * np.linalg.norm(self.solver.gravity) * extent
-		return [m.label or m.id for m in self.materials if stress > 0 and isinstance(m, wrapper.MpmVonMisesMat) and m.yieldStress > stress]
+		return [m.label or 'a material without label' for m in self.materials if stress > 0 and isinstance(m, wrapper.MpmVonMisesMat) and m.yieldStress > stress]
 
 	def contrast(self):
 		moduli = [material.young for material in self.materials]
@@ -89,6 +95,8 @@ def _notNeeded(scene):
 	solver, found = scene.solver, []
 	if scene.dim == 3 and scene.uniformAlongZ():
 		found.append('dim: both ends are held along z, where gravity has no part. If the section is the same all along, dim=2 (plane strain) will do.')
+	if solver.iterPeriod == 1 and scene.steps > 1e6:
+		found.append(f'O.dt: {scene.steps:.3g} steps are more than an analysis may have (1e6); was O.dt forgotten? It is the load time of one step.')
 	strong = scene.neverYield()
 	if strong: found.append(f'plasticity: the weight cannot bring {strong} to yield; unless other loads do, MpmElasticMat does the same.')
 	contrast = scene.contrast()
@@ -102,7 +110,7 @@ def _notNeeded(scene):
 	if solver.basis == 'mpm': found.append("basis: 'mpm' has had up to 50 times the error of 'gimp', and saves at best half of the time.")
 	if solver.newton.tolerance < 1e-6: found.append(f'tolerance: {solver.newton.tolerance:g} has given the same results as 1e-4 in all our measurements.')
 	if solver.newton.tolerance > 1e-3: found.append('tolerance: 1e-1 has changed displacements by up to 45 %, 1e-2 by 1 %, 1e-3 by 0.1 %.')
-	output = sum(_bytesOfOutput * scene.points * scene.steps / max(1, recorder.iterPeriod) for recorder in scene.recorders)
+	output = sum(_bytesOfOutput * scene.points * min(scene.steps, scene.runsOf(recorder)) for recorder in scene.recorders)
 	if output > 2**30: found.append(f'output: the recorders will write about {output / 2**30:.0f} GiB; a larger iterPeriod writes less.')
 	return found
 
@@ -111,12 +119,23 @@ def _next(scene):
 	"""Next cheaper and next more accurate setting, by what they gave in examples/trade."""
 	cheaper, better = [], []
 	if scene.pointsPerCell > 2.6: cheaper.append('pointsPerCell=2: four fifths of the time at about the same error')
-	if scene.steps > 20: cheaper.append('O.dt four times as large: less than half of the time; 10 steps instead of 40 changed displacements of the slope by less than 1 %')
+	if scene.steps > 20: cheaper.append(_fewerSteps(scene))
 	cheaper.append(f"cellSize={2 * scene.h:g}: {'a fourth to a fifth' if scene.dim == 2 else 'a tenth'} of the time, about twice the error")
 	if scene.pointsPerCell < 1.5: better.append('pointsPerCell=2: half of the error')
 	better.append(f"cellSize={scene.h / 2:g}: half of the error for {'4 to 6' if scene.dim == 2 else '10 or more'} times the time")
 	if 0 < scene.steps < 10: better.append('O.dt a fourth of this: 0.6 times the error in an elastic column, for twice the time')
 	return [f'next cheaper: {cheaper[0]}.', f'next more accurate: {better[0]}.'] + [f'also: {text}.' for text in cheaper[1:] + better[1:]]
+
+
+def _fewerSteps(scene):
+	solver = scene.solver
+	period = 'virtPeriod' if solver.virtPeriod > 0 else 'O.dt' if solver.iterPeriod == 1 else 'iterPeriod'
+	if scene.steps <= 160:
+		return (
+		        f'{period} four times as large: {math.ceil(scene.steps / 4)} steps instead of {scene.steps}, less than half of the time; a fourth of 40 steps '
+		        'changed displacements of the slope by less than 1 %'
+		)
+	return f'{period} {scene.steps / 160:.2g} times as large: 160 steps instead of {scene.steps:.7g}, as many as the most accurate runs of examples/trade took'
 
 
 def _time(seconds):

@@ -2,6 +2,8 @@
 """The analysis that a function is about."""
 from yade import wrapper
 
+from .messages import brief
+
 
 def solverOf(who, solver):
 	"""The MpmImplicitEngine given, or the only one among O.engines; TypeError or ValueError in the name of the function *who*."""
@@ -12,5 +14,12 @@ def solverOf(who, solver):
 		        f'{who}: O.engines holds {len(found) or "no"} MpmImplicitEngine' +
 		        (', so solver must say which one is meant' if found else '; put it there first, or give it as solver')
 		)
-	if not isinstance(solver, wrapper.MpmImplicitEngine): raise TypeError(f'{who}: solver = {solver!r} must be an MpmImplicitEngine')
+	if not isinstance(solver, wrapper.MpmImplicitEngine): raise TypeError(f'{who}: solver = {brief(solver)} must be an MpmImplicitEngine')
 	return solver
+
+
+def noPoints(who, solver):
+	"""What to say of an engine that has no material points."""
+	if any(isinstance(body.shape, wrapper.MpmPoint) for body in wrapper.Omega().bodies):
+		return f'{who}: none of the material points has a groupMask that goes with mask = {solver.mask} of the MpmImplicitEngine'
+	return f'{who}: the scene has no material points; add them with O.bodies.append(mpm.fill(...))'

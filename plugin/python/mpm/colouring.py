@@ -5,6 +5,7 @@ import numpy as np
 from .data import arrays
 from .fields import scalar
 from .library import engine
+from .messages import brief
 
 
 def colour(field, range=None, colormap='viridis'):
@@ -35,8 +36,8 @@ def colourMap(who, name):
 	import matplotlib
 	try:
 		return matplotlib.colormaps[name]
-	except KeyError:
-		raise ValueError(f"{who}: colormap = {name!r} is not a colour map of matplotlib, such as 'viridis' or 'RdBu_r'") from None
+	except (KeyError, TypeError):
+		raise ValueError(f"{who}: colormap = {brief(name)} is not a colour map of matplotlib, such as 'viridis' or 'RdBu_r'") from None
 
 
 def scalarOrArray(who, field, points):
@@ -44,7 +45,7 @@ def scalarOrArray(who, field, points):
 	if isinstance(field, str): return scalar(who, field, points)
 	values = np.asarray(field)
 	if values.shape != points['id'].shape or values.dtype.kind not in 'biuf':
-		raise ValueError(f'{who}: field must be a name, or an array of one number for each of {len(points["id"])} material points; given is {field!r}')
+		raise ValueError(f'{who}: field must be a name, or an array of one number for each of {len(points["id"])} material points; given is {brief(field)}')
 	if not np.isfinite(values).all(): raise ValueError(f'{who}: field[{np.flatnonzero(~np.isfinite(values))[0]}] is not finite')
 	return values.astype(float)
 
@@ -55,8 +56,8 @@ def limits(who, range, values):
 	try:
 		low, high = map(float, range)
 	except (TypeError, ValueError):
-		raise TypeError(f'{who}: range = {range!r} must be a pair of numbers, (low, high)') from None
-	if not (np.isfinite([low, high]).all() and low < high): raise ValueError(f'{who}: range = {range!r} must be finite and increasing')
+		raise TypeError(f'{who}: range = {brief(range)} must be a pair of numbers, (low, high)') from None
+	if not (np.isfinite([low, high]).all() and low < high): raise ValueError(f'{who}: range = {brief(range)} must be finite and increasing')
 	return low, high
 
 

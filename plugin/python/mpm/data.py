@@ -3,8 +3,10 @@
 import operator
 
 import numpy as np
+from yade import wrapper
 
 from .library import engine
+from .messages import brief
 
 _columns = {  # kind of a number and shape of a row
         'id': (np.int64, ()),
@@ -35,7 +37,19 @@ def arrays():
 		points gives arrays of length 0.
 	:raises ValueError: a body with an ``MpmPoint`` shape that is no complete material point.
 	"""
-	data = engine.columnsOfPoints()
+	return _asArrays(engine.columnsOfPoints(0))
+
+
+def pointsOf(solver):
+	"""The arrays of the points that an engine moves, the list of the materials that their bodies have, and the place of each point's (N,) in it.
+
+	``O.materials`` need not hold those, so ``material`` of :func:`arrays` may be no index.
+	"""
+	data = engine.columnsOfPoints(solver.mask)
+	return _asArrays(data), data['materials'], np.frombuffer(data['materialNumber'], np.int64)
+
+
+def _asArrays(data):
 	return {name: np.frombuffer(data[name], kind).reshape((-1, ) + shape) for name, (kind, shape) in _columns.items()}
 
 
@@ -45,7 +59,8 @@ _assignable = 'pos', 'pos0', 'defGrad', 'elasticStrain', 'stress', 'plasticStrai
 def assign(ids=None, **columns):
 	"""Give material points values from arrays: initial states, point loads. All values are taken, or after an error none.
 
-	Stress and elastic strain follow from each other through the law of each point's material, and the volume from ``defGrad``. ::
+	Stress and elastic strain follow from each other through the law of each point's material. From ``defGrad`` follow the volume and
+	``halfSize``: the diagonal of the stretch U = sqrt(F^T F) times ``halfSize0``, which the next step limits to half a cell, as every step does. ::
 
 		points = mpm.arrays()
 		stress = np.zeros((len(points['id']), 3, 3))
@@ -63,6 +78,9 @@ def assign(ids=None, **columns):
 	:raises ValueError: a wrong shape; a value that is not finite, or not admitted for that column (``MpmState`` says what is); a stress
 		that the material cannot carry without yielding; ids of no material points, or given twice.
 	:raises RuntimeError: a load step is at work in the background; it would overwrite the values.
+
+	A warning in YADE's log if nearly all of the stresses are tensile though an engine among O.engines has gravity: ground under its weight is in
+	compression, and stress is positive in tension.
 	"""
 	rows = _idsOfPoints() if ids is None else _ids(ids)
 	values = {name: _column(name, column, len(rows)) for name, column in columns.items()}
@@ -72,18 +90,35 @@ def assign(ids=None, **columns):
 	try:
 		engine.assignColumns(rows, values)
 	except ValueError as error:
-		raise ValueError(f'assign: {error}') from None
+		hint = '' if 'yields' not in str(error) else _signOf(values)
+		raise ValueError(f'assign: {error}{hint and " " + hint}') from None
+	if _gravityActs() and _signOf(values): engine.warn('assign: ' + _signOf(values))
+
+
+def _signOf(values):
+	"""A sentence on the sign of initial stresses, if nearly all of them are tensile; in a bent beam half of them are."""
+	mean = np.trace(values.get('stress', values.get('elasticStrain', np.zeros((0, 3, 3)))), axis1=1, axis2=2)
+	if np.count_nonzero(mean > 0) <= 0.9 * np.count_nonzero(mean): return ''
+	return 'The points are given a mean tension: stress and strain are positive in tension, so ground under its weight, in compression, has a minus.'
+
+
+def _gravityActs():
+	return any(isinstance(e, wrapper.MpmImplicitEngine) and e.gravity.norm() > 0 for e in wrapper.Omega().engines)
 
 
 def _idsOfPoints():
-	return np.frombuffer(engine.columnsOfPoints()['id'], np.int64)
+	return np.frombuffer(engine.columnsOfPoints(0)['id'], np.int64)
 
 
 def _ids(ids):
+	isMask = isinstance(ids, (list, tuple, np.ndarray)) and len(ids) > 0 and all(isinstance(i, (bool, np.bool_)) for i in ids)
 	try:
-		rows = np.array([operator.index(i) for i in ids], dtype=np.int64)
-	except TypeError:
-		raise TypeError(f'assign: ids = {ids!r} must be a sequence of body ids') from None
+		rows = np.array([operator.index(i) for i in ids], dtype=np.int64) if not isMask else None
+	except (TypeError, OverflowError):
+		rows = None
+	if rows is None:
+		hint = "; those of a mask are mpm.arrays()['id'][mask]" if isMask else ''
+		raise TypeError(f'assign: ids = {brief(ids)} must be a sequence of body ids{hint}')
 	values, counts = np.unique(rows, return_counts=True)
 	if (counts > 1).any(): raise ValueError(f'assign: ids has body #{values[counts > 1][0]} more than once')
 	return rows
@@ -95,13 +130,20 @@ def _column(name, values, rows):
 		elif name in _columns: hint = f'{name} is a result'
 		else: hint = 'there is no such column'
 		raise TypeError(f"assign: {name} cannot be assigned: {hint}; there are {', '.join(_assignable)}")
-	try:
-		array = np.ascontiguousarray(values, dtype=float)
-	except (TypeError, ValueError):
-		raise TypeError(f'assign: {name} must be an array of numbers') from None
+	array = _numbers(name, values)
 	shape = (rows, ) + _columns[name][1]
 	if array.shape != shape:
 		raise ValueError(f'assign: {name} has the shape {array.shape}; expected is {shape}, one row for each of {rows} material points')
 	finite = np.isfinite(array).reshape(rows, -1).all(axis=1)
 	if not finite.all(): raise ValueError(f'assign: {name}[{np.flatnonzero(~finite)[0]}] = {array[~finite][0].tolist()} must be finite')
 	return array
+
+
+def _numbers(name, values):
+	"""As an array of float; what NumPy would drop without a word is refused: imaginary parts, and masks of masked arrays."""
+	try:
+		array = np.asarray(values)
+		if array.dtype.kind in 'biufO' and not np.ma.is_masked(values): return np.ascontiguousarray(array, dtype=float)
+	except (TypeError, ValueError):
+		pass
+	raise TypeError(f'assign: {name} = {brief(values)} must be an array of numbers, real and none of them masked')

@@ -2,6 +2,8 @@
 """Scalar fields of the material points by name, as pictures and tables show them."""
 import numpy as np
 
+from .messages import brief
+
 _units = {
         'pos': 'm',
         'pos0': 'm',
@@ -67,8 +69,8 @@ def scalar(who, name, points):
 	base = str(name).partition('_')[0]
 	found = components(base, columns[base]) if base in columns else {}
 	if name in found: return found[name]
-	if found: raise ValueError(f"{who}: field = {name!r}: one component must be chosen, out of {', '.join(found)}")
-	raise ValueError(f"{who}: field = {name!r} is not known; there are {', '.join(columns)}, with components as in stress_xy or displacement_y")
+	if found: raise ValueError(f"{who}: field = {brief(name)}: one component must be chosen, out of {', '.join(found)}")
+	raise ValueError(f"{who}: field = {brief(name)} is not known; there are {', '.join(columns)}, with components as in stress_xy or displacement_y")
 
 
 def labelled(name, values):

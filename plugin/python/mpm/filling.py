@@ -4,11 +4,12 @@ import math
 import operator
 
 import numpy as np
-from yade import pack, wrapper
+from yade import wrapper
 from yade.minieigenHP import Vector3
 
 from .library import engine
-from .outline import polygon
+from .messages import brief
+from .regions import bounds, inside, volumeInBoxes
 
 
 def fill(predicate, grid, pointsPerCell, material):
@@ -16,6 +17,10 @@ def fill(predicate, grid, pointsPerCell, material):
 
 	Cells are counted from ``grid.origin``; the points are returned cell by cell. In two dimensions they lie in the plane
 	z = ``grid.origin[2]`` and stand for 1 m of thickness.
+
+	Each point stands for a box of ``cellSize / pointsPerCell``. Where these boxes have another volume than the region, by more than 2 %, as in layers that
+	are thin or oblique, a warning in YADE's log says so. (Of combined and round regions the volume is estimated.) Layers within the
+	region, given by *material*, are not looked at.
 
 	:param predicate: the region [m]: :class:`polygon` or any bounded predicate of ``yade.pack``, also a combination of them
 	:param grid: the ``MpmGrid`` of the analysis
@@ -29,10 +34,11 @@ def fill(predicate, grid, pointsPerCell, material):
 	:raises KeyError: a label that is not in ``O.materials``.
 	"""
 	if not isinstance(grid, wrapper.MpmGrid):
-		raise TypeError(f'fill: grid = {grid!r} must be an MpmGrid')
+		raise TypeError(f'fill: grid = {brief(grid)} must be an MpmGrid')
 	grid.updateAttrs(grid.dict())  # looks again at all values: cellSize may not have been given
 	n = _pointsPerCell(pointsPerCell)
 	positions = _latticePoints(predicate, grid, n)
+	_warnOfVolume(predicate, grid, n, len(positions))
 	labels, index = _materialOf(positions, material)
 	materials = [_material(label) for label in labels]
 	half = grid.cellSize / (2 * n)
@@ -44,11 +50,11 @@ def _pointsPerCell(value):
 	try:
 		n = operator.index(value)
 	except TypeError:
-		raise TypeError(f'fill: pointsPerCell = {value!r} must be an integer') from None
+		raise TypeError(f'fill: pointsPerCell = {brief(value)} must be an integer') from None
 	if isinstance(value, bool):
-		raise TypeError(f'fill: pointsPerCell = {value!r} must be an integer')
+		raise TypeError(f'fill: pointsPerCell = {brief(value)} must be an integer')
 	if n < 1:
-		raise ValueError(f'fill: pointsPerCell = {value!r} must be at least 1 (points per cell and axis)')
+		raise ValueError(f'fill: pointsPerCell = {brief(value)} must be at least 1 (points per cell and axis)')
 	return n
 
 
@@ -61,7 +67,7 @@ def _latticePoints(predicate, grid, n):
 	kept = []
 	for slab in slabs:
 		points = _cellPoints(cells[:-1] + [slab], grid, n)
-		kept.append(points[_inside(predicate, points)])
+		kept.append(points[inside(predicate, points)])
 	positions = np.concatenate(kept)
 	if not len(positions):
 		plane = f' in the plane z = {grid.origin[2]}' if grid.dim == 2 else ''
@@ -70,17 +76,38 @@ def _latticePoints(predicate, grid, n):
 	return positions
 
 
+def _warnOfVolume(predicate, grid, n, filled):
+	admitted = 0.02  # of the region
+	volume = volumeInBoxes(predicate, grid, n, filled, admitted)
+	if abs(volume - filled) <= admitted * volume: return
+	engine.warn(
+	        f'fill: the region has {volume / filled:.3g} times the volume for which the {filled} points in it stand. It is thin, or its edges cut through '
+	        f'the boxes of {grid.cellSize / n:g} m that belong to the points. More points per cell help, smaller cells, and edges at multiples of '
+	        'cellSize / pointsPerCell.'
+	)
+
+
+def _meant(predicate):
+	"""What could have been meant instead."""
+	if isinstance(predicate, type): return '; this is a class, of which one is made as in pack.inAlignedBox(low, high)'
+	first = predicate[0] if isinstance(predicate, (list, tuple)) and predicate else None
+	if isinstance(first, wrapper.Body) or type(predicate).__module__ == 'gts':
+		return '; for the inside of a closed surface that is pack.inGtsSurface(surface), with a gts.Surface as gts.read(open(file)) gives it'
+	if isinstance(first, (list, tuple)) or isinstance(predicate, np.ndarray): return '; for these corners that is mpm.polygon([(x, y), ...])'
+	return ', such as pack.inAlignedBox(low, high)'
+
+
 def _text(corner):
 	return f"({', '.join(f'{x:g}' for x in corner)})"
 
 
 def _cellRange(predicate, grid, n):
 	"""First cell and one past the last cell of each axis that may have points inside the predicate."""
-	if not callable(predicate) or not callable(getattr(predicate, 'aabb', None)):
-		raise TypeError(f'fill: predicate = {predicate!r} must be an mpm.polygon or a predicate of yade.pack')
-	low, high = (np.array([corner[i] for i in range(grid.dim)], dtype=float) for corner in predicate.aabb())
+	if isinstance(predicate, type) or not callable(predicate) or not callable(getattr(predicate, 'aabb', None)):
+		raise TypeError(f'fill: predicate = {brief(predicate)} must be an mpm.polygon or a predicate of yade.pack{_meant(predicate)}')
+	low, high = bounds(predicate, grid.dim)
 	if not np.isfinite([low, high]).all():
-		raise ValueError(f'fill: predicate = {predicate!r} has no bounds (its box reaches from {tuple(low)} to {tuple(high)}); '
+		raise ValueError(f'fill: predicate = {brief(predicate)} has no bounds (its box reaches from {tuple(low)} to {tuple(high)}); '
 		                 'intersect it with a bounded one, such as pack.inAlignedBox: predicate & pack.inAlignedBox(low, high)')
 	origin = np.array([grid.origin[i] for i in range(grid.dim)])
 	# one spare cell on each side: the predicate decides, not the round-off of its box
@@ -106,24 +133,6 @@ def _cellPoints(cells, grid, n):
 	return points.reshape(-1, 3)
 
 
-def _inside(predicate, points):
-	"""Mask of the points inside; combinations are taken apart, so that the polygons in them are tested in bulk."""
-	if isinstance(predicate, polygon):
-		return predicate.contains(points[:, :2])
-	for kind, combine in _combinations.items():
-		if isinstance(predicate, kind):
-			return combine(_inside(predicate.A, points), _inside(predicate.B, points))
-	return np.fromiter((predicate(Vector3(*p), 0.) for p in points.tolist()), bool, len(points))
-
-
-_combinations = {
-        pack.PredicateUnion: np.logical_or,
-        pack.PredicateIntersection: np.logical_and,
-        pack.PredicateDifference: np.greater,  # in the first and not in the second
-        pack.PredicateSymmetricDifference: np.logical_xor,
-}
-
-
 def _materialOf(positions, material):
 	"""Labels in use, and for each point the index of its label."""
 	if isinstance(material, str):
@@ -133,7 +142,7 @@ def _materialOf(positions, material):
 	if isinstance(material, (list, tuple)):
 		return _labelsFromList(positions, material)
 	hint = '; append it to O.materials and give its label' if isinstance(material, wrapper.Material) else ''
-	raise TypeError(f'fill: material = {material!r} must be a label, a list of (predicate, label), or a function of the position{hint}')
+	raise TypeError(f'fill: material = {brief(material)} must be a label, a list of (predicate, label), or a function of the position{hint}')
 
 
 def _labelsFromFunction(positions, function):
@@ -141,7 +150,7 @@ def _labelsFromFunction(positions, function):
 	for i, position in enumerate(positions.tolist()):
 		label = function(Vector3(*position))
 		if not isinstance(label, str):
-			raise TypeError(f'fill: the material function returned {label!r} at {tuple(position)}; it must return the label of a material')
+			raise TypeError(f'fill: the material function returned {brief(label)} at {tuple(position)}; it must return the label of a material')
 		index[i] = numbers.setdefault(label, len(numbers))
 	return list(numbers), index
 
@@ -152,9 +161,9 @@ def _labelsFromList(positions, pairs):
 	for i, pair in enumerate(pairs):
 		if not (isinstance(pair, (list, tuple)) and len(pair) == 2 and callable(pair[0]) and isinstance(pair[1], str)):
 			hint = '; that is a body: the label of a material is meant, not what mpm.fill has returned' if isinstance(pair, wrapper.Body) else ''
-			raise TypeError(f'fill: material[{i}] = {pair!r} must be a (predicate, label) pair{hint}')
+			raise TypeError(f'fill: material[{i}] = {brief(pair)} must be a (predicate, label) pair{hint}')
 		open_ = np.flatnonzero(index < 0)
-		index[open_[_inside(pair[0], positions[open_])]] = i
+		index[open_[inside(pair[0], positions[open_])]] = i
 		labels.append(pair[1])
 	left = np.flatnonzero(index < 0)
 	if left.size:
@@ -169,7 +178,7 @@ def _material(label):
 	except KeyError:
 		known = [m.label for m in wrapper.Omega().materials if m.label]
 		there = f'which has {known}' if known else 'which has no material with a label yet; append it there before filling'
-		raise KeyError(f'fill: material {label!r} is not in O.materials, {there}') from None
+		raise KeyError(f'fill: material {brief(label)} is not in O.materials, {there}') from None
 	if not isinstance(found, wrapper.MpmMaterial):
-		raise TypeError(f'fill: material {label!r} is a {type(found).__name__}; material points need one of the Mpm materials')
+		raise TypeError(f'fill: material {brief(label)} is a {type(found).__name__}; material points need one of the Mpm materials')
 	return found

@@ -5,12 +5,13 @@ import math
 import numpy as np
 from yade import wrapper
 
-from .analysis import solverOf
-from .data import arrays, assign
+from .analysis import noPoints, solverOf
+from .data import assign, pointsOf
+from .messages import brief
 
 
 def geostatic(K0, surface=None, solver=None):
-	"""Give all material points the stress of level ground under its own weight, in equilibrium with gravity at load factor 1.
+	"""Give the material points of an engine the stress of level ground under its own weight, in equilibrium with gravity at load factor 1.
 
 	The vertical stress is the weight of the soil above, of whatever density its horizontal layers have; the horizontal one is *K0*
 	times that, in all directions. The first step then finds nothing to move, if the sides are held in their normal direction and gravity
@@ -22,39 +23,40 @@ def geostatic(K0, surface=None, solver=None):
 	To be called when ``O.engines`` and ``O.bodies`` are complete, before the first step. Other shapes than level ground have no such stress: let
 	gravity grow first, and then the loads, by ``gravityCurve=[(0, 0), (1, 1)]`` and ``loadCurve=[(1, 0), (2, 1)]``.
 
-	:param K0: ratio of horizontal to vertical stress, a number >= 0, or a dict of one for each material label
+	:param K0: ratio of horizontal to vertical stress, a number >= 0, or a dict of one for each label of the materials that the bodies have
 	:param surface: height of the ground's surface [m]: the coordinate against gravity's direction; by default the top of the highest
 		points. Higher than that: the ground above is not modelled, its weight acts as a stress (of the density of the highest points),
 		and the scene has to provide it as a load.
-	:param solver: ``MpmImplicitEngine`` whose gravity is meant; needed if there are several
+	:param solver: ``MpmImplicitEngine`` whose gravity and points are meant (those of its ``mask``); needed if there are several
 	:raises TypeError: *K0* or *surface* is no number.
 	:raises ValueError: a value that is not admitted; gravity that is zero or not along an axis; a load factor other than 1 at O.time;
 		points that have been deformed; ground that is not level, with layers of one density and one extent; or a stress that a
 		material cannot carry without yielding.
 	"""
 	solver = solverOf('geostatic', solver)
-	points = arrays()
-	if not len(points['id']): raise ValueError('geostatic: the scene has no material points; add them with O.bodies.append(mpm.fill(...))')
+	points, materials, number = pointsOf(solver)
+	if not len(points['id']): raise ValueError(noPoints('geostatic', solver))
 	axis, up = _upwards(solver)
 	_requireFullGravity(solver)
 	if np.abs(points['pos'] - points['pos0']).max() > 0 or np.abs(points['defGrad'] - np.eye(3)).max() > 0:
 		raise ValueError('geostatic: the points have been deformed; an initial stress can be given only before the first step')
 	height = up * points['pos'][:, axis]
 	half = points['halfSize'][:, axis]
-	density = _densities(points['material'])
+	density = np.array([material.density for material in materials])[number]
 	top = height.max() + half[np.argmax(height)]
 	if surface is None: surface = top
-	elif not _isNumber(surface): raise TypeError(f'geostatic: surface = {surface!r} must be a height [m]')
+	elif not _isNumber(surface): raise TypeError(f'geostatic: surface = {brief(surface)} must be a height [m]')
 	elif not (math.isfinite(surface) and surface >= top - 1e-9 * abs(top)):
 		raise ValueError(f'geostatic: surface = {surface} is below the top of the highest points, at {top} m; at what height does the ground end?')
 	pressure = _weightAbove(points, axis, height, half, density, surface - top) * np.linalg.norm(solver.gravity)
+	horizontal = pressure * np.array([_ratio(K0, material) for material in materials])[number]
 	stress = np.zeros((len(height), 3, 3))
 	for i in range(3):
-		stress[:, i, i] = -pressure * (1 if i == axis else _ratios(K0, points['material']))
+		stress[:, i, i] = -(pressure if i == axis else horizontal)
 	try:
-		assign(stress=stress)
+		assign(ids=points['id'], stress=stress)
 	except ValueError as error:
-		raise ValueError(f'geostatic: with K0 = {K0!r} the ground would not be at rest. {str(error).removeprefix("assign: ")}') from None
+		raise ValueError(f'geostatic: with K0 = {brief(K0)} the ground would not be at rest. {str(error).removeprefix("assign: ")}') from None
 
 
 def _isNumber(value):
@@ -81,24 +83,14 @@ def _requireFullGravity(solver):
 		)
 
 
-def _densities(material):
-	materials = wrapper.Omega().materials
-	return np.array([m.density for m in materials])[material]
-
-
-def _ratios(K0, material):
-	"""K0 of each point."""
-	labels = [m.label for m in wrapper.Omega().materials]
-	used = np.unique(material)
-	byLabel = K0 if isinstance(K0, dict) else {labels[i]: K0 for i in used}
-	ratios = np.full(len(labels), np.nan)
-	for i in used:
-		if labels[i] not in byLabel: raise ValueError(f'geostatic: K0 = {K0!r} has no entry for material {labels[i]!r}')
-		value = byLabel[labels[i]]
-		if not _isNumber(value): raise TypeError(f'geostatic: K0 = {value!r} must be a number, the ratio of horizontal to vertical stress, or a dict of them')
-		if not (math.isfinite(value) and value >= 0): raise ValueError(f'geostatic: K0 = {value!r} must be finite and >= 0')
-		ratios[i] = value
-	return ratios[material]
+def _ratio(K0, material):
+	"""K0 of a material."""
+	if isinstance(K0, dict) and material.label not in K0:
+		raise ValueError(f'geostatic: K0 = {brief(K0)} has no entry for material {material.label!r}' + ('' if material.label else ', which needs a label'))
+	value = K0[material.label] if isinstance(K0, dict) else K0
+	if not _isNumber(value): raise TypeError(f'geostatic: K0 = {brief(value)} must be a number, the ratio of horizontal to vertical stress, or a dict of them')
+	if not (math.isfinite(value) and value >= 0): raise ValueError(f'geostatic: K0 = {brief(value)} must be finite and >= 0')
+	return value
 
 
 def _weightAbove(points, axis, height, half, density, cover):

@@ -6,6 +6,8 @@ import numpy as np
 from yade import pack
 from yade.minieigenHP import Vector3
 
+from .messages import brief
+
 
 class polygon(pack.Predicate):
 	"""Predicate of a simple polygon in the x-y plane, at any z.
@@ -41,6 +43,12 @@ class polygon(pack.Predicate):
 		"""Lower and upper corner of the bounding box; unbounded in z."""
 		return Vector3(*self.low, -math.inf), Vector3(*self.high, math.inf)
 
+	def area(self, unit=1.):
+		"""Area of the polygon, in squares of a side of *unit* [m]."""
+		vertices = (self.vertices - self.low) / unit
+		(x, y), (nextX, nextY) = vertices.T, np.roll(vertices, -1, axis=0).T
+		return float(abs((x * nextY - nextX * y).sum()) / 2)
+
 	def contains(self, points, pad=0.):
 		"""Test many points at once.
 
@@ -71,9 +79,9 @@ def _outline(vertices):
 	try:
 		points = np.array([tuple(v) for v in vertices], dtype=float)
 	except (TypeError, ValueError):
-		raise TypeError(f'polygon: vertices = {vertices!r} must be a sequence of (x, y) pairs of numbers') from None
+		raise TypeError(f'polygon: vertices = {brief(vertices)} must be a sequence of (x, y) pairs of numbers') from None
 	if len(points) < 3:
-		raise ValueError(f'polygon: vertices = {vertices!r}: at least 3 are needed to enclose an area, {len(points)} given')
+		raise ValueError(f'polygon: vertices = {brief(vertices)}: at least 3 are needed to enclose an area, {len(points)} given')
 	if points.ndim != 2 or points.shape[1] != 2:
 		raise TypeError(f'polygon: vertices[0] = {tuple(points[0])!r} must be an (x, y) pair; the profile lies in the x-y plane')
 	for i, point in enumerate(points):

@@ -10,6 +10,7 @@ from .data import arrays
 from .fields import labelled
 from .files import replacing
 from .library import engine
+from .messages import brief, pathOf
 
 _axes = 'xyz'
 _signs = np.array([(x, y, z) for z in (-1, 1) for y in (-1, 1) for x in (-1, 1)])  # of the corners of a box
@@ -21,7 +22,8 @@ _faceColour, _cellColour, _boundaryColour = '#d9480f', '#868e96', '#ffe8cc'
 def plot(field='displacement', deformed=True, grid=None, ghost=None, fileName=None, ax=None, range=None, colormap=None, plane=None, solver=None):
 	"""Draw the material points, coloured by a scalar field, and the background grid around them.
 
-	Each point is drawn as the box of matter that it stands for, deformed by its deformation gradient. In 3D the picture is a slice.
+	Each point is drawn as the box of matter that it stands for, deformed by its deformation gradient. In 3D the picture is a slice. Its title is
+	the load factor, unless the axes have a title.
 
 	:param field: ``displacement`` (its length), ``meanStress``, ``sqrt2J2``, or a column of :func:`arrays`, of which a vector or tensor
 		needs its component: ``displacement_y``, ``stress_xy``, ``plasticStrain``, ``elasticStrain_yy``, ``defGrad_xx``, ``material``, ...; or an
@@ -34,7 +36,7 @@ def plot(field='displacement', deformed=True, grid=None, ghost=None, fileName=No
 		are missing are made.
 	:param ax: matplotlib axes to draw into; by default a new figure
 	:param range: (low, high) of the colours, in the field's SI unit; by default the smallest and largest value drawn, or symmetric to zero
-		if there are values of both signs
+		if there are values of both signs. Where values are beyond, the colour bar ends in an arrow.
 	:param colormap: name of a colour map of matplotlib; by default viridis, or RdBu_r for values of both signs
 	:param plane: in 3D, axis and coordinate [m] of the slice, as in ``('z', 0.5)``; by default across z, through the point nearest to the middle
 	:param solver: ``MpmImplicitEngine`` whose grid is drawn; needed if there are several
@@ -56,8 +58,8 @@ def plot(field='displacement', deformed=True, grid=None, ghost=None, fileName=No
 	if grid: _drawGrid(ax, section, solver)
 	_drawMatter(ax, matter, values[kept], field, range, colormap)
 	if ghost: _drawFaces(ax, section, solver)
-	_finish(ax, section)
-	if fileName is not None: _write(ax.figure, os.fspath(fileName))
+	_finish(ax, section, f'load factor {solver.loadFactor:.4g}' + ('' if deformed else ', at the initial positions'))
+	if fileName is not None: _write(ax.figure, pathOf('plot', 'fileName', fileName))
 	return ax
 
 
@@ -67,7 +69,7 @@ class _Section:
 	def __init__(self, solver, points, plane):
 		self.normal, self.at = None, None
 		if solver.grid.dim == 3: self.normal, self.at = _slicePlane(plane, points)
-		elif plane is not None: raise ValueError(f'plot: plane = {plane!r}: with dim=2 (plane strain) the picture is in the plane x-y')
+		elif plane is not None: raise ValueError(f'plot: plane = {brief(plane)}: with dim=2 (plane strain) the picture is in the plane x-y')
 		self.shown = [i for i in (0, 1, 2) if i != (2 if self.normal is None else self.normal)]
 
 	def boxes(self, low, high):
@@ -99,9 +101,9 @@ def _slicePlane(plane, points):
 	try:
 		axis, at = _axes.index(plane[0]), float(plane[1])
 	except (TypeError, ValueError, IndexError):
-		raise TypeError(f"plot: plane = {plane!r} must be a pair of an axis and a coordinate, as in ('z', 0.5)") from None
+		raise TypeError(f"plot: plane = {brief(plane)} must be a pair of an axis and a coordinate, as in ('z', 0.5)") from None
 	if not low[axis] <= at < high[axis]:
-		raise ValueError(f'plot: plane = {plane!r} is beside the body, which reaches from {_axes[axis]} = {low[axis]} to {high[axis]} m')
+		raise ValueError(f'plot: plane = {brief(plane)} is beside the body, which reaches from {_axes[axis]} = {low[axis]} to {high[axis]} m')
 	return axis, at + 1e-6 * points['halfSize'][:, axis].min()  # not where boxes meet, but for round-off
 
 
@@ -170,22 +172,24 @@ def _drawMatter(ax, matter, values, field, range, colormap):
 	)
 	ax.add_collection(drawn)
 	ax.update_datalim(np.concatenate(matter))
-	ax.figure.colorbar(drawn, cax=ax.inset_axes([1.02, 0, 0.025, 1]), label=label)
+	beyond = values.min() < bounds[0], values.max() > bounds[1]
+	extend = {(False, False): 'neither', (True, False): 'min', (False, True): 'max', (True, True): 'both'}[beyond]
+	ax.figure.colorbar(drawn, cax=ax.inset_axes([1.02, 0, 0.025, 1]), label=label, extend=extend)
 
 
-def _finish(ax, section):
+def _finish(ax, section, title):
 	ax.margins(0.02)
 	ax.autoscale_view()
 	place = '' if section.normal is None else f'  (at {_axes[section.normal]} = {section.at:.4g} m)'
 	ax.set(aspect='equal', xlabel=f'{_axes[section.shown[0]]} [m]{place}', ylabel=f'{_axes[section.shown[1]]} [m]')
 	handles, names = ax.get_legend_handles_labels()
 	if handles: ax.legend(handles, names, loc='lower right', bbox_to_anchor=(1, 1), ncols=2, frameon=False, fontsize='small', borderaxespad=0.2)
+	if not ax.get_title(): ax.set_title(title, fontsize='medium', pad=22 if handles else None)  # above the legend
 
 
 def _write(figure, fileName):
 	ending = os.path.splitext(fileName)[1][1:]
 	known = figure.canvas.get_supported_filetypes()
 	if ending not in known: raise ValueError(f"plot: fileName = {fileName!r} must end in one of {', '.join('.' + kind for kind in known)}")
-	os.makedirs(os.path.dirname(os.path.abspath(fileName)), exist_ok=True)
 	with replacing(fileName) as temporary:
 		figure.savefig(temporary, dpi=200, bbox_inches='tight', format=ending)

@@ -8,6 +8,7 @@ from yade import wrapper
 from .data import arrays
 from .fields import components, withDerived
 from .files import replacing
+from .messages import pathOf
 
 
 def export(fileName):
@@ -21,11 +22,10 @@ def export(fileName):
 	:raises ValueError: another ending, or a body that is no complete material point.
 	:raises OSError: the file cannot be written.
 	"""
-	fileName = os.fspath(fileName)
+	fileName = pathOf('export', 'fileName', fileName)
 	ending = os.path.splitext(fileName)[1]
 	if ending not in ('.csv', '.npz'): raise ValueError(f'export: fileName = {fileName!r} must end in .csv or .npz, which chooses the format')
 	columns = withDerived(arrays())
-	os.makedirs(os.path.dirname(os.path.abspath(fileName)), exist_ok=True)
 	with replacing(fileName) as temporary, open(temporary, 'wb') as file:
 		if ending == '.npz':
 			scene = wrapper.Omega()

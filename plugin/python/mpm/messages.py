@@ -1,0 +1,18 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""What the functions say about the values that they were given."""
+import os
+
+
+def brief(value):
+	"""repr(value), on one line and shortened to what fits into a message, as the attributes of the classes are."""
+	longest = 160
+	text = ' '.join(repr(value).split())
+	return text if len(text) <= longest else text[:longest] + '...'
+
+
+def pathOf(who, name, value):
+	"""The path as a string; TypeError that names the function and the argument."""
+	try:
+		return os.fsdecode(value)
+	except TypeError:
+		raise TypeError(f'{who}: {name} = {brief(value)} must be a path, as in {name}="out/slope"') from None
