@@ -28,7 +28,8 @@ public:
 		  &MpmState::stress,
 		  readonly,
 		  "Cauchy stress [Pa], symmetric, positive in tension: a result. To start from a stress: mpm.assign(stress=...), mpm.geostatic(K0=...), or "
-		  "the elastic strain that causes it.");
+		  "the elastic strain that causes it.",
+		  symmetric);
 		v("defGrad",
 		  &MpmState::defGrad,
 		  0,

@@ -91,13 +91,24 @@ namespace {
 		if (!MpmState::isSymmetric(tensor)) throw std::invalid_argument(string(name) + " is not a symmetric matrix of finite numbers.");
 	}
 
+	// A stress that cannot be carried is often one with the wrong sign.
+	Matrix3r elasticStrainUnder(const Matrix3r& stress, Real J, const gimpm::Material& material, Real plasticStrain)
+	{
+		try {
+			return elasticStrainOf(material, J * stress, plasticStrain);
+		} catch (const std::invalid_argument& error) {
+			if (!(stress.trace() > 0)) throw;
+			throw std::invalid_argument(error.what() + string(" The stress is tension: stress is positive in tension, that of ground has a minus."));
+		}
+	}
+
 	// Stress and elastic strain depend on each other.
 	void followStress(Values& v, const Columns& columns, const gimpm::Material& material)
 	{
 		const Real J = v.defGrad.determinant();
 		if (columns.has("stress")) {
 			requireSymmetric("stress", v.stress);
-			v.elasticStrain = elasticStrainOf(material, J * v.stress, v.plasticStrain);
+			v.elasticStrain = elasticStrainUnder(v.stress, J, material, v.plasticStrain);
 		} else if (columns.has("elasticStrain") || columns.has("defGrad") || columns.has("plasticStrain")) {
 			requireSymmetric("elasticStrain", v.elasticStrain);
 			v.stress = kirchhoffStressOf(material, v.elasticStrain, v.plasticStrain) / J;

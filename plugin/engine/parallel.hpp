@@ -3,9 +3,23 @@
 // Work on many bodies, shared among the threads that YADE was given (yade -j).
 #include <exception>
 #include <omp.h>
+#include <stdexcept>
+#include <unistd.h>
 #include <vector>
 
 namespace yade {
+
+// To be asked before several threads work. GNU OpenMP keeps them for the next time; a process that was forked from this one would wait for
+// ever for those, which it does not have.
+inline void requireThreadsOfThisProcess(int threads)
+{
+	if (threads == 1) return;
+	static const pid_t starter = getpid();
+	if (getpid() == starter) return;
+	throw std::runtime_error(
+	        "This process was forked (os.fork, multiprocessing) from one that has computed with several threads, and does not have those. Fork before the first step, "
+	        "start YADE with -j1, or set ompThreads = 1 of the engine.");
+}
 
 // Calls f(begin, end) for ranges that make up [0, n), a thread each. Of what they throw, that of the first range is thrown.
 template <class F> void inRanges(size_t n, F f)
