@@ -159,11 +159,11 @@ bool MpmImplicitEngine::isEndOfLoads() const
 	return loadTime < reached && scene->time + scene->dt >= reached;
 }
 
-shared_ptr<Scene> MpmImplicitEngine::ownScene() const
+shared_ptr<Scene> MpmImplicitEngine::ownScene()
 {
 	const auto& current = Singleton<Omega>::instance().getScene();
 	const auto  holds   = [this](const Scene& s) { return std::any_of(s.engines.begin(), s.engines.end(), [this](const auto& e) { return e.get() == this; }); };
-	if (holds(*current)) return current;
+	if (holds(*current)) home = current;
 	const auto other = boost::dynamic_pointer_cast<Scene>(home.lock());
 	return other && holds(*other) ? other : current;
 }
@@ -311,7 +311,7 @@ template <int Dim> void MpmImplicitEngine::step()
 	tellObservers([this](LoadStepObserver& observer) { observer.stepBegins(*this); });
 	advance(cloud, model, target);
 	const ValueLock lock;
-	for (const string& doubt : plausibility.warningsOfResult(*this, points))
+	for (const string& doubt : plausibility.warningsOfResult(*this, points, cloud))
 		warn(doubt);
 }
 

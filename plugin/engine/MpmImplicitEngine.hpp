@@ -214,9 +214,9 @@ public:
 	// When the last of the loads has come to rest, at the last knee of the curves.
 	Real loadsEnd() const;
 
-	// The scene that holds this engine in O.engines: the current one, or the one where it was made or ran last (O.switchScene()). For an
+	// The scene that holds this engine in O.engines: the current one, or the one where it was made or seen last (O.switchScene()). For an
 	// engine that neither holds, the current one.
-	shared_ptr<Scene> ownScene() const;
+	shared_ptr<Scene> ownScene();
 
 private:
 	// Counters of PeriodicEngine, which move on before action() is called: after a failed step the same iteration must run again.
@@ -255,7 +255,7 @@ private:
 	ProgressLine        progressLine;
 	Plausibility        plausibility;
 	bool                warnedOfEnd = false; // of the load curve
-	boost::weak_ptr<Factorable> home;        // the scene where it was made or ran last
+	boost::weak_ptr<Factorable> home;        // the scene where it was made or seen last
 	gimpm::LinearSolver solver; // keeps the symbolic analysis; results do not depend on it
 
 	// for report(): the last load step that was tried, and the times of the last run by phase [s]

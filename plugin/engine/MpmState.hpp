@@ -28,8 +28,7 @@ public:
 		  &MpmState::stress,
 		  readonly,
 		  "Cauchy stress [Pa], symmetric, positive in tension: a result. To start from a stress: mpm.assign(stress=...), mpm.geostatic(K0=...), or "
-		  "the elastic strain that causes it.",
-		  symmetric);
+		  "the elastic strain that causes it.");
 		v("defGrad",
 		  &MpmState::defGrad,
 		  0,

@@ -9,16 +9,17 @@
 
 namespace yade {
 
-// To be asked before several threads work. GNU OpenMP keeps them for the next time; a process that was forked from this one would wait for
-// ever for those, which it does not have.
+// That opened this library.
+inline const pid_t firstProcess = getpid();
+
+// To be asked before several threads work. GNU OpenMP keeps them for the next time, and YADE has had some even before the first step; a
+// process that is forked then waits for ever for those, which it does not have.
 inline void requireThreadsOfThisProcess(int threads)
 {
-	if (threads == 1) return;
-	static const pid_t starter = getpid();
-	if (getpid() == starter) return;
+	if (threads == 1 || getpid() == firstProcess) return;
 	throw std::runtime_error(
-	        "This process was forked (os.fork, multiprocessing) from one that has computed with several threads, and does not have those. Fork before the first step, "
-	        "start YADE with -j1, or set ompThreads = 1 of the engine.");
+	        "This process was forked (os.fork, multiprocessing) from a YADE with several threads, which it does not have. Start YADE with -j1, or set ompThreads = 1 of "
+	        "the engine.");
 }
 
 // Calls f(begin, end) for ranges that make up [0, n), a thread each. Of what they throw, that of the first range is thrown.

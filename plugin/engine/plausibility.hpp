@@ -29,7 +29,7 @@ public:
 
 	// What can be meant, but seldom is: sentences for YADE's log. Each is said once as long as what it says stays so.
 	template <int Dim> vector<string> warnings(const MpmImplicitEngine&, const vector<MaterialPoint>&, const gimpm::PointCloud<Dim>&, const gimpm::Model<Dim>&);
-	vector<string>                    warningsOfResult(const MpmImplicitEngine&, const vector<MaterialPoint>&);
+	template <int Dim> vector<string> warningsOfResult(const MpmImplicitEngine&, const vector<MaterialPoint>&, const gimpm::PointCloud<Dim>&);
 
 private:
 	enum class Doubt { gravityUpwards, largeCells, units, tension, overlap, settlement };
@@ -44,6 +44,7 @@ private:
 	Real     smallest = 0, largest = 0; // initial sizes [m]
 	Matrix3r initialStress = Matrix3r::Zero(); // mean [Pa]
 	string   overlap; // the doubt about it
+	std::pair<Vector3r, Vector3r> box { Vector3r::Zero(), Vector3r::Zero() }; // that all were in at first: its corners [m]
 };
 
 // Of boundaries that do not reach any of the points, a sentence for each; empty if there is none.

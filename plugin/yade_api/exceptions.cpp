@@ -35,6 +35,7 @@ static struct {
 static int raiseKept(void*)
 {
 	const std::lock_guard<std::mutex> lock(kept.guard);
+	PyThreadState_SetAsyncExc(PyThreadState_Get()->thread_id, nullptr);
 	PyErr_SetString(kept.type, kept.text.c_str());
 	kept.type = nullptr;
 	return -1;
@@ -54,6 +55,9 @@ void raiseLater(const std::exception& error)
 		kept.type = dynamic_cast<const std::invalid_argument*>(&error) ? PyExc_ValueError : PyExc_RuntimeError;
 		kept.text = error.what();
 		Py_AddPendingCall(&raiseKept, nullptr);
+		// Asked from this thread, Python might make that call many statements later. Another exception makes it look at once; the call takes it
+		// back. Python's lock is with the thread of O.step(), which waits for the end of the region.
+		PyThreadState_SetAsyncExc(PyThreadState_Get()->thread_id, PyExc_RuntimeError);
 	}
 }
 
