@@ -25,4 +25,40 @@ void announceError()
 	withPython(runner->looping, [] { Py_AddPendingCall(&raiseIfUnseen, nullptr); }); // the call is for O.run(n)
 }
 
+// The first error of O.step(), which has returned when Python runs this.
+static struct {
+	std::mutex guard; // of the threads of the region
+	PyObject*  type = nullptr;
+	string     text;
+} kept;
+
+static int raiseKept(void*)
+{
+	const std::lock_guard<std::mutex> lock(kept.guard);
+	PyThreadState_SetAsyncExc(PyThreadState_Get()->thread_id, nullptr);
+	PyErr_SetString(kept.type, kept.text.c_str());
+	kept.type = nullptr;
+	return -1;
+}
+
+void raiseLater(const std::exception& error)
+{
+	const std::lock_guard<std::mutex> lock(kept.guard);
+	ThreadRunner* const               runner = Singleton<Omega>::instance().simulationLoop.get();
+	if (kept.type || (runner && runner->workerThrew)) return; // one is enough
+	if (runner && runner->looping) {
+		announceError();
+		runner->workerException = std::runtime_error(error.what());
+		runner->workerThrew     = true;
+		runner->looping         = false;
+	} else {
+		kept.type = dynamic_cast<const std::invalid_argument*>(&error) ? PyExc_ValueError : PyExc_RuntimeError;
+		kept.text = error.what();
+		Py_AddPendingCall(&raiseKept, nullptr);
+		// Asked from this thread, Python might make that call many statements later. Another exception makes it look at once; the call takes it
+		// back. Python's lock is with the thread of O.step(), which waits for the end of the region.
+		PyThreadState_SetAsyncExc(PyThreadState_Get()->thread_id, PyExc_RuntimeError);
+	}
+}
+
 } // namespace yade

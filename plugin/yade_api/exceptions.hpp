@@ -4,6 +4,7 @@
 //
 // YADE keeps an exception of that thread for O.wait() to raise. But O.run(n, wait=True) returns silently if the thread has already
 // ended when it begins to wait, and O.run(n) only writes a line to the log.
+#include <omp.h>
 #include <stdexcept>
 
 namespace yade {
@@ -16,14 +17,18 @@ struct Interrupted : std::runtime_error {
 // Sees to it that the script gets the exception that is about to end YADE's background thread. Does nothing outside that thread.
 void announceError();
 
-// The body of an engine's action(): errors leave it as usual, and reach the script.
+// In an OpenMP region, which no exception may leave: ends the run, and has the script raise it as soon as Python executes again.
+void raiseLater(const std::exception&);
+
+// The body of an engine's action(): errors leave it as usual, and reach the script. YADE's ParallelEngine calls it in an OpenMP region.
 template <class Step> void deliveringErrors(Step&& step)
 {
 	try {
 		step();
 	} catch (const Interrupted&) {
 		throw;
-	} catch (const std::exception&) {
+	} catch (const std::exception& error) {
+		if (omp_get_level() > 0) return raiseLater(error);
 		announceError();
 		throw;
 	}

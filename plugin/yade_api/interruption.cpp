@@ -3,6 +3,7 @@
 #include "yade_api/exceptions.hpp"
 #include "yade_api/python_lock.hpp"
 #include <boost/python/exception_translator.hpp>
+#include <boost/thread/exceptions.hpp>
 #include <csignal>
 #include <thread>
 
@@ -85,18 +86,19 @@ bool Interruption::isRequested()
 	return true;
 }
 
-bool Interruption::pressedWhileYadeWaits() const
+bool Interruption::pressedWhileYadeWaits()
 {
 	const int now = presses;
 	if (now == seen) return false;
 	seen = now;
-	hasEndedRun = isForTheRun(runner->looping);
-	return hasEndedRun;
+	byKey = hasEndedRun = isForTheRun(runner->looping);
+	return byKey;
 }
 
 void Interruption::raise(const string& message) const
 {
-	if (!type) throw Interrupted(message);
+	if (byKey) throw Interrupted(message);
+	if (!type) throw boost::thread_interrupted(); // YADE would log a std::exception as fatal; this one the thread itself catches
 	PyErr_Restore(type, value, traceback);
 	py::throw_error_already_set();
 	std::abort(); // not reached

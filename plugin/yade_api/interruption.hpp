@@ -18,17 +18,19 @@ public:
 	// To be asked now and then. Python's own handlers of signals run in here; what they raise is kept for raise().
 	bool isRequested();
 
-	// Ends the step: with what Python's handler has raised, or with std::runtime_error.
+	// Ends the step: with what Python's handler has raised; after Ctrl-C in the background with Interrupted; otherwise whoever asked for it
+	// is waiting for just that, and the thread ends without a word.
 	[[noreturn]] void raise(const string& message) const;
 
 	// When Python is there: lets O.wait() raise KeyboardInterrupt after Ctrl-C.
 	static void prepare();
 
 private:
-	bool pressedWhileYadeWaits() const;
+	bool pressedWhileYadeWaits();
 
 	const bool          inBackground;
 	const ThreadRunner* runner; // outlives the step of its thread
+	bool                byKey = false;
 	PyObject *          type = nullptr, *value = nullptr, *traceback = nullptr; // what Python's handler has raised
 };
 

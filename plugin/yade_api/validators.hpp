@@ -45,6 +45,11 @@ struct NonNegative {
 	static string description() { return "a finite number >= 0"; }
 };
 
+struct Part {
+	bool          operator()(Real value) const { return value > 0 && value <= 1; }
+	static string description() { return "a number > 0 and <= 1"; }
+};
+
 struct NotNull { // None in Python
 	template <class T> bool operator()(const shared_ptr<T>& value) const { return bool(value); }
 	static string           description() { return "an object, not None"; }
@@ -54,6 +59,7 @@ inline constexpr Finite      finite {};
 inline constexpr NotNaN      notNaN {};
 inline constexpr Positive    positive {};
 inline constexpr NonNegative nonNegative {};
+inline constexpr Part        part {};
 inline constexpr NotNull     notNull {};
 
 struct AtLeast {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "engine/output/gridCells.hpp"
 #include "engine/solver/exchange.hpp"
+#include "engine/points/parallel.hpp"
 #include <vtkCellData.h>
 #include <vtkDataArray.h>
 #include <vtkIdList.h>
@@ -33,7 +34,8 @@ VtkCells gridCells(const string& kind, const Scene& scene, const MpmImplicitEngi
 py::dict gridCellsForPython(const string& kind, const shared_ptr<MpmImplicitEngine>& solver)
 {
 	solver->requireAdmissible();
-	const VtkCells    grid = gridCells(kind, *Singleton<Omega>::instance().getScene(), *solver);
+	requireThreadsOfThisProcess(omp_get_max_threads());
+	const VtkCells    grid = gridCells(kind, *solver->ownScene(), *solver);
 	vtkDataArray&     values = *grid->GetCellData()->GetArray(0);
 	vector<Real>      corners, field;
 	vtkNew<vtkIdList> nodes;

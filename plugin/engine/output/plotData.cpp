@@ -40,7 +40,7 @@ py::dict MpmImplicitEngine::plotData()
 {
 	const ValueLock lock;
 	requireAdmissible();
-	const auto     points = materialPoints(*Singleton<Omega>::instance().getScene(), mask);
+	const auto     points = materialPoints(*ownScene(), mask);
 	const Totals   t      = totals(points, gravity);
 	const bool     isKnown = reactions.size() == boundaries.size();
 	const Vector3r total   = std::accumulate(reactions.begin(), reactions.end(), Vector3r(Vector3r::Zero()));

@@ -17,8 +17,11 @@ namespace {
 
 	template <class T> string classOf(const shared_ptr<T>& part) { return part ? part->getClassName() : "none"; }
 
+	// The integrator moves the members of a clump with it, whatever their own state says.
+	bool isInClump(const Body& body) { return body.clumpId >= 0; }
+
 	// By YADE's collider and integrator.
-	bool isLeftAlone(const Body& body, const MpmState& state) { return !body.isBounded() && state.blockedDOFs == State::DOF_ALL; }
+	bool isLeftAlone(const Body& body, const MpmState& state) { return !body.isBounded() && state.blockedDOFs == State::DOF_ALL && !isInClump(body); }
 
 	bool isStillOf(const MaterialPoint& point, const Body& body)
 	{
@@ -33,6 +36,10 @@ namespace {
 			refuse(body.id, "an MpmPoint shape needs a material for material points, such as MpmElasticMat; there is " + classOf(body.material) + ".");
 		auto state = castTo<MpmState>(body.state);
 		if (!state) refuse(body.id, "an MpmPoint shape needs an MpmState, as from material.newAssocState(); there is " + classOf(body.state) + ".");
+		if (isInClump(body))
+			refuse(body.id,
+			       "a material point cannot be part of a clump (here of body #" + std::to_string(body.clumpId)
+			               + "): YADE would move it as a rigid body. Release it with O.bodies.releaseFromClump().");
 		if (!isLeftAlone(body, *state))
 			refuse(body.id, "YADE's collider and integrator must leave material points alone: set bounded = False and state.blockedDOFs = 'xyzXYZ'.");
 		return { body.id, std::move(shape), std::move(state), std::move(material) };

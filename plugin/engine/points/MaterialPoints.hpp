@@ -21,11 +21,11 @@ struct MaterialPoint {
 	int materialIndex(const Scene&) const;
 };
 
-// Whether an engine with this mask is to look at the body, as YADE's own engines decide.
-inline bool isMeant(const Body& body, int mask) { return mask == 0 || (body.groupMask & mask) != 0; }
+// Whether an engine with this mask is to look at the body: 0 and -1 mean all, also a body whose groupMask has no bits.
+inline bool isMeant(const Body& body, int mask) { return mask == 0 || mask == -1 || (body.groupMask & mask) != 0; }
 
 // All bodies with an MpmPoint shape that the mask means, in order of body id. std::invalid_argument if one of them is incomplete, is
-// left to YADE's collider or integrator, or if another body has a material that is for material points only.
+// left to YADE's collider or integrator, alone or in a clump, or if another body has a material that is for material points only.
 vector<MaterialPoint> materialPoints(const Scene&, int mask = 0);
 
 // The same, from those of before, which are kept as far as they are still there: that takes half the time.

@@ -3,9 +3,24 @@
 // Work on many bodies, shared among the threads that YADE was given (yade -j).
 #include <exception>
 #include <omp.h>
+#include <stdexcept>
+#include <unistd.h>
 #include <vector>
 
 namespace yade {
+
+// That opened this library.
+inline const pid_t firstProcess = getpid();
+
+// To be asked before several threads work. GNU OpenMP keeps them for the next time, and YADE has had some even before the first step; a
+// process that is forked then waits for ever for those, which it does not have.
+inline void requireThreadsOfThisProcess(int threads)
+{
+	if (threads == 1 || getpid() == firstProcess) return;
+	throw std::runtime_error(
+	        "This process was forked (os.fork, multiprocessing) from a YADE with several threads, which it does not have. Start YADE with -j1, or set ompThreads = 1 of "
+	        "the engine.");
+}
 
 // Calls f(begin, end) for ranges that make up [0, n), a thread each. Of what they throw, that of the first range is thrown.
 template <class F> void inRanges(size_t n, F f)

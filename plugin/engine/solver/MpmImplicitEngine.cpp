@@ -6,7 +6,7 @@
 #include "core/stepping/workload.hpp"
 #include "engine/solver/LoadStepObserver.hpp"
 #include "engine/solver/exchange.hpp"
-#include "engine/solver/plausibility.hpp"
+#include "engine/points/parallel.hpp"
 #include "yade_api/exceptions.hpp"
 #include "yade_api/interruption.hpp"
 #include "yade_api/logging.hpp"
@@ -23,6 +23,7 @@ namespace {
 		explicit Threads(int wanted)
 		        : before(omp_get_max_threads())
 		{
+			requireThreadsOfThisProcess(wanted > 0 ? wanted : before);
 			if (wanted > 0) omp_set_num_threads(wanted);
 		}
 		~Threads() { omp_set_num_threads(before); }
@@ -133,6 +134,7 @@ MpmImplicitEngine::MpmImplicitEngine()
 	iterPeriod   = 1;
 	initRun      = true;
 	timingDeltas = boost::make_shared<TimingDeltas>();
+	if (scene) home = scene->weak_from_this(); // the current one
 }
 
 bool MpmImplicitEngine::isLoadCurve(const vector<std::pair<Real, Real>>& curve)
@@ -142,17 +144,48 @@ bool MpmImplicitEngine::isLoadCurve(const vector<std::pair<Real, Real>>& curve)
 	return !curve.empty();
 }
 
+bool MpmImplicitEngine::isIncrement(const vector<Real>& numbers)
+{
+	for (size_t i = 0; i < numbers.size(); ++i)
+		if (!std::isfinite(numbers[i]) || (i % 6 < 3 && std::abs(numbers[i]) > gimpm::Grid<2>::indexLimit)) return false;
+	return numbers.size() % 6 == 0;
+}
+
 bool MpmImplicitEngine::isStepAtWork() { return stepsAtWork > 0; }
 
 bool MpmImplicitEngine::isActivated()
 {
 	beforeActivation = { virtLast, realLast, iterLast, nDone };
-	return PeriodicEngine::isActivated();
+	if (PeriodicEngine::isActivated()) return true;
+	const bool ends = isEndOfLoads();
+	nDone += ends;
+	return ends;
+}
+
+// An engine that does not run in every iteration would leave out the end of the load curve, where a run usually stops.
+bool MpmImplicitEngine::isEndOfLoads() const
+{
+	const ValueLock lock;
+	if (nDone == 0 || (nDo >= 0 && nDone >= nDo) || loadCurve.empty()) return false;
+	const Real reached = loadsEnd() - 1e-9 * scene->dt;
+	return loadTime < reached && scene->time + scene->dt >= reached;
+}
+
+shared_ptr<Scene> MpmImplicitEngine::ownScene()
+{
+	const auto& current = Singleton<Omega>::instance().getScene();
+	const auto  holds   = [this](const Scene& s) { return std::any_of(s.engines.begin(), s.engines.end(), [this](const auto& e) { return e.get() == this; }); };
+	if (holds(*current)) home = current;
+	const auto other = boost::dynamic_pointer_cast<Scene>(home.lock());
+	return other && holds(*other) ? other : current;
 }
 
 void MpmImplicitEngine::action()
 {
 	deliveringErrors([&] {
+		home = scene->weak_from_this();
+		if (omp_get_level() > 0)
+			throw std::invalid_argument("MpmImplicitEngine: inside a ParallelEngine it cannot tell what other engines do with its material points; put it into O.engines itself.");
 		if (PyGILState_Check() && Singleton<Omega>::instance().isRunning())
 			throw std::runtime_error("MpmImplicitEngine: called while the scene runs in the background; call O.wait() or O.pause() first.");
 		try {
@@ -273,12 +306,15 @@ template <int Dim> void MpmImplicitEngine::step()
 			if (points.empty()) throw std::invalid_argument(noPoints());
 			cloud = gather(points, model);
 		}
-		if (points.size() != lookedAt) {
+		plausibility.requireSettings(*this);
+		if (plausibility.isNew(cloud)) {
 			const gimpm::Stopwatch watch(checking);
-			requirePlausible(*this, points);
+			plausibility.requirePoints(points, cloud);
 		}
-		lookedAt = points.size();
-		last     = gimpm::StepReport();
+		plausibility.requireGrid(*this);
+		for (const string& doubt : plausibility.warnings(*this, points, cloud, model))
+			warn(doubt);
+		last = gimpm::StepReport();
 		times.clear();
 		iterations = lineSearchTrials = reusedFactors = luSolves = cgIterations = cgFallbacks = substeps = cuts = 0;
 	}
@@ -286,6 +322,9 @@ template <int Dim> void MpmImplicitEngine::step()
 	if (checking > 0) addTime("check", checking);
 	tellObservers([this](LoadStepObserver& observer) { observer.stepBegins(*this); });
 	advance(cloud, model, target);
+	const ValueLock lock;
+	for (const string& doubt : plausibility.warningsOfResult(*this, points, cloud))
+		warn(doubt);
 }
 
 // Load steps up to the target: a step that fails is undone and tried with half the increment, down to newton.minStep; after an easy
@@ -316,10 +355,7 @@ void MpmImplicitEngine::advance(gimpm::PointCloud<Dim>& cloud, gimpm::Model<Dim>
 		lastDisplacements = flat(last);
 		lastLoadIncrement = last.load;
 		if (report.converged() || report.accepted) {
-			if (report.accepted) {
-				progressLine.breakLine();
-				warnOfAccepted(report, time);
-			}
+			if (report.accepted) warnOfAccepted(report, time);
 			done += part;
 			reach(cloud, time, load.factor);
 			if (report.iterations <= newton->maxIterations / 3) stepPart = std::min(1., 2 * stepPart);
@@ -345,6 +381,7 @@ template <int Dim> void MpmImplicitEngine::reach(const gimpm::PointCloud<Dim>& c
 		scatter(cloud, points);
 	}
 	addTime("scatter", scattering);
+	plausibility.know(cloud);
 	++substeps;
 	loadTime   = time;
 	loadFactor = factor;
@@ -433,6 +470,12 @@ py::dict MpmImplicitEngine::report() const
 	return result;
 }
 
+void MpmImplicitEngine::warn(const string& text)
+{
+	progressLine.breakLine();
+	log(Severity::warning, staticName(), text);
+}
+
 void MpmImplicitEngine::warnOfEnd()
 {
 	if (warnedOfEnd || std::max(loadCurve.size(), gravityCurve.size()) < 2 || loadTime < loadsEnd() - 1e-9 * scene->dt) return;
@@ -440,17 +483,16 @@ void MpmImplicitEngine::warnOfEnd()
 	std::ostringstream text;
 	text << (gravityCurve.size() < 2 ? "loadCurve has" : "loadCurve and gravityCurve have") << " ended at time " << loadsEnd() << ": the load factor stays at "
 	     << loadCurve.back().second
-	     << ", and further steps change nothing unless something else does.";
-	progressLine.breakLine();
-	log(Severity::warning, staticName(), text.str());
+	     << ". Unless something else changes, further steps move the points a little only, as each finds equilibrium on the grid that has been reset.";
+	warn(text.str());
 }
 
-void MpmImplicitEngine::warnOfAccepted(const gimpm::StepReport& report, Real time) const
+void MpmImplicitEngine::warnOfAccepted(const gimpm::StepReport& report, Real time)
 {
 	std::ostringstream text;
 	text << "the load step from factor " << loadFactor << " to " << loadFactorAt(time) << " has not converged and is accepted (newton.acceptUnconverged): "
 	     << report.cause << ".";
-	log(Severity::warning, staticName(), text.str());
+	warn(text.str());
 }
 
 string MpmImplicitEngine::reasonOf(const gimpm::StepReport& report, Real time, Real part) const
@@ -512,7 +554,7 @@ template <class F> auto MpmImplicitEngine::onCurrentState(F f)
 			const ValueLock lock;
 			requireAdmissible();
 			model = toModel<Dim>(*grid, basis, boundaries, *ghost, *newton);
-			cloud = gather(materialPoints(*Singleton<Omega>::instance().getScene(), mask), model);
+			cloud = gather(materialPoints(*ownScene(), mask), model);
 		}
 		const PythonUnlock python;
 		return f(cloud, model);

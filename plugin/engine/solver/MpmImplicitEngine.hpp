@@ -9,6 +9,7 @@
 #include "engine/solver/MpmGrid.hpp"
 #include "engine/solver/MpmNewton.hpp"
 #include "engine/solver/ProgressLine.hpp"
+#include "engine/solver/plausibility.hpp"
 #include "yade_api/interruption.hpp"
 #include "yade_api/yade_api.hpp"
 #include <map>
@@ -51,10 +52,13 @@ public:
 		       "all material points of the scene from the last converged load time to O.time + O.dt by one load step: Newton's method for the "
 		       "incremental displacements of the nodes of a background grid that is then reset. A step that does not converge is cut (see MpmNewton), "
 		       "at last it raises RuntimeError, and the scene stays at the last converged state. Bodies of other kinds are left alone. Quasi-static analysis uses YADE's time as its load clock; with an "
-		       "active TimeStepper in the scene set *iterPeriod* > 1 or *virtPeriod*.\n\n"
+		       "active TimeStepper in the scene set *iterPeriod* > 1 or *virtPeriod*: the engine then runs in every so many iterations, to O.time + O.dt of that "
+		       "iteration, and in the one where the load curves end. Times of steps add up with round-off: ten of 0.1 make a little less than 1. So stop by O.run(n), or "
+		       "give O.stopAtTime half a step less.\n\n"
 		       "Bodies may be added and erased, and materials changed, between steps: the next step starts from what it finds. A changed modulus acts on the "
 		       "elastic strain that is there, a lowered yield stress returns it to the new surface. Several engines, each with its own grid, may share a scene "
-		       "if their *mask* gives every material point to one of them at most. While the scene runs in the background, what is read is "
+		       "if their *mask* gives every material point to one of them at most; none inside a ParallelEngine. A material point cannot be part of a clump. A process that is "
+		       "forked from a YADE with several threads (os.fork, multiprocessing) can use one only: set *ompThreads* = 1. While the scene runs in the background, what is read is "
 		       "the last converged state, and settings that are assigned act from the next step on; change material points, O.bodies and O.engines after "
 		       "O.pause() only. Ctrl-C in O.run(n, wait=True) and O.wait() stops the step within an iteration and raises KeyboardInterrupt; O.run() goes on "
 		       "from the last converged state.";
@@ -103,36 +107,43 @@ public:
 		  "YADE's prompt and in a log repeated every 10 s and at the end of the run. 2: this line for every step.",
 		  oneOf(0, 1, 2));
 		v("converged", &MpmImplicitEngine::converged, readonly, "Whether the last step converged.");
-		v("iterations", &MpmImplicitEngine::iterations, readonly, "Linear solves of the last run, those of steps that were undone included.");
+		const auto count = atLeast(0);
+		v("iterations", &MpmImplicitEngine::iterations, readonly, "Linear solves of the last run, those of steps that were undone included.", count);
 		v("residual", &MpmImplicitEngine::residual, readonly, "Last out-of-balance force over external forces and reactions [-].");
 		v("residuals", &MpmImplicitEngine::residuals, readonly, "The same [-] before the first solve of the last step and after each.");
-		v("loadFactor", &MpmImplicitEngine::loadFactor, readonly, "Load factor [-] of the last converged state.");
-		v("activeCells", &MpmImplicitEngine::activeCells, readonly, "Cells that held material in the last step.");
-		v("boundaryCells", &MpmImplicitEngine::boundaryCells, readonly, "Those of them with an empty neighbour (0 without stabilisation).");
-		v("ghostFaces", &MpmImplicitEngine::ghostFaces, readonly, "Faces stabilised in the last step.");
-		v("dofs", &MpmImplicitEngine::dofs, readonly, "Free degrees of freedom of the last step.");
-		v("substeps", &MpmImplicitEngine::substeps, readonly, "Load steps that converged in the last run: 1 unless steps were cut.");
-		v("cuts", &MpmImplicitEngine::cuts, readonly, "Load steps of the last run that were undone and tried again with half the increment.");
-		v("lineSearchTrials", &MpmImplicitEngine::lineSearchTrials, readonly, "Shortened Newton steps that were tried in the last run.");
-		v("reusedFactors", &MpmImplicitEngine::reusedFactors, readonly, "Solves of the last run with the factor of the solve before.");
-		v("luSolves", &MpmImplicitEngine::luSolves, readonly, "Solves of the last run whose stiffness matrix was not positive definite.");
-		v("cgIterations", &MpmImplicitEngine::cgIterations, readonly, "Iterations of conjugate gradients in the last run (see MpmNewton.linearSolver).");
-		v("cgFallbacks", &MpmImplicitEngine::cgFallbacks, readonly, "Solves of the last run that conjugate gradients left to the direct solver.");
-		v("lastDisplacements", &MpmImplicitEngine::lastDisplacements, hidden, "");
-		v("lastLoadIncrement", &MpmImplicitEngine::lastLoadIncrement, hidden, "");
-		v("stepPart", &MpmImplicitEngine::stepPart, readonly, "Part of O.dt [-] that the next load step tries.");
+		v("loadFactor", &MpmImplicitEngine::loadFactor, readonly, "Load factor [-] of the last converged state.", finite);
+		v("activeCells", &MpmImplicitEngine::activeCells, readonly, "Cells that held material in the last step.", count);
+		v("boundaryCells", &MpmImplicitEngine::boundaryCells, readonly, "Those of them with an empty neighbour (0 without stabilisation).", count);
+		v("ghostFaces", &MpmImplicitEngine::ghostFaces, readonly, "Faces stabilised in the last step.", count);
+		v("dofs", &MpmImplicitEngine::dofs, readonly, "Free degrees of freedom of the last step.", count);
+		v("substeps", &MpmImplicitEngine::substeps, readonly, "Load steps that converged in the last run: 1 unless steps were cut.", count);
+		v("cuts", &MpmImplicitEngine::cuts, readonly, "Load steps of the last run that were undone and tried again with half the increment.", count);
+		v("lineSearchTrials", &MpmImplicitEngine::lineSearchTrials, readonly, "Shortened Newton steps that were tried in the last run.", count);
+		v("reusedFactors", &MpmImplicitEngine::reusedFactors, readonly, "Solves of the last run with the factor of the solve before.", count);
+		v("luSolves", &MpmImplicitEngine::luSolves, readonly, "Solves of the last run whose stiffness matrix was not positive definite.", count);
+		v("cgIterations", &MpmImplicitEngine::cgIterations, readonly, "Iterations of conjugate gradients in the last run (see MpmNewton.linearSolver).", count);
+		v("cgFallbacks", &MpmImplicitEngine::cgFallbacks, readonly, "Solves of the last run that conjugate gradients left to the direct solver.", count);
+		v("lastDisplacements",
+		  &MpmImplicitEngine::lastDisplacements,
+		  hidden,
+		  "",
+		  admitting("of each node three grid coordinates and three components of its displacement [m], all finite", isIncrement));
+		v("lastLoadIncrement", &MpmImplicitEngine::lastLoadIncrement, hidden, "", finite);
+		v("stepPart", &MpmImplicitEngine::stepPart, readonly, "Part of O.dt [-] that the next load step tries, > 0 and <= 1.", part);
 		v("reactions",
 		  &MpmImplicitEngine::reactions,
 		  readonly,
 		  "For each of *boundaries*, the sum of the forces [N] along x, y, z with which it held its nodes at the end of the last converged step; per metre "
 		  "of thickness in plane strain. A node in several boxes counts for the last one. Their sum balances weight and point loads to *residual*. A domain "
 		  "that has outgrown a wall (*wallOverlap*) is held behind it in all directions, so a smooth wall then shows some force along its face: it is the "
-		  "error of that. Empty before the first step.");
-		v("clampedDomains", &MpmImplicitEngine::clampedDomains, readonly, "Points whose domain was kept at half a cell at the end of the last step.");
+		  "error of that. Empty before the first step.",
+		  admitting("forces of finite numbers [N]", [](const auto& forces) { return std::all_of(forces.begin(), forces.end(), finite); }));
+		v("clampedDomains", &MpmImplicitEngine::clampedDomains, readonly, "Points whose domain was kept at half a cell at the end of the last step.", count);
 		v("wallOverlap",
 		  &MpmImplicitEngine::wallOverlap,
 		  readonly,
-		  "Largest length [m] by which a domain reached behind a wall in the last step; nodes there count as held.");
+		  "Largest length [m] by which a domain reached behind a wall in the last step; nodes there count as held.",
+		  nonNegative);
 	}
 	template <class C> static void python(C& c)
 	{
@@ -149,7 +160,7 @@ public:
 		      "'notFinite', 'diverging', 'tooManyIterations', 'stalled' (at round-off), 'interrupted'; 'cause', a clause, empty when converged; 'loadTime' [s] and 'loadFactor' of the "
 		      "last converged state; 'stepPart', part of O.dt that the next step tries.\n\n"
 		      "Effort of the run, undone tries included: 'iterations' (linear solves), 'substeps', 'cuts', 'lineSearchTrials', 'reusedFactors', 'luSolves', 'cgIterations', 'cgFallbacks'; 'times' [s], dict "
-		      "by phase: 'check' (of new points), 'gather', 'basis', 'ghost', 'assembly', 'analyse', 'factorise', 'solve', 'update', 'scatter'.\n\n"
+		      "by phase: 'check' (of points that are new or were changed), 'gather', 'basis', 'ghost', 'assembly', 'analyse', 'factorise', 'solve', 'update', 'scatter'.\n\n"
 		      "Of the last load step that was tried: 'residuals', list; 'residual', the last of them [-]; 'localResidual', the largest residual around a node "
 		      "over the forces there, or a bound of it [-], at most 3 newton.tolerance when converged (NaN where it was not asked for); 'stiffness' of the last "
 		      "matrix that was factorised, 'positive definite', 'indefinite' (the equilibrium may not be stable: the body may go on by itself, or have another "
@@ -204,9 +215,14 @@ public:
 	static bool isStepAtWork();
 
 	static bool isLoadCurve(const vector<std::pair<Real, Real>>&);
+	static bool isIncrement(const vector<Real>&); // as lastDisplacements
 
 	// When the last of the loads has come to rest, at the last knee of the curves.
 	Real loadsEnd() const;
+
+	// The scene that holds this engine in O.engines: the current one, or the one where it was made or seen last (O.switchScene()). For an
+	// engine that neither holds, the current one.
+	shared_ptr<Scene> ownScene();
 
 private:
 	// Counters of PeriodicEngine, which move on before action() is called: after a failed step the same iteration must run again.
@@ -215,6 +231,7 @@ private:
 		long iterLast = 0, nDone = 0;
 	};
 
+	bool                       isEndOfLoads() const;
 	void                       run();
 	void                       requireRunnable() const;
 	void                       requireOnlyClaim() const;
@@ -228,8 +245,9 @@ private:
 	template <int Dim> void    advance(gimpm::PointCloud<Dim>&, gimpm::Model<Dim>&, Real target);
 	void                       take(const gimpm::StepReport&);
 	void                       addTime(const char* phase, double seconds);
+	void                       warn(const string&);
 	void                       warnOfEnd();
-	void                       warnOfAccepted(const gimpm::StepReport&, Real time) const;
+	void                       warnOfAccepted(const gimpm::StepReport&, Real time);
 	string                     reasonOf(const gimpm::StepReport&, Real time, Real part) const;
 	string                     placeOfImbalance(const gimpm::StepReport&) const;
 	string                     adviceOn(const gimpm::StepReport&, Real part) const;
@@ -241,8 +259,9 @@ private:
 	vector<MaterialPoint> points; // of the step; kept for the next one
 	Counters            beforeActivation;
 	ProgressLine        progressLine;
-	size_t              lookedAt      = 0;     // number of points in the scene that was found plausible
+	Plausibility        plausibility;
 	bool                warnedOfEnd = false; // of the load curve
+	boost::weak_ptr<Factorable> home;        // the scene where it was made or seen last
 	gimpm::LinearSolver solver; // keeps the symbolic analysis; results do not depend on it
 
 	// for report(): the last load step that was tried, and the times of the last run by phase [s]

@@ -31,7 +31,7 @@ public:
 		  0,
 		  "Smallest load step [-] as a part of O.dt, > 0 and <= 1: a step that does not converge is undone and tried again with half the increment, down "
 		  "to this. 1: no cutting.",
-		  admitting("a number > 0 and <= 1", [](Real part) { return part > 0 && part <= 1; }));
+		  part);
 		v("lineSearchTrials",
 		  &MpmNewton::lineSearchTrials,
 		  0,

@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "engine/solver/plausibility.hpp"
 #include "engine/solver/MpmImplicitEngine.hpp"
-#include "yade_api/logging.hpp"
-#include <unordered_map>
+#include "engine/solver/overlaps.hpp"
+#include <cstring>
 
 namespace yade {
 
 namespace {
-	template <class... Parts> [[noreturn]] void refuse(const Parts&... parts)
+	template <class... Parts> string sentence(const Parts&... parts)
 	{
 		std::ostringstream text;
 		(text << ... << parts);
-		throw std::invalid_argument(text.str());
+		return text.str();
 	}
+	template <class... Parts> [[noreturn]] void refuse(const Parts&... parts) { throw std::invalid_argument(sentence(parts...)); }
 
 	void requireGravityInPlane(const MpmImplicitEngine& engine)
 	{
@@ -36,110 +37,208 @@ namespace {
 			       engine.loadsEnd(), ": 1/80 of that gives 80 steps.");
 	}
 
-	// As long as they have not been deformed, points must not claim the same place.
-	class Places {
+	// Four sums side by side, so that they do not wait for each other.
+	class Fingerprint {
 	public:
-		Places(const vector<MaterialPoint>& points, int dim)
-		        : points(points)
-		        , dim(dim)
+		template <class T> void add(const vector<T>& values)
 		{
-			for (const MaterialPoint& p : points)
-				for (int a = 0; a < dim; ++a)
-					width = std::max(width, 2 * p.shape->halfSize[a]);
+			const char*  bytes = reinterpret_cast<const char*>(values.data());
+			const size_t words = values.size() * sizeof(T) / sizeof(uint64_t);
+			for (size_t i = 0; i < words; ++i) {
+				uint64_t word;
+				std::memcpy(&word, bytes + i * sizeof word, sizeof word);
+				sums[i % 4] = (sums[i % 4] ^ word) * 0x9e3779b97f4a7c15;
+				sums[i % 4] ^= sums[i % 4] >> 32;
+			}
+			sums[0] += words;
 		}
-		void requireDistinct()
-		{
-			for (size_t i = 0; i < points.size(); ++i)
-				if (points[i].state->defGrad == Matrix3r::Identity()) add(i);
-		}
+		uint64_t value() const { return ((sums[0] * 31 + sums[1]) * 31 + sums[2]) * 31 + sums[3]; }
 
 	private:
-		using Cell = Eigen::Matrix<int64_t, 3, 1>;
-
-		Cell cellOf(const Vector3r& x) const
-		{
-			Cell c = Cell::Zero();
-			for (int a = 0; a < dim; ++a)
-				c[a] = int64_t(std::floor(x[a] / width));
-			return c;
-		}
-		static uint64_t hash(const Cell& c) { return uint64_t(c[0]) * 73856093 ^ uint64_t(c[1]) * 19349663 ^ uint64_t(c[2]) * 83492791; }
-
-		void add(size_t i)
-		{
-			const Cell here = cellOf(points[i].state->pos);
-			for (int n = 0; n < (dim == 2 ? 9 : 27); ++n)
-				for (auto [at, end] = found.equal_range(hash(here + Cell(n % 3 - 1, n / 3 % 3 - 1, dim == 2 ? 0 : n / 9 - 1))); at != end; ++at)
-					requireApart(points[at->second], points[i]);
-			found.emplace(hash(here), i);
-		}
-
-		// Neighbours that fill a cell with others are a whole domain apart.
-		void requireApart(const MaterialPoint& p, const MaterialPoint& q) const
-		{
-			const Vector3r apart = (p.state->pos - q.state->pos).cwiseAbs(), half = p.shape->halfSize.cwiseMax(q.shape->halfSize);
-			for (int a = 0; a < dim; ++a)
-				if (apart[a] >= 0.75 * half[a]) return;
-			refuse("Bodies #", p.id, " and #", q.id, " are material points in the same place, at (", p.state->pos.transpose(), ") and (",
-			       q.state->pos.transpose(), "): has a region been filled twice, or do two fills overlap? Give mpm.fill one region, with a list or function as material.");
-		}
-
-		const vector<MaterialPoint>&                points;
-		int                                         dim;
-		Real                                        width = 0;
-		std::unordered_multimap<uint64_t, size_t> found;
+		uint64_t sums[4] = { 1, 2, 3, 4 };
 	};
 
-	void warn(const string& text) { log(Severity::warning, MpmImplicitEngine::staticName(), text); }
+	// Of what a look at the points depends on: whoever changes the deformation changes the sizes, too, and the initial stress of points is
+	// that of their first look.
+	template <int Dim> uint64_t fingerprint(const gimpm::PointCloud<Dim>& cloud)
+	{
+		Fingerprint f;
+		f.add(cloud.position);
+		f.add(cloud.halfSize);
+		return f.value();
+	}
 
-	void warnOfGravityUpwards(const MpmImplicitEngine& engine)
+	string bothOf(const Overlaps::Pair& pair, const vector<MaterialPoint>& points)
+	{
+		const MaterialPoint &p = points[pair[0]], &q = points[pair[1]];
+		return sentence("#", p.id, " and #", q.id, " are material points in the same place, at (", p.state->pos.transpose(), ") and (", q.state->pos.transpose(), ")");
+	}
+
+	// Shear makes neighbours overlap here and there; what has been filled or loaded twice does so as a whole.
+	string doubtOfOverlap(const Overlaps& overlaps, const vector<MaterialPoint>& points)
+	{
+		constexpr Real byShear = 0.05; // of all volume; in a vertical cut that has run out to half its height it was 0.006
+		Real           all     = 0;
+		for (const MaterialPoint& p : points)
+			all += p.state->volume;
+		if (overlaps.volume <= byShear * all) return "";
+		return sentence("about ", overlaps.volume, " of ", all, " m3 of material are counted twice, where material points cover others: bodies ",
+		                bothOf(overlaps.ofAny, points), ", for instance. Has a region been filled or a scene been loaded twice?");
+	}
+
+	// Mean over ground as it is before the first step: deformed points carry what equilibrium has given them.
+	template <int Dim> Matrix3r meanInitialStress(const gimpm::PointCloud<Dim>& cloud)
+	{
+		Matrix3r sum    = Matrix3r::Zero();
+		Real     volume = 0;
+		for (size_t p = 0; p < cloud.size(); ++p) {
+			if (cloud.defGrad[p] != gimpm::Mat<Dim>::Identity() || cloud.stress[p].c.isZero(0)) continue;
+			volume += cloud.volume0[p];
+			sum += cloud.volume0[p] * cloud.stress[p].full();
+		}
+		return volume > 0 ? Matrix3r(sum / volume) : sum;
+	}
+
+	string doubtOfTension(const Vector3r& gravity, const Matrix3r& initialStress)
+	{
+		const Vector3r down    = gravity.normalized(); // zero without gravity
+		const Real     tension = down.dot(initialStress * down);
+		if (!(tension > 0)) return "";
+		return sentence("the initial stress along gravity is tension, ", tension,
+		                " Pa on average; stress is positive in tension: that of ground which carries its weight has a minus.");
+	}
+
+	string doubtOfGravity(const Vector3r& gravity)
 	{
 		for (int axis = 0; axis < 3; ++axis)
-			if (engine.gravity[axis] > 0 && engine.gravity[axis] == engine.gravity.norm())
-				warn(string("gravity acts along +") + "xyz"[axis] + ", upwards as most would draw it; downwards it has a minus.");
+			if (gravity[axis] > 0 && gravity[axis] == gravity.norm())
+				return string("gravity acts along +") + "xyz"[axis] + ", upwards as most would draw it; downwards it has a minus.";
+		return "";
 	}
 
-	Real largestPoint(const MpmImplicitEngine& engine, const vector<MaterialPoint>& points)
+	string doubtOfCells(Real cellSize, Real smallest)
 	{
-		Real largest = 0;
-		for (const MaterialPoint& p : points)
-			largest = std::max(largest, 2 * p.shape->halfSize0.head(engine.grid->dim).maxCoeff());
-		return largest;
+		constexpr Real most = 20; // points per cell and axis
+		if (cellSize <= most * smallest) return "";
+		return sentence("cellSize = ", cellSize, " m is more than ", most, " times the size of a material point (", smallest, " m); is it the grid that mpm.fill was given?");
 	}
 
-	// No fill puts so many points into a cell that they are as small.
-	void requireCellsForPoints(const MpmImplicitEngine& engine, const vector<MaterialPoint>& points)
+	// Numbers that fit another unit a thousand times as large. Under a gravity of 1 or less they are hardly those of ground on earth.
+	template <int Dim>
+	string doubtOfUnits(const Vector3r& gravity, const vector<MaterialPoint>& points, const gimpm::PointCloud<Dim>& cloud, const vector<gimpm::Material>& materials)
 	{
-		constexpr Real most    = 1e5; // points per cell and axis
-		const Real     largest = largestPoint(engine, points), h = engine.grid->cellSize;
-		if (h / most > largest)
-			refuse("MpmGrid.cellSize = ", h, " m is ", h / largest, " times the size of the largest material point (", largest,
-			       " m), so that all of them would move as one cell does; is it the grid that mpm.fill was given, in the same unit?");
+		constexpr Real lightest = 50, softest = 1e5, ofGround = 500; // kg/m3, Pa, kg/m3
+		if (gravity.norm() <= 1) return "";
+		for (size_t m = 0; m < materials.size(); ++m) {
+			const Real density = materials[m].density, young = materials[m].young();
+			const bool isLight = density < lightest, isSoft = young < softest && density > ofGround;
+			if (!isLight && !isSoft) continue;
+			const size_t first = std::find(cloud.material.begin(), cloud.material.end(), int(m)) - cloud.material.begin();
+			const string name  = "material '" + points[first].material->label + "' (of body #" + std::to_string(points[first].id) + ")";
+			if (isLight) return sentence(name, " has density = ", density, ", in kg/m3; was it meant in t/m3, that is ", 1e3 * density, " kg/m3?");
+			return sentence(name, " has young = ", young, ", in Pa; was it meant in kPa, that is ", 1e3 * young, " Pa?");
+		}
+		return "";
 	}
 
-	void warnOfLargeCells(const MpmImplicitEngine& engine, const vector<MaterialPoint>& points)
+	// Of all points, as they were in the beginning.
+	std::pair<Vector3r, Vector3r> initialBox(const vector<MaterialPoint>& points)
 	{
-		constexpr Real most     = 20; // points per cell and axis
-		Real           smallest = std::numeric_limits<Real>::infinity();
-		for (const MaterialPoint& p : points)
-			smallest = std::min(smallest, 2 * p.shape->halfSize.head(engine.grid->dim).minCoeff());
-		if (engine.grid->cellSize <= most * smallest) return;
-		std::ostringstream text;
-		text << "cellSize = " << engine.grid->cellSize << " m is more than " << most << " times the size of a material point (" << smallest
-		     << " m); is it the grid that mpm.fill was given?";
-		warn(text.str());
+		Vector3r lower = Vector3r::Constant(std::numeric_limits<Real>::infinity()), upper = -lower;
+		for (const MaterialPoint& p : points) {
+			lower = lower.cwiseMin(p.state->refPos - p.shape->halfSize0);
+			upper = upper.cwiseMax(p.state->refPos + p.shape->halfSize0);
+		}
+		return { lower, upper };
 	}
 }
 
-void requirePlausible(const MpmImplicitEngine& engine, const vector<MaterialPoint>& points)
+void Plausibility::requireSettings(const MpmImplicitEngine& engine) const
 {
 	requireGravityInPlane(engine);
 	requireSensibleIncrement(engine);
-	requireCellsForPoints(engine, points);
-	Places(points, engine.grid->dim).requireDistinct();
-	warnOfGravityUpwards(engine);
-	warnOfLargeCells(engine, points);
 }
+
+template <int Dim> bool Plausibility::isNew(const gimpm::PointCloud<Dim>& cloud) const { return known != fingerprint(cloud); }
+template <int Dim> void Plausibility::know(const gimpm::PointCloud<Dim>& cloud) { known = fingerprint(cloud); }
+
+template <int Dim> void Plausibility::requirePoints(const vector<MaterialPoint>& points, const gimpm::PointCloud<Dim>& cloud)
+{
+	smallest = std::numeric_limits<Real>::infinity();
+	largest  = 0;
+	for (const auto& half : cloud.halfSize0) {
+		smallest = std::min(smallest, 2 * half.minCoeff());
+		largest  = std::max(largest, 2 * half.maxCoeff());
+	}
+	const Overlaps overlaps = findOverlaps(cloud);
+	if (overlaps.ofFills != Overlaps::none)
+		refuse("Bodies ", bothOf(overlaps.ofFills, points),
+		       ": has a region been filled twice, or do two fills overlap? Give mpm.fill one region, with a list or function as material.");
+	overlap       = doubtOfOverlap(overlaps, points);
+	initialStress = meanInitialStress(cloud);
+	box           = initialBox(points);
+	know(cloud);
+}
+
+// No fill puts so many points into a cell that they are as small.
+void Plausibility::requireGrid(const MpmImplicitEngine& engine) const
+{
+	constexpr Real most = 1e5; // points per cell and axis
+	const Real     h    = engine.grid->cellSize;
+	if (h / most > largest)
+		refuse("MpmGrid.cellSize = ", h, " m is ", h / largest, " times the size of the largest material point (", largest,
+		       " m), so that all of them would move as one cell does; is it the grid that mpm.fill was given, in the same unit?");
+}
+
+void Plausibility::say(vector<string>& sentences, Doubt doubt, const string& sentence)
+{
+	bool& isSaid = said[doubt];
+	if (!sentence.empty() && !isSaid) sentences.push_back(sentence);
+	isSaid = !sentence.empty();
+}
+
+template <int Dim>
+vector<string> Plausibility::warnings(const MpmImplicitEngine& engine, const vector<MaterialPoint>& points, const gimpm::PointCloud<Dim>& cloud, const gimpm::Model<Dim>& model)
+{
+	vector<string> sentences;
+	say(sentences, Doubt::gravityUpwards, doubtOfGravity(engine.gravity));
+	say(sentences, Doubt::largeCells, doubtOfCells(engine.grid->cellSize, smallest));
+	say(sentences, Doubt::units, doubtOfUnits(engine.gravity, points, cloud, model.materials));
+	say(sentences, Doubt::tension, doubtOfTension(engine.gravity, initialStress));
+	say(sentences, Doubt::overlap, overlap);
+	return sentences;
+}
+
+template <int Dim>
+vector<string> Plausibility::warningsOfResult(const MpmImplicitEngine& engine, const vector<MaterialPoint>& points, const gimpm::PointCloud<Dim>& cloud)
+{
+	vector<string> sentences;
+	if (engine.gravity.isZero(0) || said[Doubt::settlement] || said[Doubt::units]) return sentences;
+	const Vector3r down    = engine.gravity.normalized(), sides = box.second - box.first;
+	const Real     size    = sides.head<Dim>().maxCoeff(); // not the height: a slender beam may well bend by more than that
+	const Real     bottom  = (box.first + box.second + sides.cwiseProduct(down.cwiseSign())).dot(down) / 2;
+	const auto     isBelow = [&](const gimpm::Vec<Dim>& x) { return x.dot(down.head<Dim>()) > bottom; };
+	if (std::none_of(cloud.position.begin(), cloud.position.end(), isBelow)) return sentences; // then none has settled by more than the height
+	Real settlement = 0;
+	for (const MaterialPoint& p : points)
+		settlement = std::max(settlement, (p.state->pos - p.state->refPos).dot(down));
+	if (settlement > size)
+		say(sentences, Doubt::settlement,
+		    sentence("the largest settlement, ", settlement, " m, is more than the size of the body, ", size,
+		             " m; are the moduli in Pa, densities in kg/m3 and lengths in m?"));
+	return sentences;
+}
+
+#define MPM_INSTANTIATE(Dim)                                                                                                                                   \
+	template bool           Plausibility::isNew(const gimpm::PointCloud<Dim>&) const;                                                                      \
+	template void           Plausibility::requirePoints(const vector<MaterialPoint>&, const gimpm::PointCloud<Dim>&);            \
+	template void           Plausibility::know(const gimpm::PointCloud<Dim>&);                                                                             \
+	template vector<string> Plausibility::warningsOfResult(const MpmImplicitEngine&, const vector<MaterialPoint>&, const gimpm::PointCloud<Dim>&);         \
+	template vector<string> Plausibility::warnings(                                                                                                        \
+	        const MpmImplicitEngine&, const vector<MaterialPoint>&, const gimpm::PointCloud<Dim>&, const gimpm::Model<Dim>&);
+MPM_INSTANTIATE(2)
+MPM_INSTANTIATE(3)
+#undef MPM_INSTANTIATE
 
 string idleBoundaries(const MpmImplicitEngine& engine, const vector<MaterialPoint>& points)
 {

@@ -1,15 +1,51 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 // Scenes that could be computed but can hardly be meant.
+#include "core/stepping/model.hpp"
+#include "core/grid/point_cloud.hpp"
 #include "engine/points/MaterialPoints.hpp"
+#include <map>
+#include <optional>
 
 namespace yade {
 class MpmImplicitEngine;
 
-// To be asked before the first step. std::invalid_argument for what would be left out without a word, or counted twice: gravity across the
-// plane of a two-dimensional grid, points in the same place, an O.dt that nobody has set or that jumps over the whole load curve. A warning
-// in YADE's log for gravity upwards and for cells that are far too large for the points.
-void requirePlausible(const MpmImplicitEngine&, const vector<MaterialPoint>&);
+// Asked around every step. Settings and materials are looked at each time. Points, which takes longer, are looked at when they are not as
+// this engine has left them: in the first step, when bodies come or go, and when a script has changed them.
+//
+// std::invalid_argument for what would be left out without a word, or counted twice: gravity across the plane of a two-dimensional grid,
+// points in the same place, cells that are no match for the points, an O.dt that nobody has set or that jumps over the whole load curve.
+class Plausibility {
+public:
+	void requireSettings(const MpmImplicitEngine&) const;
+
+	// Whether the points are not those of the last call of know().
+	template <int Dim> bool isNew(const gimpm::PointCloud<Dim>&) const;
+	template <int Dim> void requirePoints(const vector<MaterialPoint>&, const gimpm::PointCloud<Dim>&);
+	template <int Dim> void know(const gimpm::PointCloud<Dim>&);
+
+	// Of the sizes that requirePoints() has found.
+	void requireGrid(const MpmImplicitEngine&) const;
+
+	// What can be meant, but seldom is: sentences for YADE's log. Each is said once as long as what it says stays so.
+	template <int Dim> vector<string> warnings(const MpmImplicitEngine&, const vector<MaterialPoint>&, const gimpm::PointCloud<Dim>&, const gimpm::Model<Dim>&);
+	template <int Dim> vector<string> warningsOfResult(const MpmImplicitEngine&, const vector<MaterialPoint>&, const gimpm::PointCloud<Dim>&);
+
+private:
+	enum class Doubt { gravityUpwards, largeCells, units, tension, overlap, settlement };
+
+	// Takes the sentence, which is empty where there is no doubt, unless it has been said.
+	void say(vector<string>&, Doubt, const string& sentence);
+
+	std::optional<uint64_t> known;
+	std::map<Doubt, bool>   said;
+
+	// of the points as they were looked at
+	Real     smallest = 0, largest = 0; // initial sizes [m]
+	Matrix3r initialStress = Matrix3r::Zero(); // mean [Pa]
+	string   overlap; // the doubt about it
+	std::pair<Vector3r, Vector3r> box { Vector3r::Zero(), Vector3r::Zero() }; // that all were in at first: its corners [m]
+};
 
 // Of boundaries that do not reach any of the points, a sentence for each; empty if there is none.
 string idleBoundaries(const MpmImplicitEngine&, const vector<MaterialPoint>&);
