@@ -8,7 +8,7 @@
 
 namespace gimpm {
 
-enum class Failure { none, unrestrained, singular, inverted, notFinite, diverging, tooManyIterations, interrupted };
+enum class Failure { none, detached, unrestrained, singular, inverted, notFinite, diverging, tooManyIterations, interrupted };
 
 struct StepTimes {
 	double      basis = 0, ghost = 0, assembly = 0, update = 0; ///< [s]

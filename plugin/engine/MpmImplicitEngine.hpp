@@ -145,7 +145,7 @@ public:
 		c.def("report",
 		      &MpmImplicitEngine::report,
 		      "report() -> dict\n\nHow the last run of this engine in this process went; empty before the first.\n\n"
-		      "Outcome: 'converged'; 'accepted' (see MpmNewton.acceptUnconverged); 'failure', one of 'none', 'unrestrained', 'singular', 'inverted', "
+		      "Outcome: 'converged'; 'accepted' (see MpmNewton.acceptUnconverged); 'failure', one of 'none', 'detached' (a boundary that is to move has no hold of the soil), 'unrestrained', 'singular', 'inverted', "
 		      "'notFinite', 'diverging', 'tooManyIterations', 'interrupted'; 'cause', a clause, empty when converged; 'loadTime' [s] and 'loadFactor' of the "
 		      "last converged state; 'stepPart', part of O.dt that the next step tries.\n\n"
 		      "Effort of the run, undone tries included: 'iterations' (linear solves), 'substeps', 'cuts', 'lineSearchTrials', 'reusedFactors', 'luSolves', 'cgIterations', 'cgFallbacks'; 'times' [s], dict "
@@ -226,6 +226,7 @@ private:
 	void                       take(const gimpm::StepReport&);
 	void                       addTime(const char* phase, double seconds);
 	void                       warnOfEnd();
+	void                       warnOfIdleBoundaries();
 	void                       warnOfAccepted(const gimpm::StepReport&, Real time) const;
 	string                     reasonOf(const gimpm::StepReport&, Real time, Real part) const;
 	string                     placeOfImbalance(const gimpm::StepReport&) const;
@@ -240,6 +241,7 @@ private:
 	ProgressLine        progressLine;
 	size_t              lookedAt      = 0;     // number of points in the scene that was found plausible
 	bool                warnedOfEnd = false; // of the load curve
+	vector<shared_ptr<MpmBoundary>> lookedAtBoundaries; // whether they reach any point
 	gimpm::LinearSolver solver; // keeps the symbolic analysis; results do not depend on it
 
 	// for report(): the last load step that was tried, and the times of the last run by phase [s]

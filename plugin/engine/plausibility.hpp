@@ -4,6 +4,7 @@
 #include "engine/MaterialPoints.hpp"
 
 namespace yade {
+class MpmBoundary;
 class MpmImplicitEngine;
 
 // To be asked before the first step. std::invalid_argument for what would be left out without a word, or counted twice: gravity across the
@@ -11,7 +12,7 @@ class MpmImplicitEngine;
 // in YADE's log for gravity upwards and for cells that are far too large for the points.
 void requirePlausible(const MpmImplicitEngine&, const vector<MaterialPoint>&);
 
-// Of boundaries that do not reach any of the points, a sentence for each; empty if there is none.
-string idleBoundaries(const MpmImplicitEngine&, const vector<MaterialPoint>&);
+// Of boundaries that do not reach any of the points, a sentence for each; empty if there is none. Some may be left out.
+string idleBoundaries(const MpmImplicitEngine&, const vector<MaterialPoint>&, const vector<shared_ptr<MpmBoundary>>& except = {});
 
 } // namespace yade
