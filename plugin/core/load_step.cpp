@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "core/load_step.hpp"
 #include "core/beyond_walls.hpp"
+#include "core/grip.hpp"
 #include "core/newton.hpp"
 #include "core/point_update.hpp"
 #include "core/restraint.hpp"
@@ -62,6 +63,11 @@ template <int Dim> StepReport loadStep(PointCloud<Dim>& cloud, const Model<Dim>&
 		return restraint(system.basis, model.grid, model.boundary);
 	}();
 	report.parts               = held.parts;
+	report.cause               = lostGrip(cloud, system.basis, model, load);
+	if (!report.cause.empty()) {
+		report.failure = Failure::detached;
+		return report;
+	}
 	if (!held.freeMotion.empty()) {
 		report.failure = Failure::unrestrained;
 		report.cause   = "nothing restrains the " + held.freeMotion;
