@@ -8,6 +8,7 @@ namespace gimpm {
 
 template <int Dim> struct PointCloud {
 	std::vector<Vec<Dim>>       position;      ///< [m]
+	std::vector<Vec<Dim>>       position0;     ///< where the points were at first [m]; empty: they are there still, or no boundary moves nodes
 	std::vector<Vec<Dim>>       halfSize;      ///< current half lengths of the domains [m], at most half a cell
 	std::vector<Vec<Dim>>       halfSize0;     ///< initial half lengths [m]
 	std::vector<double>         volume0;       ///< initial volume [m3], per metre of thickness in plane strain

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "core/stepping/load_step.hpp"
 #include "core/stepping/beyond_walls.hpp"
-#include "core/stepping/equilibrium.hpp"
+#include "core/stepping/grip.hpp"
+#include "core/stepping/newton.hpp"
 #include "core/terms/point_update.hpp"
 #include "core/stepping/restraint.hpp"
 #include "core/base/stopwatch.hpp"
@@ -62,6 +63,11 @@ template <int Dim> StepReport loadStep(PointCloud<Dim>& cloud, const Model<Dim>&
 		return restraint(system.basis, model.grid, model.boundary, system.terms);
 	}();
 	report.parts               = held.parts;
+	report.cause               = lostGrip(cloud, system.basis, model, load);
+	if (!report.cause.empty()) {
+		report.failure = Failure::detached;
+		return report;
+	}
 	if (!held.freeMotion.empty()) {
 		report.failure = Failure::unrestrained;
 		report.cause   = "nothing restrains the " + held.freeMotion;

@@ -51,6 +51,7 @@ namespace {
 		using gimpm::Failure;
 		switch (failure) {
 			case Failure::none: return "none";
+			case Failure::detached: return "detached";
 			case Failure::unrestrained: return "unrestrained";
 			case Failure::singular: return "singular";
 			case Failure::inverted: return "inverted";
@@ -320,6 +321,7 @@ template <int Dim> void MpmImplicitEngine::step()
 	}
 	addTime("gather", gathering);
 	if (checking > 0) addTime("check", checking);
+	warnOfIdleBoundaries();
 	tellObservers([this](LoadStepObserver& observer) { observer.stepBegins(*this); });
 	advance(cloud, model, target);
 	const ValueLock lock;
@@ -487,6 +489,18 @@ void MpmImplicitEngine::warnOfEnd()
 	warn(text.str());
 }
 
+// A wall may wait for soil that arrives later, so it is said once. That a boundary moves nothing is an error of the step.
+void MpmImplicitEngine::warnOfIdleBoundaries()
+{
+	const ValueLock lock;
+	if (boundaries == lookedAtBoundaries) return;
+	auto except = std::exchange(lookedAtBoundaries, boundaries);
+	std::copy_if(boundaries.begin(), boundaries.end(), std::back_inserter(except), [](const auto& b) { return !b->displacement.isZero(0); });
+	const string idle = boundaries.empty() ? "" : idleBoundaries(*this, points, except);
+	if (idle.empty()) return;
+	warn(idle.substr(1) + " It holds nothing until soil arrives there.");
+}
+
 void MpmImplicitEngine::warnOfAccepted(const gimpm::StepReport& report, Real time)
 {
 	std::ostringstream text;
@@ -535,6 +549,9 @@ string MpmImplicitEngine::adviceOn(const gimpm::StepReport& report, Real part) c
 	if (report.failure == Failure::unrestrained) return " Hold nodes of that material with MpmBoundary.";
 	if (report.failure == Failure::interrupted) return " O.run() goes on from there.";
 	if (report.failure == Failure::stalled) return " Set newton.tolerance to that or more.";
+	if (report.failure == Failure::detached)
+		return " Nodes stay in place while the soil moves: on its surface they push it by half a cell, see MpmBoundary.displacement. Put the box where the soil is now, "
+		       "or move a block of stiff material points by nodes inside of it.";
 	if (ghost->factor == 0) advice += " The ghost stabilisation is off (factor=0): small overlaps of material and cells make the system ill conditioned.";
 	if (part < 1) advice += " The load may be more than the body can carry in equilibrium.";
 	else

@@ -156,7 +156,7 @@ public:
 		c.def("report",
 		      &MpmImplicitEngine::report,
 		      "report() -> dict\n\nHow the last run of this engine in this process went; empty before the first.\n\n"
-		      "Outcome: 'converged'; 'accepted' (see MpmNewton.acceptUnconverged); 'failure', one of 'none', 'unrestrained', 'singular', 'inverted', "
+		      "Outcome: 'converged'; 'accepted' (see MpmNewton.acceptUnconverged); 'failure', one of 'none', 'detached' (a boundary that is to move has no hold of the soil), 'unrestrained', 'singular', 'inverted', "
 		      "'notFinite', 'diverging', 'tooManyIterations', 'stalled' (at round-off), 'interrupted'; 'cause', a clause, empty when converged; 'loadTime' [s] and 'loadFactor' of the "
 		      "last converged state; 'stepPart', part of O.dt that the next step tries.\n\n"
 		      "Effort of the run, undone tries included: 'iterations' (linear solves), 'substeps', 'cuts', 'lineSearchTrials', 'reusedFactors', 'luSolves', 'cgIterations', 'cgFallbacks'; 'times' [s], dict "
@@ -247,6 +247,7 @@ private:
 	void                       addTime(const char* phase, double seconds);
 	void                       warn(const string&);
 	void                       warnOfEnd();
+	void                       warnOfIdleBoundaries();
 	void                       warnOfAccepted(const gimpm::StepReport&, Real time);
 	string                     reasonOf(const gimpm::StepReport&, Real time, Real part) const;
 	string                     placeOfImbalance(const gimpm::StepReport&) const;
@@ -262,6 +263,7 @@ private:
 	Plausibility        plausibility;
 	bool                warnedOfEnd = false; // of the load curve
 	boost::weak_ptr<Factorable> home;        // the scene where it was made or seen last
+	vector<shared_ptr<MpmBoundary>> lookedAtBoundaries; // whether they reach any point
 	gimpm::LinearSolver solver; // keeps the symbolic analysis; results do not depend on it
 
 	// for report(): the last load step that was tried, and the times of the last run by phase [s]

@@ -168,6 +168,10 @@ template <int Dim> gimpm::PointCloud<Dim> gather(const vector<MaterialPoint>& po
 	if (hasForce)
 		for (const MaterialPoint& point : points)
 			cloud.force.push_back(point.state->force.template head<Dim>());
+	const auto& boxes = model.boundary.boxes();
+	if (std::any_of(boxes.begin(), boxes.end(), [](const auto& box) { return !box.displacement.isZero(0); }))
+		for (const MaterialPoint& point : points)
+			cloud.position0.push_back(point.state->refPos.template head<Dim>());
 	return cloud;
 }
 

@@ -8,6 +8,7 @@
 #include <optional>
 
 namespace yade {
+class MpmBoundary;
 class MpmImplicitEngine;
 
 // Asked around every step. Settings and materials are looked at each time. Points, which takes longer, are looked at when they are not as
@@ -47,7 +48,7 @@ private:
 	std::pair<Vector3r, Vector3r> box { Vector3r::Zero(), Vector3r::Zero() }; // that all were in at first: its corners [m]
 };
 
-// Of boundaries that do not reach any of the points, a sentence for each; empty if there is none.
-string idleBoundaries(const MpmImplicitEngine&, const vector<MaterialPoint>&);
+// Of boundaries that do not reach any of the points, a sentence for each; empty if there is none. Some may be left out.
+string idleBoundaries(const MpmImplicitEngine&, const vector<MaterialPoint>&, const vector<shared_ptr<MpmBoundary>>& except = {});
 
 } // namespace yade

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Whether the boxes that move nodes still have hold of the soil.
+#pragma once
+#include "core/grid/cloud_basis.hpp"
+#include "core/stepping/model.hpp"
+#include <string>
+
+namespace gimpm {
+
+/// Nodes stay where they are while the soil that they push moves on. What is wrong with the first box found that is to move and holds no node
+/// with soil, or whose soil has gone more than half a cell away in front of a node; or empty. It depends on the present state only.
+template <int Dim> std::string lostGrip(const PointCloud<Dim>&, const CloudBasis<Dim>&, const Model<Dim>&, const Load<Dim>&);
+
+} // namespace gimpm
