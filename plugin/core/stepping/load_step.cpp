@@ -2,7 +2,7 @@
 #include "core/stepping/load_step.hpp"
 #include "core/stepping/beyond_walls.hpp"
 #include "core/stepping/grip.hpp"
-#include "core/stepping/newton.hpp"
+#include "core/stepping/equilibrium.hpp"
 #include "core/terms/point_update.hpp"
 #include "core/stepping/restraint.hpp"
 #include "core/base/stopwatch.hpp"
