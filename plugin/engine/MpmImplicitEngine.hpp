@@ -241,7 +241,7 @@ private:
 	ProgressLine        progressLine;
 	size_t              lookedAt      = 0;     // number of points in the scene that was found plausible
 	bool                warnedOfEnd = false; // of the load curve
-	vector<shared_ptr<MpmBoundary>> lookedAtBoundaries; // whether they reach any point
+	vector<std::pair<Vector3r, Vector3r>> lookedAtBoxes; // of boundaries: whether they reach any point
 	gimpm::LinearSolver solver; // keeps the symbolic analysis; results do not depend on it
 
 	// for report(): the last load step that was tried, and the times of the last run by phase [s]
