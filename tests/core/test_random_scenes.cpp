@@ -9,6 +9,8 @@
 namespace gimpm::testRandomScenes {
 namespace {
 
+	constexpr int failures = int(Failure::interrupted) + 1; // kinds of them
+
 	template <int Dim> struct RandomScene {
 		Random          random;
 		Model<Dim>      model;
@@ -128,7 +130,7 @@ namespace {
 	}
 
 	/// Up to three load steps of a scene; counts how they ended.
-	template <int Dim> void expectSoundSteps(unsigned seed, int (&ended)[8])
+	template <int Dim> void expectSoundSteps(unsigned seed, int (&ended)[failures])
 	{
 		SCOPED_TRACE("seed " + std::to_string(seed));
 		RandomScene<Dim>   scene(seed);
@@ -166,7 +168,7 @@ namespace {
 		const char*   asked    = std::getenv("RANDOM_SCENES"); // for longer searches: number of scenes and, after a comma, the first seed
 		const char*   comma    = asked ? std::strchr(asked, ',') : nullptr;
 		const int     count    = asked ? std::atoi(asked) : Dim == 2 ? 400 : 60, first = comma ? std::atoi(comma + 1) : 0;
-		int           ended[8] = {};
+		int           ended[failures] = {};
 		for (int seed = first; seed < first + count; ++seed)
 			expectSoundSteps<Dim>(seed, ended);
 		EXPECT_GT(ended[int(Failure::none)], count / 4) << "too few scenes are sane";
@@ -179,7 +181,7 @@ namespace {
 	// Found by longer searches.
 	TEST(RandomScene, PointsThrownOffTheGridFailTheStep)
 	{
-		int ended[8] = {};
+		int ended[failures] = {};
 		for (const unsigned seed : { 16216, 19862, 22081, 24801, 25178 })
 			expectSoundSteps<2>(seed, ended);
 		EXPECT_GE(ended[int(Failure::diverging)], 3);
@@ -187,7 +189,7 @@ namespace {
 
 	TEST(RandomScene, PrescribedDisplacementsDoNotPassForceThatIsNotTheirs)
 	{
-		int ended[8] = {};
+		int ended[failures] = {};
 		expectSoundSteps<2>(2130, ended);
 		for (const unsigned seed : { 6463, 9920 })
 			expectSoundSteps<3>(seed, ended);
@@ -195,7 +197,7 @@ namespace {
 
 	TEST(RandomScene, FlattenedPointsHaveASize)
 	{
-		int ended[8] = {};
+		int ended[failures] = {};
 		for (const unsigned seed : { 134106, 202938 })
 			expectSoundSteps<3>(seed, ended);
 	}

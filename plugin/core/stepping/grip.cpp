@@ -2,8 +2,9 @@
 #include "core/stepping/grip.hpp"
 #include <algorithm>
 #include <limits>
+#include <map>
+#include <optional>
 #include <sstream>
-#include <unordered_map>
 
 namespace gimpm {
 namespace {
@@ -21,53 +22,51 @@ public:
 	}
 	bool isOnGrid() const { return std::abs(lower[axis]) <= Grid<Dim>::indexLimit; }
 
-	/// Looks at all points; false: no node has lost its soil.
-	bool findsGap(const PointCloud<Dim>& cloud, const Grid<Dim>& grid)
+	struct Loss {
+		Index<Dim> node;
+		double     gap; ///< [cells]
+	};
+	/// The widest gap that has opened between a node and the soil before it, if one has.
+	std::optional<Loss> loss(const PointCloud<Dim>& cloud, const Grid<Dim>& grid)
 	{
 		for (std::size_t p = 0; p < cloud.size(); ++p)
 			look(cloud, int(p), grid);
-		widest = gaps.end();
-		for (auto g = gaps.begin(); g != gaps.end(); ++g)
-			if (isLost(g->second) && (widest == gaps.end() || wider(*g, *widest))) widest = g;
-		return widest != gaps.end();
+		std::optional<Loss> widest;
+		for (const auto& [node, gap] : gaps)
+			if (gap.hasOpened() && (!widest || gap.now > widest->gap)) widest = Loss { Grid<Dim>::index(node), gap.now };
+		return widest;
 	}
-	Index<Dim> node() const { return Grid<Dim>::index(widest->first); }
-	double     gap() const { return widest->second.now; }
 
 private:
 	/// Between a node and the soil before it, in cells; `first`: to the same soil before it ever moved.
 	struct Gap {
 		double now, first;
-	};
 
-	/// Soil that was in the cell before the node and has withdrawn: half a cell away it takes part in 95 % of the movement, and in less than half
-	/// of it not much later. Soil that was far from the beginning, as beside the crest of an embankment, has never been the node's.
-	static bool isLost(const Gap& g) { return g.first < 1 - 1e-9 && g.now > 0.5 + 1e-9 && g.now > std::max(g.first, 0.) + 0.25; }
-	static bool wider(const std::pair<const Key, Gap>& a, const std::pair<const Key, Gap>& b)
-	{
-		return std::pair(a.second.now, b.first) > std::pair(b.second.now, a.first);
-	}
+		/// Half a cell away the soil has taken part in 95 % of the movement, and soon it takes part in less than half of it. Soil that was about as far
+		/// from the beginning, as beside the crest of an embankment, is not lost.
+		bool hasOpened() const { return now > 0.5 + 1e-9 && now > std::max(first, 0.) + 0.25; }
+	};
 
 	double distance(const Vec<Dim>& x, const Grid<Dim>& grid) const { return sign * ((x[axis] - grid.origin[axis]) / grid.cellSize - lower[axis]); }
 
-	/// Straight before a node is what lies within a quarter of a cell beside it: soil further out hangs on to other nodes too.
+	/// Of soil that is not near only what has been in the first cell counts. Straight before a node is what lies within a quarter of a cell beside it:
+	/// soil further out hangs on to other nodes too.
 	void look(const PointCloud<Dim>& cloud, int p, const Grid<Dim>& grid)
 	{
-		const Vec<Dim> &x = cloud.position[p], reach = cloud.halfSize[p] / grid.cellSize + Vec<Dim>::Constant(0.25);
-		const double    centre = distance(x, grid), half = cloud.halfSize[p][axis] / grid.cellSize;
-		if (centre + half <= 0) return; // behind the nodes
+		const double centre = distance(cloud.position[p], grid), half = cloud.halfSize[p][axis] / grid.cellSize;
+		const Gap    gap { centre - half, distance(cloud.position0[p], grid) - cloud.halfSize0[p][axis] / grid.cellSize };
+		if (centre + half <= 0 || (gap.now > 0.5 && gap.first > 1 - 1e-9)) return;
 		Index<Dim> low = lower, high = upper; // of the nodes that the point is before
 		for (int a = 0; a < Dim; ++a) {
 			if (a == axis) continue;
-			const double place = (x[a] - grid.origin[a]) / grid.cellSize;
-			low[a]             = std::max(low[a], -floorToInt(reach[a] - place));
-			high[a]            = std::min(high[a], floorToInt(place + reach[a]));
+			const double place = (cloud.position[p][a] - grid.origin[a]) / grid.cellSize, reach = cloud.halfSize[p][a] / grid.cellSize + 0.25;
+			low[a]             = std::max(low[a], -floorToInt(reach - place));
+			high[a]            = std::min(high[a], floorToInt(place + reach));
 			if (low[a] > high[a]) return;
 		}
-		const double first = distance(cloud.position0[p], grid) - cloud.halfSize0[p][axis] / grid.cellSize;
 		forNodes(low, high, [&](Key node) {
-			const auto [found, isNew] = gaps.try_emplace(node, Gap { centre - half, first });
-			if (!isNew && centre - half < found->second.now) found->second = { centre - half, first };
+			const auto [found, isNew] = gaps.try_emplace(node, gap);
+			if (!isNew && gap.now < found->second.now) found->second = gap;
 		});
 	}
 	template <class F> static void forNodes(const Index<Dim>& low, const Index<Dim>& high, F&& f)
@@ -80,13 +79,10 @@ private:
 		}
 	}
 
-	using Gaps = std::unordered_map<Key, Gap>;
-
-	Index<Dim>              lower, upper;
-	int                     axis;
-	double                  sign;
-	Gaps                    gaps;
-	typename Gaps::iterator widest;
+	Index<Dim>         lower, upper; // of the nodes
+	int                axis;
+	double             sign;
+	std::map<Key, Gap> gaps;
 };
 
 template <int Dim> bool holdsSoil(const HeldBox<Dim>& box, const CloudBasis<Dim>& basis)
@@ -101,7 +97,7 @@ template <class V> std::string listed(const V& x)
 {
 	std::ostringstream text;
 	for (int a = 0; a < x.size(); ++a)
-		text << (a == 0 ? "(" : ", ") << x[a];
+		text << (a == 0 ? "(" : ", ") << x[a] + 0.; // not -0
 	return text.str() + ")";
 }
 
@@ -121,19 +117,20 @@ template <int Dim> std::string withoutSoil(const HeldBox<Dim>& box, const PointC
 	return "none of its nodes, from " + place(box.lower) + " to " + place(box.upper) + ", carries soil, which lies between " + listed(low) + " and " + listed(high);
 }
 
-template <int Dim> std::string whatIsWrong(const HeldBox<Dim>& box, const PointCloud<Dim>& cloud, const CloudBasis<Dim>& basis, const Model<Dim>& model, const Load<Dim>& load)
+template <int Dim> std::string withdrawn(const HeldBox<Dim>& box, const PointCloud<Dim>& cloud, const Grid<Dim>& grid, const Load<Dim>& load)
 {
-	if (!holdsSoil(box, basis)) return withoutSoil(box, cloud, model.grid);
 	if (cloud.position0.empty()) return "";
-	const double before = load.factor - load.increment, factor = before != 0 ? before : load.increment;
+	const double before = load.factor - load.increment, factor = before != 0 ? before : load.increment; // what has pushed, or begins to
 	for (int a = 0; a < Dim; ++a) {
-		if (factor * box.displacement[a] == 0) continue;
-		Front<Dim> front(box, a, factor * box.displacement[a]);
-		if (!front.isOnGrid() || !front.findsGap(cloud, model.grid)) continue;
+		const double push = factor * box.displacement[a];
+		Front<Dim>   front(box, a, push);
+		if (push == 0 || !front.isOnGrid()) continue;
+		const auto loss = front.loss(cloud, grid);
+		if (!loss) continue;
 		std::ostringstream text;
 		text.precision(3);
-		text << "the soil that it pushes along " << (factor * box.displacement[a] < 0 ? '-' : '+') << "xyz"[a] << " is " << front.gap()
-		     << " cells away from its node at " << listed(model.grid.nodePosition(front.node())) << " and no longer follows";
+		text << "the soil that it pushes along " << (push < 0 ? '-' : '+') << "xyz"[a] << " is " << loss->gap << " cells away from its node at "
+		     << listed(grid.nodePosition(loss->node)) << " and no longer follows";
 		return text.str();
 	}
 	return "";
@@ -146,7 +143,7 @@ template <int Dim> std::string lostGrip(const PointCloud<Dim>& cloud, const Clou
 	const auto& boxes = model.boundary.boxes();
 	for (std::size_t b = 0; b < boxes.size(); ++b) {
 		if (boxes[b].displacement.isZero(0)) continue;
-		const std::string wrong = whatIsWrong(boxes[b], cloud, basis, model, load);
+		const std::string wrong = holdsSoil(boxes[b], basis) ? withdrawn(boxes[b], cloud, model.grid, load) : withoutSoil(boxes[b], cloud, model.grid);
 		if (!wrong.empty()) return "boundaries[" + std::to_string(b) + "] moves by " + listed(boxes[b].displacement) + " m, but " + wrong;
 	}
 	return "";

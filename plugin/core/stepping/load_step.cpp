@@ -60,10 +60,10 @@ template <int Dim> StepReport loadStep(PointCloud<Dim>& cloud, const Model<Dim>&
 	const StepSystem<Dim> system(cloud, model, load, report);
 	const Restraint       held = [&] {
 		const Stopwatch watch(report.times.basis);
+		report.cause = lostGrip(cloud, system.basis, model, load);
 		return restraint(system.basis, model.grid, model.boundary, system.terms);
 	}();
 	report.parts               = held.parts;
-	report.cause               = lostGrip(cloud, system.basis, model, load);
 	if (!report.cause.empty()) {
 		report.failure = Failure::detached;
 		return report;

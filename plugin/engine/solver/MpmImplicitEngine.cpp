@@ -492,11 +492,17 @@ void MpmImplicitEngine::warnOfEnd()
 // A wall may wait for soil that arrives later, so it is said once. That a boundary moves nothing is an error of the step.
 void MpmImplicitEngine::warnOfIdleBoundaries()
 {
-	const ValueLock lock;
-	if (boundaries == lookedAtBoundaries) return;
-	auto except = std::exchange(lookedAtBoundaries, boundaries);
-	std::copy_if(boundaries.begin(), boundaries.end(), std::back_inserter(except), [](const auto& b) { return !b->displacement.isZero(0); });
-	const string idle = boundaries.empty() ? "" : idleBoundaries(*this, points, except);
+	const ValueLock            lock;
+	vector<const MpmBoundary*> except;
+	decltype(lookedAtBoxes)    boxes;
+	for (const auto& boundary : boundaries) {
+		boxes.emplace_back(boundary->min, boundary->max);
+		const bool isKnown = std::find(lookedAtBoxes.begin(), lookedAtBoxes.end(), boxes.back()) != lookedAtBoxes.end();
+		if (isKnown || !boundary->displacement.isZero(0)) except.push_back(boundary.get());
+	}
+	lookedAtBoxes.swap(boxes);
+	if (except.size() == boundaries.size()) return;
+	const string idle = idleBoundaries(*this, points, except);
 	if (idle.empty()) return;
 	warn(idle.substr(1) + " It holds nothing until soil arrives there.");
 }
@@ -550,8 +556,8 @@ string MpmImplicitEngine::adviceOn(const gimpm::StepReport& report, Real part) c
 	if (report.failure == Failure::interrupted) return " O.run() goes on from there.";
 	if (report.failure == Failure::stalled) return " Set newton.tolerance to that or more.";
 	if (report.failure == Failure::detached)
-		return " Nodes stay in place while the soil moves: on its surface they push it by half a cell, see MpmBoundary.displacement. Put the box where the soil is now, "
-		       "or move a block of stiff material points by nodes inside of it.";
+		return " Nodes stay in place while the soil moves, and push it by half a cell: put the box where the soil is now, in each step if it is pushed further, or move "
+		       "a block of stiff material points by nodes inside of it (examples/README.md, recipes).";
 	if (ghost->factor == 0) advice += " The ghost stabilisation is off (factor=0): small overlaps of material and cells make the system ill conditioned.";
 	if (part < 1) advice += " The load may be more than the body can carry in equilibrium.";
 	else

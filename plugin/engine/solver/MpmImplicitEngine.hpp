@@ -263,7 +263,7 @@ private:
 	Plausibility        plausibility;
 	bool                warnedOfEnd = false; // of the load curve
 	boost::weak_ptr<Factorable> home;        // the scene where it was made or seen last
-	vector<shared_ptr<MpmBoundary>> lookedAtBoundaries; // whether they reach any point
+	vector<std::pair<Vector3r, Vector3r>> lookedAtBoxes; // of boundaries: whether they reach any point
 	gimpm::LinearSolver solver; // keeps the symbolic analysis; results do not depend on it
 
 	// for report(): the last load step that was tried, and the times of the last run by phase [s]

@@ -105,6 +105,13 @@ def _notNeeded(scene):
 		        f'layers: moduli differ by a factor of {contrast:.3g}. Where such layers move through the grid, stresses beside their boundary are off, by 24 % '
 		        'for a factor of 10, 76 % for 100.'
 		)
+	for i, boundary in enumerate(solver.boundaries):
+		cells = max(abs(factor) for _, factor in solver.loadCurve) * max(map(abs, boundary.displacement)) / scene.h
+		if cells > 0.5:
+			found.append(
+			        f'boundaries[{i}]: it moves by {cells:.3g} cells, but its nodes stay in place: soil that they push away from its surface follows for half a '
+			        'cell, then the step ends. Recipes in examples/README.md push deeper.'
+			)
 	if solver.ghost.factor == 0: found.append('stabilisation: it is off; one point that leaves its row can make a step fail. MpmGhost() costs next to nothing.')
 	if solver.ghost.factor > 1: found.append(f'stabilisation: factor={solver.ghost.factor:g} stiffens the edge of the body; 1e-2 is enough.')
 	if solver.basis == 'mpm': found.append("basis: 'mpm' has had up to 50 times the error of 'gimp', and saves at best half of the time.")
