@@ -28,9 +28,9 @@ def test_every_relative_link_leads_somewhere():
 
 
 def test_every_page_of_an_example_is_in_the_index_of_the_documentation():
-	index = (root / 'scripts/lib/docs/index.md').read_text()
+	index = (root / 'plugin/docs/index.md').read_text()
 	for page in (root / 'examples').glob('*/README.md'):
-		assert f'../../../examples/{page.parent.name}/README\n' in index, page
+		assert f'../../examples/{page.parent.name}/README\n' in index, page
 
 
 def test_every_picture_is_on_a_page_and_can_be_seen_as_a_whole():
@@ -100,7 +100,7 @@ print('checked', found, units)
 
 
 def test_everything_public_is_described(yade):
-	run = yade(f'REFERENCE = {str(root / "scripts/lib/docs/reference.py")!r}\n' + check)
+	run = yade(f'REFERENCE = {str(root / "plugin/docs/reference.py")!r}\n' + check)
 	lines = [line for line in run.stdout.splitlines() if re.match(r'no |not |errors |checked', line)]
 	assert len(lines) == 1, lines
 	found, units = map(int, lines[0].split()[1:])
