@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // A term from outside the core, given to it by Model::terms alone: springs between nodes and the ground. It is what the developer's page
 // tells how to add.
-#include "scenes.hpp"
 #include "core/stepping/step_system.hpp"
+#include "scenes.hpp"
 #include <map>
 
 namespace gimpm::testTerms {
@@ -24,11 +24,11 @@ namespace {
 
 	template <int Dim> class SpringForce : public Term<Dim> {
 	public:
-		SpringForce(Springs<Dim>& springs, const CloudBasis<Dim>& basis)
-		        : springs_(springs)
+		SpringForce(Springs<Dim>& springs, const CloudBasis<Dim>& basis) : springs_(springs)
 		{
 			for (auto& [key, elongation] : springs.elongation)
-				if (const int n = position(basis.nodes, key); n < int(basis.nodes.size()) && basis.nodes[n] == key) ends_.push_back({ n, elongation });
+				if (const int n = position(basis.nodes, key); n < int(basis.nodes.size()) && basis.nodes[n] == key)
+					ends_.push_back({ n, elongation });
 		}
 		void mark(NodeMatrix<Dim>& K) const override
 		{
@@ -93,10 +93,10 @@ namespace {
 			model.grid.cellSize    = 0.5;
 			model.materials        = { { Hencky(1e7, 0.3), 2000 } };
 			model.newton.tolerance = 1e-9;
-			model.terms            = { [this](const CloudBasis<Dim>& basis, const Grid<Dim>&) { return std::make_unique<SpringForce<Dim>>(springs, basis); } };
-			cloud                  = block<Dim>(model.grid, Index<Dim>::Constant(2), 2);
-			Index<Dim> base        = Index<Dim>::Constant(3);
-			base[1]                = 1;
+			model.terms = { [this](const CloudBasis<Dim>& basis, const Grid<Dim>&) { return std::make_unique<SpringForce<Dim>>(springs, basis); } };
+			cloud       = block<Dim>(model.grid, Index<Dim>::Constant(2), 2);
+			Index<Dim> base = Index<Dim>::Constant(3);
+			base[1]         = 1;
 			forIndices<Dim>(Index<Dim>::Zero(), base, [&](const Index<Dim>& n) { springs.elongation[Grid<Dim>::key(n)].setZero(); });
 		}
 		double     weight() const { return 10 * 2000; } // 1 m wide in every direction
@@ -104,7 +104,8 @@ namespace {
 		StepReport step(double factor) { return loadStep(cloud, model, load(factor), solver); }
 	};
 
-	template <class T> class SpringTerm : public ::testing::Test { };
+	template <class T> class SpringTerm : public ::testing::Test {
+	};
 	TYPED_TEST_SUITE(SpringTerm, BothDimensions, DimensionName);
 
 	TYPED_TEST(SpringTerm, ForceAndStiffnessAreAddedToTheOthers)
@@ -153,7 +154,7 @@ namespace {
 	TYPED_TEST(SpringTerm, TheResidualIsComparedWithTheirForces)
 	{
 		constexpr int Dim = TypeParam::value;
-		Raft<Dim>      raft;
+		Raft<Dim>     raft;
 		ASSERT_TRUE(raft.step(1).converged());
 		StepReport            sizes;
 		const StepSystem<Dim> system(raft.cloud, raft.model, raft.load(1.01), sizes);
