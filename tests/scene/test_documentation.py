@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """What users read: links lead somewhere, and everything public says what it is, in which unit."""
 import json
+import math
 import re
 import struct
+import subprocess
 
 from conftest import root
 
@@ -28,9 +30,9 @@ def test_every_relative_link_leads_somewhere():
 
 
 def test_every_page_of_an_example_is_in_the_index_of_the_documentation():
-	index = (root / 'scripts/lib/docs/index.md').read_text()
+	index = (root / 'plugin/docs/index.md').read_text()
 	for page in (root / 'examples').glob('*/README.md'):
-		assert f'../../../examples/{page.parent.name}/README\n' in index, page
+		assert f'../../examples/{page.parent.name}/README\n' in index, page
 
 
 def test_every_picture_is_on_a_page_and_can_be_seen_as_a_whole():
@@ -62,6 +64,54 @@ def test_every_example_has_a_page_in_the_course():
 		assert f'{script.stem}/README.md' in course and f'{script.stem}.png' in course, script
 		page = (script.parent / 'README.md').read_text()
 		assert 'scripts/run ' in page and f'pvbatch scripts/paraview-picture.py out/{script.stem}/' in page, script
+
+
+def sectionOf(page, title):
+	return page.partition(f'\n## {title}\n')[2].partition('\n## ')[0]
+
+
+developersPage = (root / 'plugin/docs/development.md').read_text()
+
+
+def test_what_the_developers_page_names_is_there():
+	named = re.findall(r'`([^`\n]+)`', re.sub(r'```.*?```', '', developersPage, flags=re.DOTALL))
+	paths = {word for name in named for word in name.split() if '/' in word and not word.startswith('build/')}
+	words = {word for name in named for word in re.findall(r'\w+', name) if '/' not in name}
+	assert len(paths) > 20 and len(words) > 40
+	sources = [path for folder in ('plugin', 'tests', 'scripts') for path in (root / folder).rglob('*') if path.suffix in ('.hpp', '.cpp', '.py', '')]
+	known = {word for path in sources for word in re.findall(r'\w+', path.read_text() if path.is_file() else path.name)}
+	assert not words - known
+	assert not [path for path in paths if not (root / path).exists() and not (root / 'plugin' / path).exists()]
+
+
+def test_the_examples_of_the_developers_page_are_in_the_files_that_it_lists():
+	"""No other file needs a line for them."""
+	listed = set(re.findall(r'`(\w+/\w+/\w+\.[ch]pp)`', sectionOf(developersPage, 'Add a law'))) - {'tests/core/test_materials.cpp', 'tests/core/test_tangent.cpp'}
+	law = {str(path.relative_to(root / 'plugin')) for path in (root / 'plugin').rglob('*.[ch]pp') if re.search(r'VonMises|von_mises', path.read_text())}
+	assert law == listed and len(law) == 5
+	term = [path.relative_to(root) for folder in ('plugin', 'tests') for path in (root / folder).rglob('*.[ch]pp') if 'SpringForce' in path.read_text()]
+	assert [f'`{path}`' in sectionOf(developersPage, 'Add a term') for path in term] == [True]
+
+
+def test_the_program_of_the_developers_page(tmp_path):
+	"""It is compiled by the command beside it and agrees with the exact settlement, and both have the numbers that the page gives."""
+	section = sectionOf(developersPage, 'The core without YADE')
+	program = re.search(r'```cpp\n(.*?)```', section, re.DOTALL)[1]
+	command = re.search(r'^ {4}(g\+\+ .*)$', section, re.MULTILINE)[1]
+	assert program.count('\n') <= 35 and '-o column' in command
+	(tmp_path / 'column.cpp').write_text(program)
+	for folder in 'plugin', 'build':
+		(tmp_path / folder).symlink_to(root / folder)
+	subprocess.run(command.split(), cwd=tmp_path, check=True)
+	printed = subprocess.run([tmp_path / 'column'], stdout=subprocess.PIPE, text=True, check=True).stdout
+	settlement = float(re.fullmatch(r'settlement (\d\.\d{6}) m\n', printed)[1])
+	# Stretch W(x)/x at the load x = s (1 - Y), with x = W exp(W); over the height it makes (W + W^2/2)/s, with W = W(s).
+	height, s, W = 10, 2000 * 10 * 10 / 1e6, 0.2
+	for _ in range(20):
+		W -= (W * math.exp(W) - s) / ((W + 1) * math.exp(W))
+	exact = height * (1 - (W + W**2 / 2) / s)
+	assert abs(settlement / exact - 1) < 2e-4
+	assert f'prints {settlement:.6f} m' in section and f'is {exact:.6f} m' in section and f'{s * height / 2:g} m.' in section
 
 
 # Run in YADE: the undocumented, one line for each. A real number needs a unit, [-] if it has none.
@@ -100,7 +150,7 @@ print('checked', found, units)
 
 
 def test_everything_public_is_described(yade):
-	run = yade(f'REFERENCE = {str(root / "scripts/lib/docs/reference.py")!r}\n' + check)
+	run = yade(f'REFERENCE = {str(root / "plugin/docs/reference.py")!r}\n' + check)
 	lines = [line for line in run.stdout.splitlines() if re.match(r'no |not |errors |checked', line)]
 	assert len(lines) == 1, lines
 	found, units = map(int, lines[0].split()[1:])
