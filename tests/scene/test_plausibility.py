@@ -230,7 +230,8 @@ O.step()
 say('end')
 ''')
 	said = paragraphs(run)
-	assert 'WARNING' not in said['sound'], said['sound']
+	warnings = [line for line in said['sound'].splitlines() if 'WARNING' in line]
+	assert all('fill: the region has' in line for line in warnings), warnings  # as some of the lattices are off the region's edges
 	assert said['loaded twice'].count('m3 of material are counted twice') == 1, said['loaded twice']
 
 
