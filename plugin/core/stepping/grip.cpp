@@ -125,7 +125,7 @@ template <int Dim> std::string whatIsWrong(const HeldBox<Dim>& box, const PointC
 {
 	if (!holdsSoil(box, basis)) return withoutSoil(box, cloud, model.grid);
 	if (cloud.position0.empty()) return "";
-	const double before = load.factor - load.increment, factor = before != 0 ? before : load.increment;
+	const double before = load.factor.before(), factor = before != 0 ? before : load.factor.growth;
 	for (int a = 0; a < Dim; ++a) {
 		if (factor * box.displacement[a] == 0) continue;
 		Front<Dim> front(box, a, factor * box.displacement[a]);
