@@ -210,9 +210,9 @@ template <int Dim> struct Column {
 	StepReport step(int step, int steps)
 	{
 		Load<Dim> load;
-		load.gravity   = -10 * Vec<Dim>::Unit(1);
-		load.factor    = double(step) / steps;
-		load.increment = 1. / steps;
+		load.gravity       = -10 * Vec<Dim>::Unit(1);
+		load.factor.value  = double(step) / steps;
+		load.factor.growth = 1. / steps;
 		return loadStep(cloud, model, load, solver);
 	}
 	/// Error of eq. (7), from the points' original heights.

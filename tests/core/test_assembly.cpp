@@ -92,10 +92,10 @@ namespace {
 		constexpr int    Dim = TypeParam::value;
 		RandomScene<Dim> scene(100);
 		Load<Dim>        load;
-		load.gravity    = scene.random.template matrix<Dim>();
-		load.factor     = 0.7;
-		Vec<Dim> sum    = Vec<Dim>::Zero();
-		Mat<Dim> moment = Mat<Dim>::Zero();
+		load.gravity      = scene.random.template matrix<Dim>();
+		load.factor.value = 0.7;
+		Vec<Dim> sum      = Vec<Dim>::Zero();
+		Mat<Dim> moment   = Mat<Dim>::Zero();
 		for (int p = 0; p < 100; ++p) {
 			scene.cloud.force.push_back(scene.random.template matrix<Dim>());
 			const Vec<Dim> f = 0.7 * (scene.model.materials[p % 2].density * scene.cloud.volume0[p] * load.gravity + scene.cloud.force[p]);

@@ -34,7 +34,7 @@ namespace {
 			model.boundary = Boundary<Dim>(boxes);
 			LinearSolver solver;
 			for (int i = 1; i <= 4; ++i) {
-				load.factor       = i / 4.;
+				load.factor.value = i / 4.;
 				const auto report = loadStep(cloud, model, load, solver);
 				EXPECT_TRUE(report.converged()) << report.cause;
 			}

@@ -37,8 +37,8 @@ namespace {
 		}
 		StepReport step(double factor = 1, double increment = 1)
 		{
-			load.factor    = factor;
-			load.increment = increment;
+			load.factor.value  = factor;
+			load.factor.growth = increment;
 			return loadStep(cloud, model, load, solver);
 		}
 	};

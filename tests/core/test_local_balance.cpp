@@ -42,8 +42,8 @@ namespace {
 			model.newton.linearSolver = method;
 			StepReport report;
 			for (int step = 1; step <= 4; ++step) {
-				load.factor = step / 4., load.increment = 1 / 4.;
-				report = loadStep(cloud, model, load, solver);
+				load.factor.value = step / 4., load.factor.growth = 1 / 4.;
+				report            = loadStep(cloud, model, load, solver);
 				EXPECT_TRUE(report.converged()) << report.cause;
 			}
 			return report;
@@ -155,8 +155,8 @@ namespace {
 		StepReport   report;
 		for (int step = 1; step <= 4; ++step) {
 			Load<2> load;
-			load.factor = step / 10., load.increment = 1 / 10.;
-			report = loadStep(cloud, model, load, solver);
+			load.factor.value = step / 10., load.factor.growth = 1 / 10.;
+			report            = loadStep(cloud, model, load, solver);
 			ASSERT_TRUE(report.converged()) << report.cause;
 		}
 		EXPECT_EQ(report.definiteness, Definiteness::indefinite) << "straight, and about to buckle";

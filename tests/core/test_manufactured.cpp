@@ -109,7 +109,7 @@ namespace {
 		LinearSolver solver;
 		for (int i = 1; i <= steps; ++i) {
 			Load<Dim> load;
-			load.factor       = double(i) / steps;
+			load.factor.value = double(i) / steps;
 			const auto report = loadStep(cloud, model, load, solver);
 			EXPECT_TRUE(report.converged()) << report.cause;
 		}

@@ -182,7 +182,7 @@ namespace {
 		ASSERT_TRUE(block.step().converged());
 		const auto before            = block.cloud.position;
 		block.model.newton.tolerance = 1e-3;
-		block.load.factor += 1e-6;
+		block.load.factor.value += 1e-6;
 		const auto report = block.step();
 		EXPECT_EQ(report.iterations, 1);
 		EXPECT_LT(block.cloud.position.back()[1], before.back()[1]);

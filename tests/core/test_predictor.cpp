@@ -42,7 +42,7 @@ namespace {
 		{
 			LastIncrement<2> last;
 			for (int i = 1; i <= steps; ++i) {
-				const Load<2> load { zero.gravity, double(i) / steps, 1. / steps };
+				const Load<2> load { zero.gravity, { double(i) / steps, 1. / steps } };
 				const auto    a = loadStep(zero.cloud, zero.model, load, zero.solver);
 				const auto    b = loadStep(predicted.cloud, predicted.model, load, predicted.solver, &last);
 				EXPECT_TRUE(a.converged()) << a.cause;

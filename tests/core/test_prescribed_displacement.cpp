@@ -57,8 +57,8 @@ namespace {
 		constexpr int Dim = TypeParam::value;
 		this->move(-0.4);
 		Load<Dim> load;
-		load.factor    = 0.75;
-		load.increment = 0.25;
+		load.factor.value  = 0.75;
+		load.factor.growth = 0.25;
 		ASSERT_TRUE(loadStep(this->cloud, this->model, load, this->solver).converged());
 		for (const auto& F : this->cloud.defGrad)
 			EXPECT_NEAR(F(1, 1), 1 - 0.1 / 2, 1e-12);

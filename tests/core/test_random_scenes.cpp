@@ -31,8 +31,8 @@ namespace {
 			        { VonMises(young * std::pow(10, random.in(-3, 3)), random.in(-0.5, 0.49), young * std::pow(10, random.in(-6, 0))), 0 });
 			addPoints();
 			addBoundaries();
-			load.gravity   = random.matrix<Dim>(std::pow(10, random.in(-6, 1)));
-			load.increment = random.in(-1, 1);
+			load.gravity       = random.matrix<Dim>(std::pow(10, random.in(-6, 1)));
+			load.factor.growth = random.in(-1, 1);
 		}
 		/// A coordinate somewhere in the scene, at or next to a face, in cells.
 		double coordinate()
@@ -154,7 +154,7 @@ namespace {
 				ASSERT_TRUE(bytes(scene.cloud) == bytes(before)) << report.cause;
 			expectSound(scene.cloud, scene.model.grid);
 			if (::testing::Test::HasFailure() || !report.converged()) return;
-			scene.load.factor *= 1.3;
+			scene.load.factor.value *= 1.3;
 		}
 	}
 

@@ -35,7 +35,7 @@ namespace {
 			load.gravity   = -10 * Vec<Dim>::Unit(1);
 			double highest = 0, settlement = 0;
 			for (const double factor : { 0.25, 0.5, 0.75, 1., 0.75, 0.5, 0.25, 0., 0., 0., 0., 0., 0. }) {
-				load.factor       = factor * peak;
+				load.factor.value = factor * peak;
 				const auto report = loadStep(column.cloud, column.model, load, column.solver);
 				ASSERT_TRUE(report.converged()) << factor << ": " << report.cause;
 				highest    = std::max(highest, largestStress(column.cloud));

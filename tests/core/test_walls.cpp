@@ -171,12 +171,12 @@ namespace {
 		load.gravity = 14 * Vec<Dim>::Unit(0) - 16 * Vec<Dim>::Unit(1);
 		StepReport report;
 		for (int i = 1; i <= 4; ++i) {
-			load.factor = i / 4.;
-			report      = loadStep(cloud, model, load, solver);
+			load.factor.value = i / 4.;
+			report            = loadStep(cloud, model, load, solver);
 			ASSERT_TRUE(report.converged()) << report.cause;
-			Vec<Dim> sum = load.factor * cloud.force.back();
+			Vec<Dim> sum = load.factor.value * cloud.force.back();
 			for (std::size_t p = 0; p < cloud.size(); ++p)
-				sum += 10 * cloud.volume0[p] * load.factor * load.gravity;
+				sum += 10 * cloud.volume0[p] * load.factor.value * load.gravity;
 			const double size = sum.norm();
 			for (const Vec3& reaction : report.reactions)
 				sum += reaction.template head<Dim>();

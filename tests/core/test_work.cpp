@@ -29,13 +29,13 @@ namespace {
 			const auto positions = column.cloud.position;
 			Load<Dim>  load;
 			load.gravity      = -10 * Vec<Dim>::Unit(1);
-			load.factor       = 0.1 * (i <= steps ? i : 2 * steps - i) / steps;
+			load.factor.value = 0.1 * (i <= steps ? i : 2 * steps - i) / steps;
 			const auto report = loadStep(column.cloud, column.model, load, column.solver);
 			EXPECT_TRUE(report.converged()) << report.cause;
 			for (std::size_t p = 0; p < start.size(); ++p) // trapezoidal rule for the dead load
 				c.netWork
-				        -= column.weight * column.cloud.volume0[p] * (before + load.factor) / 2 * (column.cloud.position[p] - positions[p])[1];
-			before = load.factor;
+				        -= column.weight * column.cloud.volume0[p] * (before + load.factor.value) / 2 * (column.cloud.position[p] - positions[p])[1];
+			before = load.factor.value;
 			if (i == steps) c.work = c.netWork, c.energy = stored(), c.settlement = (column.cloud.position.back() - start.back()).norm();
 		}
 		c.left = stored();

@@ -120,7 +120,7 @@ template <int Dim> std::string withoutSoil(const HeldBox<Dim>& box, const PointC
 template <int Dim> std::string withdrawn(const HeldBox<Dim>& box, const PointCloud<Dim>& cloud, const Grid<Dim>& grid, const Load<Dim>& load)
 {
 	if (cloud.position0.empty()) return "";
-	const double before = load.factor - load.increment, factor = before != 0 ? before : load.increment; // what has pushed, or begins to
+	const double before = load.factor.before(), factor = before != 0 ? before : load.factor.growth; // what has pushed, or begins to
 	for (int a = 0; a < Dim; ++a) {
 		const double push = factor * box.displacement[a];
 		Front<Dim>   front(box, a, push);

@@ -6,6 +6,7 @@
 #include "core/terms/ghost.hpp"
 #include "core/solvers/linear_solver.hpp"
 #include "core/materials/law.hpp"
+#include "core/stepping/load_curve.hpp"
 #include <functional>
 #include <optional>
 
@@ -37,14 +38,12 @@ template <int Dim> struct Model {
 };
 
 template <int Dim> struct Load {
-	Vec<Dim> gravity   = Vec<Dim>::Zero(); ///< at load factor 1 [m/s2]
-	double   factor    = 1;                ///< load factor at the end of the step
-	double   increment = 1;                ///< its growth in the step: the share of the prescribed displacements
-	std::optional<double> ofGravity {};    ///< the factor of gravity, if it has its own
-	double                growthOfGravity = 0; ///< in the step
+	Vec<Dim>                  gravity = Vec<Dim>::Zero(); ///< at factor 1 [m/s2]
+	LoadFactor                factor;                     ///< of point loads, and of prescribed displacements, which go with its growth
+	std::optional<LoadFactor> ofGravity {};               ///< if it has its own
 
 	/// What the displacements of the step are in proportion to, as far as that can be known.
-	double growth() const { return increment != 0 ? increment : growthOfGravity; }
+	double growth() const { return factor.growth != 0 ? factor.growth : ofGravity.value_or(factor).growth; }
 };
 
 } // namespace gimpm

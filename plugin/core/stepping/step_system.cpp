@@ -28,11 +28,11 @@ std::vector<GhostFace<Dim>> stabilise(const PointCloud<Dim>& cloud, const Model<
 
 template <int Dim> std::vector<Vec<Dim>> pointForces(const PointCloud<Dim>& cloud, const Model<Dim>& model, const Load<Dim>& load)
 {
-	const double          ofGravity = load.ofGravity.value_or(load.factor);
+	const double          ofGravity = load.ofGravity.value_or(load.factor).value;
 	std::vector<Vec<Dim>> force(cloud.size());
 	for (std::size_t p = 0; p < cloud.size(); ++p) {
 		force[p] = model.materials[cloud.material[p]].density * cloud.volume0[p] * ofGravity * load.gravity;
-		if (!cloud.force.empty()) force[p] += load.factor * cloud.force[p];
+		if (!cloud.force.empty()) force[p] += load.factor.value * cloud.force[p];
 	}
 	return force;
 }
@@ -58,7 +58,7 @@ StepSystem<Dim>::StepSystem(const PointCloud<Dim>& cloud, const Model<Dim>& m, c
 	dofs.number.assign(nodalSize(), -1);
 	for (std::size_t n = 0; n < basis.nodes.size(); ++n)
 		for (int a = 0; a < Dim; ++a) {
-			if (const auto* box = model.boundary.holder(Grid<Dim>::index(basis.nodes[n]), a)) prescribed[Dim * n + a] = load.increment * box->displacement[a];
+			if (const auto* box = model.boundary.holder(Grid<Dim>::index(basis.nodes[n]), a)) prescribed[Dim * n + a] = load.factor.growth * box->displacement[a];
 			else
 				dofs.number[Dim * n + a] = dofs.count++;
 		}

@@ -55,7 +55,7 @@ py::dict MpmImplicitEngine::plotData()
 	data["displacement"]     = points.empty() ? unknown : t.largestDisplacement;
 	data["plasticShare"]     = points.empty() ? unknown : t.plasticVolume0 / t.volume0;
 	data["elasticEnergy"]    = t.elasticEnergy;
-	data["gravityPotential"] = -gravityFactorAt(loadTime) * gravity.dot(t.massTimesDisplacement);
+	data["gravityPotential"] = -curveOfGravity().valueAt(loadTime) * gravity.dot(t.massTimesDisplacement);
 	for (int axis = 0; axis < grid->dim; ++axis)
 		data[reactionName("", axis)] = isKnown && !reactions.empty() ? total[axis] : unknown;
 	for (size_t b = 0; b < boundaries.size(); ++b)

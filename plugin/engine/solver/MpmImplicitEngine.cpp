@@ -2,6 +2,7 @@
 #include "engine/solver/MpmImplicitEngine.hpp"
 #include "core/solvers/condition.hpp"
 #include "core/stepping/load_step.hpp"
+#include "core/stepping/step_control.hpp"
 #include "core/base/stopwatch.hpp"
 #include "core/stepping/workload.hpp"
 #include "engine/solver/LoadStepObserver.hpp"
@@ -75,13 +76,6 @@ namespace {
 		return "";
 	}
 
-	bool canBeCut(gimpm::Failure failure)
-	{
-		using gimpm::Failure;
-		return failure == Failure::singular || failure == Failure::inverted || failure == Failure::notFinite || failure == Failure::diverging
-		        || failure == Failure::tooManyIterations;
-	}
-
 	// A scene that is saved carries the last increment along, so that it continues with the same bits: of each node the grid coordinates
 	// and the displacement, three numbers each.
 	template <int Dim> gimpm::LastIncrement<Dim> lastIncrement(const vector<Real>& flat, Real load)
@@ -111,17 +105,6 @@ namespace {
 		return numbers;
 	}
 
-	Real valueAt(const vector<std::pair<Real, Real>>& curve, Real time)
-	{
-		if (time <= curve.front().first) return curve.front().second;
-		for (size_t i = 1; i < curve.size(); ++i) {
-			const auto [t0, f0] = curve[i - 1];
-			const auto [t1, f1] = curve[i];
-			if (time <= t1) return f0 + (f1 - f0) * (time - t0) / (t1 - t0);
-		}
-		return curve.back().second;
-	}
-
 	template <class T> py::object numpyArray(const vector<T>& values, const char* type)
 	{
 		const char* bytes = reinterpret_cast<const char*>(values.data());
@@ -136,13 +119,6 @@ MpmImplicitEngine::MpmImplicitEngine()
 	initRun      = true;
 	timingDeltas = boost::make_shared<TimingDeltas>();
 	if (scene) home = scene->weak_from_this(); // the current one
-}
-
-bool MpmImplicitEngine::isLoadCurve(const vector<std::pair<Real, Real>>& curve)
-{
-	for (size_t i = 0; i < curve.size(); ++i)
-		if (!std::isfinite(curve[i].first) || !std::isfinite(curve[i].second) || (i > 0 && curve[i].first <= curve[i - 1].first)) return false;
-	return !curve.empty();
 }
 
 bool MpmImplicitEngine::isIncrement(const vector<Real>& numbers)
@@ -270,20 +246,14 @@ string MpmImplicitEngine::noPoints() const
 	return "MpmImplicitEngine: the scene has no material points whose groupMask goes with mask = " + std::to_string(mask) + ".";
 }
 
-Real MpmImplicitEngine::loadFactorAt(Real time) const { return valueAt(loadCurve, time); }
-Real MpmImplicitEngine::gravityFactorAt(Real time) const { return valueAt(gravityCurve.empty() ? loadCurve : gravityCurve, time); }
-Real MpmImplicitEngine::loadsEnd() const
-{
-	const Real loads = loadCurve.back().first;
-	return gravityCurve.empty() ? loads : std::max(loads, gravityCurve.back().first);
-}
+gimpm::LoadCurve MpmImplicitEngine::curveOfGravity() const { return gimpm::LoadCurve(gravityCurve.empty() ? loadCurve : gravityCurve); }
 
-template <int Dim> gimpm::Load<Dim> MpmImplicitEngine::loadAt(Real time) const
+Real MpmImplicitEngine::loadsEnd() const { return std::max(gimpm::LoadCurve(loadCurve).end(), curveOfGravity().end()); }
+
+template <int Dim> gimpm::Load<Dim> MpmImplicitEngine::loadUntil(Real time) const
 {
-	gimpm::Load<Dim> load { gravity.head<Dim>(), loadFactorAt(time), loadFactorAt(time) - loadFactorAt(loadTime) };
-	if (gravityCurve.empty()) return load;
-	load.ofGravity       = gravityFactorAt(time);
-	load.growthOfGravity = gravityFactorAt(time) - gravityFactorAt(loadTime);
+	gimpm::Load<Dim> load { gravity.head<Dim>(), gimpm::LoadCurve(loadCurve).between(loadTime, time) };
+	if (!gravityCurve.empty()) load.ofGravity = curveOfGravity().between(loadTime, time);
 	return load;
 }
 
@@ -329,26 +299,25 @@ template <int Dim> void MpmImplicitEngine::step()
 		warn(doubt);
 }
 
-// Load steps up to the target: a step that fails is undone and tried with half the increment, down to newton.minStep; after an easy
-// one the increment doubles. All parts are halves of halves of the whole, so that their sum is exact.
+// Load steps up to the target, as many as it takes.
 template <int Dim>
 void MpmImplicitEngine::advance(gimpm::PointCloud<Dim>& cloud, gimpm::Model<Dim>& model, Real target)
 {
-	const Real   begin = loadTime;
-	Interruption interruption;
+	const Real         begin = loadTime;
+	gimpm::StepControl control(stepPart, newton->minStep, newton->maxIterations);
+	Interruption       interruption;
 	model.newton.interrupted = [&] { return interruption.isRequested(); };
-	for (Real done = 0; done < 1;) {
-		Real                      part = 0, time = 0;
+	while (!control.isDone()) {
+		Real                      time     = target;
 		bool                      predicts = false;
 		gimpm::Load<Dim>          load;
 		gimpm::LastIncrement<Dim> last;
 		{
 			const ValueLock lock;
-			part = std::min(stepPart, 1 - done);
-			time = done + part == 1 ? target : begin + (done + part) * (target - begin);
-			load = loadAt<Dim>(time);
-			model.newton.acceptUnconverged = newton->acceptUnconverged && part / 2 < newton->minStep;
-			predicts = newton->predictor;
+			if (control.goal() < 1) time = begin + control.goal() * (target - begin);
+			load                           = loadUntil<Dim>(time);
+			model.newton.acceptUnconverged = newton->acceptUnconverged && control.isLeast();
+			predicts                       = newton->predictor;
 			if (predicts) last = lastIncrement<Dim>(lastDisplacements, lastLoadIncrement);
 		}
 		const gimpm::StepReport report = gimpm::loadStep(cloud, model, load, solver, predicts ? &last : nullptr);
@@ -356,21 +325,18 @@ void MpmImplicitEngine::advance(gimpm::PointCloud<Dim>& cloud, gimpm::Model<Dim>
 		take(report);
 		lastDisplacements = flat(last);
 		lastLoadIncrement = last.load;
-		if (report.converged() || report.accepted) {
-			if (report.accepted) warnOfAccepted(report, time);
-			done += part;
-			reach(cloud, time, load.factor);
-			if (report.iterations <= newton->maxIterations / 3) stepPart = std::min(1., 2 * stepPart);
-		} else if (canBeCut(report.failure) && part / 2 >= newton->minStep) {
-			stepPart = part / 2;
-			++cuts;
-		} else {
-			stepPart = 1;
+		const Real part   = control.part();
+		const bool goesOn = control.take(report);
+		cuts              = control.cuts();
+		stepPart          = control.nextPart();
+		if (!goesOn) {
 			const string reason = reasonOf(report, time, part);
 			if (report.failure == gimpm::Failure::interrupted) interruption.raise(reason);
 			throw std::runtime_error(reason);
 		}
-		showProgress(points.size(), done == 1);
+		if (report.accepted) warnOfAccepted(report, time);
+		if (report.converged() || report.accepted) reach(cloud, time, load.factor.value);
+		showProgress(points.size(), control.isDone());
 	}
 }
 
@@ -510,7 +476,7 @@ void MpmImplicitEngine::warnOfIdleBoundaries()
 void MpmImplicitEngine::warnOfAccepted(const gimpm::StepReport& report, Real time)
 {
 	std::ostringstream text;
-	text << "the load step from factor " << loadFactor << " to " << loadFactorAt(time) << " has not converged and is accepted (newton.acceptUnconverged): "
+	text << "the load step from factor " << loadFactor << " to " << gimpm::LoadCurve(loadCurve).valueAt(time) << " has not converged and is accepted (newton.acceptUnconverged): "
 	     << report.cause << ".";
 	warn(text.str());
 }
@@ -518,8 +484,8 @@ void MpmImplicitEngine::warnOfAccepted(const gimpm::StepReport& report, Real tim
 string MpmImplicitEngine::reasonOf(const gimpm::StepReport& report, Real time, Real part) const
 {
 	std::ostringstream text;
-	text << "MpmImplicitEngine: the load step from factor " << loadFactor << " to " << loadFactorAt(time);
-	if (!gravityCurve.empty()) text << ", of gravity from " << gravityFactorAt(loadTime) << " to " << gravityFactorAt(time) << ",";
+	text << "MpmImplicitEngine: the load step from factor " << loadFactor << " to " << gimpm::LoadCurve(loadCurve).valueAt(time);
+	if (!gravityCurve.empty()) text << ", of gravity from " << curveOfGravity().valueAt(loadTime) << " to " << curveOfGravity().valueAt(time) << ",";
 	if (part < 1) text << " (" << part << " of O.dt, after " << cuts << " cuts)";
 	text << " failed: " << report.cause;
 	if (report.failedPoint >= 0) text << placeOf(points[report.failedPoint]);

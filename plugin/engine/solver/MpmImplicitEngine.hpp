@@ -78,14 +78,14 @@ public:
 		  0,
 		  "Load factor [-] as a sequence of (time [s], factor), times increasing; linear between, constant before and after. Gravity (unless *gravityCurve* "
 		  "says otherwise), point loads and prescribed displacements are multiplied by it. Default: from 0 to 1 during the first second.",
-		  admitting("one or more (time, factor), all finite, with increasing times", isLoadCurve));
+		  admitting("one or more (time, factor), all finite, with increasing times", gimpm::LoadCurve::isAdmissible));
 		v("gravityCurve",
 		  &MpmImplicitEngine::gravityCurve,
 		  0,
 		  "Factor [-] of gravity, where it shall not go with the other loads: as *loadCurve*, which it goes with if this is empty (the default). "
 		  "[(0, 1)]: gravity acts from the beginning, as after mpm.geostatic, while *loadCurve* makes point loads and prescribed displacements grow. "
 		  "[(0, 0), (1, 1)] with loadCurve=[(1, 0), (2, 1)]: first the weight, then the loads.",
-		  admitting("nothing, or (time, factor), all finite, with increasing times", [](const auto& curve) { return curve.empty() || isLoadCurve(curve); }));
+		  admitting("nothing, or (time, factor), all finite, with increasing times", [](const auto& curve) { return curve.empty() || gimpm::LoadCurve::isAdmissible(curve); }));
 		v("boundaries", &MpmImplicitEngine::boundaries, 0, "Essential boundary conditions (MpmBoundary); read as a tuple, so assign a new one to change it.");
 		v("ghost", &MpmImplicitEngine::ghost, 0, "Ghost stabilisation (MpmGhost).", notNull);
 		v("newton", &MpmImplicitEngine::newton, 0, "Solution of a load step (MpmNewton).", notNull);
@@ -214,8 +214,9 @@ public:
 	// Of any engine, between taking over the values of the material points and giving them back.
 	static bool isStepAtWork();
 
-	static bool isLoadCurve(const vector<std::pair<Real, Real>>&);
 	static bool isIncrement(const vector<Real>&); // as lastDisplacements
+
+	gimpm::LoadCurve curveOfGravity() const;
 
 	// When the last of the loads has come to rest, at the last knee of the curves.
 	Real loadsEnd() const;
@@ -235,9 +236,7 @@ private:
 	void                       run();
 	void                       requireRunnable() const;
 	void                       requireOnlyClaim() const;
-	Real                       loadFactorAt(Real time) const;
-	Real                       gravityFactorAt(Real time) const;
-	template <int Dim> gimpm::Load<Dim> loadAt(Real time) const; // at the end of a step from loadTime
+	template <int Dim> gimpm::Load<Dim> loadUntil(Real time) const; // of a step from loadTime
 	template <int Dim> void    step();
 	string                     noPoints() const;
 	template <int Dim> void    reach(const gimpm::PointCloud<Dim>&, Real time, Real factor);

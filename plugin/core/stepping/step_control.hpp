@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// In how many parts a load step is made: smaller ones where it does not converge.
+#pragma once
+#include "core/stepping/report.hpp"
+
+namespace gimpm {
+
+/// Whether a smaller load may help. It does not against boundaries that hold too little, nor against a tolerance below round-off, and who
+/// has asked for an end shall have it.
+bool canBeCut(Failure);
+
+/// A part that fails is tried again with half of it, down to a least one; after one that took few iterations the next may be twice as
+/// large. All are made by halving and by taking away, so that they have few digits and their sum is exact.
+class StepControl {
+public:
+	/// Begins with the part that the step before has left, 1 at first.
+	StepControl(double part, double leastPart, int maxIterations) : part_(part), leastPart_(leastPart), maxIterations_(maxIterations) { }
+
+	double part() const; ///< of the whole, to be tried now
+	double goal() const { return done_ + part(); } ///< how much of the whole is done when it succeeds
+	bool   isLeast() const { return part() / 2 < leastPart_; } ///< it will not be cut
+	bool   isDone() const { return done_ >= 1; }
+	int    cuts() const { return cuts_; }
+
+	/// How the part went that was tried. False: it has failed and is not cut, so the step is given up; the next one will be tried as a whole.
+	bool take(const StepReport&);
+
+	double nextPart() const { return part_; } ///< what the next step may begin with
+
+private:
+	double part_, leastPart_, done_ = 0;
+	int    maxIterations_, cuts_ = 0;
+};
+
+} // namespace gimpm
