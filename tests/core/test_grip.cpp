@@ -84,14 +84,14 @@ namespace {
 			this->plate(by);
 			EXPECT_EQ(this->lost(), "") << by.transpose();
 		}
-		this->load.factor = this->load.increment = -0.1;
+		this->load.factor = { -0.1, -0.1 };
 		this->plate(Vec<Dim>::Unit(1));
 		EXPECT_NE(this->lost(), "") << "a negative factor turns it round";
-		this->load.factor = -0.1, this->load.increment = 0.1;
+		this->load.factor = { -0.1, 0.1 };
 		EXPECT_NE(this->lost(), "") << "on the way back";
-		this->load.factor = -0.1, this->load.increment = 0;
+		this->load.factor = { -0.1, 0 };
 		EXPECT_NE(this->lost(), "") << "at rest";
-		this->load.factor = 0;
+		this->load.factor.value = 0;
 		EXPECT_EQ(this->lost(), "") << "before it has begun";
 	}
 
@@ -109,7 +109,7 @@ namespace {
 	{
 		constexpr int Dim = TypeParam::value;
 		this->plate(-Vec<Dim>::Unit(1), 3.5);
-		this->load.factor = this->load.increment = 0;
+		this->load.factor = { 0, 0 };
 		const std::string lost = this->lost();
 		EXPECT_NE(lost.find("none of its nodes, from (-inf, 3.5"), std::string::npos) << lost;
 		EXPECT_NE(lost.find("between (1, 1"), std::string::npos) << lost;
