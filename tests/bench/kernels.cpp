@@ -88,8 +88,7 @@ template <int Dim> void linearSolve(benchmark::State& state)
 {
 	auto& run = midRun<Dim>();
 	run.system.evaluate(run.d, run.force, &run.K);
-	SymmetricCsc K;
-	reduce(run.K, run.system.dofs, K);
+	const LinearProblem   K = reduced(run.K, run.system.dofs);
 	LinearSolver          solver;
 	Eigen::VectorXd       x;
 	const Eigen::VectorXd b = Eigen::VectorXd::Ones(K.size());

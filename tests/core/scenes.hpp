@@ -2,6 +2,7 @@
 // Scenes for the tests of the core: points, regular blocks of them, held boxes of nodes, random numbers.
 #pragma once
 #include "core/solvers/condition.hpp"
+#include "core/solvers/linear_solver.hpp"
 #include "core/stepping/load_step.hpp"
 #include <gtest/gtest.h>
 #include <limits>
@@ -142,12 +143,10 @@ template <int Dim, class Displacement> std::vector<HeldBox<Dim>> prescribedSurfa
 	return boxes;
 }
 
-inline Eigen::MatrixXd dense(const SymmetricCsc& K)
+inline Eigen::MatrixXd dense(const LinearProblem& K)
 {
 	Eigen::MatrixXd full = Eigen::MatrixXd::Zero(K.size(), K.size());
-	for (int c = 0; c < K.size(); ++c)
-		for (int e = K.start[c]; e < K.start[c + 1]; ++e)
-			full(K.row[e], c) = full(c, K.row[e]) = K.value[e];
+	K.forEntries([&](int row, int column, double value) { full(row, column) = value; });
 	return full;
 }
 

@@ -81,7 +81,7 @@ namespace {
 	}
 
 	/// A block of 3 x 12 cells on a rough floor, moved to the right and upwards by a; stiff above a soft layer.
-	SymmetricCsc columnOnSoftSoil(double a, double ghostFactor, double contrast)
+	LinearProblem columnOnSoftSoil(double a, double ghostFactor, double contrast)
 	{
 		Model<2> model;
 		model.materials = { { Hencky(1, 0.3), 1 }, { Hencky(contrast, 0.3), 1 } };
@@ -119,7 +119,7 @@ namespace {
 
 	TEST(ConditionEstimate, OfMatricesThatAreNotDefinite)
 	{
-		const auto matrix = [](double a, double b, double c) { return SymmetricCsc { { 0, 2, 3 }, { 0, 1, 1 }, { a, b, c } }; };
+		const auto matrix = [](double a, double b, double c) { return SymmetricCsc { { { 0, 2, 3 }, { 0, 1, 1 }, { a, b, c } } }; };
 		EXPECT_NEAR(conditionEstimate(matrix(1, 2, 1)), 3, 1e-12); // eigenvalues 3 and -1: LU
 		EXPECT_EQ(conditionEstimate(matrix(1, 1, 1)), infinity);
 	}

@@ -22,7 +22,7 @@ namespace {
 		EXPECT_TRUE(cloud.position == before);
 		EXPECT_EQ(w.points, int(cloud.size()));
 		EXPECT_EQ(w.dofs, K.size());
-		EXPECT_EQ(w.matrixEntries, double(K.row.size()));
+		EXPECT_EQ(w.matrixEntries, double(K.stored().row.size()));
 		EXPECT_EQ(w.populatedCells, Dim == 2 ? 9 : 27);
 		EXPECT_GE(w.factorEntries, w.matrixEntries) << "fill only adds";
 		EXPECT_LE(w.factorEntries, 0.5 * w.dofs * (w.dofs + 1.));

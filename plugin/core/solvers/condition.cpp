@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "core/solvers/condition.hpp"
+#include "core/solvers/linear_solver.hpp"
 #include <Eigen/Eigenvalues>
+#include <Eigen/SVD>
 #include <limits>
 
 namespace gimpm {
@@ -16,7 +18,7 @@ Eigen::VectorXd startVector(int size)
 /// dozen), until the largest Ritz value no longer grows.
 template <class Apply> double largestEigenvalue(int size, Apply&& apply)
 {
-	constexpr int    most = 60;
+	constexpr int    most    = 60;
 	constexpr double settled = 1e-3; // growth in one step
 	const int        steps   = std::min(size, most);
 	Eigen::MatrixXd  basis(size, steps);
@@ -28,7 +30,7 @@ template <class Apply> double largestEigenvalue(int size, Apply&& apply)
 		diagonal[k]  = basis.col(k).dot(next);
 		for (int twice = 0; twice < 2; ++twice) // once leaves what cancellation hides
 			next -= basis.leftCols(k + 1) * (basis.leftCols(k + 1).transpose() * next);
-		const double before = largest;
+		const double                                   before = largest;
 		Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> ritz;
 		ritz.computeFromTridiagonal(diagonal.head(k + 1), beside.head(k), Eigen::EigenvaluesOnly);
 		largest   = ritz.eigenvalues().cwiseAbs().maxCoeff();
@@ -41,29 +43,33 @@ template <class Apply> double largestEigenvalue(int size, Apply&& apply)
 
 } // namespace
 
-double conditionNumber(const SymmetricCsc& K)
+double conditionNumber(const LinearProblem& K)
 {
 	Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(K.size(), K.size());
-	for (int c = 0; c < K.size(); ++c)
-		for (int e = K.start[c]; e < K.start[c + 1]; ++e)
-			dense(K.row[e], c) = K.value[e];
-	const Eigen::VectorXd size = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(dense, Eigen::EigenvaluesOnly).eigenvalues().cwiseAbs();
+	K.forEntries([&](int row, int column, double value) { dense(row, column) = value; });
+	const Eigen::VectorXd size = K.isSymmetric()
+	        ? Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(dense, Eigen::EigenvaluesOnly).eigenvalues().cwiseAbs().eval()
+	        : Eigen::BDCSVD<Eigen::MatrixXd>(dense).singularValues();
 	return size.maxCoeff() / size.minCoeff();
 }
 
-double conditionEstimate(const SymmetricCsc& K)
+double conditionEstimate(const LinearProblem& K)
 {
 	LinearSolver    solver;
 	Eigen::VectorXd x;
-	const auto      status = solver.solve(K, startVector(K.size()), x);
-	if (status == LinearSolver::Status::singular) return std::numeric_limits<double>::infinity();
-	const auto inverse = [&](const Eigen::VectorXd& b) {
-		if (status == LinearSolver::Status::cholesky) solver.solveAgain(b, x);
-		else
-			solver.solve(K, b, x); // LU keeps no factor; such matrices are rare
+	if (solver.solve(K, startVector(K.size()), x) == LinearSolver::Status::singular) return std::numeric_limits<double>::infinity();
+	const auto inverse = [&](const Eigen::VectorXd& b, bool transposed) {
+		solver.solveAgain(b, x, transposed);
 		return x;
 	};
-	return largestEigenvalue(K.size(), [&](const Eigen::VectorXd& v) { return K * v; }) * largestEigenvalue(K.size(), inverse);
+	const auto largest = [&](auto&& apply) { return largestEigenvalue(K.size(), apply); };
+	if (K.isSymmetric()) {
+		const double ofK = largest([&](const Eigen::VectorXd& v) { return K * v; });
+		return ofK * largest([&](const Eigen::VectorXd& v) { return inverse(v, false); });
+	}
+	// singular values: the roots of the eigenvalues of K^T K
+	const double ofK = largest([&](const Eigen::VectorXd& v) { return K.general().transposedTimes(K * v); });
+	return std::sqrt(ofK) * std::sqrt(largest([&](const Eigen::VectorXd& v) { return inverse(inverse(v, false), true); }));
 }
 
 } // namespace gimpm

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The iterative way through step 4, for bodies whose Cholesky factor is too large.
 #pragma once
-#include "core/solvers/linear_solver.hpp"
+#include "core/solvers/csc.hpp"
 
 namespace gimpm {
 

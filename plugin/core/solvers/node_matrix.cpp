@@ -17,9 +17,11 @@ namespace {
 	}
 }
 
-template <int Dim> void NodeMatrix<Dim>::reset(const std::vector<Key>& nodes)
+template <int Dim> void NodeMatrix<Dim>::reset(const std::vector<Key>& nodes, bool isSymmetric)
 {
+	isSymmetric_ = isSymmetric;
 	values_.assign(nodes.size() * codes * block, 0.);
+	skew_.assign(isSymmetric ? 0 : values_.size(), 0.);
 	used_.assign(nodes.size(), 0);
 	neighbour_.assign(nodes.size() * codes, -1);
 	for (int c = 0; c < codes; ++c) {
@@ -33,18 +35,31 @@ template <int Dim> void NodeMatrix<Dim>::reset(const std::vector<Key>& nodes)
 	}
 }
 
-template <int Dim> void NodeMatrix<Dim>::setZero() { std::fill(values_.begin(), values_.end(), 0.); }
+template <int Dim> void NodeMatrix<Dim>::setZero()
+{
+	std::fill(values_.begin(), values_.end(), 0.);
+	std::fill(skew_.begin(), skew_.end(), 0.);
+}
+
+template <int Dim> void NodeMatrix<Dim>::add(int a, int b, int code, const Mat<Dim>& ab, const Mat<Dim>& ba)
+{
+	if (code < 0) return add(b, a, -code, ba, ab);
+	Eigen::Map<RowMajor>(at(a, code)) += ab;
+	if (a != b) Eigen::Map<RowMajor>(skew_.data() + place(a, code)) += ba.transpose() - ab;
+}
 
 template <int Dim> void NodeMatrix<Dim>::multiplyAdd(const Eigen::VectorXd& x, Eigen::VectorXd& y) const
 {
-	using Block = Eigen::Map<const Eigen::Matrix<double, Dim, Dim, Eigen::RowMajor>>;
+	using Block = Eigen::Map<const RowMajor>;
 	for (int a = 0; a < nodes(); ++a)
 		for (int c = 0; c < codes; ++c) {
 			if (!used(a, c)) continue;
 			const Block K(at(a, c));
 			const int   b = neighbour(a, c);
 			y.segment<Dim>(Dim * a) += K * x.segment<Dim>(Dim * b);
-			if (b != a) y.segment<Dim>(Dim * b) += K.transpose() * x.segment<Dim>(Dim * a);
+			if (b == a) continue;
+			y.segment<Dim>(Dim * b) += K.transpose() * x.segment<Dim>(Dim * a);
+			if (!isSymmetric_) y.segment<Dim>(Dim * b) += Block(skewAt(a, c)).transpose() * x.segment<Dim>(Dim * a);
 		}
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Symmetric matrix over the active grid nodes, addressed by node and by the offset to the neighbour.
+// Matrix over the active grid nodes, addressed by node and by the offset to the neighbour.
 #pragma once
 #include "core/grid/grid.hpp"
 #include <array>
@@ -8,32 +8,46 @@
 namespace gimpm {
 
 /// Blocks of Dim x Dim for a node a and the nodes b >= a (in key order) at most two cells away along each axis: GIMP functions and
-/// ghost faces reach no further. Block (a, b) is K_ab row by row.
+/// ghost faces reach no further. Block (a, b) is K_ab row by row. Of a matrix that is not symmetric, what K_ba^T differs from K_ab by is stored
+/// beside: who adds something symmetric need not know of it.
 template <int Dim> class NodeMatrix {
 public:
 	static constexpr int width  = 5;                                  ///< offsets -2 ... 2 per axis
 	static constexpr int codes  = (Dim == 2 ? 25 : 125) / 2 + 1;      ///< offsets to nodes b >= a
 	static constexpr int block  = Dim * Dim;
 
-	/// Code of the offset b - a, which must not point to a lower node.
+	/// Code of the offset b - a, negative if that points to a lower node; a block is stored with the lower one.
 	template <class Offset> static constexpr int code(const Offset& o) { return Dim == 2 ? o[0] + 5 * o[1] : o[0] + 5 * o[1] + 25 * o[2]; }
 
 	/// Sets up a zero matrix for these nodes (sorted).
-	void reset(const std::vector<Key>& nodes);
+	void reset(const std::vector<Key>& nodes, bool isSymmetric = true);
 	void setZero();
 
-	double*       at(int node, int code) { return values_.data() + (std::size_t(node) * codes + code) * block; }
-	const double* at(int node, int code) const { return values_.data() + (std::size_t(node) * codes + code) * block; }
+	double*       at(int node, int code) { return values_.data() + place(node, code); }
+	const double* at(int node, int code) const { return values_.data() + place(node, code); }
 	void          markUsed(int node, int code) { used_[node] |= std::uint64_t(1) << code; }
 	bool          used(int node, int code) const { return used_[node] >> code & 1; }
 	int           neighbour(int node, int code) const { return neighbour_[std::size_t(node) * codes + code]; }
 	int           nodes() const { return int(used_.size()); }
+	bool          isSymmetric() const { return isSymmetric_; }
+
+	/// Block K_ba^T - K_ab, stored like K_ab; only of a matrix that is not symmetric.
+	const double* skewAt(int node, int code) const { return skew_.data() + place(node, code); }
+
+	/// Adds to the blocks of two nodes in any order; `code` is that of the offset b - a, negative where b is the lower one. For a == b, to
+	/// one block, `ab`. Not for symmetric matrices.
+	void add(int a, int b, int code, const Mat<Dim>& ab, const Mat<Dim>& ba);
 
 	/// y += K x, for nodal vectors of Dim components a node.
 	void multiplyAdd(const Eigen::VectorXd& x, Eigen::VectorXd& y) const;
 
 private:
-	std::vector<double>        values_;
+	using RowMajor = Eigen::Matrix<double, Dim, Dim, Eigen::RowMajor>;
+
+	static std::size_t place(int node, int code) { return (std::size_t(node) * codes + code) * block; }
+
+	std::vector<double>        values_, skew_;
+	bool                       isSymmetric_ = true;
 	std::vector<std::uint64_t> used_;
 	std::vector<int>           neighbour_; // number of the node at each offset; -1: not active
 };

@@ -23,20 +23,20 @@ template <int Dim> bool LinearStep<Dim>::solve(const NodeMatrix<Dim>& K, Eigen::
 		hasPrescribed();
 	}
 	if (system_.dofs.count == 0) return true;
-	SymmetricCsc reduced;
-	{
+	const LinearProblem problem = [&] {
 		const Stopwatch watch(report_.times.assembly);
-		reduce(K, system_.dofs, reduced);
-	}
+		return reduced(K, system_.dofs);
+	}();
+	using Status = LinearSolver::Status;
 	Eigen::VectorXd correction;
-	const auto      status = solver_.solve(reduced, residual, correction, method_, forcing);
-	keepsFactor_           = status == LinearSolver::Status::cholesky;
-	if (status != LinearSolver::Status::iterative) {
-		method_              = LinearMethod::direct; // what conjugate gradients could not solve once stays difficult
-		report_.definiteness = keepsFactor_ ? Definiteness::positive : Definiteness::indefinite;
+	const Status    status = solver_.solve(problem, residual, correction, method_, forcing);
+	keepsFactor_           = status == (problem.isSymmetric() ? Status::cholesky : Status::lu);
+	if (status != Status::iterative) {
+		method_ = LinearMethod::direct; // what could not be solved iteratively once stays difficult
+		if (problem.isSymmetric()) report_.definiteness = keepsFactor_ ? Definiteness::positive : Definiteness::indefinite;
 	}
-	if (status == LinearSolver::Status::singular) return false;
-	report_.luSolves += status == LinearSolver::Status::lu;
+	if (status == Status::singular) return false;
+	report_.luSolves += status == Status::lu;
 	addTo(step, correction);
 	return true;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // One linear solve of Newton's method, with the displacements that are prescribed and the factor that is kept.
 #pragma once
+#include "core/solvers/linear_solver.hpp"
 #include "core/stepping/step_system.hpp"
 
 namespace gimpm {
@@ -20,7 +21,7 @@ public:
 	/// The same with the factor that is kept.
 	bool solveAgain(const Eigen::VectorXd& residual, Eigen::VectorXd& step);
 
-	bool keepsFactor() const { return keepsFactor_; } ///< of the last solve, by Cholesky
+	bool keepsFactor() const { return keepsFactor_; } ///< of the last solve: of Cholesky or, where K is not symmetric, of LU
 	void dropFactor() { keepsFactor_ = false; }
 
 private:

@@ -94,7 +94,7 @@ template <int Dim> StepReport loadStep(PointCloud<Dim>& cloud, const Model<Dim>&
 	return report;
 }
 
-template <int Dim> SymmetricCsc tangentStiffness(const PointCloud<Dim>& cloud, const Model<Dim>& model)
+template <int Dim> LinearProblem tangentStiffness(const PointCloud<Dim>& cloud, const Model<Dim>& model)
 {
 	StepReport report;
 	return StepSystem<Dim>(cloud, model, Load<Dim>(), report).tangent();
@@ -102,7 +102,7 @@ template <int Dim> SymmetricCsc tangentStiffness(const PointCloud<Dim>& cloud, c
 
 template StepReport   loadStep(PointCloud<2>&, const Model<2>&, const Load<2>&, LinearSolver&, LastIncrement<2>*);
 template StepReport   loadStep(PointCloud<3>&, const Model<3>&, const Load<3>&, LinearSolver&, LastIncrement<3>*);
-template SymmetricCsc tangentStiffness(const PointCloud<2>&, const Model<2>&);
-template SymmetricCsc tangentStiffness(const PointCloud<3>&, const Model<3>&);
+template LinearProblem tangentStiffness(const PointCloud<2>&, const Model<2>&);
+template LinearProblem tangentStiffness(const PointCloud<3>&, const Model<3>&);
 
 } // namespace gimpm

@@ -14,6 +14,6 @@ namespace gimpm {
 template <int Dim> StepReport loadStep(PointCloud<Dim>&, const Model<Dim>&, const Load<Dim>&, LinearSolver&, LastIncrement<Dim>* last = nullptr);
 
 /// Reduced tangent K + K_g (free degrees of freedom) of the current configuration.
-template <int Dim> SymmetricCsc tangentStiffness(const PointCloud<Dim>&, const Model<Dim>&);
+template <int Dim> LinearProblem tangentStiffness(const PointCloud<Dim>&, const Model<Dim>&);
 
 } // namespace gimpm

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // How a load step went. Failure is a value.
 #pragma once
+#include "core/base/types.hpp"
 #include "core/solvers/linear_solver.hpp"
 #include <limits>
 #include <string>
@@ -28,9 +29,9 @@ struct StepReport {
 	int                 lineSearchTrials = 0; ///< evaluations of the residual for steps shorter than Newton's
 	std::vector<double> residuals;      ///< |residual| / |external forces + reactions| before the first solve and after each
 	double              localResidual = std::numeric_limits<double>::quiet_NaN(); ///< largest |residual| / |forces| around a node, or a bound of it
-	Definiteness        definiteness  = Definiteness::notChecked; ///< of the last matrix that was factorised
-	int                 luSolves = 0;   ///< solves for which K was not positive definite
-	IterativeEffort     conjugateGradients; ///< of all attempts at the step
+	Definiteness        definiteness  = Definiteness::notChecked; ///< of the last symmetric matrix that was factorised
+	int                 luSolves = 0;   ///< solves for which K was not positive definite, or not symmetric
+	IterativeEffort     conjugateGradients; ///< or of GMRES; of all attempts at the step
 	int                 failedPoint = -1; ///< its index in the cloud, for Failure::inverted
 
 	int nodes = 0, dofs = 0, populatedCells = 0, boundaryCells = 0, ghostFaces = 0;

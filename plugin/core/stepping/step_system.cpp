@@ -72,20 +72,18 @@ StepSystem<Dim>::StepSystem(const PointCloud<Dim>& cloud, const Model<Dim>& m, c
 
 template <int Dim> void StepSystem<Dim>::prepare(NodeMatrix<Dim>& K) const
 {
-	K.reset(basis.nodes);
+	K.reset(basis.nodes, isSymmetric());
 	for (const auto& term : terms)
 		term->mark(K);
 }
 
-template <int Dim> SymmetricCsc StepSystem<Dim>::tangent() const
+template <int Dim> LinearProblem StepSystem<Dim>::tangent() const
 {
 	NodeMatrix<Dim> K;
 	Eigen::VectorXd force;
-	SymmetricCsc    reduced;
 	prepare(K);
 	evaluate(Eigen::VectorXd::Zero(nodalSize()), force, &K);
-	reduce(K, dofs, reduced);
-	return reduced;
+	return reduced(K, dofs);
 }
 
 template <int Dim>

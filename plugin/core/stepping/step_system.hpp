@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The discrete equilibrium of one load step: everything that stays the same while Newton's method iterates.
 #pragma once
+#include "core/solvers/reduce.hpp"
 #include "core/stepping/model.hpp"
 #include "core/stepping/report.hpp"
 #include "core/terms/ghost.hpp"
@@ -33,7 +34,7 @@ template <int Dim> struct StepSystem {
 	void prepare(NodeMatrix<Dim>& K) const;
 
 	/// Reduced tangent of all terms at the start of the step.
-	SymmetricCsc tangent() const;
+	LinearProblem tangent() const;
 
 	/// The sum of the terms at d: sets `force`, and K and the sizes of the forces where they are given.
 	std::optional<PointFailure> evaluate(const Eigen::VectorXd& d, Eigen::VectorXd& force, NodeMatrix<Dim>* K, Eigen::VectorXd* sizes = nullptr) const;

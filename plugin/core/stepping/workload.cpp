@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "core/stepping/workload.hpp"
-#include "core/solvers/conjugate_gradients.hpp"
+#include "core/solvers/linear_solver.hpp"
 #include "core/stepping/step_system.hpp"
 #include "core/base/stopwatch.hpp"
 
@@ -8,24 +8,21 @@ namespace gimpm {
 namespace {
 
 /// The solve of a step and what it stores.
-void addSolve(const SymmetricCsc& K, LinearMethod method, Workload& w)
+void addSolve(const LinearProblem& K, LinearMethod method, Workload& w)
 {
 	constexpr double      longFactorisation = 2e10, flopsPerSecond = 5e9, precise = 1e-3;
 	LinearSolver          solver;
 	const Eigen::VectorXd b = Eigen::VectorXd::Ones(K.size());
 	Eigen::VectorXd       x;
-	if (solver.isIterative(method, K)) {
-		const Stopwatch watch(w.times.linear.solve);
-		int             iterations = 0;
-		conjugateGradients(K, b, precise, x, iterations);
-	} else {
+	if (solver.isIterative(method, K)) solver.solveIteratively(K, b, x, precise);
+	else {
 		const auto factor = solver.analyse(K);
 		w.factorEntries = factor.entries, w.factorFlops = factor.flops;
 		if (w.factorFlops < longFactorisation) solver.solve(K, b, x);
 	}
 	w.times.linear.analyse   = solver.times().analyse;
 	w.times.linear.factorise = w.factorFlops < longFactorisation ? solver.times().factorise : w.factorFlops / flopsPerSecond;
-	w.times.linear.solve += solver.times().solve;
+	w.times.linear.solve     = solver.times().solve;
 }
 
 } // namespace
@@ -34,11 +31,10 @@ template <int Dim> Workload workload(const PointCloud<Dim>& cloud, const Model<D
 {
 	StepReport           report;
 	const StepSystem<Dim> system(cloud, model, Load<Dim>(), report);
-	SymmetricCsc         reduced;
-	{
+	const LinearProblem   K = [&] {
 		const Stopwatch watch(report.times.assembly);
-		reduced = system.tangent();
-	}
+		return system.tangent();
+	}();
 	Workload w;
 	w.points         = int(cloud.size());
 	w.nodes          = report.nodes;
@@ -46,9 +42,9 @@ template <int Dim> Workload workload(const PointCloud<Dim>& cloud, const Model<D
 	w.populatedCells = report.populatedCells;
 	w.ghostFaces     = report.ghostFaces;
 	w.blockEntries   = double(report.nodes) * NodeMatrix<Dim>::codes * NodeMatrix<Dim>::block;
-	w.matrixEntries  = double(reduced.row.size());
+	w.matrixEntries  = double(K.stored().row.size());
 	w.times          = report.times;
-	if (w.dofs > 0) addSolve(reduced, model.newton.linearSolver, w);
+	if (w.dofs > 0) addSolve(K, model.newton.linearSolver, w);
 	return w;
 }
 

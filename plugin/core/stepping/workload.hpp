@@ -10,8 +10,8 @@ namespace gimpm {
 struct Workload {
 	int       points = 0, nodes = 0, dofs = 0, populatedCells = 0, ghostFaces = 0;
 	double    blockEntries  = 0; ///< numbers that the matrix takes before it is reduced
-	double    matrixEntries = 0; ///< of the reduced matrix, lower triangle
-	double    factorEntries = 0; ///< of its Cholesky factor; 0 if conjugate gradients take its place
+	double    matrixEntries = 0; ///< stored of the reduced matrix: where it is symmetric the lower triangle
+	double    factorEntries = 0; ///< of its Cholesky factor; 0 if an iterative solver takes its place
 	double    factorFlops   = 0; ///< operations of a factorisation
 	StepTimes times;             ///< of the parts of a step with one solve; measured, but for a factorisation that would take long
 };

@@ -551,7 +551,7 @@ template <class F> auto MpmImplicitEngine::onCurrentState(F f)
 	return grid && grid->dim == 3 ? inSpace(std::integral_constant<int, 3>()) : inSpace(std::integral_constant<int, 2>());
 }
 
-gimpm::SymmetricCsc MpmImplicitEngine::reducedStiffness()
+gimpm::LinearProblem MpmImplicitEngine::reducedStiffness()
 {
 	return onCurrentState([](const auto& cloud, const auto& model) { return gimpm::tangentStiffness(cloud, model); });
 }
@@ -561,14 +561,11 @@ py::tuple MpmImplicitEngine::stiffness()
 	const auto      K = reducedStiffness();
 	vector<int64_t> rows, columns;
 	vector<Real>    values;
-	for (int c = 0; c < K.size(); ++c)
-		for (int e = K.start[c]; e < K.start[c + 1]; ++e)
-			for (const auto& [row, column] : { std::pair { K.row[e], c }, std::pair { c, K.row[e] } }) {
-				rows.push_back(row);
-				columns.push_back(column);
-				values.push_back(K.value[e]);
-				if (row == column) break;
-			}
+	K.forEntries([&](int row, int column, Real value) {
+		rows.push_back(row);
+		columns.push_back(column);
+		values.push_back(value);
+	});
 	return py::make_tuple(numpyArray(rows, "int64"), numpyArray(columns, "int64"), numpyArray(values, "float64"), K.size());
 }
 

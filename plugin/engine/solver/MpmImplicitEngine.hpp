@@ -252,7 +252,7 @@ private:
 	string                     placeOfImbalance(const gimpm::StepReport&) const;
 	string                     adviceOn(const gimpm::StepReport&, Real part) const;
 	template <class F> auto    onCurrentState(F); // f(cloud, model) with the points and settings of now
-	gimpm::SymmetricCsc        reducedStiffness();
+	gimpm::LinearProblem       reducedStiffness();
 	void                       showProgress(size_t points, bool stepIsDone);
 	long                       lastIteration() const;
 

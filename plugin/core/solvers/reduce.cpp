@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "core/solvers/reduce.hpp"
+
+namespace gimpm {
+namespace {
+
+/// Calls f(row, column, value) for the entries of the free rows and columns. Nodes are taken in their order, so the rows of each column rise.
+template <int Dim, class F> void forFreeEntries(const NodeMatrix<Dim>& K, const FreeDofs& dofs, F&& f)
+{
+	for (int a = 0; a < K.nodes(); ++a)
+		for (int c = 0; c < NodeMatrix<Dim>::codes; ++c) {
+			if (!K.used(a, c)) continue;
+			const int     b     = K.neighbour(a, c);
+			const double *above = K.at(a, c), *skew = K.skewAt(a, c);
+			for (int i = 0, k = 0; i < Dim; ++i)
+				for (int j = 0; j < Dim; ++j, ++k) {
+					const int p = dofs.number[Dim * a + i], q = dofs.number[Dim * b + j];
+					if (p < 0 || q < 0) continue;
+					f(p, q, above[k]);
+					if (b != a) f(q, p, above[k] + skew[k]);
+				}
+		}
+}
+
+} // namespace
+
+template <int Dim> void reduce(const NodeMatrix<Dim>& K, const FreeDofs& dofs, SymmetricCsc& out)
+{
+	out.start.assign(1, 0);
+	out.row.clear();
+	out.value.clear();
+	for (int a = 0; a < K.nodes(); ++a)
+		for (int i = 0; i < Dim; ++i) {
+			if (dofs.number[Dim * a + i] < 0) continue;
+			for (int c = 0; c < NodeMatrix<Dim>::codes; ++c) {
+				if (!K.used(a, c)) continue;
+				const int     b = K.neighbour(a, c);
+				const double* k = K.at(a, c) + i * Dim; // row i of K_ab is the part of this column in block (b, a)
+				for (int j = b == a ? i : 0; j < Dim; ++j)
+					if (dofs.number[Dim * b + j] >= 0) {
+						out.row.push_back(dofs.number[Dim * b + j]);
+						out.value.push_back(k[j]);
+					}
+			}
+			out.start.push_back(int(out.row.size()));
+		}
+}
+
+template <int Dim> void reduce(const NodeMatrix<Dim>& K, const FreeDofs& dofs, GeneralCsc& out)
+{
+	out.start.assign(dofs.count + 1, 0);
+	forFreeEntries(K, dofs, [&](int, int column, double) { ++out.start[column + 1]; });
+	for (int c = 0; c < dofs.count; ++c)
+		out.start[c + 1] += out.start[c];
+	out.row.resize(out.start.back());
+	out.value.resize(out.start.back());
+	std::vector<int> next(out.start.begin(), out.start.end() - 1);
+	forFreeEntries(K, dofs, [&](int row, int column, double value) {
+		const int e  = next[column]++;
+		out.row[e]   = row;
+		out.value[e] = value;
+	});
+}
+
+template <int Dim> LinearProblem reduced(const NodeMatrix<Dim>& K, const FreeDofs& dofs)
+{
+	const auto in = [&](auto form) {
+		reduce(K, dofs, form);
+		return LinearProblem(std::move(form));
+	};
+	return K.isSymmetric() ? in(SymmetricCsc()) : in(GeneralCsc());
+}
+
+#define GIMPM_INSTANTIATE(Dim)                                                                                                                                 \
+	template void          reduce(const NodeMatrix<Dim>&, const FreeDofs&, SymmetricCsc&);                                                                 \
+	template void          reduce(const NodeMatrix<Dim>&, const FreeDofs&, GeneralCsc&);                                                                   \
+	template LinearProblem reduced(const NodeMatrix<Dim>&, const FreeDofs&);
+GIMPM_INSTANTIATE(2)
+GIMPM_INSTANTIATE(3)
+#undef GIMPM_INSTANTIATE
+
+} // namespace gimpm

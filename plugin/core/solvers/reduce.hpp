@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// From all nodal degrees of freedom to the free ones.
+#pragma once
+#include "core/solvers/linear_problem.hpp"
+#include "core/solvers/node_matrix.hpp"
+
+namespace gimpm {
+
+/// The free degrees of freedom among Dim a node: number of each, rising, -1 for the held ones.
+struct FreeDofs {
+	std::vector<int> number;
+	int              count = 0;
+};
+
+/// Copies the pattern and the values of the free rows and columns of K: the lower triangle, or both.
+template <int Dim> void reduce(const NodeMatrix<Dim>& K, const FreeDofs&, SymmetricCsc& out);
+template <int Dim> void reduce(const NodeMatrix<Dim>& K, const FreeDofs&, GeneralCsc& out);
+
+/// In the form that K has.
+template <int Dim> LinearProblem reduced(const NodeMatrix<Dim>& K, const FreeDofs&);
+
+} // namespace gimpm
