@@ -10,14 +10,14 @@ namespace {
 
 	/// What the springs at nodes of the grid remember from step to step: how far each is stretched.
 	template <int Dim> struct Springs {
-		Vec<Dim>                stiffness;  ///< along the axes [N/m]
+		Mat<Dim>                stiffness;  ///< force on the node over its displacement; not symmetric if it also pushes sideways one way [N/m]
 		std::map<Key, Vec<Dim>> elongation; ///< by node [m]
 
 		Vec<Dim> total() const
 		{
 			Vec<Dim> force = Vec<Dim>::Zero();
 			for (const auto& [node, e] : elongation)
-				force += stiffness.cwiseProduct(e);
+				force += stiffness * e;
 			return force;
 		}
 	};
@@ -41,11 +41,11 @@ namespace {
 				const Vec<Dim> f = force(end, d);
 				sum.force.template segment<Dim>(Dim * end.node) += f;
 				if (sum.sizes) sum.sizes->template segment<Dim>(Dim * end.node) += f.cwiseAbs();
-				for (int a = 0; sum.K && a < Dim; ++a)
-					sum.K->at(end.node, itself)[a * (Dim + 1)] += springs_.stiffness[a];
+				if (sum.K) Eigen::Map<Eigen::Matrix<double, Dim, Dim, Eigen::RowMajor>>(sum.K->at(end.node, itself)) += springs_.stiffness;
 			}
 			return std::nullopt;
 		}
+		bool   isSymmetric() const override { return springs_.stiffness == springs_.stiffness.transpose(); }
 		double fromOutside(const Eigen::VectorXd& d) const override
 		{
 			double squares = 0;
@@ -57,7 +57,7 @@ namespace {
 		{
 			for (const auto& end : ends_)
 				for (int a = 0; a < Dim; ++a)
-					if (springs_.stiffness[a] > 0) hold(end.node, Vec<Dim>::Unit(a));
+					if (springs_.stiffness(a, a) > 0) hold(end.node, Vec<Dim>::Unit(a));
 		}
 		void commit(const Eigen::VectorXd& d) override
 		{
@@ -74,7 +74,7 @@ namespace {
 		};
 		Vec<Dim> force(const End& end, const Eigen::VectorXd& d) const
 		{
-			return springs_.stiffness.cwiseProduct(end.elongation + d.template segment<Dim>(Dim * end.node));
+			return springs_.stiffness * (end.elongation + d.template segment<Dim>(Dim * end.node));
 		}
 		Springs<Dim>&    springs_;
 		std::vector<End> ends_;
@@ -85,7 +85,7 @@ namespace {
 		static constexpr double stiffness = 2e5;
 		Model<Dim>              model;
 		PointCloud<Dim>         cloud;
-		Springs<Dim>            springs { Vec<Dim>::Constant(stiffness), {} };
+		Springs<Dim>            springs { stiffness * Mat<Dim>::Identity(), {} };
 		LinearSolver            solver;
 
 		Raft()
@@ -144,7 +144,7 @@ namespace {
 		EXPECT_NEAR(raft.springs.total()[1] / -raft.weight(), 1, 1e-8);
 
 		Raft<TypeParam::value> sliding;
-		sliding.springs.stiffness[0] = 0;
+		sliding.springs.stiffness(0, 0) = 0;
 		EXPECT_EQ(sliding.step(1).cause.substr(0, 43), "nothing restrains the translation along x o");
 		Raft<TypeParam::value> loose;
 		loose.model.terms.clear();
@@ -186,6 +186,39 @@ namespace {
 		ASSERT_TRUE(raft.step(0).converged());
 		EXPECT_NEAR(raft.springs.total()[1], 0, 1e-8 * raft.weight());
 		EXPECT_GT(raft.cloud.position.back()[1], top) << "it has come back";
+	}
+
+	/// Of the last three residuals above round-off.
+	double order(std::vector<double> residuals)
+	{
+		while (!residuals.empty() && residuals.back() < 1e-13)
+			residuals.pop_back();
+		const std::size_t n = residuals.size();
+		return n < 3 ? 0 : std::log(residuals[n - 1] / residuals[n - 2]) / std::log(residuals[n - 2] / residuals[n - 3]);
+	}
+
+	TYPED_TEST(SpringTerm, WithAnUnsymmetricStiffnessNewtonsMethodConvergesQuadratically)
+	{
+		for (const auto method : { LinearMethod::direct, LinearMethod::iterative }) {
+			Raft<TypeParam::value> raft;
+			raft.model.materials             = { { Hencky(1e5, 0.3), 2000 } }; // settles by a tenth, and leans
+			raft.springs.stiffness(0, 1)     = 0.3 * raft.stiffness;
+			raft.springs.stiffness(1, 0)     = -0.1 * raft.stiffness;
+			raft.model.newton.reuseFactor    = false; // whose convergence is linear
+			raft.model.newton.linearSolver   = method;
+			raft.model.newton.tolerance      = 1e-11;
+			const auto report                = raft.step(1);
+			ASSERT_TRUE(report.converged()) << report.cause;
+			EXPECT_NEAR(raft.springs.total()[1] / -raft.weight(), 1, 1e-8);
+			EXPECT_NEAR(raft.springs.total()[0] / raft.weight(), 0, 1e-8);
+			std::printf("unsymmetric, %dD, %s:", TypeParam::value, method == LinearMethod::direct ? "LU" : "GMRES");
+			for (const double r : report.residuals)
+				std::printf(" %.1e", r);
+			std::printf(", order %.2f, %d iterations of GMRES\n", order(report.residuals), report.conjugateGradients.iterations);
+			EXPECT_GT(order(report.residuals), 1.8);
+			EXPECT_EQ(report.luSolves > 0, method == LinearMethod::direct);
+			EXPECT_EQ(report.conjugateGradients.iterations > 0, method == LinearMethod::iterative);
+		}
 	}
 
 } // namespace
