@@ -32,7 +32,7 @@ public:
 		  &MpmBoundary::displacement,
 		  0,
 		  "Displacement [m] of the held nodes at load factor 1, along directions in *fix* only; a step prescribes its share of the factor's increment. "
-		  "Zero, the default, holds them in place.",
+		  "Zero holds them in place.",
 		  finite);
 	}
 
