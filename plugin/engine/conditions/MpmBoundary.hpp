@@ -32,11 +32,8 @@ public:
 		v("displacement",
 		  &MpmBoundary::displacement,
 		  0,
-		  "Displacement [m] of the held nodes at load factor 1, along directions in *fix* only; a step prescribes its share of the factor's increment. "
-		  "Zero, the default, holds them in place. The nodes stay where they are while the soil moves: soil that they push away from its surface follows for "
-		  "half a cell (to 95 % on a column of 8 cells; the force is then 10 % too small). When a gap of more than half a cell has opened before one of them, and when none of them "
-		  "carries soil, the step raises RuntimeError ('detached' in MpmImplicitEngine.report()). Soil that is pulled or moved sideways stays with them. "
-		  "The recipes of examples/README.md push deeper.",
+		  "Displacement [m] of the held nodes at load factor 1, along *fix* only. The nodes stay where they are: soil that they push follows for half a "
+		  "cell, then the step fails as 'detached'.",
 		  finite);
 	}
 

@@ -19,8 +19,8 @@ public:
 		v("yieldStress",
 		  &MpmVonMisesMat::yieldStress,
 		  0,
-		  "Yield strength rho_y [Pa] > 0 of eq. 8, the limit of sqrt(2 J2) of the Kirchhoff stress; without default. The uniaxial yield stress is "
-		  "sqrt(1.5) times it, the undrained shear strength is it / sqrt(2).",
+		  "Yield strength rho_y [Pa] > 0 of eq. 8, the limit of sqrt(2 J2) of the Kirchhoff stress: uniaxial yield stress / sqrt(1.5), sqrt(2) times the "
+		  "undrained shear strength.",
 		  admitting("a finite number > 0 [Pa]; there is no default", positive));
 	}
 };

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What MpmImplicitEngine tells of a run: numbers for YADE's plot, and the line on the terminal.
+#include "engine/output/plotData.hpp"
 #include "engine/points/MaterialPoints.hpp"
 #include "engine/solver/MpmImplicitEngine.hpp"
+#include "yade_api/value_lock.hpp"
 #include <numeric>
 
 namespace yade {
@@ -34,51 +35,48 @@ namespace {
 	}
 
 	string reactionName(const string& number, int axis) { return "reaction" + number + "_" + "xyz"[axis]; }
+
+	py::dict plotData(MpmImplicitEngine& engine)
+	{
+		const ValueLock lock;
+		engine.requireAdmissible();
+		const auto     points    = materialPoints(*engine.ownScene(), engine.mask);
+		const auto&    reactions = engine.reactions;
+		const Totals   t         = totals(points, engine.gravity);
+		const bool     isKnown   = reactions.size() == engine.boundaries.size();
+		const Vector3r total     = std::accumulate(reactions.begin(), reactions.end(), Vector3r(Vector3r::Zero()));
+		py::dict       data;
+		engine.tell(data, RunResults::byReportAndPlot);
+		data["step"]             = engine.nDone;
+		data["points"]           = points.size();
+		data["settlement"]       = points.empty() || engine.gravity.isZero(0) ? unknown : t.settlement;
+		data["displacement"]     = points.empty() ? unknown : t.largestDisplacement;
+		data["plasticShare"]     = points.empty() ? unknown : t.plasticVolume0 / t.volume0;
+		data["elasticEnergy"]    = t.elasticEnergy;
+		data["gravityPotential"] = -engine.curveOfGravity().valueAt(engine.loadTime) * engine.gravity.dot(t.massTimesDisplacement);
+		for (int axis = 0; axis < engine.grid->dim; ++axis)
+			data[reactionName("", axis)] = isKnown && !reactions.empty() ? total[axis] : unknown;
+		for (size_t b = 0; b < engine.boundaries.size(); ++b)
+			for (int axis = 0; axis < engine.grid->dim; ++axis)
+				if (engine.boundaries[b]->fixes(axis)) data[reactionName(std::to_string(b), axis)] = isKnown ? reactions[b][axis] : unknown;
+		return data;
+	}
 }
 
-py::dict MpmImplicitEngine::plotData()
+void addPlotData(py::object pythonClass)
 {
-	const ValueLock lock;
-	requireAdmissible();
-	const auto     points = materialPoints(*ownScene(), mask);
-	const Totals   t      = totals(points, gravity);
-	const bool     isKnown = reactions.size() == boundaries.size();
-	const Vector3r total   = std::accumulate(reactions.begin(), reactions.end(), Vector3r(Vector3r::Zero()));
-	py::dict       data;
-	data["step"]             = nDone;
-	data["loadFactor"]       = loadFactor;
-	data["iterations"]       = iterations;
-	data["cuts"]             = cuts;
-	data["residual"]         = residual;
-	data["points"]           = points.size();
-	data["settlement"]       = points.empty() || gravity.isZero(0) ? unknown : t.settlement;
-	data["displacement"]     = points.empty() ? unknown : t.largestDisplacement;
-	data["plasticShare"]     = points.empty() ? unknown : t.plasticVolume0 / t.volume0;
-	data["elasticEnergy"]    = t.elasticEnergy;
-	data["gravityPotential"] = -curveOfGravity().valueAt(loadTime) * gravity.dot(t.massTimesDisplacement);
-	for (int axis = 0; axis < grid->dim; ++axis)
-		data[reactionName("", axis)] = isKnown && !reactions.empty() ? total[axis] : unknown;
-	for (size_t b = 0; b < boundaries.size(); ++b)
-		for (int axis = 0; axis < grid->dim; ++axis)
-			if (boundaries[b]->fixes(axis)) data[reactionName(std::to_string(b), axis)] = isKnown ? reactions[b][axis] : unknown;
-	return data;
-}
-
-void MpmImplicitEngine::showProgress(size_t points, bool stepIsDone)
-{
-	const long last      = lastIteration(), step = scene->iter + 1;
-	const bool runEnds   = scene->stopAtIter > scene->iter && step + iterPeriod > scene->stopAtIter;
-	const bool isRunning = Singleton<Omega>::instance().isRunning();
-	progressLine.show({ loadFactor, step, last, iterations, cuts, residual, points, isRunning, stepIsDone && runEnds }, verbosity);
-}
-
-// Of the run: where it is to stop, or where the load curves end; 0 if both are behind.
-long MpmImplicitEngine::lastIteration() const
-{
-	const auto iterationAt = [&](Real time) { return scene->iter + long(std::ceil((time - scene->time) / scene->dt - 1e-6)); };
-	if (scene->stopAtIter > scene->iter) return scene->stopAtIter;
-	if (scene->stopAtTime > scene->time) return iterationAt(scene->stopAtTime);
-	return loadsEnd() > scene->time ? iterationAt(loadsEnd()) : 0;
+	py::objects::add_to_namespace(
+	        pythonClass,
+	        "plotData",
+	        py::make_function(&plotData),
+	        "plotData() -> dict\n\nNumbers of the current state for YADE's plot: plot.addData(**solver.plotData()). They are worked out in the call, NaN "
+	        "where there is no such number.\n\n"
+	        "step: load steps made; loadFactor [-], iterations, cuts, residual [-]: of the last step; points: their number; settlement: largest displacement "
+	        "along gravity [m]; displacement: the largest in any direction [m]; plasticShare: part of the initial volume with plasticStrain > 0 [-]; "
+	        "elasticEnergy: strain energy of linear (Hencky) elasticity [J]; gravityPotential: minus weight (times its load factor) times displacement, summed "
+	        "over the points [J], zero at the initial positions; reaction_x, reaction_y and, in 3D, reaction_z: sum of the attribute *reactions* [N]; "
+	        "reaction0_y: that of boundaries[0], for all directions that a boundary fixes. Energies and forces are per metre of thickness in plane "
+	        "strain.\n\nRaises ValueError for a body that is no complete material point.");
 }
 
 } // namespace yade

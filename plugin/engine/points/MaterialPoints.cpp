@@ -92,7 +92,7 @@ void updateMaterialPoints(vector<MaterialPoint>& points, const Scene& scene, int
 	size_t               n      = 0;
 	for (size_t id = 0; id < bodies.size(); ++id) {
 		const shared_ptr<Body>& body = bodies[id];
-		if (!body || !isMeant(*body, mask)) continue; // null: erased
+		if (!body || !maskMatches(*body, mask)) continue; // null: erased
 		if (n < points.size() && isStillOf(points[n], *body)) ++n;
 		else if (auto shape = castTo<MpmPoint>(body->shape)) {
 			auto point = complete(*body, std::move(shape), n == 0 ? nullptr : &points[n - 1]);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
+#include "yade_api/scene.hpp"
 
 namespace yade {
 class MpmImplicitEngine;
@@ -15,5 +16,14 @@ public:
 	// The scene is in the state that the step has reached; without convergence that is the state where it started.
 	virtual void stepEnds(const MpmImplicitEngine&, bool converged) = 0;
 };
+
+template <class F> void tellObservers(Scene& scene, F tell)
+{
+	for (const auto& engine : scene.engines)
+		if (auto* observer = dynamic_cast<LoadStepObserver*>(engine.get()); observer && !engine->dead) {
+			engine->scene = &scene;
+			tell(*observer);
+		}
+}
 
 } // namespace yade

@@ -25,8 +25,8 @@ public:
 		v("scaling",
 		  &MpmGhost::scaling,
 		  0,
-		  "What the integral over a face is multiplied by. 'mesh-independent': gamma_k h / 3, in proportion to the stiffness of cells of any size h; "
-		  "'paper': gamma_k h^3 / 3 as printed in eq. 2, with h in metres, which fades on fine grids. They agree at h = 1 m.",
+		  "Factor of the integral over a face. 'mesh-independent': gamma_k h / 3; 'paper': gamma_k h^3 / 3 (eq. 2), which fades on fine grids. Equal at "
+		  "h = 1 m.",
 		  oneOf("mesh-independent", "paper"));
 	}
 };

@@ -1,116 +1,26 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "engine/solver/MpmImplicitEngine.hpp"
-#include "core/solvers/condition.hpp"
-#include "core/stepping/load_step.hpp"
-#include "core/stepping/step_control.hpp"
 #include "core/base/stopwatch.hpp"
-#include "core/stepping/workload.hpp"
+#include "core/stepping/load_step.hpp"
 #include "engine/solver/LoadStepObserver.hpp"
+#include "engine/solver/Threads.hpp"
 #include "engine/solver/exchange.hpp"
-#include "engine/points/parallel.hpp"
+#include "engine/solver/failures.hpp"
+#include "engine/solver/progress.hpp"
+#include "engine/solver/requirements.hpp"
 #include "yade_api/exceptions.hpp"
-#include "yade_api/interruption.hpp"
 #include "yade_api/logging.hpp"
-#include "yade_api/value_lock.hpp"
 #include <atomic>
-#include <omp.h>
 
 namespace yade {
 
 namespace {
-	// Engine.ompThreads, if set, for the time of a step.
-	class Threads {
-	public:
-		explicit Threads(int wanted)
-		        : before(omp_get_max_threads())
-		{
-			requireThreadsOfThisProcess(wanted > 0 ? wanted : before);
-			if (wanted > 0) omp_set_num_threads(wanted);
-		}
-		~Threads() { omp_set_num_threads(before); }
-
-	private:
-		int before;
-	};
-
 	std::atomic_int stepsAtWork { 0 };
 
 	struct AtWork {
 		AtWork() { ++stepsAtWork; }
 		~AtWork() { --stepsAtWork; }
 	};
-
-	string placeOf(const MaterialPoint& point)
-	{
-		std::ostringstream text;
-		text << " (body #" << point.id << " at " << point.state->pos.transpose() << ")";
-		return text.str();
-	}
-
-	const char* nameOf(gimpm::Failure failure)
-	{
-		using gimpm::Failure;
-		switch (failure) {
-			case Failure::none: return "none";
-			case Failure::detached: return "detached";
-			case Failure::unrestrained: return "unrestrained";
-			case Failure::singular: return "singular";
-			case Failure::inverted: return "inverted";
-			case Failure::notFinite: return "notFinite";
-			case Failure::diverging: return "diverging";
-			case Failure::tooManyIterations: return "tooManyIterations";
-			case Failure::stalled: return "stalled";
-			case Failure::interrupted: return "interrupted";
-		}
-		return "";
-	}
-
-	const char* nameOf(gimpm::Definiteness definiteness)
-	{
-		using gimpm::Definiteness;
-		switch (definiteness) {
-			case Definiteness::notChecked: return "not checked";
-			case Definiteness::positive: return "positive definite";
-			case Definiteness::indefinite: return "indefinite";
-		}
-		return "";
-	}
-
-	// A scene that is saved carries the last increment along, so that it continues with the same bits: of each node the grid coordinates
-	// and the displacement, three numbers each.
-	template <int Dim> gimpm::LastIncrement<Dim> lastIncrement(const vector<Real>& flat, Real load)
-	{
-		const size_t              nodes = flat.size() / 6;
-		gimpm::LastIncrement<Dim> last { vector<gimpm::Key>(nodes), Eigen::VectorXd(Dim * nodes), load };
-		for (size_t n = 0; n < nodes; ++n) {
-			gimpm::Index<Dim> place;
-			for (int a = 0; a < Dim; ++a) {
-				place[a]                       = int(flat[6 * n + a]);
-				last.displacement[Dim * n + a] = flat[6 * n + 3 + a];
-			}
-			last.nodes[n] = gimpm::Grid<Dim>::key(place);
-		}
-		return last;
-	}
-	template <int Dim> vector<Real> flat(const gimpm::LastIncrement<Dim>& last)
-	{
-		vector<Real> numbers(6 * last.nodes.size(), 0);
-		for (size_t n = 0; n < last.nodes.size(); ++n) {
-			const auto place = gimpm::Grid<Dim>::index(last.nodes[n]);
-			for (int a = 0; a < Dim; ++a) {
-				numbers[6 * n + a]     = place[a];
-				numbers[6 * n + 3 + a] = last.displacement[Dim * n + a];
-			}
-		}
-		return numbers;
-	}
-
-	template <class T> py::object numpyArray(const vector<T>& values, const char* type)
-	{
-		const char* bytes = reinterpret_cast<const char*>(values.data());
-		py::object  copy { py::handle<>(PyByteArray_FromStringAndSize(bytes, values.size() * sizeof(T))) };
-		return py::import("numpy").attr("frombuffer")(copy, type);
-	}
 }
 
 MpmImplicitEngine::MpmImplicitEngine()
@@ -121,18 +31,11 @@ MpmImplicitEngine::MpmImplicitEngine()
 	if (scene) home = scene->weak_from_this(); // the current one
 }
 
-bool MpmImplicitEngine::isIncrement(const vector<Real>& numbers)
-{
-	for (size_t i = 0; i < numbers.size(); ++i)
-		if (!std::isfinite(numbers[i]) || (i % 6 < 3 && std::abs(numbers[i]) > gimpm::Grid<2>::indexLimit)) return false;
-	return numbers.size() % 6 == 0;
-}
-
 bool MpmImplicitEngine::isStepAtWork() { return stepsAtWork > 0; }
 
 bool MpmImplicitEngine::isActivated()
 {
-	beforeActivation = { virtLast, realLast, iterLast, nDone };
+	beforeActivation.keep(*this);
 	if (PeriodicEngine::isActivated()) return true;
 	const bool ends = isEndOfLoads();
 	nDone += ends;
@@ -166,458 +69,113 @@ void MpmImplicitEngine::action()
 		if (PyGILState_Check() && Singleton<Omega>::instance().isRunning())
 			throw std::runtime_error("MpmImplicitEngine: called while the scene runs in the background; call O.wait() or O.pause() first.");
 		try {
-			run();
+			const Threads threads(ompThreads);
+			if (grid && grid->dim == 3) step<3>();
+			else
+				step<2>();
 		} catch (...) {
-			virtLast = beforeActivation.virtLast;
-			realLast = beforeActivation.realLast;
-			iterLast = beforeActivation.iterLast;
-			nDone    = beforeActivation.nDone;
-			progressLine.end();
+			beforeActivation.putBack(*this);
 			if (!scene->subStepping) scene->subStep = -1; // YADE would count the iteration as begun, and finish it later
-			tellObservers([this](LoadStepObserver& observer) { observer.stepEnds(*this, false); });
+			progressLine.end();
+			tellObservers(*scene, [this](LoadStepObserver& observer) { observer.stepEnds(*this, false); });
 			throw;
 		}
-		tellObservers([this](LoadStepObserver& observer) { observer.stepEnds(*this, true); });
+		tellObservers(*scene, [this](LoadStepObserver& observer) { observer.stepEnds(*this, true); });
 	});
-}
-
-template <class F> void MpmImplicitEngine::tellObservers(F tell) const
-{
-	for (const auto& engine : scene->engines)
-		if (auto* observer = dynamic_cast<LoadStepObserver*>(engine.get()); observer && !engine->dead) {
-			engine->scene = scene;
-			tell(*observer);
-		}
-}
-
-void MpmImplicitEngine::run()
-{
-	const Threads threads(ompThreads);
-	if (grid && grid->dim == 3) step<3>();
-	else
-		step<2>();
-}
-
-void MpmImplicitEngine::requireRunnable() const
-{
-	requireAdmissible();
-	requireOnlyClaim();
-	std::ostringstream text;
-	const bool everyIteration = iterPeriod == 1;
-	if (!(scene->dt > 0) || !std::isfinite(scene->dt))
-		text << "O.dt = " << scene->dt << " is not admitted: expected a finite number > 0, the load time of one step (with the default loadCurve, 1/80 gives 80 steps).";
-	else if (everyIteration && scene->timeStepperActive())
-		text << "an active TimeStepper among O.engines sets O.dt, which is the load increment of a step: remove it, set its active=False, or run this engine "
-		        "every N iterations with iterPeriod=N.";
-	else if (scene->isPeriodic)
-		text << "a periodic scene (O.periodic) is not supported.";
-	else if (scene->time + scene->dt <= loadTime)
-		text << "O.time + O.dt = " << scene->time + scene->dt << " is not after the last converged load time " << loadTime
-		     << ". After O.resetTime() set loadTime = O.time.";
-	else
-		return;
-	throw std::invalid_argument("MpmImplicitEngine: " + text.str());
-}
-
-// Of several engines none may claim a point of another: it would be moved twice.
-void MpmImplicitEngine::requireOnlyClaim() const
-{
-	vector<const MpmImplicitEngine*> others;
-	int                              entries = 0;
-	for (const auto& engine : scene->engines) {
-		const auto* other = dynamic_cast<const MpmImplicitEngine*>(engine.get());
-		if (other == this) ++entries;
-		else if (other && !other->dead)
-			others.push_back(other);
-	}
-	if (entries > 1) throw std::invalid_argument("MpmImplicitEngine: the same engine is listed " + std::to_string(entries) + " times in O.engines.");
-	for (const auto* other : others)
-		for (const MaterialPoint& point : materialPoints(*scene, mask))
-			if (isMeant(*(*scene->bodies)[point.id], other->mask))
-				throw std::invalid_argument(
-				        "Body #" + std::to_string(point.id) + ": two MpmImplicitEngines in O.engines claim it, with mask = " + std::to_string(mask) + " and "
-				        + std::to_string(other->mask) + "; give each body a groupMask that goes with one of them.");
-}
-
-string MpmImplicitEngine::noPoints() const
-{
-	const string hint = "; add them with O.bodies.append(mpm.fill(...)).";
-	if (materialPoints(*scene).empty()) return "MpmImplicitEngine: the scene has no material points" + hint;
-	return "MpmImplicitEngine: the scene has no material points whose groupMask goes with mask = " + std::to_string(mask) + ".";
-}
-
-gimpm::LoadCurve MpmImplicitEngine::curveOfGravity() const { return gimpm::LoadCurve(gravityCurve.empty() ? loadCurve : gravityCurve); }
-
-Real MpmImplicitEngine::loadsEnd() const { return std::max(gimpm::LoadCurve(loadCurve).end(), curveOfGravity().end()); }
-
-template <int Dim> gimpm::Load<Dim> MpmImplicitEngine::loadUntil(Real time) const
-{
-	gimpm::Load<Dim> load { gravity.head<Dim>(), gimpm::LoadCurve(loadCurve).between(loadTime, time) };
-	if (!gravityCurve.empty()) load.ofGravity = curveOfGravity().between(loadTime, time);
-	return load;
 }
 
 template <int Dim> void MpmImplicitEngine::step()
 {
-	const AtWork           during;
-	Real                   target    = 0;
-	double                 gathering = 0, checking = 0;
-	gimpm::Model<Dim>      model;
-	gimpm::PointCloud<Dim> cloud;
-	{
-		const ValueLock lock;
-		requireRunnable();
-		progressLine.start(scene->iter);
-		warnOfEnd();
-		target = scene->time + scene->dt;
-		{
-			const gimpm::Stopwatch watch(gathering);
-			model  = toModel<Dim>(*grid, basis, boundaries, *ghost, *newton);
-			updateMaterialPoints(points, *scene, mask);
-			if (points.empty()) throw std::invalid_argument(noPoints());
-			cloud = gather(points, model);
-		}
-		plausibility.requireSettings(*this);
-		if (plausibility.isNew(cloud)) {
-			const gimpm::Stopwatch watch(checking);
-			plausibility.requirePoints(points, cloud);
-		}
-		plausibility.requireGrid(*this);
-		for (const string& doubt : plausibility.warnings(*this, points, cloud, model))
-			warn(doubt);
-		last = gimpm::StepReport();
-		times.clear();
-		iterations = lineSearchTrials = reusedFactors = luSolves = cgIterations = cgFallbacks = substeps = cuts = 0;
-	}
-	addTime("gather", gathering);
-	if (checking > 0) addTime("check", checking);
-	warnOfIdleBoundaries();
-	tellObservers([this](LoadStepObserver& observer) { observer.stepBegins(*this); });
-	advance(cloud, model, target);
+	const AtWork during;
+	Job<Dim>     job = prepare<Dim>();
+	tellObservers(*scene, [this](LoadStepObserver& observer) { observer.stepBegins(*this); });
+	advance(job);
 	const ValueLock lock;
-	for (const string& doubt : plausibility.warningsOfResult(*this, points, cloud))
+	for (const string& doubt : plausibility.warningsOfResult(*this, points, job.cloud))
 		warn(doubt);
 }
 
-// Load steps up to the target, as many as it takes.
-template <int Dim>
-void MpmImplicitEngine::advance(gimpm::PointCloud<Dim>& cloud, gimpm::Model<Dim>& model, Real target)
+template <int Dim> MpmImplicitEngine::Job<Dim> MpmImplicitEngine::prepare()
 {
-	const Real         begin = loadTime;
-	gimpm::StepControl control(stepPart, newton->minStep, newton->maxIterations);
-	Interruption       interruption;
-	model.newton.interrupted = [&] { return interruption.isRequested(); };
-	while (!control.isDone()) {
-		Real                      time     = target;
-		bool                      predicts = false;
-		gimpm::Load<Dim>          load;
-		gimpm::LastIncrement<Dim> last;
-		{
-			const ValueLock lock;
-			if (control.goal() < 1) time = begin + control.goal() * (target - begin);
-			load                           = loadUntil<Dim>(time);
-			model.newton.acceptUnconverged = newton->acceptUnconverged && control.isLeast();
-			predicts                       = newton->predictor;
-			if (predicts) last = lastIncrement<Dim>(lastDisplacements, lastLoadIncrement);
-		}
-		const gimpm::StepReport report = gimpm::loadStep(cloud, model, load, solver, predicts ? &last : nullptr);
+	const ValueLock lock;
+	requireRunnable(*this);
+	progressLine.start(scene->iter);
+	warn(plausibility.doubtOfEnd(*this));
+	double   gathering = 0, checking = 0;
+	Job<Dim> job { { stepPart, newton->minStep, newton->maxIterations }, loadTime, scene->time + scene->dt, gimpm::Model<Dim>(), gimpm::PointCloud<Dim>() };
+	{
+		const gimpm::Stopwatch watch(gathering);
+		job.model = toModel<Dim>(*grid, basis, boundaries, *ghost, *newton);
+		updateMaterialPoints(points, *scene, mask);
+		requireAny(points, *this);
+		job.cloud = gather(points, job.model);
+	}
+	for (const string& doubt : plausibility.look(*this, points, job.cloud, job.model, checking))
+		warn(doubt);
+	begin(points.size());
+	addTime(*timingDeltas, "gather", gathering);
+	if (checking > 0) addTime(*timingDeltas, "check", checking);
+	warn(plausibility.doubtOfBoundaries(*this, points));
+	return job;
+}
+
+// Load steps up to the target, as many as it takes.
+template <int Dim> void MpmImplicitEngine::advance(Job<Dim>& job)
+{
+	Interruption interruption;
+	job.model.newton.interrupted = [&] { return interruption.isRequested(); };
+	while (!job.control.isDone()) {
+		Attempt<Dim>            tried  = attempt(job);
+		const gimpm::StepReport report = gimpm::loadStep(job.cloud, job.model, tried.load, solver, tried.predicts ? &tried.last : nullptr);
 		const ValueLock         lock;
-		take(report);
-		lastDisplacements = flat(last);
-		lastLoadIncrement = last.load;
-		const Real part   = control.part();
-		const bool goesOn = control.take(report);
-		cuts              = control.cuts();
-		stepPart          = control.nextPart();
+		take(report, *timingDeltas);
+		lastDisplacements = toNumbers(tried.last);
+		lastLoadIncrement = tried.last.load;
+		const Real part   = job.control.part();
+		const bool goesOn = job.control.take(report);
+		cuts              = job.control.cuts();
+		stepPart          = job.control.nextPart();
 		if (!goesOn) {
-			const string reason = reasonOf(report, time, part);
+			const string reason = reasonOf(report, *this, points, tried.time, part);
 			if (report.failure == gimpm::Failure::interrupted) interruption.raise(reason);
 			throw std::runtime_error(reason);
 		}
-		if (report.accepted) warnOfAccepted(report, time);
-		if (report.converged() || report.accepted) reach(cloud, time, load.factor.value);
-		showProgress(points.size(), control.isDone());
+		if (report.accepted) warn(warningOfAccepted(report, *this, tried.time));
+		if (report.converged() || report.accepted) reach(job.cloud, tried);
+		progressLine.show(progressOf(*this, job.control.isDone()), verbosity);
 	}
 }
 
+template <int Dim> MpmImplicitEngine::Attempt<Dim> MpmImplicitEngine::attempt(Job<Dim>& job) const
+{
+	const ValueLock lock;
+	const Real      time               = job.control.goal() == 1 ? job.target : job.begin + job.control.goal() * (job.target - job.begin);
+	job.model.newton.acceptUnconverged = newton->acceptUnconverged && job.control.isLeast();
+	Attempt<Dim> next { time, loadBetween<Dim>(loadTime, time), newton->predictor, {} };
+	if (next.predicts) next.last = fromNumbers<Dim>(lastDisplacements, lastLoadIncrement);
+	return next;
+}
+
 // Points and load time move on together: whoever reads or saves the scene at any moment finds a converged state.
-template <int Dim> void MpmImplicitEngine::reach(const gimpm::PointCloud<Dim>& cloud, Real time, Real factor)
+template <int Dim> void MpmImplicitEngine::reach(const gimpm::PointCloud<Dim>& cloud, const Attempt<Dim>& made)
 {
 	double scattering = 0;
 	{
 		const gimpm::Stopwatch watch(scattering);
 		scatter(cloud, points);
 	}
-	addTime("scatter", scattering);
+	addTime(*timingDeltas, "scatter", scattering);
 	plausibility.know(cloud);
 	++substeps;
-	loadTime   = time;
-	loadFactor = factor;
-}
-
-void MpmImplicitEngine::take(const gimpm::StepReport& report)
-{
-	last           = report;
-	converged      = report.converged();
-	residual       = report.residual();
-	residuals      = report.residuals;
-	if (report.converged() || report.accepted) reactions = report.reactions;
-	activeCells    = report.populatedCells;
-	boundaryCells  = report.boundaryCells;
-	ghostFaces     = report.ghostFaces;
-	dofs           = report.dofs;
-	clampedDomains = report.clampedDomains;
-	wallOverlap    = report.largestWallOverlap;
-	iterations += report.iterations;
-	lineSearchTrials += report.lineSearchTrials;
-	reusedFactors += report.reusedFactors;
-	luSolves += report.luSolves;
-	cgIterations += report.conjugateGradients.iterations;
-	cgFallbacks += report.conjugateGradients.fallbacks;
-	const auto& t = report.times;
-	for (const auto& [phase, seconds] : { std::pair { "basis", t.basis },
-	                                      { "ghost", t.ghost },
-	                                      { "assembly", t.assembly },
-	                                      { "analyse", t.linear.analyse },
-	                                      { "factorise", t.linear.factorise },
-	                                      { "solve", t.linear.solve },
-	                                      { "update", t.update } })
-		addTime(phase, seconds);
-}
-
-void MpmImplicitEngine::addTime(const char* phase, double seconds)
-{
-	timingDeltas->add(phase, std::chrono::nanoseconds(std::llround(1e9 * seconds)));
-	times[phase] += seconds;
-}
-
-py::dict MpmImplicitEngine::report() const
-{
-	const ValueLock lock;
-	py::dict        result;
-	if (times.empty()) return result;
-	result["loadTime"]         = loadTime;
-	result["loadFactor"]       = loadFactor;
-	result["stepPart"]         = stepPart;
-	result["iterations"]       = iterations;
-	result["substeps"]         = substeps;
-	result["cuts"]             = cuts;
-	result["lineSearchTrials"] = lineSearchTrials;
-	result["reusedFactors"]    = reusedFactors;
-	result["luSolves"]         = luSolves;
-	result["cgIterations"]     = cgIterations;
-	result["cgFallbacks"]      = cgFallbacks;
-	result["converged"] = last.converged();
-	result["accepted"]  = last.accepted;
-	result["failure"]   = nameOf(last.failure);
-	result["cause"]     = last.cause;
-	py::list history;
-	for (const Real r : last.residuals)
-		history.append(r);
-	result["residuals"]      = history;
-	result["residual"]       = last.residual();
-	result["localResidual"]  = last.localResidual;
-	result["stiffness"]      = nameOf(last.definiteness);
-	result["worstNode"]      = Vector3r(last.worst.position);
-	result["worstAxis"]      = last.worst.axis < 0 ? string() : string(1, "xyz"[last.worst.axis]);
-	result["worstForce"]     = last.worst.force;
-	result["points"]         = points.size();
-	result["nodes"]          = last.nodes;
-	result["dofs"]           = last.dofs;
-	result["activeCells"]    = last.populatedCells;
-	result["boundaryCells"]  = last.boundaryCells;
-	result["ghostFaces"]     = last.ghostFaces;
-	result["clampedDomains"] = last.clampedDomains;
-	result["wallOverlap"]    = last.largestWallOverlap;
-	result["mixedCells"]     = last.mixedCells;
-	result["islands"]        = last.parts;
-	py::dict seconds;
-	for (const auto& [phase, time] : times)
-		seconds[phase] = time;
-	result["times"] = seconds;
-	return result;
+	loadTime   = made.time;
+	loadFactor = made.load.factor.value;
 }
 
 void MpmImplicitEngine::warn(const string& text)
 {
+	if (text.empty()) return;
 	progressLine.breakLine();
 	log(Severity::warning, staticName(), text);
-}
-
-void MpmImplicitEngine::warnOfEnd()
-{
-	if (warnedOfEnd || std::max(loadCurve.size(), gravityCurve.size()) < 2 || loadTime < loadsEnd() - 1e-9 * scene->dt) return;
-	warnedOfEnd = true;
-	std::ostringstream text;
-	text << (gravityCurve.size() < 2 ? "loadCurve has" : "loadCurve and gravityCurve have") << " ended at time " << loadsEnd() << ": the load factor stays at "
-	     << loadCurve.back().second
-	     << ". Unless something else changes, further steps move the points a little only, as each finds equilibrium on the grid that has been reset.";
-	warn(text.str());
-}
-
-// A wall may wait for soil that arrives later, so it is said once. That a boundary moves nothing is an error of the step.
-void MpmImplicitEngine::warnOfIdleBoundaries()
-{
-	const ValueLock            lock;
-	vector<const MpmBoundary*> except;
-	decltype(lookedAtBoxes)    boxes;
-	for (const auto& boundary : boundaries) {
-		boxes.emplace_back(boundary->min, boundary->max);
-		const bool isKnown = std::find(lookedAtBoxes.begin(), lookedAtBoxes.end(), boxes.back()) != lookedAtBoxes.end();
-		if (isKnown || !boundary->displacement.isZero(0)) except.push_back(boundary.get());
-	}
-	lookedAtBoxes.swap(boxes);
-	if (except.size() == boundaries.size()) return;
-	const string idle = idleBoundaries(*this, points, except);
-	if (idle.empty()) return;
-	warn(idle.substr(1) + " It holds nothing until soil arrives there.");
-}
-
-void MpmImplicitEngine::warnOfAccepted(const gimpm::StepReport& report, Real time)
-{
-	std::ostringstream text;
-	text << "the load step from factor " << loadFactor << " to " << gimpm::LoadCurve(loadCurve).valueAt(time) << " has not converged and is accepted (newton.acceptUnconverged): "
-	     << report.cause << ".";
-	warn(text.str());
-}
-
-string MpmImplicitEngine::reasonOf(const gimpm::StepReport& report, Real time, Real part) const
-{
-	std::ostringstream text;
-	text << "MpmImplicitEngine: the load step from factor " << loadFactor << " to " << gimpm::LoadCurve(loadCurve).valueAt(time);
-	if (!gravityCurve.empty()) text << ", of gravity from " << curveOfGravity().valueAt(loadTime) << " to " << curveOfGravity().valueAt(time) << ",";
-	if (part < 1) text << " (" << part << " of O.dt, after " << cuts << " cuts)";
-	text << " failed: " << report.cause;
-	if (report.failedPoint >= 0) text << placeOf(points[report.failedPoint]);
-	text << "." << placeOfImbalance(report) << adviceOn(report, part);
-	if (report.failure == gimpm::Failure::unrestrained) text << idleBoundaries(*this, points);
-	text << " The scene is at load factor " << loadFactor << ", the last converged state, in iteration " << scene->iter << ".";
-	return text.str();
-}
-
-string MpmImplicitEngine::placeOfImbalance(const gimpm::StepReport& report) const
-{
-	if (report.residuals.empty() || report.worst.axis < 0) return "";
-	std::ostringstream text;
-	text << " Residuals:";
-	for (const Real r : report.residuals)
-		text << " " << r;
-	text << "; largest out-of-balance force " << report.worst.force << " N along " << "xyz"[report.worst.axis] << " at node ("
-	     << report.worst.position.head(grid->dim).transpose() << ")";
-	constexpr int listed = 5;
-	int           found  = 0;
-	for (const MaterialPoint& point : points)
-		if ((point.state->pos - report.worst.position).head(grid->dim).cwiseAbs().maxCoeff() < grid->cellSize && ++found <= listed)
-			text << (found == 1 ? ", near it bodies #" : ", #") << point.id;
-	if (found > listed) text << " and " << found - listed << " more";
-	text << ".";
-	return text.str();
-}
-
-string MpmImplicitEngine::adviceOn(const gimpm::StepReport& report, Real part) const
-{
-	using gimpm::Failure;
-	string advice;
-	if (report.failure == Failure::unrestrained) return " Hold nodes of that material with MpmBoundary.";
-	if (report.failure == Failure::interrupted) return " O.run() goes on from there.";
-	if (report.failure == Failure::stalled) return " Set newton.tolerance to that or more.";
-	if (report.failure == Failure::detached)
-		return " Nodes stay in place while the soil moves, and push it by half a cell: put the box where the soil is now, in each step if it is pushed further, or move "
-		       "a block of stiff material points by nodes inside of it (examples/README.md, recipes).";
-	if (ghost->factor == 0) advice += " The ghost stabilisation is off (factor=0): small overlaps of material and cells make the system ill conditioned.";
-	if (part < 1) advice += " The load may be more than the body can carry in equilibrium.";
-	else
-		advice += " Smaller load steps (O.dt), or newton.minStep < 1, may help.";
-	if (report.clampedDomains > 0) advice += " " + std::to_string(report.clampedDomains) + " domains had outgrown half a cell.";
-	return advice;
-}
-
-template <class F> auto MpmImplicitEngine::onCurrentState(F f)
-{
-	const Threads threads(ompThreads);
-	const auto    inSpace = [&](auto dim) {
-		constexpr int          Dim = decltype(dim)::value;
-		gimpm::Model<Dim>      model;
-		gimpm::PointCloud<Dim> cloud;
-		{
-			const ValueLock lock;
-			requireAdmissible();
-			model = toModel<Dim>(*grid, basis, boundaries, *ghost, *newton);
-			cloud = gather(materialPoints(*ownScene(), mask), model);
-		}
-		const PythonUnlock python;
-		return f(cloud, model);
-	};
-	return grid && grid->dim == 3 ? inSpace(std::integral_constant<int, 3>()) : inSpace(std::integral_constant<int, 2>());
-}
-
-gimpm::LinearProblem MpmImplicitEngine::reducedStiffness()
-{
-	return onCurrentState([](const auto& cloud, const auto& model) { return gimpm::tangentStiffness(cloud, model); });
-}
-
-py::tuple MpmImplicitEngine::stiffness()
-{
-	const auto      K = reducedStiffness();
-	vector<int64_t> rows, columns;
-	vector<Real>    values;
-	K.forEntries([&](int row, int column, Real value) {
-		rows.push_back(row);
-		columns.push_back(column);
-		values.push_back(value);
-	});
-	return py::make_tuple(numpyArray(rows, "int64"), numpyArray(columns, "int64"), numpyArray(values, "float64"), K.size());
-}
-
-Real MpmImplicitEngine::conditionNumber()
-{
-	constexpr int largest = 4000;
-	const auto    K       = reducedStiffness();
-	if (K.size() > 0 && K.size() <= largest) return gimpm::conditionNumber(K);
-	throw std::invalid_argument(
-	        "MpmImplicitEngine.conditionNumber() needs all eigenvalues: the scene has " + std::to_string(K.size()) + " unknowns, admitted are 1 to "
-	        + std::to_string(largest) + ".");
-}
-
-Real MpmImplicitEngine::conditionEstimate()
-{
-	const auto K = reducedStiffness();
-	if (K.size() == 0) throw std::invalid_argument("MpmImplicitEngine.conditionEstimate(): the scene has no unknowns.");
-	return gimpm::conditionEstimate(K);
-}
-
-py::dict MpmImplicitEngine::workload()
-{
-	// the quickest of three: other programs can only slow them down
-	double          perStep = std::numeric_limits<double>::infinity(), perSolve = perStep;
-	gimpm::Workload w;
-	for (int time = 0; time < 3; ++time) {
-		double gathering = 0, rest = 0;
-		{
-			const gimpm::Stopwatch watch(gathering);
-			w = onCurrentState([&](const auto& cloud, const auto& model) {
-				const gimpm::Stopwatch watch(rest);
-				return gimpm::workload(cloud, model);
-			});
-		}
-		const auto& t = w.times;
-		// scattering takes as long as gathering, the update of the points and the last residual as long as an assembly
-		perStep  = std::min(perStep, 2 * (gathering - rest) + t.basis + t.ghost + t.linear.analyse + t.assembly);
-		perSolve = std::min(perSolve, t.assembly + t.linear.factorise + t.linear.solve);
-	}
-	py::dict d;
-	d["points"]          = w.points;
-	d["nodes"]           = w.nodes;
-	d["dofs"]            = w.dofs;
-	d["activeCells"]     = w.populatedCells;
-	d["ghostFaces"]      = w.ghostFaces;
-	d["blockEntries"]    = w.blockEntries;
-	d["matrixEntries"]   = w.matrixEntries;
-	d["factorEntries"]   = w.factorEntries;
-	d["factorFlops"]     = w.factorFlops;
-	d["secondsPerStep"]  = perStep;
-	d["secondsPerSolve"] = perSolve;
-	return d;
 }
 
 } // namespace yade

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "engine/solver/plausibility.hpp"
+#include "core/base/stopwatch.hpp"
 #include "engine/solver/MpmImplicitEngine.hpp"
+#include "engine/solver/idle_boundaries.hpp"
 #include "engine/solver/overlaps.hpp"
 #include <cstring>
 
@@ -153,12 +155,6 @@ namespace {
 	}
 }
 
-void Plausibility::requireSettings(const MpmImplicitEngine& engine) const
-{
-	requireGravityInPlane(engine);
-	requireSensibleIncrement(engine);
-}
-
 template <int Dim> bool Plausibility::isNew(const gimpm::PointCloud<Dim>& cloud) const { return known != fingerprint(cloud); }
 template <int Dim> void Plausibility::know(const gimpm::PointCloud<Dim>& cloud) { known = fingerprint(cloud); }
 
@@ -180,6 +176,31 @@ template <int Dim> void Plausibility::requirePoints(const vector<MaterialPoint>&
 	know(cloud);
 }
 
+string Plausibility::doubtOfEnd(const MpmImplicitEngine& engine)
+{
+	const size_t knees = engine.gravityCurve.size();
+	const Real   end   = engine.loadsEnd();
+	if (saidEnd || std::max(engine.loadCurve.size(), knees) < 2 || engine.loadTime < end - 1e-9 * engine.scene->dt) return "";
+	saidEnd = true;
+	return sentence(knees < 2 ? "loadCurve has" : "loadCurve and gravityCurve have", " ended at time ", end, ": the load factor stays at ",
+	                engine.loadCurve.back().second,
+	                ". Unless something else changes, further steps move the points a little only, as each finds equilibrium on the grid that has been reset.");
+}
+
+string Plausibility::doubtOfBoundaries(const MpmImplicitEngine& engine, const vector<MaterialPoint>& points)
+{
+	vector<const MpmBoundary*> except;
+	decltype(lookedAt)         boxes;
+	for (const auto& boundary : engine.boundaries) {
+		boxes.emplace_back(boundary->min, boundary->max);
+		const bool isKnown = std::find(lookedAt.begin(), lookedAt.end(), boxes.back()) != lookedAt.end();
+		if (isKnown || !boundary->displacement.isZero(0)) except.push_back(boundary.get());
+	}
+	lookedAt.swap(boxes);
+	const string idle = except.size() == engine.boundaries.size() ? "" : idleBoundaries(engine, points, except);
+	return idle.empty() ? "" : idle.substr(1) + " It holds nothing until soil arrives there.";
+}
+
 // No fill puts so many points into a cell that they are as small.
 void Plausibility::requireGrid(const MpmImplicitEngine& engine) const
 {
@@ -198,8 +219,16 @@ void Plausibility::say(vector<string>& sentences, Doubt doubt, const string& sen
 }
 
 template <int Dim>
-vector<string> Plausibility::warnings(const MpmImplicitEngine& engine, const vector<MaterialPoint>& points, const gimpm::PointCloud<Dim>& cloud, const gimpm::Model<Dim>& model)
+vector<string> Plausibility::look(
+        const MpmImplicitEngine& engine, const vector<MaterialPoint>& points, const gimpm::PointCloud<Dim>& cloud, const gimpm::Model<Dim>& model, double& time)
 {
+	requireGravityInPlane(engine);
+	requireSensibleIncrement(engine);
+	if (isNew(cloud)) {
+		const gimpm::Stopwatch watch(time);
+		requirePoints(points, cloud);
+	}
+	requireGrid(engine);
 	vector<string> sentences;
 	say(sentences, Doubt::gravityUpwards, doubtOfGravity(engine.gravity));
 	say(sentences, Doubt::largeCells, doubtOfCells(engine.grid->cellSize, smallest));
@@ -230,32 +259,12 @@ vector<string> Plausibility::warningsOfResult(const MpmImplicitEngine& engine, c
 }
 
 #define MPM_INSTANTIATE(Dim)                                                                                                                                   \
-	template bool           Plausibility::isNew(const gimpm::PointCloud<Dim>&) const;                                                                      \
-	template void           Plausibility::requirePoints(const vector<MaterialPoint>&, const gimpm::PointCloud<Dim>&);            \
 	template void           Plausibility::know(const gimpm::PointCloud<Dim>&);                                                                             \
 	template vector<string> Plausibility::warningsOfResult(const MpmImplicitEngine&, const vector<MaterialPoint>&, const gimpm::PointCloud<Dim>&);         \
-	template vector<string> Plausibility::warnings(                                                                                                        \
-	        const MpmImplicitEngine&, const vector<MaterialPoint>&, const gimpm::PointCloud<Dim>&, const gimpm::Model<Dim>&);
+	template vector<string> Plausibility::look(                                                                                                            \
+	        const MpmImplicitEngine&, const vector<MaterialPoint>&, const gimpm::PointCloud<Dim>&, const gimpm::Model<Dim>&, double&);
 MPM_INSTANTIATE(2)
 MPM_INSTANTIATE(3)
 #undef MPM_INSTANTIATE
-
-string idleBoundaries(const MpmImplicitEngine& engine, const vector<MaterialPoint>& points, const vector<const MpmBoundary*>& except)
-{
-	if (engine.boundaries.empty()) return " The engine has no boundaries.";
-	std::ostringstream text;
-	const int          dim = engine.grid->dim;
-	for (size_t b = 0; b < engine.boundaries.size(); ++b) {
-		const MpmBoundary& boundary = *engine.boundaries[b];
-		if (std::find(except.begin(), except.end(), &boundary) != except.end()) continue;
-		const auto         isNear   = [&](const MaterialPoint& p) {
-                        const Vector3r reach = p.shape->halfSize + Vector3r::Constant(engine.grid->cellSize); // nodes of the cells that it touches
-                        return ((p.state->pos + reach - boundary.min).head(dim).array() > 0).all() && ((boundary.max - p.state->pos + reach).head(dim).array() > 0).all();
-		};
-		if (std::none_of(points.begin(), points.end(), isNear))
-			text << " boundaries[" << b << "], from (" << boundary.min.transpose() << ") to (" << boundary.max.transpose() << "), holds no node of any material.";
-	}
-	return text.str();
-}
 
 } // namespace yade

@@ -18,28 +18,37 @@ class MpmImplicitEngine;
 // points in the same place, cells that are no match for the points, an O.dt that nobody has set or that jumps over the whole load curve.
 class Plausibility {
 public:
-	void requireSettings(const MpmImplicitEngine&) const;
+	// Before a step. What can be meant, but seldom is: sentences for YADE's log. Each is said once as long as what it says stays so. Adds the
+	// time [s] that the points have taken, if they were looked at.
+	template <int Dim>
+	vector<string> look(const MpmImplicitEngine&, const vector<MaterialPoint>&, const gimpm::PointCloud<Dim>&, const gimpm::Model<Dim>&, double& time);
 
-	// Whether the points are not those of the last call of know().
-	template <int Dim> bool isNew(const gimpm::PointCloud<Dim>&) const;
-	template <int Dim> void requirePoints(const vector<MaterialPoint>&, const gimpm::PointCloud<Dim>&);
+	// After it.
+	template <int Dim> vector<string> warningsOfResult(const MpmImplicitEngine&, const vector<MaterialPoint>&, const gimpm::PointCloud<Dim>&);
+
+	// The points are as the engine has left them.
 	template <int Dim> void know(const gimpm::PointCloud<Dim>&);
 
-	// Of the sizes that requirePoints() has found.
-	void requireGrid(const MpmImplicitEngine&) const;
-
-	// What can be meant, but seldom is: sentences for YADE's log. Each is said once as long as what it says stays so.
-	template <int Dim> vector<string> warnings(const MpmImplicitEngine&, const vector<MaterialPoint>&, const gimpm::PointCloud<Dim>&, const gimpm::Model<Dim>&);
-	template <int Dim> vector<string> warningsOfResult(const MpmImplicitEngine&, const vector<MaterialPoint>&, const gimpm::PointCloud<Dim>&);
+	// Once: that the load curves are at their end, and which boundaries reach no point. A wall may wait for soil that arrives later; that a
+	// boundary moves nothing is an error of the step.
+	string doubtOfEnd(const MpmImplicitEngine&);
+	string doubtOfBoundaries(const MpmImplicitEngine&, const vector<MaterialPoint>&);
 
 private:
 	enum class Doubt { gravityUpwards, largeCells, units, tension, overlap, settlement };
+
+	template <int Dim> bool isNew(const gimpm::PointCloud<Dim>&) const; // not those of the last call of know()
+	template <int Dim> void requirePoints(const vector<MaterialPoint>&, const gimpm::PointCloud<Dim>&);
+	void                    requireGrid(const MpmImplicitEngine&) const; // of the sizes that requirePoints() has found
 
 	// Takes the sentence, which is empty where there is no doubt, unless it has been said.
 	void say(vector<string>&, Doubt, const string& sentence);
 
 	std::optional<uint64_t> known;
 	std::map<Doubt, bool>   said;
+	bool                    saidEnd = false;
+
+	vector<std::pair<Vector3r, Vector3r>> lookedAt; // boxes of boundaries: whether they reach any point
 
 	// of the points as they were looked at
 	Real     smallest = 0, largest = 0; // initial sizes [m]
@@ -47,8 +56,5 @@ private:
 	string   overlap; // the doubt about it
 	std::pair<Vector3r, Vector3r> box { Vector3r::Zero(), Vector3r::Zero() }; // that all were in at first: its corners [m]
 };
-
-// Of boundaries that do not reach any of the points, a sentence for each; empty if there is none. Some may be left out.
-string idleBoundaries(const MpmImplicitEngine&, const vector<MaterialPoint>&, const vector<const MpmBoundary*>& except = {});
 
 } // namespace yade

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+#include "core/stepping/model.hpp"
+#include "yade_api/registration.hpp"
+
+namespace yade {
+
+// What acts on the points over time, as an engine is told.
+struct Loads {
+	Vector3r                gravity = Vector3r::Zero();
+	gimpm::LoadCurve::Knees loadCurve { { 0, 0 }, { 1, 1 } };
+	gimpm::LoadCurve::Knees gravityCurve; // empty: loadCurve
+
+	// Attributes, as those of a class.
+	template <class V> static void loads(V&& v)
+	{
+		v("gravity", &Loads::gravity, 0, "Acceleration [m/s²] of all material points at load factor 1, finite.", finite);
+		v("loadCurve", &Loads::loadCurve, 0,
+		  "Load factor [-] as a sequence of (time [s], factor), times increasing; linear between, constant before and after. Multiplies gravity (but see "
+		  "*gravityCurve*), point loads and prescribed displacements.",
+		  admitting("one or more (time, factor), all finite, with increasing times", gimpm::LoadCurve::isAdmissible));
+		v("gravityCurve", &Loads::gravityCurve, 0,
+		  "Factor [-] of gravity as *loadCurve*, where it shall not go with the other loads; empty, the default: it does. [(0, 1)]: gravity acts from the "
+		  "beginning, as after mpm.geostatic.",
+		  admitting("nothing, or (time, factor), all finite, with increasing times", [](const auto& curve) { return curve.empty() || gimpm::LoadCurve::isAdmissible(curve); }));
+	}
+
+	gimpm::LoadCurve curveOfLoads() const { return gimpm::LoadCurve(loadCurve); }
+	gimpm::LoadCurve curveOfGravity() const { return gimpm::LoadCurve(gravityCurve.empty() ? loadCurve : gravityCurve); }
+
+	// When the last of them has come to rest.
+	Real loadsEnd() const { return std::max(curveOfLoads().end(), curveOfGravity().end()); }
+
+	template <int Dim> gimpm::Load<Dim> loadBetween(Real begin, Real end) const
+	{
+		gimpm::Load<Dim> load { gravity.head<Dim>(), curveOfLoads().between(begin, end) };
+		if (!gravityCurve.empty()) load.ofGravity = curveOfGravity().between(begin, end);
+		return load;
+	}
+};
+
+} // namespace yade

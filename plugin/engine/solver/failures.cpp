@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "engine/solver/failures.hpp"
+#include "engine/solver/MpmImplicitEngine.hpp"
+#include "engine/solver/idle_boundaries.hpp"
+
+namespace yade {
+
+namespace {
+	string placeOf(const MaterialPoint& point)
+	{
+		std::ostringstream text;
+		text << " (body #" << point.id << " at " << point.state->pos.transpose() << ")";
+		return text.str();
+	}
+
+	string placeOfImbalance(const gimpm::StepReport& report, const MpmImplicitEngine& engine, const vector<MaterialPoint>& points)
+	{
+		if (report.residuals.empty() || report.worst.axis < 0) return "";
+		const int          dim = engine.grid->dim;
+		std::ostringstream text;
+		text << " Residuals:";
+		for (const Real r : report.residuals)
+			text << " " << r;
+		text << "; largest out-of-balance force " << report.worst.force << " N along " << "xyz"[report.worst.axis] << " at node ("
+		     << report.worst.position.head(dim).transpose() << ")";
+		constexpr int listed = 5;
+		int           found  = 0;
+		for (const MaterialPoint& point : points)
+			if ((point.state->pos - report.worst.position).head(dim).cwiseAbs().maxCoeff() < engine.grid->cellSize && ++found <= listed)
+				text << (found == 1 ? ", near it bodies #" : ", #") << point.id;
+		if (found > listed) text << " and " << found - listed << " more";
+		text << ".";
+		return text.str();
+	}
+
+	string adviceOn(const gimpm::StepReport& report, const MpmGhost& ghost, Real part)
+	{
+		using gimpm::Failure;
+		string advice;
+		if (report.failure == Failure::unrestrained) return " Hold nodes of that material with MpmBoundary.";
+		if (report.failure == Failure::interrupted) return " O.run() goes on from there.";
+		if (report.failure == Failure::stalled) return " Set newton.tolerance to that or more.";
+		if (report.failure == Failure::detached)
+			return " Nodes stay in place while the soil moves, and push it by half a cell: put the box where the soil is now, in each step if it is pushed further, or "
+			       "move a block of stiff material points by nodes inside of it (examples/README.md, recipes).";
+		if (ghost.factor == 0) advice += " The ghost stabilisation is off (factor=0): small overlaps of material and cells make the system ill conditioned.";
+		if (part < 1) advice += " The load may be more than the body can carry in equilibrium.";
+		else
+			advice += " Smaller load steps (O.dt), or newton.minStep < 1, may help.";
+		if (report.clampedDomains > 0) advice += " " + std::to_string(report.clampedDomains) + " domains had outgrown half a cell.";
+		return advice;
+	}
+
+	string stepOf(const MpmImplicitEngine& engine, Real time)
+	{
+		std::ostringstream text;
+		text << "the load step from factor " << engine.loadFactor << " to " << engine.curveOfLoads().valueAt(time);
+		return text.str();
+	}
+}
+
+const char* nameOf(gimpm::Failure failure)
+{
+	using gimpm::Failure;
+	switch (failure) {
+		case Failure::none: return "none";
+		case Failure::detached: return "detached";
+		case Failure::unrestrained: return "unrestrained";
+		case Failure::singular: return "singular";
+		case Failure::inverted: return "inverted";
+		case Failure::notFinite: return "notFinite";
+		case Failure::diverging: return "diverging";
+		case Failure::tooManyIterations: return "tooManyIterations";
+		case Failure::stalled: return "stalled";
+		case Failure::interrupted: return "interrupted";
+	}
+	return "";
+}
+
+const char* nameOf(gimpm::Definiteness definiteness)
+{
+	using gimpm::Definiteness;
+	switch (definiteness) {
+		case Definiteness::notChecked: return "not checked";
+		case Definiteness::positive: return "positive definite";
+		case Definiteness::indefinite: return "indefinite";
+	}
+	return "";
+}
+
+string reasonOf(const gimpm::StepReport& report, const MpmImplicitEngine& engine, const vector<MaterialPoint>& points, Real time, Real part)
+{
+	std::ostringstream text;
+	text << "MpmImplicitEngine: " << stepOf(engine, time);
+	if (!engine.gravityCurve.empty()) {
+		const gimpm::LoadCurve curve = engine.curveOfGravity();
+		text << ", of gravity from " << curve.valueAt(engine.loadTime) << " to " << curve.valueAt(time) << ",";
+	}
+	if (part < 1) text << " (" << part << " of O.dt, after " << engine.cuts << " cuts)";
+	text << " failed: " << report.cause;
+	if (report.failedPoint >= 0) text << placeOf(points[report.failedPoint]);
+	text << "." << placeOfImbalance(report, engine, points) << adviceOn(report, *engine.ghost, part);
+	if (report.failure == gimpm::Failure::unrestrained) text << idleBoundaries(engine, points);
+	text << " The scene is at load factor " << engine.loadFactor << ", the last converged state, in iteration " << engine.scene->iter << ".";
+	return text.str();
+}
+
+string warningOfAccepted(const gimpm::StepReport& report, const MpmImplicitEngine& engine, Real time)
+{
+	return stepOf(engine, time) + " has not converged and is accepted (newton.acceptUnconverged): " + report.cause + ".";
+}
+
+} // namespace yade

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+// A scene that is saved carries the last increment along, so that it continues with the same bits: of each node the grid coordinates
+// and the displacement, three numbers each.
+#include "core/stepping/predictor.hpp"
+#include "yade_api/types.hpp"
+
+namespace yade {
+
+bool isIncrement(const vector<Real>& numbers);
+
+template <int Dim> gimpm::LastIncrement<Dim> fromNumbers(const vector<Real>& numbers, Real load);
+template <int Dim> vector<Real>              toNumbers(const gimpm::LastIncrement<Dim>&);
+
+} // namespace yade

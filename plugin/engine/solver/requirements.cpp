@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "engine/solver/requirements.hpp"
+#include "engine/solver/MpmImplicitEngine.hpp"
+
+namespace yade {
+
+namespace {
+	// Of several engines none may claim a point of another: it would be moved twice.
+	void requireOnlyClaim(const MpmImplicitEngine& engine)
+	{
+		const Scene&                     scene = *engine.scene;
+		vector<const MpmImplicitEngine*> others;
+		int                              entries = 0;
+		for (const auto& listed : scene.engines) {
+			const auto* other = dynamic_cast<const MpmImplicitEngine*>(listed.get());
+			if (other == &engine) ++entries;
+			else if (other && !other->dead)
+				others.push_back(other);
+		}
+		if (entries > 1) throw std::invalid_argument("MpmImplicitEngine: the same engine is listed " + std::to_string(entries) + " times in O.engines.");
+		for (const auto* other : others)
+			for (const MaterialPoint& point : materialPoints(scene, engine.mask))
+				if (maskMatches(*(*scene.bodies)[point.id], other->mask))
+					throw std::invalid_argument(
+					        "Body #" + std::to_string(point.id) + ": two MpmImplicitEngines in O.engines claim it, with mask = " + std::to_string(engine.mask) + " and "
+					        + std::to_string(other->mask) + "; give each body a groupMask that goes with one of them.");
+	}
+}
+
+void requireRunnable(const MpmImplicitEngine& engine)
+{
+	engine.requireAdmissible();
+	requireOnlyClaim(engine);
+	Scene&             scene = *engine.scene;
+	std::ostringstream text;
+	if (!(scene.dt > 0) || !std::isfinite(scene.dt))
+		text << "O.dt = " << scene.dt << " is not admitted: expected a finite number > 0, the load time of one step (with the default loadCurve, 1/80 gives 80 steps).";
+	else if (engine.iterPeriod == 1 && scene.timeStepperActive())
+		text << "an active TimeStepper among O.engines sets O.dt, which is the load increment of a step: remove it, set its active=False, or run this engine "
+		        "every N iterations with iterPeriod=N.";
+	else if (scene.isPeriodic)
+		text << "a periodic scene (O.periodic) is not supported.";
+	else if (scene.time + scene.dt <= engine.loadTime)
+		text << "O.time + O.dt = " << scene.time + scene.dt << " is not after the last converged load time " << engine.loadTime
+		     << ". After O.resetTime() set loadTime = O.time.";
+	else
+		return;
+	throw std::invalid_argument("MpmImplicitEngine: " + text.str());
+}
+
+void requireAny(const vector<MaterialPoint>& points, const MpmImplicitEngine& engine)
+{
+	if (!points.empty()) return;
+	if (materialPoints(*engine.scene).empty())
+		throw std::invalid_argument("MpmImplicitEngine: the scene has no material points; add them with O.bodies.append(mpm.fill(...)).");
+	throw std::invalid_argument(
+	        "MpmImplicitEngine: the scene has no material points whose groupMask goes with mask = " + std::to_string(engine.mask) + ".");
+}
+
+} // namespace yade

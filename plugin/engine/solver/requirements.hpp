@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+// What a scene must be like for a load step. std::invalid_argument otherwise.
+#include "engine/points/MaterialPoints.hpp"
+
+namespace yade {
+class MpmImplicitEngine;
+
+// Settings, clock and the other engines.
+void requireRunnable(const MpmImplicitEngine&);
+
+// Material points that the engine is to move.
+void requireAny(const vector<MaterialPoint>&, const MpmImplicitEngine&);
+
+} // namespace yade

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "engine/solver/study.hpp"
+#include "core/base/stopwatch.hpp"
+#include "core/solvers/condition.hpp"
+#include "core/stepping/load_step.hpp"
+#include "core/stepping/workload.hpp"
+#include "engine/solver/MpmImplicitEngine.hpp"
+#include "engine/solver/Threads.hpp"
+#include "engine/solver/exchange.hpp"
+#include "yade_api/value_lock.hpp"
+
+namespace yade {
+
+namespace {
+	template <class T> py::object numpyArray(const vector<T>& values, const char* type)
+	{
+		const char* bytes = reinterpret_cast<const char*>(values.data());
+		py::object  copy { py::handle<>(PyByteArray_FromStringAndSize(bytes, values.size() * sizeof(T))) };
+		return py::import("numpy").attr("frombuffer")(copy, type);
+	}
+
+	// f(cloud, model) with the points and settings of now
+	template <class F> auto onCurrentState(MpmImplicitEngine& engine, F f)
+	{
+		const Threads threads(engine.ompThreads);
+		const auto    inSpace = [&](auto dim) {
+			constexpr int          Dim = decltype(dim)::value;
+			gimpm::Model<Dim>      model;
+			gimpm::PointCloud<Dim> cloud;
+			{
+				const ValueLock lock;
+				engine.requireAdmissible();
+				model = toModel<Dim>(*engine.grid, engine.basis, engine.boundaries, *engine.ghost, *engine.newton);
+				cloud = gather(materialPoints(*engine.ownScene(), engine.mask), model);
+			}
+			const PythonUnlock python;
+			return f(cloud, model);
+		};
+		return engine.grid && engine.grid->dim == 3 ? inSpace(std::integral_constant<int, 3>()) : inSpace(std::integral_constant<int, 2>());
+	}
+
+	gimpm::LinearProblem reducedStiffness(MpmImplicitEngine& engine)
+	{
+		return onCurrentState(engine, [](const auto& cloud, const auto& model) { return gimpm::tangentStiffness(cloud, model); });
+	}
+
+	py::tuple stiffness(MpmImplicitEngine& engine)
+	{
+		const auto      K = reducedStiffness(engine);
+		vector<int64_t> rows, columns;
+		vector<Real>    values;
+		K.forEntries([&](int row, int column, Real value) {
+			rows.push_back(row);
+			columns.push_back(column);
+			values.push_back(value);
+		});
+		return py::make_tuple(numpyArray(rows, "int64"), numpyArray(columns, "int64"), numpyArray(values, "float64"), K.size());
+	}
+
+	Real conditionNumber(MpmImplicitEngine& engine)
+	{
+		constexpr int largest = 4000;
+		const auto    K       = reducedStiffness(engine);
+		if (K.size() > 0 && K.size() <= largest) return gimpm::conditionNumber(K);
+		throw std::invalid_argument(
+		        "MpmImplicitEngine.conditionNumber() needs all eigenvalues: the scene has " + std::to_string(K.size()) + " unknowns, admitted are 1 to "
+		        + std::to_string(largest) + ".");
+	}
+
+	Real conditionEstimate(MpmImplicitEngine& engine)
+	{
+		const auto K = reducedStiffness(engine);
+		if (K.size() == 0) throw std::invalid_argument("MpmImplicitEngine.conditionEstimate(): the scene has no unknowns.");
+		return gimpm::conditionEstimate(K);
+	}
+
+	py::dict workload(MpmImplicitEngine& engine)
+	{
+		// the quickest of three: other programs can only slow them down
+		double          perStep = std::numeric_limits<double>::infinity(), perSolve = perStep;
+		gimpm::Workload w;
+		for (int time = 0; time < 3; ++time) {
+			double gathering = 0, rest = 0;
+			{
+				const gimpm::Stopwatch watch(gathering);
+				w = onCurrentState(engine, [&](const auto& cloud, const auto& model) {
+					const gimpm::Stopwatch watch(rest);
+					return gimpm::workload(cloud, model);
+				});
+			}
+			const auto& t = w.times;
+			// scattering takes as long as gathering, the update of the points and the last residual as long as an assembly
+			perStep  = std::min(perStep, 2 * (gathering - rest) + t.basis + t.ghost + t.linear.analyse + t.assembly);
+			perSolve = std::min(perSolve, t.assembly + t.linear.factorise + t.linear.solve);
+		}
+		py::dict d;
+		d["points"]          = w.points;
+		d["nodes"]           = w.nodes;
+		d["dofs"]            = w.dofs;
+		d["activeCells"]     = w.populatedCells;
+		d["ghostFaces"]      = w.ghostFaces;
+		d["blockEntries"]    = w.blockEntries;
+		d["matrixEntries"]   = w.matrixEntries;
+		d["factorEntries"]   = w.factorEntries;
+		d["factorFlops"]     = w.factorFlops;
+		d["secondsPerStep"]  = perStep;
+		d["secondsPerSolve"] = perSolve;
+		return d;
+	}
+}
+
+void addStudyMethods(py::object pythonClass)
+{
+	py::objects::add_to_namespace(
+	        pythonClass,
+	        "stiffness",
+	        py::make_function(&stiffness),
+	        "stiffness() -> (rows, columns, values, size)\n\nReduced tangent stiffness K + K_g [N/m] of the current configuration: the free degrees of "
+	        "freedom only, both triangles, as NumPy arrays (M,) of int64, int64 and float, and the number of unknowns. Usable before any step. Raises "
+	        "ValueError as a step does.");
+	py::objects::add_to_namespace(
+	        pythonClass,
+	        "conditionNumber",
+	        py::make_function(&conditionNumber),
+	        "conditionNumber() -> float\n\nCondition number [-] of stiffness() in the 2-norm, from all eigenvalues of the dense matrix (Coombs 2023, figure "
+	        "2). For small scenes: raises ValueError above 4000 unknowns.");
+	py::objects::add_to_namespace(
+	        pythonClass,
+	        "conditionEstimate",
+	        py::make_function(&conditionEstimate),
+	        "conditionEstimate() -> float\n\nEstimate [-] of the same, as a rule a few percent below it, for scenes of any size: Lanczos' method with the "
+	        "factor of the stiffness matrix, at the cost of a few Newton iterations. Infinite if the matrix is singular to working precision. Raises "
+	        "ValueError as a step does, and for a scene without unknowns.");
+	py::objects::add_to_namespace(
+	        pythonClass,
+	        "workload",
+	        py::make_function(&workload),
+	        "workload() -> dict\n\nSize of a load step from the current state, found by doing its parts, without load, and leaving the scene alone: points, "
+	        "nodes, dofs, activeCells, ghostFaces; blockEntries, matrixEntries, factorEntries: numbers that the stiffness matrix takes by blocks, reduced, and "
+	        "factorised; factorFlops: operations of a factorisation (both 0 with conjugate gradients, see MpmNewton.linearSolver); secondsPerStep and secondsPerSolve: of what is done once a step, and with each solve. "
+	        "A factorisation of more than 2e10 operations is not made: its time is that at 5e9 a second. mpm.advise says it in words. Raises ValueError as "
+	        "a step does.");
+}
+
+} // namespace yade
