@@ -2,8 +2,8 @@
 #pragma once
 // One attribute of a plugin class, as given by the attributes() list of that class.
 #include "yade_api/conversion.hpp"
-#include "yade_api/value_lock.hpp"
 #include "yade_api/validators.hpp"
+#include "yade_api/value_lock.hpp"
 #include <stdexcept>
 
 namespace yade {
@@ -34,7 +34,8 @@ template <class D, class T, class Validator> struct Attribute {
 		if (!converted)
 			raisePython(
 			        PyExc_TypeError,
-			        qualifiedName() + " = " + repr(value) + ": expected " + Conversion<T>::expected() + "." + (ItemOf<T>::is(value) ? " For one item write [item]." : ""));
+			        qualifiedName() + " = " + repr(value) + ": expected " + Conversion<T>::expected() + "."
+			                + (ItemOf<T>::is(value) ? " For one item write [item]." : ""));
 		requireAdmitted(*converted);
 		const ValueLock lock;
 		object.*member = *converted;

@@ -34,12 +34,7 @@ public:
 
 class Shape : public Serializable, public Indexable {
 public:
-	Shape()
-	        : color(1, 1, 1)
-	        , wire(false)
-	        , highlight(false)
-	{
-	}
+	Shape() : color(1, 1, 1), wire(false), highlight(false) { }
 	~Shape() override;
 	shared_ptr<BoundFunctor>         boundFunctor;
 	shared_ptr<InternalForceFunctor> internalforcefunctor; // (FEMLIKE)
@@ -60,11 +55,7 @@ public:
 
 class Material : public Serializable, public Indexable {
 public:
-	Material()
-	        : id(-1)
-	        , density(1000)
-	{
-	}
+	Material() : id(-1), density(1000) { }
 	~Material() override;
 	virtual shared_ptr<State> newAssocState() const;
 	virtual bool              stateTypeOk(State*) const;

@@ -27,8 +27,8 @@ inline string repr(const py::object& value)
 }
 
 // The same in threads without Python's lock: as Python writes it, but for the digits of numbers.
-inline string textOf(const string& text) { return "'" + text + "'"; }
-inline string textOf(bool value) { return value ? "True" : "False"; }
+inline string             textOf(const string& text) { return "'" + text + "'"; }
+inline string             textOf(bool value) { return value ? "True" : "False"; }
 template <class T> string textOf(const shared_ptr<T>& object) { return object ? string("<") + T::staticName() + ">" : "None"; }
 template <class T> std::enable_if_t<std::is_arithmetic_v<T>, string> textOf(T value)
 {
@@ -43,7 +43,10 @@ template <class T, int Rows, int Columns> string textOf(const Eigen::Matrix<T, R
 	     << value.format(Eigen::IOFormat(Eigen::StreamPrecision, Eigen::DontAlignCols, ",", Columns == 1 ? "," : ", ", "", "", "(", ")"));
 	return text.str();
 }
-template <class First, class Second> string textOf(const std::pair<First, Second>& value) { return "(" + textOf(value.first) + ", " + textOf(value.second) + ")"; }
+template <class First, class Second> string textOf(const std::pair<First, Second>& value)
+{
+	return "(" + textOf(value.first) + ", " + textOf(value.second) + ")";
+}
 template <class T> string textOf(const vector<T>& values)
 {
 	string text;

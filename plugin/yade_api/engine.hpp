@@ -65,10 +65,7 @@ class PeriodicEngine : public GlobalEngine {
 	static Real wallClock() { return std::chrono::duration<Real>(std::chrono::system_clock::now().time_since_epoch()).count(); }
 
 public:
-	PeriodicEngine()
-	        : realLast(wallClock())
-	{
-	}
+	PeriodicEngine() : realLast(wallClock()) { }
 	~PeriodicEngine() override;
 	bool isActivated() override;
 	Real virtPeriod = 0, realPeriod = 0;

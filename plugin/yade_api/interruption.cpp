@@ -10,10 +10,10 @@
 namespace yade {
 
 namespace {
-	std::atomic_int  presses { 0 };                 // of Ctrl-C
-	std::atomic_bool hasEndedRun { false };         // by Ctrl-C, which Python has not been told yet
-	struct sigaction python {};                     // Python's handler, which ours stands in front of
-	thread_local int seen = -1;                     // presses before this thread, which lives as long as one O.run(), or handled by Python
+	std::atomic_int  presses { 0 };         // of Ctrl-C
+	std::atomic_bool hasEndedRun { false }; // by Ctrl-C, which Python has not been told yet
+	struct sigaction python { };            // Python's handler, which ours stands in front of
+	thread_local int seen = -1;             // presses before this thread, which lives as long as one O.run(), or handled by Python
 
 	void onPress(int number, siginfo_t* info, void* context)
 	{
@@ -26,12 +26,12 @@ namespace {
 	// A handler of somebody else than Python is left alone, and so is the absence of one.
 	void listen()
 	{
-		struct sigaction current {};
+		struct sigaction current { };
 		sigaction(SIGINT, nullptr, &current);
 		const bool isOurs = (current.sa_flags & SA_SIGINFO) && current.sa_sigaction == &onPress;
 		if (isOurs || current.sa_handler == SIG_DFL || current.sa_handler == SIG_IGN) return;
 		if (python.sa_handler && current.sa_handler != python.sa_handler) return;
-		python           = current;
+		python                = current;
 		struct sigaction ours = current;
 		ours.sa_flags |= SA_SIGINFO;
 		ours.sa_sigaction = &onPress;
@@ -54,7 +54,12 @@ namespace {
 			} catch (const py::error_already_set&) {
 				PyErr_Clear();
 			}
-			Py_AddPendingCall([](void*) { answers.executes = true; return 0; }, nullptr);
+			Py_AddPendingCall(
+			        [](void*) {
+				        answers.executes = true;
+				        return 0;
+			        },
+			        nullptr);
 		});
 		for (int i = 0; i < 100 && answers.wouldRaise && !answers.executes; ++i)
 			std::this_thread::sleep_for(std::chrono::milliseconds(1));
@@ -69,9 +74,7 @@ namespace {
 
 void Interruption::prepare() { py::register_exception_translator<std::runtime_error>(&translate); }
 
-Interruption::Interruption()
-        : inBackground(!PyGILState_Check())
-        , runner(inBackground ? Singleton<Omega>::instance().simulationLoop.get() : nullptr)
+Interruption::Interruption() : inBackground(!PyGILState_Check()), runner(inBackground ? Singleton<Omega>::instance().simulationLoop.get() : nullptr)
 {
 	if (!inBackground) return;
 	listen();
@@ -90,7 +93,7 @@ bool Interruption::pressedWhileYadeWaits()
 {
 	const int now = presses;
 	if (now == seen) return false;
-	seen = now;
+	seen  = now;
 	byKey = hasEndedRun = isForTheRun(runner->looping);
 	return byKey;
 }

@@ -14,10 +14,7 @@ class LayoutCheck {
 public:
 	using Create = std::function<shared_ptr<Factorable>(const string& className)>;
 
-	explicit LayoutCheck(Create create_)
-	        : create(std::move(create_))
-	{
-	}
+	explicit LayoutCheck(Create create_) : create(std::move(create_)) { }
 
 	// Sizes of all declared classes, and their attributes of plain types. Calls no function of YADE but virtual ones and the given
 	// one, so it can run before anything is known about the libraries.

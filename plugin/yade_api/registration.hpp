@@ -164,8 +164,7 @@ private:
 		const bool     inPlace     = hasElements && !attribute.is(readonly);
 		py::object     get         = inPlace ? py::make_getter(attribute.member)
 		                                     : py::make_function(
-                                                 [attribute](const D& object) { return object.toPython(attribute); },
-                                                 py::default_call_policies(),
+                                                 [attribute](const D& object) { return object.toPython(attribute); }, py::default_call_policies(),
                                                  boost::mpl::vector2<py::object, const D&>());
 		if (attribute.is(readonly)) {
 			c.add_property(attribute.name, get, doc.c_str());
@@ -176,8 +175,7 @@ private:
 			        attribute.assign(object, value);
 			        if (attribute.is(triggerPostLoad)) object.callPostLoad();
 		        },
-		        py::default_call_policies(),
-		        boost::mpl::vector3<void, D&, const py::object&>());
+		        py::default_call_policies(), boost::mpl::vector3<void, D&, const py::object&>());
 		c.add_property(attribute.name, get, set, doc.c_str());
 	}
 
@@ -247,10 +245,8 @@ template <class... Classes> struct PluginClasses {
 	{
 		ClassFactory& factory = Singleton<ClassFactory>::instance();
 		(factory.registerFactorable(
-		         Classes::staticName(),
-		         []() -> Factorable* { return new Classes; },
-		         []() -> shared_ptr<Factorable> { return shared_ptr<Classes>(new Classes); },
-		         []() -> void* { return new Classes; }),
+		         Classes::staticName(), []() -> Factorable* { return new Classes; },
+		         []() -> shared_ptr<Factorable> { return shared_ptr<Classes>(new Classes); }, []() -> void* { return new Classes; }),
 		 ...);
 		(pluginClassNames().push_back(Classes::staticName()), ...);
 		const char* fileAndClasses[] = { file, Classes::staticName()..., nullptr };

@@ -1,157 +1,158 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Times of the parts of a load step, per point or per unknown, on a slope half way through its failure.
 #include "bench/scenes.hpp"
-#include "core/terms/point_update.hpp"
 #include "core/stepping/step_system.hpp"
+#include "core/terms/point_update.hpp"
 #include <benchmark/benchmark.h>
 
-extern "C" void dgemm_(const char*, const char*, const int*, const int*, const int*, const double*, const double*, const int*, const double*, const int*,
-                       const double*, double*, const int*);
+extern "C" void dgemm_(
+        const char*, const char*, const int*, const int*, const int*, const double*, const double*, const int*, const double*, const int*, const double*,
+        double*, const int*);
 
 namespace gimpm {
 namespace {
 
-/// A slope of which many points have begun to yield and to cross cells, and a load step from there.
-template <int Dim> struct MidRun {
-	BenchScene<Dim> scene;
-	Load<Dim>       load;
-	StepReport      report;
-	StepSystem<Dim> system;
-	Eigen::VectorXd d, force;
-	NodeMatrix<Dim> K;
+	/// A slope of which many points have begun to yield and to cross cells, and a load step from there.
+	template <int Dim> struct MidRun {
+		BenchScene<Dim> scene;
+		Load<Dim>       load;
+		StepReport      report;
+		StepSystem<Dim> system;
+		Eigen::VectorXd d, force;
+		NodeMatrix<Dim> K;
 
-	explicit MidRun(BenchScene<Dim> s)
-	        : scene(halfLoaded(std::move(s)))
-	        , load { scene.gravity, 0.6, 0.01 }
-	        , system(scene.cloud, scene.model, load, report)
-	        , d(Eigen::VectorXd::Zero(system.nodalSize()))
+		explicit MidRun(BenchScene<Dim> s)
+		        : scene(halfLoaded(std::move(s)))
+		        , load { scene.gravity, 0.6, 0.01 }
+		        , system(scene.cloud, scene.model, load, report)
+		        , d(Eigen::VectorXd::Zero(system.nodalSize()))
+		{
+			system.prepare(K);
+		}
+		static BenchScene<Dim> halfLoaded(BenchScene<Dim> s)
+		{
+			s.steps = 20;
+			while (s.done < 12)
+				if (const auto report = s.step(); !report.converged()) throw std::runtime_error(report.cause);
+			return s;
+		}
+		double points() const { return double(scene.cloud.size()); }
+		double unknowns() const { return system.dofs.count; }
+	};
+
+	template <int Dim> MidRun<Dim>& midRun();
+	template <> MidRun<2>&          midRun()
 	{
-		system.prepare(K);
+		static MidRun<2> run(slope<2>(0.5, 4));
+		return run;
 	}
-	static BenchScene<Dim> halfLoaded(BenchScene<Dim> s)
+	template <> MidRun<3>& midRun()
 	{
-		s.steps = 20;
-		while (s.done < 12)
-			if (const auto report = s.step(); !report.converged()) throw std::runtime_error(report.cause);
-		return s;
+		static MidRun<3> run(slope<3>(1, 2, 4));
+		return run;
 	}
-	double points() const { return double(scene.cloud.size()); }
-	double unknowns() const { return system.dofs.count; }
-};
 
-template <int Dim> MidRun<Dim>& midRun();
-template <> MidRun<2>&          midRun()
-{
-	static MidRun<2> run(slope<2>(0.5, 4));
-	return run;
-}
-template <> MidRun<3>& midRun()
-{
-	static MidRun<3> run(slope<3>(1, 2, 4));
-	return run;
-}
+	void perItem(benchmark::State& state, const char* name, double items)
+	{
+		state.counters[name] = benchmark::Counter(items, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+	}
 
-void perItem(benchmark::State& state, const char* name, double items)
-{
-	state.counters[name] = benchmark::Counter(items, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
-}
+	template <int Dim> void basis(benchmark::State& state)
+	{
+		auto& run = midRun<Dim>();
+		for (auto _ : state)
+			benchmark::DoNotOptimize(cloudBasis(run.scene.cloud, run.scene.model.grid, run.scene.model.basis, run.scene.model.boundary));
+		perItem(state, "s_per_point", run.points());
+	}
 
-template <int Dim> void basis(benchmark::State& state)
-{
-	auto& run = midRun<Dim>();
-	for (auto _ : state)
-		benchmark::DoNotOptimize(cloudBasis(run.scene.cloud, run.scene.model.grid, run.scene.model.basis, run.scene.model.boundary));
-	perItem(state, "s_per_point", run.points());
-}
+	template <int Dim, bool WithStiffness> void evaluate(benchmark::State& state)
+	{
+		auto& run = midRun<Dim>();
+		for (auto _ : state)
+			benchmark::DoNotOptimize(run.system.evaluate(run.d, run.force, WithStiffness ? &run.K : nullptr));
+		perItem(state, "s_per_point", run.points());
+	}
 
-template <int Dim, bool WithStiffness> void evaluate(benchmark::State& state)
-{
-	auto& run = midRun<Dim>();
-	for (auto _ : state)
-		benchmark::DoNotOptimize(run.system.evaluate(run.d, run.force, WithStiffness ? &run.K : nullptr));
-	perItem(state, "s_per_point", run.points());
-}
+	template <int Dim> void update(benchmark::State& state)
+	{
+		auto&  run = midRun<Dim>();
+		double sum = 0;
+		for (auto _ : state)
+			forUpdatedPoints(run.system.basis, run.system.points, run.scene.model.materials, run.d, [&](int p, const PointUpdate<Dim>& u) {
+				if (p == 0) sum += u.displacement[0];
+			});
+		benchmark::DoNotOptimize(sum);
+		perItem(state, "s_per_point", run.points());
+	}
 
-template <int Dim> void update(benchmark::State& state)
-{
-	auto&  run = midRun<Dim>();
-	double sum = 0;
-	for (auto _ : state)
-		forUpdatedPoints(run.system.basis, run.system.points, run.scene.model.materials, run.d, [&](int p, const PointUpdate<Dim>& u) {
-			if (p == 0) sum += u.displacement[0];
-		});
-	benchmark::DoNotOptimize(sum);
-	perItem(state, "s_per_point", run.points());
-}
-
-template <int Dim> void linearSolve(benchmark::State& state)
-{
-	auto& run = midRun<Dim>();
-	run.system.evaluate(run.d, run.force, &run.K);
-	const LinearProblem   K = reduced(run.K, run.system.dofs);
-	LinearSolver          solver;
-	Eigen::VectorXd       x;
-	const Eigen::VectorXd b = Eigen::VectorXd::Ones(K.size());
-	solver.solve(K, b, x);
-	const double flops = solver.analyse(K).flops;
-	solver.resetTimes();
-	for (auto _ : state)
+	template <int Dim> void linearSolve(benchmark::State& state)
+	{
+		auto& run = midRun<Dim>();
+		run.system.evaluate(run.d, run.force, &run.K);
+		const LinearProblem   K = reduced(run.K, run.system.dofs);
+		LinearSolver          solver;
+		Eigen::VectorXd       x;
+		const Eigen::VectorXd b = Eigen::VectorXd::Ones(K.size());
 		solver.solve(K, b, x);
-	state.counters["factorise"] = solver.times().factorise / state.iterations();
-	state.counters["solve"]     = solver.times().solve / state.iterations();
-	state.counters["flops"]     = flops * state.iterations() / solver.times().factorise; // per second
-	perItem(state, "s_per_unknown", run.unknowns());
-}
-
-template <int Dim> void reduction(benchmark::State& state)
-{
-	auto&        run = midRun<Dim>();
-	SymmetricCsc K;
-	for (auto _ : state)
-		reduce(run.K, run.system.dofs, K);
-	perItem(state, "s_per_unknown", run.unknowns());
-}
-
-template <int Dim> void wholeStep(benchmark::State& state)
-{
-	auto& run    = midRun<Dim>();
-	int   solves = 0;
-	for (auto _ : state) {
-		auto cloud = run.scene.cloud;
-		solves     = loadStep(cloud, run.scene.model, { run.scene.gravity, 0.65, 0.05 }, run.scene.solver).iterations;
+		const double flops = solver.analyse(K).flops;
+		solver.resetTimes();
+		for (auto _ : state)
+			solver.solve(K, b, x);
+		state.counters["factorise"] = solver.times().factorise / state.iterations();
+		state.counters["solve"]     = solver.times().solve / state.iterations();
+		state.counters["flops"]     = flops * state.iterations() / solver.times().factorise; // per second
+		perItem(state, "s_per_unknown", run.unknowns());
 	}
-	state.counters["solves"] = solves;
-	perItem(state, "s_per_point", run.points());
-}
 
-/// What the BLAS below the factorisation reaches at best.
-void dgemm(benchmark::State& state)
-{
-	const int             n = 1000;
-	const double          one = 1;
-	const Eigen::MatrixXd A   = Eigen::MatrixXd::Random(n, n);
-	Eigen::MatrixXd       C   = A;
-	for (auto _ : state)
-		dgemm_("N", "N", &n, &n, &n, &one, A.data(), &n, A.data(), &n, &one, C.data(), &n);
-	benchmark::DoNotOptimize(C.sum());
-	state.counters["flops"] = benchmark::Counter(2. * n * n * n, benchmark::Counter::kIsIterationInvariantRate); // per second
-}
+	template <int Dim> void reduction(benchmark::State& state)
+	{
+		auto&        run = midRun<Dim>();
+		SymmetricCsc K;
+		for (auto _ : state)
+			reduce(run.K, run.system.dofs, K);
+		perItem(state, "s_per_unknown", run.unknowns());
+	}
 
-BENCHMARK(dgemm)->UseRealTime();
-BENCHMARK(basis<2>)->UseRealTime();
-BENCHMARK(evaluate<2, false>)->Name("residual<2>")->UseRealTime();
-BENCHMARK(evaluate<2, true>)->Name("stiffness<2>")->UseRealTime();
-BENCHMARK(update<2>)->UseRealTime();
-BENCHMARK(reduction<2>)->UseRealTime();
-BENCHMARK(linearSolve<2>)->UseRealTime();
-BENCHMARK(wholeStep<2>)->UseRealTime()->Unit(benchmark::kMillisecond);
-BENCHMARK(basis<3>)->UseRealTime();
-BENCHMARK(evaluate<3, false>)->Name("residual<3>")->UseRealTime();
-BENCHMARK(evaluate<3, true>)->Name("stiffness<3>")->UseRealTime();
-BENCHMARK(update<3>)->UseRealTime();
-BENCHMARK(reduction<3>)->UseRealTime();
-BENCHMARK(linearSolve<3>)->UseRealTime();
-BENCHMARK(wholeStep<3>)->UseRealTime()->Unit(benchmark::kMillisecond);
+	template <int Dim> void wholeStep(benchmark::State& state)
+	{
+		auto& run    = midRun<Dim>();
+		int   solves = 0;
+		for (auto _ : state) {
+			auto cloud = run.scene.cloud;
+			solves     = loadStep(cloud, run.scene.model, { run.scene.gravity, 0.65, 0.05 }, run.scene.solver).iterations;
+		}
+		state.counters["solves"] = solves;
+		perItem(state, "s_per_point", run.points());
+	}
+
+	/// What the BLAS below the factorisation reaches at best.
+	void dgemm(benchmark::State& state)
+	{
+		const int             n   = 1000;
+		const double          one = 1;
+		const Eigen::MatrixXd A   = Eigen::MatrixXd::Random(n, n);
+		Eigen::MatrixXd       C   = A;
+		for (auto _ : state)
+			dgemm_("N", "N", &n, &n, &n, &one, A.data(), &n, A.data(), &n, &one, C.data(), &n);
+		benchmark::DoNotOptimize(C.sum());
+		state.counters["flops"] = benchmark::Counter(2. * n * n * n, benchmark::Counter::kIsIterationInvariantRate); // per second
+	}
+
+	BENCHMARK(dgemm)->UseRealTime();
+	BENCHMARK(basis<2>)->UseRealTime();
+	BENCHMARK(evaluate<2, false>)->Name("residual<2>")->UseRealTime();
+	BENCHMARK(evaluate<2, true>)->Name("stiffness<2>")->UseRealTime();
+	BENCHMARK(update<2>)->UseRealTime();
+	BENCHMARK(reduction<2>)->UseRealTime();
+	BENCHMARK(linearSolve<2>)->UseRealTime();
+	BENCHMARK(wholeStep<2>)->UseRealTime()->Unit(benchmark::kMillisecond);
+	BENCHMARK(basis<3>)->UseRealTime();
+	BENCHMARK(evaluate<3, false>)->Name("residual<3>")->UseRealTime();
+	BENCHMARK(evaluate<3, true>)->Name("stiffness<3>")->UseRealTime();
+	BENCHMARK(update<3>)->UseRealTime();
+	BENCHMARK(reduction<3>)->UseRealTime();
+	BENCHMARK(linearSolve<3>)->UseRealTime();
+	BENCHMARK(wholeStep<3>)->UseRealTime()->Unit(benchmark::kMillisecond);
 
 } // namespace
 } // namespace gimpm

@@ -24,10 +24,10 @@ template <int Dim> struct BenchScene {
 	{
 		const std::size_t i = cloud.size();
 		cloud.resize(i + 1);
-		cloud.position[i]  = position;
-		cloud.halfSize[i]  = cloud.halfSize0[i] = Vec<Dim>::Constant(halfSize);
-		cloud.volume0[i]   = std::pow(2 * halfSize, Dim);
-		cloud.plasticStrain[i] = 0;
+		cloud.position[i] = position;
+		cloud.halfSize[i] = cloud.halfSize0[i] = Vec<Dim>::Constant(halfSize);
+		cloud.volume0[i]                       = std::pow(2 * halfSize, Dim);
+		cloud.plasticStrain[i]                 = 0;
 		cloud.defGrad[i].setIdentity();
 		cloud.material[i] = material;
 	}
@@ -36,7 +36,7 @@ template <int Dim> struct BenchScene {
 		constexpr double inf = std::numeric_limits<double>::infinity();
 		Vec<Dim>         min = Vec<Dim>::Constant(-inf), max = Vec<Dim>::Constant(inf);
 		(above ? min : max)[axis] = place;
-		auto box = HeldBox<Dim>::from(model.grid, min, max);
+		auto box                  = HeldBox<Dim>::from(model.grid, min, max);
 		for (const int a : fixed)
 			box.fixed[a] = true;
 		return box;
@@ -57,10 +57,10 @@ template <int Dim> BenchScene<Dim> slope(double h, int perAxis, int depth = 1)
 	const double d         = h / perAxis;
 	const int    layers    = Dim == 3 ? depth : 1;
 	const auto   fillPoint = [&](int i, int j, int k) {
-		Vec<Dim> x = Vec<Dim>::Constant((k + 0.5) * d);
-		x[0] = (i + 0.5) * d, x[1] = (j + 0.5) * d;
-		const double top = x[0] < 10 ? 12 : x[0] < 15 ? 12 - (x[0] - 10) : 7;
-		if (x[1] <= top + 1e-9) s.addPoint(x, d / 2, x[1] >= 7 && x[1] <= 7.5);
+                Vec<Dim> x = Vec<Dim>::Constant((k + 0.5) * d);
+                x[0] = (i + 0.5) * d, x[1] = (j + 0.5) * d;
+                const double top = x[0] < 10 ? 12 : x[0] < 15 ? 12 - (x[0] - 10) : 7;
+                if (x[1] <= top + 1e-9) s.addPoint(x, d / 2, x[1] >= 7 && x[1] <= 7.5);
 	};
 	// cell by cell, as mpm.fill does
 	for (int z = 0; z < layers; ++z)

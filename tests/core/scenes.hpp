@@ -22,10 +22,7 @@ struct DimensionName {
 /// The same random numbers in every run.
 class Random {
 public:
-	explicit Random(unsigned seed = 1)
-	        : engine_(seed)
-	{
-	}
+	explicit Random(unsigned seed = 1) : engine_(seed) { }
 
 	double in(double low, double high) { return std::uniform_real_distribution<double>(low, high)(engine_); }
 	int    integer(int low, int high) { return std::uniform_int_distribution<int>(low, high)(engine_); }
@@ -190,9 +187,7 @@ template <int Dim> struct Column {
 	LinearSolver    solver;
 
 	explicit Column(int cells, GhostSettings ghost = {}, double length = 1, double pressure = 1)
-	        : height(50 * length)
-	        , young(1e4 * pressure)
-	        , weight(800 * pressure / length)
+	        : height(50 * length), young(1e4 * pressure), weight(800 * pressure / length)
 	{
 		const double h         = height / cells;
 		model.grid.cellSize    = h;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Blocks whose surface is given an affine motion: inside, the finite-strain solution is known in closed form.
-#include "scenes.hpp"
 #include "core/materials/kinematics.hpp"
+#include "scenes.hpp"
 #include <Eigen/Eigenvalues>
 
 namespace gimpm::testAffine {

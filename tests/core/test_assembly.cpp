@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Nodal forces of a cloud: balance, virial, external forces, and independence of the number of threads.
-#include "scenes.hpp"
-#include "core/terms/point_update.hpp"
 #include "core/stepping/step_system.hpp"
+#include "core/terms/point_update.hpp"
+#include "scenes.hpp"
 #include <algorithm>
 #include <omp.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Populated cells, active nodes, patches and colours of a cloud of points, without walls.
-#include "scenes.hpp"
 #include "core/grid/mixed_cells.hpp"
+#include "scenes.hpp"
 #include <algorithm>
 #include <map>
 #include <numeric>

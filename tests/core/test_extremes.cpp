@@ -107,9 +107,9 @@ namespace {
 	{
 		constexpr int Dim = TypeParam::value;
 		for (const double factor : { 1e6, 1e100, 1e300 }) {
-			this->cloud       = block<Dim>(this->model.grid, Index<Dim>::Constant(2), 2);
+			this->cloud             = block<Dim>(this->model.grid, Index<Dim>::Constant(2), 2);
 			this->load.factor.value = factor;
-			const auto report = this->step();
+			const auto report       = this->step();
 			EXPECT_FALSE(report.converged());
 			EXPECT_FALSE(report.cause.empty());
 		}

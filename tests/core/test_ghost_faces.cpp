@@ -95,12 +95,8 @@ namespace {
 	TEST(GhostFaces, AFullyEnclosedBodyHasNone)
 	{
 		const auto  cells = cube<3>(3);
-		Boundary<3> box({ wallBelow<3>(space, 0, 0),
-		                  wallAbove<3>(space, 0, 3),
-		                  wallBelow<3>(space, 1, 0),
-		                  wallAbove<3>(space, 1, 3),
-		                  wallBelow<3>(space, 2, 0),
-		                  wallAbove<3>(space, 2, 3) });
+		Boundary<3> box({ wallBelow<3>(space, 0, 0), wallAbove<3>(space, 0, 3), wallBelow<3>(space, 1, 0), wallAbove<3>(space, 1, 3),
+		                  wallBelow<3>(space, 2, 0), wallAbove<3>(space, 2, 3) });
 		EXPECT_TRUE(boundaryCells<3>(cells, box).empty());
 		EXPECT_TRUE(ghostFaces<3>(cells, {}, box).empty());
 	}
@@ -116,10 +112,7 @@ namespace {
 	TEST(GhostFaces, ABasinFilledToTheTop)
 	{
 		const auto  cells = cube<3>(3);
-		Boundary<3> basin({ wallBelow<3>(space, 0, 0),
-		                    wallAbove<3>(space, 0, 3),
-		                    wallBelow<3>(space, 1, 0),
-		                    wallAbove<3>(space, 1, 3),
+		Boundary<3> basin({ wallBelow<3>(space, 0, 0), wallAbove<3>(space, 0, 3), wallBelow<3>(space, 1, 0), wallAbove<3>(space, 1, 3),
 		                    wallBelow<3>(space, 2, 0) });
 		const auto  boundary = boundaryCells<3>(cells, basin);
 		EXPECT_EQ(boundary.size(), 9u);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The modulus of a ghost face is that of the softer of its two cells: the mean of its points, weighted by their overlap with the cell.
-#include "scenes.hpp"
 #include "core/stepping/step_system.hpp"
+#include "scenes.hpp"
 
 namespace gimpm {
 namespace {
@@ -9,8 +9,8 @@ namespace {
 	/// Modulus that the faces of a free body were given, by axis and lower cell.
 	template <int Dim> double modulus(const PointCloud<Dim>& cloud, const std::vector<double>& young, int axis, const Index<Dim>& lower)
 	{
-		const auto basis = cloudBasis<Dim>(cloud, Grid<Dim>(), Basis::gimp, Boundary<Dim>());
-		auto       faces = ghostFaces<Dim>(basis.cells, boundaryCells<Dim>(basis.cells, Boundary<Dim>()), Boundary<Dim>());
+		const auto basis       = cloudBasis<Dim>(cloud, Grid<Dim>(), Basis::gimp, Boundary<Dim>());
+		auto       faces       = ghostFaces<Dim>(basis.cells, boundaryCells<Dim>(basis.cells, Boundary<Dim>()), Boundary<Dim>());
 		const auto stiffnessOf = [&](int p) { return VolumeAndModulus { cloud.volume0[p], young[p] }; };
 		weighGhostFaces<Dim>(faces, basis, stiffnessOf, 1, 1, GhostScaling::paper);
 		for (const auto& face : faces)

@@ -28,7 +28,7 @@ namespace {
 		void plate(const Vec<Dim>& by, double height = 2.5)
 		{
 			Vec<Dim> min = Vec<Dim>::Constant(-infinity), max = Vec<Dim>::Constant(infinity);
-			min[1] = max[1]                       = height;
+			min[1] = max[1] = height;
 			std::vector<HeldBox<Dim>> boxes { held<Dim>(model.grid, min, max, Dim == 2 ? "xy" : "xyz", by) };
 			for (int axis = 0; axis < Dim; ++axis)
 				boxes.push_back(wallBelow<Dim>(model.grid, axis, 1));
@@ -109,7 +109,7 @@ namespace {
 	{
 		constexpr int Dim = TypeParam::value;
 		this->plate(-Vec<Dim>::Unit(1), 3.5);
-		this->load.factor = { 0, 0 };
+		this->load.factor      = { 0, 0 };
 		const std::string lost = this->lost();
 		EXPECT_NE(lost.find("none of its nodes, from (-inf, 3.5"), std::string::npos) << lost;
 		EXPECT_NE(lost.find("between (1, 1"), std::string::npos) << lost;

@@ -135,11 +135,8 @@ namespace {
 			Mat3 M        = Mat3::Identity();
 			M(axis, axis) = -1;
 			expectSame<Dim>(
-			        expected,
-			        mirrored.run(),
-			        [&](const Vec<Dim>& x) { return Vec<Dim>(M.topLeftCorner<Dim, Dim>() * x); },
-			        [&](const Mat3& s) { return Mat3(M * s * M); },
-			        1e-10);
+			        expected, mirrored.run(), [&](const Vec<Dim>& x) { return Vec<Dim>(M.topLeftCorner<Dim, Dim>() * x); },
+			        [&](const Mat3& s) { return Mat3(M * s * M); }, 1e-10);
 		}
 	}
 
@@ -157,11 +154,8 @@ namespace {
 			for (int a = 0; a < 3; ++a)
 				P(a < Dim ? to[a] : a, a) = 1;
 			expectSame<Dim>(
-			        expected,
-			        permuted.run(),
-			        [&](const Vec<Dim>& x) { return Vec<Dim>(P.topLeftCorner<Dim, Dim>() * x); },
-			        [&](const Mat3& s) { return Mat3(P * s * P.transpose()); },
-			        1e-10);
+			        expected, permuted.run(), [&](const Vec<Dim>& x) { return Vec<Dim>(P.topLeftCorner<Dim, Dim>() * x); },
+			        [&](const Mat3& s) { return Mat3(P * s * P.transpose()); }, 1e-10);
 		}
 	}
 

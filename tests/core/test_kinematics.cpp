@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Finite-strain kinematics of one point.
-#include "scenes.hpp"
-#include "core/materials/kinematics.hpp"
 #include "core/materials/hencky.hpp"
+#include "core/materials/kinematics.hpp"
+#include "scenes.hpp"
 
 namespace gimpm {
 namespace {

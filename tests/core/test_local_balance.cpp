@@ -43,7 +43,7 @@ namespace {
 			StepReport report;
 			for (int step = 1; step <= 4; ++step) {
 				load.factor.value = step / 4., load.factor.growth = 1 / 4.;
-				report            = loadStep(cloud, model, load, solver);
+				report = loadStep(cloud, model, load, solver);
 				EXPECT_TRUE(report.converged()) << report.cause;
 			}
 			return report;
@@ -116,7 +116,8 @@ namespace {
 			c.add(0, 4, 1e6, 0);
 			c.boxes.clear();
 			c.append(block<2>(c.model.grid, { 12, 1 }, 2, { 1, 3 }), 0);
-			c.boxes = { held<2>(c.model.grid, Vec<2>(0, -infinity), Vec<2>(1, 0), "xy"), held<2>(c.model.grid, Vec<2>(0, 3), Vec<2>(1, 3), "y", Vec<2>(0, -0.2)) };
+			c.boxes           = { held<2>(c.model.grid, Vec<2>(0, -infinity), Vec<2>(1, 0), "xy"),
+				              held<2>(c.model.grid, Vec<2>(0, 3), Vec<2>(1, 3), "y", Vec<2>(0, -0.2)) };
 			const auto report = c.run(1e-6, method);
 			EXPECT_LE(report.iterations, 5);
 		}
@@ -156,7 +157,7 @@ namespace {
 		for (int step = 1; step <= 4; ++step) {
 			Load<2> load;
 			load.factor.value = step / 10., load.factor.growth = 1 / 10.;
-			report            = loadStep(cloud, model, load, solver);
+			report = loadStep(cloud, model, load, solver);
 			ASSERT_TRUE(report.converged()) << report.cause;
 		}
 		EXPECT_EQ(report.definiteness, Definiteness::indefinite) << "straight, and about to buckle";

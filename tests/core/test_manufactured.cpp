@@ -134,14 +134,8 @@ namespace {
 				order              = { std::log(previous.displacement / e.displacement) / ratio, std::log(previous.stress / e.stress) / ratio };
 			}
 			std::printf(
-			        "%dD, %d steps, %2d cells: displacement %.3e (order %.2f), stress %.3e (order %.2f)\n",
-			        Dim,
-			        steps,
-			        cells[i],
-			        e.displacement,
-			        order.displacement,
-			        e.stress,
-			        order.stress);
+			        "%dD, %d steps, %2d cells: displacement %.3e (order %.2f), stress %.3e (order %.2f)\n", Dim, steps, cells[i], e.displacement,
+			        order.displacement, e.stress, order.stress);
 			previous = e;
 		}
 		return order;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Constitutive laws in principal axes.
-#include "scenes.hpp"
 #include "core/materials/law.hpp"
+#include "scenes.hpp"
 
 namespace gimpm {
 namespace {

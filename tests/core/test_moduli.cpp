@@ -3,9 +3,9 @@
 //
 // The force on a node is V_0 tau dF^-T times the gradient of its basis function at the start of the step, so the moduli A = J a must be
 //   A_ijkl = dF_jJ dF_lL d(tau dF^-T)_iJ / d(dF)_kL.
-#include "scenes.hpp"
 #include "core/materials/kinematics.hpp"
 #include "core/materials/law.hpp"
+#include "scenes.hpp"
 
 namespace gimpm::testModuli {
 namespace {

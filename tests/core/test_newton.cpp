@@ -34,13 +34,13 @@ namespace {
 
 		explicit Block(const Law& law)
 		{
-			Vec<Dim> max           = Vec<Dim>::Constant(infinity);
-			max[1]                 = 0;
-			model.materials        = { { law, 1e3 } };
-			model.boundary         = Boundary<Dim>({ held<Dim>(model.grid, Vec<Dim>::Constant(-infinity), max, Dim == 2 ? "xy" : "xyz") });
+			Vec<Dim> max             = Vec<Dim>::Constant(infinity);
+			max[1]                   = 0;
+			model.materials          = { { law, 1e3 } };
+			model.boundary           = Boundary<Dim>({ held<Dim>(model.grid, Vec<Dim>::Constant(-infinity), max, Dim == 2 ? "xy" : "xyz") });
 			model.newton.tolerance   = 1e-13;
 			model.newton.reuseFactor = false; // whose convergence is linear
-			load.gravity           = -10 * Vec<Dim>::Unit(1);
+			load.gravity             = -10 * Vec<Dim>::Unit(1);
 		}
 		StepReport step() { return loadStep(cloud, model, load, solver); }
 	};

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The matrix over the nodes, symmetric or not: products and reduction against a dense one.
-#include "scenes.hpp"
 #include "core/solvers/reduce.hpp"
+#include "scenes.hpp"
 
 namespace gimpm::testNodeMatrix {
 namespace {
@@ -13,8 +13,7 @@ namespace {
 		NodeMatrix<Dim>  K;
 		Eigen::MatrixXd  full;
 
-		RandomMatrix(unsigned seed, bool isSymmetric)
-		        : random(seed)
+		RandomMatrix(unsigned seed, bool isSymmetric) : random(seed)
 		{
 			forIndices<Dim>(Index<Dim>::Constant(-2), Index<Dim>::Constant(Dim == 2 ? 5 : 4), [&](const Index<Dim>& i) {
 				if (random.in(0, 1) < 0.8) nodes.push_back(Grid<Dim>::key(i));

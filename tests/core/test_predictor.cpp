@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "core/stepping/predictor.hpp"
 #include "bench/scenes.hpp"
+#include "core/stepping/predictor.hpp"
 #include "scenes.hpp"
 
 namespace gimpm {
@@ -96,7 +96,7 @@ namespace {
 	{
 		const Grid<2> grid;
 		auto          base = wallBelow<2>(grid, 1, 0), top = held<2>(grid, { -infinity, 4 }, { infinity, 4 }, "y", { 0, -0.8 });
-		base.fixed[0]      = true;
+		base.fixed[0] = true;
 		Blocks blocks({ 4, 4 }, { base, top });
 		for (int i = 1; i <= 4; ++i) { // the top of the body leaves the nodes that move it after less than half a cell
 			const auto [a, b] = blocks.step({ Vec<2>::Zero(), i / 16., 1 / 16. });

@@ -14,8 +14,7 @@ namespace {
 		LinearSolver    solver;
 
 		/// A block of 2 cells a side on rollers (nu = 0), whose top (y = 2) is moved along y.
-		PrescribedDisplacement()
-		        : cloud(block<Dim>(model.grid, Index<Dim>::Constant(2), 2))
+		PrescribedDisplacement() : cloud(block<Dim>(model.grid, Index<Dim>::Constant(2), 2))
 		{
 			model.materials        = { { Hencky(1e6, 0), 1 } };
 			model.newton.tolerance = 1e-12;

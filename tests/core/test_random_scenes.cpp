@@ -17,8 +17,7 @@ namespace {
 		PointCloud<Dim> cloud;
 		Load<Dim>       load;
 
-		explicit RandomScene(unsigned seed)
-		        : random(seed)
+		explicit RandomScene(unsigned seed) : random(seed)
 		{
 			const double h = std::pow(10, random.in(-9, 9)), young = std::pow(10, random.in(-9, 9));
 			model.grid                 = { h, h * random.matrix<Dim>(std::pow(10, random.in(0, 5))) };
@@ -114,11 +113,11 @@ namespace {
 		StepReport            report;
 		const StepSystem<Dim> system(before, model, load, report);
 		ASSERT_EQ(d.size(), system.nodalSize());
-		const auto [residual, forces]   = balance(system, d);
-		const auto [imbalance, loaded]  = balance(system, Eigen::VectorXd(Eigen::VectorXd::Zero(d.size())));
-		const double          h         = model.grid.cellSize, tolerance = model.newton.tolerance * (1 + 1e-6);
-		const double          strain    = system.prescribed.template lpNorm<Eigen::Infinity>() / h;
-		Eigen::VectorXd       stiffness(before.size()), strains(before.size());
+		const auto [residual, forces]  = balance(system, d);
+		const auto [imbalance, loaded] = balance(system, Eigen::VectorXd(Eigen::VectorXd::Zero(d.size())));
+		const double    h = model.grid.cellSize, tolerance = model.newton.tolerance * (1 + 1e-6);
+		const double    strain = system.prescribed.template lpNorm<Eigen::Infinity>() / h;
+		Eigen::VectorXd stiffness(before.size()), strains(before.size());
 		for (int p = 0; p < int(before.size()); ++p) {
 			stiffness[p] = system.points.volume0[p] * model.materials[system.points.material[p]].young() / h;
 			strains[p]   = system.points.leftCauchyGreen[p].c.norm() + strain;
@@ -126,7 +125,8 @@ namespace {
 		const bool   isSmall  = residual <= tolerance * std::max({ forces, imbalance, loaded });
 		const bool   isRigid  = std::max(residual, forces) <= tolerance * strain * stiffness.stableNorm();
 		const double roundOff = 10 * precision * stiffness.cwiseProduct(strains).stableNorm();
-		EXPECT_TRUE(isSmall || isRigid || residual <= roundOff) << residual << " N beside " << forces << " N, at the start " << imbalance << " and " << loaded << " N";
+		EXPECT_TRUE(isSmall || isRigid || residual <= roundOff)
+		        << residual << " N beside " << forces << " N, at the start " << imbalance << " and " << loaded << " N";
 	}
 
 	/// Up to three load steps of a scene; counts how they ended.
@@ -164,10 +164,10 @@ namespace {
 
 	TYPED_TEST(RandomScenes, EndInAFiniteStateOrInTheOldOne)
 	{
-		constexpr int Dim      = TypeParam::value;
-		const char*   asked    = std::getenv("RANDOM_SCENES"); // for longer searches: number of scenes and, after a comma, the first seed
-		const char*   comma    = asked ? std::strchr(asked, ',') : nullptr;
-		const int     count    = asked ? std::atoi(asked) : Dim == 2 ? 400 : 60, first = comma ? std::atoi(comma + 1) : 0;
+		constexpr int Dim   = TypeParam::value;
+		const char*   asked = std::getenv("RANDOM_SCENES"); // for longer searches: number of scenes and, after a comma, the first seed
+		const char*   comma = asked ? std::strchr(asked, ',') : nullptr;
+		const int     count = asked ? std::atoi(asked) : Dim == 2 ? 400 : 60, first = comma ? std::atoi(comma + 1) : 0;
 		int           ended[failures] = {};
 		for (int seed = first; seed < first + count; ++seed)
 			expectSoundSteps<Dim>(seed, ended);

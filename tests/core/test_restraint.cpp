@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // A body that can move as a rigid one is named before the stiffness is found singular.
-#include "scenes.hpp"
 #include "core/stepping/restraint.hpp"
+#include "scenes.hpp"
 
 namespace gimpm::testRestraint {
 namespace {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Paths of one point in finite strain, against closed forms.
-#include "scenes.hpp"
 #include "core/materials/kinematics.hpp"
 #include "core/materials/law.hpp"
+#include "scenes.hpp"
 #include <cstdio>
 
 namespace gimpm::testReturnPaths {
@@ -99,11 +99,7 @@ namespace {
 	struct ShearFlow {
 		double e, g;
 
-		explicit ShearFlow(double yieldStress)
-		        : e(yieldStress / (2 * std::sqrt(2.) * G))
-		        , g(2 * std::sinh(e))
-		{
-		}
+		explicit ShearFlow(double yieldStress) : e(yieldStress / (2 * std::sqrt(2.) * G)), g(2 * std::sinh(e)) { }
 		double angle(double shear) const
 		{
 			const double arcoth = std::atanh(std::exp(-e));
@@ -127,8 +123,7 @@ namespace {
 				point.apply(this->shearing(end / steps));
 				const double g = end * i / steps;
 				if (g < exact.g) continue;
-				error = std::max({ error,
-				                   std::abs(point.stress.full()(0, 1) - exact.shearStress(g)),
+				error = std::max({ error, std::abs(point.stress.full()(0, 1) - exact.shearStress(g)),
 				                   std::abs(point.stress.full()(0, 0) - exact.normalStress(g)) });
 			}
 			std::printf("%4d steps: error %.3e, order %.3f\n", steps, error, previous > 0 ? std::log2(previous / error) : NAN);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // K + K_g against the finite-difference derivative of the nodal forces, for random clouds in finite strain.
-#include "scenes.hpp"
-#include "core/terms/point_update.hpp"
 #include "core/stepping/step_system.hpp"
+#include "core/terms/point_update.hpp"
+#include "scenes.hpp"
 #include <algorithm>
 
 namespace gimpm {

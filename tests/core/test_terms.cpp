@@ -201,13 +201,13 @@ namespace {
 	{
 		for (const auto method : { LinearMethod::direct, LinearMethod::iterative }) {
 			Raft<TypeParam::value> raft;
-			raft.model.materials             = { { Hencky(1e5, 0.3), 2000 } }; // settles by a tenth, and leans
-			raft.springs.stiffness(0, 1)     = 0.3 * raft.stiffness;
-			raft.springs.stiffness(1, 0)     = -0.1 * raft.stiffness;
-			raft.model.newton.reuseFactor    = false; // whose convergence is linear
-			raft.model.newton.linearSolver   = method;
-			raft.model.newton.tolerance      = 1e-11;
-			const auto report                = raft.step(1);
+			raft.model.materials           = { { Hencky(1e5, 0.3), 2000 } }; // settles by a tenth, and leans
+			raft.springs.stiffness(0, 1)   = 0.3 * raft.stiffness;
+			raft.springs.stiffness(1, 0)   = -0.1 * raft.stiffness;
+			raft.model.newton.reuseFactor  = false; // whose convergence is linear
+			raft.model.newton.linearSolver = method;
+			raft.model.newton.tolerance    = 1e-11;
+			const auto report              = raft.step(1);
 			ASSERT_TRUE(report.converged()) << report.cause;
 			EXPECT_NEAR(raft.springs.total()[1] / -raft.weight(), 1, 1e-8);
 			EXPECT_NEAR(raft.springs.total()[0] / raft.weight(), 0, 1e-8);

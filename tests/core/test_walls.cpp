@@ -159,7 +159,8 @@ namespace {
 		auto          cloud = block<Dim>(model.grid, Index<Dim>::Constant(2), 2);
 		Vec<Dim>      base  = Vec<Dim>::Constant(infinity);
 		base[1]             = 0;
-		std::vector<HeldBox<Dim>> boxes { wallBelow<Dim>(model.grid, 0, 0), held<Dim>(model.grid, Vec<Dim>::Constant(-infinity), base, Dim == 2 ? "xy" : "xyz") };
+		std::vector<HeldBox<Dim>> boxes { wallBelow<Dim>(model.grid, 0, 0),
+			                          held<Dim>(model.grid, Vec<Dim>::Constant(-infinity), base, Dim == 2 ? "xy" : "xyz") };
 		if (Dim == 3) boxes.push_back(wallBelow<Dim>(model.grid, 2, 0));
 		model.boundary         = Boundary<Dim>(boxes);
 		model.materials        = { { Hencky(1e3, 0.3), 10 } };

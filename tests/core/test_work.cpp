@@ -33,8 +33,8 @@ namespace {
 			const auto report = loadStep(column.cloud, column.model, load, column.solver);
 			EXPECT_TRUE(report.converged()) << report.cause;
 			for (std::size_t p = 0; p < start.size(); ++p) // trapezoidal rule for the dead load
-				c.netWork
-				        -= column.weight * column.cloud.volume0[p] * (before + load.factor.value) / 2 * (column.cloud.position[p] - positions[p])[1];
+				c.netWork -= column.weight * column.cloud.volume0[p] * (before + load.factor.value) / 2
+				        * (column.cloud.position[p] - positions[p])[1];
 			before = load.factor.value;
 			if (i == steps) c.work = c.netWork, c.energy = stored(), c.settlement = (column.cloud.position.back() - start.back()).norm();
 		}
@@ -56,11 +56,7 @@ namespace {
 			const Cycle  c     = cycle<TypeParam::value>(steps);
 			const double error = c.work / c.energy - 1, net = c.netWork / c.energy;
 			std::printf(
-			        "%2d steps: work/energy - 1 = %.2e, net work %.2e, energy left %.1e, offset %.1e\n",
-			        steps,
-			        error,
-			        net,
-			        c.left / c.energy,
+			        "%2d steps: work/energy - 1 = %.2e, net work %.2e, energy left %.1e, offset %.1e\n", steps, error, net, c.left / c.energy,
 			        c.offset / c.settlement);
 			if (previous > 0) {
 				EXPECT_GT(std::log2(previous / error), 1.5);

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Sizes of a load step before it is made.
-#include "scenes.hpp"
 #include "core/stepping/workload.hpp"
+#include "scenes.hpp"
 
 namespace gimpm {
 namespace {
 
-	template <class Dimension> class WorkloadOf : public ::testing::Test { };
+	template <class Dimension> class WorkloadOf : public ::testing::Test {
+	};
 	TYPED_TEST_SUITE(WorkloadOf, BothDimensions, DimensionName);
 
 	TYPED_TEST(WorkloadOf, ABlockIsThatOfItsStiffnessAndItsStep)

@@ -19,9 +19,9 @@ namespace gimpm {
 inline bool processorHasAvx2() { return __builtin_cpu_supports("x86-64-v3"); }
 
 /// f(), with all that it calls compiled into one function, for AVX2 if the processor has it.
-template <class F> [[GIMPM_FLATTEN gnu::noinline]] void callPortable(F&& f) { f(); }
-template <class F> [[GIMPM_FLATTEN gnu::noinline]] GIMPM_TARGET_AVX2 void callAvx2(F&& f) { f(); }
-template <class F> void callForProcessor(F&& f)
+template <class F>[[GIMPM_FLATTEN gnu::noinline]] void                   callPortable(F&& f) { f(); }
+template <class F>[[GIMPM_FLATTEN gnu::noinline]] GIMPM_TARGET_AVX2 void callAvx2(F&& f) { f(); }
+template <class F> void                                                  callForProcessor(F&& f)
 {
 	if (processorHasAvx2()) callAvx2(f);
 	else

@@ -23,10 +23,10 @@ public:
 
 	Lanes() = default;
 	// Not left to the compiler: a class with a copy constructor is passed in memory, in the same way for every instruction set.
-	GIMPM_INLINE Lanes(const Lanes& o) : v(o.v) { }
+	GIMPM_INLINE        Lanes(const Lanes& o) : v(o.v) { }
 	GIMPM_INLINE Lanes& operator=(const Lanes& o) { return v = o.v, *this; }
-	GIMPM_INLINE Lanes(double x) : v { x, x, x, x } { }
-	GIMPM_INLINE Lanes(Vector x) : v(x) { }
+	GIMPM_INLINE        Lanes(double x) : v { x, x, x, x } { }
+	GIMPM_INLINE        Lanes(Vector x) : v(x) { }
 
 	GIMPM_INLINE double operator[](int lane) const { return v[lane]; }
 
@@ -35,9 +35,9 @@ public:
 	friend GIMPM_INLINE Lanes operator*(const Lanes& a, const Lanes& b) { return a.v * b.v; }
 	friend GIMPM_INLINE Lanes operator/(const Lanes& a, const Lanes& b) { return a.v / b.v; }
 	friend GIMPM_INLINE Lanes operator-(const Lanes& a) { return -a.v; }
-	GIMPM_INLINE Lanes& operator+=(const Lanes& b) { return v += b.v, *this; }
-	GIMPM_INLINE Lanes& operator-=(const Lanes& b) { return v -= b.v, *this; }
-	GIMPM_INLINE Lanes& operator*=(const Lanes& b) { return v *= b.v, *this; }
+	GIMPM_INLINE Lanes&       operator+=(const Lanes& b) { return v += b.v, *this; }
+	GIMPM_INLINE Lanes&       operator-=(const Lanes& b) { return v -= b.v, *this; }
+	GIMPM_INLINE Lanes&       operator*=(const Lanes& b) { return v *= b.v, *this; }
 
 	friend GIMPM_INLINE Mask operator>(const Lanes& a, const Lanes& b) { return a.v > b.v; }
 	friend GIMPM_INLINE Mask operator>=(const Lanes& a, const Lanes& b) { return a.v >= b.v; }
@@ -54,7 +54,7 @@ GIMPM_INLINE Lanes loadLanes(const double* from)
 	__builtin_memcpy(&x.v, from, sizeof x.v);
 	return x;
 }
-GIMPM_INLINE void storeLanes(double* to, const Lanes& x) { __builtin_memcpy(to, &x.v, sizeof x.v); }
+GIMPM_INLINE void   storeLanes(double* to, const Lanes& x) { __builtin_memcpy(to, &x.v, sizeof x.v); }
 GIMPM_INLINE double sum(const Lanes& x) { return (x[0] + x[1]) + (x[2] + x[3]); }
 
 GIMPM_INLINE double select(bool condition, double yes, double no) { return condition ? yes : no; }

@@ -22,7 +22,8 @@ template <int Dim> Index<Dim> containingCell(const Vec<Dim>& x, double h, const 
 	for (int a = 0; a < Dim; ++a) {
 		const Index<Dim> upper = cell + Index<Dim>::Unit(a), beyond = upper + Index<Dim>::Unit(a);
 		const bool       onUpperFace = std::abs(x[a] / h - upper[a]) <= faceTolerance;
-		if (onUpperFace && boundary.lowerFaceIsWall(upper, a) && boundary.lowerFaceIsWall(cell, a) && !boundary.lowerFaceIsWall(beyond, a)) cell = upper;
+		if (onUpperFace && boundary.lowerFaceIsWall(upper, a) && boundary.lowerFaceIsWall(cell, a) && !boundary.lowerFaceIsWall(beyond, a))
+			cell = upper;
 	}
 	return cell;
 }
@@ -49,7 +50,7 @@ template <int Dim> int reachableCells(const Index<Dim>& lowest, int span, int ce
 /// reach the first nodes beyond it, and no others as long as a tile is at least two cells wide: between two tiles of a colour lies another.
 template <int Dim> struct TileOrder {
 	static constexpr int widthBits = 2; ///< a tile is 2^widthBits cells wide
-	static constexpr int bits      = Grid<Dim>::keyBits, highBits = bits - widthBits - 1;
+	static constexpr int bits = Grid<Dim>::keyBits, highBits = bits - widthBits - 1;
 
 	static Key of(Key cell)
 	{
@@ -64,7 +65,7 @@ template <int Dim> struct TileOrder {
 	}
 	static Key cell(Key place)
 	{
-		Key       cell = 0;
+		Key       cell    = 0;
 		const Key colours = colour(place), tiles = tile(place);
 		for (int a = 0; a < Dim; ++a) {
 			const Key along = low(tiles >> a * highBits, highBits) << 1 | low(colours >> a, 1);
@@ -86,7 +87,8 @@ template <int Dim> struct Place {
 	int      point;
 
 	Place() { } // all are set
-	Place(Key cell, int span, int cells, int point) : order(TileOrder<Dim>::of(cell)), kind(unsigned(span) << (1 << Dim) | unsigned(cells)), point(point) { }
+	Place(Key cell, int span, int cells, int point)
+	        : order(TileOrder<Dim>::of(cell)), kind(unsigned(span) << (1 << Dim) | unsigned(cells)), point(point) { }
 	int  span() const { return int(kind >> (1 << Dim)); }
 	int  cells() const { return int(kind & ((1 << (1 << Dim)) - 1)); }
 	bool samePatch(const Place& o) const { return order == o.order && kind == o.kind; }
@@ -101,13 +103,11 @@ template <int Dim> double hiddenLength(const Place<Dim>& p, const Vec<Dim>& x, c
 {
 	double length = 0;
 	for (int a = 0; a < Dim; ++a)
-		if ((p.span() >> a & 1) && !(p.cells() >> (centre ^ 1 << a) & 1))
-			length = std::max(length, halfSize[a] - std::abs(x[a] - h * (lowest[a] + 1)));
+		if ((p.span() >> a & 1) && !(p.cells() >> (centre ^ 1 << a) & 1)) length = std::max(length, halfSize[a] - std::abs(x[a] - h * (lowest[a] + 1)));
 	return length;
 }
 
-template <int Dim>
-Place<Dim> place(const PointCloud<Dim>& cloud, int point, const Grid<Dim>& grid, Basis basis, const Boundary<Dim>& boundary, double& hidden)
+template <int Dim> Place<Dim> place(const PointCloud<Dim>& cloud, int point, const Grid<Dim>& grid, Basis basis, const Boundary<Dim>& boundary, double& hidden)
 {
 	const Vec<Dim>   x = cloud.position[point] - grid.origin, &halfSize = cloud.halfSize[point];
 	const Index<Dim> centre = containingCell<Dim>(x, grid.cellSize, boundary);

@@ -14,22 +14,22 @@ template <int Dim> constexpr int windowCells = Dim == 2 ? 4 : 8;
 
 /// Material points that share their nodes: same lowest cell, same number of cells per axis, same walls.
 template <int Dim> struct Patch {
-	Key                               cell;       ///< lowest cell
-	int                               span  = 0;  ///< bit a set: the domains reach two cells along axis a
-	int                               cells = 0;  ///< bit c set: cell c of the window (x fastest) is reached, not hidden by a wall
+	Key                               cell;                 ///< lowest cell
+	int                               span  = 0;            ///< bit a set: the domains reach two cells along axis a
+	int                               cells = 0;            ///< bit c set: cell c of the window (x fastest) is reached, not hidden by a wall
 	int                               first = 0, count = 0; ///< its points in CloudBasis::order
-	std::array<int, windowNodes<Dim>> node;       ///< node numbers of the 2 or 3 nodes per axis, x fastest; -1: beyond a wall
-	std::array<int, windowCells<Dim>> reached;    ///< numbers of the cells of the window, positions in CloudBasis::cells; -1: not reached
+	std::array<int, windowNodes<Dim>> node;                 ///< node numbers of the 2 or 3 nodes per axis, x fastest; -1: beyond a wall
+	std::array<int, windowCells<Dim>> reached;              ///< numbers of the cells of the window, positions in CloudBasis::cells; -1: not reached
 
 	int nodesAlong(int axis) const { return 2 + (span >> axis & 1); }
 };
 
 template <int Dim> struct CloudBasis {
-	std::vector<int>                        order;   ///< points sorted by patch, then by their position in the cloud
-	std::vector<PointBasis<Dim>>            axes;    ///< basis functions per axis, in that order
-	std::vector<Patch<Dim>>                 patches; ///< by colour, tile and lowest cell
-	std::vector<Key>                        nodes;   ///< active nodes, sorted; the node number is the position here
-	std::vector<Key>                        cells;   ///< populated cells, sorted
+	std::vector<int>             order;   ///< points sorted by patch, then by their position in the cloud
+	std::vector<PointBasis<Dim>> axes;    ///< basis functions per axis, in that order
+	std::vector<Patch<Dim>>      patches; ///< by colour, tile and lowest cell
+	std::vector<Key>             nodes;   ///< active nodes, sorted; the node number is the position here
+	std::vector<Key>             cells;   ///< populated cells, sorted
 	/// Tiles are blocks of a few cells: what their points add to on the grid stays in the processor's cache, and lies in memory as it is
 	/// read. Ranges of patches [first, last) with the lowest cell in the same tile, by colour: the tiles of one of the 2^Dim colours are no
 	/// neighbours, so that no two of its ranges share a node.

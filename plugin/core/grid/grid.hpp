@@ -16,7 +16,7 @@ using Key = std::uint64_t;
 inline int position(const std::vector<Key>& sorted, Key key) { return int(std::lower_bound(sorted.begin(), sorted.end(), key) - sorted.begin()); }
 
 template <int Dim> struct Grid {
-	double   cellSize = 1;                 ///< edge length h of a cell [m]
+	double   cellSize = 1;                ///< edge length h of a cell [m]
 	Vec<Dim> origin   = Vec<Dim>::Zero(); ///< position of node (0, 0[, 0]) [m]
 
 	static constexpr int keyBits = Dim == 2 ? 31 : 21;
@@ -32,7 +32,7 @@ template <int Dim> struct Grid {
 			if (bits >> a & 1) k += keyStep(a);
 		return k;
 	}
-	static Key           key(const Index<Dim>& i)
+	static Key key(const Index<Dim>& i)
 	{
 		Key k = 0;
 		for (int a = 0; a < Dim; ++a)

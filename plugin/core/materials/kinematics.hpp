@@ -34,9 +34,9 @@ template <class T> GIMPM_INLINE Principal<2, T> principal(const SymTensor<2, T>&
 	const T    r    = length(p, q);
 	const auto some = r > T(0);
 	// cosine and sine of the angle of the first axis; half-angle formulas without cancellation
-	const T    safe = select(some, r, T(1)), large = sqrt(T(0.5) * (T(1) + abs(p) / safe)), small = T(0.5) * (abs(q) / safe) / large;
-	const auto upright = p >= T(0);
-	const T    c = select(some, select(upright, large, small), T(1)), s = select(some, copysign(select(upright, small, large), q), T(0));
+	const T         safe = select(some, r, T(1)), large = sqrt(T(0.5) * (T(1) + abs(p) / safe)), small = T(0.5) * (abs(q) / safe) / large;
+	const auto      upright = p >= T(0);
+	const T         c = select(some, select(upright, large, small), T(1)), s = select(some, copysign(select(upright, small, large), q), T(0));
 	Principal<2, T> result;
 	result.value      = PrincipalValues<T>(mean + r, mean - r, t.c[3]);
 	result.axes(0, 0) = result.axes(1, 1) = c;
@@ -69,8 +69,8 @@ template <class T> GIMPM_INLINE void jacobiRotation(MatrixOf<3, T>& m, MatrixOf<
 template <class T> GIMPM_INLINE Principal<3, T> principal(const SymTensor<3, T>& t)
 {
 	Principal<3, T> result;
-	MatrixOf<3, T>  m = t.full();
-	result.axes       = MatrixOf<3, T>::Identity();
+	MatrixOf<3, T>  m    = t.full();
+	result.axes          = MatrixOf<3, T>::Identity();
 	constexpr int sweeps = 12; // convergence is quadratic: five are enough, and numbers that are none must not keep it going
 	for (int sweep = 0; sweep < sweeps; ++sweep) {
 		const T off = abs(m(0, 1)) + abs(m(1, 2)) + abs(m(0, 2)), size = abs(m(0, 0)) + abs(m(1, 1)) + abs(m(2, 2));
@@ -140,7 +140,8 @@ template <int Dim, class T = double> using Moduli = Eigen::Matrix<T, Dim * Dim, 
 ///   J a_iijj = D_ij - t_i delta_ij,   J a_ijji = m,   J a_ijij = m + t_j,   m = G_s d coth d - (t_i + t_j)/2,
 /// where d coth d -> 1 for coinciding stretches: there is nothing to switch.
 template <int Dim, class T>
-GIMPM_INLINE Moduli<Dim, T> moduli(const ResponseOf<T>& r, const PrincipalValues<T>& strain, const Eigen::Matrix<T, Dim, Dim>& q, const Eigen::Matrix<T, Dim, Dim>& w)
+GIMPM_INLINE Moduli<Dim, T> moduli(
+        const ResponseOf<T>& r, const PrincipalValues<T>& strain, const Eigen::Matrix<T, Dim, Dim>& q, const Eigen::Matrix<T, Dim, Dim>& w)
 {
 	constexpr int  n = Dim * Dim;
 	Moduli<Dim, T> axes, stress; // columns: q_i w_j; and their products with the moduli in principal axes

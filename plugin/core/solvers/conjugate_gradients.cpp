@@ -12,10 +12,7 @@ struct NotDefinite { };
 /// K as Eigen's iteration sees it: an operator that looks at the curvature along each direction, which that iteration does not.
 class Stiffness {
 public:
-	explicit Stiffness(const SymmetricCsc& K)
-	        : K_(K)
-	{
-	}
+	explicit Stiffness(const SymmetricCsc& K) : K_(K) { }
 	Eigen::Index    cols() const { return K_.size(); }
 	Eigen::VectorXd operator*(const Eigen::VectorXd& direction) const
 	{
@@ -32,8 +29,7 @@ private:
 /// takes longer than all of them, and may break down.
 class DiagonalInverse {
 public:
-	explicit DiagonalInverse(const SymmetricCsc& K)
-	        : inverse_(K.size())
+	explicit DiagonalInverse(const SymmetricCsc& K) : inverse_(K.size())
 	{
 		for (int c = 0; c < K.size(); ++c) {
 			const int first = K.start[c];

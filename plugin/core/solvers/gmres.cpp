@@ -19,10 +19,7 @@ struct NoPivot { };
 class IncompleteLu {
 public:
 	/// Column c of K is row c of its transpose, of which the factors are: L with a diagonal of ones, left of the diagonal, and U.
-	explicit IncompleteLu(const GeneralCsc& K)
-	        : K_(K)
-	        , value_(K.value)
-	        , diagonal_(K.size())
+	explicit IncompleteLu(const GeneralCsc& K) : K_(K), value_(K.value), diagonal_(K.size())
 	{
 		std::vector<int> place(K.size(), -1); // of the entries of row c
 		for (int c = 0; c < K.size(); ++c) {

@@ -10,14 +10,8 @@ namespace gimpm {
 /// The matrix of K x = b on the free degrees of freedom, in one of its two forms.
 class LinearProblem {
 public:
-	LinearProblem(SymmetricCsc K)
-	        : matrix_(std::move(K))
-	{
-	}
-	LinearProblem(GeneralCsc K)
-	        : matrix_(std::move(K))
-	{
-	}
+	LinearProblem(SymmetricCsc K) : matrix_(std::move(K)) { }
+	LinearProblem(GeneralCsc K) : matrix_(std::move(K)) { }
 	bool                isSymmetric() const { return std::holds_alternative<SymmetricCsc>(matrix_); }
 	const SymmetricCsc& symmetric() const { return std::get<SymmetricCsc>(matrix_); }
 	const GeneralCsc&   general() const { return std::get<GeneralCsc>(matrix_); }

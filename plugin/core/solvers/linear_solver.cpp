@@ -101,10 +101,7 @@ struct LinearSolver::Direct {
 	}
 };
 
-LinearSolver::LinearSolver()
-        : direct_(new Direct)
-{
-}
+LinearSolver::LinearSolver() : direct_(new Direct) { }
 LinearSolver::~LinearSolver()                                  = default;
 LinearSolver::LinearSolver(LinearSolver&&) noexcept            = default;
 LinearSolver& LinearSolver::operator=(LinearSolver&&) noexcept = default;

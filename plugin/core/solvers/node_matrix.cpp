@@ -5,16 +5,16 @@
 namespace gimpm {
 
 namespace {
-	/// What to add to a node's key to get the key of the node at this offset.
-	template <int Dim> Key keyOffset(int code)
-	{
-		constexpr int centre = (Dim == 2 ? 25 : 125) / 2;
-		int           rest   = code + centre;
-		Key           k      = 0;
-		for (int a = 0; a < Dim; ++a, rest /= 5)
-			k += Key(std::int64_t(rest % 5 - 2)) * Grid<Dim>::keyStep(a);
-		return k;
-	}
+/// What to add to a node's key to get the key of the node at this offset.
+template <int Dim> Key keyOffset(int code)
+{
+	constexpr int centre = (Dim == 2 ? 25 : 125) / 2;
+	int           rest   = code + centre;
+	Key           k      = 0;
+	for (int a = 0; a < Dim; ++a, rest /= 5)
+		k += Key(std::int64_t(rest % 5 - 2)) * Grid<Dim>::keyStep(a);
+	return k;
+}
 }
 
 template <int Dim> void NodeMatrix<Dim>::reset(const std::vector<Key>& nodes, bool isSymmetric)

@@ -12,9 +12,9 @@ namespace gimpm {
 /// beside: who adds something symmetric need not know of it.
 template <int Dim> class NodeMatrix {
 public:
-	static constexpr int width  = 5;                                  ///< offsets -2 ... 2 per axis
-	static constexpr int codes  = (Dim == 2 ? 25 : 125) / 2 + 1;      ///< offsets to nodes b >= a
-	static constexpr int block  = Dim * Dim;
+	static constexpr int width = 5;                             ///< offsets -2 ... 2 per axis
+	static constexpr int codes = (Dim == 2 ? 25 : 125) / 2 + 1; ///< offsets to nodes b >= a
+	static constexpr int block = Dim * Dim;
 
 	/// Code of the offset b - a, negative if that points to a lower node; a block is stored with the lower one.
 	template <class Offset> static constexpr int code(const Offset& o) { return Dim == 2 ? o[0] + 5 * o[1] : o[0] + 5 * o[1] + 25 * o[2]; }

@@ -15,8 +15,7 @@ template <int Dim> struct CutPatches {
 	StepPoints<Dim>   points;
 	std::vector<Node> nodes;
 
-	explicit CutPatches(const StepSystem<Dim>& system)
-	        : front(int(system.basis.nodes.size()))
+	explicit CutPatches(const StepSystem<Dim>& system) : front(int(system.basis.nodes.size()))
 	{
 		for (std::size_t c = 0; c < system.basis.colours.size(); ++c)
 			for (const auto& [first, last] : system.basis.colours[c]) {
@@ -68,7 +67,7 @@ private:
 	/// The nearest node in front of walls lies on the wall: the cells on its side are reached, their neighbours are not.
 	static Node behind(const StepSystem<Dim>& system, const Patch<Dim>& patch, int hidden, int count)
 	{
-		const Index<Dim> place = along(patch, hidden);
+		const Index<Dim> place   = along(patch, hidden);
 		int              nearest = -1, distance = 2 * Dim + 1;
 		for (int n = 0; n < count; ++n)
 			if (const int d = (along(patch, n) - place).cwiseAbs().sum(); patch.node[n] >= 0 && d < distance) nearest = n, distance = d;
@@ -84,12 +83,13 @@ private:
 } // namespace
 
 template <int Dim>
-void addReactionsBeyondWalls(const StepSystem<Dim>& system, const PointCloud<Dim>& cloud, const Load<Dim>& load, const Eigen::VectorXd& d, std::vector<Vec3>& reactions)
+void addReactionsBeyondWalls(
+        const StepSystem<Dim>& system, const PointCloud<Dim>& cloud, const Load<Dim>& load, const Eigen::VectorXd& d, std::vector<Vec3>& reactions)
 {
 	const CutPatches<Dim> cut(system);
 	if (cut.nodes.empty()) return;
 	Eigen::VectorXd displacement = Eigen::VectorXd::Zero(cut.size()), internal = displacement, external = displacement;
-	displacement.head(d.size())  = d;
+	displacement.head(d.size()) = d;
 	addInternalForce<Dim>(cut.basis, cut.points, system.model.materials, displacement, { internal });
 	addPointForces(cut.basis, pointForces(cloud, system.model, load), external);
 	const auto& boundary = system.model.boundary;

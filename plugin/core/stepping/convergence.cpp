@@ -15,10 +15,7 @@ double Convergence::reduction() const
 /// The excess that quadratic convergence leads to in the next iteration.
 double Convergence::expected() const { return excess() * std::pow(reduction(), 2); }
 
-bool Convergence::isLastStiffness(bool keepsFactor) const
-{
-	return expected() <= 1 || (keepsFactor && suffices(expected(), std::pow(reduction(), 2)));
-}
+bool Convergence::isLastStiffness(bool keepsFactor) const { return expected() <= 1 || (keepsFactor && suffices(expected(), std::pow(reduction(), 2))); }
 
 double Convergence::forcing() const
 {

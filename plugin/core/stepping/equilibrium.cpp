@@ -4,8 +4,7 @@
 
 namespace gimpm {
 
-template <int Dim>
-Eigen::VectorXd equilibrium(const StepSystem<Dim>& system, LinearSolver& solver, StepReport& report, const Eigen::VectorXd& prediction)
+template <int Dim> Eigen::VectorXd equilibrium(const StepSystem<Dim>& system, LinearSolver& solver, StepReport& report, const Eigen::VectorXd& prediction)
 {
 	if (prediction.size() > 0) {
 		StepReport   attempt = report;

@@ -12,11 +12,7 @@ namespace {
 /// The nodes at the front of a box that pushes along an axis, and the nearest soil before each of them.
 template <int Dim> class Front {
 public:
-	Front(const HeldBox<Dim>& box, int axis, double direction)
-	        : lower(box.lower)
-	        , upper(box.upper)
-	        , axis(axis)
-	        , sign(direction < 0 ? -1 : 1)
+	Front(const HeldBox<Dim>& box, int axis, double direction) : lower(box.lower), upper(box.upper), axis(axis), sign(direction < 0 ? -1 : 1)
 	{
 		lower[axis] = upper[axis] = sign < 0 ? lower[axis] : upper[axis];
 	}
@@ -60,8 +56,8 @@ private:
 		for (int a = 0; a < Dim; ++a) {
 			if (a == axis) continue;
 			const double place = (cloud.position[p][a] - grid.origin[a]) / grid.cellSize, reach = cloud.halfSize[p][a] / grid.cellSize + 0.25;
-			low[a]             = std::max(low[a], -floorToInt(reach - place));
-			high[a]            = std::min(high[a], floorToInt(place + reach));
+			low[a]  = std::max(low[a], -floorToInt(reach - place));
+			high[a] = std::min(high[a], floorToInt(place + reach));
 			if (low[a] > high[a]) return;
 		}
 		forNodes(low, high, [&](Key node) {
@@ -114,7 +110,8 @@ template <int Dim> std::string withoutSoil(const HeldBox<Dim>& box, const PointC
 			if (std::abs(node[a]) > Grid<Dim>::indexLimit) x[a] = std::copysign(std::numeric_limits<double>::infinity(), node[a]);
 		return listed(x);
 	};
-	return "none of its nodes, from " + place(box.lower) + " to " + place(box.upper) + ", carries soil, which lies between " + listed(low) + " and " + listed(high);
+	return "none of its nodes, from " + place(box.lower) + " to " + place(box.upper) + ", carries soil, which lies between " + listed(low) + " and "
+	        + listed(high);
 }
 
 template <int Dim> std::string withdrawn(const HeldBox<Dim>& box, const PointCloud<Dim>& cloud, const Grid<Dim>& grid, const Load<Dim>& load)

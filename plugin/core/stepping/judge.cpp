@@ -8,7 +8,7 @@ namespace gimpm {
 template <int Dim> double Judge<Dim>::excess(const Eigen::VectorXd& d, int solves)
 {
 	const double tolerance = settings().tolerance, ofWhole = relative(solves) / tolerance;
-	isWholeInBalance_      = solves > 0 && ofWhole <= 1;
+	isWholeInBalance_ = solves > 0 && ofWhole <= 1;
 	if (!isWholeInBalance_) return ofWhole;
 	report_.localResidual = localResidual(d);
 	return std::max(ofWhole, report_.localResidual / (localTolerance * tolerance));

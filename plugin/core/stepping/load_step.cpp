@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "core/stepping/load_step.hpp"
-#include "core/stepping/beyond_walls.hpp"
-#include "core/stepping/grip.hpp"
-#include "core/stepping/equilibrium.hpp"
-#include "core/terms/point_update.hpp"
-#include "core/stepping/restraint.hpp"
 #include "core/base/stopwatch.hpp"
+#include "core/stepping/beyond_walls.hpp"
+#include "core/stepping/equilibrium.hpp"
+#include "core/stepping/grip.hpp"
+#include "core/stepping/restraint.hpp"
+#include "core/terms/point_update.hpp"
 #include <sstream>
 
 namespace gimpm {
@@ -14,7 +14,7 @@ namespace {
 /// Step 5: the points take over the converged displacements, and their domains follow the stretch along the grid axes.
 template <int Dim> void updatePoints(PointCloud<Dim>& cloud, const StepSystem<Dim>& system, const Eigen::VectorXd& d, StepReport& report)
 {
-	const double limit = 0.5 * system.model.grid.cellSize;
+	const double      limit = 0.5 * system.model.grid.cellSize;
 	std::vector<char> clamped(cloud.size(), 0);
 	forUpdatedPoints(system.basis, system.points, system.model.materials, d, [&](int p, const PointUpdate<Dim>& u) {
 		cloud.position[p] += u.displacement;
@@ -41,7 +41,8 @@ template <int Dim> bool requireState(const PointCloud<Dim>& cloud, const Grid<Di
 		const bool isOnGrid = ((cloud.position[p] - grid.origin).array().abs() < limit).all() && cloud.stress[p].c.allFinite();
 		if (isOnGrid && cloud.halfSize[p].minCoeff() > 0 && cloud.defGrad[p].determinant() > 0) continue;
 		std::ostringstream text;
-		text << "a material point was " << (isOnGrid ? "flattened to nothing, at (" : "thrown off the grid, to (") << cloud.position[p].transpose() << ")";
+		text << "a material point was " << (isOnGrid ? "flattened to nothing, at (" : "thrown off the grid, to (") << cloud.position[p].transpose()
+		     << ")";
 		report.failure  = Failure::diverging;
 		report.accepted = false;
 		report.cause    = text.str();
@@ -59,11 +60,11 @@ template <int Dim> StepReport loadStep(PointCloud<Dim>& cloud, const Model<Dim>&
 	// 1. basis functions and populated cells; boundary cells, ghost faces and K_g
 	const StepSystem<Dim> system(cloud, model, load, report);
 	const Restraint       held = [&] {
-		const Stopwatch watch(report.times.basis);
-		report.cause = lostGrip(cloud, system.basis, model, load);
-		return restraint(system.basis, model.grid, model.boundary, system.terms);
+                const Stopwatch watch(report.times.basis);
+                report.cause = lostGrip(cloud, system.basis, model, load);
+                return restraint(system.basis, model.grid, model.boundary, system.terms);
 	}();
-	report.parts               = held.parts;
+	report.parts = held.parts;
 	if (!report.cause.empty()) {
 		report.failure = Failure::detached;
 		return report;
@@ -76,8 +77,8 @@ template <int Dim> StepReport loadStep(PointCloud<Dim>& cloud, const Model<Dim>&
 	// 2. to 4. points to nodes, assembly and Newton's method on the nodes
 	const Eigen::VectorXd prediction = last ? predict(*last, system.basis.nodes, load.growth()) : Eigen::VectorXd();
 	const Eigen::VectorXd d          = equilibrium(system, solver, report, prediction);
-	report.times.linear       = solver.times();
-	report.conjugateGradients = solver.iterativeEffort();
+	report.times.linear              = solver.times();
+	report.conjugateGradients        = solver.iterativeEffort();
 	// 5. nodes to points; 6. the grid is reset by not being kept
 	report.accepted = report.failure == Failure::tooManyIterations && model.newton.acceptUnconverged;
 	if (report.converged() || report.accepted) {
@@ -100,8 +101,8 @@ template <int Dim> LinearProblem tangentStiffness(const PointCloud<Dim>& cloud, 
 	return StepSystem<Dim>(cloud, model, Load<Dim>(), report).tangent();
 }
 
-template StepReport   loadStep(PointCloud<2>&, const Model<2>&, const Load<2>&, LinearSolver&, LastIncrement<2>*);
-template StepReport   loadStep(PointCloud<3>&, const Model<3>&, const Load<3>&, LinearSolver&, LastIncrement<3>*);
+template StepReport    loadStep(PointCloud<2>&, const Model<2>&, const Load<2>&, LinearSolver&, LastIncrement<2>*);
+template StepReport    loadStep(PointCloud<3>&, const Model<3>&, const Load<3>&, LinearSolver&, LastIncrement<3>*);
 template LinearProblem tangentStiffness(const PointCloud<2>&, const Model<2>&);
 template LinearProblem tangentStiffness(const PointCloud<3>&, const Model<3>&);
 

@@ -34,8 +34,7 @@ double largestRatio(const Eigen::VectorXd& residual, const Eigen::VectorXd& forc
 
 } // namespace
 
-template <int Dim>
-double LocalBalance<Dim>::ratio(const Eigen::VectorXd& residual, const Eigen::VectorXd& sizes, const Eigen::VectorXd& d, double enough) const
+template <int Dim> double LocalBalance<Dim>::ratio(const Eigen::VectorXd& residual, const Eigen::VectorXd& sizes, const Eigen::VectorXd& d, double enough) const
 {
 	// Strains this much smaller than the largest of the scene count for nothing: parts that carry no load need not be as exact as those that do.
 	constexpr double negligible = 1e-4;

@@ -3,10 +3,10 @@
 #pragma once
 #include "core/grid/basis.hpp"
 #include "core/grid/boundary.hpp"
-#include "core/terms/ghost.hpp"
-#include "core/solvers/linear_solver.hpp"
 #include "core/materials/law.hpp"
+#include "core/solvers/linear_solver.hpp"
 #include "core/stepping/load_curve.hpp"
+#include "core/terms/ghost.hpp"
 #include <functional>
 #include <optional>
 
@@ -18,22 +18,22 @@ struct GhostSettings {
 };
 
 struct NewtonSettings {
-	double                tolerance         = 1e-6; ///< on |residual| / |external forces + reactions|; three times it around each node
-	int                   maxIterations     = 20;   ///< linear solves
-	int                   lineSearchTrials  = 5;    ///< shorter steps tried when a full one does not reduce the residual; 0: none
+	double                tolerance         = 1e-6;  ///< on |residual| / |external forces + reactions|; three times it around each node
+	int                   maxIterations     = 20;    ///< linear solves
+	int                   lineSearchTrials  = 5;     ///< shorter steps tried when a full one does not reduce the residual; 0: none
 	bool                  acceptUnconverged = false; ///< take over the last iterate after maxIterations
-	LinearMethod          linearSolver = LinearMethod::automatic;
-	bool                  reuseFactor  = true;      ///< of the last solve, where the convergence history says that it suffices
-	std::function<bool()> interrupted;               ///< asked once per iteration; may be empty
+	LinearMethod          linearSolver      = LinearMethod::automatic;
+	bool                  reuseFactor       = true; ///< of the last solve, where the convergence history says that it suffices
+	std::function<bool()> interrupted;              ///< asked once per iteration; may be empty
 };
 
 template <int Dim> struct Model {
-	Grid<Dim>             grid;
-	Basis                 basis = Basis::gimp;
-	std::vector<Material> materials;
-	Boundary<Dim>         boundary;
-	GhostSettings         ghost;
-	NewtonSettings        newton;
+	Grid<Dim>                    grid;
+	Basis                        basis = Basis::gimp;
+	std::vector<Material>        materials;
+	Boundary<Dim>                boundary;
+	GhostSettings                ghost;
+	NewtonSettings               newton;
 	std::vector<TermOfStep<Dim>> terms {}; ///< besides the points' resistance and the ghost stabilisation
 };
 

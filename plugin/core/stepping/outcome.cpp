@@ -30,16 +30,18 @@ bool fail(StepReport& report, const PointFailure& failure)
 std::string causeOfStall(const Convergence& convergence, double tolerance)
 {
 	const double attainable = std::pow(10, std::ceil(std::log10(2 * convergence.attained())));
-	return sentence("the residual stays at ", convergence.residual(), ", which is round-off here, above the tolerance ", tolerance,
-	                "; what can be attained is a tolerance of about ", attainable);
+	return sentence(
+	        "the residual stays at ", convergence.residual(), ", which is round-off here, above the tolerance ", tolerance,
+	        "; what can be attained is a tolerance of about ", attainable);
 }
 
 std::string causeOfTooMany(const StepReport& report, double tolerance, bool isWholeInBalance, int iterations)
 {
 	const std::string after = sentence(" after ", iterations, " iterations");
 	if (!isWholeInBalance) return sentence("the residual ", report.residual(), " is above the tolerance ", tolerance, after);
-	return sentence("the residual ", report.residual(), " of the whole is small, but around a node it is still ", report.localResidual,
-	                " of the forces there, more than ", localTolerance, " times the tolerance ", tolerance, ",", after);
+	return sentence(
+	        "the residual ", report.residual(), " of the whole is small, but around a node it is still ", report.localResidual,
+	        " of the forces there, more than ", localTolerance, " times the tolerance ", tolerance, ",", after);
 }
 
 std::string causeOfDivergence(double correction)

@@ -8,9 +8,9 @@ namespace gimpm {
 
 /// Nodal displacements of the last converged step.
 template <int Dim> struct LastIncrement {
-	std::vector<Key> nodes;         ///< sorted
-	Eigen::VectorXd  displacement;  ///< Dim components a node [m]
-	double           load = 0;      ///< growth of the load factor in that step
+	std::vector<Key> nodes;        ///< sorted
+	Eigen::VectorXd  displacement; ///< Dim components a node [m]
+	double           load = 0;     ///< growth of the load factor in that step
 };
 
 /// Start for a step in which the load factor grows by `load`; empty where the last step says nothing of it: there was none, or its load

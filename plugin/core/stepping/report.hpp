@@ -21,18 +21,18 @@ struct StepTimes {
 
 struct StepReport {
 	Failure             failure = Failure::none;
-	std::string         cause;          ///< one clause for the user, empty when converged
-	bool                accepted = false; ///< the points took over an iterate that had not converged
-	int                 iterations = 0; ///< linear solves
-	int                 reusedFactors = 0; ///< solves with the factor of the solve before
-	bool                predicted = false; ///< Newton's method started from the prediction
-	int                 lineSearchTrials = 0; ///< evaluations of the residual for steps shorter than Newton's
-	std::vector<double> residuals;      ///< |residual| / |external forces + reactions| before the first solve and after each
+	std::string         cause;                    ///< one clause for the user, empty when converged
+	bool                accepted         = false; ///< the points took over an iterate that had not converged
+	int                 iterations       = 0;     ///< linear solves
+	int                 reusedFactors    = 0;     ///< solves with the factor of the solve before
+	bool                predicted        = false; ///< Newton's method started from the prediction
+	int                 lineSearchTrials = 0;     ///< evaluations of the residual for steps shorter than Newton's
+	std::vector<double> residuals;                ///< |residual| / |external forces + reactions| before the first solve and after each
 	double              localResidual = std::numeric_limits<double>::quiet_NaN(); ///< largest |residual| / |forces| around a node, or a bound of it
-	Definiteness        definiteness  = Definiteness::notChecked; ///< of the last symmetric matrix that was factorised
-	int                 luSolves = 0;   ///< solves for which K was not positive definite, or not symmetric
-	IterativeEffort     conjugateGradients; ///< or of GMRES; of all attempts at the step
-	int                 failedPoint = -1; ///< its index in the cloud, for Failure::inverted
+	Definiteness        definiteness  = Definiteness::notChecked;                 ///< of the last symmetric matrix that was factorised
+	int                 luSolves      = 0;                                        ///< solves for which K was not positive definite, or not symmetric
+	IterativeEffort     conjugateGradients;                                       ///< or of GMRES; of all attempts at the step
+	int                 failedPoint = -1;                                         ///< its index in the cloud, for Failure::inverted
 
 	int nodes = 0, dofs = 0, populatedCells = 0, boundaryCells = 0, ghostFaces = 0;
 	int mixedCells = 0; ///< populated by points of several materials

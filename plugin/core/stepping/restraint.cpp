@@ -24,7 +24,7 @@ template <int Dim> std::vector<int> parts(const CloudBasis<Dim>& basis)
 		for (const int n : patch.node) {
 			if (n < 0) continue;
 			if (first < 0) first = find(n);
-			const int other             = find(n);
+			const int other              = find(n);
 			root[std::max(first, other)] = std::min(first, other);
 			first                        = std::min(first, other);
 		}
@@ -40,7 +40,7 @@ template <int Dim> struct Part {
 
 	Vec<Dim> sum   = Vec<Dim>::Zero(); // of node positions, in cells
 	int      nodes = 0;
-	double   reach = 1; // largest distance of a node from the centre, in cells
+	double   reach = 1;            // largest distance of a node from the centre, in cells
 	Gram     gram  = Gram::Zero(); // of the rigid modes' values at the held degrees of freedom
 
 	Vec<Dim> centre() const { return sum / nodes; }
@@ -79,7 +79,9 @@ template <int Dim> std::string describe(const Part<Dim>& part, const Grid<Dim>& 
 	int                axis = -1;
 	for (int a = Dim - 1; a >= 0; --a)
 		if (free.row(a).norm() > 1 - 1e-6) axis = a;
-	if (axis >= 0) text << "translation along " << "xyz"[axis];
+	if (axis >= 0)
+		text << "translation along "
+		     << "xyz"[axis];
 	else
 		text << "rotation";
 	const Vec<Dim> place = grid.origin + grid.cellSize * part.centre();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "core/stepping/step_system.hpp"
-#include "core/grid/mixed_cells.hpp"
 #include "core/base/stopwatch.hpp"
+#include "core/grid/mixed_cells.hpp"
 #include <Eigen/LU>
 #include <algorithm>
 
@@ -18,7 +18,7 @@ std::vector<GhostFace<Dim>> stabilise(const PointCloud<Dim>& cloud, const Model<
 	report.boundaryCells     = int(boundary.size());
 	report.ghostFaces        = int(faces.size());
 	const auto stiffnessOf   = [&](int p) {
-		return VolumeAndModulus { cloud.volume0[p] * cloud.defGrad[p].determinant(), model.materials[cloud.material[p]].young() };
+                return VolumeAndModulus { cloud.volume0[p] * cloud.defGrad[p].determinant(), model.materials[cloud.material[p]].young() };
 	};
 	weighGhostFaces(faces, basis, stiffnessOf, model.grid.cellSize, model.ghost.factor, model.ghost.scaling);
 	return faces;
@@ -37,9 +37,7 @@ template <int Dim> std::vector<Vec<Dim>> pointForces(const PointCloud<Dim>& clou
 	return force;
 }
 
-template <int Dim>
-StepSystem<Dim>::StepSystem(const PointCloud<Dim>& cloud, const Model<Dim>& m, const Load<Dim>& load, StepReport& report)
-        : model(m)
+template <int Dim> StepSystem<Dim>::StepSystem(const PointCloud<Dim>& cloud, const Model<Dim>& m, const Load<Dim>& load, StepReport& report) : model(m)
 {
 	{
 		const Stopwatch watch(report.times.basis);
@@ -58,13 +56,14 @@ StepSystem<Dim>::StepSystem(const PointCloud<Dim>& cloud, const Model<Dim>& m, c
 	dofs.number.assign(nodalSize(), -1);
 	for (std::size_t n = 0; n < basis.nodes.size(); ++n)
 		for (int a = 0; a < Dim; ++a) {
-			if (const auto* box = model.boundary.holder(Grid<Dim>::index(basis.nodes[n]), a)) prescribed[Dim * n + a] = load.factor.growth * box->displacement[a];
+			if (const auto* box = model.boundary.holder(Grid<Dim>::index(basis.nodes[n]), a))
+				prescribed[Dim * n + a] = load.factor.growth * box->displacement[a];
 			else
 				dofs.number[Dim * n + a] = dofs.count++;
 		}
-	report.nodes              = int(basis.nodes.size());
-	report.dofs               = dofs.count;
-	report.populatedCells     = int(basis.cells.size());
+	report.nodes          = int(basis.nodes.size());
+	report.dofs           = dofs.count;
+	report.populatedCells = int(basis.cells.size());
 	for (const char mixed : mixedCells(basis, cloud.material))
 		report.mixedCells += mixed;
 	report.largestWallOverlap = basis.largestWallOverlap;

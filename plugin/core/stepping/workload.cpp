@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "core/stepping/workload.hpp"
+#include "core/base/stopwatch.hpp"
 #include "core/solvers/linear_solver.hpp"
 #include "core/stepping/step_system.hpp"
-#include "core/base/stopwatch.hpp"
 
 namespace gimpm {
 namespace {
@@ -29,11 +29,11 @@ void addSolve(const LinearProblem& K, LinearMethod method, Workload& w)
 
 template <int Dim> Workload workload(const PointCloud<Dim>& cloud, const Model<Dim>& model)
 {
-	StepReport           report;
+	StepReport            report;
 	const StepSystem<Dim> system(cloud, model, Load<Dim>(), report);
 	const LinearProblem   K = [&] {
-		const Stopwatch watch(report.times.assembly);
-		return system.tangent();
+                const Stopwatch watch(report.times.assembly);
+                return system.tangent();
 	}();
 	Workload w;
 	w.points         = int(cloud.size());

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // What a load step will cost, before it is made.
 #pragma once
-#include "core/stepping/model.hpp"
 #include "core/grid/point_cloud.hpp"
+#include "core/stepping/model.hpp"
 #include "core/stepping/report.hpp"
 
 namespace gimpm {

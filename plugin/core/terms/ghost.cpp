@@ -65,7 +65,8 @@ template <int Dim, class F> void forNodePairs(const GhostFace<Dim>& face, double
 					offset[face.axis] = j - i;
 					for (int a = 0, bit = 0; a < Dim; ++a)
 						if (a != face.axis) offset[a] = (t >> bit & 1) - (s >> bit & 1), ++bit;
-					f(face.node[i][s], NodeMatrix<Dim>::code(offset), face.stiffness * jump[i] * jump[j] / (h * h) * faceMass<Dim>(s, t, h));
+					f(face.node[i][s], NodeMatrix<Dim>::code(offset),
+					  face.stiffness * jump[i] * jump[j] / (h * h) * faceMass<Dim>(s, t, h));
 				}
 }
 
@@ -79,7 +80,7 @@ template <int Dim> std::vector<Key> boundaryCells(const std::vector<Key>& popula
 		bool             is = false;
 		for (int a = 0; a < Dim && !is; ++a) {
 			const Key step = Grid<Dim>::keyStep(a);
-			is = (!contains(populated, cell - step) && !boundary.lowerFaceIsWall(i, a))
+			is             = (!contains(populated, cell - step) && !boundary.lowerFaceIsWall(i, a))
 			        || (!contains(populated, cell + step) && !boundary.lowerFaceIsWall(i + Index<Dim>::Unit(a), a));
 		}
 		if (is) cells.push_back(cell);
@@ -167,8 +168,7 @@ template <int Dim> std::optional<PointFailure> GhostForce<Dim>::add(const Eigen:
 #define GIMPM_INSTANTIATE(Dim)                                                                                                                                 \
 	template std::vector<Key>            boundaryCells(const std::vector<Key>&, const Boundary<Dim>&);                                                     \
 	template std::vector<GhostFace<Dim>> ghostFaces(const std::vector<Key>&, const std::vector<Key>&, const Boundary<Dim>&);                               \
-	template void weighGhostFaces(                                                                                                                         \
-	        std::vector<GhostFace<Dim>>&, const CloudBasis<Dim>&, const PointStiffness&, double, double, GhostScaling);                                    \
+	template void weighGhostFaces(std::vector<GhostFace<Dim>>&, const CloudBasis<Dim>&, const PointStiffness&, double, double, GhostScaling);              \
 	template void markGhostPattern(const std::vector<GhostFace<Dim>>&, NodeMatrix<Dim>&);                                                                  \
 	template void addGhostStiffness(const std::vector<GhostFace<Dim>>&, double, NodeMatrix<Dim>&);                                                         \
 	template void addGhostForce(const std::vector<GhostFace<Dim>>&, double, const Eigen::VectorXd&, Eigen::VectorXd&);                                     \

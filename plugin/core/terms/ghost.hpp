@@ -17,10 +17,10 @@ template <int Dim> std::vector<Key> boundaryCells(const std::vector<Key>& popula
 /// Face between two populated cells of which at least one is a boundary cell.
 template <int Dim> struct GhostFace {
 	static constexpr int tangentialNodes = 1 << (Dim - 1);
-	int                  axis;                         ///< normal direction
-	Key                  lower;                        ///< the cell below; the one above is its neighbour along the axis
-	int                  node[3][tangentialNodes] {};  ///< numbers of the nodes below, on and above the face
-	double               stiffness = 0;                ///< gamma_k h^3/3 of eq. (2), or gamma_k h/3
+	int                  axis;                        ///< normal direction
+	Key                  lower;                       ///< the cell below; the one above is its neighbour along the axis
+	int                  node[3][tangentialNodes] {}; ///< numbers of the nodes below, on and above the face
+	double               stiffness = 0;               ///< gamma_k h^3/3 of eq. (2), or gamma_k h/3
 };
 
 /// Faces of a body, sorted. There are none across walls.
@@ -35,8 +35,7 @@ using PointStiffness = std::function<VolumeAndModulus(int point)>;
 /// Sets node numbers and stiffness = factor * modulus * (h or h^3) / 3. A cell's modulus is the mean of Young's moduli of its points,
 /// weighted by the volumes of their domains' overlaps with it; a face has that of the softer of its two cells. With the stiffer one or a
 /// mean, soft layers could not be strained beside stiff ones: the kink of the displacements is what equilibrium asks for there.
-template <int Dim>
-void weighGhostFaces(std::vector<GhostFace<Dim>>&, const CloudBasis<Dim>&, const PointStiffness&, double h, double factor, GhostScaling);
+template <int Dim> void weighGhostFaces(std::vector<GhostFace<Dim>>&, const CloudBasis<Dim>&, const PointStiffness&, double h, double factor, GhostScaling);
 
 /// K += K_g, and the pattern of K_g.
 template <int Dim> void addGhostStiffness(const std::vector<GhostFace<Dim>>&, double h, NodeMatrix<Dim>& K);
@@ -50,7 +49,7 @@ template <int Dim> class GhostForce : public Term<Dim> {
 public:
 	GhostForce(const std::vector<GhostFace<Dim>>& faces, double h) : faces_(faces), h_(h) { }
 
-	void mark(NodeMatrix<Dim>& K) const override { markGhostPattern(faces_, K); }
+	void                        mark(NodeMatrix<Dim>& K) const override { markGhostPattern(faces_, K); }
 	std::optional<PointFailure> add(const Eigen::VectorXd& d, const TermSum<Dim>& sum) const override;
 
 private:

@@ -83,7 +83,8 @@ template <int Dim> GIMPM_INLINE int respond(const Pass<Dim>& pass, Chunk<Dim>& c
 }
 
 /// Internal force (and stiffness) of the points [begin, end) of a patch.
-template <class Kernels, int Dim, int Span> GIMPM_INLINE void addPiece(const Pass<Dim>& pass, const Chunk<Dim>& chunk, const Patch<Dim>& patch, int begin, int end)
+template <class Kernels, int Dim, int Span>
+GIMPM_INLINE void addPiece(const Pass<Dim>& pass, const Chunk<Dim>& chunk, const Patch<Dim>& patch, int begin, int end)
 {
 	using Nodes = PatchNodes<Dim, Span>;
 	PatchVectors<Dim, Span> force;
@@ -218,9 +219,9 @@ template <int Dim> void addPointForces(const CloudBasis<Dim>& basis, const std::
 }
 
 #define GIMPM_INSTANTIATE(Dim)                                                                                                                                 \
-	template StepPoints<Dim> stepPoints(const PointCloud<Dim>&, const CloudBasis<Dim>&);                                                                   \
+	template StepPoints<Dim>             stepPoints(const PointCloud<Dim>&, const CloudBasis<Dim>&);                                                       \
 	template std::optional<PointFailure> addInternalForce(                                                                                                 \
-	        const CloudBasis<Dim>&, const StepPoints<Dim>&, const std::vector<Material>&, const Eigen::VectorXd&, const TermSum<Dim>&);                   \
+	        const CloudBasis<Dim>&, const StepPoints<Dim>&, const std::vector<Material>&, const Eigen::VectorXd&, const TermSum<Dim>&);                    \
 	template void markPointPattern(const CloudBasis<Dim>&, NodeMatrix<Dim>&);                                                                              \
 	template void addPointForces(const CloudBasis<Dim>&, const std::vector<Vec<Dim>>&, Eigen::VectorXd&);
 GIMPM_INSTANTIATE(2)

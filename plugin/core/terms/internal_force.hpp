@@ -20,8 +20,8 @@ template <int Dim> StepPoints<Dim> stepPoints(const PointCloud<Dim>&, const Clou
 /// force += internal force of the nodal displacements d (from the start of the step), K += its derivative, and sizes += the magnitudes of the
 /// patches' forces, as far as they are asked for. Fails for points with det F <= 0. The result does not depend on the number of threads.
 template <int Dim>
-std::optional<PointFailure>
-addInternalForce(const CloudBasis<Dim>&, const StepPoints<Dim>&, const std::vector<Material>&, const Eigen::VectorXd& d, const TermSum<Dim>&);
+std::optional<PointFailure> addInternalForce(
+        const CloudBasis<Dim>&, const StepPoints<Dim>&, const std::vector<Material>&, const Eigen::VectorXd& d, const TermSum<Dim>&);
 
 /// Marks the blocks that addInternalForce writes.
 template <int Dim> void markPointPattern(const CloudBasis<Dim>&, NodeMatrix<Dim>& K);
@@ -33,7 +33,7 @@ public:
 	        : basis_(basis), points_(points), materials_(materials)
 	{
 	}
-	void mark(NodeMatrix<Dim>& K) const override { markPointPattern(basis_, K); }
+	void                        mark(NodeMatrix<Dim>& K) const override { markPointPattern(basis_, K); }
 	std::optional<PointFailure> add(const Eigen::VectorXd& d, const TermSum<Dim>& sum) const override
 	{
 		return addInternalForce(basis_, points_, materials_, d, sum);

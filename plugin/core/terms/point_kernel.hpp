@@ -2,8 +2,8 @@
 // The way of the material points through a pass. What depends on the number of nodes is computed point by point, with the nodes of its
 // patch side by side; the response of the material, which does not, with several points side by side.
 #pragma once
-#include "core/terms/internal_force.hpp"
 #include "core/materials/kinematics.hpp"
+#include "core/terms/internal_force.hpp"
 
 namespace gimpm {
 
@@ -50,8 +50,7 @@ template <int Dim, int Span> struct PatchVectors {
 			for (auto& lanes : component)
 				lanes = Lanes(0);
 	}
-	PatchVectors(const Patch<Dim>& patch, const Eigen::VectorXd& x)
-	        : PatchVectors()
+	PatchVectors(const Patch<Dim>& patch, const Eigen::VectorXd& x) : PatchVectors()
 	{
 		for (int n = 0; n < Nodes::N; ++n)
 			for (int i = 0; i < Dim; ++i)
@@ -83,9 +82,9 @@ template <int Dim> struct Chunk {
 	static constexpr int width = (windowNodes<Dim> + Lanes::count - 1) / Lanes::count;
 
 	int             first = 0, count = 0;
-	Lanes           basis[capacity][Dim][width];          ///< gradients of the basis functions of a point, node by node
-	Lanes           gradient[batches][Dim][Dim];          ///< of the displacements, a point in each lane
-	Lanes           flux[batches][Dim][Dim];              ///< the force on node a is flux . grad_a
+	Lanes           basis[capacity][Dim][width]; ///< gradients of the basis functions of a point, node by node
+	Lanes           gradient[batches][Dim][Dim]; ///< of the displacements, a point in each lane
+	Lanes           flux[batches][Dim][Dim];     ///< the force on node a is flux . grad_a
 	PairModuli<Dim> moduli[batches];
 
 	Chunk() // what lies beyond the last node or point is computed with, and not used
@@ -107,8 +106,7 @@ template <int Dim> struct Chunk {
 };
 
 /// Basis functions of the points [begin, end) of one patch, and the gradients of the displacements u there.
-template <int Dim, int Span>
-GIMPM_INLINE void prepare(const CloudBasis<Dim>& basis, const PatchVectors<Dim, Span>& u, int begin, int end, Chunk<Dim>& chunk)
+template <int Dim, int Span> GIMPM_INLINE void prepare(const CloudBasis<Dim>& basis, const PatchVectors<Dim, Span>& u, int begin, int end, Chunk<Dim>& chunk)
 {
 	using Nodes = PatchNodes<Dim, Span>;
 	for (int p = begin; p < end; ++p) {
@@ -136,8 +134,7 @@ struct Batch {
 	int point[Lanes::count];
 	int count; ///< of points that are no repetition
 
-	GIMPM_INLINE Batch(int first, int last)
-	        : count(std::min(Lanes::count, last - first))
+	GIMPM_INLINE Batch(int first, int last) : count(std::min(Lanes::count, last - first))
 	{
 		for (int lane = 0; lane < Lanes::count; ++lane)
 			point[lane] = std::min(first + lane, last - 1);
@@ -154,9 +151,9 @@ template <int Dim> struct BatchResponse {
 	PrincipalValues<Lanes> strain;
 	ResponseOf<Lanes>      law;
 
-	GIMPM_INLINE BatchResponse(const Batch& batch, const StepPoints<Dim>& points, const std::vector<Material>& materials, const MatrixOf<Dim, Lanes>& gradient)
-	        : trial(principal(pushForward(leftCauchyGreen(batch, points), gradient)))
-	        , strain(logStrain(trial.value))
+	GIMPM_INLINE BatchResponse(
+	        const Batch& batch, const StepPoints<Dim>& points, const std::vector<Material>& materials, const MatrixOf<Dim, Lanes>& gradient)
+	        : trial(principal(pushForward(leftCauchyGreen(batch, points), gradient))), strain(logStrain(trial.value))
 	{
 		const Lanes plasticStrain = batch.load([&](int p) GIMPM_INLINE_LAMBDA { return points.plasticStrain[p]; });
 		respond(materials[points.material[batch.point[0]]], plasticStrain, law);

@@ -31,7 +31,8 @@ template <int Dim, int Span> Vec<Dim> interpolate(const PointBasis<Dim>& axes, c
 /// Calls f(index in the cloud, PointUpdate) for the points of the patches [first, last).
 template <int Dim, class F>
 void forUpdatedPoints(
-        const CloudBasis<Dim>& basis, const StepPoints<Dim>& points, const std::vector<Material>& materials, const Eigen::VectorXd& d, int first, int last, F&& f)
+        const CloudBasis<Dim>& basis, const StepPoints<Dim>& points, const std::vector<Material>& materials, const Eigen::VectorXd& d, int first, int last,
+        F&& f)
 {
 	forChunks(basis, first, last, [&](Chunk<Dim>& chunk, int patch) {
 		Vec<Dim> displacement[Chunk<Dim>::capacity];
@@ -53,7 +54,10 @@ void forUpdatedPoints(
 			for (int lane = 0, q = b * Lanes::count; lane < Lanes::count && q < chunk.count; ++lane, ++q) {
 				const auto one = [lane](const Lanes& x) { return x[lane]; };
 				f(basis.order[chunk.first + q],
-				  PointUpdate<Dim> { displacement[q], gradient.unaryExpr(one), { elasticStrain.c.unaryExpr(one) }, { stress.c.unaryExpr(one) },
+				  PointUpdate<Dim> { displacement[q],
+				                     gradient.unaryExpr(one),
+				                     { elasticStrain.c.unaryExpr(one) },
+				                     { stress.c.unaryExpr(one) },
 				                     response.law.plasticStrain[lane] });
 			}
 		}

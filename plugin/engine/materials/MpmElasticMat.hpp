@@ -18,15 +18,9 @@ public:
 	}
 	template <class V> static void attributes(V&& v)
 	{
-		v("young",
-		  &MpmElasticMat::young,
-		  0,
-		  "Young's modulus [Pa] > 0, without default.",
+		v("young", &MpmElasticMat::young, 0, "Young's modulus [Pa] > 0, without default.",
 		  admitting("a finite number > 0 [Pa]; there is no default", positive));
-		v("poisson",
-		  &MpmElasticMat::poisson,
-		  0,
-		  "Poisson's ratio [-] between -1 and 0.5, both excluded, without default.",
+		v("poisson", &MpmElasticMat::poisson, 0, "Poisson's ratio [-] between -1 and 0.5, both excluded, without default.",
 		  admitting("a number between -1 and 0.5, both excluded; there is no default", strictlyBetween(-1, 0.5)));
 	}
 };

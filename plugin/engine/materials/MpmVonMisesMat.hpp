@@ -16,9 +16,7 @@ public:
 	}
 	template <class V> static void attributes(V&& v)
 	{
-		v("yieldStress",
-		  &MpmVonMisesMat::yieldStress,
-		  0,
+		v("yieldStress", &MpmVonMisesMat::yieldStress, 0,
 		  "Yield strength rho_y [Pa] > 0 of eq. 8, the limit of sqrt(2 J2) of the Kirchhoff stress: uniaxial yield stress / sqrt(1.5), sqrt(2) times the "
 		  "undrained shear strength.",
 		  admitting("a finite number > 0 [Pa]; there is no default", positive));

@@ -15,13 +15,13 @@ namespace {
 	const std::unordered_map<std::type_index, ToLaw> laws {
 		{ typeid(MpmElasticMat),
 		  [](const MpmMaterial& material) -> gimpm::Law {
-			  const auto& m = static_cast<const MpmElasticMat&>(material);
-			  return gimpm::Hencky(m.young, m.poisson);
+		          const auto& m = static_cast<const MpmElasticMat&>(material);
+		          return gimpm::Hencky(m.young, m.poisson);
 		  } },
 		{ typeid(MpmVonMisesMat),
 		  [](const MpmMaterial& material) -> gimpm::Law {
-			  const auto& m = static_cast<const MpmVonMisesMat&>(material);
-			  return gimpm::VonMises(m.young, m.poisson, m.yieldStress);
+		          const auto& m = static_cast<const MpmVonMisesMat&>(material);
+		          return gimpm::VonMises(m.young, m.poisson, m.yieldStress);
 		  } },
 	};
 }
@@ -40,8 +40,8 @@ namespace {
 		const auto response = std::visit([&](const auto& law) { return law.respond(strain, plasticStrain); }, material.law);
 		if (response.plasticStrain == plasticStrain) return response;
 		std::ostringstream text;
-		text << "the material yields under the principal elastic strains (" << strain.transpose() << "): it can carry no more than the principal Kirchhoff stresses ("
-		     << response.stress.transpose() << ") Pa.";
+		text << "the material yields under the principal elastic strains (" << strain.transpose()
+		     << "): it can carry no more than the principal Kirchhoff stresses (" << response.stress.transpose() << ") Pa.";
 		throw std::invalid_argument(text.str());
 	}
 

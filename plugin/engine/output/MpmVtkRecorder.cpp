@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "engine/output/MpmVtkRecorder.hpp"
-#include "engine/solver/MpmImplicitEngine.hpp"
 #include "engine/output/gridCells.hpp"
 #include "engine/output/vtkDataSets.hpp"
 #include "engine/output/vtkFiles.hpp"
+#include "engine/solver/MpmImplicitEngine.hpp"
 #include "yade_api/exceptions.hpp"
 #include "yade_api/logging.hpp"
 #include <algorithm>

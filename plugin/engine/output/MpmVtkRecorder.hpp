@@ -36,14 +36,11 @@ public:
 	}
 	template <class V> static void attributes(V&& v)
 	{
-		v("fileName",
-		  &MpmVtkRecorder::fileName,
-		  0,
-		  "Start of all file names, as in 'out/slope-'; without default. Missing folders are created.",
-		  admitting("the start of the files' names, as in 'out/slope-', without line breaks and other control characters; there is no default", isFileName));
-		v("recorders",
-		  &MpmVtkRecorder::recorders,
-		  0,
+		v("fileName", &MpmVtkRecorder::fileName, 0, "Start of all file names, as in 'out/slope-'; without default. Missing folders are created.",
+		  admitting(
+		          "the start of the files' names, as in 'out/slope-', without line breaks and other control characters; there is no default",
+		          isFileName));
+		v("recorders", &MpmVtkRecorder::recorders, 0,
 		  "What to write. 'points': the domain of each material point (quadrilateral or hexahedron) with displacement [m], stress (Cauchy [Pa], 9 "
 		  "components), meanStress [Pa] (positive in tension), sqrt2J2 (sqrt(s:s) of the Cauchy stress's deviator s [Pa]), plasticStrain [-], "
 		  "volume [m³], material (index into O.materials), clamped (1 where the domain would outgrow half a cell and is kept there, else 0) and id of the "
@@ -52,12 +49,12 @@ public:
 		  "the factor before the integral of eq. 2 in Coombs (2023); none with MpmGhost.factor = 0. 'all': all of these. Read as a tuple, so assign "
 		  "a new one to change it.",
 		  admitting("one or more of 'points', 'grid', 'ghostFaces' and 'all'", areKinds));
-		v("fields",
-		  &MpmVtkRecorder::fields,
-		  0,
+		v("fields", &MpmVtkRecorder::fields, 0,
 		  "Which fields of 'points' are written, by the names given there, or 'all'; an empty sequence leaves the domains alone. Few fields make small "
 		  "files. Read as a tuple.",
-		  admitting("names of the fields of 'points': displacement, stress, meanStress, sqrt2J2, plasticStrain, volume, material, clamped, id, or 'all'", areFields));
+		  admitting(
+		          "names of the fields of 'points': displacement, stress, meanStress, sqrt2J2, plasticStrain, volume, material, clamped, id, or 'all'",
+		          areFields));
 		v("ascii", &MpmVtkRecorder::ascii, 0, "Write numbers as text, in larger files.");
 		v("compress", &MpmVtkRecorder::compress, 0, "Compress the data with zlib, unless *ascii*.");
 		v("solver", &MpmVtkRecorder::solver, 0, "Label of the MpmImplicitEngine to follow; needed only if there are several.");

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "engine/output/gridCells.hpp"
-#include "engine/solver/exchange.hpp"
 #include "engine/points/parallel.hpp"
+#include "engine/solver/exchange.hpp"
 #include <vtkCellData.h>
 #include <vtkDataArray.h>
 #include <vtkIdList.h>
@@ -35,7 +35,7 @@ py::dict gridCellsForPython(const string& kind, const shared_ptr<MpmImplicitEngi
 {
 	solver->requireAdmissible();
 	requireThreadsOfThisProcess(omp_get_max_threads());
-	const VtkCells    grid = gridCells(kind, *solver->ownScene(), *solver);
+	const VtkCells    grid   = gridCells(kind, *solver->ownScene(), *solver);
 	vtkDataArray&     values = *grid->GetCellData()->GetArray(0);
 	vector<Real>      corners, field;
 	vtkNew<vtkIdList> nodes;

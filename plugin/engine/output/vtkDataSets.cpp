@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "engine/output/vtkDataSets.hpp"
-#include "core/materials/kinematics.hpp"
 #include "core/grid/mixed_cells.hpp"
+#include "core/materials/kinematics.hpp"
 #include "core/stepping/step_system.hpp"
 #include <algorithm>
 #include <vtkCellArray.h>
@@ -24,11 +24,7 @@ namespace {
 	// Cell type and number of corners belong together.
 	class Cells {
 	public:
-		explicit Cells(int type)
-		        : type(type)
-		{
-			points->SetDataTypeToDouble();
-		}
+		explicit Cells(int type) : type(type) { points->SetDataTypeToDouble(); }
 		vtkIdType                addPoint(const Vector3r& x) { return points->InsertNextPoint(x.data()); }
 		template <size_t N> void addCell(const std::array<vtkIdType, N>& pointIds, int used = N) { cells->InsertNextCell(used, pointIds.data()); }
 
@@ -94,7 +90,7 @@ namespace {
 VtkCells pointDomains(const vector<MaterialPoint>& points, const Scene& scene, const MpmGrid& grid, bool deform)
 {
 	const int dim = grid.dim;
-	Cells domains(boxType(dim));
+	Cells     domains(boxType(dim));
 	for (const MaterialPoint& point : points) {
 		std::array<vtkIdType, 8> box {};
 		for (int c = 0; c < 1 << dim; ++c) {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 // The state of an analysis as VTK data: cells with fields. In plane strain all lies in a plane of constant z.
+#include "core/grid/point_cloud.hpp"
+#include "core/stepping/model.hpp"
 #include "engine/points/MaterialPoints.hpp"
 #include "engine/solver/MpmGrid.hpp"
-#include "core/stepping/model.hpp"
-#include "core/grid/point_cloud.hpp"
 #include <vtkSmartPointer.h>
 
 class vtkUnstructuredGrid;

@@ -31,9 +31,11 @@ namespace {
 
 	MaterialPoint complete(const Body& body, shared_ptr<MpmPoint>&& shape, const MaterialPoint* previous)
 	{
-		auto material = previous && previous->material.get() == body.material.get() ? previous->material : boost::dynamic_pointer_cast<MpmMaterial>(body.material);
+		auto material = previous && previous->material.get() == body.material.get() ? previous->material
+		                                                                            : boost::dynamic_pointer_cast<MpmMaterial>(body.material);
 		if (!material)
-			refuse(body.id, "an MpmPoint shape needs a material for material points, such as MpmElasticMat; there is " + classOf(body.material) + ".");
+			refuse(body.id,
+			       "an MpmPoint shape needs a material for material points, such as MpmElasticMat; there is " + classOf(body.material) + ".");
 		auto state = castTo<MpmState>(body.state);
 		if (!state) refuse(body.id, "an MpmPoint shape needs an MpmState, as from material.newAssocState(); there is " + classOf(body.state) + ".");
 		if (isInClump(body))
@@ -41,7 +43,8 @@ namespace {
 			       "a material point cannot be part of a clump (here of body #" + std::to_string(body.clumpId)
 			               + "): YADE would move it as a rigid body. Release it with O.bodies.releaseFromClump().");
 		if (!isLeftAlone(body, *state))
-			refuse(body.id, "YADE's collider and integrator must leave material points alone: set bounded = False and state.blockedDOFs = 'xyzXYZ'.");
+			refuse(body.id,
+			       "YADE's collider and integrator must leave material points alone: set bounded = False and state.blockedDOFs = 'xyzXYZ'.");
 		return { body.id, std::move(shape), std::move(state), std::move(material) };
 	}
 
@@ -56,9 +59,9 @@ namespace {
 	// Whatever the two-dimensional computation would leave out has to be zero.
 	void requirePlaneStrain(const MpmState& state)
 	{
-		for (const auto& [name, tensor, normal] : { std::tuple { "stress", &state.stress, state.stress(2, 2) },
-		                                            std::tuple { "elasticStrain", &state.elasticStrain, state.elasticStrain(2, 2) },
-		                                            std::tuple { "defGrad", &state.defGrad, 1. } })
+		for (const auto& [name, tensor, normal] :
+		     { std::tuple { "stress", &state.stress, state.stress(2, 2) },
+		       std::tuple { "elasticStrain", &state.elasticStrain, state.elasticStrain(2, 2) }, std::tuple { "defGrad", &state.defGrad, 1. } })
 			if (tensor->topRightCorner<2, 1>().any() || tensor->bottomLeftCorner<1, 2>().any() || (*tensor)(2, 2) != normal)
 				throw std::invalid_argument(
 				        string("MpmState.") + name

@@ -24,31 +24,22 @@ public:
 	{
 		const auto symmetric = admitting("a symmetric matrix of finite numbers", isSymmetric);
 		const auto volumes   = admitting("a finite number > 0 [m³]; there is no default", positive);
-		v("stress",
-		  &MpmState::stress,
-		  readonly,
+		v("stress", &MpmState::stress, readonly,
 		  "Cauchy stress [Pa], symmetric, positive in tension: a result. To start from a stress: mpm.assign(stress=...), mpm.geostatic(K0=...), or "
 		  "the elastic strain that causes it.");
-		v("defGrad",
-		  &MpmState::defGrad,
-		  0,
+		v("defGrad", &MpmState::defGrad, 0,
 		  "Deformation gradient [-] from the initial configuration, determinant > 0. Volume, stress and domain follow from it in mpm.assign, the "
 		  "way to set it; set here, before the next step has ended they do not.",
 		  admitting("a matrix of finite numbers with a determinant > 0: matter cannot turn inside out", preservesOrientation));
-		v("elasticStrain",
-		  &MpmState::elasticStrain,
-		  0,
+		v("elasticStrain", &MpmState::elasticStrain, 0,
 		  "Elastic logarithmic strain [-], symmetric, positive in extension: half the logarithm of the elastic left Cauchy-Green tensor. The "
 		  "next step starts from it (Coombs 2023, section 2).",
 		  symmetric);
 		v("force", &MpmState::force, 0, "Point load [N] at load factor 1; per metre of thickness in plane strain.", finite);
 		v("volume", &MpmState::volume, 0, "Current volume [m³] > 0; that of 1 m of thickness in plane strain.", volumes);
 		v("volume0", &MpmState::volume0, 0, "Initial volume [m³] > 0; that of 1 m of thickness in plane strain.", volumes);
-		v("plasticStrain",
-		  &MpmState::plasticStrain,
-		  0,
-		  "Equivalent plastic strain [-] >= 0: sqrt(2/3) times the accumulated length of the increments of plastic logarithmic strain.",
-		  nonNegative);
+		v("plasticStrain", &MpmState::plasticStrain, 0,
+		  "Equivalent plastic strain [-] >= 0: sqrt(2/3) times the accumulated length of the increments of plastic logarithmic strain.", nonNegative);
 	}
 
 	// Position and initial position belong to YADE's State, which admits every number.

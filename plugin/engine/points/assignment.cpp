@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "engine/points/assignment.hpp"
-#include "engine/solver/MpmImplicitEngine.hpp"
-#include "engine/points/buffers.hpp"
-#include "engine/solver/exchange.hpp"
 #include "engine/materials/laws.hpp"
+#include "engine/points/buffers.hpp"
+#include "engine/solver/MpmImplicitEngine.hpp"
+#include "engine/solver/exchange.hpp"
 #include <Eigen/LU>
 #include <algorithm>
 #include <map>
@@ -48,12 +48,12 @@ namespace {
 	private:
 		const Real* first(const string& name, size_t row) const { return columns.at(name)->data() + row * widths.at(name); }
 
-		static const std::map<string, size_t>            widths;
+		static const std::map<string, size_t>           widths;
 		std::map<string, std::unique_ptr<Column<Real>>> columns;
 	};
 
 	const std::map<string, size_t> Columns::widths { { "pos", 3 },    { "pos0", 3 },          { "defGrad", 9 }, { "elasticStrain", 9 },
-		                                             { "stress", 9 }, { "plasticStrain", 1 }, { "force", 3 },   { "color", 3 } };
+		                                         { "stress", 9 }, { "plasticStrain", 1 }, { "force", 3 },   { "color", 3 } };
 
 	// Of a material point, what a column can change.
 	struct Values {
@@ -143,7 +143,7 @@ namespace {
 void assignColumns(const py::object& ids, const py::dict& given)
 {
 	const ValueLock lock;
-	if (MpmImplicitEngine::isStepAtWork()) 
+	if (MpmImplicitEngine::isStepAtWork())
 		throw std::runtime_error("assign: a load step is at work in the background and would overwrite the values; call O.pause() or O.wait() first.");
 	const auto            points = materialPoints(*Singleton<Omega>::instance().getScene());
 	const Column<int64_t> rows(ids, "ids");

@@ -18,16 +18,10 @@ public:
 	}
 	template <class V> static void attributes(V&& v)
 	{
-		v("cellSize",
-		  &MpmGrid::cellSize,
-		  0,
-		  "Edge length h of a cell [m] > 0, without default.",
+		v("cellSize", &MpmGrid::cellSize, 0, "Edge length h of a cell [m] > 0, without default.",
 		  admitting("a finite number > 0 [m]; there is no default", positive));
-		v("origin",
-		  &MpmGrid::origin,
-		  0,
-		  "Position of a node [m], finite; all others are whole cells away from it. With dim=2, mpm.fill puts the points into its plane z.",
-		  finite);
+		v("origin", &MpmGrid::origin, 0,
+		  "Position of a node [m], finite; all others are whole cells away from it. With dim=2, mpm.fill puts the points into its plane z.", finite);
 		v("dim", &MpmGrid::dim, 0, "2: plane strain in x-y, per metre of thickness; 3: three-dimensional.", oneOf(2, 3));
 	}
 };

@@ -18,7 +18,8 @@ namespace {
 		for (int axis = 0; axis < Dim; ++axis)
 			box.fixed[axis] = boundary.fixes(axis);
 		if (Dim == 2 && boundary.fixes(2))
-			throw std::invalid_argument("MpmBoundary.fix = '" + boundary.fix + "': there is no direction z on a grid with dim=2 (plane strain in x-y).");
+			throw std::invalid_argument(
+			        "MpmBoundary.fix = '" + boundary.fix + "': there is no direction z on a grid with dim=2 (plane strain in x-y).");
 		const bool missesPlane = Dim == 2 && (boundary.min[2] > grid.origin[2] || boundary.max[2] < grid.origin[2]);
 		if (!box.empty() && !missesPlane) return box;
 		std::ostringstream text;
@@ -32,11 +33,15 @@ namespace {
 		for (size_t i = 0; i < boxes.size(); ++i)
 			for (size_t j = 0; j < i; ++j)
 				for (int axis = 0; axis < Dim; ++axis) {
-					const bool meet = (boxes[i].lower.cwiseMax(boxes[j].lower).array() <= boxes[i].upper.cwiseMin(boxes[j].upper).array()).all();
-					if (!meet || !boxes[i].fixed[axis] || !boxes[j].fixed[axis] || boxes[i].displacement[axis] == boxes[j].displacement[axis]) continue;
+					const bool meet
+					        = (boxes[i].lower.cwiseMax(boxes[j].lower).array() <= boxes[i].upper.cwiseMin(boxes[j].upper).array()).all();
+					if (!meet || !boxes[i].fixed[axis] || !boxes[j].fixed[axis]
+					    || boxes[i].displacement[axis] == boxes[j].displacement[axis])
+						continue;
 					std::ostringstream text;
-					text << "boundaries[" << j << "] and boundaries[" << i << "] prescribe different displacements along " << "xyz"[axis] << " ("
-					     << boxes[j].displacement[axis] << " and " << boxes[i].displacement[axis] << " m) to the nodes that lie in both boxes.";
+					text << "boundaries[" << j << "] and boundaries[" << i << "] prescribe different displacements along "
+					     << "xyz"[axis] << " (" << boxes[j].displacement[axis] << " and " << boxes[i].displacement[axis]
+					     << " m) to the nodes that lie in both boxes.";
 					throw std::invalid_argument(text.str());
 				}
 	}
@@ -52,12 +57,13 @@ namespace {
 	{
 		const bool onGrid  = ((point.state->pos.head<Dim>() - grid.origin) / grid.cellSize).cwiseAbs().maxCoeff() < grid.indexLimit;
 		const Real largest = point.shape->halfSize.head<Dim>().maxCoeff(), limit = 0.5 * grid.cellSize * (1 + 1e-9);
-		const bool fits    = basis != gimpm::Basis::gimp || largest <= limit || hasOutgrown<Dim>(point, limit);
+		const bool fits = basis != gimpm::Basis::gimp || largest <= limit || hasOutgrown<Dim>(point, limit);
 		if (onGrid && fits) return;
 		std::ostringstream text; // costly: not before there is something to say
 		text << "Body #" << point.id << ": ";
 		if (!onGrid)
-			text << "the material point at (" << point.state->pos.transpose() << ") is more than " << grid.indexLimit << " cells from the grid's origin.";
+			text << "the material point at (" << point.state->pos.transpose() << ") is more than " << grid.indexLimit
+			     << " cells from the grid's origin.";
 		else
 			text << "MpmPoint.halfSize = " << largest << " m is more than half a cell (cellSize = " << grid.cellSize
 			     << " m); was the point made for another grid?";
@@ -80,14 +86,11 @@ namespace {
 	// Position in the model's list of materials, which grows by each material on its first point.
 	class MaterialIndex {
 	public:
-		explicit MaterialIndex(std::vector<gimpm::Material>& list)
-		        : list(list)
-		{
-		}
+		explicit MaterialIndex(std::vector<gimpm::Material>& list) : list(list) { }
 		int of(const MaterialPoint& point)
 		{
 			if (point.material.get() == last) return lastIndex;
-			last = point.material.get();
+			last             = point.material.get();
 			return lastIndex = find(point);
 		}
 
@@ -103,8 +106,8 @@ namespace {
 			return found->second;
 		}
 
-		const MpmMaterial* last      = nullptr; // points of one material follow each other
-		int                lastIndex = 0;
+		const MpmMaterial*                          last      = nullptr; // points of one material follow each other
+		int                                         lastIndex = 0;
 		std::vector<gimpm::Material>&               list;
 		std::unordered_map<const MpmMaterial*, int> index;
 	};
@@ -119,7 +122,8 @@ Vector3r stretched(const Vector3r& halfSize0, const Matrix3r& defGrad)
 }
 
 template <int Dim>
-gimpm::Model<Dim> toModel(const MpmGrid& grid, const string& basis, const vector<shared_ptr<MpmBoundary>>& boundaries, const MpmGhost& ghost, const MpmNewton& newton)
+gimpm::Model<Dim> toModel(
+        const MpmGrid& grid, const string& basis, const vector<shared_ptr<MpmBoundary>>& boundaries, const MpmGhost& ghost, const MpmNewton& newton)
 {
 	grid.requireAdmissible();
 	ghost.requireAdmissible();
@@ -130,9 +134,9 @@ gimpm::Model<Dim> toModel(const MpmGrid& grid, const string& basis, const vector
 	for (const auto& boundary : boundaries)
 		boxes.push_back(heldBox<Dim>(*boundary, grid, model.grid));
 	refuseConflicts(boxes);
-	model.basis    = basis == "mpm" ? gimpm::Basis::linear : gimpm::Basis::gimp;
-	model.boundary = gimpm::Boundary<Dim>(boxes);
-	model.ghost    = { ghost.factor, ghost.scaling == "paper" ? gimpm::GhostScaling::paper : gimpm::GhostScaling::meshIndependent };
+	model.basis                   = basis == "mpm" ? gimpm::Basis::linear : gimpm::Basis::gimp;
+	model.boundary                = gimpm::Boundary<Dim>(boxes);
+	model.ghost                   = { ghost.factor, ghost.scaling == "paper" ? gimpm::GhostScaling::paper : gimpm::GhostScaling::meshIndependent };
 	model.newton.tolerance        = newton.tolerance;
 	model.newton.maxIterations    = newton.maxIterations;
 	model.newton.lineSearchTrials = newton.lineSearchTrials;
@@ -180,13 +184,13 @@ template <int Dim> void scatter(const gimpm::PointCloud<Dim>& cloud, const vecto
 {
 	inRanges(points.size(), [&](size_t begin, size_t end) {
 		for (size_t p = begin; p < end; ++p) {
-			MpmState& state                          = *points[p].state;
-			state.pos.head<Dim>()                    = cloud.position[p];
-			state.defGrad.topLeftCorner<Dim, Dim>()  = cloud.defGrad[p];
-			state.elasticStrain                      = cloud.elasticStrain[p].full();
-			state.stress                             = cloud.stress[p].full();
-			state.plasticStrain                      = cloud.plasticStrain[p];
-			state.volume                             = cloud.volume0[p] * cloud.defGrad[p].determinant();
+			MpmState& state                                = *points[p].state;
+			state.pos.head<Dim>()                          = cloud.position[p];
+			state.defGrad.topLeftCorner<Dim, Dim>()        = cloud.defGrad[p];
+			state.elasticStrain                            = cloud.elasticStrain[p].full();
+			state.stress                                   = cloud.stress[p].full();
+			state.plasticStrain                            = cloud.plasticStrain[p];
+			state.volume                                   = cloud.volume0[p] * cloud.defGrad[p].determinant();
 			points[p].shape->halfSize.template head<Dim>() = cloud.halfSize[p];
 		}
 	});

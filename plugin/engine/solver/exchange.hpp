@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 // Between the bodies of a scene and the flat arrays of the core.
-#include "core/stepping/model.hpp"
 #include "core/grid/point_cloud.hpp"
-#include "engine/points/MaterialPoints.hpp"
+#include "core/stepping/model.hpp"
 #include "engine/conditions/MpmBoundary.hpp"
+#include "engine/points/MaterialPoints.hpp"
 #include "engine/solver/MpmGhost.hpp"
 #include "engine/solver/MpmGrid.hpp"
 #include "engine/solver/MpmNewton.hpp"
@@ -12,8 +12,7 @@
 namespace yade {
 
 // What an engine is set to, as the core understands it.
-template <int Dim>
-gimpm::Model<Dim> toModel(const MpmGrid&, const string& basis, const vector<shared_ptr<MpmBoundary>>&, const MpmGhost&, const MpmNewton&);
+template <int Dim> gimpm::Model<Dim> toModel(const MpmGrid&, const string& basis, const vector<shared_ptr<MpmBoundary>>&, const MpmGhost&, const MpmNewton&);
 
 // Copies the points and adds their materials to the model. std::invalid_argument names the body that cannot be computed with.
 template <int Dim> gimpm::PointCloud<Dim> gather(const vector<MaterialPoint>&, gimpm::Model<Dim>&);

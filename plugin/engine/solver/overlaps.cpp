@@ -12,19 +12,15 @@ namespace {
 	public:
 		using Cell = Eigen::Matrix<int64_t, Dim, 1>;
 
-		explicit Lattices(const gimpm::PointCloud<Dim>& cloud)
-		        : cloud(cloud)
-		        , level(cloud.size())
-		        , cell(cloud.size())
-		        , next(cloud.size())
+		explicit Lattices(const gimpm::PointCloud<Dim>& cloud) : cloud(cloud), level(cloud.size()), cell(cloud.size()), next(cloud.size())
 		{
 			size_t buckets = 1;
 			while (buckets < 2 * cloud.size())
 				buckets *= 2;
 			first.assign(buckets, -1);
 			for (int p = int(cloud.size()); p-- > 0;) { // so that a bucket lists the lowest first
-				level[p] = std::ilogb(2 * cloud.halfSize[p].maxCoeff()) + 1;
-				cell[p]  = cellOf(cloud.position[p], level[p]);
+				level[p]  = std::ilogb(2 * cloud.halfSize[p].maxCoeff()) + 1;
+				cell[p]   = cellOf(cloud.position[p], level[p]);
 				int& head = first[bucket(cell[p], level[p])];
 				next[p]   = head;
 				head      = p;
@@ -49,8 +45,11 @@ namespace {
 		bool areAlike(int p, int q) const { return level[p] == level[q]; }
 
 	private:
-		static Cell cellOf(const gimpm::Vec<Dim>& x, int level) { return (x * std::ldexp(1., -level)).array().floor().matrix().template cast<int64_t>(); }
-		size_t      bucket(const Cell& c, int level) const
+		static Cell cellOf(const gimpm::Vec<Dim>& x, int level)
+		{
+			return (x * std::ldexp(1., -level)).array().floor().matrix().template cast<int64_t>();
+		}
+		size_t bucket(const Cell& c, int level) const
 		{
 			uint64_t hash = uint64_t(level);
 			for (int a = 0; a < Dim; ++a)
@@ -67,9 +66,9 @@ namespace {
 
 	// What others do to a point: its own view of it.
 	struct Cover {
-		double share = 0;      // of its volume that larger or equal ones cover
-		double twice = 0;      // [m3], shared with those who see it, too
-		int    by = -1;        // one of them
+		double share     = 0;  // of its volume that larger or equal ones cover
+		double twice     = 0;  // [m3], shared with those who see it, too
+		int    by        = -1; // one of them
 		int    samePlace = -1; // one that is nearly in the same place, neither being deformed
 	};
 

@@ -15,8 +15,8 @@ struct Overlaps {
 
 	// Of any points, deformed ones too: the volume that is counted more than once [m3] where others cover a point wholly, and such a point
 	// with one of those. What shear makes of neighbours, or two fills of different lattices where they meet, covers points in part.
-	Pair ofAny   = none;
-	Real volume  = 0;
+	Pair ofAny  = none;
+	Real volume = 0;
 };
 
 // In a time that grows with the number of points, whatever their sizes.

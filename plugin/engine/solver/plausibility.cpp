@@ -20,7 +20,8 @@ namespace {
 	void requireGravityInPlane(const MpmImplicitEngine& engine)
 	{
 		if (engine.grid->dim == 3 || engine.gravity[2] == 0) return;
-		refuse("MpmImplicitEngine.gravity = (", engine.gravity.transpose(), ") has a z component, which a grid with dim=2 (plane strain in x-y) would leave out; ",
+		refuse("MpmImplicitEngine.gravity = (", engine.gravity.transpose(),
+		       ") has a z component, which a grid with dim=2 (plane strain in x-y) would leave out; ",
 		       "there gravity acts along y, as in (0, -9.81, 0).");
 	}
 
@@ -35,8 +36,8 @@ namespace {
 			refuse("MpmImplicitEngine: with O.dt = ", dt, " the load curve would take ", left / dt,
 			       " steps; was O.dt forgotten? It is the load time of one step: 1/80 gives 80 steps with the default loadCurve.");
 		if (curve.size() > 1 && dt > length * (1 + 1e-9))
-			refuse("MpmImplicitEngine: O.dt = ", dt, ", the load time of one step, is more than the whole loadCurve, from ", curve.front().first, " to ",
-			       engine.loadsEnd(), ": 1/80 of that gives 80 steps.");
+			refuse("MpmImplicitEngine: O.dt = ", dt, ", the load time of one step, is more than the whole loadCurve, from ", curve.front().first,
+			       " to ", engine.loadsEnd(), ": 1/80 of that gives 80 steps.");
 	}
 
 	// Four sums side by side, so that they do not wait for each other.
@@ -73,7 +74,9 @@ namespace {
 	string bothOf(const Overlaps::Pair& pair, const vector<MaterialPoint>& points)
 	{
 		const MaterialPoint &p = points[pair[0]], &q = points[pair[1]];
-		return sentence("#", p.id, " and #", q.id, " are material points in the same place, at (", p.state->pos.transpose(), ") and (", q.state->pos.transpose(), ")");
+		return sentence(
+		        "#", p.id, " and #", q.id, " are material points in the same place, at (", p.state->pos.transpose(), ") and (",
+		        q.state->pos.transpose(), ")");
 	}
 
 	// Shear makes neighbours overlap here and there; what has been filled or loaded twice does so as a whole.
@@ -84,8 +87,9 @@ namespace {
 		for (const MaterialPoint& p : points)
 			all += p.state->volume;
 		if (overlaps.volume <= byShear * all) return "";
-		return sentence("about ", overlaps.volume, " of ", all, " m3 of material are counted twice, where material points cover others: bodies ",
-		                bothOf(overlaps.ofAny, points), ", for instance. Has a region been filled or a scene been loaded twice?");
+		return sentence(
+		        "about ", overlaps.volume, " of ", all, " m3 of material are counted twice, where material points cover others: bodies ",
+		        bothOf(overlaps.ofAny, points), ", for instance. Has a region been filled or a scene been loaded twice?");
 	}
 
 	// Mean over ground as it is before the first step: deformed points carry what equilibrium has given them.
@@ -106,8 +110,9 @@ namespace {
 		const Vector3r down    = gravity.normalized(); // zero without gravity
 		const Real     tension = down.dot(initialStress * down);
 		if (!(tension > 0)) return "";
-		return sentence("the initial stress along gravity is tension, ", tension,
-		                " Pa on average; stress is positive in tension: that of ground which carries its weight has a minus.");
+		return sentence(
+		        "the initial stress along gravity is tension, ", tension,
+		        " Pa on average; stress is positive in tension: that of ground which carries its weight has a minus.");
 	}
 
 	string doubtOfGravity(const Vector3r& gravity)
@@ -122,12 +127,15 @@ namespace {
 	{
 		constexpr Real most = 20; // points per cell and axis
 		if (cellSize <= most * smallest) return "";
-		return sentence("cellSize = ", cellSize, " m is more than ", most, " times the size of a material point (", smallest, " m); is it the grid that mpm.fill was given?");
+		return sentence(
+		        "cellSize = ", cellSize, " m is more than ", most, " times the size of a material point (", smallest,
+		        " m); is it the grid that mpm.fill was given?");
 	}
 
 	// Numbers that fit another unit a thousand times as large. Under a gravity of 1 or less they are hardly those of ground on earth.
 	template <int Dim>
-	string doubtOfUnits(const Vector3r& gravity, const vector<MaterialPoint>& points, const gimpm::PointCloud<Dim>& cloud, const vector<gimpm::Material>& materials)
+	string doubtOfUnits(
+	        const Vector3r& gravity, const vector<MaterialPoint>& points, const gimpm::PointCloud<Dim>& cloud, const vector<gimpm::Material>& materials)
 	{
 		constexpr Real lightest = 50, softest = 1e5, ofGround = 500; // kg/m3, Pa, kg/m3
 		if (gravity.norm() <= 1) return "";
@@ -182,9 +190,10 @@ string Plausibility::doubtOfEnd(const MpmImplicitEngine& engine)
 	const Real   end   = engine.loadsEnd();
 	if (saidEnd || std::max(engine.loadCurve.size(), knees) < 2 || engine.loadTime < end - 1e-9 * engine.scene->dt) return "";
 	saidEnd = true;
-	return sentence(knees < 2 ? "loadCurve has" : "loadCurve and gravityCurve have", " ended at time ", end, ": the load factor stays at ",
-	                engine.loadCurve.back().second,
-	                ". Unless something else changes, further steps move the points a little only, as each finds equilibrium on the grid that has been reset.");
+	return sentence(
+	        knees < 2 ? "loadCurve has" : "loadCurve and gravityCurve have", " ended at time ", end, ": the load factor stays at ",
+	        engine.loadCurve.back().second,
+	        ". Unless something else changes, further steps move the points a little only, as each finds equilibrium on the grid that has been reset.");
 }
 
 string Plausibility::doubtOfBoundaries(const MpmImplicitEngine& engine, const vector<MaterialPoint>& points)
@@ -243,7 +252,7 @@ vector<string> Plausibility::warningsOfResult(const MpmImplicitEngine& engine, c
 {
 	vector<string> sentences;
 	if (engine.gravity.isZero(0) || said[Doubt::settlement] || said[Doubt::units]) return sentences;
-	const Vector3r down    = engine.gravity.normalized(), sides = box.second - box.first;
+	const Vector3r down = engine.gravity.normalized(), sides = box.second - box.first;
 	const Real     size    = sides.head<Dim>().maxCoeff(); // not the height: a slender beam may well bend by more than that
 	const Real     bottom  = (box.first + box.second + sides.cwiseProduct(down.cwiseSign())).dot(down) / 2;
 	const auto     isBelow = [&](const gimpm::Vec<Dim>& x) { return x.dot(down.head<Dim>()) > bottom; };
@@ -253,8 +262,9 @@ vector<string> Plausibility::warningsOfResult(const MpmImplicitEngine& engine, c
 		settlement = std::max(settlement, (p.state->pos - p.state->refPos).dot(down));
 	if (settlement > size)
 		say(sentences, Doubt::settlement,
-		    sentence("the largest settlement, ", settlement, " m, is more than the size of the body, ", size,
-		             " m; are the moduli in Pa, densities in kg/m3 and lengths in m?"));
+		    sentence(
+		            "the largest settlement, ", settlement, " m, is more than the size of the body, ", size,
+		            " m; are the moduli in Pa, densities in kg/m3 and lengths in m?"));
 	return sentences;
 }
 

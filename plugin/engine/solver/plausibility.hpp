@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 // Scenes that could be computed but can hardly be meant.
-#include "core/stepping/model.hpp"
 #include "core/grid/point_cloud.hpp"
+#include "core/stepping/model.hpp"
 #include "engine/points/MaterialPoints.hpp"
 #include <map>
 #include <optional>
@@ -51,9 +51,9 @@ private:
 	vector<std::pair<Vector3r, Vector3r>> lookedAt; // boxes of boundaries: whether they reach any point
 
 	// of the points as they were looked at
-	Real     smallest = 0, largest = 0; // initial sizes [m]
-	Matrix3r initialStress = Matrix3r::Zero(); // mean [Pa]
-	string   overlap; // the doubt about it
+	Real                          smallest = 0, largest = 0;                  // initial sizes [m]
+	Matrix3r                      initialStress = Matrix3r::Zero();           // mean [Pa]
+	string                        overlap;                                    // the doubt about it
 	std::pair<Vector3r, Vector3r> box { Vector3r::Zero(), Vector3r::Zero() }; // that all were in at first: its corners [m]
 };
 

@@ -17,12 +17,14 @@ namespace {
 			else if (other && !other->dead)
 				others.push_back(other);
 		}
-		if (entries > 1) throw std::invalid_argument("MpmImplicitEngine: the same engine is listed " + std::to_string(entries) + " times in O.engines.");
+		if (entries > 1)
+			throw std::invalid_argument("MpmImplicitEngine: the same engine is listed " + std::to_string(entries) + " times in O.engines.");
 		for (const auto* other : others)
 			for (const MaterialPoint& point : materialPoints(scene, engine.mask))
 				if (maskMatches(*(*scene.bodies)[point.id], other->mask))
 					throw std::invalid_argument(
-					        "Body #" + std::to_string(point.id) + ": two MpmImplicitEngines in O.engines claim it, with mask = " + std::to_string(engine.mask) + " and "
+					        "Body #" + std::to_string(point.id)
+					        + ": two MpmImplicitEngines in O.engines claim it, with mask = " + std::to_string(engine.mask) + " and "
 					        + std::to_string(other->mask) + "; give each body a groupMask that goes with one of them.");
 	}
 }
@@ -34,7 +36,8 @@ void requireRunnable(const MpmImplicitEngine& engine)
 	Scene&             scene = *engine.scene;
 	std::ostringstream text;
 	if (!(scene.dt > 0) || !std::isfinite(scene.dt))
-		text << "O.dt = " << scene.dt << " is not admitted: expected a finite number > 0, the load time of one step (with the default loadCurve, 1/80 gives 80 steps).";
+		text << "O.dt = " << scene.dt
+		     << " is not admitted: expected a finite number > 0, the load time of one step (with the default loadCurve, 1/80 gives 80 steps).";
 	else if (engine.iterPeriod == 1 && scene.timeStepperActive())
 		text << "an active TimeStepper among O.engines sets O.dt, which is the load increment of a step: remove it, set its active=False, or run this engine "
 		        "every N iterations with iterPeriod=N.";

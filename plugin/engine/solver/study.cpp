@@ -24,17 +24,17 @@ namespace {
 	{
 		const Threads threads(engine.ompThreads);
 		const auto    inSpace = [&](auto dim) {
-			constexpr int          Dim = decltype(dim)::value;
-			gimpm::Model<Dim>      model;
-			gimpm::PointCloud<Dim> cloud;
-			{
-				const ValueLock lock;
-				engine.requireAdmissible();
-				model = toModel<Dim>(*engine.grid, engine.basis, engine.boundaries, *engine.ghost, *engine.newton);
-				cloud = gather(materialPoints(*engine.ownScene(), engine.mask), model);
-			}
-			const PythonUnlock python;
-			return f(cloud, model);
+                        constexpr int          Dim = decltype(dim)::value;
+                        gimpm::Model<Dim>      model;
+                        gimpm::PointCloud<Dim> cloud;
+                        {
+                                const ValueLock lock;
+                                engine.requireAdmissible();
+                                model = toModel<Dim>(*engine.grid, engine.basis, engine.boundaries, *engine.ghost, *engine.newton);
+                                cloud = gather(materialPoints(*engine.ownScene(), engine.mask), model);
+                        }
+                        const PythonUnlock python;
+                        return f(cloud, model);
 		};
 		return engine.grid && engine.grid->dim == 3 ? inSpace(std::integral_constant<int, 3>()) : inSpace(std::integral_constant<int, 2>());
 	}
@@ -112,29 +112,21 @@ namespace {
 void addStudyMethods(py::object pythonClass)
 {
 	py::objects::add_to_namespace(
-	        pythonClass,
-	        "stiffness",
-	        py::make_function(&stiffness),
+	        pythonClass, "stiffness", py::make_function(&stiffness),
 	        "stiffness() -> (rows, columns, values, size)\n\nReduced tangent stiffness K + K_g [N/m] of the current configuration: the free degrees of "
 	        "freedom only, both triangles, as NumPy arrays (M,) of int64, int64 and float, and the number of unknowns. Usable before any step. Raises "
 	        "ValueError as a step does.");
 	py::objects::add_to_namespace(
-	        pythonClass,
-	        "conditionNumber",
-	        py::make_function(&conditionNumber),
+	        pythonClass, "conditionNumber", py::make_function(&conditionNumber),
 	        "conditionNumber() -> float\n\nCondition number [-] of stiffness() in the 2-norm, from all eigenvalues of the dense matrix (Coombs 2023, figure "
 	        "2). For small scenes: raises ValueError above 4000 unknowns.");
 	py::objects::add_to_namespace(
-	        pythonClass,
-	        "conditionEstimate",
-	        py::make_function(&conditionEstimate),
+	        pythonClass, "conditionEstimate", py::make_function(&conditionEstimate),
 	        "conditionEstimate() -> float\n\nEstimate [-] of the same, as a rule a few percent below it, for scenes of any size: Lanczos' method with the "
 	        "factor of the stiffness matrix, at the cost of a few Newton iterations. Infinite if the matrix is singular to working precision. Raises "
 	        "ValueError as a step does, and for a scene without unknowns.");
 	py::objects::add_to_namespace(
-	        pythonClass,
-	        "workload",
-	        py::make_function(&workload),
+	        pythonClass, "workload", py::make_function(&workload),
 	        "workload() -> dict\n\nSize of a load step from the current state, found by doing its parts, without load, and leaving the scene alone: points, "
 	        "nodes, dofs, activeCells, ghostFaces; blockEntries, matrixEntries, factorEntries: numbers that the stiffness matrix takes by blocks, reduced, and "
 	        "factorised; factorFlops: operations of a factorisation (both 0 with conjugate gradients, see MpmNewton.linearSolver); secondsPerStep and secondsPerSolve: of what is done once a step, and with each solve. "
