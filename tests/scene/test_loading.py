@@ -296,7 +296,7 @@ def test_whatIsInstalledForAllUsersIsNotCompiledAgain(yade, second):
 def test_whatIsNotThatPluginIsCompiled(second, options):
 	"""Other sources, and what somebody else has left of it."""
 	libraries = second.librariesOf(options)
-	source = 'plugin/core/newton.cpp'
+	source = 'plugin/core/stepping/newton.cpp'
 	text = second.read(source)
 	damages = [
 	        lambda: second.write(source, text + '// more\n'),
