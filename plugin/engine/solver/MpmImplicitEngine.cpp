@@ -65,11 +65,7 @@ void MpmImplicitEngine::action()
 {
 	deliveringErrors([&] {
 		home = scene->weak_from_this();
-		if (omp_get_level() > 0)
-			throw std::invalid_argument(
-			        "MpmImplicitEngine: inside a ParallelEngine it cannot tell what other engines do with its material points; put it into O.engines itself.");
-		if (PyGILState_Check() && Singleton<Omega>::instance().isRunning())
-			throw std::runtime_error("MpmImplicitEngine: called while the scene runs in the background; call O.wait() or O.pause() first.");
+		requireCallable();
 		try {
 			const Threads threads(ompThreads);
 			if (grid && grid->dim == 3) step<3>();

@@ -58,7 +58,7 @@ public:
 		v("loadTime", &E::loadTime, 0, "Time [s] of the last converged state, where the next step starts. After O.resetTime() set it to O.time.",
 		  finite);
 		v("verbosity", &E::verbosity, 0,
-		  "What is said on stderr during a run. 0: nothing; 1: one line of progress, redrawn on a terminal, repeated every 10 s in a log; 2: a line each step.",
+		  "What a run says on stderr. 0: nothing; 1: one line of progress, redrawn on a terminal, repeated every 10 s in a log; 2: a line each step.",
 		  oneOf(0, 1, 2));
 		results([&](auto name, auto member, const auto&, Told, unsigned flags, auto doc, auto validator) { v(name, member, flags, doc, validator); });
 	}

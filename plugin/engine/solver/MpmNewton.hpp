@@ -20,16 +20,16 @@ public:
 	template <class V> static void attributes(V&& v)
 	{
 		v("tolerance", &MpmNewton::tolerance, 0,
-		  "Converged: a residual of at most this part [-] of external forces and reactions, and at each node of three times this part of the forces "
-		  "there; between 0 and 1, both excluded.",
+		  "Converged: the residual is at most this part [-] of external forces and reactions, at each node three times this part of the forces there; > 0 "
+		  "and < 1.",
 		  strictlyBetween(0, 1));
 		v("maxIterations", &MpmNewton::maxIterations, 0, "Linear solves allowed in a step, at least 1.", atLeast(1));
 		v("minStep", &MpmNewton::minStep, 0,
 		  "Smallest load step [-] as a part of O.dt, > 0 and <= 1: a step that does not converge is tried again with half the increment, down to this.",
 		  part);
 		v("lineSearchTrials", &MpmNewton::lineSearchTrials, 0,
-		  "Shorter steps (a half, a quarter, ...) tried when a full Newton step raises the residual and full steps after it do not bring it down; 0 takes "
-		  "every full step.",
+		  "Shorter steps (a half, a quarter, ...) tried when a full Newton step raises the residual and full steps after it do not lower it; 0 takes each "
+		  "full step.",
 		  atLeast(0));
 		v("acceptUnconverged", &MpmNewton::acceptUnconverged, 0,
 		  "Whether a step that has not converged after *maxIterations*, at *minStep*, is taken over all the same, with a warning: for reproducing analyses "

@@ -120,8 +120,8 @@ template <class V> void RunResults::results(V&& v)
 	v("lastLoadIncrement", &R::lastLoadIncrement, Kept(), byAttribute, hidden, "", finite);
 	v("stepPart", &R::stepPart, Kept(), byReport, readonly, "Part of O.dt [-] that the next load step tries, > 0 and <= 1.", part);
 	v("reactions", &R::reactions, reached(&StepReport::reactions), byAttribute, readonly,
-	  "For each of *boundaries*, the sum of the forces [N] with which it held its nodes at the end of the last converged step; per metre of thickness in "
-	  "plane strain.",
+	  "Of each of *boundaries*, the sum of the forces [N] that held its nodes at the end of the last converged step; per metre of thickness in plane "
+	  "strain.",
 	  admitting("forces of finite numbers [N]", [](const auto& forces) { return std::all_of(forces.begin(), forces.end(), finite); }));
 	v("clampedDomains", &R::clampedDomains, latest(&StepReport::clampedDomains), byReport, readonly,
 	  "Points whose domain was kept at half a cell at the end of the last step.", count);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "engine/solver/requirements.hpp"
 #include "engine/solver/MpmImplicitEngine.hpp"
+#include <omp.h>
 
 namespace yade {
 
@@ -27,6 +28,15 @@ namespace {
 					        + ": two MpmImplicitEngines in O.engines claim it, with mask = " + std::to_string(engine.mask) + " and "
 					        + std::to_string(other->mask) + "; give each body a groupMask that goes with one of them.");
 	}
+}
+
+void requireCallable()
+{
+	if (omp_get_level() > 0)
+		throw std::invalid_argument(
+		        "MpmImplicitEngine: inside a ParallelEngine it cannot tell what other engines do with its material points; put it into O.engines itself.");
+	if (PyGILState_Check() && Singleton<Omega>::instance().isRunning())
+		throw std::runtime_error("MpmImplicitEngine: called while the scene runs in the background; call O.wait() or O.pause() first.");
 }
 
 void requireRunnable(const MpmImplicitEngine& engine)
