@@ -26,9 +26,7 @@ public:
 		v("max", &MpmBoundary::max, 0, "Upper corner of the box [m]; inf, the default, where it has no limit.", notNaN);
 		v("fix", &MpmBoundary::fix, 0, "Directions that are held: one or more of the letters x, y, z, each at most once; without default.",
 		  admitting("one or more of the letters x, y, z, each at most once", namesDirections));
-		v("displacement",
-		  &MpmBoundary::displacement,
-		  0,
+		v("displacement", &MpmBoundary::displacement, 0,
 		  "Displacement [m] of the held nodes at load factor 1, along *fix* only. The nodes stay where they are: soil that they push follows for half a "
 		  "cell, then the step fails as 'detached'.",
 		  finite);

@@ -29,20 +29,15 @@ public:
 	}
 	template <class V> static void attributes(V&& v)
 	{
-		v("fileName",
-		  &MpmVtkRecorder::fileName,
-		  0,
-		  "Start of all file names, as in 'out/slope-'; without default. Missing folders are created.",
-		  admitting("the start of the files' names, as in 'out/slope-', without line breaks and other control characters; there is no default", isFileName));
-		v("recorders",
-		  &MpmVtkRecorder::recorders,
-		  0,
+		v("fileName", &MpmVtkRecorder::fileName, 0, "Start of all file names, as in 'out/slope-'; without default. Missing folders are created.",
+		  admitting(
+		          "the start of the files' names, as in 'out/slope-', without line breaks and other control characters; there is no default",
+		          isFileName));
+		v("recorders", &MpmVtkRecorder::recorders, 0,
 		  "What to write: 'points', their domains with *fields*; 'grid', the cells that hold material; 'ghostFaces', the faces that are stabilised; 'all'. "
 		  "Read as a tuple.",
 		  admitting("one or more of 'points', 'grid', 'ghostFaces' and 'all'", areKinds));
-		v("fields",
-		  &MpmVtkRecorder::fields,
-		  0,
+		v("fields", &MpmVtkRecorder::fields, 0,
 		  "Which fields of 'points' are written, by name, or 'all', the default; an empty sequence leaves the domains alone. Few fields make small "
 		  "files. Read as a tuple.",
 		  admitting(

@@ -27,9 +27,7 @@ public:
 		v("stress", &MpmState::stress, readonly,
 		  "Cauchy stress [Pa], symmetric, positive in tension: a result. To start from a stress: mpm.assign(stress=...), mpm.geostatic(K0=...), or "
 		  "the elastic strain that causes it.");
-		v("defGrad",
-		  &MpmState::defGrad,
-		  0,
+		v("defGrad", &MpmState::defGrad, 0,
 		  "Deformation gradient [-] from the initial configuration, determinant > 0. To be set by mpm.assign, where volume, stress and domain follow; set "
 		  "here, they do not yet.",
 		  admitting("a matrix of finite numbers with a determinant > 0: matter cannot turn inside out", preservesOrientation));

@@ -43,7 +43,8 @@ namespace {
 		if (report.failure == Failure::detached)
 			return " Nodes stay in place while the soil moves, and push it by half a cell: put the box where the soil is now, in each step if it is pushed further, or "
 			       "move a block of stiff material points by nodes inside of it (examples/README.md, recipes).";
-		if (ghost.factor == 0) advice += " The ghost stabilisation is off (factor=0): small overlaps of material and cells make the system ill conditioned.";
+		if (ghost.factor == 0)
+			advice += " The ghost stabilisation is off (factor=0): small overlaps of material and cells make the system ill conditioned.";
 		if (part < 1) advice += " The load may be more than the body can carry in equilibrium.";
 		else
 			advice += " Smaller load steps (O.dt), or newton.minStep < 1, may help.";
