@@ -27,8 +27,8 @@ public:
 		v("fix", &MpmBoundary::fix, 0, "Directions that are held: one or more of the letters x, y, z, each at most once; without default.",
 		  admitting("one or more of the letters x, y, z, each at most once", namesDirections));
 		v("displacement", &MpmBoundary::displacement, 0,
-		  "Displacement [m] of the held nodes at load factor 1, along *fix* only. The nodes stay where they are: soil that they push follows for half a "
-		  "cell, then the step fails as 'detached'.",
+		  "Displacement [m] of the held nodes at load factor 1, along *fix*. They stay in place: pushed soil follows for half a cell, then the step fails "
+		  "('detached').",
 		  finite);
 	}
 
