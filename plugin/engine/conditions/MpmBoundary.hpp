@@ -15,7 +15,8 @@ public:
 	static const char* doc()
 	{
 		return "Essential boundary condition: every grid node inside a box that is fixed in space is held, or moved, in the directions *fix*. Faces of "
-		       "the box belong to it, with a tolerance of 1e-9 cells. A box that holds no node is an error. A face of a cell whose nodes are all held "
+		       "the box belong to it, with a tolerance of 1e-9 cells. A box that holds no node is an error; one whose nodes carry no soil yet is named in a warning, "
+		       "once. A face of a cell whose nodes are all held "
 		       "along its normal is a wall, inside of a body too: points do not reach through it. To move a body by nodes inside of it, hold nodes that "
 		       "do not make up a face.";
 	}
@@ -31,8 +32,8 @@ public:
 		v("displacement",
 		  &MpmBoundary::displacement,
 		  0,
-		  "Displacement [m] of the held nodes at load factor 1, along directions in *fix* only; a step prescribes its share of the factor's increment. "
-		  "Zero holds them in place.",
+		  "Displacement [m] of the held nodes at load factor 1, along *fix* only. The nodes stay where they are: soil that they push follows for half a "
+		  "cell, then the step fails as 'detached'.",
 		  finite);
 	}
 

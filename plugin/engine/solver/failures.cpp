@@ -41,8 +41,8 @@ namespace {
 		if (report.failure == Failure::interrupted) return " O.run() goes on from there.";
 		if (report.failure == Failure::stalled) return " Set newton.tolerance to that or more.";
 		if (report.failure == Failure::detached)
-			return " Nodes stay in place while the soil moves: on its surface they push it by half a cell, see MpmBoundary.displacement. Put the box where the soil is "
-			       "now, or move a block of stiff material points by nodes inside of it.";
+			return " Nodes stay in place while the soil moves, and push it by half a cell: put the box where the soil is now, in each step if it is pushed further, or "
+			       "move a block of stiff material points by nodes inside of it (examples/README.md, recipes).";
 		if (ghost.factor == 0) advice += " The ghost stabilisation is off (factor=0): small overlaps of material and cells make the system ill conditioned.";
 		if (part < 1) advice += " The load may be more than the body can carry in equilibrium.";
 		else

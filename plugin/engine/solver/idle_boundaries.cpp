@@ -4,14 +4,14 @@
 
 namespace yade {
 
-string idleBoundaries(const MpmImplicitEngine& engine, const vector<MaterialPoint>& points, const vector<shared_ptr<MpmBoundary>>& except)
+string idleBoundaries(const MpmImplicitEngine& engine, const vector<MaterialPoint>& points, const vector<const MpmBoundary*>& except)
 {
 	if (engine.boundaries.empty()) return " The engine has no boundaries.";
 	std::ostringstream text;
 	const int          dim = engine.grid->dim;
 	for (size_t b = 0; b < engine.boundaries.size(); ++b) {
-		if (std::find(except.begin(), except.end(), engine.boundaries[b]) != except.end()) continue;
 		const MpmBoundary& boundary = *engine.boundaries[b];
+		if (std::find(except.begin(), except.end(), &boundary) != except.end()) continue;
 		const auto         isNear   = [&](const MaterialPoint& p) {
                         const Vector3r reach = p.shape->halfSize + Vector3r::Constant(engine.grid->cellSize); // nodes of the cells that it touches
                         return ((p.state->pos + reach - boundary.min).head(dim).array() > 0).all() && ((boundary.max - p.state->pos + reach).head(dim).array() > 0).all();

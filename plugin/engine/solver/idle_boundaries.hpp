@@ -7,6 +7,6 @@ class MpmBoundary;
 class MpmImplicitEngine;
 
 // Of boundaries that do not reach any of the points, a sentence for each; empty if there is none. Some may be left out.
-string idleBoundaries(const MpmImplicitEngine&, const vector<MaterialPoint>&, const vector<shared_ptr<MpmBoundary>>& except = {});
+string idleBoundaries(const MpmImplicitEngine&, const vector<MaterialPoint>&, const vector<const MpmBoundary*>& except = {});
 
 } // namespace yade

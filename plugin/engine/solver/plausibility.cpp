@@ -189,11 +189,15 @@ string Plausibility::doubtOfEnd(const MpmImplicitEngine& engine)
 
 string Plausibility::doubtOfBoundaries(const MpmImplicitEngine& engine, const vector<MaterialPoint>& points)
 {
-	const auto& boundaries = engine.boundaries;
-	if (boundaries == lookedAt) return "";
-	auto except = std::exchange(lookedAt, boundaries);
-	std::copy_if(boundaries.begin(), boundaries.end(), std::back_inserter(except), [](const auto& b) { return !b->displacement.isZero(0); });
-	const string idle = boundaries.empty() ? "" : idleBoundaries(engine, points, except);
+	vector<const MpmBoundary*> except;
+	decltype(lookedAt)         boxes;
+	for (const auto& boundary : engine.boundaries) {
+		boxes.emplace_back(boundary->min, boundary->max);
+		const bool isKnown = std::find(lookedAt.begin(), lookedAt.end(), boxes.back()) != lookedAt.end();
+		if (isKnown || !boundary->displacement.isZero(0)) except.push_back(boundary.get());
+	}
+	lookedAt.swap(boxes);
+	const string idle = except.size() == engine.boundaries.size() ? "" : idleBoundaries(engine, points, except);
 	return idle.empty() ? "" : idle.substr(1) + " It holds nothing until soil arrives there.";
 }
 

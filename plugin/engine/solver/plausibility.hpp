@@ -48,7 +48,7 @@ private:
 	std::map<Doubt, bool>   said;
 	bool                    saidEnd = false;
 
-	vector<shared_ptr<MpmBoundary>> lookedAt; // whether they reach any point
+	vector<std::pair<Vector3r, Vector3r>> lookedAt; // boxes of boundaries: whether they reach any point
 
 	// of the points as they were looked at
 	Real     smallest = 0, largest = 0; // initial sizes [m]
