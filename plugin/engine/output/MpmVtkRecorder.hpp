@@ -21,18 +21,11 @@ public:
 	static const char* doc()
 	{
 		return "Writes the states of an implicit material point analysis for ParaView: files <fileName><kind>.<O.iter at the end of the "
-		       "iteration>.vtu, and <fileName><kind>.pvd, to be opened there, which lists them with their times. The time is that of the state, "
-		       "*loadTime* of the MpmImplicitEngine.\n\n"
-		       "*iterPeriod* (1 by default), *virtPeriod* and the other attributes of PeriodicEngine count completed steps. The initial state is "
-		       "written too (unless *initRun* is set to False), and so is the last one, due or not: at the end of O.run(n), at O.stopAtIter or "
-		       "O.stopAtTime, when a step fails (the last converged state), and when YADE ends. After O.pause() or O.step(), and before O.reset() or "
-		       "O.load(), call the recorder, as in recorder(), to have the state written that has been reached. No state is written twice. The place "
-		       "among O.engines is free; behind the MpmImplicitEngine, states are written as soon as they are reached.\n\n"
-		       "Every file is complete when it gets its name. RuntimeError names a file that cannot be written and says why; ValueError if O.engines "
-		       "holds no MpmImplicitEngine, or several of which *solver* does not choose one, or if two recorders would write the same files. A loaded "
-		       "scene continues its series.\n\n"
-		       "YADE's own VTKRecorder knows material points as spheres and not their stress or strain, and with recorders=['all'] it ends YADE by a "
-		       "segmentation fault, in scenes without material points too: use MpmVtkRecorder.";
+		       "iteration>.vtu, and <fileName><kind>.pvd, to be opened there, which lists them with their times.\n\n"
+		       "*iterPeriod* (1 by default) and the other attributes of PeriodicEngine count completed steps. The initial state is written too (unless *initRun* "
+		       "is False), and so is the last one of a run. After O.pause() or O.step(), and before O.reset() or O.load(), call the recorder, as in recorder(), to "
+		       "have the state written that has been reached.\n\n"
+		       "RuntimeError names a file that cannot be written. YADE's own VTKRecorder ends YADE by a segmentation fault with recorders=['all']: use this one.";
 	}
 	template <class V> static void attributes(V&& v)
 	{
@@ -44,18 +37,13 @@ public:
 		v("recorders",
 		  &MpmVtkRecorder::recorders,
 		  0,
-		  "What to write. 'points': the domain of each material point (quadrilateral or hexahedron) with displacement [m], stress (Cauchy [Pa], 9 "
-		  "components), meanStress [Pa] (positive in tension), sqrt2J2 (sqrt(s:s) of the Cauchy stress's deviator s [Pa]), plasticStrain [-], "
-		  "volume [m³], material (index into O.materials), clamped (1 where the domain would outgrow half a cell and is kept there, else 0) and id of the "
-		  "body. 'grid': the cells of the background grid that hold material; boundary is 1 in the boundary cells of the ghost stabilisation, else 0; "
-		  "mixed is 1 where points of several materials meet, else 0. 'ghostFaces': the faces that are stabilised, with ghostStiffness [N/m], "
-		  "the factor before the integral of eq. 2 in Coombs (2023); none with MpmGhost.factor = 0. 'all': all of these. Read as a tuple, so assign "
-		  "a new one to change it.",
+		  "What to write: 'points', their domains with *fields*; 'grid', the cells that hold material; 'ghostFaces', the faces that are stabilised; 'all'. "
+		  "Read as a tuple.",
 		  admitting("one or more of 'points', 'grid', 'ghostFaces' and 'all'", areKinds));
 		v("fields",
 		  &MpmVtkRecorder::fields,
 		  0,
-		  "Which fields of 'points' are written, by the names given there, or 'all'; an empty sequence leaves the domains alone. Few fields make small "
+		  "Which fields of 'points' are written, by name, or 'all', the default; an empty sequence leaves the domains alone. Few fields make small "
 		  "files. Read as a tuple.",
 		  admitting("names of the fields of 'points': displacement, stress, meanStress, sqrt2J2, plasticStrain, volume, material, clamped, id, or 'all'", areFields));
 		v("ascii", &MpmVtkRecorder::ascii, 0, "Write numbers as text, in larger files.");

@@ -66,9 +66,7 @@ namespace {
 void addPlotData(py::object pythonClass)
 {
 	py::objects::add_to_namespace(
-	        pythonClass,
-	        "plotData",
-	        py::make_function(&plotData),
+	        pythonClass, "plotData", py::make_function(&plotData),
 	        "plotData() -> dict\n\nNumbers of the current state for YADE's plot: plot.addData(**solver.plotData()). They are worked out in the call, NaN "
 	        "where there is no such number.\n\n"
 	        "step: load steps made; loadFactor [-], iterations, cuts, residual [-]: of the last step; points: their number; settlement: largest displacement "

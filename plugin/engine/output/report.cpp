@@ -38,9 +38,7 @@ namespace {
 void addReport(py::object pythonClass)
 {
 	py::objects::add_to_namespace(
-	        pythonClass,
-	        "report",
-	        py::make_function(&report),
+	        pythonClass, "report", py::make_function(&report),
 	        "report() -> dict\n\nHow the last run of this engine in this process went; empty before the first.\n\n"
 	        "Outcome: 'converged'; 'accepted' (see MpmNewton.acceptUnconverged); 'failure', one of 'none', 'detached' (a boundary that is to move has no hold of the soil), 'unrestrained', 'singular', 'inverted', "
 	        "'notFinite', 'diverging', 'tooManyIterations', 'stalled' (at round-off), 'interrupted'; 'cause', a clause, empty when converged; 'loadTime' [s] and 'loadFactor' of the "

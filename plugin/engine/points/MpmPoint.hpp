@@ -22,9 +22,7 @@ public:
 		v("halfSize",
 		  &MpmPoint::halfSize,
 		  0,
-		  "Half the current size of the domain along x, y, z [m] > 0; half a metre along z in plane strain. A step sets it to *halfSize0* times the "
-		  "diagonal of the stretch U = sqrt(F^T F), but no more than half a cell; so does mpm.assign(defGrad=...), which does not know the cell: the "
-		  "next step limits it.",
+		  "Half the current size of the domain along x, y, z [m] > 0; half a metre along z in plane strain. Follows the stretch, to half a cell.",
 		  sizes);
 		v("halfSize0",
 		  &MpmPoint::halfSize0,

@@ -32,8 +32,8 @@ public:
 		v("defGrad",
 		  &MpmState::defGrad,
 		  0,
-		  "Deformation gradient [-] from the initial configuration, determinant > 0. Volume, stress and domain follow from it in mpm.assign, the "
-		  "way to set it; set here, before the next step has ended they do not.",
+		  "Deformation gradient [-] from the initial configuration, determinant > 0. To be set by mpm.assign, where volume, stress and domain follow; set "
+		  "here, they do not yet.",
 		  admitting("a matrix of finite numbers with a determinant > 0: matter cannot turn inside out", preservesOrientation));
 		v("elasticStrain",
 		  &MpmState::elasticStrain,

@@ -22,7 +22,9 @@ struct Loads {
 		v("gravityCurve", &Loads::gravityCurve, 0,
 		  "Factor [-] of gravity as *loadCurve*, where it shall not go with the other loads; empty, the default: it does. [(0, 1)]: gravity acts from the "
 		  "beginning, as after mpm.geostatic.",
-		  admitting("nothing, or (time, factor), all finite, with increasing times", [](const auto& curve) { return curve.empty() || gimpm::LoadCurve::isAdmissible(curve); }));
+		  admitting("nothing, or (time, factor), all finite, with increasing times", [](const auto& curve) {
+			  return curve.empty() || gimpm::LoadCurve::isAdmissible(curve);
+		  }));
 	}
 
 	gimpm::LoadCurve curveOfLoads() const { return gimpm::LoadCurve(loadCurve); }

@@ -17,14 +17,10 @@ public:
 	}
 	template <class V> static void attributes(V&& v)
 	{
-		v("factor",
-		  &MpmGhost::factor,
-		  0,
+		v("factor", &MpmGhost::factor, 0,
 		  "Strength [-] >= 0: gamma_k of eq. 2 is this times Young's modulus, that of the softer of a face's two cells. 0 switches the stabilisation off.",
 		  nonNegative);
-		v("scaling",
-		  &MpmGhost::scaling,
-		  0,
+		v("scaling", &MpmGhost::scaling, 0,
 		  "Factor of the integral over a face. 'mesh-independent': gamma_k h / 3; 'paper': gamma_k h^3 / 3 (eq. 2), which fades on fine grids. Equal at "
 		  "h = 1 m.",
 		  oneOf("mesh-independent", "paper"));

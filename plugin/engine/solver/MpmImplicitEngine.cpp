@@ -54,7 +54,8 @@ bool MpmImplicitEngine::isEndOfLoads() const
 shared_ptr<Scene> MpmImplicitEngine::ownScene()
 {
 	const auto& current = Singleton<Omega>::instance().getScene();
-	const auto  holds   = [this](const Scene& s) { return std::any_of(s.engines.begin(), s.engines.end(), [this](const auto& e) { return e.get() == this; }); };
+	const auto  holds
+	        = [this](const Scene& s) { return std::any_of(s.engines.begin(), s.engines.end(), [this](const auto& e) { return e.get() == this; }); };
 	if (holds(*current)) home = current;
 	const auto other = boost::dynamic_pointer_cast<Scene>(home.lock());
 	return other && holds(*other) ? other : current;
@@ -64,10 +65,7 @@ void MpmImplicitEngine::action()
 {
 	deliveringErrors([&] {
 		home = scene->weak_from_this();
-		if (omp_get_level() > 0)
-			throw std::invalid_argument("MpmImplicitEngine: inside a ParallelEngine it cannot tell what other engines do with its material points; put it into O.engines itself.");
-		if (PyGILState_Check() && Singleton<Omega>::instance().isRunning())
-			throw std::runtime_error("MpmImplicitEngine: called while the scene runs in the background; call O.wait() or O.pause() first.");
+		requireCallable();
 		try {
 			const Threads threads(ompThreads);
 			if (grid && grid->dim == 3) step<3>();

@@ -43,7 +43,8 @@ public:
 	template <class V> static void attributes(V&& v)
 	{
 		using E = MpmImplicitEngine;
-		v("grid", &E::grid, 0, "Background grid (MpmGrid); must be given.", admitting("the MpmGrid that mpm.fill was given, as in grid=MpmGrid(cellSize=1)", notNull));
+		v("grid", &E::grid, 0, "Background grid (MpmGrid); must be given.",
+		  admitting("the MpmGrid that mpm.fill was given, as in grid=MpmGrid(cellSize=1)", notNull));
 		v("basis", &E::basis, 0,
 		  "Basis functions: 'gimp', averaged over the points' domains, or 'mpm', the linear functions of the grid (points that cross cells then disturb "
 		  "the solution).",
@@ -54,9 +55,10 @@ public:
 		v("newton", &E::newton, 0, "Solution of a load step (MpmNewton).", notNull);
 		v("mask", &E::mask, 0,
 		  "Material points to move: those whose body.groupMask has a bit in common with it; 0 or -1, the default: all. No two engines may claim the same.");
-		v("loadTime", &E::loadTime, 0, "Time [s] of the last converged state, where the next step starts. After O.resetTime() set it to O.time.", finite);
+		v("loadTime", &E::loadTime, 0, "Time [s] of the last converged state, where the next step starts. After O.resetTime() set it to O.time.",
+		  finite);
 		v("verbosity", &E::verbosity, 0,
-		  "What is said on stderr during a run. 0: nothing; 1: one line of progress, redrawn on a terminal, repeated every 10 s in a log; 2: a line each step.",
+		  "What a run says on stderr. 0: nothing; 1: one line of progress, redrawn on a terminal, repeated every 10 s in a log; 2: a line each step.",
 		  oneOf(0, 1, 2));
 		results([&](auto name, auto member, const auto&, Told, unsigned flags, auto doc, auto validator) { v(name, member, flags, doc, validator); });
 	}

@@ -6,55 +6,41 @@ namespace yade {
 
 class MpmNewton : public Exposed<MpmNewton, Serializable> {
 public:
-	Real tolerance     = 1e-6;
-	int  maxIterations = 20;
-	Real minStep           = 1. / 1024;
-	int  lineSearchTrials  = 5;
-	bool acceptUnconverged = false;
-	bool predictor         = true;
-	bool reuseFactor       = true;
-	string linearSolver    = "auto";
+	Real   tolerance         = 1e-6;
+	int    maxIterations     = 20;
+	Real   minStep           = 1. / 1024;
+	int    lineSearchTrials  = 5;
+	bool   acceptUnconverged = false;
+	bool   predictor         = true;
+	bool   reuseFactor       = true;
+	string linearSolver      = "auto";
 
 	YADE_API_NAME(MpmNewton)
 	static const char*             doc() { return "Settings of the Newton-Raphson solution of a load step (Coombs 2023, section 2.1)."; }
 	template <class V> static void attributes(V&& v)
 	{
-		v("tolerance",
-		  &MpmNewton::tolerance,
-		  0,
-		  "Converged: a residual of at most this part [-] of external forces and reactions, and at each node of three times this part of the forces "
-		  "there; between 0 and 1, both excluded.",
+		v("tolerance", &MpmNewton::tolerance, 0,
+		  "Converged: the residual is at most this part [-] of external forces and reactions, at each node three times this part of the forces there; > 0 "
+		  "and < 1.",
 		  strictlyBetween(0, 1));
 		v("maxIterations", &MpmNewton::maxIterations, 0, "Linear solves allowed in a step, at least 1.", atLeast(1));
-		v("minStep",
-		  &MpmNewton::minStep,
-		  0,
+		v("minStep", &MpmNewton::minStep, 0,
 		  "Smallest load step [-] as a part of O.dt, > 0 and <= 1: a step that does not converge is tried again with half the increment, down to this.",
 		  part);
-		v("lineSearchTrials",
-		  &MpmNewton::lineSearchTrials,
-		  0,
-		  "Shorter steps (a half, a quarter, ...) tried when a full Newton step raises the residual and full steps after it do not bring it down; 0 takes "
-		  "every full step.",
+		v("lineSearchTrials", &MpmNewton::lineSearchTrials, 0,
+		  "Shorter steps (a half, a quarter, ...) tried when a full Newton step raises the residual and full steps after it do not lower it; 0 takes each "
+		  "full step.",
 		  atLeast(0));
-		v("acceptUnconverged",
-		  &MpmNewton::acceptUnconverged,
-		  0,
+		v("acceptUnconverged", &MpmNewton::acceptUnconverged, 0,
 		  "Whether a step that has not converged after *maxIterations*, at *minStep*, is taken over all the same, with a warning: for reproducing analyses "
 		  "that did so.");
-		v("predictor",
-		  &MpmNewton::predictor,
-		  0,
+		v("predictor", &MpmNewton::predictor, 0,
 		  "Whether a step starts from the last displacements, in the ratio of the load increments: the same states to *tolerance*, with fewer solves. "
 		  "False: from zero, as in the paper.");
-		v("reuseFactor",
-		  &MpmNewton::reuseFactor,
-		  0,
+		v("reuseFactor", &MpmNewton::reuseFactor, 0,
 		  "Whether a step's last iterations keep the factorised matrix of the one before where that suffices: the same states to *tolerance*, fewer "
 		  "factorisations. False: never, as in the paper.");
-		v("linearSolver",
-		  &MpmNewton::linearSolver,
-		  0,
+		v("linearSolver", &MpmNewton::linearSolver, 0,
 		  "'direct': Cholesky or LU factorisation; 'iterative': conjugate gradients, which store no factor and fall back to 'direct' (solver.cgFallbacks); "
 		  "'auto': 'iterative' where a factorisation would take long, in large 3D scenes.",
 		  oneOf("auto", "direct", "iterative"));

@@ -41,7 +41,7 @@ private:
 	std::string text(const Progress&) const;
 
 	bool              isRunning = false, isOpen = false; // isOpen: the cursor stands behind the text
-	long              first = 0, latest = 0; // iterations where the run and its latest step began
+	long              first = 0, latest = 0;             // iterations where the run and its latest step began
 	Clock::time_point begin, shown;
 };
 

@@ -90,9 +90,12 @@ template <class V> void RunResults::results(V&& v)
 	const AnyValue any;
 	const auto     count = atLeast(0);
 	v("converged", &R::converged, latest(&StepReport::converged), byReport, readonly, "Whether the last step converged.", any);
-	v("iterations", &R::iterations, sum(&StepReport::iterations), byReportAndPlot, readonly, "Linear solves of the last run, those of steps that were undone included.", count);
-	v("residual", &R::residual, latest(&StepReport::residual), byReportAndPlot, readonly, "Last out-of-balance force over external forces and reactions [-].", any);
-	v("residuals", &R::residuals, latest(&StepReport::residuals), byReport, readonly, "The same [-] before the first solve of the last step and after each.", any);
+	v("iterations", &R::iterations, sum(&StepReport::iterations), byReportAndPlot, readonly,
+	  "Linear solves of the last run, those of steps that were undone included.", count);
+	v("residual", &R::residual, latest(&StepReport::residual), byReportAndPlot, readonly,
+	  "Last out-of-balance force over external forces and reactions [-].", any);
+	v("residuals", &R::residuals, latest(&StepReport::residuals), byReport, readonly,
+	  "The same [-] before the first solve of the last step and after each.", any);
 	v("loadFactor", &R::loadFactor, Kept(), byReportAndPlot, readonly, "Load factor [-] of the last converged state.", finite);
 	v("activeCells", &R::activeCells, latest(&StepReport::populatedCells), byReport, readonly, "Cells that held material in the last step.", count);
 	v("boundaryCells", &R::boundaryCells, latest(&StepReport::boundaryCells), byReport, readonly,
@@ -100,10 +103,14 @@ template <class V> void RunResults::results(V&& v)
 	v("ghostFaces", &R::ghostFaces, latest(&StepReport::ghostFaces), byReport, readonly, "Faces stabilised in the last step.", count);
 	v("dofs", &R::dofs, latest(&StepReport::dofs), byReport, readonly, "Free degrees of freedom of the last step.", count);
 	v("substeps", &R::substeps, Counted(), byReport, readonly, "Load steps that converged in the last run: 1 unless steps were cut.", count);
-	v("cuts", &R::cuts, Counted(), byReportAndPlot, readonly, "Load steps of the last run that were undone and tried again with half the increment.", count);
-	v("lineSearchTrials", &R::lineSearchTrials, sum(&StepReport::lineSearchTrials), byReport, readonly, "Shortened Newton steps that were tried in the last run.", count);
-	v("reusedFactors", &R::reusedFactors, sum(&StepReport::reusedFactors), byReport, readonly, "Solves of the last run with the factor of the solve before.", count);
-	v("luSolves", &R::luSolves, sum(&StepReport::luSolves), byReport, readonly, "Solves of the last run whose stiffness matrix was not positive definite.", count);
+	v("cuts", &R::cuts, Counted(), byReportAndPlot, readonly, "Load steps of the last run that were undone and tried again with half the increment.",
+	  count);
+	v("lineSearchTrials", &R::lineSearchTrials, sum(&StepReport::lineSearchTrials), byReport, readonly,
+	  "Shortened Newton steps that were tried in the last run.", count);
+	v("reusedFactors", &R::reusedFactors, sum(&StepReport::reusedFactors), byReport, readonly,
+	  "Solves of the last run with the factor of the solve before.", count);
+	v("luSolves", &R::luSolves, sum(&StepReport::luSolves), byReport, readonly, "Solves of the last run whose stiffness matrix was not positive definite.",
+	  count);
 	v("cgIterations", &R::cgIterations, sum([](const StepReport& r) { return r.conjugateGradients.iterations; }), byReport, readonly,
 	  "Iterations of conjugate gradients in the last run (see MpmNewton.linearSolver).", count);
 	v("cgFallbacks", &R::cgFallbacks, sum([](const StepReport& r) { return r.conjugateGradients.fallbacks; }), byReport, readonly,
@@ -113,8 +120,8 @@ template <class V> void RunResults::results(V&& v)
 	v("lastLoadIncrement", &R::lastLoadIncrement, Kept(), byAttribute, hidden, "", finite);
 	v("stepPart", &R::stepPart, Kept(), byReport, readonly, "Part of O.dt [-] that the next load step tries, > 0 and <= 1.", part);
 	v("reactions", &R::reactions, reached(&StepReport::reactions), byAttribute, readonly,
-	  "For each of *boundaries*, the sum of the forces [N] with which it held its nodes at the end of the last converged step; per metre of thickness in "
-	  "plane strain.",
+	  "Of each of *boundaries*, the sum of the forces [N] that held its nodes at the end of the last converged step; per metre of thickness in plane "
+	  "strain.",
 	  admitting("forces of finite numbers [N]", [](const auto& forces) { return std::all_of(forces.begin(), forces.end(), finite); }));
 	v("clampedDomains", &R::clampedDomains, latest(&StepReport::clampedDomains), byReport, readonly,
 	  "Points whose domain was kept at half a cell at the end of the last step.", count);

@@ -7,8 +7,7 @@ namespace yade {
 // Engine.ompThreads, if set, for the time of a step.
 class Threads {
 public:
-	explicit Threads(int wanted)
-	        : before(omp_get_max_threads())
+	explicit Threads(int wanted) : before(omp_get_max_threads())
 	{
 		requireThreadsOfThisProcess(wanted > 0 ? wanted : before);
 		if (wanted > 0) omp_set_num_threads(wanted);

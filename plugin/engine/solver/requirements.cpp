@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "engine/solver/requirements.hpp"
 #include "engine/solver/MpmImplicitEngine.hpp"
+#include <omp.h>
 
 namespace yade {
 
@@ -17,14 +18,25 @@ namespace {
 			else if (other && !other->dead)
 				others.push_back(other);
 		}
-		if (entries > 1) throw std::invalid_argument("MpmImplicitEngine: the same engine is listed " + std::to_string(entries) + " times in O.engines.");
+		if (entries > 1)
+			throw std::invalid_argument("MpmImplicitEngine: the same engine is listed " + std::to_string(entries) + " times in O.engines.");
 		for (const auto* other : others)
 			for (const MaterialPoint& point : materialPoints(scene, engine.mask))
 				if (maskMatches(*(*scene.bodies)[point.id], other->mask))
 					throw std::invalid_argument(
-					        "Body #" + std::to_string(point.id) + ": two MpmImplicitEngines in O.engines claim it, with mask = " + std::to_string(engine.mask) + " and "
+					        "Body #" + std::to_string(point.id)
+					        + ": two MpmImplicitEngines in O.engines claim it, with mask = " + std::to_string(engine.mask) + " and "
 					        + std::to_string(other->mask) + "; give each body a groupMask that goes with one of them.");
 	}
+}
+
+void requireCallable()
+{
+	if (omp_get_level() > 0)
+		throw std::invalid_argument(
+		        "MpmImplicitEngine: inside a ParallelEngine it cannot tell what other engines do with its material points; put it into O.engines itself.");
+	if (PyGILState_Check() && Singleton<Omega>::instance().isRunning())
+		throw std::runtime_error("MpmImplicitEngine: called while the scene runs in the background; call O.wait() or O.pause() first.");
 }
 
 void requireRunnable(const MpmImplicitEngine& engine)
@@ -34,7 +46,8 @@ void requireRunnable(const MpmImplicitEngine& engine)
 	Scene&             scene = *engine.scene;
 	std::ostringstream text;
 	if (!(scene.dt > 0) || !std::isfinite(scene.dt))
-		text << "O.dt = " << scene.dt << " is not admitted: expected a finite number > 0, the load time of one step (with the default loadCurve, 1/80 gives 80 steps).";
+		text << "O.dt = " << scene.dt
+		     << " is not admitted: expected a finite number > 0, the load time of one step (with the default loadCurve, 1/80 gives 80 steps).";
 	else if (engine.iterPeriod == 1 && scene.timeStepperActive())
 		text << "an active TimeStepper among O.engines sets O.dt, which is the load increment of a step: remove it, set its active=False, or run this engine "
 		        "every N iterations with iterPeriod=N.";

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-// What a scene must be like for a load step. std::invalid_argument otherwise.
+// What there must be for a load step. std::invalid_argument otherwise.
 #include "engine/points/MaterialPoints.hpp"
 
 namespace yade {
 class MpmImplicitEngine;
+
+// A thread that may make one; std::runtime_error while the scene runs in another.
+void requireCallable();
 
 // Settings, clock and the other engines.
 void requireRunnable(const MpmImplicitEngine&);
