@@ -107,10 +107,10 @@ namespace {
 		const Real J = v.defGrad.determinant();
 		if (columns.has("stress")) {
 			requireSymmetric("stress", v.stress);
-			v.elasticStrain = elasticStrainOf(material, J * v.stress, v.plasticStrain);
+			v.elasticStrain = elasticStrainOf(material, J * v.stress, { v.plasticStrain });
 		} else if (columns.has("elasticStrain") || columns.has("defGrad") || columns.has("plasticStrain")) {
 			requireSymmetric("elasticStrain", v.elasticStrain);
-			v.stress = kirchhoffStressOf(material, v.elasticStrain, v.plasticStrain) / J;
+			v.stress = kirchhoffStressOf(material, v.elasticStrain, { v.plasticStrain }) / J;
 		}
 	}
 

@@ -55,6 +55,7 @@ namespace {
 			case Failure::unrestrained: return "unrestrained";
 			case Failure::singular: return "singular";
 			case Failure::inverted: return "inverted";
+			case Failure::noResponse: return "noResponse";
 			case Failure::notFinite: return "notFinite";
 			case Failure::diverging: return "diverging";
 			case Failure::tooManyIterations: return "tooManyIterations";
@@ -78,7 +79,7 @@ namespace {
 	bool canBeCut(gimpm::Failure failure)
 	{
 		using gimpm::Failure;
-		return failure == Failure::singular || failure == Failure::inverted || failure == Failure::notFinite || failure == Failure::diverging
+		return failure == Failure::singular || failure == Failure::inverted || failure == Failure::noResponse || failure == Failure::notFinite || failure == Failure::diverging
 		        || failure == Failure::tooManyIterations;
 	}
 

@@ -156,7 +156,7 @@ public:
 		c.def("report",
 		      &MpmImplicitEngine::report,
 		      "report() -> dict\n\nHow the last run of this engine in this process went; empty before the first.\n\n"
-		      "Outcome: 'converged'; 'accepted' (see MpmNewton.acceptUnconverged); 'failure', one of 'none', 'detached' (a boundary that is to move has no hold of the soil), 'unrestrained', 'singular', 'inverted', "
+		      "Outcome: 'converged'; 'accepted' (see MpmNewton.acceptUnconverged); 'failure', one of 'none', 'detached' (a boundary that is to move has no hold of the soil), 'unrestrained', 'singular', 'inverted', 'noResponse', "
 		      "'notFinite', 'diverging', 'tooManyIterations', 'stalled' (at round-off), 'interrupted'; 'cause', a clause, empty when converged; 'loadTime' [s] and 'loadFactor' of the "
 		      "last converged state; 'stepPart', part of O.dt that the next step tries.\n\n"
 		      "Effort of the run, undone tries included: 'iterations' (linear solves), 'substeps', 'cuts', 'lineSearchTrials', 'reusedFactors', 'luSolves', 'cgIterations', 'cgFallbacks'; 'times' [s], dict "
