@@ -28,7 +28,6 @@ template <class T> struct ResponseOf {
 			for (int j = 0; j < 3; ++j)
 				tangent(i, j).v[lane] = o.tangent(i, j)[lane];
 		}
-		failed.v[lane] = o.failed[lane];
 	}
 };
 using Response = ResponseOf<double>;

@@ -166,8 +166,10 @@ template <int Dim> struct BatchResponse {
 			if (material == points.material[batch.point[lane - 1]]) continue;
 			OfLaw other;
 			respond(materials[material], batch, points.internals, other);
-			for (int l = lane; l < Lanes::count; ++l)
+			for (int l = lane; l < Lanes::count; ++l) {
 				law.takeLane(l, other);
+				if constexpr (LawTraits<Law>::mayFail) law.failed.v[l] = other.failed[l];
+			}
 		}
 	}
 
