@@ -82,6 +82,7 @@ admitted = {
         ('MpmImplicitEngine.boundaries', '()'): 'nothing is held',
         ('MpmImplicitEngine.gravityCurve', '()'): 'loadCurve',
         ('MpmVtkRecorder.solver', '""'): 'the only one',
+        ('MpmState.internals', '()'): 'initial values',
         ('MpmVtkRecorder.fields', '()'): 'the domains alone',
 }
 

@@ -46,7 +46,7 @@ public:
 		  0,
 		  "What to write. 'points': the domain of each material point (quadrilateral or hexahedron) with displacement [m], stress (Cauchy [Pa], 9 "
 		  "components), meanStress [Pa] (positive in tension), sqrt2J2 (sqrt(s:s) of the Cauchy stress's deviator s [Pa]), plasticStrain [-], "
-		  "volume [m³], material (index into O.materials), clamped (1 where the domain would outgrow half a cell and is kept there, else 0) and id of the "
+		  "and other internal variables of the laws, volume [m³], material (index into O.materials), clamped (1 where the domain would outgrow half a cell and is kept there, else 0) and id of the "
 		  "body. 'grid': the cells of the background grid that hold material; boundary is 1 in the boundary cells of the ghost stabilisation, else 0; "
 		  "mixed is 1 where points of several materials meet, else 0. 'ghostFaces': the faces that are stabilised, with ghostStiffness [N/m], "
 		  "the factor before the integral of eq. 2 in Coombs (2023); none with MpmGhost.factor = 0. 'all': all of these. Read as a tuple, so assign "
@@ -57,7 +57,7 @@ public:
 		  0,
 		  "Which fields of 'points' are written, by the names given there, or 'all'; an empty sequence leaves the domains alone. Few fields make small "
 		  "files. Read as a tuple.",
-		  admitting("names of the fields of 'points': displacement, stress, meanStress, sqrt2J2, plasticStrain, volume, material, clamped, id, or 'all'", areFields));
+		  admitting(whichFields(), areFields));
 		v("ascii", &MpmVtkRecorder::ascii, 0, "Write numbers as text, in larger files.");
 		v("compress", &MpmVtkRecorder::compress, 0, "Compress the data with zlib, unless *ascii*.");
 		v("solver", &MpmVtkRecorder::solver, 0, "Label of the MpmImplicitEngine to follow; needed only if there are several.");
@@ -75,6 +75,8 @@ public:
 	static bool isFileName(const string&);
 	static bool areKinds(const vector<string>&);
 	static bool areFields(const vector<string>&);
+
+	static const char* whichFields();
 
 private:
 	struct Moment {

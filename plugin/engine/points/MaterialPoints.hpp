@@ -18,21 +18,21 @@ struct MaterialPoint {
 	// std::invalid_argument unless all its values can be computed with in this dimension (2 or 3). Its material is not looked at.
 	void requireAdmissible(int dim) const;
 
-	// Of its internal variables in the order of its law. std::invalid_argument names one that is not admitted, or not one of the law.
+	// Of its internal variables in the order of its law.
 	template <class L> auto internalsOf(const L& law) const
 	{
 		auto values = law.initialInternals();
 		for (size_t k = 0; k < values.size(); ++k)
 			if (const Real* value = state->internal(law.variables[k].name)) values[k] = *value;
-		requireInternals(law.variables.data(), values.data(), values.size());
 		return values;
 	}
+
+	// std::invalid_argument names one of these values that its variable does not admit, or one of the state that is none of these variables.
+	void requireInternals(const gimpm::InternalVariable*, const Real* values, size_t count) const;
 
 	// Index into O.materials, -1 if it is not in there. The number in the material itself may be that of another scene's list.
 	int materialIndex(const Scene&) const;
 
-private:
-	void requireInternals(const gimpm::InternalVariable*, const Real* values, size_t count) const;
 };
 
 // Why an internal variable cannot have this value.

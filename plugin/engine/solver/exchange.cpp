@@ -115,7 +115,9 @@ namespace {
 		inRanges(points.size(), [&](size_t begin, size_t end) {
 			for (size_t p = begin; p < end; ++p)
 				withLaw(materials[cloud.material[p]].law, [&](const auto& law) {
-					gimpm::storeInternals(law, points[p].internalsOf(law), cloud.internals, p);
+					const auto values = points[p].internalsOf(law);
+					points[p].requireInternals(law.variables.data(), values.data(), values.size());
+					gimpm::storeInternals(law, values, cloud.internals, p);
 				});
 		});
 	}
