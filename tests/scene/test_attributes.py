@@ -22,6 +22,7 @@ outOfRange = {
         'MpmState.volume': ['0.', '-1.'],
         'MpmState.volume0': ['0.', '-1.'],
         'MpmState.plasticStrain': ['-1e-3'],
+        'MpmState.internals': ['[("none", 1.)]', '[("plasticStrain", 1.)]'],
         'MpmPoint.halfSize': ['(0.1, 0, 0.1)', '(-1, 1, 1)'],
         'MpmPoint.halfSize0': ['(0.1, 0, 0.1)', '(-1, 1, 1)'],
         'MpmGrid.cellSize': ['0.', '-1.'],
@@ -81,6 +82,7 @@ admitted = {
         ('MpmImplicitEngine.boundaries', '()'): 'nothing is held',
         ('MpmImplicitEngine.gravityCurve', '()'): 'loadCurve',
         ('MpmVtkRecorder.solver', '""'): 'the only one',
+        ('MpmState.internals', '()'): 'initial values',
         ('MpmVtkRecorder.fields', '()'): 'the domains alone',
 }
 

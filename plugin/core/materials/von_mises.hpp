@@ -14,10 +14,15 @@ public:
 	/// the plastic tangent with which its next step starts.
 	static constexpr double yieldTolerance = 1e-9;
 
-	double young() const { return elastic_.young(); }
+	static constexpr std::array<InternalVariable, 1> variables { equivalentPlasticStrain };
+	static constexpr bool                            mayFail = false;
+
+	std::array<double, 1> initialInternals() const { return { 0 }; }
+
+	double young(const std::array<double, 1>&) const { return elastic_.young(); }
 
 	/// Radial return: exact for perfect plasticity with an associated rule, because the deviator only shrinks.
-	template <class T> ResponseOf<T> respond(const PrincipalValues<T>& trialStrain, const T& plasticStrain) const
+	template <class T> ResponseWith<T, 1> respond(const PrincipalValues<T>& trialStrain, const std::array<T, 1>& internals) const
 	{
 		const double             G      = elastic_.shear();
 		const T                  third  = T(1. / 3) * (trialStrain[0] + trialStrain[1] + trialStrain[2]);
@@ -28,7 +33,9 @@ public:
 		PrincipalValues<T>       elasticStrain;
 		for (int i = 0; i < 3; ++i)
 			elasticStrain[i] = select(yields, theta * dev[i] + third, trialStrain[i]);
-		ResponseOf<T> r = elastic_.respond<T>(elasticStrain, plasticStrain + T(std::sqrt(2. / 3)) * (T(1) - theta) * length);
+		ResponseWith<T, 1> r;
+		r.take(elastic_.respond<T>(elasticStrain, {}));
+		r.internals[0] = internals[0] + T(std::sqrt(2. / 3)) * (T(1) - theta) * length;
 
 		const PrincipalValues<T> n     = dev * (T(1) / select(yields, length, T(1)));
 		const T                  shear = T(G) * theta, lambda = T(elastic_.bulk()) - T(2. / 3) * shear, along = select(yields, T(-2) * shear, T(0));
@@ -38,7 +45,7 @@ public:
 		r.shear.fill(shear);
 		return r;
 	}
-	Response respond(const Vec3& trialStrain, double plasticStrain) const { return respond<double>(trialStrain, plasticStrain); }
+	ResponseWith<double, 1> respond(const Vec3& trialStrain, const std::array<double, 1>& internals) const { return respond<double>(trialStrain, internals); }
 
 private:
 	Hencky elastic_;

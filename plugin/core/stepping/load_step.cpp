@@ -16,11 +16,12 @@ template <int Dim> void updatePoints(PointCloud<Dim>& cloud, const StepSystem<Di
 {
 	const double limit = 0.5 * system.model.grid.cellSize;
 	std::vector<char> clamped(cloud.size(), 0);
+	provideInternals(cloud.internals, system.model.materials, cloud.size());
 	forUpdatedPoints(system.basis, system.points, system.model.materials, d, [&](int p, const PointUpdate<Dim>& u) {
 		cloud.position[p] += u.displacement;
 		cloud.defGrad[p]       = (cloud.defGrad[p] + u.gradient * cloud.defGrad[p]).eval();
 		cloud.elasticStrain[p] = u.elasticStrain;
-		cloud.plasticStrain[p] = u.plasticStrain;
+		withLaw(system.model.materials[cloud.material[p]].law, [&](const auto& law) { storeInternals(law, u.internals, cloud.internals, p); });
 		cloud.stress[p].c      = u.kirchhoffStress.c / cloud.defGrad[p].determinant();
 		if (system.model.basis == Basis::gimp) {
 			const Vec<Dim> size = cloud.halfSize0[p].cwiseProduct(stretchAlongAxes(cloud.defGrad[p]));

@@ -6,7 +6,7 @@ namespace gimpm {
 
 bool canBeCut(Failure failure)
 {
-	return failure == Failure::singular || failure == Failure::inverted || failure == Failure::notFinite || failure == Failure::diverging
+	return failure == Failure::singular || failure == Failure::inverted || failure == Failure::noResponse || failure == Failure::notFinite || failure == Failure::diverging
 	        || failure == Failure::tooManyIterations;
 }
 

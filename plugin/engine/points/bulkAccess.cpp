@@ -2,6 +2,7 @@
 #include "engine/points/bulkAccess.hpp"
 #include "engine/points/MaterialPoints.hpp"
 #include "engine/points/buffers.hpp"
+#include "engine/points/columns.hpp"
 #include "yade_api/logging.hpp"
 #include <unordered_map>
 
@@ -39,22 +40,18 @@ namespace {
 		}
 		return bytes;
 	}
-	template <class Get> py::object scalars(const vector<MaterialPoint>& points, Get get)
-	{
-		return column<Real>(points, 1, [&](const MaterialPoint& point, Real* row) { *row = get(point); });
-	}
 	template <class Get> py::object integers(const vector<MaterialPoint>& points, Get get)
 	{
 		return column<int64_t>(points, 1, [&](const MaterialPoint& point, int64_t* row) { *row = get(point); });
 	}
-	template <class Get> py::object vectors(const vector<MaterialPoint>& points, Get get)
+	py::object valuesOf(const PointColumn& c, const vector<MaterialPoint>& points, const Scene& scene)
 	{
-		return column<Real>(points, 3, [&](const MaterialPoint& point, Real* row) { Eigen::Map<Vector3r> { row } = get(point); });
-	}
-	template <class Get> py::object tensors(const vector<MaterialPoint>& points, Get get)
-	{
-		using RowByRow = Eigen::Matrix<Real, 3, 3, Eigen::RowMajor>;
-		return column<Real>(points, 9, [&](const MaterialPoint& point, Real* row) { Eigen::Map<RowByRow> { row } = get(point); });
+		if (!c.isInteger) return column<Real>(points, c.width, [&](const MaterialPoint& point, Real* row) { c.get(point, scene, row); });
+		return integers(points, [&](const MaterialPoint& point) {
+			Real number;
+			c.get(point, scene, &number);
+			return int64_t(number);
+		});
 	}
 
 	// The materials that the bodies have, whether in O.materials or not, and which of them each point has.
@@ -97,25 +94,15 @@ void betweenSteps(const py::object& f)
 	f();
 }
 
-py::dict columnsOfPoints(int mask)
+py::dict columnsOfPoints(int mask, bool withDerived)
 {
-	using Point = const MaterialPoint&;
 	const ValueLock lock;
 	const Scene&    scene  = *Singleton<Omega>::instance().getScene();
 	const auto      points = materialPoints(scene, mask);
 	py::dict        columns;
-	columns["id"]            = integers(points, [](Point p) { return p.id; });
-	columns["pos"]           = vectors(points, [](Point p) { return p.state->pos; });
-	columns["pos0"]          = vectors(points, [](Point p) { return p.state->refPos; });
-	columns["halfSize"]      = vectors(points, [](Point p) { return p.shape->halfSize; });
-	columns["halfSize0"]     = vectors(points, [](Point p) { return p.shape->halfSize0; });
-	columns["force"]         = vectors(points, [](Point p) { return p.state->force; });
-	columns["stress"]        = tensors(points, [](Point p) { return p.state->stress; });
-	columns["defGrad"]       = tensors(points, [](Point p) { return p.state->defGrad; });
-	columns["elasticStrain"] = tensors(points, [](Point p) { return p.state->elasticStrain; });
-	columns["volume"]        = scalars(points, [](Point p) { return p.state->volume; });
-	columns["plasticStrain"] = scalars(points, [](Point p) { return p.state->plasticStrain; });
-	columns["material"]      = integers(points, [&](Point p) { return p.materialIndex(scene); });
+	for (const PointColumn& column : pointColumns())
+		if ((column.is(PointColumn::inArrays) || (withDerived && column.is(PointColumn::derived))) && column.isOf(points))
+			columns[column.name] = valuesOf(column, points, scene);
 	addMaterials(columns, points);
 	return columns;
 }

@@ -108,6 +108,19 @@ namespace {
 		std::vector<gimpm::Material>&               list;
 		std::unordered_map<const MpmMaterial*, int> index;
 	};
+
+	template <int Dim> void gatherInternals(const vector<MaterialPoint>& points, const std::vector<gimpm::Material>& materials, gimpm::PointCloud<Dim>& cloud)
+	{
+		gimpm::provideInternals(cloud.internals, materials, points.size());
+		inRanges(points.size(), [&](size_t begin, size_t end) {
+			for (size_t p = begin; p < end; ++p)
+				withLaw(materials[cloud.material[p]].law, [&](const auto& law) {
+					const auto values = points[p].internalsOf(law);
+					points[p].requireInternals(law.variables.data(), values.data(), values.size());
+					gimpm::storeInternals(law, values, cloud.internals, p);
+				});
+		});
+	}
 }
 
 Vector3r stretched(const Vector3r& halfSize0, const Matrix3r& defGrad)
@@ -158,13 +171,13 @@ template <int Dim> gimpm::PointCloud<Dim> gather(const vector<MaterialPoint>& po
 			cloud.defGrad[p]       = point.state->defGrad.template topLeftCorner<Dim, Dim>();
 			cloud.elasticStrain[p] = gimpm::SymTensor<Dim>::from(point.state->elasticStrain);
 			cloud.stress[p]        = gimpm::SymTensor<Dim>::from(point.state->stress);
-			cloud.plasticStrain[p] = point.state->plasticStrain;
 			if (!point.state->force.isZero(0)) hasForce = true;
 		}
 	});
 	MaterialIndex materials(model.materials);
 	for (size_t p = 0; p < points.size(); ++p)
 		cloud.material[p] = materials.of(points[p]);
+	gatherInternals(points, model.materials, cloud);
 	if (hasForce)
 		for (const MaterialPoint& point : points)
 			cloud.force.push_back(point.state->force.template head<Dim>());
@@ -179,15 +192,18 @@ template <int Dim> gimpm::PointCloud<Dim> gather(const vector<MaterialPoint>& po
 template <int Dim> void scatter(const gimpm::PointCloud<Dim>& cloud, const vector<MaterialPoint>& points)
 {
 	inRanges(points.size(), [&](size_t begin, size_t end) {
+		vector<gimpm::InternalVariable> variables;
 		for (size_t p = begin; p < end; ++p) {
 			MpmState& state                          = *points[p].state;
 			state.pos.head<Dim>()                    = cloud.position[p];
 			state.defGrad.topLeftCorner<Dim, Dim>()  = cloud.defGrad[p];
 			state.elasticStrain                      = cloud.elasticStrain[p].full();
 			state.stress                             = cloud.stress[p].full();
-			state.plasticStrain                      = cloud.plasticStrain[p];
 			state.volume                             = cloud.volume0[p] * cloud.defGrad[p].determinant();
 			points[p].shape->halfSize.template head<Dim>() = cloud.halfSize[p];
+			if (p == begin || points[p].material.get() != points[p - 1].material.get()) variables = variablesOf(*points[p].material);
+			for (const gimpm::InternalVariable& variable : variables)
+				state.setInternal(variable.name, cloud.internals[gimpm::internalVariables.find(variable.name)][p]);
 		}
 	});
 }
