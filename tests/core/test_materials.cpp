@@ -153,6 +153,54 @@ namespace {
 		}
 	}
 
+	TEST(VonMises, HardeningByNumbers)
+	{
+		const auto r = VonMises(20e6, 0.3, 15e3, 1e6).respond(Vec3(2e-3, -1e-3, -4e-3), { 1e-4 });
+		EXPECT_NEAR(r.stress[0], -37534.757, 1e-3);
+		EXPECT_NEAR(r.stress[1], -50000, 1e-3);
+		EXPECT_NEAR(r.stress[2], -62465.243, 1e-3);
+		EXPECT_NEAR(r.internals[0], 2.62851612e-3, 1e-11);
+	}
+
+	// Hardening, softening (steepest -sqrt(6) G = -2.45), and softening to a residual yield stress; G = 1.
+	const VonMises changing[] = { { 2.6, 0.3, 0.05, 0.3 }, { 2.6, 0.3, 0.05, 10 }, { 2.6, 0.3, 0.05, -0.01 }, { 2.6, 0.3, 0.05, -2 }, { 2.6, 0.3, 0.05, -0.05, 0.02 } };
+
+	TEST(VonMises, ReturnEndsOnTheYieldSurfaceOfThePlasticStrainAtItsEnd)
+	{
+		const double hardening[] = { 0.3, 10, -0.01, -2, -0.05 }, residual[] = { 0, 0, 0, 0, 0.02 };
+		int          residuals = 0;
+		for (int law = 0; law < 5; ++law)
+			for (const Vec3& e : beyondYield())
+				for (const double before : { 0., 0.01, 2. }) {
+					const double flow     = std::max(0., 0.05 + hardening[law] * before);
+					const auto   r        = changing[law].respond(e, { before });
+					const double strength = std::max(residual[law], 0.05 + hardening[law] * r.internals[0]);
+					const bool   yields   = 2 * deviator(e).norm() > std::max(residual[law], flow);
+					if (yields) {
+						EXPECT_NEAR(deviator(r.stress).norm(), strength, 1e-13 * (1 + std::abs(hardening[law]) * before));
+					}
+					EXPECT_NEAR(r.internals[0], before + std::sqrt(2. / 3) * (e - r.elasticStrain).norm(), 1e-13);
+					residuals += strength == 0.02;
+				}
+		EXPECT_GT(residuals, 50);
+	}
+
+	TEST(VonMises, TangentOfChangingStrengthIsTheDerivativeOfStress)
+	{
+		int compared = 0;
+		for (const VonMises& law : changing)
+			for (const Vec3& e : beyondYield()) {
+				const auto   r    = law.respond(e, { 0 });
+				const double step = 1e-3 * deviator(e).norm();
+				const Mat3   fine = differences(law, e, step / 2), coarse = differences(law, e, step);
+				if ((fine - coarse).norm() > 1e-4 * fine.norm()) continue; // the residual yield stress is reached between: a kink
+				++compared;
+				EXPECT_LT((r.tangent - (4 * fine - coarse) / 3).norm(), 1e-9 * r.tangent.norm());
+				EXPECT_LT((r.tangent - r.tangent.transpose()).norm(), 1e-15 * r.tangent.norm()) << "associated flow";
+			}
+		EXPECT_GT(compared, 480);
+	}
+
 	TEST(Material, KnowsYoungsModulusOfItsLaw)
 	{
 		EXPECT_EQ((Material { Hencky(5, 0.1), 1 }).young({}, 0), 5);

@@ -71,6 +71,28 @@ namespace {
 		}
 	}
 
+	// The same with a yield stress that grows with the flow, or falls with it to a residual one, which a step may pass:
+	// 2 G sqrt(2) e = yield(a) + 2 G sqrt(3/2) a.
+	TYPED_TEST(Path, HardeningAndSofteningFollowTheClosedForm)
+	{
+		constexpr int Dim  = TypeParam::value;
+		const double  step = std::exp(0.004);
+		for (const auto& [hardening, residual] : { std::pair { 0.5, 0. }, std::pair { -0.1, 0.02 }, std::pair { -2., 0.01 } }) {
+			PathPoint<Dim> point { VonMises(2.6, 0.3, yield, hardening, residual) };
+			for (int i = 1; i <= 200; ++i) {
+				point.apply(this->stretching(step, 1 / step));
+				const double trial = 2 * G * std::sqrt(2.) * 0.004 * i;
+				const double flow  = std::max(0., (trial - yield) / (hardening + 2 * G * std::sqrt(1.5)));
+				const double size  = flow > 0 ? std::max(yield + hardening * flow, residual) : trial;
+				EXPECT_NEAR(point.stress.full()(0, 0), size / std::sqrt(2.), 1e-12);
+				EXPECT_NEAR(point.plasticStrain(), std::sqrt(2. / 3) * (trial - size) / (2 * G), 1e-12);
+			}
+			if (hardening < 0) {
+				EXPECT_NEAR(point.stress.full()(0, 0), residual / std::sqrt(2.), 1e-13);
+			}
+		}
+	}
+
 	// Confined compression: deviator e (1/3, -2/3, 1/3), |dev| = sqrt(2/3) e; the pressure goes on rising after yield.
 	TYPED_TEST(Path, ConfinedCompression)
 	{

@@ -16,6 +16,8 @@ outOfRange = {
         'MpmElasticMat.young': ['0.', '-1.'],
         'MpmElasticMat.poisson': ['-1.', '0.5', '7.'],
         'MpmVonMisesMat.yieldStress': ['0.', '-1.'],
+        'MpmVonMisesMat.hardening': None,
+        'MpmVonMisesMat.residualYieldStress': ['-1.'],
         'MpmState.defGrad': ['Matrix3(-1,0,0, 0,1,0, 0,0,1)', 'Matrix3.Zero'],
         'MpmState.elasticStrain': ['Matrix3(0,1,0, 2,0,0, 0,0,0)'],
         'MpmState.force': None,

@@ -21,7 +21,7 @@ template <int Dim> void updatePoints(PointCloud<Dim>& cloud, const StepSystem<Di
 		cloud.position[p] += u.displacement;
 		cloud.defGrad[p]       = (cloud.defGrad[p] + u.gradient * cloud.defGrad[p]).eval();
 		cloud.elasticStrain[p] = u.elasticStrain;
-		withLaw(system.model.materials[cloud.material[p]].law, [&](const auto& law) { storeInternals(law, u.internals, cloud.internals, p); });
+		withLaw(u.law, [&](const auto& law) { storeInternals(law, u.internals, cloud.internals, p); });
 		cloud.stress[p].c      = u.kirchhoffStress.c / cloud.defGrad[p].determinant();
 		if (system.model.basis == Basis::gimp) {
 			const Vec<Dim> size = cloud.halfSize0[p].cwiseProduct(stretchAlongAxes(cloud.defGrad[p]));

@@ -11,7 +11,8 @@ template <int Dim> struct PointUpdate {
 	Vec<Dim>       displacement;
 	Mat<Dim>       gradient; ///< of the increment, with respect to the configuration at the start of the step
 	SymTensor<Dim> elasticStrain, kirchhoffStress;
-	std::array<double, LawTraits<Law>::mostVariables> internals; ///< in the order of the law of the point
+	const Law&     law;
+	std::array<double, LawTraits<Law>::mostVariables> internals; ///< in the order of the law
 };
 
 /// Value at one point of a field given by nodal vectors.
@@ -70,7 +71,8 @@ void forUpdatedPoints(
 			const auto               stress        = assemble<Lanes, Dim>(response.law.stress, response.trial.axes);
 			for (int lane = 0, q = b * Lanes::count; lane < Lanes::count && q < chunk.count; ++lane, ++q) {
 				const auto one = [lane](const Lanes& x) { return x[lane]; };
-				PointUpdate<Dim> u { displacement[q], gradient.unaryExpr(one), { elasticStrain.c.unaryExpr(one) }, { stress.c.unaryExpr(one) }, {} };
+				PointUpdate<Dim> u { displacement[q], gradient.unaryExpr(one), { elasticStrain.c.unaryExpr(one) }, { stress.c.unaryExpr(one) },
+				                     materials[points.material[chunk.first + q]].law, {} };
 				for (std::size_t k = 0; k < u.internals.size(); ++k)
 					u.internals[k] = response.law.internals[k][lane];
 				f(basis.order[chunk.first + q], u);

@@ -27,7 +27,7 @@ namespace {
 	{
 		static const std::unordered_map<std::type_index, LawOfClass> all {
 			entry<MpmElasticMat>([](const MpmElasticMat& m) { return gimpm::Hencky(m.young, m.poisson); }),
-			entry<MpmVonMisesMat>([](const MpmVonMisesMat& m) { return gimpm::VonMises(m.young, m.poisson, m.yieldStress); }),
+			entry<MpmVonMisesMat>([](const MpmVonMisesMat& m) { return gimpm::VonMises(m.young, m.poisson, m.yieldStress, m.hardening, m.residualYieldStress); }),
 		};
 		return all;
 	}

@@ -73,13 +73,15 @@ namespace {
 
 	void addColumn(vtkUnstructuredGrid& cells, const PointColumn& column, const vector<MaterialPoint>& points, const Scene& scene)
 	{
-		const auto get = [&](const MaterialPoint& p, Real* value) { column.get(p, scene, value); };
-		if (!column.isInteger) return addField<vtkDoubleArray>(cells, column.name.c_str(), column.width, points, get);
-		addIntegers(cells, column.name.c_str(), points, [&](const MaterialPoint& p) {
-			Real number;
-			get(p, &number);
-			return int(number);
-		});
+		vector<Real> values(points.size() * column.width);
+		column.get(points, scene, values.data());
+		if (column.isInteger) return addIntegers(cells, column.name.c_str(), values, [](Real value) { return int(value); });
+		const auto field = vtkSmartPointer<vtkDoubleArray>::New();
+		field->SetName(column.name.c_str());
+		field->SetNumberOfComponents(column.width);
+		field->SetNumberOfTuples(points.size());
+		std::copy(values.begin(), values.end(), field->GetPointer(0));
+		cells.GetCellData()->AddArray(field);
 	}
 
 	template <int Dim> bool isClamped(const MaterialPoint& point, Real cellSize)

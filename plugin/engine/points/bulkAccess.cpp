@@ -29,29 +29,29 @@ namespace {
 		return body;
 	}
 
-	// One column of the result: `rows` items of `width` numbers, each row written by write(point, first number).
-	template <class T, class Write> py::object column(const vector<MaterialPoint>& points, int width, Write write)
+	// For so many numbers; the second is where they begin.
+	template <class T> std::pair<py::object, T*> newBytes(size_t numbers)
 	{
-		py::object bytes { py::handle<>(PyByteArray_FromStringAndSize(nullptr, points.size() * width * sizeof(T))) };
-		T*         row = reinterpret_cast<T*>(PyByteArray_AS_STRING(bytes.ptr()));
-		for (const MaterialPoint& point : points) {
-			write(point, row);
-			row += width;
-		}
+		const py::object bytes { py::handle<>(PyByteArray_FromStringAndSize(nullptr, numbers * sizeof(T))) };
+		return { bytes, reinterpret_cast<T*>(PyByteArray_AS_STRING(bytes.ptr())) };
+	}
+	template <class Get> py::object integers(size_t number, Get get)
+	{
+		const auto [bytes, first] = newBytes<int64_t>(number);
+		for (size_t i = 0; i < number; ++i)
+			first[i] = get(i);
 		return bytes;
 	}
-	template <class Get> py::object integers(const vector<MaterialPoint>& points, Get get)
+	py::object valuesOf(const PointColumn& column, const vector<MaterialPoint>& points, const Scene& scene)
 	{
-		return column<int64_t>(points, 1, [&](const MaterialPoint& point, int64_t* row) { *row = get(point); });
-	}
-	py::object valuesOf(const PointColumn& c, const vector<MaterialPoint>& points, const Scene& scene)
-	{
-		if (!c.isInteger) return column<Real>(points, c.width, [&](const MaterialPoint& point, Real* row) { c.get(point, scene, row); });
-		return integers(points, [&](const MaterialPoint& point) {
-			Real number;
-			c.get(point, scene, &number);
-			return int64_t(number);
-		});
+		if (column.isInteger) {
+			vector<Real> numbers(points.size());
+			column.get(points, scene, numbers.data());
+			return integers(points.size(), [&](size_t i) { return int64_t(numbers[i]); });
+		}
+		const auto [bytes, first] = newBytes<Real>(points.size() * column.width);
+		column.get(points, scene, first);
+		return bytes;
 	}
 
 	// The materials that the bodies have, whether in O.materials or not, and which of them each point has.
@@ -59,9 +59,9 @@ namespace {
 	{
 		py::list                                        list;
 		std::unordered_map<const MpmMaterial*, int64_t> numbers;
-		columns["materialNumber"] = integers(points, [&](const MaterialPoint& point) {
-			const auto [found, isNew] = numbers.try_emplace(point.material.get(), numbers.size());
-			if (isNew) list.append(point.material);
+		columns["materialNumber"] = integers(points.size(), [&](size_t i) {
+			const auto [found, isNew] = numbers.try_emplace(points[i].material.get(), numbers.size());
+			if (isNew) list.append(points[i].material);
 			return found->second;
 		});
 		columns["materials"]      = list;

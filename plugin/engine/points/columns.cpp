@@ -7,6 +7,7 @@ namespace yade {
 
 namespace {
 	using Point    = const MaterialPoint&;
+	using Points   = const vector<MaterialPoint>&;
 	using RowByRow = Eigen::Matrix<Real, 3, 3, Eigen::RowMajor>;
 
 	constexpr auto arrays = PointColumn::inArrays, vtk = PointColumn::inVtk, derived = PointColumn::derived;
@@ -14,19 +15,27 @@ namespace {
 	// of(point, scene) is the number; a column of integers
 	template <class Of> PointColumn integer(const char* name, unsigned uses, Of of)
 	{
-		return { name, "-", name, 1, true, uses, [of](Point p, const Scene& scene, Real* to) { *to = of(p, scene); }, nullptr };
+		const auto get = [of](Points points, const Scene& scene, Real* to) {
+			for (Point p : points)
+				*to++ = of(p, scene);
+		};
+		return { name, "-", name, 1, true, uses, get, nullptr };
 	}
 	// of(point) is the value, or the place of the value where it can be set
 	template <class Of> PointColumn result(const char* name, const char* unit, const char* label, unsigned uses, Of of)
 	{
 		using T = std::decay_t<decltype(of(std::declval<Point>()))>;
-		const auto get = [of](Point p, const Scene&, Real* to) {
-			if constexpr (std::is_same_v<T, Real>) *to = of(p);
-			else if constexpr (std::is_same_v<T, Vector3r>) Eigen::Map<Vector3r> { to } = of(p);
-			else
-				Eigen::Map<RowByRow> { to } = of(p);
+		constexpr int width = sizeof(T) / sizeof(Real);
+		const auto    get   = [of](Points points, const Scene&, Real* to) {
+                        for (Point p : points) {
+                                if constexpr (std::is_same_v<T, Real>) *to = of(p);
+                                else if constexpr (std::is_same_v<T, Vector3r>) Eigen::Map<Vector3r> { to } = of(p);
+                                else
+                                        Eigen::Map<RowByRow> { to } = of(p);
+                                to += width;
+                        }
 		};
-		return { name, unit, label, int(sizeof(T) / sizeof(Real)), false, uses, get, nullptr };
+		return { name, unit, label, width, false, uses, get, nullptr };
 	}
 	template <class Of> PointColumn given(const char* name, const char* unit, const char* label, unsigned uses, Of of)
 	{
@@ -50,9 +59,11 @@ namespace {
 	}
 	PointColumn internal(const gimpm::InternalVariable& variable)
 	{
-		const auto get = [&variable](Point p, const Scene&, Real* to) {
-			const Real* value = p.state->internal(variable.name);
-			*to               = value ? *value : initialValue(p, variable);
+		const auto get = [&variable](Points points, const Scene&, Real* to) {
+			for (Point p : points) {
+				const Real* value = p.state->internal(variable.name);
+				*to++             = value ? *value : initialValue(p, variable);
+			}
 		};
 		const auto set = [&variable](Point p, const Real* from) { p.state->setInternal(variable.name, *from); };
 		return { variable.name, variable.unit, variable.description, 1, false, arrays | vtk, get, set, &variable };

@@ -18,8 +18,8 @@ struct PointColumn {
 	bool     isInteger;
 	unsigned uses;
 
-	std::function<void(const MaterialPoint&, const Scene&, Real*)> get;
-	std::function<void(const MaterialPoint&, const Real*)>         set; // none: a result
+	std::function<void(const vector<MaterialPoint>&, const Scene&, Real*)> get; // row by row
+	std::function<void(const MaterialPoint&, const Real*)>                 set; // none: a result
 
 	const gimpm::InternalVariable* variable = nullptr; // of laws; null: every point has it
 

@@ -109,16 +109,13 @@ namespace {
 		std::unordered_map<const MpmMaterial*, int> index;
 	};
 
-	template <int Dim> void gatherInternals(const vector<MaterialPoint>& points, const std::vector<gimpm::Material>& materials, gimpm::PointCloud<Dim>& cloud)
+	// Of point p; its column is there.
+	template <int Dim> void gatherInternals(const MaterialPoint& point, const gimpm::Law& law, gimpm::PointCloud<Dim>& cloud, size_t p)
 	{
-		gimpm::provideInternals(cloud.internals, materials, points.size());
-		inRanges(points.size(), [&](size_t begin, size_t end) {
-			for (size_t p = begin; p < end; ++p)
-				withLaw(materials[cloud.material[p]].law, [&](const auto& law) {
-					const auto values = points[p].internalsOf(law);
-					points[p].requireInternals(law.variables.data(), values.data(), values.size());
-					gimpm::storeInternals(law, values, cloud.internals, p);
-				});
+		withLaw(law, [&](const auto& l) {
+			const auto values = point.internalsOf(l);
+			point.requireInternals(l.variables.data(), values.data(), values.size());
+			gimpm::storeInternals(l, values, cloud.internals, p);
 		});
 	}
 }
@@ -158,6 +155,10 @@ template <int Dim> gimpm::PointCloud<Dim> gather(const vector<MaterialPoint>& po
 {
 	gimpm::PointCloud<Dim> cloud;
 	cloud.resize(points.size());
+	MaterialIndex materials(model.materials);
+	for (size_t p = 0; p < points.size(); ++p)
+		cloud.material[p] = materials.of(points[p]);
+	gimpm::provideInternals(cloud.internals, model.materials, points.size());
 	std::atomic_bool hasForce { false };
 	inRanges(points.size(), [&](size_t begin, size_t end) {
 		for (size_t p = begin; p < end; ++p) {
@@ -171,13 +172,10 @@ template <int Dim> gimpm::PointCloud<Dim> gather(const vector<MaterialPoint>& po
 			cloud.defGrad[p]       = point.state->defGrad.template topLeftCorner<Dim, Dim>();
 			cloud.elasticStrain[p] = gimpm::SymTensor<Dim>::from(point.state->elasticStrain);
 			cloud.stress[p]        = gimpm::SymTensor<Dim>::from(point.state->stress);
+			gatherInternals(point, model.materials[cloud.material[p]].law, cloud, p);
 			if (!point.state->force.isZero(0)) hasForce = true;
 		}
 	});
-	MaterialIndex materials(model.materials);
-	for (size_t p = 0; p < points.size(); ++p)
-		cloud.material[p] = materials.of(points[p]);
-	gatherInternals(points, model.materials, cloud);
 	if (hasForce)
 		for (const MaterialPoint& point : points)
 			cloud.force.push_back(point.state->force.template head<Dim>());
