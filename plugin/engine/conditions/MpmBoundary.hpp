@@ -33,7 +33,7 @@ public:
 		  &MpmBoundary::displacement,
 		  0,
 		  "Displacement [m] of the held nodes at load factor 1, along *fix* only. The nodes stay where they are: soil that they push follows for half a "
-		  "cell, then the step fails as 'detached'.",
+		  "cell.",
 		  finite);
 	}
 
