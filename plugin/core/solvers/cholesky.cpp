@@ -36,9 +36,10 @@ Cholesky::~Cholesky()
 	cholmod_finish(&common_);
 }
 
-void Cholesky::analyse(const Csc& K)
+void Cholesky::analyse(const Csc& K, bool bySupernodes)
 {
-	cholmod_sparse A = upper(K);
+	common_.supernodal = bySupernodes ? CHOLMOD_SUPERNODAL : CHOLMOD_AUTO;
+	cholmod_sparse A   = upper(K);
 	cholmod_free_factor(&factor_, &common_);
 	factor_ = cholmod_analyze(&A, &common_);
 }

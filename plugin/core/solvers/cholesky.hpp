@@ -14,13 +14,12 @@ public:
 	Cholesky(const Cholesky&)            = delete;
 	Cholesky& operator=(const Cholesky&) = delete;
 
-	/// Orders the pattern and finds that of the factor.
-	void   analyse(const Csc& K);
-	bool   isAnalysed() const { return factor_; } ///< not before analyse(), nor if the factor would be too large for CHOLMOD
-	double entries() const { return common_.lnz; }
-	double flops() const { return common_.fl; }
-	/// Of rows and columns: the number of each in K.
-	const int* ordering() const { return static_cast<const int*>(factor_->Perm); }
+	/// Orders the pattern and finds that of the factor; by supernodes only if they are asked for or worth it.
+	void                  analyse(const Csc& K, bool bySupernodes);
+	bool                  isAnalysed() const { return factor_; } ///< not before analyse(), nor if the factor would be too large for CHOLMOD
+	double                entries() const { return common_.lnz; }
+	double                flops() const { return common_.fl; }
+	const cholmod_factor& pattern() const { return *factor_; }
 
 	/// Of a matrix with the pattern that was analysed; false if it is not positive definite.
 	bool factorise(const Csc& K);

@@ -6,6 +6,7 @@
 #include "core/solvers/conjugate_gradients.hpp"
 #include "core/solvers/gmres.hpp"
 #include "core/solvers/lu.hpp"
+#include "core/solvers/supernodal_lu.hpp"
 #include <algorithm>
 #include <cmath>
 
@@ -88,23 +89,56 @@ struct LinearSolver::Direct {
 	Csc             scaled; // rows and columns in the opposite order; its pattern is that of the symbolic analysis
 	Eigen::VectorXd scale;  // of rows and columns, in their own order
 	Cholesky        cholesky;
+	SupernodalLu    supernodalLu;
 	Lu              lu;
-	GeneralCsc      full;           // of a symmetric matrix that Cholesky refused, for LU
-	const Csc*      ofLu = nullptr; // scaled or full; null: the factor is Cholesky's
+	GeneralCsc      full; // of a symmetric matrix that Cholesky refused, for LU
+	enum class Factor { cholesky, supernodalLu, luOfScaled, luOfFull } factor {};
 
+	void   layOut(); // of LU: only where it is needed, for it takes the memory
+	Status factorise(const LinearProblem&);
+	bool   solveScaled(const Eigen::VectorXd& b, Eigen::VectorXd& x, bool transposed)
+	{
+		switch (factor) {
+			case Factor::cholesky: return cholesky.solve(b, x);
+			case Factor::supernodalLu: return supernodalLu.solve(b, x, transposed);
+			case Factor::luOfScaled: return lu.solve(scaled, b, x, transposed);
+			case Factor::luOfFull: return lu.solve(full, b, x, transposed);
+		}
+		return false;
+	}
 	bool solve(const Eigen::VectorXd& b, Eigen::VectorXd& x, bool transposed)
 	{
-		const Eigen::VectorXd right = reversed(scale.cwiseProduct(b));
-		if (!(ofLu ? lu.solve(*ofLu, right, x, transposed) : cholesky.solve(right, x))) return false;
+		if (!solveScaled(reversed(scale.cwiseProduct(b)), x, transposed)) return false;
 		x = reversed(x).cwiseProduct(scale);
 		return true;
 	}
 };
 
-LinearSolver::LinearSolver()
-        : direct_(new Direct)
+void LinearSolver::Direct::layOut()
 {
+	if (!supernodalLu.isAnalysed() && cholesky.isAnalysed()) supernodalLu.analyse(scaled, cholesky.pattern());
 }
+
+LinearSolver::Status LinearSolver::Direct::factorise(const LinearProblem& K)
+{
+	lu.forget();
+	full                = {};
+	scale               = gimpm::scale(K.stored(), scaled.value);
+	const auto statusOf = [&](Factor by, bool isRegular) {
+		factor = by;
+		return isRegular ? Status::lu : Status::singular;
+	};
+	if (K.isSymmetric()) {
+		factor = Factor::cholesky;
+		if (cholesky.factorise(scaled)) return cholesky.rcond() < smallestPivot ? Status::singular : Status::cholesky;
+		full = bothTriangles(scaled);
+		return statusOf(Factor::luOfFull, lu.factorise(full, smallestPivot));
+	}
+	if (supernodalLu.factorise(scaled, smallestPivot)) return statusOf(Factor::supernodalLu, true);
+	return statusOf(Factor::luOfScaled, lu.factorise(scaled, smallestPivot));
+}
+
+LinearSolver::LinearSolver() : direct_(new Direct) { }
 LinearSolver::~LinearSolver()                                  = default;
 LinearSolver::LinearSolver(LinearSolver&&) noexcept            = default;
 LinearSolver& LinearSolver::operator=(LinearSolver&&) noexcept = default;
@@ -112,43 +146,31 @@ LinearSolver& LinearSolver::operator=(LinearSolver&&) noexcept = default;
 LinearSolver::FactorSize LinearSolver::analyse(const LinearProblem& problem)
 {
 	const FewerThreads guard(0);
-	const Csc&         K                            = problem.stored();
-	auto& [scaled, scale, cholesky, lu, full, ofLu] = *direct_;
-	if (!cholesky.isAnalysed() || !isReverse(K, scaled)) {
+	const Csc&         K = problem.stored();
+	auto&              d = *direct_;
+	if (!d.cholesky.isAnalysed() || !isReverse(K, d.scaled)) {
 		const Stopwatch watch(times_.analyse);
-		reverse(K, scaled);
-		scaled.value.resize(K.value.size());
-		lu.forget();
-		cholesky.analyse(scaled);
+		reverse(K, d.scaled);
+		d.scaled.value.resize(K.value.size());
+		d.cholesky.analyse(d.scaled, !problem.isSymmetric());
+		d.supernodalLu.forget();
 	}
 	const double factors = problem.isSymmetric() ? 1 : 2;
-	return { factors * cholesky.entries(), factors * cholesky.flops() };
-}
-
-LinearSolver::Status LinearSolver::factorise(const LinearProblem& problem)
-{
-	const Stopwatch watch(times_.factorise);
-	auto& [scaled, values, cholesky, lu, full, ofLu] = *direct_;
-	lu.forgetFactor();
-	full   = {};
-	ofLu   = nullptr;
-	values = scale(problem.stored(), scaled.value);
-	if (problem.isSymmetric()) {
-		if (cholesky.factorise(scaled)) return cholesky.rcond() < smallestPivot ? Status::singular : Status::cholesky;
-		full = bothTriangles(scaled);
-		ofLu = &full;
-		// its diagonal may be anything, so that UMFPACK judges how to order it
-		return lu.factorise(full, nullptr, smallestPivot) ? Status::lu : Status::singular;
-	}
-	ofLu = &scaled;
-	return lu.factorise(scaled, cholesky.isAnalysed() ? cholesky.ordering() : nullptr, smallestPivot) ? Status::lu : Status::singular;
+	return { factors * d.cholesky.entries(), factors * d.cholesky.flops() };
 }
 
 LinearSolver::Status LinearSolver::solve(const LinearProblem& K, const Eigen::VectorXd& b, Eigen::VectorXd& x)
 {
 	const FewerThreads guard(analyse(K).flops);
-	const Status       status = factorise(K);
-	const Stopwatch    watch(times_.solve);
+	if (!K.isSymmetric()) {
+		const Stopwatch watch(times_.analyse);
+		direct_->layOut();
+	}
+	const Status status = [&] {
+		const Stopwatch watch(times_.factorise);
+		return direct_->factorise(K);
+	}();
+	const Stopwatch watch(times_.solve);
 	return status != Status::singular && direct_->solve(b, x, false) ? status : Status::singular;
 }
 

@@ -18,9 +18,9 @@ struct IterativeEffort {
 /// `automatic`: iterative where a factor would take much longer.
 enum class LinearMethod { automatic, direct, iterative };
 
-/// Direct solver: supernodal Cholesky (CHOLMOD), and LU with pivoting (UMFPACK) for a matrix that is not positive definite or not symmetric.
-/// The symbolic analysis is repeated only when the pattern changes. On demand conjugate gradients or, for a matrix that is not symmetric,
-/// GMRES. One object serves one thread.
+/// Direct solver: supernodal Cholesky (CHOLMOD) or, for a matrix that is not symmetric, supernodal LU; LU with pivoting (UMFPACK) for a matrix
+/// that is not positive definite, or whose pivots are not where supernodes have them. The symbolic analysis is repeated only when the pattern
+/// changes. On demand conjugate gradients or, for a matrix that is not symmetric, GMRES. One object serves one thread.
 class LinearSolver {
 public:
 	enum class Status { cholesky, lu, singular, iterative };
@@ -47,7 +47,7 @@ public:
 		return method == LinearMethod::iterative || (method == LinearMethod::automatic && prefersIterative(K));
 	}
 
-	/// Size of the factor of K, or of the two of LU, if its diagonal can be kept for the pivots, and operations that they take.
+	/// Size of the factor of K, or of the two of LU, unless pivots must be looked for, and operations that they take.
 	struct FactorSize {
 		double entries, flops;
 	};
@@ -63,8 +63,6 @@ public:
 
 private:
 	struct Direct;
-
-	Status factorise(const LinearProblem& K);
 
 	std::unique_ptr<Direct> direct_;
 	SolverTimes             times_;

@@ -4,39 +4,27 @@
 
 namespace gimpm {
 
-bool Lu::factorise(const Csc& K, const int* ordering, double smallestPivot)
+bool Lu::factorise(const Csc& K, double smallestPivot)
 {
-	double control[UMFPACK_CONTROL], info[UMFPACK_INFO];
-	umfpack_di_defaults(control);
-	forgetFactor();
-	if (!ordering) forget();
-	else
-		control[UMFPACK_STRATEGY] = UMFPACK_STRATEGY_SYMMETRIC;
-	const int n = K.size(), *start = K.start.data(), *row = K.row.data();
-	if (!symbolic_) {
-		if (ordering) umfpack_di_qsymbolic(n, n, start, row, nullptr, ordering, &symbolic_, control, info);
-		else
-			umfpack_di_symbolic(n, n, start, row, K.value.data(), &symbolic_, control, info);
-	}
-	return symbolic_ && umfpack_di_numeric(start, row, K.value.data(), symbolic_, &numeric_, control, info) == UMFPACK_OK
-	        && info[UMFPACK_RCOND] > smallestPivot;
+	forget();
+	const int  n = K.size(), *start = K.start.data(), *row = K.row.data();
+	double     info[UMFPACK_INFO];
+	void*      symbolic  = nullptr;
+	const bool isRegular = umfpack_di_symbolic(n, n, start, row, K.value.data(), &symbolic, nullptr, info) == UMFPACK_OK
+	        && umfpack_di_numeric(start, row, K.value.data(), symbolic, &factor_, nullptr, info) == UMFPACK_OK && info[UMFPACK_RCOND] > smallestPivot;
+	umfpack_di_free_symbolic(&symbolic);
+	return isRegular;
 }
 
 bool Lu::solve(const Csc& K, const Eigen::VectorXd& b, Eigen::VectorXd& x, bool transposed) const
 {
 	double info[UMFPACK_INFO];
 	x.resize(b.size());
-	return umfpack_di_solve(transposed ? UMFPACK_At : UMFPACK_A, K.start.data(), K.row.data(), K.value.data(), x.data(), b.data(), numeric_, nullptr, info)
+	return umfpack_di_solve(transposed ? UMFPACK_At : UMFPACK_A, K.start.data(), K.row.data(), K.value.data(), x.data(), b.data(), factor_, nullptr, info)
 	        == UMFPACK_OK
 	        && x.allFinite();
 }
 
-void Lu::forgetFactor() { umfpack_di_free_numeric(&numeric_); }
-
-void Lu::forget()
-{
-	forgetFactor();
-	umfpack_di_free_symbolic(&symbolic_);
-}
+void Lu::forget() { umfpack_di_free_numeric(&factor_); }
 
 } // namespace gimpm

@@ -12,20 +12,16 @@ public:
 	Lu(const Lu&)            = delete;
 	Lu& operator=(const Lu&) = delete;
 
-	/// False if K is singular to working precision: a pivot below `smallestPivot` of the largest. With an ordering of rows and columns that
-	/// keeps the factor sparse, pivots are taken from the diagonal where they are large enough, and it holds for all matrices that follow until
-	/// forget(). Without (null) K is looked at for how to order it.
-	bool factorise(const Csc& K, const int* ordering, double smallestPivot);
+	/// False if K is singular to working precision: a pivot below `smallestPivot` of the largest.
+	bool factorise(const Csc& K, double smallestPivot);
 
 	/// K x = b or, transposed, K^T x = b, for the matrix of the last factorise(), which must still be as it was.
 	bool solve(const Csc& K, const Eigen::VectorXd& b, Eigen::VectorXd& x, bool transposed) const;
 
-	/// The factor goes, and the pattern.
 	void forget();
-	void forgetFactor();
 
 private:
-	void *symbolic_ = nullptr, *numeric_ = nullptr; // of UMFPACK
+	void* factor_ = nullptr; // of UMFPACK
 };
 
 } // namespace gimpm
