@@ -139,7 +139,8 @@ INTRODUCTION = """# Where time and memory go
 KERNELS = """## Parts of a load step
 
 On the slope of the paper half way through its failure, where points yield and cross cells: 17,440 points in 2D (4 x 4 a cell), 7,128 in 3D (2 x 2 x 2).
-`residual` and `stiffness` are passes over the points without and with stiffness; `linearSolve` is factorisation and triangular solves.
+`residual` and `stiffness` are passes over the points without and with stiffness; `linearSolve` is factorisation and triangular solves, `unsymmetricSolve`
+the same by LU for a matrix of the same pattern that is not symmetric.
 
 """
 

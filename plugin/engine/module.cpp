@@ -4,6 +4,7 @@
 #include "engine/output/gridCells.hpp"
 #include "engine/points/assignment.hpp"
 #include "engine/points/bulkAccess.hpp"
+#include "engine/points/columns.hpp"
 #include "yade_api/verification.hpp"
 
 BOOST_PYTHON_MODULE(mpm_engine)
@@ -14,6 +15,7 @@ BOOST_PYTHON_MODULE(mpm_engine)
 	py::def("betweenSteps", &betweenSteps, "For mpm.save: calls a function while no step in the background changes the state.");
 	py::def("columnsOfPoints", &columnsOfPoints,
 	        "For mpm.arrays: dict of bytearrays with the data of the material points that a mask means, in order of body id.");
+	py::def("pointColumns", &pointColumnsForPython, "What there is to know of a material point: a dict with name, unit, label, width ... for each column.");
 	py::def("warn", &warn, "A warning of module mpm in YADE's log.");
 	py::def("assignColumns", &assignColumns, "For mpm.assign: values of the material points with these body ids, from a dict of arrays; all or none.");
 	py::def("gridCells", &gridCellsForPython, "For mpm.plot: corners and first field of the cells of 'grid' or 'ghostFaces' around the material points.");

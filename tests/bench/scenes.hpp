@@ -27,7 +27,6 @@ template <int Dim> struct BenchScene {
 		cloud.position[i] = position;
 		cloud.halfSize[i] = cloud.halfSize0[i] = Vec<Dim>::Constant(halfSize);
 		cloud.volume0[i]                       = std::pow(2 * halfSize, Dim);
-		cloud.plasticStrain[i]                 = 0;
 		cloud.defGrad[i].setIdentity();
 		cloud.material[i] = material;
 	}

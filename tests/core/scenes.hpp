@@ -73,6 +73,14 @@ template <int Dim> void addPoint(PointCloud<Dim>& cloud, const Vec<Dim>& positio
 	cloud.material[i] = material;
 }
 
+/// Of all points, 0 where no point has one.
+template <int Dim> std::vector<double> plasticStrains(const PointCloud<Dim>& cloud)
+{
+	const std::size_t column = internalVariables.find("plasticStrain");
+	const bool        exists = column < cloud.internals.size() && !cloud.internals[column].empty();
+	return exists ? cloud.internals[column] : std::vector<double>(cloud.size());
+}
+
 /// Calls f(index) for all lowest <= index < lowest + size, x fastest.
 template <int Dim, class F> void forIndices(const Index<Dim>& lowest, const Index<Dim>& size, F&& f)
 {

@@ -95,7 +95,7 @@ namespace {
 			for (int i = 0; i < 20; ++i) {
 				const Mat<Dim> grad              = this->random.template matrix<Dim, Dim>();
 				const auto     p                 = principal(pushForward(SymTensor<Dim>(), Mat<Dim>(size * grad)));
-				const auto     r                 = law.respond(logStrain(p.value), 0);
+				const auto     r                 = law.respond(logStrain(p.value), law.initialInternals());
 				Mat3           strain            = Mat3::Zero();
 				strain.topLeftCorner<Dim, Dim>() = 0.5 * (grad + grad.transpose());
 				const Mat3 linear                = 2 * strain + 1.5 * strain.trace() * Mat3::Identity();

@@ -19,7 +19,7 @@ namespace {
 		template <class Law> static Response response(const Law& law, const SymTensor<Dim>& b1, const Mat<Dim>& grad, Principal<Dim>& p)
 		{
 			p = principal(pushForward(b1, grad));
-			return law.respond(logStrain(p.value), 0);
+			return law.respond(logStrain(p.value), law.initialInternals());
 		}
 		template <class Law> static Mat<Dim> nodalStress(const Law& law, const SymTensor<Dim>& b1, const Mat<Dim>& grad)
 		{

@@ -62,7 +62,7 @@ namespace {
 			std::vector<char>     isPlastic(cloud.size());
 			const auto            d = nodal<Dim>(system.basis, model.grid, [&](const Vec<Dim>& x) { return Vec<Dim>(deformation * x - x); });
 			forUpdatedPoints<Dim>(
-			        system.basis, system.points, model.materials, d, [&](int p, const PointUpdate<Dim>& u) { isPlastic[p] = u.plasticStrain > 0; });
+			        system.basis, system.points, model.materials, d, [&](int p, const PointUpdate<Dim>& u) { isPlastic[p] = u.internals[0] > 0; });
 			return int(std::count(isPlastic.begin(), isPlastic.end(), 1));
 		}
 	};

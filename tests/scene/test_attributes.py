@@ -16,12 +16,15 @@ outOfRange = {
         'MpmElasticMat.young': ['0.', '-1.'],
         'MpmElasticMat.poisson': ['-1.', '0.5', '7.'],
         'MpmVonMisesMat.yieldStress': ['0.', '-1.'],
+        'MpmVonMisesMat.hardening': None,
+        'MpmVonMisesMat.residualYieldStress': ['-1.'],
         'MpmState.defGrad': ['Matrix3(-1,0,0, 0,1,0, 0,0,1)', 'Matrix3.Zero'],
         'MpmState.elasticStrain': ['Matrix3(0,1,0, 2,0,0, 0,0,0)'],
         'MpmState.force': None,
         'MpmState.volume': ['0.', '-1.'],
         'MpmState.volume0': ['0.', '-1.'],
         'MpmState.plasticStrain': ['-1e-3'],
+        'MpmState.internals': ['[("none", 1.)]', '[("plasticStrain", 1.)]'],
         'MpmPoint.halfSize': ['(0.1, 0, 0.1)', '(-1, 1, 1)'],
         'MpmPoint.halfSize0': ['(0.1, 0, 0.1)', '(-1, 1, 1)'],
         'MpmGrid.cellSize': ['0.', '-1.'],
@@ -81,6 +84,7 @@ admitted = {
         ('MpmImplicitEngine.boundaries', '()'): 'nothing is held',
         ('MpmImplicitEngine.gravityCurve', '()'): 'loadCurve',
         ('MpmVtkRecorder.solver', '""'): 'the only one',
+        ('MpmState.internals', '()'): 'initial values',
         ('MpmVtkRecorder.fields', '()'): 'the domains alone',
 }
 

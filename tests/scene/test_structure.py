@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Dependencies point downwards: python -> engine -> core, engine -> yade_api, and within the core from folder to folder."""
+"""Dependencies point downwards: python -> engine -> core, engine -> yade_api, and within the core from folder to folder. Files and functions stay
+short."""
 import re
 
 import pytest
@@ -23,24 +24,82 @@ below = {
 }
 
 
+def sources(folder):
+	found = [path for path in (plugin / folder).rglob('*') if path.suffix in ('.hpp', '.cpp')]
+	assert found
+	return found
+
+
 def includes(folder):
-	sources = [path for path in folder.rglob('*') if path.suffix in ('.hpp', '.cpp')]
-	assert sources
-	for path in sources:
+	for path in sources(folder):
 		for included in re.findall(r'^\s*#\s*include\s*(\S+)', path.read_text(), re.MULTILINE):
 			yield path, included
 
 
 @pytest.mark.parametrize('folder, admitted', [('core', coreIncludes), ('yade_api', interfaceIncludes)])
 def test_includesPointDownwards(folder, admitted):
-	wrong = [f'{path.relative_to(plugin)}: {included}' for path, included in includes(plugin / folder) if not admitted.fullmatch(included)]
+	wrong = [f'{path.relative_to(plugin)}: {included}' for path, included in includes(folder) if not admitted.fullmatch(included)]
 	assert not wrong
 
 
 def test_foldersOfTheCoreIncludeThoseBelow():
 	assert {path.name for path in (plugin / 'core').iterdir() if path.is_dir()} == set(below)
 	wrong = []
-	for path, included in includes(plugin / 'core'):
+	for path, included in includes('core'):
 		target = re.match(r'"core/(\w+)/', included)
 		if target and target[1] != path.parent.name and target[1] not in below[path.parent.name]: wrong.append(f'{path.relative_to(plugin)}: {included}')
 	assert not wrong
+
+
+# Functions that list attributes, with their documentation.
+tables = 'attributes', 'results'
+
+
+def code(text):
+	"""C++ text without comments, literals and lines of the preprocessor; line breaks stay, also those in a comment or a macro."""
+	noise = r'//[^\n]*|/\*.*?\*/|"(?:\\.|[^"\\\n])*"|\'(?:\\.|[^\'\\\n])+\'|^[ \t]*#(?:\\\n|[^\n])*'
+	return re.sub(noise, lambda match: '\n' * match[0].count('\n'), re.sub(r'(?<=\d)\'(?=\d)', '', text), flags=re.DOTALL | re.MULTILINE)
+
+
+def functions(text):
+	"""(name, number of lines) of each function with a body, from its head to its closing brace; lambdas are parts of the function around them."""
+	text, found, depth, begin = code(text), [], 0, 0
+	outside = None # depth of the braces around the function that is being read
+	for match in re.finditer('[;{}]', text):
+		char, position = match[0], match.start()
+		if outside is None: # what stands before a brace says what it opens
+			head, begin = text[begin:position], position + 1
+			name = re.search(r'([\w~]+|operator\W+)\s*\(', re.sub(r'\bdecltype\s*\(', '', head))
+			if char == '{' and name: outside, first = depth, position - len(head.lstrip())
+		depth += {'{': 1, '}': -1, ';': 0}[char]
+		if char != '}' or depth != outside: continue
+		if re.match(r'\s*[,{]', text[position + 1:]): continue # of a member that a constructor initialises
+		found.append((name[1], text.count('\n', first, position) + 1))
+		outside, begin = None, position + 1
+	return found
+
+
+def tooLong(text):
+	return [f'{name}() has {lines} lines' for name, lines in functions(text) if lines > 40 and name not in tables]
+
+
+def test_functionsAreFound():
+	"""By what is to be found in a piece of C++ of every kind that is used."""
+	body = '\n'.join(['\t{ int x = 1; } // }'] * 41)
+	assert functions('struct A { A(int x) : a { x }, b(x)\n{\n}\nint a; A& operator=(A) { f(); }\nvoid f() const override { }\n};') == [('A', 3), ('operator=', 1), ('f', 1)]
+	assert functions('template <class T, int N = 3> auto g(T x) -> decltype(x)\n{\n\treturn h([&] {\n\t\treturn x; });\n}\nint y[] = { 1, 2 };\n') == [('g', 5)]
+	assert functions('namespace n {\nconst char* s = "}{"; char c = \'{\'; // {\n#define F { \\\n {\nvoid k() { }\n}') == [('k', 1)]
+	assert tooLong(f'void f()\n{{\n{body}\n}}\nvoid g()\n{{\n}}\n') == ['f() has 44 lines']
+	assert not tooLong(f'void attributes()\n{{\n{body}\n}}\n')
+
+
+def test_filesAndFunctionsFitOnTheirScreens():
+	lines, wrong, found = {}, [], 0
+	for path in sources('core') + sources('engine'):
+		text = path.read_text()
+		lines[path.name] = text.count('\n')
+		found += len(functions(text))
+		wrong += [f'{path.relative_to(plugin)}: {function}' for function in tooLong(text)]
+	lines['MpmImplicitEngine.[hc]pp'] = lines['MpmImplicitEngine.hpp'] + lines['MpmImplicitEngine.cpp']
+	assert found > 500
+	assert not wrong + [f'{name} has {n} lines' for name, n in lines.items() if n > (150 if name == 'newton.cpp' else 300)]

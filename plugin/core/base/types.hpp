@@ -3,6 +3,7 @@
 #pragma once
 #include <Eigen/Core>
 #include <cstdint>
+#include <vector>
 
 namespace gimpm {
 
@@ -13,6 +14,10 @@ using Mat3                   = Mat<3>;
 
 /// Integer coordinates of a cell or node of the background grid.
 template <int Dim> using Index = Eigen::Matrix<int, Dim, 1>;
+
+/// What the laws remember of the points, column by column (core/materials/law.hpp says which is which). A column that is missing or empty is
+/// at its initial values.
+using InternalColumns = std::vector<std::vector<double>>;
 
 /// Symmetric second-order tensor. Plane strain keeps the out-of-plane normal component.
 /// Components: 2D (xx, yy, xy, zz), 3D (xx, yy, zz, xy, yz, zx).

@@ -15,7 +15,7 @@ template <int Dim> struct PointCloud {
 	std::vector<Mat<Dim>>       defGrad;       ///< deformation gradient
 	std::vector<SymTensor<Dim>> elasticStrain; ///< logarithmic
 	std::vector<SymTensor<Dim>> stress;        ///< Cauchy stress [Pa], a result
-	std::vector<double>         plasticStrain; ///< equivalent plastic strain
+	InternalColumns             internals;     ///< internal variables of the laws
 	std::vector<Vec<Dim>>       force;         ///< point load at load factor 1 [N]; empty: no point loads
 	std::vector<int>            material;      ///< position in the list of materials
 
@@ -29,7 +29,8 @@ template <int Dim> struct PointCloud {
 		defGrad.resize(n);
 		elasticStrain.resize(n);
 		stress.resize(n);
-		plasticStrain.resize(n);
+		for (auto& column : internals)
+			if (!column.empty()) column.resize(n);
 		material.resize(n);
 	}
 };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Hencky elasticity: Kirchhoff stress linear in the logarithmic strain.
 #pragma once
+#include "core/materials/internal_variable.hpp"
 #include "core/materials/response.hpp"
 
 namespace gimpm {
@@ -10,14 +11,19 @@ public:
 	/// young > 0 [Pa], -1 < poisson < 0.5.
 	Hencky(double young, double poisson) : young_(young), bulk_(young / (3 * (1 - 2 * poisson))), shear_(young / (2 * (1 + poisson))) { }
 
-	double young() const { return young_; }
+	static constexpr std::array<InternalVariable, 0> variables {};
+	static constexpr bool                            mayFail = false;
+
+	std::array<double, 0> initialInternals() const { return {}; }
+
+	double young(const std::array<double, 0>& = {}) const { return young_; }
 	double bulk() const { return bulk_; }
 	double shear() const { return shear_; }
 
-	template <class T> ResponseOf<T> respond(const PrincipalValues<T>& trialStrain, const T& plasticStrain) const
+	template <class T> ResponseWith<T, 0> respond(const PrincipalValues<T>& trialStrain, const std::array<T, 0>&) const
 	{
-		const T       lambda = bulk_ - 2. / 3 * shear_, pressure = lambda * (trialStrain[0] + trialStrain[1] + trialStrain[2]);
-		ResponseOf<T> r;
+		const T            lambda = bulk_ - 2. / 3 * shear_, pressure = lambda * (trialStrain[0] + trialStrain[1] + trialStrain[2]);
+		ResponseWith<T, 0> r;
 		for (int i = 0; i < 3; ++i) {
 			r.stress[i] = T(2 * shear_) * trialStrain[i] + pressure;
 			for (int j = 0; j < 3; ++j)
@@ -25,10 +31,12 @@ public:
 		}
 		r.shear.fill(T(shear_));
 		r.elasticStrain = trialStrain;
-		r.plasticStrain = plasticStrain;
 		return r;
 	}
-	Response respond(const Vec3& trialStrain, double plasticStrain) const { return respond<double>(trialStrain, plasticStrain); }
+	ResponseWith<double, 0> respond(const Vec3& trialStrain, const std::array<double, 0>& internals) const
+	{
+		return respond<double>(trialStrain, internals);
+	}
 
 private:
 	double young_, bulk_, shear_;

@@ -1,8 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The table of constitutive laws: a new law is one header beside this one and one entry here.
+//
+// A law declares its internal `variables`, their values at first (initialInternals), whether it `mayFail`, that is, has strains without an
+// answer; and it answers with young() and respond(), which are given the values of those variables in this order.
 #pragma once
 #include "core/materials/hencky.hpp"
 #include "core/materials/von_mises.hpp"
+#include <algorithm>
+#include <string_view>
 #include <variant>
 
 namespace gimpm {
@@ -19,14 +24,83 @@ template <class F, std::size_t Entry = 0> GIMPM_INLINE auto withLaw(const Law& l
 	}
 }
 
+template <class Laws> struct LawTraits;
+template <class... Laws> struct LawTraits<std::variant<Laws...>> {
+	static constexpr bool        mayFail       = (Laws::mayFail || ...);                                  ///< one of them
+	static constexpr std::size_t mostVariables = std::max({ std::size_t(0), Laws::variables.size()... }); ///< of one of them
+
+	/// The variables of all laws, each once.
+	struct Variables {
+		std::array<InternalVariable, (0 + ... + Laws::variables.size())> item {};
+		std::size_t                                                      count = 0;
+
+		constexpr auto                    begin() const { return item.begin(); }
+		constexpr auto                    end() const { return item.begin() + count; }
+		constexpr size_t                  size() const { return count; }
+		constexpr const InternalVariable& operator[](std::size_t i) const { return item[i]; }
+
+		constexpr int find(std::string_view name) const
+		{
+			for (std::size_t i = 0; i < count; ++i)
+				if (item[i].name == name) return int(i);
+			return -1;
+		}
+	};
+	static constexpr Variables variables()
+	{
+		Variables  all;
+		const auto add = [&all](const auto& ofLaw) {
+			for (const auto& variable : ofLaw)
+				if (all.find(variable.name) < 0) all.item[all.count++] = variable;
+		};
+		(add(Laws::variables), ...);
+		return all;
+	}
+};
+
+/// The internal variables that there are: column i of InternalColumns has the values of variable i.
+inline constexpr auto internalVariables = LawTraits<Law>::variables();
+
+/// Column of the k-th variable of law L.
+template <class L> constexpr int columnOf(std::size_t k) { return internalVariables.find(L::variables[k].name); }
+
+/// The internal variables of a point of this law.
+template <class L> auto internalsOf(const L& law, const InternalColumns& columns, std::size_t point)
+{
+	auto values = law.initialInternals();
+	for (std::size_t k = 0; k < values.size(); ++k)
+		if (const std::size_t column = columnOf<L>(k); column < columns.size() && !columns[column].empty()) values[k] = columns[column][point];
+	return values;
+}
+
 struct Material {
 	Law    law;
 	double density; ///< initial density [kg/m3]
 
-	double young() const
+	/// Young's modulus [Pa] of a point with these internal variables.
+	double young(const InternalColumns& columns, std::size_t point) const
 	{
-		return std::visit([](const auto& l) { return l.young(); }, law);
+		return withLaw(law, [&](const auto& l) { return l.young(internalsOf(l, columns, point)); });
 	}
 };
+
+/// Makes the columns that the laws of these materials have variables for, and that are not there yet, for so many points, of zeros.
+inline void provideInternals(InternalColumns& columns, const std::vector<Material>& materials, std::size_t points)
+{
+	columns.resize(internalVariables.size());
+	for (const Material& material : materials)
+		withLaw(material.law, [&](const auto& law) {
+			using L = std::decay_t<decltype(law)>;
+			for (std::size_t k = 0; k < law.variables.size(); ++k)
+				columns[columnOf<L>(k)].resize(points);
+		});
+}
+
+/// Stores the internal variables of a point of this law, of which `values` has at least as many as it has variables.
+template <class L, class Values> void storeInternals(const L& law, const Values& values, InternalColumns& columns, std::size_t point)
+{
+	for (std::size_t k = 0; k < law.variables.size(); ++k)
+		columns[columnOf<L>(k)][point] = values[k];
+}
 
 } // namespace gimpm

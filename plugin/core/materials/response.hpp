@@ -3,6 +3,7 @@
 #pragma once
 #include "core/base/lanes.hpp"
 #include "core/base/types.hpp"
+#include <array>
 
 namespace gimpm {
 
@@ -15,7 +16,7 @@ template <class T> struct ResponseOf {
 	Eigen::Matrix<T, 3, 3> tangent;       ///< consistent tangent d stress_i / d trialStrain_j [Pa]
 	PrincipalValues<T>     shear;         ///< G_s of the axis pairs (0,1), (1,2), (2,0): stress_i - stress_j = 2 G_s (trialStrain_i - trialStrain_j)
 	PrincipalValues<T>     elasticStrain; ///< principal elastic logarithmic strains after the return
-	T                      plasticStrain; ///< equivalent plastic strain after the return
+	T                      failed = T(0); ///< 1 where the law, which says that it may fail, has no answer
 
 	/// The numbers of one lane from another response.
 	void takeLane(int lane, const ResponseOf& o)
@@ -27,9 +28,27 @@ template <class T> struct ResponseOf {
 			for (int j = 0; j < 3; ++j)
 				tangent(i, j).v[lane] = o.tangent(i, j)[lane];
 		}
-		plasticStrain.v[lane] = o.plasticStrain[lane];
 	}
 };
 using Response = ResponseOf<double>;
+
+/// With the internal variables of the law after the return.
+template <class T, std::size_t Count> struct ResponseWith : ResponseOf<T> {
+	std::array<T, Count> internals {};
+
+	/// That of a law with no more variables.
+	template <std::size_t Fewer> GIMPM_INLINE void take(const ResponseWith<T, Fewer>& o)
+	{
+		static_cast<ResponseOf<T>&>(*this) = o;
+		for (std::size_t k = 0; k < Fewer; ++k)
+			internals[k] = o.internals[k];
+	}
+	void takeLane(int lane, const ResponseWith& o)
+	{
+		ResponseOf<T>::takeLane(lane, o);
+		for (std::size_t k = 0; k < Count; ++k)
+			internals[k].v[lane] = o.internals[k][lane];
+	}
+};
 
 } // namespace gimpm

@@ -54,7 +54,8 @@ public:
 private:
 	double of(int i, double strain) const
 	{
-		return system_.points.volume0[i] * system_.model.materials[system_.points.material[i]].young() * strain / system_.model.grid.cellSize;
+		const auto& points = system_.points;
+		return points.volume0[i] * system_.model.materials[points.material[i]].young(points.internals, i) * strain / system_.model.grid.cellSize;
 	}
 	const StepSystem<Dim>& system_;
 };

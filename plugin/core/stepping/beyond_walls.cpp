@@ -58,10 +58,7 @@ private:
 		for (int p = before.first; p < before.first + before.count; ++p) {
 			basis.order.push_back(system.basis.order[p]);
 			basis.axes.push_back(system.basis.axes[p]);
-			points.leftCauchyGreen.push_back(system.points.leftCauchyGreen[p]);
-			points.volume0.push_back(system.points.volume0[p]);
-			points.plasticStrain.push_back(system.points.plasticStrain[p]);
-			points.material.push_back(system.points.material[p]);
+			points.append(system.points, p);
 		}
 	}
 	/// The nearest node in front of walls lies on the wall: the cells on its side are reached, their neighbours are not.

@@ -4,6 +4,7 @@
 #include "core/stepping/beyond_walls.hpp"
 #include "core/stepping/equilibrium.hpp"
 #include "core/stepping/grip.hpp"
+#include "core/stepping/outcome.hpp"
 #include "core/stepping/restraint.hpp"
 #include "core/terms/point_update.hpp"
 #include <sstream>
@@ -16,12 +17,13 @@ template <int Dim> void updatePoints(PointCloud<Dim>& cloud, const StepSystem<Di
 {
 	const double      limit = 0.5 * system.model.grid.cellSize;
 	std::vector<char> clamped(cloud.size(), 0);
+	provideInternals(cloud.internals, system.model.materials, cloud.size());
 	forUpdatedPoints(system.basis, system.points, system.model.materials, d, [&](int p, const PointUpdate<Dim>& u) {
 		cloud.position[p] += u.displacement;
 		cloud.defGrad[p]       = (cloud.defGrad[p] + u.gradient * cloud.defGrad[p]).eval();
 		cloud.elasticStrain[p] = u.elasticStrain;
-		cloud.plasticStrain[p] = u.plasticStrain;
-		cloud.stress[p].c      = u.kirchhoffStress.c / cloud.defGrad[p].determinant();
+		withLaw(u.law, [&](const auto& law) { storeInternals(law, u.internals, cloud.internals, p); });
+		cloud.stress[p].c = u.kirchhoffStress.c / cloud.defGrad[p].determinant();
 		if (system.model.basis == Basis::gimp) {
 			const Vec<Dim> size = cloud.halfSize0[p].cwiseProduct(stretchAlongAxes(cloud.defGrad[p]));
 			clamped[p]          = (size.array() > limit).any();
@@ -51,6 +53,17 @@ template <int Dim> bool requireState(const PointCloud<Dim>& cloud, const Grid<Di
 	return true;
 }
 
+/// Whether the body can neither move freely nor has lost the boundaries that push it. The report says so if not.
+template <int Dim> bool isHeld(const StepSystem<Dim>& system, const PointCloud<Dim>& cloud, const Load<Dim>& load, StepReport& report)
+{
+	const Stopwatch   watch(report.times.basis);
+	const std::string lost = lostGrip(cloud, system.basis, system.model, load);
+	const Restraint   held = restraint(system.basis, system.model.grid, system.model.boundary, system.terms);
+	report.parts           = held.parts;
+	if (!lost.empty()) return !fail(report, Failure::detached, lost);
+	return held.freeMotion.empty() || !fail(report, Failure::unrestrained, "nothing restrains the " + held.freeMotion);
+}
+
 } // namespace
 
 template <int Dim> StepReport loadStep(PointCloud<Dim>& cloud, const Model<Dim>& model, const Load<Dim>& load, LinearSolver& solver, LastIncrement<Dim>* last)
@@ -59,21 +72,7 @@ template <int Dim> StepReport loadStep(PointCloud<Dim>& cloud, const Model<Dim>&
 	solver.resetTimes();
 	// 1. basis functions and populated cells; boundary cells, ghost faces and K_g
 	const StepSystem<Dim> system(cloud, model, load, report);
-	const Restraint       held = [&] {
-                const Stopwatch watch(report.times.basis);
-                report.cause = lostGrip(cloud, system.basis, model, load);
-                return restraint(system.basis, model.grid, model.boundary, system.terms);
-	}();
-	report.parts = held.parts;
-	if (!report.cause.empty()) {
-		report.failure = Failure::detached;
-		return report;
-	}
-	if (!held.freeMotion.empty()) {
-		report.failure = Failure::unrestrained;
-		report.cause   = "nothing restrains the " + held.freeMotion;
-		return report;
-	}
+	if (!isHeld(system, cloud, load, report)) return report;
 	// 2. to 4. points to nodes, assembly and Newton's method on the nodes
 	const Eigen::VectorXd prediction = last ? predict(*last, system.basis.nodes, load.growth()) : Eigen::VectorXd();
 	const Eigen::VectorXd d          = equilibrium(system, solver, report, prediction);

@@ -39,7 +39,7 @@ template <int Dim> struct Model {
 
 template <int Dim> struct Load {
 	Vec<Dim>                  gravity = Vec<Dim>::Zero(); ///< at factor 1 [m/s2]
-	LoadFactor                factor;                     ///< of point loads, and of prescribed displacements, which go with its growth
+	LoadFactor                factor {};                  ///< of point loads, and of prescribed displacements, which go with its growth
 	std::optional<LoadFactor> ofGravity {};               ///< if it has its own
 
 	/// What the displacements of the step are in proportion to, as far as that can be known.

@@ -15,16 +15,7 @@ constexpr double toleratedStart = 2;
 
 template <int Dim> class Newton {
 public:
-	Newton(const StepSystem<Dim>& system, LinearSolver& solver, StepReport& report)
-	        : system_(system)
-	        , settings_(system.model.newton)
-	        , report_(report)
-	        , iterate_(system, report)
-	        , linear_(system, solver, report)
-	        , judge_(system, iterate_, report)
-	        , d_(Eigen::VectorXd::Zero(system.nodalSize()))
-	{
-	}
+	Newton(const StepSystem<Dim>& system, LinearSolver& solver, StepReport& report) : system_(system), report_(report), linear_(system, solver, report) { }
 
 	/// Starts from zero, or from the prediction (which may be empty) if that is not much further from equilibrium.
 	NewtonResult run(const Eigen::VectorXd& prediction)
@@ -134,13 +125,13 @@ private:
 	}
 
 	const StepSystem<Dim>& system_;
-	const NewtonSettings&  settings_;
 	StepReport&            report_;
-	Iterate<Dim>           iterate_;
 	LinearStep<Dim>        linear_;
-	Judge<Dim>             judge_;
+	const NewtonSettings&  settings_ = system_.model.newton;
+	Iterate<Dim>           iterate_ { system_, report_ };
+	Judge<Dim>             judge_ { system_, iterate_, report_ };
 	Watchdog               watchdog_;
-	Eigen::VectorXd        d_;
+	Eigen::VectorXd        d_         = Eigen::VectorXd::Zero(system_.nodalSize());
 	int                    solves_    = 0;
 	bool                   predicted_ = false;
 };

@@ -24,6 +24,8 @@ bool fail(StepReport& report, Failure failure, const std::string& cause)
 bool fail(StepReport& report, const PointFailure& failure)
 {
 	report.failedPoint = failure.point;
+	if (failure.reason == PointFailure::Reason::noResponse)
+		return fail(report, Failure::noResponse, "the law of a material point has no stress for its strain");
 	return fail(report, Failure::inverted, "a material point was turned inside out (det F <= 0)");
 }
 

@@ -9,7 +9,7 @@
 
 namespace gimpm {
 
-enum class Failure { none, detached, unrestrained, singular, inverted, notFinite, diverging, tooManyIterations, stalled, interrupted };
+enum class Failure { none, detached, unrestrained, singular, inverted, noResponse, notFinite, diverging, tooManyIterations, stalled, interrupted };
 
 /// Of a stiffness matrix, as far as its factorisation told: an equilibrium may be unstable where it is not positive definite.
 enum class Definiteness { notChecked, positive, indefinite };
@@ -32,7 +32,7 @@ struct StepReport {
 	Definiteness        definiteness  = Definiteness::notChecked;                 ///< of the last symmetric matrix that was factorised
 	int                 luSolves      = 0;                                        ///< solves for which K was not positive definite, or not symmetric
 	IterativeEffort     conjugateGradients;                                       ///< or of GMRES; of all attempts at the step
-	int                 failedPoint = -1;                                         ///< its index in the cloud, for Failure::inverted
+	int                 failedPoint = -1;                                         ///< its index in the cloud, for Failure::inverted and noResponse
 
 	int nodes = 0, dofs = 0, populatedCells = 0, boundaryCells = 0, ghostFaces = 0;
 	int mixedCells = 0; ///< populated by points of several materials

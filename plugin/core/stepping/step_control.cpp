@@ -6,8 +6,8 @@ namespace gimpm {
 
 bool canBeCut(Failure failure)
 {
-	return failure == Failure::singular || failure == Failure::inverted || failure == Failure::notFinite || failure == Failure::diverging
-	        || failure == Failure::tooManyIterations;
+	return failure == Failure::singular || failure == Failure::inverted || failure == Failure::noResponse || failure == Failure::notFinite
+	        || failure == Failure::diverging || failure == Failure::tooManyIterations;
 }
 
 double StepControl::part() const { return std::min(part_, 1 - done_); }

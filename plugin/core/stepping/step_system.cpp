@@ -18,7 +18,7 @@ std::vector<GhostFace<Dim>> stabilise(const PointCloud<Dim>& cloud, const Model<
 	report.boundaryCells     = int(boundary.size());
 	report.ghostFaces        = int(faces.size());
 	const auto stiffnessOf   = [&](int p) {
-                return VolumeAndModulus { cloud.volume0[p] * cloud.defGrad[p].determinant(), model.materials[cloud.material[p]].young() };
+                return VolumeAndModulus { cloud.volume0[p] * cloud.defGrad[p].determinant(), model.materials[cloud.material[p]].young(cloud.internals, p) };
 	};
 	weighGhostFaces(faces, basis, stiffnessOf, model.grid.cellSize, model.ghost.factor, model.ghost.scaling);
 	return faces;
@@ -42,7 +42,7 @@ template <int Dim> StepSystem<Dim>::StepSystem(const PointCloud<Dim>& cloud, con
 	{
 		const Stopwatch watch(report.times.basis);
 		basis    = cloudBasis(cloud, model.grid, model.basis, model.boundary);
-		points   = stepPoints(cloud, basis);
+		points   = stepPoints(cloud, model.materials, basis);
 		external = Eigen::VectorXd::Zero(nodalSize());
 		addPointForces(basis, pointForces(cloud, model, load), external);
 	}

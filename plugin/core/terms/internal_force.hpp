@@ -11,14 +11,25 @@ namespace gimpm {
 template <int Dim> struct StepPoints {
 	std::vector<SymTensor<Dim>> leftCauchyGreen; ///< elastic b - 1 at the start of the step
 	std::vector<double>         volume0;
-	std::vector<double>         plasticStrain;
 	std::vector<int>            material;
+	InternalColumns             internals;
+
+	/// Another point, as point i of these.
+	void append(const StepPoints& from, int i)
+	{
+		leftCauchyGreen.push_back(from.leftCauchyGreen[i]);
+		volume0.push_back(from.volume0[i]);
+		material.push_back(from.material[i]);
+		internals.resize(from.internals.size());
+		for (std::size_t c = 0; c < internals.size(); ++c)
+			if (!from.internals[c].empty()) internals[c].push_back(from.internals[c][i]);
+	}
 };
 
-template <int Dim> StepPoints<Dim> stepPoints(const PointCloud<Dim>&, const CloudBasis<Dim>&);
+template <int Dim> StepPoints<Dim> stepPoints(const PointCloud<Dim>&, const std::vector<Material>&, const CloudBasis<Dim>&);
 
 /// force += internal force of the nodal displacements d (from the start of the step), K += its derivative, and sizes += the magnitudes of the
-/// patches' forces, as far as they are asked for. Fails for points with det F <= 0. The result does not depend on the number of threads.
+/// patches' forces, as far as they are asked for. Fails for points with det F <= 0 or without an answer of their law. The result does not depend on the number of threads.
 template <int Dim>
 std::optional<PointFailure> addInternalForce(
         const CloudBasis<Dim>&, const StepPoints<Dim>&, const std::vector<Material>&, const Eigen::VectorXd& d, const TermSum<Dim>&);

@@ -147,23 +147,26 @@ struct Batch {
 
 /// Response of points to the gradient of the incremental displacement.
 template <int Dim> struct BatchResponse {
+	using OfLaw = ResponseWith<Lanes, LawTraits<Law>::mostVariables>;
+
 	Principal<Dim, Lanes>  trial; ///< of b - 1
 	PrincipalValues<Lanes> strain;
-	ResponseOf<Lanes>      law;
+	OfLaw                  law; ///< in each lane that of the law of the point
 
 	GIMPM_INLINE BatchResponse(
 	        const Batch& batch, const StepPoints<Dim>& points, const std::vector<Material>& materials, const MatrixOf<Dim, Lanes>& gradient)
 	        : trial(principal(pushForward(leftCauchyGreen(batch, points), gradient))), strain(logStrain(trial.value))
 	{
-		const Lanes plasticStrain = batch.load([&](int p) GIMPM_INLINE_LAMBDA { return points.plasticStrain[p]; });
-		respond(materials[points.material[batch.point[0]]], plasticStrain, law);
+		respond(materials[points.material[batch.point[0]]], batch, points.internals, law);
 		for (int lane = 1; lane < Lanes::count; ++lane) { // seldom: another material among them
 			const int material = points.material[batch.point[lane]];
 			if (material == points.material[batch.point[lane - 1]]) continue;
-			ResponseOf<Lanes> other;
-			respond(materials[material], plasticStrain, other);
-			for (int l = lane; l < Lanes::count; ++l)
+			OfLaw other;
+			respond(materials[material], batch, points.internals, other);
+			for (int l = lane; l < Lanes::count; ++l) {
 				law.takeLane(l, other);
+				if constexpr (LawTraits<Law>::mayFail) law.failed.v[l] = other.failed[l];
+			}
 		}
 	}
 
@@ -175,9 +178,18 @@ private:
 			b1.c[k] = batch.load([&](int p) GIMPM_INLINE_LAMBDA { return points.leftCauchyGreen[p].c[k]; });
 		return b1;
 	}
-	GIMPM_INLINE void respond(const Material& material, const Lanes& plasticStrain, ResponseOf<Lanes>& response) const
+	/// In the lanes of other materials there are any numbers.
+	GIMPM_INLINE void respond(const Material& material, const Batch& batch, const InternalColumns& columns, OfLaw& response) const
 	{
-		withLaw(material.law, [&](const auto& l) GIMPM_INLINE_LAMBDA { response = l.template respond<Lanes>(strain, plasticStrain); });
+		withLaw(material.law, [&](const auto& l) GIMPM_INLINE_LAMBDA {
+			using L = std::decay_t<decltype(l)>;
+			std::array<Lanes, L::variables.size()> internals;
+			for (std::size_t k = 0; k < internals.size(); ++k) {
+				const double* column = columns[columnOf<L>(k)].data();
+				internals[k]         = batch.load([&](int p) GIMPM_INLINE_LAMBDA { return column[p]; });
+			}
+			response.take(l.template respond<Lanes>(strain, internals));
+		});
 	}
 };
 

@@ -8,14 +8,15 @@ namespace gimpm {
 
 /// State of one point for displacements d.
 template <int Dim> struct PointUpdate {
-	Vec<Dim>       displacement;
-	Mat<Dim>       gradient; ///< of the increment, with respect to the configuration at the start of the step
-	SymTensor<Dim> elasticStrain, kirchhoffStress;
-	double         plasticStrain;
+	Vec<Dim>                                          displacement;
+	Mat<Dim>                                          gradient; ///< of the increment, with respect to the configuration at the start of the step
+	SymTensor<Dim>                                    elasticStrain, kirchhoffStress;
+	const Law&                                        law;
+	std::array<double, LawTraits<Law>::mostVariables> internals; ///< in the order of the law
 };
 
 /// Value at one point of a field given by nodal vectors.
-template <int Dim, int Span> Vec<Dim> interpolate(const PointBasis<Dim>& axes, const PatchVectors<Dim, Span>& u)
+template <int Dim, int Span> GIMPM_INLINE Vec<Dim> interpolate(const PointBasis<Dim>& axes, const PatchVectors<Dim, Span>& u)
 {
 	using Nodes = PatchNodes<Dim, Span>;
 	Vec<Dim> value;
@@ -28,6 +29,20 @@ template <int Dim, int Span> Vec<Dim> interpolate(const PointBasis<Dim>& axes, c
 	return value;
 }
 
+/// For which spans a part of the update is compiled for all processors, in functions of its own. Elsewhere its multiplications and additions may
+/// be fused, which rounds otherwise. Left to the compiler, the choice and with it the last bits of the results would change with any line near it.
+template <int Dim> struct PortableParts {
+	static constexpr bool ofPiece(int span) { return Dim == 3 && (span == 2 || span == 4); }
+	static constexpr bool ofInterpolation(int span) { return Dim == 2 ? span == 1 || span == 2 : span == 1 || span >= 5; }
+};
+template <class F> [[gnu::noinline]] void           callApart(F&& f) { f(); }
+template <bool Portable, class F> GIMPM_INLINE void callPart(F&& f)
+{
+	if constexpr (Portable) callApart(f);
+	else
+		f();
+}
+
 /// Calls f(index in the cloud, PointUpdate) for the points of the patches [first, last).
 template <int Dim, class F>
 void forUpdatedPoints(
@@ -36,11 +51,15 @@ void forUpdatedPoints(
 {
 	forChunks(basis, first, last, [&](Chunk<Dim>& chunk, int patch) {
 		Vec<Dim> displacement[Chunk<Dim>::capacity];
-		forPieces(basis, chunk, patch, [&](auto span, const Patch<Dim>& p, int begin, int end) {
-			const PatchVectors<Dim, decltype(span)::value> u(p, d);
-			prepare(basis, u, begin, end, chunk);
-			for (int q = begin; q < end; ++q)
-				displacement[q - chunk.first] = interpolate<Dim, decltype(span)::value>(basis.axes[q], u);
+		forPieces(basis, chunk, patch, [&](auto span, const Patch<Dim>& p, int begin, int end) GIMPM_INLINE_LAMBDA {
+			constexpr int Span = decltype(span)::value;
+			callPart<PortableParts<Dim>::ofPiece(Span)>([&]() GIMPM_INLINE_LAMBDA {
+				const PatchVectors<Dim, Span> u(p, d);
+				prepare(basis, u, begin, end, chunk);
+				for (int q = begin; q < end; ++q)
+					callPart<PortableParts<Dim>::ofInterpolation(Span)>(
+					        [&]() GIMPM_INLINE_LAMBDA { displacement[q - chunk.first] = interpolate<Dim, Span>(basis.axes[q], u); });
+			});
 		});
 		for (int b = 0; b * Lanes::count < chunk.count; ++b) {
 			const Batch          batch(chunk.first + b * Lanes::count, chunk.last());
@@ -52,13 +71,14 @@ void forUpdatedPoints(
 			const auto               elasticStrain = assemble<Lanes, Dim>(response.law.elasticStrain, response.trial.axes);
 			const auto               stress        = assemble<Lanes, Dim>(response.law.stress, response.trial.axes);
 			for (int lane = 0, q = b * Lanes::count; lane < Lanes::count && q < chunk.count; ++lane, ++q) {
-				const auto one = [lane](const Lanes& x) { return x[lane]; };
-				f(basis.order[chunk.first + q],
-				  PointUpdate<Dim> { displacement[q],
-				                     gradient.unaryExpr(one),
-				                     { elasticStrain.c.unaryExpr(one) },
-				                     { stress.c.unaryExpr(one) },
-				                     response.law.plasticStrain[lane] });
+				const auto       one = [lane](const Lanes& x) { return x[lane]; };
+				const Law&       law = materials[points.material[chunk.first + q]].law;
+				PointUpdate<Dim> u {
+					displacement[q], gradient.unaryExpr(one), { elasticStrain.c.unaryExpr(one) }, { stress.c.unaryExpr(one) }, law, {}
+				};
+				for (std::size_t k = 0; k < u.internals.size(); ++k)
+					u.internals[k] = response.law.internals[k][lane];
+				f(basis.order[chunk.first + q], u);
 			}
 		}
 	});

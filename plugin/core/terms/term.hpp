@@ -11,8 +11,11 @@ namespace gimpm {
 
 /// A point that has no force at these displacements: the iterate cannot be evaluated.
 struct PointFailure {
-	enum class Reason { inverted }; ///< det F <= 0 or not finite
-	int    point;                   ///< index in the cloud; of several the smallest
+	enum class Reason {
+		inverted,  ///< det F <= 0 or not finite
+		noResponse ///< its law has no answer to its strain
+	};
+	int    point; ///< index in the cloud; of several the smallest
 	Reason reason = Reason::inverted;
 };
 

@@ -6,13 +6,15 @@ namespace yade {
 
 class MpmVonMisesMat : public ExposedIndexed<MpmVonMisesMat, MpmElasticMat> {
 public:
-	Real yieldStress = std::numeric_limits<Real>::quiet_NaN(); // must be given, as the moduli
+	Real yieldStress         = std::numeric_limits<Real>::quiet_NaN(); // must be given, as the moduli
+	Real hardening           = 0;
+	Real residualYieldStress = 0;
 
 	YADE_API_NAME(MpmVonMisesMat)
 	static const char* doc()
 	{
-		return "Hencky elasticity with associated, perfectly plastic von Mises yield (Coombs 2023, eqs. 8 and 9). *young*, *poisson* and *yieldStress* "
-		       "must be given.";
+		return "Hencky elasticity with associated von Mises yield (Coombs 2023, eqs. 8 and 9), perfectly plastic unless *hardening* is given. *young*, "
+		       "*poisson* and *yieldStress* must be given.";
 	}
 	template <class V> static void attributes(V&& v)
 	{
@@ -20,7 +22,14 @@ public:
 		  "Yield strength rho_y [Pa] > 0 of eq. 8, the limit of sqrt(2 J2) of the Kirchhoff stress: uniaxial yield stress / sqrt(1.5), sqrt(2) times the "
 		  "undrained shear strength.",
 		  admitting("a finite number > 0 [Pa]; there is no default", positive));
+		v("hardening", &MpmVonMisesMat::hardening, 0,
+		  "Growth of rho_y per equivalent plastic strain [Pa] > -sqrt(6) G; of the uniaxial yield stress sqrt(1.5) times as much. Where negative, the soil "
+		  "softens, and results depend on the mesh: strain gathers in a band of about a cell, so that forces after the peak fall with *cellSize*.",
+		  finite);
+		v("residualYieldStress", &MpmVonMisesMat::residualYieldStress, 0, "Below this [Pa], from 0 to *yieldStress*, softening does not bring rho_y.",
+		  nonNegative);
 	}
+	void requireAdmissible() const override;
 };
 
 } // namespace yade

@@ -9,9 +9,12 @@ namespace yade {
 // std::invalid_argument if the material's values are not admissible or its class has no law.
 gimpm::Material coreMaterial(const MpmMaterial&);
 
-// Between Kirchhoff stress [Pa] and elastic logarithmic strain of a point at rest with this equivalent plastic strain.
+// Of the law that belongs to the class of the material; none for other classes.
+vector<gimpm::InternalVariable> variablesOf(const MpmMaterial&);
+
+// Between Kirchhoff stress [Pa] and elastic logarithmic strain of a point at rest with these internal variables, in the order of its law.
 // std::invalid_argument if that state lies outside of the law's yield surface.
-Matrix3r kirchhoffStressOf(const gimpm::Material&, const Matrix3r& elasticStrain, Real plasticStrain);
-Matrix3r elasticStrainOf(const gimpm::Material&, const Matrix3r& kirchhoffStress, Real plasticStrain);
+Matrix3r kirchhoffStressOf(const gimpm::Material&, const Matrix3r& elasticStrain, const vector<Real>& internals);
+Matrix3r elasticStrainOf(const gimpm::Material&, const Matrix3r& kirchhoffStress, const vector<Real>& internals);
 
 } // namespace yade

@@ -3,6 +3,7 @@
 #include "engine/output/gridCells.hpp"
 #include "engine/output/vtkDataSets.hpp"
 #include "engine/output/vtkFiles.hpp"
+#include "engine/points/columns.hpp"
 #include "engine/solver/MpmImplicitEngine.hpp"
 #include "yade_api/exceptions.hpp"
 #include "yade_api/logging.hpp"
@@ -16,7 +17,18 @@ namespace yade {
 
 namespace {
 	const vector<string> kinds { "points", "grid", "ghostFaces" };
-	const vector<string> pointFields { "displacement", "stress", "meanStress", "sqrt2J2", "plasticStrain", "volume", "material", "clamped", "id" };
+
+	const vector<string>& pointFields()
+	{
+		static const vector<string> names = [] {
+			vector<string> found;
+			for (const PointColumn& column : pointColumns())
+				if (column.is(PointColumn::inVtk)) found.push_back(column.name);
+			found.push_back("clamped"); // which depends on the grid
+			return found;
+		}();
+		return names;
+	}
 
 	bool contains(const vector<string>& list, const string& item) { return std::find(list.begin(), list.end(), item) != list.end(); }
 
@@ -35,7 +47,7 @@ namespace {
 			point.requireAdmissible(solver.grid->dim);
 		const auto domains = pointDomains(points, scene, *solver.grid, solver.basis == "gimp");
 		if (!contains(fields, "all"))
-			for (const string& name : pointFields)
+			for (const string& name : pointFields())
 				if (!contains(fields, name)) domains->GetCellData()->RemoveArray(name.c_str());
 		return domains;
 	}
@@ -88,9 +100,20 @@ bool MpmVtkRecorder::areKinds(const vector<string>& names)
 	return !names.empty() && std::all_of(names.begin(), names.end(), [](const string& name) { return name == "all" || contains(kinds, name); });
 }
 
+const char* MpmVtkRecorder::whichFields()
+{
+	static const string text = [] {
+		string names;
+		for (const string& name : pointFields())
+			names += name + ", ";
+		return "names of the fields of 'points': " + names + "or 'all'";
+	}();
+	return text.c_str();
+}
+
 bool MpmVtkRecorder::areFields(const vector<string>& names)
 {
-	return std::all_of(names.begin(), names.end(), [](const string& name) { return name == "all" || contains(pointFields, name); });
+	return std::all_of(names.begin(), names.end(), [](const string& name) { return name == "all" || contains(pointFields(), name); });
 }
 
 bool MpmVtkRecorder::isActivated()

@@ -40,9 +40,7 @@ public:
 		v("fields", &MpmVtkRecorder::fields, 0,
 		  "Which fields of 'points' are written, by name, or 'all', the default; an empty sequence leaves the domains alone. Few fields make small "
 		  "files. Read as a tuple.",
-		  admitting(
-		          "names of the fields of 'points': displacement, stress, meanStress, sqrt2J2, plasticStrain, volume, material, clamped, id, or 'all'",
-		          areFields));
+		  admitting(whichFields(), areFields));
 		v("ascii", &MpmVtkRecorder::ascii, 0, "Write numbers as text, in larger files.");
 		v("compress", &MpmVtkRecorder::compress, 0, "Compress the data with zlib, unless *ascii*.");
 		v("solver", &MpmVtkRecorder::solver, 0, "Label of the MpmImplicitEngine to follow; needed only if there are several.");
@@ -60,6 +58,8 @@ public:
 	static bool isFileName(const string&);
 	static bool areKinds(const vector<string>&);
 	static bool areFields(const vector<string>&);
+
+	static const char* whichFields();
 
 private:
 	struct Moment {

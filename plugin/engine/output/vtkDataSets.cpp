@@ -3,6 +3,7 @@
 #include "core/grid/mixed_cells.hpp"
 #include "core/materials/kinematics.hpp"
 #include "core/stepping/step_system.hpp"
+#include "engine/points/columns.hpp"
 #include <algorithm>
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
@@ -66,8 +67,18 @@ namespace {
 		addField<vtkIntArray>(cells, name, 1, items, [&](const auto& item, int* value) { *value = get(item); });
 	}
 
-	Real meanStress(const MaterialPoint& point) { return point.state->stress.trace() / 3; }
-	Real sqrt2J2(const MaterialPoint& point) { return (point.state->stress - meanStress(point) * Matrix3r::Identity()).norm(); }
+	void addColumn(vtkUnstructuredGrid& cells, const PointColumn& column, const vector<MaterialPoint>& points, const Scene& scene)
+	{
+		vector<Real> values(points.size() * column.width);
+		column.get(points, scene, values.data());
+		if (column.isInteger) return addIntegers(cells, column.name.c_str(), values, [](Real value) { return int(value); });
+		const auto field = vtkSmartPointer<vtkDoubleArray>::New();
+		field->SetName(column.name.c_str());
+		field->SetNumberOfComponents(column.width);
+		field->SetNumberOfTuples(points.size());
+		std::copy(values.begin(), values.end(), field->GetPointer(0));
+		cells.GetCellData()->AddArray(field);
+	}
 
 	template <int Dim> bool isClamped(const MaterialPoint& point, Real cellSize)
 	{
@@ -101,17 +112,12 @@ VtkCells pointDomains(const vector<MaterialPoint>& points, const Scene& scene, c
 		}
 		domains.addCell(box, 1 << dim);
 	}
-	using Point      = const MaterialPoint&;
 	const auto cells = domains.dataSet();
-	addField<vtkDoubleArray>(*cells, "displacement", 3, points, [](Point p, Real* u) { Eigen::Map<Vector3r> { u } = p.state->pos - p.state->refPos; });
-	addField<vtkDoubleArray>(*cells, "stress", 9, points, [](Point p, Real* s) { Eigen::Map<Matrix3r> { s } = p.state->stress; });
-	addReals(*cells, "meanStress", points, meanStress);
-	addReals(*cells, "sqrt2J2", points, sqrt2J2);
-	addReals(*cells, "plasticStrain", points, [](Point p) { return p.state->plasticStrain; });
-	addReals(*cells, "volume", points, [](Point p) { return p.state->volume; });
-	addIntegers(*cells, "material", points, [&](Point p) { return p.materialIndex(scene); });
-	addIntegers(*cells, "clamped", points, [&](Point p) { return deform && (dim == 2 ? isClamped<2>(p, grid.cellSize) : isClamped<3>(p, grid.cellSize)); });
-	addIntegers(*cells, "id", points, [](Point p) { return p.id; });
+	for (const PointColumn& column : pointColumns())
+		if (column.is(PointColumn::inVtk) && column.isOf(points)) addColumn(*cells, column, points, scene);
+	addIntegers(*cells, "clamped", points, [&](const MaterialPoint& p) {
+		return deform && (dim == 2 ? isClamped<2>(p, grid.cellSize) : isClamped<3>(p, grid.cellSize));
+	});
 	return cells;
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "engine/points/MaterialPoints.hpp"
+#include <algorithm>
 #include <typeinfo>
 
 namespace yade {
@@ -71,6 +72,18 @@ namespace {
 	}
 }
 
+string refusalOf(const gimpm::InternalVariable& variable, Real value)
+{
+	std::ostringstream text;
+	text << variable.name << " = " << value << " is not admitted: expected a finite number ";
+	if (variable.least == gimpm::positive) text << "> 0";
+	else
+		text << ">= " << variable.least;
+	if (variable.most < gimpm::anyNumber) text << " and <= " << variable.most;
+	text << " [" << variable.unit << "].";
+	return text.str();
+}
+
 void MaterialPoint::requireAdmissible(int dim) const
 {
 	try {
@@ -80,6 +93,15 @@ void MaterialPoint::requireAdmissible(int dim) const
 	} catch (const std::invalid_argument& error) {
 		refuse(id, error.what());
 	}
+}
+
+void MaterialPoint::requireInternals(const gimpm::InternalVariable* variables, const Real* values, size_t count) const
+{
+	for (size_t k = 0; k < count; ++k)
+		if (!variables[k].admits(values[k])) refuse(id, refusalOf(variables[k], values[k]));
+	for (const auto& [name, value] : state->internals)
+		if (std::none_of(variables, variables + count, [&name = name](const auto& variable) { return name == variable.name; }))
+			refuse(id, "MpmState.internals has '" + name + "', which is no internal variable of " + material->getClassName() + ".");
 }
 
 int MaterialPoint::materialIndex(const Scene& scene) const

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 // The material points among the bodies of a scene.
+#include "core/materials/law.hpp"
 #include "engine/materials/MpmMaterial.hpp"
 #include "engine/points/MpmPoint.hpp"
 #include "engine/points/MpmState.hpp"
@@ -17,9 +18,24 @@ struct MaterialPoint {
 	// std::invalid_argument unless all its values can be computed with in this dimension (2 or 3). Its material is not looked at.
 	void requireAdmissible(int dim) const;
 
+	// Of its internal variables in the order of its law.
+	template <class L> auto internalsOf(const L& law) const
+	{
+		auto values = law.initialInternals();
+		for (size_t k = 0; k < values.size(); ++k)
+			if (const Real* value = state->internal(law.variables[k].name)) values[k] = *value;
+		return values;
+	}
+
+	// std::invalid_argument names one of these values that its variable does not admit, or one of the state that is none of these variables.
+	void requireInternals(const gimpm::InternalVariable*, const Real* values, size_t count) const;
+
 	// Index into O.materials, -1 if it is not in there. The number in the material itself may be that of another scene's list.
 	int materialIndex(const Scene&) const;
 };
+
+// Why an internal variable cannot have this value.
+string refusalOf(const gimpm::InternalVariable&, Real value);
 
 // Whether an engine with this mask is to look at the body: 0 and -1 mean all, also a body whose groupMask has no bits.
 inline bool maskMatches(const Body& body, int mask) { return mask == 0 || mask == -1 || (body.groupMask & mask) != 0; }

@@ -1,18 +1,20 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 #include "yade_api/registration.hpp"
+#include <string_view>
 
 namespace yade {
 
 class MpmState : public ExposedIndexed<MpmState, State> {
 public:
-	Matrix3r stress        = Matrix3r::Zero();
-	Matrix3r defGrad       = Matrix3r::Identity();
-	Matrix3r elasticStrain = Matrix3r::Zero();
-	Vector3r force         = Vector3r::Zero();
-	Real     volume        = std::numeric_limits<Real>::quiet_NaN(); // must be given
-	Real     volume0       = std::numeric_limits<Real>::quiet_NaN(); // must be given
-	Real     plasticStrain = 0;
+	Matrix3r                        stress        = Matrix3r::Zero();
+	Matrix3r                        defGrad       = Matrix3r::Identity();
+	Matrix3r                        elasticStrain = Matrix3r::Zero();
+	Vector3r                        force         = Vector3r::Zero();
+	Real                            volume        = std::numeric_limits<Real>::quiet_NaN(); // must be given
+	Real                            volume0       = std::numeric_limits<Real>::quiet_NaN(); // must be given
+	Real                            plasticStrain = 0;
+	vector<std::pair<string, Real>> internals; // of the law's variables those that are no attribute here
 
 	YADE_API_NAME(MpmState)
 	static const char* doc()
@@ -40,11 +42,20 @@ public:
 		v("volume0", &MpmState::volume0, 0, "Initial volume [m³] > 0; that of 1 m of thickness in plane strain.", volumes);
 		v("plasticStrain", &MpmState::plasticStrain, 0,
 		  "Equivalent plastic strain [-] >= 0: sqrt(2/3) times the accumulated length of the increments of plastic logarithmic strain.", nonNegative);
+		v("internals", &MpmState::internals, 0,
+		  "Internal variables of the point's law, but for *plasticStrain*: pairs of name and value, in the unit of each; without a pair a variable has its "
+		  "initial value. Read as a tuple; mpm.arrays and mpm.assign have a column for each.",
+		  admitting("pairs of the name of an internal variable, each once, and a value that it admits", areInternals));
 	}
 
 	// Position and initial position belong to YADE's State, which admits every number.
 	void requireAdmissible() const override;
 
+	// Of an internal variable of the point's law; null while it has its initial value.
+	const Real* internal(std::string_view name) const;
+	void        setInternal(std::string_view name, Real value);
+
+	static bool areInternals(const vector<std::pair<string, Real>>&);
 	static bool isSymmetric(const Matrix3r&); // to round-off
 	static bool preservesOrientation(const Matrix3r&);
 };

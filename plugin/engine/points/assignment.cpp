@@ -2,89 +2,83 @@
 #include "engine/points/assignment.hpp"
 #include "engine/materials/laws.hpp"
 #include "engine/points/buffers.hpp"
+#include "engine/points/columns.hpp"
 #include "engine/solver/MpmImplicitEngine.hpp"
 #include "engine/solver/exchange.hpp"
 #include <Eigen/LU>
 #include <algorithm>
-#include <map>
 #include <memory>
 #include <unordered_map>
 
 namespace yade {
 
 namespace {
-	using RowByRow = Eigen::Matrix<Real, 3, 3, Eigen::RowMajor>;
-
-	// The columns that are given, by name.
+	// The columns that are given, row by row.
 	class Columns {
 	public:
 		Columns(const py::dict& given, size_t rows)
 		{
 			const py::list names = given.keys();
 			for (py::ssize_t i = 0; i < py::len(names); ++i) {
-				const string name = py::extract<string>(names[i]);
-				const auto   size = widths.find(name);
-				if (size == widths.end()) throw std::invalid_argument("there is no column " + name);
-				auto column = std::make_unique<Column<Real>>(given[names[i]], name.c_str());
-				if (column->size() != rows * size->second) throw std::invalid_argument(name + " and ids differ in length");
-				columns[name] = std::move(column);
+				const string       name   = py::extract<string>(names[i]);
+				const PointColumn* column = findColumn(name);
+				if (!column || !column->set) throw std::invalid_argument("there is no column " + name + " to be given");
+				auto values = std::make_unique<Column<Real>>(given[names[i]], name.c_str());
+				if (values->size() != rows * column->width) throw std::invalid_argument(name + " and ids differ in length");
+				columns.push_back({ column, std::move(values) });
 			}
 		}
-		bool has(const string& name) const { return columns.count(name); }
-		// leaves the value alone where there is no such column
-		void read(const string& name, size_t row, Real& value) const
+		// first of the numbers of a row; null if the column is not given
+		const Real* find(const string& name, size_t row) const
 		{
-			if (has(name)) value = *first(name, row);
+			for (const Given& given : columns)
+				if (given.column->name == name) return given.at(row);
+			return nullptr;
 		}
-		void read(const string& name, size_t row, Vector3r& value) const
+		bool has(const string& name) const { return find(name, 0); }
+
+		void requireAdmitted(size_t row) const
 		{
-			if (has(name)) value = Eigen::Map<const Vector3r>(first(name, row));
+			for (const auto& [column, values] : columns)
+				if (const auto* variable = column->variable; variable && !variable->admits(values->data()[row]))
+					throw std::invalid_argument(refusalOf(*variable, values->data()[row]));
 		}
-		void read(const string& name, size_t row, Matrix3r& value) const
+		bool haveInternals() const
 		{
-			if (has(name)) value = Eigen::Map<const RowByRow>(first(name, row));
+			return std::any_of(columns.begin(), columns.end(), [](const Given& given) { return given.column->variable; });
+		}
+		void assignTo(const MaterialPoint& point, size_t row) const
+		{
+			for (const Given& given : columns)
+				given.column->set(point, given.at(row));
 		}
 
 	private:
-		const Real* first(const string& name, size_t row) const { return columns.at(name)->data() + row * widths.at(name); }
+		struct Given {
+			const PointColumn*            column;
+			std::unique_ptr<Column<Real>> values;
 
-		static const std::map<string, size_t>           widths;
-		std::map<string, std::unique_ptr<Column<Real>>> columns;
+			const Real* at(size_t row) const { return values->data() + row * column->width; }
+		};
+		vector<Given> columns;
 	};
 
-	const std::map<string, size_t> Columns::widths { { "pos", 3 },    { "pos0", 3 },          { "defGrad", 9 }, { "elasticStrain", 9 },
-		                                         { "stress", 9 }, { "plasticStrain", 1 }, { "force", 3 },   { "color", 3 } };
+	Matrix3r tensorOr(const Matrix3r& otherwise, const Real* given)
+	{
+		return given ? Matrix3r(Eigen::Map<const Eigen::Matrix<Real, 3, 3, Eigen::RowMajor>>(given)) : otherwise;
+	}
 
-	// Of a material point, what a column can change.
+	// Of a material point, what follows from columns.
 	struct Values {
-		Vector3r pos, pos0, force, color, halfSize;
 		Matrix3r defGrad, elasticStrain, stress;
-		Real     plasticStrain, volume;
+		Vector3r halfSize;
+		Real     volume;
 
-		explicit Values(const MaterialPoint& p)
-		        : pos(p.state->pos)
-		        , pos0(p.state->refPos)
-		        , force(p.state->force)
-		        , color(p.shape->color)
-		        , halfSize(p.shape->halfSize)
-		        , defGrad(p.state->defGrad)
-		        , elasticStrain(p.state->elasticStrain)
-		        , stress(p.state->stress)
-		        , plasticStrain(p.state->plasticStrain)
-		        , volume(p.state->volume)
-		{
-		}
 		void assignTo(const MaterialPoint& p) const
 		{
-			p.state->pos           = pos;
-			p.state->refPos        = pos0;
-			p.state->force         = force;
-			p.state->defGrad       = defGrad;
 			p.state->elasticStrain = elasticStrain;
 			p.state->stress        = stress;
-			p.state->plasticStrain = plasticStrain;
 			p.state->volume        = volume;
-			p.shape->color         = color;
 			p.shape->halfSize      = halfSize;
 		}
 	};
@@ -101,34 +95,40 @@ namespace {
 		v.halfSize = stretched(point.shape->halfSize0, v.defGrad);
 	}
 
+	// In the order of the law of the point.
+	vector<Real> internalsOf(const MaterialPoint& point, const Columns& columns, size_t row, const gimpm::Material& material)
+	{
+		return withLaw(material.law, [&](const auto& law) {
+			const auto   before = point.internalsOf(law);
+			vector<Real> values(before.begin(), before.end());
+			for (size_t k = 0; k < values.size(); ++k)
+				if (const Real* given = columns.find(law.variables[k].name, row)) values[k] = *given;
+			return values;
+		});
+	}
+
 	// Stress and elastic strain depend on each other.
-	void followStress(Values& v, const Columns& columns, const gimpm::Material& material)
+	void followStress(Values& v, const Columns& columns, const vector<Real>& internals, const gimpm::Material& material)
 	{
 		const Real J = v.defGrad.determinant();
 		if (columns.has("stress")) {
 			requireSymmetric("stress", v.stress);
-			v.elasticStrain = elasticStrainOf(material, J * v.stress, v.plasticStrain);
-		} else if (columns.has("elasticStrain") || columns.has("defGrad") || columns.has("plasticStrain")) {
+			v.elasticStrain = elasticStrainOf(material, J * v.stress, internals);
+		} else if (columns.has("elasticStrain") || columns.has("defGrad") || columns.haveInternals()) {
 			requireSymmetric("elasticStrain", v.elasticStrain);
-			v.stress = kirchhoffStressOf(material, v.elasticStrain, v.plasticStrain) / J;
+			v.stress = kirchhoffStressOf(material, v.elasticStrain, internals) / J;
 		}
 	}
 
 	Values changed(const MaterialPoint& point, const Columns& columns, size_t row, const gimpm::Material& material)
 	{
-		Values v(point);
-		columns.read("pos", row, v.pos);
-		columns.read("pos0", row, v.pos0);
-		columns.read("force", row, v.force);
-		columns.read("color", row, v.color);
-		columns.read("defGrad", row, v.defGrad);
-		columns.read("elasticStrain", row, v.elasticStrain);
-		columns.read("stress", row, v.stress);
-		columns.read("plasticStrain", row, v.plasticStrain);
+		const MpmState& state = *point.state;
+		Values          v { tensorOr(state.defGrad, columns.find("defGrad", row)), tensorOr(state.elasticStrain, columns.find("elasticStrain", row)),
+                           tensorOr(state.stress, columns.find("stress", row)), point.shape->halfSize, state.volume };
 		if (!MpmState::preservesOrientation(v.defGrad)) throw std::invalid_argument("defGrad has no determinant > 0: matter cannot turn inside out.");
-		if (!(v.plasticStrain >= 0)) throw std::invalid_argument("plasticStrain = " + std::to_string(v.plasticStrain) + " is not >= 0.");
+		columns.requireAdmitted(row);
 		if (columns.has("defGrad")) followDeformation(v, point);
-		followStress(v, columns, material);
+		followStress(v, columns, internalsOf(point, columns, row, material), material);
 		return v;
 	}
 
@@ -161,8 +161,11 @@ void assignColumns(const py::object& ids, const py::dict& given)
 			throw std::invalid_argument("Body #" + std::to_string(point.id) + ": " + error.what());
 		}
 	}
-	for (size_t row = 0; row < rows.size(); ++row)
-		values[row].assignTo(pointWith(rows.data()[row], points));
+	for (size_t row = 0; row < rows.size(); ++row) {
+		const MaterialPoint& point = pointWith(rows.data()[row], points);
+		columns.assignTo(point, row);
+		values[row].assignTo(point);
+	}
 }
 
 } // namespace yade

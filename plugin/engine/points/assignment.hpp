@@ -5,9 +5,8 @@
 
 namespace yade {
 
-// Gives the material points with these body ids (N int64) the values of some columns of mpm.arrays() (N rows of double): "pos", "pos0",
-// "defGrad", "elasticStrain", "stress", "plasticStrain", "force"; and "color" (N x 3), that of their shape. What depends on these values
-// follows: volume and halfSize, and of stress and elasticStrain the one that is not given. std::invalid_argument if a value is not admissible;
+// Gives the material points with these body ids (N int64) the values of some of those columns that can be set (N rows of double). What depends
+// on these values follows: volume and halfSize, and of stress and elasticStrain the one that is not given. std::invalid_argument if a value is not admissible;
 // then none is taken.
 void assignColumns(const py::object& ids, const py::dict& columns);
 

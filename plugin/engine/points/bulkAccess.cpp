@@ -2,6 +2,7 @@
 #include "engine/points/bulkAccess.hpp"
 #include "engine/points/MaterialPoints.hpp"
 #include "engine/points/buffers.hpp"
+#include "engine/points/columns.hpp"
 #include "yade_api/logging.hpp"
 #include <unordered_map>
 
@@ -28,33 +29,29 @@ namespace {
 		return body;
 	}
 
-	// One column of the result: `rows` items of `width` numbers, each row written by write(point, first number).
-	template <class T, class Write> py::object column(const vector<MaterialPoint>& points, int width, Write write)
+	// For so many numbers; the second is where they begin.
+	template <class T> std::pair<py::object, T*> newBytes(size_t numbers)
 	{
-		py::object bytes { py::handle<>(PyByteArray_FromStringAndSize(nullptr, points.size() * width * sizeof(T))) };
-		T*         row = reinterpret_cast<T*>(PyByteArray_AS_STRING(bytes.ptr()));
-		for (const MaterialPoint& point : points) {
-			write(point, row);
-			row += width;
-		}
+		const py::object bytes { py::handle<>(PyByteArray_FromStringAndSize(nullptr, numbers * sizeof(T))) };
+		return { bytes, reinterpret_cast<T*>(PyByteArray_AS_STRING(bytes.ptr())) };
+	}
+	template <class Get> py::object integers(size_t number, Get get)
+	{
+		const auto [bytes, first] = newBytes<int64_t>(number);
+		for (size_t i = 0; i < number; ++i)
+			first[i] = get(i);
 		return bytes;
 	}
-	template <class Get> py::object scalars(const vector<MaterialPoint>& points, Get get)
+	py::object valuesOf(const PointColumn& column, const vector<MaterialPoint>& points, const Scene& scene)
 	{
-		return column<Real>(points, 1, [&](const MaterialPoint& point, Real* row) { *row = get(point); });
-	}
-	template <class Get> py::object integers(const vector<MaterialPoint>& points, Get get)
-	{
-		return column<int64_t>(points, 1, [&](const MaterialPoint& point, int64_t* row) { *row = get(point); });
-	}
-	template <class Get> py::object vectors(const vector<MaterialPoint>& points, Get get)
-	{
-		return column<Real>(points, 3, [&](const MaterialPoint& point, Real* row) { Eigen::Map<Vector3r> { row } = get(point); });
-	}
-	template <class Get> py::object tensors(const vector<MaterialPoint>& points, Get get)
-	{
-		using RowByRow = Eigen::Matrix<Real, 3, 3, Eigen::RowMajor>;
-		return column<Real>(points, 9, [&](const MaterialPoint& point, Real* row) { Eigen::Map<RowByRow> { row } = get(point); });
+		if (column.isInteger) {
+			vector<Real> numbers(points.size());
+			column.get(points, scene, numbers.data());
+			return integers(points.size(), [&](size_t i) { return int64_t(numbers[i]); });
+		}
+		const auto [bytes, first] = newBytes<Real>(points.size() * column.width);
+		column.get(points, scene, first);
+		return bytes;
 	}
 
 	// The materials that the bodies have, whether in O.materials or not, and which of them each point has.
@@ -62,9 +59,9 @@ namespace {
 	{
 		py::list                                        list;
 		std::unordered_map<const MpmMaterial*, int64_t> numbers;
-		columns["materialNumber"] = integers(points, [&](const MaterialPoint& point) {
-			const auto [found, isNew] = numbers.try_emplace(point.material.get(), numbers.size());
-			if (isNew) list.append(point.material);
+		columns["materialNumber"] = integers(points.size(), [&](size_t i) {
+			const auto [found, isNew] = numbers.try_emplace(points[i].material.get(), numbers.size());
+			if (isNew) list.append(points[i].material);
 			return found->second;
 		});
 		columns["materials"]      = list;
@@ -97,25 +94,15 @@ void betweenSteps(const py::object& f)
 	f();
 }
 
-py::dict columnsOfPoints(int mask)
+py::dict columnsOfPoints(int mask, bool withDerived)
 {
-	using Point = const MaterialPoint&;
 	const ValueLock lock;
 	const Scene&    scene  = *Singleton<Omega>::instance().getScene();
 	const auto      points = materialPoints(scene, mask);
 	py::dict        columns;
-	columns["id"]            = integers(points, [](Point p) { return p.id; });
-	columns["pos"]           = vectors(points, [](Point p) { return p.state->pos; });
-	columns["pos0"]          = vectors(points, [](Point p) { return p.state->refPos; });
-	columns["halfSize"]      = vectors(points, [](Point p) { return p.shape->halfSize; });
-	columns["halfSize0"]     = vectors(points, [](Point p) { return p.shape->halfSize0; });
-	columns["force"]         = vectors(points, [](Point p) { return p.state->force; });
-	columns["stress"]        = tensors(points, [](Point p) { return p.state->stress; });
-	columns["defGrad"]       = tensors(points, [](Point p) { return p.state->defGrad; });
-	columns["elasticStrain"] = tensors(points, [](Point p) { return p.state->elasticStrain; });
-	columns["volume"]        = scalars(points, [](Point p) { return p.state->volume; });
-	columns["plasticStrain"] = scalars(points, [](Point p) { return p.state->plasticStrain; });
-	columns["material"]      = integers(points, [&](Point p) { return p.materialIndex(scene); });
+	for (const PointColumn& column : pointColumns())
+		if ((column.is(PointColumn::inArrays) || (withDerived && column.is(PointColumn::derived))) && column.isOf(points))
+			columns[column.name] = valuesOf(column, points, scene);
 	addMaterials(columns, points);
 	return columns;
 }

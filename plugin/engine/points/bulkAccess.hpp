@@ -12,9 +12,10 @@ py::list newBodies(const py::object& positions, const Vector3r& halfSize, const 
 // Calls f while no step in the background changes the material points or the engines.
 void betweenSteps(const py::object& f);
 
-// For each column of mpm.arrays() its values in order of body id, one row after the other, as a bytearray of double or int64: of the points
-// that an engine with this mask moves. "materials" is the list of the bodies' own materials, "materialNumber" the place in it.
-py::dict columnsOfPoints(int mask);
+// For each column of mpm.arrays(), or also of those that follow from them, its values in order of body id, one row after the other, as a
+// bytearray of double or int64: of the points that an engine with this mask moves. "materials" is the list of the bodies' own materials,
+// "materialNumber" the place in it.
+py::dict columnsOfPoints(int mask, bool withDerived);
 
 // Into YADE's log.
 void warn(const string& text);

@@ -111,6 +111,16 @@ namespace {
 		std::vector<gimpm::Material>&               list;
 		std::unordered_map<const MpmMaterial*, int> index;
 	};
+
+	// Of point p; its column is there.
+	template <int Dim> void gatherInternals(const MaterialPoint& point, const gimpm::Law& law, gimpm::PointCloud<Dim>& cloud, size_t p)
+	{
+		withLaw(law, [&](const auto& l) {
+			const auto values = point.internalsOf(l);
+			point.requireInternals(l.variables.data(), values.data(), values.size());
+			gimpm::storeInternals(l, values, cloud.internals, p);
+		});
+	}
 }
 
 Vector3r stretched(const Vector3r& halfSize0, const Matrix3r& defGrad)
@@ -149,6 +159,10 @@ template <int Dim> gimpm::PointCloud<Dim> gather(const vector<MaterialPoint>& po
 {
 	gimpm::PointCloud<Dim> cloud;
 	cloud.resize(points.size());
+	MaterialIndex materials(model.materials);
+	for (size_t p = 0; p < points.size(); ++p)
+		cloud.material[p] = materials.of(points[p]);
+	gimpm::provideInternals(cloud.internals, model.materials, points.size());
 	std::atomic_bool hasForce { false };
 	inRanges(points.size(), [&](size_t begin, size_t end) {
 		for (size_t p = begin; p < end; ++p) {
@@ -162,13 +176,10 @@ template <int Dim> gimpm::PointCloud<Dim> gather(const vector<MaterialPoint>& po
 			cloud.defGrad[p]       = point.state->defGrad.template topLeftCorner<Dim, Dim>();
 			cloud.elasticStrain[p] = gimpm::SymTensor<Dim>::from(point.state->elasticStrain);
 			cloud.stress[p]        = gimpm::SymTensor<Dim>::from(point.state->stress);
-			cloud.plasticStrain[p] = point.state->plasticStrain;
+			gatherInternals(point, model.materials[cloud.material[p]].law, cloud, p);
 			if (!point.state->force.isZero(0)) hasForce = true;
 		}
 	});
-	MaterialIndex materials(model.materials);
-	for (size_t p = 0; p < points.size(); ++p)
-		cloud.material[p] = materials.of(points[p]);
 	if (hasForce)
 		for (const MaterialPoint& point : points)
 			cloud.force.push_back(point.state->force.template head<Dim>());
@@ -183,15 +194,18 @@ template <int Dim> gimpm::PointCloud<Dim> gather(const vector<MaterialPoint>& po
 template <int Dim> void scatter(const gimpm::PointCloud<Dim>& cloud, const vector<MaterialPoint>& points)
 {
 	inRanges(points.size(), [&](size_t begin, size_t end) {
+		vector<gimpm::InternalVariable> variables;
 		for (size_t p = begin; p < end; ++p) {
 			MpmState& state                                = *points[p].state;
 			state.pos.head<Dim>()                          = cloud.position[p];
 			state.defGrad.topLeftCorner<Dim, Dim>()        = cloud.defGrad[p];
 			state.elasticStrain                            = cloud.elasticStrain[p].full();
 			state.stress                                   = cloud.stress[p].full();
-			state.plasticStrain                            = cloud.plasticStrain[p];
 			state.volume                                   = cloud.volume0[p] * cloud.defGrad[p].determinant();
 			points[p].shape->halfSize.template head<Dim>() = cloud.halfSize[p];
+			if (p == begin || points[p].material.get() != points[p - 1].material.get()) variables = variablesOf(*points[p].material);
+			for (const gimpm::InternalVariable& variable : variables)
+				state.setInternal(variable.name, cloud.internals[gimpm::internalVariables.find(variable.name)][p]);
 		}
 	});
 }

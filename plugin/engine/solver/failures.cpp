@@ -69,6 +69,7 @@ const char* nameOf(gimpm::Failure failure)
 		case Failure::unrestrained: return "unrestrained";
 		case Failure::singular: return "singular";
 		case Failure::inverted: return "inverted";
+		case Failure::noResponse: return "noResponse";
 		case Failure::notFinite: return "notFinite";
 		case Failure::diverging: return "diverging";
 		case Failure::tooManyIterations: return "tooManyIterations";

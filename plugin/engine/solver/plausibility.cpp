@@ -140,7 +140,7 @@ namespace {
 		constexpr Real lightest = 50, softest = 1e5, ofGround = 500; // kg/m3, Pa, kg/m3
 		if (gravity.norm() <= 1) return "";
 		for (size_t m = 0; m < materials.size(); ++m) {
-			const Real density = materials[m].density, young = materials[m].young();
+			const Real density = materials[m].density, young = materials[m].young({}, 0);
 			const bool isLight = density < lightest, isSoft = young < softest && density > ofGround;
 			if (!isLight && !isSoft) continue;
 			const size_t first = std::find(cloud.material.begin(), cloud.material.end(), int(m)) - cloud.material.begin();

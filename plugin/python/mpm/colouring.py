@@ -2,7 +2,7 @@
 """Colours of the material points in YADE's 3D view."""
 import numpy as np
 
-from .data import arrays
+from .data import fields
 from .fields import scalar
 from .library import engine
 from .messages import brief
@@ -22,7 +22,7 @@ def colour(field, range=None, colormap='viridis'):
 	:raises ValueError: a field or colour map that does not exist, an array of another length or with values that are not finite, or a range that
 		is not increasing.
 	"""
-	points = arrays()
+	points = fields()
 	values = scalarOrArray('colour', field, points)
 	low, high = limits('colour', range, values)
 	share = np.clip((values - low) / (high - low), 0, 1)

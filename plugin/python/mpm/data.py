@@ -8,20 +8,7 @@ from yade import wrapper
 from .library import engine
 from .messages import brief
 
-_columns = {  # kind of a number and shape of a row
-        'id': (np.int64, ()),
-        'pos': (float, (3, )),
-        'pos0': (float, (3, )),
-        'halfSize': (float, (3, )),
-        'halfSize0': (float, (3, )),
-        'force': (float, (3, )),
-        'stress': (float, (3, 3)),
-        'defGrad': (float, (3, 3)),
-        'elasticStrain': (float, (3, 3)),
-        'volume': (float, ()),
-        'plasticStrain': (float, ()),
-        'material': (np.int64, ()),
-}
+table = {column['name']: column for column in engine.pointColumns()}  # of all columns that there are
 
 
 def arrays():
@@ -33,11 +20,16 @@ def arrays():
 	:return: dict of ``id`` (N,) body ids; ``pos``, ``pos0`` (N, 3) current and initial position [m]; ``halfSize``, ``halfSize0`` (N, 3)
 		half the current and the initial size of the domain [m]; ``force`` (N, 3) point load at load factor 1 [N]; ``stress`` (N, 3, 3) Cauchy stress [Pa]; ``defGrad`` (N, 3, 3) deformation gradient;
 		``elasticStrain`` (N, 3, 3) logarithmic elastic strain; ``volume`` (N,) current volume [m3]; ``plasticStrain`` (N,)
-		accumulated plastic strain; ``material`` (N,) index into ``O.materials`` (-1: not in there). A scene without material
-		points gives arrays of length 0.
+		accumulated plastic strain; ``material`` (N,) index into ``O.materials`` (-1: not in there). Where the law of a point has other
+		internal variables, (N,) of each by its name, NaN for points without. A scene without material points gives arrays of length 0.
 	:raises ValueError: a body with an ``MpmPoint`` shape that is no complete material point.
 	"""
-	return _asArrays(engine.columnsOfPoints(0))
+	return _asArrays(engine.columnsOfPoints(0, False))
+
+
+def fields():
+	"""The same, and what follows from it: ``displacement`` (N, 3) [m], ``meanStress`` and ``sqrt2J2`` (N,) [Pa]."""
+	return _asArrays(engine.columnsOfPoints(0, True))
 
 
 def pointsOf(solver):
@@ -45,15 +37,20 @@ def pointsOf(solver):
 
 	``O.materials`` need not hold those, so ``material`` of :func:`arrays` may be no index.
 	"""
-	data = engine.columnsOfPoints(solver.mask)
+	data = engine.columnsOfPoints(solver.mask, False)
 	return _asArrays(data), data['materials'], np.frombuffer(data['materialNumber'], np.int64)
 
 
 def _asArrays(data):
-	return {name: np.frombuffer(data[name], kind).reshape((-1, ) + shape) for name, (kind, shape) in _columns.items()}
+	return {name: np.frombuffer(data[name], np.int64 if column['isInteger'] else float).reshape((-1, ) + _shape(column)) for name, column in table.items() if name in data}
 
 
-_assignable = 'pos', 'pos0', 'defGrad', 'elasticStrain', 'stress', 'plasticStrain', 'force'
+def _shape(column):
+	"""Of a row."""
+	return {1: (), 3: (3, ), 9: (3, 3)}[column['width']]
+
+
+_assignable = [name for name, column in table.items() if column['isGiven']]
 
 
 def assign(ids=None, **columns):
@@ -72,7 +69,8 @@ def assign(ids=None, **columns):
 	:param ids: (N,) body ids of the points, in the order of the rows; all points in order of body id (that of :func:`arrays`) if
 		not given
 	:param columns: arrays of N rows, named and shaped as those of :func:`arrays`: ``pos``, ``pos0`` [m], ``defGrad``,
-		``elasticStrain``, ``stress`` [Pa] (the Cauchy stress, instead of ``elasticStrain``), ``plasticStrain``, ``force`` [N]; all finite.
+		``elasticStrain``, ``stress`` [Pa] (the Cauchy stress, instead of ``elasticStrain``), ``plasticStrain`` and other internal variables of the
+		points' laws, ``force`` [N]; all finite.
 		There are no velocities in a quasi-static analysis.
 	:raises TypeError: a name that is not in this list, or values that are no numbers.
 	:raises ValueError: a wrong shape; a value that is not finite, or not admitted for that column (``MpmState`` says what is); a stress
@@ -107,7 +105,7 @@ def _gravityActs():
 
 
 def _idsOfPoints():
-	return np.frombuffer(engine.columnsOfPoints(0)['id'], np.int64)
+	return np.frombuffer(engine.columnsOfPoints(0, False)['id'], np.int64)
 
 
 def _ids(ids):
@@ -127,11 +125,11 @@ def _ids(ids):
 def _column(name, values, rows):
 	if name not in _assignable:
 		if name in ('vel', 'velocity', 'velocities'): hint = 'a quasi-static analysis has no velocities'
-		elif name in _columns: hint = f'{name} is a result'
+		elif name in table: hint = f'{name} is a result'
 		else: hint = 'there is no such column'
 		raise TypeError(f"assign: {name} cannot be assigned: {hint}; there are {', '.join(_assignable)}")
 	array = _numbers(name, values)
-	shape = (rows, ) + _columns[name][1]
+	shape = (rows, ) + _shape(table[name])
 	if array.shape != shape:
 		raise ValueError(f'assign: {name} has the shape {array.shape}; expected is {shape}, one row for each of {rows} material points')
 	finite = np.isfinite(array).reshape(rows, -1).all(axis=1)

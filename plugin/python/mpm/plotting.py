@@ -6,7 +6,7 @@ import numpy as np
 
 from .analysis import solverOf
 from .colouring import colourMap, limits, scalarOrArray
-from .data import arrays
+from .data import fields
 from .fields import labelled
 from .files import replacing
 from .library import engine
@@ -49,7 +49,7 @@ def plot(field='displacement', deformed=True, grid=None, ghost=None, fileName=No
 	if not deformed and (grid or ghost): raise ValueError('plot: the grid belongs to the current configuration, so grid and ghost need deformed=True')
 	grid, ghost = (deformed if wanted is None else wanted for wanted in (grid, ghost))
 	solver = solverOf('plot', solver)
-	points = arrays()
+	points = fields()
 	if not len(points['id']): raise ValueError('plot: the scene has no material points')
 	values = scalarOrArray('plot', field, points)
 	section = _Section(solver, points, plane)

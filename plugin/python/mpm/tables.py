@@ -5,8 +5,8 @@ import os
 import numpy as np
 from yade import wrapper
 
-from .data import arrays
-from .fields import components, withDerived
+from .data import fields
+from .fields import components
 from .files import replacing
 from .messages import pathOf
 
@@ -25,7 +25,7 @@ def export(fileName):
 	fileName = pathOf('export', 'fileName', fileName)
 	ending = os.path.splitext(fileName)[1]
 	if ending not in ('.csv', '.npz'): raise ValueError(f'export: fileName = {fileName!r} must end in .csv or .npz, which chooses the format')
-	columns = withDerived(arrays())
+	columns = fields()
 	with replacing(fileName) as temporary, open(temporary, 'wb') as file:
 		if ending == '.npz':
 			scene = wrapper.Omega()

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "engine/points/columns.hpp"
+#include "engine/materials/laws.hpp"
+#include <algorithm>
+
+namespace yade {
+
+namespace {
+	using Point    = const MaterialPoint&;
+	using Points   = const vector<MaterialPoint>&;
+	using RowByRow = Eigen::Matrix<Real, 3, 3, Eigen::RowMajor>;
+
+	constexpr auto arrays = PointColumn::inArrays, vtk = PointColumn::inVtk, derived = PointColumn::derived;
+
+	// of(point, scene) is the number; a column of integers
+	template <class Of> PointColumn integer(const char* name, unsigned uses, Of of)
+	{
+		const auto get = [of](Points points, const Scene& scene, Real* to) {
+			for (Point p : points)
+				*to++ = of(p, scene);
+		};
+		return { name, "-", name, 1, true, uses, get, nullptr };
+	}
+	// of(point) is the value, or the place of the value where it can be set
+	template <class Of> PointColumn result(const char* name, const char* unit, const char* label, unsigned uses, Of of)
+	{
+		using T             = std::decay_t<decltype(of(std::declval<Point>()))>;
+		constexpr int width = sizeof(T) / sizeof(Real);
+		const auto    get   = [of](Points points, const Scene&, Real* to) {
+                        for (Point p : points) {
+                                if constexpr (std::is_same_v<T, Real>) *to = of(p);
+                                else if constexpr (std::is_same_v<T, Vector3r>)
+                                        Eigen::Map<Vector3r> { to } = of(p);
+                                else
+                                        Eigen::Map<RowByRow> { to } = of(p);
+                                to += width;
+                        }
+		};
+		return { name, unit, label, width, false, uses, get, nullptr };
+	}
+	template <class Of> PointColumn given(const char* name, const char* unit, const char* label, unsigned uses, Of of)
+	{
+		PointColumn column = result(name, unit, label, uses, of);
+		column.set         = [of](Point p, const Real* from) {
+                        using T = std::decay_t<decltype(of(p))>;
+                        if constexpr (std::is_same_v<T, Vector3r>) of(p) = Eigen::Map<const Vector3r>(from);
+                        else
+                                of(p) = Eigen::Map<const RowByRow>(from);
+		};
+		return column;
+	}
+
+	// Of a point that nobody has given the variable and that has made no step.
+	Real initialValue(Point p, const gimpm::InternalVariable& variable)
+	{
+		const auto variables = variablesOf(*p.material);
+		const auto found     = std::find_if(variables.begin(), variables.end(), [&](const auto& v) { return v.name == string(variable.name); });
+		if (found == variables.end()) return std::numeric_limits<Real>::quiet_NaN(); // its law has none
+		return withLaw(coreMaterial(*p.material).law, [&](const auto& law) { return Real(law.initialInternals().data()[found - variables.begin()]); });
+	}
+	PointColumn internal(const gimpm::InternalVariable& variable)
+	{
+		const auto get = [&variable](Points points, const Scene&, Real* to) {
+			for (Point p : points) {
+				const Real* value = p.state->internal(variable.name);
+				*to++             = value ? *value : initialValue(p, variable);
+			}
+		};
+		const auto set = [&variable](Point p, const Real* from) { p.state->setInternal(variable.name, *from); };
+		return { variable.name, variable.unit, variable.description, 1, false, arrays | vtk, get, set, &variable };
+	}
+
+	Real meanStress(Point p) { return p.state->stress.trace() / 3; }
+
+	vector<PointColumn> makeColumns()
+	{
+		vector<PointColumn> columns {
+			integer("id", arrays | vtk, [](Point p, const Scene&) { return p.id; }),
+			given("pos", "m", "position", arrays, [](Point p) -> Vector3r& { return p.state->pos; }),
+			given("pos0", "m", "initial position", arrays, [](Point p) -> Vector3r& { return p.state->refPos; }),
+			result("halfSize", "m", "half size", arrays, [](Point p) { return p.shape->halfSize; }),
+			result("halfSize0", "m", "initial half size", arrays, [](Point p) { return p.shape->halfSize0; }),
+			given("force", "N", "point load", arrays, [](Point p) -> Vector3r& { return p.state->force; }),
+			given("stress", "Pa", "stress $\\sigma$", arrays | vtk, [](Point p) -> Matrix3r& { return p.state->stress; }),
+			given("defGrad", "-", "deformation gradient $F$", arrays, [](Point p) -> Matrix3r& { return p.state->defGrad; }),
+			given("elasticStrain", "-", "elastic strain $\\varepsilon$", arrays, [](Point p) -> Matrix3r& { return p.state->elasticStrain; }),
+			result("volume", "m³", "volume", arrays | vtk, [](Point p) { return p.state->volume; }),
+		};
+		for (const gimpm::InternalVariable& variable : gimpm::internalVariables)
+			columns.push_back(internal(variable));
+		columns.push_back(integer("material", arrays | vtk, [](Point p, const Scene& scene) { return p.materialIndex(scene); }));
+		columns.push_back(result("displacement", "m", "displacement", derived | vtk, [](Point p) { return Vector3r(p.state->pos - p.state->refPos); }));
+		columns.push_back(result("meanStress", "Pa", "mean stress", derived | vtk, &meanStress));
+		columns.push_back(result("sqrt2J2", "Pa", "$\\sqrt{2J_2}$", derived | vtk, [](Point p) {
+			return (p.state->stress - meanStress(p) * Matrix3r::Identity()).norm();
+		}));
+		columns.push_back(given("color", "-", "colour", 0, [](Point p) -> Vector3r& { return p.shape->color; }));
+		return columns;
+	}
+}
+
+bool PointColumn::isOf(const vector<MaterialPoint>& points) const
+{
+	if (!variable || name == gimpm::equivalentPlasticStrain.name) return true;
+	const MpmMaterial* last = nullptr; // points of one material follow each other
+	for (const MaterialPoint& point : points) {
+		if (point.material.get() == last) continue;
+		last                 = point.material.get();
+		const auto variables = variablesOf(*last);
+		if (std::any_of(variables.begin(), variables.end(), [&](const auto& v) { return v.name == name; })) return true;
+	}
+	return false;
+}
+
+const vector<PointColumn>& pointColumns()
+{
+	static const vector<PointColumn> columns = makeColumns();
+	return columns;
+}
+
+const PointColumn* findColumn(const string& name)
+{
+	for (const PointColumn& column : pointColumns())
+		if (column.name == name) return &column;
+	return nullptr;
+}
+
+py::list pointColumnsForPython()
+{
+	py::list list;
+	for (const PointColumn& column : pointColumns()) {
+		if (!column.is(PointColumn::inArrays) && !column.is(PointColumn::derived)) continue;
+		py::dict entry;
+		entry["name"]      = column.name;
+		entry["unit"]      = column.unit;
+		entry["label"]     = column.label;
+		entry["width"]     = column.width;
+		entry["isInteger"] = column.isInteger;
+		entry["isGiven"]   = bool(column.set);
+		entry["derived"]   = column.is(PointColumn::derived);
+		list.append(entry);
+	}
+	return list;
+}
+
+} // namespace yade

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+// The table of what there is to know of a material point, in numbers: whatever reads, writes, shows or stores all points reads this.
+#include "engine/points/MaterialPoints.hpp"
+#include <functional>
+
+namespace yade {
+
+struct PointColumn {
+	enum Use : unsigned {
+		inArrays = 1, // of mpm.arrays
+		inVtk    = 2, // field of the domains that MpmVtkRecorder writes
+		derived  = 4, // follows from others: in pictures and tables beside those of mpm.arrays
+	};
+
+	string   name, unit, label; // the label names it in pictures
+	int      width;             // numbers of a point: 1, 3 of a vector, 9 of a tensor row by row
+	bool     isInteger;
+	unsigned uses;
+
+	std::function<void(const vector<MaterialPoint>&, const Scene&, Real*)> get; // row by row
+	std::function<void(const MaterialPoint&, const Real*)>                 set; // none: a result
+
+	const gimpm::InternalVariable* variable = nullptr; // of laws; null: every point has it
+
+	bool is(Use use) const { return uses & use; }
+
+	// Whether one of the points has it. The plastic strain is an attribute of all.
+	bool isOf(const vector<MaterialPoint>&) const;
+};
+
+// In the order of mpm.arrays.
+const vector<PointColumn>& pointColumns();
+
+// Null: there is no such column.
+const PointColumn* findColumn(const string& name);
+
+// For Python: dicts with name, unit, label, width, isInteger, isGiven (to points, by mpm.assign) and derived.
+py::list pointColumnsForPython();
+
+} // namespace yade
