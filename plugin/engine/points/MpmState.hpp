@@ -44,8 +44,7 @@ public:
 		v("plasticStrain", &MpmState::plasticStrain, 0,
 		  "Equivalent plastic strain [-] >= 0: sqrt(2/3) times the accumulated length of the increments of plastic logarithmic strain.", nonNegative);
 		v("internals", &MpmState::internals, 0,
-		  "Internal variables of the point's law, but for *plasticStrain*: pairs of name and value, in the unit of each; without a pair a variable has its "
-		  "initial value. Read as a tuple; mpm.arrays and mpm.assign have a column for each.",
+		  "Internal variables of the law but for *plasticStrain*: pairs of name and value; without a pair, the initial value. mpm.arrays and mpm.assign have a column for each.",
 		  admitting("pairs of the name of an internal variable, each once, and a value that it admits", areInternals));
 	}
 
