@@ -47,8 +47,10 @@ from .files import save
 from . import ending
 from .filling import fill
 from .geostatics import geostatic
+from .library import engine as _engine
 from .outline import polygon
 from .plotting import plot
 from .tables import export
 
+__version__ = _engine.version
 __all__ = ['polygon', 'fill', 'arrays', 'assign', 'geostatic', 'plot', 'colour', 'export', 'save', 'advise']
