@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
+#include "core/materials/internal_variable.hpp"
 #include "yade_api/registration.hpp"
 #include <string_view>
 
@@ -52,12 +53,23 @@ public:
 	void requireAdmissible() const override;
 
 	// Of an internal variable of the point's law; null while it has its initial value.
-	const Real* internal(std::string_view name) const;
-	void        setInternal(std::string_view name, Real value);
+	const Real* internal(std::string_view name) const { return name == ownAttribute ? &plasticStrain : find(name); }
+	void        setInternal(std::string_view name, Real value)
+	{
+		if (name == ownAttribute) plasticStrain = value;
+		else
+			store(name, value);
+	}
 
 	static bool areInternals(const vector<std::pair<string, Real>>&);
 	static bool isSymmetric(const Matrix3r&); // to round-off
 	static bool preservesOrientation(const Matrix3r&);
+
+private:
+	static constexpr std::string_view ownAttribute = gimpm::equivalentPlasticStrain.name;
+
+	const Real* find(std::string_view name) const;
+	void        store(std::string_view name, Real value);
 };
 
 } // namespace yade
