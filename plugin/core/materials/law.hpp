@@ -2,7 +2,7 @@
 // The table of constitutive laws: a new law is one header beside this one and one entry here.
 //
 // A law declares its internal `variables`, their values at first (initialInternals), whether it `mayFail`, that is, has strains without an
-// answer; and it answers with young() and respond(), which are given the values of those variables in this order.
+// answer; and it answers with young() and respond(), which are given the values of those variables at the start of the step, in this order.
 #pragma once
 #include "core/materials/hencky.hpp"
 #include "core/materials/von_mises.hpp"

@@ -82,7 +82,7 @@ Matrix3r kirchhoffStressOf(const gimpm::Material& material, const Matrix3r& elas
 	return inPrincipalAxes(elasticStrain, [&](const Vector3r& strain) { return respond(material, strain, internals).stress; });
 }
 
-// Newton's method; the laws are linear inside their yield surface, so that one solve is enough and others only remove round-off.
+// Newton's method; it supposes that laws are linear inside their yield surface: one solve is enough, and the other only removes round-off.
 Matrix3r elasticStrainOf(const gimpm::Material& material, const Matrix3r& kirchhoffStress, const vector<Real>& internals)
 {
 	return inPrincipalAxes(kirchhoffStress, [&](const Vector3r& stress) {
