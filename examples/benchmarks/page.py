@@ -47,6 +47,10 @@ def kernels(results):
 		if name.startswith('linearSolve'):
 			rows.append(['... of it factorisation', 'GFLOP/s', *(f"{x['flops'] * 1e-9:.3g}" for x in (one, two))])
 			rows.append(['... beside `dgemm`', 'part', *(f"{x['flops'] / results[n]['dgemm']['flops']:.2f}" for x, n in ((one, '1'), (two, '2')))])
+		if name.startswith('unsymmetricSolve'):
+			cholesky = name.replace('unsymmetricSolve', 'linearSolve')
+			for what, key in dict(time='s_per_unknown', memory='bytes_per_unknown').items():
+				if key in one: rows.append([f'... {what} beside `{cholesky}`', 'ratio', *(f'{results[n][name][key] / results[n][cholesky][key]:.2f}' for n in '12')])
 	return KERNELS + table(['part', 'unit', '1 thread', '2 threads'], rows)
 
 
@@ -140,7 +144,7 @@ KERNELS = """## Parts of a load step
 
 On the slope of the paper half way through its failure, where points yield and cross cells: 17,440 points in 2D (4 x 4 a cell), 7,128 in 3D (2 x 2 x 2).
 `residual` and `stiffness` are passes over the points without and with stiffness; `linearSolve` is factorisation and triangular solves, `unsymmetricSolve`
-the same by LU for a matrix of the same pattern that is not symmetric.
+the same by LU for a matrix of the same pattern that is not symmetric. Memory is what the solver holds: the factor, and the matrix scaled.
 
 """
 

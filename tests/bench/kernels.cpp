@@ -4,6 +4,7 @@
 #include "core/stepping/step_system.hpp"
 #include "core/terms/point_update.hpp"
 #include <benchmark/benchmark.h>
+#include <malloc.h>
 
 extern "C" void dgemm_(
         const char*, const char*, const int*, const int*, const int*, const double*, const double*, const int*, const double*, const int*, const double*,
@@ -85,14 +86,23 @@ namespace {
 		perItem(state, "s_per_point", run.points());
 	}
 
+	/// Bytes that are allocated.
+	double heap()
+	{
+		const auto all = mallinfo2();
+		return double(all.uordblks + all.hblkhd);
+	}
+
 	/// Repeated solves whose matrices have the same pattern.
 	void solveAgain(benchmark::State& state, const LinearProblem& K)
 	{
+		const Eigen::VectorXd b      = Eigen::VectorXd::Ones(K.size());
+		Eigen::VectorXd       x      = b;
+		const double          before = heap();
 		LinearSolver          solver;
-		Eigen::VectorXd       x;
-		const Eigen::VectorXd b = Eigen::VectorXd::Ones(K.size());
 		solver.solve(K, b, x);
-		const double flops = solver.analyse(K).flops;
+		state.counters["bytes_per_unknown"] = (heap() - before) / K.size(); // that the solver holds: factor, scaled matrix
+		const double flops                  = solver.analyse(K).flops;
 		solver.resetTimes();
 		for (auto _ : state)
 			solver.solve(K, b, x);

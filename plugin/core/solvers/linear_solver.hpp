@@ -18,9 +18,9 @@ struct IterativeEffort {
 /// `automatic`: iterative where a factor would take much longer.
 enum class LinearMethod { automatic, direct, iterative };
 
-/// Direct solver: supernodal Cholesky (CHOLMOD), and LU with pivoting (UMFPACK) for a matrix that is not positive definite or not symmetric.
-/// The symbolic analysis is repeated only when the pattern changes. On demand conjugate gradients or, for a matrix that is not symmetric,
-/// GMRES. One object serves one thread.
+/// Direct solver: supernodal Cholesky (CHOLMOD), and LU with pivoting for a matrix that is not symmetric (MUMPS; UMFPACK judges what MUMPS
+/// refuses) or not positive definite (UMFPACK). The symbolic analysis is repeated only when the pattern changes. On demand conjugate gradients
+/// or, for a matrix that is not symmetric, GMRES. One object serves one thread.
 class LinearSolver {
 public:
 	enum class Status { cholesky, lu, singular, iterative };

@@ -3,12 +3,26 @@
 #include <umfpack.h>
 
 namespace gimpm {
+namespace {
+
+/// How much less than a row that is left for it MUMPS' threshold lets a pivot be.
+constexpr double pivotOfRow = 0.01;
+
+} // namespace
 
 bool Lu::factorise(const Csc& K, const int* ordering, double smallestPivot)
 {
+	if (ordering && !multifrontal_) multifrontal_ = std::make_unique<MultifrontalLu>(K, ordering);
+	isMultifrontal_ = ordering && multifrontal_->factorise(K, smallestPivot / pivotOfRow);
+	if (!isMultifrontal_) multifrontal_.reset(); // two factors need not be held
+	umfpack_di_free_numeric(&numeric_);
+	return isMultifrontal_ || factorisePivoting(K, ordering, smallestPivot);
+}
+
+bool Lu::factorisePivoting(const Csc& K, const int* ordering, double smallestPivot)
+{
 	double control[UMFPACK_CONTROL], info[UMFPACK_INFO];
 	umfpack_di_defaults(control);
-	forgetFactor();
 	if (!ordering) forget();
 	else
 		control[UMFPACK_STRATEGY] = UMFPACK_STRATEGY_SYMMETRIC;
@@ -24,6 +38,7 @@ bool Lu::factorise(const Csc& K, const int* ordering, double smallestPivot)
 
 bool Lu::solve(const Csc& K, const Eigen::VectorXd& b, Eigen::VectorXd& x, bool transposed) const
 {
+	if (isMultifrontal_) return multifrontal_->solve(K, b, x, transposed);
 	double info[UMFPACK_INFO];
 	x.resize(b.size());
 	return umfpack_di_solve(transposed ? UMFPACK_At : UMFPACK_A, K.start.data(), K.row.data(), K.value.data(), x.data(), b.data(), numeric_, nullptr, info)
@@ -31,11 +46,16 @@ bool Lu::solve(const Csc& K, const Eigen::VectorXd& b, Eigen::VectorXd& x, bool 
 	        && x.allFinite();
 }
 
-void Lu::forgetFactor() { umfpack_di_free_numeric(&numeric_); }
+void Lu::forgetFactor()
+{
+	umfpack_di_free_numeric(&numeric_);
+	isMultifrontal_ = false; // whose memory is used again for the next factor
+}
 
 void Lu::forget()
 {
 	forgetFactor();
+	multifrontal_.reset();
 	umfpack_di_free_symbolic(&symbolic_);
 }
 

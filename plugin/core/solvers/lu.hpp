@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// LU factorisation with pivoting (UMFPACK).
+// LU factorisation with pivoting (MUMPS, UMFPACK).
 #pragma once
-#include "core/solvers/csc.hpp"
+#include "core/solvers/multifrontal_lu.hpp"
 
 namespace gimpm {
 
@@ -14,7 +14,8 @@ public:
 
 	/// False if K is singular to working precision: a pivot below `smallestPivot` of the largest. With an ordering of rows and columns that
 	/// keeps the factor sparse, pivots are taken from the diagonal where they are large enough, and it holds for all matrices that follow until
-	/// forget(). Without (null) K is looked at for how to order it.
+	/// forget(): MUMPS factorises it, and where that finds no good pivots, UMFPACK does and judges them. Without (null) UMFPACK looks at K for how
+	/// to order it.
 	bool factorise(const Csc& K, const int* ordering, double smallestPivot);
 
 	/// K x = b or, transposed, K^T x = b, for the matrix of the last factorise(), which must still be as it was.
@@ -25,6 +26,11 @@ public:
 	void forgetFactor();
 
 private:
+	bool factorisePivoting(const Csc& K, const int* ordering, double smallestPivot);
+
+	std::unique_ptr<MultifrontalLu> multifrontal_; // if K came with an ordering
+	bool                            isMultifrontal_ = false;
+
 	void *symbolic_ = nullptr, *numeric_ = nullptr; // of UMFPACK
 };
 
