@@ -2,7 +2,8 @@
 // The table of constitutive laws: a new law is one header beside this one and one entry here.
 //
 // A law declares its internal `variables`, their values at first (initialInternals), whether it `mayFail`, that is, has strains without an
-// answer; and it answers with young() and respond(), which are given the values of those variables in this order.
+// answer; and it answers with young() and respond(), which are given the values of those variables in this order. Where its tangent is not
+// symmetric, isSymmetric() is false.
 #pragma once
 #include "core/materials/hencky.hpp"
 #include "core/materials/von_mises.hpp"
@@ -83,6 +84,13 @@ struct Material {
 		return withLaw(law, [&](const auto& l) { return l.young(internalsOf(l, columns, point)); });
 	}
 };
+
+/// Whether the laws of all of these have symmetric tangents, and so a stiffness that is symmetric.
+inline bool areSymmetric(const std::vector<Material>& materials)
+{
+	return std::all_of(
+	        materials.begin(), materials.end(), [](const Material& m) { return withLaw(m.law, [](const auto& law) { return law.isSymmetric(); }); });
+}
 
 /// Makes the columns that the laws of these materials have variables for, and that are not there yet, for so many points, of zeros.
 inline void provideInternals(InternalColumns& columns, const std::vector<Material>& materials, std::size_t points)
