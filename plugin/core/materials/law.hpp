@@ -5,7 +5,9 @@
 // answer; and it answers with young() and respond(), which are given the values of those variables in this order. Where its tangent is not
 // symmetric, isSymmetric() is false.
 #pragma once
+#include "core/materials/drucker_prager.hpp"
 #include "core/materials/hencky.hpp"
+#include "core/materials/mohr_coulomb.hpp"
 #include "core/materials/von_mises.hpp"
 #include <algorithm>
 #include <string_view>
@@ -13,7 +15,7 @@
 
 namespace gimpm {
 
-using Law = std::variant<Hencky, VonMises>;
+using Law = std::variant<Hencky, VonMises, MohrCoulomb, DruckerPrager>;
 
 /// f(the law). Unlike std::visit it is inlined.
 template <class F, std::size_t Entry = 0> GIMPM_INLINE auto withLaw(const Law& law, F&& f)
