@@ -2,9 +2,11 @@
 // The table of constitutive laws: a new law is one header beside this one and one entry here.
 //
 // A law declares its internal `variables`, their values at first (initialInternals), whether it `mayFail`, that is, has strains without an
-// answer; and it answers with young() and respond(), which are given the values of those variables in this order. Where its tangent is not
+// answer; and it answers with young() and respond(), which are given the values of those variables in this order. young() may ask for the elastic
+// volumetric strain too. Where its tangent is not
 // symmetric, isSymmetric() is false.
 #pragma once
+#include "core/materials/cam_clay.hpp"
 #include "core/materials/drucker_prager.hpp"
 #include "core/materials/hencky.hpp"
 #include "core/materials/mohr_coulomb.hpp"
@@ -15,7 +17,7 @@
 
 namespace gimpm {
 
-using Law = std::variant<Hencky, VonMises, MohrCoulomb, DruckerPrager>;
+using Law = std::variant<Hencky, VonMises, MohrCoulomb, DruckerPrager, CamClay>;
 
 /// f(the law). Unlike std::visit it is inlined.
 template <class F, std::size_t Entry = 0> GIMPM_INLINE auto withLaw(const Law& law, F&& f)
@@ -76,14 +78,27 @@ template <class L> auto internalsOf(const L& law, const InternalColumns& columns
 	return values;
 }
 
+/// Young's modulus by a law that asks for the volumetric strain, or for the internal variables only.
+template <class L, class Internals, class F>
+auto youngOf(const L& law, const Internals& internals, F&& volumetricStrain, int) -> decltype(law.young(internals, volumetricStrain()))
+{
+	return law.young(internals, volumetricStrain());
+}
+template <class L, class Internals, class F> double youngOf(const L& law, const Internals& internals, F&&, long) { return law.young(internals); }
+
 struct Material {
 	Law    law;
 	double density; ///< initial density [kg/m3]
 
-	/// Young's modulus [Pa] of a point with these internal variables.
+	/// Young's modulus [Pa] of a point with these internal variables; volumetricStrain() gives its elastic volumetric strain to the laws that ask for it.
+	template <class F> double young(const InternalColumns& columns, std::size_t point, F&& volumetricStrain) const
+	{
+		return withLaw(law, [&](const auto& l) { return youngOf(l, internalsOf(l, columns, point), volumetricStrain, 0); });
+	}
+	/// The same without elastic strain.
 	double young(const InternalColumns& columns, std::size_t point) const
 	{
-		return withLaw(law, [&](const auto& l) { return l.young(internalsOf(l, columns, point)); });
+		return young(columns, point, [] { return 0.; });
 	}
 };
 
