@@ -9,7 +9,7 @@ from yade import mpm, wrapper
 flags = re.compile(r'\s*:yattrflags:`\d+`')
 groups = {
         'Analysis': ['MpmImplicitEngine', 'MpmGrid', 'MpmBoundary', 'MpmGhost', 'MpmNewton'],
-        'Materials': ['MpmElasticMat', 'MpmVonMisesMat', 'MpmMaterial'],
+        'Materials': ['MpmElasticMat', 'MpmVonMisesMat', 'MpmTrescaMat', 'MpmMohrCoulombMat', 'MpmDruckerPragerMat', 'MpmCamClayMat', 'MpmFrictionalMat', 'MpmMaterial'],
         'Material points': ['MpmPoint', 'MpmState'],
         'Output': ['MpmVtkRecorder'],
 }

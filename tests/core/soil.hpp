@@ -6,7 +6,7 @@
 #include "scenes.hpp"
 #include <Eigen/LU>
 
-namespace gimpm {
+namespace gimpm::soil {
 
 constexpr double degree = 0.017453292519943295;
 
@@ -194,4 +194,4 @@ template <class L> double simpleShearStrength(const L& law, const Hencky& elasti
 	return std::abs(stress.c[2] / normal);
 }
 
-} // namespace gimpm
+} // namespace gimpm::soil

@@ -4,7 +4,7 @@
 #include "soil.hpp"
 #include <cstdio>
 
-namespace gimpm::testCamClay {
+namespace gimpm::soil::testCamClay {
 namespace {
 
 	constexpr double M = 1.2, lambda = 0.1, kappa = 0.03, G = 5e6, p0 = 1e5;
@@ -231,4 +231,4 @@ namespace {
 	}
 
 } // namespace
-} // namespace gimpm::testCamClay
+} // namespace gimpm::soil::testCamClay

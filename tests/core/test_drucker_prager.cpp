@@ -3,7 +3,7 @@
 #include "scenes.hpp"
 #include "soil.hpp"
 
-namespace gimpm::testDruckerPrager {
+namespace gimpm::soil::testDruckerPrager {
 namespace {
 
 	constexpr double E = 20e6, nu = 0.3, c = 5e3;
@@ -129,4 +129,4 @@ namespace {
 	}
 
 } // namespace
-} // namespace gimpm::testDruckerPrager
+} // namespace gimpm::soil::testDruckerPrager

@@ -3,7 +3,7 @@
 #include "scenes.hpp"
 #include "soil.hpp"
 
-namespace gimpm::testMohrCoulomb {
+namespace gimpm::soil::testMohrCoulomb {
 namespace {
 
 	constexpr double E = 20e6, nu = 0.3, c = 5e3;
@@ -174,4 +174,4 @@ namespace {
 	}
 
 } // namespace
-} // namespace gimpm::testMohrCoulomb
+} // namespace gimpm::soil::testMohrCoulomb
