@@ -69,6 +69,16 @@ vector<gimpm::InternalVariable> variablesOf(const MpmMaterial& material)
 	return law == laws().end() ? vector<gimpm::InternalVariable>() : law->second.variables;
 }
 
+vector<Real> initialInternalsOf(const MpmMaterial& material)
+{
+	const auto law = laws().find(typeid(material));
+	if (law == laws().end()) return {};
+	return withLaw(law->second.make(material), [](const auto& l) {
+		const auto values = l.initialInternals();
+		return vector<Real>(values.begin(), values.end());
+	});
+}
+
 namespace {
 	gimpm::Response respond(const gimpm::Material& material, const Vector3r& strain, const vector<Real>& internals)
 	{
