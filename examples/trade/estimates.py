@@ -1,4 +1,4 @@
-#!/usr/bin/python3.11
+#!/usr/bin/python3
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Compares what mpm.advise says of a scene with the run that follows: `examples/trade/estimates.py [--user]` adds results/estimates.csv to out/trade."""
 import argparse

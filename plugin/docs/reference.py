@@ -1,11 +1,13 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Run in YADE by scripts/docs: writes the page of all classes, attributes and functions, from their docstrings, to the file named on the command line."""
 import inspect
+import os
 import re
 import sys
 
 from yade import mpm, wrapper
 
+folder = os.path.dirname(os.path.abspath(__file__))
 flags = re.compile(r'\s*:yattrflags:`\d+`')
 groups = {
         'Analysis': ['MpmImplicitEngine', 'MpmGrid', 'MpmBoundary', 'MpmGhost', 'MpmNewton'],
@@ -59,6 +61,7 @@ def describe(cls):
 	base = cls.__bases__[0]
 	defaults = cls().dict()
 	lines = heading(cls.__name__, '~') + [f'.. py:class:: {cls.__name__}(**attributes)', ''] + indented(docOf(cls))
+	if os.path.exists(os.path.join(folder, 'classes', cls.__name__ + '.md')): lines += [f'   More on :doc:`the page of the class </plugin/docs/classes/{cls.__name__}>`.', '']
 	lines += [f'   Attributes of its base {base.__name__} are inherited.', '']
 	for name, value in entries(cls):
 		lines += ['   ' + line if line else '' for line in (attribute(name, value, defaults) if isinstance(value, property) else method(name, value))]

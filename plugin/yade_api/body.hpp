@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-// Bodies and what they consist of. Members marked (feature) exist because Debian builds YADE with that feature.
+// Bodies and what they consist of. Members inside of #ifdef belong to a feature that YADE is built with or not, or came with a later version: CMakeLists.txt finds out.
 #include "yade_api/serializable.hpp"
 #include <map>
 #include <mutex>
@@ -36,11 +36,16 @@ class Shape : public Serializable, public Indexable {
 public:
 	Shape() : color(1, 1, 1), wire(false), highlight(false) { }
 	~Shape() override;
-	shared_ptr<BoundFunctor>         boundFunctor;
-	shared_ptr<InternalForceFunctor> internalforcefunctor; // (FEMLIKE)
-	Vector3r                         color;
-	bool                             wire, highlight;
+	shared_ptr<BoundFunctor> boundFunctor;
+#ifdef YADE_API_FEMLIKE
+	shared_ptr<InternalForceFunctor> internalforcefunctor;
+#endif
+	Vector3r color;
+	bool     wire, highlight;
 	YADE_API_OVERRIDES(Shape)
+#ifdef YADE_API_SHAPE_HAS_VOLUME
+	virtual Real getVolume();
+#endif
 	YADE_API_INDEX_ROOT
 };
 
@@ -50,6 +55,9 @@ public:
 	~Sphere() override;
 	Real radius;
 	YADE_API_OVERRIDES(Sphere)
+#ifdef YADE_API_SHAPE_HAS_VOLUME
+	Real getVolume() override;
+#endif
 	YADE_API_INDEX_DERIVED
 };
 
@@ -70,10 +78,12 @@ class Body : public Serializable {
 public:
 	using id_t = int;
 	enum { FLAG_BOUNDED = 1, FLAG_ASPHERICAL = 2 }; // bits of flags
-	id_t                                    id;
-	int                                     groupMask;
-	int                                     flags;
-	int                                     subdomain; // (MPI)
+	id_t id;
+	int  groupMask;
+	int  flags;
+#ifdef YADE_API_MPI
+	int subdomain;
+#endif
 	shared_ptr<Material>                    material;
 	shared_ptr<State>                       state;
 	shared_ptr<Shape>                       shape;
@@ -102,7 +112,6 @@ public:
 	YADE_API_OVERRIDES(BodyContainer)
 };
 
-static_assert(sizeof(State) == 320 && sizeof(Shape) == 96 && sizeof(Sphere) == 104, "layout of YADE 2023.02a");
-static_assert(sizeof(Material) == 80 && sizeof(Body) == 176, "layout of YADE 2023.02a");
+static_assert(sizeof(State) == 320 && sizeof(Material) == 80, "layout of YADE");
 } // namespace yade
 #pragma GCC visibility pop

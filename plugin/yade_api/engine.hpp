@@ -77,7 +77,7 @@ public:
 	YADE_API_OVERRIDES(PeriodicEngine)
 };
 
-static_assert(sizeof(TimingInfo) == 16 && sizeof(TimingDeltas) == 64, "layout of YADE 2023.02a");
-static_assert(sizeof(Engine) == 104 && sizeof(GlobalEngine) == 104 && sizeof(PeriodicEngine) == 184, "layout of YADE 2023.02a");
+static_assert(sizeof(TimingInfo) == 16 && sizeof(TimingDeltas) == 64, "layout of YADE");
+static_assert(sizeof(Engine) == 104 && sizeof(GlobalEngine) == 104 && sizeof(PeriodicEngine) == 184, "layout of YADE");
 } // namespace yade
 #pragma GCC visibility pop

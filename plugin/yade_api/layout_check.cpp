@@ -37,7 +37,9 @@ static void checkForces(LayoutCheck& check, ForceContainer& forces)
 static void checkMembersOfScene(LayoutCheck& check)
 {
 	const auto scene = check.make<Scene>();
+#ifdef YADE_API_QT5
 	check.require(!scene->renderer, "Scene.renderer");
+#endif
 	check.require(scene->tags.size() >= 3, "Scene.tags"); // author, creation date, identifier
 	check.require(scene->engines.empty() && scene->_nextEngines.empty() && scene->materials.empty(), "Scene.engines, Scene.materials");
 	check.require(scene->bodies && scene->interactions && scene->energy && scene->cell, "Scene.bodies ... Scene.cell");

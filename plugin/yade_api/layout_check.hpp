@@ -68,7 +68,9 @@ private:
 		require(*scene, "trackEnergy", scene->trackEnergy, true);
 		require(*scene, "doSort", scene->doSort, true);
 		require(*scene, "selectedBody", scene->selectedBody, 42);
+#ifdef YADE_API_MPI
 		require(*scene, "subdomain", scene->subdomain, 3);
+#endif
 	}
 
 	void checkBody()
@@ -77,7 +79,9 @@ private:
 		require(*body, "id", body->id, 11);
 		require(*body, "groupMask", body->groupMask, 6);
 		require(*body, "flags", body->flags, 9);
+#ifdef YADE_API_MPI
 		require(*body, "subdomain", body->subdomain, 2);
+#endif
 		require(*body, "clumpId", body->clumpId, 8);
 		require(*body, "iterBorn", body->iterBorn, 12345L);
 		require(*body, "timeBorn", body->timeBorn, 6.25);

@@ -1,89 +1,55 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // libpkg_mpm.so: the only file of the plugin that YADE opens by itself.
 //
-// YADE aborts if it cannot open a library of its folder, and misreads memory if a library is made for another build of it. So
-// this library needs no symbol of YADE, checks what it has been opened by, and only then opens the plugin. If anything is wrong
-// it says so in one sentence, and YADE starts as if it were not there.
-#include "yade_api/layout_check.hpp"
+// YADE aborts if it cannot open a library of its folder. So this one needs nothing but the C library, whatever an upgrade of the system has
+// replaced since it was built, and opens the guard if that is made for the boost.python of this YADE: two of them in one process would
+// crash it. If anything is wrong it says so in one sentence, and YADE starts as if the plugin were not there.
+#include <cstdio>
+#include <cstring>
 #include <dlfcn.h>
-#include <elf.h>
-#include <fstream>
-#include <iostream>
+#include <link.h>
 
-namespace yade {
 namespace {
-	constexpr const char* supportedVersion = "2023.02a";
 
-	// A function of YADE's libraries, by its name in the symbol table.
-	template <class Function> Function* find(const char* symbol)
-	{
-		void* address = dlsym(RTLD_DEFAULT, symbol);
-		if (!address) throw std::runtime_error(string("YADE has no function ") + symbol);
-		return reinterpret_cast<Function*>(address);
-	}
+constexpr size_t longest = 4096;
 
-	void requireVersion()
-	{
-		// imported by YADE before it opens libraries
-		const string version = py::extract<string>(py::import("yade.config").attr("version"));
-		if (version != supportedVersion) throw std::runtime_error("it is made for YADE " + string(supportedVersion) + ", and this is YADE " + version);
-	}
-
-	void requireLayout()
-	{
-		// Member functions, called with the object as first argument.
-		auto* factory = find<ClassFactory*()>("_ZN9SingletonIN4yade12ClassFactoryEE8instanceEv");
-		auto* create  = find<shared_ptr<Factorable>(ClassFactory*, string)>(
-                        "_ZN4yade12ClassFactory12createSharedENSt7__cxx1112basic_stringIcSt11char_traitsIcESaIcEEE");
-
-		LayoutCheck check([&](const string& className) { return create(factory(), className); });
-		check.checkSizesAndScalars();
-		if (!check.errors().empty())
-			throw std::runtime_error("this build of YADE " + string(supportedVersion) + " differs in " + joined(check.errors()));
-	}
-
-	// The dynamic linker crashes on a file that has been cut off. Its section headers come last.
-	void requireComplete(const string& library)
-	{
-		std::ifstream file(library, std::ios::binary | std::ios::ate);
-		if (!file) throw std::runtime_error(library + " is missing or not readable");
-		const auto size = file.tellg();
-		Elf64_Ehdr header {};
-		file.seekg(0).read(reinterpret_cast<char*>(&header), sizeof(header));
-		if (!file || size < std::streamoff(header.e_shoff + header.e_shnum * header.e_shentsize))
-			throw std::runtime_error(library + " is incomplete; install it again");
-	}
-
-	void openPlugin()
-	{
-		Dl_info self;
-		if (!dladdr(reinterpret_cast<void*>(&openPlugin), &self)) throw std::runtime_error("its folder is unknown");
-		const string loader = self.dli_fname;
-		const string plugin = loader.substr(0, loader.rfind('/') + 1) + "mpm/mpm_engine.so";
-		requireComplete(plugin);
-		if (!dlopen(plugin.c_str(), RTLD_NOW)) throw std::runtime_error(dlerror());
-	}
-
-	// What went wrong, or nothing. No exception may leave: it would end YADE.
-	string open()
-	{
-		try {
-			requireVersion();
-			requireLayout();
-			openPlugin();
-			return {};
-		} catch (const py::error_already_set&) {
-			PyErr_Clear();
-			return "this YADE differs from version " + string(supportedVersion) + " in its Python interface";
-		} catch (const std::exception& error) {
-			return error.what();
-		}
-	}
-
-	[[gnu::constructor]] void openOrExplain()
-	{
-		const string problem = open();
-		if (!problem.empty()) std::cerr << "Material point plugin not loaded: " << problem << "." << std::endl;
-	}
+const char* fileName(const char* path)
+{
+	const char* slash = std::strrchr(path, '/');
+	return slash ? slash + 1 : path;
 }
-} // namespace yade
+
+// Copies the name of a boost.python that the process has loaded, and ends the search.
+int noteBoostPython(dl_phdr_info* library, size_t, void* found)
+{
+	const char* name = fileName(library->dlpi_name);
+	if (std::strncmp(name, "libboost_python", 15) != 0 || std::strlen(name) >= longest) return 0;
+	std::strcpy(static_cast<char*>(found), name);
+	return 1;
+}
+
+// The guard is in the folder mpm beside this file. False without room for its path.
+bool findGuard(char* path)
+{
+	Dl_info self;
+	if (!dladdr(reinterpret_cast<void*>(&findGuard), &self) || std::strlen(self.dli_fname) + 32 > longest) return false;
+	std::strcpy(path, self.dli_fname);
+	std::strcpy(path + (fileName(path) - path), "mpm/mpm_guard.so");
+	return true;
+}
+
+[[gnu::constructor]] void openGuard()
+{
+	char boost[longest] = "", path[longest] = "";
+	dl_iterate_phdr(&noteBoostPython, boost);
+	if (boost[0] && std::strcmp(boost, MPM_BOOST_PYTHON) != 0)
+		std::fprintf(
+		        stderr, "Material point plugin not loaded: it was built with %s, and this YADE uses %s; build it again, with scripts/setup.\n",
+		        MPM_BOOST_PYTHON, boost);
+	else if (!findGuard(path))
+		std::fprintf(stderr, "Material point plugin not loaded: its folder is unknown.\n");
+	else if (!dlopen(path, RTLD_NOW))
+		std::fprintf(stderr, "Material point plugin not loaded: %s; build it again for this system, with scripts/setup.\n", dlerror());
+}
+
+}

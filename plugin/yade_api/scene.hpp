@@ -44,21 +44,25 @@ class Scene : public Serializable {
 	const unsigned hostNameMax = 255;
 
 public:
-	ForceContainer                        forces;
-	Eigen::Matrix<Real, 10, 1>            SpeedElements;
-	shared_ptr<OpenGLRenderer>            renderer; // (QT5)
-	long                                  prevTime; // boost::posix_time::ptime
-	Real                                  dt;
-	long                                  iter;
-	bool                                  subStepping;
-	int                                   subStep;
-	Real                                  time, speed;
-	long                                  stopAtIter;
-	Real                                  stopAtTime;
-	bool                                  isPeriodic, trackEnergy, doSort, runInternalConsistencyChecks;
-	int                                   selectedBody;
-	int                                   subdomain; // (MPI)
-	shared_ptr<Shape>                     subD;      // (MPI)
+	ForceContainer             forces;
+	Eigen::Matrix<Real, 10, 1> SpeedElements;
+#ifdef YADE_API_QT5
+	shared_ptr<OpenGLRenderer> renderer;
+#endif
+	long prevTime; // boost::posix_time::ptime
+	Real dt;
+	long iter;
+	bool subStepping;
+	int  subStep;
+	Real time, speed;
+	long stopAtIter;
+	Real stopAtTime;
+	bool isPeriodic, trackEnergy, doSort, runInternalConsistencyChecks;
+	int  selectedBody;
+#ifdef YADE_API_MPI
+	int               subdomain;
+	shared_ptr<Shape> subD;
+#endif
 	vector<string>                        tags;
 	vector<shared_ptr<Engine>>            engines, _nextEngines;
 	shared_ptr<BodyContainer>             bodies;
@@ -109,6 +113,6 @@ public:
 	shared_ptr<Factorable> createShared(string);
 };
 
-static_assert(sizeof(ForceContainer) == 304 && sizeof(Scene) == 752, "layout of YADE 2023.02a");
+static_assert(sizeof(ForceContainer) == 304, "layout of YADE");
 } // namespace yade
 #pragma GCC visibility pop

@@ -2,8 +2,8 @@
 #pragma once
 // Root classes of everything that YADE creates by name, saves, and shows in Python.
 //
-// The order of members and of virtual functions in this folder is that of Debian's libyade.so 2023.02a; layout_check.cpp
-// verifies it in the running program. Functions without a body are defined there.
+// The order of members and of virtual functions in this folder is that of libyade.so since 2023.02a;
+// layout_check.cpp and virtual_functions.cpp verify it in the running program. Functions without a body are defined there.
 #include "yade_api/types.hpp"
 #include <stdexcept>
 
@@ -100,6 +100,6 @@ public:
 	virtual const int& getMaxCurrentlyUsedClassIndexOfKin() const { missing(); }
 };
 
-static_assert(sizeof(Factorable) == 24 && sizeof(Serializable) == 24 && sizeof(Indexable) == 8, "layout of YADE 2023.02a");
+static_assert(sizeof(Factorable) == 24 && sizeof(Serializable) == 24 && sizeof(Indexable) == 8, "layout of YADE");
 } // namespace yade
 #pragma GCC visibility pop

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-// Declarations of that part of YADE 2023.02a's binary interface which a plugin needs. Debian's package has no headers.
+// Declarations of that part of YADE's binary interface which a plugin needs. Packages of YADE have no headers.
 #include "yade_api/body.hpp"
 #include "yade_api/engine.hpp"
 #include "yade_api/scene.hpp"

@@ -4,13 +4,38 @@
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 build=$root/build
-systemYade=/usr/lib/x86_64-linux-gnu/yade-double # of Debian's package
 overlay=$build/overlay
 forUser=no # option --user
 
 fail() {
 	echo "${0##*/}: $*" >&2
 	exit 1
+}
+
+debianYade=/usr/lib/x86_64-linux-gnu/yade-double
+
+# Sets $systemYade to the folder of libyade.so, $yadePrefix to the one that it is installed in, $systemCommand to the command: those of the
+# variable YADE_DIR, of the command yade of PATH where that is none of Debian's package, or of the package.
+findYade() {
+	systemYade=${YADE_DIR:-$(besideCommandOfPath)}
+	systemYade=${systemYade:-$debianYade}
+	yadePrefix=/usr
+	systemCommand=/usr/bin/yade
+	[ "$systemYade" != $debianYade ] || return 0
+	[ -e "$systemYade/libyade.so" ] || fail "YADE_DIR = $systemYade has no libyade.so; it is a folder such as <prefix>/lib/x86_64-linux-gnu/yade-<version>"
+	systemYade=$(realpath "$systemYade")
+	yadePrefix=${systemYade%/lib/*}
+	systemCommand=$yadePrefix/bin/${systemYade##*/} # yade and its suffix
+	[ -x "$systemCommand" ] || fail "the command $systemCommand is missing, which belongs to YADE_DIR = $systemYade"
+}
+
+# The folder of libyade.so that belongs to the command yade of PATH; nothing if that is of Debian's package, or of an overlay.
+besideCommandOfPath() {
+	local command prefix
+	command=$(type -P yade) || return 0
+	prefix=$(dirname "$(dirname "$(realpath "$command")")")
+	[ "$prefix" != /usr ] && [ ! -e "$prefix/host" ] || return 0
+	find "$prefix/lib" -name libyade.so -printf '%h\n' -quit
 }
 
 # the comment at the head of the calling script, from its usage line on
@@ -20,9 +45,10 @@ printHelp() {
 
 # Sets $mode to where the plugin goes: `system`, or `user` on request or without the right to write to YADE's folder.
 chooseMode() {
+	findYade
 	mode=system
-	if [ "$forUser" = yes ] || [ "$(id -u)" != 0 ]; then mode=user; fi
-	yade=/usr/bin/yade
+	if [ "$forUser" = yes ] || { [ "$(id -u)" != 0 ] && [ ! -w "$systemYade" ]; }; then mode=user; fi
+	yade=$systemCommand
 	if [ "$mode" = user ]; then yade=$overlay/bin/yade; fi
 }
 

@@ -1,8 +1,8 @@
-#!/usr/bin/python3.11
+#!/usr/bin/python3
 # SPDX-License-Identifier: GPL-2.0-or-later
 """YADE with the material point plugin, for one user: the system's yade, made to look for libraries in this overlay.
 
-Installed by scripts/setup as bin/yade of the overlay.
+Installed by scripts/setup as bin/yade of the overlay, with the path of the system's yade in the file `host`.
 """
 import importlib.machinery
 import os
@@ -23,5 +23,7 @@ class _OverlayFinder:
 
 
 sys.meta_path.insert(0, _OverlayFinder)
-with open('/usr/bin/yade') as _yade:
+with open(os.path.join(_overlay, 'host')) as _host:
+	_command = _host.read().strip()
+with open(_command) as _yade:
 	exec(compile(_yade.read(), _yade.name, 'exec'))

@@ -14,8 +14,6 @@ public:
 
 	std::array<double, 1> initialInternals() const { return { initial_ }; }
 
-	bool isSymmetric() const { return true; }
-
 	/// It stiffens under pressure: only the ghost stabilisation and round-off ask.
 	double young(const std::array<double, 1>& internals) const { return elastic_.young() * internals[0] / initial_; }
 

@@ -106,9 +106,9 @@ print(json.dumps(outcomes))
 	).result
 
 
-def compiled(source, library):
+def compiled(source, library, *options):
 	"""A shared library from C++ text; with LD_PRELOAD it replaces functions of YADE."""
-	compiler = ['g++', '-shared', '-fPIC', '-x', 'c++', '-', '-o', str(library), '-ldl']
+	compiler = ['g++', '-shared', '-fPIC', '-x', 'c++', '-', '-o', str(library), '-ldl', *options]
 	subprocess.run(compiler, input=source, text=True, check=True)
 	return library
 
@@ -121,9 +121,9 @@ def yade(tmp_path):
 
 @pytest.fixture
 def libraries(yade):
-	"""Makes `yade` start from a folder of its own: the system's libraries and the loader. What the loader shall open is up to the test.
+	"""Makes `yade` start from a folder of its own: the system's libraries, the loader and the guard. What the guard shall open is up to the test.
 
-	:return: the folder; the loader looks for mpm/mpm_engine.so in it
+	:return: the folder; the guard looks for mpm/mpm_engine.so in it
 	"""
 	folder = yade.folder / 'prefix/lib/x86_64-linux-gnu/yade-double'
 	(folder / 'mpm').mkdir(parents=True)
@@ -131,6 +131,7 @@ def libraries(yade):
 		(folder / path.name).symlink_to(path)
 	(folder / 'libpkg_mpm.so').unlink(missing_ok=True)
 	shutil.copy(build / 'libpkg_mpm.so', folder)
+	shutil.copy(build / 'mpm/mpm_guard.so', folder / 'mpm')
 	yade.command = '/usr/bin/yade'
 	yade.environment['YADE_PREFIX'] = str(yade.folder / 'prefix')
 	return folder

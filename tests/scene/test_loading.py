@@ -2,6 +2,7 @@
 """YADE starts with the plugin if everything fits, and otherwise without it and with one sentence that says why."""
 import fcntl
 import os
+import re
 import shutil
 import subprocess
 import time
@@ -39,6 +40,62 @@ def test_completePluginIsLoaded(yade, complete):
 	assert 'Material point plugin' not in run.stderr
 
 
+def test_loaderNeedsTheCLibraryOnly():
+	dynamic = subprocess.run(['readelf', '--dynamic', build / 'libpkg_mpm.so'], check=True, capture_output=True, text=True).stdout
+	assert re.findall(r'\(NEEDED\).*\[(.*)\]', dynamic) == ['libc.so.6']
+
+
+def boostPython():
+	"""The one that YADE is linked with."""
+	linked = subprocess.run(['ldd', systemYade / 'libpkg_common.so'], check=True, capture_output=True, text=True).stdout
+	return re.search(r'libboost_python\S+', linked)[0]
+
+
+@pytest.mark.parametrize('built', ['libboost_python39.so.1.67.0', 'libboost_python314.so.1.92.0'])
+def test_builtForAnotherPython(yade, complete, libraries, built):
+	"""As after an upgrade of the system, when the libraries of before may still be there, or may not."""
+	compiled((root / 'plugin/yade_api/loader.cpp').read_text(), libraries / 'libpkg_mpm.so', f'-DMPM_BOOST_PYTHON="{built}"')
+	run = yade(probe)
+	assert run.result == withoutPlugin
+	assert f'built with {built}, and this YADE uses {boostPython()}; build it again' in explanation(run)
+
+
+def test_libraryThatIsGone(yade, complete, libraries):
+	gone = compiled('', yade.folder / 'libboost_gone.so.1.0', '-Wl,-soname,libboost_gone.so.1.0')
+	compiled('', libraries / 'mpm/mpm_guard.so', '-Wl,--no-as-needed', '-x', 'none', str(gone))
+	gone.unlink()
+	run = yade(probe)
+	assert run.result == withoutPlugin
+	assert 'libboost_gone.so.1.0: cannot open shared object file' in explanation(run)
+
+
+def test_otherVirtualFunctions(yade, complete, libraries):
+	"""A YADE with one function more or less is imitated by declarations with one less or more."""
+	shutil.copy(build / 'tests/other_guard.so', libraries / 'mpm/mpm_guard.so')
+	run = yade(probe)
+	assert run.result == withoutPlugin
+	assert re.search(r'has other virtual functions in Shape \(2[89] entries instead of 2[89]\), Sphere \(2[89] entries instead of 2[89]\)\.', explanation(run))
+
+
+def test_otherPlaceOfAVirtualFunction(yade, complete):
+	"""A table of the same size with another function in a place is imitated by a function with another name there."""
+	other = compiled(
+	        '''
+#include <dlfcn.h>
+#include <cstring>
+extern "C" int dladdr(const void* address, Dl_info* info)
+{
+	const int found = reinterpret_cast<int (*)(const void*, Dl_info*)>(dlsym(RTLD_NEXT, "dladdr"))(address, info);
+	if (found && info->dli_sname && !std::strcmp(info->dli_sname, "_ZN4yade6Engine6actionEv")) info->dli_sname = "_ZN4yade6Engine5otherEv";
+	return found;
+}
+''', yade.folder / 'other.so'
+	)
+	run = yade(probe, environment={'LD_PRELOAD': str(other)})
+	assert run.result == withoutPlugin
+	assert 'other virtual functions in Engine (another one in place of action), GlobalEngine (' in explanation(run)
+
+
 def test_missingEngineFile(yade, libraries):
 	run = yade(probe)
 	assert run.result == withoutPlugin
@@ -68,6 +125,14 @@ def test_unresolvedSymbol(yade, libraries):
 	assert 'undefined symbol: _Z14nowhereDefinedv' in explanation(run)
 
 
+# A YADE whose objects are larger is imitated by a larger answer to the question for their size.
+sizes = '''
+#include <dlfcn.h>
+#include <cstddef>
+extern "C" size_t malloc_usable_size(void* p) { return reinterpret_cast<size_t (*)(void*)>(dlsym(RTLD_NEXT, "malloc_usable_size"))(p) + 16; }
+'''
+
+
 def test_otherVersionOfYade(yade, complete):
 	(yade.folder / 'other_version.py').write_text('''
 import importlib.util, os, sys
@@ -77,20 +142,15 @@ config = sys.modules['yade.config'] = importlib.util.module_from_spec(spec)
 spec.loader.exec_module(config)
 config.version = '2024.01a'
 ''')
-	run = yade(probe, options=['-L', 'other_version'])
+	assert yade(probe, options=['-L', 'other_version']).result['knowsPlugin'] # nothing that matters differs
+	larger = compiled(sizes, yade.folder / 'larger.so')
+	run = yade(probe, options=['-L', 'other_version'], environment={'LD_PRELOAD': str(larger)})
 	assert run.result == withoutPlugin
-	assert 'made for YADE 2023.02a, and this is YADE 2024.01a' in explanation(run)
+	assert re.search(r'this YADE 2024\.01a \(the plugin was built for \S+\) differs in size of Scene', explanation(run))
 
 
 def test_otherSizes(yade, complete):
-	"""A YADE whose objects are larger is imitated by a larger answer to the question for their size."""
-	larger = compiled(
-	        '''
-#include <dlfcn.h>
-#include <cstddef>
-extern "C" size_t malloc_usable_size(void* p) { return reinterpret_cast<size_t (*)(void*)>(dlsym(RTLD_NEXT, "malloc_usable_size"))(p) + 16; }
-''', yade.folder / 'larger.so'
-	)
+	larger = compiled(sizes, yade.folder / 'larger.so')
 	run = yade(probe, environment={'LD_PRELOAD': str(larger)})
 	assert run.result == withoutPlugin
 	assert 'differs in size of Scene, size of Body' in explanation(run)
@@ -125,6 +185,7 @@ def importable(complete, yade):
 	"""Makes yade.mpm importable without installing it."""
 	shutil.copytree(root / 'plugin/python', yade.folder / 'prefix/python')
 	(yade.folder / 'prefix/bin').mkdir()
+	(yade.folder / 'prefix/host').write_text('/usr/bin/yade')
 	yade.command = str(shutil.copy(root / 'scripts/lib/yade-in-overlay.py', yade.folder / 'prefix/bin/yade'))
 
 
@@ -215,7 +276,7 @@ class OtherFolder:
 	libraries = 'lib/x86_64-linux-gnu/yade-double'
 
 	def __init__(self, folder):
-		self.folder, self.system, self.overlay = folder / 'second clone', folder / 'system', folder / 'second clone/build/overlay'
+		self.folder, self.system, self.overlay = folder / 'second clone', folder / 'system' / self.libraries, folder / 'second clone/build/overlay'
 		for part in 'scripts', 'plugin':
 			shutil.copytree(root / part, self.folder / part, ignore=shutil.ignore_patterns('__pycache__'))
 		shutil.copy(root / 'CMakeLists.txt', self.folder)
@@ -223,7 +284,7 @@ class OtherFolder:
 		for path in [*systemYade.glob('*.so'), *(systemYade / 'py').iterdir(), *(systemYade / 'py/yade').iterdir()]:
 			copy = self.system / path.relative_to(systemYade)
 			if path.name not in ('libpkg_mpm.so', 'mpm', 'yade'): copy.symlink_to(path)
-		self.write('scripts/lib/common.sh', self.read('scripts/lib/common.sh').replace(str(systemYade), str(self.system)))
+		self.write('scripts/lib/common.sh', self.read('scripts/lib/common.sh').replace(str(systemYade), str(self.system)).replace('yadePrefix=/usr', f'yadePrefix={folder}/system'))
 		self.tools = folder / 'tools'
 		self.tools.mkdir()
 		self.tool('cmake', 'echo compiles; exit 1')

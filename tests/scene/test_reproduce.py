@@ -21,7 +21,7 @@ def numbers(path, *columns):
 
 
 def writePage(folder):
-	subprocess.run(['/usr/bin/python3.11', paper / 'page.py', '--out', folder], check=True, stdout=subprocess.DEVNULL)
+	subprocess.run(['/usr/bin/python3', paper / 'page.py', '--out', folder], check=True, stdout=subprocess.DEVNULL)
 	return (folder / 'README.md').read_text()
 
 

@@ -16,8 +16,6 @@ public:
 
 	std::array<double, 0> initialInternals() const { return {}; }
 
-	bool isSymmetric() const { return true; }
-
 	double young(const std::array<double, 0>& = {}) const { return young_; }
 	double bulk() const { return bulk_; }
 	double shear() const { return shear_; }

@@ -2,9 +2,8 @@
 // The table of constitutive laws: a new law is one header beside this one and one entry here.
 //
 // A law declares its internal `variables`, their values at first (initialInternals), whether it `mayFail`, that is, has strains without an
-// answer; and it answers with young() and respond(), which are given the values of those variables in this order. young() may ask for the elastic
-// volumetric strain too. Where its tangent is not
-// symmetric, isSymmetric() is false.
+// answer; and it answers with young() and respond(), which are given the values of those variables at the start of the step, in this order.
+// young() may ask for the elastic volumetric strain too. A law whose tangent is not always symmetric says isSymmetric(); the others need not.
 #pragma once
 #include "core/materials/cam_clay.hpp"
 #include "core/materials/drucker_prager.hpp"
@@ -102,11 +101,15 @@ struct Material {
 	}
 };
 
+/// Of a law that says so, and of one that does not.
+template <class L> auto isSymmetric(const L& law, int) -> decltype(law.isSymmetric()) { return law.isSymmetric(); }
+template <class L> bool isSymmetric(const L&, long) { return true; }
+
 /// Whether the laws of all of these have symmetric tangents, and so a stiffness that is symmetric.
 inline bool areSymmetric(const std::vector<Material>& materials)
 {
-	return std::all_of(
-	        materials.begin(), materials.end(), [](const Material& m) { return withLaw(m.law, [](const auto& law) { return law.isSymmetric(); }); });
+	const auto is = [](const Material& m) { return withLaw(m.law, [](const auto& law) { return isSymmetric(law, 0); }); };
+	return std::all_of(materials.begin(), materials.end(), is);
 }
 
 /// Makes the columns that the laws of these materials have variables for, and that are not there yet, for so many points, of zeros.

@@ -13,8 +13,8 @@ namespace gimpm {
 inline constexpr double sectorTolerance = 1e-9;
 
 /// On an edge the tangent has rank one, at an apex it is zero: a body of such points would make the stiffness singular. This part of the elastic
-/// stiffness is added to their tangent, not to their stress, so that equilibrium is the same. Of 15 ways to press and pull a block without cohesion from
-/// the side it leaves one that does not converge (1e-6: two, 1e-4: two, slowly; none: five, of which four find the stiffness singular). Slopes of sand
+/// stiffness is added to their tangent, not to their stress, so that equilibrium is the same. Of nine blocks without cohesion that are pulled or pressed
+/// in three steps it leaves one that does not converge (1e-6 and 1e-4: two; none: seven, four of them because the stiffness is singular). Slopes of sand
 /// take as many iterations with 0 to 1e-3; with 1e-2 one of them stops.
 inline constexpr double tangentFloor = 1e-8;
 

@@ -13,7 +13,7 @@ template <class T> using PrincipalValues = Eigen::Matrix<T, 3, 1>;
 /// for several points at once.
 template <class T> struct ResponseOf {
 	PrincipalValues<T>     stress;        ///< principal Kirchhoff stresses [Pa]
-	Eigen::Matrix<T, 3, 3> tangent;       ///< consistent tangent d stress_i / d trialStrain_j [Pa]
+	Eigen::Matrix<T, 3, 3> tangent;       ///< consistent tangent d stress_i / d trialStrain_j [Pa]; symmetric, as the stiffness is
 	PrincipalValues<T>     shear;         ///< G_s of the axis pairs (0,1), (1,2), (2,0): stress_i - stress_j = 2 G_s (trialStrain_i - trialStrain_j)
 	PrincipalValues<T>     elasticStrain; ///< principal elastic logarithmic strains after the return
 	T                      failed = T(0); ///< 1 where the law, which says that it may fail, has no answer

@@ -25,8 +25,6 @@ public:
 
 	std::array<double, 1> initialInternals() const { return { 0 }; }
 
-	bool isSymmetric() const { return true; }
-
 	double young(const std::array<double, 1>&) const { return elastic_.young(); }
 
 	/// Radial return: exact with an associated rule, because the deviator only shrinks. Of the excess over the yield stress, hardening leaves

@@ -35,7 +35,9 @@ template <int Dim> struct PortableParts {
 	static constexpr bool ofPiece(int span) { return Dim == 3 && (span == 2 || span == 4); }
 	static constexpr bool ofInterpolation(int span) { return Dim == 2 ? span == 1 || span == 2 : span == 1 || span >= 5; }
 };
-template <class F> [[gnu::noinline]] void           callApart(F&& f) { f(); }
+/// noipa: where GCC knows that f leaves the upper halves of the vector registers alone it does not clear them before the call, and f, which has
+/// instructions of older processors, takes several times as long.
+template <class F> [[gnu::noipa]] void              callApart(F&& f) { f(); }
 template <bool Portable, class F> GIMPM_INLINE void callPart(F&& f)
 {
 	if constexpr (Portable) callApart(f);

@@ -23,8 +23,7 @@ public:
 		  "undrained shear strength.",
 		  admitting("a finite number > 0 [Pa]; there is no default", positive));
 		v("hardening", &MpmVonMisesMat::hardening, 0,
-		  "Growth of rho_y per equivalent plastic strain [Pa] > -sqrt(6) G; of the uniaxial yield stress sqrt(1.5) times as much. Where negative, the soil "
-		  "softens, and results depend on the mesh: strain gathers in a band of about a cell, so that forces after the peak fall with *cellSize*.",
+		  "Growth of rho_y per equivalent plastic strain [Pa] > -sqrt(6) G. Where negative the soil softens, and results depend on *cellSize*.",
 		  finite);
 		v("residualYieldStress", &MpmVonMisesMat::residualYieldStress, 0, "Below this [Pa], from 0 to *yieldStress*, softening does not bring rho_y.",
 		  nonNegative);

@@ -7,32 +7,28 @@
 namespace yade {
 
 namespace {
-	constexpr std::string_view ownAttribute = gimpm::equivalentPlasticStrain.name;
-
 	auto named(std::string_view name)
 	{
 		return [name](const std::pair<string, Real>& entry) { return entry.first == name; };
 	}
 }
 
-const Real* MpmState::internal(std::string_view name) const
+const Real* MpmState::find(std::string_view name) const
 {
-	if (name == ownAttribute) return &plasticStrain;
 	const auto found = std::find_if(internals.begin(), internals.end(), named(name));
 	return found == internals.end() ? nullptr : &found->second;
 }
 
-void MpmState::setInternal(std::string_view name, Real value)
+void MpmState::store(std::string_view name, Real value)
 {
-	if (name == ownAttribute) plasticStrain = value;
-	else if (const auto found = std::find_if(internals.begin(), internals.end(), named(name)); found != internals.end())
-		found->second = value;
+	if (const auto found = std::find_if(internals.begin(), internals.end(), named(name)); found != internals.end()) found->second = value;
 	else
 		internals.emplace_back(name, value);
 }
 
 bool MpmState::areInternals(const vector<std::pair<string, Real>>& entries)
 {
+	if (entries.empty()) return true;
 	std::set<std::string_view> names { ownAttribute };
 	return std::all_of(entries.begin(), entries.end(), [&](const auto& entry) {
 		const size_t variable = gimpm::internalVariables.find(entry.first);

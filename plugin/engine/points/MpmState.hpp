@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
+#include "core/materials/internal_variable.hpp"
 #include "yade_api/registration.hpp"
 #include <string_view>
 
@@ -43,8 +44,7 @@ public:
 		v("plasticStrain", &MpmState::plasticStrain, 0,
 		  "Equivalent plastic strain [-] >= 0: sqrt(2/3) times the accumulated length of the increments of plastic logarithmic strain.", nonNegative);
 		v("internals", &MpmState::internals, 0,
-		  "Internal variables of the point's law, but for *plasticStrain*: pairs of name and value, in the unit of each; without a pair a variable has its "
-		  "initial value. Read as a tuple; mpm.arrays and mpm.assign have a column for each.",
+		  "Internal variables of the law but for *plasticStrain*: pairs of name and value; without a pair, the initial value. mpm.arrays and mpm.assign have a column for each.",
 		  admitting("pairs of the name of an internal variable, each once, and a value that it admits", areInternals));
 	}
 
@@ -52,12 +52,23 @@ public:
 	void requireAdmissible() const override;
 
 	// Of an internal variable of the point's law; null while it has its initial value.
-	const Real* internal(std::string_view name) const;
-	void        setInternal(std::string_view name, Real value);
+	const Real* internal(std::string_view name) const { return name == ownAttribute ? &plasticStrain : find(name); }
+	void        setInternal(std::string_view name, Real value)
+	{
+		if (name == ownAttribute) plasticStrain = value;
+		else
+			store(name, value);
+	}
 
 	static bool areInternals(const vector<std::pair<string, Real>>&);
 	static bool isSymmetric(const Matrix3r&); // to round-off
 	static bool preservesOrientation(const Matrix3r&);
+
+private:
+	static constexpr std::string_view ownAttribute = gimpm::equivalentPlasticStrain.name;
+
+	const Real* find(std::string_view name) const;
+	void        store(std::string_view name, Real value);
 };
 
 } // namespace yade

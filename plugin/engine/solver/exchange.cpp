@@ -112,6 +112,15 @@ namespace {
 		std::unordered_map<const MpmMaterial*, int> index;
 	};
 
+	// Names and columns of the variables that points of this material have.
+	template <int Dim> vector<std::pair<std::string_view, const Real*>> internalsFor(const MpmMaterial& material, const gimpm::PointCloud<Dim>& cloud)
+	{
+		vector<std::pair<std::string_view, const Real*>> found;
+		for (const gimpm::InternalVariable& variable : variablesOf(material))
+			found.emplace_back(variable.name, cloud.internals[gimpm::internalVariables.find(variable.name)].data());
+		return found;
+	}
+
 	// Of point p; its column is there.
 	template <int Dim> void gatherInternals(const MaterialPoint& point, const gimpm::Law& law, gimpm::PointCloud<Dim>& cloud, size_t p)
 	{
@@ -195,7 +204,7 @@ template <int Dim> gimpm::PointCloud<Dim> gather(const vector<MaterialPoint>& po
 template <int Dim> void scatter(const gimpm::PointCloud<Dim>& cloud, const vector<MaterialPoint>& points)
 {
 	inRanges(points.size(), [&](size_t begin, size_t end) {
-		vector<gimpm::InternalVariable> variables;
+		vector<std::pair<std::string_view, const Real*>> internals;
 		for (size_t p = begin; p < end; ++p) {
 			MpmState& state                                = *points[p].state;
 			state.pos.head<Dim>()                          = cloud.position[p];
@@ -204,9 +213,9 @@ template <int Dim> void scatter(const gimpm::PointCloud<Dim>& cloud, const vecto
 			state.stress                                   = cloud.stress[p].full();
 			state.volume                                   = cloud.volume0[p] * cloud.defGrad[p].determinant();
 			points[p].shape->halfSize.template head<Dim>() = cloud.halfSize[p];
-			if (p == begin || points[p].material.get() != points[p - 1].material.get()) variables = variablesOf(*points[p].material);
-			for (const gimpm::InternalVariable& variable : variables)
-				state.setInternal(variable.name, cloud.internals[gimpm::internalVariables.find(variable.name)][p]);
+			if (p == begin || points[p].material.get() != points[p - 1].material.get()) internals = internalsFor(*points[p].material, cloud);
+			for (const auto& [name, column] : internals)
+				state.setInternal(name, column[p]);
 		}
 	});
 }

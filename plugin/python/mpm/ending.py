@@ -2,6 +2,7 @@
 """A word when the script ends before the simulation does."""
 import atexit
 import sys
+import time
 
 from yade import wrapper
 
@@ -13,3 +14,8 @@ def _sayIfRunning():
 	sys.stderr.write(
 	        f'\nyade.mpm: the script ends while the simulation runs, in iteration {scene.iter}: the rest is lost. O.run(n, wait=True) or O.wait() waits for it.\n'
 	)
+	# A thread that comes back to Python after its end would abort the process.
+	scene.pause()
+	deadline = time.monotonic() + 2
+	while scene.running and time.monotonic() < deadline:
+		time.sleep(.01)

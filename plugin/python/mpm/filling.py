@@ -8,7 +8,7 @@ from yade import wrapper
 from yade.minieigenHP import Vector3
 
 from .library import engine
-from .messages import brief
+from .messages import brief, place
 from .regions import bounds, inside, volumeInBoxes
 
 
@@ -107,7 +107,7 @@ def _cellRange(predicate, grid, n):
 		raise TypeError(f'fill: predicate = {brief(predicate)} must be an mpm.polygon or a predicate of yade.pack{_meant(predicate)}')
 	low, high = bounds(predicate, grid.dim)
 	if not np.isfinite([low, high]).all():
-		raise ValueError(f'fill: predicate = {brief(predicate)} has no bounds (its box reaches from {tuple(low)} to {tuple(high)}); '
+		raise ValueError(f'fill: predicate = {brief(predicate)} has no bounds (its box reaches from {place(low)} to {place(high)}); '
 		                 'intersect it with a bounded one, such as pack.inAlignedBox: predicate & pack.inAlignedBox(low, high)')
 	origin = np.array([grid.origin[i] for i in range(grid.dim)])
 	# one spare cell on each side: the predicate decides, not the round-off of its box
@@ -115,7 +115,7 @@ def _cellRange(predicate, grid, n):
 	candidates = np.prod((last - first) * n)
 	if candidates > 2**31:
 		raise ValueError(f'fill: {candidates:.3g} points would have to be tested, more than YADE can number: cellSize = {grid.cellSize} m or '
-		                 f'pointsPerCell = {n} per axis do not suit a region from {tuple(low)} to {tuple(high)}')
+		                 f'pointsPerCell = {n} per axis do not suit a region from {place(low)} to {place(high)}')
 	return first.astype(np.int64), last.astype(np.int64)
 
 
@@ -150,7 +150,7 @@ def _labelsFromFunction(positions, function):
 	for i, position in enumerate(positions.tolist()):
 		label = function(Vector3(*position))
 		if not isinstance(label, str):
-			raise TypeError(f'fill: the material function returned {brief(label)} at {tuple(position)}; it must return the label of a material')
+			raise TypeError(f'fill: the material function returned {brief(label)} at {place(position)}; it must return the label of a material')
 		index[i] = numbers.setdefault(label, len(numbers))
 	return list(numbers), index
 
@@ -167,7 +167,7 @@ def _labelsFromList(positions, pairs):
 		labels.append(pair[1])
 	left = np.flatnonzero(index < 0)
 	if left.size:
-		raise ValueError(f'fill: no predicate of the material list contains the point at {tuple(positions[left[0]])} '
+		raise ValueError(f'fill: no predicate of the material list contains the point at {place(positions[left[0]])} '
 		                 f'({left.size} of {len(positions)} points have no material); pack.inSpace() as the last one contains them all')
 	return labels, index
 

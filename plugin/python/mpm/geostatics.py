@@ -7,7 +7,7 @@ from yade import wrapper
 
 from .analysis import noPoints, solverOf
 from .data import assign, pointsOf
-from .messages import brief
+from .messages import brief, place
 
 
 def geostatic(K0, surface=None, solver=None):
@@ -68,7 +68,7 @@ def _upwards(solver):
 	gravity = np.array(solver.gravity)
 	axes = np.flatnonzero(gravity)
 	if len(axes) != 1 or (solver.grid.dim == 2 and axes[0] == 2):
-		raise ValueError(f'geostatic: gravity = {tuple(gravity)} of the MpmImplicitEngine must act along one of the axes of the grid')
+		raise ValueError(f'geostatic: gravity = {place(gravity)} of the MpmImplicitEngine must act along one of the axes of the grid')
 	return axes[0], -np.sign(gravity[axes[0]])
 
 

@@ -10,6 +10,11 @@ def brief(value):
 	return text if len(text) <= longest else text[:longest] + '...'
 
 
+def place(vector):
+	"""The numbers of a vector in brackets, whatever the version of NumPy calls its own."""
+	return str(tuple(map(float, vector)))
+
+
 def pathOf(who, name, value):
 	"""The path as a string; TypeError that names the function and the argument."""
 	try:

@@ -6,7 +6,7 @@ import numpy as np
 from yade import pack
 from yade.minieigenHP import Vector3
 
-from .messages import brief
+from .messages import brief, place
 
 
 class polygon(pack.Predicate):
@@ -83,10 +83,10 @@ def _outline(vertices):
 	if len(points) < 3:
 		raise ValueError(f'polygon: vertices = {brief(vertices)}: at least 3 are needed to enclose an area, {len(points)} given')
 	if points.ndim != 2 or points.shape[1] != 2:
-		raise TypeError(f'polygon: vertices[0] = {tuple(points[0])!r} must be an (x, y) pair; the profile lies in the x-y plane')
+		raise TypeError(f'polygon: vertices[0] = {place(points[0])} must be an (x, y) pair; the profile lies in the x-y plane')
 	for i, point in enumerate(points):
 		if not np.isfinite(point).all():
-			raise ValueError(f'polygon: vertices[{i}] = {tuple(point)} must be finite')
+			raise ValueError(f'polygon: vertices[{i}] = {place(point)} must be finite')
 	return points
 
 
@@ -96,20 +96,20 @@ def _refuseSelfContact(vertices, tolerance):
 	following = np.roll(vertices, -1, axis=0)
 	for i in np.flatnonzero(np.hypot(*(following - vertices).T) <= tolerance):
 		hint = '; the last vertex is joined to the first by itself: do not repeat it' if i == n - 1 else ''
-		raise ValueError(f'polygon: vertices[{i}] and vertices[{(i + 1) % n}] coincide at {tuple(vertices[i])}{hint}')
+		raise ValueError(f'polygon: vertices[{i}] and vertices[{(i + 1) % n}] coincide at {place(vertices[i])}{hint}')
 	for i, (a, b) in enumerate(zip(vertices, following)):
 		others = np.delete(np.arange(n), [i, (i + 1) % n])
 		near = others[_squaredDistance(*vertices[others].T, *a, *b) <= tolerance**2]
 		if near.size:
-			raise ValueError(f'polygon: vertices[{near[0]}] = {tuple(vertices[near[0]])} lies on the edge from {tuple(a)} to {tuple(b)}; '
+			raise ValueError(f'polygon: vertices[{near[0]}] = {place(vertices[near[0]])} lies on the edge from {place(a)} to {place(b)}; '
 			                 'the outline must not touch itself or enclose no area')
 		separates = _side(vertices, a, b) * _side(following, a, b) < 0
 		separated = _side(a, vertices, following) * _side(b, vertices, following) < 0
 		crossing = np.flatnonzero(separates & separated)
 		if crossing.size:
 			j = crossing[0]
-			raise ValueError(f'polygon: the edge from {tuple(a)} to {tuple(b)} crosses the one from {tuple(vertices[j])} to '
-			                 f'{tuple(following[j])}; are the vertices in order around the outline?')
+			raise ValueError(f'polygon: the edge from {place(a)} to {place(b)} crosses the one from {place(vertices[j])} to '
+			                 f'{place(following[j])}; are the vertices in order around the outline?')
 
 
 def _side(p, a, b):
