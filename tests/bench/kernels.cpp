@@ -74,6 +74,42 @@ namespace {
 		perItem(state, "s_per_point", run.points());
 	}
 
+	/// Points of one law with random strains, of which most yield.
+	struct Flowing {
+		static constexpr int             Dim = 2;
+		Model<Dim>                       model;
+		PointCloud<Dim>                  cloud;
+		StepReport                       report;
+		std::unique_ptr<StepSystem<Dim>> system;
+
+		explicit Flowing(const Law& law)
+		{
+			model.materials  = { { law, 2000 } };
+			const auto scene = slope<Dim>(0.5, 4);
+			model.grid = scene.model.grid, cloud = scene.cloud;
+			unsigned state = 1;
+			for (auto& strain : cloud.elasticStrain)
+				for (int k = 0; k < strain.size; ++k)
+					strain.c[k] = 6e-3 * ((state = 1664525 * state + 1013904223) / 4294967296. - 0.6);
+			system = std::make_unique<StepSystem<Dim>>(cloud, model, Load<Dim>(), report);
+		}
+	};
+
+	/// A stiffness pass with each law; to be compared with von Mises' law.
+	void stiffnessOf(benchmark::State& state, const Law& law)
+	{
+		const Flowing            points(law);
+		NodeMatrix<Flowing::Dim> K;
+		Eigen::VectorXd          force;
+		points.system->prepare(K);
+		const Eigen::VectorXd d = Eigen::VectorXd::Zero(points.system->nodalSize());
+		for (auto _ : state)
+			benchmark::DoNotOptimize(points.system->evaluate(d, force, &K));
+		perItem(state, "s_per_point", double(points.cloud.size()));
+	}
+	const Law vonMises = VonMises(20e6, 0.3, 15e3), tresca = MohrCoulomb::tresca(20e6, 0.3, 5e3), friction = MohrCoulomb(20e6, 0.3, 5e3, 0.5, 0),
+	          camClay = CamClay(5e6, 1.2, 0.1, 0.03, 1e5, 1e5);
+
 	template <int Dim> void update(benchmark::State& state)
 	{
 		auto&  run = midRun<Dim>();
@@ -171,6 +207,10 @@ namespace {
 	BENCHMARK(basis<2>)->UseRealTime();
 	BENCHMARK(evaluate<2, false>)->Name("residual<2>")->UseRealTime();
 	BENCHMARK(evaluate<2, true>)->Name("stiffness<2>")->UseRealTime();
+	BENCHMARK_CAPTURE(stiffnessOf, vonMises, vonMises)->UseRealTime();
+	BENCHMARK_CAPTURE(stiffnessOf, tresca, tresca)->UseRealTime();
+	BENCHMARK_CAPTURE(stiffnessOf, friction, friction)->UseRealTime();
+	BENCHMARK_CAPTURE(stiffnessOf, camClay, camClay)->UseRealTime();
 	BENCHMARK(update<2>)->UseRealTime();
 	BENCHMARK(reduction<2>)->UseRealTime();
 	BENCHMARK(linearSolve<2>)->UseRealTime();

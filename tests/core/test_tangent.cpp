@@ -99,6 +99,20 @@ namespace {
 		EXPECT_LT(this->scene.error(this->deformation(), 0.05), 1e-7);
 	}
 
+	TYPED_TEST(Tangent, OfSoil)
+	{
+		constexpr double degree = 0.017453292519943295;
+		const auto       cone   = DruckerPragerCone::planeStrain(20, 30 * degree, 0);
+		for (const Law& law : { Law(MohrCoulomb(1e3, 0.2, 20, 30 * degree, 30 * degree)), Law(MohrCoulomb(1e3, 0.2, 20, 30 * degree, 0)),
+		                        Law(MohrCoulomb(1e3, 0.2, 20, 30 * degree, 10 * degree, 5)), Law(MohrCoulomb::tresca(1e3, 0.2, 20)),
+		                        Law(DruckerPrager(1e3, 0.2, cone)), Law(CamClay(400, 1.2, 0.4, 0.1, 400, 300)) }) {
+			this->scene.model.materials[1] = { law, 1 };
+			this->scene.strain({ 0.05, -0.05, -0.02 }, 0.1);
+			EXPECT_GT(this->scene.plasticPoints(this->deformation()), 10);
+			EXPECT_LT(this->scene.error(this->deformation(), 0.05), 1e-6) << law.index();
+		}
+	}
+
 	TYPED_TEST(Tangent, WithCoincidingPrincipalStretches)
 	{
 		// rotation leaves the stretches together, to round-off; yield begins at a deviator of 50 / 2G = 0.06

@@ -20,6 +20,13 @@ public:
 	double bulk() const { return bulk_; }
 	double shear() const { return shear_; }
 
+	/// Principal elastic strains of principal stresses.
+	template <class T> GIMPM_INLINE PrincipalValues<T> strainOf(const PrincipalValues<T>& stress) const
+	{
+		const T mean = T(1. / 3) * (stress[0] + stress[1] + stress[2]), volumetric = T(1 / (3 * bulk_)) * mean, share = T(1 / (2 * shear_));
+		return { share * (stress[0] - mean) + volumetric, share * (stress[1] - mean) + volumetric, share * (stress[2] - mean) + volumetric };
+	}
+
 	template <class T> ResponseWith<T, 0> respond(const PrincipalValues<T>& trialStrain, const std::array<T, 0>&) const
 	{
 		const T            lambda = bulk_ - 2. / 3 * shear_, pressure = lambda * (trialStrain[0] + trialStrain[1] + trialStrain[2]);

@@ -3,8 +3,12 @@
 //
 // A law declares its internal `variables`, their values at first (initialInternals), whether it `mayFail`, that is, has strains without an
 // answer; and it answers with young() and respond(), which are given the values of those variables at the start of the step, in this order.
+// young() may ask for the elastic volumetric strain too. A law whose tangent is not always symmetric says isSymmetric(); the others need not.
 #pragma once
+#include "core/materials/cam_clay.hpp"
+#include "core/materials/drucker_prager.hpp"
 #include "core/materials/hencky.hpp"
+#include "core/materials/mohr_coulomb.hpp"
 #include "core/materials/von_mises.hpp"
 #include <algorithm>
 #include <string_view>
@@ -12,7 +16,7 @@
 
 namespace gimpm {
 
-using Law = std::variant<Hencky, VonMises>;
+using Law = std::variant<Hencky, VonMises, MohrCoulomb, DruckerPrager, CamClay>;
 
 /// f(the law). Unlike std::visit it is inlined.
 template <class F, std::size_t Entry = 0> GIMPM_INLINE auto withLaw(const Law& law, F&& f)
@@ -73,16 +77,40 @@ template <class L> auto internalsOf(const L& law, const InternalColumns& columns
 	return values;
 }
 
+/// Young's modulus by a law that asks for the volumetric strain, or for the internal variables only.
+template <class L, class Internals, class F>
+auto youngOf(const L& law, const Internals& internals, F&& volumetricStrain, int) -> decltype(law.young(internals, volumetricStrain()))
+{
+	return law.young(internals, volumetricStrain());
+}
+template <class L, class Internals, class F> double youngOf(const L& law, const Internals& internals, F&&, long) { return law.young(internals); }
+
 struct Material {
 	Law    law;
 	double density; ///< initial density [kg/m3]
 
-	/// Young's modulus [Pa] of a point with these internal variables.
+	/// Young's modulus [Pa] of a point with these internal variables; volumetricStrain() gives its elastic volumetric strain to the laws that ask for it.
+	template <class F> double young(const InternalColumns& columns, std::size_t point, F&& volumetricStrain) const
+	{
+		return withLaw(law, [&](const auto& l) { return youngOf(l, internalsOf(l, columns, point), volumetricStrain, 0); });
+	}
+	/// The same without elastic strain.
 	double young(const InternalColumns& columns, std::size_t point) const
 	{
-		return withLaw(law, [&](const auto& l) { return l.young(internalsOf(l, columns, point)); });
+		return young(columns, point, [] { return 0.; });
 	}
 };
+
+/// Of a law that says so, and of one that does not.
+template <class L> auto isSymmetric(const L& law, int) -> decltype(law.isSymmetric()) { return law.isSymmetric(); }
+template <class L> bool isSymmetric(const L&, long) { return true; }
+
+/// Whether the laws of all of these have symmetric tangents, and so a stiffness that is symmetric.
+inline bool areSymmetric(const std::vector<Material>& materials)
+{
+	const auto is = [](const Material& m) { return withLaw(m.law, [](const auto& law) { return isSymmetric(law, 0); }); };
+	return std::all_of(materials.begin(), materials.end(), is);
+}
 
 /// Makes the columns that the laws of these materials have variables for, and that are not there yet, for so many points, of zeros.
 inline void provideInternals(InternalColumns& columns, const std::vector<Material>& materials, std::size_t points)

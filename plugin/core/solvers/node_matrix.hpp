@@ -32,6 +32,7 @@ public:
 	bool          isSymmetric() const { return isSymmetric_; }
 
 	/// Block K_ba^T - K_ab, stored like K_ab; only of a matrix that is not symmetric.
+	double*       skewAt(int node, int code) { return skew_.data() + place(node, code); }
 	const double* skewAt(int node, int code) const { return skew_.data() + place(node, code); }
 
 	/// Adds to the blocks of two nodes in any order; `code` is that of the offset b - a, negative where b is the lower one. For a == b, to

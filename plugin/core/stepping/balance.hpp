@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // What is out of balance at an iterate, and what it is compared with.
 #pragma once
+#include "core/materials/kinematics.hpp"
 #include "core/stepping/step_system.hpp"
 
 namespace gimpm {
@@ -54,8 +55,10 @@ public:
 private:
 	double of(int i, double strain) const
 	{
-		const auto& points = system_.points;
-		return points.volume0[i] * system_.model.materials[points.material[i]].young(points.internals, i) * strain / system_.model.grid.cellSize;
+		const auto&  points = system_.points;
+		const double young
+		        = system_.model.materials[points.material[i]].young(points.internals, i, [&] { return volumetricStrain(points.leftCauchyGreen[i]); });
+		return points.volume0[i] * young * strain / system_.model.grid.cellSize;
 	}
 	const StepSystem<Dim>& system_;
 };

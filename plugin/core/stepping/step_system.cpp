@@ -18,7 +18,9 @@ std::vector<GhostFace<Dim>> stabilise(const PointCloud<Dim>& cloud, const Model<
 	report.boundaryCells     = int(boundary.size());
 	report.ghostFaces        = int(faces.size());
 	const auto stiffnessOf   = [&](int p) {
-                return VolumeAndModulus { cloud.volume0[p] * cloud.defGrad[p].determinant(), model.materials[cloud.material[p]].young(cloud.internals, p) };
+                const auto&  material = model.materials[cloud.material[p]];
+                const double young    = material.young(cloud.internals, p, [&] { return cloud.elasticStrain[p].full().trace(); });
+                return VolumeAndModulus { cloud.volume0[p] * cloud.defGrad[p].determinant(), young };
 	};
 	weighGhostFaces(faces, basis, stiffnessOf, model.grid.cellSize, model.ghost.factor, model.ghost.scaling);
 	return faces;

@@ -35,6 +35,7 @@ template <int Dim> struct Pass {
 	const std::vector<Material>& materials;
 	const Eigen::VectorXd&       d;
 	const TermSum<Dim>&          sum;
+	const bool                   isSymmetric = areSymmetric(materials);
 };
 
 /// A failure as a number, which is the smaller the smaller the index of its point is.
@@ -93,12 +94,15 @@ template <int Dim> GIMPM_INLINE FailureCode respond(const Pass<Dim>& pass, Chunk
 			chunk.flux[b][i][j] = flux;
 		}
 	if (!pass.sum.K) return noFailure;
-	const auto a = moduli<Dim, Lanes>(response.law, response.strain, q, w);
-	for (int i = 0, pair = 0; i < Dim; ++i)
-		for (int k = i; k < Dim; ++k, ++pair)
-			for (int j = 0; j < Dim; ++j)
-				for (int l = 0; l < Dim; ++l)
-					chunk.moduli[b].value[pair][j][l] = volume * a(i * Dim + j, k * Dim + l);
+	const auto a    = moduli<Dim, Lanes>(response.law, response.strain, q, w);
+	const auto keep = [&](int i, int k, int pair) GIMPM_INLINE_LAMBDA {
+		for (int j = 0; j < Dim; ++j)
+			for (int l = 0; l < Dim; ++l)
+				chunk.moduli[b].value[pair][j][l] = volume * a(i * Dim + j, k * Dim + l);
+	};
+	if (pass.isSymmetric) PairModuli<Dim>::template forPairs<true>(keep);
+	else
+		PairModuli<Dim>::template forPairs<false>(keep);
 	return noFailure;
 }
 
@@ -118,9 +122,14 @@ GIMPM_INLINE void addPiece(const Pass<Dim>& pass, const Chunk<Dim>& chunk, const
 	force.scatterAdd(patch, pass.sum.force);
 	if (pass.sum.sizes) force.scatterAddSizes(patch, *pass.sum.sizes);
 	if (!pass.sum.K) return;
-	PatchStiffness<Dim, Nodes::N> stiffness;
-	Kernels::multiply(stiffness, chunk, begin, end);
-	stiffness.scatterAdd(patch.node.data(), PairCodes<Dim, Span>::get(), *pass.sum.K);
+	const auto addStiffness = [&](auto isSymmetric) GIMPM_INLINE_LAMBDA {
+		PatchStiffness<Dim, Nodes::N, decltype(isSymmetric)::value> stiffness;
+		Kernels::multiply(stiffness, chunk, begin, end);
+		stiffness.scatterAdd(patch.node.data(), PairCodes<Dim, Span>::get(), *pass.sum.K);
+	};
+	if (pass.isSymmetric) addStiffness(std::true_type());
+	else
+		addStiffness(std::false_type());
 }
 
 /// Adds the patches [first, last). Returns a point that fails, or noFailure.
@@ -150,8 +159,8 @@ template <class Kernels, int Dim> GIMPM_INLINE FailureCode addPatches(const Pass
 				failure = std::min(failure, gimpm::respond(pass, chunk, batch));                                                               \
 			return failure;                                                                                                                        \
 		}                                                                                                                                              \
-		template <int Dim, int N>                                                                                                                      \
-		[[gnu::noinline]] __VA_ARGS__ static void multiply(PatchStiffness<Dim, N>& stiffness, const Chunk<Dim>& chunk, int begin, int end)             \
+		template <int Dim, int N, bool Symmetric>                                                                                                      \
+		[[gnu::noinline]] __VA_ARGS__ static void multiply(PatchStiffness<Dim, N, Symmetric>& stiffness, const Chunk<Dim>& chunk, int begin, int end)  \
 		{                                                                                                                                              \
 			stiffness.multiply(chunk, begin, end);                                                                                                 \
 		}                                                                                                                                              \

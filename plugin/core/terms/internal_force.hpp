@@ -49,6 +49,7 @@ public:
 	{
 		return addInternalForce(basis_, points_, materials_, d, sum);
 	}
+	bool isSymmetric() const override { return areSymmetric(materials_); }
 
 private:
 	const CloudBasis<Dim>&       basis_;

@@ -5,10 +5,11 @@
 
 namespace gimpm {
 
-/// Sum over points of grad_a,j V a_ijkl grad_b,l for the N nodes of a patch, by pairs of displacement components i <= k:
+/// Sum over points of grad_a,j V a_ijkl grad_b,l for the N nodes of a patch, by pairs of displacement components (i <= k if it is symmetric):
 /// block(i, k)(a, b) = K_(a,i)(b,k).
-template <int Dim, int N> class PatchStiffness {
-	static constexpr int pairs      = Dim * (Dim + 1) / 2;
+template <int Dim, int N, bool Symmetric> class PatchStiffness {
+	using Pairs                     = PairModuli<Dim>;
+	static constexpr int pairs      = Symmetric ? Pairs::upper : Dim * Dim;
 	static constexpr int width      = (N + Lanes::count - 1) / Lanes::count; ///< of a row, in Lanes
 	static constexpr int rowsAtOnce = width > 3 ? 2 : width > 2 ? 3 : 4;     ///< whose sums fit into registers
 
@@ -16,13 +17,12 @@ public:
 	/// Of the points [begin, end).
 	GIMPM_INLINE void multiply(const Chunk<Dim>& chunk, int begin, int end)
 	{
-		for (int i = 0, pair = 0; i < Dim; ++i)
-			for (int k = i; k < Dim; ++k, ++pair) {
-				formFlux(chunk, pair, begin, end);
-				if (i == k) sumRows<true, 0>(chunk, sum_[pair], begin, end);
-				else
-					sumRows<false, 0>(chunk, sum_[pair], begin, end);
-			}
+		Pairs::template forPairs<Symmetric>([&](int i, int k, int pair) GIMPM_INLINE_LAMBDA {
+			formFlux(chunk, pair, begin, end);
+			if (Symmetric && i == k) sumRows<true, 0>(chunk, sum_[pair], begin, end);
+			else
+				sumRows<false, 0>(chunk, sum_[pair], begin, end);
+		});
 	}
 	template <class Codes> GIMPM_INLINE void scatterAdd(const int* node, const Codes& codes, NodeMatrix<Dim>& K) const
 	{
@@ -30,15 +30,30 @@ public:
 			for (int b = a; b < N; ++b) {
 				if (node[a] < 0 || node[b] < 0) continue;
 				double* out = K.at(node[a], codes.code[a][b]);
-				for (int i = 0, pair = 0; i < Dim; ++i)
-					for (int k = i; k < Dim; ++k, ++pair) {
-						out[i * Dim + k] += at(sum_[pair][a], b);
-						if (i != k) out[k * Dim + i] += at(sum_[pair][b], a);
-					}
+				if constexpr (Symmetric) addSymmetric(a, b, out);
+				else
+					addBoth(a, b, out, a == b ? nullptr : K.skewAt(node[a], codes.code[a][b]));
 			}
 	}
 
 private:
+	GIMPM_INLINE void addSymmetric(int a, int b, double* out) const
+	{
+		Pairs::template forPairs<true>([&](int i, int k, int pair) GIMPM_INLINE_LAMBDA {
+			out[i * Dim + k] += at(sum_[pair][a], b);
+			if (i != k) out[k * Dim + i] += at(sum_[pair][b], a);
+		});
+	}
+	/// K_ab, and what K_ba^T differs from it by.
+	GIMPM_INLINE void addBoth(int a, int b, double* out, double* skew) const
+	{
+		Pairs::template forPairs<false>([&](int i, int k, int pair) GIMPM_INLINE_LAMBDA {
+			out[i * Dim + k] += at(sum_[pair][a], b);
+			if (!skew) return;
+			skew[i * Dim + k] -= at(sum_[pair][a], b);
+			skew[k * Dim + i] += at(sum_[pair][b], a);
+		});
+	}
 	static double at(const Lanes* row, int n) { return reinterpret_cast<const double*>(row)[n]; }
 
 	/// flux_j,b = V a_ijkl grad_b,l of each point, for the pair (i, k).
@@ -57,10 +72,10 @@ private:
 		}
 	}
 	/// Rows from First on; of a symmetric block only the columns from the diagonal on are needed.
-	template <bool Symmetric, int First> GIMPM_INLINE void sumRows(const Chunk<Dim>& chunk, Lanes (&block)[N][width], int begin, int end) const
+	template <bool Half, int First> GIMPM_INLINE void sumRows(const Chunk<Dim>& chunk, Lanes (&block)[N][width], int begin, int end) const
 	{
 		if constexpr (First < N) {
-			constexpr int rows = N - First < rowsAtOnce ? N - First : rowsAtOnce, from = Symmetric ? First / Lanes::count : 0;
+			constexpr int rows = N - First < rowsAtOnce ? N - First : rowsAtOnce, from = Half ? First / Lanes::count : 0;
 			Lanes         sum[rows][width - from];
 			for (auto& row : sum)
 				for (auto& lanes : row)
@@ -76,7 +91,7 @@ private:
 			for (int r = 0; r < rows; ++r)
 				for (int v = from; v < width; ++v)
 					block[First + r][v] = sum[r][v - from];
-			sumRows<Symmetric, First + rows>(chunk, block, begin, end);
+			sumRows<Half, First + rows>(chunk, block, begin, end);
 		}
 	}
 

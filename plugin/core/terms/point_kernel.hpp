@@ -71,9 +71,23 @@ template <int Dim, int Span> struct PatchVectors {
 	}
 };
 
-/// Moduli times volume of points side by side, by pairs of displacement components i <= k: value(i, k)[j][l] = V a_ijkl.
+/// Moduli times volume of points side by side, by pairs of displacement components: value(i, k)[j][l] = V a_ijkl. The pairs i <= k come first; the
+/// others are there only where a law is not symmetric.
 template <int Dim> struct PairModuli {
-	Lanes value[Dim * (Dim + 1) / 2][Dim][Dim];
+	static constexpr int upper = Dim * (Dim + 1) / 2;
+	Lanes                value[Dim * Dim][Dim][Dim];
+
+	/// Calls f(i, k, number of the pair).
+	template <bool Symmetric, class F> GIMPM_INLINE static void forPairs(F&& f)
+	{
+		for (int i = 0, pair = 0; i < Dim; ++i)
+			for (int k = i; k < Dim; ++k)
+				f(i, k, pair++);
+		if constexpr (!Symmetric)
+			for (int i = 1, pair = upper; i < Dim; ++i)
+				for (int k = 0; k < i; ++k)
+					f(i, k, pair++);
+	}
 };
 
 /// Some points that follow each other in the order of the basis, on their way through a pass.

@@ -4,6 +4,8 @@
 
 namespace yade {
 
+class MpmState;
+
 class MpmMaterial : public ExposedIndexed<MpmMaterial, Material> {
 public:
 	YADE_API_NAME(MpmMaterial)
@@ -16,6 +18,9 @@ public:
 	shared_ptr<State> newAssocState() const override;
 	bool              stateTypeOk(State*) const override;
 	void              requireAdmissible() const override;
+
+	// std::invalid_argument if no step can begin from this state of a point.
+	virtual void requireStart(const MpmState&) const { }
 };
 
 } // namespace yade

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "engine/materials/laws.hpp"
 #include "core/materials/kinematics.hpp"
+#include "engine/materials/MpmCamClayMat.hpp"
+#include "engine/materials/MpmDruckerPragerMat.hpp"
 #include "engine/materials/MpmElasticMat.hpp"
+#include "engine/materials/MpmMohrCoulombMat.hpp"
+#include "engine/materials/MpmTrescaMat.hpp"
 #include "engine/materials/MpmVonMisesMat.hpp"
 #include <Eigen/LU>
 #include <functional>
@@ -24,12 +28,28 @@ namespace {
 			 { [make](const MpmMaterial& m) { return make(static_cast<const M&>(m)); }, { Law::variables.begin(), Law::variables.end() } } };
 	}
 
+	gimpm::DruckerPrager druckerPrager(const MpmDruckerPragerMat& m)
+	{
+		using Cone       = gimpm::DruckerPragerCone;
+		const auto match = m.match == "compression" ? Cone::compression : m.match == "extension" ? Cone::extension : Cone::planeStrain;
+		return { m.young, m.poisson, match(m.cohesion, m.frictionAngle, m.dilationAngle), m.tensileStrength };
+	}
+
 	const std::unordered_map<std::type_index, LawOfClass>& laws()
 	{
 		static const std::unordered_map<std::type_index, LawOfClass> all {
 			entry<MpmElasticMat>([](const MpmElasticMat& m) { return gimpm::Hencky(m.young, m.poisson); }),
 			entry<MpmVonMisesMat>(
 			        [](const MpmVonMisesMat& m) { return gimpm::VonMises(m.young, m.poisson, m.yieldStress, m.hardening, m.residualYieldStress); }),
+			entry<MpmTrescaMat>([](const MpmTrescaMat& m) { return gimpm::MohrCoulomb::tresca(m.young, m.poisson, m.undrainedStrength); }),
+			entry<MpmMohrCoulombMat>([](const MpmMohrCoulombMat& m) {
+			        return gimpm::MohrCoulomb(m.young, m.poisson, m.cohesion, m.frictionAngle, m.dilationAngle, m.tensileStrength);
+			}),
+			entry<MpmDruckerPragerMat>(druckerPrager),
+			entry<MpmCamClayMat>([](const MpmCamClayMat& m) {
+			        return gimpm::CamClay(
+			                m.shearModulus, m.criticalStateRatio, m.compressionIndex, m.swellingIndex, m.preconsolidation, m.referencePressure);
+			}),
 		};
 		return all;
 	}
@@ -49,6 +69,16 @@ vector<gimpm::InternalVariable> variablesOf(const MpmMaterial& material)
 	return law == laws().end() ? vector<gimpm::InternalVariable>() : law->second.variables;
 }
 
+vector<Real> initialInternalsOf(const MpmMaterial& material)
+{
+	const auto law = laws().find(typeid(material));
+	if (law == laws().end()) return {};
+	return withLaw(law->second.make(material), [](const auto& l) {
+		const auto values = l.initialInternals();
+		return vector<Real>(values.begin(), values.end());
+	});
+}
+
 namespace {
 	gimpm::Response respond(const gimpm::Material& material, const Vector3r& strain, const vector<Real>& internals)
 	{
@@ -58,7 +88,8 @@ namespace {
 			return law.respond(strain, values);
 		});
 		if (response.failed) throw std::invalid_argument("the law of the material has no stress for these strains.");
-		if (response.elasticStrain == strain) return response;
+		constexpr Real roundOff = 1e-9, smallest = 1e-14; // also of states on the yield surface, which a law may return to it
+		if ((response.elasticStrain - strain).norm() <= roundOff * strain.norm() + smallest) return response;
 		std::ostringstream text;
 		text << "the material yields under the principal elastic strains (" << strain.transpose()
 		     << "): it can carry no more than the principal Kirchhoff stresses (" << response.stress.transpose() << ") Pa.";
@@ -82,11 +113,24 @@ Matrix3r kirchhoffStressOf(const gimpm::Material& material, const Matrix3r& elas
 	return inPrincipalAxes(elasticStrain, [&](const Vector3r& strain) { return respond(material, strain, internals).stress; });
 }
 
-// Newton's method; it supposes that laws are linear inside their yield surface: one solve is enough, and the other only removes round-off.
+namespace {
+	// Of these principal stresses, or near it: zero where the law is linear inside its yield surface.
+	Vector3r firstStrain(const gimpm::Law& law, const Vector3r& stress)
+	{
+		const auto* clay = std::get_if<gimpm::CamClay>(&law);
+		if (!clay) return Vector3r::Zero();
+		if (stress.sum() < 0) return clay->strainOf(stress);
+		std::ostringstream text;
+		text << "the mean stress is " << stress.mean() << " Pa: Cam clay has none but pressures, which are negative stresses.";
+		throw std::invalid_argument(text.str());
+	}
+}
+
+// Newton's method; from the first strain one solve is enough and others only remove round-off.
 Matrix3r elasticStrainOf(const gimpm::Material& material, const Matrix3r& kirchhoffStress, const vector<Real>& internals)
 {
 	return inPrincipalAxes(kirchhoffStress, [&](const Vector3r& stress) {
-		Vector3r strain = Vector3r::Zero();
+		Vector3r strain = firstStrain(material.law, stress);
 		for (int solve = 0; solve < 2; ++solve) {
 			const auto response = respond(material, strain, internals);
 			strain += response.tangent.fullPivLu().solve(stress - response.stress);

@@ -12,6 +12,9 @@ gimpm::Material coreMaterial(const MpmMaterial&);
 // Of the law that belongs to the class of the material; none for other classes.
 vector<gimpm::InternalVariable> variablesOf(const MpmMaterial&);
 
+// Their values at first, whether the material is admissible or not.
+vector<Real> initialInternalsOf(const MpmMaterial&);
+
 // Between Kirchhoff stress [Pa] and elastic logarithmic strain of a point at rest with these internal variables, in the order of its law.
 // std::invalid_argument if that state lies outside of the law's yield surface.
 Matrix3r kirchhoffStressOf(const gimpm::Material&, const Matrix3r& elasticStrain, const vector<Real>& internals);

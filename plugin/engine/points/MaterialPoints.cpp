@@ -95,6 +95,15 @@ void MaterialPoint::requireAdmissible(int dim) const
 	}
 }
 
+void MaterialPoint::requireStart() const
+{
+	try {
+		material->requireStart(*state);
+	} catch (const std::invalid_argument& error) {
+		refuse(id, error.what());
+	}
+}
+
 void MaterialPoint::requireInternals(const gimpm::InternalVariable* variables, const Real* values, size_t count) const
 {
 	for (size_t k = 0; k < count; ++k)

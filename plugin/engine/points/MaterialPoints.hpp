@@ -18,6 +18,9 @@ struct MaterialPoint {
 	// std::invalid_argument unless all its values can be computed with in this dimension (2 or 3). Its material is not looked at.
 	void requireAdmissible(int dim) const;
 
+	// std::invalid_argument unless its material admits that a step begins from its state.
+	void requireStart() const;
+
 	// Of its internal variables in the order of its law.
 	template <class L> auto internalsOf(const L& law) const
 	{

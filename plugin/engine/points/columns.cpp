@@ -56,7 +56,7 @@ namespace {
 		const auto variables = variablesOf(*p.material);
 		const auto found     = std::find_if(variables.begin(), variables.end(), [&](const auto& v) { return v.name == string(variable.name); });
 		if (found == variables.end()) return std::numeric_limits<Real>::quiet_NaN(); // its law has none
-		return withLaw(coreMaterial(*p.material).law, [&](const auto& law) { return Real(law.initialInternals().data()[found - variables.begin()]); });
+		return initialInternalsOf(*p.material)[found - variables.begin()];
 	}
 	PointColumn internal(const gimpm::InternalVariable& variable)
 	{

@@ -177,6 +177,7 @@ template <int Dim> gimpm::PointCloud<Dim> gather(const vector<MaterialPoint>& po
 		for (size_t p = begin; p < end; ++p) {
 			const MaterialPoint& point = points[p];
 			point.requireAdmissible(Dim);
+			point.requireStart();
 			requireOnGrid<Dim>(point, model.grid, model.basis);
 			cloud.position[p]      = point.state->pos.template head<Dim>();
 			cloud.halfSize[p]      = domainIn(model, point);

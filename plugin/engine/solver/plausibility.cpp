@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "engine/solver/plausibility.hpp"
 #include "core/base/stopwatch.hpp"
+#include "engine/materials/MpmElasticMat.hpp"
 #include "engine/solver/MpmImplicitEngine.hpp"
 #include "engine/solver/idle_boundaries.hpp"
 #include "engine/solver/overlaps.hpp"
@@ -144,7 +145,8 @@ namespace {
 			const bool isLight = density < lightest, isSoft = young < softest && density > ofGround;
 			if (!isLight && !isSoft) continue;
 			const size_t first = std::find(cloud.material.begin(), cloud.material.end(), int(m)) - cloud.material.begin();
-			const string name  = "material '" + points[first].material->label + "' (of body #" + std::to_string(points[first].id) + ")";
+			if (!isLight && !dynamic_cast<const MpmElasticMat*>(points[first].material.get())) continue; // its young is no attribute
+			const string name = "material '" + points[first].material->label + "' (of body #" + std::to_string(points[first].id) + ")";
 			if (isLight) return sentence(name, " has density = ", density, ", in kg/m3; was it meant in t/m3, that is ", 1e3 * density, " kg/m3?");
 			return sentence(name, " has young = ", young, ", in Pa; was it meant in kPa, that is ", 1e3 * young, " Pa?");
 		}

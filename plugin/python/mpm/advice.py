@@ -61,7 +61,7 @@ class _Scene:
 		if self.points == 0: raise ValueError(noPoints('advise', solver))
 		self.low, self.high = data['pos'].min(axis=0) - data['halfSize'].min(axis=0), data['pos'].max(axis=0) + data['halfSize'].min(axis=0)
 		self.pointsPerCell = (self.points / self.work['activeCells'])**(1 / self.dim)
-		self.plastic = any(isinstance(material, wrapper.MpmVonMisesMat) for material in self.materials)
+		self.plastic = any(type(material) is not wrapper.MpmElasticMat for material in self.materials)
 		last = max(curve[-1][0] for curve in (solver.loadCurve, solver.gravityCurve) if curve)
 		self.left = max(0, last - wrapper.Omega().time)
 		self.steps = self.runsOf(solver)
@@ -77,11 +77,17 @@ class _Scene:
 		"""Labels of materials that the weight of all that could lie above cannot bring to yield."""
 		extent = max(self.high[:self.dim] - self.low[:self.dim])
 		stress = max(material.density for material in self.materials) * np.linalg.norm(self.solver.gravity) * extent
-		return [m.label or 'a material without label' for m in self.materials if stress > 0 and isinstance(m, wrapper.MpmVonMisesMat) and m.yieldStress > stress]
+		return [m.label or 'a material without label' for m in self.materials if stress > 0 and self.difference(m) > stress]
+
+	@staticmethod
+	def difference(material):
+		"""A difference of principal stresses at which it does not yield yet; 0 of elastic materials and of those whose strength goes with the pressure."""
+		if isinstance(material, wrapper.MpmVonMisesMat): return material.yieldStress
+		return 2 * material.undrainedStrength if isinstance(material, wrapper.MpmTrescaMat) else 0
 
 	def contrast(self):
-		moduli = [material.young for material in self.materials]
-		return max(moduli) / min(moduli)
+		moduli = [material.young for material in self.materials if isinstance(material, wrapper.MpmElasticMat)] # that of the others varies
+		return max(moduli) / min(moduli) if moduli else 1
 
 	def uniformAlongZ(self):
 		"""Both ends held along z, and nothing acts along it: plane strain."""

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "engine/materials/MpmCamClayMat.hpp"
+#include "engine/points/MpmState.hpp"
+
+namespace yade {
+
+void MpmCamClayMat::requireAdmissible() const
+{
+	ExposedIndexed<MpmCamClayMat, MpmMaterial>::requireAdmissible();
+	if (swellingIndex < compressionIndex) return;
+	std::ostringstream text;
+	text << "MpmCamClayMat.swellingIndex = " << swellingIndex << " is not admitted: expected a number > 0 and < compressionIndex = " << compressionIndex
+	     << ". Soil that swells as much as it is compressed has no plastic strain.";
+	throw std::invalid_argument(text.str());
+}
+
+void MpmCamClayMat::requireStart(const MpmState& state) const
+{
+	if (!state.stress.isZero(0)) return;
+	throw std::invalid_argument(
+	        "MpmState.stress = 0 is not admitted: a point of an MpmCamClayMat has no stiffness without pressure. Give its stress with mpm.assign(stress=...).");
+}
+
+} // namespace yade
+
+BOOST_CLASS_EXPORT_IMPLEMENT(yade::MpmCamClayMat)
+static const yade::PluginClasses<yade::MpmCamClayMat> registered(__FILE__);

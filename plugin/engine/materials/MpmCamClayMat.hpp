@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+#include "engine/materials/MpmMaterial.hpp"
+
+namespace yade {
+
+class MpmCamClayMat : public ExposedIndexed<MpmCamClayMat, MpmMaterial> {
+public:
+	// NaN until given
+	Real shearModulus       = std::numeric_limits<Real>::quiet_NaN();
+	Real criticalStateRatio = std::numeric_limits<Real>::quiet_NaN();
+	Real compressionIndex   = std::numeric_limits<Real>::quiet_NaN();
+	Real swellingIndex      = std::numeric_limits<Real>::quiet_NaN();
+	Real preconsolidation   = std::numeric_limits<Real>::quiet_NaN();
+	Real referencePressure  = std::numeric_limits<Real>::quiet_NaN();
+
+	YADE_API_NAME(MpmCamClayMat)
+	static const char* doc()
+	{
+		return "Modified Cam clay in Kirchhoff stress: bulk modulus proportional to the pressure, shear modulus constant, associated flow, critical state. A "
+		       "point's preconsolidation pressure is a column of mpm.arrays and mpm.assign. Points need a pressure to begin with: mpm.assign(stress=...).";
+	}
+	template <class V> static void attributes(V&& v)
+	{
+		const auto given = [](const char* text) { return admitting(text, positive); };
+		v("shearModulus", &MpmCamClayMat::shearModulus, 0, "Shear modulus G [Pa] > 0, without default.",
+		  given("a finite number > 0 [Pa]; there is no default"));
+		v("criticalStateRatio", &MpmCamClayMat::criticalStateRatio, 0,
+		  "Ratio M = Q/P > 0 of critical states [-], without default: 6 sin(phi) / (3 - sin(phi)) of an angle of friction in triaxial compression.",
+		  given("a finite number > 0; there is no default"));
+		v("compressionIndex", &MpmCamClayMat::compressionIndex, 0,
+		  "Slope lambda [-] > *swellingIndex* of compression in ln v over ln p, without default; a slope in v over ln p divided by v.",
+		  given("a finite number > swellingIndex; there is no default"));
+		v("swellingIndex", &MpmCamClayMat::swellingIndex, 0, "Slope kappa [-] > 0 of swelling in ln v over ln p, without default.",
+		  given("a finite number > 0 and < compressionIndex; there is no default"));
+		v("preconsolidation", &MpmCamClayMat::preconsolidation, 0, "Preconsolidation pressure pc [Pa] > 0 at first, without default.",
+		  given("a finite number > 0 [Pa], positive in compression; there is no default"));
+		v("referencePressure", &MpmCamClayMat::referencePressure, 0, "Pressure [Pa] > 0 at zero elastic strain, without default.",
+		  given("a finite number > 0 [Pa], positive in compression; there is no default"));
+	}
+	void requireAdmissible() const override;
+	void requireStart(const MpmState&) const override;
+};
+
+} // namespace yade
+
+BOOST_CLASS_EXPORT_KEY(yade::MpmCamClayMat)

@@ -1,0 +1,5 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "engine/materials/MpmDruckerPragerMat.hpp"
+
+BOOST_CLASS_EXPORT_IMPLEMENT(yade::MpmDruckerPragerMat)
+static const yade::PluginClasses<yade::MpmDruckerPragerMat> registered(__FILE__);

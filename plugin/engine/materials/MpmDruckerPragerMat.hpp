@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+#include "engine/materials/MpmFrictionalMat.hpp"
+
+namespace yade {
+
+class MpmDruckerPragerMat : public ExposedIndexed<MpmDruckerPragerMat, MpmFrictionalMat> {
+public:
+	string match = "plane-strain";
+
+	YADE_API_NAME(MpmDruckerPragerMat)
+	static const char* doc()
+	{
+		return "Hencky elasticity with Drucker and Prager's perfect plasticity, a smooth cone matched to Mohr-Coulomb's law, with a dilation angle of its own. "
+		       "*tensileStrength* bounds the mean stress. *young*, *poisson*, *cohesion* and *frictionAngle* must be given; strength is in Kirchhoff stress.";
+	}
+	template <class V> static void attributes(V&& v)
+	{
+		v("match", &MpmDruckerPragerMat::match, 0,
+		  "Where it is as strong as Mohr-Coulomb's law: 'plane-strain' with any dilation, triaxial 'compression' or 'extension'.",
+		  oneOf("plane-strain", "compression", "extension"));
+	}
+};
+
+} // namespace yade
+
+BOOST_CLASS_EXPORT_KEY(yade::MpmDruckerPragerMat)

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+#include "engine/materials/MpmElasticMat.hpp"
+
+namespace yade {
+
+// What the laws with cohesion and friction have in common.
+class MpmFrictionalMat : public ExposedIndexed<MpmFrictionalMat, MpmElasticMat> {
+public:
+	Real cohesion        = std::numeric_limits<Real>::quiet_NaN(); // must be given, as the moduli
+	Real frictionAngle   = std::numeric_limits<Real>::quiet_NaN();
+	Real dilationAngle   = 0;
+	Real tensileStrength = std::numeric_limits<Real>::infinity();
+
+	YADE_API_NAME(MpmFrictionalMat)
+	static const char* doc() { return "Base of the materials with cohesion and friction. It has no constitutive law itself and is refused when used."; }
+	template <class V> static void attributes(V&& v)
+	{
+		const auto angle = [](Real value) { return value >= 0 && value < M_PI / 2; };
+		v("cohesion", &MpmFrictionalMat::cohesion, 0, "Cohesion c [Pa] >= 0 in Kirchhoff stress: of a change of volume J it is c/J in Cauchy stress.",
+		  admitting("a finite number >= 0 [Pa]; there is no default", nonNegative));
+		v("frictionAngle", &MpmFrictionalMat::frictionAngle, 0, "Angle of friction phi [rad], from 0 to below pi/2: radians(30) of 30 degrees.",
+		  admitting("an angle [rad] from 0 to below pi/2, as radians(30); there is no default", angle));
+		v("dilationAngle", &MpmFrictionalMat::dilationAngle, 0,
+		  "Angle of dilation psi [rad], from 0 to *frictionAngle*. Where it is smaller, flow is not associated and the stiffness not symmetric.",
+		  admitting("an angle [rad] from 0 to frictionAngle, as radians(30)", angle));
+		v("tensileStrength", &MpmFrictionalMat::tensileStrength, 0, "Cut of tension [Pa] >= 0, of use below the apex c cot(phi); infinite: none.",
+		  admitting("a number >= 0 [Pa], finite or infinite", [](Real value) { return value >= 0; }));
+	}
+	void requireAdmissible() const override;
+};
+
+} // namespace yade
+
+BOOST_CLASS_EXPORT_KEY(yade::MpmFrictionalMat)

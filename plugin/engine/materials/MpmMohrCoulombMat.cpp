@@ -1,0 +1,5 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "engine/materials/MpmMohrCoulombMat.hpp"
+
+BOOST_CLASS_EXPORT_IMPLEMENT(yade::MpmMohrCoulombMat)
+static const yade::PluginClasses<yade::MpmMohrCoulombMat> registered(__FILE__);

@@ -1,0 +1,5 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "engine/materials/MpmTrescaMat.hpp"
+
+BOOST_CLASS_EXPORT_IMPLEMENT(yade::MpmTrescaMat)
+static const yade::PluginClasses<yade::MpmTrescaMat> registered(__FILE__);

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+#include "engine/materials/MpmElasticMat.hpp"
+
+namespace yade {
+
+class MpmTrescaMat : public ExposedIndexed<MpmTrescaMat, MpmElasticMat> {
+public:
+	Real undrainedStrength = std::numeric_limits<Real>::quiet_NaN(); // must be given, as the moduli
+
+	YADE_API_NAME(MpmTrescaMat)
+	static const char* doc()
+	{
+		return "Hencky elasticity with Tresca's perfect plasticity and associated flow: undrained clay by its strength in total stress. In plane strain it "
+		       "differs from von Mises' law little, in 3D by up to 15 %.";
+	}
+	template <class V> static void attributes(V&& v)
+	{
+		v("undrainedStrength", &MpmTrescaMat::undrainedStrength, 0,
+		  "Undrained shear strength c_u [Pa] > 0 in Kirchhoff stress: half of the largest difference of principal stresses.",
+		  admitting("a finite number > 0 [Pa]; there is no default", positive));
+	}
+};
+
+} // namespace yade
+
+BOOST_CLASS_EXPORT_KEY(yade::MpmTrescaMat)
