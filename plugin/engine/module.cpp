@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The plugin is also a Python extension module, imported by yade.mpm for what can be checked only when YADE has started, and for
 // work on all material points at once.
+#include "engine/materials/laws.hpp"
 #include "engine/output/gridCells.hpp"
 #include "engine/points/assignment.hpp"
 #include "engine/points/bulkAccess.hpp"
@@ -19,5 +20,8 @@ BOOST_PYTHON_MODULE(mpm_engine)
 	py::def("pointColumns", &pointColumnsForPython, "What there is to know of a material point: a dict with name, unit, label, width ... for each column.");
 	py::def("warn", &warn, "A warning of module mpm in YADE's log.");
 	py::def("assignColumns", &assignColumns, "For mpm.assign: values of the material points with these body ids, from a dict of arrays; all or none.");
+	py::def("respond", &respondForPython,
+	        "For mpm.respond: one call of the law of a material in principal axes, from trial strains and a dict of internal variables.");
+	py::def("elasticStrainOf", &elasticStrainForPython, "For mpm.elementTest: principal elastic strains of principal Kirchhoff stresses.");
 	py::def("gridCells", &gridCellsForPython, "For mpm.plot: corners and first field of the cells of 'grid' or 'ghostFaces' around the material points.");
 }

@@ -7,6 +7,7 @@
 #include "engine/materials/MpmMohrCoulombMat.hpp"
 #include "engine/materials/MpmTrescaMat.hpp"
 #include "engine/materials/MpmVonMisesMat.hpp"
+#include "engine/points/MaterialPoints.hpp"
 #include <Eigen/LU>
 #include <functional>
 #include <typeindex>
@@ -138,6 +139,63 @@ Matrix3r elasticStrainOf(const gimpm::Material& material, const Matrix3r& kirchh
 		respond(material, strain, internals);
 		return strain;
 	});
+}
+
+namespace {
+	template <class Law> vector<Real> internalsOf(const Law& law, const MpmMaterial& material, const py::dict& given)
+	{
+		py::dict     rest { py::object(given) }; // a copy
+		const auto   first = law.initialInternals();
+		vector<Real> values(first.begin(), first.end());
+		for (size_t k = 0; k < values.size(); ++k) {
+			const gimpm::InternalVariable& variable = law.variables[k];
+			if (!rest.has_key(variable.name)) continue;
+			values[k] = py::extract<Real>(rest[variable.name]);
+			if (!variable.admits(values[k])) throw std::invalid_argument(refusalOf(variable, values[k]));
+			rest[variable.name].del();
+		}
+		if (py::len(rest) == 0) return values;
+		string names;
+		for (const auto& variable : law.variables)
+			names += string(names.empty() ? "" : ", ") + variable.name;
+		throw std::invalid_argument(
+		        material.getClassName() + " has no internal variable " + string(py::extract<string>(py::list(rest)[0]))
+		        + (names.empty() ? ": its law has none." : "; there are: " + names + "."));
+	}
+
+	py::tuple tupleOf(const Vector3r& v) { return py::make_tuple(v[0], v[1], v[2]); }
+
+	template <class Law> py::dict respondInPrincipalAxes(const Law& law, const Vector3r& strain, const vector<Real>& internals)
+	{
+		auto values = law.initialInternals();
+		std::copy_n(internals.begin(), values.size(), values.begin());
+		const auto r = law.respond(strain, values);
+		if (r.failed) throw std::invalid_argument("the law of the material has no stress for these strains.");
+		const Matrix3r rows = r.tangent.transpose();
+		py::dict       answer, after;
+		answer["stress"]        = tupleOf(r.stress);
+		answer["elasticStrain"] = tupleOf(r.elasticStrain);
+		answer["tangent"]       = py::make_tuple(tupleOf(rows.col(0)), tupleOf(rows.col(1)), tupleOf(rows.col(2)));
+		answer["shear"]         = tupleOf(r.shear);
+		for (size_t k = 0; k < values.size(); ++k)
+			after[law.variables[k].name] = r.internals[k];
+		answer["internals"] = after;
+		return answer;
+	}
+}
+
+py::dict respondForPython(const shared_ptr<MpmMaterial>& material, const Vector3r& trialStrain, const py::dict& internals)
+{
+	const auto core = coreMaterial(*material);
+	return withLaw(core.law, [&](const auto& law) { return respondInPrincipalAxes(law, trialStrain, internalsOf(law, *material, internals)); });
+}
+
+py::tuple elasticStrainForPython(const shared_ptr<MpmMaterial>& material, const Vector3r& kirchhoffStress, const py::dict& internals)
+{
+	const auto     core   = coreMaterial(*material);
+	const auto     values = withLaw(core.law, [&](const auto& law) { return internalsOf(law, *material, internals); });
+	const Matrix3r stress = kirchhoffStress.asDiagonal();
+	return tupleOf(elasticStrainOf(core, stress, values).diagonal());
 }
 
 } // namespace yade

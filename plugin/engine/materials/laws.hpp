@@ -20,4 +20,11 @@ vector<Real> initialInternalsOf(const MpmMaterial&);
 Matrix3r kirchhoffStressOf(const gimpm::Material&, const Matrix3r& elasticStrain, const vector<Real>& internals);
 Matrix3r elasticStrainOf(const gimpm::Material&, const Matrix3r& kirchhoffStress, const vector<Real>& internals);
 
+// For mpm.respond: one call of the law in principal axes, with a dict of internal variables by name where they are not those at first. Returns a dict of
+// tuples with what the law answers, and the internal variables. std::invalid_argument where it has no answer, or for a variable that it does not have.
+py::dict respondForPython(const shared_ptr<MpmMaterial>&, const Vector3r& trialStrain, const py::dict& internals);
+
+// For mpm.elementTest: principal elastic strains of principal Kirchhoff stresses [Pa]; std::invalid_argument beyond yield.
+py::tuple elasticStrainForPython(const shared_ptr<MpmMaterial>&, const Vector3r& kirchhoffStress, const py::dict& internals);
+
 } // namespace yade

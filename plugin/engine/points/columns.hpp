@@ -35,7 +35,7 @@ const vector<PointColumn>& pointColumns();
 // Null: there is no such column.
 const PointColumn* findColumn(const string& name);
 
-// For Python: dicts with name, unit, label, width, isInteger, isGiven (to points, by mpm.assign) and derived.
+// For Python: dicts with name, unit, label, width, isInteger, isGiven (to points, by mpm.assign), derived and isInternal (a variable of laws).
 py::list pointColumnsForPython();
 
 } // namespace yade

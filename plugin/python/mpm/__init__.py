@@ -26,17 +26,18 @@ is written more easily in Python. A slope under its own weight, with a weak laye
 While it runs, one line tells how far it is (``verbosity`` of the engine); ``plot.addData(**solver.plotData())`` feeds YADE's plots, from
 ``PyRunner(iterPeriod=1, initRun=True, command='plot.addData(**solver.plotData())')``. What else is here:
 
-=================  ============================================================================
-:func:`polygon`    region of the x-y plane
-:func:`fill`       material points in a region
-:func:`arrays`     data of all material points as NumPy arrays; :func:`assign` is the way back
-:func:`geostatic`  initial stress of level ground
-:func:`plot`       picture by matplotlib, of plane strain or of a slice
-:func:`colour`     colours of the points in YADE's 3D view
-:func:`export`     table of the points, CSV or NPZ
-:func:`save`       the scene, whole or not at all
-:func:`advise`     what an analysis will cost, and what it could do without
-=================  ============================================================================
+===================  ==========================================================================================
+:func:`polygon`      region of the x-y plane
+:func:`fill`         material points in a region
+:func:`arrays`       data of all material points as NumPy arrays; :func:`assign` is the way back
+:func:`geostatic`    initial stress of level ground
+:func:`plot`         picture by matplotlib, of plane strain or of a slice
+:func:`colour`       colours of the points in YADE's 3D view
+:func:`export`       table of the points, CSV or NPZ
+:func:`save`         the scene, whole or not at all
+:func:`advise`       what an analysis will cost, and what it could do without
+:func:`elementTest`  the curve of a laboratory test on a material; :func:`respond` is one call of its law
+===================  ==========================================================================================
 
 Units are SI; stress is positive in tension; strains are logarithmic; plane strain is per metre of thickness.
 """
@@ -47,10 +48,11 @@ from .files import save
 from . import ending
 from .filling import fill
 from .geostatics import geostatic
+from .laboratory import elementTest, respond
 from .library import engine as _engine
 from .outline import polygon
 from .plotting import plot
 from .tables import export
 
 __version__ = _engine.version
-__all__ = ['polygon', 'fill', 'arrays', 'assign', 'geostatic', 'plot', 'colour', 'export', 'save', 'advise']
+__all__ = ['polygon', 'fill', 'arrays', 'assign', 'geostatic', 'plot', 'colour', 'export', 'save', 'advise', 'elementTest', 'respond']

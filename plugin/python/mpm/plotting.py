@@ -59,7 +59,7 @@ def plot(field='displacement', deformed=True, grid=None, ghost=None, fileName=No
 	_drawMatter(ax, matter, values[kept], field, range, colormap)
 	if ghost: _drawFaces(ax, section, solver)
 	_finish(ax, section, f'load factor {solver.loadFactor:.4g}' + ('' if deformed else ', at the initial positions'))
-	if fileName is not None: _write(ax.figure, pathOf('plot', 'fileName', fileName))
+	if fileName is not None: write('plot', ax.figure, fileName)
 	return ax
 
 
@@ -187,9 +187,11 @@ def _finish(ax, section, title):
 	if not ax.get_title(): ax.set_title(title, fontsize='medium', pad=22 if handles else None)  # above the legend
 
 
-def _write(figure, fileName):
+def write(who, figure, fileName):
+	"""A figure to a file, whole or not at all, for the function *who*."""
+	fileName = pathOf(who, 'fileName', fileName)
 	ending = os.path.splitext(fileName)[1][1:]
 	known = figure.canvas.get_supported_filetypes()
-	if ending not in known: raise ValueError(f"plot: fileName = {fileName!r} must end in one of {', '.join('.' + kind for kind in known)}")
+	if ending not in known: raise ValueError(f"{who}: fileName = {fileName!r} must end in one of {', '.join('.' + kind for kind in known)}")
 	with replacing(fileName) as temporary:
 		figure.savefig(temporary, dpi=200, bbox_inches='tight', format=ending)

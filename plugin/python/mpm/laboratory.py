@@ -1,0 +1,293 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""What a law says, by itself: one answer, and the curves of laboratory tests."""
+import math
+from types import SimpleNamespace
+
+import numpy as np
+from yade import wrapper
+
+from .data import table
+from .library import engine
+from .messages import brief
+from .plotting import write
+
+
+def respond(material, strain, **internals):
+	"""One call of a material's law, as for one material point in one iteration: what it answers to a trial elastic strain. ::
+
+		clay = MpmTrescaMat(young=20e6, poisson=0.3, density=2000, undrainedStrength=20e3)
+		print(mpm.respond(clay, (0, -5e-3, 0))['stress'])
+
+	:param material: material of the plugin, or the label of one in O.materials
+	:param strain: trial elastic logarithmic strain [-], positive in extension, finite: three principal values, or a symmetric tensor (3, 3)
+	:param internals: internal variables of the law at the start of the step by name, as ``plasticStrain`` [-] or ``preconsolidation``
+		[Pa]; what is not given has the value of a point that nothing has happened to
+	:return: dict of ``stress``, Kirchhoff stress [Pa] in the shape of *strain*, positive in tension; ``elasticStrain``, what the return leaves of *strain*, in its
+		shape; ``tangent`` (3, 3), derivatives of the principal stresses by the principal trial strains [Pa]; ``shear`` (3,), secant shear moduli [Pa]
+		of the pairs of principal axes (0, 1), (1, 2), (2, 0); ``axes`` (3, 3), the principal axes as columns, in the order that *tangent* and *shear* have; and
+		the internal variables after the return by name.
+	:raises TypeError: *material* is no material of the plugin; *strain* or an internal variable is no number.
+	:raises ValueError: a label that does not exist; values of the material that are not admitted; a wrong shape, or a tensor that is not symmetric;
+		a strain that is not finite, or to which the law has no answer; an internal variable that the law does not have, or that is not admitted.
+	"""
+	who = 'respond'
+	material = _material(who, material)
+	strain = _strain(who, strain)
+	internals = _internals(who, internals)
+	values, axes = (strain, np.eye(3)) if strain.ndim == 1 else np.linalg.eigh(strain)
+	answer = _named(who, engine.respond, material, values, internals)
+	inShape = (lambda v: np.array(v)) if strain.ndim == 1 else (lambda v: _assemble(v, axes))
+	result = dict(stress=inShape(answer['stress']), elasticStrain=inShape(answer['elasticStrain']))
+	result |= dict(tangent=np.array(answer['tangent']), shear=np.array(answer['shear']), axes=axes)
+	return result | answer['internals']
+
+
+def elementTest(material, kind, strain, steps=100, confiningPressure=0, initialStress=None, fileName=None, **internals):
+	"""The curve of a laboratory test on one material point, as a body of one homogeneous cell would give it. ::
+
+		sand = MpmMohrCoulombMat(young=50e6, poisson=0.3, density=2000, cohesion=0, frictionAngle=radians(30))
+		curve = mpm.elementTest(sand, 'triaxial', -0.02, confiningPressure=100e3, fileName='triaxial.png')
+		print(curve['q'].max())
+
+	=====================  ====================================================================================================
+	``triaxial``           strain along y, the stress along x and z is kept: drained compression or extension
+	``biaxial``            strain along y, the stress along x is kept, no strain along z: plane strain
+	``oedometer``          strain along y, none along x and z
+	``undrainedTriaxial``  strain along y, as much along x as along z, and the volume stays: *stress* is the effective stress
+	``simpleShear``        movement along x by *strain* times the height at first, the stress along y is kept, no strain along x and z
+	=====================  ====================================================================================================
+
+	Strains are finite; the stress that is kept and that of the result are Cauchy's, with the state at first as reference (F = 1). The laws have their strength in
+	Kirchhoff stress, which is det F times Cauchy's. A step finds the strain across by Newton's method with the law's tangent, to 1e-10 of the stress; where that fails, it is
+	halved up to ten times.
+
+	:param material: material of the plugin, or the label of one in O.materials
+	:param kind: one of the above
+	:param strain: at the end: logarithmic strain along y [-], negative in compression; of simpleShear the movement over the height at first [-].
+		From -10 to 10, not 0.
+	:param steps: number of equal steps > 0, an integer
+	:param confiningPressure: pressure [Pa] >= 0 at first, equal in all directions; > 0 for Cam clay
+	:param initialStress: instead of *confiningPressure*: Cauchy stress [Pa] along x, y and z at first, positive in tension
+	:param fileName: draw the curve to this file, as :func:`plot` does
+	:param internals: internal variables of the law at first by name, as in :func:`respond`
+	:return: dict of arrays with the state at first and after each step, N = steps + 1: ``axialStrain`` (N,) logarithmic strain along y [-] or for simpleShear
+		``shearStrain`` (N,) movement over the height at first [-]; ``volumetricStrain`` (N,) ln det F [-]; ``p`` (N,) pressure [Pa], the mean stress with a
+		minus; ``q`` (N,) = sqrt(3 J2) [Pa], the difference of the principal stresses of a triaxial test; ``stress`` (N, 3, 3) Cauchy stress [Pa], positive in tension;
+		``elasticStrain`` (N, 3, 3) logarithmic [-]; ``defGrad`` (N, 3, 3) [-]; and the internal variables (N,) by name.
+	:raises TypeError: *material* is no material of the plugin, or a value is no number.
+	:raises ValueError: a label or kind that does not exist; a value that is not admitted; a stress at first that the material cannot carry without yielding.
+	:raises RuntimeError: a step has found no solution; the strain that was reached is named, with the reason.
+	:raises OSError: the file cannot be written.
+	"""
+	who = 'elementTest'
+	material = _material(who, material)
+	test = _testOf(kind)
+	end = _number(who, 'strain', strain, 'a number from -10 to 10, not 0', lambda value: 0 < abs(value) <= 10)
+	if isinstance(steps, bool) or not isinstance(steps, (int, np.integer)): raise TypeError(f'{who}: steps = {brief(steps)} must be an integer')
+	if steps < 1: raise ValueError(f'{who}: steps = {steps} must be > 0')
+	state = _firstState(who, material, _firstStress(who, confiningPressure, initialStress), _internals(who, internals))
+	kept = np.diag(state.stress).copy()
+	states = [state]
+	for at in end * np.arange(1, steps + 1) / steps:
+		try:
+			state = _advance(test, material, state, at, kept)
+		except _NoSolution as reason:
+			raise RuntimeError(f'{who}: {brief(kind)} has no solution beyond {test.strain} = {reason.reached:.6g} of {end:g}: {reason}') from None
+		states.append(state)
+	curve = _curve(test, states)
+	if fileName is not None: _draw(kind, curve, fileName)
+	return curve
+
+
+def _material(who, material):
+	if isinstance(material, str):
+		try:
+			material = wrapper.Omega().materials[material]
+		except (KeyError, IndexError):
+			raise ValueError(f'{who}: material = {brief(material)} is not the label of a material in O.materials') from None
+	if not isinstance(material, wrapper.MpmMaterial):
+		raise TypeError(f'{who}: material = {brief(material)} must be a material of the plugin, as MpmMohrCoulombMat(...), or the label of one')
+	return material
+
+
+def _number(who, name, value, expected, admits=lambda value: True):
+	if isinstance(value, (bool, np.bool_)) or not isinstance(value, (int, float, np.floating, np.integer)): raise TypeError(f'{who}: {name} = {brief(value)} must be {expected}')
+	if not (math.isfinite(value) and admits(value)): raise ValueError(f'{who}: {name} = {brief(value)} must be {expected}')
+	return float(value)
+
+
+def _array(who, name, values, shapes, expected):
+	try:
+		array = np.asarray(values)
+	except ValueError:  # rows that differ in length
+		array = np.empty(0)
+	if array.dtype.kind not in 'iuf' and array.size: raise TypeError(f'{who}: {name} = {brief(values)} must be {expected}')
+	if array.shape not in shapes: raise ValueError(f'{who}: {name} = {brief(values)} must be {expected}')
+	if not np.isfinite(array).all(): raise ValueError(f'{who}: {name} = {brief(values)} must be finite')
+	return array.astype(float)
+
+
+def _strain(who, strain):
+	array = _array(who, 'strain', strain, [(3, ), (3, 3)], 'three principal strains or a tensor (3, 3) of numbers')
+	if array.ndim == 2 and np.abs(array - array.T).max() > 1e-12 * np.abs(array).max(): raise ValueError(f'{who}: strain = {brief(strain)} must be symmetric')
+	return array
+
+
+def _internals(who, internals):
+	known = [name for name, column in table.items() if column['isInternal']]
+	for name in internals:
+		if name not in known: raise ValueError(f"{who}: {name} is no internal variable of a law; there are {', '.join(known)}")
+	return {name: _number(who, name, value, 'a finite number') for name, value in internals.items()}
+
+
+def _named(who, function, material, values, internals):
+	"""What a function of the library answers, with its errors in the name of the caller."""
+	try:
+		return function(material, tuple(map(float, values)), internals)
+	except ValueError as error:
+		raise ValueError(f'{who}: {error}') from None
+
+
+def _assemble(values, axes):
+	"""The tensor with these principal values and axes."""
+	return (axes * values) @ axes.T
+
+
+def _testOf(kind):
+	"""Along which axes one strain is free, for the mean stress along them to be kept; and the increment of F of a strain that is driven from one value to another."""
+
+	def stretch(lateral):
+		return lambda state, to: np.diag(np.exp((to - state.strain) * np.array([lateral, 1, lateral])))
+
+	def shear(state, to):
+		increment = np.eye(3)
+		increment[0, 1] = (to - state.strain) / state.defGrad[1, 1]
+		return increment
+
+	tests = {
+	        'triaxial': ('axialStrain', [1, 0, 1], stretch(0)),
+	        'biaxial': ('axialStrain', [1, 0, 0], stretch(0)),
+	        'oedometer': ('axialStrain', [0, 0, 0], stretch(0)),
+	        'undrainedTriaxial': ('axialStrain', [0, 0, 0], stretch(-0.5)),
+	        'simpleShear': ('shearStrain', [0, 1, 0], shear),
+	}
+	if kind not in list(tests): raise ValueError(f"elementTest: kind = {brief(kind)} must be one of {', '.join(map(repr, tests))}")
+	strain, free, increment = tests[kind]
+	return SimpleNamespace(strain=strain, free=np.array(free, float), increment=increment)
+
+
+def _firstStress(who, confiningPressure, initialStress):
+	pressure = _number(who, 'confiningPressure', confiningPressure, 'a finite number >= 0 [Pa], positive in compression', lambda value: value >= 0)
+	if initialStress is None: return np.full(3, -pressure)
+	if pressure: raise ValueError(f'{who}: confiningPressure and initialStress are two ways to say the same; give one of them')
+	return _array(who, 'initialStress', initialStress, [(3, )], 'three numbers, the stress [Pa] along x, y and z')
+
+
+def _firstState(who, material, stress, internals):
+	"""Of a point with this stress, which it bears without yielding."""
+	if isinstance(material, wrapper.MpmCamClayMat) and not stress.any():
+		raise ValueError(f'{who}: confiningPressure = 0 is not admitted for an MpmCamClayMat, which has no stiffness without pressure')
+	elasticStrain = np.array(_named(who, engine.elasticStrainOf, material, stress, internals))
+	answer = _named(who, engine.respond, material, elasticStrain, internals)
+	return SimpleNamespace(strain=0., defGrad=np.eye(3), elasticStrain=np.diag(elasticStrain), stress=np.diag(stress), internals=internals | answer['internals'])
+
+
+def _advance(test, material, state, to, kept):
+	"""The state at the strain *to*, by steps that are halved where Newton's method fails."""
+	most, target, halvings = 10, to, 0
+	while state.strain != to:
+		try:
+			state, target, halvings = _solve(test, material, state, target, kept), to, max(0, halvings - 1)
+		except _NoSolution as reason:
+			if halvings == most:
+				reason.reached = state.strain
+				raise
+			halvings, target = halvings + 1, (state.strain + target) / 2
+	return state
+
+
+class _NoSolution(Exception):
+	"""With the reason, and the strain that was `reached`."""
+
+
+def _solve(test, material, state, to, kept):
+	"""Newton's method for the one free strain u, along the axes of the test, at which the mean of the stresses along them is that kept."""
+	increment = test.increment(state, to)
+	free, most, tolerance = test.free, 50, 1e-10
+	u, lowest = 0., math.inf
+	for _ in range(most):
+		trial = _trial(material, state, np.diag(np.exp(u * free)) @ increment, to)
+		if not free.any(): return trial
+		J, directions = np.linalg.det(trial.defGrad), free / free.sum()
+		residual = directions @ (np.diag(trial.kirchhoff) - J * kept)
+		if abs(residual) <= tolerance * np.linalg.norm(trial.kirchhoff): return trial
+		slope = directions @ np.diag(_rate(trial, np.diag(free))) - J * free.sum() * (directions @ kept)
+		if not abs(slope) > 0: raise _NoSolution('the stress across does not change with the strain across')
+		u -= residual / slope
+		if not abs(u) < 1: raise _NoSolution('the strain across grows without bounds')
+		lowest = min(lowest, abs(residual))
+	raise _NoSolution(f"Newton's method misses the stress that is kept by {lowest:.3g} Pa or more after {most} iterations")
+
+
+def _trial(material, state, increment, to):
+	"""The state after an increment F <- increment F: the elastic left Cauchy-Green tensor is pushed forward, then the law answers."""
+	values, axes = np.linalg.eigh(state.elasticStrain)
+	pushed = increment @ _assemble(np.exp(2 * values), axes) @ increment.T
+	squares, axes = np.linalg.eigh(pushed)
+	strain = np.log(squares) / 2
+	try:
+		answer = engine.respond(material, tuple(map(float, strain)), state.internals)
+	except ValueError as error:
+		raise _NoSolution(error) from None
+	defGrad = increment @ state.defGrad
+	kirchhoff = _assemble(answer['stress'], axes)
+	return SimpleNamespace(
+	        strain=to,
+	        defGrad=defGrad,
+	        elasticStrain=_assemble(answer['elasticStrain'], axes),
+	        stress=kirchhoff / np.linalg.det(defGrad),
+	        internals=answer['internals'],
+	        kirchhoff=kirchhoff,
+	        trial=SimpleNamespace(strain=strain, axes=axes, answer=answer)
+	)
+
+
+def _rate(state, velocityGradient):
+	"""Of the Kirchhoff stress: the tangent in principal axes, and the rotation of the axes, which the secant shear moduli stand for."""
+	strain, axes, answer = state.trial.strain, state.trial.axes, state.trial.answer
+	l, squares = axes.T @ velocityGradient @ axes, np.exp(2 * strain)
+	rate = np.diag(np.array(answer['tangent']) @ np.diag(l))
+	for pair, (i, j) in enumerate([(0, 1), (1, 2), (2, 0)]):
+		difference = strain[i] - strain[j]
+		sheared = l[i, j] * squares[j] + l[j, i] * squares[i]
+		perSquare = difference / (squares[i] - squares[j]) if abs(difference) > 1e-8 else 1 / (squares[i] + squares[j])
+		rate[i, j] = rate[j, i] = 2 * answer['shear'][pair] * perSquare * sheared
+	return axes @ rate @ axes.T
+
+
+def _curve(test, states):
+	stress = np.array([state.stress for state in states])
+	mean = np.trace(stress, axis1=1, axis2=2) / 3
+	deviator = stress - mean[:, None, None] * np.eye(3)
+	defGrad = np.array([state.defGrad for state in states])
+	curve = {test.strain: np.array([state.strain for state in states]), 'volumetricStrain': np.log(np.linalg.det(defGrad))}
+	curve |= dict(p=-mean, q=np.sqrt(1.5 * (deviator**2).sum(axis=(1, 2))), stress=stress)
+	curve |= dict(elasticStrain=np.array([state.elasticStrain for state in states]), defGrad=defGrad)
+	return curve | {name: np.array([state.internals[name] for state in states]) for name in states[-1].internals}
+
+
+def _draw(kind, curve, fileName):
+	"""Shear stress or q over the strain, volumetric strain or vertical pressure over it, and the path of the stress."""
+	from matplotlib.figure import Figure  # needs no window
+	figure = Figure(figsize=(11, 3.6), layout='constrained')
+	left, middle, right = figure.subplots(1, 3)
+	isShear = kind == 'simpleShear'
+	along = 100 * curve['shearStrain' if isShear else 'axialStrain']
+	along, label = (along, 'shear strain [%]') if isShear else (-along, 'axial compression [%], logarithmic')
+	left.plot(along, (curve['stress'][:, 0, 1] if isShear else curve['q']) / 1e3)
+	left.set(xlabel=label, ylabel=r'shear stress $\sigma_{xy}$ [kPa]' if isShear else 'q [kPa]', title=kind)
+	middle.plot(along, 100 * curve['volumetricStrain'])
+	middle.set(xlabel=label, ylabel='volumetric strain [%], logarithmic')
+	right.plot(curve['p'] / 1e3, curve['q'] / 1e3)
+	right.set(xlabel='p [kPa]', ylabel='q [kPa]', title='path of the stress')
+	write('elementTest', figure, fileName)
