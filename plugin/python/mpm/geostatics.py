@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Initial stress of the ground."""
 import math
+import re
 
 import numpy as np
 from yade import wrapper
@@ -10,28 +11,43 @@ from .data import assign, pointsOf
 from .messages import brief, place
 
 
-def geostatic(K0, surface=None, solver=None):
+def geostatic(K0=None, surface=None, solver=None, OCR=1):
 	"""Give the material points of an engine the stress of level ground under its own weight, in equilibrium with gravity at load factor 1.
 
 	The vertical stress is the weight of the soil above, of whatever density its horizontal layers have; the horizontal one is *K0*
-	times that, in all directions. The first step then finds nothing to move, if the sides are held in their normal direction and gravity
+	times that, in all directions. By default, *K0* is that of the material, with the overconsolidation ratio *OCR*:
+
+	=============================  ======================================================================================
+	elastic, von Mises, Tresca     nu / (1 - nu): loaded elastically without horizontal strain
+	Mohr-Coulomb, Drucker-Prager   (1 - sin(phi)) OCR^sin(phi) (Jaky 1944; Mayne and Kulhawy 1982)
+	Cam clay                       the same with sin(phi) = 3 M / (6 + M), the angle of friction in triaxial compression
+	=============================  ======================================================================================
+
+	The preconsolidation pressure of the points of Cam clay becomes that of the state in which the vertical stress was *OCR* times the present one, with the ratio
+	K0 / OCR^sin(phi) of the stresses; it is no less than that of the present state. The material's own ``preconsolidation`` is then without effect on them.
+
+	The first step then finds nothing to move, if the sides are held in their normal direction and gravity
 	acts in full from the beginning. Point loads and prescribed displacements may grow meanwhile, with ``loadCurve``::
 
 		solver.gravityCurve = [(0, 1)]
-		mpm.geostatic(K0=0.5)
+		mpm.geostatic()
 
 	To be called when ``O.engines`` and ``O.bodies`` are complete, before the first step. Other shapes than level ground have no such stress: let
 	gravity grow first, and then the loads, by ``gravityCurve=[(0, 0), (1, 1)]`` and ``loadCurve=[(1, 0), (2, 1)]``.
 
-	:param K0: ratio of horizontal to vertical stress, a number >= 0, or a dict of one for each label of the materials that the bodies have
+	:param K0: ratio of horizontal to vertical stress [-], a number >= 0, or a dict of one for each label of the materials that the bodies have;
+		by default that of the table above
 	:param surface: height of the ground's surface [m]: the coordinate against gravity's direction; by default the top of the highest
 		points. Higher than that: the ground above is not modelled, its weight acts as a stress (of the density of the highest points),
 		and the scene has to provide it as a load.
 	:param solver: ``MpmImplicitEngine`` whose gravity and points are meant (those of its ``mask``); needed if there are several
-	:raises TypeError: *K0* or *surface* is no number.
+	:param OCR: overconsolidation ratio [-], the largest vertical stress that has ever been over the present one: a number >= 1, a dict of one for each label of
+		the materials, or a function of the depth below the surface [m], as ``lambda depth: 1 + 5 / depth`` of ground that has lost 5 m of the same
+		weight. None: as 1, and Cam clay keeps the preconsolidation pressure that its material or :func:`assign` has given.
+	:raises TypeError: *K0*, *OCR* or *surface* is no number.
 	:raises ValueError: a value that is not admitted; gravity that is zero or not along an axis; a load factor other than 1 at O.time;
 		points that have been deformed; ground that is not level, with layers of one density and one extent; or a stress that a
-		material cannot carry without yielding.
+		material cannot carry without yielding, with the depth of the highest point where it is so.
 	"""
 	solver = solverOf('geostatic', solver)
 	points, materials, number = pointsOf(solver)
@@ -49,14 +65,43 @@ def geostatic(K0, surface=None, solver=None):
 	elif not (math.isfinite(surface) and surface >= top - 1e-9 * abs(top)):
 		raise ValueError(f'geostatic: surface = {surface} is below the top of the highest points, at {top} m; at what height does the ground end?')
 	pressure = _weightAbove(points, axis, height, half, density, surface - top) * np.linalg.norm(solver.gravity)
-	horizontal = pressure * np.array([_ratio(K0, material) for material in materials])[number]
+	depth = surface - height
+	horizontal, past = _history(K0, OCR, materials, number, pressure, depth)
 	stress = np.zeros((len(height), 3, 3))
 	for i in range(3):
 		stress[:, i, i] = -(pressure if i == axis else horizontal)
+	_assign(points, stress, past, depth, horizontal / pressure)
+
+
+def _history(K0, OCR, materials, number, pressure, depth):
+	"""Horizontal pressure (N,) of the points, and their preconsolidation pressure (N,), NaN where it is not to be given."""
+	horizontal, past = np.empty(len(depth)), np.full(len(depth), math.nan)
+	for i, material in enumerate(materials):
+		rows = number == i
+		history = _overconsolidation(OCR, material, depth[rows])
+		ratio = _ratio(K0, material, history)
+		horizontal[rows] = ratio * pressure[rows]
+		if OCR is not None and isinstance(material, wrapper.MpmCamClayMat): past[rows] = _preconsolidation(material, pressure[rows], ratio, history)
+	return horizontal, past
+
+
+def _assign(points, stress, past, depth, ratio):
+	"""Stress to all points, and the preconsolidation pressure where there is one; to all of them, or after an error to none."""
+	ids, order = points['id'], np.argsort(depth, kind='stable')  # the first point to be refused is the highest one
+	clay, others = order[np.isfinite(past[order])], order[np.isnan(past[order])]
 	try:
-		assign(ids=points['id'], stress=stress)
+		if others.size: assign(ids=ids[others], stress=stress[others])
+		try:
+			if clay.size: assign(ids=ids[clay], stress=stress[clay], preconsolidation=past[clay])
+		except ValueError:
+			if others.size: assign(ids=ids[others], elasticStrain=points['elasticStrain'][others])
+			raise
 	except ValueError as error:
-		raise ValueError(f'geostatic: with K0 = {brief(K0)} the ground would not be at rest. {str(error).removeprefix("assign: ")}') from None
+		body = np.flatnonzero(ids == int(re.search(r'Body #(\d+)', str(error))[1]))[0]
+		raise ValueError(
+		        f'geostatic: with K0 = {ratio[body]:.6g} the ground would not be at rest at a depth of {depth[body]:.6g} m. '
+		        f'{str(error).removeprefix("assign: ")}'
+		) from None
 
 
 def _isNumber(value):
@@ -83,14 +128,49 @@ def _requireFullGravity(solver):
 		)
 
 
-def _ratio(K0, material):
-	"""K0 of a material."""
-	if isinstance(K0, dict) and material.label not in K0:
-		raise ValueError(f'geostatic: K0 = {brief(K0)} has no entry for material {material.label!r}' + ('' if material.label else ', which needs a label'))
-	value = K0[material.label] if isinstance(K0, dict) else K0
+def _ofMaterial(name, given, material):
+	"""Entry of a dict by label, or what is given for all."""
+	if not isinstance(given, dict): return given
+	if material.label in given: return given[material.label]
+	raise ValueError(f'geostatic: {name} = {brief(given)} has no entry for material {material.label!r}' + ('' if material.label else ', which needs a label'))
+
+
+def _overconsolidation(OCR, material, depth):
+	"""Overconsolidation ratio at these depths."""
+	value = _ofMaterial('OCR', 1 if OCR is None else OCR, material)
+	values = [value(d) for d in depth.tolist()] if callable(value) else [value]
+	for one in values:
+		if not _isNumber(one):
+			raise TypeError(f'geostatic: OCR = {brief(one)} must be a number >= 1, a function of the depth [m] that returns one, or a dict of them')
+		if not (math.isfinite(one) and one >= 1): raise ValueError(f'geostatic: OCR = {brief(one)} must be finite and >= 1')
+	return np.broadcast_to(np.array(values, float), depth.shape)
+
+
+def _sineOfFriction(material):
+	"""Of Cam clay: that of triaxial compression. None without friction."""
+	if isinstance(material, wrapper.MpmCamClayMat): return 3 * material.criticalStateRatio / (6 + material.criticalStateRatio)
+	return math.sin(material.frictionAngle) if isinstance(material, wrapper.MpmFrictionalMat) else None
+
+
+def _ratio(K0, material, history):
+	"""K0 of a material with these overconsolidation ratios."""
+	value = _ofMaterial('K0', K0, material)
+	if value is None:
+		sine = _sineOfFriction(material)
+		return np.full(len(history), material.poisson / (1 - material.poisson)) if sine is None else (1 - sine) * history**sine
 	if not _isNumber(value): raise TypeError(f'geostatic: K0 = {brief(value)} must be a number, the ratio of horizontal to vertical stress, or a dict of them')
 	if not (math.isfinite(value) and value >= 0): raise ValueError(f'geostatic: K0 = {brief(value)} must be finite and >= 0')
-	return value
+	return np.full(len(history), float(value))
+
+
+def _preconsolidation(material, pressure, ratio, history):
+	"""Of Cam clay: where the yield surface Q^2 / M^2 + P (P - pc) = 0 that passes the past or the present state ends, whichever is larger."""
+
+	def through(vertical, ratio):
+		P, Q = (1 + 2 * ratio) / 3 * vertical, np.abs(1 - ratio) * vertical
+		return P + (Q / material.criticalStateRatio)**2 / P
+
+	return np.maximum(through(history * pressure, ratio / history**_sineOfFriction(material)), through(pressure, ratio))
 
 
 def _weightAbove(points, axis, height, half, density, cover):
