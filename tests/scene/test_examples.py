@@ -117,6 +117,16 @@ def test_mpm_vs_dem(short):
 	assert len({time for time, part, _ in parts if part == '0'} & {time for time, part, _ in parts if part == '1'}) == 21
 
 
+def test_laboratory(yade):
+	"""Every law has a curve, and every curve its closed form."""
+	run = yade(root / 'examples' / 'laboratory' / 'laboratory.py', '--steps', 50)
+	lines = re.findall(r', (\w+).*closed form +(\S+) +\((\S+) %\)', run.stdout)
+	assert {law for law, _, _ in lines} == {'Elastic', 'VonMises', 'Tresca', 'MohrCoulomb', 'DruckerPrager', 'CamClay'} and len(lines) == 27
+	assert all(abs(float(percent)) < 0.05 for _, _, percent in lines), run.stdout
+	assert {'0.57735', '0.55475', '0.50000', '-375482', '57435', '166667', '200000'} <= {exact for _, exact, _ in lines}
+	assert (run.folder / 'out/laboratory/laboratory.png').stat().st_size > 50000
+
+
 def test_lines_of_a_batch(yade):
 	"""They become runs with their own options and folders; the rest of the options keep their defaults."""
 	process = startBatch(yade, 'column', 'description cells ghostFactor\ncoarse 8 0.01\nplain 16 0\n')
