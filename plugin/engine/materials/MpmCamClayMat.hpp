@@ -18,7 +18,8 @@ public:
 	static const char* doc()
 	{
 		return "Modified Cam clay in Kirchhoff stress: bulk modulus proportional to the pressure, shear modulus constant, associated flow, critical state. A "
-		       "point's preconsolidation pressure is a column of mpm.arrays and mpm.assign. Points need a pressure to begin with: mpm.assign(stress=...).";
+		       "point's preconsolidation pressure is a column of mpm.arrays and mpm.assign. Points need a pressure to begin with: "
+		       "mpm.geostatic() or mpm.assign(stress=...).";
 	}
 	template <class V> static void attributes(V&& v)
 	{
