@@ -98,7 +98,7 @@ template <int Dim> GIMPM_INLINE FailureCode respond(const Pass<Dim>& pass, Chunk
 	const auto keep = [&](int i, int k, int pair) GIMPM_INLINE_LAMBDA {
 		for (int j = 0; j < Dim; ++j)
 			for (int l = 0; l < Dim; ++l)
-				chunk.moduli[b].value[pair][j][l] = volume * a(i * Dim + j, k * Dim + l);
+				chunk.moduli.value[pair][b][j][l] = volume * a(i * Dim + j, k * Dim + l);
 	};
 	if (pass.isSymmetric) PairModuli<Dim>::template forPairs<true>(keep);
 	else

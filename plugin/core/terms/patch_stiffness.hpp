@@ -61,7 +61,7 @@ private:
 	{
 		for (int p = begin; p < end; ++p) {
 			const int   q = p - chunk.first, lane = q % Lanes::count;
-			const auto& a = chunk.moduli[q / Lanes::count].value[pair];
+			const auto& a = chunk.moduli.value[pair][q / Lanes::count];
 			for (int j = 0; j < Dim; ++j)
 				for (int v = 0; v < width; ++v) {
 					Lanes sum = Lanes(at(&a[j][0], lane)) * chunk.basis[q][0][v];

@@ -71,11 +71,14 @@ template <int Dim, int Span> struct PatchVectors {
 	}
 };
 
-/// Moduli times volume of points side by side, by pairs of displacement components: value(i, k)[j][l] = V a_ijkl. The pairs i <= k come first; the
-/// others are there only where a law is not symmetric.
+/// Points that go through a pass together, Lanes::count times.
+constexpr int batchesAtOnce = 4;
+
+/// Moduli times volume of these points, by pairs of displacement components: value(i, k)[batch][j][l] = V a_ijkl. The pairs i <= k come first; the
+/// others are touched only where a law is not symmetric.
 template <int Dim> struct PairModuli {
 	static constexpr int upper = Dim * (Dim + 1) / 2;
-	Lanes                value[Dim * Dim][Dim][Dim];
+	Lanes                value[Dim * Dim][batchesAtOnce][Dim][Dim];
 
 	/// Calls f(i, k, number of the pair).
 	template <bool Symmetric, class F> GIMPM_INLINE static void forPairs(F&& f)
@@ -92,14 +95,14 @@ template <int Dim> struct PairModuli {
 
 /// Some points that follow each other in the order of the basis, on their way through a pass.
 template <int Dim> struct Chunk {
-	static constexpr int batches = 4, capacity = batches * Lanes::count;
+	static constexpr int batches = batchesAtOnce, capacity = batches * Lanes::count;
 	static constexpr int width = (windowNodes<Dim> + Lanes::count - 1) / Lanes::count;
 
 	int             first = 0, count = 0;
 	Lanes           basis[capacity][Dim][width]; ///< gradients of the basis functions of a point, node by node
 	Lanes           gradient[batches][Dim][Dim]; ///< of the displacements, a point in each lane
 	Lanes           flux[batches][Dim][Dim];     ///< the force on node a is flux . grad_a
-	PairModuli<Dim> moduli[batches];
+	PairModuli<Dim> moduli;
 
 	Chunk() // what lies beyond the last node or point is computed with, and not used
 	{
