@@ -13,6 +13,7 @@ template <int Dim> struct StepPoints {
 	std::vector<double>         volume0;
 	std::vector<int>            material;
 	InternalColumns             internals;
+	bool                        fBar = false; ///< core/terms/fbar.hpp
 
 	/// Another point, as point i of these.
 	void append(const StepPoints& from, int i)
@@ -20,13 +21,14 @@ template <int Dim> struct StepPoints {
 		leftCauchyGreen.push_back(from.leftCauchyGreen[i]);
 		volume0.push_back(from.volume0[i]);
 		material.push_back(from.material[i]);
+		fBar = from.fBar;
 		internals.resize(from.internals.size());
 		for (std::size_t c = 0; c < internals.size(); ++c)
 			if (!from.internals[c].empty()) internals[c].push_back(from.internals[c][i]);
 	}
 };
 
-template <int Dim> StepPoints<Dim> stepPoints(const PointCloud<Dim>&, const std::vector<Material>&, const CloudBasis<Dim>&);
+template <int Dim> StepPoints<Dim> stepPoints(const PointCloud<Dim>&, const std::vector<Material>&, const CloudBasis<Dim>&, bool fBar = false);
 
 /// force += internal force of the nodal displacements d (from the start of the step), K += its derivative, and sizes += the magnitudes of the
 /// patches' forces, as far as they are asked for. Fails for points with det F <= 0 or without an answer of their law. The result does not depend on the number of threads.
