@@ -143,7 +143,7 @@ namespace {
 
 	TYPED_TEST(Tangent, OfSoilWithFBar)
 	{
-		this->scene.model.fBar   = true;
+		this->scene.model.fBar  = true;
 		constexpr double degree = 0.017453292519943295;
 		for (const Law& law : { Law(MohrCoulomb(1e3, 0.2, 20, 30 * degree, 10 * degree, 5)), Law(CamClay(400, 1.2, 0.4, 0.1, 400, 300)) }) {
 			this->scene.model.materials[1] = { law, 1 };

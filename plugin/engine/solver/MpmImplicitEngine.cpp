@@ -103,7 +103,7 @@ template <int Dim> MpmImplicitEngine::Job<Dim> MpmImplicitEngine::prepare()
 	Job<Dim> job { { stepPart, newton->minStep, newton->maxIterations }, loadTime, scene->time + scene->dt, gimpm::Model<Dim>(), gimpm::PointCloud<Dim>() };
 	{
 		const gimpm::Stopwatch watch(gathering);
-		job.model = toModel<Dim>(*grid, basis, boundaries, *ghost, *newton);
+		job.model = toModel<Dim>(*grid, basis, fBar, boundaries, *ghost, *newton);
 		updateMaterialPoints(points, *scene, mask);
 		requireAny(points, *this);
 		job.cloud = gather(points, job.model);
