@@ -46,31 +46,25 @@ namespace {
 		return force;
 	}
 
-	/// Gradients at the point and in the middle of the cells, of the basis function of a node given by its position along each axis.
-	template <int Dim> std::pair<Vec<Dim>, Vec<Dim>> gradients(const PointBasis<Dim>& axes, const Index<Dim>& n, double h)
+	/// Of the basis function of a node given by its position along each axis.
+	template <int Dim> Vec<Dim> gradient(const PointBasis<Dim>& axes, const Index<Dim>& n)
 	{
-		Vec<Dim> G = Vec<Dim>::Ones(), G0 = G;
-		for (int a = 0; a < Dim; ++a) {
-			const AxisBasis& basis    = axes[a];
-			const double     share[3] = { basis.share(0, h), 1, 1 - basis.share(0, h) };
-			for (int k = 0; k < Dim; ++k) {
-				G[k] *= a == k ? basis.slope[n[a]] : basis.value[n[a]];
-				G0[k] *= a == k ? basis.slope[n[a]] : share[n[a]] / 2;
-			}
-		}
-		return { G, G0 };
+		Vec<Dim> G = Vec<Dim>::Ones();
+		for (int a = 0; a < Dim; ++a)
+			for (int k = 0; k < Dim; ++k)
+				G[k] *= a == k ? axes[a].slope[n[a]] : axes[a].value[n[a]];
+		return G;
 	}
 
-	/// Calls f(node number, G, G0) for the nodes of a patch.
-	template <int Dim, class F> void forNodes(const Patch<Dim>& patch, const PointBasis<Dim>& axes, double h, F&& f)
+	/// Calls f(node number, gradient at the point, gradient at the centres) for the nodes of a point.
+	template <int Dim, class F> void forNodes(const StepSystem<Dim>& system, const Patch<Dim>& patch, int i, F&& f)
 	{
 		Index<Dim> count;
 		for (int a = 0; a < Dim; ++a)
 			count[a] = patch.nodesAlong(a);
 		int local = 0;
 		forIndices<Dim>(Index<Dim>::Zero(), count, [&](const Index<Dim>& n) {
-			const auto [G, G0] = gradients<Dim>(axes, n, h);
-			if (patch.node[local] >= 0) f(patch.node[local], G, G0);
+			if (patch.node[local] >= 0) f(patch.node[local], gradient<Dim>(system.basis.axes[i], n), gradient<Dim>(system.points.centres[i], n));
 			++local;
 		});
 	}
@@ -82,7 +76,7 @@ namespace {
 		for (const auto& patch : system.basis.patches)
 			for (int i = patch.first; i < patch.first + patch.count; ++i) {
 				Mat<Dim>   F = Mat<Dim>::Identity(), F0 = F;
-				const auto nodes = [&](auto&& f) { forNodes(patch, system.basis.axes[i], system.model.grid.cellSize, f); };
+				const auto nodes = [&](auto&& f) { forNodes(system, patch, i, f); };
 				nodes([&](int n, const Vec<Dim>& G, const Vec<Dim>& G0) {
 					F += d.template segment<Dim>(Dim * n) * G.transpose(), F0 += d.template segment<Dim>(Dim * n) * G0.transpose();
 				});
@@ -202,22 +196,43 @@ namespace {
 		}
 	}
 
-	// J = 0.7 at the point, near the bottom of a cell of which the upper side turns round: J_0 = -0.5.
-	TEST(FBar, APointIsInvertedWhereTheMiddleOfItsCellIs)
+	// The upper side of a cell turns round: J = 0.7 at the lower point, negative at the upper one and at the centre of both.
+	TEST(FBar, APointIsInvertedWhereItsCellIs)
 	{
 		Scene<2> scene;
 		scene.cloud      = {};
 		scene.model.grid = { 1, Vec<2>::Zero() };
 		addPoint<2>(scene.cloud, { 0.5, 0.1 }, { 0.1, 0.1 });
-		const auto d = [&](const StepSystem<2>& system) {
-			return nodal<2>(system.basis, scene.model.grid, [](const Vec<2>& x) { return Vec<2>(-3 * x[0] * x[1], 0); });
-		};
-		Eigen::VectorXd force;
-		const auto      with = scene.system();
-		EXPECT_EQ(with.evaluate(d(with), force, nullptr).value().reason, PointFailure::Reason::inverted);
-		scene.model.fBar   = false;
-		const auto without = scene.system();
-		EXPECT_FALSE(without.evaluate(d(without), force, nullptr));
+		addPoint<2>(scene.cloud, { 0.5, 0.75 }, { 0.25, 0.25 });
+		for (const bool fBar : { false, true }) {
+			scene.model.fBar       = fBar;
+			const auto      system = scene.system();
+			const auto      d      = nodal<2>(system.basis, scene.model.grid, [](const Vec<2>& x) { return Vec<2>(-3 * x[0] * x[1], 0); });
+			Eigen::VectorXd force;
+			const auto      failure = system.evaluate(d, force, nullptr).value();
+			EXPECT_EQ(failure.reason, PointFailure::Reason::inverted);
+			EXPECT_EQ(failure.point, fBar ? 0 : 1);
+		}
+	}
+
+	TYPED_TEST(FBar, CentresAreThoseOfTheMatterInACell)
+	{
+		constexpr int Dim = TypeParam::value;
+		Model<Dim>    model;
+		model.materials = { { Hencky(1, 0), 1 } };
+		model.fBar      = true;
+		PointCloud<Dim> cloud; // in a cell the lower 0.7 along x, of which the first half is twice as dense with points; a full cell above along y
+		for (const double x : { 0.175, 0.175, 0.525 })
+			addPoint<Dim>(cloud, Vec<Dim>::Constant(0.5) + (x - 0.5) * Vec<Dim>::Unit(0), Vec<Dim>::Constant(0.5) - 0.325 * Vec<Dim>::Unit(0));
+		addPoint<Dim>(cloud, Vec<Dim>::Constant(0.5) + Vec<Dim>::Unit(1), Vec<Dim>::Constant(0.5));
+		StepReport            report;
+		const StepSystem<Dim> system(cloud, model, {}, report);
+		for (int i = 0; i < 4; ++i) {
+			const auto& values = system.points.centres[i];
+			EXPECT_NEAR(values[0].value[1], system.basis.order[i] < 3 ? (2 * 0.175 + 0.525) / 3 : 0.5, 1e-14);
+			EXPECT_NEAR(values[1].value[1], 0.5, 1e-14);
+			EXPECT_NEAR(values[0].value[0] + values[0].value[1], 1, 1e-14);
+		}
 	}
 
 	TYPED_TEST(FBar, LeavesAColumnAsItIs)

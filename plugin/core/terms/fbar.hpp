@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // F-bar against volumetric locking: the law of a point sees the increment dF-bar = (J_0 / J)^(1/n) dF, whose volumetric part J_0 = det dF_0 is that in the
-// middle of the cells that the point's domain lies in. n axes are scaled: the two of plane strain, or three.
+// centre of the matter in the cells that the point's domain lies in. n axes are scaled: the two of plane strain, or three.
 //
 // The forces are the derivative of what a hyperelastic law stores, sum V_0 psi(F-bar): f_a = V_0 (dev t g_a + tr_n t / n g0_a), with t the Kirchhoff stress
 // and g, g0 the gradients of the basis functions at the point and at the centres. So a symmetric law has a symmetric stiffness, which the form of
@@ -35,19 +35,6 @@ template <int Dim, class T> GIMPM_INLINE T volumeGrowth(const MatrixOf<Dim, T>& 
 	}
 }
 
-/// The basis functions whose gradients are those in the middle of the cells, averaged over the domain: across their own axis hat functions have the value
-/// 1/2 there, for the share of the domain that lies in the cell. The slopes know the cell size: the outer ones differ by 1/h.
-template <int Dim> GIMPM_INLINE PointBasis<Dim> atCentres(const PointBasis<Dim>& axes)
-{
-	PointBasis<Dim> centres = axes;
-	for (auto& axis : centres.axis) {
-		axis.value[2] = 0.5 * axis.slope[2] / (axis.slope[2] - axis.slope[0]);
-		axis.value[1] = 0.5;
-		axis.value[0] = 0.5 - axis.value[2];
-	}
-	return centres;
-}
-
 /// With what F-bar needs besides.
 template <int Dim> struct FBarChunk : Chunk<Dim> {
 	using Chunk<Dim>::capacity;
@@ -55,7 +42,7 @@ template <int Dim> struct FBarChunk : Chunk<Dim> {
 	using Chunk<Dim>::width;
 	static constexpr bool hasCentres = true;
 
-	Lanes centre[capacity][Dim][width];        ///< gradients of the basis functions in the middle of the cells, node by node; turn() makes g0 of them
+	Lanes centre[capacity][Dim][width];        ///< gradients of the basis functions at the centres, node by node; turn() makes g0 of them
 	Lanes centreGradient[batches][Dim][Dim];   ///< of the displacements
 	Lanes meanStress[batches];                 ///< times volume: its force on node a is along g0_a
 	Lanes bulk[batches];                       ///< its derivative, times volume
@@ -97,12 +84,13 @@ template <int Dim> struct FBarChunk : Chunk<Dim> {
 };
 
 template <int Dim, int Span>
-GIMPM_INLINE void prepare(const CloudBasis<Dim>& basis, const PatchVectors<Dim, Span>& u, int begin, int end, FBarChunk<Dim>& chunk)
+GIMPM_INLINE void prepare(
+        const CloudBasis<Dim>& basis, const StepPoints<Dim>& points, const PatchVectors<Dim, Span>& u, int begin, int end, FBarChunk<Dim>& chunk)
 {
-	prepare(basis, u, begin, end, static_cast<Chunk<Dim>&>(chunk));
+	prepare(basis, points, u, begin, end, static_cast<Chunk<Dim>&>(chunk));
 	for (int p = begin; p < end; ++p)
 		formGradients(
-		        atCentres(basis.axes[p]), u, [&](int j) GIMPM_INLINE_LAMBDA { return chunk.centreAt(p, j); },
+		        points.centres[p], u, [&](int j) GIMPM_INLINE_LAMBDA { return chunk.centreAt(p, j); },
 		        [&](int i, int j, double value) GIMPM_INLINE_LAMBDA {
 			        const int q                                                      = p - chunk.first;
 			        chunk.centreGradient[q / Lanes::count][i][j].v[q % Lanes::count] = value;

@@ -8,7 +8,6 @@ template <int Dim> StepPoints<Dim> stepPoints(const PointCloud<Dim>& cloud, cons
 {
 	const int       n = int(cloud.size());
 	StepPoints<Dim> s;
-	s.fBar = fBar;
 	s.leftCauchyGreen.resize(n);
 	s.volume0.resize(n);
 	s.material.resize(n);
@@ -21,6 +20,7 @@ template <int Dim> StepPoints<Dim> stepPoints(const PointCloud<Dim>& cloud, cons
 		s.material[i]        = cloud.material[p];
 		withLaw(materials[s.material[i]].law, [&](const auto& law) { storeInternals(law, internalsOf(law, cloud.internals, p), s.internals, i); });
 	}
+	if (fBar) s.centres = basisAtCentres(cloud, basis);
 	return s;
 }
 
@@ -29,7 +29,7 @@ std::optional<PointFailure> addInternalForce(
         const CloudBasis<Dim>& basis, const StepPoints<Dim>& points, const std::vector<Material>& materials, const Eigen::VectorXd& d, const TermSum<Dim>& sum)
 {
 	const Pass<Dim> pass { basis, points, materials, d, sum };
-	return points.fBar ? addFBarForce(pass) : addPoints<Chunk<Dim>>(pass);
+	return points.hasFBar() ? addFBarForce(pass) : addPoints<Chunk<Dim>>(pass);
 }
 
 template <int Dim> void markPointPattern(const CloudBasis<Dim>& basis, NodeMatrix<Dim>& K)

@@ -9,11 +9,13 @@ namespace gimpm {
 
 /// What an iteration reads of the points, in the order of the basis and contiguous in memory.
 template <int Dim> struct StepPoints {
-	std::vector<SymTensor<Dim>> leftCauchyGreen; ///< elastic b - 1 at the start of the step
-	std::vector<double>         volume0;
-	std::vector<int>            material;
-	InternalColumns             internals;
-	bool                        fBar = false; ///< core/terms/fbar.hpp
+	std::vector<SymTensor<Dim>>  leftCauchyGreen; ///< elastic b - 1 at the start of the step
+	std::vector<double>          volume0;
+	std::vector<int>             material;
+	InternalColumns              internals;
+	std::vector<PointBasis<Dim>> centres; ///< only with F-bar (core/terms/fbar.hpp): basis functions with the gradients at the centres of the cells
+
+	bool hasFBar() const { return !centres.empty(); }
 
 	/// Another point, as point i of these.
 	void append(const StepPoints& from, int i)
@@ -21,7 +23,7 @@ template <int Dim> struct StepPoints {
 		leftCauchyGreen.push_back(from.leftCauchyGreen[i]);
 		volume0.push_back(from.volume0[i]);
 		material.push_back(from.material[i]);
-		fBar = from.fBar;
+		if (from.hasFBar()) centres.push_back(from.centres[i]);
 		internals.resize(from.internals.size());
 		for (std::size_t c = 0; c < internals.size(); ++c)
 			if (!from.internals[c].empty()) internals[c].push_back(from.internals[c][i]);

@@ -143,7 +143,8 @@ GIMPM_INLINE void formGradients(const PointBasis<Dim>& axes, const PatchVectors<
 }
 
 /// Basis functions of the points [begin, end) of one patch, and the gradients of the displacements u there.
-template <int Dim, int Span> GIMPM_INLINE void prepare(const CloudBasis<Dim>& basis, const PatchVectors<Dim, Span>& u, int begin, int end, Chunk<Dim>& chunk)
+template <int Dim, int Span>
+GIMPM_INLINE void prepare(const CloudBasis<Dim>& basis, const StepPoints<Dim>&, const PatchVectors<Dim, Span>& u, int begin, int end, Chunk<Dim>& chunk)
 {
 	for (int p = begin; p < end; ++p)
 		formGradients(

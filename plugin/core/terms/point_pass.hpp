@@ -125,8 +125,8 @@ template <int Dim> GIMPM_INLINE FailureCode respond(const Pass<Dim>& pass, FBarC
 	using M = MatrixOf<Dim, Lanes>;
 	const Batch              batch(chunk.first + b * Lanes::count, chunk.last());
 	const FBarIncrement<Dim> increment(chunk, b);
-	for (const Lanes& J : { increment.J, increment.J0 })
-		if (const auto inverted = invertedIn(batch, pass.basis.order, J); inverted != noFailure) return inverted;
+	const FailureCode        inverted = std::min(invertedIn(batch, pass.basis.order, increment.J), invertedIn(batch, pass.basis.order, increment.J0));
+	if (inverted != noFailure) return inverted;
 	const BatchResponse<Dim> response(batch, pass.points, pass.materials, increment.gradient);
 	if constexpr (LawTraits<Law>::mayFail)
 		if (const auto unanswered = unansweredIn(batch, pass.basis.order, response.law.failed); unanswered != noFailure) return unanswered;
@@ -181,7 +181,7 @@ template <class Kernels, class ChunkOfPoints, int Dim> GIMPM_INLINE FailureCode 
 	FailureCode failure = noFailure;
 	forChunks<ChunkOfPoints>(pass.basis, first, last, [&](ChunkOfPoints& chunk, int patch) GIMPM_INLINE_LAMBDA {
 		forPieces(pass.basis, chunk, patch, [&](auto span, const Patch<Dim>& p, int begin, int end) GIMPM_INLINE_LAMBDA {
-			prepare(pass.basis, PatchVectors<Dim, decltype(span)::value>(p, pass.d), begin, end, chunk);
+			prepare(pass.basis, pass.points, PatchVectors<Dim, decltype(span)::value>(p, pass.d), begin, end, chunk);
 		});
 		failure = std::min(failure, Kernels::respond(pass, chunk));
 		if (failure != noFailure) return; // the rest of the pass is of no use, but for the points it names

@@ -62,7 +62,7 @@ void forUpdatedPoints(
 			constexpr int Span = decltype(span)::value;
 			callPart<PortableParts<Dim>::ofPiece(Span)>([&]() GIMPM_INLINE_LAMBDA {
 				const PatchVectors<Dim, Span> u(p, d);
-				prepare(basis, u, begin, end, chunk);
+				prepare(basis, points, u, begin, end, chunk);
 				for (int q = begin; q < end; ++q)
 					callPart<PortableParts<Dim>::ofInterpolation(Span)>(
 					        [&]() GIMPM_INLINE_LAMBDA { displacement[q - chunk.first] = interpolate<Dim, Span>(basis.axes[q], u); });
@@ -105,7 +105,7 @@ void forUpdatedPoints(const CloudBasis<Dim>& basis, const StepPoints<Dim>& point
 template <int Dim, class F>
 void forUpdatedPoints(const CloudBasis<Dim>& basis, const StepPoints<Dim>& points, const std::vector<Material>& materials, const Eigen::VectorXd& d, F&& f)
 {
-	if (points.fBar) forUpdatedPoints<FBarChunk<Dim>>(basis, points, materials, d, f);
+	if (points.hasFBar()) forUpdatedPoints<FBarChunk<Dim>>(basis, points, materials, d, f);
 	else
 		forUpdatedPoints<Chunk<Dim>>(basis, points, materials, d, f);
 }

@@ -68,9 +68,7 @@ void MpmImplicitEngine::action()
 		requireCallable();
 		try {
 			const Threads threads(ompThreads);
-			if (grid && grid->dim == 3) step<3>();
-			else
-				step<2>();
+			grid && grid->dim == 3 ? step<3>() : step<2>();
 		} catch (...) {
 			beforeActivation.putBack(*this);
 			if (!scene->subStepping) scene->subStep = -1; // YADE would count the iteration as begun, and finish it later

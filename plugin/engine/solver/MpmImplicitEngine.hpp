@@ -50,9 +50,7 @@ public:
 		  "Basis functions: 'gimp', averaged over the points' domains, or 'mpm', the linear functions of the grid (points that cross cells then disturb "
 		  "the solution).",
 		  oneOf("gimp", "mpm"));
-		v("fBar", &E::fBar, 0,
-		  "Cure for volumetric locking of nearly incompressible and of plastic materials: dilations are those in the middle of the cells. Needs ghost "
-		  "stabilisation.");
+		v("fBar", &E::fBar, 0, "Cure for volumetric locking of materials that keep their volume: one dilation in a cell. Needs ghost stabilisation.");
 		loads(v);
 		v("boundaries", &E::boundaries, 0, "Essential boundary conditions (MpmBoundary); read as a tuple, so assign a new one to change it.");
 		v("ghost", &E::ghost, 0, "Ghost stabilisation (MpmGhost).", notNull);

@@ -140,7 +140,7 @@ gimpm::Model<Dim> toModel(
 	newton.requireAdmissible();
 	if (fBar && ghost.factor == 0)
 		throw std::invalid_argument(
-		        "fBar takes the dilation of points from the middle of their cells, also where these are nearly empty: it needs ghost stabilisation, "
+		        "fBar takes the dilation of points from the centres of their cells, also where these are nearly empty: it needs ghost stabilisation, "
 		        "such as ghost=MpmGhost(), instead of ghost.factor=0.");
 	gimpm::Model<Dim> model;
 	model.grid = { grid.cellSize, grid.origin.head<Dim>() };

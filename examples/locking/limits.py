@@ -5,7 +5,7 @@
 	strip, square   footing of examples/footing3d, rough or smooth: load over area and c_u, exact 2 + pi for the strip, published 5.86 for the square
 	cut             vertical cut of examples/collapse: stability number, limit analysis 3.776
 
-Run it with `scripts/run examples/locking/locking.py [options]`, or by yade-batch with locking.table. Read examples/footing3d and
+Run it with `scripts/run examples/locking/limits.py [options]`, or by yade-batch with limits.table. Read examples/footing3d and
 examples/collapse first: scenes and what counts as failure are theirs.
 """
 import os
@@ -13,6 +13,9 @@ import sys
 import time
 
 from yade import mpm
+import matplotlib
+matplotlib.use('Agg')
+import matplotlib.pyplot as plt
 import numpy as np
 sys.path.insert(0, os.path.join(os.path.dirname(sys.argv[0]), '..'))
 from options import readOptions
@@ -108,4 +111,9 @@ else:
 	reference = 1.14 * (2 + np.pi) if options.scene == 'square' else 2 + np.pi
 	rise = load[-1] / np.interp(movement[-1] - 0.005, movement, load) - 1
 	print(f'N_c = {load.max():.3f}, {100 * (load.max() / reference - 1):+.1f} % of {reference:.3f}, to {movement[-1]:.4f} B; rising by {100 * rise:.2f} % in the last .005 B')
-np.savetxt(os.path.join(options.out, 'locking.csv'), np.transpose([movement, load]), '%.6g', ',', header='movement,load', comments='')
+np.savetxt(os.path.join(options.out, 'limits.csv'), np.transpose([movement, load]), '%.6g', ',', header='movement,load', comments='')
+
+figure, axes = plt.subplots(figsize=(7, 4.4), layout='constrained')
+mpm.plot('meanStress', grid=False, ghost=False, ax=axes, range=(-6 * cu, cu), plane=('z', 1e-3) if options.scene == 'square' else None)
+axes.set_title(f'Mean stress, {name}', fontsize='medium')
+figure.savefig(os.path.join(options.out, 'limits.png'), dpi=130)
