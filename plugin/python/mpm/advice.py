@@ -118,7 +118,7 @@ def _notNeeded(scene):
 	if locking and not solver.fBar:
 		found.append(
 		        f'fBar: {locking} can keep their volume, and then lock. fBar=True takes limit loads of clay from 9 % too much (strip footing, 17 cells) to -1 %, of a square '
-		        'footing from 15 to -5 %, and tips of nearly incompressible beams from half or less to 98 %, for a fifth more time an iteration.'
+		        'footing from 15 to -7 %, and tips of nearly incompressible beams from half or less to 98 %, for a fifth more time an iteration.'
 		)
 	contrast = scene.contrast()
 	if contrast >= 10:
