@@ -40,6 +40,16 @@ private:
 	std::mt19937_64 engine_;
 };
 
+/// Order of convergence in the last three residuals above round-off; 0 if there are fewer.
+inline double convergenceOrder(const std::vector<double>& residuals, double roundOff)
+{
+	std::size_t n = residuals.size();
+	while (n > 0 && residuals[n - 1] < roundOff)
+		--n;
+	if (n < 3) return 0;
+	return std::log(residuals[n - 1] / residuals[n - 2]) / std::log(residuals[n - 2] / residuals[n - 3]);
+}
+
 inline Mat<2> planeRotation(double angle) { return (Mat<2>() << std::cos(angle), -std::sin(angle), std::sin(angle), std::cos(angle)).finished(); }
 
 /// Rotation by an angle about an axis (Rodrigues).

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Linear systems that are not symmetric: LU, what is singular, and GMRES.
-#include "scenes.hpp"
+#include "matrices.hpp"
 #include <Eigen/LU>
 #include <Eigen/SVD>
 
@@ -12,14 +12,7 @@ namespace {
 	/// The entries that are not zero on one side of the diagonal or the other, and the diagonal.
 	GeneralCsc sparse(const Eigen::MatrixXd& full)
 	{
-		GeneralCsc K;
-		K.start = { 0 };
-		for (int c = 0; c < full.cols(); ++c) {
-			for (int r = 0; r < full.rows(); ++r)
-				if (r == c || full(r, c) != 0 || full(c, r) != 0) K.row.push_back(r), K.value.push_back(full(r, c));
-			K.start.push_back(int(K.row.size()));
-		}
-		return K;
+		return gimpm::sparse<GeneralCsc>(full, [&](int r, int c) { return full(r, c) != 0 || full(c, r) != 0; });
 	}
 
 	/// Random matrix with a share of entries that are not zero.
@@ -33,12 +26,7 @@ namespace {
 		return m;
 	}
 
-	Eigen::MatrixXd dominant(int size, double filling, unsigned seed)
-	{
-		Eigen::MatrixXd m = random(size, filling, seed);
-		m.diagonal()      = m.cwiseAbs().rowwise().sum().array() + 0.1;
-		return m;
-	}
+	Eigen::MatrixXd dominant(int size, double filling, unsigned seed) { return withDominantDiagonal(random(size, filling, seed)); }
 
 	/// Convection and diffusion on n^3 nodes.
 	GeneralCsc convection(int n, double diagonal = 6)
@@ -58,13 +46,7 @@ namespace {
 		return K;
 	}
 
-	void expectSolves(LinearSolver& solver, const LinearProblem& K, double tolerance = 1e-12)
-	{
-		const Eigen::VectorXd x = Random(99).vector(K.size());
-		Eigen::VectorXd       found;
-		ASSERT_EQ(solver.solve(K, K * x, found), Status::lu);
-		EXPECT_LT((found - x).norm(), tolerance * x.norm());
-	}
+	void expectSolves(LinearSolver& solver, const LinearProblem& K, double tolerance = 1e-12) { gimpm::expectSolves(solver, K, Status::lu, tolerance); }
 
 	TEST(GeneralMatrix, IsSolvedByLu)
 	{

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Cholesky, its fallback to LU, what is singular, and conjugate gradients.
-#include "scenes.hpp"
+#include "matrices.hpp"
 #include <Eigen/LU>
 
 namespace gimpm {
@@ -11,14 +11,7 @@ namespace {
 	/// The entries of the lower triangle that are not zero, and the whole diagonal.
 	SymmetricCsc sparse(const Eigen::MatrixXd& full)
 	{
-		SymmetricCsc K;
-		K.start = { 0 };
-		for (int c = 0; c < full.cols(); ++c) {
-			for (int r = c; r < full.rows(); ++r)
-				if (r == c || full(r, c) != 0) K.row.push_back(r), K.value.push_back(full(r, c));
-			K.start.push_back(int(K.row.size()));
-		}
-		return K;
+		return gimpm::sparse<SymmetricCsc>(full, [&](int r, int c) { return r > c && full(r, c) != 0; });
 	}
 
 	/// Random symmetric matrix with a share of entries that are not zero.
@@ -32,12 +25,7 @@ namespace {
 		return m;
 	}
 
-	Eigen::MatrixXd definite(int size, double filling, unsigned seed)
-	{
-		Eigen::MatrixXd m = symmetric(size, filling, seed);
-		m.diagonal()      = m.cwiseAbs().rowwise().sum().array() + 0.1; // dominant
-		return m;
-	}
+	Eigen::MatrixXd definite(int size, double filling, unsigned seed) { return withDominantDiagonal(symmetric(size, filling, seed)); }
 
 	/// Laplace's difference operator on n^3 nodes: large enough for a supernodal factorisation.
 	SymmetricCsc laplace(int n, double diagonal)
@@ -52,15 +40,6 @@ namespace {
 			K.start.push_back(int(K.row.size()));
 		}
 		return K;
-	}
-
-	void expectSolves(LinearSolver& solver, const LinearProblem& K, Status expected, double tolerance = 1e-12)
-	{
-		Random                random(99);
-		const Eigen::VectorXd x = random.vector(K.size());
-		Eigen::VectorXd       found;
-		ASSERT_EQ(solver.solve(K, K * x, found), expected);
-		EXPECT_LT((found - x).norm(), tolerance * x.norm());
 	}
 
 	TEST(LinearSolver, SolvesDefiniteMatricesByCholesky)

@@ -7,22 +7,12 @@
 namespace gimpm {
 namespace {
 
-	/// Order of convergence in the last three residuals above round-off.
-	double order(const std::vector<double>& residuals)
-	{
-		std::size_t n = residuals.size();
-		while (n > 0 && residuals[n - 1] < 1e-14)
-			--n;
-		if (n < 3) return 0;
-		return std::log(residuals[n - 1] / residuals[n - 2]) / std::log(residuals[n - 2] / residuals[n - 3]);
-	}
-
 	void print(const char* name, int dim, const std::vector<double>& residuals)
 	{
 		std::printf("%s, %dD:", name, dim);
 		for (const double r : residuals)
 			std::printf(" %.2e", r);
-		std::printf(", order %.2f\n", order(residuals));
+		std::printf(", order %.2f\n", convergenceOrder(residuals, 1e-14));
 	}
 
 	/// A block of 3 cells a side on a floor that holds it, free at the other faces.
@@ -55,7 +45,7 @@ namespace {
 		const auto              report = block.step();
 		print("elastic block", TypeParam::value, report.residuals);
 		ASSERT_TRUE(report.converged()) << report.cause;
-		EXPECT_GT(order(report.residuals), 1.8);
+		EXPECT_GT(convergenceOrder(report.residuals, 1e-14), 1.8);
 		EXPECT_EQ(report.iterations + 1, int(report.residuals.size()));
 	}
 
@@ -67,7 +57,7 @@ namespace {
 		ASSERT_TRUE(report.converged()) << report.cause;
 		const auto flow = plasticStrains(block.cloud);
 		EXPECT_GT(*std::max_element(flow.begin(), flow.end()), 1e-3);
-		EXPECT_GT(order(report.residuals), 1.8);
+		EXPECT_GT(convergenceOrder(report.residuals, 1e-14), 1.8);
 	}
 
 	TYPED_TEST(Newton, EndsAtTheToleranceAndNotBefore)

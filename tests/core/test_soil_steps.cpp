@@ -66,16 +66,6 @@ namespace {
 		}
 	};
 
-	/// Order of convergence in the last three residuals above round-off.
-	double order(const std::vector<double>& residuals)
-	{
-		std::size_t n = residuals.size();
-		while (n > 0 && residuals[n - 1] < 1e-10)
-			--n;
-		if (n < 3) return 0;
-		return std::log(residuals[n - 1] / residuals[n - 2]) / std::log(residuals[n - 2] / residuals[n - 3]);
-	}
-
 	template <int Dim> void expectQuadratic(const Law& law, bool isPressed)
 	{
 		std::vector<Vec<Dim>> positions;
@@ -85,7 +75,7 @@ namespace {
 			if (!isPressed) body.load.gravity = -10 * Vec<Dim>::Unit(1);
 			const StepReport report = body.step(method);
 			ASSERT_TRUE(report.converged()) << report.cause;
-			EXPECT_GT(order(report.residuals), 1.5);
+			EXPECT_GT(convergenceOrder(report.residuals, 1e-10), 1.5);
 			EXPECT_EQ(report.luSolves > 0, method == LinearMethod::direct);
 			for (std::size_t p = 0; p < positions.size(); ++p)
 				EXPECT_LT((body.cloud.position[p] - positions[p]).norm(), 1e-8);

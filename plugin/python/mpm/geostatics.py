@@ -8,7 +8,7 @@ from yade import wrapper
 
 from .analysis import noPoints, solverOf
 from .data import assign, pointsOf
-from .messages import brief, place
+from .messages import brief, isNumber, place
 
 
 def geostatic(K0=None, surface=None, solver=None, OCR=1):
@@ -61,7 +61,7 @@ def geostatic(K0=None, surface=None, solver=None, OCR=1):
 	density = np.array([material.density for material in materials])[number]
 	top = height.max() + half[np.argmax(height)]
 	if surface is None: surface = top
-	elif not _isNumber(surface): raise TypeError(f'geostatic: surface = {brief(surface)} must be a height [m]')
+	elif not isNumber(surface): raise TypeError(f'geostatic: surface = {brief(surface)} must be a height [m]')
 	elif not (math.isfinite(surface) and surface >= top - 1e-9 * abs(top)):
 		raise ValueError(f'geostatic: surface = {surface} is below the top of the highest points, at {top} m; at what height does the ground end?')
 	pressure = _weightAbove(points, axis, height, half, density, surface - top) * np.linalg.norm(solver.gravity)
@@ -104,10 +104,6 @@ def _assign(points, stress, past, depth, ratio):
 		) from None
 
 
-def _isNumber(value):
-	return isinstance(value, (int, float, np.floating, np.integer)) and not isinstance(value, bool)
-
-
 def _upwards(solver):
 	"""Axis of gravity, and the sign that makes its coordinate a height."""
 	gravity = np.array(solver.gravity)
@@ -140,7 +136,7 @@ def _overconsolidation(OCR, material, depth):
 	value = _ofMaterial('OCR', 1 if OCR is None else OCR, material)
 	values = [value(d) for d in depth.tolist()] if callable(value) else [value]
 	for one in values:
-		if not _isNumber(one):
+		if not isNumber(one):
 			raise TypeError(f'geostatic: OCR = {brief(one)} must be a number >= 1, a function of the depth [m] that returns one, or a dict of them')
 		if not (math.isfinite(one) and one >= 1): raise ValueError(f'geostatic: OCR = {brief(one)} must be finite and >= 1')
 	return np.broadcast_to(np.array(values, float), depth.shape)
@@ -158,7 +154,7 @@ def _ratio(K0, material, history):
 	if value is None:
 		sine = _sineOfFriction(material)
 		return np.full(len(history), material.poisson / (1 - material.poisson)) if sine is None else (1 - sine) * history**sine
-	if not _isNumber(value): raise TypeError(f'geostatic: K0 = {brief(value)} must be a number, the ratio of horizontal to vertical stress, or a dict of them')
+	if not isNumber(value): raise TypeError(f'geostatic: K0 = {brief(value)} must be a number, the ratio of horizontal to vertical stress, or a dict of them')
 	if not (math.isfinite(value) and value >= 0): raise ValueError(f'geostatic: K0 = {brief(value)} must be finite and >= 0')
 	return np.full(len(history), float(value))
 

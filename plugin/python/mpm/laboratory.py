@@ -8,7 +8,7 @@ from yade import wrapper
 
 from .data import table
 from .library import engine
-from .messages import brief
+from .messages import brief, isNumber
 from .plotting import write
 
 
@@ -111,7 +111,7 @@ def _material(who, material):
 
 
 def _number(who, name, value, expected, admits=lambda value: True):
-	if isinstance(value, (bool, np.bool_)) or not isinstance(value, (int, float, np.floating, np.integer)): raise TypeError(f'{who}: {name} = {brief(value)} must be {expected}')
+	if not isNumber(value): raise TypeError(f'{who}: {name} = {brief(value)} must be {expected}')
 	if not (math.isfinite(value) and admits(value)): raise ValueError(f'{who}: {name} = {brief(value)} must be {expected}')
 	return float(value)
 

@@ -2,12 +2,19 @@
 """What the functions say about the values that they were given."""
 import os
 
+import numpy as np
+
 
 def brief(value):
 	"""repr(value), on one line and shortened to what fits into a message, as the attributes of the classes are."""
 	longest = 160
 	text = ' '.join(repr(value).split())
 	return text if len(text) <= longest else text[:longest] + '...'
+
+
+def isNumber(value):
+	"""Whether it is a number of Python or NumPy; a bool is none."""
+	return isinstance(value, (int, float, np.floating, np.integer)) and not isinstance(value, bool)
 
 
 def place(vector):
