@@ -48,7 +48,7 @@ void addReport(py::object pythonClass)
 	        "Of the last load step that was tried: 'residuals', list; 'residual', the last of them [-]; 'localResidual', the largest residual around a node "
 	        "over the forces there, or a bound of it [-], at most 3 newton.tolerance when converged (NaN where it was not asked for); 'stiffness' of the last "
 	        "matrix that was factorised, 'positive definite', 'indefinite' (the equilibrium may not be stable: the body may go on by itself, or have another "
-	        "state under the same load) or 'not checked' (none was factorised: conjugate gradients, or nothing to solve); 'worstNode' (position [m], NaN if none), "
+	        "state under the same load) or 'not checked' (it is not symmetric, or none was factorised: an iterative solver, or nothing to solve); 'worstNode' (position [m], NaN if none), "
 	        "'worstAxis' ('x', 'y', 'z' or '') and 'worstForce' [N] of the largest out-of-balance force; 'points', 'nodes', 'dofs', 'activeCells', "
 	        "'boundaryCells', 'ghostFaces'.\n\n"
 	        "What deserves a look there, with the rule for it: 'clampedDomains', points whose domain would outgrow half a cell: it is kept at half a cell, "

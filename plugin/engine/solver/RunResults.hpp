@@ -109,12 +109,12 @@ template <class V> void RunResults::results(V&& v)
 	  "Shortened Newton steps that were tried in the last run.", count);
 	v("reusedFactors", &R::reusedFactors, sum(&StepReport::reusedFactors), byReport, readonly,
 	  "Solves of the last run with the factor of the solve before.", count);
-	v("luSolves", &R::luSolves, sum(&StepReport::luSolves), byReport, readonly, "Solves of the last run whose stiffness matrix was not positive definite.",
-	  count);
+	v("luSolves", &R::luSolves, sum(&StepReport::luSolves), byReport, readonly,
+	  "Solves of the last run by LU: the stiffness matrix was not positive definite, or not symmetric.", count);
 	v("cgIterations", &R::cgIterations, sum([](const StepReport& r) { return r.conjugateGradients.iterations; }), byReport, readonly,
-	  "Iterations of conjugate gradients in the last run (see MpmNewton.linearSolver).", count);
+	  "Iterations of conjugate gradients, or GMRES where the matrix is not symmetric, in the last run (see MpmNewton.linearSolver).", count);
 	v("cgFallbacks", &R::cgFallbacks, sum([](const StepReport& r) { return r.conjugateGradients.fallbacks; }), byReport, readonly,
-	  "Solves of the last run that conjugate gradients left to the direct solver.", count);
+	  "Solves of the last run that the iterative solver left to the direct one.", count);
 	v("lastDisplacements", &R::lastDisplacements, Kept(), byAttribute, hidden, "",
 	  admitting("of each node three grid coordinates and three components of its displacement [m], all finite", isIncrement));
 	v("lastLoadIncrement", &R::lastLoadIncrement, Kept(), byAttribute, hidden, "", finite);
