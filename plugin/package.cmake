@@ -27,6 +27,10 @@ set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_DEPENDS "yade (>= ${YADE_VERSION}), python3-numpy, python3-matplotlib, libopenblas0")
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${YADE_DIR})
+# what Python has compiled is no file of the package
+file(CONFIGURE OUTPUT prerm CONTENT "#!/bin/sh\nset -e\nfind @YADE_DIR@/py/yade/mpm -name __pycache__ -prune -exec rm -r {} +\n" @ONLY)
+file(CHMOD ${CMAKE_CURRENT_BINARY_DIR}/prerm PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
+set(CPACK_DEBIAN_PACKAGE_CONTROL_EXTRA ${CMAKE_CURRENT_BINARY_DIR}/prerm)
 # not for another release, whose libraries have other names
 file(STRINGS /etc/os-release release REGEX "^VERSION_CODENAME=")
 string(REGEX REPLACE ".*=" "" release "${release}")

@@ -2,6 +2,7 @@
 #pragma once
 // Bodies and what they consist of. Members inside of #ifdef belong to a feature that YADE is built with or not, or came with a later version: CMakeLists.txt finds out.
 #include "yade_api/serializable.hpp"
+#include <bitset>
 #include <map>
 #include <mutex>
 
@@ -26,6 +27,15 @@ public:
 	unsigned     blockedDOFs;
 	bool         isDamped;
 	Real         densityScaling;
+#ifdef YADE_API_SPH
+	Real rho, rho0, press;
+#endif
+#ifdef YADE_API_LIQMIGRATION
+	Real Vf, Vmin;
+#endif
+#ifdef YADE_API_DEFORM
+	Real dR;
+#endif
 	State();
 	~State() override;
 	YADE_API_OVERRIDES(State)
@@ -77,10 +87,15 @@ public:
 class Body : public Serializable {
 public:
 	using id_t = int;
+#ifdef YADE_API_MASK_BITS
+	using mask_t = std::bitset<YADE_API_MASK_BITS>;
+#else
+	using mask_t = int;
+#endif
 	enum { FLAG_BOUNDED = 1, FLAG_ASPHERICAL = 2 }; // bits of flags
-	id_t id;
-	int  groupMask;
-	int  flags;
+	id_t   id;
+	mask_t groupMask;
+	int    flags;
 #ifdef YADE_API_MPI
 	int subdomain;
 #endif
@@ -112,6 +127,6 @@ public:
 	YADE_API_OVERRIDES(BodyContainer)
 };
 
-static_assert(sizeof(State) == 320 && sizeof(Material) == 80, "layout of YADE");
+static_assert(sizeof(State) >= 320 && sizeof(Material) == 80, "layout of YADE");
 } // namespace yade
 #pragma GCC visibility pop

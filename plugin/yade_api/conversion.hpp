@@ -134,10 +134,12 @@ template <class T> struct Conversion<shared_ptr<T>> {
 	static std::optional<shared_ptr<T>> fromPython(const py::object& value)
 	{
 		const py::extract<shared_ptr<T>> extracted(value);
-		if (extracted.check()) return extracted();
+		if (extracted.check()) return made(extracted);
 		return std::nullopt;
 	}
-	static py::object toPython(const shared_ptr<T>& value) { return py::object(value); }
+	// Not in one piece with its caller, where g++ 14 takes what boost makes in place for uninitialised memory.
+	[[gnu::noinline]] static shared_ptr<T> made(const py::extract<shared_ptr<T>>& extracted) { return extracted(); }
+	static py::object                      toPython(const shared_ptr<T>& value) { return py::object(value); }
 };
 
 // the items of any sequence but a string; nothing if it is none

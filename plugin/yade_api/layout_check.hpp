@@ -77,7 +77,9 @@ private:
 	{
 		const auto body = make<Body>();
 		require(*body, "id", body->id, 11);
+#ifndef YADE_API_MASK_BITS // otherwise YADE converts it only after `import yade`, and its neighbours say enough
 		require(*body, "groupMask", body->groupMask, 6);
+#endif
 		require(*body, "flags", body->flags, 9);
 #ifdef YADE_API_MPI
 		require(*body, "subdomain", body->subdomain, 2);

@@ -2,8 +2,8 @@
 // libpkg_mpm.so: the only file of the plugin that YADE opens by itself.
 //
 // YADE aborts if it cannot open a library of its folder. So this one needs nothing but the C library, whatever an upgrade of the system has
-// replaced since it was built, and opens the guard if that is made for the boost.python of this YADE: two of them in one process would
-// crash it. If anything is wrong it says so in one sentence, and YADE starts as if the plugin were not there.
+// replaced since it was built, and opens the guard if the process has no other boost.python than the one that that is made for: two of them
+// would crash it. If anything is wrong it says so in one sentence, and YADE starts as if the plugin were not there.
 #include <cstdio>
 #include <cstring>
 #include <dlfcn.h>
@@ -19,11 +19,11 @@ const char* fileName(const char* path)
 	return slash ? slash + 1 : path;
 }
 
-// Copies the name of a boost.python that the process has loaded, and ends the search.
-int noteBoostPython(dl_phdr_info* library, size_t, void* found)
+// Copies the name of a boost.python that the process has loaded and that is not the plugin's, and ends the search.
+int noteOtherBoostPython(dl_phdr_info* library, size_t, void* found)
 {
 	const char* name = fileName(library->dlpi_name);
-	if (std::strncmp(name, "libboost_python", 15) != 0 || std::strlen(name) >= longest) return 0;
+	if (std::strncmp(name, "libboost_python", 15) != 0 || std::strcmp(name, MPM_BOOST_PYTHON) == 0 || std::strlen(name) >= longest) return 0;
 	std::strcpy(static_cast<char*>(found), name);
 	return 1;
 }
@@ -41,10 +41,12 @@ bool findGuard(char* path)
 [[gnu::constructor]] void openGuard()
 {
 	char boost[longest] = "", path[longest] = "";
-	dl_iterate_phdr(&noteBoostPython, boost);
-	if (boost[0] && std::strcmp(boost, MPM_BOOST_PYTHON) != 0)
+	dl_iterate_phdr(&noteOtherBoostPython, boost);
+	if (boost[0])
 		std::fprintf(
-		        stderr, "Material point plugin not loaded: it was built with %s, and this YADE uses %s; build it again, with scripts/setup.\n",
+		        stderr,
+		        "Material point plugin not loaded: it was built with %s, and this process has loaded %s; if that is YADE's own, build the "
+		        "plugin again, with scripts/setup.\n",
 		        MPM_BOOST_PYTHON, boost);
 	else if (!findGuard(path))
 		std::fprintf(stderr, "Material point plugin not loaded: its folder is unknown.\n");

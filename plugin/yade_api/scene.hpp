@@ -46,6 +46,12 @@ class Scene : public Serializable {
 public:
 	ForceContainer             forces;
 	Eigen::Matrix<Real, 10, 1> SpeedElements;
+#ifdef YADE_API_LIQMIGRATION
+	struct PerThread {
+		vector<vector<void*>> values;
+		size_t                size;
+	} addIntrs, delIntrs;
+#endif
 #ifdef YADE_API_QT5
 	shared_ptr<OpenGLRenderer> renderer;
 #endif

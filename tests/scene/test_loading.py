@@ -57,7 +57,18 @@ def test_builtForAnotherPython(yade, complete, libraries, built):
 	compiled((root / 'plugin/yade_api/loader.cpp').read_text(), libraries / 'libpkg_mpm.so', f'-DMPM_BOOST_PYTHON="{built}"')
 	run = yade(probe)
 	assert run.result == withoutPlugin
-	assert f'built with {built}, and this YADE uses {boostPython()}; build it again' in explanation(run)
+	assert f"built with {built}, and this process has loaded {boostPython()}; if that is YADE's own, build the plugin again" in explanation(run)
+
+
+@pytest.mark.parametrize('yadesFirst', [True, False])
+def test_twoBoostPythons(yade, complete, yadesFirst):
+	"""As with a module of another system that a script has loaded."""
+	other = compiled('', yade.folder / 'libboost_python39.so.1.67.0')
+	order = [boostPython(), str(other)] if yadesFirst else [str(other), boostPython()]
+	(yade.folder / 'two.py').write_text(f'import ctypes\nfor library in {order}: ctypes.CDLL(library)\n')
+	run = yade(probe, options=['-L', 'two'])
+	assert run.result == withoutPlugin
+	assert f'built with {boostPython()}, and this process has loaded libboost_python39.so.1.67.0' in explanation(run)
 
 
 def test_libraryThatIsGone(yade, complete, libraries):

@@ -41,7 +41,7 @@ struct MaterialPoint {
 string refusalOf(const gimpm::InternalVariable&, Real value);
 
 // Whether an engine with this mask is to look at the body: 0 and -1 mean all, also a body whose groupMask has no bits.
-inline bool maskMatches(const Body& body, int mask) { return mask == 0 || mask == -1 || (body.groupMask & mask) != 0; }
+inline bool maskMatches(const Body& body, int mask) { return mask == 0 || mask == -1 || (body.groupMask & Body::mask_t(mask)) != Body::mask_t(0); }
 
 // All bodies with an MpmPoint shape that the mask means, in order of body id. std::invalid_argument if one of them is incomplete, is
 // left to YADE's collider or integrator, alone or in a clump, or if another body has a material that is for material points only.
