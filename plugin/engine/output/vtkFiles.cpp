@@ -28,6 +28,15 @@ namespace {
 		return file.read(found.data(), found.size()) && found == end;
 	}
 
+	// Why a file has not been finished, found by writing more to it: who has failed to may have removed its name, as VTK does, and not say why.
+	string whyIncomplete(std::ofstream& file)
+	{
+		const vector<char> more(1 << 16);
+		errno = 0;
+		file.seekp(0, std::ios::end).write(more.data(), more.size()).flush();
+		return !file && errno ? std::strerror(errno) : "writing failed";
+	}
+
 	// Calls write(temporary path). A failure leaves an earlier file of this name as it was.
 	template <class Write> void writeWhole(const string& path, Write write)
 	{
@@ -36,15 +45,14 @@ namespace {
 		if (const fs::path folder = fs::path(path).parent_path(); !folder.empty()) fs::create_directories(folder, error);
 		if (error) refuse(path, "its folder cannot be created (" + error.message() + ")");
 		errno = 0;
-		if (!std::ofstream(temporary)) refuse(path, std::strerror(errno));
-		errno = 0;
+		std::ofstream held(temporary);
+		if (!held) refuse(path, std::strerror(errno));
 		write(temporary);
-		const int reason = errno;
 		if (isComplete(temporary)) {
 			fs::rename(temporary, path, error);
 			if (!error) return;
 		}
-		const string why = error ? error.message() : reason ? std::strerror(reason) : "writing failed";
+		const string why = error ? error.message() : whyIncomplete(held);
 		fs::remove(temporary, error);
 		refuse(path, why);
 	}
