@@ -16,14 +16,16 @@ enum AttributeFlag : unsigned {
 	hidden          = 8, // not shown in Python
 };
 
+template <class D, class T> using MemberOf = T D::*;
+
 template <class D, class T, class Validator> struct Attribute {
 	using Type = T;
 
-	const char* name;
-	T D::*const member;
-	unsigned    flags;
-	const char* doc;
-	Validator   validator;
+	const char*          name;
+	const MemberOf<D, T> member;
+	unsigned             flags;
+	const char*          doc;
+	Validator            validator;
 
 	bool is(AttributeFlag flag) const { return flags & flag; }
 
@@ -66,7 +68,7 @@ private:
 };
 
 template <class D, class T, class Owner, class Validator = AnyValue>
-Attribute<D, T, Validator> makeAttribute(const char* name, T Owner::*member, unsigned flags, const char* doc, Validator validator = {})
+Attribute<D, T, Validator> makeAttribute(const char* name, MemberOf<Owner, T> member, unsigned flags, const char* doc, Validator validator = {})
 {
 	return { name, member, flags, doc, validator };
 }

@@ -98,7 +98,6 @@ template <> struct Conversion<bool> {
 };
 
 template <class T> struct IntegerConversion {
-	static string           expected() { return "an integer"; }
 	static std::optional<T> fromPython(const py::object& value)
 	{
 		if (PyBool_Check(value.ptr()) || !PyIndex_Check(value.ptr())) return std::nullopt;
@@ -111,8 +110,10 @@ template <class T> struct IntegerConversion {
 	static py::object toPython(T value) { return py::object(value); }
 };
 template <> struct Conversion<int> : IntegerConversion<int> {
+	static string expected() { return "an integer"; }
 };
 template <> struct Conversion<long> : IntegerConversion<long> {
+	static string expected() { return "an integer"; }
 };
 
 template <> struct Conversion<Real> {

@@ -12,8 +12,8 @@ namespace yade {
 namespace {
 	std::atomic_int  presses { 0 };         // of Ctrl-C
 	std::atomic_bool hasEndedRun { false }; // by Ctrl-C, which Python has not been told yet
-	struct sigaction python { };            // Python's handler, which ours stands in front of
-	thread_local int seen = -1;             // presses before this thread, which lives as long as one O.run(), or handled by Python
+	struct sigaction python = {};           // Python's handler, which ours stands in front of
+	thread_local int seen   = -1;           // presses before this thread, which lives as long as one O.run(), or handled by Python
 
 	void onPress(int number, siginfo_t* info, void* context)
 	{
@@ -26,7 +26,7 @@ namespace {
 	// A handler of somebody else than Python is left alone, and so is the absence of one.
 	void listen()
 	{
-		struct sigaction current { };
+		struct sigaction current = {};
 		sigaction(SIGINT, nullptr, &current);
 		const bool isOurs = (current.sa_flags & SA_SIGINFO) && current.sa_sigaction == &onPress;
 		if (isOurs || current.sa_handler == SIG_DFL || current.sa_handler == SIG_IGN) return;

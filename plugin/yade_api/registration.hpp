@@ -162,10 +162,9 @@ private:
 		// Vectors and matrices that may be written come by reference, as in YADE: b.state.force[1] = 3
 		constexpr bool hasElements = std::is_same_v<T, Vector3r> || std::is_same_v<T, Matrix3r>;
 		const bool     inPlace     = hasElements && !attribute.is(readonly);
-		py::object     get         = inPlace ? py::make_getter(attribute.member)
-		                                     : py::make_function(
-                                                 [attribute](const D& object) { return object.toPython(attribute); }, py::default_call_policies(),
-                                                 boost::mpl::vector2<py::object, const D&>());
+		const auto     converted   = [attribute](const D& object) { return object.toPython(attribute); };
+		using Signature            = boost::mpl::vector2<py::object, const D&>;
+		py::object get = inPlace ? py::make_getter(attribute.member) : py::make_function(converted, py::default_call_policies(), Signature());
 		if (attribute.is(readonly)) {
 			c.add_property(attribute.name, get, doc.c_str());
 			return;

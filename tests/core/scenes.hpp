@@ -18,6 +18,11 @@ using BothDimensions = ::testing::Types<std::integral_constant<int, 2>, std::int
 struct DimensionName {
 	template <class T> static std::string GetName(int) { return std::to_string(T::value) + "D"; }
 };
+/// The fixture of suites that need none of their own: template <class Dimension> using Suite = InBothDimensions<Dimension>;
+template <class Dimension> class InBothDimensions : public ::testing::Test {
+public:
+	static constexpr int dim = Dimension::value;
+};
 
 /// The same random numbers in every run.
 class Random {

@@ -62,8 +62,7 @@ namespace {
 		}
 	};
 
-	template <class Dimension> class Affine : public ::testing::Test {
-	};
+	template <class Dimension> using Affine = InBothDimensions<Dimension>;
 	TYPED_TEST_SUITE(Affine, BothDimensions, DimensionName);
 
 	TYPED_TEST(Affine, ObliqueShearedBlockHasTheExactStress)

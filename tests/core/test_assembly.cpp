@@ -52,8 +52,7 @@ namespace {
 		return Eigen::Map<const Eigen::Matrix<double, Dim, Eigen::Dynamic>>(force.data(), Dim, force.size() / Dim).rowwise().sum();
 	}
 
-	template <class Dimension> class Assembly : public ::testing::Test {
-	};
+	template <class Dimension> using Assembly = InBothDimensions<Dimension>;
 	TYPED_TEST_SUITE(Assembly, BothDimensions, DimensionName);
 
 	TYPED_TEST(Assembly, InternalForcesBalance)

@@ -53,8 +53,7 @@ namespace {
 		return { cloud, grid, 2e5, 0.3 };
 	}
 
-	template <class Dimension> class GhostForce : public ::testing::Test {
-	};
+	template <class Dimension> using GhostForce = InBothDimensions<Dimension>;
 	TYPED_TEST_SUITE(GhostForce, BothDimensions, DimensionName);
 
 	TYPED_TEST(GhostForce, TranslationsAndLinearFieldsGiveNone)

@@ -93,8 +93,7 @@ namespace {
 		EXPECT_GT(flow, 1e-3) << "this should test plastic points as well";
 	}
 
-	template <class Dimension> class Invariance : public ::testing::Test {
-	};
+	template <class Dimension> using Invariance = InBothDimensions<Dimension>;
 	TYPED_TEST_SUITE(Invariance, BothDimensions, DimensionName);
 
 	const auto same = [](const auto& x) { return x; };
@@ -106,9 +105,9 @@ namespace {
 		for (const auto& cells : { cellsOf<Dim>(7, 1, -5), cellsOf<Dim>(-1000, 3333, 77) }) {
 			LScene<Dim> moved;
 			moved.shift(cells);
-			const Vec<Dim> by = 0.5 * cells.template cast<double>();
-			expectSame<Dim>(
-			        expected, moved.run(), [&](const Vec<Dim>& x) { return Vec<Dim>(x + by); }, same, 1e-10);
+			const Vec<Dim> by  = 0.5 * cells.template cast<double>();
+			const auto     map = [&](const Vec<Dim>& x) { return Vec<Dim>(x + by); };
+			expectSame<Dim>(expected, moved.run(), map, same, 1e-10);
 		}
 	}
 
@@ -121,8 +120,8 @@ namespace {
 		moved.model.grid.origin += by;
 		for (auto& x : moved.cloud.position)
 			x += by;
-		expectSame<Dim>(
-		        expected, moved.run(), [&](const Vec<Dim>& x) { return Vec<Dim>(x + by); }, same, 1e-10);
+		const auto map = [&](const Vec<Dim>& x) { return Vec<Dim>(x + by); };
+		expectSame<Dim>(expected, moved.run(), map, same, 1e-10);
 	}
 
 	TYPED_TEST(Invariance, MirrorImages)

@@ -62,8 +62,7 @@ namespace {
 		EXPECT_TRUE(sameBits(a.force, b.force));
 	}
 
-	template <class Dimension> class LoadStep : public ::testing::Test {
-	};
+	template <class Dimension> using LoadStep = InBothDimensions<Dimension>;
 	TYPED_TEST_SUITE(LoadStep, BothDimensions, DimensionName);
 
 	TYPED_TEST(LoadStep, ThatFailsLeavesThePointsBitForBit)

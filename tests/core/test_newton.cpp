@@ -35,8 +35,7 @@ namespace {
 		StepReport step() { return loadStep(cloud, model, load, solver); }
 	};
 
-	template <class Dimension> class Newton : public ::testing::Test {
-	};
+	template <class Dimension> using Newton = InBothDimensions<Dimension>;
 	TYPED_TEST_SUITE(Newton, BothDimensions, DimensionName);
 
 	TYPED_TEST(Newton, ConvergesQuadraticallyInFiniteElasticity)

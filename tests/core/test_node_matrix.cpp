@@ -69,8 +69,7 @@ namespace {
 		}
 	};
 
-	template <class Dimension> class NodeMatrixOf : public ::testing::Test {
-	};
+	template <class Dimension> using NodeMatrixOf = InBothDimensions<Dimension>;
 	TYPED_TEST_SUITE(NodeMatrixOf, BothDimensions, DimensionName);
 
 	TYPED_TEST(NodeMatrixOf, BlocksMultiplyAsADenseMatrix)

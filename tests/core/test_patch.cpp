@@ -35,8 +35,7 @@ namespace {
 		return cloud;
 	}
 
-	template <class Dimension> class PatchTest : public ::testing::Test {
-	};
+	template <class Dimension> using PatchTest = InBothDimensions<Dimension>;
 	TYPED_TEST_SUITE(PatchTest, BothDimensions, DimensionName);
 
 	// A bar of 4 cells between a roller and a moving grip, on rollers below, with free surfaces across: uniaxial stress in finite strain.

@@ -158,8 +158,7 @@ namespace {
 		}
 	}
 
-	template <class Dimension> class RandomScenes : public ::testing::Test {
-	};
+	template <class Dimension> using RandomScenes = InBothDimensions<Dimension>;
 	TYPED_TEST_SUITE(RandomScenes, BothDimensions, DimensionName);
 
 	TYPED_TEST(RandomScenes, EndInAFiniteStateOrInTheOldOne)

@@ -154,8 +154,8 @@ namespace {
 				point.apply(this->shearing(end / steps));
 				const double g = end * i / steps;
 				if (g < exact.g) continue;
-				error = std::max({ error, std::abs(point.stress.full()(0, 1) - exact.shearStress(g)),
-				                   std::abs(point.stress.full()(0, 0) - exact.normalStress(g)) });
+				const Mat3 stress = point.stress.full();
+				error = std::max({ error, std::abs(stress(0, 1) - exact.shearStress(g)), std::abs(stress(0, 0) - exact.normalStress(g)) });
 			}
 			std::printf("%4d steps: error %.3e, order %.3f\n", steps, error, previous > 0 ? std::log2(previous / error) : NAN);
 			// The return is a backward Euler step, of first order.

@@ -84,8 +84,7 @@ namespace {
 		}
 	}
 
-	template <class Dimension> class SoilSteps : public ::testing::Test {
-	};
+	template <class Dimension> using SoilSteps = InBothDimensions<Dimension>;
 	TYPED_TEST_SUITE(SoilSteps, BothDimensions, DimensionName);
 
 	TYPED_TEST(SoilSteps, FrictionWithoutDilation)

@@ -104,8 +104,7 @@ namespace {
 		StepReport step(double factor) { return loadStep(cloud, model, load(factor), solver); }
 	};
 
-	template <class T> class SpringTerm : public ::testing::Test {
-	};
+	template <class T> using SpringTerm = InBothDimensions<T>;
 	TYPED_TEST_SUITE(SpringTerm, BothDimensions, DimensionName);
 
 	TYPED_TEST(SpringTerm, ForceAndStiffnessAreAddedToTheOthers)

@@ -5,8 +5,7 @@
 namespace gimpm {
 namespace {
 
-	template <class Dimension> class Unloading : public ::testing::Test {
-	};
+	template <class Dimension> using Unloading = InBothDimensions<Dimension>;
 	TYPED_TEST_SUITE(Unloading, BothDimensions, DimensionName);
 
 	template <int Dim> double largestStress(const PointCloud<Dim>& cloud)

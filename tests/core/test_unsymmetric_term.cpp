@@ -108,8 +108,7 @@ namespace {
 		}
 	};
 
-	template <class Dimension> class UnsymmetricTerm : public ::testing::Test {
-	};
+	template <class Dimension> using UnsymmetricTerm = InBothDimensions<Dimension>;
 	TYPED_TEST_SUITE(UnsymmetricTerm, BothDimensions, DimensionName);
 
 	TYPED_TEST(UnsymmetricTerm, StiffnessIsTheDerivativeOfTheForce)

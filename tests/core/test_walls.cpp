@@ -147,8 +147,7 @@ namespace {
 		EXPECT_EQ(cloudBasis<2>(cloud, plane, Basis::gimp, Boundary<2>()).largestWallOverlap, 0);
 	}
 
-	template <class Dimension> class WallReactions : public ::testing::Test {
-	};
+	template <class Dimension> using WallReactions = InBothDimensions<Dimension>;
 	TYPED_TEST_SUITE(WallReactions, BothDimensions, DimensionName);
 
 	TYPED_TEST(WallReactions, BalanceTheLoadsThoughDomainsReachBehind)

@@ -44,8 +44,7 @@ namespace {
 		return c;
 	}
 
-	template <class Dimension> class Work : public ::testing::Test {
-	};
+	template <class Dimension> using Work = InBothDimensions<Dimension>;
 	TYPED_TEST_SUITE(Work, BothDimensions, DimensionName);
 
 	TYPED_TEST(Work, IsStoredAndGivenBack)

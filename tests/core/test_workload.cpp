@@ -6,8 +6,7 @@
 namespace gimpm {
 namespace {
 
-	template <class Dimension> class WorkloadOf : public ::testing::Test {
-	};
+	template <class Dimension> using WorkloadOf = InBothDimensions<Dimension>;
 	TYPED_TEST_SUITE(WorkloadOf, BothDimensions, DimensionName);
 
 	TYPED_TEST(WorkloadOf, ABlockIsThatOfItsStiffnessAndItsStep)

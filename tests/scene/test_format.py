@@ -9,6 +9,6 @@ from conftest import root
 def test_codeIsFormatted():
 	sources = [path for folder in ('plugin', 'tests') for path in (root / folder).rglob('*.[ch]pp')]
 	assert len(sources) > 100
-	run = subprocess.run(['clang-format-14', '--dry-run', '--Werror', *sources], cwd=root, stderr=subprocess.PIPE, text=True)
+	run = subprocess.run(['clang-format', '--dry-run', '--Werror', *sources], cwd=root, stderr=subprocess.PIPE, text=True)
 	wrong = re.findall(r'^(?:.*/)?((?:plugin|tests)/.*:\d+):\d+: error', run.stderr, re.MULTILINE)
 	assert run.returncode == 0, f'{len(wrong)} places differ, in files {sorted({place.split(":")[0] for place in wrong})}, first {wrong[:5]}'

@@ -17,8 +17,8 @@ void MpmCamClayMat::requireAdmissible() const
 void MpmCamClayMat::requireStart(const MpmState& state) const
 {
 	if (!state.stress.isZero(0)) return;
-	throw std::invalid_argument("MpmState.stress = 0 is not admitted: a point of an MpmCamClayMat has no stiffness without pressure. "
-	                            "Give its stress with mpm.geostatic() or mpm.assign(stress=...).");
+	const string refusal = "MpmState.stress = 0 is not admitted: a point of an MpmCamClayMat has no stiffness without pressure. ";
+	throw std::invalid_argument(refusal + "Give its stress with mpm.geostatic() or mpm.assign(stress=...).");
 }
 
 } // namespace yade
