@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What scripts/hosts needs is there; it takes too long to be run here."""
+"""What scripts/hosts needs is there; it takes too long to be run here. What YADE is built with is read from its files."""
+import json
 import subprocess
 
-from conftest import root
+import pytest
+from conftest import compiled, root, systemYade
 
 
 def said(*command, fails=False):
@@ -26,3 +28,56 @@ def test_mirror():
 	text = (root / 'scripts/hosts').read_text()
 	mirror = text[text.index('mirror() {'):text.index('# Whether apt refuses')]
 	assert said('bash', '-c', mirror + 'mirror').startswith('http')
+
+
+def test_scenesForTheOthers(yade):
+	"""What one release leaves to the others is loaded by itself here, and a difference is noticed."""
+	yade(root / 'scripts/lib/saved.py', yade.folder, 'here', 'save')
+	run = yade(root / 'scripts/lib/saved.py', yade.folder, 'here', 'load')
+	assert run.stdout.count('goes on and ends as where it was saved') == 2, str(run)
+	end = json.loads((yade.folder / 'here.json').read_text())
+	end['shear'][3] += 1
+	(yade.folder / 'here.json').write_text(json.dumps(end))
+	assert 'shear differs by 1,' in yade(root / 'scripts/lib/saved.py', yade.folder, 'here', 'load', fails=True).stderr
+
+
+@pytest.fixture(scope='module')
+def configured(tmp_path_factory):
+	"""What CMake says of a YADE whose config.py has been changed."""
+	tmp_path = tmp_path_factory.mktemp('host')
+	(tmp_path / 'CMakeLists.txt').write_text(f'cmake_minimum_required(VERSION 3.25)\nproject(host LANGUAGES CXX)\ninclude({root}/plugin/yade_api/host.cmake)\n')
+	folder = tmp_path / 'yade'
+	(folder / 'py/yade').mkdir(parents=True)
+	(folder / 'libpkg_common.so').symlink_to(systemYade / 'libpkg_common.so')
+
+	def configure(old, new, library='', fails=True):
+		config = (systemYade / 'py/yade/config.py').read_text()
+		assert old in config
+		(folder / 'py/yade/config.py').write_text(config.replace(old, new))
+		(folder / 'libyade.so').unlink(missing_ok=True)
+		if library: compiled(library, folder / 'libyade.so')
+		else: (folder / 'libyade.so').symlink_to(systemYade / 'libyade.so')
+		return ' '.join(said('cmake', '-S', tmp_path, '-B', tmp_path / 'build', f'-DYADE_DIR={folder}', '-DCMAKE_CXX_COMPILER_WORKS=1', fails=fails).split())
+
+	return configure
+
+
+@pytest.mark.parametrize(
+        'old, new, reason', [
+                (' OPENMP', '', 'is built without OPENMP, which the plugin needs'),
+                (' LOGGER', '', 'is built without LOGGER, which the plugin needs'),
+                (' LOGGER', ' LOGGER VECTORIZE', 'is built with VECTORIZE, which aligns its vectors otherwise'),
+                (' LOGGER', ' LOGGER MASK_ARBITRARY', 'does not tell the size of its masks'),
+                ('highPrecisionBits         =64', 'highPrecisionBits         =128', 'computes with numbers of 128 bits'),
+        ]
+)
+def test_refusedYade(configured, old, new, reason):
+	assert reason in configured(old, new)
+
+
+def test_featuresThatChangeTheLayout(configured):
+	mask = 'namespace std { template <unsigned long> class bitset; } namespace yade { struct Body { bool maskOk(const std::bitset<100>&) const; }; }\n' \
+	       'bool yade::Body::maskOk(const std::bitset<100>&) const { return true; }'
+	text = configured(' LOGGER', ' LOGGER SPH LIQMIGRATION DEFORM MASK_ARBITRARY', library=mask, fails=False)
+	for macro in 'SPH', 'LIQMIGRATION', 'DEFORM', 'MASK_BITS=100':
+		assert f'YADE_API_{macro}' in text, text
