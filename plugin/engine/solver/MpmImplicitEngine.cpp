@@ -160,8 +160,7 @@ template <int Dim> void MpmImplicitEngine::reach(Job<Dim>& job, const Attempt<Di
 	double scattering = 0;
 	{
 		const gimpm::Stopwatch watch(scattering);
-		reenter(job.cloud, job.model.grid, points);
-		scatter(job.cloud, points);
+		scatter(job.cloud, job.model.grid, points);
 	}
 	addTime(*timingDeltas, "scatter", scattering);
 	plausibility.know(job.cloud);

@@ -145,6 +145,21 @@ namespace {
 			gimpm::storeInternals(l, values, cloud.internals, p);
 		});
 	}
+
+	template <int Dim> void reenter(gimpm::PointCloud<Dim>& cloud, const gimpm::Grid<Dim>& grid, const vector<MaterialPoint>& points)
+	{
+		for (int a = 0; a < Dim; ++a) {
+			const Real length = grid.period[a] * grid.cellSize, low = grid.origin[a], high = low + length;
+			for (size_t p = 0; length > 0 && p < points.size(); ++p) {
+				Real& x = cloud.position[p][a];
+				if (x >= low && x < high) continue;
+				const Real shift = length * std::floor((x - low) / length);
+				x                = std::clamp(x - shift, low, high); // round-off
+				points[p].state->refPos[a] -= shift;
+				if (!cloud.position0.empty()) cloud.position0[p][a] -= shift;
+			}
+		}
+	}
 }
 
 Vector3r stretched(const Vector3r& halfSize0, const Matrix3r& defGrad)
@@ -216,24 +231,10 @@ template <int Dim> gimpm::PointCloud<Dim> gather(const vector<MaterialPoint>& po
 	return cloud;
 }
 
-template <int Dim> void reenter(gimpm::PointCloud<Dim>& cloud, const gimpm::Grid<Dim>& grid, const vector<MaterialPoint>& points)
-{
-	for (int a = 0; a < Dim; ++a) {
-		const Real length = grid.period[a] * grid.cellSize, low = grid.origin[a], high = low + length;
-		for (size_t p = 0; length > 0 && p < points.size(); ++p) {
-			Real& x = cloud.position[p][a];
-			if (x >= low && x < high) continue;
-			const Real shift = length * std::floor((x - low) / length);
-			x                = std::clamp(x - shift, low, high); // round-off
-			points[p].state->refPos[a] -= shift;
-			if (!cloud.position0.empty()) cloud.position0[p][a] -= shift;
-		}
-	}
-}
-
 // Plane strain leaves the components out of the plane alone, but for the zz component of strain and stress.
-template <int Dim> void scatter(const gimpm::PointCloud<Dim>& cloud, const vector<MaterialPoint>& points)
+template <int Dim> void scatter(gimpm::PointCloud<Dim>& cloud, const gimpm::Grid<Dim>& grid, const vector<MaterialPoint>& points)
 {
+	reenter(cloud, grid, points);
 	inRanges(points.size(), [&](size_t begin, size_t end) {
 		vector<std::pair<std::string_view, const Real*>> internals;
 		for (size_t p = begin; p < end; ++p) {
@@ -254,8 +255,7 @@ template <int Dim> void scatter(const gimpm::PointCloud<Dim>& cloud, const vecto
 #define MPM_INSTANTIATE(Dim)                                                                                                                                   \
 	template gimpm::Model<Dim>      toModel(const MpmGrid&, const string&, const vector<shared_ptr<MpmBoundary>>&, const MpmGhost&, const MpmNewton&);     \
 	template gimpm::PointCloud<Dim> gather(const vector<MaterialPoint>&, gimpm::Model<Dim>&);                                                              \
-	template void                   reenter(gimpm::PointCloud<Dim>&, const gimpm::Grid<Dim>&, const vector<MaterialPoint>&);                               \
-	template void                   scatter(const gimpm::PointCloud<Dim>&, const vector<MaterialPoint>&);
+	template void                   scatter(gimpm::PointCloud<Dim>&, const gimpm::Grid<Dim>&, const vector<MaterialPoint>&);
 MPM_INSTANTIATE(2)
 MPM_INSTANTIATE(3)
 #undef MPM_INSTANTIATE
