@@ -12,7 +12,8 @@
 namespace yade {
 
 // What an engine is set to, as the core understands it.
-template <int Dim> gimpm::Model<Dim> toModel(const MpmGrid&, const string& basis, const vector<shared_ptr<MpmBoundary>>&, const MpmGhost&, const MpmNewton&);
+template <int Dim>
+gimpm::Model<Dim> toModel(const MpmGrid&, const string& basis, bool fBar, const vector<shared_ptr<MpmBoundary>>&, const MpmGhost&, const MpmNewton&);
 
 // Copies the points and adds their materials to the model. std::invalid_argument names the body that cannot be computed with.
 template <int Dim> gimpm::PointCloud<Dim> gather(const vector<MaterialPoint>&, gimpm::Model<Dim>&);
@@ -20,7 +21,8 @@ template <int Dim> gimpm::PointCloud<Dim> gather(const vector<MaterialPoint>&, g
 // Half the size of the domain into which the deformation gradient stretches an initial one; a step limits it to half a cell.
 Vector3r stretched(const Vector3r& halfSize0, const Matrix3r& defGrad);
 
-// Writes a converged state back.
-template <int Dim> void scatter(const gimpm::PointCloud<Dim>&, const vector<MaterialPoint>&);
+// Writes a converged state back. Before, points that have left a periodic grid re-enter it on the other side. Their initial positions go with them, so that
+// displacements stay.
+template <int Dim> void scatter(gimpm::PointCloud<Dim>&, const gimpm::Grid<Dim>&, const vector<MaterialPoint>&);
 
 } // namespace yade
