@@ -95,8 +95,7 @@ namespace {
 		return force;
 	}
 
-	template <class Dimension> class FBar : public ::testing::Test {
-	};
+	template <class Dimension> using FBar = InBothDimensions<Dimension>;
 	TYPED_TEST_SUITE(FBar, BothDimensions, DimensionName);
 
 	TYPED_TEST(FBar, PointsSideBySideDoAsPointByPoint)

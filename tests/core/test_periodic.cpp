@@ -9,8 +9,7 @@
 namespace gimpm::testPeriodic {
 namespace {
 
-	template <class Dimension> class Periodic : public ::testing::Test {
-	};
+	template <class Dimension> using Periodic = InBothDimensions<Dimension>;
 	TYPED_TEST_SUITE(Periodic, BothDimensions, DimensionName);
 
 	template <int Dim> Grid<Dim> gridOf(int cells, double h = 1)
