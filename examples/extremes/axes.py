@@ -21,7 +21,8 @@ class Axis:
 
 groups = { # a map of outcomes for each
         'grid': ('Grid and points', ['overlap', 'factor', 'length', 'points', 'jitter', 'missing', 'thin', 'slender']),
-        'material': ('Material', ['poisson', 'contrast', 'mixed', 'yield', 'young', 'friction', 'frictionCone', 'dilation', 'cohesion']),
+        'material': ('Material', ['poisson', 'contrast', 'mixed', 'yield', 'young']),
+        'friction': ('Friction', ['friction', 'frictionCone', 'dilation', 'cohesion']),
         'locking': ('F-bar', ['overlapFBar', 'yieldFBar', 'bending', 'bendingFBar', 'compressionFBar']),
         'motion': ('Load and motion', ['strain', 'steps', 'compression', 'free', 'turns', 'turnStep']),
 }
