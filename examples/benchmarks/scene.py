@@ -22,6 +22,7 @@ defaults = dict(
         reuseFactor=True,
         linearSolver='auto',
         elastic=False,
+        fBar=False,
         recorder=False, # writes all material points after every step
         arrays=False, # reads all material points after every step
 )
@@ -57,6 +58,7 @@ def slope():
 
 	global solver # for afterStep
 	solver = MpmImplicitEngine(grid=grid, gravity=(0, -9.81, 0), basis=setting.basis, boundaries=walls(h), ghost=MpmGhost(factor=setting.ghost))
+	if setting.fBar: solver.fBar = True
 	for name in 'predictor', 'reuseFactor', 'linearSolver':
 		if hasattr(solver.newton, name): setattr(solver.newton, name, getattr(setting, name)) # other revisions may have none
 	engines = [solver]

@@ -22,6 +22,8 @@ class Axis:
 groups = { # a map of outcomes for each
         'grid': ('Grid and points', ['overlap', 'factor', 'length', 'points', 'jitter', 'missing', 'thin', 'slender']),
         'material': ('Material', ['poisson', 'contrast', 'mixed', 'yield', 'young']),
+        'friction': ('Friction', ['friction', 'frictionCone', 'dilation', 'cohesion']),
+        'locking': ('F-bar', ['overlapFBar', 'yieldFBar', 'bending', 'bendingFBar', 'compressionFBar']),
         'motion': ('Load and motion', ['strain', 'steps', 'compression', 'free', 'turns', 'turnStep']),
 }
 
@@ -31,6 +33,9 @@ def powers(first, last, step=1):
 
 
 factors = [1e-6, 1e-4, 1e-3, 1e-2, 1e-1, 1.]
+nearHalf = [0., .3, .45, .49, .499, .4999, .49999, .499999]
+compressed = [.9, .7, .5, .3, .2, .15, .1, .07, .05]
+angles = [1., 5., 10., 20., 30., 40., 45.]
 corners = [0, .5, 1e-1, 1e-2, 1e-3, 1e-4, 1e-6, 1e-8]
 
 axes = {
@@ -47,12 +52,21 @@ axes = {
         'points': Axis('points per cell and axis', [1, 2, 3, 4, 6, 8], quick=[1]),
         'jitter': Axis('random shift of points [half of their spacing]', [0., .1, .25, .5, .75, 1.], quick=[.5]),
         'missing': Axis('share of points taken out at random [-]', [0., .05, .1, .2, .3, .4, .5, .6, .7, .8, .9], quick=[.5]),
-        'compression': Axis('height after loading over the one before, between walls [-]', [.9, .7, .5, .3, .2, .15, .1, .07, .05], quick=[.3]),
+        'compression': Axis('height after loading over the one before, between walls [-]', compressed, quick=[.3]),
         'free': Axis('the same without walls: the column may buckle [-]', [.9, .7, .5, .3, .2, .15, .1], quick=[.3]),
         'turns': Axis('turns of a bar, 24 steps each', [.25, .5, 1., 2., 4., 8.], quick=[.25]),
         'turnStep': Axis('rotation of a bar in one step [degrees]', [1., 5., 15., 30., 45., 60., 75., 90.], dims=(2, ), quick=[15.]),
         'thin': Axis('columns of points / points per cell along x', ['2/2', '1/1', '1/2', '1/4', '1/8', '2/4', '2/8', '4/8'], quick=['1/2']),
         'slender': Axis('length of a bar of one cell thickness [cells]', [4, 16, 64, 256, 1024, 4096], dims=(2, ), quick=[4]),
+        'overlapFBar': Axis('overlap, with F-bar [h]', powers(-1, -15, -1), quick=[1e-6], ghosts=ghosts[1:]),
+        'yieldFBar': Axis("yield stress over Young's modulus, with F-bar [-]", powers(0, -8, -1) + [1e-12, 1e-16], quick=[1e-6], ghosts=ghosts[1:]),
+        'bending': Axis("Poisson's ratio of a bar that bends, 4 cells thick and 32 long [-]", nearHalf, dims=(2, ), quick=[.499]),
+        'bendingFBar': Axis('the same with F-bar [-]', nearHalf, dims=(2, ), quick=[.499], ghosts=ghosts[1:]),
+        'compressionFBar': Axis('height after loading over the one before, between walls, with F-bar [-]', compressed, quick=[.3], ghosts=ghosts[1:]),
+        'friction': Axis('friction angle of Mohr-Coulomb, no cohesion, no dilation [degrees]', angles, quick=[45.]),
+        'frictionCone': Axis('the same of Drucker-Prager [degrees]', angles, quick=[45.]),
+        'dilation': Axis('dilation angle, friction angle 45 degrees, no cohesion [degrees]', [0., 5., 10., 20., 30., 45.], quick=[0.]),
+        'cohesion': Axis("cohesion over Young's modulus, friction angle 30 degrees [-]", powers(-1, -8, -1) + [0.], quick=[0.]),
         'columnFactor': Axis('cells over the height of a column that shrinks to half of it / ghost factor', [f'{n}/{f:g}' for n in (8, 32, 128) for f in factors], dims=(2, ), quick=['8/0.01'], ghosts=ghosts[1:2], listed=False),
         'slopeFactor': Axis('cells in a metre of the slope / ghost factor', [f'{n}/{f:g}' for n in (1, 2) for f in factors], dims=(2, ), ghosts=ghosts[1:2], listed=False),
         'corner': Axis('overlap along x / along y [h]', [f'{x:g}/{y:g}' for x in corners for y in corners], dims=(2, ), quick=['0.001/0.1'], listed=False),

@@ -13,7 +13,8 @@ from math import cos, inf, nan, radians, sin, tau
 
 import numpy as np
 from yade import mpm, pack
-from yade.wrapper import MpmBoundary, MpmElasticMat, MpmGhost, MpmGrid, MpmImplicitEngine, MpmNewton, MpmVonMisesMat, Omega
+from yade.wrapper import (MpmBoundary, MpmDruckerPragerMat, MpmElasticMat, MpmGhost, MpmGrid, MpmImplicitEngine, MpmMohrCoulombMat, MpmNewton, MpmVonMisesMat,
+                          Omega)
 
 here = os.path.dirname(os.path.abspath(sys.argv[0]))
 sys.path[:0] = [here, os.path.join(here, '..', '..', 'scripts', 'lib')]
@@ -30,17 +31,18 @@ class Column:
 	"""A column on a smooth floor; between smooth walls if *confined*, else held by one side only and free on the others.
 
 	:param weight: b l0 / E, the strain at the base in small deformations
+	:param law: law(E, attributes of every material) makes it; None: elastic
 	:param overlap: the column is stretched by this part of a cell in all directions in which it is free
 	"""
 
-	def __init__(self, dim, ghost, steps=5, weight=.5, confined=False, overlap=(0, 0), h=cellSize, E=young, poisson=0., points=2, contrast=1, yieldStress=None,
-	             factor=1e-2, width=2, rows=6):
+	def __init__(self, dim, ghost, steps=5, weight=.5, confined=False, overlap=(0, 0), h=cellSize, E=young, poisson=0., points=2, contrast=1, law=None,
+	             factor=1e-2, width=2, rows=6, fBar=False):
 		self.steps = steps
 		size = np.array([width, rows, 2 if dim == 3 else 1]) * h
 		density = weight * E / size[1]
 		for label, modulus in ('soft', E), ('stiff', E * contrast):
 			values = dict(young=modulus, poisson=poisson, density=density, label=label)
-			O.materials.append(MpmElasticMat(**values) if yieldStress is None else MpmVonMisesMat(yieldStress=yieldStress * E, **values))
+			O.materials.append(law(E, values) if law else MpmElasticMat(**values))
 		grid = MpmGrid(cellSize=h, dim=dim)
 		box = pack.inAlignedBox((0, 0, -1 * h if dim == 2 else 0), tuple(size))
 		O.bodies.append(mpm.fill(box, grid, points, lambda x: 'stiff' if int(x[1] / h) % 2 else 'soft'))
@@ -49,7 +51,7 @@ class Column:
 		if dim == 3: sides.append(MpmBoundary(max=(inf, inf, 0), fix='z'))
 		if confined: sides.append(MpmBoundary(min=(size[0], -inf, -inf), fix='x'))
 		if confined and dim == 3: sides.append(MpmBoundary(min=(-inf, -inf, size[2]), fix='z'))
-		self.engine = MpmImplicitEngine(grid=grid, gravity=(0, -1, 0), boundaries=sides, ghost=stabilisation(ghost, factor), newton=MpmNewton(**fullNewton))
+		self.engine = MpmImplicitEngine(grid=grid, gravity=(0, -1, 0), boundaries=sides, fBar=fBar, ghost=stabilisation(ghost, factor), newton=MpmNewton(**fullNewton))
 		self.height, self.unit = size[1] + overlap[1] * h, weight * E / size[1]
 
 	def stretch(self, size, by, dim):
@@ -119,19 +121,44 @@ class Slope:
 class Cantilever:
 	"""A horizontal bar fixed at its end under a small part of its weight: its stiffness matrix is the worse the longer it is. No exact solution is used."""
 
-	def __init__(self, ghost, length):
-		self.steps, h = 1, cellSize
-		weight = 1e-3 * young * h / (length * h)**4 * h**3
-		O.materials.append(MpmElasticMat(young=young, poisson=.3, density=weight, label='bar'))
-		grid = MpmGrid(cellSize=h)
-		O.bodies.append(mpm.fill(pack.inAlignedBox((0, 0, -1), (length * h, h, 1)), grid, 2, 'bar'))
-		self.engine = MpmImplicitEngine(grid=grid, gravity=(0, -1, 0), boundaries=[MpmBoundary(max=(0, inf, inf), fix='xy')], ghost=stabilisation(ghost), newton=MpmNewton(**fullNewton))
+	def __init__(self, ghost, slenderness, cells=1, poisson=.3, fBar=False):
+		self.steps, h = 1, cells * cellSize
+		self.weight, self.size, self.poisson = 1e-3 * young * h / (slenderness * h)**4 * h**3, (slenderness * h, h), poisson
+		O.materials.append(MpmElasticMat(young=young, poisson=poisson, density=self.weight, label='bar'))
+		grid = MpmGrid(cellSize=cellSize)
+		O.bodies.append(mpm.fill(pack.inAlignedBox((0, 0, -1), (*self.size, 1)), grid, 2, 'bar'))
+		held = MpmBoundary(max=(0, inf, inf), fix='xy')
+		self.engine = MpmImplicitEngine(grid=grid, gravity=(0, -1, 0), boundaries=[held], fBar=fBar, ghost=stabilisation(ghost), newton=MpmNewton(**fullNewton))
 
 	def beforeStep(self, step):
 		pass
 
 	def error(self):
 		return nan
+
+
+class Beam(Cantilever):
+	"""Four cells thick and eight times as long, with Timoshenko's deflection of the tip."""
+
+	def __init__(self, ghost, poisson, fBar=False):
+		super().__init__(ghost, 8, 4, poisson, fBar)
+
+	def error(self):
+		(L, H), nu = self.size, self.poisson
+		exact = self.weight * H * (L**4 * 12 * (1 - nu**2) / (8 * young * H**3) + L**2 * 2 * (1 + nu) / (2 * 5 / 6 * young * H))
+		points = mpm.arrays()
+		last = points['pos0'][:, 0] > L - .6 * cellSize
+		return abs((points['pos0'] - points['pos'])[last, 1].mean() / exact - 1)
+
+
+def vonMises(strength):
+	"""Law of a column that yields at this part of its modulus."""
+	return lambda E, values: MpmVonMisesMat(yieldStress=strength * E, **values)
+
+
+def friction(kind, phi, psi=0., cohesion=0.):
+	"""Law of a frictional column; angles in degrees, cohesion over the modulus."""
+	return lambda E, values: kind(frictionAngle=radians(phi), dilationAngle=radians(psi), cohesion=cohesion * E, **values)
 
 
 def stabilisation(ghost, factor=1e-2):
@@ -168,6 +195,14 @@ def thinnedAtRandom(column, part):
 	return column
 
 
+frictional = { # nearly no lateral stress as long as it is elastic: it yields everywhere
+        'friction': lambda phi: dict(kind=MpmMohrCoulombMat, phi=phi),
+        'frictionCone': lambda phi: dict(kind=MpmDruckerPragerMat, phi=phi),
+        'dilation': lambda psi: dict(kind=MpmMohrCoulombMat, phi=45, psi=psi),
+        'cohesion': lambda c: dict(kind=MpmMohrCoulombMat, phi=30, cohesion=c),
+}
+
+
 def scene(axis, dim, ghost, value):
 	"""The scene of a case."""
 	if axis == 'overlap': return Column(dim, ghost, overlap=(value, value))
@@ -175,7 +210,12 @@ def scene(axis, dim, ghost, value):
 	if axis == 'poisson': return Column(dim, ghost, confined=True, poisson=value)
 	if axis == 'contrast': return Column(dim, ghost, contrast=value, weight=1e-3, steps=1)
 	if axis == 'mixed': return Column(dim, ghost, contrast=value)
-	if axis == 'yield': return Column(dim, ghost, confined=True, poisson=.3, yieldStress=value)
+	if axis == 'yield': return Column(dim, ghost, confined=True, poisson=.3, law=vonMises(value))
+	if axis == 'overlapFBar': return Column(dim, ghost, overlap=(value, value), fBar=True)
+	if axis == 'yieldFBar': return Column(dim, ghost, confined=True, poisson=.3, law=vonMises(value), fBar=True)
+	if axis in ('bending', 'bendingFBar'): return Beam(ghost, value, axis == 'bendingFBar')
+	if axis == 'compressionFBar': return Column(dim, ghost, confined=True, weight=weightForHeight(value), steps=40, fBar=True)
+	if axis in frictional: return Column(dim, ghost, confined=True, law=friction(**frictional[axis](value)))
 	if axis == 'length': return Column(dim, ghost, h=value)
 	if axis == 'young': return Column(dim, ghost, E=value)
 	if axis == 'strain': return Column(dim, ghost, weight=value)

@@ -71,6 +71,14 @@ def plan(scene, steps, centre, dim=2, **others):
 	return Plan(script=os.path.join(here, 'scenes.py'), parameters=parameters, alone=alone, around=[centre], **others)
 
 
+def locking(scene, cells, words):
+	"""Plan of a scene of examples/locking, with F-bar and without."""
+	parameters = dict(scene=f"'{scene}'", cells='8', fBar='1', picture='0', out="'out'")
+	return Plan(
+	        script=os.path.join(here, '..', 'locking', 'locking.py'), parameters=parameters, together=dict(cells=cells, fBar=['0', '1']), errors=['error'],
+	        quick=dict(cells=cells[:1], fBar=['0', '1']), words=words | dict(fBar='with F-bar'))
+
+
 perMetre = dict(cells='cells in a metre', pointsPerCell='points per cell and axis')
 perHeight = dict(cells='cells over the height', pointsPerCell='points per cell and axis', stressError='vertical stress, mean over all points')
 
@@ -104,4 +112,7 @@ plans = {
                         together=dict(cells=['1', '2', '4'], pointsPerCell=['2', '3', '4'], steps=['5', '20', '80']),
                         reference=dict(cells='8', pointsPerCell='3', steps='80'), check=dict(cells='4', pointsPerCell='3', steps='80'),
                         quick=dict(cells=['1'], pointsPerCell=['2'], steps=['5']), quickReference=dict(cells='2', steps='10')),
+        'footing': locking('strip', ['4', '6', '8', '12', '16', '24'], dict(cells='cells over half the width', error='limit load')),
+        'cut': locking('cut', ['5', '10', '20', '40'], dict(cells='cells over the height', error='stability number')),
+        'beam': locking('beam', ['2', '4', '8', '16'], dict(cells='cells over the height', error='deflection')),
 }

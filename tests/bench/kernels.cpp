@@ -74,6 +74,18 @@ namespace {
 		perItem(state, "s_per_point", run.points());
 	}
 
+	/// The same with F-bar.
+	template <int Dim, bool WithStiffness> void evaluateFBar(benchmark::State& state)
+	{
+		auto& run   = midRun<Dim>();
+		auto  model = run.scene.model;
+		model.fBar  = true;
+		const StepSystem<Dim> system(run.scene.cloud, model, run.load, run.report);
+		for (auto _ : state)
+			benchmark::DoNotOptimize(system.evaluate(run.d, run.force, WithStiffness ? &run.K : nullptr));
+		perItem(state, "s_per_point", run.points());
+	}
+
 	/// Points of one law with random strains, of which most yield.
 	struct Flowing {
 		static constexpr int             Dim = 2;
@@ -207,6 +219,8 @@ namespace {
 	BENCHMARK(basis<2>)->UseRealTime();
 	BENCHMARK(evaluate<2, false>)->Name("residual<2>")->UseRealTime();
 	BENCHMARK(evaluate<2, true>)->Name("stiffness<2>")->UseRealTime();
+	BENCHMARK(evaluateFBar<2, false>)->Name("residualFBar<2>")->UseRealTime();
+	BENCHMARK(evaluateFBar<2, true>)->Name("stiffnessFBar<2>")->UseRealTime();
 	BENCHMARK_CAPTURE(stiffnessOf, vonMises, vonMises)->UseRealTime();
 	BENCHMARK_CAPTURE(stiffnessOf, tresca, tresca)->UseRealTime();
 	BENCHMARK_CAPTURE(stiffnessOf, friction, friction)->UseRealTime();
@@ -219,6 +233,8 @@ namespace {
 	BENCHMARK(basis<3>)->UseRealTime();
 	BENCHMARK(evaluate<3, false>)->Name("residual<3>")->UseRealTime();
 	BENCHMARK(evaluate<3, true>)->Name("stiffness<3>")->UseRealTime();
+	BENCHMARK(evaluateFBar<3, false>)->Name("residualFBar<3>")->UseRealTime();
+	BENCHMARK(evaluateFBar<3, true>)->Name("stiffnessFBar<3>")->UseRealTime();
 	BENCHMARK(update<3>)->UseRealTime();
 	BENCHMARK(reduction<3>)->UseRealTime();
 	BENCHMARK(linearSolve<3>)->UseRealTime();

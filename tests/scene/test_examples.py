@@ -24,6 +24,7 @@ shortForms = {
         'cantilever': dict(cells=2),
         'collapse': dict(cellSize=0.5, stepSize=0.1, end=5),
         'footing3d': dict(cells=2, steps=8),
+        'locking': dict(cells=4, steps=8, settlement=0.03),
         'mpm_vs_dem': dict(grains=8, sample=10, cells=8, duration=4),
 }
 
@@ -101,6 +102,14 @@ def test_footing3d(short):
 	ratio, published = numbers(r'square over strip (\S+), published (\S+)', said)
 	assert abs(ratio / published - 1) < 0.03
 	assert (out / 'footing3d.png').stat().st_size > 20000
+
+
+def test_locking(short):
+	"""F-bar takes a footing of nine cells to within 4 % of the exact load, which is 5 % on the grid of its page without it."""
+	out, said = short('locking')
+	difference, exact = numbers(r'N_c = \S+, (\S+) % of (\S+),', said)
+	assert abs(difference) < 4 and exact == 5.142
+	assert (out / 'locking.png').stat().st_size > 20000
 
 
 def test_mpm_vs_dem(short):

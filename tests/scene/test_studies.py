@@ -133,6 +133,12 @@ def test_trade_of_a_built_in_scene(study, tmp_path):
 	assert '## cantilever' in (tmp_path / 'out/README.md').read_text()
 
 
+def test_trade_of_a_scene_that_locks(study, tmp_path):
+	study('trade', 'beam', '--quick', '--out', tmp_path / 'out')
+	errors = {row['fBar']: abs(float(row['error'])) for row in rows(tmp_path / 'out/results/beam.csv')}
+	assert errors['1'] < 0.15 < 0.5 < errors['0']
+
+
 writers = { # without the pictures, which take long
         'extremes': 'import page; page.pictures.outcomes = page.pictures.conditions = page.pictures.cornerMaps = page.pictures.pivots = lambda *a: None; page.write({!r})',
         'trade': 'import page, plans; page.picture = lambda *a: None; page.write({!r}, plans.plans)'

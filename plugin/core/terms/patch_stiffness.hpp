@@ -25,9 +25,9 @@ public:
 		Pairs::template forPairs<Symmetric>([&](int i, int k, int pair) GIMPM_INLINE_LAMBDA {
 			formFlux(chunk, pair, begin, end);
 			if constexpr (ChunkOfPoints::hasCentres) addCentreFlux(chunk, i, k, begin, end);
-			if (Symmetric && i == k) sumRows<true, 0>(chunk, sum_[pair], i, k, begin, end);
+			if (i == k) sumRows<rowsOf(true), Symmetric, 0>(chunk, sum_[pair], i, k, begin, end);
 			else
-				sumRows<false, 0>(chunk, sum_[pair], i, k, begin, end);
+				sumRows<rowsOf(false), false, 0>(chunk, sum_[pair], i, k, begin, end);
 		});
 	}
 	template <class Codes> GIMPM_INLINE void scatterAdd(const int* node, const Codes& codes, NodeMatrix<Dim>& K) const
@@ -97,7 +97,7 @@ private:
 			}
 		}
 	}
-	static constexpr int rowsOf(int i, int k) { return ChunkOfPoints::hasCentres ? Dim + 1 + (i != k) : Dim; }
+	static constexpr int rowsOf(bool onDiagonal) { return onDiagonal && ChunkOfPoints::hasCentres ? Dim + 1 : rowsMost; }
 	/// What the flux number j of a point is multiplied with.
 	GIMPM_INLINE static const double* rowAt(const ChunkOfPoints& chunk, int p, int j, int i, int k)
 	{
@@ -106,7 +106,8 @@ private:
 		return chunk.basisAt(p, j);
 	}
 	/// Rows from First on; of a symmetric block only the columns from the diagonal on are needed.
-	template <bool Half, int First> GIMPM_INLINE void sumRows(const ChunkOfPoints& chunk, Lanes (&block)[N][width], int i, int k, int begin, int end) const
+	template <int Fluxes, bool Half, int First>
+	GIMPM_INLINE void sumRows(const ChunkOfPoints& chunk, Lanes (&block)[N][width], int i, int k, int begin, int end) const
 	{
 		if constexpr (First < N) {
 			constexpr int rows = N - First < rowsAtOnce ? N - First : rowsAtOnce, from = Half ? First / Lanes::count : 0;
@@ -115,7 +116,7 @@ private:
 				for (auto& lanes : row)
 					lanes = Lanes(0);
 			for (int p = begin; p < end; ++p)
-				for (int j = 0; j < rowsOf(i, k); ++j) {
+				for (int j = 0; j < Fluxes; ++j) {
 					const double* grad = rowAt(chunk, p, j, i, k) + First;
 					const Lanes*  flux = flux_[p - begin][j] + from;
 					for (int r = 0; r < rows; ++r)
@@ -125,7 +126,7 @@ private:
 			for (int r = 0; r < rows; ++r)
 				for (int v = from; v < width; ++v)
 					block[First + r][v] = sum[r][v - from];
-			sumRows<Half, First + rows>(chunk, block, i, k, begin, end);
+			sumRows<Fluxes, Half, First + rows>(chunk, block, i, k, begin, end);
 		}
 	}
 
