@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Grid basis functions of one axis as seen by one material point.
 #pragma once
+#include <array>
 #include <cmath>
 
 namespace gimpm {
@@ -60,8 +61,19 @@ struct AxisBasis {
 		set(sa, 1 - sa - sb, sb, -w * a, w * (a - b), w * b);
 	}
 
-	/// Share of the length of a domain in two cells that lies in the lower (0) or the upper one (1): there the outer functions have the
-	/// slope 1/h, elsewhere none.
+	/// Hat functions averaged over the ring whose section is that domain, at the distance r of its middle from the axis: each place counts with its
+	/// own distance (Nairn and Guilkey 2015). So a uniform stress is in balance wherever domains lie in the cells. Linear fields have their values at
+	/// the centre of the ring, r + l^2 / 3r.
+	void setRing(double x, double r, double l, double h, const AxisCells& cells)
+	{
+		if (cells.count == 1) return setLinear(x + l * l / (3 * r), h, cells.lowest);
+		const double offset = h * (cells.lowest + 1) - x, a = l + offset, b = l - offset, face = r + offset, w = 1 / (2 * l * h * r);
+		const double sa = w * a * a * (face / 2 - a / 3), sb = w * b * b * (face / 2 + b / 3), la = w * a * (face - a / 2), lb = w * b * (face + b / 2);
+		set(sa, 1 - sa - sb, sb, -la, la - lb, lb);
+	}
+
+	/// Share of the length of a domain in two cells, or of the volume of a ring, that lies in the lower (0) or the upper one (1): there the outer
+	/// functions have the slope 1/h, elsewhere none.
 	double share(int cell, double h) const { return h * (cell == 0 ? -slope[0] : slope[2]); }
 
 private:
@@ -72,6 +84,9 @@ private:
 		slope[0] = s0, slope[1] = s1, slope[2] = s2, slope[3] = 0;
 	}
 };
+
+/// The functions of one axis at a point without slopes, as a row of lanes.
+using AxisValues = std::array<double, 4>;
 
 /// The basis functions of a point.
 template <int Dim> struct PointBasis {

@@ -19,6 +19,19 @@ template <int Dim> HeldBox<Dim> HeldBox<Dim>::from(const Grid<Dim>& grid, const 
 	return box;
 }
 
+template <int Dim> HeldBox<Dim> HeldBox<Dim>::ofAxis(const Grid<Dim>& grid)
+{
+	HeldBox box;
+	box.upper.setConstant(Grid<Dim>::indexLimit + 2);
+	box.lower    = -box.upper;
+	box.lower[0] = box.upper[0] = grid.axisNode();
+	box.fixed[0]                = true;
+	for (int a = 1; a < Dim; ++a)
+		if (grid.period[a] != 0) box.lower[a] = 0, box.upper[a] = grid.period[a];
+	box.period = grid.period;
+	return box;
+}
+
 template <int Dim> bool HeldBox<Dim>::meets(const HeldBox& other) const
 {
 	for (int a = 0; a < Dim; ++a) {

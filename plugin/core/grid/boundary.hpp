@@ -18,6 +18,9 @@ template <int Dim> struct HeldBox {
 	/// is that between the two sides, both included.
 	static HeldBox from(const Grid<Dim>& grid, const Vec<Dim>& min, const Vec<Dim>& max);
 
+	/// The nodes on the axis of symmetry, along x.
+	static HeldBox ofAxis(const Grid<Dim>&);
+
 	bool empty() const { return (lower.array() > upper.array()).any(); }
 
 	/// Whether a coordinate of a node, or of one of its images, lies in the box.

@@ -165,9 +165,22 @@ template <int Dim> void makePatches(const std::vector<Place<Dim>>& places, Cloud
 	}
 }
 
-template <int Dim> void fillAxes(const PointCloud<Dim>& cloud, const Grid<Dim>& grid, CloudBasis<Dim>& b)
+/// Of the axis x of a point: averages over the ring instead of its section, and the functions of the hoop strain.
+template <int Dim>
+void fillRing(const PointCloud<Dim>& cloud, int p, const Grid<Dim>& grid, Basis basis, const AxisCells& cells, AxisBasis& ring, AxisValues& hoop)
+{
+	const double r = cloud.position[p][0], x = r - grid.origin[0], l = cloud.halfSize[p][0];
+	AxisBasis    section;
+	section.setGimp(x, l, grid.cellSize, cells);
+	for (int n = 0; n < 4; ++n)
+		hoop[n] = section.value[n] / r;
+	ring.setRing(x, r, basis == Basis::gimp ? l : 0, grid.cellSize, cells);
+}
+
+template <int Dim> void fillAxes(const PointCloud<Dim>& cloud, const Grid<Dim>& grid, Basis basis, CloudBasis<Dim>& b)
 {
 	b.axes.resize(cloud.size());
+	b.hoop.resize(grid.axisymmetric ? cloud.size() : 0);
 #pragma omp parallel for schedule(static)
 	for (int k = 0; k < int(b.patches.size()); ++k) {
 		const auto&      patch = b.patches[k];
@@ -178,6 +191,7 @@ template <int Dim> void fillAxes(const PointCloud<Dim>& cloud, const Grid<Dim>& 
 			for (int a = 0; a < Dim; ++a)
 				b.axes[i][a].setGimp(
 				        grid.imageNear(x[a], cell[a] + 1, a), cloud.halfSize[p][a], grid.cellSize, { cell[a], patch.nodesAlong(a) - 1 });
+			if (grid.axisymmetric) fillRing(cloud, p, grid, basis, { cell[0], patch.nodesAlong(0) - 1 }, b.axes[i][0], b.hoop[i]);
 		}
 	}
 }
@@ -285,7 +299,7 @@ template <int Dim> CloudBasis<Dim> cloudBasis(const PointCloud<Dim>& cloud, cons
 	b.largestWallOverlap = hidden;
 	std::sort(places.begin(), places.end());
 	makePatches(places, b);
-	fillAxes(cloud, grid, b);
+	fillAxes(cloud, grid, basis, b);
 	numberNodes(b, grid);
 	colourPatches(b, grid);
 	return b;

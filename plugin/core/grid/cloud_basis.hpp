@@ -25,8 +25,9 @@ template <int Dim> struct Patch {
 };
 
 template <int Dim> struct CloudBasis {
-	std::vector<int>             order;   ///< points sorted by patch, then by their position in the cloud
-	std::vector<PointBasis<Dim>> axes;    ///< basis functions per axis, in that order
+	std::vector<int>             order; ///< points sorted by patch, then by their position in the cloud
+	std::vector<PointBasis<Dim>> axes;  ///< basis functions per axis, in that order
+	std::vector<AxisValues>      hoop; ///< around an axis of symmetry: of x, over the distance from it [1/m], so that u_x gives the hoop strain; else empty
 	std::vector<Patch<Dim>>      patches; ///< by colour, tile and lowest cell
 	std::vector<Key>             nodes;   ///< active nodes, sorted; the node number is the position here
 	std::vector<Key>             cells;   ///< populated cells, sorted
@@ -35,6 +36,8 @@ template <int Dim> struct CloudBasis {
 	/// neighbours, so that no two of its ranges share a node. Where the grid is periodic there may be 3^Dim.
 	std::vector<std::vector<std::pair<int, int>>> colours;
 	double largestWallOverlap = 0; ///< largest length by which a domain reaches behind a wall [m]; that part is dropped
+
+	bool isAxisymmetric() const { return !hoop.empty(); }
 };
 
 /// Positions must be finite and within the grid's index limit, half sizes in (0, h/2].

@@ -22,6 +22,9 @@ template <int Dim> struct Grid {
 	/// ones, from 0 to period - 1, stand for all.
 	Index<Dim> period = Index<Dim>::Zero();
 
+	/// Of bodies of revolution, in 2D: x is the distance from the axis, where x = 0 is on a node, and y goes along it.
+	bool axisymmetric = false;
+
 	/// A domain and a ghost face reach three nodes along an axis, which must not be the same.
 	static constexpr int smallestPeriod = 3;
 
@@ -70,6 +73,8 @@ template <int Dim> struct Grid {
 		const double length = cellSize * period[axis];
 		return x + length * std::round((cellSize * node - x) / length);
 	}
+	/// Number of the nodes on the axis.
+	int      axisNode() const { return int(std::lround(-origin[0] / cellSize)); }
 	Vec<Dim> nodePosition(const Index<Dim>& i) const { return origin + cellSize * i.template cast<double>(); }
 };
 

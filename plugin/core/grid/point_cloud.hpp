@@ -2,6 +2,7 @@
 // Material points as structure of arrays; all arrays have the same length.
 #pragma once
 #include "core/base/types.hpp"
+#include <Eigen/LU>
 #include <vector>
 
 namespace gimpm {
@@ -11,8 +12,9 @@ template <int Dim> struct PointCloud {
 	std::vector<Vec<Dim>>       position0;     ///< where the points were at first [m]; empty: they are there still, or no boundary moves nodes
 	std::vector<Vec<Dim>>       halfSize;      ///< current half lengths of the domains [m], at most half a cell
 	std::vector<Vec<Dim>>       halfSize0;     ///< initial half lengths [m]
-	std::vector<double>         volume0;       ///< initial volume [m3], per metre of thickness in plane strain
+	std::vector<double>         volume0;       ///< initial volume [m3], per metre of thickness in plane strain, of the whole ring around an axis
 	std::vector<Mat<Dim>>       defGrad;       ///< deformation gradient
+	std::vector<double>         hoopStretch;   ///< around an axis of symmetry, beside the deformation gradient; else empty
 	std::vector<SymTensor<Dim>> elasticStrain; ///< logarithmic
 	std::vector<SymTensor<Dim>> stress;        ///< Cauchy stress [Pa], a result
 	InternalColumns             internals;     ///< internal variables of the laws
@@ -20,7 +22,14 @@ template <int Dim> struct PointCloud {
 	std::vector<int>            material;      ///< position in the list of materials
 
 	std::size_t size() const { return position.size(); }
-	void        resize(std::size_t n)
+
+	/// Current volume over the initial one.
+	double volumeRatio(std::size_t p) const
+	{
+		const double J = defGrad[p].determinant();
+		return hoopStretch.empty() ? J : J * hoopStretch[p];
+	}
+	void resize(std::size_t n)
 	{
 		position.resize(n);
 		halfSize.resize(n);

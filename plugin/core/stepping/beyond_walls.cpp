@@ -59,6 +59,7 @@ private:
 		for (int p = before.first; p < before.first + before.count; ++p) {
 			basis.order.push_back(system.basis.order[p]);
 			basis.axes.push_back(system.basis.axes[p]);
+			if (system.basis.isAxisymmetric()) basis.hoop.push_back(system.basis.hoop[p]);
 			points.append(system.points, p);
 		}
 	}

@@ -12,6 +12,9 @@
 namespace gimpm {
 namespace {
 
+/// A domain ends at the axis of symmetry at the latest.
+template <int Dim> void keepOffAxis(PointCloud<Dim>& cloud, int p) { cloud.halfSize[p][0] = std::min(cloud.halfSize[p][0], cloud.position[p][0]); }
+
 /// Step 5: the points take over the converged displacements, and their domains follow the stretch along the grid axes.
 template <int Dim> void updatePoints(PointCloud<Dim>& cloud, const StepSystem<Dim>& system, const Eigen::VectorXd& d, StepReport& report)
 {
@@ -23,11 +26,13 @@ template <int Dim> void updatePoints(PointCloud<Dim>& cloud, const StepSystem<Di
 		cloud.defGrad[p]       = (cloud.defGrad[p] + u.gradient * cloud.defGrad[p]).eval();
 		cloud.elasticStrain[p] = u.elasticStrain;
 		withLaw(u.law, [&](const auto& law) { storeInternals(law, u.internals, cloud.internals, p); });
-		cloud.stress[p].c = u.kirchhoffStress.c / cloud.defGrad[p].determinant();
+		if (!cloud.hoopStretch.empty()) cloud.hoopStretch[p] *= 1 + u.hoop;
+		cloud.stress[p].c = u.kirchhoffStress.c / cloud.volumeRatio(p);
 		if (system.model.basis == Basis::gimp) {
 			const Vec<Dim> size = cloud.halfSize0[p].cwiseProduct(stretchAlongAxes(cloud.defGrad[p]));
 			clamped[p]          = (size.array() > limit).any();
 			cloud.halfSize[p]   = size.cwiseMin(limit);
+			if (!cloud.hoopStretch.empty()) keepOffAxis(cloud, p);
 		}
 	});
 	for (const char c : clamped)
@@ -83,6 +88,7 @@ template <int Dim> StepReport loadStep(PointCloud<Dim>& cloud, const Model<Dim>&
 	if (report.converged() || report.accepted) {
 		const Stopwatch watch(report.times.update);
 		addReactionsBeyondWalls(system, cloud, load, d, report.reactions);
+		if (model.grid.axisymmetric) report.reactions.pop_back(); // of the axis, which nobody has asked for
 		PointCloud<Dim> updated = cloud;
 		updatePoints(updated, system, d, report);
 		if (!requireState(updated, model.grid, report)) return report;

@@ -32,7 +32,7 @@ template <int Dim> struct Model {
 	Basis                        basis = Basis::gimp;
 	bool                         fBar  = false; ///< against volumetric locking; needs the ghost stabilisation, which holds the nodes of nearly empty cells
 	std::vector<Material>        materials;
-	Boundary<Dim>                boundary;
+	Boundary<Dim>                boundary; ///< the last box is that of the axis of symmetry, if there is one
 	GhostSettings                ghost;
 	NewtonSettings               newton;
 	std::vector<TermOfStep<Dim>> terms {}; ///< besides the points' resistance and the ghost stabilisation

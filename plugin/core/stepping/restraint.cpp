@@ -105,6 +105,13 @@ template <int Dim> struct Part {
 		gram += m * m.transpose();
 	}
 
+	/// A ring about an axis along y cannot but move along it.
+	void encircle()
+	{
+		for (int mode = 0; mode < modes; ++mode)
+			if (mode != 1) gram(mode, mode) += 1;
+	}
+
 	/// What moves as its own image so far away does.
 	void repeat(const Index<Dim>& length)
 	{
@@ -172,6 +179,8 @@ template <int Dim> Restraint restraint(const CloudBasis<Dim>& basis, const Grid<
 			if (boundary.holder(Grid<Dim>::index(basis.nodes[n]), a)) hold(n, Vec<Dim>::Unit(a));
 	for (const auto& term : terms)
 		term->restrain([&](int n, const Vec<Dim>& direction) { hold(n, direction.normalized()); });
+	for (auto& [root, part] : found)
+		if (grid.axisymmetric) part.encircle();
 	for (const auto& turn : parts.turns())
 		found[turn.root].repeat(turn.length);
 	Restraint result { int(found.size()), "" };

@@ -2,7 +2,6 @@
 #include "core/stepping/step_system.hpp"
 #include "core/base/stopwatch.hpp"
 #include "core/grid/mixed_cells.hpp"
-#include <Eigen/LU>
 #include <algorithm>
 
 namespace gimpm {
@@ -20,7 +19,7 @@ std::vector<GhostFace<Dim>> stabilise(const PointCloud<Dim>& cloud, const Model<
 	const auto stiffnessOf   = [&](int p) {
                 const auto&  material = model.materials[cloud.material[p]];
                 const double young    = material.young(cloud.internals, p, [&] { return cloud.elasticStrain[p].full().trace(); });
-                return VolumeAndModulus { cloud.volume0[p] * cloud.defGrad[p].determinant(), young };
+                return VolumeAndModulus { cloud.volume0[p] * cloud.volumeRatio(p), young };
 	};
 	weighGhostFaces(faces, basis, stiffnessOf, model.grid, model.ghost.factor, model.ghost.scaling);
 	return faces;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // F-bar against volumetric locking: the law of a point sees the increment dF-bar = (J_0 / J)^(1/n) dF, whose volumetric part J_0 = det dF_0 is that in the
-// centre of the matter in the cells that the point's domain lies in. n axes are scaled: the two of plane strain, or three.
+// centre of the matter in the cells that the point's domain lies in. n axes are scaled: the two of plane strain, or three, of which one may go around.
 //
 // The forces are the derivative of what a hyperelastic law stores, sum V_0 psi(F-bar): f_a = V_0 (dev t g_a + tr_n t / n g0_a), with t the Kirchhoff stress
 // and g, g0 the gradients of the basis functions at the point and at the centres. So a symmetric law has a symmetric stiffness, which the form of
@@ -36,18 +36,18 @@ template <int Dim, class T> GIMPM_INLINE T volumeGrowth(const MatrixOf<Dim, T>& 
 }
 
 /// With what F-bar needs besides.
-template <int Dim> struct FBarChunk : Chunk<Dim> {
-	using Chunk<Dim>::capacity;
-	using Chunk<Dim>::batches;
-	using Chunk<Dim>::width;
+template <int Dim, int Axes = Dim> struct FBarChunk : Chunk<Dim, Axes> {
+	using Chunk<Dim, Axes>::capacity;
+	using Chunk<Dim, Axes>::batches;
+	using Chunk<Dim, Axes>::width;
 	static constexpr bool hasCentres = true;
 
-	Lanes centre[capacity][Dim][width];        ///< gradients of the basis functions at the centres, node by node; turn() makes g0 of them
-	Lanes centreGradient[batches][Dim][Dim];   ///< of the displacements
-	Lanes meanStress[batches];                 ///< times volume: its force on node a is along g0_a
-	Lanes bulk[batches];                       ///< its derivative, times volume
-	Lanes meanOfStrain[batches][Dim][Dim];     ///< and by the displacements of node b: d_b . mean . grad_b
-	Lanes stressOfDilation[batches][Dim][Dim]; ///< derivative of the other flux by the dilation
+	Lanes centre[capacity][Axes][width];        ///< gradients of the basis functions at the centres, node by node; turn() makes g0 of them
+	Lanes centreGradient[batches][Dim][Axes];   ///< of the displacements
+	Lanes meanStress[batches];                  ///< times volume: its force on node a is along g0_a
+	Lanes bulk[batches];                        ///< its derivative, times volume
+	Lanes meanOfStrain[batches][Dim][Axes];     ///< and by the displacements of node b: d_b . mean . grad_b
+	Lanes stressOfDilation[batches][Dim][Axes]; ///< derivative of the other flux by the dilation
 
 	FBarChunk()
 	{
@@ -66,7 +66,7 @@ template <int Dim> struct FBarChunk : Chunk<Dim> {
 	double meanStressAt(int point) const { return meanStress[(point - this->first) / Lanes::count][(point - this->first) % Lanes::count]; }
 
 	/// From gradients in the configuration at the start of the step to current ones, for the points of a batch.
-	GIMPM_INLINE void turn(int b, const MatrixOf<Dim, Lanes>& inverse)
+	GIMPM_INLINE void turn(int b, const MatrixOf<Dim, Lanes>& inverse, const Lanes& around)
 	{
 		for (int lane = 0; lane < Lanes::count; ++lane)
 			for (int v = 0; v < width; ++v) {
@@ -79,18 +79,19 @@ template <int Dim> struct FBarChunk : Chunk<Dim> {
 				}
 				for (int i = 0; i < Dim; ++i)
 					point[i][v] = turned[i];
+				if constexpr (Axes > Dim) point[Dim][v] *= Lanes(around[lane]);
 			}
 	}
 };
 
-template <int Dim, int Span>
+template <int Dim, int Axes, int Span>
 GIMPM_INLINE void prepare(
-        const CloudBasis<Dim>& basis, const StepPoints<Dim>& points, const PatchVectors<Dim, Span>& u, int begin, int end, FBarChunk<Dim>& chunk)
+        const CloudBasis<Dim>& basis, const StepPoints<Dim>& points, const PatchVectors<Dim, Span>& u, int begin, int end, FBarChunk<Dim, Axes>& chunk)
 {
-	prepare(basis, points, u, begin, end, static_cast<Chunk<Dim>&>(chunk));
+	prepare(basis, points, u, begin, end, static_cast<Chunk<Dim, Axes>&>(chunk));
 	for (int p = begin; p < end; ++p)
-		formGradients(
-		        points.centres[p], u, [&](int j) GIMPM_INLINE_LAMBDA { return chunk.centreAt(p, j); },
+		formGradients<Axes>(
+		        points.centres[p], points.hoopCentres.data() + (Axes > Dim ? p : 0), u, [&](int j) GIMPM_INLINE_LAMBDA { return chunk.centreAt(p, j); },
 		        [&](int i, int j, double value) GIMPM_INLINE_LAMBDA {
 			        const int q                                                      = p - chunk.first;
 			        chunk.centreGradient[q / Lanes::count][i][j].v[q % Lanes::count] = value;
@@ -98,31 +99,37 @@ GIMPM_INLINE void prepare(
 }
 
 /// The increment of a batch, and the one that its laws see.
-template <int Dim> struct FBarIncrement {
+template <int Dim, int Axes> struct FBarIncrement {
 	using M                   = MatrixOf<Dim, Lanes>;
-	static constexpr int axes = Dim; ///< that are scaled
+	static constexpr int axes = Axes; ///< that are scaled
 
-	M     F, F0;
-	Lanes J, J0;
-	M     gradient; ///< dF-bar - 1
+	Increment<Dim, Axes> own, centre;
+	M                    F, F0;
+	Lanes                J, J0;
+	Increment<Dim, Axes> seen; ///< dF-bar - 1
 
-	GIMPM_INLINE FBarIncrement(const FBarChunk<Dim>& chunk, int b)
+	GIMPM_INLINE FBarIncrement(const FBarChunk<Dim, Axes>& chunk, int b) : own(chunk.gradient[b]), centre(chunk.centreGradient[b])
 	{
-		M own, centre;
-		for (int i = 0; i < Dim; ++i)
-			for (int j = 0; j < Dim; ++j)
-				own(i, j) = chunk.gradient[b][i][j], centre(i, j) = chunk.centreGradient[b][i][j];
-		F = own + M::Identity(), F0 = centre + M::Identity();
-		const Lanes growth = volumeGrowth<Dim>(own), growth0 = volumeGrowth<Dim>(centre);
+		F = own.gradient + M::Identity(), F0 = centre.gradient + M::Identity();
+		const Lanes growth = growthOf(own), growth0 = growthOf(centre);
 		J = Lanes(1) + growth, J0 = Lanes(1) + growth0;
 		const Lanes scale = expm1(Lanes(log1p(Lanes((growth0 - growth) / J)) * Lanes(1. / axes))); // minus 1
-		gradient          = own + M(F * scale);
+		seen.gradient     = own.gradient + M(F * scale);
+		if constexpr (Axes > Dim) seen.hoop = own.hoop + (Lanes(1) + own.hoop) * scale;
+	}
+
+private:
+	GIMPM_INLINE static Lanes growthOf(const Increment<Dim, Axes>& increment)
+	{
+		const Lanes growth = volumeGrowth<Dim>(increment.gradient);
+		if constexpr (Axes > Dim) return growth + increment.hoop + growth * increment.hoop;
+		return growth;
 	}
 };
 
 /// The response to dF-bar, apart: what changes shapes, and what changes volumes, in the axes that are scaled.
-template <int Dim> struct VolumetricSplit {
-	static constexpr int   n = FBarIncrement<Dim>::axes;
+template <int Dim, int Axes> struct VolumetricSplit {
+	static constexpr int   n = FBarIncrement<Dim, Axes>::axes;
 	ResponseOf<Lanes>      deviator;         ///< t - mean, and its tangent to a strain without dilation
 	Lanes                  mean { 0. };      ///< of the stresses
 	Lanes                  bulk { 0. };      ///< its derivative by the dilation, which is the sum of the strains

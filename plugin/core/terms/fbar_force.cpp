@@ -48,7 +48,7 @@ template <int Dim> std::vector<Vec<Dim>> centresOfMatter(const PointCloud<Dim>& 
 	for (const auto& patch : basis.patches)
 		for (int i = patch.first; i < patch.first + patch.count; ++i) {
 			const int    p   = basis.order[i];
-			const double own = cloud.volume0[p] * cloud.defGrad[p].determinant();
+			const double own = cloud.volume0[p] * cloud.volumeRatio(p);
 			forParts(patch, basis.axes[i], [&](int c, int cell, const auto& parts, double share) {
 				volume[cell] += own * share;
 				for (int a = 0; a < Dim; ++a)
@@ -82,7 +82,59 @@ template <int Dim> PointBasis<Dim> atCentres(const Patch<Dim>& patch, const Poin
 	return result;
 }
 
+/// The parts of a ring's section in the lower and the upper cell along x.
+struct RingParts {
+	double size, face; ///< of a cell, and radius of the face in or above the section [m]
+	double radius[2];  ///< of the middles of the parts [m]
+
+	RingParts(const AxisBasis& ring, const AxisValues& hoop, double halfSize, bool isInTwo)
+	{
+		const double r = 1 / (hoop[0] + hoop[1] + hoop[2]);
+		size           = 1 / (isInTwo ? ring.slope[2] - ring.slope[0] : ring.slope[1]);
+		face           = r + size * r * (hoop[0] - hoop[2]);
+		radius[0]      = isInTwo ? (face + r - halfSize) / 2 : r;
+		radius[1]      = (face + r + halfSize) / 2;
+	}
+};
+
+/// Radius of the middle of the section of the matter in each cell: of parts with the volumes V at r the sum of V over that of V / r.
+template <int Dim> std::vector<double> sectionRadii(const PointCloud<Dim>& cloud, const CloudBasis<Dim>& basis)
+{
+	std::vector<double> volume(basis.cells.size(), 0), area(volume);
+	for (const auto& patch : basis.patches)
+		for (int i = patch.first; i < patch.first + patch.count; ++i) {
+			const int       p   = basis.order[i];
+			const double    own = cloud.volume0[p] * cloud.volumeRatio(p);
+			const RingParts ring(basis.axes[i][0], basis.hoop[i], cloud.halfSize[p][0], patch.span & 1);
+			forParts(patch, basis.axes[i], [&](int c, int cell, const auto&, double share) {
+				volume[cell] += own * share;
+				area[cell] += own * share / ring.radius[c & 1];
+			});
+		}
+	for (std::size_t cell = 0; cell < volume.size(); ++cell)
+		volume[cell] /= area[cell];
+	return volume;
+}
+
 } // namespace
+
+template <int Dim> std::vector<AxisValues> hoopAtCentres(const PointCloud<Dim>& cloud, const CloudBasis<Dim>& basis)
+{
+	const auto              radius = sectionRadii(cloud, basis);
+	std::vector<AxisValues> result(basis.axes.size());
+	for (const auto& patch : basis.patches)
+		for (int i = patch.first; i < patch.first + patch.count; ++i) {
+			const RingParts ring(basis.axes[i][0], basis.hoop[i], cloud.halfSize[basis.order[i]][0], patch.span & 1);
+			result[i].fill(0);
+			forParts(patch, basis.axes[i], [&](int c, int cell, const auto&, double share) {
+				const int    side  = c & 1;
+				const double upper = (radius[cell] - ring.face) / ring.size + 1 - side; // hat function of the upper node of the cell
+				result[i][side] += share * (1 - upper) / radius[cell];
+				result[i][side + 1] += share * upper / radius[cell];
+			});
+		}
+	return result;
+}
 
 template <int Dim> std::vector<PointBasis<Dim>> basisAtCentres(const PointCloud<Dim>& cloud, const CloudBasis<Dim>& basis)
 {
@@ -101,6 +153,7 @@ template <int Dim> std::optional<PointFailure> addFBarForce(const Pass<Dim>& pas
 
 #define GIMPM_INSTANTIATE(Dim)                                                                                                                                 \
 	template std::vector<PointBasis<Dim>> basisAtCentres(const PointCloud<Dim>&, const CloudBasis<Dim>&);                                                  \
+	template std::vector<AxisValues>      hoopAtCentres(const PointCloud<Dim>&, const CloudBasis<Dim>&);                                                   \
 	template std::optional<PointFailure>  addFBarForce(const Pass<Dim>&);
 GIMPM_INSTANTIATE(2)
 GIMPM_INSTANTIATE(3)

@@ -11,6 +11,10 @@ namespace gimpm {
 /// boxes of matter, whereas gradients in the middle of the cells left 3 % of the stress along the cut edges of a bar.
 template <int Dim> std::vector<PointBasis<Dim>> basisAtCentres(const PointCloud<Dim>&, const CloudBasis<Dim>&);
 
+/// The same of the functions of the hoop strain around an axis of symmetry: over the radius of the middle of the matter's section, with which the points of a
+/// cell have on average the hoop functions of their own.
+template <int Dim> std::vector<AxisValues> hoopAtCentres(const PointCloud<Dim>&, const CloudBasis<Dim>&);
+
 template <int Dim> struct Pass;
 template <int Dim> std::optional<PointFailure> addFBarForce(const Pass<Dim>&);
 

@@ -10,10 +10,11 @@ bool contains(const std::vector<Key>& sorted, Key k) { return std::binary_search
 /// Jump of dN/dn across a face for the nodes below, on and above it, times h.
 constexpr double jump[3] = { -1, 2, -1 };
 
-/// Integral over the face of N_s N_t for the nodes of the face: the linear mass matrix h/6 [2 1; 1 2] of each tangential axis.
-template <int Dim> double faceMass(int s, int t, double h)
+/// Integral over the face of N_s N_t for the nodes of the face: the linear mass matrix h/6 [2 1; 1 2] of each tangential axis. Around an axis of
+/// symmetry each of its entries has the circumference at its own mean distance from the axis.
+template <int Dim> double faceMass(const GhostFace<Dim>& face, int s, int t, double h)
 {
-	double m = 1;
+	double m = face.girth + (s + t) * face.widening;
 	for (int a = 0; a < Dim - 1; ++a)
 		m *= h / 6 * ((s >> a & 1) == (t >> a & 1) ? 2 : 1);
 	return m;
@@ -66,8 +67,17 @@ template <int Dim, class F> void forNodePairs(const GhostFace<Dim>& face, double
 						if (a != face.axis) offset[a] = (t >> bit & 1) - (s >> bit & 1), ++bit;
 					const int code = NodeMatrix<Dim>::code(offset);
 					if (code < 0) continue;
-					f(face.node[i][s], code, face.stiffness * jump[i] * jump[j] / (h * h) * faceMass<Dim>(s, t, h));
+					f(face.node[i][s], code, face.stiffness * jump[i] * jump[j] / (h * h) * faceMass(face, s, t, h));
 				}
+}
+
+/// The circumference 2 pi r of a face around the axis of symmetry: over a cell from r_0 on, the mean of r weighted by N_s N_t is r_0 + h (1 + s + t) / 4.
+template <int Dim> void revolve(GhostFace<Dim>& face, const Grid<Dim>& grid)
+{
+	constexpr double full   = 6.283185307179586;
+	const double     radius = grid.cellSize * (Grid<Dim>::index(face.lower)[0] - grid.axisNode());
+	face.girth              = full * (radius + grid.cellSize * (face.axis == 0 ? 1 : 0.25));
+	face.widening           = face.axis == 0 ? 0 : full * grid.cellSize / 4;
 }
 
 } // namespace
@@ -112,6 +122,7 @@ void weighGhostFaces(
 	for (auto& face : faces) {
 		const auto [lower, upper] = cellsAt(face, basis, grid);
 		face.stiffness            = factor * std::min(modulus[lower], modulus[upper]) * power / 3;
+		if (grid.axisymmetric) revolve(face, grid);
 		for (int i = 0; i < 3; ++i)
 			for (int s = 0; s < GhostFace<Dim>::tangentialNodes; ++s) {
 				Key node = face.lower + i * Grid<Dim>::keyStep(face.axis);
@@ -151,7 +162,7 @@ template <int Dim> void addGhostForce(const std::vector<GhostFace<Dim>>& faces, 
 		for (int s = 0; s < T; ++s) {
 			Vec<Dim> force = Vec<Dim>::Zero();
 			for (int t = 0; t < T; ++t)
-				force += face.stiffness / (h * h) * faceMass<Dim>(s, t, h) * slopeJump[t];
+				force += face.stiffness / (h * h) * faceMass(face, s, t, h) * slopeJump[t];
 			for (int i = 0; i < 3; ++i)
 				f.template segment<Dim>(Dim * face.node[i][s]) += jump[i] * force;
 		}

@@ -21,6 +21,7 @@ template <int Dim> struct GhostFace {
 	Key                  lower;                       ///< the cell below; the one above is its neighbour along the axis
 	int                  node[3][tangentialNodes] {}; ///< numbers of the nodes below, on and above the face
 	double               stiffness = 0;               ///< gamma_k h^3/3 of eq. (2), or gamma_k h/3
+	double girth = 1, widening = 0; ///< around an axis of symmetry: circumference with two lower nodes, and how much it grows with each higher one [m]
 };
 
 /// Faces of a body, sorted. There are none across walls.

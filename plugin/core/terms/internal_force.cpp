@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "core/terms/fbar_force.hpp"
 #include "core/terms/point_pass.hpp"
+#include "core/terms/ring_force.hpp"
 
 namespace gimpm {
 
@@ -21,6 +22,7 @@ template <int Dim> StepPoints<Dim> stepPoints(const PointCloud<Dim>& cloud, cons
 		withLaw(materials[s.material[i]].law, [&](const auto& law) { storeInternals(law, internalsOf(law, cloud.internals, p), s.internals, i); });
 	}
 	if (fBar) s.centres = basisAtCentres(cloud, basis);
+	if (fBar && basis.isAxisymmetric()) s.hoopCentres = hoopAtCentres(cloud, basis);
 	return s;
 }
 
@@ -29,6 +31,8 @@ std::optional<PointFailure> addInternalForce(
         const CloudBasis<Dim>& basis, const StepPoints<Dim>& points, const std::vector<Material>& materials, const Eigen::VectorXd& d, const TermSum<Dim>& sum)
 {
 	const Pass<Dim> pass { basis, points, materials, d, sum };
+	if constexpr (Dim == 2)
+		if (basis.isAxisymmetric()) return addRingForce(pass);
 	return points.hasFBar() ? addFBarForce(pass) : addPoints<Chunk<Dim>>(pass);
 }
 

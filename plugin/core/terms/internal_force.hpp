@@ -13,7 +13,8 @@ template <int Dim> struct StepPoints {
 	std::vector<double>          volume0;
 	std::vector<int>             material;
 	InternalColumns              internals;
-	std::vector<PointBasis<Dim>> centres; ///< only with F-bar (core/terms/fbar.hpp): basis functions with the gradients at the centres of the cells
+	std::vector<PointBasis<Dim>> centres;     ///< only with F-bar (core/terms/fbar.hpp): basis functions with the gradients at the centres of the cells
+	std::vector<AxisValues>      hoopCentres; ///< and those of the hoop strain, around an axis of symmetry
 
 	bool hasFBar() const { return !centres.empty(); }
 
@@ -24,6 +25,7 @@ template <int Dim> struct StepPoints {
 		volume0.push_back(from.volume0[i]);
 		material.push_back(from.material[i]);
 		if (from.hasFBar()) centres.push_back(from.centres[i]);
+		if (!from.hoopCentres.empty()) hoopCentres.push_back(from.hoopCentres[i]);
 		internals.resize(from.internals.size());
 		for (std::size_t c = 0; c < internals.size(); ++c)
 			if (!from.internals[c].empty()) internals[c].push_back(from.internals[c][i]);

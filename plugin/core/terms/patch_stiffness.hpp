@@ -11,11 +11,11 @@ namespace gimpm {
 /// F-bar adds products with the gradients g0 at the centres (core/terms/fbar.hpp), those with g0_a,i and, of the change of g0 with the displacements,
 /// with g0_a,k: to each, as to each grad_a,j, belongs a flux of node b.
 template <class ChunkOfPoints, int N, bool Symmetric> class PatchStiffness {
-	static constexpr int Dim        = ChunkOfPoints::dim;
+	static constexpr int Dim = ChunkOfPoints::dim, Axes = ChunkOfPoints::axes;
 	using Pairs                     = PairModuli<Dim>;
 	static constexpr int pairs      = Symmetric ? Pairs::upper : Dim * Dim;
 	static constexpr int width      = (N + Lanes::count - 1) / Lanes::count; ///< of a row, in Lanes
-	static constexpr int rowsMost   = ChunkOfPoints::hasCentres ? Dim + 2 : Dim;
+	static constexpr int rowsMost   = ChunkOfPoints::hasCentres ? 2 * Axes - Dim + 2 : Axes;
 	static constexpr int rowsAtOnce = width > 3 ? 2 : width > 2 ? 3 : 4; ///< whose sums fit into registers
 
 public:
@@ -23,11 +23,11 @@ public:
 	GIMPM_INLINE void multiply(const ChunkOfPoints& chunk, int begin, int end)
 	{
 		Pairs::template forPairs<Symmetric>([&](int i, int k, int pair) GIMPM_INLINE_LAMBDA {
-			formFlux(chunk, pair, begin, end);
+			formFlux(chunk, pair, i, k, begin, end);
 			if constexpr (ChunkOfPoints::hasCentres) addCentreFlux(chunk, i, k, begin, end);
-			if (i == k) sumRows<rowsOf(true), Symmetric, 0>(chunk, sum_[pair], i, k, begin, end);
+			if (i == k) sumRows<fluxes(true), Symmetric, 0>(chunk, sum_[pair], i, k, begin, end);
 			else
-				sumRows<rowsOf(false), false, 0>(chunk, sum_[pair], i, k, begin, end);
+				sumRows<fluxes(false), false, 0>(chunk, sum_[pair], i, k, begin, end);
 		});
 	}
 	template <class Codes> GIMPM_INLINE void scatterAdd(const int* node, const Codes& codes, NodeMatrix<Dim>& K) const
@@ -63,15 +63,15 @@ private:
 	static double at(const Lanes* row, int n) { return reinterpret_cast<const double*>(row)[n]; }
 
 	/// flux_j,b = V a_ijkl grad_b,l of each point, for the pair (i, k).
-	GIMPM_INLINE void formFlux(const ChunkOfPoints& chunk, int pair, int begin, int end)
+	GIMPM_INLINE void formFlux(const ChunkOfPoints& chunk, int pair, int i, int k, int begin, int end)
 	{
 		for (int p = begin; p < end; ++p) {
 			const int   q = p - chunk.first, lane = q % Lanes::count;
 			const auto& a = chunk.moduli.value[pair][q / Lanes::count];
-			for (int j = 0; j < Dim; ++j)
+			for (int j = 0; j < directions(i); ++j)
 				for (int v = 0; v < width; ++v) {
 					Lanes sum = Lanes(at(&a[j][0], lane)) * chunk.basis[q][0][v];
-					for (int l = 1; l < Dim; ++l)
+					for (int l = 1; l < directions(k); ++l)
 						sum += Lanes(at(&a[j][l], lane)) * chunk.basis[q][l][v];
 					flux_[p - begin][j][v] = sum;
 				}
@@ -87,22 +87,40 @@ private:
 			const auto& g0   = chunk.centre[q];
 			auto&       flux = flux_[p - begin];
 			for (int v = 0; v < width; ++v) {
-				Lanes dilation = bulk * g0[k][v];
-				for (int j = 0; j < Dim; ++j) {
-					flux[j][v] += of(chunk.stressOfDilation[batch][i][j]) * g0[k][v];
+				const Lanes growth
+				        = isRing && k == 0 ? g0[k][v] + g0[Axes - 1][v] : g0[k][v]; // of the volume, by the displacements of the nodes
+				Lanes dilation = bulk * growth;
+				for (int j = 0; j < directions(i); ++j)
+					flux[j][v] += of(chunk.stressOfDilation[batch][i][j]) * growth;
+				for (int j = 0; j < directions(k); ++j)
 					dilation += of(chunk.meanOfStrain[batch][k][j]) * chunk.basis[q][j][v];
+				for (int j = directions(i); j < rowsOf(i, k); ++j) {
+					const int axis = centreOf(j, i, k);
+					if (i != k && axis == k) flux[j][v] = -(mean * g0[i][v]);
+					else
+						flux[j][v] = i == k ? dilation - mean * g0[axis][v] : dilation;
 				}
-				flux[Dim][v] = i == k ? dilation - mean * g0[i][v] : dilation;
-				if (i != k) flux[rowsMost - 1][v] = -(mean * g0[i][v]);
 			}
 		}
 	}
-	static constexpr int rowsOf(bool onDiagonal) { return onDiagonal && ChunkOfPoints::hasCentres ? Dim + 1 : rowsMost; }
+	static constexpr bool isRing = Axes > Dim;
+	static constexpr int  directions(int component) { return directionsOf<Dim, Axes>(component); }
+	/// Fluxes of a point for a pair of components: one for each gradient of the first one, then those for gradients at the centres.
+	static constexpr int rowsOf(int i, int k) { return ChunkOfPoints::hasCentres ? 2 * directions(i) - Dim + 1 + (i != k) : directions(i); }
+	/// The same where it is known to the compiler, which unrolls the sums then; 0: it is not.
+	static constexpr int fluxes(bool onDiagonal) { return isRing ? 0 : onDiagonal ? rowsOf(0, 0) : rowsOf(0, 1); }
+	/// The direction at the centres of the flux number j: those of the first component, by which volumes change, then k.
+	static constexpr int centreOf(int j, int i, int k)
+	{
+		const int number = j - directions(i);
+		if (number == 0) return i;
+		return isRing && i == 0 && number == 1 ? Axes - 1 : k;
+	}
 	/// What the flux number j of a point is multiplied with.
 	GIMPM_INLINE static const double* rowAt(const ChunkOfPoints& chunk, int p, int j, int i, int k)
 	{
 		if constexpr (ChunkOfPoints::hasCentres)
-			if (j >= Dim) return chunk.centreAt(p, j == Dim ? i : k);
+			if (j >= directions(i)) return chunk.centreAt(p, centreOf(j, i, k));
 		return chunk.basisAt(p, j);
 	}
 	/// Rows from First on; of a symmetric block only the columns from the diagonal on are needed.
@@ -116,7 +134,7 @@ private:
 				for (auto& lanes : row)
 					lanes = Lanes(0);
 			for (int p = begin; p < end; ++p)
-				for (int j = 0; j < Fluxes; ++j) {
+				for (int j = 0; j < (Fluxes > 0 ? Fluxes : rowsOf(i, k)); ++j) {
 					const double* grad = rowAt(chunk, p, j, i, k) + First;
 					const Lanes*  flux = flux_[p - begin][j] + from;
 					for (int r = 0; r < rows; ++r)

@@ -7,6 +7,12 @@
 
 namespace gimpm {
 
+// Axes: directions of gradients. Where there is one more than displacement components, the body is one of revolution about an axis, x is the radius, and
+// the last direction goes around: along it only the radial displacement has a gradient, u_x / x.
+
+/// Directions along which a displacement component has a gradient.
+template <int Dim, int Axes> constexpr int directionsOf(int component) { return component == 0 ? Axes : Dim; }
+
 template <int Dim, int Span> constexpr int nodesOfSpan()
 {
 	int n = 1;
@@ -76,9 +82,9 @@ constexpr int batchesAtOnce = 4;
 
 /// Moduli times volume of these points, by pairs of displacement components: value(i, k)[batch][j][l] = V a_ijkl. The pairs i <= k come first; the
 /// others are touched only where a law is not symmetric.
-template <int Dim> struct PairModuli {
+template <int Dim, int Axes = Dim> struct PairModuli {
 	static constexpr int upper = Dim * (Dim + 1) / 2;
-	Lanes                value[Dim * Dim][batchesAtOnce][Dim][Dim];
+	Lanes                value[Dim * Dim][batchesAtOnce][Axes][Axes];
 
 	/// Calls f(i, k, number of the pair).
 	template <bool Symmetric, class F> GIMPM_INLINE static void forPairs(F&& f)
@@ -94,16 +100,16 @@ template <int Dim> struct PairModuli {
 };
 
 /// Some points that follow each other in the order of the basis, on their way through a pass.
-template <int Dim> struct Chunk {
-	static constexpr int  dim = Dim, batches = batchesAtOnce, capacity = batches * Lanes::count;
+template <int Dim, int Axes = Dim> struct Chunk {
+	static constexpr int  dim = Dim, axes = Axes, batches = batchesAtOnce, capacity = batches * Lanes::count;
 	static constexpr int  width      = (windowNodes<Dim> + Lanes::count - 1) / Lanes::count;
 	static constexpr bool hasCentres = false; ///< see FBarChunk
 
-	int             first = 0, count = 0;
-	Lanes           basis[capacity][Dim][width]; ///< gradients of the basis functions of a point, node by node
-	Lanes           gradient[batches][Dim][Dim]; ///< of the displacements, a point in each lane
-	Lanes           flux[batches][Dim][Dim];     ///< the force on node a is flux . grad_a
-	PairModuli<Dim> moduli;
+	int                   first = 0, count = 0;
+	Lanes                 basis[capacity][Axes][width]; ///< gradients of the basis functions of a point, node by node
+	Lanes                 gradient[batches][Dim][Axes]; ///< of the displacements, a point in each lane
+	Lanes                 flux[batches][Dim][Axes];     ///< the force on node a is flux . grad_a
+	PairModuli<Dim, Axes> moduli;
 
 	Chunk() // what lies beyond the last node or point is computed with, and not used
 	{
@@ -123,35 +129,42 @@ template <int Dim> struct Chunk {
 	double&       gradientAt(int point, int i, int j) { return gradient[(point - first) / Lanes::count][i][j].v[(point - first) % Lanes::count]; }
 };
 
-/// The gradients of a point's basis functions, stored at basisAt(axis), and keep(i, j, d u_i / d x_j) of the displacements u.
-template <int Dim, int Span, class At, class Keep>
-GIMPM_INLINE void formGradients(const PointBasis<Dim>& axes, const PatchVectors<Dim, Span>& u, At&& basisAt, Keep&& keep)
+/// The gradients of a point's basis functions, stored at basisAt(axis), and keep(i, j, d u_i / d x_j) of the displacements u. `hoop`: the functions of x
+/// that give the hoop strain, if there is one.
+template <int Axes, int Dim, int Span, class At, class Keep>
+GIMPM_INLINE void formGradients(const PointBasis<Dim>& axes, const AxisValues* hoop, const PatchVectors<Dim, Span>& u, At&& basisAt, Keep&& keep)
 {
 	using Nodes       = PatchNodes<Dim, Span>;
 	const Lanes value = loadLanes(axes[0].value), slope = loadLanes(axes[0].slope);
-	Lanes       gradient[Dim][Dim];
+	Lanes       gradient[Dim][Axes];
 	for (auto& row : gradient)
 		for (auto& lanes : row)
 			lanes = Lanes(0);
-	for (int r = 0; r < Nodes::rows; ++r)
+	for (int r = 0; r < Nodes::rows; ++r) {
 		for (int j = 0; j < Dim; ++j) {
 			const Lanes g = (j == 0 ? slope : value) * Lanes(Nodes::rowFactor(axes, r, j));
 			storeLanes(basisAt(j) + r * Nodes::inRow, g); // the next row begins where the nodes of this one end
 			for (int i = 0; i < Dim; ++i)
 				gradient[i][j] += u.row[i][r] * g;
 		}
+		if constexpr (Axes > Dim) {
+			const Lanes g = loadLanes(hoop->data()) * Lanes(Nodes::rowFactor(axes, r, 0));
+			storeLanes(basisAt(Dim) + r * Nodes::inRow, g);
+			gradient[0][Dim] += u.row[0][r] * g;
+		}
+	}
 	for (int i = 0; i < Dim; ++i)
-		for (int j = 0; j < Dim; ++j)
+		for (int j = 0; j < directionsOf<Dim, Axes>(i); ++j)
 			keep(i, j, sum(gradient[i][j]));
 }
 
 /// Basis functions of the points [begin, end) of one patch, and the gradients of the displacements u there.
-template <int Dim, int Span>
-GIMPM_INLINE void prepare(const CloudBasis<Dim>& basis, const StepPoints<Dim>&, const PatchVectors<Dim, Span>& u, int begin, int end, Chunk<Dim>& chunk)
+template <int Dim, int Axes, int Span>
+GIMPM_INLINE void prepare(const CloudBasis<Dim>& basis, const StepPoints<Dim>&, const PatchVectors<Dim, Span>& u, int begin, int end, Chunk<Dim, Axes>& chunk)
 {
 	for (int p = begin; p < end; ++p)
-		formGradients(
-		        basis.axes[p], u, [&](int j) GIMPM_INLINE_LAMBDA { return chunk.basisAt(p, j); },
+		formGradients<Axes>(
+		        basis.axes[p], basis.hoop.data() + (Axes > Dim ? p : 0), u, [&](int j) GIMPM_INLINE_LAMBDA { return chunk.basisAt(p, j); },
 		        [&](int i, int j, double value) GIMPM_INLINE_LAMBDA { chunk.gradientAt(p, i, j) = value; });
 }
 
@@ -171,6 +184,28 @@ struct Batch {
 	}
 };
 
+/// Gradient of the incremental displacements of a batch.
+template <int Dim, int Axes> struct Increment {
+	MatrixOf<Dim, Lanes> gradient;
+	Lanes                hoop; ///< around the axis of a body of revolution
+
+	Increment() = default;
+	GIMPM_INLINE explicit Increment(const Lanes (&from)[Dim][Axes])
+	{
+		for (int i = 0; i < Dim; ++i)
+			for (int j = 0; j < Dim; ++j)
+				gradient(i, j) = from[i][j];
+		if constexpr (Axes > Dim) hoop = from[0][Dim];
+	}
+};
+
+template <int Dim, int Axes> GIMPM_INLINE SymTensor<Dim, Lanes> pushForward(const SymTensor<Dim, Lanes>& b1, const Increment<Dim, Axes>& increment)
+{
+	auto pushed = pushForward(b1, increment.gradient);
+	if constexpr (Axes > Dim) pushed.c[3] += (Lanes(1) + pushed.c[3]) * increment.hoop * (Lanes(2) + increment.hoop);
+	return pushed;
+}
+
 /// Response of points to the gradient of the incremental displacement.
 template <int Dim> struct BatchResponse {
 	using OfLaw = ResponseWith<Lanes, LawTraits<Law>::mostVariables>;
@@ -179,9 +214,10 @@ template <int Dim> struct BatchResponse {
 	PrincipalValues<Lanes> strain;
 	OfLaw                  law; ///< in each lane that of the law of the point
 
+	template <int Axes>
 	GIMPM_INLINE BatchResponse(
-	        const Batch& batch, const StepPoints<Dim>& points, const std::vector<Material>& materials, const MatrixOf<Dim, Lanes>& gradient)
-	        : trial(principal(pushForward(leftCauchyGreen(batch, points), gradient))), strain(logStrain(trial.value))
+	        const Batch& batch, const StepPoints<Dim>& points, const std::vector<Material>& materials, const Increment<Dim, Axes>& increment)
+	        : trial(principal(pushForward(leftCauchyGreen(batch, points), increment))), strain(logStrain(trial.value))
 	{
 		respond(materials[points.material[batch.point[0]]], batch, points.internals, law);
 		for (int lane = 1; lane < Lanes::count; ++lane) { // seldom: another material among them
@@ -230,7 +266,7 @@ template <int Dim, int Span = (1 << Dim) - 1, class F> GIMPM_INLINE void withSpa
 }
 
 /// Calls f(span, patch, begin, end) for the points of each patch that are in the chunk; `patch` is the first that may be.
-template <int Dim, class F> GIMPM_INLINE void forPieces(const CloudBasis<Dim>& basis, const Chunk<Dim>& chunk, int patch, F&& f)
+template <int Dim, int Axes, class F> GIMPM_INLINE void forPieces(const CloudBasis<Dim>& basis, const Chunk<Dim, Axes>& chunk, int patch, F&& f)
 {
 	for (; patch < int(basis.patches.size()) && basis.patches[patch].first < chunk.last(); ++patch) {
 		const auto& p     = basis.patches[patch];
@@ -246,7 +282,7 @@ template <class ChunkOfPoints, int Dim, class F> GIMPM_INLINE void forChunks(con
 	ChunkOfPoints chunk;
 	for (int begin = basis.patches[first].first; begin < end; begin += chunk.count) {
 		chunk.first = begin;
-		chunk.count = std::min(Chunk<Dim>::capacity, end - begin);
+		chunk.count = std::min(ChunkOfPoints::capacity, end - begin);
 		while (basis.patches[first].first + basis.patches[first].count <= begin)
 			++first;
 		f(chunk, first);

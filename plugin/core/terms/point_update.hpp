@@ -13,10 +13,11 @@ template <int Dim> struct PointUpdate {
 	SymTensor<Dim>                                    elasticStrain, kirchhoffStress;
 	const Law&                                        law;
 	std::array<double, LawTraits<Law>::mostVariables> internals; ///< in the order of the law
+	double                                            hoop = 0;  ///< of the increment, around the axis of a body of revolution
 };
 
-/// Value at one point of a field given by nodal vectors.
-template <int Dim, int Span> GIMPM_INLINE Vec<Dim> interpolate(const PointBasis<Dim>& axes, const PatchVectors<Dim, Span>& u)
+/// Value at one point of a field given by nodal vectors; `along`: the functions of x, if not those of the point's axes.
+template <int Dim, int Span> GIMPM_INLINE Vec<Dim> interpolate(const PointBasis<Dim>& axes, const PatchVectors<Dim, Span>& u, const double* along = nullptr)
 {
 	using Nodes = PatchNodes<Dim, Span>;
 	Vec<Dim> value;
@@ -24,9 +25,19 @@ template <int Dim, int Span> GIMPM_INLINE Vec<Dim> interpolate(const PointBasis<
 		Lanes products(0);
 		for (int r = 0; r < Nodes::rows; ++r)
 			products += u.row[i][r] * Lanes(Nodes::rowFactor(axes, r, 0));
-		value[i] = sum(products * loadLanes(axes[0].value));
+		value[i] = sum(products * loadLanes(along ? along : axes[0].value));
 	}
 	return value;
+}
+
+/// Displacement in the middle of a domain. Of a ring the functions of the hoop strain give it over the radius, which is one over their sum.
+template <int Axes, int Dim, int Span> GIMPM_INLINE Vec<Dim> displacementOf(const CloudBasis<Dim>& basis, int point, const PatchVectors<Dim, Span>& u)
+{
+	if constexpr (Axes > Dim) {
+		const AxisValues& hoop = basis.hoop[point];
+		return interpolate<Dim, Span>(basis.axes[point], u, hoop.data()) / (hoop[0] + hoop[1] + hoop[2]);
+	}
+	return interpolate<Dim, Span>(basis.axes[point], u);
 }
 
 /// For which spans a part of the update is compiled for all processors, in functions of its own. Elsewhere its multiplications and additions may
@@ -46,10 +57,13 @@ template <bool Portable, class F> GIMPM_INLINE void callPart(F&& f)
 }
 
 /// What the laws of a batch see of the increment.
-template <int Dim> GIMPM_INLINE const MatrixOf<Dim, Lanes>& seenByLaws(const Chunk<Dim>&, int, const MatrixOf<Dim, Lanes>& gradient) { return gradient; }
-template <int Dim> GIMPM_INLINE MatrixOf<Dim, Lanes> seenByLaws(const FBarChunk<Dim>& chunk, int b, const MatrixOf<Dim, Lanes>&)
+template <int Dim, int Axes> GIMPM_INLINE const Increment<Dim, Axes>& seenByLaws(const Chunk<Dim, Axes>&, int, const Increment<Dim, Axes>& increment)
 {
-	return FBarIncrement<Dim>(chunk, b).gradient;
+	return increment;
+}
+template <int Dim, int Axes> GIMPM_INLINE Increment<Dim, Axes> seenByLaws(const FBarChunk<Dim, Axes>& chunk, int b, const Increment<Dim, Axes>&)
+{
+	return FBarIncrement<Dim, Axes>(chunk, b).seen;
 }
 
 /// Calls f(index in the cloud, PointUpdate) for the points of the patches [first, last).
@@ -58,8 +72,9 @@ void forUpdatedPoints(
         const CloudBasis<Dim>& basis, const StepPoints<Dim>& points, const std::vector<Material>& materials, const Eigen::VectorXd& d, int first, int last,
         F&& f)
 {
+	constexpr int Axes = ChunkOfPoints::axes;
 	forChunks<ChunkOfPoints>(basis, first, last, [&](ChunkOfPoints& chunk, int patch) {
-		Vec<Dim> displacement[Chunk<Dim>::capacity];
+		Vec<Dim> displacement[ChunkOfPoints::capacity];
 		forPieces(basis, chunk, patch, [&](auto span, const Patch<Dim>& p, int begin, int end) GIMPM_INLINE_LAMBDA {
 			constexpr int Span = decltype(span)::value;
 			callPart<PortableParts<Dim>::ofPiece(Span)>([&]() GIMPM_INLINE_LAMBDA {
@@ -67,26 +82,27 @@ void forUpdatedPoints(
 				prepare(basis, points, u, begin, end, chunk);
 				for (int q = begin; q < end; ++q)
 					callPart<PortableParts<Dim>::ofInterpolation(Span)>(
-					        [&]() GIMPM_INLINE_LAMBDA { displacement[q - chunk.first] = interpolate<Dim, Span>(basis.axes[q], u); });
+					        [&]() GIMPM_INLINE_LAMBDA { displacement[q - chunk.first] = displacementOf<Axes, Dim, Span>(basis, q, u); });
 			});
 		});
 		for (int b = 0; b * Lanes::count < chunk.count; ++b) {
-			const Batch          batch(chunk.first + b * Lanes::count, chunk.last());
-			MatrixOf<Dim, Lanes> gradient;
-			for (int i = 0; i < Dim; ++i)
-				for (int j = 0; j < Dim; ++j)
-					gradient(i, j) = chunk.gradient[b][i][j];
-			const BatchResponse<Dim> response(batch, points, materials, seenByLaws(chunk, b, gradient));
-			const auto               elasticStrain = assemble<Lanes, Dim>(response.law.elasticStrain, response.trial.axes);
-			const auto               stress        = assemble<Lanes, Dim>(response.law.stress, response.trial.axes);
+			const Batch                batch(chunk.first + b * Lanes::count, chunk.last());
+			const Increment<Dim, Axes> increment(chunk.gradient[b]);
+			const BatchResponse<Dim>   response(batch, points, materials, seenByLaws(chunk, b, increment));
+			const auto                 elasticStrain = assemble<Lanes, Dim>(response.law.elasticStrain, response.trial.axes);
+			const auto                 stress        = assemble<Lanes, Dim>(response.law.stress, response.trial.axes);
 			for (int lane = 0, q = b * Lanes::count; lane < Lanes::count && q < chunk.count; ++lane, ++q) {
 				const auto       one = [lane](const Lanes& x) { return x[lane]; };
 				const Law&       law = materials[points.material[chunk.first + q]].law;
-				PointUpdate<Dim> u {
-					displacement[q], gradient.unaryExpr(one), { elasticStrain.c.unaryExpr(one) }, { stress.c.unaryExpr(one) }, law, {}
-				};
+				PointUpdate<Dim> u { displacement[q],
+					             increment.gradient.unaryExpr(one),
+					             { elasticStrain.c.unaryExpr(one) },
+					             { stress.c.unaryExpr(one) },
+					             law,
+					             {} };
 				for (std::size_t k = 0; k < u.internals.size(); ++k)
 					u.internals[k] = response.law.internals[k][lane];
+				if constexpr (Axes > Dim) u.hoop = increment.hoop[lane];
 				f(basis.order[chunk.first + q], u);
 			}
 		}
@@ -107,9 +123,15 @@ void forUpdatedPoints(const CloudBasis<Dim>& basis, const StepPoints<Dim>& point
 template <int Dim, class F>
 void forUpdatedPoints(const CloudBasis<Dim>& basis, const StepPoints<Dim>& points, const std::vector<Material>& materials, const Eigen::VectorXd& d, F&& f)
 {
-	if (points.hasFBar()) forUpdatedPoints<FBarChunk<Dim>>(basis, points, materials, d, f);
-	else
-		forUpdatedPoints<Chunk<Dim>>(basis, points, materials, d, f);
+	const auto with = [&](auto axes) {
+		constexpr int Axes = decltype(axes)::value;
+		if (points.hasFBar()) forUpdatedPoints<FBarChunk<Dim, Axes>>(basis, points, materials, d, f);
+		else
+			forUpdatedPoints<Chunk<Dim, Axes>>(basis, points, materials, d, f);
+	};
+	if constexpr (Dim == 2)
+		if (basis.isAxisymmetric()) return with(std::integral_constant<int, 3>());
+	with(std::integral_constant<int, Dim>());
 }
 
 } // namespace gimpm

@@ -39,13 +39,16 @@ namespace {
 		return (scene.stopAtIter > 0 && scene.iter + 1 == scene.stopAtIter) || (scene.stopAtTime > 0 && scene.time + scene.dt >= scene.stopAtTime);
 	}
 
-	VtkCells pointData(const Scene& scene, const MpmImplicitEngine& solver, const vector<string>& fields)
+	VtkCells pointData(const Scene& scene, const MpmImplicitEngine& solver, const vector<string>& fields, int sectors)
 	{
+		if (sectors > 0 && !solver.grid->axisymmetric)
+			throw std::invalid_argument(
+			        "MpmVtkRecorder.sectors = " + std::to_string(sectors) + ": only what is axisymmetric (MpmGrid.axisymmetric) can be revolved.");
 		const ValueLock lock;
 		const auto      points = materialPoints(scene, solver.mask);
 		for (const MaterialPoint& point : points)
-			point.requireAdmissible(solver.grid->dim);
-		const auto domains = pointDomains(points, scene, *solver.grid, solver.basis == "gimp");
+			point.requireAdmissible(solver.grid->dim, solver.grid->axisymmetric);
+		const auto domains = pointDomains(points, scene, *solver.grid, solver.basis == "gimp", sectors);
 		if (!contains(fields, "all"))
 			for (const string& name : pointFields())
 				if (!contains(fields, name)) domains->GetCellData()->RemoveArray(name.c_str());
@@ -274,7 +277,7 @@ void MpmVtkRecorder::write(const string& kind, const Moment& now, const MpmImpli
 	const auto   latest     = std::find_if(written.rbegin(), written.rend(), isOfSeries);
 	if (latest != written.rend() && latest->second == now.time) return;
 
-	const auto cells = kind == "points" ? pointData(*scene, engine, fields) : gridCells(kind, *scene, engine);
+	const auto cells = kind == "points" ? pointData(*scene, engine, fields, sectors) : gridCells(kind, *scene, engine);
 	writeVtu(*cells, now.time, file, { ascii, compress });
 
 	auto       entries    = written;

@@ -13,6 +13,7 @@ public:
 	bool                            ascii    = false;
 	bool                            compress = true;
 	string                          solver;
+	int                             sectors = 0;
 	vector<std::pair<string, Real>> written;
 
 	MpmVtkRecorder();
@@ -44,6 +45,9 @@ public:
 		v("ascii", &MpmVtkRecorder::ascii, 0, "Write numbers as text, in larger files.");
 		v("compress", &MpmVtkRecorder::compress, 0, "Compress the data with zlib, unless *ascii*.");
 		v("solver", &MpmVtkRecorder::solver, 0, "Label of the MpmImplicitEngine to follow; needed only if there are several.");
+		v("sectors", &MpmVtkRecorder::sectors, 0,
+		  "With MpmGrid.axisymmetric: parts of the circle into which 'points' are revolved about the axis, at least 3; 0, the default: the section.",
+		  admitting("0 or a number of parts >= 3", [](int n) { return n == 0 || n >= 3; }));
 		v("written", &MpmVtkRecorder::written, readonly, "Files that the .pvd files list, each with the time [s] of its state.");
 	}
 

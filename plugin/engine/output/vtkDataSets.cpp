@@ -22,6 +22,13 @@ namespace {
 
 	constexpr int boxType(int dim) { return dim == 2 ? VTK_QUAD : VTK_HEXAHEDRON; }
 
+	// About the axis y by a part of the full circle, from x to z.
+	Matrix3r turned(Real part)
+	{
+		const Real angle = 2 * 3.14159265358979323846 * part, c = std::cos(angle), s = std::sin(angle);
+		return (Matrix3r() << c, 0, -s, 0, 1, 0, s, 0, c).finished();
+	}
+
 	// Cell type and number of corners belong together.
 	class Cells {
 	public:
@@ -67,15 +74,42 @@ namespace {
 		addField<vtkIntArray>(cells, name, 1, items, [&](const auto& item, int* value) { *value = get(item); });
 	}
 
-	void addColumn(vtkUnstructuredGrid& cells, const PointColumn& column, const vector<MaterialPoint>& points, const Scene& scene)
+	// Of the middles of sectors of the circle about the axis y, from the plane x-y.
+	vector<Matrix3r> turns(int sectors)
+	{
+		vector<Matrix3r> all;
+		for (int s = 0; s < sectors; ++s)
+			all.push_back(turned((s + 0.5) / sectors));
+		return all;
+	}
+
+	// One row for each sector of each point.
+	vector<Real> revolved(const vector<Real>& values, int width, const vector<Matrix3r>& turns)
+	{
+		using RowByRow = Eigen::Matrix<Real, 3, 3, Eigen::RowMajor>;
+		vector<Real> all;
+		all.reserve(values.size() * turns.size());
+		for (const Real* row = values.data(); row < values.data() + values.size(); row += width)
+			for (const Matrix3r& Q : turns) {
+				const RowByRow tensor = width == 9 ? RowByRow(Q * Eigen::Map<const RowByRow>(row) * Q.transpose()) : RowByRow();
+				const Vector3r vector = width == 3 ? Vector3r(Q * Eigen::Map<const Vector3r>(row)) : Vector3r();
+				const Real*    from   = width == 9 ? tensor.data() : width == 3 ? vector.data() : row;
+				all.insert(all.end(), from, from + width);
+			}
+		return all;
+	}
+
+	void addColumn(
+	        vtkUnstructuredGrid& cells, const PointColumn& column, const vector<MaterialPoint>& points, const Scene& scene, const vector<Matrix3r>& turns)
 	{
 		vector<Real> values(points.size() * column.width);
 		column.get(points, scene, values.data());
+		if (!turns.empty()) values = revolved(values, column.width, turns);
 		if (column.isInteger) return addIntegers(cells, column.name.c_str(), values, [](Real value) { return int(value); });
 		const auto field = vtkSmartPointer<vtkDoubleArray>::New();
 		field->SetName(column.name.c_str());
 		field->SetNumberOfComponents(column.width);
-		field->SetNumberOfTuples(points.size());
+		field->SetNumberOfTuples(values.size() / column.width);
 		std::copy(values.begin(), values.end(), field->GetPointer(0));
 		cells.GetCellData()->AddArray(field);
 	}
@@ -111,26 +145,30 @@ namespace {
 	vtkIdType numberOf(gimpm::Key node, const vector<gimpm::Key>& nodes) { return std::lower_bound(nodes.begin(), nodes.end(), node) - nodes.begin(); }
 }
 
-VtkCells pointDomains(const vector<MaterialPoint>& points, const Scene& scene, const MpmGrid& grid, bool deform)
+VtkCells pointDomains(const vector<MaterialPoint>& points, const Scene& scene, const MpmGrid& grid, bool deform, int sectors)
 {
-	const int dim = grid.dim;
-	Cells     domains(boxType(dim));
-	for (const MaterialPoint& point : points) {
-		std::array<vtkIdType, 8> box {};
-		for (int c = 0; c < 1 << dim; ++c) {
-			Vector3r x = point.state->pos;
-			for (int a = 0; a < dim; ++a)
-				x[a] += (corners[c] >> a & 1 ? 1 : -1) * point.shape->halfSize[a];
-			box[c] = domains.addPoint(x);
+	const int dim = grid.dim, boxDim = sectors > 0 ? 3 : dim;
+	Cells     domains(boxType(boxDim));
+	for (const MaterialPoint& point : points)
+		for (int sector = 0; sector < std::max(1, sectors); ++sector) {
+			std::array<vtkIdType, 8> box {};
+			for (int c = 0; c < 1 << boxDim; ++c) {
+				Vector3r x = point.state->pos;
+				for (int a = 0; a < dim; ++a)
+					x[a] += (corners[c] >> a & 1 ? 1 : -1) * point.shape->halfSize[a];
+				if (sectors > 0) x = turned(Real(sector + (corners[c] >> 2 & 1)) / sectors) * Vector3r(x[0], x[1], 0);
+				box[c] = domains.addPoint(x);
+			}
+			domains.addCell(box, 1 << boxDim);
 		}
-		domains.addCell(box, 1 << dim);
-	}
-	const auto cells = domains.dataSet();
+	const auto cells          = domains.dataSet();
+	const auto turnsOfSectors = turns(sectors);
 	for (const PointColumn& column : pointColumns())
-		if (column.is(PointColumn::inVtk) && column.isOf(points)) addColumn(*cells, column, points, scene);
-	addIntegers(*cells, "clamped", points, [&](const MaterialPoint& p) {
-		return deform && (dim == 2 ? isClamped<2>(p, grid.cellSize) : isClamped<3>(p, grid.cellSize));
-	});
+		if (column.is(PointColumn::inVtk) && column.isOf(points)) addColumn(*cells, column, points, scene, turnsOfSectors);
+	vector<char> clamped;
+	for (const MaterialPoint& p : points)
+		clamped.insert(clamped.end(), std::max(1, sectors), deform && (dim == 2 ? isClamped<2>(p, grid.cellSize) : isClamped<3>(p, grid.cellSize)));
+	addIntegers(*cells, "clamped", clamped, [](char isOne) { return isOne; });
 	return cells;
 }
 

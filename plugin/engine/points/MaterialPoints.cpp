@@ -58,11 +58,12 @@ namespace {
 	}
 
 	// Whatever the two-dimensional computation would leave out has to be zero.
-	void requirePlaneStrain(const MpmState& state)
+	void requireInPlane(const MpmState& state, bool isRing)
 	{
+		const Real around = isRing ? state.defGrad(2, 2) : 1;
 		for (const auto& [name, tensor, normal] :
 		     { std::tuple { "stress", &state.stress, state.stress(2, 2) },
-		       std::tuple { "elasticStrain", &state.elasticStrain, state.elasticStrain(2, 2) }, std::tuple { "defGrad", &state.defGrad, 1. } })
+		       std::tuple { "elasticStrain", &state.elasticStrain, state.elasticStrain(2, 2) }, std::tuple { "defGrad", &state.defGrad, around } })
 			if (tensor->topRightCorner<2, 1>().any() || tensor->bottomLeftCorner<1, 2>().any() || (*tensor)(2, 2) != normal)
 				throw std::invalid_argument(
 				        string("MpmState.") + name
@@ -84,12 +85,12 @@ string refusalOf(const gimpm::InternalVariable& variable, Real value)
 	return text.str();
 }
 
-void MaterialPoint::requireAdmissible(int dim) const
+void MaterialPoint::requireAdmissible(int dim, bool isRing) const
 {
 	try {
 		shape->requireAdmissible();
 		state->requireAdmissible();
-		if (dim == 2) requirePlaneStrain(*state);
+		if (dim == 2) requireInPlane(*state, isRing);
 	} catch (const std::invalid_argument& error) {
 		refuse(id, error.what());
 	}

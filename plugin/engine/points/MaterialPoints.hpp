@@ -15,8 +15,9 @@ struct MaterialPoint {
 	shared_ptr<MpmState>    state;
 	shared_ptr<MpmMaterial> material;
 
-	// std::invalid_argument unless all its values can be computed with in this dimension (2 or 3). Its material is not looked at.
-	void requireAdmissible(int dim) const;
+	// std::invalid_argument unless all its values can be computed with in this dimension (2 or 3), in two of them as a ring or in plane strain. Its
+	// material is not looked at.
+	void requireAdmissible(int dim, bool isRing) const;
 
 	// std::invalid_argument unless its material admits that a step begins from its state.
 	void requireStart() const;

@@ -21,7 +21,7 @@ public:
 	static const char* doc()
 	{
 		return "State of a material point. *pos* and *refPos* (inherited) are its current and initial position [m], *mass* [kg] is constant. "
-		       "Tensors are 3x3 in plane strain too, with the normal component out of the plane.";
+		       "Tensors are 3x3 in plane strain too, with the normal component out of the plane; in axisymmetry zz is the hoop component.";
 	}
 	template <class V> static void attributes(V&& v)
 	{
@@ -38,9 +38,12 @@ public:
 		  "Elastic logarithmic strain [-], symmetric, positive in extension: half the logarithm of the elastic left Cauchy-Green tensor. The "
 		  "next step starts from it (Coombs 2023, section 2).",
 		  symmetric);
-		v("force", &MpmState::force, 0, "Point load [N] at load factor 1; per metre of thickness in plane strain.", finite);
-		v("volume", &MpmState::volume, 0, "Current volume [m³] > 0; that of 1 m of thickness in plane strain.", volumes);
-		v("volume0", &MpmState::volume0, 0, "Initial volume [m³] > 0; that of 1 m of thickness in plane strain.", volumes);
+		v("force", &MpmState::force, 0, "Point load [N] at load factor 1; per metre of thickness in plane strain, of a whole ring in axisymmetry.",
+		  finite);
+		v("volume", &MpmState::volume, 0, "Current volume [m³] > 0; that of 1 m of thickness in plane strain, of the whole ring in axisymmetry.",
+		  volumes);
+		v("volume0", &MpmState::volume0, 0, "Initial volume [m³] > 0; that of 1 m of thickness in plane strain, of the whole ring in axisymmetry.",
+		  volumes);
 		v("plasticStrain", &MpmState::plasticStrain, 0,
 		  "Equivalent plastic strain [-] >= 0: sqrt(2/3) times the accumulated length of the increments of plastic logarithmic strain.", nonNegative);
 		v("internals", &MpmState::internals, 0,

@@ -68,7 +68,7 @@ namespace {
 	}
 }
 
-py::list newBodies(const py::object& positions, const Vector3r& halfSize, const py::list& materials, const py::object& index)
+py::list newBodies(const py::object& positions, const Vector3r& halfSize, const py::list& materials, const py::object& index, bool areRings)
 {
 	vector<shared_ptr<MpmMaterial>> known;
 	for (py::ssize_t i = 0; i < py::len(materials); ++i) {
@@ -81,7 +81,8 @@ py::list newBodies(const py::object& positions, const Vector3r& halfSize, const 
 	py::list bodies;
 	for (size_t i = 0; i < choice.size(); ++i) {
 		const Eigen::Map<const Vector3r> position(coordinates.data() + 3 * i);
-		bodies.append(newBody(position, halfSize, known.at(choice.data()[i])));
+		const Real                       pi = 3.14159265358979323846, around = areRings ? pi * position[0] : halfSize[2];
+		bodies.append(newBody(position, Vector3r(halfSize[0], halfSize[1], around), known.at(choice.data()[i])));
 	}
 	return bodies;
 }

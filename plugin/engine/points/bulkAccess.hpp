@@ -7,7 +7,7 @@ namespace yade {
 
 // New bodies, not yet in the scene, one per row of `positions` (N x 3 double) with materials[index[i]] (N int64). `halfSize` is
 // that of the domain; its box is the initial volume. std::invalid_argument if a material is not admissible.
-py::list newBodies(const py::object& positions, const Vector3r& halfSize, const py::list& materials, const py::object& index);
+py::list newBodies(const py::object& positions, const Vector3r& halfSize, const py::list& materials, const py::object& index, bool areRings);
 
 // Calls f while no step in the background changes the material points or the engines.
 void betweenSteps(const py::object& f);

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "engine/solver/MpmGrid.hpp"
-#include "core/grid/grid.hpp"
 
 namespace yade {
 
@@ -34,6 +33,29 @@ Vector3i MpmGrid::periodInCells() const
 	}
 	return cells;
 }
+
+void MpmGrid::requireAxis() const
+{
+	if (!axisymmetric) return;
+	std::ostringstream text;
+	const Real         node = origin[0] / cellSize;
+	if (dim == 3) text << "it is for dim=2, where the plane x-y is the section of the body";
+	else if (std::abs(node - std::round(node)) > 1e-9)
+		text << "the axis x = 0 must be a grid line, but origin[0] = " << origin[0] << " is " << node << " cells away from it (cellSize = " << cellSize
+		     << ")";
+	else if (period[0] != 0)
+		text << "the radius x cannot repeat itself (period[0] = " << period[0] << ")";
+	if (text.str().empty()) return;
+	throw std::invalid_argument("MpmGrid.axisymmetric = True: " + text.str() + ".");
+}
+
+template <int Dim> gimpm::Grid<Dim> MpmGrid::lattice() const
+{
+	requireAxis();
+	return { cellSize, origin.head<Dim>(), periodInCells().head<Dim>(), axisymmetric };
+}
+template gimpm::Grid<2> MpmGrid::lattice() const;
+template gimpm::Grid<3> MpmGrid::lattice() const;
 
 } // namespace yade
 

@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
+#include "core/grid/grid.hpp"
 #include "yade_api/registration.hpp"
 
 namespace yade {
 
 class MpmGrid : public Exposed<MpmGrid, Serializable> {
 public:
-	Real     cellSize = std::numeric_limits<Real>::quiet_NaN(); // must be given
-	Vector3r origin   = Vector3r::Zero();
-	int      dim      = 2;
-	Vector3r period   = Vector3r::Zero();
+	Real     cellSize     = std::numeric_limits<Real>::quiet_NaN(); // must be given
+	Vector3r origin       = Vector3r::Zero();
+	int      dim          = 2;
+	Vector3r period       = Vector3r::Zero();
+	bool     axisymmetric = false;
 
 	YADE_API_NAME(MpmGrid)
 	static const char* doc()
@@ -23,15 +25,23 @@ public:
 		  admitting("a finite number > 0 [m]; there is no default", positive));
 		v("origin", &MpmGrid::origin, 0,
 		  "Position of a node [m], finite; all others are whole cells away from it. With dim=2, mpm.fill puts the points into its plane z.", finite);
-		v("dim", &MpmGrid::dim, 0, "2: plane strain in x-y, per metre of thickness; 3: three-dimensional.", oneOf(2, 3));
+		v("dim", &MpmGrid::dim, 0, "2: plane strain in x-y, per metre of thickness, or *axisymmetric*; 3: three-dimensional.", oneOf(2, 3));
 		v("period", &MpmGrid::period, 0,
 		  "Lengths [m] along x, y, z after which the scene repeats itself, from *origin* on: opposite sides are the same nodes. Whole numbers of cells, at "
 		  "least 3; 0, the default: not periodic.",
 		  nonNegative);
+		v("axisymmetric", &MpmGrid::axisymmetric, 0,
+		  "With dim=2: bodies of revolution about the axis x = 0, where a grid line is. x is the radius, y goes along the axis; volumes and forces are those "
+		  "of the whole circle, 2 pi.");
 	}
 
-	// Along each axis, 0: not periodic. std::invalid_argument unless these are whole numbers, of as many cells as basis functions need.
+	// As the core understands it. std::invalid_argument unless periods are whole numbers of cells, as many as basis functions need, and the axis of
+	// symmetry is on nodes.
+	template <int Dim> gimpm::Grid<Dim> lattice() const;
+
+private:
 	Vector3i periodInCells() const;
+	void     requireAxis() const;
 };
 
 } // namespace yade

@@ -3,88 +3,13 @@
 #include "core/materials/kinematics.hpp"
 #include "engine/materials/laws.hpp"
 #include "engine/points/parallel.hpp"
-#include <Eigen/LU>
+#include "engine/solver/fit.hpp"
 #include <atomic>
 #include <unordered_map>
 
 namespace yade {
 
 namespace {
-	template <int Dim> gimpm::HeldBox<Dim> heldBox(const MpmBoundary& boundary, const MpmGrid& grid, const gimpm::Grid<Dim>& lattice)
-	{
-		boundary.requireAdmissible();
-		auto box         = gimpm::HeldBox<Dim>::from(lattice, boundary.min.head<Dim>(), boundary.max.head<Dim>());
-		box.displacement = boundary.displacement.head<Dim>();
-		for (int axis = 0; axis < Dim; ++axis)
-			box.fixed[axis] = boundary.fixes(axis);
-		if (Dim == 2 && boundary.fixes(2))
-			throw std::invalid_argument(
-			        "MpmBoundary.fix = '" + boundary.fix + "': there is no direction z on a grid with dim=2 (plane strain in x-y).");
-		const bool missesPlane = Dim == 2 && (boundary.min[2] > grid.origin[2] || boundary.max[2] < grid.origin[2]);
-		if (!box.empty() && !missesPlane) return box;
-		std::ostringstream text;
-		text << "MpmBoundary from min = (" << boundary.min.transpose() << ") to max = (" << boundary.max.transpose()
-		     << ") holds no grid node; nodes are at " << grid.origin.transpose() << " plus multiples of cellSize = " << grid.cellSize << ".";
-		if (lattice.isPeriodic())
-			text << " Along a periodic axis they are from there to there plus MpmGrid.period = (" << grid.period.transpose() << ").";
-		throw std::invalid_argument(text.str());
-	}
-
-	template <int Dim> void refuseConflicts(const vector<gimpm::HeldBox<Dim>>& boxes)
-	{
-		for (size_t i = 0; i < boxes.size(); ++i)
-			for (size_t j = 0; j < i; ++j)
-				for (int axis = 0; axis < Dim; ++axis) {
-					if (!boxes[i].meets(boxes[j]) || !boxes[i].fixed[axis] || !boxes[j].fixed[axis]
-					    || boxes[i].displacement[axis] == boxes[j].displacement[axis])
-						continue;
-					std::ostringstream text;
-					text << "boundaries[" << j << "] and boundaries[" << i << "] prescribe different displacements along "
-					     << "xyz"[axis] << " (" << boxes[j].displacement[axis] << " and " << boxes[i].displacement[axis]
-					     << " m) to the nodes that lie in both boxes.";
-					throw std::invalid_argument(text.str());
-				}
-	}
-
-	// By its deformation, as after mpm.assign; a domain that was too large from the beginning is none of this grid.
-	template <int Dim> bool hasOutgrown(const MaterialPoint& point, Real limit)
-	{
-		const Vector3r grown = stretched(point.shape->halfSize0, point.state->defGrad) * (1 + 1e-9);
-		return point.shape->halfSize0.head<Dim>().maxCoeff() <= limit && (point.shape->halfSize - grown).head<Dim>().maxCoeff() <= 0;
-	}
-
-	// Sides of a periodic grid are not where points end: those beyond would lie upon others.
-	template <int Dim> void requireWithinPeriod(const MaterialPoint& point, const gimpm::Grid<Dim>& grid)
-	{
-		for (int a = 0; a < Dim; ++a) {
-			const Real length = grid.period[a] * grid.cellSize, place = point.state->pos[a] - grid.origin[a];
-			if (grid.period[a] == 0 || (place >= 0 && place <= length)) continue;
-			std::ostringstream text;
-			text << "Body #" << point.id << ": the material point at (" << point.state->pos.transpose()
-			     << ") is outside of the period of the grid, along "
-			     << "xyz"[a] << " from " << grid.origin[a] << " to " << grid.origin[a] + length
-			     << " m (MpmGrid.origin and period); has a longer region been filled?";
-			throw std::invalid_argument(text.str());
-		}
-	}
-
-	template <int Dim> void requireOnGrid(const MaterialPoint& point, const gimpm::Grid<Dim>& grid, gimpm::Basis basis)
-	{
-		const bool onGrid  = ((point.state->pos.head<Dim>() - grid.origin) / grid.cellSize).cwiseAbs().maxCoeff() < grid.indexLimit;
-		const Real largest = point.shape->halfSize.head<Dim>().maxCoeff(), limit = 0.5 * grid.cellSize * (1 + 1e-9);
-		const bool fits = basis != gimpm::Basis::gimp || largest <= limit || hasOutgrown<Dim>(point, limit);
-		if (onGrid && fits) return;
-		std::ostringstream text; // costly: not before there is something to say
-		text << "Body #" << point.id << ": ";
-		if (!onGrid)
-			text << "the material point at (" << point.state->pos.transpose() << ") is more than " << grid.indexLimit
-			     << " cells from the grid's origin.";
-		else
-			text << "MpmPoint.halfSize = " << largest << " m is more than half a cell (cellSize = " << grid.cellSize
-			     << " m); was the point made for another grid?";
-		throw std::invalid_argument(text.str());
-	}
-
 	// As at the end of a step, no domain of the basis 'gimp' reaches farther than half a cell.
 	template <int Dim> gimpm::Vec<Dim> domainIn(const gimpm::Model<Dim>& model, const MaterialPoint& point)
 	{
@@ -136,6 +61,13 @@ namespace {
 		return found;
 	}
 
+	// Along the circle around the axis of symmetry: half of its length is the half size.
+	void scatterAround(const MaterialPoint& point, Real stretch)
+	{
+		point.state->defGrad(2, 2) = stretch;
+		point.shape->halfSize[2]   = point.shape->halfSize0[2] * stretch;
+	}
+
 	// Of point p; its column is there.
 	template <int Dim> void gatherInternals(const MaterialPoint& point, const gimpm::Law& law, gimpm::PointCloud<Dim>& cloud, size_t p)
 	{
@@ -182,14 +114,10 @@ gimpm::Model<Dim> toModel(
 		        "fBar takes the dilation of points from the centres of their cells, also where these are nearly empty: it needs ghost stabilisation, "
 		        "such as ghost=MpmGhost(), instead of ghost.factor=0.");
 	gimpm::Model<Dim> model;
-	model.grid = { grid.cellSize, grid.origin.head<Dim>(), grid.periodInCells().head<Dim>() };
-	vector<gimpm::HeldBox<Dim>> boxes;
-	for (const auto& boundary : boundaries)
-		boxes.push_back(heldBox<Dim>(*boundary, grid, model.grid));
-	refuseConflicts(boxes);
+	model.grid                    = grid.lattice<Dim>();
 	model.basis                   = basis == "mpm" ? gimpm::Basis::linear : gimpm::Basis::gimp;
 	model.fBar                    = fBar;
-	model.boundary                = gimpm::Boundary<Dim>(boxes);
+	model.boundary                = gimpm::Boundary<Dim>(heldBoxes<Dim>(boundaries, grid, model.grid));
 	model.ghost                   = { ghost.factor, ghost.scaling == "paper" ? gimpm::GhostScaling::paper : gimpm::GhostScaling::meshIndependent };
 	model.newton.tolerance        = newton.tolerance;
 	model.newton.maxIterations    = newton.maxIterations;
@@ -203,6 +131,7 @@ template <int Dim> gimpm::PointCloud<Dim> gather(const vector<MaterialPoint>& po
 {
 	gimpm::PointCloud<Dim> cloud;
 	cloud.resize(points.size());
+	if (model.grid.axisymmetric) cloud.hoopStretch.resize(points.size());
 	MaterialIndex materials(model.materials);
 	for (size_t p = 0; p < points.size(); ++p)
 		cloud.material[p] = materials.of(points[p]);
@@ -211,15 +140,15 @@ template <int Dim> gimpm::PointCloud<Dim> gather(const vector<MaterialPoint>& po
 	inRanges(points.size(), [&](size_t begin, size_t end) {
 		for (size_t p = begin; p < end; ++p) {
 			const MaterialPoint& point = points[p];
-			point.requireAdmissible(Dim);
+			point.requireAdmissible(Dim, model.grid.axisymmetric);
 			point.requireStart();
-			requireOnGrid<Dim>(point, model.grid, model.basis);
-			requireWithinPeriod<Dim>(point, model.grid);
-			cloud.position[p]      = point.state->pos.template head<Dim>();
-			cloud.halfSize[p]      = domainIn(model, point);
-			cloud.halfSize0[p]     = point.shape->halfSize0.template head<Dim>();
-			cloud.volume0[p]       = point.state->volume0;
-			cloud.defGrad[p]       = point.state->defGrad.template topLeftCorner<Dim, Dim>();
+			requireFit<Dim>(point, model.grid, model.basis);
+			cloud.position[p]  = point.state->pos.template head<Dim>();
+			cloud.halfSize[p]  = domainIn(model, point);
+			cloud.halfSize0[p] = point.shape->halfSize0.template head<Dim>();
+			cloud.volume0[p]   = point.state->volume0;
+			cloud.defGrad[p]   = point.state->defGrad.template topLeftCorner<Dim, Dim>();
+			if (model.grid.axisymmetric) cloud.hoopStretch[p] = point.state->defGrad(2, 2);
 			cloud.elasticStrain[p] = gimpm::SymTensor<Dim>::from(point.state->elasticStrain);
 			cloud.stress[p]        = gimpm::SymTensor<Dim>::from(point.state->stress);
 			gatherInternals(point, model.materials[cloud.material[p]].law, cloud, p);
@@ -236,7 +165,7 @@ template <int Dim> gimpm::PointCloud<Dim> gather(const vector<MaterialPoint>& po
 	return cloud;
 }
 
-// Plane strain leaves the components out of the plane alone, but for the zz component of strain and stress.
+// Plane strain leaves the components out of the plane alone, but for the zz component of strain and stress; axisymmetry has that of the deformation too.
 template <int Dim> void scatter(gimpm::PointCloud<Dim>& cloud, const gimpm::Grid<Dim>& grid, const vector<MaterialPoint>& points)
 {
 	reenter(cloud, grid, points);
@@ -248,8 +177,9 @@ template <int Dim> void scatter(gimpm::PointCloud<Dim>& cloud, const gimpm::Grid
 			state.defGrad.topLeftCorner<Dim, Dim>()        = cloud.defGrad[p];
 			state.elasticStrain                            = cloud.elasticStrain[p].full();
 			state.stress                                   = cloud.stress[p].full();
-			state.volume                                   = cloud.volume0[p] * cloud.defGrad[p].determinant();
+			state.volume                                   = cloud.volume0[p] * cloud.volumeRatio(p);
 			points[p].shape->halfSize.template head<Dim>() = cloud.halfSize[p];
+			if (grid.axisymmetric) scatterAround(points[p], cloud.hoopStretch[p]);
 			if (p == begin || points[p].material.get() != points[p - 1].material.get()) internals = internalsFor(*points[p].material, cloud);
 			for (const auto& [name, column] : internals)
 				state.setInternal(name, column[p]);

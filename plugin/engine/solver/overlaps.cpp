@@ -126,7 +126,7 @@ template <int Dim> Overlaps findOverlaps(const gimpm::PointCloud<Dim>& cloud)
 		if (cover.share < wholly) continue;
 		if (!isDeformed[p]) take(found.ofFills, p, cover.by);
 		take(found.ofAny, p, cover.by);
-		found.volume += cover.twice;
+		found.volume += cover.twice * cloud.volume0[p] / (2 * cloud.halfSize0[p]).prod(); // of the thickness that the point stands for
 	}
 	return found;
 }

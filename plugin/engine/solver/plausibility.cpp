@@ -20,6 +20,10 @@ namespace {
 
 	void requireGravityInPlane(const MpmImplicitEngine& engine)
 	{
+		if (engine.grid->axisymmetric && engine.gravity[0] != 0)
+			refuse("MpmImplicitEngine.gravity = (", engine.gravity.transpose(),
+			       ") has an x component, which with MpmGrid.axisymmetric would pull away from the axis on all sides; there gravity acts along the axis, y, "
+			       "as in (0, -9.81, 0).");
 		if (engine.grid->dim == 3 || engine.gravity[2] == 0) return;
 		refuse("MpmImplicitEngine.gravity = (", engine.gravity.transpose(),
 		       ") has a z component, which a grid with dim=2 (plane strain in x-y) would leave out; ",

@@ -39,7 +39,7 @@ def advise(solver=None):
 	memory = _bytes + scene.points * _bytesOfPoint[scene.dim] + sum(size * work[name] for name, size in _bytesOfEntry.items())
 	found = dict(points=scene.points, dofs=work['dofs'], steps=scene.steps, memory=memory, advice=_notNeeded(scene) + _next(scene), **seconds)
 	law = 'elasto-plastic' if scene.plastic else 'elastic'
-	print(f"{scene.dim}D, {law}, {scene.points} points in {work['activeCells']} cells, {scene.pointsPerCell:.3g} a cell and axis")
+	print(f"{'axisymmetric' if solver.grid.axisymmetric else f'{scene.dim}D'}, {law}, {scene.points} points in {work['activeCells']} cells, {scene.pointsPerCell:.3g} a cell and axis")
 	print(f"unknowns: {work['dofs']}; memory: about {memory / 2**20:.0f} MiB on top of the bodies")
 	print(
 	        f"a load step: about {_time(seconds['secondsPerStep'])} ({_time(seconds['fastest'])} to {_time(seconds['slowest'])}), of which "

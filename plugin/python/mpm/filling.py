@@ -16,7 +16,7 @@ def fill(predicate, grid, pointsPerCell, material):
 	"""Fill a region with material points, equally spaced in the cells of a grid.
 
 	Cells are counted from ``grid.origin``; the points are returned cell by cell. In two dimensions they lie in the plane
-	z = ``grid.origin[2]`` and stand for 1 m of thickness.
+	z = ``grid.origin[2]`` and stand for 1 m of thickness, or with ``axisymmetric`` for a whole ring around the axis x = 0, of the volume 2 pi x times its section.
 
 	Each point stands for a box of ``cellSize / pointsPerCell``. Where these boxes have another volume than the region, by more than 2 %, as in layers that
 	are thin or oblique, a warning in YADE's log says so. (Of combined and round regions the volume is estimated.) Layers within the
@@ -38,12 +38,17 @@ def fill(predicate, grid, pointsPerCell, material):
 	grid.updateAttrs(grid.dict())  # looks again at all values: cellSize may not have been given
 	n = _pointsPerCell(pointsPerCell)
 	positions = _latticePoints(predicate, grid, n)
+	if grid.axisymmetric and positions[:, 0].min() < 0:
+		raise ValueError(
+		        f'fill: the region reaches to x = {positions[:, 0].min():g} m; with MpmGrid.axisymmetric x is the distance from the axis: fill one half of the section, '
+		        'at x > 0'
+		)
 	_warnOfVolume(predicate, grid, n, len(positions))
 	labels, index = _materialOf(positions, material)
 	materials = [_material(label) for label in labels]
 	half = grid.cellSize / (2 * n)
 	halfSize = Vector3(half, half, half if grid.dim == 3 else 0.5)
-	return engine.newBodies(positions, halfSize, materials, index)
+	return engine.newBodies(positions, halfSize, materials, index, grid.axisymmetric)
 
 
 def _pointsPerCell(value):

@@ -1,0 +1,176 @@
+#!/usr/bin/env yade
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Bodies of revolution as plane problems: a thick tube under inner pressure, and a circular footing on undrained clay.
+
+	 axis          p                        axis
+	  |        ->|#######|                   |#####|_______________      footing of radius R, smooth or rough
+	  |        ->|#######|                   |                     |o    rollers at 3 R
+	  |        ->|#######|                   |      clay           |o    base at 2 R: held
+	  |          a       b                    /////////////////////
+
+Tube: a = 1 m, b = 2 m, plane strain along the axis. Elastic: u(a) / a = p / E (1 + nu) ((1 - 2 nu) a^2 + b^2) / (b^2 - a^2) (Lame). Plastic, Tresca: it
+collapses at p = 2 c_u ln(b / a). The pressure is made of forces on the two inner rows of points, such that they amount to forces on the surface.
+
+Footing: N_c = 5.69 smooth, 6.05 rough (R. T. Shield 1955; A. D. Cox, G. Eason, H. G. Hopkins 1961), with F-bar. With --scene circle the same in 3D, a quarter
+of the circle, for what it costs.
+
+Run it with `scripts/run examples/axisymmetric/axisymmetric.py [options]`, or by yade-batch with the options as columns of a parameter table. Read
+examples/footing3d and examples/locking first.
+"""
+import os
+import sys
+import time
+
+from yade import mpm
+import matplotlib
+matplotlib.use('Agg')
+import matplotlib.pyplot as plt
+import numpy as np
+sys.path.insert(0, os.path.join(os.path.dirname(sys.argv[0]), '..'))
+from options import readOptions
+
+options = readOptions('Thick tube and circular footing, axisymmetric.',
+        scene=('section', "'section': tube and footing, axisymmetric; 'circle': the rough footing in 3D, 'rough': it alone in axisymmetry"),
+        cells=(8, 'cells over the radius of the footing, without the half cell at its edge'),
+        tubeCells=(16, 'cells over the inner radius of the tube'),
+        steps=(16, 'load steps of the footing'),
+        settlement=(0.04, 'of the footing at the end, as a part of its diameter'))
+
+cu = 25e3
+
+
+def tube(law, pressure, steps, **more):
+	"""A ring one cell high, and the pressure at its inner surface at load factor 1."""
+	O.reset()
+	O.materials.append(law)
+	h = 1 / options.tubeCells
+	grid = MpmGrid(cellSize=h, axisymmetric=True)
+	O.bodies.append(mpm.fill(pack.inAlignedBox((1, 0, -1), (2, h, 1)), grid, pointsPerCell=2, material='tube'))
+	for b in O.bodies: # 3/2 and -1/2 of the force on the surface, in the first and the second row: at the surface 1, one cell behind it 0
+		row = int((b.state.pos[0] - 1) / (h / 2))
+		if row < 2: b.state.force = ((1.5, -0.5)[row] * pressure * 2 * np.pi * h / 2, 0, 0)
+	ends = [MpmBoundary(max=(inf, 0, inf), fix='y'), MpmBoundary(min=(-inf, h, -inf), fix='y')]
+	O.engines = [MpmImplicitEngine(grid=grid, boundaries=ends, label='solver', **more)]
+	O.dt = 1 / steps
+
+
+def surface(name):
+	"""Value at the inner surface, from the two rows of points behind it."""
+	points = mpm.arrays()
+	x0 = points['pos0'][:, 0]
+	rows = [np.isclose(x0, 1 + (i + 0.5) / (2 * options.tubeCells)) for i in (0, 1)]
+	values = [(points['pos'] - points['pos0'])[row, 0].mean() if name == 'displacement' else points['stress'][row, 2, 2].mean() for row in rows]
+	return 1.5 * values[0] - 0.5 * values[1]
+
+
+def elasticTube():
+	young, nu, p = 1e8, 0.3, 1e3
+	tube(MpmElasticMat(young=young, poisson=nu, density=2000, label='tube'), p, 1)
+	O.run(1, wait=True)
+	found, exact = surface('displacement'), p / young * (1 + nu) * ((1 - 2 * nu) + 4) / 3
+	print(f'tube, elastic: u(a) / a = {found:.6g}, exact {exact:.6g} (difference {100 * (found / exact - 1):+.2f} %)')
+	hoop = surface('stress') / p
+	print(f'tube, elastic: hoop stress at the inner surface {hoop:.4f} p, exact {5 / 3:.4f} (difference {100 * (hoop / (5 / 3) - 1):+.2f} %)')
+
+
+def plasticTube():
+	exact, most = 2 * np.log(2), 1.6
+	tube(MpmTrescaMat(young=1e4 * cu, poisson=0.3, density=2000, undrainedStrength=cu, label='tube'), most * cu, 64, fBar=True, newton=MpmNewton(minStep=1 / 64))
+	try:
+		O.run(64, wait=True)
+	except RuntimeError: # the tube has collapsed
+		pass
+	found = most * solver.loadFactor
+	print(f'tube, Tresca: last converged at p = {found:.4f} c_u, collapse at {exact:.4f} c_u (difference {100 * (found / exact - 1):+.2f} %)')
+	points = mpm.arrays()
+	return points['pos'][:, 0], points['stress']
+
+
+R = 1.
+h = R / (options.cells + 0.5) # the footing ends in the middle between two nodes
+
+
+def clay(grid):
+	width, depth = np.ceil(3 * R / h) * h, np.ceil(2 * R / h) * h
+	O.materials.append(MpmTrescaMat(young=1000 * cu, poisson=0.3, density=2000, undrainedStrength=cu, label='clay'))
+	O.bodies.append(mpm.fill(pack.inAlignedBox((0, -depth, 0 if grid.dim == 3 else -1), (width, 0, width)), grid, pointsPerCell=2, material='clay'))
+	return width, depth
+
+
+def pushed(boxes, boundaries, grid, parts):
+	"""Load over area and c_u after each step, by settlement over the diameter; `parts` of the circle are computed."""
+	push = dict(displacement=(0, -options.settlement * 2 * R, 0))
+	feet = [MpmBoundary(**box, **push) for box in boxes]
+	O.engines = [MpmImplicitEngine(grid=grid, boundaries=boundaries + feet, fBar=True, label='solver')]
+	O.dt = 1 / options.steps
+	history, begin = [(0, 0)], time.time()
+	for _ in range(options.steps):
+		O.run(1, wait=True)
+		load = -sum(reaction[1] for reaction in solver.reactions[len(boundaries):])
+		history.append((solver.loadFactor * options.settlement, load / (parts * np.pi * R**2 * cu)))
+	return np.array(history).T, time.time() - begin
+
+
+def circularFooting(fix):
+	O.reset()
+	grid = MpmGrid(cellSize=h, axisymmetric=True)
+	width, depth = clay(grid)
+	boundaries = [MpmBoundary(min=(width, -inf, -inf), fix='x'), MpmBoundary(max=(inf, -depth, inf), fix='xy')]
+	return pushed([dict(min=(-inf, 0, -inf), max=(R, 0, inf), fix=fix)], boundaries, grid, 1)
+
+
+def circleIn3D():
+	"""The nodes within the circle, row by row."""
+	O.reset()
+	grid = MpmGrid(cellSize=h, dim=3)
+	width, depth = clay(grid)
+	boundaries = [
+	        MpmBoundary(max=(0, inf, inf), fix='x'),
+	        MpmBoundary(min=(width, -inf, -inf), fix='x'),
+	        MpmBoundary(max=(inf, inf, 0), fix='z'),
+	        MpmBoundary(min=(-inf, -inf, width), fix='z'),
+	        MpmBoundary(max=(inf, -depth, inf), fix='xyz'),
+	]
+	rows = [(row * h, np.sqrt(R**2 - (row * h)**2)) for row in range(options.cells + 1)]
+	return pushed([dict(min=(-inf, 0, z - h / 9), max=(end, 0, z + h / 9), fix='xyz') for z, end in rows], boundaries, grid, 1 / 4)
+
+
+def report(name, curve, seconds, reference):
+	settlement, load = curve
+	rise = load[-1] / np.interp(settlement[-1] - 0.005, settlement, load) - 1
+	print(f'{name}: {len(O.bodies)} material points, {solver.dofs} unknowns, {options.steps} steps in {seconds:.1f} s')
+	print(f'{name}: N_c = {load.max():.3f}, published {reference} (difference {100 * (load.max() / reference - 1):+.1f} %), rising by {100 * rise:.2f} % in the last .005 diameters')
+
+
+def picture(curves, radius, stress):
+	figure, (ring, loads, section) = plt.subplots(1, 3, figsize=(14, 4), width_ratios=[1, 1, 1.5], layout='constrained')
+	order = np.argsort(radius)
+	for i, name in (0, 'radial'), (2, 'hoop'):
+		ring.plot(radius[order], stress[order, i, i] / cu, '.', markersize=3, label=f'{name} stress')
+	ring.plot(radius[order], 2 * np.log(radius[order] / 2), 'k--', linewidth=0.9, label='$2 \\ln(r / b)$ and that $+ 2$')
+	ring.plot(radius[order], 2 * np.log(radius[order] / 2) + 2, 'k--', linewidth=0.9)
+	ring.set(xlabel='r / a', ylabel='stress / $c_u$', title='tube at collapse')
+	for (name, curve, reference), colour in zip(curves, ('tab:blue', 'tab:orange')):
+		loads.plot(100 * curve[0], curve[1], color=colour, label=name)
+		loads.axhline(reference, color=colour, linestyle='--', linewidth=0.9, label=f'{name}, published: {reference}')
+	loads.set(xlabel='settlement / diameter [%]', ylabel='load / (area $c_u$)', xlim=(0, None), ylim=(0, None), title='circular footing')
+	for axes in ring, loads:
+		axes.legend(frameon=False, fontsize=8)
+	mpm.plot('displacement', grid=False, ghost=False, ax=section)
+	section.plot([0, R], [0.03 - options.settlement * 2 * R] * 2, 'k-', linewidth=5, solid_capstyle='butt')
+	section.set(title='rough footing: section, the axis on the left')
+	figure.savefig(os.path.join(options.out, 'axisymmetric.png'), dpi=130)
+	print(f'written: {options.out}/axisymmetric.png')
+
+
+if options.scene == 'section':
+	elasticTube()
+	ring = plasticTube()
+	curves = []
+	for name, fix, reference in ('smooth', 'y', 5.69), ('rough', 'xy', 6.05):
+		curve, seconds = circularFooting(fix)
+		report('footing, ' + name, curve, seconds, reference)
+		curves.append((name, curve, reference))
+	picture(curves, *ring)
+else:
+	report(*(('footing in 3D, rough', *circleIn3D()) if options.scene == 'circle' else ('footing, rough', *circularFooting('xy'))), 6.05)
