@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "core/terms/traction.hpp"
+#include <Eigen/Geometry>
+#include <numeric>
+#include <sstream>
+
+namespace gimpm {
+namespace {
+
+/// Derivative of a piece's outward normal (times its size) by the place of each of its vertices.
+std::array<Mat<2>, 2> normalSlopes(const Surface<2>::Piece&, const std::vector<Vec<2>>&)
+{
+	const Mat<2> turn = (Mat<2>() << 0, 1, -1, 0).finished();
+	return { -turn, turn };
+}
+
+std::array<Mat3, 3> normalSlopes(const Surface<3>::Piece& piece, const std::vector<Vec3>& x)
+{
+	std::array<Mat3, 3> slopes;
+	for (int i = 0; i < 3; ++i) {
+		const Vec3 v = x[piece[(i + 2) % 3]] - x[piece[(i + 1) % 3]]; // n = (x2 - x1) x (x3 - x1) / 2 gives dn/dx_i w = v x w / 2
+		slopes[i]    = 0.5 * (Mat3() << 0, -v[2], v[1], v[2], 0, -v[0], -v[1], v[0], 0).finished();
+	}
+	return slopes;
+}
+
+template <int Dim> std::string emptyAt(const Vec<Dim>& vertex)
+{
+	std::ostringstream text;
+	text << "a loaded surface has a vertex at (" << vertex.transpose() << "), where the grid holds no material within " << attachmentTolerance << " cells";
+	return text.str();
+}
+
+} // namespace
+
+template <int Dim>
+Traction<Dim>::Traction(SurfaceLoad<Dim>& load, const CloudBasis<Dim>& basis, const Grid<Dim>& grid)
+        : load_(load), nodes_(basis.nodes), isSymmetric_(load.pressure == 0 || load.surface.isClosed())
+{
+	for (const Vec<Dim>& vertex : load.surface.vertices) {
+		const auto attached = attach(vertex, basis, grid);
+		if (!attached) {
+			obstacle_ = emptyAt(vertex);
+			return;
+		}
+		attached_.push_back(*attached);
+	}
+}
+
+template <int Dim> std::vector<Vec<Dim>> Traction<Dim>::placesAt(const Eigen::VectorXd& d) const
+{
+	Places places = load_.surface.vertices;
+	for (std::size_t v = 0; v < places.size(); ++v)
+		places[v] += attached_[v].displacement(d);
+	return places;
+}
+
+template <int Dim> std::vector<Vec<Dim>> Traction<Dim>::forcesAt(const Places& places) const
+{
+	Places         forces(places.size(), Vec<Dim>::Zero());
+	const Surface& surface = load_.surface;
+	for (const Piece& piece : surface.pieces) {
+		const Vec<Dim> force = surface.normal(piece, surface.vertices0).norm() * load_.traction - load_.pressure * surface.normal(piece, places);
+		for (const int v : piece)
+			forces[v] += force / Dim;
+	}
+	return forces;
+}
+
+/// Calls f(a, b, code, i, j, product of the weights) for each vertex i of the piece with its nodes a, and each vertex j with its nodes b; code is that
+/// of the offset from a to b.
+template <int Dim> template <class F> void Traction<Dim>::forNodePairs(const Piece& piece, F&& f) const
+{
+	for (int i = 0; i < Dim; ++i)
+		for (int j = 0; j < Dim; ++j) {
+			const auto &from = attached_[piece[i]], &to = attached_[piece[j]];
+			for (int m = 0; m < from.nodes; ++m)
+				for (int n = 0; n < to.nodes; ++n) {
+					const Index<Dim> offset = Grid<Dim>::index(nodes_[to.node[n]]) - Grid<Dim>::index(nodes_[from.node[m]]);
+					f(from.node[m], to.node[n], NodeMatrix<Dim>::code(offset), i, j, from.weight[m] * to.weight[n]);
+				}
+		}
+}
+
+template <int Dim> void Traction<Dim>::mark(NodeMatrix<Dim>& K) const
+{
+	if (load_.pressure == 0) return;
+	for (const Piece& piece : load_.surface.pieces)
+		forNodePairs(piece, [&](int a, int, int code, int, int, double) {
+			if (code >= 0) K.markUsed(a, code);
+		});
+}
+
+template <int Dim> void Traction<Dim>::addStiffness(const Places& places, NodeMatrix<Dim>& K) const
+{
+	if (load_.pressure == 0) return;
+	for (const Piece& piece : load_.surface.pieces) {
+		const auto slopes = normalSlopes(piece, places);
+		forNodePairs(piece, [&](int a, int b, int code, int, int j, double weight) { K.add(a, b, code, load_.pressure / Dim * weight * slopes[j]); });
+	}
+}
+
+template <int Dim> std::optional<PointFailure> Traction<Dim>::add(const Eigen::VectorXd& d, const TermSum<Dim>& sum) const
+{
+	const Places places = placesAt(d), forces = forcesAt(places);
+	for (std::size_t v = 0; v < forces.size(); ++v)
+		for (int n = 0; n < attached_[v].nodes; ++n) {
+			const Vec<Dim> f = attached_[v].weight[n] * forces[v];
+			sum.force.template segment<Dim>(Dim * attached_[v].node[n]) -= f;
+			if (sum.sizes) sum.sizes->template segment<Dim>(Dim * attached_[v].node[n]) += f.cwiseAbs();
+		}
+	if (sum.K) addStiffness(places, *sum.K);
+	return std::nullopt;
+}
+
+template <int Dim> double Traction<Dim>::fromOutside(const Eigen::VectorXd& d) const
+{
+	Eigen::VectorXd force = Eigen::VectorXd::Zero(d.size());
+	add(d, { force });
+	return force.norm();
+}
+
+template <int Dim> void Traction<Dim>::commit(const Eigen::VectorXd& d)
+{
+	load_.surface.vertices = placesAt(d);
+	const Places forces    = forcesAt(load_.surface.vertices);
+	load_.resultant        = std::accumulate(forces.begin(), forces.end(), Vec<Dim>(Vec<Dim>::Zero()));
+}
+
+template class Traction<2>;
+template class Traction<3>;
+
+} // namespace gimpm
