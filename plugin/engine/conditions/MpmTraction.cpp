@@ -7,8 +7,6 @@ void MpmTraction::requireAdmissible() const
 {
 	Exposed<MpmTraction, Serializable>::requireAdmissible();
 	surface->requireAdmissible();
-	if (pressure == 0 && traction.isZero(0))
-		throw std::invalid_argument("MpmTraction: pressure = 0 and traction = (0, 0, 0): there is no load; give one of them, or leave it out.");
 }
 
 } // namespace yade
