@@ -2,6 +2,7 @@
 #include "core/grid/surface.hpp"
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 namespace gimpm {
@@ -12,22 +13,26 @@ using Side = std::pair<int, int>;
 
 template <int Dim> Side side(const std::array<int, Dim>& piece, int i) { return std::minmax({ piece[i], piece[(i + 1) % Dim] }); }
 
-/// Numbers of the vertices in the middle of sides.
+/// Numbers of the vertices that divide sides.
 using Middles = std::map<Side, int>;
 
 template <int Dim> int sidesOf() { return Dim == 2 ? 1 : 3; }
 
-/// The middles of all sides that are too long.
-template <int Dim> Middles halve(Surface<Dim>& surface, double limit)
+/// Divides all sides that are too long, at one of the places that would divide them into equal parts: parts of a straight line on the grid fit
+/// into its cells if the line does.
+template <int Dim> Middles divideSides(Surface<Dim>& surface, double limit)
 {
 	Middles middles;
 	for (const auto& piece : surface.pieces)
 		for (int i = 0; i < sidesOf<Dim>(); ++i) {
-			const Side s = side<Dim>(piece, i);
-			if ((surface.vertices[s.first] - surface.vertices[s.second]).norm() < limit || middles.count(s)) continue;
-			middles[s] = int(surface.vertices.size());
+			const Side   s      = side<Dim>(piece, i);
+			const double length = (surface.vertices[s.first] - surface.vertices[s.second]).norm();
+			const double parts  = std::ceil(length / limit - 1e-9);
+			if (parts <= 1 || middles.count(s)) continue;
+			middles[s]         = int(surface.vertices.size());
+			const double share = std::floor(parts / 2) / parts;
 			for (auto* x : { &surface.vertices, &surface.vertices0 })
-				x->push_back((0.5 * ((*x)[s.first] + (*x)[s.second])).eval());
+				x->push_back(((1 - share) * (*x)[s.first] + share * (*x)[s.second]).eval());
 		}
 	return middles;
 }
@@ -40,7 +45,7 @@ void divide(const Surface<2>::Piece& piece, const Middles& middles, std::vector<
 	parts.push_back({ middle->second, piece[1] });
 }
 
-/// In two at the middle of one side, whose ends each keep a part; the parts are divided in turn.
+/// In two at one side, whose ends each keep a part; the parts are divided in turn.
 void divide(const Surface<3>::Piece& piece, const Middles& middles, std::vector<Surface<3>::Piece>& parts)
 {
 	for (int i = 0; i < 3; ++i) {
@@ -79,7 +84,7 @@ template <int Dim> bool Surface<Dim>::isClosed() const
 template <int Dim> void Surface<Dim>::refine(double limit)
 {
 	for (;;) {
-		const Middles middles = halve(*this, limit);
+		const Middles middles = divideSides(*this, limit);
 		if (middles.empty()) return;
 		std::vector<Piece> parts;
 		for (const Piece& piece : pieces)

@@ -20,7 +20,7 @@ template <int Dim> struct Surface {
 	/// Whether it has no edge: every vertex in the plane and every side of a triangle belongs to two pieces.
 	bool isClosed() const;
 
-	/// Halves the sides that are not shorter than `limit`, until none is left.
+	/// Divides the sides that are longer than `limit`, until none is left.
 	void refine(double limit);
 };
 

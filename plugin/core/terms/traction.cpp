@@ -57,8 +57,8 @@ template <int Dim> std::vector<Vec<Dim>> Traction<Dim>::placesAt(const Eigen::Ve
 
 template <int Dim> std::vector<Vec<Dim>> Traction<Dim>::forcesAt(const Places& places) const
 {
-	Places         forces(places.size(), Vec<Dim>::Zero());
-	const Surface& surface = load_.surface;
+	Places      forces(places.size(), Vec<Dim>::Zero());
+	const auto& surface = load_.surface;
 	for (const Piece& piece : surface.pieces) {
 		const Vec<Dim> force = surface.normal(piece, surface.vertices0).norm() * load_.traction - load_.pressure * surface.normal(piece, places);
 		for (const int v : piece)

@@ -8,9 +8,13 @@
 
 namespace gimpm {
 
+/// Length of the sides of a loaded surface's pieces, in cells. Nodes are then given their shares of a uniform load to some 0.4 % by segments (exactly where
+/// these fit into the cells) and 1 % by triangles; the error falls with the square of the length.
+constexpr double pieceLimit = 0.25;
+
 /// What acts on a surface at the end of a step.
 template <int Dim> struct SurfaceLoad {
-	Surface<Dim> surface;                      ///< at the start of the step, with sides shorter than half a cell
+	Surface<Dim> surface;                      ///< at the start of the step, with sides of at most `pieceLimit`
 	double       pressure  = 0;                ///< against the outward normal of the deformed surface: it follows [Pa]
 	Vec<Dim>     traction  = Vec<Dim>::Zero(); ///< force over the area that the surface had at first; keeps its direction [Pa]
 	Vec<Dim>     resultant = Vec<Dim>::Zero(); ///< of both, in the last step that was accepted [N]
