@@ -202,6 +202,28 @@ namespace {
 		EXPECT_TRUE(near.step().converged());
 	}
 
+	TYPED_TEST(TractionOf, OfASurfaceThatIsInsideOutIsRefused)
+	{
+		constexpr int Dim    = TypeParam::value;
+		auto          turned = lid<Dim>(1.5, 1.5);
+		for (auto& piece : turned.pieces)
+			std::swap(piece[0], piece[1]);
+		for (const bool isNew : { true, false }) {
+			Block<Dim> block(turned);
+			block.rollers(true);
+			block.load.isNew    = isNew;
+			block.load.pressure = 1;
+			const auto report   = block.step();
+			EXPECT_EQ(report.converged(), !isNew);
+			if (isNew) EXPECT_EQ(report.cause.substr(0, 66), "a surface under pressure has the body on its outer side: reverse t");
+		}
+		Block<Dim> right(lid<Dim>(1.5, 1.5));
+		right.rollers(true);
+		right.load.isNew    = true;
+		right.load.pressure = 1;
+		EXPECT_TRUE(right.step().converged());
+	}
+
 	TYPED_TEST(TractionOf, RefinementKeepsAreasAndJoins)
 	{
 		constexpr int  Dim        = TypeParam::value;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "core/terms/traction.hpp"
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <numeric>
 #include <sstream>
 
@@ -31,6 +32,24 @@ template <int Dim> std::string emptyAt(const Vec<Dim>& vertex)
 	return text.str();
 }
 
+/// Whether material is mostly on the outer side, half a cell away.
+template <int Dim> bool isInsideOut(const Surface<Dim>& surface, const std::vector<Key>& populated, const Grid<Dim>& grid)
+{
+	const auto holdsMaterial = [&](const Vec<Dim>& x) {
+		const Index<Dim> cell = ((x - grid.origin) / grid.cellSize).array().floor().template cast<int>();
+		return std::binary_search(populated.begin(), populated.end(), Grid<Dim>::key(cell));
+	};
+	double outside = 0; // area with material outside only, less that with material inside only
+	for (const auto& piece : surface.pieces) {
+		Vec<Dim> centre = Vec<Dim>::Zero();
+		for (const int v : piece)
+			centre += surface.vertices[v] / Dim;
+		const Vec<Dim> normal = surface.normal(piece, surface.vertices), step = 0.5 * grid.cellSize * normal.normalized();
+		outside += normal.norm() * (int(holdsMaterial(centre + step)) - int(holdsMaterial(centre - step)));
+	}
+	return outside > 0;
+}
+
 } // namespace
 
 template <int Dim>
@@ -45,6 +64,8 @@ Traction<Dim>::Traction(SurfaceLoad<Dim>& load, const CloudBasis<Dim>& basis, co
 		}
 		attached_.push_back(*attached);
 	}
+	if (load.isNew && load.pressure != 0 && isInsideOut(load.surface, basis.cells, grid))
+		obstacle_ = "a surface under pressure has the body on its outer side: reverse the order of its points";
 }
 
 template <int Dim> std::vector<Vec<Dim>> Traction<Dim>::placesAt(const Eigen::VectorXd& d) const

@@ -17,6 +17,7 @@ template <int Dim> struct SurfaceLoad {
 	Surface<Dim> surface;                      ///< at the start of the step, with sides of at most `pieceLimit`
 	double       pressure  = 0;                ///< against the outward normal of the deformed surface: it follows [Pa]
 	Vec<Dim>     traction  = Vec<Dim>::Zero(); ///< force over the area that the surface had at first; keeps its direction [Pa]
+	bool         isNew     = false;            ///< its outer side is still to be compared with where material is
 	Vec<Dim>     resultant = Vec<Dim>::Zero(); ///< of both, in the last step that was accepted [N]
 };
 

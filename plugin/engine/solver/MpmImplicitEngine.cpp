@@ -91,20 +91,22 @@ template <int Dim> void MpmImplicitEngine::step()
 		warn(doubt);
 }
 
-template <int Dim> MpmImplicitEngine::Job<Dim> MpmImplicitEngine::prepare()
+template <int Dim> Job<Dim> MpmImplicitEngine::prepare()
 {
 	const ValueLock lock;
 	requireRunnable(*this);
 	progressLine.start(scene->iter);
 	warn(plausibility.doubtOfEnd(*this));
 	double   gathering = 0, checking = 0;
-	Job<Dim> job { { stepPart, newton->minStep, newton->maxIterations }, loadTime, scene->time + scene->dt, gimpm::Model<Dim>(), gimpm::PointCloud<Dim>() };
+	Job<Dim> job { { stepPart, newton->minStep, newton->maxIterations }, loadTime, scene->time + scene->dt };
 	{
 		const gimpm::Stopwatch watch(gathering);
 		job.model = toModel<Dim>(*grid, basis, fBar, boundaries, *ghost, *newton);
 		updateMaterialPoints(points, *scene, mask);
 		requireAny(points, *this);
-		job.cloud = gather(points, job.model);
+		job.cloud        = gather(points, job.model);
+		job.surfaceLoads = SurfaceLoads<Dim>(*this, job.model.grid);
+		job.surfaceLoads.join(job.model);
 	}
 	for (const string& doubt : plausibility.look(*this, points, job.cloud, job.model, checking))
 		warn(doubt);
@@ -137,31 +139,33 @@ template <int Dim> void MpmImplicitEngine::advance(Job<Dim>& job)
 			throw std::runtime_error(reason);
 		}
 		if (report.accepted) warn(warningOfAccepted(report, *this, tried.time));
-		if (report.converged() || report.accepted) reach(job.cloud, tried);
+		if (report.converged() || report.accepted) reach(job, tried);
 		progressLine.show(progressOf(*this, job.control.isDone()), verbosity);
 	}
 }
 
-template <int Dim> MpmImplicitEngine::Attempt<Dim> MpmImplicitEngine::attempt(Job<Dim>& job) const
+template <int Dim> Attempt<Dim> MpmImplicitEngine::attempt(Job<Dim>& job) const
 {
 	const ValueLock lock;
 	const Real      time               = job.control.goal() == 1 ? job.target : job.begin + job.control.goal() * (job.target - job.begin);
 	job.model.newton.acceptUnconverged = newton->acceptUnconverged && job.control.isLeast();
+	job.surfaceLoads.advanceTo(time);
 	Attempt<Dim> next { time, loadBetween<Dim>(loadTime, time), newton->predictor, {} };
 	if (next.predicts) next.last = fromNumbers<Dim>(lastDisplacements, lastLoadIncrement);
 	return next;
 }
 
 // Points and load time move on together: whoever reads or saves the scene at any moment finds a converged state.
-template <int Dim> void MpmImplicitEngine::reach(const gimpm::PointCloud<Dim>& cloud, const Attempt<Dim>& made)
+template <int Dim> void MpmImplicitEngine::reach(const Job<Dim>& job, const Attempt<Dim>& made)
 {
 	double scattering = 0;
 	{
 		const gimpm::Stopwatch watch(scattering);
-		scatter(cloud, points);
+		scatter(job.cloud, points);
+		job.surfaceLoads.scatter();
 	}
 	addTime(*timingDeltas, "scatter", scattering);
-	plausibility.know(cloud);
+	plausibility.know(job.cloud);
 	++substeps;
 	loadTime   = made.time;
 	loadFactor = made.load.factor.value;
