@@ -69,26 +69,29 @@ bool MpmSurface::areFinite(const vector<Vector3r>& points)
 	return points.size() >= 2 && std::all_of(points.begin(), points.end(), [](const Vector3r& x) { return x.allFinite(); });
 }
 
+bool MpmSurface::arePieces(const vector<vector<int>>& pieces)
+{
+	return !pieces.empty() && (pieces[0].size() == 2 || pieces[0].size() == 3) && std::all_of(pieces.begin(), pieces.end(), [&](const vector<int>& piece) {
+		return piece.size() == pieces[0].size() && *std::min_element(piece.begin(), piece.end()) >= 0;
+	});
+}
+
 void MpmSurface::requireAdmissible() const
 {
 	Exposed<MpmSurface, Serializable>::requireAdmissible();
-	const int          size = dim();
-	std::ostringstream text;
-	if (pieces.empty()) throw std::invalid_argument("MpmSurface.pieces is empty: expected two or more points, or one or more triangles.");
-	for (size_t i = 0; i < pieces.size() && text.str().empty(); ++i) {
-		const auto isVertex = [&](int v) { return v >= 0 && size_t(v) < vertices.size(); };
+	for (size_t i = 0; i < pieces.size(); ++i) {
+		std::ostringstream text;
 		text << "MpmSurface.pieces[" << i << "] = " << textOf(pieces[i]);
-		if (int(pieces[i].size()) != size || size < 2 || size > 3) text << ": expected two vertices each (segments) or three each (triangles).";
-		else if (!std::all_of(pieces[i].begin(), pieces[i].end(), isVertex))
-			text << ": expected numbers of vertices, from 0 to " << int(vertices.size()) - 1 << ".";
-		else if (!(sizeOf(pieces[i], vertices) > 0))
-			text << ", with a vertex at " << textOf(vertices[pieces[i][0]]) << ", has no size: do vertices coincide?";
-		else
-			text.str("");
+		if (*std::max_element(pieces[i].begin(), pieces[i].end()) >= int(vertices.size()))
+			throw std::invalid_argument(text.str() + ": there are vertices 0 to " + std::to_string(vertices.size() - 1) + " only.");
+		if (!(sizeOf(pieces[i], vertices) > 0))
+			throw std::invalid_argument(
+			        text.str() + ", with a vertex at " + textOf(vertices[pieces[i][0]]) + ", has no size: do vertices coincide?");
 	}
-	if (text.str().empty() && !initialVertices.empty() && initialVertices.size() != vertices.size())
-		text << "MpmSurface.vertices: " << vertices.size() << " points after a step with " << initialVertices.size() << "; make a new surface instead.";
-	if (!text.str().empty()) throw std::invalid_argument(text.str());
+	if (!initialVertices.empty() && initialVertices.size() != vertices.size())
+		throw std::invalid_argument(
+		        "MpmSurface.vertices: " + std::to_string(vertices.size()) + " points after steps with " + std::to_string(initialVertices.size())
+		        + "; make a new surface instead.");
 }
 
 shared_ptr<MpmSurface> MpmSurface::line(const vector<Vector3r>& points)

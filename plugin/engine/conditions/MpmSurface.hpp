@@ -21,8 +21,9 @@ public:
 	template <class V> static void attributes(V&& v)
 	{
 		v("vertices", &MpmSurface::vertices, 0, "Current positions [m], finite; z is not used in the plane. Read as a tuple.",
-		  admitting("two or more points, all finite", [](const vector<Vector3r>& x) { return x.empty() || areFinite(x); }));
-		v("pieces", &MpmSurface::pieces, 0, "Of each segment or triangle, the two or three numbers of its vertices. Read as a tuple.");
+		  admitting("two or more points, all finite", areFinite));
+		v("pieces", &MpmSurface::pieces, 0, "Of each segment or triangle, the two or three numbers of its vertices. Read as a tuple.",
+		  admitting("one or more pieces of two numbers >= 0 each (segments), or of three each (triangles)", arePieces));
 		v("initialVertices", &MpmSurface::initialVertices, readonly,
 		  "Where the vertices were at the first step [m], empty before it. The engine adds vertices where pieces outgrow half a cell.");
 	}
@@ -38,6 +39,7 @@ public:
 
 private:
 	static bool areFinite(const vector<Vector3r>&);
+	static bool arePieces(const vector<vector<int>>&);
 };
 
 // Points, triangles and surfaces of GTS too
