@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Loads on surfaces that move with the body: mpm.surface, MpmTraction, and what is refused about them."""
 import pytest
+from conftest import outcomesOf
 
 column = '''
 import json
@@ -10,7 +11,7 @@ from yade import mpm, pack
 def column(dim=2, **load):
 	"""A confined block of 2 x 2 [x 2] m without weight, nu = 0, E = 1 MPa, with a load on its upper side."""
 	O.reset()
-	O.materials.append(MpmElasticMat(young=1e6, poisson=0, density=0, label='soil'))
+	O.materials.append(MpmElasticMat(young=1e6, poisson=0, density=1, label='soil'))
 	grid = MpmGrid(cellSize=0.5, dim=dim)
 	block = pack.inAlignedBox((0, 0, 0 if dim == 3 else -1), (2, 2, 2 if dim == 3 else 1))
 	O.bodies.append(mpm.fill(block, grid, 2, 'soil'))
@@ -41,7 +42,7 @@ print(json.dumps([found, height()]))
 	for stretch, down, up, aside in results[0]:
 		assert abs(stretch - 0.844580) < 2e-6
 		assert abs(down / -4e5 - 1) < 1e-8 and abs(up / 4e5 - 1) < 1e-8 and abs(aside) < 1e-6
-	assert abs(results[1] - 0.844580) < 5e-4
+	assert abs(results[1] - 0.844580) < 1e-3  # triangles hand a uniform load to the nodes less evenly than segments
 
 
 def test_a_load_with_its_own_curve_goes_and_comes_back(yade):
@@ -105,7 +106,7 @@ print(json.dumps(dict(
 	assert results['bank'][1] == pytest.approx(2 * (10 * 4 + 3 * 4 + 6) + 34 * 5)
 	assert results['crestOfBank'][1:3] == [pytest.approx(4), pytest.approx([0, 4, 0])]
 	assert results['cube'] == [12, pytest.approx(6), pytest.approx([0, 0, 0]), 8]
-	assert results['ball'] == results['given'] and results['ball'][0] == 1280 and results['ball'][3] == 642
+	assert results['ball'] == results['given'] and results['ball'][0] == 320 and results['ball'][3] == 162
 	assert results['line'][:2] == [2, pytest.approx(7)] and results['ring'][3] == 3
 	assert results['triangles'][1:] == [pytest.approx(1), pytest.approx([0, 0, 1]), 4]
 
@@ -126,18 +127,10 @@ def test_what_cannot_be_meant_is_refused(yade):
 	        'mpm.surface(pack.inAlignedBox((0, 0, 0), (1, 1, 1)), min=1)': ['min = 1 must be two or three numbers'],
 	        'MpmTraction(surface=[(0, 0)])': ['MpmTraction.surface = ', 'a sequence of points'],
 	}
-	results = yade(column + f'''
-said = dict()
-for statement in {list(refused)!r}:
-	try:
-		exec(statement + '; O.step()')
-		said[statement] = 'nothing'
-	except Exception as error: said[statement] = type(error).__name__ + ': ' + str(error)
-print(json.dumps(said))
-''').result
+	outcomes = outcomesOf(yade.folder, column, [statement + '; O.step()' for statement in refused])
 	for statement, parts in refused.items():
 		for part in parts:
-			assert part in results[statement], (statement, results[statement])
+			assert part in outcomes[statement + '; O.step()'][1], (statement, outcomes[statement + '; O.step()'])
 
 
 def test_pictures_and_files(yade):

@@ -30,8 +30,10 @@ def surface(region, min=(-math.inf, ) * 3, max=(math.inf, ) * 3, dim=2, spacing=
 	if not callable(region): raise TypeError(f'surface: region = {brief(region)} must be a predicate, as for mpm.fill')
 	low, high = _corner('min', min, -math.inf, dim), _corner('max', max, math.inf, dim)
 	pieces = _outline(region, spacing) if dim == 2 else _triangles(region)
-	tolerance = 1e-9 * np.ptp(np.concatenate(pieces), axis=0).max()
-	kept = [part for piece in pieces for part in _clipped(piece, low - tolerance, high + tolerance) if _size(part) > tolerance**(dim - 1)]
+	extent = np.ptp(np.concatenate(pieces), axis=0).max()
+	tolerance = 1e-9 * extent
+	sliver = 4 * tolerance * extent**(dim - 2)  # of what stands on a face of the box
+	kept = [part for piece in pieces for part in _clipped(piece, low - tolerance, high + tolerance) if _size(part) > sliver]
 	if not kept:
 		corners = np.concatenate(pieces)
 		raise ValueError(
