@@ -12,7 +12,7 @@ template <int Dim> double distance(const Vec<Dim>& xi, const Index<Dim>& cell)
 }
 
 /// The populated cell that is nearest to a place in cell coordinates, of equally near ones the first.
-template <int Dim> std::optional<Index<Dim>> nearestCell(const Vec<Dim>& xi, const std::vector<Key>& populated)
+template <int Dim> std::optional<Index<Dim>> nearestCell(const Vec<Dim>& xi, const std::vector<Key>& populated, const Grid<Dim>& grid)
 {
 	std::optional<Index<Dim>> nearest;
 	double                    least = attachmentTolerance;
@@ -23,9 +23,7 @@ template <int Dim> std::optional<Index<Dim>> nearestCell(const Vec<Dim>& xi, con
 			cell[a] += rest % 3 - 1;
 		const double away = distance<Dim>(xi, cell);
 		if (away > least || (nearest && away == least)) continue;
-		const int n = position(populated, Grid<Dim>::key(cell));
-		if (n == int(populated.size()) || populated[n] != Grid<Dim>::key(cell)) continue;
-		nearest = cell, least = away;
+		if (std::binary_search(populated.begin(), populated.end(), Grid<Dim>::key(grid.first(cell)))) nearest = cell, least = away;
 	}
 	return nearest;
 }
@@ -36,12 +34,13 @@ template <int Dim> std::optional<Attachment<Dim>> attach(const Vec<Dim>& place, 
 {
 	const Vec<Dim> xi = (place - grid.origin) / grid.cellSize;
 	if (!(xi.array().abs() < Grid<Dim>::indexLimit).all()) return std::nullopt;
-	const auto cell = nearestCell<Dim>(xi, basis.cells);
+	const auto cell = nearestCell<Dim>(xi, basis.cells, grid);
 	if (!cell) return std::nullopt;
 	const Vec<Dim>  local = xi - cell->template cast<double>();
 	Attachment<Dim> attached;
+	attached.cell = *cell;
 	for (int n = 0; n < attached.nodes; ++n) {
-		attached.node[n]   = position(basis.nodes, Grid<Dim>::key(*cell) + Grid<Dim>::keyOffset(n));
+		attached.node[n]   = position(basis.nodes, Grid<Dim>::key(grid.first(attached.index(n))));
 		attached.weight[n] = 1;
 		for (int a = 0; a < Dim; ++a)
 			attached.weight[n] *= n >> a & 1 ? local[a] : 1 - local[a];

@@ -11,8 +11,18 @@ namespace gimpm {
 template <int Dim> struct Attachment {
 	static constexpr int nodes = 1 << Dim;
 
+	Index<Dim>                cell;   ///< as if the grid were not periodic
 	std::array<int, nodes>    node;   ///< numbers, x fastest
 	std::array<double, nodes> weight; ///< values of the functions [-]
+
+	/// Integer coordinates of a node, as if the grid were not periodic.
+	Index<Dim> index(int n) const
+	{
+		Index<Dim> i = cell;
+		for (int a = 0; a < Dim; ++a)
+			i[a] += n >> a & 1;
+		return i;
+	}
 
 	Vec<Dim> displacement(const Eigen::VectorXd& d) const
 	{

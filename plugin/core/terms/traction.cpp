@@ -37,7 +37,7 @@ template <int Dim> bool isInsideOut(const Surface<Dim>& surface, const std::vect
 {
 	const auto holdsMaterial = [&](const Vec<Dim>& x) {
 		const Index<Dim> cell = ((x - grid.origin) / grid.cellSize).array().floor().template cast<int>();
-		return std::binary_search(populated.begin(), populated.end(), Grid<Dim>::key(cell));
+		return std::binary_search(populated.begin(), populated.end(), Grid<Dim>::key(grid.first(cell)));
 	};
 	double outside = 0; // area with material outside only, less that with material inside only
 	for (const auto& piece : surface.pieces) {
@@ -54,7 +54,7 @@ template <int Dim> bool isInsideOut(const Surface<Dim>& surface, const std::vect
 
 template <int Dim>
 Traction<Dim>::Traction(SurfaceLoad<Dim>& load, const CloudBasis<Dim>& basis, const Grid<Dim>& grid)
-        : load_(load), nodes_(basis.nodes), isSymmetric_(load.pressure == 0 || load.surface.isClosed())
+        : load_(load), isSymmetric_(load.pressure == 0 || load.surface.isClosed())
 {
 	for (const Vec<Dim>& vertex : load.surface.vertices) {
 		const auto attached = attach(vertex, basis, grid);
@@ -97,7 +97,7 @@ template <int Dim> template <class F> void Traction<Dim>::forNodePairs(const Pie
 			const auto &from = attached_[piece[i]], &to = attached_[piece[j]];
 			for (int m = 0; m < from.nodes; ++m)
 				for (int n = 0; n < to.nodes; ++n) {
-					const Index<Dim> offset = Grid<Dim>::index(nodes_[to.node[n]]) - Grid<Dim>::index(nodes_[from.node[m]]);
+					const Index<Dim> offset = to.index(n) - from.index(m);
 					f(from.node[m], to.node[n], NodeMatrix<Dim>::code(offset), i, j, from.weight[m] * to.weight[n]);
 				}
 		}

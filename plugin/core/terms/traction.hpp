@@ -46,7 +46,6 @@ private:
 	template <class F> void forNodePairs(const Piece&, F&&) const;
 
 	SurfaceLoad<Dim>&            load_;
-	const std::vector<Key>&      nodes_;
 	std::vector<Attachment<Dim>> attached_; // of the vertices
 	bool                         isSymmetric_;
 	std::string                  obstacle_;

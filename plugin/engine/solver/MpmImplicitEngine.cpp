@@ -156,12 +156,12 @@ template <int Dim> Attempt<Dim> MpmImplicitEngine::attempt(Job<Dim>& job) const
 }
 
 // Points and load time move on together: whoever reads or saves the scene at any moment finds a converged state.
-template <int Dim> void MpmImplicitEngine::reach(const Job<Dim>& job, const Attempt<Dim>& made)
+template <int Dim> void MpmImplicitEngine::reach(Job<Dim>& job, const Attempt<Dim>& made)
 {
 	double scattering = 0;
 	{
 		const gimpm::Stopwatch watch(scattering);
-		scatter(job.cloud, points);
+		scatter(job.cloud, job.model.grid, points);
 		job.surfaceLoads.scatter();
 	}
 	addTime(*timingDeltas, "scatter", scattering);
