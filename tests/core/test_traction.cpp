@@ -170,6 +170,32 @@ namespace {
 		}
 	}
 
+	/// With sides that are the same nodes, where the line begins and ends does not matter.
+	TYPED_TEST(TractionOf, AcrossPeriodicSides)
+	{
+		constexpr int Dim = TypeParam::value;
+		for (const double shift : { 0., -0.4 }) {
+			Surface<Dim> surface = lid<Dim>(1.5, 1.5);
+			for (auto* vertices : { &surface.vertices, &surface.vertices0 })
+				for (auto& x : *vertices)
+					x[0] += shift;
+			Block<Dim> block(surface);
+			block.model.grid.period[0] = 3;
+			std::vector<HeldBox<Dim>> walls { wallBelow<Dim>(block.model.grid, 1, 0) };
+			if (Dim == 3) walls.push_back(wallBelow<Dim>(block.model.grid, Dim - 1, 0));
+			Vec<Dim> corner = Vec<Dim>::Zero();
+			walls.push_back(held<Dim>(block.model.grid, corner, corner, "xy"));
+			block.model.boundary = Boundary<Dim>(walls);
+			block.load.pressure  = 2e5;
+			const auto report    = block.step();
+			ASSERT_TRUE(report.converged()) << report.cause;
+			EXPECT_NEAR(block.load.resultant[1], -2e5 * std::pow(1.5, Dim - 1), Dim == 2 ? 1e-3 : 3e4);
+			if (Dim == 2)
+				for (const auto& vertex : block.load.surface.vertices)
+					EXPECT_NEAR(vertex[1] / 1.5, 0.844580, shift == 0 ? 2e-6 : 2e-3);
+		}
+	}
+
 	/// All around, free to shrink: Kirchhoff stress K ln J = -p J.
 	TYPED_TEST(TractionOf, PressureFromAllSides)
 	{
