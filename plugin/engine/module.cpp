@@ -24,5 +24,6 @@ BOOST_PYTHON_MODULE(mpm_engine)
 	py::def("respond", &respondForPython,
 	        "For mpm.respond: one call of the law of a material in principal axes, from trial strains and a dict of internal variables.");
 	py::def("elasticStrainOf", &elasticStrainForPython, "For mpm.elementTest: principal elastic strains of principal Kirchhoff stresses.");
-	py::def("gridCells", &gridCellsForPython, "For mpm.plot: corners and first field of the cells of 'grid' or 'ghostFaces' around the material points.");
+	py::def("gridCells", &gridCellsForPython,
+	        "For mpm.plot: corners and first field of the cells of 'grid', 'ghostFaces' or 'loads' around the material points.");
 }

@@ -64,6 +64,13 @@ outOfRange = {
         'MpmImplicitEngine.gravity': None,
         'MpmImplicitEngine.loadCurve': ['[(0, 0), (0, 1)]', '[(1, 0), (0, 1)]'],
         'MpmImplicitEngine.gravityCurve': ['[(0, 0), (0, 1)]', '[(1, 0), (0, 1)]'],
+        'MpmImplicitEngine.loads': None,
+        'MpmTraction.surface': ['None'],
+        'MpmTraction.pressure': None,
+        'MpmTraction.traction': None,
+        'MpmTraction.curve': ['[(0, 0), (0, 1)]', '[(1, 0), (0, 1)]'],
+        'MpmSurface.vertices': ['[(0, 0, 0)]'],
+        'MpmSurface.pieces': None,
         'MpmImplicitEngine.boundaries': None,
         'MpmImplicitEngine.ghost': ['None'],
         'MpmImplicitEngine.newton': ['None'],
@@ -99,6 +106,8 @@ admitted = {
         **{(f'MpmBoundary.{side}', text): 'no limit on that side' for side in ('min', 'max') for text in ('(inf, 0, 0)', '(0, -inf, 0)')},
         ('MpmFrictionalMat.tensileStrength', 'inf'): 'no cut',
         ('MpmImplicitEngine.boundaries', '()'): 'nothing is held',
+        ('MpmImplicitEngine.loads', '()'): 'nothing is loaded',
+        ('MpmTraction.curve', '()'): 'loadCurve',
         ('MpmImplicitEngine.gravityCurve', '()'): 'loadCurve',
         ('MpmVtkRecorder.solver', '""'): 'the only one',
         ('MpmState.internals', '()'): 'initial values',
@@ -125,10 +134,11 @@ def scene():
 	O.bodies.append(mpm.fill(mpm.polygon([(0, 0), (2, 0), (2, 3), (0, 3)]), grid, 2, lambda x: labels[int(x[0] / 0.5) % 2 + 2 * int(x[1])]))
 	clay = [b.id for b in O.bodies if b.material.label == 'clay']
 	mpm.assign(clay, stress=[-5e3 * np.identity(3)] * len(clay))
-	solver = MpmImplicitEngine(grid=grid, gravity=(0, -1, 0), boundaries=[base], ghost=ghost, newton=newton)
+	load = MpmTraction(surface=[(2, 3), (0, 3)], pressure=10)
+	solver = MpmImplicitEngine(grid=grid, gravity=(0, -1, 0), boundaries=[base], loads=[load], ghost=ghost, newton=newton)
 	O.engines = [solver, MpmVtkRecorder(fileName='out-', recorders=['all'])]
 	O.dt = 1
-	objects = [*O.engines, *O.materials, O.bodies[5].state, O.bodies[5].shape, grid, base, ghost, newton]
+	objects = [*O.engines, *O.materials, O.bodies[5].state, O.bodies[5].shape, grid, base, load, load.surface, ghost, newton]
 	return {type(o).__name__: o for o in objects}
 
 def attributes():

@@ -162,3 +162,17 @@ def test_progress_page_of_a_batch(yade):
 	between = [(float(percent), int(step)) for percent, step, last in shown if last == '80' and 0 < int(step) < 80]
 	assert between and all(abs(percent - step / 0.8) < 0.01 for percent, step in between), shown
 	assert process.returncode == 0
+
+
+def test_surface_loads(yade):
+	run = yade(root / 'examples' / 'surface_loads' / 'surface_loads.py', '--size', 10, '--cells', 3)
+	assert abs(float(re.search(r'resultant over q b: (\S+)', run.stdout)[1]) - 1) < 2e-6
+	off = {what: float(error) for what, error in re.findall(r'^(.*): \S+, half space \S+ \((\S+) %\)', run.stdout, re.MULTILINE)}
+	assert len(off) == 7 and all(abs(error) < 3 for what, error in off.items() if 'z =' in what), run.stdout
+	assert (run.folder / 'out/surface_loads/surface_loads.png').stat().st_size > 20000
+
+
+def test_tube(yade):
+	run = yade(root / 'examples' / 'surface_loads' / 'tube.py')
+	found = float(re.search(r'Lame \S+ \((\S+) %\)', run.stdout)[1])
+	assert abs(found) < 2 and (run.folder / 'out/tube/tube.png').stat().st_size > 5000

@@ -51,11 +51,13 @@ template <int Dim> void NodeMatrix<Dim>::setZero()
 	std::fill(skew_.begin(), skew_.end(), 0.);
 }
 
-template <int Dim> void NodeMatrix<Dim>::add(int a, int b, int code, const Mat<Dim>& ab, const Mat<Dim>& ba)
+template <int Dim> void NodeMatrix<Dim>::add(int a, int b, int code, const Mat<Dim>& ab)
 {
-	if (code < 0) return add(b, a, -code, ba, ab);
-	Eigen::Map<RowMajor>(at(a, code)) += ab;
-	if (a != b) Eigen::Map<RowMajor>(skew_.data() + place(a, code)) += ba.transpose() - ab;
+	if (code >= 0) Eigen::Map<RowMajor>(at(a, code)) += ab;
+	if (code == 0 || isSymmetric_) return;
+	if (code > 0) Eigen::Map<RowMajor>(skewAt(a, code)) -= ab;
+	else
+		Eigen::Map<RowMajor>(skewAt(b, -code)) += ab.transpose();
 }
 
 template <int Dim> void NodeMatrix<Dim>::multiplyAdd(const Eigen::VectorXd& x, Eigen::VectorXd& y) const

@@ -37,9 +37,9 @@ public:
 	double*       skewAt(int node, int code) { return skew_.data() + place(node, code); }
 	const double* skewAt(int node, int code) const { return skew_.data() + place(node, code); }
 
-	/// Adds to the blocks of two nodes in any order; `code` is that of the offset b - a, negative where b is the lower one. For a == b, to
-	/// one block, `ab`. Not for symmetric matrices.
-	void add(int a, int b, int code, const Mat<Dim>& ab, const Mat<Dim>& ba);
+	/// Adds to K_ab, not to K_ba, of two nodes in any order; `code` is that of the offset b - a, negative where b is the lower one. A symmetric
+	/// matrix keeps only what is for the lower node's row.
+	void add(int a, int b, int code, const Mat<Dim>& ab);
 
 	/// y += K x, for nodal vectors of Dim components a node.
 	void multiplyAdd(const Eigen::VectorXd& x, Eigen::VectorXd& y) const;

@@ -66,6 +66,8 @@ template <int Dim> bool isHeld(const StepSystem<Dim>& system, const PointCloud<D
 	const Restraint   held = restraint(system.basis, system.model.grid, system.model.boundary, system.terms);
 	report.parts           = held.parts;
 	if (!lost.empty()) return !fail(report, Failure::detached, lost);
+	for (const auto& term : system.terms)
+		if (const std::string obstacle = term->obstacle(); !obstacle.empty()) return !fail(report, Failure::detached, obstacle);
 	return held.freeMotion.empty() || !fail(report, Failure::unrestrained, "nothing restrains the " + held.freeMotion);
 }
 

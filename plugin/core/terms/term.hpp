@@ -6,6 +6,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <string>
 
 namespace gimpm {
 
@@ -40,6 +41,9 @@ public:
 
 	/// Whether what it adds to K is symmetric.
 	virtual bool isSymmetric() const { return true; }
+
+	/// Why the step cannot be made with it, a clause; empty if it can.
+	virtual std::string obstacle() const { return {}; }
 
 	/// Forces from outside among those it adds at d, as those of a support [N], for what the residual is compared with; 0 for forces within the body.
 	virtual double fromOutside(const Eigen::VectorXd&) const { return 0; }

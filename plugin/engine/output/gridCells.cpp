@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "engine/output/gridCells.hpp"
+#include "engine/output/loadedSurfaces.hpp"
 #include "engine/points/parallel.hpp"
 #include "engine/solver/exchange.hpp"
 #include <vtkCellData.h>
@@ -28,6 +29,10 @@ namespace {
 
 VtkCells gridCells(const string& kind, const Scene& scene, const MpmImplicitEngine& solver)
 {
+	if (kind == "loads") {
+		const ValueLock lock;
+		return loadedSurfaces(solver, solver.loadTime, solver.grid->dim);
+	}
 	return solver.grid->dim == 2 ? cells<2>(kind, scene, solver) : cells<3>(kind, scene, solver);
 }
 
@@ -37,6 +42,7 @@ py::dict gridCellsForPython(const string& kind, const shared_ptr<MpmImplicitEngi
 	requireThreadsOfThisProcess(omp_get_max_threads());
 	const VtkCells    grid   = gridCells(kind, *solver->ownScene(), *solver);
 	vtkDataArray&     values = *grid->GetCellData()->GetArray(0);
+	const int         width  = values.GetNumberOfComponents();
 	vector<Real>      corners, field;
 	vtkNew<vtkIdList> nodes;
 	for (vtkIdType cell = 0; cell < grid->GetNumberOfCells(); ++cell) {
@@ -45,7 +51,8 @@ py::dict gridCellsForPython(const string& kind, const shared_ptr<MpmImplicitEngi
 			const double* x = grid->GetPoint(nodes->GetId(n));
 			corners.insert(corners.end(), x, x + 3);
 		}
-		field.push_back(values.GetComponent(cell, 0));
+		for (int i = 0; i < width; ++i)
+			field.push_back(values.GetComponent(cell, i));
 	}
 	py::dict result;
 	result["corners"] = bytes(corners);

@@ -59,6 +59,9 @@ namespace {
 		for (size_t b = 0; b < engine.boundaries.size(); ++b)
 			for (int axis = 0; axis < engine.grid->dim; ++axis)
 				if (engine.boundaries[b]->fixes(axis)) data[reactionName(std::to_string(b), axis)] = isKnown ? reactions[b][axis] : unknown;
+		for (size_t i = 0; i < engine.loads.size(); ++i)
+			for (int axis = 0; axis < engine.grid->dim; ++axis)
+				data["load" + std::to_string(i) + "_" + "xyz"[axis]] = engine.loads[i]->resultant[axis];
 		return data;
 	}
 }
@@ -73,7 +76,7 @@ void addPlotData(py::object pythonClass)
 	        "along gravity [m]; displacement: the largest in any direction [m]; plasticShare: part of the initial volume with plasticStrain > 0 [-]; "
 	        "elasticEnergy: strain energy of linear (Hencky) elasticity [J]; gravityPotential: minus weight (times its load factor) times displacement, summed "
 	        "over the points [J], zero at the initial positions; reaction_x, reaction_y and, in 3D, reaction_z: sum of the attribute *reactions* [N]; "
-	        "reaction0_y: that of boundaries[0], for all directions that a boundary fixes. Energies and forces are per metre of thickness in plane "
+	        "reaction0_y: that of boundaries[0], for all directions that a boundary fixes; load0_y: resultant of loads[0], for all directions [N]. Energies and forces are per metre of thickness in plane "
 	        "strain.\n\nRaises ValueError for a body that is no complete material point.");
 }
 

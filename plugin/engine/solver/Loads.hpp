@@ -1,18 +1,20 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 #include "core/stepping/model.hpp"
+#include "engine/conditions/MpmTraction.hpp"
 #include "yade_api/registration.hpp"
 
 namespace yade {
 
 // What acts on the points over time, as an engine is told.
 struct Loads {
-	Vector3r                gravity = Vector3r::Zero();
-	gimpm::LoadCurve::Knees loadCurve { { 0, 0 }, { 1, 1 } };
-	gimpm::LoadCurve::Knees gravityCurve; // empty: loadCurve
+	Vector3r                        gravity = Vector3r::Zero();
+	gimpm::LoadCurve::Knees         loadCurve { { 0, 0 }, { 1, 1 } };
+	gimpm::LoadCurve::Knees         gravityCurve; // empty: loadCurve
+	vector<shared_ptr<MpmTraction>> loads;
 
 	// Attributes, as those of a class.
-	template <class V> static void loads(V&& v)
+	template <class V> static void attributes(V&& v)
 	{
 		v("gravity", &Loads::gravity, 0, "Acceleration [m/s²] of all material points at load factor 1, finite.", finite);
 		v("loadCurve", &Loads::loadCurve, 0,
@@ -25,13 +27,20 @@ struct Loads {
 		  admitting("nothing, or (time, factor), all finite, with increasing times", [](const auto& curve) {
 			  return curve.empty() || gimpm::LoadCurve::isAdmissible(curve);
 		  }));
+		v("loads", &Loads::loads, 0, "Loads on surfaces of the body (MpmTraction); read as a tuple, so assign a new one to change it.");
 	}
 
 	gimpm::LoadCurve curveOfLoads() const { return gimpm::LoadCurve(loadCurve); }
 	gimpm::LoadCurve curveOfGravity() const { return gimpm::LoadCurve(gravityCurve.empty() ? loadCurve : gravityCurve); }
 
 	// When the last of them has come to rest.
-	Real loadsEnd() const { return std::max(curveOfLoads().end(), curveOfGravity().end()); }
+	Real loadsEnd() const
+	{
+		Real end = std::max(curveOfLoads().end(), curveOfGravity().end());
+		for (const auto& load : loads)
+			if (!load->curve.empty()) end = std::max(end, gimpm::LoadCurve(load->curve).end());
+		return end;
+	}
 
 	template <int Dim> gimpm::Load<Dim> loadBetween(Real begin, Real end) const
 	{

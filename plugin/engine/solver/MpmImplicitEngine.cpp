@@ -91,20 +91,22 @@ template <int Dim> void MpmImplicitEngine::step()
 		warn(doubt);
 }
 
-template <int Dim> MpmImplicitEngine::Job<Dim> MpmImplicitEngine::prepare()
+template <int Dim> Job<Dim> MpmImplicitEngine::prepare()
 {
 	const ValueLock lock;
 	requireRunnable(*this);
 	progressLine.start(scene->iter);
 	warn(plausibility.doubtOfEnd(*this));
 	double   gathering = 0, checking = 0;
-	Job<Dim> job { { stepPart, newton->minStep, newton->maxIterations }, loadTime, scene->time + scene->dt, gimpm::Model<Dim>(), gimpm::PointCloud<Dim>() };
+	Job<Dim> job { { stepPart, newton->minStep, newton->maxIterations }, loadTime, scene->time + scene->dt };
 	{
 		const gimpm::Stopwatch watch(gathering);
 		job.model = toModel<Dim>(*grid, basis, fBar, boundaries, *ghost, *newton);
 		updateMaterialPoints(points, *scene, mask);
 		requireAny(points, *this);
-		job.cloud = gather(points, job.model);
+		job.cloud        = gather(points, job.model);
+		job.surfaceLoads = SurfaceLoads<Dim>(*this, job.model.grid);
+		job.surfaceLoads.join(job.model);
 	}
 	for (const string& doubt : plausibility.look(*this, points, job.cloud, job.model, checking))
 		warn(doubt);
@@ -142,11 +144,12 @@ template <int Dim> void MpmImplicitEngine::advance(Job<Dim>& job)
 	}
 }
 
-template <int Dim> MpmImplicitEngine::Attempt<Dim> MpmImplicitEngine::attempt(Job<Dim>& job) const
+template <int Dim> Attempt<Dim> MpmImplicitEngine::attempt(Job<Dim>& job) const
 {
 	const ValueLock lock;
 	const Real      time               = job.control.goal() == 1 ? job.target : job.begin + job.control.goal() * (job.target - job.begin);
 	job.model.newton.acceptUnconverged = newton->acceptUnconverged && job.control.isLeast();
+	job.surfaceLoads.advanceTo(time);
 	Attempt<Dim> next { time, loadBetween<Dim>(loadTime, time), newton->predictor, {} };
 	if (next.predicts) next.last = fromNumbers<Dim>(lastDisplacements, lastLoadIncrement);
 	return next;
@@ -159,6 +162,7 @@ template <int Dim> void MpmImplicitEngine::reach(Job<Dim>& job, const Attempt<Di
 	{
 		const gimpm::Stopwatch watch(scattering);
 		scatter(job.cloud, job.model.grid, points);
+		job.surfaceLoads.scatter();
 	}
 	addTime(*timingDeltas, "scatter", scattering);
 	plausibility.know(job.cloud);

@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-#include "core/stepping/step_control.hpp"
 #include "engine/conditions/MpmBoundary.hpp"
 #include "engine/output/plotData.hpp"
 #include "engine/output/report.hpp"
-#include "engine/solver/Loads.hpp"
 #include "engine/solver/MpmGhost.hpp"
 #include "engine/solver/MpmGrid.hpp"
 #include "engine/solver/MpmNewton.hpp"
 #include "engine/solver/PeriodicCounters.hpp"
 #include "engine/solver/ProgressLine.hpp"
 #include "engine/solver/RunResults.hpp"
+#include "engine/solver/job.hpp"
 #include "engine/solver/plausibility.hpp"
 #include "engine/solver/study.hpp"
 #include "yade_api/interruption.hpp"
@@ -51,7 +50,7 @@ public:
 		  "the solution).",
 		  oneOf("gimp", "mpm"));
 		v("fBar", &E::fBar, 0, "Cure for volumetric locking of materials that keep their volume: one dilation in a cell. Needs ghost stabilisation.");
-		loads(v);
+		Loads::attributes(v);
 		v("boundaries", &E::boundaries, 0, "Essential boundary conditions (MpmBoundary); read as a tuple, so assign a new one to change it.");
 		v("ghost", &E::ghost, 0, "Ghost stabilisation (MpmGhost).", notNull);
 		v("newton", &E::newton, 0, "Solution of a load step (MpmNewton).", notNull);
@@ -83,22 +82,6 @@ public:
 	shared_ptr<Scene> ownScene();
 
 private:
-	// What a run works on, and what remains to be done.
-	template <int Dim> struct Job {
-		gimpm::StepControl     control;
-		Real                   begin, target; // load times
-		gimpm::Model<Dim>      model;
-		gimpm::PointCloud<Dim> cloud;
-	};
-
-	// A load step, and what it may start from.
-	template <int Dim> struct Attempt {
-		Real                      time;
-		gimpm::Load<Dim>          load;
-		bool                      predicts;
-		gimpm::LastIncrement<Dim> last;
-	};
-
 	bool                            isEndOfLoads() const;
 	template <int Dim> void         step();
 	template <int Dim> Job<Dim>     prepare();

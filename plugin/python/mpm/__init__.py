@@ -31,6 +31,7 @@ While it runs, one line tells how far it is (``verbosity`` of the engine); ``plo
 :func:`fill`         material points in a region
 :func:`arrays`       data of all material points as NumPy arrays; :func:`assign` is the way back
 :func:`geostatic`    initial stress of level ground
+:func:`surface`      surface of a region, for loads on it
 :func:`plot`         picture by matplotlib, of plane strain or of a slice
 :func:`colour`       colours of the points in YADE's 3D view
 :func:`export`       table of the points, CSV or NPZ
@@ -52,7 +53,8 @@ from .laboratory import elementTest, respond
 from .library import engine as _engine
 from .outline import polygon
 from .plotting import plot
+from .surfaces import surface
 from .tables import export
 
 __version__ = _engine.version
-__all__ = ['polygon', 'fill', 'arrays', 'assign', 'geostatic', 'plot', 'colour', 'export', 'save', 'advise', 'elementTest', 'respond']
+__all__ = ['polygon', 'fill', 'arrays', 'assign', 'geostatic', 'plot', 'colour', 'export', 'save', 'advise', 'elementTest', 'respond', 'surface']

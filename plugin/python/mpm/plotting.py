@@ -16,10 +16,10 @@ _axes = 'xyz'
 _signs = np.array([(x, y, z) for z in (-1, 1) for y in (-1, 1) for x in (-1, 1)])  # of the corners of a box
 _around = [0, 1, 3, 2]  # those of its lower face, in order
 _edges = np.array([(i, j) for i in range(8) for j in range(i) if np.abs(_signs[i] - _signs[j]).sum() == 2])
-_faceColour, _cellColour, _boundaryColour = '#d9480f', '#868e96', '#ffe8cc'
+_faceColour, _cellColour, _boundaryColour, _loadColour = '#d9480f', '#868e96', '#ffe8cc', '#0b7285'
 
 
-def plot(field='displacement', deformed=True, grid=None, ghost=None, fileName=None, ax=None, range=None, colormap=None, plane=None, solver=None):
+def plot(field='displacement', deformed=True, grid=None, ghost=None, fileName=None, ax=None, range=None, colormap=None, plane=None, solver=None, loads=None):
 	"""Draw the material points, coloured by a scalar field, and the background grid around them.
 
 	Each point is drawn as the box of matter that it stands for, deformed by its deformation gradient. In 3D the picture is a slice. Its title is
@@ -40,14 +40,16 @@ def plot(field='displacement', deformed=True, grid=None, ghost=None, fileName=No
 	:param colormap: name of a colour map of matplotlib; by default viridis, or RdBu_r for values of both signs
 	:param plane: in 3D, axis and coordinate [m] of the slice, as in ``('z', 0.5)``; by default across z, through the point nearest to the middle
 	:param solver: ``MpmImplicitEngine`` whose grid is drawn; needed if there are several
+	:param loads: draw the loaded surfaces, with arrows in the direction of the force; default as for *grid*
 	:return: the axes
 	:raises TypeError: *range* is no pair of numbers, or *plane* no pair of an axis and a number.
 	:raises ValueError: a field or colour map that does not exist, *grid* or *ghost* without *deformed*, *plane* in plane strain or beside the
 		body, a scene without material points, or what the engine refuses about the scene.
 	:raises OSError: the file cannot be written.
 	"""
-	if not deformed and (grid or ghost): raise ValueError('plot: the grid belongs to the current configuration, so grid and ghost need deformed=True')
-	grid, ghost = (deformed if wanted is None else wanted for wanted in (grid, ghost))
+	if not deformed and (grid or ghost or loads):
+		raise ValueError('plot: the grid and loads belong to the current configuration, so grid, ghost and loads need deformed=True')
+	grid, ghost, loads = (deformed if wanted is None else wanted for wanted in (grid, ghost, loads))
 	solver = solverOf('plot', solver)
 	points = fields()
 	if not len(points['id']): raise ValueError('plot: the scene has no material points')
@@ -58,6 +60,7 @@ def plot(field='displacement', deformed=True, grid=None, ghost=None, fileName=No
 	if grid: _drawGrid(ax, section, solver)
 	_drawMatter(ax, matter, values[kept], field, range, colormap)
 	if ghost: _drawFaces(ax, section, solver)
+	if loads and len(solver.loads): _drawLoads(ax, section, solver)
 	_finish(ax, section, f'load factor {solver.loadFactor:.4g}' + ('' if deformed else ', at the initial positions'))
 	if fileName is not None: write('plot', ax.figure, fileName)
 	return ax
@@ -84,6 +87,18 @@ class _Section:
 		above = corners[..., self.normal] > self.at
 		kept = np.flatnonzero(above.any(axis=1) & ~above.all(axis=1))
 		return [self._outline(corners[i], above[i]) for i in kept], kept
+
+	def lines(self, corners):
+		"""(M, 2, 2) ends in the picture of the segments or cut triangles (N, 2 or 3, 3) that the section meets, and their indices."""
+		if self.normal is None: return corners[:, :, self.shown], np.arange(len(corners))
+		above = corners[..., self.normal] > self.at
+		kept = np.flatnonzero(above.any(axis=1) & ~above.all(axis=1))
+		ends = []
+		for i in kept:
+			cut = [(j, (j + 1) % 3) for j in (0, 1, 2) if above[i, j] != above[i, (j + 1) % 3]]
+			shares = [(self.at - corners[i, j, self.normal]) / (corners[i, k, self.normal] - corners[i, j, self.normal]) for j, k in cut]
+			ends.append([(corners[i, j] + s * (corners[i, k] - corners[i, j]))[self.shown] for (j, k), s in zip(cut, shares)])
+		return np.array(ends).reshape(-1, 2, 2), kept
 
 	def _outline(self, corners, above):
 		low, high = _edges[above[_edges[:, 0]] != above[_edges[:, 1]]].T
@@ -153,6 +168,22 @@ def _drawFaces(ax, section, solver):
 	from matplotlib.collections import LineCollection
 	low, high, _ = _gridBoxes('ghostFaces', section, solver)
 	ax.add_collection(LineCollection(np.stack([low, high], 1), colors=_faceColour, linewidths=1.1, zorder=4, label='ghost faces'))
+
+
+def _drawLoads(ax, section, solver):
+	from matplotlib.collections import LineCollection
+	data = engine.gridCells('loads', solver)
+	tractions = np.frombuffer(data['field']).reshape(-1, 3)
+	lines, kept = section.lines(np.frombuffer(data['corners']).reshape(len(tractions), -1, 3))
+	if not len(kept): return
+	ax.add_collection(LineCollection(lines, colors=_loadColour, linewidths=1.8, zorder=5, label='loads'))
+	ax.update_datalim(lines.reshape(-1, 2))
+	shown = np.linspace(0, len(kept) - 1, min(len(kept), 25)).astype(int)
+	tips, forces = lines[shown].mean(axis=1), tractions[kept[shown]][:, section.shown]
+	length = 0.06 * np.ptp(ax.dataLim.get_points(), axis=0).max()
+	largest = np.abs(forces).max()
+	if largest == 0: return
+	ax.quiver(*tips.T, *(forces / largest * length).T, color=_loadColour, pivot='tip', angles='xy', scale_units='xy', scale=1, width=0.003, zorder=5)
 
 
 def _drawMatter(ax, matter, values, field, range, colormap):

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "core/grid/attachment.hpp"
+
+namespace gimpm {
+namespace {
+
+/// How far a place in cell coordinates is outside of a cell, in cells along the worst axis.
+template <int Dim> double distance(const Vec<Dim>& xi, const Index<Dim>& cell)
+{
+	const auto local = (xi - cell.template cast<double>()).array();
+	return (-local).max(local - 1).max(0.).maxCoeff();
+}
+
+/// The populated cell that is nearest to a place in cell coordinates, of equally near ones the first.
+template <int Dim> std::optional<Index<Dim>> nearestCell(const Vec<Dim>& xi, const std::vector<Key>& populated, const Grid<Dim>& grid)
+{
+	std::optional<Index<Dim>> nearest;
+	double                    least = attachmentTolerance;
+	const Index<Dim>          own   = xi.array().floor().template cast<int>();
+	for (int i = 0; i < (Dim == 2 ? 9 : 27); ++i) {
+		Index<Dim> cell = own;
+		for (int a = 0, rest = i; a < Dim; ++a, rest /= 3)
+			cell[a] += rest % 3 - 1;
+		const double away = distance<Dim>(xi, cell);
+		if (away > least || (nearest && away == least)) continue;
+		if (std::binary_search(populated.begin(), populated.end(), Grid<Dim>::key(grid.first(cell)))) nearest = cell, least = away;
+	}
+	return nearest;
+}
+
+} // namespace
+
+template <int Dim> std::optional<Attachment<Dim>> attach(const Vec<Dim>& place, const CloudBasis<Dim>& basis, const Grid<Dim>& grid)
+{
+	const Vec<Dim> xi = (place - grid.origin) / grid.cellSize;
+	if (!(xi.array().abs() < Grid<Dim>::indexLimit).all()) return std::nullopt;
+	const auto cell = nearestCell<Dim>(xi, basis.cells, grid);
+	if (!cell) return std::nullopt;
+	const Vec<Dim>  local = xi - cell->template cast<double>();
+	Attachment<Dim> attached;
+	attached.cell = *cell;
+	for (int n = 0; n < attached.nodes; ++n) {
+		attached.node[n]   = position(basis.nodes, Grid<Dim>::key(grid.first(attached.index(n))));
+		attached.weight[n] = 1;
+		for (int a = 0; a < Dim; ++a)
+			attached.weight[n] *= n >> a & 1 ? local[a] : 1 - local[a];
+	}
+	return attached;
+}
+
+template std::optional<Attachment<2>> attach(const Vec<2>&, const CloudBasis<2>&, const Grid<2>&);
+template std::optional<Attachment<3>> attach(const Vec<3>&, const CloudBasis<3>&, const Grid<3>&);
+
+} // namespace gimpm

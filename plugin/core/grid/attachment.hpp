@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// A place on the body that moves with the nodes of the grid, as the vertex of a loaded surface does.
+#pragma once
+#include "core/grid/cloud_basis.hpp"
+#include <optional>
+
+namespace gimpm {
+
+/// The linear functions of one populated cell at a place in it or close to it. Unlike a material point a place is no domain: its functions are not
+/// averaged. They are one in sum and reproduce the place, so that forces on it keep resultant and moment.
+template <int Dim> struct Attachment {
+	static constexpr int nodes = 1 << Dim;
+
+	Index<Dim>                cell;   ///< as if the grid were not periodic
+	std::array<int, nodes>    node;   ///< numbers, x fastest
+	std::array<double, nodes> weight; ///< values of the functions [-]
+
+	/// Integer coordinates of a node, as if the grid were not periodic.
+	Index<Dim> index(int n) const
+	{
+		Index<Dim> i = cell;
+		for (int a = 0; a < Dim; ++a)
+			i[a] += n >> a & 1;
+		return i;
+	}
+
+	Vec<Dim> displacement(const Eigen::VectorXd& d) const
+	{
+		Vec<Dim> u = Vec<Dim>::Zero();
+		for (int n = 0; n < nodes; ++n)
+			u += weight[n] * d.template segment<Dim>(Dim * node[n]);
+		return u;
+	}
+};
+
+/// A place may be outside of the populated cells by this fraction of a cell, as surfaces do not follow the domains of the points to the last
+/// digit; the functions of the nearest populated cell are then continued.
+constexpr double attachmentTolerance = 0.25;
+
+/// None where no populated cell is near.
+template <int Dim> std::optional<Attachment<Dim>> attach(const Vec<Dim>& place, const CloudBasis<Dim>&, const Grid<Dim>&);
+
+} // namespace gimpm

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "core/grid/surface.hpp"
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace gimpm {
+namespace {
+
+/// Two vertices, the smaller number first.
+using Side = std::pair<int, int>;
+
+template <int Dim> Side side(const std::array<int, Dim>& piece, int i) { return std::minmax({ piece[i], piece[(i + 1) % Dim] }); }
+
+/// Numbers of the vertices that divide sides.
+using Middles = std::map<Side, int>;
+
+template <int Dim> int sidesOf() { return Dim == 2 ? 1 : 3; }
+
+/// Divides all sides that are too long, at one of the places that would divide them into equal parts: parts of a straight line on the grid fit
+/// into its cells if the line does.
+template <int Dim> Middles divideSides(Surface<Dim>& surface, double limit)
+{
+	Middles middles;
+	for (const auto& piece : surface.pieces)
+		for (int i = 0; i < sidesOf<Dim>(); ++i) {
+			const Side   s      = side<Dim>(piece, i);
+			const double length = (surface.vertices[s.first] - surface.vertices[s.second]).norm();
+			const double parts  = std::ceil(length / limit - 1e-9);
+			if (parts <= 1 || middles.count(s)) continue;
+			middles[s]         = int(surface.vertices.size());
+			const double share = std::floor(parts / 2) / parts;
+			for (auto* x : { &surface.vertices, &surface.vertices0 })
+				x->push_back(((1 - share) * (*x)[s.first] + share * (*x)[s.second]).eval());
+		}
+	return middles;
+}
+
+void divide(const Surface<2>::Piece& piece, const Middles& middles, std::vector<Surface<2>::Piece>& parts)
+{
+	const auto middle = middles.find(side<2>(piece, 0));
+	if (middle == middles.end()) return parts.push_back(piece);
+	parts.push_back({ piece[0], middle->second });
+	parts.push_back({ middle->second, piece[1] });
+}
+
+/// In two at one side, whose ends each keep a part; the parts are divided in turn.
+void divide(const Surface<3>::Piece& piece, const Middles& middles, std::vector<Surface<3>::Piece>& parts)
+{
+	for (int i = 0; i < 3; ++i) {
+		const auto middle = middles.find(side<3>(piece, i));
+		if (middle == middles.end()) continue;
+		const int a = piece[i], b = piece[(i + 1) % 3], c = piece[(i + 2) % 3], m = middle->second;
+		divide(Surface<3>::Piece { a, m, c }, middles, parts);
+		divide(Surface<3>::Piece { m, b, c }, middles, parts);
+		return;
+	}
+	parts.push_back(piece);
+}
+
+} // namespace
+
+template <> Vec<2> Surface<2>::normal(const Piece& piece, const std::vector<Vec<2>>& x) const
+{
+	const Vec<2> along = x[piece[1]] - x[piece[0]];
+	return { along[1], -along[0] };
+}
+
+template <> Vec<3> Surface<3>::normal(const Piece& piece, const std::vector<Vec<3>>& x) const
+{
+	return 0.5 * (x[piece[1]] - x[piece[0]]).cross(x[piece[2]] - x[piece[0]]);
+}
+
+template <int Dim> bool Surface<Dim>::isClosed() const
+{
+	std::map<Side, int> uses; // of vertices in the plane
+	for (const Piece& piece : pieces)
+		for (int i = 0; i < Dim; ++i)
+			++uses[Dim == 2 ? Side(piece[i], piece[i]) : side<Dim>(piece, i)];
+	return std::all_of(uses.begin(), uses.end(), [](const auto& use) { return use.second == 2; });
+}
+
+template <int Dim> void Surface<Dim>::refine(double limit)
+{
+	for (;;) {
+		const Middles middles = divideSides(*this, limit);
+		if (middles.empty()) return;
+		std::vector<Piece> parts;
+		for (const Piece& piece : pieces)
+			divide(piece, middles, parts);
+		pieces = std::move(parts);
+	}
+}
+
+template struct Surface<2>;
+template struct Surface<3>;
+
+} // namespace gimpm

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// A surface of segments in the plane, of triangles in space.
+#pragma once
+#include "core/base/types.hpp"
+#include <array>
+
+namespace gimpm {
+
+/// The body is on the left of a segment, from its first to its second vertex; of a triangle on the side from which its vertices run clockwise.
+template <int Dim> struct Surface {
+	using Piece = std::array<int, Dim>;
+
+	std::vector<Vec<Dim>> vertices;  ///< [m]
+	std::vector<Vec<Dim>> vertices0; ///< where they were at first [m]
+	std::vector<Piece>    pieces;
+
+	/// Length or area of a piece times its outward normal; `x` are the places of all vertices.
+	Vec<Dim> normal(const Piece&, const std::vector<Vec<Dim>>& x) const;
+
+	/// Whether it has no edge: every vertex in the plane and every side of a triangle belongs to two pieces.
+	bool isClosed() const;
+
+	/// Divides the sides that are longer than `limit`, until none is left.
+	void refine(double limit);
+};
+
+} // namespace gimpm

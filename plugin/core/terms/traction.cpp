@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "core/terms/traction.hpp"
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <numeric>
+#include <sstream>
+
+namespace gimpm {
+namespace {
+
+/// Derivative of a piece's outward normal (times its size) by the place of each of its vertices.
+std::array<Mat<2>, 2> normalSlopes(const Surface<2>::Piece&, const std::vector<Vec<2>>&)
+{
+	const Mat<2> turn = (Mat<2>() << 0, 1, -1, 0).finished();
+	return { -turn, turn };
+}
+
+std::array<Mat3, 3> normalSlopes(const Surface<3>::Piece& piece, const std::vector<Vec3>& x)
+{
+	std::array<Mat3, 3> slopes;
+	for (int i = 0; i < 3; ++i) {
+		const Vec3 v = x[piece[(i + 2) % 3]] - x[piece[(i + 1) % 3]]; // n = (x2 - x1) x (x3 - x1) / 2 gives dn/dx_i w = v x w / 2
+		slopes[i]    = 0.5 * (Mat3() << 0, -v[2], v[1], v[2], 0, -v[0], -v[1], v[0], 0).finished();
+	}
+	return slopes;
+}
+
+constexpr double circle = 6.283185307179586;
+
+/// What each vertex of a piece gets of the force on it, over traction and length (or area): around the axis of symmetry r = x this is the integral of its linear
+/// function times the circumference.
+template <int Dim> std::array<double, Dim> shares(const std::array<int, Dim>& piece, const std::vector<Vec<Dim>>& x, bool isRing)
+{
+	std::array<double, Dim> share;
+	share.fill(1. / Dim);
+	for (int i = 0; isRing && i < Dim; ++i)
+		share[i] = circle / 6 * (x[piece[i]][0] + x[piece[0]][0] + x[piece[1]][0]);
+	return share;
+}
+
+/// The derivative of the share of vertex i of a ring by the radius of its vertex j.
+double shareSlope(int i, int j) { return circle / 6 * (i == j ? 2 : 1); }
+
+template <int Dim> std::string emptyAt(const Vec<Dim>& vertex)
+{
+	std::ostringstream text;
+	text << "a loaded surface has a vertex at (" << vertex.transpose() << "), where the grid holds no material within " << attachmentTolerance << " cells";
+	return text.str();
+}
+
+/// Whether material is mostly on the outer side, half a cell away.
+template <int Dim> bool isInsideOut(const Surface<Dim>& surface, const std::vector<Key>& populated, const Grid<Dim>& grid)
+{
+	const auto holdsMaterial = [&](const Vec<Dim>& x) {
+		const Index<Dim> cell = ((x - grid.origin) / grid.cellSize).array().floor().template cast<int>();
+		return std::binary_search(populated.begin(), populated.end(), Grid<Dim>::key(grid.first(cell)));
+	};
+	double outside = 0; // area with material outside only, less that with material inside only
+	for (const auto& piece : surface.pieces) {
+		Vec<Dim> centre = Vec<Dim>::Zero();
+		for (const int v : piece)
+			centre += surface.vertices[v] / Dim;
+		const Vec<Dim> normal = surface.normal(piece, surface.vertices), step = 0.5 * grid.cellSize * normal.normalized();
+		outside += normal.norm() * (int(holdsMaterial(centre + step)) - int(holdsMaterial(centre - step)));
+	}
+	return outside > 0;
+}
+
+} // namespace
+
+template <int Dim>
+Traction<Dim>::Traction(SurfaceLoad<Dim>& load, const CloudBasis<Dim>& basis, const Grid<Dim>& grid)
+        : load_(load), isRing_(grid.axisymmetric), isSymmetric_(load.pressure == 0 || load.surface.isClosed())
+{
+	for (const Vec<Dim>& vertex : load.surface.vertices) {
+		const auto attached = attach(vertex, basis, grid);
+		if (!attached) {
+			obstacle_ = emptyAt(vertex);
+			return;
+		}
+		attached_.push_back(*attached);
+	}
+	if (load.isNew && load.pressure != 0 && isInsideOut(load.surface, basis.cells, grid))
+		obstacle_ = "a surface under pressure has the body on its outer side: reverse the order of its points";
+}
+
+template <int Dim> std::vector<Vec<Dim>> Traction<Dim>::placesAt(const Eigen::VectorXd& d) const
+{
+	Places places = load_.surface.vertices;
+	for (std::size_t v = 0; v < places.size(); ++v)
+		places[v] += attached_[v].displacement(d);
+	return places;
+}
+
+template <int Dim> std::vector<Vec<Dim>> Traction<Dim>::forcesAt(const Places& places) const
+{
+	Places      forces(places.size(), Vec<Dim>::Zero());
+	const auto& surface = load_.surface;
+	for (const Piece& piece : surface.pieces) {
+		const Vec<Dim> dead     = surface.normal(piece, surface.vertices0).norm() * load_.traction,
+		               pressure = -load_.pressure * surface.normal(piece, places);
+		const auto first = shares<Dim>(piece, surface.vertices0, isRing_), now = shares<Dim>(piece, places, isRing_);
+		for (int i = 0; i < Dim; ++i)
+			forces[piece[i]] += first[i] * dead + now[i] * pressure;
+	}
+	return forces;
+}
+
+/// Calls f(a, b, code, i, j, product of the weights) for each vertex i of the piece with its nodes a, and each vertex j with its nodes b; code is that
+/// of the offset from a to b.
+template <int Dim> template <class F> void Traction<Dim>::forNodePairs(const Piece& piece, F&& f) const
+{
+	for (int i = 0; i < Dim; ++i)
+		for (int j = 0; j < Dim; ++j) {
+			const auto &from = attached_[piece[i]], &to = attached_[piece[j]];
+			for (int m = 0; m < from.nodes; ++m)
+				for (int n = 0; n < to.nodes; ++n) {
+					const Index<Dim> offset = to.index(n) - from.index(m);
+					f(from.node[m], to.node[n], NodeMatrix<Dim>::code(offset), i, j, from.weight[m] * to.weight[n]);
+				}
+		}
+}
+
+template <int Dim> void Traction<Dim>::mark(NodeMatrix<Dim>& K) const
+{
+	if (load_.pressure == 0) return;
+	for (const Piece& piece : load_.surface.pieces)
+		forNodePairs(piece, [&](int a, int, int code, int, int, double) {
+			if (code >= 0) K.markUsed(a, code);
+		});
+}
+
+template <int Dim> void Traction<Dim>::addStiffness(const Places& places, NodeMatrix<Dim>& K) const
+{
+	if (load_.pressure == 0) return;
+	for (const Piece& piece : load_.surface.pieces) {
+		const auto     slopes = normalSlopes(piece, places);
+		const auto     share  = shares<Dim>(piece, places, isRing_);
+		const Vec<Dim> normal = load_.surface.normal(piece, places);
+		forNodePairs(piece, [&](int a, int b, int code, int i, int j, double weight) {
+			Mat<Dim> slope = share[i] * slopes[j];
+			if (isRing_) slope.col(0) += shareSlope(i, j) * normal;
+			K.add(a, b, code, load_.pressure * weight * slope);
+		});
+	}
+}
+
+template <int Dim> std::optional<PointFailure> Traction<Dim>::add(const Eigen::VectorXd& d, const TermSum<Dim>& sum) const
+{
+	const Places places = placesAt(d), forces = forcesAt(places);
+	for (std::size_t v = 0; v < forces.size(); ++v)
+		for (int n = 0; n < attached_[v].nodes; ++n) {
+			const Vec<Dim> f = attached_[v].weight[n] * forces[v];
+			sum.force.template segment<Dim>(Dim * attached_[v].node[n]) -= f;
+			if (sum.sizes) sum.sizes->template segment<Dim>(Dim * attached_[v].node[n]) += f.cwiseAbs();
+		}
+	if (sum.K) addStiffness(places, *sum.K);
+	return std::nullopt;
+}
+
+template <int Dim> double Traction<Dim>::fromOutside(const Eigen::VectorXd& d) const
+{
+	Eigen::VectorXd force = Eigen::VectorXd::Zero(d.size());
+	add(d, { force });
+	return force.norm();
+}
+
+template <int Dim> void Traction<Dim>::commit(const Eigen::VectorXd& d)
+{
+	load_.surface.vertices = placesAt(d);
+	const Places forces    = forcesAt(load_.surface.vertices);
+	load_.resultant        = std::accumulate(forces.begin(), forces.end(), Vec<Dim>(Vec<Dim>::Zero()));
+}
+
+template class Traction<2>;
+template class Traction<3>;
+
+} // namespace gimpm

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Loads on surfaces that move with the body.
+#pragma once
+#include "core/grid/attachment.hpp"
+#include "core/grid/surface.hpp"
+#include "core/terms/term.hpp"
+#include <string>
+
+namespace gimpm {
+
+/// Length of the sides of a loaded surface's pieces, in cells. Nodes are then given their shares of a uniform load to some 0.4 % by segments (exactly where
+/// these fit into the cells) and 1 % by triangles; the error falls with the square of the length.
+constexpr double pieceLimit = 0.25;
+
+/// What acts on a surface at the end of a step.
+template <int Dim> struct SurfaceLoad {
+	Surface<Dim> surface;                      ///< at the start of the step, with sides of at most `pieceLimit`
+	double       pressure  = 0;                ///< against the outward normal of the deformed surface: it follows [Pa]
+	Vec<Dim>     traction  = Vec<Dim>::Zero(); ///< force over the area that the surface had at first; keeps its direction [Pa]
+	bool         isNew     = false;            ///< its outer side is still to be compared with where material is
+	Vec<Dim>     resultant = Vec<Dim>::Zero(); ///< of both, in the last step that was accepted [N]
+};
+
+/// Vertices follow the linear functions of the grid, and the forces on them act on the nodes by the same functions: virtual work, resultant and
+/// moment are exact. A piece hands equal parts of its force to its vertices, around an axis of
+/// symmetry those of a ring: the shares of its area. The force of a pressure is differentiated; its tangent is
+/// symmetric for closed surfaces only.
+template <int Dim> class Traction : public Term<Dim> {
+public:
+	/// The load is moved in commit().
+	Traction(SurfaceLoad<Dim>&, const CloudBasis<Dim>&, const Grid<Dim>&);
+
+	void                        mark(NodeMatrix<Dim>&) const override;
+	std::optional<PointFailure> add(const Eigen::VectorXd& d, const TermSum<Dim>&) const override;
+	bool                        isSymmetric() const override { return isSymmetric_; }
+	double                      fromOutside(const Eigen::VectorXd& d) const override;
+	std::string                 obstacle() const override { return obstacle_; }
+	void                        commit(const Eigen::VectorXd& d) override;
+
+private:
+	using Places = std::vector<Vec<Dim>>;
+	using Piece  = typename Surface<Dim>::Piece;
+
+	Places                  placesAt(const Eigen::VectorXd& d) const;
+	Places                  forcesAt(const Places&) const; // on the vertices
+	void                    addStiffness(const Places&, NodeMatrix<Dim>& K) const;
+	template <class F> void forNodePairs(const Piece&, F&&) const;
+
+	SurfaceLoad<Dim>&            load_;
+	bool                         isRing_;   // around an axis of symmetry
+	std::vector<Attachment<Dim>> attached_; // of the vertices
+	bool                         isSymmetric_;
+	std::string                  obstacle_;
+};
+
+} // namespace gimpm

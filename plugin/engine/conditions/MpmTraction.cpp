@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "engine/conditions/MpmTraction.hpp"
+
+namespace yade {
+
+void MpmTraction::requireAdmissible() const
+{
+	Exposed<MpmTraction, Serializable>::requireAdmissible();
+	surface->requireAdmissible();
+}
+
+} // namespace yade
+
+BOOST_CLASS_EXPORT_IMPLEMENT(yade::MpmTraction)
+static const yade::PluginClasses<yade::MpmTraction> registered(__FILE__);

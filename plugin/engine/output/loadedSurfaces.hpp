@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+// The surfaces that an engine's loads act on, as VTK data.
+#include "engine/output/vtkDataSets.hpp"
+#include "engine/solver/Loads.hpp"
+
+namespace yade {
+
+// Their pieces, segments with dim=2 and triangles with dim=3: `load`, the number of the load; `traction`, force over current area at this time [Pa].
+VtkCells loadedSurfaces(const Loads&, Real time, int dim);
+
+} // namespace yade

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+#include "core/grid/point_cloud.hpp"
+#include "core/stepping/predictor.hpp"
+#include "core/stepping/step_control.hpp"
+#include "engine/solver/surface_loads.hpp"
+
+namespace yade {
+
+// What a run works on, and what remains to be done.
+template <int Dim> struct Job {
+	gimpm::StepControl     control;
+	Real                   begin, target; // load times
+	gimpm::Model<Dim>      model {};
+	gimpm::PointCloud<Dim> cloud {};
+	SurfaceLoads<Dim>      surfaceLoads {};
+};
+
+// A load step, and what it may start from.
+template <int Dim> struct Attempt {
+	Real                      time;
+	gimpm::Load<Dim>          load;
+	bool                      predicts;
+	gimpm::LastIncrement<Dim> last;
+};
+
+} // namespace yade

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+// Loads on surfaces, between the conditions of a scene and the terms of a step.
+#include "core/terms/traction.hpp"
+#include "engine/solver/Loads.hpp"
+
+namespace yade {
+
+template <int Dim> class SurfaceLoads {
+public:
+	SurfaceLoads() = default;
+	// std::invalid_argument names what cannot be computed with.
+	explicit SurfaceLoads(const Loads&, const gimpm::Grid<Dim>&);
+
+	// Makes them act in the model's steps, for as long as this exists.
+	void join(gimpm::Model<Dim>&);
+
+	// What acts at the end of the next step.
+	void advanceTo(Real time);
+
+	// Writes a converged state back.
+	void scatter() const;
+
+private:
+	struct Load {
+		shared_ptr<MpmTraction> from;
+		gimpm::LoadCurve        curve;
+	};
+	vector<Load>                    sources;
+	vector<gimpm::SurfaceLoad<Dim>> loads;
+};
+
+} // namespace yade
