@@ -164,7 +164,8 @@ namespace {
 				EXPECT_LT(error, 2e-8);
 				EXPECT_LT(asymmetry, 1e-12);
 			}
-			const auto [error, asymmetry] = tangentErrors({ DruckerPrager(1e6, 0.3, DruckerPragerCone::compression(1e2, 0.5, 0.1)), 1 }, fBar, small);
+			const auto [error, asymmetry]
+			        = tangentErrors({ DruckerPrager(1e6, 0.3, DruckerPragerCone::compression(1e2, 0.5, 0.1)), 1 }, fBar, small);
 			EXPECT_LT(error, 1e-6);
 			EXPECT_GT(asymmetry, 1e-2);
 		}

@@ -25,6 +25,7 @@ shortForms = {
         'collapse': dict(cellSize=0.5, stepSize=0.1, end=5),
         'footing3d': dict(cells=2, steps=8),
         'locking': dict(cells=4, steps=8, settlement=0.03),
+        'axisymmetric': dict(cells=5, tubeCells=8),
         'mpm_vs_dem': dict(grains=8, sample=10, cells=8, duration=4),
 }
 
@@ -110,6 +111,16 @@ def test_locking(short):
 	difference, exact = numbers(r'N_c = \S+, (\S+) % of (\S+),', said)
 	assert abs(difference) < 4 and exact == 5.142
 	assert (out / 'locking.png').stat().st_size > 20000
+
+
+def test_axisymmetric(short):
+	out, said = short('axisymmetric')
+	for quantity, admitted in ('u\\(a\\) / a', 0.005), ('hoop stress in the first cell', 0.01), ('footing, smooth: N_c', 0.05), ('footing, rough: N_c', 0.05):
+		found, exact = numbers(quantity + r' =? ?([-.\de]+)(?: p)?, (?:exact|exact in its middle|published) ([-.\de]+)', said)
+		assert abs(found / exact - 1) < admitted, quantity
+	pressure, collapse = numbers(r'last converged at p = (\S+) c_u, collapse at (\S+) c_u', said)
+	assert abs(pressure / collapse - 1) < 0.03
+	assert (out / 'axisymmetric.png').stat().st_size > 20000
 
 
 def test_mpm_vs_dem(short):

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "core/grid/cloud_basis.hpp"
+#include "core/grid/tile_order.hpp"
 #include <algorithm>
 
 namespace gimpm {
@@ -45,39 +46,6 @@ template <int Dim> int reachableCells(const Index<Dim>& lowest, int span, int ce
 	}
 	return reached;
 }
-
-/// Where a cell stands in the order of colours, of the tiles of a colour and of the cells of a tile. Domains with the lowest cell in a tile
-/// reach the first nodes beyond it, and no others as long as a tile is at least two cells wide: between two tiles of a colour lies another.
-template <int Dim> struct TileOrder {
-	static constexpr int widthBits = 2; ///< a tile is 2^widthBits cells wide
-	static constexpr int bits = Grid<Dim>::keyBits, highBits = bits - widthBits - 1;
-
-	static Key of(Key cell)
-	{
-		Key colour = 0, tile = 0, inside = 0;
-		for (int a = Dim - 1; a >= 0; --a, cell <<= bits) {
-			const Key along = low(cell >> bits * (Dim - 1), bits);
-			inside          = inside << widthBits | low(along, widthBits);
-			colour          = colour << 1 | low(along >> widthBits, 1);
-			tile            = tile << highBits | along >> (widthBits + 1);
-		}
-		return (colour << Dim * highBits | tile) << Dim * widthBits | inside;
-	}
-	static Key cell(Key place)
-	{
-		Key       cell    = 0;
-		const Key colours = place >> Dim * (bits - 1), tiles = tile(place);
-		for (int a = 0; a < Dim; ++a) {
-			const Key along = low(tiles >> a * highBits, highBits) << 1 | low(colours >> a, 1);
-			cell |= (along << widthBits | low(place >> a * widthBits, widthBits)) << a * bits;
-		}
-		return cell;
-	}
-	static Key tile(Key place) { return place >> Dim * widthBits; } ///< with its colour
-
-private:
-	static constexpr Key low(Key k, int bits) { return k & ((Key(1) << bits) - 1); }
-};
 
 /// What the points are sorted by. It is kept small: the basis functions are computed once the order is known.
 template <int Dim> struct Place {
@@ -255,34 +223,15 @@ template <int Dim> void numberNodes(CloudBasis<Dim>& b, const Grid<Dim>& grid)
 	}
 }
 
-/// Along one axis tiles take turns. Where the grid repeats itself, the last of an odd number of tiles meets the first, of its own colour; so does the
-/// last but one where the last is a single cell, beyond which its domains reach.
-template <int Dim> int colourAlong(int tile, int period)
-{
-	constexpr int width      = 1 << TileOrder<Dim>::widthBits;
-	const int     tiles      = (period + width - 1) / width;
-	const bool    meetsFirst = tiles % 2 != 0 ? tile == tiles - 1 : tile == tiles - 2 && period % width == 1;
-	return period != 0 && meetsFirst ? 2 : tile & 1;
-}
-
-template <int Dim> int colourOf(Key cell, const Grid<Dim>& grid)
-{
-	const Index<Dim> i      = Grid<Dim>::index(cell);
-	int              colour = 0;
-	for (int a = Dim - 1; a >= 0; --a)
-		colour = (grid.isPeriodic() ? 3 : 2) * colour + colourAlong<Dim>(i[a] >> TileOrder<Dim>::widthBits, grid.period[a]);
-	return colour;
-}
-
 template <int Dim> void colourPatches(CloudBasis<Dim>& b, const Grid<Dim>& grid)
 {
-	b.colours.resize(grid.isPeriodic() ? (Dim == 2 ? 9 : 27) : windowCells<Dim>);
+	b.colours.resize(coloursOf(grid));
 	const auto order = [&](int patch) { return TileOrder<Dim>::of(b.patches[patch].cell); };
 	for (int first = 0, last = 0; first < int(b.patches.size()); first = last) {
 		const Key place = order(first);
 		while (last < int(b.patches.size()) && TileOrder<Dim>::tile(order(last)) == TileOrder<Dim>::tile(place))
 			++last;
-		b.colours[colourOf<Dim>(b.patches[first].cell, grid)].push_back({ first, last });
+		b.colours[colourOf(b.patches[first].cell, grid)].push_back({ first, last });
 	}
 }
 

@@ -88,21 +88,19 @@ void forUpdatedPoints(
 		for (int b = 0; b * Lanes::count < chunk.count; ++b) {
 			const Batch                batch(chunk.first + b * Lanes::count, chunk.last());
 			const Increment<Dim, Axes> increment(chunk.gradient[b]);
-			const BatchResponse<Dim>   response(batch, points, materials, seenByLaws(chunk, b, increment));
-			const auto                 elasticStrain = assemble<Lanes, Dim>(response.law.elasticStrain, response.trial.axes);
-			const auto                 stress        = assemble<Lanes, Dim>(response.law.stress, response.trial.axes);
+			const auto& [gradient, hoop] = increment;
+			const BatchResponse<Dim> response(batch, points, materials, seenByLaws(chunk, b, increment));
+			const auto               elasticStrain = assemble<Lanes, Dim>(response.law.elasticStrain, response.trial.axes);
+			const auto               stress        = assemble<Lanes, Dim>(response.law.stress, response.trial.axes);
 			for (int lane = 0, q = b * Lanes::count; lane < Lanes::count && q < chunk.count; ++lane, ++q) {
 				const auto       one = [lane](const Lanes& x) { return x[lane]; };
 				const Law&       law = materials[points.material[chunk.first + q]].law;
-				PointUpdate<Dim> u { displacement[q],
-					             increment.gradient.unaryExpr(one),
-					             { elasticStrain.c.unaryExpr(one) },
-					             { stress.c.unaryExpr(one) },
-					             law,
-					             {} };
+				PointUpdate<Dim> u {
+					displacement[q], gradient.unaryExpr(one), { elasticStrain.c.unaryExpr(one) }, { stress.c.unaryExpr(one) }, law, {}
+				};
 				for (std::size_t k = 0; k < u.internals.size(); ++k)
 					u.internals[k] = response.law.internals[k][lane];
-				if constexpr (Axes > Dim) u.hoop = increment.hoop[lane];
+				if constexpr (Axes > Dim) u.hoop = hoop[lane];
 				f(basis.order[chunk.first + q], u);
 			}
 		}

@@ -20,7 +20,7 @@ public:
 	{
 		const auto sizes = admitting("three finite numbers > 0 [m]; there is no default", positive);
 		v("halfSize", &MpmPoint::halfSize, 0,
-		  "Half the current size of the domain along x, y, z [m] > 0; along z half a metre in plane strain, half the circumference of a ring. Follows the stretch, to half a cell.",
+		  "Half the domain's size along x, y, z [m] > 0; z: half a metre in plane strain, half a ring's circumference. Follows the stretch, to half a cell.",
 		  sizes);
 		v("halfSize0", &MpmPoint::halfSize0, 0,
 		  "Half the initial size of the domain along x, y, z [m] > 0; along z half a metre in plane strain, half the circumference of a ring.", sizes);

@@ -27,12 +27,10 @@ public:
 		  "Position of a node [m], finite; all others are whole cells away from it. With dim=2, mpm.fill puts the points into its plane z.", finite);
 		v("dim", &MpmGrid::dim, 0, "2: plane strain in x-y, per metre of thickness, or *axisymmetric*; 3: three-dimensional.", oneOf(2, 3));
 		v("period", &MpmGrid::period, 0,
-		  "Lengths [m] along x, y, z after which the scene repeats itself, from *origin* on: opposite sides are the same nodes. At least 3 whole "
-		  "cells; 0: not periodic.",
+		  "Lengths [m] along x, y, z after which the scene repeats itself, from *origin* on: whole numbers of cells, at least 3. 0, the default: it does not.",
 		  nonNegative);
 		v("axisymmetric", &MpmGrid::axisymmetric, 0,
-		  "With dim=2: bodies of revolution about the axis x = 0, where a grid line is. x is the radius, y goes along the axis; volumes and forces are those "
-		  "of the whole circle, 2 pi.");
+		  "With dim=2: bodies of revolution about the grid line x = 0. x is the radius, y goes along the axis; volumes and forces are of the whole circle.");
 	}
 
 	// As the core understands it. std::invalid_argument unless periods are whole numbers of cells, as many as basis functions need, and the axis of
