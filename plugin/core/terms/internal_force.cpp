@@ -35,7 +35,7 @@ template <int Dim> struct Pass {
 	const std::vector<Material>& materials;
 	const Eigen::VectorXd&       d;
 	const TermSum<Dim>&          sum;
-	const bool                   isSymmetric = areSymmetric(materials);
+	const bool                   isSymmetric = points.isSymmetric;
 };
 
 /// A failure as a number, which is the smaller the smaller the index of its point is.
@@ -189,6 +189,10 @@ template <int Dim> StepPoints<Dim> stepPoints(const PointCloud<Dim>& cloud, cons
 	s.volume0.resize(n);
 	s.material.resize(n);
 	provideInternals(s.internals, materials, n);
+	s.parameters.resize(cloud.parameters.size());
+	for (std::size_t c = 0; c < s.parameters.size(); ++c)
+		for (const int p : basis.order)
+			if (!cloud.parameters[c].empty()) s.parameters[c].push_back(cloud.parameters[c][p]);
 #pragma omp parallel for
 	for (int i = 0; i < n; ++i) {
 		const int p          = basis.order[i];
@@ -197,6 +201,7 @@ template <int Dim> StepPoints<Dim> stepPoints(const PointCloud<Dim>& cloud, cons
 		s.material[i]        = cloud.material[p];
 		withLaw(materials[s.material[i]].law, [&](const auto& law) { storeInternals(law, internalsOf(law, cloud.internals, p), s.internals, i); });
 	}
+	s.isSymmetric = areSymmetric(materials, s.material, s.parameters);
 	return s;
 }
 

@@ -113,8 +113,8 @@ VtkCells pointDomains(const vector<MaterialPoint>& points, const Scene& scene, c
 		domains.addCell(box, 1 << dim);
 	}
 	const auto cells = domains.dataSet();
-	for (const PointColumn& column : pointColumns())
-		if (column.is(PointColumn::inVtk) && column.isOf(points)) addColumn(*cells, column, points, scene);
+	for (const PointColumn* column : columnsOf(points))
+		if (column->is(PointColumn::inVtk)) addColumn(*cells, *column, points, scene);
 	addIntegers(*cells, "clamped", points, [&](const MaterialPoint& p) {
 		return deform && (dim == 2 ? isClamped<2>(p, grid.cellSize) : isClamped<3>(p, grid.cellSize));
 	});
