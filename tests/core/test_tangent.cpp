@@ -130,5 +130,28 @@ namespace {
 		EXPECT_LT(this->scene.error(this->deformation(), 0.05), 1e-7);
 	}
 
+	TYPED_TEST(Tangent, WithFBar)
+	{
+		this->scene.model.fBar = true;
+		EXPECT_LT(this->scene.error(this->identity, 0), 1e-9);
+		this->scene.strain({ 0.1, -0.05, 0 }, 0.1);
+		EXPECT_GT(this->scene.plasticPoints(this->deformation()), 10);
+		EXPECT_LT(this->scene.error(this->deformation(), 0.05), 1e-7);
+		this->scene.model.basis = Basis::linear;
+		EXPECT_LT(this->scene.error(this->deformation(), 0.05), 1e-7);
+	}
+
+	TYPED_TEST(Tangent, OfSoilWithFBar)
+	{
+		this->scene.model.fBar  = true;
+		constexpr double degree = 0.017453292519943295;
+		for (const Law& law : { Law(MohrCoulomb(1e3, 0.2, 20, 30 * degree, 10 * degree, 5)), Law(CamClay(400, 1.2, 0.4, 0.1, 400, 300)) }) {
+			this->scene.model.materials[1] = { law, 1 };
+			this->scene.strain({ 0.05, -0.05, -0.02 }, 0.1);
+			EXPECT_GT(this->scene.plasticPoints(this->deformation()), 10);
+			EXPECT_LT(this->scene.error(this->deformation(), 0.05), 1e-6) << law.index();
+		}
+	}
+
 } // namespace
 } // namespace gimpm

@@ -58,6 +58,7 @@ outOfRange = {
         'MpmNewton.linearSolver': ['"cg"'],
         'MpmImplicitEngine.grid': ['None'],
         'MpmImplicitEngine.basis': ['"cubic"'],
+        'MpmImplicitEngine.fBar': None,
         'MpmImplicitEngine.gravity': None,
         'MpmImplicitEngine.loadCurve': ['[(0, 0), (0, 1)]', '[(1, 0), (0, 1)]'],
         'MpmImplicitEngine.gravityCurve': ['[(0, 0), (0, 1)]', '[(1, 0), (0, 1)]'],

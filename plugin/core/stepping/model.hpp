@@ -30,6 +30,7 @@ struct NewtonSettings {
 template <int Dim> struct Model {
 	Grid<Dim>                    grid;
 	Basis                        basis = Basis::gimp;
+	bool                         fBar  = false; ///< against volumetric locking; needs the ghost stabilisation, which holds the nodes of nearly empty cells
 	std::vector<Material>        materials;
 	Boundary<Dim>                boundary;
 	GhostSettings                ghost;

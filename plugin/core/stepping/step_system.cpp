@@ -44,7 +44,7 @@ template <int Dim> StepSystem<Dim>::StepSystem(const PointCloud<Dim>& cloud, con
 	{
 		const Stopwatch watch(report.times.basis);
 		basis    = cloudBasis(cloud, model.grid, model.basis, model.boundary);
-		points   = stepPoints(cloud, model.materials, basis);
+		points   = stepPoints(cloud, model.materials, basis, model.fBar);
 		external = Eigen::VectorXd::Zero(nodalSize());
 		addPointForces(basis, pointForces(cloud, model, load), external);
 	}

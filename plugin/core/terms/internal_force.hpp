@@ -9,12 +9,15 @@ namespace gimpm {
 
 /// What an iteration reads of the points, in the order of the basis and contiguous in memory.
 template <int Dim> struct StepPoints {
-	std::vector<SymTensor<Dim>> leftCauchyGreen; ///< elastic b - 1 at the start of the step
-	std::vector<double>         volume0;
-	std::vector<int>            material;
-	InternalColumns             internals;
-	ParameterColumns            parameters;
-	bool                        isSymmetric = true; ///< the tangents of their laws
+	std::vector<SymTensor<Dim>>  leftCauchyGreen; ///< elastic b - 1 at the start of the step
+	std::vector<double>          volume0;
+	std::vector<int>             material;
+	InternalColumns              internals;
+	ParameterColumns             parameters;
+	bool                         isSymmetric = true; ///< the tangents of their laws
+	std::vector<PointBasis<Dim>> centres; ///< only with F-bar (core/terms/fbar.hpp): basis functions with the gradients at the centres of the cells
+
+	bool hasFBar() const { return !centres.empty(); }
 
 	/// Another point, as point i of these.
 	void append(const StepPoints& from, int i)
@@ -22,6 +25,7 @@ template <int Dim> struct StepPoints {
 		leftCauchyGreen.push_back(from.leftCauchyGreen[i]);
 		volume0.push_back(from.volume0[i]);
 		material.push_back(from.material[i]);
+		if (from.hasFBar()) centres.push_back(from.centres[i]);
 		internals.resize(from.internals.size());
 		for (std::size_t c = 0; c < internals.size(); ++c)
 			if (!from.internals[c].empty()) internals[c].push_back(from.internals[c][i]);
@@ -31,7 +35,7 @@ template <int Dim> struct StepPoints {
 	}
 };
 
-template <int Dim> StepPoints<Dim> stepPoints(const PointCloud<Dim>&, const std::vector<Material>&, const CloudBasis<Dim>&);
+template <int Dim> StepPoints<Dim> stepPoints(const PointCloud<Dim>&, const std::vector<Material>&, const CloudBasis<Dim>&, bool fBar = false);
 
 /// force += internal force of the nodal displacements d (from the start of the step), K += its derivative, and sizes += the magnitudes of the
 /// patches' forces, as far as they are asked for. Fails for points with det F <= 0 or without an answer of their law. The result does not depend on the number of threads.

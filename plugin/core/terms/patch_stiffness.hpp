@@ -7,21 +7,27 @@ namespace gimpm {
 
 /// Sum over points of grad_a,j V a_ijkl grad_b,l for the N nodes of a patch, by pairs of displacement components (i <= k if it is symmetric):
 /// block(i, k)(a, b) = K_(a,i)(b,k).
-template <int Dim, int N, bool Symmetric> class PatchStiffness {
+///
+/// F-bar adds products with the gradients g0 at the centres (core/terms/fbar.hpp), those with g0_a,i and, of the change of g0 with the displacements,
+/// with g0_a,k: to each, as to each grad_a,j, belongs a flux of node b.
+template <class ChunkOfPoints, int N, bool Symmetric> class PatchStiffness {
+	static constexpr int Dim        = ChunkOfPoints::dim;
 	using Pairs                     = PairModuli<Dim>;
 	static constexpr int pairs      = Symmetric ? Pairs::upper : Dim * Dim;
 	static constexpr int width      = (N + Lanes::count - 1) / Lanes::count; ///< of a row, in Lanes
-	static constexpr int rowsAtOnce = width > 3 ? 2 : width > 2 ? 3 : 4;     ///< whose sums fit into registers
+	static constexpr int rowsMost   = ChunkOfPoints::hasCentres ? Dim + 2 : Dim;
+	static constexpr int rowsAtOnce = width > 3 ? 2 : width > 2 ? 3 : 4; ///< whose sums fit into registers
 
 public:
 	/// Of the points [begin, end).
-	GIMPM_INLINE void multiply(const Chunk<Dim>& chunk, int begin, int end)
+	GIMPM_INLINE void multiply(const ChunkOfPoints& chunk, int begin, int end)
 	{
 		Pairs::template forPairs<Symmetric>([&](int i, int k, int pair) GIMPM_INLINE_LAMBDA {
 			formFlux(chunk, pair, begin, end);
-			if (Symmetric && i == k) sumRows<true, 0>(chunk, sum_[pair], begin, end);
+			if constexpr (ChunkOfPoints::hasCentres) addCentreFlux(chunk, i, k, begin, end);
+			if (Symmetric && i == k) sumRows<true, 0>(chunk, sum_[pair], i, k, begin, end);
 			else
-				sumRows<false, 0>(chunk, sum_[pair], begin, end);
+				sumRows<false, 0>(chunk, sum_[pair], i, k, begin, end);
 		});
 	}
 	template <class Codes> GIMPM_INLINE void scatterAdd(const int* node, const Codes& codes, NodeMatrix<Dim>& K) const
@@ -57,7 +63,7 @@ private:
 	static double at(const Lanes* row, int n) { return reinterpret_cast<const double*>(row)[n]; }
 
 	/// flux_j,b = V a_ijkl grad_b,l of each point, for the pair (i, k).
-	GIMPM_INLINE void formFlux(const Chunk<Dim>& chunk, int pair, int begin, int end)
+	GIMPM_INLINE void formFlux(const ChunkOfPoints& chunk, int pair, int begin, int end)
 	{
 		for (int p = begin; p < end; ++p) {
 			const int   q = p - chunk.first, lane = q % Lanes::count;
@@ -71,8 +77,36 @@ private:
 				}
 		}
 	}
+	/// The same for the gradients at the centres.
+	GIMPM_INLINE void addCentreFlux(const ChunkOfPoints& chunk, int i, int k, int begin, int end)
+	{
+		for (int p = begin; p < end; ++p) {
+			const int   q = p - chunk.first, batch = q / Lanes::count, lane = q % Lanes::count;
+			const auto  of   = [lane](const Lanes& x) GIMPM_INLINE_LAMBDA { return Lanes(at(&x, lane)); };
+			const Lanes mean = of(chunk.meanStress[batch]), bulk = of(chunk.bulk[batch]);
+			const auto& g0   = chunk.centre[q];
+			auto&       flux = flux_[p - begin];
+			for (int v = 0; v < width; ++v) {
+				Lanes dilation = bulk * g0[k][v];
+				for (int j = 0; j < Dim; ++j) {
+					flux[j][v] += of(chunk.stressOfDilation[batch][i][j]) * g0[k][v];
+					dilation += of(chunk.meanOfStrain[batch][k][j]) * chunk.basis[q][j][v];
+				}
+				flux[Dim][v] = i == k ? dilation - mean * g0[i][v] : dilation;
+				if (i != k) flux[rowsMost - 1][v] = -(mean * g0[i][v]);
+			}
+		}
+	}
+	static constexpr int rowsOf(int i, int k) { return ChunkOfPoints::hasCentres ? Dim + 1 + (i != k) : Dim; }
+	/// What the flux number j of a point is multiplied with.
+	GIMPM_INLINE static const double* rowAt(const ChunkOfPoints& chunk, int p, int j, int i, int k)
+	{
+		if constexpr (ChunkOfPoints::hasCentres)
+			if (j >= Dim) return chunk.centreAt(p, j == Dim ? i : k);
+		return chunk.basisAt(p, j);
+	}
 	/// Rows from First on; of a symmetric block only the columns from the diagonal on are needed.
-	template <bool Half, int First> GIMPM_INLINE void sumRows(const Chunk<Dim>& chunk, Lanes (&block)[N][width], int begin, int end) const
+	template <bool Half, int First> GIMPM_INLINE void sumRows(const ChunkOfPoints& chunk, Lanes (&block)[N][width], int i, int k, int begin, int end) const
 	{
 		if constexpr (First < N) {
 			constexpr int rows = N - First < rowsAtOnce ? N - First : rowsAtOnce, from = Half ? First / Lanes::count : 0;
@@ -81,8 +115,8 @@ private:
 				for (auto& lanes : row)
 					lanes = Lanes(0);
 			for (int p = begin; p < end; ++p)
-				for (int j = 0; j < Dim; ++j) {
-					const double* grad = chunk.basisAt(p, j) + First;
+				for (int j = 0; j < rowsOf(i, k); ++j) {
+					const double* grad = rowAt(chunk, p, j, i, k) + First;
 					const Lanes*  flux = flux_[p - begin][j] + from;
 					for (int r = 0; r < rows; ++r)
 						for (int v = 0; v < width - from; ++v)
@@ -91,12 +125,12 @@ private:
 			for (int r = 0; r < rows; ++r)
 				for (int v = from; v < width; ++v)
 					block[First + r][v] = sum[r][v - from];
-			sumRows<Half, First + rows>(chunk, block, begin, end);
+			sumRows<Half, First + rows>(chunk, block, i, k, begin, end);
 		}
 	}
 
 	Lanes sum_[pairs][N][width];
-	Lanes flux_[Chunk<Dim>::capacity][Dim][width];
+	Lanes flux_[ChunkOfPoints::capacity][rowsMost][width];
 };
 
 } // namespace gimpm

@@ -96,8 +96,9 @@ template <int Dim> struct PairModuli {
 
 /// Some points that follow each other in the order of the basis, on their way through a pass.
 template <int Dim> struct Chunk {
-	static constexpr int batches = batchesAtOnce, capacity = batches * Lanes::count;
-	static constexpr int width = (windowNodes<Dim> + Lanes::count - 1) / Lanes::count;
+	static constexpr int  dim = Dim, batches = batchesAtOnce, capacity = batches * Lanes::count;
+	static constexpr int  width      = (windowNodes<Dim> + Lanes::count - 1) / Lanes::count;
+	static constexpr bool hasCentres = false; ///< see FBarChunk
 
 	int             first = 0, count = 0;
 	Lanes           basis[capacity][Dim][width]; ///< gradients of the basis functions of a point, node by node
@@ -123,28 +124,36 @@ template <int Dim> struct Chunk {
 	double&       gradientAt(int point, int i, int j) { return gradient[(point - first) / Lanes::count][i][j].v[(point - first) % Lanes::count]; }
 };
 
-/// Basis functions of the points [begin, end) of one patch, and the gradients of the displacements u there.
-template <int Dim, int Span> GIMPM_INLINE void prepare(const CloudBasis<Dim>& basis, const PatchVectors<Dim, Span>& u, int begin, int end, Chunk<Dim>& chunk)
+/// The gradients of a point's basis functions, stored at basisAt(axis), and keep(i, j, d u_i / d x_j) of the displacements u.
+template <int Dim, int Span, class At, class Keep>
+GIMPM_INLINE void formGradients(const PointBasis<Dim>& axes, const PatchVectors<Dim, Span>& u, At&& basisAt, Keep&& keep)
 {
-	using Nodes = PatchNodes<Dim, Span>;
-	for (int p = begin; p < end; ++p) {
-		const auto& axes  = basis.axes[p];
-		const Lanes value = loadLanes(axes[0].value), slope = loadLanes(axes[0].slope);
-		Lanes       gradient[Dim][Dim];
-		for (auto& row : gradient)
-			for (auto& lanes : row)
-				lanes = Lanes(0);
-		for (int r = 0; r < Nodes::rows; ++r)
-			for (int j = 0; j < Dim; ++j) {
-				const Lanes g = (j == 0 ? slope : value) * Lanes(Nodes::rowFactor(axes, r, j));
-				storeLanes(chunk.basisAt(p, j) + r * Nodes::inRow, g); // the next row begins where the nodes of this one end
-				for (int i = 0; i < Dim; ++i)
-					gradient[i][j] += u.row[i][r] * g;
-			}
-		for (int i = 0; i < Dim; ++i)
-			for (int j = 0; j < Dim; ++j)
-				chunk.gradientAt(p, i, j) = sum(gradient[i][j]);
-	}
+	using Nodes       = PatchNodes<Dim, Span>;
+	const Lanes value = loadLanes(axes[0].value), slope = loadLanes(axes[0].slope);
+	Lanes       gradient[Dim][Dim];
+	for (auto& row : gradient)
+		for (auto& lanes : row)
+			lanes = Lanes(0);
+	for (int r = 0; r < Nodes::rows; ++r)
+		for (int j = 0; j < Dim; ++j) {
+			const Lanes g = (j == 0 ? slope : value) * Lanes(Nodes::rowFactor(axes, r, j));
+			storeLanes(basisAt(j) + r * Nodes::inRow, g); // the next row begins where the nodes of this one end
+			for (int i = 0; i < Dim; ++i)
+				gradient[i][j] += u.row[i][r] * g;
+		}
+	for (int i = 0; i < Dim; ++i)
+		for (int j = 0; j < Dim; ++j)
+			keep(i, j, sum(gradient[i][j]));
+}
+
+/// Basis functions of the points [begin, end) of one patch, and the gradients of the displacements u there.
+template <int Dim, int Span>
+GIMPM_INLINE void prepare(const CloudBasis<Dim>& basis, const StepPoints<Dim>&, const PatchVectors<Dim, Span>& u, int begin, int end, Chunk<Dim>& chunk)
+{
+	for (int p = begin; p < end; ++p)
+		formGradients(
+		        basis.axes[p], u, [&](int j) GIMPM_INLINE_LAMBDA { return chunk.basisAt(p, j); },
+		        [&](int i, int j, double value) GIMPM_INLINE_LAMBDA { chunk.gradientAt(p, i, j) = value; });
 }
 
 /// Points side by side. Lanes beyond the last point of a chunk repeat it.
@@ -233,10 +242,10 @@ template <int Dim, class F> GIMPM_INLINE void forPieces(const CloudBasis<Dim>& b
 }
 
 /// Calls f(chunk, first patch) for all points of the patches [first, last).
-template <int Dim, class F> GIMPM_INLINE void forChunks(const CloudBasis<Dim>& basis, int first, int last, F&& f)
+template <class ChunkOfPoints, int Dim, class F> GIMPM_INLINE void forChunks(const CloudBasis<Dim>& basis, int first, int last, F&& f)
 {
-	const int  end = basis.patches[last - 1].first + basis.patches[last - 1].count;
-	Chunk<Dim> chunk;
+	const int     end = basis.patches[last - 1].first + basis.patches[last - 1].count;
+	ChunkOfPoints chunk;
 	for (int begin = basis.patches[first].first; begin < end; begin += chunk.count) {
 		chunk.first = begin;
 		chunk.count = std::min(Chunk<Dim>::capacity, end - begin);

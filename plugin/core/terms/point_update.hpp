@@ -2,7 +2,7 @@
 // Step 5 of the method: nodes to points.
 #pragma once
 #include "core/base/instruction_set.hpp"
-#include "core/terms/point_kernel.hpp"
+#include "core/terms/fbar.hpp"
 
 namespace gimpm {
 
@@ -45,19 +45,26 @@ template <bool Portable, class F> GIMPM_INLINE void callPart(F&& f)
 		f();
 }
 
+/// What the laws of a batch see of the increment.
+template <int Dim> GIMPM_INLINE const MatrixOf<Dim, Lanes>& seenByLaws(const Chunk<Dim>&, int, const MatrixOf<Dim, Lanes>& gradient) { return gradient; }
+template <int Dim> GIMPM_INLINE MatrixOf<Dim, Lanes> seenByLaws(const FBarChunk<Dim>& chunk, int b, const MatrixOf<Dim, Lanes>&)
+{
+	return FBarIncrement<Dim>(chunk, b).gradient;
+}
+
 /// Calls f(index in the cloud, PointUpdate) for the points of the patches [first, last).
-template <int Dim, class F>
+template <class ChunkOfPoints, int Dim, class F>
 void forUpdatedPoints(
         const CloudBasis<Dim>& basis, const StepPoints<Dim>& points, const std::vector<Material>& materials, const Eigen::VectorXd& d, int first, int last,
         F&& f)
 {
-	forChunks(basis, first, last, [&](Chunk<Dim>& chunk, int patch) {
+	forChunks<ChunkOfPoints>(basis, first, last, [&](ChunkOfPoints& chunk, int patch) {
 		Vec<Dim> displacement[Chunk<Dim>::capacity];
 		forPieces(basis, chunk, patch, [&](auto span, const Patch<Dim>& p, int begin, int end) GIMPM_INLINE_LAMBDA {
 			constexpr int Span = decltype(span)::value;
 			callPart<PortableParts<Dim>::ofPiece(Span)>([&]() GIMPM_INLINE_LAMBDA {
 				const PatchVectors<Dim, Span> u(p, d);
-				prepare(basis, u, begin, end, chunk);
+				prepare(basis, points, u, begin, end, chunk);
 				for (int q = begin; q < end; ++q)
 					callPart<PortableParts<Dim>::ofInterpolation(Span)>(
 					        [&]() GIMPM_INLINE_LAMBDA { displacement[q - chunk.first] = interpolate<Dim, Span>(basis.axes[q], u); });
@@ -69,7 +76,7 @@ void forUpdatedPoints(
 			for (int i = 0; i < Dim; ++i)
 				for (int j = 0; j < Dim; ++j)
 					gradient(i, j) = chunk.gradient[b][i][j];
-			const BatchResponse<Dim> response(batch, points, materials, gradient);
+			const BatchResponse<Dim> response(batch, points, materials, seenByLaws(chunk, b, gradient));
 			const auto               elasticStrain = assemble<Lanes, Dim>(response.law.elasticStrain, response.trial.axes);
 			const auto               stress        = assemble<Lanes, Dim>(response.law.stress, response.trial.axes);
 			for (int lane = 0, q = b * Lanes::count; lane < Lanes::count && q < chunk.count; ++lane, ++q) {
@@ -86,15 +93,23 @@ void forUpdatedPoints(
 	});
 }
 
-/// The same for every point, from several threads; f must not touch other points.
-template <int Dim, class F>
+template <class ChunkOfPoints, int Dim, class F>
 void forUpdatedPoints(const CloudBasis<Dim>& basis, const StepPoints<Dim>& points, const std::vector<Material>& materials, const Eigen::VectorXd& d, F&& f)
 {
 	constexpr int patchesAtOnce = 64;
 	const int     patches       = int(basis.patches.size());
 #pragma omp parallel for schedule(dynamic)
 	for (int first = 0; first < patches; first += patchesAtOnce)
-		callForProcessor([&] { forUpdatedPoints(basis, points, materials, d, first, std::min(first + patchesAtOnce, patches), f); });
+		callForProcessor([&] { forUpdatedPoints<ChunkOfPoints>(basis, points, materials, d, first, std::min(first + patchesAtOnce, patches), f); });
+}
+
+/// The same for every point, from several threads; f must not touch other points.
+template <int Dim, class F>
+void forUpdatedPoints(const CloudBasis<Dim>& basis, const StepPoints<Dim>& points, const std::vector<Material>& materials, const Eigen::VectorXd& d, F&& f)
+{
+	if (points.hasFBar()) forUpdatedPoints<FBarChunk<Dim>>(basis, points, materials, d, f);
+	else
+		forUpdatedPoints<Chunk<Dim>>(basis, points, materials, d, f);
 }
 
 } // namespace gimpm

@@ -12,7 +12,7 @@ namespace gimpm {
 /// A point that has no force at these displacements: the iterate cannot be evaluated.
 struct PointFailure {
 	enum class Reason {
-		inverted,  ///< det F <= 0 or not finite
+		inverted,  ///< det F <= 0 or not finite, with F-bar also at the centres of the cells
 		noResponse ///< its law has no answer to its strain
 	};
 	int    point; ///< index in the cloud; of several the smallest

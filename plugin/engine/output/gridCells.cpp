@@ -13,7 +13,7 @@ namespace {
 	template <int Dim> VtkCells cells(const string& kind, const Scene& scene, const MpmImplicitEngine& solver)
 	{
 		const ValueLock lock;
-		auto            model = toModel<Dim>(*solver.grid, solver.basis, solver.boundaries, *solver.ghost, *solver.newton);
+		auto            model = toModel<Dim>(*solver.grid, solver.basis, solver.fBar, solver.boundaries, *solver.ghost, *solver.newton);
 		const auto      cloud = gather(materialPoints(scene, solver.mask), model);
 		const Real      z     = solver.grid->origin[2];
 		return kind == "grid" ? populatedCells(cloud, model, z) : stabilisedFaces(cloud, model, z);

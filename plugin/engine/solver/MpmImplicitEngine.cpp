@@ -68,9 +68,7 @@ void MpmImplicitEngine::action()
 		requireCallable();
 		try {
 			const Threads threads(ompThreads);
-			if (grid && grid->dim == 3) step<3>();
-			else
-				step<2>();
+			grid && grid->dim == 3 ? step<3>() : step<2>();
 		} catch (...) {
 			beforeActivation.putBack(*this);
 			if (!scene->subStepping) scene->subStep = -1; // YADE would count the iteration as begun, and finish it later
@@ -103,7 +101,7 @@ template <int Dim> MpmImplicitEngine::Job<Dim> MpmImplicitEngine::prepare()
 	Job<Dim> job { { stepPart, newton->minStep, newton->maxIterations }, loadTime, scene->time + scene->dt, gimpm::Model<Dim>(), gimpm::PointCloud<Dim>() };
 	{
 		const gimpm::Stopwatch watch(gathering);
-		job.model = toModel<Dim>(*grid, basis, boundaries, *ghost, *newton);
+		job.model = toModel<Dim>(*grid, basis, fBar, boundaries, *ghost, *newton);
 		updateMaterialPoints(points, *scene, mask);
 		requireAny(points, *this);
 		job.cloud = gather(points, job.model);

@@ -21,6 +21,7 @@ class MpmImplicitEngine : public Exposed<MpmImplicitEngine, PeriodicEngine>, pub
 public:
 	shared_ptr<MpmGrid>             grid;
 	string                          basis = "gimp";
+	bool                            fBar  = false;
 	vector<shared_ptr<MpmBoundary>> boundaries;
 	shared_ptr<MpmGhost>            ghost { new MpmGhost };
 	shared_ptr<MpmNewton>           newton { new MpmNewton };
@@ -49,6 +50,7 @@ public:
 		  "Basis functions: 'gimp', averaged over the points' domains, or 'mpm', the linear functions of the grid (points that cross cells then disturb "
 		  "the solution).",
 		  oneOf("gimp", "mpm"));
+		v("fBar", &E::fBar, 0, "Cure for volumetric locking of materials that keep their volume: one dilation in a cell. Needs ghost stabilisation.");
 		loads(v);
 		v("boundaries", &E::boundaries, 0, "Essential boundary conditions (MpmBoundary); read as a tuple, so assign a new one to change it.");
 		v("ghost", &E::ghost, 0, "Ghost stabilisation (MpmGhost).", notNull);

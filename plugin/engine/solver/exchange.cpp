@@ -176,11 +176,15 @@ Vector3r stretched(const Vector3r& halfSize0, const Matrix3r& defGrad)
 
 template <int Dim>
 gimpm::Model<Dim> toModel(
-        const MpmGrid& grid, const string& basis, const vector<shared_ptr<MpmBoundary>>& boundaries, const MpmGhost& ghost, const MpmNewton& newton)
+        const MpmGrid& grid, const string& basis, bool fBar, const vector<shared_ptr<MpmBoundary>>& boundaries, const MpmGhost& ghost, const MpmNewton& newton)
 {
 	grid.requireAdmissible();
 	ghost.requireAdmissible();
 	newton.requireAdmissible();
+	if (fBar && ghost.factor == 0)
+		throw std::invalid_argument(
+		        "fBar takes the dilation of points from the centres of their cells, also where these are nearly empty: it needs ghost stabilisation, "
+		        "such as ghost=MpmGhost(), instead of ghost.factor=0.");
 	gimpm::Model<Dim> model;
 	model.grid = { grid.cellSize, grid.origin.head<Dim>() };
 	vector<gimpm::HeldBox<Dim>> boxes;
@@ -188,6 +192,7 @@ gimpm::Model<Dim> toModel(
 		boxes.push_back(heldBox<Dim>(*boundary, grid, model.grid));
 	refuseConflicts(boxes);
 	model.basis                   = basis == "mpm" ? gimpm::Basis::linear : gimpm::Basis::gimp;
+	model.fBar                    = fBar;
 	model.boundary                = gimpm::Boundary<Dim>(boxes);
 	model.ghost                   = { ghost.factor, ghost.scaling == "paper" ? gimpm::GhostScaling::paper : gimpm::GhostScaling::meshIndependent };
 	model.newton.tolerance        = newton.tolerance;
@@ -257,9 +262,9 @@ template <int Dim> void scatter(const gimpm::PointCloud<Dim>& cloud, const vecto
 	});
 }
 
-#define MPM_INSTANTIATE(Dim)                                                                                                                                   \
-	template gimpm::Model<Dim>      toModel(const MpmGrid&, const string&, const vector<shared_ptr<MpmBoundary>>&, const MpmGhost&, const MpmNewton&);     \
-	template gimpm::PointCloud<Dim> gather(const vector<MaterialPoint>&, gimpm::Model<Dim>&);                                                              \
+#define MPM_INSTANTIATE(Dim)                                                                                                                                     \
+	template gimpm::Model<Dim>      toModel(const MpmGrid&, const string&, bool, const vector<shared_ptr<MpmBoundary>>&, const MpmGhost&, const MpmNewton&); \
+	template gimpm::PointCloud<Dim> gather(const vector<MaterialPoint>&, gimpm::Model<Dim>&);                                                                \
 	template void                   scatter(const gimpm::PointCloud<Dim>&, const vector<MaterialPoint>&);
 MPM_INSTANTIATE(2)
 MPM_INSTANTIATE(3)

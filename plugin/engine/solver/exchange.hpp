@@ -12,7 +12,8 @@
 namespace yade {
 
 // What an engine is set to, as the core understands it.
-template <int Dim> gimpm::Model<Dim> toModel(const MpmGrid&, const string& basis, const vector<shared_ptr<MpmBoundary>>&, const MpmGhost&, const MpmNewton&);
+template <int Dim>
+gimpm::Model<Dim> toModel(const MpmGrid&, const string& basis, bool fBar, const vector<shared_ptr<MpmBoundary>>&, const MpmGhost&, const MpmNewton&);
 
 // Copies the points and adds their materials to the model. std::invalid_argument names the body that cannot be computed with.
 template <int Dim> gimpm::PointCloud<Dim> gather(const vector<MaterialPoint>&, gimpm::Model<Dim>&);

@@ -30,7 +30,7 @@ namespace {
                         {
                                 const ValueLock lock;
                                 engine.requireAdmissible();
-                                model = toModel<Dim>(*engine.grid, engine.basis, engine.boundaries, *engine.ghost, *engine.newton);
+                                model = toModel<Dim>(*engine.grid, engine.basis, engine.fBar, engine.boundaries, *engine.ghost, *engine.newton);
                                 cloud = gather(materialPoints(*engine.ownScene(), engine.mask), model);
                         }
                         const PythonUnlock python;

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "core/terms/fbar_force.hpp"
+#include "core/terms/point_pass.hpp"
+
+namespace gimpm {
+namespace {
+
+/// The parts of a domain in the lower (0) and the upper cell (1) along one axis.
+struct AxisParts {
+	double share[2];  ///< of the domain
+	double centre[2]; ///< of the part, in its cell: 0 to 1
+
+	AxisParts(const AxisBasis& basis, bool isInTwo)
+	{
+		if (isInTwo) { // the slopes are in proportion to the lengths of the parts, the values to their squares
+			const double perLength = basis.slope[2] - basis.slope[0];
+			share[1]               = basis.slope[2] / perLength;
+			centre[0]              = 1 + basis.value[0] / basis.slope[0] * perLength;
+			centre[1]              = basis.value[2] / basis.slope[2] * perLength;
+		} else
+			share[1] = 0, centre[0] = basis.value[1], centre[1] = 0.5;
+		share[0] = 1 - share[1];
+	}
+};
+
+/// Calls f(cell of the window, its number, parts, share of the domain) for the cells that a point's domain lies in.
+template <int Dim, class F> void forParts(const Patch<Dim>& patch, const PointBasis<Dim>& axes, F&& f)
+{
+	std::array<AxisParts, Dim> parts = [&] {
+		if constexpr (Dim == 2) return std::array { AxisParts(axes[0], patch.span & 1), AxisParts(axes[1], patch.span & 2) };
+		else
+			return std::array { AxisParts(axes[0], patch.span & 1), AxisParts(axes[1], patch.span & 2), AxisParts(axes[2], patch.span & 4) };
+	}();
+	for (int c = 0; c < windowCells<Dim>; ++c) {
+		if (patch.reached[c] < 0) continue;
+		double share = 1;
+		for (int a = 0; a < Dim; ++a)
+			share *= parts[a].share[c >> a & 1];
+		f(c, patch.reached[c], parts, share);
+	}
+}
+
+/// Of the matter in each cell, in the cell: 0 to 1 along each axis.
+template <int Dim> std::vector<Vec<Dim>> centresOfMatter(const PointCloud<Dim>& cloud, const CloudBasis<Dim>& basis)
+{
+	std::vector<Vec<Dim>> centre(basis.cells.size(), Vec<Dim>::Zero());
+	std::vector<double>   volume(basis.cells.size(), 0);
+	for (const auto& patch : basis.patches)
+		for (int i = patch.first; i < patch.first + patch.count; ++i) {
+			const int    p   = basis.order[i];
+			const double own = cloud.volume0[p] * cloud.defGrad[p].determinant();
+			forParts(patch, basis.axes[i], [&](int c, int cell, const auto& parts, double share) {
+				volume[cell] += own * share;
+				for (int a = 0; a < Dim; ++a)
+					centre[cell][a] += own * share * parts[a].centre[c >> a & 1];
+			});
+		}
+	for (std::size_t cell = 0; cell < centre.size(); ++cell)
+		centre[cell] = volume[cell] > 0 ? Vec<Dim>(centre[cell] / volume[cell]) : Vec<Dim>::Constant(0.5);
+	return centre;
+}
+
+/// Along each axis, of the centres of the cells on a side the average by the shares of the domain.
+template <int Dim> PointBasis<Dim> atCentres(const Patch<Dim>& patch, const PointBasis<Dim>& axes, const std::vector<Vec<Dim>>& centre)
+{
+	double share[Dim][2] = {}, moment[Dim][2] = {};
+	forParts(patch, axes, [&](int c, int cell, const auto&, double part) {
+		for (int a = 0; a < Dim; ++a) {
+			share[a][c >> a & 1] += part;
+			moment[a][c >> a & 1] += part * centre[cell][a];
+		}
+	});
+	PointBasis<Dim> result = axes;
+	for (int a = 0; a < Dim; ++a) {
+		const AxisParts parts(axes[a], patch.span >> a & 1);
+		const auto      at    = [&](int side) { return share[a][side] > 0 ? moment[a][side] / share[a][side] : 0.5; };
+		auto&           value = result[a].value;
+		value[0]              = parts.share[0] * (1 - at(0));
+		value[2]              = parts.share[1] * at(1);
+		value[1]              = 1 - value[0] - value[2];
+	}
+	return result;
+}
+
+} // namespace
+
+template <int Dim> std::vector<PointBasis<Dim>> basisAtCentres(const PointCloud<Dim>& cloud, const CloudBasis<Dim>& basis)
+{
+	const auto                   centre = centresOfMatter(cloud, basis);
+	std::vector<PointBasis<Dim>> result(basis.axes.size());
+#pragma omp parallel for schedule(static)
+	for (int k = 0; k < int(basis.patches.size()); ++k) {
+		const auto& patch = basis.patches[k];
+		for (int i = patch.first; i < patch.first + patch.count; ++i)
+			result[i] = atCentres(patch, basis.axes[i], centre);
+	}
+	return result;
+}
+
+template <int Dim> std::optional<PointFailure> addFBarForce(const Pass<Dim>& pass) { return addPoints<FBarChunk<Dim>>(pass); }
+
+#define GIMPM_INSTANTIATE(Dim)                                                                                                                                 \
+	template std::vector<PointBasis<Dim>> basisAtCentres(const PointCloud<Dim>&, const CloudBasis<Dim>&);                                                  \
+	template std::optional<PointFailure>  addFBarForce(const Pass<Dim>&);
+GIMPM_INSTANTIATE(2)
+GIMPM_INSTANTIATE(3)
+#undef GIMPM_INSTANTIATE
+
+} // namespace gimpm

@@ -1,0 +1,242 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// A pass over the points that adds their forces, and their stiffness, to the nodes: the same text with F-bar and without, which is compiled apart.
+#pragma once
+#include "core/base/instruction_set.hpp"
+#include "core/terms/fbar.hpp"
+#include "core/terms/patch_stiffness.hpp"
+#include <atomic>
+#include <limits>
+
+namespace gimpm {
+
+/// Offset codes of the node pairs of a patch, a <= b; the nodes count x fastest.
+template <int Dim, int Span> struct PairCodes {
+	static constexpr int N = nodesOfSpan<Dim, Span>();
+	int                  code[N][N];
+	PairCodes()
+	{
+		for (int a = 0; a < N; ++a)
+			for (int b = 0; b < N; ++b) {
+				std::array<int, Dim> offset;
+				for (int k = 0; k < Dim; ++k)
+					offset[k] = PatchNodes<Dim, Span>::along(b, k) - PatchNodes<Dim, Span>::along(a, k);
+				code[a][b] = NodeMatrix<Dim>::code(offset);
+			}
+	}
+	static const PairCodes& get()
+	{
+		static const PairCodes codes;
+		return codes;
+	}
+};
+
+/// What a pass over the points reads and writes.
+template <int Dim> struct Pass {
+	const CloudBasis<Dim>&       basis;
+	const StepPoints<Dim>&       points;
+	const std::vector<Material>& materials;
+	const Eigen::VectorXd&       d;
+	const TermSum<Dim>&          sum;
+	const bool                   isSymmetric = points.isSymmetric;
+};
+
+/// A failure as a number, which is the smaller the smaller the index of its point is.
+using FailureCode               = std::int64_t;
+constexpr FailureCode noFailure = std::numeric_limits<FailureCode>::max();
+
+constexpr FailureCode  codeOf(const PointFailure& f) { return 2 * FailureCode(f.point) + (f.reason == PointFailure::Reason::noResponse); }
+constexpr PointFailure failureOf(FailureCode code) { return { int(code / 2), code % 2 ? PointFailure::Reason::noResponse : PointFailure::Reason::inverted }; }
+
+/// Of the points of a batch whose lanes fail.
+template <class F> FailureCode firstFailure(const Batch& batch, const std::vector<int>& order, PointFailure::Reason reason, F&& fails)
+{
+	FailureCode first = noFailure;
+	for (int lane = 0; lane < batch.count; ++lane)
+		if (fails(lane)) first = std::min(first, codeOf({ order[batch.point[lane]], reason }));
+	return first;
+}
+
+GIMPM_INLINE FailureCode invertedIn(const Batch& batch, const std::vector<int>& order, const Lanes& J)
+{
+	if (everywhere(J > Lanes(0)) && everywhere(J <= Lanes(std::numeric_limits<double>::max()))) return noFailure;
+	return firstFailure(batch, order, PointFailure::Reason::inverted, [&](int lane) { return !(J[lane] > 0) || !std::isfinite(J[lane]); });
+}
+
+GIMPM_INLINE FailureCode unansweredIn(const Batch& batch, const std::vector<int>& order, const Lanes& failed)
+{
+	if (everywhere(failed <= Lanes(0))) return noFailure;
+	return firstFailure(batch, order, PointFailure::Reason::noResponse, [&](int lane) { return !(failed[lane] <= 0); });
+}
+
+/// sum_k value_k q_k w_k
+template <int Dim>
+GIMPM_INLINE void dyads(
+        Lanes (&sum)[Dim][Dim], const PrincipalValues<Lanes>& value, const Lanes& volume, const MatrixOf<Dim, Lanes>& q, const MatrixOf<Dim, Lanes>& w)
+{
+	for (int i = 0; i < Dim; ++i)
+		for (int j = 0; j < Dim; ++j) {
+			Lanes flux(0);
+			for (int k = 0; k < Dim; ++k)
+				flux += volume * value[k] * q(i, k) * w(j, k);
+			sum[i][j] = flux;
+		}
+}
+
+template <int Dim> GIMPM_INLINE void keepModuli(const Pass<Dim>& pass, Chunk<Dim>& chunk, int b, const Lanes& volume, const Moduli<Dim, Lanes>& a)
+{
+	const auto keep = [&](int i, int k, int pair) GIMPM_INLINE_LAMBDA {
+		for (int j = 0; j < Dim; ++j)
+			for (int l = 0; l < Dim; ++l)
+				chunk.moduli.value[pair][b][j][l] = volume * a(i * Dim + j, k * Dim + l);
+	};
+	if (pass.isSymmetric) PairModuli<Dim>::template forPairs<true>(keep);
+	else
+		PairModuli<Dim>::template forPairs<false>(keep);
+}
+
+/// Flux and moduli of one batch of a chunk. Returns a point that fails, or noFailure.
+///
+/// With principal axes q_k and Kirchhoff stresses t_k, and w_k = F^-1 q_k, the flux is V_0 sum_k t_k q_k w_k: current volume times Cauchy
+/// stress is initial volume times Kirchhoff stress. It goes with gradients in the configuration at the start of the step.
+template <int Dim> GIMPM_INLINE FailureCode respond(const Pass<Dim>& pass, Chunk<Dim>& chunk, int b)
+{
+	using M = MatrixOf<Dim, Lanes>;
+	const Batch batch(chunk.first + b * Lanes::count, chunk.last());
+	M           gradient;
+	for (int i = 0; i < Dim; ++i)
+		for (int j = 0; j < Dim; ++j)
+			gradient(i, j) = chunk.gradient[b][i][j];
+	const M F = gradient + M::Identity();
+	if (const auto inverted = invertedIn(batch, pass.basis.order, F.determinant()); inverted != noFailure) return inverted;
+	const BatchResponse<Dim> response(batch, pass.points, pass.materials, gradient);
+	if constexpr (LawTraits<Law>::mayFail)
+		if (const auto unanswered = unansweredIn(batch, pass.basis.order, response.law.failed); unanswered != noFailure) return unanswered;
+	const Lanes volume = batch.load([&](int p) GIMPM_INLINE_LAMBDA { return pass.points.volume0[p]; });
+	const M&    q      = response.trial.axes;
+	const M     w      = F.inverse().lazyProduct(q);
+	dyads(chunk.flux[b], response.law.stress, volume, q, w);
+	if (pass.sum.K) keepModuli(pass, chunk, b, volume, moduli<Dim, Lanes>(response.law, response.strain, q, w));
+	return noFailure;
+}
+
+/// The same with F-bar. What changes shapes goes with the gradients at the points, what changes volumes with those at the centres.
+template <int Dim> GIMPM_INLINE FailureCode respond(const Pass<Dim>& pass, FBarChunk<Dim>& chunk, int b)
+{
+	using M = MatrixOf<Dim, Lanes>;
+	const Batch              batch(chunk.first + b * Lanes::count, chunk.last());
+	const FBarIncrement<Dim> increment(chunk, b);
+	const FailureCode        inverted = std::min(invertedIn(batch, pass.basis.order, increment.J), invertedIn(batch, pass.basis.order, increment.J0));
+	if (inverted != noFailure) return inverted;
+	const BatchResponse<Dim> response(batch, pass.points, pass.materials, increment.gradient);
+	if constexpr (LawTraits<Law>::mayFail)
+		if (const auto unanswered = unansweredIn(batch, pass.basis.order, response.law.failed); unanswered != noFailure) return unanswered;
+	const Lanes                volume = batch.load([&](int p) GIMPM_INLINE_LAMBDA { return pass.points.volume0[p]; });
+	const M&                   q      = response.trial.axes;
+	const M                    w      = increment.F.inverse().lazyProduct(q);
+	const VolumetricSplit<Dim> split(response.law);
+	chunk.turn(b, increment.F0.inverse());
+	dyads(chunk.flux[b], split.deviator.stress, volume, q, w);
+	chunk.meanStress[b] = volume * split.mean;
+	if (!pass.sum.K) return noFailure;
+	keepModuli(pass, chunk, b, volume, moduli<Dim, Lanes>(split.deviator, response.strain, q, w));
+	dyads(chunk.meanOfStrain[b], split.meanOfStrain, volume, q, w);
+	dyads(chunk.stressOfDilation[b], split.stressOfDilation, volume, q, w);
+	chunk.bulk[b] = volume * split.bulk;
+	return noFailure;
+}
+
+/// Internal force (and stiffness) of the points [begin, end) of a patch.
+template <class Kernels, int Span, class ChunkOfPoints, int Dim>
+GIMPM_INLINE void addPiece(const Pass<Dim>& pass, const ChunkOfPoints& chunk, const Patch<Dim>& patch, int begin, int end)
+{
+	using Nodes = PatchNodes<Dim, Span>;
+	PatchVectors<Dim, Span> force;
+	for (int p = begin; p < end; ++p)
+		for (int r = 0; r < Nodes::rows; ++r) {
+			for (int j = 0; j < Dim; ++j) {
+				const Lanes grad = loadLanes(chunk.basisAt(p, j) + r * Nodes::inRow);
+				for (int i = 0; i < Dim; ++i)
+					force.row[i][r] += Lanes(chunk.fluxAt(p, i, j)) * grad;
+			}
+			if constexpr (ChunkOfPoints::hasCentres)
+				for (int i = 0; i < Dim; ++i)
+					force.row[i][r] += Lanes(chunk.meanStressAt(p)) * loadLanes(chunk.centreAt(p, i) + r * Nodes::inRow);
+		}
+	force.scatterAdd(patch, pass.sum.force);
+	if (pass.sum.sizes) force.scatterAddSizes(patch, *pass.sum.sizes);
+	if (!pass.sum.K) return;
+	const auto addStiffness = [&](auto isSymmetric) GIMPM_INLINE_LAMBDA {
+		PatchStiffness<ChunkOfPoints, Nodes::N, decltype(isSymmetric)::value> stiffness;
+		Kernels::multiply(stiffness, chunk, begin, end);
+		stiffness.scatterAdd(patch.node.data(), PairCodes<Dim, Span>::get(), *pass.sum.K);
+	};
+	if (pass.isSymmetric) addStiffness(std::true_type());
+	else
+		addStiffness(std::false_type());
+}
+
+/// Adds the patches [first, last). Returns a point that fails, or noFailure.
+template <class Kernels, class ChunkOfPoints, int Dim> GIMPM_INLINE FailureCode addPatches(const Pass<Dim>& pass, int first, int last)
+{
+	FailureCode failure = noFailure;
+	forChunks<ChunkOfPoints>(pass.basis, first, last, [&](ChunkOfPoints& chunk, int patch) GIMPM_INLINE_LAMBDA {
+		forPieces(pass.basis, chunk, patch, [&](auto span, const Patch<Dim>& p, int begin, int end) GIMPM_INLINE_LAMBDA {
+			prepare(pass.basis, pass.points, PatchVectors<Dim, decltype(span)::value>(p, pass.d), begin, end, chunk);
+		});
+		failure = std::min(failure, Kernels::respond(pass, chunk));
+		if (failure != noFailure) return; // the rest of the pass is of no use, but for the points it names
+		forPieces(pass.basis, chunk, patch, [&](auto span, const Patch<Dim>& p, int begin, int end) GIMPM_INLINE_LAMBDA {
+			addPiece<Kernels, decltype(span)::value>(pass, chunk, p, begin, end);
+		});
+	});
+	return failure;
+}
+
+// What does not depend on the kind of patch is not inlined into the code for all kinds.
+#define GIMPM_KERNELS(Name, ...)                                                                                                                               \
+	struct Name {                                                                                                                                          \
+		template <class C, int Dim> [[gnu::flatten, gnu::noinline]] __VA_ARGS__ static FailureCode respond(const Pass<Dim>& pass, C& chunk)            \
+		{                                                                                                                                              \
+			FailureCode failure = noFailure;                                                                                                       \
+			for (int batch = 0; batch * Lanes::count < chunk.count; ++batch)                                                                       \
+				failure = std::min(failure, gimpm::respond(pass, chunk, batch));                                                               \
+			return failure;                                                                                                                        \
+		}                                                                                                                                              \
+		template <class C, int N, bool Symmetric>                                                                                                      \
+		[[gnu::noinline]] __VA_ARGS__ static void multiply(PatchStiffness<C, N, Symmetric>& stiffness, const C& chunk, int begin, int end)             \
+		{                                                                                                                                              \
+			stiffness.multiply(chunk, begin, end);                                                                                                 \
+		}                                                                                                                                              \
+		template <class C, int Dim> __VA_ARGS__ static FailureCode addPatches(const Pass<Dim>& pass, int first, int last)                              \
+		{                                                                                                                                              \
+			return gimpm::addPatches<Name, C>(pass, first, last);                                                                                  \
+		}                                                                                                                                              \
+	};
+GIMPM_KERNELS(PortableKernels)
+GIMPM_KERNELS(Avx2Kernels, GIMPM_TARGET_AVX2)
+#undef GIMPM_KERNELS
+
+inline void keepSmallest(std::atomic<FailureCode>& smallest, FailureCode value)
+{
+	FailureCode seen = smallest;
+	while (value < seen && !smallest.compare_exchange_weak(seen, value)) { }
+}
+
+/// Fails where a point does. The result does not depend on the number of threads.
+template <class ChunkOfPoints, int Dim> std::optional<PointFailure> addPoints(const Pass<Dim>& pass)
+{
+	std::atomic<FailureCode> failure { noFailure };
+	const auto               add = processorHasAvx2() ? Avx2Kernels::addPatches<ChunkOfPoints, Dim> : PortableKernels::addPatches<ChunkOfPoints, Dim>;
+	// Threads meet after each colour. Of few points a pass is over before they have: alone that costs little, but where another program takes
+	// a processor away they wait for its time slice, a thousand times as long as the pass.
+	const bool threadsPay = pass.points.volume0.size() >= (Dim == 2 ? 4000 : 1000);
+	for (const auto& colour : pass.basis.colours) {
+#pragma omp parallel for schedule(dynamic) if (threadsPay)
+		for (int range = 0; range < int(colour.size()); ++range)
+			keepSmallest(failure, add(pass, colour[range].first, colour[range].second));
+	}
+	if (failure == noFailure) return std::nullopt;
+	return failureOf(failure);
+}
+
+} // namespace gimpm
