@@ -62,6 +62,14 @@ def test_slope(yade):
 	assert (run.folder / 'out/slope/slope-points.pvd').read_text().count('<DataSet') == 11 # initial state and 10 more
 
 
+def test_slope_with_friction(yade):
+	"""Figures of its page, which completes with the stabilisation and not without."""
+	run = yade(root / 'examples' / 'slope' / 'friction.py')
+	assert 'completes: 40 of 40 steps, 40 parts after 0 cuts, 152 iterations' in run.stdout
+	assert abs(numbers(r'crest moves by (\S+) m', run.stdout)[0] - 1.584) < 2e-3
+	assert (run.folder / 'out/friction/friction.png').stat().st_size > 10000
+
+
 def test_column(yade):
 	run = yade(root / 'examples' / 'column' / 'column.py')
 	error, reference = map(float, re.search(r'stress error \(eq\. 7\): (\S+), reference: (\S+)', run.stdout).groups())

@@ -155,6 +155,11 @@ def isParameter(name):
 	return name in table and table[name]['isParameter']
 
 
+def parameter(name, material, points, rows):
+	"""A strength or modulus of the points in these rows, which all have this material: a number, or an array where points have their own."""
+	return points[name][rows] if name in points else getattr(material, name)
+
+
 def ofPositions(who, name, value, positions):
 	"""Column of a parameter: that of a function of the position, or what is given."""
 	if not callable(value): return value

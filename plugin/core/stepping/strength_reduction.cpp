@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "core/stepping/strength_reduction.hpp"
+#include <algorithm>
+#include <sstream>
+
+namespace gimpm {
+namespace {
+
+/// Of all points, where it is more than smallStrain: what their moduli are to be multiplied by.
+template <int Dim> double scaleOfModuli(const PointCloud<Dim>& cloud)
+{
+	double largest = 0;
+	for (const auto& strain : cloud.elasticStrain)
+		largest = std::max(largest, strain.c.norm());
+	return std::max(1., largest / smallStrain);
+}
+
+template <int Dim> void scaleStrains(PointCloud<Dim>& cloud, double by)
+{
+	for (auto& strain : cloud.elasticStrain)
+		strain.c *= by;
+	for (auto& column : cloud.internals) // plastic strains: laws with others have no single strength
+		for (double& value : column)
+			value *= by;
+}
+
+template <class L> L weak(const L& law, const Weakening& w)
+{
+	if constexpr (countOfParameters<L>(0) > 0) return law.with(weakened(law, w));
+	else
+		return law;
+}
+
+template <int Dim> ParameterColumns weakParameters(const Model<Dim>& model, const PointCloud<Dim>& cloud, const Weakening& w)
+{
+	ParameterColumns columns;
+	for (std::size_t p = 0; p < cloud.size(); ++p) {
+		const Material& material = model.materials[cloud.material[p]];
+		if (!material.varies) continue;
+		const auto values = material.withLawOf(cloud.parameters, p, [&](const auto& law) { return parametersOf(Law(weak(law, w))); });
+		columns.resize(std::max(columns.size(), values.size()));
+		for (std::size_t k = 0; k < values.size(); ++k) {
+			columns[k].resize(cloud.size());
+			columns[k][p] = values[k];
+		}
+	}
+	return columns;
+}
+
+template <int Dim> std::vector<Material> weakMaterials(const Model<Dim>& model, const Weakening& w)
+{
+	auto materials = model.materials;
+	for (Material& material : materials)
+		material.law = withLaw(material.law, [&](const auto& law) { return Law(weak(law, w)); });
+	return materials;
+}
+
+/// The points in their places, with the state that the laws have given them.
+template <int Dim> void takeState(PointCloud<Dim>& to, const PointCloud<Dim>& from)
+{
+	to.elasticStrain = from.elasticStrain;
+	to.internals     = from.internals;
+}
+
+template <int Dim> double add(std::vector<Vec<Dim>>& sum, const PointCloud<Dim>& moved, const PointCloud<Dim>& from)
+{
+	double largest = 0;
+	for (std::size_t p = 0; p < sum.size(); ++p) {
+		sum[p] += moved.position[p] - from.position[p];
+		largest = std::max(largest, sum[p].norm());
+	}
+	return largest;
+}
+
+std::vector<double> plasticStrainOf(const InternalColumns& columns, std::size_t points)
+{
+	const std::size_t column = internalVariables.find(equivalentPlasticStrain.name);
+	return column < columns.size() && !columns[column].empty() ? columns[column] : std::vector<double>(points);
+}
+
+std::string beyondSmall(double largest, double limit)
+{
+	std::ostringstream text;
+	text << "displacements grow without end: " << largest / limit << " times what is small";
+	return text.str();
+}
+
+} // namespace
+
+template <int Dim>
+WeakBody<Dim> reduceStrength(
+        const PointCloud<Dim>& cloud, const Model<Dim>& model, const Load<Dim>& load, double factor, StepControl control, LinearSolver& solver)
+{
+	const double    scale = scaleOfModuli(cloud), limit = smallPart * model.grid.cellSize;
+	Model<Dim>      weakModel = model;
+	PointCloud<Dim> start     = cloud;
+	WeakBody<Dim>   body;
+	scaleStrains(start, 1 / scale);
+	body.displacement.assign(cloud.size(), Vec<Dim>::Zero());
+	while (!control.isDone()) {
+		const double    goal = 1 / (1 + control.goal() * (1 / factor - 1));
+		PointCloud<Dim> now  = start;
+		weakModel.materials  = weakMaterials(model, { goal, scale });
+		now.parameters       = weakParameters(model, cloud, { goal, scale });
+		StepReport report    = loadStep<Dim>(now, weakModel, load, solver);
+		body.iterations += report.iterations;
+		++body.parts;
+		body.cause = report.cause;
+		if (report.converged()) {
+			const double largest = add(body.displacement, now, start);
+			if (largest > limit) {
+				body.cause = beyondSmall(largest, limit);
+				break;
+			}
+			body.reached = goal;
+			takeState(start, now);
+		}
+		if (!control.take(report)) break;
+	}
+	body.carries = body.cause.empty();
+	scaleStrains(start, scale);
+	for (auto& d : body.displacement)
+		d *= scale;
+	body.plasticStrain      = plasticStrainOf(start.internals, cloud.size());
+	const auto before       = plasticStrainOf(cloud.internals, cloud.size());
+	for (std::size_t p = 0; p < before.size(); ++p)
+		body.plasticStrain[p] -= before[p];
+	return body;
+}
+
+template WeakBody<2> reduceStrength(const PointCloud<2>&, const Model<2>&, const Load<2>&, double, StepControl, LinearSolver&);
+template WeakBody<3> reduceStrength(const PointCloud<3>&, const Model<3>&, const Load<3>&, double, StepControl, LinearSolver&);
+
+} // namespace gimpm
