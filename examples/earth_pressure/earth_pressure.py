@@ -4,7 +4,7 @@
 
 	        ___________________________
 	 wall  |                           |o    H = 5 m, length 4 H, gamma = 20 kN/m3, c = 0, phi = 30 degrees
-	 <-->  |           sand            |o    at rest with K0 = 1 - sin(phi); the base is rough
+	 <-->  |           sand            |o    at rest with K0 = 1 - sin(phi); the base is smooth
 	       |___________________________|o
 	        ///////////////////////////
 
@@ -84,6 +84,7 @@ figure, axes = plt.subplots(2, 2, figsize=(12.5, 6.4), width_ratios=[1, 1.6], la
 for row, (direction, name, side) in enumerate([(-1, 'active', 'away from the sand'), (1, 'passive', 'into the sand')]):
 	axis, picture = axes[row]
 	for number, psi in enumerate(map(float, options.psi.split(','))):
+		if direction < 0 and psi < phi: continue  # without cohesion and dilation: no convergence where the sand follows the wall
 		begin = time.time()
 		curve, solves = move(direction, psi)
 		K, theory = curve[-1, 1], exact(psi, direction)

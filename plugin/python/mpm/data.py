@@ -140,7 +140,7 @@ def _column(name, values, rows):
 		raise TypeError(f"assign: {name} cannot be assigned: {hint}; there are {', '.join(_assignable)}")
 	array = _numbers(name, values)
 	shape = (rows, ) + _shape(table[name])
-	if array.shape != shape and isParameter(name) and not array.shape:
+	if isParameter(name) and np.ndim(values) == 0:
 		raise ValueError(f'assign: {name} = {brief(values)} must be an array of {rows} numbers or a function of the position; one number for all is an attribute of the material')
 	if array.shape != shape:
 		raise ValueError(f'assign: {name} has the shape {array.shape}; expected is {shape}, one row for each of {rows} material points')
