@@ -11,19 +11,20 @@ from scenes import *
 from yade.wrapper import MpmCamClayMat, MpmDruckerPragerMat, MpmMohrCoulombMat, MpmTrescaMat
 
 phi, c, q = radians(20), 10e3, 16e3
-common = dict(young=2e6, poisson=.3, density=1, label='soil')
+common = dict(young=2e8, poisson=.3, density=1, label='soil')
 laws = dict(tresca=MpmTrescaMat(undrainedStrength=c, **common), mises=MpmVonMisesMat(yieldStress=2**.5 * c, **common),
             friction=MpmMohrCoulombMat(cohesion=c, frictionAngle=phi, dilationAngle=phi, **common),
             cone=MpmDruckerPragerMat(cohesion=c, frictionAngle=phi, dilationAngle=phi, **common))
 
 def block(material, **fields):
-	"""A block on a smooth base whose upper half is pressed down by forces on its points, q over its width in all."""
+	"""A block on a smooth base under a pressure q on its surface."""
 	O.reset()
 	O.materials.append(material)
 	grid = MpmGrid(cellSize=1)
 	O.bodies.append(mpm.fill(pack.inAlignedBox((0, 0, -1), (3, 6, 1)), grid, 2, 'soil', **fields))
 	for b in O.bodies:
-		if b.state.pos[1] > 5.5: b.state.force = (0, -q / 2, 0)
+		share = {5.75: 1.5, 5.25: -.5}.get(b.state.pos[1], 0) # together they act at the surface, so that stress is uniform
+		b.state.force = (0, -q / 2 * share, 0)
 	O.engines = [MpmImplicitEngine(grid=grid, boundaries=[MpmBoundary(max=(0, inf, inf), fix='x'), MpmBoundary(max=(inf, 0, inf), fix='y')], verbosity=0, label='solver')]
 	O.dt = 1 / 4
 	O.run(4, wait=True)

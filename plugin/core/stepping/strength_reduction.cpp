@@ -6,13 +6,23 @@
 namespace gimpm {
 namespace {
 
-/// Of all points, where it is more than smallStrain: what their moduli are to be multiplied by.
-template <int Dim> double scaleOfModuli(const PointCloud<Dim>& cloud)
+template <int Dim> double largestStrain(const PointCloud<Dim>& cloud)
 {
 	double largest = 0;
 	for (const auto& strain : cloud.elasticStrain)
 		largest = std::max(largest, strain.c.norm());
-	return std::max(1., largest / smallStrain);
+	return largest;
+}
+
+/// Along the axes of the grid.
+template <int Dim> double smallestExtent(const PointCloud<Dim>& cloud)
+{
+	Vec<Dim> lower = cloud.position[0], upper = lower;
+	for (std::size_t p = 0; p < cloud.size(); ++p) {
+		lower = lower.cwiseMin(cloud.position[p] - cloud.halfSize[p]);
+		upper = upper.cwiseMax(cloud.position[p] + cloud.halfSize[p]);
+	}
+	return (upper - lower).minCoeff();
 }
 
 template <int Dim> void scaleStrains(PointCloud<Dim>& cloud, double by)
@@ -81,7 +91,7 @@ std::vector<double> plasticStrainOf(const InternalColumns& columns, std::size_t 
 std::string beyondSmall(double largest, double limit)
 {
 	std::ostringstream text;
-	text << "displacements grow without end: " << largest / limit << " times what is small";
+	text << "it flows: displacements are " << flowsBeyond * largest / limit << " times the largest elastic strain times the smallest extent of the body";
 	return text.str();
 }
 
@@ -91,11 +101,13 @@ template <int Dim>
 WeakBody<Dim> reduceStrength(
         const PointCloud<Dim>& cloud, const Model<Dim>& model, const Load<Dim>& load, double factor, StepControl control, LinearSolver& solver)
 {
-	const double    scale = scaleOfModuli(cloud), limit = smallPart * model.grid.cellSize;
+	const double    strain = largestStrain(cloud), scale = std::max(1., strain / smallStrain);
+	const double    limit     = flowsBeyond * strain / scale * smallestExtent(cloud);
 	Model<Dim>      weakModel = model;
 	PointCloud<Dim> start     = cloud;
 	WeakBody<Dim>   body;
 	scaleStrains(start, 1 / scale);
+	weakModel.ghost.factor *= ghostShare;
 	body.displacement.assign(cloud.size(), Vec<Dim>::Zero());
 	while (!control.isDone()) {
 		const double    goal = 1 / (1 + control.goal() * (1 / factor - 1));
@@ -108,12 +120,12 @@ WeakBody<Dim> reduceStrength(
 		body.cause = report.cause;
 		if (report.converged()) {
 			const double largest = add(body.displacement, now, start);
+			takeState(start, now);
 			if (largest > limit) {
 				body.cause = beyondSmall(largest, limit);
 				break;
 			}
 			body.reached = goal;
-			takeState(start, now);
 		}
 		if (!control.take(report)) break;
 	}

@@ -8,7 +8,7 @@ from .analysis import noPoints, solverOf
 from .data import arrays
 from .messages import brief, isNumber
 
-_criterion = 'no equilibrium is found at small displacements, however small the last part of the reduction is (newton.minStep)'
+_criterion = 'no equilibrium, or displacements of more than 3 times the largest elastic strain times the smallest extent of the body'
 
 
 def strengthReduction(solver=None, tolerance=0.01, first=1.0, factor=1.25):
@@ -17,9 +17,9 @@ def strengthReduction(solver=None, tolerance=0.01, first=1.0, factor=1.25):
 	Strengths are divided by a factor F: c' = c / F, tan(phi') = tan(phi) / F, tan(psi') = min(tan(psi), tan(phi')), with tensile strengths as c; undrained strength and
 	yield stress likewise (Zienkiewicz et al. 1975; Griffiths and Lane 1999). Points with strengths of their own have those divided. Loads stay as they are at O.time. For each F the
 	reduction starts anew from the current state, which must be in equilibrium, as after gravity has acted in full. Points do not move: moduli are scaled up until
-	strains are tiny, which changes neither stresses nor what they can carry, and displacements are scaled back. F counts as failed when that finds no equilibrium: a part of the
-	reduction that does not converge is cut down to ``newton.minStep``; displacements beyond those that elasticity explains by far count as none. F first grows or falls from
-	*first* by *factor*, then the bracket is halved.
+	strains are tiny, which changes neither stresses nor what they can carry, and displacements are scaled back. F counts as failed when that finds no equilibrium, though a part of the
+	reduction that does not converge is cut down to ``newton.minStep``; or when the body flows: displacements since F = 1 of more than three times the largest elastic strain times the smallest
+	extent of the body. Ghost stabilisation, which would hold what flows, acts with a hundredth of its factor. F first grows or falls from *first* by *factor*, then the bracket is halved.
 
 	The result depends on the mesh: it falls with the cells, without a limit where psi is less than phi. So the cell size is part of it. ``fBar=True`` of the engine takes
 	away what locking adds.
@@ -29,7 +29,7 @@ def strengthReduction(solver=None, tolerance=0.01, first=1.0, factor=1.25):
 	:param first: the factor that is tried first, > 0
 	:param factor: > 1, by which it then grows or falls until the bracket is found
 	:return: dict of ``lower`` (the largest F that was carried), ``upper`` (the smallest that was not), ``cellSize`` [m], ``criterion``, ``trials`` (a list of dicts with ``F``,
-		``carries``, ``iterations``, ``parts``, ``displacement``: the largest one [m], and ``cause``), and of the last equilibrium on the way to ``upper``, the slip:
+		``carries``, ``iterations``, ``parts``, ``displacement``: the largest one [m], and ``cause``), and of the last state on the way to ``upper``, the slip, small or not:
 		``displacement`` (N, 3) [m] and ``plasticStrain`` (N,), what is added to those of the current state, in order of body id. ``mpm.plot(found['plasticStrain'])`` draws it.
 	:raises TypeError: an argument of the wrong kind.
 	:raises ValueError: a value that is not admitted; materials without a strength that could be divided (elastic ones alone, Cam clay); a state that is not in equilibrium or
