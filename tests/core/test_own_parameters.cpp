@@ -30,8 +30,9 @@ namespace {
 			LinearSolver solver;
 			Vec<Dim>     top = Vec<Dim>::Constant(-infinity), all = Vec<Dim>::Constant(infinity);
 			top[1] = 2;
-			model.boundary = Boundary<Dim>({ wallBelow<Dim>(model.grid, 0, 0), wallBelow<Dim>(model.grid, 1, 0), wallBelow<Dim>(model.grid, Dim - 1, 0),
-			                                 held<Dim>(model.grid, top, all, "y", -0.02 * Vec<Dim>::Unit(1)) });
+			model.boundary
+			        = Boundary<Dim>({ wallBelow<Dim>(model.grid, 0, 0), wallBelow<Dim>(model.grid, 1, 0), wallBelow<Dim>(model.grid, Dim - 1, 0),
+			                          held<Dim>(model.grid, top, all, "y", -0.02 * Vec<Dim>::Unit(1)) });
 			return loadStep(cloud, model, Load<Dim>(), solver);
 		}
 	};

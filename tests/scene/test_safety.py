@@ -82,7 +82,9 @@ print(json.dumps([found, messages]))
 def test_block(found, name):
 	lower, upper, slip = found[0][name]
 	assert 0 < upper - lower <= 0.004 * lower and slip > 0
-	if name in ('friction', 'cone'): assert strength(lower) >= 16e3 * .995 and strength(upper) <= 16e3 * 1.005
+	if name in ('friction', 'cone'):
+		tolerance = .005 if name == 'friction' else .015  # the cone comes to its strength as the stress out of the plane does, in the course of flow
+		assert strength(lower) >= 16e3 * (1 - tolerance) and strength(upper) <= 16e3 * (1 + tolerance)
 	else: assert lower <= 1.005 * (exact := 20 / 16 * (2 if name == 'field' else 1)) and upper >= .995 * exact
 
 

@@ -21,8 +21,13 @@ struct DruckerPragerCone {
 	{
 		const double s = std::sin(frictionAngle), q = std::sin(dilationAngle), dilation = 3 * q / std::sqrt(9 + 3 * q * q);
 		const double factor = 1 / (std::sqrt(1 - dilation * dilation / 3) + dilation * s / 3);
-		return { frictionAngle == dilationAngle ? dilation : factor * s, dilation, factor * std::cos(frictionAngle) * cohesion,
-			 &planeStrain, cohesion, frictionAngle, dilationAngle };
+		return { frictionAngle == dilationAngle ? dilation : factor * s,
+			 dilation,
+			 factor * std::cos(frictionAngle) * cohesion,
+			 &planeStrain,
+			 cohesion,
+			 frictionAngle,
+			 dilationAngle };
 	}
 	/// The same strength in triaxial compression, and in triaxial extension: the outer and the inner edges of the pyramid.
 	static DruckerPragerCone compression(double cohesion, double frictionAngle, double dilationAngle)
@@ -38,8 +43,13 @@ private:
 	static DruckerPragerCone triaxial(double cohesion, double frictionAngle, double dilationAngle, int sign, Match match)
 	{
 		const auto factor = [sign](double angle) { return 6 / (std::sqrt(3.) * (3 + sign * std::sin(angle))); };
-		return { factor(frictionAngle) * std::sin(frictionAngle), factor(dilationAngle) * std::sin(dilationAngle),
-			 factor(frictionAngle) * std::cos(frictionAngle) * cohesion, match, cohesion, frictionAngle, dilationAngle };
+		return { factor(frictionAngle) * std::sin(frictionAngle),
+			 factor(dilationAngle) * std::sin(dilationAngle),
+			 factor(frictionAngle) * std::cos(frictionAngle) * cohesion,
+			 match,
+			 cohesion,
+			 frictionAngle,
+			 dilationAngle };
 	}
 };
 

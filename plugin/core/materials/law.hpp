@@ -144,7 +144,8 @@ template <class L> bool isSymmetric(const L&, long) { return true; }
 /// Whether the laws of all of these points have symmetric tangents, and so a stiffness that is symmetric.
 inline bool areSymmetric(const std::vector<Material>& materials, const std::vector<int>& material, const ParameterColumns& parameters)
 {
-	const auto is = [&](const Material& m, std::size_t point) { return m.withLawOf(parameters, point, [](const auto& law) { return isSymmetric(law, 0); }); };
+	const auto is
+	        = [&](const Material& m, std::size_t point) { return m.withLawOf(parameters, point, [](const auto& law) { return isSymmetric(law, 0); }); };
 	for (const Material& m : materials)
 		if (!m.varies && !is(m, 0)) return false;
 	if (parameters.empty()) return true;

@@ -17,8 +17,9 @@ public:
 	MohrCoulomb(double young, double poisson, double cohesion, double frictionAngle, double dilationAngle, double tensileStrength = infinite)
 	        : elastic_(young, poisson)
 	        , given_ { young, cohesion, frictionAngle, dilationAngle, tensileStrength }
-	        , k_(ratioOf(frictionAngle)),
-	        m_(ratioOf(dilationAngle)), strength_(2 * cohesion * std::sqrt(k_))
+	        , k_(ratioOf(frictionAngle))
+	        , m_(ratioOf(dilationAngle))
+	        , strength_(2 * cohesion * std::sqrt(k_))
 	{
 		apex_    = k_ > 1 ? strength_ / (k_ - 1) : infinite;
 		isCut_   = tensileStrength < apex_;

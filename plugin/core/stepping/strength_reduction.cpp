@@ -95,6 +95,18 @@ std::string beyondSmall(double largest, double limit)
 	return text.str();
 }
 
+/// What has come out, from the points at the end.
+template <int Dim> void scaleBack(WeakBody<Dim>& body, PointCloud<Dim>& end, const PointCloud<Dim>& before, double scale)
+{
+	scaleStrains(end, scale);
+	for (auto& d : body.displacement)
+		d *= scale;
+	body.plasticStrain = plasticStrainOf(end.internals, end.size());
+	const auto first   = plasticStrainOf(before.internals, before.size());
+	for (std::size_t p = 0; p < first.size(); ++p)
+		body.plasticStrain[p] -= first[p];
+}
+
 } // namespace
 
 template <int Dim>
@@ -130,13 +142,7 @@ WeakBody<Dim> reduceStrength(
 		if (!control.take(report)) break;
 	}
 	body.carries = body.cause.empty();
-	scaleStrains(start, scale);
-	for (auto& d : body.displacement)
-		d *= scale;
-	body.plasticStrain      = plasticStrainOf(start.internals, cloud.size());
-	const auto before       = plasticStrainOf(cloud.internals, cloud.size());
-	for (std::size_t p = 0; p < before.size(); ++p)
-		body.plasticStrain[p] -= before[p];
+	scaleBack(body, start, cloud, scale);
 	return body;
 }
 

@@ -2,8 +2,8 @@
 // Whether the body still carries its load with a part of its strength, at small displacements.
 #pragma once
 #include "core/materials/weakening.hpp"
-#include "core/stepping/step_control.hpp"
 #include "core/stepping/load_step.hpp"
+#include "core/stepping/step_control.hpp"
 
 namespace gimpm {
 
@@ -26,7 +26,6 @@ inline constexpr double ghostShare = 1e-2;
 inline constexpr double flowsBeyond = 3;
 
 /// From a state in equilibrium under a constant load, in which points do not move: the strength falls in parts, cut as load steps are.
-template <int Dim>
-WeakBody<Dim> reduceStrength(const PointCloud<Dim>&, const Model<Dim>&, const Load<Dim>&, double factor, StepControl, LinearSolver&);
+template <int Dim> WeakBody<Dim> reduceStrength(const PointCloud<Dim>&, const Model<Dim>&, const Load<Dim>&, double factor, StepControl, LinearSolver&);
 
 } // namespace gimpm

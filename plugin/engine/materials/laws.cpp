@@ -31,7 +31,8 @@ namespace {
 		using Law = decltype(make(std::declval<const M&>()));
 		static_assert(sizeof...(Members) <= gimpm::countOfParameters<Law>(0));
 		const auto of = [](const auto& parameter) {
-			return ParameterOfClass { parameter.first, [member = parameter.second](MpmMaterial& m) -> Real& { return static_cast<M&>(m).*member; } };
+			return ParameterOfClass { parameter.first,
+				                  [member = parameter.second](MpmMaterial& m) -> Real& { return static_cast<M&>(m).*member; } };
 		};
 		return { typeid(M),
 			 { [make](const MpmMaterial& m) { return make(static_cast<const M&>(m)); },
@@ -58,7 +59,8 @@ namespace {
 	const std::unordered_map<std::type_index, LawOfClass>& laws()
 	{
 		static const std::unordered_map<std::type_index, LawOfClass> all {
-			entry<MpmElasticMat>([](const MpmElasticMat& m) { return gimpm::Hencky(m.young, m.poisson); }, std::pair("young", &MpmElasticMat::young)),
+			entry<MpmElasticMat>(
+			        [](const MpmElasticMat& m) { return gimpm::Hencky(m.young, m.poisson); }, std::pair("young", &MpmElasticMat::young)),
 			entry<MpmVonMisesMat>(
 			        [](const MpmVonMisesMat& m) { return gimpm::VonMises(m.young, m.poisson, m.yieldStress, m.hardening, m.residualYieldStress); },
 			        std::pair("young", &MpmElasticMat::young), std::pair("yieldStress", &MpmVonMisesMat::yieldStress),
@@ -70,10 +72,13 @@ namespace {
 			        return gimpm::MohrCoulomb(m.young, m.poisson, m.cohesion, m.frictionAngle, m.dilationAngle, m.tensileStrength);
 			}),
 			frictional<MpmDruckerPragerMat>(druckerPrager),
-			entry<MpmCamClayMat>([](const MpmCamClayMat& m) {
-			        return gimpm::CamClay(
-			                m.shearModulus, m.criticalStateRatio, m.compressionIndex, m.swellingIndex, m.preconsolidation, m.referencePressure);
-			}, std::pair("shearModulus", &MpmCamClayMat::shearModulus), std::pair("criticalStateRatio", &MpmCamClayMat::criticalStateRatio)),
+			entry<MpmCamClayMat>(
+			        [](const MpmCamClayMat& m) {
+			                return gimpm::CamClay(
+			                        m.shearModulus, m.criticalStateRatio, m.compressionIndex, m.swellingIndex, m.preconsolidation,
+			                        m.referencePressure);
+			        },
+			        std::pair("shearModulus", &MpmCamClayMat::shearModulus), std::pair("criticalStateRatio", &MpmCamClayMat::criticalStateRatio)),
 		};
 		return all;
 	}

@@ -49,8 +49,7 @@ public:
 		  "Internal variables of the law but for *plasticStrain*: pairs of name and value; without a pair, the initial value. mpm.arrays and mpm.assign have a column for each.",
 		  admitting("pairs of the name of an internal variable, each once, and a value that it admits", areInternals));
 		v("parameters", &MpmState::parameters, 0,
-		  "Strengths and moduli that the point has instead of its material's: pairs of name and value, to be given by mpm.assign and mpm.fill, which check "
-		  "them; set here, the next step does.",
+		  "Strengths and moduli of the point instead of its material's: pairs of name and value. mpm.assign and mpm.fill check them; set here, the next step does.",
 		  admitting("pairs of the name of a strength or modulus, each once, and a number", areParameters));
 	}
 

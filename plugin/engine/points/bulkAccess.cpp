@@ -100,8 +100,7 @@ namespace {
 	}
 }
 
-py::list newBodies(
-        const py::object& positions, const Vector3r& halfSize, const py::list& materials, const py::object& index, const py::dict& parameters)
+py::list newBodies(const py::object& positions, const Vector3r& halfSize, const py::list& materials, const py::object& index, const py::dict& parameters)
 {
 	vector<shared_ptr<MpmMaterial>> known;
 	for (py::ssize_t i = 0; i < py::len(materials); ++i) {

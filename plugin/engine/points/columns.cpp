@@ -158,14 +158,14 @@ py::list pointColumnsForPython()
 	for (const PointColumn& column : pointColumns()) {
 		if (!column.is(PointColumn::inArrays) && !column.is(PointColumn::derived)) continue;
 		py::dict entry;
-		entry["name"]       = column.name;
-		entry["unit"]       = column.unit;
-		entry["label"]      = column.label;
-		entry["width"]      = column.width;
-		entry["isInteger"]  = column.isInteger;
-		entry["isGiven"]    = bool(column.set);
-		entry["derived"]    = column.is(PointColumn::derived);
-		entry["isInternal"] = bool(column.variable);
+		entry["name"]        = column.name;
+		entry["unit"]        = column.unit;
+		entry["label"]       = column.label;
+		entry["width"]       = column.width;
+		entry["isInteger"]   = column.isInteger;
+		entry["isGiven"]     = bool(column.set);
+		entry["derived"]     = column.is(PointColumn::derived);
+		entry["isInternal"]  = bool(column.variable);
 		entry["isParameter"] = column.isParameter;
 		list.append(entry);
 	}

@@ -25,7 +25,6 @@ struct PointColumn {
 	bool                           isParameter = false;   // of laws: there where a point has its own
 
 	bool is(Use use) const { return uses & use; }
-
 };
 
 // In the order of mpm.arrays.
