@@ -7,10 +7,10 @@
 	 <-->  |           sand            |o    at rest with K0 = 1 - sin(phi); the base is smooth
 	       |___________________________|o
 	        ///////////////////////////
-
+	         o o o o o o o o o o o o o o
 Rankine (1857): the resultant on the wall is K gamma H^2 / 2, K_A = (1 - sin(phi)) / (1 + sin(phi)) = 1/3 and K_P = 1/K_A = 3. They are exact where flow is associated
-(psi = phi). For psi = 0, Davis (1968) replaces sin(phi) on the slip planes: tan(phi*) = sin(phi) cos(psi) / (1 - sin(phi) sin(psi)), K_P = 2.62 by
-Rankine with phi*.
+(psi = phi). For psi = 0, Davis (1968) has another friction on slip planes: tan(phi*) = sin(phi) cos(psi) / (1 - sin(phi) sin(psi)), K_P = 2.62 by
+Rankine with phi*; sand that yields as a whole, without slip planes, has 3.
 
 Run it with `scripts/run examples/earth_pressure/earth_pressure.py [options]`, or by yade-batch with the options as columns of a parameter table.
 """
@@ -32,7 +32,7 @@ options = readOptions('Active and passive earth pressure.',
         young=(2e8, 'modulus [Pa], so stiff that both limits come within half a cell'),
         steps=(20, 'load steps for each movement'),
         rough=(0, '1: the base holds the sand sideways too'),
-        psi=('30,0', 'angles of dilation [degrees], with commas between'),
+        psi=('30', 'angles of dilation [degrees], with commas between'),
         movement=(0.4, 'of the wall at the end, in cells'))
 
 H, L, gamma, phi = 5., 20., 20e3, 30

@@ -125,6 +125,27 @@ def test_mpm_vs_dem(short):
 	assert len({time for time, part, _ in parts if part == '0'} & {time for time, part, _ in parts if part == '1'}) == 21
 
 
+def test_safety(yade):
+	"""On a coarse grid, by the figures that its page gives; strengths of points are worth as much as those of layers."""
+	script = root / 'examples' / 'safety' / 'safety.py'
+	found = {}
+	for scene, cells, *more in ('cut', 10), ('slope', 10), ('gradient', 10), ('gradient', 10, '--layers', 1):
+		run = yade(script, '--scene', scene, '--cells', cells, *more)
+		found[scene, *more] = numbers(r'points; F = (\S+) to (\S+?)[,;]', run.stdout)
+	assert found['cut', ] == [1.3281, 1.3379] and found['gradient', ] == found['gradient', '--layers', 1]
+	assert 1.37 < found['slope', ][0] < 1.42
+	assert (run.folder / 'out/safety/safety.png').stat().st_size > 20000
+
+
+def test_earth_pressure(yade):
+	"""A coarser grid than that of its page."""
+	run = yade(root / 'examples' / 'earth_pressure' / 'earth_pressure.py', '--cells', 10, '--steps', 10, '--psi', 30)
+	for name, theory in ('active', 1 / 3), ('passive', 3):
+		K = numbers(rf'{name}, psi = 30: K = (\S+),', run.stdout)[0]
+		assert abs(K / theory - 1) < 0.03
+	assert (run.folder / 'out/earth_pressure/earth_pressure.png').stat().st_size > 20000
+
+
 def test_laboratory(yade):
 	"""Every law has a curve, and every curve its closed form."""
 	run = yade(root / 'examples' / 'laboratory' / 'laboratory.py', '--steps', 50)
