@@ -6,8 +6,8 @@
 	 wall  |                           |o    H = 5 m, length 4 H, gamma = 20 kN/m3, c = 0, phi = 30 degrees
 	 <-->  |           sand            |o    at rest with K0 = 1 - sin(phi); the base is smooth
 	       |___________________________|o
-	        ///////////////////////////
 	         o o o o o o o o o o o o o o
+
 Rankine (1857): the resultant on the wall is K gamma H^2 / 2, K_A = (1 - sin(phi)) / (1 + sin(phi)) = 1/3 and K_P = 1/K_A = 3. They are exact where flow is associated
 (psi = phi). For psi = 0, Davis (1968) has another friction on slip planes: tan(phi*) = sin(phi) cos(psi) / (1 - sin(phi) sin(psi)), K_P = 2.62 by
 Rankine with phi*; sand that yields as a whole, without slip planes, has 3.
