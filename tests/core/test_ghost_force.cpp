@@ -18,7 +18,7 @@ namespace {
 		        , faces(ghostFaces<Dim>(basis.cells, boundaryCells<Dim>(basis.cells, Boundary<Dim>()), Boundary<Dim>()))
 		{
 			const auto stiffnessOf = [&](int p) { return VolumeAndModulus { cloud.volume0[p], young }; };
-			weighGhostFaces<Dim>(faces, basis, stiffnessOf, g.cellSize, factor, scaling);
+			weighGhostFaces<Dim>(faces, basis, stiffnessOf, g, factor, scaling);
 		}
 		Eigen::VectorXd force(const Eigen::VectorXd& d) const
 		{

@@ -12,7 +12,7 @@ namespace {
 		const auto basis       = cloudBasis<Dim>(cloud, Grid<Dim>(), Basis::gimp, Boundary<Dim>());
 		auto       faces       = ghostFaces<Dim>(basis.cells, boundaryCells<Dim>(basis.cells, Boundary<Dim>()), Boundary<Dim>());
 		const auto stiffnessOf = [&](int p) { return VolumeAndModulus { cloud.volume0[p], young[p] }; };
-		weighGhostFaces<Dim>(faces, basis, stiffnessOf, 1, 1, GhostScaling::paper);
+		weighGhostFaces<Dim>(faces, basis, stiffnessOf, Grid<Dim>(), 1, GhostScaling::paper);
 		for (const auto& face : faces)
 			if (face.axis == axis && face.lower == Grid<Dim>::key(lower)) return 3 * face.stiffness;
 		ADD_FAILURE() << "there is no such face";

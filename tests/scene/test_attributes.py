@@ -43,6 +43,7 @@ outOfRange = {
         'MpmGrid.cellSize': ['0.', '-1.'],
         'MpmGrid.origin': None,
         'MpmGrid.dim': ['1', '4', '-2'],
+        'MpmGrid.period': ['(-1, 0, 0)', '(inf, 0, 0)'],
         'MpmBoundary.min': None,
         'MpmBoundary.max': None,
         'MpmBoundary.fix': ['"w"', '"X"', '"xx"', '"x y"'],

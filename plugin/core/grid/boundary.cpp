@@ -11,8 +11,22 @@ template <int Dim> HeldBox<Dim> HeldBox<Dim>::from(const Grid<Dim>& grid, const 
 	for (int a = 0; a < Dim; ++a) {
 		box.lower[a] = int(std::clamp(std::ceil((min[a] - grid.origin[a]) / grid.cellSize - tolerance), -limit, limit));
 		box.upper[a] = int(std::clamp(std::floor((max[a] - grid.origin[a]) / grid.cellSize + tolerance), -limit, limit));
+		if (grid.period[a] == 0) continue;
+		box.lower[a] = std::max(box.lower[a], 0);
+		box.upper[a] = std::min(box.upper[a], grid.period[a]);
 	}
+	box.period = grid.period;
 	return box;
+}
+
+template <int Dim> bool HeldBox<Dim>::meets(const HeldBox& other) const
+{
+	for (int a = 0; a < Dim; ++a) {
+		const int low = std::max(lower[a], other.lower[a]);
+		if (low <= std::min(upper[a], other.upper[a]) || (period[a] != 0 && covers(0, a) && other.covers(0, a))) continue;
+		return false;
+	}
+	return true;
 }
 
 template <int Dim> const HeldBox<Dim>* Boundary<Dim>::holder(const Index<Dim>& node, int axis) const
@@ -24,9 +38,8 @@ template <int Dim> const HeldBox<Dim>* Boundary<Dim>::holder(const Index<Dim>& n
 
 template <int Dim> bool Boundary<Dim>::lowerFaceIsWall(const Index<Dim>& cell, int axis) const
 {
-	const bool planeIsTouched = std::any_of(boxes_.begin(), boxes_.end(), [&](const HeldBox<Dim>& b) {
-		return b.fixed[axis] && b.lower[axis] <= cell[axis] && cell[axis] <= b.upper[axis];
-	});
+	const bool planeIsTouched
+	        = std::any_of(boxes_.begin(), boxes_.end(), [&](const HeldBox<Dim>& b) { return b.fixed[axis] && b.covers(cell[axis], axis); });
 	if (!planeIsTouched) return false;
 	for (int corner = 0; corner < 1 << Dim; ++corner) {
 		if (corner >> axis & 1) continue;

@@ -11,16 +11,32 @@ namespace gimpm {
 template <int Dim> struct HeldBox {
 	Index<Dim>            lower, upper;
 	std::array<bool, Dim> fixed {};
-	Vec<Dim>              displacement = Vec<Dim>::Zero(); ///< prescribed total at load factor 1 [m]
+	Vec<Dim>              displacement = Vec<Dim>::Zero();   ///< prescribed total at load factor 1 [m]
+	Index<Dim>            period       = Index<Dim>::Zero(); ///< of the grid; there the limits are between 0 and period, which is node 0 again
 
-	/// The nodes of a box in space; a coordinate on a node within 1e-9 h holds it. Infinite limits are admitted.
+	/// The nodes of a box in space; a coordinate on a node within 1e-9 h holds it. Infinite limits are admitted. Along a periodic axis the box
+	/// is that between the two sides, both included.
 	static HeldBox from(const Grid<Dim>& grid, const Vec<Dim>& min, const Vec<Dim>& max);
 
 	bool empty() const { return (lower.array() > upper.array()).any(); }
-	bool holds(const Index<Dim>& node, int axis) const
+
+	/// Whether a coordinate of a node, or of one of its images, lies in the box.
+	bool covers(int node, int axis) const
 	{
-		return fixed[axis] && (node.array() >= lower.array()).all() && (node.array() <= upper.array()).all();
+		if (period[axis] == 0) return lower[axis] <= node && node <= upper[axis];
+		const int place = ((node % period[axis]) + period[axis]) % period[axis];
+		return (lower[axis] <= place && place <= upper[axis]) || (place == 0 && upper[axis] == period[axis]);
 	}
+	bool contains(const Index<Dim>& node) const
+	{
+		for (int a = 0; a < Dim; ++a)
+			if (!covers(node[a], a)) return false;
+		return true;
+	}
+	bool holds(const Index<Dim>& node, int axis) const { return fixed[axis] && contains(node); }
+
+	/// Whether a node lies in both boxes.
+	bool meets(const HeldBox& other) const;
 };
 
 template <int Dim> class Boundary {

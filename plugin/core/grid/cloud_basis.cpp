@@ -66,7 +66,7 @@ template <int Dim> struct TileOrder {
 	static Key cell(Key place)
 	{
 		Key       cell    = 0;
-		const Key colours = colour(place), tiles = tile(place);
+		const Key colours = place >> Dim * (bits - 1), tiles = tile(place);
 		for (int a = 0; a < Dim; ++a) {
 			const Key along = low(tiles >> a * highBits, highBits) << 1 | low(colours >> a, 1);
 			cell |= (along << widthBits | low(place >> a * widthBits, widthBits)) << a * bits;
@@ -74,7 +74,6 @@ template <int Dim> struct TileOrder {
 		return cell;
 	}
 	static Key tile(Key place) { return place >> Dim * widthBits; } ///< with its colour
-	static int colour(Key place) { return int(place >> Dim * (bits - 1)); }
 
 private:
 	static constexpr Key low(Key k, int bits) { return k & ((Key(1) << bits) - 1); }
@@ -120,7 +119,7 @@ template <int Dim> Place<Dim> place(const PointCloud<Dim>& cloud, int point, con
 		span |= 1 << a;
 		if (centre[a] > lowest[a]) centreBits |= 1 << a;
 	}
-	const Place<Dim> p(Grid<Dim>::key(lowest), span, reachableCells<Dim>(lowest, span, centreBits, boundary), point);
+	const Place<Dim> p(Grid<Dim>::key(grid.first(lowest)), span, reachableCells<Dim>(lowest, span, centreBits, boundary), point);
 	hidden = std::max(hidden, hiddenLength<Dim>(p, x, halfSize, grid.cellSize, lowest, centreBits));
 	return p;
 }
@@ -177,7 +176,8 @@ template <int Dim> void fillAxes(const PointCloud<Dim>& cloud, const Grid<Dim>& 
 			const int      p = b.order[i];
 			const Vec<Dim> x = cloud.position[p] - grid.origin;
 			for (int a = 0; a < Dim; ++a)
-				b.axes[i][a].setGimp(x[a], cloud.halfSize[p][a], grid.cellSize, { cell[a], patch.nodesAlong(a) - 1 });
+				b.axes[i][a].setGimp(
+				        grid.imageNear(x[a], cell[a] + 1, a), cloud.halfSize[p][a], grid.cellSize, { cell[a], patch.nodesAlong(a) - 1 });
 		}
 	}
 }
@@ -191,7 +191,16 @@ void unite(std::vector<Key>& a, const std::vector<Key>& b, Key step)
 	a.swap(both);
 }
 
-template <int Dim> std::vector<Key> populatedCells(const std::vector<Patch<Dim>>& patches)
+/// The nodes or cells that stand for these.
+template <int Dim> void keepFirst(std::vector<Key>& keys, const Grid<Dim>& grid)
+{
+	if (!grid.isPeriodic()) return;
+	std::transform(keys.begin(), keys.end(), keys.begin(), [&](Key key) { return grid.first(key); });
+	std::sort(keys.begin(), keys.end());
+	keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
+}
+
+template <int Dim> std::vector<Key> populatedCells(const std::vector<Patch<Dim>>& patches, const Grid<Dim>& grid)
 {
 	std::vector<std::pair<Key, int>> lowest; // with the cells of the window
 	for (const auto& patch : patches)
@@ -205,6 +214,7 @@ template <int Dim> std::vector<Key> populatedCells(const std::vector<Patch<Dim>>
 			if (window >> c & 1) those.push_back(cell);
 		unite(cells, those, Grid<Dim>::keyOffset(c));
 	}
+	keepFirst(cells, grid);
 	return cells;
 }
 
@@ -217,27 +227,48 @@ int positionNear(int& last, const std::vector<Key>& sorted, Key key)
 }
 
 /// The active nodes are the corners of the populated cells.
-template <int Dim> void numberNodes(CloudBasis<Dim>& b)
+template <int Dim> void numberNodes(CloudBasis<Dim>& b, const Grid<Dim>& grid)
 {
-	b.cells = b.nodes = populatedCells(b.patches);
+	b.cells = b.nodes = populatedCells(b.patches, grid);
 	for (int a = 0; a < Dim; ++a)
 		unite(b.nodes, std::vector<Key>(b.nodes), Grid<Dim>::keyStep(a));
+	keepFirst(b.nodes, grid);
 	int lastCell[windowCells<Dim>] = {}, lastNode[27] = {};
 	for (auto& patch : b.patches) {
 		for (int c = 0; c < windowCells<Dim>; ++c)
-			if (patch.cells >> c & 1) patch.reached[c] = positionNear(lastCell[c], b.cells, patch.cell + Grid<Dim>::keyOffset(c));
-		forPatchNodes(patch, [&](int local, Key key, int place) { patch.node[local] = positionNear(lastNode[place], b.nodes, key); });
+			if (patch.cells >> c & 1) patch.reached[c] = positionNear(lastCell[c], b.cells, grid.first(patch.cell + Grid<Dim>::keyOffset(c)));
+		forPatchNodes(patch, [&](int local, Key key, int place) { patch.node[local] = positionNear(lastNode[place], b.nodes, grid.first(key)); });
 	}
 }
 
-template <int Dim> void colourPatches(CloudBasis<Dim>& b)
+/// Along one axis tiles take turns. Where the grid repeats itself, the last of an odd number of tiles meets the first, of its own colour; so does the
+/// last but one where the last is a single cell, beyond which its domains reach.
+template <int Dim> int colourAlong(int tile, int period)
 {
+	constexpr int width      = 1 << TileOrder<Dim>::widthBits;
+	const int     tiles      = (period + width - 1) / width;
+	const bool    meetsFirst = tiles % 2 != 0 ? tile == tiles - 1 : tile == tiles - 2 && period % width == 1;
+	return period != 0 && meetsFirst ? 2 : tile & 1;
+}
+
+template <int Dim> int colourOf(Key cell, const Grid<Dim>& grid)
+{
+	const Index<Dim> i      = Grid<Dim>::index(cell);
+	int              colour = 0;
+	for (int a = Dim - 1; a >= 0; --a)
+		colour = (grid.isPeriodic() ? 3 : 2) * colour + colourAlong<Dim>(i[a] >> TileOrder<Dim>::widthBits, grid.period[a]);
+	return colour;
+}
+
+template <int Dim> void colourPatches(CloudBasis<Dim>& b, const Grid<Dim>& grid)
+{
+	b.colours.resize(grid.isPeriodic() ? (Dim == 2 ? 9 : 27) : windowCells<Dim>);
 	const auto order = [&](int patch) { return TileOrder<Dim>::of(b.patches[patch].cell); };
 	for (int first = 0, last = 0; first < int(b.patches.size()); first = last) {
 		const Key place = order(first);
 		while (last < int(b.patches.size()) && TileOrder<Dim>::tile(order(last)) == TileOrder<Dim>::tile(place))
 			++last;
-		b.colours[TileOrder<Dim>::colour(place)].push_back({ first, last });
+		b.colours[colourOf<Dim>(b.patches[first].cell, grid)].push_back({ first, last });
 	}
 }
 
@@ -255,8 +286,8 @@ template <int Dim> CloudBasis<Dim> cloudBasis(const PointCloud<Dim>& cloud, cons
 	std::sort(places.begin(), places.end());
 	makePatches(places, b);
 	fillAxes(cloud, grid, b);
-	numberNodes(b);
-	colourPatches(b);
+	numberNodes(b, grid);
+	colourPatches(b, grid);
 	return b;
 }
 

@@ -32,8 +32,8 @@ template <int Dim> struct CloudBasis {
 	std::vector<Key>             cells;   ///< populated cells, sorted
 	/// Tiles are blocks of a few cells: what their points add to on the grid stays in the processor's cache, and lies in memory as it is
 	/// read. Ranges of patches [first, last) with the lowest cell in the same tile, by colour: the tiles of one of the 2^Dim colours are no
-	/// neighbours, so that no two of its ranges share a node.
-	std::array<std::vector<std::pair<int, int>>, windowCells<Dim>> colours;
+	/// neighbours, so that no two of its ranges share a node. Where the grid is periodic there may be 3^Dim.
+	std::vector<std::vector<std::pair<int, int>>> colours;
 	double largestWallOverlap = 0; ///< largest length by which a domain reaches behind a wall [m]; that part is dropped
 };
 

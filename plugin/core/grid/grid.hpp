@@ -18,6 +18,12 @@ inline int position(const std::vector<Key>& sorted, Key key) { return int(std::l
 template <int Dim> struct Grid {
 	double   cellSize = 1;                ///< edge length h of a cell [m]
 	Vec<Dim> origin   = Vec<Dim>::Zero(); ///< position of node (0, 0[, 0]) [m]
+	/// Cells along each axis after which the grid repeats itself: nodes so far apart are one node, and so are cells. 0: it never does. The first
+	/// ones, from 0 to period - 1, stand for all.
+	Index<Dim> period = Index<Dim>::Zero();
+
+	/// A domain and a ghost face reach three nodes along an axis, which must not be the same.
+	static constexpr int smallestPeriod = 3;
 
 	static constexpr int keyBits = Dim == 2 ? 31 : 21;
 	/// Integer coordinates must stay below this limit in magnitude; two cells of it are kept free for neighbours.
@@ -45,6 +51,24 @@ template <int Dim> struct Grid {
 		for (int a = 0; a < Dim; ++a)
 			i[a] = int(std::int64_t((k >> (keyBits * a)) & ((Key(1) << keyBits) - 1)) - (std::int64_t(1) << (keyBits - 1)));
 		return i;
+	}
+	bool isPeriodic() const { return !period.isZero(); }
+
+	/// The node or cell that stands for this one and its images.
+	Index<Dim> first(Index<Dim> i) const
+	{
+		for (int a = 0; a < Dim; ++a)
+			if (period[a] != 0) i[a] -= period[a] * (i[a] / period[a] - (i[a] % period[a] < 0));
+		return i;
+	}
+	Key first(Key k) const { return isPeriodic() ? key(first(index(k))) : k; }
+
+	/// The image of a position whose coordinate is the nearest one to that of a node.
+	double imageNear(double x, int node, int axis) const
+	{
+		if (period[axis] == 0) return x;
+		const double length = cellSize * period[axis];
+		return x + length * std::round((cellSize * node - x) / length);
 	}
 	Vec<Dim> nodePosition(const Index<Dim>& i) const { return origin + cellSize * i.template cast<double>(); }
 };

@@ -15,11 +15,19 @@ template <int Dim> Key keyOffset(int code)
 		k += Key(std::int64_t(rest % 5 - 2)) * Grid<Dim>::keyStep(a);
 	return k;
 }
+
+/// Place of a key among sorted ones; -1: it is not there.
+int find(const std::vector<Key>& sorted, Key key)
+{
+	const int place = position(sorted, key);
+	return place < int(sorted.size()) && sorted[place] == key ? place : -1;
+}
 }
 
-template <int Dim> void NodeMatrix<Dim>::reset(const std::vector<Key>& nodes, bool isSymmetric)
+template <int Dim> void NodeMatrix<Dim>::reset(const std::vector<Key>& nodes, bool isSymmetric, const Grid<Dim>& grid)
 {
 	isSymmetric_ = isSymmetric;
+	isPeriodic_  = grid.isPeriodic();
 	values_.assign(nodes.size() * codes * block, 0.);
 	skew_.assign(isSymmetric ? 0 : values_.size(), 0.);
 	used_.assign(nodes.size(), 0);
@@ -31,6 +39,8 @@ template <int Dim> void NodeMatrix<Dim>::reset(const std::vector<Key>& nodes, bo
 			while (b < nodes.size() && nodes[b] < nodes[a] + offset)
 				++b;
 			if (b < nodes.size() && nodes[b] == nodes[a] + offset) neighbour_[a * codes + c] = int(b);
+			else if (isPeriodic_)
+				neighbour_[a * codes + c] = find(nodes, grid.first(nodes[a] + offset));
 		}
 	}
 }

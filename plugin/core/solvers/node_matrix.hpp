@@ -8,7 +8,8 @@
 namespace gimpm {
 
 /// Blocks of Dim x Dim for a node a and the nodes b >= a (in key order) at most two cells away along each axis: GIMP functions and
-/// ghost faces reach no further. Block (a, b) is K_ab row by row. Of a matrix that is not symmetric, what K_ba^T differs from K_ab by is stored
+/// ghost faces reach no further. Block (a, b) is K_ab row by row. In a periodic grid the order is that before nodes are taken as the same, so
+/// that b may have the lower number, and on a small one two blocks may belong to the same nodes, and add up. Of a matrix that is not symmetric, what K_ba^T differs from K_ab by is stored
 /// beside: who adds something symmetric need not know of it.
 template <int Dim> class NodeMatrix {
 public:
@@ -20,7 +21,7 @@ public:
 	template <class Offset> static constexpr int code(const Offset& o) { return Dim == 2 ? o[0] + 5 * o[1] : o[0] + 5 * o[1] + 25 * o[2]; }
 
 	/// Sets up a zero matrix for these nodes (sorted).
-	void reset(const std::vector<Key>& nodes, bool isSymmetric = true);
+	void reset(const std::vector<Key>& nodes, bool isSymmetric = true, const Grid<Dim>& = {});
 	void setZero();
 
 	double*       at(int node, int code) { return values_.data() + place(node, code); }
@@ -30,6 +31,7 @@ public:
 	int           neighbour(int node, int code) const { return neighbour_[std::size_t(node) * codes + code]; }
 	int           nodes() const { return int(used_.size()); }
 	bool          isSymmetric() const { return isSymmetric_; }
+	bool          isPeriodic() const { return isPeriodic_; }
 
 	/// Block K_ba^T - K_ab, stored like K_ab; only of a matrix that is not symmetric.
 	double*       skewAt(int node, int code) { return skew_.data() + place(node, code); }
@@ -48,7 +50,7 @@ private:
 	static std::size_t place(int node, int code) { return (std::size_t(node) * codes + code) * block; }
 
 	std::vector<double>        values_, skew_;
-	bool                       isSymmetric_ = true;
+	bool                       isSymmetric_ = true, isPeriodic_ = false;
 	std::vector<std::uint64_t> used_;
 	std::vector<int>           neighbour_; // number of the node at each offset; -1: not active
 };

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "core/solvers/reduce.hpp"
+#include <algorithm>
 
 namespace gimpm {
 namespace {
@@ -11,21 +12,71 @@ template <int Dim, class F> void forFreeEntries(const NodeMatrix<Dim>& K, const 
 		for (int c = 0; c < NodeMatrix<Dim>::codes; ++c) {
 			if (!K.used(a, c)) continue;
 			const int     b     = K.neighbour(a, c);
-			const double *above = K.at(a, c), *skew = K.skewAt(a, c);
+			const double *above = K.at(a, c), *skew = K.isSymmetric() ? nullptr : K.skewAt(a, c);
 			for (int i = 0, k = 0; i < Dim; ++i)
 				for (int j = 0; j < Dim; ++j, ++k) {
 					const int p = dofs.number[Dim * a + i], q = dofs.number[Dim * b + j];
 					if (p < 0 || q < 0) continue;
 					f(p, q, above[k]);
-					if (b != a) f(q, p, above[k] + skew[k]);
+					if (b != a) f(q, p, skew ? above[k] + skew[k] : above[k]);
 				}
 		}
+}
+
+/// Columns of the entries for which forEntries(f) calls f(row, column, value), twice the same, in their order.
+template <class Entries> void fill(Csc& out, int size, Entries&& forEntries)
+{
+	out.start.assign(size + 1, 0);
+	forEntries([&](int, int column, double) { ++out.start[column + 1]; });
+	for (int c = 0; c < size; ++c)
+		out.start[c + 1] += out.start[c];
+	out.row.resize(out.start.back());
+	out.value.resize(out.start.back());
+	std::vector<int> next(out.start.begin(), out.start.end() - 1);
+	forEntries([&](int row, int column, double value) {
+		const int e  = next[column]++;
+		out.row[e]   = row;
+		out.value[e] = value;
+	});
+}
+
+/// Sorts the rows of each column, and adds up entries in the same place.
+void sortColumns(Csc& K)
+{
+	std::vector<std::pair<int, double>> column;
+	int                                 end = 0;
+	for (int c = 0; c < K.size(); ++c) {
+		column.clear();
+		for (int e = K.start[c]; e < K.start[c + 1]; ++e)
+			column.emplace_back(K.row[e], K.value[e]);
+		std::stable_sort(column.begin(), column.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+		K.start[c] = end;
+		for (const auto& [row, value] : column)
+			if (end > K.start[c] && K.row[end - 1] == row) K.value[end - 1] += value;
+			else
+				K.row[end] = row, K.value[end++] = value;
+	}
+	K.start.back() = end;
+	K.row.resize(end);
+	K.value.resize(end);
+}
+
+/// Nodes beyond the sides of a periodic grid have lower numbers.
+template <int Dim> void reducePeriodic(const NodeMatrix<Dim>& K, const FreeDofs& dofs, SymmetricCsc& out)
+{
+	fill(out, dofs.count, [&](auto&& f) {
+		forFreeEntries(K, dofs, [&](int row, int column, double value) {
+			if (row >= column) f(row, column, value);
+		});
+	});
+	sortColumns(out);
 }
 
 } // namespace
 
 template <int Dim> void reduce(const NodeMatrix<Dim>& K, const FreeDofs& dofs, SymmetricCsc& out)
 {
+	if (K.isPeriodic()) return reducePeriodic(K, dofs, out);
 	out.start.assign(1, 0);
 	out.row.clear();
 	out.value.clear();
@@ -48,18 +99,8 @@ template <int Dim> void reduce(const NodeMatrix<Dim>& K, const FreeDofs& dofs, S
 
 template <int Dim> void reduce(const NodeMatrix<Dim>& K, const FreeDofs& dofs, GeneralCsc& out)
 {
-	out.start.assign(dofs.count + 1, 0);
-	forFreeEntries(K, dofs, [&](int, int column, double) { ++out.start[column + 1]; });
-	for (int c = 0; c < dofs.count; ++c)
-		out.start[c + 1] += out.start[c];
-	out.row.resize(out.start.back());
-	out.value.resize(out.start.back());
-	std::vector<int> next(out.start.begin(), out.start.end() - 1);
-	forFreeEntries(K, dofs, [&](int row, int column, double value) {
-		const int e  = next[column]++;
-		out.row[e]   = row;
-		out.value[e] = value;
-	});
+	fill(out, dofs.count, [&](auto&& f) { forFreeEntries(K, dofs, f); });
+	if (K.isPeriodic()) sortColumns(out);
 }
 
 template <int Dim> LinearProblem reduced(const NodeMatrix<Dim>& K, const FreeDofs& dofs)

@@ -17,6 +17,7 @@ template <int Dim> struct CutPatches {
 
 	explicit CutPatches(const StepSystem<Dim>& system) : front(int(system.basis.nodes.size()))
 	{
+		basis.colours.resize(system.basis.colours.size());
 		for (std::size_t c = 0; c < system.basis.colours.size(); ++c)
 			for (const auto& [first, last] : system.basis.colours[c]) {
 				const int begin = int(basis.patches.size());

@@ -12,11 +12,14 @@ namespace {
 /// The nodes at the front of a box that pushes along an axis, and the nearest soil before each of them.
 template <int Dim> class Front {
 public:
-	Front(const HeldBox<Dim>& box, int axis, double direction) : lower(box.lower), upper(box.upper), axis(axis), sign(direction < 0 ? -1 : 1)
+	Front(const HeldBox<Dim>& box, int axis, double direction) : box(box), axis(axis), sign(direction < 0 ? -1 : 1)
 	{
-		lower[axis] = upper[axis] = sign < 0 ? lower[axis] : upper[axis];
+		const int front       = sign < 0 ? box.lower[axis] : box.upper[axis];
+		const int period      = box.period[axis];
+		exists                = period == 0 ? std::abs(front) <= Grid<Dim>::indexLimit : box.upper[axis] - box.lower[axis] < period - 1;
+		this->box.lower[axis] = this->box.upper[axis] = front;
 	}
-	bool isOnGrid() const { return std::abs(lower[axis]) <= Grid<Dim>::indexLimit; }
+	bool exists; ///< not of a box that reaches to infinity, or around a periodic grid
 
 	struct Loss {
 		Index<Dim> node;
@@ -43,25 +46,34 @@ private:
 		bool hasOpened() const { return now > 0.5 + 1e-9 && now > std::max(first, 0.) + 0.25; }
 	};
 
-	double distance(const Vec<Dim>& x, const Grid<Dim>& grid) const { return sign * ((x[axis] - grid.origin[axis]) / grid.cellSize - lower[axis]); }
+	/// Of a point from its nearest image before or behind the front.
+	double distance(const Vec<Dim>& x, const Grid<Dim>& grid) const
+	{
+		const int front = box.lower[axis];
+		return sign * (grid.imageNear(x[axis] - grid.origin[axis], front, axis) / grid.cellSize - front);
+	}
 
 	/// Of soil that is not near only what has been in the first cell counts. Straight before a node is what lies within a quarter of a cell beside it:
 	/// soil further out hangs on to other nodes too.
 	void look(const PointCloud<Dim>& cloud, int p, const Grid<Dim>& grid)
 	{
 		const double centre = distance(cloud.position[p], grid), half = cloud.halfSize[p][axis] / grid.cellSize;
-		const Gap    gap { centre - half, distance(cloud.position0[p], grid) - cloud.halfSize0[p][axis] / grid.cellSize };
+		const double moved = sign * (cloud.position[p] - cloud.position0[p])[axis] / grid.cellSize;
+		const Gap    gap { centre - half, centre - moved - cloud.halfSize0[p][axis] / grid.cellSize };
 		if (centre + half <= 0 || (gap.now > 0.5 && gap.first > 1 - 1e-9)) return;
-		Index<Dim> low = lower, high = upper; // of the nodes that the point is before
+		Index<Dim> low = box.lower, high = box.upper; // of the nodes that the point is before
 		for (int a = 0; a < Dim; ++a) {
 			if (a == axis) continue;
 			const double place = (cloud.position[p][a] - grid.origin[a]) / grid.cellSize, reach = cloud.halfSize[p][a] / grid.cellSize + 0.25;
-			low[a]  = std::max(low[a], -floorToInt(reach - place));
-			high[a] = std::min(high[a], floorToInt(place + reach));
+			const int    first = -floorToInt(reach - place), last = floorToInt(place + reach);
+			const bool   isPeriodic = box.period[a] != 0; // then those beyond the sides count too
+			low[a]                  = isPeriodic ? first : std::max(low[a], first);
+			high[a]                 = isPeriodic ? last : std::min(high[a], last);
 			if (low[a] > high[a]) return;
 		}
-		forNodes(low, high, [&](Key node) {
-			const auto [found, isNew] = gaps.try_emplace(node, gap);
+		forNodes(low, high, [&](const Index<Dim>& node) {
+			if (!box.contains(node)) return;
+			const auto [found, isNew] = gaps.try_emplace(Grid<Dim>::key(grid.first(node)), gap);
 			if (!isNew && gap.now < found->second.now) found->second = gap;
 		});
 	}
@@ -69,13 +81,13 @@ private:
 	{
 		Index<Dim> node = low;
 		for (int a = 0; a < Dim;) {
-			f(Grid<Dim>::key(node));
+			f(node);
 			for (a = 0; a < Dim && ++node[a] > high[a]; ++a)
 				node[a] = low[a];
 		}
 	}
 
-	Index<Dim>         lower, upper; // of the nodes
+	HeldBox<Dim>       box; // of the nodes
 	int                axis;
 	double             sign;
 	std::map<Key, Gap> gaps;
@@ -83,10 +95,7 @@ private:
 
 template <int Dim> bool holdsSoil(const HeldBox<Dim>& box, const CloudBasis<Dim>& basis)
 {
-	return std::any_of(basis.nodes.begin(), basis.nodes.end(), [&](Key key) {
-		const Index<Dim> node = Grid<Dim>::index(key);
-		return (node.array() >= box.lower.array()).all() && (node.array() <= box.upper.array()).all();
-	});
+	return std::any_of(basis.nodes.begin(), basis.nodes.end(), [&](Key key) { return box.contains(Grid<Dim>::index(key)); });
 }
 
 template <class V> std::string listed(const V& x)
@@ -121,7 +130,7 @@ template <int Dim> std::string withdrawn(const HeldBox<Dim>& box, const PointClo
 	for (int a = 0; a < Dim; ++a) {
 		const double push = factor * box.displacement[a];
 		Front<Dim>   front(box, a, push);
-		if (push == 0 || !front.isOnGrid()) continue;
+		if (push == 0 || !front.exists) continue;
 		const auto loss = front.loss(cloud, grid);
 		if (!loss) continue;
 		std::ostringstream text;

@@ -74,7 +74,7 @@ template <int Dim> StepReport loadStep(PointCloud<Dim>& cloud, const Model<Dim>&
 	const StepSystem<Dim> system(cloud, model, load, report);
 	if (!isHeld(system, cloud, load, report)) return report;
 	// 2. to 4. points to nodes, assembly and Newton's method on the nodes
-	const Eigen::VectorXd prediction = last ? predict(*last, system.basis.nodes, load.growth()) : Eigen::VectorXd();
+	const Eigen::VectorXd prediction = last ? predict(*last, system.basis.nodes, load.growth(), model.grid) : Eigen::VectorXd();
 	const Eigen::VectorXd d          = equilibrium(system, solver, report, prediction);
 	report.times.linear              = solver.times();
 	report.conjugateGradients        = solver.iterativeEffort();

@@ -11,20 +11,21 @@ int find(const std::vector<Key>& keys, Key key)
 }
 
 /// Mean over the neighbours along the axes that are known; false if there are none.
-template <int Dim> bool meanOfNeighbours(const std::vector<Key>& nodes, const std::vector<char>& known, const Eigen::VectorXd& d, int node, Vec<Dim>& mean)
+template <int Dim>
+bool meanOfNeighbours(const std::vector<Key>& nodes, const Grid<Dim>& grid, const std::vector<char>& known, const Eigen::VectorXd& d, int node, Vec<Dim>& mean)
 {
 	int count = 0;
 	mean.setZero();
 	for (int a = 0; a < Dim; ++a)
 		for (const Key neighbour : { nodes[node] - Grid<Dim>::keyStep(a), nodes[node] + Grid<Dim>::keyStep(a) })
-			if (const int n = find(nodes, neighbour); n >= 0 && known[n]) mean += d.template segment<Dim>(Dim * n), ++count;
+			if (const int n = find(nodes, grid.first(neighbour)); n >= 0 && known[n]) mean += d.template segment<Dim>(Dim * n), ++count;
 	if (count > 0) mean /= count;
 	return count > 0;
 }
 
 } // namespace
 
-template <int Dim> Eigen::VectorXd predict(const LastIncrement<Dim>& last, const std::vector<Key>& nodes, double load)
+template <int Dim> Eigen::VectorXd predict(const LastIncrement<Dim>& last, const std::vector<Key>& nodes, double load, const Grid<Dim>& grid)
 {
 	if (last.nodes.empty() || !(last.load * load > 0)) return {};
 	Eigen::VectorXd   d = Eigen::VectorXd::Zero(Dim * nodes.size());
@@ -41,7 +42,7 @@ template <int Dim> Eigen::VectorXd predict(const LastIncrement<Dim>& last, const
 		std::vector<int> layer, rest;
 		for (const int n : open) {
 			Vec<Dim> mean;
-			if (!meanOfNeighbours<Dim>(nodes, known, d, n, mean)) rest.push_back(n);
+			if (!meanOfNeighbours<Dim>(nodes, grid, known, d, n, mean)) rest.push_back(n);
 			else
 				layer.push_back(n), d.template segment<Dim>(Dim * n) = mean;
 		}
@@ -53,7 +54,7 @@ template <int Dim> Eigen::VectorXd predict(const LastIncrement<Dim>& last, const
 	return d;
 }
 
-template Eigen::VectorXd predict(const LastIncrement<2>&, const std::vector<Key>&, double);
-template Eigen::VectorXd predict(const LastIncrement<3>&, const std::vector<Key>&, double);
+template Eigen::VectorXd predict(const LastIncrement<2>&, const std::vector<Key>&, double, const Grid<2>&);
+template Eigen::VectorXd predict(const LastIncrement<3>&, const std::vector<Key>&, double, const Grid<3>&);
 
 } // namespace gimpm

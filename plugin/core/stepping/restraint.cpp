@@ -5,34 +5,85 @@
 #include <map>
 #include <numeric>
 #include <sstream>
+#include <tuple>
 
 namespace gimpm {
 namespace {
 
-/// Parts of the body: nodes joined by patches. Returns a representative node of the part for each node.
-template <int Dim> std::vector<int> parts(const CloudBasis<Dim>& basis)
-{
-	std::vector<int> root(basis.nodes.size());
-	std::iota(root.begin(), root.end(), 0);
-	const auto find = [&](int n) {
-		while (root[n] != n)
-			n = root[n] = root[root[n]];
-		return n;
+/// Parts of the body: nodes joined by patches. In a periodic grid the places of a part's nodes follow the patches beyond the sides.
+template <int Dim> class Parts {
+public:
+	/// A part meets its own image: it goes around the grid.
+	struct Turn {
+		int        root;
+		Index<Dim> length; ///< [cells]
 	};
-	for (const auto& patch : basis.patches) {
-		int first = -1;
-		for (const int n : patch.node) {
-			if (n < 0) continue;
-			if (first < 0) first = find(n);
-			const int other              = find(n);
-			root[std::max(first, other)] = std::min(first, other);
-			first                        = std::min(first, other);
+
+	Parts(const CloudBasis<Dim>& basis, const Grid<Dim>& grid) : basis_(basis), parent_(basis.nodes.size()), offset_(parent_.size(), Index<Dim>::Zero())
+	{
+		std::iota(parent_.begin(), parent_.end(), 0);
+		for (const auto& patch : basis.patches)
+			join(patch, grid);
+		for (std::size_t n = 0; n < parent_.size(); ++n)
+			std::tie(parent_[n], offset_[n]) = find(int(n));
+		for (Turn& turn : turns_)
+			turn.root = root(turn.root);
+	}
+	int                      root(std::size_t node) const { return parent_[node]; } ///< the same for all nodes of a part
+	const std::vector<Turn>& turns() const { return turns_; }
+
+	/// In cells.
+	Vec<Dim> place(std::size_t node) const { return (index(int(node)) + offset_[node]).template cast<double>(); }
+
+private:
+	Index<Dim> index(int node) const { return Grid<Dim>::index(basis_.nodes[node]); }
+
+	/// The root of a node, and how much further the node is from it than their numbers tell.
+	std::pair<int, Index<Dim>> find(int n)
+	{
+		Index<Dim> sum = Index<Dim>::Zero();
+		for (; parent_[n] != n; n = parent_[n]) {
+			offset_[n] += offset_[parent_[n]];
+			parent_[n] = parent_[parent_[n]];
+			sum += offset_[n];
+		}
+		return { n, sum };
+	}
+	void join(const Patch<Dim>& patch, const Grid<Dim>& grid)
+	{
+		const Index<Dim> cell  = Grid<Dim>::index(patch.cell);
+		int              first = -1;
+		Index<Dim>       image; // how far the place of the first node in the patch is from that which its number stands for
+		for (int n = 0; n < windowNodes<Dim>; ++n) {
+			if (patch.node[n] < 0) continue;
+			Index<Dim> place = cell;
+			for (int a = 0, rest = n; a < Dim; rest /= patch.nodesAlong(a), ++a)
+				place[a] += rest % patch.nodesAlong(a);
+			const Index<Dim> shift = grid.isPeriodic() ? Index<Dim>(place - index(patch.node[n])) : Index<Dim>(Index<Dim>::Zero());
+			if (first < 0) first = patch.node[n], image = shift;
+			else
+				join(first, patch.node[n], shift - image);
 		}
 	}
-	for (std::size_t n = 0; n < root.size(); ++n)
-		root[n] = find(int(n));
-	return root;
-}
+	/// `apart`: how much further than their numbers tell the second node is from the first.
+	void join(int a, int b, const Index<Dim>& apart)
+	{
+		const auto [rootA, fromA] = find(a);
+		const auto [rootB, fromB] = find(b);
+		const Index<Dim> further  = fromA + apart - fromB; // root B from root A
+		if (rootA == rootB) {
+			if (!further.isZero()) turns_.push_back({ rootA, further });
+		} else if (rootA < rootB)
+			parent_[rootB] = rootA, offset_[rootB] = further;
+		else
+			parent_[rootA] = rootB, offset_[rootA] = -further;
+	}
+
+	const CloudBasis<Dim>&  basis_;
+	std::vector<int>        parent_;
+	std::vector<Index<Dim>> offset_; // images: how much further than their numbers tell a node is from its parent, in cells
+	std::vector<Turn>       turns_;
+};
 
 template <int Dim> struct Part {
 	static constexpr int modes = Dim == 2 ? 3 : 6;
@@ -52,6 +103,15 @@ template <int Dim> struct Part {
 		for (int a = 0; a < Dim; ++a)
 			if (direction[a] != 0) m += direction[a] * rigidModes(place, a);
 		gram += m * m.transpose();
+	}
+
+	/// What moves as its own image so far away does.
+	void repeat(const Index<Dim>& length)
+	{
+		for (int a = 0; a < Dim; ++a) {
+			const Eigen::Matrix<double, modes, 1> m = rigidModes(centre() + length.template cast<double>(), a) - rigidModes(centre(), a);
+			gram += m * m.transpose();
+		}
 	}
 
 private:
@@ -95,23 +155,25 @@ template <int Dim> std::string describe(const Part<Dim>& part, const Grid<Dim>& 
 
 template <int Dim> Restraint restraint(const CloudBasis<Dim>& basis, const Grid<Dim>& grid, const Boundary<Dim>& boundary, const Terms<Dim>& terms)
 {
-	const auto               root = parts(basis);
+	const Parts<Dim>         parts(basis, grid);
 	std::map<int, Part<Dim>> found;
-	const auto               place = [&](std::size_t n) { return Vec<Dim>(Grid<Dim>::index(basis.nodes[n]).template cast<double>()); };
-	for (std::size_t n = 0; n < root.size(); ++n) {
-		Part<Dim>& part = found[root[n]];
-		part.sum += place(n);
+	for (std::size_t n = 0; n < basis.nodes.size(); ++n) {
+		Part<Dim>& part = found[parts.root(n)];
+		part.sum += parts.place(n);
 		++part.nodes;
 	}
-	for (std::size_t n = 0; n < root.size(); ++n) {
-		Part<Dim>& part = found[root[n]];
-		part.reach      = std::max(part.reach, (place(n) - part.centre()).norm());
+	for (std::size_t n = 0; n < basis.nodes.size(); ++n) {
+		Part<Dim>& part = found[parts.root(n)];
+		part.reach      = std::max(part.reach, (parts.place(n) - part.centre()).norm());
 	}
-	for (std::size_t n = 0; n < root.size(); ++n)
+	const auto hold = [&](std::size_t n, const Vec<Dim>& direction) { found[parts.root(n)].hold(parts.place(n), direction); };
+	for (std::size_t n = 0; n < basis.nodes.size(); ++n)
 		for (int a = 0; a < Dim; ++a)
-			if (boundary.holder(Grid<Dim>::index(basis.nodes[n]), a)) found[root[n]].hold(place(n), Vec<Dim>::Unit(a));
+			if (boundary.holder(Grid<Dim>::index(basis.nodes[n]), a)) hold(n, Vec<Dim>::Unit(a));
 	for (const auto& term : terms)
-		term->restrain([&](int n, const Vec<Dim>& direction) { found[root[n]].hold(place(n), direction.normalized()); });
+		term->restrain([&](int n, const Vec<Dim>& direction) { hold(n, direction.normalized()); });
+	for (const auto& turn : parts.turns())
+		found[turn.root].repeat(turn.length);
 	Restraint result { int(found.size()), "" };
 	for (auto part = found.begin(); part != found.end() && result.freeMotion.empty(); ++part)
 		result.freeMotion = describe(part->second, grid);

@@ -13,8 +13,8 @@ std::vector<GhostFace<Dim>> stabilise(const PointCloud<Dim>& cloud, const Model<
 {
 	if (model.ghost.factor == 0) return {};
 	const Stopwatch watch(report.times.ghost);
-	const auto      boundary = boundaryCells(basis.cells, model.boundary);
-	auto            faces    = ghostFaces<Dim>(basis.cells, boundary, model.boundary);
+	const auto      boundary = boundaryCells(basis.cells, model.boundary, model.grid);
+	auto            faces    = ghostFaces<Dim>(basis.cells, boundary, model.boundary, model.grid);
 	report.boundaryCells     = int(boundary.size());
 	report.ghostFaces        = int(faces.size());
 	const auto stiffnessOf   = [&](int p) {
@@ -22,7 +22,7 @@ std::vector<GhostFace<Dim>> stabilise(const PointCloud<Dim>& cloud, const Model<
                 const double young    = material.young(cloud.parameters, cloud.internals, p, [&] { return cloud.elasticStrain[p].full().trace(); });
                 return VolumeAndModulus { cloud.volume0[p] * cloud.defGrad[p].determinant(), young };
 	};
-	weighGhostFaces(faces, basis, stiffnessOf, model.grid.cellSize, model.ghost.factor, model.ghost.scaling);
+	weighGhostFaces(faces, basis, stiffnessOf, model.grid, model.ghost.factor, model.ghost.scaling);
 	return faces;
 }
 
@@ -73,7 +73,7 @@ template <int Dim> StepSystem<Dim>::StepSystem(const PointCloud<Dim>& cloud, con
 
 template <int Dim> void StepSystem<Dim>::prepare(NodeMatrix<Dim>& K) const
 {
-	K.reset(basis.nodes, isSymmetric());
+	K.reset(basis.nodes, isSymmetric(), model.grid);
 	for (const auto& term : terms)
 		term->mark(K);
 }

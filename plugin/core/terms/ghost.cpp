@@ -20,18 +20,18 @@ template <int Dim> double faceMass(int s, int t, double h)
 }
 
 /// Numbers of the cells below and above a face.
-template <int Dim> std::array<int, 2> cellsAt(const GhostFace<Dim>& face, const CloudBasis<Dim>& basis)
+template <int Dim> std::array<int, 2> cellsAt(const GhostFace<Dim>& face, const CloudBasis<Dim>& basis, const Grid<Dim>& grid)
 {
-	return { position(basis.cells, face.lower), position(basis.cells, face.lower + Grid<Dim>::keyStep(face.axis)) };
+	return { position(basis.cells, face.lower), position(basis.cells, grid.first(face.lower + Grid<Dim>::keyStep(face.axis))) };
 }
 
 /// Young's moduli of the cells at the faces, by number: the means of their points, weighted by the volumes of the overlaps.
 template <int Dim>
-std::vector<double> cellModuli(const std::vector<GhostFace<Dim>>& faces, const CloudBasis<Dim>& basis, const PointStiffness& stiffnessOf, double h)
+std::vector<double> cellModuli(const std::vector<GhostFace<Dim>>& faces, const CloudBasis<Dim>& basis, const PointStiffness& stiffnessOf, const Grid<Dim>& grid)
 {
 	std::vector<char> isAtFace(basis.cells.size(), 0);
 	for (const auto& face : faces)
-		for (const int cell : cellsAt(face, basis))
+		for (const int cell : cellsAt(face, basis, grid))
 			isAtFace[cell] = 1;
 	std::vector<double> volume(basis.cells.size(), 0), modulus(basis.cells.size(), 0);
 	for (const auto& patch : basis.patches)
@@ -41,7 +41,7 @@ std::vector<double> cellModuli(const std::vector<GhostFace<Dim>>& faces, const C
 			for (int i = patch.first; i < patch.first + patch.count; ++i) {
 				auto [overlap, young] = stiffnessOf(basis.order[i]);
 				for (int a = 0; a < Dim; ++a)
-					if (patch.span >> a & 1) overlap *= basis.axes[i][a].share(c >> a & 1, h);
+					if (patch.span >> a & 1) overlap *= basis.axes[i][a].share(c >> a & 1, grid.cellSize);
 				volume[cell] += overlap;
 				modulus[cell] += overlap * young;
 			}
@@ -60,19 +60,19 @@ template <int Dim, class F> void forNodePairs(const GhostFace<Dim>& face, double
 		for (int s = 0; s < T; ++s)
 			for (int j = 0; j < 3; ++j)
 				for (int t = 0; t < T; ++t) {
-					if (face.node[j][t] < face.node[i][s]) continue;
 					std::array<int, Dim> offset {};
 					offset[face.axis] = j - i;
 					for (int a = 0, bit = 0; a < Dim; ++a)
 						if (a != face.axis) offset[a] = (t >> bit & 1) - (s >> bit & 1), ++bit;
-					f(face.node[i][s], NodeMatrix<Dim>::code(offset),
-					  face.stiffness * jump[i] * jump[j] / (h * h) * faceMass<Dim>(s, t, h));
+					const int code = NodeMatrix<Dim>::code(offset);
+					if (code < 0) continue;
+					f(face.node[i][s], code, face.stiffness * jump[i] * jump[j] / (h * h) * faceMass<Dim>(s, t, h));
 				}
 }
 
 } // namespace
 
-template <int Dim> std::vector<Key> boundaryCells(const std::vector<Key>& populated, const Boundary<Dim>& boundary)
+template <int Dim> std::vector<Key> boundaryCells(const std::vector<Key>& populated, const Boundary<Dim>& boundary, const Grid<Dim>& grid)
 {
 	std::vector<Key> cells;
 	for (const Key cell : populated) {
@@ -80,8 +80,8 @@ template <int Dim> std::vector<Key> boundaryCells(const std::vector<Key>& popula
 		bool             is = false;
 		for (int a = 0; a < Dim && !is; ++a) {
 			const Key step = Grid<Dim>::keyStep(a);
-			is             = (!contains(populated, cell - step) && !boundary.lowerFaceIsWall(i, a))
-			        || (!contains(populated, cell + step) && !boundary.lowerFaceIsWall(i + Index<Dim>::Unit(a), a));
+			is             = (!contains(populated, grid.first(cell - step)) && !boundary.lowerFaceIsWall(i, a))
+			        || (!contains(populated, grid.first(cell + step)) && !boundary.lowerFaceIsWall(i + Index<Dim>::Unit(a), a));
 		}
 		if (is) cells.push_back(cell);
 	}
@@ -89,12 +89,13 @@ template <int Dim> std::vector<Key> boundaryCells(const std::vector<Key>& popula
 }
 
 template <int Dim>
-std::vector<GhostFace<Dim>> ghostFaces(const std::vector<Key>& populated, const std::vector<Key>& boundaryCells, const Boundary<Dim>& boundary)
+std::vector<GhostFace<Dim>> ghostFaces(
+        const std::vector<Key>& populated, const std::vector<Key>& boundaryCells, const Boundary<Dim>& boundary, const Grid<Dim>& grid)
 {
 	std::vector<GhostFace<Dim>> faces;
 	for (const Key cell : populated)
 		for (int a = 0; a < Dim; ++a) {
-			const Key above = cell + Grid<Dim>::keyStep(a);
+			const Key above = grid.first(cell + Grid<Dim>::keyStep(a));
 			if (!contains(populated, above) || (!contains(boundaryCells, cell) && !contains(boundaryCells, above))) continue;
 			if (!boundary.lowerFaceIsWall(Grid<Dim>::index(above), a)) faces.push_back({ a, cell });
 		}
@@ -103,19 +104,20 @@ std::vector<GhostFace<Dim>> ghostFaces(const std::vector<Key>& populated, const 
 
 template <int Dim>
 void weighGhostFaces(
-        std::vector<GhostFace<Dim>>& faces, const CloudBasis<Dim>& basis, const PointStiffness& stiffnessOf, double h, double factor, GhostScaling scaling)
+        std::vector<GhostFace<Dim>>& faces, const CloudBasis<Dim>& basis, const PointStiffness& stiffnessOf, const Grid<Dim>& grid, double factor,
+        GhostScaling scaling)
 {
-	const auto   modulus = cellModuli(faces, basis, stiffnessOf, h);
-	const double power   = scaling == GhostScaling::paper ? h * h * h : h;
+	const auto   modulus = cellModuli(faces, basis, stiffnessOf, grid);
+	const double h = grid.cellSize, power = scaling == GhostScaling::paper ? h * h * h : h;
 	for (auto& face : faces) {
-		const auto [lower, upper] = cellsAt(face, basis);
+		const auto [lower, upper] = cellsAt(face, basis, grid);
 		face.stiffness            = factor * std::min(modulus[lower], modulus[upper]) * power / 3;
 		for (int i = 0; i < 3; ++i)
 			for (int s = 0; s < GhostFace<Dim>::tangentialNodes; ++s) {
 				Key node = face.lower + i * Grid<Dim>::keyStep(face.axis);
 				for (int a = 0, bit = 0; a < Dim; ++a)
 					if (a != face.axis) node += (s >> bit & 1) * Grid<Dim>::keyStep(a), ++bit;
-				face.node[i][s] = position(basis.nodes, node);
+				face.node[i][s] = position(basis.nodes, grid.first(node));
 			}
 	}
 }
@@ -166,9 +168,9 @@ template <int Dim> std::optional<PointFailure> GhostForce<Dim>::add(const Eigen:
 }
 
 #define GIMPM_INSTANTIATE(Dim)                                                                                                                                 \
-	template std::vector<Key>            boundaryCells(const std::vector<Key>&, const Boundary<Dim>&);                                                     \
-	template std::vector<GhostFace<Dim>> ghostFaces(const std::vector<Key>&, const std::vector<Key>&, const Boundary<Dim>&);                               \
-	template void weighGhostFaces(std::vector<GhostFace<Dim>>&, const CloudBasis<Dim>&, const PointStiffness&, double, double, GhostScaling);              \
+	template std::vector<Key>            boundaryCells(const std::vector<Key>&, const Boundary<Dim>&, const Grid<Dim>&);                                   \
+	template std::vector<GhostFace<Dim>> ghostFaces(const std::vector<Key>&, const std::vector<Key>&, const Boundary<Dim>&, const Grid<Dim>&);             \
+	template void weighGhostFaces(std::vector<GhostFace<Dim>>&, const CloudBasis<Dim>&, const PointStiffness&, const Grid<Dim>&, double, GhostScaling);    \
 	template void markGhostPattern(const std::vector<GhostFace<Dim>>&, NodeMatrix<Dim>&);                                                                  \
 	template void addGhostStiffness(const std::vector<GhostFace<Dim>>&, double, NodeMatrix<Dim>&);                                                         \
 	template void addGhostForce(const std::vector<GhostFace<Dim>>&, double, const Eigen::VectorXd&, Eigen::VectorXd&);                                     \

@@ -12,7 +12,7 @@ namespace gimpm {
 enum class GhostScaling { meshIndependent, paper };
 
 /// Populated cells that share a face with an unpopulated one. A wall is no free surface: what lies behind it does not count.
-template <int Dim> std::vector<Key> boundaryCells(const std::vector<Key>& populated, const Boundary<Dim>&);
+template <int Dim> std::vector<Key> boundaryCells(const std::vector<Key>& populated, const Boundary<Dim>&, const Grid<Dim>& = {});
 
 /// Face between two populated cells of which at least one is a boundary cell.
 template <int Dim> struct GhostFace {
@@ -24,7 +24,8 @@ template <int Dim> struct GhostFace {
 };
 
 /// Faces of a body, sorted. There are none across walls.
-template <int Dim> std::vector<GhostFace<Dim>> ghostFaces(const std::vector<Key>& populated, const std::vector<Key>& boundary, const Boundary<Dim>&);
+template <int Dim>
+std::vector<GhostFace<Dim>> ghostFaces(const std::vector<Key>& populated, const std::vector<Key>& boundary, const Boundary<Dim>&, const Grid<Dim>& = {});
 
 /// Current volume [m3] and Young's modulus [Pa] of a point of the cloud.
 struct VolumeAndModulus {
@@ -35,7 +36,8 @@ using PointStiffness = std::function<VolumeAndModulus(int point)>;
 /// Sets node numbers and stiffness = factor * modulus * (h or h^3) / 3. A cell's modulus is the mean of Young's moduli of its points,
 /// weighted by the volumes of their domains' overlaps with it; a face has that of the softer of its two cells. With the stiffer one or a
 /// mean, soft layers could not be strained beside stiff ones: the kink of the displacements is what equilibrium asks for there.
-template <int Dim> void weighGhostFaces(std::vector<GhostFace<Dim>>&, const CloudBasis<Dim>&, const PointStiffness&, double h, double factor, GhostScaling);
+template <int Dim>
+void weighGhostFaces(std::vector<GhostFace<Dim>>&, const CloudBasis<Dim>&, const PointStiffness&, const Grid<Dim>&, double factor, GhostScaling);
 
 /// K += K_g, and the pattern of K_g.
 template <int Dim> void addGhostStiffness(const std::vector<GhostFace<Dim>>&, double h, NodeMatrix<Dim>& K);

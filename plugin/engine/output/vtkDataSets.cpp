@@ -95,6 +95,19 @@ namespace {
 		}
 	}
 
+	// The corners of the populated cells, sorted. At the far sides of a periodic grid these are not the nodes that stand for them.
+	template <int Dim> vector<gimpm::Key> cornersOf(const gimpm::CloudBasis<Dim>& basis, const gimpm::Grid<Dim>& grid)
+	{
+		if (!grid.isPeriodic()) return basis.nodes;
+		vector<gimpm::Key> nodes;
+		for (const gimpm::Key cell : basis.cells)
+			for (int c = 0; c < 1 << Dim; ++c)
+				nodes.push_back(cell + gimpm::Grid<Dim>::keyOffset(c));
+		std::sort(nodes.begin(), nodes.end());
+		nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+		return nodes;
+	}
+
 	vtkIdType numberOf(gimpm::Key node, const vector<gimpm::Key>& nodes) { return std::lower_bound(nodes.begin(), nodes.end(), node) - nodes.begin(); }
 }
 
@@ -123,22 +136,18 @@ VtkCells pointDomains(const vector<MaterialPoint>& points, const Scene& scene, c
 
 template <int Dim> VtkCells populatedCells(const gimpm::PointCloud<Dim>& cloud, const gimpm::Model<Dim>& model, Real z)
 {
-	using Grid       = gimpm::Grid<Dim>;
 	const auto basis = gimpm::cloudBasis(cloud, model.grid, model.basis, model.boundary);
+	const auto nodes = cornersOf(basis, model.grid);
 	Cells      boxes(boxType(Dim));
-	addNodes(boxes, basis.nodes, model.grid, z);
+	addNodes(boxes, nodes, model.grid, z);
 	for (const gimpm::Key cell : basis.cells) {
 		std::array<vtkIdType, 1 << Dim> box;
-		for (int c = 0; c < 1 << Dim; ++c) {
-			gimpm::Key node = cell; // a cell is named after its lowest node
-			for (int a = 0; a < Dim; ++a)
-				node += (corners[c] >> a & 1) * Grid::keyStep(a);
-			box[c] = numberOf(node, basis.nodes);
-		}
+		for (int c = 0; c < 1 << Dim; ++c) // a cell is named after its lowest node
+			box[c] = numberOf(cell + gimpm::Grid<Dim>::keyOffset(corners[c]), nodes);
 		boxes.addCell(box);
 	}
 	const auto cells      = boxes.dataSet();
-	const auto atBoundary = gimpm::boundaryCells(basis.cells, model.boundary);
+	const auto atBoundary = gimpm::boundaryCells(basis.cells, model.boundary, model.grid);
 	addIntegers(*cells, "boundary", basis.cells, [&](gimpm::Key cell) { return std::binary_search(atBoundary.begin(), atBoundary.end(), cell); });
 	const auto mixed = gimpm::mixedCells(basis, cloud.material);
 	addIntegers(*cells, "mixed", mixed, [](char isMixed) { return isMixed; });
@@ -151,11 +160,15 @@ template <int Dim> VtkCells stabilisedFaces(const gimpm::PointCloud<Dim>& cloud,
 	gimpm::StepReport            report;
 	const gimpm::StepSystem<Dim> system(cloud, model, gimpm::Load<Dim>(), report);
 	Cells                        surfaces(Dim == 2 ? VTK_LINE : VTK_QUAD);
-	addNodes(surfaces, system.basis.nodes, model.grid, z);
+	const auto                   nodes = cornersOf(system.basis, model.grid);
+	addNodes(surfaces, nodes, model.grid, z);
 	for (const Face& face : system.faces) {
 		std::array<vtkIdType, Face::tangentialNodes> surface;
-		for (int c = 0; c < Face::tangentialNodes; ++c)
-			surface[c] = face.node[1][corners[c]]; // of the nodes below, on and above the face
+		const gimpm::Key                             lowest = face.lower + gimpm::Grid<Dim>::keyStep(face.axis);
+		for (int c = 0; c < Face::tangentialNodes; ++c) {
+			const int bits = corners[c], below = bits & ((1 << face.axis) - 1); // of the other axes
+			surface[c] = numberOf(lowest + gimpm::Grid<Dim>::keyOffset(below | (bits & ~((1 << face.axis) - 1)) << 1), nodes);
+		}
 		surfaces.addCell(surface);
 	}
 	const auto cells = surfaces.dataSet();

@@ -9,6 +9,7 @@ public:
 	Real     cellSize = std::numeric_limits<Real>::quiet_NaN(); // must be given
 	Vector3r origin   = Vector3r::Zero();
 	int      dim      = 2;
+	Vector3r period   = Vector3r::Zero();
 
 	YADE_API_NAME(MpmGrid)
 	static const char* doc()
@@ -23,7 +24,14 @@ public:
 		v("origin", &MpmGrid::origin, 0,
 		  "Position of a node [m], finite; all others are whole cells away from it. With dim=2, mpm.fill puts the points into its plane z.", finite);
 		v("dim", &MpmGrid::dim, 0, "2: plane strain in x-y, per metre of thickness; 3: three-dimensional.", oneOf(2, 3));
+		v("period", &MpmGrid::period, 0,
+		  "Lengths [m] along x, y, z after which the scene repeats itself, from *origin* on: opposite sides are the same nodes. Whole numbers of cells, at "
+		  "least 3; 0, the default: not periodic.",
+		  nonNegative);
 	}
+
+	// Along each axis, 0: not periodic. std::invalid_argument unless these are whole numbers, of as many cells as basis functions need.
+	Vector3i periodInCells() const;
 };
 
 } // namespace yade

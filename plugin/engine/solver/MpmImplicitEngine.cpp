@@ -137,7 +137,7 @@ template <int Dim> void MpmImplicitEngine::advance(Job<Dim>& job)
 			throw std::runtime_error(reason);
 		}
 		if (report.accepted) warn(warningOfAccepted(report, *this, tried.time));
-		if (report.converged() || report.accepted) reach(job.cloud, tried);
+		if (report.converged() || report.accepted) reach(job, tried);
 		progressLine.show(progressOf(*this, job.control.isDone()), verbosity);
 	}
 }
@@ -153,15 +153,15 @@ template <int Dim> MpmImplicitEngine::Attempt<Dim> MpmImplicitEngine::attempt(Jo
 }
 
 // Points and load time move on together: whoever reads or saves the scene at any moment finds a converged state.
-template <int Dim> void MpmImplicitEngine::reach(const gimpm::PointCloud<Dim>& cloud, const Attempt<Dim>& made)
+template <int Dim> void MpmImplicitEngine::reach(Job<Dim>& job, const Attempt<Dim>& made)
 {
 	double scattering = 0;
 	{
 		const gimpm::Stopwatch watch(scattering);
-		scatter(cloud, points);
+		scatter(job.cloud, job.model.grid, points);
 	}
 	addTime(*timingDeltas, "scatter", scattering);
-	plausibility.know(cloud);
+	plausibility.know(job.cloud);
 	++substeps;
 	loadTime   = made.time;
 	loadFactor = made.load.factor.value;

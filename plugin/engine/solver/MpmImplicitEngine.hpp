@@ -104,7 +104,7 @@ private:
 	template <int Dim> Job<Dim>     prepare();
 	template <int Dim> void         advance(Job<Dim>&);
 	template <int Dim> Attempt<Dim> attempt(Job<Dim>&) const;
-	template <int Dim> void         reach(const gimpm::PointCloud<Dim>&, const Attempt<Dim>&);
+	template <int Dim> void         reach(Job<Dim>&, const Attempt<Dim>&);
 	void                            warn(const string&); // nothing if it is empty
 
 	vector<MaterialPoint>       points; // of the step; kept for the next one

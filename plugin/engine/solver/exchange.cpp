@@ -26,6 +26,8 @@ namespace {
 		std::ostringstream text;
 		text << "MpmBoundary from min = (" << boundary.min.transpose() << ") to max = (" << boundary.max.transpose()
 		     << ") holds no grid node; nodes are at " << grid.origin.transpose() << " plus multiples of cellSize = " << grid.cellSize << ".";
+		if (lattice.isPeriodic())
+			text << " Along a periodic axis they are from there to there plus MpmGrid.period = (" << grid.period.transpose() << ").";
 		throw std::invalid_argument(text.str());
 	}
 
@@ -34,9 +36,7 @@ namespace {
 		for (size_t i = 0; i < boxes.size(); ++i)
 			for (size_t j = 0; j < i; ++j)
 				for (int axis = 0; axis < Dim; ++axis) {
-					const bool meet
-					        = (boxes[i].lower.cwiseMax(boxes[j].lower).array() <= boxes[i].upper.cwiseMin(boxes[j].upper).array()).all();
-					if (!meet || !boxes[i].fixed[axis] || !boxes[j].fixed[axis]
+					if (!boxes[i].meets(boxes[j]) || !boxes[i].fixed[axis] || !boxes[j].fixed[axis]
 					    || boxes[i].displacement[axis] == boxes[j].displacement[axis])
 						continue;
 					std::ostringstream text;
@@ -52,6 +52,21 @@ namespace {
 	{
 		const Vector3r grown = stretched(point.shape->halfSize0, point.state->defGrad) * (1 + 1e-9);
 		return point.shape->halfSize0.head<Dim>().maxCoeff() <= limit && (point.shape->halfSize - grown).head<Dim>().maxCoeff() <= 0;
+	}
+
+	// Sides of a periodic grid are not where points end: those beyond would lie upon others.
+	template <int Dim> void requireWithinPeriod(const MaterialPoint& point, const gimpm::Grid<Dim>& grid)
+	{
+		for (int a = 0; a < Dim; ++a) {
+			const Real length = grid.period[a] * grid.cellSize, place = point.state->pos[a] - grid.origin[a];
+			if (grid.period[a] == 0 || (place >= 0 && place <= length)) continue;
+			std::ostringstream text;
+			text << "Body #" << point.id << ": the material point at (" << point.state->pos.transpose()
+			     << ") is outside of the period of the grid, along "
+			     << "xyz"[a] << " from " << grid.origin[a] << " to " << grid.origin[a] + length
+			     << " m (MpmGrid.origin and period); has a longer region been filled?";
+			throw std::invalid_argument(text.str());
+		}
 	}
 
 	template <int Dim> void requireOnGrid(const MaterialPoint& point, const gimpm::Grid<Dim>& grid, gimpm::Basis basis)
@@ -164,6 +179,21 @@ namespace {
 			gimpm::storeInternals(l, values, cloud.internals, p);
 		});
 	}
+
+	template <int Dim> void reenter(gimpm::PointCloud<Dim>& cloud, const gimpm::Grid<Dim>& grid, const vector<MaterialPoint>& points)
+	{
+		for (int a = 0; a < Dim; ++a) {
+			const Real length = grid.period[a] * grid.cellSize, low = grid.origin[a], high = low + length;
+			for (size_t p = 0; length > 0 && p < points.size(); ++p) {
+				Real& x = cloud.position[p][a];
+				if (x >= low && x < high) continue;
+				const Real shift = length * std::floor((x - low) / length);
+				x                = std::clamp(x - shift, low, high); // round-off
+				points[p].state->refPos[a] -= shift;
+				if (!cloud.position0.empty()) cloud.position0[p][a] -= shift;
+			}
+		}
+	}
 }
 
 Vector3r stretched(const Vector3r& halfSize0, const Matrix3r& defGrad)
@@ -186,7 +216,7 @@ gimpm::Model<Dim> toModel(
 		        "fBar takes the dilation of points from the centres of their cells, also where these are nearly empty: it needs ghost stabilisation, "
 		        "such as ghost=MpmGhost(), instead of ghost.factor=0.");
 	gimpm::Model<Dim> model;
-	model.grid = { grid.cellSize, grid.origin.head<Dim>() };
+	model.grid = { grid.cellSize, grid.origin.head<Dim>(), grid.periodInCells().head<Dim>() };
 	vector<gimpm::HeldBox<Dim>> boxes;
 	for (const auto& boundary : boundaries)
 		boxes.push_back(heldBox<Dim>(*boundary, grid, model.grid));
@@ -220,6 +250,7 @@ template <int Dim> gimpm::PointCloud<Dim> gather(const vector<MaterialPoint>& po
 			point.requireAdmissible(Dim);
 			point.requireStart();
 			requireOnGrid<Dim>(point, model.grid, model.basis);
+			requireWithinPeriod<Dim>(point, model.grid);
 			cloud.position[p]      = point.state->pos.template head<Dim>();
 			cloud.halfSize[p]      = domainIn(model, point);
 			cloud.halfSize0[p]     = point.shape->halfSize0.template head<Dim>();
@@ -243,8 +274,9 @@ template <int Dim> gimpm::PointCloud<Dim> gather(const vector<MaterialPoint>& po
 }
 
 // Plane strain leaves the components out of the plane alone, but for the zz component of strain and stress.
-template <int Dim> void scatter(const gimpm::PointCloud<Dim>& cloud, const vector<MaterialPoint>& points)
+template <int Dim> void scatter(gimpm::PointCloud<Dim>& cloud, const gimpm::Grid<Dim>& grid, const vector<MaterialPoint>& points)
 {
+	reenter(cloud, grid, points);
 	inRanges(points.size(), [&](size_t begin, size_t end) {
 		vector<std::pair<std::string_view, const Real*>> internals;
 		for (size_t p = begin; p < end; ++p) {
@@ -265,7 +297,7 @@ template <int Dim> void scatter(const gimpm::PointCloud<Dim>& cloud, const vecto
 #define MPM_INSTANTIATE(Dim)                                                                                                                                     \
 	template gimpm::Model<Dim>      toModel(const MpmGrid&, const string&, bool, const vector<shared_ptr<MpmBoundary>>&, const MpmGhost&, const MpmNewton&); \
 	template gimpm::PointCloud<Dim> gather(const vector<MaterialPoint>&, gimpm::Model<Dim>&);                                                                \
-	template void                   scatter(const gimpm::PointCloud<Dim>&, const vector<MaterialPoint>&);
+	template void                   scatter(gimpm::PointCloud<Dim>&, const gimpm::Grid<Dim>&, const vector<MaterialPoint>&);
 MPM_INSTANTIATE(2)
 MPM_INSTANTIATE(3)
 #undef MPM_INSTANTIATE
