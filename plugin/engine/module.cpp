@@ -14,7 +14,8 @@ BOOST_PYTHON_MODULE(mpm_engine)
 	py::scope().attr("version") = MPM_VERSION;
 	py::def("verify", &verifyPlugin, "ImportError if YADE does not fit the plugin, or has not registered all of its classes.");
 	py::def("newBodies", &newBodies,
-	        "For mpm.fill: bodies from positions, half size, materials, the index of each body's material, and whether they are rings around x = 0.");
+	        "For mpm.fill: bodies from positions, half size, materials, the index of each body's material, whether they are rings around x = 0, and a dict of "
+	        "columns of parameters.");
 	py::def("betweenSteps", &betweenSteps, "For mpm.save: calls a function while no step in the background changes the state.");
 	py::def("columnsOfPoints", &columnsOfPoints,
 	        "For mpm.arrays: dict of bytearrays with the data of the material points that a mask means, in order of body id.");

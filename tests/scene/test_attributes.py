@@ -37,6 +37,7 @@ outOfRange = {
         'MpmState.volume0': ['0.', '-1.'],
         'MpmState.plasticStrain': ['-1e-3'],
         'MpmState.internals': ['[("none", 1.)]', '[("plasticStrain", 1.)]'],
+        'MpmState.parameters': ['[("poisson", 0.2)]', '[("young", 1.), ("young", 2.)]', '[("young", nan)]'],
         'MpmPoint.halfSize': ['(0.1, 0, 0.1)', '(-1, 1, 1)'],
         'MpmPoint.halfSize0': ['(0.1, 0, 0.1)', '(-1, 1, 1)'],
         'MpmGrid.cellSize': ['0.', '-1.'],
@@ -111,6 +112,7 @@ admitted = {
         ('MpmImplicitEngine.gravityCurve', '()'): 'loadCurve',
         ('MpmVtkRecorder.solver', '""'): 'the only one',
         ('MpmState.internals', '()'): 'initial values',
+        ('MpmState.parameters', '()'): 'those of the material',
         ('MpmVtkRecorder.fields', '()'): 'the domains alone',
 }
 

@@ -64,6 +64,14 @@ def test_slope(yade):
 	assert (run.folder / 'out/slope/slope-points.pvd').read_text().count('<DataSet') == 11 # initial state and 10 more
 
 
+def test_slope_with_friction(yade):
+	"""Figures of its page, which completes with the stabilisation and not without."""
+	run = yade(root / 'examples' / 'slope' / 'friction.py')
+	assert 'completes: 40 of 40 steps, 40 parts after 0 cuts, 152 iterations' in run.stdout
+	assert abs(numbers(r'crest moves by (\S+) m', run.stdout)[0] - 1.584) < 2e-3
+	assert (run.folder / 'out/friction/friction.png').stat().st_size > 10000
+
+
 def test_column(yade):
 	run = yade(root / 'examples' / 'column' / 'column.py')
 	error, reference = map(float, re.search(r'stress error \(eq\. 7\): (\S+), reference: (\S+)', run.stdout).groups())
@@ -135,6 +143,27 @@ def test_mpm_vs_dem(short):
 	parts = re.findall(r'timestep="(\S+)" part="(\d)" file="(\S+)"', (out / 'both.pvd').read_text())
 	assert all((out / file).exists() for _, _, file in parts)
 	assert len({time for time, part, _ in parts if part == '0'} & {time for time, part, _ in parts if part == '1'}) == 21
+
+
+def test_safety(yade):
+	"""On a coarse grid, by the figures that its page gives; strengths of points are worth as much as those of layers."""
+	script = root / 'examples' / 'safety' / 'safety.py'
+	found = {}
+	for scene, cells, *more in ('cut', 10), ('slope', 10), ('gradient', 10), ('gradient', 10, '--layers', 1):
+		run = yade(script, '--scene', scene, '--cells', cells, *more)
+		found[scene, *more] = numbers(r'points; F = (\S+) to (\S+?)[,;]', run.stdout)
+	assert found['cut', ] == [1.3281, 1.3379] and found['gradient', ] == found['gradient', '--layers', 1]
+	assert 1.37 < found['slope', ][0] < 1.42
+	assert (run.folder / 'out/safety/safety.png').stat().st_size > 20000
+
+
+def test_earth_pressure(yade):
+	"""A coarser grid than that of its page."""
+	run = yade(root / 'examples' / 'earth_pressure' / 'earth_pressure.py', '--cells', 10, '--steps', 10, '--psi', 30)
+	for name, theory in ('active', 1 / 3), ('passive', 3):
+		K = numbers(rf'{name}, psi = 30: K = (\S+),', run.stdout)[0]
+		assert abs(K / theory - 1) < 0.03
+	assert (run.folder / 'out/earth_pressure/earth_pressure.png').stat().st_size > 20000
 
 
 def test_laboratory(yade):

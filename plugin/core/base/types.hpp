@@ -19,6 +19,10 @@ template <int Dim> using Index = Eigen::Matrix<int, Dim, 1>;
 /// at its initial values.
 using InternalColumns = std::vector<std::vector<double>>;
 
+/// Parameters of the laws of material points where they differ from point to point: column k has the k-th parameter of the law of each point, whatever
+/// that is. Empty: all points have that of their material.
+using ParameterColumns = std::vector<std::vector<double>>;
+
 /// Symmetric second-order tensor. Plane strain keeps the out-of-plane normal component.
 /// Components: 2D (xx, yy, xy, zz), 3D (xx, yy, zz, xy, yz, zx).
 template <int Dim, class T = double> struct SymTensor {

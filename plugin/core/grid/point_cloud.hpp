@@ -18,6 +18,7 @@ template <int Dim> struct PointCloud {
 	std::vector<SymTensor<Dim>> elasticStrain; ///< logarithmic
 	std::vector<SymTensor<Dim>> stress;        ///< Cauchy stress [Pa], a result
 	InternalColumns             internals;     ///< internal variables of the laws
+	ParameterColumns            parameters;    ///< of the laws of points that have their own
 	std::vector<Vec<Dim>>       force;         ///< point load at load factor 1 [N]; empty: no point loads
 	std::vector<int>            material;      ///< position in the list of materials
 
@@ -39,6 +40,8 @@ template <int Dim> struct PointCloud {
 		elasticStrain.resize(n);
 		stress.resize(n);
 		for (auto& column : internals)
+			if (!column.empty()) column.resize(n);
+		for (auto& column : parameters)
 			if (!column.empty()) column.resize(n);
 		material.resize(n);
 	}

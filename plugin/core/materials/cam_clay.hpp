@@ -23,6 +23,11 @@ public:
 	{
 	}
 
+	/// What may differ from point to point: shearModulus, criticalStateRatio.
+	using Parameters = std::array<double, 2>;
+	Parameters parameters() const { return { shear_, ratio_ }; }
+	CamClay    with(const Parameters& p) const { return { p[0], p[1], compression_, swelling_, preconsolidation_, reference_ }; }
+
 	static constexpr InternalVariable                preconsolidation { "preconsolidation", "Pa", "preconsolidation pressure", positive, anyNumber };
 	static constexpr std::array<InternalVariable, 2> variables { equivalentPlasticStrain, preconsolidation };
 	static constexpr bool                            mayFail = true;

@@ -11,30 +11,45 @@ namespace gimpm {
 struct DruckerPragerCone {
 	double friction, dilation, strength; ///< [-], [-], [Pa]
 
+	using Match = DruckerPragerCone (*)(double cohesion, double frictionAngle, double dilationAngle);
+	Match  match;                                  ///< the one that made it
+	double cohesion, frictionAngle, dilationAngle; ///< from these
+
 	/// The same strength in plane strain, for any dilation: flow without strain out of the plane fixes the stress there, on which the share of
 	/// friction in the plane depends. The customary 3 tan phi / sqrt(9 + 12 tan^2 phi) is the case of associated flow.
 	static DruckerPragerCone planeStrain(double cohesion, double frictionAngle, double dilationAngle)
 	{
 		const double s = std::sin(frictionAngle), q = std::sin(dilationAngle), dilation = 3 * q / std::sqrt(9 + 3 * q * q);
 		const double factor = 1 / (std::sqrt(1 - dilation * dilation / 3) + dilation * s / 3);
-		return { frictionAngle == dilationAngle ? dilation : factor * s, dilation, factor * std::cos(frictionAngle) * cohesion };
+		return { frictionAngle == dilationAngle ? dilation : factor * s,
+			 dilation,
+			 factor * std::cos(frictionAngle) * cohesion,
+			 &planeStrain,
+			 cohesion,
+			 frictionAngle,
+			 dilationAngle };
 	}
 	/// The same strength in triaxial compression, and in triaxial extension: the outer and the inner edges of the pyramid.
 	static DruckerPragerCone compression(double cohesion, double frictionAngle, double dilationAngle)
 	{
-		return triaxial(cohesion, frictionAngle, dilationAngle, -1);
+		return triaxial(cohesion, frictionAngle, dilationAngle, -1, &compression);
 	}
 	static DruckerPragerCone extension(double cohesion, double frictionAngle, double dilationAngle)
 	{
-		return triaxial(cohesion, frictionAngle, dilationAngle, 1);
+		return triaxial(cohesion, frictionAngle, dilationAngle, 1, &extension);
 	}
 
 private:
-	static DruckerPragerCone triaxial(double cohesion, double frictionAngle, double dilationAngle, int sign)
+	static DruckerPragerCone triaxial(double cohesion, double frictionAngle, double dilationAngle, int sign, Match match)
 	{
 		const auto factor = [sign](double angle) { return 6 / (std::sqrt(3.) * (3 + sign * std::sin(angle))); };
-		return { factor(frictionAngle) * std::sin(frictionAngle), factor(dilationAngle) * std::sin(dilationAngle),
-			 factor(frictionAngle) * std::cos(frictionAngle) * cohesion };
+		return { factor(frictionAngle) * std::sin(frictionAngle),
+			 factor(dilationAngle) * std::sin(dilationAngle),
+			 factor(frictionAngle) * std::cos(frictionAngle) * cohesion,
+			 match,
+			 cohesion,
+			 frictionAngle,
+			 dilationAngle };
 	}
 };
 
@@ -43,13 +58,18 @@ public:
 	/// 0 <= dilation <= friction of the cone, strength >= 0, one of friction and strength not zero. The mean stress reaches no more than
 	/// tensileStrength >= 0 [Pa], which is of use below the apex.
 	DruckerPrager(double young, double poisson, const DruckerPragerCone& cone, double tensileStrength = std::numeric_limits<double>::infinity())
-	        : elastic_(young, poisson), cone_(cone)
+	        : elastic_(young, poisson), cone_(cone), tension_(tensileStrength)
 	{
 		const double apex = cone.friction > 0 ? cone.strength / cone.friction : std::numeric_limits<double>::infinity();
 		mostMean_         = std::min(apex, tensileStrength);
 		radius_           = tensileStrength < apex ? cone.strength - cone.friction * tensileStrength : 0;
 		inverse_          = 1 / (elastic_.shear() + elastic_.bulk() * cone.friction * cone.dilation);
 	}
+
+	/// What may differ from point to point: Young's modulus, cohesion, frictionAngle, dilationAngle, tensileStrength.
+	using Parameters = std::array<double, 5>;
+	Parameters    parameters() const { return { elastic_.young(), cone_.cohesion, cone_.frictionAngle, cone_.dilationAngle, tension_ }; }
+	DruckerPrager with(const Parameters& p) const { return { p[0], elastic_.poisson(), cone_.match(p[1], p[2], p[3]), p[4] }; }
 
 	static constexpr std::array<InternalVariable, 1> variables { equivalentPlasticStrain };
 	static constexpr bool                            mayFail = false;
@@ -139,6 +159,7 @@ private:
 
 	Hencky            elastic_;
 	DruckerPragerCone cone_;
+	double            tension_;                     ///< as given
 	double            mostMean_, radius_, inverse_; ///< of the mean stress; sqrt(J2) that the cone has there; of G + K eta eta_g
 };
 

@@ -9,14 +9,20 @@ namespace gimpm {
 class Hencky {
 public:
 	/// young > 0 [Pa], -1 < poisson < 0.5.
-	Hencky(double young, double poisson) : young_(young), bulk_(young / (3 * (1 - 2 * poisson))), shear_(young / (2 * (1 + poisson))) { }
+	Hencky(double young, double poisson) : young_(young), poisson_(poisson), bulk_(young / (3 * (1 - 2 * poisson))), shear_(young / (2 * (1 + poisson))) { }
 
 	static constexpr std::array<InternalVariable, 0> variables {};
 	static constexpr bool                            mayFail = false;
 
+	/// What may differ from point to point: Young's modulus.
+	using Parameters = std::array<double, 1>;
+	Parameters parameters() const { return { young_ }; }
+	Hencky     with(const Parameters& p) const { return { p[0], poisson() }; }
+
 	std::array<double, 0> initialInternals() const { return {}; }
 
 	double young(const std::array<double, 0>& = {}) const { return young_; }
+	double poisson() const { return poisson_; }
 	double bulk() const { return bulk_; }
 	double shear() const { return shear_; }
 
@@ -46,7 +52,7 @@ public:
 	}
 
 private:
-	double young_, bulk_, shear_;
+	double young_, poisson_, bulk_, shear_;
 };
 
 } // namespace gimpm

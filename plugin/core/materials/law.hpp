@@ -4,6 +4,8 @@
 // A law declares its internal `variables`, their values at first (initialInternals), whether it `mayFail`, that is, has strains without an
 // answer; and it answers with young() and respond(), which are given the values of those variables at the start of the step, in this order.
 // young() may ask for the elastic volumetric strain too. A law whose tangent is not always symmetric says isSymmetric(); the others need not.
+// A law of which strengths or moduli may differ from point to point has them as an array of `Parameters`: parameters() are its own, and with() is
+// the same law with others.
 #pragma once
 #include "core/materials/cam_clay.hpp"
 #include "core/materials/drucker_prager.hpp"
@@ -85,19 +87,53 @@ auto youngOf(const L& law, const Internals& internals, F&& volumetricStrain, int
 }
 template <class L, class Internals, class F> double youngOf(const L& law, const Internals& internals, F&&, long) { return law.young(internals); }
 
+/// How many parameters of a law may differ from point to point.
+template <class L> constexpr auto        countOfParameters(int) -> decltype(typename L::Parameters().size()) { return typename L::Parameters().size(); }
+template <class L> constexpr std::size_t countOfParameters(long) { return 0; }
+
+/// Those of the law itself.
+inline std::vector<double> parametersOf(const Law& law)
+{
+	return withLaw(law, [](const auto& l) {
+		std::vector<double> values;
+		if constexpr (countOfParameters<std::decay_t<decltype(l)>>(0) > 0)
+			for (const double value : l.parameters())
+				values.push_back(value);
+		return values;
+	});
+}
+
 struct Material {
 	Law    law;
-	double density; ///< initial density [kg/m3]
+	double density;        ///< initial density [kg/m3]
+	bool   varies = false; ///< points have parameters of their own
 
-	/// Young's modulus [Pa] of a point with these internal variables; volumetricStrain() gives its elastic volumetric strain to the laws that ask for it.
-	template <class F> double young(const InternalColumns& columns, std::size_t point, F&& volumetricStrain) const
+	/// f(the law of a point): that of the material, with the parameters that the point has.
+	template <class F> auto withLawOf(const ParameterColumns& parameters, std::size_t point, F&& f) const
 	{
-		return withLaw(law, [&](const auto& l) { return youngOf(l, internalsOf(l, columns, point), volumetricStrain, 0); });
+		return withLaw(law, [&](const auto& l) {
+			using L = std::decay_t<decltype(l)>;
+			if constexpr (countOfParameters<L>(0) > 0)
+				if (varies) {
+					auto values = l.parameters();
+					for (std::size_t k = 0; k < std::min(values.size(), parameters.size()); ++k)
+						if (!parameters[k].empty()) values[k] = parameters[k][point];
+					return f(l.with(values));
+				}
+			return f(l);
+		});
 	}
-	/// The same without elastic strain.
+
+	/// Young's modulus [Pa] of a point with these parameters and internal variables; volumetricStrain() gives its elastic volumetric strain to the laws
+	/// that ask for it.
+	template <class F> double young(const ParameterColumns& parameters, const InternalColumns& columns, std::size_t point, F&& volumetricStrain) const
+	{
+		return withLawOf(parameters, point, [&](const auto& l) { return youngOf(l, internalsOf(l, columns, point), volumetricStrain, 0); });
+	}
+	/// The same without elastic strain, by the parameters of the material.
 	double young(const InternalColumns& columns, std::size_t point) const
 	{
-		return young(columns, point, [] { return 0.; });
+		return young({}, columns, point, [] { return 0.; });
 	}
 };
 
@@ -105,11 +141,17 @@ struct Material {
 template <class L> auto isSymmetric(const L& law, int) -> decltype(law.isSymmetric()) { return law.isSymmetric(); }
 template <class L> bool isSymmetric(const L&, long) { return true; }
 
-/// Whether the laws of all of these have symmetric tangents, and so a stiffness that is symmetric.
-inline bool areSymmetric(const std::vector<Material>& materials)
+/// Whether the laws of all of these points have symmetric tangents, and so a stiffness that is symmetric.
+inline bool areSymmetric(const std::vector<Material>& materials, const std::vector<int>& material, const ParameterColumns& parameters)
 {
-	const auto is = [](const Material& m) { return withLaw(m.law, [](const auto& law) { return isSymmetric(law, 0); }); };
-	return std::all_of(materials.begin(), materials.end(), is);
+	const auto is
+	        = [&](const Material& m, std::size_t point) { return m.withLawOf(parameters, point, [](const auto& law) { return isSymmetric(law, 0); }); };
+	for (const Material& m : materials)
+		if (!m.varies && !is(m, 0)) return false;
+	if (parameters.empty()) return true;
+	for (std::size_t p = 0; p < material.size(); ++p)
+		if (const Material& m = materials[material[p]]; m.varies && !is(m, p)) return false;
+	return true;
 }
 
 /// Makes the columns that the laws of these materials have variables for, and that are not there yet, for so many points, of zeros.

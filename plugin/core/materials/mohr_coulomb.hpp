@@ -15,7 +15,11 @@ public:
 	/// cohesion >= 0 [Pa] and 0 <= dilationAngle <= frictionAngle < pi/2; one of cohesion and friction is not zero. tensileStrength >= 0 [Pa] is of use
 	/// below the stress of the apex.
 	MohrCoulomb(double young, double poisson, double cohesion, double frictionAngle, double dilationAngle, double tensileStrength = infinite)
-	        : elastic_(young, poisson), k_(ratioOf(frictionAngle)), m_(ratioOf(dilationAngle)), strength_(2 * cohesion * std::sqrt(k_))
+	        : elastic_(young, poisson)
+	        , given_ { young, cohesion, frictionAngle, dilationAngle, tensileStrength }
+	        , k_(ratioOf(frictionAngle))
+	        , m_(ratioOf(dilationAngle))
+	        , strength_(2 * cohesion * std::sqrt(k_))
 	{
 		apex_    = k_ > 1 ? strength_ / (k_ - 1) : infinite;
 		isCut_   = tensileStrength < apex_;
@@ -29,6 +33,11 @@ public:
 
 	/// Without friction; the undrained strength [Pa] is half of the largest difference of principal stresses.
 	static MohrCoulomb tresca(double young, double poisson, double undrainedStrength) { return { young, poisson, undrainedStrength, 0, 0 }; }
+
+	/// What may differ from point to point: Young's modulus, cohesion, frictionAngle, dilationAngle, tensileStrength.
+	using Parameters = std::array<double, 5>;
+	Parameters  parameters() const { return given_; }
+	MohrCoulomb with(const Parameters& p) const { return { p[0], elastic_.poisson(), p[1], p[2], p[3], p[4] }; }
 
 	static constexpr std::array<InternalVariable, 1> variables { equivalentPlasticStrain };
 	static constexpr bool                            mayFail = false;
@@ -224,6 +233,7 @@ private:
 	}
 
 	Hencky        elastic_;
+	Parameters    given_;
 	double        k_, m_, strength_, apex_, cut_, remote_; ///< remote_: t3 that yields with t1 = cut_
 	bool          isCut_;
 	Plane<double> main_, right_, left_, tension_;

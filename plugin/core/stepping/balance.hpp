@@ -56,8 +56,8 @@ private:
 	double of(int i, double strain) const
 	{
 		const auto&  points = system_.points;
-		const double young
-		        = system_.model.materials[points.material[i]].young(points.internals, i, [&] { return volumetricStrain(points.leftCauchyGreen[i]); });
+		const double young  = system_.model.materials[points.material[i]].young(
+		         points.parameters, points.internals, i, [&] { return volumetricStrain(points.leftCauchyGreen[i]); });
 		return points.volume0[i] * young * strain / system_.model.grid.cellSize;
 	}
 	const StepSystem<Dim>& system_;

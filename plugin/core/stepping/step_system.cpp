@@ -18,7 +18,7 @@ std::vector<GhostFace<Dim>> stabilise(const PointCloud<Dim>& cloud, const Model<
 	report.ghostFaces        = int(faces.size());
 	const auto stiffnessOf   = [&](int p) {
                 const auto&  material = model.materials[cloud.material[p]];
-                const double young    = material.young(cloud.internals, p, [&] { return cloud.elasticStrain[p].full().trace(); });
+                const double young    = material.young(cloud.parameters, cloud.internals, p, [&] { return cloud.elasticStrain[p].full().trace(); });
                 return VolumeAndModulus { cloud.volume0[p] * cloud.volumeRatio(p), young };
 	};
 	weighGhostFaces(faces, basis, stiffnessOf, model.grid, model.ghost.factor, model.ghost.scaling);

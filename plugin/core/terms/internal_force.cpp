@@ -13,6 +13,10 @@ template <int Dim> StepPoints<Dim> stepPoints(const PointCloud<Dim>& cloud, cons
 	s.volume0.resize(n);
 	s.material.resize(n);
 	provideInternals(s.internals, materials, n);
+	s.parameters.resize(cloud.parameters.size());
+	for (std::size_t c = 0; c < s.parameters.size(); ++c)
+		for (const int p : basis.order)
+			if (!cloud.parameters[c].empty()) s.parameters[c].push_back(cloud.parameters[c][p]);
 #pragma omp parallel for
 	for (int i = 0; i < n; ++i) {
 		const int p          = basis.order[i];
@@ -21,6 +25,7 @@ template <int Dim> StepPoints<Dim> stepPoints(const PointCloud<Dim>& cloud, cons
 		s.material[i]        = cloud.material[p];
 		withLaw(materials[s.material[i]].law, [&](const auto& law) { storeInternals(law, internalsOf(law, cloud.internals, p), s.internals, i); });
 	}
+	s.isSymmetric = areSymmetric(materials, s.material, s.parameters);
 	if (fBar) s.centres = basisAtCentres(cloud, basis);
 	if (fBar && basis.isAxisymmetric()) s.hoopCentres = hoopAtCentres(cloud, basis);
 	return s;

@@ -13,6 +13,8 @@ template <int Dim> struct StepPoints {
 	std::vector<double>          volume0;
 	std::vector<int>             material;
 	InternalColumns              internals;
+	ParameterColumns             parameters;
+	bool                         isSymmetric = true; ///< the tangents of their laws
 	std::vector<PointBasis<Dim>> centres;     ///< only with F-bar (core/terms/fbar.hpp): basis functions with the gradients at the centres of the cells
 	std::vector<AxisValues>      hoopCentres; ///< and those of the hoop strain, around an axis of symmetry
 
@@ -29,6 +31,9 @@ template <int Dim> struct StepPoints {
 		internals.resize(from.internals.size());
 		for (std::size_t c = 0; c < internals.size(); ++c)
 			if (!from.internals[c].empty()) internals[c].push_back(from.internals[c][i]);
+		parameters.resize(from.parameters.size());
+		for (std::size_t c = 0; c < parameters.size(); ++c)
+			if (!from.parameters[c].empty()) parameters[c].push_back(from.parameters[c][i]);
 	}
 };
 
@@ -55,7 +60,7 @@ public:
 	{
 		return addInternalForce(basis_, points_, materials_, d, sum);
 	}
-	bool isSymmetric() const override { return areSymmetric(materials_); }
+	bool isSymmetric() const override { return points_.isSymmetric; }
 
 private:
 	const CloudBasis<Dim>&       basis_;

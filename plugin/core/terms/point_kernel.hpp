@@ -4,6 +4,7 @@
 #pragma once
 #include "core/materials/kinematics.hpp"
 #include "core/terms/internal_force.hpp"
+#include "core/terms/varying_law.hpp"
 
 namespace gimpm {
 
@@ -208,7 +209,7 @@ template <int Dim, int Axes> GIMPM_INLINE SymTensor<Dim, Lanes> pushForward(cons
 
 /// Response of points to the gradient of the incremental displacement.
 template <int Dim> struct BatchResponse {
-	using OfLaw = ResponseWith<Lanes, LawTraits<Law>::mostVariables>;
+	using OfLaw = LanesOfLaws;
 
 	Principal<Dim, Lanes>  trial; ///< of b - 1
 	PrincipalValues<Lanes> strain;
@@ -219,12 +220,12 @@ template <int Dim> struct BatchResponse {
 	        const Batch& batch, const StepPoints<Dim>& points, const std::vector<Material>& materials, const Increment<Dim, Axes>& increment)
 	        : trial(principal(pushForward(leftCauchyGreen(batch, points), increment))), strain(logStrain(trial.value))
 	{
-		respond(materials[points.material[batch.point[0]]], batch, points.internals, law);
+		respond(materials[points.material[batch.point[0]]], batch, points, law);
 		for (int lane = 1; lane < Lanes::count; ++lane) { // seldom: another material among them
 			const int material = points.material[batch.point[lane]];
 			if (material == points.material[batch.point[lane - 1]]) continue;
 			OfLaw other;
-			respond(materials[material], batch, points.internals, other);
+			respond(materials[material], batch, points, other);
 			for (int l = lane; l < Lanes::count; ++l) {
 				law.takeLane(l, other);
 				if constexpr (LawTraits<Law>::mayFail) law.failed.v[l] = other.failed[l];
@@ -241,13 +242,14 @@ private:
 		return b1;
 	}
 	/// In the lanes of other materials there are any numbers.
-	GIMPM_INLINE void respond(const Material& material, const Batch& batch, const InternalColumns& columns, OfLaw& response) const
+	GIMPM_INLINE void respond(const Material& material, const Batch& batch, const StepPoints<Dim>& points, OfLaw& response) const
 	{
+		if (material.varies) return respondOneByOne(material, points.parameters, points.internals, batch.point, strain, response);
 		withLaw(material.law, [&](const auto& l) GIMPM_INLINE_LAMBDA {
 			using L = std::decay_t<decltype(l)>;
 			std::array<Lanes, L::variables.size()> internals;
 			for (std::size_t k = 0; k < internals.size(); ++k) {
-				const double* column = columns[columnOf<L>(k)].data();
+				const double* column = points.internals[columnOf<L>(k)].data();
 				internals[k]         = batch.load([&](int p) GIMPM_INLINE_LAMBDA { return column[p]; });
 			}
 			response.take(l.template respond<Lanes>(strain, internals));

@@ -37,7 +37,7 @@ template <int Dim> struct Pass {
 	const std::vector<Material>& materials;
 	const Eigen::VectorXd&       d;
 	const TermSum<Dim>&          sum;
-	const bool                   isSymmetric = areSymmetric(materials);
+	const bool                   isSymmetric = points.isSymmetric;
 };
 
 /// A failure as a number, which is the smaller the smaller the index of its point is.

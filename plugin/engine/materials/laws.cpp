@@ -19,14 +19,34 @@ namespace {
 	struct LawOfClass {
 		std::function<gimpm::Law(const MpmMaterial&)> make;
 		vector<gimpm::InternalVariable>               variables;
+
+		std::function<shared_ptr<MpmMaterial>(const MpmMaterial&)> copy;
+		vector<ParameterOfClass>                                   parameters;
 	};
 
-	// The law that make(material of class M) returns.
-	template <class M, class Make> std::pair<const std::type_index, LawOfClass> entry(Make make)
+	// The law that make(material of class M) returns, and the members that are its parameters, in its order; others that it has stay the same.
+	template <class M, class Make, class... Members>
+	std::pair<const std::type_index, LawOfClass> entry(Make make, const std::pair<const char*, Members>&... parameters)
 	{
 		using Law = decltype(make(std::declval<const M&>()));
+		static_assert(sizeof...(Members) <= gimpm::countOfParameters<Law>(0));
+		const auto of = [](const auto& parameter) {
+			return ParameterOfClass { parameter.first,
+				                  [member = parameter.second](MpmMaterial& m) -> Real& { return static_cast<M&>(m).*member; } };
+		};
 		return { typeid(M),
-			 { [make](const MpmMaterial& m) { return make(static_cast<const M&>(m)); }, { Law::variables.begin(), Law::variables.end() } } };
+			 { [make](const MpmMaterial& m) { return make(static_cast<const M&>(m)); },
+			   { Law::variables.begin(), Law::variables.end() },
+			   [](const MpmMaterial& m) -> shared_ptr<MpmMaterial> { return shared_ptr<MpmMaterial>(new M(static_cast<const M&>(m))); },
+			   { of(parameters)... } } };
+	}
+
+	template <class M, class Make> auto frictional(Make make)
+	{
+		return entry<M>(
+		        make, std::pair("young", &MpmElasticMat::young), std::pair("cohesion", &MpmFrictionalMat::cohesion),
+		        std::pair("frictionAngle", &MpmFrictionalMat::frictionAngle), std::pair("dilationAngle", &MpmFrictionalMat::dilationAngle),
+		        std::pair("tensileStrength", &MpmFrictionalMat::tensileStrength));
 	}
 
 	gimpm::DruckerPrager druckerPrager(const MpmDruckerPragerMat& m)
@@ -39,18 +59,26 @@ namespace {
 	const std::unordered_map<std::type_index, LawOfClass>& laws()
 	{
 		static const std::unordered_map<std::type_index, LawOfClass> all {
-			entry<MpmElasticMat>([](const MpmElasticMat& m) { return gimpm::Hencky(m.young, m.poisson); }),
+			entry<MpmElasticMat>(
+			        [](const MpmElasticMat& m) { return gimpm::Hencky(m.young, m.poisson); }, std::pair("young", &MpmElasticMat::young)),
 			entry<MpmVonMisesMat>(
-			        [](const MpmVonMisesMat& m) { return gimpm::VonMises(m.young, m.poisson, m.yieldStress, m.hardening, m.residualYieldStress); }),
-			entry<MpmTrescaMat>([](const MpmTrescaMat& m) { return gimpm::MohrCoulomb::tresca(m.young, m.poisson, m.undrainedStrength); }),
-			entry<MpmMohrCoulombMat>([](const MpmMohrCoulombMat& m) {
+			        [](const MpmVonMisesMat& m) { return gimpm::VonMises(m.young, m.poisson, m.yieldStress, m.hardening, m.residualYieldStress); },
+			        std::pair("young", &MpmElasticMat::young), std::pair("yieldStress", &MpmVonMisesMat::yieldStress),
+			        std::pair("hardening", &MpmVonMisesMat::hardening), std::pair("residualYieldStress", &MpmVonMisesMat::residualYieldStress)),
+			entry<MpmTrescaMat>(
+			        [](const MpmTrescaMat& m) { return gimpm::MohrCoulomb::tresca(m.young, m.poisson, m.undrainedStrength); },
+			        std::pair("young", &MpmElasticMat::young), std::pair("undrainedStrength", &MpmTrescaMat::undrainedStrength)),
+			frictional<MpmMohrCoulombMat>([](const MpmMohrCoulombMat& m) {
 			        return gimpm::MohrCoulomb(m.young, m.poisson, m.cohesion, m.frictionAngle, m.dilationAngle, m.tensileStrength);
 			}),
-			entry<MpmDruckerPragerMat>(druckerPrager),
-			entry<MpmCamClayMat>([](const MpmCamClayMat& m) {
-			        return gimpm::CamClay(
-			                m.shearModulus, m.criticalStateRatio, m.compressionIndex, m.swellingIndex, m.preconsolidation, m.referencePressure);
-			}),
+			frictional<MpmDruckerPragerMat>(druckerPrager),
+			entry<MpmCamClayMat>(
+			        [](const MpmCamClayMat& m) {
+			                return gimpm::CamClay(
+			                        m.shearModulus, m.criticalStateRatio, m.compressionIndex, m.swellingIndex, m.preconsolidation,
+			                        m.referencePressure);
+			        },
+			        std::pair("shearModulus", &MpmCamClayMat::shearModulus), std::pair("criticalStateRatio", &MpmCamClayMat::criticalStateRatio)),
 		};
 		return all;
 	}
@@ -63,6 +91,15 @@ gimpm::Material coreMaterial(const MpmMaterial& material)
 	if (law == laws().end()) throw std::invalid_argument("Material class " + material.getClassName() + " has no constitutive law.");
 	return { law->second.make(material), material.density };
 }
+
+const vector<ParameterOfClass>& parametersOf(const MpmMaterial& material)
+{
+	static const vector<ParameterOfClass> none;
+	const auto                            law = laws().find(typeid(material));
+	return law == laws().end() ? none : law->second.parameters;
+}
+
+shared_ptr<MpmMaterial> copyOf(const MpmMaterial& material) { return laws().at(typeid(material)).copy(material); }
 
 vector<gimpm::InternalVariable> variablesOf(const MpmMaterial& material)
 {

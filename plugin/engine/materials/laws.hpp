@@ -2,12 +2,18 @@
 #pragma once
 // The table that pairs the material classes with the core's constitutive laws.
 #include "core/materials/law.hpp"
-#include "engine/materials/MpmMaterial.hpp"
+#include "engine/materials/parameters.hpp"
 
 namespace yade {
 
 // std::invalid_argument if the material's values are not admissible or its class has no law.
 gimpm::Material coreMaterial(const MpmMaterial&);
+
+// Of the class of the material: what may differ from point to point, in the order of its law; none for other classes.
+const vector<ParameterOfClass>& parametersOf(const MpmMaterial&);
+
+// Of the same class and with the same values. The class has a law.
+shared_ptr<MpmMaterial> copyOf(const MpmMaterial&);
 
 // Of the law that belongs to the class of the material; none for other classes.
 vector<gimpm::InternalVariable> variablesOf(const MpmMaterial&);

@@ -163,8 +163,8 @@ VtkCells pointDomains(const vector<MaterialPoint>& points, const Scene& scene, c
 		}
 	const auto cells          = domains.dataSet();
 	const auto turnsOfSectors = turns(sectors);
-	for (const PointColumn& column : pointColumns())
-		if (column.is(PointColumn::inVtk) && column.isOf(points)) addColumn(*cells, column, points, scene, turnsOfSectors);
+	for (const PointColumn* column : columnsOf(points))
+		if (column->is(PointColumn::inVtk)) addColumn(*cells, *column, points, scene, turnsOfSectors);
 	vector<char> clamped;
 	for (const MaterialPoint& p : points)
 		clamped.insert(clamped.end(), std::max(1, sectors), deform && (dim == 2 ? isClamped<2>(p, grid.cellSize) : isClamped<3>(p, grid.cellSize)));

@@ -13,17 +13,28 @@ namespace {
 	}
 }
 
-const Real* MpmState::find(std::string_view name) const
+const Real* MpmState::find(const Entries& entries, std::string_view name)
 {
-	const auto found = std::find_if(internals.begin(), internals.end(), named(name));
-	return found == internals.end() ? nullptr : &found->second;
+	const auto found = std::find_if(entries.begin(), entries.end(), named(name));
+	return found == entries.end() ? nullptr : &found->second;
 }
 
-void MpmState::store(std::string_view name, Real value)
+void MpmState::setEntry(Entries& entries, std::string_view name, Real value)
 {
-	if (const auto found = std::find_if(internals.begin(), internals.end(), named(name)); found != internals.end()) found->second = value;
+	if (const auto found = std::find_if(entries.begin(), entries.end(), named(name)); found != entries.end()) found->second = value;
 	else
-		internals.emplace_back(name, value);
+		entries.emplace_back(name, value);
+}
+
+const Real* MpmState::parameter(std::string_view name) const { return find(parameters, name); }
+
+// Which numbers a class of materials admits, is looked at where the class is known.
+bool MpmState::areParameters(const OwnParameters& entries)
+{
+	std::set<std::string_view> names;
+	return std::all_of(entries.begin(), entries.end(), [&](const auto& entry) {
+		return isParameter(entry.first) && !std::isnan(entry.second) && names.insert(entry.first).second;
+	});
 }
 
 bool MpmState::areInternals(const vector<std::pair<string, Real>>& entries)

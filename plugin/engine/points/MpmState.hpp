@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 #include "core/materials/internal_variable.hpp"
+#include "engine/materials/parameters.hpp"
 #include "yade_api/registration.hpp"
 #include <string_view>
 
@@ -16,6 +17,7 @@ public:
 	Real                            volume0       = std::numeric_limits<Real>::quiet_NaN(); // must be given
 	Real                            plasticStrain = 0;
 	vector<std::pair<string, Real>> internals; // of the law's variables those that are no attribute here
+	OwnParameters                   parameters;
 
 	YADE_API_NAME(MpmState)
 	static const char* doc()
@@ -49,20 +51,31 @@ public:
 		v("internals", &MpmState::internals, 0,
 		  "Internal variables of the law but for *plasticStrain*: pairs of name and value; without a pair, the initial value. mpm.arrays and mpm.assign have a column for each.",
 		  admitting("pairs of the name of an internal variable, each once, and a value that it admits", areInternals));
+		v("parameters", &MpmState::parameters, 0,
+		  "Strengths and moduli of the point instead of its material's: pairs of name and value. mpm.assign and mpm.fill check them; set here, the next step does.",
+		  admitting("pairs of the name of a strength or modulus, each once, and a number", areParameters));
 	}
 
 	// Position and initial position belong to YADE's State, which admits every number.
 	void requireAdmissible() const override;
 
 	// Of an internal variable of the point's law; null while it has its initial value.
-	const Real* internal(std::string_view name) const { return name == ownAttribute ? &plasticStrain : find(name); }
+	const Real* internal(std::string_view name) const { return name == ownAttribute ? &plasticStrain : find(internals, name); }
 	void        setInternal(std::string_view name, Real value)
 	{
 		if (name == ownAttribute) plasticStrain = value;
 		else
-			store(name, value);
+			setEntry(internals, name, value);
 	}
 
+	// A parameter of its own; null: that of the material.
+	const Real* parameter(std::string_view name) const;
+	void        setParameter(std::string_view name, Real value) { setEntry(parameters, name, value); }
+
+	using Entries = vector<std::pair<string, Real>>;
+	static void setEntry(Entries&, std::string_view name, Real value);
+
+	static bool areParameters(const OwnParameters&);
 	static bool areInternals(const vector<std::pair<string, Real>>&);
 	static bool isSymmetric(const Matrix3r&); // to round-off
 	static bool preservesOrientation(const Matrix3r&);
@@ -70,8 +83,7 @@ public:
 private:
 	static constexpr std::string_view ownAttribute = gimpm::equivalentPlasticStrain.name;
 
-	const Real* find(std::string_view name) const;
-	void        store(std::string_view name, Real value);
+	static const Real* find(const Entries&, std::string_view name);
 };
 
 } // namespace yade

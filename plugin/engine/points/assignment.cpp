@@ -8,6 +8,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <memory>
+#include <optional>
 #include <unordered_map>
 
 namespace yade {
@@ -42,6 +43,18 @@ namespace {
 			for (const auto& [column, values] : columns)
 				if (const auto* variable = column->variable; variable && !variable->admits(values->data()[row]))
 					throw std::invalid_argument(refusalOf(*variable, values->data()[row]));
+		}
+		// Of a point that is given these.
+		OwnParameters parametersOf(const MpmState& state, size_t row) const
+		{
+			OwnParameters parameters = state.parameters;
+			for (const Given& given : columns)
+				if (given.column->isParameter) MpmState::setEntry(parameters, given.column->name, *given.at(row));
+			return parameters;
+		}
+		bool haveParameters() const
+		{
+			return std::any_of(columns.begin(), columns.end(), [](const Given& given) { return given.column->isParameter; });
 		}
 		bool haveInternals() const
 		{
@@ -132,6 +145,26 @@ namespace {
 		return v;
 	}
 
+	// The core's material of each point.
+	class Materials {
+	public:
+		const gimpm::Material& of(const MaterialPoint& point, const Columns& columns, size_t row)
+		{
+			const MpmMaterial& material = *point.material;
+			if (point.state->parameters.empty() && !columns.haveParameters()) {
+				const auto found = shared.find(&material);
+				return (found != shared.end() ? found : shared.emplace(&material, coreMaterial(material)).first)->second;
+			}
+			last.emplace(coreMaterial(ownMaterial.of(material, columns.parametersOf(*point.state, row))));
+			return *last;
+		}
+
+	private:
+		std::unordered_map<const MpmMaterial*, gimpm::Material> shared;
+		OwnMaterial                                             ownMaterial;
+		std::optional<gimpm::Material>                          last;
+	};
+
 	const MaterialPoint& pointWith(Body::id_t id, const vector<MaterialPoint>& points)
 	{
 		const auto found = std::lower_bound(points.begin(), points.end(), id, [](const MaterialPoint& p, Body::id_t i) { return p.id < i; });
@@ -149,14 +182,11 @@ void assignColumns(const py::object& ids, const py::dict& given)
 	const Column<int64_t> rows(ids, "ids");
 	const Columns         columns(given, rows.size());
 	vector<Values>        values;
-
-	std::unordered_map<const MpmMaterial*, gimpm::Material> materials;
+	Materials             materials;
 	for (size_t row = 0; row < rows.size(); ++row) {
 		const MaterialPoint& point = pointWith(rows.data()[row], points);
 		try {
-			const auto& material = &*point.material;
-			if (!materials.count(material)) materials.emplace(material, coreMaterial(*material));
-			values.push_back(changed(point, columns, row, materials.at(material)));
+			values.push_back(changed(point, columns, row, materials.of(point, columns, row)));
 		} catch (const std::invalid_argument& error) {
 			throw std::invalid_argument("Body #" + std::to_string(point.id) + ": " + error.what());
 		}

@@ -4,6 +4,7 @@
 #include "engine/points/buffers.hpp"
 #include "engine/points/columns.hpp"
 #include "yade_api/logging.hpp"
+#include <memory>
 #include <unordered_map>
 
 namespace yade {
@@ -28,6 +29,37 @@ namespace {
 		body->flags &= ~Body::FLAG_BOUNDED;
 		return body;
 	}
+
+	// Columns of parameters of new points.
+	class ParameterColumns {
+	public:
+		ParameterColumns(const py::dict& given, size_t rows)
+		{
+			const py::list names = given.keys();
+			for (py::ssize_t i = 0; i < py::len(names); ++i) {
+				const string name = py::extract<string>(names[i]);
+				columns.emplace_back(name, std::make_unique<Column<Real>>(given[names[i]], name.c_str()));
+				if (columns.back().second->size() != rows) throw std::invalid_argument(name + " and index differ in length");
+			}
+		}
+		void give(const Body& body, const MpmMaterial& material, size_t row)
+		{
+			auto& state = static_cast<MpmState&>(*body.state);
+			for (const auto& [name, column] : columns)
+				state.setParameter(name, column->data()[row]);
+			try {
+				ownMaterial.of(material, state.parameters);
+			} catch (const std::invalid_argument& error) {
+				std::ostringstream text;
+				text << "at (" << state.pos[0] << ", " << state.pos[1] << ", " << state.pos[2] << "): " << error.what();
+				throw std::invalid_argument(text.str());
+			}
+		}
+
+	private:
+		vector<std::pair<string, std::unique_ptr<Column<Real>>>> columns;
+		OwnMaterial                                              ownMaterial;
+	};
 
 	// For so many numbers; the second is where they begin.
 	template <class T> std::pair<py::object, T*> newBytes(size_t numbers)
@@ -68,7 +100,8 @@ namespace {
 	}
 }
 
-py::list newBodies(const py::object& positions, const Vector3r& halfSize, const py::list& materials, const py::object& index, bool areRings)
+py::list newBodies(
+        const py::object& positions, const Vector3r& halfSize, const py::list& materials, const py::object& index, bool areRings, const py::dict& parameters)
 {
 	vector<shared_ptr<MpmMaterial>> known;
 	for (py::ssize_t i = 0; i < py::len(materials); ++i) {
@@ -78,11 +111,15 @@ py::list newBodies(const py::object& positions, const Vector3r& halfSize, const 
 	const Column<Real>    coordinates(positions, "positions");
 	const Column<int64_t> choice(index, "index");
 	if (coordinates.size() != 3 * choice.size()) throw std::invalid_argument("positions and index differ in length");
-	py::list bodies;
+	ParameterColumns own(parameters, choice.size());
+	py::list         bodies;
 	for (size_t i = 0; i < choice.size(); ++i) {
 		const Eigen::Map<const Vector3r> position(coordinates.data() + 3 * i);
 		const Real                       pi = 3.14159265358979323846, around = areRings ? pi * position[0] : halfSize[2];
-		bodies.append(newBody(position, Vector3r(halfSize[0], halfSize[1], around), known.at(choice.data()[i])));
+		const auto&                      material = known.at(choice.data()[i]);
+		const auto                       body     = newBody(position, Vector3r(halfSize[0], halfSize[1], around), material);
+		own.give(*body, *material, i);
+		bodies.append(body);
 	}
 	return bodies;
 }
@@ -101,9 +138,9 @@ py::dict columnsOfPoints(int mask, bool withDerived)
 	const Scene&    scene  = *Singleton<Omega>::instance().getScene();
 	const auto      points = materialPoints(scene, mask);
 	py::dict        columns;
-	for (const PointColumn& column : pointColumns())
-		if ((column.is(PointColumn::inArrays) || (withDerived && column.is(PointColumn::derived))) && column.isOf(points))
-			columns[column.name] = valuesOf(column, points, scene);
+	for (const PointColumn* column : columnsOf(points))
+		if (column->is(PointColumn::inArrays) || (withDerived && column->is(PointColumn::derived)))
+			columns[column->name] = valuesOf(*column, points, scene);
 	addMaterials(columns, points);
 	return columns;
 }

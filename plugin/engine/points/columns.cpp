@@ -2,6 +2,7 @@
 #include "engine/points/columns.hpp"
 #include "engine/materials/laws.hpp"
 #include <algorithm>
+#include <set>
 
 namespace yade {
 
@@ -70,6 +71,25 @@ namespace {
 		return { variable.name, variable.unit, variable.description, 1, false, arrays | vtk, get, set, &variable };
 	}
 
+	// Of the material, where the point has none of its own.
+	Real parameterOf(Point p, const char* name)
+	{
+		if (const Real* own = p.state->parameter(name)) return *own;
+		for (const ParameterOfClass& parameter : parametersOf(*p.material))
+			if (parameter.name == string(name)) return parameter.valueIn(*p.material);
+		return std::numeric_limits<Real>::quiet_NaN();
+	}
+	PointColumn parameter(const Parameter& of)
+	{
+		const char* name = of.name;
+		const auto  get  = [name](Points points, const Scene&, Real* to) {
+                        for (Point p : points)
+                                *to++ = parameterOf(p, name);
+		};
+		const auto set = [name](Point p, const Real* from) { p.state->setParameter(name, *from); };
+		return { name, of.unit, of.label, 1, false, arrays | vtk, get, set, nullptr, true };
+	}
+
 	Real meanStress(Point p) { return p.state->stress.trace() / 3; }
 
 	vector<PointColumn> makeColumns()
@@ -88,6 +108,8 @@ namespace {
 		};
 		for (const gimpm::InternalVariable& variable : gimpm::internalVariables)
 			columns.push_back(internal(variable));
+		for (const Parameter& of : allParameters())
+			columns.push_back(parameter(of));
 		columns.push_back(integer("material", arrays | vtk, [](Point p, const Scene& scene) { return p.materialIndex(scene); }));
 		columns.push_back(result("displacement", "m", "displacement", derived | vtk, [](Point p) { return Vector3r(p.state->pos - p.state->refPos); }));
 		columns.push_back(result("meanStress", "Pa", "mean stress", derived | vtk, &meanStress));
@@ -99,17 +121,22 @@ namespace {
 	}
 }
 
-bool PointColumn::isOf(const vector<MaterialPoint>& points) const
+vector<const PointColumn*> columnsOf(const vector<MaterialPoint>& points)
 {
-	if (!variable || name == gimpm::equivalentPlasticStrain.name) return true;
+	std::set<string>   names { gimpm::equivalentPlasticStrain.name };
 	const MpmMaterial* last = nullptr; // points of one material follow each other
 	for (const MaterialPoint& point : points) {
+		for (const auto& own : point.state->parameters)
+			names.insert(own.first);
 		if (point.material.get() == last) continue;
-		last                 = point.material.get();
-		const auto variables = variablesOf(*last);
-		if (std::any_of(variables.begin(), variables.end(), [&](const auto& v) { return v.name == name; })) return true;
+		last = point.material.get();
+		for (const auto& variable : variablesOf(*last))
+			names.insert(variable.name);
 	}
-	return false;
+	vector<const PointColumn*> columns;
+	for (const PointColumn& column : pointColumns())
+		if (!(column.variable || column.isParameter) || names.count(column.name)) columns.push_back(&column);
+	return columns;
 }
 
 const vector<PointColumn>& pointColumns()
@@ -131,14 +158,15 @@ py::list pointColumnsForPython()
 	for (const PointColumn& column : pointColumns()) {
 		if (!column.is(PointColumn::inArrays) && !column.is(PointColumn::derived)) continue;
 		py::dict entry;
-		entry["name"]       = column.name;
-		entry["unit"]       = column.unit;
-		entry["label"]      = column.label;
-		entry["width"]      = column.width;
-		entry["isInteger"]  = column.isInteger;
-		entry["isGiven"]    = bool(column.set);
-		entry["derived"]    = column.is(PointColumn::derived);
-		entry["isInternal"] = bool(column.variable);
+		entry["name"]        = column.name;
+		entry["unit"]        = column.unit;
+		entry["label"]       = column.label;
+		entry["width"]       = column.width;
+		entry["isInteger"]   = column.isInteger;
+		entry["isGiven"]     = bool(column.set);
+		entry["derived"]     = column.is(PointColumn::derived);
+		entry["isInternal"]  = bool(column.variable);
+		entry["isParameter"] = column.isParameter;
 		list.append(entry);
 	}
 	return list;

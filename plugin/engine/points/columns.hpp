@@ -21,21 +21,23 @@ struct PointColumn {
 	std::function<void(const vector<MaterialPoint>&, const Scene&, Real*)> get; // row by row
 	std::function<void(const MaterialPoint&, const Real*)>                 set; // none: a result
 
-	const gimpm::InternalVariable* variable = nullptr; // of laws; null: every point has it
+	const gimpm::InternalVariable* variable    = nullptr; // of laws; null: every point has it
+	bool                           isParameter = false;   // of laws: there where a point has its own
 
 	bool is(Use use) const { return uses & use; }
-
-	// Whether one of the points has it. The plastic strain is an attribute of all.
-	bool isOf(const vector<MaterialPoint>&) const;
 };
 
 // In the order of mpm.arrays.
 const vector<PointColumn>& pointColumns();
 
+// Those that one of the points has. The plastic strain is an attribute of all.
+vector<const PointColumn*> columnsOf(const vector<MaterialPoint>&);
+
 // Null: there is no such column.
 const PointColumn* findColumn(const string& name);
 
-// For Python: dicts with name, unit, label, width, isInteger, isGiven (to points, by mpm.assign), derived and isInternal (a variable of laws).
+// For Python: dicts with name, unit, label, width, isInteger, isGiven (to points, by mpm.assign), derived, isInternal (a variable of laws)
+// and isParameter (of laws).
 py::list pointColumnsForPython();
 
 } // namespace yade

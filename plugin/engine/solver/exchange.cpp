@@ -5,6 +5,7 @@
 #include "engine/points/parallel.hpp"
 #include "engine/solver/fit.hpp"
 #include <atomic>
+#include <set>
 #include <unordered_map>
 
 namespace yade {
@@ -51,6 +52,39 @@ namespace {
 		std::vector<gimpm::Material>&               list;
 		std::unordered_map<const MpmMaterial*, int> index;
 	};
+
+	// Makes the columns of parameters that points have of their own, and marks their materials.
+	template <int Dim> void provideParameters(const vector<MaterialPoint>& points, gimpm::Model<Dim>& model, gimpm::PointCloud<Dim>& cloud)
+	{
+		std::set<size_t> used; // numbers of parameters
+		for (size_t p = 0; p < points.size(); ++p) {
+			if (points[p].state->parameters.empty()) continue;
+			model.materials[cloud.material[p]].varies = true;
+			const auto& known                         = parametersOf(*points[p].material);
+			for (size_t k = 0; k < known.size(); ++k)
+				if (points[p].state->parameter(known[k].name)) used.insert(k);
+		}
+		for (const size_t k : used) {
+			cloud.parameters.resize(std::max(cloud.parameters.size(), k + 1));
+			cloud.parameters[k].assign(points.size(), 0);
+		}
+	}
+
+	// Of point p, the columns of which are there.
+	template <int Dim>
+	void gatherParameters(const MaterialPoint& point, const gimpm::Law& law, OwnMaterial& ownMaterial, gimpm::PointCloud<Dim>& cloud, size_t p)
+	{
+		try {
+			const MpmMaterial& material = ownMaterial.of(*point.material, point.state->parameters);
+			auto               values   = gimpm::parametersOf(law);
+			for (const ParameterOfClass& known : parametersOf(material))
+				values[&known - parametersOf(material).data()] = known.valueIn(material);
+			for (size_t k = 0; k < std::min(values.size(), cloud.parameters.size()); ++k)
+				if (!cloud.parameters[k].empty()) cloud.parameters[k][p] = values[k];
+		} catch (const std::invalid_argument& error) {
+			throw std::invalid_argument("Body #" + std::to_string(point.id) + ": " + error.what());
+		}
+	}
 
 	// Names and columns of the variables that points of this material have.
 	template <int Dim> vector<std::pair<std::string_view, const Real*>> internalsFor(const MpmMaterial& material, const gimpm::PointCloud<Dim>& cloud)
@@ -136,8 +170,10 @@ template <int Dim> gimpm::PointCloud<Dim> gather(const vector<MaterialPoint>& po
 	for (size_t p = 0; p < points.size(); ++p)
 		cloud.material[p] = materials.of(points[p]);
 	gimpm::provideInternals(cloud.internals, model.materials, points.size());
+	provideParameters(points, model, cloud);
 	std::atomic_bool hasForce { false };
 	inRanges(points.size(), [&](size_t begin, size_t end) {
+		OwnMaterial ownMaterial;
 		for (size_t p = begin; p < end; ++p) {
 			const MaterialPoint& point = points[p];
 			point.requireAdmissible(Dim, model.grid.axisymmetric);
@@ -152,6 +188,7 @@ template <int Dim> gimpm::PointCloud<Dim> gather(const vector<MaterialPoint>& po
 			cloud.elasticStrain[p] = gimpm::SymTensor<Dim>::from(point.state->elasticStrain);
 			cloud.stress[p]        = gimpm::SymTensor<Dim>::from(point.state->stress);
 			gatherInternals(point, model.materials[cloud.material[p]].law, cloud, p);
+			if (model.materials[cloud.material[p]].varies) gatherParameters(point, model.materials[cloud.material[p]].law, ownMaterial, cloud, p);
 			if (!point.state->force.isZero(0)) hasForce = true;
 		}
 	});

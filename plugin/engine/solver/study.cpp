@@ -3,7 +3,10 @@
 #include "core/base/stopwatch.hpp"
 #include "core/solvers/condition.hpp"
 #include "core/stepping/load_step.hpp"
+#include "core/stepping/strength_reduction.hpp"
 #include "core/stepping/workload.hpp"
+#include "engine/materials/MpmCamClayMat.hpp"
+#include "engine/materials/MpmElasticMat.hpp"
 #include "engine/solver/MpmImplicitEngine.hpp"
 #include "engine/solver/Threads.hpp"
 #include "engine/solver/exchange.hpp"
@@ -74,6 +77,56 @@ namespace {
 		return gimpm::conditionEstimate(K);
 	}
 
+	// Who has no strength that could be divided, and why.
+	void requireStrength(const vector<MaterialPoint>& points)
+	{
+		bool hasStrength = false;
+		for (const MaterialPoint& p : points) {
+			if (dynamic_cast<const MpmCamClayMat*>(p.material.get()))
+				throw std::invalid_argument(
+				        "Body #" + std::to_string(p.id) + " is of " + p.material->getClassName()
+				        + ", the strength of which follows from its preconsolidation and its volume: there is no single one that could be divided.");
+			hasStrength = hasStrength || typeid(*p.material) != typeid(MpmElasticMat);
+		}
+		if (!hasStrength) throw std::invalid_argument("all materials are elastic (MpmElasticMat): they carry any load.");
+	}
+
+	template <int Dim> gimpm::WeakBody<3> inSpace(const gimpm::WeakBody<Dim>& body)
+	{
+		gimpm::WeakBody<3> same { body.carries, body.reached, body.iterations, body.parts, body.cause, {}, body.plasticStrain };
+		for (const auto& u : body.displacement)
+			same.displacement.push_back({ u[0], u[1], Dim == 3 ? u[Dim - 1] : 0 });
+		return same;
+	}
+
+	py::dict weakened(MpmImplicitEngine& engine, Real factor)
+	{
+		if (!(factor > 0 && std::isfinite(factor)))
+			throw std::invalid_argument("factor = " + std::to_string(factor) + " is not admitted: expected a finite number > 0.");
+		requireStrength(materialPoints(*engine.ownScene(), engine.mask));
+		gimpm::WeakBody<3> found; // of either dimension
+		onCurrentState(engine, [&](const auto& cloud, const auto& model) {
+			constexpr int            Dim  = std::decay_t<decltype(cloud.position[0])>::RowsAtCompileTime;
+			const auto               load = engine.loadBetween<Dim>(engine.loadTime, engine.loadTime);
+			const gimpm::StepControl control(1, engine.newton->minStep, engine.newton->maxIterations);
+			gimpm::LinearSolver      solver;
+			found = inSpace(gimpm::reduceStrength(cloud, model, load, factor, control, solver));
+			return 0;
+		});
+		vector<Real> displacement;
+		for (const auto& u : found.displacement)
+			displacement.insert(displacement.end(), u.begin(), u.end());
+		py::dict d;
+		d["carries"]       = found.carries;
+		d["reached"]       = found.reached;
+		d["iterations"]    = found.iterations;
+		d["parts"]         = found.parts;
+		d["cause"]         = found.cause;
+		d["displacement"]  = numpyArray(displacement, "float64");
+		d["plasticStrain"] = numpyArray(found.plasticStrain, "float64");
+		return d;
+	}
+
 	py::dict workload(MpmImplicitEngine& engine)
 	{
 		// the quickest of three: other programs can only slow them down
@@ -125,6 +178,12 @@ void addStudyMethods(py::object pythonClass)
 	        "conditionEstimate() -> float\n\nEstimate [-] of the same, as a rule a few percent below it, for scenes of any size: Lanczos' method with the "
 	        "factor of the stiffness matrix, at the cost of a few Newton iterations. Infinite if the matrix is singular to working precision. Raises "
 	        "ValueError as a step does, and for a scene without unknowns.");
+	py::objects::add_to_namespace(
+	        pythonClass, "weakened", py::make_function(&weakened),
+	        "weakened(factor) -> dict\n\nWhether the body carries its load, with the strength of its points divided by a factor, from the current state and at "
+	        "small displacements: *carries*; *reached*: the factor of the last equilibrium; *displacement* (3N,) [m] and *plasticStrain* (N,) [-] of the points "
+	        "from the current state to there, in order of body id; *iterations*, *parts*, and *cause* of an end before the factor. The scene is left alone. "
+	        "mpm.strengthReduction looks for the factor of safety with it. Raises ValueError as a step does, and without a strength that could be divided.");
 	py::objects::add_to_namespace(
 	        pythonClass, "workload", py::make_function(&workload),
 	        "workload() -> dict\n\nSize of a load step from the current state, found by doing its parts, without load, and leaving the scene alone: points, "

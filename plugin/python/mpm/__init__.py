@@ -38,6 +38,7 @@ While it runs, one line tells how far it is (``verbosity`` of the engine); ``plo
 :func:`save`         the scene, whole or not at all
 :func:`advise`       what an analysis will cost, and what it could do without
 :func:`elementTest`  the curve of a laboratory test on a material; :func:`respond` is one call of its law
+:func:`strengthReduction`  factor of safety, as a bracket
 ===================  ==========================================================================================
 
 Units are SI; stress is positive in tension; strains are logarithmic; plane strain is per metre of thickness.
@@ -53,8 +54,9 @@ from .laboratory import elementTest, respond
 from .library import engine as _engine
 from .outline import polygon
 from .plotting import plot
+from .safety import strengthReduction
 from .surfaces import surface
 from .tables import export
 
 __version__ = _engine.version
-__all__ = ['polygon', 'fill', 'arrays', 'assign', 'geostatic', 'plot', 'colour', 'export', 'save', 'advise', 'elementTest', 'respond', 'surface']
+__all__ = ['polygon', 'fill', 'arrays', 'assign', 'geostatic', 'plot', 'colour', 'export', 'save', 'advise', 'elementTest', 'respond', 'strengthReduction', 'surface']

@@ -6,7 +6,7 @@ import numpy as np
 from yade import wrapper
 
 from .analysis import noPoints, solverOf
-from .data import pointsOf
+from .data import parameter, pointsOf
 
 # Cost of a load step in solves, elastic and elasto-plastic: small, usual, large (examples/trade). Plastic steps need 2 to 6 solves as a rule, but also
 # residuals without a solve, and cost more than the one that is measured, because points yield and the body spreads over more cells.
@@ -56,7 +56,8 @@ class _Scene:
 	def __init__(self, solver):
 		self.solver, self.work = solver, solver.workload()
 		self.dim, self.h = solver.grid.dim, solver.grid.cellSize
-		data, self.materials, _ = pointsOf(solver)
+		data, self.materials, number = pointsOf(solver)
+		self.own = lambda name, material: parameter(name, material, data, number == self.materials.index(material))
 		self.points = self.work['points']
 		if self.points == 0: raise ValueError(noPoints('advise', solver))
 		self.low, self.high = data['pos'].min(axis=0) - data['halfSize'].min(axis=0), data['pos'].max(axis=0) + data['halfSize'].min(axis=0)
@@ -79,11 +80,10 @@ class _Scene:
 		stress = max(material.density for material in self.materials) * np.linalg.norm(self.solver.gravity) * extent
 		return [m.label or 'a material without label' for m in self.materials if stress > 0 and self.difference(m) > stress]
 
-	@staticmethod
-	def difference(material):
+	def difference(self, material):
 		"""A difference of principal stresses at which it does not yield yet; 0 of elastic materials and of those whose strength goes with the pressure."""
-		if isinstance(material, wrapper.MpmVonMisesMat): return material.yieldStress
-		return 2 * material.undrainedStrength if isinstance(material, wrapper.MpmTrescaMat) else 0
+		if isinstance(material, wrapper.MpmVonMisesMat): return np.min(self.own('yieldStress', material))
+		return 2 * np.min(self.own('undrainedStrength', material)) if isinstance(material, wrapper.MpmTrescaMat) else 0
 
 	def keepVolume(self):
 		"""Labels of materials that keep their volume, nearly, as a whole or in plastic flow."""
@@ -95,8 +95,8 @@ class _Scene:
 		return [m.label or 'a material without label' for m in self.materials if keeps(m)]
 
 	def contrast(self):
-		moduli = [material.young for material in self.materials if isinstance(material, wrapper.MpmElasticMat)] # that of the others varies
-		return max(moduli) / min(moduli) if moduli else 1
+		own = [self.own('young', material) for material in self.materials if isinstance(material, wrapper.MpmElasticMat)] # that of the others varies
+		return max(map(np.max, own)) / min(map(np.min, own)) if own else 1
 
 	def uniformAlongZ(self):
 		"""Both ends held along z, and nothing acts along it: plane strain."""

@@ -4,9 +4,10 @@ import operator
 
 import numpy as np
 from yade import wrapper
+from yade.minieigenHP import Vector3
 
 from .library import engine
-from .messages import brief
+from .messages import brief, isNumber, place
 
 table = {column['name']: column for column in engine.pointColumns()}  # of all columns that there are
 
@@ -21,7 +22,8 @@ def arrays():
 		half the current and the initial size of the domain [m]; ``force`` (N, 3) point load at load factor 1 [N]; ``stress`` (N, 3, 3) Cauchy stress [Pa]; ``defGrad`` (N, 3, 3) deformation gradient;
 		``elasticStrain`` (N, 3, 3) logarithmic elastic strain; ``volume`` (N,) current volume [m3]; ``plasticStrain`` (N,)
 		accumulated plastic strain; ``material`` (N,) index into ``O.materials`` (-1: not in there). Where the law of a point has other
-		internal variables, (N,) of each by its name, NaN for points without. A scene without material points gives arrays of length 0.
+		internal variables, (N,) of each by its name, NaN for points without. Of a strength or modulus that a point has of its own, by :func:`assign` or
+		:func:`fill`, (N,) by its name, with the material's for points without. A scene without material points gives arrays of length 0.
 	:raises ValueError: a body with an ``MpmPoint`` shape that is no complete material point.
 	"""
 	return _asArrays(engine.columnsOfPoints(0, False))
@@ -66,14 +68,22 @@ def assign(ids=None, **columns):
 		top = points['pos'][:, 1] > 4.9
 		mpm.assign(ids=points['id'][top], force=[(0, -500, 0)] * top.sum())
 
+	Strengths and moduli may differ from point to point within a material: clay whose strength grows with the depth, a random field from an array. They act
+	from the next step on, in place of the material's, and are saved with the points. ::
+
+		mpm.assign(undrainedStrength=lambda x: 5e3 + 1.5e3 * (10 - x[1]))
+
 	:param ids: (N,) body ids of the points, in the order of the rows; all points in order of body id (that of :func:`arrays`) if
 		not given
 	:param columns: arrays of N rows, named and shaped as those of :func:`arrays`: ``pos``, ``pos0`` [m], ``defGrad``,
 		``elasticStrain``, ``stress`` [Pa] (the Cauchy stress, instead of ``elasticStrain``), ``plasticStrain`` and other internal variables of the
-		points' laws, ``force`` [N]; all finite.
+		points' laws, ``force`` [N]; all finite. Also, by the name of the attribute, strengths and moduli that the points' materials have:
+		``young``, ``shearModulus``, ``yieldStress``, ``hardening``, ``residualYieldStress``, ``undrainedStrength``, ``cohesion``, ``frictionAngle``,
+		``dilationAngle``, ``tensileStrength``, ``criticalStateRatio``: an array (N,), or a function of the current position that returns a number.
 		There are no velocities in a quasi-static analysis.
 	:raises TypeError: a name that is not in this list, or values that are no numbers.
-	:raises ValueError: a wrong shape; a value that is not finite, or not admitted for that column (``MpmState`` says what is); a stress
+	:raises ValueError: a wrong shape; a value that is not finite, or not admitted for that column (``MpmState`` says what is), or as that attribute of the
+		point's material; a strength or modulus that the material of a point does not have; a stress
 		that the material cannot carry without yielding; ids of no material points, or given twice.
 	:raises RuntimeError: a load step is at work in the background; it would overwrite the values.
 
@@ -81,7 +91,7 @@ def assign(ids=None, **columns):
 	compression, and stress is positive in tension.
 	"""
 	rows = _idsOfPoints() if ids is None else _ids(ids)
-	values = {name: _column(name, column, len(rows)) for name, column in columns.items()}
+	values = {name: _column(name, _atPoints(name, column, rows), len(rows)) for name, column in columns.items()}
 	if not values: raise TypeError(f"assign: no column is given; there are {', '.join(_assignable)}")
 	if 'stress' in values and 'elasticStrain' in values:
 		raise ValueError('assign: stress and elasticStrain follow from each other; give one of them')
@@ -130,11 +140,42 @@ def _column(name, values, rows):
 		raise TypeError(f"assign: {name} cannot be assigned: {hint}; there are {', '.join(_assignable)}")
 	array = _numbers(name, values)
 	shape = (rows, ) + _shape(table[name])
+	if isParameter(name) and np.ndim(values) == 0:
+		raise ValueError(f'assign: {name} = {brief(values)} must be an array of {rows} numbers or a function of the position; one number for all is an attribute of the material')
 	if array.shape != shape:
 		raise ValueError(f'assign: {name} has the shape {array.shape}; expected is {shape}, one row for each of {rows} material points')
+	if isParameter(name): return array  # looked at as the material's own, some of which may be infinite
 	finite = np.isfinite(array).reshape(rows, -1).all(axis=1)
 	if not finite.all(): raise ValueError(f'assign: {name}[{np.flatnonzero(~finite)[0]}] = {array[~finite][0].tolist()} must be finite')
 	return array
+
+
+def isParameter(name):
+	"""Whether it is a strength or modulus, of which points may have their own."""
+	return name in table and table[name]['isParameter']
+
+
+def parameter(name, material, points, rows):
+	"""A strength or modulus of the points in these rows, which all have this material: a number, or an array where points have their own."""
+	return points[name][rows] if name in points else getattr(material, name)
+
+
+def ofPositions(who, name, value, positions):
+	"""Column of a parameter: that of a function of the position, or what is given."""
+	if not callable(value): return value
+	column = [value(Vector3(*position)) for position in positions.tolist()]
+	for number, position in zip(column, positions):
+		if not isNumber(number): raise TypeError(f'{who}: the function {name} returned {brief(number)} at {place(position)}; it must return a number')
+	return column
+
+
+def _atPoints(name, column, rows):
+	if not (isParameter(name) and callable(column)): return column
+	points = arrays()
+	rowOf = {id: row for row, id in enumerate(points['id'].tolist())}
+	known = [rowOf[id] for id in rows.tolist() if id in rowOf]
+	if len(known) < len(rows): raise ValueError(f'assign: ids: there is no material point with body id {next(id for id in rows.tolist() if id not in rowOf)}')
+	return ofPositions('assign', name, column, points['pos'][known])
 
 
 def _numbers(name, values):

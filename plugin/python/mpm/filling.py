@@ -7,12 +7,13 @@ import numpy as np
 from yade import wrapper
 from yade.minieigenHP import Vector3
 
+from .data import isParameter, ofPositions, table
 from .library import engine
 from .messages import brief, place
 from .regions import bounds, inside, volumeInBoxes
 
 
-def fill(predicate, grid, pointsPerCell, material):
+def fill(predicate, grid, pointsPerCell, material, **parameters):
 	"""Fill a region with material points, equally spaced in the cells of a grid.
 
 	Cells are counted from ``grid.origin``; the points are returned cell by cell. In two dimensions they lie in the plane
@@ -27,10 +28,13 @@ def fill(predicate, grid, pointsPerCell, material):
 	:param pointsPerCell: points per cell and axis, at least 1; points whose centre is inside the region are kept
 	:param material: label of a material in ``O.materials``; or a list of (predicate, label), of which the first that
 		contains the point applies; or a function that takes the position and returns a label
+	:param parameters: strengths and moduli of the materials that differ from point to point, by the names of their attributes, as
+		``cohesion=lambda x: 2e3 + 500 * (10 - x[1])``: each a function of the position that returns a number, or an array (N,) in the order in which the points
+		are returned; see :func:`assign`
 	:return: list of bodies for ``O.bodies.append``. Each has an ``MpmPoint`` shape, the state that belongs to its material,
 		mass and initial volume of its share of the cell, and is invisible to YADE's collider and integrator.
-	:raises TypeError: an argument of the wrong kind.
-	:raises ValueError: a value that is not admitted, no point inside the region, or a point without material.
+	:raises TypeError: an argument of the wrong kind, or a name that is no strength or modulus.
+	:raises ValueError: a value that is not admitted, a parameter that the material of a point does not have, no point inside the region, or a point without material.
 	:raises KeyError: a label that is not in ``O.materials``.
 	"""
 	if not isinstance(grid, wrapper.MpmGrid):
@@ -48,7 +52,22 @@ def fill(predicate, grid, pointsPerCell, material):
 	materials = [_material(label) for label in labels]
 	half = grid.cellSize / (2 * n)
 	halfSize = Vector3(half, half, half if grid.dim == 3 else 0.5)
-	return engine.newBodies(positions, halfSize, materials, index, grid.axisymmetric)
+	columns = {name: _parameter(name, value, positions) for name, value in parameters.items()}
+	try:
+		return engine.newBodies(positions, halfSize, materials, index, grid.axisymmetric, columns)
+	except ValueError as error:
+		raise ValueError(f'fill: {error}') from None
+
+
+def _parameter(name, value, positions):
+	known = [column for column in table if isParameter(column)]
+	if name not in known: raise TypeError(f"fill: {name} is no strength or modulus that differs from point to point; there are {', '.join(known)}")
+	try:
+		column = np.ascontiguousarray(ofPositions('fill', name, value, positions), dtype=float)
+	except ValueError:
+		column = np.empty(())
+	if column.shape == (len(positions), ): return column
+	raise ValueError(f'fill: {name} = {brief(value)} must be a function of the position, or an array of {len(positions)} numbers, one for each point')
 
 
 def _pointsPerCell(value):

@@ -7,7 +7,7 @@ import numpy as np
 from yade import wrapper
 
 from .analysis import noPoints, solverOf
-from .data import assign, pointsOf
+from .data import assign, parameter, pointsOf
 from .messages import brief, isNumber, place
 
 
@@ -66,22 +66,23 @@ def geostatic(K0=None, surface=None, solver=None, OCR=1):
 		raise ValueError(f'geostatic: surface = {surface} is below the top of the highest points, at {top} m; at what height does the ground end?')
 	pressure = _weightAbove(points, axis, height, half, density, surface - top) * np.linalg.norm(solver.gravity)
 	depth = surface - height
-	horizontal, past = _history(K0, OCR, materials, number, pressure, depth)
+	horizontal, past = _history(K0, OCR, points, materials, number, pressure, depth)
 	stress = np.zeros((len(height), 3, 3))
 	for i in range(3):
 		stress[:, i, i] = -(pressure if i == axis else horizontal)
 	_assign(points, stress, past, depth, horizontal / pressure)
 
 
-def _history(K0, OCR, materials, number, pressure, depth):
+def _history(K0, OCR, points, materials, number, pressure, depth):
 	"""Horizontal pressure (N,) of the points, and their preconsolidation pressure (N,), NaN where it is not to be given."""
 	horizontal, past = np.empty(len(depth)), np.full(len(depth), math.nan)
 	for i, material in enumerate(materials):
 		rows = number == i
 		history = _overconsolidation(OCR, material, depth[rows])
-		ratio = _ratio(K0, material, history)
+		sine = _sineOfFriction(material, points, rows)
+		ratio = _ratio(K0, material, sine, history)
 		horizontal[rows] = ratio * pressure[rows]
-		if OCR is not None and isinstance(material, wrapper.MpmCamClayMat): past[rows] = _preconsolidation(material, pressure[rows], ratio, history)
+		if OCR is not None and isinstance(material, wrapper.MpmCamClayMat): past[rows] = _preconsolidation(parameter('criticalStateRatio', material, points, rows), sine, pressure[rows], ratio, history)
 	return horizontal, past
 
 
@@ -142,31 +143,32 @@ def _overconsolidation(OCR, material, depth):
 	return np.broadcast_to(np.array(values, float), depth.shape)
 
 
-def _sineOfFriction(material):
+def _sineOfFriction(material, points, rows):
 	"""Of Cam clay: that of triaxial compression. None without friction."""
-	if isinstance(material, wrapper.MpmCamClayMat): return 3 * material.criticalStateRatio / (6 + material.criticalStateRatio)
-	return math.sin(material.frictionAngle) if isinstance(material, wrapper.MpmFrictionalMat) else None
+	if isinstance(material, wrapper.MpmCamClayMat):
+		ratio = parameter('criticalStateRatio', material, points, rows)
+		return 3 * ratio / (6 + ratio)
+	return np.sin(parameter('frictionAngle', material, points, rows)) if isinstance(material, wrapper.MpmFrictionalMat) else None
 
 
-def _ratio(K0, material, history):
+def _ratio(K0, material, sine, history):
 	"""K0 of a material with these overconsolidation ratios."""
 	value = _ofMaterial('K0', K0, material)
 	if value is None:
-		sine = _sineOfFriction(material)
 		return np.full(len(history), material.poisson / (1 - material.poisson)) if sine is None else (1 - sine) * history**sine
 	if not isNumber(value): raise TypeError(f'geostatic: K0 = {brief(value)} must be a number, the ratio of horizontal to vertical stress, or a dict of them')
 	if not (math.isfinite(value) and value >= 0): raise ValueError(f'geostatic: K0 = {brief(value)} must be finite and >= 0')
 	return np.full(len(history), float(value))
 
 
-def _preconsolidation(material, pressure, ratio, history):
+def _preconsolidation(criticalStateRatio, sine, pressure, ratio, history):
 	"""Of Cam clay: where the yield surface Q^2 / M^2 + P (P - pc) = 0 that passes the past or the present state ends, whichever is larger."""
 
 	def through(vertical, ratio):
 		P, Q = (1 + 2 * ratio) / 3 * vertical, np.abs(1 - ratio) * vertical
-		return P + (Q / material.criticalStateRatio)**2 / P
+		return P + (Q / criticalStateRatio)**2 / P
 
-	return np.maximum(through(history * pressure, ratio / history**_sineOfFriction(material)), through(pressure, ratio))
+	return np.maximum(through(history * pressure, ratio / history**sine), through(pressure, ratio))
 
 
 def _weightAbove(points, axis, height, half, density, cover):

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Points whose laws have parameters of their own. The constants of such laws differ from lane to lane, so that each answers for itself.
+#pragma once
+#include "core/materials/law.hpp"
+
+namespace gimpm {
+
+/// Of any law: the variables are those of the law, and then any numbers.
+using LanesOfLaws = ResponseWith<Lanes, LawTraits<Law>::mostVariables>;
+
+/// Response of Lanes::count points, of which those that are of another material may get any numbers.
+void respondOneByOne(
+        const Material&, const ParameterColumns&, const InternalColumns&, const int* point, const PrincipalValues<Lanes>& trialStrain, LanesOfLaws&);
+
+} // namespace gimpm

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "engine/materials/parameters.hpp"
+#include "engine/materials/laws.hpp"
+#include <algorithm>
+
+namespace yade {
+
+const vector<Parameter>& allParameters()
+{
+	static const vector<Parameter> all {
+		{ "young", "Pa", "Young's modulus" },
+		{ "shearModulus", "Pa", "shear modulus" },
+		{ "yieldStress", "Pa", "yield stress" },
+		{ "hardening", "Pa", "hardening" },
+		{ "residualYieldStress", "Pa", "residual yield stress" },
+		{ "undrainedStrength", "Pa", "undrained strength" },
+		{ "cohesion", "Pa", "cohesion" },
+		{ "frictionAngle", "rad", "friction angle" },
+		{ "dilationAngle", "rad", "dilation angle" },
+		{ "tensileStrength", "Pa", "tensile strength" },
+		{ "criticalStateRatio", "-", "critical state ratio" },
+	};
+	return all;
+}
+
+bool isParameter(std::string_view name)
+{
+	const auto& all = allParameters();
+	return std::any_of(all.begin(), all.end(), [&](const Parameter& p) { return p.name == name; });
+}
+
+namespace {
+	[[noreturn]] void refuseName(const string& name, const MpmMaterial& material)
+	{
+		string names;
+		for (const ParameterOfClass& p : parametersOf(material))
+			names += (names.empty() ? "" : ", ") + string(p.name);
+		throw std::invalid_argument(
+		        "the material '" + material.label + "' (" + material.getClassName() + ") has no parameter " + name + " that a point could have: "
+		        + (names.empty() ? "it has none" : "there are " + names) + ". Give the ids of the points that are meant.");
+	}
+}
+
+const MpmMaterial& OwnMaterial::of(const MpmMaterial& material, const OwnParameters& parameters)
+{
+	if (parameters.empty()) return material;
+	if (original != &material) own = copyOf(material);
+	original          = &material;
+	const auto& known = parametersOf(material);
+	for (const ParameterOfClass& p : known)
+		p.in(*own) = p.valueIn(material);
+	for (const auto& [name, value] : parameters) {
+		const auto found = std::find_if(known.begin(), known.end(), [&name = name](const auto& p) { return p.name == name; });
+		if (found == known.end()) refuseName(name, material);
+		found->in(*own) = value;
+	}
+	own->requireAdmissible();
+	return *own;
+}
+
+} // namespace yade

@@ -1,0 +1,79 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Factor of safety by strength reduction."""
+import math
+
+import numpy as np
+
+from .analysis import noPoints, solverOf
+from .data import arrays
+from .messages import brief, isNumber
+
+_criterion = 'no equilibrium, or displacements of more than 3 times the largest elastic strain times the smallest extent of the body'
+
+
+def strengthReduction(solver=None, tolerance=0.01, first=1.0, factor=1.25):
+	"""Look for the factor of safety of the current state by reducing the strength, and print it as a bracket.
+
+	Strengths are divided by a factor F: c' = c / F, tan(phi') = tan(phi) / F, tan(psi') = min(tan(psi), tan(phi')), with tensile strengths as c; undrained strength and
+	yield stress likewise (Zienkiewicz et al. 1975; Griffiths and Lane 1999). Points with strengths of their own have those divided. Loads stay as they are at O.time. For each F the
+	reduction starts anew from the current state, which must be in equilibrium, as after gravity has acted in full. Points do not move: moduli are scaled up until
+	strains are tiny, which changes neither stresses nor what they can carry, and displacements are scaled back. F counts as failed when that finds no equilibrium, though a part of the
+	reduction that does not converge is cut down to ``newton.minStep``; or when the body flows: displacements since F = 1 of more than three times the largest elastic strain times the smallest
+	extent of the body. Ghost stabilisation, which would hold what flows, acts with a hundredth of its factor. F first grows or falls from *first* by *factor*, then the bracket is halved.
+
+	The result depends on the mesh: it falls with the cells, without a limit where psi is less than phi. So the cell size is part of it. ``fBar=True`` of the engine takes
+	away what locking adds.
+
+	:param solver: the ``MpmImplicitEngine``; may be left out when ``O.engines`` holds one
+	:param tolerance: width of the bracket [-] over its lower end, > 0 and < 1
+	:param first: the factor that is tried first, > 0
+	:param factor: > 1, by which it then grows or falls until the bracket is found
+	:return: dict of ``lower`` (the largest F that was carried), ``upper`` (the smallest that was not), ``cellSize`` [m], ``criterion``, ``trials`` (a list of dicts with ``F``,
+		``carries``, ``iterations``, ``parts``, ``displacement``: the largest one [m], and ``cause``), and of the last state on the way to ``upper``, the slip, small or not:
+		``displacement`` (N, 3) [m] and ``plasticStrain`` (N,), what is added to those of the current state, in order of body id. ``mpm.plot(found['plasticStrain'])`` draws it.
+	:raises TypeError: an argument of the wrong kind.
+	:raises ValueError: a value that is not admitted; materials without a strength that could be divided (elastic ones alone, Cam clay); a state that is not in equilibrium or
+		so strong or weak that no bracket is found; or what a load step would refuse.
+	"""
+	solver = solverOf('strengthReduction', solver)
+	for name, value, low, high in ('tolerance', tolerance, 0, 1), ('first', first, 0, math.inf), ('factor', factor, 1, math.inf):
+		if not isNumber(value): raise TypeError(f'strengthReduction: {name} = {brief(value)} must be a number')
+		if not low < value < high: raise ValueError(f'strengthReduction: {name} = {value} is not admitted: expected a number > {low} and < {high}')
+	if not len(arrays()['id']): raise ValueError(noPoints('strengthReduction', solver))
+	search = _Search(solver)
+	lower, upper = search.bracket(first, factor)
+	while upper - lower > tolerance * lower:
+		middle = (lower + upper) / 2
+		if search.carries(middle): lower = middle
+		else: upper = middle
+	found = dict(lower=lower, upper=upper, cellSize=solver.grid.cellSize, criterion=_criterion, trials=search.trials, **search.slip)
+	print(f'factor of safety: {lower:.4g} to {upper:.4g}, with cells of {solver.grid.cellSize:g} m; failed: {_criterion}')
+	return found
+
+
+class _Search:
+
+	def __init__(self, solver):
+		self.solver, self.trials, self.slip = solver, [], {}
+
+	def carries(self, F):
+		try:
+			found = self.solver.weakened(float(F))
+		except ValueError as error:
+			raise ValueError(f'strengthReduction: {error}') from None
+		displacement = found['displacement'].reshape(-1, 3)
+		largest = float(np.linalg.norm(displacement, axis=1).max())
+		self.trials.append(dict(F=F, displacement=largest, **{name: found[name] for name in ('carries', 'iterations', 'parts', 'cause')}))
+		if not found['carries'] and (not self.slip or F <= min(trial['F'] for trial in self.trials if not trial['carries'])):
+			self.slip = dict(displacement=displacement, plasticStrain=found['plasticStrain'])
+		return found['carries']
+
+	def bracket(self, F, factor):
+		"""Two factors, of which the body carries the first."""
+		grows = self.carries(F)
+		for _ in range(40):
+			last, F = F, F * factor if grows else F / factor
+			if self.carries(F) != grows: return (last, F) if grows else (F, last)
+		extreme = 'it carries its load however weak it is; does a load act?' if grows else (
+		        'it does not carry its load however strong it is: is the current state in equilibrium, with the loads of O.time?')
+		raise ValueError(f'strengthReduction: no factor of safety between {min(t["F"] for t in self.trials):.3g} and {max(t["F"] for t in self.trials):.3g}: {extreme}')

@@ -1,0 +1,94 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Strength reduction against closed forms, and what it refuses."""
+import math
+
+import pytest
+from conftest import Yade
+
+scene = '''
+import json
+from scenes import *
+from yade.wrapper import MpmCamClayMat, MpmDruckerPragerMat, MpmMohrCoulombMat, MpmTrescaMat
+
+phi, c, q = radians(20), 10e3, 16e3
+common = dict(young=2e8, poisson=.3, density=1, label='soil')
+laws = dict(tresca=MpmTrescaMat(undrainedStrength=c, **common), mises=MpmVonMisesMat(yieldStress=2**.5 * c, **common),
+            friction=MpmMohrCoulombMat(cohesion=c, frictionAngle=phi, dilationAngle=phi, **common),
+            cone=MpmDruckerPragerMat(cohesion=c, frictionAngle=phi, dilationAngle=phi, **common))
+
+def block(material, **fields):
+	"""A block on a smooth base under a pressure q on its surface."""
+	O.reset()
+	O.materials.append(material)
+	grid = MpmGrid(cellSize=1)
+	O.bodies.append(mpm.fill(pack.inAlignedBox((0, 0, -1), (3, 6, 1)), grid, 2, 'soil', **fields))
+	for b in O.bodies:
+		share = {5.75: 1.5, 5.25: -.5}.get(b.state.pos[1], 0) # together they act at the surface, so that stress is uniform
+		b.state.force = (0, -q / 2 * share, 0)
+	O.engines = [MpmImplicitEngine(grid=grid, boundaries=[MpmBoundary(max=(0, inf, inf), fix='x'), MpmBoundary(max=(inf, 0, inf), fix='y')], verbosity=0, label='solver')]
+	O.dt = 1 / 4
+	O.run(4, wait=True)
+	return O.engines[0]
+'''
+
+
+def strength(F):
+	"""Of the block with friction, uniaxial in plane strain."""
+	angle = math.atan(math.tan(math.radians(20)) / F)
+	return 2 * 10e3 / F * math.cos(angle) / (1 - math.sin(angle))
+
+
+@pytest.fixture(scope='module')
+def found(tmp_path_factory):
+	return Yade(tmp_path_factory.mktemp('safety'))(
+	        scene + '''
+import io, contextlib
+found = {}
+for name, law in laws.items():
+	block(law)
+	before, said = mpm.arrays(), io.StringIO()
+	with contextlib.redirect_stdout(said):
+		safety = mpm.strengthReduction(tolerance=.004)
+	assert all(values.tobytes() == before[column].tobytes() for column, values in mpm.arrays().items())
+	assert 'cells of 1 m' in said.getvalue() and 'failed: no equilibrium' in said.getvalue()
+	found[name] = safety['lower'], safety['upper'], safety['plasticStrain'].max()
+	O.step() # and the scene goes on
+# strengths of the points instead of the material's
+block(laws['tresca'], undrainedStrength=lambda x: 2 * c)
+safety = mpm.strengthReduction(tolerance=.004)
+found['field'] = safety['lower'], safety['upper'], safety['plasticStrain'].max()
+# what is refused
+messages = []
+def refused(f):
+	try: f()
+	except (ValueError, TypeError) as error: messages.append(str(error))
+	else: messages.append('')
+block(MpmElasticMat(**common))
+refused(mpm.strengthReduction)
+block(laws['tresca'])
+for bad in dict(tolerance=0), dict(tolerance='1'), dict(first=-1), dict(factor=1): refused(lambda: mpm.strengthReduction(**bad))
+refused(lambda: O.engines[0].weakened(0))
+for b in O.bodies: b.state.force = (0, 0, 0)
+clay = MpmCamClayMat(density=2000, shearModulus=3e6, criticalStateRatio=1.2, compressionIndex=.1, swellingIndex=.02, preconsolidation=8e4, referencePressure=5e4, label='clay')
+O.materials.append(clay)
+O.bodies[0].material = clay
+refused(mpm.strengthReduction)
+print(json.dumps([found, messages]))
+'''
+	).result
+
+
+@pytest.mark.parametrize('name', ['tresca', 'mises', 'friction', 'cone', 'field'])
+def test_block(found, name):
+	lower, upper, slip = found[0][name]
+	assert 0 < upper - lower <= 0.004 * lower and slip > 0
+	if name in ('friction', 'cone'):
+		tolerance = .005 if name == 'friction' else .015  # the cone comes to its strength as the stress out of the plane does, in the course of flow
+		assert strength(lower) >= 16e3 * (1 - tolerance) and strength(upper) <= 16e3 * (1 + tolerance)
+	else: assert lower <= 1.005 * (exact := 20 / 16 * (2 if name == 'field' else 1)) and upper >= .995 * exact
+
+
+def test_refused(found):
+	expected = ['all materials are elastic', 'tolerance = 0', "tolerance = '1' must be a number", 'first = -1', 'factor = 1', 'expected a finite number > 0', 'Body #0 is of MpmCamClayMat']
+	for part, message in zip(expected, found[1], strict=True):
+		assert part in message, (part, message)
