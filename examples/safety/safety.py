@@ -6,7 +6,8 @@
 	          D.V. Griffiths, P.A. Lane (1999): Slope stability analysis by finite elements. Geotechnique 49, example 1; charts give 1.380
 	cut       vertical cut of examples/collapse, H = 5 m, gamma H / c_u = 3 (Tresca): limit analysis 3.776 / 3 = 1.2587
 	gradient  the same cut in clay whose strength grows from c_u / 2 at the top to 3/2 c_u at the base: a field of strengths, beside the same in layers
-	long      part of a long slope, 30 degrees, 3 m of soil over rock, c = 5 kPa, phi = psi = 25 degrees, gamma = 20 kN/m3: infinite slope 1.0001, from which the ends differ
+	infinite  infinite slope of 30 degrees, 3 m of soil on rock, c = 5 kPa, phi = psi = 25 degrees, gamma = 20 kN/m3: c / (gamma z sin cos) + tan(phi) / tan(30 degrees) = 1.0001
+	long      60 m of it between ends that are held, which add to that
 
 Run it with `scripts/run examples/safety/safety.py [options]`, or by yade-batch with meshes.table.
 """
@@ -23,7 +24,7 @@ sys.path.insert(0, os.path.join(os.path.dirname(sys.argv[0]), '..'))
 from options import readOptions
 
 options = readOptions('Factors of safety.',
-        scene=('slope', "'slope', 'cut', 'gradient' or 'long'"),
+        scene=('slope', "'slope', 'cut', 'gradient', 'long' or 'infinite'"),
         cells=(20, 'over the height'),
         pointsPerCell=(2, 'material points per cell and axis'),
         fBar=(1, '1: with F-bar, 0: without'),
@@ -33,10 +34,10 @@ options = readOptions('Factors of safety.',
         layers=(0, '1: the gradient in layers of materials instead of a field'))
 
 
-def scene(profile, height, material, sides, **fields):
+def scene(profile, height, material, sides, period=0, **fields):
 	"""Gravity in ten steps; returns the engine."""
 	O.materials.append(material)
-	grid = MpmGrid(cellSize=height / options.cells)
+	grid = MpmGrid(cellSize=height / options.cells, period=(period, 0, 0))
 	O.bodies.append(mpm.fill(profile, grid, pointsPerCell=options.pointsPerCell, material=material.label, **fields))
 	O.engines = [MpmImplicitEngine(grid=grid, gravity=(0, -10, 0), ghost=MpmGhost(factor=options.ghostFactor), fBar=bool(options.fBar), boundaries=sides, label='solver')]
 	O.dt = 1 / 10
@@ -66,18 +67,19 @@ def cut(strength=lambda y: 1.):
 	return profile, (3.7752 / 3, 3.7776 / 3) if options.scene == 'cut' else None
 
 
-def long():
-	depth, L, beta = 3., 60., np.radians(30)
+def inclined(long):
+	depth, beta = 3., np.radians(30)
+	L = 60. if long else 4 * depth / options.cells
 	soil = MpmMohrCoulombMat(young=1e8, poisson=0.3, density=2000, cohesion=5e3, frictionAngle=np.radians(25), dilationAngle=np.radians(25), label='soil')
 	profile = [(0, 0), (L, 0), (L, depth), (0, depth)]
-	sides = [MpmBoundary(max=(0, inf, inf), fix='x'), MpmBoundary(min=(L, -inf, -inf), fix='x'), MpmBoundary(max=(inf, 0, inf), fix='xy')]
-	scene(mpm.polygon(profile), depth, soil, sides)
+	ends = [MpmBoundary(max=(0, inf, inf), fix='x'), MpmBoundary(min=(L, -inf, -inf), fix='x')] if long else []
+	scene(mpm.polygon(profile), depth, soil, [*ends, MpmBoundary(max=(inf, 0, inf), fix='xy')], period=0 if long else L)
 	solver.gravity = (10 * np.sin(beta), -10 * np.cos(beta), 0)  # the axes lie along the slope
 	return profile, (1.0001, 1.0001)
 
 
 begin = time.time()
-profile, published = {'slope': slope, 'cut': cut, 'gradient': lambda: cut(lambda y: 1.5 - y / 5), 'long': long}[options.scene]()
+profile, published = {'slope': slope, 'cut': cut, 'gradient': lambda: cut(lambda y: 1.5 - y / 5), 'long': lambda: inclined(True), 'infinite': lambda: inclined(False)}[options.scene]()
 O.run(10, wait=True)
 found = mpm.strengthReduction(tolerance=options.tolerance)
 print(f'{options.scene}, {options.cells} cells over the height, F-bar {options.fBar}, psi = {options.psi:g}: {len(O.bodies)} points; F = {found["lower"]:.4f} to {found["upper"]:.4f}', end='')
