@@ -232,6 +232,7 @@ kinds = [ # of failures, by what the exception says
         ('thrown off', 'thrown off the grid'),
         ('diverges', 'diverging'),
         ('above the tolerance', 'not converging'),
+        ('times the tolerance', 'not converging'), # around a node
 ]
 
 
