@@ -21,8 +21,9 @@ class Axis:
 
 groups = { # a map of outcomes for each
         'grid': ('Grid and points', ['overlap', 'factor', 'length', 'points', 'jitter', 'missing', 'thin', 'slender']),
-        'material': ('Material', ['poisson', 'contrast', 'mixed', 'yield', 'tresca', 'softening', 'camClay', 'camClayFooting', 'young']),
-        'friction': ('Friction', ['friction', 'frictionCone', 'dilation', 'cohesion', 'sandSlope']),
+        'material': ('Material', ['poisson', 'contrast', 'mixed', 'yield', 'tresca', 'softening', 'young']),
+        'friction': ('Friction', ['friction', 'frictionCone', 'dilation', 'cohesion']),
+        'soils': ('Cam clay and sand', ['camClay', 'camClayFooting', 'sandSlope']),
         'locking': ('F-bar', ['overlapFBar', 'yieldFBar', 'bending', 'bendingFBar', 'compressionFBar']),
         'motion': ('Load and motion', ['strain', 'steps', 'compression', 'free', 'turns', 'turnStep']),
 }
