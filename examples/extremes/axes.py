@@ -21,8 +21,9 @@ class Axis:
 
 groups = { # a map of outcomes for each
         'grid': ('Grid and points', ['overlap', 'factor', 'length', 'points', 'jitter', 'missing', 'thin', 'slender']),
-        'material': ('Material', ['poisson', 'contrast', 'mixed', 'yield', 'young']),
+        'material': ('Material', ['poisson', 'contrast', 'mixed', 'yield', 'tresca', 'softening', 'young']),
         'friction': ('Friction', ['friction', 'frictionCone', 'dilation', 'cohesion']),
+        'soils': ('Cam clay and sand', ['camClay', 'camClayFooting', 'sandSlope']),
         'locking': ('F-bar', ['overlapFBar', 'yieldFBar', 'bending', 'bendingFBar', 'compressionFBar']),
         'motion': ('Load and motion', ['strain', 'steps', 'compression', 'free', 'turns', 'turnStep']),
 }
@@ -36,6 +37,7 @@ factors = [1e-6, 1e-4, 1e-3, 1e-2, 1e-1, 1.]
 nearHalf = [0., .3, .45, .49, .499, .4999, .49999, .499999]
 compressed = [.9, .7, .5, .3, .2, .15, .1, .07, .05]
 angles = [1., 5., 10., 20., 30., 40., 45.]
+ratios = [1., 1.5, 2., 3., 5., 10., 20.]
 corners = [0, .5, 1e-1, 1e-2, 1e-3, 1e-4, 1e-6, 1e-8]
 
 axes = {
@@ -67,6 +69,12 @@ axes = {
         'frictionCone': Axis('the same of Drucker-Prager [degrees]', angles, quick=[45.]),
         'dilation': Axis('dilation angle, friction angle 45 degrees, no cohesion [degrees]', [0., 5., 10., 20., 30., 45.], quick=[0.]),
         'cohesion': Axis("cohesion over Young's modulus, friction angle 30 degrees [-]", powers(-1, -8, -1) + [0.], quick=[0.]),
+        'softening': Axis("softening over Young's modulus, yield stress 1e-2 of it [-]", [0., 1e-4, 1e-3, 1e-2, .1, .3, .6, .9], quick=[.1]),
+        'tresca': Axis("undrained strength over Young's modulus, Tresca [-]", powers(0, -8, -1) + [1e-12, 1e-16], quick=[1e-6]),
+        'camClay': Axis('overconsolidation ratio of Cam clay, weight tripled [-]', ratios, quick=[20.]),
+        'camClayFooting': Axis('the same, under a footing [-]', ratios, quick=[20.]),
+        'sandSlope': Axis('angle of a slope of sand of 35 degrees / cohesion', [f'{a}/{c:g}' for c in (0., 1e-3) for a in (10, 20, 25, 30, 33, 35, 40)], dims=(2, ), quick=['25/0']),
+        'softeningGrid': Axis('cells over the width of a block that softens / softening', [f'{n}/{kind}' for kind in ('none', 'same', 'scaled') for n in (8, 16, 32)], dims=(2, ), quick=['8/same'], ghosts=ghosts[1:2], listed=False),
         'columnFactor': Axis('cells over the height of a column that shrinks to half of it / ghost factor', [f'{n}/{f:g}' for n in (8, 32, 128) for f in factors], dims=(2, ), quick=['8/0.01'], ghosts=ghosts[1:2], listed=False),
         'slopeFactor': Axis('cells in a metre of the slope / ghost factor', [f'{n}/{f:g}' for n in (1, 2) for f in factors], dims=(2, ), ghosts=ghosts[1:2], listed=False),
         'corner': Axis('overlap along x / along y [h]', [f'{x:g}/{y:g}' for x in corners for y in corners], dims=(2, ), quick=['0.001/0.1'], listed=False),

@@ -35,8 +35,11 @@ def outcome(row):
 	if row is None: return ''
 	if not ran(row): return f"**{row['failure']}**" + (f" after {row['completed']:.0f}/{row['steps']:.0f}" if row['completed'] > 0 else '')
 	error = '' if math.isnan(row['error']) else f"{row['error']:.1e}, "
-	cuts = f", {row['cuts']:.0f} cuts" if row['cuts'] > 0 else ''
-	return f"{error}{row['maxIterations']:.0f}{cuts}"
+	return f"{error}{row['maxIterations']:.0f}{cutsOf(row)}"
+
+
+def cutsOf(row):
+	return f", {row['cuts']:.0f} cuts" if row['cuts'] > 0 else ''
 
 
 def columnsOf(rows, name):
@@ -114,6 +117,35 @@ def factorTable(rows):
 	return FACTORS + table(heads, lines) + '\n'
 
 
+def bandTable(rows):
+	"""Load of a block that softens over its limit load before, by grid and kind of softening."""
+	kinds = dict(none='none', same='the same on all grids', scaled='scaled with the size of cells')
+	found = {tuple(key[3].split('/')): row for key, row in rows.items() if key[0] == 'softeningGrid'}
+	cells = sorted({int(n) for n, _ in found})
+	lines = [[kinds[kind], *(_bandLoad(found.get((str(n), kind))) for n in cells)] for kind in kinds]
+	return BAND + table(['softening', *(f'h = 1/{n} m' for n in cells)], lines) + '\n'
+
+
+def _bandLoad(row):
+	if row is None: return ''
+	return f"{row['measured']:.3f} ({row['meanIterations']:.1f}{cutsOf(row)})" if ran(row) else outcome(row)
+
+
+def sandTable(rows):
+	"""Largest displacement and iterations of slopes of sand, with a little cohesion and without."""
+	found = {tuple(map(float, key[3].split('/'))): row for key, row in rows.items() if key[0] == 'sandSlope' and key[2] == 'mesh-independent'}
+	lines = []
+	for slope in sorted({slope for slope, _ in found}):
+		cells = [found.get((slope, cohesion)) for cohesion in (0., 1e-3)]
+		lines.append([f'{slope:g}', *(text for row in cells for text in (_motion(row), '' if row is None else f"{row['meanIterations']:.1f} ({row['maxIterations']:.0f})"))])
+	return SAND + table(['angle [degrees]', 'c = 0: moves by [mm]', 'solves a step, mean (max)', 'c = 1e-3: moves by [mm]', 'solves a step, mean (max)'], lines) + '\n'
+
+
+def _motion(row):
+	if row is None: return ''
+	return f"{1e3 * row['measured']:.3f}" if ran(row) else outcome(row)
+
+
 def rangeTable(rows, present):
 	lines = []
 	for name in present:
@@ -146,6 +178,8 @@ def write(folder):
 	pictures.pivots(rows, os.path.join(folder, 'pivots.png'))
 	parts.append('![Smallest pivot and error of a solve](pivots.png)\n')
 	if 'columnFactor' in present or 'slopeFactor' in present: parts.append(factorTable(rows))
+	if 'softeningGrid' in present: parts.append(bandTable(rows))
+	if 'sandSlope' in present: parts.append(sandTable(rows))
 	parts += pages.texts(os.path.join(here, 'findings.md'))
 	if listed: parts += ['# All cases\n', OUTCOMES, *(section(rows, name) for name in listed)]
 	pages.write(folder, parts)
@@ -171,6 +205,20 @@ the user sees outside is how the analysis ended there.
 FACTORS = """## Which ghost factor
 
 Columns shrink to half their height, the slope is that of Coombs (2023), both in 20 steps: the overlaps are whatever the motion brings.
+
+"""
+
+BAND = """## Softening depends on the grid
+
+A block of clay, 1 m wide and 2 m high, between smooth plates with a weak spot at its foot, shortened by .5 % (`scripts/extremes softeningGrid`): load at the
+end over the limit load without softening and weak spot, and mean iterations (linear solves) of a step.
+
+"""
+
+SAND = """## A slope of sand
+
+Sand of 35 degrees that does not dilate, slopes of 1 m, h = 0.1 m (`scripts/extremes sandSlope`): how far the point moves that moves most, with no cohesion
+and with one of 1e-3 of weight times height.
 
 """
 

@@ -9,22 +9,20 @@ import os
 import re
 import sys
 import time
-from math import cos, inf, nan, radians, sin, tau
+from math import cos, inf, nan, sin, tau
 
 import numpy as np
 from yade import mpm, pack
-from yade.wrapper import (MpmBoundary, MpmDruckerPragerMat, MpmElasticMat, MpmGhost, MpmGrid, MpmImplicitEngine, MpmMohrCoulombMat, MpmNewton, MpmVonMisesMat,
-                          Omega)
+from yade.wrapper import MpmBoundary, MpmElasticMat, MpmGrid, MpmImplicitEngine, MpmNewton, Omega
 
 here = os.path.dirname(os.path.abspath(sys.argv[0]))
 sys.path[:0] = [here, os.path.join(here, '..', '..', 'scripts', 'lib')]
 import pivots
+from common import cellSize, fullNewton, stabilisation, young
 from slopes import weakLayerSlope
+from soils import Band, Clay, SandSlope, friction, frictional, tresca, vonMises
 
 O = Omega()
-cellSize = 0.1 # [m] where it is not the parameter: at 1 m the two scalings would be the same
-young = 1e6
-fullNewton = dict(predictor=False, reuseFactor=False) # steps start from zero: the number of iterations tells how hard one is
 
 
 class Column:
@@ -151,20 +149,6 @@ class Beam(Cantilever):
 		return abs((points['pos0'] - points['pos'])[last, 1].mean() / exact - 1)
 
 
-def vonMises(strength):
-	"""Law of a column that yields at this part of its modulus."""
-	return lambda E, values: MpmVonMisesMat(yieldStress=strength * E, **values)
-
-
-def friction(kind, phi, psi=0., cohesion=0.):
-	"""Law of a frictional column; angles in degrees, cohesion over the modulus."""
-	return lambda E, values: kind(frictionAngle=radians(phi), dilationAngle=radians(psi), cohesion=cohesion * E, **values)
-
-
-def stabilisation(ghost, factor=1e-2):
-	return MpmGhost(factor=0) if ghost == 'none' else MpmGhost(factor=factor, scaling=ghost)
-
-
 def weightForHeight(ratio):
 	"""b l0 / E that compresses a column of nu = 0 to this part of its height: s with (W + W^2 / 2) / s = ratio, W exp(W) = s."""
 	low, high = 1e-6, 20.
@@ -195,14 +179,6 @@ def thinnedAtRandom(column, part):
 	return column
 
 
-frictional = { # nearly no lateral stress as long as it is elastic: it yields everywhere
-        'friction': lambda phi: dict(kind=MpmMohrCoulombMat, phi=phi),
-        'frictionCone': lambda phi: dict(kind=MpmDruckerPragerMat, phi=phi),
-        'dilation': lambda psi: dict(kind=MpmMohrCoulombMat, phi=45, psi=psi),
-        'cohesion': lambda c: dict(kind=MpmMohrCoulombMat, phi=30, cohesion=c),
-}
-
-
 def scene(axis, dim, ghost, value):
 	"""The scene of a case."""
 	if axis == 'overlap': return Column(dim, ghost, overlap=(value, value))
@@ -211,6 +187,13 @@ def scene(axis, dim, ghost, value):
 	if axis == 'contrast': return Column(dim, ghost, contrast=value, weight=1e-3, steps=1)
 	if axis == 'mixed': return Column(dim, ghost, contrast=value)
 	if axis == 'yield': return Column(dim, ghost, confined=True, poisson=.3, law=vonMises(value))
+	if axis == 'softening': return Column(dim, ghost, confined=True, poisson=.3, law=vonMises(1e-2, value))
+	if axis == 'tresca': return Column(dim, ghost, confined=True, poisson=.3, law=tresca(value))
+	if axis in ('camClay', 'camClayFooting'): return Clay(dim, ghost, value, axis == 'camClayFooting')
+	if axis == 'sandSlope': return SandSlope(ghost, *map(float, value.split('/')))
+	if axis == 'softeningGrid':
+		cells, softening = value.split('/')
+		return Band(ghost, int(cells), softening)
 	if axis == 'overlapFBar': return Column(dim, ghost, overlap=(value, value), fBar=True)
 	if axis == 'yieldFBar': return Column(dim, ghost, confined=True, poisson=.3, law=vonMises(value), fBar=True)
 	if axis in ('bending', 'bendingFBar'): return Beam(ghost, value, axis == 'bendingFBar')
@@ -249,6 +232,7 @@ kinds = [ # of failures, by what the exception says
         ('thrown off', 'thrown off the grid'),
         ('diverges', 'diverging'),
         ('above the tolerance', 'not converging'),
+        ('times the tolerance', 'not converging'), # around a node
 ]
 
 
@@ -260,7 +244,7 @@ def run(axis, dim, ghost, value):
 	"""One case; returns a dictionary of results."""
 	O.reset()
 	result = dict(
-	        dofs=0, steps=0, completed=0, condition=nan, worstCondition=nan, pivot=nan, solveError=nan, meanIterations=nan, maxIterations=0, cuts=0, luSolves=0, clamped=0, error=nan,
+	        dofs=0, steps=0, completed=0, condition=nan, worstCondition=nan, pivot=nan, solveError=nan, meanIterations=nan, maxIterations=0, cuts=0, luSolves=0, clamped=0, error=nan, measured=nan,
 	        failure='')
 	begin = time.process_time()
 	try:
@@ -281,6 +265,7 @@ def run(axis, dim, ghost, value):
 			if axis in conditionOfSteps: result['worstCondition'] = np.nanmax([result['worstCondition'], engine.conditionEstimate()])
 			result['clamped'] = max(result['clamped'], engine.clampedDomains)
 		result['error'] = tried.error()
+		if hasattr(tried, 'measured'): result['measured'] = tried.measured()
 	except (RuntimeError, ValueError) as error:
 		result['failure'] = kindOf(error)
 	return result | dict(seconds=time.process_time() - begin)

@@ -34,14 +34,17 @@ def rows(path):
 
 
 def test_extremes(study, tmp_path):
-	arguments = 'contrast', 'turns', 'points', '--quick', '--out', tmp_path / 'out'
-	assert '9 cases to run' in study('extremes', *arguments)
+	arguments = 'contrast', 'turns', 'points', 'softening', 'camClay', 'softeningGrid', '--quick', '--out', tmp_path / 'out'
+	assert '16 cases to run' in study('extremes', *arguments)
 	results = {(row['axis'], row['ghost']): row for row in rows(tmp_path / 'out/results/atlas.csv')}
 	for ghost in 'none', 'mesh-independent', 'paper':
+		assert float(results['softening', ghost]['error']) < .05 and float(results['camClay', ghost]['error']) < .05
 		assert float(results['contrast', ghost]['error']) < .05 # soft layers are not locked by the stabilisation of stiff ones
 	assert float(results['turns', 'mesh-independent']['error']) < 1e-6 and int(results['turns', 'mesh-independent']['maxIterations']) <= 6
 	assert results['turns', 'none']['failure'] == results['points', 'none']['failure'] == 'singular'
+	assert .3 < float(results['softeningGrid', 'mesh-independent']['measured']) < .95 # of the load before it softened
 	page = (tmp_path / 'out/README.md').read_text()
+	assert '| the same on all grids |' in page
 	assert '| `contrast` |' in page and '**singular**' in page
 	assert (tmp_path / 'out/outcomes-grid.png').stat().st_size > 10000
 	assert '0 cases to run' in study('extremes', *arguments)
