@@ -34,7 +34,8 @@ namespace {
 				const Vec<Dim> da = d.template segment<Dim>(Dim * a), db = d.template segment<Dim>(Dim * b);
 				push(sum, a, db);
 				if (a != b) push(sum, b, da);
-				if (sum.K) sum.K->add(a, b, code, derivative(db), derivative(da));
+				if (sum.K) sum.K->add(a, b, code, derivative(db));
+				if (sum.K && a != b) sum.K->add(b, a, -code, derivative(da));
 			}
 			return std::nullopt;
 		}

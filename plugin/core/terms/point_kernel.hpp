@@ -4,7 +4,7 @@
 #pragma once
 #include "core/materials/kinematics.hpp"
 #include "core/terms/internal_force.hpp"
-#include "core/terms/varying_law.hpp"
+#include "core/terms/large_laws.hpp"
 
 namespace gimpm {
 
@@ -252,7 +252,9 @@ private:
 				const double* column = points.internals[columnOf<L>(k)].data();
 				internals[k]         = batch.load([&](int p) GIMPM_INLINE_LAMBDA { return column[p]; });
 			}
-			response.take(l.template respond<Lanes>(strain, internals));
+			if constexpr (isLarge<L>) respondOfLargeLaw(material.law, strain, internals.data(), response);
+			else
+				response.take(l.template respond<Lanes>(strain, internals));
 		});
 	}
 };
