@@ -91,7 +91,7 @@ namespace {
 			for (auto& x : cloud.position)
 				x += Vec<2>::Constant(0.3);
 			reenter<2>(cloud, grid);
-			const auto basis = cloudBasis<2>(cloud, grid, Basis::gimp, {});
+			const auto basis = cloudBasis<2>(cloud, grid, Basis::gimp, Boundary<2>());
 			EXPECT_EQ(basis.nodes.size(), period * period);
 			std::size_t points = 0;
 			for (const auto& colour : basis.colours) {
@@ -100,7 +100,9 @@ namespace {
 					for (int p = colour[r].first; p < colour[r].second; ++p) {
 						points += basis.patches[p].count;
 						for (const int node : basis.patches[p].node)
-							if (node >= 0) EXPECT_EQ(range.try_emplace(node, r).first->second, r) << "period " << period;
+							if (node >= 0) {
+								EXPECT_EQ(range.try_emplace(node, r).first->second, r) << "period " << period;
+							}
 					}
 			}
 			EXPECT_EQ(points, cloud.size());

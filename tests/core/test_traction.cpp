@@ -207,9 +207,8 @@ namespace {
 			const auto report    = block.step();
 			ASSERT_TRUE(report.converged()) << report.cause;
 			EXPECT_NEAR(block.load.resultant[1], -2e5 * std::pow(1.5, Dim - 1), Dim == 2 ? 1e-3 : 3e4);
-			if (Dim == 2)
-				for (const auto& vertex : block.load.surface.vertices)
-					EXPECT_NEAR(vertex[1] / 1.5, 0.844580, shift == 0 ? 2e-6 : 2e-3);
+			for (const auto& vertex : block.load.surface.vertices) // triangles share their force with the nodes less evenly
+				EXPECT_NEAR(vertex[1] / 1.5, 0.844580, Dim == 2 && shift == 0 ? 2e-6 : 3e-3);
 		}
 	}
 
@@ -258,7 +257,9 @@ namespace {
 			block.load.pressure = 1;
 			const auto report   = block.step();
 			EXPECT_EQ(report.converged(), !isNew);
-			if (isNew) EXPECT_EQ(report.cause.substr(0, 66), "a surface under pressure has the body on its outer side: reverse t");
+			if (isNew) {
+				EXPECT_EQ(report.cause.substr(0, 66), "a surface under pressure has the body on its outer side: reverse t");
+			}
 		}
 		Block<Dim> right(lid<Dim>(1.5, 1.5));
 		right.rollers(true);

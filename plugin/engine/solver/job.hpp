@@ -11,7 +11,7 @@ namespace yade {
 template <int Dim> struct Job {
 	gimpm::StepControl     control;
 	Real                   begin, target; // load times
-	gimpm::Model<Dim>      model {};
+	gimpm::Model<Dim>      model = gimpm::Model<Dim>();
 	gimpm::PointCloud<Dim> cloud {};
 	SurfaceLoads<Dim>      surfaceLoads {};
 };
