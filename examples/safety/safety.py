@@ -6,7 +6,8 @@
 	          D.V. Griffiths, P.A. Lane (1999): Slope stability analysis by finite elements. Geotechnique 49, example 1; charts give 1.380
 	cut       vertical cut of examples/collapse, H = 5 m, gamma H / c_u = 3 (Tresca): limit analysis 3.776 / 3 = 1.2587
 	gradient  the same cut in clay whose strength grows from c_u / 2 at the top to 3/2 c_u at the base: a field of strengths, beside the same in layers
-	infinite  infinite slope of 30 degrees, 3 m of soil on rock, c = 5 kPa, phi = psi = 25 degrees, gamma = 20 kN/m3: c / (gamma z sin cos) + tan(phi) / tan(30 degrees) = 1.0001
+	infinite  infinite slope of 30 degrees, 3 m of soil on rock, gamma = 20 kN/m3, psi = phi: c / (gamma z sin cos) + tan(phi) / tan(30 degrees), 1.0001 for c = 5 kPa and
+	          phi = 25 degrees; here c and tan(phi) are 1.25 times as large, so that gravity is carried
 	long      60 m of it between ends that are held, which add to that
 
 Run it with `scripts/run examples/safety/safety.py [options]`, or by yade-batch with meshes.table.
@@ -68,14 +69,16 @@ def cut(strength=lambda y: 1.):
 
 
 def inclined(long):
-	depth, beta = 3., np.radians(30)
+	beta, margin = np.radians(30), 1.25
+	depth = 3 * np.cos(beta)  # across the slope
 	L = 60. if long else 4 * depth / options.cells
-	soil = MpmMohrCoulombMat(young=1e8, poisson=0.3, density=2000, cohesion=5e3, frictionAngle=np.radians(25), dilationAngle=np.radians(25), label='soil')
+	phi = np.arctan(margin * np.tan(np.radians(25)))
+	soil = MpmMohrCoulombMat(young=1e8, poisson=0.3, density=2000, cohesion=margin * 5e3, frictionAngle=phi, dilationAngle=phi, label='soil')
 	profile = [(0, 0), (L, 0), (L, depth), (0, depth)]
 	ends = [MpmBoundary(max=(0, inf, inf), fix='x'), MpmBoundary(min=(L, -inf, -inf), fix='x')] if long else []
 	scene(mpm.polygon(profile), depth, soil, [*ends, MpmBoundary(max=(inf, 0, inf), fix='xy')], period=0 if long else L)
 	solver.gravity = (10 * np.sin(beta), -10 * np.cos(beta), 0)  # the axes lie along the slope
-	return profile, (1.0001, 1.0001)
+	return profile, (1.0001 * margin, 1.0001 * margin)
 
 
 begin = time.time()

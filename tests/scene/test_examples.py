@@ -204,6 +204,13 @@ def test_progress_page_of_a_batch(yade):
 	assert process.returncode == 0
 
 
+def test_safety_of_an_infinite_slope(yade):
+	"""On a periodic grid; closed form: 1.2501. The error falls with the cell size: 0.8, 0.4, 0.2 % with 10, 20, 40 cells."""
+	run = yade(root / 'examples' / 'safety' / 'safety.py', '--scene', 'infinite', '--cells', 20, '--tolerance', 0.004)
+	low, high = map(float, re.search(r'F = (\S+) to (\S+), published 1.25', run.stdout).groups())
+	assert abs(low / 1.2501 - 1) < 0.01 and abs(high / 1.2501 - 1) < 0.01
+
+
 def test_surface_loads(yade):
 	run = yade(root / 'examples' / 'surface_loads' / 'surface_loads.py', '--size', 10, '--cells', 3)
 	assert abs(float(re.search(r'resultant over q b: (\S+)', run.stdout)[1]) - 1) < 2e-6

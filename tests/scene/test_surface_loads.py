@@ -67,6 +67,22 @@ print(json.dumps([heights, straight[0], straight == finish()]))
 	assert results[2]
 
 
+def test_safety_counts_loads_on_surfaces(yade):
+	"""Clay that may widen, under a pressure q with c_u = .8 q: 2 c_u = 1.6 q carries it up to F = 1.6; the load is left where it is."""
+	results = yade(column + '''
+load = column()
+O.materials.append(MpmTrescaMat(young=1e8, poisson=0.3, density=1, undrainedStrength=8e4, label='clay'))
+for b in O.bodies: b.material = O.materials['clay']
+load.pressure = 1e5
+solver.boundaries = solver.boundaries[:1] + solver.boundaries[2:]
+O.run(4, wait=True)
+before = [list(v) for v in load.surface.vertices]
+safety = mpm.strengthReduction(tolerance=0.01)
+print(json.dumps([safety['lower'], safety['upper'], before == [list(v) for v in load.surface.vertices]]))
+''').result
+	assert 0.98 * 1.6 < results[0] < results[1] < 1.02 * 1.6 and results[2]
+
+
 def test_surfaces_of_regions(yade):
 	"""Number of pieces, their total size, and the sum of their normals; that of a closed surface vanishes."""
 	results = yade('''

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "core/stepping/strength_reduction.hpp"
 #include <algorithm>
+#include <limits>
 #include <sstream>
 
 namespace gimpm {
@@ -14,15 +15,18 @@ template <int Dim> double largestStrain(const PointCloud<Dim>& cloud)
 	return largest;
 }
 
-/// Along the axes of the grid.
-template <int Dim> double smallestExtent(const PointCloud<Dim>& cloud)
+/// Along the axes of the grid, but for periodic ones: there the body has no end.
+template <int Dim> double smallestExtent(const PointCloud<Dim>& cloud, const Grid<Dim>& grid)
 {
 	Vec<Dim> lower = cloud.position[0], upper = lower;
 	for (std::size_t p = 0; p < cloud.size(); ++p) {
 		lower = lower.cwiseMin(cloud.position[p] - cloud.halfSize[p]);
 		upper = upper.cwiseMax(cloud.position[p] + cloud.halfSize[p]);
 	}
-	return (upper - lower).minCoeff();
+	double smallest = std::numeric_limits<double>::infinity();
+	for (int a = 0; a < Dim; ++a)
+		if (grid.period[a] == 0) smallest = std::min(smallest, upper[a] - lower[a]);
+	return smallest;
 }
 
 template <int Dim> void scaleStrains(PointCloud<Dim>& cloud, double by)
@@ -114,7 +118,7 @@ WeakBody<Dim> reduceStrength(
         const PointCloud<Dim>& cloud, const Model<Dim>& model, const Load<Dim>& load, double factor, StepControl control, LinearSolver& solver)
 {
 	const double    strain = largestStrain(cloud), scale = std::max(1., strain / smallStrain);
-	const double    limit     = flowsBeyond * strain / scale * smallestExtent(cloud);
+	const double    limit     = flowsBeyond * strain / scale * smallestExtent(cloud, model.grid);
 	Model<Dim>      weakModel = model;
 	PointCloud<Dim> start     = cloud;
 	WeakBody<Dim>   body;

@@ -110,7 +110,11 @@ namespace {
 			const auto               load = engine.loadBetween<Dim>(engine.loadTime, engine.loadTime);
 			const gimpm::StepControl control(1, engine.newton->minStep, engine.newton->maxIterations);
 			gimpm::LinearSolver      solver;
-			found = inSpace(gimpm::reduceStrength(cloud, model, load, factor, control, solver));
+			auto                     loaded = model;
+			SurfaceLoads<Dim>        onSurfaces(engine, model.grid);
+			onSurfaces.join(loaded);
+			onSurfaces.advanceTo(engine.loadTime);
+			found = inSpace(gimpm::reduceStrength(cloud, loaded, load, factor, control, solver));
 			return 0;
 		});
 		vector<Real> displacement;
