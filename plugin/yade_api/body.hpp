@@ -71,6 +71,41 @@ public:
 	YADE_API_INDEX_DERIVED
 };
 
+class Box : public Shape {
+	Box();
+
+public:
+	Vector3r extents;
+	~Box() override;
+	YADE_API_OVERRIDES(Box)
+	YADE_API_INDEX_DERIVED
+};
+
+class Wall : public Shape {
+	Wall();
+
+public:
+	int sense, axis;
+	~Wall() override;
+	YADE_API_OVERRIDES(Wall)
+	YADE_API_INDEX_DERIVED
+};
+
+class Facet : public Shape {
+	Vector3r edgeNormals[3];
+	Real     inscribedRadius, lengths[3];
+	Vector3r directions[3];
+	Facet();
+
+public:
+	vector<Vector3r> vertices;
+	Vector3r         normal;
+	Real             area;
+	~Facet() override;
+	YADE_API_OVERRIDES(Facet)
+	YADE_API_INDEX_DERIVED
+};
+
 class Material : public Serializable, public Indexable {
 public:
 	Material() : id(-1), density(1000) { }
@@ -82,6 +117,24 @@ public:
 	Real                      density;
 	YADE_API_OVERRIDES(Material)
 	YADE_API_INDEX_ROOT
+};
+
+class ElastMat : public Material {
+public:
+	ElastMat();
+	~ElastMat() override;
+	Real young, poisson;
+	YADE_API_OVERRIDES(ElastMat)
+	YADE_API_INDEX_DERIVED
+};
+
+class FrictMat : public ElastMat {
+public:
+	FrictMat();
+	~FrictMat() override;
+	Real frictionAngle;
+	YADE_API_OVERRIDES(FrictMat)
+	YADE_API_INDEX_DERIVED
 };
 
 class Body : public Serializable {
@@ -111,6 +164,8 @@ public:
 	~Body() override;
 	virtual void userForcedDisplacementRedrawHook();
 	bool         isBounded() const { return flags & FLAG_BOUNDED; }
+	bool         isClump() const { return clumpId == id; }
+	bool         isClumpMember() const { return clumpId >= 0 && clumpId != id; }
 	YADE_API_OVERRIDES(Body)
 };
 

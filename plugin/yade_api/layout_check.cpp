@@ -22,6 +22,10 @@ static void checkMembersOfBody(LayoutCheck& check)
 
 	const auto shape = check.make<Shape>();
 	check.require(*shape, "color", shape->color, Vector3r(.1, .2, .3));
+	const auto box = check.make<Box>();
+	check.require(*box, "extents", box->extents, Vector3r(2, 4, 8));
+	const auto facet = check.make<Facet>();
+	check.require(*facet, "vertices", facet->vertices, vector<Vector3r> { { 0, 0, 0 }, { 3, 0, 0 }, { 0, 4, 0 } });
 }
 
 static void checkForces(LayoutCheck& check, ForceContainer& forces)
@@ -32,6 +36,9 @@ static void checkForces(LayoutCheck& check, ForceContainer& forces)
 	forces.sync();
 	check.require(forces.synced && forces.lastReset == 0, "ForceContainer.synced after sync()");
 	check.require(forces.getForce(3) == force, "ForceContainer.getForce()");
+	forces.addTorque(3, force);
+	forces.sync();
+	check.require(forces.getTorque(3) == force, "ForceContainer.getTorque()");
 }
 
 static void checkMembersOfScene(LayoutCheck& check)

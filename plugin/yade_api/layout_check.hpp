@@ -105,6 +105,16 @@ private:
 		require(*shape, "highlight", shape->highlight, true);
 		const auto sphere = make<Sphere>();
 		require(*sphere, "radius", sphere->radius, 0.375);
+		make<Box>();
+		make<Facet>();
+		const auto wall = make<Wall>();
+		require(*wall, "sense", wall->sense, -1);
+		require(*wall, "axis", wall->axis, 2);
+
+		const auto frictional = make<FrictMat>();
+		require(*static_cast<ElastMat*>(frictional.get()), "young", frictional->young, 7.5);
+		require(*static_cast<ElastMat*>(frictional.get()), "poisson", frictional->poisson, 0.3125);
+		require(*frictional, "frictionAngle", frictional->frictionAngle, 0.4375);
 	}
 
 	void checkEngines()

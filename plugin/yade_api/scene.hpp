@@ -37,6 +37,8 @@ public:
 	ForceContainer();
 	const Vector3r& getForce(int);
 	void            addForce(int, const Vector3r&);
+	const Vector3r& getTorque(int);
+	void            addTorque(int, const Vector3r&);
 	void            sync();
 };
 

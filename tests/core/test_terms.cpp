@@ -93,10 +93,10 @@ namespace {
 			model.grid.cellSize    = 0.5;
 			model.materials        = { { Hencky(1e7, 0.3), 2000 } };
 			model.newton.tolerance = 1e-9;
-			model.terms = { [this](const CloudBasis<Dim>& basis, const Grid<Dim>&) { return std::make_unique<SpringForce<Dim>>(springs, basis); } };
-			cloud       = block<Dim>(model.grid, Index<Dim>::Constant(2), 2);
-			Index<Dim> base = Index<Dim>::Constant(3);
-			base[1]         = 1;
+			model.terms            = { [this](const Beginning<Dim>& step) { return std::make_unique<SpringForce<Dim>>(springs, step.basis); } };
+			cloud                  = block<Dim>(model.grid, Index<Dim>::Constant(2), 2);
+			Index<Dim> base        = Index<Dim>::Constant(3);
+			base[1]                = 1;
 			forIndices<Dim>(Index<Dim>::Zero(), base, [&](const Index<Dim>& n) { springs.elongation[Grid<Dim>::key(n)].setZero(); });
 		}
 		double     weight() const { return 10 * 2000; } // 1 m wide in every direction

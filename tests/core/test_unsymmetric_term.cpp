@@ -81,8 +81,8 @@ namespace {
 			model.grid.cellSize    = 3. / cells;
 			model.materials        = { { Hencky(young, 0.3), 1e3 } };
 			model.newton.tolerance = 1e-10;
-			model.terms.push_back([young](const CloudBasis<Dim>& basis, const Grid<Dim>& grid) {
-				return std::make_unique<SidewaysForce<Dim>>(0.02 * young * std::pow(grid.cellSize, Dim - 2), basis, grid);
+			model.terms.push_back([young](const Beginning<Dim>& step) {
+				return std::make_unique<SidewaysForce<Dim>>(0.02 * young * std::pow(step.grid.cellSize, Dim - 2), step.basis, step.grid);
 			});
 			Vec<Dim> max   = Vec<Dim>::Constant(infinity);
 			max[1]         = 0;

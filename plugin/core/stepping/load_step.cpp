@@ -6,6 +6,7 @@
 #include "core/stepping/grip.hpp"
 #include "core/stepping/outcome.hpp"
 #include "core/stepping/restraint.hpp"
+#include "core/stepping/step_control.hpp"
 #include "core/terms/point_update.hpp"
 #include <sstream>
 
@@ -67,8 +68,22 @@ template <int Dim> bool isHeld(const StepSystem<Dim>& system, const PointCloud<D
 	report.parts           = held.parts;
 	if (!lost.empty()) return !fail(report, Failure::detached, lost);
 	for (const auto& term : system.terms)
-		if (const std::string obstacle = term->obstacle(); !obstacle.empty()) return !fail(report, Failure::detached, obstacle);
+		if (const std::string obstacle = term->obstacle(); !obstacle.empty()) return !fail(report, Failure::misplaced, obstacle);
 	return held.freeMotion.empty() || !fail(report, Failure::unrestrained, "nothing restrains the " + held.freeMotion);
+}
+
+/// A converged step may have ended where a term does not admit it. One that has not may be due to friction which no longer holds the body: says so.
+template <int Dim> void askTerms(const StepSystem<Dim>& system, const Eigen::VectorXd& d, StepReport& report)
+{
+	if (!report.converged()) {
+		if (report.failure != Failure::singular && !canBeCut(report.failure)) return;
+		const Restraint held = restraintAt(d, system.basis, system.model.grid, system.model.boundary, system.terms);
+		if (!held.freeMotion.empty())
+			fail(report, Failure::slides, "only friction, which has reached its limit, holds the " + held.freeMotion + " (" + report.cause + ")");
+		return;
+	}
+	for (const auto& term : system.terms)
+		if (const std::string refusal = term->refusal(d); !refusal.empty()) fail(report, Failure::penetrated, refusal);
 }
 
 } // namespace
@@ -83,8 +98,9 @@ template <int Dim> StepReport loadStep(PointCloud<Dim>& cloud, const Model<Dim>&
 	// 2. to 4. points to nodes, assembly and Newton's method on the nodes
 	const Eigen::VectorXd prediction = last ? predict(*last, system.basis.nodes, load.growth(), model.grid) : Eigen::VectorXd();
 	const Eigen::VectorXd d          = equilibrium(system, solver, report, prediction);
-	report.times.linear              = solver.times();
-	report.conjugateGradients        = solver.iterativeEffort();
+	if (!model.terms.empty()) askTerms(system, d, report);
+	report.times.linear       = solver.times();
+	report.conjugateGradients = solver.iterativeEffort();
 	// 5. nodes to points; 6. the grid is reset by not being kept
 	report.accepted = report.failure == Failure::tooManyIterations && model.newton.acceptUnconverged;
 	if (report.converged() || report.accepted) {

@@ -42,9 +42,14 @@ template <int Dim> struct Load {
 	Vec<Dim>                  gravity = Vec<Dim>::Zero(); ///< at factor 1 [m/s2]
 	LoadFactor                factor {};                  ///< of point loads, and of prescribed displacements, which go with its growth
 	std::optional<LoadFactor> ofGravity {};               ///< if it has its own
+	double                    motion = 0;                 ///< duration of the step where something moves by its velocity [s]
 
 	/// What the displacements of the step are in proportion to, as far as that can be known.
-	double growth() const { return factor.growth != 0 ? factor.growth : ofGravity.value_or(factor).growth; }
+	double growth() const
+	{
+		const double ofLoads = factor.growth != 0 ? factor.growth : ofGravity.value_or(factor).growth;
+		return ofLoads != 0 ? ofLoads : motion;
+	}
 };
 
 } // namespace gimpm

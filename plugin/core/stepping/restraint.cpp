@@ -158,9 +158,9 @@ template <int Dim> std::string describe(const Part<Dim>& part, const Grid<Dim>& 
 	return text.str();
 }
 
-} // namespace
-
-template <int Dim> Restraint restraint(const CloudBasis<Dim>& basis, const Grid<Dim>& grid, const Boundary<Dim>& boundary, const Terms<Dim>& terms)
+/// `holds(term, hold)` tells what a term holds.
+template <int Dim, class F>
+Restraint restraintBy(const CloudBasis<Dim>& basis, const Grid<Dim>& grid, const Boundary<Dim>& boundary, const Terms<Dim>& terms, F&& holds)
 {
 	const Parts<Dim>         parts(basis, grid);
 	std::map<int, Part<Dim>> found;
@@ -178,7 +178,7 @@ template <int Dim> Restraint restraint(const CloudBasis<Dim>& basis, const Grid<
 		for (int a = 0; a < Dim; ++a)
 			if (boundary.holder(Grid<Dim>::index(basis.nodes[n]), a)) hold(n, Vec<Dim>::Unit(a));
 	for (const auto& term : terms)
-		term->restrain([&](int n, const Vec<Dim>& direction) { hold(n, direction.normalized()); });
+		holds(*term, [&](int n, const Vec<Dim>& direction) { hold(n, direction.normalized()); });
 	for (auto& [root, part] : found)
 		if (grid.axisymmetric) part.encircle();
 	for (const auto& turn : parts.turns())
@@ -189,7 +189,22 @@ template <int Dim> Restraint restraint(const CloudBasis<Dim>& basis, const Grid<
 	return result;
 }
 
+} // namespace
+
+template <int Dim> Restraint restraint(const CloudBasis<Dim>& basis, const Grid<Dim>& grid, const Boundary<Dim>& boundary, const Terms<Dim>& terms)
+{
+	return restraintBy(basis, grid, boundary, terms, [](const Term<Dim>& term, const typename Term<Dim>::Hold& hold) { term.restrain(hold); });
+}
+
+template <int Dim>
+Restraint restraintAt(const Eigen::VectorXd& d, const CloudBasis<Dim>& basis, const Grid<Dim>& grid, const Boundary<Dim>& boundary, const Terms<Dim>& terms)
+{
+	return restraintBy(basis, grid, boundary, terms, [&](const Term<Dim>& term, const typename Term<Dim>::Hold& hold) { term.restrainAt(d, hold); });
+}
+
 template Restraint restraint(const CloudBasis<2>&, const Grid<2>&, const Boundary<2>&, const Terms<2>&);
 template Restraint restraint(const CloudBasis<3>&, const Grid<3>&, const Boundary<3>&, const Terms<3>&);
+template Restraint restraintAt(const Eigen::VectorXd&, const CloudBasis<2>&, const Grid<2>&, const Boundary<2>&, const Terms<2>&);
+template Restraint restraintAt(const Eigen::VectorXd&, const CloudBasis<3>&, const Grid<3>&, const Boundary<3>&, const Terms<3>&);
 
 } // namespace gimpm

@@ -7,8 +7,17 @@
 namespace gimpm {
 namespace {
 
+template <int Dim> PointStiffness pointStiffness(const PointCloud<Dim>& cloud, const Model<Dim>& model)
+{
+	return [&](int p) {
+		const auto&  material = model.materials[cloud.material[p]];
+		const double young    = material.young(cloud.parameters, cloud.internals, p, [&] { return cloud.elasticStrain[p].full().trace(); });
+		return VolumeAndModulus { cloud.volume0[p] * cloud.volumeRatio(p), young };
+	};
+}
+
 template <int Dim>
-std::vector<GhostFace<Dim>> stabilise(const PointCloud<Dim>& cloud, const Model<Dim>& model, const CloudBasis<Dim>& basis, StepReport& report)
+std::vector<GhostFace<Dim>> stabilise(const PointStiffness& stiffnessOf, const Model<Dim>& model, const CloudBasis<Dim>& basis, StepReport& report)
 {
 	if (model.ghost.factor == 0) return {};
 	const Stopwatch watch(report.times.ghost);
@@ -16,11 +25,6 @@ std::vector<GhostFace<Dim>> stabilise(const PointCloud<Dim>& cloud, const Model<
 	auto            faces    = ghostFaces<Dim>(basis.cells, boundary, model.boundary, model.grid);
 	report.boundaryCells     = int(boundary.size());
 	report.ghostFaces        = int(faces.size());
-	const auto stiffnessOf   = [&](int p) {
-                const auto&  material = model.materials[cloud.material[p]];
-                const double young    = material.young(cloud.parameters, cloud.internals, p, [&] { return cloud.elasticStrain[p].full().trace(); });
-                return VolumeAndModulus { cloud.volume0[p] * cloud.volumeRatio(p), young };
-	};
 	weighGhostFaces(faces, basis, stiffnessOf, model.grid, model.ghost.factor, model.ghost.scaling);
 	return faces;
 }
@@ -47,12 +51,13 @@ template <int Dim> StepSystem<Dim>::StepSystem(const PointCloud<Dim>& cloud, con
 		external = Eigen::VectorXd::Zero(nodalSize());
 		addPointForces(basis, pointForces(cloud, model, load), external);
 	}
-	faces = stabilise(cloud, model, basis, report);
+	const PointStiffness stiffnessOf = pointStiffness(cloud, model);
+	faces                            = stabilise(stiffnessOf, model, basis, report);
 	const Stopwatch watch(report.times.basis);
 	terms.push_back(std::make_unique<InternalForce<Dim>>(basis, points, model.materials));
 	if (!faces.empty()) terms.push_back(std::make_unique<GhostForce<Dim>>(faces, model.grid.cellSize));
 	for (const auto& make : model.terms)
-		terms.push_back(make(basis, model.grid));
+		terms.push_back(make({ cloud, basis, model.grid, stiffnessOf }));
 	prescribed = Eigen::VectorXd::Zero(nodalSize());
 	dofs.number.assign(nodalSize(), -1);
 	for (std::size_t n = 0; n < basis.nodes.size(); ++n)

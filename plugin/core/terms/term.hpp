@@ -52,13 +52,33 @@ public:
 	using Hold = std::function<void(int node, const Vec<Dim>& direction)>;
 	virtual void restrain(const Hold&) const { }
 
+	/// The same for what still keeps it at d, as friction does until it slips.
+	virtual void restrainAt(const Eigen::VectorXd&, const Hold& hold) const { restrain(hold); }
+
+	/// Why equilibrium with these displacements cannot be accepted, a clause; empty if it can.
+	virtual std::string refusal(const Eigen::VectorXd&) const { return {}; }
+
 	/// The step has been accepted with these displacements.
 	virtual void commit(const Eigen::VectorXd&) { }
 };
 
 template <int Dim> using Terms = std::vector<std::unique_ptr<Term<Dim>>>;
 
-/// Makes a term for a step that begins with these basis functions.
-template <int Dim> using TermOfStep = std::function<std::unique_ptr<Term<Dim>>(const CloudBasis<Dim>&, const Grid<Dim>&)>;
+/// Current volume [m3] and Young's modulus [Pa] of a point of the cloud.
+struct VolumeAndModulus {
+	double volume, modulus;
+};
+using PointStiffness = std::function<VolumeAndModulus(int point)>;
+
+/// How things are when a step begins.
+template <int Dim> struct Beginning {
+	const PointCloud<Dim>& cloud;
+	const CloudBasis<Dim>& basis;
+	const Grid<Dim>&       grid;
+	const PointStiffness&  stiffnessOf; ///< while a term is made
+};
+
+/// Makes a term for a step.
+template <int Dim> using TermOfStep = std::function<std::unique_ptr<Term<Dim>>(const Beginning<Dim>&)>;
 
 } // namespace gimpm

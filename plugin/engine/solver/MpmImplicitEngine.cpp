@@ -36,10 +36,19 @@ bool MpmImplicitEngine::isStepAtWork() { return stepsAtWork > 0; }
 bool MpmImplicitEngine::isActivated()
 {
 	beforeActivation.keep(*this);
-	if (PeriodicEngine::isActivated()) return true;
-	const bool ends = isEndOfLoads();
+	const bool isDue = PeriodicEngine::isActivated(), ends = !isDue && isEndOfLoads();
 	nDone += ends;
-	return ends;
+	if (!isDue && !ends) handOver();
+	return isDue || ends;
+}
+
+// Between load steps the bodies that YADE moves feel the soil, too.
+void MpmImplicitEngine::handOver()
+{
+	if (contacts.empty()) return;
+	const ValueLock lock;
+	for (const auto& contact : contacts)
+		contact->handOver(*scene);
 }
 
 // An engine that does not run in every iteration would leave out the end of the load curve, where a run usually stops.
@@ -76,6 +85,7 @@ void MpmImplicitEngine::action()
 			tellObservers(*scene, [this](LoadStepObserver& observer) { observer.stepEnds(*this, false); });
 			throw;
 		}
+		handOver();
 		tellObservers(*scene, [this](LoadStepObserver& observer) { observer.stepEnds(*this, true); });
 	});
 }
@@ -107,6 +117,8 @@ template <int Dim> Job<Dim> MpmImplicitEngine::prepare()
 		job.cloud        = gather(points, job.model);
 		job.surfaceLoads = SurfaceLoads<Dim>(*this, job.model.grid);
 		job.surfaceLoads.join(job.model);
+		job.contacts = Contacts<Dim>(contacts, *scene, job.model.grid, points, job.begin, job.target);
+		job.contacts.join(job.model);
 	}
 	for (const string& doubt : plausibility.look(*this, points, job.cloud, job.model, checking))
 		warn(doubt);
@@ -150,7 +162,9 @@ template <int Dim> Attempt<Dim> MpmImplicitEngine::attempt(Job<Dim>& job) const
 	const Real      time               = job.control.goal() == 1 ? job.target : job.begin + job.control.goal() * (job.target - job.begin);
 	job.model.newton.acceptUnconverged = newton->acceptUnconverged && job.control.isLeast();
 	job.surfaceLoads.advanceTo(time);
+	job.contacts.advanceTo(time);
 	Attempt<Dim> next { time, loadBetween<Dim>(loadTime, time), newton->predictor, {} };
+	if (job.contacts.areThere()) next.load.motion = time - loadTime;
 	if (next.predicts) next.last = fromNumbers<Dim>(lastDisplacements, lastLoadIncrement);
 	return next;
 }
@@ -163,6 +177,7 @@ template <int Dim> void MpmImplicitEngine::reach(Job<Dim>& job, const Attempt<Di
 		const gimpm::Stopwatch watch(scattering);
 		scatter(job.cloud, job.model.grid, points);
 		job.surfaceLoads.scatter();
+		job.contacts.scatter(made.time);
 	}
 	addTime(*timingDeltas, "scatter", scattering);
 	plausibility.know(job.cloud);

@@ -22,6 +22,7 @@ public:
 	string                          basis = "gimp";
 	bool                            fBar  = false;
 	vector<shared_ptr<MpmBoundary>> boundaries;
+	vector<shared_ptr<MpmContact>>  contacts;
 	shared_ptr<MpmGhost>            ghost { new MpmGhost };
 	shared_ptr<MpmNewton>           newton { new MpmNewton };
 	int                             mask      = -1;
@@ -52,6 +53,7 @@ public:
 		v("fBar", &E::fBar, 0, "Cure for volumetric locking of materials that keep their volume: one dilation in a cell. Needs ghost stabilisation.");
 		Loads::attributes(v);
 		v("boundaries", &E::boundaries, 0, "Essential boundary conditions (MpmBoundary); read as a tuple, so assign a new one to change it.");
+		v("contacts", &E::contacts, 0, "Contact with rigid bodies (MpmContact); read as a tuple, so assign a new one to change it.");
 		v("ghost", &E::ghost, 0, "Ghost stabilisation (MpmGhost).", notNull);
 		v("newton", &E::newton, 0, "Solution of a load step (MpmNewton).", notNull);
 		v("mask", &E::mask, 0,
@@ -83,6 +85,7 @@ public:
 
 private:
 	bool                            isEndOfLoads() const;
+	void                            handOver();
 	template <int Dim> void         step();
 	template <int Dim> Job<Dim>     prepare();
 	template <int Dim> void         advance(Job<Dim>&);

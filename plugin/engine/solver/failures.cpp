@@ -66,7 +66,10 @@ const char* nameOf(gimpm::Failure failure)
 	switch (failure) {
 		case Failure::none: return "none";
 		case Failure::detached: return "detached";
+		case Failure::misplaced: return "misplaced";
 		case Failure::unrestrained: return "unrestrained";
+		case Failure::slides: return "slides";
+		case Failure::penetrated: return "penetrated";
 		case Failure::singular: return "singular";
 		case Failure::inverted: return "inverted";
 		case Failure::noResponse: return "noResponse";

@@ -3,6 +3,7 @@
 #include "core/grid/point_cloud.hpp"
 #include "core/stepping/predictor.hpp"
 #include "core/stepping/step_control.hpp"
+#include "engine/solver/contacts.hpp"
 #include "engine/solver/surface_loads.hpp"
 
 namespace yade {
@@ -14,6 +15,7 @@ template <int Dim> struct Job {
 	gimpm::Model<Dim>      model = gimpm::Model<Dim>();
 	gimpm::PointCloud<Dim> cloud {};
 	SurfaceLoads<Dim>      surfaceLoads {};
+	Contacts<Dim>          contacts {};
 };
 
 // A load step, and what it may start from.

@@ -1,0 +1,247 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "core/terms/contact.hpp"
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <sstream>
+#include <tuple>
+
+namespace gimpm {
+namespace {
+
+template <int Dim> Vec<Dim> cornerOf(const PointCloud<Dim>& cloud, int point, int corner)
+{
+	Vec<Dim> x = cloud.position[point];
+	for (int a = 0; a < Dim; ++a)
+		x[a] += (corner >> a & 1 ? 1 : -1) * cloud.halfSize[point][a];
+	return x;
+}
+
+template <int Dim> auto keyOf(const ContactRecord<Dim>& r) { return std::tuple(r.point, r.corner, r.body); }
+
+template <int Dim> const ContactRecord<Dim>* recordOf(const std::vector<ContactRecord<Dim>>& records, const std::tuple<int, int, int>& key)
+{
+	const auto i = std::lower_bound(records.begin(), records.end(), key, [](const auto& r, const auto& k) { return keyOf(r) < k; });
+	return i != records.end() && keyOf(*i) == key ? &*i : nullptr;
+}
+
+template <int Dim> std::string deepIn(const RigidBody<Dim>& body, const Vec<Dim>& x, const char* when)
+{
+	std::ostringstream text;
+	text << body.name << when << " the middle of the material point at (" << x.transpose() << ") inside of it";
+	return text.str();
+}
+
+} // namespace
+
+template <int Dim>
+Contact<Dim>::Contact(ContactSystem<Dim>& system, const Beginning<Dim>& step)
+        : system_(system), tolerance_(1e-9 * step.grid.cellSize), isRing_(step.grid.axisymmetric), cloud_(step.cloud), basis_(step.basis), grid_(step.grid)
+{
+	near_ = nearPoints(system.bodies, step.cloud, step.basis, step.grid);
+	for (const NearPoint& near : near_) {
+		const auto& body = system.bodies[near.body];
+		if (body.proximity(body.begin, cloud_.position[near.point], near.side).gap < 0) // of a two-sided surface it never is
+			obstacle_ = deepIn(body, cloud_.position[near.point], " has");
+		addCorners(near, step);
+	}
+	std::sort(corners_.begin(), corners_.end(), [](const Corner& a, const Corner& b) {
+		return std::tie(a.point, a.corner, a.body) < std::tie(b.point, b.corner, b.body);
+	});
+	for (const Corner& corner : corners_)
+		isSymmetric_ = isSymmetric_ && (corner.law.friction == 0 || corner.law.cap == 0);
+}
+
+template <int Dim> void Contact<Dim>::addCorners(const NearPoint& near, const Beginning<Dim>& step)
+{
+	const auto& body = system_.bodies[near.body];
+	for (int c = 0; c < 1 << Dim; ++c) {
+		const Vec<Dim>       place = cornerOf(cloud_, near.point, c);
+		const Proximity<Dim> at    = body.proximity(body.begin, place, near.side);
+		if (std::max(at.gap, at.beside) > searchReach(body, grid_.cellSize)) continue;
+		const auto attached = attach(place, step.basis, step.grid);
+		if (!attached) continue; // behind a wall
+		const auto*  record = recordOf(system_.records, { near.point, c, near.body });
+		const double offset = record ? record->offset : body.isNew && at.beside < 0 ? std::min(0., at.gap) : 0;
+		corners_.push_back({ near.point, c, near.body, near.side, place, offset, record ? record->friction : Vec<Dim>(Vec<Dim>::Zero()),
+		                     lawOf(body, near, place, at.normal, step), *attached });
+	}
+}
+
+/// The area of a corner is its share of the domain's outline as seen along the normal, in axisymmetry of the ring through the corner.
+template <int Dim>
+ContactLaw<Dim> Contact<Dim>::lawOf(
+        const RigidBody<Dim>& body, const NearPoint& near, const Vec<Dim>& place, const Vec<Dim>& normal, const Beginning<Dim>& step) const
+{
+	const auto [volume, young] = step.stiffnessOf(near.point);
+	double area                = 0;
+	for (int a = 0; a < Dim; ++a)
+		area += std::abs(normal[a]) * volume / (2 * cloud_.halfSize[near.point][a]) / (1 << (Dim - 1));
+	if (isRing_) area *= std::max(0., place[0] / cloud_.position[near.point][0]);
+	const double penalty = body.stiffness * young * area / grid_.cellSize;
+	return { penalty, penalty / 2, body.friction, body.adhesion * area };
+}
+
+template <int Dim> Approach<Dim> Contact<Dim>::approach(const Corner& corner, const Vec<Dim>& x) const
+{
+	const auto&   body = system_.bodies[corner.body];
+	Approach<Dim> a { body.proximity(body.end, x, corner.side), body.before(x) - corner.place, body.beforeSlope(), corner.friction };
+	a.at.gap -= corner.offset;
+	return a;
+}
+
+/// Of sheets that a corner is behind those count which it is straight behind, of several in one plane the first. Behind an edge between sheets, and so beside
+/// all of them, it is the one that it is least beside.
+template <int Dim> template <class F> void Contact<Dim>::forTouching(const Eigen::VectorXd& d, F&& f) const
+{
+	const double margin = 0.1 * grid_.cellSize;
+	for (auto first = corners_.begin(), last = first; first != corners_.end(); first = last) {
+		const Vec<Dim>        x = first->place + first->attached.displacement(d);
+		std::vector<Vec<Dim>> normals; // of sheets that count
+		const Corner*         beside = nullptr;
+		double                least  = margin;
+		const auto            tell   = [&](const Corner& corner) {
+                        const Approach<Dim> at = approach(corner, x);
+                        if (const auto touched = touch(corner.law, at, tolerance_)) f(corner, x, at.at.gap, *touched);
+		};
+		for (; last != corners_.end() && last->point == first->point && last->corner == first->corner; ++last) {
+			if (system_.bodies[last->body].shape.kind != RigidKind::sheet) {
+				tell(*last);
+				continue;
+			}
+			const Proximity<Dim> at = approach(*last, x).at;
+			if (at.gap > tolerance_ || at.beside > margin) continue;
+			if (at.beside > 0 && at.beside < least) beside = &*last, least = at.beside;
+			if (at.beside > 0 || std::any_of(normals.begin(), normals.end(), [&](const Vec<Dim>& n) { return n.dot(at.normal) > 0.99; })) continue;
+			normals.push_back(at.normal);
+			tell(*last);
+		}
+		if (beside && normals.empty()) tell(*beside);
+	}
+}
+
+template <int Dim> void Contact<Dim>::mark(NodeMatrix<Dim>& K) const
+{
+	for (const Corner& corner : corners_)
+		for (int m = 0; m < corner.attached.nodes; ++m)
+			for (int n = 0; n < corner.attached.nodes; ++n) {
+				const int code = NodeMatrix<Dim>::code(Index<Dim>(corner.attached.index(n) - corner.attached.index(m)));
+				if (code >= 0) K.markUsed(corner.attached.node[m], code);
+			}
+}
+
+template <int Dim> void Contact<Dim>::addStiffness(const Corner& corner, const Mat<Dim>& slope, NodeMatrix<Dim>& K) const
+{
+	const auto& at = corner.attached;
+	for (int m = 0; m < at.nodes; ++m)
+		for (int n = 0; n < at.nodes; ++n) {
+			const int code = NodeMatrix<Dim>::code(Index<Dim>(at.index(n) - at.index(m)));
+			K.add(at.node[m], at.node[n], code, -at.weight[m] * at.weight[n] * slope);
+		}
+}
+
+template <int Dim> std::optional<PointFailure> Contact<Dim>::add(const Eigen::VectorXd& d, const TermSum<Dim>& sum) const
+{
+	forTouching(d, [&](const Corner& corner, const Vec<Dim>&, double, const Touch<Dim>& touched) {
+		const auto& at = corner.attached;
+		for (int n = 0; n < at.nodes; ++n) {
+			const Vec<Dim> f = at.weight[n] * touched.force();
+			sum.force.template segment<Dim>(Dim * at.node[n]) -= f;
+			if (sum.sizes) sum.sizes->template segment<Dim>(Dim * at.node[n]) += f.cwiseAbs();
+		}
+		if (sum.K) addStiffness(corner, touched.slope, *sum.K);
+	});
+	return std::nullopt;
+}
+
+template <int Dim> double Contact<Dim>::fromOutside(const Eigen::VectorXd& d) const
+{
+	Eigen::VectorXd force = Eigen::VectorXd::Zero(d.size());
+	add(d, { force });
+	return force.norm();
+}
+
+template <int Dim> void Contact<Dim>::restrain(const typename Term<Dim>::Hold& hold) const
+{
+	restrainAt(Eigen::VectorXd::Zero(Dim * Eigen::Index(basis_.nodes.size())), hold);
+}
+
+template <int Dim> void Contact<Dim>::restrainAt(const Eigen::VectorXd& d, const typename Term<Dim>::Hold& hold) const
+{
+	forTouching(d, [&](const Corner& corner, const Vec<Dim>&, double, const Touch<Dim>& touched) {
+		const bool sticks = corner.law.friction > 0 && corner.law.cap > 0 && !touched.slips;
+		for (int n = 0; n < corner.attached.nodes; ++n) {
+			if (corner.attached.weight[n] < 1e-6) continue;
+			hold(corner.attached.node[n], touched.normal);
+			for (int a = 0; sticks && a < Dim; ++a)
+				hold(corner.attached.node[n], Vec<Dim>::Unit(a));
+		}
+	});
+}
+
+template <int Dim> std::string Contact<Dim>::refusal(const Eigen::VectorXd& d) const
+{
+	for (const NearPoint& near : near_) {
+		const auto& body   = system_.bodies[near.body];
+		const auto  centre = attach(cloud_.position[near.point], basis_, grid_);
+		if (!centre) continue;
+		const Vec<Dim>       x  = cloud_.position[near.point] + centre->displacement(d);
+		const Proximity<Dim> at = body.proximity(body.end, x, near.side);
+		if (at.gap < 0 && at.beside < 0) return deepIn(body, x, " would get");
+	}
+	return {};
+}
+
+template <int Dim> ContactLoad Contact<Dim>::loadOn(const Vec<Dim>& owner, const Corner& corner, const Vec<Dim>& place, const Touch<Dim>& touched) const
+{
+	ContactLoad load;
+	Vec3        arm                 = Vec3::Zero();
+	load.force.template head<Dim>() = -touched.force();
+	arm.template head<Dim>()        = place - owner;
+	load.torque                     = arm.cross(load.force);
+	if (isRing_) load.force[0] = 0, load.torque.setZero(); // all around the axis they add up to nothing
+	if constexpr (Dim == 3) {
+		const Mat3 resists = corner.law.normal * touched.normal * touched.normal.transpose()
+		        + (touched.slips || corner.law.friction == 0 || corner.law.cap == 0 ? 0 : corner.law.tangential)
+		                * (Mat3::Identity() - touched.normal * touched.normal.transpose());
+		Eigen::Matrix<double, 3, 6> moves;
+		moves << Mat3::Identity(), (Mat3() << 0, arm[2], -arm[1], -arm[2], 0, arm[0], arm[1], -arm[0], 0).finished();
+		load.stiffness = moves.transpose() * resists * moves;
+	}
+	return load;
+}
+
+template <int Dim> void Contact<Dim>::commit(const Eigen::VectorXd& d)
+{
+	std::vector<ContactRecord<Dim>> records;
+	system_.loads.assign(system_.owners.size(), {});
+	forTouching(d, [&](const Corner& corner, const Vec<Dim>& x, double gap, const Touch<Dim>& touched) {
+		records.push_back({ corner.point, corner.corner, corner.body, corner.offset, true, touched.slips, gap, touched.pressure, touched.friction,
+		                    touched.normal, x });
+		const int    owner = system_.bodies[corner.body].owner;
+		const auto   load  = loadOn(system_.owners[owner], corner, x, touched);
+		ContactLoad& sum   = system_.loads[owner];
+		sum.force += load.force, sum.torque += load.torque, sum.stiffness += load.stiffness;
+	});
+	const auto byKey = [](const auto& a, const auto& b) { return keyOf(a) < keyOf(b); };
+	std::sort(records.begin(), records.end(), byKey);
+	const std::size_t touching = records.size();
+	for (const Corner& corner : corners_) { // an overlap that counts as none is forgotten as far as it opens
+		if (corner.offset == 0) continue;
+		const Vec<Dim>     x       = corner.place + corner.attached.displacement(d);
+		const double       overlap = std::min(0., approach(corner, x).at.gap + corner.offset);
+		ContactRecord<Dim> record { corner.point, corner.corner, corner.body, std::max(corner.offset, overlap) };
+		const auto         known = std::lower_bound(records.begin(), records.begin() + touching, record, byKey);
+		if (known != records.begin() + touching && keyOf(*known) == keyOf(record)) known->offset = record.offset;
+		else if (record.offset < 0)
+			records.push_back(record);
+	}
+	std::sort(records.begin(), records.end(), byKey);
+	system_.records = std::move(records);
+	for (auto& body : system_.bodies)
+		body.isNew = false;
+}
+
+template class Contact<2>;
+template class Contact<3>;
+
+} // namespace gimpm

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Contact of the body with rigid bodies: penalty, friction, and what is remembered of both.
+#pragma once
+#include "core/grid/attachment.hpp"
+#include "core/terms/contact_law.hpp"
+#include "core/terms/contact_search.hpp"
+#include "core/terms/term.hpp"
+
+namespace gimpm {
+
+/// A corner of a point's domain that touches a body at the end of a step that was accepted, or overlapped it when the body came.
+template <int Dim> struct ContactRecord {
+	int      point, corner, body; ///< bit a of the corner set: upper along axis a
+	double   offset  = 0;         ///< the gap that counts as none, <= 0 [m]
+	bool     touches = false, slips = false;
+	double   gap      = 0;                                           ///< the offset taken off, < 0 by the penalty [m]
+	double   pressure = 0;                                           ///< normal force [N]
+	Vec<Dim> friction = Vec<Dim>::Zero(), normal = Vec<Dim>::Zero(); ///< on the soil [N]; of the body
+	Vec<Dim> place = Vec<Dim>::Zero();                               ///< of the corner at the end of the step [m]
+};
+
+/// What the soil does to whoever owns bodies.
+struct ContactLoad {
+	using Stiffness = Eigen::Matrix<double, 6, 6>;
+	Vec3      force = Vec3::Zero(), torque = Vec3::Zero(); ///< about the owner's position [N], [N m]
+	Stiffness stiffness = Stiffness::Zero();               ///< in 3D, an upper bound: of the penalties alone, for a translation and a rotation of the owner
+};
+
+/// The rigid bodies beside the soil, and what is between them.
+template <int Dim> struct ContactSystem {
+	std::vector<RigidBody<Dim>>     bodies;
+	std::vector<Vec<Dim>>           owners;     ///< positions at the end of the step [m]
+	std::vector<ContactRecord<Dim>> records {}; ///< of the last step that was accepted, sorted by point, corner and body
+	std::vector<ContactLoad>        loads {};   ///< on the owners, then
+};
+
+/// Corners of the domains against the surfaces of the bodies. Corners move with the linear functions of the grid. The penalty on the gap g is a
+/// pressure of stiffness * E g / h, with Young's modulus E of the point, over the corner's share of the domain's surface; that on the slip is half of it. Only
+/// prescribed motion of the bodies is known here.
+template <int Dim> class Contact : public Term<Dim> {
+public:
+	/// The records and loads of the system are written in commit().
+	Contact(ContactSystem<Dim>&, const Beginning<Dim>&);
+
+	void                        mark(NodeMatrix<Dim>&) const override;
+	std::optional<PointFailure> add(const Eigen::VectorXd& d, const TermSum<Dim>&) const override;
+	bool                        isSymmetric() const override { return isSymmetric_; }
+	std::string                 obstacle() const override { return obstacle_; }
+	double                      fromOutside(const Eigen::VectorXd& d) const override;
+	void                        restrain(const typename Term<Dim>::Hold&) const override;
+	void                        restrainAt(const Eigen::VectorXd& d, const typename Term<Dim>::Hold&) const override;
+	std::string                 refusal(const Eigen::VectorXd& d) const override;
+	void                        commit(const Eigen::VectorXd& d) override;
+
+private:
+	/// A corner near a body.
+	struct Corner {
+		int             point, corner, body, side;
+		Vec<Dim>        place; ///< at the start of the step
+		double          offset;
+		Vec<Dim>        friction;
+		ContactLaw<Dim> law;
+		Attachment<Dim> attached;
+	};
+
+	void                    addCorners(const NearPoint&, const Beginning<Dim>&);
+	ContactLaw<Dim>         lawOf(const RigidBody<Dim>&, const NearPoint&, const Vec<Dim>& place, const Vec<Dim>& normal, const Beginning<Dim>&) const;
+	Approach<Dim>           approach(const Corner&, const Vec<Dim>& x) const;
+	template <class F> void forTouching(const Eigen::VectorXd& d, F&& f) const; // f(corner, its place, gap, touch)
+	void                    addStiffness(const Corner&, const Mat<Dim>& slope, NodeMatrix<Dim>& K) const;
+	ContactLoad             loadOn(const Vec<Dim>& owner, const Corner&, const Vec<Dim>& place, const Touch<Dim>&) const;
+
+	ContactSystem<Dim>&    system_;
+	double                 tolerance_; // of a gap that counts as touching [m]
+	bool                   isRing_, isSymmetric_ = true;
+	std::vector<NearPoint> near_;
+	std::vector<Corner>    corners_; // by point, corner and body
+	std::string            obstacle_;
+	const PointCloud<Dim>& cloud_;
+	const CloudBasis<Dim>& basis_;
+	const Grid<Dim>&       grid_;
+};
+
+} // namespace gimpm

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "core/terms/rigid_body.hpp"
+#include "core/grid/surface.hpp"
+#include <Eigen/Geometry>
+#include <algorithm>
+
+namespace gimpm {
+namespace {
+
+template <int Dim> Proximity<Dim> fromBall(double radius, const Vec<Dim>& fromCentre)
+{
+	const double   distance = fromCentre.norm();
+	const Vec<Dim> normal   = distance > 0 ? Vec<Dim>(fromCentre / distance) : Vec<Dim>(Vec<Dim>::Unit(Dim - 1));
+	Proximity<Dim> near { distance - radius, normal };
+	if (distance > 0) near.slope = (Mat<Dim>::Identity() - normal * normal.transpose()) / distance;
+	return near;
+}
+
+/// In its own axes. Its edges are those of a smaller block with everything within the radius of it, so that the normal turns without a jump.
+template <int Dim> Proximity<Dim> fromBlock(const RigidShape<Dim>& shape, const Vec<Dim>& own)
+{
+	const Vec<Dim> beyond = own.cwiseAbs() - (shape.halfSize - Vec<Dim>::Constant(shape.radius)), out = beyond.cwiseMax(0);
+	const Vec<Dim> sign     = own.unaryExpr([](double x) { return x < 0 ? -1. : 1.; });
+	const double   distance = out.norm();
+	if (distance == 0) {
+		int face;
+		return { beyond.maxCoeff(&face) - shape.radius, Vec<Dim>(sign[face] * Vec<Dim>::Unit(face)) };
+	}
+	const Vec<Dim> normal = out.cwiseProduct(sign) / distance;
+	Mat<Dim>       moves  = (out.array() > 0).template cast<double>().matrix().asDiagonal();
+	return { distance - shape.radius, normal, Mat<Dim>((moves - normal * normal.transpose()) / distance) };
+}
+
+/// How far a place in the plane of a sheet is beside it.
+double besideOf(const std::array<Vec<2>, 2>& corner, const Vec<2>&, const Vec<2>& own)
+{
+	const Vec<2> along = (corner[1] - corner[0]).normalized();
+	return std::max((corner[0] - own).dot(along), (own - corner[1]).dot(along));
+}
+double besideOf(const std::array<Vec3, 3>& corner, const Vec3& normal, const Vec3& own)
+{
+	double beside = -std::numeric_limits<double>::infinity();
+	for (int i = 0; i < 3; ++i)
+		beside = std::max(beside, (own - corner[i]).dot((corner[(i + 1) % 3] - corner[i]).cross(normal).normalized()));
+	return beside;
+}
+
+Vec<2> normalOf(const std::array<Vec<2>, 2>& corner)
+{
+	const Vec<2> along = corner[1] - corner[0];
+	return Vec<2>(along[1], -along[0]).normalized();
+}
+Vec3 normalOf(const std::array<Vec3, 3>& corner) { return (corner[1] - corner[0]).cross(corner[2] - corner[0]).normalized(); }
+
+template <int Dim> Proximity<Dim> fromSheet(const RigidShape<Dim>& shape, const Vec<Dim>& own, int side)
+{
+	const Vec<Dim> normal = normalOf(shape.corners);
+	return { side * normal.dot(own - shape.corners[0]), Vec<Dim>(side * normal), Mat<Dim>::Zero(), besideOf(shape.corners, normal, own) };
+}
+
+} // namespace
+
+template <int Dim> Proximity<Dim> RigidBody<Dim>::proximity(const Pose<Dim>& pose, const Vec<Dim>& x, int side) const
+{
+	if (shape.kind == RigidKind::ball) return fromBall<Dim>(shape.radius, x - pose.position);
+	if (shape.kind == RigidKind::plane) return { side * shape.normal.dot(x - pose.position), Vec<Dim>(side * shape.normal) };
+	const Vec<Dim> own  = pose.inBody(x);
+	Proximity<Dim> near = shape.kind == RigidKind::block ? fromBlock<Dim>(shape, own) : fromSheet<Dim>(shape, own, side);
+	near.normal         = pose.rotation * near.normal;
+	near.slope          = pose.rotation * near.slope * pose.rotation.transpose();
+	return near;
+}
+
+template <int Dim> int RigidBody<Dim>::sideOf(const Pose<Dim>& pose, const Vec<Dim>& x) const
+{
+	return shape.isTwoSided && proximity(pose, x, 1).gap < 0 ? -1 : 1;
+}
+
+template <int Dim> std::pair<Vec<Dim>, Vec<Dim>> RigidBody<Dim>::bounds(const Pose<Dim>& pose) const
+{
+	if (shape.kind == RigidKind::sheet) {
+		Vec<Dim> low = pose.inSpace(shape.corners[0]), high = low;
+		for (const Vec<Dim>& corner : shape.corners)
+			low = low.cwiseMin(pose.inSpace(corner)), high = high.cwiseMax(pose.inSpace(corner));
+		return { low, high };
+	}
+	Vec<Dim> reach = Vec<Dim>::Constant(shape.kind == RigidKind::plane ? std::numeric_limits<double>::infinity() : shape.radius);
+	if (shape.kind == RigidKind::block) reach = pose.rotation.cwiseAbs() * shape.halfSize;
+	return { pose.position - reach, pose.position + reach };
+}
+
+template <int Dim> double RigidBody<Dim>::motion() const
+{
+	const double shift = (end.position - begin.position).norm();
+	if (shape.kind == RigidKind::plane) return shift;
+	double reach = std::max(shape.radius, shape.halfSize.norm());
+	for (const Vec<Dim>& corner : shape.corners)
+		reach = std::max(reach, corner.norm());
+	return shift + (end.rotation - begin.rotation).norm() * reach;
+}
+
+template struct RigidBody<2>;
+template struct RigidBody<3>;
+
+} // namespace gimpm

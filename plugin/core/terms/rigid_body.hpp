@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Rigid bodies beside the soil: where they are, and how far a place is from them.
+#pragma once
+#include "core/base/types.hpp"
+#include <array>
+#include <limits>
+#include <string>
+
+namespace gimpm {
+
+/// Where a rigid body is, and how it is turned.
+template <int Dim> struct Pose {
+	Vec<Dim> position = Vec<Dim>::Zero();
+	Mat<Dim> rotation = Mat<Dim>::Identity();
+
+	Vec<Dim> inSpace(const Vec<Dim>& own) const { return position + rotation * own; }
+	Vec<Dim> inBody(const Vec<Dim>& x) const { return rotation.transpose() * (x - position); }
+};
+
+enum class RigidKind { ball, block, plane, sheet };
+
+/// In the plane a ball is a cylinder, a block and a plane have no end out of the plane, and a sheet is a segment.
+template <int Dim> struct RigidShape {
+	RigidKind                 kind     = RigidKind::ball;
+	double                    radius   = 0;                ///< of a ball, or of the rounded edges of a block [m]
+	Vec<Dim>                  halfSize = Vec<Dim>::Zero(); ///< of a block [m]
+	Vec<Dim>                  normal   = Vec<Dim>::Zero(); ///< of a plane through the body's position, unit, out of the body
+	std::array<Vec<Dim>, Dim> corners {};                  ///< of a sheet, in the body's axes [m]
+	bool                      isTwoSided = false;          ///< a plane, or a sheet, that soil may touch from either side
+};
+
+/// Of a place from a body.
+template <int Dim> struct Proximity {
+	double   gap    = 0;                                        ///< distance to the surface, < 0 inside [m]
+	Vec<Dim> normal = Vec<Dim>::Zero();                         ///< unit, out of the body
+	Mat<Dim> slope  = Mat<Dim>::Zero();                         ///< derivative of the normal by the place [1/m]
+	double   beside = -std::numeric_limits<double>::infinity(); ///< how far the foot of the normal is beside the edge of a sheet, < 0 on it [m]
+};
+
+template <int Dim> struct RigidBody {
+	RigidShape<Dim> shape;
+	std::string     name;                                                ///< for messages
+	int             owner     = 0;                                       ///< who moves it, and takes its forces: a clump or itself
+	bool            isNew     = false;                                   ///< what it overlaps at the start is taken as fitting
+	double          friction  = 0;                                       ///< coefficient [-]
+	double          adhesion  = std::numeric_limits<double>::infinity(); ///< cap of the shear stress [Pa]
+	double          stiffness = 0;                                       ///< of the contact, over Young's modulus per cell [-]
+	Pose<Dim>       begin {}, end {};                                    ///< of the step
+
+	/// `side` of a two-sided surface from which it is looked at: 1 where its normal points to, or -1.
+	Proximity<Dim> proximity(const Pose<Dim>&, const Vec<Dim>& x, int side) const;
+
+	/// Of a two-sided surface that on which a place is.
+	int sideOf(const Pose<Dim>&, const Vec<Dim>& x) const;
+
+	/// Lower and upper corner of the box around it; infinite for planes.
+	std::pair<Vec<Dim>, Vec<Dim>> bounds(const Pose<Dim>&) const;
+
+	/// An upper bound of how far a place on it moves in the step [m].
+	double motion() const;
+
+	/// Where the body's matter that is at x at the end was at the beginning.
+	Vec<Dim> before(const Vec<Dim>& x) const { return begin.inSpace(end.inBody(x)); }
+	Mat<Dim> beforeSlope() const { return begin.rotation * end.rotation.transpose(); }
+};
+
+} // namespace gimpm

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+#include "yade_api/types.hpp"
+
+namespace yade {
+
+// What an MpmContact keeps of a corner of a material point's domain that touches a body, as numbers one after the other.
+struct ContactRecordOfPoint {
+	static constexpr int width = 17;
+
+	int      point, corner, body; // ids
+	Real     offset, gap, pressure;
+	bool     touches, slips;
+	Vector3r friction, normal, place;
+
+	static ContactRecordOfPoint from(const Real* x)
+	{
+		return { int(x[0]),
+			 int(x[1]),
+			 int(x[2]),
+			 x[3],
+			 x[4],
+			 x[5],
+			 x[6] != 0,
+			 x[7] != 0,
+			 Vector3r::Map(x + 8),
+			 Vector3r::Map(x + 11),
+			 Vector3r::Map(x + 14) };
+	}
+	void appendTo(vector<Real>& numbers) const
+	{
+		for (const Real x : { Real(point), Real(corner), Real(body), offset, gap, pressure, Real(touches), Real(slips) })
+			numbers.push_back(x);
+		for (const Vector3r& v : { friction, normal, place })
+			numbers.insert(numbers.end(), v.data(), v.data() + 3);
+	}
+	Vector3r force() const { return pressure * normal + friction; } // on the soil [N]
+};
+
+// Calls f(record) for each of them.
+template <class F> void forRecords(const vector<Real>& numbers, F&& f)
+{
+	for (size_t i = 0; i + ContactRecordOfPoint::width <= numbers.size(); i += ContactRecordOfPoint::width)
+		f(ContactRecordOfPoint::from(&numbers[i]));
+}
+
+} // namespace yade

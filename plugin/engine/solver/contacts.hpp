@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+// Contact with rigid bodies, between the bodies of a scene and the term of a step.
+#include "core/stepping/model.hpp"
+#include "core/terms/contact.hpp"
+#include "engine/conditions/MpmContact.hpp"
+#include "engine/points/MaterialPoints.hpp"
+#include "yade_api/scene.hpp"
+
+namespace yade {
+
+// The bodies that a contact means: neither material points nor clumps, but members of these.
+vector<shared_ptr<Body>> bodiesOf(const MpmContact&, const Scene&);
+
+template <int Dim> class Contacts {
+public:
+	Contacts() = default;
+	// For the load steps from one time to another. std::invalid_argument names what cannot be computed with.
+	Contacts(const vector<shared_ptr<MpmContact>>&, const Scene&, const gimpm::Grid<Dim>&, const vector<MaterialPoint>&, Real begin, Real target);
+
+	bool areThere() const { return bool(system); }
+
+	// Makes them act in the model's steps, for as long as this exists.
+	void join(gimpm::Model<Dim>&);
+
+	// The next step ends here.
+	void advanceTo(Real time);
+
+	// Writes a converged state back: what the contacts keep, and where the bodies are if nobody else moves them.
+	void scatter(Real time);
+
+private:
+	// Who moves bodies: one of them alone, or a clump.
+	struct Owner {
+		shared_ptr<MpmContact> contact;
+		shared_ptr<Body>       body;
+		Se3r                   begin, target, reached; // of the run; reached: the end of the step
+		bool                   isFree = false, isNew = true;
+	};
+	struct Member {
+		shared_ptr<Body> body;
+		Se3r             own, first; // as seen from the owner; in space when the run begins
+	};
+
+	void add(const shared_ptr<MpmContact>&, const Scene&, const gimpm::Grid<Dim>&);
+	int  ownerOf(const shared_ptr<MpmContact>&, const Body&, const Scene&);
+	void addMember(const MpmContact&, const shared_ptr<Body>&, int owner, const gimpm::Grid<Dim>&);
+	void recall(const MpmContact&);
+	void keep(MpmContact&) const;
+	void keepRecords() const;
+
+	vector<shared_ptr<MpmContact>>        given;
+	shared_ptr<gimpm::ContactSystem<Dim>> system; // its terms refer to it
+	vector<Owner>                         owners;
+	vector<Member>                        members; // as the system's bodies
+	vector<Body::id_t>                    points;  // ids
+	bool                                  yadeMoves = false, hasKept = false;
+	Real                                  begin = 0, target = 0, end = 0; // of the run; end: of the last step
+};
+
+} // namespace yade

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+// Rigid bodies of the scene, as the core understands them.
+#include "core/grid/grid.hpp"
+#include "core/terms/rigid_body.hpp"
+#include "yade_api/scene.hpp"
+#include <optional>
+
+namespace yade {
+
+inline Se3r operator*(const Se3r& a, const Se3r& b) { return { a.position + a.orientation * b.position, a.orientation * b.orientation }; }
+inline Se3r inverse(const Se3r& a) { return { a.orientation.conjugate() * -a.position, a.orientation.conjugate() }; }
+
+// Part of the way from one pose to another.
+inline Se3r between(const Se3r& a, const Se3r& b, Real part)
+{
+	return { (1 - part) * a.position + part * b.position, a.orientation.slerp(part, b.orientation) };
+}
+
+// Its shape, where the body is at this pose, and pose and name of it; none of a body that has no section at z = 0 in the plane. std::invalid_argument
+// names what the body is that cannot touch.
+template <int Dim> std::optional<gimpm::RigidBody<Dim>> rigidBody(const Body&, const Se3r& at, const gimpm::Grid<Dim>&);
+
+// Of the same body, at another pose.
+template <int Dim> gimpm::Pose<Dim> poseOf(const Body&, const Se3r& first, const Se3r& now);
+
+} // namespace yade
