@@ -26,5 +26,5 @@ BOOST_PYTHON_MODULE(mpm_engine)
 	        "For mpm.respond: one call of the law of a material in principal axes, from trial strains and a dict of internal variables.");
 	py::def("elasticStrainOf", &elasticStrainForPython, "For mpm.elementTest: principal elastic strains of principal Kirchhoff stresses.");
 	py::def("gridCells", &gridCellsForPython,
-	        "For mpm.plot: corners and first field of the cells of 'grid', 'ghostFaces' or 'loads' around the material points.");
+	        "For mpm.plot: corners and first field of the cells of 'grid', 'ghostFaces', 'loads' or 'contacts' around the material points.");
 }

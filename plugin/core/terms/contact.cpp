@@ -78,7 +78,7 @@ ContactLaw<Dim> Contact<Dim>::lawOf(
 		area += std::abs(normal[a]) * volume / (2 * cloud_.halfSize[near.point][a]) / (1 << (Dim - 1));
 	if (isRing_) area *= std::max(0., place[0] / cloud_.position[near.point][0]);
 	const double penalty = body.stiffness * young * area / grid_.cellSize;
-	return { penalty, penalty / 2, body.friction, body.adhesion * area };
+	return { penalty, penalty / slipSoftness, body.friction, body.adhesion * area };
 }
 
 template <int Dim> Approach<Dim> Contact<Dim>::approach(const Corner& corner, const Vec<Dim>& x) const

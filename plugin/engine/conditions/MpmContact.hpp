@@ -12,7 +12,7 @@ public:
 	int              mask      = -1;
 	Real             friction  = std::numeric_limits<Real>::quiet_NaN(); // that of the bodies' materials
 	Real             adhesion  = std::numeric_limits<Real>::infinity();
-	Real             stiffness = 50;
+	Real             stiffness = 100;
 	vector<int>      bodies;
 	vector<Vector3r> forces, torques, impulses;
 	vector<int>      touching, slipping;

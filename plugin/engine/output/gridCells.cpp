@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "engine/output/gridCells.hpp"
+#include "engine/output/contactPoints.hpp"
 #include "engine/output/loadedSurfaces.hpp"
 #include "engine/points/parallel.hpp"
 #include "engine/solver/exchange.hpp"
@@ -32,6 +33,10 @@ VtkCells gridCells(const string& kind, const Scene& scene, const MpmImplicitEngi
 	if (kind == "loads") {
 		const ValueLock lock;
 		return loadedSurfaces(solver, solver.loadTime, solver.grid->dim);
+	}
+	if (kind == "contacts") {
+		const ValueLock lock;
+		return contactPoints(solver.contacts);
 	}
 	return solver.grid->dim == 2 ? cells<2>(kind, scene, solver) : cells<3>(kind, scene, solver);
 }

@@ -36,6 +36,25 @@ namespace {
 
 	string reactionName(const string& number, int axis) { return "reaction" + number + "_" + "xyz"[axis]; }
 
+	// Sums, and of bodies that do not move freely also one by one.
+	void tellContact(py::dict& data, const string& name, const MpmContact& contact, int dim)
+	{
+		Vector3r total    = Vector3r::Zero();
+		int      touching = 0;
+		for (size_t b = 0; b < contact.bodies.size(); ++b) {
+			total += contact.forces[b];
+			touching += contact.touching[b];
+			const string body = "body" + std::to_string(contact.bodies[b]);
+			for (int axis = 0; axis < 3 && !contact.areFree[b]; ++axis) {
+				if (axis < dim) data[body + "_" + "xyz"[axis]] = contact.forces[b][axis];
+				if (axis == 2 || dim == 3) data[body + "_torque_" + "xyz"[axis]] = contact.torques[b][axis];
+			}
+		}
+		for (int axis = 0; axis < dim; ++axis)
+			data[name + "_" + "xyz"[axis]] = total[axis];
+		data[name + "_touching"] = touching;
+	}
+
 	py::dict plotData(MpmImplicitEngine& engine)
 	{
 		const ValueLock lock;
@@ -62,6 +81,8 @@ namespace {
 		for (size_t i = 0; i < engine.loads.size(); ++i)
 			for (int axis = 0; axis < engine.grid->dim; ++axis)
 				data["load" + std::to_string(i) + "_" + "xyz"[axis]] = engine.loads[i]->resultant[axis];
+		for (size_t i = 0; i < engine.contacts.size(); ++i)
+			tellContact(data, "contact" + std::to_string(i), *engine.contacts[i], engine.grid->dim);
 		return data;
 	}
 }
@@ -76,7 +97,7 @@ void addPlotData(py::object pythonClass)
 	        "along gravity [m]; displacement: the largest in any direction [m]; plasticShare: part of the initial volume with plasticStrain > 0 [-]; "
 	        "elasticEnergy: strain energy of linear (Hencky) elasticity [J]; gravityPotential: minus weight (times its load factor) times displacement, summed "
 	        "over the points [J], zero at the initial positions; reaction_x, reaction_y and, in 3D, reaction_z: sum of the attribute *reactions* [N]; "
-	        "reaction0_y: that of boundaries[0], for all directions that a boundary fixes; load0_y: resultant of loads[0], for all directions [N]. Energies and forces are per metre of thickness in plane "
+	        "reaction0_y: that of boundaries[0], for all directions that a boundary fixes; load0_y: resultant of loads[0], for all directions [N]; contact0_y: force of the soil on all bodies of contacts[0] [N], contact0_touching: corners that touch them; body7_y, body7_torque_z: force [N] and torque [N m] on body 7, if it does not move freely. Energies and forces are per metre of thickness in plane "
 	        "strain.\n\nRaises ValueError for a body that is no complete material point.");
 }
 

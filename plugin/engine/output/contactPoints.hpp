@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+// Where material points touch rigid bodies, as VTK data.
+#include "engine/conditions/MpmContact.hpp"
+#include "engine/output/vtkDataSets.hpp"
+
+namespace yade {
+
+// A vertex for each corner that touches: `force` on the soil [N]; `gap` [m], < 0 by the penalty; `slips`, 1 at the limit of friction; `body`, its id.
+VtkCells contactPoints(const vector<shared_ptr<MpmContact>>&);
+
+} // namespace yade
