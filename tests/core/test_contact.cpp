@@ -226,7 +226,7 @@ TEST(Contact, WishedInPlace)
 	}
 	Block<2> deep;
 	deep.rollers();
-	deep.add(RigidKind::ball, { 0.75, 2.2 });
+	deep.add(RigidKind::ball, { 0.75, 2.2 }).isNew = true;
 	EXPECT_EQ(deep.step().failure, Failure::misplaced);
 	EXPECT_NE(deep.report.cause.find("body #7 has the middle of the material point at ("), std::string::npos) << deep.report.cause;
 }
@@ -237,8 +237,8 @@ TEST(Contact, ThatLetsAPointInIsRefused)
 	Block<2> block;
 	block.rollers();
 	auto& plate     = block.add(RigidKind::plane, { 0, 1.5 });
-	plate.stiffness = 0.1;
-	plate.end.position[1] -= 0.3;
+	plate.stiffness = 0.01;
+	plate.end.position[1] -= 0.4;
 	const auto before = block.cloud.position;
 	EXPECT_EQ(block.step().failure, Failure::penetrated);
 	EXPECT_NE(block.report.cause.find("body #7 would get the middle"), std::string::npos) << block.report.cause;
@@ -254,14 +254,16 @@ TEST(Contact, FrictionRemembers)
 		auto& plate = block.add(RigidKind::plane, { 0, 1.5 }, friction);
 		plate.end.position[1] -= 0.02;
 		ASSERT_TRUE(block.step().converged());
-		for (const double shift : { 0.01, 0.01, -0.01, -0.01 }) {
+		double largest = 0;
+		for (const double shift : { 0.0005, 0.0005, -0.0005, -0.0005 }) {
 			block.contacts.bodies[0].end.position[0] += shift;
 			ASSERT_TRUE(block.step().converged()) << block.report.cause;
+			largest = std::max(largest, std::abs(block.contacts.loads[0].force[0]));
 		}
 		const double last = block.contacts.loads[0].force[0], limit = 0.01 * block.contacts.loads[0].force[1];
-		if (friction > 1) EXPECT_NEAR(last, 0, 1); // of forces of some kN on the way
+		if (friction > 1) EXPECT_LT(std::abs(last), 1e-2 * largest);
 		else
-			EXPECT_NEAR(last / std::abs(limit), 1, 1e-6); // pushed to the left, the plate drags on the soil at its limit
+			EXPECT_NEAR(last / limit, 1, 1e-6); // moved to the left, the plate is held by what it rubs on
 	}
 }
 

@@ -40,7 +40,7 @@ Contact<Dim>::Contact(ContactSystem<Dim>& system, const Beginning<Dim>& step)
 	near_ = nearPoints(system.bodies, step.cloud, step.basis, step.grid);
 	for (const NearPoint& near : near_) {
 		const auto& body = system.bodies[near.body];
-		if (body.proximity(body.begin, cloud_.position[near.point], near.side).gap < 0) // of a two-sided surface it never is
+		if (body.isNew && body.proximity(body.begin, cloud_.position[near.point], near.side).gap < 0) // of a two-sided surface it never is
 			obstacle_ = deepIn(body, cloud_.position[near.point], " has");
 		addCorners(near, step);
 	}
@@ -186,7 +186,9 @@ template <int Dim> std::string Contact<Dim>::refusal(const Eigen::VectorXd& d) c
 		if (!centre) continue;
 		const Vec<Dim>       x  = cloud_.position[near.point] + centre->displacement(d);
 		const Proximity<Dim> at = body.proximity(body.end, x, near.side);
-		if (at.gap < 0 && at.beside < 0) return deepIn(body, x, " would get");
+		// the whole domain inside; a two-sided surface would not know the point again when its middle has passed
+		const double own = body.shape.isTwoSided ? 0 : at.normal.cwiseAbs().dot(cloud_.halfSize[near.point]);
+		if (at.gap < -own && at.beside < 0) return deepIn(body, x, " would get");
 	}
 	return {};
 }
