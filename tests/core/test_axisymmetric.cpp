@@ -3,6 +3,7 @@
 #include "core/stepping/restraint.hpp"
 #include "core/stepping/step_system.hpp"
 #include "core/terms/point_update.hpp"
+#include "derivatives.hpp"
 #include "scenes.hpp"
 
 namespace gimpm::testAxisymmetric {
@@ -136,23 +137,8 @@ namespace {
 		EXPECT_EQ(dense(system.tangent()).rows(), report.dofs);
 		Eigen::VectorXd d = nodal<2>(system.basis, model.grid, [&](const Vec<2>& x) { return Vec<2>(0.2 * strain.norm() * (x + Vec<2>(0, x[0]))); });
 		d += random.vector(d.size(), 0.1 * strain.norm());
-		NodeMatrix<2>   K;
-		Eigen::VectorXd force;
-		system.prepare(K);
-		EXPECT_FALSE(system.evaluate(d, force, &K));
-		Eigen::MatrixXd differences(d.size(), d.size());
-		const double    step = 1e-3 * strain.norm();
-		for (int i = 0; i < d.size(); ++i) {
-			const auto at = [&](double s) {
-				Eigen::VectorXd f;
-				system.evaluate(d + s * step * Eigen::VectorXd::Unit(d.size(), i), f, nullptr);
-				return f;
-			};
-			differences.col(i) = (8 * (at(1) - at(-1)) - (at(2) - at(-2))) / (12 * step);
-		}
-		const Eigen::MatrixXd found = dense(K);
-		const double          size  = differences.cwiseAbs().maxCoeff();
-		return { (found - differences).cwiseAbs().maxCoeff() / size, (found - found.transpose()).cwiseAbs().maxCoeff() / size };
+		const auto [K, expected] = tangentAndDerivative(system, d, 1e-3 * strain.norm());
+		return { relativeError(K, expected), relativeError(K.transpose(), K) };
 	}
 
 	TEST(Axisymmetric, TangentIsTheDerivativeOfTheForces)

@@ -2,6 +2,7 @@
 // K + K_g against the finite-difference derivative of the nodal forces, for random clouds in finite strain.
 #include "core/stepping/step_system.hpp"
 #include "core/terms/point_update.hpp"
+#include "derivatives.hpp"
 #include "scenes.hpp"
 #include <algorithm>
 
@@ -39,21 +40,8 @@ namespace {
 			EXPECT_EQ(report.largestWallOverlap > 0, model.basis == Basis::gimp);
 			Eigen::VectorXd d = nodal<Dim>(system.basis, model.grid, [&](const Vec<Dim>& x) { return Vec<Dim>(deformation * x - x); });
 			d += random.vector(d.size(), scatter);
-			NodeMatrix<Dim> K;
-			Eigen::VectorXd force;
-			system.prepare(K);
-			EXPECT_FALSE(system.evaluate(d, force, &K));
-			Eigen::MatrixXd differences(d.size(), d.size());
-			const double    step = 1e-4;
-			for (int i = 0; i < d.size(); ++i) {
-				const auto at = [&](double s) {
-					Eigen::VectorXd f;
-					system.evaluate(d + s * step * Eigen::VectorXd::Unit(d.size(), i), f, nullptr);
-					return f;
-				};
-				differences.col(i) = (8 * (at(1) - at(-1)) - (at(2) - at(-2))) / (12 * step);
-			}
-			return (dense(K) - differences).cwiseAbs().maxCoeff() / differences.cwiseAbs().maxCoeff();
+			const auto [K, expected] = tangentAndDerivative(system, d, 1e-4);
+			return relativeError(K, expected);
 		}
 		int plasticPoints(const Mat<Dim>& deformation)
 		{

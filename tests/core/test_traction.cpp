@@ -2,6 +2,7 @@
 // Loads on surfaces that move with the body: tangent, resultants, and closed forms.
 #include "core/stepping/step_system.hpp"
 #include "core/terms/traction.hpp"
+#include "derivatives.hpp"
 #include "scenes.hpp"
 #include <Eigen/Geometry>
 
@@ -96,12 +97,7 @@ namespace {
 		K.reset(system.basis.nodes, system.terms.back()->isSymmetric(), block.model.grid);
 		system.terms.back()->mark(K);
 		system.terms.back()->add(d, { f, &K });
-		Eigen::MatrixXd differences(d.size(), d.size());
-		for (int i = 0; i < d.size(); ++i) {
-			const Eigen::VectorXd e = 1e-3 * Eigen::VectorXd::Unit(d.size(), i);
-			differences.col(i)      = (8 * (force(d + e) - force(d - e)) - (force(d + 2 * e) - force(d - 2 * e))) / 12e-3;
-		}
-		return (dense(K) - differences).cwiseAbs().maxCoeff() / differences.cwiseAbs().maxCoeff();
+		return relativeError(dense(K), derivative(force, d, 1e-3));
 	}
 
 	template <class T> class TractionOf : public ::testing::Test {

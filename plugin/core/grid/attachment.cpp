@@ -23,7 +23,7 @@ template <int Dim> std::optional<Index<Dim>> nearestCell(const Vec<Dim>& xi, con
 			cell[a] += rest % 3 - 1;
 		const double away = distance<Dim>(xi, cell);
 		if (away > least || (nearest && away == least)) continue;
-		if (std::binary_search(populated.begin(), populated.end(), Grid<Dim>::key(grid.first(cell)))) nearest = cell, least = away;
+		if (find(populated, Grid<Dim>::key(grid.first(cell))) >= 0) nearest = cell, least = away;
 	}
 	return nearest;
 }

@@ -15,6 +15,13 @@ using Key = std::uint64_t;
 /// Where a key stands among sorted ones, or would stand.
 inline int position(const std::vector<Key>& sorted, Key key) { return int(std::lower_bound(sorted.begin(), sorted.end(), key) - sorted.begin()); }
 
+/// Where a key stands among sorted ones; -1: it is not there.
+inline int find(const std::vector<Key>& sorted, Key key)
+{
+	const int place = position(sorted, key);
+	return place < int(sorted.size()) && sorted[place] == key ? place : -1;
+}
+
 template <int Dim> struct Grid {
 	double   cellSize = 1;                ///< edge length h of a cell [m]
 	Vec<Dim> origin   = Vec<Dim>::Zero(); ///< position of node (0, 0[, 0]) [m]

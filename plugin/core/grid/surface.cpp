@@ -61,15 +61,19 @@ void divide(const Surface<3>::Piece& piece, const Middles& middles, std::vector<
 
 } // namespace
 
-template <> Vec<2> Surface<2>::normal(const Piece& piece, const std::vector<Vec<2>>& x) const
+Vec<2> pieceNormal(const Vec<2>& a, const Vec<2>& b)
 {
-	const Vec<2> along = x[piece[1]] - x[piece[0]];
+	const Vec<2> along = b - a;
 	return { along[1], -along[0] };
 }
 
-template <> Vec<3> Surface<3>::normal(const Piece& piece, const std::vector<Vec<3>>& x) const
+Vec<3> pieceNormal(const Vec<3>& a, const Vec<3>& b, const Vec<3>& c) { return 0.5 * (b - a).cross(c - a); }
+
+template <int Dim> Vec<Dim> Surface<Dim>::normal(const Piece& piece, const std::vector<Vec<Dim>>& x) const
 {
-	return 0.5 * (x[piece[1]] - x[piece[0]]).cross(x[piece[2]] - x[piece[0]]);
+	if constexpr (Dim == 2) return pieceNormal(x[piece[0]], x[piece[1]]);
+	else
+		return pieceNormal(x[piece[0]], x[piece[1]], x[piece[2]]);
 }
 
 template <int Dim> bool Surface<Dim>::isClosed() const

@@ -6,6 +6,10 @@
 
 namespace gimpm {
 
+/// Length of a segment times the normal on its right; area of a triangle times the normal on the side from which its corners run counterclockwise.
+Vec<2> pieceNormal(const Vec<2>& a, const Vec<2>& b);
+Vec<3> pieceNormal(const Vec<3>& a, const Vec<3>& b, const Vec<3>& c);
+
 /// The body is on the left of a segment, from its first to its second vertex; of a triangle on the side from which its vertices run clockwise.
 template <int Dim> struct Surface {
 	using Piece = std::array<int, Dim>;
@@ -14,7 +18,7 @@ template <int Dim> struct Surface {
 	std::vector<Vec<Dim>> vertices0; ///< where they were at first [m]
 	std::vector<Piece>    pieces;
 
-	/// Length or area of a piece times its outward normal; `x` are the places of all vertices.
+	/// Of a piece, outward; `x` are the places of all vertices.
 	Vec<Dim> normal(const Piece&, const std::vector<Vec<Dim>>& x) const;
 
 	/// Whether it has no edge: every vertex in the plane and every side of a triangle belongs to two pieces.

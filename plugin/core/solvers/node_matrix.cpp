@@ -15,13 +15,6 @@ template <int Dim> Key keyOffset(int code)
 		k += Key(std::int64_t(rest % 5 - 2)) * Grid<Dim>::keyStep(a);
 	return k;
 }
-
-/// Place of a key among sorted ones; -1: it is not there.
-int find(const std::vector<Key>& sorted, Key key)
-{
-	const int place = position(sorted, key);
-	return place < int(sorted.size()) && sorted[place] == key ? place : -1;
-}
 }
 
 template <int Dim> void NodeMatrix<Dim>::reset(const std::vector<Key>& nodes, bool isSymmetric, const Grid<Dim>& grid)

@@ -4,12 +4,6 @@
 namespace gimpm {
 namespace {
 
-int find(const std::vector<Key>& keys, Key key)
-{
-	const int place = position(keys, key);
-	return place < int(keys.size()) && keys[place] == key ? place : -1;
-}
-
 /// Mean over the neighbours along the axes that are known; false if there are none.
 template <int Dim>
 bool meanOfNeighbours(const std::vector<Key>& nodes, const Grid<Dim>& grid, const std::vector<char>& known, const Eigen::VectorXd& d, int node, Vec<Dim>& mean)

@@ -5,7 +5,7 @@
 namespace gimpm {
 namespace {
 
-bool contains(const std::vector<Key>& sorted, Key k) { return std::binary_search(sorted.begin(), sorted.end(), k); }
+bool contains(const std::vector<Key>& sorted, Key key) { return find(sorted, key) >= 0; }
 
 /// Jump of dN/dn across a face for the nodes below, on and above it, times h.
 constexpr double jump[3] = { -1, 2, -1 };
@@ -74,10 +74,9 @@ template <int Dim, class F> void forNodePairs(const GhostFace<Dim>& face, double
 /// The circumference 2 pi r of a face around the axis of symmetry: over a cell from r_0 on, the mean of r weighted by N_s N_t is r_0 + h (1 + s + t) / 4.
 template <int Dim> void revolve(GhostFace<Dim>& face, const Grid<Dim>& grid)
 {
-	constexpr double full   = 6.283185307179586;
-	const double     radius = grid.cellSize * (Grid<Dim>::index(face.lower)[0] - grid.axisNode());
-	face.girth              = full * (radius + grid.cellSize * (face.axis == 0 ? 1 : 0.25));
-	face.widening           = face.axis == 0 ? 0 : full * grid.cellSize / 4;
+	const double radius = grid.cellSize * (Grid<Dim>::index(face.lower)[0] - grid.axisNode());
+	face.girth          = 2 * M_PI * (radius + grid.cellSize * (face.axis == 0 ? 1 : 0.25));
+	face.widening       = face.axis == 0 ? 0 : 2 * M_PI * grid.cellSize / 4;
 }
 
 } // namespace
@@ -124,12 +123,8 @@ void weighGhostFaces(
 		face.stiffness            = factor * std::min(modulus[lower], modulus[upper]) * power / 3;
 		if (grid.axisymmetric) revolve(face, grid);
 		for (int i = 0; i < 3; ++i)
-			for (int s = 0; s < GhostFace<Dim>::tangentialNodes; ++s) {
-				Key node = face.lower + i * Grid<Dim>::keyStep(face.axis);
-				for (int a = 0, bit = 0; a < Dim; ++a)
-					if (a != face.axis) node += (s >> bit & 1) * Grid<Dim>::keyStep(a), ++bit;
-				face.node[i][s] = position(basis.nodes, grid.first(node));
-			}
+			for (int s = 0; s < GhostFace<Dim>::tangentialNodes; ++s)
+				face.node[i][s] = position(basis.nodes, grid.first(face.key(i, s)));
 	}
 }
 

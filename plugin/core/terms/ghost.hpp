@@ -21,6 +21,16 @@ template <int Dim> struct GhostFace {
 	int                  node[3][tangentialNodes] {}; ///< numbers of the nodes below, on and above the face
 	double               stiffness = 0;               ///< gamma_k h^3/3 of eq. (2), or gamma_k h/3
 	double girth = 1, widening = 0; ///< around an axis of symmetry: circumference with two lower nodes, and how much it grows with each higher one [m]
+
+	/// The nodes below, on and above the face (i = 0, 1, 2): bits of s are set for the upper ends along the other axes, in order. At the far side of a
+	/// periodic grid another node may stand for it.
+	Key key(int i, int s) const
+	{
+		Key node = lower + i * Grid<Dim>::keyStep(axis);
+		for (int a = 0, bit = 0; a < Dim; ++a)
+			if (a != axis) node += (s >> bit & 1) * Grid<Dim>::keyStep(a), ++bit;
+		return node;
+	}
 };
 
 /// Faces of a body, sorted. There are none across walls.

@@ -25,7 +25,7 @@ std::array<Mat3, 3> normalSlopes(const Surface<3>::Piece& piece, const std::vect
 	return slopes;
 }
 
-constexpr double circle = 6.283185307179586;
+constexpr double circle = 2 * M_PI;
 
 /// What each vertex of a piece gets of the force on it, over traction and length (or area): around the axis of symmetry r = x this is the integral of its linear
 /// function times the circumference.
@@ -53,7 +53,7 @@ template <int Dim> bool isInsideOut(const Surface<Dim>& surface, const std::vect
 {
 	const auto holdsMaterial = [&](const Vec<Dim>& x) {
 		const Index<Dim> cell = ((x - grid.origin) / grid.cellSize).array().floor().template cast<int>();
-		return std::binary_search(populated.begin(), populated.end(), Grid<Dim>::key(grid.first(cell)));
+		return find(populated, Grid<Dim>::key(grid.first(cell))) >= 0;
 	};
 	double outside = 0; // area with material outside only, less that with material inside only
 	for (const auto& piece : surface.pieces) {

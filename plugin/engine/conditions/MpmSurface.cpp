@@ -1,18 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "engine/conditions/MpmSurface.hpp"
-#include <Eigen/Geometry>
+#include "core/grid/surface.hpp"
 #include <algorithm>
 #include <map>
 
 namespace yade {
 
 namespace {
-	Real sizeOf(const vector<int>& piece, const vector<Vector3r>& x)
-	{
-		if (piece.size() == 2) return (x[piece[1]] - x[piece[0]]).head<2>().norm();
-		return (x[piece[1]] - x[piece[0]]).cross(x[piece[2]] - x[piece[0]]).norm() / 2;
-	}
-
 	// A point of two or three numbers
 	std::optional<Vector3r> pointFrom(const py::object& value)
 	{
@@ -76,6 +70,13 @@ bool MpmSurface::arePieces(const vector<vector<int>>& pieces)
 	});
 }
 
+Vector3r MpmSurface::normal(const vector<int>& piece, const vector<Vector3r>& x)
+{
+	if (piece.size() == 3) return gimpm::pieceNormal(x[piece[0]], x[piece[1]], x[piece[2]]);
+	const gimpm::Vec<2> inPlane = gimpm::pieceNormal(gimpm::Vec<2>(x[piece[0]].head<2>()), gimpm::Vec<2>(x[piece[1]].head<2>()));
+	return { inPlane[0], inPlane[1], 0 };
+}
+
 void MpmSurface::requireAdmissible() const
 {
 	Exposed<MpmSurface, Serializable>::requireAdmissible();
@@ -84,7 +85,7 @@ void MpmSurface::requireAdmissible() const
 		text << "MpmSurface.pieces[" << i << "] = " << textOf(pieces[i]);
 		if (*std::max_element(pieces[i].begin(), pieces[i].end()) >= int(vertices.size()))
 			throw std::invalid_argument(text.str() + ": there are vertices 0 to " + std::to_string(vertices.size() - 1) + " only.");
-		if (!(sizeOf(pieces[i], vertices) > 0))
+		if (!(normal(pieces[i], vertices).norm() > 0))
 			throw std::invalid_argument(
 			        text.str() + ", with a vertex at " + textOf(vertices[pieces[i][0]]) + ", has no size: do vertices coincide?");
 	}

@@ -25,11 +25,14 @@ public:
 		v("pieces", &MpmSurface::pieces, 0, "Of each segment or triangle, the two or three numbers of its vertices. Read as a tuple.",
 		  admitting("one or more pieces of two numbers >= 0 each (segments), or of three each (triangles)", arePieces));
 		v("initialVertices", &MpmSurface::initialVertices, readonly,
-		  "Where the vertices were at the first step [m], empty before it. The engine adds vertices where pieces outgrow half a cell.");
+		  "Where the vertices were at the first step [m], empty before it. The engine adds vertices until the sides of all pieces are at most a quarter of a cell.");
 	}
 
 	// 2 for segments, 3 for triangles
 	int dim() const { return pieces.empty() ? 0 : int(pieces.front().size()); }
+
+	// Length or area of a piece times its outward normal; x are the places of all vertices.
+	static Vector3r normal(const vector<int>& piece, const vector<Vector3r>& x);
 
 	// Also whether the pieces fit the vertices, are of one kind, and have a size.
 	void requireAdmissible() const override;

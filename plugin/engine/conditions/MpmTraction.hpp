@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-#include "core/stepping/load_curve.hpp"
 #include "engine/conditions/MpmSurface.hpp"
+#include "engine/conditions/load_curves.hpp"
 
 namespace yade {
 
@@ -17,7 +17,7 @@ public:
 	static const char* doc()
 	{
 		return "Load on a surface of the body that moves with it: *pressure* follows the surface, *traction* keeps its direction. Vertices move with "
-		       "the background grid, and pieces are halved until they are shorter than half a cell; each must lie on material, to a quarter of a cell.";
+		       "the background grid, and pieces are divided until their sides are at most a quarter of a cell; each vertex must lie on material, to a quarter of a cell.";
 	}
 	template <class V> static void attributes(V&& v)
 	{
@@ -28,10 +28,7 @@ public:
 		  finite);
 		v("traction", &MpmTraction::traction, 0, "Force over initial area [Pa] at load factor 1, finite; its direction stays.", finite);
 		v("curve", &MpmTraction::curve, 0,
-		  "Load factor [-] as a sequence of (time [s], factor), as *MpmImplicitEngine.loadCurve*; empty, the default: that one.",
-		  admitting("nothing, or (time, factor), all finite, with increasing times", [](const auto& knees) {
-			  return knees.empty() || gimpm::LoadCurve::isAdmissible(knees);
-		  }));
+		  "Load factor [-] as a sequence of (time [s], factor), as *MpmImplicitEngine.loadCurve*; empty, the default: that one.", curveOrNothing);
 		v("resultant", &MpmTraction::resultant, readonly,
 		  "Force [N] on the body at the end of the last converged step; per metre of thickness in plane strain, NaN before the first.");
 	}

@@ -25,7 +25,7 @@ namespace {
 	// About the axis y by a part of the full circle, from x to z.
 	Matrix3r turned(Real part)
 	{
-		const Real angle = 2 * 3.14159265358979323846 * part, c = std::cos(angle), s = std::sin(angle);
+		const Real angle = 2 * M_PI * part, c = std::cos(angle), s = std::sin(angle);
 		return (Matrix3r() << c, 0, -s, 0, 1, 0, s, 0, c).finished();
 	}
 
@@ -141,8 +141,6 @@ namespace {
 		nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
 		return nodes;
 	}
-
-	vtkIdType numberOf(gimpm::Key node, const vector<gimpm::Key>& nodes) { return std::lower_bound(nodes.begin(), nodes.end(), node) - nodes.begin(); }
 }
 
 VtkCells pointDomains(const vector<MaterialPoint>& points, const Scene& scene, const MpmGrid& grid, bool deform, int sectors)
@@ -181,12 +179,12 @@ template <int Dim> VtkCells populatedCells(const gimpm::PointCloud<Dim>& cloud, 
 	for (const gimpm::Key cell : basis.cells) {
 		std::array<vtkIdType, 1 << Dim> box;
 		for (int c = 0; c < 1 << Dim; ++c) // a cell is named after its lowest node
-			box[c] = numberOf(cell + gimpm::Grid<Dim>::keyOffset(corners[c]), nodes);
+			box[c] = gimpm::position(nodes, cell + gimpm::Grid<Dim>::keyOffset(corners[c]));
 		boxes.addCell(box);
 	}
 	const auto cells      = boxes.dataSet();
 	const auto atBoundary = gimpm::boundaryCells(basis.cells, model.boundary, model.grid);
-	addIntegers(*cells, "boundary", basis.cells, [&](gimpm::Key cell) { return std::binary_search(atBoundary.begin(), atBoundary.end(), cell); });
+	addIntegers(*cells, "boundary", basis.cells, [&](gimpm::Key cell) { return gimpm::find(atBoundary, cell) >= 0; });
 	const auto mixed = gimpm::mixedCells(basis, cloud.material);
 	addIntegers(*cells, "mixed", mixed, [](char isMixed) { return isMixed; });
 	return cells;
@@ -202,11 +200,8 @@ template <int Dim> VtkCells stabilisedFaces(const gimpm::PointCloud<Dim>& cloud,
 	addNodes(surfaces, nodes, model.grid, z);
 	for (const Face& face : system.faces) {
 		std::array<vtkIdType, Face::tangentialNodes> surface;
-		const gimpm::Key                             lowest = face.lower + gimpm::Grid<Dim>::keyStep(face.axis);
-		for (int c = 0; c < Face::tangentialNodes; ++c) {
-			const int bits = corners[c], below = bits & ((1 << face.axis) - 1); // of the other axes
-			surface[c] = numberOf(lowest + gimpm::Grid<Dim>::keyOffset(below | (bits & ~((1 << face.axis) - 1)) << 1), nodes);
-		}
+		for (int c = 0; c < Face::tangentialNodes; ++c)
+			surface[c] = gimpm::position(nodes, face.key(1, corners[c]));
 		surfaces.addCell(surface);
 	}
 	const auto cells = surfaces.dataSet();

@@ -115,7 +115,7 @@ py::list newBodies(
 	py::list         bodies;
 	for (size_t i = 0; i < choice.size(); ++i) {
 		const Eigen::Map<const Vector3r> position(coordinates.data() + 3 * i);
-		const Real                       pi = 3.14159265358979323846, around = areRings ? pi * position[0] : halfSize[2];
+		const Real                       around   = areRings ? M_PI * position[0] : halfSize[2];
 		const auto&                      material = known.at(choice.data()[i]);
 		const auto                       body     = newBody(position, Vector3r(halfSize[0], halfSize[1], around), material);
 		own.give(*body, *material, i);

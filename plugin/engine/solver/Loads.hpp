@@ -24,21 +24,21 @@ struct Loads {
 		v("gravityCurve", &Loads::gravityCurve, 0,
 		  "Factor [-] of gravity as *loadCurve*, where it shall not go with the other loads; empty, the default: it does. [(0, 1)]: gravity acts from the "
 		  "beginning, as after mpm.geostatic.",
-		  admitting("nothing, or (time, factor), all finite, with increasing times", [](const auto& curve) {
-			  return curve.empty() || gimpm::LoadCurve::isAdmissible(curve);
-		  }));
+		  curveOrNothing);
 		v("loads", &Loads::loads, 0, "Loads on surfaces of the body (MpmTraction); read as a tuple, so assign a new one to change it.");
 	}
 
 	gimpm::LoadCurve curveOfLoads() const { return gimpm::LoadCurve(loadCurve); }
 	gimpm::LoadCurve curveOfGravity() const { return gimpm::LoadCurve(gravityCurve.empty() ? loadCurve : gravityCurve); }
 
+	gimpm::LoadCurve curveOf(const MpmTraction& load) const { return load.curve.empty() ? curveOfLoads() : gimpm::LoadCurve(load.curve); }
+
 	// When the last of them has come to rest.
 	Real loadsEnd() const
 	{
 		Real end = std::max(curveOfLoads().end(), curveOfGravity().end());
 		for (const auto& load : loads)
-			if (!load->curve.empty()) end = std::max(end, gimpm::LoadCurve(load->curve).end());
+			end = std::max(end, curveOf(*load).end());
 		return end;
 	}
 

@@ -87,8 +87,8 @@ namespace {
 	// Points around an axis, which stand for rings.
 	template <int Dim> void requireRing(const MaterialPoint& point)
 	{
-		constexpr Real     pi = 3.14159265358979323846, tolerance = 1e-6;
-		const Real         radius = point.state->pos[0], half = point.shape->halfSize[0], around = pi * point.state->refPos[0];
+		constexpr Real     tolerance = 1e-6;
+		const Real         radius = point.state->pos[0], half = point.shape->halfSize[0], around = M_PI * point.state->refPos[0];
 		std::ostringstream text;
 		if (!(radius > 0))
 			text << "the material point at (" << point.state->pos.transpose()

@@ -57,7 +57,7 @@ template <int Dim> SurfaceLoads<Dim>::SurfaceLoads(const Loads& given, const gim
 				throw std::invalid_argument(
 				        "loads[" + std::to_string(j) + "] and " + name
 				        + " have the same MpmSurface, which would move twice: give each its own.");
-		sources.push_back({ load, load->curve.empty() ? given.curveOfLoads() : gimpm::LoadCurve(load->curve) });
+		sources.push_back({ load, given.curveOf(*load) });
 		loads.push_back({ coreSurface<Dim>(*load->surface) });
 		loads.back().isNew = load->surface->initialVertices.empty();
 		loads.back().surface.refine(gimpm::pieceLimit * grid.cellSize);

@@ -26,20 +26,20 @@ is written more easily in Python. A slope under its own weight, with a weak laye
 While it runs, one line tells how far it is (``verbosity`` of the engine); ``plot.addData(**solver.plotData())`` feeds YADE's plots, from
 ``PyRunner(iterPeriod=1, initRun=True, command='plot.addData(**solver.plotData())')``. What else is here:
 
-===================  ==========================================================================================
-:func:`polygon`      region of the x-y plane
-:func:`fill`         material points in a region
-:func:`arrays`       data of all material points as NumPy arrays; :func:`assign` is the way back
-:func:`geostatic`    initial stress of level ground
-:func:`surface`      surface of a region, for loads on it
-:func:`plot`         picture by matplotlib, of plane strain or of a slice
-:func:`colour`       colours of the points in YADE's 3D view
-:func:`export`       table of the points, CSV or NPZ
-:func:`save`         the scene, whole or not at all
-:func:`advise`       what an analysis will cost, and what it could do without
-:func:`elementTest`  the curve of a laboratory test on a material; :func:`respond` is one call of its law
+=========================  ==========================================================================================
+:func:`polygon`            region of the x-y plane
+:func:`fill`               material points in a region
+:func:`arrays`             data of all material points as NumPy arrays; :func:`assign` is the way back
+:func:`geostatic`          initial stress of level ground
+:func:`surface`            surface of a region, for loads on it
+:func:`plot`               picture by matplotlib, of plane strain or of a slice
+:func:`colour`             colours of the points in YADE's 3D view
+:func:`export`             table of the points, CSV or NPZ
+:func:`save`               the scene, whole or not at all
+:func:`advise`             what an analysis will cost, and what it could do without
+:func:`elementTest`        the curve of a laboratory test on a material; :func:`respond` is one call of its law
 :func:`strengthReduction`  factor of safety, as a bracket
-===================  ==========================================================================================
+=========================  ==========================================================================================
 
 Units are SI; stress is positive in tension; strains are logarithmic; plane strain is per metre of thickness.
 """

@@ -16,6 +16,7 @@ _axes = 'xyz'
 _signs = np.array([(x, y, z) for z in (-1, 1) for y in (-1, 1) for x in (-1, 1)])  # of the corners of a box
 _around = [0, 1, 3, 2]  # those of its lower face, in order
 _edges = np.array([(i, j) for i in range(8) for j in range(i) if np.abs(_signs[i] - _signs[j]).sum() == 2])
+_sides = np.array([(0, 1), (1, 2), (2, 0)])  # of a triangle
 _faceColour, _cellColour, _boundaryColour, _loadColour = '#d9480f', '#868e96', '#ffe8cc', '#0b7285'
 
 
@@ -93,17 +94,16 @@ class _Section:
 		if self.normal is None: return corners[:, :, self.shown], np.arange(len(corners))
 		above = corners[..., self.normal] > self.at
 		kept = np.flatnonzero(above.any(axis=1) & ~above.all(axis=1))
-		ends = []
-		for i in kept:
-			cut = [(j, (j + 1) % 3) for j in (0, 1, 2) if above[i, j] != above[i, (j + 1) % 3]]
-			shares = [(self.at - corners[i, j, self.normal]) / (corners[i, k, self.normal] - corners[i, j, self.normal]) for j, k in cut]
-			ends.append([(corners[i, j] + s * (corners[i, k] - corners[i, j]))[self.shown] for (j, k), s in zip(cut, shares)])
-		return np.array(ends).reshape(-1, 2, 2), kept
+		return np.array([self._cut(corners[i], above[i], _sides) for i in kept]).reshape(-1, 2, 2), kept
+
+	def _cut(self, corners, above, edges):
+		"""Where the section cuts those of the edges, pairs of corners, of which one end is above it."""
+		low, high = edges[above[edges[:, 0]] != above[edges[:, 1]]].T
+		share = (self.at - corners[low, self.normal]) / (corners[high, self.normal] - corners[low, self.normal])
+		return (corners[low] + share[:, None] * (corners[high] - corners[low]))[:, self.shown]
 
 	def _outline(self, corners, above):
-		low, high = _edges[above[_edges[:, 0]] != above[_edges[:, 1]]].T
-		share = (self.at - corners[low, self.normal]) / (corners[high, self.normal] - corners[low, self.normal])
-		cut = (corners[low] + share[:, None] * (corners[high] - corners[low]))[:, self.shown]
+		cut = self._cut(corners, above, _edges)
 		middle = cut.mean(axis=0)
 		return cut[np.argsort(np.arctan2(*(cut - middle).T))]  # convex: in order around its middle
 

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Derivatives by central differences of fourth order, for tests of tangents.
+#pragma once
+#include "core/stepping/step_system.hpp"
+#include "scenes.hpp"
+
+namespace gimpm {
+
+/// Of forces(d), which has the size of d.
+template <class Forces> Eigen::MatrixXd derivative(const Forces& forces, const Eigen::VectorXd& d, double step)
+{
+	Eigen::MatrixXd result(d.size(), d.size());
+	for (int i = 0; i < d.size(); ++i) {
+		const auto at = [&](double s) -> Eigen::VectorXd { return forces(d + s * step * Eigen::VectorXd::Unit(d.size(), i)); };
+		result.col(i) = (8 * (at(1) - at(-1)) - (at(2) - at(-2))) / (12 * step);
+	}
+	return result;
+}
+
+/// The tangent stiffness of a load step at d, and the derivative of its forces there.
+template <int Dim> std::pair<Eigen::MatrixXd, Eigen::MatrixXd> tangentAndDerivative(const StepSystem<Dim>& system, const Eigen::VectorXd& d, double step)
+{
+	NodeMatrix<Dim> K;
+	Eigen::VectorXd force;
+	system.prepare(K);
+	EXPECT_FALSE(system.evaluate(d, force, &K));
+	const auto forces = [&](const Eigen::VectorXd& at) {
+		system.evaluate(at, force, nullptr);
+		return force;
+	};
+	return { dense(K), derivative(forces, d, step) };
+}
+
+/// The largest difference between entries, relative to the largest one.
+inline double relativeError(const Eigen::MatrixXd& found, const Eigen::MatrixXd& expected)
+{
+	return (found - expected).cwiseAbs().maxCoeff() / expected.cwiseAbs().maxCoeff();
+}
+
+} // namespace gimpm
