@@ -7,6 +7,15 @@
 namespace gimpm {
 namespace {
 
+template <int Dim> PointStiffness stiffnessOf(const PointCloud<Dim>& cloud, const Model<Dim>& model)
+{
+	return [&](int p) {
+		const auto&  material = model.materials[cloud.material[p]];
+		const double young    = material.young(cloud.parameters, cloud.internals, p, [&] { return cloud.elasticStrain[p].full().trace(); });
+		return VolumeAndModulus { cloud.volume0[p] * cloud.volumeRatio(p), young };
+	};
+}
+
 template <int Dim>
 std::vector<GhostFace<Dim>> stabilise(const PointCloud<Dim>& cloud, const Model<Dim>& model, const CloudBasis<Dim>& basis, StepReport& report)
 {
@@ -16,12 +25,7 @@ std::vector<GhostFace<Dim>> stabilise(const PointCloud<Dim>& cloud, const Model<
 	auto            faces    = ghostFaces<Dim>(basis.cells, boundary, model.boundary, model.grid);
 	report.boundaryCells     = int(boundary.size());
 	report.ghostFaces        = int(faces.size());
-	const auto stiffnessOf   = [&](int p) {
-                const auto&  material = model.materials[cloud.material[p]];
-                const double young    = material.young(cloud.parameters, cloud.internals, p, [&] { return cloud.elasticStrain[p].full().trace(); });
-                return VolumeAndModulus { cloud.volume0[p] * cloud.volumeRatio(p), young };
-	};
-	weighGhostFaces(faces, basis, stiffnessOf, model.grid, model.ghost.factor, model.ghost.scaling);
+	weighGhostFaces(faces, basis, stiffnessOf(cloud, model), model.grid, model.ghost.factor, model.ghost.scaling);
 	return faces;
 }
 
@@ -51,6 +55,8 @@ template <int Dim> StepSystem<Dim>::StepSystem(const PointCloud<Dim>& cloud, con
 	const Stopwatch watch(report.times.basis);
 	terms.push_back(std::make_unique<InternalForce<Dim>>(basis, points, model.materials));
 	if (!faces.empty()) terms.push_back(std::make_unique<GhostForce<Dim>>(faces, model.grid.cellSize));
+	for (const auto& [box, wall] : model.walls)
+		terms.push_back(std::make_unique<WallForce<Dim>>(*wall, basis, stiffnessOf(cloud, model), model.grid));
 	for (const auto& make : model.terms)
 		terms.push_back(make(basis, model.grid));
 	prescribed = Eigen::VectorXd::Zero(nodalSize());

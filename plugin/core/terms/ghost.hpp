@@ -2,8 +2,8 @@
 // Ghost stabilisation (Coombs 2023, section 3): boundary elements, ghost faces and the stiffness on them.
 #pragma once
 #include "core/grid/cloud_basis.hpp"
+#include "core/terms/cell_moduli.hpp"
 #include "core/terms/term.hpp"
-#include <functional>
 
 namespace gimpm {
 
@@ -27,12 +27,6 @@ template <int Dim> struct GhostFace {
 /// Faces of a body, sorted. There are none across walls.
 template <int Dim>
 std::vector<GhostFace<Dim>> ghostFaces(const std::vector<Key>& populated, const std::vector<Key>& boundary, const Boundary<Dim>&, const Grid<Dim>& = {});
-
-/// Current volume [m3] and Young's modulus [Pa] of a point of the cloud.
-struct VolumeAndModulus {
-	double volume, modulus;
-};
-using PointStiffness = std::function<VolumeAndModulus(int point)>;
 
 /// Sets node numbers and stiffness = factor * modulus * (h or h^3) / 3. A cell's modulus is the mean of Young's moduli of its points,
 /// weighted by the volumes of their domains' overlaps with it; a face has that of the softer of its two cells. With the stiffer one or a

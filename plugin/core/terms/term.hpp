@@ -48,8 +48,8 @@ public:
 	/// Forces from outside among those it adds at d, as those of a support [N], for what the residual is compared with; 0 for forces within the body.
 	virtual double fromOutside(const Eigen::VectorXd&) const { return 0; }
 
-	/// Calls hold(node, direction) for what keeps the body from moving there, however softly.
-	using Hold = std::function<void(int node, const Vec<Dim>& direction)>;
+	/// Calls hold(node, direction, place) for what keeps the body from moving there, however softly; the place is given from the node on [cells].
+	using Hold = std::function<void(int node, const Vec<Dim>& direction, const Vec<Dim>& place)>;
 	virtual void restrain(const Hold&) const { }
 
 	/// The step has been accepted with these displacements.

@@ -16,7 +16,7 @@
 namespace yade {
 
 namespace {
-	const vector<string> kinds { "points", "grid", "ghostFaces", "loads" };
+	const vector<string> kinds { "points", "grid", "ghostFaces", "loads", "walls" };
 
 	const vector<string>& pointFields()
 	{

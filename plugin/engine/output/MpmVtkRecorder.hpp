@@ -35,9 +35,10 @@ public:
 		          "the start of the files' names, as in 'out/slope-', without line breaks and other control characters; there is no default",
 		          isFileName));
 		v("recorders", &MpmVtkRecorder::recorders, 0,
-		  "What to write: 'points', their domains with *fields*; 'grid', the cells that hold material; 'ghostFaces', the faces that are stabilised; 'loads', loaded surfaces; 'all'. "
+		  "What to write: 'points', their domains with *fields*; 'grid', the cells that hold material; 'ghostFaces', the faces that are stabilised; 'loads', loaded surfaces; "
+		  "'walls', surfaces of boundaries; 'all'. "
 		  "Read as a tuple.",
-		  admitting("one or more of 'points', 'grid', 'ghostFaces', 'loads' and 'all'", areKinds));
+		  admitting("one or more of 'points', 'grid', 'ghostFaces', 'loads', 'walls' and 'all'", areKinds));
 		v("fields", &MpmVtkRecorder::fields, 0,
 		  "Which fields of 'points' are written, by name, or 'all', the default; an empty sequence leaves the domains alone. Few fields make small "
 		  "files. Read as a tuple.",

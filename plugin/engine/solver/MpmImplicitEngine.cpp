@@ -8,6 +8,7 @@
 #include "engine/solver/failures.hpp"
 #include "engine/solver/progress.hpp"
 #include "engine/solver/requirements.hpp"
+#include "engine/solver/walls.hpp"
 #include "yade_api/exceptions.hpp"
 #include "yade_api/logging.hpp"
 #include <atomic>
@@ -150,6 +151,7 @@ template <int Dim> Attempt<Dim> MpmImplicitEngine::attempt(Job<Dim>& job) const
 	const Real      time               = job.control.goal() == 1 ? job.target : job.begin + job.control.goal() * (job.target - job.begin);
 	job.model.newton.acceptUnconverged = newton->acceptUnconverged && job.control.isLeast();
 	job.surfaceLoads.advanceTo(time);
+	moveWalls(boundaries, job.model, time - loadTime);
 	Attempt<Dim> next { time, loadBetween<Dim>(loadTime, time), newton->predictor, {} };
 	if (next.predicts) next.last = fromNumbers<Dim>(lastDisplacements, lastLoadIncrement);
 	return next;
@@ -163,6 +165,7 @@ template <int Dim> void MpmImplicitEngine::reach(Job<Dim>& job, const Attempt<Di
 		const gimpm::Stopwatch watch(scattering);
 		scatter(job.cloud, job.model.grid, points);
 		job.surfaceLoads.scatter();
+		scatterWalls(job.model, boundaries);
 	}
 	addTime(*timingDeltas, "scatter", scattering);
 	plausibility.know(job.cloud);

@@ -4,6 +4,7 @@
 #include "engine/materials/laws.hpp"
 #include "engine/points/parallel.hpp"
 #include "engine/solver/fit.hpp"
+#include "engine/solver/walls.hpp"
 #include <atomic>
 #include <set>
 #include <unordered_map>
@@ -153,6 +154,7 @@ gimpm::Model<Dim> toModel(
 	model.fBar                    = fBar;
 	model.boundary                = gimpm::Boundary<Dim>(heldBoxes<Dim>(boundaries, grid, model.grid));
 	model.ghost                   = { ghost.factor, ghost.scaling == "paper" ? gimpm::GhostScaling::paper : gimpm::GhostScaling::meshIndependent };
+	addWalls(boundaries, model);
 	model.newton.tolerance        = newton.tolerance;
 	model.newton.maxIterations    = newton.maxIterations;
 	model.newton.lineSearchTrials = newton.lineSearchTrials;

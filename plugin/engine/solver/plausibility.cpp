@@ -207,9 +207,9 @@ string Plausibility::doubtOfBoundaries(const MpmImplicitEngine& engine, const ve
 	vector<const MpmBoundary*> except;
 	decltype(lookedAt)         boxes;
 	for (const auto& boundary : engine.boundaries) {
-		boxes.emplace_back(boundary->min, boundary->max);
+		boxes.push_back(boundary->extent());
 		const bool isKnown = std::find(lookedAt.begin(), lookedAt.end(), boxes.back()) != lookedAt.end();
-		if (isKnown || !boundary->displacement.isZero(0)) except.push_back(boundary.get());
+		if (isKnown || boundary->moves()) except.push_back(boundary.get());
 	}
 	lookedAt.swap(boxes);
 	const string idle = except.size() == engine.boundaries.size() ? "" : idleBoundaries(engine, points, except);
