@@ -30,16 +30,16 @@ struct NewtonSettings {
 };
 
 template <int Dim> struct Model {
-	Grid<Dim>                    grid;
-	Basis                        basis = Basis::gimp;
-	bool                         fBar  = false; ///< against volumetric locking; needs the ghost stabilisation, which holds the nodes of nearly empty cells
-	std::vector<Material>        materials;
-	Boundary<Dim>                boundary; ///< the last box is that of the axis of symmetry, if there is one
+	Grid<Dim>             grid;
+	Basis                 basis = Basis::gimp;
+	bool                  fBar  = false; ///< against volumetric locking; needs the ghost stabilisation, which holds the nodes of nearly empty cells
+	std::vector<Material> materials;
+	Boundary<Dim>         boundary; ///< the last box is that of the axis of symmetry, if there is one
 	/// Off the lines of the grid, by the box of the boundary that their reaction is reported with, which holds nothing; moved in each step that is accepted.
 	std::map<int, std::shared_ptr<Wall<Dim>>> walls {};
-	GhostSettings                ghost;
-	NewtonSettings               newton;
-	std::vector<TermOfStep<Dim>> terms {}; ///< besides the points' resistance and the ghost stabilisation
+	GhostSettings                             ghost;
+	NewtonSettings                            newton;
+	std::vector<TermOfStep<Dim>>              terms {}; ///< besides the points' resistance and the ghost stabilisation
 };
 
 template <int Dim> struct Load {

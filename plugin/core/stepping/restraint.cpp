@@ -173,9 +173,8 @@ template <int Dim> Restraint restraint(const CloudBasis<Dim>& basis, const Grid<
 		Part<Dim>& part = found[parts.root(n)];
 		part.reach      = std::max(part.reach, (parts.place(n) - part.centre()).norm());
 	}
-	const auto hold = [&](std::size_t n, const Vec<Dim>& direction, const Vec<Dim>& place) {
-		found[parts.root(n)].hold(parts.place(n) + place, direction);
-	};
+	const auto hold
+	        = [&](std::size_t n, const Vec<Dim>& direction, const Vec<Dim>& place) { found[parts.root(n)].hold(parts.place(n) + place, direction); };
 	for (std::size_t n = 0; n < basis.nodes.size(); ++n)
 		for (int a = 0; a < Dim; ++a)
 			if (boundary.holder(Grid<Dim>::index(basis.nodes[n]), a)) hold(n, Vec<Dim>::Unit(a), Vec<Dim>::Zero());

@@ -4,8 +4,7 @@
 namespace gimpm {
 
 template <int Dim>
-std::vector<double>
-cellModuli(const std::vector<char>& isAskedFor, const CloudBasis<Dim>& basis, const PointStiffness& stiffnessOf, const Grid<Dim>& grid)
+std::vector<double> cellModuli(const std::vector<char>& isAskedFor, const CloudBasis<Dim>& basis, const PointStiffness& stiffnessOf, const Grid<Dim>& grid)
 {
 	std::vector<double> volume(basis.cells.size(), 0), modulus(basis.cells.size(), 0);
 	for (const auto& patch : basis.patches)

@@ -28,7 +28,8 @@ template <int Dim> std::array<int, 2> cellsAt(const GhostFace<Dim>& face, const 
 
 /// Young's moduli of the cells at the faces, by number: the means of their points, weighted by the volumes of the overlaps.
 template <int Dim>
-std::vector<double> moduliAtFaces(const std::vector<GhostFace<Dim>>& faces, const CloudBasis<Dim>& basis, const PointStiffness& stiffnessOf, const Grid<Dim>& grid)
+std::vector<double> moduliAtFaces(
+        const std::vector<GhostFace<Dim>>& faces, const CloudBasis<Dim>& basis, const PointStiffness& stiffnessOf, const Grid<Dim>& grid)
 {
 	std::vector<char> isAtFace(basis.cells.size(), 0);
 	for (const auto& face : faces)

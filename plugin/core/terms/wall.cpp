@@ -48,11 +48,13 @@ WallForce<Dim>::WallForce(Wall<Dim>& wall, const CloudBasis<Dim>& basis, const P
 	std::vector<char> isHeld(basis.cells.size(), 0);
 	std::vector<int>  cells;
 	for (int i = 0; i < int(wall.surface.pieces.size()); ++i) {
-		const Vec<Dim> centre = centreOf(wall.surface, wall.surface.pieces[i]), normal = wall.surface.normal(wall.surface.pieces[i], wall.surface.vertices);
-		const auto     at = attach(centre, basis, grid);
+		const Vec<Dim> centre = centreOf(wall.surface, wall.surface.pieces[i]),
+		               normal = wall.surface.normal(wall.surface.pieces[i], wall.surface.vertices);
+		const auto at         = attach(centre, basis, grid);
 		if (!at || (grid.axisymmetric && centre[0] <= 0)) continue;
 		const double ring = grid.axisymmetric ? circle * centre[0] : 1;
-		grips_.push_back({ i, *at, (centre - grid.nodePosition(at->cell)) / grid.cellSize, ring * normal.norm(), heldBy<Dim>(wall, normal.normalized()), 0 });
+		grips_.push_back(
+		        { i, *at, (centre - grid.nodePosition(at->cell)) / grid.cellSize, ring * normal.norm(), heldBy<Dim>(wall, normal.normalized()), 0 });
 		cells.push_back(position(basis.cells, Grid<Dim>::key(grid.first(at->cell))));
 		isHeld[cells.back()] = 1;
 	}

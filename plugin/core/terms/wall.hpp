@@ -15,10 +15,10 @@ template <int Dim> struct Wall {
 	Wall(Surface<Dim> surface, double cellSize);
 
 	Surface<Dim>          surface;
-	std::array<bool, Dim> fixed {};       ///< directions in which material is held; none: along the normal of each piece
-	double                penalty = 100;  ///< the wall gives way by pressure / (penalty * Young's modulus) cells [-]
-	Vec<Dim>              motion  = Vec<Dim>::Zero(); ///< in the step, rigid [m]
-	std::vector<Vec<Dim>> tractions;                  ///< of each piece on the body [Pa]; zero where there is none
+	std::array<bool, Dim> fixed {};                    ///< directions in which material is held; none: along the normal of each piece
+	double                penalty = 100;               ///< the wall gives way by pressure / (penalty * Young's modulus) cells [-]
+	Vec<Dim>              motion  = Vec<Dim>::Zero();  ///< in the step, rigid [m]
+	std::vector<Vec<Dim>> tractions;                   ///< of each piece on the body [Pa]; zero where there is none
 	Vec<Dim>              reaction = Vec<Dim>::Zero(); ///< their resultant at the end of the last step that was accepted [N]
 
 	/// Length of the sides of its pieces, in cells.

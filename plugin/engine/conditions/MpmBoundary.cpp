@@ -37,7 +37,8 @@ string MpmBoundary::whatContradicts(int axis) const
 		text << "MpmBoundary.velocity = " << velocity[axis] << " along " << direction
 		     << " is that of a surface: the nodes in a box move by their displacement.";
 	else if (displacement[axis] != 0 && !fixes(axis))
-		text << "MpmBoundary.displacement = " << displacement[axis] << " along " << direction << ", a direction that fix = '" << fix << "' leaves free.";
+		text << "MpmBoundary.displacement = " << displacement[axis] << " along " << direction << ", a direction that fix = '" << fix
+		     << "' leaves free.";
 	else if (velocity[axis] != 0 && !fixes(axis) && !fixesNormal())
 		text << "MpmBoundary.velocity = " << velocity[axis] << " along " << direction << ", a direction that fix = '" << fix << "' leaves free.";
 	return text.str();

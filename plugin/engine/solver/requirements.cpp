@@ -36,7 +36,8 @@ namespace {
 			for (size_t i = 0; i < engine.loads.size(); ++i)
 				if (engine.boundaries[b]->surface && engine.boundaries[b]->surface == engine.loads[i]->surface)
 					throw std::invalid_argument(
-					        "boundaries[" + std::to_string(b) + "] and loads[" + std::to_string(i) + "] have the same MpmSurface: give each its own.");
+					        "boundaries[" + std::to_string(b) + "] and loads[" + std::to_string(i)
+					        + "] have the same MpmSurface: give each its own.");
 	}
 }
 

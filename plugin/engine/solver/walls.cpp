@@ -44,8 +44,9 @@ template <int Dim> void addWalls(const vector<shared_ptr<MpmBoundary>>& boundari
 				        "boundaries[" + std::to_string(other) + "] and " + name + " have the same MpmSurface: give each its own.");
 		if (model.ghost.factor == 0)
 			throw std::invalid_argument(
-			        name + ".surface may hold nodes that hardly any material is near: it needs ghost stabilisation, such as ghost=MpmGhost(), instead of "
-			               "ghost.factor=0.");
+			        name
+			        + ".surface may hold nodes that hardly any material is near: it needs ghost stabilisation, such as ghost=MpmGhost(), instead of "
+			          "ghost.factor=0.");
 		model.walls[int(b)] = wallOf<Dim>(*boundaries[b], name, model.grid);
 	}
 }
