@@ -31,6 +31,7 @@ options = readOptions('A confined column askew on the grid.',
         cells=(16, 'cells over the height'),
         steps=(10, 'load steps'),
         penalty=(0., 'of the walls; 0: the default'),
+        pattern=('turned', "'turned': rows of points are along the walls; 'grid': along the grid"),
         poisson=(0., "Poisson's ratio"),
         pointsPerCell=(2, 'material points per cell and axis'),
         push=(0.1, 'way of the lid over the height'))
@@ -43,8 +44,13 @@ corner = lambda x, y: tuple(np.append(x * across + y * axis, 0))
 
 O.materials.append(MpmElasticMat(young=E, poisson=nu, density=weight / 10, label='soil'))
 grid = MpmGrid(cellSize=h, origin=(0.13 * h, 0.29 * h, 0))
-column = mpm.polygon([corner(x, y)[:2] for x, y in ((0, 0), (width, 0), (width, height), (0, height))])
-O.bodies.append(mpm.fill(column, grid, pointsPerCell=options.pointsPerCell, material='soil'))
+if options.pattern == 'turned':  # rows of points along the walls
+	O.bodies.append(mpm.fill(mpm.polygon([(0, 0), (width, 0), (width, height), (0, height)]), MpmGrid(cellSize=h), options.pointsPerCell, 'soil'))
+	for body in O.bodies:
+		body.state.pos = body.state.refPos = corner(*body.state.pos[:2])
+else:  # as in any region: rows along the grid, and stairs at the walls
+	column = mpm.polygon([corner(x, y)[:2] for x, y in ((0, 0), (width, 0), (width, height), (0, height))])
+	O.bodies.append(mpm.fill(column, grid, options.pointsPerCell, 'soil'))
 
 
 def wall(*points, **keywords):
