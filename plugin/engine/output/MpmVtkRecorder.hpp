@@ -35,7 +35,7 @@ public:
 		          "the start of the files' names, as in 'out/slope-', without line breaks and other control characters; there is no default",
 		          isFileName));
 		v("recorders", &MpmVtkRecorder::recorders, 0,
-		  "What to write: 'points', their domains with *fields*; 'grid', the cells that hold material; 'ghostFaces', the faces that are stabilised; 'loads', loaded surfaces; "
+		  "What to write: 'points', domains with *fields*; 'grid', cells that hold material; 'ghostFaces', faces that are stabilised; 'loads', loaded surfaces; "
 		  "'walls', surfaces of boundaries; 'all'. "
 		  "Read as a tuple.",
 		  admitting("one or more of 'points', 'grid', 'ghostFaces', 'loads', 'walls' and 'all'", areKinds));
