@@ -92,6 +92,43 @@ print(json.dumps([with_, solver.conditionNumber()]))
 	assert 1 < estimate <= 1.001 * condition < 1e6 and dofs > 0 and harder > 5 * condition
 
 
+def test_a_sheared_layer_goes_around(yade):
+	"""Periodic along x, between two rough plates off the lines of the grid of which one is pulled along: simple shear, and the plates bear the same."""
+	results = yade(block + '''
+block()
+solver.grid.origin, solver.grid.period = (0, -0.2, 0), (2, 0, 0)
+solver.boundaries = [MpmBoundary(surface=[(0, 0), (2, 0)], fix='xy'), MpmBoundary(surface=[(2, 2), (0, 2)], fix='xy', velocity=(0.02, 0, 0))]
+O.run(4, wait=True)
+print(json.dumps([mpm.arrays()['stress'][:, 0, 1].tolist(), [list(r) for r in solver.reactions], solver.boundaries[1].surface.vertices[0][0]]))
+''').result
+	stress, (below, above), place = results
+	assert abs(np.mean(stress) / 5000 - 1) < 0.01 and np.ptp(stress) < 150  # shear modulus times 0.01
+	assert abs(above[0] / 1e4 - 1) < 0.01 and abs(below[0] / above[0] + 1) < 1e-8 and abs(place - 2.02) < 1e-12
+
+
+def test_strength_is_reduced_between_walls(yade):
+	"""A vertical cut on a rough base off the grid has the factor of safety of one on nodes, within what the search tells."""
+	results = yade(block + '''
+def cut(onNodes):
+	O.reset()
+	O.materials.append(MpmTrescaMat(young=1e7, poisson=0.3, density=2000, undrainedStrength=20e3, label='clay'))
+	grid = MpmGrid(cellSize=0.25)
+	O.bodies.append(mpm.fill(pack.inAlignedBox((0, 0, -1), (4, 2, 1)), grid, 2, 'clay'))
+	if onNodes: held = [MpmBoundary(max=(0, inf, inf), fix='x'), MpmBoundary(max=(inf, 0, inf), fix='xy')]
+	else:
+		grid.origin = (-0.08, -0.1, 0)
+		held = [MpmBoundary(surface=[(0, 3), (0, -1)], fix='x'), MpmBoundary(surface=[(-1, 0), (6, 0)], fix='xy')]
+	O.engines = [MpmImplicitEngine(grid=grid, boundaries=held, gravity=(0, -10, 0), fBar=True, label='solver', verbosity=0)]
+	O.dt = 0.5
+	O.run(2, wait=True)
+	found = mpm.strengthReduction(tolerance=0.02)
+	return found['lower'], found['upper']
+print(json.dumps([cut(True), cut(False)]))
+''').result
+	(low, high), (lower, upper) = results
+	assert abs((lower + upper) / (low + high) - 1) < 0.04 and lower > 1.888  # limit analysis; both are above, on cells of an eighth of the height
+
+
 def test_pictures_and_files(yade):
 	run = yade(block + '''
 block()
@@ -112,6 +149,7 @@ def test_what_is_refused(yade):
 	        "MpmBoundary(surface=[(0, 0), (1, 1)], min=(0, 0, 0), fix='n')": ['has a surface and a box', 'give one of them'],
 	        "MpmBoundary(surface=[(0, 0), (1, 1)], displacement=(0, 1, 0), fix='xy')": ['MpmBoundary.displacement = 1 along y', 'moves by its velocity'],
 	        "MpmBoundary(velocity=(1, 0, 0), fix='x')": ['MpmBoundary.velocity = 1 along x', 'move by their displacement'],
+	        "MpmBoundary(penalty=10, fix='x')": ['MpmBoundary.penalty = 10 is that of a surface'],
 	        "MpmBoundary(surface=[(0, 0), (1, 1)], velocity=(1, 0, 0), fix='y')": ["a direction that fix = 'y' leaves free"],
 	        "MpmBoundary(surface=[(0, 0), (1, 1)], fix='z')": ['there is no direction z'],
 	        "MpmBoundary(surface=[[(0, 0, 0), (1, 0, 0), (1, 1, 0)]], fix='n')": ['boundaries[0].surface is made of triangles', 'a line of points'],
@@ -128,6 +166,7 @@ def test_what_is_refused(yade):
 	        'solver.loads = [MpmTraction(surface=solver.boundaries[3].surface)]; O.step()': ['boundaries[3] and loads[0] have the same MpmSurface'],
 	        'O.step(); solver.grid.cellSize = 0.25; solver.grid.cellSize = 0.7; solver.boundaries[0].surface.pieces = solver.boundaries[0].surface.pieces[1:]; O.step()':
 	                ['but what it bears is known of', 'give it a new MpmSurface'],
+	        'solver.grid.origin = (0, 0, 0); solver.grid.period = (2, 0, 0); O.step()': ['boundaries[0].surface is 2.6 m long along x', 'after 2 m', 'one period at most'],
 	        'solver.boundaries = [solver.boundaries[1]]; O.step()': ['nothing restrains the'],
 	}
 	outcomes = outcomesOf(yade.folder, block, list(others), before='block()')

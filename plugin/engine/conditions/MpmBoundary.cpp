@@ -50,6 +50,9 @@ void MpmBoundary::requireAdmissible() const
 	if (surface) surface->requireAdmissible();
 	else if (fixesNormal())
 		throw std::invalid_argument("MpmBoundary.fix = 'n' is the normal of a surface, which is not given: name directions of the box, as in fix='x'.");
+	if (!surface && penalty != MpmBoundary().penalty)
+		throw std::invalid_argument(
+		        "MpmBoundary.penalty = " + textOf(penalty) + " is that of a surface, which is not given: the nodes in a box do not give way.");
 	for (int axis = 0; axis < 3; ++axis)
 		if (const string text = whatContradicts(axis); !text.empty()) throw std::invalid_argument(text);
 }

@@ -15,9 +15,24 @@ namespace {
 			        + ": there is no direction z on a grid with dim=2 (plane strain in x-y).");
 	}
 
+	// Nodes a period apart are the same: what is longer would act twice.
+	template <int Dim> void requireWithinPeriod(const MpmBoundary& boundary, const string& name, const gimpm::Grid<Dim>& grid)
+	{
+		const auto [lower, upper] = boundary.extent();
+		for (int axis = 0; axis < Dim; ++axis) {
+			const Real period = grid.period[axis] * grid.cellSize, length = upper[axis] - lower[axis];
+			if (period == 0 || length <= period * (1 + 1e-9)) continue;
+			std::ostringstream text;
+			text << name << ".surface is " << length << " m long along "
+			     << "xyz"[axis] << ", but the grid repeats itself after " << period << " m (MpmGrid.period): expected one period at most.";
+			throw std::invalid_argument(text.str());
+		}
+	}
+
 	template <int Dim> std::shared_ptr<gimpm::Wall<Dim>> wallOf(const MpmBoundary& boundary, const string& name, const gimpm::Grid<Dim>& grid)
 	{
 		requireFitting<Dim>(boundary, name);
+		requireWithinPeriod<Dim>(boundary, name, grid);
 		const auto wall = std::make_shared<gimpm::Wall<Dim>>(coreSurface<Dim>(*boundary.surface), grid.cellSize);
 		wall->penalty   = boundary.penalty;
 		for (int axis = 0; axis < Dim; ++axis)
