@@ -185,7 +185,7 @@ namespace {
 		aligned.load(4);
 		oblique.load(4);
 		EXPECT_NEAR(-oblique.foot->reaction.template head<2>().dot(oblique.down) / oblique.total(), 1, 5e-3);
-		EXPECT_LT(oblique.error(obliqueAtFirst), 1e-2);
+		EXPECT_LT(oblique.error(obliqueAtFirst), Dim == 2 ? 1e-2 : 2e-2) << "16 cells in the plane, 8 in 3D, where the aligned one has 2.2e-2";
 		EXPECT_LT(oblique.error(obliqueAtFirst), aligned.error(atFirst) + 5e-3) << "which is the grid's own error";
 	}
 
