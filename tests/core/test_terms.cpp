@@ -57,7 +57,7 @@ namespace {
 		{
 			for (const auto& end : ends_)
 				for (int a = 0; a < Dim; ++a)
-					if (springs_.stiffness(a, a) > 0) hold(end.node, Vec<Dim>::Unit(a));
+					if (springs_.stiffness(a, a) > 0) hold(end.node, Vec<Dim>::Unit(a), Vec<Dim>::Zero());
 		}
 		void commit(const Eigen::VectorXd& d) override
 		{

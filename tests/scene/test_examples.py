@@ -219,6 +219,24 @@ def test_surface_loads(yade):
 	assert (run.folder / 'out/surface_loads/surface_loads.png').stat().st_size > 20000
 
 
+def test_walls(yade):
+	"""A column askew on the grid has the stress of the aligned one, under its weight and under a lid that is pushed in."""
+	for load in 'weight', 'lid':
+		run = yade(root / 'examples' / 'walls' / 'walls.py', '--load', load)
+		error, mean = numbers(r'mean error over the largest (\S+), mean (\S+) of', run.stdout)
+		assert error < 0.01 and abs(mean - 1) < 5e-3, run.stdout
+	assert (run.folder / 'out/walls/walls.png').stat().st_size > 20000 and (run.folder / 'out/walls/walls-walls.pvd').exists()
+
+
+def test_cooks_membrane(yade):
+	"""Clamped a third of a cell off the grid; against finite elements of nine nodes."""
+	for poisson, fBar in (0.3, 0), (0.4999, 1):
+		run = yade(root / 'examples' / 'walls' / 'cook.py', '--poisson', poisson, '--fBar', fBar)
+		assert abs(numbers(r'reference \S+ \((\S+) %\)', run.stdout)[0]) < 1, run.stdout
+		assert abs(numbers(r'over load: (\S+)', run.stdout)[0] - 1) < 1e-7
+	assert (run.folder / 'out/cook/cook.png').stat().st_size > 20000
+
+
 def test_tube(yade):
 	run = yade(root / 'examples' / 'surface_loads' / 'tube.py')
 	found = float(re.search(r'Lame \S+ \((\S+) %\)', run.stdout)[1])

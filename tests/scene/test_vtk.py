@@ -403,7 +403,7 @@ print(json.dumps([message, left]))
 
 mistakes = {
         "MpmVtkRecorder(recorders=['points', 'spheres'])": (
-                ValueError, "MpmVtkRecorder.recorders = ('points', 'spheres') is not admitted: expected one or more of 'points', 'grid', 'ghostFaces', 'loads', 'contacts' and 'all'"
+                ValueError, "MpmVtkRecorder.recorders = ('points', 'spheres') is not admitted: expected one or more of 'points', 'grid', 'ghostFaces', 'loads', 'walls', 'contacts' and 'all'"
         ),
         'MpmVtkRecorder(recorders=[])': (ValueError, 'MpmVtkRecorder.recorders = () is not admitted'),
         "MpmVtkRecorder(recorders='points')": (TypeError, "MpmVtkRecorder.recorders = 'points': expected a sequence"),

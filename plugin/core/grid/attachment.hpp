@@ -24,6 +24,16 @@ template <int Dim> struct Attachment {
 		return i;
 	}
 
+	/// Of the place, from the lowest node on [cells].
+	Vec<Dim> inCell() const
+	{
+		Vec<Dim> local = Vec<Dim>::Zero();
+		for (int n = 0; n < nodes; ++n)
+			for (int a = 0; a < Dim; ++a)
+				if (n >> a & 1) local[a] += weight[n];
+		return local;
+	}
+
 	Vec<Dim> displacement(const Eigen::VectorXd& d) const
 	{
 		Vec<Dim> u = Vec<Dim>::Zero();

@@ -113,6 +113,8 @@ template <int Dim> StepReport loadStep(PointCloud<Dim>& cloud, const Model<Dim>&
 		cloud = std::move(updated);
 		for (const auto& term : system.terms)
 			term->commit(d);
+		for (const auto& [box, wall] : model.walls)
+			report.reactions[box].template head<Dim>() += wall->reaction;
 		if (last) *last = { system.basis.nodes, d, load.growth() };
 	}
 	return report;

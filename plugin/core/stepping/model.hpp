@@ -7,7 +7,9 @@
 #include "core/solvers/linear_solver.hpp"
 #include "core/stepping/load_curve.hpp"
 #include "core/terms/ghost.hpp"
+#include "core/terms/wall.hpp"
 #include <functional>
+#include <map>
 #include <optional>
 
 namespace gimpm {
@@ -28,14 +30,16 @@ struct NewtonSettings {
 };
 
 template <int Dim> struct Model {
-	Grid<Dim>                    grid;
-	Basis                        basis = Basis::gimp;
-	bool                         fBar  = false; ///< against volumetric locking; needs the ghost stabilisation, which holds the nodes of nearly empty cells
-	std::vector<Material>        materials;
-	Boundary<Dim>                boundary; ///< the last box is that of the axis of symmetry, if there is one
-	GhostSettings                ghost;
-	NewtonSettings               newton;
-	std::vector<TermOfStep<Dim>> terms {}; ///< besides the points' resistance and the ghost stabilisation
+	Grid<Dim>             grid;
+	Basis                 basis = Basis::gimp;
+	bool                  fBar  = false; ///< against volumetric locking; needs the ghost stabilisation, which holds the nodes of nearly empty cells
+	std::vector<Material> materials;
+	Boundary<Dim>         boundary; ///< the last box is that of the axis of symmetry, if there is one
+	/// Off the lines of the grid, by the box of the boundary that their reaction is reported with, which holds nothing; moved in each step that is accepted.
+	std::map<int, std::shared_ptr<Wall<Dim>>> walls {};
+	GhostSettings                             ghost;
+	NewtonSettings                            newton;
+	std::vector<TermOfStep<Dim>>              terms {}; ///< besides the points' resistance and the ghost stabilisation
 };
 
 template <int Dim> struct Load {

@@ -173,12 +173,13 @@ Restraint restraintBy(const CloudBasis<Dim>& basis, const Grid<Dim>& grid, const
 		Part<Dim>& part = found[parts.root(n)];
 		part.reach      = std::max(part.reach, (parts.place(n) - part.centre()).norm());
 	}
-	const auto hold = [&](std::size_t n, const Vec<Dim>& direction) { found[parts.root(n)].hold(parts.place(n), direction); };
+	const auto hold
+	        = [&](std::size_t n, const Vec<Dim>& direction, const Vec<Dim>& place) { found[parts.root(n)].hold(parts.place(n) + place, direction); };
 	for (std::size_t n = 0; n < basis.nodes.size(); ++n)
 		for (int a = 0; a < Dim; ++a)
-			if (boundary.holder(Grid<Dim>::index(basis.nodes[n]), a)) hold(n, Vec<Dim>::Unit(a));
+			if (boundary.holder(Grid<Dim>::index(basis.nodes[n]), a)) hold(n, Vec<Dim>::Unit(a), Vec<Dim>::Zero());
 	for (const auto& term : terms)
-		holds(*term, [&](int n, const Vec<Dim>& direction) { hold(n, direction.normalized()); });
+		holds(*term, [&](int n, const Vec<Dim>& direction, const Vec<Dim>& place) { hold(n, direction.normalized(), place); });
 	for (auto& [root, part] : found)
 		if (grid.axisymmetric) part.encircle();
 	for (const auto& turn : parts.turns())

@@ -7,7 +7,7 @@
 namespace gimpm {
 namespace {
 
-template <int Dim> PointStiffness pointStiffness(const PointCloud<Dim>& cloud, const Model<Dim>& model)
+template <int Dim> PointStiffness stiffnessOf(const PointCloud<Dim>& cloud, const Model<Dim>& model)
 {
 	return [&](int p) {
 		const auto&  material = model.materials[cloud.material[p]];
@@ -17,7 +17,7 @@ template <int Dim> PointStiffness pointStiffness(const PointCloud<Dim>& cloud, c
 }
 
 template <int Dim>
-std::vector<GhostFace<Dim>> stabilise(const PointStiffness& stiffnessOf, const Model<Dim>& model, const CloudBasis<Dim>& basis, StepReport& report)
+std::vector<GhostFace<Dim>> stabilise(const PointStiffness& moduli, const Model<Dim>& model, const CloudBasis<Dim>& basis, StepReport& report)
 {
 	if (model.ghost.factor == 0) return {};
 	const Stopwatch watch(report.times.ghost);
@@ -25,7 +25,7 @@ std::vector<GhostFace<Dim>> stabilise(const PointStiffness& stiffnessOf, const M
 	auto            faces    = ghostFaces<Dim>(basis.cells, boundary, model.boundary, model.grid);
 	report.boundaryCells     = int(boundary.size());
 	report.ghostFaces        = int(faces.size());
-	weighGhostFaces(faces, basis, stiffnessOf, model.grid, model.ghost.factor, model.ghost.scaling);
+	weighGhostFaces(faces, basis, moduli, model.grid, model.ghost.factor, model.ghost.scaling);
 	return faces;
 }
 
@@ -51,13 +51,15 @@ template <int Dim> StepSystem<Dim>::StepSystem(const PointCloud<Dim>& cloud, con
 		external = Eigen::VectorXd::Zero(nodalSize());
 		addPointForces(basis, pointForces(cloud, model, load), external);
 	}
-	const PointStiffness stiffnessOf = pointStiffness(cloud, model);
-	faces                            = stabilise(stiffnessOf, model, basis, report);
+	const PointStiffness moduli = stiffnessOf(cloud, model);
+	faces                       = stabilise(moduli, model, basis, report);
 	const Stopwatch watch(report.times.basis);
 	terms.push_back(std::make_unique<InternalForce<Dim>>(basis, points, model.materials));
 	if (!faces.empty()) terms.push_back(std::make_unique<GhostForce<Dim>>(faces, model.grid.cellSize));
+	for (const auto& [box, wall] : model.walls)
+		terms.push_back(std::make_unique<WallForce<Dim>>(*wall, basis, moduli, model.grid));
 	for (const auto& make : model.terms)
-		terms.push_back(make({ cloud, basis, model.grid, stiffnessOf }));
+		terms.push_back(make({ cloud, basis, model.grid, moduli }));
 	prescribed = Eigen::VectorXd::Zero(nodalSize());
 	dofs.number.assign(nodalSize(), -1);
 	for (std::size_t n = 0; n < basis.nodes.size(); ++n)

@@ -169,12 +169,10 @@ template <int Dim> void Contact<Dim>::restrainAt(const Eigen::VectorXd& d, const
 {
 	forTouching(d, [&](const Corner& corner, const Vec<Dim>&, double, const Touch<Dim>& touched) {
 		const bool sticks = corner.law.friction > 0 && corner.law.cap > 0 && !touched.slips;
-		for (int n = 0; n < corner.attached.nodes; ++n) {
-			if (corner.attached.weight[n] < 1e-6) continue;
-			hold(corner.attached.node[n], touched.normal);
-			for (int a = 0; sticks && a < Dim; ++a)
-				hold(corner.attached.node[n], Vec<Dim>::Unit(a));
-		}
+		const Vec<Dim> inCell = corner.attached.inCell();
+		hold(corner.attached.node[0], touched.normal, inCell);
+		for (int a = 0; sticks && a < Dim; ++a)
+			hold(corner.attached.node[0], Vec<Dim>::Unit(a), inCell);
 	});
 }
 

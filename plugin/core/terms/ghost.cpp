@@ -28,28 +28,14 @@ template <int Dim> std::array<int, 2> cellsAt(const GhostFace<Dim>& face, const 
 
 /// Young's moduli of the cells at the faces, by number: the means of their points, weighted by the volumes of the overlaps.
 template <int Dim>
-std::vector<double> cellModuli(const std::vector<GhostFace<Dim>>& faces, const CloudBasis<Dim>& basis, const PointStiffness& stiffnessOf, const Grid<Dim>& grid)
+std::vector<double> moduliAtFaces(
+        const std::vector<GhostFace<Dim>>& faces, const CloudBasis<Dim>& basis, const PointStiffness& stiffnessOf, const Grid<Dim>& grid)
 {
 	std::vector<char> isAtFace(basis.cells.size(), 0);
 	for (const auto& face : faces)
 		for (const int cell : cellsAt(face, basis, grid))
 			isAtFace[cell] = 1;
-	std::vector<double> volume(basis.cells.size(), 0), modulus(basis.cells.size(), 0);
-	for (const auto& patch : basis.patches)
-		for (int c = 0; c < windowCells<Dim>; ++c) {
-			const int cell = patch.reached[c];
-			if (cell < 0 || !isAtFace[cell]) continue;
-			for (int i = patch.first; i < patch.first + patch.count; ++i) {
-				auto [overlap, young] = stiffnessOf(basis.order[i]);
-				for (int a = 0; a < Dim; ++a)
-					if (patch.span >> a & 1) overlap *= basis.axes[i][a].share(c >> a & 1, grid.cellSize);
-				volume[cell] += overlap;
-				modulus[cell] += overlap * young;
-			}
-		}
-	for (std::size_t cell = 0; cell < modulus.size(); ++cell)
-		if (isAtFace[cell]) modulus[cell] /= volume[cell];
-	return modulus;
+	return cellModuli(isAtFace, basis, stiffnessOf, grid);
 }
 
 /// Calls f(node a, s-th position of a, node b >= a, code, coefficient) for the node pairs of a face; the coefficient is the same for
@@ -116,7 +102,7 @@ void weighGhostFaces(
         std::vector<GhostFace<Dim>>& faces, const CloudBasis<Dim>& basis, const PointStiffness& stiffnessOf, const Grid<Dim>& grid, double factor,
         GhostScaling scaling)
 {
-	const auto   modulus = cellModuli(faces, basis, stiffnessOf, grid);
+	const auto   modulus = moduliAtFaces(faces, basis, stiffnessOf, grid);
 	const double h = grid.cellSize, power = scaling == GhostScaling::paper ? h * h * h : h;
 	for (auto& face : faces) {
 		const auto [lower, upper] = cellsAt(face, basis, grid);

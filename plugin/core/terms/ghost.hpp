@@ -2,6 +2,7 @@
 // Ghost stabilisation (Coombs 2023, section 3): boundary elements, ghost faces and the stiffness on them.
 #pragma once
 #include "core/grid/cloud_basis.hpp"
+#include "core/terms/cell_moduli.hpp"
 #include "core/terms/term.hpp"
 
 namespace gimpm {

@@ -3,6 +3,7 @@
 #pragma once
 #include "core/grid/cloud_basis.hpp"
 #include "core/solvers/node_matrix.hpp"
+#include "core/terms/cell_moduli.hpp"
 #include <functional>
 #include <memory>
 #include <optional>
@@ -48,8 +49,8 @@ public:
 	/// Forces from outside among those it adds at d, as those of a support [N], for what the residual is compared with; 0 for forces within the body.
 	virtual double fromOutside(const Eigen::VectorXd&) const { return 0; }
 
-	/// Calls hold(node, direction) for what keeps the body from moving there, however softly.
-	using Hold = std::function<void(int node, const Vec<Dim>& direction)>;
+	/// Calls hold(node, direction, place) for what keeps the body from moving there, however softly; the place is given from the node on [cells].
+	using Hold = std::function<void(int node, const Vec<Dim>& direction, const Vec<Dim>& place)>;
 	virtual void restrain(const Hold&) const { }
 
 	/// The same for what still keeps it at d, as friction does until it slips.
@@ -63,12 +64,6 @@ public:
 };
 
 template <int Dim> using Terms = std::vector<std::unique_ptr<Term<Dim>>>;
-
-/// Current volume [m3] and Young's modulus [Pa] of a point of the cloud.
-struct VolumeAndModulus {
-	double volume, modulus;
-};
-using PointStiffness = std::function<VolumeAndModulus(int point)>;
 
 /// How things are when a step begins.
 template <int Dim> struct Beginning {

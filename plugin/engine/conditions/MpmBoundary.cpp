@@ -5,24 +5,56 @@ namespace yade {
 
 bool MpmBoundary::namesDirections(const string& letters)
 {
+	if (letters == "n") return true;
 	for (size_t i = 0; i < letters.size(); ++i)
 		if (string("xyz").find(letters[i]) == string::npos || letters.find(letters[i], i + 1) != string::npos) return false;
 	return !letters.empty();
 }
 
+std::pair<Vector3r, Vector3r> MpmBoundary::extent() const
+{
+	if (!surface) return { min, max };
+	Vector3r lower = surface->vertices.front(), upper = lower;
+	for (const Vector3r& x : surface->vertices)
+		lower = lower.cwiseMin(x), upper = upper.cwiseMax(x);
+	return { lower, upper };
+}
+
+// Along one axis; empty if nothing does.
+string MpmBoundary::whatContradicts(int axis) const
+{
+	const char         direction = "xyz"[axis];
+	std::ostringstream text;
+	if (min[axis] > max[axis])
+		text << "MpmBoundary.min = " << min[axis] << " is greater than max = " << max[axis] << " along " << direction << "; are they swapped?";
+	else if (surface && (std::isfinite(min[axis]) || std::isfinite(max[axis])))
+		text << "MpmBoundary has a surface and a box, from min = " << textOf(min) << " to max = " << textOf(max)
+		     << ": give one of them, or two boundaries.";
+	else if (surface && displacement[axis] != 0)
+		text << "MpmBoundary.displacement = " << displacement[axis] << " along " << direction
+		     << " is that of the nodes in a box: a surface moves by its velocity.";
+	else if (!surface && velocity[axis] != 0)
+		text << "MpmBoundary.velocity = " << velocity[axis] << " along " << direction
+		     << " is that of a surface: the nodes in a box move by their displacement.";
+	else if (displacement[axis] != 0 && !fixes(axis))
+		text << "MpmBoundary.displacement = " << displacement[axis] << " along " << direction << ", a direction that fix = '" << fix
+		     << "' leaves free.";
+	else if (velocity[axis] != 0 && !fixes(axis) && !fixesNormal())
+		text << "MpmBoundary.velocity = " << velocity[axis] << " along " << direction << ", a direction that fix = '" << fix << "' leaves free.";
+	return text.str();
+}
+
 void MpmBoundary::requireAdmissible() const
 {
 	Exposed<MpmBoundary, Serializable>::requireAdmissible();
-	for (int axis = 0; axis < 3; ++axis) {
-		const char         direction = "xyz"[axis];
-		std::ostringstream text;
-		if (min[axis] > max[axis])
-			text << "MpmBoundary.min = " << min[axis] << " is greater than max = " << max[axis] << " along " << direction << "; are they swapped?";
-		else if (displacement[axis] != 0 && !fixes(axis))
-			text << "MpmBoundary.displacement = " << displacement[axis] << " along " << direction << ", a direction that fix = '" << fix
-			     << "' leaves free.";
-		if (!text.str().empty()) throw std::invalid_argument(text.str());
-	}
+	if (surface) surface->requireAdmissible();
+	else if (fixesNormal())
+		throw std::invalid_argument("MpmBoundary.fix = 'n' is the normal of a surface, which is not given: name directions of the box, as in fix='x'.");
+	if (!surface && penalty != MpmBoundary().penalty)
+		throw std::invalid_argument(
+		        "MpmBoundary.penalty = " + textOf(penalty) + " is that of a surface, which is not given: the nodes in a box do not give way.");
+	for (int axis = 0; axis < 3; ++axis)
+		if (const string text = whatContradicts(axis); !text.empty()) throw std::invalid_argument(text);
 }
 
 } // namespace yade

@@ -16,7 +16,7 @@
 namespace yade {
 
 namespace {
-	const vector<string> kinds { "points", "grid", "ghostFaces", "loads", "contacts" };
+	const vector<string> kinds { "points", "grid", "ghostFaces", "loads", "walls", "contacts" };
 
 	const vector<string>& pointFields()
 	{

@@ -35,9 +35,10 @@ public:
 		          "the start of the files' names, as in 'out/slope-', without line breaks and other control characters; there is no default",
 		          isFileName));
 		v("recorders", &MpmVtkRecorder::recorders, 0,
-		  "What to write: 'points', their domains with *fields*; 'grid', the cells that hold material; 'ghostFaces', the faces that are stabilised; 'loads', loaded surfaces; 'contacts', where bodies are touched; 'all'. "
+		  "What to write: 'points', domains with *fields*; 'grid', cells that hold material; 'ghostFaces', faces that are stabilised; 'loads', loaded surfaces; "
+		  "'walls', surfaces of boundaries; 'contacts', where bodies are touched; 'all'. "
 		  "Read as a tuple.",
-		  admitting("one or more of 'points', 'grid', 'ghostFaces', 'loads', 'contacts' and 'all'", areKinds));
+		  admitting("one or more of 'points', 'grid', 'ghostFaces', 'loads', 'walls', 'contacts' and 'all'", areKinds));
 		v("fields", &MpmVtkRecorder::fields, 0,
 		  "Which fields of 'points' are written, by name, or 'all', the default; an empty sequence leaves the domains alone. Few fields make small "
 		  "files. Read as a tuple.",

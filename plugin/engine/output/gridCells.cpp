@@ -38,6 +38,10 @@ VtkCells gridCells(const string& kind, const Scene& scene, const MpmImplicitEngi
 		const ValueLock lock;
 		return contactPoints(solver.contacts);
 	}
+	if (kind == "walls") {
+		const ValueLock lock;
+		return walls(solver.boundaries, solver.grid->dim);
+	}
 	return solver.grid->dim == 2 ? cells<2>(kind, scene, solver) : cells<3>(kind, scene, solver);
 }
 

@@ -77,7 +77,8 @@ namespace {
 			data[reactionName("", axis)] = isKnown && !reactions.empty() ? total[axis] : unknown;
 		for (size_t b = 0; b < engine.boundaries.size(); ++b)
 			for (int axis = 0; axis < engine.grid->dim; ++axis)
-				if (engine.boundaries[b]->fixes(axis)) data[reactionName(std::to_string(b), axis)] = isKnown ? reactions[b][axis] : unknown;
+				if (engine.boundaries[b]->fixes(axis) || engine.boundaries[b]->fixesNormal())
+					data[reactionName(std::to_string(b), axis)] = isKnown ? reactions[b][axis] : unknown;
 		for (size_t i = 0; i < engine.loads.size(); ++i)
 			for (int axis = 0; axis < engine.grid->dim; ++axis)
 				data["load" + std::to_string(i) + "_" + "xyz"[axis]] = engine.loads[i]->resultant[axis];

@@ -8,6 +8,7 @@
 #include "engine/solver/failures.hpp"
 #include "engine/solver/progress.hpp"
 #include "engine/solver/requirements.hpp"
+#include "engine/solver/walls.hpp"
 #include "yade_api/exceptions.hpp"
 #include "yade_api/logging.hpp"
 #include <atomic>
@@ -163,8 +164,9 @@ template <int Dim> Attempt<Dim> MpmImplicitEngine::attempt(Job<Dim>& job) const
 	job.model.newton.acceptUnconverged = newton->acceptUnconverged && job.control.isLeast();
 	job.surfaceLoads.advanceTo(time);
 	job.contacts.advanceTo(time);
+	moveWalls(boundaries, job.model, time - loadTime);
 	Attempt<Dim> next { time, loadBetween<Dim>(loadTime, time), newton->predictor, {} };
-	if (job.contacts.areThere()) next.load.motion = time - loadTime;
+	if (job.contacts.areThere() || !job.model.walls.empty()) next.load.motion = time - loadTime;
 	if (next.predicts) next.last = fromNumbers<Dim>(lastDisplacements, lastLoadIncrement);
 	return next;
 }
@@ -178,6 +180,7 @@ template <int Dim> void MpmImplicitEngine::reach(Job<Dim>& job, const Attempt<Di
 		scatter(job.cloud, job.model.grid, points);
 		job.surfaceLoads.scatter();
 		job.contacts.scatter(made.time);
+		scatterWalls(job.model, boundaries);
 	}
 	addTime(*timingDeltas, "scatter", scattering);
 	plausibility.know(job.cloud);

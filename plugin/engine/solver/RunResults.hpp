@@ -120,7 +120,7 @@ template <class V> void RunResults::results(V&& v)
 	v("lastLoadIncrement", &R::lastLoadIncrement, Kept(), byAttribute, hidden, "", finite);
 	v("stepPart", &R::stepPart, Kept(), byReport, readonly, "Part of O.dt [-] that the next load step tries, > 0 and <= 1.", part);
 	v("reactions", &R::reactions, reached(&StepReport::reactions), byAttribute, readonly,
-	  "Of each of *boundaries*, the sum of the forces [N] that held its nodes at the end of the last converged step; per metre of thickness in plane "
+	  "Of each of *boundaries*, the sum of the forces [N] on the body at the end of the last converged step; per metre of thickness in plane "
 	  "strain.",
 	  admitting("forces of finite numbers [N]", [](const auto& forces) { return std::all_of(forces.begin(), forces.end(), finite); }));
 	v("clampedDomains", &R::clampedDomains, latest(&StepReport::clampedDomains), byReport, readonly,

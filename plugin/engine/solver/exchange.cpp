@@ -4,6 +4,7 @@
 #include "engine/materials/laws.hpp"
 #include "engine/points/parallel.hpp"
 #include "engine/solver/fit.hpp"
+#include "engine/solver/walls.hpp"
 #include <atomic>
 #include <set>
 #include <unordered_map>
@@ -148,11 +149,12 @@ gimpm::Model<Dim> toModel(
 		        "fBar takes the dilation of points from the centres of their cells, also where these are nearly empty: it needs ghost stabilisation, "
 		        "such as ghost=MpmGhost(), instead of ghost.factor=0.");
 	gimpm::Model<Dim> model;
-	model.grid                    = grid.lattice<Dim>();
-	model.basis                   = basis == "mpm" ? gimpm::Basis::linear : gimpm::Basis::gimp;
-	model.fBar                    = fBar;
-	model.boundary                = gimpm::Boundary<Dim>(heldBoxes<Dim>(boundaries, grid, model.grid));
-	model.ghost                   = { ghost.factor, ghost.scaling == "paper" ? gimpm::GhostScaling::paper : gimpm::GhostScaling::meshIndependent };
+	model.grid     = grid.lattice<Dim>();
+	model.basis    = basis == "mpm" ? gimpm::Basis::linear : gimpm::Basis::gimp;
+	model.fBar     = fBar;
+	model.boundary = gimpm::Boundary<Dim>(heldBoxes<Dim>(boundaries, grid, model.grid));
+	model.ghost    = { ghost.factor, ghost.scaling == "paper" ? gimpm::GhostScaling::paper : gimpm::GhostScaling::meshIndependent };
+	addWalls(boundaries, model);
 	model.newton.tolerance        = newton.tolerance;
 	model.newton.maxIterations    = newton.maxIterations;
 	model.newton.lineSearchTrials = newton.lineSearchTrials;

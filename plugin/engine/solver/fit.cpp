@@ -5,9 +5,19 @@
 namespace yade {
 
 namespace {
+	// In place of a wall, among the boxes of the boundaries.
+	template <int Dim> gimpm::HeldBox<Dim> holdsNothing()
+	{
+		gimpm::HeldBox<Dim> box;
+		box.lower.setOnes();
+		box.upper.setZero();
+		return box;
+	}
+
 	template <int Dim> gimpm::HeldBox<Dim> heldBox(const MpmBoundary& boundary, const MpmGrid& grid, const gimpm::Grid<Dim>& lattice)
 	{
 		boundary.requireAdmissible();
+		if (boundary.surface) return holdsNothing<Dim>();
 		auto box         = gimpm::HeldBox<Dim>::from(lattice, boundary.min.head<Dim>(), boundary.max.head<Dim>());
 		box.displacement = boundary.displacement.head<Dim>();
 		for (int axis = 0; axis < Dim; ++axis)

@@ -12,14 +12,14 @@ string idleBoundaries(const MpmImplicitEngine& engine, const vector<MaterialPoin
 	for (size_t b = 0; b < engine.boundaries.size(); ++b) {
 		const MpmBoundary& boundary = *engine.boundaries[b];
 		if (std::find(except.begin(), except.end(), &boundary) != except.end()) continue;
-		const auto isNear = [&](const MaterialPoint& p) {
-			const Vector3r reach = p.shape->halfSize + Vector3r::Constant(engine.grid->cellSize); // nodes of the cells that it touches
-			return ((p.state->pos + reach - boundary.min).head(dim).array() > 0).all()
-			        && ((boundary.max - p.state->pos + reach).head(dim).array() > 0).all();
+		const auto [lower, upper] = boundary.extent();
+		const auto isNear         = [&, low = lower, high = upper](const MaterialPoint& p) {
+                        const Vector3r reach = p.shape->halfSize + Vector3r::Constant(engine.grid->cellSize); // nodes of the cells that it touches
+                        return ((p.state->pos + reach - low).head(dim).array() > 0).all() && ((high - p.state->pos + reach).head(dim).array() > 0).all();
 		};
 		if (std::none_of(points.begin(), points.end(), isNear))
-			text << " boundaries[" << b << "], from (" << boundary.min.transpose() << ") to (" << boundary.max.transpose()
-			     << "), holds no node of any material.";
+			text << " boundaries[" << b << "], from (" << lower.transpose() << ") to (" << upper.transpose() << "), holds "
+			     << (boundary.surface ? "no material." : "no node of any material.");
 	}
 	return text.str();
 }

@@ -192,9 +192,12 @@ template <int Dim> void Plausibility::requirePoints(const vector<MaterialPoint>&
 
 string Plausibility::doubtOfEnd(const MpmImplicitEngine& engine)
 {
-	const size_t knees = engine.gravityCurve.size();
-	const Real   end   = engine.loadsEnd();
-	if (saidEnd || std::max(engine.loadCurve.size(), knees) < 2 || engine.loadTime < end - 1e-9 * engine.scene->dt) return "";
+	const size_t knees  = engine.gravityCurve.size();
+	const Real   end    = engine.loadsEnd();
+	const auto   goesOn = [](const auto& boundary) { return !boundary->velocity.isZero(0); };
+	if (saidEnd || std::any_of(engine.boundaries.begin(), engine.boundaries.end(), goesOn) || std::max(engine.loadCurve.size(), knees) < 2
+	    || engine.loadTime < end - 1e-9 * engine.scene->dt)
+		return "";
 	saidEnd = true;
 	return sentence(
 	        knees < 2 ? "loadCurve has" : "loadCurve and gravityCurve have", " ended at time ", end, ": the load factor stays at ",
@@ -207,9 +210,9 @@ string Plausibility::doubtOfBoundaries(const MpmImplicitEngine& engine, const ve
 	vector<const MpmBoundary*> except;
 	decltype(lookedAt)         boxes;
 	for (const auto& boundary : engine.boundaries) {
-		boxes.emplace_back(boundary->min, boundary->max);
+		boxes.push_back(boundary->extent());
 		const bool isKnown = std::find(lookedAt.begin(), lookedAt.end(), boxes.back()) != lookedAt.end();
-		if (isKnown || !boundary->displacement.isZero(0)) except.push_back(boundary.get());
+		if (isKnown || boundary->moves()) except.push_back(boundary.get());
 	}
 	lookedAt.swap(boxes);
 	const string idle = except.size() == engine.boundaries.size() ? "" : idleBoundaries(engine, points, except);

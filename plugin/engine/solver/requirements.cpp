@@ -28,6 +28,17 @@ namespace {
 					        + ": two MpmImplicitEngines in O.engines claim it, with mask = " + std::to_string(engine.mask) + " and "
 					        + std::to_string(other->mask) + "; give each body a groupMask that goes with one of them.");
 	}
+
+	// A load and a wall would move it in different ways.
+	void requireOwnSurfaces(const MpmImplicitEngine& engine)
+	{
+		for (size_t b = 0; b < engine.boundaries.size(); ++b)
+			for (size_t i = 0; i < engine.loads.size(); ++i)
+				if (engine.boundaries[b]->surface && engine.boundaries[b]->surface == engine.loads[i]->surface)
+					throw std::invalid_argument(
+					        "boundaries[" + std::to_string(b) + "] and loads[" + std::to_string(i)
+					        + "] have the same MpmSurface: give each its own.");
+	}
 }
 
 void requireCallable()
@@ -43,6 +54,7 @@ void requireRunnable(const MpmImplicitEngine& engine)
 {
 	engine.requireAdmissible();
 	requireOnlyClaim(engine);
+	requireOwnSurfaces(engine);
 	Scene&             scene = *engine.scene;
 	std::ostringstream text;
 	if (!(scene.dt > 0) || !std::isfinite(scene.dt))

@@ -1,47 +1,15 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "engine/solver/surface_loads.hpp"
-#include <algorithm>
+#include "engine/solver/surfaces.hpp"
 
 namespace yade {
 
 namespace {
-	template <int Dim> std::vector<gimpm::Vec<Dim>> inDimension(const vector<Vector3r>& points)
-	{
-		std::vector<gimpm::Vec<Dim>> result;
-		for (const Vector3r& x : points)
-			result.push_back(x.head<Dim>());
-		return result;
-	}
-
-	template <int Dim> vector<Vector3r> inSpace(const std::vector<gimpm::Vec<Dim>>& points, Real z)
-	{
-		vector<Vector3r> result;
-		for (const auto& x : points) {
-			result.emplace_back(0, 0, z);
-			result.back().template head<Dim>() = x;
-		}
-		return result;
-	}
-
 	template <int Dim> void requireFitting(const MpmTraction& load, const string& name)
 	{
-		if (load.surface->dim() != Dim)
-			throw std::invalid_argument(
-			        name + ".surface is made of " + (Dim == 2 ? "triangles" : "segments") + ", but the grid has dim=" + std::to_string(Dim)
-			        + ": expected " + (Dim == 2 ? "a line of points." : "triangles."));
+		requireDimension<Dim>(*load.surface, name);
 		if (Dim == 2 && load.traction[2] != 0)
 			throw std::invalid_argument(name + ".traction = " + textOf(load.traction) + ": there is no direction z on a grid with dim=2.");
-	}
-
-	template <int Dim> gimpm::Surface<Dim> coreSurface(const MpmSurface& surface)
-	{
-		gimpm::Surface<Dim> result { inDimension<Dim>(surface.vertices), {}, {} };
-		result.vertices0 = surface.initialVertices.empty() ? result.vertices : inDimension<Dim>(surface.initialVertices);
-		for (const vector<int>& piece : surface.pieces) {
-			result.pieces.emplace_back();
-			std::copy(piece.begin(), piece.end(), result.pieces.back().begin());
-		}
-		return result;
 	}
 }
 
@@ -84,14 +52,7 @@ template <int Dim> void SurfaceLoads<Dim>::advanceTo(Real time)
 template <int Dim> void SurfaceLoads<Dim>::scatter() const
 {
 	for (size_t i = 0; i < loads.size(); ++i) {
-		MpmSurface&                to      = *sources[i].from->surface;
-		const gimpm::Surface<Dim>& surface = loads[i].surface;
-		const Real                 z       = to.vertices.front()[2];
-		to.vertices                        = inSpace<Dim>(surface.vertices, z);
-		to.initialVertices                 = inSpace<Dim>(surface.vertices0, z);
-		to.pieces.clear();
-		for (const auto& piece : surface.pieces)
-			to.pieces.emplace_back(piece.begin(), piece.end());
+		yade::scatter<Dim>(loads[i].surface, *sources[i].from->surface);
 		sources[i].from->resultant.setZero();
 		sources[i].from->resultant.template head<Dim>() = loads[i].resultant;
 	}

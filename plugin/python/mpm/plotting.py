@@ -17,7 +17,7 @@ _signs = np.array([(x, y, z) for z in (-1, 1) for y in (-1, 1) for x in (-1, 1)]
 _around = [0, 1, 3, 2]  # those of its lower face, in order
 _edges = np.array([(i, j) for i in range(8) for j in range(i) if np.abs(_signs[i] - _signs[j]).sum() == 2])
 _sides = np.array([(0, 1), (1, 2), (2, 0)])  # of a triangle
-_faceColour, _cellColour, _boundaryColour, _loadColour = '#d9480f', '#868e96', '#ffe8cc', '#0b7285'
+_faceColour, _cellColour, _boundaryColour, _loadColour, _wallColour = '#d9480f', '#868e96', '#ffe8cc', '#0b7285', '#5f3dc4'
 
 
 def plot(field='displacement', deformed=True, grid=None, ghost=None, fileName=None, ax=None, range=None, colormap=None, plane=None, solver=None, loads=None):
@@ -41,7 +41,7 @@ def plot(field='displacement', deformed=True, grid=None, ghost=None, fileName=No
 	:param colormap: name of a colour map of matplotlib; by default viridis, or RdBu_r for values of both signs
 	:param plane: in 3D, axis and coordinate [m] of the slice, as in ``('z', 0.5)``; by default across z, through the point nearest to the middle
 	:param solver: ``MpmImplicitEngine`` whose grid is drawn; needed if there are several
-	:param loads: draw the loaded surfaces, with arrows in the direction of the force; default as for *grid*
+	:param loads: draw the loaded surfaces and the walls that are surfaces, with arrows in the direction of the force on the body; default as for *grid*
 	:return: the axes
 	:raises TypeError: *range* is no pair of numbers, or *plane* no pair of an axis and a number.
 	:raises ValueError: a field or colour map that does not exist, *grid* or *ghost* without *deformed*, *plane* in plane strain or beside the
@@ -61,7 +61,8 @@ def plot(field='displacement', deformed=True, grid=None, ghost=None, fileName=No
 	if grid: _drawGrid(ax, section, solver)
 	_drawMatter(ax, matter, values[kept], field, range, colormap)
 	if ghost: _drawFaces(ax, section, solver)
-	if loads and len(solver.loads): _drawLoads(ax, section, solver)
+	if loads and len(solver.loads): _drawSurfaces(ax, section, solver, 'loads', _loadColour)
+	if loads and any(boundary.surface for boundary in solver.boundaries): _drawSurfaces(ax, section, solver, 'walls', _wallColour)
 	_finish(ax, section, f'load factor {solver.loadFactor:.4g}' + ('' if deformed else ', at the initial positions'))
 	if fileName is not None: write('plot', ax.figure, fileName)
 	return ax
@@ -170,20 +171,21 @@ def _drawFaces(ax, section, solver):
 	ax.add_collection(LineCollection(np.stack([low, high], 1), colors=_faceColour, linewidths=1.1, zorder=4, label='ghost faces'))
 
 
-def _drawLoads(ax, section, solver):
+def _drawSurfaces(ax, section, solver, kind, colour):
+	"""Of loads or walls, with the forces that act on the body."""
 	from matplotlib.collections import LineCollection
-	data = engine.gridCells('loads', solver)
+	data = engine.gridCells(kind, solver)
 	tractions = np.frombuffer(data['field']).reshape(-1, 3)
 	lines, kept = section.lines(np.frombuffer(data['corners']).reshape(len(tractions), -1, 3))
 	if not len(kept): return
-	ax.add_collection(LineCollection(lines, colors=_loadColour, linewidths=1.8, zorder=5, label='loads'))
+	ax.add_collection(LineCollection(lines, colors=colour, linewidths=1.8, zorder=5, label=kind))
 	ax.update_datalim(lines.reshape(-1, 2))
 	shown = np.linspace(0, len(kept) - 1, min(len(kept), 25)).astype(int)
 	tips, forces = lines[shown].mean(axis=1), tractions[kept[shown]][:, section.shown]
 	length = 0.06 * np.ptp(ax.dataLim.get_points(), axis=0).max()
 	largest = np.abs(forces).max()
 	if largest == 0: return
-	ax.quiver(*tips.T, *(forces / largest * length).T, color=_loadColour, pivot='tip', angles='xy', scale_units='xy', scale=1, width=0.003, zorder=5)
+	ax.quiver(*tips.T, *(forces / largest * length).T, color=colour, pivot='tip', angles='xy', scale_units='xy', scale=1, width=0.003, zorder=5)
 
 
 def _drawMatter(ax, matter, values, field, range, colormap):

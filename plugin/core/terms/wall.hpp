@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Walls that are not on the lines of the grid.
+#pragma once
+#include "core/grid/attachment.hpp"
+#include "core/grid/surface.hpp"
+#include "core/terms/cell_moduli.hpp"
+#include "core/terms/term.hpp"
+#include <string>
+
+namespace gimpm {
+
+/// A wall at the start of a step, and what it has been acting with.
+template <int Dim> struct Wall {
+	/// Makes the pieces so small that the force on each may act at its centre.
+	Wall(Surface<Dim> surface, double cellSize);
+
+	Surface<Dim>          surface;
+	std::array<bool, Dim> fixed {};                    ///< directions in which material is held; none: along the normal of each piece
+	double                penalty = 100;               ///< the wall gives way by pressure / (penalty * Young's modulus) cells [-]
+	Vec<Dim>              motion  = Vec<Dim>::Zero();  ///< in the step, rigid [m]
+	std::vector<Vec<Dim>> tractions;                   ///< of each piece on the body [Pa]; zero where there is none
+	Vec<Dim>              reaction = Vec<Dim>::Zero(); ///< their resultant at the end of the last step that was accepted [N]
+
+	/// Length of the sides of its pieces, in cells.
+	static constexpr double pieceLimit = 0.25;
+};
+
+/// Each piece holds the material that is at its centre x with the traction t - penalty E / h P (N(x) d - motion), where P is the projection on what is held,
+/// E the modulus of the soil in the cell and t the traction at the start of the step: the step begins in equilibrium, and what the wall has given way by
+/// is in proportion to what it bears. Centres where the grid holds no material do nothing, and forget.
+template <int Dim> class WallForce : public Term<Dim> {
+public:
+	/// The wall is moved in commit().
+	WallForce(Wall<Dim>&, const CloudBasis<Dim>&, const PointStiffness&, const Grid<Dim>&);
+
+	void                        mark(NodeMatrix<Dim>&) const override;
+	std::optional<PointFailure> add(const Eigen::VectorXd& d, const TermSum<Dim>&) const override;
+	std::string                 obstacle() const override;
+	double                      fromOutside(const Eigen::VectorXd& d) const override;
+	void                        restrain(const typename Term<Dim>::Hold&) const override;
+	void                        commit(const Eigen::VectorXd& d) override;
+
+private:
+	/// Of a piece, with material at its centre.
+	struct Grip {
+		int             piece;
+		Attachment<Dim> at;
+		Vec<Dim>        inCell;    ///< its centre, from the lowest node of the cell [cells]
+		double          area;      ///< around an axis of symmetry that of the ring [m2]
+		Mat<Dim>        held;      ///< projection P
+		double          stiffness; ///< [Pa/m]
+	};
+
+	Vec<Dim> tractionOn(const Grip&, const Eigen::VectorXd& d) const;
+	void     addStiffness(NodeMatrix<Dim>& K) const;
+
+	Wall<Dim>&        wall_;
+	std::vector<Grip> grips_;
+};
+
+} // namespace gimpm
