@@ -51,7 +51,7 @@ namespace {
 			}
 		}
 		for (int axis = 0; axis < dim; ++axis)
-			data[name + "_" + "xyz"[axis]] = total[axis];
+			data[name + "_" + "xyz"[axis]] = contact.bodies.empty() ? unknown : total[axis];
 		data[name + "_touching"] = touching;
 	}
 

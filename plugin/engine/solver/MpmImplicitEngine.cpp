@@ -164,9 +164,9 @@ template <int Dim> Attempt<Dim> MpmImplicitEngine::attempt(Job<Dim>& job) const
 	job.model.newton.acceptUnconverged = newton->acceptUnconverged && job.control.isLeast();
 	job.surfaceLoads.advanceTo(time);
 	job.contacts.advanceTo(time);
-	moveWalls(boundaries, job.model, time - loadTime);
+	const bool   wallsMove = moveWalls(boundaries, job.model, time - loadTime);
 	Attempt<Dim> next { time, loadBetween<Dim>(loadTime, time), newton->predictor, {} };
-	if (job.contacts.areThere() || !job.model.walls.empty()) next.load.motion = time - loadTime;
+	if (job.contacts.areThere() || wallsMove) next.load.motion = time - loadTime;
 	if (next.predicts) next.last = fromNumbers<Dim>(lastDisplacements, lastLoadIncrement);
 	return next;
 }

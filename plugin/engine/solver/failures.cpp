@@ -38,10 +38,14 @@ namespace {
 		using gimpm::Failure;
 		string advice;
 		if (report.failure == Failure::unrestrained) return " Hold nodes of that material with MpmBoundary.";
+		if (report.failure == Failure::misplaced) return "";
+		if (report.failure == Failure::penetrated) return " Smaller load steps (O.dt), or a larger stiffness of MpmContact, may help.";
+		if (report.failure == Failure::slides)
+			return " It may have no equilibrium; more friction, or nodes that are held (MpmBoundary), would hold it.";
 		if (report.failure == Failure::interrupted) return " O.run() goes on from there.";
 		if (report.failure == Failure::stalled) return " Set newton.tolerance to that or more.";
 		if (report.failure == Failure::detached)
-			return " Nodes stay in place while the soil moves, and push it by half a cell: put the box where the soil is now, in each step if it is pushed further, or "
+			return " Nodes stay in place while the soil moves, and push it by half a cell: put the box where the soil is now, in each step if it is pushed further, push it with a rigid body (MpmContact), or "
 			       "move a block of stiff material points by nodes inside of it (examples/README.md, recipes).";
 		if (ghost.factor == 0)
 			advice += " The ghost stabilisation is off (factor=0): small overlaps of material and cells make the system ill conditioned.";

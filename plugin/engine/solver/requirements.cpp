@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "engine/solver/requirements.hpp"
 #include "engine/solver/MpmImplicitEngine.hpp"
+#include "engine/solver/contacts.hpp"
 #include <omp.h>
+#include <set>
 
 namespace yade {
 
@@ -41,6 +43,25 @@ namespace {
 	}
 }
 
+// Nor a rigid body, which would be moved twice.
+static void requireOnlyContact(const MpmImplicitEngine& engine)
+{
+	std::set<Body::id_t> own;
+	for (const auto& contact : engine.contacts)
+		for (const auto& body : bodiesOf(*contact, *engine.scene))
+			own.insert(body->id);
+	for (const auto& listed : engine.scene->engines) {
+		const auto* other = dynamic_cast<const MpmImplicitEngine*>(listed.get());
+		if (!other || other == &engine || other->dead) continue;
+		for (const auto& contact : other->contacts)
+			for (const auto& body : bodiesOf(*contact, *engine.scene))
+				if (own.count(body->id))
+					throw std::invalid_argument(
+					        "Body #" + std::to_string(body->id)
+					        + " is claimed by contacts of two MpmImplicitEngines; give these MpmContacts masks that go with different bodies.");
+	}
+}
+
 void requireCallable()
 {
 	if (omp_get_level() > 0)
@@ -54,6 +75,7 @@ void requireRunnable(const MpmImplicitEngine& engine)
 {
 	engine.requireAdmissible();
 	requireOnlyClaim(engine);
+	if (!engine.contacts.empty()) requireOnlyContact(engine);
 	requireOwnSurfaces(engine);
 	Scene&             scene = *engine.scene;
 	std::ostringstream text;

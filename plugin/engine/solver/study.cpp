@@ -9,6 +9,7 @@
 #include "engine/materials/MpmElasticMat.hpp"
 #include "engine/solver/MpmImplicitEngine.hpp"
 #include "engine/solver/Threads.hpp"
+#include "engine/solver/contacts.hpp"
 #include "engine/solver/exchange.hpp"
 #include "yade_api/value_lock.hpp"
 
@@ -33,8 +34,10 @@ namespace {
                         {
                                 const ValueLock lock;
                                 engine.requireAdmissible();
-                                model = toModel<Dim>(*engine.grid, engine.basis, engine.fBar, engine.boundaries, *engine.ghost, *engine.newton);
-                                cloud = gather(materialPoints(*engine.ownScene(), engine.mask), model);
+                                model             = toModel<Dim>(*engine.grid, engine.basis, engine.fBar, engine.boundaries, *engine.ghost, *engine.newton);
+                                const auto points = materialPoints(*engine.ownScene(), engine.mask);
+                                cloud             = gather(points, model);
+                                Contacts<Dim>(engine.contacts, *engine.ownScene(), model.grid, points, engine.loadTime, engine.loadTime).join(model);
                         }
                         const PythonUnlock python;
                         return f(cloud, model);

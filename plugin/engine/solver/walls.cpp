@@ -66,10 +66,14 @@ template <int Dim> void addWalls(const vector<shared_ptr<MpmBoundary>>& boundari
 	}
 }
 
-template <int Dim> void moveWalls(const vector<shared_ptr<MpmBoundary>>& boundaries, gimpm::Model<Dim>& model, Real duration)
+template <int Dim> bool moveWalls(const vector<shared_ptr<MpmBoundary>>& boundaries, gimpm::Model<Dim>& model, Real duration)
 {
-	for (auto& [b, wall] : model.walls)
+	bool moves = false;
+	for (auto& [b, wall] : model.walls) {
 		wall->motion = duration * boundaries[b]->velocity.template head<Dim>();
+		moves        = moves || !wall->motion.isZero(0);
+	}
+	return moves;
 }
 
 template <int Dim> void scatterWalls(const gimpm::Model<Dim>& model, const vector<shared_ptr<MpmBoundary>>& boundaries)
@@ -82,7 +86,7 @@ template <int Dim> void scatterWalls(const gimpm::Model<Dim>& model, const vecto
 
 #define MPM_INSTANTIATE(Dim)                                                                                                                                   \
 	template void addWalls(const vector<shared_ptr<MpmBoundary>>&, gimpm::Model<Dim>&);                                                                    \
-	template void moveWalls(const vector<shared_ptr<MpmBoundary>>&, gimpm::Model<Dim>&, Real);                                                             \
+	template bool moveWalls(const vector<shared_ptr<MpmBoundary>>&, gimpm::Model<Dim>&, Real);                                                             \
 	template void scatterWalls(const gimpm::Model<Dim>&, const vector<shared_ptr<MpmBoundary>>&);
 MPM_INSTANTIATE(2)
 MPM_INSTANTIATE(3)

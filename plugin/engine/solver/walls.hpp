@@ -9,8 +9,8 @@ namespace yade {
 // Adds them to a model. std::invalid_argument names what cannot be computed with.
 template <int Dim> void addWalls(const vector<shared_ptr<MpmBoundary>>&, gimpm::Model<Dim>&);
 
-// By how much they move in the next step, of this duration [s].
-template <int Dim> void moveWalls(const vector<shared_ptr<MpmBoundary>>&, gimpm::Model<Dim>&, Real duration);
+// By how much they move in the next step, of this duration [s]; whether any does.
+template <int Dim> bool moveWalls(const vector<shared_ptr<MpmBoundary>>&, gimpm::Model<Dim>&, Real duration);
 
 // Writes a converged state back.
 template <int Dim> void scatterWalls(const gimpm::Model<Dim>&, const vector<shared_ptr<MpmBoundary>>&);

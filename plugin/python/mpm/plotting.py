@@ -11,6 +11,7 @@ from .fields import labelled
 from .files import replacing
 from .library import engine
 from .messages import brief, pathOf
+from .rigid import outline, touched
 
 _axes = 'xyz'
 _signs = np.array([(x, y, z) for z in (-1, 1) for y in (-1, 1) for x in (-1, 1)])  # of the corners of a box
@@ -18,6 +19,7 @@ _around = [0, 1, 3, 2]  # those of its lower face, in order
 _edges = np.array([(i, j) for i in range(8) for j in range(i) if np.abs(_signs[i] - _signs[j]).sum() == 2])
 _sides = np.array([(0, 1), (1, 2), (2, 0)])  # of a triangle
 _faceColour, _cellColour, _boundaryColour, _loadColour, _wallColour = '#d9480f', '#868e96', '#ffe8cc', '#0b7285', '#5f3dc4'
+_rigidColour = '#212529'
 
 
 def plot(field='displacement', deformed=True, grid=None, ghost=None, fileName=None, ax=None, range=None, colormap=None, plane=None, solver=None, loads=None):
@@ -41,7 +43,7 @@ def plot(field='displacement', deformed=True, grid=None, ghost=None, fileName=No
 	:param colormap: name of a colour map of matplotlib; by default viridis, or RdBu_r for values of both signs
 	:param plane: in 3D, axis and coordinate [m] of the slice, as in ``('z', 0.5)``; by default across z, through the point nearest to the middle
 	:param solver: ``MpmImplicitEngine`` whose grid is drawn; needed if there are several
-	:param loads: draw the loaded surfaces and the walls that are surfaces, with arrows in the direction of the force on the body; default as for *grid*
+	:param loads: draw the loaded surfaces and the walls that are surfaces, with arrows in the direction of the force on the body, and the rigid bodies that may touch it; default as for *grid*
 	:return: the axes
 	:raises TypeError: *range* is no pair of numbers, or *plane* no pair of an axis and a number.
 	:raises ValueError: a field or colour map that does not exist, *grid* or *ghost* without *deformed*, *plane* in plane strain or beside the
@@ -63,6 +65,7 @@ def plot(field='displacement', deformed=True, grid=None, ghost=None, fileName=No
 	if ghost: _drawFaces(ax, section, solver)
 	if loads and len(solver.loads): _drawSurfaces(ax, section, solver, 'loads', _loadColour)
 	if loads and any(boundary.surface for boundary in solver.boundaries): _drawSurfaces(ax, section, solver, 'walls', _wallColour)
+	if loads and len(solver.contacts): _drawRigid(ax, section, solver)
 	_finish(ax, section, f'load factor {solver.loadFactor:.4g}' + ('' if deformed else ', at the initial positions'))
 	if fileName is not None: write('plot', ax.figure, fileName)
 	return ax
@@ -186,6 +189,13 @@ def _drawSurfaces(ax, section, solver, kind, colour):
 	largest = np.abs(forces).max()
 	if largest == 0: return
 	ax.quiver(*tips.T, *(forces / largest * length).T, color=colour, pivot='tip', angles='xy', scale_units='xy', scale=1, width=0.003, zorder=5)
+
+
+def _drawRigid(ax, section, solver):
+	from matplotlib.collections import LineCollection
+	normal, at = (2, 0) if section.normal is None else (section.normal, section.at)
+	lines = [outline(body, normal, at, ax.dataLim.get_points()) for body in touched(solver)]
+	ax.add_collection(LineCollection([line for line in lines if len(line)], colors=_rigidColour, linewidths=1.2, zorder=5, label='rigid bodies'), autolim=False)
 
 
 def _drawMatter(ax, matter, values, field, range, colormap):

@@ -7,7 +7,7 @@ from yade import O, Box, Facet, Sphere, Vector3, Wall
 
 def touched(solver):
 	"""Bodies that the contacts of a solver mean."""
-	from . import MpmPoint
+	from yade import MpmPoint
 	masks = [contact.mask for contact in solver.contacts]
 	meant = lambda body: any(mask in (0, -1) or body.groupMask & mask for mask in masks)
 	return [body for body in O.bodies if body.shape and not body.isClump and not isinstance(body.shape, MpmPoint) and meant(body)]
