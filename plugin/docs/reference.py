@@ -10,7 +10,8 @@ from yade import mpm, wrapper
 folder = os.path.dirname(os.path.abspath(__file__))
 flags = re.compile(r'\s*:yattrflags:`\d+`')
 groups = {
-        'Analysis': ['MpmImplicitEngine', 'MpmGrid', 'MpmBoundary', 'MpmGhost', 'MpmNewton'],
+        'Analysis': ['MpmImplicitEngine', 'MpmGrid', 'MpmGhost', 'MpmNewton'],
+        'Conditions': ['MpmBoundary', 'MpmTraction', 'MpmSurface', 'MpmContact'],
         'Materials': ['MpmElasticMat', 'MpmVonMisesMat', 'MpmTrescaMat', 'MpmMohrCoulombMat', 'MpmDruckerPragerMat', 'MpmCamClayMat', 'MpmFrictionalMat', 'MpmMaterial'],
         'Material points': ['MpmPoint', 'MpmState'],
         'Output': ['MpmVtkRecorder'],

@@ -73,6 +73,11 @@ outOfRange = {
         'MpmTraction.pressure': None,
         'MpmTraction.traction': None,
         'MpmTraction.curve': ['[(0, 0), (0, 1)]', '[(1, 0), (0, 1)]'],
+        'MpmImplicitEngine.contacts': None,
+        'MpmContact.mask': None,
+        'MpmContact.friction': ['-0.1', '30.', '1.5708'],
+        'MpmContact.adhesion': ['-1.'],
+        'MpmContact.stiffness': ['0.', '-1.'],
         'MpmSurface.vertices': ['[(0, 0, 0)]'],
         'MpmSurface.pieces': None,
         'MpmImplicitEngine.boundaries': None,
@@ -112,6 +117,9 @@ admitted = {
         ('MpmImplicitEngine.boundaries', '()'): 'nothing is held',
         ('MpmImplicitEngine.loads', '()'): 'nothing is loaded',
         ('MpmTraction.curve', '()'): 'loadCurve',
+        ('MpmImplicitEngine.contacts', '()'): 'nothing touches',
+        ('MpmContact.friction', 'nan'): 'that of the bodies',
+        ('MpmContact.adhesion', 'inf'): 'no cap',
         ('MpmImplicitEngine.gravityCurve', '()'): 'loadCurve',
         ('MpmVtkRecorder.solver', '""'): 'the only one',
         ('MpmState.internals', '()'): 'initial values',
@@ -121,7 +129,7 @@ admitted = {
 
 setting = '''
 import json, sys
-from yade import mpm, pack, wrapper
+from yade import mpm, pack, utils, wrapper
 nan = float('nan')
 
 def scene():
@@ -140,10 +148,13 @@ def scene():
 	clay = [b.id for b in O.bodies if b.material.label == 'clay']
 	mpm.assign(clay, stress=[-5e3 * np.identity(3)] * len(clay))
 	load = MpmTraction(surface=[(2, 3), (0, 3)], pressure=10)
-	solver = MpmImplicitEngine(grid=grid, gravity=(0, -1, 0), boundaries=[base], loads=[load], ghost=ghost, newton=newton)
+	O.materials.append(FrictMat(label='rigid'))
+	O.bodies.append(utils.wall(5, axis=1, sense=-1, material='rigid'))
+	touch = MpmContact()
+	solver = MpmImplicitEngine(grid=grid, gravity=(0, -1, 0), boundaries=[base], loads=[load], contacts=[touch], ghost=ghost, newton=newton)
 	O.engines = [solver, MpmVtkRecorder(fileName='out-', recorders=['all'])]
 	O.dt = 1
-	objects = [*O.engines, *O.materials, O.bodies[5].state, O.bodies[5].shape, grid, base, load, load.surface, ghost, newton]
+	objects = [*O.engines, *O.materials, O.bodies[5].state, O.bodies[5].shape, grid, base, load, load.surface, touch, ghost, newton]
 	return {type(o).__name__: o for o in objects}
 
 def attributes():
