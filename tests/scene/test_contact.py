@@ -216,7 +216,7 @@ block(contact=dict(friction=0.3))
 plate(velocity=(0.01, -0.1, 0))
 O.engines += [MpmVtkRecorder(fileName='pressed-', recorders=['contacts'])]
 O.run(2, wait=True)
-labels = [c.get_label() for c in mpm.plot('stress_yy', fileName='plane.png').get_children()]
+labels = [c.get_label() for c in mpm.plot('stress_yy', fileName='plane.png').collections]
 block(dim=3)
 add(utils.sphere((0.5, 1.3, 0.5), 0.3, material='rigid'), (0, -0.2, 0))
 plate('wall', y=1.7, velocity=(0, 0, 0))

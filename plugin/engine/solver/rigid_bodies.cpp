@@ -118,7 +118,8 @@ template <int Dim> std::optional<gimpm::RigidBody<Dim>> rigidBody(const Body& bo
 	const Shape*          shape = body.shape.get();
 	bool                  acts  = false;
 	rigid.name                  = "body #" + std::to_string(body.id) + " (" + shape->getClassName() + ")";
-	if (const auto* sphere = dynamic_cast<const Sphere*>(shape)) acts = makeShape(body, *sphere, at, rigid.shape);
+	const auto* sphere          = dynamic_cast<const Sphere*>(shape);
+	if (sphere && shape->getClassName() == Sphere::staticName()) acts = makeShape(body, *sphere, at, rigid.shape);
 	else if (const auto* box = dynamic_cast<const Box*>(shape))
 		acts = makeShape(body, *box, grid, rigid.shape);
 	else if (const auto* wall = dynamic_cast<const Wall*>(shape))
