@@ -4,287 +4,286 @@
 #include "core/terms/contact.hpp"
 #include "scenes.hpp"
 
-using namespace gimpm;
-
+namespace gimpm::testContact {
 namespace {
 
-constexpr double young = 1e6;
+	constexpr double young = 1e6;
 
-/// Three cells a side, 1.5 m, nu = 0.
-template <int Dim> struct Block {
-	Model<Dim>         model;
-	PointCloud<Dim>    cloud;
-	ContactSystem<Dim> contacts;
-	LinearSolver       solver;
-	StepReport         report;
+	/// Three cells a side, 1.5 m, nu = 0.
+	template <int Dim> struct Block {
+		Model<Dim>         model;
+		PointCloud<Dim>    cloud;
+		ContactSystem<Dim> contacts;
+		LinearSolver       solver;
+		StepReport         report;
 
-	Block()
-	{
-		model.grid.cellSize    = 0.5;
-		model.materials        = { { Hencky(young, 0), 0 } };
-		model.newton.tolerance = 1e-9;
-		model.terms            = { [this](const Beginning<Dim>& step) { return std::make_unique<Contact<Dim>>(contacts, step); } };
-		cloud                  = block<Dim>(model.grid, Index<Dim>::Constant(3), 2);
-	}
-	RigidBody<Dim>& add(RigidKind kind, const Vec<Dim>& position, double friction = 0)
-	{
-		RigidBody<Dim> body;
-		body.shape.kind     = kind;
-		body.shape.radius   = kind == RigidKind::ball ? 1 : 0.05;
-		body.shape.halfSize = Vec<Dim>::Constant(1);
-		body.shape.normal   = -Vec<Dim>::Unit(1);
-		body.name           = "body #7";
-		body.owner          = int(contacts.bodies.size());
-		body.friction       = friction;
-		body.stiffness      = 100;
-		body.begin.position = body.end.position = position;
-		contacts.bodies.push_back(body);
-		contacts.owners.push_back(position);
-		return contacts.bodies.back();
-	}
-	/// Rollers on the sides below 0; with `above` on those at 1.5 too, but not on top.
-	void rollers(bool above = false)
-	{
-		std::vector<HeldBox<Dim>> walls;
-		for (int a = 0; a < Dim; ++a) {
-			walls.push_back(wallBelow<Dim>(model.grid, a, 0));
-			if (above && a != 1) walls.push_back(wallAbove<Dim>(model.grid, a, 1.5));
+		Block()
+		{
+			model.grid.cellSize    = 0.5;
+			model.materials        = { { Hencky(young, 0), 0 } };
+			model.newton.tolerance = 1e-9;
+			model.terms            = { [this](const Beginning<Dim>& step) { return std::make_unique<Contact<Dim>>(contacts, step); } };
+			cloud                  = block<Dim>(model.grid, Index<Dim>::Constant(3), 2);
 		}
-		model.boundary = Boundary<Dim>(walls);
-	}
-	StepReport step(const Load<Dim>& load = {})
-	{
-		report = loadStep(cloud, model, load, solver);
-		for (auto& body : contacts.bodies)
-			if (report.converged()) body.begin = body.end;
-		return report;
-	}
-	StepSystem<Dim> system() { return { cloud, model, {}, report }; }
-};
-
-template <class T> class ContactOf : public InBothDimensions<T> {
-};
-TYPED_TEST_SUITE(ContactOf, BothDimensions, DimensionName);
-
-/// Largest difference of K from the derivative of the force at displacements with which some corners stick, some slip, and some are free.
-template <int Dim> double tangentError(Block<Dim>& block)
-{
-	Random                random(3);
-	const auto            system = block.system();
-	const Eigen::VectorXd d      = random.vector(system.nodalSize(), 0.05);
-	const auto            force  = [&](const Eigen::VectorXd& at) {
-                Eigen::VectorXd f = Eigen::VectorXd::Zero(at.size());
-                EXPECT_FALSE(system.terms.back()->add(at, { f }));
-                return f;
+		RigidBody<Dim>& add(RigidKind kind, const Vec<Dim>& position, double friction = 0)
+		{
+			RigidBody<Dim> body;
+			body.shape.kind     = kind;
+			body.shape.radius   = kind == RigidKind::ball ? 1 : 0.05;
+			body.shape.halfSize = Vec<Dim>::Constant(1);
+			body.shape.normal   = -Vec<Dim>::Unit(1);
+			body.name           = "body #7";
+			body.owner          = int(contacts.bodies.size());
+			body.friction       = friction;
+			body.stiffness      = 100;
+			body.begin.position = body.end.position = position;
+			contacts.bodies.push_back(body);
+			contacts.owners.push_back(position);
+			return contacts.bodies.back();
+		}
+		/// Rollers on the sides below 0; with `above` on those at 1.5 too, but not on top.
+		void rollers(bool above = false)
+		{
+			std::vector<HeldBox<Dim>> walls;
+			for (int a = 0; a < Dim; ++a) {
+				walls.push_back(wallBelow<Dim>(model.grid, a, 0));
+				if (above && a != 1) walls.push_back(wallAbove<Dim>(model.grid, a, 1.5));
+			}
+			model.boundary = Boundary<Dim>(walls);
+		}
+		StepReport step(const Load<Dim>& load = {})
+		{
+			report = loadStep(cloud, model, load, solver);
+			for (auto& body : contacts.bodies)
+				if (report.converged()) body.begin = body.end;
+			return report;
+		}
+		StepSystem<Dim> system() { return { cloud, model, {}, report }; }
 	};
-	NodeMatrix<Dim> K;
-	Eigen::VectorXd f = Eigen::VectorXd::Zero(d.size());
-	K.reset(system.basis.nodes, system.terms.back()->isSymmetric(), block.model.grid);
-	system.terms.back()->mark(K);
-	system.terms.back()->add(d, { f, &K });
-	Eigen::MatrixXd differences(d.size(), d.size());
-	for (int i = 0; i < d.size(); ++i) {
-		const Eigen::VectorXd e = 1e-7 * Eigen::VectorXd::Unit(d.size(), i);
-		differences.col(i)      = (force(d + e) - force(d - e)) / 2e-7;
-	}
-	EXPECT_GT(f.norm(), 0);
-	return (dense(K) - differences).cwiseAbs().maxCoeff() / differences.cwiseAbs().maxCoeff();
-}
 
-TYPED_TEST(ContactOf, TangentIsTheDerivative)
-{
-	constexpr int Dim    = TypeParam::value;
-	Vec<Dim>      centre = Vec<Dim>::Constant(0.7);
-	for (const double friction : { 0., 0.3 })
-		for (const RigidKind kind : { RigidKind::ball, RigidKind::block, RigidKind::plane }) {
+	template <class T> class ContactOf : public InBothDimensions<T> {
+	};
+	TYPED_TEST_SUITE(ContactOf, BothDimensions, DimensionName);
+
+	/// Largest difference of K from the derivative of the force at displacements with which some corners stick, some slip, and some are free.
+	template <int Dim> double tangentError(Block<Dim>& block)
+	{
+		Random                random(3);
+		const auto            system = block.system();
+		const Eigen::VectorXd d      = random.vector(system.nodalSize(), 0.05);
+		const auto            force  = [&](const Eigen::VectorXd& at) {
+                        Eigen::VectorXd f = Eigen::VectorXd::Zero(at.size());
+                        EXPECT_FALSE(system.terms.back()->add(at, { f }));
+                        return f;
+		};
+		NodeMatrix<Dim> K;
+		Eigen::VectorXd f = Eigen::VectorXd::Zero(d.size());
+		K.reset(system.basis.nodes, system.terms.back()->isSymmetric(), block.model.grid);
+		system.terms.back()->mark(K);
+		system.terms.back()->add(d, { f, &K });
+		Eigen::MatrixXd differences(d.size(), d.size());
+		for (int i = 0; i < d.size(); ++i) {
+			const Eigen::VectorXd e = 1e-7 * Eigen::VectorXd::Unit(d.size(), i);
+			differences.col(i)      = (force(d + e) - force(d - e)) / 2e-7;
+		}
+		EXPECT_GT(f.norm(), 0);
+		return (dense(K) - differences).cwiseAbs().maxCoeff() / differences.cwiseAbs().maxCoeff();
+	}
+
+	TYPED_TEST(ContactOf, TangentIsTheDerivative)
+	{
+		constexpr int Dim    = TypeParam::value;
+		Vec<Dim>      centre = Vec<Dim>::Constant(0.7);
+		for (const double friction : { 0., 0.3 })
+			for (const RigidKind kind : { RigidKind::ball, RigidKind::block, RigidKind::plane }) {
+				Block<Dim> block;
+				centre[1] = kind == RigidKind::plane ? 1.5 : 2.5;
+				block.add(kind, centre, friction).end.position[1] -= 0.03;
+				EXPECT_LT(tangentError(block), 1e-6);
+				EXPECT_EQ(block.system().isSymmetric(), friction == 0);
+			}
+	}
+
+	/// Pressed to .75 of its height, nu = 0: E ln l / l.
+	TYPED_TEST(ContactOf, PlateOnABlock)
+	{
+		constexpr int Dim   = TypeParam::value;
+		const double  exact = young * std::log(0.75) / 0.75 * std::pow(1.5, Dim - 1);
+		double        last  = 1;
+		for (const double stiffness : { 50., 500., 5000. }) {
 			Block<Dim> block;
-			centre[1] = kind == RigidKind::plane ? 1.5 : 2.5;
-			block.add(kind, centre, friction).end.position[1] -= 0.03;
-			EXPECT_LT(tangentError(block), 1e-6);
-			EXPECT_EQ(block.system().isSymmetric(), friction == 0);
+			block.rollers();
+			auto& plate     = block.add(RigidKind::plane, 1.5 * Vec<Dim>::Unit(1));
+			plate.stiffness = stiffness;
+			for (int i = 1; i <= 8; ++i) {
+				plate.end.position[1] = 1.5 * (1 - 0.25 * i / 8);
+				ASSERT_TRUE(block.step().converged()) << block.report.cause;
+				EXPECT_LE(block.report.iterations, 7);
+			}
+			const double error = std::abs(-block.contacts.loads[0].force[1] / exact - 1);
+			EXPECT_LT(error, Dim == 2 ? 0.75 / stiffness * 2 : 0.75 / stiffness * 2) << stiffness;
+			EXPECT_LT(error, last / 5);
+			EXPECT_NEAR(block.contacts.loads[0].force[1] / -block.report.reactions[1][1], -1, 1e-6);
+			last = error;
 		}
-}
+	}
 
-/// Pressed to .75 of its height, nu = 0: E ln l / l.
-TYPED_TEST(ContactOf, PlateOnABlock)
-{
-	constexpr int Dim   = TypeParam::value;
-	const double  exact = young * std::log(0.75) / 0.75 * std::pow(1.5, Dim - 1);
-	double        last  = 1;
-	for (const double stiffness : { 50., 500., 5000. }) {
-		Block<Dim> block;
-		block.rollers();
-		auto& plate     = block.add(RigidKind::plane, 1.5 * Vec<Dim>::Unit(1));
-		plate.stiffness = stiffness;
-		for (int i = 1; i <= 8; ++i) {
-			plate.end.position[1] = 1.5 * (1 - 0.25 * i / 8);
+	/// The floor, looking up, at the height where the block begins.
+	template <int Dim> RigidBody<Dim>& addFloor(Block<Dim>& block, double friction = 0)
+	{
+		auto& floor        = block.add(RigidKind::plane, Vec<Dim>::Zero(), friction);
+		floor.shape.normal = Vec<Dim>::Unit(1);
+		return floor;
+	}
+
+	template <int Dim> Load<Dim> weight(double slope = 0)
+	{
+		Load<Dim> load;
+		load.gravity[0] = 10 * std::sin(slope), load.gravity[1] = -10 * std::cos(slope);
+		load.factor = { 1, 1 };
+		return load;
+	}
+
+	template <int Dim> double massOf(const Block<Dim>& block) { return block.model.materials[0].density * std::pow(1.5, Dim); }
+
+	TYPED_TEST(ContactOf, WhatOnlyTouchesCarries)
+	{
+		constexpr int Dim = TypeParam::value;
+		Block<Dim>    block;
+		block.model.materials[0].density = 1000;
+		addFloor(block, 0.5); // friction is all that holds it sideways
+		ASSERT_TRUE(block.step(weight<Dim>()).converged()) << block.report.cause;
+		EXPECT_NEAR(block.contacts.loads[0].force[1] / (-10 * massOf(block)), 1, 1e-8);
+		EXPECT_LE(block.report.iterations, 6);
+		EXPECT_FALSE(block.contacts.records.empty());
+	}
+
+	TYPED_TEST(ContactOf, WhatIsLeftIsReported)
+	{
+		constexpr int Dim = TypeParam::value;
+		Block<Dim>    block;
+		block.model.materials[0].density = 1000;
+		addFloor(block, 0.5);
+		ASSERT_TRUE(block.step(weight<Dim>()).converged());
+		block.contacts.bodies[0].begin.position[1] -= 0.1;
+		block.contacts.bodies[0].end = block.contacts.bodies[0].begin;
+		EXPECT_EQ(block.step(weight<Dim>()).failure, Failure::unrestrained);
+		EXPECT_NE(block.report.cause.find("translation along x"), std::string::npos) << block.report.cause;
+	}
+
+	/// On a slope, which is gravity turned: it holds up to tan b = mu.
+	TYPED_TEST(ContactOf, FrictionHoldsUpToItsAngle)
+	{
+		constexpr int Dim = TypeParam::value;
+		for (const double part : { 0.98, 1.02 }) {
+			Block<Dim> block;
+			block.model.materials[0].density = 1000;
+			const double slope               = 0.35;
+			addFloor(block, std::tan(slope) / part);
+			block.step(weight<Dim>(slope));
+			if (part < 1) {
+				EXPECT_TRUE(block.report.converged()) << block.report.cause;
+				EXPECT_NEAR(block.contacts.loads[0].force[0] / (10 * std::sin(slope) * massOf(block)), 1, 1e-8);
+			} else {
+				EXPECT_EQ(block.report.failure, Failure::slides) << block.report.cause;
+			}
+		}
+	}
+
+	/// A floor of two sheets, and soil over their common edge, which is under corners of domains.
+	TEST(Contact, SheetsInOnePlaneActAsOne)
+	{
+		double force[2];
+		for (const double middle : { 0.5, 0.6 }) {
+			Block<2> block;
+			block.model.materials[0].density = 1000;
+			const Vec<2> places[]            = { { -1, 0 }, { middle, 0 }, { 3, 0 } };
+			for (int i = 0; i < 2; ++i) {
+				auto& sheet            = block.add(RigidKind::sheet, places[i], 0.5);
+				sheet.shape.corners    = { Vec<2>(0, 0), Vec<2>(places[i + 1] - places[i]) };
+				sheet.shape.isTwoSided = true;
+			}
+			ASSERT_TRUE(block.step(weight<2>()).converged()) << block.report.cause;
+			EXPECT_NEAR((block.contacts.loads[0].force[1] + block.contacts.loads[1].force[1]) / (-10 * massOf(block)), 1, 1e-8);
+			force[middle > 0.55] = block.cloud.position[0][1];
+		}
+		EXPECT_NEAR(force[0], force[1], 1e-12);
+	}
+
+	/// What overlaps when a body comes fits; what comes later does not, and a body around the middle of a point is misplaced.
+	TEST(Contact, WishedInPlace)
+	{
+		for (const bool isNew : { true, false }) {
+			Block<2> block;
+			block.rollers();
+			auto& ball = block.add(RigidKind::ball, { 0.75, 2.45 });
+			ball.isNew = isNew;
 			ASSERT_TRUE(block.step().converged()) << block.report.cause;
-			EXPECT_LE(block.report.iterations, 7);
+			EXPECT_EQ(block.contacts.loads[0].force.norm() == 0, isNew);
+			EXPECT_LT(block.contacts.records.front().offset, isNew ? -0.01 : 1);
 		}
-		const double error = std::abs(-block.contacts.loads[0].force[1] / exact - 1);
-		EXPECT_LT(error, Dim == 2 ? 0.75 / stiffness * 2 : 0.75 / stiffness * 2) << stiffness;
-		EXPECT_LT(error, last / 5);
-		EXPECT_NEAR(block.contacts.loads[0].force[1] / -block.report.reactions[1][1], -1, 1e-6);
-		last = error;
+		Block<2> deep;
+		deep.rollers();
+		deep.add(RigidKind::ball, { 0.75, 2.2 }).isNew = true;
+		EXPECT_EQ(deep.step().failure, Failure::misplaced);
+		EXPECT_NE(deep.report.cause.find("body #7 has the middle of the material point at ("), std::string::npos) << deep.report.cause;
 	}
-}
 
-/// The floor, looking up, at the height where the block begins.
-template <int Dim> RigidBody<Dim>& addFloor(Block<Dim>& block, double friction = 0)
-{
-	auto& floor        = block.add(RigidKind::plane, Vec<Dim>::Zero(), friction);
-	floor.shape.normal = Vec<Dim>::Unit(1);
-	return floor;
-}
-
-template <int Dim> Load<Dim> weight(double slope = 0)
-{
-	Load<Dim> load;
-	load.gravity    = {};
-	load.gravity[0] = 10 * std::sin(slope), load.gravity[1] = -10 * std::cos(slope);
-	load.factor = { 1, 1 };
-	return load;
-}
-
-template <int Dim> double massOf(const Block<Dim>& block) { return block.model.materials[0].density * std::pow(1.5, Dim); }
-
-TYPED_TEST(ContactOf, WhatOnlyTouchesCarries)
-{
-	constexpr int Dim = TypeParam::value;
-	Block<Dim>    block;
-	block.model.materials[0].density = 1000;
-	addFloor(block, 0.5); // friction is all that holds it sideways
-	ASSERT_TRUE(block.step(weight<Dim>()).converged()) << block.report.cause;
-	EXPECT_NEAR(block.contacts.loads[0].force[1] / (-10 * massOf(block)), 1, 1e-8);
-	EXPECT_LE(block.report.iterations, 6);
-	EXPECT_FALSE(block.contacts.records.empty());
-}
-
-TYPED_TEST(ContactOf, WhatIsLeftIsReported)
-{
-	constexpr int Dim = TypeParam::value;
-	Block<Dim>    block;
-	block.model.materials[0].density = 1000;
-	addFloor(block, 0.5);
-	ASSERT_TRUE(block.step(weight<Dim>()).converged());
-	block.contacts.bodies[0].begin.position[1] -= 0.1;
-	block.contacts.bodies[0].end = block.contacts.bodies[0].begin;
-	EXPECT_EQ(block.step(weight<Dim>()).failure, Failure::unrestrained);
-	EXPECT_NE(block.report.cause.find("translation along x"), std::string::npos) << block.report.cause;
-}
-
-/// On a slope, which is gravity turned: it holds up to tan b = mu.
-TYPED_TEST(ContactOf, FrictionHoldsUpToItsAngle)
-{
-	constexpr int Dim = TypeParam::value;
-	for (const double part : { 0.98, 1.02 }) {
-		Block<Dim> block;
-		block.model.materials[0].density = 1000;
-		const double slope               = 0.35;
-		addFloor(block, std::tan(slope) / part);
-		block.step(weight<Dim>(slope));
-		if (part < 1) {
-			EXPECT_TRUE(block.report.converged()) << block.report.cause;
-			EXPECT_NEAR(block.contacts.loads[0].force[0] / (10 * std::sin(slope) * massOf(block)), 1, 1e-8);
-		} else {
-			EXPECT_EQ(block.report.failure, Failure::slides) << block.report.cause;
-		}
-	}
-}
-
-/// A floor of two sheets, and soil over their common edge, which is under corners of domains.
-TEST(Contact, SheetsInOnePlaneActAsOne)
-{
-	double force[2];
-	for (const double middle : { 0.5, 0.6 }) {
-		Block<2> block;
-		block.model.materials[0].density = 1000;
-		const Vec<2> places[]            = { { -1, 0 }, { middle, 0 }, { 3, 0 } };
-		for (int i = 0; i < 2; ++i) {
-			auto& sheet            = block.add(RigidKind::sheet, places[i], 0.5);
-			sheet.shape.corners    = { Vec<2>(0, 0), Vec<2>(places[i + 1] - places[i]) };
-			sheet.shape.isTwoSided = true;
-		}
-		ASSERT_TRUE(block.step(weight<2>()).converged()) << block.report.cause;
-		EXPECT_NEAR((block.contacts.loads[0].force[1] + block.contacts.loads[1].force[1]) / (-10 * massOf(block)), 1, 1e-8);
-		force[middle > 0.55] = block.cloud.position[0][1];
-	}
-	EXPECT_NEAR(force[0], force[1], 1e-12);
-}
-
-/// What overlaps when a body comes fits; what comes later does not, and a body around the middle of a point is misplaced.
-TEST(Contact, WishedInPlace)
-{
-	for (const bool isNew : { true, false }) {
+	/// Soft enough to let soil in.
+	TEST(Contact, ThatLetsAPointInIsRefused)
+	{
 		Block<2> block;
 		block.rollers();
-		auto& ball = block.add(RigidKind::ball, { 0.75, 2.45 });
-		ball.isNew = isNew;
+		auto& plate     = block.add(RigidKind::plane, { 0, 1.5 });
+		plate.stiffness = 0.01;
+		plate.end.position[1] -= 0.4;
+		const auto before = block.cloud.position;
+		EXPECT_EQ(block.step().failure, Failure::penetrated);
+		EXPECT_NE(block.report.cause.find("body #7 would get the middle"), std::string::npos) << block.report.cause;
+		EXPECT_EQ(before, block.cloud.position);
+	}
+
+	/// There and back: what has stuck pulls back, what has slipped stays behind.
+	TEST(Contact, FrictionRemembers)
+	{
+		for (const double friction : { 10., 0.01 }) {
+			Block<2> block;
+			block.rollers();
+			auto& plate = block.add(RigidKind::plane, { 0, 1.5 }, friction);
+			plate.end.position[1] -= 0.02;
+			ASSERT_TRUE(block.step().converged());
+			double largest = 0;
+			for (const double shift : { 0.0005, 0.0005, -0.0005, -0.0005 }) {
+				block.contacts.bodies[0].end.position[0] += shift;
+				ASSERT_TRUE(block.step().converged()) << block.report.cause;
+				largest = std::max(largest, std::abs(block.contacts.loads[0].force[0]));
+			}
+			const double last = block.contacts.loads[0].force[0], limit = 0.01 * block.contacts.loads[0].force[1];
+			if (friction > 1) EXPECT_LT(std::abs(last), 1e-2 * largest);
+			else
+				EXPECT_NEAR(last / limit, 1, 1e-6); // moved to the left, the plate is held by what it rubs on
+		}
+	}
+
+	/// In space, forces and torques on the owner are what the soil gets.
+	TEST(Contact, GivesItsOwnerForceTorqueAndStiffness)
+	{
+		Block<3> block;
+		block.rollers();
+		auto& ball = block.add(RigidKind::ball, { 0.7, 2.5, 0.8 }, 0.3);
+		ball.end.position += Vec3(0.02, -0.05, 0.01);
 		ASSERT_TRUE(block.step().converged()) << block.report.cause;
-		EXPECT_EQ(block.contacts.loads[0].force.norm() == 0, isNew);
-		EXPECT_LT(block.contacts.records.front().offset, isNew ? -0.01 : 1);
+		const ContactLoad& load  = block.contacts.loads[0];
+		Vec3               force = Vec3::Zero(), reactions = Vec3::Zero();
+		for (const auto& record : block.contacts.records)
+			force += record.pressure * record.normal + record.friction;
+		for (const Vec3& r : block.report.reactions)
+			reactions += r;
+		EXPECT_LT((force + load.force).norm(), 1e-12 * force.norm());
+		EXPECT_LT((force + reactions).norm(), 1e-7 * force.norm());
+		EXPECT_LT((load.stiffness - load.stiffness.transpose()).norm(), 1e-12 * load.stiffness.norm());
+		EXPECT_GT(load.stiffness(1, 1), load.force[1] / 0.06);
 	}
-	Block<2> deep;
-	deep.rollers();
-	deep.add(RigidKind::ball, { 0.75, 2.2 }).isNew = true;
-	EXPECT_EQ(deep.step().failure, Failure::misplaced);
-	EXPECT_NE(deep.report.cause.find("body #7 has the middle of the material point at ("), std::string::npos) << deep.report.cause;
-}
-
-/// Soft enough to let soil in.
-TEST(Contact, ThatLetsAPointInIsRefused)
-{
-	Block<2> block;
-	block.rollers();
-	auto& plate     = block.add(RigidKind::plane, { 0, 1.5 });
-	plate.stiffness = 0.01;
-	plate.end.position[1] -= 0.4;
-	const auto before = block.cloud.position;
-	EXPECT_EQ(block.step().failure, Failure::penetrated);
-	EXPECT_NE(block.report.cause.find("body #7 would get the middle"), std::string::npos) << block.report.cause;
-	EXPECT_EQ(before, block.cloud.position);
-}
-
-/// There and back: what has stuck pulls back, what has slipped stays behind.
-TEST(Contact, FrictionRemembers)
-{
-	for (const double friction : { 10., 0.01 }) {
-		Block<2> block;
-		block.rollers();
-		auto& plate = block.add(RigidKind::plane, { 0, 1.5 }, friction);
-		plate.end.position[1] -= 0.02;
-		ASSERT_TRUE(block.step().converged());
-		double largest = 0;
-		for (const double shift : { 0.0005, 0.0005, -0.0005, -0.0005 }) {
-			block.contacts.bodies[0].end.position[0] += shift;
-			ASSERT_TRUE(block.step().converged()) << block.report.cause;
-			largest = std::max(largest, std::abs(block.contacts.loads[0].force[0]));
-		}
-		const double last = block.contacts.loads[0].force[0], limit = 0.01 * block.contacts.loads[0].force[1];
-		if (friction > 1) EXPECT_LT(std::abs(last), 1e-2 * largest);
-		else
-			EXPECT_NEAR(last / limit, 1, 1e-6); // moved to the left, the plate is held by what it rubs on
-	}
-}
-
-/// In space, forces and torques on the owner are what the soil gets.
-TEST(Contact, GivesItsOwnerForceTorqueAndStiffness)
-{
-	Block<3> block;
-	block.rollers();
-	auto& ball = block.add(RigidKind::ball, { 0.7, 2.5, 0.8 }, 0.3);
-	ball.end.position += Vec3(0.02, -0.05, 0.01);
-	ASSERT_TRUE(block.step().converged()) << block.report.cause;
-	const ContactLoad& load  = block.contacts.loads[0];
-	Vec3               force = Vec3::Zero(), reactions = Vec3::Zero();
-	for (const auto& record : block.contacts.records)
-		force += record.pressure * record.normal + record.friction;
-	for (const Vec3& r : block.report.reactions)
-		reactions += r;
-	EXPECT_LT((force + load.force).norm(), 1e-12 * force.norm());
-	EXPECT_LT((force + reactions).norm(), 1e-7 * force.norm());
-	EXPECT_LT((load.stiffness - load.stiffness.transpose()).norm(), 1e-12 * load.stiffness.norm());
-	EXPECT_GT(load.stiffness(1, 1), load.force[1] / 0.06);
-}
 
 } // namespace
+} // namespace gimpm::testContact

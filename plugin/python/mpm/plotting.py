@@ -192,10 +192,15 @@ def _drawSurfaces(ax, section, solver, kind, colour):
 
 
 def _drawRigid(ax, section, solver):
+	"""As far as they are beside the body."""
 	from matplotlib.collections import LineCollection
 	normal, at = (2, 0) if section.normal is None else (section.normal, section.at)
-	lines = [outline(body, normal, at, ax.dataLim.get_points()) for body in touched(solver)]
+	low, high = ax.dataLim.get_points()
+	margin = 0.3 * (high - low).max()
+	lines = [outline(body, normal, at, (low, high)) for body in touched(solver)]
 	ax.add_collection(LineCollection([line for line in lines if len(line)], colors=_rigidColour, linewidths=1.2, zorder=5, label='rigid bodies'), autolim=False)
+	for line in lines:
+		ax.update_datalim(line.clip(low - margin, high + margin))
 
 
 def _drawMatter(ax, matter, values, field, range, colormap):
