@@ -32,6 +32,7 @@ While it runs, one line tells how far it is (``verbosity`` of the engine); ``plo
 :func:`arrays`             data of all material points as NumPy arrays; :func:`assign` is the way back
 :func:`geostatic`          initial stress of level ground
 :func:`surface`            surface of a region, for loads on it
+:func:`contactForces`      where rigid bodies are touched, and the forces there
 :func:`plot`               picture by matplotlib, of plane strain or of a slice
 :func:`colour`             colours of the points in YADE's 3D view
 :func:`export`             table of the points, CSV or NPZ
@@ -45,7 +46,7 @@ Units are SI; stress is positive in tension; strains are logarithmic; plane stra
 """
 from .advice import advise
 from .colouring import colour
-from .data import arrays, assign
+from .data import arrays, assign, contactForces
 from .files import save
 from . import ending
 from .filling import fill
@@ -59,4 +60,4 @@ from .surfaces import surface
 from .tables import export
 
 __version__ = _engine.version
-__all__ = ['polygon', 'fill', 'arrays', 'assign', 'geostatic', 'plot', 'colour', 'export', 'save', 'advise', 'elementTest', 'respond', 'strengthReduction', 'surface']
+__all__ = ['polygon', 'fill', 'arrays', 'assign', 'geostatic', 'plot', 'colour', 'export', 'save', 'advise', 'elementTest', 'respond', 'strengthReduction', 'surface', 'contactForces']

@@ -6,6 +6,7 @@ import numpy as np
 from yade import wrapper
 from yade.minieigenHP import Vector3
 
+from .analysis import solverOf
 from .library import engine
 from .messages import brief, isNumber, place
 
@@ -27,6 +28,18 @@ def arrays():
 	:raises ValueError: a body with an ``MpmPoint`` shape that is no complete material point.
 	"""
 	return _asArrays(engine.columnsOfPoints(0, False))
+
+
+def contactForces(solver=None):
+	"""Where material points touch rigid bodies at the end of the last converged step, and the forces there.
+
+	:param solver: ``MpmImplicitEngine`` with the contacts; needed if there are several
+	:return: places (N, 3) [m] of the corners of domains that touch, and forces (N, 3) on the soil [N], per metre of thickness in plane strain; of length 0
+		if nothing touches
+	:raises ValueError: no engine, or several of which none is named.
+	"""
+	data = engine.gridCells('contacts', solverOf('contactForces', solver))
+	return tuple(np.frombuffer(data[name]).reshape(-1, 3) for name in ('corners', 'field'))
 
 
 def fields():

@@ -1,0 +1,114 @@
+#!/usr/bin/env yade
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Rigid bodies of YADE pressed into soil through MpmContact, which moves them by their velocities.
+
+	footing    a Box on undrained clay in plane strain, half by symmetry: load over width and c_u, Prandtl 2 + pi as long as it is shallow
+	sphere     a smooth Sphere on an elastic half-space, axisymmetric, in a box 15 contact radii wide and deep: force of Hertz
+	cylinder   the same in plane strain, where a Sphere is a cylinder: half width and pressure of the contact for the measured force
+
+Run it with `scripts/run examples/penetration/penetration.py [options]`, or by yade-batch with penetration.table.
+"""
+import os
+import sys
+import time
+
+from yade import mpm, utils
+import numpy as np
+sys.path.insert(0, os.path.join(os.path.dirname(sys.argv[0]), '..'))
+from options import readOptions
+
+options = readOptions('Rigid bodies pressed into soil.',
+        scene=('footing', "'footing', 'sphere' or 'cylinder'"),
+        cells=(8, 'cells over half the width of the footing, or over the radius of the contact'),
+        pointsPerCell=(2, 'material points per cell and axis'),
+        depth=(0.1, 'of the footing at the end, as a part of its width B'),
+        steps=(0, 'load steps; 0: 200 for a width, 10 for sphere and cylinder'),
+        stiffness=(100., 'of the contact, over E / h'),
+        rough=(0, '1: clay sticks to the footing up to c_u, 0: it slips freely'),
+        picture=(1, '1: draw one, 0: only numbers'))
+began = time.time()
+solves = []
+
+
+def run(steps, look):
+	"""Steps of 1 / steps each; look() after each."""
+	O.dt = 1 / steps
+	for step in range(steps):
+		try: O.step()
+		except RuntimeError as failure:
+			print(f'step {step + 1} of {steps} fails: {failure}')
+			break
+		solves.append(solver.iterations)
+		look()
+
+
+def footing():
+	B, cu = 1., 1e4
+	h = B / 2 / options.cells
+	width, deep = 3 * B, 2.5 * B
+	grid = MpmGrid(cellSize=h)
+	O.materials.append(MpmVonMisesMat(young=500 * cu, poisson=0.49, density=1800, yieldStress=np.sqrt(2) * cu, label='clay'))
+	O.materials.append(FrictMat(label='rigid'))
+	O.bodies.append(mpm.fill(pack.inAlignedBox((0, -deep, -1), (width, 0, 1)), grid, options.pointsPerCell, 'clay'))
+	box = O.bodies[O.bodies.append(utils.box((0, 2 * B, 0), (B / 2, 2 * B, 1), material='rigid', fixed=True))]
+	box.state.vel = (0, -options.depth * B, 0)
+	contact = MpmContact(friction=np.arctan(5) if options.rough else 0, adhesion=cu if options.rough else np.inf, stiffness=options.stiffness)
+	sides = [MpmBoundary(max=(0, inf, inf), fix='x'), MpmBoundary(min=(width, -inf, -inf), fix='x'), MpmBoundary(max=(inf, -deep, inf), fix='xy')]
+	O.engines = [MpmImplicitEngine(grid=grid, fBar=True, boundaries=sides, contacts=[contact], newton=MpmNewton(minStep=1 / 64), label='solver')]
+	found = []
+	run(options.steps or int(np.ceil(200 * options.depth)), lambda: found.append([2 * B - box.state.pos[1], 2 * contact.forces[0][1] / (B * cu)]))
+	s, N = np.array(found).T
+	print('s/B    N = F / (B c_u)')
+	for i in np.linspace(0, len(s) - 1, min(len(s), 10)).astype(int): print(f'{s[i] / B:.3f}  {N[i]:.3f}')
+	shallow = np.interp(0.02 * B, s, N)
+	print(f'at s = .02 B: N = {shallow:.3f}, Prandtl {2 + np.pi:.3f} ({100 * (shallow / (2 + np.pi) - 1):+.1f} %)')
+	return 'plasticStrain', lambda ax: ax.set(xlim=(0, 1.5 * B), ylim=(-1.2 * B, 0.6 * B))
+
+
+def round(axisymmetric):
+	E, nu, R = 1e6, 0.3, 1.
+	stiffness = E / (1 - nu**2)
+	a = 0.1 * R
+	h = a / options.cells
+	size = np.ceil(15 * a / h) * h
+	grid = MpmGrid(cellSize=h, axisymmetric=axisymmetric)
+	O.materials.append(MpmElasticMat(young=E, poisson=nu, density=1, label='soil'))
+	O.materials.append(FrictMat(label='rigid'))
+	O.bodies.append(mpm.fill(pack.inAlignedBox((0, -size, -1), (size, 0, 1)), grid, options.pointsPerCell, 'soil'))
+	ball = O.bodies[O.bodies.append(utils.sphere((0, R, 0), R, material='rigid', fixed=True))]
+	ball.state.vel = (0, -(1 if axisymmetric else 1.7) * a**2 / R, 0)
+	contact = MpmContact(friction=0, stiffness=options.stiffness)
+	sides = [MpmBoundary(min=(size, -inf, -inf), fix='x'), MpmBoundary(max=(inf, -size, inf), fix='y')]
+	if not axisymmetric: sides.append(MpmBoundary(max=(0, inf, inf), fix='x'))
+	O.engines = [MpmImplicitEngine(grid=grid, boundaries=sides, contacts=[contact], label='solver')]
+	run(options.steps or 10, lambda: None)
+	F = contact.forces[0][1] * (1 if axisymmetric else 2)
+	if axisymmetric:
+		sunk = R - ball.state.pos[1]
+		base = F * (1 + nu) * (3 - 2 * nu) / (2 * np.pi * E * size)  # what a half-space gives way at the place of the base (Boussinesq)
+		hertz = 4 / 3 * stiffness * np.sqrt(R) * (sunk + base)**1.5
+		print(f'sunk by {sunk:.5f} m, and by {base:.5f} m more on a half-space: F = {F:.1f} N, Hertz {hertz:.1f} N ({100 * (F / hertz - 1):+.1f} %)')
+	else: compareLine(F, R, stiffness, h)
+	return 'stress_yy', lambda ax: ax.set(xlim=(0, 3 * a), ylim=(-3 * a, 1.5 * a))
+
+
+def compareLine(F, R, stiffness, h):
+	half = np.sqrt(4 * F * R / (np.pi * stiffness))
+	largest = 2 * F / (np.pi * half)
+	pos, force = mpm.contactForces()
+	down, x = -force[:, 1], pos[:, 0] / h
+	below, above = np.ceil(x - 0.1).astype(int) - 1, np.floor(x + 0.1).astype(int)  # cells of a corner; those at their sides have two
+	pressure = (np.bincount(below.clip(0), down, above.max() + 1) + np.bincount(above, down, above.max() + 1)) / 2 / h
+	width = np.sqrt(4 * (2 * down * pos[:, 0]**2).sum() / F)  # of the half ellipse with the same second moment
+	print(f'F = {F:.0f} N/m: half width {width / h:.2f} h, Hertz {half / h:.2f} h ({100 * (width / half - 1):+.1f} %)')
+	print(f'largest mean pressure in a cell {pressure.max():.0f} Pa, Hertz {largest:.0f} Pa ({100 * (pressure.max() / largest - 1):+.1f} %)')
+
+
+draw = footing() if options.scene == 'footing' else round(options.scene == 'sphere')
+print(f'{len(mpm.arrays()["id"])} material points, {sum(solves)} iterations in {len(solves)} steps, {time.time() - began:.1f} s')
+if options.picture:
+	field, limit = draw[0], draw[1]
+	ax = mpm.plot(field)
+	limit(ax)
+	ax.figure.savefig(os.path.join(options.out, options.scene + '.png'), dpi=110, bbox_inches='tight')
+	print(f'written: {options.out}/{options.scene}.png')
