@@ -106,8 +106,7 @@ namespace {
 		return (dense(K) - differences).cwiseAbs().maxCoeff() / differences.cwiseAbs().maxCoeff();
 	}
 
-	template <class T> class TractionOf : public ::testing::Test {
-	};
+	template <class Dimension> using TractionOf = InBothDimensions<Dimension>;
 	TYPED_TEST_SUITE(TractionOf, BothDimensions, DimensionName);
 
 	TYPED_TEST(TractionOf, TangentIsTheDerivative)
