@@ -32,10 +32,19 @@ static struct {
 	string     text;
 } kept;
 
+// Asked from another thread than its main one, Python before 3.13 might make a pending call many statements later. An exception, which the call takes
+// back, makes it look at once. The lock is with the thread of O.step(), which waits for the end of the region. Since 3.12 others cannot tell which it is.
+static void setPassing([[maybe_unused]] PyObject* exception)
+{
+#if PY_VERSION_HEX < 0x030d0000
+	if (const PyThreadState* const state = _PyThreadState_UncheckedGet()) PyThreadState_SetAsyncExc(state->thread_id, exception);
+#endif
+}
+
 static int raiseKept(void*)
 {
 	const std::lock_guard<std::mutex> lock(kept.guard);
-	PyThreadState_SetAsyncExc(PyThreadState_Get()->thread_id, nullptr);
+	setPassing(nullptr);
 	PyErr_SetString(kept.type, kept.text.c_str());
 	kept.type = nullptr;
 	return -1;
@@ -55,9 +64,7 @@ void raiseLater(const std::exception& error)
 		kept.type = dynamic_cast<const std::invalid_argument*>(&error) ? PyExc_ValueError : PyExc_RuntimeError;
 		kept.text = error.what();
 		Py_AddPendingCall(&raiseKept, nullptr);
-		// Asked from this thread, Python might make that call many statements later. Another exception makes it look at once; the call takes it
-		// back. Python's lock is with the thread of O.step(), which waits for the end of the region.
-		PyThreadState_SetAsyncExc(PyThreadState_Get()->thread_id, PyExc_RuntimeError);
+		setPassing(PyExc_RuntimeError);
 	}
 }
 

@@ -187,12 +187,8 @@ namespace {
 			addPoint<2>(cloud, x, { 0.5, 0.5 });
 		revolve(cloud);
 		const auto basis = cloudBasis<2>(cloud, model.grid, Basis::gimp, {});
-		weighGhostFaces<2>(
-		        faces, basis,
-		        [](int) {
-			        return VolumeAndModulus { 1, 3 };
-		        },
-		        model.grid, 1, GhostScaling::paper);
+		const auto alike = [](int) { return VolumeAndModulus { 1, 3 }; };
+		weighGhostFaces<2>(faces, basis, alike, model.grid, 1, GhostScaling::paper);
 		// below the face 0, above c + r (y - 1): the jump of the derivative is r
 		const auto      d = nodal<2>(basis, model.grid, [](const Vec<2>& x) { return Vec<2>(x[1] > 1.5 ? x[0] : 0, 0); });
 		Eigen::VectorXd f = Eigen::VectorXd::Zero(d.size());

@@ -100,8 +100,7 @@ namespace {
 		return relativeError(dense(K), derivative(force, d, 1e-3));
 	}
 
-	template <class T> class TractionOf : public ::testing::Test {
-	};
+	template <class Dimension> using TractionOf = InBothDimensions<Dimension>;
 	TYPED_TEST_SUITE(TractionOf, BothDimensions, DimensionName);
 
 	TYPED_TEST(TractionOf, TangentIsTheDerivative)

@@ -57,7 +57,7 @@ def configured(tmp_path_factory):
 		(folder / 'libyade.so').unlink(missing_ok=True)
 		if library: compiled(library, folder / 'libyade.so')
 		else: (folder / 'libyade.so').symlink_to(systemYade / 'libyade.so')
-		return ' '.join(said('cmake', '-S', tmp_path, '-B', tmp_path / 'build', f'-DYADE_DIR={folder}', '-DCMAKE_CXX_COMPILER_WORKS=1', fails=fails).split())
+		return ' '.join(said('cmake', '-G', 'Ninja', '-S', tmp_path, '-B', tmp_path / 'build', f'-DYADE_DIR={folder}', '-DCMAKE_CXX_COMPILER_WORKS=1', fails=fails).split())
 
 	return configure
 

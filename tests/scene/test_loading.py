@@ -51,7 +51,7 @@ def boostPython():
 	return re.search(r'libboost_python\S+', linked)[0]
 
 
-@pytest.mark.parametrize('built', ['libboost_python39.so.1.67.0', 'libboost_python314.so.1.92.0'])
+@pytest.mark.parametrize('built', ['libboost_python39.so.1.67.0', 'libboost_python399.so.1.199.0'])
 def test_builtForAnotherPython(yade, complete, libraries, built):
 	"""As after an upgrade of the system, when the libraries of before may still be there, or may not."""
 	compiled((root / 'plugin/yade_api/loader.cpp').read_text(), libraries / 'libpkg_mpm.so', f'-DMPM_BOOST_PYTHON="{built}"')

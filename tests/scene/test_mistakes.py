@@ -161,9 +161,20 @@ O.run(10, wait=True)
 
 
 def test_endOfTheScriptBeforeThatOfTheRun(yade):
+	"""The step under way comes to its end; none begins."""
 	run = yade(setting + '''
+import time
+
+def slow():
+	begun.append(O.iter)
+	time.sleep(0.5)
+	sys.stderr.write('the step has ended')
+
 scene()
-O.engines = O.engines + [PyRunner(iterPeriod=1, initRun=True, command='import time; time.sleep(0.5)')]
+begun = []
+O.engines = O.engines + [PyRunner(iterPeriod=1, initRun=True, command='slow()')]
 O.run(10)
+while not begun: time.sleep(0.01)
 ''')
 	assert 'the script ends while the simulation runs' in run.stderr and 'O.run(n, wait=True)' in run.stderr
+	assert run.stderr.count('the step has ended') == 1

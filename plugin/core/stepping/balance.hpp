@@ -55,9 +55,9 @@ public:
 private:
 	double of(int i, double strain) const
 	{
-		const auto&  points = system_.points;
-		const double young  = system_.model.materials[points.material[i]].young(
-		         points.parameters, points.internals, i, [&] { return volumetricStrain(points.leftCauchyGreen[i]); });
+		const auto&  points     = system_.points;
+		const auto   dilatation = [&] { return volumetricStrain(points.leftCauchyGreen[i]); };
+		const double young      = system_.model.materials[points.material[i]].young(points.parameters, points.internals, i, dilatation);
 		return points.volume0[i] * young * strain / system_.model.grid.cellSize;
 	}
 	const StepSystem<Dim>& system_;
