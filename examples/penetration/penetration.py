@@ -110,5 +110,6 @@ if options.picture:
 	field, limit = draw[0], draw[1]
 	ax = mpm.plot(field)
 	limit(ax)
-	ax.figure.savefig(os.path.join(options.out, options.scene + '.png'), dpi=110, bbox_inches='tight')
-	print(f'written: {options.out}/{options.scene}.png')
+	name = 'penetration' if options.scene == 'footing' else options.scene
+	ax.figure.savefig(os.path.join(options.out, name + '.png'), dpi=110, bbox_inches='tight')
+	print(f'written: {options.out}/{name}.png')

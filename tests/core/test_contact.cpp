@@ -2,6 +2,7 @@
 // Soil against rigid bodies: equilibrium, tangent, restraint, what is remembered, and what is refused.
 #include "core/stepping/step_system.hpp"
 #include "core/terms/contact.hpp"
+#include "derivatives.hpp"
 #include "scenes.hpp"
 
 namespace gimpm::testContact {
@@ -65,7 +66,7 @@ namespace {
 	};
 	TYPED_TEST_SUITE(ContactOf, BothDimensions, DimensionName);
 
-	/// Largest difference of K from the derivative of the force at displacements with which some corners stick, some slip, and some are free.
+	/// Of the contact's stiffness, at displacements with which some corners stick, some slip, and some are free.
 	template <int Dim> double tangentError(Block<Dim>& block)
 	{
 		Random                random(3);
@@ -81,13 +82,8 @@ namespace {
 		K.reset(system.basis.nodes, system.terms.back()->isSymmetric(), block.model.grid);
 		system.terms.back()->mark(K);
 		system.terms.back()->add(d, { f, &K });
-		Eigen::MatrixXd differences(d.size(), d.size());
-		for (int i = 0; i < d.size(); ++i) {
-			const Eigen::VectorXd e = 1e-7 * Eigen::VectorXd::Unit(d.size(), i);
-			differences.col(i)      = (force(d + e) - force(d - e)) / 2e-7;
-		}
 		EXPECT_GT(f.norm(), 0);
-		return (dense(K) - differences).cwiseAbs().maxCoeff() / differences.cwiseAbs().maxCoeff();
+		return relativeError(dense(K), derivative(force, d, 1e-7));
 	}
 
 	TYPED_TEST(ContactOf, TangentIsTheDerivative)

@@ -241,3 +241,21 @@ def test_tube(yade):
 	run = yade(root / 'examples' / 'surface_loads' / 'tube.py')
 	found = float(re.search(r'Lame \S+ \((\S+) %\)', run.stdout)[1])
 	assert abs(found) < 2 and (run.folder / 'out/tube/tube.png').stat().st_size > 5000
+
+
+def test_penetration(yade):
+	"""Coarse grids: within 12 % of Prandtl and Hertz, whom finer ones come closer to."""
+	for scene, options in dict(footing=('--cells', 4, '--depth', 0.03), sphere=('--cells', 3, '--steps', 4), cylinder=('--cells', 3, '--steps', 4)).items():
+		run = yade(root / 'examples' / 'penetration' / 'penetration.py', '--scene', scene, *options)
+		errors = [float(error) for error in re.findall(r'\(([-+][0-9.]+) %\)', run.stdout)]
+		assert errors and max(map(abs, errors[:1])) < 12, run.stdout
+		assert (run.folder / f'out/penetration/{"penetration" if scene == "footing" else scene}.png').stat().st_size > 10000
+
+
+def test_grains_on_soil(yade):
+	"""Of a few grains, still moving: the base bears what the ground feels."""
+	run = yade(root / 'examples' / 'grains_on_soil' / 'grains_on_soil.py', '--grains', 9, '--seconds', 0.3, '--every', 50)
+	rows = [[float(number) for number in line.split()] for line in run.stdout.splitlines() if re.match(r'0\.[0-9]+  ', line)]
+	assert len(rows) == 12 and rows[-1][1] > 0
+	assert all(abs(row[1] - row[2]) < 1e-3 for row in rows)
+	assert (run.folder / 'out/grains_on_soil/grains_on_soil.png').stat().st_size > 10000

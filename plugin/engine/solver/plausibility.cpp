@@ -195,8 +195,8 @@ string Plausibility::doubtOfEnd(const MpmImplicitEngine& engine)
 	const size_t knees  = engine.gravityCurve.size();
 	const Real   end    = engine.loadsEnd();
 	const auto   goesOn = [](const auto& boundary) { return !boundary->velocity.isZero(0); };
-	if (saidEnd || std::any_of(engine.boundaries.begin(), engine.boundaries.end(), goesOn) || std::max(engine.loadCurve.size(), knees) < 2
-	    || engine.loadTime < end - 1e-9 * engine.scene->dt)
+	if (saidEnd || !engine.contacts.empty() || std::any_of(engine.boundaries.begin(), engine.boundaries.end(), goesOn)
+	    || std::max(engine.loadCurve.size(), knees) < 2 || engine.loadTime < end - 1e-9 * engine.scene->dt)
 		return "";
 	saidEnd = true;
 	return sentence(

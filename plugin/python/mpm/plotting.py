@@ -232,7 +232,7 @@ def _finish(ax, section, title):
 	ax.set(aspect='equal', xlabel=f'{_axes[section.shown[0]]} [m]{place}', ylabel=f'{_axes[section.shown[1]]} [m]')
 	handles, names = ax.get_legend_handles_labels()
 	if handles: ax.legend(handles, names, loc='lower right', bbox_to_anchor=(1, 1), ncols=2, frameon=False, fontsize='small', borderaxespad=0.2)
-	if not ax.get_title(): ax.set_title(title, fontsize='medium', pad=22 if handles else None)  # above the legend
+	if not ax.get_title(): ax.set_title(title, fontsize='medium', pad=8 + 14 * ((len(handles) + 1) // 2) if handles else None)  # above the legend
 
 
 def write(who, figure, fileName):

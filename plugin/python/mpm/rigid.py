@@ -38,7 +38,7 @@ def _inSpace(body, corners):
 
 def _circle(centre, radius, normal, at, shown):
 	square = radius**2 - (centre[normal] - at)**2
-	angle = np.linspace(0, 2 * np.pi, 73)
+	angle = np.linspace(0, 2 * np.pi, 361)
 	return centre[shown] + np.sqrt(square) * np.stack([np.cos(angle), np.sin(angle)], 1) if square > 0 else np.empty((0, 2))
 
 
