@@ -2,6 +2,9 @@
 // What is done with a full Newton step that raises the residual; functions of its size |r(d)| only.
 #pragma once
 #include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <vector>
 
 namespace gimpm {
 
@@ -34,6 +37,22 @@ public:
 private:
 	double bound_  = 0;
 	bool   isOpen_ = false, wasVain_ = false;
+};
+
+/// Full steps that lead round in a circle, as where places begin to slip and to stick in turn.
+class Rounds {
+public:
+	/// Whether a step has raised the residual to where it has been.
+	bool isBack(double before, double after)
+	{
+		const auto hasBeen = [&](double size) { return std::abs(size - after) < 1e-3 * after; };
+		const bool found   = after > before && std::any_of(sizes_.begin(), sizes_.end(), hasBeen);
+		sizes_.push_back(after);
+		return found;
+	}
+
+private:
+	std::vector<double> sizes_; // [N]
 };
 
 /// Which part of a step to take.

@@ -70,7 +70,7 @@ private:
 			return !fail(report_, Failure::diverging, "the prediction leads nowhere");
 		} else if (watchdog_.isOpen()) {
 			if (!watchdog_.admits(after)) return goBack();
-		} else if (!prescribes && (!(after < toleratedGrowth * before) || goesRound(before, after))) {
+		} else if (!prescribes && (!(after < toleratedGrowth * before) || rounds_.isBack(before, after))) {
 			if (!mayGoOn()) return search(d_, step, before, after);
 			watchdog_.begin(d_, step, before, after);
 		}
@@ -96,14 +96,6 @@ private:
 		return true;
 	}
 
-	/// Whether a raised residual has been there before, as where places begin to slip and stick in turn.
-	bool goesRound(double before, double after)
-	{
-		const auto hasBeen = [&](double size) { return std::abs(size - after) < 1e-3 * after; };
-		const bool isBack  = after > before && std::any_of(sizes_.begin(), sizes_.end(), hasBeen);
-		sizes_.push_back(after);
-		return isBack;
-	}
 	bool mayGoOn() const
 	{
 		return settings_.lineSearchTrials > 0 && !watchdog_.wasVain() && std::isfinite(iterate_.balance.size) && solves_ + 1 < settings_.maxIterations;
@@ -139,8 +131,8 @@ private:
 	Iterate<Dim>           iterate_ { system_, report_ };
 	Judge<Dim>             judge_ { system_, iterate_, report_ };
 	Watchdog               watchdog_;
+	Rounds                 rounds_;
 	Eigen::VectorXd        d_         = Eigen::VectorXd::Zero(system_.nodalSize());
-	std::vector<double>    sizes_; // of the residuals of full steps
 	int                    solves_    = 0;
 	bool                   predicted_ = false;
 };

@@ -9,7 +9,22 @@
 
 namespace gimpm {
 
-enum class Failure { none, detached, misplaced, unrestrained, slides, penetrated, singular, inverted, noResponse, notFinite, diverging, tooManyIterations, stalled, interrupted };
+enum class Failure {
+	none,
+	detached,
+	misplaced,
+	unrestrained,
+	slides,
+	penetrated,
+	singular,
+	inverted,
+	noResponse,
+	notFinite,
+	diverging,
+	tooManyIterations,
+	stalled,
+	interrupted
+};
 
 /// Of a stiffness matrix, as far as its factorisation told: an equilibrium may be unstable where it is not positive definite.
 enum class Definiteness { notChecked, positive, indefinite };

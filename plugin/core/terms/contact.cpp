@@ -168,7 +168,7 @@ template <int Dim> void Contact<Dim>::restrain(const typename Term<Dim>::Hold& h
 template <int Dim> void Contact<Dim>::restrainAt(const Eigen::VectorXd& d, const typename Term<Dim>::Hold& hold) const
 {
 	forTouching(d, [&](const Corner& corner, const Vec<Dim>&, double, const Touch<Dim>& touched) {
-		const bool sticks = corner.law.friction > 0 && corner.law.cap > 0 && !touched.slips;
+		const bool     sticks = corner.law.friction > 0 && corner.law.cap > 0 && !touched.slips;
 		const Vec<Dim> inCell = corner.attached.inCell();
 		hold(corner.attached.node[0], touched.normal, inCell);
 		for (int a = 0; sticks && a < Dim; ++a)

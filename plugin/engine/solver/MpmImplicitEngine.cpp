@@ -39,17 +39,8 @@ bool MpmImplicitEngine::isActivated()
 	beforeActivation.keep(*this);
 	const bool isDue = PeriodicEngine::isActivated(), ends = !isDue && isEndOfLoads();
 	nDone += ends;
-	if (!isDue && !ends) handOver();
+	if (!isDue && !ends) handOver(contacts, *scene);
 	return isDue || ends;
-}
-
-// Between load steps the bodies that YADE moves feel the soil, too.
-void MpmImplicitEngine::handOver()
-{
-	if (contacts.empty()) return;
-	const ValueLock lock;
-	for (const auto& contact : contacts)
-		contact->handOver(*scene);
 }
 
 // An engine that does not run in every iteration would leave out the end of the load curve, where a run usually stops.
@@ -86,7 +77,7 @@ void MpmImplicitEngine::action()
 			tellObservers(*scene, [this](LoadStepObserver& observer) { observer.stepEnds(*this, false); });
 			throw;
 		}
-		handOver();
+		handOver(contacts, *scene);
 		tellObservers(*scene, [this](LoadStepObserver& observer) { observer.stepEnds(*this, true); });
 	});
 }

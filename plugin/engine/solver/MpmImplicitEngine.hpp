@@ -85,7 +85,6 @@ public:
 
 private:
 	bool                            isEndOfLoads() const;
-	void                            handOver();
 	template <int Dim> void         step();
 	template <int Dim> Job<Dim>     prepare();
 	template <int Dim> void         advance(Job<Dim>&);

@@ -3,6 +3,7 @@
 #include "engine/conditions/contact_records.hpp"
 #include "engine/points/MpmPoint.hpp"
 #include "engine/solver/rigid_bodies.hpp"
+#include "yade_api/value_lock.hpp"
 #include <algorithm>
 #include <map>
 
@@ -83,6 +84,14 @@ vector<shared_ptr<Body>> bodiesOf(const MpmContact& contact, const Scene& scene)
 		found.push_back(body);
 	}
 	return found;
+}
+
+void handOver(const vector<shared_ptr<MpmContact>>& contacts, Scene& scene)
+{
+	if (contacts.empty()) return;
+	const ValueLock lock;
+	for (const auto& contact : contacts)
+		contact->handOver(scene);
 }
 
 template <int Dim>

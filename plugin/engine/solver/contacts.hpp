@@ -12,6 +12,9 @@ namespace yade {
 // The bodies that a contact means: neither material points nor clumps, but members of these.
 vector<shared_ptr<Body>> bodiesOf(const MpmContact&, const Scene&);
 
+// Between load steps, too, the bodies that YADE moves feel the soil.
+void handOver(const vector<shared_ptr<MpmContact>>&, Scene&);
+
 template <int Dim> class Contacts {
 public:
 	Contacts() = default;

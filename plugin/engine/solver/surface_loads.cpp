@@ -35,9 +35,8 @@ template <int Dim> SurfaceLoads<Dim>::SurfaceLoads(const Loads& given, const gim
 template <int Dim> void SurfaceLoads<Dim>::join(gimpm::Model<Dim>& model)
 {
 	for (auto& load : loads)
-		model.terms.push_back([&load](const gimpm::Beginning<Dim>& step) {
-			return std::make_unique<gimpm::Traction<Dim>>(load, step.basis, step.grid);
-		});
+		model.terms.push_back(
+		        [&load](const gimpm::Beginning<Dim>& step) { return std::make_unique<gimpm::Traction<Dim>>(load, step.basis, step.grid); });
 }
 
 template <int Dim> void SurfaceLoads<Dim>::advanceTo(Real time)
