@@ -13,7 +13,9 @@ namespace {
 	Cone customary(double friction, double dilation)
 	{
 		const Cone own = Cone::planeStrain(c, friction * degree, friction * degree), flow = Cone::planeStrain(c, dilation * degree, dilation * degree);
-		return { own.friction, flow.dilation, own.strength };
+		Cone       cone {};
+		cone.friction = own.friction, cone.dilation = flow.dilation, cone.strength = own.strength;
+		return cone;
 	}
 
 	struct Parameters {

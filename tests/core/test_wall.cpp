@@ -236,7 +236,7 @@ namespace {
 			EXPECT_TRUE(traction.isZero(0));
 		wall.motion[1]    = -0.1;
 		const auto report = scene.step();
-		EXPECT_EQ(report.failure, Failure::detached);
+		EXPECT_EQ(report.failure, Failure::misplaced);
 		EXPECT_EQ(report.cause, "a wall moves, but none of it is where the grid holds material");
 		EXPECT_EQ(wall.surface.vertices[0][1], 2.5);
 	}

@@ -35,8 +35,8 @@ public:
 		          "the start of the files' names, as in 'out/slope-', without line breaks and other control characters; there is no default",
 		          isFileName));
 		v("recorders", &MpmVtkRecorder::recorders, 0,
-		  "What to write: 'points', domains with *fields*; 'grid', cells that hold material; 'ghostFaces', faces that are stabilised; 'loads', loaded surfaces; "
-		  "'walls', surfaces of boundaries; 'contacts', where bodies are touched; 'all'. "
+		  "What to write: 'points', domains with *fields*; 'grid', cells with material; 'ghostFaces', stabilised faces; 'loads', loaded surfaces; "
+		  "'walls', surfaces of boundaries; 'contacts', touched places; 'all'. "
 		  "Read as a tuple.",
 		  admitting("one or more of 'points', 'grid', 'ghostFaces', 'loads', 'walls', 'contacts' and 'all'", areKinds));
 		v("fields", &MpmVtkRecorder::fields, 0,
