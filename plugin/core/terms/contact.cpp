@@ -24,10 +24,10 @@ template <int Dim> const ContactRecord<Dim>* recordOf(const std::vector<ContactR
 	return i != records.end() && keyOf(*i) == key ? &*i : nullptr;
 }
 
-template <int Dim> std::string deepIn(const RigidBody<Dim>& body, const Vec<Dim>& x, const char* when)
+template <int Dim> std::string textAt(const RigidBody<Dim>& body, const char* what, const Vec<Dim>& x)
 {
 	std::ostringstream text;
-	text << body.name << when << " the middle of the material point at (" << x.transpose() << ") inside of it";
+	text << body.name << what << ", at (" << x.transpose() << ")";
 	return text.str();
 }
 
@@ -41,7 +41,7 @@ Contact<Dim>::Contact(ContactSystem<Dim>& system, const Beginning<Dim>& step)
 	for (const NearPoint& near : near_) {
 		const auto& body = system.bodies[near.body];
 		if (body.isNew && body.proximity(body.begin, cloud_.position[near.point], near.side).gap < 0) // of a two-sided surface it never is
-			obstacle_ = deepIn(body, cloud_.position[near.point], " has");
+			obstacle_ = textAt(body, " has the middle of a material point inside of it", cloud_.position[near.point]);
 		addCorners(near, step);
 	}
 	std::sort(corners_.begin(), corners_.end(), [](const Corner& a, const Corner& b) {
@@ -176,19 +176,24 @@ template <int Dim> void Contact<Dim>::restrainAt(const Eigen::VectorXd& d, const
 	});
 }
 
+/// A whole domain inside, or the middle of a point on the other side of a surface that soil may touch from both: there it would not be known again.
 template <int Dim> std::string Contact<Dim>::refusal(const Eigen::VectorXd& d) const
 {
+	std::string found;
+	forTouching(d, [&](const Corner& corner, const Vec<Dim>& x, double gap, const Touch<Dim>& touched) {
+		if (gap < -2 * touched.normal.cwiseAbs().dot(cloud_.halfSize[corner.point]))
+			found = textAt(system_.bodies[corner.body], " would get a whole material point inside of it", x);
+	});
 	for (const NearPoint& near : near_) {
-		const auto& body   = system_.bodies[near.body];
-		const auto  centre = attach(cloud_.position[near.point], basis_, grid_);
+		const auto& body = system_.bodies[near.body];
+		if (!body.shape.isTwoSided) continue;
+		const auto centre = attach(cloud_.position[near.point], basis_, grid_);
 		if (!centre) continue;
 		const Vec<Dim>       x  = cloud_.position[near.point] + centre->displacement(d);
 		const Proximity<Dim> at = body.proximity(body.end, x, near.side);
-		// the whole domain inside; a two-sided surface would not know the point again when its middle has passed
-		const double own = body.shape.isTwoSided ? 0 : at.normal.cwiseAbs().dot(cloud_.halfSize[near.point]);
-		if (at.gap < -own && at.beside < 0) return deepIn(body, x, " would get");
+		if (at.gap < 0 && at.beside < 0) found = textAt(body, " would get the middle of a material point on its other side", x);
 	}
-	return {};
+	return found;
 }
 
 template <int Dim> ContactLoad Contact<Dim>::loadOn(const Vec<Dim>& owner, const Corner& corner, const Vec<Dim>& place, const Touch<Dim>& touched) const
@@ -225,14 +230,15 @@ template <int Dim> void Contact<Dim>::commit(const Eigen::VectorXd& d)
 	const auto byKey = [](const auto& a, const auto& b) { return keyOf(a) < keyOf(b); };
 	std::sort(records.begin(), records.end(), byKey);
 	const std::size_t touching = records.size();
-	for (const Corner& corner : corners_) { // an overlap that counts as none is forgotten as far as it opens
-		if (corner.offset == 0) continue;
-		const Vec<Dim>     x       = corner.place + corner.attached.displacement(d);
-		const double       overlap = std::min(0., approach(corner, x).at.gap + corner.offset);
-		ContactRecord<Dim> record { corner.point, corner.corner, corner.body, std::max(corner.offset, overlap) };
+	// Domains have followed the stretch of their points: a corner keeps the gap that the soil has there
+	for (const Corner& corner : corners_) {
+		const auto&        body = system_.bodies[corner.body];
+		const double       gap  = approach(corner, corner.place + corner.attached.displacement(d)).at.gap;
+		const double       anew = body.proximity(body.end, cornerOf(cloud_, corner.point, corner.corner), corner.side).gap;
+		ContactRecord<Dim> record { corner.point, corner.corner, corner.body, anew - gap };
 		const auto         known = std::lower_bound(records.begin(), records.begin() + touching, record, byKey);
 		if (known != records.begin() + touching && keyOf(*known) == keyOf(record)) known->offset = record.offset;
-		else if (record.offset < 0)
+		else if (record.offset != 0)
 			records.push_back(record);
 	}
 	std::sort(records.begin(), records.end(), byKey);

@@ -11,7 +11,7 @@ namespace gimpm {
 /// A corner of a point's domain that touches a body at the end of a step that was accepted, or overlapped it when the body came.
 template <int Dim> struct ContactRecord {
 	int      point, corner, body; ///< bit a of the corner set: upper along axis a
-	double   offset  = 0;         ///< the gap that counts as none, <= 0 [m]
+	double   offset  = 0;         ///< how much farther the corner is from the body than the soil that it stands for [m]
 	bool     touches = false, slips = false;
 	double   gap      = 0;                                           ///< the offset taken off, < 0 by the penalty [m]
 	double   pressure = 0;                                           ///< normal force [N]
