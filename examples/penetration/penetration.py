@@ -88,12 +88,17 @@ def footing():
 	s, N = np.array(found).T
 	print('s/B    N = F / (B c_u)')
 	for i in np.linspace(0, len(s) - 1, min(len(s), 10)).astype(int): print(f'{s[i] / B:.3f}  {N[i]:.3f}')
+	inCell = int(round(h / (s[-1] - s[0]) * (len(s) - 1)))  # steps while the Box sinks by a cell
+	if len(s) > 2 * inCell + 20:
+		mean = np.convolve(N, np.ones(inCell) / inCell, 'same')
+		off = np.abs(N / mean - 1)[inCell // 2:-(inCell // 2)][s[inCell // 2:-(inCell // 2)] > 0.1 * B]
+		print(f'beyond .1 B: from its moving mean over a cell N differs by {100 * off.mean():.1f} % on average, in {100 * (off > 0.02).mean():.0f} % of the steps by more than 2 %, at most by {100 * off.max():.0f} %')
 	shallow = np.interp(0.02 * B, s, N)
 	print(f'at s = .02 B: N = {shallow:.3f}, Prandtl {2 + np.pi:.3f} ({100 * (shallow / (2 + np.pi) - 1):+.1f} %)')
 	return 'plasticStrain', lambda ax: ax.set(xlim=(0, 1.5 * B), ylim=(-1.2 * B, 0.6 * B))
 
 
-def round(axisymmetric):
+def halfSpace(axisymmetric):
 	E, nu, R = 1e6, 0.3, 1.
 	stiffness = E / (1 - nu**2)
 	a = 0.1 * R
@@ -132,7 +137,7 @@ def compareLine(F, R, stiffness, h):
 	print(f'largest mean pressure in a cell {pressure.max():.0f} Pa, Hertz {largest:.0f} Pa ({100 * (pressure.max() / largest - 1):+.1f} %)')
 
 
-draw = footing() if options.scene == 'footing' else tbar() if options.scene == 'tbar' else round(options.scene == 'sphere')
+draw = footing() if options.scene == 'footing' else tbar() if options.scene == 'tbar' else halfSpace(options.scene == 'sphere')
 print(f'{len(mpm.arrays()["id"])} material points, {sum(solves)} iterations in {len(solves)} steps, {time.time() - began:.1f} s')
 if options.picture:
 	field, limit = draw[0], draw[1]
