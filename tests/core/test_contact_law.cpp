@@ -118,6 +118,20 @@ namespace {
 		EXPECT_NEAR(at(0.5e-9)->slope(0, 0), -50, 0.1);
 	}
 
+	/// Of all that there is of a shape only what belongs to its kind counts.
+	TEST(ContactLaw, MotionOfABodyIsThatOfItsFarthestPlace)
+	{
+		constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+		for (const RigidKind kind : { RigidKind::ball, RigidKind::block, RigidKind::plane, RigidKind::sheet }) {
+			auto body = bodyOf<3>(kind);
+			if (kind != RigidKind::sheet) body.shape.corners.fill(Vec3::Constant(nothing));
+			if (kind != RigidKind::block) body.shape.halfSize.setConstant(nothing);
+			const double shift = (body.end.position - body.begin.position).norm();
+			EXPECT_GE(body.motion(), shift);
+			EXPECT_LT(body.motion(), shift + 0.1);
+		}
+	}
+
 	TEST(ContactLaw, ATurnWithTheBodyIsNoSlip)
 	{
 		const auto body = bodyOf<3>(RigidKind::block);

@@ -93,9 +93,9 @@ template <int Dim> double RigidBody<Dim>::motion() const
 {
 	const double shift = (end.position - begin.position).norm();
 	if (shape.kind == RigidKind::plane) return shift;
-	double reach = std::max(shape.radius, shape.halfSize.norm());
-	for (const Vec<Dim>& corner : shape.corners)
-		reach = std::max(reach, corner.norm());
+	double reach = shape.kind == RigidKind::block ? shape.halfSize.norm() : shape.radius;
+	for (int i = 0; shape.kind == RigidKind::sheet && i < Dim; ++i)
+		reach = std::max(reach, shape.corners[i].norm());
 	return shift + (end.rotation - begin.rotation).norm() * reach;
 }
 

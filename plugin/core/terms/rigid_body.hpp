@@ -25,7 +25,7 @@ template <int Dim> struct RigidShape {
 	double                    radius   = 0;                ///< of a ball, or of the rounded edges of a block [m]
 	Vec<Dim>                  halfSize = Vec<Dim>::Zero(); ///< of a block [m]
 	Vec<Dim>                  normal   = Vec<Dim>::Zero(); ///< of a plane through the body's position, unit, out of the body
-	std::array<Vec<Dim>, Dim> corners {};                  ///< of a sheet, in the body's axes [m]
+	std::array<Vec<Dim>, Dim> corners;                     ///< of a sheet, in the body's axes [m]; of others not set
 	bool                      isTwoSided = false;          ///< a plane, or a sheet, that soil may touch from either side
 };
 
