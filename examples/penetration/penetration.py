@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Rigid bodies of YADE pressed into soil through MpmContact, which moves them by their velocities.
 
+	plate      a Box on a block of four cells a side without Poisson's ratio, pressed to .75 of its height: E ln .75 / .75
 	footing    a Box on undrained clay in plane strain, half by symmetry: load over width and c_u, Prandtl 2 + pi as long as it is shallow
 	tbar       a cylinder, wished in place in clay without weight under a pressure of 15 c_u, and moved through it in plane strain, half by symmetry: resistance
 	           over D c_u, plasticity theory 9.14 (smooth) and 11.94 (rough; Randolph and Houlsby 1984)
@@ -20,7 +21,7 @@ sys.path.insert(0, os.path.join(os.path.dirname(sys.argv[0]), '..'))
 from options import readOptions
 
 options = readOptions('Rigid bodies pressed into soil.',
-        scene=('footing', "'footing', 'tbar', 'sphere' or 'cylinder'"),
+        scene=('footing', "'plate', 'footing', 'tbar', 'sphere' or 'cylinder'"),
         cells=(8, 'cells over half the width of the footing, over the radius of the bar, or over that of the contact'),
         pointsPerCell=(2, 'material points per cell and axis; the bar needs 4, as its round side is made of their corners'),
         depth=(0.1, 'of the footing at the end, as a part of its width B, or way of the bar, as a part of D'),
@@ -42,6 +43,23 @@ def run(steps, look):
 			break
 		solves.append(solver.iterations)
 		look()
+
+
+def plate():
+	E, size = 1e6, 1.
+	grid = MpmGrid(cellSize=size / 4)
+	O.materials.append(MpmElasticMat(young=E, poisson=0, density=1, label='soil'))
+	O.materials.append(FrictMat(label='rigid'))
+	O.bodies.append(mpm.fill(pack.inAlignedBox((0, 0, -1), (size, size, 1)), grid, options.pointsPerCell, 'soil'))
+	box = O.bodies[O.bodies.append(utils.box((size / 2, 1.5 * size, 0), (2 * size, size / 2, 1), material='rigid', fixed=True))]
+	box.state.vel = (0, -0.25 * size, 0)
+	contact = MpmContact(friction=0, stiffness=options.stiffness)
+	sides = [MpmBoundary(max=(0, inf, inf), fix='x'), MpmBoundary(max=(inf, 0, inf), fix='y')]
+	O.engines = [MpmImplicitEngine(grid=grid, boundaries=sides, contacts=[contact], label='solver')]
+	run(options.steps or 25, lambda: None)
+	F, exact = contact.forces[0][1], -E * np.log(0.75) / 0.75 * size
+	print(f'F = {F:.1f} N/m, exact {exact:.1f} N/m ({100 * (F / exact - 1):+.2f} %)')
+	return 'stress_yy', lambda ax: None
 
 
 def tbar():
@@ -137,7 +155,7 @@ def compareLine(F, R, stiffness, h):
 	print(f'largest mean pressure in a cell {pressure.max():.0f} Pa, Hertz {largest:.0f} Pa ({100 * (pressure.max() / largest - 1):+.1f} %)')
 
 
-draw = footing() if options.scene == 'footing' else tbar() if options.scene == 'tbar' else halfSpace(options.scene == 'sphere')
+draw = dict(plate=plate, footing=footing, tbar=tbar, sphere=lambda: halfSpace(True), cylinder=lambda: halfSpace(False))[options.scene]()
 print(f'{len(mpm.arrays()["id"])} material points, {sum(solves)} iterations in {len(solves)} steps, {time.time() - began:.1f} s')
 if options.picture:
 	field, limit = draw[0], draw[1]

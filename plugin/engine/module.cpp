@@ -2,6 +2,7 @@
 // The plugin is also a Python extension module, imported by yade.mpm for what can be checked only when YADE has started, and for
 // work on all material points at once.
 #include "engine/materials/laws.hpp"
+#include "engine/output/contactPoints.hpp"
 #include "engine/output/gridCells.hpp"
 #include "engine/points/assignment.hpp"
 #include "engine/points/bulkAccess.hpp"
@@ -25,6 +26,7 @@ BOOST_PYTHON_MODULE(mpm_engine)
 	py::def("respond", &respondForPython,
 	        "For mpm.respond: one call of the law of a material in principal axes, from trial strains and a dict of internal variables.");
 	py::def("elasticStrainOf", &elasticStrainForPython, "For mpm.elementTest: principal elastic strains of principal Kirchhoff stresses.");
+	py::def("touchableBodies", &touchableBodiesForPython, "For mpm.plot: ids of the rigid bodies that the contacts of an engine mean.");
 	py::def("gridCells", &gridCellsForPython,
-	        "For mpm.plot: corners and first field of the cells of 'grid', 'ghostFaces', 'loads' or 'contacts' around the material points.");
+	        "For mpm.plot: corners and first field of the cells of 'grid', 'ghostFaces', 'loads', 'walls' or 'contacts' around the material points.");
 }

@@ -37,4 +37,23 @@ inline double relativeError(const Eigen::MatrixXd& found, const Eigen::MatrixXd&
 	return (found - expected).cwiseAbs().maxCoeff() / expected.cwiseAbs().maxCoeff();
 }
 
+/// Of the stiffness of the last term of a step, at random displacements, from the derivative of its forces. These must not vanish.
+template <int Dim> double tangentErrorOfLastTerm(const StepSystem<Dim>& system, const Grid<Dim>& grid, double step)
+{
+	const Term<Dim>&      term   = *system.terms.back();
+	const Eigen::VectorXd d      = Random(3).vector(system.nodalSize(), 0.05);
+	const auto            forces = [&](const Eigen::VectorXd& at) {
+                Eigen::VectorXd f = Eigen::VectorXd::Zero(at.size());
+                EXPECT_FALSE(term.add(at, { f }));
+                return f;
+	};
+	NodeMatrix<Dim> K;
+	Eigen::VectorXd f = Eigen::VectorXd::Zero(d.size());
+	K.reset(system.basis.nodes, term.isSymmetric(), grid);
+	term.mark(K);
+	term.add(d, { f, &K });
+	EXPECT_GT(f.norm(), 0);
+	return relativeError(dense(K), derivative(forces, d, step));
+}
+
 } // namespace gimpm

@@ -81,26 +81,8 @@ namespace {
 		StepSystem<Dim> system() { return { cloud, model, {}, report }; }
 	};
 
-	/// Largest difference of K from the derivative of the force (central, fourth order) at random displacements, relative to the traction's share in K.
-	template <int Dim> double tangentError(Block<Dim>& block)
-	{
-		Random                random(3);
-		const auto            system = block.system();
-		const Eigen::VectorXd d      = random.vector(system.nodalSize(), 0.05);
-		const auto            force  = [&](const Eigen::VectorXd& at) {
-                        Eigen::VectorXd f = Eigen::VectorXd::Zero(at.size());
-                        EXPECT_FALSE(system.terms.back()->add(at, { f }));
-                        return f;
-		};
-		NodeMatrix<Dim> K;
-		Eigen::VectorXd f = Eigen::VectorXd::Zero(d.size());
-		K.reset(system.basis.nodes, system.terms.back()->isSymmetric(), block.model.grid);
-		system.terms.back()->mark(K);
-		system.terms.back()->add(d, { f, &K });
-		return relativeError(dense(K), derivative(force, d, 1e-3));
-	}
+	template <int Dim> double tangentError(Block<Dim>& block) { return tangentErrorOfLastTerm(block.system(), block.model.grid, 1e-3); }
 
-	template <class Dimension> using TractionOf = InBothDimensions<Dimension>;
 	TYPED_TEST_SUITE(TractionOf, BothDimensions, DimensionName);
 
 	TYPED_TEST(TractionOf, TangentIsTheDerivative)

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "core/terms/contact.hpp"
+#include "core/terms/attached.hpp"
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <sstream>
@@ -99,65 +100,39 @@ template <int Dim> template <class F> void Contact<Dim>::forTouching(const Eigen
 		std::vector<Vec<Dim>> normals; // of sheets that count
 		const Corner*         beside = nullptr;
 		double                least  = margin;
-		const auto            tell   = [&](const Corner& corner) {
-                        const Approach<Dim> at = approach(corner, x);
-                        if (const auto touched = touch(corner.law, at, tolerance_)) f(corner, x, at.at.gap, *touched);
+		const auto            tell   = [&](const Corner& corner, const Approach<Dim>& approach) {
+                        if (const auto touched = touch(corner.law, approach, tolerance_)) f(corner, x, approach.at.gap, *touched);
 		};
 		for (; last != corners_.end() && last->point == first->point && last->corner == first->corner; ++last) {
+			const Approach<Dim>   near = approach(*last, x);
+			const Proximity<Dim>& at   = near.at;
 			if (system_.bodies[last->body].shape.kind != RigidKind::sheet) {
-				tell(*last);
+				tell(*last, near);
 				continue;
 			}
-			const Proximity<Dim> at = approach(*last, x).at;
 			if (at.gap > tolerance_ || at.beside > margin) continue;
 			if (at.beside > 0 && at.beside < least) beside = &*last, least = at.beside;
 			if (at.beside > 0 || std::any_of(normals.begin(), normals.end(), [&](const Vec<Dim>& n) { return n.dot(at.normal) > 0.99; })) continue;
 			normals.push_back(at.normal);
-			tell(*last);
+			tell(*last, near);
 		}
-		if (beside && normals.empty()) tell(*beside);
+		if (beside && normals.empty()) tell(*beside, approach(*beside, x));
 	}
 }
 
 template <int Dim> void Contact<Dim>::mark(NodeMatrix<Dim>& K) const
 {
 	for (const Corner& corner : corners_)
-		for (int m = 0; m < corner.attached.nodes; ++m)
-			for (int n = 0; n < corner.attached.nodes; ++n) {
-				const int code = NodeMatrix<Dim>::code(Index<Dim>(corner.attached.index(n) - corner.attached.index(m)));
-				if (code >= 0) K.markUsed(corner.attached.node[m], code);
-			}
-}
-
-template <int Dim> void Contact<Dim>::addStiffness(const Corner& corner, const Mat<Dim>& slope, NodeMatrix<Dim>& K) const
-{
-	const auto& at = corner.attached;
-	for (int m = 0; m < at.nodes; ++m)
-		for (int n = 0; n < at.nodes; ++n) {
-			const int code = NodeMatrix<Dim>::code(Index<Dim>(at.index(n) - at.index(m)));
-			K.add(at.node[m], at.node[n], code, -at.weight[m] * at.weight[n] * slope);
-		}
+		markAttached(corner.attached, corner.attached, K);
 }
 
 template <int Dim> std::optional<PointFailure> Contact<Dim>::add(const Eigen::VectorXd& d, const TermSum<Dim>& sum) const
 {
 	forTouching(d, [&](const Corner& corner, const Vec<Dim>&, double, const Touch<Dim>& touched) {
-		const auto& at = corner.attached;
-		for (int n = 0; n < at.nodes; ++n) {
-			const Vec<Dim> f = at.weight[n] * touched.force();
-			sum.force.template segment<Dim>(Dim * at.node[n]) -= f;
-			if (sum.sizes) sum.sizes->template segment<Dim>(Dim * at.node[n]) += f.cwiseAbs();
-		}
-		if (sum.K) addStiffness(corner, touched.slope, *sum.K);
+		addAttachedForce<Dim>(corner.attached, touched.force(), sum);
+		if (sum.K) addAttachedStiffness(corner.attached, corner.attached, touched.slope, *sum.K);
 	});
 	return std::nullopt;
-}
-
-template <int Dim> double Contact<Dim>::fromOutside(const Eigen::VectorXd& d) const
-{
-	Eigen::VectorXd force = Eigen::VectorXd::Zero(d.size());
-	add(d, { force });
-	return force.norm();
 }
 
 template <int Dim> void Contact<Dim>::restrain(const typename Term<Dim>::Hold& hold) const
@@ -217,31 +192,26 @@ template <int Dim> ContactLoad Contact<Dim>::loadOn(const Vec<Dim>& owner, const
 
 template <int Dim> void Contact<Dim>::commit(const Eigen::VectorXd& d)
 {
+	// Domains have followed the stretch of their points: a corner keeps the gap that the soil has there
 	std::vector<ContactRecord<Dim>> records;
+	for (const Corner& corner : corners_) {
+		const auto&  body = system_.bodies[corner.body];
+		const double gap  = approach(corner, corner.place + corner.attached.displacement(d)).at.gap;
+		const double anew = body.proximity(body.end, cornerOf(cloud_, corner.point, corner.corner), corner.side).gap;
+		records.push_back({ corner.point, corner.corner, corner.body, anew - gap });
+	}
 	system_.loads.assign(system_.owners.size(), {});
 	forTouching(d, [&](const Corner& corner, const Vec<Dim>& x, double gap, const Touch<Dim>& touched) {
-		records.push_back({ corner.point, corner.corner, corner.body, corner.offset, true, touched.slips, gap, touched.pressure, touched.friction,
-		                    touched.normal, x });
+		auto& r   = records[&corner - corners_.data()];
+		r.touches = true, r.slips = touched.slips, r.gap = gap, r.place = x;
+		r.pressure = touched.pressure, r.friction = touched.friction, r.normal = touched.normal;
 		const int    owner = system_.bodies[corner.body].owner;
 		const auto   load  = loadOn(system_.owners[owner], corner, x, touched);
 		ContactLoad& sum   = system_.loads[owner];
 		sum.force += load.force, sum.torque += load.torque, sum.stiffness += load.stiffness;
 	});
-	const auto byKey = [](const auto& a, const auto& b) { return keyOf(a) < keyOf(b); };
-	std::sort(records.begin(), records.end(), byKey);
-	const std::size_t touching = records.size();
-	// Domains have followed the stretch of their points: a corner keeps the gap that the soil has there
-	for (const Corner& corner : corners_) {
-		const auto&        body = system_.bodies[corner.body];
-		const double       gap  = approach(corner, corner.place + corner.attached.displacement(d)).at.gap;
-		const double       anew = body.proximity(body.end, cornerOf(cloud_, corner.point, corner.corner), corner.side).gap;
-		ContactRecord<Dim> record { corner.point, corner.corner, corner.body, anew - gap };
-		const auto         known = std::lower_bound(records.begin(), records.begin() + touching, record, byKey);
-		if (known != records.begin() + touching && keyOf(*known) == keyOf(record)) known->offset = record.offset;
-		else if (record.offset != 0)
-			records.push_back(record);
-	}
-	std::sort(records.begin(), records.end(), byKey);
+	const auto isNothing = [](const auto& r) { return !r.touches && r.offset == 0; };
+	records.erase(std::remove_if(records.begin(), records.end(), isNothing), records.end());
 	system_.records = std::move(records);
 	for (auto& body : system_.bodies)
 		body.isNew = false;

@@ -50,7 +50,7 @@ public:
 	std::optional<PointFailure> add(const Eigen::VectorXd& d, const TermSum<Dim>&) const override;
 	bool                        isSymmetric() const override { return isSymmetric_; }
 	std::string                 obstacle() const override { return obstacle_; }
-	double                      fromOutside(const Eigen::VectorXd& d) const override;
+	double                      fromOutside(const Eigen::VectorXd& d) const override { return this->sizeOfForce(d); }
 	void                        restrain(const typename Term<Dim>::Hold&) const override;
 	void                        restrainAt(const Eigen::VectorXd& d, const typename Term<Dim>::Hold&) const override;
 	std::string                 refusal(const Eigen::VectorXd& d) const override;
@@ -71,7 +71,6 @@ private:
 	ContactLaw<Dim>         lawOf(const RigidBody<Dim>&, const NearPoint&, const Vec<Dim>& place, const Vec<Dim>& normal, const Beginning<Dim>&) const;
 	Approach<Dim>           approach(const Corner&, const Vec<Dim>& x) const;
 	template <class F> void forTouching(const Eigen::VectorXd& d, F&& f) const; // f(corner, its place, gap, touch)
-	void                    addStiffness(const Corner&, const Mat<Dim>& slope, NodeMatrix<Dim>& K) const;
 	ContactLoad             loadOn(const Vec<Dim>& owner, const Corner&, const Vec<Dim>& place, const Touch<Dim>&) const;
 
 	ContactSystem<Dim>&    system_;

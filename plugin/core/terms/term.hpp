@@ -61,6 +61,15 @@ public:
 
 	/// The step has been accepted with these displacements.
 	virtual void commit(const Eigen::VectorXd&) { }
+
+protected:
+	/// Of all forces that it adds at d [N], for a term whose forces come from outside.
+	double sizeOfForce(const Eigen::VectorXd& d) const
+	{
+		Eigen::VectorXd force = Eigen::VectorXd::Zero(d.size());
+		add(d, { force });
+		return force.norm();
+	}
 };
 
 template <int Dim> using Terms = std::vector<std::unique_ptr<Term<Dim>>>;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "core/terms/traction.hpp"
+#include "core/terms/attached.hpp"
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <numeric>
@@ -106,28 +107,13 @@ template <int Dim> std::vector<Vec<Dim>> Traction<Dim>::forcesAt(const Places& p
 	return forces;
 }
 
-/// Calls f(a, b, code, i, j, product of the weights) for each vertex i of the piece with its nodes a, and each vertex j with its nodes b; code is that
-/// of the offset from a to b.
-template <int Dim> template <class F> void Traction<Dim>::forNodePairs(const Piece& piece, F&& f) const
-{
-	for (int i = 0; i < Dim; ++i)
-		for (int j = 0; j < Dim; ++j) {
-			const auto &from = attached_[piece[i]], &to = attached_[piece[j]];
-			for (int m = 0; m < from.nodes; ++m)
-				for (int n = 0; n < to.nodes; ++n) {
-					const Index<Dim> offset = to.index(n) - from.index(m);
-					f(from.node[m], to.node[n], NodeMatrix<Dim>::code(offset), i, j, from.weight[m] * to.weight[n]);
-				}
-		}
-}
-
 template <int Dim> void Traction<Dim>::mark(NodeMatrix<Dim>& K) const
 {
 	if (load_.pressure == 0) return;
 	for (const Piece& piece : load_.surface.pieces)
-		forNodePairs(piece, [&](int a, int, int code, int, int, double) {
-			if (code >= 0) K.markUsed(a, code);
-		});
+		for (const int i : piece)
+			for (const int j : piece)
+				markAttached(attached_[i], attached_[j], K);
 }
 
 template <int Dim> void Traction<Dim>::addStiffness(const Places& places, NodeMatrix<Dim>& K) const
@@ -137,11 +123,12 @@ template <int Dim> void Traction<Dim>::addStiffness(const Places& places, NodeMa
 		const auto     slopes = normalSlopes(piece, places);
 		const auto     share  = shares<Dim>(piece, places, isRing_);
 		const Vec<Dim> normal = load_.surface.normal(piece, places);
-		forNodePairs(piece, [&](int a, int b, int code, int i, int j, double weight) {
-			Mat<Dim> slope = share[i] * slopes[j];
-			if (isRing_) slope.col(0) += shareSlope(i, j) * normal;
-			K.add(a, b, code, load_.pressure * weight * slope);
-		});
+		for (int i = 0; i < Dim; ++i)
+			for (int j = 0; j < Dim; ++j) {
+				Mat<Dim> slope = share[i] * slopes[j];
+				if (isRing_) slope.col(0) += shareSlope(i, j) * normal;
+				addAttachedStiffness<Dim>(attached_[piece[i]], attached_[piece[j]], -load_.pressure * slope, K);
+			}
 	}
 }
 
@@ -149,20 +136,9 @@ template <int Dim> std::optional<PointFailure> Traction<Dim>::add(const Eigen::V
 {
 	const Places places = placesAt(d), forces = forcesAt(places);
 	for (std::size_t v = 0; v < forces.size(); ++v)
-		for (int n = 0; n < attached_[v].nodes; ++n) {
-			const Vec<Dim> f = attached_[v].weight[n] * forces[v];
-			sum.force.template segment<Dim>(Dim * attached_[v].node[n]) -= f;
-			if (sum.sizes) sum.sizes->template segment<Dim>(Dim * attached_[v].node[n]) += f.cwiseAbs();
-		}
+		addAttachedForce(attached_[v], forces[v], sum);
 	if (sum.K) addStiffness(places, *sum.K);
 	return std::nullopt;
-}
-
-template <int Dim> double Traction<Dim>::fromOutside(const Eigen::VectorXd& d) const
-{
-	Eigen::VectorXd force = Eigen::VectorXd::Zero(d.size());
-	add(d, { force });
-	return force.norm();
 }
 
 template <int Dim> void Traction<Dim>::commit(const Eigen::VectorXd& d)

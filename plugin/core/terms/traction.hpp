@@ -8,10 +8,6 @@
 
 namespace gimpm {
 
-/// Length of the sides of a loaded surface's pieces, in cells. Nodes are then given their shares of a uniform load to some 0.4 % by segments (exactly where
-/// these fit into the cells) and 1 % by triangles; the error falls with the square of the length.
-constexpr double pieceLimit = 0.25;
-
 /// What acts on a surface at the end of a step.
 template <int Dim> struct SurfaceLoad {
 	Surface<Dim> surface;                      ///< at the start of the step, with sides of at most `pieceLimit`
@@ -33,7 +29,7 @@ public:
 	void                        mark(NodeMatrix<Dim>&) const override;
 	std::optional<PointFailure> add(const Eigen::VectorXd& d, const TermSum<Dim>&) const override;
 	bool                        isSymmetric() const override { return isSymmetric_; }
-	double                      fromOutside(const Eigen::VectorXd& d) const override;
+	double                      fromOutside(const Eigen::VectorXd& d) const override { return this->sizeOfForce(d); }
 	std::string                 obstacle() const override { return obstacle_; }
 	void                        commit(const Eigen::VectorXd& d) override;
 
@@ -41,10 +37,9 @@ private:
 	using Places = std::vector<Vec<Dim>>;
 	using Piece  = typename Surface<Dim>::Piece;
 
-	Places                  placesAt(const Eigen::VectorXd& d) const;
-	Places                  forcesAt(const Places&) const; // on the vertices
-	void                    addStiffness(const Places&, NodeMatrix<Dim>& K) const;
-	template <class F> void forNodePairs(const Piece&, F&&) const;
+	Places placesAt(const Eigen::VectorXd& d) const;
+	Places forcesAt(const Places&) const; // on the vertices
+	void   addStiffness(const Places&, NodeMatrix<Dim>& K) const;
 
 	SurfaceLoad<Dim>&            load_;
 	bool                         isRing_;   // around an axis of symmetry

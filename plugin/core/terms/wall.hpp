@@ -20,9 +20,6 @@ template <int Dim> struct Wall {
 	Vec<Dim>              motion  = Vec<Dim>::Zero();  ///< in the step, rigid [m]
 	std::vector<Vec<Dim>> tractions;                   ///< of each piece on the body [Pa]; zero where there is none
 	Vec<Dim>              reaction = Vec<Dim>::Zero(); ///< their resultant at the end of the last step that was accepted [N]
-
-	/// Length of the sides of its pieces, in cells.
-	static constexpr double pieceLimit = 0.25;
 };
 
 /// Each piece holds the material that is at its centre x with the traction t - penalty E / h P (N(x) d - motion), where P is the projection on what is held,
@@ -36,7 +33,7 @@ public:
 	void                        mark(NodeMatrix<Dim>&) const override;
 	std::optional<PointFailure> add(const Eigen::VectorXd& d, const TermSum<Dim>&) const override;
 	std::string                 obstacle() const override;
-	double                      fromOutside(const Eigen::VectorXd& d) const override;
+	double                      fromOutside(const Eigen::VectorXd& d) const override { return this->sizeOfForce(d); }
 	void                        restrain(const typename Term<Dim>::Hold&) const override;
 	void                        commit(const Eigen::VectorXd& d) override;
 
@@ -45,14 +42,12 @@ private:
 	struct Grip {
 		int             piece;
 		Attachment<Dim> at;
-		Vec<Dim>        inCell;    ///< its centre, from the lowest node of the cell [cells]
 		double          area;      ///< around an axis of symmetry that of the ring [m2]
 		Mat<Dim>        held;      ///< projection P
 		double          stiffness; ///< [Pa/m]
 	};
 
 	Vec<Dim> tractionOn(const Grip&, const Eigen::VectorXd& d) const;
-	void     addStiffness(NodeMatrix<Dim>& K) const;
 
 	Wall<Dim>&        wall_;
 	std::vector<Grip> grips_;

@@ -8,13 +8,12 @@ namespace yade {
 namespace {
 	using Stiffness = Eigen::Matrix<Real, 6, 6>;
 
-	// From the pose of 7 numbers: translation and turn.
-	Eigen::Matrix<Real, 6, 1> movement(const Real* pose, const State& now)
+	// Translation and turn.
+	Eigen::Matrix<Real, 6, 1> movement(const Se3r& before, const State& now)
 	{
-		const Quaternionr            before(Eigen::Map<const Eigen::Matrix<Real, 4, 1>>(pose + 3));
-		const Eigen::AngleAxis<Real> turn(now.ori * before.conjugate());
+		const Eigen::AngleAxis<Real> turn(now.ori * before.orientation.conjugate());
 		Eigen::Matrix<Real, 6, 1>    result;
-		result << now.pos - Vector3r::Map(pose), turn.angle() * turn.axis();
+		result << now.pos - before.position, turn.angle() * turn.axis();
 		return result;
 	}
 }
@@ -55,12 +54,18 @@ void MpmContact::keep(int id, const gimpm::ContactLoad& load, const Se3r& pose, 
 	stiffnesses.insert(stiffnesses.end(), load.stiffness.data(), load.stiffness.data() + load.stiffness.size());
 }
 
+Se3r MpmContact::poseOf(size_t i) const
+{
+	const Real* pose = &poses[7 * i];
+	return { Vector3r::Map(pose), Quaternionr(Eigen::Map<const Eigen::Matrix<Real, 4, 1>>(pose + 3)) };
+}
+
 void MpmContact::handOver(Scene& scene)
 {
 	for (size_t i = 0; i < bodies.size(); ++i) {
 		if (!areFree[i] || !scene.bodies->exists(bodies[i])) continue;
 		const State&                    state = *(*scene.bodies)[bodies[i]]->state;
-		const Eigen::Matrix<Real, 6, 1> since = -(Eigen::Map<const Stiffness>(&stiffnesses[36 * i]) * movement(&poses[7 * i], state));
+		const Eigen::Matrix<Real, 6, 1> since = -(Eigen::Map<const Stiffness>(&stiffnesses[36 * i]) * movement(poseOf(i), state));
 		scene.forces.addForce(bodies[i], forces[i] + since.head<3>());
 		scene.forces.addTorque(bodies[i], torques[i] + since.tail<3>());
 		impulsesSince[i] += since.head<3>() * scene.dt;

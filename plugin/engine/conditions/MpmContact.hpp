@@ -17,7 +17,7 @@ public:
 	vector<Vector3r> forces, torques, impulses;
 	vector<int>      touching, slipping;
 	// Hidden: of each of the bodies position and orientation of its last exchange (7 numbers), whether YADE moves it freely, the stiffness that is handed over
-	// to those (36), and the impulse of that since; and what is remembered of corners that touch (records.hpp)
+	// to those (36), and the impulse of that since; and what is remembered of corners that touch (contact_records.hpp)
 	vector<Real>     poses, stiffnesses, records;
 	vector<int>      areFree;
 	vector<Vector3r> impulsesSince;
@@ -64,6 +64,9 @@ public:
 	// What there is of the last load step, body by body.
 	void forget();
 	void keep(int id, const gimpm::ContactLoad&, const Se3r& pose, bool isFree, const Vector3r& impulse);
+
+	// Of the last exchange, number i of the bodies.
+	Se3r poseOf(size_t i) const;
 
 	// For the bodies that are free: the force of the last load step, less stiffness times the movement since, for this iteration of YADE.
 	void handOver(Scene&);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
+#include "engine/conditions/angles.hpp"
 #include "engine/materials/MpmElasticMat.hpp"
 
 namespace yade {
@@ -16,14 +17,13 @@ public:
 	static const char* doc() { return "Base of the materials with cohesion and friction. It has no constitutive law itself and is refused when used."; }
 	template <class V> static void attributes(V&& v)
 	{
-		const auto angle = [](Real value) { return value >= 0 && value < M_PI / 2; };
 		v("cohesion", &MpmFrictionalMat::cohesion, 0, "Cohesion c [Pa] >= 0 in Kirchhoff stress: of a change of volume J it is c/J in Cauchy stress.",
 		  admitting("a finite number >= 0 [Pa]; there is no default", nonNegative));
 		v("frictionAngle", &MpmFrictionalMat::frictionAngle, 0, "Angle of friction phi [rad], from 0 to below pi/2: radians(30) of 30 degrees.",
-		  admitting("an angle [rad] from 0 to below pi/2, as radians(30); there is no default", angle));
+		  admitting("an angle [rad] from 0 to below pi/2, as radians(30); there is no default", isFrictionAngle));
 		v("dilationAngle", &MpmFrictionalMat::dilationAngle, 0,
 		  "Angle of dilation psi [rad], from 0 to *frictionAngle*. Where it is smaller, flow is not associated and the stiffness not symmetric.",
-		  admitting("an angle [rad] from 0 to frictionAngle, as radians(30)", angle));
+		  admitting("an angle [rad] from 0 to frictionAngle, as radians(30)", isFrictionAngle));
 		v("tensileStrength", &MpmFrictionalMat::tensileStrength, 0, "Cut of tension [Pa] >= 0, of use below the apex c cot(phi); infinite: none.",
 		  admitting("a number >= 0 [Pa], finite or infinite", [](Real value) { return value >= 0; }));
 	}

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "engine/output/contactPoints.hpp"
 #include "engine/conditions/contact_records.hpp"
+#include "engine/solver/MpmImplicitEngine.hpp"
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
 #include <vtkCellType.h>
@@ -41,6 +42,15 @@ VtkCells contactPoints(const vector<shared_ptr<MpmContact>>& contacts)
 	     { static_cast<vtkDataArray*>(force), static_cast<vtkDataArray*>(gap), static_cast<vtkDataArray*>(slips), static_cast<vtkDataArray*>(body) })
 		result->GetCellData()->AddArray(field);
 	return result;
+}
+
+py::list touchableBodiesForPython(const shared_ptr<MpmImplicitEngine>& solver)
+{
+	py::list ids;
+	for (const auto& contact : solver->contacts)
+		for (const auto& body : bodiesOf(*contact, *solver->ownScene()))
+			ids.append(body->id);
+	return ids;
 }
 
 } // namespace yade

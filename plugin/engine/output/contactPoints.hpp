@@ -5,8 +5,12 @@
 #include "engine/output/vtkDataSets.hpp"
 
 namespace yade {
+class MpmImplicitEngine;
 
 // A vertex for each corner that touches: `force` on the soil [N]; `gap` [m], < 0 by the penalty; `slips`, 1 at the limit of friction; `body`, its id.
 VtkCells contactPoints(const vector<shared_ptr<MpmContact>>&);
+
+// For mpm.plot: ids of the rigid bodies that the contacts mean.
+py::list touchableBodiesForPython(const shared_ptr<MpmImplicitEngine>&);
 
 } // namespace yade

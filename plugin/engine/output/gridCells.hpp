@@ -6,7 +6,7 @@
 
 namespace yade {
 
-// "grid": the cells that hold material; "ghostFaces": the faces that are stabilised; "loads": loaded surfaces; "contacts": where points touch rigid bodies. With their fields.
+// "grid": the cells that hold material; "ghostFaces": the faces that are stabilised; "loads": loaded surfaces; "walls": surfaces of boundaries; "contacts": where points touch rigid bodies. With their fields.
 VtkCells gridCells(const string& kind, const Scene&, const MpmImplicitEngine&);
 
 // For mpm.plot: the same as a dict of bytearrays, "corners" (cells x corners x 3 double) and "field", the first of the fields.

@@ -79,8 +79,6 @@ vector<shared_ptr<Body>> bodiesOf(const MpmContact& contact, const Scene& scene)
 	for (unsigned id = 0; id < all.size(); ++id) {
 		const auto& body = all[id];
 		if (!body || !body->shape || !maskMatches(*body, contact.mask) || body->isClump() || dynamic_cast<const MpmPoint*>(body->shape.get())) continue;
-		if (!body->material)
-			throw std::invalid_argument("Body #" + std::to_string(id) + " has no material; MpmContact needs one of bodies that touch the soil.");
 		found.push_back(body);
 	}
 	return found;
@@ -117,22 +115,28 @@ Contacts<Dim>::Contacts(
 template <int Dim> void Contacts<Dim>::add(const shared_ptr<MpmContact>& contact, const Scene& scene, const gimpm::Grid<Dim>& grid)
 {
 	contact->requireAdmissible();
-	const size_t before = members.size();
+	const size_t count = members.size();
+	Places       known; // of its bodies in the last run
+	for (size_t i = 0; i < contact->bodies.size(); ++i)
+		known[contact->bodies[i]] = int(i);
 	for (const auto& body : bodiesOf(*contact, scene)) {
+		if (!body->material)
+			throw std::invalid_argument(
+			        "Body #" + std::to_string(body->id) + " has no material; MpmContact needs one of bodies that touch the soil.");
 		const bool isMember = body->isClumpMember() && scene.bodies->exists(body->clumpId);
-		addMember(*contact, body, ownerOf(contact, isMember ? *(*scene.bodies)[body->clumpId] : *body, scene), grid);
+		addMember(*contact, body, ownerOf(contact, known, isMember ? *(*scene.bodies)[body->clumpId] : *body, scene), grid);
 	}
-	if (members.size() == before)
+	if (members.size() == count)
 		throw std::invalid_argument(
 		        "MpmContact: no body that could touch the soil goes with mask = " + std::to_string(contact->mask)
 		        + (Dim == 2 ? ", or none of them has a section at z = 0." : "."));
 }
 
-template <int Dim> int Contacts<Dim>::ownerOf(const shared_ptr<MpmContact>& contact, const Body& body, const Scene& scene)
+template <int Dim> int Contacts<Dim>::ownerOf(const shared_ptr<MpmContact>& contact, const Places& known, const Body& body, const Scene& scene)
 {
-	for (size_t i = 0; i < owners.size(); ++i) {
-		if (owners[i].body->id != body.id) continue;
-		if (owners[i].contact == contact) return int(i);
+	const auto [found, isFirst] = ownersById.try_emplace(body.id, int(owners.size()));
+	if (!isFirst) {
+		if (owners[found->second].contact == contact) return found->second;
 		throw std::invalid_argument(
 		        "Body #" + std::to_string(body.id) + " is claimed by two MpmContacts; give them masks that go with different bodies.");
 	}
@@ -143,13 +147,11 @@ template <int Dim> int Contacts<Dim>::ownerOf(const shared_ptr<MpmContact>& cont
 		        "Body #" + std::to_string(body.id)
 		        + " is free to move, but on a grid with dim=2 a body is its section, without a mass: prescribe its motion (dynamic=False), or take dim=3.");
 	if (owner.isFree) requireBefore("Body #" + std::to_string(body.id), scene);
-	const auto known = std::find(contact->bodies.begin(), contact->bodies.end(), body.id);
-	owner.isNew      = known == contact->bodies.end();
+	const auto former = known.find(body.id);
+	owner.isNew       = former == known.end();
 	if (!yadeMoves) owner.target = moved(body, owner.begin, target - begin);
-	else if (!owner.isNew) {
-		const Real* pose = &contact->poses[7 * (known - contact->bodies.begin())];
-		owner.begin      = { Vector3r::Map(pose), Quaternionr(Eigen::Map<const Eigen::Matrix<Real, 4, 1>>(pose + 3)) };
-	}
+	else if (!owner.isNew)
+		owner.begin = contact->poseOf(former->second);
 	owner.reached = owner.begin;
 	owners.push_back(owner);
 	system->owners.push_back(inDimension<Dim>(owner.begin.position));
@@ -181,7 +183,7 @@ template <int Dim> void Contacts<Dim>::addMember(const MpmContact& contact, cons
 // What a contact keeps, in numbers of this run.
 template <int Dim> void Contacts<Dim>::recall(const MpmContact& contact)
 {
-	std::map<Body::id_t, int> numbers;
+	Places numbers;
 	for (size_t i = 0; i < members.size(); ++i)
 		numbers[members[i].body->id] = int(i);
 	forRecords(contact.records, [&](const ContactRecordOfPoint& r) {
@@ -234,7 +236,7 @@ template <int Dim> void Contacts<Dim>::scatter(Real time)
 }
 
 // The impulses are those since the last run.
-template <int Dim> void Contacts<Dim>::keep(MpmContact& contact) const
+template <int Dim> void Contacts<Dim>::keep(MpmContact& contact)
 {
 	std::map<Body::id_t, Vector3r> impulses;
 	for (size_t i = 0; i < contact.bodies.size(); ++i)
@@ -243,6 +245,7 @@ template <int Dim> void Contacts<Dim>::keep(MpmContact& contact) const
 	for (size_t i = 0; i < owners.size(); ++i)
 		if (owners[i].contact.get() == &contact) {
 			const auto since = impulses.find(owners[i].body->id);
+			owners[i].place  = contact.bodies.size();
 			contact.keep(
 			        owners[i].body->id, system->loads[i], owners[i].reached, owners[i].isFree,
 			        since == impulses.end() ? Vector3r(Vector3r::Zero()) : since->second);
@@ -266,9 +269,8 @@ template <int Dim> void Contacts<Dim>::keepRecords() const
 			               inSpace<Dim>(r.normal),
 			               inSpace<Dim>(r.place) }
 		        .appendTo(to.records);
-		const size_t i = std::find(to.bodies.begin(), to.bodies.end(), owner.body->id) - to.bodies.begin();
-		to.touching[i] += r.touches;
-		to.slipping[i] += r.slips;
+		to.touching[owner.place] += r.touches;
+		to.slipping[owner.place] += r.slips;
 	}
 }
 

@@ -6,6 +6,7 @@
 #include "engine/conditions/MpmContact.hpp"
 #include "engine/points/MaterialPoints.hpp"
 #include "yade_api/scene.hpp"
+#include <map>
 
 namespace yade {
 
@@ -39,22 +40,25 @@ private:
 		shared_ptr<Body>       body;
 		Se3r                   begin, target, reached; // of the run; reached: the end of the step
 		bool                   isFree = false, isNew = true;
+		size_t                 place = 0; // in the contact's list of bodies, once that is written
 	};
+	using Places = std::map<Body::id_t, int>; // of bodies in a list
 	struct Member {
 		shared_ptr<Body> body;
 		Se3r             own, first; // as seen from the owner; in space when the run begins
 	};
 
 	void add(const shared_ptr<MpmContact>&, const Scene&, const gimpm::Grid<Dim>&);
-	int  ownerOf(const shared_ptr<MpmContact>&, const Body&, const Scene&);
+	int  ownerOf(const shared_ptr<MpmContact>&, const Places& known, const Body&, const Scene&);
 	void addMember(const MpmContact&, const shared_ptr<Body>&, int owner, const gimpm::Grid<Dim>&);
 	void recall(const MpmContact&);
-	void keep(MpmContact&) const;
+	void keep(MpmContact&);
 	void keepRecords() const;
 
 	vector<shared_ptr<MpmContact>>        given;
 	shared_ptr<gimpm::ContactSystem<Dim>> system; // its terms refer to it
 	vector<Owner>                         owners;
+	Places                                ownersById;
 	vector<Member>                        members; // as the system's bodies
 	vector<Body::id_t>                    points;  // ids
 	bool                                  yadeMoves = false, hasKept = false;

@@ -43,22 +43,27 @@ namespace {
 	}
 }
 
+static std::set<Body::id_t> idsOfContacts(const MpmImplicitEngine& engine, const Scene& scene)
+{
+	std::set<Body::id_t> ids;
+	for (const auto& contact : engine.contacts)
+		for (const auto& body : bodiesOf(*contact, scene))
+			ids.insert(body->id);
+	return ids;
+}
+
 // Nor a rigid body, which would be moved twice.
 static void requireOnlyContact(const MpmImplicitEngine& engine)
 {
-	std::set<Body::id_t> own;
-	for (const auto& contact : engine.contacts)
-		for (const auto& body : bodiesOf(*contact, *engine.scene))
-			own.insert(body->id);
 	for (const auto& listed : engine.scene->engines) {
 		const auto* other = dynamic_cast<const MpmImplicitEngine*>(listed.get());
-		if (!other || other == &engine || other->dead) continue;
-		for (const auto& contact : other->contacts)
-			for (const auto& body : bodiesOf(*contact, *engine.scene))
-				if (own.count(body->id))
-					throw std::invalid_argument(
-					        "Body #" + std::to_string(body->id)
-					        + " is claimed by contacts of two MpmImplicitEngines; give these MpmContacts masks that go with different bodies.");
+		if (!other || other == &engine || other->dead || other->contacts.empty()) continue;
+		const auto own = idsOfContacts(engine, *engine.scene);
+		for (const Body::id_t id : idsOfContacts(*other, *engine.scene))
+			if (own.count(id))
+				throw std::invalid_argument(
+				        "Body #" + std::to_string(id)
+				        + " is claimed by contacts of two MpmImplicitEngines; give these MpmContacts masks that go with different bodies.");
 	}
 }
 

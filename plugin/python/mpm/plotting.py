@@ -11,13 +11,11 @@ from .fields import labelled
 from .files import replacing
 from .library import engine
 from .messages import brief, pathOf
-from .rigid import outline, touched
+from .rigid import outline, touchable
+from .sections import boxEdges, cut, inOrder, signs, triangleSides
 
 _axes = 'xyz'
-_signs = np.array([(x, y, z) for z in (-1, 1) for y in (-1, 1) for x in (-1, 1)])  # of the corners of a box
 _around = [0, 1, 3, 2]  # those of its lower face, in order
-_edges = np.array([(i, j) for i in range(8) for j in range(i) if np.abs(_signs[i] - _signs[j]).sum() == 2])
-_sides = np.array([(0, 1), (1, 2), (2, 0)])  # of a triangle
 _faceColour, _cellColour, _boundaryColour, _loadColour, _wallColour = '#d9480f', '#868e96', '#ffe8cc', '#0b7285', '#5f3dc4'
 _rigidColour = '#212529'
 
@@ -91,25 +89,14 @@ class _Section:
 		if self.normal is None: return corners[:, _around][:, :, self.shown], np.arange(len(corners))
 		above = corners[..., self.normal] > self.at
 		kept = np.flatnonzero(above.any(axis=1) & ~above.all(axis=1))
-		return [self._outline(corners[i], above[i]) for i in kept], kept
+		return [inOrder(cut(corners[i], above[i], boxEdges, self.normal, self.at)) for i in kept], kept
 
 	def lines(self, corners):
 		"""(M, 2, 2) ends in the picture of the segments or cut triangles (N, 2 or 3, 3) that the section meets, and their indices."""
 		if self.normal is None: return corners[:, :, self.shown], np.arange(len(corners))
 		above = corners[..., self.normal] > self.at
 		kept = np.flatnonzero(above.any(axis=1) & ~above.all(axis=1))
-		return np.array([self._cut(corners[i], above[i], _sides) for i in kept]).reshape(-1, 2, 2), kept
-
-	def _cut(self, corners, above, edges):
-		"""Where the section cuts those of the edges, pairs of corners, of which one end is above it."""
-		low, high = edges[above[edges[:, 0]] != above[edges[:, 1]]].T
-		share = (self.at - corners[low, self.normal]) / (corners[high, self.normal] - corners[low, self.normal])
-		return (corners[low] + share[:, None] * (corners[high] - corners[low]))[:, self.shown]
-
-	def _outline(self, corners, above):
-		cut = self._cut(corners, above, _edges)
-		middle = cut.mean(axis=0)
-		return cut[np.argsort(np.arctan2(*(cut - middle).T))]  # convex: in order around its middle
+		return np.array([cut(corners[i], above[i], triangleSides, self.normal, self.at) for i in kept]).reshape(-1, 2, 2), kept
 
 
 def _slicePlane(plane, points):
@@ -128,7 +115,7 @@ def _slicePlane(plane, points):
 
 def _corners(points, deformed):
 	"""(N, 8, 3) corners of the matter of each point."""
-	box = _signs * points['halfSize0'][:, None, :]
+	box = signs * points['halfSize0'][:, None, :]
 	return points['pos'][:, None, :] + np.einsum('pij,pcj->pci', points['defGrad'], box) if deformed else points['pos0'][:, None, :] + box
 
 
@@ -197,7 +184,7 @@ def _drawRigid(ax, section, solver):
 	normal, at = (2, 0) if section.normal is None else (section.normal, section.at)
 	low, high = ax.dataLim.get_points()
 	margin = 0.3 * (high - low).max()
-	lines = [outline(body, normal, at, (low, high)) for body in touched(solver)]
+	lines = [outline(body, normal, at, (low, high)) for body in touchable(solver)]
 	ax.add_collection(LineCollection([line for line in lines if len(line)], colors=_rigidColour, linewidths=1.2, zorder=5, label='rigid bodies'), autolim=False)
 	for line in lines:
 		ax.update_datalim(line.clip(low - margin, high + margin))

@@ -4,13 +4,13 @@
 import numpy as np
 from yade import O, Box, Facet, Sphere, Vector3, Wall
 
+from .library import engine
+from .sections import boxEdges, cut, inOrder, signs, triangleSides
 
-def touched(solver):
+
+def touchable(solver):
 	"""Bodies that the contacts of a solver mean."""
-	from yade import MpmPoint
-	masks = [contact.mask for contact in solver.contacts]
-	meant = lambda body: any(mask in (0, -1) or body.groupMask & mask for mask in masks)
-	return [body for body in O.bodies if body.shape and not body.isClump and not isinstance(body.shape, MpmPoint) and meant(body)]
+	return [O.bodies[number] for number in engine.touchableBodies(solver)]
 
 
 def outline(body, normal, at, limits):
@@ -21,15 +21,11 @@ def outline(body, normal, at, limits):
 	shape, shown = body.shape, [axis for axis in (0, 1, 2) if axis != normal]
 	if isinstance(shape, Sphere): return _circle(np.array(body.state.pos), shape.radius, normal, at, shown)
 	if isinstance(shape, Wall): return _line(shape.axis, body.state.pos[shape.axis], normal, shown, limits)
-	if isinstance(shape, Facet): return _cut(_inSpace(body, shape.vertices), [(0, 1), (1, 2), (2, 0)], normal, at)[:, shown]
-	if not isinstance(shape, Box): return np.empty((0, 2))
-	signs = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)])
-	edges = [(i, j) for i in range(8) for j in range(i) if np.abs(signs[i] - signs[j]).sum() == 2]
-	around = _cut(_inSpace(body, signs * np.array(shape.extents)), edges, normal, at)[:, shown]
-	if not len(around): return around
-	away = around - around.mean(axis=0)
-	around = around[np.argsort(np.arctan2(away[:, 1], away[:, 0]))]
-	return np.concatenate([around, around[:1]])
+	if isinstance(shape, Facet): corners, edges = _inSpace(body, shape.vertices), triangleSides
+	elif isinstance(shape, Box): corners, edges = _inSpace(body, signs * np.array(shape.extents)), boxEdges
+	else: return np.empty((0, 2))
+	ends = cut(corners, corners[:, normal] >= at, edges, normal, at)
+	return np.concatenate([inOrder(ends), inOrder(ends)[:1]]) if len(ends) else ends
 
 
 def _inSpace(body, corners):
@@ -47,12 +43,3 @@ def _line(axis, place, normal, shown, limits):
 	ends = np.array(limits, float)
 	ends[:, shown.index(axis)] = place
 	return ends
-
-
-def _cut(corners, edges, normal, at):
-	"""(M, 3) points where edges meet the plane; those that begin in it count as above."""
-	above = corners[:, normal] >= at
-	cut = [(i, j) for i, j in edges if above[i] != above[j]]
-	if not cut: return np.empty((0, 3))
-	a, b = corners[[i for i, _ in cut]], corners[[j for _, j in cut]]
-	return a + ((at - a[:, normal]) / (b - a)[:, normal])[:, None] * (b - a)
