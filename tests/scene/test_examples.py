@@ -166,6 +166,14 @@ def test_earth_pressure(yade):
 	assert (run.folder / 'out/earth_pressure/earth_pressure.png').stat().st_size > 20000
 
 
+def test_earth_pressure_on_a_body(yade):
+	"""A Box that moves by a whole coarse cell: Rankine with the sand that is behind it then."""
+	run = yade(root / 'examples' / 'earth_pressure' / 'earth_pressure.py', '--contact', 1, '--cells', 5, '--steps', 10, '--movement', 1)
+	off = re.findall(r'of now: theory \S+ \((\S+) %\)', run.stdout)
+	assert len(off) == 2 and all(abs(float(percent)) < 0.5 for percent in off), run.stdout
+	assert (run.folder / 'out/earth_pressure/contact.png').stat().st_size > 20000
+
+
 def test_laboratory(yade):
 	"""Every law has a curve, and every curve its closed form."""
 	run = yade(root / 'examples' / 'laboratory' / 'laboratory.py', '--steps', 50)
