@@ -1,51 +1,65 @@
 #!/usr/bin/env yade
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""DEM grains are poured onto ground of material points, in one scene: YADE moves the grains, which touch each other by its laws and the ground by
-MpmContact; the ground is in equilibrium with them every N iterations of YADE.
+"""DEM grains are poured onto ground of material points, in one scene, and a plough moves through both: YADE moves the grains, which touch each other and the plough
+by its laws and the ground by MpmContact; the ground is in equilibrium with them every N iterations of YADE.
 
-When all has come to rest, the ground carries the weight of the grains.
+When all has come to rest, the ground carries the weight of the grains. Then the plough, a clump of three spheres, sinks into the clay on its first decimetre and goes on level.
 
-Run it with `scripts/run examples/grains_on_soil/grains_on_soil.py [options]`; four seconds of 200 grains take a minute.
+Run it with `scripts/run examples/grains_on_soil/grains_on_soil.py [options]`; --travel 0 is the grains alone.
 """
 import os
 import sys
 import time
 
 from yade import mpm, utils
+import matplotlib
+matplotlib.use('Agg')
+import matplotlib.pyplot as plt
 import numpy as np
 sys.path.insert(0, os.path.join(os.path.dirname(sys.argv[0]), '..'))
 from options import readOptions
 
 options = readOptions('Grains poured onto soil.',
         grains=(200, 'number of grains, of 10 cm'),
-        every=(25, 'iterations of YADE from one equilibrium of the ground to the next'),
-        seconds=(4., 'that are simulated'),
+        every=(50, 'iterations of YADE from one equilibrium of the ground to the next'),
+        seconds=(3., 'that the grains have to come to rest'),
+        travel=(0.5, 'of the plough [m]; 0: there is none'),
+        sink=(0.03, 'of the plough into the ground [m]'),
         stiffness=(20., 'of the contact, over E / h'))
 began = time.time()
-width, depth, h, radius = 0.8, 0.3, 0.1, 0.05
+length, width, depth, h, radius = 1.4, 0.8, 0.3, 0.1, 0.05
+speed, share, above = 0.25, 0.12, 0.02  # of the plough [m/s], radius of its spheres [m], height at which it waits
 
-O.materials.append(MpmElasticMat(young=2e6, poisson=0.2, density=1600, label='ground'))
+O.materials.append(MpmVonMisesMat(young=2e6, poisson=0.3, density=1600, yieldStress=np.sqrt(2) * 5e3, label='ground'))  # clay, c_u = 5 kPa
 O.materials.append(FrictMat(young=1e6, poisson=0.3, density=2600, frictionAngle=radians(27), label='grain'))
 O.materials.append(FrictMat(young=1e6, poisson=0.3, frictionAngle=0, label='glass'))  # rough walls would bear a part of the weight
 grid = MpmGrid(cellSize=h, dim=3)
-O.bodies.append(mpm.fill(pack.inAlignedBox((0, 0, -depth), (width, width, 0)), grid, 2, 'ground'))
+O.bodies.append(mpm.fill(pack.inAlignedBox((0, 0, -depth), (length, width, 0)), grid, 2, 'ground'))
+
+plough = members = None
+if options.travel:
+	spheres = [utils.sphere((0.25, y, share + above), share, material='grain', mask=3) for y in (width / 2 - h, width / 2, width / 2 + h)]
+	plough, members = O.bodies.appendClumped(spheres)
+	O.bodies[plough].dynamic = False
 
 # layers of grains above each other, and walls around them which only they touch: grains have the bits 1 and 2, walls 2, and the contact means 1
-perSide = int((width - 4 * radius) / (2.2 * radius))
-shake = np.random.default_rng(1).uniform(-0.1, 0.1, (options.grains, 2)) * radius
-grains = []
-for i in range(options.grains):
-	column, layer = i % perSide**2, i // perSide**2
-	x, y = (2 * radius + 1.1 * radius + 2.2 * radius * np.array([column % perSide, column // perSide]) + shake[i])
-	grains.append(O.bodies.append(utils.sphere((x, y, radius * (1.1 + 2.3 * layer)), radius, material='grain', mask=3)))
-for axis in 0, 1:
-	for at, sense in (0.5 * h, 1), (width - 0.5 * h, -1):
+shake = np.random.default_rng(1)
+rows = [int((size - 4 * radius) / (2.2 * radius)) for size in (length, width)]
+grains, place = [], 0
+while len(grains) < options.grains:
+	layer, rest = divmod(place, rows[0] * rows[1])
+	x, y = 3.1 * radius + 2.2 * radius * np.array(divmod(rest, rows[1])) + shake.uniform(-0.1, 0.1, 2) * radius
+	place, z = place + 1, radius * (1.1 + 2.3 * layer)
+	free = not members or min(np.linalg.norm(O.bodies[i].state.pos - Vector3(x, y, z)) for i in members) > share + radius
+	if free: grains.append(O.bodies.append(utils.sphere((x, y, z), radius, material='grain', mask=3)))
+for axis, end in enumerate((length, width)):
+	for at, sense in (0.5 * h, 1), (end - 0.5 * h, -1):
 		O.bodies.append(utils.wall(at, axis=axis, sense=sense, material='glass', mask=2))
 
 sides = [MpmBoundary(max=(inf, inf, -depth), fix='xyz')]
 for axis, letter in enumerate('xy'):
 	low, high = np.full(3, inf), np.full(3, -inf)
-	low[axis], high[axis] = 0, width
+	low[axis], high[axis] = 0, (length, width)[axis]
 	sides += [MpmBoundary(max=low, fix=letter), MpmBoundary(min=high, fix=letter)]
 O.engines = [
         ForceResetter(),
@@ -73,6 +87,51 @@ for part in range(parts):
 	print(f'{O.time:.2f}  {-onGround / weight:.4f}  {solver.reactions[0][2] / weight:.4f}  {max(O.bodies[i].state.vel.norm() for i in grains):.4f}  {solver.iterations}')
 print(f'reaction of the base over weight: {solver.reactions[0][2] / weight:.5f}; {time.time() - began:.0f} s')
 
-ax = mpm.plot('stress_zz', plane=('y', width / 2))
-ax.figure.savefig(os.path.join(options.out, 'grains_on_soil.png'), dpi=110, bbox_inches='tight')
-print(f'written: {options.out}/grains_on_soil.png')
+
+def picture(name, shown):
+	"""Section near the middle, of the ground and what stands on it."""
+	ax = mpm.plot(shown, plane=('y', width / 2 + 0.02))  # not between two rows of points
+	ax.figure.savefig(os.path.join(options.out, name + '.png'), dpi=110, bbox_inches='tight')
+	print(f'written: {options.out}/{name}.png')
+
+
+def fromGrains():
+	"""Force of the grains on the plough [N]."""
+	force = np.zeros(3)
+	for member in members:
+		for contact in O.bodies[member].intrs():
+			if contact.isReal: force += (-1 if contact.id1 == member else 1) * np.array(contact.phys.normalForce + contact.phys.shearForce)
+	return force
+
+
+def fromGround():
+	contact = solver.contacts[0]
+	return np.array(contact.forces[contact.bodies.index(plough)])
+
+
+def drive():
+	"""Forces on the plough along its travel: (M, 7), travel [m], of the grains and of the ground [N]."""
+	state, start, found = O.bodies[plough].state, O.bodies[plough].state.pos[0], []
+	while state.pos[0] < start + options.travel:
+		state.vel = (speed, 0, -speed * (options.sink + above) / 0.1 if state.pos[0] < start + 0.1 else 0)
+		O.run(options.every, wait=True)
+		found.append([state.pos[0] - start, *fromGrains(), *fromGround()])
+	return np.array(found)
+
+
+picture('grains_on_soil', 'stress_zz')
+if options.travel:
+	began = time.time()
+	found = drive()
+	print('travel [m]  against it [N]: of the grains  of the ground  upwards [N]: of the grains  of the ground')
+	for part in np.array_split(found, min(len(found), 12)):  # means
+		print('{:.3f}  {:.1f}  {:.1f}  {:.1f}  {:.1f}'.format(part[-1, 0], *(part[:, [1, 4, 3, 6]].mean(axis=0) * (-1, -1, 1, 1))))
+	print(f'{len(found)} equilibria, {time.time() - began:.0f} s')
+	picture('plough', 'plasticStrain')
+	figure, axis = plt.subplots(figsize=(7, 3.2), layout='constrained')
+	for column, label in (1, 'of the grains'), (4, 'of the ground'):
+		axis.plot(found[:, 0], -found[:, column], label=label, linewidth=0.9)
+	axis.set(xlabel='travel [m]', ylabel='force against the plough [N]')
+	axis.legend(frameon=False)
+	figure.savefig(os.path.join(options.out, 'force.png'), dpi=110)
+	print(f'written: {options.out}/force.png')
