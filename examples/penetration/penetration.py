@@ -7,7 +7,8 @@
 	tbar       a cylinder, wished in place in clay without weight under a pressure of 15 c_u, and moved through it in plane strain, half by symmetry: resistance
 	           over D c_u, plasticity theory 9.14 (smooth) and 11.94 (rough; Randolph and Houlsby 1984)
 	sphere     a smooth Sphere on an elastic half-space, axisymmetric, in a box 15 contact radii wide and deep: force of Hertz
-	cylinder   the same in plane strain, where a Sphere is a cylinder: half width and pressure of the contact for the measured force
+	free       the same in 3D, a quarter of it, and free: YADE lets the Sphere sink under its weight, which is the force of Hertz, until it rests
+	cylinder   the Sphere in plane strain, where a Sphere is a cylinder: half width and pressure of the contact for the measured force
 
 Run it with `scripts/run examples/penetration/penetration.py [options]`, or by yade-batch with penetration.table.
 """
@@ -21,12 +22,13 @@ sys.path.insert(0, os.path.join(os.path.dirname(sys.argv[0]), '..'))
 from options import readOptions
 
 options = readOptions('Rigid bodies pressed into soil.',
-        scene=('footing', "'plate', 'footing', 'tbar', 'sphere' or 'cylinder'"),
+        scene=('footing', "'plate', 'footing', 'tbar', 'sphere', 'free' or 'cylinder'"),
         cells=(8, 'cells over half the width of the footing, over the radius of the bar, or over that of the contact'),
         pointsPerCell=(2, 'material points per cell and axis; the bar needs 4, as its round side is made of their corners'),
         depth=(0.1, 'of the footing at the end, as a part of its width B, or way of the bar, as a part of D'),
-        steps=(0, 'load steps; 0: 200 for a width, 20 for a cell of the bar, 10 for sphere and cylinder'),
+        steps=(0, 'load steps; 0: 200 for a width, 20 for a cell of the bar, 10 for sphere and cylinder, 80 equilibria for the free sphere'),
         stiffness=(100., 'of the contact, over E / h'),
+        every=(4, 'iterations of YADE from one equilibrium of the soil to the next, for the free Sphere'),
         rough=(0, '1: clay sticks to the footing up to c_u, 0: it slips freely'),
         picture=(1, '1: draw one, 0: only numbers'))
 began = time.time()
@@ -116,10 +118,45 @@ def footing():
 	return 'plasticStrain', lambda ax: ax.set(xlim=(0, 1.5 * B), ylim=(-1.2 * B, 0.6 * B))
 
 
+E, nu, R = 1e6, 0.3, 1.  # of the half-space, and of the Sphere
+stiffness = E / (1 - nu**2)
+a = 0.1 * R
+
+
+def sinking(F, size):
+	"""What a half-space gives way at the depth *size* below a force (Boussinesq): the base of the box does not."""
+	return F * (1 + nu) * (3 - 2 * nu) / (2 * np.pi * E * size)
+
+
+def free():
+	h = a / options.cells
+	size = np.ceil(6 * a / h) * h
+	grid = MpmGrid(cellSize=h, dim=3)
+	O.materials.append(MpmElasticMat(young=E, poisson=nu, density=1, label='soil'))
+	O.materials.append(FrictMat(label='rigid'))
+	O.bodies.append(mpm.fill(pack.inAlignedBox((0, 0, -size), (size, size, 0)), grid, options.pointsPerCell, 'soil'))
+	ball = O.bodies[O.bodies.append(utils.sphere((0, 0, R), R, material='rigid'))]
+	weight = 4 / 3 * stiffness * a**3 / R
+	ball.state.mass, ball.state.blockedDOFs = weight / 10 / 4, 'xyXYZ'  # a quarter of it, as there is of the soil
+	contact = MpmContact(friction=0, stiffness=options.stiffness)
+	sides = [MpmBoundary(max=(0, inf, inf), fix='x'), MpmBoundary(max=(inf, 0, inf), fix='y'), MpmBoundary(max=(inf, inf, -size), fix='z')]
+	sides += [MpmBoundary(min=(size, -inf, -inf), fix='x'), MpmBoundary(min=(-inf, size, -inf), fix='y')]
+	soil = MpmImplicitEngine(grid=grid, boundaries=sides, contacts=[contact], iterPeriod=options.every, verbosity=0, label='solver')
+	O.engines = [ForceResetter(), soil, NewtonIntegrator(gravity=(0, 0, -10), damping=0.5)]
+	O.dt = 0.04 * a / np.sqrt(15 * R)  # of the period over 2 pi
+	print('time [s]  sunk [m]  force over weight')
+	for _ in range(options.steps or 80):
+		O.run(options.every, wait=True)
+		solves.append(solver.iterations)
+		F = 4 * contact.forces[0][2]
+		sunk = R - ball.state.pos[2]
+		if len(solves) % 5 == 0: print(f'{O.time:.3f}  {sunk:.6f}  {F / weight:.4f}')
+	hertz = a**2 / R - sinking(weight, size)
+	print(f'at rest: sunk by {sunk:.5f} m; Hertz, less what a half-space gives way at the base, {hertz:.5f} m ({100 * (sunk / hertz - 1):+.1f} %)')
+	return 'stress_zz', lambda ax: ax.set(xlim=(0, 3 * a), ylim=(-3 * a, 1.5 * a))
+
+
 def halfSpace(axisymmetric):
-	E, nu, R = 1e6, 0.3, 1.
-	stiffness = E / (1 - nu**2)
-	a = 0.1 * R
 	h = a / options.cells
 	size = np.ceil(15 * a / h) * h
 	grid = MpmGrid(cellSize=h, axisymmetric=axisymmetric)
@@ -136,7 +173,7 @@ def halfSpace(axisymmetric):
 	F = contact.forces[0][1] * (1 if axisymmetric else 2)
 	if axisymmetric:
 		sunk = R - ball.state.pos[1]
-		base = F * (1 + nu) * (3 - 2 * nu) / (2 * np.pi * E * size)  # what a half-space gives way at the place of the base (Boussinesq)
+		base = sinking(F, size)
 		hertz = 4 / 3 * stiffness * np.sqrt(R) * (sunk + base)**1.5
 		print(f'sunk by {sunk:.5f} m, and by {base:.5f} m more on a half-space: F = {F:.1f} N, Hertz {hertz:.1f} N ({100 * (F / hertz - 1):+.1f} %)')
 	else: compareLine(F, R, stiffness, h)
@@ -155,7 +192,7 @@ def compareLine(F, R, stiffness, h):
 	print(f'largest mean pressure in a cell {pressure.max():.0f} Pa, Hertz {largest:.0f} Pa ({100 * (pressure.max() / largest - 1):+.1f} %)')
 
 
-draw = dict(plate=plate, footing=footing, tbar=tbar, sphere=lambda: halfSpace(True), cylinder=lambda: halfSpace(False))[options.scene]()
+draw = dict(plate=plate, footing=footing, tbar=tbar, sphere=lambda: halfSpace(True), free=free, cylinder=lambda: halfSpace(False))[options.scene]()
 print(f'{len(mpm.arrays()["id"])} material points, {sum(solves)} iterations in {len(solves)} steps, {time.time() - began:.1f} s')
 if options.picture:
 	field, limit = draw[0], draw[1]
