@@ -25,6 +25,7 @@ groups = { # a map of outcomes for each
         'friction': ('Friction', ['friction', 'frictionCone', 'dilation', 'cohesion']),
         'soils': ('Cam clay and sand', ['camClay', 'camClayFooting', 'sandSlope']),
         'locking': ('F-bar', ['overlapFBar', 'yieldFBar', 'bending', 'bendingFBar', 'compressionFBar']),
+        'contact': ('Contact', ['contactPenalty', 'contactFriction', 'contactSteps', 'contactHeight', 'contactRadius', 'contactClamped']),
         'motion': ('Load and motion', ['strain', 'steps', 'compression', 'free', 'turns', 'turnStep']),
 }
 
@@ -75,6 +76,12 @@ axes = {
         'camClayFooting': Axis('the same, under a footing [-]', ratios, quick=[20.]),
         'sandSlope': Axis('angle of a slope of sand of 35 degrees / cohesion', [f'{a}/{c:g}' for c in (0., 1e-3) for a in (10, 20, 25, 30, 33, 35, 40)], dims=(2, ), quick=['25/0']),
         'softeningGrid': Axis('cells over the width of a block that softens / softening', [f'{n}/{kind}' for kind in ('none', 'same', 'scaled') for n in (8, 16, 32)], dims=(2, ), quick=['8/same'], ghosts=ghosts[1:2], listed=False),
+        'contactPenalty': Axis('stiffness of a contact; a plate presses a block to .75 of its height [-]', powers(-1, 6), quick=[1e2]),
+        'contactFriction': Axis('friction angle of a plate that is dragged over a block [degrees]', [0., 1., 5., 10., 20., 30., 40., 45.], quick=[30.]),
+        'contactSteps': Axis('load steps in which a plate presses a block to half its height', [1, 2, 3, 5, 10, 30, 100], dims=(2, ), quick=[10]),
+        'contactHeight': Axis('height of a pressed block over the one before, Poisson 0.3 [-]', [.9, .7, .5, .3, .2, .15, .1], dims=(2, ), quick=[.5]),
+        'contactRadius': Axis('cells over the radius of the contact of a sphere, .1 R, axisymmetric', [.5, 1, 2, 3, 4, 6, 8], dims=(2, ), quick=[1]),
+        'contactClamped': Axis('points per cell and axis of a block that grows by a quarter up to a wall', [1, 2, 3, 4], dims=(2, ), quick=[2]),
         'columnFactor': Axis('cells over the height of a column that shrinks to half of it / ghost factor', [f'{n}/{f:g}' for n in (8, 32, 128) for f in factors], dims=(2, ), quick=['8/0.01'], ghosts=ghosts[1:2], listed=False),
         'slopeFactor': Axis('cells in a metre of the slope / ghost factor', [f'{n}/{f:g}' for n in (1, 2) for f in factors], dims=(2, ), ghosts=ghosts[1:2], listed=False),
         'corner': Axis('overlap along x / along y [h]', [f'{x:g}/{y:g}' for x in corners for y in corners], dims=(2, ), quick=['0.001/0.1'], listed=False),

@@ -19,6 +19,7 @@ here = os.path.dirname(os.path.abspath(sys.argv[0]))
 sys.path[:0] = [here, os.path.join(here, '..', '..', 'scripts', 'lib')]
 import pivots
 from common import cellSize, fullNewton, stabilisation, young
+from contacts import contactScene
 from slopes import weakLayerSlope
 from soils import Band, Clay, SandSlope, friction, frictional, tresca, vonMises
 
@@ -181,6 +182,7 @@ def thinnedAtRandom(column, part):
 
 def scene(axis, dim, ghost, value):
 	"""The scene of a case."""
+	if (touched := contactScene(axis, dim, ghost, value)) is not None: return touched
 	if axis == 'overlap': return Column(dim, ghost, overlap=(value, value))
 	if axis == 'factor': return Column(dim, ghost, overlap=(1e-4, 1e-4), factor=value)
 	if axis == 'poisson': return Column(dim, ghost, confined=True, poisson=value)

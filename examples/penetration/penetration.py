@@ -130,7 +130,7 @@ def sinking(F, size):
 
 def free():
 	h = a / options.cells
-	size = np.ceil(6 * a / h) * h
+	size = 6 * a
 	grid = MpmGrid(cellSize=h, dim=3)
 	O.materials.append(MpmElasticMat(young=E, poisson=nu, density=1, label='soil'))
 	O.materials.append(FrictMat(label='rigid'))
@@ -151,9 +151,9 @@ def free():
 		F = 4 * contact.forces[0][2]
 		sunk = R - ball.state.pos[2]
 		if len(solves) % 5 == 0: print(f'{O.time:.3f}  {sunk:.6f}  {F / weight:.4f}')
-	hertz = a**2 / R - sinking(weight, size)
-	print(f'at rest: sunk by {sunk:.5f} m; Hertz, less what a half-space gives way at the base, {hertz:.5f} m ({100 * (sunk / hertz - 1):+.1f} %)')
-	return 'stress_zz', lambda ax: ax.set(xlim=(0, 3 * a), ylim=(-3 * a, 1.5 * a))
+	hertz = (3 * F / (4 * stiffness * np.sqrt(R)))**(2 / 3) - sinking(F, size)
+	print(f'force over weight {F / weight:.4f}, sunk by {sunk:.5f} m; Hertz for that force, less what a half-space gives way at the base, {hertz:.5f} m ({100 * (sunk / hertz - 1):+.1f} %)')
+	return 'stress_zz', lambda ax: ax.set(xlim=(0, 3 * a), ylim=(-3 * a, 1.5 * a)), ('y', h / 4)
 
 
 def halfSpace(axisymmetric):
@@ -195,8 +195,8 @@ def compareLine(F, R, stiffness, h):
 draw = dict(plate=plate, footing=footing, tbar=tbar, sphere=lambda: halfSpace(True), free=free, cylinder=lambda: halfSpace(False))[options.scene]()
 print(f'{len(mpm.arrays()["id"])} material points, {sum(solves)} iterations in {len(solves)} steps, {time.time() - began:.1f} s')
 if options.picture:
-	field, limit = draw[0], draw[1]
-	ax = mpm.plot(field)
+	field, limit, *plane = draw
+	ax = mpm.plot(field, plane=plane[0] if plane else None)
 	limit(ax)
 	name = 'penetration' if options.scene == 'footing' else options.scene
 	ax.figure.savefig(os.path.join(options.out, name + '.png'), dpi=110, bbox_inches='tight')

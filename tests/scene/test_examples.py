@@ -253,7 +253,7 @@ def test_tube(yade):
 
 def test_penetration(yade):
 	"""Coarse grids: within 12 % of Prandtl, Hertz and Randolph, whom finer ones come closer to."""
-	for scene, options in dict(footing=('--cells', 4, '--depth', 0.03), sphere=('--cells', 3, '--steps', 4), cylinder=('--cells', 3, '--steps', 4),
+	for scene, options in dict(footing=('--cells', 4, '--depth', 0.03), sphere=('--cells', 3, '--steps', 4), cylinder=('--cells', 3, '--steps', 4), free=('--cells', 1, '--stiffness', 20),
 	                           tbar=('--cells', 3, '--pointsPerCell', 4, '--depth', 0.2, '--stiffness', 20)).items():
 		run = yade(root / 'examples' / 'penetration' / 'penetration.py', '--scene', scene, *options)
 		errors = [float(error) for error in re.findall(r'\(([-+][0-9.]+) %\)', run.stdout)]
@@ -262,9 +262,12 @@ def test_penetration(yade):
 
 
 def test_grains_on_soil(yade):
-	"""Of a few grains, still moving: the base bears what the ground feels."""
-	run = yade(root / 'examples' / 'grains_on_soil' / 'grains_on_soil.py', '--grains', 9, '--seconds', 0.3, '--every', 50)
+	"""Of a few grains, still moving: the base bears what the ground feels. A plough that goes down finds grains first, then the ground."""
+	script = root / 'examples' / 'grains_on_soil' / 'grains_on_soil.py'
+	run = yade(script, '--grains', 9, '--seconds', 0.3, '--every', 50, '--travel', 0.1)
 	rows = [[float(number) for number in line.split()] for line in run.stdout.splitlines() if re.match(r'0\.[0-9]+  ', line)]
-	assert len(rows) == 12 and rows[-1][1] > 0
-	assert all(abs(row[1] - row[2]) < 1e-3 for row in rows)
-	assert (run.folder / 'out/grains_on_soil/grains_on_soil.png').stat().st_size > 10000
+	grains, plough = rows[:12], rows[12:]
+	assert grains[-1][1] > 0 and all(abs(row[1] - row[2]) < 1e-3 for row in grains)
+	assert len(plough) == 12 and plough[0][1] > 0 == plough[0][2] and 500 < plough[-1][2] < plough[-1][4]
+	for picture in 'grains_on_soil', 'plough', 'force':
+		assert (run.folder / f'out/grains_on_soil/{picture}.png').stat().st_size > 10000
