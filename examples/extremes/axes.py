@@ -25,7 +25,7 @@ groups = { # a map of outcomes for each
         'friction': ('Friction', ['friction', 'frictionCone', 'dilation', 'cohesion']),
         'soils': ('Cam clay and sand', ['camClay', 'camClayFooting', 'sandSlope']),
         'locking': ('F-bar', ['overlapFBar', 'yieldFBar', 'bending', 'bendingFBar', 'compressionFBar']),
-        'contact': ('Contact', ['contactPenalty', 'contactFriction', 'contactSteps', 'contactHeight', 'contactRadius', 'contactClamped']),
+        'contact': ('Contact', ['contactPenalty', 'contactFriction', 'contactSteps', 'contactThin', 'contactHeight', 'contactRadius', 'contactClamped']),
         'motion': ('Load and motion', ['strain', 'steps', 'compression', 'free', 'turns', 'turnStep']),
 }
 
@@ -79,6 +79,7 @@ axes = {
         'contactPenalty': Axis('stiffness of a contact; a plate presses a block to .75 of its height [-]', powers(-1, 6), quick=[1e2]),
         'contactFriction': Axis('friction angle of a plate that is dragged over a block [degrees]', [0., 1., 5., 10., 20., 30., 40., 45.], quick=[30.]),
         'contactSteps': Axis('load steps in which a plate presses a block to half its height', [1, 2, 3, 5, 10, 30, 100], dims=(2, ), quick=[10]),
+        'contactThin': Axis('thickness of a plate over how far it moves in a step, a tenth of a cell [-]', [20., 5., 2., 1., .5, .2, .1, .01], dims=(2, ), quick=[1.]),
         'contactHeight': Axis('height of a pressed block over the one before, Poisson 0.3 [-]', [.9, .7, .5, .3, .2, .15, .1], dims=(2, ), quick=[.5]),
         'contactRadius': Axis('cells over the radius of the contact of a sphere, .1 R, axisymmetric', [.5, 1, 2, 3, 4, 6, 8], dims=(2, ), quick=[1]),
         'contactClamped': Axis('points per cell and axis of a block that grows by a quarter up to a wall', [1, 2, 3, 4], dims=(2, ), quick=[2]),

@@ -11,7 +11,7 @@ O = Omega()
 
 
 class Touched:
-	"""A body of soil, soft walls of YADE's bodies around it to be added.
+	"""A body of soil; the bodies of YADE that touch it are to be added.
 
 	:param size: of the soil [m], from the origin, where rollers hold it
 	:param contact: attributes of the MpmContact
@@ -41,19 +41,23 @@ class Touched:
 block = np.full(3, 4 * cellSize)
 
 
-def plate(axis, at):
+def plate(axis, at, thickness=20 * cellSize):
 	"""A Box whose face is at this coordinate, much wider than the block."""
 	centre, half = block / 2, np.full(3, 20 * cellSize)
-	centre[axis], half[axis] = at + cellSize, cellSize
+	centre[axis], half[axis] = at + thickness / 2, thickness / 2
 	return utils.box(tuple(centre), tuple(half), material='rigid', fixed=True)
 
 
 class Pressed(Touched):
-	"""By a plate, to this part of its height, free on two sides; exact: force per area E / (1 - nu^2) ln(ratio) / ratio in plane strain."""
+	"""By a plate, to this part of its height, free on two sides; exact: force per area E / (1 - nu^2) ln(ratio) / ratio in plane strain.
 
-	def __init__(self, dim, ghost, ratio=.75, steps=10, stiffness=100, poisson=0.):
+	:param thin: thickness of the plate over how far it moves in a step, None: a thick one
+	"""
+
+	def __init__(self, dim, ghost, ratio=.75, steps=10, stiffness=100, poisson=0., thin=None):
 		super().__init__(dim, ghost, steps, block, poisson, contact=dict(stiffness=stiffness))
-		self.move(plate(1, block[1]), (0, (ratio - 1) * block[1], 0))
+		way = (1 - ratio) * block[1]
+		self.move(plate(1, block[1], thin * way / steps) if thin else plate(1, block[1]), (0, -way, 0))
 		self.exact = -young / (1 - poisson**2) * log(ratio) / ratio * block[0] * (block[2] if dim == 3 else 1)
 
 	def error(self):
@@ -79,7 +83,7 @@ class Squeezed(Touched):
 
 	def __init__(self, dim, ghost, points):
 		poisson, grown = .3, 1.25
-		super().__init__(dim, ghost, 20, block, poisson, points)
+		super().__init__(dim, ghost, 20, block, poisson, points, contact=dict(stiffness=1000))
 		self.move(utils.wall(grown * block[1], axis=1, sense=-1, material='rigid'), (0, 0, 0))
 		self.move(plate(0, block[0]), (-block[0] / 2, 0, 0))
 		modulus = young * (1 - poisson) / ((1 + poisson) * (1 - 2 * poisson))
@@ -112,6 +116,7 @@ def contactScene(axis, dim, ghost, value):
 	"""The scene of a case, None if the axis is not one of contact."""
 	if axis == 'contactPenalty': return Pressed(dim, ghost, stiffness=value)
 	if axis == 'contactSteps': return Pressed(dim, ghost, .5, steps=value)
+	if axis == 'contactThin': return Pressed(dim, ghost, thin=value)
 	if axis == 'contactHeight': return Pressed(dim, ghost, value, steps=40, poisson=.3)
 	if axis == 'contactFriction': return Dragged(dim, ghost, value)
 	if axis == 'contactClamped': return Squeezed(dim, ghost, value)

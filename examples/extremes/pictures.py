@@ -16,6 +16,7 @@ failures = { # kinds, by how they begin: letter and colour
         'inverted': ('i', 'tab:purple'),
         'diverging': ('d', 'tab:red'),
         'not converging': ('n', 'tab:orange'),
+        'penetrated': ('p', 'tab:cyan'),
         'thrown': ('t', 'tab:brown'),
         'timeout': ('T', 'tab:pink'),
         'crash': ('X', 'black'),

@@ -233,6 +233,7 @@ kinds = [ # of failures, by what the exception says
         ('not finite', 'not finite'),
         ('thrown off', 'thrown off the grid'),
         ('diverges', 'diverging'),
+        ('whole material point inside', 'penetrated'),
         ('above the tolerance', 'not converging'),
         ('times the tolerance', 'not converging'), # around a node
 ]
