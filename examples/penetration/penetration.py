@@ -61,7 +61,7 @@ def plate():
 	run(options.steps or 25, lambda: None)
 	F, exact = contact.forces[0][1], -E * np.log(0.75) / 0.75 * size
 	print(f'F = {F:.1f} N/m, exact {exact:.1f} N/m ({100 * (F / exact - 1):+.2f} %)')
-	return 'stress_yy', lambda ax: None
+	return F / exact - 1, 'stress_yy', lambda ax: None
 
 
 def tbar():
@@ -87,7 +87,7 @@ def tbar():
 	late = s >= 0.5 * s[-1]
 	exact = 11.94 if options.rough else 9.14
 	print(f'mean from s = {s[late][0]:.2f} to {s[-1]:.2f} D: N = {N[late].mean():.3f}, from {N[late].min():.2f} to {N[late].max():.2f}; theory {exact} ({100 * (N[late].mean() / exact - 1):+.1f} %)')
-	return 'plasticStrain', lambda ax: ax.set(xlim=(-0.1 * D, 1.2 * D), ylim=(-(options.depth + 1) * D, D))
+	return N[late].mean() / exact - 1, 'plasticStrain', lambda ax: ax.set(xlim=(-0.1 * D, 1.2 * D), ylim=(-(options.depth + 1) * D, D))
 
 
 def footing():
@@ -115,7 +115,7 @@ def footing():
 		print(f'beyond .1 B: from its moving mean over a cell N differs by {100 * off.mean():.1f} % on average, in {100 * (off > 0.02).mean():.0f} % of the steps by more than 2 %, at most by {100 * off.max():.0f} %')
 	shallow = np.interp(0.02 * B, s, N)
 	print(f'at s = .02 B: N = {shallow:.3f}, Prandtl {2 + np.pi:.3f} ({100 * (shallow / (2 + np.pi) - 1):+.1f} %)')
-	return 'plasticStrain', lambda ax: ax.set(xlim=(0, 1.5 * B), ylim=(-1.2 * B, 0.6 * B))
+	return shallow / (2 + np.pi) - 1, 'plasticStrain', lambda ax: ax.set(xlim=(0, 1.5 * B), ylim=(-1.2 * B, 0.6 * B))
 
 
 E, nu, R = 1e6, 0.3, 1.  # of the half-space, and of the Sphere
@@ -153,7 +153,7 @@ def free():
 		if len(solves) % 5 == 0: print(f'{O.time:.3f}  {sunk:.6f}  {F / weight:.4f}')
 	hertz = (3 * F / (4 * stiffness * np.sqrt(R)))**(2 / 3) - sinking(F, size)
 	print(f'force over weight {F / weight:.4f}, sunk by {sunk:.5f} m; Hertz for that force, less what a half-space gives way at the base, {hertz:.5f} m ({100 * (sunk / hertz - 1):+.1f} %)')
-	return 'stress_zz', lambda ax: ax.set(xlim=(0, 3 * a), ylim=(-3 * a, 1.5 * a)), ('y', h / 4)
+	return sunk / hertz - 1, 'stress_zz', lambda ax: ax.set(xlim=(0, 3 * a), ylim=(-3 * a, 1.5 * a)), ('y', h / 4)
 
 
 def halfSpace(axisymmetric):
@@ -175,9 +175,10 @@ def halfSpace(axisymmetric):
 		sunk = R - ball.state.pos[1]
 		base = sinking(F, size)
 		hertz = 4 / 3 * stiffness * np.sqrt(R) * (sunk + base)**1.5
-		print(f'sunk by {sunk:.5f} m, and by {base:.5f} m more on a half-space: F = {F:.1f} N, Hertz {hertz:.1f} N ({100 * (F / hertz - 1):+.1f} %)')
-	else: compareLine(F, R, stiffness, h)
-	return 'stress_yy', lambda ax: ax.set(xlim=(0, 3 * a), ylim=(-3 * a, 1.5 * a))
+		error = F / hertz - 1
+		print(f'sunk by {sunk:.5f} m, and by {base:.5f} m more on a half-space: F = {F:.1f} N, Hertz {hertz:.1f} N ({100 * error:+.1f} %)')
+	else: error = compareLine(F, R, stiffness, h)
+	return error, 'stress_yy', lambda ax: ax.set(xlim=(0, 3 * a), ylim=(-3 * a, 1.5 * a))
 
 
 def compareLine(F, R, stiffness, h):
@@ -190,12 +191,13 @@ def compareLine(F, R, stiffness, h):
 	width = np.sqrt(4 * (2 * down * pos[:, 0]**2).sum() / F)  # of the half ellipse with the same second moment
 	print(f'F = {F:.0f} N/m: half width {width / h:.2f} h, Hertz {half / h:.2f} h ({100 * (width / half - 1):+.1f} %)')
 	print(f'largest mean pressure in a cell {pressure.max():.0f} Pa, Hertz {largest:.0f} Pa ({100 * (pressure.max() / largest - 1):+.1f} %)')
+	return width / half - 1
 
 
-draw = dict(plate=plate, footing=footing, tbar=tbar, sphere=lambda: halfSpace(True), free=free, cylinder=lambda: halfSpace(False))[options.scene]()
+error, *drawn = dict(plate=plate, footing=footing, tbar=tbar, sphere=lambda: halfSpace(True), free=free, cylinder=lambda: halfSpace(False))[options.scene]()
 print(f'{len(mpm.arrays()["id"])} material points, {sum(solves)} iterations in {len(solves)} steps, {time.time() - began:.1f} s')
 if options.picture:
-	field, limit, *plane = draw
+	field, limit, *plane = drawn
 	ax = mpm.plot(field, plane=plane[0] if plane else None)
 	limit(ax)
 	name = 'penetration' if options.scene == 'footing' else options.scene

@@ -79,6 +79,14 @@ def locking(scene, cells, words):
 	        quick=dict(cells=cells[:1], fBar=['0', '1']), words=words | dict(fBar='with F-bar'))
 
 
+def contact(scene, steps, together, quick, words, **parameters):
+	"""Plan of a scene of examples/penetration, through MpmContact."""
+	parameters = dict(scene=f"'{scene}'", cells='4', pointsPerCell='2', stiffness='100', steps=steps, picture='0', out="'out'") | parameters
+	return Plan(
+	        script=os.path.join(here, '..', 'penetration', 'penetration.py'), parameters=parameters, together=together, errors=['error'], quick=quick,
+	        words=dict(pointsPerCell='points per cell and axis') | words)
+
+
 perMetre = dict(cells='cells in a metre', pointsPerCell='points per cell and axis')
 perHeight = dict(cells='cells over the height', pointsPerCell='points per cell and axis', stressError='vertical stress, mean over all points')
 
@@ -114,5 +122,13 @@ plans = {
                         quick=dict(cells=['1'], pointsPerCell=['2'], steps=['5']), quickReference=dict(cells='2', steps='10')),
         'footing': locking('strip', ['4', '6', '8', '12', '16', '24'], dict(cells='cells over half the width', error='limit load')),
         'cut': locking('cut', ['5', '10', '20', '40'], dict(cells='cells over the height', error='stability number')),
+        'sphere':
+                contact(
+                        'sphere', '5', dict(cells=['1', '2', '4', '6'], stiffness=['5', '20', '100', '1000'], steps=['2', '5'], pointsPerCell=['2', '3']),
+                        dict(cells=['1', '2'], stiffness=['20']), dict(cells='cells over the radius of the contact', error='force')),
+        'clay':
+                contact(
+                        'footing', '6', dict(cells=['2', '4', '8', '16'], stiffness=['5', '20', '100', '1000'], pointsPerCell=['2', '3']),
+                        dict(cells=['2'], stiffness=['20']), dict(cells='cells over half the width', error='limit load'), depth='0.03'),
         'beam': locking('beam', ['2', '4', '8', '16'], dict(cells='cells over the height', error='deflection')),
 }
