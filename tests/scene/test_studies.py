@@ -34,8 +34,8 @@ def rows(path):
 
 
 def test_extremes(study, tmp_path):
-	arguments = 'contrast', 'turns', 'points', 'softening', 'camClay', 'softeningGrid', '--quick', '--out', tmp_path / 'out'
-	assert '16 cases to run' in study('extremes', *arguments)
+	arguments = 'contrast', 'turns', 'points', 'softening', 'camClay', 'softeningGrid', 'contactPenalty', 'contactClamped', '--quick', '--out', tmp_path / 'out'
+	assert '22 cases to run' in study('extremes', *arguments)
 	results = {(row['axis'], row['ghost']): row for row in rows(tmp_path / 'out/results/atlas.csv')}
 	for ghost in 'none', 'mesh-independent', 'paper':
 		assert float(results['softening', ghost]['error']) < .05 and float(results['camClay', ghost]['error']) < .05
@@ -43,6 +43,7 @@ def test_extremes(study, tmp_path):
 	assert float(results['turns', 'mesh-independent']['error']) < 1e-6 and int(results['turns', 'mesh-independent']['maxIterations']) <= 6
 	assert results['turns', 'none']['failure'] == results['points', 'none']['failure'] == 'singular'
 	assert .3 < float(results['softeningGrid', 'mesh-independent']['measured']) < .95 # of the load before it softened
+	assert float(results['contactPenalty', 'none']['error']) < .01 and float(results['contactClamped', 'mesh-independent']['error']) < .01
 	page = (tmp_path / 'out/README.md').read_text()
 	assert '| the same on all grids |' in page
 	assert '| `contrast` |' in page and '**singular**' in page
