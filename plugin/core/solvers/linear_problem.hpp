@@ -1,24 +1,32 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // What a linear solver is given.
 #pragma once
-#include "core/solvers/csc.hpp"
+#include "core/solvers/node_problem.hpp"
 #include <utility>
-#include <variant>
 
 namespace gimpm {
 
-/// The matrix of K x = b on the free degrees of freedom, in one of its two forms.
+/// The matrix of K x = b on the free degrees of freedom: in compressed columns, in one of two forms, or over nodes, and then compressed when that is
+/// asked for.
 class LinearProblem {
 public:
-	LinearProblem(SymmetricCsc K) : matrix_(std::move(K)) { }
-	LinearProblem(GeneralCsc K) : matrix_(std::move(K)) { }
-	bool                isSymmetric() const { return std::holds_alternative<SymmetricCsc>(matrix_); }
-	const SymmetricCsc& symmetric() const { return std::get<SymmetricCsc>(matrix_); }
-	const GeneralCsc&   general() const { return std::get<GeneralCsc>(matrix_); }
+	LinearProblem(SymmetricCsc K) : size_(K.size()), isSymmetric_(true), compressed_(std::move(K)) { }
+	LinearProblem(GeneralCsc K) : size_(K.size()), isSymmetric_(false), compressed_(std::move(K)) { }
+
+	/// These must outlive it.
+	template <int Dim>
+	LinearProblem(const NodeMatrix<Dim>& K, const FreeDofs& dofs) : size_(dofs.count), isSymmetric_(K.isSymmetric()), overNodes_(nodeProblem(K, dofs))
+	{
+	}
+
+	int                 size() const { return size_; }
+	bool                isSymmetric() const { return isSymmetric_; }
+	const SymmetricCsc& symmetric() const { return std::get<SymmetricCsc>(compressed()); }
+	const GeneralCsc&   general() const { return std::get<GeneralCsc>(compressed()); }
+	const NodeProblem*  overNodes() const { return overNodes_.get(); } ///< null: only compressed
 
 	/// What is stored: of a symmetric matrix one triangle.
 	const Csc& stored() const { return isSymmetric() ? static_cast<const Csc&>(symmetric()) : general(); }
-	int        size() const { return stored().size(); }
 
 	Eigen::VectorXd operator*(const Eigen::VectorXd& x) const { return isSymmetric() ? symmetric() * x : general() * x; }
 
@@ -34,7 +42,22 @@ public:
 	}
 
 private:
-	std::variant<SymmetricCsc, GeneralCsc> matrix_;
+	const std::variant<SymmetricCsc, GeneralCsc>& compressed() const
+	{
+		if (!compressed_) compressed_ = overNodes_->compressed();
+		return *compressed_;
+	}
+
+	int                                                           size_;
+	bool                                                          isSymmetric_;
+	std::unique_ptr<const NodeProblem>                            overNodes_;
+	mutable std::optional<std::variant<SymmetricCsc, GeneralCsc>> compressed_;
 };
+
+/// Compressed: K may go.
+template <int Dim> LinearProblem reduced(const NodeMatrix<Dim>& K, const FreeDofs& dofs)
+{
+	return std::visit([](auto&& compressed) { return LinearProblem(std::move(compressed)); }, nodeProblem(K, dofs)->compressed());
+}
 
 } // namespace gimpm

@@ -42,7 +42,10 @@ public:
 
 	/// Whether `automatic` stands for `iterative`.
 	bool prefersIterative(const LinearProblem& K);
-	bool isIterative(LinearMethod method, const LinearProblem& K)
+
+	/// Whether it will be solved as it is over nodes, without being compressed.
+	static bool staysOverNodes(LinearMethod, const LinearProblem& K);
+	bool        isIterative(LinearMethod method, const LinearProblem& K)
 	{
 		return method == LinearMethod::iterative || (method == LinearMethod::automatic && prefersIterative(K));
 	}

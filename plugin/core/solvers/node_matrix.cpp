@@ -19,6 +19,7 @@ template <int Dim> Key keyOffset(int code)
 
 template <int Dim> void NodeMatrix<Dim>::reset(const std::vector<Key>& nodes, bool isSymmetric, const Grid<Dim>& grid)
 {
+	keys_        = nodes;
 	isSymmetric_ = isSymmetric;
 	isPeriodic_  = grid.isPeriodic();
 	values_.assign(nodes.size() * codes * block, 0.);

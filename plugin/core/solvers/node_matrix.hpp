@@ -24,14 +24,15 @@ public:
 	void reset(const std::vector<Key>& nodes, bool isSymmetric = true, const Grid<Dim>& = {});
 	void setZero();
 
-	double*       at(int node, int code) { return values_.data() + place(node, code); }
-	const double* at(int node, int code) const { return values_.data() + place(node, code); }
-	void          markUsed(int node, int code) { used_[node] |= std::uint64_t(1) << code; }
-	bool          used(int node, int code) const { return used_[node] >> code & 1; }
-	int           neighbour(int node, int code) const { return neighbour_[std::size_t(node) * codes + code]; }
-	int           nodes() const { return int(used_.size()); }
-	bool          isSymmetric() const { return isSymmetric_; }
-	bool          isPeriodic() const { return isPeriodic_; }
+	double*                 at(int node, int code) { return values_.data() + place(node, code); }
+	const double*           at(int node, int code) const { return values_.data() + place(node, code); }
+	void                    markUsed(int node, int code) { used_[node] |= std::uint64_t(1) << code; }
+	bool                    used(int node, int code) const { return used_[node] >> code & 1; }
+	int                     neighbour(int node, int code) const { return neighbour_[std::size_t(node) * codes + code]; }
+	int                     nodes() const { return int(keys_.size()); }
+	const std::vector<Key>& keys() const { return keys_; }
+	bool                    isSymmetric() const { return isSymmetric_; }
+	bool                    isPeriodic() const { return isPeriodic_; }
 
 	/// Block K_ba^T - K_ab, stored like K_ab; only of a matrix that is not symmetric.
 	double*       skewAt(int node, int code) { return skew_.data() + place(node, code); }
@@ -49,6 +50,7 @@ private:
 
 	static std::size_t place(int node, int code) { return (std::size_t(node) * codes + code) * block; }
 
+	std::vector<Key>           keys_;
 	std::vector<double>        values_, skew_;
 	bool                       isSymmetric_ = true, isPeriodic_ = false;
 	std::vector<std::uint64_t> used_;

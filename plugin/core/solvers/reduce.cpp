@@ -103,19 +103,9 @@ template <int Dim> void reduce(const NodeMatrix<Dim>& K, const FreeDofs& dofs, G
 	if (K.isPeriodic()) sortColumns(out);
 }
 
-template <int Dim> LinearProblem reduced(const NodeMatrix<Dim>& K, const FreeDofs& dofs)
-{
-	const auto in = [&](auto form) {
-		reduce(K, dofs, form);
-		return LinearProblem(std::move(form));
-	};
-	return K.isSymmetric() ? in(SymmetricCsc()) : in(GeneralCsc());
-}
-
 #define GIMPM_INSTANTIATE(Dim)                                                                                                                                 \
-	template void          reduce(const NodeMatrix<Dim>&, const FreeDofs&, SymmetricCsc&);                                                                 \
-	template void          reduce(const NodeMatrix<Dim>&, const FreeDofs&, GeneralCsc&);                                                                   \
-	template LinearProblem reduced(const NodeMatrix<Dim>&, const FreeDofs&);
+	template void reduce(const NodeMatrix<Dim>&, const FreeDofs&, SymmetricCsc&);                                                                          \
+	template void reduce(const NodeMatrix<Dim>&, const FreeDofs&, GeneralCsc&);
 GIMPM_INSTANTIATE(2)
 GIMPM_INSTANTIATE(3)
 #undef GIMPM_INSTANTIATE

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // From all nodal degrees of freedom to the free ones.
 #pragma once
-#include "core/solvers/linear_problem.hpp"
+#include "core/solvers/csc.hpp"
 #include "core/solvers/node_matrix.hpp"
 
 namespace gimpm {
@@ -15,8 +15,5 @@ struct FreeDofs {
 /// Copies the pattern and the values of the free rows and columns of K: the lower triangle, or both.
 template <int Dim> void reduce(const NodeMatrix<Dim>& K, const FreeDofs&, SymmetricCsc& out);
 template <int Dim> void reduce(const NodeMatrix<Dim>& K, const FreeDofs&, GeneralCsc& out);
-
-/// In the form that K has.
-template <int Dim> LinearProblem reduced(const NodeMatrix<Dim>& K, const FreeDofs&);
 
 } // namespace gimpm

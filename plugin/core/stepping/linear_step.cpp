@@ -23,10 +23,11 @@ template <int Dim> bool LinearStep<Dim>::solve(const NodeMatrix<Dim>& K, Eigen::
 		hasPrescribed();
 	}
 	if (system_.dofs.count == 0) return true;
-	const LinearProblem problem = [&] {
+	const LinearProblem problem(K, system_.dofs);
+	if (!solver_.staysOverNodes(method_, problem)) {
 		const Stopwatch watch(report_.times.assembly);
-		return reduced(K, system_.dofs);
-	}();
+		problem.stored();
+	}
 	using Status = LinearSolver::Status;
 	Eigen::VectorXd correction;
 	const Status    status = solver_.solve(problem, residual, correction, method_, forcing);

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// How large the factor of a matrix over nodes of a grid will be.
+#pragma once
+#include <array>
+#include <vector>
+
+namespace gimpm {
+
+using NodePlace = std::array<int, 3>; ///< on the grid; the third 0 in the plane
+
+/// Whether Cholesky's method takes more operations than `flops` if the nodes are eliminated by nested dissection: cut across their longest axis, again and
+/// again, with a node coupled to those at most `reach` away along each axis. Of a body with few nodes to a cross section, as any in the plane, its box
+/// tells without them.
+bool needsMoreFlops(std::vector<NodePlace>, double unknownsPerNode, double reach, double flops);
+
+} // namespace gimpm
