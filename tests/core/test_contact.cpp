@@ -222,6 +222,55 @@ namespace {
 		EXPECT_EQ(before, block.cloud.position);
 	}
 
+	TYPED_TEST(ContactOf, WhatIsCrossed)
+	{
+		constexpr int  Dim   = TypeParam::value;
+		const Vec<Dim> above = Vec<Dim>::Unit(1) * 1.01, below = -above, beside = Vec<Dim>::Unit(0) * 1.01;
+		RigidBody<Dim> body;
+		body.shape.radius   = 1;
+		body.shape.halfSize = Vec<Dim>::Ones();
+		for (const auto kind : { RigidKind::block, RigidKind::ball }) {
+			body.shape.kind = kind;
+			if (kind == RigidKind::block) body.shape.radius = 0.1;
+			EXPECT_TRUE(body.isCrossed(above, below));
+			EXPECT_TRUE(body.isCrossed(above, 0.8 * below)) << "it would be pushed out there";
+			EXPECT_FALSE(body.isCrossed(above, 0.8 * above));
+			EXPECT_FALSE(body.isCrossed(above, beside)) << "around an edge";
+			EXPECT_FALSE(body.isCrossed(above + 2 * beside, below + 2 * beside)) << "past it";
+			body.end.position[1] += 1.5;
+			EXPECT_TRUE(body.isCrossed(above, above)) << "it moves by more than half its thickness";
+			body.end.position[1] -= 1.5;
+			body.shape.radius = 1;
+		}
+		body.shape.kind   = RigidKind::plane;
+		body.shape.normal = Vec<Dim>::Unit(1);
+		EXPECT_FALSE(body.isCrossed(above, below)) << "its side is known";
+	}
+
+	/// A corner belongs to the side that it is closest to: what moves by more than half its thickness would find soil on the wrong one.
+	TYPED_TEST(ContactOf, WhatIsThinDoesNotLetSoilThrough)
+	{
+		constexpr int Dim = TypeParam::value;
+		for (const auto kind : { RigidKind::block, RigidKind::ball })
+			for (const double way : { 0.04, 0.11, 0.3 }) { // the thickness is .2
+				Block<Dim> block;
+				block.rollers();
+				Vec<Dim> place         = Vec<Dim>::Constant(0.75);
+				place[1]               = 1.6;
+				auto& body             = block.add(kind, place);
+				body.shape.radius      = kind == RigidKind::ball ? 0.1 : 0.01;
+				body.shape.halfSize    = Vec<Dim>::Constant(3);
+				body.shape.halfSize[1] = 0.1;
+				body.end.position[1] -= way;
+				EXPECT_EQ(block.step().converged(), way < 0.1) << block.report.cause;
+				const bool isLet
+				        = block.report.cause.rfind("body #7 would let soil through, as it moves too far in a step for its thickness, at (", 0)
+				        == 0;
+				EXPECT_EQ(isLet, block.report.failure == Failure::penetrated);
+				EXPECT_TRUE(way < 0.2 || isLet) << block.report.cause;
+			}
+	}
+
 	/// There and back: what has stuck pulls back, what has slipped stays behind.
 	TEST(Contact, FrictionRemembers)
 	{

@@ -151,7 +151,8 @@ template <int Dim> void Contact<Dim>::restrainAt(const Eigen::VectorXd& d, const
 	});
 }
 
-/// A whole domain inside, or the middle of a point on the other side of a surface that soil may touch from both: there it would not be known again.
+/// A whole domain inside, or a corner that has come through; or the middle of a point on the other side of a surface that soil may touch from both: there it
+/// would not be known again.
 template <int Dim> std::string Contact<Dim>::refusal(const Eigen::VectorXd& d) const
 {
 	std::string found;
@@ -159,6 +160,11 @@ template <int Dim> std::string Contact<Dim>::refusal(const Eigen::VectorXd& d) c
 		if (gap < -2 * touched.normal.cwiseAbs().dot(cloud_.halfSize[corner.point]))
 			found = textAt(system_.bodies[corner.body], " would get a whole material point inside of it", x);
 	});
+	for (const Corner& corner : corners_) {
+		const auto&    body = system_.bodies[corner.body];
+		const Vec<Dim> x    = corner.place + corner.attached.displacement(d);
+		if (body.isCrossed(corner.place, x)) found = textAt(body, " would let soil through, as it moves too far in a step for its thickness", x);
+	}
 	for (const NearPoint& near : near_) {
 		const auto& body = system_.bodies[near.body];
 		if (!body.shape.isTwoSided) continue;

@@ -76,6 +76,23 @@ template <int Dim> int RigidBody<Dim>::sideOf(const Pose<Dim>& pose, const Vec<D
 	return shape.isTwoSided && proximity(pose, x, 1).gap < 0 ? -1 : 1;
 }
 
+template <int Dim> bool RigidBody<Dim>::isCrossed(const Vec<Dim>& beginsAt, const Vec<Dim>& endsAt) const
+{
+	if (shape.kind == RigidKind::plane || shape.kind == RigidKind::sheet) return false;
+	const Vec<Dim>  from = begin.inBody(beginsAt), way = end.inBody(endsAt) - from;
+	const Pose<Dim> own;
+	if (proximity(own, from, 1).normal.dot(proximity(own, from + way, 1).normal) >= 0) return false;
+	if (shape.kind == RigidKind::ball) return (from + std::clamp(-from.dot(way) / way.squaredNorm(), 0., 1.) * way).norm() < shape.radius;
+	double first = 0, last = 1; // the part of the way that is within the block
+	for (int a = 0; a < Dim; ++a) {
+		if (way[a] == 0 && std::abs(from[a]) >= shape.halfSize[a]) return false;
+		if (way[a] == 0) continue;
+		const double centre = -from[a] / way[a], half = std::abs(shape.halfSize[a] / way[a]);
+		first = std::max(first, centre - half), last = std::min(last, centre + half);
+	}
+	return first < last;
+}
+
 template <int Dim> std::pair<Vec<Dim>, Vec<Dim>> RigidBody<Dim>::bounds(const Pose<Dim>& pose) const
 {
 	if (shape.kind == RigidKind::sheet) {

@@ -53,6 +53,10 @@ template <int Dim> struct RigidBody {
 	/// Of a two-sided surface that on which a place is.
 	int sideOf(const Pose<Dim>&, const Vec<Dim>& x) const;
 
+	/// Whether what went straight from one place to another, as seen from the body, came out on another side of it, or is about to. Of planes and sheets
+	/// the sides are known.
+	bool isCrossed(const Vec<Dim>& beginsAt, const Vec<Dim>& endsAt) const;
+
 	/// Lower and upper corner of the box around it; infinite for planes.
 	std::pair<Vec<Dim>, Vec<Dim>> bounds(const Pose<Dim>&) const;
 
