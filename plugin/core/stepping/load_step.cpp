@@ -63,7 +63,7 @@ template <int Dim> bool requireState(const PointCloud<Dim>& cloud, const Grid<Di
 template <int Dim> bool isHeld(const StepSystem<Dim>& system, const PointCloud<Dim>& cloud, const Load<Dim>& load, StepReport& report)
 {
 	const Stopwatch   watch(report.times.basis);
-	const std::string lost = lostGrip(cloud, system.basis, system.model, load);
+	const std::string lost = system.hasInertia() ? "" : lostGrip(cloud, system.basis, system.model, load);
 	const Restraint   held = restraint(system.basis, system.model.grid, system.model.boundary, system.terms);
 	report.parts           = held.parts;
 	if (!lost.empty()) return !fail(report, Failure::detached, lost);
@@ -96,7 +96,7 @@ template <int Dim> StepReport loadStep(PointCloud<Dim>& cloud, const Model<Dim>&
 	const StepSystem<Dim> system(cloud, model, load, report);
 	if (!isHeld(system, cloud, load, report)) return report;
 	// 2. to 4. points to nodes, assembly and Newton's method on the nodes
-	const Eigen::VectorXd prediction = last ? predict(*last, system.basis.nodes, load.growth(), model.grid) : Eigen::VectorXd();
+	const Eigen::VectorXd prediction = last && !system.hasInertia() ? predict(*last, system.basis.nodes, load.growth(), model.grid) : Eigen::VectorXd();
 	const Eigen::VectorXd d          = equilibrium(system, solver, report, prediction);
 	if (!model.terms.empty()) askTerms(system, d, report);
 	report.times.linear       = solver.times();

@@ -46,7 +46,8 @@ template <int Dim> double LocalBalance<Dim>::ratio(const Eigen::VectorXd& residu
 	if (found <= enough) return found;
 	const double          strain = negligible * largestStrain(d) + elastic_.prescribedStrain(), motion = elastic_.strainOf(d);
 	const Eigen::VectorXd before   = elastic_.atNodes([&](int i) { return elastic_.strainAtStart(i) + strain; });
-	const Eigen::VectorXd roundOff = elastic_.atNodes([&](int i) { return elastic_.roundOff * (elastic_.strainAtStart(i) + motion); });
+	const Eigen::VectorXd roundOff = elastic_.atNodes([&](int i) { return elastic_.roundOff * (elastic_.strainAtStart(i) + motion); })
+	        + lengths(system_.roundOff(d));
 	return largestRatio((left - around(roundOff)).cwiseMax(0), there + around(before));
 }
 

@@ -17,11 +17,12 @@ template <int Dim> class Newton {
 public:
 	Newton(const StepSystem<Dim>& system, LinearSolver& solver, StepReport& report) : system_(system), report_(report), linear_(system, solver, report) { }
 
-	/// Starts from zero, or from the prediction (which may be empty) if that is not much further from equilibrium.
+	/// Starts from zero, with inertia from where the body moves by itself, or from the prediction (which may be empty) if that is not much further from
+	/// equilibrium.
 	NewtonResult run(const Eigen::VectorXd& prediction)
 	{
 		const bool predicts = prediction.size() > 0;
-		iterate_.evaluate(d_, !predicts);
+		if (!moveOn()) iterate_.evaluate(d_, !predicts);
 		iterate_.whole.begin(iterate_.balance);
 		if (predicts) startFrom(prediction);
 		while (!judge_.ends(d_, solves_, !linear_.prescribes()) && correct())
@@ -32,6 +33,17 @@ public:
 	}
 
 private:
+	/// Whether the body moves by itself, and to where forces can be told.
+	bool moveOn()
+	{
+		if (!system_.hasInertia()) return false;
+		iterate_.evaluate(system_.ownMotion, true);
+		if (iterate_.failure) return false;
+		d_ = system_.ownMotion;
+		linear_.hasPrescribed();
+		return true;
+	}
+
 	/// Takes the prediction as the start unless its residual is much the larger one. Zero is given the prescribed displacements for that,
 	/// without which its residual says nothing of them.
 	void startFrom(Eigen::VectorXd prediction)

@@ -135,6 +135,13 @@ template <int Dim> std::optional<PointFailure> Contact<Dim>::add(const Eigen::Ve
 	return std::nullopt;
 }
 
+template <int Dim> void Contact<Dim>::addBefore(Eigen::VectorXd& force) const
+{
+	for (const Corner& corner : corners_)
+		if (const auto* r = recordOf(system_.records, { corner.point, corner.corner, corner.body }); r && r->touches)
+			addAttachedForce<Dim>(corner.attached, r->pressure * r->normal + r->friction, { force });
+}
+
 template <int Dim> void Contact<Dim>::restrain(const typename Term<Dim>::Hold& hold) const
 {
 	restrainAt(Eigen::VectorXd::Zero(Dim * Eigen::Index(basis_.nodes.size())), hold);

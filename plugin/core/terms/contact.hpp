@@ -48,6 +48,7 @@ public:
 
 	void                        mark(NodeMatrix<Dim>&) const override;
 	std::optional<PointFailure> add(const Eigen::VectorXd& d, const TermSum<Dim>&) const override;
+	void                        addBefore(Eigen::VectorXd& force) const override;
 	bool                        isSymmetric() const override { return isSymmetric_; }
 	std::string                 obstacle() const override { return obstacle_; }
 	double                      fromOutside(const Eigen::VectorXd& d) const override { return this->sizeOfForce(d); }
