@@ -51,7 +51,7 @@ template <int Dim> struct Moving {
 		return true;
 	}
 
-	double mass() const { return std::accumulate(motion->mass.begin(), motion->mass.end(), 0.); }
+	double   mass() const { return std::accumulate(motion->mass.begin(), motion->mass.end(), 0.); }
 	Vec<Dim> momentum() const
 	{
 		Vec<Dim> sum = Vec<Dim>::Zero();
@@ -143,8 +143,8 @@ template <int Dim> struct Bar : Moving<Dim> {
 			for (int k = 0; k < 20; ++k) {
 				const double a = value[n - 3], b = value[n - 2], c = value[n - 1], d = value[n];
 				const auto   cubic = [&](double s) {
-					return -a * s * (s - 1) * (s - 2) / 6 + b * (s + 1) * (s - 1) * (s - 2) / 2 - c * (s + 1) * s * (s - 2) / 2
-					        + d * (s + 1) * s * (s - 1) / 6;
+                                        return -a * s * (s - 1) * (s - 2) / 6 + b * (s + 1) * (s - 1) * (s - 2) / 2 - c * (s + 1) * s * (s - 2) / 2
+                                                + d * (s + 1) * s * (s - 1) / 6;
 				};
 				t -= cubic(t) * 1e-4 / (cubic(t + 5e-5) - cubic(t - 5e-5));
 			}

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+#include "core/stepping/step_system.hpp"
 #include "derivatives.hpp"
 #include "moving.hpp"
-#include "core/stepping/step_system.hpp"
 
 namespace gimpm::testInertia {
 namespace {
@@ -44,8 +44,8 @@ namespace {
 	{
 		constexpr int Dim = TypeParam::value;
 		Grid<Dim>     grid;
-		grid.cellSize      = 0.5;
-		const auto   cloud = cutBlock<Dim>(grid, 0.3);
+		grid.cellSize               = 0.5;
+		const auto            cloud = cutBlock<Dim>(grid, 0.3);
 		const Mass<Dim>       mass(cloud, grid, 0.25);
 		const Eigen::VectorXd ones  = nodal(mass.basis, grid, [](const Vec<Dim>&) { return Vec<Dim>(Vec<Dim>::Ones()); });
 		const double          total = std::accumulate(mass.masses.begin(), mass.masses.end(), 0.);
@@ -68,7 +68,7 @@ namespace {
 		const Grid<Dim>       grid;
 		const Mass<Dim>       mass(cutBlock<Dim>(grid, 0.4), grid, 0.1);
 		const auto            matrix = mass.matrix(1);
-		const Eigen::VectorXd x      = Random().vector(Dim * matrix.nodes()), y = matrix * x;
+		const Eigen::VectorXd x = Random().vector(Dim * matrix.nodes()), y = matrix * x;
 		const auto            reduced = matrix.reduced(mass.allFree(), 1);
 		Eigen::VectorXd       along(matrix.nodes()), expected(matrix.nodes());
 		for (int n = 0; n < matrix.nodes(); ++n)
@@ -92,7 +92,6 @@ namespace {
 				const double k = condition(cut, ghost);
 				least = std::min(least, k), most = std::max(most, k);
 			}
-			std::printf("COND %d %g %g %g\n", Dim, ghost, least, most);
 			EXPECT_LT(most, ghost < 0.1 ? 4e4 : 400);
 		}
 	}
@@ -165,25 +164,36 @@ namespace {
 		}
 	}
 
-	/// Trapezoidal rule: a relative error of (omega T)^2 / 2 in the first step; midpoint rule: none.
+	/// A body that turns by 1 rad/s about the origin.
+	template <int Dim> Moving<Dim> turning(const TimeScheme& scheme, double centre)
+	{
+		Moving<Dim> body(1, Hencky(1e9, 0.3), 1000, scheme);
+		body.put(shifted<Dim>(block<Dim>(body.model.grid, Index<Dim>::Constant(2), 2), Vec<Dim>::Constant(centre - 1)), [](const Vec<Dim>& x) {
+			Vec<Dim> v = Vec<Dim>::Zero();
+			v[0] = -x[1], v[1] = x[0];
+			return v;
+		});
+		return body;
+	}
+
+	/// Trapezoidal rule: a stiff body loses (omega T)^2 / 2 of it in the first step, while it has no stress yet. Midpoint rule: nothing, but for what ghost mass
+	/// takes from velocities that are not linear, when it swings.
 	TYPED_TEST(InertiaTerm, AngularMomentumOfARigidSpin)
 	{
-		constexpr int Dim   = TypeParam::value;
-		const auto    error = [](const TimeScheme& scheme, double angle) {
-                        Moving<Dim> body(1, Hencky(1e9, 0.3), 1000, scheme);
-                        body.put(shifted<Dim>(block<Dim>(body.model.grid, Index<Dim>::Constant(2), 2), Vec<Dim>::Constant(-1)), [](const Vec<Dim>& x) {
-                                Vec<Dim> v = Vec<Dim>::Zero();
-                                v[0] = -x[1], v[1] = x[0]; // 1 rad/s
-                                return v;
-                        });
-                        const double before = body.angularMomentum();
-                        EXPECT_TRUE(body.steps(8, angle));
-                        return std::abs(body.angularMomentum() / before - 1);
-		};
-		const double coarse = error({}, 0.02), fine = error({}, 0.01);
-		EXPECT_GT(coarse, 1e-6);
-		EXPECT_NEAR(coarse / fine, 4, 0.5);
-		EXPECT_LT(error(TimeScheme::midpoint(), 0.02), 1e-11);
+		constexpr int Dim = TypeParam::value;
+		for (const double angle : { 0.04, 0.02, 0.01 }) {
+			auto         body   = turning<Dim>({}, 0);
+			const double before = body.angularMomentum();
+			ASSERT_TRUE(body.steps(1, angle));
+			EXPECT_NEAR((1 - body.angularMomentum() / before) / (angle * angle / 2), 1, 0.02);
+		}
+		for (const auto& [steps, tolerance] : { std::pair(1, 1e-13), { 10, 1e-8 } }) {
+			auto         body           = turning<Dim>(TimeScheme::midpoint(), 0.3);
+			const double before         = body.angularMomentum();
+			body.model.newton.tolerance = 1e-12;
+			ASSERT_TRUE(body.steps(steps, 0.04));
+			EXPECT_NEAR(body.angularMomentum() / before, 1, tolerance);
+		}
 	}
 
 	TYPED_TEST(InertiaTerm, FirstPeriodOfABar)
@@ -196,7 +206,7 @@ namespace {
 	TEST(Inertia, PeriodConvergesWithTheSquareOfTheStep)
 	{
 		const auto error = [](const TimeScheme& scheme, double cfl) {
-			Bar<2> bar(12, scheme), fine(12, scheme);
+			Bar<2> bar(12, scheme);
 			return bar.measuredPeriod(1, cfl / bar.wave) / bar.period() - 1;
 		};
 		for (const auto& scheme : { TimeScheme(), TimeScheme::generalisedAlpha(0.8), TimeScheme::midpoint() }) {
@@ -207,7 +217,8 @@ namespace {
 
 	TEST(Inertia, EnergyOfABarIsKept)
 	{
-		for (const auto& [scheme, kept] : { std::pair(TimeScheme(), 0.9995), { TimeScheme::midpoint(), 0.9995 }, { TimeScheme::generalisedAlpha(0.8), 0.995 } }) {
+		for (const auto& [scheme, kept] :
+		     { std::pair(TimeScheme(), 0.9995), { TimeScheme::midpoint(), 0.9995 }, { TimeScheme::generalisedAlpha(0.8), 0.995 } }) {
 			Bar<2>       bar(12.3, scheme);
 			const double before = bar.energy();
 			ASSERT_TRUE(bar.steps(int(10 * bar.period() * bar.wave), 1 / bar.wave));
@@ -219,15 +230,15 @@ namespace {
 	/// A load that acts suddenly: the first step already is of second order.
 	TEST(Inertia, BeginsWithTheAccelerationOfEquilibrium)
 	{
-		const auto place = [](const TimeScheme& scheme, int steps) {
+		const auto velocity = [](const TimeScheme& scheme, int steps) {
 			Bar<2> bar(8, scheme, 0);
 			bar.gravity[0] = 1e-3;
-			EXPECT_TRUE(bar.steps(steps, 4 / bar.wave / steps)); // half of the way of the wave
-			return bar.cloud.position.back()[0];
+			EXPECT_TRUE(bar.steps(steps, 16 / bar.wave / steps)); // half a period
+			return bar.ofFirstMode();
 		};
 		for (const auto& scheme : { TimeScheme(), TimeScheme::generalisedAlpha(0.8) }) {
-			const double exact = place(scheme, 256), coarse = place(scheme, 8) - exact, fine = place(scheme, 16) - exact;
-			EXPECT_GT(coarse / fine, 3.3);
+			const double exact = velocity(scheme, 256), coarse = velocity(scheme, 8) - exact, fine = velocity(scheme, 16) - exact;
+			EXPECT_NEAR(coarse / fine, 4, 0.2);
 		}
 	}
 
@@ -249,6 +260,17 @@ namespace {
 		ASSERT_TRUE(report.converged()) << report.cause;
 		for (std::size_t p = 0; p < still.cloud.size(); ++p)
 			EXPECT_LT((still.cloud.position[p] - moving.cloud.position[p]).norm(), 1e-9);
+	}
+
+	/// Nodes that hardly any mass is near have no velocity to speak of without ghost mass.
+	TEST(Inertia, CutCellsNeedGhostMass)
+	{
+		for (const double ghostMass : { 0., 1e-3 }) {
+			Moving<3> body(1, Hencky(1e6, 0.3), 1000);
+			body.motion->ghostMass = ghostMass;
+			body.put(cutBlock<3>(body.model.grid, 1e-7), [](const Vec<3>&) { return Vec<3>(1, 0, 0); });
+			EXPECT_EQ(body.step(0.01).converged(), ghostMass > 0);
+		}
 	}
 
 	TEST(Inertia, AFailedStepChangesNothing)

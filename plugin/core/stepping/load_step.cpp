@@ -67,8 +67,10 @@ template <int Dim> bool isHeld(const StepSystem<Dim>& system, const PointCloud<D
 	const Restraint   held = restraint(system.basis, system.model.grid, system.model.boundary, system.terms);
 	report.parts           = held.parts;
 	if (!lost.empty()) return !fail(report, Failure::detached, lost);
-	for (const auto& term : system.terms)
+	for (const auto& term : system.terms) {
 		if (const std::string obstacle = term->obstacle(); !obstacle.empty()) return !fail(report, Failure::misplaced, obstacle);
+		if (term->isSingular()) return !fail(report, Failure::singular, "the mass matrix is singular to working precision");
+	}
 	return held.freeMotion.empty() || !fail(report, Failure::unrestrained, "nothing restrains the " + held.freeMotion);
 }
 

@@ -11,7 +11,7 @@ namespace {
 template <int Dim> std::vector<GhostFace<Dim>> massFaces(const Motion<Dim>& motion, const Beginning<Dim>& step)
 {
 	if (motion.ghostMass == 0) return {};
-	std::vector<GhostFace<Dim>> faces    = step.faces;
+	std::vector<GhostFace<Dim>> faces   = step.faces;
 	const PointStiffness        density = [&](int p) {
                 const double volume = step.stiffnessOf(p).volume;
                 return VolumeAndModulus { volume, motion.mass[p] / volume };
@@ -24,8 +24,11 @@ template <int Dim> std::vector<GhostFace<Dim>> massFaces(const Motion<Dim>& moti
 
 template <int Dim>
 Inertia<Dim>::Inertia(Motion<Dim>& motion, const Beginning<Dim>& step)
-        : motion_(motion), basis_(step.basis), dofs_(step.dofs), prescribed_(step.prescribed),
-          mass_(step.basis, motion.mass, massFaces(motion, step), step.grid.cellSize)
+        : motion_(motion)
+        , basis_(step.basis)
+        , dofs_(step.dofs)
+        , prescribed_(step.prescribed)
+        , mass_(step.basis, motion.mass, massFaces(motion, step), step.grid.cellSize)
 {
 	velocity_  = solve(toNodes(motion.velocity), prescribed_ / motion.duration);
 	imbalance_ = motion.scheme.needsImbalance() ? step.imbalance() : Eigen::VectorXd(Eigen::VectorXd::Zero(prescribed_.size()));
@@ -57,7 +60,10 @@ template <int Dim> Eigen::VectorXd Inertia<Dim>::solve(const Eigen::VectorXd& mo
 		int free = 0;
 		for (Eigen::Index i = axis; i < x.size(); i += Dim)
 			if (!isHeld(i)) right[free++] = rest[i];
-		motion_.solvers[axis].solve(mass, right, found);
+		if (motion_.solvers[axis].solve(mass, right, found) == LinearSolver::Status::singular) {
+			isSingular_ = true;
+			continue;
+		}
 		free = 0;
 		for (Eigen::Index i = axis; i < x.size(); i += Dim)
 			if (!isHeld(i)) x[i] = found[free++];

@@ -30,6 +30,7 @@ public:
 	void                        mark(NodeMatrix<Dim>& K) const override { mass_.mark(K); }
 	std::optional<PointFailure> add(const Eigen::VectorXd& d, const TermSum<Dim>&) const override;
 	void                        addBefore(Eigen::VectorXd&) const override { }
+	bool                        isSingular() const override { return isSingular_; }
 	double                      fromOutside(const Eigen::VectorXd& d) const override;
 	void                        addRoundOff(const Eigen::VectorXd& d, Eigen::VectorXd& sizes) const override;
 	Eigen::VectorXd             ownMotion() const override;
@@ -48,7 +49,8 @@ private:
 	const FreeDofs&        dofs_;
 	const Eigen::VectorXd& prescribed_;
 	MassMatrix<Dim>        mass_;
-	Eigen::VectorXd        imbalance_;              // at the start, where the scheme asks for it; zero at held nodes
+	bool                   isSingular_ = false;
+	Eigen::VectorXd        imbalance_;               // at the start, where the scheme asks for it; zero at held nodes
 	Eigen::VectorXd        velocity_, acceleration_; // at the start
 };
 

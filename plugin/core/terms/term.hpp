@@ -50,6 +50,9 @@ public:
 	/// Why the step cannot be made with it, a clause; empty if it can.
 	virtual std::string obstacle() const { return {}; }
 
+	/// Whether something that it had to solve is singular.
+	virtual bool isSingular() const { return false; }
+
 	/// Forces from outside among those it adds at d, as those of a support [N], for what the residual is compared with; 0 for forces within the body.
 	virtual double fromOutside(const Eigen::VectorXd&) const { return 0; }
 
@@ -88,14 +91,15 @@ template <int Dim> struct GhostFace;
 
 /// How things are when a step begins.
 template <int Dim> struct Beginning {
-	const PointCloud<Dim>&                  cloud;
-	const CloudBasis<Dim>&                  basis;
-	const Grid<Dim>&                        grid;
-	const PointStiffness&                   stiffnessOf; ///< while a term is made
-	const std::vector<GhostFace<Dim>>&      faces;
-	const FreeDofs&                         dofs;
-	const Eigen::VectorXd&                  prescribed; ///< increments of the held degrees of freedom, zero elsewhere [m]
-	const std::function<Eigen::VectorXd()>& imbalance;  ///< while a term is made: external forces less those of the terms made before it, all as they are now [N]
+	const PointCloud<Dim>&             cloud;
+	const CloudBasis<Dim>&             basis;
+	const Grid<Dim>&                   grid;
+	const PointStiffness&              stiffnessOf; ///< while a term is made
+	const std::vector<GhostFace<Dim>>& faces;
+	const FreeDofs&                    dofs;
+	const Eigen::VectorXd&             prescribed; ///< increments of the held degrees of freedom, zero elsewhere [m]
+	const std::function<Eigen::VectorXd()>&
+	        imbalance; ///< while a term is made: external forces less those of the terms made before it, all as they are now [N]
 };
 
 /// Makes a term for a step.

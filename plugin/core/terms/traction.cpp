@@ -98,9 +98,8 @@ template <int Dim> std::vector<Vec<Dim>> Traction<Dim>::forcesAt(const Places& p
 	Places      forces(places.size(), Vec<Dim>::Zero());
 	const auto& surface = load_.surface;
 	for (const Piece& piece : surface.pieces) {
-		const Vec<Dim> dead     = surface.normal(piece, surface.vertices0).norm() * traction,
-		               follower = -pressure * surface.normal(piece, places);
-		const auto first = shares<Dim>(piece, surface.vertices0, isRing_), now = shares<Dim>(piece, places, isRing_);
+		const Vec<Dim> dead = surface.normal(piece, surface.vertices0).norm() * traction, follower = -pressure * surface.normal(piece, places);
+		const auto     first = shares<Dim>(piece, surface.vertices0, isRing_), now = shares<Dim>(piece, places, isRing_);
 		for (int i = 0; i < Dim; ++i)
 			forces[piece[i]] += first[i] * dead + now[i] * follower;
 	}

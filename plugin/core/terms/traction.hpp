@@ -10,13 +10,13 @@ namespace gimpm {
 
 /// What acts on a surface at the end of a step.
 template <int Dim> struct SurfaceLoad {
-	Surface<Dim> surface;                      ///< at the start of the step, with sides of at most `pieceLimit`
-	double       pressure  = 0;                ///< against the outward normal of the deformed surface: it follows [Pa]
-	Vec<Dim>     traction  = Vec<Dim>::Zero(); ///< force over the area that the surface had at first; keeps its direction [Pa]
+	Surface<Dim> surface;                           ///< at the start of the step, with sides of at most `pieceLimit`
+	double       pressure       = 0;                ///< against the outward normal of the deformed surface: it follows [Pa]
+	Vec<Dim>     traction       = Vec<Dim>::Zero(); ///< force over the area that the surface had at first; keeps its direction [Pa]
 	double       pressureBefore = 0;                ///< the same as the step begins, where something asks for it
 	Vec<Dim>     tractionBefore = Vec<Dim>::Zero();
-	bool         isNew     = false;            ///< its outer side is still to be compared with where material is
-	Vec<Dim>     resultant = Vec<Dim>::Zero(); ///< of both, in the last step that was accepted [N]
+	bool         isNew          = false;            ///< its outer side is still to be compared with where material is
+	Vec<Dim>     resultant      = Vec<Dim>::Zero(); ///< of both, in the last step that was accepted [N]
 };
 
 /// Vertices follow the linear functions of the grid, and the forces on them act on the nodes by the same functions: virtual work, resultant and
