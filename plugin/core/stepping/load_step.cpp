@@ -84,8 +84,10 @@ template <int Dim> void askTerms(const StepSystem<Dim>& system, const Eigen::Vec
 			fail(report, Failure::slides, "only friction, which has reached its limit, holds the " + held.freeMotion + " (" + report.cause + ")");
 		return;
 	}
-	for (const auto& term : system.terms)
+	for (const auto& term : system.terms) {
 		if (const std::string refusal = term->refusal(d); !refusal.empty()) fail(report, Failure::penetrated, refusal);
+		if (const std::string inaccuracy = term->inaccuracy(d); !inaccuracy.empty()) fail(report, Failure::inaccurate, inaccuracy);
+	}
 }
 
 } // namespace

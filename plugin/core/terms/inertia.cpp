@@ -3,6 +3,7 @@
 #include "core/grid/point_nodes.hpp"
 #include "core/terms/internal_force.hpp"
 #include <algorithm>
+#include <sstream>
 
 namespace gimpm {
 namespace {
@@ -28,6 +29,8 @@ Inertia<Dim>::Inertia(Motion<Dim>& motion, const Beginning<Dim>& step)
         , basis_(step.basis)
         , dofs_(step.dofs)
         , prescribed_(step.prescribed)
+        , faces_(step.faces)
+        , h_(step.grid.cellSize)
         , mass_(step.basis, motion.mass, massFaces(motion, step), step.grid.cellSize)
 {
 	velocity_  = solve(toNodes(motion.velocity), prescribed_ / motion.duration);
@@ -135,10 +138,26 @@ template <int Dim> void Inertia<Dim>::restrain(const typename Term<Dim>::Hold& h
 			hold(n, Vec<Dim>::Unit(a), Vec<Dim>::Zero());
 }
 
+/// What one step leaves out of d: (beta - 1/6) T^2 (a_1 - a_0) (Zienkiewicz and Xie 1991), at the nodes.
+template <int Dim> std::string Inertia<Dim>::inaccuracy(const Eigen::VectorXd& d) const
+{
+	if (motion_.tolerance == Motion<Dim>::infinite) return {};
+	const double          T = motion_.duration, part = motion_.scheme.beta - 1. / 6;
+	const Eigen::VectorXd error = part * T * T * (accelerationAt(d) - acceleration_);
+	const double          size  = error.template lpNorm<Eigen::Infinity>();
+	if (size <= motion_.tolerance) return {};
+	std::ostringstream text;
+	text << "the local error of the displacements in time, " << size << " m, is above the tolerance, " << motion_.tolerance << " m";
+	return text.str();
+}
+
 template <int Dim> void Inertia<Dim>::commit(const Eigen::VectorXd& d)
 {
 	const double          gamma = motion_.scheme.gamma, T = motion_.duration;
 	const Eigen::VectorXd end = accelerationAt(d), growth = T * ((1 - gamma) * acceleration_ + gamma * end);
+	Eigen::VectorXd       ghost = Eigen::VectorXd::Zero(d.size());
+	addGhostForce(faces_, h_, d, ghost);
+	motion_.ghostWork = gamma * d.dot(ghost); // the force of a step begins at zero
 	motion_.acceleration.assign(motion_.velocity.size(), Vec<Dim>::Zero());
 	forPointNodes(basis_, [&](int i, const Patch<Dim>& patch, const double* value, int count) {
 		const int p = basis_.order[i];

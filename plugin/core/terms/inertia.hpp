@@ -11,12 +11,16 @@ namespace gimpm {
 /// How the points of a cloud move, in its order, and how the next step advances that.
 template <int Dim> struct Motion {
 	TimeScheme            scheme;
-	double                ghostMass = 1e-3;  ///< gamma_M over the density
-	double                duration  = 0;     ///< of the step, > 0 [s]
-	std::vector<double>   mass {};           ///< of each point [kg]
-	std::vector<Vec<Dim>> velocity {};       ///< [m/s]
-	std::vector<Vec<Dim>> acceleration {};   ///< [m/s2], a result; all zero: the motion begins
-	LinearSolver          solvers[Dim] = {}; ///< keep their symbolic analyses
+	double                ghostMass = 1e-3;     ///< gamma_M over the density
+	double                duration  = 0;        ///< of the step, > 0 [s]
+	double                tolerance = infinite; ///< on the local error of the displacements, not with TimeScheme::midpoint() [m]
+	std::vector<double>   mass {};              ///< of each point [kg]
+	std::vector<Vec<Dim>> velocity {};          ///< [m/s]
+	std::vector<Vec<Dim>> acceleration {};      ///< [m/s2], a result; all zero: the motion begins
+	double                ghostWork    = 0;     ///< that ghost stabilisation has taken in the last step that was accepted [J]
+	LinearSolver          solvers[Dim] = {};    ///< keep their symbolic analyses
+
+	static constexpr double infinite = std::numeric_limits<double>::infinity();
 };
 
 /// Consistent mass times acceleration. Points give momentum to the nodes, which have the velocities v of (M + M_g) v = sum of S m v_p, held ones those that
@@ -35,6 +39,7 @@ public:
 	void                        addRoundOff(const Eigen::VectorXd& d, Eigen::VectorXd& sizes) const override;
 	Eigen::VectorXd             ownMotion() const override;
 	void                        restrain(const typename Term<Dim>::Hold&) const override;
+	std::string                 inaccuracy(const Eigen::VectorXd& d) const override;
 	void                        commit(const Eigen::VectorXd& d) override;
 
 private:
@@ -44,14 +49,16 @@ private:
 	Eigen::VectorXd accelerationAt(const Eigen::VectorXd& d) const;
 	bool            isHeld(Eigen::Index dof) const { return dofs_.number[dof] < 0; }
 
-	Motion<Dim>&           motion_;
-	const CloudBasis<Dim>& basis_;
-	const FreeDofs&        dofs_;
-	const Eigen::VectorXd& prescribed_;
-	MassMatrix<Dim>        mass_;
-	bool                   isSingular_ = false;
-	Eigen::VectorXd        imbalance_;               // at the start, where the scheme asks for it; zero at held nodes
-	Eigen::VectorXd        velocity_, acceleration_; // at the start
+	Motion<Dim>&                       motion_;
+	const CloudBasis<Dim>&             basis_;
+	const FreeDofs&                    dofs_;
+	const Eigen::VectorXd&             prescribed_;
+	const std::vector<GhostFace<Dim>>& faces_;
+	double                             h_; // size of the cells
+	MassMatrix<Dim>                    mass_;
+	bool                               isSingular_ = false;
+	Eigen::VectorXd                    imbalance_;               // at the start, where the scheme asks for it; zero at held nodes
+	Eigen::VectorXd                    velocity_, acceleration_; // at the start
 };
 
 } // namespace gimpm

@@ -72,6 +72,9 @@ public:
 	/// Why equilibrium with these displacements cannot be accepted, a clause; empty if it can.
 	virtual std::string refusal(const Eigen::VectorXd&) const { return {}; }
 
+	/// Why the step is too long to be accurate with them, a clause; empty if it is not.
+	virtual std::string inaccuracy(const Eigen::VectorXd&) const { return {}; }
+
 	/// The step has been accepted with these displacements.
 	virtual void commit(const Eigen::VectorXd&) { }
 

@@ -150,11 +150,15 @@ template <int Dim> void Traction<Dim>::addBefore(Eigen::VectorXd& force) const
 
 template <int Dim> void Traction<Dim>::commit(const Eigen::VectorXd& d)
 {
+	const Places before = load_.surface.vertices, first = forcesAt(before, load_.pressureBefore, load_.tractionBefore);
 	load_.surface.vertices = placesAt(d);
 	const Places forces    = forcesAt(load_.surface.vertices);
-	load_.pressureBefore   = load_.pressure;
-	load_.tractionBefore   = load_.traction;
 	load_.resultant        = std::accumulate(forces.begin(), forces.end(), Vec<Dim>(Vec<Dim>::Zero()));
+	load_.work             = 0;
+	for (std::size_t v = 0; v < before.size(); ++v)
+		load_.work += (first[v] + forces[v]).dot(load_.surface.vertices[v] - before[v]) / 2;
+	load_.pressureBefore = load_.pressure;
+	load_.tractionBefore = load_.traction;
 }
 
 template class Traction<2>;
