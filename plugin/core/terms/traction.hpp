@@ -15,6 +15,7 @@ template <int Dim> struct SurfaceLoad {
 	Vec<Dim>     traction       = Vec<Dim>::Zero(); ///< force over the area that the surface had at first; keeps its direction [Pa]
 	double       pressureBefore = 0;                ///< the same as the step begins, where something asks for it
 	Vec<Dim>     tractionBefore = Vec<Dim>::Zero();
+	double       work           = 0;                ///< in that step, with the mean of the forces at its two ends [J]
 	bool         isNew          = false;            ///< its outer side is still to be compared with where material is
 	Vec<Dim>     resultant      = Vec<Dim>::Zero(); ///< of both, in the last step that was accepted [N]
 };
