@@ -55,7 +55,8 @@ public:
 		v("parameters", &MpmState::parameters, 0,
 		  "Strengths and moduli of the point instead of its material's: pairs of name and value. mpm.assign and mpm.fill check them; set here, the next step does.",
 		  admitting("pairs of the name of a strength or modulus, each once, and a number", areParameters));
-		v("acceleration", &MpmState::acceleration, readonly, "Acceleration [m/s²] at the end of the last step of a MpmDynamicEngine: a result.", finite);
+		v("acceleration", &MpmState::acceleration, readonly, "Acceleration [m/s²] at the end of the last step of a MpmDynamicEngine: a result.",
+		  finite);
 	}
 
 	// Position and initial position belong to YADE's State, which admits every number.
