@@ -10,7 +10,7 @@ from yade import mpm, wrapper
 folder = os.path.dirname(os.path.abspath(__file__))
 flags = re.compile(r'\s*:yattrflags:`\d+`')
 groups = {
-        'Analysis': ['MpmImplicitEngine', 'MpmGrid', 'MpmGhost', 'MpmNewton'],
+        'Analysis': ['MpmImplicitEngine', 'MpmDynamicEngine', 'MpmGrid', 'MpmGhost', 'MpmNewton'],
         'Conditions': ['MpmBoundary', 'MpmTraction', 'MpmSurface', 'MpmContact'],
         'Materials': ['MpmElasticMat', 'MpmVonMisesMat', 'MpmTrescaMat', 'MpmMohrCoulombMat', 'MpmDruckerPragerMat', 'MpmCamClayMat', 'MpmFrictionalMat', 'MpmMaterial'],
         'Material points': ['MpmPoint', 'MpmState'],

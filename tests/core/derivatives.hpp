@@ -56,4 +56,15 @@ template <int Dim> double tangentErrorOfLastTerm(const StepSystem<Dim>& system, 
 	return relativeError(dense(K), derivative(forces, d, step));
 }
 
+/// On the body, of the last term as the step begins.
+template <int Dim> Vec<Dim> resultantBefore(const StepSystem<Dim>& system)
+{
+	Eigen::VectorXd resistance = Eigen::VectorXd::Zero(system.nodalSize());
+	system.terms.back()->addBefore(resistance);
+	Vec<Dim> sum = Vec<Dim>::Zero();
+	for (Eigen::Index n = 0; n < resistance.size(); n += Dim)
+		sum -= resistance.template segment<Dim>(n);
+	return sum;
+}
+
 } // namespace gimpm

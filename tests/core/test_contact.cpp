@@ -107,6 +107,22 @@ namespace {
 		}
 	}
 
+	/// Those of the last step, wherever the body goes in this one.
+	TYPED_TEST(ContactOf, ForcesAsTheStepBegins)
+	{
+		constexpr int Dim = TypeParam::value;
+		Block<Dim>    block;
+		block.rollers();
+		auto& plate = block.add(RigidKind::plane, 1.5 * Vec<Dim>::Unit(1), 0.3);
+		plate.end.position[1] -= 0.05;
+		ASSERT_TRUE(block.step().converged()) << block.report.cause;
+		const Vec<Dim> force = -block.contacts.loads[0].force.template head<Dim>();
+		EXPECT_LT(force[1], -1e4);
+		plate.end.position[1] -= 0.05;
+		EXPECT_LT((resultantBefore(block.system()) - force).norm(), 1e-12 * force.norm());
+		EXPECT_NEAR(block.contacts.work / (-0.05 * force[1] / 2), 1, 0.1) << "from zero to the force";
+	}
+
 	/// The floor, looking up, at the height where the block begins.
 	template <int Dim> RigidBody<Dim>& addFloor(Block<Dim>& block, double friction = 0)
 	{

@@ -83,6 +83,7 @@ namespace {
 
 	template <int Dim> double tangentError(Block<Dim>& block) { return tangentErrorOfLastTerm(block.system(), block.model.grid, 1e-3); }
 
+	template <class T> using TractionOf = InBothDimensions<T>;
 	TYPED_TEST_SUITE(TractionOf, BothDimensions, DimensionName);
 
 	TYPED_TEST(TractionOf, TangentIsTheDerivative)
@@ -163,6 +164,19 @@ namespace {
 	}
 
 	/// With sides that are the same nodes, where the line begins and ends does not matter.
+	TYPED_TEST(TractionOf, ForcesAsTheStepBegins)
+	{
+		constexpr int Dim = TypeParam::value;
+		Block<Dim>    block(lid<Dim>(1.5, 1.5));
+		block.rollers(true);
+		block.load.pressure = 2e4;
+		ASSERT_TRUE(block.step().converged());
+		const Vec<Dim> before = block.load.resultant;
+		EXPECT_GT(block.load.work, 0);
+		block.load.pressure = 5e4;
+		EXPECT_LT((resultantBefore(block.system()) - before).norm(), 1e-12 * before.norm());
+	}
+
 	TYPED_TEST(TractionOf, AcrossPeriodicSides)
 	{
 		constexpr int Dim = TypeParam::value;

@@ -2,6 +2,7 @@
 // Walls off the lines of the grid: tangent, history, and bodies that they hold.
 #include "core/stepping/restraint.hpp"
 #include "core/stepping/step_system.hpp"
+#include "derivatives.hpp"
 #include "scenes.hpp"
 #include <memory>
 
@@ -92,6 +93,22 @@ namespace {
 			EXPECT_GT(full.norm(), 1e6);
 			EXPECT_NEAR(system.fromOutside(d) / f.norm(), 1, 1e-14);
 		}
+	}
+
+	TYPED_TEST(WallOf, ForcesAsTheStepBegins)
+	{
+		constexpr int Dim = TypeParam::value;
+		Scene<Dim>    scene;
+		Wall<Dim>&    wall = scene.add(flat<Dim>({ 0.2, -0.3 }, { 1.7, 1.1 }), "xy");
+		Random        random;
+		for (auto& traction : wall.tractions)
+			traction = random.matrix<Dim>();
+		StepReport     report;
+		const auto     at    = [&] { return resultantBefore(StepSystem<Dim>(scene.cloud, scene.model, {}, report)); };
+		const Vec<Dim> still = at();
+		EXPECT_GT(still.norm(), 1e-3);
+		wall.motion.setConstant(0.01);
+		EXPECT_LT((at() - still).norm(), 1e-14);
 	}
 
 	/// A uniform strain with an undisturbed normal displacement at the wall: u = a (n . (x - x0)) n + b (t . x) t.

@@ -45,6 +45,13 @@ template <int Dim> void NodeMatrix<Dim>::setZero()
 	std::fill(skew_.begin(), skew_.end(), 0.);
 }
 
+template <int Dim> void NodeMatrix<Dim>::multiplyBy(double factor)
+{
+	for (auto* numbers : { &values_, &skew_ })
+		for (double& x : *numbers)
+			x *= factor;
+}
+
 template <int Dim> void NodeMatrix<Dim>::add(int a, int b, int code, const Mat<Dim>& ab)
 {
 	if (code >= 0) Eigen::Map<RowMajor>(at(a, code)) += ab;

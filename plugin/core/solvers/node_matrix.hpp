@@ -23,6 +23,7 @@ public:
 	/// Sets up a zero matrix for these nodes (sorted).
 	void reset(const std::vector<Key>& nodes, bool isSymmetric = true, const Grid<Dim>& = {});
 	void setZero();
+	void multiplyBy(double factor);
 
 	double*                 at(int node, int code) { return values_.data() + place(node, code); }
 	const double*           at(int node, int code) const { return values_.data() + place(node, code); }

@@ -30,9 +30,10 @@ template <int Dim> Balance WholeBalance<Dim>::of(const Eigen::VectorXd& d, const
 
 template <int Dim> void WholeBalance<Dim>::begin(const Balance& balance)
 {
-	const double entering = elastic_.prescribedStrain();
+	const double entering = system_.hasInertia() ? elastic_.strainOf(system_.ownMotion) : elastic_.prescribedStrain();
 	initial_              = std::max(balance.size, balance.reference);
 	vanishing_            = elastic_.roundOff * elastic_.norm([&](int i) { return elastic_.strainAtStart(i) + entering; });
+	if (system_.hasInertia()) vanishing_ += system_.roundOff(system_.ownMotion).norm();
 }
 
 template <int Dim> void WholeBalance<Dim>::enter(const Balance& balance)
@@ -52,7 +53,7 @@ template <int Dim> double WholeBalance<Dim>::relative(const Balance& balance, bo
 template <int Dim> double WholeBalance<Dim>::roundOff(const Eigen::VectorXd& d) const
 {
 	const double motion = elastic_.strainOf(d);
-	return elastic_.roundOff * elastic_.norm([&](int i) { return elastic_.strainAtStart(i) + motion; });
+	return system_.roundOff(d).norm() + elastic_.roundOff * elastic_.norm([&](int i) { return elastic_.strainAtStart(i) + motion; });
 }
 
 template class WholeBalance<2>;

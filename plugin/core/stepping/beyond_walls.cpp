@@ -88,7 +88,7 @@ void addReactionsBeyondWalls(
 	const CutPatches<Dim> cut(system);
 	if (cut.nodes.empty()) return;
 	Eigen::VectorXd displacement = Eigen::VectorXd::Zero(cut.size()), internal = displacement, external = displacement;
-	displacement.head(d.size()) = d;
+	displacement.head(d.size()) = system.model.atMiddle ? Eigen::VectorXd(d / 2) : d;
 	addInternalForce<Dim>(cut.basis, cut.points, system.model.materials, displacement, { internal });
 	addPointForces(cut.basis, pointForces(cloud, system.model, load), external);
 	const auto& boundary = system.model.boundary;

@@ -63,12 +63,14 @@ template <int Dim> bool requireState(const PointCloud<Dim>& cloud, const Grid<Di
 template <int Dim> bool isHeld(const StepSystem<Dim>& system, const PointCloud<Dim>& cloud, const Load<Dim>& load, StepReport& report)
 {
 	const Stopwatch   watch(report.times.basis);
-	const std::string lost = lostGrip(cloud, system.basis, system.model, load);
+	const std::string lost = system.hasInertia() ? "" : lostGrip(cloud, system.basis, system.model, load);
 	const Restraint   held = restraint(system.basis, system.model.grid, system.model.boundary, system.terms);
 	report.parts           = held.parts;
 	if (!lost.empty()) return !fail(report, Failure::detached, lost);
-	for (const auto& term : system.terms)
+	for (const auto& term : system.terms) {
 		if (const std::string obstacle = term->obstacle(); !obstacle.empty()) return !fail(report, Failure::misplaced, obstacle);
+		if (term->isSingular()) return !fail(report, Failure::singular, "the mass matrix is singular to working precision");
+	}
 	return held.freeMotion.empty() || !fail(report, Failure::unrestrained, "nothing restrains the " + held.freeMotion);
 }
 
@@ -82,8 +84,10 @@ template <int Dim> void askTerms(const StepSystem<Dim>& system, const Eigen::Vec
 			fail(report, Failure::slides, "only friction, which has reached its limit, holds the " + held.freeMotion + " (" + report.cause + ")");
 		return;
 	}
-	for (const auto& term : system.terms)
+	for (const auto& term : system.terms) {
 		if (const std::string refusal = term->refusal(d); !refusal.empty()) fail(report, Failure::penetrated, refusal);
+		if (const std::string inaccuracy = term->inaccuracy(d); !inaccuracy.empty()) fail(report, Failure::inaccurate, inaccuracy);
+	}
 }
 
 } // namespace
@@ -96,7 +100,7 @@ template <int Dim> StepReport loadStep(PointCloud<Dim>& cloud, const Model<Dim>&
 	const StepSystem<Dim> system(cloud, model, load, report);
 	if (!isHeld(system, cloud, load, report)) return report;
 	// 2. to 4. points to nodes, assembly and Newton's method on the nodes
-	const Eigen::VectorXd prediction = last ? predict(*last, system.basis.nodes, load.growth(), model.grid) : Eigen::VectorXd();
+	const Eigen::VectorXd prediction = last && !system.hasInertia() ? predict(*last, system.basis.nodes, load.growth(), model.grid) : Eigen::VectorXd();
 	const Eigen::VectorXd d          = equilibrium(system, solver, report, prediction);
 	if (!model.terms.empty()) askTerms(system, d, report);
 	report.times.linear       = solver.times();

@@ -45,8 +45,9 @@ template <int Dim> double LocalBalance<Dim>::ratio(const Eigen::VectorXd& residu
 	const double          found = largestRatio(left, there);
 	if (found <= enough) return found;
 	const double          strain = negligible * largestStrain(d) + elastic_.prescribedStrain(), motion = elastic_.strainOf(d);
-	const Eigen::VectorXd before   = elastic_.atNodes([&](int i) { return elastic_.strainAtStart(i) + strain; });
-	const Eigen::VectorXd roundOff = elastic_.atNodes([&](int i) { return elastic_.roundOff * (elastic_.strainAtStart(i) + motion); });
+	const Eigen::VectorXd before = elastic_.atNodes([&](int i) { return elastic_.strainAtStart(i) + strain; });
+	const Eigen::VectorXd roundOff
+	        = elastic_.atNodes([&](int i) { return elastic_.roundOff * (elastic_.strainAtStart(i) + motion); }) + lengths(system_.roundOff(d));
 	return largestRatio((left - around(roundOff)).cwiseMax(0), there + around(before));
 }
 

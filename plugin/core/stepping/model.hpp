@@ -39,7 +39,8 @@ template <int Dim> struct Model {
 	std::map<int, std::shared_ptr<Wall<Dim>>> walls {};
 	GhostSettings                             ghost;
 	NewtonSettings                            newton;
-	std::vector<TermOfStep<Dim>>              terms {}; ///< besides the points' resistance and the ghost stabilisation
+	std::vector<TermOfStep<Dim>>              terms {};         ///< besides the points' resistance and the ghost stabilisation
+	bool                                      atMiddle = false; ///< the points' resistance is that after half of the displacements
 };
 
 template <int Dim> struct Load {
@@ -47,6 +48,15 @@ template <int Dim> struct Load {
 	LoadFactor                factor {};                  ///< of point loads, and of prescribed displacements, which go with its growth
 	std::optional<LoadFactor> ofGravity {};               ///< if it has its own
 	double                    motion = 0;                 ///< duration of the step where something moves by its velocity [s]
+
+	/// The same as the step begins.
+	Load before() const
+	{
+		const auto factorBefore = [](const LoadFactor& f) { return LoadFactor { f.before(), 0 }; };
+		Load       load { gravity, factorBefore(factor) };
+		if (ofGravity) load.ofGravity = factorBefore(*ofGravity);
+		return load;
+	}
 
 	/// What the displacements of the step are in proportion to, as far as that can be known.
 	double growth() const

@@ -4,26 +4,18 @@
 #include "core/stepping/line_search.hpp"
 #include "core/stepping/linear_step.hpp"
 #include "core/stepping/outcome.hpp"
+#include "core/stepping/start.hpp"
 
 namespace gimpm {
 namespace {
-
-/// A prediction may start from this many times the residual of zero: where only little load is added in a step, its residual may be the
-/// larger one, and it is still much closer to the solution in what counts, which points yield. On the largest slope of the paper, starting
-/// from the smaller residual takes 493 solves, this 387, and zero 752.
-constexpr double toleratedStart = 2;
 
 template <int Dim> class Newton {
 public:
 	Newton(const StepSystem<Dim>& system, LinearSolver& solver, StepReport& report) : system_(system), report_(report), linear_(system, solver, report) { }
 
-	/// Starts from zero, or from the prediction (which may be empty) if that is not much further from equilibrium.
 	NewtonResult run(const Eigen::VectorXd& prediction)
 	{
-		const bool predicts = prediction.size() > 0;
-		iterate_.evaluate(d_, !predicts);
-		iterate_.whole.begin(iterate_.balance);
-		if (predicts) startFrom(prediction);
+		predicted_ = Start<Dim>(system_, iterate_, linear_).from(prediction, d_);
 		while (!judge_.ends(d_, solves_, !linear_.prescribes()) && correct())
 			++solves_;
 		report_.iterations += solves_;
@@ -32,23 +24,6 @@ public:
 	}
 
 private:
-	/// Takes the prediction as the start unless its residual is much the larger one. Zero is given the prescribed displacements for that,
-	/// without which its residual says nothing of them.
-	void startFrom(Eigen::VectorXd prediction)
-	{
-		const Eigen::VectorXd& held = system_.prescribed;
-		if (linear_.prescribes()) iterate_.evaluate(held, false);
-		const double fromZero = iterate_.balance.size;
-		for (int i = 0; i < prediction.size(); ++i)
-			if (system_.dofs.number[i] < 0) prediction[i] = held[i];
-		iterate_.evaluate(prediction, true);
-		predicted_ = iterate_.balance.size < toleratedStart * fromZero;
-		if (!predicted_) return iterate_.evaluate(d_, true);
-		d_ = std::move(prediction);
-		if (linear_.prescribes()) iterate_.whole.enter(iterate_.balance);
-		linear_.hasPrescribed();
-	}
-
 	/// One solve and the step that it gives. False if the iteration has to end.
 	bool correct()
 	{

@@ -16,6 +16,7 @@ enum class Failure {
 	unrestrained,
 	slides,
 	penetrated,
+	inaccurate,
 	singular,
 	inverted,
 	noResponse,

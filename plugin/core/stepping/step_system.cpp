@@ -2,6 +2,7 @@
 #include "core/stepping/step_system.hpp"
 #include "core/base/stopwatch.hpp"
 #include "core/grid/mixed_cells.hpp"
+#include "core/terms/at_middle.hpp"
 #include <algorithm>
 
 namespace gimpm {
@@ -54,12 +55,18 @@ template <int Dim> StepSystem<Dim>::StepSystem(const PointCloud<Dim>& cloud, con
 	const PointStiffness moduli = stiffnessOf(cloud, model);
 	faces                       = stabilise(moduli, model, basis, report);
 	const Stopwatch watch(report.times.basis);
-	terms.push_back(std::make_unique<InternalForce<Dim>>(basis, points, model.materials));
-	if (!faces.empty()) terms.push_back(std::make_unique<GhostForce<Dim>>(faces, model.grid.cellSize));
-	for (const auto& [box, wall] : model.walls)
-		terms.push_back(std::make_unique<WallForce<Dim>>(*wall, basis, moduli, model.grid));
-	for (const auto& make : model.terms)
-		terms.push_back(make({ cloud, basis, model.grid, moduli }));
+	holdNodes(load);
+	makeTerms(cloud, load, moduli);
+	report.nodes          = int(basis.nodes.size());
+	report.dofs           = dofs.count;
+	report.populatedCells = int(basis.cells.size());
+	for (const char mixed : mixedCells(basis, cloud.material))
+		report.mixedCells += mixed;
+	report.largestWallOverlap = basis.largestWallOverlap;
+}
+
+template <int Dim> void StepSystem<Dim>::holdNodes(const Load<Dim>& load)
+{
 	prescribed = Eigen::VectorXd::Zero(nodalSize());
 	dofs.number.assign(nodalSize(), -1);
 	for (std::size_t n = 0; n < basis.nodes.size(); ++n)
@@ -69,12 +76,27 @@ template <int Dim> StepSystem<Dim>::StepSystem(const PointCloud<Dim>& cloud, con
 			else
 				dofs.number[Dim * n + a] = dofs.count++;
 		}
-	report.nodes          = int(basis.nodes.size());
-	report.dofs           = dofs.count;
-	report.populatedCells = int(basis.cells.size());
-	for (const char mixed : mixedCells(basis, cloud.material))
-		report.mixedCells += mixed;
-	report.largestWallOverlap = basis.largestWallOverlap;
+}
+
+template <int Dim> void StepSystem<Dim>::makeTerms(const PointCloud<Dim>& cloud, const Load<Dim>& load, const PointStiffness& moduli)
+{
+	if (model.atMiddle) terms.push_back(std::make_unique<InternalForceAtMiddle<Dim>>(basis, points, model.materials));
+	else
+		terms.push_back(std::make_unique<InternalForce<Dim>>(basis, points, model.materials));
+	if (!faces.empty()) terms.push_back(std::make_unique<GhostForce<Dim>>(faces, model.grid.cellSize));
+	for (const auto& [box, wall] : model.walls)
+		terms.push_back(std::make_unique<WallForce<Dim>>(*wall, basis, moduli, model.grid));
+	const std::function<Eigen::VectorXd()> imbalance = [&] {
+		Eigen::VectorXd before = Eigen::VectorXd::Zero(nodalSize()), resistance = before;
+		addPointForces(basis, pointForces(cloud, model, load.before()), before);
+		for (const auto& term : terms)
+			term->addBefore(resistance);
+		return Eigen::VectorXd(before - resistance);
+	};
+	for (const auto& make : model.terms)
+		terms.push_back(make({ cloud, basis, model.grid, moduli, faces, dofs, prescribed, imbalance }));
+	for (const auto& term : terms)
+		if (auto d = term->ownMotion(); d.size() > 0) ownMotion = std::move(d);
 }
 
 template <int Dim> void StepSystem<Dim>::prepare(NodeMatrix<Dim>& K) const
@@ -115,6 +137,14 @@ template <int Dim> double StepSystem<Dim>::fromOutside(const Eigen::VectorXd& d)
 	for (const auto& term : terms)
 		squares += std::pow(term->fromOutside(d), 2);
 	return std::sqrt(squares);
+}
+
+template <int Dim> Eigen::VectorXd StepSystem<Dim>::roundOff(const Eigen::VectorXd& d) const
+{
+	Eigen::VectorXd sizes = Eigen::VectorXd::Zero(nodalSize());
+	for (const auto& term : terms)
+		term->addRoundOff(d, sizes);
+	return sizes;
 }
 
 template std::vector<Vec<2>> pointForces(const PointCloud<2>&, const Model<2>&, const Load<2>&);

@@ -25,6 +25,7 @@ template <int Dim> struct StepSystem {
 	FreeDofs                    dofs;
 	Eigen::VectorXd             external;   ///< body and point forces, Dim components a node [N]
 	Eigen::VectorXd             prescribed; ///< increments of the held degrees of freedom, zero elsewhere [m]
+	Eigen::VectorXd             ownMotion;  ///< displacements by which the body goes on by itself, with the prescribed ones; empty without inertia [m]
 
 	int nodalSize() const { return Dim * int(basis.nodes.size()); }
 
@@ -41,6 +42,15 @@ template <int Dim> struct StepSystem {
 
 	/// Forces from outside among the terms at d [N].
 	double fromOutside(const Eigen::VectorXd& d) const;
+
+	/// What round-off of d leaves of forces that strains do not tell [N].
+	Eigen::VectorXd roundOff(const Eigen::VectorXd& d) const;
+
+	bool hasInertia() const { return ownMotion.size() > 0; }
+
+private:
+	void makeTerms(const PointCloud<Dim>&, const Load<Dim>&, const PointStiffness&);
+	void holdNodes(const Load<Dim>&);
 };
 
 } // namespace gimpm

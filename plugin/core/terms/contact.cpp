@@ -135,6 +135,13 @@ template <int Dim> std::optional<PointFailure> Contact<Dim>::add(const Eigen::Ve
 	return std::nullopt;
 }
 
+template <int Dim> void Contact<Dim>::addBefore(Eigen::VectorXd& force) const
+{
+	for (const Corner& corner : corners_)
+		if (const auto* r = recordOf(system_.records, { corner.point, corner.corner, corner.body }); r && r->touches)
+			addAttachedForce<Dim>(corner.attached, r->pressure * r->normal + r->friction, { force });
+}
+
 template <int Dim> void Contact<Dim>::restrain(const typename Term<Dim>::Hold& hold) const
 {
 	restrainAt(Eigen::VectorXd::Zero(Dim * Eigen::Index(basis_.nodes.size())), hold);
@@ -207,10 +214,15 @@ template <int Dim> void Contact<Dim>::commit(const Eigen::VectorXd& d)
 		records.push_back({ corner.point, corner.corner, corner.body, anew - gap });
 	}
 	system_.loads.assign(system_.owners.size(), {});
+	system_.work = 0;
+	for (const Corner& corner : corners_)
+		if (const auto* r = recordOf(system_.records, { corner.point, corner.corner, corner.body }); r && r->touches)
+			system_.work += (r->pressure * r->normal + r->friction).dot(corner.attached.displacement(d)) / 2;
 	forTouching(d, [&](const Corner& corner, const Vec<Dim>& x, double gap, const Touch<Dim>& touched) {
 		auto& r   = records[&corner - corners_.data()];
 		r.touches = true, r.slips = touched.slips, r.gap = gap, r.place = x;
 		r.pressure = touched.pressure, r.friction = touched.friction, r.normal = touched.normal;
+		system_.work += touched.force().dot(corner.attached.displacement(d)) / 2;
 		const int    owner = system_.bodies[corner.body].owner;
 		const auto   load  = loadOn(system_.owners[owner], corner, x, touched);
 		ContactLoad& sum   = system_.loads[owner];

@@ -32,6 +32,7 @@ template <int Dim> struct ContactSystem {
 	std::vector<Vec<Dim>>           owners;     ///< positions at the end of the step [m]
 	std::vector<ContactRecord<Dim>> records {}; ///< of the last step that was accepted, sorted by point, corner and body
 	std::vector<ContactLoad>        loads {};   ///< on the owners, then
+	double                          work = 0;   ///< on the soil in that step, with the mean of the forces at its two ends [J]
 };
 
 /// The penalty on the gap over that on the slip. With 20 a place slides after mu p h / (stiffness / 20 E). Blocks that are sheared to and fro by a plate, friction .3 to 4,
@@ -48,6 +49,7 @@ public:
 
 	void                        mark(NodeMatrix<Dim>&) const override;
 	std::optional<PointFailure> add(const Eigen::VectorXd& d, const TermSum<Dim>&) const override;
+	void                        addBefore(Eigen::VectorXd& force) const override;
 	bool                        isSymmetric() const override { return isSymmetric_; }
 	std::string                 obstacle() const override { return obstacle_; }
 	double                      fromOutside(const Eigen::VectorXd& d) const override { return this->sizeOfForce(d); }

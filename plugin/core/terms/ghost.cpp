@@ -38,7 +38,7 @@ std::vector<double> moduliAtFaces(
 	return cellModuli(isAtFace, basis, stiffnessOf, grid);
 }
 
-/// Calls f(node a, s-th position of a, node b >= a, code, coefficient) for the node pairs of a face; the coefficient is the same for
+/// Calls f(node a, node b, code, coefficient) for the node pairs of a face; the coefficient is the same for
 /// every displacement component, because [m] = [n][n]^T (eq. 5) picks the normal derivative of each.
 template <int Dim, class F> void forNodePairs(const GhostFace<Dim>& face, double h, F&& f)
 {
@@ -53,7 +53,7 @@ template <int Dim, class F> void forNodePairs(const GhostFace<Dim>& face, double
 						if (a != face.axis) offset[a] = (t >> bit & 1) - (s >> bit & 1), ++bit;
 					const int code = NodeMatrix<Dim>::code(offset);
 					if (code < 0) continue;
-					f(face.node[i][s], code, face.stiffness * jump[i] * jump[j] / (h * h) * faceMass(face, s, t, h));
+					f(face.node[i][s], face.node[j][t], code, face.stiffness * jump[i] * jump[j] / (h * h) * faceMass(face, s, t, h));
 				}
 }
 
@@ -117,17 +117,23 @@ void weighGhostFaces(
 template <int Dim> void markGhostPattern(const std::vector<GhostFace<Dim>>& faces, NodeMatrix<Dim>& K)
 {
 	for (const auto& face : faces)
-		forNodePairs(face, 1, [&](int node, int code, double) { K.markUsed(node, code); });
+		forNodePairs(face, 1, [&](int node, int, int code, double) { K.markUsed(node, code); });
 }
 
 template <int Dim> void addGhostStiffness(const std::vector<GhostFace<Dim>>& faces, double h, NodeMatrix<Dim>& K)
 {
 	for (const auto& face : faces)
-		forNodePairs(face, h, [&](int node, int code, double k) {
+		forNodePairs(face, h, [&](int node, int, int code, double k) {
 			double* block = K.at(node, code);
 			for (int i = 0; i < Dim; ++i)
 				block[i * (Dim + 1)] += k;
 		});
+}
+
+template <int Dim> void forGhostPairs(const std::vector<GhostFace<Dim>>& faces, double h, const std::function<void(int, int, int, double)>& f)
+{
+	for (const auto& face : faces)
+		forNodePairs(face, h, f);
 }
 
 template <int Dim> void addGhostForce(const std::vector<GhostFace<Dim>>& faces, double h, const Eigen::VectorXd& d, Eigen::VectorXd& f)
@@ -165,6 +171,7 @@ template <int Dim> std::optional<PointFailure> GhostForce<Dim>::add(const Eigen:
 	template void weighGhostFaces(std::vector<GhostFace<Dim>>&, const CloudBasis<Dim>&, const PointStiffness&, const Grid<Dim>&, double, GhostScaling);    \
 	template void markGhostPattern(const std::vector<GhostFace<Dim>>&, NodeMatrix<Dim>&);                                                                  \
 	template void addGhostStiffness(const std::vector<GhostFace<Dim>>&, double, NodeMatrix<Dim>&);                                                         \
+	template void forGhostPairs(const std::vector<GhostFace<Dim>>&, double, const std::function<void(int, int, int, double)>&);                            \
 	template void addGhostForce(const std::vector<GhostFace<Dim>>&, double, const Eigen::VectorXd&, Eigen::VectorXd&);                                     \
 	template class GhostForce<Dim>;
 GIMPM_INSTANTIATE(2)

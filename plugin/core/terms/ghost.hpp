@@ -48,6 +48,9 @@ void weighGhostFaces(std::vector<GhostFace<Dim>>&, const CloudBasis<Dim>&, const
 template <int Dim> void addGhostStiffness(const std::vector<GhostFace<Dim>>&, double h, NodeMatrix<Dim>& K);
 template <int Dim> void markGhostPattern(const std::vector<GhostFace<Dim>>&, NodeMatrix<Dim>& K);
 
+/// Calls f(node a, node b, code of the offset from a to b, entry of K_g) for pairs of nodes, b not before a; the entry is the same for each displacement component.
+template <int Dim> void forGhostPairs(const std::vector<GhostFace<Dim>>&, double h, const std::function<void(int, int, int, double)>& f);
+
 /// f += K_g d (eq. 6).
 template <int Dim> void addGhostForce(const std::vector<GhostFace<Dim>>&, double h, const Eigen::VectorXd& d, Eigen::VectorXd& f);
 

@@ -3,6 +3,7 @@
 #pragma once
 #include "core/grid/cloud_basis.hpp"
 #include "core/solvers/node_matrix.hpp"
+#include "core/solvers/reduce.hpp"
 #include "core/terms/cell_moduli.hpp"
 #include <functional>
 #include <memory>
@@ -40,14 +41,26 @@ public:
 	/// Adds force, stiffness and sizes at d. After a failure the sums are of no use.
 	virtual std::optional<PointFailure> add(const Eigen::VectorXd& d, const TermSum<Dim>&) const = 0;
 
+	/// Adds its force as it was when the step began, whatever moves or grows in the step.
+	virtual void addBefore(Eigen::VectorXd& force) const { add(Eigen::VectorXd::Zero(force.size()), { force }); }
+
 	/// Whether what it adds to K is symmetric.
 	virtual bool isSymmetric() const { return true; }
 
 	/// Why the step cannot be made with it, a clause; empty if it can.
 	virtual std::string obstacle() const { return {}; }
 
+	/// Whether something that it had to solve is singular.
+	virtual bool isSingular() const { return false; }
+
 	/// Forces from outside among those it adds at d, as those of a support [N], for what the residual is compared with; 0 for forces within the body.
 	virtual double fromOutside(const Eigen::VectorXd&) const { return 0; }
+
+	/// Adds what round-off of d leaves of its force, where that is more than round-off of strains does [N].
+	virtual void addRoundOff(const Eigen::VectorXd&, Eigen::VectorXd&) const { }
+
+	/// Displacements by which the body goes on by itself, with the prescribed ones; empty where it does not.
+	virtual Eigen::VectorXd ownMotion() const { return {}; }
 
 	/// Calls hold(node, direction, place) for what keeps the body from moving there, however softly; the place is given from the node on [cells].
 	using Hold = std::function<void(int node, const Vec<Dim>& direction, const Vec<Dim>& place)>;
@@ -58,6 +71,9 @@ public:
 
 	/// Why equilibrium with these displacements cannot be accepted, a clause; empty if it can.
 	virtual std::string refusal(const Eigen::VectorXd&) const { return {}; }
+
+	/// Why the step is too long to be accurate with them, a clause; empty if it is not.
+	virtual std::string inaccuracy(const Eigen::VectorXd&) const { return {}; }
 
 	/// The step has been accepted with these displacements.
 	virtual void commit(const Eigen::VectorXd&) { }
@@ -74,12 +90,19 @@ protected:
 
 template <int Dim> using Terms = std::vector<std::unique_ptr<Term<Dim>>>;
 
+template <int Dim> struct GhostFace;
+
 /// How things are when a step begins.
 template <int Dim> struct Beginning {
-	const PointCloud<Dim>& cloud;
-	const CloudBasis<Dim>& basis;
-	const Grid<Dim>&       grid;
-	const PointStiffness&  stiffnessOf; ///< while a term is made
+	const PointCloud<Dim>&             cloud;
+	const CloudBasis<Dim>&             basis;
+	const Grid<Dim>&                   grid;
+	const PointStiffness&              stiffnessOf; ///< while a term is made
+	const std::vector<GhostFace<Dim>>& faces;
+	const FreeDofs&                    dofs;
+	const Eigen::VectorXd&             prescribed; ///< increments of the held degrees of freedom, zero elsewhere [m]
+	const std::function<Eigen::VectorXd()>&
+	        imbalance; ///< while a term is made: external forces less those of the terms made before it, all as they are now [N]
 };
 
 /// Makes a term for a step.

@@ -93,16 +93,15 @@ template <int Dim> std::vector<Vec<Dim>> Traction<Dim>::placesAt(const Eigen::Ve
 	return places;
 }
 
-template <int Dim> std::vector<Vec<Dim>> Traction<Dim>::forcesAt(const Places& places) const
+template <int Dim> std::vector<Vec<Dim>> Traction<Dim>::forcesAt(const Places& places, double pressure, const Vec<Dim>& traction) const
 {
 	Places      forces(places.size(), Vec<Dim>::Zero());
 	const auto& surface = load_.surface;
 	for (const Piece& piece : surface.pieces) {
-		const Vec<Dim> dead     = surface.normal(piece, surface.vertices0).norm() * load_.traction,
-		               pressure = -load_.pressure * surface.normal(piece, places);
-		const auto first = shares<Dim>(piece, surface.vertices0, isRing_), now = shares<Dim>(piece, places, isRing_);
+		const Vec<Dim> dead = surface.normal(piece, surface.vertices0).norm() * traction, follower = -pressure * surface.normal(piece, places);
+		const auto     first = shares<Dim>(piece, surface.vertices0, isRing_), now = shares<Dim>(piece, places, isRing_);
 		for (int i = 0; i < Dim; ++i)
-			forces[piece[i]] += first[i] * dead + now[i] * pressure;
+			forces[piece[i]] += first[i] * dead + now[i] * follower;
 	}
 	return forces;
 }
@@ -141,11 +140,25 @@ template <int Dim> std::optional<PointFailure> Traction<Dim>::add(const Eigen::V
 	return std::nullopt;
 }
 
+template <int Dim> void Traction<Dim>::addBefore(Eigen::VectorXd& force) const
+{
+	if (!obstacle_.empty()) return;
+	const Places forces = forcesAt(load_.surface.vertices, load_.pressureBefore, load_.tractionBefore);
+	for (std::size_t v = 0; v < forces.size(); ++v)
+		addAttachedForce<Dim>(attached_[v], forces[v], { force });
+}
+
 template <int Dim> void Traction<Dim>::commit(const Eigen::VectorXd& d)
 {
+	const Places before = load_.surface.vertices, first = forcesAt(before, load_.pressureBefore, load_.tractionBefore);
 	load_.surface.vertices = placesAt(d);
 	const Places forces    = forcesAt(load_.surface.vertices);
 	load_.resultant        = std::accumulate(forces.begin(), forces.end(), Vec<Dim>(Vec<Dim>::Zero()));
+	load_.work             = 0;
+	for (std::size_t v = 0; v < before.size(); ++v)
+		load_.work += (first[v] + forces[v]).dot(load_.surface.vertices[v] - before[v]) / 2;
+	load_.pressureBefore = load_.pressure;
+	load_.tractionBefore = load_.traction;
 }
 
 template class Traction<2>;

@@ -10,11 +10,14 @@ namespace gimpm {
 
 /// What acts on a surface at the end of a step.
 template <int Dim> struct SurfaceLoad {
-	Surface<Dim> surface;                      ///< at the start of the step, with sides of at most `pieceLimit`
-	double       pressure  = 0;                ///< against the outward normal of the deformed surface: it follows [Pa]
-	Vec<Dim>     traction  = Vec<Dim>::Zero(); ///< force over the area that the surface had at first; keeps its direction [Pa]
-	bool         isNew     = false;            ///< its outer side is still to be compared with where material is
-	Vec<Dim>     resultant = Vec<Dim>::Zero(); ///< of both, in the last step that was accepted [N]
+	Surface<Dim> surface;                           ///< at the start of the step, with sides of at most `pieceLimit`
+	double       pressure       = 0;                ///< against the outward normal of the deformed surface: it follows [Pa]
+	Vec<Dim>     traction       = Vec<Dim>::Zero(); ///< force over the area that the surface had at first; keeps its direction [Pa]
+	double       pressureBefore = 0;                ///< the same as the step begins, where something asks for it
+	Vec<Dim>     tractionBefore = Vec<Dim>::Zero();
+	double       work           = 0;                ///< in that step, with the mean of the forces at its two ends [J]
+	bool         isNew          = false;            ///< its outer side is still to be compared with where material is
+	Vec<Dim>     resultant      = Vec<Dim>::Zero(); ///< of both, in the last step that was accepted [N]
 };
 
 /// Vertices follow the linear functions of the grid, and the forces on them act on the nodes by the same functions: virtual work, resultant and
@@ -28,6 +31,7 @@ public:
 
 	void                        mark(NodeMatrix<Dim>&) const override;
 	std::optional<PointFailure> add(const Eigen::VectorXd& d, const TermSum<Dim>&) const override;
+	void                        addBefore(Eigen::VectorXd& force) const override;
 	bool                        isSymmetric() const override { return isSymmetric_; }
 	double                      fromOutside(const Eigen::VectorXd& d) const override { return this->sizeOfForce(d); }
 	std::string                 obstacle() const override { return obstacle_; }
@@ -38,7 +42,8 @@ private:
 	using Piece  = typename Surface<Dim>::Piece;
 
 	Places placesAt(const Eigen::VectorXd& d) const;
-	Places forcesAt(const Places&) const; // on the vertices
+	Places forcesAt(const Places&, double pressure, const Vec<Dim>& traction) const; // on the vertices
+	Places forcesAt(const Places& places) const { return forcesAt(places, load_.pressure, load_.traction); }
 	void   addStiffness(const Places&, NodeMatrix<Dim>& K) const;
 
 	SurfaceLoad<Dim>&            load_;

@@ -72,6 +72,12 @@ template <int Dim> std::optional<PointFailure> WallForce<Dim>::add(const Eigen::
 	return std::nullopt;
 }
 
+template <int Dim> void WallForce<Dim>::addBefore(Eigen::VectorXd& force) const
+{
+	for (const Grip& grip : grips_)
+		addAttachedForce<Dim>(grip.at, grip.area * wall_.tractions[grip.piece], { force });
+}
+
 template <int Dim> std::string WallForce<Dim>::obstacle() const
 {
 	if (!grips_.empty() || wall_.motion.isZero(0)) return {};

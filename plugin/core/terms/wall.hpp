@@ -32,6 +32,7 @@ public:
 
 	void                        mark(NodeMatrix<Dim>&) const override;
 	std::optional<PointFailure> add(const Eigen::VectorXd& d, const TermSum<Dim>&) const override;
+	void                        addBefore(Eigen::VectorXd& force) const override;
 	std::string                 obstacle() const override;
 	double                      fromOutside(const Eigen::VectorXd& d) const override { return this->sizeOfForce(d); }
 	void                        restrain(const typename Term<Dim>::Hold&) const override;

@@ -2,6 +2,7 @@
 #include "engine/output/plotData.hpp"
 #include "engine/points/MaterialPoints.hpp"
 #include "engine/solver/MpmImplicitEngine.hpp"
+#include "engine/solver/energies.hpp"
 #include "yade_api/value_lock.hpp"
 #include <numeric>
 
@@ -25,8 +26,7 @@ namespace {
 			const Vector3r  displacement = state.pos - state.refPos;
 			t.volume0 += state.volume0;
 			if (state.plasticStrain > 0) t.plasticVolume0 += state.volume0;
-			// per initial volume half Kirchhoff stress times strain; the former is J times the Cauchy stress, and J the ratio of volumes
-			t.elasticEnergy += 0.5 * state.volume * state.stress.cwiseProduct(state.elasticStrain).sum();
+			t.elasticEnergy += elasticEnergy(state);
 			t.massTimesDisplacement += point.material->density * state.volume0 * displacement;
 			t.largestDisplacement = std::max(t.largestDisplacement, displacement.norm());
 			t.settlement          = std::max(t.settlement, displacement.dot(down));
@@ -84,6 +84,7 @@ namespace {
 				data["load" + std::to_string(i) + "_" + "xyz"[axis]] = engine.loads[i]->resultant[axis];
 		for (size_t i = 0; i < engine.contacts.size(); ++i)
 			tellContact(data, "contact" + std::to_string(i), *engine.contacts[i], engine.grid->dim);
+		engine.tellMotion(data);
 		return data;
 	}
 }
@@ -98,7 +99,10 @@ void addPlotData(py::object pythonClass)
 	        "along gravity [m]; displacement: the largest in any direction [m]; plasticShare: part of the initial volume with plasticStrain > 0 [-]; "
 	        "elasticEnergy: strain energy of linear (Hencky) elasticity [J]; gravityPotential: minus weight (times its load factor) times displacement, summed "
 	        "over the points [J], zero at the initial positions; reaction_x, reaction_y and, in 3D, reaction_z: sum of the attribute *reactions* [N]; "
-	        "reaction0_y: that of boundaries[0], for all directions that a boundary fixes; load0_y: resultant of loads[0], for all directions [N]; contact0_y: force of the soil on all bodies of contacts[0] [N], contact0_touching: corners that touch them; body7_y, body7_torque_z: force [N] and torque [N m] on body 7, if it does not move freely. Energies and forces are per metre of thickness in plane "
+	        "reaction0_y: that of boundaries[0], for all directions that a boundary fixes; load0_y: resultant of loads[0], for all directions [N]; contact0_y: force of the soil on all bodies of contacts[0] [N], contact0_touching: corners that touch them; body7_y, body7_torque_z: force [N] and torque [N m] on body 7, if it does not move freely.\n\n"
+	        "Of a MpmDynamicEngine also momentum_x, momentum_y [kg m/s]; angularMomentum_z, about the origin [kg m²/s]; kineticEnergy; loadWork, boundaryWork, "
+	        "contactWork, ghostWork, plasticWork: its attributes; energyImbalance: kinetic and elastic energy less those before the first step and less what was added "
+	        "and taken since, all [J].\n\nEnergies and forces are per metre of thickness in plane "
 	        "strain.\n\nRaises ValueError for a body that is no complete material point.");
 }
 

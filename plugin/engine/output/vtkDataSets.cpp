@@ -161,8 +161,10 @@ VtkCells pointDomains(const vector<MaterialPoint>& points, const Scene& scene, c
 		}
 	const auto cells          = domains.dataSet();
 	const auto turnsOfSectors = turns(sectors);
+	const bool moves
+	        = std::any_of(points.begin(), points.end(), [](const MaterialPoint& p) { return !p.state->vel.isZero(0) || !p.state->acceleration.isZero(0); });
 	for (const PointColumn* column : columnsOf(points))
-		if (column->is(PointColumn::inVtk)) addColumn(*cells, *column, points, scene, turnsOfSectors);
+		if (column->is(PointColumn::inVtk) && (moves || !column->is(PointColumn::ofMotion))) addColumn(*cells, *column, points, scene, turnsOfSectors);
 	vector<char> clamped;
 	for (const MaterialPoint& p : points)
 		clamped.insert(clamped.end(), std::max(1, sectors), deform && (dim == 2 ? isClamped<2>(p, grid.cellSize) : isClamped<3>(p, grid.cellSize)));

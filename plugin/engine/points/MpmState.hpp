@@ -18,11 +18,12 @@ public:
 	Real                            plasticStrain = 0;
 	vector<std::pair<string, Real>> internals; // of the law's variables those that are no attribute here
 	OwnParameters                   parameters;
+	Vector3r                        acceleration = Vector3r::Zero();
 
 	YADE_API_NAME(MpmState)
 	static const char* doc()
 	{
-		return "State of a material point. *pos* and *refPos* (inherited) are its current and initial position [m], *mass* [kg] is constant. "
+		return "State of a material point. *pos* and *refPos* (inherited) are its current and initial position [m], *mass* [kg] is constant, *vel* [m/s] belongs to MpmDynamicEngine. "
 		       "Tensors are 3x3 in plane strain too, with the normal component out of the plane; in axisymmetry zz is the hoop component.";
 	}
 	template <class V> static void attributes(V&& v)
@@ -54,6 +55,8 @@ public:
 		v("parameters", &MpmState::parameters, 0,
 		  "Strengths and moduli of the point instead of its material's: pairs of name and value. mpm.assign and mpm.fill check them; set here, the next step does.",
 		  admitting("pairs of the name of a strength or modulus, each once, and a number", areParameters));
+		v("acceleration", &MpmState::acceleration, readonly, "Acceleration [m/s²] at the end of the last step of a MpmDynamicEngine: a result.",
+		  finite);
 	}
 
 	// Position and initial position belong to YADE's State, which admits every number.

@@ -11,7 +11,7 @@ namespace {
 	using Points   = const vector<MaterialPoint>&;
 	using RowByRow = Eigen::Matrix<Real, 3, 3, Eigen::RowMajor>;
 
-	constexpr auto arrays = PointColumn::inArrays, vtk = PointColumn::inVtk, derived = PointColumn::derived;
+	constexpr auto arrays = PointColumn::inArrays, vtk = PointColumn::inVtk, derived = PointColumn::derived, ofMotion = PointColumn::ofMotion;
 
 	// of(point, scene) is the number; a column of integers
 	template <class Of> PointColumn integer(const char* name, unsigned uses, Of of)
@@ -47,6 +47,17 @@ namespace {
                         if constexpr (std::is_same_v<T, Vector3r>) of(p) = Eigen::Map<const Vector3r>(from);
                         else
                                 of(p) = Eigen::Map<const RowByRow>(from);
+		};
+		return column;
+	}
+
+	// Who gives a velocity begins a motion: the next step finds the acceleration that goes with it.
+	PointColumn velocity()
+	{
+		PointColumn column = result("velocity", "m/s", "velocity", arrays | vtk | ofMotion, [](Point p) { return p.state->vel; });
+		column.set         = [](Point p, const Real* from) {
+                        p.state->vel = Eigen::Map<const Vector3r>(from);
+                        p.state->acceleration.setZero();
 		};
 		return column;
 	}
@@ -100,6 +111,8 @@ namespace {
 			given("pos0", "m", "initial position", arrays, [](Point p) -> Vector3r& { return p.state->refPos; }),
 			result("halfSize", "m", "half size", arrays, [](Point p) { return p.shape->halfSize; }),
 			result("halfSize0", "m", "initial half size", arrays, [](Point p) { return p.shape->halfSize0; }),
+			velocity(),
+			result("acceleration", "m/s²", "acceleration", arrays | vtk | ofMotion, [](Point p) { return p.state->acceleration; }),
 			given("force", "N", "point load", arrays, [](Point p) -> Vector3r& { return p.state->force; }),
 			given("stress", "Pa", "stress $\\sigma$", arrays | vtk, [](Point p) -> Matrix3r& { return p.state->stress; }),
 			given("defGrad", "-", "deformation gradient $F$", arrays, [](Point p) -> Matrix3r& { return p.state->defGrad; }),

@@ -10,6 +10,7 @@ struct PointColumn {
 	enum Use : unsigned {
 		inArrays = 1, // of mpm.arrays
 		inVtk    = 2, // field of the domains that MpmVtkRecorder writes
+		ofMotion = 8, // only where a point moves is it a field
 		derived  = 4, // follows from others: in pictures and tables beside those of mpm.arrays
 	};
 

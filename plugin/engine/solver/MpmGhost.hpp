@@ -6,8 +6,12 @@ namespace yade {
 
 class MpmGhost : public Exposed<MpmGhost, Serializable> {
 public:
-	Real   factor  = 1e-2;
-	string scaling = "mesh-independent";
+	// Of the mass where nothing is given: bounds the condition number, and takes next to no energy from waves that three cells can carry (docs/theory.md).
+	static constexpr Real usualMassFactor = 1e-3;
+
+	Real   factor     = 1e-2;
+	string scaling    = "mesh-independent";
+	Real   massFactor = std::numeric_limits<Real>::quiet_NaN();
 
 	YADE_API_NAME(MpmGhost)
 	static const char* doc()
@@ -24,6 +28,9 @@ public:
 		  "Factor of the integral over a face. 'mesh-independent': gamma_k h / 3; 'paper': gamma_k h^3 / 3 (eq. 2), which fades on fine grids. Equal at "
 		  "h = 1 m.",
 		  oneOf("mesh-independent", "paper"));
+		v("massFactor", &MpmGhost::massFactor, 0,
+		  "Of MpmDynamicEngine, ghost mass [-] >= 0: gamma_M is this times the density, the lower of a face's two cells. NaN, the default: 1e-3. 0: none.",
+		  admitting("a finite number >= 0, or NaN for the default", [](Real value) { return std::isnan(value) || nonNegative(value); }));
 	}
 };
 

@@ -6,6 +6,7 @@
 #include "engine/solver/Threads.hpp"
 #include "engine/solver/exchange.hpp"
 #include "engine/solver/failures.hpp"
+#include "engine/solver/moving.hpp"
 #include "engine/solver/progress.hpp"
 #include "engine/solver/requirements.hpp"
 #include "engine/solver/walls.hpp"
@@ -50,16 +51,6 @@ bool MpmImplicitEngine::isEndOfLoads() const
 	if (nDone == 0 || (nDo >= 0 && nDone >= nDo) || loadCurve.empty()) return false;
 	const Real reached = loadsEnd() - 1e-9 * scene->dt;
 	return loadTime < reached && scene->time + scene->dt >= reached;
-}
-
-shared_ptr<Scene> MpmImplicitEngine::ownScene()
-{
-	const auto& current = Singleton<Omega>::instance().getScene();
-	const auto  holds
-	        = [this](const Scene& s) { return std::any_of(s.engines.begin(), s.engines.end(), [this](const auto& e) { return e.get() == this; }); };
-	if (holds(*current)) home = current;
-	const auto other = boost::dynamic_pointer_cast<Scene>(home.lock());
-	return other && holds(*other) ? other : current;
 }
 
 void MpmImplicitEngine::action()
@@ -111,6 +102,7 @@ template <int Dim> Job<Dim> MpmImplicitEngine::prepare()
 		job.surfaceLoads.join(job.model);
 		job.contacts = Contacts<Dim>(contacts, *scene, job.model.grid, points, job.begin, job.target);
 		job.contacts.join(job.model);
+		setMoving(job, points); // inertia comes last
 	}
 	for (const string& doubt : plausibility.look(*this, points, job.cloud, job.model, checking))
 		warn(doubt);
@@ -158,6 +150,7 @@ template <int Dim> Attempt<Dim> MpmImplicitEngine::attempt(Job<Dim>& job) const
 	const bool   wallsMove = moveWalls(boundaries, job.model, time - loadTime);
 	Attempt<Dim> next { time, loadBetween<Dim>(loadTime, time), newton->predictor, {} };
 	if (job.contacts.areThere() || wallsMove) next.load.motion = time - loadTime;
+	if (job.moving) job.moving->begin(job, next, loadTime);
 	if (next.predicts) next.last = fromNumbers<Dim>(lastDisplacements, lastLoadIncrement);
 	return next;
 }
@@ -168,6 +161,7 @@ template <int Dim> void MpmImplicitEngine::reach(Job<Dim>& job, const Attempt<Di
 	double scattering = 0;
 	{
 		const gimpm::Stopwatch watch(scattering);
+		if (job.moving) job.moving->reach(job, made.time, points);
 		scatter(job.cloud, job.model.grid, points);
 		job.surfaceLoads.scatter();
 		job.contacts.scatter(made.time);

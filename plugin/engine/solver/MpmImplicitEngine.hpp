@@ -76,12 +76,21 @@ public:
 	bool isActivated() override;
 	void action() override;
 
+	virtual bool isDynamic() const { return false; }
+	virtual void tellMotion(py::dict&) const { }
+
 	// Of any engine, between taking over the values of the material points and giving them back.
 	static bool isStepAtWork();
 
 	// The scene that holds this engine in O.engines: the current one, or the one where it was made or seen last (O.switchScene()). For an
 	// engine that neither holds, the current one.
 	shared_ptr<Scene> ownScene();
+
+protected:
+	virtual void setMoving(Job<2>&, const vector<MaterialPoint>&) { }
+	virtual void setMoving(Job<3>&, const vector<MaterialPoint>&) { }
+
+	vector<MaterialPoint> points; // of the step; kept for the next one
 
 private:
 	bool                            isEndOfLoads() const;
@@ -92,7 +101,6 @@ private:
 	template <int Dim> void         reach(Job<Dim>&, const Attempt<Dim>&);
 	void                            warn(const string&); // nothing if it is empty
 
-	vector<MaterialPoint>       points; // of the step; kept for the next one
 	PeriodicCounters            beforeActivation;
 	ProgressLine                progressLine;
 	Plausibility                plausibility;

@@ -2,6 +2,7 @@
 #include "engine/solver/contacts.hpp"
 #include "engine/conditions/contact_records.hpp"
 #include "engine/points/MpmPoint.hpp"
+#include "engine/solver/MpmImplicitEngine.hpp"
 #include "engine/solver/rigid_bodies.hpp"
 #include "yade_api/value_lock.hpp"
 #include <algorithm>
@@ -53,7 +54,7 @@ namespace {
 		for (size_t i = 0; i < scene.engines.size(); ++i) {
 			const string name = scene.engines[i]->getClassName();
 			if (name == "ForceResetter") reset = int(i);
-			if (name == "MpmImplicitEngine") self = int(i);
+			if (dynamic_cast<const MpmImplicitEngine*>(scene.engines[i].get())) self = int(i);
 			if (name == "NewtonIntegrator") newton = int(i);
 		}
 		if (!(reset < self && self < newton))

@@ -24,6 +24,9 @@ public:
 
 	bool areThere() const { return bool(system); }
 
+	// On the soil in the last step that was accepted [J].
+	Real work() const { return system ? system->work : 0; }
+
 	// Makes them act in the model's steps, for as long as this exists.
 	void join(gimpm::Model<Dim>&);
 

@@ -40,6 +40,8 @@ namespace {
 		if (report.failure == Failure::unrestrained) return " Hold nodes of that material with MpmBoundary.";
 		if (report.failure == Failure::misplaced) return "";
 		if (report.failure == Failure::penetrated) return " Smaller load steps (O.dt), or a larger stiffness of MpmContact, may help.";
+		if (report.failure == Failure::inaccurate)
+			return " Smaller steps (O.dt), a smaller newton.minStep or a larger timeTolerance would let it pass.";
 		if (report.failure == Failure::slides)
 			return " It may have no equilibrium; more friction, or nodes that are held (MpmBoundary), would hold it.";
 		if (report.failure == Failure::interrupted) return " O.run() goes on from there.";
@@ -74,6 +76,7 @@ const char* nameOf(gimpm::Failure failure)
 		case Failure::unrestrained: return "unrestrained";
 		case Failure::slides: return "slides";
 		case Failure::penetrated: return "penetrated";
+		case Failure::inaccurate: return "inaccurate";
 		case Failure::singular: return "singular";
 		case Failure::inverted: return "inverted";
 		case Failure::noResponse: return "noResponse";
@@ -100,7 +103,7 @@ const char* nameOf(gimpm::Definiteness definiteness)
 string reasonOf(const gimpm::StepReport& report, const MpmImplicitEngine& engine, const vector<MaterialPoint>& points, Real time, Real part)
 {
 	std::ostringstream text;
-	text << "MpmImplicitEngine: " << stepOf(engine, time);
+	text << engine.getClassName() << ": " << stepOf(engine, time);
 	if (!engine.gravityCurve.empty()) {
 		const gimpm::LoadCurve curve = engine.curveOfGravity();
 		text << ", of gravity from " << curve.valueAt(engine.loadTime) << " to " << curve.valueAt(time) << ",";

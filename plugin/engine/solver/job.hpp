@@ -8,6 +8,8 @@
 
 namespace yade {
 
+template <int Dim> class Moving;
+
 // What a run works on, and what remains to be done.
 template <int Dim> struct Job {
 	gimpm::StepControl     control;
@@ -16,6 +18,8 @@ template <int Dim> struct Job {
 	gimpm::PointCloud<Dim> cloud {};
 	SurfaceLoads<Dim>      surfaceLoads {};
 	Contacts<Dim>          contacts {};
+
+	std::shared_ptr<Moving<Dim>> moving {}; // null without inertia
 };
 
 // A load step, and what it may start from.

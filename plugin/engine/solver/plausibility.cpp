@@ -195,7 +195,7 @@ string Plausibility::doubtOfEnd(const MpmImplicitEngine& engine)
 	const size_t knees  = engine.gravityCurve.size();
 	const Real   end    = engine.loadsEnd();
 	const auto   goesOn = [](const auto& boundary) { return !boundary->velocity.isZero(0); };
-	if (saidEnd || !engine.contacts.empty() || std::any_of(engine.boundaries.begin(), engine.boundaries.end(), goesOn)
+	if (saidEnd || engine.isDynamic() || !engine.contacts.empty() || std::any_of(engine.boundaries.begin(), engine.boundaries.end(), goesOn)
 	    || std::max(engine.loadCurve.size(), knees) < 2 || engine.loadTime < end - 1e-9 * engine.scene->dt)
 		return "";
 	saidEnd = true;
@@ -260,7 +260,7 @@ template <int Dim>
 vector<string> Plausibility::warningsOfResult(const MpmImplicitEngine& engine, const vector<MaterialPoint>& points, const gimpm::PointCloud<Dim>& cloud)
 {
 	vector<string> sentences;
-	if (engine.gravity.isZero(0) || said[Doubt::settlement] || said[Doubt::units]) return sentences;
+	if (engine.isDynamic() || engine.gravity.isZero(0) || said[Doubt::settlement] || said[Doubt::units]) return sentences;
 	const Vector3r down = engine.gravity.normalized(), sides = box.second - box.first;
 	const Real     size    = sides.head<Dim>().maxCoeff(); // not the height: a slender beam may well bend by more than that
 	const Real     bottom  = (box.first + box.second + sides.cwiseProduct(down.cwiseSign())).dot(down) / 2;

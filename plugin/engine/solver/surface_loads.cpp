@@ -48,6 +48,23 @@ template <int Dim> void SurfaceLoads<Dim>::advanceTo(Real time)
 	}
 }
 
+template <int Dim> void SurfaceLoads<Dim>::beginAt(Real time)
+{
+	advanceTo(time);
+	for (auto& load : loads) {
+		load.pressureBefore = load.pressure;
+		load.tractionBefore = load.traction;
+	}
+}
+
+template <int Dim> Real SurfaceLoads<Dim>::work() const
+{
+	Real sum = 0;
+	for (const auto& load : loads)
+		sum += load.work;
+	return sum;
+}
+
 template <int Dim> void SurfaceLoads<Dim>::scatter() const
 {
 	for (size_t i = 0; i < loads.size(); ++i) {

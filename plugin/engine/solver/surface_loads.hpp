@@ -18,6 +18,12 @@ public:
 	// What acts at the end of the next step.
 	void advanceTo(Real time);
 
+	// The first step begins here; only where something asks for what acted before it.
+	void beginAt(Real time);
+
+	// In the last step that was accepted [J].
+	Real work() const;
+
 	// Writes a converged state back.
 	void scatter() const;
 

@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "core/terms/inertia.hpp"
+#include "core/grid/point_nodes.hpp"
+#include "core/terms/internal_force.hpp"
+#include <algorithm>
+#include <sstream>
+
+namespace gimpm {
+namespace {
+
+/// Faces with gamma_M h^3 / 3 for their stiffness, gamma_M by the density of the lighter of the two cells.
+template <int Dim> std::vector<GhostFace<Dim>> massFaces(const Motion<Dim>& motion, const Beginning<Dim>& step)
+{
+	if (motion.ghostMass == 0) return {};
+	std::vector<GhostFace<Dim>> faces   = step.faces;
+	const PointStiffness        density = [&](int p) {
+                const double volume = step.stiffnessOf(p).volume;
+                return VolumeAndModulus { volume, motion.mass[p] / volume };
+	};
+	weighGhostFaces(faces, step.basis, density, step.grid, motion.ghostMass, GhostScaling::paper);
+	return faces;
+}
+
+} // namespace
+
+template <int Dim>
+Inertia<Dim>::Inertia(Motion<Dim>& motion, const Beginning<Dim>& step)
+        : motion_(motion)
+        , basis_(step.basis)
+        , dofs_(step.dofs)
+        , prescribed_(step.prescribed)
+        , faces_(step.faces)
+        , h_(step.grid.cellSize)
+        , mass_(step.basis, motion.mass, massFaces(motion, step), step.grid.cellSize)
+{
+	velocity_  = solve(toNodes(motion.velocity), prescribed_ / motion.duration);
+	imbalance_ = motion.scheme.needsImbalance() ? step.imbalance() : Eigen::VectorXd(Eigen::VectorXd::Zero(prescribed_.size()));
+	for (Eigen::Index i = 0; i < imbalance_.size(); ++i)
+		if (isHeld(i)) imbalance_[i] = 0;
+	acceleration_ = firstAcceleration();
+}
+
+/// Sum of S m x_p.
+template <int Dim> Eigen::VectorXd Inertia<Dim>::toNodes(const std::vector<Vec<Dim>>& ofPoints) const
+{
+	std::vector<Vec<Dim>> weighted(ofPoints.size());
+	for (std::size_t p = 0; p < weighted.size(); ++p)
+		weighted[p] = motion_.mass[p] * ofPoints[p];
+	Eigen::VectorXd sum = Eigen::VectorXd::Zero(prescribed_.size());
+	addPointForces(basis_, weighted, sum);
+	return sum;
+}
+
+/// x of (M + M_g) x = momentum at the free degrees of freedom, with the values that the held ones have.
+template <int Dim> Eigen::VectorXd Inertia<Dim>::solve(const Eigen::VectorXd& momentum, const Eigen::VectorXd& ofHeld)
+{
+	Eigen::VectorXd       x    = ofHeld;
+	const Eigen::VectorXd rest = momentum - mass_ * ofHeld;
+	for (int axis = 0; axis < Dim; ++axis) {
+		const LinearProblem mass(mass_.reduced(dofs_, axis));
+		Eigen::VectorXd     right(mass.size()), found;
+		if (mass.size() == 0) continue;
+		int free = 0;
+		for (Eigen::Index i = axis; i < x.size(); i += Dim)
+			if (!isHeld(i)) right[free++] = rest[i];
+		if (motion_.solvers[axis].solve(mass, right, found) == LinearSolver::Status::singular) {
+			isSingular_ = true;
+			continue;
+		}
+		free = 0;
+		for (Eigen::Index i = axis; i < x.size(); i += Dim)
+			if (!isHeld(i)) x[i] = found[free++];
+	}
+	return x;
+}
+
+/// Of equilibrium as the step begins, where nothing else is known or the scheme does not go on from the accelerations before.
+template <int Dim> Eigen::VectorXd Inertia<Dim>::firstAcceleration()
+{
+	const Eigen::VectorXd zero   = Eigen::VectorXd::Zero(prescribed_.size());
+	const auto&           scheme = motion_.scheme;
+	if (!scheme.dependsOnStart()) return zero;
+	const bool begins = std::all_of(motion_.acceleration.begin(), motion_.acceleration.end(), [](const Vec<Dim>& a) { return a.isZero(0); });
+	return solve(scheme.isAlpha() && !begins ? toNodes(motion_.acceleration) : imbalance_, zero);
+}
+
+template <int Dim> Eigen::VectorXd Inertia<Dim>::accelerationAt(const Eigen::VectorXd& d) const
+{
+	const double beta = motion_.scheme.beta, T = motion_.duration;
+	return (d - T * velocity_) / (beta * T * T) - (1 / (2 * beta) - 1) * acceleration_;
+}
+
+template <int Dim> std::optional<PointFailure> Inertia<Dim>::add(const Eigen::VectorXd& d, const TermSum<Dim>& sum) const
+{
+	const auto&           scheme = motion_.scheme;
+	const double          weight = 1 - scheme.alphaF, ofEnd = (1 - scheme.alphaM) / weight;
+	const Eigen::VectorXd a     = accelerationAt(d);
+	Eigen::VectorXd       force = mass_ * a;
+	if (scheme.isAlpha()) {
+		const Eigen::VectorXd weighted = mass_ * (ofEnd * a + scheme.alphaM / weight * acceleration_) - scheme.alphaF / weight * imbalance_;
+		for (Eigen::Index i = 0; i < force.size(); ++i)
+			if (!isHeld(i)) force[i] = weighted[i]; // those at held nodes are reactions at the end of the step
+	}
+	sum.force += force;
+	if (sum.sizes) *sum.sizes += force.cwiseAbs();
+	if (sum.K) mass_.addTo(*sum.K, ofEnd / (scheme.beta * motion_.duration * motion_.duration));
+	return std::nullopt;
+}
+
+template <int Dim> double Inertia<Dim>::fromOutside(const Eigen::VectorXd& d) const
+{
+	Eigen::VectorXd force = mass_ * accelerationAt(d);
+	for (Eigen::Index i = 0; i < force.size(); ++i)
+		if (isHeld(i)) force[i] = 0; // they are part of the reactions
+	return force.norm();
+}
+
+template <int Dim> void Inertia<Dim>::addRoundOff(const Eigen::VectorXd& d, Eigen::VectorXd& sizes) const
+{
+	constexpr double roundOff = 10 * std::numeric_limits<double>::epsilon();
+	const double     T        = motion_.duration;
+	sizes += roundOff / (motion_.scheme.beta * T * T) * mass_.sizesTimes(d.cwiseAbs() + T * velocity_.cwiseAbs());
+}
+
+template <int Dim> Eigen::VectorXd Inertia<Dim>::ownMotion() const
+{
+	const double    T = motion_.duration;
+	Eigen::VectorXd d = T * velocity_ + T * T / 2 * acceleration_;
+	for (Eigen::Index i = 0; i < d.size(); ++i)
+		if (isHeld(i)) d[i] = prescribed_[i];
+	return d;
+}
+
+template <int Dim> void Inertia<Dim>::restrain(const typename Term<Dim>::Hold& hold) const
+{
+	for (int n = 0; n < mass_.nodes(); ++n)
+		for (int a = 0; a < Dim; ++a)
+			hold(n, Vec<Dim>::Unit(a), Vec<Dim>::Zero());
+}
+
+/// What one step leaves out of d: (beta - 1/6) T^2 (a_1 - a_0) (Zienkiewicz and Xie 1991), at the nodes.
+template <int Dim> std::string Inertia<Dim>::inaccuracy(const Eigen::VectorXd& d) const
+{
+	if (motion_.tolerance == Motion<Dim>::infinite) return {};
+	const double          T = motion_.duration, part = motion_.scheme.beta - 1. / 6;
+	const Eigen::VectorXd error = part * T * T * (accelerationAt(d) - acceleration_);
+	const double          size  = error.template lpNorm<Eigen::Infinity>();
+	if (size <= motion_.tolerance) return {};
+	std::ostringstream text;
+	text << "the local error of the displacements in time, " << size << " m, is above the tolerance, " << motion_.tolerance << " m";
+	return text.str();
+}
+
+template <int Dim> void Inertia<Dim>::commit(const Eigen::VectorXd& d)
+{
+	const double          gamma = motion_.scheme.gamma, T = motion_.duration;
+	const Eigen::VectorXd end = accelerationAt(d), growth = T * ((1 - gamma) * acceleration_ + gamma * end);
+	Eigen::VectorXd       ghost = Eigen::VectorXd::Zero(d.size());
+	addGhostForce(faces_, h_, d, ghost);
+	motion_.ghostWork = gamma * d.dot(ghost); // the force of a step begins at zero
+	motion_.acceleration.assign(motion_.velocity.size(), Vec<Dim>::Zero());
+	forPointNodes(basis_, [&](int i, const Patch<Dim>& patch, const double* value, int count) {
+		const int p = basis_.order[i];
+		for (int n = 0; n < count; ++n) {
+			if (patch.node[n] < 0) continue;
+			motion_.velocity[p] += value[n] * growth.template segment<Dim>(Dim * patch.node[n]);
+			motion_.acceleration[p] += value[n] * end.template segment<Dim>(Dim * patch.node[n]);
+		}
+	});
+}
+
+template class Inertia<2>;
+template class Inertia<3>;
+
+} // namespace gimpm

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Inertia: the step as one in time.
+#pragma once
+#include "core/solvers/linear_solver.hpp"
+#include "core/terms/mass_matrix.hpp"
+#include "core/terms/term.hpp"
+#include "core/terms/time_scheme.hpp"
+
+namespace gimpm {
+
+/// How the points of a cloud move, in its order, and how the next step advances that.
+template <int Dim> struct Motion {
+	TimeScheme            scheme;
+	double                ghostMass = 1e-3;     ///< gamma_M over the density
+	double                duration  = 0;        ///< of the step, > 0 [s]
+	double                tolerance = infinite; ///< on the local error of the displacements, not with TimeScheme::midpoint() [m]
+	std::vector<double>   mass {};              ///< of each point [kg]
+	std::vector<Vec<Dim>> velocity {};          ///< [m/s]
+	std::vector<Vec<Dim>> acceleration {};      ///< [m/s2], a result; all zero: the motion begins
+	double                ghostWork    = 0;     ///< that ghost stabilisation has taken in the last step that was accepted [J]
+	LinearSolver          solvers[Dim] = {};    ///< keep their symbolic analyses
+
+	static constexpr double infinite = std::numeric_limits<double>::infinity();
+};
+
+/// Consistent mass times acceleration. Points give momentum to the nodes, which have the velocities v of (M + M_g) v = sum of S m v_p, held ones those that
+/// the step prescribes; points take back what changes of them (FLIP). Every other force is that at the end of the step. Where
+/// the scheme weighs it with that of the beginning the whole balance is divided by its weight: so other terms are as in a step without inertia.
+template <int Dim> class Inertia : public Term<Dim> {
+public:
+	/// To be made after all other terms. Velocities and accelerations are written in commit().
+	Inertia(Motion<Dim>&, const Beginning<Dim>&);
+
+	void                        mark(NodeMatrix<Dim>& K) const override { mass_.mark(K); }
+	std::optional<PointFailure> add(const Eigen::VectorXd& d, const TermSum<Dim>&) const override;
+	void                        addBefore(Eigen::VectorXd&) const override { }
+	bool                        isSingular() const override { return isSingular_; }
+	double                      fromOutside(const Eigen::VectorXd& d) const override;
+	void                        addRoundOff(const Eigen::VectorXd& d, Eigen::VectorXd& sizes) const override;
+	Eigen::VectorXd             ownMotion() const override;
+	void                        restrain(const typename Term<Dim>::Hold&) const override;
+	std::string                 inaccuracy(const Eigen::VectorXd& d) const override;
+	void                        commit(const Eigen::VectorXd& d) override;
+
+private:
+	Eigen::VectorXd toNodes(const std::vector<Vec<Dim>>& ofPoints) const;
+	Eigen::VectorXd solve(const Eigen::VectorXd& momentum, const Eigen::VectorXd& ofHeld);
+	Eigen::VectorXd firstAcceleration();
+	Eigen::VectorXd accelerationAt(const Eigen::VectorXd& d) const;
+	bool            isHeld(Eigen::Index dof) const { return dofs_.number[dof] < 0; }
+
+	Motion<Dim>&                       motion_;
+	const CloudBasis<Dim>&             basis_;
+	const FreeDofs&                    dofs_;
+	const Eigen::VectorXd&             prescribed_;
+	const std::vector<GhostFace<Dim>>& faces_;
+	double                             h_; // size of the cells
+	MassMatrix<Dim>                    mass_;
+	bool                               isSingular_ = false;
+	Eigen::VectorXd                    imbalance_;               // at the start, where the scheme asks for it; zero at held nodes
+	Eigen::VectorXd                    velocity_, acceleration_; // at the start
+};
+
+} // namespace gimpm

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "core/terms/mass_matrix.hpp"
+#include "core/grid/point_nodes.hpp"
+#include <algorithm>
+
+namespace gimpm {
+namespace {
+
+/// Position of node n of a patch along each axis, as the code of a node matrix.
+template <int Dim> int codeOf(const Patch<Dim>& patch, int n)
+{
+	std::array<int, 3> along {};
+	for (int a = 0; a < Dim; n /= patch.nodesAlong(a), ++a)
+		along[a] = n % patch.nodesAlong(a);
+	return NodeMatrix<Dim>::code(along);
+}
+
+/// Adds up what is in the same row of a column, in ascending order.
+void mergeColumn(std::vector<std::pair<int, double>>& column, SymmetricCsc& out)
+{
+	std::stable_sort(column.begin(), column.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+	for (std::size_t e = 0; e < column.size(); ++e)
+		if (e > 0 && column[e].first == column[e - 1].first) out.value.back() += column[e].second;
+		else
+			out.row.push_back(column[e].first), out.value.push_back(column[e].second);
+	out.start.push_back(int(out.row.size()));
+}
+
+} // namespace
+
+template <int Dim>
+MassMatrix<Dim>::MassMatrix(const CloudBasis<Dim>& basis, const std::vector<double>& masses, const std::vector<GhostFace<Dim>>& faces, double h)
+        : value_(basis.nodes.size() * codes, 0), neighbour_(value_.size(), -1)
+{
+	forPointNodes(basis, [&](int p, const Patch<Dim>& patch, const double* value, int count) {
+		const double m = masses[basis.order[p]];
+		for (int a = 0; a < count; ++a)
+			for (int b = a; b < count && patch.node[a] >= 0; ++b)
+				if (patch.node[b] >= 0) add(patch.node[a], patch.node[b], codeOf(patch, b) - codeOf(patch, a), m * value[a] * value[b]);
+	});
+	forGhostPairs<Dim>(faces, h, [&](int a, int b, int code, double m) { add(a, b, code, m); });
+}
+
+template <int Dim> template <class F> void MassMatrix<Dim>::forEntries(F&& f) const
+{
+	for (int a = 0; a < nodes(); ++a)
+		for (int code = 0; code < codes; ++code)
+			if (const std::size_t place = std::size_t(a) * codes + code; neighbour_[place] >= 0) f(a, neighbour_[place], code, value_[place]);
+}
+
+template <int Dim> void MassMatrix<Dim>::mark(NodeMatrix<Dim>& K) const
+{
+	forEntries([&](int a, int, int code, double) { K.markUsed(a, code); });
+}
+
+template <int Dim> void MassMatrix<Dim>::addTo(NodeMatrix<Dim>& K, double factor) const
+{
+	forEntries([&](int a, int, int code, double m) {
+		for (int i = 0; i < Dim; ++i)
+			K.at(a, code)[i * (Dim + 1)] += factor * m;
+	});
+}
+
+template <int Dim> Eigen::VectorXd MassMatrix<Dim>::operator*(const Eigen::VectorXd& x) const
+{
+	Eigen::VectorXd y = Eigen::VectorXd::Zero(x.size());
+	forEntries([&](int a, int b, int, double m) {
+		y.segment<Dim>(Dim * a) += m * x.segment<Dim>(Dim * b);
+		if (b != a) y.segment<Dim>(Dim * b) += m * x.segment<Dim>(Dim * a);
+	});
+	return y;
+}
+
+template <int Dim> Eigen::VectorXd MassMatrix<Dim>::sizesTimes(const Eigen::VectorXd& x) const
+{
+	Eigen::VectorXd y = Eigen::VectorXd::Zero(x.size());
+	forEntries([&](int a, int b, int, double m) {
+		y.segment<Dim>(Dim * a) += std::abs(m) * x.segment<Dim>(Dim * b).cwiseAbs();
+		if (b != a) y.segment<Dim>(Dim * b) += std::abs(m) * x.segment<Dim>(Dim * a).cwiseAbs();
+	});
+	return y;
+}
+
+template <int Dim> SymmetricCsc MassMatrix<Dim>::reduced(const FreeDofs& dofs, int axis) const
+{
+	std::vector<int> number(nodes(), -1);
+	int              count = 0;
+	for (int n = 0; n < nodes(); ++n)
+		if (dofs.number[Dim * n + axis] >= 0) number[n] = count++;
+	std::vector<std::vector<std::pair<int, double>>> columns(count);
+	forEntries([&](int a, int b, int, double m) {
+		if (number[a] >= 0 && number[b] >= 0) columns[std::min(number[a], number[b])].emplace_back(std::max(number[a], number[b]), m);
+	});
+	SymmetricCsc out;
+	out.start = { 0 };
+	for (auto& column : columns)
+		mergeColumn(column, out);
+	return out;
+}
+
+template class MassMatrix<2>;
+template class MassMatrix<3>;
+
+} // namespace gimpm

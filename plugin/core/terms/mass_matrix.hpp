@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The mass of the points on the nodes, consistent with the basis functions, with ghost mass.
+#pragma once
+#include "core/solvers/reduce.hpp"
+#include "core/terms/ghost.hpp"
+
+namespace gimpm {
+
+/// M_ab = sum of m_p S_a S_b over the points, and M_g, which is K_g (core/terms/ghost.hpp) with gamma_M h^3 / 3 for the faces' stiffness (Sticko et al. 2020): it
+/// penalises jumps of the gradient of velocities, so that the condition number does not depend on how little of a cell is filled. Its rows add up to
+/// zero: mass, momentum and every linear field of velocities are left alone. One number for a pair of nodes, the same for each component.
+template <int Dim> class MassMatrix {
+public:
+	/// Masses by point of the cloud [kg].
+	MassMatrix(const CloudBasis<Dim>&, const std::vector<double>& masses, const std::vector<GhostFace<Dim>>&, double h);
+
+	int nodes() const { return int(neighbour_.size()) / codes; }
+
+	void            mark(NodeMatrix<Dim>& K) const;
+	void            addTo(NodeMatrix<Dim>& K, double factor) const; ///< K += factor (M + M_g)
+	Eigen::VectorXd operator*(const Eigen::VectorXd& x) const;      ///< for nodal vectors of Dim components a node
+	Eigen::VectorXd sizesTimes(const Eigen::VectorXd& x) const;     ///< the same with the magnitudes of all numbers
+
+	/// Rows and columns of the degrees of freedom that are free along an axis.
+	SymmetricCsc reduced(const FreeDofs&, int axis) const;
+
+private:
+	static constexpr int codes = NodeMatrix<Dim>::codes;
+
+	void add(int a, int b, int code, double m)
+	{
+		const std::size_t place = std::size_t(a) * codes + code;
+		neighbour_[place]       = b;
+		value_[place] += m;
+	}
+	/// f(a, b, code, number) for b not before a.
+	template <class F> void forEntries(F&& f) const;
+
+	std::vector<double> value_;
+	std::vector<int>    neighbour_; // -1: nothing there
+};
+
+} // namespace gimpm

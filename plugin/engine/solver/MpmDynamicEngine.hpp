@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+#include "core/terms/time_scheme.hpp"
+#include "engine/solver/MpmImplicitEngine.hpp"
+
+namespace yade {
+
+class MpmDynamicEngine : public Exposed<MpmDynamicEngine, MpmImplicitEngine> {
+public:
+	string           scheme = "newmark";
+	Real             beta = 0.25, gamma = 0.5, rhoInfinity = 0.8, timeTolerance = 0;
+	Real             loadWork = 0, boundaryWork = 0, contactWork = 0, ghostWork = 0, plasticWork = 0;
+	Real             firstEnergy = std::numeric_limits<Real>::quiet_NaN(); // when the first step began; NaN: there was none
+	vector<Vector3r> reactionsBefore;                                      // those of the step before
+
+	MpmDynamicEngine() { loadCurve = { { 0, 1 } }; }
+
+	YADE_API_NAME(MpmDynamicEngine)
+	static const char* doc()
+	{
+		return "Implicit dynamic analysis: MpmImplicitEngine with inertia. Each run advances the material points in time, from the last converged time to O.time + "
+		       "O.dt [s], with velocities that their states keep (*vel*; mpm.assign(velocity=...)). Consistent mass, stabilised at the edge of the body as the "
+		       "stiffness is (MpmGhost.massFactor).";
+	}
+	template <class V> static void attributes(V&& v)
+	{
+		using E = MpmDynamicEngine;
+		v("loadCurve", &E::loadCurve, noSave,
+		  "Load factor [-] as of MpmImplicitEngine. Here it is 1 from the beginning unless another curve is given: loads act at once.",
+		  admitting("one or more (time, factor), all finite, with increasing times", gimpm::LoadCurve::isAdmissible));
+		v("scheme", &E::scheme, 0,
+		  "Integration in time: 'newmark' (*beta*, *gamma*), 'generalised-alpha' (*rhoInfinity*), which damps high frequencies (Chung and Hulbert 1993), or "
+		  "'midpoint', which keeps angular momentum.",
+		  oneOf("newmark", "generalised-alpha", "midpoint"));
+		v("beta", &E::beta, 0,
+		  "Newmark's parameter [-] > 0; 1/4 with gamma = 1/2 is the trapezoidal rule. Below (gamma + 1/2)^2 / 4 long steps are unstable.", positive);
+		v("gamma", &E::gamma, 0, "Newmark's parameter [-] >= 1/2; above it, the scheme damps and is of first order only.",
+		  admitting("a finite number >= 1/2: below it, energy grows", [](Real value) { return isFinite(value) && value >= 0.5; }));
+		v("rhoInfinity", &E::rhoInfinity, 0, "What generalised-alpha leaves of the highest frequencies in each step [-], 0 to 1.",
+		  admitting("a number from 0 to 1", [](Real value) { return value >= 0 && value <= 1; }));
+		v("timeTolerance", &E::timeTolerance, 0,
+		  "Largest local error of displacements in a step [cells] >= 0: a step beyond it is cut (newton.minStep). 0: not looked at. Not with 'midpoint'.",
+		  nonNegative);
+		v("loadWork", &E::loadWork, readonly, "Work of gravity, point loads and loads on surfaces so far [J].", finite);
+		v("boundaryWork", &E::boundaryWork, readonly, "Work of boundaries that move so far [J].", finite);
+		v("contactWork", &E::contactWork, readonly, "Work of rigid bodies on the material so far, friction and penalties included [J].", finite);
+		v("ghostWork", &E::ghostWork, readonly, "Energy that ghost stabilisation has taken so far [J].", finite);
+		v("plasticWork", &E::plasticWork, readonly, "Energy dissipated by plastic flow so far [J].", finite);
+		v("firstEnergy", &E::firstEnergy, hidden, "", AnyValue());
+		v("reactionsBefore", &E::reactionsBefore, hidden, "",
+		  admitting("forces of finite numbers [N]", [](const auto& forces) { return std::all_of(forces.begin(), forces.end(), finite); }));
+	}
+
+	void action() override;
+	bool isDynamic() const override { return true; }
+	void tellMotion(py::dict&) const override;
+
+	gimpm::TimeScheme timeScheme() const;
+
+	void requireAdmissible() const override;
+
+protected:
+	void setMoving(Job<2>& job, const vector<MaterialPoint>& points) override;
+	void setMoving(Job<3>& job, const vector<MaterialPoint>& points) override;
+
+private:
+	void                    watch(); // where points are: nobody else shall move them until the next step
+	template <int Dim> void makeMoving(Job<Dim>&, const vector<MaterialPoint>&);
+	void                    requireOnlyMover(const vector<MaterialPoint>&) const;
+
+	Body::id_t watched   = -1; // a point that moves, and where it was after the last step of this process
+	Vector3r   watchedAt = Vector3r::Zero();
+};
+
+} // namespace yade
+
+BOOST_CLASS_EXPORT_KEY(yade::MpmDynamicEngine)

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+#include "engine/points/MaterialPoints.hpp"
+
+namespace yade {
+
+// Of material points.
+struct Energies {
+	Real     kinetic = 0, elastic = 0;           // [J]
+	Vector3r momentum        = Vector3r::Zero(); // [kg m/s]
+	Vector3r angularMomentum = Vector3r::Zero(); // about the origin [kg m2/s]
+
+	Real total() const { return kinetic + elastic; }
+};
+
+Energies energiesOf(const vector<MaterialPoint>&);
+
+// Half Kirchhoff stress times elastic strain over the initial volume: the energy of linear (Hencky) elasticity [J].
+inline Real elasticEnergy(const MpmState& state) { return 0.5 * state.volume * state.stress.cwiseProduct(state.elasticStrain).sum(); }
+
+} // namespace yade

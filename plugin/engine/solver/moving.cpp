@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "engine/solver/moving.hpp"
+#include "engine/points/parallel.hpp"
+#include "engine/solver/MpmDynamicEngine.hpp"
+#include "engine/solver/plastic_work.hpp"
+
+namespace yade {
+
+namespace {
+	template <int Dim> gimpm::Vec<Dim> inDimension(const MaterialPoint& point, const char* name, const Vector3r& value)
+	{
+		const bool isOutOfPlane = Dim == 2 && value[2] != 0;
+		if (value.allFinite() && !isOutOfPlane) return value.head<Dim>();
+		std::ostringstream text;
+		text << "Body #" << point.id << ": MpmState." << name << " = (" << value.transpose() << ") is not admitted: expected three finite numbers"
+		     << (Dim == 2 ? ", without a component along z on a grid with dim=2." : ".");
+		throw std::invalid_argument(text.str());
+	}
+}
+
+template <int Dim> Moving<Dim>::Moving(MpmDynamicEngine& e, Job<Dim>& job, const vector<MaterialPoint>& points) : engine(e), motion(new gimpm::Motion<Dim>)
+{
+	motion->scheme    = engine.timeScheme();
+	motion->ghostMass = std::isnan(engine.ghost->massFactor) ? MpmGhost::usualMassFactor : engine.ghost->massFactor;
+	if (engine.timeTolerance > 0) motion->tolerance = engine.timeTolerance * engine.grid->cellSize;
+	for (size_t p = 0; p < points.size(); ++p) {
+		motion->mass.push_back(job.model.materials[job.cloud.material[p]].density * job.cloud.volume0[p]);
+		motion->velocity.push_back(inDimension<Dim>(points[p], "vel", points[p].state->vel));
+		motion->acceleration.push_back(inDimension<Dim>(points[p], "acceleration", points[p].state->acceleration));
+	}
+	job.model.atMiddle = motion->scheme.atMiddle;
+	job.model.terms.push_back([known = motion](const gimpm::Beginning<Dim>& step) { return std::make_unique<gimpm::Inertia<Dim>>(*known, step); });
+	job.surfaceLoads.beginAt(job.begin);
+}
+
+template <int Dim> void Moving<Dim>::begin(Job<Dim>& job, Attempt<Dim>& next, Real from) const
+{
+	motion->duration = next.time - from;
+	next.load.motion = motion->duration;
+	if (!motion->scheme.atMiddle) return;
+	const auto toMiddle = [](gimpm::LoadFactor& factor) { factor.value -= factor.growth / 2; };
+	toMiddle(next.load.factor);
+	if (next.load.ofGravity) toMiddle(*next.load.ofGravity);
+	job.surfaceLoads.advanceTo(from + motion->duration / 2);
+}
+
+// Reactions are those of the two ends, where they are known; with the midpoint rule those of the middle.
+template <int Dim> Real Moving<Dim>::workOfBoundaries(Real from, Real time) const
+{
+	const auto &now = engine.reactions, &before = engine.reactionsBefore;
+	const bool  hasBefore = before.size() == now.size() && !motion->scheme.atMiddle;
+	const Real  growth    = engine.curveOfLoads().between(from, time).growth;
+	Real        work      = 0;
+	for (size_t b = 0; b < now.size(); ++b) {
+		const MpmBoundary& boundary = *engine.boundaries[b];
+		const Vector3r     moved    = boundary.surface ? Vector3r((time - from) * boundary.velocity) : Vector3r(growth * boundary.displacement);
+		work += moved.dot(hasBefore ? Vector3r((now[b] + before[b]) / 2) : now[b]);
+	}
+	return work;
+}
+
+template <int Dim> void Moving<Dim>::addWork(const Job<Dim>& job, Real time, const vector<MaterialPoint>& points)
+{
+	const Real     from   = engine.loadTime;
+	const auto     factor = engine.curveOfLoads().between(from, time), ofGravity = engine.curveOfGravity().between(from, time);
+	const Vector3r g = (ofGravity.value + ofGravity.before()) / 2 * engine.gravity;
+	for (size_t p = 0; p < points.size(); ++p) {
+		Vector3r moved    = Vector3r::Zero();
+		moved.head<Dim>() = job.cloud.position[p] - points[p].state->pos.template head<Dim>();
+		engine.loadWork += moved.dot(motion->mass[p] * g + (factor.value + factor.before()) / 2 * points[p].state->force);
+	}
+	engine.loadWork += job.surfaceLoads.work();
+	engine.boundaryWork += workOfBoundaries(from, time);
+	engine.contactWork += job.contacts.work();
+	engine.ghostWork += motion->ghostWork;
+	engine.plasticWork += plasticWork(job.cloud, job.model.materials, points);
+	engine.reactionsBefore = engine.reactions;
+}
+
+template <int Dim> void Moving<Dim>::reach(const Job<Dim>& job, Real time, const vector<MaterialPoint>& points)
+{
+	addWork(job, time, points);
+	inRanges(points.size(), [&](size_t begin, size_t end) {
+		for (size_t p = begin; p < end; ++p) {
+			points[p].state->vel.template head<Dim>()          = motion->velocity[p];
+			points[p].state->acceleration.template head<Dim>() = motion->acceleration[p];
+		}
+	});
+}
+
+template class Moving<2>;
+template class Moving<3>;
+
+} // namespace yade

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+// Inertia in the steps of a run.
+#include "core/terms/inertia.hpp"
+#include "engine/solver/job.hpp"
+
+namespace yade {
+class MpmDynamicEngine;
+
+template <int Dim> class Moving {
+public:
+	// Takes the velocities over and makes inertia act in the job's model, after everything else. std::invalid_argument names a velocity that cannot be
+	// computed with.
+	Moving(MpmDynamicEngine&, Job<Dim>&, const vector<MaterialPoint>&);
+
+	// The next step goes from here to the time of the attempt.
+	void begin(Job<Dim>&, Attempt<Dim>&, Real from) const;
+
+	// Adds up what the step that has been accepted has worked, while the points are still as before it, and gives them their velocities.
+	void reach(const Job<Dim>&, Real time, const vector<MaterialPoint>&);
+
+private:
+	void addWork(const Job<Dim>&, Real time, const vector<MaterialPoint>&);
+	Real workOfBoundaries(Real from, Real time) const;
+
+	MpmDynamicEngine&                   engine;
+	std::shared_ptr<gimpm::Motion<Dim>> motion;
+};
+
+} // namespace yade

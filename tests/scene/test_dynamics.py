@@ -1,0 +1,268 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""MpmDynamicEngine: motion in time in the real YADE."""
+import numpy as np
+import pytest
+
+scene = '''
+from scenes import *
+import numpy as np
+import json
+
+def block(lower=(0, 0, 0), upper=(3, 3, 1), dim=2, cellSize=1., young=1e6, poisson=0., density=2000, engine=MpmDynamicEngine, **settings):
+	O.materials.append(MpmElasticMat(young=young, poisson=poisson, density=density, label='soil'))
+	grid = MpmGrid(cellSize=cellSize, dim=dim)
+	O.bodies.append(mpm.fill(pack.inAlignedBox(lower, upper), grid, pointsPerCell=2, material='soil'))
+	O.engines = [engine(grid=grid, verbosity=0, **settings)]
+	return O.engines[0]
+
+def velocities(*v):
+	mpm.assign(velocity=[v] * len(mpm.arrays()['id']))
+'''
+
+
+@pytest.mark.parametrize('dim', [2, 3])
+def test_free_fall_is_exact_and_its_energy_balances(yade, dim):
+	yade(scene + f'''
+for scheme in 'newmark', 'generalised-alpha', 'midpoint':
+	O.reset()
+	solver = block((0.3, 0.2, 0), (3.3, 2.2, {2 if dim == 3 else 1}), {dim}, gravity=(0, -10, 0), scheme=scheme)
+	velocities(3, 0, 0)
+	before = mpm.arrays()['pos']
+	O.dt = 0.05
+	O.run(10, wait=True)
+	points, data = mpm.arrays(), solver.plotData()
+	assert np.abs(points['pos'] - before - (1.5, -1.25, 0)).max() < 1e-12, scheme
+	assert np.abs(points['velocity'] - (3, -5, 0)).max() < 1e-12
+	assert np.abs(points['acceleration'] - (0, -10, 0)).max() < 1e-8
+	mass = sum(b.state.mass for b in O.bodies)
+	assert abs(data['momentum_y'] / (-5 * mass) - 1) < 1e-12
+	assert abs(data['kineticEnergy'] / (17 * mass) - 1) < 1e-12
+	assert abs(data['loadWork'] / (12.5 * mass) - 1) < 1e-12
+	assert abs(data['energyImbalance']) < 1e-9 * data['loadWork']
+	assert abs(solver.report()['momentum_x'] / (3 * mass) - 1) < 1e-12
+''')
+
+
+def test_a_bar_swings_back_in_half_a_period(yade):
+	"""First mode of a bar that is held at one end, 20 cells, a sound wave's way of a cell in a step."""
+	run = yade(scene + '''
+c = 1e3**0.5
+solver = block((0, 0, 0), (20, 1, 1), density=1000, newton=MpmNewton(tolerance=1e-9),
+	boundaries=[MpmBoundary(max=(0, inf, inf), fix='x'), MpmBoundary(max=(inf, 0, inf), fix='y'), MpmBoundary(min=(-inf, 1, -inf), fix='y')])
+mode = np.sin(np.pi * mpm.arrays()['pos'][:, 0] / 40)
+mpm.assign(velocity=np.outer(1e-4 * mode, (1, 0, 0)))
+energy = solver.plotData()['kineticEnergy']
+O.dt = 1 / c
+O.run(20, wait=True) # a quarter
+quarter = solver.plotData()
+O.run(20, wait=True)
+v = mpm.arrays()['velocity'][:, 0]
+print(json.dumps([v @ mode / (mode @ mode) / 1e-4, quarter['elasticEnergy'] / energy, solver.plotData()['kineticEnergy'] / energy, quarter['energyImbalance'] / energy]))
+''')
+	back, elastic, kinetic, imbalance = run.result
+	assert back == pytest.approx(-1, abs=1e-3)
+	assert elastic == pytest.approx(1, abs=2e-3) and kinetic == pytest.approx(1, abs=2e-3)
+	assert abs(imbalance) < 1e-3
+
+
+def test_energy_of_a_column_that_slumps_is_accounted_for(yade):
+	"""Clay too soft for its height: weight works, flow dissipates, and what moves comes to rest."""
+	run = yade(scene + '''
+O.materials.append(MpmTrescaMat(young=2e6, poisson=0.3, density=2000, undrainedStrength=8e3, label='clay'))
+grid = MpmGrid(cellSize=0.5)
+O.bodies.append(mpm.fill(pack.inAlignedBox((0, 0, 0), (2, 4, 1)), grid, pointsPerCell=2, material='clay'))
+solver = MpmDynamicEngine(grid=grid, gravity=(0, -10, 0), verbosity=0,
+	boundaries=[MpmBoundary(max=(0, inf, inf), fix='x'), MpmBoundary(max=(inf, 0, inf), fix='xy')])
+O.engines, O.dt = [solver], 0.01
+O.run(120, wait=True)
+print(json.dumps(solver.plotData()))
+''')
+	data = run.result
+	assert data['plasticWork'] > 0.5 * data['loadWork'] > 0
+	assert data['ghostWork'] >= 0
+	assert abs(data['energyImbalance']) < 0.02 * data['loadWork']
+
+
+@pytest.mark.parametrize('scheme', ['newmark', 'generalised-alpha', 'midpoint'])
+def test_a_saved_scene_goes_on_bit_for_bit(yade, scheme):
+	setup = f'''
+solver = block((0.2, 0.1, 0), (3.2, 3.1, 1), poisson=0.3, gravity=(0, -10, 0), scheme='{scheme}', boundaries=[MpmBoundary(max=(inf, 0, inf), fix='xy')])
+O.dt = 0.02
+'''
+	yade(scene + setup + '''
+O.run(5, wait=True)
+O.save('half.xml.gz')
+O.run(5, wait=True)
+np.savez('whole.npz', **mpm.arrays(), energy=solver.plotData()['energyImbalance'])
+''')
+	yade(scene + '''
+O.load('half.xml.gz')
+O.run(5, wait=True)
+np.savez('parts.npz', **mpm.arrays(), energy=O.engines[0].plotData()['energyImbalance'])
+''')
+	whole, parts = np.load(yade.folder / 'whole.npz'), np.load(yade.folder / 'parts.npz')
+	assert np.abs(whole['velocity']).max() > 0
+	for name in whole:
+		assert np.array_equal(whole[name], parts[name], equal_nan=True), name
+
+
+def test_slow_loading_is_static(yade):
+	"""A ramp over ten thousand periods: the result of MpmImplicitEngine."""
+	yade(scene + '''
+found = []
+for engine in MpmImplicitEngine, MpmDynamicEngine:
+	O.reset()
+	sides = [MpmBoundary(max=(0, inf, inf), fix='x'), MpmBoundary(min=(2, -inf, -inf), fix='x'), MpmBoundary(max=(inf, 0, inf), fix='y')]
+	solver = block((0, 0, 0), (2, 8, 1), engine=engine, gravity=(0, -10, 0), boundaries=sides, newton=MpmNewton(tolerance=1e-9))
+	period = 4 * 8 / (1e6 / 2000)**0.5
+	solver.loadCurve = [(0, 0), (1e4 * period, 1)]
+	O.dt = 1e3 * period
+	O.run(10, wait=True)
+	found.append(mpm.arrays()['pos'] - mpm.arrays()['pos0'])
+assert np.abs(found[0]).max() > 0.1
+assert np.abs(found[0] - found[1]).max() < 1e-6 * np.abs(found[0]).max(), np.abs(found[0] - found[1]).max() / np.abs(found[0]).max()
+''')
+
+
+def test_ground_at_rest_stays_so_until_it_is_let_go(yade):
+	"""A static stage and a dynamic one in the same scene. Static steps leave velocities alone."""
+	yade(scene + '''
+sides = [MpmBoundary(max=(0, inf, inf), fix='x'), MpmBoundary(min=(2, -inf, -inf), fix='x')]
+base = MpmBoundary(max=(inf, 0, inf), fix='y')
+static = block((0, 0, 0), (2, 4, 1), engine=MpmImplicitEngine, gravity=(0, -10, 0), boundaries=sides + [base], newton=MpmNewton(tolerance=1e-9))
+velocities(1, 2, 0)
+O.dt = 0.2
+O.run(5, wait=True)
+assert np.all(mpm.arrays()['velocity'] == (1, 2, 0)) and np.all(mpm.arrays()['acceleration'] == 0)
+velocities(0, 0, 0)
+solver = MpmDynamicEngine(grid=static.grid, gravity=static.gravity, boundaries=static.boundaries, newton=static.newton, loadTime=O.time, verbosity=0)
+O.engines, O.dt = [solver], 0.005
+O.run(10, wait=True)
+assert np.abs(mpm.arrays()['velocity']).max() < 1e-4, np.abs(mpm.arrays()['velocity']).max() # falling freely it would be 0.5
+assert abs(solver.reactions[2][1] / (10 * sum(b.state.mass for b in O.bodies)) - 1) < 1e-4
+solver.boundaries = sides
+O.run(10, wait=True)
+mass = sum(b.state.mass for b in O.bodies)
+assert abs(solver.plotData()['momentum_y'] / (-0.5 * mass) - 1) < 1e-3
+''')
+
+
+def test_a_block_bounces_off_a_box(yade):
+	"""Contact works with inertia: a bar that hits a rigid wall flies back after the wave has run to its end and back. No energy comes from nowhere."""
+	run = yade(scene + '''
+from yade import utils
+c, speed = (1e6 / 1000)**0.5, 0.05
+solver = block((0, 0.01, 0), (1, 8.01, 1), cellSize=0.5, density=1000)
+O.materials.append(FrictMat(young=1e9, frictionAngle=0, label='steel'))
+O.bodies.append(utils.box((0.5, -0.5, 0), (2, 0.5, 1), fixed=True, material='steel'))
+solver.contacts = [MpmContact(friction=0, stiffness=100)]
+velocities(0, -speed, 0)
+mass = solver.plotData()['momentum_y'] / -speed
+energy, most = solver.plotData()['kineticEnergy'], 0
+O.dt = 0.25 / c
+times, speeds = [], []
+while O.time < 0.01 / speed + 3 * 8 / c:
+	O.step()
+	data = solver.plotData()
+	most = max(most, data['kineticEnergy'] + data['elasticEnergy'])
+	times.append(O.time), speeds.append(data['momentum_y'] / mass / speed)
+stopped = np.interp(0, speeds, times) # in the middle of the contact
+print(json.dumps([speeds[-1], most / energy, (stopped - 0.01 / speed) * c / 8, data['contactWork'] / energy, data['energyImbalance'] / energy]))
+''')
+	speed, most, middle, work, imbalance = run.result
+	assert speed == pytest.approx(1, abs=0.02)
+	assert most < 1 + 1e-3
+	assert middle == pytest.approx(1, abs=0.05)
+	assert abs(work) < 0.02 and abs(imbalance) < 0.02
+
+
+def test_prescribed_motion_works_on_the_body(yade):
+	"""A boundary that moves at constant speed carries a stiff block along with it."""
+	yade(scene + '''
+solver = block(young=1e8, scheme='generalised-alpha', rhoInfinity=0.5, loadCurve=[(0, 0), (1, 1)])
+solver.boundaries = [MpmBoundary(fix='y'), MpmBoundary(max=(0, inf, inf), fix='x', displacement=(0.2, 0, 0))]
+O.dt = 0.01
+O.run(50, wait=True)
+points, data = mpm.arrays(), solver.plotData()
+assert np.abs(points['velocity'][:, 0] - 0.2).max() < 0.02
+assert abs(data['boundaryWork'] / data['kineticEnergy'] - 1) < 0.1, data
+''')
+
+
+def test_long_steps_are_cut_to_the_time_tolerance(yade):
+	yade(scene + '''
+cuts = []
+for tolerance in 0, 1e-4:
+	O.reset()
+	solver = block(gravity=(0, -10, 0), boundaries=[MpmBoundary(max=(inf, 0, inf), fix='y')], timeTolerance=tolerance)
+	O.dt = 0.1
+	O.run(2, wait=True)
+	cuts.append(solver.substeps)
+assert cuts[0] == 1 and cuts[1] > 4, cuts
+solver.newton.minStep = 1
+try:
+	O.step()
+	assert False
+except RuntimeError as error:
+	assert 'local error' in str(error) and 'timeTolerance' in str(error) and 'MpmDynamicEngine' in str(error), error
+assert solver.report()['failure'] == 'inaccurate'
+''')
+
+
+@pytest.mark.parametrize('integrator, moves', [('NewtonIntegrator()', True), ('NewtonIntegrator(mask=1)', False)])
+def test_an_integrator_that_moves_points_too_is_refused(yade, integrator, moves):
+	yade(scene + f'''
+solver = block()
+for body in O.bodies: body.groupMask = 2
+velocities(1, 0, 0)
+O.engines = [ForceResetter(), solver, {integrator}]
+O.dt = 0.01
+try:
+	for step in range(3): O.step()
+	assert not {moves}
+	assert np.abs(mpm.arrays()['pos'][:, 0] - mpm.arrays()['pos0'][:, 0] - 0.03).max() < 1e-12
+except ValueError as error:
+	assert {moves} and 'NewtonIntegrator' in str(error) and 'groupMask' in str(error), error
+''')
+
+
+@pytest.mark.parametrize(
+        'change, words', [
+                ('solver.scheme = "explicit euler"', ['MpmDynamicEngine.scheme', 'newmark', 'midpoint']),
+                ('solver.beta = 0.', ['MpmDynamicEngine.beta', '> 0']),
+                ('solver.gamma = 0.4', ['MpmDynamicEngine.gamma', '1/2', 'energy']),
+                ('solver.rhoInfinity = 1.5', ['MpmDynamicEngine.rhoInfinity', '0 to 1']),
+                ('solver.timeTolerance = -1.', ['MpmDynamicEngine.timeTolerance', '>= 0']),
+                ('solver.ghost.massFactor = -1.', ['MpmGhost.massFactor', '>= 0']),
+                ('solver.scheme, solver.timeTolerance = "midpoint", 1e-3', ['timeTolerance', 'midpoint']),
+                ('velocities(0, 0, 1)', ['vel', 'dim=2']),
+                ('O.bodies[3].state.vel = (float("nan"), 0, 0)', ['Body #3', 'vel', 'finite']),
+        ]
+)
+def test_bad_input_is_refused_by_name(yade, change, words):
+	run = yade(scene + f'''
+solver = block()
+O.dt = 0.01
+try:
+	{change}
+	O.step()
+except ValueError as error:
+	print(json.dumps(str(error)))
+''')
+	for word in words:
+		assert word in run.result
+
+
+def test_velocities_are_in_files_where_points_move(yade):
+	yade(scene + '''
+solver = block()
+recorder = MpmVtkRecorder(fileName='still-', iterPeriod=1)
+O.engines, O.dt = O.engines + [recorder], 0.01
+O.step()
+recorder.fileName = 'moving-'
+velocities(1, 0, 0)
+O.step()
+''')
+	fields = {name: b''.join(path.read_bytes() for path in yade.folder.glob(f'{name}-*.vtu')) for name in ('still', 'moving')}
+	assert b'"stress"' in fields['still'] and b'"velocity"' not in fields['still']
+	assert b'"velocity"' in fields['moving'] and b'"acceleration"' in fields['moving']
