@@ -234,6 +234,7 @@ kinds = [ # of failures, by what the exception says
         ('thrown off', 'thrown off the grid'),
         ('diverges', 'diverging'),
         ('whole material point inside', 'penetrated'),
+        ('would let soil through', 'penetrated'),
         ('above the tolerance', 'not converging'),
         ('times the tolerance', 'not converging'), # around a node
 ]
