@@ -26,7 +26,7 @@ from options import readOptions
 
 options = readOptions('Run-out of columns of sand.',
         aspects=('0.5 1 2 3', 'height over width of the columns, between blanks'),
-        cells=(10, 'over the width L; 0: no continuum'),
+        cells=(10, 'over the width L, or the height if that is less; 0: no continuum'),
         pointsPerCell=(2, 'material points per cell and axis'),
         repose=(31., 'angle of repose [degrees]'),
         courant=(0.3, 'how far what falls down the height goes in a step, in cells'),
@@ -44,7 +44,7 @@ def makeSand(height):
 	O.reset()
 	O.materials.append(MpmMohrCoulombMat(young=500 * density * g * L, poisson=0.3, density=density, cohesion=1e-3 * density * g * L,
 	                                     frictionAngle=np.arcsin(np.tan(radians(options.repose))), dilationAngle=0, label='sand'))
-	grid = MpmGrid(cellSize=L / options.cells)
+	grid = MpmGrid(cellSize=min(L, height) / options.cells)
 	O.bodies.append(mpm.fill(pack.inAlignedBox((0, 0, 0), (L, height, 1)), grid, options.pointsPerCell, 'sand'))
 	sides = [MpmBoundary(max=(0, inf, inf), fix='x'), MpmBoundary(max=(inf, 0, inf), fix='xy')]
 	O.engines = [MpmDynamicEngine(grid=grid, gravity=(0, -g, 0), boundaries=sides, newton=MpmNewton(minStep=1 / 256), mask=1, verbosity=0)]
@@ -111,27 +111,36 @@ def run(height, advance, state, area, size):
 def runSand(height):
 	"""See run; and counts of what it took."""
 	solver = makeSand(height)
-	area = (L / options.cells / options.pointsPerCell)**2
+	h = solver.grid.cellSize
+	area = (h / options.pointsPerCell)**2
 	counts = dict(points=len(mpm.arrays()['id']), steps=0, iterations=0)
 	loose = set()
 
 	def moving(points):
 		return ~np.isin(points['id'], list(loose))
 
-	def advance():
+	def leave():
 		points = mpm.arrays()
-		loose.update(leaveLoose({name: points[name][moving(points)] for name in ('id', 'pos', 'halfSize')}, solver.grid.cellSize))
-		O.step()
+		found = leaveLoose({name: points[name][moving(points)] for name in ('id', 'pos', 'halfSize')}, h)
+		loose.update(found)
+		counts['loose'] = len(loose)
+		return found
+
+	def advance():
+		leave()
+		try: O.step()
+		except RuntimeError:
+			if not leave(): raise
+			O.step()  # some have come off in a part of the step
 		counts['steps'] += 1
 		counts['iterations'] += solver.iterations
-		counts['loose'] = len(loose)
 
 	def state():
 		points, data = mpm.arrays(), solver.plotData()
 		energies = [data[name] for name in ('kineticEnergy', 'loadWork', 'plasticWork', 'elasticEnergy', 'ghostWork', 'energyImbalance')]
 		return points['pos'][:, :2], np.linalg.norm(points['velocity'], axis=1) * moving(points), *energies
 
-	return *run(height, advance, state, area, L / options.cells), counts
+	return *run(height, advance, state, area, h), counts
 
 
 def makeGrains(height):
@@ -161,7 +170,7 @@ def makeGrains(height):
 	while O.iter < 2000 or max(O.bodies[i].state.vel.norm() for i in ids) > 0.02 * np.sqrt(g * size):
 		for _ in range(500): O.step()
 	O.bodies.erase(walls[1])
-	O.engines[3].damping, O.engines[3].dampGravity = 0.2, False
+	O.engines[3].damping, O.engines[3].dampGravity = 0.05, False
 	return ids
 
 
