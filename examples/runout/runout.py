@@ -25,13 +25,14 @@ sys.path.insert(0, os.path.join(os.path.dirname(sys.argv[0]), '..'))
 from options import readOptions
 
 options = readOptions('Run-out of columns of sand.',
-        aspects=('0.5 1 2 3', 'height over width of the columns, between blanks'),
+        aspects=('0.5 1 1.5 2 3', 'height over width of the columns, between blanks'),
         cells=(10, 'over the width L, or the height if that is less; 0: no continuum'),
         pointsPerCell=(2, 'material points per cell and axis'),
         repose=(31., 'angle of repose [degrees]'),
         courant=(0.3, 'how far what falls down the height goes in a step, in cells'),
-        end=(8., 'latest time, over sqrt(height / g)'),
+        end=(6., 'latest time, over sqrt(height / g)'),
         grains=(0, 'grains over L, of the same columns in grains; 0: none'),
+        rolling=(0.1, 'resistance of grains against rolling, over the friction of a grain on a radius'),
         film=(2., 'aspect ratio of the pictures of the motion, one of aspects'))
 
 L, g, density = 1., 10., 1600.
@@ -146,7 +147,8 @@ def runSand(height):
 def makeGrains(height):
 	"""A layer of spheres that move in its plane, poured between walls and at rest; the second wall is taken away. Returns the ids of those that move."""
 	O.reset()
-	O.materials.append(FrictMat(young=4e6, poisson=0.3, density=2 * density, frictionAngle=radians(options.repose), label='grain'))
+	O.materials.append(CohFrictMat(young=4e6, poisson=0.3, density=2 * density, frictionAngle=radians(options.repose), isCohesive=False, momentRotationLaw=True,
+	                               alphaKr=1, alphaKtw=0, etaRoll=options.rolling, label='grain'))
 	O.materials.append(FrictMat(young=4e6, poisson=0.3, frictionAngle=0, label='glass'))
 	size, random = L / options.grains, np.random.default_rng(1)
 	rough = [utils.sphere((x, -size / 2, 0), size / 2, material='grain', fixed=True) for x in np.arange(-size, 5 * L + 6 * height, 0.8 * size)]
@@ -163,7 +165,8 @@ def makeGrains(height):
 	O.engines = [
 	        ForceResetter(),
 	        InsertionSortCollider([Bo1_Sphere_Aabb(), Bo1_Wall_Aabb()], verletDist=0.1 * size),
-	        InteractionLoop([Ig2_Sphere_Sphere_ScGeom(), Ig2_Wall_Sphere_ScGeom()], [Ip2_FrictMat_FrictMat_FrictPhys()], [Law2_ScGeom_FrictPhys_CundallStrack()]),
+	        InteractionLoop([Ig2_Sphere_Sphere_ScGeom6D(), Ig2_Wall_Sphere_ScGeom()], [Ip2_CohFrictMat_CohFrictMat_CohFrictPhys(), Ip2_FrictMat_FrictMat_FrictPhys()],
+	                        [Law2_ScGeom6D_CohFrictPhys_CohesionMoment(), Law2_ScGeom_FrictPhys_CundallStrack()]),
 	        NewtonIntegrator(gravity=(0, -g, 0), damping=0.5),
 	]
 	O.dt = 0.4 * utils.PWaveTimeStep()

@@ -109,9 +109,10 @@ def bar():
 def reflect(cut, massFactor, width):
 	"""Part of the energy of a pulse of a half width of so many cells that is left when it has come back from an end that reaches into a cell by a part of it."""
 	cells = int(12 * width)
-	solver = makeBar(cells, 1., origin=cut, ghost=MpmGhost(massFactor=massFactor, factor=0.01))
+	solver = makeBar(cells, 1., origin=-cut, ghost=MpmGhost(massFactor=massFactor, factor=0.01))
 	points = mpm.arrays()
-	speed = 0.02 * c * np.exp(-((points['pos'][:, 0] - 0.5 * cells) / width)**2)
+	x = (points['pos'][:, 0] - 0.5 * cells) / width
+	speed = 0.02 * c * np.sqrt(2 * np.e) * x * np.exp(-x**2)  # displacements are as exp(-x^2)
 	stress = np.zeros((len(speed), 3, 3))
 	stress[:, 0, 0] = -density * c * speed
 	mpm.assign(velocity=np.outer(speed, (1, 0, 0)), stress=stress)
@@ -192,7 +193,7 @@ def mass():
 		ax.semilogy(moved, column, label=f'massFactor {factor:g}')
 		print(f'massFactor {factor:5g}: {column.min():.3g}  {column[0]:.3g}  {column.max():.3g}')
 	compareGhost()
-	ax.set(xlabel='way of the block / h', ylabel='condition number of mass')
+	ax.set(xlabel='way of the block / h', ylabel='condition number of mass', ylim=(10, 1e17))
 	ax.legend(frameon=False)
 	return figure
 
@@ -242,7 +243,7 @@ def block():
 def sphere():
 	slope, g, R, h = np.radians(20), 10., 0.5, 0.125
 	O.reset()
-	O.materials.append(MpmElasticMat(young=1e7, poisson=0.2, density=2000, label='ground'))
+	O.materials.append(MpmElasticMat(young=5e7, poisson=0.2, density=2000, label='ground'))
 	O.materials.append(FrictMat(young=1e9, density=2600, frictionAngle=np.radians(30), label='ball'))
 	grid = MpmGrid(cellSize=h, dim=3)
 	O.bodies.append(mpm.fill(pack.inAlignedBox((0, 0, -2 * h), (12 * h, 4 * h, 0)), grid, 2, 'ground'))
@@ -273,6 +274,6 @@ def sphere():
 
 
 began = time.time()
-name = os.path.join(options.out, f'{options.scene}.png')
+name = os.path.join(options.out, ('waves' if options.scene == 'bar' else options.scene) + '.png')
 dict(bar=bar, pulse=pulse, mass=mass, block=block, sphere=sphere)[options.scene]().savefig(name, dpi=110)
 print(f'written: {name}; {time.time() - began:.0f} s')
