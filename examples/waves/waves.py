@@ -126,8 +126,8 @@ def reflect(cut, massFactor, width):
 
 
 def pulse():
-	cuts = (1e-6, 0.1, 0.45, 1) if options.short else (1e-6, 1e-3, 0.03, 0.1, 0.2, 0.3, 0.45, 0.6, 0.8, 1)
-	factors = (0, 1e-3, 1e-2, 0.25)
+	cuts = (1e-6, 0.03, 0.6) if options.short else (1e-6, 1e-3, 0.03, 0.1, 0.2, 0.3, 0.45, 0.6, 0.8, 1)
+	factors = (1e-3, 0.25) if options.short else (0, 1e-3, 1e-2, 0.25)
 	figure, axes = plt.subplots(1, 2, figsize=(10, 4), sharey=True, layout='constrained')
 	print('energy left: worst / median of the cuts', cuts)
 	for ax, width in zip(axes, (3, 6)):
