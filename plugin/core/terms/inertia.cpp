@@ -33,11 +33,13 @@ Inertia<Dim>::Inertia(Motion<Dim>& motion, const Beginning<Dim>& step)
         , h_(step.grid.cellSize)
         , mass_(step.basis, motion.mass, massFaces(motion, step), step.grid.cellSize)
 {
-	velocity_  = solve(toNodes(motion.velocity), prescribed_ / motion.duration);
-	imbalance_ = motion.scheme.needsImbalance() ? step.imbalance() : Eigen::VectorXd(Eigen::VectorXd::Zero(prescribed_.size()));
+	const bool begins = std::all_of(motion.acceleration.begin(), motion.acceleration.end(), [](const Vec<Dim>& a) { return a.isZero(0); });
+	velocity_         = solve(toNodes(motion.velocity), prescribed_ / motion.duration);
+	imbalance_ = acceleration_ = Eigen::VectorXd::Zero(prescribed_.size());
+	if (motion.scheme.alphaF != 0 || (motion.scheme.dependsOnStart() && begins)) imbalance_ = step.imbalance();
 	for (Eigen::Index i = 0; i < imbalance_.size(); ++i)
 		if (isHeld(i)) imbalance_[i] = 0;
-	acceleration_ = firstAcceleration();
+	if (motion.scheme.dependsOnStart()) acceleration_ = solve(begins ? imbalance_ : toNodes(motion.acceleration), acceleration_);
 }
 
 /// Sum of S m x_p.
@@ -72,16 +74,6 @@ template <int Dim> Eigen::VectorXd Inertia<Dim>::solve(const Eigen::VectorXd& mo
 			if (!isHeld(i)) x[i] = found[free++];
 	}
 	return x;
-}
-
-/// Of equilibrium as the step begins, where nothing else is known or the scheme does not go on from the accelerations before.
-template <int Dim> Eigen::VectorXd Inertia<Dim>::firstAcceleration()
-{
-	const Eigen::VectorXd zero   = Eigen::VectorXd::Zero(prescribed_.size());
-	const auto&           scheme = motion_.scheme;
-	if (!scheme.dependsOnStart()) return zero;
-	const bool begins = std::all_of(motion_.acceleration.begin(), motion_.acceleration.end(), [](const Vec<Dim>& a) { return a.isZero(0); });
-	return solve(scheme.isAlpha() && !begins ? toNodes(motion_.acceleration) : imbalance_, zero);
 }
 
 template <int Dim> Eigen::VectorXd Inertia<Dim>::accelerationAt(const Eigen::VectorXd& d) const

@@ -45,7 +45,6 @@ public:
 private:
 	Eigen::VectorXd toNodes(const std::vector<Vec<Dim>>& ofPoints) const;
 	Eigen::VectorXd solve(const Eigen::VectorXd& momentum, const Eigen::VectorXd& ofHeld);
-	Eigen::VectorXd firstAcceleration();
 	Eigen::VectorXd accelerationAt(const Eigen::VectorXd& d) const;
 	bool            isHeld(Eigen::Index dof) const { return dofs_.number[dof] < 0; }
 

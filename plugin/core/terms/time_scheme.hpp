@@ -22,9 +22,8 @@ struct TimeScheme {
 	/// v_1 = 2 d / T - v_0 and a_1 = (v_1 - v_0) / T. Angular momentum is kept.
 	static TimeScheme midpoint() { return { 0.5, 1, 0, 0, true }; }
 
-	bool needsImbalance() const { return alphaF != 0 || dependsOnStart(); }
 	bool dependsOnStart() const { return beta != 0.5 || gamma != 1; } ///< on a_0
-	bool isAlpha() const { return alphaF != 0 || alphaM != 0; }       ///< a is not that of equilibrium, and goes on from step to step
+	bool isAlpha() const { return alphaF != 0 || alphaM != 0; }       ///< equilibrium is weighed over the step
 };
 
 } // namespace gimpm
