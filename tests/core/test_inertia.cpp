@@ -285,29 +285,25 @@ namespace {
 		EXPECT_EQ(body.cloud.position, position);
 	}
 
-	/// A body flies against held nodes, which keep it: reactions are the whole change of its momentum, the first blow included.
+	/// A body flies against held nodes, which keep it: reactions, here those of the middle of steps, are the whole change of its momentum, the first blow included.
 	TYPED_TEST(InertiaTerm, ReactionsAreTheChangeOfMomentum)
 	{
 		constexpr int Dim = TypeParam::value;
-		for (const auto& scheme : { TimeScheme(), TimeScheme::midpoint(), TimeScheme::generalisedAlpha(0) }) {
-			Moving<Dim> body(1, Hencky(1e6, 0.3), 1000, scheme);
-			Vec<Dim>    v = Vec<Dim>::Zero();
-			v[0] = -3, v[1] = 0.5;
-			body.put(cutBlock<Dim>(body.model.grid, 0.2), [&](const Vec<Dim>&) { return v; });
-			body.model.boundary  = Boundary<Dim>({ wallBelow<Dim>(body.model.grid, 0, 0) });
-			const double before  = body.momentum()[0];
-			double       impulse = 0, most = 0;
-			for (int i = 0; i < 40; ++i) {
-				const auto report = body.step(0.01);
-				ASSERT_TRUE(report.converged()) << report.cause;
-				impulse += 0.01 * report.reactions[0][0];
-				most = std::max(most, impulse);
-			}
-			EXPECT_GT(most, -1.5 * before) << "it turns back, as far as the wall lets it go";
-			EXPECT_NEAR((body.momentum()[0] - before) / impulse, 1, scheme.atMiddle ? 1e-9 : 0.1)
-			        << "reactions are those of the middle, or of the end";
-			EXPECT_NEAR(body.momentum()[1], 0.5 * body.mass(), 1e-9 * body.mass());
+		Moving<Dim>   body(1, Hencky(1e6, 0.3), 1000, TimeScheme::midpoint());
+		Vec<Dim>      v = Vec<Dim>::Zero();
+		v[0] = -3, v[1] = 0.5;
+		body.put(cutBlock<Dim>(body.model.grid, 0.2), [&](const Vec<Dim>&) { return v; });
+		body.model.boundary  = Boundary<Dim>({ wallBelow<Dim>(body.model.grid, 0, 0) });
+		const double before  = body.momentum()[0];
+		double       impulse = 0;
+		for (int i = 0; i < 15; ++i) {
+			const auto report = body.step(0.01);
+			ASSERT_TRUE(report.converged()) << report.cause;
+			impulse += 0.01 * report.reactions[0][0];
 		}
+		EXPECT_GT(impulse, -before) << "it has turned back";
+		EXPECT_NEAR((body.momentum()[0] - before) / impulse, 1, 1e-9);
+		EXPECT_NEAR(body.momentum()[1], 0.5 * body.mass(), 1e-9 * body.mass());
 	}
 
 	/// What a boundary carries along gets its speed, all of it.
