@@ -287,5 +287,5 @@ def test_runout(yade):
 	run = yade(root / 'examples' / 'runout' / 'runout.py', '--aspects', 1, '--film', 1)
 	out, height, kinetic = numbers(r'sand   1\.00  \S+  \S+ \((\S+) %\)  \S+  \S+ \((\S+) %\)  \S+ kinetic energy (\S+);', run.stdout)
 	assert abs(out) < 20 and abs(height) < 5 and kinetic < 2e-3
-	assert abs(numbers(r'not accounted for (\S+) of the work', run.stdout)[0]) < 0.02
+	assert abs(numbers(r'not accounted for (\S+) of the work', run.stdout)[0]) < 0.05
 	assert (run.folder / 'out/runout/runout.png').stat().st_size > 30000 and (run.folder / 'out/runout/sand.png').stat().st_size > 20000
