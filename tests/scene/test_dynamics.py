@@ -125,11 +125,12 @@ assert np.abs(found[0] - found[1]).max() < 1e-6 * np.abs(found[0]).max(), np.abs
 
 
 def test_ground_at_rest_stays_so_until_it_is_let_go(yade):
-	"""A static stage and a dynamic one in the same scene. Static steps leave velocities alone."""
+	"""A static stage and a dynamic one in the same scene: stiff ground, for the state at the end of a static stage is in balance on the grid where it began only.
+	Static steps leave velocities alone."""
 	yade(scene + '''
 sides = [MpmBoundary(max=(0, inf, inf), fix='x'), MpmBoundary(min=(2, -inf, -inf), fix='x')]
 base = MpmBoundary(max=(inf, 0, inf), fix='y')
-static = block((0, 0, 0), (2, 4, 1), engine=MpmImplicitEngine, gravity=(0, -10, 0), boundaries=sides + [base], newton=MpmNewton(tolerance=1e-9))
+static = block((0, 0, 0), (2, 4, 1), young=1e8, engine=MpmImplicitEngine, gravity=(0, -10, 0), boundaries=sides + [base], newton=MpmNewton(tolerance=1e-9))
 velocities(1, 2, 0)
 O.dt = 0.2
 O.run(5, wait=True)
@@ -139,53 +140,55 @@ solver = MpmDynamicEngine(grid=static.grid, gravity=static.gravity, boundaries=s
 O.engines, O.dt = [solver], 0.005
 O.run(10, wait=True)
 assert np.abs(mpm.arrays()['velocity']).max() < 1e-4, np.abs(mpm.arrays()['velocity']).max() # falling freely it would be 0.5
-assert abs(solver.reactions[2][1] / (10 * sum(b.state.mass for b in O.bodies)) - 1) < 1e-4
+assert abs(solver.reactions[2][1] / (10 * sum(b.state.mass for b in O.bodies)) - 1) < 5e-3, solver.reactions[2][1] / (10 * sum(b.state.mass for b in O.bodies))
 solver.boundaries = sides
+velocities(0, 0, 0) # begin anew
 O.run(10, wait=True)
 mass = sum(b.state.mass for b in O.bodies)
 assert abs(solver.plotData()['momentum_y'] / (-0.5 * mass) - 1) < 1e-3
 ''')
 
 
-def test_a_block_bounces_off_a_box(yade):
+@pytest.mark.parametrize('scheme', ['newmark', 'generalised-alpha'])
+def test_a_block_bounces_off_a_box(yade, scheme):
 	"""Contact works with inertia: a bar that hits a rigid wall flies back after the wave has run to its end and back. No energy comes from nowhere."""
-	run = yade(scene + '''
+	run = yade(scene + f'scheme = {scheme!r}' + '''
 from yade import utils
 c, speed = (1e6 / 1000)**0.5, 0.05
-solver = block((0, 0.01, 0), (1, 8.01, 1), cellSize=0.5, density=1000)
+solver = block((0, 0, 0), (1, 8, 1), cellSize=0.5, density=1000, scheme=scheme)
 O.materials.append(FrictMat(young=1e9, frictionAngle=0, label='steel'))
-O.bodies.append(utils.box((0.5, -0.5, 0), (2, 0.5, 1), fixed=True, material='steel'))
+O.bodies.append(utils.box((0.5, -0.5, 0), (2, 0.5, 1), fixed=True, material='steel')) # they touch
 solver.contacts = [MpmContact(friction=0, stiffness=100)]
 velocities(0, -speed, 0)
 mass = solver.plotData()['momentum_y'] / -speed
 energy, most = solver.plotData()['kineticEnergy'], 0
 O.dt = 0.25 / c
 times, speeds = [], []
-while O.time < 0.01 / speed + 3 * 8 / c:
+while O.time < 3 * 8 / c:
 	O.step()
 	data = solver.plotData()
 	most = max(most, data['kineticEnergy'] + data['elasticEnergy'])
 	times.append(O.time), speeds.append(data['momentum_y'] / mass / speed)
-stopped = np.interp(0, speeds, times) # in the middle of the contact
-print(json.dumps([speeds[-1], most / energy, (stopped - 0.01 / speed) * c / 8, data['contactWork'] / energy, data['energyImbalance'] / energy]))
+stopped = times[np.argmax(np.array(speeds) >= 0)] # in the middle of the contact
+print(json.dumps([speeds[-1], most / energy, stopped * c / 8, data['contactWork'] / energy, data['energyImbalance'] / energy]))
 ''')
 	speed, most, middle, work, imbalance = run.result
-	assert speed == pytest.approx(1, abs=0.02)
+	assert 0.95 < speed < 1 # some of the wave's energy stays in the bar
 	assert most < 1 + 1e-3
 	assert middle == pytest.approx(1, abs=0.05)
-	assert abs(work) < 0.02 and abs(imbalance) < 0.02
+	assert -0.03 < work < 1e-3 and abs(imbalance) < 0.02
 
 
 def test_prescribed_motion_works_on_the_body(yade):
 	"""A boundary that moves at constant speed carries a stiff block along with it."""
 	yade(scene + '''
-solver = block(young=1e8, scheme='generalised-alpha', rhoInfinity=0.5, loadCurve=[(0, 0), (1, 1)])
+solver = block(young=1e8, scheme='generalised-alpha', rhoInfinity=0, loadCurve=[(0, 0), (1, 1)])
 solver.boundaries = [MpmBoundary(fix='y'), MpmBoundary(max=(0, inf, inf), fix='x', displacement=(0.2, 0, 0))]
 O.dt = 0.01
 O.run(50, wait=True)
 points, data = mpm.arrays(), solver.plotData()
-assert np.abs(points['velocity'][:, 0] - 0.2).max() < 0.02
-assert abs(data['boundaryWork'] / data['kineticEnergy'] - 1) < 0.1, data
+assert np.abs(points['velocity'][:, 0] - 0.2).max() < 1e-3, points['velocity'][:, 0]
+assert data['boundaryWork'] > data['kineticEnergy'] > 0, data # part of it is taken by the blow and by the scheme
 ''')
 
 

@@ -271,3 +271,32 @@ def test_grains_on_soil(yade):
 	assert len(plough) == 12 and plough[0][1] > 0 == plough[0][2] and 500 < plough[-1][2] < plough[-1][4]
 	for picture in 'grains_on_soil', 'plough', 'force':
 		assert (run.folder / f'out/grains_on_soil/{picture}.png').stat().st_size > 10000
+
+
+def test_waves(yade):
+	"""Second order in time and space; what slides and rolls by the closed forms."""
+	script = root / 'examples' / 'waves' / 'waves.py'
+	said = {scene: yade(script, '--scene', scene, '--short', 1).stdout for scene in ('bar', 'pulse', 'mass', 'block', 'sphere')}
+	time, space = numbers(r'order in time (\S+), in space (\S+)', said['bar'])
+	assert abs(time - 2) < 0.05 and abs(space - 2) < 0.05
+	periods = re.findall(r'^ *[.\d]+  ([.\d]+)  ([.\d]+)$', said['bar'], re.MULTILINE)
+	assert len(periods) == 4 and all(abs(float(found) / float(exact) - 1) < 1e-3 for found, exact in periods)
+	speeds = re.findall(r'speed over c (\S+), of two points a cell (\S+)', said['bar'])
+	assert len(speeds) == 2 and all(abs(float(found) - float(exact)) < 6e-4 for found, exact in speeds)
+	worst = {float(factor): float(number) for factor, number in re.findall(r'massFactor +(\S+): \S+  \S+  (\S+)', said['mass'])}
+	assert worst[0] > 1e16 and worst[1e-3] < 1e4 and worst[0.25] < 110
+	assert numbers(r'of the engine by (\S+)', said['mass'])[0] < 1e-12
+	left = {(int(width), float(factor)): float(worst) for width, factor, worst in re.findall(r'half width (\d) h, massFactor (\S+): (\S+) /', said['pulse'])}
+	assert len(left) == 4 and left[6, 1e-3] > 0.99 and 0.96 < left[3, 1e-3] < 1 and 0.85 < left[3, 0.25] < 0.92
+	for scene, admitted in ('block', 1), ('sphere', 3):  # after a short time, while the springs of the contact still swing
+		assert abs(numbers(r'exact \S+ \((\S+) %\)', said[scene])[0]) < admitted
+	assert (yade.folder / 'out/waves/waves.png').stat().st_size > 10000
+
+
+def test_runout(yade):
+	"""One broad column on a coarse grid, against channel experiments."""
+	run = yade(root / 'examples' / 'runout' / 'runout.py', '--aspects', 1, '--film', 1)
+	out, height, kinetic = numbers(r'sand   1\.00  \S+  \S+ \((\S+) %\)  \S+  \S+ \((\S+) %\)  \S+ kinetic energy (\S+);', run.stdout)
+	assert abs(out) < 20 and abs(height) < 5 and kinetic < 2e-3
+	assert abs(numbers(r'not accounted for (\S+) of the work', run.stdout)[0]) < 0.05
+	assert (run.folder / 'out/runout/runout.png').stat().st_size > 30000 and (run.folder / 'out/runout/sand.png').stat().st_size > 20000

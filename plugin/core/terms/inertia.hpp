@@ -2,6 +2,7 @@
 // Inertia: the step as one in time.
 #pragma once
 #include "core/solvers/linear_solver.hpp"
+#include "core/terms/contact.hpp"
 #include "core/terms/mass_matrix.hpp"
 #include "core/terms/term.hpp"
 #include "core/terms/time_scheme.hpp"
@@ -10,21 +11,22 @@ namespace gimpm {
 
 /// How the points of a cloud move, in its order, and how the next step advances that.
 template <int Dim> struct Motion {
-	TimeScheme            scheme;
-	double                ghostMass = 1e-3;     ///< gamma_M over the density
-	double                duration  = 0;        ///< of the step, > 0 [s]
-	double                tolerance = infinite; ///< on the local error of the displacements, not with TimeScheme::midpoint() [m]
-	std::vector<double>   mass {};              ///< of each point [kg]
-	std::vector<Vec<Dim>> velocity {};          ///< [m/s]
-	std::vector<Vec<Dim>> acceleration {};      ///< [m/s2], a result; all zero: the motion begins
-	double                ghostWork    = 0;     ///< that ghost stabilisation has taken in the last step that was accepted [J]
-	LinearSolver          solvers[Dim] = {};    ///< keep their symbolic analyses
+	TimeScheme                scheme;
+	double                    ghostMass = 1e-3;           ///< gamma_M over the density
+	double                    duration  = 0;              ///< of the step, > 0 [s]
+	double                    tolerance = infinite;       ///< on the local error of the displacements, not with TimeScheme::midpoint() [m]
+	std::vector<double>       mass {};                    ///< of each point [kg]
+	std::vector<Vec<Dim>>     velocity {};                ///< [m/s]
+	std::vector<Vec<Dim>>     acceleration {};            ///< [m/s2], a result; all zero: the motion begins
+	double                    ghostWork        = 0;       ///< that ghost stabilisation has taken in the last step that was accepted [J]
+	const ContactSystem<Dim>* contacts         = nullptr; ///< if there are some, of TimeScheme::weightOfContact()
+	LinearSolver              solvers[Dim + 1] = {};      ///< by axis, and of all nodes; keep their symbolic analyses
 
 	static constexpr double infinite = std::numeric_limits<double>::infinity();
 };
 
 /// Consistent mass times acceleration. Points give momentum to the nodes, which have the velocities v of (M + M_g) v = sum of S m v_p, held ones those that
-/// the step prescribes; points take back what changes of them (FLIP). Every other force is that at the end of the step. Where
+/// the step prescribes, by a blow where points have brought others along; points take back what changes of them (FLIP). Every other force is that at the end of the step. Where
 /// the scheme weighs it with that of the beginning the whole balance is divided by its weight: so other terms are as in a step without inertia.
 template <int Dim> class Inertia : public Term<Dim> {
 public:
@@ -45,7 +47,10 @@ public:
 private:
 	Eigen::VectorXd toNodes(const std::vector<Vec<Dim>>& ofPoints) const;
 	Eigen::VectorXd solve(const Eigen::VectorXd& momentum, const Eigen::VectorXd& ofHeld);
-	Eigen::VectorXd firstAcceleration();
+	void            solve(int axis, const LinearProblem& mass, LinearSolver&, const FreeDofs&, const Eigen::VectorXd& right, Eigen::VectorXd& x);
+	void            findVelocity();
+	void            findAcceleration(const Beginning<Dim>&);
+	Eigen::VectorXd ofContact(const Eigen::VectorXd* d) const; // on the nodes; null: as the step begins
 	Eigen::VectorXd accelerationAt(const Eigen::VectorXd& d) const;
 	bool            isHeld(Eigen::Index dof) const { return dofs_.number[dof] < 0; }
 
@@ -57,8 +62,10 @@ private:
 	double                             h_; // size of the cells
 	MassMatrix<Dim>                    mass_;
 	bool                               isSingular_ = false;
-	Eigen::VectorXd                    imbalance_;               // at the start, where the scheme asks for it; zero at held nodes
-	Eigen::VectorXd                    velocity_, acceleration_; // at the start
+	Eigen::VectorXd                    imbalance_;               // at the start, without contact, where the scheme asks for it; zero at held nodes
+	Eigen::VectorXd                    velocity_, acceleration_; // at the start, without what contact does to the latter
+	Eigen::VectorXd                    expected_;                // acceleration, with contact
+	Eigen::VectorXd                    blow_, jump_;             // impulse of what holds nodes as the step begins, and the velocities that it changes
 };
 
 } // namespace gimpm
