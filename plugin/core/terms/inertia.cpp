@@ -33,11 +33,40 @@ Inertia<Dim>::Inertia(Motion<Dim>& motion, const Beginning<Dim>& step)
         , h_(step.grid.cellSize)
         , mass_(step.basis, motion.mass, massFaces(motion, step), step.grid.cellSize)
 {
-	velocity_  = solve(toNodes(motion.velocity), prescribed_ / motion.duration);
-	imbalance_ = motion.scheme.needsImbalance() ? step.imbalance() : Eigen::VectorXd(Eigen::VectorXd::Zero(prescribed_.size()));
-	for (Eigen::Index i = 0; i < imbalance_.size(); ++i)
-		if (isHeld(i)) imbalance_[i] = 0;
-	acceleration_ = firstAcceleration();
+	const auto held = [&](const Eigen::VectorXd& otherwise, Vec<Dim> MovingBase<Dim>::*value) { return ofHeld(otherwise, value, step.basis.nodes); };
+	velocity_       = solve(toNodes(motion.velocity), held(prescribed_ / motion.duration, &MovingBase<Dim>::velocity));
+	for (const auto& make : motion.damping)
+		damping_.push_back(make(step));
+	imbalance_    = imbalanceOf(step);
+	acceleration_ = firstAcceleration(held(Eigen::VectorXd::Zero(prescribed_.size()), &MovingBase<Dim>::acceleration));
+}
+
+/// A value of the held degrees of freedom; zero at the others.
+template <int Dim>
+Eigen::VectorXd
+Inertia<Dim>::ofHeld(const Eigen::VectorXd& otherwise, Vec<Dim> MovingBase<Dim>::*value, const std::vector<Key>& nodes) const
+{
+	Eigen::VectorXd x = otherwise;
+	for (const auto& base : motion_.bases)
+		for (std::size_t n = 0; n < nodes.size(); ++n)
+			for (int a = 0; a < Dim; ++a)
+				if (isHeld(Dim * n + a) && base.box.holds(Grid<Dim>::index(nodes[n]), a)) x[Dim * n + a] = (base.*value)[a];
+	return x;
+}
+
+/// Of all forces as the step begins, where the scheme asks for it; zero at held nodes.
+template <int Dim> Eigen::VectorXd Inertia<Dim>::imbalanceOf(const Beginning<Dim>& step) const
+{
+	Eigen::VectorXd imbalance = Eigen::VectorXd::Zero(prescribed_.size());
+	if (!motion_.scheme.needsImbalance()) return imbalance;
+	Eigen::VectorXd damping = imbalance;
+	for (const auto& each : damping_)
+		each->addBefore(velocity_, damping);
+	imbalance = step.imbalance();
+	if (!damping_.empty()) imbalance -= damping;
+	for (Eigen::Index i = 0; i < imbalance.size(); ++i)
+		if (isHeld(i)) imbalance[i] = 0;
+	return imbalance;
 }
 
 /// Sum of S m x_p.
@@ -75,19 +104,45 @@ template <int Dim> Eigen::VectorXd Inertia<Dim>::solve(const Eigen::VectorXd& mo
 }
 
 /// Of equilibrium as the step begins, where nothing else is known or the scheme does not go on from the accelerations before.
-template <int Dim> Eigen::VectorXd Inertia<Dim>::firstAcceleration()
+template <int Dim> Eigen::VectorXd Inertia<Dim>::firstAcceleration(const Eigen::VectorXd& ofHeld)
 {
-	const Eigen::VectorXd zero   = Eigen::VectorXd::Zero(prescribed_.size());
-	const auto&           scheme = motion_.scheme;
-	if (!scheme.dependsOnStart()) return zero;
+	const auto& scheme = motion_.scheme;
+	if (!scheme.dependsOnStart()) return Eigen::VectorXd::Zero(prescribed_.size());
 	const bool begins = std::all_of(motion_.acceleration.begin(), motion_.acceleration.end(), [](const Vec<Dim>& a) { return a.isZero(0); });
-	return solve(scheme.isAlpha() && !begins ? toNodes(motion_.acceleration) : imbalance_, zero);
+	return solve(scheme.isAlpha() && !begins ? toNodes(motion_.acceleration) : imbalance_, ofHeld);
 }
 
 template <int Dim> Eigen::VectorXd Inertia<Dim>::accelerationAt(const Eigen::VectorXd& d) const
 {
 	const double beta = motion_.scheme.beta, T = motion_.duration;
 	return (d - T * velocity_) / (beta * T * T) - (1 / (2 * beta) - 1) * acceleration_;
+}
+
+/// Where the forces of the step are looked at.
+template <int Dim> Eigen::VectorXd Inertia<Dim>::velocityAt(const Eigen::VectorXd& d) const
+{
+	const auto& scheme = motion_.scheme;
+	if (scheme.atMiddle) return d / motion_.duration;
+	return velocity_ + motion_.duration * ((1 - scheme.gamma) * acceleration_ + scheme.gamma * accelerationAt(d));
+}
+
+template <int Dim> void Inertia<Dim>::mark(NodeMatrix<Dim>& K) const
+{
+	mass_.mark(K);
+	for (const auto& each : damping_)
+		each->mark(K);
+}
+
+template <int Dim> bool Inertia<Dim>::isSymmetric() const
+{
+	return std::all_of(damping_.begin(), damping_.end(), [](const auto& each) { return each->isSymmetric(); });
+}
+
+template <int Dim> std::string Inertia<Dim>::obstacle() const
+{
+	for (const auto& each : damping_)
+		if (std::string found = each->obstacle(); !found.empty()) return found;
+	return {};
 }
 
 template <int Dim> std::optional<PointFailure> Inertia<Dim>::add(const Eigen::VectorXd& d, const TermSum<Dim>& sum) const
@@ -104,6 +159,10 @@ template <int Dim> std::optional<PointFailure> Inertia<Dim>::add(const Eigen::Ve
 	sum.force += force;
 	if (sum.sizes) *sum.sizes += force.cwiseAbs();
 	if (sum.K) mass_.addTo(*sum.K, ofEnd / (scheme.beta * motion_.duration * motion_.duration));
+	if (damping_.empty()) return std::nullopt;
+	const Eigen::VectorXd v = velocityAt(d);
+	for (const auto& each : damping_)
+		each->add(v, scheme.atMiddle ? 1 / motion_.duration : scheme.gamma / (scheme.beta * motion_.duration), sum);
 	return std::nullopt;
 }
 
@@ -112,7 +171,10 @@ template <int Dim> double Inertia<Dim>::fromOutside(const Eigen::VectorXd& d) co
 	Eigen::VectorXd force = mass_ * accelerationAt(d);
 	for (Eigen::Index i = 0; i < force.size(); ++i)
 		if (isHeld(i)) force[i] = 0; // they are part of the reactions
-	return force.norm();
+	double squares = force.squaredNorm();
+	for (const auto& each : damping_)
+		squares += std::pow(each->fromOutside(velocityAt(d)), 2);
+	return std::sqrt(squares);
 }
 
 template <int Dim> void Inertia<Dim>::addRoundOff(const Eigen::VectorXd& d, Eigen::VectorXd& sizes) const
@@ -158,6 +220,9 @@ template <int Dim> void Inertia<Dim>::commit(const Eigen::VectorXd& d)
 	Eigen::VectorXd       ghost = Eigen::VectorXd::Zero(d.size());
 	addGhostForce(faces_, h_, d, ghost);
 	motion_.ghostWork = gamma * d.dot(ghost); // the force of a step begins at zero
+	const Eigen::VectorXd looked = velocityAt(d);
+	for (const auto& each : damping_)
+		each->commit(d, motion_.scheme.atMiddle ? looked : velocity_, looked);
 	motion_.acceleration.assign(motion_.velocity.size(), Vec<Dim>::Zero());
 	forPointNodes(basis_, [&](int i, const Patch<Dim>& patch, const double* value, int count) {
 		const int p = basis_.order[i];
