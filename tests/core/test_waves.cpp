@@ -114,25 +114,29 @@ namespace {
 				EXPECT_LT(leftOfPulse<2>(24, 4, along, scheme, 0.5), 1e-2);
 	}
 
-	/// Held until then, ground stays at rest where what held it is taken away.
+	/// Held until then, ground stays at rest where what held it is taken away. Points that have moved on the grid are not in balance to the last digit
+	/// before further steps without load.
 	TYPED_TEST(Waves, StaticReactionsGoOnActing)
 	{
 		constexpr int Dim = TypeParam::value;
 		for (const auto& scheme : { TimeScheme(), TimeScheme::generalisedAlpha(0.8), TimeScheme::midpoint() }) {
 			Ground<Dim> ground(6, scheme);
-			ground.gravity                = -10 * Vec<Dim>::Unit(0);
-			ground.gravity[1]             = 1;
+			ground.gravity                = -Vec<Dim>::Unit(0);
+			ground.gravity[1]             = 0.1;
 			ground.model.newton.tolerance = 1e-13;
 			ground.holdBase();
 			auto still  = ground.model;
 			still.terms = {}, still.atMiddle = false;
 			LinearSolver solver;
-			ASSERT_TRUE(loadStep(ground.cloud, still, { ground.gravity, { 1, 1 } }, solver).converged());
+			for (const double growth : { 1, 0, 0, 0, 0 })
+				ASSERT_TRUE(loadStep(ground.cloud, still, { ground.gravity, { 1, growth } }, solver).converged());
 			const auto held = ground.cloud.position;
 			ground.absorbAt({ ground.plane(true) });
 			ASSERT_TRUE(ground.steps(10, 0.1 / ground.cp));
 			const auto& boundary = *ground.absorbing[0];
-			EXPECT_LT((boundary.force + ground.mass() * ground.gravity).norm(), 1e-9 * (ground.mass() * ground.gravity).norm());
+			const double error = (boundary.force + ground.mass() * ground.gravity).norm() / (ground.mass() * ground.gravity).norm();
+			std::printf("reaction: error %.1e\n", error);
+			EXPECT_LT(error, 1e-9);
 			for (std::size_t p = 0; p < held.size(); ++p)
 				EXPECT_LT((ground.cloud.position[p] - held[p]).norm(), 1e-9);
 		}
@@ -144,7 +148,7 @@ namespace {
 		for (const auto& scheme : { TimeScheme(), TimeScheme::midpoint() })
 			for (const int along : { 0, 1 }) {
 				Ground<2>    ground(20, scheme);
-				const double c = along == 0 ? ground.cp : ground.cs, width = 6 / c, start = 3 * width;
+				const double c = along == 0 ? ground.cp : ground.cs, width = 8 / c, start = 3 * width;
 				ground.along    = along;
 				ground.incoming = [&](double t) { return 1e-4 * std::exp(-std::pow((t - start) / width, 2)); };
 				ground.absorbAt({ ground.plane(true) });
