@@ -285,6 +285,41 @@ namespace {
 		EXPECT_EQ(body.cloud.position, position);
 	}
 
+	/// A body flies against held nodes, which keep it: reactions, here those of the middle of steps, are the whole change of its momentum, the first blow included.
+	TYPED_TEST(InertiaTerm, ReactionsAreTheChangeOfMomentum)
+	{
+		constexpr int Dim = TypeParam::value;
+		Moving<Dim>   body(1, Hencky(1e6, 0.3), 1000, TimeScheme::midpoint());
+		Vec<Dim>      v = Vec<Dim>::Zero();
+		v[0] = -3, v[1] = 0.5;
+		body.put(cutBlock<Dim>(body.model.grid, 0.2), [&](const Vec<Dim>&) { return v; });
+		body.model.boundary  = Boundary<Dim>({ wallBelow<Dim>(body.model.grid, 0, 0) });
+		const double before  = body.momentum()[0];
+		double       impulse = 0;
+		for (int i = 0; i < 15; ++i) {
+			const auto report = body.step(0.01);
+			ASSERT_TRUE(report.converged()) << report.cause;
+			impulse += 0.01 * report.reactions[0][0];
+		}
+		EXPECT_GT(impulse, -before) << "it has turned back";
+		EXPECT_NEAR((body.momentum()[0] - before) / impulse, 1, 1e-9);
+		EXPECT_NEAR(body.momentum()[1], 0.5 * body.mass(), 1e-9 * body.mass());
+	}
+
+	/// What a boundary carries along gets its speed, all of it.
+	TEST(Inertia, ABoundaryThatStartsAtOnceCarriesTheBodyAlong)
+	{
+		Moving<2> body(1, Hencky(1e8, 0), 1000, TimeScheme::generalisedAlpha(0));
+		body.put(block<2>(body.model.grid, { 3, 3 }, 2), [](const Vec<2>&) { return Vec<2>(0, 0); });
+		body.model.boundary = Boundary<2>({ held<2>(body.model.grid, { -infinity, -infinity }, { 0, infinity }, "x", { 1, 0 }) });
+		for (int i = 0; i < 40; ++i) {
+			body.motion->duration = 0.01;
+			ASSERT_TRUE(loadStep<2>(body.cloud, body.model, { { 0, 0 }, { 0.002 * (i + 1), 0.002 } }, body.solver).converged());
+		}
+		for (const auto& v : body.motion->velocity)
+			EXPECT_NEAR(v[0], 0.2, 1e-3);
+	}
+
 	/// Reactions contain the inertia of what is held.
 	TEST(Inertia, ReactionsOfAPrescribedMotionCarryTheAcceleratedMass)
 	{

@@ -121,8 +121,8 @@ namespace {
 		constexpr int Dim = TypeParam::value;
 		for (const auto& scheme : { TimeScheme(), TimeScheme::generalisedAlpha(0.8), TimeScheme::midpoint() }) {
 			Ground<Dim> ground(6, scheme);
-			ground.gravity                = -Vec<Dim>::Unit(0);
-			ground.gravity[1]             = 0.1;
+			ground.gravity                = -0.01 * Vec<Dim>::Unit(0);
+			ground.gravity[1]             = 0.001;
 			ground.model.newton.tolerance = 1e-13;
 			ground.holdBase();
 			auto still  = ground.model;

@@ -54,6 +54,13 @@ outOfRange = {
         'MpmBoundary.penalty': ['0.', '-1.'],
         'MpmGhost.factor': ['-1e-2'],
         'MpmGhost.scaling': ['"Paper"'],
+        'MpmGhost.massFactor': ['-1e-3'],
+        'MpmDynamicEngine.loadCurve': ['[(0, 0), (0, 1)]', '[(1, 0), (0, 1)]'],
+        'MpmDynamicEngine.scheme': ['"Newmark"'],
+        'MpmDynamicEngine.beta': ['0.', '-0.25'],
+        'MpmDynamicEngine.gamma': ['0.49', '-1.'],
+        'MpmDynamicEngine.rhoInfinity': ['-0.1', '1.1'],
+        'MpmDynamicEngine.timeTolerance': ['-1e-3'],
         'MpmNewton.tolerance': ['0.', '1.', '-1e-6'],
         'MpmNewton.maxIterations': ['0', '-1'],
         'MpmNewton.minStep': ['0.', '-1.', '2.'],
@@ -120,6 +127,7 @@ admitted = {
         ('MpmImplicitEngine.contacts', '()'): 'nothing touches',
         ('MpmContact.friction', 'nan'): 'that of the bodies',
         ('MpmContact.adhesion', 'inf'): 'no cap',
+        ('MpmGhost.massFactor', 'nan'): 'the default',
         ('MpmImplicitEngine.gravityCurve', '()'): 'loadCurve',
         ('MpmVtkRecorder.solver', '""'): 'the only one',
         ('MpmState.internals', '()'): 'initial values',
@@ -132,8 +140,8 @@ import json, sys
 from yade import mpm, pack, utils, wrapper
 nan = float('nan')
 
-def scene():
-	"""A sound scene; {class: the object of it that takes part}."""
+def scene(engine='MpmImplicitEngine'):
+	"""A sound scene with this engine, where it names one; {class: the object of it that takes part}."""
 	O.reset()
 	materials = dict(density=2400, young=1e6, poisson=0.3)
 	friction = dict(cohesion=5e3, frictionAngle=radians(30), **materials)
@@ -151,7 +159,7 @@ def scene():
 	O.materials.append(FrictMat(label='rigid'))
 	O.bodies.append(utils.wall(5, axis=1, sense=-1, material='rigid'))
 	touch = MpmContact()
-	solver = MpmImplicitEngine(grid=grid, gravity=(0, -1, 0), boundaries=[base], loads=[load], contacts=[touch], ghost=ghost, newton=newton)
+	solver = (MpmDynamicEngine if engine == 'MpmDynamicEngine' else MpmImplicitEngine)(grid=grid, gravity=(0, -1, 0), boundaries=[base], loads=[load], contacts=[touch], ghost=ghost, newton=newton)
 	O.engines = [solver, MpmVtkRecorder(fileName='out-', recorders=['all'])]
 	O.dt = 1
 	objects = [*O.engines, *O.materials, O.bodies[5].state, O.bodies[5].shape, grid, base, load, load.surface, touch, ghost, newton]
@@ -161,7 +169,7 @@ def attributes():
 	"""(class, attribute, class of the object to set it on, kind, whether it can only be read) from the classes themselves."""
 	classes = [c for name, c in vars(wrapper).items() if isinstance(c, type) and name.startswith('Mpm')]
 	for c in classes:
-		users = [name for name in scene() if issubclass(getattr(wrapper, name), c)]
+		users = [name for name in [*scene(), 'MpmDynamicEngine'] if issubclass(getattr(wrapper, name), c)]
 		for name, value in vars(c).items():
 			if not isinstance(value, property): continue
 			default = getattr(c(), name)
@@ -170,7 +178,7 @@ def attributes():
 
 def outcome(user, name, text):
 	"""(name of the exception or None, its sentence, whether it was raised by the assignment)."""
-	target, value = scene()[user], eval(text)
+	target, value = scene(user)[user], eval(text)
 	try:
 		before = repr(getattr(target, name))
 		setattr(target, name, value)
@@ -194,7 +202,7 @@ for class_, name, users, kind, readonly in attributes():
 	if readonly:
 		for user in users[:1]:
 			try:
-				setattr(scene()[user], name, getattr(scene()[user], name))
+				setattr(scene(user)[user], name, getattr(scene(user)[user], name))
 				results.append([class_, name, kind, 'readonly', '', None, '', True])
 			except AttributeError as error:
 				results.append([class_, name, kind, 'readonly', '', 'AttributeError', str(error), True])

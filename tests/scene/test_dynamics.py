@@ -125,11 +125,12 @@ assert np.abs(found[0] - found[1]).max() < 1e-6 * np.abs(found[0]).max(), np.abs
 
 
 def test_ground_at_rest_stays_so_until_it_is_let_go(yade):
-	"""A static stage and a dynamic one in the same scene. Static steps leave velocities alone."""
+	"""A static stage and a dynamic one in the same scene: stiff ground, for the state at the end of a static stage is in balance on the grid where it began only.
+	Static steps leave velocities alone."""
 	yade(scene + '''
 sides = [MpmBoundary(max=(0, inf, inf), fix='x'), MpmBoundary(min=(2, -inf, -inf), fix='x')]
 base = MpmBoundary(max=(inf, 0, inf), fix='y')
-static = block((0, 0, 0), (2, 4, 1), engine=MpmImplicitEngine, gravity=(0, -10, 0), boundaries=sides + [base], newton=MpmNewton(tolerance=1e-9))
+static = block((0, 0, 0), (2, 4, 1), young=1e8, engine=MpmImplicitEngine, gravity=(0, -10, 0), boundaries=sides + [base], newton=MpmNewton(tolerance=1e-9))
 velocities(1, 2, 0)
 O.dt = 0.2
 O.run(5, wait=True)
@@ -141,6 +142,7 @@ O.run(10, wait=True)
 assert np.abs(mpm.arrays()['velocity']).max() < 1e-4, np.abs(mpm.arrays()['velocity']).max() # falling freely it would be 0.5
 assert abs(solver.reactions[2][1] / (10 * sum(b.state.mass for b in O.bodies)) - 1) < 1e-4
 solver.boundaries = sides
+velocities(0, 0, 0) # begin anew
 O.run(10, wait=True)
 mass = sum(b.state.mass for b in O.bodies)
 assert abs(solver.plotData()['momentum_y'] / (-0.5 * mass) - 1) < 1e-3
@@ -179,13 +181,13 @@ print(json.dumps([speeds[-1], most / energy, (stopped - 0.01 / speed) * c / 8, d
 def test_prescribed_motion_works_on_the_body(yade):
 	"""A boundary that moves at constant speed carries a stiff block along with it."""
 	yade(scene + '''
-solver = block(young=1e8, scheme='generalised-alpha', rhoInfinity=0.5, loadCurve=[(0, 0), (1, 1)])
+solver = block(young=1e8, scheme='generalised-alpha', rhoInfinity=0, loadCurve=[(0, 0), (1, 1)])
 solver.boundaries = [MpmBoundary(fix='y'), MpmBoundary(max=(0, inf, inf), fix='x', displacement=(0.2, 0, 0))]
 O.dt = 0.01
 O.run(50, wait=True)
 points, data = mpm.arrays(), solver.plotData()
-assert np.abs(points['velocity'][:, 0] - 0.2).max() < 0.02
-assert abs(data['boundaryWork'] / data['kineticEnergy'] - 1) < 0.1, data
+assert np.abs(points['velocity'][:, 0] - 0.2).max() < 1e-3, points['velocity'][:, 0]
+assert data['boundaryWork'] > data['kineticEnergy'] > 0, data # part of it is taken by the blow and by the scheme
 ''')
 
 

@@ -38,7 +38,8 @@ template <int Dim>
 Contact<Dim>::Contact(ContactSystem<Dim>& system, const Beginning<Dim>& step)
         : system_(system), tolerance_(1e-9 * step.grid.cellSize), isRing_(step.grid.axisymmetric), cloud_(step.cloud), basis_(step.basis), grid_(step.grid)
 {
-	near_ = nearPoints(system.bodies, step.cloud, step.basis, step.grid);
+	system.acting = this;
+	near_         = nearPoints(system.bodies, step.cloud, step.basis, step.grid);
 	for (const NearPoint& near : near_) {
 		const auto& body = system.bodies[near.body];
 		if (body.isNew && body.proximity(body.begin, cloud_.position[near.point], near.side).gap < 0) // of a two-sided surface it never is
@@ -129,8 +130,8 @@ template <int Dim> void Contact<Dim>::mark(NodeMatrix<Dim>& K) const
 template <int Dim> std::optional<PointFailure> Contact<Dim>::add(const Eigen::VectorXd& d, const TermSum<Dim>& sum) const
 {
 	forTouching(d, [&](const Corner& corner, const Vec<Dim>&, double, const Touch<Dim>& touched) {
-		addAttachedForce<Dim>(corner.attached, touched.force(), sum);
-		if (sum.K) addAttachedStiffness(corner.attached, corner.attached, touched.slope, *sum.K);
+		addAttachedForce<Dim>(corner.attached, system_.weight * touched.force(), sum);
+		if (sum.K) addAttachedStiffness<Dim>(corner.attached, corner.attached, system_.weight * touched.slope, *sum.K);
 	});
 	return std::nullopt;
 }
@@ -209,14 +210,11 @@ template <int Dim> void Contact<Dim>::commit(const Eigen::VectorXd& d)
 	}
 	system_.loads.assign(system_.owners.size(), {});
 	system_.work = 0;
-	for (const Corner& corner : corners_)
-		if (const auto* r = recordOf(system_.records, { corner.point, corner.corner, corner.body }); r && r->touches)
-			system_.work += (r->pressure * r->normal + r->friction).dot(corner.attached.displacement(d)) / 2;
 	forTouching(d, [&](const Corner& corner, const Vec<Dim>& x, double gap, const Touch<Dim>& touched) {
 		auto& r   = records[&corner - corners_.data()];
 		r.touches = true, r.slips = touched.slips, r.gap = gap, r.place = x;
 		r.pressure = touched.pressure, r.friction = touched.friction, r.normal = touched.normal;
-		system_.work += touched.force().dot(corner.attached.displacement(d)) / 2;
+		system_.work += touched.force().dot(corner.attached.displacement(d));
 		const int    owner = system_.bodies[corner.body].owner;
 		const auto   load  = loadOn(system_.owners[owner], corner, x, touched);
 		ContactLoad& sum   = system_.loads[owner];

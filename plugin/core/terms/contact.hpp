@@ -32,7 +32,9 @@ template <int Dim> struct ContactSystem {
 	std::vector<Vec<Dim>>           owners;     ///< positions at the end of the step [m]
 	std::vector<ContactRecord<Dim>> records {}; ///< of the last step that was accepted, sorted by point, corner and body
 	std::vector<ContactLoad>        loads {};   ///< on the owners, then
-	double                          work = 0;   ///< on the soil in that step, with the mean of the forces at its two ends [J]
+	double                          work   = 0; ///< on the soil in that step, with the forces at its end [J]
+	double                          weight = 1; ///< with which forces enter the balance of a step in time (core/terms/time_scheme.hpp)
+	const Term<Dim>*                acting {};  ///< the term of the step that is being made
 };
 
 /// The penalty on the gap over that on the slip. With 20 a place slides after mu p h / (stiffness / 20 E). Blocks that are sheared to and fro by a plate, friction .3 to 4,
@@ -44,7 +46,7 @@ constexpr double slipSoftness = 20;
 /// prescribed motion of the bodies is known here.
 template <int Dim> class Contact : public Term<Dim> {
 public:
-	/// The records and loads of the system are written in commit().
+	/// The records and loads of the system are written in commit(). What add() adds has the weight of the system.
 	Contact(ContactSystem<Dim>&, const Beginning<Dim>&);
 
 	void                        mark(NodeMatrix<Dim>&) const override;

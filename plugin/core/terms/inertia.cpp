@@ -33,15 +33,15 @@ Inertia<Dim>::Inertia(Motion<Dim>& motion, const Beginning<Dim>& step)
         , h_(step.grid.cellSize)
         , mass_(step.basis, motion.mass, massFaces(motion, step), step.grid.cellSize)
 {
+	imbalance_ = acceleration_ = expected_ = blow_ = jump_ = Eigen::VectorXd::Zero(prescribed_.size());
 	const auto held = [&](const Eigen::VectorXd& otherwise, Vec<Dim> MovingBase<Dim>::*value) { return ofHeld(otherwise, value, step.basis.nodes); };
-	velocity_       = solve(toNodes(motion.velocity), held(prescribed_ / motion.duration, &MovingBase<Dim>::velocity));
+	findVelocity(held(prescribed_ / motion.duration, &MovingBase<Dim>::velocity));
 	for (const auto& make : motion.damping)
 		damping_.push_back(make(step));
-	imbalance_    = imbalanceOf(step);
-	acceleration_ = firstAcceleration(held(Eigen::VectorXd::Zero(prescribed_.size()), &MovingBase<Dim>::acceleration));
+	if (motion.scheme.dependsOnStart()) findAcceleration(step, held(acceleration_, &MovingBase<Dim>::acceleration));
 }
 
-/// A value of the held degrees of freedom; zero at the others.
+/// A value of the held degrees of freedom.
 template <int Dim>
 Eigen::VectorXd
 Inertia<Dim>::ofHeld(const Eigen::VectorXd& otherwise, Vec<Dim> MovingBase<Dim>::*value, const std::vector<Key>& nodes) const
@@ -54,19 +54,62 @@ Inertia<Dim>::ofHeld(const Eigen::VectorXd& otherwise, Vec<Dim> MovingBase<Dim>:
 	return x;
 }
 
-/// Of all forces as the step begins, where the scheme asks for it; zero at held nodes.
+/// Of all forces as the step begins, also at held nodes.
 template <int Dim> Eigen::VectorXd Inertia<Dim>::imbalanceOf(const Beginning<Dim>& step) const
 {
-	Eigen::VectorXd imbalance = Eigen::VectorXd::Zero(prescribed_.size());
-	if (!motion_.scheme.needsImbalance()) return imbalance;
-	Eigen::VectorXd damping = imbalance;
+	const Eigen::VectorXd others = step.imbalance();
+	if (damping_.empty()) return others;
+	Eigen::VectorXd damping = Eigen::VectorXd::Zero(others.size());
 	for (const auto& each : damping_)
 		each->addBefore(velocity_, damping);
-	imbalance = step.imbalance();
-	if (!damping_.empty()) imbalance -= damping;
-	for (Eigen::Index i = 0; i < imbalance.size(); ++i)
-		if (isHeld(i)) imbalance[i] = 0;
-	return imbalance;
+	return others - damping;
+}
+
+template <int Dim> void Inertia<Dim>::findVelocity(const Eigen::VectorXd& ofHeld)
+{
+	constexpr double      roundOff = 1e-13;
+	const Eigen::VectorXd momentum = toNodes(motion_.velocity);
+	velocity_                      = solve(momentum, ofHeld);
+	blow_                          = mass_ * velocity_ - momentum;
+	const double  least            = roundOff * momentum.template lpNorm<Eigen::Infinity>();
+	FreeDofs      all;
+	LinearSolver& solver = motion_.solvers[Dim];
+	all.number.assign(blow_.size(), 0);
+	std::optional<LinearProblem> mass;
+	for (Eigen::Index i = 0; i < blow_.size(); ++i)
+		if (!isHeld(i) || std::abs(blow_[i]) <= least) blow_[i] = 0;
+	for (int axis = 0; axis < Dim; ++axis) {
+		bool isHit = false;
+		for (Eigen::Index i = axis; i < blow_.size(); i += Dim)
+			isHit = isHit || blow_[i] != 0;
+		if (!isHit) continue;
+		if (!mass) mass.emplace(mass_.reduced(all, axis));
+		solve(axis, *mass, solver, all, blow_, jump_);
+	}
+}
+
+/// Those of the points, or where they are at the beginning those of equilibrium.
+template <int Dim> void Inertia<Dim>::findAcceleration(const Beginning<Dim>& step, const Eigen::VectorXd& ofHeld)
+{
+	const Eigen::VectorXd contact = ofContact(nullptr);
+	const bool            begins = std::all_of(motion_.acceleration.begin(), motion_.acceleration.end(), [](const Vec<Dim>& a) { return a.isZero(0); });
+	if (motion_.scheme.alphaF != 0 || begins) imbalance_ = imbalanceOf(step);
+	const Eigen::VectorXd force = begins ? imbalance_ : toNodes(motion_.acceleration);
+	imbalance_ -= contact;
+	for (Eigen::Index i = 0; i < imbalance_.size(); ++i)
+		if (isHeld(i) || motion_.scheme.alphaF == 0) imbalance_[i] = 0;
+	acceleration_ = solve(force - contact, ofHeld);
+	expected_     = contact.isZero(0) ? acceleration_ : solve(force, ofHeld);
+}
+
+template <int Dim> Eigen::VectorXd Inertia<Dim>::ofContact(const Eigen::VectorXd* d) const
+{
+	Eigen::VectorXd resistance = Eigen::VectorXd::Zero(prescribed_.size());
+	if (!motion_.contacts || !motion_.contacts->acting) return resistance;
+	if (!d) motion_.contacts->acting->addBefore(resistance);
+	else
+		motion_.contacts->acting->add(*d, { resistance });
+	return -resistance / (d ? motion_.contacts->weight : 1);
 }
 
 /// Sum of S m x_p.
@@ -85,31 +128,27 @@ template <int Dim> Eigen::VectorXd Inertia<Dim>::solve(const Eigen::VectorXd& mo
 {
 	Eigen::VectorXd       x    = ofHeld;
 	const Eigen::VectorXd rest = momentum - mass_ * ofHeld;
-	for (int axis = 0; axis < Dim; ++axis) {
-		const LinearProblem mass(mass_.reduced(dofs_, axis));
-		Eigen::VectorXd     right(mass.size()), found;
-		if (mass.size() == 0) continue;
-		int free = 0;
-		for (Eigen::Index i = axis; i < x.size(); i += Dim)
-			if (!isHeld(i)) right[free++] = rest[i];
-		if (motion_.solvers[axis].solve(mass, right, found) == LinearSolver::Status::singular) {
-			isSingular_ = true;
-			continue;
-		}
-		free = 0;
-		for (Eigen::Index i = axis; i < x.size(); i += Dim)
-			if (!isHeld(i)) x[i] = found[free++];
-	}
+	for (int axis = 0; axis < Dim; ++axis)
+		solve(axis, mass_.reduced(dofs_, axis), motion_.solvers[axis], dofs_, rest, x);
 	return x;
 }
 
-/// Of equilibrium as the step begins, where nothing else is known or the scheme does not go on from the accelerations before.
-template <int Dim> Eigen::VectorXd Inertia<Dim>::firstAcceleration(const Eigen::VectorXd& ofHeld)
+/// Sets x at the free degrees of freedom along an axis.
+template <int Dim>
+void Inertia<Dim>::solve(int axis, const LinearProblem& mass, LinearSolver& solver, const FreeDofs& dofs, const Eigen::VectorXd& right, Eigen::VectorXd& x)
 {
-	const auto& scheme = motion_.scheme;
-	if (!scheme.dependsOnStart()) return Eigen::VectorXd::Zero(prescribed_.size());
-	const bool begins = std::all_of(motion_.acceleration.begin(), motion_.acceleration.end(), [](const Vec<Dim>& a) { return a.isZero(0); });
-	return solve(scheme.isAlpha() && !begins ? toNodes(motion_.acceleration) : imbalance_, ofHeld);
+	Eigen::VectorXd free(mass.size()), found;
+	if (mass.size() == 0) return;
+	int n = 0;
+	for (Eigen::Index i = axis; i < x.size(); i += Dim)
+		if (dofs.number[i] >= 0) free[n++] = right[i];
+	if (solver.solve(mass, free, found) == LinearSolver::Status::singular) {
+		isSingular_ = true;
+		return;
+	}
+	n = 0;
+	for (Eigen::Index i = axis; i < x.size(); i += Dim)
+		if (dofs.number[i] >= 0) x[i] = found[n++];
 }
 
 template <int Dim> Eigen::VectorXd Inertia<Dim>::accelerationAt(const Eigen::VectorXd& d) const
@@ -156,6 +195,7 @@ template <int Dim> std::optional<PointFailure> Inertia<Dim>::add(const Eigen::Ve
 		for (Eigen::Index i = 0; i < force.size(); ++i)
 			if (!isHeld(i)) force[i] = weighted[i]; // those at held nodes are reactions at the end of the step
 	}
+	force += blow_ / motion_.duration;
 	sum.force += force;
 	if (sum.sizes) *sum.sizes += force.cwiseAbs();
 	if (sum.K) mass_.addTo(*sum.K, ofEnd / (scheme.beta * motion_.duration * motion_.duration));
@@ -187,7 +227,7 @@ template <int Dim> void Inertia<Dim>::addRoundOff(const Eigen::VectorXd& d, Eige
 template <int Dim> Eigen::VectorXd Inertia<Dim>::ownMotion() const
 {
 	const double    T = motion_.duration;
-	Eigen::VectorXd d = T * velocity_ + T * T / 2 * acceleration_;
+	Eigen::VectorXd d = T * velocity_ + T * T / 2 * expected_;
 	for (Eigen::Index i = 0; i < d.size(); ++i)
 		if (isHeld(i)) d[i] = prescribed_[i];
 	return d;
@@ -215,8 +255,10 @@ template <int Dim> std::string Inertia<Dim>::inaccuracy(const Eigen::VectorXd& d
 
 template <int Dim> void Inertia<Dim>::commit(const Eigen::VectorXd& d)
 {
-	const double          gamma = motion_.scheme.gamma, T = motion_.duration;
-	const Eigen::VectorXd end = accelerationAt(d), growth = T * ((1 - gamma) * acceleration_ + gamma * end);
+	const double          beta = motion_.scheme.beta, gamma = motion_.scheme.gamma, T = motion_.duration;
+	const Eigen::VectorXd force = ofContact(&d), zero = Eigen::VectorXd::Zero(d.size());
+	const Eigen::VectorXd contact = force.isZero(0) ? zero : solve(force, zero), others = accelerationAt(d) - contact / (2 * beta);
+	const Eigen::VectorXd end = others + contact, growth = jump_ + T * ((1 - gamma) * acceleration_ + gamma * others + contact);
 	Eigen::VectorXd       ghost = Eigen::VectorXd::Zero(d.size());
 	addGhostForce(faces_, h_, d, ghost);
 	motion_.ghostWork = gamma * d.dot(ghost); // the force of a step begins at zero

@@ -2,6 +2,7 @@
 // Inertia: the step as one in time.
 #pragma once
 #include "core/solvers/linear_solver.hpp"
+#include "core/terms/contact.hpp"
 #include "core/terms/damping.hpp"
 #include "core/terms/mass_matrix.hpp"
 #include "core/terms/term.hpp"
@@ -18,15 +19,16 @@ template <int Dim> struct MovingBase {
 
 /// How the points of a cloud move, in its order, and how the next step advances that.
 template <int Dim> struct Motion {
-	TimeScheme            scheme;
-	double                ghostMass = 1e-3;     ///< gamma_M over the density
-	double                duration  = 0;        ///< of the step, > 0 [s]
-	double                tolerance = infinite; ///< on the local error of the displacements, not with TimeScheme::midpoint() [m]
-	std::vector<double>   mass {};              ///< of each point [kg]
-	std::vector<Vec<Dim>> velocity {};          ///< [m/s]
-	std::vector<Vec<Dim>> acceleration {};      ///< [m/s2], a result; all zero: the motion begins
-	double                ghostWork    = 0;     ///< that ghost stabilisation has taken in the last step that was accepted [J]
-	LinearSolver          solvers[Dim] = {};    ///< keep their symbolic analyses
+	TimeScheme                scheme;
+	double                    ghostMass = 1e-3;           ///< gamma_M over the density
+	double                    duration  = 0;              ///< of the step, > 0 [s]
+	double                    tolerance = infinite;       ///< on the local error of the displacements, not with TimeScheme::midpoint() [m]
+	std::vector<double>       mass {};                    ///< of each point [kg]
+	std::vector<Vec<Dim>>     velocity {};                ///< [m/s]
+	std::vector<Vec<Dim>>     acceleration {};            ///< [m/s2], a result; all zero: the motion begins
+	double                    ghostWork        = 0;       ///< that ghost stabilisation has taken in the last step that was accepted [J]
+	const ContactSystem<Dim>* contacts         = nullptr; ///< if there are some, of TimeScheme::weightOfContact()
+	LinearSolver              solvers[Dim + 1] = {};      ///< by axis, and of all nodes; keep their symbolic analyses
 
 	std::vector<DampingOfStep<Dim>> damping {}; ///< in each step
 	std::vector<MovingBase<Dim>>    bases {};   ///< of nodes in several boxes the last one counts
@@ -35,7 +37,7 @@ template <int Dim> struct Motion {
 };
 
 /// Consistent mass times acceleration, and damping. Points give momentum to the nodes, which have the velocities v of (M + M_g) v = sum of S m v_p, held ones those that
-/// the step prescribes; points take back what changes of them (FLIP). Every other force is that at the end of the step. Where
+/// the step prescribes, by a blow where points have brought others along; points take back what changes of them (FLIP). Every other force is that at the end of the step. Where
 /// the scheme weighs it with that of the beginning the whole balance is divided by its weight: so other terms are as in a step without inertia.
 template <int Dim> class Inertia : public Term<Dim> {
 public:
@@ -60,8 +62,11 @@ private:
 	Eigen::VectorXd solve(const Eigen::VectorXd& momentum, const Eigen::VectorXd& ofHeld);
 	Eigen::VectorXd ofHeld(const Eigen::VectorXd& otherwise, Vec<Dim> MovingBase<Dim>::*value, const std::vector<Key>& nodes) const;
 	Eigen::VectorXd imbalanceOf(const Beginning<Dim>&) const;
-	Eigen::VectorXd firstAcceleration(const Eigen::VectorXd& ofHeld);
 	Eigen::VectorXd velocityAt(const Eigen::VectorXd& d) const;
+	void            solve(int axis, const LinearProblem& mass, LinearSolver&, const FreeDofs&, const Eigen::VectorXd& right, Eigen::VectorXd& x);
+	void            findVelocity(const Eigen::VectorXd& ofHeld);
+	void            findAcceleration(const Beginning<Dim>&, const Eigen::VectorXd& ofHeld);
+	Eigen::VectorXd ofContact(const Eigen::VectorXd* d) const; // on the nodes; null: as the step begins
 	Eigen::VectorXd accelerationAt(const Eigen::VectorXd& d) const;
 	bool            isHeld(Eigen::Index dof) const { return dofs_.number[dof] < 0; }
 
@@ -74,8 +79,10 @@ private:
 	MassMatrix<Dim>                    mass_;
 	std::vector<std::unique_ptr<Damping<Dim>>> damping_;
 	bool                               isSingular_ = false;
-	Eigen::VectorXd                    imbalance_;               // at the start, where the scheme asks for it; zero at held nodes
-	Eigen::VectorXd                    velocity_, acceleration_; // at the start
+	Eigen::VectorXd                    imbalance_;               // at the start, without contact, where the scheme asks for it; zero at held nodes
+	Eigen::VectorXd                    velocity_, acceleration_; // at the start, without what contact does to the latter
+	Eigen::VectorXd                    expected_;                // acceleration, with contact
+	Eigen::VectorXd                    blow_, jump_;             // impulse of what holds nodes as the step begins, and the velocities that it changes
 };
 
 } // namespace gimpm

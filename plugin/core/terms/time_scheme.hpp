@@ -22,9 +22,12 @@ struct TimeScheme {
 	/// v_1 = 2 d / T - v_0 and a_1 = (v_1 - v_0) / T. Angular momentum is kept.
 	static TimeScheme midpoint() { return { 0.5, 1, 0, 0, true }; }
 
-	bool needsImbalance() const { return alphaF != 0 || dependsOnStart(); }
+	/// Of contact forces in the balance, so that they act with their value at the end of the step all through it (C. Kane et al. 1999): in the mean of two ends
+	/// they would give energy to what bounces.
+	double weightOfContact() const { return (1 - alphaM) / (2 * beta * (1 - alphaF)); }
+
 	bool dependsOnStart() const { return beta != 0.5 || gamma != 1; } ///< on a_0
-	bool isAlpha() const { return alphaF != 0 || alphaM != 0; }       ///< a is not that of equilibrium, and goes on from step to step
+	bool isAlpha() const { return alphaF != 0 || alphaM != 0; }       ///< equilibrium is weighed over the step
 };
 
 } // namespace gimpm

@@ -24,6 +24,13 @@ public:
 
 	bool areThere() const { return bool(system); }
 
+	// Their forces enter the balance with this weight. Null: there are none.
+	const gimpm::ContactSystem<Dim>* weigh(Real weight)
+	{
+		if (system) system->weight = weight;
+		return system.get();
+	}
+
 	// On the soil in the last step that was accepted [J].
 	Real work() const { return system ? system->work : 0; }
 

@@ -28,6 +28,7 @@ template <int Dim> Moving<Dim>::Moving(MpmDynamicEngine& e, Job<Dim>& job, const
 		motion->velocity.push_back(inDimension<Dim>(points[p], "vel", points[p].state->vel));
 		motion->acceleration.push_back(inDimension<Dim>(points[p], "acceleration", points[p].state->acceleration));
 	}
+	motion->contacts   = job.contacts.weigh(motion->scheme.weightOfContact());
 	shaking            = std::make_unique<Shaking<Dim>>(engine, job, *motion);
 	job.model.atMiddle = motion->scheme.atMiddle;
 	job.model.terms.push_back([known = motion](const gimpm::Beginning<Dim>& step) { return std::make_unique<gimpm::Inertia<Dim>>(*known, step); });

@@ -20,7 +20,7 @@ def arrays():
 	these arrays changes nothing in the scene. :func:`assign` is the way back.
 
 	:return: dict of ``id`` (N,) body ids; ``pos``, ``pos0`` (N, 3) current and initial position [m]; ``halfSize``, ``halfSize0`` (N, 3)
-		half the current and the initial size of the domain [m]; ``force`` (N, 3) point load at load factor 1 [N]; ``stress`` (N, 3, 3) Cauchy stress [Pa]; ``defGrad`` (N, 3, 3) deformation gradient;
+		half the current and the initial size of the domain [m]; ``velocity`` [m/s] and ``acceleration`` [m/s2] (N, 3), of a ``MpmDynamicEngine``; ``force`` (N, 3) point load at load factor 1 [N]; ``stress`` (N, 3, 3) Cauchy stress [Pa]; ``defGrad`` (N, 3, 3) deformation gradient;
 		``elasticStrain`` (N, 3, 3) logarithmic elastic strain; ``volume`` (N,) current volume [m3]; ``plasticStrain`` (N,)
 		accumulated plastic strain; ``material`` (N,) index into ``O.materials`` (-1: not in there). Where the law of a point has other
 		internal variables, (N,) of each by its name, NaN for points without. Of a strength or modulus that a point has of its own, by :func:`assign` or
@@ -90,10 +90,10 @@ def assign(ids=None, **columns):
 		not given
 	:param columns: arrays of N rows, named and shaped as those of :func:`arrays`: ``pos``, ``pos0`` [m], ``defGrad``,
 		``elasticStrain``, ``stress`` [Pa] (the Cauchy stress, instead of ``elasticStrain``), ``plasticStrain`` and other internal variables of the
-		points' laws, ``force`` [N]; all finite. Also, by the name of the attribute, strengths and moduli that the points' materials have:
+		points' laws, ``force`` [N], ``velocity`` [m/s]; all finite. Also, by the name of the attribute, strengths and moduli that the points' materials have:
 		``young``, ``shearModulus``, ``yieldStress``, ``hardening``, ``residualYieldStress``, ``undrainedStrength``, ``cohesion``, ``frictionAngle``,
 		``dilationAngle``, ``tensileStrength``, ``criticalStateRatio``: an array (N,), or a function of the current position that returns a number.
-		There are no velocities in a quasi-static analysis.
+		``velocity`` [m/s] is that of a ``MpmDynamicEngine``, whose motion begins anew with it; static steps leave it alone.
 	:raises TypeError: a name that is not in this list, or values that are no numbers.
 	:raises ValueError: a wrong shape; a value that is not finite, or not admitted for that column (``MpmState`` says what is), or as that attribute of the
 		point's material; a strength or modulus that the material of a point does not have; a stress

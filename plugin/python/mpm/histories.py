@@ -33,6 +33,7 @@ class histories:
 		self.solver, self.label, self.record = solverOf('histories', solver), label, tuple(record)
 		if any(getattr(engine, 'label', '') == _runner(label) for engine in wrapper.Omega().engines):
 			raise ValueError(f'histories: label = {brief(label)} is taken by other histories of the scene')
+		if self.solver not in wrapper.Omega().engines: raise ValueError('histories: the solver is not in O.engines; put it there first')
 		columns = fields()
 		if not len(columns['id']): raise ValueError(noPoints('histories', self.solver))
 		for name in self.record:
@@ -40,7 +41,7 @@ class histories:
 		self.ids = _chosen(at, columns)
 		self._begin(columns)
 		scene = wrapper.Omega()
-		command = f"__import__('sys').modules['yade.mpm.histories'].add({label!r}, {self.ids.tolist()}, {self.record})"
+		command = f"__import__('sys').modules['yade.mpm.histories'].add({label!r}, {self.ids.tolist()}, {self.record}, {list(scene.engines).index(self.solver)})"
 		scene.engines = list(scene.engines) + [wrapper.PyRunner(command=command, iterPeriod=int(every), label=_runner(label))]
 
 	def _begin(self, columns):
@@ -102,18 +103,14 @@ class histories:
 		return ax
 
 
-def add(label, ids, record):
-	"""For the PyRunner: the values of now. In a scene that was loaded in another process they are the first."""
-	if label not in _kept or not _isOfScene(_kept[label]):
+def add(label, ids, record, solver):
+	"""For the PyRunner: the values of now. In a scene that was loaded they are the first."""
+	if label not in _kept or _kept[label].solver not in wrapper.Omega().engines:
 		again = histories.__new__(histories)
-		again.solver, again.label, again.record, again.ids = solverOf('histories', None), label, tuple(record), np.array(ids)
+		again.solver, again.label, again.record, again.ids = solverOf('histories', wrapper.Omega().engines[solver]), label, tuple(record), np.array(ids)
 		again._begin(fields())
 	else:
 		_kept[label]._add(fields())
-
-
-def _isOfScene(known):
-	return any(engine is known.solver or engine == known.solver for engine in wrapper.Omega().engines)
 
 
 def _runner(label):
