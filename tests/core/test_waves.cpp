@@ -54,7 +54,7 @@ namespace {
 				return std::make_unique<RayleighDamping<Dim>>(*known, this->model.materials, this->model.fBar, this->motion->mass, step);
 			});
 		}
-		void holdBase() { this->model.boundary = Boundary<Dim>({ fixedBase() }); }
+		void         holdBase() { this->model.boundary = Boundary<Dim>({ fixedBase() }); }
 		HeldBox<Dim> fixedBase() const
 		{
 			auto box = plane(true);
@@ -75,7 +75,7 @@ namespace {
 		}
 		double speedAtTop() const
 		{
-			double sum = 0;
+			double sum   = 0;
 			int    count = 0;
 			for (std::size_t p = 0; p < this->cloud.size(); ++p)
 				if (this->cloud.position[p][0] > depth - 0.5) sum += this->motion->velocity[p][along], ++count;
@@ -133,8 +133,8 @@ namespace {
 			const auto held = ground.cloud.position;
 			ground.absorbAt({ ground.plane(true) });
 			ASSERT_TRUE(ground.steps(10, 0.1 / ground.cp));
-			const auto& boundary = *ground.absorbing[0];
-			const double error = (boundary.force + ground.mass() * ground.gravity).norm() / (ground.mass() * ground.gravity).norm();
+			const auto&  boundary = *ground.absorbing[0];
+			const double error    = (boundary.force + ground.mass() * ground.gravity).norm() / (ground.mass() * ground.gravity).norm();
 			std::printf("reaction: error %.1e\n", error);
 			EXPECT_LT(error, 1e-9);
 			for (std::size_t p = 0; p < held.size(); ++p)
@@ -156,7 +156,8 @@ namespace {
 				while (ground.time < start + 40 / c + 4 * width) {
 					ASSERT_TRUE(ground.advance(0.5 / c));
 					const double x = ground.depth - 0.25;
-					const double expected = ground.incoming(ground.time - x / c) + ground.incoming(ground.time - (2 * ground.depth - x) / c);
+					const double expected
+					        = ground.incoming(ground.time - x / c) + ground.incoming(ground.time - (2 * ground.depth - x) / c);
 					error = std::max(error, std::abs(ground.speedAtTop() - expected) / 2e-4);
 					work += ground.absorbing[0]->work;
 					most = std::max(most, ground.energy());
@@ -216,10 +217,10 @@ namespace {
 			ground.holdBase();
 			ground.damp(0, beta);
 			const std::complex<double> i(0, 1), k = omega / ground.cs / std::sqrt(1. + i * omega * beta);
-			const double               closed = std::abs(std::cos(0.25 * k) / std::cos(10. * k)); // at a quarter of a cell under the surface
+			const double               closed  = std::abs(std::cos(0.25 * k) / std::cos(10. * k)); // at a quarter of a cell under the surface
 			const auto                 history = [&](double t) { return 1e-5 * std::sin(omega * t) * std::min(t * first / (4 * M_PI), 1.); };
-			std::complex<double>       sum = 0;
-			const int                  swing = int(60 * std::ceil(14 * std::max(ratio, 1.)));
+			std::complex<double>       sum     = 0;
+			const int                  swing   = int(60 * std::ceil(14 * std::max(ratio, 1.)));
 			for (int n = 0; n < swing; ++n) {
 				ASSERT_TRUE(shake(ground, history, T));
 				if (n >= swing - 60) sum += ground.speedAtTop() * std::exp(-i * omega * ground.time);
@@ -246,8 +247,8 @@ namespace {
 		for (const auto& scheme : { TimeScheme::newmark(0.3025, 0.6), TimeScheme::generalisedAlpha(0.4), TimeScheme::midpoint() })
 			for (const bool isAssociated : { true, false }) {
 				const MohrCoulomb law(1e6, 0.25, 1e3, 0.5, isAssociated ? 0.5 : 0.);
-				Ground<Dim> ground(3, scheme, law);
-				Random      random;
+				Ground<Dim>       ground(3, scheme, law);
+				Random            random;
 				ground.absorbAt({ ground.plane(true) });
 				ground.damp(0.3, 0.01);
 				ground.motion->duration = 0.01;
@@ -270,7 +271,7 @@ namespace {
 	TEST(Waves, BoundariesAwayFromTheEdgeAreRefused)
 	{
 		for (const auto& [place, cause] : { std::pair(2., "on both sides"), { -3., "no face" } }) {
-			Ground<2> ground(4);
+			Ground<2>    ground(4);
 			const double inf = infinity;
 			ground.absorbAt({ HeldBox<2>::from(ground.model.grid, { place, -inf }, { place, inf }) });
 			const auto report = ground.step(0.01);

@@ -56,7 +56,7 @@ template <int Dim> bool Boundary<Dim>::isInOpenBox(const Index<Dim>& node) const
 
 template <int Dim> bool Boundary<Dim>::lowerFaceIsWall(const Index<Dim>& cell, int axis) const
 {
-	const auto covers = [&](const HeldBox<Dim>& b) { return b.covers(cell[axis], axis); };
+	const auto covers         = [&](const HeldBox<Dim>& b) { return b.covers(cell[axis], axis); };
 	const bool planeIsTouched = std::any_of(boxes_.begin(), boxes_.end(), [&](const HeldBox<Dim>& b) { return b.fixed[axis] && covers(b); })
 	        || std::any_of(open_.begin(), open_.end(), covers);
 	if (!planeIsTouched) return false;

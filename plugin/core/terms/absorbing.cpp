@@ -102,7 +102,7 @@ void Absorption<Dim>::addDrag(
 		const double   filled = std::min(cell.volume / (std::pow(h, Dim) * ring(inside, step.grid)), 1.);
 		const double   area   = filled * std::pow(h, Dim - 1) * ring(at, step.grid) / (1 << (Dim - 1));
 		for (const int node : face.node) {
-			Vec<Dim> impedance    = Vec<Dim>::Constant(cell.shear / cell.volume);
+			Vec<Dim> impedance   = Vec<Dim>::Constant(cell.shear / cell.volume);
 			impedance[face.axis] = cell.pressure / cell.volume;
 			dashpots_[node].drag += area * impedance;
 		}
@@ -162,8 +162,8 @@ template <int Dim> double Absorption<Dim>::fromOutside(const Eigen::VectorXd& v)
 
 template <int Dim> void Absorption<Dim>::commit(const Eigen::VectorXd& d, const Eigen::VectorXd& before, const Eigen::VectorXd& now)
 {
-	boundary_.hasBegun = true;
-	boundary_.work     = -this->workTaken(d, before, now);
+	boundary_.hasBegun    = true;
+	boundary_.work        = -this->workTaken(d, before, now);
 	Eigen::VectorXd force = Eigen::VectorXd::Zero(d.size());
 	add(now, 0, { force });
 	boundary_.force.setZero();

@@ -12,13 +12,13 @@ namespace gimpm {
 /// (Joyner and Chen 1975). They do not hold what is at rest: forces by which nodes of the box are out of balance when the boundary first acts, that is what has held
 /// them until then, go on acting.
 template <int Dim> struct AbsorbingBoundary {
-	HeldBox<Dim>            box;                                ///< its directions mean nothing; an open one of the boundary (core/grid/boundary.hpp)
+	HeldBox<Dim>            box;                               ///< its directions mean nothing; an open one of the boundary (core/grid/boundary.hpp)
 	Vec<Dim>                incomingBefore = Vec<Dim>::Zero(); ///< velocity of the wave from beyond at the start of the step [m/s]
 	Vec<Dim>                incoming       = Vec<Dim>::Zero(); ///< the same where forces of the step are looked at
 	bool                    hasBegun       = false;
-	std::map<Key, Vec<Dim>> borne {};                          ///< what goes on acting, by node [N]
-	Vec<Dim>                force = Vec<Dim>::Zero();          ///< on the body in the last step that was accepted [N]
-	double                  work  = 0;                         ///< on the body in that step [J]
+	std::map<Key, Vec<Dim>> borne {};                 ///< what goes on acting, by node [N]
+	Vec<Dim>                force = Vec<Dim>::Zero(); ///< on the body in the last step that was accepted [N]
+	double                  work  = 0;                ///< on the body in that step [J]
 };
 
 template <int Dim> class Absorption : public Damping<Dim> {

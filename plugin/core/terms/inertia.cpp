@@ -42,9 +42,7 @@ Inertia<Dim>::Inertia(Motion<Dim>& motion, const Beginning<Dim>& step)
 }
 
 /// A value of the held degrees of freedom.
-template <int Dim>
-Eigen::VectorXd
-Inertia<Dim>::ofHeld(const Eigen::VectorXd& otherwise, Vec<Dim> MovingBase<Dim>::*value, const std::vector<Key>& nodes) const
+template <int Dim> Eigen::VectorXd Inertia<Dim>::ofHeld(const Eigen::VectorXd& otherwise, Vec<Dim> MovingBase<Dim>::*value, const std::vector<Key>& nodes) const
 {
 	Eigen::VectorXd x = otherwise;
 	for (const auto& base : motion_.bases)
@@ -92,7 +90,7 @@ template <int Dim> void Inertia<Dim>::findVelocity(const Eigen::VectorXd& ofHeld
 template <int Dim> void Inertia<Dim>::findAcceleration(const Beginning<Dim>& step, const Eigen::VectorXd& ofHeld)
 {
 	const Eigen::VectorXd contact = ofContact(nullptr);
-	const bool            begins = std::all_of(motion_.acceleration.begin(), motion_.acceleration.end(), [](const Vec<Dim>& a) { return a.isZero(0); });
+	const bool            begins  = std::all_of(motion_.acceleration.begin(), motion_.acceleration.end(), [](const Vec<Dim>& a) { return a.isZero(0); });
 	if (motion_.scheme.alphaF != 0 || begins) imbalance_ = imbalanceOf(step);
 	const Eigen::VectorXd force = begins ? imbalance_ : toNodes(motion_.acceleration);
 	imbalance_ -= contact;
@@ -261,7 +259,7 @@ template <int Dim> void Inertia<Dim>::commit(const Eigen::VectorXd& d)
 	const Eigen::VectorXd end = others + contact, growth = jump_ + T * ((1 - gamma) * acceleration_ + gamma * others + contact);
 	Eigen::VectorXd       ghost = Eigen::VectorXd::Zero(d.size());
 	addGhostForce(faces_, h_, d, ghost);
-	motion_.ghostWork = gamma * d.dot(ghost); // the force of a step begins at zero
+	motion_.ghostWork            = gamma * d.dot(ghost); // the force of a step begins at zero
 	const Eigen::VectorXd looked = velocityAt(d);
 	for (const auto& each : damping_)
 		each->commit(d, motion_.scheme.atMiddle ? looked : velocity_, looked);

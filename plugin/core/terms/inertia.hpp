@@ -70,19 +70,19 @@ private:
 	Eigen::VectorXd accelerationAt(const Eigen::VectorXd& d) const;
 	bool            isHeld(Eigen::Index dof) const { return dofs_.number[dof] < 0; }
 
-	Motion<Dim>&                       motion_;
-	const CloudBasis<Dim>&             basis_;
-	const FreeDofs&                    dofs_;
-	const Eigen::VectorXd&             prescribed_;
-	const std::vector<GhostFace<Dim>>& faces_;
-	double                             h_; // size of the cells
-	MassMatrix<Dim>                    mass_;
+	Motion<Dim>&                               motion_;
+	const CloudBasis<Dim>&                     basis_;
+	const FreeDofs&                            dofs_;
+	const Eigen::VectorXd&                     prescribed_;
+	const std::vector<GhostFace<Dim>>&         faces_;
+	double                                     h_; // size of the cells
+	MassMatrix<Dim>                            mass_;
 	std::vector<std::unique_ptr<Damping<Dim>>> damping_;
-	bool                               isSingular_ = false;
-	Eigen::VectorXd                    imbalance_;               // at the start, without contact, where the scheme asks for it; zero at held nodes
-	Eigen::VectorXd                    velocity_, acceleration_; // at the start, without what contact does to the latter
-	Eigen::VectorXd                    expected_;                // acceleration, with contact
-	Eigen::VectorXd                    blow_, jump_;             // impulse of what holds nodes as the step begins, and the velocities that it changes
+	bool                                       isSingular_ = false;
+	Eigen::VectorXd                            imbalance_;               // at the start, without contact, where the scheme asks for it; zero at held nodes
+	Eigen::VectorXd                            velocity_, acceleration_; // at the start, without what contact does to the latter
+	Eigen::VectorXd                            expected_;                // acceleration, with contact
+	Eigen::VectorXd                            blow_, jump_; // impulse of what holds nodes as the step begins, and the velocities that it changes
 };
 
 } // namespace gimpm

@@ -16,7 +16,7 @@ RayleighDamping<Dim>::RayleighDamping(
 	if (settings.beta > 0) {
 		const Eigen::VectorXd still = Eigen::VectorXd::Zero(Dim * step.basis.nodes.size());
 		Eigen::VectorXd       force = still;
-		if (addInternalForce<Dim>(step.basis, points, materials, still, { force, &C_})) obstacle_ = "a point has no stiffness to be damped by";
+		if (addInternalForce<Dim>(step.basis, points, materials, still, { force, &C_ })) obstacle_ = "a point has no stiffness to be damped by";
 		C_.multiplyBy(settings.beta);
 	}
 	if (settings.alpha > 0) MassMatrix<Dim>(step.basis, masses, {}, step.grid.cellSize).addTo(C_, settings.alpha);

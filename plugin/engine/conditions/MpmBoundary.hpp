@@ -7,15 +7,15 @@ namespace yade {
 
 class MpmBoundary : public Exposed<MpmBoundary, Serializable> {
 public:
-	Vector3r               min = Vector3r::Constant(-std::numeric_limits<Real>::infinity());
-	Vector3r               max = Vector3r::Constant(std::numeric_limits<Real>::infinity());
-	string                 fix; // must be given
-	Vector3r               displacement = Vector3r::Zero();
-	shared_ptr<MpmSurface> surface; // none: the box
-	Vector3r               velocity = Vector3r::Zero();
-	Real                   penalty  = 100;
-	shared_ptr<MpmBaseMotion> motion; // none: it does not move by a history
-	vector<Vector3r>       tractions; // of the surface's pieces on the body [Pa]; empty before the first step
+	Vector3r                  min = Vector3r::Constant(-std::numeric_limits<Real>::infinity());
+	Vector3r                  max = Vector3r::Constant(std::numeric_limits<Real>::infinity());
+	string                    fix; // must be given
+	Vector3r                  displacement = Vector3r::Zero();
+	shared_ptr<MpmSurface>    surface; // none: the box
+	Vector3r                  velocity = Vector3r::Zero();
+	Real                      penalty  = 100;
+	shared_ptr<MpmBaseMotion> motion;    // none: it does not move by a history
+	vector<Vector3r>          tractions; // of the surface's pieces on the body [Pa]; empty before the first step
 
 	YADE_API_NAME(MpmBoundary)
 	static const char* doc()

@@ -13,8 +13,7 @@ gimpm::HeldBox<Dim> boxOfNodes(const string& name, const Vector3r& min, const Ve
 	std::ostringstream text;
 	text << name << " from min = (" << min.transpose() << ") to max = (" << max.transpose() << ") holds no grid node; nodes are at "
 	     << grid.origin.transpose() << " plus multiples of cellSize = " << grid.cellSize << ".";
-	if (lattice.isPeriodic())
-		text << " Along a periodic axis they are from there to there plus MpmGrid.period = (" << grid.period.transpose() << ").";
+	if (lattice.isPeriodic()) text << " Along a periodic axis they are from there to there plus MpmGrid.period = (" << grid.period.transpose() << ").";
 	throw std::invalid_argument(text.str());
 }
 
@@ -141,7 +140,7 @@ vector<gimpm::HeldBox<Dim>> heldBoxes(const vector<shared_ptr<MpmBoundary>>& bou
 }
 
 #define MPM_INSTANTIATE(Dim)                                                                                                                                   \
-	template gimpm::HeldBox<Dim>         boxOfNodes(const string&, const Vector3r&, const Vector3r&, const MpmGrid&, const gimpm::Grid<Dim>&);            \
+	template gimpm::HeldBox<Dim>         boxOfNodes(const string&, const Vector3r&, const Vector3r&, const MpmGrid&, const gimpm::Grid<Dim>&);             \
 	template void                        requireFit(const MaterialPoint&, const gimpm::Grid<Dim>&, gimpm::Basis);                                          \
 	template vector<gimpm::HeldBox<Dim>> heldBoxes(const vector<shared_ptr<MpmBoundary>>&, const MpmGrid&, const gimpm::Grid<Dim>&);
 MPM_INSTANTIATE(2)

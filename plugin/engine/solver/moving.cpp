@@ -60,7 +60,7 @@ template <int Dim> Real Moving<Dim>::workOfBoundaries(Real from, Real time) cons
 			work += boundary.motion->displacementBetween(from, time).dot(hasBefore ? Vector3r((now[b] + before[b]) / 2) : now[b]);
 			continue;
 		}
-		const Vector3r     moved    = boundary.surface ? Vector3r((time - from) * boundary.velocity) : Vector3r(growth * boundary.displacement);
+		const Vector3r moved = boundary.surface ? Vector3r((time - from) * boundary.velocity) : Vector3r(growth * boundary.displacement);
 		work += moved.dot(hasBefore ? Vector3r((now[b] + before[b]) / 2) : now[b]);
 	}
 	return work;

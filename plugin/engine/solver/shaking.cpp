@@ -11,7 +11,8 @@ namespace {
 		motion.requireAdmissible();
 		if (Dim == 2 && motion.direction[2] != 0)
 			throw std::invalid_argument(
-			        name + ".motion.direction = " + textOf(motion.direction) + ": there is no direction z on a grid with dim=2 (plane strain in x-y).");
+			        name + ".motion.direction = " + textOf(motion.direction)
+			        + ": there is no direction z on a grid with dim=2 (plane strain in x-y).");
 	}
 }
 
@@ -44,8 +45,7 @@ template <int Dim> Shaking<Dim>::Shaking(const MpmDynamicEngine& engine, Job<Dim
 }
 
 template <int Dim>
-void Shaking<Dim>::join(
-        const shared_ptr<MpmAbsorbingBoundary>& boundary, const string& name, const MpmDynamicEngine& engine, const gimpm::Model<Dim>& model)
+void Shaking<Dim>::join(const shared_ptr<MpmAbsorbingBoundary>& boundary, const string& name, const MpmDynamicEngine& engine, const gimpm::Model<Dim>& model)
 {
 	if (!boundary) throw std::invalid_argument(name + " = None is not admitted: expected an MpmAbsorbingBoundary.");
 	boundary->requireAdmissible();
@@ -53,8 +53,7 @@ void Shaking<Dim>::join(
 	const auto edge = std::make_shared<Edge>();
 	edge->box       = boxOfNodes<Dim>("MpmAbsorbingBoundary", boundary->min, boundary->max, *engine.grid, model.grid);
 	edge->hasBegun  = boundary->hasBegun;
-	if (boundary->nodes.size() != boundary->borne.size())
-		throw std::invalid_argument(name + " has lost what it bears: give a new MpmAbsorbingBoundary.");
+	if (boundary->nodes.size() != boundary->borne.size()) throw std::invalid_argument(name + " has lost what it bears: give a new MpmAbsorbingBoundary.");
 	for (size_t n = 0; n < boundary->nodes.size(); ++n)
 		edge->borne[gimpm::Grid<Dim>::key(boundary->nodes[n].template head<Dim>().template cast<int>())] = boundary->borne[n].template head<Dim>();
 	edges.emplace_back(boundary, edge);
@@ -75,8 +74,8 @@ template <int Dim> void Shaking<Dim>::requireFittingBases(const gimpm::Model<Dim
 			if (model.grid.axisymmetric && axis == 0)
 				throw std::invalid_argument(name + ".motion goes along x, the distance from the axis of MpmGrid.axisymmetric.");
 			for (int other = 0; other < int(boxes.size()); ++other)
-				if (const auto found = bases.find(other); other != b && boxes[other].fixed[axis] && boxes[b].meets(boxes[other])
-				    && (found == bases.end() || found->second != motion))
+				if (const auto found = bases.find(other);
+				    other != b && boxes[other].fixed[axis] && boxes[b].meets(boxes[other]) && (found == bases.end() || found->second != motion))
 					throw std::invalid_argument(
 					        name + " and boundaries[" + std::to_string(other) + "] hold the same nodes along " + "xyz"[axis]
 					        + ", of which only one moves by that MpmBaseMotion: give both the same, or let sides be periodic (MpmGrid.period).");
