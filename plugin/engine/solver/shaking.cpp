@@ -113,7 +113,7 @@ template <int Dim> void Shaking<Dim>::scatter() const
 			boundary->borne.push_back(inSpace);
 		}
 		boundary->reaction             = Vector3r::Zero();
-		boundary->reaction.head<Dim>() = edge->force;
+		boundary->reaction.template head<Dim>() = edge->force;
 	}
 }
 

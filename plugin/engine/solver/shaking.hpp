@@ -4,6 +4,7 @@
 #include "core/terms/absorbing.hpp"
 #include "core/terms/inertia.hpp"
 #include "core/terms/rayleigh.hpp"
+#include "engine/conditions/MpmAbsorbingBoundary.hpp"
 #include "engine/solver/job.hpp"
 
 namespace yade {
