@@ -95,10 +95,10 @@ np.savez('parts.npz', **mpm.arrays(), energy=O.engines[0].plotData()['energyImba
 def test_a_moving_base_shakes_the_ground_and_energy_balances(yade):
 	run = yade(scene + '''
 shaken = MpmBoundary(fix='xy', motion=MpmBaseMotion(history=history), **base)
-solver = ground(6, boundaries=[shaken], rayleigh=(0, 5e-3))
+solver = ground(6, boundaries=[shaken], rayleigh=(0, 0.05))
 h = mpm.histories([(0.25, 0.25, 0), (0.25, 5.75, 0)], record=['displacement'])
 O.dt = 0.02
-O.run(200, wait=True)
+O.run(400, wait=True)
 data = solver.plotData()
 print(json.dumps([h['displacement_x'][-1].tolist(), float(sum(v for t, v in history) * 0.005), data]))
 ''')

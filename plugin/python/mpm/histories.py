@@ -21,7 +21,7 @@ class histories:
 
 	:param at: ids of bodies, or positions [m] (N, 3), each of which stands for the nearest material point
 	:param record: columns of :func:`arrays`, or ``displacement``, ``meanStress``, ``sqrt2J2``
-	:param every: iterations from one value to the next, >= 1
+	:param every: iterations from one value to the next, >= 1, beginning with the first
 	:param label: name, by which a loaded scene finds it
 	:param solver: the engine; may be left out when ``O.engines`` holds one
 	:raises TypeError: an argument of the wrong kind.
@@ -42,7 +42,7 @@ class histories:
 		self._begin(columns)
 		scene = wrapper.Omega()
 		command = f"__import__('sys').modules['yade.mpm.histories'].add({label!r}, {self.ids.tolist()}, {self.record}, {list(scene.engines).index(self.solver)})"
-		scene.engines = list(scene.engines) + [wrapper.PyRunner(command=command, iterPeriod=int(every), label=_runner(label))]
+		scene.engines = list(scene.engines) + [wrapper.PyRunner(command=command, iterPeriod=int(every), initRun=True, label=_runner(label))]
 
 	def _begin(self, columns):
 		self.time, self._values = [], {name: [] for name in self.record}
