@@ -150,6 +150,7 @@ def _chosen(at, columns):
 def readHistory(fileName):
 	"""A history from a text file: two columns, time [s] and value, separated by blanks, commas or semicolons; lines without numbers before them, as a heading, are left out.
 
+	:param fileName: path of the file
 	:return: list of (time, value), as MpmBaseMotion.history and the load curves take it
 	:raises OSError: the file cannot be read.
 	:raises ValueError: a line that is no pair of finite numbers, times that do not increase, or no numbers at all; the line is named.
