@@ -140,7 +140,7 @@ solver = MpmDynamicEngine(grid=static.grid, gravity=static.gravity, boundaries=s
 O.engines, O.dt = [solver], 0.005
 O.run(10, wait=True)
 assert np.abs(mpm.arrays()['velocity']).max() < 1e-4, np.abs(mpm.arrays()['velocity']).max() # falling freely it would be 0.5
-assert abs(solver.reactions[2][1] / (10 * sum(b.state.mass for b in O.bodies)) - 1) < 1e-4
+assert abs(solver.reactions[2][1] / (10 * sum(b.state.mass for b in O.bodies)) - 1) < 5e-3, solver.reactions[2][1] / (10 * sum(b.state.mass for b in O.bodies))
 solver.boundaries = sides
 velocities(0, 0, 0) # begin anew
 O.run(10, wait=True)
@@ -149,33 +149,34 @@ assert abs(solver.plotData()['momentum_y'] / (-0.5 * mass) - 1) < 1e-3
 ''')
 
 
-def test_a_block_bounces_off_a_box(yade):
+@pytest.mark.parametrize('scheme', ['newmark', 'generalised-alpha'])
+def test_a_block_bounces_off_a_box(yade, scheme):
 	"""Contact works with inertia: a bar that hits a rigid wall flies back after the wave has run to its end and back. No energy comes from nowhere."""
-	run = yade(scene + '''
+	run = yade(scene + f'scheme = {scheme!r}' + '''
 from yade import utils
 c, speed = (1e6 / 1000)**0.5, 0.05
-solver = block((0, 0.01, 0), (1, 8.01, 1), cellSize=0.5, density=1000)
+solver = block((0, 0, 0), (1, 8, 1), cellSize=0.5, density=1000, scheme=scheme)
 O.materials.append(FrictMat(young=1e9, frictionAngle=0, label='steel'))
-O.bodies.append(utils.box((0.5, -0.5, 0), (2, 0.5, 1), fixed=True, material='steel'))
+O.bodies.append(utils.box((0.5, -0.5, 0), (2, 0.5, 1), fixed=True, material='steel')) # they touch
 solver.contacts = [MpmContact(friction=0, stiffness=100)]
 velocities(0, -speed, 0)
 mass = solver.plotData()['momentum_y'] / -speed
 energy, most = solver.plotData()['kineticEnergy'], 0
 O.dt = 0.25 / c
 times, speeds = [], []
-while O.time < 0.01 / speed + 3 * 8 / c:
+while O.time < 3 * 8 / c:
 	O.step()
 	data = solver.plotData()
 	most = max(most, data['kineticEnergy'] + data['elasticEnergy'])
 	times.append(O.time), speeds.append(data['momentum_y'] / mass / speed)
-stopped = np.interp(0, speeds, times) # in the middle of the contact
-print(json.dumps([speeds[-1], most / energy, (stopped - 0.01 / speed) * c / 8, data['contactWork'] / energy, data['energyImbalance'] / energy]))
+stopped = times[np.argmax(np.array(speeds) >= 0)] # in the middle of the contact
+print(json.dumps([speeds[-1], most / energy, stopped * c / 8, data['contactWork'] / energy, data['energyImbalance'] / energy]))
 ''')
 	speed, most, middle, work, imbalance = run.result
-	assert speed == pytest.approx(1, abs=0.02)
+	assert 0.95 < speed < 1 # some of the wave's energy stays in the bar
 	assert most < 1 + 1e-3
 	assert middle == pytest.approx(1, abs=0.05)
-	assert abs(work) < 0.02 and abs(imbalance) < 0.02
+	assert -0.03 < work < 1e-3 and abs(imbalance) < 0.02
 
 
 def test_prescribed_motion_works_on_the_body(yade):
