@@ -112,7 +112,7 @@ template <int Dim> void Shaking<Dim>::scatter() const
 			boundary->nodes.push_back(node);
 			boundary->borne.push_back(inSpace);
 		}
-		boundary->reaction             = Vector3r::Zero();
+		boundary->reaction                      = Vector3r::Zero();
 		boundary->reaction.template head<Dim>() = edge->force;
 	}
 }
