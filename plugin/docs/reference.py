@@ -11,7 +11,7 @@ folder = os.path.dirname(os.path.abspath(__file__))
 flags = re.compile(r'\s*:yattrflags:`\d+`')
 groups = {
         'Analysis': ['MpmImplicitEngine', 'MpmDynamicEngine', 'MpmGrid', 'MpmGhost', 'MpmNewton'],
-        'Conditions': ['MpmBoundary', 'MpmTraction', 'MpmSurface', 'MpmContact'],
+        'Conditions': ['MpmBoundary', 'MpmAbsorbingBoundary', 'MpmBaseMotion', 'MpmTraction', 'MpmSurface', 'MpmContact'],
         'Materials': ['MpmElasticMat', 'MpmVonMisesMat', 'MpmTrescaMat', 'MpmMohrCoulombMat', 'MpmDruckerPragerMat', 'MpmCamClayMat', 'MpmFrictionalMat', 'MpmMaterial'],
         'Material points': ['MpmPoint', 'MpmState'],
         'Output': ['MpmVtkRecorder'],

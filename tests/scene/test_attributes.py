@@ -50,6 +50,12 @@ outOfRange = {
         'MpmBoundary.fix': ['"w"', '"X"', '"xx"', '"x y"', '"nx"'],
         'MpmBoundary.displacement': None,
         'MpmBoundary.surface': None,
+        'MpmBoundary.motion': None,
+        'MpmAbsorbingBoundary.min': None,
+        'MpmAbsorbingBoundary.max': None,
+        'MpmAbsorbingBoundary.motion': None,
+        'MpmBaseMotion.history': ['[(0, 0), (0, 1)]', '[(1, 0), (0, 1)]'],
+        'MpmBaseMotion.direction': ['(0, 0, 0)'],
         'MpmBoundary.velocity': None,
         'MpmBoundary.penalty': ['0.', '-1.'],
         'MpmGhost.factor': ['-1e-2'],
@@ -61,6 +67,8 @@ outOfRange = {
         'MpmDynamicEngine.gamma': ['0.49', '-1.', '1.1'],
         'MpmDynamicEngine.rhoInfinity': ['-0.1', '1.1'],
         'MpmDynamicEngine.timeTolerance': ['-1e-3'],
+        'MpmDynamicEngine.absorbing': None,
+        'MpmDynamicEngine.rayleigh': ['(-1, 0)', '(0, -1e-3)', '(0, nan)'],
         'MpmNewton.tolerance': ['0.', '1.', '-1e-6'],
         'MpmNewton.maxIterations': ['0', '-1'],
         'MpmNewton.minStep': ['0.', '-1.', '2.'],
@@ -119,9 +127,10 @@ categories = ['wrong type', 'NaN', 'infinite', 'empty', 'huge', 'out of range']
 
 # Admitted though odd: by attribute and text of the value.
 admitted = {
-        **{(f'MpmBoundary.{side}', text): 'no limit on that side' for side in ('min', 'max') for text in ('(inf, 0, 0)', '(0, -inf, 0)')},
+        **{(f'{class_}.{side}', text): 'no limit on that side' for side in ('min', 'max') for class_ in ('MpmBoundary', 'MpmAbsorbingBoundary') for text in ('(inf, 0, 0)', '(0, -inf, 0)')},
         ('MpmFrictionalMat.tensileStrength', 'inf'): 'no cut',
         ('MpmImplicitEngine.boundaries', '()'): 'nothing is held',
+        ('MpmDynamicEngine.absorbing', '()'): 'nothing absorbs',
         ('MpmImplicitEngine.loads', '()'): 'nothing is loaded',
         ('MpmTraction.curve', '()'): 'loadCurve',
         ('MpmImplicitEngine.contacts', '()'): 'nothing touches',
@@ -139,6 +148,8 @@ setting = '''
 import json, sys
 from yade import mpm, pack, utils, wrapper
 nan = float('nan')
+
+dynamic = 'MpmDynamicEngine', 'MpmAbsorbingBoundary', 'MpmBaseMotion'
 
 def scene(engine='MpmImplicitEngine'):
 	"""A sound scene with this engine, where it names one; {class: the object of it that takes part}."""
@@ -159,17 +170,20 @@ def scene(engine='MpmImplicitEngine'):
 	O.materials.append(FrictMat(label='rigid'))
 	O.bodies.append(utils.wall(5, axis=1, sense=-1, material='rigid'))
 	touch = MpmContact()
-	solver = (MpmDynamicEngine if engine == 'MpmDynamicEngine' else MpmImplicitEngine)(grid=grid, gravity=(0, -1, 0), boundaries=[base], loads=[load], contacts=[touch], ghost=ghost, newton=newton)
+	solver = (MpmDynamicEngine if engine in dynamic else MpmImplicitEngine)(grid=grid, gravity=(0, -1, 0), boundaries=[base], loads=[load], contacts=[touch], ghost=ghost, newton=newton)
+	wave = MpmBaseMotion(history=[(0, 0), (2, 1e-3)])
+	edge = MpmAbsorbingBoundary(min=(2, -inf, -inf), motion=wave)
+	if engine in dynamic[1:]: solver.absorbing = [edge]
 	O.engines = [solver, MpmVtkRecorder(fileName='out-', recorders=['all'])]
 	O.dt = 1
 	objects = [*O.engines, *O.materials, O.bodies[5].state, O.bodies[5].shape, grid, base, load, load.surface, touch, ghost, newton]
-	return {type(o).__name__: o for o in objects}
+	return {type(o).__name__: o for o in objects + [edge, wave] * (engine in dynamic[1:])}
 
 def attributes():
 	"""(class, attribute, class of the object to set it on, kind, whether it can only be read) from the classes themselves."""
 	classes = [c for name, c in vars(wrapper).items() if isinstance(c, type) and name.startswith('Mpm')]
 	for c in classes:
-		users = [name for name in [*scene(), 'MpmDynamicEngine'] if issubclass(getattr(wrapper, name), c)]
+		users = [name for name in [*scene(), *dynamic] if issubclass(getattr(wrapper, name), c)]
 		for name, value in vars(c).items():
 			if not isinstance(value, property): continue
 			default = getattr(c(), name)

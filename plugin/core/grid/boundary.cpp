@@ -49,17 +49,23 @@ template <int Dim> const HeldBox<Dim>* Boundary<Dim>::holder(const Index<Dim>& n
 	return nullptr;
 }
 
+template <int Dim> bool Boundary<Dim>::isInOpenBox(const Index<Dim>& node) const
+{
+	return std::any_of(open_.begin(), open_.end(), [&](const HeldBox<Dim>& b) { return b.contains(node); });
+}
+
 template <int Dim> bool Boundary<Dim>::lowerFaceIsWall(const Index<Dim>& cell, int axis) const
 {
-	const bool planeIsTouched
-	        = std::any_of(boxes_.begin(), boxes_.end(), [&](const HeldBox<Dim>& b) { return b.fixed[axis] && b.covers(cell[axis], axis); });
+	const auto covers         = [&](const HeldBox<Dim>& b) { return b.covers(cell[axis], axis); };
+	const bool planeIsTouched = std::any_of(boxes_.begin(), boxes_.end(), [&](const HeldBox<Dim>& b) { return b.fixed[axis] && covers(b); })
+	        || std::any_of(open_.begin(), open_.end(), covers);
 	if (!planeIsTouched) return false;
 	for (int corner = 0; corner < 1 << Dim; ++corner) {
 		if (corner >> axis & 1) continue;
 		Index<Dim> node = cell;
 		for (int a = 0; a < Dim; ++a)
 			node[a] += corner >> a & 1;
-		if (!holder(node, axis)) return false;
+		if (!holder(node, axis) && !isInOpenBox(node)) return false;
 	}
 	return true;
 }

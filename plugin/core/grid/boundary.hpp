@@ -44,18 +44,21 @@ template <int Dim> struct HeldBox {
 
 template <int Dim> class Boundary {
 public:
-	explicit Boundary(std::vector<HeldBox<Dim>> boxes = {}) : boxes_(std::move(boxes)) { }
+	/// `open`: boxes that hold nothing, and still let no point reach through them.
+	explicit Boundary(std::vector<HeldBox<Dim>> boxes = {}, std::vector<HeldBox<Dim>> open = {}) : boxes_(std::move(boxes)), open_(std::move(open)) { }
 
 	/// The box that holds the node in this direction (the last one given, where several do), or null.
 	const HeldBox<Dim>* holder(const Index<Dim>& node, int axis) const;
 
 	const std::vector<HeldBox<Dim>>& boxes() const { return boxes_; }
 
-	/// Whether all nodes of the lower face of this cell in this direction are held in the face's normal direction.
+	/// Whether all nodes of the lower face of this cell in this direction are held in the face's normal direction, or in open boxes.
 	bool lowerFaceIsWall(const Index<Dim>& cell, int axis) const;
 
 private:
-	std::vector<HeldBox<Dim>> boxes_;
+	bool isInOpenBox(const Index<Dim>& node) const;
+
+	std::vector<HeldBox<Dim>> boxes_, open_;
 };
 
 } // namespace gimpm

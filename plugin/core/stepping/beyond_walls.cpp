@@ -96,6 +96,7 @@ void addReactionsBeyondWalls(
 		for (int i = 0; i < Dim; ++i) {
 			const auto* box = boundary.holder(cut.nodes[n].nearest, i);
 			if (!box) box = boundary.holder(cut.nodes[n].nearest, cut.nodes[n].axis);
+			if (!box) continue; // an open one
 			const int at = int(d.size()) + Dim * int(n) + i;
 			reactions[box - boundary.boxes().data()][i] += internal[at] - external[at];
 		}

@@ -48,6 +48,7 @@ template <int Dim> struct Load {
 	LoadFactor                factor {};                  ///< of point loads, and of prescribed displacements, which go with its growth
 	std::optional<LoadFactor> ofGravity {};               ///< if it has its own
 	double                    motion = 0;                 ///< duration of the step where something moves by its velocity [s]
+	std::map<int, Vec<Dim>>   boxMotion {};               ///< of the nodes held by boxes of the boundary, in the step, besides their displacement [m]
 
 	/// The same as the step begins.
 	Load before() const

@@ -71,9 +71,10 @@ template <int Dim> void StepSystem<Dim>::holdNodes(const Load<Dim>& load)
 	dofs.number.assign(nodalSize(), -1);
 	for (std::size_t n = 0; n < basis.nodes.size(); ++n)
 		for (int a = 0; a < Dim; ++a) {
-			if (const auto* box = model.boundary.holder(Grid<Dim>::index(basis.nodes[n]), a))
-				prescribed[Dim * n + a] = load.factor.growth * box->displacement[a];
-			else
+			if (const auto* box = model.boundary.holder(Grid<Dim>::index(basis.nodes[n]), a)) {
+				const auto moves        = load.boxMotion.find(int(box - model.boundary.boxes().data()));
+				prescribed[Dim * n + a] = load.factor.growth * box->displacement[a] + (moves == load.boxMotion.end() ? 0 : moves->second[a]);
+			} else
 				dofs.number[Dim * n + a] = dofs.count++;
 		}
 }

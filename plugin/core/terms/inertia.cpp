@@ -34,15 +34,40 @@ Inertia<Dim>::Inertia(Motion<Dim>& motion, const Beginning<Dim>& step)
         , mass_(step.basis, motion.mass, massFaces(motion, step), step.grid.cellSize)
 {
 	imbalance_ = acceleration_ = expected_ = blow_ = jump_ = Eigen::VectorXd::Zero(prescribed_.size());
-	findVelocity();
-	if (motion.scheme.dependsOnStart()) findAcceleration(step);
+	const auto held = [&](const Eigen::VectorXd& otherwise, Vec<Dim> MovingBase<Dim>::*value) { return ofHeld(otherwise, value, step.basis.nodes); };
+	findVelocity(held(prescribed_ / motion.duration, &MovingBase<Dim>::velocity));
+	for (const auto& make : motion.damping)
+		damping_.push_back(make(step));
+	if (motion.scheme.dependsOnStart()) findAcceleration(step, held(acceleration_, &MovingBase<Dim>::acceleration));
 }
 
-template <int Dim> void Inertia<Dim>::findVelocity()
+/// A value of the held degrees of freedom.
+template <int Dim> Eigen::VectorXd Inertia<Dim>::ofHeld(const Eigen::VectorXd& otherwise, Vec<Dim> MovingBase<Dim>::*value, const std::vector<Key>& nodes) const
+{
+	Eigen::VectorXd x = otherwise;
+	for (const auto& base : motion_.bases)
+		for (std::size_t n = 0; n < nodes.size(); ++n)
+			for (int a = 0; a < Dim; ++a)
+				if (isHeld(Dim * n + a) && base.box.holds(Grid<Dim>::index(nodes[n]), a)) x[Dim * n + a] = (base.*value)[a];
+	return x;
+}
+
+/// Of all forces as the step begins, also at held nodes.
+template <int Dim> Eigen::VectorXd Inertia<Dim>::imbalanceOf(const Beginning<Dim>& step) const
+{
+	const Eigen::VectorXd others = step.imbalance();
+	if (damping_.empty()) return others;
+	Eigen::VectorXd damping = Eigen::VectorXd::Zero(others.size());
+	for (const auto& each : damping_)
+		each->addBefore(velocity_, damping);
+	return others - damping;
+}
+
+template <int Dim> void Inertia<Dim>::findVelocity(const Eigen::VectorXd& ofHeld)
 {
 	constexpr double      roundOff = 1e-13;
 	const Eigen::VectorXd momentum = toNodes(motion_.velocity);
-	velocity_                      = solve(momentum, prescribed_ / motion_.duration);
+	velocity_                      = solve(momentum, ofHeld);
 	blow_                          = mass_ * velocity_ - momentum;
 	const double  least            = roundOff * momentum.template lpNorm<Eigen::Infinity>();
 	FreeDofs      all;
@@ -62,17 +87,17 @@ template <int Dim> void Inertia<Dim>::findVelocity()
 }
 
 /// Those of the points, or where they are at the beginning those of equilibrium.
-template <int Dim> void Inertia<Dim>::findAcceleration(const Beginning<Dim>& step)
+template <int Dim> void Inertia<Dim>::findAcceleration(const Beginning<Dim>& step, const Eigen::VectorXd& ofHeld)
 {
-	const Eigen::VectorXd zero = acceleration_, contact = ofContact(nullptr);
-	const bool            begins = std::all_of(motion_.acceleration.begin(), motion_.acceleration.end(), [](const Vec<Dim>& a) { return a.isZero(0); });
-	if (motion_.scheme.alphaF != 0 || begins) imbalance_ = step.imbalance();
+	const Eigen::VectorXd contact = ofContact(nullptr);
+	const bool            begins  = std::all_of(motion_.acceleration.begin(), motion_.acceleration.end(), [](const Vec<Dim>& a) { return a.isZero(0); });
+	if (motion_.scheme.alphaF != 0 || begins) imbalance_ = imbalanceOf(step);
 	const Eigen::VectorXd force = begins ? imbalance_ : toNodes(motion_.acceleration);
 	imbalance_ -= contact;
 	for (Eigen::Index i = 0; i < imbalance_.size(); ++i)
 		if (isHeld(i) || motion_.scheme.alphaF == 0) imbalance_[i] = 0;
-	acceleration_ = solve(force - contact, zero);
-	expected_     = contact.isZero(0) ? acceleration_ : solve(force, zero);
+	acceleration_ = solve(force - contact, ofHeld);
+	expected_     = contact.isZero(0) ? acceleration_ : solve(force, ofHeld);
 }
 
 template <int Dim> Eigen::VectorXd Inertia<Dim>::ofContact(const Eigen::VectorXd* d) const
@@ -130,6 +155,33 @@ template <int Dim> Eigen::VectorXd Inertia<Dim>::accelerationAt(const Eigen::Vec
 	return (d - T * velocity_) / (beta * T * T) - (1 / (2 * beta) - 1) * acceleration_;
 }
 
+/// Where the forces of the step are looked at.
+template <int Dim> Eigen::VectorXd Inertia<Dim>::velocityAt(const Eigen::VectorXd& d) const
+{
+	const auto& scheme = motion_.scheme;
+	if (scheme.atMiddle) return d / motion_.duration;
+	return velocity_ + motion_.duration * ((1 - scheme.gamma) * acceleration_ + scheme.gamma * accelerationAt(d));
+}
+
+template <int Dim> void Inertia<Dim>::mark(NodeMatrix<Dim>& K) const
+{
+	mass_.mark(K);
+	for (const auto& each : damping_)
+		each->mark(K);
+}
+
+template <int Dim> bool Inertia<Dim>::isSymmetric() const
+{
+	return std::all_of(damping_.begin(), damping_.end(), [](const auto& each) { return each->isSymmetric(); });
+}
+
+template <int Dim> std::string Inertia<Dim>::obstacle() const
+{
+	for (const auto& each : damping_)
+		if (std::string found = each->obstacle(); !found.empty()) return found;
+	return {};
+}
+
 template <int Dim> std::optional<PointFailure> Inertia<Dim>::add(const Eigen::VectorXd& d, const TermSum<Dim>& sum) const
 {
 	const auto&           scheme = motion_.scheme;
@@ -145,6 +197,10 @@ template <int Dim> std::optional<PointFailure> Inertia<Dim>::add(const Eigen::Ve
 	sum.force += force;
 	if (sum.sizes) *sum.sizes += force.cwiseAbs();
 	if (sum.K) mass_.addTo(*sum.K, ofEnd / (scheme.beta * motion_.duration * motion_.duration));
+	if (damping_.empty()) return std::nullopt;
+	const Eigen::VectorXd v = velocityAt(d);
+	for (const auto& each : damping_)
+		each->add(v, scheme.atMiddle ? 1 / motion_.duration : scheme.gamma / (scheme.beta * motion_.duration), sum);
 	return std::nullopt;
 }
 
@@ -153,7 +209,10 @@ template <int Dim> double Inertia<Dim>::fromOutside(const Eigen::VectorXd& d) co
 	Eigen::VectorXd force = mass_ * accelerationAt(d);
 	for (Eigen::Index i = 0; i < force.size(); ++i)
 		if (isHeld(i)) force[i] = 0; // they are part of the reactions
-	return force.norm();
+	double squares = force.squaredNorm();
+	for (const auto& each : damping_)
+		squares += std::pow(each->fromOutside(velocityAt(d)), 2);
+	return std::sqrt(squares);
 }
 
 template <int Dim> void Inertia<Dim>::addRoundOff(const Eigen::VectorXd& d, Eigen::VectorXd& sizes) const
@@ -200,7 +259,10 @@ template <int Dim> void Inertia<Dim>::commit(const Eigen::VectorXd& d)
 	const Eigen::VectorXd end = others + contact, growth = jump_ + T * ((1 - gamma) * acceleration_ + gamma * others + contact);
 	Eigen::VectorXd       ghost = Eigen::VectorXd::Zero(d.size());
 	addGhostForce(faces_, h_, d, ghost);
-	motion_.ghostWork = gamma * d.dot(ghost); // the force of a step begins at zero
+	motion_.ghostWork            = gamma * d.dot(ghost); // the force of a step begins at zero
+	const Eigen::VectorXd looked = velocityAt(d);
+	for (const auto& each : damping_)
+		each->commit(d, motion_.scheme.atMiddle ? looked : velocity_, looked);
 	motion_.acceleration.assign(motion_.velocity.size(), Vec<Dim>::Zero());
 	forPointNodes(basis_, [&](int i, const Patch<Dim>& patch, const double* value, int count) {
 		const int p = basis_.order[i];

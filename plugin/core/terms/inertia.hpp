@@ -3,11 +3,19 @@
 #pragma once
 #include "core/solvers/linear_solver.hpp"
 #include "core/terms/contact.hpp"
+#include "core/terms/damping.hpp"
 #include "core/terms/mass_matrix.hpp"
 #include "core/terms/term.hpp"
 #include "core/terms/time_scheme.hpp"
 
 namespace gimpm {
+
+/// Held nodes that move by a history.
+template <int Dim> struct MovingBase {
+	HeldBox<Dim> box;
+	Vec<Dim>     velocity;     ///< as the step begins [m/s]
+	Vec<Dim>     acceleration; ///< mean of the step [m/s2]
+};
 
 /// How the points of a cloud move, in its order, and how the next step advances that.
 template <int Dim> struct Motion {
@@ -22,10 +30,13 @@ template <int Dim> struct Motion {
 	const ContactSystem<Dim>* contacts         = nullptr; ///< if there are some, of TimeScheme::weightOfContact()
 	LinearSolver              solvers[Dim + 1] = {};      ///< by axis, and of all nodes; keep their symbolic analyses
 
+	std::vector<DampingOfStep<Dim>> damping {}; ///< in each step
+	std::vector<MovingBase<Dim>>    bases {};   ///< of nodes in several boxes the last one counts
+
 	static constexpr double infinite = std::numeric_limits<double>::infinity();
 };
 
-/// Consistent mass times acceleration. Points give momentum to the nodes, which have the velocities v of (M + M_g) v = sum of S m v_p, held ones those that
+/// Consistent mass times acceleration, and damping. Points give momentum to the nodes, which have the velocities v of (M + M_g) v = sum of S m v_p, held ones those that
 /// the step prescribes, by a blow where points have brought others along; points take back what changes of them (FLIP). Every other force is that at the end of the step. Where
 /// the scheme weighs it with that of the beginning the whole balance is divided by its weight: so other terms are as in a step without inertia.
 template <int Dim> class Inertia : public Term<Dim> {
@@ -33,9 +44,11 @@ public:
 	/// To be made after all other terms. Velocities and accelerations are written in commit().
 	Inertia(Motion<Dim>&, const Beginning<Dim>&);
 
-	void                        mark(NodeMatrix<Dim>& K) const override { mass_.mark(K); }
+	void                        mark(NodeMatrix<Dim>& K) const override;
 	std::optional<PointFailure> add(const Eigen::VectorXd& d, const TermSum<Dim>&) const override;
 	void                        addBefore(Eigen::VectorXd&) const override { }
+	bool                        isSymmetric() const override;
+	std::string                 obstacle() const override;
 	bool                        isSingular() const override { return isSingular_; }
 	double                      fromOutside(const Eigen::VectorXd& d) const override;
 	void                        addRoundOff(const Eigen::VectorXd& d, Eigen::VectorXd& sizes) const override;
@@ -47,25 +60,29 @@ public:
 private:
 	Eigen::VectorXd toNodes(const std::vector<Vec<Dim>>& ofPoints) const;
 	Eigen::VectorXd solve(const Eigen::VectorXd& momentum, const Eigen::VectorXd& ofHeld);
+	Eigen::VectorXd ofHeld(const Eigen::VectorXd& otherwise, Vec<Dim> MovingBase<Dim>::*value, const std::vector<Key>& nodes) const;
+	Eigen::VectorXd imbalanceOf(const Beginning<Dim>&) const;
+	Eigen::VectorXd velocityAt(const Eigen::VectorXd& d) const;
 	void            solve(int axis, const LinearProblem& mass, LinearSolver&, const FreeDofs&, const Eigen::VectorXd& right, Eigen::VectorXd& x);
-	void            findVelocity();
-	void            findAcceleration(const Beginning<Dim>&);
+	void            findVelocity(const Eigen::VectorXd& ofHeld);
+	void            findAcceleration(const Beginning<Dim>&, const Eigen::VectorXd& ofHeld);
 	Eigen::VectorXd ofContact(const Eigen::VectorXd* d) const; // on the nodes; null: as the step begins
 	Eigen::VectorXd accelerationAt(const Eigen::VectorXd& d) const;
 	bool            isHeld(Eigen::Index dof) const { return dofs_.number[dof] < 0; }
 
-	Motion<Dim>&                       motion_;
-	const CloudBasis<Dim>&             basis_;
-	const FreeDofs&                    dofs_;
-	const Eigen::VectorXd&             prescribed_;
-	const std::vector<GhostFace<Dim>>& faces_;
-	double                             h_; // size of the cells
-	MassMatrix<Dim>                    mass_;
-	bool                               isSingular_ = false;
-	Eigen::VectorXd                    imbalance_;               // at the start, without contact, where the scheme asks for it; zero at held nodes
-	Eigen::VectorXd                    velocity_, acceleration_; // at the start, without what contact does to the latter
-	Eigen::VectorXd                    expected_;                // acceleration, with contact
-	Eigen::VectorXd                    blow_, jump_;             // impulse of what holds nodes as the step begins, and the velocities that it changes
+	Motion<Dim>&                               motion_;
+	const CloudBasis<Dim>&                     basis_;
+	const FreeDofs&                            dofs_;
+	const Eigen::VectorXd&                     prescribed_;
+	const std::vector<GhostFace<Dim>>&         faces_;
+	double                                     h_; // size of the cells
+	MassMatrix<Dim>                            mass_;
+	std::vector<std::unique_ptr<Damping<Dim>>> damping_;
+	bool                                       isSingular_ = false;
+	Eigen::VectorXd                            imbalance_;               // at the start, without contact, where the scheme asks for it; zero at held nodes
+	Eigen::VectorXd                            velocity_, acceleration_; // at the start, without what contact does to the latter
+	Eigen::VectorXd                            expected_;                // acceleration, with contact
+	Eigen::VectorXd                            blow_, jump_; // impulse of what holds nodes as the step begins, and the velocities that it changes
 };
 
 } // namespace gimpm

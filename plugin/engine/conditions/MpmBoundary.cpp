@@ -36,6 +36,10 @@ string MpmBoundary::whatContradicts(int axis) const
 	else if (!surface && velocity[axis] != 0)
 		text << "MpmBoundary.velocity = " << velocity[axis] << " along " << direction
 		     << " is that of a surface: the nodes in a box move by their displacement.";
+	else if (surface && motion)
+		text << "MpmBoundary.motion is that of the nodes in a box: a surface moves by its velocity.";
+	else if (displacement[axis] != 0 && motion)
+		text << "MpmBoundary.displacement = " << displacement[axis] << " along " << direction << ", and motion: give one of them.";
 	else if (displacement[axis] != 0 && !fixes(axis))
 		text << "MpmBoundary.displacement = " << displacement[axis] << " along " << direction << ", a direction that fix = '" << fix
 		     << "' leaves free.";

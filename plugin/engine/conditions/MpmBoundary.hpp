@@ -1,19 +1,21 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
+#include "engine/conditions/MpmBaseMotion.hpp"
 #include "engine/conditions/MpmSurface.hpp"
 
 namespace yade {
 
 class MpmBoundary : public Exposed<MpmBoundary, Serializable> {
 public:
-	Vector3r               min = Vector3r::Constant(-std::numeric_limits<Real>::infinity());
-	Vector3r               max = Vector3r::Constant(std::numeric_limits<Real>::infinity());
-	string                 fix; // must be given
-	Vector3r               displacement = Vector3r::Zero();
-	shared_ptr<MpmSurface> surface; // none: the box
-	Vector3r               velocity = Vector3r::Zero();
-	Real                   penalty  = 100;
-	vector<Vector3r>       tractions; // of the surface's pieces on the body [Pa]; empty before the first step
+	Vector3r                  min = Vector3r::Constant(-std::numeric_limits<Real>::infinity());
+	Vector3r                  max = Vector3r::Constant(std::numeric_limits<Real>::infinity());
+	string                    fix; // must be given
+	Vector3r                  displacement = Vector3r::Zero();
+	shared_ptr<MpmSurface>    surface; // none: the box
+	Vector3r                  velocity = Vector3r::Zero();
+	Real                      penalty  = 100;
+	shared_ptr<MpmBaseMotion> motion;    // none: it does not move by a history
+	vector<Vector3r>          tractions; // of the surface's pieces on the body [Pa]; empty before the first step
 
 	YADE_API_NAME(MpmBoundary)
 	static const char* doc()
@@ -37,6 +39,8 @@ public:
 		  "Displacement [m] of the held nodes at load factor 1, along *fix*. They stay in place: pushed soil follows for half a cell, then the step fails "
 		  "('detached').",
 		  finite);
+		v("motion", &MpmBoundary::motion, 0,
+		  "History of the velocity of the held nodes (MpmBaseMotion), of MpmDynamicEngine; None, the default: they do not move by one.");
 		v("surface", &MpmBoundary::surface, 0,
 		  "Wall instead of a box: MpmSurface, points, triangles or gts.Surface; None, the default: the box. Each boundary has its own. It holds soil on both sides, and "
 		  "against pull too.");
@@ -48,7 +52,7 @@ public:
 
 	bool fixes(int axis) const { return fix.find("xyz"[axis]) != string::npos; }
 	bool fixesNormal() const { return fix == "n"; }
-	bool moves() const { return !displacement.isZero(0) || !velocity.isZero(0); }
+	bool moves() const { return !displacement.isZero(0) || !velocity.isZero(0) || motion; }
 
 	// Lower and upper corner of the box, or of one around the surface.
 	std::pair<Vector3r, Vector3r> extent() const;

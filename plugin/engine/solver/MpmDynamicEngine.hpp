@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 #include "core/terms/time_scheme.hpp"
+#include "engine/conditions/MpmAbsorbingBoundary.hpp"
 #include "engine/solver/MpmImplicitEngine.hpp"
 
 namespace yade {
@@ -9,9 +10,12 @@ class MpmDynamicEngine : public Exposed<MpmDynamicEngine, MpmImplicitEngine> {
 public:
 	string           scheme = "newmark";
 	Real             beta = 0.25, gamma = 0.5, rhoInfinity = 0.8, timeTolerance = 0;
-	Real             loadWork = 0, boundaryWork = 0, contactWork = 0, ghostWork = 0, plasticWork = 0;
+	Real             loadWork = 0, boundaryWork = 0, contactWork = 0, ghostWork = 0, plasticWork = 0, dampingWork = 0;
 	Real             firstEnergy = std::numeric_limits<Real>::quiet_NaN(); // when the first step began; NaN: there was none
 	vector<Vector3r> reactionsBefore;                                      // those of the step before
+
+	vector<shared_ptr<MpmAbsorbingBoundary>> absorbing;
+	std::pair<Real, Real>                    rayleigh { 0, 0 };
 
 	MpmDynamicEngine() { loadCurve = { { 0, 1 } }; }
 
@@ -42,11 +46,16 @@ public:
 		v("timeTolerance", &E::timeTolerance, 0,
 		  "Largest local error of displacements in a step [cells] >= 0: a step beyond it is cut (newton.minStep). 0: not looked at. Not with 'midpoint'.",
 		  nonNegative);
+		v("absorbing", &E::absorbing, 0, "Edges where waves leave the body (MpmAbsorbingBoundary); read as a tuple, so assign a new one to change it.");
+		v("rayleigh", &E::rayleigh, 0,
+		  "Rayleigh damping (alpha [1/s], beta [s]), both >= 0: alpha times mass and beta times the stiffness of the points as the step begins. (0, 0): none.",
+		  admitting("two finite numbers >= 0", [](const auto& r) { return nonNegative(r.first) && nonNegative(r.second); }));
 		v("loadWork", &E::loadWork, readonly, "Work of gravity, point loads and loads on surfaces so far [J].", finite);
-		v("boundaryWork", &E::boundaryWork, readonly, "Work of boundaries that move so far [J].", finite);
+		v("boundaryWork", &E::boundaryWork, readonly, "Work of boundaries that move, and of those that absorb, so far [J].", finite);
 		v("contactWork", &E::contactWork, readonly, "Work of rigid bodies on the material so far, friction and penalties included [J].", finite);
 		v("ghostWork", &E::ghostWork, readonly, "Energy that ghost stabilisation has taken so far [J].", finite);
 		v("plasticWork", &E::plasticWork, readonly, "Energy dissipated by plastic flow so far [J].", finite);
+		v("dampingWork", &E::dampingWork, readonly, "Energy that Rayleigh damping has taken so far [J].", finite);
 		v("firstEnergy", &E::firstEnergy, hidden, "", AnyValue());
 		v("reactionsBefore", &E::reactionsBefore, hidden, "",
 		  admitting("forces of finite numbers [N]", [](const auto& forces) { return std::all_of(forces.begin(), forces.end(), finite); }));

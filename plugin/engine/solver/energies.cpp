@@ -33,7 +33,8 @@ void MpmDynamicEngine::tellMotion(py::dict& data) const
 	data["contactWork"]     = contactWork;
 	data["ghostWork"]       = ghostWork;
 	data["plasticWork"]     = plasticWork;
-	data["energyImbalance"] = now.total() - firstEnergy - loadWork - boundaryWork - contactWork + ghostWork + plasticWork;
+	data["dampingWork"]     = dampingWork;
+	data["energyImbalance"] = now.total() - firstEnergy - loadWork - boundaryWork - contactWork + ghostWork + plasticWork + dampingWork;
 }
 
 } // namespace yade

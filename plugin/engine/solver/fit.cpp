@@ -4,6 +4,19 @@
 
 namespace yade {
 
+template <int Dim>
+gimpm::HeldBox<Dim> boxOfNodes(const string& name, const Vector3r& min, const Vector3r& max, const MpmGrid& grid, const gimpm::Grid<Dim>& lattice)
+{
+	const auto box         = gimpm::HeldBox<Dim>::from(lattice, min.head<Dim>(), max.head<Dim>());
+	const bool missesPlane = Dim == 2 && (min[2] > grid.origin[2] || max[2] < grid.origin[2]);
+	if (!box.empty() && !missesPlane) return box;
+	std::ostringstream text;
+	text << name << " from min = (" << min.transpose() << ") to max = (" << max.transpose() << ") holds no grid node; nodes are at "
+	     << grid.origin.transpose() << " plus multiples of cellSize = " << grid.cellSize << ".";
+	if (lattice.isPeriodic()) text << " Along a periodic axis they are from there to there plus MpmGrid.period = (" << grid.period.transpose() << ").";
+	throw std::invalid_argument(text.str());
+}
+
 namespace {
 	// In place of a wall, among the boxes of the boundaries.
 	template <int Dim> gimpm::HeldBox<Dim> holdsNothing()
@@ -18,7 +31,7 @@ namespace {
 	{
 		boundary.requireAdmissible();
 		if (boundary.surface) return holdsNothing<Dim>();
-		auto box         = gimpm::HeldBox<Dim>::from(lattice, boundary.min.head<Dim>(), boundary.max.head<Dim>());
+		auto box         = boxOfNodes<Dim>("MpmBoundary", boundary.min, boundary.max, grid, lattice);
 		box.displacement = boundary.displacement.head<Dim>();
 		for (int axis = 0; axis < Dim; ++axis)
 			box.fixed[axis] = boundary.fixes(axis);
@@ -29,14 +42,7 @@ namespace {
 		if (Dim == 2 && boundary.fixes(2))
 			throw std::invalid_argument(
 			        "MpmBoundary.fix = '" + boundary.fix + "': there is no direction z on a grid with dim=2 (plane strain in x-y).");
-		const bool missesPlane = Dim == 2 && (boundary.min[2] > grid.origin[2] || boundary.max[2] < grid.origin[2]);
-		if (!box.empty() && !missesPlane) return box;
-		std::ostringstream text;
-		text << "MpmBoundary from min = (" << boundary.min.transpose() << ") to max = (" << boundary.max.transpose()
-		     << ") holds no grid node; nodes are at " << grid.origin.transpose() << " plus multiples of cellSize = " << grid.cellSize << ".";
-		if (lattice.isPeriodic())
-			text << " Along a periodic axis they are from there to there plus MpmGrid.period = (" << grid.period.transpose() << ").";
-		throw std::invalid_argument(text.str());
+		return box;
 	}
 
 	template <int Dim> void refuseConflicts(const vector<gimpm::HeldBox<Dim>>& boxes)
@@ -134,6 +140,7 @@ vector<gimpm::HeldBox<Dim>> heldBoxes(const vector<shared_ptr<MpmBoundary>>& bou
 }
 
 #define MPM_INSTANTIATE(Dim)                                                                                                                                   \
+	template gimpm::HeldBox<Dim>         boxOfNodes(const string&, const Vector3r&, const Vector3r&, const MpmGrid&, const gimpm::Grid<Dim>&);             \
 	template void                        requireFit(const MaterialPoint&, const gimpm::Grid<Dim>&, gimpm::Basis);                                          \
 	template vector<gimpm::HeldBox<Dim>> heldBoxes(const vector<shared_ptr<MpmBoundary>>&, const MpmGrid&, const gimpm::Grid<Dim>&);
 MPM_INSTANTIATE(2)

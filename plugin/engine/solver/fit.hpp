@@ -12,6 +12,9 @@ namespace yade {
 // std::invalid_argument names the body that does not.
 template <int Dim> void requireFit(const MaterialPoint&, const gimpm::Grid<Dim>&, gimpm::Basis);
 
+// Nodes in a box, by the name of its class. std::invalid_argument if there is none.
+template <int Dim> gimpm::HeldBox<Dim> boxOfNodes(const string& name, const Vector3r& min, const Vector3r& max, const MpmGrid&, const gimpm::Grid<Dim>&);
+
 // The nodes that the boundaries hold, and those on an axis of symmetry. std::invalid_argument names boundaries that hold none, or contradict each other.
 template <int Dim> vector<gimpm::HeldBox<Dim>> heldBoxes(const vector<shared_ptr<MpmBoundary>>&, const MpmGrid&, const gimpm::Grid<Dim>&);
 

@@ -29,6 +29,7 @@ template <int Dim> Moving<Dim>::Moving(MpmDynamicEngine& e, Job<Dim>& job, const
 		motion->acceleration.push_back(inDimension<Dim>(points[p], "acceleration", points[p].state->acceleration));
 	}
 	motion->contacts   = job.contacts.weigh(motion->scheme.weightOfContact());
+	shaking            = std::make_unique<Shaking<Dim>>(engine, job, *motion);
 	job.model.atMiddle = motion->scheme.atMiddle;
 	job.model.terms.push_back([known = motion](const gimpm::Beginning<Dim>& step) { return std::make_unique<gimpm::Inertia<Dim>>(*known, step); });
 	job.surfaceLoads.beginAt(job.begin);
@@ -38,6 +39,7 @@ template <int Dim> void Moving<Dim>::begin(Job<Dim>& job, Attempt<Dim>& next, Re
 {
 	motion->duration = next.time - from;
 	next.load.motion = motion->duration;
+	shaking->begin(next, from, *motion);
 	if (!motion->scheme.atMiddle) return;
 	const auto toMiddle = [](gimpm::LoadFactor& factor) { factor.value -= factor.growth / 2; };
 	toMiddle(next.load.factor);
@@ -54,7 +56,11 @@ template <int Dim> Real Moving<Dim>::workOfBoundaries(Real from, Real time) cons
 	Real        work      = 0;
 	for (size_t b = 0; b < now.size(); ++b) {
 		const MpmBoundary& boundary = *engine.boundaries[b];
-		const Vector3r     moved    = boundary.surface ? Vector3r((time - from) * boundary.velocity) : Vector3r(growth * boundary.displacement);
+		if (boundary.motion) {
+			work += boundary.motion->displacementBetween(from, time).dot(hasBefore ? Vector3r((now[b] + before[b]) / 2) : now[b]);
+			continue;
+		}
+		const Vector3r moved = boundary.surface ? Vector3r((time - from) * boundary.velocity) : Vector3r(growth * boundary.displacement);
 		work += moved.dot(hasBefore ? Vector3r((now[b] + before[b]) / 2) : now[b]);
 	}
 	return work;
@@ -71,7 +77,8 @@ template <int Dim> void Moving<Dim>::addWork(const Job<Dim>& job, Real time, con
 		engine.loadWork += moved.dot(motion->mass[p] * g + (factor.value + factor.before()) / 2 * points[p].state->force);
 	}
 	engine.loadWork += job.surfaceLoads.work();
-	engine.boundaryWork += workOfBoundaries(from, time);
+	engine.boundaryWork += workOfBoundaries(from, time) + shaking->workOfEdges();
+	engine.dampingWork += shaking->dampingWork();
 	engine.contactWork += job.contacts.work();
 	engine.ghostWork += motion->ghostWork;
 	engine.plasticWork += plasticWork(job.cloud, job.model.materials, points);
@@ -81,6 +88,7 @@ template <int Dim> void Moving<Dim>::addWork(const Job<Dim>& job, Real time, con
 template <int Dim> void Moving<Dim>::reach(const Job<Dim>& job, Real time, const vector<MaterialPoint>& points)
 {
 	addWork(job, time, points);
+	shaking->scatter();
 	inRanges(points.size(), [&](size_t begin, size_t end) {
 		for (size_t p = begin; p < end; ++p) {
 			points[p].state->vel.template head<Dim>()          = motion->velocity[p];

@@ -3,6 +3,7 @@
 // Inertia in the steps of a run.
 #include "core/terms/inertia.hpp"
 #include "engine/solver/job.hpp"
+#include "engine/solver/shaking.hpp"
 
 namespace yade {
 class MpmDynamicEngine;
@@ -25,6 +26,7 @@ private:
 
 	MpmDynamicEngine&                   engine;
 	std::shared_ptr<gimpm::Motion<Dim>> motion;
+	std::unique_ptr<Shaking<Dim>>       shaking;
 };
 
 } // namespace yade

@@ -82,6 +82,11 @@ void requireRunnable(const MpmImplicitEngine& engine)
 	requireOnlyClaim(engine);
 	if (!engine.contacts.empty()) requireOnlyContact(engine);
 	requireOwnSurfaces(engine);
+	for (size_t b = 0; b < engine.boundaries.size() && !engine.isDynamic(); ++b)
+		if (engine.boundaries[b]->motion)
+			throw std::invalid_argument(
+			        "boundaries[" + std::to_string(b)
+			        + "].motion is a history in time, which MpmImplicitEngine knows nothing of: take MpmDynamicEngine, or give displacement.");
 	Scene&             scene = *engine.scene;
 	std::ostringstream text;
 	if (!(scene.dt > 0) || !std::isfinite(scene.dt))

@@ -36,6 +36,7 @@ While it runs, one line tells how far it is (``verbosity`` of the engine); ``plo
 :func:`plot`               picture by matplotlib, of plane strain or of a slice
 :func:`colour`             colours of the points in YADE's 3D view
 :func:`export`             table of the points, CSV or NPZ
+:class:`histories`         values at chosen points over time; :func:`readHistory` reads one from a file
 :func:`save`               the scene, whole or not at all
 :func:`advise`             what an analysis will cost, and what it could do without
 :func:`elementTest`        the curve of a laboratory test on a material; :func:`respond` is one call of its law
@@ -51,6 +52,7 @@ from .files import save
 from . import ending
 from .filling import fill
 from .geostatics import geostatic
+from .histories import histories, readHistory
 from .laboratory import elementTest, respond
 from .library import engine as _engine
 from .outline import polygon
@@ -60,4 +62,4 @@ from .surfaces import surface
 from .tables import export
 
 __version__ = _engine.version
-__all__ = ['polygon', 'fill', 'arrays', 'assign', 'geostatic', 'plot', 'colour', 'export', 'save', 'advise', 'elementTest', 'respond', 'strengthReduction', 'surface', 'contactForces']
+__all__ = ['polygon', 'fill', 'arrays', 'assign', 'geostatic', 'plot', 'colour', 'export', 'save', 'advise', 'elementTest', 'respond', 'strengthReduction', 'surface', 'contactForces', 'histories', 'readHistory']

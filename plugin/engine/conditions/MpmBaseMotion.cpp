@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "engine/conditions/MpmBaseMotion.hpp"
+#include <algorithm>
+
+namespace yade {
+
+Real MpmBaseMotion::speedAt(Real time) const
+{
+	if (time < history.front().first || time > history.back().first) return 0;
+	const auto after = std::lower_bound(history.begin(), history.end(), time, [](const auto& knee, Real t) { return knee.first < t; });
+	if (after == history.begin()) return after->second;
+	const auto [t0, v0] = *(after - 1);
+	return v0 + (after->second - v0) * (time - t0) / (after->first - t0);
+}
+
+// Exact: the velocity is linear between the knees.
+Vector3r MpmBaseMotion::displacementBetween(Real begin, Real end) const
+{
+	Real sum  = 0;
+	Real from = std::max(begin, history.front().first);
+	auto knee = std::upper_bound(history.begin(), history.end(), from, [](Real t, const auto& k) { return t < k.first; });
+	for (; from < end && knee != history.end(); ++knee) {
+		const Real to = std::min(end, knee->first);
+		sum += (to - from) * (speedAt(from) + speedAt(to)) / 2;
+		from = to;
+	}
+	return sum * direction;
+}
+
+} // namespace yade
+
+BOOST_CLASS_EXPORT_IMPLEMENT(yade::MpmBaseMotion)
+static const yade::PluginClasses<yade::MpmBaseMotion> registered(__FILE__);

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+// Edges that absorb waves, bases that move by a history, and Rayleigh damping, between a scene and the core.
+#include "core/terms/absorbing.hpp"
+#include "core/terms/inertia.hpp"
+#include "core/terms/rayleigh.hpp"
+#include "engine/conditions/MpmAbsorbingBoundary.hpp"
+#include "engine/solver/job.hpp"
+
+namespace yade {
+class MpmDynamicEngine;
+
+template <int Dim> class Shaking {
+public:
+	// Makes them act in the job's steps. std::invalid_argument names what cannot be computed with.
+	Shaking(const MpmDynamicEngine&, Job<Dim>&, gimpm::Motion<Dim>&);
+
+	// The next step goes from here to the time of the attempt.
+	void begin(Attempt<Dim>&, Real from, gimpm::Motion<Dim>&) const;
+
+	// Writes a converged state back.
+	void scatter() const;
+
+	// In the last step that was accepted [J].
+	Real workOfEdges() const;
+	Real dampingWork() const { return rayleigh->work; }
+
+private:
+	void join(const shared_ptr<MpmAbsorbingBoundary>&, const string& name, const MpmDynamicEngine&, const gimpm::Model<Dim>&);
+	void requireFittingBases(const gimpm::Model<Dim>&) const;
+
+	using Edge = gimpm::AbsorbingBoundary<Dim>;
+	vector<std::pair<shared_ptr<MpmAbsorbingBoundary>, std::shared_ptr<Edge>>> edges;
+	std::map<int, shared_ptr<MpmBaseMotion>>                                   bases; // by boundary
+	vector<gimpm::HeldBox<Dim>>                                                boxes;
+	std::shared_ptr<gimpm::Rayleigh>                                           rayleigh { new gimpm::Rayleigh };
+};
+
+} // namespace yade

@@ -1,0 +1,173 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""What happens at chosen points over time, and histories from files."""
+import numpy as np
+from yade import wrapper
+
+from .analysis import noPoints, solverOf
+from .data import fields
+from .fields import components, labelled
+from .files import replacing
+from .messages import brief, isNumber, pathOf
+
+_kept = {}  # by label: what the PyRunners of this process write to
+
+
+class histories:
+	"""Histories of chosen material points: values of every step, kept as arrays. Makes a PyRunner and puts it at the end of ``O.engines``; with any of the engines, with or without inertia.
+
+	``h['velocity']`` is an array over the steps, the points and the components; ``h.time`` are the times [s] of the converged states, the first one that
+	of the call. Points move: positions only choose them. ``O.save`` keeps what is recorded, and of what, not the values: save them to a file. A loaded scene goes on with
+	``mpm.histories.loaded(label)``, from the state that was saved.
+
+	:param at: ids of bodies, or positions [m] (N, 3), each of which stands for the nearest material point
+	:param record: columns of :func:`arrays`, or ``displacement``, ``meanStress``, ``sqrt2J2``
+	:param every: iterations from one value to the next, >= 1, beginning with the first
+	:param label: name, by which a loaded scene finds it
+	:param solver: the engine; may be left out when ``O.engines`` holds one
+	:raises TypeError: an argument of the wrong kind.
+	:raises ValueError: no such body or column, a body that is no material point of that engine, a label that is taken.
+	"""
+
+	def __init__(self, at, record=('displacement', 'velocity', 'acceleration', 'stress'), every=1, label='histories', solver=None):
+		_requireArguments(record, every, label)
+		self.solver, self.label, self.record = solverOf('histories', solver), label, tuple(record)
+		if any(getattr(engine, 'label', '') == _runner(label) for engine in wrapper.Omega().engines):
+			raise ValueError(f'histories: label = {brief(label)} is taken by other histories of the scene')
+		if self.solver not in wrapper.Omega().engines: raise ValueError('histories: the solver is not in O.engines; put it there first')
+		columns = fields()
+		if not len(columns['id']): raise ValueError(noPoints('histories', self.solver))
+		for name in self.record:
+			if name not in columns: raise ValueError(f"histories: record has {brief(name)}, which is not known; there are {', '.join(columns)}")
+		self.ids = _chosen(at, columns)
+		self._begin(columns)
+		scene = wrapper.Omega()
+		command = f"__import__('sys').modules['yade.mpm.histories'].add({label!r}, {self.ids.tolist()}, {self.record}, {list(scene.engines).index(self.solver)})"
+		scene.engines = list(scene.engines) + [wrapper.PyRunner(command=command, iterPeriod=int(every), initRun=True, label=_runner(label))]
+
+	def _begin(self, columns):
+		self.time, self._values = [], {name: [] for name in self.record}
+		_kept[self.label] = self
+		self._add(columns)
+
+	def _add(self, columns):
+		time = self.solver.loadTime
+		if self.time and time == self.time[-1]: return  # no step was made
+		rows = np.searchsorted(columns['id'], self.ids)
+		if not np.array_equal(columns['id'][np.minimum(rows, len(columns['id']) - 1)], self.ids):
+			raise ValueError(f'histories: label = {brief(self.label)}: one of the bodies {brief(self.ids.tolist())} is no longer there')
+		self.time.append(time)
+		for name, values in self._values.items():
+			values.append(columns[name][rows])
+
+	@staticmethod
+	def loaded(label='histories'):
+		"""The histories of a scene that was loaded, from there on."""
+		if label not in _kept: raise ValueError(f'histories: label = {brief(label)}: nothing has been recorded by that name; there are {list(_kept)}')
+		return _kept[label]
+
+	def __getitem__(self, name):
+		"""Array (times, points, ...) of a column; of a scalar name such as ``stress_xy`` (times, points)."""
+		if name in self._values: return np.array(self._values[name])
+		base = str(name).partition('_')[0]
+		found = _scalars(base, np.array(self._values[base])) if base in self._values else {}
+		if name not in found: raise ValueError(f"histories: {brief(name)} is not recorded; there are {', '.join(found or self._values)}")
+		return found[name]
+
+	def save(self, fileName):
+		"""Write a table, whole or not at all: time [s], then each scalar of each point, as in ``velocity_x_17`` for body 17; SI units.
+
+		:raises OSError: the file cannot be written.
+		"""
+		columns = {'time': np.array(self.time)}
+		for name in self.record:
+			for scalar, values in _scalars(name, self[name]).items():
+				columns |= {f'{scalar}_{body}': values[:, i] for i, body in enumerate(self.ids)}
+		with replacing(pathOf('histories.save', 'fileName', fileName)) as temporary:
+			np.savetxt(temporary, np.column_stack(list(columns.values())), fmt='%.17g', delimiter=',', header=','.join(columns), comments='')
+
+	def plot(self, field='velocity_x', fileName=None, ax=None):
+		"""Draw one scalar of all points over time; to a file, whole or not at all, if one is named. Returns the axes."""
+		from .plotting import write
+		values = self[field]
+		if values.ndim != 2: raise ValueError(f"histories: field = {brief(field)}: one component must be chosen, as in {field}_x or {field}_xy")
+		if ax is None:
+			import matplotlib.pyplot as pyplot
+			from matplotlib.figure import Figure
+			ax = (pyplot.figure if fileName is None else Figure)(figsize=(8, 4)).add_subplot()
+		size, text = labelled(field, values)
+		for i, body in enumerate(self.ids):
+			ax.plot(self.time, values[:, i] / size, label=f'body {body}')
+		ax.set(xlabel='time [s]', ylabel=text)
+		ax.legend()
+		if fileName is not None: write('histories.plot', ax.figure, fileName)
+		return ax
+
+
+def add(label, ids, record, solver):
+	"""For the PyRunner: the values of now. In a scene that was loaded they are the first."""
+	if label not in _kept or _kept[label].solver not in wrapper.Omega().engines:
+		again = histories.__new__(histories)
+		again.solver, again.label, again.record, again.ids = solverOf('histories', wrapper.Omega().engines[solver]), label, tuple(record), np.array(ids)
+		again._begin(fields())
+	else:
+		_kept[label]._add(fields())
+
+
+def _runner(label):
+	return 'histories_' + label
+
+
+def _scalars(name, values):
+	"""Those of a column, by name: (times, points)."""
+	shape = values.shape
+	flat = components(name, values.reshape((shape[0] * shape[1], ) + shape[2:]))
+	return {scalar: column.reshape(shape[:2]) for scalar, column in flat.items()}
+
+
+def _requireArguments(record, every, label):
+	if isinstance(record, str) or not all(isinstance(name, str) for name in record):
+		raise TypeError(f'histories: record = {brief(record)} must be a sequence of names of columns, as in record=["velocity"]')
+	if not isNumber(every) or every != int(every) or every < 1: raise ValueError(f'histories: every = {brief(every)} is not admitted: expected an integer >= 1')
+	if not isinstance(label, str): raise TypeError(f'histories: label = {brief(label)} must be a string')
+	if not label.isidentifier(): raise ValueError(f'histories: label = {brief(label)} is not admitted: expected letters, digits and _')
+
+
+def _chosen(at, columns):
+	"""Ids of the points that are meant."""
+	try:
+		values = np.asarray(at, dtype=float)
+	except (TypeError, ValueError):
+		raise TypeError(f'histories: at = {brief(at)} must be ids of bodies, or positions with three numbers each') from None
+	if not values.size or values.ndim > 2 or (values.ndim == 2 and values.shape[1] != 3) or not np.isfinite(values).all():
+		raise ValueError(f'histories: at = {brief(at)} is not admitted: expected ids of bodies, or positions with three finite numbers each')
+	if values.ndim == 2: return columns['id'][[int(((columns['pos'] - x)**2).sum(1).argmin()) for x in values]]
+	ids = np.atleast_1d(values).astype(int)
+	missing = [x for x, i in zip(np.atleast_1d(values), ids) if x != i or i not in columns['id']]
+	if missing: raise ValueError(f'histories: at has {missing[0]:g}, which is no id of a material point; a position needs brackets, as in at=[(0, 1, 0)]')
+	return ids
+
+
+def readHistory(fileName):
+	"""A history from a text file: two columns, time [s] and value, separated by blanks, commas or semicolons; lines without numbers before them, as a heading, are left out.
+
+	:param fileName: path of the file
+	:return: list of (time, value), as MpmBaseMotion.history and the load curves take it
+	:raises OSError: the file cannot be read.
+	:raises ValueError: a line that is no pair of finite numbers, times that do not increase, or no numbers at all; the line is named.
+	"""
+	fileName, found = pathOf('readHistory', 'fileName', fileName), []
+	with open(fileName, encoding='utf-8') as file:
+		for number, line in enumerate(file, 1):
+			words = line.partition('#')[0].replace(',', ' ').replace(';', ' ').split()
+			if not words: continue
+			try:
+				time, value = map(float, words)
+				isPair = bool(np.isfinite([time, value]).all())
+			except ValueError:
+				if not found: continue
+				isPair = False
+			if not isPair: raise ValueError(f'readHistory: {fileName!r}, line {number}: {brief(line.strip())} is no pair of finite numbers, time and value')
+			if found and time <= found[-1][0]: raise ValueError(f'readHistory: {fileName!r}, line {number}: time {time:g} is not after the one before, {found[-1][0]:g}')
+			found.append((time, value))
+	if not found: raise ValueError(f'readHistory: {fileName!r} has no line with two numbers, time and value')
+	return found
