@@ -63,7 +63,7 @@ private:
 	Eigen::VectorXd ofHeld(const Eigen::VectorXd& otherwise, Vec<Dim> MovingBase<Dim>::*value, const std::vector<Key>& nodes) const;
 	Eigen::VectorXd imbalanceOf(const Beginning<Dim>&) const;
 	Eigen::VectorXd velocityAt(const Eigen::VectorXd& d) const;
-	void            solve(int axis, const LinearProblem& mass, LinearSolver&, const FreeDofs&, const Eigen::VectorXd& right, Eigen::VectorXd& x);
+	void            solve(int axis, int solver, const FreeDofs&, const Eigen::VectorXd& right, Eigen::VectorXd& x);
 	void            findVelocity(const Eigen::VectorXd& ofHeld);
 	void            findAcceleration(const Beginning<Dim>&, const Eigen::VectorXd& ofHeld);
 	Eigen::VectorXd ofContact(const Eigen::VectorXd* d) const; // on the nodes; null: as the step begins
@@ -79,6 +79,7 @@ private:
 	MassMatrix<Dim>                            mass_;
 	std::vector<std::unique_ptr<Damping<Dim>>> damping_;
 	bool                                       isSingular_ = false;
+	std::array<bool, Dim + 1>                  factorised_ {};           // of the solvers of the motion, in this step
 	Eigen::VectorXd                            imbalance_;               // at the start, without contact, where the scheme asks for it; zero at held nodes
 	Eigen::VectorXd                            velocity_, acceleration_; // at the start, without what contact does to the latter
 	Eigen::VectorXd                            expected_;                // acceleration, with contact
