@@ -37,7 +37,8 @@ def give(material, bodies=None):
 
 refused = [
         ('mpm.assign()', 'TypeError', ['no column', 'stress']),
-        ('mpm.assign(velocity=np.zeros((n, 3)))', 'TypeError', ['velocity', 'quasi-static']),
+        ('mpm.assign(vel=np.zeros((n, 3)))', 'TypeError', ['vel', 'called velocity']),
+        ('mpm.assign(acceleration=np.zeros((n, 3)))', 'TypeError', ['acceleration', 'velocity']),
         ('mpm.assign(volume=np.ones(n))', 'TypeError', ['volume', 'a result', 'defGrad']),
         ('mpm.assign(sress=np.zeros((n, 3, 3)))', 'TypeError', ['sress', 'no such column', 'stress']),
         ('mpm.assign(stress=np.zeros((n, 3)))', 'ValueError', ['stress', '(192, 3)', '(192, 3, 3)']),

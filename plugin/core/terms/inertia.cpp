@@ -44,11 +44,9 @@ template <int Dim> void Inertia<Dim>::findVelocity()
 	const Eigen::VectorXd momentum = toNodes(motion_.velocity);
 	velocity_                      = solve(momentum, prescribed_ / motion_.duration);
 	blow_                          = mass_ * velocity_ - momentum;
-	const double  least            = roundOff * momentum.template lpNorm<Eigen::Infinity>();
-	FreeDofs      all;
-	LinearSolver& solver = motion_.solvers[Dim];
+	const double least             = roundOff * momentum.template lpNorm<Eigen::Infinity>();
+	FreeDofs     all;
 	all.number.assign(blow_.size(), 0);
-	std::optional<LinearProblem> mass;
 	for (Eigen::Index i = 0; i < blow_.size(); ++i)
 		if (!isHeld(i) || std::abs(blow_[i]) <= least) blow_[i] = 0;
 	for (int axis = 0; axis < Dim; ++axis) {
@@ -56,8 +54,7 @@ template <int Dim> void Inertia<Dim>::findVelocity()
 		for (Eigen::Index i = axis; i < blow_.size(); i += Dim)
 			isHit = isHit || blow_[i] != 0;
 		if (!isHit) continue;
-		if (!mass) mass.emplace(mass_.reduced(all, axis));
-		solve(axis, *mass, solver, all, blow_, jump_);
+		solve(axis, Dim, all, blow_, jump_);
 	}
 }
 
@@ -102,23 +99,25 @@ template <int Dim> Eigen::VectorXd Inertia<Dim>::solve(const Eigen::VectorXd& mo
 	Eigen::VectorXd       x    = ofHeld;
 	const Eigen::VectorXd rest = momentum - mass_ * ofHeld;
 	for (int axis = 0; axis < Dim; ++axis)
-		solve(axis, mass_.reduced(dofs_, axis), motion_.solvers[axis], dofs_, rest, x);
+		solve(axis, axis, dofs_, rest, x);
 	return x;
 }
 
-/// Sets x at the free degrees of freedom along an axis.
-template <int Dim>
-void Inertia<Dim>::solve(int axis, const LinearProblem& mass, LinearSolver& solver, const FreeDofs& dofs, const Eigen::VectorXd& right, Eigen::VectorXd& x)
+/// Sets x at the free degrees of freedom along an axis. A solver keeps the factor of its matrix in this step.
+template <int Dim> void Inertia<Dim>::solve(int axis, int solver, const FreeDofs& dofs, const Eigen::VectorXd& right, Eigen::VectorXd& x)
 {
-	Eigen::VectorXd free(mass.size()), found;
-	if (mass.size() == 0) return;
-	int n = 0;
+	Eigen::VectorXd free(x.size() / Dim), found;
+	int             n = 0;
 	for (Eigen::Index i = axis; i < x.size(); i += Dim)
 		if (dofs.number[i] >= 0) free[n++] = right[i];
-	if (solver.solve(mass, free, found) == LinearSolver::Status::singular) {
-		isSingular_ = true;
-		return;
-	}
+	if (n == 0) return;
+	free.conservativeResize(n);
+	if (!factorised_[solver])
+		isSingular_ = motion_.solvers[solver].solve(mass_.reduced(dofs, axis), free, found) == LinearSolver::Status::singular || isSingular_;
+	else
+		motion_.solvers[solver].solveAgain(free, found);
+	factorised_[solver] = true;
+	if (isSingular_) return;
 	n = 0;
 	for (Eigen::Index i = axis; i < x.size(); i += Dim)
 		if (dofs.number[i] >= 0) x[i] = found[n++];

@@ -47,7 +47,7 @@ public:
 private:
 	Eigen::VectorXd toNodes(const std::vector<Vec<Dim>>& ofPoints) const;
 	Eigen::VectorXd solve(const Eigen::VectorXd& momentum, const Eigen::VectorXd& ofHeld);
-	void            solve(int axis, const LinearProblem& mass, LinearSolver&, const FreeDofs&, const Eigen::VectorXd& right, Eigen::VectorXd& x);
+	void            solve(int axis, int solver, const FreeDofs&, const Eigen::VectorXd& right, Eigen::VectorXd& x);
 	void            findVelocity();
 	void            findAcceleration(const Beginning<Dim>&);
 	Eigen::VectorXd ofContact(const Eigen::VectorXd* d) const; // on the nodes; null: as the step begins
@@ -62,6 +62,7 @@ private:
 	double                             h_; // size of the cells
 	MassMatrix<Dim>                    mass_;
 	bool                               isSingular_ = false;
+	std::array<bool, Dim + 1>          factorised_ {};           // of the solvers of the motion, in this step
 	Eigen::VectorXd                    imbalance_;               // at the start, without contact, where the scheme asks for it; zero at held nodes
 	Eigen::VectorXd                    velocity_, acceleration_; // at the start, without what contact does to the latter
 	Eigen::VectorXd                    expected_;                // acceleration, with contact

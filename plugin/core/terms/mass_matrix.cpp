@@ -34,9 +34,12 @@ MassMatrix<Dim>::MassMatrix(const CloudBasis<Dim>& basis, const std::vector<doub
 {
 	forPointNodes(basis, [&](int p, const Patch<Dim>& patch, const double* value, int count) {
 		const double m = masses[basis.order[p]];
+		int          code[windowNodes<Dim>];
+		for (int n = 0; n < count; ++n)
+			code[n] = codeOf(patch, n);
 		for (int a = 0; a < count; ++a)
 			for (int b = a; b < count && patch.node[a] >= 0; ++b)
-				if (patch.node[b] >= 0) add(patch.node[a], patch.node[b], codeOf(patch, b) - codeOf(patch, a), m * value[a] * value[b]);
+				if (patch.node[b] >= 0) add(patch.node[a], patch.node[b], code[b] - code[a], m * value[a] * value[b]);
 	});
 	forGhostPairs<Dim>(faces, h, [&](int a, int b, int code, double m) { add(a, b, code, m); });
 }

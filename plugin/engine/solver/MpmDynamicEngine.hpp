@@ -33,9 +33,10 @@ public:
 		  "'midpoint', which keeps angular momentum.",
 		  oneOf("newmark", "generalised-alpha", "midpoint"));
 		v("beta", &E::beta, 0,
-		  "Newmark's parameter [-] > 0; 1/4 with gamma = 1/2 is the trapezoidal rule. Below (gamma + 1/2)^2 / 4 long steps are unstable.", positive);
-		v("gamma", &E::gamma, 0, "Newmark's parameter [-] >= 1/2; above it, the scheme damps and is of first order only.",
-		  admitting("a finite number >= 1/2: below it, energy grows", [](Real value) { return isFinite(value) && value >= 0.5; }));
+		  "Newmark's parameter [-] > 0 and <= 1; 1/4 with gamma = 1/2 is the trapezoidal rule. Below (gamma + 1/2)^2 / 4 long steps are unstable.",
+		  part);
+		v("gamma", &E::gamma, 0, "Newmark's parameter [-], 1/2 to 1; above 1/2 the scheme damps and is of first order only.",
+		  admitting("a number from 1/2 to 1: below it, energy grows", [](Real value) { return value >= 0.5 && value <= 1; }));
 		v("rhoInfinity", &E::rhoInfinity, 0, "What generalised-alpha leaves of the highest frequencies in each step [-], 0 to 1.",
 		  admitting("a number from 0 to 1", [](Real value) { return value >= 0 && value <= 1; }));
 		v("timeTolerance", &E::timeTolerance, 0,

@@ -147,7 +147,7 @@ def _ids(ids):
 
 def _column(name, values, rows):
 	if name not in _assignable:
-		if name in ('vel', 'velocity', 'velocities'): hint = 'a quasi-static analysis has no velocities'
+		if name in ('vel', 'velocities'): hint = 'it is called velocity'
 		elif name in table: hint = f'{name} is a result'
 		else: hint = 'there is no such column'
 		raise TypeError(f"assign: {name} cannot be assigned: {hint}; there are {', '.join(_assignable)}")
