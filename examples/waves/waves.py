@@ -257,7 +257,7 @@ def sphere():
 	]
 	O.dt = 1e-3
 	times, way = [], []
-	while O.time < (0.2 if options.short else 0.5):
+	while O.time < (0.12 if options.short else 0.5):
 		O.step()
 		times.append(O.time)
 		way.append(ball.state.pos[0] - 4 * h)
