@@ -59,7 +59,7 @@ namespace {
 				if (report.converged()) body.begin = body.end;
 			return report;
 		}
-		StepSystem<Dim> system() { return { cloud, model, {}, report }; }
+		StepSystem<Dim> system() { return { cloud, model, Load<Dim>(), report }; }
 	};
 
 	template <class T> class ContactOf : public InBothDimensions<T> {

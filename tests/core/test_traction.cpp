@@ -78,7 +78,7 @@ namespace {
 			model.boundary = Boundary<Dim>(walls);
 		}
 		StepReport      step() { return loadStep(cloud, model, {}, solver); }
-		StepSystem<Dim> system() { return { cloud, model, {}, report }; }
+		StepSystem<Dim> system() { return { cloud, model, Load<Dim>(), report }; }
 	};
 
 	template <int Dim> double tangentError(Block<Dim>& block) { return tangentErrorOfLastTerm(block.system(), block.model.grid, 1e-3); }
