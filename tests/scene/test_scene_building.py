@@ -230,11 +230,11 @@ for b in O.bodies:
 	skew = [Matrix3(*random.uniform(-1, 1, 9)) for i in range(3)]
 	b.state.elasticStrain = skew[1] + skew[1].transpose()
 	b.state.defGrad = Matrix3.Identity + 0.1 * skew[2]
-	b.state.pos, b.state.refPos, b.shape.halfSize, b.shape.halfSize0, b.state.force = (Vector3(*random.uniform(0.1, 1, 3)) for i in range(5))
+	b.state.pos, b.state.refPos, b.shape.halfSize, b.shape.halfSize0, b.state.force, b.state.vel, b.state.acceleration = (Vector3(*random.uniform(0.1, 1, 3)) for i in range(7))
 	b.state.volume, b.state.plasticStrain = random.uniform(0.1, 1, 2)
 a = mpm.arrays()
 rows = dict(id=lambda b: b.id, pos=lambda b: b.state.pos, pos0=lambda b: b.state.refPos, halfSize=lambda b: b.shape.halfSize,
-            halfSize0=lambda b: b.shape.halfSize0, force=lambda b: b.state.force,
+            halfSize0=lambda b: b.shape.halfSize0, force=lambda b: b.state.force, velocity=lambda b: b.state.vel, acceleration=lambda b: b.state.acceleration,
             stress=lambda b: [b.state.stress.row(i) for i in range(3)], defGrad=lambda b: [b.state.defGrad.row(i) for i in range(3)],
             elasticStrain=lambda b: [b.state.elasticStrain.row(i) for i in range(3)], volume=lambda b: b.state.volume,
             plasticStrain=lambda b: b.state.plasticStrain, material=lambda b: b.mat.id)
@@ -245,7 +245,7 @@ report(keys=list(a), unequal=unequal, shapes={key: value.shape for key, value in
        copied=all(b.state.pos[0] < 2 for b in O.bodies))
 '''
 	).result
-	rows = dict(id=(), pos=(3, ), pos0=(3, ), halfSize=(3, ), halfSize0=(3, ), force=(3, ), stress=(3, 3), defGrad=(3, 3), elasticStrain=(3, 3),
+	rows = dict(id=(), pos=(3, ), pos0=(3, ), halfSize=(3, ), halfSize0=(3, ), force=(3, ), velocity=(3, ), acceleration=(3, ), stress=(3, 3), defGrad=(3, 3), elasticStrain=(3, 3),
 	            volume=(), plasticStrain=(), material=())
 	n = result['shapes']['id'][0]
 	assert result['unequal'] == [] and result['copied']
