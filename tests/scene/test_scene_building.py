@@ -230,7 +230,7 @@ for b in O.bodies:
 	skew = [Matrix3(*random.uniform(-1, 1, 9)) for i in range(3)]
 	b.state.elasticStrain = skew[1] + skew[1].transpose()
 	b.state.defGrad = Matrix3.Identity + 0.1 * skew[2]
-	b.state.pos, b.state.refPos, b.shape.halfSize, b.shape.halfSize0, b.state.force, b.state.vel, b.state.acceleration = (Vector3(*random.uniform(0.1, 1, 3)) for i in range(7))
+	b.state.pos, b.state.refPos, b.shape.halfSize, b.shape.halfSize0, b.state.force, b.state.vel = (Vector3(*random.uniform(0.1, 1, 3)) for i in range(6))
 	b.state.volume, b.state.plasticStrain = random.uniform(0.1, 1, 2)
 a = mpm.arrays()
 rows = dict(id=lambda b: b.id, pos=lambda b: b.state.pos, pos0=lambda b: b.state.refPos, halfSize=lambda b: b.shape.halfSize,
