@@ -63,6 +63,30 @@ print(json.dumps([found, [force()[1], moving.state.pos[1], O.time]]))
 	assert abs(results[1][0] / results[0][0][0] - 1) < 1e-5  # the soil follows YADE's positions: those of the start of the iteration
 
 
+def test_a_mesh_of_facets_presses_and_rubs_as_a_box_does(yade):
+	"""In 3D, with edges and corners of triangles over the soil, by one triangle's edge or by many."""
+	results = yade(scene + '''
+def mesh(cuts, velocity):
+	x = np.linspace(-0.5, 1.5, cuts + 1)
+	for i in range(cuts):
+		for j in range(cuts):
+			a, b, c, d = (x[i], 1, x[j]), (x[i + 1], 1, x[j]), (x[i + 1], 1, x[j + 1]), (x[i], 1, x[j + 1])
+			for corners in (a, b, c), (a, c, d): add(utils.facet(corners, material='rigid', fixed=True), velocity)
+found = []
+for cuts in 0, 1, 5:
+	contact = block(3, contact=dict(friction=radians(20)))
+	if cuts: mesh(cuts, (0.05, -0.1, 0.02))
+	else: plate(velocity=(0.05, -0.1, 0.02))
+	O.run(5, wait=True)
+	found.append(np.sum(contact.forces, axis=0).tolist() + [sum(contact.touching), sum(contact.slipping)])
+print(json.dumps(found))
+''').result
+	box = results[0]
+	assert box[1] > 5e4 and abs(math.hypot(box[0], box[2]) / box[1] - math.tan(math.radians(20))) < 0.05
+	for mesh in results[1:]:
+		assert max(abs(a - b) for a, b in zip(mesh[:3], box)) < 1e-9 * box[1] and mesh[3:] == box[3:]
+
+
 def test_a_failed_step_leaves_the_bodies_where_the_soil_is(yade):
 	results = yade(scene + '''
 contact = block(newton=MpmNewton(minStep=0.25), contact=dict(stiffness=0.05))
