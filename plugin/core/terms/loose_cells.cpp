@@ -10,8 +10,8 @@ namespace {
 /// each axis that fill the cell have 4^-Dim.
 template <int Dim> constexpr double leastMoment = Dim == 2 ? 1e-3 : 1e-4;
 
-/// So many ghost faces away from such a cell the field is known as well; the condition number grows with the fourth power of the way.
-constexpr int reach = 2;
+/// So many ghost faces away from such a cell the field is known as well, as at a corner of a body; the condition number grows with the fourth power of the way.
+template <int Dim> constexpr int reach = Dim;
 
 /// The points of a cell.
 template <int Dim> struct Filling {
@@ -34,26 +34,23 @@ template <int Dim> CellPairs cellPairs(const std::vector<GhostFace<Dim>>& faces,
 	return pairs;
 }
 
-/// Cells at ghost faces, and those that have no neighbours; the others are within the body.
+/// Cells at ghost faces, and those that have none but not all neighbours, as by themselves or behind a wall; the others are within the body.
 template <int Dim> std::vector<char> atEdge(const CloudBasis<Dim>& basis, const CellPairs& pairs, const Grid<Dim>& grid)
 {
 	std::vector<char> isAt(basis.cells.size(), false);
 	for (const auto& [lower, upper] : pairs)
 		isAt[lower] = isAt[upper] = true;
-	for (std::size_t c = 0; c < isAt.size(); ++c) {
-		bool isAlone = !isAt[c];
-		for (int a = 0; a < Dim && isAlone; ++a)
-			for (const Key neighbour : { basis.cells[c] - Grid<Dim>::keyStep(a), basis.cells[c] + Grid<Dim>::keyStep(a) })
-				isAlone = isAlone && find(basis.cells, grid.first(neighbour)) < 0;
-		if (isAlone) isAt[c] = true;
-	}
+	const auto isPopulated = [&](Key cell) { return find(basis.cells, grid.first(cell)) >= 0; };
+	for (std::size_t c = 0; c < isAt.size(); ++c)
+		for (int a = 0; a < Dim && !isAt[c]; ++a)
+			isAt[c] = !isPopulated(basis.cells[c] - Grid<Dim>::keyStep(a)) || !isPopulated(basis.cells[c] + Grid<Dim>::keyStep(a));
 	return isAt;
 }
 
 /// Across a few faces.
-void spread(std::vector<char>& isKnown, const CellPairs& pairs)
+template <int Dim> void spread(std::vector<char>& isKnown, const CellPairs& pairs)
 {
-	for (int step = 0; step < reach; ++step) {
+	for (int step = 0; step < reach<Dim>; ++step) {
 		const std::vector<char> before = isKnown;
 		for (const auto& [lower, upper] : pairs)
 			if (before[lower] || before[upper]) isKnown[lower] = isKnown[upper] = true;
@@ -109,7 +106,7 @@ std::vector<LooseCell<Dim>> looseCells(
 	std::vector<char> isKnown(slot.size(), true);
 	for (std::size_t c = 0; c < slot.size(); ++c)
 		if (isAt[c]) isKnown[c] = fillings[slot[c]].determines();
-	spread(isKnown, pairs);
+	spread<Dim>(isKnown, pairs);
 	std::vector<LooseCell<Dim>> loose;
 	for (std::size_t c = 0; c < slot.size(); ++c)
 		if (!isKnown[c] && fillings[slot[c]].cell.mass > 0) loose.push_back(fillings[slot[c]].cell);

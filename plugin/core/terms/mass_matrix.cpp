@@ -78,24 +78,24 @@ template <int Dim> void MassMatrix<Dim>::addTo(NodeMatrix<Dim>& K, double factor
 	});
 }
 
-template <int Dim> Eigen::VectorXd MassMatrix<Dim>::operator*(const Eigen::VectorXd& x) const
+template <int Dim> template <class F> Eigen::VectorXd MassMatrix<Dim>::product(const Eigen::VectorXd& x, F&& weight) const
 {
 	Eigen::VectorXd y = Eigen::VectorXd::Zero(x.size());
 	forEntries([&](int a, int b, int, double m) {
-		y.segment<Dim>(Dim * a) += m * x.segment<Dim>(Dim * b);
-		if (b != a) y.segment<Dim>(Dim * b) += m * x.segment<Dim>(Dim * a);
+		y.segment<Dim>(Dim * a) += weight(m) * x.segment<Dim>(Dim * b);
+		if (b != a) y.segment<Dim>(Dim * b) += weight(m) * x.segment<Dim>(Dim * a);
 	});
 	return y;
 }
 
+template <int Dim> Eigen::VectorXd MassMatrix<Dim>::operator*(const Eigen::VectorXd& x) const
+{
+	return product(x, [](double m) { return m; });
+}
+
 template <int Dim> Eigen::VectorXd MassMatrix<Dim>::sizesTimes(const Eigen::VectorXd& x) const
 {
-	Eigen::VectorXd y = Eigen::VectorXd::Zero(x.size());
-	forEntries([&](int a, int b, int, double m) {
-		y.segment<Dim>(Dim * a) += std::abs(m) * x.segment<Dim>(Dim * b).cwiseAbs();
-		if (b != a) y.segment<Dim>(Dim * b) += std::abs(m) * x.segment<Dim>(Dim * a).cwiseAbs();
-	});
-	return y;
+	return product(x.cwiseAbs(), [](double m) { return std::abs(m); });
 }
 
 template <int Dim> SymmetricCsc MassMatrix<Dim>::reduced(const FreeDofs& dofs, int axis) const

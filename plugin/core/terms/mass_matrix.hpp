@@ -39,6 +39,9 @@ private:
 	}
 	void addLoose(const LooseCell<Dim>&, double share);
 
+	/// Of the matrix that has weight(number) for each number.
+	template <class F> Eigen::VectorXd product(const Eigen::VectorXd& x, F&& weight) const;
+
 	/// f(a, b, code, number) for b not before a.
 	template <class F> void forEntries(F&& f) const;
 

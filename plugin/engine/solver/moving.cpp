@@ -81,6 +81,7 @@ template <int Dim> void Moving<Dim>::addWork(const Job<Dim>& job, Real time, con
 	engine.boundaryWork += workOfBoundaries(from, time) + shaking->workOfEdges();
 	engine.dampingWork += shaking->dampingWork();
 	engine.contactWork += job.contacts.work();
+	engine.impactWork += motion->impactWork;
 	engine.ghostWork += motion->ghostWork;
 	engine.plasticWork += plasticWork(job.cloud, job.model.materials, points);
 	engine.reactionsBefore = engine.reactions;
