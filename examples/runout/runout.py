@@ -25,7 +25,7 @@ sys.path.insert(0, os.path.join(os.path.dirname(sys.argv[0]), '..'))
 from options import readOptions
 
 options = readOptions('Run-out of columns of sand.',
-        aspects=('0.5 1 1.5 2', 'height over width of the columns, between blanks'),
+        aspects=('0.5 1 1.5 2 3 5 7', 'height over width of the columns, between blanks'),
         cells=(10, 'over the width L, or the height if that is less; 0: no continuum'),
         pointsPerCell=(2, 'material points per cell and axis'),
         repose=(31., 'angle of repose [degrees]'),
@@ -48,35 +48,9 @@ def makeSand(height):
 	grid = MpmGrid(cellSize=min(L, height) / options.cells)
 	O.bodies.append(mpm.fill(pack.inAlignedBox((0, 0, 0), (L, height, 1)), grid, options.pointsPerCell, 'sand'))
 	sides = [MpmBoundary(max=(0, inf, inf), fix='x'), MpmBoundary(max=(inf, 0, inf), fix='xy')]
-	O.engines = [MpmDynamicEngine(grid=grid, gravity=(0, -g, 0), boundaries=sides, newton=MpmNewton(minStep=1 / 256), mask=1, verbosity=0)]
+	O.engines = [MpmDynamicEngine(grid=grid, gravity=(0, -g, 0), boundaries=sides, newton=MpmNewton(minStep=1 / 256), verbosity=0)]
 	O.dt = options.courant * grid.cellSize / np.sqrt(2 * g * height)
 	return O.engines[0]
-
-
-def neighbours(cells):
-	"""Numbers of the bodies that cells (N, 2) belong to, connected by their sides: (N,)."""
-	number = {}
-	known = set(map(tuple, cells))
-	for start in known:
-		if start in number: continue
-		number[start], waiting = len(number), [start]
-		while waiting:
-			x, y = waiting.pop()
-			for cell in ((x - 1, y), (x + 1, y), (x, y - 1), (x, y + 1)):
-				if cell in known and cell not in number:
-					number[cell] = number[start]
-					waiting.append(cell)
-	return np.array([number[tuple(cell)] for cell in cells])
-
-
-def leaveLoose(points, h):
-	"""Take points that have lost touch with the largest body out of the motion, as a few by themselves have no regular mass: they stay where they are, in pictures, too."""
-	corners = [points['pos'] + 0.999 * points['halfSize'] * (x, y, 0) for x in (-1, 1) for y in (-1, 1)]
-	of = neighbours(np.floor(np.concatenate(corners)[:, :2] / h).astype(int))[:len(points['id'])]
-	numbers, sizes = np.unique(of, return_counts=True)
-	loose = points['id'][of != numbers[np.argmax(sizes)]]
-	for i in loose: O.bodies[int(i)].groupMask = 2
-	return [int(i) for i in loose]
 
 
 def outline(pos, area, width):
@@ -85,14 +59,18 @@ def outline(pos, area, width):
 	return (np.arange(strips.max() + 2) + 0.5) * width, np.bincount(strips, minlength=strips.max() + 2) * area / width
 
 
-def front(pos, area, size):
-	"""Where the deposit ends [m]: thinner than half of the size of cells or grains, it is one of single points, or grains."""
-	x, depth = outline(pos, area, 2 * size)
-	i = max(1, np.argmax(depth < size / 2))
-	return np.interp(-size / 2, -depth[i - 1:i + 1], x[i - 1:i + 1])
+def front(pos, area, side):
+	"""Where the deposit ends [m]: where its depth, a mean with weights that fall to none a tenth of the shorter side away, falls below a twentieth of that side. Both are as large
+	whatever the size of the cells, or grains, is; what is thinner is a sheet of single points that run ahead."""
+	width, x = 0.1 * side, np.sort(pos[:, 0])
+	places = np.arange(0.5 * L, x[-1] + 2 * width, 0.1 * width)
+	near = [x[slice(*np.searchsorted(x, (place - width, place + width)))] - place for place in places]
+	depth = np.array([area * (1 - np.abs(to) / width).sum() / width for to in near])
+	i = max(1, np.argmax(depth < 0.05 * side))
+	return np.interp(-0.05 * side, -depth[i - 1:i + 1], places[i - 1:i + 1])
 
 
-def run(height, advance, state, area, size):
+def run(height, advance, state, area):
 	"""Motion to rest. advance() goes on a little, state() gives positions (N, 2), speeds (N,) and energies [J]: kinetic, work of gravity, and others.
 
 	:return: rows of time, front and energies, over sqrt(height / g), L and the first potential energy; list of (time, positions, speeds)
@@ -102,7 +80,7 @@ def run(height, advance, state, area, size):
 		t = (O.time - begin) / duration
 		pos, speed, *energies = state()
 		kinetic, work = energies[:2]
-		history.append((t, front(pos, area, size) / L, *energies))
+		history.append((t, front(pos, area, min(L, height)) / L, *energies))
 		resting = t > 2 and kinetic < atRest * work or t >= options.end
 		if len(film) < len(frames) and t >= frames[len(film)] or resting: film.append((t, pos, speed))
 		if resting: return np.array(history) / (1, 1, *[density * g * area * film[0][1][:, 1].sum()] * len(energies)), film
@@ -115,33 +93,17 @@ def runSand(height):
 	h = solver.grid.cellSize
 	area = (h / options.pointsPerCell)**2
 	counts = dict(points=len(mpm.arrays()['id']), steps=0, iterations=0)
-	loose = set()
-
-	def moving(points):
-		return ~np.isin(points['id'], list(loose))
-
-	def leave():
-		points = mpm.arrays()
-		found = leaveLoose({name: points[name][moving(points)] for name in ('id', 'pos', 'halfSize')}, h)
-		loose.update(found)
-		counts['loose'] = len(loose)
-		return found
-
 	def advance():
-		leave()
-		try: O.step()
-		except RuntimeError:
-			if not leave(): raise
-			O.step()  # some have come off in a part of the step
+		O.step()
 		counts['steps'] += 1
 		counts['iterations'] += solver.iterations
 
 	def state():
 		points, data = mpm.arrays(), solver.plotData()
-		energies = [data[name] for name in ('kineticEnergy', 'loadWork', 'plasticWork', 'elasticEnergy', 'ghostWork', 'energyImbalance')]
-		return points['pos'][:, :2], np.linalg.norm(points['velocity'], axis=1) * moving(points), *energies
+		energies = [data[name] for name in ('kineticEnergy', 'loadWork', 'plasticWork', 'elasticEnergy', 'ghostWork', 'impactWork', 'energyImbalance')]
+		return points['pos'][:, :2], np.linalg.norm(points['velocity'], axis=1), *energies
 
-	return *run(height, advance, state, area, h), counts
+	return *run(height, advance, state, area), counts
 
 
 def makeGrains(height):
@@ -194,7 +156,7 @@ def runGrains(height):
 		pos, vel = (np.array([getattr(O.bodies[i].state, name) for i in ids]) for name in ('pos', 'vel'))
 		return pos[:, :2], np.linalg.norm(vel, axis=1), bulk * utils.kineticEnergy(), bulk * g * (potential - mass @ pos[:, 1])
 
-	return *run(height, advance, state, L * height / len(ids), L / options.grains), height
+	return *run(height, advance, state, L * height / len(ids)), height
 
 
 def published(a):
@@ -230,7 +192,7 @@ def drawResults(found, energies):
 		for aspect, _, _, x, depth in rows:
 			shapes.plot(x, depth, '-' if kind == 'sand' else ':', color=plt.cm.viridis(np.log2(aspect / 0.5) / 4), label=f'{kind}, a = {aspect:.2g}')
 	for kind, h in energies.items():
-		for column, name, colour in (2, 'kinetic', 'tab:blue'), (3, 'work of gravity', 'k'), (4, 'plastic flow', 'tab:red'), (6, 'ghost', 'tab:green'):
+		for column, name, colour in (2, 'kinetic', 'tab:blue'), (3, 'work of gravity', 'k'), (4, 'plastic flow', 'tab:red'), (6, 'ghost', 'tab:green'), (7, 'blows of held nodes', 'tab:orange'):
 			if column < h.shape[1]: history.plot(h[:, 0], h[:, column], '-' if kind == 'sand' else ':', color=colour, label=f'{kind}: {name}')
 	far.set(xlabel='a = H / L', ylabel='run-out (x - L) / L')
 	high.set(xlabel='a = H / L', ylabel='height at rest / L')
@@ -245,9 +207,12 @@ print('        a  run-out  published           height  published           rest 
 for a in map(float, options.aspects.split()):
 	for kind in ['sand'] * (options.cells > 0) + ['grains'] * (options.grains > 0):
 		began = time.time()
-		history, film, counts = runSand(a * L) if kind == 'sand' else runGrains(a * L)
+		try: history, film, counts = runSand(a * L) if kind == 'sand' else runGrains(a * L)
+		except RuntimeError as failure:
+			print(f'{kind:7}{a:4.2f}  left out, at t = {O.time / np.sqrt(a * L / g):.2f} sqrt(H / g): {failure}', flush=True)
+			continue
 		if kind == 'grains': aspect, said = counts / L, f'{len(film[0][1])} grains'
-		else: aspect, said = a, ', '.join(f'{number} {what}' for what, number in counts.items()) + f'; energy not accounted for {history[-1, 7] / history[-1, 3]:+.1e} of the work'
+		else: aspect, said = a, ', '.join(f'{number} {what}' for what, number in counts.items()) + f'; energy not accounted for {history[-1, 8] / history[-1, 3]:+.1e} of the work'
 		x, depth = outline(film[-1][1], L * L * aspect / len(film[0][1]), 0.1 * L)
 		out, top = history[-1, 1] - 1, depth[0] / L
 		law = published(np.array(aspect))

@@ -31,6 +31,18 @@ template <int Dim> std::pair<Eigen::MatrixXd, Eigen::MatrixXd> tangentAndDerivat
 	return { dense(K), derivative(forces, d, step) };
 }
 
+/// Of the tangent stiffness of a step at d along a direction, from central differences with a step along it, relative to what it is.
+template <int Dim> double tangentErrorAlong(const StepSystem<Dim>& system, const Eigen::VectorXd& d, const Eigen::VectorXd& direction, double step)
+{
+	NodeMatrix<Dim> K;
+	Eigen::VectorXd force, above, below, slope = Eigen::VectorXd::Zero(d.size());
+	system.prepare(K);
+	EXPECT_FALSE(system.evaluate(d, force, &K));
+	K.multiplyAdd(direction, slope);
+	EXPECT_FALSE(system.evaluate(d + step * direction, above, nullptr) || system.evaluate(d - step * direction, below, nullptr));
+	return ((above - below) / (2 * step) - slope).norm() / slope.norm();
+}
+
 /// The largest difference between entries, relative to the largest one.
 inline double relativeError(const Eigen::MatrixXd& found, const Eigen::MatrixXd& expected)
 {

@@ -225,7 +225,7 @@ def test_what_cannot_touch_is_refused(yade):
 	        'block(); plate().state.angVel = (0, 0, 20)': ['turns by 2.0', 'admitted is 1 rad'],
 	        'block(); plate(y=0.8)': ['has the middle of a material point inside of it, at ('],
 	        'block(); plate(); solver.contacts = [MpmContact(friction=0), MpmContact(friction=0)]': ['is claimed by two MpmContacts'],
-	        'block(); plate(); O.engines += [MpmImplicitEngine(grid=solver.grid, mask=4, contacts=[MpmContact(friction=0)])]': ['is claimed by contacts of two MpmImplicitEngines'],
+	        'block(); plate(); O.engines += [MpmImplicitEngine(grid=solver.grid, mask=4, contacts=[MpmContact(friction=0)])]': ['is claimed by contacts of two engines'],
 	        'block(); add(Body(shape=Cylinder(), material=O.materials["rigid"]))': ['cannot touch the soil: Sphere, Box, Facet and Wall can'],
 	}
 	outcomes = outcomesOf(yade.folder, scene, [statement + '; O.step()' for statement in refused])

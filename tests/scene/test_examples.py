@@ -275,8 +275,9 @@ def test_grains_on_soil(yade):
 
 def test_waves(yade):
 	"""Second order in time and space; what slides and rolls by the closed forms."""
-	script = root / 'examples' / 'waves' / 'waves.py'
-	said = {scene: yade(script, '--scene', scene, '--short', 1).stdout for scene in ('bar', 'pulse', 'mass', 'block', 'sphere')}
+	scenes = 'bar', 'pulse', 'mass', 'block', 'sphere'
+	parts = re.split('written: .*', yade(root / 'examples' / 'waves' / 'waves.py', '--scene', ' '.join(scenes), '--short', 1).stdout)
+	said = dict(zip(scenes, parts))
 	time, space = numbers(r'order in time (\S+), in space (\S+)', said['bar'])
 	assert abs(time - 2) < 0.05 and abs(space - 2) < 0.05
 	periods = re.findall(r'^ *[.\d]+  ([.\d]+)  ([.\d]+)$', said['bar'], re.MULTILINE)
@@ -287,7 +288,7 @@ def test_waves(yade):
 	assert worst[0] > 1e16 and worst[1e-3] < 1e4 and worst[0.25] < 110
 	assert numbers(r'of the engine by (\S+)', said['mass'])[0] < 1e-12
 	left = {(int(width), float(factor)): float(worst) for width, factor, worst in re.findall(r'half width (\d) h, massFactor (\S+): (\S+) /', said['pulse'])}
-	assert len(left) == 4 and left[6, 1e-3] > 0.99 and 0.96 < left[3, 1e-3] < 1 and 0.85 < left[3, 0.25] < 0.92
+	assert len(left) == 3 and left[6, 1e-3] > 0.99 and 0.96 < left[3, 1e-3] < 1 and 0.85 < left[3, 0.25] < 0.92
 	for scene, admitted in ('block', 1), ('sphere', 2):
 		assert abs(numbers(r'exact \S+ \((\S+) %\)', said[scene])[0]) < admitted
 	assert (yade.folder / 'out/waves/waves.png').stat().st_size > 10000

@@ -160,7 +160,7 @@ bystander = O.bodies.append(mpm.fill(pack.inAlignedBox((30, 9, -1), (34, 10, 1))
 O.bodies[bystander].groupMask = 4
 one, two = engine(coarse, 0), engine(fine, 10.1)
 O.engines, O.dt = [one, two], 1 / 4
-with refused(ValueError, 'Body #0', 'two MpmImplicitEngines'):
+with refused(ValueError, 'Body #0', 'two engines with material points'):
 	O.step()
 one.mask, two.mask = 1, 3
 with refused(ValueError, 'Body #0', 'mask = 1 and 3', 'groupMask'):
@@ -212,7 +212,7 @@ for copied in deepcopy, copy, lambda e: MpmImplicitEngine(**{k: v for k, v in e.
 	twin = copied(engine)
 	assert twin is not engine and twin.loadTime == engine.loadTime and twin.report() == {}
 	O.engines = [engine, twin]
-	with refused(ValueError, 'Body #0', 'two MpmImplicitEngines'):
+	with refused(ValueError, 'Body #0', 'two engines with material points'):
 		O.step()
 	O.engines = [twin]
 	O.run(5, wait=True)

@@ -42,7 +42,7 @@ mistakes = [
         ('scene(); O.bodies.clear(); fill(); O.step()', 'ValueError', ['no material points', 'O.bodies.append(mpm.fill(...))']),
         ('scene(); O.bodies.append(sphere((9, 9, 9), 1)); O.step()', 'ValueError', ['Body #64', "'soil'", 'Sphere', 'last material of O.materials']),
         ('scene(); O.engines = [MpmVtkRecorder(fileName="x-")]; O.step()', 'ValueError', ['MpmImplicitEngine', 'none', 'O.engines']),
-        ('scene(); O.engines = O.engines + [solver()]; O.step()', 'ValueError', ['two MpmImplicitEngines', 'mask']),
+        ('scene(); O.engines = O.engines + [solver()]; O.step()', 'ValueError', ['two engines with material points', 'mask']),
         ('scene(); O.engines = O.engines * 2; O.step()', 'ValueError', ['listed 2 times']),
         ('scene(); O.engines = O.engines + [GlobalStiffnessTimeStepper()]; O.step()', 'ValueError', ['TimeStepper', 'active=False', 'iterPeriod=N']),
         # filling

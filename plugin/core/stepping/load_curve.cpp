@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "core/stepping/load_curve.hpp"
+#include <algorithm>
 #include <cmath>
 
 namespace gimpm {
@@ -11,15 +12,14 @@ bool LoadCurve::isAdmissible(const Knees& knees)
 	return !knees.empty();
 }
 
-double LoadCurve::valueAt(double time) const
+double LoadCurve::valueAt(const Knees& knees, double time)
 {
-	if (time <= knees_.front().first) return knees_.front().second;
-	for (std::size_t i = 1; i < knees_.size(); ++i) {
-		const auto [t0, f0] = knees_[i - 1];
-		const auto [t1, f1] = knees_[i];
-		if (time <= t1) return f0 + (f1 - f0) * (time - t0) / (t1 - t0);
-	}
-	return knees_.back().second;
+	const auto after = std::lower_bound(knees.begin(), knees.end(), time, [](const auto& knee, double t) { return knee.first < t; });
+	if (after == knees.begin()) return after->second;
+	if (after == knees.end()) return knees.back().second;
+	const auto [t0, f0] = *(after - 1);
+	const auto [t1, f1] = *after;
+	return f0 + (f1 - f0) * (time - t0) / (t1 - t0);
 }
 
 } // namespace gimpm

@@ -23,9 +23,10 @@ public:
 
 	explicit LoadCurve(Knees knees) : knees_(std::move(knees)) { }
 
-	double     valueAt(double time) const;
-	LoadFactor between(double begin, double end) const { return { valueAt(end), valueAt(end) - valueAt(begin) }; }
-	double     end() const { return knees_.back().first; } ///< when it has come to rest
+	static double valueAt(const Knees&, double time);
+	double        valueAt(double time) const { return valueAt(knees_, time); }
+	LoadFactor    between(double begin, double end) const { return { valueAt(end), valueAt(end) - valueAt(begin) }; }
+	double        end() const { return knees_.back().first; } ///< when it has come to rest
 
 private:
 	Knees knees_;

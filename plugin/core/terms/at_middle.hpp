@@ -10,9 +10,9 @@ template <int Dim> class InternalForceAtMiddle : public InternalForce<Dim> {
 public:
 	using InternalForce<Dim>::InternalForce;
 
-	/// To be added first.
 	std::optional<PointFailure> add(const Eigen::VectorXd& d, const TermSum<Dim>& sum) const override
 	{
+		if (sum.K) sum.K->multiplyBy(2); // so that half of the sum leaves to others what is theirs, to the last bit
 		const auto failure = InternalForce<Dim>::add(0.5 * d, sum);
 		if (sum.K) sum.K->multiplyBy(0.5);
 		return failure;

@@ -20,12 +20,6 @@ template <int Dim> double faceMass(const GhostFace<Dim>& face, int s, int t, dou
 	return m;
 }
 
-/// Numbers of the cells below and above a face.
-template <int Dim> std::array<int, 2> cellsAt(const GhostFace<Dim>& face, const CloudBasis<Dim>& basis, const Grid<Dim>& grid)
-{
-	return { position(basis.cells, face.lower), position(basis.cells, grid.first(face.lower + Grid<Dim>::keyStep(face.axis))) };
-}
-
 /// Young's moduli of the cells at the faces, by number: the means of their points, weighted by the volumes of the overlaps.
 template <int Dim>
 std::vector<double> moduliAtFaces(
@@ -66,6 +60,11 @@ template <int Dim> void revolve(GhostFace<Dim>& face, const Grid<Dim>& grid)
 }
 
 } // namespace
+
+template <int Dim> std::array<int, 2> cellsAt(const GhostFace<Dim>& face, const CloudBasis<Dim>& basis, const Grid<Dim>& grid)
+{
+	return { position(basis.cells, face.lower), position(basis.cells, grid.first(face.lower + Grid<Dim>::keyStep(face.axis))) };
+}
 
 template <int Dim> std::vector<Key> boundaryCells(const std::vector<Key>& populated, const Boundary<Dim>& boundary, const Grid<Dim>& grid)
 {
@@ -168,6 +167,7 @@ template <int Dim> std::optional<PointFailure> GhostForce<Dim>::add(const Eigen:
 #define GIMPM_INSTANTIATE(Dim)                                                                                                                                 \
 	template std::vector<Key>            boundaryCells(const std::vector<Key>&, const Boundary<Dim>&, const Grid<Dim>&);                                   \
 	template std::vector<GhostFace<Dim>> ghostFaces(const std::vector<Key>&, const std::vector<Key>&, const Boundary<Dim>&, const Grid<Dim>&);             \
+	template std::array<int, 2>          cellsAt(const GhostFace<Dim>&, const CloudBasis<Dim>&, const Grid<Dim>&);                                         \
 	template void weighGhostFaces(std::vector<GhostFace<Dim>>&, const CloudBasis<Dim>&, const PointStiffness&, const Grid<Dim>&, double, GhostScaling);    \
 	template void markGhostPattern(const std::vector<GhostFace<Dim>>&, NodeMatrix<Dim>&);                                                                  \
 	template void addGhostStiffness(const std::vector<GhostFace<Dim>>&, double, NodeMatrix<Dim>&);                                                         \

@@ -38,6 +38,9 @@ template <int Dim> struct GhostFace {
 template <int Dim>
 std::vector<GhostFace<Dim>> ghostFaces(const std::vector<Key>& populated, const std::vector<Key>& boundary, const Boundary<Dim>&, const Grid<Dim>& = {});
 
+/// Numbers of the cells below and above a face.
+template <int Dim> std::array<int, 2> cellsAt(const GhostFace<Dim>&, const CloudBasis<Dim>&, const Grid<Dim>&);
+
 /// Sets node numbers and stiffness = factor * modulus * (h or h^3) / 3. A cell's modulus is the mean of Young's moduli of its points,
 /// weighted by the volumes of their domains' overlaps with it; a face has that of the softer of its two cells. With the stiffer one or a
 /// mean, soft layers could not be strained beside stiff ones: the kink of the displacements is what equilibrium asks for there.

@@ -3,6 +3,7 @@
 #include "core/grid/point_nodes.hpp"
 #include "core/terms/internal_force.hpp"
 #include <algorithm>
+#include <numeric>
 #include <sstream>
 
 namespace gimpm {
@@ -21,6 +22,13 @@ template <int Dim> std::vector<GhostFace<Dim>> massFaces(const Motion<Dim>& moti
 	return faces;
 }
 
+/// Without ghost mass nothing is connected, and mass is that of the points alone.
+template <int Dim> std::vector<LooseCell<Dim>> looseOf(const Motion<Dim>& motion, const Beginning<Dim>& step)
+{
+	if (motion.ghostMass == 0) return {};
+	return looseCells(step.basis, motion.mass, step.faces, step.grid);
+}
+
 } // namespace
 
 template <int Dim>
@@ -31,7 +39,7 @@ Inertia<Dim>::Inertia(Motion<Dim>& motion, const Beginning<Dim>& step)
         , prescribed_(step.prescribed)
         , faces_(step.faces)
         , h_(step.grid.cellSize)
-        , mass_(step.basis, motion.mass, massFaces(motion, step), step.grid.cellSize)
+        , mass_(step.basis, motion.mass, massFaces(motion, step), step.grid.cellSize, looseOf(motion, step))
 {
 	imbalance_ = acceleration_ = expected_ = blow_ = jump_ = Eigen::VectorXd::Zero(prescribed_.size());
 	const auto held = [&](const Eigen::VectorXd& otherwise, Vec<Dim> MovingBase<Dim>::*value) { return ofHeld(otherwise, value, step.basis.nodes); };
@@ -250,6 +258,21 @@ template <int Dim> std::string Inertia<Dim>::inaccuracy(const Eigen::VectorXd& d
 	return text.str();
 }
 
+/// Where points bring other velocities along than held nodes have, these are inelastic.
+template <int Dim> double Inertia<Dim>::energyOfBlow() const
+{
+	if (blow_.isZero(0)) return 0;
+	std::vector<double> gain(motion_.velocity.size(), 0);
+	forPointNodes(basis_, [&](int i, const Patch<Dim>& patch, const double* value, int count) {
+		const int p     = basis_.order[i];
+		Vec<Dim>  jumps = Vec<Dim>::Zero();
+		for (int n = 0; n < count; ++n)
+			if (patch.node[n] >= 0) jumps += value[n] * jump_.template segment<Dim>(Dim * patch.node[n]);
+		gain[p] = motion_.mass[p] * jumps.dot(motion_.velocity[p] + jumps / 2);
+	});
+	return blow_.dot(prescribed_) / motion_.duration - std::accumulate(gain.begin(), gain.end(), 0.);
+}
+
 template <int Dim> void Inertia<Dim>::commit(const Eigen::VectorXd& d)
 {
 	const double          beta = motion_.scheme.beta, gamma = motion_.scheme.gamma, T = motion_.duration;
@@ -258,6 +281,7 @@ template <int Dim> void Inertia<Dim>::commit(const Eigen::VectorXd& d)
 	const Eigen::VectorXd end = others + contact, growth = jump_ + T * ((1 - gamma) * acceleration_ + gamma * others + contact);
 	Eigen::VectorXd       ghost = Eigen::VectorXd::Zero(d.size());
 	addGhostForce(faces_, h_, d, ghost);
+	motion_.impactWork           = energyOfBlow();
 	motion_.ghostWork            = gamma * d.dot(ghost); // the force of a step begins at zero
 	const Eigen::VectorXd looked = velocityAt(d);
 	for (const auto& each : damping_)

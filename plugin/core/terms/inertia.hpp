@@ -27,6 +27,7 @@ template <int Dim> struct Motion {
 	std::vector<Vec<Dim>>     velocity {};                ///< [m/s]
 	std::vector<Vec<Dim>>     acceleration {};            ///< [m/s2], a result; all zero: the motion begins
 	double                    ghostWork        = 0;       ///< that ghost stabilisation has taken in the last step that was accepted [J]
+	double                    impactWork       = 0;       ///< that held nodes have taken in it by their blow, beyond what they have worked with it [J]
 	const ContactSystem<Dim>* contacts         = nullptr; ///< if there are some, of TimeScheme::weightOfContact()
 	LinearSolver              solvers[Dim + 1] = {};      ///< by axis, and of all nodes; keep their symbolic analyses
 
@@ -68,6 +69,7 @@ private:
 	void            findAcceleration(const Beginning<Dim>&, const Eigen::VectorXd& ofHeld);
 	Eigen::VectorXd ofContact(const Eigen::VectorXd* d) const; // on the nodes; null: as the step begins
 	Eigen::VectorXd accelerationAt(const Eigen::VectorXd& d) const;
+	double          energyOfBlow() const;
 	bool            isHeld(Eigen::Index dof) const { return dofs_.number[dof] < 0; }
 
 	Motion<Dim>&                               motion_;

@@ -29,7 +29,9 @@ void mergeColumn(std::vector<std::pair<int, double>>& column, SymmetricCsc& out)
 } // namespace
 
 template <int Dim>
-MassMatrix<Dim>::MassMatrix(const CloudBasis<Dim>& basis, const std::vector<double>& masses, const std::vector<GhostFace<Dim>>& faces, double h)
+MassMatrix<Dim>::MassMatrix(
+        const CloudBasis<Dim>& basis, const std::vector<double>& masses, const std::vector<GhostFace<Dim>>& faces, double h,
+        const std::vector<LooseCell<Dim>>& loose, double share)
         : value_(basis.nodes.size() * codes, 0), neighbour_(value_.size(), -1)
 {
 	forPointNodes(basis, [&](int p, const Patch<Dim>& patch, const double* value, int count) {
@@ -42,6 +44,18 @@ MassMatrix<Dim>::MassMatrix(const CloudBasis<Dim>& basis, const std::vector<doub
 				if (patch.node[b] >= 0) add(patch.node[a], patch.node[b], code[b] - code[a], m * value[a] * value[b]);
 	});
 	forGhostPairs<Dim>(faces, h, [&](int a, int b, int code, double m) { add(a, b, code, m); });
+	for (const auto& cell : loose)
+		addLoose(cell, share);
+}
+
+template <int Dim> void MassMatrix<Dim>::addLoose(const LooseCell<Dim>& cell, double share)
+{
+	constexpr int    n = LooseCell<Dim>::corners;
+	const double     m = share * cell.mass / n;
+	const Patch<Dim> corners {};
+	for (int a = 0; a < n; ++a)
+		for (int b = a; b < n; ++b)
+			add(cell.node[a], cell.node[b], codeOf(corners, b) - codeOf(corners, a), (a == b) * m - m / n);
 }
 
 template <int Dim> template <class F> void MassMatrix<Dim>::forEntries(F&& f) const
@@ -64,24 +78,24 @@ template <int Dim> void MassMatrix<Dim>::addTo(NodeMatrix<Dim>& K, double factor
 	});
 }
 
-template <int Dim> Eigen::VectorXd MassMatrix<Dim>::operator*(const Eigen::VectorXd& x) const
+template <int Dim> template <class F> Eigen::VectorXd MassMatrix<Dim>::product(const Eigen::VectorXd& x, F&& weight) const
 {
 	Eigen::VectorXd y = Eigen::VectorXd::Zero(x.size());
 	forEntries([&](int a, int b, int, double m) {
-		y.segment<Dim>(Dim * a) += m * x.segment<Dim>(Dim * b);
-		if (b != a) y.segment<Dim>(Dim * b) += m * x.segment<Dim>(Dim * a);
+		y.segment<Dim>(Dim * a) += weight(m) * x.segment<Dim>(Dim * b);
+		if (b != a) y.segment<Dim>(Dim * b) += weight(m) * x.segment<Dim>(Dim * a);
 	});
 	return y;
 }
 
+template <int Dim> Eigen::VectorXd MassMatrix<Dim>::operator*(const Eigen::VectorXd& x) const
+{
+	return product(x, [](double m) { return m; });
+}
+
 template <int Dim> Eigen::VectorXd MassMatrix<Dim>::sizesTimes(const Eigen::VectorXd& x) const
 {
-	Eigen::VectorXd y = Eigen::VectorXd::Zero(x.size());
-	forEntries([&](int a, int b, int, double m) {
-		y.segment<Dim>(Dim * a) += std::abs(m) * x.segment<Dim>(Dim * b).cwiseAbs();
-		if (b != a) y.segment<Dim>(Dim * b) += std::abs(m) * x.segment<Dim>(Dim * a).cwiseAbs();
-	});
-	return y;
+	return product(x.cwiseAbs(), [](double m) { return std::abs(m); });
 }
 
 template <int Dim> SymmetricCsc MassMatrix<Dim>::reduced(const FreeDofs& dofs, int axis) const

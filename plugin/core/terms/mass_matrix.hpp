@@ -2,17 +2,21 @@
 // The mass of the points on the nodes, consistent with the basis functions, with ghost mass.
 #pragma once
 #include "core/solvers/reduce.hpp"
-#include "core/terms/ghost.hpp"
+#include "core/terms/loose_cells.hpp"
 
 namespace gimpm {
 
 /// M_ab = sum of m_p S_a S_b over the points, and M_g, which is K_g (core/terms/ghost.hpp) with gamma_M h^3 / 3 for the faces' stiffness (Sticko et al. 2020): it
 /// penalises jumps of the gradient of velocities, so that the condition number does not depend on how little of a cell is filled. Its rows add up to
-/// zero: mass, momentum and every linear field of velocities are left alone. One number for a pair of nodes, the same for each component.
+/// zero: mass, momentum and every linear field of velocities are left alone. Where points are too few by themselves, loose cells are given a share of lumped less consistent mass, m (1 / n - 1 / n^2)
+/// for their n nodes and -m / n^2 for pairs of them: its rows add up to zero too, so that mass, momentum and uniform velocities are left alone, but not
+/// linear ones. One number for a pair of nodes, the same for each component.
 template <int Dim> class MassMatrix {
 public:
 	/// Masses by point of the cloud [kg].
-	MassMatrix(const CloudBasis<Dim>&, const std::vector<double>& masses, const std::vector<GhostFace<Dim>>&, double h);
+	MassMatrix(
+	        const CloudBasis<Dim>&, const std::vector<double>& masses, const std::vector<GhostFace<Dim>>&, double h,
+	        const std::vector<LooseCell<Dim>>& loose = {}, double share = usualLooseShare);
 
 	int nodes() const { return int(neighbour_.size()) / codes; }
 
@@ -33,6 +37,11 @@ private:
 		neighbour_[place]       = b;
 		value_[place] += m;
 	}
+	void addLoose(const LooseCell<Dim>&, double share);
+
+	/// Of the matrix that has weight(number) for each number.
+	template <class F> Eigen::VectorXd product(const Eigen::VectorXd& x, F&& weight) const;
+
 	/// f(a, b, code, number) for b not before a.
 	template <class F> void forEntries(F&& f) const;
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "engine/conditions/MpmAbsorbingBoundary.hpp"
+#include "engine/conditions/box.hpp"
 
 namespace yade {
 
@@ -7,13 +8,7 @@ void MpmAbsorbingBoundary::requireAdmissible() const
 {
 	Exposed<MpmAbsorbingBoundary, Serializable>::requireAdmissible();
 	if (motion) motion->requireAdmissible();
-	for (int axis = 0; axis < 3; ++axis)
-		if (min[axis] > max[axis]) {
-			std::ostringstream text;
-			text << "MpmAbsorbingBoundary.min = " << min[axis] << " is greater than max = " << max[axis] << " along "
-			     << "xyz"[axis] << "; are they swapped?";
-			throw std::invalid_argument(text.str());
-		}
+	requireCorners("MpmAbsorbingBoundary", min, max);
 }
 
 } // namespace yade

@@ -7,10 +7,7 @@ namespace yade {
 Real MpmBaseMotion::speedAt(Real time) const
 {
 	if (time < history.front().first || time > history.back().first) return 0;
-	const auto after = std::lower_bound(history.begin(), history.end(), time, [](const auto& knee, Real t) { return knee.first < t; });
-	if (after == history.begin()) return after->second;
-	const auto [t0, v0] = *(after - 1);
-	return v0 + (after->second - v0) * (time - t0) / (after->first - t0);
+	return gimpm::LoadCurve::valueAt(history, time);
 }
 
 // Exact: the velocity is linear between the knees.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "engine/conditions/MpmBoundary.hpp"
+#include "engine/conditions/box.hpp"
 
 namespace yade {
 
@@ -25,9 +26,7 @@ string MpmBoundary::whatContradicts(int axis) const
 {
 	const char         direction = "xyz"[axis];
 	std::ostringstream text;
-	if (min[axis] > max[axis])
-		text << "MpmBoundary.min = " << min[axis] << " is greater than max = " << max[axis] << " along " << direction << "; are they swapped?";
-	else if (surface && (std::isfinite(min[axis]) || std::isfinite(max[axis])))
+	if (surface && (std::isfinite(min[axis]) || std::isfinite(max[axis])))
 		text << "MpmBoundary has a surface and a box, from min = " << textOf(min) << " to max = " << textOf(max)
 		     << ": give one of them, or two boundaries.";
 	else if (surface && displacement[axis] != 0)
@@ -57,6 +56,7 @@ void MpmBoundary::requireAdmissible() const
 	if (!surface && penalty != MpmBoundary().penalty)
 		throw std::invalid_argument(
 		        "MpmBoundary.penalty = " + textOf(penalty) + " is that of a surface, which is not given: the nodes in a box do not give way.");
+	requireCorners("MpmBoundary", min, max);
 	for (int axis = 0; axis < 3; ++axis)
 		if (const string text = whatContradicts(axis); !text.empty()) throw std::invalid_argument(text);
 }

@@ -10,7 +10,7 @@ class MpmDynamicEngine : public Exposed<MpmDynamicEngine, MpmImplicitEngine> {
 public:
 	string           scheme = "newmark";
 	Real             beta = 0.25, gamma = 0.5, rhoInfinity = 0.8, timeTolerance = 0;
-	Real             loadWork = 0, boundaryWork = 0, contactWork = 0, ghostWork = 0, plasticWork = 0, dampingWork = 0;
+	Real             loadWork = 0, boundaryWork = 0, contactWork = 0, impactWork = 0, ghostWork = 0, plasticWork = 0, dampingWork = 0;
 	Real             firstEnergy = std::numeric_limits<Real>::quiet_NaN(); // when the first step began; NaN: there was none
 	vector<Vector3r> reactionsBefore;                                      // those of the step before
 
@@ -53,6 +53,8 @@ public:
 		v("loadWork", &E::loadWork, readonly, "Work of gravity, point loads and loads on surfaces so far [J].", finite);
 		v("boundaryWork", &E::boundaryWork, readonly, "Work of boundaries that move, and of those that absorb, so far [J].", finite);
 		v("contactWork", &E::contactWork, readonly, "Work of rigid bodies on the material so far, friction and penalties included [J].", finite);
+		v("impactWork", &E::impactWork, readonly,
+		  "Kinetic energy that held nodes have taken from points which came to them with other velocities, so far [J].", finite);
 		v("ghostWork", &E::ghostWork, readonly, "Energy that ghost stabilisation has taken so far [J].", finite);
 		v("plasticWork", &E::plasticWork, readonly, "Energy dissipated by plastic flow so far [J].", finite);
 		v("dampingWork", &E::dampingWork, readonly, "Energy that Rayleigh damping has taken so far [J].", finite);

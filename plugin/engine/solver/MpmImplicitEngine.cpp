@@ -57,7 +57,7 @@ void MpmImplicitEngine::action()
 {
 	deliveringErrors([&] {
 		home = scene->weak_from_this();
-		requireCallable();
+		requireCallable(getClassName());
 		try {
 			const Threads threads(ompThreads);
 			grid && grid->dim == 3 ? step<3>() : step<2>();

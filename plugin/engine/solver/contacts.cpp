@@ -25,7 +25,7 @@ namespace {
 		const State& state = *body.state;
 		if (!state.vel.allFinite() || !state.angVel.allFinite())
 			throw std::invalid_argument(
-			        "Body #" + std::to_string(body.id) + ": its velocities are not finite, and MpmImplicitEngine moves it by them.");
+			        "Body #" + std::to_string(body.id) + ": its velocities are not finite, and the engine of its contact moves it by them.");
 		const Real angle = state.angVel.norm() * time;
 		if (angle > 1)
 			throw std::invalid_argument(
@@ -60,7 +60,7 @@ namespace {
 		if (!(reset < self && self < newton))
 			throw std::invalid_argument(
 			        what
-			        + " is free to move and gets the forces of the soil: MpmImplicitEngine must stand behind ForceResetter and before NewtonIntegrator in O.engines.");
+			        + " is free to move and gets the forces of the soil: the engine of its contact must stand behind ForceResetter and before NewtonIntegrator in O.engines.");
 	}
 
 	template <int Dim> gimpm::Vec<Dim> inDimension(const Vector3r& x) { return x.head<Dim>(); }

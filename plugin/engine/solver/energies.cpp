@@ -31,10 +31,11 @@ void MpmDynamicEngine::tellMotion(py::dict& data) const
 	data["loadWork"]        = loadWork;
 	data["boundaryWork"]    = boundaryWork;
 	data["contactWork"]     = contactWork;
+	data["impactWork"]      = impactWork;
 	data["ghostWork"]       = ghostWork;
 	data["plasticWork"]     = plasticWork;
 	data["dampingWork"]     = dampingWork;
-	data["energyImbalance"] = now.total() - firstEnergy - loadWork - boundaryWork - contactWork + ghostWork + plasticWork + dampingWork;
+	data["energyImbalance"] = now.total() - firstEnergy - loadWork - boundaryWork - contactWork + impactWork + ghostWork + plasticWork + dampingWork;
 }
 
 } // namespace yade

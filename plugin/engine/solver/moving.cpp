@@ -22,6 +22,7 @@ template <int Dim> Moving<Dim>::Moving(MpmDynamicEngine& e, Job<Dim>& job, const
 {
 	motion->scheme    = engine.timeScheme();
 	motion->ghostMass = std::isnan(engine.ghost->massFactor) ? MpmGhost::usualMassFactor : engine.ghost->massFactor;
+	if (engine.ghost->factor == 0) motion->ghostMass = 0; // there are no faces
 	if (engine.timeTolerance > 0) motion->tolerance = engine.timeTolerance * engine.grid->cellSize;
 	for (size_t p = 0; p < points.size(); ++p) {
 		motion->mass.push_back(job.model.materials[job.cloud.material[p]].density * job.cloud.volume0[p]);
@@ -80,6 +81,7 @@ template <int Dim> void Moving<Dim>::addWork(const Job<Dim>& job, Real time, con
 	engine.boundaryWork += workOfBoundaries(from, time) + shaking->workOfEdges();
 	engine.dampingWork += shaking->dampingWork();
 	engine.contactWork += job.contacts.work();
+	engine.impactWork += motion->impactWork;
 	engine.ghostWork += motion->ghostWork;
 	engine.plasticWork += plasticWork(job.cloud, job.model.materials, points);
 	engine.reactionsBefore = engine.reactions;

@@ -21,11 +21,11 @@ namespace {
 	void requireGravityInPlane(const MpmImplicitEngine& engine)
 	{
 		if (engine.grid->axisymmetric && engine.gravity[0] != 0)
-			refuse("MpmImplicitEngine.gravity = (", engine.gravity.transpose(),
+			refuse(engine.getClassName(), ".gravity = (", engine.gravity.transpose(),
 			       ") has an x component, which with MpmGrid.axisymmetric would pull away from the axis on all sides; there gravity acts along the axis, y, "
 			       "as in (0, -9.81, 0).");
 		if (engine.grid->dim == 3 || engine.gravity[2] == 0) return;
-		refuse("MpmImplicitEngine.gravity = (", engine.gravity.transpose(),
+		refuse(engine.getClassName(), ".gravity = (", engine.gravity.transpose(),
 		       ") has a z component, which a grid with dim=2 (plane strain in x-y) would leave out; ",
 		       "there gravity acts along y, as in (0, -9.81, 0).");
 	}
@@ -38,11 +38,11 @@ namespace {
 		const Real     dt = engine.scene->dt, left = engine.loadsEnd() - engine.scene->time, length = engine.loadsEnd() - curve.front().first;
 		if (engine.iterPeriod != 1 || left <= 0) return;
 		if (left / dt > mostSteps)
-			refuse("MpmImplicitEngine: with O.dt = ", dt, " the load curve would take ", left / dt,
+			refuse(engine.getClassName(), ": with O.dt = ", dt, " the load curve would take ", left / dt,
 			       " steps; was O.dt forgotten? It is the load time of one step: 1/80 gives 80 steps with the default loadCurve.");
 		if (curve.size() > 1 && dt > length * (1 + 1e-9))
-			refuse("MpmImplicitEngine: O.dt = ", dt, ", the load time of one step, is more than the whole loadCurve, from ", curve.front().first,
-			       " to ", engine.loadsEnd(), ": 1/80 of that gives 80 steps.");
+			refuse(engine.getClassName(), ": O.dt = ", dt, ", the load time of one step, is more than the whole loadCurve, from ",
+			       curve.front().first, " to ", engine.loadsEnd(), ": 1/80 of that gives 80 steps.");
 	}
 
 	// Four sums side by side, so that they do not wait for each other.

@@ -21,14 +21,14 @@ namespace {
 				others.push_back(other);
 		}
 		if (entries > 1)
-			throw std::invalid_argument("MpmImplicitEngine: the same engine is listed " + std::to_string(entries) + " times in O.engines.");
+			throw std::invalid_argument(engine.getClassName() + ": the same engine is listed " + std::to_string(entries) + " times in O.engines.");
 		for (const auto* other : others)
 			for (const MaterialPoint& point : materialPoints(scene, engine.mask))
 				if (maskMatches(*(*scene.bodies)[point.id], other->mask))
 					throw std::invalid_argument(
 					        "Body #" + std::to_string(point.id)
-					        + ": two MpmImplicitEngines in O.engines claim it, with mask = " + std::to_string(engine.mask) + " and "
-					        + std::to_string(other->mask) + "; give each body a groupMask that goes with one of them.");
+					        + ": two engines with material points in O.engines claim it, with mask = " + std::to_string(engine.mask)
+					        + " and " + std::to_string(other->mask) + "; give each body a groupMask that goes with one of them.");
 	}
 
 	// A load and a wall would move it in different ways.
@@ -63,17 +63,17 @@ static void requireOnlyContact(const MpmImplicitEngine& engine)
 			if (own.count(id))
 				throw std::invalid_argument(
 				        "Body #" + std::to_string(id)
-				        + " is claimed by contacts of two MpmImplicitEngines; give these MpmContacts masks that go with different bodies.");
+				        + " is claimed by contacts of two engines; give these MpmContacts masks that go with different bodies.");
 	}
 }
 
-void requireCallable()
+void requireCallable(const string& engine)
 {
 	if (omp_get_level() > 0)
 		throw std::invalid_argument(
-		        "MpmImplicitEngine: inside a ParallelEngine it cannot tell what other engines do with its material points; put it into O.engines itself.");
+		        engine + ": inside a ParallelEngine it cannot tell what other engines do with its material points; put it into O.engines itself.");
 	if (PyGILState_Check() && Singleton<Omega>::instance().isRunning())
-		throw std::runtime_error("MpmImplicitEngine: called while the scene runs in the background; call O.wait() or O.pause() first.");
+		throw std::runtime_error(engine + ": called while the scene runs in the background; call O.wait() or O.pause() first.");
 }
 
 void requireRunnable(const MpmImplicitEngine& engine)
@@ -102,16 +102,16 @@ void requireRunnable(const MpmImplicitEngine& engine)
 		     << ". After O.resetTime() set loadTime = O.time.";
 	else
 		return;
-	throw std::invalid_argument("MpmImplicitEngine: " + text.str());
+	throw std::invalid_argument(engine.getClassName() + ": " + text.str());
 }
 
 void requireAny(const vector<MaterialPoint>& points, const MpmImplicitEngine& engine)
 {
 	if (!points.empty()) return;
 	if (materialPoints(*engine.scene).empty())
-		throw std::invalid_argument("MpmImplicitEngine: the scene has no material points; add them with O.bodies.append(mpm.fill(...)).");
+		throw std::invalid_argument(engine.getClassName() + ": the scene has no material points; add them with O.bodies.append(mpm.fill(...)).");
 	throw std::invalid_argument(
-	        "MpmImplicitEngine: the scene has no material points whose groupMask goes with mask = " + std::to_string(engine.mask) + ".");
+	        engine.getClassName() + ": the scene has no material points whose groupMask goes with mask = " + std::to_string(engine.mask) + ".");
 }
 
 } // namespace yade

@@ -7,7 +7,7 @@ namespace yade {
 class MpmImplicitEngine;
 
 // A thread that may make one; std::runtime_error while the scene runs in another.
-void requireCallable();
+void requireCallable(const string& engine);
 
 // Settings, clock and the other engines.
 void requireRunnable(const MpmImplicitEngine&);

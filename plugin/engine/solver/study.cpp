@@ -69,14 +69,14 @@ namespace {
 		const auto    K       = reducedStiffness(engine);
 		if (K.size() > 0 && K.size() <= largest) return gimpm::conditionNumber(K);
 		throw std::invalid_argument(
-		        "MpmImplicitEngine.conditionNumber() needs all eigenvalues: the scene has " + std::to_string(K.size()) + " unknowns, admitted are 1 to "
-		        + std::to_string(largest) + ".");
+		        engine.getClassName() + ".conditionNumber() needs all eigenvalues: the scene has " + std::to_string(K.size())
+		        + " unknowns, admitted are 1 to " + std::to_string(largest) + ".");
 	}
 
 	Real conditionEstimate(MpmImplicitEngine& engine)
 	{
 		const auto K = reducedStiffness(engine);
-		if (K.size() == 0) throw std::invalid_argument("MpmImplicitEngine.conditionEstimate(): the scene has no unknowns.");
+		if (K.size() == 0) throw std::invalid_argument(engine.getClassName() + ".conditionEstimate(): the scene has no unknowns.");
 		return gimpm::conditionEstimate(K);
 	}
 

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Cells whose points are too few to tell the velocities of their nodes.
+#pragma once
+#include "core/terms/ghost.hpp"
+
+namespace gimpm {
+
+/// A populated cell: its nodes, the first axis fastest, and the mass of the points whose middle is in it [kg].
+template <int Dim> struct LooseCell {
+	static constexpr int     corners = 1 << Dim;
+	std::array<int, corners> node {};
+	double                   mass = 0;
+};
+
+/// Share of the mass of loose cells that MassMatrix lumps. Its angular momentum is lost in each step, its inverse bounds the condition number (docs/theory.md).
+constexpr double usualLooseShare = 1e-6;
+
+/// Of the populated cells with points those whose points do not determine a multilinear field, and which no chain of Dim ghost faces connects with a cell whose points do:
+/// fewer than 2^Dim points by themselves, or any number of them in a row. There nodal fields exist that no point sees. Masses by point of the cloud [kg].
+template <int Dim>
+std::vector<LooseCell<Dim>> looseCells(const CloudBasis<Dim>&, const std::vector<double>& masses, const std::vector<GhostFace<Dim>>&, const Grid<Dim>&);
+
+} // namespace gimpm
