@@ -65,8 +65,7 @@ template <int Dim> void askTerms(const StepSystem<Dim>& system, const Eigen::Vec
 	}
 }
 
-template <int Dim>
-bool accept(const StepSystem<Dim>& system, PointCloud<Dim>& cloud, const Load<Dim>& load, const Eigen::VectorXd& d, StepReport& report)
+template <int Dim> bool accept(const StepSystem<Dim>& system, PointCloud<Dim>& cloud, const Load<Dim>& load, const Eigen::VectorXd& d, StepReport& report)
 {
 	const Stopwatch watch(report.times.update);
 	addReactionsBeyondWalls(system, cloud, load, d, report.reactions);

@@ -34,8 +34,8 @@ template <int Dim> Stiffest stiffest(const PointCloud<Dim>& cloud, const Model<D
 
 template <int Dim> double criticalStep(const PointCloud<Dim>& cloud, const Model<Dim>& model, double ghostMass, double penalty)
 {
-	const Stiffest most  = stiffest(cloud, model);
-	const double   h     = model.grid.cellSize, C = factor(Dim, ghostMass, most.spacing);
+	const Stiffest most = stiffest(cloud, model);
+	const double   h = model.grid.cellSize, C = factor(Dim, ghostMass, most.spacing);
 	const double   scale = model.ghost.scaling == GhostScaling::paper ? h * h : 1;
 	const double   ghost = ghostMass > 0 ? 2 * model.ghost.factor * scale / ghostMass : 0;
 	for (const auto& [box, wall] : model.walls)

@@ -117,9 +117,9 @@ template <int Dim> Eigen::VectorXd ExplicitInertia<Dim>::accelerate(const Eigen:
 
 template <int Dim> void ExplicitInertia<Dim>::commit()
 {
-	const double          T      = motion_.duration;
-	const Eigen::VectorXd d      = displacements(), growth = jump_ + T / 2 * acceleration_;
-	Eigen::VectorXd       ghost  = Eigen::VectorXd::Zero(d.size());
+	const double          T = motion_.duration;
+	const Eigen::VectorXd d = displacements(), growth = jump_ + T / 2 * acceleration_;
+	Eigen::VectorXd       ghost = Eigen::VectorXd::Zero(d.size());
 	addGhostForce(faces_, h_, d, ghost);
 	motion_.ghostWork = T * end_.dot(ghost);
 	for (const auto& each : damping_)

@@ -27,11 +27,11 @@ public:
 	void commit();
 
 private:
-	void            begin(const Beginning<Dim>&);
-	void            findMiddle(const Beginning<Dim>&);
-	void            findJump();
-	void            solve(const Eigen::VectorXd& right, const FreeDofs&, Eigen::VectorXd& x, const Eigen::VectorXd* C = nullptr);
-	bool            isHeld(Eigen::Index dof) const { return dofs_.number[dof] < 0; }
+	void begin(const Beginning<Dim>&);
+	void findMiddle(const Beginning<Dim>&);
+	void findJump();
+	void solve(const Eigen::VectorXd& right, const FreeDofs&, Eigen::VectorXd& x, const Eigen::VectorXd* C = nullptr);
+	bool isHeld(Eigen::Index dof) const { return dofs_.number[dof] < 0; }
 
 	Motion<Dim>&                               motion_;
 	const CloudBasis<Dim>&                     basis_;

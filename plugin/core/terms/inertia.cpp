@@ -19,8 +19,7 @@ template <int Dim> std::vector<GhostFace<Dim>> massFaces(const Motion<Dim>& moti
 	return faces;
 }
 
-template <int Dim>
-Eigen::VectorXd weighedAtNodes(const CloudBasis<Dim>& basis, const std::vector<double>& mass, const std::vector<Vec<Dim>>& ofPoints)
+template <int Dim> Eigen::VectorXd weighedAtNodes(const CloudBasis<Dim>& basis, const std::vector<double>& mass, const std::vector<Vec<Dim>>& ofPoints)
 {
 	std::vector<Vec<Dim>> weighted(ofPoints.size());
 	for (std::size_t p = 0; p < weighted.size(); ++p)
@@ -31,14 +30,15 @@ Eigen::VectorXd weighedAtNodes(const CloudBasis<Dim>& basis, const std::vector<d
 }
 
 template <int Dim>
-Eigen::VectorXd
-ofHeld(const Eigen::VectorXd& otherwise, Vec<Dim> MovingBase<Dim>::*value, const std::vector<MovingBase<Dim>>& bases, const Beginning<Dim>& step)
+Eigen::VectorXd ofHeld(
+        const Eigen::VectorXd& otherwise, Vec<Dim> MovingBase<Dim>::*value, const std::vector<MovingBase<Dim>>& bases, const Beginning<Dim>& step)
 {
 	Eigen::VectorXd x = otherwise;
 	for (const auto& base : bases)
 		for (std::size_t n = 0; n < step.basis.nodes.size(); ++n)
 			for (int a = 0; a < Dim; ++a)
-				if (step.dofs.number[Dim * n + a] < 0 && base.box.holds(Grid<Dim>::index(step.basis.nodes[n]), a)) x[Dim * n + a] = (base.*value)[a];
+				if (step.dofs.number[Dim * n + a] < 0 && base.box.holds(Grid<Dim>::index(step.basis.nodes[n]), a))
+					x[Dim * n + a] = (base.*value)[a];
 	return x;
 }
 
@@ -274,8 +274,7 @@ template <int Dim> void Inertia<Dim>::commit(const Eigen::VectorXd& d)
 	template class Inertia<Dim>;                                                                                                                           \
 	template std::vector<GhostFace<Dim>> massFaces(const Motion<Dim>&, const Beginning<Dim>&);                                                             \
 	template Eigen::VectorXd             weighedAtNodes(const CloudBasis<Dim>&, const std::vector<double>&, const std::vector<Vec<Dim>>&);                 \
-	template Eigen::VectorXd             ofHeld(                                                                                                           \
-                const Eigen::VectorXd&, Vec<Dim> MovingBase<Dim>::*, const std::vector<MovingBase<Dim>>&, const Beginning<Dim>&);
+	template Eigen::VectorXd ofHeld(const Eigen::VectorXd&, Vec<Dim> MovingBase<Dim>::*, const std::vector<MovingBase<Dim>>&, const Beginning<Dim>&);
 GIMPM_INSTANTIATE(2)
 GIMPM_INSTANTIATE(3)
 #undef GIMPM_INSTANTIATE

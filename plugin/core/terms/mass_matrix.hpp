@@ -26,7 +26,8 @@ public:
 	{
 		for (int a = 0; a < nodes(); ++a)
 			for (int code = 0; code < codes; ++code)
-				if (const std::size_t place = std::size_t(a) * codes + code; neighbour_[place] >= 0) f(a, neighbour_[place], code, value_[place]);
+				if (const std::size_t place = std::size_t(a) * codes + code; neighbour_[place] >= 0)
+					f(a, neighbour_[place], code, value_[place]);
 	}
 
 	/// Rows and columns of the degrees of freedom that are free along an axis.
