@@ -46,6 +46,7 @@ template <int Dim> StepReport explicitStep(PointCloud<Dim>& cloud, const Model<D
 	// 4. accelerations there, and what holds the held nodes
 	report.reactions                     = reactions(system, Eigen::VectorXd(system.external + inertia.accelerate(imbalance)));
 	report.conjugateGradients.iterations = inertia.iterations();
+	report.times.linear.solve            = inertia.seconds();
 	if (inertia.isSingular()) return fail(report, Failure::singular, "the mass matrix is singular to working precision"), report;
 	// 5. nodes to points; 6. the grid is reset by not being kept
 	if (accept(system, cloud, load, d, report)) inertia.commit();

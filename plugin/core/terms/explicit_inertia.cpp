@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "core/terms/explicit_inertia.hpp"
+#include "core/base/stopwatch.hpp"
 #include "core/grid/point_nodes.hpp"
 #include <algorithm>
 
@@ -23,17 +24,19 @@ template <int Dim> Vec<Dim> atPoint(const Patch<Dim>& patch, const double* value
 	return sum;
 }
 
+template <int Dim> NodalMass<Dim> massOf(const Motion<Dim>& motion, const Beginning<Dim>& step, double& seconds)
+{
+	const Stopwatch watch(seconds);
+	return NodalMass<Dim>(step.basis, motion.mass, massFaces(motion, step), step.grid.cellSize);
+}
+
 } // namespace
 
 template <int Dim>
 ExplicitInertia<Dim>::ExplicitInertia(Motion<Dim>& motion, const Beginning<Dim>& step)
-        : motion_(motion)
-        , basis_(step.basis)
-        , dofs_(step.dofs)
-        , faces_(step.faces)
-        , h_(step.grid.cellSize)
-        , mass_(step.basis, motion.mass, massFaces(motion, step), step.grid.cellSize)
+        : motion_(motion), basis_(step.basis), dofs_(step.dofs), faces_(step.faces), h_(step.grid.cellSize), mass_(massOf(motion, step, seconds_))
 {
+	const Stopwatch watch(seconds_);
 	blow_ = jump_ = Eigen::VectorXd::Zero(step.prescribed.size());
 	for (const auto& make : motion.damping)
 		damping_.push_back(make(step));
@@ -99,6 +102,7 @@ template <int Dim> std::string ExplicitInertia<Dim>::obstacle() const
 /// Forces C v that are diagonal act with the velocity at the end, v_1/2 + T/2 a_1: they cost no stability.
 template <int Dim> Eigen::VectorXd ExplicitInertia<Dim>::accelerate(const Eigen::VectorXd& imbalance)
 {
+	const Stopwatch watch(seconds_);
 	const double    T     = motion_.duration;
 	Eigen::VectorXd force = Eigen::VectorXd::Zero(imbalance.size()), C = force;
 	for (const auto& each : damping_) {

@@ -17,6 +17,7 @@ public:
 	std::string obstacle() const; ///< why the step cannot be made, a clause; empty if it can
 	bool        isSingular() const { return isSingular_; }
 	int         iterations() const { return mass_.iterations(); } ///< of conjugate gradients
+	double      seconds() const { return seconds_; }              ///< for all that has to do with mass
 
 	Eigen::VectorXd displacements() const { return motion_.duration * middle_; }
 
@@ -38,6 +39,7 @@ private:
 	const FreeDofs&                            dofs_;
 	const std::vector<GhostFace<Dim>>&         faces_;
 	double                                     h_; // size of the cells
+	double                                     seconds_ = 0;
 	NodalMass<Dim>                             mass_;
 	std::vector<std::unique_ptr<Damping<Dim>>> damping_;
 	bool                                       isSingular_ = false;
