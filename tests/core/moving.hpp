@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Bodies with inertia for the tests of the core.
 #pragma once
-#include "core/terms/inertia.hpp"
+#include "core/stepping/explicit_step.hpp"
 #include "scenes.hpp"
 #include <Eigen/Geometry>
 
@@ -22,7 +22,8 @@ template <int Dim> struct Moving {
 		model.newton.tolerance = 1e-9;
 		model.atMiddle         = scheme.atMiddle;
 		motion->scheme         = scheme;
-		model.terms            = { [motion = motion](const Beginning<Dim>& step) { return std::make_unique<Inertia<Dim>>(*motion, step); } };
+		if (!scheme.isExplicit)
+			model.terms = { [motion = motion](const Beginning<Dim>& step) { return std::make_unique<Inertia<Dim>>(*motion, step); } };
 	}
 	/// Points with the velocity(position).
 	template <class F> void put(PointCloud<Dim> points, F&& velocity)
@@ -39,6 +40,7 @@ template <int Dim> struct Moving {
 	StepReport step(double duration)
 	{
 		motion->duration = duration;
+		if (motion->scheme.isExplicit) return explicitStep<Dim>(cloud, model, { gravity, { 1, 0 } }, *motion);
 		return loadStep(cloud, model, { gravity, { 1, 0 } }, solver);
 	}
 	bool steps(int count, double duration)

@@ -43,7 +43,9 @@ template <int Dim> std::vector<Vec<Dim>> pointForces(const PointCloud<Dim>& clou
 	return force;
 }
 
-template <int Dim> StepSystem<Dim>::StepSystem(const PointCloud<Dim>& cloud, const Model<Dim>& m, const Load<Dim>& load, StepReport& report) : model(m)
+template <int Dim>
+StepSystem<Dim>::StepSystem(const PointCloud<Dim>& cloud, const Model<Dim>& m, const Load<Dim>& load, StepReport& report)
+        : model(m), cloud_(cloud), stiffnessOf_(stiffnessOf(cloud, m))
 {
 	{
 		const Stopwatch watch(report.times.basis);
@@ -52,11 +54,10 @@ template <int Dim> StepSystem<Dim>::StepSystem(const PointCloud<Dim>& cloud, con
 		external = Eigen::VectorXd::Zero(nodalSize());
 		addPointForces(basis, pointForces(cloud, model, load), external);
 	}
-	const PointStiffness moduli = stiffnessOf(cloud, model);
-	faces                       = stabilise(moduli, model, basis, report);
+	faces = stabilise(stiffnessOf_, model, basis, report);
 	const Stopwatch watch(report.times.basis);
 	holdNodes(load);
-	makeTerms(cloud, load, moduli);
+	makeTerms(load);
 	report.nodes          = int(basis.nodes.size());
 	report.dofs           = dofs.count;
 	report.populatedCells = int(basis.cells.size());
@@ -79,23 +80,23 @@ template <int Dim> void StepSystem<Dim>::holdNodes(const Load<Dim>& load)
 		}
 }
 
-template <int Dim> void StepSystem<Dim>::makeTerms(const PointCloud<Dim>& cloud, const Load<Dim>& load, const PointStiffness& moduli)
+template <int Dim> void StepSystem<Dim>::makeTerms(const Load<Dim>& load)
 {
 	if (model.atMiddle) terms.push_back(std::make_unique<InternalForceAtMiddle<Dim>>(basis, points, model.materials));
 	else
 		terms.push_back(std::make_unique<InternalForce<Dim>>(basis, points, model.materials));
 	if (!faces.empty()) terms.push_back(std::make_unique<GhostForce<Dim>>(faces, model.grid.cellSize));
 	for (const auto& [box, wall] : model.walls)
-		terms.push_back(std::make_unique<WallForce<Dim>>(*wall, basis, moduli, model.grid));
-	const std::function<Eigen::VectorXd()> imbalance = [&] {
+		terms.push_back(std::make_unique<WallForce<Dim>>(*wall, basis, stiffnessOf_, model.grid));
+	imbalance_ = [this, earlier = load.before()] {
 		Eigen::VectorXd before = Eigen::VectorXd::Zero(nodalSize()), resistance = before;
-		addPointForces(basis, pointForces(cloud, model, load.before()), before);
+		addPointForces(basis, pointForces(cloud_, model, earlier), before);
 		for (const auto& term : terms)
 			term->addBefore(resistance);
 		return Eigen::VectorXd(before - resistance);
 	};
 	for (const auto& make : model.terms)
-		terms.push_back(make({ cloud, basis, model.grid, moduli, faces, dofs, prescribed, imbalance }));
+		terms.push_back(make(beginning()));
 	for (const auto& term : terms)
 		if (auto d = term->ownMotion(); d.size() > 0) ownMotion = std::move(d);
 }

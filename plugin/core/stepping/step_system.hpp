@@ -48,8 +48,15 @@ template <int Dim> struct StepSystem {
 
 	bool hasInertia() const { return ownMotion.size() > 0; }
 
+	/// How things are as the step begins; the cloud has to be as it was then.
+	Beginning<Dim> beginning() const { return { cloud_, basis, model.grid, stiffnessOf_, faces, dofs, prescribed, imbalance_ }; }
+
 private:
-	void makeTerms(const PointCloud<Dim>&, const Load<Dim>&, const PointStiffness&);
+	const PointCloud<Dim>&           cloud_;
+	PointStiffness                   stiffnessOf_;
+	std::function<Eigen::VectorXd()> imbalance_;
+
+	void makeTerms(const Load<Dim>&);
 	void holdNodes(const Load<Dim>&);
 };
 

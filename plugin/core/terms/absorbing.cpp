@@ -146,6 +146,13 @@ template <int Dim> void Absorption<Dim>::addBefore(const Eigen::VectorXd& v, Eig
 		        += dashpot.drag.cwiseProduct(v.template segment<Dim>(Dim * node) - 2 * boundary_.incomingBefore) - dashpot.borne;
 }
 
+template <int Dim> bool Absorption<Dim>::addDiagonal(Eigen::VectorXd& drag) const
+{
+	for (const auto& [node, dashpot] : dashpots_)
+		drag.template segment<Dim>(Dim * node) += dashpot.drag;
+	return true;
+}
+
 template <int Dim> std::string Absorption<Dim>::obstacle() const
 {
 	if (isInside_) return "an absorbing boundary has material on both sides: it has to be at the edge of the body";

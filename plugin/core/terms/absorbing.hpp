@@ -29,6 +29,7 @@ public:
 	void        mark(NodeMatrix<Dim>&) const override;
 	void        add(const Eigen::VectorXd& v, double slope, const TermSum<Dim>&) const override;
 	void        addBefore(const Eigen::VectorXd& v, Eigen::VectorXd& force) const override;
+	bool        addDiagonal(Eigen::VectorXd& drag) const override;
 	std::string obstacle() const override;
 	double      fromOutside(const Eigen::VectorXd& v) const override;
 	void        commit(const Eigen::VectorXd& d, const Eigen::VectorXd& before, const Eigen::VectorXd& now) override;

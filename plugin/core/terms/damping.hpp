@@ -20,6 +20,9 @@ public:
 	/// Adds the force at the velocities with which the step begins.
 	virtual void addBefore(const Eigen::VectorXd& v, Eigen::VectorXd& force) const = 0;
 
+	/// Adds C where it is diagonal, by degree of freedom [N s/m]. False: it is not.
+	virtual bool addDiagonal(Eigen::VectorXd&) const { return false; }
+
 	virtual bool isSymmetric() const { return true; }
 
 	/// Why the step cannot be made with it, a clause; empty if it can.

@@ -7,9 +7,7 @@
 #include <sstream>
 
 namespace gimpm {
-namespace {
 
-/// Faces with gamma_M h^3 / 3 for their stiffness, gamma_M by the density of the lighter of the two cells.
 template <int Dim> std::vector<GhostFace<Dim>> massFaces(const Motion<Dim>& motion, const Beginning<Dim>& step)
 {
 	if (motion.ghostMass == 0) return {};
@@ -22,14 +20,34 @@ template <int Dim> std::vector<GhostFace<Dim>> massFaces(const Motion<Dim>& moti
 	return faces;
 }
 
-/// Without ghost mass nothing is connected, and mass is that of the points alone.
 template <int Dim> std::vector<LooseCell<Dim>> looseOf(const Motion<Dim>& motion, const Beginning<Dim>& step)
 {
 	if (motion.ghostMass == 0) return {};
 	return looseCells(step.basis, motion.mass, step.faces, step.grid);
 }
 
-} // namespace
+template <int Dim> Eigen::VectorXd weighedAtNodes(const CloudBasis<Dim>& basis, const std::vector<double>& mass, const std::vector<Vec<Dim>>& ofPoints)
+{
+	std::vector<Vec<Dim>> weighted(ofPoints.size());
+	for (std::size_t p = 0; p < weighted.size(); ++p)
+		weighted[p] = mass[p] * ofPoints[p];
+	Eigen::VectorXd sum = Eigen::VectorXd::Zero(Dim * Eigen::Index(basis.nodes.size()));
+	addPointForces(basis, weighted, sum);
+	return sum;
+}
+
+template <int Dim>
+Eigen::VectorXd ofHeld(
+        const Eigen::VectorXd& otherwise, Vec<Dim> MovingBase<Dim>::*value, const std::vector<MovingBase<Dim>>& bases, const Beginning<Dim>& step)
+{
+	Eigen::VectorXd x = otherwise;
+	for (const auto& base : bases)
+		for (std::size_t n = 0; n < step.basis.nodes.size(); ++n)
+			for (int a = 0; a < Dim; ++a)
+				if (step.dofs.number[Dim * n + a] < 0 && base.box.holds(Grid<Dim>::index(step.basis.nodes[n]), a))
+					x[Dim * n + a] = (base.*value)[a];
+	return x;
+}
 
 template <int Dim>
 Inertia<Dim>::Inertia(Motion<Dim>& motion, const Beginning<Dim>& step)
@@ -42,22 +60,11 @@ Inertia<Dim>::Inertia(Motion<Dim>& motion, const Beginning<Dim>& step)
         , mass_(step.basis, motion.mass, massFaces(motion, step), step.grid.cellSize, looseOf(motion, step))
 {
 	imbalance_ = acceleration_ = expected_ = blow_ = jump_ = Eigen::VectorXd::Zero(prescribed_.size());
-	const auto held = [&](const Eigen::VectorXd& otherwise, Vec<Dim> MovingBase<Dim>::*value) { return ofHeld(otherwise, value, step.basis.nodes); };
+	const auto held = [&](const Eigen::VectorXd& otherwise, Vec<Dim> MovingBase<Dim>::*value) { return ofHeld(otherwise, value, motion.bases, step); };
 	findVelocity(held(prescribed_ / motion.duration, &MovingBase<Dim>::velocity));
 	for (const auto& make : motion.damping)
 		damping_.push_back(make(step));
 	if (motion.scheme.dependsOnStart()) findAcceleration(step, held(acceleration_, &MovingBase<Dim>::acceleration));
-}
-
-/// A value of the held degrees of freedom.
-template <int Dim> Eigen::VectorXd Inertia<Dim>::ofHeld(const Eigen::VectorXd& otherwise, Vec<Dim> MovingBase<Dim>::*value, const std::vector<Key>& nodes) const
-{
-	Eigen::VectorXd x = otherwise;
-	for (const auto& base : motion_.bases)
-		for (std::size_t n = 0; n < nodes.size(); ++n)
-			for (int a = 0; a < Dim; ++a)
-				if (isHeld(Dim * n + a) && base.box.holds(Grid<Dim>::index(nodes[n]), a)) x[Dim * n + a] = (base.*value)[a];
-	return x;
 }
 
 /// Of all forces as the step begins, also at held nodes.
@@ -74,7 +81,7 @@ template <int Dim> Eigen::VectorXd Inertia<Dim>::imbalanceOf(const Beginning<Dim
 template <int Dim> void Inertia<Dim>::findVelocity(const Eigen::VectorXd& ofHeld)
 {
 	constexpr double      roundOff = 1e-13;
-	const Eigen::VectorXd momentum = toNodes(motion_.velocity);
+	const Eigen::VectorXd momentum = weighedAtNodes(basis_, motion_.mass, motion_.velocity);
 	velocity_                      = solve(momentum, ofHeld);
 	blow_                          = mass_ * velocity_ - momentum;
 	const double least             = roundOff * momentum.template lpNorm<Eigen::Infinity>();
@@ -97,7 +104,7 @@ template <int Dim> void Inertia<Dim>::findAcceleration(const Beginning<Dim>& ste
 	const Eigen::VectorXd contact = ofContact(nullptr);
 	const bool            begins  = std::all_of(motion_.acceleration.begin(), motion_.acceleration.end(), [](const Vec<Dim>& a) { return a.isZero(0); });
 	if (motion_.scheme.alphaF != 0 || begins) imbalance_ = imbalanceOf(step);
-	const Eigen::VectorXd force = begins ? imbalance_ : toNodes(motion_.acceleration);
+	const Eigen::VectorXd force = begins ? imbalance_ : weighedAtNodes(basis_, motion_.mass, motion_.acceleration);
 	imbalance_ -= contact;
 	for (Eigen::Index i = 0; i < imbalance_.size(); ++i)
 		if (isHeld(i) || motion_.scheme.alphaF == 0) imbalance_[i] = 0;
@@ -113,17 +120,6 @@ template <int Dim> Eigen::VectorXd Inertia<Dim>::ofContact(const Eigen::VectorXd
 	else
 		motion_.contacts->acting->add(*d, { resistance });
 	return -resistance / (d ? motion_.contacts->weight : 1);
-}
-
-/// Sum of S m x_p.
-template <int Dim> Eigen::VectorXd Inertia<Dim>::toNodes(const std::vector<Vec<Dim>>& ofPoints) const
-{
-	std::vector<Vec<Dim>> weighted(ofPoints.size());
-	for (std::size_t p = 0; p < weighted.size(); ++p)
-		weighted[p] = motion_.mass[p] * ofPoints[p];
-	Eigen::VectorXd sum = Eigen::VectorXd::Zero(prescribed_.size());
-	addPointForces(basis_, weighted, sum);
-	return sum;
 }
 
 /// x of (M + M_g) x = momentum at the free degrees of freedom, with the values that the held ones have.
@@ -297,7 +293,14 @@ template <int Dim> void Inertia<Dim>::commit(const Eigen::VectorXd& d)
 	});
 }
 
-template class Inertia<2>;
-template class Inertia<3>;
+#define GIMPM_INSTANTIATE(Dim)                                                                                                                                 \
+	template class Inertia<Dim>;                                                                                                                           \
+	template std::vector<LooseCell<Dim>> looseOf(const Motion<Dim>&, const Beginning<Dim>&);                                                               \
+	template std::vector<GhostFace<Dim>> massFaces(const Motion<Dim>&, const Beginning<Dim>&);                                                             \
+	template Eigen::VectorXd             weighedAtNodes(const CloudBasis<Dim>&, const std::vector<double>&, const std::vector<Vec<Dim>>&);                 \
+	template Eigen::VectorXd ofHeld(const Eigen::VectorXd&, Vec<Dim> MovingBase<Dim>::*, const std::vector<MovingBase<Dim>>&, const Beginning<Dim>&);
+GIMPM_INSTANTIATE(2)
+GIMPM_INSTANTIATE(3)
+#undef GIMPM_INSTANTIATE
 
 } // namespace gimpm

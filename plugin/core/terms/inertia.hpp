@@ -37,6 +37,19 @@ template <int Dim> struct Motion {
 	static constexpr double infinite = std::numeric_limits<double>::infinity();
 };
 
+/// Faces with gamma_M h^3 / 3 for their stiffness, gamma_M by the density of the lighter of the two cells.
+template <int Dim> std::vector<GhostFace<Dim>> massFaces(const Motion<Dim>&, const Beginning<Dim>&);
+
+/// None without ghost mass: then nothing is connected, and mass is that of the points alone.
+template <int Dim> std::vector<LooseCell<Dim>> looseOf(const Motion<Dim>&, const Beginning<Dim>&);
+
+/// Sum of S m x_p at the nodes.
+template <int Dim> Eigen::VectorXd weighedAtNodes(const CloudBasis<Dim>&, const std::vector<double>& mass, const std::vector<Vec<Dim>>& ofPoints);
+
+/// A value of the held degrees of freedom.
+template <int Dim>
+Eigen::VectorXd ofHeld(const Eigen::VectorXd& otherwise, Vec<Dim> MovingBase<Dim>::*value, const std::vector<MovingBase<Dim>>&, const Beginning<Dim>&);
+
 /// Consistent mass times acceleration, and damping. Points give momentum to the nodes, which have the velocities v of (M + M_g) v = sum of S m v_p, held ones those that
 /// the step prescribes, by a blow where points have brought others along; points take back what changes of them (FLIP). Every other force is that at the end of the step. Where
 /// the scheme weighs it with that of the beginning the whole balance is divided by its weight: so other terms are as in a step without inertia.
@@ -59,9 +72,7 @@ public:
 	void                        commit(const Eigen::VectorXd& d) override;
 
 private:
-	Eigen::VectorXd toNodes(const std::vector<Vec<Dim>>& ofPoints) const;
 	Eigen::VectorXd solve(const Eigen::VectorXd& momentum, const Eigen::VectorXd& ofHeld);
-	Eigen::VectorXd ofHeld(const Eigen::VectorXd& otherwise, Vec<Dim> MovingBase<Dim>::*value, const std::vector<Key>& nodes) const;
 	Eigen::VectorXd imbalanceOf(const Beginning<Dim>&) const;
 	Eigen::VectorXd velocityAt(const Eigen::VectorXd& d) const;
 	void            solve(int axis, int solver, const FreeDofs&, const Eigen::VectorXd& right, Eigen::VectorXd& x);

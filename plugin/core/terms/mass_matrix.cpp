@@ -58,13 +58,6 @@ template <int Dim> void MassMatrix<Dim>::addLoose(const LooseCell<Dim>& cell, do
 			add(cell.node[a], cell.node[b], codeOf(corners, b) - codeOf(corners, a), (a == b) * m - m / n);
 }
 
-template <int Dim> template <class F> void MassMatrix<Dim>::forEntries(F&& f) const
-{
-	for (int a = 0; a < nodes(); ++a)
-		for (int code = 0; code < codes; ++code)
-			if (const std::size_t place = std::size_t(a) * codes + code; neighbour_[place] >= 0) f(a, neighbour_[place], code, value_[place]);
-}
-
 template <int Dim> void MassMatrix<Dim>::mark(NodeMatrix<Dim>& K) const
 {
 	forEntries([&](int a, int, int code, double) { K.markUsed(a, code); });

@@ -25,6 +25,15 @@ public:
 	Eigen::VectorXd operator*(const Eigen::VectorXd& x) const;      ///< for nodal vectors of Dim components a node
 	Eigen::VectorXd sizesTimes(const Eigen::VectorXd& x) const;     ///< the same with the magnitudes of all numbers
 
+	/// f(a, b, code, number) for b not before a.
+	template <class F> void forEntries(F&& f) const
+	{
+		for (int a = 0; a < nodes(); ++a)
+			for (int code = 0; code < codes; ++code)
+				if (const std::size_t place = std::size_t(a) * codes + code; neighbour_[place] >= 0)
+					f(a, neighbour_[place], code, value_[place]);
+	}
+
 	/// Rows and columns of the degrees of freedom that are free along an axis.
 	SymmetricCsc reduced(const FreeDofs&, int axis) const;
 
@@ -41,9 +50,6 @@ private:
 
 	/// Of the matrix that has weight(number) for each number.
 	template <class F> Eigen::VectorXd product(const Eigen::VectorXd& x, F&& weight) const;
-
-	/// f(a, b, code, number) for b not before a.
-	template <class F> void forEntries(F&& f) const;
 
 	std::vector<double> value_;
 	std::vector<int>    neighbour_; // -1: nothing there

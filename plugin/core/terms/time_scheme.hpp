@@ -8,7 +8,8 @@ namespace gimpm {
 /// (1 - alphaM) a_1 + alphaM a_0 and of the forces (1 - alphaF) f_1 + alphaF f_0 (Chung and Hulbert 1993).
 struct TimeScheme {
 	double beta = 0.25, gamma = 0.5, alphaM = 0, alphaF = 0;
-	bool   atMiddle = false; ///< internal forces are those after half of the displacements (Model::atMiddle), and loads those in the middle of the step
+	bool   atMiddle   = false; ///< internal forces are those after half of the displacements (Model::atMiddle), and loads those in the middle of the step
+	bool   isExplicit = false; ///< nothing is solved but for the mass (core/stepping/explicit_step.hpp)
 
 	static TimeScheme newmark(double beta, double gamma) { return { beta, gamma }; }
 
@@ -22,9 +23,12 @@ struct TimeScheme {
 	/// v_1 = 2 d / T - v_0 and a_1 = (v_1 - v_0) / T. Angular momentum is kept.
 	static TimeScheme midpoint() { return { 0.5, 1, 0, 0, true }; }
 
+	/// Newmark's with beta = 0: d = T v_0 + T^2 / 2 a_0 is known as the step begins. Stable up to the critical step (core/stepping/critical_step.hpp).
+	static TimeScheme centralDifferences() { return { 0, 0.5, 0, 0, false, true }; }
+
 	/// Of contact forces in the balance, so that they act with their value at the end of the step all through it (C. Kane et al. 1999): in the mean of two ends
 	/// they would give energy to what bounces.
-	double weightOfContact() const { return (1 - alphaM) / (2 * beta * (1 - alphaF)); }
+	double weightOfContact() const { return isExplicit ? 1 : (1 - alphaM) / (2 * beta * (1 - alphaF)); }
 
 	bool dependsOnStart() const { return beta != 0.5 || gamma != 1; } ///< on a_0
 	bool isAlpha() const { return alphaF != 0 || alphaM != 0; }       ///< equilibrium is weighed over the step

@@ -9,12 +9,21 @@ namespace yade {
 gimpm::TimeScheme MpmDynamicEngine::timeScheme() const
 {
 	if (scheme == "newmark") return gimpm::TimeScheme::newmark(beta, gamma);
+	if (isExplicit()) return gimpm::TimeScheme::centralDifferences();
 	return scheme == "midpoint" ? gimpm::TimeScheme::midpoint() : gimpm::TimeScheme::generalisedAlpha(rhoInfinity);
+}
+
+Real MpmDynamicEngine::ghostMass() const
+{
+	if (ghost->factor == 0) return 0; // there are no faces
+	if (!std::isnan(ghost->massFactor)) return ghost->massFactor;
+	return isExplicit() ? MpmGhost::usualExplicitMassFactor : MpmGhost::usualMassFactor;
 }
 
 void MpmDynamicEngine::requireAdmissible() const
 {
 	Exposed<MpmDynamicEngine, MpmImplicitEngine>::requireAdmissible();
+	if (isExplicit()) requireExplicit(*this);
 	if (scheme == "midpoint" && timeTolerance > 0)
 		throw std::invalid_argument(
 		        "MpmDynamicEngine.timeTolerance = " + std::to_string(timeTolerance)

@@ -3,6 +3,7 @@
 #include "core/terms/time_scheme.hpp"
 #include "engine/conditions/MpmAbsorbingBoundary.hpp"
 #include "engine/solver/MpmImplicitEngine.hpp"
+#include "engine/solver/explicit_steps.hpp"
 
 namespace yade {
 
@@ -22,7 +23,7 @@ public:
 	YADE_API_NAME(MpmDynamicEngine)
 	static const char* doc()
 	{
-		return "Implicit dynamic analysis: MpmImplicitEngine with inertia. Each run advances the material points in time, from the last converged time to O.time + "
+		return "Dynamic analysis, implicit or explicit: MpmImplicitEngine with inertia. Each run advances the material points in time, from the last converged time to O.time + "
 		       "O.dt [s], with velocities that their states keep (*vel*; mpm.assign(velocity=...)). Consistent mass, stabilised at the edge of the body as the "
 		       "stiffness is (MpmGhost.massFactor).";
 	}
@@ -33,9 +34,9 @@ public:
 		  "Load factor [-] as of MpmImplicitEngine. Here it is 1 from the beginning unless another curve is given: loads act at once.",
 		  admitting("one or more (time, factor), all finite, with increasing times", gimpm::LoadCurve::isAdmissible));
 		v("scheme", &E::scheme, 0,
-		  "Integration in time: 'newmark' (*beta*, *gamma*), 'generalised-alpha' (*rhoInfinity*), which damps high frequencies (Chung and Hulbert 1993), or "
-		  "'midpoint', which keeps angular momentum.",
-		  oneOf("newmark", "generalised-alpha", "midpoint"));
+		  "Integration in time: 'newmark' (*beta*, *gamma*), 'generalised-alpha' (*rhoInfinity*), which damps high frequencies, 'midpoint', which keeps angular "
+		  "momentum, or 'explicit', central differences, up to *criticalTimeStep*.",
+		  oneOf("newmark", "generalised-alpha", "midpoint", "explicit"));
 		v("beta", &E::beta, 0,
 		  "Newmark's parameter [-] > 0 and <= 1; 1/4 with gamma = 1/2 is the trapezoidal rule. Below (gamma + 1/2)^2 / 4 long steps are unstable.",
 		  part);
@@ -63,11 +64,15 @@ public:
 		  admitting("forces of finite numbers [N]", [](const auto& forces) { return std::all_of(forces.begin(), forces.end(), finite); }));
 	}
 
+	template <class C> static void python(C& c) { addExplicitSteps(c); }
+
 	void action() override;
 	bool isDynamic() const override { return true; }
+	bool isExplicit() const override { return scheme == "explicit"; }
 	void tellMotion(py::dict&) const override;
 
 	gimpm::TimeScheme timeScheme() const;
+	Real              ghostMass() const; // over the density
 
 	void requireAdmissible() const override;
 

@@ -7,7 +7,7 @@ namespace yade {
 class MpmGhost : public Exposed<MpmGhost, Serializable> {
 public:
 	// Of the mass where nothing is given: bounds the condition number, and takes next to no energy from waves that three cells can carry (docs/theory.md).
-	static constexpr Real usualMassFactor = 1e-3;
+	static constexpr Real usualMassFactor = 1e-3, usualExplicitMassFactor = 0.25;
 
 	Real   factor     = 1e-2;
 	string scaling    = "mesh-independent";
@@ -29,7 +29,7 @@ public:
 		  "h = 1 m.",
 		  oneOf("mesh-independent", "paper"));
 		v("massFactor", &MpmGhost::massFactor, 0,
-		  "Of MpmDynamicEngine, ghost mass [-] >= 0: gamma_M is this times the density, the lower of a face's two cells. NaN, the default: 1e-3. 0: none.",
+		  "Of MpmDynamicEngine, ghost mass [-] >= 0: gamma_M is this times the density, the lower of a face's two cells. NaN, the default: 1e-3, with scheme='explicit' 1/4. 0: none.",
 		  admitting("a finite number >= 0, or NaN for the default", [](Real value) { return std::isnan(value) || nonNegative(value); }));
 	}
 };

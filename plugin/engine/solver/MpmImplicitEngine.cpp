@@ -91,7 +91,7 @@ template <int Dim> Job<Dim> MpmImplicitEngine::prepare()
 	progressLine.start(scene->iter);
 	warn(plausibility.doubtOfEnd(*this));
 	double   gathering = 0, checking = 0;
-	Job<Dim> job { { stepPart, newton->minStep, newton->maxIterations }, loadTime, scene->time + scene->dt };
+	Job<Dim> job { { stepPart, isExplicit() ? 1 : newton->minStep, newton->maxIterations }, loadTime, scene->time + scene->dt };
 	{
 		const gimpm::Stopwatch watch(gathering);
 		job.model = toModel<Dim>(*grid, basis, fBar, boundaries, *ghost, *newton);
@@ -119,9 +119,10 @@ template <int Dim> void MpmImplicitEngine::advance(Job<Dim>& job)
 	Interruption interruption;
 	job.model.newton.interrupted = [&] { return interruption.isRequested(); };
 	while (!job.control.isDone()) {
-		Attempt<Dim>            tried  = attempt(job);
-		const gimpm::StepReport report = gimpm::loadStep(job.cloud, job.model, tried.load, solver, tried.predicts ? &tried.last : nullptr);
-		const ValueLock         lock;
+		Attempt<Dim>    tried  = attempt(job);
+		const auto      report = isExplicit() ? job.moving->step(job, tried)
+		                                      : gimpm::loadStep(job.cloud, job.model, tried.load, solver, tried.predicts ? &tried.last : nullptr);
+		const ValueLock lock;
 		take(report, *timingDeltas);
 		lastDisplacements = toNumbers(tried.last);
 		lastLoadIncrement = tried.last.load;

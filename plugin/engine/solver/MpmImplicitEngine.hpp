@@ -77,8 +77,8 @@ public:
 	void action() override;
 
 	virtual bool isDynamic() const { return false; }
+	virtual bool isExplicit() const { return false; }
 	virtual void tellMotion(py::dict&) const { }
-
 	// Of any engine, between taking over the values of the material points and giving them back.
 	static bool isStepAtWork();
 

@@ -33,7 +33,7 @@ namespace {
 		return text.str();
 	}
 
-	string adviceOn(const gimpm::StepReport& report, const MpmGhost& ghost, Real part)
+	string adviceOn(const gimpm::StepReport& report, const MpmGhost& ghost, Real part, bool isExplicit)
 	{
 		using gimpm::Failure;
 		string advice;
@@ -44,6 +44,7 @@ namespace {
 			return " Smaller steps (O.dt), a smaller newton.minStep or a larger timeTolerance would let it pass.";
 		if (report.failure == Failure::slides)
 			return " It may have no equilibrium; more friction, or nodes that are held (MpmBoundary), would hold it.";
+		if (isExplicit) return " Explicit steps are not cut: a smaller O.dt may help, or an implicit scheme.";
 		if (report.failure == Failure::interrupted) return " O.run() goes on from there.";
 		if (report.failure == Failure::stalled) return " Set newton.tolerance to that or more.";
 		if (report.failure == Failure::detached)
@@ -111,7 +112,7 @@ string reasonOf(const gimpm::StepReport& report, const MpmImplicitEngine& engine
 	if (part < 1) text << " (" << part << " of O.dt, after " << engine.cuts << " cuts)";
 	text << " failed: " << report.cause;
 	if (report.failedPoint >= 0) text << placeOf(points[report.failedPoint]);
-	text << "." << placeOfImbalance(report, engine, points) << adviceOn(report, *engine.ghost, part);
+	text << "." << placeOfImbalance(report, engine, points) << adviceOn(report, *engine.ghost, part, engine.isExplicit());
 	if (report.failure == gimpm::Failure::unrestrained) text << idleBoundaries(engine, points);
 	text << " The scene is at load factor " << engine.loadFactor << ", the last converged state, in iteration " << engine.scene->iter << ".";
 	return text.str();

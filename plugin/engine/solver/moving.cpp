@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "engine/solver/moving.hpp"
+#include "core/stepping/explicit_step.hpp"
 #include "engine/points/parallel.hpp"
 #include "engine/solver/MpmDynamicEngine.hpp"
+#include "engine/solver/explicit_steps.hpp"
 #include "engine/solver/plastic_work.hpp"
 
 namespace yade {
@@ -21,8 +23,7 @@ namespace {
 template <int Dim> Moving<Dim>::Moving(MpmDynamicEngine& e, Job<Dim>& job, const vector<MaterialPoint>& points) : engine(e), motion(new gimpm::Motion<Dim>)
 {
 	motion->scheme    = engine.timeScheme();
-	motion->ghostMass = std::isnan(engine.ghost->massFactor) ? MpmGhost::usualMassFactor : engine.ghost->massFactor;
-	if (engine.ghost->factor == 0) motion->ghostMass = 0; // there are no faces
+	motion->ghostMass = engine.ghostMass();
 	if (engine.timeTolerance > 0) motion->tolerance = engine.timeTolerance * engine.grid->cellSize;
 	for (size_t p = 0; p < points.size(); ++p) {
 		motion->mass.push_back(job.model.materials[job.cloud.material[p]].density * job.cloud.volume0[p]);
@@ -32,7 +33,9 @@ template <int Dim> Moving<Dim>::Moving(MpmDynamicEngine& e, Job<Dim>& job, const
 	motion->contacts   = job.contacts.weigh(motion->scheme.weightOfContact());
 	shaking            = std::make_unique<Shaking<Dim>>(engine, job, *motion);
 	job.model.atMiddle = motion->scheme.atMiddle;
-	job.model.terms.push_back([known = motion](const gimpm::Beginning<Dim>& step) { return std::make_unique<gimpm::Inertia<Dim>>(*known, step); });
+	if (engine.isExplicit()) requireStable(engine, job.cloud, job.model, job.target - job.begin);
+	else
+		job.model.terms.push_back([known = motion](const gimpm::Beginning<Dim>& step) { return std::make_unique<gimpm::Inertia<Dim>>(*known, step); });
 	job.surfaceLoads.beginAt(job.begin);
 }
 
@@ -46,6 +49,11 @@ template <int Dim> void Moving<Dim>::begin(Job<Dim>& job, Attempt<Dim>& next, Re
 	toMiddle(next.load.factor);
 	if (next.load.ofGravity) toMiddle(*next.load.ofGravity);
 	job.surfaceLoads.advanceTo(from + motion->duration / 2);
+}
+
+template <int Dim> gimpm::StepReport Moving<Dim>::step(Job<Dim>& job, const Attempt<Dim>& tried) const
+{
+	return gimpm::explicitStep(job.cloud, job.model, tried.load, *motion);
 }
 
 // Reactions are those of the two ends, where they are known; with the midpoint rule those of the middle.

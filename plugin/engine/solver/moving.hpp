@@ -17,6 +17,9 @@ public:
 	// The next step goes from here to the time of the attempt.
 	void begin(Job<Dim>&, Attempt<Dim>&, Real from) const;
 
+	// Makes an explicit step.
+	gimpm::StepReport step(Job<Dim>&, const Attempt<Dim>&) const;
+
 	// Adds up what the step that has been accepted has worked, while the points are still as before it, and gives them their velocities.
 	void reach(const Job<Dim>&, Real time, const vector<MaterialPoint>&);
 

@@ -86,16 +86,18 @@ template <int Dim> void Shaking<Dim>::requireFittingBases(const gimpm::Model<Dim
 template <int Dim> void Shaking<Dim>::begin(Attempt<Dim>& next, Real from, gimpm::Motion<Dim>& motion) const
 {
 	const Real duration = next.time - from, looked = from + duration / 2;
+	const Real before = motion.scheme.atMiddle ? looked : motion.scheme.isExplicit ? next.time : from;
+	const Real centre = motion.scheme.isExplicit ? next.time : looked; // of the steps that accelerations belong to
 	for (const auto& [boundary, edge] : edges)
 		if (boundary->motion) {
-			edge->incomingBefore = boundary->motion->velocityAt(motion.scheme.atMiddle ? looked : from).template head<Dim>();
+			edge->incomingBefore = boundary->motion->velocityAt(before).template head<Dim>();
 			edge->incoming       = boundary->motion->velocityAt(motion.scheme.atMiddle ? looked : next.time).template head<Dim>();
 		}
 	motion.bases.clear();
 	for (const auto& [b, history] : bases) {
-		const Vector3r v0 = history->velocityAt(from), v1 = history->velocityAt(next.time);
+		const Vector3r v0 = history->velocityAt(from), growth = history->velocityAt(centre + duration / 2) - history->velocityAt(centre - duration / 2);
 		next.load.boxMotion[b] = history->displacementBetween(from, next.time).template head<Dim>();
-		motion.bases.push_back({ boxes[b], v0.template head<Dim>(), ((v1 - v0) / duration).template head<Dim>() });
+		motion.bases.push_back({ boxes[b], v0.template head<Dim>(), (growth / duration).template head<Dim>() });
 	}
 }
 

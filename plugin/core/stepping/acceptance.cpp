@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "core/stepping/acceptance.hpp"
+#include "core/base/stopwatch.hpp"
+#include "core/stepping/beyond_walls.hpp"
+#include "core/stepping/outcome.hpp"
+#include "core/terms/point_update.hpp"
+#include <sstream>
+
+namespace gimpm {
+namespace {
+
+/// A domain ends at the axis of symmetry at the latest.
+template <int Dim> void keepOffAxis(PointCloud<Dim>& cloud, int p) { cloud.halfSize[p][0] = std::min(cloud.halfSize[p][0], cloud.position[p][0]); }
+
+/// Step 5: the points take over the converged displacements, and their domains follow the stretch along the grid axes.
+template <int Dim> void updatePoints(PointCloud<Dim>& cloud, const StepSystem<Dim>& system, const Eigen::VectorXd& d, StepReport& report)
+{
+	const double      limit = 0.5 * system.model.grid.cellSize;
+	std::vector<char> clamped(cloud.size(), 0);
+	provideInternals(cloud.internals, system.model.materials, cloud.size());
+	forUpdatedPoints(system.basis, system.points, system.model.materials, d, [&](int p, const PointUpdate<Dim>& u) {
+		cloud.position[p] += u.displacement;
+		cloud.defGrad[p]       = (cloud.defGrad[p] + u.gradient * cloud.defGrad[p]).eval();
+		cloud.elasticStrain[p] = u.elasticStrain;
+		withLaw(u.law, [&](const auto& law) { storeInternals(law, u.internals, cloud.internals, p); });
+		if (!cloud.hoopStretch.empty()) cloud.hoopStretch[p] *= 1 + u.hoop;
+		cloud.stress[p].c = u.kirchhoffStress.c / cloud.volumeRatio(p);
+		if (system.model.basis == Basis::gimp) {
+			const Vec<Dim> size = cloud.halfSize0[p].cwiseProduct(stretchAlongAxes(cloud.defGrad[p]));
+			clamped[p]          = (size.array() > limit).any();
+			cloud.halfSize[p]   = size.cwiseMin(limit);
+			if (!cloud.hoopStretch.empty()) keepOffAxis(cloud, p);
+		}
+	});
+	for (const char c : clamped)
+		report.clampedDomains += c;
+}
+
+/// Equilibrium may have been found where no state can be: a point that hardly anything held has left the grid, or has become so flat that
+/// numbers do not tell its size. The report says so.
+template <int Dim> bool requireState(const PointCloud<Dim>& cloud, const Grid<Dim>& grid, StepReport& report)
+{
+	const double limit = Grid<Dim>::indexLimit * grid.cellSize;
+	for (std::size_t p = 0; p < cloud.size(); ++p) {
+		const bool isOnGrid = ((cloud.position[p] - grid.origin).array().abs() < limit).all() && cloud.stress[p].c.allFinite();
+		if (isOnGrid && cloud.halfSize[p].minCoeff() > 0 && cloud.defGrad[p].determinant() > 0) continue;
+		std::ostringstream text;
+		text << "a material point was " << (isOnGrid ? "flattened to nothing, at (" : "thrown off the grid, to (") << cloud.position[p].transpose()
+		     << ")";
+		report.failure  = Failure::diverging;
+		report.accepted = false;
+		report.cause    = text.str();
+		return false;
+	}
+	return true;
+}
+
+} // namespace
+
+template <int Dim> void askTerms(const StepSystem<Dim>& system, const Eigen::VectorXd& d, StepReport& report)
+{
+	for (const auto& term : system.terms) {
+		if (const std::string refusal = term->refusal(d); !refusal.empty()) fail(report, Failure::penetrated, refusal);
+		if (const std::string inaccuracy = term->inaccuracy(d); !inaccuracy.empty()) fail(report, Failure::inaccurate, inaccuracy);
+	}
+}
+
+template <int Dim> bool accept(const StepSystem<Dim>& system, PointCloud<Dim>& cloud, const Load<Dim>& load, const Eigen::VectorXd& d, StepReport& report)
+{
+	const Stopwatch watch(report.times.update);
+	addReactionsBeyondWalls(system, cloud, load, d, report.reactions);
+	if (system.model.grid.axisymmetric) report.reactions.pop_back(); // of the axis, which nobody has asked for
+	PointCloud<Dim> updated = cloud;
+	updatePoints(updated, system, d, report);
+	if (!requireState(updated, system.model.grid, report)) return false;
+	cloud = std::move(updated);
+	for (const auto& term : system.terms)
+		term->commit(d);
+	for (const auto& [box, wall] : system.model.walls)
+		report.reactions[box].template head<Dim>() += wall->reaction;
+	return true;
+}
+
+#define GIMPM_INSTANTIATE(Dim)                                                                                                                                 \
+	template void askTerms(const StepSystem<Dim>&, const Eigen::VectorXd&, StepReport&);                                                                   \
+	template bool accept(const StepSystem<Dim>&, PointCloud<Dim>&, const Load<Dim>&, const Eigen::VectorXd&, StepReport&);
+GIMPM_INSTANTIATE(2)
+GIMPM_INSTANTIATE(3)
+#undef GIMPM_INSTANTIATE
+
+} // namespace gimpm

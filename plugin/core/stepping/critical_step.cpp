@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "core/stepping/critical_step.hpp"
+#include "core/terms/absorbing.hpp"
+#include <algorithm>
+
+namespace gimpm {
+namespace {
+
+/// h omega_max / c of the body alone: measured up to 4.72 in 2D and 4.4 in 3D at a quarter of the density, 17.6 at 1e-3; lumped 3.45 in both.
+double factor(int dim, double ghostMass, double spacing)
+{
+	if (ghostMass == 0) return 3.6;
+	const double few = std::max(0., std::min(spacing, 1.) - 0.75);
+	return std::max(dim == 2 ? 4.8 : 5.2, 1.5 * std::pow(ghostMass, -0.36)) * (1 + 56 * few * few);
+}
+
+} // namespace
+
+/// Under compression the modulus of a wave is larger by twice the stress.
+template <int Dim> Stiffest stiffest(const PointCloud<Dim>& cloud, const Model<Dim>& model)
+{
+	double wave = 0, bar = 0, spacing = 0;
+#pragma omp parallel for reduction(max : wave, bar, spacing)
+	for (std::size_t p = 0; p < cloud.size(); ++p) {
+		const auto&  material = model.materials[cloud.material[p]];
+		const double young    = material.young(cloud.parameters, cloud.internals, p, [&] { return cloud.elasticStrain[p].full().trace(); });
+		const double stress   = cloud.volumeRatio(p) * cloud.stress[p].full().norm();
+		wave                  = std::max(wave, (waveModuli(model.materials, cloud, int(p)).pressure + 2 * stress) / material.density);
+		bar                   = std::max(bar, young / material.density);
+		spacing               = std::max(spacing, 2 * cloud.halfSize[p].maxCoeff() / model.grid.cellSize);
+	}
+	return { wave, bar, spacing };
+}
+
+template <int Dim> double criticalStep(const PointCloud<Dim>& cloud, const Model<Dim>& model, double ghostMass, double penalty)
+{
+	const Stiffest most = stiffest(cloud, model);
+	const double   h = model.grid.cellSize, C = factor(Dim, ghostMass, most.spacing);
+	const double   scale = model.ghost.scaling == GhostScaling::paper ? h * h : 1;
+	const double   ghost = ghostMass > 0 ? 2 * model.ghost.factor * scale / ghostMass : 0;
+	for (const auto& [box, wall] : model.walls)
+		penalty = std::max(penalty, wall->penalty);
+	return 2 * h / std::sqrt(C * C * most.pressureWave + (ghost + 4 * penalty) * most.bar);
+}
+
+template Stiffest stiffest(const PointCloud<2>&, const Model<2>&);
+template Stiffest stiffest(const PointCloud<3>&, const Model<3>&);
+template double   criticalStep(const PointCloud<2>&, const Model<2>&, double, double);
+template double   criticalStep(const PointCloud<3>&, const Model<3>&, double, double);
+
+} // namespace gimpm

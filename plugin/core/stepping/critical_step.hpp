@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// How long a step in time by central differences may be.
+#pragma once
+#include "core/stepping/model.hpp"
+
+namespace gimpm {
+
+/// Of all points the largest of what decides about frequencies.
+struct Stiffest {
+	double pressureWave = 0; ///< squared speed c^2 of pressure waves, stiffening under compression included [m2/s2]
+	double bar          = 0; ///< Young's modulus over density [m2/s2]
+	double spacing      = 0; ///< size of the domains [cells]
+};
+template <int Dim> Stiffest stiffest(const PointCloud<Dim>&, const Model<Dim>&);
+
+/// 2 / omega_max [s] of the body in its present state, by
+///
+///     omega_max^2 <= (C^2 c^2 + 2 gamma_K / gamma_M E / density + 4 penalty E / density) / h^2
+///
+/// with the speed c of pressure waves and the penalty of contacts and walls; ghost stiffness counts twice because it acts on increments. C is measured, the largest of
+/// blocks that cut cells anywhere, with Poisson's ratios 0 to .49 and 2 to 4 points along each axis of a cell (tests/core/test_explicit.cpp). Where domains are larger
+/// than three quarters of a cell there are too few points for the consistent mass, and C grows.
+template <int Dim> double criticalStep(const PointCloud<Dim>&, const Model<Dim>&, double ghostMass, double penalty);
+
+} // namespace gimpm

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "core/stepping/explicit_step.hpp"
+#include "core/base/stopwatch.hpp"
+#include "core/stepping/acceptance.hpp"
+#include "core/stepping/outcome.hpp"
+#include "core/terms/explicit_inertia.hpp"
+
+namespace gimpm {
+namespace {
+
+/// Whether the step can be made at all.
+template <int Dim> bool isPossible(const StepSystem<Dim>& system, const ExplicitInertia<Dim>& inertia, StepReport& report)
+{
+	for (const auto& term : system.terms)
+		if (const std::string obstacle = term->obstacle(); !obstacle.empty()) return !fail(report, Failure::misplaced, obstacle);
+	if (const std::string obstacle = inertia.obstacle(); !obstacle.empty()) return !fail(report, Failure::misplaced, obstacle);
+	return !inertia.isSingular() || !fail(report, Failure::singular, "the mass matrix is singular to working precision");
+}
+
+/// External forces less those that resist at the end of the step, with the displacements d.
+template <int Dim> bool balance(const StepSystem<Dim>& system, const Eigen::VectorXd& d, Eigen::VectorXd& imbalance, StepReport& report)
+{
+	const Stopwatch watch(report.times.assembly);
+	Eigen::VectorXd force;
+	if (const auto failure = system.evaluate(d, force, nullptr)) return !fail(report, *failure);
+	imbalance = system.external - force;
+	return imbalance.allFinite() || !fail(report, Failure::notFinite, "forces are not finite numbers any more");
+}
+
+} // namespace
+
+template <int Dim> StepReport explicitStep(PointCloud<Dim>& cloud, const Model<Dim>& model, const Load<Dim>& load, Motion<Dim>& motion)
+{
+	StepReport report;
+	// 1. basis functions and populated cells; boundary cells and ghost faces
+	const StepSystem<Dim> system(cloud, model, load, report);
+	// 2. points to nodes: velocities in the middle of the step, and so the displacements
+	ExplicitInertia<Dim> inertia(motion, system.beginning());
+	if (!isPossible(system, inertia, report)) return report;
+	const Eigen::VectorXd d = inertia.displacements();
+	// 3. the forces at the end of the step
+	Eigen::VectorXd imbalance;
+	if (!balance(system, d, imbalance, report)) return report;
+	askTerms(system, d, report);
+	if (!report.converged()) return report;
+	// 4. accelerations there, and what holds the held nodes
+	report.reactions                     = reactions(system, Eigen::VectorXd(system.external + inertia.accelerate(imbalance)));
+	report.conjugateGradients.iterations = inertia.iterations();
+	report.times.linear.solve            = inertia.seconds();
+	if (inertia.isSingular()) return fail(report, Failure::singular, "the mass matrix is singular to working precision"), report;
+	// 5. nodes to points; 6. the grid is reset by not being kept
+	if (accept(system, cloud, load, d, report)) inertia.commit();
+	return report;
+}
+
+template StepReport explicitStep(PointCloud<2>&, const Model<2>&, const Load<2>&, Motion<2>&);
+template StepReport explicitStep(PointCloud<3>&, const Model<3>&, const Load<3>&, Motion<3>&);
+
+} // namespace gimpm

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "core/terms/explicit_inertia.hpp"
+#include "core/base/stopwatch.hpp"
+#include "core/grid/point_nodes.hpp"
+#include <algorithm>
+
+namespace gimpm {
+namespace {
+
+FreeDofs allFree(Eigen::Index size)
+{
+	FreeDofs all;
+	all.count = int(size);
+	all.number.assign(size, 0);
+	return all;
+}
+
+/// sum of S x at a point
+template <int Dim> Vec<Dim> atPoint(const Patch<Dim>& patch, const double* value, int count, const Eigen::VectorXd& x)
+{
+	Vec<Dim> sum = Vec<Dim>::Zero();
+	for (int n = 0; n < count; ++n)
+		if (patch.node[n] >= 0) sum += value[n] * x.template segment<Dim>(Dim * patch.node[n]);
+	return sum;
+}
+
+template <int Dim> NodalMass<Dim> massOf(const Motion<Dim>& motion, const Beginning<Dim>& step, double& seconds)
+{
+	const Stopwatch watch(seconds);
+	return NodalMass<Dim>(step.basis, motion.mass, massFaces(motion, step), step.grid.cellSize, looseOf(motion, step));
+}
+
+} // namespace
+
+template <int Dim>
+ExplicitInertia<Dim>::ExplicitInertia(Motion<Dim>& motion, const Beginning<Dim>& step)
+        : motion_(motion), basis_(step.basis), dofs_(step.dofs), faces_(step.faces), h_(step.grid.cellSize), mass_(massOf(motion, step, seconds_))
+{
+	const Stopwatch watch(seconds_);
+	blow_ = jump_ = Eigen::VectorXd::Zero(step.prescribed.size());
+	for (const auto& make : motion.damping)
+		damping_.push_back(make(step));
+	begin(step);
+	findMiddle(step);
+	findJump();
+	acceleration_ = ofHeld<Dim>(Eigen::VectorXd::Zero(step.prescribed.size()), &MovingBase<Dim>::acceleration, motion.bases, step);
+}
+
+/// Velocities of the points in the middle of the step, by their own accelerations, or where motion begins by those of equilibrium.
+template <int Dim> void ExplicitInertia<Dim>::begin(const Beginning<Dim>& step)
+{
+	const double T      = motion_.duration;
+	const bool   begins = std::all_of(motion_.acceleration.begin(), motion_.acceleration.end(), [](const Vec<Dim>& a) { return a.isZero(0); });
+	atMiddle_           = motion_.velocity;
+	for (std::size_t p = 0; p < atMiddle_.size(); ++p)
+		atMiddle_[p] += T / 2 * motion_.acceleration[p];
+	if (!begins) return;
+	const Eigen::VectorXd zero  = Eigen::VectorXd::Zero(step.prescribed.size());
+	Eigen::VectorXd       force = step.imbalance(), a = ofHeld<Dim>(zero, &MovingBase<Dim>::acceleration, motion_.bases, step);
+	if (!damping_.empty()) {
+		Eigen::VectorXd v = ofHeld<Dim>(step.prescribed / T, &MovingBase<Dim>::velocity, motion_.bases, step), drag = zero;
+		solve(weighedAtNodes(basis_, motion_.mass, motion_.velocity), dofs_, v);
+		for (const auto& each : damping_)
+			each->addBefore(v, drag);
+		force -= drag;
+	}
+	solve(force, dofs_, a);
+	forPointNodes(basis_, [&](int i, const Patch<Dim>& patch, const double* value, int count) {
+		atMiddle_[basis_.order[i]] += T / 2 * atPoint(patch, value, count, a);
+	});
+}
+
+template <int Dim> void ExplicitInertia<Dim>::findMiddle(const Beginning<Dim>& step)
+{
+	constexpr double      roundOff = 1e-12;
+	const Eigen::VectorXd momentum = weighedAtNodes(basis_, motion_.mass, atMiddle_);
+	middle_                        = step.prescribed / motion_.duration;
+	solve(momentum, dofs_, middle_);
+	blow_              = mass_ * middle_ - momentum;
+	const double least = roundOff * momentum.template lpNorm<Eigen::Infinity>();
+	for (Eigen::Index i = 0; i < blow_.size(); ++i)
+		if (!isHeld(i) || std::abs(blow_[i]) <= least) blow_[i] = 0;
+}
+
+template <int Dim> void ExplicitInertia<Dim>::findJump()
+{
+	if (!blow_.isZero(0)) solve(blow_, allFree(blow_.size()), jump_);
+}
+
+template <int Dim> void ExplicitInertia<Dim>::solve(const Eigen::VectorXd& right, const FreeDofs& dofs, Eigen::VectorXd& x, const Eigen::VectorXd* C)
+{
+	isSingular_ = !mass_.solve(right, dofs, x, C) || isSingular_;
+}
+
+template <int Dim> std::string ExplicitInertia<Dim>::obstacle() const
+{
+	for (const auto& each : damping_)
+		if (std::string found = each->obstacle(); !found.empty()) return found;
+	return {};
+}
+
+/// Forces C v that are diagonal act with the velocity at the end, v_1/2 + T/2 a_1: they cost no stability.
+template <int Dim> Eigen::VectorXd ExplicitInertia<Dim>::accelerate(const Eigen::VectorXd& imbalance)
+{
+	const Stopwatch watch(seconds_);
+	const double    T     = motion_.duration;
+	Eigen::VectorXd force = Eigen::VectorXd::Zero(imbalance.size()), C = force;
+	for (const auto& each : damping_) {
+		each->add(middle_, 0, { force });
+		each->addDiagonal(C);
+	}
+	C *= T / 2;
+	const Eigen::VectorXd driving = imbalance - force;
+	solve(driving, dofs_, acceleration_, damping_.empty() ? nullptr : &C);
+	end_                 = middle_ + T / 2 * acceleration_;
+	Eigen::VectorXd held = mass_ * acceleration_ - driving + blow_ / T;
+	for (Eigen::Index i = 0; i < held.size(); ++i)
+		if (!isHeld(i)) held[i] = 0;
+	return held;
+}
+
+template <int Dim> void ExplicitInertia<Dim>::commit()
+{
+	const double          T = motion_.duration;
+	const Eigen::VectorXd d = displacements(), growth = jump_ + T / 2 * acceleration_;
+	Eigen::VectorXd       ghost = Eigen::VectorXd::Zero(d.size());
+	addGhostForce(faces_, h_, d, ghost);
+	motion_.ghostWork = T * end_.dot(ghost);
+	for (const auto& each : damping_)
+		each->commit(T * end_, end_, end_);
+	motion_.acceleration.resize(motion_.velocity.size());
+	forPointNodes(basis_, [&](int i, const Patch<Dim>& patch, const double* value, int count) {
+		const int p             = basis_.order[i];
+		motion_.acceleration[p] = atPoint(patch, value, count, acceleration_);
+		motion_.velocity[p]     = atMiddle_[p] + atPoint(patch, value, count, growth);
+	});
+}
+
+template class ExplicitInertia<2>;
+template class ExplicitInertia<3>;
+
+} // namespace gimpm

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "engine/solver/explicit_steps.hpp"
+#include "core/stepping/critical_step.hpp"
+#include "engine/solver/MpmDynamicEngine.hpp"
+#include "engine/solver/exchange.hpp"
+#include "yade_api/value_lock.hpp"
+
+namespace yade {
+
+namespace {
+	template <class... Parts> [[noreturn]] void refuse(const Parts&... parts)
+	{
+		std::ostringstream text;
+		text << "MpmDynamicEngine, scheme='explicit': ";
+		(text << ... << parts);
+		throw std::invalid_argument(text.str());
+	}
+
+	Real largestPenalty(const MpmDynamicEngine& engine)
+	{
+		Real largest = 0;
+		for (const auto& contact : engine.contacts)
+			largest = std::max(largest, contact->stiffness);
+		return largest;
+	}
+
+	template <int Dim> Real limit(const MpmDynamicEngine& engine, const gimpm::PointCloud<Dim>& cloud, const gimpm::Model<Dim>& model)
+	{
+		return gimpm::criticalStep(cloud, model, engine.ghostMass(), largestPenalty(engine));
+	}
+
+	template <int Dim> Real limitOfNow(MpmDynamicEngine& engine)
+	{
+		const ValueLock lock;
+		engine.requireAdmissible();
+		auto model = toModel<Dim>(*engine.grid, engine.basis, engine.fBar, engine.boundaries, *engine.ghost, *engine.newton);
+		return limit(engine, gather(materialPoints(*engine.ownScene(), engine.mask), model), model);
+	}
+}
+
+void requireExplicit(const MpmDynamicEngine& engine)
+{
+	const MpmGhost& ghost = *engine.ghost;
+	if (engine.timeTolerance > 0) refuse("timeTolerance = ", engine.timeTolerance, " would cut steps, which are not cut here: leave it 0 and give O.dt.");
+	if (engine.rayleigh.first != 0 || engine.rayleigh.second != 0)
+		refuse("rayleigh = (", engine.rayleigh.first, ", ", engine.rayleigh.second,
+		       ") needs a stiffness matrix, which explicit steps do without: take an implicit scheme, or (0, 0).");
+	if (ghost.factor > 0 && ghost.massFactor == 0)
+		refuse("ghost.massFactor = 0 with ghost.factor = ", ghost.factor,
+		       ": ghost stiffness without ghost mass would be too stiff for nodes of nearly empty cells. Without ghost mass take ghost=MpmGhost(factor=0), which lumps the "
+		       "mass; with it a massFactor > 0 (1/4).");
+}
+
+template <int Dim> void requireStable(const MpmDynamicEngine& engine, const gimpm::PointCloud<Dim>& cloud, const gimpm::Model<Dim>& model, Real duration)
+{
+	const Real critical = limit(engine, cloud, model);
+	if (duration <= critical * (1 + 1e-9)) return;
+	const Real penalty = largestPenalty(engine);
+	refuse("a step of ", duration, " s (O.dt", engine.iterPeriod > 1 ? " times iterPeriod" : "", ") is above the critical one, ", critical,
+	       " s, and would be unstable. Give a smaller O.dt, as 0.9 * solver.criticalTimeStep", penalty > 0 ? ", smaller MpmContact.stiffness" : "",
+	       ", larger cells, or an implicit scheme, which has no limit.");
+}
+
+Real criticalTimeStep(MpmDynamicEngine& engine) { return engine.grid && engine.grid->dim == 3 ? limitOfNow<3>(engine) : limitOfNow<2>(engine); }
+
+template void requireStable(const MpmDynamicEngine&, const gimpm::PointCloud<2>&, const gimpm::Model<2>&, Real);
+template void requireStable(const MpmDynamicEngine&, const gimpm::PointCloud<3>&, const gimpm::Model<3>&, Real);
+
+} // namespace yade

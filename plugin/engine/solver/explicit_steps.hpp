@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+// What MpmDynamicEngine needs for scheme='explicit' alone.
+#include "engine/solver/job.hpp"
+#include "yade_api/registration.hpp"
+
+namespace yade {
+class MpmDynamicEngine;
+
+// Settings that explicit steps can be made with, or std::invalid_argument, which names the one that does not go with them.
+void requireExplicit(const MpmDynamicEngine&);
+
+// A step of this duration [s] is stable, or std::invalid_argument with the limit.
+template <int Dim> void requireStable(const MpmDynamicEngine&, const gimpm::PointCloud<Dim>&, const gimpm::Model<Dim>&, Real duration);
+
+// Of the present state of the scene [s].
+Real criticalTimeStep(MpmDynamicEngine&);
+
+template <class C> void addExplicitSteps(C& c)
+{
+	c.add_property(
+	        "criticalTimeStep", &criticalTimeStep,
+	        "Largest stable O.dt [s] of scheme='explicit' in the present state, estimated on the safe side; computed when it is read. Take 0.9 of it.");
+}
+
+} // namespace yade
