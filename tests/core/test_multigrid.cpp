@@ -211,9 +211,9 @@ namespace {
 		ASSERT_TRUE(diagonal.solveIteratively(K, b, y, 1e-8));
 		EXPECT_EQ(x, y);
 		EXPECT_EQ(solver.iterativeEffort().iterations, diagonal.iterativeEffort().iterations);
-		EXPECT_NE(demanding.solve(K, b, x, LinearMethod::multigrid, 1e-8), Status::iterative);
+		EXPECT_EQ(demanding.solve(K, b, x, LinearMethod::multigrid, 1e-8), Status::iterative);
+		EXPECT_EQ(x, y) << "with the diagonal";
 		EXPECT_EQ(demanding.iterativeEffort().reason.rfind("multigrid: ", 0), 0u) << demanding.iterativeEffort().reason;
-		EXPECT_LT(this->error(K, b, x), 1e-10);
 	}
 
 	TEST(Multigrid, AnotherLibraryIsNotTaken)

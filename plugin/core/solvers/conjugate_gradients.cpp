@@ -7,7 +7,7 @@
 namespace gimpm {
 namespace {
 
-constexpr const char *notDefinite = "the matrix is not positive definite", *badPreconditioner = "the preconditioner is not positive definite";
+constexpr const char* notDefinite = "the matrix is not positive definite";
 
 /// Vectors are gone through in parts, side by side in the threads; the parts of a sum are added in their order, whatever the number of threads.
 constexpr int partSize = 8192, worthwhileInThreads = 8; ///< the latter parts: see BlockMatrix
@@ -57,9 +57,12 @@ ConjugateGradients::ConjugateGradients(const SymmetricOperator& K, const Eigen::
 	begin();
 }
 
-void ConjugateGradients::precondition(const Preconditioner& preconditioner)
+void ConjugateGradients::precondition(const Preconditioner* preconditioner)
 {
-	preconditioner_ = &preconditioner;
+	if (preconditioner == preconditioner_) return;
+	preconditioner_ = preconditioner;
+	if (!fault_.empty()) failure_.clear();
+	fault_.clear();
 	if (!hasConverged() && failure_.empty()) begin();
 }
 
@@ -73,8 +76,10 @@ void ConjugateGradients::begin()
 
 bool ConjugateGradients::preconditionResidual()
 {
-	failure_ = preconditioner_->apply(residual_, preconditioned_);
-	return failure_.empty();
+	fault_ = preconditioner_->apply(residual_, preconditioned_);
+	if (fault_.empty() && !(dot(residual_, preconditioned_) >= 0)) fault_ = "the preconditioner is not positive definite";
+	failure_ = fault_;
+	return fault_.empty();
 }
 
 bool ConjugateGradients::iterate(int atMost)
@@ -97,7 +102,6 @@ bool ConjugateGradients::step()
 	if (preconditioner_) {
 		if (!preconditionResidual()) return false;
 		gain_ = dot(residual_, preconditioned_);
-		if (!(gain_ >= 0)) return fail(badPreconditioner), false;
 	}
 	const double growth = gain_ / before;
 	forParts(x_.size(), [&](int, Eigen::Index begin, Eigen::Index count) {

@@ -21,8 +21,8 @@ public:
 	/// K must outlive it.
 	ConjugateGradients(const SymmetricOperator& K, const Eigen::VectorXd& b, double tolerance);
 
-	/// Goes on from the x that has been reached, which the preconditioner must outlive.
-	void precondition(const Preconditioner&);
+	/// Goes on with it from the x that has been reached; null: with the diagonal again, also where the preconditioner has failed.
+	void precondition(const Preconditioner*);
 
 	/// So many iterations at most. Whether it has come to an end.
 	bool iterate(int atMost);
@@ -30,6 +30,9 @@ public:
 	int    made() const { return made_; }   ///< iterations
 	double error() const { return error_; } ///< |b - K x| / |b|
 	bool   hasConverged() const { return error_ <= tolerance_; }
+
+	/// Why the preconditioner has failed, if it has.
+	const std::string& fault() const { return fault_; }
 
 	/// Gives x if it has converged. Empty, or why not.
 	std::string take(Eigen::VectorXd& x) const;
@@ -48,7 +51,7 @@ private:
 	Eigen::VectorXd          preconditioned_;                             ///< residual, with a preconditioner
 	double                   gain_ = 0;                                   ///< residual times preconditioned residual
 	int                      made_ = 0;
-	std::string              failure_;
+	std::string              failure_, fault_;
 };
 
 /// Iterations with the diagonal after which they do not get there.

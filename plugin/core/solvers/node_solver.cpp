@@ -60,45 +60,50 @@ std::string NodeSolver::solve(
 	const std::string failure = task.iteration.take(all);
 	x                         = problem.ofFreeDofs(all);
 	if (!task.failure.empty()) effort.reason = "multigrid: " + task.failure;
-	return failure.empty() || task.failure.empty() ? failure : effort.reason;
+	return failure;
 }
 
 void NodeSolver::iterate(Task& task, LinearMethod method)
 {
 	if (multigrid_ && (method == LinearMethod::iterative || !multigrid_->fits(task.problem))) multigrid_.reset();
 	if (task.iterate(0)) return; // there is nothing to do, or it cannot be done
-	const bool isTried = method == LinearMethod::automatic && !multigrid_ && untried_ == 0;
-	if (isTried && task.iterate(patience)) return;
-	if (method != LinearMethod::iterative && iterateWithMultigrid(task)) {
-		if (isTried) untried_ = memory;
-	} else if (method != LinearMethod::multigrid)
-		task.iterate(mostIterations - task.iteration.made());
+	if (method != LinearMethod::iterative) {
+		const bool isTried = method == LinearMethod::automatic && !multigrid_ && untried_ == 0;
+		if (isTried && task.iterate(patience)) return;
+		if (iterateWithMultigrid(task)) {
+			if (isTried) untried_ = memory;
+			return;
+		}
+		task.iteration.precondition(nullptr);
+		multigrid_.reset();
+	}
+	task.iterate(mostIterations - task.iteration.made());
 }
 
-/// False if it cannot be set up; then nothing has been done.
+/// False, and the task says why, if it cannot be set up or breaks down.
 bool NodeSolver::iterateWithMultigrid(Task& task)
 {
-	const bool wasThere = multigrid_ != nullptr;
-	if (!wasThere && !setUp(task)) return false;
 	ConjugateGradients& iteration = task.iteration;
-	iteration.precondition(*multigrid_);
-	if (wasThere) {
+	if (multigrid_) {
+		iteration.precondition(multigrid_.get());
 		const double expected = perDecade_ * std::log10(iteration.error() / task.tolerance);
 		const int    before   = iteration.made();
-		if (task.iterate(few + int(tooMany * expected))) {
-			if (iteration.made() - before <= few + worthRenewing * expected) return true;
-			multigrid_.reset();
-			untried_ = std::max(untried_, 1);
+		task.iterate(few + int(tooMany * expected));
+		if (iteration.hasConverged()) {
+			if (iteration.made() - before > few + worthRenewing * expected) untried_ = std::max(untried_, 1), multigrid_.reset();
 			return true;
 		}
-		if (!setUp(task)) return false;
-		iteration.precondition(*multigrid_);
+		iteration.precondition(nullptr); // it was of an earlier matrix
+		if (task.iterate(0)) return true;
 	}
+	if (!setUp(task)) return false;
+	iteration.precondition(multigrid_.get());
 	const double error  = iteration.error();
 	const int    before = iteration.made();
 	task.iterate(mostWithMultigrid);
-	perDecade_ = (iteration.made() - before) / std::max(std::log10(error / iteration.error()), 1e-3);
-	return true;
+	perDecade_   = (iteration.made() - before) / std::max(std::log10(error / iteration.error()), 1e-3);
+	task.failure = iteration.fault();
+	return task.failure.empty();
 }
 
 bool NodeSolver::setUp(Task& task)
