@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The plugin is also a Python extension module, imported by yade.mpm for what can be checked only when YADE has started, and for
 // work on all material points at once.
+#include "core/solvers/multigrid.hpp"
 #include "engine/materials/laws.hpp"
 #include "engine/output/contactPoints.hpp"
 #include "engine/output/gridCells.hpp"
@@ -17,6 +18,7 @@ BOOST_PYTHON_MODULE(mpm_engine)
 	py::def("newBodies", &newBodies,
 	        "For mpm.fill: bodies from positions, half size, materials, the index of each body's material, whether they are rings around x = 0, and a dict of "
 	        "columns of parameters.");
+	py::def("multigridAbsence", &gimpm::Multigrid::absence, "For mpm.advise: why there is no algebraic multigrid; empty if there is.");
 	py::def("betweenSteps", &betweenSteps, "For mpm.save: calls a function while no step in the background changes the state.");
 	py::def("columnsOfPoints", &columnsOfPoints,
 	        "For mpm.arrays: dict of bytearrays with the data of the material points that a mask means, in order of body id.");

@@ -16,18 +16,18 @@ constexpr double flopsForThreads = 2e10;
 
 } // namespace
 
-FewerThreads::FewerThreads(double flops)
-        : levels_(omp_get_max_active_levels())
-        , blas_(openblas_get_num_threads && openblas_set_num_threads && flops < flopsForThreads ? openblas_get_num_threads() : 1)
+OneBlasThread::OneBlasThread(bool isWanted) : before_(openblas_get_num_threads && openblas_set_num_threads && isWanted ? openblas_get_num_threads() : 1)
 {
-	omp_set_max_active_levels(0);
-	if (blas_ > 1) openblas_set_num_threads(1);
+	if (before_ > 1) openblas_set_num_threads(1);
 }
 
-FewerThreads::~FewerThreads()
+OneBlasThread::~OneBlasThread()
 {
-	omp_set_max_active_levels(levels_);
-	if (blas_ > 1) openblas_set_num_threads(blas_);
+	if (before_ > 1) openblas_set_num_threads(before_);
 }
+
+FewerThreads::FewerThreads(double flops) : levels_(omp_get_max_active_levels()), blas_(flops < flopsForThreads) { omp_set_max_active_levels(0); }
+
+FewerThreads::~FewerThreads() { omp_set_max_active_levels(levels_); }
 
 } // namespace gimpm

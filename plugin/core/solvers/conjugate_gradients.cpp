@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "core/solvers/conjugate_gradients.hpp"
 #include <algorithm>
-#include <array>
+#include <cmath>
+#include <vector>
 
 namespace gimpm {
 namespace {
 
-constexpr int maxIterations = 2000;
+constexpr const char* notDefinite = "the matrix is not positive definite";
 
 /// Vectors are gone through in parts, side by side in the threads; the parts of a sum are added in their order, whatever the number of threads.
 constexpr int partSize = 8192, worthwhileInThreads = 8; ///< the latter parts: see BlockMatrix
@@ -37,67 +38,98 @@ double dot(const Eigen::VectorXd& a, const Eigen::VectorXd& b)
 	return sumOfParts(a.size(), [&](Eigen::Index begin, Eigen::Index count) { return a.segment(begin, count).dot(b.segment(begin, count)); });
 }
 
-/// The iteration for a right side of size 1. With an incomplete Cholesky factor instead of the diagonal it takes a third of the iterations, but in
-/// 3D computing that factor takes longer than all of them, and may break down.
-class Iteration {
-public:
-	Iteration(const SymmetricOperator& K, const Eigen::VectorXd& b) : K_(K), inverse_(K.diagonal()), residual_(b), x_(Eigen::VectorXd::Zero(b.size()))
-	{
-		isDefinite_ = (inverse_.array() > 0).all();
-		if (!isDefinite_) return;
-		inverse_   = inverse_.cwiseInverse().eval();
-		direction_ = inverse_.cwiseProduct(residual_);
-		gain_      = dot(residual_, direction_);
-	}
-
-	/// False where the matrix is not positive definite along the direction.
-	bool step()
-	{
-		K_.multiply(direction_, force_);
-		const double curvature = dot(direction_, force_);
-		isDefinite_            = curvature > 0;
-		if (!isDefinite_) return false;
-		const double length = gain_ / curvature, before = gain_;
-		gain_               = sumOfParts(x_.size(), [&](Eigen::Index begin, Eigen::Index count) {
-                        x_.segment(begin, count) += length * direction_.segment(begin, count);
-                        auto residual = residual_.segment(begin, count);
-                        residual -= length * force_.segment(begin, count);
-                        return residual.dot(inverse_.segment(begin, count).cwiseProduct(residual));
-                });
-		const double growth = gain_ / before;
-		forParts(x_.size(), [&](int, Eigen::Index begin, Eigen::Index count) {
-			auto direction = direction_.segment(begin, count);
-			direction      = inverse_.segment(begin, count).cwiseProduct(residual_.segment(begin, count)) + growth * direction;
-		});
-		return true;
-	}
-
-	bool                   isDefinite() const { return isDefinite_; }
-	double                 error() const { return std::sqrt(dot(residual_, residual_)); }
-	const Eigen::VectorXd& x() const { return x_; }
-
-private:
-	const SymmetricOperator& K_;
-	Eigen::VectorXd          inverse_, residual_, x_, direction_, force_;
-	double                   gain_ = 0; ///< residual times preconditioned residual
-	bool                     isDefinite_;
-};
-
 } // namespace
 
-bool conjugateGradients(const SymmetricOperator& K, const Eigen::VectorXd& b, double tolerance, Eigen::VectorXd& x, int& iterations)
+/// An incomplete Cholesky factor instead of the diagonal takes a third of the iterations, but in 3D computing that factor takes longer than all of
+/// them, and may break down.
+ConjugateGradients::ConjugateGradients(const SymmetricOperator& K, const Eigen::VectorXd& b, double tolerance)
+        : K_(K), size_(b.stableNorm()), tolerance_(tolerance), x_(Eigen::VectorXd::Zero(b.size())) // its square may vanish or overflow
 {
-	x.setZero(b.size());
-	const double size = b.stableNorm(); // whose square may vanish or overflow
-	if (size == 0) return true;
-	Iteration iteration(K, b / size);
-	if (!iteration.isDefinite()) return false;
-	for (int made = 0; iteration.error() > tolerance; ++made) {
-		if (made == maxIterations || !iteration.step()) return false;
-		++iterations;
+	error_ = size_;
+	if (size_ == 0) return;
+	residual_ = b / size_;
+	inverse_  = K.diagonal();
+	if (!(inverse_.array() > 0).all()) {
+		fail(notDefinite);
+		return;
 	}
-	x = size * iteration.x();
-	return x.allFinite();
+	inverse_ = inverse_.cwiseInverse().eval();
+	begin();
+}
+
+void ConjugateGradients::precondition(const Preconditioner* preconditioner)
+{
+	if (preconditioner == preconditioner_) return;
+	preconditioner_ = preconditioner;
+	if (!fault_.empty()) failure_.clear();
+	fault_.clear();
+	if (!hasConverged() && failure_.empty()) begin();
+}
+
+void ConjugateGradients::begin()
+{
+	error_ = std::sqrt(dot(residual_, residual_));
+	if (preconditioner_ && !preconditionResidual()) return;
+	direction_ = preconditioner_ ? preconditioned_ : inverse_.cwiseProduct(residual_);
+	gain_      = dot(residual_, direction_);
+}
+
+bool ConjugateGradients::preconditionResidual()
+{
+	fault_ = preconditioner_->apply(residual_, preconditioned_);
+	if (fault_.empty() && !(dot(residual_, preconditioned_) >= 0)) fault_ = "the preconditioner is not positive definite";
+	failure_ = fault_;
+	return fault_.empty();
+}
+
+bool ConjugateGradients::iterate(int atMost)
+{
+	for (int i = 0; i < atMost && !hasConverged() && failure_.empty(); ++i) {
+		if (!step()) break;
+		++made_;
+		error_ = std::sqrt(dot(residual_, residual_));
+	}
+	return hasConverged() || !failure_.empty();
+}
+
+bool ConjugateGradients::step()
+{
+	K_.multiply(direction_, force_);
+	const double curvature = dot(direction_, force_);
+	if (!(curvature > 0)) return fail(notDefinite), false;
+	const double before = gain_;
+	improve(gain_ / curvature);
+	if (preconditioner_) {
+		if (!preconditionResidual()) return false;
+		gain_ = dot(residual_, preconditioned_);
+	}
+	const double growth = gain_ / before;
+	forParts(x_.size(), [&](int, Eigen::Index begin, Eigen::Index count) {
+		auto direction = direction_.segment(begin, count);
+		if (preconditioner_) direction = preconditioned_.segment(begin, count) + growth * direction;
+		else
+			direction = inverse_.segment(begin, count).cwiseProduct(residual_.segment(begin, count)) + growth * direction;
+	});
+	return true;
+}
+
+/// A step of this length, and what the diagonal makes of the residual that is left.
+void ConjugateGradients::improve(double length)
+{
+	gain_ = sumOfParts(x_.size(), [&](Eigen::Index begin, Eigen::Index count) {
+		x_.segment(begin, count) += length * direction_.segment(begin, count);
+		auto residual = residual_.segment(begin, count);
+		residual -= length * force_.segment(begin, count);
+		return residual.dot(inverse_.segment(begin, count).cwiseProduct(residual));
+	});
+}
+
+std::string ConjugateGradients::take(Eigen::VectorXd& x) const
+{
+	x = size_ * x_;
+	if (!failure_.empty()) return failure_;
+	if (!hasConverged()) return "conjugate gradients do not converge in " + std::to_string(made_) + " iterations";
+	return x.allFinite() ? "" : "numbers are not finite";
 }
 
 } // namespace gimpm

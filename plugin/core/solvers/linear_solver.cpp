@@ -6,6 +6,7 @@
 #include "core/solvers/conjugate_gradients.hpp"
 #include "core/solvers/gmres.hpp"
 #include "core/solvers/lu.hpp"
+#include "core/solvers/node_solver.hpp"
 #include <algorithm>
 #include <cmath>
 
@@ -55,6 +56,16 @@ public:
 private:
 	const SymmetricCsc& K_;
 };
+
+/// Empty, or why it fails.
+std::string inColumns(const SymmetricCsc& compressed, const Eigen::VectorXd& b, double tolerance, Eigen::VectorXd& x, int& iterations)
+{
+	const InColumns    K(compressed);
+	ConjugateGradients iteration(K, b, tolerance);
+	iteration.iterate(mostIterations);
+	iterations += iteration.made();
+	return iteration.take(x);
+}
 
 Eigen::VectorXd reversed(const Eigen::VectorXd& x) { return x.reverse(); }
 
@@ -121,7 +132,7 @@ struct LinearSolver::Direct {
 	}
 };
 
-LinearSolver::LinearSolver() : direct_(new Direct) { }
+LinearSolver::LinearSolver() : direct_(new Direct), overNodes_(new NodeSolver) { }
 LinearSolver::~LinearSolver()                                  = default;
 LinearSolver::LinearSolver(LinearSolver&&) noexcept            = default;
 LinearSolver& LinearSolver::operator=(LinearSolver&&) noexcept = default;
@@ -176,25 +187,29 @@ bool LinearSolver::prefersIterative(const LinearProblem& K)
 	return !direct_->cholesky.isAnalysed() || flops > worthwhileFlops * double(K.stored().row.size()); // no factor: it is too large for CHOLMOD
 }
 
-bool LinearSolver::solveIteratively(const LinearProblem& K, const Eigen::VectorXd& b, Eigen::VectorXd& x, double tolerance)
+bool LinearSolver::solveIteratively(const LinearProblem& K, const Eigen::VectorXd& b, Eigen::VectorXd& x, double tolerance, LinearMethod method)
 {
-	const Stopwatch watch(times_.solve);
-	if (!K.isSymmetric()) return gmres(K.general(), b, tolerance, x, effort_.iterations);
-	if (!K.overNodes()) return conjugateGradients(InColumns(K.symmetric()), b, tolerance, x, effort_.iterations);
-	const bool isSolved = conjugateGradients(*K.overNodes()->blocks(), K.overNodes()->expanded(b), tolerance, x, effort_.iterations);
-	x                   = K.overNodes()->ofFreeDofs(x);
-	return isSolved;
+	std::string failure;
+	if (K.isSymmetric() && K.overNodes()) failure = overNodes_->solve(*K.overNodes(), b, tolerance, method, x, times_, effort_);
+	else {
+		const Stopwatch watch(times_.solve);
+		failure = K.isSymmetric()                                         ? inColumns(K.symmetric(), b, tolerance, x, effort_.iterations)
+		        : gmres(K.general(), b, tolerance, x, effort_.iterations) ? ""
+		                                                                  : "GMRES does not converge";
+	}
+	if (!failure.empty()) effort_.reason = failure;
+	return failure.empty();
 }
 
 bool LinearSolver::staysOverNodes(LinearMethod method, const LinearProblem& K)
 {
-	return K.overNodes() && K.isSymmetric() && (method == LinearMethod::iterative || (method == LinearMethod::automatic && isTooLarge(K)));
+	return K.overNodes() && K.isSymmetric() && (isAlwaysIterative(method) || (method == LinearMethod::automatic && isTooLarge(K)));
 }
 
 LinearSolver::Status LinearSolver::solve(const LinearProblem& K, const Eigen::VectorXd& b, Eigen::VectorXd& x, LinearMethod method, double tolerance)
 {
 	if (isIterative(method, K)) {
-		if (solveIteratively(K, b, x, tolerance)) return Status::iterative;
+		if (solveIteratively(K, b, x, tolerance, method)) return Status::iterative;
 		++effort_.fallbacks;
 	}
 	return solve(K, b, x);

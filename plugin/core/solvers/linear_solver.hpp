@@ -1,26 +1,17 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Step 4: the linear system on the free degrees of freedom.
 #pragma once
+#include "core/solvers/linear_method.hpp"
 #include "core/solvers/linear_problem.hpp"
 #include <memory>
 
 namespace gimpm {
 
-struct SolverTimes {
-	double analyse = 0, factorise = 0, solve = 0; ///< [s]
-};
-
-struct IterativeEffort {
-	int iterations = 0; ///< of conjugate gradients or GMRES
-	int fallbacks  = 0; ///< solves that they left to the direct solver
-};
-
-/// `automatic`: iterative where a factor would take much longer.
-enum class LinearMethod { automatic, direct, iterative };
+class NodeSolver;
 
 /// Direct solver: supernodal Cholesky (CHOLMOD), and LU with pivoting for a matrix that is not symmetric (MUMPS; UMFPACK judges what MUMPS
 /// refuses) or not positive definite (UMFPACK). The symbolic analysis is repeated only when the pattern changes. On demand conjugate gradients
-/// or, for a matrix that is not symmetric, GMRES. One object serves one thread.
+/// (alone or with multigrid) or, for a matrix that is not symmetric, GMRES. One object serves one thread.
 class LinearSolver {
 public:
 	enum class Status { cholesky, lu, singular, iterative };
@@ -37,8 +28,8 @@ public:
 	/// singular matrix whose range contains b is not found so.
 	Status solve(const LinearProblem& K, const Eigen::VectorXd& b, Eigen::VectorXd& x, LinearMethod, double tolerance);
 
-	/// Iteratively, whatever it takes; false, with x meaningless, if it fails.
-	bool solveIteratively(const LinearProblem& K, const Eigen::VectorXd& b, Eigen::VectorXd& x, double tolerance);
+	/// Iteratively, whatever it takes; false, with x meaningless, if it fails. Multigrid is for symmetric matrices over nodes.
+	bool solveIteratively(const LinearProblem& K, const Eigen::VectorXd& b, Eigen::VectorXd& x, double tolerance, LinearMethod = LinearMethod::iterative);
 
 	/// Whether `automatic` stands for `iterative`.
 	bool prefersIterative(const LinearProblem& K);
@@ -47,7 +38,7 @@ public:
 	static bool staysOverNodes(LinearMethod, const LinearProblem& K);
 	bool        isIterative(LinearMethod method, const LinearProblem& K)
 	{
-		return method == LinearMethod::iterative || (method == LinearMethod::automatic && prefersIterative(K));
+		return isAlwaysIterative(method) || (method == LinearMethod::automatic && prefersIterative(K));
 	}
 
 	/// Size of the factor of K, or of the two of LU, if its diagonal can be kept for the pivots, and operations that they take.
@@ -67,11 +58,13 @@ public:
 private:
 	struct Direct;
 
-	Status factorise(const LinearProblem& K);
+	static bool isAlwaysIterative(LinearMethod method) { return method == LinearMethod::iterative || method == LinearMethod::multigrid; }
+	Status      factorise(const LinearProblem& K);
 
-	std::unique_ptr<Direct> direct_;
-	SolverTimes             times_;
-	IterativeEffort         effort_;
+	std::unique_ptr<Direct>     direct_;
+	std::unique_ptr<NodeSolver> overNodes_;
+	SolverTimes                 times_;
+	IterativeEffort             effort_;
 };
 
 } // namespace gimpm

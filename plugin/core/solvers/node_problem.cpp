@@ -34,6 +34,14 @@ public:
 		forFree([&](int dof, int number) { x[number] = all[dof]; });
 		return x;
 	}
+	std::optional<NodeRows> rows() const override { return nodeRows(K_, dofs_); }
+	Unknowns                unknowns() const override
+	{
+		Unknowns all { K_.keys(), {} };
+		for (const int number : dofs_.number)
+			all.isFree.push_back(number >= 0);
+		return all;
+	}
 	bool needsMoreFlopsPerEntry(double flops) const override
 	{
 		std::vector<NodePlace> places;

@@ -2,13 +2,21 @@
 // What a solver can make use of where a matrix belongs to the nodes of a grid.
 #pragma once
 #include "core/solvers/csc.hpp"
-#include "core/solvers/reduce.hpp"
+#include "core/solvers/node_rows.hpp"
 #include "core/solvers/symmetric_operator.hpp"
 #include <memory>
 #include <optional>
 #include <variant>
 
 namespace gimpm {
+
+/// Which components of which nodes are free.
+struct Unknowns {
+	std::vector<Key>  nodes;
+	std::vector<bool> isFree; ///< Dim a node
+
+	bool operator==(const Unknowns& other) const { return nodes == other.nodes && isFree == other.isFree; }
+};
 
 /// Of 2D and 3D alike.
 struct NodeProblem {
@@ -20,6 +28,10 @@ struct NodeProblem {
 	virtual std::unique_ptr<SymmetricOperator> blocks() const                             = 0;
 	virtual Eigen::VectorXd                    expanded(const Eigen::VectorXd& x) const   = 0;
 	virtual Eigen::VectorXd                    ofFreeDofs(const Eigen::VectorXd& x) const = 0;
+
+	/// Of a symmetric matrix, for multigrid.
+	virtual std::optional<NodeRows> rows() const     = 0;
+	virtual Unknowns                unknowns() const = 0;
 
 	/// Whether a factor takes more operations for each entry of a triangle, by the places of the nodes alone.
 	virtual bool needsMoreFlopsPerEntry(double flops) const = 0;

@@ -2,7 +2,7 @@
 // How a load step went. Failure is a value.
 #pragma once
 #include "core/base/types.hpp"
-#include "core/solvers/linear_solver.hpp"
+#include "core/solvers/linear_method.hpp"
 #include <limits>
 #include <string>
 #include <vector>

@@ -111,10 +111,15 @@ template <int Dim> void StepSystem<Dim>::prepare(NodeMatrix<Dim>& K) const
 template <int Dim> LinearProblem StepSystem<Dim>::tangent() const
 {
 	NodeMatrix<Dim> K;
+	tangent(K);
+	return reduced(K, dofs);
+}
+
+template <int Dim> void StepSystem<Dim>::tangent(NodeMatrix<Dim>& K) const
+{
 	Eigen::VectorXd force;
 	prepare(K);
 	evaluate(Eigen::VectorXd::Zero(nodalSize()), force, &K);
-	return reduced(K, dofs);
 }
 
 template <int Dim>

@@ -36,6 +36,7 @@ template <int Dim> struct StepSystem {
 
 	/// Reduced tangent of all terms at the start of the step.
 	LinearProblem tangent() const;
+	void          tangent(NodeMatrix<Dim>& K) const; ///< of all nodes
 
 	/// The sum of the terms at d: sets `force`, and K and the sizes of the forces where they are given.
 	std::optional<PointFailure> evaluate(const Eigen::VectorXd& d, Eigen::VectorXd& force, NodeMatrix<Dim>* K, Eigen::VectorXd* sizes = nullptr) const;

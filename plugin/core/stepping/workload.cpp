@@ -14,8 +14,10 @@ void addSolve(const LinearProblem& K, LinearMethod method, Workload& w)
 	LinearSolver          solver;
 	const Eigen::VectorXd b = Eigen::VectorXd::Ones(K.size());
 	Eigen::VectorXd       x;
-	if (solver.isIterative(method, K)) solver.solveIteratively(K, b, x, precise);
-	else {
+	if (solver.isIterative(method, K)) {
+		solver.solveIteratively(K, b, x, precise, method);
+		w.iterations = solver.iterativeEffort().iterations;
+	} else {
 		const auto factor = solver.analyse(K);
 		w.factorEntries = factor.entries, w.factorFlops = factor.flops;
 		if (w.factorFlops < longFactorisation) solver.solve(K, b, x);
@@ -31,9 +33,11 @@ template <int Dim> Workload workload(const PointCloud<Dim>& cloud, const Model<D
 {
 	StepReport            report;
 	const StepSystem<Dim> system(cloud, model, Load<Dim>(), report);
+	NodeMatrix<Dim>       blocks;
 	const LinearProblem   K = [&] {
                 const Stopwatch watch(report.times.assembly);
-                return system.tangent();
+                system.tangent(blocks);
+                return LinearProblem(blocks, system.dofs);
 	}();
 	Workload w;
 	w.points         = int(cloud.size());

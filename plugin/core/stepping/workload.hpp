@@ -13,6 +13,7 @@ struct Workload {
 	double    matrixEntries = 0; ///< stored of the reduced matrix: where it is symmetric the lower triangle
 	double    factorEntries = 0; ///< of its Cholesky factor; 0 if an iterative solver takes its place
 	double    factorFlops   = 0; ///< operations of a factorisation
+	int       iterations    = 0; ///< of an iterative solver, to 1e-3
 	StepTimes times;             ///< of the parts of a step with one solve; measured, but for a factorisation that would take long
 };
 

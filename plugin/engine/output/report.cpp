@@ -18,6 +18,7 @@ namespace {
 		result["accepted"]      = last.accepted;
 		result["failure"]       = nameOf(last.failure);
 		result["cause"]         = last.cause;
+		result["cgFailure"]     = last.conjugateGradients.reason;
 		result["localResidual"] = last.localResidual;
 		result["stiffness"]     = nameOf(last.definiteness);
 		result["worstNode"]     = Vector3r(last.worst.position);
@@ -44,9 +45,9 @@ void addReport(py::object pythonClass)
 	        "Outcome: 'converged'; 'accepted' (see MpmNewton.acceptUnconverged); 'failure', one of 'none', 'detached' (a boundary that is to move has no hold of the soil), 'misplaced' (a load, wall or rigid body), 'unrestrained', 'slides' (friction at its limit does not hold it), 'penetrated' (by a rigid body), 'inaccurate' (MpmDynamicEngine.timeTolerance), 'singular', 'inverted', "
 	        "'notFinite', 'diverging', 'tooManyIterations', 'stalled' (at round-off), 'interrupted'; 'cause', a clause, empty when converged; 'loadTime' [s] and 'loadFactor' of the "
 	        "last converged state; 'stepPart', part of O.dt that the next step tries.\n\n"
-	        "Effort of the run, undone tries included: 'iterations' (linear solves), 'substeps', 'cuts', 'lineSearchTrials', 'reusedFactors', 'luSolves', 'cgIterations', 'cgFallbacks'; 'times' [s], dict "
+	        "Effort of the run, undone tries included: 'iterations' (linear solves), 'substeps', 'cuts', 'lineSearchTrials', 'reusedFactors', 'luSolves', 'cgIterations', 'cgFallbacks', 'amgSetups'; 'times' [s], dict "
 	        "by phase: 'check' (of points that are new or were changed), 'gather', 'basis', 'ghost', 'assembly', 'analyse', 'factorise', 'solve', 'update', 'scatter'.\n\n"
-	        "Of the last load step that was tried: 'residuals', list; 'residual', the last of them [-]; 'localResidual', the largest residual around a node "
+	        "Of the last load step that was tried: 'cgFailure', why an iterative solve was left to the direct solver, or multigrid was not set up, empty if neither was so; 'residuals', list; 'residual', the last of them [-]; 'localResidual', the largest residual around a node "
 	        "over the forces there, or a bound of it [-], at most 3 newton.tolerance when converged (NaN where it was not asked for); 'stiffness' of the last "
 	        "matrix that was factorised, 'positive definite', 'indefinite' (the equilibrium may not be stable: the body may go on by itself, or have another "
 	        "state under the same load) or 'not checked' (it is not symmetric, or none was factorised: an iterative solver, or nothing to solve); 'worstNode' (position [m], NaN if none), "

@@ -42,8 +42,8 @@ public:
 		  "factorisations. False: never, as in the paper.");
 		v("linearSolver", &MpmNewton::linearSolver, 0,
 		  "'direct': Cholesky or LU factorisation; 'iterative': conjugate gradients, which store no factor and fall back to 'direct' (solver.cgFallbacks); "
-		  "'auto': 'iterative' where a factorisation would take long, in large 3D scenes.",
-		  oneOf("auto", "direct", "iterative"));
+		  "'amg': these with algebraic multigrid (PETSc); 'auto': as it needs.",
+		  oneOf("auto", "direct", "iterative", "amg"));
 	}
 };
 

@@ -54,7 +54,7 @@ struct RunResults {
 	vector<Real>     residuals;
 	Real             loadFactor  = 0;
 	int              activeCells = 0, boundaryCells = 0, ghostFaces = 0, dofs = 0, clampedDomains = 0;
-	int              substeps = 0, cuts = 0, lineSearchTrials = 0, reusedFactors = 0, luSolves = 0, cgIterations = 0, cgFallbacks = 0;
+	int              substeps = 0, cuts = 0, lineSearchTrials = 0, reusedFactors = 0, luSolves = 0, cgIterations = 0, cgFallbacks = 0, amgSetups = 0;
 	vector<Real>     lastDisplacements; // of the nodes in the last step, for newton.predictor
 	Real             lastLoadIncrement = 0;
 	Real             stepPart          = 1;
@@ -125,6 +125,8 @@ template <class V> void RunResults::results(V&& v)
 	  admitting("forces of finite numbers [N]", [](const auto& forces) { return std::all_of(forces.begin(), forces.end(), finite); }));
 	v("clampedDomains", &R::clampedDomains, latest(&StepReport::clampedDomains), byReport, readonly,
 	  "Points whose domain was kept at half a cell at the end of the last step.", count);
+	v("amgSetups", &R::amgSetups, sum([](const StepReport& r) { return r.conjugateGradients.hierarchies; }), byReport, readonly,
+	  "How often algebraic multigrid was set up in the last run (see MpmNewton.linearSolver).", count);
 	v("wallOverlap", &R::wallOverlap, latest(&StepReport::largestWallOverlap), byReport, readonly,
 	  "Largest length [m] by which a domain reached behind a wall in the last step; nodes there count as held.", nonNegative);
 }

@@ -22,6 +22,7 @@ namespace {
 	gimpm::LinearMethod linearMethod(const string& name)
 	{
 		if (name == "auto") return gimpm::LinearMethod::automatic;
+		if (name == "amg") return gimpm::LinearMethod::multigrid;
 		return name == "direct" ? gimpm::LinearMethod::direct : gimpm::LinearMethod::iterative;
 	}
 

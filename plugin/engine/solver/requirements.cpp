@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "engine/solver/requirements.hpp"
+#include "core/solvers/multigrid.hpp"
 #include "engine/solver/MpmImplicitEngine.hpp"
 #include "engine/solver/contacts.hpp"
 #include <omp.h>
@@ -76,9 +77,19 @@ void requireCallable(const string& engine)
 		throw std::runtime_error(engine + ": called while the scene runs in the background; call O.wait() or O.pause() first.");
 }
 
+static void requireMultigrid()
+{
+	const string absence = gimpm::Multigrid::absence();
+	if (!absence.empty())
+		throw std::invalid_argument(
+		        "MpmNewton.linearSolver = 'amg' needs the plugin's library for PETSc, which cannot be opened (" + absence
+		        + "). scripts/setup --with-petsc installs it; without it 'auto' comes to the same states.");
+}
+
 void requireRunnable(const MpmImplicitEngine& engine)
 {
 	engine.requireAdmissible();
+	if (engine.newton->linearSolver == "amg") requireMultigrid();
 	requireOnlyClaim(engine);
 	if (!engine.contacts.empty()) requireOnlyContact(engine);
 	requireOwnSurfaces(engine);

@@ -163,6 +163,7 @@ namespace {
 		d["matrixEntries"]   = w.matrixEntries;
 		d["factorEntries"]   = w.factorEntries;
 		d["factorFlops"]     = w.factorFlops;
+		d["iterations"]      = w.iterations;
 		d["secondsPerStep"]  = perStep;
 		d["secondsPerSolve"] = perSolve;
 		return d;
@@ -195,7 +196,7 @@ void addStudyMethods(py::object pythonClass)
 	        pythonClass, "workload", py::make_function(&workload),
 	        "workload() -> dict\n\nSize of a load step from the current state, found by doing its parts, without load, and leaving the scene alone: points, "
 	        "nodes, dofs, activeCells, ghostFaces; blockEntries, matrixEntries, factorEntries: numbers that the stiffness matrix takes by blocks, reduced, and "
-	        "factorised; factorFlops: operations of a factorisation (both 0 with conjugate gradients, see MpmNewton.linearSolver); secondsPerStep and secondsPerSolve: of what is done once a step, and with each solve. "
+	        "factorised; factorFlops: operations of a factorisation (both 0 with an iterative solver, see MpmNewton.linearSolver); iterations that such a solver takes to 1e-3, otherwise 0; secondsPerStep and secondsPerSolve: of what is done once a step, and with each solve. "
 	        "A factorisation of more than 2e10 operations is not made: its time is that at 5e9 a second. mpm.advise says it in words. Raises ValueError as "
 	        "a step does.");
 }

@@ -45,6 +45,7 @@ While it runs, one line tells how far it is (``verbosity`` of the engine); ``plo
 
 Units are SI; stress is positive in tension; strains are logarithmic; plane strain is per metre of thickness.
 """
+from . import processes
 from .advice import advise
 from .colouring import colour
 from .data import arrays, assign, contactForces

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// How a linear system is to be solved, and what that took.
+#pragma once
+#include <string>
+
+namespace gimpm {
+
+/// `automatic`: iterative where a factor would take much longer, and with multigrid where that takes too many iterations. `multigrid` is the same
+/// from the first iteration on.
+enum class LinearMethod { automatic, direct, iterative, multigrid };
+
+struct SolverTimes {
+	double analyse = 0, factorise = 0, solve = 0; ///< [s]; to set up multigrid takes the place of a factorisation
+};
+
+struct IterativeEffort {
+	int         iterations  = 0; ///< of conjugate gradients or GMRES
+	int         hierarchies = 0; ///< that multigrid has set up
+	int         fallbacks   = 0; ///< solves that they left to the direct solver
+	std::string reason {};       ///< of the last one, or why multigrid was not set up
+};
+
+} // namespace gimpm

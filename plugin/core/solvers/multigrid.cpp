@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "core/solvers/multigrid.hpp"
+#include "core/solvers/multigrid_module.hpp"
+#include <array>
+#include <dlfcn.h>
+
+namespace gimpm {
+namespace {
+
+struct Library {
+	std::string            file;
+	const MultigridModule* module = nullptr; ///< null until it is opened
+};
+
+/// Beside the file that holds the core.
+std::string usualFile()
+{
+	Dl_info self;
+	if (!dladdr(reinterpret_cast<void*>(&usualFile), &self)) return "mpm_petsc.so";
+	const std::string core(self.dli_fname);
+	return core.substr(0, core.rfind('/') + 1) + "mpm_petsc.so";
+}
+
+Library& library()
+{
+	static Library one { usualFile() };
+	return one;
+}
+
+using Reason = std::array<char, 512>;
+
+} // namespace
+
+void Multigrid::openFrom(const std::string& file) { library() = { file }; }
+
+std::string Multigrid::absence()
+{
+	auto& [file, module] = library();
+	if (module) return "";
+	void* const opened = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
+	if (!opened) return dlerror();
+	const auto get = reinterpret_cast<const MultigridModule* (*)()>(dlsym(opened, multigridSymbol));
+	if (!get || get()->version != multigridVersion) return file + " is of another version of the plugin";
+	module = get();
+	return "";
+}
+
+Multigrid::Multigrid(NodeRows rows, Unknowns unknowns, std::shared_ptr<const SymmetricOperator> K)
+        : rows_(std::move(rows))
+        , unknowns_(std::move(unknowns))
+        , K_(std::move(K))
+        , in_(rows_.rows())
+        , out_(rows_.rows())
+        , all_(Eigen::VectorXd::Zero(Eigen::Index(unknowns_.isFree.size())))
+        , image_(all_)
+{
+}
+
+std::unique_ptr<Multigrid> Multigrid::of(const NodeProblem& problem, std::shared_ptr<const SymmetricOperator> K, std::string& reason)
+{
+	reason = absence();
+	if (!reason.empty()) return nullptr;
+	auto rows = problem.rows();
+	if (!rows) {
+		reason = "the matrix has more entries than multigrid can count";
+		return nullptr;
+	}
+	std::unique_ptr<Multigrid> made(new Multigrid(std::move(*rows), problem.unknowns(), std::move(K)));
+	if (!made->setUp(reason)) return nullptr;
+	return made;
+}
+
+Multigrid::~Multigrid()
+{
+	if (hierarchy_) library().module->destroy(hierarchy_);
+}
+
+bool Multigrid::setUp(std::string& reason)
+{
+	Reason                said {};
+	const MultigridMatrix K {
+		rows_.dim, rows_.rows(), rows_.start.data(), rows_.column.data(), rows_.value.data(), rows_.position.empty() ? nullptr : rows_.position.data(),
+		this,      &multiply
+	};
+	hierarchy_ = library().module->create(&K, said.data(), int(said.size()));
+	reason     = said.data();
+	return hierarchy_ != nullptr;
+}
+
+bool Multigrid::fits(const NodeProblem& problem) const { return problem.unknowns() == unknowns_; }
+
+/// The product over all nodes is done by blocks and in threads, and so takes a third to a fifth of that by rows.
+void Multigrid::multiply(void* self, const double* x, double* y)
+{
+	auto&           m    = *static_cast<Multigrid*>(self);
+	const NodeRows& rows = m.rows_;
+	for (int r = 0; r < rows.rows(); ++r)
+		m.all_[rows.dof[r]] = x[r];
+	m.K_->multiply(m.all_, m.image_);
+	for (int r = 0; r < rows.rows(); ++r)
+		y[r] = m.image_[rows.dof[r]];
+	for (const auto& held : rows.held) // for which K has ones
+		y[held.row] = held.diagonal * x[held.row];
+}
+
+std::string Multigrid::apply(const Eigen::VectorXd& r, Eigen::VectorXd& z) const
+{
+	Reason said {};
+	for (int i = 0; i < rows_.rows(); ++i)
+		in_[i] = r[rows_.dof[i]];
+	if (!library().module->apply(hierarchy_, in_.data(), out_.data(), said.data(), int(said.size()))) return said.data();
+	for (const auto& held : rows_.held)
+		out_[held.row] = 0;
+	z.setZero(r.size());
+	for (int i = 0; i < rows_.rows(); ++i)
+		z[rows_.dof[i]] = out_[i];
+	return "";
+}
+
+} // namespace gimpm

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Algebraic multigrid as a preconditioner, by a library that is opened when it is needed.
+#pragma once
+#include "core/solvers/conjugate_gradients.hpp"
+#include "core/solvers/node_problem.hpp"
+
+namespace gimpm {
+
+/// Of a symmetric matrix, which it keeps: it goes on serving those that follow, as long as they have the same unknowns and are not too different.
+class Multigrid : public Preconditioner {
+public:
+	/// The file of the library, by default mpm_petsc.so beside the one that holds the core.
+	static void openFrom(const std::string& file);
+
+	/// Opens the library. Empty, or why that fails.
+	static std::string absence();
+
+	/// Null, with the reason, if it cannot be set up. `K` is the product with the problem's matrix.
+	static std::unique_ptr<Multigrid> of(const NodeProblem& problem, std::shared_ptr<const SymmetricOperator> K, std::string& reason);
+	~Multigrid() override;
+
+	bool fits(const NodeProblem&) const;
+
+	/// Of vectors over all degrees of freedom, with zeros for the held ones.
+	std::string apply(const Eigen::VectorXd& r, Eigen::VectorXd& z) const override;
+
+private:
+	Multigrid(NodeRows, Unknowns, std::shared_ptr<const SymmetricOperator>);
+	bool        setUp(std::string& reason);
+	static void multiply(void* self, const double* x, double* y);
+
+	NodeRows                                 rows_;
+	Unknowns                                 unknowns_;
+	std::shared_ptr<const SymmetricOperator> K_;
+	void*                                    hierarchy_ = nullptr;
+	mutable Eigen::VectorXd                  in_, out_;    ///< of the hierarchy
+	Eigen::VectorXd                          all_, image_; ///< of the product
+};
+
+} // namespace gimpm

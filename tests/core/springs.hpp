@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Matrices over nodes: boxes of springs.
+#pragma once
+#include "core/solvers/linear_problem.hpp"
+#include "scenes.hpp"
+
+namespace gimpm {
+
+/// Springs between each node and those at most `reach` away, stiffer along them than across.
+template <int Dim> void setSprings(NodeMatrix<Dim>& K, const Grid<Dim>& grid, const std::vector<Key>& nodes, int reach)
+{
+	K.reset(nodes, true, grid);
+	for (int a = 0; a < K.nodes(); ++a) {
+		K.markUsed(a, 0);
+		forIndices<Dim>(Index<Dim>::Constant(-reach), Index<Dim>::Constant(2 * reach + 1), [&](const Index<Dim>& offset) {
+			const int code = K.code(offset);
+			if (code <= 0 || K.neighbour(a, code) < 0) return;
+			const Vec<Dim> along = offset.template cast<double>().normalized();
+			const Mat<Dim> k     = 0.2 * Mat<Dim>::Identity() + along * along.transpose();
+			K.markUsed(a, code);
+			K.add(a, K.neighbour(a, code), code, -k);
+			K.add(a, a, 0, k);
+			K.add(K.neighbour(a, code), K.neighbour(a, code), 0, k);
+		});
+	}
+}
+
+template <int Dim> struct Springs {
+	Grid<Dim>        grid;
+	std::vector<Key> nodes;
+	NodeMatrix<Dim>  K;
+	FreeDofs         dofs;
+
+	/// Of a box of so many nodes without those that `isGap` names; the lowest layer is held, and a node above it along its first axis.
+	template <class F> Springs(const Index<Dim>& size, int reach, F&& isGap, const Index<Dim>& period = Index<Dim>::Zero())
+	{
+		grid.period = period;
+		forIndices<Dim>(Index<Dim>::Zero(), size, [&](const Index<Dim>& i) {
+			if (!isGap(i)) nodes.push_back(Grid<Dim>::key(i));
+		});
+		std::sort(nodes.begin(), nodes.end());
+		setSprings(K, grid, nodes, reach);
+		for (int n = 0; n < K.nodes(); ++n)
+			for (int a = 0; a < Dim; ++a) {
+				const bool isHeld = Grid<Dim>::index(nodes[n])[Dim - 1] == 0 || (n == K.nodes() - 3 && a == 0);
+				dofs.number.push_back(isHeld ? -1 : dofs.count++);
+			}
+	}
+	Springs(const Index<Dim>& size, int reach) : Springs(size, reach, [](const Index<Dim>&) { return false; }) { }
+};
+
+} // namespace gimpm
