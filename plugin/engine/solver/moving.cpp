@@ -45,6 +45,7 @@ template <int Dim> void Moving<Dim>::begin(Job<Dim>& job, Attempt<Dim>& next, Re
 	toMiddle(next.load.factor);
 	if (next.load.ofGravity) toMiddle(*next.load.ofGravity);
 	job.surfaceLoads.advanceTo(from + motion->duration / 2);
+	job.waters.advance(from, from + motion->duration / 2);
 }
 
 // Reactions are those of the two ends, where they are known; with the midpoint rule those of the middle.
@@ -76,7 +77,7 @@ template <int Dim> void Moving<Dim>::addWork(const Job<Dim>& job, Real time, con
 		moved.head<Dim>() = job.cloud.position[p] - points[p].state->pos.template head<Dim>();
 		engine.loadWork += moved.dot(motion->mass[p] * g + (factor.value + factor.before()) / 2 * points[p].state->force);
 	}
-	engine.loadWork += job.surfaceLoads.work();
+	engine.loadWork += job.surfaceLoads.work() + job.waters.work();
 	engine.boundaryWork += workOfBoundaries(from, time) + shaking->workOfEdges();
 	engine.dampingWork += shaking->dampingWork();
 	engine.contactWork += job.contacts.work();
