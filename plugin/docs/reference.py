@@ -11,7 +11,7 @@ folder = os.path.dirname(os.path.abspath(__file__))
 flags = re.compile(r'\s*:yattrflags:`\d+`')
 groups = {
         'Analysis': ['MpmImplicitEngine', 'MpmDynamicEngine', 'MpmGrid', 'MpmGhost', 'MpmNewton'],
-        'Conditions': ['MpmBoundary', 'MpmAbsorbingBoundary', 'MpmBaseMotion', 'MpmTraction', 'MpmSurface', 'MpmContact'],
+        'Conditions': ['MpmBoundary', 'MpmAbsorbingBoundary', 'MpmBaseMotion', 'MpmTraction', 'MpmWater', 'MpmSurface', 'MpmContact'],
         'Materials': ['MpmElasticMat', 'MpmVonMisesMat', 'MpmTrescaMat', 'MpmMohrCoulombMat', 'MpmDruckerPragerMat', 'MpmCamClayMat', 'MpmFrictionalMat', 'MpmMaterial'],
         'Material points': ['MpmPoint', 'MpmState'],
         'Output': ['MpmVtkRecorder'],
@@ -69,8 +69,8 @@ def describe(cls):
 	return lines
 
 
-def function(name):
-	value = getattr(mpm, name)
+def function(name, module=mpm):
+	value = getattr(module, name)
 	if inspect.isclass(value):
 		members = [(n, v) for n, v in vars(value).items() if callable(v) and not n.startswith('_')]
 		lines = [f'.. py:class:: {name}{inspect.signature(value.__init__).replace(parameters=list(inspect.signature(value.__init__).parameters.values())[1:])}', '']
@@ -95,6 +95,9 @@ def page():
 	lines += heading('Module yade.mpm', '-') + ['.. py:module:: yade.mpm', ''] + inspect.cleandoc(mpm.__doc__).splitlines() + ['']
 	for name in mpm.__all__:
 		lines += function(name)
+	lines += heading('Module yade.mpm.stages', '-') + ['.. py:module:: yade.mpm.stages', ''] + inspect.cleandoc(mpm.stages.__doc__).splitlines() + ['']
+	for name in mpm.stages.__all__:
+		lines += function(name, mpm.stages)
 	return '\n'.join(lines)
 
 

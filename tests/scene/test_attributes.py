@@ -84,6 +84,13 @@ outOfRange = {
         'MpmImplicitEngine.loadCurve': ['[(0, 0), (0, 1)]', '[(1, 0), (0, 1)]'],
         'MpmImplicitEngine.gravityCurve': ['[(0, 0), (0, 1)]', '[(1, 0), (0, 1)]'],
         'MpmImplicitEngine.loads': None,
+        'MpmImplicitEngine.water': None,
+        'MpmWater.level': None,
+        'MpmWater.levels': ['[(0, 0), (0, 1)]', '[(1, 0), (0, 1)]'],
+        'MpmWater.pressure': None,
+        'MpmWater.weight': ['0.', '-1.'],
+        'MpmWater.curve': ['[(0, 0), (0, 1)]', '[(1, 0), (0, 1)]'],
+        'MpmWater.where': ['"inside"'],
         'MpmTraction.surface': ['None'],
         'MpmTraction.pressure': None,
         'MpmTraction.traction': None,
@@ -133,6 +140,10 @@ admitted = {
         ('MpmDynamicEngine.absorbing', '()'): 'nothing absorbs',
         ('MpmImplicitEngine.loads', '()'): 'nothing is loaded',
         ('MpmTraction.curve', '()'): 'loadCurve',
+        ('MpmImplicitEngine.water', '()'): 'no water',
+        ('MpmWater.level', 'nan'): 'levels or pressure',
+        ('MpmWater.levels', '()'): 'level or pressure',
+        ('MpmWater.curve', '()'): 'that of gravity',
         ('MpmImplicitEngine.contacts', '()'): 'nothing touches',
         ('MpmContact.friction', 'nan'): 'that of the bodies',
         ('MpmContact.adhesion', 'inf'): 'no cap',
@@ -169,14 +180,14 @@ def scene(engine='MpmImplicitEngine'):
 	load = MpmTraction(surface=[(2, 3), (0, 3)], pressure=10)
 	O.materials.append(FrictMat(label='rigid'))
 	O.bodies.append(utils.wall(5, axis=1, sense=-1, material='rigid'))
-	touch = MpmContact()
-	solver = (MpmDynamicEngine if engine in dynamic else MpmImplicitEngine)(grid=grid, gravity=(0, -1, 0), boundaries=[base], loads=[load], contacts=[touch], ghost=ghost, newton=newton)
+	touch, water = MpmContact(), MpmWater(level=1, weight=10)
+	solver = (MpmDynamicEngine if engine in dynamic else MpmImplicitEngine)(grid=grid, gravity=(0, -1, 0), boundaries=[base], loads=[load], water=[water], contacts=[touch], ghost=ghost, newton=newton)
 	wave = MpmBaseMotion(history=[(0, 0), (2, 1e-3)])
 	edge = MpmAbsorbingBoundary(min=(2, -inf, -inf), motion=wave)
 	if engine in dynamic[1:]: solver.absorbing = [edge]
 	O.engines = [solver, MpmVtkRecorder(fileName='out-', recorders=['all'])]
 	O.dt = 1
-	objects = [*O.engines, *O.materials, O.bodies[5].state, O.bodies[5].shape, grid, base, load, load.surface, touch, ghost, newton]
+	objects = [*O.engines, *O.materials, O.bodies[5].state, O.bodies[5].shape, grid, base, load, load.surface, water, touch, ghost, newton]
 	return {type(o).__name__: o for o in objects + [edge, wave] * (engine in dynamic[1:])}
 
 def attributes():

@@ -139,15 +139,15 @@ for name in classes():
 			units += 1
 			if not re.search(r'\\[[^\\]]+\\]', text): print('no unit:', name, entry, text)
 		if not isinstance(value, property) and not re.match(entry + r'\\(.*\\)( -> |$)', text): print('no signature:', name, entry, text)
-for name in mpm.__all__:
-	value = getattr(mpm, name)
+for module, name in [(mpm, name) for name in mpm.__all__] + [(mpm.stages, name) for name in mpm.stages.__all__]:
+	value = getattr(module, name)
 	text = inspect.getdoc(value) or ''
 	found += 1
 	for parameter in inspect.signature(value).parameters:
 		if not re.search(rf':param {parameter}:', text): print('not described:', name, parameter)
 	if not re.search(r':raises? ', text): print('errors not described:', name)
 written = open('reference.rst').read()
-for name in classes() + list(mpm.__all__):
+for name in classes() + list(mpm.__all__) + mpm.stages.__all__:
 	if f':: {name}(' not in written: print('not on the page:', name)
 print('checked', found, units)
 '''

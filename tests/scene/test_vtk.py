@@ -64,10 +64,14 @@ def equal(fields, arrays):
 	"""Whether the cell data of a 'points' file are those of mpm.arrays(), to the last bit where nothing is computed."""
 	mean = np.trace(arrays['stress'], axis1=1, axis2=2) / 3
 	deviator = arrays['stress'] - mean[:, None, None] * np.eye(3)
-	assert set(fields) == {'displacement', 'stress', 'meanStress', 'sqrt2J2', 'plasticStrain', 'volume', 'material', 'clamped', 'id'}
+	assert set(fields) == {'displacement', 'stress', 'defGrad', 'strain', 'elasticStrain', 'meanStress', 'sqrt2J2', 'plasticStrain', 'volume', 'material', 'clamped', 'id'}
 	assert all(np.isfinite(field).all() for field in fields.values())
 	assert np.array_equal(fields['displacement'], arrays['pos'] - arrays['pos0'])
-	assert np.array_equal(fields['stress'].reshape(-1, 3, 3), arrays['stress'])
+	for name in 'stress', 'defGrad', 'elasticStrain':
+		assert np.array_equal(fields[name].reshape(-1, 3, 3), arrays[name])
+	b = arrays['defGrad'] @ arrays['defGrad'].transpose(0, 2, 1)
+	values, axes = np.linalg.eigh(b)
+	assert fields['strain'].reshape(-1, 3, 3) == pytest.approx(np.einsum('pik,pk,pjk->pij', axes, np.log(values) / 2, axes), abs=1e-12)
 	assert fields['meanStress'] == pytest.approx(mean, rel=1e-13)
 	assert fields['sqrt2J2'] == pytest.approx(np.linalg.norm(deviator, axis=(1, 2)), rel=1e-13)
 	return all(np.array_equal(fields[name], arrays[name]) for name in ('plasticStrain', 'volume', 'material', 'id'))

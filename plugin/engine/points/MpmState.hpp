@@ -19,6 +19,7 @@ public:
 	vector<std::pair<string, Real>> internals; // of the law's variables those that are no attribute here
 	OwnParameters                   parameters;
 	Vector3r                        acceleration = Vector3r::Zero();
+	Real                            porePressure = std::numeric_limits<Real>::quiet_NaN(); // there is no water
 
 	YADE_API_NAME(MpmState)
 	static const char* doc()
@@ -31,7 +32,7 @@ public:
 		const auto symmetric = admitting("a symmetric matrix of finite numbers", isSymmetric);
 		const auto volumes   = admitting("a finite number > 0 [m³]; there is no default", positive);
 		v("stress", &MpmState::stress, readonly,
-		  "Cauchy stress [Pa], symmetric, positive in tension: a result. To start from a stress: mpm.assign(stress=...), mpm.geostatic(K0=...), or "
+		  "Cauchy stress [Pa], where there is water the effective one, symmetric, positive in tension: a result. To start from a stress: mpm.assign(stress=...), mpm.geostatic(K0=...), or "
 		  "the elastic strain that causes it.");
 		v("defGrad", &MpmState::defGrad, 0,
 		  "Deformation gradient [-] from the initial configuration, determinant > 0. To be set by mpm.assign, where volume, stress and domain follow; set "
@@ -57,6 +58,8 @@ public:
 		  admitting("pairs of the name of a strength or modulus, each once, and a number", areParameters));
 		v("acceleration", &MpmState::acceleration, readonly, "Acceleration [m/s²] at the end of the last step of a MpmDynamicEngine: a result.",
 		  finite);
+		v("porePressure", &MpmState::porePressure, readonly,
+		  "Pressure of water in the pores [Pa] (MpmWater) at the end of the last step: a result, less which *stress* is total stress; NaN without water.");
 	}
 
 	// Position and initial position belong to YADE's State, which admits every number.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "engine/points/columns.hpp"
 #include "engine/materials/laws.hpp"
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <set>
 
@@ -11,7 +12,8 @@ namespace {
 	using Points   = const vector<MaterialPoint>&;
 	using RowByRow = Eigen::Matrix<Real, 3, 3, Eigen::RowMajor>;
 
-	constexpr auto arrays = PointColumn::inArrays, vtk = PointColumn::inVtk, derived = PointColumn::derived, ofMotion = PointColumn::ofMotion;
+	constexpr auto arrays = PointColumn::inArrays, vtk = PointColumn::inVtk, derived = PointColumn::derived, ofMotion = PointColumn::ofMotion,
+	               ofWater = PointColumn::ofWater;
 
 	// of(point, scene) is the number; a column of integers
 	template <class Of> PointColumn integer(const char* name, unsigned uses, Of of)
@@ -101,6 +103,15 @@ namespace {
 		return { name, of.unit, of.label, 1, false, arrays | vtk, get, set, nullptr, true };
 	}
 
+	// Half the logarithm of the left Cauchy-Green tensor.
+	Matrix3r strain(Point p)
+	{
+		const Eigen::SelfAdjointEigenSolver<Matrix3r> b(p.state->defGrad * p.state->defGrad.transpose());
+		return b.eigenvectors() * (b.eigenvalues().array().log() / 2).matrix().asDiagonal() * b.eigenvectors().transpose();
+	}
+
+	Matrix3r totalStress(Point p) { return p.state->stress - p.state->porePressure * Matrix3r::Identity(); }
+
 	Real meanStress(Point p) { return p.state->stress.trace() / 3; }
 
 	vector<PointColumn> makeColumns()
@@ -115,20 +126,23 @@ namespace {
 			result("acceleration", "m/s²", "acceleration", arrays | vtk | ofMotion, [](Point p) { return p.state->acceleration; }),
 			given("force", "N", "point load", arrays, [](Point p) -> Vector3r& { return p.state->force; }),
 			given("stress", "Pa", "stress $\\sigma$", arrays | vtk, [](Point p) -> Matrix3r& { return p.state->stress; }),
-			given("defGrad", "-", "deformation gradient $F$", arrays, [](Point p) -> Matrix3r& { return p.state->defGrad; }),
-			given("elasticStrain", "-", "elastic strain $\\varepsilon$", arrays, [](Point p) -> Matrix3r& { return p.state->elasticStrain; }),
+			given("defGrad", "-", "deformation gradient $F$", arrays | vtk, [](Point p) -> Matrix3r& { return p.state->defGrad; }),
+			given("elasticStrain", "-", "elastic strain $\\varepsilon$", arrays | vtk, [](Point p) -> Matrix3r& { return p.state->elasticStrain; }),
 			result("volume", "m³", "volume", arrays | vtk, [](Point p) { return p.state->volume; }),
 		};
+		columns.push_back(result("porePressure", "Pa", "pore pressure", arrays | vtk | ofWater, [](Point p) { return p.state->porePressure; }));
 		for (const gimpm::InternalVariable& variable : gimpm::internalVariables)
 			columns.push_back(internal(variable));
 		for (const Parameter& of : allParameters())
 			columns.push_back(parameter(of));
 		columns.push_back(integer("material", arrays | vtk, [](Point p, const Scene& scene) { return p.materialIndex(scene); }));
 		columns.push_back(result("displacement", "m", "displacement", derived | vtk, [](Point p) { return Vector3r(p.state->pos - p.state->refPos); }));
+		columns.push_back(result("strain", "-", "logarithmic strain", derived | vtk, &strain));
 		columns.push_back(result("meanStress", "Pa", "mean stress", derived | vtk, &meanStress));
 		columns.push_back(result("sqrt2J2", "Pa", "$\\sqrt{2J_2}$", derived | vtk, [](Point p) {
 			return (p.state->stress - meanStress(p) * Matrix3r::Identity()).norm();
 		}));
+		columns.push_back(result("totalStress", "Pa", "total stress", derived | vtk | ofWater, &totalStress));
 		columns.push_back(given("color", "-", "colour", 0, [](Point p) -> Vector3r& { return p.shape->color; }));
 		return columns;
 	}
@@ -137,8 +151,10 @@ namespace {
 vector<const PointColumn*> columnsOf(const vector<MaterialPoint>& points)
 {
 	std::set<string>   names { gimpm::equivalentPlasticStrain.name };
-	const MpmMaterial* last = nullptr; // points of one material follow each other
+	const MpmMaterial* last     = nullptr; // points of one material follow each other
+	bool               hasWater = false;
 	for (const MaterialPoint& point : points) {
+		hasWater = hasWater || !std::isnan(point.state->porePressure);
 		for (const auto& own : point.state->parameters)
 			names.insert(own.first);
 		if (point.material.get() == last) continue;
@@ -148,7 +164,8 @@ vector<const PointColumn*> columnsOf(const vector<MaterialPoint>& points)
 	}
 	vector<const PointColumn*> columns;
 	for (const PointColumn& column : pointColumns())
-		if (!(column.variable || column.isParameter) || names.count(column.name)) columns.push_back(&column);
+		if ((column.variable || column.isParameter) ? names.count(column.name) : hasWater || !column.is(PointColumn::ofWater))
+			columns.push_back(&column);
 	return columns;
 }
 

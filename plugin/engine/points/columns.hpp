@@ -8,10 +8,11 @@ namespace yade {
 
 struct PointColumn {
 	enum Use : unsigned {
-		inArrays = 1, // of mpm.arrays
-		inVtk    = 2, // field of the domains that MpmVtkRecorder writes
-		ofMotion = 8, // only where a point moves is it a field
-		derived  = 4, // follows from others: in pictures and tables beside those of mpm.arrays
+		inArrays = 1,  // of mpm.arrays
+		inVtk    = 2,  // field of the domains that MpmVtkRecorder writes
+		ofMotion = 8,  // only where a point moves is it a field
+		ofWater  = 16, // only where there is water
+		derived  = 4,  // follows from others: in pictures and tables beside those of mpm.arrays
 	};
 
 	string   name, unit, label; // the label names it in pictures

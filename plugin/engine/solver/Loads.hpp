@@ -2,6 +2,7 @@
 #pragma once
 #include "core/stepping/model.hpp"
 #include "engine/conditions/MpmTraction.hpp"
+#include "engine/conditions/MpmWater.hpp"
 #include "yade_api/registration.hpp"
 
 namespace yade {
@@ -12,6 +13,7 @@ struct Loads {
 	gimpm::LoadCurve::Knees         loadCurve { { 0, 0 }, { 1, 1 } };
 	gimpm::LoadCurve::Knees         gravityCurve; // empty: loadCurve
 	vector<shared_ptr<MpmTraction>> loads;
+	vector<shared_ptr<MpmWater>>    water;
 
 	// Attributes, as those of a class.
 	template <class V> static void attributes(V&& v)
@@ -26,6 +28,8 @@ struct Loads {
 		  "beginning, as after mpm.geostatic.",
 		  curveOrNothing);
 		v("loads", &Loads::loads, 0, "Loads on surfaces of the body (MpmTraction); read as a tuple, so assign a new one to change it.");
+		v("water", &Loads::water, 0,
+		  "Water in the pores and around the body (MpmWater); several add up. Read as a tuple, so assign a new one to change it.");
 	}
 
 	gimpm::LoadCurve curveOfLoads() const { return gimpm::LoadCurve(loadCurve); }
@@ -33,12 +37,16 @@ struct Loads {
 
 	gimpm::LoadCurve curveOf(const MpmTraction& load) const { return load.curve.empty() ? curveOfLoads() : gimpm::LoadCurve(load.curve); }
 
+	gimpm::LoadCurve curveOf(const MpmWater& one) const { return one.curve.empty() ? curveOfGravity() : gimpm::LoadCurve(one.curve); }
+
 	// When the last of them has come to rest.
 	Real loadsEnd() const
 	{
 		Real end = std::max(curveOfLoads().end(), curveOfGravity().end());
 		for (const auto& load : loads)
 			end = std::max(end, curveOf(*load).end());
+		for (const auto& one : water)
+			end = std::max({ end, curveOf(*one).end(), one->levels.empty() ? end : gimpm::LoadCurve(one->levels).end() });
 		return end;
 	}
 

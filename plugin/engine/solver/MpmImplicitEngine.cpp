@@ -97,11 +97,10 @@ template <int Dim> Job<Dim> MpmImplicitEngine::prepare()
 		job.model = toModel<Dim>(*grid, basis, fBar, boundaries, *ghost, *newton);
 		updateMaterialPoints(points, *scene, mask);
 		requireAny(points, *this);
-		job.cloud        = gather(points, job.model);
-		job.surfaceLoads = SurfaceLoads<Dim>(*this, job.model.grid);
-		job.surfaceLoads.join(job.model);
-		job.contacts = Contacts<Dim>(contacts, *scene, job.model.grid, points, job.begin, job.target);
-		job.contacts.join(job.model);
+		job.cloud = gather(points, job.model);
+		(job.surfaceLoads = SurfaceLoads<Dim>(*this, job.model.grid)).join(job.model);
+		(job.waters = Waters<Dim>(*this, job.model.grid, job.cloud)).join(job.model);
+		(job.contacts = Contacts<Dim>(contacts, *scene, job.model.grid, points, job.begin, job.target)).join(job.model);
 		setMoving(job, points); // inertia comes last
 	}
 	for (const string& doubt : plausibility.look(*this, points, job.cloud, job.model, checking))
@@ -147,6 +146,7 @@ template <int Dim> Attempt<Dim> MpmImplicitEngine::attempt(Job<Dim>& job) const
 	const Real      time               = job.control.goal() == 1 ? job.target : job.begin + job.control.goal() * (job.target - job.begin);
 	job.model.newton.acceptUnconverged = newton->acceptUnconverged && job.control.isLeast();
 	job.surfaceLoads.advanceTo(time);
+	job.waters.advance(loadTime, time);
 	job.contacts.advanceTo(time);
 	const bool   wallsMove = moveWalls(boundaries, job.model, time - loadTime);
 	Attempt<Dim> next { time, loadBetween<Dim>(loadTime, time), newton->predictor, {} };
@@ -167,12 +167,12 @@ template <int Dim> void MpmImplicitEngine::reach(Job<Dim>& job, const Attempt<Di
 		job.surfaceLoads.scatter();
 		job.contacts.scatter(made.time);
 		scatterWalls(job.model, boundaries);
+		job.waters.scatter(points, job.model.boundary, reactions);
 	}
 	addTime(*timingDeltas, "scatter", scattering);
 	plausibility.know(job.cloud);
 	++substeps;
-	loadTime   = made.time;
-	loadFactor = made.load.factor.value;
+	loadTime = made.time, loadFactor = made.load.factor.value;
 }
 
 void MpmImplicitEngine::warn(const string& text)

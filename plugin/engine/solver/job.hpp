@@ -5,6 +5,7 @@
 #include "core/stepping/step_control.hpp"
 #include "engine/solver/contacts.hpp"
 #include "engine/solver/surface_loads.hpp"
+#include "engine/solver/waters.hpp"
 
 namespace yade {
 
@@ -17,6 +18,7 @@ template <int Dim> struct Job {
 	gimpm::Model<Dim>      model = gimpm::Model<Dim>();
 	gimpm::PointCloud<Dim> cloud {};
 	SurfaceLoads<Dim>      surfaceLoads {};
+	Waters<Dim>            waters {};
 	Contacts<Dim>          contacts {};
 
 	std::shared_ptr<Moving<Dim>> moving {}; // null without inertia

@@ -49,6 +49,7 @@ template <int Dim> void Moving<Dim>::begin(Job<Dim>& job, Attempt<Dim>& next, Re
 	toMiddle(next.load.factor);
 	if (next.load.ofGravity) toMiddle(*next.load.ofGravity);
 	job.surfaceLoads.advanceTo(from + motion->duration / 2);
+	job.waters.advance(from, from + motion->duration / 2);
 }
 
 template <int Dim> gimpm::StepReport Moving<Dim>::step(Job<Dim>& job, const Attempt<Dim>& tried) const
@@ -85,7 +86,7 @@ template <int Dim> void Moving<Dim>::addWork(const Job<Dim>& job, Real time, con
 		moved.head<Dim>() = job.cloud.position[p] - points[p].state->pos.template head<Dim>();
 		engine.loadWork += moved.dot(motion->mass[p] * g + (factor.value + factor.before()) / 2 * points[p].state->force);
 	}
-	engine.loadWork += job.surfaceLoads.work();
+	engine.loadWork += job.surfaceLoads.work() + job.waters.work();
 	engine.boundaryWork += workOfBoundaries(from, time) + shaking->workOfEdges();
 	engine.dampingWork += shaking->dampingWork();
 	engine.contactWork += job.contacts.work();

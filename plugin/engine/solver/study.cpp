@@ -116,7 +116,14 @@ namespace {
 			auto                     loaded = model;
 			SurfaceLoads<Dim>        onSurfaces(engine, model.grid);
 			onSurfaces.join(loaded);
+			Waters<Dim> waters;
+			{
+				const PythonLock python; // for functions of the pressure
+				waters = Waters<Dim>(engine, model.grid, cloud);
+			}
+			waters.join(loaded);
 			onSurfaces.advanceTo(engine.loadTime);
+			waters.advance(engine.loadTime, engine.loadTime);
 			found = inSpace(gimpm::reduceStrength(cloud, loaded, load, factor, control, solver));
 			return 0;
 		});

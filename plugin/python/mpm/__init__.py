@@ -28,6 +28,8 @@ While it runs, one line tells how far it is (``verbosity`` of the engine); ``plo
 
 =========================  ==========================================================================================
 :func:`polygon`            region of the x-y plane
+:func:`solid`              region in a closed surface of an STL or GTS file
+:class:`terrain`           region below the surface of an elevation grid (.asc)
 :func:`fill`               material points in a region
 :func:`arrays`             data of all material points as NumPy arrays; :func:`assign` is the way back
 :func:`geostatic`          initial stress of level ground
@@ -40,6 +42,7 @@ While it runs, one line tells how far it is (``verbosity`` of the engine); ``plo
 :func:`save`               the scene, whole or not at all
 :func:`advise`             what an analysis will cost, and what it could do without
 :func:`elementTest`        the curve of a laboratory test on a material; :func:`respond` is one call of its law
+``stages``                 layers that are placed, soil that is dug out, supports that are taken away
 :func:`strengthReduction`  factor of safety, as a bracket
 =========================  ==========================================================================================
 
@@ -50,7 +53,7 @@ from .advice import advise
 from .colouring import colour
 from .data import arrays, assign, contactForces
 from .files import save
-from . import ending
+from . import ending, stages
 from .filling import fill
 from .geostatics import geostatic
 from .histories import histories, readHistory
@@ -59,8 +62,9 @@ from .library import engine as _engine
 from .outline import polygon
 from .plotting import plot
 from .safety import strengthReduction
+from .solids import solid, terrain
 from .surfaces import surface
 from .tables import export
 
 __version__ = _engine.version
-__all__ = ['polygon', 'fill', 'arrays', 'assign', 'geostatic', 'plot', 'colour', 'export', 'save', 'advise', 'elementTest', 'respond', 'strengthReduction', 'surface', 'contactForces', 'histories', 'readHistory']
+__all__ = ['polygon', 'fill', 'arrays', 'assign', 'geostatic', 'plot', 'colour', 'export', 'save', 'advise', 'elementTest', 'respond', 'strengthReduction', 'surface', 'contactForces', 'histories', 'readHistory', 'solid', 'terrain']

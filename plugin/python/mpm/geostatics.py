@@ -9,13 +9,14 @@ from yade import wrapper
 from .analysis import noPoints, solverOf
 from .data import assign, parameter, pointsOf
 from .messages import brief, isNumber, place
+from .water import pressures
 
 
 def geostatic(K0=None, surface=None, solver=None, OCR=1):
 	"""Give the material points of an engine the stress of level ground under its own weight, in equilibrium with gravity at load factor 1.
 
-	The vertical stress is the weight of the soil above, of whatever density its horizontal layers have; the horizontal one is *K0*
-	times that, in all directions. By default, *K0* is that of the material, with the overconsolidation ratio *OCR*:
+	The vertical stress is the weight of the soil above, of whatever density its horizontal layers have, and with ``MpmImplicitEngine.water`` that of the water on the
+	ground less the pressure in the pores; the horizontal one is *K0* times that, in all directions. By default, *K0* is that of the material, with the overconsolidation ratio *OCR*:
 
 	=============================  ======================================================================================
 	elastic, von Mises, Tresca     nu / (1 - nu): loaded elastically without horizontal strain
@@ -64,13 +65,23 @@ def geostatic(K0=None, surface=None, solver=None, OCR=1):
 	elif not isNumber(surface): raise TypeError(f'geostatic: surface = {brief(surface)} must be a height [m]')
 	elif not (math.isfinite(surface) and surface >= top - 1e-9 * abs(top)):
 		raise ValueError(f'geostatic: surface = {surface} is below the top of the highest points, at {top} m; at what height does the ground end?')
-	pressure = _weightAbove(points, axis, height, half, density, surface - top) * np.linalg.norm(solver.gravity)
+	pressure = _weightAbove(points, axis, height, half, density, surface - top) * np.linalg.norm(solver.gravity) + _ofWater(solver, points, axis, up * surface)
+	lifted = np.flatnonzero(pressure <= 0)
+	if lifted.size: raise ValueError(f'geostatic: at the height {height[lifted[0]]} m the water bears all of the ground: is its density that of saturated soil?')
 	depth = surface - height
 	horizontal, past = _history(K0, OCR, points, materials, number, pressure, depth)
 	stress = np.zeros((len(height), 3, 3))
 	for i in range(3):
 		stress[:, i, i] = -(pressure if i == axis else horizontal)
 	_assign(points, stress, past, depth, horizontal / pressure)
+
+
+def _ofWater(solver, points, axis, surface):
+	"""What water adds to the effective vertical pressure of the points: what stands on the ground, less what is in the pores."""
+	if not solver.water: return 0
+	ground = points['pos'].copy()
+	ground[:, axis] = surface
+	return pressures(solver, ground)[1] - pressures(solver, points['pos'])[0]
 
 
 def _history(K0, OCR, points, materials, number, pressure, depth):

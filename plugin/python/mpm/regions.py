@@ -7,12 +7,14 @@ from yade import pack
 from yade.minieigenHP import Vector3
 
 from .outline import polygon
+from .solids import terrain
 
 
 def inside(predicate, points):
 	"""Mask of the points (N, 3) inside; combinations are taken apart, so that the polygons in them are tested in bulk."""
 	if isinstance(predicate, polygon):
 		return predicate.contains(points[:, :2])
+	if isinstance(predicate, terrain): return predicate.contains(points)
 	for kind, combine in _combinations.items():
 		if isinstance(predicate, kind):
 			return combine(inside(predicate.A, points), inside(predicate.B, points))

@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "engine/solver/pressure_table.hpp"
+#include "yade_api/python_lock.hpp"
+#include "yade_api/scene.hpp"
+#include <algorithm>
+#include <map>
+
+namespace yade {
+
+namespace {
+	using gimpm::Key;
+
+	// Values of a function at these places, or why there are none.
+	struct Question {
+		PythonFunction   function;
+		vector<Vector3r> places;
+		vector<Real>     values;
+		string           error;
+
+		void ask()
+		{
+			for (const Vector3r& x : places) {
+				string answer;
+				try {
+					const py::object value  = (*function.object)(x);
+					const auto       number = Conversion<Real>::fromPython(value);
+					if (number && std::isfinite(*number)) {
+						values.push_back(*number);
+						continue;
+					}
+					answer = "returned " + repr(value);
+				} catch (const py::error_already_set&) {
+					answer = "raised " + raised();
+				}
+				error = "MpmWater.pressure " + answer + " at " + textOf(x) + ": expected a finite pressure [Pa].";
+				return;
+			}
+		}
+
+	private:
+		static string raised()
+		{
+			PyObject *type, *value, *traceback;
+			PyErr_Fetch(&type, &value, &traceback);
+			PyErr_NormalizeException(&type, &value, &traceback);
+			const py::handle<> keep[] = { py::handle<>(type), py::handle<>(py::allow_null(value)), py::handle<>(py::allow_null(traceback)) };
+			return repr(py::object(py::handle<>(py::borrowed(value ? value : type))));
+		}
+	};
+
+	// In whatever thread this is.
+	vector<Real> answers(const PythonFunction& function, vector<Vector3r> places, const string& name)
+	{
+		const auto question = std::make_shared<Question>(Question { function, std::move(places), {}, {} });
+		if (PyGILState_Check()) question->ask();
+		else
+			withPython(Singleton<Omega>::instance().simulationLoop->looping, [question] { question->ask(); });
+		if (!question->error.empty()) throw std::invalid_argument(name + ": " + question->error);
+		if (question->values.size() < question->places.size())
+			throw std::invalid_argument(name + ": the run was ended before MpmWater.pressure was known.");
+		return question->values;
+	}
+
+	// Cells that hold the middle of a point.
+	template <int Dim> vector<Key> cellsOf(const gimpm::PointCloud<Dim>& cloud, const gimpm::Grid<Dim>& grid)
+	{
+		vector<Key> cells;
+		for (const auto& x : cloud.position) {
+			const gimpm::Index<Dim> cell = ((x - grid.origin) / grid.cellSize).array().floor().template cast<int>();
+			const Key               key  = gimpm::Grid<Dim>::key(cell);
+			if (cells.empty() || cells.back() != key) cells.push_back(key);
+		}
+		std::sort(cells.begin(), cells.end());
+		cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
+		return cells;
+	}
+
+	// Their nodes, and those up to `margin` cells around.
+	template <int Dim> vector<Key> nodesAround(const vector<Key>& cells, int margin, const gimpm::Grid<Dim>& grid)
+	{
+		const int   width = 2 + 2 * margin, count = Dim == 2 ? width * width : width * width * width;
+		vector<Key> nodes;
+		for (const Key cell : cells)
+			for (int n = 0; n < count; ++n) {
+				gimpm::Index<Dim> node = gimpm::Grid<Dim>::index(cell);
+				for (int a = 0, rest = n; a < Dim; rest /= width, ++a)
+					node[a] += rest % width - margin;
+				nodes.push_back(gimpm::Grid<Dim>::key(grid.first(node)));
+			}
+		std::sort(nodes.begin(), nodes.end());
+		nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+		return nodes;
+	}
+
+	using Values = std::map<Key, Real>;
+
+	template <int Dim> Values valuesOf(const MpmWater& water)
+	{
+		Values values;
+		for (size_t i = 0; i + 3 < water.table.size(); i += 4) {
+			const Vector3r node(water.table[i], water.table[i + 1], water.table[i + 2]);
+			values[gimpm::Grid<Dim>::key(node.head<Dim>().template cast<int>())] = water.table[i + 3];
+		}
+		return values;
+	}
+
+	template <int Dim> void store(const Values& values, MpmWater& water)
+	{
+		water.table.clear();
+		for (const auto& [key, value] : values) {
+			Vector3r node    = Vector3r::Zero();
+			node.head<Dim>() = gimpm::Grid<Dim>::index(key).template cast<Real>();
+			water.table.insert(water.table.end(), { node[0], node[1], node[2], value });
+		}
+	}
+
+	template <int Dim> vector<Real> numbersOf(const gimpm::Grid<Dim>& grid)
+	{
+		vector<Real> numbers { grid.cellSize };
+		numbers.insert(numbers.end(), grid.origin.data(), grid.origin.data() + Dim);
+		return numbers;
+	}
+
+	template <int Dim> Vector3r placeOf(Key node, const gimpm::Grid<Dim>& grid)
+	{
+		Vector3r x    = Vector3r::Zero();
+		x.head<Dim>() = grid.nodePosition(gimpm::Grid<Dim>::index(node));
+		return x;
+	}
+
+	template <int Dim> [[noreturn]] void refuse(Key node, const gimpm::Grid<Dim>& grid, const string& name)
+	{
+		throw std::invalid_argument(
+		        name + ": the pressure at " + textOf(placeOf(node, grid))
+		        + " is not known: functions are not saved with a scene, only their values near the points that it has. Give MpmWater.pressure again.");
+	}
+}
+
+template <int Dim>
+std::shared_ptr<const gimpm::WaterPressure<Dim>> tabulated(
+        MpmWater& water, const gimpm::Grid<Dim>& grid, const gimpm::PointCloud<Dim>& cloud, const string& name)
+{
+	constexpr int near = 1, far = 3; // cells that a point may reach in a step, and in the steps after a scene has been loaded
+	if (water.pressure && (water.evaluated != water.pressure.object.get() || water.tableGrid != numbersOf(grid))) water.forgetTable();
+	if (water.tableGrid != numbersOf(grid) && !water.pressure) refuse(gimpm::Grid<Dim>::key(gimpm::Index<Dim>::Zero()), grid, name);
+	Values            values = valuesOf<Dim>(water);
+	const vector<Key> cells  = cellsOf(cloud, grid);
+	vector<Key>       missing;
+	const auto        lacks = [&](Key node) { return values.find(node) == values.end(); };
+	for (const Key node : nodesAround(cells, near, grid))
+		if (lacks(node)) missing.push_back(node);
+	if (!missing.empty()) {
+		if (!water.pressure) refuse(missing[0], grid, name);
+		missing.clear();
+		for (const Key node : nodesAround(cells, far, grid))
+			if (lacks(node)) missing.push_back(node);
+		vector<Vector3r> places;
+		for (const Key node : missing)
+			places.push_back(placeOf(node, grid));
+		const vector<Real> found = answers(water.pressure, places, name);
+		for (size_t i = 0; i < found.size(); ++i)
+			values[missing[i]] = found[i];
+		store<Dim>(values, water);
+		water.tableGrid = numbersOf(grid);
+		water.evaluated = water.pressure.object.get();
+	}
+	vector<Key>  nodes;
+	vector<Real> numbers;
+	for (const auto& [key, value] : values)
+		nodes.push_back(key), numbers.push_back(value);
+	return std::make_shared<gimpm::TabulatedWater<Dim>>(grid, nodes, numbers);
+}
+
+template std::shared_ptr<const gimpm::WaterPressure<2>> tabulated(MpmWater&, const gimpm::Grid<2>&, const gimpm::PointCloud<2>&, const string&);
+template std::shared_ptr<const gimpm::WaterPressure<3>> tabulated(MpmWater&, const gimpm::Grid<3>&, const gimpm::PointCloud<3>&, const string&);
+
+} // namespace yade

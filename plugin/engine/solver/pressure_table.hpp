@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+// The pressure that a function of Python gives, at the nodes around the material points.
+#include "core/grid/point_cloud.hpp"
+#include "core/terms/water_pressure.hpp"
+#include "engine/conditions/MpmWater.hpp"
+
+namespace yade {
+
+// Asks the function at nodes that the water's table does not have yet. std::invalid_argument, in the name given, for what it returns or raises, or where there is no
+// function any more.
+template <int Dim>
+std::shared_ptr<const gimpm::WaterPressure<Dim>> tabulated(MpmWater&, const gimpm::Grid<Dim>&, const gimpm::PointCloud<Dim>&, const string& name);
+
+} // namespace yade

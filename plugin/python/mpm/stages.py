@@ -1,0 +1,198 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Stages of construction: layers that are placed, soil that is dug out, supports that are taken away.
+
+Each function changes the scene between two load steps; what it begins goes on while ``O.run`` makes the next steps, by a PyRunner before the engine, which ``O.save`` keeps::
+
+    solver.gravityCurve = solver.loadCurve = [(0, 1)]  # weight acts from the beginning, loads by curves of their own
+    mpm.stages.place(mpm.fill(layer, grid, 2, 'sand'), steps=10)
+    O.run(10, wait=True)
+    mpm.stages.resetDisplacements()
+    mpm.stages.excavate(pit, steps=10)
+    O.run(10, wait=True)
+
+A load that comes back is a ``curve`` of its MpmTraction, as ``[(0, 0), (1, 1), (2, 0), (3, 1)]``.
+"""
+import numpy as np
+from yade import wrapper
+
+from .analysis import noPoints, solverOf
+from .data import arrays, assign
+from .messages import brief
+from .regions import inside
+
+__all__ = ['place', 'excavate', 'release', 'resetDisplacements']
+_softness = 0.05  # of what is dug out: the part of its stiffness that is left
+
+
+def place(bodies, steps=1, solver=None):
+	"""Append material points, as :func:`fill` returns them, to the scene; their weight grows to its full value in the next *steps* load steps, in equal parts.
+
+	Points begin without stress, where they have been filled. What has been there settles meanwhile: fill a layer up to its height at the end.
+
+	:param bodies: material points that the scene does not have yet
+	:param steps: load steps, an integer >= 1
+	:param solver: the ``MpmImplicitEngine``; may be left out when ``O.engines`` holds one
+	:return: ids of the bodies
+	:raises TypeError: an argument of the wrong kind.
+	:raises ValueError: no bodies, *steps* < 1, or a material that cannot be found by its label.
+	"""
+	solver, steps = _static('place', solver), _number('place', steps)
+	bodies = list(bodies) if isinstance(bodies, (list, tuple)) else []
+	if not bodies or not all(isinstance(body, wrapper.Body) and isinstance(body.shape, wrapper.MpmPoint) for body in bodies):
+		raise TypeError('place: bodies must be a list of material points, as mpm.fill(...) returns it')
+	if any(body.id >= 0 for body in bodies): raise ValueError('place: the scene has these bodies already; place(mpm.fill(...)) appends them')
+	materials = _materialsOf('place', bodies)
+	ids = wrapper.Omega().bodies.append(bodies)
+	if steps > 1: _begin('placed', solver, steps, {label: _twin(material, f'{label}/placed', ids, density=material.density / steps) for label, material in materials.items()})
+	return ids
+
+
+def excavate(region, steps=1, solver=None):
+	"""Take the material points out of a region. What they do to the others, by stress and weight, goes to zero in the next *steps* load steps, in equal parts.
+
+	Until they are erased in the last one, they go along as elastic material with a twentieth of their stiffness.
+
+	:param region: predicate of the current positions, as for :func:`fill`
+	:param steps: load steps, an integer >= 1
+	:param solver: the ``MpmImplicitEngine``; may be left out when ``O.engines`` holds one
+	:return: number of the points
+	:raises TypeError: an argument of the wrong kind.
+	:raises ValueError: no point is in the region, all are, *steps* < 1, or a material that cannot be found by its label.
+	"""
+	solver, steps = _static('excavate', solver), _number('excavate', steps)
+	if not callable(region): raise TypeError(f'excavate: region = {brief(region)} must be a predicate, as for mpm.fill')
+	points = arrays()
+	if not len(points['id']): raise ValueError(noPoints('excavate', solver))
+	inRegion = inside(region, points['pos'])
+	if not inRegion.any(): raise ValueError(f'excavate: no material point is in the region {brief(region)}')
+	if inRegion.all(): raise ValueError(f'excavate: all material points are in the region {brief(region)}')
+	ids, stress = points['id'][inRegion].tolist(), points['stress'][inRegion]
+	materials = _materialsOf('excavate', [wrapper.Omega().bodies[i] for i in ids])
+	if steps == 1:
+		_erase(ids)
+		return len(ids)
+	twins = {label: _soft(material, f'{label}/excavated', ids) for label, material in materials.items()}
+	assign(ids=ids, stress=stress)
+	_begin('excavated', solver, steps, twins)
+	return len(ids)
+
+
+def release(boundary, solver=None):
+	"""Take away a support, one of the engine's *boundaries*, at once: what it bears acts on the body in the next step.
+
+	:param boundary: the ``MpmBoundary``, or its number in *boundaries*
+	:param solver: the ``MpmImplicitEngine``; may be left out when ``O.engines`` holds one
+	:raises ValueError: it is none of the engine's.
+	"""
+	solver = solverOf('release', solver)
+	boundaries = list(solver.boundaries)
+	kept = [b for i, b in enumerate(boundaries) if b != boundary and (isinstance(boundary, bool) or i != boundary)]
+	if len(kept) == len(boundaries): raise ValueError(f'release: boundary = {brief(boundary)} is none of the {len(boundaries)} boundaries of the engine')
+	solver.boundaries = kept
+
+
+def resetDisplacements():
+	"""Count displacements from here: the initial position of each point becomes its current one. Stress, deformation and volume stay.
+
+	:raises ValueError: a body with an ``MpmPoint`` shape that is no complete material point.
+	"""
+	assign(pos0=arrays()['pos'])
+
+
+def advance(kind, label, first, steps, twins):
+	"""For the PyRunner: what the next load step begins with. Called twice for a step, it changes nothing more."""
+	scene = wrapper.Omega()
+	engines = list(scene.engines)
+	at = next(i for i, engine in enumerate(engines) if engine.label == label)
+	solver = next(engine for engine in engines[at:] if isinstance(engine, wrapper.MpmImplicitEngine))
+	step = solver.nDone - first + 1
+	if step > steps: return
+	share = step / steps if kind == 'placed' else 1 - step / steps
+	for own, (twin, density) in twins.items():
+		ids = _idsOf(twin)
+		if step == steps and kind == 'placed':
+			for i in ids:
+				scene.bodies[i].material = scene.materials[own]
+		elif step == steps: _erase(ids)
+		else: _scale(scene.materials[twin], share * density, ids, kind)
+	if step == steps: engines[at].dead = True
+
+
+def _scale(material, density, ids, kind):
+	if abs(material.density - density) <= 1e-12 * density: return
+	if kind == 'excavated':  # in proportion to the density; the law of what is dug out is linear
+		points = arrays()
+		strain = points['elasticStrain'][np.isin(points['id'], ids)]
+		assign(ids=ids, elasticStrain=strain * (density / material.density))
+	material.density = density
+
+
+def _begin(kind, solver, steps, twins):
+	"""A PyRunner before the engine. *twins*: by the label of a material, its twin that changes."""
+	scene = wrapper.Omega()
+	engines = [engine for engine in scene.engines if not (engine.dead and engine.label.startswith('stage_'))]
+	names = {own: (twin.label, scene.materials[own].density) for own, twin in twins.items()}
+	label = next(name for name in (f'stage_{i}' for i in range(len(engines) + 1)) if all(engine.label != name for engine in engines))
+	command = f"__import__('sys').modules['yade.mpm.stages'].advance({kind!r}, {label!r}, {solver.nDone}, {steps}, {names!r})"
+	at = engines.index(solver)
+	scene.engines = engines[:at] + [wrapper.PyRunner(command=command, iterPeriod=1, initRun=True, label=label)] + engines[at:]
+
+
+def _twin(material, label, ids, **changes):
+	"""A copy of a material, which those of the bodies take that have it."""
+	values = {name: value for name, value in material.dict().items() if name not in ('id', 'label')}
+	return _give(type(material)(**(values | changes)), material, label, ids)
+
+
+def _soft(material, label, ids):
+	"""The same of an elastic one with a part of the stiffness, without memory and strengths of its own."""
+	young, poisson = (3 * material.shearModulus, 0.3) if isinstance(material, wrapper.MpmCamClayMat) else (material.young, material.poisson)
+	soft = wrapper.MpmElasticMat(young=_softness * young, poisson=poisson, density=material.density)
+	for i in ids:
+		state = wrapper.Omega().bodies[i].state
+		if wrapper.Omega().bodies[i].material == material: state.internals, state.parameters, state.plasticStrain = [], [], 0
+	return _give(soft, material, label, ids)
+
+
+def _give(twin, material, label, ids):
+	scene = wrapper.Omega()
+	known = {m.label for m in scene.materials}
+	twin.label = next(name for name in [label] + [f'{label}{i}' for i in range(2, len(known) + 3)] if name not in known)
+	scene.materials.append(twin)
+	for i in ids:
+		if scene.bodies[i].material == material: scene.bodies[i].material = twin
+	return twin
+
+
+def _materialsOf(who, bodies):
+	"""By label those of the bodies."""
+	found = {}
+	for body in bodies:
+		label = body.material.label
+		if label in found: continue
+		if not label or all(material != body.material for material in wrapper.Omega().materials):
+			raise ValueError(f'{who}: a material of the points (label {label!r}) is not in O.materials, by a label of its own')
+		found[label] = body.material
+	return found
+
+
+def _idsOf(label):
+	return [body.id for body in wrapper.Omega().bodies if body.material and body.material.label == label]
+
+
+def _erase(ids):
+	for i in ids:
+		wrapper.Omega().bodies.erase(i)
+
+
+def _static(who, solver):
+	solver = solverOf(who, solver)
+	if isinstance(solver, wrapper.MpmDynamicEngine): raise ValueError(f'{who}: with inertia, weight that grows would be mass that grows; make the stages with an MpmImplicitEngine')
+	if solver not in wrapper.Omega().engines: raise ValueError(f'{who}: the solver is not in O.engines; put it there first')
+	return solver
+
+
+def _number(who, steps):
+	if isinstance(steps, bool) or not isinstance(steps, (int, np.integer)): raise TypeError(f'{who}: steps = {brief(steps)} must be an integer >= 1')
+	if steps < 1: raise ValueError(f'{who}: steps = {brief(steps)} must be at least 1')
+	return int(steps)

@@ -1,0 +1,84 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Stages of construction against sums by hand: a column on which layers are placed, and which is dug out again."""
+import pytest
+
+column = '''
+import json
+from yade import mpm
+E, weight, h = 2e7, 2000 * 10, .5
+for label in ('ground', 'fill'): O.materials.append(MpmElasticMat(young=E, poisson=0, density=2000, label=label))
+grid = MpmGrid(cellSize=h)
+def part(low, high): return mpm.polygon([(0, low), (h, low), (h, high), (0, high)])
+def layer(low, high): return mpm.fill(part(low, high), grid, 2, 'fill')
+O.bodies.append(mpm.fill(part(0, 4), grid, 2, 'ground'))
+base = MpmBoundary(max=(inf, 0, inf), fix='y')
+solver = MpmImplicitEngine(grid=grid, gravity=(0, -10, 0), gravityCurve=[(0, 1)], boundaries=[MpmBoundary(max=(0, inf, inf), fix='x'), MpmBoundary(min=(h, -inf, -inf), fix='x'), base], verbosity=0)
+O.engines, O.dt = [solver], 1
+mpm.geostatic()
+def settlement():
+	points = mpm.arrays()
+	top = abs(points['pos0'][:, 1] - 3.875) < .01  # the highest row of the ground
+	return (points['pos0'] - points['pos'])[top, 1].mean()
+def load(): return solver.reactions[-1][1] / (weight * h)
+def refused(f, *args, **kw):
+	try: f(*args, **kw)
+	except Exception as error: return f'{type(error).__name__}: {error}'
+	return 'nothing was refused'
+'''
+
+
+def test_layers_are_placed_and_dug_out_step_by_step(yade):
+	result = yade(column + '''
+out = dict(ids=len(mpm.stages.place(layer(4, 5), steps=4)), placed=[], dug=[])
+for step in range(4):
+	O.run(1, wait=True)
+	out['placed'].append([settlement(), load()])
+mpm.stages.place(layer(5, 6))  # at once
+O.run(2, wait=True)
+out['second'] = [settlement(), load()]
+out['materials'] = sorted({b.material.label for b in O.bodies})
+out['points'] = mpm.stages.excavate(part(4, 7), steps=4)
+mpm.save('half.yade.gz')
+for step in range(4):
+	O.run(1, wait=True)
+	out['dug'].append([settlement(), load(), len(mpm.arrays()['id'])])
+O.load('half.yade.gz')
+O.run(4, wait=True)
+solver = O.engines[-1]
+out['loaded'] = [settlement(), load(), len(mpm.arrays()['id'])]
+mpm.stages.resetDisplacements()
+mpm.stages.place(layer(4, 5), steps=2)
+out['engines'] = len(O.engines)
+O.run(2, wait=True)
+out['again'] = settlement()
+print(json.dumps(out))
+''').result
+	unit = 2000 * 10 * 3.875 / 2e7  # of a layer 1 m thick, at the middle of the highest points
+	assert result['ids'] == 8 and result['materials'] == ['fill', 'ground']
+	for i, (down, force) in enumerate(result['placed'], 1):
+		assert down == pytest.approx(unit * i / 4, rel=.006) and force == pytest.approx(4 + i / 4, rel=1e-6)
+	assert result['second'] == pytest.approx([2 * unit, 6], rel=.006)
+	assert result['points'] == 16
+	for i, (down, force, points) in enumerate(result['dug'], 1):
+		assert down == pytest.approx(2 * unit * (1 - i / 4), rel=.02, abs=1e-3 * unit) and force == pytest.approx(6 - i / 2, rel=1e-6)
+		assert points == (48 if i < 4 else 32)
+	assert result['loaded'] == result['dug'][-1]
+	assert result['engines'] == 2  # runners that are done are taken away
+	assert result['again'] == pytest.approx(unit, rel=.006)
+
+
+def test_a_support_is_taken_away_and_mistakes_are_named(yade):
+	side, messages = yade(column + '''
+solver.boundaries = [*solver.boundaries[:2], MpmBoundary(max=(inf, 0, inf), fix='xy')]
+O.run(1, wait=True)
+mpm.stages.release(1)
+side = len(solver.boundaries)
+print(json.dumps([side, [refused(mpm.stages.release, 5), refused(mpm.stages.release, base), refused(mpm.stages.place, []), refused(mpm.stages.place, layer(4, 5), steps=0), refused(mpm.stages.place, layer(4, 5), steps=2.5),
+	refused(mpm.stages.place, list(O.bodies)), refused(mpm.stages.excavate, part(8, 9)), refused(mpm.stages.excavate, part(0, 9)), refused(mpm.stages.excavate, 3), refused(mpm.stages.excavate, part(2, 4), solver=7),
+	refused(mpm.stages.place, layer(4, 5), solver=MpmDynamicEngine())]]))
+''').result
+	assert side == 2
+	number, base, empty, none, real, twice, beside, all_, three, solver, dynamic = messages
+	assert 'boundary = 5' in number and 'none of the 2' in base
+	assert 'TypeError' in empty and 'bodies' in empty and 'steps = 0' in none and 'steps = 2.5' in real and 'already' in twice
+	assert 'no material point' in beside and 'all material points' in all_ and 'region = 3' in three and 'solver = 7' in solver and 'inertia' in dynamic
