@@ -188,7 +188,7 @@ struct Batch {
 /// Gradient of the incremental displacements of a batch.
 template <int Dim, int Axes> struct Increment {
 	MatrixOf<Dim, Lanes> gradient;
-	Lanes                hoop; ///< around the axis of a body of revolution
+	Lanes                hoop { 0. }; ///< around the axis of a body of revolution
 
 	Increment() = default;
 	GIMPM_INLINE explicit Increment(const Lanes (&from)[Dim][Axes])

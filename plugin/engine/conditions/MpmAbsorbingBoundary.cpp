@@ -14,4 +14,4 @@ void MpmAbsorbingBoundary::requireAdmissible() const
 } // namespace yade
 
 BOOST_CLASS_EXPORT_IMPLEMENT(yade::MpmAbsorbingBoundary)
-static const yade::PluginClasses<yade::MpmAbsorbingBoundary> registered(__FILE__);
+static const yade::PluginClasses<yade::MpmAbsorbingBoundary> registeredMpmAbsorbingBoundary(__FILE__);

@@ -27,4 +27,4 @@ Vector3r MpmBaseMotion::displacementBetween(Real begin, Real end) const
 } // namespace yade
 
 BOOST_CLASS_EXPORT_IMPLEMENT(yade::MpmBaseMotion)
-static const yade::PluginClasses<yade::MpmBaseMotion> registered(__FILE__);
+static const yade::PluginClasses<yade::MpmBaseMotion> registeredMpmBaseMotion(__FILE__);

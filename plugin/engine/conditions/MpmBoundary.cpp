@@ -64,4 +64,4 @@ void MpmBoundary::requireAdmissible() const
 } // namespace yade
 
 BOOST_CLASS_EXPORT_IMPLEMENT(yade::MpmBoundary)
-static const yade::PluginClasses<yade::MpmBoundary> registered(__FILE__);
+static const yade::PluginClasses<yade::MpmBoundary> registeredMpmBoundary(__FILE__);

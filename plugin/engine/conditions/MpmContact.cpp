@@ -75,4 +75,4 @@ void MpmContact::handOver(Scene& scene)
 } // namespace yade
 
 BOOST_CLASS_EXPORT_IMPLEMENT(yade::MpmContact)
-static const yade::PluginClasses<yade::MpmContact> registered(__FILE__);
+static const yade::PluginClasses<yade::MpmContact> registeredMpmContact(__FILE__);

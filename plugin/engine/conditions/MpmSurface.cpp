@@ -136,4 +136,4 @@ std::optional<shared_ptr<MpmSurface>> Conversion<shared_ptr<MpmSurface>>::fromPy
 } // namespace yade
 
 BOOST_CLASS_EXPORT_IMPLEMENT(yade::MpmSurface)
-static const yade::PluginClasses<yade::MpmSurface> registered(__FILE__);
+static const yade::PluginClasses<yade::MpmSurface> registeredMpmSurface(__FILE__);

@@ -12,4 +12,4 @@ void MpmTraction::requireAdmissible() const
 } // namespace yade
 
 BOOST_CLASS_EXPORT_IMPLEMENT(yade::MpmTraction)
-static const yade::PluginClasses<yade::MpmTraction> registered(__FILE__);
+static const yade::PluginClasses<yade::MpmTraction> registeredMpmTraction(__FILE__);

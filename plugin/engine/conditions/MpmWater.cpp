@@ -33,4 +33,4 @@ void MpmWater::requireAdmissible() const
 } // namespace yade
 
 BOOST_CLASS_EXPORT_IMPLEMENT(yade::MpmWater)
-static const yade::PluginClasses<yade::MpmWater> registered(__FILE__);
+static const yade::PluginClasses<yade::MpmWater> registeredMpmWater(__FILE__);

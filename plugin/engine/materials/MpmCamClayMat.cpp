@@ -24,4 +24,4 @@ void MpmCamClayMat::requireStart(const MpmState& state) const
 } // namespace yade
 
 BOOST_CLASS_EXPORT_IMPLEMENT(yade::MpmCamClayMat)
-static const yade::PluginClasses<yade::MpmCamClayMat> registered(__FILE__);
+static const yade::PluginClasses<yade::MpmCamClayMat> registeredMpmCamClayMat(__FILE__);

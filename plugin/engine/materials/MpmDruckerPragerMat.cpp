@@ -2,4 +2,4 @@
 #include "engine/materials/MpmDruckerPragerMat.hpp"
 
 BOOST_CLASS_EXPORT_IMPLEMENT(yade::MpmDruckerPragerMat)
-static const yade::PluginClasses<yade::MpmDruckerPragerMat> registered(__FILE__);
+static const yade::PluginClasses<yade::MpmDruckerPragerMat> registeredMpmDruckerPragerMat(__FILE__);

@@ -2,4 +2,4 @@
 #include "engine/materials/MpmElasticMat.hpp"
 
 BOOST_CLASS_EXPORT_IMPLEMENT(yade::MpmElasticMat)
-static const yade::PluginClasses<yade::MpmElasticMat> registered(__FILE__);
+static const yade::PluginClasses<yade::MpmElasticMat> registeredMpmElasticMat(__FILE__);

@@ -24,4 +24,4 @@ void MpmFrictionalMat::requireAdmissible() const
 } // namespace yade
 
 BOOST_CLASS_EXPORT_IMPLEMENT(yade::MpmFrictionalMat)
-static const yade::PluginClasses<yade::MpmFrictionalMat> registered(__FILE__);
+static const yade::PluginClasses<yade::MpmFrictionalMat> registeredMpmFrictionalMat(__FILE__);

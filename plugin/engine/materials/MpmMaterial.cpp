@@ -19,4 +19,4 @@ void MpmMaterial::requireAdmissible() const
 } // namespace yade
 
 BOOST_CLASS_EXPORT_IMPLEMENT(yade::MpmMaterial)
-static const yade::PluginClasses<yade::MpmMaterial> registered(__FILE__);
+static const yade::PluginClasses<yade::MpmMaterial> registeredMpmMaterial(__FILE__);

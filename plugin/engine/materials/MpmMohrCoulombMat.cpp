@@ -2,4 +2,4 @@
 #include "engine/materials/MpmMohrCoulombMat.hpp"
 
 BOOST_CLASS_EXPORT_IMPLEMENT(yade::MpmMohrCoulombMat)
-static const yade::PluginClasses<yade::MpmMohrCoulombMat> registered(__FILE__);
+static const yade::PluginClasses<yade::MpmMohrCoulombMat> registeredMpmMohrCoulombMat(__FILE__);

@@ -2,4 +2,4 @@
 #include "engine/materials/MpmTrescaMat.hpp"
 
 BOOST_CLASS_EXPORT_IMPLEMENT(yade::MpmTrescaMat)
-static const yade::PluginClasses<yade::MpmTrescaMat> registered(__FILE__);
+static const yade::PluginClasses<yade::MpmTrescaMat> registeredMpmTrescaMat(__FILE__);

@@ -22,4 +22,4 @@ void MpmVonMisesMat::requireAdmissible() const
 } // namespace yade
 
 BOOST_CLASS_EXPORT_IMPLEMENT(yade::MpmVonMisesMat)
-static const yade::PluginClasses<yade::MpmVonMisesMat> registered(__FILE__);
+static const yade::PluginClasses<yade::MpmVonMisesMat> registeredMpmVonMisesMat(__FILE__);

@@ -295,4 +295,4 @@ void MpmVtkRecorder::write(const string& kind, const Moment& now, const MpmImpli
 } // namespace yade
 
 BOOST_CLASS_EXPORT_IMPLEMENT(yade::MpmVtkRecorder)
-static const yade::PluginClasses<yade::MpmVtkRecorder> registered(__FILE__);
+static const yade::PluginClasses<yade::MpmVtkRecorder> registeredMpmVtkRecorder(__FILE__);

@@ -2,4 +2,4 @@
 #include "engine/points/MpmPoint.hpp"
 
 BOOST_CLASS_EXPORT_IMPLEMENT(yade::MpmPoint)
-static const yade::PluginClasses<yade::MpmPoint> registered(__FILE__);
+static const yade::PluginClasses<yade::MpmPoint> registeredMpmPoint(__FILE__);

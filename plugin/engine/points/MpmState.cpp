@@ -67,4 +67,4 @@ void MpmState::requireAdmissible() const
 } // namespace yade
 
 BOOST_CLASS_EXPORT_IMPLEMENT(yade::MpmState)
-static const yade::PluginClasses<yade::MpmState> registered(__FILE__);
+static const yade::PluginClasses<yade::MpmState> registeredMpmState(__FILE__);

@@ -72,4 +72,4 @@ void MpmDynamicEngine::watch()
 } // namespace yade
 
 BOOST_CLASS_EXPORT_IMPLEMENT(yade::MpmDynamicEngine)
-static const yade::PluginClasses<yade::MpmDynamicEngine> registered(__FILE__);
+static const yade::PluginClasses<yade::MpmDynamicEngine> registeredMpmDynamicEngine(__FILE__);

@@ -2,4 +2,4 @@
 #include "engine/solver/MpmGhost.hpp"
 
 BOOST_CLASS_EXPORT_IMPLEMENT(yade::MpmGhost)
-static const yade::PluginClasses<yade::MpmGhost> registered(__FILE__);
+static const yade::PluginClasses<yade::MpmGhost> registeredMpmGhost(__FILE__);

@@ -60,4 +60,4 @@ template gimpm::Grid<3> MpmGrid::lattice() const;
 } // namespace yade
 
 BOOST_CLASS_EXPORT_IMPLEMENT(yade::MpmGrid)
-static const yade::PluginClasses<yade::MpmGrid> registered(__FILE__);
+static const yade::PluginClasses<yade::MpmGrid> registeredMpmGrid(__FILE__);

@@ -185,4 +185,4 @@ void MpmImplicitEngine::warn(const string& text)
 } // namespace yade
 
 BOOST_CLASS_EXPORT_IMPLEMENT(yade::MpmImplicitEngine)
-static const yade::PluginClasses<yade::MpmImplicitEngine> registered(__FILE__);
+static const yade::PluginClasses<yade::MpmImplicitEngine> registeredMpmImplicitEngine(__FILE__);

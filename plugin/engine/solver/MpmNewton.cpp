@@ -2,4 +2,4 @@
 #include "engine/solver/MpmNewton.hpp"
 
 BOOST_CLASS_EXPORT_IMPLEMENT(yade::MpmNewton)
-static const yade::PluginClasses<yade::MpmNewton> registered(__FILE__);
+static const yade::PluginClasses<yade::MpmNewton> registeredMpmNewton(__FILE__);

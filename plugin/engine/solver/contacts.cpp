@@ -63,7 +63,7 @@ namespace {
 			        + " is free to move and gets the forces of the soil: the engine of its contact must stand behind ForceResetter and before NewtonIntegrator in O.engines.");
 	}
 
-	template <int Dim> gimpm::Vec<Dim> inDimension(const Vector3r& x) { return x.head<Dim>(); }
+	template <int Dim> gimpm::Vec<Dim> headOf(const Vector3r& x) { return x.head<Dim>(); }
 
 	template <int Dim> Vector3r inSpace(const gimpm::Vec<Dim>& x)
 	{
@@ -155,7 +155,7 @@ template <int Dim> int Contacts<Dim>::ownerOf(const shared_ptr<MpmContact>& cont
 		owner.begin = contact->poseOf(former->second);
 	owner.reached = owner.begin;
 	owners.push_back(owner);
-	system->owners.push_back(inDimension<Dim>(owner.begin.position));
+	system->owners.push_back(headOf<Dim>(owner.begin.position));
 	return int(owners.size()) - 1;
 }
 
@@ -192,7 +192,7 @@ template <int Dim> void Contacts<Dim>::recall(const MpmContact& contact)
 		const auto body  = numbers.find(r.body);
 		if (point == points.end() || *point != r.point || body == numbers.end()) return; // erased
 		system->records.push_back({ int(point - points.begin()), r.corner, body->second, r.offset, r.touches, r.slips, r.gap, r.pressure,
-		                            inDimension<Dim>(r.friction), inDimension<Dim>(r.normal), inDimension<Dim>(r.place) });
+		                            headOf<Dim>(r.friction), headOf<Dim>(r.normal), headOf<Dim>(r.place) });
 	});
 }
 
@@ -209,7 +209,7 @@ template <int Dim> void Contacts<Dim>::advanceTo(Real time)
 	const auto partAt = [&](Real t) { return target > begin ? std::min(1., (t - begin) / (target - begin)) : 1; };
 	for (size_t i = 0; i < owners.size(); ++i) {
 		owners[i].reached = between(owners[i].begin, owners[i].target, partAt(time));
-		system->owners[i] = inDimension<Dim>(owners[i].reached.position);
+		system->owners[i] = headOf<Dim>(owners[i].reached.position);
 	}
 	for (size_t i = 0; i < members.size(); ++i) {
 		auto&        rigid = system->bodies[i];

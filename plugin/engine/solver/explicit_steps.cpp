@@ -8,7 +8,7 @@
 namespace yade {
 
 namespace {
-	template <class... Parts> [[noreturn]] void refuse(const Parts&... parts)
+	template <class... Parts> [[noreturn]] void refuseExplicit(const Parts&... parts)
 	{
 		std::ostringstream text;
 		text << "MpmDynamicEngine, scheme='explicit': ";
@@ -41,14 +41,17 @@ namespace {
 void requireExplicit(const MpmDynamicEngine& engine)
 {
 	const MpmGhost& ghost = *engine.ghost;
-	if (engine.timeTolerance > 0) refuse("timeTolerance = ", engine.timeTolerance, " would cut steps, which are not cut here: leave it 0 and give O.dt.");
+	if (engine.timeTolerance > 0)
+		refuseExplicit("timeTolerance = ", engine.timeTolerance, " would cut steps, which are not cut here: leave it 0 and give O.dt.");
 	if (engine.rayleigh.first != 0 || engine.rayleigh.second != 0)
-		refuse("rayleigh = (", engine.rayleigh.first, ", ", engine.rayleigh.second,
-		       ") needs a stiffness matrix, which explicit steps do without: take an implicit scheme, or (0, 0).");
+		refuseExplicit(
+		        "rayleigh = (", engine.rayleigh.first, ", ", engine.rayleigh.second,
+		        ") needs a stiffness matrix, which explicit steps do without: take an implicit scheme, or (0, 0).");
 	if (ghost.factor > 0 && ghost.massFactor == 0)
-		refuse("ghost.massFactor = 0 with ghost.factor = ", ghost.factor,
-		       ": ghost stiffness without ghost mass would be too stiff for nodes of nearly empty cells. Without ghost mass take ghost=MpmGhost(factor=0), which lumps the "
-		       "mass; with it a massFactor > 0 (1/4).");
+		refuseExplicit(
+		        "ghost.massFactor = 0 with ghost.factor = ", ghost.factor,
+		        ": ghost stiffness without ghost mass would be too stiff for nodes of nearly empty cells. Without ghost mass take ghost=MpmGhost(factor=0), which lumps the "
+		        "mass; with it a massFactor > 0 (1/4).");
 }
 
 template <int Dim> void requireStable(const MpmDynamicEngine& engine, const gimpm::PointCloud<Dim>& cloud, const gimpm::Model<Dim>& model, Real duration)
@@ -56,9 +59,10 @@ template <int Dim> void requireStable(const MpmDynamicEngine& engine, const gimp
 	const Real critical = limit(engine, cloud, model);
 	if (duration <= critical * (1 + 1e-9)) return;
 	const Real penalty = largestPenalty(engine);
-	refuse("a step of ", duration, " s (O.dt", engine.iterPeriod > 1 ? " times iterPeriod" : "", ") is above the critical one, ", critical,
-	       " s, and would be unstable. Give a smaller O.dt, as 0.9 * solver.criticalTimeStep", penalty > 0 ? ", smaller MpmContact.stiffness" : "",
-	       ", larger cells, or an implicit scheme, which has no limit.");
+	refuseExplicit(
+	        "a step of ", duration, " s (O.dt", engine.iterPeriod > 1 ? " times iterPeriod" : "", ") is above the critical one, ", critical,
+	        " s, and would be unstable. Give a smaller O.dt, as 0.9 * solver.criticalTimeStep", penalty > 0 ? ", smaller MpmContact.stiffness" : "",
+	        ", larger cells, or an implicit scheme, which has no limit.");
 }
 
 Real criticalTimeStep(MpmDynamicEngine& engine) { return engine.grid && engine.grid->dim == 3 ? limitOfNow<3>(engine) : limitOfNow<2>(engine); }

@@ -9,7 +9,7 @@
 namespace yade {
 
 namespace {
-	template <int Dim> gimpm::Vec<Dim> inDimension(const MaterialPoint& point, const char* name, const Vector3r& value)
+	template <int Dim> gimpm::Vec<Dim> finiteInDimension(const MaterialPoint& point, const char* name, const Vector3r& value)
 	{
 		const bool isOutOfPlane = Dim == 2 && value[2] != 0;
 		if (value.allFinite() && !isOutOfPlane) return value.head<Dim>();
@@ -27,8 +27,8 @@ template <int Dim> Moving<Dim>::Moving(MpmDynamicEngine& e, Job<Dim>& job, const
 	if (engine.timeTolerance > 0) motion->tolerance = engine.timeTolerance * engine.grid->cellSize;
 	for (size_t p = 0; p < points.size(); ++p) {
 		motion->mass.push_back(job.model.materials[job.cloud.material[p]].density * job.cloud.volume0[p]);
-		motion->velocity.push_back(inDimension<Dim>(points[p], "vel", points[p].state->vel));
-		motion->acceleration.push_back(inDimension<Dim>(points[p], "acceleration", points[p].state->acceleration));
+		motion->velocity.push_back(finiteInDimension<Dim>(points[p], "vel", points[p].state->vel));
+		motion->acceleration.push_back(finiteInDimension<Dim>(points[p], "acceleration", points[p].state->acceleration));
 	}
 	motion->contacts   = job.contacts.weigh(motion->scheme.weightOfContact());
 	shaking            = std::make_unique<Shaking<Dim>>(engine, job, *motion);

@@ -92,11 +92,11 @@ namespace {
 		return nodes;
 	}
 
-	using Values = std::map<Key, Real>;
+	using PressureAt = std::map<Key, Real>;
 
-	template <int Dim> Values valuesOf(const MpmWater& water)
+	template <int Dim> PressureAt valuesOf(const MpmWater& water)
 	{
-		Values values;
+		PressureAt values;
 		for (size_t i = 0; i + 3 < water.table.size(); i += 4) {
 			const Vector3r node(water.table[i], water.table[i + 1], water.table[i + 2]);
 			values[gimpm::Grid<Dim>::key(node.head<Dim>().template cast<int>())] = water.table[i + 3];
@@ -104,7 +104,7 @@ namespace {
 		return values;
 	}
 
-	template <int Dim> void store(const Values& values, MpmWater& water)
+	template <int Dim> void store(const PressureAt& values, MpmWater& water)
 	{
 		water.table.clear();
 		for (const auto& [key, value] : values) {
@@ -128,7 +128,7 @@ namespace {
 		return x;
 	}
 
-	template <int Dim> [[noreturn]] void refuse(Key node, const gimpm::Grid<Dim>& grid, const string& name)
+	template <int Dim> [[noreturn]] void refuseNode(Key node, const gimpm::Grid<Dim>& grid, const string& name)
 	{
 		throw std::invalid_argument(
 		        name + ": the pressure at " + textOf(placeOf(node, grid))
@@ -142,15 +142,15 @@ std::shared_ptr<const gimpm::WaterPressure<Dim>> tabulated(
 {
 	constexpr int near = 1, far = 3; // cells that a point may reach in a step, and in the steps after a scene has been loaded
 	if (water.pressure && (water.evaluated != water.pressure.object.get() || water.tableGrid != numbersOf(grid))) water.forgetTable();
-	if (water.tableGrid != numbersOf(grid) && !water.pressure) refuse(gimpm::Grid<Dim>::key(gimpm::Index<Dim>::Zero()), grid, name);
-	Values            values = valuesOf<Dim>(water);
+	if (water.tableGrid != numbersOf(grid) && !water.pressure) refuseNode(gimpm::Grid<Dim>::key(gimpm::Index<Dim>::Zero()), grid, name);
+	PressureAt        values = valuesOf<Dim>(water);
 	const vector<Key> cells  = cellsOf(cloud, grid);
 	vector<Key>       missing;
 	const auto        lacks = [&](Key node) { return values.find(node) == values.end(); };
 	for (const Key node : nodesAround(cells, near, grid))
 		if (lacks(node)) missing.push_back(node);
 	if (!missing.empty()) {
-		if (!water.pressure) refuse(missing[0], grid, name);
+		if (!water.pressure) refuseNode(missing[0], grid, name);
 		missing.clear();
 		for (const Key node : nodesAround(cells, far, grid))
 			if (lacks(node)) missing.push_back(node);

@@ -6,7 +6,7 @@ namespace yade {
 namespace {
 	using gimpm::RigidKind;
 
-	[[noreturn]] void refuse(const Body& body, const string& what)
+	[[noreturn]] void refuseBody(const Body& body, const string& what)
 	{
 		throw std::invalid_argument("Body #" + std::to_string(body.id) + ", a " + body.shape->getClassName() + ", " + what);
 	}
@@ -20,7 +20,7 @@ namespace {
 
 	void requirePositive(const Body& body, bool is, const char* attribute, const string& value)
 	{
-		if (!is) refuse(body, string("cannot touch the soil: its ") + attribute + " = " + value + ", expected finite numbers > 0.");
+		if (!is) refuseBody(body, string("cannot touch the soil: its ") + attribute + " = " + value + ", expected finite numbers > 0.");
 	}
 
 	// The others keep the axes of the scene as their own until they turn.
@@ -47,9 +47,10 @@ namespace {
 	template <int Dim> bool makeShape(const Body& body, const Wall& wall, gimpm::RigidShape<Dim>& shape)
 	{
 		if (wall.axis < 0 || wall.axis > 2 || wall.sense < -1 || wall.sense > 1)
-			refuse(body,
-			       "has axis = " + std::to_string(wall.axis) + " and sense = " + std::to_string(wall.sense)
-			               + ": expected 0, 1 or 2 and -1, 0 or 1.");
+			refuseBody(
+			        body,
+			        "has axis = " + std::to_string(wall.axis) + " and sense = " + std::to_string(wall.sense)
+			                + ": expected 0, 1 or 2 and -1, 0 or 1.");
 		if (wall.axis >= Dim) return false;
 		shape.kind       = RigidKind::plane;
 		shape.isTwoSided = wall.sense == 0;
@@ -63,7 +64,8 @@ namespace {
 		for (const Vector3r& vertex : facet.vertices)
 			corners.push_back(ori * vertex);
 		const bool isOne = corners.size() == 3 && (corners[1] - corners[0]).cross(corners[2] - corners[0]).norm() > 0;
-		if (!isOne || !(corners[0] + corners[1] + corners[2]).allFinite()) refuse(body, "cannot touch the soil: its vertices do not span a triangle.");
+		if (!isOne || !(corners[0] + corners[1] + corners[2]).allFinite())
+			refuseBody(body, "cannot touch the soil: its vertices do not span a triangle.");
 		return corners;
 	}
 
@@ -94,13 +96,15 @@ namespace {
 		const bool isRound = rigid.shape.kind == RigidKind::sheet
 		        || (rigid.shape.kind == RigidKind::plane ? rigid.shape.normal[0] == 0 : std::abs(rigid.begin.position[0]) <= 1e-9 * rigid.shape.radius);
 		if (!isRound || !rigid.begin.rotation.isIdentity(1e-9))
-			refuse(body,
-			       "is no body of revolution about the axis x = 0: on an axisymmetric grid Spheres and upright Boxes (cylinders) in the middle, Walls across the axis and Facets (cones) touch the soil.");
+			refuseBody(
+			        body,
+			        "is no body of revolution about the axis x = 0: on an axisymmetric grid Spheres and upright Boxes (cylinders) in the middle, Walls across the axis and Facets (cones) touch the soil.");
 	}
 
-	template <int Dim> gimpm::Mat<Dim> inDimension(const Body& body, const Matrix3r& rotation)
+	template <int Dim> gimpm::Mat<Dim> rotationInDimension(const Body& body, const Matrix3r& rotation)
 	{
-		if (Dim == 2 && std::abs(rotation(2, 2) - 1) > 1e-9) refuse(body, "turns out of the plane of a grid with dim=2, where it acts by its section.");
+		if (Dim == 2 && std::abs(rotation(2, 2) - 1) > 1e-9)
+			refuseBody(body, "turns out of the plane of a grid with dim=2, where it acts by its section.");
 		return rotation.topLeftCorner<Dim, Dim>();
 	}
 }
@@ -108,12 +112,12 @@ namespace {
 template <int Dim> gimpm::Pose<Dim> poseOf(const Body& body, const Se3r& first, const Se3r& now)
 {
 	const Quaternionr turn = hasOwnAxes(body) ? now.orientation : now.orientation * first.orientation.conjugate();
-	return { now.position.head<Dim>(), inDimension<Dim>(body, turn.normalized().toRotationMatrix()) };
+	return { now.position.head<Dim>(), rotationInDimension<Dim>(body, turn.normalized().toRotationMatrix()) };
 }
 
 template <int Dim> std::optional<gimpm::RigidBody<Dim>> rigidBody(const Body& body, const Se3r& at, const gimpm::Grid<Dim>& grid)
 {
-	if (!at.position.allFinite() || !at.orientation.coeffs().allFinite()) refuse(body, "is at " + numbers(at.position) + ": expected finite numbers.");
+	if (!at.position.allFinite() || !at.orientation.coeffs().allFinite()) refuseBody(body, "is at " + numbers(at.position) + ": expected finite numbers.");
 	gimpm::RigidBody<Dim> rigid;
 	const Shape*          shape = body.shape.get();
 	bool                  acts  = false;
@@ -129,12 +133,12 @@ template <int Dim> std::optional<gimpm::RigidBody<Dim>> rigidBody(const Body& bo
 		rigid.shape.isTwoSided = true;
 		acts                   = makeSheet(body, *facet, at, rigid.shape);
 	} else
-		refuse(body, "cannot touch the soil: Sphere, Box, Facet and Wall can, and clumps of them. Give MpmContact a mask that leaves it out.");
+		refuseBody(body, "cannot touch the soil: Sphere, Box, Facet and Wall can, and clumps of them. Give MpmContact a mask that leaves it out.");
 	if (!acts) return std::nullopt;
 	rigid.begin = rigid.end = poseOf<Dim>(body, at, at);
 	if (grid.axisymmetric) requireOnAxis(body, rigid);
 	if (grid.isPeriodic() && rigid.shape.kind != RigidKind::plane)
-		refuse(body, "cannot touch the soil on a periodic grid (MpmGrid.period), where only Walls can.");
+		refuseBody(body, "cannot touch the soil on a periodic grid (MpmGrid.period), where only Walls can.");
 	return rigid;
 }
 
