@@ -67,49 +67,38 @@ print(json.dumps([edge.reaction[1] / (12 * 1000 * 1e-2), float(np.abs(mpm.arrays
 
 def test_a_saved_scene_goes_on_bit_for_bit(yade):
 	"""With all that is remembered: what the edge bears, energies, the accelerations of a moving base."""
-	setup = '''
-side = dict(motion=MpmBaseMotion(history=history, direction=(1, 0, 0)))
-solver = ground(6, gravity=(0, -0.1, 0), **dict(
-	edge=dict(absorbing=[MpmAbsorbingBoundary(**side, **base)], rayleigh=(0.1, 1e-3), scheme='generalised-alpha'),
-	rigid=dict(boundaries=[MpmBoundary(fix='xy', **side, **base)], rayleigh=(0, 1e-3)))[kind])
-O.dt = 0.05
+	go = '''
+for kind in kinds:
+	O.reset()
+	%s
+	O.run(10, wait=True)
+	np.savez('%s-' + kind + '.npz', **mpm.arrays(), energy=O.engines[0].plotData()['energyImbalance'])
 '''
+	kinds = """
+side = dict(motion=MpmBaseMotion(history=history, direction=(1, 0, 0)))
+kinds = dict(
+	edge=lambda: dict(absorbing=[MpmAbsorbingBoundary(**side, **base)], rayleigh=(0.1, 1e-3), scheme='generalised-alpha'),
+	rigid=lambda: dict(boundaries=[MpmBoundary(fix='xy', **side, **base)], rayleigh=(0, 1e-3)))
+"""
+	yade(scene + kinds + go % ("ground(6, gravity=(0, -0.1, 0), **kinds[kind]()); O.dt = 0.05; O.run(10, wait=True); O.save(kind + '.xml.gz')", 'whole'))
+	yade(scene + kinds + go % ("O.load(kind + '.xml.gz')", 'parts'))
 	for kind in 'edge', 'rigid':
-		yade(scene + f'kind = {kind!r}\n' + setup + '''
-O.run(10, wait=True)
-O.save('half.xml.gz')
-O.run(10, wait=True)
-np.savez('whole.npz', **mpm.arrays(), energy=solver.plotData()['energyImbalance'])
-''')
-		yade(scene + '''
-O.load('half.xml.gz')
-O.run(10, wait=True)
-np.savez('parts.npz', **mpm.arrays(), energy=O.engines[0].plotData()['energyImbalance'])
-''')
-		whole, parts = np.load(yade.folder / 'whole.npz'), np.load(yade.folder / 'parts.npz')
+		whole, parts = np.load(yade.folder / f'whole-{kind}.npz'), np.load(yade.folder / f'parts-{kind}.npz')
 		assert np.abs(whole['velocity'][:, 0]).max() > 1e-5
 		for name in whole:
 			assert np.array_equal(whole[name], parts[name], equal_nan=True), (kind, name)
 
 
-def test_a_moving_base_shakes_the_ground_and_energy_balances(yade):
+def test_damping_takes_energy_and_it_balances(yade):
+	"""Of ground that a moving base shakes, by its stiffness; and of a body that flies, by its mass."""
 	run = yade(scene + '''
 shaken = MpmBoundary(fix='xy', motion=MpmBaseMotion(history=history), **base)
 solver = ground(6, boundaries=[shaken], rayleigh=(0, 0.05))
 h = mpm.histories([(0.25, 0.25, 0), (0.25, 5.75, 0)], record=['displacement'])
 O.dt = 0.02
 O.run(400, wait=True)
-data = solver.plotData()
-print(json.dumps([h['displacement_x'][-1].tolist(), float(sum(v for t, v in history) * 0.005), data]))
-''')
-	moved, total, data = run.result
-	assert moved == pytest.approx([total, total], rel=0.02)
-	assert data['dampingWork'] > 0.5 * data['boundaryWork'] > 0
-	assert abs(data['energyImbalance']) < 0.01 * data['boundaryWork']
-
-
-def test_mass_proportional_damping_slows_a_body_down(yade):
-	yade(scene + '''
+result = [h['displacement_x'][-1].tolist(), float(sum(v for t, v in history) * 0.005), solver.plotData()]
+O.reset()  # damping by mass
 solver = ground(3, rayleigh=(0.7, 0))
 mpm.assign(velocity=[(0, 1, 0)] * len(mpm.arrays()['id']))
 O.dt = 0.01
@@ -117,7 +106,12 @@ O.run(50, wait=True)
 assert abs(mpm.arrays()['velocity'][:, 1] / np.exp(-0.35) - 1).max() < 1e-4
 data = solver.plotData()
 assert abs(data['dampingWork'] / (4500 * (1 - np.exp(-0.7))) - 1) < 1e-4
+print(json.dumps(result))
 ''')
+	moved, total, data = run.result
+	assert moved == pytest.approx([total, total], rel=0.02)
+	assert data['dampingWork'] > 0.5 * data['boundaryWork'] > 0
+	assert abs(data['energyImbalance']) < 0.01 * data['boundaryWork']
 
 
 mistakes = {
@@ -134,7 +128,23 @@ mistakes = {
 }
 
 
+historyFile = '''
+open('quake.txt', 'w').write('time velocity\\n# of a station\\n0, 0.1\\n0.5; 0.2\\n1 -0.3\\n')
+assert mpm.readHistory('quake.txt') == [(0, 0.1), (0.5, 0.2), (1, -0.3)]
+assert MpmBaseMotion(history=mpm.readHistory('quake.txt')).history[1] == (0.5, 0.2)
+for text, expected in {'0 0\\n0 1\\n': 'line 2: time 0', '0 0\\n1 x\\n': 'line 2', 'x\\n': 'no line', '0 0\\n1 nan\\n': 'line 2', '0 1 2\\n1 1\\n2 y\\n': 'line 3'}.items():
+	open('bad.txt', 'w').write(text)
+	try:
+		mpm.readHistory('bad.txt')
+	except ValueError as error:
+		assert expected in str(error), str(error)
+	else:
+		assert False, text
+'''
+
+
 def test_what_cannot_be_meant_is_refused_by_name(yade):
+	"""Conditions, settings and files; a file that is right is read."""
 	yade(scene + f'''
 for name, (settings, expected) in {mistakes!r}.items():
 	O.reset()
@@ -155,7 +165,7 @@ for text in 'rayleigh=(-1, 0)', 'rayleigh=(0, nan)', 'rayleigh=1', 'absorbing=[M
 		assert 'MpmDynamicEngine.' + text.split('=')[0] in str(error), str(error)
 	else:
 		assert False, text
-''')
+''' + historyFile)
 
 
 def test_histories_are_arrays_tables_and_pictures(yade):
@@ -190,20 +200,4 @@ O.load('histories.xml.gz')
 O.run(4, wait=True)
 h = mpm.histories.loaded('two')
 assert len(h.time) >= 2 and h['stress'].shape[1:] == (2, 3, 3)
-''')
-
-
-def test_a_history_is_read_from_a_file(yade):
-	yade(scene + '''
-open('quake.txt', 'w').write('time velocity\\n# of a station\\n0, 0.1\\n0.5; 0.2\\n1 -0.3\\n')
-assert mpm.readHistory('quake.txt') == [(0, 0.1), (0.5, 0.2), (1, -0.3)]
-assert MpmBaseMotion(history=mpm.readHistory('quake.txt')).history[1] == (0.5, 0.2)
-for text, expected in {'0 0\\n0 1\\n': 'line 2: time 0', '0 0\\n1 x\\n': 'line 2', 'x\\n': 'no line', '0 0\\n1 nan\\n': 'line 2', '0 1 2\\n1 1\\n2 y\\n': 'line 3'}.items():
-	open('bad.txt', 'w').write(text)
-	try:
-		mpm.readHistory('bad.txt')
-	except ValueError as error:
-		assert expected in str(error), str(error)
-	else:
-		assert False, text
 ''')
