@@ -53,10 +53,11 @@ template <int Dim> void ExplicitInertia<Dim>::begin(const Beginning<Dim>& step)
 	const Eigen::VectorXd zero  = Eigen::VectorXd::Zero(step.prescribed.size());
 	Eigen::VectorXd       force = step.imbalance(), a = ofHeld<Dim>(zero, &MovingBase<Dim>::acceleration, motion_.bases, step);
 	if (!damping_.empty()) {
-		Eigen::VectorXd v = ofHeld<Dim>(step.prescribed / T, &MovingBase<Dim>::velocity, motion_.bases, step), drag = zero;
-		solve(weighedAtNodes(basis_, motion_.mass, motion_.velocity), dofs_, v);
+		Eigen::VectorXd drag = zero;
+		start_               = ofHeld<Dim>(step.prescribed / T, &MovingBase<Dim>::velocity, motion_.bases, step);
+		solve(weighedAtNodes(basis_, motion_.mass, motion_.velocity), dofs_, start_);
 		for (const auto& each : damping_)
-			each->addBefore(v, drag);
+			each->addBefore(start_, drag);
 		force -= drag;
 	}
 	solve(force, dofs_, a);
@@ -123,7 +124,7 @@ template <int Dim> void ExplicitInertia<Dim>::commit()
 	addGhostForce(faces_, h_, d, ghost);
 	motion_.ghostWork = T / 4 * (middle_ + end_).dot(ghost); // it acts in the second half, on the velocities' way from the one to the other
 	for (const auto& each : damping_)
-		each->commit(T * end_, end_, end_);
+		each->commit(d, start_, end_);
 	motion_.acceleration.resize(motion_.velocity.size());
 	forPointNodes(basis_, [&](int i, const Patch<Dim>& patch, const double* value, int count) {
 		const int p             = basis_.order[i];

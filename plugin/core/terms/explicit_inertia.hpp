@@ -46,7 +46,7 @@ private:
 	std::vector<std::unique_ptr<Damping<Dim>>> damping_;
 	bool                                       isSingular_ = false;
 	std::vector<Vec<Dim>>                      atMiddle_;           // velocities of the points
-	Eigen::VectorXd                            middle_;             // velocities of the nodes in the middle of the step
+	Eigen::VectorXd                            start_, middle_;     // velocities of the nodes, the former where there is damping
 	Eigen::VectorXd                            acceleration_, end_; // at the end, and velocities there
 	Eigen::VectorXd                            blow_, jump_;        // impulse of what holds nodes as the step begins, and the velocities that it changes
 };
