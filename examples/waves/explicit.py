@@ -97,7 +97,7 @@ def bar():
 
 
 def meet(kind, courant):
-	solver = make([((0.3, 0), (8.3, 4)), ((10.1, 0.4), (16.1, 4.4))], kind, poisson=0.3)
+	solver = make([((0.3, 0), (8.3, 4)), ((10.1, 0.4), (16.1, 4.4))], kind)
 	mpm.assign(velocity=[((0.01 if x < 9 else -0.01) * c, 0, 0) for x in mpm.arrays()['pos'][:, 0]])
 	return follow(solver, courant / c, 180 / c, None)
 

@@ -178,7 +178,7 @@ namespace {
 		EXPECT_NEAR(body.angularMomentum() / before, 1, 1e-6);
 	}
 
-	/// A body flies against held nodes, which keep it: reactions are the whole change of its momentum in the middle of steps, the first blow included.
+	/// A body flies against held nodes, which keep it: reactions, by the trapezoidal rule, are the change of its momentum, the first blow included.
 	TYPED_TEST(Explicit, ReactionsAreTheChangeOfMomentum)
 	{
 		constexpr int Dim = TypeParam::value;
@@ -188,16 +188,15 @@ namespace {
 			auto body           = flying<Dim>(ghostMass, 0.2, [&](const Vec<Dim>&) { return v; });
 			body.model.boundary = Boundary<Dim>({ wallBelow<Dim>(body.model.grid, 0, 0) });
 			const double T = critical(body), before = body.momentum()[0];
-			double       impulse = 0, middle = 0;
+			double       impulse = 0, last = 0;
 			for (int i = 0; i < 0.15 / T; ++i) {
 				const auto report = body.step(T);
 				ASSERT_TRUE(report.converged()) << report.cause;
-				impulse += T * report.reactions[0][0];
+				impulse += T * (last = report.reactions[0][0]);
 			}
-			for (std::size_t p = 0; p < body.cloud.size(); ++p)
-				middle += body.motion->mass[p] * (body.motion->velocity[p] + T / 2 * body.motion->acceleration[p])[0];
+			impulse -= T / 2 * last;
 			EXPECT_GT(impulse, -before) << "it has turned back";
-			EXPECT_NEAR((middle - before) / impulse, 1, 1e-9);
+			EXPECT_NEAR((body.momentum()[0] - before) / impulse, 1, 3e-3);
 			EXPECT_NEAR(body.momentum()[1], 0.5 * body.mass(), 1e-9 * body.mass());
 		}
 	}

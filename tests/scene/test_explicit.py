@@ -90,7 +90,7 @@ print(json.dumps([abs(data['momentum_x'] - before) / before, most / first, v[x <
 ''')
 	momentum, most, left, _ = run.result
 	assert momentum < 1e-10
-	assert most < 1 + 1e-3
+	assert most < 1 + 2e-3 # at .9 of the critical step; it falls with the square of it
 	assert left < 0.5, 'they have met'
 
 
@@ -116,7 +116,7 @@ print(json.dumps([data['momentum_y'] / mass / speed, most / first, impulse / (da
 	speed, most, impulse, work, imbalance = run.result
 	assert 0.95 < speed < 1 # some of the wave's energy stays in the bar
 	assert most < 1 + 1e-3
-	assert impulse == pytest.approx(1, abs=1e-9)
+	assert impulse == pytest.approx(1, abs=1e-9), 'by the trapezoidal rule; in the end they do not touch'
 	assert abs(work) < 0.03 and abs(imbalance) < 0.02
 
 

@@ -37,7 +37,7 @@ template <int Dim> double criticalStep(const PointCloud<Dim>& cloud, const Model
 	const Stiffest most = stiffest(cloud, model);
 	const double   h = model.grid.cellSize, C = factor(Dim, ghostMass, most.spacing);
 	const double   scale = model.ghost.scaling == GhostScaling::paper ? h * h : 1;
-	const double   ghost = ghostMass > 0 ? 2 * model.ghost.factor * scale / ghostMass : 0;
+	const double   ghost = ghostMass > 0 ? model.ghost.factor * scale / ghostMass : 0;
 	for (const auto& [box, wall] : model.walls)
 		penalty = std::max(penalty, wall->penalty);
 	return 2 * h / std::sqrt(C * C * most.pressureWave + (ghost + 4 * penalty) * most.bar);

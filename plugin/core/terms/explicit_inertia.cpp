@@ -46,25 +46,22 @@ ExplicitInertia<Dim>::ExplicitInertia(Motion<Dim>& motion, const Beginning<Dim>&
 	acceleration_ = ofHeld<Dim>(Eigen::VectorXd::Zero(step.prescribed.size()), &MovingBase<Dim>::acceleration, motion.bases, step);
 }
 
-/// Velocities of the points in the middle of the step, by their own accelerations, or where motion begins by those of equilibrium.
+/// Velocities of the points in the middle of the step, by the accelerations that forces ask for as it begins.
 template <int Dim> void ExplicitInertia<Dim>::begin(const Beginning<Dim>& step)
 {
-	const double T      = motion_.duration;
-	const bool   begins = std::all_of(motion_.acceleration.begin(), motion_.acceleration.end(), [](const Vec<Dim>& a) { return a.isZero(0); });
-	atMiddle_           = motion_.velocity;
-	for (std::size_t p = 0; p < atMiddle_.size(); ++p)
-		atMiddle_[p] += T / 2 * motion_.acceleration[p];
-	if (!begins) return;
+	const double          T     = motion_.duration;
 	const Eigen::VectorXd zero  = Eigen::VectorXd::Zero(step.prescribed.size());
 	Eigen::VectorXd       force = step.imbalance(), a = ofHeld<Dim>(zero, &MovingBase<Dim>::acceleration, motion_.bases, step);
 	if (!damping_.empty()) {
-		Eigen::VectorXd v = ofHeld<Dim>(step.prescribed / T, &MovingBase<Dim>::velocity, motion_.bases, step), drag = zero;
-		solve(weighedAtNodes(basis_, motion_.mass, motion_.velocity), dofs_, v);
+		Eigen::VectorXd drag = zero;
+		start_               = ofHeld<Dim>(step.prescribed / T, &MovingBase<Dim>::velocity, motion_.bases, step);
+		solve(weighedAtNodes(basis_, motion_.mass, motion_.velocity), dofs_, start_);
 		for (const auto& each : damping_)
-			each->addBefore(v, drag);
+			each->addBefore(start_, drag);
 		force -= drag;
 	}
 	solve(force, dofs_, a);
+	atMiddle_ = motion_.velocity;
 	forPointNodes(basis_, [&](int i, const Patch<Dim>& patch, const double* value, int count) {
 		atMiddle_[basis_.order[i]] += T / 2 * atPoint(patch, value, count, a);
 	});
@@ -125,9 +122,9 @@ template <int Dim> void ExplicitInertia<Dim>::commit()
 	const Eigen::VectorXd d = displacements(), growth = jump_ + T / 2 * acceleration_;
 	Eigen::VectorXd       ghost = Eigen::VectorXd::Zero(d.size());
 	addGhostForce(faces_, h_, d, ghost);
-	motion_.ghostWork = T * end_.dot(ghost);
+	motion_.ghostWork = T / 4 * (middle_ + end_).dot(ghost); // it acts in the second half, on the velocities' way from the one to the other
 	for (const auto& each : damping_)
-		each->commit(T * end_, end_, end_);
+		each->commit(d, start_, end_);
 	motion_.acceleration.resize(motion_.velocity.size());
 	forPointNodes(basis_, [&](int i, const Patch<Dim>& patch, const double* value, int count) {
 		const int p             = basis_.order[i];

@@ -23,7 +23,7 @@ struct TimeScheme {
 	/// v_1 = 2 d / T - v_0 and a_1 = (v_1 - v_0) / T. Angular momentum is kept.
 	static TimeScheme midpoint() { return { 0.5, 1, 0, 0, true }; }
 
-	/// Newmark's with beta = 0: d = T v_0 + T^2 / 2 a_0 is known as the step begins. Stable up to the critical step (core/stepping/critical_step.hpp).
+	/// Newmark's with beta = 0: d = T v_0 + T^2 / 2 a_0 is known as the step begins (core/terms/explicit_inertia.hpp). Stable up to the critical step (core/stepping/critical_step.hpp).
 	static TimeScheme centralDifferences() { return { 0, 0.5, 0, 0, false, true }; }
 
 	/// Of contact forces in the balance, so that they act with their value at the end of the step all through it (C. Kane et al. 1999): in the mean of two ends

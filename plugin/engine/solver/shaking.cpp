@@ -86,7 +86,7 @@ template <int Dim> void Shaking<Dim>::requireFittingBases(const gimpm::Model<Dim
 template <int Dim> void Shaking<Dim>::begin(Attempt<Dim>& next, Real from, gimpm::Motion<Dim>& motion) const
 {
 	const Real duration = next.time - from, looked = from + duration / 2;
-	const Real before = motion.scheme.atMiddle ? looked : motion.scheme.isExplicit ? next.time : from;
+	const Real before = motion.scheme.atMiddle ? looked : from;
 	const Real centre = motion.scheme.isExplicit ? next.time : looked; // of the steps that accelerations belong to
 	for (const auto& [boundary, edge] : edges)
 		if (boundary->motion) {
