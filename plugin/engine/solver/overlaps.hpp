@@ -2,6 +2,7 @@
 #pragma once
 // Material points that claim the same place.
 #include "core/grid/point_cloud.hpp"
+#include "yade_api/types.hpp"
 #include <array>
 
 namespace yade {
