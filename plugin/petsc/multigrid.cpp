@@ -94,11 +94,12 @@ PetscErrorCode setMatrix(Hierarchy& h)
 	        PETSC_COMM_SELF, K.rows, K.rows, const_cast<int*>(K.start), const_cast<int*>(K.column), const_cast<double*>(K.value), &h.rows));
 	PetscCall(MatSetBlockSize(h.rows, K.dim));
 	PetscCall(MatSetOption(h.rows, MAT_USE_INODES, PETSC_FALSE)); // whose product takes three times as long
-	PetscCall(MatSetOption(h.rows, MAT_SPD, PETSC_TRUE));
+	// Not MAT_SPD: of a matrix that is not, PETSc would look for the largest eigenvalue by conjugate gradients and an iteration without end.
+	PetscCall(MatSetOption(h.rows, MAT_SYMMETRIC, PETSC_TRUE));
 	PetscCall(addRigidMotions(h));
 	PetscCall(MatCreateShell(PETSC_COMM_SELF, K.rows, K.rows, K.rows, K.rows, &h, &h.product));
 	PetscCall(MatShellSetOperation(h.product, MATOP_MULT, reinterpret_cast<void (*)()>(&multiply)));
-	PetscCall(MatSetOption(h.product, MAT_SPD, PETSC_TRUE));
+	PetscCall(MatSetOption(h.product, MAT_SYMMETRIC, PETSC_TRUE));
 	return MatCreateVecs(h.rows, &h.r, &h.z);
 }
 

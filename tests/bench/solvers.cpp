@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // One solve of a step in 3D by several methods: iterations, and seconds to set up and to solve. scripts/bench says of what.
 //
-// usage: solvers cantilever <cells across> <length / height> <cut> <ghost factor> <Poisson's ratio> <tolerance> <method>...
+// usage: solvers cantilever|tilted <cells across> <length / height> <cut> <ghost factor> <Poisson's ratio> <tolerance> <method>...
 //        solvers slope <cell size> <depth, cells> <load factor> <ghost factor> <Poisson's ratio> <tolerance> <method>...
 #include "bench/scenes.hpp"
 #include "core/stepping/step_system.hpp"
@@ -12,15 +12,21 @@
 namespace gimpm {
 namespace {
 
-	/// Held at x = 0, under its own weight. Its upper and rear sides reach into the next cells by the part `cut` of them.
-	BenchScene<3> cantilever(int cells, int slenderness, double cut)
+	/// Held at x = 0, under its own weight, inclined by an angle. Its upper and rear sides reach into the next cells by the part `cut` of them; where it is
+	/// inclined, cells are cut in all ways.
+	BenchScene<3> cantilever(int cells, int slenderness, double cut, double angle)
 	{
 		BenchScene<3> s;
 		s.model.boundary = Boundary<3>({ s.wall(0, 0, false, { 0, 1, 2 }) });
 		for (int z = 0; z < 2 * cells; ++z)
 			for (int y = 0; y < 2 * cells; ++y)
-				for (int x = 0; x < 2 * cells * slenderness; ++x)
-					s.addPoint(Vec<3>((x + .5) / 2, (y + .5) / 2 + cut, (z + .5) / 2 + cut), .25, 0);
+				for (int x = 0; x < 2 * cells * slenderness; ++x) {
+					const double along = (x + .5) / 2, up = (y + .5) / 2;
+					s.addPoint(
+					        Vec<3>(along * std::cos(angle) - up * std::sin(angle), along * std::sin(angle) + up * std::cos(angle) + cut,
+					               (z + .5) / 2 + cut),
+					        .25, 0);
+				}
 		return s;
 	}
 
@@ -37,9 +43,9 @@ namespace {
 		K.multiplyAdd(problem.overNodes()->expanded(x), product);
 		const double error = (b - problem.overNodes()->ofFreeDofs(product)).norm() / b.norm();
 		std::printf(
-		        "{\"method\": \"%s\", \"unknowns\": %d, \"iterations\": %d, \"hierarchies\": %d, \"setUp\": %.3f, \"solve\": %.3f, \"error\": %.2e, \"failure\": \"%s\"}\n",
-		        name, problem.size(), effort.iterations, effort.hierarchies, times.analyse + times.factorise, times.solve, error,
-		        isSolved ? "" : effort.reason.c_str());
+		        "{\"method\": \"%s\", \"unknowns\": %d, \"iterations\": %d, \"hierarchies\": %d, \"setUp\": %.3f, \"solve\": %.3f, \"error\": %.2e, \"failure\": \"%s\", \"solved\": %s}\n",
+		        name, problem.size(), effort.iterations, effort.hierarchies, times.analyse + times.factorise, times.solve, error, effort.reason.c_str(),
+		        isSolved ? "true" : "false");
 		std::fflush(stdout);
 	}
 
@@ -47,7 +53,8 @@ namespace {
 	{
 		const bool   isSlope = !std::strcmp(words[1], "slope");
 		const double first = std::atof(words[2]), third = std::atof(words[4]), load = isSlope ? third : 0;
-		auto         scene = isSlope ? slope<3>(first, 2, std::atoi(words[3])) : cantilever(int(first), std::atoi(words[3]), third);
+		auto         scene = isSlope ? slope<3>(first, 2, std::atoi(words[3]))
+		                             : cantilever(int(first), std::atoi(words[3]), third, std::strcmp(words[1], "tilted") ? 0 : 0.7);
 		const double nu = std::atof(words[6]), tolerance = std::atof(words[7]);
 		if (isSlope) scene.model.materials = { { VonMises(1e6, nu, 15e3), 2400 }, { VonMises(1e6, nu, 7.5e3), 2400 } };
 		else

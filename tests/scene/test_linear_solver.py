@@ -1,5 +1,9 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """MpmNewton.linearSolver: the same states whichever way the equations are solved, and a report of how."""
+import shutil
+
+import pytest
+from conftest import build, root
 
 
 def test_conjugate_gradients_give_the_states_of_the_direct_solver(yade):
@@ -30,3 +34,75 @@ print(json.dumps([run(method) for method in ('direct', 'iterative', 'auto')]))
 	assert automatic == direct, 'so small a scene is solved directly'
 	difference = max(abs(a - b) for p, q in zip(direct['pos'], iterative['pos']) for a, b in zip(p, q))
 	assert difference < 1e-4, difference
+
+
+beam = '''
+import json
+from scenes import *
+from yade import mpm
+
+def bentBeam(method):
+	"""A cantilever in 3D that bends under its weight."""
+	O.reset()
+	O.materials.append(MpmElasticMat(young=1e6, poisson=.3, density=200, label='beam'))
+	grid = MpmGrid(cellSize=1, dim=3)
+	O.bodies.append(mpm.fill(pack.inAlignedBox((0, .3, .3), (12, 2.3, 2.3)), grid, 2, 'beam'))
+	solver = MpmImplicitEngine(grid=grid, gravity=(0, -1, 0), boundaries=[MpmBoundary(max=(0, inf, inf), fix='xyz')])
+	solver.newton.linearSolver, solver.newton.tolerance = method, 1e-9
+	O.engines = [solver]
+	O.dt = 1 / 3
+	return solver
+'''
+
+
+def test_multigrid_gives_the_states_of_the_direct_solver(yade):
+	"""Bending by large angles, in three steps; it is kept within them, and made anew as the nodes change."""
+	result = yade(
+	        beam + '''
+from yade.mpm.library import engine
+absence = engine.multigridAbsence()
+found = {}
+for method in ['direct', 'iterative', 'amg'][:2 if absence else 3]:
+	solver = bentBeam(method)
+	done = []
+	for step in range(3):
+		O.step()
+		done.append((solver.iterations, solver.cgIterations, solver.cgFallbacks, solver.amgSetups))
+		assert solver.report()['cgFailure'] == '' and solver.report()['amgSetups'] == solver.amgSetups
+	found[method] = [np.sum(done, axis=0).tolist(), mpm.arrays()['pos'].tolist()]
+print(json.dumps([absence, found]))
+'''
+	).result
+	absence, found = result
+	if absence: pytest.skip('without PETSc: ' + absence)
+	(_, direct), (byDiagonal, _), (byMultigrid, pos) = (found[method] for method in ('direct', 'iterative', 'amg'))
+	assert max(abs(a - b) for p, q in zip(direct, pos) for a, b in zip(p, q)) < 1e-7
+	solves, iterations, fallbacks, hierarchies = byMultigrid
+	assert fallbacks == 0 and 1 <= hierarchies < solves and byDiagonal[3] == 0
+	assert iterations / solves < 0.3 * byDiagonal[1] / byDiagonal[0]
+
+
+def test_multigrid_that_is_absent_is_named(yade, libraries, tmp_path):
+	"""The plugin without mpm_petsc.so: 'amg' says what to do, and the scene stays as it is; 'auto' goes without."""
+	shutil.copy(build / 'mpm/mpm_engine.so', libraries / 'mpm')
+	shutil.copytree(root / 'plugin/python', tmp_path / 'prefix/python')
+	(tmp_path / 'prefix/bin').mkdir()
+	(tmp_path / 'prefix/host').write_text('/usr/bin/yade')
+	yade.command = str(shutil.copy(root / 'scripts/lib/yade-in-overlay.py', tmp_path / 'prefix/bin/yade'))
+	said, steps, advice = yade(
+	        beam + '''
+solver = bentBeam('amg')
+try: O.step()
+except ValueError as error: said = str(error)
+steps = [O.iter]
+solver = bentBeam('iterative')
+mpm.advice._manyIterations = 1
+advice = mpm.advise(solver)['advice']
+solver.newton.linearSolver = 'auto'
+O.step()
+print(json.dumps([said, steps + [O.iter], [sentence for sentence in advice if 'linearSolver' in sentence]]))
+'''
+	).result
+	assert "linearSolver = 'amg'" in said and 'mpm/mpm_petsc.so' in said and 'scripts/setup --with-petsc' in said
+	assert steps == [0, 1]
+	assert len(advice) == 1 and 'scripts/setup --with-petsc' in advice[0]

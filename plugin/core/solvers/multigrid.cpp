@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "core/solvers/multigrid.hpp"
 #include "core/solvers/multigrid_module.hpp"
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <dlfcn.h>
 
 namespace gimpm {
@@ -77,6 +79,10 @@ Multigrid::~Multigrid()
 
 bool Multigrid::setUp(std::string& reason)
 {
+	if (!std::all_of(rows_.value.begin(), rows_.value.end(), [](double value) { return std::isfinite(value); })) {
+		reason = "the matrix has numbers that are not finite";
+		return false;
+	}
 	Reason                said {};
 	const MultigridMatrix K {
 		rows_.dim, rows_.rows(), rows_.start.data(), rows_.column.data(), rows_.value.data(), rows_.position.empty() ? nullptr : rows_.position.data(),

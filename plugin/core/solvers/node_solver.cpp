@@ -14,8 +14,8 @@ constexpr int patience = 300;
 /// A body in which the diagonal has failed stays as it is, though its nodes change: so many times it is not tried again.
 constexpr int memory = 8;
 
-/// With multigrid more of them hardly help.
-constexpr int mostWithMultigrid = 500;
+/// Iterations with multigrid, which take as long as what the diagonal is given.
+constexpr int mostWithMultigrid = 250;
 
 /// Iterations over those of the first solve with which multigrid is given up at once, and with which it is renewed for the next solve.
 constexpr double tooMany = 2, worthRenewing = 1.5;
@@ -103,6 +103,7 @@ bool NodeSolver::iterateWithMultigrid(Task& task)
 	task.iterate(mostWithMultigrid);
 	perDecade_   = (iteration.made() - before) / std::max(std::log10(error / iteration.error()), 1e-3);
 	task.failure = iteration.fault();
+	if (!task.iterate(0)) task.failure = "no convergence in " + std::to_string(mostWithMultigrid) + " iterations";
 	return task.failure.empty();
 }
 
