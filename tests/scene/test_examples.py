@@ -322,3 +322,23 @@ def test_embankment(yade):
 	assert len(middle) == 4 and 0 < middle[0] < middle[1] < middle[2] < middle[3]
 	assert abs(numbers(r'water squeezed out: (\S+)', run.stdout)[0] - 1) < 3e-3
 	assert (run.folder / 'out/embankment/embankment.png').stat().st_size > 20000
+
+
+# Of each task, how far it may be from its number by hand [%]: what its grid leaves, as told in examples/README.md.
+tasks = dict(layers=2, strip=3, deep_footing=6, sand_slope=3, runout=25, sphere=15, round_footing=7, mesh_file=0.01, batch=2, restart=0)
+
+
+@pytest.mark.parametrize('task', tasks)
+def test_task(yade, task):
+	script = root / f'examples/tasks/{task}.py'
+	assert len(script.read_text().splitlines()) <= 30
+	said = yade(script).stdout.splitlines()[-1]
+	found, hand = map(float, re.search(r'(?:= |: |settlement |stress |height )(-?\d\S*)(?: \S+)?(?: on the base)?, (?:by hand|published|by experiments|without a stop) (\S+)', said).groups())
+	assert hand > 0 and abs(found / hand - 1) <= tasks[task] / 100, said
+	assert task != 'restart' or said.endswith('largest difference 0')
+	for number in re.findall(r'\d+\.\d\d?', next(line for line in (root / 'examples/README.md').read_text().splitlines() if f'({"tasks/" + task}.py)' in line).split('|')[3]):
+		assert abs(found / float(number) - 1) < 0.02, (said, number)  # as on the page
+
+
+def test_there_is_a_test_of_each_task():
+	assert {path.stem for path in (root / 'examples/tasks').glob('*.py')} == set(tasks)

@@ -15,6 +15,14 @@ refused = [
         ('mpm.plot(deformed=False, grid=True)', 'ValueError', ['grid', 'deformed=True']),
         ('mpm.plot(plane=("z", 0))', 'ValueError', ['plane', 'dim=2']),
         ('mpm.plot(fileName="x.docx")', 'ValueError', ["'x.docx'", '.png']),
+        ('mpm.plot(vectors="stress")', 'ValueError', ["vectors = 'stress'", 'displacement']),
+        ('mpm.plot(vectors=np.zeros((3, 3)))', 'ValueError', ['vectors', '(32, 3)']),
+        ('mpm.plot(contours=0)', 'ValueError', ['contours = 0']),
+        ('mpm.plot(contours=[2, 1])', 'ValueError', ['contours = [2, 1]', 'increasing']),
+        ('mpm.movie("x.avi")', 'ValueError', ["'x.avi'", '.gif']),
+        ('mpm.movie("x.gif", every=0)', 'ValueError', ['every = 0']),
+        ('mpm.movie("x.gif", fps=-1)', 'ValueError', ['fps = -1']),
+        ('mpm.movie("x.gif", "sress")', 'ValueError', ["'sress'"]),
         ('mpm.plot(solver=3)', 'TypeError', ['solver = 3', 'MpmImplicitEngine']),
         ('O.engines += [MpmImplicitEngine()]; mpm.plot()', 'ValueError', ['2 MpmImplicitEngine', 'solver']),
         ('O.bodies.clear(); mpm.plot()', 'ValueError', ['no material points']),
@@ -100,3 +108,31 @@ print(json.dumps([areas, cells, colours, limits, mpm.colour('material')]))
 	assert all(abs(a - 1) < 1e-6 for a in areas), areas
 	assert cells == [1, 1]
 	assert colours < 1e-9 and limits == [-1000, 0] and constant == [-1, 1]
+
+
+def test_arrows_lines_and_films(yade):
+	"""Arrows are the displacements, lines have the values that are asked for; a film has a picture for every second step, and the first and last state."""
+	run = yade('''
+import json, os
+from scenes import *
+solver = column(8, dim=2, width=2)
+film = mpm.movie('out/column.gif', 'stress_yy', every=2, range=(-1e4, 0), size=(4, 4))
+history = mpm.histories([0], record=['displacement'])
+line = history.plot('displacement_y', fileName='out/history.png', live=True).lines[0]
+O.run(5, wait=True)
+for callback, args, kw in line.figure.follow.callbacks: callback(*args, **kw)
+film.finish()
+from PIL import Image
+with Image.open('out/column.gif') as image: frames = image.n_frames
+points = mpm.arrays()
+ax = mpm.plot('stress_yy', vectors='displacement', contours=[-2e3, -1e3], fileName='out/arrows.png')
+from matplotlib.quiver import Quiver
+arrows = next(c for c in ax.collections if isinstance(c, Quiver))
+moved = points['pos'] - points['pos0']
+nearest = [int(((points['pos'][:, :2] - xy)**2).sum(1).argmin()) for xy in arrows.XY]
+print(json.dumps([frames, film.frames, [e.label for e in O.engines], sorted(os.listdir('out')), float(abs(np.column_stack([arrows.U, arrows.V]) - moved[nearest][:, :2]).max()), len(arrows.U),
+	len(line.get_xdata()), mpm.plot('stress_yy', contours=3, grid=False, ghost=False, fileName='out/lines.png') is not None]))
+''')
+	frames, counted, labels, files, off, arrows, times, drawn = run.result
+	assert frames == counted == 4 and not [label for label in labels if label.startswith('movie')]
+	assert files == ['arrows.png', 'column.gif', 'history.png'] and off == 0 and arrows > 10 and times == 6 and drawn

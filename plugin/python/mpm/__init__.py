@@ -36,6 +36,7 @@ While it runs, one line tells how far it is (``verbosity`` of the engine); ``plo
 :func:`surface`            surface of a region, for loads on it
 :func:`contactForces`      where rigid bodies are touched, and the forces there
 :func:`plot`               picture by matplotlib, of plane strain or of a slice
+:class:`movie`             film of a run
 :func:`colour`             colours of the points in YADE's 3D view
 :func:`export`             table of the points, CSV or NPZ
 :class:`histories`         values at chosen points over time; :func:`readHistory` reads one from a file
@@ -59,6 +60,7 @@ from .geostatics import geostatic
 from .histories import histories, readHistory
 from .laboratory import elementTest, respond
 from .library import engine as _engine
+from .movies import movie
 from .outline import polygon
 from .plotting import plot
 from .safety import strengthReduction
@@ -67,4 +69,4 @@ from .surfaces import surface
 from .tables import export
 
 __version__ = _engine.version
-__all__ = ['polygon', 'fill', 'arrays', 'assign', 'geostatic', 'plot', 'colour', 'export', 'save', 'advise', 'elementTest', 'respond', 'strengthReduction', 'surface', 'contactForces', 'histories', 'readHistory', 'solid', 'terrain']
+__all__ = ['polygon', 'fill', 'arrays', 'assign', 'geostatic', 'plot', 'colour', 'export', 'save', 'advise', 'elementTest', 'respond', 'strengthReduction', 'surface', 'contactForces', 'histories', 'readHistory', 'solid', 'terrain', 'movie']

@@ -85,8 +85,8 @@ class histories:
 		with replacing(pathOf('histories.save', 'fileName', fileName)) as temporary:
 			np.savetxt(temporary, np.column_stack(list(columns.values())), fmt='%.17g', delimiter=',', header=','.join(columns), comments='')
 
-	def plot(self, field='velocity_x', fileName=None, ax=None):
-		"""Draw one scalar of all points over time; to a file, whole or not at all, if one is named. Returns the axes."""
+	def plot(self, field='velocity_x', fileName=None, ax=None, live=False):
+		"""Draw one scalar of all points over time; to a file, whole or not at all, if one is named. With *live* the window follows the run, twice a second. Returns the axes."""
 		from .plotting import write
 		values = self[field]
 		if values.ndim != 2: raise ValueError(f"histories: field = {brief(field)}: one component must be chosen, as in {field}_x or {field}_xy")
@@ -100,7 +100,24 @@ class histories:
 		ax.set(xlabel='time [s]', ylabel=text)
 		ax.legend()
 		if fileName is not None: write('histories.plot', ax.figure, fileName)
+		if live: self._follow(field, ax, size)
 		return ax
+
+	def _follow(self, field, ax, size):
+		"""By a timer of the window: what runs in the background must not draw."""
+
+		def update():
+			values = self[field]
+			for line, column in zip(lines, values.T):
+				line.set_data(self.time[:len(column)], column / size)
+			ax.relim()
+			ax.autoscale_view()
+			ax.figure.canvas.draw_idle()
+
+		lines = ax.lines[-len(self.ids):]
+		ax.figure.follow = ax.figure.canvas.new_timer(interval=500)  # kept by the figure
+		ax.figure.follow.add_callback(update)
+		ax.figure.follow.start()
 
 
 def add(label, ids, record, solver):

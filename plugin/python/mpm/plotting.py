@@ -10,6 +10,7 @@ from .data import fields
 from .fields import labelled
 from .files import replacing
 from .library import engine
+from .markings import drawContours, drawTrace, drawVectors, labelOf, levelsOf, vectorsOf
 from .messages import brief, pathOf
 from .rigid import outline, touchable
 from .sections import boxEdges, cut, inOrder, signs, triangleSides
@@ -20,10 +21,10 @@ _faceColour, _cellColour, _boundaryColour, _loadColour, _wallColour = '#d9480f',
 _rigidColour = '#212529'
 
 
-def plot(field='displacement', deformed=True, grid=None, ghost=None, fileName=None, ax=None, range=None, colormap=None, plane=None, solver=None, loads=None):
+def plot(field='displacement', deformed=True, grid=None, ghost=None, fileName=None, ax=None, range=None, colormap=None, plane=None, solver=None, loads=None, vectors=None, contours=None):
 	"""Draw the material points, coloured by a scalar field, and the background grid around them.
 
-	Each point is drawn as the box of matter that it stands for, deformed by its deformation gradient. In 3D the picture is a slice. Its title is
+	Each point is drawn as the box of matter that it stands for, deformed by its deformation gradient. In 3D the picture is a slice; a small one beside it, unless *ax* is given, shows where. Its title is
 	the load factor, unless the axes have a title.
 
 	:param field: ``displacement`` (its length), ``meanStress``, ``sqrt2J2``, or a column of :func:`arrays`, of which a vector or tensor
@@ -42,10 +43,12 @@ def plot(field='displacement', deformed=True, grid=None, ghost=None, fileName=No
 	:param plane: in 3D, axis and coordinate [m] of the slice, as in ``('z', 0.5)``; by default across z, through the point nearest to the middle
 	:param solver: ``MpmImplicitEngine`` whose grid is drawn; needed if there are several
 	:param loads: draw the loaded surfaces and the walls that are surfaces, with arrows in the direction of the force on the body, and the rigid bodies that may touch it; default as for *grid*
+	:param vectors: arrows on top: name of a vector (``displacement``, ``velocity``, ``force``, ...), or an (N, 3) array in order of body id
+	:param contours: lines of equal value of *field* on top: their number, or their values in the field's SI unit, increasing
 	:return: the axes
 	:raises TypeError: *range* is no pair of numbers, or *plane* no pair of an axis and a number.
 	:raises ValueError: a field or colour map that does not exist, *grid* or *ghost* without *deformed*, *plane* in plane strain or beside the
-		body, a scene without material points, or what the engine refuses about the scene.
+		body, *vectors* that are none or *contours* that are no levels, a scene without material points, or what the engine refuses about the scene.
 	:raises OSError: the file cannot be written.
 	"""
 	if not deformed and (grid or ghost or loads):
@@ -54,13 +57,17 @@ def plot(field='displacement', deformed=True, grid=None, ghost=None, fileName=No
 	solver = solverOf('plot', solver)
 	points = fields()
 	if not len(points['id']): raise ValueError('plot: the scene has no material points')
-	values = scalarOrArray('plot', field, points)
+	values, arrows, levels = scalarOrArray('plot', field, points), vectorsOf(vectors, points), levelsOf(contours)
 	section = _Section(solver, points, plane)
 	matter, kept = section.through(_corners(points, deformed))
-	ax = ax or _newAxes(fileName, np.concatenate(matter))
+	isOwn, ax = ax is None, ax or _newAxes(fileName, np.concatenate(matter))
 	if grid: _drawGrid(ax, section, solver)
 	_drawMatter(ax, matter, values[kept], field, range, colormap)
 	if ghost: _drawFaces(ax, section, solver)
+	places = points['pos' if deformed else 'pos0'][kept][:, section.shown]
+	if levels is not None: drawContours(ax, places, values[kept], levels, 2 * points['halfSize0'].max() if solver.grid.dim == 3 else 2 * points['halfSize0'][:, :2].max())
+	if arrows is not None: drawVectors(ax, arrows[kept], places, section.shown, labelOf(vectors))
+	if section.normal is not None and isOwn: drawTrace(ax, section.normal, section.at, points)
 	if loads and len(solver.loads): _drawSurfaces(ax, section, solver, 'loads', _loadColour)
 	if loads and any(boundary.surface for boundary in solver.boundaries): _drawSurfaces(ax, section, solver, 'walls', _wallColour)
 	if loads and len(solver.contacts): _drawRigid(ax, section, solver)
