@@ -22,13 +22,6 @@ template <int Dim> std::vector<GhostFace<Dim>> massFaces(const Motion<Dim>& moti
 	return faces;
 }
 
-/// Without ghost mass nothing is connected, and mass is that of the points alone.
-template <int Dim> std::vector<LooseCell<Dim>> looseOf(const Motion<Dim>& motion, const Beginning<Dim>& step)
-{
-	if (motion.ghostMass == 0) return {};
-	return looseCells(step.basis, motion.mass, step.faces, step.grid);
-}
-
 } // namespace
 
 template <int Dim>
@@ -39,7 +32,8 @@ Inertia<Dim>::Inertia(Motion<Dim>& motion, const Beginning<Dim>& step)
         , prescribed_(step.prescribed)
         , faces_(step.faces)
         , h_(step.grid.cellSize)
-        , mass_(step.basis, motion.mass, massFaces(motion, step), step.grid.cellSize, looseOf(motion, step))
+        , mass_(step.basis, motion.mass, massFaces(motion, step), step.grid.cellSize,
+                motion.ghostMass == 0 ? std::vector<LooseCell<Dim>> {} : looseCells(step.basis, motion.mass, step.faces, step.grid))
 {
 	imbalance_ = acceleration_ = expected_ = blow_ = jump_ = Eigen::VectorXd::Zero(prescribed_.size());
 	const auto held = [&](const Eigen::VectorXd& otherwise, Vec<Dim> MovingBase<Dim>::*value) { return ofHeld(otherwise, value, step.basis.nodes); };
