@@ -25,7 +25,7 @@ sys.path.insert(0, os.path.join(os.path.dirname(sys.argv[0]), '..'))
 from options import readOptions
 
 options = readOptions('Run-out of columns of sand.',
-        aspects=('0.5 1 1.5 2 3 5 7', 'height over width of the columns, between blanks'),
+        aspects=('0.5 1 1.5 2 3', 'height over width of the columns, between blanks'),
         cells=(10, 'over the width L, or the height if that is less; 0: no continuum'),
         pointsPerCell=(2, 'material points per cell and axis'),
         repose=(31., 'angle of repose [degrees]'),

@@ -53,7 +53,7 @@ namespace {
 		const auto      body = block<Dim>(grid, Index<Dim>::Constant(3), 2);
 		for (const double cut : { 0., 1e-6, 0.3, 0.7 })
 			EXPECT_TRUE(Mass<Dim>(shifted<Dim>(body, Vec<Dim>::Constant(cut))).loose().empty()) << cut;
-		for (const auto& [tail, loose] : { std::pair(4, 0), { 12, 4 } }) { // two points in a cell
+		for (const auto& [tail, loose] : { std::pair(4, 0), { 12, 6 - Dim } }) { // two points in a cell
 			auto cloud = body;
 			for (int i = 0; i < tail; ++i)
 				addPoint<Dim>(cloud, Vec<Dim>(Vec<Dim>::Constant(0.3) + (2.95 + 0.5 * i) * Vec<Dim>::Unit(0)), Vec<Dim>::Constant(0.25));

@@ -296,7 +296,7 @@ def test_waves(yade):
 
 def test_runout(yade):
 	"""One broad column on a coarse grid, against channel experiments."""
-	run = yade(root / 'examples' / 'runout' / 'runout.py', '--aspects', 1, '--film', 1)
+	run = yade(root / 'examples' / 'runout' / 'runout.py', '--aspects', 1, '--cells', 5, '--film', 1)
 	out, height, kinetic = numbers(r'sand   1\.00  \S+  \S+ \((\S+) %\)  \S+  \S+ \((\S+) %\)  \S+ kinetic energy (\S+);', run.stdout)
 	assert abs(out) < 20 and abs(height) < 5 and kinetic < 2e-3
 	assert abs(numbers(r'not accounted for (\S+) of the work', run.stdout)[0]) < 0.05

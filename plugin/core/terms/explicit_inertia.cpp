@@ -122,7 +122,8 @@ template <int Dim> void ExplicitInertia<Dim>::commit()
 	const Eigen::VectorXd d = displacements(), growth = jump_ + T / 2 * acceleration_;
 	Eigen::VectorXd       ghost = Eigen::VectorXd::Zero(d.size());
 	addGhostForce(faces_, h_, d, ghost);
-	motion_.ghostWork = T / 4 * (middle_ + end_).dot(ghost); // it acts in the second half, on the velocities' way from the one to the other
+	motion_.impactWork = energyOfBlow(mass_, middle_, blow_, jump_, middle_);
+	motion_.ghostWork  = T / 4 * (middle_ + end_).dot(ghost); // it acts in the second half, on the velocities' way from the one to the other
 	for (const auto& each : damping_)
 		each->commit(d, start_, end_);
 	motion_.acceleration.resize(motion_.velocity.size());

@@ -254,21 +254,6 @@ template <int Dim> std::string Inertia<Dim>::inaccuracy(const Eigen::VectorXd& d
 	return text.str();
 }
 
-/// Where points bring other velocities along than held nodes have, these are inelastic.
-template <int Dim> double Inertia<Dim>::energyOfBlow() const
-{
-	if (blow_.isZero(0)) return 0;
-	std::vector<double> gain(motion_.velocity.size(), 0);
-	forPointNodes(basis_, [&](int i, const Patch<Dim>& patch, const double* value, int count) {
-		const int p     = basis_.order[i];
-		Vec<Dim>  jumps = Vec<Dim>::Zero();
-		for (int n = 0; n < count; ++n)
-			if (patch.node[n] >= 0) jumps += value[n] * jump_.template segment<Dim>(Dim * patch.node[n]);
-		gain[p] = motion_.mass[p] * jumps.dot(motion_.velocity[p] + jumps / 2);
-	});
-	return blow_.dot(prescribed_) / motion_.duration - std::accumulate(gain.begin(), gain.end(), 0.);
-}
-
 template <int Dim> void Inertia<Dim>::commit(const Eigen::VectorXd& d)
 {
 	const double          beta = motion_.scheme.beta, gamma = motion_.scheme.gamma, T = motion_.duration;
@@ -277,20 +262,25 @@ template <int Dim> void Inertia<Dim>::commit(const Eigen::VectorXd& d)
 	const Eigen::VectorXd end = others + contact, growth = jump_ + T * ((1 - gamma) * acceleration_ + gamma * others + contact);
 	Eigen::VectorXd       ghost = Eigen::VectorXd::Zero(d.size());
 	addGhostForce(faces_, h_, d, ghost);
-	motion_.impactWork           = energyOfBlow();
-	motion_.ghostWork            = gamma * d.dot(ghost); // the force of a step begins at zero
+	motion_.impactWork           = energyOfBlow(mass_, velocity_, blow_, jump_, prescribed_ / T);
 	const Eigen::VectorXd looked = velocityAt(d);
 	for (const auto& each : damping_)
 		each->commit(d, motion_.scheme.atMiddle ? looked : velocity_, looked);
 	motion_.acceleration.assign(motion_.velocity.size(), Vec<Dim>::Zero());
+	std::vector<double> ofPoints(motion_.velocity.size());
 	forPointNodes(basis_, [&](int i, const Patch<Dim>& patch, const double* value, int count) {
-		const int p = basis_.order[i];
+		const int p      = basis_.order[i];
+		Vec<Dim>  gained = Vec<Dim>::Zero();
 		for (int n = 0; n < count; ++n) {
 			if (patch.node[n] < 0) continue;
-			motion_.velocity[p] += value[n] * growth.template segment<Dim>(Dim * patch.node[n]);
+			gained += value[n] * growth.template segment<Dim>(Dim * patch.node[n]);
 			motion_.acceleration[p] += value[n] * end.template segment<Dim>(Dim * patch.node[n]);
 		}
+		motion_.velocity[p] += gained;
+		ofPoints[p] = motion_.mass[p] * gained.squaredNorm();
 	});
+	// the force of the ghost stiffness begins at zero in each step; points do not take over what the nodes change in the ghost mass
+	motion_.ghostWork = gamma * d.dot(ghost) + (growth.dot(mass_ * growth) - std::accumulate(ofPoints.begin(), ofPoints.end(), 0.)) / 2;
 }
 
 #define GIMPM_INSTANTIATE(Dim)                                                                                                                                 \

@@ -50,6 +50,15 @@ template <int Dim> Eigen::VectorXd weighedAtNodes(const CloudBasis<Dim>&, const 
 template <int Dim>
 Eigen::VectorXd ofHeld(const Eigen::VectorXd& otherwise, Vec<Dim> MovingBase<Dim>::*value, const std::vector<MovingBase<Dim>>&, const Beginning<Dim>&);
 
+/// Kinetic energy of the nodes before a blow, p v / 2 with M v = p, less that of `velocity` after it, and with the work of what holds them, whose velocity is `held`.
+/// `jump`: M^-1 `blow`.
+template <class Mass>
+double energyOfBlow(const Mass& M, const Eigen::VectorXd& velocity, const Eigen::VectorXd& blow, const Eigen::VectorXd& jump, const Eigen::VectorXd& held)
+{
+	if (blow.isZero(0)) return 0;
+	return blow.dot(held) - jump.dot(M * velocity - blow / 2);
+}
+
 /// Consistent mass times acceleration, and damping. Points give momentum to the nodes, which have the velocities v of (M + M_g) v = sum of S m v_p, held ones those that
 /// the step prescribes, by a blow where points have brought others along; points take back what changes of them (FLIP). Every other force is that at the end of the step. Where
 /// the scheme weighs it with that of the beginning the whole balance is divided by its weight: so other terms are as in a step without inertia.
@@ -80,7 +89,6 @@ private:
 	void            findAcceleration(const Beginning<Dim>&, const Eigen::VectorXd& ofHeld);
 	Eigen::VectorXd ofContact(const Eigen::VectorXd* d) const; // on the nodes; null: as the step begins
 	Eigen::VectorXd accelerationAt(const Eigen::VectorXd& d) const;
-	double          energyOfBlow() const;
 	bool            isHeld(Eigen::Index dof) const { return dofs_.number[dof] < 0; }
 
 	Motion<Dim>&                               motion_;

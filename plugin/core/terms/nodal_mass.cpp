@@ -122,7 +122,11 @@ template <int Dim> bool NodalMass<Dim>::solve(const Eigen::VectorXd& right, cons
 	if (!x.isZero(0)) rest -= *this * x;
 	for (Eigen::Index i = 0; i < x.size(); ++i)
 		if (dofs.number[i] < 0) rest[i] = 0;
-	if (!conjugateGradients(Restricted(*this, dofs, C), rest, tolerance, free, iterations_)) return false;
+	const Restricted   M(*this, dofs, C);
+	ConjugateGradients iteration(M, rest, tolerance);
+	iteration.iterate(mostIterations);
+	iterations_ += iteration.made();
+	if (!iteration.take(free).empty()) return false;
 	x += free;
 	return true;
 }
