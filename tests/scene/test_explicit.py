@@ -103,20 +103,20 @@ O.materials.append(FrictMat(young=1e9, frictionAngle=0, label='steel'))
 O.bodies.append(utils.box((0.5, -0.5, 0), (2, 0.5, 1), fixed=True, material='steel')) # they touch
 solver.contacts = [MpmContact(friction=0, stiffness=20)]
 velocities(0, -speed, 0)
-O.dt = solver.criticalTimeStep
+O.dt = 0.5 * solver.criticalTimeStep
 mass = solver.plotData()['momentum_y'] / -speed
 first, most, impulse = energy(solver), 0, 0
 while O.time < 3 * 8 / c:
 	O.step()
 	most = max(most, energy(solver))
-	impulse -= O.dt * solver.contacts[0].forces[0][1]
+	impulse -= O.dt * solver.contacts[0].forces[0][1] # by the trapezoidal rule, as nothing touches at the end
 data = solver.plotData()
 print(json.dumps([data['momentum_y'] / mass / speed, most / first, impulse / (data['momentum_y'] + mass * speed), data['contactWork'] / first, data['energyImbalance'] / first]))
 ''')
 	speed, most, impulse, work, imbalance = run.result
 	assert 0.95 < speed < 1 # some of the wave's energy stays in the bar
-	assert most < 1 + 1e-3
-	assert impulse == pytest.approx(1, abs=1e-9), 'by the trapezoidal rule; in the end they do not touch'
+	assert most < 1 + 3e-3 # falls with the step
+	assert impulse == pytest.approx(1, abs=1e-9)
 	assert abs(work) < 0.03 and abs(imbalance) < 0.02
 
 
@@ -131,7 +131,7 @@ edge = MpmAbsorbingBoundary(max=(inf, 0, inf), motion=MpmBaseMotion(history=[(t,
 solver = MpmDynamicEngine(grid=grid, absorbing=[edge], scheme='explicit', verbosity=0)
 O.engines = [solver]
 h = mpm.histories([(0.25, 11.75, 0)], record=['velocity'])
-O.dt = solver.criticalTimeStep
+O.dt = 0.95 * solver.criticalTimeStep
 O.run(int(3.2 / O.dt), wait=True)
 t, v = np.array(h.time), h['velocity'][:, 0, 1]
 data = solver.plotData()
@@ -147,9 +147,11 @@ def test_boundaries_carry_and_shake(yade):
 	yade(scene + '''
 solver = explicitBlock(young=1e7, loadCurve=[(0, 0), (1, 1)])
 solver.boundaries = [MpmBoundary(fix='y'), MpmBoundary(max=(0, inf, inf), fix='x', displacement=(0.2, 0, 0))]
-O.run(int(0.5 / O.dt), wait=True)
-data, mean = solver.plotData(), mpm.arrays()['velocity'][:, 0].mean()
-assert abs(mean - 0.2) < 0.1 and data['boundaryWork'] > 0, (mean, data)
+mean = []
+for step in range(int(0.8 / O.dt)): # it swings to and fro on the boundary
+	O.step()
+	mean.append(mpm.arrays()['velocity'][:, 0].mean())
+assert abs(np.mean(mean) - 0.2) < 0.02 and solver.plotData()['boundaryWork'] > 0, np.mean(mean)
 O.reset()
 solver = explicitBlock(young=1e7)
 ramp = lambda t: 0.1 * (1 - np.cos(np.pi * t))
@@ -194,7 +196,7 @@ try:
 	{change}
 	O.step()
 	if solver.iterPeriod > 1: O.run(200, wait=True)
-except ValueError as error:
+except (ValueError, RuntimeError) as error: # the latter from a run in the background
 	print(json.dumps(str(error)))
 ''')
 	for word in words:

@@ -40,7 +40,7 @@ template <int Dim> double criticalStep(const PointCloud<Dim>& cloud, const Model
 	const double   ghost = ghostMass > 0 ? model.ghost.factor * scale / ghostMass : 0;
 	for (const auto& [box, wall] : model.walls)
 		penalty = std::max(penalty, wall->penalty);
-	return 2 * h / std::sqrt(C * C * most.pressureWave + (ghost + 4 * penalty) * most.bar);
+	return 2 * h / std::sqrt(C * C * most.pressureWave + (ghost + 16 * penalty) * most.bar);
 }
 
 template Stiffest stiffest(const PointCloud<2>&, const Model<2>&);

@@ -15,7 +15,6 @@
 #include <atomic>
 
 namespace yade {
-
 namespace {
 	std::atomic_int stepsAtWork { 0 };
 

@@ -66,7 +66,11 @@ template <int Dim> void requireStable(const MpmDynamicEngine& engine, const gimp
 	        ", larger cells, or an implicit scheme, which has no limit.");
 }
 
-Real criticalTimeStep(MpmDynamicEngine& engine) { return engine.grid && engine.grid->dim == 3 ? limitOfNow<3>(engine) : limitOfNow<2>(engine); }
+Real criticalTimeStep(MpmDynamicEngine& engine)
+{
+	if (!engine.grid || materialPoints(*engine.ownScene(), engine.mask).empty()) return std::numeric_limits<Real>::quiet_NaN();
+	return engine.grid->dim == 3 ? limitOfNow<3>(engine) : limitOfNow<2>(engine);
+}
 
 template void requireStable(const MpmDynamicEngine&, const gimpm::PointCloud<2>&, const gimpm::Model<2>&, Real);
 template void requireStable(const MpmDynamicEngine&, const gimpm::PointCloud<3>&, const gimpm::Model<3>&, Real);

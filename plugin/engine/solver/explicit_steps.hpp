@@ -13,14 +13,14 @@ void requireExplicit(const MpmDynamicEngine&);
 // A step of this duration [s] is stable, or std::invalid_argument with the limit.
 template <int Dim> void requireStable(const MpmDynamicEngine&, const gimpm::PointCloud<Dim>&, const gimpm::Model<Dim>&, Real duration);
 
-// Of the present state of the scene [s].
+// Of the present state of the scene [s]; NaN without grid or points.
 Real criticalTimeStep(MpmDynamicEngine&);
 
 template <class C> void addExplicitSteps(C& c)
 {
 	c.add_property(
 	        "criticalTimeStep", &criticalTimeStep,
-	        "Largest stable O.dt [s] of scheme='explicit' in the present state, estimated on the safe side; computed when it is read. Take 0.9 of it.");
+	        "Largest stable O.dt [s] of scheme='explicit' in the present state, estimated on the safe side; computed when it is read; NaN without points. Take 0.9 of it.");
 }
 
 } // namespace yade
