@@ -9,7 +9,7 @@ from conftest import root
 plugin = root / 'plugin'
 
 # what the core may include besides the standard library, whose headers have no folder and no suffix
-coreIncludes = re.compile(r'<\w+>|<(unsupported/)?Eigen/\w+>|<(cholmod|umfpack|dmumps_c|omp)\.h>|"core/\w+/\w+\.hpp"')
+coreIncludes = re.compile(r'<\w+>|<(unsupported/)?Eigen/\w+>|<(cholmod|umfpack|dmumps_c|omp|dlfcn)\.h>|"core/\w+/\w+\.hpp"')
 # the interface to YADE may include anything but the classes and numerics that are built on it
 interfaceIncludes = re.compile(r'<.*>|"yade_api/\w+\.hpp"')
 
