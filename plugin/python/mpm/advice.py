@@ -15,7 +15,7 @@ _solves = {False: (2, 4, 20), True: (4, 8, 15)}
 # point, and four times the bytes of the matrices' entries, which stand for the working space of ordering and factorisation too.
 _bytes, _bytesOfPoint = 6e5, {2: 1150, 3: 1600}
 _bytesOfEntry = {'blockEntries': 32, 'matrixEntries': 96, 'factorEntries': 44}
-_bytesOfOutput = 320  # of a point in an MpmVtkRecorder's files
+_bytesOfOutput = 560  # of a point in an MpmVtkRecorder's files
 
 
 def advise(solver=None):
