@@ -13,7 +13,7 @@ from math import cos, inf, nan, sin, tau
 
 import numpy as np
 from yade import mpm, pack
-from yade.wrapper import MpmBoundary, MpmElasticMat, MpmGrid, MpmImplicitEngine, MpmNewton, Omega
+from yade.wrapper import MpmBoundary, MpmElasticMat, MpmGrid, MpmImplicitEngine, MpmNewton, MpmWater, Omega
 
 here = os.path.dirname(os.path.abspath(sys.argv[0]))
 sys.path[:0] = [here, os.path.join(here, '..', '..', 'scripts', 'lib')]
@@ -70,6 +70,21 @@ class Column:
 
 	def beforeStep(self, step):
 		pass
+
+
+class Wet(Column):
+	"""A column with water up to a level, over its height, of a part of its weight by volume: effective stress."""
+
+	def __init__(self, dim, ghost, part, level, **more):
+		super().__init__(dim, ghost, **more)
+		self.level, self.water = level * self.height, part * self.unit
+		if part > 0: self.engine.water = [MpmWater(level=self.level, weight=self.water)]
+
+	def error(self):
+		points = mpm.arrays()
+		above = lambda top: np.minimum(top, self.height) - np.minimum(points['pos0'][:, 1], min(top, self.height))
+		exact = self.water * above(self.level) - self.unit * above(self.height)
+		return np.average(np.abs(points['stress'][:, 1, 1] - exact), weights=[b.state.volume0 for b in O.bodies]) / (self.unit * self.height)
 
 
 class Bar:
@@ -202,6 +217,8 @@ def scene(axis, dim, ghost, value):
 	if axis == 'compressionFBar': return Column(dim, ghost, confined=True, weight=weightForHeight(value), steps=40, fBar=True)
 	if axis in frictional: return Column(dim, ghost, confined=True, law=friction(**frictional[axis](value)))
 	if axis == 'length': return Column(dim, ghost, h=value)
+	if axis == 'waterWeight': return Wet(dim, ghost, value, 10)
+	if axis == 'waterLevel': return Wet(dim, ghost, .5, value, weight=1e-3)
 	if axis == 'young': return Column(dim, ghost, E=value)
 	if axis == 'strain': return Column(dim, ghost, weight=value)
 	if axis == 'steps': return Column(dim, ghost, confined=True, weight=4, steps=value)

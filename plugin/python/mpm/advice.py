@@ -17,7 +17,7 @@ _solves = {False: (2, 4, 20), True: (4, 8, 15)}
 _bytes, _bytesOfPoint = 6e5, {2: 1150, 3: 1600}
 _bytesOfEntry = {'blockEntries': 32, 'matrixEntries': 96, 'factorEntries': 44}
 _manyIterations = 250  # of conjugate gradients to 1e-3: as long as multigrid takes with being set up
-_bytesOfOutput = 320  # of a point in an MpmVtkRecorder's files
+_bytesOfOutput = 560  # of a point in an MpmVtkRecorder's files
 
 
 def advise(solver=None):

@@ -21,7 +21,7 @@ def arrays():
 
 	:return: dict of ``id`` (N,) body ids; ``pos``, ``pos0`` (N, 3) current and initial position [m]; ``halfSize``, ``halfSize0`` (N, 3)
 		half the current and the initial size of the domain [m]; ``velocity`` [m/s] and ``acceleration`` [m/s2] (N, 3), of a ``MpmDynamicEngine``; ``force`` (N, 3) point load at load factor 1 [N]; ``stress`` (N, 3, 3) Cauchy stress [Pa]; ``defGrad`` (N, 3, 3) deformation gradient;
-		``elasticStrain`` (N, 3, 3) logarithmic elastic strain; ``volume`` (N,) current volume [m3]; ``plasticStrain`` (N,)
+		``elasticStrain`` (N, 3, 3) logarithmic elastic strain; ``porePressure`` (N,) [Pa], where there is water (``stress`` is then effective stress); ``volume`` (N,) current volume [m3]; ``plasticStrain`` (N,)
 		accumulated plastic strain; ``material`` (N,) index into ``O.materials`` (-1: not in there). Where the law of a point has other
 		internal variables, (N,) of each by its name, NaN for points without. Of a strength or modulus that a point has of its own, by :func:`assign` or
 		:func:`fill`, (N,) by its name, with the material's for points without. A scene without material points gives arrays of length 0.
@@ -43,7 +43,7 @@ def contactForces(solver=None):
 
 
 def fields():
-	"""The same, and what follows from it: ``displacement`` (N, 3) [m], ``meanStress`` and ``sqrt2J2`` (N,) [Pa]."""
+	"""The same, and what follows from it: ``displacement`` (N, 3) [m], ``strain`` (N, 3, 3) logarithmic, ``meanStress`` and ``sqrt2J2`` (N,) [Pa], and where there is water ``totalStress`` (N, 3, 3) [Pa]."""
 	return _asArrays(engine.columnsOfPoints(0, True))
 
 

@@ -20,7 +20,7 @@ class histories:
 	``mpm.histories.loaded(label)``, from the state that was saved.
 
 	:param at: ids of bodies, or positions [m] (N, 3), each of which stands for the nearest material point
-	:param record: columns of :func:`arrays`, or ``displacement``, ``meanStress``, ``sqrt2J2``
+	:param record: columns of :func:`arrays`, or ``displacement``, ``strain``, ``meanStress``, ``sqrt2J2``, ``totalStress``
 	:param every: iterations from one value to the next, >= 1, beginning with the first
 	:param label: name, by which a loaded scene finds it
 	:param solver: the engine; may be left out when ``O.engines`` holds one

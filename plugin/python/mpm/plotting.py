@@ -27,7 +27,7 @@ def plot(field='displacement', deformed=True, grid=None, ghost=None, fileName=No
 	Each point is drawn as the box of matter that it stands for, deformed by its deformation gradient. In 3D the picture is a slice; a small one beside it, unless *ax* is given, shows where. Its title is
 	the load factor, unless the axes have a title.
 
-	:param field: ``displacement`` (its length), ``meanStress``, ``sqrt2J2``, or a column of :func:`arrays`, of which a vector or tensor
+	:param field: ``displacement`` (its length), ``strain_xy``, ``meanStress``, ``sqrt2J2``, ``totalStress_yy``, or a column of :func:`arrays`, of which a vector or tensor
 		needs its component: ``displacement_y``, ``stress_xy``, ``plasticStrain``, ``elasticStrain_yy``, ``defGrad_xx``, ``material``, ...; or an
 		(N,) array in order of body id
 	:param deformed: draw the current configuration, otherwise the initial one
