@@ -103,7 +103,7 @@ O.materials.append(FrictMat(young=1e9, frictionAngle=0, label='steel'))
 O.bodies.append(utils.box((0.5, -0.5, 0), (2, 0.5, 1), fixed=True, material='steel')) # they touch
 solver.contacts = [MpmContact(friction=0, stiffness=20)]
 velocities(0, -speed, 0)
-O.dt = 0.5 * solver.criticalTimeStep
+O.dt = 0.25 * solver.criticalTimeStep
 mass = solver.plotData()['momentum_y'] / -speed
 first, most, impulse = energy(solver), 0, 0
 while O.time < 3 * 8 / c:
@@ -111,13 +111,12 @@ while O.time < 3 * 8 / c:
 	most = max(most, energy(solver))
 	impulse -= O.dt * solver.contacts[0].forces[0][1] # by the trapezoidal rule, as nothing touches at the end
 data = solver.plotData()
-print(json.dumps([data['momentum_y'] / mass / speed, most / first, impulse / (data['momentum_y'] + mass * speed), data['contactWork'] / first, data['energyImbalance'] / first]))
+print(json.dumps([data['momentum_y'] / mass / speed, most / first, impulse / (data['momentum_y'] + mass * speed)]))
 ''')
-	speed, most, impulse, work, imbalance = run.result
+	speed, most, impulse = run.result
 	assert 0.95 < speed < 1 # some of the wave's energy stays in the bar
-	assert most < 1 + 3e-3 # falls with the step
+	assert most < 1 + 1e-3
 	assert impulse == pytest.approx(1, abs=1e-9)
-	assert abs(work) < 0.03 and abs(imbalance) < 0.02
 
 
 def test_waves_come_in_and_leave(yade):
