@@ -84,7 +84,7 @@ def bar():
 	figure, ax = plt.subplots(figsize=(7, 4), layout='constrained')
 	for kind in 'explicit, consistent', 'explicit, lumped':
 		solver, _ = makeBar(kind, 20)
-		O.dt = 0.9 * solver.criticalTimeStep
+		O.dt = 0.9 * solver.criticalTimeStep()
 		first, courses = energy(solver), []
 		for _ in range(300 if options.short else 3000):
 			O.step()

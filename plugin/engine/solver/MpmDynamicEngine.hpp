@@ -35,7 +35,7 @@ public:
 		  admitting("one or more (time, factor), all finite, with increasing times", gimpm::LoadCurve::isAdmissible));
 		v("scheme", &E::scheme, 0,
 		  "Integration in time: 'newmark' (*beta*, *gamma*), 'generalised-alpha' (*rhoInfinity*), which damps high frequencies, 'midpoint', which keeps angular "
-		  "momentum, or 'explicit', central differences, up to *criticalTimeStep*.",
+		  "momentum, or 'explicit', central differences, up to criticalTimeStep().",
 		  oneOf("newmark", "generalised-alpha", "midpoint", "explicit"));
 		v("beta", &E::beta, 0,
 		  "Newmark's parameter [-] > 0 and <= 1; 1/4 with gamma = 1/2 is the trapezoidal rule. Below (gamma + 1/2)^2 / 4 long steps are unstable.",

@@ -62,7 +62,7 @@ template <int Dim> void requireStable(const MpmDynamicEngine& engine, const gimp
 	const Real penalty = largestPenalty(engine);
 	refuseExplicit(
 	        "a step of ", duration, " s (O.dt", engine.iterPeriod > 1 ? " times iterPeriod" : "", ") is above the critical one, ", critical,
-	        " s, and would be unstable. Give a smaller O.dt, as 0.9 * solver.criticalTimeStep", penalty > 0 ? ", smaller MpmContact.stiffness" : "",
+	        " s, and would be unstable. Give a smaller O.dt, as 0.9 * solver.criticalTimeStep()", penalty > 0 ? ", smaller MpmContact.stiffness" : "",
 	        ", larger cells, or an implicit scheme, which has no limit.");
 }
 

@@ -18,9 +18,8 @@ Real criticalTimeStep(MpmDynamicEngine&);
 
 template <class C> void addExplicitSteps(C& c)
 {
-	c.add_property(
-	        "criticalTimeStep", &criticalTimeStep,
-	        "Largest stable O.dt [s] of scheme='explicit' in the present state, estimated on the safe side; computed when it is read; NaN without points. Take 0.9 of it.");
+	c.def("criticalTimeStep", &criticalTimeStep,
+	      "criticalTimeStep() -> float\n\nLargest stable O.dt [s] of scheme='explicit' in the present state, estimated on the safe side; NaN without points. Take 0.9 of it.");
 }
 
 } // namespace yade
