@@ -155,7 +155,7 @@ namespace {
 				int          made = 0;
 				while (made < 500 && body.energy() < 2 * energy && body.step(T).converged())
 					++made;
-				if (factor == 1) EXPECT_EQ(made, 500);
+				EXPECT_TRUE(factor > 1 || made == 500) << made;
 				if (made < 500 && unstable == 0) unstable = factor;
 			}
 			std::printf("ghost mass %g: unstable with %g times the estimate\n", ghostMass, unstable);
