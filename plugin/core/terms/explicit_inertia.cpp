@@ -27,7 +27,8 @@ template <int Dim> Vec<Dim> atPoint(const Patch<Dim>& patch, const double* value
 template <int Dim> NodalMass<Dim> massOf(const Motion<Dim>& motion, const Beginning<Dim>& step, double& seconds)
 {
 	const Stopwatch watch(seconds);
-	return NodalMass<Dim>(step.basis, motion.mass, massFaces(motion, step), step.grid.cellSize, looseOf(motion, step));
+	const int       anyWay = int(step.faces.size()); // what is lumped wholly loses angular momentum: only bodies of which no cell is filled
+	return NodalMass<Dim>(step.basis, motion.mass, massFaces(motion, step), step.grid.cellSize, looseOf(motion, step, anyWay));
 }
 
 } // namespace

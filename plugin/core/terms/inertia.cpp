@@ -20,10 +20,10 @@ template <int Dim> std::vector<GhostFace<Dim>> massFaces(const Motion<Dim>& moti
 	return faces;
 }
 
-template <int Dim> std::vector<LooseCell<Dim>> looseOf(const Motion<Dim>& motion, const Beginning<Dim>& step)
+template <int Dim> std::vector<LooseCell<Dim>> looseOf(const Motion<Dim>& motion, const Beginning<Dim>& step, int reach)
 {
 	if (motion.ghostMass == 0) return {};
-	return looseCells(step.basis, motion.mass, step.faces, step.grid);
+	return looseCells(step.basis, motion.mass, step.faces, step.grid, reach);
 }
 
 template <int Dim> Eigen::VectorXd weighedAtNodes(const CloudBasis<Dim>& basis, const std::vector<double>& mass, const std::vector<Vec<Dim>>& ofPoints)
@@ -285,7 +285,7 @@ template <int Dim> void Inertia<Dim>::commit(const Eigen::VectorXd& d)
 
 #define GIMPM_INSTANTIATE(Dim)                                                                                                                                 \
 	template class Inertia<Dim>;                                                                                                                           \
-	template std::vector<LooseCell<Dim>> looseOf(const Motion<Dim>&, const Beginning<Dim>&);                                                               \
+	template std::vector<LooseCell<Dim>> looseOf(const Motion<Dim>&, const Beginning<Dim>&, int);                                                          \
 	template std::vector<GhostFace<Dim>> massFaces(const Motion<Dim>&, const Beginning<Dim>&);                                                             \
 	template Eigen::VectorXd             weighedAtNodes(const CloudBasis<Dim>&, const std::vector<double>&, const std::vector<Vec<Dim>>&);                 \
 	template Eigen::VectorXd ofHeld(const Eigen::VectorXd&, Vec<Dim> MovingBase<Dim>::*, const std::vector<MovingBase<Dim>>&, const Beginning<Dim>&);

@@ -41,7 +41,7 @@ template <int Dim> struct Motion {
 template <int Dim> std::vector<GhostFace<Dim>> massFaces(const Motion<Dim>&, const Beginning<Dim>&);
 
 /// None without ghost mass: then nothing is connected, and mass is that of the points alone.
-template <int Dim> std::vector<LooseCell<Dim>> looseOf(const Motion<Dim>&, const Beginning<Dim>&);
+template <int Dim> std::vector<LooseCell<Dim>> looseOf(const Motion<Dim>&, const Beginning<Dim>&, int reach = Dim);
 
 /// Sum of S m x_p at the nodes.
 template <int Dim> Eigen::VectorXd weighedAtNodes(const CloudBasis<Dim>&, const std::vector<double>& mass, const std::vector<Vec<Dim>>& ofPoints);

@@ -10,9 +10,6 @@ namespace {
 /// each axis that fill the cell have 4^-Dim.
 template <int Dim> constexpr double leastMoment = Dim == 2 ? 1e-3 : 1e-4;
 
-/// So many ghost faces away from such a cell the field is known as well, as at a corner of a body; the condition number grows with the fourth power of the way.
-template <int Dim> constexpr int reach = Dim;
-
 /// The points of a cell.
 template <int Dim> struct Filling {
 	static constexpr int corners = LooseCell<Dim>::corners;
@@ -47,11 +44,12 @@ template <int Dim> std::vector<char> atEdge(const CloudBasis<Dim>& basis, const 
 	return isAt;
 }
 
-/// Across a few faces.
-template <int Dim> void spread(std::vector<char>& isKnown, const CellPairs& pairs)
+/// Across so many faces.
+void spread(std::vector<char>& isKnown, const CellPairs& pairs, int reach)
 {
-	for (int step = 0; step < reach<Dim>; ++step) {
-		const std::vector<char> before = isKnown;
+	std::vector<char> before;
+	for (int step = 0; step < reach && before != isKnown; ++step) {
+		before = isKnown;
 		for (const auto& [lower, upper] : pairs)
 			if (before[lower] || before[upper]) isKnown[lower] = isKnown[upper] = true;
 	}
@@ -90,7 +88,7 @@ void addTo(std::vector<Filling<Dim>>& fillings, const std::vector<int>& slot, co
 
 template <int Dim>
 std::vector<LooseCell<Dim>> looseCells(
-        const CloudBasis<Dim>& basis, const std::vector<double>& masses, const std::vector<GhostFace<Dim>>& faces, const Grid<Dim>& grid)
+        const CloudBasis<Dim>& basis, const std::vector<double>& masses, const std::vector<GhostFace<Dim>>& faces, const Grid<Dim>& grid, int reach)
 {
 	const auto              pairs = cellPairs(faces, basis, grid);
 	const std::vector<char> isAt  = atEdge(basis, pairs, grid);
@@ -106,14 +104,14 @@ std::vector<LooseCell<Dim>> looseCells(
 	std::vector<char> isKnown(slot.size(), true);
 	for (std::size_t c = 0; c < slot.size(); ++c)
 		if (isAt[c]) isKnown[c] = fillings[slot[c]].determines();
-	spread<Dim>(isKnown, pairs);
+	spread(isKnown, pairs, reach);
 	std::vector<LooseCell<Dim>> loose;
 	for (std::size_t c = 0; c < slot.size(); ++c)
 		if (!isKnown[c] && fillings[slot[c]].cell.mass > 0) loose.push_back(fillings[slot[c]].cell);
 	return loose;
 }
 
-template std::vector<LooseCell<2>> looseCells(const CloudBasis<2>&, const std::vector<double>&, const std::vector<GhostFace<2>>&, const Grid<2>&);
-template std::vector<LooseCell<3>> looseCells(const CloudBasis<3>&, const std::vector<double>&, const std::vector<GhostFace<3>>&, const Grid<3>&);
+template std::vector<LooseCell<2>> looseCells(const CloudBasis<2>&, const std::vector<double>&, const std::vector<GhostFace<2>>&, const Grid<2>&, int);
+template std::vector<LooseCell<3>> looseCells(const CloudBasis<3>&, const std::vector<double>&, const std::vector<GhostFace<3>>&, const Grid<3>&, int);
 
 } // namespace gimpm
