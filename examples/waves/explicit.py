@@ -128,13 +128,13 @@ def impact():
 	found = {}
 	for scene in meet, bounce:
 		for kind in kinds:
-			steps = ((0.4, 0.2, 0.1) if scene == meet else (0.2, 0.1, 0.05)) if 'explicit' in kind else (1, 0.5, 0.25)
+			steps = ((0.4, 0.2, 0.1) if scene == meet else (0.1, 0.05, 0.025)) if 'explicit' in kind else (1, 0.5, 0.25)
 			for courant in steps[:1 if options.short else None]:
 				x, y, excess, left = scene(kind, courant)
 				found.setdefault((scene.__name__, kind), []).append((courant, max(excess, 1e-9)))
 				print(f'{scene.__name__}, {kind}, {courant:g}: {x:.1e}  {y:.1e}  {excess:+.1e}  {left:.4f}', flush=True)
 	figure, axes = plt.subplots(1, 2, figsize=(10, 4), sharey=True, layout='constrained')
-	for (scene, kind), rows in found.items(): axes[scene == 'bounce'].loglog(*np.array(rows).T, 'o-', label=kind)
+	for (scene, kind), rows in found.items(): axes[int(scene == 'bounce')].loglog(*np.array(rows).T, 'o-', label=kind)
 	for ax, title in zip(axes, ('two blocks', 'off a Box')): ax.set(xlabel='dt c / h', title=title)
 	axes[0].set_ylabel('energy above that of the beginning')
 	axes[0].legend(frameon=False)

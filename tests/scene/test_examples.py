@@ -342,3 +342,14 @@ def test_task(yade, task):
 
 def test_there_is_a_test_of_each_task():
 	assert {path.stem for path in (root / 'examples/tasks').glob('*.py')} == set(tasks)
+
+
+def test_explicit_waves(yade):
+	"""A bar of few cells: its period, and what is left of its energy; a pulse by each scheme."""
+	script = root / 'examples' / 'waves' / 'explicit.py'
+	run = yade(script, '--scene', 'bar', '--short', 1)
+	for kind, bound in ('consistent', 1e-3), ('lumped', 2e-3):
+		errors = [float(error) for error in re.findall(r': ([-+][.\de-]+)', re.search(f'^explicit, {kind}: 0.*$', run.stdout, re.MULTILINE)[0])]
+		assert errors and max(map(abs, errors)) < bound, run.stdout
+	assert all(abs(float(left) - 1) < 2e-3 for left in re.findall(r'critical one ([.\d]+),', run.stdout)), run.stdout
+	assert (run.folder / 'out/explicit/explicit-bar.png').stat().st_size > 5000
