@@ -27,6 +27,7 @@ groups = { # a map of outcomes for each
         'water': ('Water', ['waterWeight', 'waterLevel']),
         'locking': ('F-bar', ['overlapFBar', 'yieldFBar', 'bending', 'bendingFBar', 'compressionFBar']),
         'contact': ('Contact', ['contactPenalty', 'contactFriction', 'contactSteps', 'contactThin', 'contactHeight', 'contactRadius', 'contactClamped']),
+        'inertia': ('Inertia', ['inertiaCut', 'inertiaCutExplicit', 'massFactor', 'timeStep', 'rhoInfinity']),
         'motion': ('Load and motion', ['strain', 'steps', 'compression', 'free', 'turns', 'turnStep']),
 }
 
@@ -86,6 +87,11 @@ axes = {
         'contactHeight': Axis('height of a pressed block over the one before, Poisson 0.3 [-]', [.9, .7, .5, .3, .2, .15, .1], dims=(2, ), quick=[.5]),
         'contactRadius': Axis('cells over the radius of the contact of a sphere, .1 R, axisymmetric', [.5, 1, 2, 3, 4, 6, 8], dims=(2, ), quick=[1]),
         'contactClamped': Axis('points per cell and axis of a block that grows by a quarter up to a wall', [1, 2, 3, 4], dims=(2, ), quick=[2]),
+        'inertiaCut': Axis('overlap of a vibrating bar with its outermost cells, half a cell a step [h]', powers(-1, -15, -2), quick=[1e-3]),
+        'inertiaCutExplicit': Axis('the same in explicit steps of a quarter of a cell [h]', powers(-1, -15, -2), quick=[1e-3]),
+        'massFactor': Axis('ghost mass over the density, overlap 1e-3 h, half a cell a step [-]', [0., *powers(-6, 1)], quick=[1e-3], ghosts=ghosts[1:]),
+        'timeStep': Axis('cells that sound passes in a step [-]', powers(-4, 4), quick=[10.]),
+        'rhoInfinity': Axis('spectral radius of generalised alpha, half a cell a step [-]', [0., .2, .5, .8, .9, 1.], dims=(2, ), quick=[.8]),
         'columnFactor': Axis('cells over the height of a column that shrinks to half of it / ghost factor', [f'{n}/{f:g}' for n in (8, 32, 128) for f in factors], dims=(2, ), quick=['8/0.01'], ghosts=ghosts[1:2], listed=False),
         'slopeFactor': Axis('cells in a metre of the slope / ghost factor', [f'{n}/{f:g}' for n in (1, 2) for f in factors], dims=(2, ), ghosts=ghosts[1:2], listed=False),
         'corner': Axis('overlap along x / along y [h]', [f'{x:g}/{y:g}' for x in corners for y in corners], dims=(2, ), quick=['0.001/0.1'], listed=False),

@@ -59,7 +59,7 @@ def outcomes(rows, title, present, path):
 	for panel in panels.flat[len(present):]:
 		panel.axis('off')
 	bar = figure.colorbar(plt.cm.ScalarMappable(scale, 'viridis_r'), ax=panels, shrink=.6, aspect=30, extend='min')
-	bar.set_label('log10 of the relative error of the stress (number: most iterations of a load step)', fontsize=8)
+	bar.set_label(f"log10 of the relative error of the {'energy' if title == 'Inertia' else 'stress'} (number: most iterations of a load step)", fontsize=8)
 	seen = {kind for name in present for kind in failures for key, row in rows.items() if key[0] == name and row['failure'].startswith(kind)}
 	handles = [plt.Rectangle((0, 0), 1, 1, color=colour, label=f'{letter}: {kind}') for kind, (letter, colour) in failures.items() if kind in seen]
 	if any(key[0] in present and not row['failure'] and math.isnan(row['error']) for key, row in rows.items()):

@@ -22,6 +22,7 @@ from common import cellSize, fullNewton, stabilisation, young
 from contacts import contactScene
 from slopes import weakLayerSlope
 from soils import Band, Clay, SandSlope, friction, frictional, tresca, vonMises
+from vibrating import vibratingBar
 
 O = Omega()
 
@@ -198,6 +199,7 @@ def thinnedAtRandom(column, part):
 def scene(axis, dim, ghost, value):
 	"""The scene of a case."""
 	if (touched := contactScene(axis, dim, ghost, value)) is not None: return touched
+	if (moving := vibratingBar(axis, dim, ghost, value)) is not None: return moving
 	if axis == 'overlap': return Column(dim, ghost, overlap=(value, value))
 	if axis == 'factor': return Column(dim, ghost, overlap=(1e-4, 1e-4), factor=value)
 	if axis == 'poisson': return Column(dim, ghost, confined=True, poisson=value)
@@ -271,7 +273,7 @@ def run(axis, dim, ghost, value):
 	try:
 		tried = scene(axis, dim, ghost, value)
 		engine = tried.engine
-		O.engines, O.dt = [engine], 1 / tried.steps
+		O.engines, O.dt = [engine], getattr(tried, 'dt', 1 / tried.steps)
 		result['steps'] = tried.steps
 		result['condition'] = engine.conditionEstimate()
 		result['pivot'], result['solveError'] = pivots.measure(*engine.stiffness())
