@@ -1,6 +1,6 @@
 #!/usr/bin/env yade
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""A rough circular footing on clay, as a plane problem around the axis. Published: 6.05 c_u (Cox, Eason and Hopkins 1961). In 3D: examples/footing3d."""
+"""A rough circular footing on clay, as a plane problem around the axis. Published: 6.05 c_u (Cox, Eason and Hopkins 1961)."""
 from yade import mpm
 R, cu, cells = 1, 1e4, 5
 h = R / (cells + 0.5)  # the footing ends in the middle between two nodes

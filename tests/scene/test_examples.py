@@ -325,7 +325,7 @@ def test_embankment(yade):
 
 
 # Of each task, how far it may be from its number by hand [%]: what its grid leaves, as told in examples/README.md.
-tasks = dict(layers=2, strip=3, deep_footing=6, sand_slope=3, runout=25, sphere=15, round_footing=7, mesh_file=0.01, batch=2, restart=0)
+tasks = dict(layers=2, strip=3, deep_footing=6, sand_slope=3, runout=25, sphere=15, round_footing=7, square_footing=6, mesh_file=0.01, batch=2, restart=0)
 
 
 @pytest.mark.parametrize('task', tasks)
