@@ -186,7 +186,7 @@ namespace {
 		for (const Vec<2>& x : { Vec<2>(2.5, 0.5), Vec<2>(2.5, 1.5), Vec<2>(3.5, 0.5) })
 			addPoint<2>(cloud, x, { 0.5, 0.5 });
 		revolve(cloud);
-		const auto basis = cloudBasis<2>(cloud, model.grid, Basis::gimp, Boundary<2>({}));
+		const auto basis = cloudBasis<2>(cloud, model.grid, Basis::gimp, Boundary<2>(std::vector<HeldBox<2>> {}));
 		const auto alike = [](int) { return VolumeAndModulus { 1, 3 }; };
 		weighGhostFaces<2>(faces, basis, alike, model.grid, 1, GhostScaling::paper);
 		// below the face 0, above c + r (y - 1): the jump of the derivative is r
