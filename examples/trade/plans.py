@@ -130,5 +130,12 @@ plans = {
                 contact(
                         'footing', '6', dict(cells=['2', '4', '8', '16'], stiffness=['5', '20', '100', '1000'], pointsPerCell=['2', '3']),
                         dict(cells=['2'], stiffness=['20']), dict(cells='cells over half the width', error='limit load'), depth='0.03'),
+        'seepage':
+                Plan(
+                        script=os.path.join(here, '..', 'water', 'water.py'), errors=['error'],
+                        parameters=dict(scene="'seepage'", cells='10', pointsPerCell='2', tolerance='0.02', out="'out'"),
+                        together=dict(cells=['5', '10', '20', '40'], pointsPerCell=['2', '3'], tolerance=['0.05', '0.02', '0.005']),
+                        quick=dict(cells=['5'], pointsPerCell=['2'], tolerance=['0.05']),
+                        words=dict(cells='cells over the height', pointsPerCell='points per cell and axis', tolerance='width of the bracket', error='factor of safety')),
         'beam': locking('beam', ['2', '4', '8', '16'], dict(cells='cells over the height', error='deflection')),
 }

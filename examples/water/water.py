@@ -29,6 +29,7 @@ from options import readOptions
 options = readOptions('Water in soil.',
         scene=('all', "'all', or one of 'wall', 'seepage' and 'bank'"),
         cells=(10, 'over the height of the slope'),
+        pointsPerCell=(2, 'material points per cell and axis'),
         levels=(5, 'of the water, from the crest to the toe of the bank'),
         tolerance=(0.02, 'width of the bracket of the factor of safety'))
 g, gammaW = 10., 1e4
@@ -37,7 +38,7 @@ g, gammaW = 10., 1e4
 def scene(region, grid, material, boundaries, water, **settings):
 	O.reset()
 	O.materials.append(material)
-	O.bodies.append(mpm.fill(region, grid, 2, material.label))
+	O.bodies.append(mpm.fill(region, grid, options.pointsPerCell, material.label))
 	engine = MpmImplicitEngine(**(dict(grid=grid, gravity=(0, -g, 0), boundaries=boundaries, water=water) | settings))
 	O.engines = [engine]
 	O.dt = 1 / 10
@@ -74,6 +75,7 @@ def seepage():
 	found = mpm.strengthReduction(tolerance=options.tolerance)
 	print(f"seepage: F between {found['lower']:.3f} and {found['upper']:.3f}, closed form {exact:.3f}")
 	print(f"seepage: F without water would be {c / (2000 * g * z * np.sin(beta) * np.cos(beta)) + np.tan(phi) / np.tan(beta):.3f}")
+	return (found['lower'] + found['upper']) / 2 / exact - 1
 
 
 H, run, crest = 10., 20., 12.
@@ -121,5 +123,5 @@ def picture(submerged, levels, slow, low, rapid):
 
 
 if options.scene in ('all', 'wall'): wall()
-if options.scene in ('all', 'seepage'): seepage()
+if options.scene in ('all', 'seepage'): error = seepage()
 if options.scene in ('all', 'bank'): picture(*banks())
