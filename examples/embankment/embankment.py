@@ -91,7 +91,7 @@ def embankment():
 		O.run(options.steps, wait=True)
 		history.append((n, -moved(middle)[1], moved(toe)[0]))
 		print(f'embankment, {n} layers: settlement in the middle {1e3 * history[-1][1]:.0f} mm, toe outwards {1e3 * history[-1][2]:.1f} mm')
-		if n <= 7: mpm.plot('displacement', ax=axes.flat[n - 1], grid=False, ghost=False, range=(0, 0.5)).set_title(f'{n} layers')
+		if n <= 7: mpm.plot('displacement', ax=axes.flat[n - 1], grid=False, ghost=False, range=(0, 0.5)).set_title(f'{n} layer{"s" if n > 1 else ""}')
 	print(f'embankment: {len(mpm.arrays()["id"])} points, {time.time() - begin:.1f} s')
 	weight = sum(b.state.mass for b in O.bodies) * g
 	squeezed = sum(b.state.volume0 - b.state.volume for b in O.bodies if b.material.label != 'sand') * 1e4

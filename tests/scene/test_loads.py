@@ -101,3 +101,35 @@ print(json.dumps([solver.wallOverlap, (total / weight).tolist(), solver.reaction
 	assert overlap > 0.05
 	assert abs(sums[0]) < 1e-5 and abs(sums[1] - 1) < 1e-5 and sums[:2] == data
 	assert 0 < abs(friction) < 1e-6  # of rollers, behind which the domains are held, too
+
+
+def test_a_plate_goes_and_comes_back_by_a_curve_of_its_own(yade):
+	"""As one that goes with the loads, as far as that goes; afterwards elastic ground is where it was."""
+	with_loads, by_curve, back, conflict, idle = yade(ground + '''
+def push(**settings):
+	solver = ground(gravityCurve=[(0, 1)], **settings)
+	mpm.geostatic(K0=0.5)
+	return solver
+solver = push(loadCurve=[(0, 0), (0.5, 1)])
+O.run(4, wait=True)
+with_loads = [settled(), solver.reactions[3][1]]
+solver = push()
+solver.boundaries[3].curve = [(0, 0), (0.5, 1), (2, 0)]
+O.run(4, wait=True)
+by_curve = [settled(), solver.reactions[3][1]]
+O.run(12, wait=True)
+back = [settled(), solver.reactions[3][1]]
+solver.boundaries += (MpmBoundary(min=(0.5, 2, -inf), max=(3, 2, inf), fix='y', displacement=(0, -0.04, 0)), )
+def refused(act):
+	try: act()
+	except ValueError as error: return str(error)
+conflict = refused(lambda: (push(), setattr(O.engines[0], 'boundaries', solver.boundaries), O.step()))
+solver = push()
+solver.boundaries[3].displacement, solver.boundaries[3].curve = (0, 0, 0), [(0, 1)]
+idle = refused(O.step)
+print(json.dumps([with_loads, by_curve, back, conflict, idle]))
+''').result
+	assert by_curve == pytest.approx(with_loads, rel=1e-9) and by_curve[0] > 0.03 and by_curve[1] < -1e4
+	assert abs(back[0]) < 2e-4 and abs(back[1]) < 0.01 * abs(by_curve[1])
+	assert 'boundaries[3] and boundaries[4] prescribe different displacements along y' in conflict and 'curve' in conflict
+	assert 'MpmBoundary.curve multiplies displacement, which is zero' in idle

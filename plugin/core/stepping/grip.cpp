@@ -123,10 +123,10 @@ template <int Dim> std::string withoutSoil(const HeldBox<Dim>& box, const PointC
 	        + listed(high);
 }
 
-template <int Dim> std::string withdrawn(const HeldBox<Dim>& box, const PointCloud<Dim>& cloud, const Grid<Dim>& grid, const Load<Dim>& load)
+template <int Dim> std::string withdrawn(const HeldBox<Dim>& box, const PointCloud<Dim>& cloud, const Grid<Dim>& grid, const LoadFactor& load)
 {
 	if (cloud.position0.empty()) return "";
-	const double before = load.factor.before(), factor = before != 0 ? before : load.factor.growth; // what has pushed, or begins to
+	const double before = load.before(), factor = before != 0 ? before : load.growth; // what has pushed, or begins to
 	for (int a = 0; a < Dim; ++a) {
 		const double push = factor * box.displacement[a];
 		Front<Dim>   front(box, a, push);
@@ -149,7 +149,8 @@ template <int Dim> std::string lostGrip(const PointCloud<Dim>& cloud, const Clou
 	const auto& boxes = model.boundary.boxes();
 	for (std::size_t b = 0; b < boxes.size(); ++b) {
 		if (boxes[b].displacement.isZero(0)) continue;
-		const std::string wrong = holdsSoil(boxes[b], basis) ? withdrawn(boxes[b], cloud, model.grid, load) : withoutSoil(boxes[b], cloud, model.grid);
+		const std::string wrong
+		        = holdsSoil(boxes[b], basis) ? withdrawn(boxes[b], cloud, model.grid, load.ofBox(int(b))) : withoutSoil(boxes[b], cloud, model.grid);
 		if (!wrong.empty()) return "boundaries[" + std::to_string(b) + "] moves by " + listed(boxes[b].displacement) + " m, but " + wrong;
 	}
 	return "";

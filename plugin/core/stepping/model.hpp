@@ -47,8 +47,15 @@ template <int Dim> struct Load {
 	Vec<Dim>                  gravity = Vec<Dim>::Zero(); ///< at factor 1 [m/s2]
 	LoadFactor                factor {};                  ///< of point loads, and of prescribed displacements, which go with its growth
 	std::optional<LoadFactor> ofGravity {};               ///< if it has its own
+	std::map<int, LoadFactor> ofBoxes {};                 ///< of the displacement of boxes of the boundary that have their own
 	double                    motion = 0;                 ///< duration of the step where something moves by its velocity [s]
 	std::map<int, Vec<Dim>>   boxMotion {};               ///< of the nodes held by boxes of the boundary, in the step, besides their displacement [m]
+
+	LoadFactor ofBox(int number) const
+	{
+		const auto own = ofBoxes.find(number);
+		return own == ofBoxes.end() ? factor : own->second;
+	}
 
 	/// The same as the step begins.
 	Load before() const
@@ -63,7 +70,10 @@ template <int Dim> struct Load {
 	double growth() const
 	{
 		const double ofLoads = factor.growth != 0 ? factor.growth : ofGravity.value_or(factor).growth;
-		return ofLoads != 0 ? ofLoads : motion;
+		if (ofLoads != 0) return ofLoads;
+		for (const auto& [number, own] : ofBoxes)
+			if (own.growth != 0) return own.growth;
+		return motion;
 	}
 };
 

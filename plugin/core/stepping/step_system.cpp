@@ -73,8 +73,10 @@ template <int Dim> void StepSystem<Dim>::holdNodes(const Load<Dim>& load)
 	for (std::size_t n = 0; n < basis.nodes.size(); ++n)
 		for (int a = 0; a < Dim; ++a) {
 			if (const auto* box = model.boundary.holder(Grid<Dim>::index(basis.nodes[n]), a)) {
-				const auto moves        = load.boxMotion.find(int(box - model.boundary.boxes().data()));
-				prescribed[Dim * n + a] = load.factor.growth * box->displacement[a] + (moves == load.boxMotion.end() ? 0 : moves->second[a]);
+				const int  number = int(box - model.boundary.boxes().data());
+				const auto moves  = load.boxMotion.find(number);
+				prescribed[Dim * n + a]
+				        = load.ofBox(number).growth * box->displacement[a] + (moves == load.boxMotion.end() ? 0 : moves->second[a]);
 			} else
 				dofs.number[Dim * n + a] = dofs.count++;
 		}

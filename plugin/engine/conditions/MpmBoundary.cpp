@@ -56,6 +56,8 @@ void MpmBoundary::requireAdmissible() const
 	if (!surface && penalty != MpmBoundary().penalty)
 		throw std::invalid_argument(
 		        "MpmBoundary.penalty = " + textOf(penalty) + " is that of a surface, which is not given: the nodes in a box do not give way.");
+	if (!curve.empty() && displacement.isZero(0))
+		throw std::invalid_argument("MpmBoundary.curve multiplies displacement, which is zero: give one, or leave the curve out.");
 	requireCorners("MpmBoundary", min, max);
 	for (int axis = 0; axis < 3; ++axis)
 		if (const string text = whatContradicts(axis); !text.empty()) throw std::invalid_argument(text);

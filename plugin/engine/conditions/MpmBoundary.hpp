@@ -2,6 +2,7 @@
 #pragma once
 #include "engine/conditions/MpmBaseMotion.hpp"
 #include "engine/conditions/MpmSurface.hpp"
+#include "engine/conditions/load_curves.hpp"
 
 namespace yade {
 
@@ -11,6 +12,7 @@ public:
 	Vector3r                  max = Vector3r::Constant(std::numeric_limits<Real>::infinity());
 	string                    fix; // must be given
 	Vector3r                  displacement = Vector3r::Zero();
+	gimpm::LoadCurve::Knees   curve;   // empty: that of the engine
 	shared_ptr<MpmSurface>    surface; // none: the box
 	Vector3r                  velocity = Vector3r::Zero();
 	Real                      penalty  = 100;
@@ -39,6 +41,9 @@ public:
 		  "Displacement [m] of the held nodes at load factor 1, along *fix*. They stay in place: pushed soil follows for half a cell, then the step fails "
 		  "('detached').",
 		  finite);
+		v("curve", &MpmBoundary::curve, 0,
+		  "Factor [-] of *displacement* as *MpmImplicitEngine.loadCurve*, where it shall not go with the loads; empty, the default: it does.",
+		  curveOrNothing);
 		v("motion", &MpmBoundary::motion, 0,
 		  "History of the velocity of the held nodes (MpmBaseMotion), of MpmDynamicEngine; None, the default: they do not move by one.");
 		v("surface", &MpmBoundary::surface, 0,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 #include "core/stepping/model.hpp"
+#include "engine/conditions/MpmBoundary.hpp"
 #include "engine/conditions/MpmTraction.hpp"
 #include "engine/conditions/MpmWater.hpp"
 #include "yade_api/registration.hpp"
@@ -14,6 +15,7 @@ struct Loads {
 	gimpm::LoadCurve::Knees         gravityCurve; // empty: loadCurve
 	vector<shared_ptr<MpmTraction>> loads;
 	vector<shared_ptr<MpmWater>>    water;
+	vector<shared_ptr<MpmBoundary>> boundaries;
 
 	// Attributes, as those of a class.
 	template <class V> static void attributes(V&& v)
@@ -37,6 +39,8 @@ struct Loads {
 
 	gimpm::LoadCurve curveOf(const MpmTraction& load) const { return load.curve.empty() ? curveOfLoads() : gimpm::LoadCurve(load.curve); }
 
+	gimpm::LoadCurve curveOf(const MpmBoundary& boundary) const { return boundary.curve.empty() ? curveOfLoads() : gimpm::LoadCurve(boundary.curve); }
+
 	gimpm::LoadCurve curveOf(const MpmWater& one) const { return one.curve.empty() ? curveOfGravity() : gimpm::LoadCurve(one.curve); }
 
 	// When the last of them has come to rest.
@@ -45,6 +49,8 @@ struct Loads {
 		Real end = std::max(curveOfLoads().end(), curveOfGravity().end());
 		for (const auto& load : loads)
 			end = std::max(end, curveOf(*load).end());
+		for (const auto& boundary : boundaries)
+			end = std::max(end, curveOf(*boundary).end());
 		for (const auto& one : water)
 			end = std::max({ end, curveOf(*one).end(), one->levels.empty() ? end : gimpm::LoadCurve(one->levels).end() });
 		return end;
@@ -54,6 +60,8 @@ struct Loads {
 	{
 		gimpm::Load<Dim> load { gravity.head<Dim>(), curveOfLoads().between(begin, end) };
 		if (!gravityCurve.empty()) load.ofGravity = curveOfGravity().between(begin, end);
+		for (size_t b = 0; b < boundaries.size(); ++b)
+			if (!boundaries[b]->curve.empty()) load.ofBoxes[int(b)] = curveOf(*boundaries[b]).between(begin, end);
 		return load;
 	}
 };

@@ -18,16 +18,15 @@ namespace yade {
 
 class MpmImplicitEngine : public Exposed<MpmImplicitEngine, PeriodicEngine>, public Loads, public RunResults {
 public:
-	shared_ptr<MpmGrid>             grid;
-	string                          basis = "gimp";
-	bool                            fBar  = false;
-	vector<shared_ptr<MpmBoundary>> boundaries;
-	vector<shared_ptr<MpmContact>>  contacts;
-	shared_ptr<MpmGhost>            ghost { new MpmGhost };
-	shared_ptr<MpmNewton>           newton { new MpmNewton };
-	int                             mask      = -1;
-	Real                            loadTime  = 0;
-	int                             verbosity = 1;
+	shared_ptr<MpmGrid>            grid;
+	string                         basis = "gimp";
+	bool                           fBar  = false;
+	vector<shared_ptr<MpmContact>> contacts;
+	shared_ptr<MpmGhost>           ghost { new MpmGhost };
+	shared_ptr<MpmNewton>          newton { new MpmNewton };
+	int                            mask      = -1;
+	Real                           loadTime  = 0;
+	int                            verbosity = 1;
 
 	MpmImplicitEngine();
 

@@ -45,18 +45,26 @@ namespace {
 		return box;
 	}
 
-	template <int Dim> void refuseConflicts(const vector<gimpm::HeldBox<Dim>>& boxes)
+	// Of two boxes, along one axis
+	template <int Dim>
+	bool moveAlike(const vector<gimpm::HeldBox<Dim>>& boxes, const vector<shared_ptr<MpmBoundary>>& boundaries, size_t i, size_t j, int axis)
+	{
+		const Real one = boxes[i].displacement[axis];
+		return one == boxes[j].displacement[axis] && (one == 0 || boundaries[i]->curve == boundaries[j]->curve);
+	}
+
+	template <int Dim> void refuseConflicts(const vector<gimpm::HeldBox<Dim>>& boxes, const vector<shared_ptr<MpmBoundary>>& boundaries)
 	{
 		for (size_t i = 0; i < boxes.size(); ++i)
 			for (size_t j = 0; j < i; ++j)
 				for (int axis = 0; axis < Dim; ++axis) {
 					if (!boxes[i].meets(boxes[j]) || !boxes[i].fixed[axis] || !boxes[j].fixed[axis]
-					    || boxes[i].displacement[axis] == boxes[j].displacement[axis])
+					    || moveAlike(boxes, boundaries, i, j, axis))
 						continue;
 					std::ostringstream text;
 					text << "boundaries[" << j << "] and boundaries[" << i << "] prescribe different displacements along "
 					     << "xyz"[axis] << " (" << boxes[j].displacement[axis] << " and " << boxes[i].displacement[axis]
-					     << " m) to the nodes that lie in both boxes.";
+					     << " m, each by its curve) to the nodes that lie in both boxes.";
 					throw std::invalid_argument(text.str());
 				}
 	}
@@ -134,7 +142,7 @@ vector<gimpm::HeldBox<Dim>> heldBoxes(const vector<shared_ptr<MpmBoundary>>& bou
 	vector<gimpm::HeldBox<Dim>> boxes;
 	for (const auto& boundary : boundaries)
 		boxes.push_back(heldBox<Dim>(*boundary, grid, lattice));
-	refuseConflicts(boxes);
+	refuseConflicts(boxes, boundaries);
 	if (grid.axisymmetric) boxes.push_back(gimpm::HeldBox<Dim>::ofAxis(lattice));
 	return boxes;
 }

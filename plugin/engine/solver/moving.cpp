@@ -62,7 +62,6 @@ template <int Dim> Real Moving<Dim>::workOfBoundaries(Real from, Real time) cons
 {
 	const auto &now = engine.reactions, &before = engine.reactionsBefore;
 	const bool  hasBefore = before.size() == now.size() && !motion->scheme.atMiddle;
-	const Real  growth    = engine.curveOfLoads().between(from, time).growth;
 	Real        work      = 0;
 	for (size_t b = 0; b < now.size(); ++b) {
 		const MpmBoundary& boundary = *engine.boundaries[b];
@@ -70,7 +69,8 @@ template <int Dim> Real Moving<Dim>::workOfBoundaries(Real from, Real time) cons
 			work += boundary.motion->displacementBetween(from, time).dot(hasBefore ? Vector3r((now[b] + before[b]) / 2) : now[b]);
 			continue;
 		}
-		const Vector3r moved = boundary.surface ? Vector3r((time - from) * boundary.velocity) : Vector3r(growth * boundary.displacement);
+		const Real     growth = engine.curveOf(boundary).between(from, time).growth;
+		const Vector3r moved  = boundary.surface ? Vector3r((time - from) * boundary.velocity) : Vector3r(growth * boundary.displacement);
 		work += moved.dot(hasBefore ? Vector3r((now[b] + before[b]) / 2) : now[b]);
 	}
 	return work;
