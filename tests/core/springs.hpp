@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Matrices over nodes: boxes of springs.
 #pragma once
-#include "core/solvers/linear_problem.hpp"
+#include "core/solvers/linear_solver.hpp"
+#include "matrices.hpp"
 #include "scenes.hpp"
+#include <gtest/gtest.h>
+#include <omp.h>
 
 namespace gimpm {
 
@@ -48,5 +51,26 @@ template <int Dim> struct Springs {
 	}
 	Springs(const Index<Dim>& size, int reach) : Springs(size, reach, [](const Index<Dim>&) { return false; }) { }
 };
+
+/// A long body is solved to the tolerance, and to the same bits by one thread and by two.
+template <int Dim> void expectSameInThreads(double tolerance, LinearMethod method)
+{
+	Index<Dim> size = Index<Dim>::Constant(Dim == 2 ? 60 : 12);
+	size[Dim - 1] *= 3;
+	const Springs<Dim>    springs(size, 1);
+	const LinearProblem   K(springs.K, springs.dofs);
+	const Eigen::VectorXd b       = Random(2).vector(K.size());
+	const int             threads = omp_get_max_threads();
+	Eigen::VectorXd       x, expected;
+	for (const int n : { 1, 2 }) {
+		omp_set_num_threads(n);
+		LinearSolver solver;
+		ASSERT_TRUE(solver.solveIteratively(K, b, x, tolerance, method));
+		if (n == 1) expected = x;
+		EXPECT_EQ(x, expected) << n;
+	}
+	omp_set_num_threads(threads);
+	EXPECT_LT((K * x - b).norm(), 1.01 * tolerance * b.norm());
+}
 
 } // namespace gimpm

@@ -4,7 +4,6 @@
 #include "core/solvers/linear_solver.hpp"
 #include "core/solvers/multigrid.hpp"
 #include "springs.hpp"
-#include <omp.h>
 
 namespace gimpm::testMultigrid {
 namespace {
@@ -127,22 +126,7 @@ namespace {
 	TYPED_TEST(MultigridOf, ThreadsDoNotMatter)
 	{
 		REQUIRE_PETSC();
-		constexpr int Dim  = TypeParam::value;
-		Index<Dim>    size = Index<Dim>::Constant(Dim == 2 ? 60 : 12);
-		size[Dim - 1] *= 3;
-		const Springs<Dim>    springs(size, 1);
-		const LinearProblem   K(springs.K, springs.dofs);
-		const Eigen::VectorXd b       = Random(2).vector(K.size());
-		const int             threads = omp_get_max_threads();
-		Eigen::VectorXd       x, expected;
-		for (const int n : { 1, 2 }) {
-			omp_set_num_threads(n);
-			LinearSolver solver;
-			ASSERT_TRUE(solver.solveIteratively(K, b, x, 1e-6, LinearMethod::multigrid));
-			if (n == 1) expected = x;
-			EXPECT_EQ(x, expected);
-		}
-		omp_set_num_threads(threads);
+		expectSameInThreads<TypeParam::value>(1e-6, LinearMethod::multigrid);
 	}
 
 	TYPED_TEST(MultigridOf, IsRenewedWhereTheMatrixHasBecomeAnother)

@@ -4,7 +4,6 @@
 #include "core/solvers/dissection.hpp"
 #include "core/solvers/linear_solver.hpp"
 #include "springs.hpp"
-#include <omp.h>
 
 namespace gimpm::testOverNodes {
 namespace {
@@ -37,26 +36,7 @@ namespace {
 		expectSameProduct(Springs<Dim>(slender, 1));
 	}
 
-	TYPED_TEST(OverNodesOf, ThreadsDoNotMatter)
-	{
-		constexpr int Dim  = TypeParam::value;
-		Index<Dim>    size = Index<Dim>::Constant(Dim == 2 ? 60 : 12);
-		size[Dim - 1] *= 3;
-		const Springs<Dim>    springs(size, 1);
-		const LinearProblem   K(springs.K, springs.dofs);
-		const Eigen::VectorXd b       = Random(2).vector(K.size());
-		const int             threads = omp_get_max_threads();
-		Eigen::VectorXd       x, expected;
-		for (const int n : { 1, 2 }) {
-			omp_set_num_threads(n);
-			LinearSolver solver;
-			ASSERT_TRUE(solver.solveIteratively(K, b, x, 1e-2));
-			if (n == 1) expected = x;
-			EXPECT_EQ(x, expected) << n;
-		}
-		omp_set_num_threads(threads);
-		EXPECT_LT((K * x - b).norm(), 1.01e-2 * b.norm());
-	}
+	TYPED_TEST(OverNodesOf, ThreadsDoNotMatter) { expectSameInThreads<TypeParam::value>(1e-2, LinearMethod::iterative); }
 
 	TYPED_TEST(OverNodesOf, ConjugateGradientsTakeTheSameIterations)
 	{

@@ -2,6 +2,7 @@
 """MpmDynamicEngine(scheme='explicit') in the real YADE."""
 import numpy as np
 import pytest
+from test_dynamics import requireExactRestart
 from test_dynamics import scene as motion
 
 scene = motion + '''
@@ -38,22 +39,10 @@ for mass in 'consistent', 'lumped':
 
 
 def test_a_saved_scene_goes_on_bit_for_bit(yade):
-	yade(scene + '''
+	requireExactRestart(
+	        yade, scene, '''
 solver = explicitBlock((0.2, 0.1, 0), (3.2, 3.1, 1), poisson=0.3, gravity=(0, -10, 0), boundaries=[MpmBoundary(max=(inf, 0, inf), fix='xy')])
-O.run(15, wait=True)
-O.save('half.xml.gz')
-O.run(15, wait=True)
-np.savez('whole.npz', **mpm.arrays(), energy=solver.plotData()['energyImbalance'])
-''')
-	yade(scene + '''
-O.load('half.xml.gz')
-O.run(15, wait=True)
-np.savez('parts.npz', **mpm.arrays(), energy=O.engines[0].plotData()['energyImbalance'])
-''')
-	whole, parts = np.load(yade.folder / 'whole.npz'), np.load(yade.folder / 'parts.npz')
-	assert np.abs(whole['velocity']).max() > 0
-	for name in whole:
-		assert np.array_equal(whole[name], parts[name], equal_nan=True), name
+''', 15)
 
 
 def test_the_critical_step_goes_with_cells_and_waves(yade):

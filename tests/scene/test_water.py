@@ -150,3 +150,22 @@ print(json.dumps([fields, [wet, 'porePressure' in mpm.arrays()], messages]))
 	assert 'given are level = 1, pressure' in both and 'none is' in none
 	assert 'water[0]' in number and 'returned nan at' in number and 'returned None' in nothing and "raised KeyError('no such place')" in failing
 	assert 'gravity' in tilted and 'pressure, a function' in tilted and '[item]' in single
+
+
+def test_water_works_on_what_sinks(yade):
+	"""Deep in still water a body sinks freely by its submerged weight, whose work is its kinetic energy."""
+	sunk, work, kinetic, imbalance = yade('''
+import json
+from yade import mpm, pack
+O.materials.append(MpmElasticMat(young=1e6, poisson=0, density=1500, label='soil'))
+grid = MpmGrid(cellSize=1)
+O.bodies.append(mpm.fill(pack.inAlignedBox((0.2, 0.1, -1), (3.2, 3.1, 1)), MpmGrid(cellSize=1, origin=(0.2, 0.1, 0)), 2, 'soil'))
+solver = MpmDynamicEngine(grid=grid, gravity=(0, -10, 0), water=[MpmWater(level=100, weight=1e4)], loadCurve=[(0, 1)], verbosity=0)
+O.engines, O.dt = [solver], 0.01
+O.run(20, wait=True)
+points, data = mpm.arrays(), solver.plotData()
+print(json.dumps([(points['pos0'] - points['pos'])[:, 1].tolist(), data['loadWork'], data['kineticEnergy'], data['energyImbalance']]))
+''').result
+	fall = (1500 - 1000) / 1500 * 10 * 0.2**2 / 2
+	assert sunk == pytest.approx([fall] * len(sunk), rel=1e-6)
+	assert work == pytest.approx(500 * 10 * 9 * fall, rel=1e-6) and kinetic == pytest.approx(work, rel=1e-6) and abs(imbalance) < 1e-6 * work

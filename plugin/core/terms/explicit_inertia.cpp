@@ -74,10 +74,7 @@ template <int Dim> void ExplicitInertia<Dim>::findMiddle(const Beginning<Dim>& s
 	const Eigen::VectorXd momentum = weighedAtNodes(basis_, motion_.mass, atMiddle_);
 	middle_                        = step.prescribed / motion_.duration;
 	solve(momentum, dofs_, middle_);
-	blow_              = mass_ * middle_ - momentum;
-	const double least = roundOff * momentum.template lpNorm<Eigen::Infinity>();
-	for (Eigen::Index i = 0; i < blow_.size(); ++i)
-		if (!isHeld(i) || std::abs(blow_[i]) <= least) blow_[i] = 0;
+	blow_ = blowOf(mass_, middle_, momentum, roundOff, [&](Eigen::Index i) { return isHeld(i); });
 }
 
 template <int Dim> void ExplicitInertia<Dim>::findJump()

@@ -83,12 +83,9 @@ template <int Dim> void Inertia<Dim>::findVelocity(const Eigen::VectorXd& ofHeld
 	constexpr double      roundOff = 1e-13;
 	const Eigen::VectorXd momentum = weighedAtNodes(basis_, motion_.mass, motion_.velocity);
 	velocity_                      = solve(momentum, ofHeld);
-	blow_                          = mass_ * velocity_ - momentum;
-	const double least             = roundOff * momentum.template lpNorm<Eigen::Infinity>();
-	FreeDofs     all;
+	blow_                          = blowOf(mass_, velocity_, momentum, roundOff, [&](Eigen::Index i) { return isHeld(i); });
+	FreeDofs all;
 	all.number.assign(blow_.size(), 0);
-	for (Eigen::Index i = 0; i < blow_.size(); ++i)
-		if (!isHeld(i) || std::abs(blow_[i]) <= least) blow_[i] = 0;
 	for (int axis = 0; axis < Dim; ++axis) {
 		bool isHit = false;
 		for (Eigen::Index i = axis; i < blow_.size(); i += Dim)

@@ -50,6 +50,17 @@ template <int Dim> Eigen::VectorXd weighedAtNodes(const CloudBasis<Dim>&, const 
 template <int Dim>
 Eigen::VectorXd ofHeld(const Eigen::VectorXd& otherwise, Vec<Dim> MovingBase<Dim>::*value, const std::vector<MovingBase<Dim>>&, const Beginning<Dim>&);
 
+/// The impulse by which held nodes get `velocity`, where that is more than round-off, of the largest momentum.
+template <class Mass, class IsHeld>
+Eigen::VectorXd blowOf(const Mass& M, const Eigen::VectorXd& velocity, const Eigen::VectorXd& momentum, double roundOff, IsHeld&& isHeld)
+{
+	Eigen::VectorXd blow  = M * velocity - momentum;
+	const double    least = roundOff * momentum.template lpNorm<Eigen::Infinity>();
+	for (Eigen::Index i = 0; i < blow.size(); ++i)
+		if (!isHeld(i) || std::abs(blow[i]) <= least) blow[i] = 0;
+	return blow;
+}
+
 /// Kinetic energy of the nodes before a blow, p v / 2 with M v = p, less that of `velocity` after it, and with the work of what holds them, whose velocity is `held`.
 /// `jump`: M^-1 `blow`.
 template <class Mass>

@@ -176,10 +176,13 @@ template <int Dim> void WaterForce<Dim>::addBefore(Eigen::VectorXd& force) const
 template <int Dim> void WaterForce<Dim>::commit(const Eigen::VectorXd& d)
 {
 	const bool      wets = water_.place != WaterPlace::outside, fillsWalls = water_.place != WaterPlace::pores;
-	Eigen::VectorXd twice = Eigen::VectorXd::Zero(d.size()), onWalls = twice;
-	addBefore(twice);
-	add(d, { twice });
-	water_.work = -twice.dot(d) / 2;
+	Eigen::VectorXd onWalls = Eigen::VectorXd::Zero(d.size());
+	if (water_.wantsWork) {
+		Eigen::VectorXd twice = onWalls;
+		addBefore(twice);
+		add(d, { twice });
+		water_.work = -twice.dot(d) / 2;
+	}
 	water_.porePressure.assign(start_.size(), 0);
 	forWetPoints(*water_.pressure, WaterPlace::outside, d, [&](int i, const WetPoint<Dim>& wet) {
 		if (wets) water_.porePressure[basis_.order[i]] = water_.factor * wet.p.value;

@@ -15,11 +15,12 @@ template <int Dim> struct Water {
 	WaterPlace place = WaterPlace::everywhere;
 	Pressure   pressure {}, before {};
 	double     factor = 1, factorBefore = 1; ///< of the pressures
+	bool       wantsWork = false;            ///< which takes two passes over the points
 
 	// of the last step that was accepted
 	std::vector<double>                   porePressure {}; ///< by point of the cloud, at its end [Pa]
 	std::vector<std::pair<Key, Vec<Dim>>> onWalls {};      ///< of nodes that are held, what the water does to what holds them [N]; zero where they are free
-	double                                work = 0;        ///< with the mean of the forces at its two ends [J]
+	double                                work = 0;        ///< with the mean of the forces at its two ends [J], where it is wanted
 };
 
 /// The laws know the effective stress s' = s + p I alone. With the surface loaded by the same pressure as the pores, all that is left of p in the virtual

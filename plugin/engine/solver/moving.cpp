@@ -37,6 +37,7 @@ template <int Dim> Moving<Dim>::Moving(MpmDynamicEngine& e, Job<Dim>& job, const
 	else
 		job.model.terms.push_back([known = motion](const gimpm::Beginning<Dim>& step) { return std::make_unique<gimpm::Inertia<Dim>>(*known, step); });
 	job.surfaceLoads.beginAt(job.begin);
+	job.waters.wantWork();
 }
 
 template <int Dim> void Moving<Dim>::begin(Job<Dim>& job, Attempt<Dim>& next, Real from) const

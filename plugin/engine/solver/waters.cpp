@@ -68,6 +68,12 @@ template <int Dim> void Waters<Dim>::advance(Real from, Real to)
 	}
 }
 
+template <int Dim> void Waters<Dim>::wantWork()
+{
+	for (auto& water : waters)
+		water.wantsWork = true;
+}
+
 template <int Dim> Real Waters<Dim>::work() const
 {
 	Real sum = 0;

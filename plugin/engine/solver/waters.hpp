@@ -19,7 +19,8 @@ public:
 	// The next step goes from here to there.
 	void advance(Real from, Real to);
 
-	// On the points in the last step that was accepted [J].
+	// On the points in the last step that was accepted [J], if it is wanted of the steps to come.
+	void wantWork();
 	Real work() const;
 
 	// Writes a converged state back: the pressure in the pores, and on boundaries, whose reactions are then of total stress.
