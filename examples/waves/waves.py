@@ -5,12 +5,14 @@
 	bar        an elastic bar, held at one end, swings in its first mode: period with steps from half to a hundred times those in which sound crosses a cell, and in
 	           cells of four sizes; and the speed of waves eight cells long. T = 4 L / c; Newmark's rule makes T / T_exact = (w dt / 2) / atan(w dt / 2)
 	pulse      a pulse runs to a free end that cuts a cell, and back: what is left of its energy, for ten cuts and several ghost masses
+	steps      a pulse from the base, with steps of one length and with such as timeTolerance chooses: error against solves
 	mass       condition number of mass, with and without ghost mass, while a block moves through a cell
 	block      an elastic block slides down an inclined Box: a = g (sin b - tan(friction) cos b)
 	sphere     a free Sphere of YADE rolls down a stiff elastic block, gravity turned: 5/14 g t^2 sin b
 
 Run it with `scripts/run examples/waves/waves.py [options]`, or by yade-batch with the options as columns of a parameter table.
 """
+import functools
 import os
 import sys
 import time
@@ -24,7 +26,7 @@ sys.path.insert(0, os.path.join(os.path.dirname(sys.argv[0]), '..'))
 from options import readOptions
 
 options = readOptions('Waves, mass and sliding against closed forms.',
-        scene=('bar', "'bar', 'pulse', 'mass', 'block' or 'sphere', or several between blanks"),
+        scene=('bar', "'bar', 'pulse', 'steps', 'mass', 'block' or 'sphere', or several between blanks"),
         short=(0, '1: fewer cases, for a quick look'))
 
 E, density = 1e6, 1000.
@@ -146,6 +148,37 @@ def pulse():
 	return figure
 
 
+def shake(longest, tolerance):
+	"""A bar on end that a pulse of its base has run through. Positions of its points [m], solves, and steps."""
+	t = np.linspace(0.2, 0.8, 241)
+	a = (np.pi * (t - 0.5) / 0.12)**2
+	history = [(0, 0), *zip(t.tolist(), (0.2 * (1 - 2 * a) * np.exp(-a)).tolist()), (2, 0)]
+	base = MpmBoundary(max=(0, inf, inf), fix='x', motion=MpmBaseMotion(history=history, direction=(1, 0, 0)))
+	solver = makeBar(10, 0.5, boundaries=[base], timeTolerance=tolerance)
+	solver.newton.minStep = 1 / 1024
+	O.dt, solves, made = longest, 0, 0
+	while O.time < 1.02:
+		O.step()
+		solves, made = solves + solver.iterations, made + solver.substeps
+	return mpm.arrays()['pos'], solves, made
+
+
+def steps():
+	exact = shake(1e-3 if options.short else 2.5e-4, 0)[0]
+	figure, ax = plt.subplots(figsize=(7, 4.5), layout='constrained')
+	print('longest step, timeTolerance: largest error of positions, solves, steps')
+	for cases in [(dt, 0) for dt in (0.016, 0.008, 0.004, 0.002, 0.001)[:3 if options.short else 5]], [(0.064, tol) for tol in (1e-2, 1e-3, 3e-4, 1e-4, 3e-5, 1e-5)[1:4 if options.short else 6]]:
+		rows = []
+		for longest, tolerance in cases:
+			found, solves, made = shake(longest, tolerance)
+			rows.append((solves, np.abs(found - exact).max()))
+			print(f'{longest:g} s, {tolerance:g}: {rows[-1][1]:.2e} m, {solves} solves, {made} steps', flush=True)
+		ax.loglog(*np.transpose(rows), 'o-', label='timeTolerance, O.dt = 64 ms' if tolerance else 'steps of one length')
+	ax.set(xlabel='solves', ylabel='largest error of positions [m]')
+	ax.legend(frameon=False)
+	return figure
+
+
 def shapes(pos, half, h):
 	"""Basis functions along one axis, hats averaged over boxes: nodes (M,), values (N, M)."""
 	nodes = np.arange(np.floor((pos - half).min() / h + 1e-12), np.ceil((pos + half).max() / h - 1e-12) + 1)
@@ -158,43 +191,38 @@ def shapes(pos, half, h):
 
 
 def faceMatrix(cells):
-	"""Sum over inner faces, at edges of the matter, of h^3 / 3 times the integral of [d_n N_a] [d_n N_b], for cells in a rectangle of unit size (nx, ny)."""
-	nx, ny = cells
-	nodes = np.arange((nx + 1) * (ny + 1)).reshape(nx + 1, ny + 1)
-	J, along = np.zeros((nodes.size, ) * 2), np.array([[2, 1], [1, 2]]) / 6
-	jump = np.outer((1, -2, 1), (1, -2, 1))
-
-	def add(of):
-		ids = of.ravel()  # three across, two along
-		J[np.ix_(ids, ids)] += np.kron(jump, along) / 3
-
-	for i in range(1, nx):
-		for j in range(ny):
-			if i in (1, nx - 1) or j in (0, ny - 1): add(nodes[i - 1:i + 2, j:j + 2])
-	for i in range(nx):
-		for j in range(1, ny):
-			if j in (1, ny - 1) or i in (0, nx - 1): add(nodes[i:i + 2, j - 1:j + 2].T)
+	"""Sum over inner faces, at edges of the matter, of h^3 / 3 times the integral of [d_n N_a] [d_n N_b], for cells in a box of unit size, in any dimension."""
+	nodes = np.arange(np.prod(np.add(cells, 1))).reshape(np.add(cells, 1))
+	J, along, jump = np.zeros((nodes.size, ) * 2), np.array([[2, 1], [1, 2]]) / 6, np.outer((1, -2, 1), (1, -2, 1))
+	for axis in range(len(cells)):
+		last = np.subtract(cells, 1) - (np.arange(len(cells)) == axis)  # of the first of the two cells at a face
+		of = functools.reduce(np.kron, [jump if a == axis else along for a in range(len(cells))])
+		for cell in np.ndindex(*(last + 1)):
+			if not any(i in (0, end) for i, end in zip(cell, last)): continue
+			ids = nodes[tuple(slice(i, i + (3 if a == axis else 2)) for a, i in enumerate(cell))].ravel()
+			J[np.ix_(ids, ids)] += of / 3
 	return J
 
 
 def mass():
-	size, perCell = 4, 2
+	size, perCell, factors = 4, 2, (0, 1e-3, 1e-2, 0.25)
 	moved = np.concatenate([10.**np.arange(-10, -1), np.linspace(0.02, 0.98, 9 if options.short else 49), 1 - 10.**np.arange(-2, -11, -1.)])
-	found = []
-	for s in moved:
-		x, half = s + (np.arange(size * perCell) + 0.5) / perCell, np.full(size * perCell, 0.5 / perCell)
-		nodes, S = shapes(x, half, 1)
-		M, J = np.kron(S.T @ S, S.T @ S) / perCell**2, faceMatrix((len(nodes) - 1, ) * 2)
-		found.append([np.linalg.cond(M + factor * J) for factor in (0, 1e-3, 1e-2, 0.25)])
-	found = np.array(found)
-	figure, ax = plt.subplots(figsize=(7, 4.5), layout='constrained')
-	print('condition number of M + M_g of a block of 4 x 4 cells, 2 x 2 points each: least, at a cut of 1e-10, worst')
-	for column, factor in zip(found.T, (0, 1e-3, 1e-2, 0.25)):
-		ax.semilogy(moved, column, label=f'massFactor {factor:g}')
-		print(f'massFactor {factor:5g}: {column.min():.3g}  {column[0]:.3g}  {column.max():.3g}')
+	figure, axes = plt.subplots(1, 3, figsize=(13, 4), sharey=True, layout='constrained')
+	print('condition number of M + M_g of a block of 4 cells along each axis, 2 points each: least, at a cut of 1e-10, worst')
+	for dim, ax in enumerate(axes, 1):
+		found = []
+		for s in moved:
+			x, half = s + (np.arange(size * perCell) + 0.5) / perCell, np.full(size * perCell, 0.5 / perCell)
+			nodes, S = shapes(x, half, 1)
+			M, J = functools.reduce(np.kron, [S.T @ S / perCell] * dim), faceMatrix([len(nodes) - 1] * dim)
+			found.append([np.linalg.cond(M + factor * J) for factor in factors])
+		for column, factor in zip(np.transpose(found), factors):
+			ax.semilogy(moved, column, label=f'massFactor {factor:g}')
+			print(f'{dim}D, massFactor {factor:5g}: {column.min():.3g}  {column[0]:.3g}  {column.max():.3g}')
+		ax.set(xlabel='way of the block / h', title=f'{dim}D', ylim=(5, 1e17))
 	compareGhost()
-	ax.set(xlabel='way of the block / h', ylabel='condition number of mass', ylim=(10, 1e17))
-	ax.legend(frameon=False)
+	axes[0].set_ylabel('condition number of mass')
+	axes[0].legend(frameon=False)
 	return figure
 
 
@@ -276,5 +304,5 @@ def sphere():
 for scene in options.scene.split():
 	began = time.time()
 	name = os.path.join(options.out, ('waves' if scene == 'bar' else scene) + '.png')
-	dict(bar=bar, pulse=pulse, mass=mass, block=block, sphere=sphere)[scene]().savefig(name, dpi=110)
+	dict(bar=bar, pulse=pulse, steps=steps, mass=mass, block=block, sphere=sphere)[scene]().savefig(name, dpi=110)
 	print(f'written: {name}; {time.time() - began:.0f} s', flush=True)

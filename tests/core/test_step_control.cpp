@@ -69,6 +69,24 @@ namespace {
 		EXPECT_TRUE(control.isDone());
 	}
 
+	TEST(StepControl, theLocalErrorSaysHowFarToCutAndWhenToGrow)
+	{
+		const auto inaccurate = [](double error) {
+			StepReport report = outcome(error > 1 ? Failure::inaccurate : Failure::none, 6);
+			report.localError = error;
+			return report;
+		};
+		StepControl control(1, 1. / 1024, maxIterations);
+		EXPECT_EQ(partsOf(control, { inaccurate(65), inaccurate(.13), inaccurate(.12) }), (Parts { 1, .125, .125 }));
+		EXPECT_EQ(control.part(), .25);
+		EXPECT_EQ(control.cuts(), 1);
+		EXPECT_EQ(partsOf(control, { inaccurate(1.1), inaccurate(.1) }), (Parts { .25, .125 }));
+		StepControl coarse(1, .25, maxIterations); // not further than to the least part, and no further than once
+		EXPECT_EQ(partsOf(coarse, { inaccurate(1e6) }), Parts { 1 });
+		EXPECT_EQ(coarse.part(), .25);
+		EXPECT_FALSE(coarse.take(inaccurate(1e6)));
+	}
+
 	TEST(StepControl, anAcceptedPartCounts)
 	{
 		StepReport accepted = fails;

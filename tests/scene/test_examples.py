@@ -284,8 +284,9 @@ def test_waves(yade):
 	assert len(periods) == 4 and all(abs(float(found) / float(exact) - 1) < 1e-3 for found, exact in periods)
 	speeds = re.findall(r'speed over c (\S+), of two points a cell (\S+)', said['bar'])
 	assert len(speeds) == 2 and all(abs(float(found) - float(exact)) < 6e-4 for found, exact in speeds)
-	worst = {float(factor): float(number) for factor, number in re.findall(r'massFactor +(\S+): \S+  \S+  (\S+)', said['mass'])}
-	assert worst[0] > 1e16 and worst[1e-3] < 1e4 and worst[0.25] < 110
+	worst = {(dim, float(factor)): float(number) for dim, factor, number in re.findall(r'(\dD), massFactor +(\S+): \S+  \S+  (\S+)', said['mass'])}
+	for dim, light, heavy in ('1D', 3e3, 40), ('2D', 1e4, 110), ('3D', 2.5e4, 270):
+		assert worst[dim, 0] > 1e16 and worst[dim, 1e-3] < light and worst[dim, 0.25] < heavy, dim
 	assert numbers(r'of the engine by (\S+)', said['mass'])[0] < 1e-12
 	left = {(int(width), float(factor)): float(worst) for width, factor, worst in re.findall(r'half width (\d) h, massFactor (\S+): (\S+) /', said['pulse'])}
 	assert len(left) == 3 and left[6, 1e-3] > 0.99 and 0.96 < left[3, 1e-3] < 1 and 0.85 < left[3, 0.25] < 0.92

@@ -55,13 +55,22 @@ template <int Dim> bool requireState(const PointCloud<Dim>& cloud, const Grid<Di
 	return true;
 }
 
+void judge(const LocalError& error, StepReport& report)
+{
+	report.localError = std::max(report.localError, error.size / error.tolerance);
+	if (error.size <= error.tolerance) return;
+	std::ostringstream text;
+	text << "the local error of the displacements in time, " << error.size << " m, is above the tolerance, " << error.tolerance << " m";
+	fail(report, Failure::inaccurate, text.str());
+}
+
 } // namespace
 
 template <int Dim> void askTerms(const StepSystem<Dim>& system, const Eigen::VectorXd& d, StepReport& report)
 {
 	for (const auto& term : system.terms) {
 		if (const std::string refusal = term->refusal(d); !refusal.empty()) fail(report, Failure::penetrated, refusal);
-		if (const std::string inaccuracy = term->inaccuracy(d); !inaccuracy.empty()) fail(report, Failure::inaccurate, inaccuracy);
+		judge(term->localError(d), report);
 	}
 }
 

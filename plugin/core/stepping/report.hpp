@@ -45,6 +45,7 @@ struct StepReport {
 	int                 lineSearchTrials = 0;     ///< evaluations of the residual for steps shorter than Newton's
 	std::vector<double> residuals;                ///< |residual| / |external forces + reactions| before the first solve and after each
 	double              localResidual = std::numeric_limits<double>::quiet_NaN(); ///< largest |residual| / |forces| around a node, or a bound of it
+	double              localError    = 0;                                        ///< of the displacements, over what is admitted; 0: nobody asks
 	Definiteness        definiteness  = Definiteness::notChecked;                 ///< of the last symmetric matrix that was factorised
 	int                 luSolves      = 0;                                        ///< solves for which K was not positive definite, or not symmetric
 	IterativeEffort     conjugateGradients;                                       ///< or of GMRES; of all attempts at the step

@@ -9,8 +9,8 @@ namespace gimpm {
 /// has asked for an end shall have it.
 bool canBeCut(Failure);
 
-/// A part that fails is tried again with half of it, down to a least one; after one that took few iterations the next may be twice as
-/// large. All are made by halving and by taking away, so that they have few digits and their sum is exact.
+/// A part that fails is tried again with half of it, down to a least one, or with as small a one as its local error, which grows with the cube of the step, asks for.
+/// After one that took few iterations the next is twice as large, if the error admits it. All are made by halving and by taking away, so that they have few digits and their sum is exact.
 class StepControl {
 public:
 	/// Begins with the part that the step before has left, 1 at first.
@@ -28,6 +28,9 @@ public:
 	double nextPart() const { return part_; } ///< what the next step may begin with
 
 private:
+	bool   mayGrow(const StepReport&) const;
+	double cut(const StepReport&) const;
+
 	double part_, leastPart_, done_ = 0;
 	int    maxIterations_, cuts_ = 0;
 };

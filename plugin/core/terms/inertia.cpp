@@ -59,7 +59,7 @@ Inertia<Dim>::Inertia(Motion<Dim>& motion, const Beginning<Dim>& step)
         , h_(step.grid.cellSize)
         , mass_(step.basis, motion.mass, massFaces(motion, step), step.grid.cellSize, looseOf(motion, step))
 {
-	imbalance_ = acceleration_ = expected_ = blow_ = jump_ = Eigen::VectorXd::Zero(prescribed_.size());
+	imbalance_ = neglected_ = acceleration_ = expected_ = blow_ = jump_ = Eigen::VectorXd::Zero(prescribed_.size());
 	const auto held = [&](const Eigen::VectorXd& otherwise, Vec<Dim> MovingBase<Dim>::*value) { return ofHeld(otherwise, value, motion.bases, step); };
 	findVelocity(held(prescribed_ / motion.duration, &MovingBase<Dim>::velocity));
 	for (const auto& make : motion.damping)
@@ -95,18 +95,21 @@ template <int Dim> void Inertia<Dim>::findVelocity(const Eigen::VectorXd& ofHeld
 	}
 }
 
-/// Those of the points, or where they are at the beginning those of equilibrium.
+/// Those of the points, or where they are at the beginning those of equilibrium. What the latter would do besides is kept for the balance of energy: found anew in each
+/// step, they would throw nodes of hardly any mass about, and in long steps change their sign from one to the next.
 template <int Dim> void Inertia<Dim>::findAcceleration(const Beginning<Dim>& step, const Eigen::VectorXd& ofHeld)
 {
-	const Eigen::VectorXd contact = ofContact(nullptr);
-	const bool            begins  = std::all_of(motion_.acceleration.begin(), motion_.acceleration.end(), [](const Vec<Dim>& a) { return a.isZero(0); });
-	if (motion_.scheme.alphaF != 0 || begins) imbalance_ = imbalanceOf(step);
-	const Eigen::VectorXd force = begins ? imbalance_ : weighedAtNodes(basis_, motion_.mass, motion_.acceleration);
-	imbalance_ -= contact;
-	for (Eigen::Index i = 0; i < imbalance_.size(); ++i)
+	const Eigen::VectorXd contact = ofContact(nullptr), all = imbalanceOf(step);
+	const bool            begins = std::all_of(motion_.acceleration.begin(), motion_.acceleration.end(), [](const Vec<Dim>& a) { return a.isZero(0); });
+	const Eigen::VectorXd force  = begins ? all : weighedAtNodes(basis_, motion_.mass, motion_.acceleration);
+	acceleration_                = solve(force - contact, ofHeld);
+	expected_                    = contact.isZero(0) ? acceleration_ : solve(force, ofHeld);
+	imbalance_                   = all - contact;
+	if (!motion_.scheme.isAlpha()) neglected_ = imbalance_ - mass_ * acceleration_;
+	for (Eigen::Index i = 0; i < imbalance_.size(); ++i) {
+		if (isHeld(i)) neglected_[i] = 0;
 		if (isHeld(i) || motion_.scheme.alphaF == 0) imbalance_[i] = 0;
-	acceleration_ = solve(force - contact, ofHeld);
-	expected_     = contact.isZero(0) ? acceleration_ : solve(force, ofHeld);
+	}
 }
 
 template <int Dim> Eigen::VectorXd Inertia<Dim>::ofContact(const Eigen::VectorXd* d) const
@@ -239,16 +242,12 @@ template <int Dim> void Inertia<Dim>::restrain(const typename Term<Dim>::Hold& h
 }
 
 /// What one step leaves out of d: (beta - 1/6) T^2 (a_1 - a_0) (Zienkiewicz and Xie 1991), at the nodes.
-template <int Dim> std::string Inertia<Dim>::inaccuracy(const Eigen::VectorXd& d) const
+template <int Dim> LocalError Inertia<Dim>::localError(const Eigen::VectorXd& d) const
 {
 	if (motion_.tolerance == Motion<Dim>::infinite) return {};
 	const double          T = motion_.duration, part = motion_.scheme.beta - 1. / 6;
 	const Eigen::VectorXd error = part * T * T * (accelerationAt(d) - acceleration_);
-	const double          size  = error.template lpNorm<Eigen::Infinity>();
-	if (size <= motion_.tolerance) return {};
-	std::ostringstream text;
-	text << "the local error of the displacements in time, " << size << " m, is above the tolerance, " << motion_.tolerance << " m";
-	return text.str();
+	return { error.template lpNorm<Eigen::Infinity>(), motion_.tolerance };
 }
 
 template <int Dim> void Inertia<Dim>::commit(const Eigen::VectorXd& d)
@@ -260,6 +259,7 @@ template <int Dim> void Inertia<Dim>::commit(const Eigen::VectorXd& d)
 	Eigen::VectorXd       ghost = Eigen::VectorXd::Zero(d.size());
 	addGhostForce(faces_, h_, d, ghost);
 	motion_.impactWork           = energyOfBlow(mass_, velocity_, blow_, jump_, prescribed_ / T);
+	motion_.gridWork             = (1 - gamma) * d.dot(neglected_);
 	const Eigen::VectorXd looked = velocityAt(d);
 	for (const auto& each : damping_)
 		each->commit(d, motion_.scheme.atMiddle ? looked : velocity_, looked);

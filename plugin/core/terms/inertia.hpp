@@ -20,16 +20,17 @@ template <int Dim> struct MovingBase {
 /// How the points of a cloud move, in its order, and how the next step advances that.
 template <int Dim> struct Motion {
 	TimeScheme                scheme;
-	double                    ghostMass = 1e-3;           ///< gamma_M over the density
-	double                    duration  = 0;              ///< of the step, > 0 [s]
-	double                    tolerance = infinite;       ///< on the local error of the displacements, not with TimeScheme::midpoint() [m]
-	std::vector<double>       mass {};                    ///< of each point [kg]
-	std::vector<Vec<Dim>>     velocity {};                ///< [m/s]
-	std::vector<Vec<Dim>>     acceleration {};            ///< [m/s2], a result; all zero: the motion begins
-	double                    ghostWork        = 0;       ///< that ghost stabilisation has taken in the last step that was accepted [J]
-	double                    impactWork       = 0;       ///< that held nodes have taken in it by their blow, beyond what they have worked with it [J]
-	const ContactSystem<Dim>* contacts         = nullptr; ///< if there are some, of TimeScheme::weightOfContact()
-	LinearSolver              solvers[Dim + 1] = {};      ///< by axis, and of all nodes; keep their symbolic analyses
+	double                    ghostMass = 1e-3;     ///< gamma_M over the density
+	double                    duration  = 0;        ///< of the step, > 0 [s]
+	double                    tolerance = infinite; ///< on the local error of the displacements, not with TimeScheme::midpoint() [m]
+	std::vector<double>       mass {};              ///< of each point [kg]
+	std::vector<Vec<Dim>>     velocity {};          ///< [m/s]
+	std::vector<Vec<Dim>>     acceleration {};      ///< [m/s2], a result; all zero: the motion begins
+	double                    ghostWork  = 0;       ///< that ghost stabilisation has taken in the last step that was accepted [J]
+	double                    impactWork = 0;       ///< that held nodes have taken in it by their blow, beyond what they have worked with it [J]
+	double                    gridWork   = 0; ///< of the forces that are out of balance with the accelerations of the points as the last step began [J]
+	const ContactSystem<Dim>* contacts   = nullptr;  ///< if there are some, of TimeScheme::weightOfContact()
+	LinearSolver              solvers[Dim + 1] = {}; ///< by axis, and of all nodes; keep their symbolic analyses
 
 	std::vector<DampingOfStep<Dim>> damping {}; ///< in each step
 	std::vector<MovingBase<Dim>>    bases {};   ///< of nodes in several boxes the last one counts
@@ -88,7 +89,7 @@ public:
 	void                        addRoundOff(const Eigen::VectorXd& d, Eigen::VectorXd& sizes) const override;
 	Eigen::VectorXd             ownMotion() const override;
 	void                        restrain(const typename Term<Dim>::Hold&) const override;
-	std::string                 inaccuracy(const Eigen::VectorXd& d) const override;
+	LocalError                  localError(const Eigen::VectorXd& d) const override;
 	void                        commit(const Eigen::VectorXd& d) override;
 
 private:
@@ -113,6 +114,7 @@ private:
 	bool                                       isSingular_ = false;
 	std::array<bool, Dim + 1>                  factorised_ {};           // of the solvers of the motion, in this step
 	Eigen::VectorXd                            imbalance_;               // at the start, without contact, where the scheme asks for it; zero at held nodes
+	Eigen::VectorXd                            neglected_;               // forces at the start beyond those of acceleration_; zero at held nodes
 	Eigen::VectorXd                            velocity_, acceleration_; // at the start, without what contact does to the latter
 	Eigen::VectorXd                            expected_;                // acceleration, with contact
 	Eigen::VectorXd                            blow_, jump_; // impulse of what holds nodes as the step begins, and the velocities that it changes

@@ -6,6 +6,7 @@
 #include "core/solvers/reduce.hpp"
 #include "core/terms/cell_moduli.hpp"
 #include <functional>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -20,6 +21,11 @@ struct PointFailure {
 	};
 	int    point; ///< index in the cloud; of several the smallest
 	Reason reason = Reason::inverted;
+};
+
+/// Of the displacements of a step, and what it may be [m].
+struct LocalError {
+	double size = 0, tolerance = std::numeric_limits<double>::infinity();
 };
 
 /// Where a term adds its part. Vectors have Dim components a node.
@@ -72,8 +78,8 @@ public:
 	/// Why equilibrium with these displacements cannot be accepted, a clause; empty if it can.
 	virtual std::string refusal(const Eigen::VectorXd&) const { return {}; }
 
-	/// Why the step is too long to be accurate with them, a clause; empty if it is not.
-	virtual std::string inaccuracy(const Eigen::VectorXd&) const { return {}; }
+	/// What the length of the step has left out of them.
+	virtual LocalError localError(const Eigen::VectorXd&) const { return {}; }
 
 	/// The step has been accepted with these displacements.
 	virtual void commit(const Eigen::VectorXd&) { }

@@ -11,7 +11,7 @@ class MpmDynamicEngine : public Exposed<MpmDynamicEngine, MpmImplicitEngine> {
 public:
 	string           scheme = "newmark";
 	Real             beta = 0.25, gamma = 0.5, rhoInfinity = 0.8, timeTolerance = 0;
-	Real             loadWork = 0, boundaryWork = 0, contactWork = 0, impactWork = 0, ghostWork = 0, plasticWork = 0, dampingWork = 0;
+	Real             loadWork = 0, boundaryWork = 0, contactWork = 0, impactWork = 0, ghostWork = 0, gridWork = 0, plasticWork = 0, dampingWork = 0;
 	Real             firstEnergy = std::numeric_limits<Real>::quiet_NaN(); // when the first step began; NaN: there was none
 	vector<Vector3r> reactionsBefore;                                      // those of the step before
 
@@ -57,6 +57,9 @@ public:
 		v("impactWork", &E::impactWork, readonly,
 		  "Kinetic energy that held nodes have taken from points which came to them with other velocities, so far [J].", finite);
 		v("ghostWork", &E::ghostWork, readonly, "Energy that ghost stabilisation has taken so far [J].", finite);
+		v("gridWork", &E::gridWork, readonly,
+		  "Energy lost so far because steps begin with the accelerations of the points, not with those of the stress on the new grid [J] ('newmark').",
+		  finite);
 		v("plasticWork", &E::plasticWork, readonly, "Energy dissipated by plastic flow so far [J].", finite);
 		v("dampingWork", &E::dampingWork, readonly, "Energy that Rayleigh damping has taken so far [J].", finite);
 		v("firstEnergy", &E::firstEnergy, hidden, "", AnyValue());

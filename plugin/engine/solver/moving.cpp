@@ -93,6 +93,7 @@ template <int Dim> void Moving<Dim>::addWork(const Job<Dim>& job, Real time, con
 	engine.contactWork += job.contacts.work();
 	engine.impactWork += motion->impactWork;
 	engine.ghostWork += motion->ghostWork;
+	engine.gridWork += motion->gridWork;
 	engine.plasticWork += plasticWork(job.cloud, job.model.materials, points);
 	engine.reactionsBefore = engine.reactions;
 }

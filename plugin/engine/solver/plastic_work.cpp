@@ -24,10 +24,11 @@ namespace {
 
 	template <int Dim> Real workOf(const gimpm::PointCloud<Dim>& cloud, size_t p, const MpmState& before)
 	{
-		const Matrix3r F     = defGradOf(cloud, p) * before.defGrad.inverse();
-		const Matrix3r b     = F * ofEigenvalues(before.elasticStrain, [](Real e) { return std::exp(2 * e); }) * F.transpose();
-		const Matrix3r trial = ofEigenvalues(b, [](Real x) { return 0.5 * std::log(x); });
-		return cloud.volume0[p] * cloud.volumeRatio(p) * cloud.stress[p].full().cwiseProduct(trial - cloud.elasticStrain[p].full()).sum();
+		const Matrix3r F         = defGradOf(cloud, p) * before.defGrad.inverse();
+		const Matrix3r b         = F * ofEigenvalues(before.elasticStrain, [](Real e) { return std::exp(2 * e); }) * F.transpose();
+		const Matrix3r trial     = ofEigenvalues(b, [](Real x) { return 0.5 * std::log(x); });
+		const Matrix3r kirchhoff = cloud.volumeRatio(p) * cloud.stress[p].full() + before.defGrad.determinant() * before.stress;
+		return cloud.volume0[p] / 2 * kirchhoff.cwiseProduct(trial - cloud.elasticStrain[p].full()).sum();
 	}
 }
 
