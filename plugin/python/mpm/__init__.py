@@ -42,7 +42,7 @@ While it runs, one line tells how far it is (``verbosity`` of the engine); ``plo
 :class:`histories`           values at chosen points over time; :func:`readHistory` reads one from a file
 :func:`save`                 the scene, whole or not at all
 :func:`advise`               what an analysis will cost, and what it could do without
-:func:`discretisationError`  how wrong a result is because of the size of the cells
+:func:`discretisationError`  how wrong a result is because of the size of the cells; :func:`stressError` tells of stresses, from one run
 :func:`elementTest`          the curve of a laboratory test on a material; :func:`respond` is one call of its law
 ``stages``                   layers that are placed, soil that is dug out, supports that are taken away
 :func:`strengthReduction`    factor of safety, as a bracket
@@ -54,7 +54,7 @@ from . import processes
 from .advice import advise
 from .colouring import colour
 from .data import arrays, assign, contactForces
-from .discretisation import discretisationError
+from .discretisation import discretisationError, stressError
 from .files import save
 from . import ending, stages
 from .filling import fill
@@ -71,4 +71,4 @@ from .surfaces import surface
 from .tables import export
 
 __version__ = _engine.version
-__all__ = ['polygon', 'fill', 'arrays', 'assign', 'geostatic', 'plot', 'colour', 'export', 'save', 'advise', 'discretisationError', 'elementTest', 'respond', 'strengthReduction', 'surface', 'contactForces', 'histories', 'readHistory', 'solid', 'terrain', 'movie']
+__all__ = ['polygon', 'fill', 'arrays', 'assign', 'geostatic', 'plot', 'colour', 'export', 'save', 'advise', 'discretisationError', 'stressError', 'elementTest', 'respond', 'strengthReduction', 'surface', 'contactForces', 'histories', 'readHistory', 'solid', 'terrain', 'movie']
