@@ -26,7 +26,7 @@ import scenes
 import stresses
 
 options = readOptions('The estimated error of known answers.',
-        scenes=('', 'names of scenes with semicolons between; all of them if empty'),
+        scenes=('', 'names of scenes with commas between; all of them if empty'),
         largest=(1000, 'number of cells that a run has at most, as the scene counts them'))
 
 
@@ -73,7 +73,7 @@ yadeNames = dict(globals())
 kept = functools.lru_cache(8)(script)  # some scenes are about the same runs
 makeFolder(options.out)
 kinds = ('values', quantity, scenes.scenes, ['value', 'exact', 'seconds']), ('stresses', stress, stresses.scenes, ['estimate', 'true'])
-chosen = options.scenes.split(';') if options.scenes else [*scenes.scenes, *stresses.scenes]
+chosen = options.scenes.split(',') if options.scenes else [*scenes.scenes, *stresses.scenes]
 for name in chosen:
 	if not any(name in known for _, _, known, _ in kinds): raise SystemExit(f"discretisation.py: no scene {name!r}; there are {', '.join([*scenes.scenes, *stresses.scenes])}")
 for file, measure, known, columns in kinds:

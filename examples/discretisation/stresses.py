@@ -104,15 +104,15 @@ def strip(script, cells):
 
 scenes = {
         'column': Scene('elastic column, 2 points per cell and axis', 'closed form', [8, 16, 32, 64], column(2)),
-        'column, 1 point': Scene('the same, 1 point', 'closed form', [8, 16, 32, 64], column(1)),
-        'column, 3 points': Scene('the same, 3 points', 'closed form', [8, 16, 32, 64], column(3)),
+        'column1': Scene('the same, 1 point', 'closed form', [8, 16, 32, 64], column(1)),
+        'column3': Scene('the same, 3 points', 'closed form', [8, 16, 32, 64], column(3)),
         'askew': Scene('column askew, rows of points along its walls', 'closed form', [8, 16, 32], walls()),
-        'askew, stairs': Scene('the same, rows of points along the grid', 'closed form', [8, 16, 32], walls(pattern='grid')),
+        'askewStairs': Scene('the same, rows of points along the grid', 'closed form', [8, 16, 32], walls(pattern='grid')),
         'lid': Scene('column askew under a lid', 'closed form', [8, 16, 32], walls(load='lid')),
         'tube': Scene('thick tube, cut by the grid', 'Lame', [8, 16, 32], tube(2)),
-        'tube, 3 points': Scene('the same, 3 points per cell and axis', 'Lame', [8, 16, 32], tube(3)),
+        'tube3': Scene('the same, 3 points per cell and axis', 'Lame', [8, 16, 32], tube(3)),
         'ring': Scene('thick tube, axisymmetric', 'Lame', [4, 8, 16, 32], ring),
-        'plastic ring': Scene('the same, half plastic (Tresca)', 'closed form', [4, 8, 16, 32], plasticRing(False)),
-        'plastic ring, F-bar': Scene('the same with F-bar', 'closed form', [4, 8, 16, 32], plasticRing(True)),
-        'strip load': Scene('strip load on a block, within two widths of the strip', 'half space', [1, 2, 4, 8], strip),
+        'plasticRing': Scene('the same, half plastic (Tresca)', 'closed form', [4, 8, 16, 32], plasticRing(False)),
+        'plasticRingFBar': Scene('the same with F-bar', 'closed form', [4, 8, 16, 32], plasticRing(True)),
+        'stripLoad': Scene('strip load on a block, within two widths of the strip', 'half space', [1, 2, 4, 8], strip),
 }
