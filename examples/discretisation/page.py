@@ -25,16 +25,16 @@ def rows(folder, name):
 
 
 def ladders(folder):
-	"""By scene the value, the exact one and the seconds, by number of cells."""
+	"""By scene the value and the exact one, by number of cells."""
 	found = {}
 	for row in rows(folder, 'values'):
-		found.setdefault(row['scene'], {})[int(row['cells'])] = tuple(float(row[name]) for name in ('value', 'exact', 'seconds'))
+		found.setdefault(row['scene'], {})[int(row['cells'])] = tuple(float(row[name]) for name in ('value', 'exact'))
 	return found
 
 
 def answer(ladder, cells):
 	"""The exact value; or that of the smallest cells with their last change once more, if they are at most a quarter of the size asked about; or None."""
-	value, exact, _ = ladder[cells]
+	value, exact = ladder[cells]
 	if not math.isnan(exact): return exact
 	most = max(ladder)
 	return 2 * ladder[most][0] - ladder[most // 2][0] if most >= 4 * cells else None
@@ -44,16 +44,14 @@ def judged(folder):
 	"""A dict for each cell size that has been halved and doubled: relative true error, that of the estimate, and what errorOf says of it."""
 	found = []
 	for name, ladder in ladders(folder).items():
-		for cells, (value, _, seconds) in sorted(ladder.items()):
+		for cells, (value, _) in sorted(ladder.items()):
 			if cells % 2 or cells // 2 not in ladder or 2 * cells not in ladder: continue
 			exact = answer(ladder, cells)
 			if exact is None: continue
 			estimate, oneWay, settled = errorOf(ladder[cells // 2][0], value, ladder[2 * cells][0])
 			coarse = abs(ladder[cells // 2][0] - value)  # of this run by itself and a coarser one, as first order has it
 			found.append(
-			        dict(
-			                scene=name, cells=cells, true=abs(value / exact - 1), estimate=estimate / abs(exact), coarse=coarse / abs(exact), oneWay=oneWay, settled=settled,
-			                time=ladder[2 * cells][2] / seconds))
+			        dict(scene=name, cells=cells, true=abs(value / exact - 1), estimate=estimate / abs(exact), coarse=coarse / abs(exact), oneWay=oneWay, settled=settled))
 	return found
 
 
@@ -70,14 +68,14 @@ def picture(cases, found, path):
 	both[0].set(xlabel='true error, relative', ylabel='estimate', title=f'mpm.discretisationError: {len(cases)} cases')
 	for name in stresses.scenes:
 		some = [row for row in found if row['scene'] == name]
-		if some: both[1].loglog([float(row['true']) for row in some], [float(row['estimate']) for row in some], 'o-', markersize=4, linewidth=0.7, label=stresses.scenes[name].what)
+		if some: both[1].loglog([float(row['true']) for row in some], [float(row['estimate']) for row in some], 'o-', markersize=4, linewidth=0.7, label=name)
 	both[1].set(xlabel='true error of the stress, relative', ylabel='estimate', title=f'mpm.stressError: {len(found)} cases')
 	for axes in both:
 		low, high = axes.get_xlim()
 		axes.plot((low, high), (low, high), 'k-', linewidth=0.8)
 		axes.fill_between((low, high), (low / 2, high / 2), (2 * low, 2 * high), color='0.92', label='factor of two', zorder=0)
 		axes.set(xlim=(low, high))
-		axes.legend(frameon=False, fontsize=7)
+		axes.legend(frameon=False, fontsize=7, loc='lower right', ncols=2)
 	figure.savefig(path, dpi=110)
 	plt.close(figure)
 

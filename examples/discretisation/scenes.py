@@ -110,8 +110,9 @@ def bar(script, cells):
 	return found['firstMode'](cells, 0.5) / (math.pi / 2 * found['c']), 1
 
 
-def trade(quantity, **more):
-	return lambda script, cells: (script('trade/scenes.py', cells=cells, **more)[quantity], unknown)
+def trade(quantity, length=1, **more):
+	"""With cells over a length [m]."""
+	return lambda script, cells: (script('trade/scenes.py', cells=cells / length, **more)[quantity], unknown)
 
 
 locking, penetration = 'locking/locking.py', 'penetration/penetration.py'
@@ -146,6 +147,6 @@ scenes = {
         'heavyBeam': Scene('tip of the cantilever under its weight', smaller, [1, 2, 4, 8, 16], trade('tipY', scene='cantilever', steps=80)),
         'collapse': Scene('mean settlement of the block that collapses', smaller, [1, 2, 4, 8, 16], trade('settlement', scene='collapse', steps=40)),
         'runout': Scene('mean run-out of the block that collapses', smaller, [1, 2, 4, 8, 16], trade('spread', scene='collapse', steps=40)),
-        'crest': Scene('settlement of the crest of the slope with a weak layer', smaller, [1, 2, 4, 8], trade('crest', scene='slope', steps=40)),
-        'toe': Scene('run-out of its toe', smaller, [1, 2, 4, 8], trade('toe', scene='slope', steps=40)),
+        'crest': Scene('settlement of the crest of the slope with a weak layer; cells over 2 m', smaller, [1, 2, 4, 8, 16], trade('crest', length=2, scene='slope', steps=40)),
+        'toe': Scene('run-out of its toe; cells over 2 m', smaller, [1, 2, 4, 8, 16], trade('toe', length=2, scene='slope', steps=40)),
 }

@@ -29,9 +29,9 @@ def tensors(xx, yy, zz, xy=0):
 	return found
 
 
-def column(pointsPerCell):
+def column(pointsPerCell, dim=2):
 	def run(script, cells):
-		found = script('column/column.py', cells=cells, pointsPerCell=pointsPerCell)
+		found = script('column/column.py', cells=cells, pointsPerCell=pointsPerCell, dim=dim)
 		zero = 0 * found['depth']
 		return tensors(zero, -found['b'] * found['depth'], zero)
 
@@ -106,6 +106,7 @@ scenes = {
         'column': Scene('elastic column, 2 points per cell and axis', 'closed form', [8, 16, 32, 64], column(2)),
         'column1': Scene('the same, 1 point', 'closed form', [8, 16, 32, 64], column(1)),
         'column3': Scene('the same, 3 points', 'closed form', [8, 16, 32, 64], column(3)),
+        'column3D': Scene('the same in 3D, 2 points', 'closed form', [8, 16, 32], column(2, 3)),
         'askew': Scene('column askew, rows of points along its walls', 'closed form', [8, 16, 32], walls()),
         'askewStairs': Scene('the same, rows of points along the grid', 'closed form', [8, 16, 32], walls(pattern='grid')),
         'lid': Scene('column askew under a lid', 'closed form', [8, 16, 32], walls(load='lid')),
