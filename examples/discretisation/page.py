@@ -41,7 +41,8 @@ def answer(ladder, cells):
 
 
 def judged(folder):
-	"""A dict for each cell size that has been halved and doubled: relative true error, that of the estimate, and what errorOf says of it."""
+	"""A dict for each cell size that has been halved and doubled: relative true error, that of the estimate, what errorOf says of it, and two other estimates: *coarse*, from
+	this run and one with twice the cells, as first order has it, and *order*, with the order that three grids show."""
 	found = []
 	for name, ladder in ladders(folder).items():
 		for cells, (value, _) in sorted(ladder.items()):
@@ -49,9 +50,9 @@ def judged(folder):
 			exact = answer(ladder, cells)
 			if exact is None: continue
 			estimate, oneWay, settled = errorOf(ladder[cells // 2][0], value, ladder[2 * cells][0])
-			coarse = abs(ladder[cells // 2][0] - value)  # of this run by itself and a coarser one, as first order has it
-			found.append(
-			        dict(scene=name, cells=cells, true=abs(value / exact - 1), estimate=estimate / abs(exact), coarse=coarse / abs(exact), oneWay=oneWay, settled=settled))
+			before, change = value - ladder[cells // 2][0], ladder[2 * cells][0] - value
+			others = dict(coarse=abs(before), order=abs(change) / (1 - min(max(change / before, -1), 0.6)))
+			found.append(dict(scene=name, cells=cells, true=abs(value / exact - 1), estimate=estimate / abs(exact), oneWay=oneWay, settled=settled) | {name: error / abs(exact) for name, error in others.items()})
 	return found
 
 
@@ -66,9 +67,9 @@ def picture(cases, found, path):
 		some = [case for case, isExact in zip(cases, exact) if isExact == chosen]
 		both[0].loglog([case['true'] for case in some], [case['estimate'] for case in some], mark, markersize=4, label=label)
 	both[0].set(xlabel='true error, relative', ylabel='estimate', title=f'mpm.discretisationError: {len(cases)} cases')
-	for name in stresses.scenes:
+	for number, name in enumerate(stresses.scenes):
 		some = [row for row in found if row['scene'] == name]
-		if some: both[1].loglog([float(row['true']) for row in some], [float(row['estimate']) for row in some], 'o-', markersize=4, linewidth=0.7, label=name)
+		if some: both[1].loglog([float(row['true']) for row in some], [float(row['estimate']) for row in some], 'o-', markersize=4, linewidth=0.7, color=plt.cm.tab20(number), label=name)
 	both[1].set(xlabel='true error of the stress, relative', ylabel='estimate', title=f'mpm.stressError: {len(found)} cases')
 	for axes in both:
 		low, high = axes.get_xlim()
@@ -115,8 +116,8 @@ def counts(cases, found):
 	        'all': cases, 'with a known answer': known, 'with the answer of smaller cells': [case for case in cases if not isKnown(case)], 'up and down': [case for case in cases if not case['oneWay']],
 	        'not settled': [case for case in cases if not case['settled']]
 	}
-	lines = [(name, len(some), within(ratio(some)), f'{min(ratio(some)):.2f} to {max(ratio(some)):.2f}', within(ratio(some, 'coarse'))) for name, some in groups.items() if some]
-	text = pages.table(['cases', '', 'within two', 'ratios', 'of twice the cells and these alone'], lines) + '\n'
+	lines = [(name, len(some), within(ratio(some)), f'{min(ratio(some)):.2f} to {max(ratio(some)):.2f}', within(ratio(some, 'order')), within(ratio(some, 'coarse'))) for name, some in groups.items() if some]
+	text = pages.table(['cases', '', 'within two', 'ratios', 'with the order of three grids', 'from cells of twice the size'], lines) + '\n'
 	if found:
 		of = [float(row['estimate']) / float(row['true']) for row in found]
 		text += f'\nStresses: {within(of)} of {len(of)} within a factor of two, {within(of, 1.25)} within 1.25; ratios {min(of):.2f} to {max(of):.2f}.\n'
