@@ -50,7 +50,7 @@ def discretisationError(run, cellSize):
 
 	The estimate is twice the change that halving the cells makes: within a factor of two of an error that shrinks with any order above 0.415 (L.F. Richardson 1911; P.J. Roache 1994,
 	https://doi.org/10.1115/1.2910291). Where the three values go up and down it is 0.7 times the change. Against known answers it is within a factor of two in more than nine of ten
-	cases (``examples/discretisation``). It costs what *run* takes with half of the cell size, 4 to 8 times as long in the plane and 10 or more in 3D, and a little. If that is too much, give twice the
+	cases (``examples/discretisation``). It costs what *run* takes with half of the cell size, 3 to 8 times as long in the plane and 10 or more in 3D, and a little. If that is too much, give twice the
 	cell size: the error of the run with *cellSize* itself is then smaller than the estimate as a rule.
 
 	What stays as it is, is not seen: load steps or steps in time (let ``O.dt`` go with *cellSize* in *run*), the number of points in a cell, the tolerance, the size of the model, the law. Layers, gaps and slip bands that are narrower than a
