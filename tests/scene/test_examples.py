@@ -227,6 +227,19 @@ def test_surface_loads(yade):
 	assert (run.folder / 'out/surface_loads/surface_loads.png').stat().st_size > 20000
 
 
+def test_discretisation(yade):
+	"""Two of its scenes, and an estimate within a factor of two of each true error; what is in the table is not run again."""
+	example = root / 'examples' / 'discretisation' / 'discretisation.py'
+	runs = lambda: re.findall(r'^(?:ring|column), \d+ cells: (stress wrong|.*, exact)', yade(example, '--scenes', 'ring,column', '--largest', 16).stdout, re.MULTILINE)
+	first = runs()
+	assert len(first) == 10 and first.count('stress wrong') == 5
+	page = (yade.folder / 'out/discretisation/README.md').read_text()
+	assert '| all | 1 | 1 | 1.52 to 1.52 |' in page and 'Stresses: 5 of 5 within a factor of two' in page
+	assert (yade.folder / 'out/discretisation/discretisation.png').stat().st_size > 20000
+	assert not runs()
+	assert 'no scene' in yade(example, '--scenes', 'ring,rings', fails=True).stderr
+
+
 def test_walls(yade):
 	"""A column askew on the grid has the stress of the aligned one, under its weight and under a lid that is pushed in."""
 	for load in 'weight', 'lid':

@@ -145,6 +145,7 @@ def test_trade_of_a_scene_that_locks(study, tmp_path):
 
 writers = { # without the pictures, which take long
         'extremes': 'import page; page.pictures.outcomes = page.pictures.conditions = page.pictures.cornerMaps = page.pictures.pivots = lambda *a: None; page.write({!r})',
+        'discretisation': 'import page; page.picture = lambda *a: None; page.write({!r})',
         'trade': 'import page, plans; page.picture = lambda *a: None; page.write({!r}, plans.plans)'
 }
 
@@ -192,7 +193,7 @@ print(json.dumps(found))
 		assert (scene['points'], scene['steps']) == (points, steps)
 		assert 0 < scene['fastest'] < scene['secondsPerStep'] < scene['slowest'] and scene['memory'] > 1e6
 	says = lambda scene, text: any(text in sentence for sentence in scene['advice'])
-	assert says(slope, 'pointsPerCell=2') and says(column, 'dim=2') and says(column, 'tolerance') and says(weak, 'stabilisation: it is off')
+	assert says(slope, 'pointsPerCell=2') and says(column, 'dim=2') and says(column, 'tolerance') and says(weak, 'stabilisation: it is off') and says(slope, 'mpm.discretisationError(run, cellSize=1) of any result, for 5 to 8 times')
 	assert not says(slope, 'dim=2') and not says(slope, 'stabilisation')
 	assert 'unknowns: ' in run.stdout
 	many = {name: run.result[name] for name in ('0.01', '1e-06', '9.99989e-321', '0.1', 'by iterPeriod')}

@@ -26,26 +26,27 @@ is written more easily in Python. A slope under its own weight, with a weak laye
 While it runs, one line tells how far it is (``verbosity`` of the engine); ``plot.addData(**solver.plotData())`` feeds YADE's plots, from
 ``PyRunner(iterPeriod=1, initRun=True, command='plot.addData(**solver.plotData())')``. What else is here:
 
-=========================  ==========================================================================================
-:func:`polygon`            region of the x-y plane
-:func:`solid`              region in a closed surface of an STL or GTS file
-:class:`terrain`           region below the surface of an elevation grid (.asc)
-:func:`fill`               material points in a region
-:func:`arrays`             data of all material points as NumPy arrays; :func:`assign` is the way back
-:func:`geostatic`          initial stress of level ground
-:func:`surface`            surface of a region, for loads on it
-:func:`contactForces`      where rigid bodies are touched, and the forces there
-:func:`plot`               picture by matplotlib, of plane strain or of a slice
-:class:`movie`             film of a run
-:func:`colour`             colours of the points in YADE's 3D view
-:func:`export`             table of the points, CSV or NPZ
-:class:`histories`         values at chosen points over time; :func:`readHistory` reads one from a file
-:func:`save`               the scene, whole or not at all
-:func:`advise`             what an analysis will cost, and what it could do without
-:func:`elementTest`        the curve of a laboratory test on a material; :func:`respond` is one call of its law
-``stages``                 layers that are placed, soil that is dug out, supports that are taken away
-:func:`strengthReduction`  factor of safety, as a bracket
-=========================  ==========================================================================================
+===========================  ==========================================================================================
+:func:`polygon`              region of the x-y plane
+:func:`solid`                region in a closed surface of an STL or GTS file
+:class:`terrain`             region below the surface of an elevation grid (.asc)
+:func:`fill`                 material points in a region
+:func:`arrays`               data of all material points as NumPy arrays; :func:`assign` is the way back
+:func:`geostatic`            initial stress of level ground
+:func:`surface`              surface of a region, for loads on it
+:func:`contactForces`        where rigid bodies are touched, and the forces there
+:func:`plot`                 picture by matplotlib, of plane strain or of a slice
+:class:`movie`               film of a run
+:func:`colour`               colours of the points in YADE's 3D view
+:func:`export`               table of the points, CSV or NPZ
+:class:`histories`           values at chosen points over time; :func:`readHistory` reads one from a file
+:func:`save`                 the scene, whole or not at all
+:func:`advise`               what an analysis will cost, and what it could do without
+:func:`discretisationError`  how wrong a result is because of the size of the cells; :func:`stressError` tells of stresses, from one run
+:func:`elementTest`          the curve of a laboratory test on a material; :func:`respond` is one call of its law
+``stages``                   layers that are placed, soil that is dug out, supports that are taken away
+:func:`strengthReduction`    factor of safety, as a bracket
+===========================  ==========================================================================================
 
 Units are SI; stress is positive in tension; strains are logarithmic; plane strain is per metre of thickness.
 """
@@ -53,6 +54,7 @@ from . import processes
 from .advice import advise
 from .colouring import colour
 from .data import arrays, assign, contactForces
+from .discretisation import discretisationError, stressError
 from .files import save
 from . import ending, stages
 from .filling import fill
@@ -69,4 +71,4 @@ from .surfaces import surface
 from .tables import export
 
 __version__ = _engine.version
-__all__ = ['polygon', 'fill', 'arrays', 'assign', 'geostatic', 'plot', 'colour', 'export', 'save', 'advise', 'elementTest', 'respond', 'strengthReduction', 'surface', 'contactForces', 'histories', 'readHistory', 'solid', 'terrain', 'movie']
+__all__ = ['polygon', 'fill', 'arrays', 'assign', 'geostatic', 'plot', 'colour', 'export', 'save', 'advise', 'discretisationError', 'stressError', 'elementTest', 'respond', 'strengthReduction', 'surface', 'contactForces', 'histories', 'readHistory', 'solid', 'terrain', 'movie']

@@ -165,7 +165,11 @@ def _next(scene):
 	if scene.pointsPerCell < 1.5: better.append('pointsPerCell=2: half of the error')
 	better.append(f"cellSize={scene.h / 2:g}: half of the error for {'4 to 6' if scene.dim == 2 else '10 or more'} times the time")
 	if 0 < scene.steps < 10: better.append('O.dt a fourth of this: 0.6 times the error in an elastic column, for twice the time')
-	return [f'next cheaper: {cheaper[0]}.', f'next more accurate: {better[0]}.'] + [f'also: {text}.' for text in cheaper[1:] + better[1:]]
+	wrong = (
+	        f"how wrong it will be: mpm.stressError() tells of the stresses when it has run; mpm.discretisationError(run, cellSize={scene.h:g}) of any result, for "
+	        f"{'5 to 8' if scene.dim == 2 else '10 or more'} times the time"
+	)
+	return [f'next cheaper: {cheaper[0]}.', f'next more accurate: {better[0]}.'] + [f'also: {text}.' for text in cheaper[1:] + better[1:]] + [wrong + '.']
 
 
 def _fewerSteps(scene):

@@ -1,0 +1,131 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Page and pictures of how well errors are estimated, from the tables in the folder results/; needs nothing of YADE."""
+import csv
+import math
+import os
+import sys
+
+import matplotlib
+matplotlib.use('Agg')
+import matplotlib.pyplot as plt
+import scenes
+import stresses
+
+here = os.path.dirname(os.path.abspath(__file__))
+sys.path[:0] = [os.path.join(here, '..', '..', *parts) for parts in (('scripts', 'lib'), ('plugin', 'python', 'mpm'))]
+import pages
+from refinement import errorOf
+
+
+def rows(folder, name):
+	path = os.path.join(folder, 'results', name + '.csv')
+	if not os.path.exists(path): return []
+	with open(path, newline='') as file:
+		return list(csv.DictReader(file))
+
+
+def ladders(folder):
+	"""By scene the value and the exact one, by number of cells."""
+	found = {}
+	for row in rows(folder, 'values'):
+		found.setdefault(row['scene'], {})[int(row['cells'])] = tuple(float(row[name]) for name in ('value', 'exact'))
+	return found
+
+
+def answer(ladder, cells):
+	"""The exact value; or that of the smallest cells with their last change once more, if they are at most a quarter of the size asked about; or None."""
+	value, exact = ladder[cells]
+	if not math.isnan(exact): return exact
+	most = max(ladder)
+	return 2 * ladder[most][0] - ladder[most // 2][0] if most >= 4 * cells else None
+
+
+def judged(folder):
+	"""A dict for each cell size that has been halved and doubled: relative true error, that of the estimate, what errorOf says of it, and two other estimates: *coarse*, from
+	this run and one with twice the cells, as first order has it, and *order*, with the order that three grids show."""
+	found = []
+	for name, ladder in ladders(folder).items():
+		for cells, (value, _) in sorted(ladder.items()):
+			if cells % 2 or cells // 2 not in ladder or 2 * cells not in ladder: continue
+			exact = answer(ladder, cells)
+			if exact is None: continue
+			estimate, oneWay, settled = errorOf(ladder[cells // 2][0], value, ladder[2 * cells][0])
+			before, change = value - ladder[cells // 2][0], ladder[2 * cells][0] - value
+			others = dict(coarse=abs(before), order=abs(change) / (1 - min(max(change / before, -1), 0.6)))
+			found.append(dict(scene=name, cells=cells, true=abs(value / exact - 1), estimate=estimate / abs(exact), oneWay=oneWay, settled=settled) | {name: error / abs(exact) for name, error in others.items()})
+	return found
+
+
+def within(ratios, factor=2):
+	return sum(1 / factor <= ratio <= factor for ratio in ratios)
+
+
+def picture(cases, found, path):
+	figure, both = plt.subplots(1, 2, figsize=(11, 5), layout='constrained')
+	exact = [scenes.scenes[case['scene']].against != scenes.smaller for case in cases]
+	for chosen, mark, label in (True, 'o', 'known answer'), (False, 's', 'answer of smaller cells'):
+		some = [case for case, isExact in zip(cases, exact) if isExact == chosen]
+		both[0].loglog([case['true'] for case in some], [case['estimate'] for case in some], mark, markersize=4, label=label)
+	both[0].set(xlabel='true error, relative', ylabel='estimate', title=f'mpm.discretisationError: {len(cases)} cases')
+	for number, name in enumerate(stresses.scenes):
+		some = [row for row in found if row['scene'] == name]
+		if some: both[1].loglog([float(row['true']) for row in some], [float(row['estimate']) for row in some], 'o-', markersize=4, linewidth=0.7, color=plt.cm.tab20(number), label=name)
+	both[1].set(xlabel='true error of the stress, relative', ylabel='estimate', title=f'mpm.stressError: {len(found)} cases')
+	for axes in both:
+		low, high = axes.get_xlim()
+		axes.plot((low, high), (low, high), 'k-', linewidth=0.8)
+		axes.fill_between((low, high), (low / 2, high / 2), (2 * low, 2 * high), color='0.92', label='factor of two', zorder=0)
+		axes.set(xlim=(low, high))
+		axes.legend(frameon=False, fontsize=7, loc='lower right', ncols=2)
+	figure.savefig(path, dpi=110)
+	plt.close(figure)
+
+
+def percent(x):
+	return f'{100 * x:.2g} %'
+
+
+def quantityTable(cases):
+	lines = []
+	for name, scene in scenes.scenes.items():
+		for case in (case for case in cases if case['scene'] == name):
+			ratio = case['estimate'] / case['true']
+			remarks = ([] if case['oneWay'] else ['up and down']) + ([] if case['settled'] else ['not settled']) + ([] if within([ratio]) else ['**not within two**'])
+			first = case is next(other for other in cases if other['scene'] == name)
+			lines.append((scene.what if first else '', scene.against if first else '', case['cells'], percent(case['true']), percent(case['estimate']), f'{ratio:.2f}', ', '.join(remarks)))
+	return pages.table(['quantity', 'against', 'cells', 'true error', 'estimate', 'ratio', ''], lines)
+
+
+def stressTable(found):
+	lines = []
+	for name, scene in stresses.scenes.items():
+		some = [row for row in found if row['scene'] == name]
+		if not some: continue
+		numbers = [[float(row[column]) for row in some] for column in ('true', 'estimate')]
+		lines.append((scene.what, scene.against, *(', '.join(texts) for texts in (
+		        [row['cells'] for row in some], *([percent(x) for x in column] for column in numbers), [f'{estimate / true:.2f}' for true, estimate in zip(*numbers)]))))
+	return pages.table(['scene', 'against', 'cells', 'true error', 'estimate', 'ratio'], lines)
+
+
+def counts(cases, found):
+	"""How many are within a factor of two."""
+	ratio = lambda some, name='estimate': [case[name] / case['true'] for case in some]
+	known = [case for case in cases if scenes.scenes[case['scene']].against != scenes.smaller]
+	isKnown = lambda case: case in known
+	groups = {
+	        'all': cases, 'with a known answer': known, 'with the answer of smaller cells': [case for case in cases if not isKnown(case)], 'up and down': [case for case in cases if not case['oneWay']],
+	        'not settled': [case for case in cases if not case['settled']]
+	}
+	lines = [(name, len(some), within(ratio(some)), f'{min(ratio(some)):.2f} to {max(ratio(some)):.2f}', within(ratio(some, 'order')), within(ratio(some, 'coarse'))) for name, some in groups.items() if some]
+	text = pages.table(['cases', '', 'within two', 'ratios', 'with the order of three grids', 'from cells of twice the size'], lines) + '\n'
+	if found:
+		of = [float(row['estimate']) / float(row['true']) for row in found]
+		text += f'\nStresses: {within(of)} of {len(of)} within a factor of two, {within(of, 1.25)} within 1.25; ratios {min(of):.2f} to {max(of):.2f}.\n'
+	return text
+
+
+def write(folder):
+	cases, found = judged(folder), rows(folder, 'stresses')
+	if cases or found: picture(cases, found, os.path.join(folder, 'discretisation.png'))
+	findings = pages.texts(os.path.join(here, 'findings.md'))
+	pages.write(folder, [*findings, '## How many', '', counts(cases, found), '## Quantities', '', quantityTable(cases), '', '## Stresses', '', stressTable(found), ''])
