@@ -208,8 +208,10 @@ for tolerance in 0, 1e-4:
 	O.run(2, wait=True)
 	cuts.append(solver.substeps)
 assert cuts[0] == 1 and cuts[1] > 4, cuts
-solver.newton.minStep = 1
 try:
+	O.reset()
+	solver = block(gravity=(0, -10, 0), boundaries=[MpmBoundary(max=(inf, 0, inf), fix='y')], timeTolerance=tolerance, newton=MpmNewton(minStep=1))
+	O.dt = 0.1
 	O.step()
 	assert False
 except RuntimeError as error:

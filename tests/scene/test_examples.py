@@ -7,6 +7,7 @@ import subprocess
 import time
 import urllib.request
 
+import numpy as np
 import pytest
 from conftest import Yade, root
 
@@ -288,7 +289,7 @@ def test_grains_on_soil(yade):
 
 def test_waves(yade):
 	"""Second order in time and space; what slides and rolls by the closed forms."""
-	scenes = 'bar', 'pulse', 'mass', 'block', 'sphere'
+	scenes = 'bar', 'pulse', 'steps', 'mass', 'block', 'sphere'
 	parts = re.split('written: .*', yade(root / 'examples' / 'waves' / 'waves.py', '--scene', ' '.join(scenes), '--short', 1).stdout)
 	said = dict(zip(scenes, parts))
 	time, space = numbers(r'order in time (\S+), in space (\S+)', said['bar'])
@@ -300,6 +301,9 @@ def test_waves(yade):
 	worst = {(dim, float(factor)): float(number) for dim, factor, number in re.findall(r'(\dD), massFactor +(\S+): \S+  \S+  (\S+)', said['mass'])}
 	for dim, light, heavy in ('1D', 3e3, 40), ('2D', 1e4, 110), ('3D', 2.5e4, 270):
 		assert worst[dim, 0] > 1e16 and worst[dim, 1e-3] < light and worst[dim, 0.25] < heavy, dim
+	rows = [tuple(map(float, row)) for row in re.findall(r'^[.\d]+ s, \S+: (\S+) m, (\d+) solves', said['steps'], re.MULTILINE)]
+	fixed, chosen = np.log(rows[:3]), np.log(rows[3:])
+	assert len(rows) == 6 and all(work < np.interp(error, *fixed[::-1].T) + np.log(1.6) for error, work in chosen), rows
 	assert numbers(r'of the engine by (\S+)', said['mass'])[0] < 1e-12
 	left = {(int(width), float(factor)): float(worst) for width, factor, worst in re.findall(r'half width (\d) h, massFactor (\S+): (\S+) /', said['pulse'])}
 	assert len(left) == 3 and left[6, 1e-3] > 0.99 and 0.96 < left[3, 1e-3] < 1 and 0.85 < left[3, 0.25] < 0.92
@@ -367,3 +371,6 @@ def test_explicit_waves(yade):
 		assert errors and max(map(abs, errors)) < bound, run.stdout
 	assert all(abs(float(left) - 1) < 2e-3 for left in re.findall(r'critical one ([.\d]+),', run.stdout)), run.stdout
 	assert (run.folder / 'out/explicit/explicit-bar.png').stat().st_size > 5000
+	run = yade(script, '--scene', 'conditions', '--short', 1)
+	found = re.findall(r'^(\S+), explicit, \w+: \d+ steps, (\S+) % .* for (\S+) of', run.stdout, re.MULTILINE)
+	assert len(found) == 8 and all(float(off) < 5 and abs(float(imbalance)) < (2e-2 if condition == 'wall' else 2e-3) for condition, off, imbalance in found), found

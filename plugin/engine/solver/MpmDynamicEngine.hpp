@@ -45,7 +45,7 @@ public:
 		v("rhoInfinity", &E::rhoInfinity, 0, "What generalised-alpha leaves of the highest frequencies in each step [-], 0 to 1.",
 		  admitting("a number from 0 to 1", [](Real value) { return value >= 0 && value <= 1; }));
 		v("timeTolerance", &E::timeTolerance, 0,
-		  "Largest local error of displacements in a step [cells] >= 0: a step beyond it is cut (newton.minStep). 0: not looked at. Not with 'midpoint'.",
+		  "Largest local error of displacements in a step [cells] >= 0: a step beyond it is cut (newton.minStep) and grows again. 0: not looked at. Not with 'midpoint'.",
 		  nonNegative);
 		v("absorbing", &E::absorbing, 0, "Edges where waves leave the body (MpmAbsorbingBoundary); read as a tuple, so assign a new one to change it.");
 		v("rayleigh", &E::rayleigh, 0,
