@@ -36,11 +36,12 @@ Cholesky::~Cholesky()
 	cholmod_finish(&common_);
 }
 
-void Cholesky::analyse(const Csc& K)
+void Cholesky::analyse(const Csc& K, std::vector<int> order)
 {
 	cholmod_sparse A = upper(K);
 	cholmod_free_factor(&factor_, &common_);
-	factor_ = cholmod_analyze(&A, &common_);
+	common_.nmethods = order.empty() ? 0 : 1; // its default is AMD, and METIS if that is not good; its first method is the given order
+	factor_          = cholmod_analyze_p(&A, order.empty() ? nullptr : order.data(), nullptr, 0, &common_);
 }
 
 bool Cholesky::factorise(const Csc& K)

@@ -14,8 +14,8 @@ public:
 	Cholesky(const Cholesky&)            = delete;
 	Cholesky& operator=(const Cholesky&) = delete;
 
-	/// Orders the pattern and finds that of the factor.
-	void   analyse(const Csc& K);
+	/// Finds the pattern of the factor, with rows and columns in the given order; of none, in one that CHOLMOD looks for.
+	void   analyse(const Csc& K, std::vector<int> order = {});
 	bool   isAnalysed() const { return factor_; } ///< not before analyse(), nor if the factor would be too large for CHOLMOD
 	double entries() const { return common_.lnz; }
 	double flops() const { return common_.fl; }

@@ -35,6 +35,9 @@ struct NodeProblem {
 
 	/// Whether a factor takes more operations for each entry of a triangle, by the places of the nodes alone.
 	virtual bool needsMoreFlopsPerEntry(double flops) const = 0;
+
+	/// Of the free degrees of freedom, the first to be eliminated first: such that a factor has few entries, whatever the matrix's values.
+	virtual std::vector<int> ordering() const = 0;
 };
 
 /// The matrix and the degrees of freedom must outlive it.
