@@ -12,11 +12,23 @@ namespace {
 
 	template <int Dim> void expectEachUnknownOnce(const Springs<Dim>& springs)
 	{
-		std::vector<int> order = LinearProblem(springs.K, springs.dofs).overNodes()->ordering(), all(order.size());
+		std::vector<int> order = LinearProblem(springs.K, springs.dofs).overNodes()->ordering().numbers, all(order.size());
 		ASSERT_EQ(int(order.size()), springs.dofs.count);
 		std::iota(all.begin(), all.end(), 0);
 		std::sort(order.begin(), order.end());
 		EXPECT_EQ(order, all);
+	}
+
+	/// The separator parts the others: no entry of K is in a row of the one part and a column of the other.
+	template <int Dim> void expectParted(const Springs<Dim>& springs)
+	{
+		const LinearProblem K(springs.K, springs.dofs);
+		const Order         order = K.overNodes()->ordering();
+		std::vector<int>    part(K.size(), 0);
+		for (int i = 0; i < order.first + order.second; ++i)
+			part[order.numbers[i]] = i < order.first ? 1 : 2;
+		EXPECT_GT(std::min(order.first, order.second), K.size() / 5 - Dim * 20);
+		K.forEntries([&](int row, int column, double) { ASSERT_NE(part[row] + part[column], 3); });
 	}
 
 	TYPED_TEST(EliminationOrderOf, HasEachUnknownOnce)
@@ -27,6 +39,7 @@ namespace {
 			expectEachUnknownOnce(Springs<Dim>(Index<Dim>::Constant(2), reach));
 			expectEachUnknownOnce(Springs<Dim>(Index<Dim>::Constant(9), reach, hole));
 			expectEachUnknownOnce(Springs<Dim>(Index<Dim>::Constant(9), reach, hole, Index<Dim>::Unit(0) * 9)); // around
+			expectParted(Springs<Dim>(Index<Dim>::Constant(20 - 5 * Dim), reach, hole));
 		}
 	}
 

@@ -50,10 +50,11 @@ public:
 				}
 	}
 
-	void order(Nodes begin, Nodes end)
+	/// Ends of the two parts.
+	std::pair<Nodes, Nodes> order(Nodes begin, Nodes end)
 	{
 		const Cut cut = end - begin > fewNodes ? thinnestCut(begin, end) : Cut();
-		if (cut.axis < 0) return;
+		if (cut.axis < 0) return { begin, begin };
 		const int below = ++sides_, above = ++sides_;
 		for (Nodes n = begin; n != end; ++n)
 			side_[*n] = graph_.places[*n][cut.axis] < cut.place ? below : above;
@@ -62,6 +63,7 @@ public:
 		const Nodes second    = std::stable_partition(begin, separator, [&](int n) { return side_[n] == below; });
 		order(begin, second);
 		order(second, separator);
+		return { second, separator };
 	}
 
 private:
@@ -107,12 +109,14 @@ private:
 
 } // namespace
 
-std::vector<int> eliminationOrder(const NodeGraph& graph)
+Order eliminationOrder(const NodeGraph& graph)
 {
-	std::vector<int> nodes(graph.places.size());
+	Order order { std::vector<int>(graph.places.size()) };
+	auto& nodes = order.numbers;
 	std::iota(nodes.begin(), nodes.end(), 0);
-	Dissection(graph).order(nodes.begin(), nodes.end());
-	return nodes;
+	const auto [first, second] = Dissection(graph).order(nodes.begin(), nodes.end());
+	order.first = int(first - nodes.begin()), order.second = int(second - first);
+	return order;
 }
 
 } // namespace gimpm

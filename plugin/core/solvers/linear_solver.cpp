@@ -46,11 +46,11 @@ bool isTooLarge(const LinearProblem& K) { return K.overNodes() && K.overNodes()-
 /// METIS on the graph of the nodes takes longer (25,500: 167), with a factor as large, and in the plane CHOLMOD's AMD is as quick there as for unknowns.
 constexpr int worthDissecting = 4000;
 
-std::vector<int> ordering(const LinearProblem& K)
+Order ordering(const LinearProblem& K)
 {
 	if (!K.overNodes() || K.size() < worthDissecting) return {};
-	std::vector<int> order = K.overNodes()->ordering();
-	for (int& number : order)
+	Order order = K.overNodes()->ordering();
+	for (int& number : order.numbers)
 		number = K.size() - 1 - number; // of the matrix in reverse
 	return order;
 }

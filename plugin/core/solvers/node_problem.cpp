@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "core/solvers/node_problem.hpp"
 #include "core/solvers/block_matrix.hpp"
-#include "core/solvers/elimination_order.hpp"
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -58,13 +57,18 @@ public:
 		const double entries = 0.5 * (blocks + double(places.size())) * perNode * perNode;
 		return needsMoreFlops(std::move(places), perNode, reach, flops * entries);
 	}
-	std::vector<int> ordering() const override
+	Order ordering() const override
 	{
-		const std::vector<int> nodes = freeNodes();
-		std::vector<int>       order;
-		for (const int n : eliminationOrder(graphOf(nodes)))
+		const std::vector<int> nodes   = freeNodes();
+		const Order            ofNodes = eliminationOrder(graphOf(nodes));
+		Order                  order;
+		int                    taken = 0;
+		for (const int n : ofNodes.numbers) {
 			for (int i = Dim * nodes[n]; i < Dim * (nodes[n] + 1); ++i)
-				if (dofs_.number[i] >= 0) order.push_back(dofs_.number[i]);
+				if (dofs_.number[i] >= 0) order.numbers.push_back(dofs_.number[i]);
+			if (++taken == ofNodes.first) order.first = int(order.numbers.size());
+			if (taken == ofNodes.first + ofNodes.second) order.second = int(order.numbers.size()) - order.first;
+		}
 		return order;
 	}
 

@@ -2,6 +2,7 @@
 // What a solver can make use of where a matrix belongs to the nodes of a grid.
 #pragma once
 #include "core/solvers/csc.hpp"
+#include "core/solvers/elimination_order.hpp"
 #include "core/solvers/node_rows.hpp"
 #include "core/solvers/symmetric_operator.hpp"
 #include <memory>
@@ -37,7 +38,7 @@ struct NodeProblem {
 	virtual bool needsMoreFlopsPerEntry(double flops) const = 0;
 
 	/// Of the free degrees of freedom, the first to be eliminated first: such that a factor has few entries, whatever the matrix's values.
-	virtual std::vector<int> ordering() const = 0;
+	virtual Order ordering() const = 0;
 };
 
 /// The matrix and the degrees of freedom must outlive it.
