@@ -15,6 +15,7 @@ defaults = dict(
         cellSize=.5, # [m]
         pointsPerCell=4, # per axis
         steps=None, # load steps to make of 40/cellSize, all if None
+        loads=None, # [load factor at the end of each step]: these steps instead
         depth=0, # cells along z, between smooth walls; 0: plane strain
         basis='gimp',
         ghost=1e-2,
@@ -44,7 +45,8 @@ def timed(act, *arguments):
 
 def slope():
 	"""The slope of the paper, or in 3D a slice of it."""
-	h, steps = setting.cellSize, setting.steps or round(40 / setting.cellSize)
+	h, loads = setting.cellSize, setting.loads
+	steps = len(loads) if loads else setting.steps or round(40 / h)
 	law = dict(young=1e6, poisson=.3, density=2400)
 	for label, strength in ('soil', 15e3), ('weak', 7.5e3):
 		O.materials.append(MpmElasticMat(label=label, **law) if setting.elastic else MpmVonMisesMat(label=label, yieldStress=strength, **law))
@@ -56,7 +58,7 @@ def slope():
 	fill, _ = timed(lambda: O.bodies.append(mpm.fill(soil, grid, setting.pointsPerCell, layers)))
 	filled = memory()
 
-	global solver # for afterStep
+	global solver, ended # for afterStep
 	solver = MpmImplicitEngine(grid=grid, gravity=(0, -9.81, 0), basis=setting.basis, boundaries=walls(h), ghost=MpmGhost(factor=setting.ghost))
 	if setting.fBar: solver.fBar = True
 	for name in 'predictor', 'reuseFactor', 'linearSolver':
@@ -66,12 +68,17 @@ def slope():
 	with tempfile.TemporaryDirectory() as folder:
 		if setting.recorder: engines.append(MpmVtkRecorder(fileName=os.path.join(folder, 'slope-'), iterPeriod=1, recorders=['points']))
 		O.engines = engines + [PyRunner(iterPeriod=1, initRun=True, command='afterStep()')]
-		begin = time.perf_counter()
-		O.run(steps, wait=True)
+		begin = ended = time.perf_counter()
+		if loads:
+			for load in loads:
+				O.dt = load - O.time
+				O.run(1, wait=True)
+		else: O.run(steps, wait=True)
 	peak, points, work = memory('VmHWM'), mpm.arrays(), solver.workload()
 	return dict(
 	        points=len(points['id']), unknowns=work['dofs'], steps=steps, **count, times=times, fill=fill, run=ended - begin, factorFlops=work['factorFlops'],
-	        sceneMemory=filled - start, runMemory=peak - filled, displacement=abs(points['pos'] - points['pos0']).max()
+	        sceneMemory=filled - start, runMemory=peak - filled, displacement=abs(points['pos'] - points['pos0']).max(),
+	        yielded=(points['plasticStrain'] > 0).mean(), last=last
 	)
 
 
@@ -82,6 +89,7 @@ def walls(h):
 
 
 times, count = {}, dict(solves=0, factorisations=0, passes=0)
+last = {} # step
 
 
 def afterStep():
@@ -94,7 +102,8 @@ def afterStep():
 	count['passes'] += report['iterations'] + report['lineSearchTrials'] + report['substeps'] * (2 if setting.predictor else 1)
 	if setting.arrays: mpm.arrays()
 	global ended # O.run() comes back up to 20 ms later
-	ended = time.perf_counter()
+	before, ended = ended, time.perf_counter()
+	last.update(run=ended - before, solves=report['iterations'], iterations=report.get('cgIterations', 0), residual=report['residual'], times=report['times'])
 
 
 def appended(make):

@@ -213,4 +213,9 @@ def test_bench(study, tmp_path):
 		assert r['displacement'] == pytest.approx(1.27 * loaded, rel=.02) # elastic so far
 	assert results['bodies']['points']['bodies'] == results['bodies']['spheres']['bodies'] == 10000
 	page = (tmp_path / 'out/README.md').read_text()
-	assert '## Size' in page and '| 10000 spheres |' in page
+	assert '## Size' in page and '| 10000 spheres |' in page and '## A million' not in page
+	printed = study('bench', '--large', '--quick', '--out', tmp_path / 'out')
+	step = json.loads((tmp_path / 'out/results/bench.json').read_text())['large']
+	assert f"{step['points']} points" in printed and 's per solve' in printed and 'bytes per point' in printed
+	assert step['yielded'] > .9 and step['last']['residual'] <= 1e-6 and 0 < step['last']['run'] < step['run'] and step['last']['solves'] < step['solves']
+	assert '## A million points in 3D' in (tmp_path / 'out/README.md').read_text()

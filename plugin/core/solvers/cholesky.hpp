@@ -1,36 +1,56 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Supernodal Cholesky factorisation (CHOLMOD).
+// Cholesky's method, with two halves of the matrix in two threads.
 #pragma once
-#include "core/solvers/csc.hpp"
-#include <cholmod.h>
+#include "core/solvers/elimination_order.hpp"
+#include "core/solvers/supernodal_factor.hpp"
+#include <Eigen/Cholesky>
+#include <array>
 
 namespace gimpm {
 
-/// Of matrices given by their upper triangles; entries below are ignored.
+/// Of matrices given by their upper triangles; entries below are ignored. With an order whose two parts are separated by few, K has blocks A_1, A_2 of the
+/// parts, B_1, B_2 between the separator and them, and C of the separator. The factor of A_h, B_h and C ends with the block L_h, and
+/// L_h L_h^T = C - B_h A_h^-1 B_h^T: both are found at the same time. What is left for the separator is L_1 L_1^T + L_2 L_2^T - C.
+/// The result does not depend on the number of threads.
 class Cholesky {
 public:
-	Cholesky();
-	~Cholesky();
-	Cholesky(const Cholesky&)            = delete;
-	Cholesky& operator=(const Cholesky&) = delete;
-
-	/// Orders the pattern and finds that of the factor.
-	void   analyse(const Csc& K);
-	bool   isAnalysed() const { return factor_; } ///< not before analyse(), nor if the factor would be too large for CHOLMOD
-	double entries() const { return common_.lnz; }
-	double flops() const { return common_.fl; }
+	/// Finds the pattern of the factor, in this order; of an empty one, in an order that CHOLMOD looks for.
+	void   analyse(const Csc& K, Order);
+	bool   isAnalysed() const; ///< not before analyse(), nor if the factor would be too large for CHOLMOD
+	double entries() const { return sum(&SupernodalFactor::entries); }
+	double flops() const { return sum(&SupernodalFactor::flops); }
 	/// Of rows and columns: the number of each in K.
-	const int* ordering() const { return static_cast<const int*>(factor_->Perm); }
+	const int* ordering() const { return isHalved() ? order_.numbers.data() : whole_.ordering(); }
 
 	/// Of a matrix with the pattern that was analysed; false if it is not positive definite.
 	bool factorise(const Csc& K);
 	/// A rough inverse of the factor's condition number: the square of its smallest over its largest diagonal entry.
-	double rcond() { return cholmod_rcond(factor_, &common_); }
+	double rcond();
 	bool   solve(const Eigen::VectorXd& b, Eigen::VectorXd& x);
 
 private:
-	cholmod_common  common_;
-	cholmod_factor* factor_ = nullptr;
+	struct Half {
+		SupernodalFactor factor;
+		std::vector<int> rows;          ///< numbers in K of those of the half and then of the separator, in the order of elimination
+		Csc              K;             ///< of them, in the order of K
+		std::vector<int> source;        ///< of each entry, its place in K
+		Eigen::MatrixXd  last, product; ///< L_h, and L_h L_h^T
+		Eigen::VectorXd  x;
+		bool             hasDone = false;
+	};
+
+	bool   isHalved() const { return order_.first > 0; }
+	int    separator() const { return int(order_.numbers.size()) - order_.first - order_.second; }
+	auto   separatorRows() const { return Eigen::Map<const Eigen::VectorXi>(order_.numbers.data() + order_.first + order_.second, separator()); }
+	double sum(double (SupernodalFactor::*of)() const) const;
+	void   analyseHalf(Half&, const Csc& K, int first, int count);
+	template <class F> bool forHalves(F&&);
+	bool                    factoriseSeparator(const Csc& K);
+
+	SupernodalFactor            whole_;
+	Order                       order_; ///< without parts: whole
+	std::array<Half, 2>         halves_;
+	Eigen::LLT<Eigen::MatrixXd> ofSeparator_;
 };
 
 } // namespace gimpm

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "core/solvers/node_problem.hpp"
 #include "core/solvers/block_matrix.hpp"
-#include "core/solvers/dissection.hpp"
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace gimpm {
 namespace {
@@ -46,11 +46,8 @@ public:
 	{
 		std::vector<NodePlace> places;
 		double                 blocks = 0;
-		for (int a = 0; a < K_.nodes(); ++a) {
-			const auto number = dofs_.number.begin() + Dim * a;
-			if (std::all_of(number, number + Dim, [](int n) { return n < 0; })) continue;
-			const auto index = Grid<Dim>::index(K_.keys()[a]);
-			places.push_back({ index[0], index[1], Dim == 3 ? index[Dim - 1] : 0 });
+		for (const int a : freeNodes()) {
+			places.push_back(place(a));
 			for (int c = 0; c < K_.codes; ++c)
 				blocks += (c == 0 ? 1 : 2) * K_.used(a, c);
 		}
@@ -60,8 +57,58 @@ public:
 		const double entries = 0.5 * (blocks + double(places.size())) * perNode * perNode;
 		return needsMoreFlops(std::move(places), perNode, reach, flops * entries);
 	}
+	Order ordering() const override
+	{
+		const std::vector<int> nodes   = freeNodes();
+		const Order            ofNodes = eliminationOrder(graphOf(nodes));
+		Order                  order;
+		int                    taken = 0;
+		for (const int n : ofNodes.numbers) {
+			for (int i = Dim * nodes[n]; i < Dim * (nodes[n] + 1); ++i)
+				if (dofs_.number[i] >= 0) order.numbers.push_back(dofs_.number[i]);
+			if (++taken == ofNodes.first) order.first = int(order.numbers.size());
+			if (taken == ofNodes.first + ofNodes.second) order.second = int(order.numbers.size()) - order.first;
+		}
+		return order;
+	}
 
 private:
+	/// Those that are not held in all directions.
+	std::vector<int> freeNodes() const
+	{
+		std::vector<int> nodes;
+		for (int a = 0; a < K_.nodes(); ++a) {
+			const auto number = dofs_.number.begin() + Dim * a;
+			if (std::any_of(number, number + Dim, [](int n) { return n >= 0; })) nodes.push_back(a);
+		}
+		return nodes;
+	}
+	NodePlace place(int node) const
+	{
+		const auto index = Grid<Dim>::index(K_.keys()[node]);
+		return { index[0], index[1], Dim == 3 ? index[Dim - 1] : 0 };
+	}
+	NodeGraph graphOf(const std::vector<int>& nodes) const
+	{
+		NodeGraph        graph;
+		std::vector<int> number(K_.nodes(), -1);
+		for (std::size_t n = 0; n < nodes.size(); ++n)
+			number[nodes[n]] = int(n), graph.places.push_back(place(nodes[n]));
+		const auto forPairs = [&](auto&& f) {
+			for (const int a : nodes)
+				for (int c = 1; c < K_.codes; ++c) {
+					const int b = K_.used(a, c) ? K_.neighbour(a, c) : a;
+					if (b != a && number[b] >= 0) f(number[a], number[b]), f(number[b], number[a]);
+				}
+		};
+		graph.start.assign(nodes.size() + 1, 0);
+		forPairs([&](int a, int) { ++graph.start[a + 1]; });
+		std::partial_sum(graph.start.begin(), graph.start.end(), graph.start.begin());
+		graph.neighbours.resize(graph.start.back());
+		std::vector<int> next(graph.start.begin(), graph.start.end() - 1);
+		forPairs([&](int a, int b) { graph.neighbours[next[a]++] = b; });
+		return graph;
+	}
 	template <class F> void forFree(F&& f) const
 	{
 		for (int i = 0; i < int(dofs_.number.size()); ++i)

@@ -2,6 +2,7 @@
 // What a solver can make use of where a matrix belongs to the nodes of a grid.
 #pragma once
 #include "core/solvers/csc.hpp"
+#include "core/solvers/elimination_order.hpp"
 #include "core/solvers/node_rows.hpp"
 #include "core/solvers/symmetric_operator.hpp"
 #include <memory>
@@ -35,6 +36,9 @@ struct NodeProblem {
 
 	/// Whether a factor takes more operations for each entry of a triangle, by the places of the nodes alone.
 	virtual bool needsMoreFlopsPerEntry(double flops) const = 0;
+
+	/// Of the free degrees of freedom, the first to be eliminated first: such that a factor has few entries, whatever the matrix's values.
+	virtual Order ordering() const = 0;
 };
 
 /// The matrix and the degrees of freedom must outlive it.

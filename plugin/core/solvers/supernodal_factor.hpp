@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Supernodal SupernodalFactor factorisation (CHOLMOD).
+#pragma once
+#include "core/solvers/csc.hpp"
+#include <cholmod.h>
+
+namespace gimpm {
+
+/// Of matrices given by their upper triangles; entries below are ignored.
+class SupernodalFactor {
+public:
+	SupernodalFactor();
+	~SupernodalFactor();
+	SupernodalFactor(const SupernodalFactor&)            = delete;
+	SupernodalFactor& operator=(const SupernodalFactor&) = delete;
+
+	/// Finds the pattern of the factor, with rows and columns in the given order; of none, in one that CHOLMOD looks for. The last ones, so many as
+	/// lastBlock() will be asked for, stay where they are.
+	void   analyse(const Csc& K, std::vector<int> order = {}, int last = 0);
+	void   forget() { cholmod_free_factor(&factor_, &common_); }
+	bool   isAnalysed() const { return factor_; } ///< not before analyse(), nor if the factor would be too large for CHOLMOD
+	double entries() const { return common_.lnz; }
+	double flops() const { return common_.fl; }
+	/// Of rows and columns: the number of each in K.
+	const int* ordering() const { return static_cast<const int*>(factor_->Perm); }
+
+	/// Of a matrix with the pattern that was analysed; false if it is not positive definite.
+	bool factorise(const Csc& K);
+	/// A rough inverse of the factor's condition number: the square of its smallest over its largest diagonal entry.
+	double rcond() { return cholmod_rcond(factor_, &common_); }
+	bool   solve(const Eigen::VectorXd& b, Eigen::VectorXd& x) { return solve(CHOLMOD_A, b, x); }
+
+	/// L x = b and L^T x = b, in the order of the factor.
+	bool solveLower(const Eigen::VectorXd& b, Eigen::VectorXd& x) { return solve(CHOLMOD_L, b, x); }
+	bool solveUpper(const Eigen::VectorXd& b, Eigen::VectorXd& x) { return solve(CHOLMOD_Lt, b, x); }
+
+	/// The last rows and columns of L, as many as `block` has; what stands above the diagonal is zero.
+	void lastBlock(Eigen::MatrixXd& block) const;
+
+private:
+	bool solve(int system, const Eigen::VectorXd& b, Eigen::VectorXd& x);
+
+	cholmod_common  common_;
+	cholmod_factor* factor_ = nullptr;
+};
+
+} // namespace gimpm
