@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Supernodal SupernodalFactor factorisation (CHOLMOD).
+// Supernodal Cholesky factorisation (CHOLMOD).
 #pragma once
 #include "core/solvers/csc.hpp"
 #include <cholmod.h>
