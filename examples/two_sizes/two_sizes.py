@@ -29,10 +29,11 @@ options = readOptions('Limit loads with cells of several sizes.',
         scenes=('', 'names of scenes with commas between; all of them if empty'),
         largest=(1000, 'number of the smallest cells over the length that the scene counts them over'))
 
-uniform = dict(tight=(4, 6, 8, 12, 16, 24), footing=(2, 3, 4, 6, 8, 12, 16, 24), cut=(5, 10, 20, 40, 80), bar=(3, 4, 6, 8, 12, 16))
-several = dict(tight=(8, 16), footing=(8, 16), cut=(20, 40), bar=(8, 12))
+uniform = dict(footing=(2, 3, 4, 6, 8, 12, 16, 24), cut=(5, 10, 20, 40, 80), bar=(3, 4, 6, 8, 12, 16, 20))
+several = dict(footing=(8, 16), cut=(20, 40), bar=(8, 12))
+for name in list(uniform): uniform['tight' + name.title()], several['tight' + name.title()] = uniform[name], several[name]
 extents = dict(near=(0.1, 0.2, 0.4, 0.8), stress=(0.5, 0.7, 0.85, 0.95), flow=(0.5, 0.7, 0.85, 0.95), way=(0.1, 0.2, 0.4, 0.8))
-length = dict(tight=2., footing=2., cut=5., bar=1.)  # what the distances of 'near' are parts of
+length = dict(footing=2., cut=5., bar=1., tightFooting=2., tightCut=5., tightBar=1.)
 
 
 def halved(name, cells, levels, choice, extent):
@@ -63,7 +64,7 @@ def measure(name, cells, levels, choice, extent):
 	scene = halved(name, cells, levels, choice, extent)
 	value, _ = scene.analyse(scene.tree.connect())
 	size, x = scene.tree.sizes(), scene.tree.centres()[:, 0]
-	around = np.sum((x if name != 'cut' else 1) / size)  # cells of a body that is the section turned about its axis, or as long as needed: up to a factor
+	around = np.sum((x if not name.lower().endswith('cut') else 1) / size)  # cells of a body that is the section turned about its axis, or as long as needed: up to a factor
 	return dict(unknowns=2 * scene.tree.free.shape[1], around=f'{around:.6g}', smallest=f'{np.mean(size == size.min()) if levels else 1:.3f}',
 	            error=f'{value / scene.exact - 1:.6g}', seconds=f'{time.process_time() - began:.3g}')
 
