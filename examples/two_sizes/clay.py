@@ -65,6 +65,17 @@ class Clay:
 		K = sparse.coo_matrix((K.ravel(), (self.i, self.j)), shape=(self.spread.shape[0], ) * 2).tocsr()
 		return stress, force, (self.spread.T @ K @ self.spread).tocsc()
 
+	def _change(self, K, residual, free, d, load, control):
+		"""Of displacements and factor in one iteration."""
+		matrix = K[free][:, free] + sparse.identity(len(free), format='csc') * 1e-9 * self.shear
+		solver = splu(matrix, permc_spec='MMD_AT_PLUS_A', options=dict(SymmetricMode=True), diag_pivot_thresh=0.01)
+		change, along = np.zeros((2, len(d)))
+		change[free] = solver.solve(residual[free])
+		if not control: return change, 0.
+		along[free] = solver.solve(load[free])
+		more = (control[0] - load @ (d + change)) / (load @ along)
+		return change + more * along, more
+
 	def _share(self, d, change, loadOf, free):
 		"""Of the change, halved until the power of what is out of balance has shrunk (H. Matthies, G. Strang 1979)."""
 		power = lambda share, force: abs((loadOf(share) - force)[free] @ change[free])
@@ -105,17 +116,7 @@ class Clay:
 			size = np.linalg.norm(force) + (abs(factor) * np.linalg.norm(load) if control else 0)
 			done = np.linalg.norm(residual[~held]) <= tolerance * size and (not control or abs(load @ d - control[0]) <= 1e-6 * control[0])
 			if done and iteration: break
-			free = np.flatnonzero(~held)
-			matrix = K[free][:, free]
-			solver = splu(matrix + sparse.identity(len(free), format='csc') * 1e-9 * self.shear, permc_spec='MMD_AT_PLUS_A', options=dict(SymmetricMode=True), diag_pivot_thresh=0.01)
-			change = np.zeros_like(d)
-			change[free] = solver.solve(residual[free])
-			if control:
-				along = np.zeros_like(d)
-				along[free] = solver.solve(load[free])
-				more = (control[0] - load @ (d + change)) / (load @ along)
-				change = change + more * along
-			else: more = 0
+			change, more = self._change(K, residual, np.flatnonzero(~held), d, load, control)
 			share = self._share(d, change, lambda share: (factor + share * more) * load if control else 0, ~held)
 			d, factor = d + share * change, factor + share * more
 		else: raise RuntimeError(f'no equilibrium after {most} iterations')
