@@ -241,6 +241,16 @@ def test_discretisation(yade):
 	assert 'no scene' in yade(example, '--scenes', 'ring,rings', fails=True).stderr
 
 
+def test_two_sizes(yade):
+	"""A part of it, with halved cells; what is in the table is not run again."""
+	example = root / 'examples' / 'two_sizes' / 'two_sizes.py'
+	runs = lambda: re.findall(r'^footing (\d+) (\d) \w+ \S+ (\d+) \S+ \S+ (\S+) ', yade(example, '--scenes', 'footing', '--largest', 4).stdout, re.MULTILINE)
+	errors = [abs(float(error)) for _, _, _, error in runs()]
+	assert len(errors) == 3 and errors == sorted(errors, reverse=True) and 0.02 < errors[-1] < 0.03
+	assert (yade.folder / 'out/two_sizes/two_sizes.png').stat().st_size > 10000 and not runs()
+	assert 'no scene' in yade(example, '--scenes', 'footing,none', fails=True).stderr
+
+
 def test_walls(yade):
 	"""A column askew on the grid has the stress of the aligned one, under its weight and under a lid that is pushed in."""
 	for load in 'weight', 'lid':

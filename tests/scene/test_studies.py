@@ -146,6 +146,7 @@ def test_trade_of_a_scene_that_locks(study, tmp_path):
 writers = { # without the pictures, which take long
         'extremes': 'import page; page.pictures.outcomes = page.pictures.conditions = page.pictures.cornerMaps = page.pictures.pivots = lambda *a: None; page.write({!r})',
         'discretisation': 'import page; page.picture = lambda *a: None; page.write({!r})',
+        'two_sizes': 'import page; page.picture = lambda *a: None; page.write({!r})',
         'trade': 'import page, plans; page.picture = lambda *a: None; page.write({!r}, plans.plans)'
 }
 
