@@ -100,7 +100,7 @@ def runSand(height):
 
 	def state():
 		points, data = mpm.arrays(), solver.plotData()
-		energies = [data[name] for name in ('kineticEnergy', 'loadWork', 'plasticWork', 'elasticEnergy', 'ghostWork', 'impactWork', 'energyImbalance')]
+		energies = [data[name] for name in ('kineticEnergy', 'loadWork', 'plasticWork', 'elasticEnergy', 'ghostWork', 'impactWork', 'gridWork', 'energyImbalance')]
 		return points['pos'][:, :2], np.linalg.norm(points['velocity'], axis=1), *energies
 
 	return *run(height, advance, state, area), counts
@@ -192,7 +192,7 @@ def drawResults(found, energies):
 		for aspect, _, _, x, depth in rows:
 			shapes.plot(x, depth, '-' if kind == 'sand' else ':', color=plt.cm.viridis(np.log2(aspect / 0.5) / 4), label=f'{kind}, a = {aspect:.2g}')
 	for kind, h in energies.items():
-		for column, name, colour in (2, 'kinetic', 'tab:blue'), (3, 'work of gravity', 'k'), (4, 'plastic flow', 'tab:red'), (6, 'ghost', 'tab:green'), (7, 'blows of held nodes', 'tab:orange'):
+		for column, name, colour in (2, 'kinetic', 'tab:blue'), (3, 'work of gravity', 'k'), (4, 'plastic flow', 'tab:red'), (6, 'ghost', 'tab:green'), (7, 'blows of held nodes', 'tab:orange'), (8, 'new grids', 'tab:purple'):
 			if column < h.shape[1]: history.plot(h[:, 0], h[:, column], '-' if kind == 'sand' else ':', color=colour, label=f'{kind}: {name}')
 	far.set(xlabel='a = H / L', ylabel='run-out (x - L) / L')
 	high.set(xlabel='a = H / L', ylabel='height at rest / L')
@@ -212,7 +212,7 @@ for a in map(float, options.aspects.split()):
 			print(f'{kind:7}{a:4.2f}  left out, at t = {O.time / np.sqrt(a * L / g):.2f} sqrt(H / g): {failure}', flush=True)
 			continue
 		if kind == 'grains': aspect, said = counts / L, f'{len(film[0][1])} grains'
-		else: aspect, said = a, ', '.join(f'{number} {what}' for what, number in counts.items()) + f'; energy not accounted for {history[-1, 8] / history[-1, 3]:+.1e} of the work'
+		else: aspect, said = a, ', '.join(f'{number} {what}' for what, number in counts.items()) + f'; energy not accounted for {history[-1, 9] / history[-1, 3]:+.1e} of the work'
 		x, depth = outline(film[-1][1], L * L * aspect / len(film[0][1]), 0.1 * L)
 		out, top = history[-1, 1] - 1, depth[0] / L
 		law = published(np.array(aspect))
