@@ -52,7 +52,8 @@ template <int Dim> struct Springs {
 	Springs(const Index<Dim>& size, int reach) : Springs(size, reach, [](const Index<Dim>&) { return false; }) { }
 };
 
-/// A long body is solved to the tolerance, and to the same bits by one thread and by two.
+/// A long body is solved to the tolerance, and to the same bits by one thread and by two; by multigrid to the tolerance: of newer releases of PETSc no two runs have
+/// the same bits.
 template <int Dim> void expectSameInThreads(double tolerance, LinearMethod method)
 {
 	Index<Dim> size = Index<Dim>::Constant(Dim == 2 ? 60 : 12);
@@ -67,7 +68,7 @@ template <int Dim> void expectSameInThreads(double tolerance, LinearMethod metho
 		LinearSolver solver;
 		ASSERT_TRUE(solver.solveIteratively(K, b, x, tolerance, method));
 		if (n == 1) expected = x;
-		EXPECT_EQ(x, expected) << n;
+		EXPECT_LE((x - expected).norm(), method == LinearMethod::multigrid ? tolerance * expected.norm() : 0) << n;
 	}
 	omp_set_num_threads(threads);
 	EXPECT_LT((K * x - b).norm(), 1.01 * tolerance * b.norm());

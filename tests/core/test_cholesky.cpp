@@ -56,7 +56,10 @@ namespace {
 		const Reversed<Dim>   matrix(springs);
 		const Eigen::VectorXd b = Random(1).vector(matrix.K.size());
 		const Solved          whole(matrix.K, matrix.whole(), b), halved(matrix.K, matrix.order, b);
-		EXPECT_NE(whole.x, halved.x) << "it was not halved";
+		EXPECT_GT(matrix.order.first, 0);
+		const auto parts = std::size_t(matrix.order.first + matrix.order.second);
+		EXPECT_TRUE(parts == matrix.order.numbers.size() || whole.x != halved.x)
+		        << "it was not halved"; // halves that nothing separates may be the same to the bit
 		EXPECT_LT((whole.x - halved.x).norm(), 1e-12 * whole.x.norm());
 		EXPECT_NEAR(halved.rcond / whole.rcond, 1, 0.9);
 		EXPECT_NEAR(halved.flops / whole.flops, 1, 0.1);

@@ -62,8 +62,7 @@ namespace {
 		StepSystem<Dim> system() { return { cloud, model, Load<Dim>(), report }; }
 	};
 
-	template <class T> class ContactOf : public InBothDimensions<T> {
-	};
+	template <class T> using ContactOf = InBothDimensions<T>;
 	TYPED_TEST_SUITE(ContactOf, BothDimensions, DimensionName);
 
 	/// Some corners stick, some slip, and some are free.

@@ -67,8 +67,7 @@ namespace {
 		StepReport step(double before, double after, const Vec<Dim>& gravity) { return step({ gravity, { after, after - before } }); }
 	};
 
-	template <class T> class WallOf : public ::testing::Test {
-	};
+	template <class T> using WallOf = InBothDimensions<T>;
 	TYPED_TEST_SUITE(WallOf, BothDimensions, DimensionName);
 
 	TYPED_TEST(WallOf, TangentIsTheDerivative)

@@ -322,7 +322,7 @@ class OtherFolder:
 		return self.overlay / self.libraries if options else self.system
 
 	def command(self, *arguments):
-		environment = {name: value for name, value in os.environ.items() if name != 'CXXFLAGS'} | {'PATH': f'{self.tools}:{os.environ["PATH"]}'}
+		environment = {name: value for name, value in os.environ.items() if name not in ('CXXFLAGS', 'YADE_DIR')} | {'PATH': f'{self.tools}:{os.environ["PATH"]}'}
 		return dict(args=arguments, env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
 
 	def setup(self, *options, **environment):

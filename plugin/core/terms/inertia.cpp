@@ -37,8 +37,7 @@ template <int Dim> Eigen::VectorXd weighedAtNodes(const CloudBasis<Dim>& basis, 
 }
 
 template <int Dim>
-Eigen::VectorXd ofHeld(
-        const Eigen::VectorXd& otherwise, Vec<Dim> MovingBase<Dim>::*value, const std::vector<MovingBase<Dim>>& bases, const Beginning<Dim>& step)
+Eigen::VectorXd ofHeld(const Eigen::VectorXd& otherwise, OfBase<Dim> value, const std::vector<MovingBase<Dim>>& bases, const Beginning<Dim>& step)
 {
 	Eigen::VectorXd x = otherwise;
 	for (const auto& base : bases)
@@ -60,7 +59,7 @@ Inertia<Dim>::Inertia(Motion<Dim>& motion, const Beginning<Dim>& step)
         , mass_(step.basis, motion.mass, massFaces(motion, step), step.grid.cellSize, looseOf(motion, step))
 {
 	imbalance_ = neglected_ = acceleration_ = expected_ = blow_ = jump_ = Eigen::VectorXd::Zero(prescribed_.size());
-	const auto held = [&](const Eigen::VectorXd& otherwise, Vec<Dim> MovingBase<Dim>::*value) { return ofHeld(otherwise, value, motion.bases, step); };
+	const auto held = [&](const Eigen::VectorXd& otherwise, OfBase<Dim> value) { return ofHeld(otherwise, value, motion.bases, step); };
 	findVelocity(held(prescribed_ / motion.duration, &MovingBase<Dim>::velocity));
 	for (const auto& make : motion.damping)
 		damping_.push_back(make(step));
@@ -285,7 +284,7 @@ template <int Dim> void Inertia<Dim>::commit(const Eigen::VectorXd& d)
 	template std::vector<LooseCell<Dim>> looseOf(const Motion<Dim>&, const Beginning<Dim>&, int);                                                          \
 	template std::vector<GhostFace<Dim>> massFaces(const Motion<Dim>&, const Beginning<Dim>&);                                                             \
 	template Eigen::VectorXd             weighedAtNodes(const CloudBasis<Dim>&, const std::vector<double>&, const std::vector<Vec<Dim>>&);                 \
-	template Eigen::VectorXd ofHeld(const Eigen::VectorXd&, Vec<Dim> MovingBase<Dim>::*, const std::vector<MovingBase<Dim>>&, const Beginning<Dim>&);
+	template Eigen::VectorXd             ofHeld(const Eigen::VectorXd&, OfBase<Dim>, const std::vector<MovingBase<Dim>>&, const Beginning<Dim>&);
 GIMPM_INSTANTIATE(2)
 GIMPM_INSTANTIATE(3)
 #undef GIMPM_INSTANTIATE

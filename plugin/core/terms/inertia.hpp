@@ -47,9 +47,10 @@ template <int Dim> std::vector<LooseCell<Dim>> looseOf(const Motion<Dim>&, const
 /// Sum of S m x_p at the nodes.
 template <int Dim> Eigen::VectorXd weighedAtNodes(const CloudBasis<Dim>&, const std::vector<double>& mass, const std::vector<Vec<Dim>>& ofPoints);
 
+template <int Dim> using OfBase = Vec<Dim> MovingBase<Dim>::*;
+
 /// A value of the held degrees of freedom.
-template <int Dim>
-Eigen::VectorXd ofHeld(const Eigen::VectorXd& otherwise, Vec<Dim> MovingBase<Dim>::*value, const std::vector<MovingBase<Dim>>&, const Beginning<Dim>&);
+template <int Dim> Eigen::VectorXd ofHeld(const Eigen::VectorXd& otherwise, OfBase<Dim> value, const std::vector<MovingBase<Dim>>&, const Beginning<Dim>&);
 
 /// The impulse by which held nodes get `velocity`, where that is more than round-off, of the largest momentum.
 template <class Mass, class IsHeld>
