@@ -81,10 +81,6 @@ def picture(cases, found, path):
 	plt.close(figure)
 
 
-def percent(x):
-	return f'{100 * x:.2g} %'
-
-
 def quantityTable(cases):
 	lines = []
 	for name, scene in scenes.scenes.items():
@@ -92,7 +88,7 @@ def quantityTable(cases):
 			ratio = case['estimate'] / case['true']
 			remarks = ([] if case['oneWay'] else ['up and down']) + ([] if case['settled'] else ['not settled']) + ([] if within([ratio]) else ['**not within two**'])
 			first = case is next(other for other in cases if other['scene'] == name)
-			lines.append((scene.what if first else '', scene.against if first else '', case['cells'], percent(case['true']), percent(case['estimate']), f'{ratio:.2f}', ', '.join(remarks)))
+			lines.append((scene.what if first else '', scene.against if first else '', case['cells'], pages.percent(case['true']), pages.percent(case['estimate']), f'{ratio:.2f}', ', '.join(remarks)))
 	return pages.table(['quantity', 'against', 'cells', 'true error', 'estimate', 'ratio', ''], lines)
 
 
@@ -103,7 +99,7 @@ def stressTable(found):
 		if not some: continue
 		numbers = [[float(row[column]) for row in some] for column in ('true', 'estimate')]
 		lines.append((scene.what, scene.against, *(', '.join(texts) for texts in (
-		        [row['cells'] for row in some], *([percent(x) for x in column] for column in numbers), [f'{estimate / true:.2f}' for true, estimate in zip(*numbers)]))))
+		        [row['cells'] for row in some], *([pages.percent(x) for x in column] for column in numbers), [f'{estimate / true:.2f}' for true, estimate in zip(*numbers)]))))
 	return pages.table(['scene', 'against', 'cells', 'true error', 'estimate', 'ratio'], lines)
 
 

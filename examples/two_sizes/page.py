@@ -80,10 +80,6 @@ def exponents(runs):
 	return found
 
 
-def percent(x):
-	return f'{100 * x:.2g} %'
-
-
 def savings(found, exponent):
 	lines = []
 	for scene, title in titles.items():
@@ -93,7 +89,7 @@ def savings(found, exponent):
 			best = max(some, key=lambda run: run['plane'])
 			small = '' if not np.isfinite(best['small']) else f"{best['small']:.0f}"
 			byDistance = max((run['plane'] for run in some if run['choice'] in ('near', 'way')), default=np.nan)
-			lines.append((title, levels, f"{best['choice']} {best['extent']:g}", percent(best['off']), f"{best['unknowns']:.0f}", f"{best['equal']:.0f}", small,
+			lines.append((title, levels, f"{best['choice']} {best['extent']:g}", pages.percent(best['off']), f"{best['unknowns']:.0f}", f"{best['equal']:.0f}", small,
 			              f"**{best['plane']:.1f}**", f'{byDistance:.1f}', f"{best['plane']**exponent:.1f}" if exponent else '', f"{best['round']:.1f}"))
 	return pages.table(['scene', 'halved', 'best choice', 'error', 'unknowns', 'equal cells', 'equal cells, small block', 'times fewer', 'by distance', 'times faster', 'times fewer in 3D'], lines)
 

@@ -11,6 +11,10 @@ def number(text):
 		return text
 
 
+def percent(x):
+	return f'{100 * x:.2g} %'
+
+
 def table(heads, rows):
 	return '\n'.join(f"| {' | '.join(map(str, row))} |" for row in [heads, ['---'] * len(heads), *rows])
 
