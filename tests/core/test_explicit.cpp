@@ -113,7 +113,7 @@ namespace {
 		Eigen::VectorXd       x = Random().vector(K.size()), y = x;
 		double                square = 0;
 		for (int i = 0; i < 80; ++i) {
-			EXPECT_TRUE(M.solve(K * x, system.dofs, y));
+			EXPECT_TRUE(M.solve({ { K * x, system.dofs, y } }));
 			square = y.norm() / x.norm();
 			x      = y / y.norm();
 		}

@@ -2,6 +2,7 @@
 #include "core/stepping/step_system.hpp"
 #include "derivatives.hpp"
 #include "moving.hpp"
+#include <omp.h>
 
 namespace gimpm::testInertia {
 namespace {
@@ -60,6 +61,51 @@ namespace {
 		EXPECT_LT((ghost * linear).template lpNorm<Eigen::Infinity>(), 4 * precision * size);
 		const Eigen::VectorXd square = linear.cwiseProduct(linear);
 		EXPECT_GT(square.dot(ghost * square), 1e-3 * square.dot(mass.matrix(0.5) * square)) << "other fields have some";
+	}
+
+	/// Over more nodes than a block of the sweeps has, with other nodes held for each side, to round-off and with the same bits in two threads.
+	TYPED_TEST(InertiaTerm, ConjugateGradientsSolveForSeveralSidesAtOnce)
+	{
+		constexpr int         Dim = TypeParam::value;
+		const Grid<Dim>       grid;
+		const Mass<Dim>       mass(shifted<Dim>(block<Dim>(grid, Index<Dim>::Constant(Dim == 2 ? 70 : 16), 2), Vec<Dim>::Constant(1e-6)), grid, 1e-3);
+		const auto            matrix = mass.matrix(1);
+		const FreeDofs        all    = mass.allFree();
+		FreeDofs              some   = all;
+		Random                random;
+		const Eigen::VectorXd right = random.vector(all.count), smooth = matrix * (Eigen::VectorXd::Ones(all.count) + 0.1 * random.vector(all.count));
+		for (int i = 0; i < all.count; i += 7)
+			some.number[i] = -1;
+		ASSERT_GT(matrix.nodes(), 4000);
+		std::vector<Eigen::VectorXd> found;
+		const int                    threads = omp_get_max_threads();
+		for (const int count : { 1, 2 }) {
+			omp_set_num_threads(count);
+			NodalMass<Dim>  M(matrix);
+			Eigen::VectorXd x = Eigen::VectorXd::Constant(all.count, 0.5), y = x, z = x;
+			ASSERT_TRUE(M.solve({ { right, some, x }, { smooth, all, y }, { smooth, some, z } }));
+			EXPECT_LT(M.iterations(), 50);
+			if (count == 1) std::cout << M.iterations() << " iterations\n";
+			for (const Eigen::VectorXd& each : { x, y, z })
+				found.push_back(each);
+		}
+		omp_set_num_threads(threads);
+		Eigen::VectorXd weight(all.count); // of momenta, m^-1/2
+		matrix.forEntries([&](int a, int b, int, double m) {
+			if (a == b) weight.segment<Dim>(Dim * a).setConstant(1 / std::sqrt(m));
+		});
+		EXPECT_LT((matrix * found[1] - smooth).norm(), 1e-12 * smooth.norm());
+		for (const int side : { 0, 2 }) {
+			Eigen::VectorXd error = matrix * found[side] - (side == 0 ? right : smooth), size = (error - matrix * found[side]).cwiseProduct(weight);
+			for (int i = 0; i < all.count; ++i)
+				if (some.number[i] < 0) {
+					EXPECT_EQ(found[side][i], 0.5);
+					error[i] = 0;
+				}
+			EXPECT_LT(error.cwiseProduct(weight).norm(), 1e-11 * size.norm());
+		}
+		for (int side = 0; side < 3; ++side)
+			EXPECT_EQ(found[side], found[side + 3]);
 	}
 
 	TYPED_TEST(InertiaTerm, ReducedMassIsSymmetricAndTheSameAsTheProduct)

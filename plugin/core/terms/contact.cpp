@@ -62,10 +62,11 @@ template <int Dim> void Contact<Dim>::addCorners(const NearPoint& near, const Be
 		if (std::max(at.gap, at.beside) > searchReach(body, grid_.cellSize)) continue;
 		const auto attached = attach(place, step.basis, step.grid);
 		if (!attached) continue; // behind a wall
-		const auto*  record = recordOf(system_.records, { near.point, c, near.body });
-		const double offset = record ? record->offset : body.isNew && at.beside < 0 ? std::min(0., at.gap) : 0;
-		corners_.push_back({ near.point, c, near.body, near.side, place, offset, record ? record->friction : Vec<Dim>(Vec<Dim>::Zero()),
-		                     lawOf(body, near, place, at.normal, step), *attached });
+		const auto*    record   = recordOf(system_.records, { near.point, c, near.body });
+		const double   offset   = record ? record->offset : body.isNew && at.beside < 0 ? std::min(0., at.gap) : 0;
+		const Vec<Dim> friction = record ? record->friction : Vec<Dim>(Vec<Dim>::Zero());
+		const auto     law      = lawOf(body, near, place, at.normal, step);
+		corners_.push_back({ near.point, c, near.body, near.side, place, offset, friction, law, *attached });
 	}
 }
 

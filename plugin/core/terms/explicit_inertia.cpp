@@ -84,7 +84,7 @@ template <int Dim> void ExplicitInertia<Dim>::findJump()
 
 template <int Dim> void ExplicitInertia<Dim>::solve(const Eigen::VectorXd& right, const FreeDofs& dofs, Eigen::VectorXd& x, const Eigen::VectorXd* C)
 {
-	isSingular_ = !mass_.solve(right, dofs, x, C) || isSingular_;
+	isSingular_ = !mass_.solve({ { right, dofs, x } }, {}, C) || isSingular_;
 }
 
 template <int Dim> std::string ExplicitInertia<Dim>::obstacle() const

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Inertia in a step whose displacements are known as it begins.
 #pragma once
-#include "core/terms/inertia.hpp"
+#include "core/terms/motion.hpp"
 #include "core/terms/nodal_mass.hpp"
 
 namespace gimpm {

@@ -1,52 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "core/terms/inertia.hpp"
 #include "core/grid/point_nodes.hpp"
-#include "core/terms/internal_force.hpp"
 #include <algorithm>
 #include <numeric>
-#include <sstream>
 
 namespace gimpm {
-
-template <int Dim> std::vector<GhostFace<Dim>> massFaces(const Motion<Dim>& motion, const Beginning<Dim>& step)
-{
-	if (motion.ghostMass == 0) return {};
-	std::vector<GhostFace<Dim>> faces   = step.faces;
-	const PointStiffness        density = [&](int p) {
-                const double volume = step.stiffnessOf(p).volume;
-                return VolumeAndModulus { volume, motion.mass[p] / volume };
-	};
-	weighGhostFaces(faces, step.basis, density, step.grid, motion.ghostMass, GhostScaling::paper);
-	return faces;
-}
-
-template <int Dim> std::vector<LooseCell<Dim>> looseOf(const Motion<Dim>& motion, const Beginning<Dim>& step, int reach)
-{
-	if (motion.ghostMass == 0) return {};
-	return looseCells(step.basis, motion.mass, step.faces, step.grid, reach);
-}
-
-template <int Dim> Eigen::VectorXd weighedAtNodes(const CloudBasis<Dim>& basis, const std::vector<double>& mass, const std::vector<Vec<Dim>>& ofPoints)
-{
-	std::vector<Vec<Dim>> weighted(ofPoints.size());
-	for (std::size_t p = 0; p < weighted.size(); ++p)
-		weighted[p] = mass[p] * ofPoints[p];
-	Eigen::VectorXd sum = Eigen::VectorXd::Zero(Dim * Eigen::Index(basis.nodes.size()));
-	addPointForces(basis, weighted, sum);
-	return sum;
-}
-
-template <int Dim>
-Eigen::VectorXd ofHeld(const Eigen::VectorXd& otherwise, OfBase<Dim> value, const std::vector<MovingBase<Dim>>& bases, const Beginning<Dim>& step)
-{
-	Eigen::VectorXd x = otherwise;
-	for (const auto& base : bases)
-		for (std::size_t n = 0; n < step.basis.nodes.size(); ++n)
-			for (int a = 0; a < Dim; ++a)
-				if (step.dofs.number[Dim * n + a] < 0 && base.box.holds(Grid<Dim>::index(step.basis.nodes[n]), a))
-					x[Dim * n + a] = (base.*value)[a];
-	return x;
-}
 
 template <int Dim>
 Inertia<Dim>::Inertia(Motion<Dim>& motion, const Beginning<Dim>& step)
@@ -58,12 +16,33 @@ Inertia<Dim>::Inertia(Motion<Dim>& motion, const Beginning<Dim>& step)
         , h_(step.grid.cellSize)
         , mass_(step.basis, motion.mass, massFaces(motion, step), step.grid.cellSize, looseOf(motion, step))
 {
+	if (motion.ghostMass > 0) nodal_.emplace(mass_);
 	imbalance_ = neglected_ = acceleration_ = expected_ = blow_ = jump_ = Eigen::VectorXd::Zero(prescribed_.size());
-	const auto held = [&](const Eigen::VectorXd& otherwise, OfBase<Dim> value) { return ofHeld(otherwise, value, motion.bases, step); };
-	findVelocity(held(prescribed_ / motion.duration, &MovingBase<Dim>::velocity));
+	velocity_ = ofHeld<Dim>(prescribed_ / motion.duration, &MovingBase<Dim>::velocity, motion.bases, step);
+	if (motion.scheme.dependsOnStart()) expected_ = ofHeld<Dim>(acceleration_, &MovingBase<Dim>::acceleration, motion.bases, step);
 	for (const auto& make : motion.damping)
 		damping_.push_back(make(step));
-	if (motion.scheme.dependsOnStart()) findAcceleration(step, held(acceleration_, &MovingBase<Dim>::acceleration));
+	findStart(step);
+}
+
+/// Velocities and accelerations at the nodes, those of the points, or where they are at the beginning the accelerations of equilibrium. What the latter would do besides
+/// is kept for the balance of energy: found anew in each step, they would throw nodes of hardly any mass about, and in long steps change their sign from one to the next.
+template <int Dim> void Inertia<Dim>::findStart(const Beginning<Dim>& step)
+{
+	const bool isDriven = motion_.scheme.dependsOnStart();
+	const bool begins   = std::all_of(motion_.acceleration.begin(), motion_.acceleration.end(), [](const Vec<Dim>& a) { return a.isZero(0); });
+	findVelocity(isDriven && !begins);
+	if (!isDriven) return;
+	const Eigen::VectorXd all = imbalanceOf(step), contact = ofContact(nullptr);
+	if (begins) solve({ { all, dofs_, expected_ } });
+	acceleration_ = expected_;
+	if (!contact.isZero(0)) acceleration_ -= solved(contact);
+	imbalance_ = all - contact;
+	if (!motion_.scheme.isAlpha()) neglected_ = imbalance_ - times(acceleration_);
+	for (Eigen::Index i = 0; i < imbalance_.size(); ++i) {
+		if (isHeld(i)) neglected_[i] = 0;
+		if (isHeld(i) || motion_.scheme.alphaF == 0) imbalance_[i] = 0;
+	}
 }
 
 /// Of all forces as the step begins, also at held nodes.
@@ -77,38 +56,23 @@ template <int Dim> Eigen::VectorXd Inertia<Dim>::imbalanceOf(const Beginning<Dim
 	return others - damping;
 }
 
-template <int Dim> void Inertia<Dim>::findVelocity(const Eigen::VectorXd& ofHeld)
+/// Where nodes are held, also what the velocities would be if they were not: the blow of what holds them has changed them by the difference.
+template <int Dim> void Inertia<Dim>::findVelocity(bool withAcceleration)
 {
-	constexpr double      roundOff = 1e-13;
+	const double          roundOff = motion_.exactness;
 	const Eigen::VectorXd momentum = weighedAtNodes(basis_, motion_.mass, motion_.velocity);
-	velocity_                      = solve(momentum, ofHeld);
-	blow_                          = blowOf(mass_, velocity_, momentum, roundOff, [&](Eigen::Index i) { return isHeld(i); });
-	FreeDofs all;
-	all.number.assign(blow_.size(), 0);
-	for (int axis = 0; axis < Dim; ++axis) {
-		bool isHit = false;
-		for (Eigen::Index i = axis; i < blow_.size(); i += Dim)
-			isHit = isHit || blow_[i] != 0;
-		if (!isHit) continue;
-		solve(axis, Dim, all, blow_, jump_);
-	}
-}
-
-/// Those of the points, or where they are at the beginning those of equilibrium. What the latter would do besides is kept for the balance of energy: found anew in each
-/// step, they would throw nodes of hardly any mass about, and in long steps change their sign from one to the next.
-template <int Dim> void Inertia<Dim>::findAcceleration(const Beginning<Dim>& step, const Eigen::VectorXd& ofHeld)
-{
-	const Eigen::VectorXd contact = ofContact(nullptr), all = imbalanceOf(step);
-	const bool            begins = std::all_of(motion_.acceleration.begin(), motion_.acceleration.end(), [](const Vec<Dim>& a) { return a.isZero(0); });
-	const Eigen::VectorXd force  = begins ? all : weighedAtNodes(basis_, motion_.mass, motion_.acceleration);
-	acceleration_                = solve(force - contact, ofHeld);
-	expected_                    = contact.isZero(0) ? acceleration_ : solve(force, ofHeld);
-	imbalance_                   = all - contact;
-	if (!motion_.scheme.isAlpha()) neglected_ = imbalance_ - mass_ * acceleration_;
-	for (Eigen::Index i = 0; i < imbalance_.size(); ++i) {
-		if (isHeld(i)) neglected_[i] = 0;
-		if (isHeld(i) || motion_.scheme.alphaF == 0) imbalance_[i] = 0;
-	}
+	const Eigen::VectorXd carried  = withAcceleration ? weighedAtNodes(basis_, motion_.mass, motion_.acceleration) : Eigen::VectorXd();
+	FreeDofs              all { std::vector<int>(momentum.size(), 0), int(momentum.size()) };
+	Eigen::VectorXd       before = Eigen::VectorXd::Zero(momentum.size());
+	std::vector<Side>     sides  = { { momentum, dofs_, velocity_ } };
+	if (withAcceleration) sides.push_back({ carried, dofs_, expected_ });
+	if (nodal_ && dofs_.count < all.count) sides.push_back({ momentum, all, before });
+	solve(sides);
+	blow_ = blowOf(mass_, velocity_, momentum, roundOff, [&](Eigen::Index i) { return isHeld(i); });
+	if (blow_.isZero(0)) return;
+	if (nodal_) jump_ = velocity_ - before;
+	else
+		solve({ { blow_, all, jump_ } });
 }
 
 template <int Dim> Eigen::VectorXd Inertia<Dim>::ofContact(const Eigen::VectorXd* d) const
@@ -121,35 +85,50 @@ template <int Dim> Eigen::VectorXd Inertia<Dim>::ofContact(const Eigen::VectorXd
 	return -resistance / (d ? motion_.contacts->weight : 1);
 }
 
-/// x of (M + M_g) x = momentum at the free degrees of freedom, with the values that the held ones have.
-template <int Dim> Eigen::VectorXd Inertia<Dim>::solve(const Eigen::VectorXd& momentum, const Eigen::VectorXd& ofHeld)
+/// (M + M_g) x = right at the free degrees of freedom, with the values that the held ones have. Conjugate gradients where ghost mass bounds the condition number; for little
+/// of it, or points that lie alone, the factor is cheaper.
+template <int Dim> void Inertia<Dim>::solve(const std::vector<Side>& sides)
 {
-	Eigen::VectorXd       x    = ofHeld;
-	const Eigen::VectorXd rest = momentum - mass_ * ofHeld;
-	for (int axis = 0; axis < Dim; ++axis)
-		solve(axis, axis, dofs_, rest, x);
-	return x;
+	constexpr int worthwhile = 300;
+	if (nodal_ && nodal_->solve(sides, { motion_.exactness, worthwhile })) return;
+	for (const Side& side : sides) {
+		for (Eigen::Index i = 0; i < side.x.size(); ++i)
+			if (side.dofs.number[i] >= 0) side.x[i] = 0;
+		const Eigen::VectorXd rest = side.right - times(side.x);
+		for (int axis = 0; axis < Dim; ++axis)
+			solveAlong(axis, side, rest);
+	}
 }
 
-/// Sets x at the free degrees of freedom along an axis. A solver keeps the factor of its matrix in this step.
-template <int Dim> void Inertia<Dim>::solve(int axis, int solver, const FreeDofs& dofs, const Eigen::VectorXd& right, Eigen::VectorXd& x)
+/// By a factor, which is kept in this step.
+template <int Dim> void Inertia<Dim>::solveAlong(int axis, const Side& side, const Eigen::VectorXd& rest)
 {
-	Eigen::VectorXd free(x.size() / Dim), found;
+	const int       solver = &side.dofs == &dofs_ ? axis : Dim;
+	Eigen::VectorXd free(rest.size() / Dim), found;
 	int             n = 0;
-	for (Eigen::Index i = axis; i < x.size(); i += Dim)
-		if (dofs.number[i] >= 0) free[n++] = right[i];
+	for (Eigen::Index i = axis; i < rest.size(); i += Dim)
+		if (side.dofs.number[i] >= 0) free[n++] = rest[i];
 	if (n == 0) return;
 	free.conservativeResize(n);
 	if (!factorised_[solver])
-		isSingular_ = motion_.solvers[solver].solve(mass_.reduced(dofs, axis), free, found) == LinearSolver::Status::singular || isSingular_;
+		isSingular_ = motion_.solvers[solver].solve(mass_.reduced(side.dofs, axis), free, found) == LinearSolver::Status::singular || isSingular_;
 	else
 		motion_.solvers[solver].solveAgain(free, found);
 	factorised_[solver] = true;
 	if (isSingular_) return;
 	n = 0;
-	for (Eigen::Index i = axis; i < x.size(); i += Dim)
-		if (dofs.number[i] >= 0) x[i] = found[n++];
+	for (Eigen::Index i = axis; i < rest.size(); i += Dim)
+		if (side.dofs.number[i] >= 0) side.x[i] = found[n++];
 }
+
+template <int Dim> Eigen::VectorXd Inertia<Dim>::solved(const Eigen::VectorXd& right)
+{
+	Eigen::VectorXd x = Eigen::VectorXd::Zero(right.size());
+	solve({ { right, dofs_, x } });
+	return x;
+}
+
+template <int Dim> Eigen::VectorXd Inertia<Dim>::times(const Eigen::VectorXd& x) const { return nodal_ ? *nodal_ * x : mass_ * x; }
 
 template <int Dim> Eigen::VectorXd Inertia<Dim>::accelerationAt(const Eigen::VectorXd& d) const
 {
@@ -189,9 +168,9 @@ template <int Dim> std::optional<PointFailure> Inertia<Dim>::add(const Eigen::Ve
 	const auto&           scheme = motion_.scheme;
 	const double          weight = 1 - scheme.alphaF, ofEnd = (1 - scheme.alphaM) / weight;
 	const Eigen::VectorXd a     = accelerationAt(d);
-	Eigen::VectorXd       force = mass_ * a;
+	Eigen::VectorXd       force = times(a);
 	if (scheme.isAlpha()) {
-		const Eigen::VectorXd weighted = mass_ * (ofEnd * a + scheme.alphaM / weight * acceleration_) - scheme.alphaF / weight * imbalance_;
+		const Eigen::VectorXd weighted = times(ofEnd * a + scheme.alphaM / weight * acceleration_) - scheme.alphaF / weight * imbalance_;
 		for (Eigen::Index i = 0; i < force.size(); ++i)
 			if (!isHeld(i)) force[i] = weighted[i]; // those at held nodes are reactions at the end of the step
 	}
@@ -208,7 +187,7 @@ template <int Dim> std::optional<PointFailure> Inertia<Dim>::add(const Eigen::Ve
 
 template <int Dim> double Inertia<Dim>::fromOutside(const Eigen::VectorXd& d) const
 {
-	Eigen::VectorXd force = mass_ * accelerationAt(d);
+	Eigen::VectorXd force = times(accelerationAt(d));
 	for (Eigen::Index i = 0; i < force.size(); ++i)
 		if (isHeld(i)) force[i] = 0; // they are part of the reactions
 	double squares = force.squaredNorm();
@@ -252,8 +231,8 @@ template <int Dim> LocalError Inertia<Dim>::localError(const Eigen::VectorXd& d)
 template <int Dim> void Inertia<Dim>::commit(const Eigen::VectorXd& d)
 {
 	const double          beta = motion_.scheme.beta, gamma = motion_.scheme.gamma, T = motion_.duration;
-	const Eigen::VectorXd force = ofContact(&d), zero = Eigen::VectorXd::Zero(d.size());
-	const Eigen::VectorXd contact = force.isZero(0) ? zero : solve(force, zero), others = accelerationAt(d) - contact / (2 * beta);
+	const Eigen::VectorXd force   = ofContact(&d);
+	const Eigen::VectorXd contact = force.isZero(0) ? force : solved(force), others = accelerationAt(d) - contact / (2 * beta);
 	const Eigen::VectorXd end = others + contact, growth = jump_ + T * ((1 - gamma) * acceleration_ + gamma * others + contact);
 	Eigen::VectorXd       ghost = Eigen::VectorXd::Zero(d.size());
 	addGhostForce(faces_, h_, d, ghost);
@@ -276,17 +255,10 @@ template <int Dim> void Inertia<Dim>::commit(const Eigen::VectorXd& d)
 		ofPoints[p] = motion_.mass[p] * gained.squaredNorm();
 	});
 	// the force of the ghost stiffness begins at zero in each step; points do not take over what the nodes change in the ghost mass
-	motion_.ghostWork = gamma * d.dot(ghost) + (growth.dot(mass_ * growth) - std::accumulate(ofPoints.begin(), ofPoints.end(), 0.)) / 2;
+	motion_.ghostWork = gamma * d.dot(ghost) + (growth.dot(times(growth)) - std::accumulate(ofPoints.begin(), ofPoints.end(), 0.)) / 2;
 }
 
-#define GIMPM_INSTANTIATE(Dim)                                                                                                                                 \
-	template class Inertia<Dim>;                                                                                                                           \
-	template std::vector<LooseCell<Dim>> looseOf(const Motion<Dim>&, const Beginning<Dim>&, int);                                                          \
-	template std::vector<GhostFace<Dim>> massFaces(const Motion<Dim>&, const Beginning<Dim>&);                                                             \
-	template Eigen::VectorXd             weighedAtNodes(const CloudBasis<Dim>&, const std::vector<double>&, const std::vector<Vec<Dim>>&);                 \
-	template Eigen::VectorXd             ofHeld(const Eigen::VectorXd&, OfBase<Dim>, const std::vector<MovingBase<Dim>>&, const Beginning<Dim>&);
-GIMPM_INSTANTIATE(2)
-GIMPM_INSTANTIATE(3)
-#undef GIMPM_INSTANTIATE
+template class Inertia<2>;
+template class Inertia<3>;
 
 } // namespace gimpm

@@ -1,18 +1,15 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "core/terms/nodal_mass.hpp"
 #include "core/grid/point_nodes.hpp"
-#include "core/solvers/conjugate_gradients.hpp"
+#include "core/solvers/node_blocks.hpp"
+#include <algorithm>
+#include <numeric>
 
 namespace gimpm {
 namespace {
 
-/// Of the right side. Momentum is as exact.
-constexpr double tolerance = 1e-13;
-
 /// Of loose cells. What their points do not see has stiffness all the same, where a displacement vanishes and its gradient does not: with less mass it would not be stable.
 constexpr double lumpedShare = 1;
-
-constexpr int worthwhileInThreads = 4000; ///< nodes: some 50 us
 
 template <int Dim> std::vector<double> lumped(const CloudBasis<Dim>& basis, const std::vector<double>& masses)
 {
@@ -24,113 +21,133 @@ template <int Dim> std::vector<double> lumped(const CloudBasis<Dim>& basis, cons
 	return sum;
 }
 
+/// f(degree of freedom, place) for a side of several, whose components stand node by node.
+template <int Dim, class F> void forDofs(int side, std::size_t sides, int nodes, F&& f)
+{
+	for (int dof = 0; dof < Dim * nodes; ++dof)
+		f(dof, (Eigen::Index(dof / Dim) * Eigen::Index(sides) + side) * Dim + dof % Dim);
+}
+
 } // namespace
-
-/// Rows and columns of held degrees of freedom are those of the identity; vectors are zero there.
-template <int Dim> class NodalMass<Dim>::Restricted : public SymmetricOperator {
-public:
-	Restricted(const NodalMass& mass, const FreeDofs& dofs, const Eigen::VectorXd* C) : mass_(mass), dofs_(dofs), C_(C) { }
-
-	void multiply(const Eigen::VectorXd& x, Eigen::VectorXd& y) const override
-	{
-		y.resize(x.size());
-		mass_.multiply(x.data(), y.data());
-		if (C_) y += C_->cwiseProduct(x);
-		for (Eigen::Index i = 0; i < y.size(); ++i)
-			if (dofs_.number[i] < 0) y[i] = 0;
-	}
-	Eigen::VectorXd diagonal() const override
-	{
-		Eigen::VectorXd d(dofs_.number.size());
-		for (Eigen::Index i = 0; i < d.size(); ++i)
-			d[i] = dofs_.number[i] < 0 ? 1 : mass_.value_[mass_.first_[i / Dim]] + (C_ ? (*C_)[i] : 0);
-		return d;
-	}
-
-private:
-	const NodalMass&       mass_;
-	const FreeDofs&        dofs_;
-	const Eigen::VectorXd* C_;
-};
 
 template <int Dim>
 NodalMass<Dim>::NodalMass(
         const CloudBasis<Dim>& basis, const std::vector<double>& masses, const std::vector<GhostFace<Dim>>& faces, double h,
         const std::vector<LooseCell<Dim>>& loose)
 {
-	if (faces.empty()) value_ = lumped(basis, masses);
+	if (faces.empty()) lumped_ = lumped(basis, masses);
 	else
-		compress(MassMatrix<Dim>(basis, masses, faces, h, loose, lumpedShare));
+		*this = NodalMass(MassMatrix<Dim>(basis, masses, faces, h, loose, lumpedShare));
 }
 
-/// Whole rows, of each node its own number first.
-template <int Dim> void NodalMass<Dim>::compress(const MassMatrix<Dim>& mass)
+template <int Dim> NodalMass<Dim>::NodalMass(const MassMatrix<Dim>& mass) : lumped_(mass.nodes(), 0)
 {
-	first_.assign(mass.nodes() + 1, 0);
+	auto& [value, first, neighbour, upper] = rows_;
+	first.assign(mass.nodes() + 1, 0);
 	const auto forBoth = [&](auto&& f) {
 		mass.forEntries([&](int a, int b, int, double m) {
 			f(a, b, m);
 			if (b != a) f(b, a, m);
 		});
 	};
-	forBoth([&](int a, int, double) { ++first_[a + 1]; });
-	for (int a = 0; a < mass.nodes(); ++a)
-		first_[a + 1] += first_[a];
-	std::vector<int> next(first_.begin(), first_.end() - 1);
+	forBoth([&counts = first](int a, int, double) { ++counts[a + 1]; });
+	std::partial_sum(first.begin(), first.end(), first.begin());
+	std::vector<int> next(first.begin(), first.end() - 1);
 	for (int& place : next)
 		++place;
-	value_.assign(first_.back(), 0);
-	neighbour_.resize(first_.back());
-	forBoth([&](int a, int b, double m) {
-		const int place   = a == b ? first_[a] : next[a]++;
-		neighbour_[place] = b;
-		value_[place] += m;
+	value.assign(first.back(), 0);
+	neighbour.resize(first.back());
+	forBoth([&, &value = value, &neighbour = neighbour, &first = first](int a, int b, double m) {
+		const int place  = a == b ? first[a] : next[a]++;
+		neighbour[place] = b;
+		value[place] += m;
+		lumped_[a] += m;
 	});
-}
-
-template <int Dim> void NodalMass<Dim>::multiply(const double* x, double* y) const
-{
-	const int nodes = int(first_.size()) - 1;
-#pragma omp parallel for schedule(static) if (nodes > worthwhileInThreads)
-	for (int a = 0; a < nodes; ++a) {
-		double sum[Dim] = {};
-		for (int e = first_[a]; e < first_[a + 1]; ++e)
-			for (int i = 0; i < Dim; ++i)
-				sum[i] += value_[e] * x[Dim * neighbour_[e] + i];
-		for (int i = 0; i < Dim; ++i)
-			y[Dim * a + i] = sum[i];
-	}
+	rows_.sort();
 }
 
 template <int Dim> Eigen::VectorXd NodalMass<Dim>::operator*(const Eigen::VectorXd& x) const
 {
+	if (isLumped()) return Eigen::VectorXd::NullaryExpr(x.size(), [&](Eigen::Index i) { return lumped_[i / Dim] * x[i]; });
 	Eigen::VectorXd y(x.size());
-	if (!isLumped()) multiply(x.data(), y.data());
-	else
-		for (Eigen::Index i = 0; i < x.size(); ++i)
-			y[i] = value_[i / Dim] * x[i];
+	forBlocks(rows_.nodes(), [&](int begin, int end) {
+		for (int a = begin; a < end; ++a) {
+			Vec<Dim> sum = Vec<Dim>::Zero();
+			for (int e = rows_.first[a]; e < rows_.first[a + 1]; ++e)
+				sum += rows_.value[e] * x.segment<Dim>(Dim * rows_.neighbour[e]);
+			y.segment<Dim>(Dim * a) = sum;
+		}
+	});
 	return y;
 }
 
-template <int Dim> bool NodalMass<Dim>::solve(const Eigen::VectorXd& right, const FreeDofs& dofs, Eigen::VectorXd& x, const Eigen::VectorXd* C)
+/// As if the mass were lumped.
+template <int Dim> bool NodalMass<Dim>::guess(const Side& side, const Eigen::VectorXd* C) const
 {
-	if (isLumped()) {
-		for (Eigen::Index i = 0; i < x.size(); ++i)
-			if (dofs.number[i] >= 0) x[i] = right[i] / (value_[i / Dim] + (C ? (*C)[i] : 0));
-		return x.allFinite();
+	for (Eigen::Index i = 0; i < side.x.size(); ++i)
+		if (side.dofs.number[i] >= 0) side.x[i] = side.right[i] / (lumped_[i / Dim] + (C ? (*C)[i] : 0));
+	return side.x.allFinite();
+}
+
+/// What is left of the right side at the free degrees of freedom.
+template <int Dim> Eigen::VectorXd NodalMass<Dim>::rest(const Side& side, const Eigen::VectorXd* C) const
+{
+	Eigen::VectorXd left = side.right;
+	if (!side.x.isZero(0)) left -= *this * side.x;
+	for (Eigen::Index i = 0; i < left.size(); ++i)
+		if (side.dofs.number[i] < 0) left[i] = 0;
+		else if (C)
+			left[i] -= (*C)[i] * side.x[i];
+	return left;
+}
+
+/// Of two guesses the better one: nothing, or that of a lumped mass, which is right where all moves alike, and wrong for forces that grip light nodes.
+template <int Dim> typename NodalMass<Dim>::Start NodalMass<Dim>::start(const Side& side, const Eigen::VectorXd* C) const
+{
+	Eigen::VectorXd guessed = side.x;
+	for (Eigen::Index i = 0; i < guessed.size(); ++i)
+		if (side.dofs.number[i] >= 0) side.x[i] = 0;
+	Eigen::VectorXd left = rest(side, C);
+	const double    size = sizeOf(left);
+	if (!guess({ side.right, side.dofs, guessed }, C)) return { left, size };
+	Eigen::VectorXd leftByGuess = rest({ side.right, side.dofs, guessed }, C);
+	if (!(sizeOf(leftByGuess) < size)) return { left, size };
+	side.x = guessed;
+	return { leftByGuess, size };
+}
+
+/// Each momentum weighed by its node's mass, m^-1/2: a small one of a light node counts too.
+template <int Dim> double NodalMass<Dim>::sizeOf(const Eigen::VectorXd& momenta) const
+{
+	return Eigen::VectorXd::NullaryExpr(momenta.size(), [&](Eigen::Index i) { return momenta[i] / std::sqrt(rows_.diagonal(int(i) / Dim)); }).stableNorm();
+}
+
+template <int Dim> bool NodalMass<Dim>::solve(const std::vector<Side>& sides, Effort effort, const Eigen::VectorXd* C)
+{
+	if (isLumped()) return std::all_of(sides.begin(), sides.end(), [&](const Side& side) { return guess(side, C); });
+	const int           nodes = rows_.nodes();
+	Eigen::VectorXd     scale = Eigen::VectorXd::Zero(Dim * nodes * Eigen::Index(sides.size())), left = scale, found;
+	std::vector<double> sizes;
+	for (const Side& side : sides) {
+		const Start begun = start(side, C);
+		forDofs<Dim>(int(sizes.size()), sides.size(), nodes, [&](int dof, Eigen::Index i) {
+			if (side.dofs.number[dof] < 0) return;
+			scale[i] = 1 / std::sqrt(rows_.diagonal(dof / Dim) + (C ? (*C)[dof] : 0));
+			if (begun.size > 0) left[i] = begun.rest[dof] / begun.size;
+		});
+		sizes.push_back(begun.size);
 	}
-	for (Eigen::Index i = 0; i < x.size(); ++i)
-		if (dofs.number[i] >= 0) x[i] = 0;
-	Eigen::VectorXd rest = right, free;
-	if (!x.isZero(0)) rest -= *this * x;
-	for (Eigen::Index i = 0; i < x.size(); ++i)
-		if (dofs.number[i] < 0) rest[i] = 0;
-	const Restricted   M(*this, dofs, C);
-	ConjugateGradients iteration(M, rest, tolerance);
-	iteration.iterate(mostIterations);
+	const GaussSeidel A(rows_, scale, Dim * int(sides.size()));
+	left              = A.right(left);
+	const double size = left.norm();
+	if (size <= effort.tolerance) return true;
+	ConjugateGradients iteration(A, left, effort.tolerance / size);
+	iteration.iterate(effort.atMost);
 	iterations_ += iteration.made();
-	if (!iteration.take(free).empty()) return false;
-	x += free;
+	if (!iteration.take(found).empty()) return false;
+	found = A.solution(found);
+	for (std::size_t s = 0; s < sides.size(); ++s)
+		forDofs<Dim>(int(s), sides.size(), nodes, [&](int dof, Eigen::Index i) { sides[s].x[dof] += sizes[s] * found[i]; });
 	return true;
 }
 

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // From momenta of the nodes to velocities, and from forces to accelerations, without a factorisation.
 #pragma once
+#include "core/solvers/conjugate_gradients.hpp"
+#include "core/solvers/gauss_seidel.hpp"
 #include "core/solvers/reduce.hpp"
-#include "core/solvers/symmetric_operator.hpp"
 #include "core/terms/mass_matrix.hpp"
 
 namespace gimpm {
@@ -15,24 +16,40 @@ public:
 	NodalMass(
 	        const CloudBasis<Dim>&, const std::vector<double>& masses, const std::vector<GhostFace<Dim>>&, double h,
 	        const std::vector<LooseCell<Dim>>& loose = {});
+	explicit NodalMass(const MassMatrix<Dim>&);
 
 	Eigen::VectorXd operator*(const Eigen::VectorXd& x) const; ///< for nodal vectors of Dim components a node
 
-	/// (M + C) x = right at the free degrees of freedom, where the held ones have the values that x comes with, and C is a diagonal matrix or nothing. False where it is
-	/// singular. The result does not depend on the number of threads.
-	bool solve(const Eigen::VectorXd& right, const FreeDofs&, Eigen::VectorXd& x, const Eigen::VectorXd* C = nullptr);
+	struct Side {
+		const Eigen::VectorXd& right;
+		const FreeDofs&        dofs;
+		Eigen::VectorXd&       x; ///< comes with the values of the held degrees of freedom
+	};
+	struct Effort {
+		double tolerance = 1e-13; ///< of the right side, about; momentum is as exact
+		int    atMost    = mostIterations;
+	};
 
-	bool isLumped() const { return neighbour_.empty(); }
+	/// (M + C) x = right at the free degrees of freedom for up to three sides at the same time, where C is a diagonal matrix or nothing. False, with x meaningless there, if
+	/// that takes more iterations or M is singular. The result does not depend on the number of threads.
+	bool solve(const std::vector<Side>&, Effort = {}, const Eigen::VectorXd* C = nullptr);
+
+	bool isLumped() const { return rows_.value.empty(); }
 	int  iterations() const { return iterations_; } ///< of all solves
 
 private:
-	class Restricted; // to free degrees of freedom
+	struct Start {
+		Eigen::VectorXd rest;
+		double          size; ///< of the right side
+	};
 
-	void compress(const MassMatrix<Dim>&);
-	void multiply(const double* x, double* y) const;
+	double          sizeOf(const Eigen::VectorXd& momenta) const;
+	bool            guess(const Side&, const Eigen::VectorXd* C) const;
+	Eigen::VectorXd rest(const Side&, const Eigen::VectorXd* C) const;
+	Start           start(const Side&, const Eigen::VectorXd* C) const;
 
-	std::vector<double> value_; ///< one for a pair of nodes; lumped: for each node
-	std::vector<int>    first_, neighbour_;
+	NodePairs           rows_;   ///< none: lumped
+	std::vector<double> lumped_; ///< sum of each row
 	int                 iterations_ = 0;
 };
 

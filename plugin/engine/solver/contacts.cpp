@@ -191,8 +191,9 @@ template <int Dim> void Contacts<Dim>::recall(const MpmContact& contact)
 		const auto point = std::lower_bound(points.begin(), points.end(), r.point);
 		const auto body  = numbers.find(r.body);
 		if (point == points.end() || *point != r.point || body == numbers.end()) return; // erased
-		system->records.push_back({ int(point - points.begin()), r.corner, body->second, r.offset, r.touches, r.slips, r.gap, r.pressure,
-		                            headOf<Dim>(r.friction), headOf<Dim>(r.normal), headOf<Dim>(r.place) });
+		const int  p        = int(point - points.begin());
+		const auto friction = headOf<Dim>(r.friction), normal = headOf<Dim>(r.normal), place = headOf<Dim>(r.place);
+		system->records.push_back({ p, r.corner, body->second, r.offset, r.touches, r.slips, r.gap, r.pressure, friction, normal, place });
 	});
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "engine/solver/moving.hpp"
 #include "core/stepping/explicit_step.hpp"
+#include "core/terms/inertia.hpp"
 #include "engine/points/parallel.hpp"
 #include "engine/solver/MpmDynamicEngine.hpp"
 #include "engine/solver/explicit_steps.hpp"
@@ -24,6 +25,8 @@ template <int Dim> Moving<Dim>::Moving(MpmDynamicEngine& e, Job<Dim>& job, const
 {
 	motion->scheme    = engine.timeScheme();
 	motion->ghostMass = engine.ghostMass();
+	// so much below that of the balance that what Newton's method leaves is not touched by it
+	motion->exactness = std::max(motion->exactness, 1e-3 * job.model.newton.tolerance);
 	if (engine.timeTolerance > 0) motion->tolerance = engine.timeTolerance * engine.grid->cellSize;
 	for (size_t p = 0; p < points.size(); ++p) {
 		motion->mass.push_back(job.model.materials[job.cloud.material[p]].density * job.cloud.volume0[p]);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 // Inertia in the steps of a run.
-#include "core/terms/inertia.hpp"
+#include "core/terms/motion.hpp"
 #include "engine/solver/job.hpp"
 #include "engine/solver/shaking.hpp"
 

@@ -2,7 +2,7 @@
 #pragma once
 // Edges that absorb waves, bases that move by a history, and Rayleigh damping, between a scene and the core.
 #include "core/terms/absorbing.hpp"
-#include "core/terms/inertia.hpp"
+#include "core/terms/motion.hpp"
 #include "core/terms/rayleigh.hpp"
 #include "engine/conditions/MpmAbsorbingBoundary.hpp"
 #include "engine/solver/job.hpp"

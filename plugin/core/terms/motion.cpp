@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "core/terms/motion.hpp"
+#include "core/grid/point_nodes.hpp"
+#include "core/terms/internal_force.hpp"
+
+namespace gimpm {
+
+template <int Dim> std::vector<GhostFace<Dim>> massFaces(const Motion<Dim>& motion, const Beginning<Dim>& step)
+{
+	if (motion.ghostMass == 0) return {};
+	std::vector<GhostFace<Dim>> faces   = step.faces;
+	const PointStiffness        density = [&](int p) {
+                const double volume = step.stiffnessOf(p).volume;
+                return VolumeAndModulus { volume, motion.mass[p] / volume };
+	};
+	weighGhostFaces(faces, step.basis, density, step.grid, motion.ghostMass, GhostScaling::paper);
+	return faces;
+}
+
+template <int Dim> std::vector<LooseCell<Dim>> looseOf(const Motion<Dim>& motion, const Beginning<Dim>& step, int reach)
+{
+	if (motion.ghostMass == 0) return {};
+	return looseCells(step.basis, motion.mass, step.faces, step.grid, reach);
+}
+
+template <int Dim> Eigen::VectorXd weighedAtNodes(const CloudBasis<Dim>& basis, const std::vector<double>& mass, const std::vector<Vec<Dim>>& ofPoints)
+{
+	std::vector<Vec<Dim>> weighted(ofPoints.size());
+	for (std::size_t p = 0; p < weighted.size(); ++p)
+		weighted[p] = mass[p] * ofPoints[p];
+	Eigen::VectorXd sum = Eigen::VectorXd::Zero(Dim * Eigen::Index(basis.nodes.size()));
+	addPointForces(basis, weighted, sum);
+	return sum;
+}
+
+template <int Dim>
+Eigen::VectorXd ofHeld(const Eigen::VectorXd& otherwise, OfBase<Dim> value, const std::vector<MovingBase<Dim>>& bases, const Beginning<Dim>& step)
+{
+	Eigen::VectorXd x = otherwise;
+	for (const auto& base : bases)
+		for (std::size_t n = 0; n < step.basis.nodes.size(); ++n)
+			for (int a = 0; a < Dim; ++a)
+				if (step.dofs.number[Dim * n + a] < 0 && base.box.holds(Grid<Dim>::index(step.basis.nodes[n]), a))
+					x[Dim * n + a] = (base.*value)[a];
+	return x;
+}
+
+#define GIMPM_INSTANTIATE(Dim)                                                                                                                                 \
+	template std::vector<LooseCell<Dim>> looseOf(const Motion<Dim>&, const Beginning<Dim>&, int);                                                          \
+	template std::vector<GhostFace<Dim>> massFaces(const Motion<Dim>&, const Beginning<Dim>&);                                                             \
+	template Eigen::VectorXd             weighedAtNodes(const CloudBasis<Dim>&, const std::vector<double>&, const std::vector<Vec<Dim>>&);                 \
+	template Eigen::VectorXd             ofHeld(const Eigen::VectorXd&, OfBase<Dim>, const std::vector<MovingBase<Dim>>&, const Beginning<Dim>&);
+GIMPM_INSTANTIATE(2)
+GIMPM_INSTANTIATE(3)
+#undef GIMPM_INSTANTIATE
+
+} // namespace gimpm
