@@ -117,7 +117,7 @@ template <int Dim> void MpmImplicitEngine::advance(Job<Dim>& job)
 	Interruption interruption;
 	job.model.newton.interrupted = [&] { return interruption.isRequested(); };
 	while (!job.control.isDone()) {
-		Attempt<Dim>    tried  = attempt(job);
+		Attempt<Dim>    tried  = firstOrNext(job);
 		const auto      report = isExplicit() ? job.moving->step(job, tried)
 		                                      : gimpm::loadStep(job.cloud, job.model, tried.load, solver, tried.predicts ? &tried.last : nullptr);
 		const ValueLock lock;
@@ -137,6 +137,17 @@ template <int Dim> void MpmImplicitEngine::advance(Job<Dim>& job)
 		if (report.converged() || report.accepted) reach(job, tried);
 		progressLine.show(progressOf(*this, job.control.isDone()), verbosity);
 	}
+}
+
+// Where loads begin to grow, or turn, no step before tells what newton.stepTolerance admits.
+template <int Dim> Attempt<Dim> MpmImplicitEngine::firstOrNext(Job<Dim>& job) const
+{
+	Attempt<Dim> next    = attempt(job);
+	const double grows   = next.load.growth();
+	const bool   isKnown = !next.last.nodes.empty() && next.last.load * grows > 0;
+	if (newton->stepTolerance == 0 || grows == 0 || isKnown) return next;
+	job.control.beginAnew();
+	return attempt(job);
 }
 
 template <int Dim> Attempt<Dim> MpmImplicitEngine::attempt(Job<Dim>& job) const
