@@ -4,7 +4,7 @@ import pytest
 
 scene = '''
 from scenes import *
-from yade.wrapper import MpmContact, MpmDynamicEngine, MpmTraction
+from yade.wrapper import MpmDynamicEngine, MpmTraction
 
 rms = lambda vectors: np.sqrt((vectors**2).sum(axis=1).mean())
 
@@ -24,19 +24,25 @@ def soft(tolerance, steps=1, minStep=1 / 1024):
 
 def test_smaller_tolerances_make_more_steps_and_smaller_errors(yade):
 	yade(scene + '''
-soft(0, steps=160)
-O.run(160, wait=True)
-exact, displacement = mpm.arrays()['pos'], rms(mpm.arrays()['pos'] - mpm.arrays()['pos0'])
+def run(tolerance, steps):
+	"""Positions and displacements of the points of the slope."""
+	O.reset()
+	solver = slope(steps=steps)
+	solver.newton = MpmNewton(stepTolerance=tolerance)
+	O.run(steps, wait=True)
+	points = mpm.arrays()
+	return points['pos'], points['pos'] - points['pos0']
+
+fine, displacements = run(0, 80)
 assert O.engines[0].report()['localError'] == 0 # nobody asks
 errors, made = [], []
-for tolerance in 0.03, 0.003:
-	solver = soft(tolerance)
-	O.step()
-	assert 0 < solver.report()['localError'] <= 1
-	errors.append(rms(mpm.arrays()['pos'] - exact))
+for tolerance in 0.06, 0.006:
+	errors.append(rms(run(tolerance, 1)[0] - fine) / rms(displacements))
+	solver = O.engines[0]
+	assert 0 < solver.report()['localError'] <= 1 and solver.loadFactor == 1
 	made.append(solver.substeps)
-assert 8 <= made[0] < 24 and made[1] > 1.5 * made[0], made
-assert errors[1] < errors[0] / 2 < 0.05 * displacement, (errors, displacement)
+assert 6 <= made[0] <= 12 and 2 * made[0] <= made[1] < 40, made
+assert errors[1] < errors[0] / 2 < 0.02, errors
 ''')
 
 
@@ -51,42 +57,50 @@ assert solver.report()['localError'] == 0
 ''')
 
 
-def test_the_estimate_is_about_what_finer_steps_change(yade):
-	"""Within a factor of two, for a footing that is pressed into clay: the estimates of all steps together, against the difference to four times as many."""
+def test_the_estimate_is_what_finer_steps_change(yade):
+	"""Within a factor of two, where the error is known to be of second order in a step: a cube under three pressures whose deviator turns. Stresses are given, and the plastic strain of a step has the
+	direction at its end, so that a step is wrong by half of the change of its rate. These errors add up along an arc, and the difference at the end is its chord."""
 	yade(scene + '''
-from yade import utils
-
-def footing(steps):
+def cube(steps):
 	O.reset()
-	B, h, cu = 1., 0.25, 1e4
-	grid = MpmGrid(cellSize=h)
-	O.materials.append(MpmVonMisesMat(young=500 * cu, poisson=0.49, density=1800, yieldStress=np.sqrt(2) * cu, label='clay'))
-	O.materials.append(FrictMat(label='rigid'))
-	O.bodies.append(mpm.fill(pack.inAlignedBox((0, -1.5 * B, -1), (2 * B, 0, 1)), grid, 2, 'clay'))
-	box = O.bodies[O.bodies.append(utils.box((0, 2 * B, 0), (B / 2, 2 * B, 1), material='rigid', fixed=True))]
-	box.state.vel = (0, -0.1 * B, 0)
-	sides = [MpmBoundary(max=(0, inf, inf), fix='x'), MpmBoundary(min=(2 * B, -inf, -inf), fix='x'), MpmBoundary(max=(inf, -1.5 * B, inf), fix='xy')]
-	newton = MpmNewton(stepTolerance=1, minStep=1)
-	O.engines = [MpmImplicitEngine(grid=grid, fBar=True, boundaries=sides, contacts=[MpmContact(friction=0)], newton=newton, verbosity=0, label='solver')]
+	O.materials.append(MpmVonMisesMat(young=1e9, poisson=0.3, density=1, yieldStress=1e5, hardening=1e8, label='soil'))
+	grid = MpmGrid(cellSize=1, dim=3)
+	box = pack.inAlignedBox((0, 0, 0), (1, 1, 1))
+	O.bodies.append(mpm.fill(box, grid, 2, 'soil'))
+	t = np.linspace(0, 2, 321)
+	angle, size = 2 * np.pi / 3 * np.maximum(t - 1, 0), 1e5 * np.maximum(t, 4 * t - 3) # of the deviator: to yield, and on in another direction
+	loads, sides = [], []
+	for axis in range(3):
+		low, high = [-np.inf] * 3, [np.inf] * 3
+		low[axis], high[axis] = 1, 0
+		pressure = size * np.cos(angle + 2 * np.pi / 3 * axis)
+		loads.append(MpmTraction(surface=mpm.surface(box, min=low, dim=3), pressure=1, curve=list(zip(t.tolist(), pressure.tolist()))))
+		sides.append(MpmBoundary(max=high, fix='xyz'[axis]))
+	newton = MpmNewton(stepTolerance=1, minStep=0.5)
+	O.engines = [MpmImplicitEngine(grid=grid, boundaries=sides, loads=loads, newton=newton, loadCurve=[(0, 0), (2, 2)], verbosity=0)]
+	O.dt = 1
+	O.step()
 	O.dt, error = 1 / steps, 0
 	for step in range(steps):
 		O.step()
 		error += O.engines[0].report()['localError']
 	return mpm.arrays()['pos'], error
-
-fine, _ = footing(80)
+fine, _ = cube(80)
 for steps in 10, 20:
-	pos, estimate = footing(steps)
+	pos, estimate = cube(steps)
 	assert 0.5 < estimate / rms(pos - fine) < 2, (steps, estimate, rms(pos - fine))
 ''')
 
 
 def test_loads_that_turn_begin_with_small_steps(yade):
 	yade(scene + '''
-solver = soft(0.01, steps=2)
-solver.loadCurve = [(0, 0), (0.5, 1), (1, 0.5)]
-O.run(2, wait=True)
-assert solver.substeps == 4, solver.substeps # unloading is elastic: 1/8, 1/4, 1/2 and the rest
+solver = column(16)
+solver.newton, solver.loadCurve, O.dt = MpmNewton(stepTolerance=1e-6), [(0, 0), (2, 2), (3, 1)], 1
+made = []
+for step in range(3):
+	O.step()
+	made.append(solver.substeps)
+assert made == [4, 1, 4], made
 ''')
 
 
@@ -114,6 +128,7 @@ assert (continued[0] == mpm.arrays()['pos']).all() and continued[1:] == (solver.
 @pytest.mark.parametrize(
         'change, words', [
                 ('solver.newton.predictor = False', ['MpmNewton.stepTolerance = 0.01', 'predictor=False']),
+                ('solver.newton.minStep = 1', ['MpmNewton.stepTolerance = 0.01', 'minStep = 1', '<= 1/2']),
                 ('O.engines = [MpmDynamicEngine(grid=solver.grid, newton=solver.newton, gravity=(0, -7, 0))]', ['MpmNewton.stepTolerance', 'quasi-static', 'timeTolerance']),
                 ('solver.newton.stepTolerance = float("nan")', ['MpmNewton.stepTolerance', '>= 0']),
         ])
@@ -129,14 +144,12 @@ except ValueError as error:
 ''')
 
 
-def test_steps_that_cannot_be_cut_so_far_fail_and_say_why(yade):
-	yade(scene + '''
+def test_steps_that_are_not_cut_further_are_made_with_a_warning(yade):
+	run = yade(scene + '''
 solver = soft(1e-6, steps=8, minStep=1 / 2)
-try:
-	O.run(8, wait=True)
-	assert False
-except RuntimeError as error:
-	assert all(word in str(error) for word in ('local error', '1e-06 m', 'newton.stepTolerance', 'newton.minStep')), error
-report = solver.report()
-assert report['failure'] == 'inaccurate' and report['localError'] > 1 and abs(report['loadTime'] - solver.loadFactor) < 1e-12
+for step in range(8):
+	O.step()
+	assert solver.substeps <= 2 and solver.report()['localError'] == 0 # of the steps that are made nobody asks
 ''')
+	said = [line for line in run.stderr.splitlines() if 'newton.stepTolerance' in line]
+	assert 1 <= len(said) <= 8 and all('local error' in line and '1e-06 m' in line and 'newton.minStep' in line for line in said), run.stderr

@@ -96,7 +96,6 @@ private:
 	template <int Dim> void         step();
 	template <int Dim> Job<Dim>     prepare();
 	template <int Dim> void         advance(Job<Dim>&);
-	template <int Dim> Attempt<Dim> firstOrNext(Job<Dim>&) const;
 	template <int Dim> Attempt<Dim> attempt(Job<Dim>&) const;
 	template <int Dim> void         reach(Job<Dim>&, const Attempt<Dim>&);
 	void                            warn(const string&); // nothing if it is empty

@@ -7,10 +7,12 @@ namespace yade {
 void MpmNewton::requireAdmissible() const
 {
 	Exposed<MpmNewton, Serializable>::requireAdmissible();
-	if (predictor || stepTolerance == 0) return;
+	if (stepTolerance == 0 || (predictor && minStep <= 0.5)) return;
 	std::ostringstream text;
-	text << "MpmNewton.stepTolerance = " << stepTolerance
-	     << " compares a step with its prediction, which predictor=False leaves out: set it to True, or stepTolerance=0.";
+	text << "MpmNewton.stepTolerance = " << stepTolerance;
+	if (!predictor) text << " compares a step with its prediction, which predictor=False leaves out: set it to True, or stepTolerance=0.";
+	else
+		text << " cuts steps, which minStep = " << minStep << " does not admit: give minStep <= 1/2, or stepTolerance=0.";
 	throw std::invalid_argument(text.str());
 }
 

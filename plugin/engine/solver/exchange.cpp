@@ -159,9 +159,8 @@ gimpm::Model<Dim> toModel(
 	model.newton.tolerance        = newton.tolerance;
 	model.newton.maxIterations    = newton.maxIterations;
 	model.newton.lineSearchTrials = newton.lineSearchTrials;
-	if (newton.stepTolerance > 0) model.newton.stepTolerance = newton.stepTolerance;
-	model.newton.reuseFactor  = newton.reuseFactor;
-	model.newton.linearSolver = linearMethod(newton.linearSolver);
+	model.newton.reuseFactor      = newton.reuseFactor;
+	model.newton.linearSolver     = linearMethod(newton.linearSolver);
 	return model;
 }
 

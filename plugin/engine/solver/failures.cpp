@@ -33,7 +33,7 @@ namespace {
 		return text.str();
 	}
 
-	string adviceOn(const gimpm::StepReport& report, const MpmGhost& ghost, Real part, bool isDynamic, bool isExplicit)
+	string adviceOn(const gimpm::StepReport& report, const MpmGhost& ghost, Real part, bool isExplicit)
 	{
 		using gimpm::Failure;
 		string advice;
@@ -41,8 +41,7 @@ namespace {
 		if (report.failure == Failure::misplaced) return "";
 		if (report.failure == Failure::penetrated) return " Smaller load steps (O.dt), or a larger stiffness of MpmContact, may help.";
 		if (report.failure == Failure::inaccurate)
-			return string(" Smaller steps (O.dt), a smaller newton.minStep or a larger ") + (isDynamic ? "timeTolerance" : "newton.stepTolerance")
-			        + " would let it pass.";
+			return " Smaller steps (O.dt), a smaller newton.minStep or a larger timeTolerance would let it pass.";
 		if (report.failure == Failure::slides)
 			return " It may have no equilibrium; more friction, or nodes that are held (MpmBoundary), would hold it.";
 		if (isExplicit) return " Explicit steps are not cut: a smaller O.dt may help, or an implicit scheme.";
@@ -113,7 +112,7 @@ string reasonOf(const gimpm::StepReport& report, const MpmImplicitEngine& engine
 	if (part < 1) text << " (" << part << " of O.dt, after " << engine.cuts << " cuts)";
 	text << " failed: " << report.cause;
 	if (report.failedPoint >= 0) text << placeOf(points[report.failedPoint]);
-	text << "." << placeOfImbalance(report, engine, points) << adviceOn(report, *engine.ghost, part, engine.isDynamic(), engine.isExplicit());
+	text << "." << placeOfImbalance(report, engine, points) << adviceOn(report, *engine.ghost, part, engine.isExplicit());
 	if (report.failure == gimpm::Failure::unrestrained) text << idleBoundaries(engine, points);
 	text << " The scene is at load factor " << engine.loadFactor << ", the last converged state, in iteration " << engine.scene->iter << ".";
 	return text.str();
