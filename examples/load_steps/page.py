@@ -7,6 +7,7 @@ import sys
 import matplotlib
 matplotlib.use('Agg')
 import matplotlib.pyplot as plt
+from matplotlib.ticker import LogLocator, NullLocator
 from scenes import scenes
 
 here = os.path.dirname(os.path.abspath(__file__))
@@ -33,8 +34,12 @@ def picture(found, path):
 	figure, all = plt.subplots(2, 4, figsize=(13, 6.5), layout='constrained')
 	for axes, (name, (fixed, chosen)) in zip(all.flat, found.items()):
 		for rows, mark, label in (fixed, 'o-', 'steps of one length'), (chosen, 's-', 'stepTolerance'):
-			axes.loglog([row['solves'] for row in rows], [row['error'] for row in rows], mark, markersize=4, linewidth=0.8, label=label)
-		axes.set(title=scenes[name].what, xlabel='solves', ylabel='error')
+			axes.loglog([row['solves'] for row in rows], [100 * row['error'] for row in rows], mark, markersize=4, linewidth=0.8, label=label)
+		axes.set(title=scenes[name].what, xlabel='solves', ylabel='error [%]')
+		for axis in axes.xaxis, axes.yaxis:
+			axis.set_major_locator(LogLocator(subs=(1, 2, 5)))
+			axis.set_major_formatter('{x:g}')
+			axis.set_minor_locator(NullLocator())
 		axes.title.set_fontsize(9)
 	for axes in all.flat[len(found):]:
 		axes.axis('off')
@@ -49,17 +54,17 @@ def comparison(found):
 	for name, (fixed, chosen) in found.items():
 		for row in chosen:
 			best = cheapest(fixed, row['error'])
-			beside = [f"{best['made']:.0f}", f"{best['solves']:.0f}", f"{row['solves'] / best['solves']:.2f}"] if best else ['', '', '']
+			beside = [f"{best['steps']:.0f}", f"{best['solves']:.0f}", f"{row['solves'] / best['solves']:.2f}"] if best else ['', '', '']
 			lines.append((scenes[name].what if row is chosen[0] else '', f"{row['tolerance']:.2g}", pages.percent(row['part']), pages.percent(row['error']), f"{row['made']:.0f} ({row['cuts']:.0f})",
 			              f"{row['solves']:.0f}", *beside))
 	return pages.table(['scene', 'stepTolerance [m]', 'of the displacement', 'error', 'steps (cuts)', 'solves', 'fixed steps', 'solves', 'ratio'], lines)
 
 
 def fixedTable(found):
-	heads = sorted({row['made'] for fixed, _ in found.values() for row in fixed})
+	heads = sorted({row['steps'] for fixed, _ in found.values() for row in fixed})
 	lines = []
 	for name, (fixed, _) in found.items():
-		of = {row['made']: row for row in fixed}
+		of = {row['steps']: row for row in fixed}
 		lines.append((scenes[name].what, *(f"{pages.percent(of[steps]['error'])}, {of[steps]['solves']:.0f}" if steps in of else '' for steps in heads)))
 	return pages.table(['steps', *(f'{steps:.0f}' for steps in heads)], lines)
 
