@@ -7,17 +7,15 @@ where it was. Of each cell size that has been halved and doubled the page (page.
 
 Run it with `scripts/run examples/discretisation/discretisation.py [options]`. Read examples/column first.
 """
-import builtins
 import functools
 import os
-import runpy
 import sys
-import tempfile
 
 from yade import mpm
 import numpy as np
 folder = os.path.dirname(os.path.abspath(sys.argv[0]))
 sys.path[:0] = [folder, os.path.join(folder, '..'), os.path.join(folder, '..', '..', 'scripts', 'lib')]
+from examplerun import runExample
 from options import readOptions
 from results import Results, makeFolder
 import page
@@ -30,23 +28,9 @@ options = readOptions('The estimated error of known answers.',
 
 
 def script(path, **arguments):
-	"""Globals of the script of an example after it has run with options, or, if it reads YADE's parameter table, with the values of one."""
+	"""Globals of the script of an example after it has run."""
 	O.reset()
-	own = sys.argv
-	given = {name: value for name, value in yadeNames.items() if not name.startswith('__')} | dict(__builtins__=builtins)
-	path = os.path.join(folder, '..', path)
-	with tempfile.TemporaryDirectory() as out:
-		sys.argv = [path]
-		if path.endswith('trade/scenes.py'):
-			with open(os.path.join(out, 'parameters.table'), 'w') as table:
-				print(*arguments, file=table)
-				print(*map(repr, arguments.values()), file=table)
-			os.environ['YADE_BATCH'] = os.path.join(out, 'parameters.table') + ':2'
-		else: sys.argv += [f'--{name}={value}' for name, value in arguments.items()] + ['--out', out]
-		try: return runpy.run_path(path, given, '__main__')
-		finally:
-			sys.argv = own
-			os.environ.pop('YADE_BATCH', None)
+	return runExample(os.path.join(folder, '..', path), yadeNames, **arguments)
 
 
 def quantity(name, scene, cells):

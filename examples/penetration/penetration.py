@@ -108,7 +108,7 @@ def footing():
 	s, N = np.array(found).T
 	print('s/B    N = F / (B c_u)')
 	for i in np.linspace(0, len(s) - 1, min(len(s), 10)).astype(int): print(f'{s[i] / B:.3f}  {N[i]:.3f}')
-	inCell = int(round(h / (s[-1] - s[0]) * (len(s) - 1)))  # steps while the Box sinks by a cell
+	inCell = int(round(h / (s[-1] - s[0]) * (len(s) - 1))) if len(s) > 1 else 0  # steps while the Box sinks by a cell
 	if len(s) > 2 * inCell + 20:
 		mean = np.convolve(N, np.ones(inCell) / inCell, 'same')
 		off = np.abs(N / mean - 1)[inCell // 2:-(inCell // 2)][s[inCell // 2:-(inCell // 2)] > 0.1 * B]

@@ -87,6 +87,29 @@ namespace {
 		EXPECT_FALSE(coarse.take(inaccurate(1e6)));
 	}
 
+	TEST(StepControl, anErrorOfSecondOrderCutsFurther)
+	{
+		StepReport inaccurate = outcome(Failure::inaccurate, 6), grows = easy;
+		inaccurate.localError = 15, inaccurate.errorOrder = 2;
+		grows.localError = .12, grows.errorOrder = 2;
+		StepControl control(1, 1. / 1024, maxIterations);
+		EXPECT_EQ(partsOf(control, { inaccurate, grows, easy }), (Parts { 1, .25, .5 }));
+	}
+
+	TEST(StepControl, whatBeginsAnewBeginsSmall)
+	{
+		StepControl control(1, 1. / 1024, maxIterations);
+		control.beginAnew();
+		EXPECT_EQ(partsOf(control, { easy, easy, hard, hard }), (Parts { .125, .25, .5, .125 }));
+		EXPECT_TRUE(control.isDone());
+		EXPECT_EQ(control.cuts(), 0);
+		StepControl small(1. / 16, 1. / 1024, maxIterations), uncut(1, 1, maxIterations), coarse(1, .25, maxIterations);
+		small.beginAnew(), uncut.beginAnew(), coarse.beginAnew();
+		EXPECT_EQ(small.part(), 1. / 16);
+		EXPECT_EQ(uncut.part(), 1);
+		EXPECT_EQ(coarse.part(), .25);
+	}
+
 	TEST(StepControl, anAcceptedPartCounts)
 	{
 		StepReport accepted = fails;

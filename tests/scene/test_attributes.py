@@ -78,6 +78,7 @@ outOfRange = {
         'MpmNewton.predictor': None,
         'MpmNewton.reuseFactor': None,
         'MpmNewton.linearSolver': ['"cg"'],
+        'MpmNewton.stepTolerance': ['-1e-3'],
         'MpmImplicitEngine.grid': ['None'],
         'MpmImplicitEngine.basis': ['"cubic"'],
         'MpmImplicitEngine.fBar': None,

@@ -251,6 +251,17 @@ def test_two_sizes(yade):
 	assert 'no scene' in yade(example, '--scenes', 'footing,none', fails=True).stderr
 
 
+def test_load_steps(yade):
+	"""A part of it: what is in the table is not run again."""
+	example = root / 'examples' / 'load_steps' / 'load_steps.py'
+	runs = lambda: re.findall(r'^column (\d+) (\S+) \S+ (\d+) (\d+) (\d+)$', yade(example, '--scenes', 'column', '--most', 2).stdout, re.MULTILINE)
+	found = runs()
+	assert [row[:2] for row in found[:2]] == [('1', '0'), ('2', '0')] and len(found) > 5
+	assert all(row[3:] == ('4', '0') for row in found[2:]), found # nothing yields
+	assert (yade.folder / 'out/load_steps/load_steps.png').stat().st_size > 10000 and not runs()
+	assert 'no scene' in yade(example, '--scenes', 'column,none', fails=True).stderr
+
+
 def test_walls(yade):
 	"""A column askew on the grid has the stress of the aligned one, under its weight and under a lid that is pushed in."""
 	for load in 'weight', 'lid':

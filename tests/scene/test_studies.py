@@ -147,6 +147,7 @@ writers = { # without the pictures, which take long
         'extremes': 'import page; page.pictures.outcomes = page.pictures.conditions = page.pictures.cornerMaps = page.pictures.pivots = lambda *a: None; page.write({!r})',
         'discretisation': 'import page; page.picture = lambda *a: None; page.write({!r})',
         'two_sizes': 'import page; page.picture = lambda *a: None; page.write({!r})',
+        'load_steps': 'import page; page.picture = lambda *a: None; page.write({!r})',
         'trade': 'import page, plans; page.picture = lambda *a: None; page.write({!r}, plans.plans)'
 }
 

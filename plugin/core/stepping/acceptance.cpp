@@ -55,16 +55,17 @@ template <int Dim> bool requireState(const PointCloud<Dim>& cloud, const Grid<Di
 	return true;
 }
 
+} // namespace
+
 void judge(const LocalError& error, StepReport& report)
 {
-	report.localError = std::max(report.localError, error.size / error.tolerance);
+	const double found = error.size / error.tolerance;
+	if (found > report.localError) report.localError = found, report.errorOrder = error.order;
 	if (error.size <= error.tolerance) return;
 	std::ostringstream text;
-	text << "the local error of the displacements in time, " << error.size << " m, is above the tolerance, " << error.tolerance << " m";
+	text << "the local error of the displacements, " << error.size << " m, is above the tolerance, " << error.tolerance << " m";
 	fail(report, Failure::inaccurate, text.str());
 }
-
-} // namespace
 
 template <int Dim> void askTerms(const StepSystem<Dim>& system, const Eigen::VectorXd& d, StepReport& report)
 {

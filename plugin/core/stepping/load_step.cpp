@@ -5,6 +5,7 @@
 #include "core/stepping/equilibrium.hpp"
 #include "core/stepping/grip.hpp"
 #include "core/stepping/outcome.hpp"
+#include "core/stepping/rate_change.hpp"
 #include "core/stepping/restraint.hpp"
 #include "core/stepping/step_control.hpp"
 
@@ -49,6 +50,10 @@ template <int Dim> StepReport loadStep(PointCloud<Dim>& cloud, const Model<Dim>&
 	const Eigen::VectorXd prediction = last && !system.hasInertia() ? predict(*last, system.basis.nodes, load.growth(), model.grid) : Eigen::VectorXd();
 	const Eigen::VectorXd d          = equilibrium(system, solver, report, prediction);
 	if (!model.terms.empty()) explain(system, d, report);
+	if (report.converged() && prediction.size() > 0 && std::isfinite(model.newton.stepTolerance)) {
+		const Stopwatch watch(report.times.update);
+		judge(rateChange(system, *last, load.growth(), prediction, d), report);
+	}
 	report.times.linear       = solver.times();
 	report.conjugateGradients = solver.iterativeEffort();
 	// 5. nodes to points; 6. the grid is reset by not being kept

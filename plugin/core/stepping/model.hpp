@@ -27,6 +27,7 @@ struct NewtonSettings {
 	LinearMethod          linearSolver      = LinearMethod::automatic;
 	bool                  reuseFactor       = true; ///< of the last solve, where the convergence history says that it suffices
 	std::function<bool()> interrupted;              ///< asked once per iteration; may be empty
+	double                stepTolerance = std::numeric_limits<double>::infinity(); ///< on rateChange() of a step without inertia that has a prediction [m]
 };
 
 template <int Dim> struct Model {

@@ -46,10 +46,11 @@ struct StepReport {
 	std::vector<double> residuals;                ///< |residual| / |external forces + reactions| before the first solve and after each
 	double              localResidual = std::numeric_limits<double>::quiet_NaN(); ///< largest |residual| / |forces| around a node, or a bound of it
 	double              localError    = 0;                                        ///< of the displacements, over what is admitted; 0: nobody asks
-	Definiteness        definiteness  = Definiteness::notChecked;                 ///< of the last symmetric matrix that was factorised
-	int                 luSolves      = 0;                                        ///< solves for which K was not positive definite, or not symmetric
-	IterativeEffort     conjugateGradients;                                       ///< or of GMRES; of all attempts at the step
-	int                 failedPoint = -1;                                         ///< its index in the cloud, for Failure::inverted and noResponse
+	int                 errorOrder    = 3;                        ///< the power of the length of the step that the largest of them goes with
+	Definiteness        definiteness  = Definiteness::notChecked; ///< of the last symmetric matrix that was factorised
+	int                 luSolves      = 0;                        ///< solves for which K was not positive definite, or not symmetric
+	IterativeEffort     conjugateGradients;                       ///< or of GMRES; of all attempts at the step
+	int                 failedPoint = -1;                         ///< its index in the cloud, for Failure::inverted and noResponse
 
 	int nodes = 0, dofs = 0, populatedCells = 0, boundaryCells = 0, ghostFaces = 0;
 	int mixedCells = 0; ///< populated by points of several materials

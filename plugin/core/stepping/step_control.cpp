@@ -14,16 +14,24 @@ bool canBeCut(Failure failure)
 
 double StepControl::part() const { return std::min(part_, 1 - done_); }
 
-/// The part that was made may have been a rest.
+/// The part that was made may have been a rest. The cube is that of steps in time. Without inertia, where the error goes with the square, the rest is a margin: a part that is undone
+/// costs more than one that could have been longer.
 bool StepControl::mayGrow(const StepReport& report) const
 {
 	return report.iterations <= maxIterations_ / 3 && report.localError * std::pow(2 * part_ / part(), 3) <= 1;
 }
 
+void StepControl::beginAnew()
+{
+	while (part() > firstPart && !isLeast())
+		part_ = part() / 2;
+}
+
 double StepControl::cut(const StepReport& report) const
 {
-	double smaller = part() / 2;
-	for (double error = report.localError / 8; error > 1 && smaller / 2 >= leastPart_; error /= 8)
+	const double less    = std::pow(2, report.errorOrder);
+	double       smaller = part() / 2;
+	for (double error = report.localError / less; error > 1 && smaller / 2 >= leastPart_; error /= less)
 		smaller /= 2;
 	return smaller;
 }

@@ -9,7 +9,7 @@ namespace gimpm {
 /// has asked for an end shall have it.
 bool canBeCut(Failure);
 
-/// A part that fails is tried again with half of it, down to a least one, or with as small a one as its local error, which grows with the cube of the step, asks for.
+/// A part that fails is tried again with half of it, down to a least one, or with as small a one as its local error, which grows with a power of the step, asks for.
 /// After one that took few iterations the next is twice as large, if the error admits it. All are made by halving and by taking away, so that they have few digits and their sum is exact.
 class StepControl {
 public:
@@ -21,6 +21,10 @@ public:
 	bool   isLeast() const { return part() / 2 < leastPart_; } ///< it will not be cut
 	bool   isDone() const { return done_ >= 1; }
 	int    cuts() const { return cuts_; }
+
+	/// Nothing tells how fast the body will move: the next part is a small one, if it may be cut.
+	void                    beginAnew();
+	static constexpr double firstPart = 1. / 8;
 
 	/// How the part went that was tried. False: it has failed and is not cut, so the step is given up; the next one will be tried as a whole.
 	bool take(const StepReport&);

@@ -26,6 +26,7 @@ struct PointFailure {
 /// Of the displacements of a step, and what it may be [m].
 struct LocalError {
 	double size = 0, tolerance = std::numeric_limits<double>::infinity();
+	int    order = 3; ///< it goes with this power of the length of the step
 };
 
 /// Where a term adds its part. Vectors have Dim components a node.

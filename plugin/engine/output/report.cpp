@@ -20,6 +20,7 @@ namespace {
 		result["cause"]         = last.cause;
 		result["cgFailure"]     = last.conjugateGradients.reason;
 		result["localResidual"] = last.localResidual;
+		result["localError"]    = last.localError;
 		result["stiffness"]     = nameOf(last.definiteness);
 		result["worstNode"]     = Vector3r(last.worst.position);
 		result["worstAxis"]     = last.worst.axis < 0 ? string() : string(1, "xyz"[last.worst.axis]);
@@ -42,13 +43,13 @@ void addReport(py::object pythonClass)
 	py::objects::add_to_namespace(
 	        pythonClass, "report", py::make_function(&report),
 	        "report() -> dict\n\nHow the last run of this engine in this process went; empty before the first.\n\n"
-	        "Outcome: 'converged'; 'accepted' (see MpmNewton.acceptUnconverged); 'failure', one of 'none', 'detached' (a boundary that is to move has no hold of the soil), 'misplaced' (a load, wall or rigid body), 'unrestrained', 'slides' (friction at its limit does not hold it), 'penetrated' (by a rigid body), 'inaccurate' (MpmDynamicEngine.timeTolerance), 'singular', 'inverted', "
+	        "Outcome: 'converged'; 'accepted' (see MpmNewton.acceptUnconverged); 'failure', one of 'none', 'detached' (a boundary that is to move has no hold of the soil), 'misplaced' (a load, wall or rigid body), 'unrestrained', 'slides' (friction at its limit does not hold it), 'penetrated' (by a rigid body), 'inaccurate' (MpmDynamicEngine.timeTolerance; beyond newton.stepTolerance steps are cut), 'singular', 'inverted', "
 	        "'notFinite', 'diverging', 'tooManyIterations', 'stalled' (at round-off), 'interrupted'; 'cause', a clause, empty when converged; 'loadTime' [s] and 'loadFactor' of the "
 	        "last converged state; 'stepPart', part of O.dt that the next step tries.\n\n"
 	        "Effort of the run, undone tries included: 'iterations' (linear solves), 'substeps', 'cuts', 'lineSearchTrials', 'reusedFactors', 'luSolves', 'cgIterations', 'cgFallbacks', 'amgSetups'; 'times' [s], dict "
 	        "by phase: 'check' (of points that are new or were changed), 'gather', 'basis', 'ghost', 'assembly', 'analyse', 'factorise', 'solve', 'update', 'scatter'.\n\n"
 	        "Of the last load step that was tried: 'cgFailure', why an iterative solve was left to the direct solver, or multigrid was not set up, empty if neither was so; 'residuals', list; 'residual', the last of them [-]; 'localResidual', the largest residual around a node "
-	        "over the forces there, or a bound of it [-], at most 3 newton.tolerance when converged (NaN where it was not asked for); 'stiffness' of the last "
+	        "over the forces there, or a bound of it [-], at most 3 newton.tolerance when converged (NaN where it was not asked for); 'localError', the estimated error of the displacements over newton.stepTolerance or timeTolerance [-], 0 where neither is given, or nothing is known of it or asked, as in steps of newton.minStep; 'stiffness' of the last "
 	        "matrix that was factorised, 'positive definite', 'indefinite' (the equilibrium may not be stable: the body may go on by itself, or have another "
 	        "state under the same load) or 'not checked' (it is not symmetric, or none was factorised: an iterative solver, or nothing to solve); 'worstNode' (position [m], NaN if none), "
 	        "'worstAxis' ('x', 'y', 'z' or '') and 'worstForce' [N] of the largest out-of-balance force; 'points', 'nodes', 'dofs', 'activeCells', "

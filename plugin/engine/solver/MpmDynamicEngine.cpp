@@ -24,6 +24,10 @@ void MpmDynamicEngine::requireAdmissible() const
 {
 	Exposed<MpmDynamicEngine, MpmImplicitEngine>::requireAdmissible();
 	if (isExplicit()) requireExplicit(*this);
+	if (newton->stepTolerance > 0)
+		throw std::invalid_argument(
+		        "MpmNewton.stepTolerance = " + std::to_string(newton->stepTolerance)
+		        + " is of quasi-static steps: MpmDynamicEngine has timeTolerance for that; leave stepTolerance=0.");
 	if (scheme == "midpoint" && timeTolerance > 0)
 		throw std::invalid_argument(
 		        "MpmDynamicEngine.timeTolerance = " + std::to_string(timeTolerance)

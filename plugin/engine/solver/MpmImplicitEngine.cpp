@@ -9,6 +9,7 @@
 #include "engine/solver/moving.hpp"
 #include "engine/solver/progress.hpp"
 #include "engine/solver/requirements.hpp"
+#include "engine/solver/step_errors.hpp"
 #include "engine/solver/walls.hpp"
 #include "yade_api/exceptions.hpp"
 #include "yade_api/logging.hpp"
@@ -115,15 +116,15 @@ template <int Dim> Job<Dim> MpmImplicitEngine::prepare()
 template <int Dim> void MpmImplicitEngine::advance(Job<Dim>& job)
 {
 	Interruption interruption;
+	StepErrors   errors(*this);
 	job.model.newton.interrupted = [&] { return interruption.isRequested(); };
 	while (!job.control.isDone()) {
-		Attempt<Dim>    tried  = attempt(job);
+		Attempt<Dim>    tried  = errors.next(job, [&] { return attempt(job); });
 		const auto      report = isExplicit() ? job.moving->step(job, tried)
 		                                      : gimpm::loadStep(job.cloud, job.model, tried.load, solver, tried.predicts ? &tried.last : nullptr);
 		const ValueLock lock;
 		take(report, *timingDeltas);
-		lastDisplacements = toNumbers(tried.last);
-		lastLoadIncrement = tried.last.load;
+		lastDisplacements = toNumbers(tried.last), lastLoadIncrement = tried.last.load;
 		const Real part   = job.control.part();
 		const bool goesOn = job.control.take(report);
 		cuts              = job.control.cuts();
@@ -133,7 +134,7 @@ template <int Dim> void MpmImplicitEngine::advance(Job<Dim>& job)
 			if (report.failure == gimpm::Failure::interrupted) interruption.raise(reason);
 			throw std::runtime_error(reason);
 		}
-		if (report.accepted) warn(warningOfAccepted(report, *this, tried.time));
+		warn(report.accepted ? warningOfAccepted(report, *this, tried.time) : errors.doubtOf(report, job.control));
 		if (report.converged() || report.accepted) reach(job, tried);
 		progressLine.show(progressOf(*this, job.control.isDone()), verbosity);
 	}

@@ -14,6 +14,7 @@ public:
 	bool   predictor         = true;
 	bool   reuseFactor       = true;
 	string linearSolver      = "auto";
+	Real   stepTolerance     = 0;
 
 	YADE_API_NAME(MpmNewton)
 	static const char*             doc() { return "Settings of the Newton-Raphson solution of a load step (Coombs 2023, section 2.1)."; }
@@ -44,7 +45,12 @@ public:
 		  "'direct': Cholesky or LU factorisation; 'iterative': conjugate gradients, which store no factor and fall back to 'direct' (solver.cgFallbacks); "
 		  "'amg': these with algebraic multigrid (PETSc); 'auto': as it needs.",
 		  oneOf("auto", "direct", "iterative", "amg"));
+		v("stepTolerance", &MpmNewton::stepTolerance, 0,
+		  "Largest estimated error of displacements in a quasi-static step [m] >= 0: steps beyond it are cut (*minStep*) and grow again, up to O.dt. 0: not "
+		  "looked at. Needs *predictor*.",
+		  nonNegative);
 	}
+	void requireAdmissible() const override;
 };
 
 } // namespace yade

@@ -160,11 +160,12 @@ def _next(scene):
 	"""Next cheaper and next more accurate setting, by what they gave in examples/trade."""
 	cheaper, better = [], []
 	if scene.pointsPerCell > 2.6: cheaper.append('pointsPerCell=2: four fifths of the time at about the same error')
-	if scene.steps > 20: cheaper.append(_fewerSteps(scene))
+	chosen = scene.solver.newton.stepTolerance > 0
+	if scene.steps > 20 and not chosen: cheaper.append(_fewerSteps(scene))
 	cheaper.append(f"cellSize={2 * scene.h:g}: {'a fourth to a fifth' if scene.dim == 2 else 'a tenth'} of the time, about twice the error")
 	if scene.pointsPerCell < 1.5: better.append('pointsPerCell=2: half of the error')
 	better.append(f"cellSize={scene.h / 2:g}: half of the error for {'4 to 6' if scene.dim == 2 else '10 or more'} times the time")
-	if 0 < scene.steps < 10: better.append('O.dt a fourth of this: 0.6 times the error in an elastic column, for twice the time')
+	if 0 < scene.steps < 10 and not chosen: better.append('O.dt a fourth of this: 0.6 times the error in an elastic column, for twice the time')
 	wrong = (
 	        f"how wrong it will be: mpm.stressError() tells of the stresses when it has run; mpm.discretisationError(run, cellSize={scene.h:g}) of any result, for "
 	        f"{'5 to 8' if scene.dim == 2 else '10 or more'} times the time"

@@ -1,0 +1,82 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Page and picture of load steps chosen by their error, from the table in the folder results/; needs nothing of YADE."""
+import csv
+import os
+import sys
+
+import matplotlib
+matplotlib.use('Agg')
+import matplotlib.pyplot as plt
+from matplotlib.ticker import LogLocator, NullLocator
+from scenes import scenes
+
+here = os.path.dirname(os.path.abspath(__file__))
+sys.path.insert(0, os.path.join(here, '..', '..', 'scripts', 'lib'))
+import pages
+
+parts = 0.04, 0.02, 0.01, 0.005, 0.002  # stepTolerance over the displacement at the end
+
+
+def runs(folder):
+	"""By scene the runs that have come to an end, those with fixed steps and those with a tolerance."""
+	with open(os.path.join(folder, 'results', 'runs.csv'), newline='') as file:
+		rows = [{name: pages.number(text) for name, text in row.items()} for row in csv.DictReader(file)]
+	ended = [row for row in rows if row['error'] == row['error']]
+	return {name: [[row for row in ended if row['scene'] == name and bool(row['part']) == chosen] for chosen in (False, True)] for name in scenes if any(row['scene'] == name for row in ended)}
+
+
+def cheapest(fixed, error):
+	"""That of the fixed numbers of steps whose error is no larger, or None."""
+	return min((row for row in fixed if row['error'] <= error), key=lambda row: row['solves'], default=None)
+
+
+def picture(found, path):
+	figure, all = plt.subplots(2, 4, figsize=(13, 6.5), layout='constrained')
+	for axes, (name, (fixed, chosen)) in zip(all.flat, found.items()):
+		for rows, mark, label in (fixed, 'o-', 'steps of one length'), (chosen, 's-', 'stepTolerance'):
+			axes.loglog([row['solves'] for row in rows], [100 * row['error'] for row in rows], mark, markersize=4, linewidth=0.8, label=label)
+		axes.set(title=scenes[name].what, xlabel='solves', ylabel='error [%]')
+		for axis in axes.xaxis, axes.yaxis:
+			axis.set_major_locator(LogLocator(subs=(1, 2, 5)))
+			axis.set_major_formatter('{x:g}')
+			axis.set_minor_locator(NullLocator())
+		axes.title.set_fontsize(9)
+	for axes in all.flat[len(found):]:
+		axes.axis('off')
+	all.flat[0].legend(frameon=False, fontsize=8)
+	figure.savefig(path, dpi=110)
+	plt.close(figure)
+
+
+def comparison(found):
+	"""What each tolerance comes to, beside the cheapest fixed number of steps with the same error."""
+	lines = []
+	for name, (fixed, chosen) in found.items():
+		for row in chosen:
+			best = cheapest(fixed, row['error'])
+			beside = [f"{best['steps']:.0f}", f"{best['solves']:.0f}", f"{row['solves'] / best['solves']:.2f}"] if best else ['', '', '']
+			lines.append((scenes[name].what if row is chosen[0] else '', f"{row['tolerance']:.2g}", pages.percent(row['part']), pages.percent(row['error']), f"{row['made']:.0f} ({row['cuts']:.0f})",
+			              f"{row['solves']:.0f}", *beside))
+	return pages.table(['scene', 'stepTolerance [m]', 'of the displacement', 'error', 'steps (cuts)', 'solves', 'fixed steps', 'solves', 'ratio'], lines)
+
+
+def fixedTable(found):
+	heads = sorted({row['steps'] for fixed, _ in found.values() for row in fixed})
+	lines = []
+	for name, (fixed, _) in found.items():
+		of = {row['steps']: row for row in fixed}
+		lines.append((scenes[name].what, *(f"{pages.percent(of[steps]['error'])}, {of[steps]['solves']:.0f}" if steps in of else '' for steps in heads)))
+	return pages.table(['steps', *(f'{steps:.0f}' for steps in heads)], lines)
+
+
+def verdict(found):
+	ratios = {name: [row['solves'] / best['solves'] for row in chosen for best in [cheapest(fixed, row['error'])] if best] for name, (fixed, chosen) in found.items()}
+	lines = [(scenes[name].what, len(of), sum(ratio <= 1.6 for ratio in of), f'{min(of):.2f} to {max(of):.2f}') for name, of in ratios.items() if of]
+	return pages.table(['scene', 'tolerances', 'at most 1.6 times the solves', 'ratios'], lines)
+
+
+def write(folder):
+	found = runs(folder)
+	picture(found, os.path.join(folder, 'load_steps.png'))
+	pages.write(folder, [*pages.texts(os.path.join(here, 'findings.md')), '## How many', '', verdict(found), '', '## Tolerances', '', comparison(found), '', '## Fixed numbers of steps', '',
+	                     'Error, solves:', '', fixedTable(found), ''])

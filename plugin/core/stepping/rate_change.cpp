@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "core/stepping/rate_change.hpp"
+#include "core/grid/point_nodes.hpp"
+#include "core/terms/point_update.hpp"
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace gimpm {
+namespace {
+
+/// The sum over the points, in their order.
+template <class Volumes> double weighed(const Volumes& volume, const std::vector<double>& ofPoints)
+{
+	return std::inner_product(volume.begin(), volume.end(), ofPoints.begin(), 0.);
+}
+
+/// Root of the mean square of a nodal vector at the points.
+template <int Dim> double atPoints(const StepSystem<Dim>& system, const Eigen::VectorXd& nodal)
+{
+	std::vector<double> squares(system.points.volume0.size());
+	forPointNodes(system.basis, [&](int i, const Patch<Dim>& patch, const double* value, int count) {
+		Vec<Dim> u = Vec<Dim>::Zero();
+		for (int n = 0; n < count; ++n)
+			if (patch.node[n] >= 0) u += value[n] * nodal.template segment<Dim>(Dim * patch.node[n]);
+		squares[i] = u.squaredNorm();
+	});
+	const auto& volume = system.points.volume0;
+	return std::sqrt(weighed(volume, squares) / std::accumulate(volume.begin(), volume.end(), 0.));
+}
+
+/// |plastic strain| / |strain| of the step, both as roots of mean squares, at most 1. The trial elastic strain, what is left of it and what has become plastic, is what an elastic law would answer.
+template <int Dim> double plasticShare(const StepSystem<Dim>& system, const Eigen::VectorXd& d)
+{
+	const auto& materials = system.model.materials;
+	if (std::all_of(materials.begin(), materials.end(), [](const Material& m) { return std::holds_alternative<Hencky>(m.law); })) return 0;
+	const std::vector<double>&  volume = system.beginning().cloud.volume0;
+	std::vector<SymTensor<Dim>> trial(volume.size());
+	std::vector<double>         all(volume.size()), plastic(volume.size());
+	forUpdatedPoints(system.basis, system.points, std::vector<Material>(materials.size(), { Hencky(1, 0), 1 }), d, [&](int p, const PointUpdate<Dim>& u) {
+		trial[p] = u.elasticStrain;
+		all[p]   = (u.gradient + u.gradient.transpose()).squaredNorm() / 4 + u.hoop * u.hoop;
+	});
+	forUpdatedPoints(system.basis, system.points, materials, d, [&](int p, const PointUpdate<Dim>& u) {
+		plastic[p] = (trial[p].full() - u.elasticStrain.full()).squaredNorm();
+	});
+	const double of = weighed(volume, plastic), whole = weighed(volume, all);
+	return of < whole ? std::sqrt(of / whole) : of > 0 ? 1 : 0;
+}
+
+} // namespace
+
+template <int Dim>
+LocalError rateChange(const StepSystem<Dim>& system, const LastIncrement<Dim>& last, double load, const Eigen::VectorXd& prediction, const Eigen::VectorXd& d)
+{
+	constexpr int order = 2;
+	const double  share = plasticShare(system, d);
+	const double  size  = share > 0 ? share * load / (load + last.load) * atPoints<Dim>(system, d - prediction) : 0;
+	return { size, system.model.newton.stepTolerance, order };
+}
+
+template LocalError rateChange(const StepSystem<2>&, const LastIncrement<2>&, double, const Eigen::VectorXd&, const Eigen::VectorXd&);
+template LocalError rateChange(const StepSystem<3>&, const LastIncrement<3>&, double, const Eigen::VectorXd&, const Eigen::VectorXd&);
+
+} // namespace gimpm
