@@ -9,6 +9,7 @@
 #include "engine/solver/moving.hpp"
 #include "engine/solver/progress.hpp"
 #include "engine/solver/requirements.hpp"
+#include "engine/solver/splitting.hpp"
 #include "engine/solver/walls.hpp"
 #include "yade_api/exceptions.hpp"
 #include "yade_api/logging.hpp"
@@ -79,6 +80,7 @@ template <int Dim> void MpmImplicitEngine::step()
 	tellObservers(*scene, [this](LoadStepObserver& observer) { observer.stepBegins(*this); });
 	advance(job);
 	const ValueLock lock;
+	if (maxSplits > 0 && clampedDomains > 0) split(job);
 	for (const string& doubt : plausibility.warningsOfResult(*this, points, job.cloud))
 		warn(doubt);
 }
@@ -172,6 +174,18 @@ template <int Dim> void MpmImplicitEngine::reach(Job<Dim>& job, const Attempt<Di
 	plausibility.know(job.cloud);
 	++substeps;
 	loadTime = made.time, loadFactor = made.load.factor.value;
+}
+
+// Whoever observes steps finds the new points.
+template <int Dim> void MpmImplicitEngine::split(Job<Dim>& job)
+{
+	const Splits splits = splitOutgrown(points, job, *scene, maxSplits);
+	clampedDomains      = splits.left;
+	if (splits.made > 0) plausibility.know(job.cloud);
+	if (splits.exhausted < 0 || saidExhausted) return;
+	saidExhausted = true;
+	warn("Body #" + std::to_string(splits.exhausted) + ": the domain of the material point has outgrown half a cell again, after maxSplits = "
+	     + std::to_string(maxSplits) + " halvings; it is kept at half a cell. This is said once; clampedDomains counts such points.");
 }
 
 void MpmImplicitEngine::warn(const string& text)

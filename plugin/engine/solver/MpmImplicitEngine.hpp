@@ -27,6 +27,7 @@ public:
 	int                            mask      = -1;
 	Real                           loadTime  = 0;
 	int                            verbosity = 1;
+	int                            maxSplits = 0;
 
 	MpmImplicitEngine();
 
@@ -62,6 +63,9 @@ public:
 		v("verbosity", &E::verbosity, 0,
 		  "What a run says on stderr. 0: nothing; 1: one line of progress, redrawn on a terminal, repeated every 10 s in a log; 2: a line each step.",
 		  oneOf(0, 1, 2));
+		v("maxSplits", &E::maxSplits, 0,
+		  "How many times a point whose domain outgrows half a cell is split in two, and its halves again. 0, the default: never; the domain is kept at half a cell.",
+		  atLeast(0));
 		results([&](auto name, auto member, const auto&, Told, unsigned flags, auto doc, auto validator) { v(name, member, flags, doc, validator); });
 	}
 	template <class C> static void python(C& c)
@@ -98,10 +102,12 @@ private:
 	template <int Dim> void         advance(Job<Dim>&);
 	template <int Dim> Attempt<Dim> attempt(Job<Dim>&) const;
 	template <int Dim> void         reach(Job<Dim>&, const Attempt<Dim>&);
+	template <int Dim> void         split(Job<Dim>&);
 	void                            warn(const string&); // nothing if it is empty
 
 	PeriodicCounters            beforeActivation;
 	ProgressLine                progressLine;
+	bool                        saidExhausted = false; // that a point has been split as often as is admitted
 	Plausibility                plausibility;
 	boost::weak_ptr<Factorable> home;   // the scene where it was made or seen last
 	gimpm::LinearSolver         solver; // keeps the symbolic analysis; results do not depend on it

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "engine/solver/splitting.hpp"
+#include "core/grid/basis.hpp"
+#include "engine/points/halves.hpp"
+#include "engine/solver/exchange.hpp"
+#include <cstdlib>
+
+namespace yade {
+
+namespace {
+	template <int Dim> class Splitting {
+	public:
+		Splitting(vector<MaterialPoint>& points, Job<Dim>& job, Scene& scene, int most) : points(points), job(job), scene(scene), most(most) { }
+
+		Splits splitAll()
+		{
+			for (size_t p = 0; p < points.size(); ++p) // of those that are new, too
+				while (splitOnce(p)) { }
+			if (result.made > 0) updateCloud();
+			return result;
+		}
+
+	private:
+		// Half lengths of the domain as the step would have left them without a limit.
+		Vector3r grown(const MaterialPoint& point) const
+		{
+			Vector3r size = stretched(point.shape->halfSize0, point.state->defGrad);
+			if (isRing()) size[0] = std::min(size[0], point.state->pos[0]);
+			return size;
+		}
+
+		bool splitOnce(size_t p)
+		{
+			const MaterialPoint& point = points[p];
+			if (point.shape->halfSize.template head<Dim>().maxCoeff() < limit) return false;
+			const Vector3r size = grown(point);
+			if (size.template head<Dim>().maxCoeff() <= limit) return false;
+			const int axis = point.state->splits < most ? axisOf(point, size) : -1;
+			if (axis >= 0) return split(p, axis, size);
+			++result.left;
+			if (point.state->splits >= most && result.exhausted < 0) result.exhausted = point.id;
+			return false;
+		}
+
+		// The one along which it is longest, of those along which it can be split; none: -1
+		int axisOf(const MaterialPoint& point, const Vector3r& size) const
+		{
+			int best = -1;
+			for (int a = 0; a < Dim; ++a)
+				if (size[a] > limit && (best < 0 || size[a] > size[best]) && admits(point, a, size)) best = a;
+			return best;
+		}
+		Vector3r offsetOf(const MaterialPoint& point, int a, const Vector3r& size) const
+		{
+			if (mode == "true") return point.state->defGrad.col(a) * point.shape->halfSize0[a] / 2;
+			return size[a] / 2 * Vector3r::Unit(a);
+		}
+
+		bool admits(const MaterialPoint& point, int axis, const Vector3r& size) const
+		{
+			const Vector3r offset = offsetOf(point, axis, size);
+			if (mode == "boxIf") {
+				const Vector3r matter = point.state->defGrad.col(axis) * point.shape->halfSize0[axis] / 2;
+				for (int a = 0; a < Dim; ++a)
+					if (std::abs(matter[a] - offset[a]) > (a == axis ? size[a] / 2 : size[a])) return false;
+			}
+			return isFree(point, offset) && isFree(point, -offset);
+		}
+
+		// No wall, axis of symmetry or rigid body comes between the middles of the whole and of the half.
+		bool isFree(const MaterialPoint& point, const Vector3r& offset) const
+		{
+			using namespace gimpm;
+			const Vec<Dim> from = point.state->pos.template head<Dim>(), to = from + offset.head<Dim>();
+			const auto&    grid   = job.model.grid;
+			const auto     cellAt = [&](const Vec<Dim>& x, int a) { return centreCell(x[a] - grid.origin[a], grid.cellSize); };
+			Index<Dim>     cell;
+			for (int a = 0; a < Dim; ++a)
+				cell[a] = cellAt(from, a);
+			for (int a = 0; a < Dim; ++a) {
+				const auto [first, last] = std::minmax({ cell[a], cellAt(to, a) });
+				Index<Dim> face          = cell;
+				for (face[a] = first + 1; face[a] <= last; ++face[a])
+					if (job.model.boundary.lowerFaceIsWall(face, a)) return false;
+			}
+			return job.contacts.areBeside(from, to);
+		}
+
+		bool split(size_t p, int axis, const Vector3r& size)
+		{
+			const MaterialPoint whole  = points[p];
+			const Vector3r      middle = whole.state->pos, halfSize = whole.shape->halfSize;
+			const auto          upper = halve(*(*scene.bodies)[whole.id], whole, axis, offsetOf(whole, axis, size), isRing());
+			const auto          id    = scene.bodies->insert(upper);
+			points.push_back(
+			        { id, boost::static_pointer_cast<MpmPoint>(upper->shape), boost::static_pointer_cast<MpmState>(upper->state), whole.material });
+			job.contacts.share({ whole.id, id, axis, Dim, middle, halfSize });
+			for (const MaterialPoint& half : { whole, points.back() })
+				settle(half);
+			++result.made;
+			return true;
+		}
+
+		// On the grid: in its period, and with the domain that a step would give it.
+		void settle(const MaterialPoint& half) const
+		{
+			for (int a = 0; a < Dim; ++a)
+				half.state->refPos[a] -= reenter(half.state->pos[a], a, job.model.grid);
+			const Vector3r size                       = grown(half);
+			half.shape->halfSize.template head<Dim>() = size.template head<Dim>().cwiseMin(limit);
+			if (isRing()) half.shape->halfSize[2] = half.shape->halfSize0[2] * half.state->defGrad(2, 2);
+			half.shape->radius *= std::pow(0.5, 1. / Dim);
+		}
+
+		void updateCloud()
+		{
+			job.cloud.resize(points.size());
+			for (size_t p = 0; p < points.size(); ++p) {
+				job.cloud.position[p] = points[p].state->pos.template head<Dim>();
+				job.cloud.halfSize[p] = points[p].shape->halfSize.template head<Dim>();
+			}
+		}
+
+		bool isRing() const { return job.model.grid.axisymmetric; }
+
+		vector<MaterialPoint>& points;
+		Job<Dim>&              job;
+		Scene&                 scene;
+		int                    most;
+		Real                   limit = 0.5 * job.model.grid.cellSize;
+		Splits                 result;
+		string                 mode = std::getenv("MPM_SPLIT") ? std::getenv("MPM_SPLIT") : "box";
+	};
+}
+
+template <int Dim> Splits splitOutgrown(vector<MaterialPoint>& points, Job<Dim>& job, Scene& scene, int most)
+{
+	return Splitting<Dim>(points, job, scene, most).splitAll();
+}
+
+template Splits splitOutgrown(vector<MaterialPoint>&, Job<2>&, Scene&, int);
+template Splits splitOutgrown(vector<MaterialPoint>&, Job<3>&, Scene&, int);
+
+} // namespace yade
