@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "engine/points/halves.hpp"
-#include <Eigen/LU>
 
 namespace yade {
 
@@ -47,7 +46,7 @@ namespace {
 		return copy;
 	}
 
-	// What there is once only: the rest of a difference from it is exact where the part is a half or more.
+	// What there is once only. A part of a half to all of it, and the rest, have it as their sum to the last bit.
 	struct Amounts {
 		explicit Amounts(const MpmState& s) : volume(s.volume), volume0(s.volume0), mass(s.mass), force(s.force) { }
 		void giveTo(MpmState& s) const { s.volume = volume, s.volume0 = volume0, s.mass = mass, s.force = force; }
@@ -66,33 +65,35 @@ namespace {
 		Vector3r force;
 	};
 
-	// Places and sizes; displacements go on linearly from the middle of the whole, but the radius of a ring, and all that goes with it, by the stretch around the axis.
-	void moveHalf(MpmState& state, MpmPoint& shape, int axis, const Vector3r& offset, bool isRing)
+	// The initial domains of halves are those of the initial one; but the initial radius of a ring is that with which it is stretched around the axis as the whole is.
+	void moveHalf(MpmState& state, MpmPoint& shape, int axis, Real sign, const Vector3r& offset, bool isRing)
 	{
-		const Vector3r before = state.defGrad.inverse() * offset;
-		const Real     scale  = isRing ? 1 + offset[0] / state.pos[0] : 1;
-		state.pos += offset;
-		const Real radius = state.refPos[0] * scale;
-		state.refPos += before;
-		if (isRing) state.refPos[0] = radius;
+		const Real scale = isRing ? 1 + sign * offset[0] / state.pos[0] : 1, radius = state.refPos[0] * scale;
+		state.pos += sign * offset;
 		shape.halfSize0[axis] /= 2;
 		shape.halfSize0[2] *= scale;
+		state.refPos[axis] += sign * shape.halfSize0[axis];
+		if (isRing) state.refPos[0] = radius;
 	}
 }
 
-shared_ptr<Body> halve(const Body& body, const MaterialPoint& point, int axis, const Vector3r& offset, bool isRing)
+Vector3r toUpperHalf(const MaterialPoint& point, int axis) { return point.state->defGrad.col(axis) * (point.shape->halfSize0[axis] / 2); }
+
+shared_ptr<Body> halve(const Body& body, const MaterialPoint& point, int axis, bool isRing)
 {
+	const Vector3r offset = toUpperHalf(point, axis);
 	point.state->splits += 1;
 	const auto upper = copyOf(body, point);
 	auto&      state = static_cast<MpmState&>(*upper->state);
 	state.parent     = body.id;
-	Amounts rest(*point.state), part = rest;
-	part.take(isRing ? (1 + offset[0] / point.state->pos[0]) / 2 : 0.5);
-	rest.subtract(part);
-	part.giveTo(state);
-	rest.giveTo(*point.state);
-	moveHalf(*point.state, *point.shape, axis, -offset, isRing);
-	moveHalf(state, static_cast<MpmPoint&>(*upper->shape), axis, offset, isRing);
+	const Real part  = isRing ? (1 + offset[0] / point.state->pos[0]) / 2 : 0.5;
+	Amounts    rest(*point.state), larger = rest;
+	larger.take(std::max(part, 1 - part));
+	rest.subtract(larger);
+	(part < 0.5 ? rest : larger).giveTo(state);
+	(part < 0.5 ? larger : rest).giveTo(*point.state);
+	moveHalf(*point.state, *point.shape, axis, -1, offset, isRing);
+	moveHalf(state, static_cast<MpmPoint&>(*upper->shape), axis, 1, offset, isRing);
 	return upper;
 }
 

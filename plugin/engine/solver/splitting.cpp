@@ -3,7 +3,6 @@
 #include "core/grid/basis.hpp"
 #include "engine/points/halves.hpp"
 #include "engine/solver/exchange.hpp"
-#include <cstdlib>
 
 namespace yade {
 
@@ -36,7 +35,7 @@ namespace {
 			const Vector3r size = grown(point);
 			if (size.template head<Dim>().maxCoeff() <= limit) return false;
 			const int axis = point.state->splits < most ? axisOf(point, size) : -1;
-			if (axis >= 0) return split(p, axis, size);
+			if (axis >= 0) return split(p, axis);
 			++result.left;
 			if (point.state->splits >= most && result.exhausted < 0) result.exhausted = point.id;
 			return false;
@@ -47,34 +46,23 @@ namespace {
 		{
 			int best = -1;
 			for (int a = 0; a < Dim; ++a)
-				if (size[a] > limit && (best < 0 || size[a] > size[best]) && admits(point, a, size)) best = a;
+				if (size[a] > limit && (best < 0 || size[a] > size[best]) && isFree(point, a)) best = a;
 			return best;
 		}
-		Vector3r offsetOf(const MaterialPoint& point, int a, const Vector3r& size) const
+
+		bool isFree(const MaterialPoint& point, int axis) const
 		{
-			if (mode == "true") return point.state->defGrad.col(a) * point.shape->halfSize0[a] / 2;
-			return size[a] / 2 * Vector3r::Unit(a);
+			const gimpm::Vec<Dim> middle = point.state->pos.template head<Dim>(), offset = toUpperHalf(point, axis).head<Dim>();
+			return isFree(middle, middle + offset) && isFree(middle, middle - offset);
 		}
 
-		bool admits(const MaterialPoint& point, int axis, const Vector3r& size) const
-		{
-			const Vector3r offset = offsetOf(point, axis, size);
-			if (mode == "boxIf") {
-				const Vector3r matter = point.state->defGrad.col(axis) * point.shape->halfSize0[axis] / 2;
-				for (int a = 0; a < Dim; ++a)
-					if (std::abs(matter[a] - offset[a]) > (a == axis ? size[a] / 2 : size[a])) return false;
-			}
-			return isFree(point, offset) && isFree(point, -offset);
-		}
-
-		// No wall, axis of symmetry or rigid body comes between the middles of the whole and of the half.
-		bool isFree(const MaterialPoint& point, const Vector3r& offset) const
+		// No wall, axis of symmetry or rigid body comes between the middles of the whole and of a half.
+		bool isFree(const gimpm::Vec<Dim>& from, const gimpm::Vec<Dim>& to) const
 		{
 			using namespace gimpm;
-			const Vec<Dim> from = point.state->pos.template head<Dim>(), to = from + offset.head<Dim>();
-			const auto&    grid   = job.model.grid;
-			const auto     cellAt = [&](const Vec<Dim>& x, int a) { return centreCell(x[a] - grid.origin[a], grid.cellSize); };
-			Index<Dim>     cell;
+			const auto& grid   = job.model.grid;
+			const auto  cellAt = [&](const Vec<Dim>& x, int a) { return centreCell(x[a] - grid.origin[a], grid.cellSize); };
+			Index<Dim>  cell;
 			for (int a = 0; a < Dim; ++a)
 				cell[a] = cellAt(from, a);
 			for (int a = 0; a < Dim; ++a) {
@@ -86,11 +74,11 @@ namespace {
 			return job.contacts.areBeside(from, to);
 		}
 
-		bool split(size_t p, int axis, const Vector3r& size)
+		bool split(size_t p, int axis)
 		{
 			const MaterialPoint whole  = points[p];
 			const Vector3r      middle = whole.state->pos, halfSize = whole.shape->halfSize;
-			const auto          upper = halve(*(*scene.bodies)[whole.id], whole, axis, offsetOf(whole, axis, size), isRing());
+			const auto          upper = halve(*(*scene.bodies)[whole.id], whole, axis, isRing());
 			const auto          id    = scene.bodies->insert(upper);
 			points.push_back(
 			        { id, boost::static_pointer_cast<MpmPoint>(upper->shape), boost::static_pointer_cast<MpmState>(upper->state), whole.material });
@@ -129,7 +117,6 @@ namespace {
 		int                    most;
 		Real                   limit = 0.5 * job.model.grid.cellSize;
 		Splits                 result;
-		string                 mode = std::getenv("MPM_SPLIT") ? std::getenv("MPM_SPLIT") : "box";
 	};
 }
 
