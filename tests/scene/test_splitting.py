@@ -170,7 +170,7 @@ np.savez('continued.npz', **state())
 
 
 def test_contact_keeps_its_forces(yade):
-	"""What corners remember is shared by those of the halves; the load goes on without a jump, and is nearer to the closed form than without splitting."""
+	"""What the corners of halves remember adds up to the force of the step."""
 	yade(pressed + '''
 def forces():
 	touching = mpm.contactForces()
