@@ -14,7 +14,7 @@ h = 0.5
 def block(F, engine=MpmImplicitEngine, dim=2, size=(1, 1, 1), low=(0, 0, 0), points=2, **settings):
 	O.reset()
 	O.materials.append(MpmVonMisesMat(young=1e6, poisson=0.3, density=1000, yieldStress=1e4, label='soil'))
-	grid = MpmGrid(cellSize=h, dim=dim, axisymmetric=settings.pop('axisymmetric', False))
+	grid = MpmGrid(cellSize=h, dim=dim, axisymmetric=settings.pop('axisymmetric', False), period=settings.pop('period', (0, 0, 0)))
 	bodies = mpm.fill(pack.inAlignedBox(low, tuple(a + b for a, b in zip(low, size))), grid, points, 'soil')
 	for body in bodies:
 		x, body.groupMask, body.shape.color = body.state.pos, 5, (0, 1, 0)
@@ -113,8 +113,7 @@ assert len(mpm.arrays()['id']) == 16 and 'splits' not in mpm.arrays()
 # a wall between the middles of the halves
 solver = block((1, 0, 0, 0, 1, 0, 0, 0, 1), points=1, boundaries=held + [MpmBoundary(min=(h, -inf, -inf), max=(h, inf, inf), fix='x')], maxSplits=4)
 for body in O.bodies:
-	if body.state.pos[0] > h: body.state.pos[0] = h + 0.01
-	else: O.bodies.erase(body.id)
+	if body.state.pos[0] < h: O.bodies.erase(body.id) # the others are half a domain away from it
 mpm.assign(defGrad=[np.diag((2.2, 1, 1))] * 2, elasticStrain=np.zeros((2, 3, 3)))
 O.step()
 assert len(mpm.arrays()['id']) == 2 and solver.clampedDomains == 2
@@ -124,6 +123,21 @@ except ValueError as error: message = str(error)
 assert message.startswith('maxSplits = 4') and "basis='gimp'" in message, message
 ''')
 	assert run.stderr.count('has outgrown half a cell again, after maxSplits = 1') == 1, run.stderr
+
+
+def test_halves_enter_the_period(yade):
+	yade(stretched + '''
+solver = block((2.5, 0, 0, 0, 1, 0, 0, 0, 1), engine=MpmDynamicEngine, size=(0.5, 0.5, 1), period=(3, 0, 0), maxSplits=2)
+for body in O.bodies: body.state.pos = body.state.pos + Vector3(2.95 - 0.9375, 0, 0) # the domain reaches beyond x = 3
+before = mpm.arrays()
+O.step()
+points = mpm.arrays()
+assert len(points['id']) == 2 * len(before['id']) == 8
+assert np.allclose(np.unique(points['pos'][:, 0].round(9)), (0.10625, 2.16875, 2.48125, 2.79375)), points['pos'][:, 0]
+moved = (points['pos'] - points['pos0'])[:, 0]
+assert np.allclose(np.sort(moved), np.sort(np.concatenate([(before['pos'] - before['pos0'])[:, 0] + 0.6 * s * 0.15625 for s in (-1, 1)])))
+O.run(2, wait=True)
+''')
 
 
 # A block pressed to a fifth between plates, with friction: it grows aside.

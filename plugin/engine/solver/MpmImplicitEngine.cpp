@@ -2,6 +2,7 @@
 #include "engine/solver/MpmImplicitEngine.hpp"
 #include "core/base/stopwatch.hpp"
 #include "core/stepping/load_step.hpp"
+#include "engine/solver/AtWork.hpp"
 #include "engine/solver/LoadStepObserver.hpp"
 #include "engine/solver/Threads.hpp"
 #include "engine/solver/exchange.hpp"
@@ -9,21 +10,11 @@
 #include "engine/solver/moving.hpp"
 #include "engine/solver/progress.hpp"
 #include "engine/solver/requirements.hpp"
-#include "engine/solver/splitting.hpp"
 #include "engine/solver/walls.hpp"
 #include "yade_api/exceptions.hpp"
 #include "yade_api/logging.hpp"
-#include <atomic>
 
 namespace yade {
-namespace {
-	std::atomic_int stepsAtWork { 0 };
-
-	struct AtWork {
-		AtWork() { ++stepsAtWork; }
-		~AtWork() { --stepsAtWork; }
-	};
-}
 
 MpmImplicitEngine::MpmImplicitEngine()
 {
@@ -32,8 +23,6 @@ MpmImplicitEngine::MpmImplicitEngine()
 	timingDeltas = boost::make_shared<TimingDeltas>();
 	if (scene) home = scene->weak_from_this(); // the current one
 }
-
-bool MpmImplicitEngine::isStepAtWork() { return stepsAtWork > 0; }
 
 bool MpmImplicitEngine::isActivated()
 {
@@ -80,7 +69,10 @@ template <int Dim> void MpmImplicitEngine::step()
 	tellObservers(*scene, [this](LoadStepObserver& observer) { observer.stepBegins(*this); });
 	advance(job);
 	const ValueLock lock;
-	if (maxSplits > 0 && clampedDomains > 0) split(job);
+	if (maxSplits > 0 && clampedDomains > 0) {
+		warn(splitting.split(*this, points, job));
+		plausibility.know(job.cloud);
+	}
 	for (const string& doubt : plausibility.warningsOfResult(*this, points, job.cloud))
 		warn(doubt);
 }
@@ -174,18 +166,6 @@ template <int Dim> void MpmImplicitEngine::reach(Job<Dim>& job, const Attempt<Di
 	plausibility.know(job.cloud);
 	++substeps;
 	loadTime = made.time, loadFactor = made.load.factor.value;
-}
-
-// Whoever observes steps finds the new points.
-template <int Dim> void MpmImplicitEngine::split(Job<Dim>& job)
-{
-	const Splits splits = splitOutgrown(points, job, *scene, maxSplits);
-	clampedDomains      = splits.left;
-	if (splits.made > 0) plausibility.know(job.cloud);
-	if (splits.exhausted < 0 || saidExhausted) return;
-	saidExhausted = true;
-	warn("Body #" + std::to_string(splits.exhausted) + ": the domain of the material point has outgrown half a cell again, after maxSplits = "
-	     + std::to_string(maxSplits) + " halvings; it is kept at half a cell. This is said once; clampedDomains counts such points.");
 }
 
 void MpmImplicitEngine::warn(const string& text)

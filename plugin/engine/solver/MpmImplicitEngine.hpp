@@ -11,6 +11,7 @@
 #include "engine/solver/RunResults.hpp"
 #include "engine/solver/job.hpp"
 #include "engine/solver/plausibility.hpp"
+#include "engine/solver/splitting.hpp"
 #include "engine/solver/study.hpp"
 #include "yade_api/interruption.hpp"
 
@@ -82,8 +83,6 @@ public:
 	virtual bool isDynamic() const { return false; }
 	virtual bool isExplicit() const { return false; }
 	virtual void tellMotion(py::dict&) const { }
-	// Of any engine, between taking over the values of the material points and giving them back.
-	static bool isStepAtWork();
 
 	// The scene that holds this engine in O.engines: the current one, or the one where it was made or seen last (O.switchScene()). For an
 	// engine that neither holds, the current one.
@@ -102,13 +101,12 @@ private:
 	template <int Dim> void         advance(Job<Dim>&);
 	template <int Dim> Attempt<Dim> attempt(Job<Dim>&) const;
 	template <int Dim> void         reach(Job<Dim>&, const Attempt<Dim>&);
-	template <int Dim> void         split(Job<Dim>&);
 	void                            warn(const string&); // nothing if it is empty
 
 	PeriodicCounters            beforeActivation;
 	ProgressLine                progressLine;
-	bool                        saidExhausted = false; // that a point has been split as often as is admitted
 	Plausibility                plausibility;
+	Splitting                   splitting;
 	boost::weak_ptr<Factorable> home;   // the scene where it was made or seen last
 	gimpm::LinearSolver         solver; // keeps the symbolic analysis; results do not depend on it
 };

@@ -2,20 +2,26 @@
 #include "engine/solver/splitting.hpp"
 #include "core/grid/basis.hpp"
 #include "engine/points/halves.hpp"
+#include "engine/solver/MpmImplicitEngine.hpp"
 #include "engine/solver/exchange.hpp"
 
 namespace yade {
 
 namespace {
-	template <int Dim> class Splitting {
+	struct Splits {
+		int        left      = 0;  // points whose domain is kept at half a cell
+		Body::id_t exhausted = -1; // the first of them that has been split as often as is admitted
+	};
+
+	template <int Dim> class Outgrown {
 	public:
-		Splitting(vector<MaterialPoint>& points, Job<Dim>& job, Scene& scene, int most) : points(points), job(job), scene(scene), most(most) { }
+		Outgrown(vector<MaterialPoint>& points, Job<Dim>& job, Scene& scene, int most) : points(points), job(job), scene(scene), most(most) { }
 
 		Splits splitAll()
 		{
 			for (size_t p = 0; p < points.size(); ++p) // of those that are new, too
 				while (splitOnce(p)) { }
-			if (result.made > 0) updateCloud();
+			if (points.size() > job.cloud.size()) updateCloud();
 			return result;
 		}
 
@@ -85,7 +91,6 @@ namespace {
 			job.contacts.share({ whole.id, id, axis, Dim, middle, halfSize });
 			for (const MaterialPoint& half : { whole, points.back() })
 				settle(half);
-			++result.made;
 			return true;
 		}
 
@@ -120,12 +125,17 @@ namespace {
 	};
 }
 
-template <int Dim> Splits splitOutgrown(vector<MaterialPoint>& points, Job<Dim>& job, Scene& scene, int most)
+template <int Dim> string Splitting::split(MpmImplicitEngine& engine, vector<MaterialPoint>& points, Job<Dim>& job)
 {
-	return Splitting<Dim>(points, job, scene, most).splitAll();
+	const Splits splits   = Outgrown<Dim>(points, job, *engine.scene, engine.maxSplits).splitAll();
+	engine.clampedDomains = splits.left;
+	if (splits.exhausted < 0 || isSaid) return "";
+	isSaid = true;
+	return "Body #" + std::to_string(splits.exhausted) + ": the domain of the material point has outgrown half a cell again, after maxSplits = "
+	        + std::to_string(engine.maxSplits) + " halvings; it is kept at half a cell. This is said once; clampedDomains counts such points.";
 }
 
-template Splits splitOutgrown(vector<MaterialPoint>&, Job<2>&, Scene&, int);
-template Splits splitOutgrown(vector<MaterialPoint>&, Job<3>&, Scene&, int);
+template string Splitting::split(MpmImplicitEngine&, vector<MaterialPoint>&, Job<2>&);
+template string Splitting::split(MpmImplicitEngine&, vector<MaterialPoint>&, Job<3>&);
 
 } // namespace yade

@@ -5,14 +5,17 @@
 
 namespace yade {
 
-struct Splits {
-	int        made      = 0;
-	int        left      = 0;  // points whose domain is kept at half a cell
-	Body::id_t exhausted = -1; // the first of them that has been split as often as is admitted
-};
+class MpmImplicitEngine;
 
-// Between runs, at the end of one, of which the points of the job are those. Halves are split again until none has outgrown half a cell, or has been split so often.
-// New bodies follow the others, in the scene and in the lists of points.
-template <int Dim> Splits splitOutgrown(vector<MaterialPoint>&, Job<Dim>&, Scene&, int most);
+class Splitting {
+public:
+	// At the end of a run, of which the points of the job are those. Halves are split again until none has outgrown half a cell, or has been split maxSplits times; the
+	// engine's clampedDomains is the number of those that are left. New bodies follow the others, in the scene and in the lists of points. Returns a sentence for the log,
+	// empty if there is nothing to say.
+	template <int Dim> string split(MpmImplicitEngine&, vector<MaterialPoint>&, Job<Dim>&);
+
+private:
+	bool isSaid = false; // that a point has been split as often as is admitted
+};
 
 } // namespace yade
