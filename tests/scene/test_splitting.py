@@ -8,7 +8,7 @@ stretched = '''
 import json
 from math import inf
 import numpy as np
-from yade import mpm, pack
+from yade import mpm, pack, utils
 h = 0.5
 
 def block(F, engine=MpmImplicitEngine, dim=2, size=(1, 1, 1), low=(0, 0, 0), points=2, **settings):
@@ -117,6 +117,13 @@ for body in O.bodies:
 mpm.assign(defGrad=[np.diag((2.2, 1, 1))] * 2, elasticStrain=np.zeros((2, 3, 3)))
 O.step()
 assert len(mpm.arrays()['id']) == 2 and solver.clampedDomains == 2
+# a rigid body where the middle of a half would be; half a cell beside it there is none
+for face, number in (0.9, 1), (1.2, 2):
+	solver = block((2.2, 0, 0, 0, 1, 0, 0, 0, 1), points=1, size=(0.5, 0.5, 1), engine=MpmDynamicEngine, contacts=[MpmContact(friction=0)], maxSplits=4)
+	O.bodies[0].state.pos = Vector3(0.75, 0.25, 0)
+	O.bodies.append(utils.box((face + 0.5, 0.25, 0), (0.5, 1, 1), material=O.materials.append(FrictMat()), fixed=True))
+	O.step()
+	assert len(mpm.arrays()['id']) == number and solver.clampedDomains == 2 - number, (face, len(mpm.arrays()['id']))
 solver.basis = 'mpm'
 try: O.step()
 except ValueError as error: message = str(error)

@@ -65,7 +65,7 @@ public:
 		  "What a run says on stderr. 0: nothing; 1: one line of progress, redrawn on a terminal, repeated every 10 s in a log; 2: a line each step.",
 		  oneOf(0, 1, 2));
 		v("maxSplits", &E::maxSplits, 0,
-		  "How many times a point whose domain outgrows half a cell is split in two, and its halves again. 0, the default: never; the domain is kept at half a cell.",
+		  "How often a point whose domain outgrows half a cell is split in two, and its halves again. 0, the default: never; the domain stays at half a cell.",
 		  atLeast(0));
 		results([&](auto name, auto member, const auto&, Told, unsigned flags, auto doc, auto validator) { v(name, member, flags, doc, validator); });
 	}
