@@ -119,7 +119,7 @@ O.step()
 assert len(mpm.arrays()['id']) == 2 and solver.clampedDomains == 2
 # a rigid body where the middle of a half would be; half a cell beside it there is none
 for face, number in (0.9, 1), (1.2, 2):
-	solver = block((2.2, 0, 0, 0, 1, 0, 0, 0, 1), points=1, size=(0.5, 0.5, 1), engine=MpmDynamicEngine, contacts=[MpmContact(friction=0)], maxSplits=4)
+	solver = block((1.9, 0, 0, 0, 0.9, 0, 0, 0, 1), points=1, size=(0.5, 0.5, 1), engine=MpmDynamicEngine, contacts=[MpmContact(friction=0)], maxSplits=4)
 	O.bodies[0].state.pos = Vector3(0.75, 0.25, 0)
 	O.bodies.append(utils.box((face + 0.5, 0.25, 0), (0.5, 1, 1), material=O.materials.append(FrictMat()), fixed=True))
 	O.step()
