@@ -110,6 +110,7 @@ outOfRange = {
         'MpmImplicitEngine.mask': None,
         'MpmImplicitEngine.loadTime': None,
         'MpmImplicitEngine.verbosity': ['-1', '3'],
+        'MpmImplicitEngine.maxSplits': ['-1'],
         'MpmVtkRecorder.fileName': None,
         'MpmVtkRecorder.recorders': ['["lines"]'],
         'MpmVtkRecorder.fields': ['["lines"]'],

@@ -262,6 +262,16 @@ def test_load_steps(yade):
 	assert 'no scene' in yade(example, '--scenes', 'column,none', fails=True).stderr
 
 
+def test_splitting(yade):
+	"""Two of its scenes; what is in the table is not run again."""
+	example = root / 'examples' / 'splitting' / 'splitting.py'
+	runs = lambda: re.findall(r'^(?:hang|press) ./. completed (\S+), .*, measured (\S+), exact', yade(example, '--scenes', 'hang press', '--cases', '1/0 1/6').stdout, re.MULTILINE)
+	(hung, _), (hangs, wrong), (broke, _), (went, force) = [tuple(map(float, row)) for row in runs()]
+	assert hung < 0.3 and hangs == 1 and wrong < 0.01 and broke < went and abs(force - 1) < 0.01
+	assert (yade.folder / 'out/splitting/splitting.png').stat().st_size > 20000 and not runs()
+	assert 'no scene' in yade(example, '--scenes', 'none', fails=True).stderr
+
+
 def test_walls(yade):
 	"""A column askew on the grid has the stress of the aligned one, under its weight and under a lid that is pushed in."""
 	for load in 'weight', 'lid':

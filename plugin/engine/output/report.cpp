@@ -55,7 +55,7 @@ void addReport(py::object pythonClass)
 	        "'worstAxis' ('x', 'y', 'z' or '') and 'worstForce' [N] of the largest out-of-balance force; 'points', 'nodes', 'dofs', 'activeCells', "
 	        "'boundaryCells', 'ghostFaces'.\n\n"
 	        "What deserves a look there, with the rule for it: 'clampedDomains', points whose domain would outgrow half a cell: it is kept at half a cell, "
-	        "the rest of the point's volume acts within it. 'wallOverlap' [m], the largest length by which a domain reached behind a wall: no cell is "
+	        "the rest of the point's volume acts within it (see maxSplits). 'wallOverlap' [m], the largest length by which a domain reached behind a wall: no cell is "
 	        "populated there, and the point's share in nodes behind the wall counts as held. 'mixedCells', cells populated by points of different materials: each point "
 	        "keeps its own law, so the cell's stiffness is the sum, and the interface is resolved to one cell. 'islands', parts of the body that share "
 	        "no grid node, 1 for a body in one piece (0 if the step was refused before they were counted): the body may break up as long as every part is held against rigid motion; a part that is not "

@@ -20,6 +20,8 @@ public:
 	OwnParameters                   parameters;
 	Vector3r                        acceleration = Vector3r::Zero();
 	Real                            porePressure = std::numeric_limits<Real>::quiet_NaN(); // there is no water
+	int                             splits       = 0;
+	int                             parent       = -1; // the body is none of another one
 
 	YADE_API_NAME(MpmState)
 	static const char* doc()
@@ -60,6 +62,10 @@ public:
 		  finite);
 		v("porePressure", &MpmState::porePressure, readonly,
 		  "Pressure of water in the pores [Pa] (MpmWater) at the end of the last step: a result, less which *stress* is total stress; NaN without water.");
+		v("splits", &MpmState::splits, readonly,
+		  "How many times what was one point at first has been split in two to give this one: a result (MpmImplicitEngine.maxSplits).", atLeast(0));
+		v("parent", &MpmState::parent, readonly,
+		  "Id of the body that this one was split off from, which keeps the other half; -1 of points that were there at first.", atLeast(-1));
 	}
 
 	// Position and initial position belong to YADE's State, which admits every number.

@@ -3,7 +3,7 @@
 #include "engine/materials/laws.hpp"
 #include "engine/points/buffers.hpp"
 #include "engine/points/columns.hpp"
-#include "engine/solver/MpmImplicitEngine.hpp"
+#include "engine/solver/AtWork.hpp"
 #include "engine/solver/exchange.hpp"
 #include <Eigen/LU>
 #include <algorithm>
@@ -176,7 +176,7 @@ namespace {
 void assignColumns(const py::object& ids, const py::dict& given)
 {
 	const ValueLock lock;
-	if (MpmImplicitEngine::isStepAtWork())
+	if (AtWork::isAny())
 		throw std::runtime_error("assign: a load step is at work in the background and would overwrite the values; call O.pause() or O.wait() first.");
 	const auto            points = materialPoints(*Singleton<Omega>::instance().getScene());
 	const Column<int64_t> rows(ids, "ids");

@@ -13,7 +13,7 @@ namespace {
 	using RowByRow = Eigen::Matrix<Real, 3, 3, Eigen::RowMajor>;
 
 	constexpr auto arrays = PointColumn::inArrays, vtk = PointColumn::inVtk, derived = PointColumn::derived, ofMotion = PointColumn::ofMotion,
-	               ofWater = PointColumn::ofWater;
+	               ofWater = PointColumn::ofWater, ofSplits = PointColumn::ofSplits;
 
 	// of(point, scene) is the number; a column of integers
 	template <class Of> PointColumn integer(const char* name, unsigned uses, Of of)
@@ -136,6 +136,8 @@ namespace {
 		for (const Parameter& of : allParameters())
 			columns.push_back(parameter(of));
 		columns.push_back(integer("material", arrays | vtk, [](Point p, const Scene& scene) { return p.materialIndex(scene); }));
+		columns.push_back(integer("splits", arrays | vtk | ofSplits, [](Point p, const Scene&) { return p.state->splits; }));
+		columns.push_back(integer("parent", arrays | vtk | ofSplits, [](Point p, const Scene&) { return p.state->parent; }));
 		columns.push_back(result("displacement", "m", "displacement", derived | vtk, [](Point p) { return Vector3r(p.state->pos - p.state->refPos); }));
 		columns.push_back(result("strain", "-", "logarithmic strain", derived | vtk, &strain));
 		columns.push_back(result("meanStress", "Pa", "mean stress", derived | vtk, &meanStress));
@@ -152,9 +154,10 @@ vector<const PointColumn*> columnsOf(const vector<MaterialPoint>& points)
 {
 	std::set<string>   names { gimpm::equivalentPlasticStrain.name };
 	const MpmMaterial* last     = nullptr; // points of one material follow each other
-	bool               hasWater = false;
+	bool               hasWater = false, hasSplits = false;
 	for (const MaterialPoint& point : points) {
-		hasWater = hasWater || !std::isnan(point.state->porePressure);
+		hasWater  = hasWater || !std::isnan(point.state->porePressure);
+		hasSplits = hasSplits || point.state->splits > 0;
 		for (const auto& own : point.state->parameters)
 			names.insert(own.first);
 		if (point.material.get() == last) continue;
@@ -163,9 +166,12 @@ vector<const PointColumn*> columnsOf(const vector<MaterialPoint>& points)
 			names.insert(variable.name);
 	}
 	vector<const PointColumn*> columns;
+	const auto                 isThere = [&](const PointColumn& column) {
+                if (column.variable || column.isParameter) return names.count(column.name) > 0;
+                return (hasWater || !column.is(ofWater)) && (hasSplits || !column.is(ofSplits));
+	};
 	for (const PointColumn& column : pointColumns())
-		if ((column.variable || column.isParameter) ? names.count(column.name) : hasWater || !column.is(PointColumn::ofWater))
-			columns.push_back(&column);
+		if (isThere(column)) columns.push_back(&column);
 	return columns;
 }
 

@@ -12,6 +12,7 @@ struct PointColumn {
 		inVtk    = 2,  // field of the domains that MpmVtkRecorder writes
 		ofMotion = 8,  // only where a point moves is it a field
 		ofWater  = 16, // only where there is water
+		ofSplits = 32, // only where a point has been split
 		derived  = 4,  // follows from others: in pictures and tables beside those of mpm.arrays
 	};
 

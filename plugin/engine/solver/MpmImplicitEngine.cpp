@@ -2,6 +2,7 @@
 #include "engine/solver/MpmImplicitEngine.hpp"
 #include "core/base/stopwatch.hpp"
 #include "core/stepping/load_step.hpp"
+#include "engine/solver/AtWork.hpp"
 #include "engine/solver/LoadStepObserver.hpp"
 #include "engine/solver/Threads.hpp"
 #include "engine/solver/exchange.hpp"
@@ -13,17 +14,8 @@
 #include "engine/solver/walls.hpp"
 #include "yade_api/exceptions.hpp"
 #include "yade_api/logging.hpp"
-#include <atomic>
 
 namespace yade {
-namespace {
-	std::atomic_int stepsAtWork { 0 };
-
-	struct AtWork {
-		AtWork() { ++stepsAtWork; }
-		~AtWork() { --stepsAtWork; }
-	};
-}
 
 MpmImplicitEngine::MpmImplicitEngine()
 {
@@ -32,8 +24,6 @@ MpmImplicitEngine::MpmImplicitEngine()
 	timingDeltas = boost::make_shared<TimingDeltas>();
 	if (scene) home = scene->weak_from_this(); // the current one
 }
-
-bool MpmImplicitEngine::isStepAtWork() { return stepsAtWork > 0; }
 
 bool MpmImplicitEngine::isActivated()
 {
@@ -80,6 +70,10 @@ template <int Dim> void MpmImplicitEngine::step()
 	tellObservers(*scene, [this](LoadStepObserver& observer) { observer.stepBegins(*this); });
 	advance(job);
 	const ValueLock lock;
+	if (maxSplits > 0 && clampedDomains > 0) {
+		warn(splitting.split(*this, points, job));
+		plausibility.know(job.cloud);
+	}
 	for (const string& doubt : plausibility.warningsOfResult(*this, points, job.cloud))
 		warn(doubt);
 }

@@ -11,6 +11,7 @@
 #include "engine/solver/RunResults.hpp"
 #include "engine/solver/job.hpp"
 #include "engine/solver/plausibility.hpp"
+#include "engine/solver/splitting.hpp"
 #include "engine/solver/study.hpp"
 #include "yade_api/interruption.hpp"
 
@@ -27,6 +28,7 @@ public:
 	int                            mask      = -1;
 	Real                           loadTime  = 0;
 	int                            verbosity = 1;
+	int                            maxSplits = 0;
 
 	MpmImplicitEngine();
 
@@ -62,6 +64,9 @@ public:
 		v("verbosity", &E::verbosity, 0,
 		  "What a run says on stderr. 0: nothing; 1: one line of progress, redrawn on a terminal, repeated every 10 s in a log; 2: a line each step.",
 		  oneOf(0, 1, 2));
+		v("maxSplits", &E::maxSplits, 0,
+		  "How often a point whose domain outgrows half a cell is split in two, and its halves again. 0, the default: never; the domain stays at half a cell.",
+		  atLeast(0));
 		results([&](auto name, auto member, const auto&, Told, unsigned flags, auto doc, auto validator) { v(name, member, flags, doc, validator); });
 	}
 	template <class C> static void python(C& c)
@@ -78,8 +83,6 @@ public:
 	virtual bool isDynamic() const { return false; }
 	virtual bool isExplicit() const { return false; }
 	virtual void tellMotion(py::dict&) const { }
-	// Of any engine, between taking over the values of the material points and giving them back.
-	static bool isStepAtWork();
 
 	// The scene that holds this engine in O.engines: the current one, or the one where it was made or seen last (O.switchScene()). For an
 	// engine that neither holds, the current one.
@@ -103,6 +106,7 @@ private:
 	PeriodicCounters            beforeActivation;
 	ProgressLine                progressLine;
 	Plausibility                plausibility;
+	Splitting                   splitting;
 	boost::weak_ptr<Factorable> home;   // the scene where it was made or seen last
 	gimpm::LinearSolver         solver; // keeps the symbolic analysis; results do not depend on it
 };

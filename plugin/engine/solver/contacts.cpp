@@ -221,6 +221,20 @@ template <int Dim> void Contacts<Dim>::advanceTo(Real time)
 	}
 }
 
+template <int Dim> bool Contacts<Dim>::areBeside(const gimpm::Vec<Dim>& point, const gimpm::Vec<Dim>& part) const
+{
+	return !system || std::none_of(system->bodies.begin(), system->bodies.end(), [&](const auto& body) {
+		const auto at = body.proximity(body.end, part, body.sideOf(body.end, point));
+		return at.gap < 0 && at.beside < 0;
+	});
+}
+
+template <int Dim> void Contacts<Dim>::share(const HalvedDomain& domain) const
+{
+	for (const auto& contact : given)
+		shareRecords(*contact, domain);
+}
+
 template <int Dim> void Contacts<Dim>::scatter(Real time)
 {
 	if (!system) return;

@@ -5,6 +5,7 @@
 #include "core/terms/contact.hpp"
 #include "engine/conditions/MpmContact.hpp"
 #include "engine/points/MaterialPoints.hpp"
+#include "engine/solver/contact_halves.hpp"
 #include "yade_api/scene.hpp"
 #include <map>
 
@@ -39,6 +40,12 @@ public:
 
 	// The next step ends here.
 	void advanceTo(Real time);
+
+	// Whether the middle of a part of a point, as seen from that of the point, is on the same side of all bodies as they are at the end of the step.
+	bool areBeside(const gimpm::Vec<Dim>& point, const gimpm::Vec<Dim>& part) const;
+
+	// What is remembered of a point is shared by its halves.
+	void share(const HalvedDomain&) const;
 
 	// Writes a converged state back: what the contacts keep, and where the bodies are if nobody else moves them.
 	void scatter(Real time);

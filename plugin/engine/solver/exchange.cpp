@@ -114,20 +114,24 @@ namespace {
 		});
 	}
 
-	template <int Dim> void reenter(gimpm::PointCloud<Dim>& cloud, const gimpm::Grid<Dim>& grid, const vector<MaterialPoint>& points)
+	template <int Dim> void reenterAll(gimpm::PointCloud<Dim>& cloud, const gimpm::Grid<Dim>& grid, const vector<MaterialPoint>& points)
 	{
-		for (int a = 0; a < Dim; ++a) {
-			const Real length = grid.period[a] * grid.cellSize, low = grid.origin[a], high = low + length;
-			for (size_t p = 0; length > 0 && p < points.size(); ++p) {
-				Real& x = cloud.position[p][a];
-				if (x >= low && x < high) continue;
-				const Real shift = length * std::floor((x - low) / length);
-				x                = std::clamp(x - shift, low, high); // round-off
+		for (int a = 0; a < Dim; ++a)
+			for (size_t p = 0; grid.period[a] > 0 && p < points.size(); ++p) {
+				const Real shift = reenter(cloud.position[p][a], a, grid);
 				points[p].state->refPos[a] -= shift;
 				if (!cloud.position0.empty()) cloud.position0[p][a] -= shift;
 			}
-		}
 	}
+}
+
+template <int Dim> Real reenter(Real& x, int axis, const gimpm::Grid<Dim>& grid)
+{
+	const Real length = grid.period[axis] * grid.cellSize, low = grid.origin[axis], high = low + length;
+	if (length == 0 || (x >= low && x < high)) return 0;
+	const Real shift = length * std::floor((x - low) / length);
+	x                = std::clamp(x - shift, low, high); // round-off
+	return shift;
 }
 
 Vector3r stretched(const Vector3r& halfSize0, const Matrix3r& defGrad)
@@ -208,7 +212,7 @@ template <int Dim> gimpm::PointCloud<Dim> gather(const vector<MaterialPoint>& po
 // Plane strain leaves the components out of the plane alone, but for the zz component of strain and stress; axisymmetry has that of the deformation too.
 template <int Dim> void scatter(gimpm::PointCloud<Dim>& cloud, const gimpm::Grid<Dim>& grid, const vector<MaterialPoint>& points)
 {
-	reenter(cloud, grid, points);
+	reenterAll(cloud, grid, points);
 	inRanges(points.size(), [&](size_t begin, size_t end) {
 		vector<std::pair<std::string_view, const Real*>> internals;
 		for (size_t p = begin; p < end; ++p) {
@@ -230,7 +234,8 @@ template <int Dim> void scatter(gimpm::PointCloud<Dim>& cloud, const gimpm::Grid
 #define MPM_INSTANTIATE(Dim)                                                                                                                                     \
 	template gimpm::Model<Dim>      toModel(const MpmGrid&, const string&, bool, const vector<shared_ptr<MpmBoundary>>&, const MpmGhost&, const MpmNewton&); \
 	template gimpm::PointCloud<Dim> gather(const vector<MaterialPoint>&, gimpm::Model<Dim>&);                                                                \
-	template void                   scatter(gimpm::PointCloud<Dim>&, const gimpm::Grid<Dim>&, const vector<MaterialPoint>&);
+	template void                   scatter(gimpm::PointCloud<Dim>&, const gimpm::Grid<Dim>&, const vector<MaterialPoint>&);                                 \
+	template Real                   reenter(Real&, int, const gimpm::Grid<Dim>&);
 MPM_INSTANTIATE(2)
 MPM_INSTANTIATE(3)
 #undef MPM_INSTANTIATE

@@ -21,6 +21,9 @@ template <int Dim> gimpm::PointCloud<Dim> gather(const vector<MaterialPoint>&, g
 // Half the size of the domain into which the deformation gradient stretches an initial one; a step limits it to half a cell.
 Vector3r stretched(const Vector3r& halfSize0, const Matrix3r& defGrad);
 
+// A place beyond the period of the grid re-enters it on the other side; returns by how much it has moved back [m], 0 where it has not.
+template <int Dim> Real reenter(Real& x, int axis, const gimpm::Grid<Dim>&);
+
 // Writes a converged state back. Before, points that have left a periodic grid re-enter it on the other side. Their initial positions go with them, so that
 // displacements stay.
 template <int Dim> void scatter(gimpm::PointCloud<Dim>&, const gimpm::Grid<Dim>&, const vector<MaterialPoint>&);

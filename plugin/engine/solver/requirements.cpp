@@ -90,6 +90,10 @@ void requireRunnable(const MpmImplicitEngine& engine)
 {
 	engine.requireAdmissible();
 	if (engine.newton->linearSolver == "amg") requireMultigrid();
+	if (engine.maxSplits > 0 && engine.basis != "gimp")
+		throw std::invalid_argument(
+		        "maxSplits = " + std::to_string(engine.maxSplits) + " needs basis='gimp': with basis='" + engine.basis
+		        + "' points have no domains on the grid that could outgrow a cell. Set maxSplits = 0.");
 	requireOnlyClaim(engine);
 	if (!engine.contacts.empty()) requireOnlyContact(engine);
 	requireOwnSurfaces(engine);

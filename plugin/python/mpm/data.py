@@ -24,7 +24,8 @@ def arrays():
 		``elasticStrain`` (N, 3, 3) logarithmic elastic strain; ``porePressure`` (N,) [Pa], where there is water (``stress`` is then effective stress); ``volume`` (N,) current volume [m3]; ``plasticStrain`` (N,)
 		accumulated plastic strain; ``material`` (N,) index into ``O.materials`` (-1: not in there). Where the law of a point has other
 		internal variables, (N,) of each by its name, NaN for points without. Of a strength or modulus that a point has of its own, by :func:`assign` or
-		:func:`fill`, (N,) by its name, with the material's for points without. A scene without material points gives arrays of length 0.
+		:func:`fill`, (N,) by its name, with the material's for points without. Where points have been split (``MpmImplicitEngine.maxSplits``), ``splits`` (N,), how often,
+		and ``parent`` (N,), the id of the body that the point was split off from, -1: none. A scene without material points gives arrays of length 0.
 	:raises ValueError: a body with an ``MpmPoint`` shape that is no complete material point.
 	"""
 	return _asArrays(engine.columnsOfPoints(0, False))

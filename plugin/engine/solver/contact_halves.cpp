@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "engine/solver/contact_halves.hpp"
+#include "engine/conditions/contact_records.hpp"
+#include <map>
+
+namespace yade {
+
+namespace {
+	// Of the area that a corner stands for, the part of the faces across the axis: halves have these to themselves, and share the others.
+	Real partAcross(const HalvedDomain& domain, const Vector3r& normal)
+	{
+		Vector3r faces = Vector3r::Zero();
+		for (int a = 0; a < domain.dim; ++a)
+			faces[a] = std::abs(normal[a]) / domain.halfSize[a];
+		return faces[domain.axis] / faces.sum();
+	}
+
+	Vector3r placeOf(const HalvedDomain& domain, bool isUpper, int corner)
+	{
+		Vector3r place = domain.middle;
+		for (int a = 0; a < domain.dim; ++a) {
+			const Real sign = corner >> a & 1 ? 1 : -1;
+			place[a] += a == domain.axis ? domain.halfSize[a] / 2 * (sign + (isUpper ? 1 : -1)) : sign * domain.halfSize[a];
+		}
+		return place;
+	}
+
+	using Key = std::tuple<int, int, int>; // point, corner, body
+
+	class Shared {
+	public:
+		void add(const ContactRecordOfPoint& from, const HalvedDomain& domain, bool isUpper, int corner, Real part)
+		{
+			if (part == 0) return;
+			const int point             = isUpper ? domain.upper : domain.lower;
+			const auto [found, isFirst] = records.try_emplace(Key { point, corner, from.body }, from);
+			auto& to                    = found->second;
+			if (isFirst) {
+				to.point = point, to.corner = corner;
+				to.pressure = 0, to.friction.setZero();
+				to.place    = placeOf(domain, isUpper, corner);
+			} else { // from the other side of where the halves meet
+				to.offset  = (to.offset + from.offset) / 2;
+				to.gap     = (to.gap + from.gap) / 2;
+				to.touches = to.touches || from.touches;
+				to.slips   = to.slips || from.slips;
+			}
+			to.pressure += part * from.pressure;
+			to.friction += part * from.friction;
+		}
+		void appendTo(vector<Real>& numbers) const
+		{
+			for (const auto& [key, record] : records)
+				record.appendTo(numbers);
+		}
+
+	private:
+		std::map<Key, ContactRecordOfPoint> records;
+	};
+}
+
+void shareRecords(MpmContact& contact, const HalvedDomain& domain)
+{
+	vector<Real> kept;
+	Shared       shared;
+	forRecords(contact.records, [&](const ContactRecordOfPoint& r) {
+		if (r.point != domain.lower) return r.appendTo(kept);
+		const Real across  = partAcross(domain, r.normal);
+		const bool isUpper = r.corner >> domain.axis & 1;
+		const int  inner   = r.corner ^ (1 << domain.axis);
+		shared.add(r, domain, isUpper, r.corner, across + (1 - across) / 2);
+		shared.add(r, domain, isUpper, inner, (1 - across) / 4);
+		shared.add(r, domain, !isUpper, r.corner, (1 - across) / 4);
+	});
+	shared.appendTo(kept);
+	contact.records.swap(kept);
+}
+
+} // namespace yade

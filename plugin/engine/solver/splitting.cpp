@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "engine/solver/splitting.hpp"
+#include "core/grid/basis.hpp"
+#include "engine/points/halves.hpp"
+#include "engine/solver/MpmImplicitEngine.hpp"
+#include "engine/solver/exchange.hpp"
+
+namespace yade {
+
+namespace {
+	struct Splits {
+		int        left      = 0;  // points whose domain is kept at half a cell
+		Body::id_t exhausted = -1; // the first of them that has been split as often as is admitted
+	};
+
+	template <int Dim> class Outgrown {
+	public:
+		Outgrown(vector<MaterialPoint>& points, Job<Dim>& job, Scene& scene, int most) : points(points), job(job), scene(scene), most(most) { }
+
+		Splits splitAll()
+		{
+			for (size_t p = 0; p < points.size(); ++p) // of those that are new, too
+				while (splitOnce(p)) { }
+			if (points.size() > job.cloud.size()) updateCloud();
+			return result;
+		}
+
+	private:
+		// Half lengths of the domain as the step would have left them without a limit.
+		Vector3r grown(const MaterialPoint& point) const
+		{
+			Vector3r size = stretched(point.shape->halfSize0, point.state->defGrad);
+			if (isRing()) size[0] = std::min(size[0], point.state->pos[0]);
+			return size;
+		}
+
+		bool splitOnce(size_t p)
+		{
+			const MaterialPoint& point = points[p];
+			if (point.shape->halfSize.template head<Dim>().maxCoeff() < limit) return false;
+			const Vector3r size = grown(point);
+			if (size.template head<Dim>().maxCoeff() <= limit) return false;
+			const int axis = point.state->splits < most ? axisOf(point, size) : -1;
+			if (axis >= 0) return split(p, axis);
+			++result.left;
+			if (point.state->splits >= most && result.exhausted < 0) result.exhausted = point.id;
+			return false;
+		}
+
+		// The one along which it is longest, of those along which it can be split; none: -1
+		int axisOf(const MaterialPoint& point, const Vector3r& size) const
+		{
+			int best = -1;
+			for (int a = 0; a < Dim; ++a)
+				if (size[a] > limit && (best < 0 || size[a] > size[best]) && isFree(point, a)) best = a;
+			return best;
+		}
+
+		bool isFree(const MaterialPoint& point, int axis) const
+		{
+			const gimpm::Vec<Dim> middle = point.state->pos.template head<Dim>(), offset = toUpperHalf(point, axis).head<Dim>();
+			return isFree(middle, middle + offset) && isFree(middle, middle - offset);
+		}
+
+		// No wall, axis of symmetry or rigid body comes between the middles of the whole and of a half.
+		bool isFree(const gimpm::Vec<Dim>& from, const gimpm::Vec<Dim>& to) const
+		{
+			using namespace gimpm;
+			const auto& grid   = job.model.grid;
+			const auto  cellAt = [&](const Vec<Dim>& x, int a) { return centreCell(x[a] - grid.origin[a], grid.cellSize); };
+			Index<Dim>  cell;
+			for (int a = 0; a < Dim; ++a)
+				cell[a] = cellAt(from, a);
+			for (int a = 0; a < Dim; ++a) {
+				const auto [first, last] = std::minmax({ cell[a], cellAt(to, a) });
+				Index<Dim> face          = cell;
+				for (face[a] = first + 1; face[a] <= last; ++face[a])
+					if (job.model.boundary.lowerFaceIsWall(face, a)) return false;
+			}
+			return job.contacts.areBeside(from, to);
+		}
+
+		bool split(size_t p, int axis)
+		{
+			const MaterialPoint whole  = points[p];
+			const Vector3r      middle = whole.state->pos, halfSize = whole.shape->halfSize;
+			const auto          upper = halve(*(*scene.bodies)[whole.id], whole, axis, isRing());
+			const auto          id    = scene.bodies->insert(upper);
+			points.push_back(
+			        { id, boost::static_pointer_cast<MpmPoint>(upper->shape), boost::static_pointer_cast<MpmState>(upper->state), whole.material });
+			job.contacts.share({ whole.id, id, axis, Dim, middle, halfSize });
+			for (const MaterialPoint& half : { whole, points.back() })
+				settle(half);
+			return true;
+		}
+
+		// On the grid: in its period, and with the domain that a step would give it.
+		void settle(const MaterialPoint& half) const
+		{
+			for (int a = 0; a < Dim; ++a)
+				half.state->refPos[a] -= reenter(half.state->pos[a], a, job.model.grid);
+			const Vector3r size                       = grown(half);
+			half.shape->halfSize.template head<Dim>() = size.template head<Dim>().cwiseMin(limit);
+			if (isRing()) half.shape->halfSize[2] = half.shape->halfSize0[2] * half.state->defGrad(2, 2);
+			half.shape->radius *= std::pow(0.5, 1. / Dim);
+		}
+
+		void updateCloud()
+		{
+			job.cloud.resize(points.size());
+			for (size_t p = 0; p < points.size(); ++p) {
+				job.cloud.position[p] = points[p].state->pos.template head<Dim>();
+				job.cloud.halfSize[p] = points[p].shape->halfSize.template head<Dim>();
+			}
+		}
+
+		bool isRing() const { return job.model.grid.axisymmetric; }
+
+		vector<MaterialPoint>& points;
+		Job<Dim>&              job;
+		Scene&                 scene;
+		int                    most;
+		Real                   limit = 0.5 * job.model.grid.cellSize;
+		Splits                 result;
+	};
+}
+
+template <int Dim> string Splitting::split(MpmImplicitEngine& engine, vector<MaterialPoint>& points, Job<Dim>& job)
+{
+	const Splits splits   = Outgrown<Dim>(points, job, *engine.scene, engine.maxSplits).splitAll();
+	engine.clampedDomains = splits.left;
+	if (splits.exhausted < 0 || isSaid) return "";
+	isSaid = true;
+	return "Body #" + std::to_string(splits.exhausted) + ": the domain of the material point has outgrown half a cell again, after maxSplits = "
+	        + std::to_string(engine.maxSplits) + " halvings; it is kept at half a cell. This is said once; clampedDomains counts such points.";
+}
+
+template string Splitting::split(MpmImplicitEngine&, vector<MaterialPoint>&, Job<2>&);
+template string Splitting::split(MpmImplicitEngine&, vector<MaterialPoint>&, Job<3>&);
+
+} // namespace yade
