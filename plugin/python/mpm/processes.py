@@ -1,5 +1,78 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Under mpirun, mpi4py begins MPI before algebraic multigrid can, and so ends it, however the script ends."""
+"""Several processes that mpirun has started (scripts/run -n): each runs the script, the first one writes the files, and none outlives a failure of another."""
+import atexit
+import functools
 import os
+import sys
+import time
 
-if 'OMPI_COMM_WORLD_RANK' in os.environ: import mpi4py.MPI
+count = int(os.environ.get('OMPI_COMM_WORLD_SIZE', 1))
+isFirst = int(os.environ.get('OMPI_COMM_WORLD_RANK', 0)) == 0
+_grace = 10  # [s] that processes which have failed wait for the others to do so, too
+_hasFailed = False
+
+if 'OMPI_COMM_WORLD_RANK' in os.environ: from mpi4py import MPI  # which begins MPI before PETSc can, and so ends it, however the script ends
+if count > 1:
+	from yade import mpy, plot, wrapper
+	_world = MPI.COMM_WORLD.Dup()  # steps in the background have one of their own
+
+
+def byFirst(write):
+	"""Decorator of a function that writes a file: the first process calls it, and what it writes is the same in all of them."""
+
+	@functools.wraps(write)
+	def wrapped(*arguments, **options):
+		return write(*arguments, **options) if isFirst else None
+
+	return wrapped
+
+
+def withFirst(write):
+	"""The same, and the others wait until the file is there; an OSError is one of all processes."""
+	if count == 1: return write
+
+	@functools.wraps(write)
+	def wrapped(*arguments, **options):
+		error = None
+		if isFirst:
+			try:
+				write(*arguments, **options)
+			except Exception as thrown:
+				error = thrown
+		error = _world.bcast(error)
+		if error: raise error
+
+	return wrapped
+
+
+def _refuseDecomposition(*arguments, **options):
+	raise RuntimeError(
+	        'yade.mpy.mpirun knows nothing of material points: leave it out, and call O.run(n, wait=True) in all of the processes, which share each load step as they are'
+	)
+
+
+def _exit(status=None):
+	"""As sys.exit, by which YADE ends after an error of the script, and which leaves the others waiting."""
+	global _hasFailed
+	_hasFailed = status not in (None, 0, False)
+	raise SystemExit(status)
+
+
+def _endOthers():
+	"""After an error: where the others go on without this one, all are ended."""
+	if not _hasFailed: return
+	sys.stdout.flush()
+	together, deadline = _world.Ibarrier(), time.monotonic() + _grace
+	while not together.Test():
+		if time.monotonic() > deadline:
+			print(f'yade.mpm: process {_world.rank} of {count} has failed, and others go on without it: all are ended.', file=sys.stderr, flush=True)
+			_world.Abort(1)
+		time.sleep(.01)
+
+
+if count > 1:
+	mpy.mpirun = _refuseDecomposition
+	sys.exit = _exit
+	atexit.register(_endOthers)
+	if not isFirst:
+		wrapper.Omega.save = plot.saveDataTxt = plot.saveGnuplot = lambda *arguments, **options: None
