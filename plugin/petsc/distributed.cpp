@@ -97,8 +97,8 @@ PetscErrorCode makeMatrix(const gimpm::DistributedRows& rows, const double* valu
 	PetscCall(MatSetSizes(*K, rows.rows, rows.rows, rows.all, rows.all));
 	PetscCall(MatSetBlockSize(*K, rows.dim));
 	PetscCall(MatSetType(*K, MATMPIAIJ));
-	PetscCall(MatSetOption(*K, MAT_USE_INODES, PETSC_FALSE)); // whose product takes three times as long
 	PetscCall(MatMPIAIJSetPreallocationCSR(*K, rows.start, rows.column, value));
+	PetscCall(MatSetOption(*K, MAT_USE_INODES, PETSC_FALSE));                // whose product takes three times as long
 	if (isSymmetric) PetscCall(MatSetOption(*K, MAT_SYMMETRIC, PETSC_TRUE)); // not MAT_SPD, which it may not be
 	return 0;
 }

@@ -27,7 +27,7 @@ namespace {
 		}
 	}
 
-	shared_ptr<const gimpm::Processes> begin(int count)
+	std::shared_ptr<const gimpm::Processes> begin(int count)
 	{
 		beginMpi();
 		string     absence;
@@ -61,10 +61,10 @@ namespace {
 	}
 }
 
-shared_ptr<const gimpm::Processes> processes()
+std::shared_ptr<const gimpm::Processes> processes()
 {
-	static shared_ptr<const gimpm::Processes> known;
-	const int                                 count = toldByMpirun("OMPI_COMM_WORLD_SIZE", 1);
+	static std::shared_ptr<const gimpm::Processes> known;
+	const int                                      count = toldByMpirun("OMPI_COMM_WORLD_SIZE", 1);
 	if (!known && count > 1) known = begin(count);
 	return known;
 }
@@ -100,7 +100,7 @@ void Agreement::breakOff(const std::exception_ptr& thrown)
 {
 	if (isAsked) return;
 	isAsked = true;
-	shared_ptr<const gimpm::Processes> all;
+	std::shared_ptr<const gimpm::Processes> all;
 	try {
 		all = processes();
 	} catch (const std::invalid_argument&) { // there are none to talk to

@@ -5,12 +5,13 @@
 #include "core/grid/point_cloud.hpp"
 #include "yade_api/types.hpp"
 #include <exception>
+#include <memory>
 
 namespace yade {
 class MpmImplicitEngine;
 
 // Null: this one alone. All of them call this; it opens the library with MPI. std::invalid_argument if that is not there.
-shared_ptr<const gimpm::Processes> processes();
+std::shared_ptr<const gimpm::Processes> processes();
 
 // Whether this is the one that writes files and messages.
 bool isFirstProcess();
