@@ -13,7 +13,10 @@ _hasFailed = False
 
 if 'OMPI_COMM_WORLD_RANK' in os.environ: from mpi4py import MPI  # which begins MPI before PETSc can, and so ends it, however the script ends
 if count > 1:
+	_speak = sys.stderr.write
 	from yade import mpy, plot, wrapper
+	sys.stderr.write = _speak  # which yade.mpy has turned to stdout, of which the first process alone may be shown
+	sys.stderr.reconfigure(line_buffering=True)  # for what is said before all are ended
 	_world = MPI.COMM_WORLD.Dup()  # steps in the background have one of their own
 
 
