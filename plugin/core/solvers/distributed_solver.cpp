@@ -187,7 +187,7 @@ bool DistributedSolver::iterate(Task& task, LinearMethod method)
 
 bool DistributedSolver::iterateWithMultigrid(Task& task)
 {
-	if (task.unknowns == unknowns_) {
+	if (task.unknowns == unknowns_ && task.spread.share.start == start_) {
 		const double expected = perDecade_ * std::log10(task.error / task.tolerance);
 		const int    before   = task.effort.iterations;
 		if (run(task, true, few + int(tooMany * expected))) {
@@ -226,6 +226,7 @@ void DistributedSolver::setUp(Task& task)
 	library().setUp(solver_);
 	++task.effort.hierarchies;
 	unknowns_ = task.unknowns;
+	start_    = task.spread.share.start;
 }
 
 /// D K D with ones on the diagonal, as in one process.

@@ -38,6 +38,7 @@ private:
 
 	void*                   solver_;   ///< of the library
 	Unknowns                unknowns_; ///< of multigrid; none: there is none
+	std::vector<int>        start_;    ///< of the nodes of the processes, of multigrid
 	bool                    diagonalFails_ = false;
 	double                  perDecade_     = 0; ///< iterations of the first solve with multigrid
 	std::unique_ptr<Factor> factor_;            ///< of the last solve

@@ -51,11 +51,13 @@ private:
 		int           column; ///< number of the node among those with rows
 		bool          isTransposed;
 		const double* values;
-		const double* skew; ///< null: none
+		const double* skew;             ///< null: none
+		bool          isItself = false; ///< of one node, with the whole of what is not symmetric
 
 		/// With this part of what K_ba^T differs from K_ab by, if it is K_ba.
 		double at(int i, int j, double part) const
 		{
+			if (isItself) return part * values[Dim * i + j] + (1 - part) * values[Dim * j + i];
 			if (!isTransposed) return values[Dim * i + j] + (skew ? (1 - part) * skew[Dim * i + j] : 0);
 			return values[Dim * j + i] + (skew ? part * skew[Dim * j + i] : 0);
 		}
@@ -82,7 +84,7 @@ private:
 				const int b = K_.neighbour(a, c);
 				if (row_[b] < 0) continue;
 				const double* skew = c == 0 || K_.isSymmetric() ? nullptr : K_.skewAt(a, c);
-				if (isOwn(row_[a])) f(row_[a], Block { row_[b], false, K_.at(a, c), skew });
+				if (isOwn(row_[a])) f(row_[a], Block { row_[b], false, K_.at(a, c), skew, c == 0 && !K_.isSymmetric() });
 				if (c > 0 && isOwn(row_[b])) f(row_[b], Block { row_[a], true, K_.at(a, c), skew });
 			}
 	}

@@ -46,21 +46,18 @@ template <class Nodes> bool touches(const NodeShare& share, const Nodes& nodes)
 	return std::any_of(std::begin(nodes), std::end(nodes), [&](int node) { return share.owns(node); });
 }
 
-/// The runs of these patches in which each touches a node of this process.
-template <int Dim> void keepTouching(const NodeShare& share, const std::vector<Patch<Dim>>& patches, std::vector<std::pair<int, int>>& ranges)
+/// Of each tile, which one thread does, the patches from the first to the last one that touch a node of this process.
+template <int Dim> void keepTouching(const NodeShare& share, const std::vector<Patch<Dim>>& patches, std::vector<std::pair<int, int>>& tiles)
 {
 	std::vector<std::pair<int, int>> kept;
-	for (const auto& [first, last] : ranges) {
-		int from = -1;
-		for (int p = first; p <= last; ++p) {
-			const bool isOwn = p < last && touches(share, patches[p].node);
-			if (isOwn && from < 0) from = p;
-			if (isOwn || from < 0) continue;
-			kept.push_back({ from, p });
-			from = -1;
-		}
+	for (auto [first, last] : tiles) {
+		while (first < last && !touches(share, patches[first].node))
+			++first;
+		while (first < last && !touches(share, patches[last - 1].node))
+			--last;
+		if (first < last) kept.push_back({ first, last });
 	}
-	ranges.swap(kept);
+	tiles.swap(kept);
 }
 
 /// Of bytes, eight at a time.
@@ -83,8 +80,8 @@ template <int Dim>
 Share<Dim>::Share(const Processes& processes, const CloudBasis<Dim>& basis, const std::vector<GhostFace<Dim>>& faces)
         : nodes_ { processes, cutByWork(basis, processes.size()) }, colours_(basis.colours)
 {
-	for (auto& ranges : colours_)
-		keepTouching(nodes_, basis.patches, ranges);
+	for (auto& tiles : colours_)
+		keepTouching(nodes_, basis.patches, tiles);
 	std::copy_if(faces.begin(), faces.end(), std::back_inserter(faces_), [&](const auto& face) {
 		return std::any_of(std::begin(face.node), std::end(face.node), [&](const auto& nodes) { return touches(nodes_, nodes); });
 	});

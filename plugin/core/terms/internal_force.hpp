@@ -37,7 +37,7 @@ template <int Dim> struct StepPoints {
 	}
 };
 
-/// Ranges of patches, as in CloudBasis.
+/// Ranges of patches by colour, as in CloudBasis: no two of a colour may share a node.
 template <int Dim> using Colours = decltype(CloudBasis<Dim>::colours);
 
 template <int Dim> StepPoints<Dim> stepPoints(const PointCloud<Dim>&, const std::vector<Material>&, const CloudBasis<Dim>&, bool fBar = false);
