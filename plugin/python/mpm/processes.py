@@ -4,6 +4,7 @@ import atexit
 import functools
 import os
 import sys
+import threading
 import time
 
 count = int(os.environ.get('OMPI_COMM_WORLD_SIZE', 1))
@@ -31,11 +32,13 @@ def byFirst(write):
 
 
 def withFirst(write):
-	"""The same, and the others wait until the file is there; an OSError is one of all processes."""
+	"""The same; between two runs the others wait until the file is there, and an error is one of all. During a run each may be somewhere else."""
 	if count == 1: return write
+	alone = byFirst(write)
 
 	@functools.wraps(write)
 	def wrapped(*arguments, **options):
+		if wrapper.Omega().running or threading.current_thread() is not threading.main_thread(): return alone(*arguments, **options)
 		error = None
 		if isFirst:
 			try:
