@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Scenes that several processes work on: `scripts/run -n 2 shared.py out.npz slope2 contact` runs these, and measures them.
 
-The file has the positions of the points after each scene, by its name. Printed is one line of JSON: for each scene the solves and the iterations of conjugate
-gradients or GMRES; of each process CPU seconds by part and in all, memory, and what it has sent to others. The argument `linearSolver=amg` sets the method, `size=2`
+The file has the positions of the points after each scene, by its name, and as `measured` a text of JSON: for each scene the solves and the iterations of conjugate
+gradients or GMRES; of each process CPU seconds, seconds by part, memory, and what it has sent to others. The argument `linearSolver=amg` sets the method, `size=2`
 halves the cells.
 """
 import json
@@ -117,6 +117,4 @@ for word in words:
 		mine = effort(globals()[word]())
 		positions[word] = mpm.arrays()['pos']
 		found[word] = processes._world.gather(mine) if processes.count > 1 else [mine]
-if processes.isFirst:
-	np.savez(out, **positions)
-	print(json.dumps(found))
+if processes.isFirst: np.savez(out, measured=json.dumps(found), **positions)

@@ -74,7 +74,7 @@ namespace {
 					EXPECT_LT(differs(own.middleRows(first, rows), all.middleRows(first, rows)), 1e-13);
 					EXPECT_LT(differs(own.middleCols(first, rows), all.middleCols(first, rows)), 1e-13);
 					EXPECT_GT(differs(ownForce, force), 1e-3) << "the rest is left to others";
-					if (rank == processes - 1) EXPECT_EQ(next, whole.nodalSize());
+					EXPECT_TRUE(rank < processes - 1 || next == whole.nodalSize());
 				}
 		}
 	}
@@ -134,7 +134,7 @@ namespace {
 				EXPECT_TRUE(std::equal(own.dof.begin(), own.dof.end(), whole.dof.begin() + next));
 				EXPECT_TRUE(std::equal(own.position.begin(), own.position.end(), whole.position.begin() + (period ? 0 : next)));
 				next += own.rows();
-				if (rank == 3) EXPECT_EQ(next, whole.rows());
+				EXPECT_TRUE(rank < 3 || next == whole.rows());
 			}
 		}
 	}
@@ -158,7 +158,7 @@ namespace {
 		const auto isFree = [&](int row) { return system.dofs.number[rows.dof[row]] >= 0; };
 		for (int r = 0; r < rows.rows(); ++r)
 			for (int c = 0; c < rows.rows(); ++c)
-				if (isFree(r) && isFree(c)) ASSERT_EQ(found(r, c), all(rows.dof[r], rows.dof[c])) << r << ' ' << c;
+				ASSERT_TRUE(!isFree(r) || !isFree(c) || found(r, c) == all(rows.dof[r], rows.dof[c])) << r << ' ' << c;
 	}
 
 }

@@ -118,7 +118,7 @@ struct DistributedSolver::Task {
 	SolverTimes&     times;
 	IterativeEffort& effort;
 	double           error  = 1; ///< |b - K x| / |b|
-	bool             goesOn = false;
+	bool             goesOn = false, isIndefinite = false;
 };
 
 /// As the factor is that of D K D, with ones on the diagonal.
@@ -181,6 +181,7 @@ bool DistributedSolver::iterate(Task& task, LinearMethod method)
 	if (task.isSymmetric && method == LinearMethod::iterative) return run(task, false, mostIterations);
 	const bool isTried = task.isSymmetric && method == LinearMethod::automatic && !diagonalFails_;
 	if (isTried && run(task, false, patience)) return true;
+	if (task.isIndefinite) return false; // which multigrid does not change
 	diagonalFails_ = diagonalFails_ || isTried;
 	return iterateWithMultigrid(task);
 }
@@ -211,8 +212,9 @@ bool DistributedSolver::run(Task& task, bool withMultigrid, int atMost)
 	DistributedIteration iteration { withMultigrid, task.goesOn, task.tolerance, atMost, 0, task.error, false, false };
 	library().iterate(solver_, &iteration, task.b.data(), task.x.data());
 	task.effort.iterations += iteration.made;
-	task.error  = iteration.error;
-	task.goesOn = !iteration.hasBrokenDown && std::isfinite(iteration.error);
+	task.error        = iteration.error;
+	task.goesOn       = !iteration.hasBrokenDown && std::isfinite(iteration.error);
+	task.isIndefinite = iteration.hasBrokenDown && !withMultigrid;
 	if (!iteration.hasConverged)
 		task.effort.reason = std::string(withMultigrid ? "multigrid" : "conjugate gradients")
 		        + (iteration.hasBrokenDown ? ": the matrix is not positive definite"
