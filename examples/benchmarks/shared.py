@@ -107,6 +107,13 @@ def effort(steps):
 	)
 
 
+def gathered(mine):
+	"""Of each process, in the first one."""
+	if processes.count == 1: return [mine]
+	from mpi4py import MPI
+	return MPI.COMM_WORLD.gather(mine)
+
+
 found, positions = {}, {}
 out, *words = sys.argv[1:]
 for word in words:
@@ -116,5 +123,5 @@ for word in words:
 		O.reset()
 		mine = effort(globals()[word]())
 		positions[word] = mpm.arrays()['pos']
-		found[word] = processes._world.gather(mine) if processes.count > 1 else [mine]
+		found[word] = gathered(mine)
 if processes.isFirst: np.savez(out, measured=json.dumps(found), **positions)

@@ -87,9 +87,12 @@ template <int Dim> void Agreement::reach(const MpmImplicitEngine& engine, const 
 	const int first = firstToFail(*all, false);
 	if (first < all->size())
 		throw std::runtime_error("Process " + std::to_string(first) + " of " + std::to_string(all->size()) + " has failed: " + all->told("", first));
-	if (!gimpm::haveSamePoints(*all, cloud))
+	const bool isSameIteration = all->haveSame(std::uint64_t(engine.scene->iter)); // after an error in one of them it may not be
+	if (!isSameIteration || !gimpm::haveSamePoints(*all, cloud))
 		throw std::runtime_error(
-		        engine.getClassName() + ": the processes hold different material points in iteration " + std::to_string(engine.scene->iter)
+		        engine.getClassName() + ": the processes "
+		        + (isSameIteration ? "hold different material points" : "are not in the same iteration; this one is") + " in iteration "
+		        + std::to_string(engine.scene->iter)
 		        + ". The script must do the same in all of them, in the same order: random numbers need a seed, and files the same content.");
 }
 
