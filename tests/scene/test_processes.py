@@ -138,7 +138,7 @@ with open(f'process{rank}.json', 'w') as file:
 
 
 def test_an_error_of_the_script_and_a_kill_end_all_with_a_reason(yade):
-	"""A script that fails in one process; one that is killed, after which the last save can be gone on with; YADE's own decomposition."""
+	"""A script that fails in one process; one that ends before the other; one that is killed, after which the last save can be gone on with; YADE's own decomposition."""
 	alone = yade(setting + '''
 processes._grace = 1
 solver = slope(2.0)
@@ -147,6 +147,8 @@ if rank == 1: raise ValueError('only here')
 O.run(1, wait=True)
 ''', processes=2, fails=True)
 	assert 'only here' in alone.stderr and 'process 1 of 2 has failed, and others go on without it: all are ended' in alone.stderr
+	early = yade(setting + 'slope(2.0)\nO.run(1, wait=True)\nif rank == 0: O.run(1, wait=True)\n', processes=2, fails=True)
+	assert 'process 0 cannot go on, and ends all: it is in a load step, and another process has come to the end of its script' in early.stderr
 	killed = yade(
 	        setting + '''
 solver = slope(2.0)

@@ -10,7 +10,8 @@ import time
 count = int(os.environ.get('OMPI_COMM_WORLD_SIZE', 1))
 isFirst = int(os.environ.get('OMPI_COMM_WORLD_RANK', 0)) == 0
 _grace = 10  # [s] that processes which have failed wait for the others to do so, too
-_hasFailed = False
+_endOfScript = 27183  # tag of a message, as in the library
+_hasFailed = _hasEnded = False
 
 if 'OMPI_COMM_WORLD_RANK' in os.environ: from mpi4py import MPI  # which begins MPI before PETSc can, and so ends it, however the script ends
 if count > 1:
@@ -64,9 +65,18 @@ def _exit(status=None):
 	raise SystemExit(status)
 
 
+def _tellEnd():
+	"""To the others, who may be in a step that this process does not make."""
+	global _hasEnded
+	for rank in set(range(count)) - {MPI.COMM_WORLD.rank} if not _hasEnded else ():
+		MPI.COMM_WORLD.Isend(bytearray(), rank, _endOfScript)
+	_hasEnded = True
+
+
 def _endOthers():
 	"""After an error: where the others go on without this one, all are ended."""
-	if not _hasFailed: return
+	if MPI.Is_finalized(): return
+	if not _hasFailed: return _tellEnd()
 	sys.stdout.flush()
 	together, deadline = _world.Ibarrier(), time.monotonic() + _grace
 	while not together.Test():
@@ -76,8 +86,20 @@ def _endOthers():
 		time.sleep(.01)
 
 
+def _saying(end):
+	"""What YADE calls after the script."""
+
+	@functools.wraps(end)
+	def wrapped():
+		_tellEnd()
+		return end()
+
+	return wrapped
+
+
 if count > 1:
 	mpy.mpirun = _refuseDecomposition
+	mpy.disconnect, mpy.spawnedProcessWaitCommand = _saying(mpy.disconnect), _saying(mpy.spawnedProcessWaitCommand)
 	sys.exit = _exit
 	atexit.register(_endOthers)
 	if not isFirst:
