@@ -8,6 +8,7 @@
 #include "engine/points/assignment.hpp"
 #include "engine/points/bulkAccess.hpp"
 #include "engine/points/columns.hpp"
+#include "engine/solver/processes.hpp"
 #include "yade_api/verification.hpp"
 
 BOOST_PYTHON_MODULE(mpm_engine)
@@ -19,6 +20,9 @@ BOOST_PYTHON_MODULE(mpm_engine)
 	        "For mpm.fill: bodies from positions, half size, materials, the index of each body's material, whether they are rings around x = 0, and a dict of "
 	        "columns of parameters.");
 	py::def("multigridAbsence", &gimpm::Multigrid::absence, "For mpm.advise: why there is no algebraic multigrid; empty if there is.");
+	py::def(
+	        "bytesSent", +[] { return processes() ? processes()->sent() : 0.; },
+	        "For measurements: what this process has sent to others that mpirun has started.");
 	py::def("betweenSteps", &betweenSteps, "For mpm.save: calls a function while no step in the background changes the state.");
 	py::def("columnsOfPoints", &columnsOfPoints,
 	        "For mpm.arrays: dict of bytearrays with the data of the material points that a mask means, in order of body id.");

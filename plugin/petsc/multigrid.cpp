@@ -1,49 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // mpm_petsc.so: algebraic multigrid by PETSc's GAMG (smoothed aggregation) in one process.
 #include "core/solvers/multigrid_module.hpp"
-#include <cstdio>
-#include <cstdlib>
+#include "petsc/begin.hpp"
 #include <memory>
 #include <petscpc.h>
 
 namespace {
-
-static_assert(sizeof(PetscInt) == sizeof(int) && sizeof(PetscScalar) == sizeof(double), "PETSc for real numbers and 32-bit indices is needed");
-
-/// Takes PETSc's errors, which it would print, for its lifetime.
-class Errors {
-public:
-	Errors(char* reason, int length) : reason_(reason), length_(length) { PetscPushErrorHandler(&take, this); }
-	~Errors() { PetscPopErrorHandler(); }
-	Errors(const Errors&)            = delete;
-	Errors& operator=(const Errors&) = delete;
-
-private:
-	static PetscErrorCode take(MPI_Comm, int, const char* function, const char*, PetscErrorCode code, PetscErrorType type, const char* message, void* self)
-	{
-		const auto& errors = *static_cast<Errors*>(self);
-		if (type == PETSC_ERROR_INITIAL) std::snprintf(errors.reason_, errors.length_, "PETSc, %s: %s (error %d)", function, message, int(code));
-		return code;
-	}
-
-	char* reason_;
-	int   length_;
-};
-
-/// Once in a process, and never PetscFinalize(): MPI is ended by YADE or mpi4py, which may have begun it.
-PetscErrorCode begin()
-{
-	PetscBool isReady;
-	PetscCall(PetscInitialized(&isReady));
-	if (isReady) return 0;
-	// What the user's files and variables say is meant for other programs.
-	PetscCall(PetscOptionsSetValue(nullptr, "-skip_petscrc", "1"));
-	PetscCall(PetscOptionsSetValue(nullptr, "-no_signal_handler", "1"));
-	PETSC_MPI_THREAD_REQUIRED = MPI_THREAD_MULTIPLE; // of which mpi4py makes use if it comes later
-	// without mpirun, OpenMPI would start a process of its own beside this one
-	if (!std::getenv("OMPI_COMM_WORLD_RANK")) setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
-	return PetscInitializeNoArguments();
-}
 
 struct Hierarchy {
 	gimpm::MultigridMatrix K;

@@ -43,12 +43,13 @@ class Yade:
 		self.command = os.environ.get('YADE', 'yade')
 		self.environment = {}  # variables in addition to those of this process
 
-	def __call__(self, script, *arguments, threads=1, timeout=120, fails=False, environment={}, options=(), stderr=subprocess.PIPE):
+	def __call__(self, script, *arguments, threads=1, processes=1, timeout=120, fails=False, environment={}, options=(), stderr=subprocess.PIPE):
 		"""Run a script to its end; the test fails unless the exit code is 0, or with *fails* unless it is not 0.
 
 		:param script: its text, or its path as a pathlib.Path
 		:param arguments: of the script
 		:param threads: for YADE's option -j
+		:param processes: if more than one, by mpirun, as scripts/run -n does
 		:param timeout: [s], after which the process is ended and the test fails
 		:param environment: variables for this run only
 		:param options: of YADE, in addition to -n -x -j
@@ -58,10 +59,11 @@ class Yade:
 		if not isinstance(script, Path):
 			text, script = script, self.folder / 'script.py'
 			script.write_text(text)
+		mpirun = ['mpirun', '--allow-run-as-root', '--oversubscribe', '--bind-to', 'none', '-n', str(processes)] if processes > 1 else []
 		ended = subprocess.run(
-		        [self.command, '-n', '-x', f'-j{threads}', *options, str(script), *map(str, arguments)],
+		        [*mpirun, self.command, '-n', '-x', f'-j{threads}', *options, str(script), *map(str, arguments)],
 		        cwd=self.folder,
-		        env=os.environ | self.ownSettings() | self.environment | environment,
+		        env=os.environ | {'OMPI_MCA_mpi_yield_when_idle': '1'} | self.ownSettings() | self.environment | environment,
 		        timeout=timeout,
 		        stdout=subprocess.PIPE,
 		        stderr=stderr,
@@ -135,3 +137,15 @@ def libraries(yade):
 	yade.command = '/usr/bin/yade'
 	yade.environment['YADE_PREFIX'] = str(yade.folder / 'prefix')
 	return folder
+
+
+@pytest.fixture
+def yadeWithoutPetsc(yade, libraries):
+	"""`yade` with all of the plugin but mpm_petsc.so."""
+	prefix = yade.folder / 'prefix'
+	shutil.copy(build / 'mpm/mpm_engine.so', libraries / 'mpm')
+	shutil.copytree(root / 'plugin/python', prefix / 'python')
+	(prefix / 'bin').mkdir()
+	(prefix / 'host').write_text('/usr/bin/yade')
+	yade.command = str(shutil.copy(root / 'scripts/lib/yade-in-overlay.py', prefix / 'bin/yade'))
+	return yade

@@ -1,9 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """MpmNewton.linearSolver: the same states whichever way the equations are solved, and a report of how."""
-import shutil
-
 import pytest
-from conftest import build, root
 
 
 def test_conjugate_gradients_give_the_states_of_the_direct_solver(yade):
@@ -82,14 +79,9 @@ print(json.dumps([absence, found]))
 	assert iterations / solves < 0.3 * byDiagonal[1] / byDiagonal[0]
 
 
-def test_multigrid_that_is_absent_is_named(yade, libraries, tmp_path):
+def test_multigrid_that_is_absent_is_named(yadeWithoutPetsc):
 	"""The plugin without mpm_petsc.so: 'amg' says what to do, and the scene stays as it is; 'auto' goes without."""
-	shutil.copy(build / 'mpm/mpm_engine.so', libraries / 'mpm')
-	shutil.copytree(root / 'plugin/python', tmp_path / 'prefix/python')
-	(tmp_path / 'prefix/bin').mkdir()
-	(tmp_path / 'prefix/host').write_text('/usr/bin/yade')
-	yade.command = str(shutil.copy(root / 'scripts/lib/yade-in-overlay.py', tmp_path / 'prefix/bin/yade'))
-	said, steps, advice = yade(
+	said, steps, advice = yadeWithoutPetsc(
 	        beam + '''
 solver = bentBeam('amg')
 try: O.step()

@@ -16,7 +16,10 @@ namespace gimpm {
 #define GIMPM_FLATTEN gnu::flatten,
 #endif
 
-inline bool processorHasAvx2() { return __builtin_cpu_supports("x86-64-v3"); }
+/// False where several processes shall come to the same bits, and the processor of one of them has none.
+inline bool mayUseAvx2 = true;
+
+inline bool processorHasAvx2() { return mayUseAvx2 && __builtin_cpu_supports("x86-64-v3"); }
 
 /// f(), with all that it calls compiled into one function, for AVX2 if the processor has it.
 template <class F>[[GIMPM_FLATTEN gnu::noinline]] void                   callPortable(F&& f) { f(); }

@@ -9,6 +9,9 @@ namespace gimpm {
 /// from the first iteration on.
 enum class LinearMethod { automatic, direct, iterative, multigrid };
 
+/// How it was solved. `lu`: by pivots, as K is not positive definite, or not symmetric.
+enum class SolverStatus { cholesky, lu, singular, iterative };
+
 struct SolverTimes {
 	double analyse = 0, factorise = 0, solve = 0; ///< [s]; to set up multigrid takes the place of a factorisation
 };

@@ -13,9 +13,10 @@ public:
 	LinearProblem(SymmetricCsc K) : size_(K.size()), isSymmetric_(true), compressed_(std::move(K)) { }
 	LinearProblem(GeneralCsc K) : size_(K.size()), isSymmetric_(false), compressed_(std::move(K)) { }
 
-	/// These must outlive it.
+	/// These must outlive it. With a share it is solved by all processes together.
 	template <int Dim>
-	LinearProblem(const NodeMatrix<Dim>& K, const FreeDofs& dofs) : size_(dofs.count), isSymmetric_(K.isSymmetric()), overNodes_(nodeProblem(K, dofs))
+	LinearProblem(const NodeMatrix<Dim>& K, const FreeDofs& dofs, const NodeShare* share = nullptr)
+	        : size_(dofs.count), isSymmetric_(K.isSymmetric()), overNodes_(nodeProblem(K, dofs, share))
 	{
 	}
 
@@ -24,6 +25,7 @@ public:
 	const SymmetricCsc& symmetric() const { return std::get<SymmetricCsc>(compressed()); }
 	const GeneralCsc&   general() const { return std::get<GeneralCsc>(compressed()); }
 	const NodeProblem*  overNodes() const { return overNodes_.get(); } ///< null: only compressed
+	bool                isShared() const { return overNodes_ && overNodes_->share(); }
 
 	/// What is stored: of a symmetric matrix one triangle.
 	const Csc& stored() const { return isSymmetric() ? static_cast<const Csc&>(symmetric()) : general(); }

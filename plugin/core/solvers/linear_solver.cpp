@@ -4,6 +4,7 @@
 #include "core/solvers/blas_threads.hpp"
 #include "core/solvers/cholesky.hpp"
 #include "core/solvers/conjugate_gradients.hpp"
+#include "core/solvers/distributed_solver.hpp"
 #include "core/solvers/gmres.hpp"
 #include "core/solvers/lu.hpp"
 #include "core/solvers/node_solver.hpp"
@@ -170,11 +171,13 @@ bool LinearSolver::solveIteratively(const LinearProblem& K, const Eigen::VectorX
 
 bool LinearSolver::staysOverNodes(LinearMethod method, const LinearProblem& K)
 {
+	if (K.isShared()) return true;
 	return K.overNodes() && K.isSymmetric() && (isAlwaysIterative(method) || (method == LinearMethod::automatic && isTooLarge(K)));
 }
 
 LinearSolver::Status LinearSolver::solve(const LinearProblem& K, const Eigen::VectorXd& b, Eigen::VectorXd& x, LinearMethod method, double tolerance)
 {
+	if (K.isShared()) return solveTogether(K, b, x, method, tolerance);
 	if (isIterative(method, K)) {
 		if (solveIteratively(K, b, x, tolerance, method)) return Status::iterative;
 		++effort_.fallbacks;
@@ -182,8 +185,21 @@ LinearSolver::Status LinearSolver::solve(const LinearProblem& K, const Eigen::Ve
 	return solve(K, b, x);
 }
 
+/// Whether a factor is worthwhile is left to the places of the nodes: an analysis would need the whole matrix in one process.
+LinearSolver::Status LinearSolver::solveTogether(const LinearProblem& K, const Eigen::VectorXd& b, Eigen::VectorXd& x, LinearMethod method, double tolerance)
+{
+	if (!together_) together_.reset(new DistributedSolver);
+	if (method == LinearMethod::automatic) {
+		std::int64_t isLarge = K.overNodes()->needsMoreFlopsPerEntry(worthwhileFlops); // by the blocks that each of them knows
+		K.overNodes()->share()->processes.smallest(&isLarge, 1);
+		if (!isLarge) method = LinearMethod::direct;
+	}
+	return together_->solve(*K.overNodes(), K.isSymmetric(), b, x, method, tolerance, times_, effort_);
+}
+
 bool LinearSolver::solveAgain(const Eigen::VectorXd& b, Eigen::VectorXd& x, bool transposed)
 {
+	if (together_ && together_->hasFactor()) return together_->solveAgain(b, x);
 	const FewerThreads guard(0);
 	return direct_->solve(b, x, transposed);
 }

@@ -7,6 +7,7 @@
 
 namespace gimpm {
 
+class DistributedSolver;
 class NodeSolver;
 
 /// Direct solver: supernodal Cholesky (CHOLMOD), and LU with pivoting for a matrix that is not symmetric (MUMPS; UMFPACK judges what MUMPS
@@ -14,7 +15,7 @@ class NodeSolver;
 /// (alone or with multigrid) or, for a matrix that is not symmetric, GMRES. One object serves one thread.
 class LinearSolver {
 public:
-	enum class Status { cholesky, lu, singular, iterative };
+	using Status = SolverStatus;
 
 	LinearSolver();
 	~LinearSolver();
@@ -25,7 +26,7 @@ public:
 	Status solve(const LinearProblem& K, const Eigen::VectorXd& b, Eigen::VectorXd& x);
 
 	/// The same by the given method; where that is iterative, to |b - K x| <= tolerance |b|. What cannot be solved so is solved directly. A
-	/// singular matrix whose range contains b is not found so.
+	/// singular matrix whose range contains b is not found so. What several processes share they solve together.
 	Status solve(const LinearProblem& K, const Eigen::VectorXd& b, Eigen::VectorXd& x, LinearMethod, double tolerance);
 
 	/// Iteratively, whatever it takes; false, with x meaningless, if it fails. Multigrid is for symmetric matrices over nodes.
@@ -60,11 +61,14 @@ private:
 
 	static bool isAlwaysIterative(LinearMethod method) { return method == LinearMethod::iterative || method == LinearMethod::multigrid; }
 	Status      factorise(const LinearProblem& K);
+	Status      solveTogether(const LinearProblem& K, const Eigen::VectorXd& b, Eigen::VectorXd& x, LinearMethod, double tolerance);
 
 	std::unique_ptr<Direct>     direct_;
 	std::unique_ptr<NodeSolver> overNodes_;
-	SolverTimes                 times_;
-	IterativeEffort             effort_;
+
+	std::unique_ptr<DistributedSolver> together_; // null before the first solve of several processes
+	SolverTimes                        times_;
+	IterativeEffort                    effort_;
 };
 
 } // namespace gimpm

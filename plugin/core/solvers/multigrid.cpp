@@ -1,51 +1,20 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "core/solvers/multigrid.hpp"
-#include "core/solvers/multigrid_module.hpp"
+#include "core/solvers/petsc_library.hpp"
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <dlfcn.h>
 
 namespace gimpm {
 namespace {
-
-struct Library {
-	std::string            file;
-	const MultigridModule* module = nullptr; ///< null until it is opened
-};
-
-/// Beside the file that holds the core.
-std::string usualFile()
-{
-	Dl_info self;
-	if (!dladdr(reinterpret_cast<void*>(&usualFile), &self)) return "mpm_petsc.so";
-	const std::string core(self.dli_fname);
-	return core.substr(0, core.rfind('/') + 1) + "mpm_petsc.so";
-}
-
-Library& library()
-{
-	static Library one { usualFile() };
-	return one;
-}
 
 using Reason = std::array<char, 512>;
 
 } // namespace
 
-void Multigrid::openFrom(const std::string& file) { library() = { file }; }
+void Multigrid::openFrom(const std::string& file) { PetscLibrary::get() = { file }; }
 
-std::string Multigrid::absence()
-{
-	auto& [file, module] = library();
-	if (module) return "";
-	void* const opened = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
-	if (!opened) return dlerror();
-	const auto get = reinterpret_cast<const MultigridModule* (*)()>(dlsym(opened, multigridSymbol));
-	if (!get || get()->version != multigridVersion) return file + " is of another version of the plugin";
-	module = get();
-	return "";
-}
+std::string Multigrid::absence() { return PetscLibrary::get().open(); }
 
 Multigrid::Multigrid(NodeRows rows, Unknowns unknowns, std::shared_ptr<const SymmetricOperator> K)
         : rows_(std::move(rows))
@@ -74,7 +43,7 @@ std::unique_ptr<Multigrid> Multigrid::of(const NodeProblem& problem, std::shared
 
 Multigrid::~Multigrid()
 {
-	if (hierarchy_) library().module->destroy(hierarchy_);
+	if (hierarchy_) PetscLibrary::get().multigrid->destroy(hierarchy_);
 }
 
 bool Multigrid::setUp(std::string& reason)
@@ -88,7 +57,7 @@ bool Multigrid::setUp(std::string& reason)
 		rows_.dim, rows_.rows(), rows_.start.data(), rows_.column.data(), rows_.value.data(), rows_.position.empty() ? nullptr : rows_.position.data(),
 		this,      &multiply
 	};
-	hierarchy_ = library().module->create(&K, said.data(), int(said.size()));
+	hierarchy_ = PetscLibrary::get().multigrid->create(&K, said.data(), int(said.size()));
 	reason     = said.data();
 	return hierarchy_ != nullptr;
 }
@@ -114,7 +83,7 @@ std::string Multigrid::apply(const Eigen::VectorXd& r, Eigen::VectorXd& z) const
 	Reason said {};
 	for (int i = 0; i < rows_.rows(); ++i)
 		in_[i] = r[rows_.dof[i]];
-	if (!library().module->apply(hierarchy_, in_.data(), out_.data(), said.data(), int(said.size()))) return said.data();
+	if (!PetscLibrary::get().multigrid->apply(hierarchy_, in_.data(), out_.data(), said.data(), int(said.size()))) return said.data();
 	for (const auto& held : rows_.held)
 		out_[held.row] = 0;
 	z.setZero(r.size());

@@ -10,7 +10,7 @@ namespace {
 
 template <int Dim> class Problem : public NodeProblem {
 public:
-	Problem(const NodeMatrix<Dim>& K, const FreeDofs& dofs) : K_(K), dofs_(dofs) { }
+	Problem(const NodeMatrix<Dim>& K, const FreeDofs& dofs, const NodeShare* share) : K_(K), dofs_(dofs), share_(share) { }
 
 	std::variant<SymmetricCsc, GeneralCsc> compressed() const override
 	{
@@ -34,7 +34,8 @@ public:
 		forFree([&](int dof, int number) { x[number] = all[dof]; });
 		return x;
 	}
-	std::optional<NodeRows> rows() const override { return nodeRows(K_, dofs_); }
+	std::optional<NodeRows> rows() const override { return nodeRows(K_, dofs_, share_); }
+	const NodeShare*        share() const override { return share_; }
 	Unknowns                unknowns() const override
 	{
 		Unknowns all { K_.keys(), {} };
@@ -117,13 +118,17 @@ private:
 
 	const NodeMatrix<Dim>& K_;
 	const FreeDofs&        dofs_;
+	const NodeShare*       share_;
 };
 
 } // namespace
 
-template <int Dim> std::unique_ptr<NodeProblem> nodeProblem(const NodeMatrix<Dim>& K, const FreeDofs& dofs) { return std::make_unique<Problem<Dim>>(K, dofs); }
+template <int Dim> std::unique_ptr<NodeProblem> nodeProblem(const NodeMatrix<Dim>& K, const FreeDofs& dofs, const NodeShare* share)
+{
+	return std::make_unique<Problem<Dim>>(K, dofs, share);
+}
 
-template std::unique_ptr<NodeProblem> nodeProblem(const NodeMatrix<2>&, const FreeDofs&);
-template std::unique_ptr<NodeProblem> nodeProblem(const NodeMatrix<3>&, const FreeDofs&);
+template std::unique_ptr<NodeProblem> nodeProblem(const NodeMatrix<2>&, const FreeDofs&, const NodeShare*);
+template std::unique_ptr<NodeProblem> nodeProblem(const NodeMatrix<3>&, const FreeDofs&, const NodeShare*);
 
 } // namespace gimpm

@@ -30,9 +30,10 @@ struct NodeProblem {
 	virtual Eigen::VectorXd                    expanded(const Eigen::VectorXd& x) const   = 0;
 	virtual Eigen::VectorXd                    ofFreeDofs(const Eigen::VectorXd& x) const = 0;
 
-	/// Of a symmetric matrix, for multigrid.
+	/// For multigrid; where processes share the matrix, the rows of this one.
 	virtual std::optional<NodeRows> rows() const     = 0;
 	virtual Unknowns                unknowns() const = 0;
+	virtual const NodeShare*        share() const    = 0; ///< null: the whole matrix is here
 
 	/// Whether a factor takes more operations for each entry of a triangle, by the places of the nodes alone.
 	virtual bool needsMoreFlopsPerEntry(double flops) const = 0;
@@ -41,7 +42,7 @@ struct NodeProblem {
 	virtual Order ordering() const = 0;
 };
 
-/// The matrix and the degrees of freedom must outlive it.
-template <int Dim> std::unique_ptr<NodeProblem> nodeProblem(const NodeMatrix<Dim>&, const FreeDofs&);
+/// All must outlive it.
+template <int Dim> std::unique_ptr<NodeProblem> nodeProblem(const NodeMatrix<Dim>&, const FreeDofs&, const NodeShare* = nullptr);
 
 } // namespace gimpm

@@ -8,7 +8,7 @@ namespace {
 
 template <int Dim> class Rows {
 public:
-	Rows(const NodeMatrix<Dim>& K, const FreeDofs& dofs) : K_(K), dofs_(dofs), row_(K.nodes(), -1)
+	Rows(const NodeMatrix<Dim>& K, const FreeDofs& dofs, const NodeShare* share) : K_(K), dofs_(dofs), row_(K.nodes(), -1)
 	{
 		for (int a = 0; a < K.nodes(); ++a) {
 			bool isFree = false;
@@ -17,6 +17,8 @@ public:
 			if (!isFree) continue;
 			row_[a] = int(nodes_.size());
 			nodes_.push_back(a);
+			if (share && a < share->first()) begin_ = int(nodes_.size());
+			if (!share || a < share->last()) end_ = int(nodes_.size());
 		}
 		findBlocks();
 	}
@@ -25,8 +27,8 @@ public:
 
 	NodeRows make()
 	{
-		NodeRows out { Dim, {}, {}, {}, {}, {}, {} };
-		for (int n = 0; n < count(); ++n)
+		NodeRows out { Dim, Dim * int(nodes_.size()), Dim * begin_, {}, {}, {}, {}, {}, {}, {} };
+		for (int n = begin_; n < end_; ++n)
 			for (int i = 0; i < Dim; ++i) {
 				if (isHeld(nodes_[n], i)) out.held.push_back({ out.rows(), diagonalOf(nodes_[n], i) });
 				out.dof.push_back(Dim * nodes_[n] + i);
@@ -34,9 +36,12 @@ public:
 		startRows(out);
 		out.column.resize(out.start.back());
 		out.value.assign(out.start.back(), 0.);
+		out.symmetricPart.assign(K_.isSymmetric() ? 0 : out.start.back(), 0.);
 #pragma omp parallel for schedule(static)
-		for (int n = 0; n < count(); ++n)
-			fillRows(n, out);
+		for (int n = begin_; n < end_; ++n) {
+			fillRows(n, out, out.value, 1);
+			if (!K_.isSymmetric()) fillRows(n, out, out.symmetricPart, 0.5);
+		}
 		if (!K_.isPeriodic()) place(out);
 		return out;
 	}
@@ -46,10 +51,22 @@ private:
 		int           column; ///< number of the node among those with rows
 		bool          isTransposed;
 		const double* values;
+		const double* skew;             ///< null: none
+		bool          isItself = false; ///< of one node, with the whole of what is not symmetric
+
+		/// With this part of what K_ba^T differs from K_ab by, if it is K_ba.
+		double at(int i, int j, double part) const
+		{
+			if (isItself) return part * values[Dim * i + j] + (1 - part) * values[Dim * j + i];
+			if (!isTransposed) return values[Dim * i + j] + (skew ? (1 - part) * skew[Dim * i + j] : 0);
+			return values[Dim * j + i] + (skew ? part * skew[Dim * j + i] : 0);
+		}
 	};
 
 	bool isHeld(int node, int axis) const { return dofs_.number[Dim * node + axis] < 0; }
-	int  count() const { return int(nodes_.size()); }
+	int  count() const { return end_ - begin_; }
+	bool isOwn(int row) const { return row >= begin_ && row < end_; }
+	int  firstOf(int n) const { return first_[n - begin_]; }
 
 	/// That of a held component is as large as its neighbours', whose unknowns multigrid takes together with it.
 	double diagonalOf(int node, int axis) const
@@ -58,7 +75,7 @@ private:
 		return diagonal > 0 || !isHeld(node, axis) ? diagonal : 1;
 	}
 
-	/// Calls f(row, block) for each block of the whole matrix.
+	/// Calls f(row, block) for each block of the rows.
 	template <class F> void forBlocks(F&& f) const
 	{
 		for (const int a : nodes_)
@@ -66,53 +83,54 @@ private:
 				if (c > 0 && !K_.used(a, c)) continue;
 				const int b = K_.neighbour(a, c);
 				if (row_[b] < 0) continue;
-				f(row_[a], Block { row_[b], false, K_.at(a, c) });
-				if (c > 0) f(row_[b], Block { row_[a], true, K_.at(a, c) });
+				const double* skew = c == 0 || K_.isSymmetric() ? nullptr : K_.skewAt(a, c);
+				if (isOwn(row_[a])) f(row_[a], Block { row_[b], false, K_.at(a, c), skew, c == 0 && !K_.isSymmetric() });
+				if (c > 0 && isOwn(row_[b])) f(row_[b], Block { row_[a], true, K_.at(a, c), skew });
 			}
 	}
 
 	void findBlocks()
 	{
 		first_.assign(count() + 1, 0);
-		forBlocks([&](int row, const Block&) { ++first_[row + 1]; });
+		forBlocks([&](int row, const Block&) { ++first_[row - begin_ + 1]; });
 		for (int n = 0; n < count(); ++n)
 			first_[n + 1] += first_[n];
 		blocks_.resize(first_.back());
 		std::vector<int> next(first_.begin(), first_.end() - 1);
-		forBlocks([&](int row, const Block& block) { blocks_[next[row]++] = block; });
+		forBlocks([&](int row, const Block& block) { blocks_[next[row - begin_]++] = block; });
 		const auto before = [](const Block& a, const Block& b) { return a.column < b.column; };
 		for (int n = 0; n < count() && K_.isPeriodic(); ++n) // otherwise they rise, because lower nodes are visited first
 			std::stable_sort(blocks_.begin() + first_[n], blocks_.begin() + first_[n + 1], before);
 	}
 
 	/// On a small periodic grid two blocks may be for the same nodes.
-	bool isSameAsBefore(int n, int block) const { return block > first_[n] && blocks_[block].column == blocks_[block - 1].column; }
+	bool isSameAsBefore(int n, int block) const { return block > firstOf(n) && blocks_[block].column == blocks_[block - 1].column; }
 
 	void startRows(NodeRows& out) const
 	{
 		out.start.push_back(0);
-		for (int n = 0; n < count(); ++n) {
+		for (int n = begin_; n < end_; ++n) {
 			int different = 0;
-			for (int e = first_[n]; e < first_[n + 1]; ++e)
+			for (int e = firstOf(n); e < firstOf(n + 1); ++e)
 				different += !isSameAsBefore(n, e);
 			for (int i = 0; i < Dim; ++i)
 				out.start.push_back(out.start.back() + Dim * different);
 		}
 	}
 
-	void fillRows(int n, NodeRows& out) const
+	void fillRows(int n, NodeRows& out, std::vector<double>& value, double part) const
 	{
 		for (int i = 0; i < Dim; ++i) {
-			int at = out.start[Dim * n + i] - Dim;
-			for (int e = first_[n]; e < first_[n + 1]; ++e) {
+			int at = out.start[Dim * (n - begin_) + i] - Dim;
+			for (int e = firstOf(n); e < firstOf(n + 1); ++e) {
 				const Block& block = blocks_[e];
 				if (!isSameAsBefore(n, e)) at += Dim;
 				for (int j = 0; j < Dim; ++j) {
 					const bool isDiagonal = block.column == n && i == j, holds = isHeld(nodes_[n], i) || isHeld(nodes_[block.column], j);
 					out.column[at + j] = Dim * block.column + j;
-					if (isDiagonal) out.value[at + j] = diagonalOf(nodes_[n], i);
+					if (isDiagonal) value[at + j] = diagonalOf(nodes_[n], i);
 					else if (!holds)
-						out.value[at + j] += block.values[block.isTransposed ? Dim * j + i : Dim * i + j];
+						value[at + j] += block.at(i, j, part);
 				}
 			}
 		}
@@ -122,29 +140,30 @@ private:
 	{
 		Vec<Dim> mean = Vec<Dim>::Zero();
 		for (const int a : nodes_)
-			mean += Grid<Dim>::index(K_.keys()[a]).template cast<double>() / double(count());
-		for (const int a : nodes_)
+			mean += Grid<Dim>::index(K_.keys()[a]).template cast<double>() / double(nodes_.size());
+		for (int n = begin_; n < end_; ++n)
 			for (int i = 0; i < Dim; ++i)
-				out.position.push_back(Grid<Dim>::index(K_.keys()[a])[i] - mean[i]);
+				out.position.push_back(Grid<Dim>::index(K_.keys()[nodes_[n]])[i] - mean[i]);
 	}
 
 	const NodeMatrix<Dim>& K_;
 	const FreeDofs&        dofs_;
-	std::vector<int>       row_, nodes_; ///< number of each node among those with rows, or -1; and these
-	std::vector<int>       first_;       ///< block of each row of blocks
+	std::vector<int>       row_, nodes_;         ///< number of each node among those with rows, or -1; and these
+	int                    begin_ = 0, end_ = 0; ///< of these, those whose rows are wanted
+	std::vector<int>       first_;               ///< block of each row of blocks
 	std::vector<Block>     blocks_;
 };
 
 } // namespace
 
-template <int Dim> std::optional<NodeRows> nodeRows(const NodeMatrix<Dim>& K, const FreeDofs& dofs)
+template <int Dim> std::optional<NodeRows> nodeRows(const NodeMatrix<Dim>& K, const FreeDofs& dofs, const NodeShare* share)
 {
-	Rows<Dim> rows(K, dofs);
+	Rows<Dim> rows(K, dofs, share);
 	if (rows.entries() > std::size_t(std::numeric_limits<int>::max())) return std::nullopt;
 	return rows.make();
 }
 
-template std::optional<NodeRows> nodeRows(const NodeMatrix<2>&, const FreeDofs&);
-template std::optional<NodeRows> nodeRows(const NodeMatrix<3>&, const FreeDofs&);
+template std::optional<NodeRows> nodeRows(const NodeMatrix<2>&, const FreeDofs&, const NodeShare*);
+template std::optional<NodeRows> nodeRows(const NodeMatrix<3>&, const FreeDofs&, const NodeShare*);
 
 } // namespace gimpm

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// A symmetric matrix over nodes in compressed rows, as multigrid is given it.
+// A matrix over nodes in compressed rows, as multigrid is given it: all rows, or those of one of several processes.
 #pragma once
+#include "core/solvers/node_share.hpp"
 #include "core/solvers/reduce.hpp"
 #include <optional>
 
@@ -9,9 +10,12 @@ namespace gimpm {
 /// Rows of the nodes that are not held altogether, both triangles, by whole blocks. A held component has only its diagonal.
 struct NodeRows {
 	int                 dim;
-	std::vector<int>    dof; ///< of each row, among Dim a node
+	int                 all;   ///< rows, of all processes
+	int                 first; ///< number of the first one here among them
+	std::vector<int>    dof;   ///< of each row, among Dim a node
 	std::vector<int>    start, column;
 	std::vector<double> value;
+	std::vector<double> symmetricPart; ///< of (K + K^T) / 2, in the same places; empty where K is symmetric
 	struct Held {
 		int    row;
 		double diagonal;
@@ -22,7 +26,7 @@ struct NodeRows {
 	int rows() const { return int(dof.size()); }
 };
 
-/// Nothing if there are more entries than an int can count.
-template <int Dim> std::optional<NodeRows> nodeRows(const NodeMatrix<Dim>&, const FreeDofs&);
+/// Nothing if there are more entries than an int can count. With a share those of this process.
+template <int Dim> std::optional<NodeRows> nodeRows(const NodeMatrix<Dim>&, const FreeDofs&, const NodeShare* = nullptr);
 
 } // namespace gimpm

@@ -55,6 +55,15 @@ template <int Dim> bool requireState(const PointCloud<Dim>& cloud, const Grid<Di
 	return true;
 }
 
+/// What is computed on from here must be the same everywhere. The report says so if not.
+template <int Dim> bool requireSamePoints(const PointCloud<Dim>& cloud, const Model<Dim>& model, StepReport& report)
+{
+	if (!model.processes || haveSamePoints(*model.processes, cloud)) return true;
+	fail(report, Failure::apart, "the processes have come to different states of the points");
+	report.accepted = false;
+	return false;
+}
+
 } // namespace
 
 void judge(const LocalError& error, StepReport& report)
@@ -82,7 +91,7 @@ template <int Dim> bool accept(const StepSystem<Dim>& system, PointCloud<Dim>& c
 	if (system.model.grid.axisymmetric) report.reactions.pop_back(); // of the axis, which nobody has asked for
 	PointCloud<Dim> updated = cloud;
 	updatePoints(updated, system, d, report);
-	if (!requireState(updated, system.model.grid, report)) return false;
+	if (!requireState(updated, system.model.grid, report) || !requireSamePoints(updated, system.model, report)) return false;
 	cloud = std::move(updated);
 	for (const auto& term : system.terms)
 		term->commit(d);

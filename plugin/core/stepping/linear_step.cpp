@@ -17,13 +17,14 @@ template <int Dim> bool LinearStep<Dim>::solve(const NodeMatrix<Dim>& K, Eigen::
 	if (prescribes()) {
 		Eigen::VectorXd held = step;
 		K.multiplyAdd(prescribed_, held);
+		if (system_.share()) system_.share()->complete(held);
 		for (int i = 0; i < held.size(); ++i)
 			if (system_.dofs.number[i] >= 0) residual[system_.dofs.number[i]] -= held[i];
 		step = prescribed_;
 		hasPrescribed();
 	}
 	if (system_.dofs.count == 0) return true;
-	const LinearProblem problem(K, system_.dofs);
+	const LinearProblem problem(K, system_.dofs, system_.share());
 	if (!solver_.staysOverNodes(method_, problem)) {
 		const Stopwatch watch(report_.times.assembly);
 		problem.stored();

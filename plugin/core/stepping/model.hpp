@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // What a load step is given besides the points.
 #pragma once
+#include "core/base/processes.hpp"
 #include "core/grid/basis.hpp"
 #include "core/grid/boundary.hpp"
 #include "core/materials/law.hpp"
@@ -42,6 +43,7 @@ template <int Dim> struct Model {
 	NewtonSettings                            newton;
 	std::vector<TermOfStep<Dim>>              terms {};         ///< besides the points' resistance and the ghost stabilisation
 	bool                                      atMiddle = false; ///< the points' resistance is that after half of the displacements
+	std::shared_ptr<const Processes>          processes {};     ///< that work on it together, all with the same points; null: this one alone
 };
 
 template <int Dim> struct Load {

@@ -24,6 +24,7 @@ enum class Failure {
 	diverging,
 	tooManyIterations,
 	stalled,
+	apart,
 	interrupted
 };
 

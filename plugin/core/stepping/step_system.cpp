@@ -56,6 +56,7 @@ StepSystem<Dim>::StepSystem(const PointCloud<Dim>& cloud, const Model<Dim>& m, c
 	}
 	faces = stabilise(stiffnessOf_, model, basis, report);
 	const Stopwatch watch(report.times.basis);
+	if (model.processes) share_ = std::make_unique<Share<Dim>>(*model.processes, basis, faces);
 	holdNodes(load);
 	makeTerms(load);
 	report.nodes          = int(basis.nodes.size());
@@ -82,12 +83,19 @@ template <int Dim> void StepSystem<Dim>::holdNodes(const Load<Dim>& load)
 		}
 }
 
+/// The terms that processes share.
+template <int Dim> void StepSystem<Dim>::resistPoints()
+{
+	const auto& colours = share_ ? share_->colours() : basis.colours;
+	if (model.atMiddle) terms.push_back(std::make_unique<InternalForceAtMiddle<Dim>>(basis, colours, points, model.materials));
+	else
+		terms.push_back(std::make_unique<InternalForce<Dim>>(basis, colours, points, model.materials));
+	if (!faces.empty()) terms.push_back(std::make_unique<GhostForce<Dim>>(share_ ? share_->faces() : faces, model.grid.cellSize));
+}
+
 template <int Dim> void StepSystem<Dim>::makeTerms(const Load<Dim>& load)
 {
-	if (model.atMiddle) terms.push_back(std::make_unique<InternalForceAtMiddle<Dim>>(basis, points, model.materials));
-	else
-		terms.push_back(std::make_unique<InternalForce<Dim>>(basis, points, model.materials));
-	if (!faces.empty()) terms.push_back(std::make_unique<GhostForce<Dim>>(faces, model.grid.cellSize));
+	resistPoints();
 	for (const auto& [box, wall] : model.walls)
 		terms.push_back(std::make_unique<WallForce<Dim>>(*wall, basis, stiffnessOf_, model.grid));
 	imbalance_ = [this, earlier = load.before()] {
@@ -95,6 +103,7 @@ template <int Dim> void StepSystem<Dim>::makeTerms(const Load<Dim>& load)
 		addPointForces(basis, pointForces(cloud_, model, earlier), before);
 		for (const auto& term : terms)
 			term->addBefore(resistance);
+		if (share_) share_->nodes().complete(resistance);
 		return Eigen::VectorXd(before - resistance);
 	};
 	for (const auto& make : model.terms)
@@ -130,8 +139,13 @@ std::optional<PointFailure> StepSystem<Dim>::evaluate(const Eigen::VectorXd& d, 
 	force = Eigen::VectorXd::Zero(nodalSize());
 	if (K) K->setZero();
 	if (sizes) *sizes = force;
-	for (const auto& term : terms)
-		if (const auto failure = term->add(d, { force, K, sizes })) return failure;
+	std::optional<PointFailure> failure;
+	for (auto term = terms.begin(); term != terms.end() && !failure; ++term)
+		failure = (*term)->add(d, { force, K, sizes });
+	if (share_) failure = share_->firstOf(failure);
+	if (failure || !share_) return failure;
+	share_->nodes().complete(force);
+	if (sizes) share_->nodes().complete(*sizes);
 	return std::nullopt;
 }
 

@@ -4,6 +4,7 @@
 #include "core/solvers/reduce.hpp"
 #include "core/stepping/model.hpp"
 #include "core/stepping/report.hpp"
+#include "core/stepping/share.hpp"
 #include "core/terms/ghost.hpp"
 #include "core/terms/internal_force.hpp"
 
@@ -31,6 +32,9 @@ template <int Dim> struct StepSystem {
 
 	bool isSymmetric() const;
 
+	/// Rows of the nodes that this process assembles; null: all.
+	const NodeShare* share() const { return share_ ? &share_->nodes() : nullptr; }
+
 	/// Sets K up for evaluate(): pattern and zeros.
 	void prepare(NodeMatrix<Dim>& K) const;
 
@@ -38,7 +42,7 @@ template <int Dim> struct StepSystem {
 	LinearProblem tangent() const;
 	void          tangent(NodeMatrix<Dim>& K) const; ///< of all nodes
 
-	/// The sum of the terms at d: sets `force`, and K and the sizes of the forces where they are given.
+	/// The sum of the terms at d: sets `force`, and K and the sizes of the forces where they are given. Of K only the share is right, rows and columns.
 	std::optional<PointFailure> evaluate(const Eigen::VectorXd& d, Eigen::VectorXd& force, NodeMatrix<Dim>* K, Eigen::VectorXd* sizes = nullptr) const;
 
 	/// Forces from outside among the terms at d [N].
@@ -56,8 +60,10 @@ private:
 	const PointCloud<Dim>&           cloud_;
 	PointStiffness                   stiffnessOf_;
 	std::function<Eigen::VectorXd()> imbalance_;
+	std::unique_ptr<Share<Dim>>      share_; ///< null: there is one process
 
 	void makeTerms(const Load<Dim>&);
+	void resistPoints();
 	void holdNodes(const Load<Dim>&);
 };
 

@@ -33,9 +33,10 @@ template <int Dim> StepPoints<Dim> stepPoints(const PointCloud<Dim>& cloud, cons
 
 template <int Dim>
 std::optional<PointFailure> addInternalForce(
-        const CloudBasis<Dim>& basis, const StepPoints<Dim>& points, const std::vector<Material>& materials, const Eigen::VectorXd& d, const TermSum<Dim>& sum)
+        const CloudBasis<Dim>& basis, const Colours<Dim>& colours, const StepPoints<Dim>& points, const std::vector<Material>& materials,
+        const Eigen::VectorXd& d, const TermSum<Dim>& sum)
 {
-	const Pass<Dim> pass { basis, points, materials, d, sum };
+	const Pass<Dim> pass { basis, points, materials, d, sum, colours };
 	if constexpr (Dim == 2)
 		if (basis.isAxisymmetric()) return addRingForce(pass);
 	return points.hasFBar() ? addFBarForce(pass) : addPoints<Chunk<Dim>>(pass);
@@ -72,7 +73,8 @@ template <int Dim> void addPointForces(const CloudBasis<Dim>& basis, const std::
 #define GIMPM_INSTANTIATE(Dim)                                                                                                                                 \
 	template StepPoints<Dim>             stepPoints(const PointCloud<Dim>&, const std::vector<Material>&, const CloudBasis<Dim>&, bool);                   \
 	template std::optional<PointFailure> addInternalForce(                                                                                                 \
-	        const CloudBasis<Dim>&, const StepPoints<Dim>&, const std::vector<Material>&, const Eigen::VectorXd&, const TermSum<Dim>&);                    \
+	        const CloudBasis<Dim>&, const Colours<Dim>&, const StepPoints<Dim>&, const std::vector<Material>&, const Eigen::VectorXd&,                     \
+	        const TermSum<Dim>&);                                                                                                                          \
 	template void markPointPattern(const CloudBasis<Dim>&, NodeMatrix<Dim>&);                                                                              \
 	template void addPointForces(const CloudBasis<Dim>&, const std::vector<Vec<Dim>>&, Eigen::VectorXd&);
 GIMPM_INSTANTIATE(2)

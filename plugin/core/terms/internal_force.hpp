@@ -37,13 +37,23 @@ template <int Dim> struct StepPoints {
 	}
 };
 
+/// Ranges of patches by colour, as in CloudBasis: no two of a colour may share a node.
+template <int Dim> using Colours = decltype(CloudBasis<Dim>::colours);
+
 template <int Dim> StepPoints<Dim> stepPoints(const PointCloud<Dim>&, const std::vector<Material>&, const CloudBasis<Dim>&, bool fBar = false);
 
 /// force += internal force of the nodal displacements d (from the start of the step), K += its derivative, and sizes += the magnitudes of the
-/// patches' forces, as far as they are asked for. Fails for points with det F <= 0 or without an answer of their law. The result does not depend on the number of threads.
+/// patches' forces, as far as they are asked for; of the patches in `colours`. Fails for points with det F <= 0 or without an answer of their law. The result does not depend on the number of threads.
 template <int Dim>
 std::optional<PointFailure> addInternalForce(
-        const CloudBasis<Dim>&, const StepPoints<Dim>&, const std::vector<Material>&, const Eigen::VectorXd& d, const TermSum<Dim>&);
+        const CloudBasis<Dim>&, const Colours<Dim>& colours, const StepPoints<Dim>&, const std::vector<Material>&, const Eigen::VectorXd& d,
+        const TermSum<Dim>&);
+template <int Dim>
+std::optional<PointFailure> addInternalForce(
+        const CloudBasis<Dim>& basis, const StepPoints<Dim>& points, const std::vector<Material>& materials, const Eigen::VectorXd& d, const TermSum<Dim>& sum)
+{
+	return addInternalForce(basis, basis.colours, points, materials, d, sum);
+}
 
 /// Marks the blocks that addInternalForce writes.
 template <int Dim> void markPointPattern(const CloudBasis<Dim>&, NodeMatrix<Dim>& K);
@@ -51,19 +61,21 @@ template <int Dim> void markPointPattern(const CloudBasis<Dim>&, NodeMatrix<Dim>
 /// The points' resistance, of which what stays the same in a step is kept elsewhere.
 template <int Dim> class InternalForce : public Term<Dim> {
 public:
-	InternalForce(const CloudBasis<Dim>& basis, const StepPoints<Dim>& points, const std::vector<Material>& materials)
-	        : basis_(basis), points_(points), materials_(materials)
+	/// All are kept by reference. `colours`: what is added of it.
+	InternalForce(const CloudBasis<Dim>& basis, const Colours<Dim>& colours, const StepPoints<Dim>& points, const std::vector<Material>& materials)
+	        : basis_(basis), colours_(colours), points_(points), materials_(materials)
 	{
 	}
 	void                        mark(NodeMatrix<Dim>& K) const override { markPointPattern(basis_, K); }
 	std::optional<PointFailure> add(const Eigen::VectorXd& d, const TermSum<Dim>& sum) const override
 	{
-		return addInternalForce(basis_, points_, materials_, d, sum);
+		return addInternalForce(basis_, colours_, points_, materials_, d, sum);
 	}
 	bool isSymmetric() const override { return points_.isSymmetric; }
 
 private:
 	const CloudBasis<Dim>&       basis_;
+	const Colours<Dim>&          colours_;
 	const StepPoints<Dim>&       points_;
 	const std::vector<Material>& materials_;
 };

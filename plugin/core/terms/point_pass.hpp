@@ -37,6 +37,7 @@ template <int Dim> struct Pass {
 	const std::vector<Material>& materials;
 	const Eigen::VectorXd&       d;
 	const TermSum<Dim>&          sum;
+	const Colours<Dim>&          colours     = basis.colours; ///< or what one process does of them
 	const bool                   isSymmetric = points.isSymmetric;
 };
 
@@ -282,7 +283,7 @@ template <class ChunkOfPoints, int Dim> std::optional<PointFailure> addPoints(co
 	// Threads meet after each colour. Of few points a pass is over before they have: alone that costs little, but where another program takes
 	// a processor away they wait for its time slice, a thousand times as long as the pass.
 	const bool threadsPay = pass.points.volume0.size() >= (Dim == 2 ? 4000 : 1000);
-	for (const auto& colour : pass.basis.colours) {
+	for (const auto& colour : pass.colours) {
 #pragma omp parallel for schedule(dynamic) if (threadsPay)
 		for (int range = 0; range < int(colour.size()); ++range)
 			keepSmallest(failure, add(pass, colour[range].first, colour[range].second));

@@ -5,6 +5,7 @@
 #include "engine/output/vtkFiles.hpp"
 #include "engine/points/columns.hpp"
 #include "engine/solver/MpmImplicitEngine.hpp"
+#include "engine/solver/processes.hpp"
 #include "yade_api/exceptions.hpp"
 #include "yade_api/logging.hpp"
 #include <algorithm>
@@ -166,7 +167,7 @@ void MpmVtkRecorder::finish()
 	if (dead || !lastIsMissing()) return;
 	isUnwritten = false; // one attempt
 	try {
-		writeAll(followed());
+		if (isFirstProcess()) writeAll(followed());
 	} catch (const std::exception& error) { // must not take the place of what has ended the simulation
 		log(Severity::error, getClassName(), string("the last state is missing: ") + error.what());
 	}
@@ -224,7 +225,7 @@ bool MpmVtkRecorder::standsBehind(const MpmImplicitEngine& engine) const
 
 void MpmVtkRecorder::record(const MpmImplicitEngine& engine)
 {
-	writeAll(engine);
+	if (isFirstProcess()) writeAll(engine);
 	const Moment now = momentOf(engine);
 	if (isDue(now)) restartPeriods(now);
 	isUnwritten                    = false;

@@ -8,6 +8,7 @@
 #include "engine/solver/exchange.hpp"
 #include "engine/solver/failures.hpp"
 #include "engine/solver/moving.hpp"
+#include "engine/solver/processes.hpp"
 #include "engine/solver/progress.hpp"
 #include "engine/solver/requirements.hpp"
 #include "engine/solver/step_errors.hpp"
@@ -25,33 +26,18 @@ MpmImplicitEngine::MpmImplicitEngine()
 	if (scene) home = scene->weak_from_this(); // the current one
 }
 
-bool MpmImplicitEngine::isActivated()
-{
-	beforeActivation.keep(*this);
-	const bool isDue = PeriodicEngine::isActivated(), ends = !isDue && isEndOfLoads();
-	nDone += ends;
-	if (!isDue && !ends) handOver(contacts, *scene);
-	return isDue || ends;
-}
-
-// An engine that does not run in every iteration would leave out the end of the load curve, where a run usually stops.
-bool MpmImplicitEngine::isEndOfLoads() const
-{
-	const ValueLock lock;
-	if (nDone == 0 || (nDo >= 0 && nDone >= nDo) || loadCurve.empty()) return false;
-	const Real reached = loadsEnd() - 1e-9 * scene->dt;
-	return loadTime < reached && scene->time + scene->dt >= reached;
-}
 
 void MpmImplicitEngine::action()
 {
 	deliveringErrors([&] {
 		home = scene->weak_from_this();
 		requireCallable(getClassName());
+		Agreement agreement;
 		try {
 			const Threads threads(ompThreads);
-			grid && grid->dim == 3 ? step<3>() : step<2>();
+			grid && grid->dim == 3 ? step<3>(agreement) : step<2>(agreement);
 		} catch (...) {
+			agreement.breakOff(std::current_exception());
 			beforeActivation.putBack(*this);
 			if (!scene->subStepping) scene->subStep = -1; // YADE would count the iteration as begun, and finish it later
 			progressLine.end();
@@ -63,10 +49,11 @@ void MpmImplicitEngine::action()
 	});
 }
 
-template <int Dim> void MpmImplicitEngine::step()
+template <int Dim> void MpmImplicitEngine::step(Agreement& agreement)
 {
 	const AtWork during;
 	Job<Dim>     job = prepare<Dim>();
+	agreement.reach(*this, job.cloud);
 	tellObservers(*scene, [this](LoadStepObserver& observer) { observer.stepBegins(*this); });
 	advance(job);
 	const ValueLock lock;
@@ -88,7 +75,8 @@ template <int Dim> Job<Dim> MpmImplicitEngine::prepare()
 	Job<Dim> job { { stepPart, isExplicit() ? 1 : newton->minStep, newton->maxIterations }, loadTime, scene->time + scene->dt };
 	{
 		const gimpm::Stopwatch watch(gathering);
-		job.model = toModel<Dim>(*grid, basis, fBar, boundaries, *ghost, *newton);
+		job.model           = toModel<Dim>(*grid, basis, fBar, boundaries, *ghost, *newton);
+		job.model.processes = processes();
 		updateMaterialPoints(points, *scene, mask);
 		requireAny(points, *this);
 		job.cloud = gather(points, job.model);
@@ -111,7 +99,7 @@ template <int Dim> void MpmImplicitEngine::advance(Job<Dim>& job)
 {
 	Interruption interruption;
 	StepErrors   errors(*this);
-	job.model.newton.interrupted = [&] { return interruption.isRequested(); };
+	job.model.newton.interrupted = [&] { return isRequested(interruption.isRequested(), job.model.processes.get()); };
 	while (!job.control.isDone()) {
 		Attempt<Dim>    tried  = errors.next(job, [&] { return attempt(job); });
 		const auto      report = isExplicit() ? job.moving->step(job, tried)
@@ -130,7 +118,7 @@ template <int Dim> void MpmImplicitEngine::advance(Job<Dim>& job)
 		}
 		warn(report.accepted ? warningOfAccepted(report, *this, tried.time) : errors.doubtOf(report, job.control));
 		if (report.converged() || report.accepted) reach(job, tried);
-		progressLine.show(progressOf(*this, job.control.isDone()), verbosity);
+		progressLine.show(progressOf(*this, job.control.isDone()), isFirstProcess() ? verbosity : 0);
 	}
 }
 
@@ -171,7 +159,7 @@ template <int Dim> void MpmImplicitEngine::reach(Job<Dim>& job, const Attempt<Di
 
 void MpmImplicitEngine::warn(const string& text)
 {
-	if (text.empty()) return;
+	if (text.empty() || !isFirstProcess()) return;
 	progressLine.breakLine();
 	log(Severity::warning, staticName(), text);
 }

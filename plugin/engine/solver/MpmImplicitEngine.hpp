@@ -17,6 +17,8 @@
 
 namespace yade {
 
+class Agreement;
+
 class MpmImplicitEngine : public Exposed<MpmImplicitEngine, PeriodicEngine>, public Loads, public RunResults {
 public:
 	shared_ptr<MpmGrid>            grid;
@@ -96,7 +98,7 @@ protected:
 
 private:
 	bool                            isEndOfLoads() const;
-	template <int Dim> void         step();
+	template <int Dim> void         step(Agreement&);
 	template <int Dim> Job<Dim>     prepare();
 	template <int Dim> void         advance(Job<Dim>&);
 	template <int Dim> Attempt<Dim> attempt(Job<Dim>&) const;

@@ -46,6 +46,9 @@ namespace {
 			return " It may have no equilibrium; more friction, or nodes that are held (MpmBoundary), would hold it.";
 		if (isExplicit) return " Explicit steps are not cut: a smaller O.dt may help, or an implicit scheme.";
 		if (report.failure == Failure::interrupted) return " O.run() goes on from there.";
+		if (report.failure == Failure::apart)
+			return " The script must do the same in all of them, with one thread each where grains move (YADE's sums depend on the threads), and the "
+			       "machines must be of one kind.";
 		if (report.failure == Failure::stalled) return " Set newton.tolerance to that or more.";
 		if (report.failure == Failure::detached)
 			return " Nodes stay in place while the soil moves, and push it by half a cell: put the box where the soil is now, in each step if it is pushed further, push it with a rigid body (MpmContact), or "
@@ -85,6 +88,7 @@ const char* nameOf(gimpm::Failure failure)
 		case Failure::diverging: return "diverging";
 		case Failure::tooManyIterations: return "tooManyIterations";
 		case Failure::stalled: return "stalled";
+		case Failure::apart: return "apart";
 		case Failure::interrupted: return "interrupted";
 	}
 	return "";

@@ -86,9 +86,20 @@ static void requireMultigrid()
 		        + "). scripts/setup --with-petsc installs it; without it 'auto' comes to the same states.");
 }
 
+// YADE's own way to several processes, which cuts the list of bodies and sends forces to and fro.
+static void requireNoDecomposition(const Scene& scene)
+{
+	for (const auto& engine : scene.engines)
+		if (engine->label == "sendRecvStatesRunner")
+			throw std::invalid_argument(
+			        "the scene has been split by yade.mpy (mp.mpirun), which knows nothing of material points: leave that out, and start the script with scripts/run -n N, "
+			        "so that N processes share each load step.");
+}
+
 void requireRunnable(const MpmImplicitEngine& engine)
 {
 	engine.requireAdmissible();
+	requireNoDecomposition(*engine.scene);
 	if (engine.newton->linearSolver == "amg") requireMultigrid();
 	if (engine.maxSplits > 0 && engine.basis != "gimp")
 		throw std::invalid_argument(

@@ -10,6 +10,7 @@ from yade import wrapper
 
 from .library import engine
 from .messages import pathOf
+from .processes import withFirst
 
 
 @contextlib.contextmanager
@@ -47,6 +48,7 @@ def _naming(file, temporary, what=''):
 		raise OSError(error.errno, what + error.strerror, file) from None
 
 
+@withFirst
 def save(file):
 	"""Save the scene as ``O.save`` does, but whole or not at all: a process that is killed meanwhile leaves the file as it was.
 

@@ -8,6 +8,7 @@ from .data import fields
 from .fields import components, labelled
 from .files import replacing
 from .messages import brief, isNumber, pathOf
+from .processes import byFirst
 
 _kept = {}  # by label: what the PyRunners of this process write to
 
@@ -73,6 +74,7 @@ class histories:
 		if name not in found: raise ValueError(f"histories: {brief(name)} is not recorded; there are {', '.join(found or self._values)}")
 		return found[name]
 
+	@byFirst
 	def save(self, fileName):
 		"""Write a table, whole or not at all: time [s], then each scalar of each point, as in ``velocity_x_17`` for body 17; SI units.
 

@@ -8,6 +8,7 @@ from yade import wrapper
 from .analysis import solverOf
 from .messages import brief, isNumber, pathOf
 from .plotting import plot
+from .processes import isFirst
 
 _running = {}  # by label
 _writers = {'.gif': 'pillow', '.mp4': 'ffmpeg', '.mkv': 'ffmpeg', '.webm': 'ffmpeg'}
@@ -65,7 +66,7 @@ class movie:
 
 	def add(self):
 		"""A picture of the present state, unless the last one has it."""
-		if self.solver.loadTime == self._time: return
+		if self.solver.loadTime == self._time or not isFirst: return
 		self._time = self.solver.loadTime
 		self._figure.clear()
 		ax = self._figure.add_subplot()
@@ -80,8 +81,9 @@ class movie:
 		if self._label not in _running: return
 		self.add()
 		del _running[self._label]
-		self._writer.finish()
-		os.replace(self._path, self.fileName)
+		if isFirst:
+			self._writer.finish()
+			os.replace(self._path, self.fileName)
 		self._folder.cleanup()
 		wrapper.Omega().engines = [engine for engine in wrapper.Omega().engines if engine.label != self._label]
 

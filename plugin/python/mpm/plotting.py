@@ -12,6 +12,7 @@ from .files import replacing
 from .library import engine
 from .markings import drawContours, drawTrace, drawVectors, labelOf, levelsOf, vectorsOf
 from .messages import brief, pathOf
+from .processes import byFirst
 from .rigid import outline, touchable
 from .sections import boxEdges, cut, inOrder, signs, triangleSides
 
@@ -229,6 +230,7 @@ def _finish(ax, section, title):
 	if not ax.get_title(): ax.set_title(title, fontsize='medium', pad=8 + 14 * ((len(handles) + 1) // 2) if handles else None)  # above the legend
 
 
+@byFirst
 def write(who, figure, fileName):
 	"""A figure to a file, whole or not at all, for the function *who*."""
 	fileName = pathOf(who, 'fileName', fileName)

@@ -9,6 +9,7 @@ from .data import fields
 from .fields import components
 from .files import replacing
 from .messages import pathOf
+from .processes import byFirst
 
 
 def export(fileName):
@@ -25,7 +26,11 @@ def export(fileName):
 	fileName = pathOf('export', 'fileName', fileName)
 	ending = os.path.splitext(fileName)[1]
 	if ending not in ('.csv', '.npz'): raise ValueError(f'export: fileName = {fileName!r} must end in .csv or .npz, which chooses the format')
-	columns = fields()
+	_write(fileName, ending, fields())
+
+
+@byFirst
+def _write(fileName, ending, columns):
 	with replacing(fileName) as temporary, open(temporary, 'wb') as file:
 		if ending == '.npz':
 			scene = wrapper.Omega()

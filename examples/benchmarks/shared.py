@@ -1,0 +1,127 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Scenes that several processes work on: `scripts/run -n 2 shared.py out.npz slope2 contact` runs these, and measures them.
+
+The file has the positions of the points after each scene, by its name, and as `measured` a text of JSON: for each scene the solves and the iterations of conjugate
+gradients or GMRES; of each process CPU seconds, seconds by part, memory, and what it has sent to others. The argument `linearSolver=amg` sets the method, `size=2`
+halves the cells.
+"""
+import json
+import os
+import resource
+import sys
+import time
+from collections import Counter
+
+import numpy as np
+
+from yade import mpm, pack, utils
+from yade.mpm import processes
+from yade.mpm.library import engine as library
+
+h, method = 2., 'iterative'
+law = dict(young=1e6, poisson=.3, density=2400)
+profile = mpm.polygon([(0, 0), (30, 0), (30, 7), (15, 7), (10, 12), (0, 12)])
+
+
+def engine(kind=MpmImplicitEngine, dim=2, **settings):
+	newton = MpmNewton(linearSolver=method, tolerance=1e-10, maxIterations=30)
+	return kind(grid=MpmGrid(cellSize=h, dim=dim), newton=newton, verbosity=0, **settings)
+
+
+def sides(*held):
+	return [MpmBoundary(max=(0, inf, inf), fix='x'), MpmBoundary(min=(30, -inf, -inf), fix='x'), MpmBoundary(max=(inf, 0, inf), fix='xy'), *held]
+
+
+def weakLayer(solver, region, materials, steps):
+	"""The slope of the paper, up to 3/4 of its weight, at which parts of it have yielded."""
+	O.materials.append(materials)
+	O.bodies.append(mpm.fill(region, solver.grid, 2, lambda x: 'weak' if 7 <= x[1] <= 7.5 else 'soil'))
+	O.engines = [solver]
+	O.dt = .75 / steps
+	return steps
+
+
+def slope2():
+	materials = [MpmVonMisesMat(yieldStress=k, label=label, **law) for label, k in (('soil', 15e3), ('weak', 7.5e3))]
+	return weakLayer(engine(gravity=(0, -9.81, 0), boundaries=sides()), profile, materials, 6)
+
+
+def slope3():
+	materials = [MpmVonMisesMat(yieldStress=k, label=label, **law) for label, k in (('soil', 15e3), ('weak', 7.5e3))]
+	ends = [MpmBoundary(max=(inf, inf, 0), fix='z'), MpmBoundary(min=(-inf, -inf, 6), fix='z')]
+	return weakLayer(engine(dim=3, gravity=(0, -9.81, 0), boundaries=sides(*ends)), profile & pack.inAlignedBox((0, 0, 0), (30, 12, 6)), materials, 3)
+
+
+def friction():
+	"""The same of soil with friction that does not dilate: K is not symmetric."""
+	materials = [MpmMohrCoulombMat(cohesion=c, frictionAngle=np.radians(phi), dilationAngle=0, label=label, **law) for label, c, phi in (('soil', 1e4, 20), ('weak', 5e3, 12))]
+	return weakLayer(engine(gravity=(0, -9.81, 0), boundaries=sides()), profile, materials, 6)
+
+
+def contact():
+	"""A heavy plate presses into soil that is pushed from the side."""
+	O.materials.append(MpmVonMisesMat(yieldStress=3e4, label='soil', **law))
+	O.materials.append(FrictMat(frictionAngle=.3, density=2600, young=1e7, label='rigid'))
+	pushed = [MpmBoundary(max=(0, inf, inf), fix='x', displacement=(.05, 0, 0)), MpmBoundary(max=(inf, 0, inf), fix='y')]
+	solver = engine(gravity=(0, -9.81, 0), boundaries=pushed, contacts=[MpmContact(friction=.3)])
+	O.bodies.append(mpm.fill(pack.inAlignedBox((0, 0, -1), (20, 8, 1)), solver.grid, 2, 'soil'))
+	plate = O.bodies.append(utils.box((8, 9, 0), (3, 1, 2), material='rigid', fixed=True))
+	O.bodies[plate].state.vel = (.1, -.3, 0)
+	O.engines = [solver]
+	O.dt = .2
+	return 4
+
+
+def dynamics():
+	"""A block that falls on the ground, and is thrown to the side."""
+	O.materials.append(MpmElasticMat(label='soil', **law))
+	solver = engine(MpmDynamicEngine, gravity=(0, -9.81, 0), boundaries=[MpmBoundary(max=(inf, 0, inf), fix='xy')])
+	O.bodies.append(mpm.fill(pack.inAlignedBox((3.1, 0, -1), (13.1, 8, 1)), solver.grid, 2, 'soil'))
+	mpm.assign(velocity=[(2, -1, 0)] * len(mpm.arrays()['id']))
+	O.engines = [solver]
+	O.dt = .05
+	return 6
+
+
+def collapse():
+	"""A column of sand, which stands up to here and would run out later, in time."""
+	O.materials.append(MpmMohrCoulombMat(young=1e6, poisson=.3, density=1800, cohesion=500, frictionAngle=np.radians(30), dilationAngle=0, label='sand'))
+	solver = engine(MpmDynamicEngine, gravity=(0, -9.81, 0), boundaries=[MpmBoundary(max=(0, inf, inf), fix='x'), MpmBoundary(max=(inf, 0, inf), fix='xy')])
+	O.bodies.append(mpm.fill(pack.inAlignedBox((0, 0, -1), (8, 12, 1)), solver.grid, 2, 'sand'))
+	O.engines = [solver]
+	O.dt = .02
+	return 5
+
+
+def effort(steps):
+	"""Runs the scene; what it takes."""
+	solver, solves, iterations, parts = O.engines[0], 0, 0, Counter()
+	sent, begin, cpu = library.bytesSent(), time.perf_counter(), time.process_time()
+	for step in range(steps):
+		O.run(1, wait=True)
+		solves, iterations = solves + solver.iterations, iterations + solver.cgIterations
+		parts.update(solver.report()['times'])
+	return dict(
+	        points=len(mpm.arrays()['id']), steps=steps, solves=solves, iterations=iterations, fallbacks=solver.cgFallbacks, seconds=time.perf_counter() - begin,
+	        cpu=time.process_time() - cpu, parts=parts, sent=(library.bytesSent() - sent) / steps, memory=1024 * resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+	)
+
+
+def gathered(mine):
+	"""Of each process, in the first one."""
+	if processes.count == 1: return [mine]
+	from mpi4py import MPI
+	return MPI.COMM_WORLD.gather(mine)
+
+
+found, positions = {}, {}
+out, *words = sys.argv[1:]
+for word in words:
+	if word.startswith('linearSolver='): method = word.partition('=')[2]
+	elif word.startswith('size='): h = 2 / float(word.partition('=')[2])
+	else:
+		O.reset()
+		mine = effort(globals()[word]())
+		positions[word] = mpm.arrays()['pos']
+		found[word] = gathered(mine)
+if processes.isFirst: np.savez(out, measured=json.dumps(found), **positions)

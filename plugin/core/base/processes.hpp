@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Several processes at work on the same scene, of which each holds all points.
+#pragma once
+#include <cstdint>
+#include <string>
+
+namespace gimpm {
+
+/// What one of them says to the others. Each function is called by all of them, in the same order; a process that cannot go on ends all.
+class Processes {
+public:
+	virtual ~Processes() = default;
+
+	virtual int rank() const = 0;
+	virtual int size() const = 0;
+
+	/// Each of the numbers becomes the smallest one that a process has given.
+	virtual void smallest(std::int64_t* numbers, int count) const = 0;
+
+	/// Process r gives all[start[r]] ... all[start[r + 1] - 1] to the others.
+	virtual void gather(double* all, const int* start) const = 0;
+
+	/// The text of the process `from`.
+	virtual std::string told(const std::string& text, int from) const = 0;
+
+	/// What this process has sent so far [bytes].
+	virtual double sent() const = 0;
+
+	bool haveSame(std::uint64_t number) const
+	{
+		std::int64_t both[2] = { std::int64_t(number), ~std::int64_t(number) }; // the smallest, and what only the largest is the complement of
+		smallest(both, 2);
+		return both[0] == ~both[1];
+	}
+};
+
+} // namespace gimpm

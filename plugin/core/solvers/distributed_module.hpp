@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// What the core asks of a library that lets several processes talk and solve together, which it opens only then: nothing of it is known here.
+#pragma once
+#include <cstdint>
+
+namespace gimpm {
+
+/// The rows of a process of a matrix over nodes, compressed. They are copied.
+struct DistributedRows {
+	int           dim;    ///< components a node
+	int           rows;   ///< of this process: dim times its nodes
+	int           all;    ///< of all processes
+	const int*    start;  ///< of each row, and the end of the last one
+	const int*    column; ///< rising, among all
+	const double* value;
+	const double* symmetricPart; ///< values of (K + K^T) / 2; null: K is symmetric
+	const double* position;      ///< dim numbers a node, for the rigid motions of the body; null: only translations leave it without stress
+};
+
+/// Conjugate gradients, or GMRES where K is not symmetric.
+struct DistributedIteration {
+	bool   withMultigrid; ///< or with the diagonal
+	bool   goesOn;        ///< from x, instead of from zero
+	double tolerance;     ///< |b - K x| <= tolerance |b|
+	int    atMost;        ///< iterations
+	int    made;
+	double error; ///< |b - K x|
+	bool   hasConverged, hasBrokenDown;
+};
+
+/// Vectors have the rows of the process. Who cannot go on says why and ends all processes.
+struct DistributedModule {
+	int version; ///< of this interface
+	/// False, with the reason in so many characters at most, if they cannot be found.
+	bool (*begin)(int* rank, int* size, char* reason, int length);
+	void (*smallest)(std::int64_t* numbers, int count);
+	void (*gather)(double* all, const int* start);
+	void (*tell)(char* text, int length, int from);
+	double (*sent)(); ///< by this process [bytes]
+	void* (*create)();
+	void (*destroy)(void* solver);
+	void (*setMatrix)(void* solver, const DistributedRows*);
+	void (*setUp)(void* solver); ///< multigrid of the matrix, for this one and those that follow
+	void (*iterate)(void* solver, DistributedIteration*, const double* b, double* x);
+	/// False if a pivot is less than so small a part of the largest entry of a row.
+	bool (*factorise)(void* solver, double smallestPivot, int* negativePivots);
+	bool (*substitute)(void* solver, const double* b, double* x);
+};
+
+constexpr int         distributedVersion = 1;
+constexpr const char* distributedSymbol  = "mpm_distributed"; ///< const DistributedModule* mpm_distributed(), in C
+
+} // namespace gimpm

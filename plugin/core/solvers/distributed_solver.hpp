@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Linear systems that several processes solve together.
+#pragma once
+#include "core/solvers/linear_method.hpp"
+#include "core/solvers/node_problem.hpp"
+
+namespace gimpm {
+
+/// Each process has the rows of its nodes and comes to know the whole x. `direct`: MUMPS. `iterative`: conjugate gradients with the diagonal; `multigrid` and, where
+/// the diagonal does not get there, `automatic`: with algebraic multigrid, which is kept for the solves that follow. Where K is not symmetric all of these are GMRES
+/// with multigrid of its symmetric part. What cannot be solved so is solved directly.
+class DistributedSolver {
+public:
+	DistributedSolver();
+	~DistributedSolver();
+	DistributedSolver(const DistributedSolver&)            = delete;
+	DistributedSolver& operator=(const DistributedSolver&) = delete;
+
+	/// K x = b on the free degrees of freedom; iteratively to |b - K x| <= tolerance |b|.
+	SolverStatus solve(
+	        const NodeProblem&, bool isSymmetric, const Eigen::VectorXd& b, Eigen::VectorXd& x, LinearMethod, double tolerance, SolverTimes&,
+	        IterativeEffort&);
+
+	/// Whether the last solve has left a factor, and another right side for it.
+	bool hasFactor() const { return factor_ != nullptr; }
+	bool solveAgain(const Eigen::VectorXd& b, Eigen::VectorXd& x);
+
+private:
+	struct Spread;
+	struct Task;
+	struct Factor;
+
+	bool         iterate(Task&, LinearMethod);
+	bool         iterateWithMultigrid(Task&);
+	bool         run(Task&, bool withMultigrid, int atMost);
+	void         setUp(Task&);
+	SolverStatus factorise(Task&);
+
+	void*                   solver_;   ///< of the library
+	Unknowns                unknowns_; ///< of multigrid; none: there is none
+	std::vector<int>        start_;    ///< of the nodes of the processes, of multigrid
+	bool                    diagonalFails_ = false;
+	double                  perDecade_     = 0; ///< iterations of the first solve with multigrid
+	std::unique_ptr<Factor> factor_;            ///< of the last solve
+};
+
+} // namespace gimpm

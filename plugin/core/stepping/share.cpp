@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "core/stepping/share.hpp"
+#include <algorithm>
+#include <cstring>
+#include <limits>
+
+namespace gimpm {
+namespace {
+
+/// A solve goes with the nodes, an assembly with their points: on the slope in 3D the solves take twice as long.
+constexpr double solveOverAssembly = 2;
+
+/// What each node takes, in multiples of the mean assembly.
+template <int Dim> std::vector<double> workOf(const CloudBasis<Dim>& basis)
+{
+	std::vector<double> work(basis.nodes.size(), solveOverAssembly);
+	double              touches = 0;
+	for (const auto& patch : basis.patches)
+		for (const int node : patch.node)
+			touches += node >= 0 ? patch.count : 0;
+	for (const auto& patch : basis.patches)
+		for (const int node : patch.node)
+			if (node >= 0) work[node] += patch.count * double(work.size()) / touches;
+	return work;
+}
+
+/// First node of each process, and their number.
+template <int Dim> std::vector<int> cutByWork(const CloudBasis<Dim>& basis, int processes)
+{
+	const auto work  = workOf(basis);
+	double     whole = 0, before = 0;
+	for (const double w : work)
+		whole += w;
+	std::vector<int> start { 0 };
+	for (int n = 0; n < int(work.size()); ++n) {
+		while (int(start.size()) < processes && before >= whole * double(start.size()) / processes)
+			start.push_back(n);
+		before += work[n];
+	}
+	start.resize(processes + 1, int(work.size()));
+	return start;
+}
+
+template <class Nodes> bool touches(const NodeShare& share, const Nodes& nodes)
+{
+	return std::any_of(std::begin(nodes), std::end(nodes), [&](int node) { return share.owns(node); });
+}
+
+/// Of each tile, which one thread does, the patches from the first to the last one that touch a node of this process.
+template <int Dim> void keepTouching(const NodeShare& share, const std::vector<Patch<Dim>>& patches, std::vector<std::pair<int, int>>& tiles)
+{
+	std::vector<std::pair<int, int>> kept;
+	for (auto [first, last] : tiles) {
+		while (first < last && !touches(share, patches[first].node))
+			++first;
+		while (first < last && !touches(share, patches[last - 1].node))
+			--last;
+		if (first < last) kept.push_back({ first, last });
+	}
+	tiles.swap(kept);
+}
+
+/// Of bytes, eight at a time.
+template <class T> void mix(std::uint64_t& hash, const std::vector<T>& numbers)
+{
+	static_assert(sizeof(T) % 4 == 0);
+	const auto*       bytes = reinterpret_cast<const char*>(numbers.data());
+	const std::size_t size  = numbers.size() * sizeof(T);
+	for (std::size_t i = 0; i < size; i += 8) {
+		std::uint64_t word = 0;
+		std::memcpy(&word, bytes + i, std::min<std::size_t>(8, size - i));
+		hash = (hash ^ word) * 0x9E3779B97F4A7C15u;
+		hash ^= hash >> 29;
+	}
+}
+
+} // namespace
+
+template <int Dim>
+Share<Dim>::Share(const Processes& processes, const CloudBasis<Dim>& basis, const std::vector<GhostFace<Dim>>& faces)
+        : nodes_ { processes, cutByWork(basis, processes.size()) }, colours_(basis.colours)
+{
+	for (auto& tiles : colours_)
+		keepTouching(nodes_, basis.patches, tiles);
+	std::copy_if(faces.begin(), faces.end(), std::back_inserter(faces_), [&](const auto& face) {
+		return std::any_of(std::begin(face.node), std::end(face.node), [&](const auto& nodes) { return touches(nodes_, nodes); });
+	});
+}
+
+template <int Dim> std::optional<PointFailure> Share<Dim>::firstOf(const std::optional<PointFailure>& failure) const
+{
+	constexpr std::int64_t none = std::numeric_limits<std::int64_t>::max();
+	std::int64_t           code = failure ? 2 * std::int64_t(failure->point) + (failure->reason == PointFailure::Reason::noResponse) : none;
+	nodes_.processes.smallest(&code, 1);
+	if (code == none) return std::nullopt;
+	return PointFailure { int(code / 2), code % 2 ? PointFailure::Reason::noResponse : PointFailure::Reason::inverted };
+}
+
+template <int Dim> bool haveSamePoints(const Processes& processes, const PointCloud<Dim>& cloud)
+{
+	std::uint64_t hash = cloud.size();
+	mix(hash, cloud.position), mix(hash, cloud.halfSize), mix(hash, cloud.volume0), mix(hash, cloud.defGrad), mix(hash, cloud.hoopStretch);
+	mix(hash, cloud.elasticStrain), mix(hash, cloud.stress), mix(hash, cloud.force), mix(hash, cloud.material);
+	for (const auto* columns : { &cloud.internals, &cloud.parameters })
+		for (const auto& column : *columns)
+			mix(hash, column);
+	return processes.haveSame(hash);
+}
+
+#define GIMPM_INSTANTIATE(Dim)                                                                                                                                 \
+	template class Share<Dim>;                                                                                                                             \
+	template bool haveSamePoints(const Processes&, const PointCloud<Dim>&);
+GIMPM_INSTANTIATE(2)
+GIMPM_INSTANTIATE(3)
+#undef GIMPM_INSTANTIATE
+
+} // namespace gimpm

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+// Several processes, started by mpirun, that run the same script and work on each load step together.
+#include "core/base/processes.hpp"
+#include "core/grid/point_cloud.hpp"
+#include "yade_api/types.hpp"
+#include <exception>
+#include <memory>
+
+namespace yade {
+class MpmImplicitEngine;
+
+// Null: this one alone. All of them call this; it opens the library with MPI. std::invalid_argument if that is not there.
+std::shared_ptr<const gimpm::Processes> processes();
+
+// Whether this is the one that writes files and messages.
+bool isFirstProcess();
+
+// Whether one of them is asked to give up; null: this one.
+bool isRequested(bool here, const gimpm::Processes*);
+
+// Whether all have come as far as this one. A process that waits for another which has failed would wait for ever.
+class Agreement {
+public:
+	// All are about to make a step with these points; std::runtime_error where another one has failed, with its reason, or has other points.
+	template <int Dim> void reach(const MpmImplicitEngine&, const gimpm::PointCloud<Dim>&);
+
+	// This one has thrown, before or after reach().
+	void breakOff(const std::exception_ptr& thrown);
+
+private:
+	bool isAsked = false;
+};
+
+} // namespace yade

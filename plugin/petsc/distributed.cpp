@@ -1,0 +1,311 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// mpm_petsc.so: several processes, which talk by MPI and solve together by PETSc.
+#include "core/solvers/distributed_module.hpp"
+#include "petsc/begin.hpp"
+#include <cstdio>
+#include <petscksp.h>
+#include <vector>
+
+namespace {
+
+MPI_Comm comm  = MPI_COMM_NULL; // one of our own: messages of the script, by mpi4py, are not taken for ours
+double   bytes = 0;             // that this process has sent to others, besides what PETSc has
+
+int rankOf()
+{
+	int rank;
+	MPI_Comm_rank(comm, &rank);
+	return rank;
+}
+
+int sizeOf()
+{
+	int size;
+	MPI_Comm_size(comm, &size);
+	return size;
+}
+
+/// The others wait for what will not come.
+[[noreturn]] void stop(const char* reason)
+{
+	std::fprintf(stderr, "yade.mpm: process %d cannot go on, and ends all: %s\n", rankOf(), reason);
+	std::fflush(stderr);
+	MPI_Abort(comm, 1);
+	std::abort();
+}
+
+/// f() of PETSc's, after which there are no errors.
+template <class F> void check(F&& f)
+{
+	char         reason[512] = "PETSc fails";
+	const Errors errors(reason, sizeof reason);
+	if (f()) stop(reason);
+}
+
+bool beginProcesses(int* rank, int* size, char* reason, int length)
+{
+	const Errors errors(reason, length);
+	if (begin()) return false;
+	if (comm == MPI_COMM_NULL) MPI_Comm_dup(MPI_COMM_WORLD, &comm);
+	*rank = rankOf(), *size = sizeOf();
+	return true;
+}
+
+/// Waits as MPI_Wait() does, but not for a process that has come to the end of its script, of which yade.mpm.processes tells.
+void wait(MPI_Request& request)
+{
+	constexpr int    endOfScript = 27183, seldom = 1000; // a tag, and tests between two looks
+	constexpr double grace = 5;                          // [s]; what it has taken part in ends sooner
+	double           ended = 0;
+	for (int tests = 0, isDone = 0; MPI_Test(&request, &isDone, MPI_STATUS_IGNORE), !isDone; ++tests) {
+		if (tests % seldom) continue;
+		int hasEnded = 0;
+		MPI_Iprobe(MPI_ANY_SOURCE, endOfScript, MPI_COMM_WORLD, &hasEnded, MPI_STATUS_IGNORE);
+		if (hasEnded && ended == 0) ended = MPI_Wtime();
+		if (hasEnded && MPI_Wtime() - ended > grace) stop("it is in a load step, and another process has come to the end of its script");
+	}
+}
+
+void smallest(std::int64_t* numbers, int count)
+{
+	MPI_Request request;
+	MPI_Iallreduce(MPI_IN_PLACE, numbers, count, MPI_INT64_T, MPI_MIN, comm, &request);
+	wait(request);
+	bytes += 8. * count;
+}
+
+void gather(double* all, const int* start)
+{
+	const int        size = sizeOf();
+	std::vector<int> count(size);
+	for (int r = 0; r < size; ++r)
+		count[r] = start[r + 1] - start[r];
+	MPI_Allgatherv(MPI_IN_PLACE, 0, MPI_DATATYPE_NULL, all, count.data(), start, MPI_DOUBLE, comm);
+	bytes += 8. * count[rankOf()] * (size - 1);
+}
+
+void tell(char* text, int length, int from) { MPI_Bcast(text, length, MPI_CHAR, from, comm); }
+
+double sent() { return bytes + petsc_isend_len + petsc_send_len + petsc_allreduce_ct * 8.; }
+
+struct Solver {
+	Mat K = nullptr, symmetric = nullptr; ///< of the last matrix; the same where it is symmetric
+	PC  multigrid = nullptr;
+	KSP factor    = nullptr;
+	Vec b = nullptr, x = nullptr;
+
+	Solver()                         = default;
+	Solver(const Solver&)            = delete;
+	Solver& operator=(const Solver&) = delete;
+	~Solver()
+	{
+		clear();
+		PCDestroy(&multigrid);
+	}
+	/// All but multigrid, which keeps the matrix that it is of.
+	void clear() { MatDestroy(&K), MatDestroy(&symmetric), KSPDestroy(&factor), VecDestroy(&b), VecDestroy(&x); }
+
+	bool isSymmetric() const { return K == symmetric; }
+};
+
+PetscErrorCode makeMatrix(const gimpm::DistributedRows& rows, const double* value, bool isSymmetric, Mat* K)
+{
+	PetscCall(MatCreate(comm, K));
+	PetscCall(MatSetSizes(*K, rows.rows, rows.rows, rows.all, rows.all));
+	PetscCall(MatSetBlockSize(*K, rows.dim));
+	PetscCall(MatSetType(*K, MATMPIAIJ));
+	PetscCall(MatMPIAIJSetPreallocationCSR(*K, rows.start, rows.column, value));
+	PetscCall(MatSetOption(*K, MAT_USE_INODES, PETSC_FALSE));                // whose product takes three times as long
+	if (isSymmetric) PetscCall(MatSetOption(*K, MAT_SYMMETRIC, PETSC_TRUE)); // not MAT_SPD, which it may not be
+	return 0;
+}
+
+/// The rigid motions, of which coarse levels are made.
+PetscErrorCode addRigidMotions(Mat K, const gimpm::DistributedRows& rows)
+{
+	if (!rows.position) return 0;
+	Vec          position;
+	MatNullSpace motions;
+	PetscCall(VecCreateMPIWithArray(comm, rows.dim, rows.rows, rows.all, rows.position, &position));
+	PetscCall(MatNullSpaceCreateRigidBody(position, &motions));
+	PetscCall(MatSetNearNullSpace(K, motions));
+	PetscCall(MatNullSpaceDestroy(&motions));
+	return VecDestroy(&position);
+}
+
+PetscErrorCode takeMatrix(Solver& s, const gimpm::DistributedRows& rows)
+{
+	s.clear();
+	PetscCall(makeMatrix(rows, rows.value, !rows.symmetricPart, &s.K));
+	s.symmetric = s.K;
+	if (rows.symmetricPart) PetscCall(makeMatrix(rows, rows.symmetricPart, true, &s.symmetric));
+	else
+		PetscCall(PetscObjectReference(reinterpret_cast<PetscObject>(s.K)));
+	PetscCall(addRigidMotions(s.symmetric, rows));
+	return MatCreateVecs(s.K, &s.x, &s.b);
+}
+
+/// As in one process (multigrid.cpp).
+PetscErrorCode makeMultigrid(Solver& s)
+{
+	PetscCall(PCDestroy(&s.multigrid));
+	PetscCall(PCCreate(comm, &s.multigrid));
+	PetscCall(PCSetOptionsPrefix(s.multigrid, "mpm_"));
+	PetscCall(PCSetType(s.multigrid, PCGAMG));
+	PetscCall(PCGAMGSetAggressiveLevels(s.multigrid, 1));
+	PetscCall(PCSetOperators(s.multigrid, s.symmetric, s.symmetric));
+	PetscCall(PetscOptionsSetValue(nullptr, "-mat_no_inode", "1")); // of matrices that GAMG makes
+	PetscCall(PCSetUp(s.multigrid));
+	return PetscOptionsClearValue(nullptr, "-mat_no_inode");
+}
+
+PetscErrorCode copy(Vec to, const double* from)
+{
+	int     rows;
+	double* numbers;
+	PetscCall(VecGetLocalSize(to, &rows));
+	PetscCall(VecGetArrayWrite(to, &numbers));
+	std::copy(from, from + rows, numbers);
+	return VecRestoreArrayWrite(to, &numbers);
+}
+
+PetscErrorCode copy(double* to, Vec from)
+{
+	int           rows;
+	const double* numbers;
+	PetscCall(VecGetLocalSize(from, &rows));
+	PetscCall(VecGetArrayRead(from, &numbers));
+	std::copy(numbers, numbers + rows, to);
+	return VecRestoreArrayRead(from, &numbers);
+}
+
+PetscErrorCode makeIteration(Solver& s, const gimpm::DistributedIteration& wanted, KSP* ksp)
+{
+	PetscCall(KSPCreate(comm, ksp));
+	PetscCall(KSPSetOptionsPrefix(*ksp, "mpm_"));
+	if (wanted.withMultigrid) PetscCall(KSPSetPC(*ksp, s.multigrid));
+	PC pc;
+	PetscCall(KSPGetPC(*ksp, &pc));
+	if (wanted.withMultigrid) PetscCall(KSPSetReusePreconditioner(*ksp, PETSC_TRUE));
+	else
+		PetscCall(PCSetType(pc, PCJACOBI));
+	Mat before = s.K;
+	if (wanted.withMultigrid) PetscCall(PCGetOperators(pc, nullptr, &before)); // the one that it is of
+	PetscCall(PetscObjectReference(reinterpret_cast<PetscObject>(before)));
+	PetscCall(KSPSetOperators(*ksp, s.K, before));
+	PetscCall(MatDestroy(&before));
+	PetscCall(KSPSetType(*ksp, s.isSymmetric() ? KSPCG : KSPGMRES));
+	if (!s.isSymmetric()) {
+		PetscCall(KSPGMRESSetRestart(*ksp, 100));
+		PetscCall(KSPSetPCSide(*ksp, PC_RIGHT));
+	}
+	PetscCall(KSPSetNormType(*ksp, KSP_NORM_UNPRECONDITIONED));
+	PetscCall(KSPSetTolerances(*ksp, wanted.tolerance, 1e-300, 1e30, wanted.atMost));
+	return KSPSetInitialGuessNonzero(*ksp, wanted.goesOn ? PETSC_TRUE : PETSC_FALSE);
+}
+
+PetscErrorCode run(Solver& s, gimpm::DistributedIteration& iteration, const double* b, double* x)
+{
+	KSP                ksp;
+	KSPConvergedReason reason;
+	PetscCall(makeIteration(s, iteration, &ksp));
+	PetscCall(copy(s.b, b));
+	if (iteration.goesOn) PetscCall(copy(s.x, x));
+	PetscCall(KSPSolve(ksp, s.b, s.x));
+	PetscCall(KSPGetIterationNumber(ksp, &iteration.made));
+	PetscCall(KSPGetResidualNorm(ksp, &iteration.error));
+	PetscCall(KSPGetConvergedReason(ksp, &reason));
+	iteration.hasConverged  = reason > 0;
+	iteration.hasBrokenDown = reason < 0 && reason != KSP_DIVERGED_ITS;
+	PetscCall(copy(x, s.x));
+	return KSPDestroy(&ksp);
+}
+
+PetscErrorCode makeFactor(Solver& s, double smallestPivot, int moreMemory, PCFailedReason* failure, int* negative)
+{
+	PC  pc;
+	Mat F;
+	PetscCall(KSPDestroy(&s.factor));
+	PetscCall(KSPCreate(comm, &s.factor));
+	PetscCall(KSPSetOptionsPrefix(s.factor, "mpm_"));
+	PetscCall(KSPSetOperators(s.factor, s.K, s.K));
+	PetscCall(KSPSetType(s.factor, KSPPREONLY));
+	PetscCall(KSPGetPC(s.factor, &pc));
+	PetscCall(PCSetType(pc, s.isSymmetric() ? PCCHOLESKY : PCLU)); // of a matrix that is not positive definite, too
+	PetscCall(PCFactorSetMatSolverType(pc, MATSOLVERMUMPS));
+	PetscCall(PCFactorSetUpMatSolverType(pc));
+	PetscCall(PCFactorGetMatrix(pc, &F));
+	PetscCall(MatMumpsSetIcntl(F, 6, 0)); // the diagonal is there, and about one
+	PetscCall(MatMumpsSetIcntl(F, 8, 0));
+	PetscCall(MatMumpsSetIcntl(F, 14, moreMemory));
+	PetscCall(MatMumpsSetIcntl(F, 24, 1)); // null pivots are counted
+	PetscCall(MatMumpsSetCntl(F, 3, smallestPivot));
+	PetscCall(PCSetUp(pc));
+	PetscCall(PCGetFailedReason(pc, failure));
+	int nullPivots = 0;
+	PetscCall(MatMumpsGetInfog(F, 28, &nullPivots));
+	if (nullPivots > 0 && *failure == PC_NOERROR) *failure = PC_FACTOR_NUMERIC_ZEROPIVOT;
+	*negative = 0;
+	if (s.isSymmetric()) PetscCall(MatMumpsGetInfog(F, 12, negative));
+	return 0;
+}
+
+PetscErrorCode substituteIn(Solver& s, const double* b, double* x, bool* hasSolved)
+{
+	KSPConvergedReason reason;
+	PetscCall(copy(s.b, b));
+	PetscCall(KSPSolve(s.factor, s.b, s.x));
+	PetscCall(KSPGetConvergedReason(s.factor, &reason));
+	*hasSolved = reason > 0;
+	return copy(x, s.x);
+}
+
+void* create() { return new Solver; }
+
+void destroy(void* solver)
+{
+	check([&] {
+		delete static_cast<Solver*>(solver);
+		return PetscErrorCode(0);
+	});
+}
+
+void setMatrix(void* solver, const gimpm::DistributedRows* rows)
+{
+	check([&] { return takeMatrix(*static_cast<Solver*>(solver), *rows); });
+}
+
+void setUp(void* solver)
+{
+	check([&] { return makeMultigrid(*static_cast<Solver*>(solver)); });
+}
+
+void iterate(void* solver, gimpm::DistributedIteration* iteration, const double* b, double* x)
+{
+	check([&] { return run(*static_cast<Solver*>(solver), *iteration, b, x); });
+}
+
+bool factorise(void* solver, double smallestPivot, int* negativePivots)
+{
+	PCFailedReason failure = PC_NOERROR;
+	for (const int percent : { 20, 100, 400 }) { // pivots off the diagonal take more memory than the analysis can foresee
+		check([&] { return makeFactor(*static_cast<Solver*>(solver), smallestPivot, percent, &failure, negativePivots); });
+		if (failure != PC_FACTOR_OUTMEMORY) break;
+	}
+	return failure == PC_NOERROR;
+}
+
+bool substitute(void* solver, const double* b, double* x)
+{
+	bool hasSolved = false;
+	check([&] { return substituteIn(*static_cast<Solver*>(solver), b, x, &hasSolved); });
+	return hasSolved;
+}
+
+constexpr gimpm::DistributedModule module {
+	gimpm::distributedVersion, &beginProcesses, &smallest, &gather, &tell, &sent, &create, &destroy, &setMatrix, &setUp, &iterate, &factorise, &substitute
+};
+
+}
+
+extern "C" __attribute__((visibility("default"))) const gimpm::DistributedModule* mpm_distributed() { return &module; }

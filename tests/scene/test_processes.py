@@ -1,0 +1,170 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Several processes on one scene (scripts/run -n): the states of one process, files of the first one, and no process that outlives another's failure."""
+import json
+import re
+
+import numpy as np
+import pytest
+from conftest import Yade, root
+
+scenes = root / 'examples' / 'benchmarks' / 'shared.py'
+names = 'slope2', 'slope3', 'friction', 'contact', 'dynamics', 'collapse'
+
+setting = '''
+import json
+import os
+from scenes import *
+from yade.mpm import processes
+rank = int(os.environ.get('OMPI_COMM_WORLD_RANK', 0))
+'''
+
+
+@pytest.fixture(scope='module', autouse=True)
+def petsc(tmp_path_factory):
+	"""Skips where the plugin was built without PETSc."""
+	absence = Yade(tmp_path_factory.mktemp('petsc'))("import json\nfrom yade.mpm.library import engine\nprint(json.dumps(engine.multigridAbsence()))").result
+	if absence: pytest.skip('without PETSc: ' + absence)
+
+
+def found(run):
+	"""The results and positions by scene."""
+	with np.load(run.folder / 'out.npz') as file:
+		positions = dict(file)
+	return json.loads(str(positions.pop('measured'))), positions
+
+
+def test_two_processes_come_to_the_states_of_one(yade):
+	"""Von Mises' slope in the plane and in 3D, friction (K not symmetric), contact with pushed sides, a thrown block and a column in time; by each method."""
+	results, alone = found(yade(scenes, 'out.npz', *names))
+	together = lambda method, *these, **how: found(yade(scenes, 'out.npz', 'linearSolver=' + method, *these, processes=2, **how))
+	methods = dict(iterative=together('iterative', *names), amg=together('amg', 'slope3', 'friction', threads=2), direct=together('direct', 'slope2', 'friction', 'contact', 'dynamics'))
+	for method, (together, positions) in methods.items():
+		for name in positions:
+			difference = np.abs(positions[name] - alone[name]).max()
+			assert difference < 1e-8, (method, name, difference)
+			one, (first, second) = results[name][0], together[name]
+			same = 'points', 'solves', 'iterations', 'fallbacks'
+			assert [first[key] for key in same] == [second[key] for key in same]
+			assert first['fallbacks'] == 0 and first['sent'] > 0 < second['sent'] and one['sent'] == 0
+			assert (first['iterations'] > 0) == (method != 'direct')
+	solves, iterations = (methods['iterative'][0]['slope3'][0][key] for key in ('solves', 'iterations'))
+	assert (solves, iterations) == (results['slope3'][0]['solves'], results['slope3'][0]['iterations']), 'conjugate gradients do the same'
+
+
+def test_the_first_process_writes_files_and_all_have_the_arrays(yade):
+	"""A recorder, pictures, tables and saves: of each file one writer, whose error is one of all. A save is there for all when it has been made."""
+	run = yade(
+	        setting + '''
+solver = slope(2.0)
+O.engines += [MpmVtkRecorder(fileName='vtk/slope', iterPeriod=1, solver='solver')]
+written = []
+import yade.mpm.files as files
+replacing = files.replacing
+def noted(file):
+	written.append(file)
+	return replacing(file)
+files.replacing = noted
+O.run(2, wait=True)
+mpm.save('half.yade.gz')
+O.save('plain.xml')
+points = mpm.arrays()
+try:
+	mpm.save('/proc/no/such.xml')
+	failed = ''
+except OSError as error:
+	failed = str(error)
+O.load('half.yade.gz')
+O.run(1, wait=True)
+with open(f'process{rank}.json', 'w') as file:
+	json.dump([len(points['id']), points['pos'].tolist(), written, failed, O.iter, mpm.arrays()['pos'].tolist()], file)
+''', processes=2
+	)
+	(points, pos, written, failed, step, last), other = (json.loads((run.folder / f'process{rank}.json').read_text()) for rank in (0, 1))
+	assert points == other[0] > 200 and pos == other[1] and last == other[5] and step == other[4] == 3
+	assert written == ['half.yade.gz', '/proc/no/such.xml'] and other[2] == []
+	assert '/proc/no' in failed and other[3] == failed
+	assert (run.folder / 'plain.xml').exists() and list((run.folder / 'vtk').glob('*')) and not [p for p in run.folder.iterdir() if p.name.startswith('.')]
+	assert run.stderr.count('step 2/2') == 1, 'one process tells of progress'
+
+
+def test_a_failure_of_one_process_is_one_of_all(yade):
+	"""Bad input in one, other points in one, other materials in one; the scene stays as it is, and goes on when all are alike again. Motion without strain is found by MUMPS."""
+	run = yade(
+	        setting + '''
+solver = slope(2.0)
+O.run(1, wait=True)
+said = []
+def tried():
+	before = mpm.arrays()['stress'].tolist()
+	try:
+		O.run(1, wait=True)
+	except RuntimeError as error:
+		said.append(str(error))
+	except ValueError as error:
+		said.append(str(error))
+	assert mpm.arrays()['stress'].tolist() == before and O.iter == 1
+body = O.bodies[3]
+place, young = body.state.pos, O.materials[0].young
+if rank == 1: body.state.pos = (nan, 0, 0)
+tried()
+if rank == 1: body.state.pos = place + Vector3(1e-12, 0, 0)
+tried()
+if rank == 1: body.state.pos, O.materials[0].young = place, 1.01 * young
+tried()
+said.append(solver.report()['failure'])
+if rank == 1: O.materials[0].young = young
+O.run(1, wait=True)
+O.reset()
+grid = MpmGrid(cellSize=1)
+O.materials.append(MpmElasticMat(young=1e6, poisson=.3, density=2000, label='soil'))
+O.bodies.append(mpm.fill(pack.inAlignedBox((0, 0, -1), (6, 6, 1)), grid, 1, 'soil'))
+rollers = [MpmBoundary(max=(inf, 0, inf), fix='y'), MpmBoundary(max=(0, inf, inf), fix='x')]
+solver = MpmImplicitEngine(grid=grid, basis='mpm', ghost=MpmGhost(factor=0), gravity=(0, -10, 0), boundaries=rollers, newton=MpmNewton(minStep=1))
+O.engines, O.dt = [solver], .1
+try:
+	O.run(1, wait=True)
+except RuntimeError as error:
+	said.append(str(error))
+with open(f'process{rank}.json', 'w') as file:
+	json.dump(said, file)
+''', processes=2
+	)
+	first, second = (json.loads((run.folder / f'process{rank}.json').read_text()) for rank in (0, 1))
+	assert second[0].startswith('Body #3: MpmState.pos = (nan') and first[0] == 'Process 1 of 2 has failed: ' + second[0]
+	for said in first, second:
+		assert 'hold different material points in iteration 1' in said[1]
+		assert 'have come to different states of the points' in said[2] and said[3] == 'apart'
+		assert 'the stiffness matrix is singular to working precision' in said[4]
+
+
+def test_an_error_of_the_script_and_a_kill_end_all_with_a_reason(yade):
+	"""A script that fails in one process; one that ends before the other; one that is killed, after which the last save can be gone on with; YADE's own decomposition."""
+	alone = yade(setting + '''
+processes._grace = 1
+solver = slope(2.0)
+O.run(1, wait=True)
+if rank == 1: raise ValueError('only here')
+O.run(1, wait=True)
+''', processes=2, fails=True)
+	assert 'only here' in alone.stderr and 'process 1 of 2 has failed, and others go on without it: all are ended' in alone.stderr
+	early = yade(setting + 'slope(2.0)\nO.run(1, wait=True)\nif rank == 0: O.run(1, wait=True)\n', processes=2, fails=True)
+	assert 'process 0 cannot go on, and ends all: it is in a load step, and another process has come to the end of its script' in early.stderr
+	killed = yade(
+	        setting + '''
+solver = slope(2.0)
+for step in range(100):
+	O.run(1, wait=True)
+	mpm.save('last.yade.gz')
+	if step == 2 and rank == 1: os.kill(os.getpid(), 9)
+''', processes=2, fails=True
+	)
+	assert re.search(r'rank 1 .*signal 9', killed.stderr)
+	assert yade("O.load('last.yade.gz')\nO.run(1, wait=True)\nprint(O.iter)").result >= 4
+	split = yade(setting + 'from yade import mpy as mp\nslope(2.0)\nmp.mpirun(3)\n', processes=2, fails=True)
+	assert 'yade.mpy.mpirun knows nothing of material points' in split.stderr
+
+
+def test_without_the_library_one_sentence_says_what_to_do(yadeWithoutPetsc):
+	"""In processes that mpirun has started."""
+	run = yadeWithoutPetsc(setting + 'slope(2.0)\nO.run(1, wait=True)\n', processes=2, fails=True)
+	assert 'mpirun has started 2 processes' in run.stderr and 'scripts/setup --with-petsc installs it' in run.stderr
