@@ -26,7 +26,6 @@ MpmImplicitEngine::MpmImplicitEngine()
 	if (scene) home = scene->weak_from_this(); // the current one
 }
 
-
 void MpmImplicitEngine::action()
 {
 	deliveringErrors([&] {
