@@ -169,7 +169,7 @@ def trade():
 	for kind in kinds:
 		rows = []
 		limit = 0.5 if 'lumped' in kind else 0.4
-		for courant in (limit, limit / 2, limit / 4) if 'explicit' in kind else (4, 2, 1, 0.5, 0.25):
+		for courant in (limit, limit / 2, limit / 4) if 'explicit' in kind else (32, 16, 8, 4, 2, 1, 0.5, 0.25):
 			if options.short and courant < 0.3: continue
 			seconds, error, points = pulse(kind, courant, cells)
 			rows.append((seconds, error))

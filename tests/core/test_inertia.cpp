@@ -106,6 +106,12 @@ namespace {
 		}
 		for (int side = 0; side < 3; ++side)
 			EXPECT_EQ(found[side], found[side + 3]);
+		Eigen::VectorXd rough = Eigen::VectorXd::Zero(all.count);
+		ASSERT_TRUE(NodalMass<Dim>(matrix).solve({ { smooth, all, rough } }, { 1e-6 }));
+		const Eigen::VectorXd error = matrix * rough - smooth;
+		EXPECT_GT(error.norm(), 1e-10 * smooth.norm());
+		for (int axis = 0; axis < Dim; ++axis)
+			EXPECT_LT(std::abs(error.reshaped(Dim, matrix.nodes()).row(axis).sum()), 1e-13 * smooth.sum()) << "momentum";
 	}
 
 	TYPED_TEST(InertiaTerm, ReducedMassIsSymmetricAndTheSameAsTheProduct)

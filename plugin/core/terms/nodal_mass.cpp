@@ -122,6 +122,19 @@ template <int Dim> double NodalMass<Dim>::sizeOf(const Eigen::VectorXd& momenta)
 	return Eigen::VectorXd::NullaryExpr(momenta.size(), [&](Eigen::Index i) { return momenta[i] / std::sqrt(rows_.diagonal(int(i) / Dim)); }).stableNorm();
 }
 
+/// Along axes on which nothing is held momentum is right to round-off, whatever the tolerance: a rigid motion takes what is left of it.
+template <int Dim> void NodalMass<Dim>::keepMomentum(const Side& side, const Eigen::VectorXd* C) const
+{
+	Eigen::Map<const Eigen::Array<int, Dim, Eigen::Dynamic>> numbers(side.dofs.number.data(), Dim, rows_.nodes());
+	const Eigen::Array<bool, Dim, 1>                         isFree = (numbers >= 0).rowwise().all();
+	if (!isFree.any()) return;
+	const Eigen::VectorXd        left = rest(side, C);
+	Eigen::Array<double, Dim, 1> mass = Eigen::Array<double, Dim, 1>::Constant(std::accumulate(lumped_.begin(), lumped_.end(), 0.));
+	if (C) mass += C->reshaped(Dim, rows_.nodes()).rowwise().sum().array();
+	const Eigen::Array<double, Dim, 1> change = isFree.select(left.reshaped(Dim, rows_.nodes()).rowwise().sum().array() / mass, 0.);
+	side.x.reshaped(Dim, rows_.nodes()).colwise() += change.matrix();
+}
+
 template <int Dim> bool NodalMass<Dim>::solve(const std::vector<Side>& sides, Effort effort, const Eigen::VectorXd* C)
 {
 	if (isLumped()) return std::all_of(sides.begin(), sides.end(), [&](const Side& side) { return guess(side, C); });
@@ -146,8 +159,10 @@ template <int Dim> bool NodalMass<Dim>::solve(const std::vector<Side>& sides, Ef
 	iterations_ += iteration.made();
 	if (!iteration.take(found).empty()) return false;
 	found = A.solution(found);
-	for (std::size_t s = 0; s < sides.size(); ++s)
+	for (std::size_t s = 0; s < sides.size(); ++s) {
 		forDofs<Dim>(int(s), sides.size(), nodes, [&](int dof, Eigen::Index i) { sides[s].x[dof] += sizes[s] * found[i]; });
+		keepMomentum(sides[s], C);
+	}
 	return true;
 }
 

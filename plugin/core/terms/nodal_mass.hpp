@@ -47,6 +47,7 @@ private:
 	bool            guess(const Side&, const Eigen::VectorXd* C) const;
 	Eigen::VectorXd rest(const Side&, const Eigen::VectorXd* C) const;
 	Start           start(const Side&, const Eigen::VectorXd* C) const;
+	void            keepMomentum(const Side&, const Eigen::VectorXd* C) const;
 
 	NodePairs           rows_;   ///< none: lumped
 	std::vector<double> lumped_; ///< sum of each row
