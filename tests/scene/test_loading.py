@@ -3,9 +3,9 @@
 import fcntl
 import os
 import re
+import resource
 import shutil
 import subprocess
-import time
 
 import pytest
 from conftest import build, compiled, root, systemYade
@@ -276,9 +276,10 @@ def test_overlayForOneUser(yade):
 
 def test_setupThatChangesNothingIsQuick(yade):
 	subprocess.run([root / 'scripts/setup', '--user'], check=True)
-	start = time.monotonic()
+	spent = lambda: sum(resource.getrusage(resource.RUSAGE_CHILDREN)[:2])  # by the processor: others may want it too
+	before = spent()
 	second = subprocess.run([root / 'scripts/setup', '--user'], check=True, capture_output=True, text=True)
-	assert time.monotonic() - start < 2
+	assert spent() - before < 2
 	assert second.stdout == ''
 
 
