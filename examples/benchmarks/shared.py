@@ -93,6 +93,17 @@ def collapse():
 	return 5
 
 
+def splitting():
+	"""A bar of rubber that its own weight stretches until points are split, most of them twice."""
+	E, length, top = 1e6, 20., 2.5
+	O.materials.append(MpmElasticMat(young=E, poisson=.3, density=E * np.log(top) / top / length / 10, label='rubber'))
+	solver = engine(gravity=(0, -10, 0), boundaries=[MpmBoundary(max=(0, inf, inf), fix='x'), MpmBoundary(min=(-inf, 0, -inf), fix='y')], maxSplits=3)
+	O.bodies.append(mpm.fill(pack.inAlignedBox((0, -length, -1), (2, 0, 1)), solver.grid, 1, 'rubber'))
+	O.engines = [solver]
+	O.dt = .05
+	return 20
+
+
 def effort(steps):
 	"""Runs the scene; what it takes."""
 	solver, solves, iterations, parts = O.engines[0], 0, 0, Counter()

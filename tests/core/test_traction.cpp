@@ -257,6 +257,23 @@ namespace {
 		EXPECT_TRUE(right.step().converged());
 	}
 
+	TYPED_TEST(TractionOf, WhatIsBetweenTwoPlacesIsFound)
+	{
+		constexpr int  Dim = TypeParam::value;
+		const Vec<Dim> low = Vec<Dim>::Zero(), high = Vec<Dim>::Constant(1), middle = (low + high) / 2;
+		Surface<Dim>   surface = skin<Dim>(low, high);
+		surface.refine(0.3);
+		for (int a = 0; a < Dim; ++a)
+			for (const double sign : { -1, 1 }) {
+				const Vec<Dim> side = sign * Vec<Dim>::Unit(a), outside = middle + side;
+				EXPECT_TRUE(surface.isBetween(middle, outside)); // where pieces meet, too
+				EXPECT_TRUE(surface.isBetween(outside, Vec<Dim>(middle + 0.1 * Vec<Dim>::LinSpaced(1, 2))));
+				EXPECT_FALSE(surface.isBetween(middle, Vec<Dim>(middle + 0.49 * side)));
+				EXPECT_FALSE(surface.isBetween(outside, Vec<Dim>(middle + 0.51 * side)));
+				EXPECT_FALSE(surface.isBetween(outside, Vec<Dim>(outside + 2 * Vec<Dim>::Unit((a + 1) % Dim)))); // along it
+			}
+	}
+
 	TYPED_TEST(TractionOf, RefinementKeepsAreasAndJoins)
 	{
 		constexpr int  Dim        = TypeParam::value;

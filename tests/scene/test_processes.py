@@ -8,7 +8,7 @@ import pytest
 from conftest import Yade, root
 
 scenes = root / 'examples' / 'benchmarks' / 'shared.py'
-names = 'slope2', 'slope3', 'friction', 'contact', 'dynamics', 'collapse'
+names = 'slope2', 'slope3', 'friction', 'contact', 'dynamics', 'collapse', 'splitting'
 
 setting = '''
 import json
@@ -34,7 +34,7 @@ def found(run):
 
 
 def test_two_processes_come_to_the_states_of_one(yade):
-	"""Von Mises' slope in the plane and in 3D, friction (K not symmetric), contact with pushed sides, a thrown block and a column in time; by each method."""
+	"""Von Mises' slope in the plane and in 3D, friction (K not symmetric), contact with pushed sides, a thrown block, a column in time, and points that are split; by each method."""
 	results, alone = found(yade(scenes, 'out.npz', *names))
 	together = lambda method, *these, **how: found(yade(scenes, 'out.npz', 'linearSolver=' + method, *these, processes=2, **how))
 	methods = dict(iterative=together('iterative', *names), amg=together('amg', 'slope3', 'friction', threads=2), direct=together('direct', 'slope2', 'friction', 'contact', 'dynamics'))

@@ -117,6 +117,13 @@ for body in O.bodies:
 mpm.assign(defGrad=[np.diag((2.2, 1, 1))] * 2, elasticStrain=np.zeros((2, 3, 3)))
 O.step()
 assert len(mpm.arrays()['id']) == 2 and solver.clampedDomains == 2
+# a wall off the lines of the grid there; beside it there is none
+for face, number in (0.6, 1), (1.2, 2):
+	wall = MpmBoundary(surface=MpmSurface(vertices=[(face, 0, 0), (face, 1, 0)], pieces=[(0, 1)]), fix='x')
+	solver = block((1.9, 0, 0, 0, 0.9, 0, 0, 0, 1), points=1, size=(0.5, 0.5, 1), boundaries=[MpmBoundary(fix='xy', max=(0.3, inf, inf)), wall], maxSplits=4)
+	O.bodies[0].state.pos = Vector3(0.5, 0.25, 0)
+	O.step()
+	assert len(mpm.arrays()['id']) == number and solver.clampedDomains == 2 - number, (face, len(mpm.arrays()['id']))
 # a rigid body where the middle of a half would be; half a cell beside it there is none
 for face, number in (0.9, 1), (1.2, 2):
 	solver = block((1.9, 0, 0, 0, 0.9, 0, 0, 0, 1), points=1, size=(0.5, 0.5, 1), engine=MpmDynamicEngine, contacts=[MpmContact(friction=0)], maxSplits=4)

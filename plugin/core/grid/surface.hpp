@@ -28,6 +28,9 @@ template <int Dim> struct Surface {
 	/// Whether it has no edge: every vertex in the plane and every side of a triangle belongs to two pieces.
 	bool isClosed() const;
 
+	/// Whether it cuts the way from a to b.
+	bool isBetween(const Vec<Dim>& a, const Vec<Dim>& b) const;
+
 	/// Divides the sides that are longer than `limit`, until none is left.
 	void refine(double limit);
 };

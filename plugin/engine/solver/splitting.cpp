@@ -39,7 +39,7 @@ namespace {
 			const MaterialPoint& point = points[p];
 			if (point.shape->halfSize.template head<Dim>().maxCoeff() < limit) return false;
 			const Vector3r size = grown(point);
-			if (size.template head<Dim>().maxCoeff() <= limit) return false;
+			if (size.template head<Dim>().maxCoeff() <= outgrown) return false;
 			const int axis = point.state->splits < most ? axisOf(point, size) : -1;
 			if (axis >= 0) return split(p, axis);
 			++result.left;
@@ -52,7 +52,7 @@ namespace {
 		{
 			int best = -1;
 			for (int a = 0; a < Dim; ++a)
-				if (size[a] > limit && (best < 0 || size[a] > size[best]) && isFree(point, a)) best = a;
+				if (size[a] > outgrown && (best < 0 || size[a] > size[best]) && isFree(point, a)) best = a;
 			return best;
 		}
 
@@ -62,7 +62,7 @@ namespace {
 			return isFree(middle, middle + offset) && isFree(middle, middle - offset);
 		}
 
-		// No wall, axis of symmetry or rigid body comes between the middles of the whole and of a half.
+		// No wall, on the grid's lines or off them, axis of symmetry or rigid body comes between the middles of the whole and of a half.
 		bool isFree(const gimpm::Vec<Dim>& from, const gimpm::Vec<Dim>& to) const
 		{
 			using namespace gimpm;
@@ -77,6 +77,8 @@ namespace {
 				for (face[a] = first + 1; face[a] <= last; ++face[a])
 					if (job.model.boundary.lowerFaceIsWall(face, a)) return false;
 			}
+			for (const auto& [boundary, wall] : job.model.walls)
+				if (wall->surface.isBetween(from, to)) return false;
 			return job.contacts.areBeside(from, to);
 		}
 
@@ -121,7 +123,8 @@ namespace {
 		Scene&                 scene;
 		int                    most;
 		Real                   limit = 0.5 * job.model.grid.cellSize;
-		Splits                 result;
+		Real outgrown = 1.01 * limit; // one point a cell has a domain of the limit from the beginning, which lateral strains, or round-off, would split
+		Splits result;
 	};
 }
 
