@@ -21,7 +21,9 @@ import numpy as np
 import matplotlib
 matplotlib.use('Agg')
 import matplotlib.pyplot as plt
-sys.path.insert(0, os.path.join(os.path.dirname(sys.argv[0]), '..'))
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(sys.argv[0])), '..'))
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(sys.argv[0])), '..', '..', 'scripts', 'lib'))
+from deposits import front
 from options import readOptions
 
 options = readOptions('Run-out of columns of sand.',
@@ -59,17 +61,6 @@ def outline(pos, area, width):
 	return (np.arange(strips.max() + 2) + 0.5) * width, np.bincount(strips, minlength=strips.max() + 2) * area / width
 
 
-def front(pos, area, side):
-	"""Where the deposit ends [m]: where its depth, a mean with weights that fall to none a tenth of the shorter side away, falls below a twentieth of that side. Both are as large
-	whatever the size of the cells, or grains, is; what is thinner is a sheet of single points that run ahead."""
-	width, x = 0.1 * side, np.sort(pos[:, 0])
-	places = np.arange(0.5 * L, x[-1] + 2 * width, 0.1 * width)
-	near = [x[slice(*np.searchsorted(x, (place - width, place + width)))] - place for place in places]
-	depth = np.array([area * (1 - np.abs(to) / width).sum() / width for to in near])
-	i = max(1, np.argmax(depth < 0.05 * side))
-	return np.interp(-0.05 * side, -depth[i - 1:i + 1], places[i - 1:i + 1])
-
-
 def run(height, advance, state, area):
 	"""Motion to rest. advance() goes on a little, state() gives positions (N, 2), speeds (N,) and energies [J]: kinetic, work of gravity, and others.
 
@@ -80,7 +71,7 @@ def run(height, advance, state, area):
 		t = (O.time - begin) / duration
 		pos, speed, *energies = state()
 		kinetic, work = energies[:2]
-		history.append((t, front(pos, area, min(L, height)) / L, *energies))
+		history.append((t, front(pos[:, 0], area, min(L, height), L) / L, *energies))
 		resting = t > 2 and kinetic < atRest * work or t >= options.end
 		if len(film) < len(frames) and t >= frames[len(film)] or resting: film.append((t, pos, speed))
 		if resting: return np.array(history) / (1, 1, *[density * g * area * film[0][1][:, 1].sum()] * len(energies)), film

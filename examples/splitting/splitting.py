@@ -22,6 +22,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(sys.argv[0])), '..'))
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(sys.argv[0])), '..', '..', 'scripts', 'lib'))
+from deposits import front
 from options import readOptions
 from results import Results
 from slopes import weakLayerSlope
@@ -123,15 +124,6 @@ def collapse(points, maxSplits):
 	return dict(result, measured=(found['pos'] + found['halfSize'])[:, 0].max() - L, exact=np.nan)
 
 
-def front(found, side):
-	"""Where the deposit ends [m]: its depth, a mean with weights that fall to none a tenth of the shorter side away, falls below a twentieth of that side (examples/runout)."""
-	width, x, volume = 0.1 * side, found['pos'][:, 0], found['volume'] / np.linalg.det(found['defGrad'])  # loose sand is counted as it was
-	places = np.arange(0.5, x.max() + 2 * width, 0.1 * width)
-	depth = np.array([(volume * np.maximum(0, 1 - np.abs(x - place) / width)).sum() / width for place in places])
-	i = max(1, np.argmax(depth < 0.05 * side))
-	return np.interp(-0.05 * side, -depth[i - 1:i + 1], places[i - 1:i + 1])
-
-
 def runout(points, maxSplits, aspect):
 	"""Where the sand has come to rest, from the face of the column, over its width; experiments: 1.2 a below a = 1.8, 1.9 a^(2/3) from 2.8 on, in between interpolated (G. Lube and others 2005)."""
 	L, g, density = 1., 10., 1600.
@@ -144,7 +136,9 @@ def runout(points, maxSplits, aspect):
 	O.dt = 0.3 * grid.cellSize / np.sqrt(2 * g * height)
 	result = advance(int(4 * np.sqrt(height / g) / O.dt), O.engines[0])
 	part = np.interp(aspect, (1.8, 2.8), (0, 1))
-	return dict(result, measured=front(mpm.arrays(), 1) - 1, exact=(1 - part) * 1.2 * aspect + part * 1.9 * aspect**(2 / 3))
+	found = mpm.arrays()
+	area = found['volume'] / np.linalg.det(found['defGrad'])  # loose sand is counted as it was
+	return dict(result, measured=front(found['pos'][:, 0], area, L, L) - L, exact=(1 - part) * 1.2 * aspect + part * 1.9 * aspect**(2 / 3))
 
 
 def slope(points, maxSplits):
