@@ -2,6 +2,7 @@
 """Dependencies point downwards: python -> engine -> core, engine -> yade_api, and within the core from folder to folder. Files and functions stay
 short."""
 import re
+import subprocess
 
 import pytest
 from conftest import root
@@ -49,6 +50,15 @@ def test_foldersOfTheCoreIncludeThoseBelow():
 		target = re.match(r'"core/(\w+)/', included)
 		if target and target[1] != path.parent.name and target[1] not in below[path.parent.name]: wrong.append(f'{path.relative_to(plugin)}: {included}')
 	assert not wrong
+
+
+def test_topLevelHoldsWhatItIsMeantTo():
+	"""What is in the repository, where this is one: trials leave files behind."""
+	listed = subprocess.run(['git', 'ls-files'], cwd=root, capture_output=True, text=True)
+	if listed.returncode: pytest.skip('not a git repository')
+	admitted = {'CMakeLists.txt', 'plugin', 'scripts', 'tests', 'examples', 'README.md', 'LICENSE'}
+	found = {name.split('/')[0] for name in listed.stdout.splitlines()}
+	assert {name for name in found if not name.startswith('.')} == admitted
 
 
 # Functions that list attributes, with their documentation.
