@@ -35,4 +35,13 @@ template <int Dim, class F> void forPointNodes(const CloudBasis<Dim>& basis, F&&
 	}
 }
 
+/// Of values at the nodes, Dim components each, at a point that forPointNodes() calls f for.
+template <int Dim> Vec<Dim> atPoint(const Patch<Dim>& patch, const double* value, int count, const Eigen::VectorXd& nodal)
+{
+	Vec<Dim> sum = Vec<Dim>::Zero();
+	for (int n = 0; n < count; ++n)
+		if (patch.node[n] >= 0) sum += value[n] * nodal.template segment<Dim>(Dim * patch.node[n]);
+	return sum;
+}
+
 } // namespace gimpm

@@ -37,8 +37,9 @@ GaussSeidel::GaussSeidel(const NodePairs& K, Eigen::VectorXd scale, int columns)
 {
 }
 
-template <class F> void GaussSeidel::forColumns(F&& f) const
+template <class F> void GaussSeidel::forNodes(F&& sweep) const
 {
+	const auto f = [&](auto columns) { forBlocks(K_.nodes(), [&](int begin, int end) { sweep(columns, begin, end); }); };
 	switch (columns_) {
 		case 2: return f(std::integral_constant<int, 2>());
 		case 3: return f(std::integral_constant<int, 3>());
@@ -50,24 +51,28 @@ template <class F> void GaussSeidel::forColumns(F&& f) const
 
 const Eigen::VectorXd& GaussSeidel::solution(const Eigen::VectorXd& x) const
 {
-	forColumns([&](auto columns) { forBlocks(K_.nodes(), [&](int begin, int end) { sweepBack<columns>(begin, end, x.data()); }); });
+	forNodes([&](auto columns, int begin, int end) { sweepBack<columns>(begin, end, x.data()); });
 	return scaledHalf_;
 }
 
 void GaussSeidel::multiply(const Eigen::VectorXd& x, Eigen::VectorXd& y) const
 {
 	solution(x);
+	sweepOn(x, y);
+}
+
+void GaussSeidel::sweepOn(const Eigen::VectorXd& x, Eigen::VectorXd& y) const
+{
 	y.resize(x.size());
-	forColumns([&](auto columns) { forBlocks(K_.nodes(), [&](int begin, int end) { sweepOn<columns>(begin, end, x.data(), y.data()); }); });
+	forNodes([&](auto columns, int begin, int end) { sweepOn<columns>(begin, end, x.data(), y.data()); });
 }
 
 Eigen::VectorXd GaussSeidel::right(const Eigen::VectorXd& b) const
 {
-	const Eigen::VectorXd x = b.cwiseProduct(scale_);
-	Eigen::VectorXd       y(x.size());
+	Eigen::VectorXd y;
 	half_.setZero();
 	scaledHalf_.setZero();
-	forColumns([&](auto columns) { forBlocks(K_.nodes(), [&](int begin, int end) { sweepOn<columns>(begin, end, x.data(), y.data()); }); });
+	sweepOn(b.cwiseProduct(scale_), y);
 	return y;
 }
 

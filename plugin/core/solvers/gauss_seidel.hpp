@@ -37,7 +37,8 @@ public:
 	const Eigen::VectorXd& solution(const Eigen::VectorXd& x) const;
 
 private:
-	template <class F> void forColumns(F&& f) const;
+	template <class F> void forNodes(F&& sweep) const; // sweep(columns, begin, end)
+	void                    sweepOn(const Eigen::VectorXd& x, Eigen::VectorXd& y) const;
 	template <int C> void   sweepBack(int begin, int end, const double* x) const;
 	template <int C> void   sweepOn(int begin, int end, const double* x, double* y) const;
 

@@ -20,10 +20,7 @@ template <int Dim> double atPoints(const StepSystem<Dim>& system, const Eigen::V
 {
 	std::vector<double> squares(system.points.volume0.size());
 	forPointNodes(system.basis, [&](int i, const Patch<Dim>& patch, const double* value, int count) {
-		Vec<Dim> u = Vec<Dim>::Zero();
-		for (int n = 0; n < count; ++n)
-			if (patch.node[n] >= 0) u += value[n] * nodal.template segment<Dim>(Dim * patch.node[n]);
-		squares[i] = u.squaredNorm();
+		squares[i] = atPoint(patch, value, count, nodal).squaredNorm();
 	});
 	const auto& volume = system.points.volume0;
 	return std::sqrt(weighed(volume, squares) / std::accumulate(volume.begin(), volume.end(), 0.));

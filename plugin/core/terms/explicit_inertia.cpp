@@ -7,23 +7,6 @@
 namespace gimpm {
 namespace {
 
-FreeDofs allFree(Eigen::Index size)
-{
-	FreeDofs all;
-	all.count = int(size);
-	all.number.assign(size, 0);
-	return all;
-}
-
-/// sum of S x at a point
-template <int Dim> Vec<Dim> atPoint(const Patch<Dim>& patch, const double* value, int count, const Eigen::VectorXd& x)
-{
-	Vec<Dim> sum = Vec<Dim>::Zero();
-	for (int n = 0; n < count; ++n)
-		if (patch.node[n] >= 0) sum += value[n] * x.template segment<Dim>(Dim * patch.node[n]);
-	return sum;
-}
-
 template <int Dim> NodalMass<Dim> massOf(const Motion<Dim>& motion, const Beginning<Dim>& step, double& seconds)
 {
 	const Stopwatch watch(seconds);

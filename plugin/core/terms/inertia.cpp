@@ -15,8 +15,9 @@ Inertia<Dim>::Inertia(Motion<Dim>& motion, const Beginning<Dim>& step)
         , faces_(step.faces)
         , h_(step.grid.cellSize)
         , mass_(step.basis, motion.mass, massFaces(motion, step), step.grid.cellSize, looseOf(motion, step))
+        , nodal_(mass_)
+        , iterates_(motion.ghostMass > 0)
 {
-	if (motion.ghostMass > 0) nodal_.emplace(mass_);
 	imbalance_ = neglected_ = acceleration_ = expected_ = blow_ = jump_ = Eigen::VectorXd::Zero(prescribed_.size());
 	velocity_ = ofHeld<Dim>(prescribed_ / motion.duration, &MovingBase<Dim>::velocity, motion.bases, step);
 	if (motion.scheme.dependsOnStart()) expected_ = ofHeld<Dim>(acceleration_, &MovingBase<Dim>::acceleration, motion.bases, step);
@@ -38,7 +39,7 @@ template <int Dim> void Inertia<Dim>::findStart(const Beginning<Dim>& step)
 	acceleration_ = expected_;
 	if (!contact.isZero(0)) acceleration_ -= solved(contact);
 	imbalance_ = all - contact;
-	if (!motion_.scheme.isAlpha()) neglected_ = imbalance_ - times(acceleration_);
+	if (!motion_.scheme.isAlpha()) neglected_ = imbalance_ - nodal_ * acceleration_;
 	for (Eigen::Index i = 0; i < imbalance_.size(); ++i) {
 		if (isHeld(i)) neglected_[i] = 0;
 		if (isHeld(i) || motion_.scheme.alphaF == 0) imbalance_[i] = 0;
@@ -62,15 +63,16 @@ template <int Dim> void Inertia<Dim>::findVelocity(bool withAcceleration)
 	const double          roundOff = motion_.exactness;
 	const Eigen::VectorXd momentum = weighedAtNodes(basis_, motion_.mass, motion_.velocity);
 	const Eigen::VectorXd carried  = withAcceleration ? weighedAtNodes(basis_, motion_.mass, motion_.acceleration) : Eigen::VectorXd();
-	FreeDofs              all { std::vector<int>(momentum.size(), 0), int(momentum.size()) };
-	Eigen::VectorXd       before = Eigen::VectorXd::Zero(momentum.size());
-	std::vector<Side>     sides  = { { momentum, dofs_, velocity_ } };
+	const FreeDofs        all      = allFree(momentum.size());
+	const bool            together = iterates_ && dofs_.count < all.count;
+	Eigen::VectorXd       before   = Eigen::VectorXd::Zero(momentum.size());
+	std::vector<Side>     sides    = { { momentum, dofs_, velocity_ } };
 	if (withAcceleration) sides.push_back({ carried, dofs_, expected_ });
-	if (nodal_ && dofs_.count < all.count) sides.push_back({ momentum, all, before });
+	if (together) sides.push_back({ momentum, all, before });
 	solve(sides);
-	blow_ = blowOf(mass_, velocity_, momentum, roundOff, [&](Eigen::Index i) { return isHeld(i); });
+	blow_ = blowOf(nodal_, velocity_, momentum, roundOff, [&](Eigen::Index i) { return isHeld(i); });
 	if (blow_.isZero(0)) return;
-	if (nodal_) jump_ = velocity_ - before;
+	if (together) jump_ = velocity_ - before;
 	else
 		solve({ { blow_, all, jump_ } });
 }
@@ -90,11 +92,12 @@ template <int Dim> Eigen::VectorXd Inertia<Dim>::ofContact(const Eigen::VectorXd
 template <int Dim> void Inertia<Dim>::solve(const std::vector<Side>& sides)
 {
 	constexpr int worthwhile = 300;
-	if (nodal_ && nodal_->solve(sides, { motion_.exactness, worthwhile })) return;
+	if (iterates_ && nodal_.solve(sides, { motion_.exactness, worthwhile })) return;
+	iterates_ = false; // in this step, whose factor there is now
 	for (const Side& side : sides) {
 		for (Eigen::Index i = 0; i < side.x.size(); ++i)
 			if (side.dofs.number[i] >= 0) side.x[i] = 0;
-		const Eigen::VectorXd rest = side.right - times(side.x);
+		const Eigen::VectorXd rest = side.right - nodal_ * side.x;
 		for (int axis = 0; axis < Dim; ++axis)
 			solveAlong(axis, side, rest);
 	}
@@ -127,8 +130,6 @@ template <int Dim> Eigen::VectorXd Inertia<Dim>::solved(const Eigen::VectorXd& r
 	solve({ { right, dofs_, x } });
 	return x;
 }
-
-template <int Dim> Eigen::VectorXd Inertia<Dim>::times(const Eigen::VectorXd& x) const { return nodal_ ? *nodal_ * x : mass_ * x; }
 
 template <int Dim> Eigen::VectorXd Inertia<Dim>::accelerationAt(const Eigen::VectorXd& d) const
 {
@@ -168,9 +169,9 @@ template <int Dim> std::optional<PointFailure> Inertia<Dim>::add(const Eigen::Ve
 	const auto&           scheme = motion_.scheme;
 	const double          weight = 1 - scheme.alphaF, ofEnd = (1 - scheme.alphaM) / weight;
 	const Eigen::VectorXd a     = accelerationAt(d);
-	Eigen::VectorXd       force = times(a);
+	Eigen::VectorXd       force = nodal_ * a;
 	if (scheme.isAlpha()) {
-		const Eigen::VectorXd weighted = times(ofEnd * a + scheme.alphaM / weight * acceleration_) - scheme.alphaF / weight * imbalance_;
+		const Eigen::VectorXd weighted = nodal_ * (ofEnd * a + scheme.alphaM / weight * acceleration_) - scheme.alphaF / weight * imbalance_;
 		for (Eigen::Index i = 0; i < force.size(); ++i)
 			if (!isHeld(i)) force[i] = weighted[i]; // those at held nodes are reactions at the end of the step
 	}
@@ -187,7 +188,7 @@ template <int Dim> std::optional<PointFailure> Inertia<Dim>::add(const Eigen::Ve
 
 template <int Dim> double Inertia<Dim>::fromOutside(const Eigen::VectorXd& d) const
 {
-	Eigen::VectorXd force = times(accelerationAt(d));
+	Eigen::VectorXd force = nodal_ * accelerationAt(d);
 	for (Eigen::Index i = 0; i < force.size(); ++i)
 		if (isHeld(i)) force[i] = 0; // they are part of the reactions
 	double squares = force.squaredNorm();
@@ -236,26 +237,22 @@ template <int Dim> void Inertia<Dim>::commit(const Eigen::VectorXd& d)
 	const Eigen::VectorXd end = others + contact, growth = jump_ + T * ((1 - gamma) * acceleration_ + gamma * others + contact);
 	Eigen::VectorXd       ghost = Eigen::VectorXd::Zero(d.size());
 	addGhostForce(faces_, h_, d, ghost);
-	motion_.impactWork           = energyOfBlow(mass_, velocity_, blow_, jump_, prescribed_ / T);
+	motion_.impactWork           = energyOfBlow(nodal_, velocity_, blow_, jump_, prescribed_ / T);
 	motion_.gridWork             = (1 - gamma) * d.dot(neglected_);
 	const Eigen::VectorXd looked = velocityAt(d);
 	for (const auto& each : damping_)
 		each->commit(d, motion_.scheme.atMiddle ? looked : velocity_, looked);
-	motion_.acceleration.assign(motion_.velocity.size(), Vec<Dim>::Zero());
+	motion_.acceleration.resize(motion_.velocity.size());
 	std::vector<double> ofPoints(motion_.velocity.size());
 	forPointNodes(basis_, [&](int i, const Patch<Dim>& patch, const double* value, int count) {
-		const int p      = basis_.order[i];
-		Vec<Dim>  gained = Vec<Dim>::Zero();
-		for (int n = 0; n < count; ++n) {
-			if (patch.node[n] < 0) continue;
-			gained += value[n] * growth.template segment<Dim>(Dim * patch.node[n]);
-			motion_.acceleration[p] += value[n] * end.template segment<Dim>(Dim * patch.node[n]);
-		}
+		const int      p        = basis_.order[i];
+		const Vec<Dim> gained   = atPoint(patch, value, count, growth);
+		motion_.acceleration[p] = atPoint(patch, value, count, end);
 		motion_.velocity[p] += gained;
 		ofPoints[p] = motion_.mass[p] * gained.squaredNorm();
 	});
 	// the force of the ghost stiffness begins at zero in each step; points do not take over what the nodes change in the ghost mass
-	motion_.ghostWork = gamma * d.dot(ghost) + (growth.dot(times(growth)) - std::accumulate(ofPoints.begin(), ofPoints.end(), 0.)) / 2;
+	motion_.ghostWork = gamma * d.dot(ghost) + (growth.dot(nodal_ * growth) - std::accumulate(ofPoints.begin(), ofPoints.end(), 0.)) / 2;
 }
 
 template class Inertia<2>;

@@ -36,7 +36,6 @@ private:
 	void            solve(const std::vector<Side>&);
 	void            solveAlong(int axis, const Side&, const Eigen::VectorXd& rest);
 	Eigen::VectorXd solved(const Eigen::VectorXd& right); // where what is held stays at zero
-	Eigen::VectorXd times(const Eigen::VectorXd& x) const;
 	Eigen::VectorXd velocityAt(const Eigen::VectorXd& d) const;
 	Eigen::VectorXd ofContact(const Eigen::VectorXd* d) const; // on the nodes; null: as the step begins
 	Eigen::VectorXd accelerationAt(const Eigen::VectorXd& d) const;
@@ -49,7 +48,8 @@ private:
 	const std::vector<GhostFace<Dim>>&         faces_;
 	double                                     h_; // size of the cells
 	MassMatrix<Dim>                            mass_;
-	std::optional<NodalMass<Dim>>              nodal_; // whose condition number is bounded
+	NodalMass<Dim>                             nodal_;    // the same, for products and conjugate gradients
+	bool                                       iterates_; // its condition number is bounded, and conjugate gradients have got there
 	std::vector<std::unique_ptr<Damping<Dim>>> damping_;
 	bool                                       isSingular_ = false;
 	std::array<bool, Dim + 1>                  factorised_ {};           // of the solvers of the motion, in this step

@@ -8,6 +8,9 @@
 
 namespace gimpm {
 
+/// All degrees of freedom, as of a body that nothing holds.
+inline FreeDofs allFree(Eigen::Index size) { return { std::vector<int>(size, 0), int(size) }; }
+
 /// Consistent mass with ghost mass, for conjugate gradients: its condition number is bounded however little of a cell is filled (150 in 2D, 400 in 3D at a quarter of
 /// the density). Without ghost mass it has no bound, and the mass is lumped: the sum of each row goes to its node.
 template <int Dim> class NodalMass {
