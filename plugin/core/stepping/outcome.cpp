@@ -1,18 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "core/stepping/outcome.hpp"
-#include <sstream>
+#include "core/base/sentence.hpp"
 
 namespace gimpm {
-namespace {
-
-template <class... Parts> std::string sentence(const Parts&... parts)
-{
-	std::ostringstream text;
-	(text << ... << parts);
-	return text.str();
-}
-
-} // namespace
 
 bool fail(StepReport& report, Failure failure, const std::string& cause)
 {

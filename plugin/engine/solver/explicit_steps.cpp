@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "engine/solver/explicit_steps.hpp"
+#include "core/base/sentence.hpp"
 #include "core/stepping/critical_step.hpp"
 #include "engine/solver/MpmDynamicEngine.hpp"
 #include "engine/solver/exchange.hpp"
@@ -10,10 +11,7 @@ namespace yade {
 namespace {
 	template <class... Parts> [[noreturn]] void refuseExplicit(const Parts&... parts)
 	{
-		std::ostringstream text;
-		text << "MpmDynamicEngine, scheme='explicit': ";
-		(text << ... << parts);
-		throw std::invalid_argument(text.str());
+		throw std::invalid_argument(gimpm::sentence("MpmDynamicEngine, scheme='explicit': ", parts...));
 	}
 
 	Real largestPenalty(const MpmDynamicEngine& engine)

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "engine/solver/plausibility.hpp"
+#include "core/base/sentence.hpp"
 #include "core/base/stopwatch.hpp"
 #include "engine/materials/MpmElasticMat.hpp"
 #include "engine/solver/MpmImplicitEngine.hpp"
@@ -10,12 +11,8 @@
 namespace yade {
 
 namespace {
-	template <class... Parts> string sentence(const Parts&... parts)
-	{
-		std::ostringstream text;
-		(text << ... << parts);
-		return text.str();
-	}
+	using gimpm::sentence;
+
 	template <class... Parts> [[noreturn]] void refuse(const Parts&... parts) { throw std::invalid_argument(sentence(parts...)); }
 
 	void requireGravityInPlane(const MpmImplicitEngine& engine)
