@@ -33,6 +33,6 @@ def replace(path, text):
 	os.replace(path + '.new', path)
 
 
-def write(folder, parts):
-	"""The page of a folder, README.md."""
-	replace(os.path.join(folder, 'README.md'), '\n'.join(parts))
+def write(folder, parts, name='README.md'):
+	"""A page of a folder."""
+	replace(os.path.join(folder, name), '\n'.join(parts))

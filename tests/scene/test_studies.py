@@ -148,7 +148,7 @@ writers = { # without the pictures, which take long
         'discretisation': 'import page; page.picture = lambda *a: None; page.write({!r})',
         'two_sizes': 'import page; page.picture = lambda *a: None; page.write({!r})',
         'load_steps': 'import page; page.picture = lambda *a: None; page.write({!r})',
-        'trade': 'import page, plans; page.picture = lambda *a: None; page.write({!r}, plans.plans)'
+        'trade': 'import overview; overview.picture = overview.page.picture = lambda *a: None; overview.write({!r})'
 }
 
 
