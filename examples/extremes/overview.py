@@ -38,7 +38,7 @@ def rangeOf(rows, name, ghost):
 	values = [value for value in axes[name].values if kind(rows, name, ghost, value)]
 	good = [str(value) for value in values if kind(rows, name, ghost, value) == 'safe']
 	if len(good) == len(values): return 'all' if values else ''
-	return ', '.join(page._runs([str(value) for value in values], good)) or 'none'
+	return ', '.join(page.joined([str(value) for value in values], good)) or 'none'
 
 
 def beyond(rows, name):

@@ -71,10 +71,10 @@ def safeRange(rows, name, column):
 	good = [value for value, row in found if safe(row, min(errors, default=math.nan))]
 	if len(good) == len(found): return 'all: ' + _run(good)
 	if not good: return 'none'
-	return ', '.join(_runs([value for value, _ in found], good))
+	return ', '.join(joined([value for value, _ in found], good))
 
 
-def _runs(values, good):
+def joined(values, good):
 	"""Neighbouring good values joined to 'first … last'."""
 	runs = []
 	for value in values:

@@ -22,8 +22,8 @@ targets = .2, .1, .05, .02, .01, .003
 
 def picture(found, path):
 	"""The front of each scene, all that was run, and one choice beside it."""
-	figure, all = plt.subplots(4, 4, figsize=(13.5, 9.4), layout='constrained')
-	for axes, panel in zip(all.flat, found.values()):
+	figure, plots = plt.subplots(4, 4, figsize=(13.5, 9.4), layout='constrained')
+	for axes, panel in zip(plots.flat, found.values()):
 		front, (name, beside) = panel.front(), panel.beside
 		for points, style in (panel.points, dict(marker='o', color='.75', markersize=3)), (beside, dict(marker='^', color='tab:orange', markersize=4.5, zorder=3)), (front, dict(marker='o', color='tab:blue', markersize=4)):
 			axes.loglog([point.cost for point in points], [100 * point.error for point in points], linestyle='-' if points is front else 'none', linewidth=1.2, **style)
@@ -40,18 +40,17 @@ def picture(found, path):
 			axis.set_major_formatter('{x:g}')
 			axis.set_minor_locator(NullLocator())
 			axis.set_tick_params(labelsize=8, pad=2)
-	for axes in all[:, 0]: axes.set_ylabel('error [%]', fontsize=8.5)
-	legend(all.flat[len(found)])
+	for axes in plots[:, 0]: axes.set_ylabel('error [%]', fontsize=8.5)
+	legend(plots.flat[len(found)])
 	figure.savefig(path, dpi=130)
 	plt.close(figure)
 
 
 def limits(axes):
 	"""Room for labels, and more where there is little."""
-	for axis, set in (axes.dataLim.intervalx, axes.set_xlim), (axes.dataLim.intervaly, axes.set_ylim):
-		low, high = axis
+	for (low, high), limit in (axes.dataLim.intervalx, axes.set_xlim), (axes.dataLim.intervaly, axes.set_ylim):
 		room = max(high / low, 10)**.15
-		set(low / room, high * room**2)
+		limit(low / room, high * room**2)
 
 
 def labelled(axes, points):
@@ -102,7 +101,7 @@ def write(folder):
 	page.write(folder, plans, 'details.md')
 
 
-TABLE = '''**The cheapest setting for an error.** Processor time of the whole script, one thread, without YADE's start; times of hundredths scatter by a third. Letters as in the figure, –: none of these settings, ": as to the left.
+TABLE = '''**The cheapest setting for an error.** Processor time of the whole script, one thread, without YADE's start; times of hundredths scatter by a third; columns, cantilever, slope and block with a factorisation in every iteration. Letters as in the figure, –: none of these settings, ": as to the left.
 '''
 
 if __name__ == '__main__':

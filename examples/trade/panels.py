@@ -59,13 +59,14 @@ class Panel:
 
 
 def said(setting):
-	return ' '.join(f'{name} {value}'.strip() for name, value in setting.items())
+	"""Of a setting, as 'n8 s20'."""
+	return ' '.join(f'{name}{value}' if len(name) < 2 else f'{name} {value}' for name, value in setting.items())
 
 
 def cost(panel, point):
 	"""A cost as text; times of a hundredth of a second and less are no better known."""
 	if panel.unit != 's': return f'{point.cost:,.0f} {panel.unit}'
-	if point.cost < .01: return '< .01 s'
+	if point.cost < .01: return '<0.01 s'
 	return f'{point.cost:.{2 if point.cost < 1 else 1 if point.cost < 10 else 0}f} s'
 
 
@@ -82,7 +83,7 @@ titles = { # scene of plans.py: title, measure, what n counts, choice that is sh
         'slope': ('slope with a weak layer, von Mises', 'crest and toe, smaller cells', 'in a metre', ('linear basis', dict(basis="'mpm'"))),
         'collapse': ('block that collapses, von Mises', 'spread, smaller cells', 'in a metre', ('linear basis', dict(basis="'mpm'"))),
         'footing': ('strip footing, von Mises', 'limit load, exact', 'in half the width', ('without F-bar', dict(fBar='0'))),
-        'cut': ('vertical cut, von Mises', 'stability number, bounds', 'over the height', ('without F-bar', dict(fBar='0'))),
+        'cut': ('vertical cut, von Mises', 'stability number, limit analysis', 'over the height', ('without F-bar', dict(fBar='0'))),
         'beam': ('beam, nearly incompressible', 'deflection, beam theory', 'over the height', ('without F-bar', dict(fBar='0'))),
         'circle': ('circular footing, Tresca, axisymmetric', 'limit load, published', 'over the radius', ('3D', dict(scene="'circle'"))),
         'sphere': ('sphere, contact, axisymmetric', 'force, Hertz', 'over the contact', ('3 x 3 points', dict(pointsPerCell='3'))),

@@ -6,7 +6,7 @@ import os
 
 import fronts
 from pages import percent, span
-from panels import cost, here, rows
+from panels import here, rows, said
 from plans import plans
 
 words = {1: 'one', 2: 'two', 3: 'three', 4: 'four', 5: 'five'}
@@ -86,8 +86,7 @@ def text(found):
 	small = block('footing'), block('bar')
 	ratios = stepRatios()
 	seconds, unknowns = solving()
-	split, (_, (coarse, fine4)) = found['runout'].points[0], found['runout'].beside
-	implicit = min(found['pulse'].points, key=lambda point: point.error)
+	split, coarse = found['runout'].points[0], found['runout'].beside[1][0]
 	lumped = min((point for point in found['pulse'].points if 'explicit, lumped' in point.setting), key=lambda point: point.error)
 	better = found['pulse'].cheapest(.2)
 	return f'''# What accuracy costs
@@ -103,7 +102,7 @@ What to set, and what not, from {sum(map(len, kept.runs.values()))} runs by `scr
 **Worth it there only**
 
 - *Load steps*: four times as many give the elastic columns {elastic[0]} times the error for {elastic[1]} times the time, the slope {plastic[0]} for {plastic[1]}. At a limit load steps decide; `newton.stepTolerance` finds how many, for {span(ratios)} times the solves of the best number ([load_steps](../load_steps/README.md)).
-- *`maxSplits=2`*: run-outs; {percent(split.error)} off instead of {percent(coarse.error)}, for {split.cost / coarse.cost:.2f} times the solves ([splitting](../splitting/README.md)). *Explicit steps*: where much error may stay; {percent(lumped.error)} in {lumped.cost:.1f} s, implicit ones of a cell {percent(better.error)} in {better.cost:.1f} s ([waves](../waves/README.md)).
+- *`maxSplits=2`*: run-outs; {percent(split.error)} off instead of {percent(coarse.error)}, for {split.cost / coarse.cost:.2f} times the solves ([splitting](../splitting/README.md)); finer cells change run-outs by as much ([runout](../runout/README.md)). *Explicit steps*: where much error may stay; a pulse is {percent(lumped.error)} off in {lumped.cost:.1f} s ({said(lumped.setting)} cells a step) or {percent(better.error)} in {better.cost:.1f} s ({said(better.setting)}) ([waves](../waves/README.md)).
 - *`linearSolver`*: leave it at 'auto' ({seconds['auto']:.1f} s for one solve of a slender body of {unknowns:,} unknowns; direct {seconds['direct']:.1f}, conjugate gradients {seconds['iterative']:.1f}, multigrid {seconds['amg']:.1f}). *How wrong a run is*: `mpm.discretisationError` ([discretisation](../discretisation/README.md)).
 
 **Never worth it**
