@@ -34,8 +34,12 @@ class Kept:
 
 	def buysMost(self, name):
 		"""Whether no other number of the scene takes more off the error for the time that it costs."""
-		worth = {knob: fronts.exponent(moved) for knob in plans[name].together if knob != 'fBar' and (moved := self.moves(name, knob))}
-		return all(other is None or worth['cells'] >= other for other in worth.values())
+		def worth(knob):
+			moved = self.moves(name, knob)
+			found = fronts.exponent(moved) if moved else 0
+			return found if found is not None else math.inf if sum(pairs * math.log(error) for _, _, pairs, error, _ in moved) < 0 else 0 # what costs nothing
+
+		return all(worth('cells') >= worth(knob) for knob in plans[name].together if knob != 'fBar')
 
 	def alone(self, knob, value):
 		"""By scene factors on error and time of one other value, and whether it fails."""
