@@ -71,10 +71,10 @@ def safeRange(rows, name, column):
 	good = [value for value, row in found if safe(row, min(errors, default=math.nan))]
 	if len(good) == len(found): return 'all: ' + _run(good)
 	if not good: return 'none'
-	return ', '.join(_runs([value for value, _ in found], good))
+	return ', '.join(joined([value for value, _ in found], good))
 
 
-def _runs(values, good):
+def joined(values, good):
 	"""Neighbouring good values joined to 'first … last'."""
 	runs = []
 	for value in values:
@@ -156,18 +156,18 @@ def rangeTable(rows, present):
 	return table(['axis', 'parameter', '', *(names[g] for g in ghosts), 'seen where it does not run (cases)'], lines)
 
 
-def write(folder):
+def write(folder, name='README.md'):
 	rows = read(folder)
 	present = [name for name in axes if any(key[0] == name for key in rows)]
 	listed = [name for name in present if axes[name].listed]
 	parts = [INTRODUCTION]
 	if listed:
 		parts += [RANGES, rangeTable(rows, listed), '']
-		for name, (title, members) in groups.items():
+		for group, (title, members) in groups.items():
 			shown = [axis for axis in members if axis in listed]
 			if not shown: continue
-			pictures.outcomes(rows, title, shown, os.path.join(folder, f'outcomes-{name}.png'))
-			parts.append(f'![{title}: outcome of all cases](outcomes-{name}.png)\n')
+			pictures.outcomes(rows, title, shown, os.path.join(folder, f'outcomes-{group}.png'))
+			parts.append(f'![{title}: outcome of all cases](outcomes-{group}.png)\n')
 	curves = [name for name in ('overlap', 'factor', 'poisson', 'contrast', 'slender', 'thin') if name in present]
 	if curves:
 		pictures.conditions(rows, curves, os.path.join(folder, 'condition.png'))
@@ -182,14 +182,14 @@ def write(folder):
 	if 'sandSlope' in present: parts.append(sandTable(rows))
 	parts += pages.texts(os.path.join(here, 'findings.md'))
 	if listed: parts += ['# All cases\n', OUTCOMES, *(section(rows, name) for name in listed)]
-	pages.write(folder, parts)
+	pages.write(folder, parts, name)
 
 
-INTRODUCTION = """# Stability at the extremes
+INTRODUCTION = """# Stability at the extremes, in detail
 
 Each parameter below is driven to extremes until the method breaks down: without ghost stabilisation, with it (`factor=1e-2`) in its
 mesh-independent scaling h¹, and in the paper's h³, in 2D and 3D. `scripts/extremes` runs all of it and writes this page (see `--help`); the scenes
-are in [runs.py](runs.py), the values in [axes.py](axes.py), the numbers in [results/atlas.csv](results/atlas.csv).
+are in `runs.py`, the values in `axes.py`, the numbers in `results/atlas.csv`. `examples/extremes/overview.py` writes the page that has the short of it.
 
 Unless an axis says otherwise, the scene is an elastic column of 2 x 6 [x 2] cells of 0.1 m, 2 points per cell and axis, free at its sides, that
 its own weight compresses in 5 load steps (b l0 = E / 2, Poisson's ratio 0). Its vertical stress is known from equilibrium whatever the material,

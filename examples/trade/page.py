@@ -157,12 +157,12 @@ def estimates(folder):
 	return ESTIMATES + table(heads, lines) + f'\n\nTimes are within a factor of 2 in {within} of {len(rows)} scenes, and inside the range that was told in {inRange}.\n'
 
 
-def write(folder, plans):
+def write(folder, plans, name='README.md'):
 	parts = [INTRODUCTION]
 	if 'column' in plans: parts += pages.texts(os.path.join(here, 'findings.md'))
 	parts += [section(folder, name, plan) for name, plan in plans.items()]
 	if os.path.exists(os.path.join(folder, 'results', 'estimates.csv')): parts.append(estimates(folder))
-	pages.write(folder, parts)
+	pages.write(folder, parts, name)
 
 
 ESTIMATES = """## How well mpm.advise tells
@@ -172,9 +172,9 @@ number of unknowns is exact for the first step. The cantilever needs more solves
 
 """
 
-INTRODUCTION = """# What accuracy costs
+INTRODUCTION = """# What accuracy costs, in detail
 
 `scripts/trade` runs a scene with many settings, each in a YADE process of its own, and writes this page (see `--help`; it does the same for a script
 of yours). Times are processor times of the whole script with one thread, without YADE's start; memory comes on top of YADE's own. The runs
-are in `results/`, the scenes of this page in [scenes.py](scenes.py), the settings in [plans.py](plans.py).
+are in `results/`, the settings of the scenes in `plans.py`. `examples/trade/overview.py` writes the page that has the short of it.
 """

@@ -137,5 +137,10 @@ plans = {
                         together=dict(cells=['5', '10', '20', '40'], pointsPerCell=['2', '3'], tolerance=['0.05', '0.02', '0.005']),
                         quick=dict(cells=['5'], pointsPerCell=['2'], tolerance=['0.05']),
                         words=dict(cells='cells over the height', pointsPerCell='points per cell and axis', tolerance='width of the bracket', error='factor of safety')),
+        'circle':
+                Plan(
+                        script=os.path.join(here, '..', 'axisymmetric', 'axisymmetric.py'), errors=['error'], parameters=dict(scene="'rough'", cells='4', steps='16', out="'out'"),
+                        together=dict(cells=['2', '4', '8', '16']), alone=dict(scene=["'circle'"]), around=[dict(cells='2'), dict(cells='4')], quick=dict(cells=['2']),
+                        words=dict(cells='cells over the radius', error='limit load')),
         'beam': locking('beam', ['2', '4', '8', '16'], dict(cells='cells over the height', error='deflection')),
 }

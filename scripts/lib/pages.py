@@ -15,6 +15,12 @@ def percent(x):
 	return f'{100 * x:.2g} %'
 
 
+def span(values, digits=2):
+	"""Least and largest of some numbers, as text."""
+	low, high = (f'{x:.{digits}g}' for x in (min(values), max(values)))
+	return low if low == high else f'{low} to {high}'
+
+
 def table(heads, rows):
 	return '\n'.join(f"| {' | '.join(map(str, row))} |" for row in [heads, ['---'] * len(heads), *rows])
 
@@ -33,6 +39,6 @@ def replace(path, text):
 	os.replace(path + '.new', path)
 
 
-def write(folder, parts):
-	"""The page of a folder, README.md."""
-	replace(os.path.join(folder, 'README.md'), '\n'.join(parts))
+def write(folder, parts, name='README.md'):
+	"""A page of a folder."""
+	replace(os.path.join(folder, name), '\n'.join(parts))

@@ -143,12 +143,13 @@ def test_trade_of_a_scene_that_locks(study, tmp_path):
 	assert errors['1'] < 0.15 < 0.5 < errors['0']
 
 
+noPictures = '.picture = lambda *a: None; '
 writers = { # without the pictures, which take long
-        'extremes': 'import page; page.pictures.outcomes = page.pictures.conditions = page.pictures.cornerMaps = page.pictures.pivots = lambda *a: None; page.write({!r})',
-        'discretisation': 'import page; page.picture = lambda *a: None; page.write({!r})',
-        'two_sizes': 'import page; page.picture = lambda *a: None; page.write({!r})',
-        'load_steps': 'import page; page.picture = lambda *a: None; page.write({!r})',
-        'trade': 'import page, plans; page.picture = lambda *a: None; page.write({!r}, plans.plans)'
+        'extremes': f'import overview; overview{noPictures}' + 'from overview import pictures; pictures.outcomes = pictures.conditions = pictures.cornerMaps = pictures.pivots = lambda *a: None; overview.write({!r})',
+        'discretisation': f'import page; page{noPictures}' + 'page.write({!r})',
+        'two_sizes': f'import page; page{noPictures}' + 'page.write({!r})',
+        'load_steps': f'import page; page{noPictures}' + 'page.write({!r})',
+        'trade': f'import overview; overview{noPictures}overview.page{noPictures}' + 'overview.write({!r})'
 }
 
 
@@ -157,7 +158,20 @@ def test_kept_pages_are_made_from_the_kept_tables(study, tmp_path):
 	kept = root / 'examples' / study
 	shutil.copytree(kept / 'results', tmp_path / 'results')
 	subprocess.run(['/usr/bin/python3', '-c', writers[study].format(str(tmp_path))], cwd=kept, check=True)
-	assert (tmp_path / 'README.md').read_text() == (kept / 'README.md').read_text()
+	pages = [path.name for path in kept.glob('*.md') if path.name != 'findings.md']
+	assert len(pages) == (2 if study in ('trade', 'extremes') else 1)
+	for page in pages:
+		assert (tmp_path / page).read_text() == (kept / page).read_text()
+
+
+@pytest.mark.parametrize('study', ['trade', 'extremes'])
+def test_a_page_fits_on_a_screen(study):
+	"""Lines of 200 characters, and a picture of two thirds of its width; and it says something of all that is in it."""
+	text = (root / 'examples' / study / 'README.md').read_text()
+	assert sum(max(1, -(-len(line) // 200)) for line in text.splitlines()) <= 65 and text.count('![') == 1
+	assert 'nan' not in text.split() and '**Three settings worth knowing**' in text and '**Never worth it**' in text
+	for safe in 'overlap of the body', 'size of a cell', "Young's modulus", 'rotation of a bar': # no matter, the page of extremes says; the table has those that have a limit
+		assert f'| {safe}' not in text
 
 
 def test_advice(yade):

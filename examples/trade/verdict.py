@@ -1,0 +1,117 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""What the tables say in short: every number of the text is computed from them."""
+import json
+import math
+import os
+
+import fronts
+from pages import percent, span
+from panels import here, rows, said
+from plans import plans
+
+words = {1: 'one', 2: 'two', 3: 'three', 4: 'four', 5: 'five'}
+
+
+class Kept:
+	"""The runs of the kept tables of scripts/trade."""
+
+	def __init__(self):
+		self.runs = {name: fronts.read(here, name, plan)[0] for name, plan in plans.items()}
+
+	def moves(self, name, knob):
+		return fronts.moves(self.runs[name], knob, plans[name].together[knob])
+
+	def factors(self, knob, *names, of=None):
+		"""Spans of the factors on error and on time of the moves of a knob in scenes, those between the values *of* only, if given."""
+		found = [(error, time) for name in names for a, b, _, error, time in self.moves(name, knob) if of is None or (a, b) == of]
+		return tuple(map(span, zip(*found)))
+
+	def halving(self, name):
+		"""Means of the factors on error and time by halving the cells."""
+		steps = [(pairs * math.log2(float(b) / float(a)), pairs * math.log(error), pairs * math.log(time)) for a, b, pairs, error, time in self.moves(name, 'cells')]
+		halvings, error, time = map(sum, zip(*steps))
+		return math.exp(error / halvings), math.exp(time / halvings)
+
+	def buysMost(self, name):
+		"""Whether no other number of the scene takes more off the error for the time that it costs."""
+		def worth(knob):
+			moved = self.moves(name, knob)
+			found = fronts.exponent(moved) if moved else 0
+			return found if found is not None else math.inf if sum(pairs * math.log(error) for _, _, pairs, error, _ in moved) < 0 else 0 # what costs nothing
+
+		return all(worth('cells') >= worth(knob) for knob in plans[name].together if knob != 'fBar')
+
+	def alone(self, knob, value):
+		"""By scene factors on error and time of one other value, and whether it fails."""
+		return {name: row[3:] for name, plan in plans.items() for row in fronts.alternatives(self.runs[name], plan) if row[:2] == (knob, value)}
+
+	def spans(self, knob, value):
+		return tuple(map(span, zip(*((error, time) for error, time, failure in self.alone(knob, value).values() if not failure))))
+
+	def run(self, name, **setting):
+		return next(run for run in self.runs[name] if run.setting == plans[name].parameters | setting)
+
+
+def block(scene):
+	"""Unknowns of a block no larger than what fails over those of a large one with the same cells, and by how much of the load their errors differ at most."""
+	of = {(row['scene'], row['cells']): row for row in rows('two_sizes', 'results', 'runs.csv') if row['choice'] == 'uniform'}
+	both = [(of['tight' + scene.title(), cells], row) for (name, cells), row in of.items() if name == scene and ('tight' + scene.title(), cells) in of]
+	return both[-1][0]['unknowns'] / both[-1][1]['unknowns'], max(abs(small['error'] - large['error']) for small, large in both)
+
+
+def stepRatios():
+	"""Solves with stepTolerance over those of the cheapest equal steps with the same error, where bodies yield."""
+	table = [row for row in rows('load_steps', 'results', 'runs.csv') if row['error'] == row['error'] and row['scene'] in ('slope', 'collapse', 'friction', 'footing')]
+	found = []
+	for row in table:
+		fixed = [other['solves'] for other in table if other['scene'] == row['scene'] and not other['part'] and other['error'] <= row['error']]
+		if row['part'] and fixed: found.append(row['solves'] / min(fixed))
+	return found
+
+
+def solving():
+	"""By method the seconds of one solve of a slender body in 3D, to the smaller of the tolerances."""
+	with open(os.path.join(here, '..', 'benchmarks', 'results', 'bench.json')) as file:
+		_, runs = json.load(file)['solvers']['methods'][-1]
+	return {run['method']: run['setUp'] + run['solve'] for run in runs}, runs[0]['unknowns']
+
+
+def text(found):
+	kept = Kept()
+	halved = [kept.halving(name) for name in plans if not found[name].luck and name != 'beam'] # whose theory is no better than the beam
+	section, quarter = kept.run('circle', cells='4'), kept.run('circle', cells='4', scene="'circle'")
+	with9, without49 = kept.run('footing', cells='4', fBar='1'), kept.run('footing', cells='24', fBar='0')
+	fBar, fine, mpm, stiff = kept.factors('fBar', 'footing', 'cut', 'beam'), kept.spans('tolerance', '1e-9'), kept.spans('basis', "'mpm'"), kept.spans('ghostFactor', '100')
+	loose = span([error for error, *_ in kept.alone('tolerance', '1e-4').values()], 3)
+	linear = [point.error for panel in found.values() if panel.beside[0] == 'linear basis' for point in panel.front() if point in panel.beside[1]]
+	unstable = kept.alone('ghostFactor', '0')
+	elastic, plastic = kept.factors('steps', 'column', 'column3d'), kept.factors('steps', 'slope', of=('10', '40'))
+	points, contact = kept.factors('pointsPerCell', 'slope', 'collapse', 'clay', 'seepage', 'sphere'), kept.factors('stiffness', 'sphere', 'clay', of=('100', '1000'))
+	small = block('footing'), block('bar')
+	ratios = stepRatios()
+	seconds, unknowns = solving()
+	split, coarse = found['runout'].points[0], found['runout'].beside[1][0]
+	lumped = min((point for point in found['pulse'].points if 'explicit, lumped' in point.setting), key=lambda point: point.error)
+	better = found['pulse'].cheapest(.2)
+	return f'''# What accuracy costs
+
+What to set, and what not, from {sum(map(len, kept.runs.values()))} runs by `scripts/trade` and the tables of other examples. All runs, and how they were measured: [details](details.md). `scripts/trade my.py` does it for a scene of yours.
+
+**Three settings worth knowing**
+
+1. **`MpmGrid(cellSize=...)`, with 2 x 2 points a cell.** Cells of half the size take the error to {span([e for e, _ in halved])} times for {span([t for _, t in halved])} times the time (scenes without * below). In {sum(map(kept.buysMost, plans))} of {len(plans)} scenes no other number buys as much.
+2. **`MpmGrid(dim=2, axisymmetric=True)`, and a small body.** A circular footing takes {section.cpu:.2f} s as a section, {quarter.cpu:.1f} s as a quarter in 3D, with the same cells. A block no larger than what fails gives the same load (within {percent(max(d for _, d in small))}) with {span([part for part, _ in small])} of the unknowns ([two_sizes](../two_sizes/README.md)).
+3. **`fBar=True` where matter keeps its volume** (clay, Poisson's ratio near .5): {fBar[0]} times the error for {fBar[1]} times the time. A strip footing with 9 cells over its width is off by {percent(with9.error)} in {with9.cpu:.2f} s; without F-bar by {percent(without49.error)} with 49 cells in {without49.cpu:.1f} s ([locking](../locking/README.md)).
+
+**Worth it there only**
+
+- *Load steps*: four times as many give the elastic columns {elastic[0]} times the error for {elastic[1]} times the time, the slope {plastic[0]} for {plastic[1]}. At a limit load steps decide; `newton.stepTolerance` finds how many, for {span(ratios)} times the solves of the best number ([load_steps](../load_steps/README.md)).
+- *`maxSplits=2`*: run-outs; {percent(split.error)} off instead of {percent(coarse.error)}, for {split.cost / coarse.cost:.2f} times the solves ([splitting](../splitting/README.md)); finer cells change run-outs by as much ([runout](../runout/README.md)). *Explicit steps*: where much error may stay; a pulse is {percent(lumped.error)} off in {lumped.cost:.1f} s ({said(lumped.setting)} cells a step) or {percent(better.error)} in {better.cost:.1f} s ({said(better.setting)}) ([waves](../waves/README.md)).
+- *`linearSolver`*: leave it at 'auto' ({seconds['auto']:.1f} s for one solve of a slender body of {unknowns:,} unknowns; direct {seconds['direct']:.1f}, conjugate gradients {seconds['iterative']:.1f}, multigrid {seconds['amg']:.1f}). *How wrong a run is*: `mpm.discretisationError` ([discretisation](../discretisation/README.md)).
+
+**Never worth it**
+
+- `basis='mpm'`: {mpm[0]} times the error for {mpm[1]} times the time (on {words[len(linear)]} of five fronts, at {percent(linear[0])}). `ghost.factor`: 100 has {stiff[0]} times the error, 0 fails in {words[sum(bool(failure) for *_, failure in unstable.values())]} of {words[len(unstable)]} scenes.
+- `tolerance=1e-9`: {fine[0]} times the error of 1e-6 for {fine[1]} times the time; 1e-4 has {loose} times that error. A contact's `stiffness` of 1000: {contact[0]} times the error of 100 for {contact[1]} times the time.
+- 3 x 3 points a cell and more where soil yields or touches: {points[0]} times the error for {points[1]} times the time. (Thin bodies that bend gain by them, and bodies pressed or drawn far.)
+'''
