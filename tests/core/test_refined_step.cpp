@@ -151,9 +151,9 @@ namespace {
 	/// Reactions balance the weight, and the whole moves by what it is pushed.
 	TYPED_TEST(RefinedStep, ReactionsBalanceTheWeight)
 	{
-		constexpr int Dim      = TypeParam::value;
-		Model<Dim>    m        = model<Dim>(cornerGrid<Dim>());
-		const auto    size     = cornerSize<Dim>().template cast<double>();
+		constexpr int  Dim     = TypeParam::value;
+		Model<Dim>     m       = model<Dim>(cornerGrid<Dim>());
+		const Vec<Dim> size    = cornerSize<Dim>().template cast<double>();
 		m.materials[0].density = 2000;
 		std::vector<HeldBox<Dim>> boxes;
 		for (int a = 0; a < Dim; ++a)

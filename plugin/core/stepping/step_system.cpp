@@ -62,7 +62,7 @@ StepSystem<Dim>::StepSystem(const PointCloud<Dim>& cloud, const Model<Dim>& m, c
 	makeTerms(load);
 	report.nodes          = int(basis.nodes.size());
 	report.dofs           = dofs.count;
-	report.populatedCells = int(basis.cells.size());
+	report.populatedCells = int(basis.populatedLeaves().size());
 	for (const char mixed : mixedCells(basis, cloud.material))
 		report.mixedCells += mixed;
 	report.largestWallOverlap = basis.largestWallOverlap;

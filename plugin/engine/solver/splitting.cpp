@@ -37,6 +37,7 @@ namespace {
 		bool splitOnce(size_t p)
 		{
 			const MaterialPoint& point = points[p];
+			const Real           limit = limitOf(point);
 			if (point.shape->halfSize.template head<Dim>().maxCoeff() < limit) return false;
 			const Vector3r size = grown(point);
 			if (size.template head<Dim>().maxCoeff() <= limit) return false;
@@ -50,7 +51,8 @@ namespace {
 		// The one along which it is longest, of those along which it can be split; none: -1
 		int axisOf(const MaterialPoint& point, const Vector3r& size) const
 		{
-			int best = -1;
+			const Real limit = limitOf(point);
+			int        best  = -1;
 			for (int a = 0; a < Dim; ++a)
 				if (size[a] > limit && (best < 0 || size[a] > size[best]) && isFree(point, a)) best = a;
 			return best;
@@ -100,6 +102,7 @@ namespace {
 			for (int a = 0; a < Dim; ++a)
 				half.state->refPos[a] -= reenter(half.state->pos[a], a, job.model.grid);
 			const Vector3r size                       = grown(half);
+			const Real     limit                      = limitOf(half);
 			half.shape->halfSize.template head<Dim>() = size.template head<Dim>().cwiseMin(limit);
 			if (isRing()) half.shape->halfSize[2] = half.shape->halfSize0[2] * half.state->defGrad(2, 2);
 			half.shape->radius *= std::pow(0.5, 1. / Dim);
@@ -114,13 +117,14 @@ namespace {
 			}
 		}
 
+		Real limitOf(const MaterialPoint& point) const { return gimpm::largestHalf<Dim>(job.model.grid, point.state->pos.template head<Dim>()); }
+
 		bool isRing() const { return job.model.grid.axisymmetric; }
 
 		vector<MaterialPoint>& points;
 		Job<Dim>&              job;
 		Scene&                 scene;
 		int                    most;
-		Real                   limit = 0.5 * job.model.grid.cellSize;
 		Splits                 result;
 	};
 }
