@@ -44,6 +44,17 @@ template <int Dim> PointCloud<Dim> refinedBlock(const Grid<Dim>& grid, const Ind
 template <int Dim> Grid<Dim>  cornerGrid() { return refinedGrid<Dim>({ { Vec<Dim>::Constant(0.1), Vec<Dim>::Constant(0.6), 2 } }); }
 template <int Dim> Index<Dim> cornerSize() { return cellsOf<Dim>(4, 3, 3); }
 
+/// Prescribes displacement(position) at the nodes on the surface of a block of largest cells that are tied to no others.
+template <int Dim, class Displacement> std::vector<HeldBox<Dim>> prescribedLeaves(const Grid<Dim>& grid, const Index<Dim>& size, Displacement&& displacement)
+{
+	std::vector<HeldBox<Dim>> boxes;
+	for (const auto& box : prescribedSurface<Dim>(grid, size * (1 << grid.refinement->largest()), displacement)) {
+		const int level = grid.refinement->largestAt(box.lower);
+		if (box.lower == box.lower.unaryExpr([&](int i) { return floorTo(i, level); })) boxes.push_back(box);
+	}
+	return boxes;
+}
+
 /// Points anywhere in that block, of any size up to half of the largest cells.
 template <int Dim> PointCloud<Dim> scattered(int points, unsigned seed = 3)
 {

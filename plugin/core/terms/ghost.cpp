@@ -120,10 +120,11 @@ void weighGhostFaces(
         GhostScaling scaling)
 {
 	const auto modulus = moduliAtFaces(faces, basis, stiffnessOf, grid);
+	const auto levelOf = [&](int leaf) { return Grid<Dim>::level(basis.populatedLeaves()[leaf]); };
 	for (auto& face : faces) {
-		const double h = grid.size(face.level()), power = scaling == GhostScaling::paper ? h * h * h : h;
 		const auto [lower, upper] = cellsAt(face, basis, grid);
-		face.stiffness            = factor * std::min(modulus[lower], modulus[upper]) * power / 3;
+		const double h = grid.size(std::max(levelOf(lower), levelOf(upper))), power = scaling == GhostScaling::paper ? h * h * h : h;
+		face.stiffness = factor * std::min(modulus[lower], modulus[upper]) * power / 3;
 		if (grid.axisymmetric) revolve(face, grid);
 		for (int i = 0; i < 3; ++i)
 			for (int s = 0; s < GhostFace<Dim>::tangentialNodes; ++s)
