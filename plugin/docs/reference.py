@@ -10,7 +10,7 @@ from yade import mpm, wrapper
 folder = os.path.dirname(os.path.abspath(__file__))
 flags = re.compile(r'\s*:yattrflags:`\d+`')
 groups = {
-        'Analysis': ['MpmImplicitEngine', 'MpmDynamicEngine', 'MpmGrid', 'MpmGhost', 'MpmNewton'],
+        'Analysis': ['MpmImplicitEngine', 'MpmDynamicEngine', 'MpmGrid', 'MpmRefinement', 'MpmGhost', 'MpmNewton'],
         'Conditions': ['MpmBoundary', 'MpmAbsorbingBoundary', 'MpmBaseMotion', 'MpmTraction', 'MpmWater', 'MpmSurface', 'MpmContact'],
         'Materials': ['MpmElasticMat', 'MpmVonMisesMat', 'MpmTrescaMat', 'MpmMohrCoulombMat', 'MpmDruckerPragerMat', 'MpmCamClayMat', 'MpmFrictionalMat', 'MpmMaterial'],
         'Material points': ['MpmPoint', 'MpmState'],

@@ -8,6 +8,7 @@
 #include "engine/points/assignment.hpp"
 #include "engine/points/bulkAccess.hpp"
 #include "engine/points/columns.hpp"
+#include "engine/solver/MpmGrid.hpp"
 #include "engine/solver/processes.hpp"
 #include "yade_api/verification.hpp"
 
@@ -19,6 +20,7 @@ BOOST_PYTHON_MODULE(mpm_engine)
 	py::def("newBodies", &newBodies,
 	        "For mpm.fill: bodies from positions, half size, materials, the index of each body's material, whether they are rings around x = 0, and a dict of "
 	        "columns of parameters.");
+	py::def("cellSizes", &cellSizesForPython, "For mpm.fill: bytearray of the sizes of a grid's cells at positions.");
 	py::def("multigridAbsence", &gimpm::Multigrid::absence, "For mpm.advise: why there is no algebraic multigrid; empty if there is.");
 	py::def(
 	        "bytesSent", +[] { return processes() ? processes()->sent() : 0.; },

@@ -59,6 +59,10 @@ outOfRange = {
         'MpmBaseMotion.direction': ['(0, 0, 0)'],
         'MpmBoundary.velocity': None,
         'MpmBoundary.penalty': ['0.', '-1.'],
+        'MpmGrid.refinements': None,
+        'MpmRefinement.min': None,
+        'MpmRefinement.max': None,
+        'MpmRefinement.halvings': ['0', '4'],
         'MpmGhost.factor': ['-1e-2'],
         'MpmGhost.scaling': ['"Paper"'],
         'MpmGhost.massFactor': ['-1e-3'],
@@ -137,10 +141,11 @@ categories = ['wrong type', 'NaN', 'infinite', 'empty', 'huge', 'out of range']
 
 # Admitted though odd: by attribute and text of the value.
 admitted = {
-        **{(f'{class_}.{side}', text): 'no limit on that side' for side in ('min', 'max') for class_ in ('MpmBoundary', 'MpmAbsorbingBoundary') for text in ('(inf, 0, 0)', '(0, -inf, 0)')},
+        **{(f'{class_}.{side}', text): 'no limit on that side' for side in ('min', 'max') for class_ in ('MpmBoundary', 'MpmAbsorbingBoundary', 'MpmRefinement') for text in ('(inf, 0, 0)', '(0, -inf, 0)')},
         ('MpmFrictionalMat.tensileStrength', 'inf'): 'no cut',
         ('MpmImplicitEngine.boundaries', '()'): 'nothing is held',
         ('MpmDynamicEngine.absorbing', '()'): 'nothing absorbs',
+        ('MpmGrid.refinements', '()'): 'equal cells',
         ('MpmImplicitEngine.loads', '()'): 'nothing is loaded',
         ('MpmTraction.curve', '()'): 'loadCurve',
         ('MpmBoundary.curve', '()'): 'loadCurve',
@@ -189,16 +194,18 @@ def scene(engine='MpmImplicitEngine'):
 	wave = MpmBaseMotion(history=[(0, 0), (2, 1e-3)])
 	edge = MpmAbsorbingBoundary(min=(2, -inf, -inf), motion=wave)
 	if engine in dynamic[1:]: solver.absorbing = [edge]
+	small = MpmRefinement()
+	if engine == 'MpmRefinement': grid.refinements, solver.water = [small], []
 	O.engines = [solver, MpmVtkRecorder(fileName='out-', recorders=['all'])]
 	O.dt = 1
 	objects = [*O.engines, *O.materials, O.bodies[5].state, O.bodies[5].shape, grid, base, load, load.surface, water, touch, ghost, newton]
-	return {type(o).__name__: o for o in objects + [edge, wave] * (engine in dynamic[1:])}
+	return {type(o).__name__: o for o in objects + [edge, wave] * (engine in dynamic[1:]) + [small] * (engine == 'MpmRefinement')}
 
 def attributes():
 	"""(class, attribute, class of the object to set it on, kind, whether it can only be read) from the classes themselves."""
 	classes = [c for name, c in vars(wrapper).items() if isinstance(c, type) and name.startswith('Mpm')]
 	for c in classes:
-		users = [name for name in [*scene(), *dynamic] if issubclass(getattr(wrapper, name), c)]
+		users = [name for name in [*scene(), *dynamic, 'MpmRefinement'] if issubclass(getattr(wrapper, name), c)]
 		for name, value in vars(c).items():
 			if not isinstance(value, property): continue
 			default = getattr(c(), name)

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "core/grid/attachment.hpp"
+#include <limits>
 
 namespace gimpm {
 namespace {
@@ -11,8 +12,8 @@ template <int Dim> double distance(const Vec<Dim>& xi, const Index<Dim>& cell)
 	return (-local).max(local - 1).max(0.).maxCoeff();
 }
 
-/// The populated cell that is nearest to a place in cell coordinates, of equally near ones the first.
-template <int Dim> std::optional<Index<Dim>> nearestCell(const Vec<Dim>& xi, const std::vector<Key>& populated, const Grid<Dim>& grid)
+/// The populated cell of a level that is nearest to a place in coordinates of such cells, of equally near ones the first.
+template <int Dim> std::optional<Index<Dim>> nearestCell(const Vec<Dim>& xi, const std::vector<Key>& populated, const Grid<Dim>& grid, int level)
 {
 	std::optional<Index<Dim>> nearest;
 	double                    least = attachmentTolerance;
@@ -23,7 +24,7 @@ template <int Dim> std::optional<Index<Dim>> nearestCell(const Vec<Dim>& xi, con
 			cell[a] += rest % 3 - 1;
 		const double away = distance<Dim>(xi, cell);
 		if (away > least || (nearest && away == least)) continue;
-		if (find(populated, Grid<Dim>::key(grid.first(cell))) >= 0) nearest = cell, least = away;
+		if (find(populated, Grid<Dim>::key(grid.first(cell * (1 << level)), level)) >= 0) nearest = cell, least = away;
 	}
 	return nearest;
 }
@@ -32,18 +33,23 @@ template <int Dim> std::optional<Index<Dim>> nearestCell(const Vec<Dim>& xi, con
 
 template <int Dim> std::optional<Attachment<Dim>> attach(const Vec<Dim>& place, const CloudBasis<Dim>& basis, const Grid<Dim>& grid)
 {
-	const Vec<Dim> xi = (place - grid.origin) / grid.cellSize;
-	if (!(xi.array().abs() < Grid<Dim>::indexLimit).all()) return std::nullopt;
-	const auto cell = nearestCell<Dim>(xi, basis.cells, grid);
-	if (!cell) return std::nullopt;
-	const Vec<Dim>  local = xi - cell->template cast<double>();
-	Attachment<Dim> attached;
-	attached.cell = *cell;
-	for (int n = 0; n < attached.nodes; ++n) {
-		attached.node[n]   = position(basis.nodes, Grid<Dim>::key(grid.first(attached.index(n))));
-		attached.weight[n] = 1;
+	std::optional<Attachment<Dim>> attached;
+	Vec<Dim>                       local = Vec<Dim>::Zero();
+	double                         least = std::numeric_limits<double>::infinity();
+	for (int level = grid.refinement ? grid.refinement->largest() : 0; level >= 0; --level) {
+		const Vec<Dim> xi = (place - grid.origin) / grid.size(level);
+		if (!(xi.array().abs() < Grid<Dim>::indexLimit >> level).all()) return std::nullopt;
+		const auto cell = nearestCell<Dim>(xi, basis.populatedLeaves(), grid, level);
+		if (!cell || !(distance<Dim>(xi, *cell) * (1 << level) < least)) continue;
+		least    = distance<Dim>(xi, *cell) * (1 << level);
+		local    = xi - cell->template cast<double>();
+		attached = Attachment<Dim> { *cell, level, {}, {} };
+	}
+	for (int n = 0; attached && n < attached->nodes; ++n) {
+		attached->node[n]   = position(basis.nodes, Grid<Dim>::key(grid.first(attached->index(n) * (1 << attached->level)), attached->level));
+		attached->weight[n] = 1;
 		for (int a = 0; a < Dim; ++a)
-			attached.weight[n] *= n >> a & 1 ? local[a] : 1 - local[a];
+			attached->weight[n] *= n >> a & 1 ? local[a] : 1 - local[a];
 	}
 	return attached;
 }

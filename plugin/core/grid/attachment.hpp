@@ -6,16 +6,17 @@
 
 namespace gimpm {
 
-/// The linear functions of one populated cell at a place in it or close to it. Unlike a material point a place is no domain: its functions are not
+/// The linear functions of one populated cell, in a refined grid of a leaf, at a place in it or close to it. Unlike a material point a place is no domain: its functions are not
 /// averaged. They are one in sum and reproduce the place, so that forces on it keep resultant and moment.
 template <int Dim> struct Attachment {
 	static constexpr int nodes = 1 << Dim;
 
-	Index<Dim>                cell;   ///< as if the grid were not periodic
+	Index<Dim>                cell; ///< as if the grid were not periodic, in cells of its level
+	int                       level;
 	std::array<int, nodes>    node;   ///< numbers, x fastest
 	std::array<double, nodes> weight; ///< values of the functions [-]
 
-	/// Integer coordinates of a node, as if the grid were not periodic.
+	/// Integer coordinates of a node, as if the grid were not periodic, in cells of its level.
 	Index<Dim> index(int n) const
 	{
 		Index<Dim> i = cell;
@@ -24,13 +25,13 @@ template <int Dim> struct Attachment {
 		return i;
 	}
 
-	/// Of the place, from the lowest node on [cells].
+	/// Of the place, from the lowest node on [smallest cells].
 	Vec<Dim> inCell() const
 	{
 		Vec<Dim> local = Vec<Dim>::Zero();
 		for (int n = 0; n < nodes; ++n)
 			for (int a = 0; a < Dim; ++a)
-				if (n >> a & 1) local[a] += weight[n];
+				if (n >> a & 1) local[a] += weight[n] * (1 << level);
 		return local;
 	}
 

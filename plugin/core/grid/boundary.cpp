@@ -6,7 +6,7 @@ namespace gimpm {
 
 template <int Dim> HeldBox<Dim> HeldBox<Dim>::from(const Grid<Dim>& grid, const Vec<Dim>& min, const Vec<Dim>& max)
 {
-	constexpr double tolerance = 1e-9, limit = Grid<Dim>::indexLimit + 2;
+	constexpr double tolerance = 1e-9, limit = Grid<Dim>::endOfKeys;
 	HeldBox          box;
 	for (int a = 0; a < Dim; ++a) {
 		box.lower[a] = int(std::clamp(std::ceil((min[a] - grid.origin[a]) / grid.cellSize - tolerance), -limit, limit));
@@ -22,7 +22,7 @@ template <int Dim> HeldBox<Dim> HeldBox<Dim>::from(const Grid<Dim>& grid, const 
 template <int Dim> HeldBox<Dim> HeldBox<Dim>::ofAxis(const Grid<Dim>& grid)
 {
 	HeldBox box;
-	box.upper.setConstant(Grid<Dim>::indexLimit + 2);
+	box.upper.setConstant(Grid<Dim>::endOfKeys);
 	box.lower    = -box.upper;
 	box.lower[0] = box.upper[0] = grid.axisNode();
 	box.fixed[0]                = true;
@@ -54,7 +54,7 @@ template <int Dim> bool Boundary<Dim>::isInOpenBox(const Index<Dim>& node) const
 	return std::any_of(open_.begin(), open_.end(), [&](const HeldBox<Dim>& b) { return b.contains(node); });
 }
 
-template <int Dim> bool Boundary<Dim>::lowerFaceIsWall(const Index<Dim>& cell, int axis) const
+template <int Dim> bool Boundary<Dim>::lowerFaceIsWall(const Index<Dim>& cell, int axis, int level) const
 {
 	const auto covers         = [&](const HeldBox<Dim>& b) { return b.covers(cell[axis], axis); };
 	const bool planeIsTouched = std::any_of(boxes_.begin(), boxes_.end(), [&](const HeldBox<Dim>& b) { return b.fixed[axis] && covers(b); })
@@ -64,7 +64,7 @@ template <int Dim> bool Boundary<Dim>::lowerFaceIsWall(const Index<Dim>& cell, i
 		if (corner >> axis & 1) continue;
 		Index<Dim> node = cell;
 		for (int a = 0; a < Dim; ++a)
-			node[a] += corner >> a & 1;
+			node[a] += (corner >> a & 1) << level;
 		if (!holder(node, axis) && !isInOpenBox(node)) return false;
 	}
 	return true;

@@ -53,7 +53,7 @@ public:
 	const std::vector<HeldBox<Dim>>& boxes() const { return boxes_; }
 
 	/// Whether all nodes of the lower face of this cell in this direction are held in the face's normal direction, or in open boxes.
-	bool lowerFaceIsWall(const Index<Dim>& cell, int axis) const;
+	bool lowerFaceIsWall(const Index<Dim>& cell, int axis, int level = 0) const;
 
 private:
 	bool isInOpenBox(const Index<Dim>& node) const;

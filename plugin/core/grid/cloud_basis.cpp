@@ -1,96 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "core/grid/cloud_basis.hpp"
+#include "core/grid/place.hpp"
 #include "core/grid/tile_order.hpp"
 #include <algorithm>
 
 namespace gimpm {
 namespace {
-
-template <int Dim> Index<Dim> corner(const Index<Dim>& cell, int bits)
-{
-	Index<Dim> i = cell;
-	for (int a = 0; a < Dim; ++a)
-		i[a] += bits >> a & 1;
-	return i;
-}
-
-/// The cell that holds the point's centre. On a face it is the lower cell, unless that lies behind the wall of that face.
-template <int Dim> Index<Dim> containingCell(const Vec<Dim>& x, double h, const Boundary<Dim>& boundary)
-{
-	Index<Dim> cell;
-	for (int a = 0; a < Dim; ++a)
-		cell[a] = centreCell(x[a], h);
-	for (int a = 0; a < Dim; ++a) {
-		const Index<Dim> upper = cell + Index<Dim>::Unit(a), beyond = upper + Index<Dim>::Unit(a);
-		const bool       onUpperFace = std::abs(x[a] / h - upper[a]) <= faceTolerance;
-		if (onUpperFace && boundary.lowerFaceIsWall(upper, a) && boundary.lowerFaceIsWall(cell, a) && !boundary.lowerFaceIsWall(beyond, a))
-			cell = upper;
-	}
-	return cell;
-}
-
-/// The cells of a window that can be reached from the cell of the centre through faces which are no walls.
-template <int Dim> int reachableCells(const Index<Dim>& lowest, int span, int centre, const Boundary<Dim>& boundary)
-{
-	int reached = 1 << centre;
-	for (int before = 0; before != reached;) {
-		before = reached;
-		for (int c = 0; c < 1 << Dim; ++c) {
-			if (!(reached >> c & 1)) continue;
-			for (int a = 0; a < Dim; ++a) {
-				const int neighbour = c ^ 1 << a;
-				if (!(span >> a & 1) || (reached >> neighbour & 1)) continue;
-				if (!boundary.lowerFaceIsWall(corner<Dim>(lowest, c | 1 << a), a)) reached |= 1 << neighbour;
-			}
-		}
-	}
-	return reached;
-}
-
-/// What the points are sorted by. It is kept small: the basis functions are computed once the order is known.
-template <int Dim> struct Place {
-	Key      order; // of the lowest cell
-	unsigned kind;  // span and cells
-	int      point;
-
-	Place() { } // all are set
-	Place(Key cell, int span, int cells, int point)
-	        : order(TileOrder<Dim>::of(cell)), kind(unsigned(span) << (1 << Dim) | unsigned(cells)), point(point) { }
-	int  span() const { return int(kind >> (1 << Dim)); }
-	int  cells() const { return int(kind & ((1 << (1 << Dim)) - 1)); }
-	bool samePatch(const Place& o) const { return order == o.order && kind == o.kind; }
-	bool operator<(const Place& o) const { return whole() < o.whole(); } // without branches, which could only guess here
-
-private:
-	unsigned __int128 whole() const { return (unsigned __int128)order << 64 | Key(kind) << 32 | unsigned(point); }
-};
-
-/// How far the domain reaches behind walls, as a length of its own axis: the part on the other side of a face than the centre.
-template <int Dim> double hiddenLength(const Place<Dim>& p, const Vec<Dim>& x, const Vec<Dim>& halfSize, double h, const Index<Dim>& lowest, int centre)
-{
-	double length = 0;
-	for (int a = 0; a < Dim; ++a)
-		if ((p.span() >> a & 1) && !(p.cells() >> (centre ^ 1 << a) & 1)) length = std::max(length, halfSize[a] - std::abs(x[a] - h * (lowest[a] + 1)));
-	return length;
-}
-
-template <int Dim> Place<Dim> place(const PointCloud<Dim>& cloud, int point, const Grid<Dim>& grid, Basis basis, const Boundary<Dim>& boundary, double& hidden)
-{
-	const Vec<Dim>   x = cloud.position[point] - grid.origin, &halfSize = cloud.halfSize[point];
-	const Index<Dim> centre = containingCell<Dim>(x, grid.cellSize, boundary);
-	Index<Dim>       lowest = centre;
-	int              span = 0, centreBits = 0; // which cell of the window holds the centre
-	for (int a = 0; basis == Basis::gimp && a < Dim; ++a) {
-		const auto cells = AxisCells::reached(x[a], halfSize[a], grid.cellSize);
-		lowest[a]        = cells.lowest;
-		if (cells.count == 1) continue;
-		span |= 1 << a;
-		if (centre[a] > lowest[a]) centreBits |= 1 << a;
-	}
-	const Place<Dim> p(Grid<Dim>::key(grid.first(lowest)), span, reachableCells<Dim>(lowest, span, centreBits, boundary), point);
-	hidden = std::max(hidden, hiddenLength<Dim>(p, x, halfSize, grid.cellSize, lowest, centreBits));
-	return p;
-}
 
 /// Bits of the cells of the window that touch a node given by its position in the window.
 inline int cellsAtNode(const int (&n)[3])
@@ -112,7 +27,7 @@ template <int Dim, class F> void forPatchNodes(const Patch<Dim>& patch, F&& f)
 				if (!(cellsAtNode(n) & patch.cells)) continue;
 				Key key = patch.cell;
 				for (int a = 0; a < Dim; ++a)
-					key += n[a] * Grid<Dim>::keyStep(a);
+					key += n[a] * Grid<Dim>::keyStep(a, Grid<Dim>::level(patch.cell));
 				f(local, key, n[0] + 3 * n[1] + 9 * n[2]);
 			}
 }
@@ -134,15 +49,14 @@ template <int Dim> void makePatches(const std::vector<Place<Dim>>& places, Cloud
 }
 
 /// Of the axis x of a point: averages over the ring instead of its section, and the functions of the hoop strain.
-template <int Dim>
-void fillRing(const PointCloud<Dim>& cloud, int p, const Grid<Dim>& grid, Basis basis, const AxisCells& cells, AxisBasis& ring, AxisValues& hoop)
+template <int Dim> void fillRing(const Grid<Dim>& grid, double r, double l, double h, Basis basis, const AxisCells& cells, AxisBasis& ring, AxisValues& hoop)
 {
-	const double r = cloud.position[p][0], x = r - grid.origin[0], l = cloud.halfSize[p][0];
+	const double x = r - grid.origin[0];
 	AxisBasis    section;
-	section.setGimp(x, l, grid.cellSize, cells);
+	section.setGimp(x, l, h, cells);
 	for (int n = 0; n < 4; ++n)
 		hoop[n] = section.value[n] / r;
-	ring.setRing(x, r, basis == Basis::gimp ? l : 0, grid.cellSize, cells);
+	ring.setRing(x, r, basis == Basis::gimp ? l : 0, h, cells);
 }
 
 template <int Dim> void fillAxes(const PointCloud<Dim>& cloud, const Grid<Dim>& grid, Basis basis, CloudBasis<Dim>& b)
@@ -152,25 +66,34 @@ template <int Dim> void fillAxes(const PointCloud<Dim>& cloud, const Grid<Dim>& 
 #pragma omp parallel for schedule(static)
 	for (int k = 0; k < int(b.patches.size()); ++k) {
 		const auto&      patch = b.patches[k];
-		const Index<Dim> cell  = Grid<Dim>::index(patch.cell);
+		const int        level = Grid<Dim>::level(patch.cell);
+		const double     h     = grid.size(level);
+		const Index<Dim> cell  = Grid<Dim>::index(patch.cell) / (1 << level);
 		for (int i = patch.first; i < patch.first + patch.count; ++i) {
 			const int      p = b.order[i];
-			const Vec<Dim> x = cloud.position[p] - grid.origin;
+			const Vec<Dim> x = cloud.position[p] - grid.origin, half = domainIn(cloud, p, grid, level);
 			for (int a = 0; a < Dim; ++a)
-				b.axes[i][a].setGimp(
-				        grid.imageNear(x[a], cell[a] + 1, a), cloud.halfSize[p][a], grid.cellSize, { cell[a], patch.nodesAlong(a) - 1 });
-			if (grid.axisymmetric) fillRing(cloud, p, grid, basis, { cell[0], patch.nodesAlong(0) - 1 }, b.axes[i][0], b.hoop[i]);
+				b.axes[i][a].setGimp(grid.imageNear(x[a], cell[a] + 1, a), half[a], h, { cell[a], patch.nodesAlong(a) - 1 });
+			if (grid.axisymmetric)
+				fillRing(grid, cloud.position[p][0], half[0], h, basis, { cell[0], patch.nodesAlong(0) - 1 }, b.axes[i][0], b.hoop[i]);
 		}
 	}
 }
 
-/// a = the union of a and { key + step : key in b }, all sorted.
-void unite(std::vector<Key>& a, const std::vector<Key>& b, Key step)
+/// a = the union of a and { key + offset of the key's level : key in b }, all sorted. The offset is that from a cell to the one above it along the axes of the bits.
+template <int Dim> void unite(std::vector<Key>& a, const std::vector<Key>& b, int bits)
 {
 	std::vector<Key> shifted(b.size()), both;
-	std::transform(b.begin(), b.end(), shifted.begin(), [step](Key key) { return key + step; });
+	const Key        offset = Grid<Dim>::keyOffset(bits);
+	std::transform(b.begin(), b.end(), shifted.begin(), [offset](Key key) { return key + (offset << Grid<Dim>::level(key)); });
 	std::set_union(a.begin(), a.end(), shifted.begin(), shifted.end(), std::back_inserter(both));
 	a.swap(both);
+}
+
+void sortOut(std::vector<Key>& keys)
+{
+	std::sort(keys.begin(), keys.end());
+	keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
 }
 
 /// The nodes or cells that stand for these.
@@ -178,8 +101,7 @@ template <int Dim> void keepFirst(std::vector<Key>& keys, const Grid<Dim>& grid)
 {
 	if (!grid.isPeriodic()) return;
 	std::transform(keys.begin(), keys.end(), keys.begin(), [&](Key key) { return grid.first(key); });
-	std::sort(keys.begin(), keys.end());
-	keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
+	sortOut(keys);
 }
 
 template <int Dim> std::vector<Key> populatedCells(const std::vector<Patch<Dim>>& patches, const Grid<Dim>& grid)
@@ -194,7 +116,7 @@ template <int Dim> std::vector<Key> populatedCells(const std::vector<Patch<Dim>>
 	for (int c = 0; c < windowCells<Dim>; ++c, those.clear()) {
 		for (const auto& [cell, window] : lowest)
 			if (window >> c & 1) those.push_back(cell);
-		unite(cells, those, Grid<Dim>::keyOffset(c));
+		unite<Dim>(cells, those, c);
 	}
 	keepFirst(cells, grid);
 	return cells;
@@ -208,17 +130,49 @@ int positionNear(int& last, const std::vector<Key>& sorted, Key key)
 	return last = position(sorted, key);
 }
 
-/// The active nodes are the corners of the populated cells.
+template <int Dim> std::vector<Key> cornersOf(const std::vector<Key>& cells)
+{
+	std::vector<Key> nodes = cells;
+	for (int a = 0; a < Dim; ++a)
+		unite<Dim>(nodes, std::vector<Key>(nodes), 1 << a);
+	return nodes;
+}
+
+/// The leaves, and the ties of the nodes.
+template <int Dim> void refine(CloudBasis<Dim>& b, const Refinement<Dim>& refinement)
+{
+	for (const Key cell : b.cells)
+		b.leaves.push_back(refinement.leafOf(cell));
+	const std::vector<Key> leafOfCell = b.leaves;
+	sortOut(b.leaves);
+	for (const Key leaf : leafOfCell)
+		b.leafOf.push_back(position(b.leaves, leaf));
+	std::vector<Key> cells = b.cells;
+	cells.insert(cells.end(), b.leaves.begin(), b.leaves.end());
+	forLeafFaces(b.leaves, refinement, [&](Key, Key, Key lower, int axis) {
+		cells.push_back(lower);
+		cells.push_back(lower + Grid<Dim>::keyStep(axis, Grid<Dim>::level(lower)));
+	});
+	sortOut(cells);
+	b.nodes = cornersOf<Dim>(cells);
+	b.ties  = tieNodes(b.nodes, refinement);
+}
+
+/// The active nodes are the corners of the populated cells; in a refined grid also those of their leaves and those beside the faces between leaves of two
+/// sizes, with the masters of all.
 template <int Dim> void numberNodes(CloudBasis<Dim>& b, const Grid<Dim>& grid)
 {
-	b.cells = b.nodes = populatedCells(b.patches, grid);
-	for (int a = 0; a < Dim; ++a)
-		unite(b.nodes, std::vector<Key>(b.nodes), Grid<Dim>::keyStep(a));
+	b.cells = populatedCells(b.patches, grid);
+	if (grid.refinement) refine(b, *grid.refinement);
+	else
+		b.nodes = cornersOf<Dim>(b.cells);
 	keepFirst(b.nodes, grid);
 	int lastCell[windowCells<Dim>] = {}, lastNode[27] = {};
 	for (auto& patch : b.patches) {
 		for (int c = 0; c < windowCells<Dim>; ++c)
-			if (patch.cells >> c & 1) patch.reached[c] = positionNear(lastCell[c], b.cells, grid.first(patch.cell + Grid<Dim>::keyOffset(c)));
+			if (patch.cells >> c & 1)
+				patch.reached[c]
+				        = positionNear(lastCell[c], b.cells, grid.first(patch.cell + Grid<Dim>::keyOffset(c, Grid<Dim>::level(patch.cell))));
 		forPatchNodes(patch, [&](int local, Key key, int place) { patch.node[local] = positionNear(lastNode[place], b.nodes, grid.first(key)); });
 	}
 }

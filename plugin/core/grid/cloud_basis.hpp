@@ -4,6 +4,7 @@
 #include "core/grid/basis.hpp"
 #include "core/grid/boundary.hpp"
 #include "core/grid/point_cloud.hpp"
+#include "core/grid/ties.hpp"
 #include <array>
 
 namespace gimpm {
@@ -12,7 +13,8 @@ namespace gimpm {
 template <int Dim> constexpr int windowNodes = Dim == 2 ? 9 : 27;
 template <int Dim> constexpr int windowCells = Dim == 2 ? 4 : 8;
 
-/// Material points that share their nodes: same lowest cell, same number of cells per axis, same walls.
+/// Material points that share their nodes: same lowest cell and level, same number of cells per axis, same walls. A point is of the level of the smallest leaf that its domain touches; what of its window
+/// lies in larger leaves are cells of that level too, whose nodes are tied.
 template <int Dim> struct Patch {
 	Key                               cell;                 ///< lowest cell
 	int                               span  = 0;            ///< bit a set: the domains reach two cells along axis a
@@ -31,6 +33,9 @@ template <int Dim> struct CloudBasis {
 	std::vector<Patch<Dim>>      patches; ///< by colour, tile and lowest cell
 	std::vector<Key>             nodes;   ///< active nodes, sorted; the node number is the position here
 	std::vector<Key>             cells;   ///< populated cells, sorted
+	Ties                         ties;    ///< among the nodes
+	std::vector<Key>             leaves;  ///< that hold populated cells, sorted; empty in a grid of equal cells, whose cells are the leaves
+	std::vector<int>             leafOf;  ///< numbers of the leaves of the cells; empty there too
 	/// Tiles are blocks of a few cells: what their points add to on the grid stays in the processor's cache, and lies in memory as it is
 	/// read. Ranges of patches [first, last) with the lowest cell in the same tile, by colour: the tiles of one of the 2^Dim colours are no
 	/// neighbours, so that no two of its ranges share a node. Where the grid is periodic there may be 3^Dim.
@@ -38,9 +43,12 @@ template <int Dim> struct CloudBasis {
 	double largestWallOverlap = 0; ///< largest length by which a domain reaches behind a wall [m]; that part is dropped
 
 	bool isAxisymmetric() const { return !hoop.empty(); }
+
+	const std::vector<Key>& populatedLeaves() const { return leafOf.empty() ? cells : leaves; }
+	int                     leaf(int cell) const { return leafOf.empty() ? cell : leafOf[cell]; }
 };
 
-/// Positions must be finite and within the grid's index limit, half sizes in (0, h/2].
+/// Positions must be finite and within the grid's index limit, half sizes in (0, h/2] with h of the largest cells; where cells are smaller, a domain reaches no farther than half of them.
 template <int Dim> CloudBasis<Dim> cloudBasis(const PointCloud<Dim>&, const Grid<Dim>&, Basis, const Boundary<Dim>&);
 
 } // namespace gimpm

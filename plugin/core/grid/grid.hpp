@@ -4,12 +4,14 @@
 #include "core/base/types.hpp"
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <vector>
 
 namespace gimpm {
 
-/// Sortable name of a cell or node: its integer coordinates packed so that x runs fastest. A cell is named after its lowest node,
-/// and the key of a neighbour is the key plus a constant, whatever the place in the grid.
+/// Sortable name of a cell or node: its integer coordinates packed so that x runs fastest, and above them its level: cells of level l are 2^l times as
+/// large as the smallest ones, of which coordinates are numbers. A cell is named after its lowest node, and the key of a neighbour of the same level is the key plus a
+/// constant, whatever the place in the grid.
 using Key = std::uint64_t;
 
 /// Where a key stands among sorted ones, or would stand.
@@ -22,8 +24,10 @@ inline int find(const std::vector<Key>& sorted, Key key)
 	return place < int(sorted.size()) && sorted[place] == key ? place : -1;
 }
 
+template <int Dim> class Refinement;
+
 template <int Dim> struct Grid {
-	double   cellSize = 1;                ///< edge length h of a cell [m]
+	double   cellSize = 1;                ///< edge length h of a cell, of the smallest ones where there are several sizes [m]
 	Vec<Dim> origin   = Vec<Dim>::Zero(); ///< position of node (0, 0[, 0]) [m]
 	/// Cells along each axis after which the grid repeats itself: nodes so far apart are one node, and so are cells. 0: it never does. The first
 	/// ones, from 0 to period - 1, stand for all.
@@ -32,25 +36,32 @@ template <int Dim> struct Grid {
 	/// Of bodies of revolution, in 2D: x is the distance from the axis, where x = 0 is on a node, and y goes along it.
 	bool axisymmetric = false;
 
+	/// Where cells are smaller and where larger; null: they are equal.
+	std::shared_ptr<const Refinement<Dim>> refinement {};
+
 	/// A domain and a ghost face reach three nodes along an axis, which must not be the same.
 	static constexpr int smallestPeriod = 3;
 
-	static constexpr int keyBits = Dim == 2 ? 31 : 21;
-	/// Integer coordinates must stay below this limit in magnitude; two cells of it are kept free for neighbours.
-	static constexpr int indexLimit = (1 << (keyBits - 1)) - 2;
+	static constexpr int keyBits   = Dim == 2 ? 31 : 20;
+	static constexpr int mostLevel = 3;
+	/// Integer coordinates must stay below this limit in magnitude; two cells of it, of the largest, are kept free for neighbours.
+	static constexpr int endOfKeys = 1 << (keyBits - 1), indexLimit = endOfKeys - (2 << mostLevel);
 
-	static constexpr Key keyStep(int axis) { return Key(1) << (keyBits * axis); }
+	static constexpr int level(Key k) { return int(k >> (keyBits * Dim)); }
+	double               size(int level) const { return cellSize * (1 << level); } ///< edge length of a cell [m]
+
+	static constexpr Key keyStep(int axis, int level = 0) { return Key(1) << (keyBits * axis + level); }
 	/// From a cell to the one above it along each axis whose bit is set.
-	static constexpr Key keyOffset(int bits)
+	static constexpr Key keyOffset(int bits, int level = 0)
 	{
 		Key k = 0;
 		for (int a = 0; a < Dim; ++a)
-			if (bits >> a & 1) k += keyStep(a);
+			if (bits >> a & 1) k += keyStep(a, level);
 		return k;
 	}
-	static Key key(const Index<Dim>& i)
+	static Key key(const Index<Dim>& i, int level = 0)
 	{
-		Key k = 0;
+		Key k = Key(level) << (keyBits * Dim);
 		for (int a = 0; a < Dim; ++a)
 			k += Key(std::int64_t(i[a]) + (std::int64_t(1) << (keyBits - 1))) << (keyBits * a);
 		return k;

@@ -7,17 +7,18 @@ namespace gimpm {
 // All points of a patch populate all its cells.
 template <int Dim> std::vector<char> mixedCells(const CloudBasis<Dim>& basis, const std::vector<int>& material)
 {
-	std::vector<char> mixed(basis.cells.size(), 0);
+	std::vector<char> mixed(basis.populatedLeaves().size(), 0);
 	if (std::adjacent_find(material.begin(), material.end(), std::not_equal_to<int>()) == material.end()) return mixed;
-	std::vector<int> found(basis.cells.size(), -1);
+	std::vector<int> found(mixed.size(), -1);
 	for (const auto& patch : basis.patches) {
 		const auto points       = basis.order.begin() + patch.first;
 		const int  first        = material[*points];
 		const bool isMixedPatch = std::any_of(points, points + patch.count, [&](int p) { return material[p] != first; });
 		for (const int cell : patch.reached) {
 			if (cell < 0) continue;
-			if (found[cell] < 0) found[cell] = first;
-			mixed[cell] |= isMixedPatch || found[cell] != first;
+			const int leaf = basis.leaf(cell);
+			if (found[leaf] < 0) found[leaf] = first;
+			mixed[leaf] |= isMixedPatch || found[leaf] != first;
 		}
 	}
 	return mixed;

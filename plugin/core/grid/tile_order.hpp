@@ -6,33 +6,36 @@
 namespace gimpm {
 
 /// Where a cell stands in the order of colours, of the tiles of a colour and of the cells of a tile. Domains with the lowest cell in a tile
-/// reach the first nodes beyond it, and no others as long as a tile is at least two cells wide: between two tiles of a colour lies another.
+/// reach the first nodes beyond it, and no others as long as a tile is at least two cells wide: between two tiles of a colour lies another. Each level of cells has
+/// tiles of its own, which share no node with those of others.
 template <int Dim> struct TileOrder {
 	static constexpr int widthBits = 2; ///< a tile is 2^widthBits cells wide
 	static constexpr int bits = Grid<Dim>::keyBits, highBits = bits - widthBits - 1;
 
 	static Key of(Key cell)
 	{
-		Key colour = 0, tile = 0, inside = 0;
+		const int level  = Grid<Dim>::level(cell);
+		Key       colour = 0, tile = 0, inside = 0;
 		for (int a = Dim - 1; a >= 0; --a, cell <<= bits) {
-			const Key along = low(cell >> bits * (Dim - 1), bits);
+			const Key along = low(cell >> bits * (Dim - 1), bits) >> level;
 			inside          = inside << widthBits | low(along, widthBits);
 			colour          = colour << 1 | low(along >> widthBits, 1);
 			tile            = tile << highBits | along >> (widthBits + 1);
 		}
-		return (colour << Dim * highBits | tile) << Dim * widthBits | inside;
+		return Key(level) << Dim * bits | (colour << Dim * highBits | tile) << Dim * widthBits | inside;
 	}
 	static Key cell(Key place)
 	{
-		Key       cell    = 0;
+		const int level   = Grid<Dim>::level(place);
+		Key       cell    = Key(level) << Dim * bits;
 		const Key colours = place >> Dim * (bits - 1), tiles = tile(place);
 		for (int a = 0; a < Dim; ++a) {
 			const Key along = low(tiles >> a * highBits, highBits) << 1 | low(colours >> a, 1);
-			cell |= (along << widthBits | low(place >> a * widthBits, widthBits)) << a * bits;
+			cell |= (along << widthBits | low(place >> a * widthBits, widthBits)) << (a * bits + level);
 		}
 		return cell;
 	}
-	static Key tile(Key place) { return place >> Dim * widthBits; } ///< with its colour
+	static Key tile(Key place) { return place >> Dim * widthBits; } ///< with its colour and level
 
 private:
 	static constexpr Key low(Key k, int bits) { return k & ((Key(1) << bits) - 1); }
@@ -56,7 +59,7 @@ template <int Dim> int colourOf(Key cell, const Grid<Dim>& grid)
 	const Index<Dim> i      = Grid<Dim>::index(cell);
 	int              colour = 0;
 	for (int a = Dim - 1; a >= 0; --a)
-		colour = (grid.isPeriodic() ? 3 : 2) * colour + colourAlong<Dim>(i[a] >> TileOrder<Dim>::widthBits, grid.period[a]);
+		colour = (grid.isPeriodic() ? 3 : 2) * colour + colourAlong<Dim>(i[a] >> (TileOrder<Dim>::widthBits + Grid<Dim>::level(cell)), grid.period[a]);
 	return colour;
 }
 

@@ -30,11 +30,12 @@ template <int Dim> void NodeMatrix<Dim>::reset(const std::vector<Key>& nodes, bo
 		const Key   offset = keyOffset<Dim>(c);
 		std::size_t b      = 0; // keys rise together with those of the neighbours: one sweep for each offset
 		for (std::size_t a = 0; a < nodes.size(); ++a) {
-			while (b < nodes.size() && nodes[b] < nodes[a] + offset)
+			const Key there = nodes[a] + (offset << Grid<Dim>::level(nodes[a]));
+			while (b < nodes.size() && nodes[b] < there)
 				++b;
-			if (b < nodes.size() && nodes[b] == nodes[a] + offset) neighbour_[a * codes + c] = int(b);
+			if (b < nodes.size() && nodes[b] == there) neighbour_[a * codes + c] = int(b);
 			else if (isPeriodic_)
-				neighbour_[a * codes + c] = find(nodes, grid.first(nodes[a] + offset));
+				neighbour_[a * codes + c] = find(nodes, grid.first(there));
 		}
 	}
 }

@@ -9,7 +9,8 @@ namespace gimpm {
 
 /// Blocks of Dim x Dim for a node a and the nodes b >= a (in key order) at most two cells away along each axis: GIMP functions and
 /// ghost faces reach no further. Block (a, b) is K_ab row by row. In a periodic grid the order is that before nodes are taken as the same, so
-/// that b may have the lower number, and on a small one two blocks may belong to the same nodes, and add up. Of a matrix that is not symmetric, what K_ba^T differs from K_ab by is stored
+/// that b may have the lower number, and on a small one two blocks may belong to the same nodes, and add up. In a grid of several cell sizes
+/// there are blocks between nodes of the same level. Of a matrix that is not symmetric, what K_ba^T differs from K_ab by is stored
 /// beside: who adds something symmetric need not know of it.
 template <int Dim> class NodeMatrix {
 public:

@@ -23,6 +23,51 @@ template <int Dim, class F> void forFreeEntries(const NodeMatrix<Dim>& K, const 
 		}
 }
 
+/// What a node stands for among the nodes that are not tied.
+class MastersOf {
+public:
+	MastersOf(int nodes, const Ties& ties) : ties_(ties), tie_(nodes, -1)
+	{
+		for (std::size_t t = 0; t < ties.node.size(); ++t)
+			tie_[ties.node[t]] = int(t);
+	}
+	/// Calls f(node, weight).
+	template <class F> void each(int node, F&& f) const
+	{
+		if (tie_[node] < 0) return f(node, 1.);
+		for (int m = ties_.start[tie_[node]]; m < ties_.start[tie_[node] + 1]; ++m)
+			f(ties_.master[m], ties_.weight[m]);
+	}
+
+private:
+	const Ties&      ties_;
+	std::vector<int> tie_;
+};
+
+/// The same with ties.
+template <int Dim, class F> void forTiedEntries(const NodeMatrix<Dim>& K, const FreeDofs& dofs, F&& f)
+{
+	const MastersOf masters(K.nodes(), *dofs.ties);
+	for (int a = 0; a < K.nodes(); ++a)
+		for (int c = 0; c < NodeMatrix<Dim>::codes; ++c) {
+			if (!K.used(a, c)) continue;
+			const int     b     = K.neighbour(a, c);
+			const double *above = K.at(a, c), *skew = K.isSymmetric() ? nullptr : K.skewAt(a, c);
+			masters.each(a, [&](int m, double ofA) {
+				masters.each(b, [&](int n, double ofB) {
+					for (int i = 0, k = 0; i < Dim; ++i)
+						for (int j = 0; j < Dim; ++j, ++k) {
+							const int    p = dofs.number[Dim * m + i], q = dofs.number[Dim * n + j];
+							const double weight = ofA * ofB;
+							if (p < 0 || q < 0) continue;
+							f(p, q, weight * above[k]);
+							if (b != a) f(q, p, weight * (skew ? above[k] + skew[k] : above[k]));
+						}
+				});
+			});
+		}
+}
+
 /// Columns of the entries for which forEntries(f) calls f(row, column, value), twice the same, in their order.
 template <class Entries> void fill(Csc& out, int size, Entries&& forEntries)
 {
@@ -61,13 +106,16 @@ void sortColumns(Csc& K)
 	K.value.resize(end);
 }
 
-/// Nodes beyond the sides of a periodic grid have lower numbers.
-template <int Dim> void reducePeriodic(const NodeMatrix<Dim>& K, const FreeDofs& dofs, SymmetricCsc& out)
+/// In any order, and several entries in one place: nodes beyond the sides of a periodic grid have lower numbers, and masters may have any.
+template <int Dim> void reduceUnordered(const NodeMatrix<Dim>& K, const FreeDofs& dofs, SymmetricCsc& out)
 {
 	fill(out, dofs.count, [&](auto&& f) {
-		forFreeEntries(K, dofs, [&](int row, int column, double value) {
+		const auto lower = [&](int row, int column, double value) {
 			if (row >= column) f(row, column, value);
-		});
+		};
+		if (dofs.ties) forTiedEntries(K, dofs, lower);
+		else
+			forFreeEntries(K, dofs, lower);
 	});
 	sortColumns(out);
 }
@@ -76,7 +124,7 @@ template <int Dim> void reducePeriodic(const NodeMatrix<Dim>& K, const FreeDofs&
 
 template <int Dim> void reduce(const NodeMatrix<Dim>& K, const FreeDofs& dofs, SymmetricCsc& out)
 {
-	if (K.isPeriodic()) return reducePeriodic(K, dofs, out);
+	if (K.isPeriodic() || dofs.ties) return reduceUnordered(K, dofs, out);
 	out.start.assign(1, 0);
 	out.row.clear();
 	out.value.clear();
@@ -99,8 +147,12 @@ template <int Dim> void reduce(const NodeMatrix<Dim>& K, const FreeDofs& dofs, S
 
 template <int Dim> void reduce(const NodeMatrix<Dim>& K, const FreeDofs& dofs, GeneralCsc& out)
 {
-	fill(out, dofs.count, [&](auto&& f) { forFreeEntries(K, dofs, f); });
-	if (K.isPeriodic()) sortColumns(out);
+	fill(out, dofs.count, [&](auto&& f) {
+		if (dofs.ties) forTiedEntries(K, dofs, f);
+		else
+			forFreeEntries(K, dofs, f);
+	});
+	if (K.isPeriodic() || dofs.ties) sortColumns(out);
 }
 
 #define GIMPM_INSTANTIATE(Dim)                                                                                                                                 \

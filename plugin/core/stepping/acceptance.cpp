@@ -15,7 +15,6 @@ template <int Dim> void keepOffAxis(PointCloud<Dim>& cloud, int p) { cloud.halfS
 /// Step 5: the points take over the converged displacements, and their domains follow the stretch along the grid axes.
 template <int Dim> void updatePoints(PointCloud<Dim>& cloud, const StepSystem<Dim>& system, const Eigen::VectorXd& d, StepReport& report)
 {
-	const double      limit = 0.5 * system.model.grid.cellSize;
 	std::vector<char> clamped(cloud.size(), 0);
 	provideInternals(cloud.internals, system.model.materials, cloud.size());
 	forUpdatedPoints(system.basis, system.points, system.model.materials, d, [&](int p, const PointUpdate<Dim>& u) {
@@ -26,9 +25,10 @@ template <int Dim> void updatePoints(PointCloud<Dim>& cloud, const StepSystem<Di
 		if (!cloud.hoopStretch.empty()) cloud.hoopStretch[p] *= 1 + u.hoop;
 		cloud.stress[p].c = u.kirchhoffStress.c / cloud.volumeRatio(p);
 		if (system.model.basis == Basis::gimp) {
-			const Vec<Dim> size = cloud.halfSize0[p].cwiseProduct(stretchAlongAxes(cloud.defGrad[p]));
-			clamped[p]          = (size.array() > limit).any();
-			cloud.halfSize[p]   = size.cwiseMin(limit);
+			const double   limit = largestHalf(system.model.grid, cloud.position[p]);
+			const Vec<Dim> size  = cloud.halfSize0[p].cwiseProduct(stretchAlongAxes(cloud.defGrad[p]));
+			cloud.halfSize[p]    = size.cwiseMin(limit);
+			clamped[p] = (size.array() > 0.5 * system.model.grid.size(levelTouched(system.model.grid, cloud.position[p], cloud.halfSize[p]))).any();
 			if (!cloud.hoopStretch.empty()) keepOffAxis(cloud, p);
 		}
 	});

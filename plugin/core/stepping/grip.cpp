@@ -47,19 +47,20 @@ private:
 	};
 
 	/// Of a point from its nearest image before or behind the front.
-	double distance(const Vec<Dim>& x, const Grid<Dim>& grid) const
+	double distance(const Vec<Dim>& x, const Grid<Dim>& grid, double h) const
 	{
 		const int front = box.lower[axis];
-		return sign * (grid.imageNear(x[axis] - grid.origin[axis], front, axis) / grid.cellSize - front);
+		return sign * (grid.imageNear(x[axis] - grid.origin[axis], front, axis) / h - front * (grid.cellSize / h));
 	}
 
 	/// Of soil that is not near only what has been in the first cell counts. Straight before a node is what lies within a quarter of a cell beside it:
 	/// soil further out hangs on to other nodes too.
 	void look(const PointCloud<Dim>& cloud, int p, const Grid<Dim>& grid)
 	{
-		const double centre = distance(cloud.position[p], grid), half = cloud.halfSize[p][axis] / grid.cellSize;
-		const double moved = sign * (cloud.position[p] - cloud.position0[p])[axis] / grid.cellSize;
-		const Gap    gap { centre - half, centre - moved - cloud.halfSize0[p][axis] / grid.cellSize };
+		const double h      = 2 * largestHalf<Dim>(grid, cloud.position[p]); // of the cells that the soil is in
+		const double centre = distance(cloud.position[p], grid, h), half = cloud.halfSize[p][axis] / h;
+		const double moved = sign * (cloud.position[p] - cloud.position0[p])[axis] / h;
+		const Gap    gap { centre - half, centre - moved - cloud.halfSize0[p][axis] / h };
 		if (centre + half <= 0 || (gap.now > 0.5 && gap.first > 1 - 1e-9)) return;
 		Index<Dim> low = box.lower, high = box.upper; // of the nodes that the point is before
 		for (int a = 0; a < Dim; ++a) {

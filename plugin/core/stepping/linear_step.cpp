@@ -17,6 +17,7 @@ template <int Dim> bool LinearStep<Dim>::solve(const NodeMatrix<Dim>& K, Eigen::
 	if (prescribes()) {
 		Eigen::VectorXd held = step;
 		K.multiplyAdd(prescribed_, held);
+		system_.basis.ties.template fold<Dim>(held);
 		if (system_.share()) system_.share()->complete(held);
 		for (int i = 0; i < held.size(); ++i)
 			if (system_.dofs.number[i] >= 0) residual[system_.dofs.number[i]] -= held[i];
@@ -24,7 +25,7 @@ template <int Dim> bool LinearStep<Dim>::solve(const NodeMatrix<Dim>& K, Eigen::
 		hasPrescribed();
 	}
 	if (system_.dofs.count == 0) return true;
-	const LinearProblem problem(K, system_.dofs, system_.share());
+	const LinearProblem problem = system_.basis.ties.empty() ? LinearProblem(K, system_.dofs, system_.share()) : reduced(K, system_.dofs);
 	if (!solver_.staysOverNodes(method_, problem)) {
 		const Stopwatch watch(report_.times.assembly);
 		problem.stored();
@@ -56,6 +57,7 @@ template <int Dim> void LinearStep<Dim>::addTo(Eigen::VectorXd& step, const Eige
 {
 	for (int i = 0; i < step.size(); ++i)
 		if (system_.dofs.number[i] >= 0) step[i] += correction[system_.dofs.number[i]];
+	system_.basis.ties.template spread<Dim>(step);
 }
 
 template class LinearStep<2>;

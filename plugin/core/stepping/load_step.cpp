@@ -37,6 +37,27 @@ template <int Dim> void explain(const StepSystem<Dim>& system, const Eigen::Vect
 		fail(report, Failure::slides, "only friction, which has reached its limit, holds the " + held.freeMotion + " (" + report.cause + ")");
 }
 
+template <int Dim> Eigen::VectorXd predictionFor(const StepSystem<Dim>& system, const LastIncrement<Dim>& last, double growth)
+{
+	Eigen::VectorXd d = predict(last, system.basis.nodes, growth, system.model.grid);
+	if (d.size() > 0) system.basis.ties.template spread<Dim>(d);
+	return d;
+}
+
+/// Of the nodes that are tied to none.
+template <int Dim> LastIncrement<Dim> incrementOf(const StepSystem<Dim>& system, const Eigen::VectorXd& d, double growth)
+{
+	if (system.basis.ties.empty()) return { system.basis.nodes, d, growth };
+	LastIncrement<Dim> last { {}, Eigen::VectorXd(d.size()), growth };
+	for (int n = 0; n < int(system.basis.nodes.size()); ++n) {
+		if (system.basis.ties.contains(n)) continue;
+		last.displacement.template segment<Dim>(Dim * last.nodes.size()) = d.template segment<Dim>(Dim * n);
+		last.nodes.push_back(system.basis.nodes[n]);
+	}
+	last.displacement.conservativeResize(Dim * last.nodes.size());
+	return last;
+}
+
 } // namespace
 
 template <int Dim> StepReport loadStep(PointCloud<Dim>& cloud, const Model<Dim>& model, const Load<Dim>& load, LinearSolver& solver, LastIncrement<Dim>* last)
@@ -47,7 +68,7 @@ template <int Dim> StepReport loadStep(PointCloud<Dim>& cloud, const Model<Dim>&
 	const StepSystem<Dim> system(cloud, model, load, report);
 	if (!isHeld(system, cloud, load, report)) return report;
 	// 2. to 4. points to nodes, assembly and Newton's method on the nodes
-	const Eigen::VectorXd prediction = last && !system.hasInertia() ? predict(*last, system.basis.nodes, load.growth(), model.grid) : Eigen::VectorXd();
+	const Eigen::VectorXd prediction = last && !system.hasInertia() ? predictionFor(system, *last, load.growth()) : Eigen::VectorXd();
 	const Eigen::VectorXd d          = equilibrium(system, solver, report, prediction);
 	if (!model.terms.empty()) explain(system, d, report);
 	if (report.converged() && prediction.size() > 0 && std::isfinite(model.newton.stepTolerance)) {
@@ -59,7 +80,7 @@ template <int Dim> StepReport loadStep(PointCloud<Dim>& cloud, const Model<Dim>&
 	// 5. nodes to points; 6. the grid is reset by not being kept
 	report.accepted = report.failure == Failure::tooManyIterations && model.newton.acceptUnconverged;
 	if (report.converged() || report.accepted)
-		if (accept(system, cloud, load, d, report) && last) *last = { system.basis.nodes, d, load.growth() };
+		if (accept(system, cloud, load, d, report) && last) *last = incrementOf(system, d, load.growth());
 	return report;
 }
 

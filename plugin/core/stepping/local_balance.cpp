@@ -72,7 +72,8 @@ template <int Dim> double LocalBalance<Dim>::largestStrain(const Eigen::VectorXd
 	for (int i = 0; i < int(system_.points.volume0.size()); ++i)
 		before = std::max(before, elastic_.strainAtStart(i));
 	forNeighbours(K_, [&](int a, int b) {
-		difference = std::max(difference, (d.segment<Dim>(Dim * a) - d.segment<Dim>(Dim * b)).template lpNorm<Eigen::Infinity>());
+		const int cells = 1 << Grid<Dim>::level(K_.keys()[a]);
+		difference      = std::max(difference, (d.segment<Dim>(Dim * a) - d.segment<Dim>(Dim * b)).template lpNorm<Eigen::Infinity>() / cells);
 	});
 	return before + difference / system_.model.grid.cellSize;
 }

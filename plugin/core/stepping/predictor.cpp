@@ -8,10 +8,11 @@ namespace {
 template <int Dim>
 bool meanOfNeighbours(const std::vector<Key>& nodes, const Grid<Dim>& grid, const std::vector<char>& known, const Eigen::VectorXd& d, int node, Vec<Dim>& mean)
 {
-	int count = 0;
+	const auto step  = [level = Grid<Dim>::level(nodes[node])](int axis) { return Grid<Dim>::keyStep(axis, level); };
+	int        count = 0;
 	mean.setZero();
 	for (int a = 0; a < Dim; ++a)
-		for (const Key neighbour : { nodes[node] - Grid<Dim>::keyStep(a), nodes[node] + Grid<Dim>::keyStep(a) })
+		for (const Key neighbour : { nodes[node] - step(a), nodes[node] + step(a) })
 			if (const int n = find(nodes, grid.first(neighbour)); n >= 0 && known[n]) mean += d.template segment<Dim>(Dim * n), ++count;
 	if (count > 0) mean /= count;
 	return count > 0;

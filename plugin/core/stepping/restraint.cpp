@@ -24,6 +24,9 @@ public:
 		std::iota(parent_.begin(), parent_.end(), 0);
 		for (const auto& patch : basis.patches)
 			join(patch, grid);
+		for (std::size_t t = 0; t < basis.ties.node.size(); ++t)
+			for (int m = basis.ties.start[t]; m < basis.ties.start[t + 1]; ++m)
+				join(basis.ties.node[t], basis.ties.master[m], Index<Dim>::Zero());
 		for (std::size_t n = 0; n < parent_.size(); ++n)
 			std::tie(parent_[n], offset_[n]) = find(int(n));
 		for (Turn& turn : turns_)
@@ -58,7 +61,7 @@ private:
 			if (patch.node[n] < 0) continue;
 			Index<Dim> place = cell;
 			for (int a = 0, rest = n; a < Dim; rest /= patch.nodesAlong(a), ++a)
-				place[a] += rest % patch.nodesAlong(a);
+				place[a] += rest % patch.nodesAlong(a) * (1 << Grid<Dim>::level(patch.cell));
 			const Index<Dim> shift = grid.isPeriodic() ? Index<Dim>(place - index(patch.node[n])) : Index<Dim>(Index<Dim>::Zero());
 			if (first < 0) first = patch.node[n], image = shift;
 			else
@@ -177,7 +180,7 @@ Restraint restraintBy(const CloudBasis<Dim>& basis, const Grid<Dim>& grid, const
 	        = [&](std::size_t n, const Vec<Dim>& direction, const Vec<Dim>& place) { found[parts.root(n)].hold(parts.place(n) + place, direction); };
 	for (std::size_t n = 0; n < basis.nodes.size(); ++n)
 		for (int a = 0; a < Dim; ++a)
-			if (boundary.holder(Grid<Dim>::index(basis.nodes[n]), a)) hold(n, Vec<Dim>::Unit(a), Vec<Dim>::Zero());
+			if (!basis.ties.contains(int(n)) && boundary.holder(Grid<Dim>::index(basis.nodes[n]), a)) hold(n, Vec<Dim>::Unit(a), Vec<Dim>::Zero());
 	for (const auto& term : terms)
 		holds(*term, [&](int n, const Vec<Dim>& direction, const Vec<Dim>& place) { hold(n, direction.normalized(), place); });
 	for (auto& [root, part] : found)

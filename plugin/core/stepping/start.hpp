@@ -47,6 +47,7 @@ private:
 		const double fromZero = iterate_.balance.size;
 		for (int i = 0; i < prediction.size(); ++i)
 			if (system_.dofs.number[i] < 0) prediction[i] = held[i];
+		system_.basis.ties.template spread<Dim>(prediction);
 		iterate_.evaluate(prediction, true);
 		if (!(iterate_.balance.size < toleratedStart * fromZero)) {
 			iterate_.evaluate(d, true);

@@ -22,8 +22,8 @@ std::vector<GhostFace<Dim>> stabilise(const PointStiffness& moduli, const Model<
 {
 	if (model.ghost.factor == 0) return {};
 	const Stopwatch watch(report.times.ghost);
-	const auto      boundary = boundaryCells(basis.cells, model.boundary, model.grid);
-	auto            faces    = ghostFaces<Dim>(basis.cells, boundary, model.boundary, model.grid);
+	const auto      boundary = boundaryCells(basis.populatedLeaves(), model.boundary, model.grid);
+	auto            faces    = ghostFaces<Dim>(basis.populatedLeaves(), boundary, model.boundary, model.grid);
 	report.boundaryCells     = int(boundary.size());
 	report.ghostFaces        = int(faces.size());
 	weighGhostFaces(faces, basis, moduli, model.grid, model.ghost.factor, model.ghost.scaling);
@@ -53,6 +53,7 @@ StepSystem<Dim>::StepSystem(const PointCloud<Dim>& cloud, const Model<Dim>& m, c
 		points   = stepPoints(cloud, model.materials, basis, model.fBar);
 		external = Eigen::VectorXd::Zero(nodalSize());
 		addPointForces(basis, pointForces(cloud, model, load), external);
+		basis.ties.template fold<Dim>(external);
 	}
 	faces = stabilise(stiffnessOf_, model, basis, report);
 	const Stopwatch watch(report.times.basis);
@@ -61,7 +62,7 @@ StepSystem<Dim>::StepSystem(const PointCloud<Dim>& cloud, const Model<Dim>& m, c
 	makeTerms(load);
 	report.nodes          = int(basis.nodes.size());
 	report.dofs           = dofs.count;
-	report.populatedCells = int(basis.cells.size());
+	report.populatedCells = int(basis.populatedLeaves().size());
 	for (const char mixed : mixedCells(basis, cloud.material))
 		report.mixedCells += mixed;
 	report.largestWallOverlap = basis.largestWallOverlap;
@@ -71,8 +72,10 @@ template <int Dim> void StepSystem<Dim>::holdNodes(const Load<Dim>& load)
 {
 	prescribed = Eigen::VectorXd::Zero(nodalSize());
 	dofs.number.assign(nodalSize(), -1);
+	dofs.ties = basis.ties.empty() ? nullptr : &basis.ties;
 	for (std::size_t n = 0; n < basis.nodes.size(); ++n)
 		for (int a = 0; a < Dim; ++a) {
+			if (basis.ties.contains(int(n))) continue;
 			if (const auto* box = model.boundary.holder(Grid<Dim>::index(basis.nodes[n]), a)) {
 				const int  number = int(box - model.boundary.boxes().data());
 				const auto moves  = load.boxMotion.find(number);
@@ -81,6 +84,7 @@ template <int Dim> void StepSystem<Dim>::holdNodes(const Load<Dim>& load)
 			} else
 				dofs.number[Dim * n + a] = dofs.count++;
 		}
+	basis.ties.template spread<Dim>(prescribed);
 }
 
 /// The terms that processes share.
@@ -142,6 +146,8 @@ std::optional<PointFailure> StepSystem<Dim>::evaluate(const Eigen::VectorXd& d, 
 	std::optional<PointFailure> failure;
 	for (auto term = terms.begin(); term != terms.end() && !failure; ++term)
 		failure = (*term)->add(d, { force, K, sizes });
+	basis.ties.template fold<Dim>(force);
+	if (sizes) basis.ties.template fold<Dim>(*sizes);
 	if (share_) failure = share_->firstOf(failure);
 	if (failure || !share_) return failure;
 	share_->nodes().complete(force);
@@ -167,6 +173,7 @@ template <int Dim> Eigen::VectorXd StepSystem<Dim>::roundOff(const Eigen::Vector
 	Eigen::VectorXd sizes = Eigen::VectorXd::Zero(nodalSize());
 	for (const auto& term : terms)
 		term->addRoundOff(d, sizes);
+	basis.ties.template fold<Dim>(sizes);
 	return sizes;
 }
 

@@ -25,7 +25,7 @@ template <int Dim> struct StepSystem {
 	Terms<Dim>                  terms; ///< whose sum balances the external forces
 	FreeDofs                    dofs;
 	Eigen::VectorXd             external;   ///< body and point forces, Dim components a node [N]
-	Eigen::VectorXd             prescribed; ///< increments of the held degrees of freedom, zero elsewhere [m]
+	Eigen::VectorXd             prescribed; ///< increments of the held degrees of freedom, and of nodes tied to them, zero elsewhere [m]
 	Eigen::VectorXd             ownMotion;  ///< displacements by which the body goes on by itself, with the prescribed ones; empty without inertia [m]
 
 	int nodalSize() const { return Dim * int(basis.nodes.size()); }
@@ -42,7 +42,8 @@ template <int Dim> struct StepSystem {
 	LinearProblem tangent() const;
 	void          tangent(NodeMatrix<Dim>& K) const; ///< of all nodes
 
-	/// The sum of the terms at d: sets `force`, and K and the sizes of the forces where they are given. Of K only the share is right, rows and columns.
+	/// The sum of the terms at d: sets `force`, and K and the sizes of the forces where they are given. Of K only the share is right, rows and columns. Forces
+	/// at tied nodes are given to their masters; of K that is left to whoever reduces it.
 	std::optional<PointFailure> evaluate(const Eigen::VectorXd& d, Eigen::VectorXd& force, NodeMatrix<Dim>* K, Eigen::VectorXd* sizes = nullptr) const;
 
 	/// Forces from outside among the terms at d [N].

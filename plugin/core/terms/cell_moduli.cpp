@@ -7,15 +7,16 @@ namespace gimpm {
 template <int Dim>
 std::vector<double> cellModuli(const std::vector<char>& isAskedFor, const CloudBasis<Dim>& basis, const PointStiffness& stiffnessOf, const Grid<Dim>& grid)
 {
-	std::vector<double> volume(basis.cells.size(), 0), modulus(basis.cells.size(), 0);
+	const std::size_t   leaves = basis.populatedLeaves().size();
+	std::vector<double> volume(leaves, 0), modulus(leaves, 0);
 	forOverlaps(isAskedFor, basis, grid, [&](int cell, int p, auto within) {
 		const auto [whole, young] = stiffnessOf(p);
 		const double overlap      = within(whole);
-		volume[cell] += overlap;
-		modulus[cell] += overlap * young;
+		volume[basis.leaf(cell)] += overlap;
+		modulus[basis.leaf(cell)] += overlap * young;
 	});
-	for (std::size_t cell = 0; cell < modulus.size(); ++cell)
-		if (isAskedFor[cell]) modulus[cell] /= volume[cell];
+	for (std::size_t leaf = 0; leaf < leaves; ++leaf)
+		if (isAskedFor[leaf]) modulus[leaf] /= volume[leaf];
 	return modulus;
 }
 

@@ -71,9 +71,9 @@ private:
 		Attachment<Dim> attached;
 	};
 
-	void                    addCorners(const NearPoint&, const Beginning<Dim>&);
-	ContactLaw<Dim>         lawOf(const RigidBody<Dim>&, const NearPoint&, const Vec<Dim>& place, const Vec<Dim>& normal, const Beginning<Dim>&) const;
-	Approach<Dim>           approach(const Corner&, const Vec<Dim>& x) const;
+	void            addCorners(const NearPoint&, const Beginning<Dim>&);
+	ContactLaw<Dim> lawOf(const RigidBody<Dim>&, const NearPoint&, const Vec<Dim>& place, const Vec<Dim>& normal, double h, const Beginning<Dim>&) const;
+	Approach<Dim>   approach(const Corner&, const Vec<Dim>& x) const;
 	template <class F> void forTouching(const Eigen::VectorXd& d, F&& f) const; // f(corner, its place, gap, touch)
 	ContactLoad             loadOn(const Vec<Dim>& owner, const Corner&, const Vec<Dim>& place, const Touch<Dim>&) const;
 

@@ -21,7 +21,7 @@ public:
 		constexpr double limit = Grid<Dim>::indexLimit;
 		const auto     cell = [&](const Vec<Dim>& x) { return Vec<Dim>(((x - grid_.origin) / grid_.cellSize).array().floor().min(limit).max(-limit)); };
 		const Vec<Dim> first = cell(low) - Vec<Dim>::Ones(), last = cell(high);
-		if (((last - first).array() + 1).prod() > double(places_.size()) || grid_.isPeriodic()) {
+		if (((last - first).array() + 1).prod() > double(places_.size()) || grid_.isPeriodic() || grid_.refinement) {
 			for (const auto& [cell, patch] : places_)
 				f(patch);
 			return;

@@ -20,15 +20,15 @@ template <int Dim> double faceMass(const GhostFace<Dim>& face, int s, int t, dou
 	return m;
 }
 
-/// Young's moduli of the cells at the faces, by number: the means of their points, weighted by the volumes of the overlaps.
+/// Young's moduli of the leaves at the faces, by number: the means of their points, weighted by the volumes of the overlaps.
 template <int Dim>
 std::vector<double> moduliAtFaces(
         const std::vector<GhostFace<Dim>>& faces, const CloudBasis<Dim>& basis, const PointStiffness& stiffnessOf, const Grid<Dim>& grid)
 {
-	std::vector<char> isAtFace(basis.cells.size(), 0);
+	std::vector<char> isAtFace(basis.populatedLeaves().size(), 0);
 	for (const auto& face : faces)
-		for (const int cell : cellsAt(face, basis, grid))
-			isAtFace[cell] = 1;
+		for (const int leaf : cellsAt(face, basis, grid))
+			isAtFace[leaf] = 1;
 	return cellModuli(isAtFace, basis, stiffnessOf, grid);
 }
 
@@ -37,6 +37,7 @@ std::vector<double> moduliAtFaces(
 template <int Dim, class F> void forNodePairs(const GhostFace<Dim>& face, double h, F&& f)
 {
 	constexpr int T = GhostFace<Dim>::tangentialNodes;
+	h *= 1 << face.level();
 	for (int i = 0; i < 3; ++i)
 		for (int s = 0; s < T; ++s)
 			for (int j = 0; j < 3; ++j)
@@ -51,19 +52,29 @@ template <int Dim, class F> void forNodePairs(const GhostFace<Dim>& face, double
 				}
 }
 
+/// Calls f(neighbour, level of the common face) for the cells beyond a face of a cell.
+template <int Dim, class F> void forNeighbours(Key cell, int axis, bool isAbove, const Grid<Dim>& grid, F&& f)
+{
+	if (grid.refinement) return grid.refinement->forLeavesBeyond(cell, axis, isAbove, f);
+	const Key step = Grid<Dim>::keyStep(axis);
+	f(grid.first(isAbove ? cell + step : cell - step), 0);
+}
+
 /// The circumference 2 pi r of a face around the axis of symmetry: over a cell from r_0 on, the mean of r weighted by N_s N_t is r_0 + h (1 + s + t) / 4.
 template <int Dim> void revolve(GhostFace<Dim>& face, const Grid<Dim>& grid)
 {
 	const double radius = grid.cellSize * (Grid<Dim>::index(face.lower)[0] - grid.axisNode());
-	face.girth          = 2 * M_PI * (radius + grid.cellSize * (face.axis == 0 ? 1 : 0.25));
-	face.widening       = face.axis == 0 ? 0 : 2 * M_PI * grid.cellSize / 4;
+	const double h      = grid.size(face.level());
+	face.girth          = 2 * M_PI * (radius + h * (face.axis == 0 ? 1 : 0.25));
+	face.widening       = face.axis == 0 ? 0 : 2 * M_PI * h / 4;
 }
 
 } // namespace
 
 template <int Dim> std::array<int, 2> cellsAt(const GhostFace<Dim>& face, const CloudBasis<Dim>& basis, const Grid<Dim>& grid)
 {
-	return { position(basis.cells, face.lower), position(basis.cells, grid.first(face.lower + Grid<Dim>::keyStep(face.axis))) };
+	const auto number = [&](Key cell) { return position(basis.populatedLeaves(), grid.refinement ? grid.refinement->leafOf(cell) : cell); };
+	return { number(face.lower), number(grid.first(face.lower + Grid<Dim>::keyStep(face.axis, face.level()))) };
 }
 
 template <int Dim> std::vector<Key> boundaryCells(const std::vector<Key>& populated, const Boundary<Dim>& boundary, const Grid<Dim>& grid)
@@ -72,11 +83,15 @@ template <int Dim> std::vector<Key> boundaryCells(const std::vector<Key>& popula
 	for (const Key cell : populated) {
 		const Index<Dim> i  = Grid<Dim>::index(cell);
 		bool             is = false;
-		for (int a = 0; a < Dim && !is; ++a) {
-			const Key step = Grid<Dim>::keyStep(a);
-			is             = (!contains(populated, grid.first(cell - step)) && !boundary.lowerFaceIsWall(i, a))
-			        || (!contains(populated, grid.first(cell + step)) && !boundary.lowerFaceIsWall(i + Index<Dim>::Unit(a), a));
-		}
+		for (int a = 0; a < Dim && !is; ++a)
+			for (const bool isAbove : { false, true })
+				forNeighbours(cell, a, isAbove, grid, [&](Key neighbour, int level) {
+					if (is || contains(populated, neighbour)) return;
+					Index<Dim> face
+					        = level < Grid<Dim>::level(cell) ? Grid<Dim>::index(neighbour) : i; // of its cells, the one on the lower corner
+					face[a] = isAbove ? i[a] + (1 << Grid<Dim>::level(cell)) : i[a];
+					is      = !boundary.lowerFaceIsWall(face, a, level);
+				});
 		if (is) cells.push_back(cell);
 	}
 	return cells;
@@ -88,11 +103,14 @@ std::vector<GhostFace<Dim>> ghostFaces(
 {
 	std::vector<GhostFace<Dim>> faces;
 	for (const Key cell : populated)
-		for (int a = 0; a < Dim; ++a) {
-			const Key above = grid.first(cell + Grid<Dim>::keyStep(a));
-			if (!contains(populated, above) || (!contains(boundaryCells, cell) && !contains(boundaryCells, above))) continue;
-			if (!boundary.lowerFaceIsWall(Grid<Dim>::index(above), a)) faces.push_back({ a, cell });
-		}
+		for (int a = 0; a < Dim; ++a)
+			forNeighbours(cell, a, true, grid, [&](Key above, int level) {
+				if (!contains(populated, above) || (!contains(boundaryCells, cell) && !contains(boundaryCells, above))) return;
+				const Key  lower = level < Grid<Dim>::level(cell) ? above - Grid<Dim>::keyStep(a, level) : cell;
+				Index<Dim> face  = Grid<Dim>::index(lower);
+				face[a] += 1 << level;
+				if (!boundary.lowerFaceIsWall(grid.first(face), a, level)) faces.push_back({ a, lower });
+			});
 	return faces;
 }
 
@@ -101,11 +119,12 @@ void weighGhostFaces(
         std::vector<GhostFace<Dim>>& faces, const CloudBasis<Dim>& basis, const PointStiffness& stiffnessOf, const Grid<Dim>& grid, double factor,
         GhostScaling scaling)
 {
-	const auto   modulus = moduliAtFaces(faces, basis, stiffnessOf, grid);
-	const double h = grid.cellSize, power = scaling == GhostScaling::paper ? h * h * h : h;
+	const auto modulus = moduliAtFaces(faces, basis, stiffnessOf, grid);
+	const auto levelOf = [&](int leaf) { return Grid<Dim>::level(basis.populatedLeaves()[leaf]); };
 	for (auto& face : faces) {
 		const auto [lower, upper] = cellsAt(face, basis, grid);
-		face.stiffness            = factor * std::min(modulus[lower], modulus[upper]) * power / 3;
+		const double h = grid.size(std::max(levelOf(lower), levelOf(upper))), power = scaling == GhostScaling::paper ? h * h * h : h;
+		face.stiffness = factor * std::min(modulus[lower], modulus[upper]) * power / 3;
 		if (grid.axisymmetric) revolve(face, grid);
 		for (int i = 0; i < 3; ++i)
 			for (int s = 0; s < GhostFace<Dim>::tangentialNodes; ++s)
@@ -135,11 +154,12 @@ template <int Dim> void forGhostPairs(const std::vector<GhostFace<Dim>>& faces, 
 		forNodePairs(face, h, f);
 }
 
-template <int Dim> void addGhostForce(const std::vector<GhostFace<Dim>>& faces, double h, const Eigen::VectorXd& d, Eigen::VectorXd& f)
+template <int Dim> void addGhostForce(const std::vector<GhostFace<Dim>>& faces, double smallest, const Eigen::VectorXd& d, Eigen::VectorXd& f)
 {
 	constexpr int T = GhostFace<Dim>::tangentialNodes;
 	for (const auto& face : faces) {
-		Vec<Dim> slopeJump[T]; // h times the jump of the normal derivative at each node of the face
+		const double h = smallest * (1 << face.level());
+		Vec<Dim>     slopeJump[T]; // h times the jump of the normal derivative at each node of the face
 		for (int s = 0; s < T; ++s) {
 			slopeJump[s].setZero();
 			for (int i = 0; i < 3; ++i)

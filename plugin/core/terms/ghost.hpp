@@ -11,14 +11,15 @@ namespace gimpm {
 /// agree for h = 1 m.
 enum class GhostScaling { meshIndependent, paper };
 
-/// Populated cells that share a face with an unpopulated one. A wall is no free surface: what lies behind it does not count.
+/// Of populated cells, in a refined grid the populated leaves, those that share a face, or a part of it, with an unpopulated one. A wall is no free surface: what lies behind it does not count.
 template <int Dim> std::vector<Key> boundaryCells(const std::vector<Key>& populated, const Boundary<Dim>&, const Grid<Dim>& = {});
 
-/// Face between two populated cells of which at least one is a boundary cell.
+/// Face between two populated cells of which at least one is a boundary cell. Where a cell is larger than its neighbour, the part of it that is as large as that is meant, and the nodes
+/// in it are tied: the jump is that of the same functions.
 template <int Dim> struct GhostFace {
 	static constexpr int tangentialNodes = 1 << (Dim - 1);
 	int                  axis;                        ///< normal direction
-	Key                  lower;                       ///< the cell below; the one above is its neighbour along the axis
+	Key                  lower;                       ///< the cell below, or its part; the one above is its neighbour along the axis
 	int                  node[3][tangentialNodes] {}; ///< numbers of the nodes below, on and above the face
 	double               stiffness = 0;               ///< gamma_k h^3/3 of eq. (2), or gamma_k h/3
 	double girth = 1, widening = 0; ///< around an axis of symmetry: circumference with two lower nodes, and how much it grows with each higher one [m]
@@ -27,27 +28,28 @@ template <int Dim> struct GhostFace {
 	/// periodic grid another node may stand for it.
 	Key key(int i, int s) const
 	{
-		Key node = lower + i * Grid<Dim>::keyStep(axis);
+		Key node = lower + i * Grid<Dim>::keyStep(axis, level());
 		for (int a = 0, bit = 0; a < Dim; ++a)
-			if (a != axis) node += (s >> bit & 1) * Grid<Dim>::keyStep(a), ++bit;
+			if (a != axis) node += (s >> bit & 1) * Grid<Dim>::keyStep(a, level()), ++bit;
 		return node;
 	}
+	int level() const { return Grid<Dim>::level(lower); } ///< of the nodes
 };
 
 /// Faces of a body, sorted. There are none across walls.
 template <int Dim>
 std::vector<GhostFace<Dim>> ghostFaces(const std::vector<Key>& populated, const std::vector<Key>& boundary, const Boundary<Dim>&, const Grid<Dim>& = {});
 
-/// Numbers of the cells below and above a face.
+/// Numbers of the populated leaves below and above a face.
 template <int Dim> std::array<int, 2> cellsAt(const GhostFace<Dim>&, const CloudBasis<Dim>&, const Grid<Dim>&);
 
-/// Sets node numbers and stiffness = factor * modulus * (h or h^3) / 3. A cell's modulus is the mean of Young's moduli of its points,
+/// Sets node numbers and stiffness = factor * modulus * (h or h^3) / 3, with h of the larger of the two cells: it is what a nearly empty large cell needs. A cell's modulus is the mean of Young's moduli of its points,
 /// weighted by the volumes of their domains' overlaps with it; a face has that of the softer of its two cells. With the stiffer one or a
 /// mean, soft layers could not be strained beside stiff ones: the kink of the displacements is what equilibrium asks for there.
 template <int Dim>
 void weighGhostFaces(std::vector<GhostFace<Dim>>&, const CloudBasis<Dim>&, const PointStiffness&, const Grid<Dim>&, double factor, GhostScaling);
 
-/// K += K_g, and the pattern of K_g.
+/// K += K_g, and the pattern of K_g; h is that of the smallest cells.
 template <int Dim> void addGhostStiffness(const std::vector<GhostFace<Dim>>&, double h, NodeMatrix<Dim>& K);
 template <int Dim> void markGhostPattern(const std::vector<GhostFace<Dim>>&, NodeMatrix<Dim>& K);
 

@@ -54,7 +54,8 @@ template <int Dim> bool isInsideOut(const Surface<Dim>& surface, const std::vect
 {
 	const auto holdsMaterial = [&](const Vec<Dim>& x) {
 		const Index<Dim> cell = ((x - grid.origin) / grid.cellSize).array().floor().template cast<int>();
-		return find(populated, Grid<Dim>::key(grid.first(cell))) >= 0;
+		const Key        key  = Grid<Dim>::key(grid.first(cell));
+		return find(populated, grid.refinement ? grid.refinement->leafOf(key) : key) >= 0;
 	};
 	double outside = 0; // area with material outside only, less that with material inside only
 	for (const auto& piece : surface.pieces) {
@@ -81,8 +82,24 @@ Traction<Dim>::Traction(SurfaceLoad<Dim>& load, const CloudBasis<Dim>& basis, co
 		}
 		attached_.push_back(*attached);
 	}
-	if (load.isNew && load.pressure != 0 && isInsideOut(load.surface, basis.cells, grid))
+	if (load.pressure != 0) obstacle_ = betweenLevels();
+	if (!obstacle_.empty()) return;
+	if (load.isNew && load.pressure != 0 && isInsideOut(load.surface, basis.populatedLeaves(), grid))
 		obstacle_ = "a surface under pressure has the body on its outer side: reverse the order of its points";
+}
+
+/// The derivative of a pressure couples the vertices of a piece, which a matrix over nodes has no place for where their cells are of different sizes.
+template <int Dim> std::string Traction<Dim>::betweenLevels() const
+{
+	for (const Piece& piece : load_.surface.pieces)
+		for (const int v : piece)
+			if (attached_[v].level != attached_[piece[0]].level) {
+				std::ostringstream text;
+				text << "a surface under pressure goes from cells of one size to cells of another, at ("
+				     << load_.surface.vertices[v].transpose() << "): a traction of fixed direction may";
+				return text.str();
+			}
+	return {};
 }
 
 template <int Dim> std::vector<Vec<Dim>> Traction<Dim>::placesAt(const Eigen::VectorXd& d) const

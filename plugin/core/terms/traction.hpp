@@ -46,6 +46,8 @@ private:
 	Places forcesAt(const Places& places) const { return forcesAt(places, load_.pressure, load_.traction); }
 	void   addStiffness(const Places&, NodeMatrix<Dim>& K) const;
 
+	std::string betweenLevels() const;
+
 	SurfaceLoad<Dim>&            load_;
 	bool                         isRing_;   // around an axis of symmetry
 	std::vector<Attachment<Dim>> attached_; // of the vertices

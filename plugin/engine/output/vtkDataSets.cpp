@@ -114,10 +114,12 @@ namespace {
 		cells.GetCellData()->AddArray(field);
 	}
 
-	template <int Dim> bool isClamped(const MaterialPoint& point, Real cellSize)
+	template <int Dim> bool isClamped(const MaterialPoint& point, const gimpm::Grid<Dim>& grid)
 	{
 		const gimpm::Mat<Dim> F = point.state->defGrad.topLeftCorner<Dim, Dim>();
-		return (point.shape->halfSize0.head<Dim>().cwiseProduct(gimpm::stretchAlongAxes<Dim>(F)).array() > 0.5 * cellSize).any();
+		return (point.shape->halfSize0.head<Dim>().cwiseProduct(gimpm::stretchAlongAxes<Dim>(F)).array()
+		        > gimpm::largestHalf<Dim>(grid, point.state->pos.head<Dim>()))
+		        .any();
 	}
 
 	template <int Dim> void addNodes(Cells& cells, const vector<gimpm::Key>& nodes, const gimpm::Grid<Dim>& grid, Real z)
@@ -129,14 +131,24 @@ namespace {
 		}
 	}
 
-	// The corners of the populated cells, sorted. At the far sides of a periodic grid these are not the nodes that stand for them.
-	template <int Dim> vector<gimpm::Key> cornersOf(const gimpm::CloudBasis<Dim>& basis, const gimpm::Grid<Dim>& grid)
+	// Nodes of all levels in one place are one.
+	template <int Dim> gimpm::Key placeOf(gimpm::Key node) { return gimpm::Grid<Dim>::key(gimpm::Grid<Dim>::index(node)); }
+
+	// A cell is named after its lowest node.
+	template <int Dim> gimpm::Key cornerOf(gimpm::Key cell, int corner)
 	{
-		if (!grid.isPeriodic()) return basis.nodes;
-		vector<gimpm::Key> nodes;
-		for (const gimpm::Key cell : basis.cells)
+		return placeOf<Dim>(cell + gimpm::Grid<Dim>::keyOffset(corner, gimpm::Grid<Dim>::level(cell)));
+	}
+
+	// The corners of the populated leaves, with some nodes in a refined grid, sorted. At the far sides of a periodic grid these are not the nodes that stand for them.
+	template <int Dim>
+	vector<gimpm::Key> cornersOf(const gimpm::CloudBasis<Dim>& basis, const gimpm::Grid<Dim>& grid, const vector<gimpm::Key>& besides = {})
+	{
+		if (!grid.isPeriodic() && !grid.refinement) return basis.nodes;
+		vector<gimpm::Key> nodes = besides;
+		for (const gimpm::Key cell : basis.populatedLeaves())
 			for (int c = 0; c < 1 << Dim; ++c)
-				nodes.push_back(cell + gimpm::Grid<Dim>::keyOffset(c));
+				nodes.push_back(cornerOf<Dim>(cell, c));
 		std::sort(nodes.begin(), nodes.end());
 		nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
 		return nodes;
@@ -166,8 +178,11 @@ VtkCells pointDomains(const vector<MaterialPoint>& points, const Scene& scene, c
 	for (const PointColumn* column : columnsOf(points))
 		if (column->is(PointColumn::inVtk) && (moves || !column->is(PointColumn::ofMotion))) addColumn(*cells, *column, points, scene, turnsOfSectors);
 	vector<char> clamped;
-	for (const MaterialPoint& p : points)
-		clamped.insert(clamped.end(), std::max(1, sectors), deform && (dim == 2 ? isClamped<2>(p, grid.cellSize) : isClamped<3>(p, grid.cellSize)));
+	const auto   tell = [&](const auto& lattice) {
+                for (const MaterialPoint& p : points)
+                        clamped.insert(clamped.end(), std::max(1, sectors), deform && isClamped(p, lattice));
+	};
+	dim == 2 ? tell(grid.lattice<2>()) : tell(grid.lattice<3>());
 	addIntegers(*cells, "clamped", clamped, [](char isOne) { return isOne; });
 	return cells;
 }
@@ -178,15 +193,16 @@ template <int Dim> VtkCells populatedCells(const gimpm::PointCloud<Dim>& cloud, 
 	const auto nodes = cornersOf(basis, model.grid);
 	Cells      boxes(boxType(Dim));
 	addNodes(boxes, nodes, model.grid, z);
-	for (const gimpm::Key cell : basis.cells) {
+	const auto& leaves = basis.populatedLeaves();
+	for (const gimpm::Key cell : leaves) {
 		std::array<vtkIdType, 1 << Dim> box;
-		for (int c = 0; c < 1 << Dim; ++c) // a cell is named after its lowest node
-			box[c] = gimpm::position(nodes, cell + gimpm::Grid<Dim>::keyOffset(corners[c]));
+		for (int c = 0; c < 1 << Dim; ++c)
+			box[c] = gimpm::position(nodes, cornerOf<Dim>(cell, corners[c]));
 		boxes.addCell(box);
 	}
 	const auto cells      = boxes.dataSet();
-	const auto atBoundary = gimpm::boundaryCells(basis.cells, model.boundary, model.grid);
-	addIntegers(*cells, "boundary", basis.cells, [&](gimpm::Key cell) { return gimpm::find(atBoundary, cell) >= 0; });
+	const auto atBoundary = gimpm::boundaryCells(leaves, model.boundary, model.grid);
+	addIntegers(*cells, "boundary", leaves, [&](gimpm::Key cell) { return gimpm::find(atBoundary, cell) >= 0; });
 	const auto mixed = gimpm::mixedCells(basis, cloud.material);
 	addIntegers(*cells, "mixed", mixed, [](char isMixed) { return isMixed; });
 	return cells;
@@ -198,12 +214,16 @@ template <int Dim> VtkCells stabilisedFaces(const gimpm::PointCloud<Dim>& cloud,
 	gimpm::StepReport            report;
 	const gimpm::StepSystem<Dim> system(cloud, model, gimpm::Load<Dim>(), report);
 	Cells                        surfaces(Dim == 2 ? VTK_LINE : VTK_QUAD);
-	const auto                   nodes = cornersOf(system.basis, model.grid);
+	vector<gimpm::Key>           ofFaces;
+	for (const Face& face : system.faces)
+		for (int c = 0; c < Face::tangentialNodes; ++c)
+			ofFaces.push_back(placeOf<Dim>(face.key(1, c)));
+	const auto nodes = cornersOf(system.basis, model.grid, ofFaces);
 	addNodes(surfaces, nodes, model.grid, z);
 	for (const Face& face : system.faces) {
 		std::array<vtkIdType, Face::tangentialNodes> surface;
 		for (int c = 0; c < Face::tangentialNodes; ++c)
-			surface[c] = gimpm::position(nodes, face.key(1, corners[c]));
+			surface[c] = gimpm::position(nodes, placeOf<Dim>(face.key(1, corners[c])));
 		surfaces.addCell(surface);
 	}
 	const auto cells = surfaces.dataSet();

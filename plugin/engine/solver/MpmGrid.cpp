@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "engine/solver/MpmGrid.hpp"
+#include "engine/points/buffers.hpp"
 
 namespace yade {
 
@@ -49,13 +50,55 @@ void MpmGrid::requireAxis() const
 	throw std::invalid_argument("MpmGrid.axisymmetric = True: " + text.str() + ".");
 }
 
+void MpmGrid::requireAdmissible() const
+{
+	Exposed::requireAdmissible();
+	for (size_t r = 0; r < refinements.size(); ++r) {
+		if (!refinements[r]) throw std::invalid_argument("MpmGrid.refinements[" + std::to_string(r) + "] = None: expected an MpmRefinement.");
+		refinements[r]->requireAdmissible();
+	}
+	if (refinements.empty() || period.isZero(0)) return;
+	std::ostringstream text;
+	text << "MpmGrid.refinements: a grid with period = (" << period.transpose() << ") cannot have cells of several sizes; leave one of the two out.";
+	throw std::invalid_argument(text.str());
+}
+
+template <int Dim> void MpmGrid::refine(gimpm::Grid<Dim>& grid) const
+{
+	vector<gimpm::RefinedBox<Dim>> boxes;
+	for (const auto& box : refinements)
+		boxes.push_back({ box->min.head<Dim>(), box->max.head<Dim>(), box->halvings });
+	grid.refinement = std::make_shared<gimpm::Refinement<Dim>>(boxes, grid);
+	grid.cellSize /= 1 << grid.refinement->largest();
+}
+
 template <int Dim> gimpm::Grid<Dim> MpmGrid::lattice() const
 {
 	requireAxis();
-	return { cellSize, origin.head<Dim>(), periodInCells().head<Dim>(), axisymmetric };
+	gimpm::Grid<Dim> grid { cellSize, origin.head<Dim>(), periodInCells().head<Dim>(), axisymmetric, nullptr };
+	if (!refinements.empty()) refine(grid);
+	return grid;
 }
 template gimpm::Grid<2> MpmGrid::lattice() const;
 template gimpm::Grid<3> MpmGrid::lattice() const;
+
+namespace {
+	template <int Dim> vector<Real> cellSizes(const gimpm::Grid<Dim>& grid, const Column<Real>& positions)
+	{
+		vector<Real> sizes(positions.size() / 3);
+		for (size_t i = 0; i < sizes.size(); ++i)
+			sizes[i] = 2 * gimpm::largestHalf<Dim>(grid, Eigen::Map<const Vector3r>(positions.data() + 3 * i).head<Dim>());
+		return sizes;
+	}
+}
+
+py::object cellSizesForPython(const MpmGrid& grid, const py::object& positions)
+{
+	grid.requireAdmissible();
+	const Column<Real> places(positions, "positions");
+	const auto         sizes = grid.dim == 2 ? cellSizes(grid.lattice<2>(), places) : cellSizes(grid.lattice<3>(), places);
+	return py::object(py::handle<>(PyByteArray_FromStringAndSize(reinterpret_cast<const char*>(sizes.data()), sizes.size() * sizeof(Real))));
+}
 
 } // namespace yade
 

@@ -56,7 +56,7 @@ template <int Dim> void MpmImplicitEngine::step(Agreement& agreement)
 	tellObservers(*scene, [this](LoadStepObserver& observer) { observer.stepBegins(*this); });
 	advance(job);
 	const ValueLock lock;
-	if (maxSplits > 0 && clampedDomains > 0) {
+	if ((maxSplits > 0 || job.model.grid.refinement) && clampedDomains > 0) {
 		warn(splitting.split(*this, points, job));
 		plausibility.know(job.cloud);
 	}
@@ -105,7 +105,7 @@ template <int Dim> void MpmImplicitEngine::advance(Job<Dim>& job)
 		                                      : gimpm::loadStep(job.cloud, job.model, tried.load, solver, tried.predicts ? &tried.last : nullptr);
 		const ValueLock lock;
 		take(report, *timingDeltas);
-		lastDisplacements = toNumbers(tried.last), lastLoadIncrement = tried.last.load;
+		lastDisplacements = toNumbers(tried.last, job.model.grid), lastLoadIncrement = tried.last.load;
 		const Real part   = job.control.part();
 		const bool goesOn = job.control.take(report);
 		cuts              = job.control.cuts();
@@ -133,7 +133,7 @@ template <int Dim> Attempt<Dim> MpmImplicitEngine::attempt(Job<Dim>& job) const
 	Attempt<Dim> next { time, loadBetween<Dim>(loadTime, time), newton->predictor, {} };
 	if (job.contacts.areThere() || wallsMove) next.load.motion = time - loadTime;
 	if (job.moving) job.moving->begin(job, next, loadTime);
-	if (next.predicts) next.last = fromNumbers<Dim>(lastDisplacements, lastLoadIncrement);
+	if (next.predicts) next.last = fromNumbers<Dim>(lastDisplacements, lastLoadIncrement, job.model.grid);
 	return next;
 }
 

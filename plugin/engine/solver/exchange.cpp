@@ -16,7 +16,8 @@ namespace {
 	template <int Dim> gimpm::Vec<Dim> domainIn(const gimpm::Model<Dim>& model, const MaterialPoint& point)
 	{
 		const gimpm::Vec<Dim> half = point.shape->halfSize.head<Dim>();
-		return model.basis == gimpm::Basis::gimp ? gimpm::Vec<Dim>(half.cwiseMin(0.5 * model.grid.cellSize)) : half;
+		return model.basis == gimpm::Basis::gimp ? gimpm::Vec<Dim>(half.cwiseMin(gimpm::largestHalf<Dim>(model.grid, point.state->pos.head<Dim>())))
+		                                         : half;
 	}
 
 	gimpm::LinearMethod linearMethod(const string& name)

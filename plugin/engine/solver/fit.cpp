@@ -12,7 +12,7 @@ gimpm::HeldBox<Dim> boxOfNodes(const string& name, const Vector3r& min, const Ve
 	if (!box.empty() && !missesPlane) return box;
 	std::ostringstream text;
 	text << name << " from min = (" << min.transpose() << ") to max = (" << max.transpose() << ") holds no grid node; nodes are at "
-	     << grid.origin.transpose() << " plus multiples of cellSize = " << grid.cellSize << ".";
+	     << grid.origin.transpose() << " plus multiples of " << (lattice.refinement ? "the smallest cell = " : "cellSize = ") << lattice.cellSize << ".";
 	if (lattice.isPeriodic()) text << " Along a periodic axis they are from there to there plus MpmGrid.period = (" << grid.period.transpose() << ").";
 	throw std::invalid_argument(text.str());
 }
@@ -93,8 +93,9 @@ namespace {
 
 	template <int Dim> void requireOnGrid(const MaterialPoint& point, const gimpm::Grid<Dim>& grid, gimpm::Basis basis)
 	{
-		const bool onGrid  = ((point.state->pos.head<Dim>() - grid.origin) / grid.cellSize).cwiseAbs().maxCoeff() < grid.indexLimit;
-		const Real largest = point.shape->halfSize.head<Dim>().maxCoeff(), limit = 0.5 * grid.cellSize * (1 + 1e-9);
+		const bool onGrid   = ((point.state->pos.head<Dim>() - grid.origin) / grid.cellSize).cwiseAbs().maxCoeff() < grid.indexLimit;
+		const Real cellSize = grid.size(grid.refinement ? grid.refinement->largest() : 0);
+		const Real largest = point.shape->halfSize.head<Dim>().maxCoeff(), limit = 0.5 * cellSize * (1 + 1e-9);
 		const bool fits = basis != gimpm::Basis::gimp || largest <= limit || hasOutgrown<Dim>(point, limit);
 		if (onGrid && fits) return;
 		std::ostringstream text; // costly: not before there is something to say
@@ -103,7 +104,7 @@ namespace {
 			text << "the material point at (" << point.state->pos.transpose() << ") is more than " << grid.indexLimit
 			     << " cells from the grid's origin.";
 		else
-			text << "MpmPoint.halfSize = " << largest << " m is more than half a cell (cellSize = " << grid.cellSize
+			text << "MpmPoint.halfSize = " << largest << " m is more than half a cell (cellSize = " << cellSize
 			     << " m); was the point made for another grid?";
 		throw std::invalid_argument(text.str());
 	}

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-// A scene that is saved carries the last increment along, so that it continues with the same bits: of each node the grid coordinates
-// and the displacement, three numbers each.
+// A scene that is saved carries the last increment along, so that it continues with the same bits: of each node the grid coordinates, in cells of MpmGrid.cellSize,
+// and the displacement, three numbers each. Nodes that the grid does not have are left out: its refinements may have changed.
 #include "core/stepping/predictor.hpp"
 #include "yade_api/types.hpp"
 
@@ -9,7 +9,7 @@ namespace yade {
 
 bool isIncrement(const vector<Real>& numbers);
 
-template <int Dim> gimpm::LastIncrement<Dim> fromNumbers(const vector<Real>& numbers, Real load);
-template <int Dim> vector<Real>              toNumbers(const gimpm::LastIncrement<Dim>&);
+template <int Dim> gimpm::LastIncrement<Dim> fromNumbers(const vector<Real>& numbers, Real load, const gimpm::Grid<Dim>&);
+template <int Dim> vector<Real>              toNumbers(const gimpm::LastIncrement<Dim>&, const gimpm::Grid<Dim>&);
 
 } // namespace yade

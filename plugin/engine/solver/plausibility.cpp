@@ -246,7 +246,7 @@ vector<string> Plausibility::look(
 	requireGrid(engine);
 	vector<string> sentences;
 	say(sentences, Doubt::gravityUpwards, doubtOfGravity(engine.gravity));
-	say(sentences, Doubt::largeCells, doubtOfCells(engine.grid->cellSize, smallest));
+	say(sentences, Doubt::largeCells, doubtOfCells(model.grid.cellSize, smallest));
 	say(sentences, Doubt::units, doubtOfUnits(engine.gravity, points, cloud, model.materials));
 	say(sentences, Doubt::tension, doubtOfTension(engine.gravity, initialStress));
 	say(sentences, Doubt::overlap, overlap);

@@ -3,6 +3,7 @@
 #include "core/solvers/multigrid.hpp"
 #include "engine/solver/MpmImplicitEngine.hpp"
 #include "engine/solver/contacts.hpp"
+#include "engine/solver/processes.hpp"
 #include <omp.h>
 #include <set>
 
@@ -96,9 +97,28 @@ static void requireNoDecomposition(const Scene& scene)
 			        "so that N processes share each load step.");
 }
 
+// What has not been shown to be right there.
+static void requireEqualCells(const MpmImplicitEngine& engine)
+{
+	if (!engine.grid || engine.grid->refinements.empty()) return;
+	string what;
+	if (engine.isDynamic()) what = engine.getClassName() + ", as inertia";
+	else if (!engine.water.empty())
+		what = "water";
+	else if (engine.newton->linearSolver == "amg")
+		what = "MpmNewton.linearSolver = 'amg'";
+	else if (processes())
+		what = "several processes";
+	for (size_t b = 0; b < engine.boundaries.size(); ++b)
+		if (engine.boundaries[b]->surface) what = "boundaries[" + std::to_string(b) + "].surface";
+	if (!what.empty())
+		throw std::invalid_argument("MpmGrid.refinements, cells of several sizes, cannot go with " + what + " yet; leave one of the two out.");
+}
+
 void requireRunnable(const MpmImplicitEngine& engine)
 {
 	engine.requireAdmissible();
+	requireEqualCells(engine);
 	requireNoDecomposition(*engine.scene);
 	if (engine.newton->linearSolver == "amg") requireMultigrid();
 	if (engine.maxSplits > 0 && engine.basis != "gimp")

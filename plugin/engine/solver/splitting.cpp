@@ -37,22 +37,22 @@ namespace {
 		bool splitOnce(size_t p)
 		{
 			const MaterialPoint& point = points[p];
-			if (point.shape->halfSize.template head<Dim>().maxCoeff() < limit) return false;
-			const Vector3r size = grown(point);
-			if (size.template head<Dim>().maxCoeff() <= outgrown) return false;
-			const int axis = point.state->splits < most ? axisOf(point, size) : -1;
+			const Real           limit = margin * limitOf(point);
+			const Vector3r       size  = grown(point);
+			if (size.template head<Dim>().maxCoeff() <= limit) return false;
+			const int axis = point.state->splits < mostOf(point) ? axisOf(point, size, limit) : -1;
 			if (axis >= 0) return split(p, axis);
 			++result.left;
-			if (point.state->splits >= most && result.exhausted < 0) result.exhausted = point.id;
+			if (most > 0 && point.state->splits >= mostOf(point) && result.exhausted < 0) result.exhausted = point.id;
 			return false;
 		}
 
 		// The one along which it is longest, of those along which it can be split; none: -1
-		int axisOf(const MaterialPoint& point, const Vector3r& size) const
+		int axisOf(const MaterialPoint& point, const Vector3r& size, Real limit) const
 		{
 			int best = -1;
 			for (int a = 0; a < Dim; ++a)
-				if (size[a] > outgrown && (best < 0 || size[a] > size[best]) && isFree(point, a)) best = a;
+				if (size[a] > limit && (best < 0 || size[a] > size[best]) && isFree(point, a)) best = a;
 			return best;
 		}
 
@@ -102,6 +102,7 @@ namespace {
 			for (int a = 0; a < Dim; ++a)
 				half.state->refPos[a] -= reenter(half.state->pos[a], a, job.model.grid);
 			const Vector3r size                       = grown(half);
+			const Real     limit                      = gimpm::largestHalf<Dim>(job.model.grid, half.state->pos.template head<Dim>());
 			half.shape->halfSize.template head<Dim>() = size.template head<Dim>().cwiseMin(limit);
 			if (isRing()) half.shape->halfSize[2] = half.shape->halfSize0[2] * half.state->defGrad(2, 2);
 			half.shape->radius *= std::pow(0.5, 1. / Dim);
@@ -116,15 +117,30 @@ namespace {
 			}
 		}
 
+		int levelOf(const MaterialPoint& point) const
+		{
+			return gimpm::levelTouched<Dim>(job.model.grid, point.state->pos.template head<Dim>(), point.shape->halfSize.template head<Dim>());
+		}
+
+		// Half of the smallest cell that the domain touches.
+		Real limitOf(const MaterialPoint& point) const { return 0.5 * job.model.grid.size(levelOf(point)); }
+
+		// For each halving of the cells it may be split once more along each axis.
+		int mostOf(const MaterialPoint& point) const
+		{
+			return job.model.grid.refinement ? most + Dim * (job.model.grid.refinement->largest() - levelOf(point)) : most;
+		}
+
 		bool isRing() const { return job.model.grid.axisymmetric; }
+
+		// One point a cell has a domain of the limit from the beginning, which lateral strains, or round-off, would split.
+		static constexpr Real margin = 1.01;
 
 		vector<MaterialPoint>& points;
 		Job<Dim>&              job;
 		Scene&                 scene;
 		int                    most;
-		Real                   limit = 0.5 * job.model.grid.cellSize;
-		Real outgrown = 1.01 * limit; // one point a cell has a domain of the limit from the beginning, which lateral strains, or round-off, would split
-		Splits result;
+		Splits                 result;
 	};
 }
 

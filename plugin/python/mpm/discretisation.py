@@ -27,12 +27,13 @@ def stressError(solver=None):
 	:return: dict of ``error`` [-], ``points`` (N,) [Pa], the difference at each point (Frobenius' norm) in order of body id, which ``mpm.plot(found['points'])`` draws, ``place`` (3,) [m]
 		of the point with the largest, and ``cellSize`` [m]
 	:raises TypeError: *solver* is no MpmImplicitEngine.
-	:raises ValueError: none or several of them among O.engines, no material points, no stress in them, or points spread over more cells than can be numbered (1e18).
+	:raises ValueError: none or several of them among O.engines, cells of several sizes, no material points, no stress in them, or points spread over more cells than can be numbered (1e18).
 	"""
 	solver = solverOf('stressError', solver)
 	data, _, material = pointsOf(solver)
 	if not len(data['id']): raise ValueError(noPoints('stressError', solver))
 	grid, volume = solver.grid, data['volume']
+	if grid.refinements: raise ValueError('stressError: MpmGrid.refinements: it is for equal cells; mpm.discretisationError may be used')
 	tensors = data['stress'].reshape(-1, 9)
 	norm = math.sqrt(volume @ (tensors**2).sum(axis=1))
 	if norm == 0: raise ValueError('stressError: no point has any stress; run the analysis first')

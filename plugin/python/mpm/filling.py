@@ -16,10 +16,10 @@ from .regions import bounds, inside, volumeInBoxes
 def fill(predicate, grid, pointsPerCell, material, **parameters):
 	"""Fill a region with material points, equally spaced in the cells of a grid.
 
-	Cells are counted from ``grid.origin``; the points are returned cell by cell. In two dimensions they lie in the plane
+	Cells are counted from ``grid.origin``; the points are returned cell by cell, with ``grid.refinements`` first those of the largest cells. In two dimensions they lie in the plane
 	z = ``grid.origin[2]`` and stand for 1 m of thickness, or with ``axisymmetric`` for a whole ring around the axis x = 0, of the volume 2 pi x times its section.
 
-	Each point stands for a box of ``cellSize / pointsPerCell``. Where these boxes have another volume than the region, by more than 2 %, as in layers that
+	Each point stands for a box of ``cellSize / pointsPerCell``, in cells that are halved for a smaller one. Where these boxes have another volume than the region, by more than 2 %, as in layers that
 	are thin or oblique, a warning in YADE's log says so. (Of combined and round regions the volume is estimated.) Layers within the
 	region, given by *material*, are not looked at.
 
@@ -41,22 +41,28 @@ def fill(predicate, grid, pointsPerCell, material, **parameters):
 		raise TypeError(f'fill: grid = {brief(grid)} must be an MpmGrid')
 	grid.updateAttrs(grid.dict())  # looks again at all values: cellSize may not have been given
 	n = _pointsPerCell(pointsPerCell)
-	positions = _latticePoints(predicate, grid, n)
+	positions, sizes = _latticePoints(predicate, grid, n)
 	if grid.axisymmetric and positions[:, 0].min() < 0:
 		raise ValueError(
 		        f'fill: the region reaches to x = {positions[:, 0].min():g} m; with MpmGrid.axisymmetric x is the distance from the axis: fill one half of the section, '
 		        'at x > 0'
 		)
-	_warnOfVolume(predicate, grid, n, len(positions))
+	_warnOfVolume(predicate, grid, n, sizes)
 	labels, index = _materialOf(positions, material)
 	materials = [_material(label) for label in labels]
-	half = grid.cellSize / (2 * n)
-	halfSize = Vector3(half, half, half if grid.dim == 3 else 0.5)
 	columns = {name: _parameter(name, value, positions) for name, value in parameters.items()}
-	try:
-		return engine.newBodies(positions, halfSize, materials, index, grid.axisymmetric, columns)
-	except ValueError as error:
-		raise ValueError(f'fill: {error}') from None
+	bodies = []
+	for size in np.unique(sizes)[::-1]:
+		those = slice(*np.flatnonzero(sizes == size)[[0, -1]] + (0, 1))
+		half = size / (2 * n)
+		halfSize = Vector3(half, half, half if grid.dim == 3 else 0.5)
+		try:
+			bodies += engine.newBodies(
+			        positions[those], halfSize, materials, index[those], grid.axisymmetric, {name: column[those] for name, column in columns.items()}
+			)
+		except ValueError as error:
+			raise ValueError(f'fill: {error}') from None
+	return bodies
 
 
 def _parameter(name, value, positions):
@@ -83,29 +89,56 @@ def _pointsPerCell(value):
 
 
 def _latticePoints(predicate, grid, n):
-	"""(N, 3) centres inside the predicate of the n^dim points in each cell, cell by cell."""
+	"""(N, 3) centres inside the predicate of the n^dim points in each cell, cell by cell, and (N,) sizes of the cells, from large to small."""
 	cells = [np.arange(a, b) for a, b in zip(*_cellRange(predicate, grid, n))]
 	candidates = math.prod(len(c) * n for c in cells)
 	# in slabs across the last axis, which bounds the memory of the points that are rejected
 	slabs = np.array_split(cells[-1], candidates // 2**20 + 1)
-	kept = []
+	kept = {}
 	for slab in slabs:
 		points = _cellPoints(cells[:-1] + [slab], grid, n)
-		kept.append(points[inside(predicate, points)])
-	positions = np.concatenate(kept)
+		for size, own in _ofLeaves(points, grid, n):
+			kept.setdefault(size, []).append(own[inside(predicate, own)])
+	bySize = {size: np.concatenate(kept[size]) for size in sorted(kept, reverse=True)}
+	positions, sizes = np.concatenate(list(bySize.values())), np.repeat(list(bySize), [len(own) for own in bySize.values()])
 	if not len(positions):
 		plane = f' in the plane z = {grid.origin[2]}' if grid.dim == 2 else ''
 		raise ValueError(f'fill: no point of the lattice with spacing {grid.cellSize / n} m{plane} is inside the predicate, whose box reaches '
 		                 f'from {_text(predicate.aabb()[0])} to {_text(predicate.aabb()[1])}; is the region smaller than that, or does it miss the plane?')
-	return positions
+	return positions, sizes
 
 
-def _warnOfVolume(predicate, grid, n, filled):
+def _ofLeaves(points, grid, n):
+	"""Of the points of cells of the grid, pairs of the size of a cell and the points in cells of that size: where cells are halved there are more of them."""
+	size = grid.cellSize
+	if not grid.refinements:
+		yield size, points
+		return
+	while len(points):
+		cells = points.reshape(-1, n**grid.dim, 3)
+		centres = cells.mean(axis=1)
+		whole = np.frombuffer(engine.cellSizes(grid, np.ascontiguousarray(centres))) > 0.75 * size
+		yield size, cells[whole].reshape(-1, 3)
+		points, size = _halved(centres[~whole], size, grid, n), size / 2
+
+
+def _halved(centres, size, grid, n):
+	"""(N, 3) points in the halves of cells of this size, given by their centres."""
+	dim = grid.dim
+	corners = np.stack(np.meshgrid(*[np.arange(2 * n)] * dim, indexing='ij'), axis=-1).reshape([2, n] * dim + [dim])
+	order = [2 * a for a in range(dim)] + [2 * a + 1 for a in range(dim)] + [2 * dim]
+	offsets = np.zeros((len(corners.reshape(-1, dim)), 3))
+	offsets[:, :dim] = (corners.transpose(order).reshape(-1, dim)[:, ::-1] + 0.5) / (2 * n) - 0.5
+	return (centres[:, None, :] + size * offsets).reshape(-1, 3)
+
+
+def _warnOfVolume(predicate, grid, n, sizes):
 	admitted = 0.02  # of the region
+	filled = len(sizes) if sizes[0] == sizes[-1] == grid.cellSize else ((sizes / grid.cellSize)**grid.dim).sum()
 	volume = volumeInBoxes(predicate, grid, n, filled, admitted)
 	if abs(volume - filled) <= admitted * volume: return
 	engine.warn(
-	        f'fill: the region has {volume / filled:.3g} times the volume for which the {filled} points in it stand. It is thin, or its edges cut through '
+	        f'fill: the region has {volume / filled:.3g} times the volume for which the {len(sizes)} points in it stand. It is thin, or its edges cut through '
 	        f'the boxes of {grid.cellSize / n:g} m that belong to the points. More points per cell help, smaller cells, and edges at multiples of '
 	        'cellSize / pointsPerCell.'
 	)

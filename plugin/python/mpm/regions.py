@@ -39,7 +39,7 @@ def volumeInBoxes(predicate, grid, n, filled, admitted):
 
 	Exact for a polygon, a box, and a closed surface of triangles.
 
-	Else estimated from points that are spread evenly, by those which are in the region or in the box of a point of
+	Else, in a grid of equal cells, estimated from points that are spread evenly, by those which are in the region or in the box of a point of
 	the lattice, but not in both: as many as it takes to say whether the region's volume differs from that of the boxes by more than the part *admitted*,
 	and not so many that filling takes a tenth longer.
 
@@ -50,6 +50,7 @@ def volumeInBoxes(predicate, grid, n, filled, admitted):
 	if isinstance(predicate, polygon) and grid.dim == 2: return predicate.area(spacing)
 	if isinstance(predicate, pack.inAlignedBox): return np.prod(np.subtract(*reversed(bounds(predicate, grid.dim))) / spacing)
 	if isinstance(predicate, pack.inGtsSurface) and grid.dim == 3: return abs(predicate.surf.volume()) / spacing**3
+	if grid.refinements: return filled  # it is not estimated
 	return max(0, filled + _estimatedLack(predicate, grid, n, admitted * filled))
 
 

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Where the cells of a grid are halved, once or more: cells of several sizes, of which neighbours differ by one level at most.
+#pragma once
+#include "core/grid/basis.hpp"
+#include "core/grid/grid.hpp"
+#include <array>
+
+namespace gimpm {
+
+/// The coordinate of the cell of a level along one axis, in smallest cells.
+inline int floorTo(int i, int level) { return (i >> level) * (1 << level); }
+
+/// A box in space in which cells are halved so many times.
+template <int Dim> struct RefinedBox {
+	Vec<Dim> min, max; ///< [m]; limits may be infinite
+	int      halvings = 1;
+};
+
+/// The cells that are not halved are the leaves of a tree; a leaf of level l is 2^l times as large as the smallest cells, those of level 0. All cells that overlap a box are
+/// halved. Around them cells are halved as often as it takes for leaves that touch, be it in a corner, to differ by one level at most: around a block
+/// of cells these are blocks again, so that no cell needs to be stored.
+template <int Dim> class Refinement {
+public:
+	/// `grid` has the size of the largest cells. There is at least one box, of at least one halving and at most Grid::mostLevel.
+	Refinement(const std::vector<RefinedBox<Dim>>& boxes, const Grid<Dim>& grid);
+
+	int largest() const { return largest_; } ///< level of the cells that are nowhere halved
+
+	/// Whether a cell is halved; those beyond the leaves are not.
+	bool isHalved(const Index<Dim>& cell, int level) const
+	{
+		for (const Block& block : halved_[level])
+			if ((block.lower.array() <= cell.array()).all() && (cell.array() <= block.upper.array()).all()) return true;
+		return false;
+	}
+
+	/// The leaf that contains a cell, which may be the cell itself; it must not be halved.
+	Key leafOf(Key cell) const
+	{
+		int level = largest_;
+		while (level > 0 && isHalved(ancestor(cell, level), level))
+			--level;
+		return Grid<Dim>::key(ancestor(cell, level), level);
+	}
+
+	/// The lowest level among the leaves that a box in space touches: it is given from the grid's origin on, in smallest cells.
+	int levelIn(const Vec<Dim>& low, const Vec<Dim>& high) const;
+
+	/// Level of the largest of the leaves that touch a node.
+	int largestAt(const Index<Dim>& node) const;
+
+	/// Calls f(leaf, level of the common face) for the leaves beyond one face of a leaf.
+	template <class F> void forLeavesBeyond(Key leaf, int axis, bool isAbove, F&& f) const
+	{
+		const int level  = Grid<Dim>::level(leaf);
+		const Key beyond = isAbove ? leaf + Grid<Dim>::keyStep(axis, level) : leaf - Grid<Dim>::keyStep(axis, level);
+		if (level == 0 || !isHalved(Grid<Dim>::index(beyond), level)) return f(leafOf(beyond), level);
+		for (int child = 0; child < 1 << Dim; ++child)
+			if ((child >> axis & 1) != isAbove)
+				f(Grid<Dim>::key(Grid<Dim>::index(beyond), level - 1) + Grid<Dim>::keyOffset(child, level - 1), level - 1);
+	}
+
+	/// The cell of this level that contains another.
+	static Index<Dim> ancestor(Key cell, int level)
+	{
+		return Grid<Dim>::index(cell).unaryExpr([level](int i) { return floorTo(i, level); });
+	}
+
+private:
+	/// Cells of one level: in smallest cells, the lowest nodes of the first and the last.
+	struct Block {
+		Index<Dim> lower, upper;
+	};
+	void halve(Block block, int level);
+
+	int                                                      largest_ = 0;
+	std::array<std::vector<Block>, Grid<Dim>::mostLevel + 1> halved_; // by level
+};
+
+/// Half of the cell that a place lies in [m]: domains of points there are no larger.
+template <int Dim> double largestHalf(const Grid<Dim>& grid, const Vec<Dim>& place)
+{
+	if (!grid.refinement) return 0.5 * grid.cellSize;
+	const Vec<Dim> x = (place - grid.origin) / grid.cellSize;
+	if (!(x.array().abs() < Grid<Dim>::indexLimit).all()) return 0.5 * grid.cellSize; // off the grid
+	return 0.5 * grid.size(grid.refinement->levelIn(x, x));
+}
+
+/// Level of the smallest leaf that a domain lies in.
+template <int Dim> int levelTouched(const Grid<Dim>& grid, const Vec<Dim>& place, const Vec<Dim>& halfSize)
+{
+	if (!grid.refinement) return 0;
+	const Vec<Dim> x = (place - grid.origin) / grid.cellSize, l = halfSize * (1 - overlapTolerance) / grid.cellSize;
+	return grid.refinement->levelIn(x - l, x + l);
+}
+
+/// Calls f(leaf below, leaf above, cell below the face, axis) for the faces between two leaves of a list, sorted; of two sizes the smaller one's face
+/// is meant, and the cell, or the one above it, is part of the larger leaf.
+template <int Dim, class F> void forLeafFaces(const std::vector<Key>& leaves, const Refinement<Dim>& refinement, F&& f)
+{
+	for (const Key leaf : leaves)
+		for (int a = 0; a < Dim; ++a)
+			refinement.forLeavesBeyond(leaf, a, true, [&](Key above, int level) {
+				if (find(leaves, above) < 0) return;
+				// of the face's level: the leaf itself, or what of it lies below the smaller one
+				f(leaf, above, level < Grid<Dim>::level(leaf) ? above - Grid<Dim>::keyStep(a, level) : leaf, a);
+			});
+}
+
+} // namespace gimpm

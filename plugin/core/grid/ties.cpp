@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "core/grid/ties.hpp"
+#include <map>
+
+namespace gimpm {
+namespace {
+
+using Masters = std::map<Key, double>;
+
+template <int Dim> class Resolver {
+public:
+	explicit Resolver(const Refinement<Dim>& refinement) : refinement_(refinement) { }
+
+	/// Adds `share` of what the place of a node depends on.
+	void add(const Index<Dim>& node, double share, Masters& masters) const
+	{
+		const int        level = refinement_.largestAt(node);
+		const Index<Dim> low   = node.unaryExpr([&](int i) { return floorTo(i, level); });
+		const Vec<Dim>   xi    = (node - low).template cast<double>() / (1 << level);
+		if (xi.isZero(0)) {
+			masters[Grid<Dim>::key(node, level)] += share;
+			return;
+		}
+		for (int c = 0; c < 1 << Dim; ++c) {
+			Index<Dim> corner = low;
+			double     weight = share;
+			for (int a = 0; a < Dim; ++a) {
+				corner[a] += (c >> a & 1) << level;
+				weight *= c >> a & 1 ? xi[a] : 1 - xi[a];
+			}
+			if (weight > 0) add(corner, weight, masters);
+		}
+	}
+
+private:
+	const Refinement<Dim>& refinement_;
+};
+
+} // namespace
+
+template <int Dim> Ties tieNodes(std::vector<Key>& nodes, const Refinement<Dim>& refinement)
+{
+	const Resolver<Dim>                  resolver(refinement);
+	std::vector<std::pair<Key, Masters>> tied;
+	std::vector<Key>                     masters;
+	for (const Key node : nodes) {
+		Masters found;
+		resolver.add(Grid<Dim>::index(node), 1, found);
+		if (found.count(node)) continue;
+		for (const auto& [master, weight] : found)
+			masters.push_back(master);
+		tied.emplace_back(node, std::move(found));
+	}
+	nodes.insert(nodes.end(), masters.begin(), masters.end());
+	std::sort(nodes.begin(), nodes.end());
+	nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+	Ties ties;
+	for (const auto& [node, found] : tied) {
+		ties.node.push_back(position(nodes, node));
+		for (const auto& [master, weight] : found) {
+			ties.master.push_back(position(nodes, master));
+			ties.weight.push_back(weight);
+		}
+		ties.start.push_back(int(ties.master.size()));
+	}
+	return ties;
+}
+
+template Ties tieNodes(std::vector<Key>&, const Refinement<2>&);
+template Ties tieNodes(std::vector<Key>&, const Refinement<3>&);
+
+} // namespace gimpm

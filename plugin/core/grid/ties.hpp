@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Nodes that move as others prescribe: hanging nodes between cells of two sizes, and nodes of small cells within large ones.
+#pragma once
+#include "core/grid/refinement.hpp"
+
+namespace gimpm {
+
+/// u = sum of weight times u of masters, which are tied to none. Empty in a grid of equal cells.
+struct Ties {
+	std::vector<int>    node;          ///< that are tied, rising
+	std::vector<int>    start = { 0 }; ///< of their masters
+	std::vector<int>    master;        ///< nodes
+	std::vector<double> weight;        ///< > 0, in sum one
+
+	bool empty() const { return node.empty(); }
+	bool contains(int n) const { return std::binary_search(node.begin(), node.end(), n); }
+
+	/// Gives the tied nodes the values that follow from their masters.
+	template <int Dim> void spread(Eigen::VectorXd& values) const
+	{
+		for (std::size_t t = 0; t < node.size(); ++t) {
+			Vec<Dim> sum = Vec<Dim>::Zero();
+			for (int m = start[t]; m < start[t + 1]; ++m)
+				sum += weight[m] * values.template segment<Dim>(Dim * master[m]);
+			values.template segment<Dim>(Dim * node[t]) = sum;
+		}
+	}
+
+	/// The transpose: forces at tied nodes become forces at their masters.
+	template <int Dim> void fold(Eigen::VectorXd& forces) const
+	{
+		for (std::size_t t = 0; t < node.size(); ++t) {
+			const Vec<Dim> force = forces.template segment<Dim>(Dim * node[t]);
+			for (int m = start[t]; m < start[t + 1]; ++m)
+				forces.template segment<Dim>(Dim * master[m]) += weight[m] * force;
+			forces.template segment<Dim>(Dim * node[t]).setZero();
+		}
+	}
+};
+
+/// Ties the nodes of a refined grid, to which their masters are added; they stay sorted. A node is tied to the corners of the largest leaf that touches it, and these
+/// in turn to theirs; a corner of that leaf itself to the node of the leaf's level there, unless it is that node. So the functions of all levels together are
+/// continuous, and in a leaf they are linear along each axis.
+template <int Dim> Ties tieNodes(std::vector<Key>& nodes, const Refinement<Dim>&);
+
+} // namespace gimpm
