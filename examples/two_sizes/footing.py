@@ -78,5 +78,4 @@ if options.picture:
 	import matplotlib.pyplot as plt
 	figure, axes = plt.subplots(figsize=(7.5, 5.4), layout='constrained')
 	mpm.plot('meanStress', ghost=False, ax=axes, range=(-6 * cu, cu), plane=('z', 1e-3) if options.dim == 3 else None)
-	axes.set_title(f'Mean stress, cells halved {options.halvings} times to {variants[-1][1]:g} B from the edge of the footing', fontsize='medium')
 	figure.savefig(os.path.join(options.out, 'footing.png'), dpi=130)
