@@ -199,6 +199,20 @@ namespace {
 		}
 	}
 
+	/// A box between the lines of large cells.
+	TYPED_TEST(RefinedStep, ABoxThatHoldsOnlyHangingNodesIsRefused)
+	{
+		constexpr int  Dim     = TypeParam::value;
+		Model<Dim>     m       = model<Dim>(cornerGrid<Dim>());
+		auto           cloud   = refinedBlock<Dim>(m.grid, cornerSize<Dim>(), 2);
+		const Vec<Dim> hanging = Vec<Dim>::Unit(0) + 0.25 * Vec<Dim>::Unit(1); // on the face of a cell that has been halved once
+		m.boundary             = Boundary<Dim>({ wallBelow<Dim>(m.grid, 0, 0), held<Dim>(m.grid, hanging, hanging, "x") });
+		LinearSolver solver;
+		const auto   report = loadStep<Dim>(cloud, m, {}, solver);
+		EXPECT_EQ(report.failure, Failure::detached);
+		EXPECT_NE(report.cause.find("boundaries[1] holds none but nodes that hang"), std::string::npos) << report.cause;
+	}
+
 	/// Ghost faces between leaves of one size and of two: their forces vanish for linear fields, and not for others.
 	TYPED_TEST(RefinedStep, GhostForcesOfLinearFieldsVanish)
 	{
