@@ -65,11 +65,12 @@ namespace {
 	TYPED_TEST(RefinedStep, TheTangentIsTheDerivativeOfTheForces)
 	{
 		constexpr int Dim = TypeParam::value;
-		for (const bool fBar : { false, true }) {
+		for (const int kind : { 0, 1, 2 }) { // plain, with F-bar, not symmetric
 			Model<Dim> m = model<Dim>(refinedGrid<Dim>({ { Vec<Dim>::Constant(0.1), Vec<Dim>::Constant(0.2), 1 } }));
-			m.fBar       = fBar;
-			m.ghost      = { 0.1 };
-			m.boundary   = Boundary<Dim>({ wallBelow<Dim>(m.grid, 0, 0) });
+			m.fBar       = kind == 1;
+			if (kind == 2) m.materials[1].law = DruckerPrager(2.6e6, 0.3, DruckerPragerCone::planeStrain(2e4, 0.5, 0));
+			m.ghost    = { 0.1 };
+			m.boundary = Boundary<Dim>({ wallBelow<Dim>(m.grid, 0, 0) });
 			Random          random(4);
 			PointCloud<Dim> cloud;
 			for (int i = 0; i < (Dim == 2 ? 60 : 25); ++i)
@@ -78,6 +79,7 @@ namespace {
 			StepReport            report;
 			const StepSystem<Dim> system(cloud, m, {}, report);
 			EXPECT_GT(report.ghostFaces, 5);
+			EXPECT_EQ(system.isSymmetric(), kind != 2);
 			ASSERT_GT(system.basis.ties.node.size(), 5u);
 			const auto all = [&](const Eigen::VectorXd& x) {
 				Eigen::VectorXd d = Eigen::VectorXd::Zero(system.nodalSize());
