@@ -6,7 +6,7 @@ The block is large, 3 widths B wide (half of it) and 2.5 deep, so that most of i
 footing, a quarter of it, which is compared with equal cells only.
 
 Run it with `scripts/run examples/two_sizes/footing.py [options]`. A row: halvings, how far from the footing's edge cells are smallest [B], unknowns, points, the largest load over area
-and c_u, its difference from that of equal cells, linear solves, seconds.
+and c_u, its difference from that of equal cells, linear solves, seconds of the processor.
 """
 import os
 import sys
@@ -53,13 +53,13 @@ def scene(halvings, reach):
 
 
 def limitLoad():
-	"""Over area and c_u, solves, seconds."""
-	loads, solves, begin = [], 0, time.time()
+	"""Over area and c_u, solves, seconds of the processor."""
+	loads, solves, begin = [], 0, time.process_time()
 	for _ in range(options.steps):
 		O.run(1, wait=True)
 		loads.append(-solver.reactions[3][1] / (B / 2)**(options.dim - 1) / cu)
 		solves += solver.iterations
-	return max(loads), solves, time.time() - begin
+	return max(loads), solves, time.process_time() - begin
 
 
 equal, rows = None, []
@@ -70,7 +70,7 @@ for halvings, reach in variants:
 	if not halvings: equal = load
 	of = f'{100 * (load / (2 + np.pi) - 1):+.2f} % of 2 + pi' if options.dim == 2 else ''
 	beside = f'{100 * (load / equal - 1):+.2f} % of that of equal cells' if equal and halvings else ''
-	print(f'halvings {halvings}, to {reach:g} B: {solver.dofs} unknowns, {len(O.bodies)} points, N_c = {load:.4f} {of} {beside}; {solves} solves, {seconds:.1f} s')
+	print(f'halvings {halvings}, to {reach:g} B: {solver.dofs} unknowns, {len(O.bodies)} points, N_c = {load:.4f} {of} {beside}; {solves} solves, {seconds:.1f} s of the processor')
 
 if options.picture:
 	import matplotlib
@@ -78,5 +78,4 @@ if options.picture:
 	import matplotlib.pyplot as plt
 	figure, axes = plt.subplots(figsize=(7.5, 5.4), layout='constrained')
 	mpm.plot('meanStress', ghost=False, ax=axes, range=(-6 * cu, cu), plane=('z', 1e-3) if options.dim == 3 else None)
-	axes.set_title(f'Mean stress, cells halved {options.halvings} times to {variants[-1][1]:g} B from the edge of the footing', fontsize='medium')
 	figure.savefig(os.path.join(options.out, 'footing.png'), dpi=130)

@@ -65,11 +65,12 @@ namespace {
 	TYPED_TEST(RefinedStep, TheTangentIsTheDerivativeOfTheForces)
 	{
 		constexpr int Dim = TypeParam::value;
-		for (const bool fBar : { false, true }) {
+		for (const int kind : { 0, 1, 2 }) { // plain, with F-bar, not symmetric
 			Model<Dim> m = model<Dim>(refinedGrid<Dim>({ { Vec<Dim>::Constant(0.1), Vec<Dim>::Constant(0.2), 1 } }));
-			m.fBar       = fBar;
-			m.ghost      = { 0.1 };
-			m.boundary   = Boundary<Dim>({ wallBelow<Dim>(m.grid, 0, 0) });
+			m.fBar       = kind == 1;
+			if (kind == 2) m.materials[1].law = DruckerPrager(2.6e6, 0.3, DruckerPragerCone::planeStrain(2e4, 0.5, 0));
+			m.ghost    = { 0.1 };
+			m.boundary = Boundary<Dim>({ wallBelow<Dim>(m.grid, 0, 0) });
 			Random          random(4);
 			PointCloud<Dim> cloud;
 			for (int i = 0; i < (Dim == 2 ? 60 : 25); ++i)
@@ -78,6 +79,7 @@ namespace {
 			StepReport            report;
 			const StepSystem<Dim> system(cloud, m, {}, report);
 			EXPECT_GT(report.ghostFaces, 5);
+			EXPECT_EQ(system.isSymmetric(), kind != 2);
 			ASSERT_GT(system.basis.ties.node.size(), 5u);
 			const auto all = [&](const Eigen::VectorXd& x) {
 				Eigen::VectorXd d = Eigen::VectorXd::Zero(system.nodalSize());
@@ -197,6 +199,20 @@ namespace {
 				EXPECT_NEAR(condition<Dim>(overlap, small, 1e-2) / bound, 1, 1e-3);
 			EXPECT_GT(condition<Dim>(1e-5, small, 0), 100 * equal) << "without the stabilisation";
 		}
+	}
+
+	/// A box between the lines of large cells.
+	TYPED_TEST(RefinedStep, ABoxThatHoldsOnlyHangingNodesIsRefused)
+	{
+		constexpr int  Dim     = TypeParam::value;
+		Model<Dim>     m       = model<Dim>(cornerGrid<Dim>());
+		auto           cloud   = refinedBlock<Dim>(m.grid, cornerSize<Dim>(), 2);
+		const Vec<Dim> hanging = Vec<Dim>::Unit(0) + 0.25 * Vec<Dim>::Unit(1); // on the face of a cell that has been halved once
+		m.boundary             = Boundary<Dim>({ wallBelow<Dim>(m.grid, 0, 0), held<Dim>(m.grid, hanging, hanging, "x") });
+		LinearSolver solver;
+		const auto   report = loadStep<Dim>(cloud, m, {}, solver);
+		EXPECT_EQ(report.failure, Failure::detached);
+		EXPECT_NE(report.cause.find("boundaries[1] holds none but nodes that hang"), std::string::npos) << report.cause;
 	}
 
 	/// Ghost faces between leaves of one size and of two: their forces vanish for linear fields, and not for others.

@@ -257,6 +257,16 @@ def test_two_sizes(yade):
 	assert 'no scene' in yade(example, '--scenes', 'footing,none', fails=True).stderr
 
 
+def test_footing_on_cells_of_two_sizes(yade):
+	"""Figures of its page, with coarse cells: fewer unknowns, and nearly the same limit load."""
+	run = yade(root / 'examples' / 'two_sizes' / 'footing.py', '--cells', 4, '--steps', 8)
+	found = [list(map(float, row)) for row in re.findall(r'(\d+) unknowns, \d+ points, N_c = (\S+)', run.stdout)]
+	assert len(found) == 3 and found[1][0] < found[0][0] / 3 and found[2][0] < found[0][0] / 5
+	assert abs(found[1][1] / found[0][1] - 1) < 0.002 and abs(found[2][1] / found[0][1] - 1) < 0.01
+	assert abs(found[0][1] / (2 + np.pi) - 1) < 0.03
+	assert (run.folder / 'out/footing/footing.png').stat().st_size > 20000
+
+
 def test_load_steps(yade):
 	"""A part of it: what is in the table is not run again."""
 	example = root / 'examples' / 'load_steps' / 'load_steps.py'

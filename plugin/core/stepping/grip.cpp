@@ -99,6 +99,16 @@ template <int Dim> bool holdsSoil(const HeldBox<Dim>& box, const CloudBasis<Dim>
 	return std::any_of(basis.nodes.begin(), basis.nodes.end(), [&](Key key) { return box.contains(Grid<Dim>::index(key)); });
 }
 
+/// Nodes that hang on others follow these, held or not.
+template <int Dim> bool holdsOnlyHangingNodes(const HeldBox<Dim>& box, const CloudBasis<Dim>& basis)
+{
+	const auto isIn = [&](int node) { return box.contains(Grid<Dim>::index(basis.nodes[node])); };
+	if (std::none_of(basis.ties.node.begin(), basis.ties.node.end(), isIn)) return false;
+	for (int node = 0; node < int(basis.nodes.size()); ++node)
+		if (isIn(node) && !basis.ties.contains(node)) return false;
+	return true;
+}
+
 template <class V> std::string listed(const V& x)
 {
 	std::ostringstream text;
@@ -149,6 +159,9 @@ template <int Dim> std::string lostGrip(const PointCloud<Dim>& cloud, const Clou
 {
 	const auto& boxes = model.boundary.boxes();
 	for (std::size_t b = 0; b < boxes.size(); ++b) {
+		if (holdsOnlyHangingNodes(boxes[b], basis))
+			return "boundaries[" + std::to_string(b)
+			        + "] holds none but nodes that hang on those of larger cells: let it reach these, or halve the cells";
 		if (boxes[b].displacement.isZero(0)) continue;
 		const std::string wrong
 		        = holdsSoil(boxes[b], basis) ? withdrawn(boxes[b], cloud, model.grid, load.ofBox(int(b))) : withoutSoil(boxes[b], cloud, model.grid);

@@ -55,17 +55,18 @@ Contact<Dim>::Contact(ContactSystem<Dim>& system, const Beginning<Dim>& step)
 
 template <int Dim> void Contact<Dim>::addCorners(const NearPoint& near, const Beginning<Dim>& step)
 {
-	const auto& body = system_.bodies[near.body];
+	const auto&  body  = system_.bodies[near.body];
+	const double reach = searchReach(body, grid_.size(grid_.refinement ? grid_.refinement->largest() : 0));
 	for (int c = 0; c < 1 << Dim; ++c) {
 		const Vec<Dim>       place = cornerOf(cloud_, near.point, c);
 		const Proximity<Dim> at    = body.proximity(body.begin, place, near.side);
-		if (std::max(at.gap, at.beside) > searchReach(body, grid_.cellSize)) continue;
+		if (std::max(at.gap, at.beside) > reach) continue;
 		const auto attached = attach(place, step.basis, step.grid);
 		if (!attached) continue; // behind a wall
 		const auto*    record   = recordOf(system_.records, { near.point, c, near.body });
 		const double   offset   = record ? record->offset : body.isNew && at.beside < 0 ? std::min(0., at.gap) : 0;
 		const Vec<Dim> friction = record ? record->friction : Vec<Dim>(Vec<Dim>::Zero());
-		const auto     law      = lawOf(body, near, place, at.normal, grid_.size(attached->level), step);
+		const auto     law      = lawOf(body, near, place, at.normal, step);
 		corners_.push_back({ near.point, c, near.body, near.side, place, offset, friction, law, *attached });
 	}
 }
@@ -73,14 +74,14 @@ template <int Dim> void Contact<Dim>::addCorners(const NearPoint& near, const Be
 /// The area of a corner is its share of the domain's outline as seen along the normal, in axisymmetry of the ring through the corner.
 template <int Dim>
 ContactLaw<Dim> Contact<Dim>::lawOf(
-        const RigidBody<Dim>& body, const NearPoint& near, const Vec<Dim>& place, const Vec<Dim>& normal, double h, const Beginning<Dim>& step) const
+        const RigidBody<Dim>& body, const NearPoint& near, const Vec<Dim>& place, const Vec<Dim>& normal, const Beginning<Dim>& step) const
 {
 	const auto [volume, young] = step.stiffnessOf(near.point);
 	double area                = 0;
 	for (int a = 0; a < Dim; ++a)
 		area += std::abs(normal[a]) * volume / (2 * cloud_.halfSize[near.point][a]) / (1 << (Dim - 1));
 	if (isRing_) area *= std::max(0., place[0] / cloud_.position[near.point][0]);
-	const double penalty = body.stiffness * young * area / h;
+	const double penalty = body.stiffness * young * area / grid_.cellSize;
 	return { penalty, penalty / slipSoftness, body.friction, body.adhesion * area };
 }
 

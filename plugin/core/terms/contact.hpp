@@ -42,7 +42,7 @@ template <int Dim> struct ContactSystem {
 constexpr double slipSoftness = 20;
 
 /// Corners of the domains against the surfaces of the bodies. Corners move with the linear functions of the grid. The penalty on the gap g is a
-/// pressure of stiffness * E g / h, with Young's modulus E of the point, over the corner's share of the domain's surface; Only
+/// pressure of stiffness * E g / h, with Young's modulus E of the point and h of the smallest cells, over the corner's share of the domain's surface; Only
 /// prescribed motion of the bodies is known here.
 template <int Dim> class Contact : public Term<Dim> {
 public:
@@ -71,9 +71,9 @@ private:
 		Attachment<Dim> attached;
 	};
 
-	void            addCorners(const NearPoint&, const Beginning<Dim>&);
-	ContactLaw<Dim> lawOf(const RigidBody<Dim>&, const NearPoint&, const Vec<Dim>& place, const Vec<Dim>& normal, double h, const Beginning<Dim>&) const;
-	Approach<Dim>   approach(const Corner&, const Vec<Dim>& x) const;
+	void                    addCorners(const NearPoint&, const Beginning<Dim>&);
+	ContactLaw<Dim>         lawOf(const RigidBody<Dim>&, const NearPoint&, const Vec<Dim>& place, const Vec<Dim>& normal, const Beginning<Dim>&) const;
+	Approach<Dim>           approach(const Corner&, const Vec<Dim>& x) const;
 	template <class F> void forTouching(const Eigen::VectorXd& d, F&& f) const; // f(corner, its place, gap, touch)
 	ContactLoad             loadOn(const Vec<Dim>& owner, const Corner&, const Vec<Dim>& place, const Touch<Dim>&) const;
 

@@ -53,7 +53,7 @@ std::vector<NearPoint> nearPoints(const std::vector<RigidBody<Dim>>& bodies, con
 	std::vector<NearPoint>    found;
 	for (std::size_t b = 0; b < bodies.size(); ++b) {
 		const auto&  body      = bodies[b];
-		const double reach     = searchReach(body, grid.cellSize);
+		const double reach     = searchReach(body, grid.size(grid.refinement ? grid.refinement->largest() : 0));
 		const auto [low, high] = body.bounds(body.begin);
 		const Vec<Dim> margin  = Vec<Dim>::Constant(reach);
 		patches.inBox(low - margin, high + margin, [&](int patch) {

@@ -40,24 +40,47 @@ template <int Dim, class F> void forParts(const Patch<Dim>& patch, const PointBa
 	}
 }
 
-/// Of the matter in each cell, in the cell: 0 to 1 along each axis.
+/// Where a cell is in its leaf, in leaves: at `corner`, `size` long.
+template <int Dim> struct InLeaf {
+	Vec<Dim> corner = Vec<Dim>::Zero();
+	double   size   = 1;
+
+	InLeaf(const CloudBasis<Dim>& basis, int cell)
+	{
+		if (basis.leafOf.empty()) return;
+		const Key leaf = basis.leaves[basis.leafOf[cell]], key = basis.cells[cell];
+		size   = std::ldexp(1, Grid<Dim>::level(key) - Grid<Dim>::level(leaf));
+		corner = (Grid<Dim>::index(key) - Grid<Dim>::index(leaf)).template cast<double>() / (1 << Grid<Dim>::level(leaf));
+	}
+};
+
+/// Of the matter in the leaf of each cell, from the corner of the cell on, in cells: 0 to 1 along each axis where the cell is the leaf. Beyond its sides the functions of the
+/// cell go on as those of the leaf.
 template <int Dim> std::vector<Vec<Dim>> centresOfMatter(const PointCloud<Dim>& cloud, const CloudBasis<Dim>& basis)
 {
-	std::vector<Vec<Dim>> centre(basis.cells.size(), Vec<Dim>::Zero());
-	std::vector<double>   volume(basis.cells.size(), 0);
+	const std::size_t        leaves = basis.populatedLeaves().size();
+	std::vector<Vec<Dim>>    centre(leaves, Vec<Dim>::Zero()), ofCell;
+	std::vector<double>      volume(leaves, 0);
+	std::vector<InLeaf<Dim>> inLeaf;
+	for (int cell = 0; cell < int(basis.cells.size()); ++cell)
+		inLeaf.emplace_back(basis, cell);
 	for (const auto& patch : basis.patches)
 		for (int i = patch.first; i < patch.first + patch.count; ++i) {
 			const int    p   = basis.order[i];
 			const double own = cloud.volume0[p] * cloud.volumeRatio(p);
 			forParts(patch, basis.axes[i], [&](int c, int cell, const auto& parts, double share) {
-				volume[cell] += own * share;
+				const int leaf = basis.leaf(cell);
+				volume[leaf] += own * share;
 				for (int a = 0; a < Dim; ++a)
-					centre[cell][a] += own * share * parts[a].centre[c >> a & 1];
+					centre[leaf][a] += own * share * (inLeaf[cell].corner[a] + inLeaf[cell].size * parts[a].centre[c >> a & 1]);
 			});
 		}
-	for (std::size_t cell = 0; cell < centre.size(); ++cell)
-		centre[cell] = volume[cell] > 0 ? Vec<Dim>(centre[cell] / volume[cell]) : Vec<Dim>::Constant(0.5);
-	return centre;
+	for (int cell = 0; cell < int(basis.cells.size()); ++cell) {
+		const int leaf = basis.leaf(cell);
+		ofCell.push_back(
+		        volume[leaf] > 0 ? Vec<Dim>((centre[leaf] / volume[leaf] - inLeaf[cell].corner) / inLeaf[cell].size) : Vec<Dim>::Constant(0.5));
+	}
+	return ofCell;
 }
 
 /// Along each axis, of the centres of the cells on a side the average by the shares of the domain.
@@ -87,32 +110,34 @@ struct RingParts {
 	double size, face; ///< of a cell, and radius of the face in or above the section [m]
 	double radius[2];  ///< of the middles of the parts [m]
 
-	RingParts(const AxisBasis& ring, const AxisValues& hoop, double halfSize, bool isInTwo)
+	/// In a refined grid a domain reaches no farther than half a cell.
+	RingParts(const AxisBasis& ring, const AxisValues& hoop, double halfSize, bool isInTwo, bool isRefined)
 	{
 		const double r = 1 / (hoop[0] + hoop[1] + hoop[2]);
 		size           = 1 / (isInTwo ? ring.slope[2] - ring.slope[0] : ring.slope[1]);
+		const double l = isRefined ? std::min(halfSize, size / 2) : halfSize;
 		face           = r + size * r * (hoop[0] - hoop[2]);
-		radius[0]      = isInTwo ? (face + r - halfSize) / 2 : r;
-		radius[1]      = (face + r + halfSize) / 2;
+		radius[0]      = isInTwo ? (face + r - l) / 2 : r;
+		radius[1]      = (face + r + l) / 2;
 	}
 };
 
-/// Radius of the middle of the section of the matter in each cell: of parts with the volumes V at r the sum of V over that of V / r.
+/// Radius of the middle of the section of the matter in each leaf: of parts with the volumes V at r the sum of V over that of V / r.
 template <int Dim> std::vector<double> sectionRadii(const PointCloud<Dim>& cloud, const CloudBasis<Dim>& basis)
 {
-	std::vector<double> volume(basis.cells.size(), 0), area(volume);
+	std::vector<double> volume(basis.populatedLeaves().size(), 0), area(volume);
 	for (const auto& patch : basis.patches)
 		for (int i = patch.first; i < patch.first + patch.count; ++i) {
 			const int       p   = basis.order[i];
 			const double    own = cloud.volume0[p] * cloud.volumeRatio(p);
-			const RingParts ring(basis.axes[i][0], basis.hoop[i], cloud.halfSize[p][0], patch.span & 1);
+			const RingParts ring(basis.axes[i][0], basis.hoop[i], cloud.halfSize[p][0], patch.span & 1, !basis.leafOf.empty());
 			forParts(patch, basis.axes[i], [&](int c, int cell, const auto&, double share) {
-				volume[cell] += own * share;
-				area[cell] += own * share / ring.radius[c & 1];
+				volume[basis.leaf(cell)] += own * share;
+				area[basis.leaf(cell)] += own * share / ring.radius[c & 1];
 			});
 		}
-	for (std::size_t cell = 0; cell < volume.size(); ++cell)
-		volume[cell] /= area[cell];
+	for (std::size_t leaf = 0; leaf < volume.size(); ++leaf)
+		volume[leaf] /= area[leaf];
 	return volume;
 }
 
@@ -124,13 +149,14 @@ template <int Dim> std::vector<AxisValues> hoopAtCentres(const PointCloud<Dim>& 
 	std::vector<AxisValues> result(basis.axes.size());
 	for (const auto& patch : basis.patches)
 		for (int i = patch.first; i < patch.first + patch.count; ++i) {
-			const RingParts ring(basis.axes[i][0], basis.hoop[i], cloud.halfSize[basis.order[i]][0], patch.span & 1);
+			const RingParts ring(basis.axes[i][0], basis.hoop[i], cloud.halfSize[basis.order[i]][0], patch.span & 1, !basis.leafOf.empty());
 			result[i].fill(0);
 			forParts(patch, basis.axes[i], [&](int c, int cell, const auto&, double share) {
 				const int    side  = c & 1;
-				const double upper = (radius[cell] - ring.face) / ring.size + 1 - side; // hat function of the upper node of the cell
-				result[i][side] += share * (1 - upper) / radius[cell];
-				result[i][side + 1] += share * upper / radius[cell];
+				const double r     = radius[basis.leaf(cell)];
+				const double upper = (r - ring.face) / ring.size + 1 - side; // hat function of the upper node of the cell
+				result[i][side] += share * (1 - upper) / r;
+				result[i][side + 1] += share * upper / r;
 			});
 		}
 	return result;

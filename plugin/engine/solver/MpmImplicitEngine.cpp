@@ -52,6 +52,7 @@ template <int Dim> void MpmImplicitEngine::step(Agreement& agreement)
 {
 	const AtWork during;
 	Job<Dim>     job = prepare<Dim>();
+	if (job.model.grid.refinement && basis == "gimp" && splitFirst(job)) job = prepare<Dim>();
 	agreement.reach(*this, job.cloud);
 	tellObservers(*scene, [this](LoadStepObserver& observer) { observer.stepBegins(*this); });
 	advance(job);
@@ -62,6 +63,16 @@ template <int Dim> void MpmImplicitEngine::step(Agreement& agreement)
 	}
 	for (const string& doubt : plausibility.warningsOfResult(*this, points, job.cloud))
 		warn(doubt);
+}
+
+// Points that are too large for cells which have just become smaller. False if there are none.
+template <int Dim> bool MpmImplicitEngine::splitFirst(Job<Dim>& job)
+{
+	const ValueLock lock;
+	const size_t    before = points.size();
+	warn(splitting.split(*this, points, job));
+	plausibility.know(job.cloud);
+	return points.size() > before;
 }
 
 template <int Dim> Job<Dim> MpmImplicitEngine::prepare()

@@ -1,0 +1,200 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Cells that are halved in boxes (MpmGrid.refinements), from the filling to the files; tests/core/test_refined_step.cpp has what is exact across the sizes."""
+import math
+
+import pytest
+from conftest import outcomesOf
+
+scene = '''
+import json
+import numpy as np
+from yade import mpm, pack, utils
+
+def block(dim=2, halvings=2, near=0.3, poisson=0., axisymmetric=False, top=False, law=None, **engine):
+	"""A body of 2 x 2 [x 2] m on rollers, E = 1 MPa, with large cells of half a metre that are halved near the corner at the top (or the whole of it)."""
+	O.reset()
+	O.materials.append(law or MpmElasticMat(young=1e6, poisson=poisson, density=1000))
+	O.materials[0].label = 'soil'
+	O.materials.append(FrictMat(frictionAngle=radians(20), density=2600, young=1e7, label='rigid'))
+	grid = MpmGrid(cellSize=0.5, dim=dim, axisymmetric=axisymmetric)
+	if halvings: grid.refinements = [MpmRefinement(min=(-inf, 2 - near, -inf), max=(inf if top else near, inf, inf if top else near), halvings=halvings)]
+	O.bodies.append(mpm.fill(pack.inAlignedBox((0, 0, 0 if dim == 3 else -1), (2, 2, 2 if dim == 3 else 1)), grid, 2, 'soil'))
+	sides = [MpmBoundary(max=(0, inf, inf), fix='x'), MpmBoundary(max=(inf, 0, inf), fix='y')] + ([MpmBoundary(max=(inf, inf, 0), fix='z')] if dim == 3 else [])
+	O.engines = [MpmImplicitEngine(grid=grid, boundaries=sides, label='solver', verbosity=0, **engine)]
+	O.dt = 0.1
+	return grid
+
+def sizes():
+	half, number = np.unique(mpm.arrays()['halfSize'][:, 0], return_counts=True)
+	return dict(zip((8 * half).tolist(), number.tolist()))
+
+def plate(y=2, velocity=(0, -0.5, 0)):
+	i = O.bodies.append(utils.wall(y, axis=1, sense=-1, material='rigid'))
+	O.bodies[i].state.vel = velocity
+'''
+
+
+def test_each_cell_is_filled_by_as_many_points(yade):
+	"""A cell halved twice, its neighbours once; the volume is that of the block; predicates of other kinds cut through cells of all sizes."""
+	results = yade(scene + '''
+found = []
+for dim in 2, 3:
+	block(dim)
+	points = mpm.arrays()
+	found.append([sizes(), points['volume'].sum(), len(np.unique(points['pos'].round(9), axis=0)), len(O.bodies)])
+grid = MpmGrid(cellSize=0.5, refinements=[MpmRefinement(min=(1, 1, -inf), halvings=3)])
+ball = pack.inSphere((1, 1, 0), 1)
+points = [b.state.pos for b in mpm.fill(ball, grid, 3, 'soil')]
+volume = sum(8 * b.shape.halfSize[0] * b.shape.halfSize[1] / 2 for b in mpm.fill(ball, grid, 3, 'soil'))
+print(json.dumps([found, volume, all((p - Vector3(1, 1, 0)).norm() <= 1 for p in points)]))
+''').result
+	for dim, (sizes, volume, places, points) in zip((2, 3), results[0]):
+		once, cells = 2**dim - 1, 2**dim  # the cell in the corner is halved twice, those that touch it once
+		assert sizes == {'0.25': cells**2 * cells, '0.5': once * cells * cells, '1.0': (4**dim - 1 - once) * cells}
+		assert abs(volume - 2**dim) < 1e-12 and places == points
+	assert abs(results[1] / math.pi - 1) < 0.01 and results[2]
+
+
+def test_a_plate_presses_across_the_sizes(yade):
+	"""To .75 of the height, nu = 0: E ln l / l per area, as with equal cells; with F-bar too, and around an axis."""
+	results = yade(scene + '''
+found = []
+for dim, options in (2, {}), (2, dict(fBar=True)), (2, dict(top=True)), (2, dict(axisymmetric=True)), (2, dict(axisymmetric=True, fBar=True)), (3, {}), (3, dict(fBar=True)), (3, dict(newton=MpmNewton(linearSolver='iterative'))):
+	block(dim, contacts=[MpmContact(friction=0)], **options)
+	plate()
+	O.run(10, wait=True)
+	stress = mpm.arrays()['stress'][:, 1, 1]
+	area = math.pi * 4 if 'axisymmetric' in options else 2.**(dim - 1)
+	found.append([solver.contacts[0].forces[0][1] / area, stress.min(), stress.max()])
+print(json.dumps(found))
+''').result
+	exact = 1e6 * math.log(0.75) / 0.75
+	for pressure, low, high in results:
+		assert abs(-pressure / exact - 1) < 0.01
+		assert abs(low / exact - 1) < 0.06 and abs(high / exact - 1) < 0.06
+
+
+def test_a_slope_slides_through_smaller_cells(yade):
+	"""Its points are split as they come there; the slope of the paper moves as far as in equal cells."""
+	result = yade('''
+import json
+from math import inf
+from yade import mpm
+import numpy as np
+law = dict(young=1e6, poisson=0.3, density=2400)
+O.materials.append([MpmVonMisesMat(yieldStress=15e3, label='soil', **law), MpmVonMisesMat(yieldStress=7.5e3, label='weak', **law)])
+found = []
+for halvings in 0, 1:
+	O.bodies.clear()
+	grid = MpmGrid(cellSize=1, refinements=[MpmRefinement(min=(5, 4, -inf), max=(20, 9, inf), halvings=1)] * halvings)
+	profile = mpm.polygon([(0, 0), (30, 0), (30, 7), (15, 7), (10, 12), (0, 12)])
+	O.bodies.append(mpm.fill(profile, grid, 2, lambda x: 'weak' if 7 <= x[1] <= 7.5 else 'soil'))
+	before = mpm.arrays()['volume'].sum()
+	sides = [MpmBoundary(max=(0, inf, inf), fix='x'), MpmBoundary(min=(30, -inf, -inf), fix='x'), MpmBoundary(max=(inf, 0, inf), fix='xy')]
+	O.engines = [MpmImplicitEngine(grid=grid, gravity=(0, -9.81, 0), boundaries=sides, verbosity=0)]
+	O.time, O.dt, number = 0, 1 / 40, len(mpm.arrays()['id'])
+	O.run(40, wait=True)
+	at = mpm.arrays()
+	found.append([np.linalg.norm(at['pos'] - at['pos0'], axis=1).max(), len(at['id']) - number, O.engines[0].clampedDomains, O.engines[0].cuts])
+print(json.dumps(found))
+''').result
+	(equal, *_), (halved, split, clamped, cuts) = result
+	assert abs(halved / equal - 1) < 0.01 and split > 50 and clamped == cuts == 0, result
+
+
+def test_it_goes_on_bit_for_bit_after_saving_and_with_two_threads(yade):
+	"""Half way the box is moved and taken away, too: points that get into smaller cells are split, and mass is kept."""
+	script = scene + '''
+import sys
+def start():
+	block(3 if 'dim' in sys.argv else 2, law=MpmVonMisesMat(young=1e6, poisson=0.3, density=1000, yieldStress=2e4), gravity=(0, -30, 0), contacts=[MpmContact(friction=0.2)], fBar=True)
+	O.engines = O.engines + [MpmVtkRecorder(fileName='out-', recorders=['points', 'grid', 'ghostFaces'], iterPeriod=3)]
+	plate(velocity=(0.1, -0.3, 0))
+def change():
+	solver.grid.refinements = [MpmRefinement(min=(1, -inf, -inf), max=(1.4, 0.7, inf), halvings=2)]
+def goOn():
+	O.run(2, wait=True)
+	solver.grid.refinements = []
+	O.run(1, wait=True)
+	points = mpm.arrays()
+	return [points[name].tobytes().hex()[-200:] for name in ('pos', 'stress', 'halfSize')] + [points['volume'].sum(), len(points['id']), abs(points['stress']).sum()]
+start()
+O.run(2, wait=True)
+change()
+O.save('half.yade.gz')
+first = goOn()
+O.reset()
+O.load('half.yade.gz')
+second = goOn()
+print(json.dumps([first, first == second]))
+'''
+	one, two = yade(script).result, yade(script, threads=2).result
+	assert one[1] and two[1] and one[0] == two[0]
+	points = one[0][4]
+	assert points > 64 + 3 * 8 + 48  # some have been split
+
+
+def test_files_and_pictures_show_the_leaves(yade):
+	run = yade(scene + '''
+block(gravity=(0, -10, 0))
+O.engines = O.engines + [MpmVtkRecorder(fileName='out-', recorders=['points', 'grid', 'ghostFaces'], ascii=True)]
+O.run(1, wait=True)
+mpm.plot('stress_yy').figure.savefig('picture.png')
+from vtk import vtkXMLUnstructuredGridReader
+def read(kind):
+	reader = vtkXMLUnstructuredGridReader()
+	import glob
+	reader.SetFileName(sorted(glob.glob(f'out-{kind}*.vtu'))[0])
+	reader.Update()
+	return reader.GetOutput()
+cells, faces = read('grid'), read('ghostFaces')
+bounds = [cells.GetCell(c).GetBounds() for c in range(cells.GetNumberOfCells())]
+area = [(b[1] - b[0]) * (b[3] - b[2]) for b in bounds]
+lengths = sorted({round(sum(faces.GetCell(c).GetBounds()[2 * a + 1] - faces.GetCell(c).GetBounds()[2 * a] for a in (0, 1)), 9) for c in range(faces.GetNumberOfCells())})
+print(json.dumps([len(area), sum(area), cells.GetNumberOfPoints(), lengths, solver.activeCells, solver.ghostFaces, faces.GetNumberOfCells()]))
+''')
+	cells, area, corners, lengths, active, ghost, faces = run.result
+	assert cells == active == 12 + 3 * 4 + 16 and abs(area - 4) < 1e-12
+	assert lengths == [0.125, 0.25, 0.5] and ghost == faces
+	assert (run.folder / 'picture.png').stat().st_size > 10000
+
+
+def test_loads_on_surfaces(yade):
+	"""A traction goes across the sizes; a pressure stays in cells of one size."""
+	results = yade(scene + '''
+found = []
+for dim in 2, 3:
+	surface = [(2, 2), (0, 2)] if dim == 2 else [[(0, 2, 0), (0, 2, 2), (2, 2, 2)], [(0, 2, 0), (2, 2, 2), (2, 2, 0)]]
+	block(dim, loads=[MpmTraction(surface=surface, traction=(0, -1e4, 0))])
+	O.dt = 1
+	O.run(1, wait=True)
+	stress = mpm.arrays()['stress'][:, 1, 1]
+	found.append([solver.reactions[1][1] / 2**(dim - 1), stress.min(), stress.max()])
+block(top=True, loads=[MpmTraction(surface=[(2, 2), (0, 2)], pressure=1e4)])
+O.dt = 1
+O.run(1, wait=True)
+found.append([solver.reactions[1][1] / 2, *[f(mpm.arrays()['stress'][:, 1, 1]) for f in (min, max)]])
+block(loads=[MpmTraction(surface=[(2, 2), (0, 2)], pressure=1e4)])
+try: O.run(1, wait=True)
+except RuntimeError as error: found.append(str(error))
+print(json.dumps(found))
+''').result
+	for reaction, low, high in results[:3]:
+		assert abs(reaction / 1e4 - 1) < 1e-6 and abs(low / -1e4 - 1) < 0.03 and abs(high / -1e4 - 1) < 0.03
+	assert 'under pressure goes from cells of one size to cells of another' in results[3]
+
+
+def test_refused(yade):
+	"""What has not been shown to be right with cells of several sizes, by a sentence that names it."""
+	cases = {
+	        'block(); solver.grid.period = (2, 0, 0)': 'MpmGrid.refinements: a grid with period = (2 0 0)',
+	        'block(water=[MpmWater(level=1)])': 'cannot go with water',
+	        "block(newton=MpmNewton(linearSolver='amg'))": "linearSolver = 'amg'",
+	        "block(); solver.boundaries = [MpmBoundary(surface=[(-1, 0), (3, 0)], fix='n')]": 'boundaries[0].surface',
+	        'block(); O.engines = [MpmDynamicEngine(grid=solver.grid, boundaries=solver.boundaries)]': 'MpmDynamicEngine, as inertia',
+	        'block(); solver.grid.refinements = [MpmRefinement(min=(2, 0, 0), max=(1, 0, 0))]': 'MpmRefinement.min = 2 is greater than max = 1 along x',
+	        'block(); O.run(1, wait=True); mpm.stressError()': 'stressError: MpmGrid.refinements',
+	}
+	found = outcomesOf(yade.folder, scene, [case + '; O.run(1, wait=True)' for case in cases])
+	for (statement, (_, said)), expected in zip(found.items(), cases.values()):
+		assert expected in said, (statement, said)
