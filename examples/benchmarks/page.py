@@ -142,6 +142,20 @@ def processes(runs):
 	return PROCESSES + table(heads, rows) + ON_PAPER + table(['processes', 'memory of each [GB]', 'seconds a step', 'sent by each [MB]', 'speed-up'], onPaper())
 
 
+def sharing(runs):
+	rows = []
+	for one in runs:
+		for number, each in enumerate(one['each']):
+			times = split(each)
+			rows.append([
+			        *((one['processes'], one['threads']) if number == 0 else ('', '')), f"{each['run']:.2f}", f"{times['basis'] + times['ghost']:.2f}", f"{times['assembly']:.2f}",
+			        f"{times['analyse'] + times['factorise'] + times['solve']:.2f}", f"{times['update']:.2f}", f"{times['check'] + times['gather'] + times['scatter']:.2f}", f"{times.get('agree', 0):.2f}", f"{times['rest']:.2f}",
+			        f"{each['peakMemory'] / 1e6:.0f}", f"{each['sent'] / each['steps'] / 1e6:.1f}"
+			])
+	heads = ['processes', 'threads of each', 'run [s]', 'basis and ghost', 'assembly', 'solve', 'update', 'from and to bodies', 'agree', 'rest', 'memory [MB]', 'sent a step [MB]']
+	return SHARING + table(heads, rows)
+
+
 def onPaper():
 	"""A step of a million points in 3D (131,000 nodes, 372,000 unknowns) on 100 layers of nodes: 7 solves of 200 iterations. Of one process [s]: 2.4 that each
 	of several does, too, 30 of assembly, 90 of solving; 0.25 ms for a sum over 1,024 processes, 10 GB/s from each to its neighbours, 1 GB/s to all."""
@@ -218,7 +232,7 @@ def picture(results, path):
 	pyplot.close(figure)
 
 
-sections = dict(kernels=kernels, scenes=scenes, sizes=sizes, features=features, start=start, bodies=bodies, solvers=solvers, processes=processes, large=large)
+sections = dict(kernels=kernels, scenes=scenes, sizes=sizes, features=features, start=start, bodies=bodies, solvers=solvers, processes=processes, sharing=sharing, large=large)
 
 
 def comparison(found, revision):
@@ -320,6 +334,14 @@ ON_PAPER = """
 What to expect of more of them is on paper: a model, not measured. A step of a million points in 3D on 100 layers of nodes, of which one process takes two minutes: what every process
 does for all points (basis, update, 2.4 s) stays, and slabs thinner than two layers share no assembly. So some 30 processes are worth their while, and no process needs less than the memory of
 all points.
+
+"""
+
+SHARING = """## Two processes
+
+The first steps of the slope with a weak layer in 3D, 262,200 points and 101,197 unknowns, by conjugate gradients (`scripts/bench sharing`): one process with one thread and with two, and two processes
+with one thread each, in turn; of each the quickest of five runs, with the parts of each process. What a process waits for another is in the parts where they meet. `agree`: checksum of the points before a step; the
+one after it is part of the update. With the first step comes what it takes to begin MPI and to open PETSc, some .4 s, in what is from and to bodies. Memory is the peak of the process.
 
 """
 

@@ -15,6 +15,7 @@ namespace {
 		int         size() const override { return all; }
 		void        smallest(std::int64_t*, int) const override { }
 		void        gather(double*, const int*) const override { }
+		void        exchange(const Parcel*, int) const override { }
 		std::string told(const std::string& text, int) const override { return text; }
 		double      sent() const override { return 0; }
 	};

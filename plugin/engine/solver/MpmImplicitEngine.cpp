@@ -51,8 +51,13 @@ void MpmImplicitEngine::action()
 template <int Dim> void MpmImplicitEngine::step(Agreement& agreement)
 {
 	const AtWork during;
-	Job<Dim>     job = prepare<Dim>();
-	agreement.reach(*this, job.cloud);
+	Job<Dim>     job      = prepare<Dim>();
+	double       agreeing = 0;
+	{
+		const gimpm::Stopwatch watch(agreeing);
+		agreement.reach(*this, job.cloud);
+	}
+	if (job.model.processes) addTime(*timingDeltas, "agree", agreeing);
 	tellObservers(*scene, [this](LoadStepObserver& observer) { observer.stepBegins(*this); });
 	advance(job);
 	const ValueLock lock;
