@@ -2,7 +2,6 @@
 #include "petsc/talk.hpp"
 #include <cstdio>
 #include <cstdlib>
-#include <petscsys.h>
 #include <vector>
 
 MPI_Comm comm = MPI_COMM_NULL;

@@ -2,7 +2,7 @@
 // What processes tell each other by MPI: see DistributedModule.
 #pragma once
 #include "core/base/processes.hpp"
-#include <mpi.h>
+#include <petscsys.h> // MPI without its old interface for C++
 
 extern MPI_Comm comm; // one of our own: messages of the script, by mpi4py, are not taken for ours
 
