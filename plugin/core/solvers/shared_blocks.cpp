@@ -8,11 +8,13 @@ namespace {
 /// Calls f(own node, neighbour) for each pair, of which both may be own.
 template <int Dim, class F> void forOwnPairs(const NodeMatrix<Dim>& K, const NodeShare& share, F&& f)
 {
+	const int  first = share.first(), last = share.last();
+	const auto isOwn = [&](int node) { return node >= first && node < last; };
 	for (int a = 0; a < K.nodes(); ++a)
 		for (int c = 0; c < K.codes && K.keeps(a); ++c) {
 			const int b = K.used(a, c) ? K.neighbour(a, c) : a;
-			if (share.owns(a)) f(a, b);
-			if (share.owns(b)) f(b, a);
+			if (isOwn(a)) f(a, b);
+			if (isOwn(b)) f(b, a);
 		}
 }
 
@@ -39,8 +41,9 @@ template <int Dim> typename SharedBlocks<Dim>::Range SharedBlocks<Dim>::hereOf(c
 template <int Dim> void SharedBlocks<Dim>::findBorders(const NodeMatrix<Dim>& K)
 {
 	const auto ownerOf = [&](int node) { return int(std::upper_bound(share_.start.begin(), share_.start.end(), node) - share_.start.begin()) - 1; };
+	const int  first = share_.first(), last = share_.last();
 	forOwnPairs(K, share_, [&](int a, int b) {
-		if (share_.owns(b)) return;
+		if (b >= first && b < last) return;
 		Border& border = borders_[ownerOf(b)];
 		border.own.push_back(a), border.others.push_back(b);
 	});

@@ -43,7 +43,7 @@ template <int Dim> std::vector<int> cutByWork(const CloudBasis<Dim>& basis, int 
 
 template <class Nodes> bool touches(const NodeShare& share, const Nodes& nodes)
 {
-	return std::any_of(std::begin(nodes), std::end(nodes), [&](int node) { return share.owns(node); });
+	return std::any_of(std::begin(nodes), std::end(nodes), [first = share.first(), last = share.last()](int node) { return node >= first && node < last; });
 }
 
 /// Of each tile, which one thread does, the patches from the first to the last one that touch a node of this process.
