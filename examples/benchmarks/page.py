@@ -142,9 +142,9 @@ def processes(runs):
 	return PROCESSES + table(heads, rows) + ON_PAPER + table(['processes', 'memory of each [GB]', 'seconds a step', 'sent by each [MB]', 'speed-up'], onPaper())
 
 
-def sharing(runs):
+def sharing(results):
 	rows = []
-	for one in runs:
+	for one in results['runs']:
 		for number, each in enumerate(one['each']):
 			times = split(each)
 			rows.append([
@@ -153,7 +153,7 @@ def sharing(runs):
 			        f"{each['peakMemory'] / 1e6:.0f}", f"{each['sent'] / each['steps'] / 1e6:.1f}"
 			])
 	heads = ['processes', 'threads of each', 'run [s]', 'basis and ghost', 'assembly', 'solve', 'update', 'from and to bodies', 'agree', 'rest', 'memory [MB]', 'sent a step [MB]']
-	return SHARING + table(heads, rows)
+	return SHARING.format(**results) + table(heads, rows)
 
 
 def onPaper():
@@ -339,7 +339,7 @@ all points.
 
 SHARING = """## Two processes
 
-The first steps of the slope with a weak layer in 3D, 262,200 points and 101,197 unknowns, by conjugate gradients (`scripts/bench sharing`): one process with one thread and with two, and two processes
+The first steps of the slope with a weak layer in 3D, 262,200 points and 101,197 unknowns, by conjugate gradients (`scripts/bench sharing`; this and the table above at revision {revision}): one process with one thread and with two, and two processes
 with one thread each, in turn; of each the quickest of five runs, with the parts of each process. What a process waits for another is in the parts where they meet. `agree`: checksum of the points before a step; the
 one after it is part of the update. With the first step comes what it takes to begin MPI and to open PETSc, some .4 s, in what is from and to bodies. Memory is the peak of the process.
 
