@@ -168,7 +168,7 @@ def onPaper():
 		sums = 2 * solves * iterations * 2.5e-5 * np.log2(count)
 		seconds = 2.4 + 30 * share + 90 / count + products / 10e9 + gathered / 1e9 + sums
 		alone = alone or seconds
-		rows.append([count, f'{1.5 + 1.8 / count:.2f}', f'{seconds:.1f}', f'{(products + gathered / count) / 1e6:.0f}', f'{alone / seconds:.0f}'])
+		rows.append([count, f'{.9 + 2.4 / count:.2f}', f'{seconds:.1f}', f'{(products + gathered / count) / 1e6:.0f}', f'{alone / seconds:.0f}'])
 	return rows
 
 
@@ -326,7 +326,7 @@ PROCESSES = """## Several processes
 `newton.tolerance` 1e-10: von Mises' slope in the plane and in 3D, the slope with friction that does not dilate (not symmetric: GMRES, with multigrid of the symmetric
 part where there are several processes, and an incomplete factor where there is one), a plate that presses, a block that is thrown, a column of sand in time. The difference is the largest of the positions
 at the end from those of one process. CPU seconds are those of the process that has taken most; they include what it spends waiting, and the other seconds do so, too. What is sent is that of one process.
-Memory is the peak of a process, of which YADE alone takes 0.32 GB beside MPI. The machine was busy with other programs: that several processes are quicker is not shown here.
+Memory is the peak of a process, of which YADE alone takes 0.32 GB beside MPI. The machine was busy with other programs, and has two processors: what two processes gain is in the next section.
 
 """
 
