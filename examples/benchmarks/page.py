@@ -326,7 +326,8 @@ PROCESSES = """## Several processes
 `newton.tolerance` 1e-10: von Mises' slope in the plane and in 3D, the slope with friction that does not dilate (not symmetric: GMRES, with multigrid of the symmetric
 part where there are several processes, and an incomplete factor where there is one), a plate that presses, a block that is thrown, a column of sand in time. The difference is the largest of the positions
 at the end from those of one process. CPU seconds are those of the process that has taken most; they include what it spends waiting, and the other seconds do so, too. What is sent is that of one process.
-Memory is the peak of a process, of which YADE alone takes 0.32 GB beside MPI. The machine was busy with other programs, and has two processors: what two processes gain is in the next section.
+Memory is the peak of a process, of which YADE alone takes 0.32 GB beside MPI. With
+two processors three processes and four take turns. With multigrid two gain nothing yet: PETSc is handed the matrix for each solve, and its set-up is divided no better than that.
 
 """
 
@@ -341,7 +342,7 @@ SHARING = """## Two processes
 
 The first steps of the slope with a weak layer in 3D, 262,200 points and 101,197 unknowns, by conjugate gradients (`scripts/bench sharing`; this and the table above at revision {revision}): one process with one thread and with two, and two processes
 with one thread each, in turn; of each the quickest of five runs, with the parts of each process. What a process waits for another is in the parts where they meet. `agree`: checksum of the points before a step; the
-one after it is part of the update. With the first step comes what it takes to begin MPI and to open PETSc, some .4 s, in what is from and to bodies. Memory is the peak of the process.
+one after it is part of the update. Both tables were measured beside other programs, with precedence over them (`chrt -f 20`). With the first step comes what it takes to begin MPI and to open PETSc, some .4 s, in what is from and to bodies. Memory is the peak of the process.
 
 """
 
