@@ -8,6 +8,7 @@ import time
 from types import SimpleNamespace
 
 from yade import mpm, pack, utils
+from yade.mpm.library import engine as library
 
 defaults = dict(
         scene='slope', # of this script's functions
@@ -76,7 +77,8 @@ def slope():
 		else: O.run(steps, wait=True)
 	peak, points, work = memory('VmHWM'), mpm.arrays(), solver.workload()
 	return dict(
-	        points=len(points['id']), unknowns=work['dofs'], steps=steps, **count, times=times, fill=fill, run=ended - begin, factorFlops=work['factorFlops'],
+	        points=len(points['id']), unknowns=work['dofs'], peakMemory=peak, sent=getattr(library, 'bytesSent', float)(), # other revisions may have none
+	        steps=steps, **count, times=times, fill=fill, run=ended - begin, factorFlops=work['factorFlops'],
 	        sceneMemory=filled - start, runMemory=peak - filled, displacement=abs(points['pos'] - points['pos0']).max(),
 	        yielded=(points['plasticStrain'] > 0).mean(), last=last
 	)

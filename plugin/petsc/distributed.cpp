@@ -2,37 +2,11 @@
 // mpm_petsc.so: several processes, which talk by MPI and solve together by PETSc.
 #include "core/solvers/distributed_module.hpp"
 #include "petsc/begin.hpp"
-#include <cstdio>
+#include "petsc/talk.hpp"
+#include <algorithm>
 #include <petscksp.h>
-#include <vector>
 
 namespace {
-
-MPI_Comm comm  = MPI_COMM_NULL; // one of our own: messages of the script, by mpi4py, are not taken for ours
-double   bytes = 0;             // that this process has sent to others, besides what PETSc has
-
-int rankOf()
-{
-	int rank;
-	MPI_Comm_rank(comm, &rank);
-	return rank;
-}
-
-int sizeOf()
-{
-	int size;
-	MPI_Comm_size(comm, &size);
-	return size;
-}
-
-/// The others wait for what will not come.
-[[noreturn]] void stop(const char* reason)
-{
-	std::fprintf(stderr, "yade.mpm: process %d cannot go on, and ends all: %s\n", rankOf(), reason);
-	std::fflush(stderr);
-	MPI_Abort(comm, 1);
-	std::abort();
-}
 
 /// f() of PETSc's, after which there are no errors.
 template <class F> void check(F&& f)
@@ -46,47 +20,10 @@ bool beginProcesses(int* rank, int* size, char* reason, int length)
 {
 	const Errors errors(reason, length);
 	if (begin()) return false;
-	if (comm == MPI_COMM_NULL) MPI_Comm_dup(MPI_COMM_WORLD, &comm);
+	beginToTalk();
 	*rank = rankOf(), *size = sizeOf();
 	return true;
 }
-
-/// Waits as MPI_Wait() does, but not for a process that has come to the end of its script, of which yade.mpm.processes tells.
-void wait(MPI_Request& request)
-{
-	constexpr int    endOfScript = 27183, seldom = 1000; // a tag, and tests between two looks
-	constexpr double grace = 5;                          // [s]; what it has taken part in ends sooner
-	double           ended = 0;
-	for (int tests = 0, isDone = 0; MPI_Test(&request, &isDone, MPI_STATUS_IGNORE), !isDone; ++tests) {
-		if (tests % seldom) continue;
-		int hasEnded = 0;
-		MPI_Iprobe(MPI_ANY_SOURCE, endOfScript, MPI_COMM_WORLD, &hasEnded, MPI_STATUS_IGNORE);
-		if (hasEnded && ended == 0) ended = MPI_Wtime();
-		if (hasEnded && MPI_Wtime() - ended > grace) stop("it is in a load step, and another process has come to the end of its script");
-	}
-}
-
-void smallest(std::int64_t* numbers, int count)
-{
-	MPI_Request request;
-	MPI_Iallreduce(MPI_IN_PLACE, numbers, count, MPI_INT64_T, MPI_MIN, comm, &request);
-	wait(request);
-	bytes += 8. * count;
-}
-
-void gather(double* all, const int* start)
-{
-	const int        size = sizeOf();
-	std::vector<int> count(size);
-	for (int r = 0; r < size; ++r)
-		count[r] = start[r + 1] - start[r];
-	MPI_Allgatherv(MPI_IN_PLACE, 0, MPI_DATATYPE_NULL, all, count.data(), start, MPI_DOUBLE, comm);
-	bytes += 8. * count[rankOf()] * (size - 1);
-}
-
-void tell(char* text, int length, int from) { MPI_Bcast(text, length, MPI_CHAR, from, comm); }
-
-double sent() { return bytes + petsc_isend_len + petsc_send_len + petsc_allreduce_ct * 8.; }
 
 struct Solver {
 	Mat K = nullptr, symmetric = nullptr; ///< of the last matrix; the same where it is symmetric
@@ -183,14 +120,10 @@ PetscErrorCode makeIteration(Solver& s, const gimpm::DistributedIteration& wante
 {
 	PetscCall(KSPCreate(comm, ksp));
 	PetscCall(KSPSetOptionsPrefix(*ksp, "mpm_"));
-	if (wanted.withMultigrid) PetscCall(KSPSetPC(*ksp, s.multigrid));
-	PC pc;
-	PetscCall(KSPGetPC(*ksp, &pc));
-	if (wanted.withMultigrid) PetscCall(KSPSetReusePreconditioner(*ksp, PETSC_TRUE));
-	else
-		PetscCall(PCSetType(pc, PCJACOBI));
-	Mat before = s.K;
-	if (wanted.withMultigrid) PetscCall(PCGetOperators(pc, nullptr, &before)); // the one that it is of
+	PetscCall(KSPSetPC(*ksp, s.multigrid));
+	PetscCall(KSPSetReusePreconditioner(*ksp, PETSC_TRUE));
+	Mat before;
+	PetscCall(PCGetOperators(s.multigrid, nullptr, &before)); // the one that it is of
 	PetscCall(PetscObjectReference(reinterpret_cast<PetscObject>(before)));
 	PetscCall(KSPSetOperators(*ksp, s.K, before));
 	PetscCall(MatDestroy(&before));
@@ -302,9 +235,20 @@ bool substitute(void* solver, const double* b, double* x)
 	return hasSolved;
 }
 
-constexpr gimpm::DistributedModule module {
-	gimpm::distributedVersion, &beginProcesses, &smallest, &gather, &tell, &sent, &create, &destroy, &setMatrix, &setUp, &iterate, &factorise, &substitute
-};
+constexpr gimpm::DistributedModule module { gimpm::distributedVersion,
+	                                    &beginProcesses,
+	                                    &smallest,
+	                                    &gather,
+	                                    &exchange,
+	                                    &tell,
+	                                    &sent,
+	                                    &create,
+	                                    &destroy,
+	                                    &setMatrix,
+	                                    &setUp,
+	                                    &iterate,
+	                                    &factorise,
+	                                    &substitute };
 
 }
 

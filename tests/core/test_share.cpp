@@ -15,6 +15,7 @@ namespace {
 		int         size() const override { return all; }
 		void        smallest(std::int64_t*, int) const override { }
 		void        gather(double*, const int*) const override { }
+		void        exchange(const Parcel*, int) const override { }
 		std::string told(const std::string& text, int) const override { return text; }
 		double      sent() const override { return 0; }
 	};
@@ -66,6 +67,8 @@ namespace {
 					const int first = Dim * part.share()->first(), rows = Dim * part.share()->last() - first;
 					EXPECT_EQ(first, next);
 					EXPECT_GT(rows, 0);
+					EXPECT_EQ(ownK.keeps(0), rank == 0) << "no memory for blocks far below";
+					EXPECT_EQ(ownK.keeps(whole.nodalSize() / Dim - 1), rank == processes - 1) << "nor above";
 					next               = first + rows;
 					const auto differs = [&](const auto& a, const auto& b) { return (a - b).norm() / b.norm(); };
 					EXPECT_LT(differs(ownForce.segment(first, rows), force.segment(first, rows)), 1e-13);

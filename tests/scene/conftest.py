@@ -8,12 +8,16 @@ import os
 import shutil
 import signal
 import subprocess
+import sys
 from dataclasses import dataclass
 from pathlib import Path
 
 import pytest
 
 root = Path(__file__).resolve().parents[2]
+sys.path.append(str(root / 'scripts' / 'lib'))
+from mpi import byMpi, makingRoom
+
 build = root / 'build'
 systemYade = Path('/usr/lib/x86_64-linux-gnu/yade-double')
 
@@ -59,11 +63,10 @@ class Yade:
 		if not isinstance(script, Path):
 			text, script = script, self.folder / 'script.py'
 			script.write_text(text)
-		mpirun = ['mpirun', '--allow-run-as-root', '--oversubscribe', '--bind-to', 'none', '-n', str(processes)] if processes > 1 else []
 		ended = subprocess.run(
-		        [*mpirun, self.command, '-n', '-x', f'-j{threads}', *options, str(script), *map(str, arguments)],
+		        [*byMpi(processes), self.command, '-n', '-x', f'-j{threads}', *options, str(script), *map(str, arguments)],
 		        cwd=self.folder,
-		        env=os.environ | {'OMPI_MCA_mpi_yield_when_idle': '1'} | self.ownSettings() | self.environment | environment,
+		        env=os.environ | makingRoom | self.ownSettings() | self.environment | environment,
 		        timeout=timeout,
 		        stdout=subprocess.PIPE,
 		        stderr=stderr,

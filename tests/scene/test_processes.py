@@ -47,6 +47,7 @@ def test_two_processes_come_to_the_states_of_one(yade):
 			assert [first[key] for key in same] == [second[key] for key in same]
 			assert first['fallbacks'] == 0 and first['sent'] > 0 < second['sent'] and one['sent'] == 0
 			assert (first['iterations'] > 0) == (method != 'direct')
+			assert 'agree' in first['parts'] and 'agree' not in one['parts']
 	solves, iterations = (methods['iterative'][0]['slope3'][0][key] for key in ('solves', 'iterations'))
 	assert (solves, iterations) == (results['slope3'][0]['solves'], results['slope3'][0]['iterations']), 'conjugate gradients do the same'
 

@@ -6,6 +6,15 @@
 
 namespace gimpm {
 
+/// Numbers for another process, and those that it has for this one.
+struct Parcel {
+	int           process;
+	const double* sent;
+	int           sentCount;
+	double*       received;
+	int           receivedCount;
+};
+
 /// What one of them says to the others. Each function is called by all of them, in the same order; a process that cannot go on ends all.
 class Processes {
 public:
@@ -19,6 +28,9 @@ public:
 
 	/// Process r gives all[start[r]] ... all[start[r + 1] - 1] to the others.
 	virtual void gather(double* all, const int* start) const = 0;
+
+	/// One parcel at most with each process, which calls this with the other side of it.
+	virtual void exchange(const Parcel* parcels, int count) const = 0;
 
 	/// The text of the process `from`.
 	virtual std::string told(const std::string& text, int from) const = 0;

@@ -10,23 +10,28 @@ constexpr std::size_t worthwhileInThreads = 100000; ///< numbers: some 50 us, te
 
 }
 
-template <int Dim> BlockMatrix<Dim>::BlockMatrix(const NodeMatrix<Dim>& K, const FreeDofs& dofs) : first_ { 0 }
+template <int Dim> BlockMatrix<Dim>::BlockMatrix(const NodeMatrix<Dim>& K, const FreeDofs& dofs) : BlockMatrix(K, dofs, { 0, K.nodes() }, { 0, K.nodes() }) { }
+
+template <int Dim> BlockMatrix<Dim>::BlockMatrix(const NodeMatrix<Dim>& K, const FreeDofs& dofs, const Range& here, const Range& own) : first_ { 0 }
 {
-	const auto isHeld = [&](int node, int axis) { return dofs.number[Dim * node + axis] < 0; };
-	for (int a = 0; a < K.nodes(); ++a) {
+	const auto isHeld  = [&](int node, int axis) { return dofs.number[Dim * node + axis] < 0; };
+	const auto isOwn   = [&](int node) { return node >= own.first && node < own.second; };
+	const auto isThere = [&](int a, int c) { return c == 0 || (K.used(a, c) && (isOwn(a) || isOwn(K.neighbour(a, c)))); };
+	for (int a = here.first; a < here.second; ++a) {
 		for (int c = 0; c < K.codes; ++c)
-			if (c == 0 || K.used(a, c)) neighbour_.push_back(K.neighbour(a, c));
+			if (isThere(a, c)) neighbour_.push_back(K.neighbour(a, c) - here.first);
 		first_.push_back(int(neighbour_.size()));
 	}
 	value_.resize(neighbour_.size() * block);
 	double* out = value_.data();
-	for (int a = 0; a < K.nodes(); ++a)
+	for (int a = here.first; a < here.second; ++a)
 		for (int c = 0; c < K.codes; ++c) {
-			if (c > 0 && !K.used(a, c)) continue;
-			const double* in = K.at(a, c);
+			if (!isThere(a, c)) continue;
+			const bool    isAlone = c == 0 && !isOwn(a); // this block is in no row or column of the own nodes
+			const double* in      = isAlone ? nullptr : K.at(a, c);
 			for (int i = 0; i < Dim; ++i)
-				for (int j = 0; j < Dim; ++j, ++in)
-					*out++ = isHeld(a, i) || isHeld(K.neighbour(a, c), j) ? double(c == 0 && i == j) : *in;
+				for (int j = 0; j < Dim; ++j)
+					*out++ = isAlone || isHeld(a, i) || isHeld(K.neighbour(a, c), j) ? double(c == 0 && i == j) : in[i * Dim + j];
 		}
 	cutIntoSlabs();
 }

@@ -43,13 +43,15 @@ double dot(const Eigen::VectorXd& a, const Eigen::VectorXd& b)
 /// An incomplete Cholesky factor instead of the diagonal takes a third of the iterations, but in 3D computing that factor takes longer than all of
 /// them, and may break down.
 ConjugateGradients::ConjugateGradients(const SymmetricOperator& K, const Eigen::VectorXd& b, double tolerance)
-        : K_(K), size_(b.stableNorm()), tolerance_(tolerance), x_(Eigen::VectorXd::Zero(b.size())) // its square may vanish or overflow
+        : K_(K), size_(K.norm(b)), tolerance_(tolerance), x_(Eigen::VectorXd::Zero(b.size())) // its square may vanish or overflow
 {
 	error_ = size_;
 	if (size_ == 0) return;
-	residual_ = b / size_;
-	inverse_  = K.diagonal();
-	if (!(inverse_.array() > 0).all()) {
+	residual_          = b / size_;
+	inverse_           = K.diagonal();
+	double notPositive = double((!(inverse_.array() > 0)).count());
+	K.complete(&notPositive, 1);
+	if (notPositive > 0) {
 		fail(notDefinite);
 		return;
 	}
@@ -68,16 +70,16 @@ void ConjugateGradients::precondition(const Preconditioner* preconditioner)
 
 void ConjugateGradients::begin()
 {
-	error_ = std::sqrt(dot(residual_, residual_));
+	error_ = std::sqrt(product(residual_, residual_));
 	if (preconditioner_ && !preconditionResidual()) return;
 	direction_ = preconditioner_ ? preconditioned_ : inverse_.cwiseProduct(residual_);
-	gain_      = dot(residual_, direction_);
+	gain_      = product(residual_, direction_);
 }
 
 bool ConjugateGradients::preconditionResidual()
 {
 	fault_ = preconditioner_->apply(residual_, preconditioned_);
-	if (fault_.empty() && !(dot(residual_, preconditioned_) >= 0)) fault_ = "the preconditioner is not positive definite";
+	if (fault_.empty() && !(product(residual_, preconditioned_) >= 0)) fault_ = "the preconditioner is not positive definite";
 	failure_ = fault_;
 	return fault_.empty();
 }
@@ -87,7 +89,6 @@ bool ConjugateGradients::iterate(int atMost)
 	for (int i = 0; i < atMost && !hasConverged() && failure_.empty(); ++i) {
 		if (!step()) break;
 		++made_;
-		error_ = std::sqrt(dot(residual_, residual_));
 	}
 	return hasConverged() || !failure_.empty();
 }
@@ -95,13 +96,12 @@ bool ConjugateGradients::iterate(int atMost)
 bool ConjugateGradients::step()
 {
 	K_.multiply(direction_, force_);
-	const double curvature = dot(direction_, force_);
+	const double curvature = product(direction_, force_);
 	if (!(curvature > 0)) return fail(notDefinite), false;
-	const double before = gain_;
-	improve(gain_ / curvature);
+	const double before = gain_, error = improve(gain_ / curvature);
 	if (preconditioner_) {
 		if (!preconditionResidual()) return false;
-		gain_ = dot(residual_, preconditioned_);
+		gain_ = product(residual_, preconditioned_);
 	}
 	const double growth = gain_ / before;
 	forParts(x_.size(), [&](int, Eigen::Index begin, Eigen::Index count) {
@@ -110,18 +110,31 @@ bool ConjugateGradients::step()
 		else
 			direction = inverse_.segment(begin, count).cwiseProduct(residual_.segment(begin, count)) + growth * direction;
 	});
+	error_ = error;
 	return true;
 }
 
-/// A step of this length, and what the diagonal makes of the residual that is left.
-void ConjugateGradients::improve(double length)
+/// A step of this length, and what the diagonal makes of the residual that is left; its size.
+double ConjugateGradients::improve(double length)
 {
-	gain_ = sumOfParts(x_.size(), [&](Eigen::Index begin, Eigen::Index count) {
+	double sums[2]; // told to other processes at once
+	sums[0] = sumOfParts(x_.size(), [&](Eigen::Index begin, Eigen::Index count) {
 		x_.segment(begin, count) += length * direction_.segment(begin, count);
 		auto residual = residual_.segment(begin, count);
 		residual -= length * force_.segment(begin, count);
 		return residual.dot(inverse_.segment(begin, count).cwiseProduct(residual));
 	});
+	sums[1] = dot(residual_, residual_);
+	K_.complete(sums, 2);
+	gain_ = sums[0];
+	return std::sqrt(sums[1]);
+}
+
+double ConjugateGradients::product(const Eigen::VectorXd& a, const Eigen::VectorXd& b) const
+{
+	double sum = dot(a, b);
+	K_.complete(&sum, 1);
+	return sum;
 }
 
 std::string ConjugateGradients::take(Eigen::VectorXd& x) const

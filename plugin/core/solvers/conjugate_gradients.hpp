@@ -31,6 +31,8 @@ public:
 	double error() const { return error_; } ///< |b - K x| / |b|
 	bool   hasConverged() const { return error_ <= tolerance_; }
 
+	bool hasBrokenDown() const { return !failure_.empty(); }
+
 	/// Why the preconditioner has failed, if it has.
 	const std::string& fault() const { return fault_; }
 
@@ -38,11 +40,12 @@ public:
 	std::string take(Eigen::VectorXd& x) const;
 
 private:
-	void begin();
-	bool step();
-	void improve(double length);
-	bool preconditionResidual();
-	void fail(const char* reason) { failure_ = reason; }
+	void   begin();
+	bool   step();
+	double improve(double length);
+	double product(const Eigen::VectorXd&, const Eigen::VectorXd&) const;
+	bool   preconditionResidual();
+	void   fail(const char* reason) { failure_ = reason; }
 
 	const SymmetricOperator& K_;
 	const Preconditioner*    preconditioner_ = nullptr; ///< null: the diagonal

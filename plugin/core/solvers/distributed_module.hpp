@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // What the core asks of a library that lets several processes talk and solve together, which it opens only then: nothing of it is known here.
 #pragma once
-#include <cstdint>
+#include "core/base/processes.hpp"
 
 namespace gimpm {
 
@@ -17,12 +17,11 @@ struct DistributedRows {
 	const double* position;      ///< dim numbers a node, for the rigid motions of the body; null: only translations leave it without stress
 };
 
-/// Conjugate gradients, or GMRES where K is not symmetric.
+/// Conjugate gradients, or GMRES where K is not symmetric, with multigrid.
 struct DistributedIteration {
-	bool   withMultigrid; ///< or with the diagonal
-	bool   goesOn;        ///< from x, instead of from zero
-	double tolerance;     ///< |b - K x| <= tolerance |b|
-	int    atMost;        ///< iterations
+	bool   goesOn;    ///< from x, instead of from zero
+	double tolerance; ///< |b - K x| <= tolerance |b|
+	int    atMost;    ///< iterations
 	int    made;
 	double error; ///< |b - K x|
 	bool   hasConverged, hasBrokenDown;
@@ -35,6 +34,7 @@ struct DistributedModule {
 	bool (*begin)(int* rank, int* size, char* reason, int length);
 	void (*smallest)(std::int64_t* numbers, int count);
 	void (*gather)(double* all, const int* start);
+	void (*exchange)(const Parcel* parcels, int count);
 	void (*tell)(char* text, int length, int from);
 	double (*sent)(); ///< by this process [bytes]
 	void* (*create)();
@@ -47,7 +47,7 @@ struct DistributedModule {
 	bool (*substitute)(void* solver, const double* b, double* x);
 };
 
-constexpr int         distributedVersion = 1;
+constexpr int         distributedVersion = 2;
 constexpr const char* distributedSymbol  = "mpm_distributed"; ///< const DistributedModule* mpm_distributed(), in C
 
 } // namespace gimpm

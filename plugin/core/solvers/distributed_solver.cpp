@@ -4,6 +4,7 @@
 #include "core/solvers/blas_threads.hpp"
 #include "core/solvers/conjugate_gradients.hpp"
 #include "core/solvers/petsc_library.hpp"
+#include "core/solvers/solver_limits.hpp"
 #include <algorithm>
 #include <cmath>
 
@@ -11,16 +12,6 @@ namespace gimpm {
 namespace {
 
 const DistributedModule& library() { return *PetscLibrary::get().distributed; }
-
-constexpr double smallestPivot = 1e-12; ///< as in one process
-
-/// As in one process: iterations with the diagonal before multigrid is tried, and those that multigrid is given.
-constexpr int patience = 300, mostWithMultigrid = 250;
-
-/// Iterations over those of the first solve with which multigrid is given up at once, and with which it is renewed for the next solve.
-constexpr double tooMany = 2, worthRenewing = 1.5;
-
-constexpr int few = 5; ///< iterations which say nothing
 
 DistributedRows viewOf(const NodeRows& rows, const std::vector<double>& value)
 {
@@ -109,16 +100,30 @@ struct DistributedSolver::Spread {
 };
 
 struct DistributedSolver::Task {
-	const NodeRows&  rows;
-	const Unknowns&  unknowns;
-	const Spread&    spread;
-	bool             isSymmetric;
-	Eigen::VectorXd  b, x; ///< of this process
-	double           tolerance;
-	SolverTimes&     times;
-	IterativeEffort& effort;
-	double           error  = 1; ///< |b - K x| / |b|
-	bool             goesOn = false, isIndefinite = false;
+	const NodeProblem&      problem;
+	bool                    isSymmetric;
+	Eigen::VectorXd         b; ///< on the free degrees of freedom, of size 1
+	double                  tolerance;
+	SolverTimes&            times;
+	IterativeEffort&        effort;
+	Eigen::VectorXd         x {};
+	double                  error  = 1; ///< |b - K x| / |b|
+	bool                    goesOn = false, isIndefinite = false;
+	std::string             failure {}; ///< of the iterations
+	std::optional<NodeRows> rows {};    ///< for the library; read when they are needed
+	std::unique_ptr<Spread> spread {};
+
+	/// Empty, or why there are none.
+	std::string readRows()
+	{
+		if (rows) return "";
+		rows                       = problem.rows();
+		const std::string obstacle = obstacleOf(rows, *problem.share());
+		if (!obstacle.empty()) rows.reset();
+		else
+			spread.reset(new Spread { *problem.share(), rows->dof, problem.unknowns().isFree });
+		return obstacle;
+	}
 };
 
 /// As the factor is that of D K D, with ones on the diagonal.
@@ -144,24 +149,16 @@ SolverStatus DistributedSolver::solve(
         const NodeProblem& problem, bool isSymmetric, const Eigen::VectorXd& b, Eigen::VectorXd& x, LinearMethod method, double tolerance, SolverTimes& times,
         IterativeEffort& effort)
 {
-	const OneBlasThread           guard;
-	const NodeShare&              share    = *problem.share();
-	const Unknowns                unknowns = problem.unknowns();
-	const std::optional<NodeRows> rows     = problem.rows();
-	const double                  size     = b.stableNorm(); // its square may vanish or overflow
-	x                                      = b;
+	const OneBlasThread guard;
+	const double        size = b.stableNorm(); // its square may vanish or overflow
+	x                        = b;
 	factor_.reset();
 	if (size == 0) return SolverStatus::iterative;
-	if (const std::string obstacle = obstacleOf(rows, share); !obstacle.empty()) return effort.reason = obstacle, SolverStatus::singular;
-	const Spread          spread { share, rows->dof, unknowns.isFree };
-	const Eigen::VectorXd own = spread.own(b) / size;
-	Task                  task { *rows, unknowns, spread, isSymmetric, own, own, tolerance, times, effort };
+	Task task { problem, isSymmetric, b / size, tolerance, times, effort };
 	if (method != LinearMethod::direct) {
-		if (iterate(task, method)) {
-			x = size * spread.whole(task.x);
-			if (x.allFinite()) return SolverStatus::iterative;
-		}
+		if (iterate(task, method) && task.x.allFinite()) return x = size * task.x, SolverStatus::iterative;
 		++effort.fallbacks;
+		effort.reason = task.failure;
 	}
 	const SolverStatus status = factorise(task);
 	const Stopwatch    watch(times.solve);
@@ -176,22 +173,40 @@ bool DistributedSolver::solveAgain(const Eigen::VectorXd& b, Eigen::VectorXd& x)
 
 bool DistributedSolver::iterate(Task& task, LinearMethod method)
 {
-	const auto rows = viewOf(task.rows, task.rows.value);
-	library().setMatrix(solver_, &rows);
-	if (task.isSymmetric && method == LinearMethod::iterative) return run(task, false, mostIterations);
+	if (task.isSymmetric && method == LinearMethod::iterative) return iterateWithDiagonal(task, mostIterations);
 	const bool isTried = task.isSymmetric && method == LinearMethod::automatic && !diagonalFails_;
-	if (isTried && run(task, false, patience)) return true;
+	if (isTried && iterateWithDiagonal(task, patience)) return true;
 	if (task.isIndefinite) return false; // which multigrid does not change
 	diagonalFails_ = diagonalFails_ || isTried;
 	return iterateWithMultigrid(task);
 }
 
+/// As one process does it: the library has to be given the matrix in another form, both triangles, of which a product takes twice as long.
+bool DistributedSolver::iterateWithDiagonal(Task& task, int atMost)
+{
+	const Stopwatch    watch(task.times.solve);
+	const auto         K   = task.problem.blocks();
+	Eigen::VectorXd    all = task.problem.expanded(task.b), own;
+	ConjugateGradients iteration(*K, task.problem.share()->own(all), task.tolerance);
+	iteration.iterate(atMost);
+	task.failure                   = iteration.take(own);
+	task.problem.share()->own(all) = own;
+	task.problem.share()->complete(all);
+	task.x = task.problem.ofFreeDofs(all);
+	task.effort.iterations += iteration.made();
+	task.error        = iteration.error();
+	task.isIndefinite = iteration.hasBrokenDown();
+	task.goesOn       = !task.isIndefinite && task.x.allFinite();
+	return iteration.hasConverged();
+}
+
 bool DistributedSolver::iterateWithMultigrid(Task& task)
 {
-	if (task.unknowns == unknowns_ && task.spread.share.start == start_) {
+	if (!giveMatrix(task)) return false;
+	if (task.problem.unknowns() == unknowns_ && task.problem.share()->start == start_) {
 		const double expected = perDecade_ * std::log10(task.error / task.tolerance);
 		const int    before   = task.effort.iterations;
-		if (run(task, true, few + int(tooMany * expected))) {
+		if (run(task, few + int(tooMany * expected))) {
 			if (task.effort.iterations - before > few + worthRenewing * expected) unknowns_ = {};
 			return true;
 		}
@@ -199,26 +214,37 @@ bool DistributedSolver::iterateWithMultigrid(Task& task)
 	setUp(task);
 	const double error        = task.error;
 	const int    before       = task.effort.iterations;
-	const bool   hasConverged = run(task, true, mostWithMultigrid);
+	const bool   hasConverged = run(task, mostWithMultigrid);
 	perDecade_                = (task.effort.iterations - before) / std::max(std::log10(error / task.error), 1e-3);
 	if (!hasConverged) unknowns_ = {};
 	return hasConverged;
 }
 
-/// So many iterations at most, from where it is. Whether it has converged.
-bool DistributedSolver::run(Task& task, bool withMultigrid, int atMost)
+/// To the library.
+bool DistributedSolver::giveMatrix(Task& task)
 {
-	const Stopwatch      watch(task.times.solve);
-	DistributedIteration iteration { withMultigrid, task.goesOn, task.tolerance, atMost, 0, task.error, false, false };
-	library().iterate(solver_, &iteration, task.b.data(), task.x.data());
+	const Stopwatch watch(task.times.solve);
+	if (std::string obstacle = task.readRows(); !obstacle.empty()) return task.failure = obstacle, false;
+	const auto view = viewOf(*task.rows, task.rows->value);
+	library().setMatrix(solver_, &view);
+	return true;
+}
+
+/// So many iterations with multigrid at most, from where it is. Whether it has converged.
+bool DistributedSolver::run(Task& task, int atMost)
+{
+	const Stopwatch       watch(task.times.solve);
+	const Eigen::VectorXd b = task.spread->own(task.b);
+	Eigen::VectorXd       x = task.goesOn ? task.spread->own(task.x) : b;
+	DistributedIteration  iteration { task.goesOn, task.tolerance, atMost, 0, task.error, false, false };
+	library().iterate(solver_, &iteration, b.data(), x.data());
+	task.x = task.spread->whole(x);
 	task.effort.iterations += iteration.made;
-	task.error        = iteration.error;
-	task.goesOn       = !iteration.hasBrokenDown && std::isfinite(iteration.error);
-	task.isIndefinite = iteration.hasBrokenDown && !withMultigrid;
+	task.error  = iteration.error;
+	task.goesOn = !iteration.hasBrokenDown && std::isfinite(iteration.error);
 	if (!iteration.hasConverged)
-		task.effort.reason = std::string(withMultigrid ? "multigrid" : "conjugate gradients")
-		        + (iteration.hasBrokenDown ? ": the matrix is not positive definite"
-		                                   : ": no convergence in " + std::to_string(iteration.made) + " iterations");
+		task.failure = iteration.hasBrokenDown ? "multigrid: the matrix is not positive definite"
+		                                       : "multigrid: no convergence in " + std::to_string(iteration.made) + " iterations";
 	return iteration.hasConverged;
 }
 
@@ -227,17 +253,18 @@ void DistributedSolver::setUp(Task& task)
 	const Stopwatch watch(task.times.factorise);
 	library().setUp(solver_);
 	++task.effort.hierarchies;
-	unknowns_ = task.unknowns;
-	start_    = task.spread.share.start;
+	unknowns_ = task.problem.unknowns();
+	start_    = task.problem.share()->start;
 }
 
 /// D K D with ones on the diagonal, as in one process.
 SolverStatus DistributedSolver::factorise(Task& task)
 {
-	const Stopwatch       watch(task.times.factorise);
-	const NodeRows&       rows  = task.rows;
+	const Stopwatch watch(task.times.factorise);
+	if (std::string obstacle = task.readRows(); !obstacle.empty()) return task.effort.reason = obstacle, SolverStatus::singular;
+	const NodeRows&       rows  = *task.rows;
 	const Eigen::VectorXd scale = scaleOf(rows);
-	const auto            ofAll = task.spread.ofAllRows(scale, rows);
+	const auto            ofAll = task.spread->ofAllRows(scale, rows);
 	std::vector<double>   scaled(rows.value);
 	for (int r = 0; r < rows.rows(); ++r)
 		for (int e = rows.start[r]; e < rows.start[r + 1]; ++e)
@@ -246,7 +273,7 @@ SolverStatus DistributedSolver::factorise(Task& task)
 	library().setMatrix(solver_, &view);
 	int negative = 0;
 	if (!library().factorise(solver_, smallestPivot, &negative)) return SolverStatus::singular;
-	factor_.reset(new Factor { task.spread, scale });
+	factor_.reset(new Factor { *task.spread, scale });
 	return task.isSymmetric && negative == 0 ? SolverStatus::cholesky : SolverStatus::lu;
 }
 

@@ -32,7 +32,9 @@ private:
 
 	bool         iterate(Task&, LinearMethod);
 	bool         iterateWithMultigrid(Task&);
-	bool         run(Task&, bool withMultigrid, int atMost);
+	bool         iterateWithDiagonal(Task&, int atMost);
+	bool         giveMatrix(Task&);
+	bool         run(Task&, int atMost);
 	void         setUp(Task&);
 	SolverStatus factorise(Task&);
 

@@ -9,12 +9,10 @@
 #include "core/solvers/lu.hpp"
 #include "core/solvers/node_solver.hpp"
 #include "core/solvers/reversed.hpp"
+#include "core/solvers/solver_limits.hpp"
 
 namespace gimpm {
 namespace {
-
-/// A pivot that is left of a row's diagonal of about one. Below it, round-off of the rows before is what it consists of.
-constexpr double smallestPivot = 1e-12;
 
 /// Operations of the factorisation for each stored entry of K above which an iterative solver is preferred. The number grows with the unknowns
 /// in 3D, with their square root in 2D; so does the number of conjugate gradients' iterations, with the cube and the square root. Measured on

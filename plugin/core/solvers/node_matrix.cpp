@@ -19,12 +19,27 @@ template <int Dim> Key keyOffset(int code)
 
 template <int Dim> void NodeMatrix<Dim>::reset(const std::vector<Key>& nodes, bool isSymmetric, const Grid<Dim>& grid)
 {
+	reset(nodes, isSymmetric, grid, { 0, int(nodes.size()) });
+}
+
+template <int Dim> void NodeMatrix<Dim>::reset(const std::vector<Key>& nodes, bool isSymmetric, const Grid<Dim>& grid, const Range& own)
+{
 	keys_        = nodes;
 	isSymmetric_ = isSymmetric;
 	isPeriodic_  = grid.isPeriodic();
-	values_.assign(nodes.size() * codes * block, 0.);
+	kept_        = own;
+	if (isPeriodic_) kept_ = { 0, this->nodes() }; // blocks around the grid may be with any node
+	else if (own.first < own.second)               // a block is with the lower one of its nodes
+		kept_.first = position(nodes, nodes[own.first] - keyOffset<Dim>(codes - 1));
+	values_.assign(std::size_t(kept_.second - kept_.first) * codes * block, 0.);
 	skew_.assign(isSymmetric ? 0 : values_.size(), 0.);
 	used_.assign(nodes.size(), 0);
+	findNeighbours(grid);
+}
+
+template <int Dim> void NodeMatrix<Dim>::findNeighbours(const Grid<Dim>& grid)
+{
+	const auto& nodes = keys_;
 	neighbour_.assign(nodes.size() * codes, -1);
 	for (int c = 0; c < codes; ++c) {
 		const Key   offset = keyOffset<Dim>(c);
@@ -55,6 +70,7 @@ template <int Dim> void NodeMatrix<Dim>::multiplyBy(double factor)
 
 template <int Dim> void NodeMatrix<Dim>::add(int a, int b, int code, const Mat<Dim>& ab)
 {
+	if (!keeps(code >= 0 ? a : b)) return;
 	if (code >= 0) Eigen::Map<RowMajor>(at(a, code)) += ab;
 	if (code == 0 || isSymmetric_) return;
 	if (code > 0) Eigen::Map<RowMajor>(skewAt(a, code)) -= ab;
@@ -65,7 +81,7 @@ template <int Dim> void NodeMatrix<Dim>::add(int a, int b, int code, const Mat<D
 template <int Dim> void NodeMatrix<Dim>::multiplyAdd(const Eigen::VectorXd& x, Eigen::VectorXd& y) const
 {
 	using Block = Eigen::Map<const RowMajor>;
-	for (int a = 0; a < nodes(); ++a)
+	for (int a = kept_.first; a < kept_.second; ++a)
 		for (int c = 0; c < codes; ++c) {
 			if (!used(a, c)) continue;
 			const Block K(at(a, c));

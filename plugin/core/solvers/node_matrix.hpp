@@ -3,6 +3,7 @@
 #pragma once
 #include "core/grid/grid.hpp"
 #include <array>
+#include <utility>
 #include <vector>
 
 namespace gimpm {
@@ -21,10 +22,17 @@ public:
 	/// Code of the offset b - a, negative if that points to a lower node; a block is stored with the lower one.
 	template <class Offset> static constexpr int code(const Offset& o) { return Dim == 2 ? o[0] + 5 * o[1] : o[0] + 5 * o[1] + 25 * o[2]; }
 
-	/// Sets up a zero matrix for these nodes (sorted).
+	/// A range of nodes, as first one and end.
+	using Range = std::pair<int, int>;
+
+	/// Sets up a zero matrix for these nodes (sorted). Of one that several processes share only the rows and columns of the nodes `own` are wanted.
 	void reset(const std::vector<Key>& nodes, bool isSymmetric = true, const Grid<Dim>& = {});
+	void reset(const std::vector<Key>& nodes, bool isSymmetric, const Grid<Dim>&, const Range& own);
 	void setZero();
 	void multiplyBy(double factor);
+
+	/// Whether there are blocks of this node, which rows or columns that are wanted may need. Others are neither read nor written.
+	bool keeps(int node) const { return unsigned(node) - unsigned(kept_.first) < unsigned(kept_.second - kept_.first); }
 
 	double*                 at(int node, int code) { return values_.data() + place(node, code); }
 	const double*           at(int node, int code) const { return values_.data() + place(node, code); }
@@ -41,19 +49,21 @@ public:
 	const double* skewAt(int node, int code) const { return skew_.data() + place(node, code); }
 
 	/// Adds to K_ab, not to K_ba, of two nodes in any order; `code` is that of the offset b - a, negative where b is the lower one. A symmetric
-	/// matrix keeps only what is for the lower node's row.
+	/// matrix keeps only what is for the lower node's row. Of nodes without blocks nothing is added.
 	void add(int a, int b, int code, const Mat<Dim>& ab);
 
-	/// y += K x, for nodal vectors of Dim components a node.
+	/// y += K x, for nodal vectors of Dim components a node; right in the rows that are wanted.
 	void multiplyAdd(const Eigen::VectorXd& x, Eigen::VectorXd& y) const;
 
 private:
 	using RowMajor = Eigen::Matrix<double, Dim, Dim, Eigen::RowMajor>;
 
-	static std::size_t place(int node, int code) { return (std::size_t(node) * codes + code) * block; }
+	void        findNeighbours(const Grid<Dim>&);
+	std::size_t place(int node, int code) const { return (std::size_t(node - kept_.first) * codes + code) * block; }
 
 	std::vector<Key>           keys_;
-	std::vector<double>        values_, skew_;
+	Range                      kept_ { 0, 0 };
+	std::vector<double>        values_, skew_; // of the nodes that are kept
 	bool                       isSymmetric_ = true, isPeriodic_ = false;
 	std::vector<std::uint64_t> used_;
 	std::vector<int>           neighbour_; // number of the node at each offset; -1: not active

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "core/solvers/node_problem.hpp"
-#include "core/solvers/block_matrix.hpp"
+#include "core/solvers/shared_blocks.hpp"
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -20,7 +20,11 @@ public:
 		};
 		return K_.isSymmetric() ? in(SymmetricCsc()) : in(GeneralCsc());
 	}
-	std::unique_ptr<SymmetricOperator> blocks() const override { return std::make_unique<BlockMatrix<Dim>>(K_, dofs_); }
+	std::unique_ptr<SymmetricOperator> blocks() const override
+	{
+		if (share_) return std::make_unique<SharedBlocks<Dim>>(K_, dofs_, *share_);
+		return std::make_unique<BlockMatrix<Dim>>(K_, dofs_);
+	}
 
 	Eigen::VectorXd expanded(const Eigen::VectorXd& x) const override
 	{

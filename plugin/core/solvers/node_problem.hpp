@@ -25,7 +25,7 @@ struct NodeProblem {
 
 	virtual std::variant<SymmetricCsc, GeneralCsc> compressed() const = 0;
 
-	/// Of a symmetric matrix, for vectors over all degrees of freedom, with zeros for the held ones.
+	/// Of a symmetric matrix, for vectors over all degrees of freedom, with zeros for the held ones; where processes share the matrix, for the rows of this one.
 	virtual std::unique_ptr<SymmetricOperator> blocks() const                             = 0;
 	virtual Eigen::VectorXd                    expanded(const Eigen::VectorXd& x) const   = 0;
 	virtual Eigen::VectorXd                    ofFreeDofs(const Eigen::VectorXd& x) const = 0;

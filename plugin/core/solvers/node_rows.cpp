@@ -83,6 +83,7 @@ private:
 				if (c > 0 && !K_.used(a, c)) continue;
 				const int b = K_.neighbour(a, c);
 				if (row_[b] < 0) continue;
+				if (!isOwn(row_[a]) && !isOwn(row_[b])) continue; // it may not be here
 				const double* skew = c == 0 || K_.isSymmetric() ? nullptr : K_.skewAt(a, c);
 				if (isOwn(row_[a])) f(row_[a], Block { row_[b], false, K_.at(a, c), skew, c == 0 && !K_.isSymmetric() });
 				if (c > 0 && isOwn(row_[b])) f(row_[b], Block { row_[a], true, K_.at(a, c), skew });

@@ -16,6 +16,13 @@ struct NodeShare {
 	int  last() const { return start[processes.rank() + 1]; }
 	bool owns(int node) const { return node >= first() && node < last(); }
 
+	/// The rows of this process of a vector over nodes.
+	auto own(Eigen::VectorXd& nodal) const
+	{
+		const int dim = int(nodal.size() / start.back());
+		return nodal.segment(dim * first(), dim * (last() - first()));
+	}
+
 	/// Of a vector over nodes each process knows its own rows, and then all.
 	void complete(Eigen::VectorXd& nodal) const
 	{

@@ -2,25 +2,15 @@
 #include "core/solvers/node_solver.hpp"
 #include "core/base/stopwatch.hpp"
 #include "core/solvers/blas_threads.hpp"
+#include "core/solvers/solver_limits.hpp"
 #include <algorithm>
 #include <cmath>
 
 namespace gimpm {
 namespace {
 
-/// Iterations with the diagonal that an attempt is worth. To set up multigrid and solve with it takes as long as some 300 of them.
-constexpr int patience = 300;
-
 /// A body in which the diagonal has failed stays as it is, though its nodes change: so many times it is not tried again.
 constexpr int memory = 8;
-
-/// Iterations with multigrid, which take as long as what the diagonal is given.
-constexpr int mostWithMultigrid = 250;
-
-/// Iterations over those of the first solve with which multigrid is given up at once, and with which it is renewed for the next solve.
-constexpr double tooMany = 2, worthRenewing = 1.5;
-
-constexpr int few = 5; ///< iterations which say nothing
 
 } // namespace
 

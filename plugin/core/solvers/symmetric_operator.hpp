@@ -5,6 +5,7 @@
 
 namespace gimpm {
 
+/// Of a matrix that several processes share each has some rows, and of vectors the same.
 struct SymmetricOperator {
 	virtual ~SymmetricOperator() = default;
 
@@ -12,6 +13,12 @@ struct SymmetricOperator {
 	virtual void multiply(const Eigen::VectorXd& x, Eigen::VectorXd& y) const = 0;
 
 	virtual Eigen::VectorXd diagonal() const = 0;
+
+	/// |x| of all rows.
+	virtual double norm(const Eigen::VectorXd& x) const { return x.stableNorm(); }
+
+	/// Of sums over the rows that are here makes those over all rows.
+	virtual void complete(double* /*sums*/, int /*count*/) const { }
 };
 
 } // namespace gimpm

@@ -43,7 +43,7 @@ template <int Dim> std::vector<int> cutByWork(const CloudBasis<Dim>& basis, int 
 
 template <class Nodes> bool touches(const NodeShare& share, const Nodes& nodes)
 {
-	return std::any_of(std::begin(nodes), std::end(nodes), [&](int node) { return share.owns(node); });
+	return std::any_of(std::begin(nodes), std::end(nodes), [first = share.first(), last = share.last()](int node) { return node >= first && node < last; });
 }
 
 /// Of each tile, which one thread does, the patches from the first to the last one that touch a node of this process.
@@ -60,19 +60,43 @@ template <int Dim> void keepTouching(const NodeShare& share, const std::vector<P
 	tiles.swap(kept);
 }
 
-/// Of bytes, eight at a time.
-template <class T> void mix(std::uint64_t& hash, const std::vector<T>& numbers)
-{
-	static_assert(sizeof(T) % 4 == 0);
-	const auto*       bytes = reinterpret_cast<const char*>(numbers.data());
-	const std::size_t size  = numbers.size() * sizeof(T);
-	for (std::size_t i = 0; i < size; i += 8) {
-		std::uint64_t word = 0;
-		std::memcpy(&word, bytes + i, std::min<std::size_t>(8, size - i));
-		hash = (hash ^ word) * 0x9E3779B97F4A7C15u;
-		hash ^= hash >> 29;
+/// Of bytes, eight at a time, in turn by several sums: one alone would wait for itself at each word, three times as long as reading takes.
+class Checksum {
+public:
+	template <class T> void mix(const std::vector<T>& numbers)
+	{
+		static_assert(sizeof(T) % 4 == 0);
+		const auto* bytes = reinterpret_cast<const char*>(numbers.data());
+		std::size_t left  = numbers.size() * sizeof(T);
+		for (; left >= sizeof sums_; left -= sizeof sums_, bytes += sizeof sums_)
+			for (int i = 0; i < width; ++i)
+				mixWord(i, bytes + 8 * i, 8);
+		for (int i = 0; left > 0; ++i) {
+			const std::size_t size = std::min<std::size_t>(8, left);
+			mixWord(i, bytes, size);
+			left -= size, bytes += size;
+		}
 	}
-}
+	std::uint64_t take()
+	{
+		for (int i = 1; i < width; ++i)
+			mixWord(0, reinterpret_cast<const char*>(&sums_[i]), 8);
+		return sums_[0];
+	}
+
+private:
+	static constexpr int width = 4;
+
+	void mixWord(int i, const char* bytes, std::size_t size)
+	{
+		std::uint64_t word = 0;
+		std::memcpy(&word, bytes, size);
+		sums_[i] = (sums_[i] ^ word) * 0x9E3779B97F4A7C15u;
+		sums_[i] ^= sums_[i] >> 29;
+	}
+
+	std::uint64_t sums_[width] = { 1, 2, 3, 4 };
+};
 
 } // namespace
 
@@ -98,13 +122,13 @@ template <int Dim> std::optional<PointFailure> Share<Dim>::firstOf(const std::op
 
 template <int Dim> bool haveSamePoints(const Processes& processes, const PointCloud<Dim>& cloud)
 {
-	std::uint64_t hash = cloud.size();
-	mix(hash, cloud.position), mix(hash, cloud.halfSize), mix(hash, cloud.volume0), mix(hash, cloud.defGrad), mix(hash, cloud.hoopStretch);
-	mix(hash, cloud.elasticStrain), mix(hash, cloud.stress), mix(hash, cloud.force), mix(hash, cloud.material);
+	Checksum sum;
+	sum.mix(cloud.position), sum.mix(cloud.halfSize), sum.mix(cloud.volume0), sum.mix(cloud.defGrad), sum.mix(cloud.hoopStretch);
+	sum.mix(cloud.elasticStrain), sum.mix(cloud.stress), sum.mix(cloud.force), sum.mix(cloud.material);
 	for (const auto* columns : { &cloud.internals, &cloud.parameters })
 		for (const auto& column : *columns)
-			mix(hash, column);
-	return processes.haveSame(hash);
+			sum.mix(column);
+	return processes.haveSame(sum.take() ^ cloud.size());
 }
 
 #define GIMPM_INSTANTIATE(Dim)                                                                                                                                 \

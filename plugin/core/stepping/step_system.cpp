@@ -118,7 +118,9 @@ template <int Dim> void StepSystem<Dim>::makeTerms(const Load<Dim>& load)
 
 template <int Dim> void StepSystem<Dim>::prepare(NodeMatrix<Dim>& K) const
 {
-	K.reset(basis.nodes, isSymmetric(), model.grid);
+	if (share()) K.reset(basis.nodes, isSymmetric(), model.grid, { share()->first(), share()->last() });
+	else
+		K.reset(basis.nodes, isSymmetric(), model.grid);
 	for (const auto& term : terms)
 		term->mark(K);
 }

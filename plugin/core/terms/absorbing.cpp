@@ -133,7 +133,7 @@ template <int Dim> void Absorption<Dim>::add(const Eigen::VectorXd& v, double sl
 		const Vec<Dim> drag = dashpot.drag.cwiseProduct(v.template segment<Dim>(Dim * node)), push = 2 * dashpot.drag.cwiseProduct(boundary_.incoming);
 		sum.force.template segment<Dim>(Dim * node) += drag - push - dashpot.borne;
 		if (sum.sizes) sum.sizes->template segment<Dim>(Dim * node) += drag.cwiseAbs() + push.cwiseAbs() + dashpot.borne.cwiseAbs();
-		if (sum.K)
+		if (sum.K && sum.K->keeps(node))
 			for (int a = 0; a < Dim; ++a)
 				sum.K->at(node, 0)[a * (Dim + 1)] += slope * dashpot.drag[a];
 	}

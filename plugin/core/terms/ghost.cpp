@@ -142,6 +142,7 @@ template <int Dim> void addGhostStiffness(const std::vector<GhostFace<Dim>>& fac
 {
 	for (const auto& face : faces)
 		forNodePairs(face, h, [&](int node, int, int code, double k) {
+			if (!K.keeps(node)) return;
 			double* block = K.at(node, code);
 			for (int i = 0; i < Dim; ++i)
 				block[i * (Dim + 1)] += k;

@@ -66,7 +66,7 @@ template <int Dim> void MassMatrix<Dim>::mark(NodeMatrix<Dim>& K) const
 template <int Dim> void MassMatrix<Dim>::addTo(NodeMatrix<Dim>& K, double factor) const
 {
 	forEntries([&](int a, int, int code, double m) {
-		for (int i = 0; i < Dim; ++i)
+		for (int i = 0; i < Dim && K.keeps(a); ++i)
 			K.at(a, code)[i * (Dim + 1)] += factor * m;
 	});
 }

@@ -32,14 +32,16 @@ public:
 	}
 	template <class Codes> GIMPM_INLINE void scatterAdd(const int* node, const Codes& codes, NodeMatrix<Dim>& K) const
 	{
-		for (int a = 0; a < N; ++a)
+		for (int a = 0; a < N; ++a) {
+			if (!K.keeps(node[a])) continue;
 			for (int b = a; b < N; ++b) {
-				if (node[a] < 0 || node[b] < 0) continue;
+				if (node[b] < 0) continue;
 				double* out = K.at(node[a], codes.code[a][b]);
 				if constexpr (Symmetric) addSymmetric(a, b, out);
 				else
 					addBoth(a, b, out, a == b ? nullptr : K.skewAt(node[a], codes.code[a][b]));
 			}
+		}
 	}
 
 private:

@@ -38,7 +38,7 @@ template <int Dim> void RayleighDamping<Dim>::add(const Eigen::VectorXd& v, doub
 	if (!sum.K) return;
 	for (int a = 0; a < C_.nodes(); ++a)
 		for (int code = 0; code < NodeMatrix<Dim>::codes; ++code)
-			for (int i = 0; i < NodeMatrix<Dim>::block && C_.used(a, code); ++i) {
+			for (int i = 0; i < NodeMatrix<Dim>::block && C_.used(a, code) && sum.K->keeps(a); ++i) {
 				sum.K->at(a, code)[i] += slope * C_.at(a, code)[i];
 				if (!C_.isSymmetric()) sum.K->skewAt(a, code)[i] += slope * C_.skewAt(a, code)[i];
 			}

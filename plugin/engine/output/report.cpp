@@ -47,7 +47,7 @@ void addReport(py::object pythonClass)
 	        "'notFinite', 'diverging', 'tooManyIterations', 'stalled' (at round-off), 'apart' (processes in different states), 'interrupted'; 'cause', a clause, empty when converged; 'loadTime' [s] and 'loadFactor' of the "
 	        "last converged state; 'stepPart', part of O.dt that the next step tries.\n\n"
 	        "Effort of the run, undone tries included: 'iterations' (linear solves), 'substeps', 'cuts', 'lineSearchTrials', 'reusedFactors', 'luSolves', 'cgIterations', 'cgFallbacks', 'amgSetups'; 'times' [s], dict "
-	        "by phase: 'check' (of points that are new or were changed), 'gather', 'basis', 'ghost', 'assembly', 'analyse', 'factorise', 'solve', 'update', 'scatter'.\n\n"
+	        "by phase: 'check' (of points that are new or were changed), 'gather', 'agree' (several processes, on the points), 'basis', 'ghost', 'assembly', 'analyse', 'factorise', 'solve', 'update', 'scatter'.\n\n"
 	        "Of the last load step that was tried: 'cgFailure', why an iterative solve was left to the direct solver, or multigrid was not set up, empty if neither was so; 'residuals', list; 'residual', the last of them [-]; 'localResidual', the largest residual around a node "
 	        "over the forces there, or a bound of it [-], at most 3 newton.tolerance when converged (NaN where it was not asked for); 'localError', the estimated error of the displacements over newton.stepTolerance or timeTolerance [-], 0 where neither is given, or nothing is known of it or asked, as in steps of newton.minStep; 'stiffness' of the last "
 	        "matrix that was factorised, 'positive definite', 'indefinite' (the equilibrium may not be stable: the body may go on by itself, or have another "

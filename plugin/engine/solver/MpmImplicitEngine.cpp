@@ -51,22 +51,24 @@ void MpmImplicitEngine::action()
 template <int Dim> void MpmImplicitEngine::step(Agreement& agreement)
 {
 	const AtWork during;
-	Job<Dim>     job = prepare<Dim>();
-	if (job.model.grid.refinement && basis == "gimp" && splitFirst(job)) job = prepare<Dim>();
-	agreement.reach(*this, job.cloud);
+	Job<Dim>     job      = prepare<Dim>();
+	double       agreeing = 0;
+	if (job.model.grid.refinement && basis == "gimp" && splitOutgrown(job)) job = prepare<Dim>();
+	{
+		const gimpm::Stopwatch watch(agreeing);
+		agreement.reach(*this, job.cloud);
+	}
+	if (job.model.processes) addTime(*timingDeltas, "agree", agreeing);
 	tellObservers(*scene, [this](LoadStepObserver& observer) { observer.stepBegins(*this); });
 	advance(job);
 	const ValueLock lock;
-	if ((maxSplits > 0 || job.model.grid.refinement) && clampedDomains > 0) {
-		warn(splitting.split(*this, points, job));
-		plausibility.know(job.cloud);
-	}
+	if ((maxSplits > 0 || job.model.grid.refinement) && clampedDomains > 0) splitOutgrown(job);
 	for (const string& doubt : plausibility.warningsOfResult(*this, points, job.cloud))
 		warn(doubt);
 }
 
-// Points that are too large for cells which have just become smaller. False if there are none.
-template <int Dim> bool MpmImplicitEngine::splitFirst(Job<Dim>& job)
+// False if there are no points to be split.
+template <int Dim> bool MpmImplicitEngine::splitOutgrown(Job<Dim>& job)
 {
 	const ValueLock lock;
 	const size_t    before = points.size();
@@ -119,8 +121,7 @@ template <int Dim> void MpmImplicitEngine::advance(Job<Dim>& job)
 		lastDisplacements = toNumbers(tried.last, job.model.grid), lastLoadIncrement = tried.last.load;
 		const Real part   = job.control.part();
 		const bool goesOn = job.control.take(report);
-		cuts              = job.control.cuts();
-		stepPart          = job.control.nextPart();
+		cuts = job.control.cuts(), stepPart = job.control.nextPart();
 		if (!goesOn) {
 			const string reason = reasonOf(report, *this, points, tried.time, part);
 			if (report.failure == gimpm::Failure::interrupted) interruption.raise(reason);

@@ -100,7 +100,7 @@ private:
 	bool                            isEndOfLoads() const;
 	template <int Dim> void         step(Agreement&);
 	template <int Dim> Job<Dim>     prepare();
-	template <int Dim> bool         splitFirst(Job<Dim>&);
+	template <int Dim> bool         splitOutgrown(Job<Dim>&);
 	template <int Dim> void         advance(Job<Dim>&);
 	template <int Dim> Attempt<Dim> attempt(Job<Dim>&) const;
 	template <int Dim> void         reach(Job<Dim>&, const Attempt<Dim>&);

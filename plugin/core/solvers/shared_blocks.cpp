@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "core/solvers/shared_blocks.hpp"
+#include <algorithm>
+
+namespace gimpm {
+namespace {
+
+/// Calls f(own node, neighbour) for each pair, of which both may be own.
+template <int Dim, class F> void forOwnPairs(const NodeMatrix<Dim>& K, const NodeShare& share, F&& f)
+{
+	const int  first = share.first(), last = share.last();
+	const auto isOwn = [&](int node) { return node >= first && node < last; };
+	for (int a = 0; a < K.nodes(); ++a)
+		for (int c = 0; c < K.codes && K.keeps(a); ++c) {
+			const int b = K.used(a, c) ? K.neighbour(a, c) : a;
+			if (isOwn(a)) f(a, b);
+			if (isOwn(b)) f(b, a);
+		}
+}
+
+} // namespace
+
+template <int Dim>
+SharedBlocks<Dim>::SharedBlocks(const NodeMatrix<Dim>& K, const FreeDofs& dofs, const NodeShare& share)
+        : share_(share)
+        , here_(hereOf(K, share))
+        , blocks_(K, dofs, here_, { share.first(), share.last() })
+        , x_(Eigen::VectorXd::Zero(Dim * (here_.second - here_.first)))
+        , y_(x_)
+{
+	findBorders(K);
+}
+
+template <int Dim> typename SharedBlocks<Dim>::Range SharedBlocks<Dim>::hereOf(const NodeMatrix<Dim>& K, const NodeShare& share)
+{
+	Range here(share.first(), share.last());
+	forOwnPairs(K, share, [&](int, int b) { here = { std::min(here.first, b), std::max(here.second, b + 1) }; });
+	return here;
+}
+
+template <int Dim> void SharedBlocks<Dim>::findBorders(const NodeMatrix<Dim>& K)
+{
+	const auto ownerOf = [&](int node) { return int(std::upper_bound(share_.start.begin(), share_.start.end(), node) - share_.start.begin()) - 1; };
+	const int  first = share_.first(), last = share_.last();
+	forOwnPairs(K, share_, [&](int a, int b) {
+		if (b >= first && b < last) return;
+		Border& border = borders_[ownerOf(b)];
+		border.own.push_back(a), border.others.push_back(b);
+	});
+	for (auto& [process, border] : borders_) {
+		for (auto* nodes : { &border.own, &border.others }) {
+			std::sort(nodes->begin(), nodes->end());
+			nodes->erase(std::unique(nodes->begin(), nodes->end()), nodes->end());
+		}
+		border.sent.resize(Dim * border.own.size());
+		border.received.resize(Dim * border.others.size());
+	}
+}
+
+/// Of the nodes that are here what this process has, and what others have of their nodes.
+template <int Dim> void SharedBlocks<Dim>::fetch(const Eigen::VectorXd& x) const
+{
+	x_.segment(Dim * (share_.first() - here_.first), x.size()) = x;
+	std::vector<Parcel> parcels;
+	for (auto& [process, border] : borders_) {
+		for (std::size_t n = 0; n < border.own.size(); ++n)
+			border.sent.template segment<Dim>(Dim * n) = x.template segment<Dim>(Dim * (border.own[n] - share_.first()));
+		parcels.push_back({ process, border.sent.data(), int(border.sent.size()), border.received.data(), int(border.received.size()) });
+	}
+	share_.processes.exchange(parcels.data(), int(parcels.size()));
+	for (const auto& [process, border] : borders_)
+		for (std::size_t n = 0; n < border.others.size(); ++n)
+			x_.template segment<Dim>(Dim * (border.others[n] - here_.first)) = border.received.template segment<Dim>(Dim * n);
+}
+
+template <int Dim> void SharedBlocks<Dim>::multiply(const Eigen::VectorXd& x, Eigen::VectorXd& y) const
+{
+	fetch(x);
+	blocks_.multiply(x_, y_);
+	y = y_.segment(Dim * (share_.first() - here_.first), x.size());
+}
+
+template <int Dim> Eigen::VectorXd SharedBlocks<Dim>::diagonal() const
+{
+	return blocks_.diagonal().segment(Dim * (share_.first() - here_.first), Dim * (share_.last() - share_.first()));
+}
+
+template <int Dim> double SharedBlocks<Dim>::norm(const Eigen::VectorXd& x) const
+{
+	const double own = x.stableNorm();
+	return ofEach(&own, 1).stableNorm();
+}
+
+template <int Dim> void SharedBlocks<Dim>::complete(double* sums, int count) const
+{
+	const Eigen::VectorXd all = ofEach(sums, count);
+	for (int i = 0; i < count; ++i) {
+		sums[i] = 0;
+		for (Eigen::Index of = i; of < all.size(); of += count)
+			sums[i] += all[of];
+	}
+}
+
+/// What each process has given, in their order.
+template <int Dim> Eigen::VectorXd SharedBlocks<Dim>::ofEach(const double* own, int count) const
+{
+	const Processes& processes = share_.processes;
+	std::vector<int> start(processes.size() + 1, 0);
+	for (int p = 0; p < processes.size(); ++p)
+		start[p + 1] = start[p] + count;
+	Eigen::VectorXd all(start.back());
+	std::copy(own, own + count, all.data() + start[processes.rank()]);
+	processes.gather(all.data(), start.data());
+	return all;
+}
+
+template class SharedBlocks<2>;
+template class SharedBlocks<3>;
+
+} // namespace gimpm

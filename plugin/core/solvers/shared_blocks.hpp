@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// A symmetric matrix over nodes of which each of several processes has the rows of its nodes.
+#pragma once
+#include "core/solvers/block_matrix.hpp"
+#include "core/solvers/node_share.hpp"
+#include <map>
+
+namespace gimpm {
+
+/// A product needs what other processes have at the neighbours of the own nodes: they tell each other before it. Each pair of own nodes is read once, as in one process,
+/// and each pair of an own node and another one by both processes.
+template <int Dim> class SharedBlocks : public SymmetricOperator {
+public:
+	/// With vectors of Dim components for each own node. The share must outlive it.
+	SharedBlocks(const NodeMatrix<Dim>&, const FreeDofs&, const NodeShare&);
+
+	void            multiply(const Eigen::VectorXd& x, Eigen::VectorXd& y) const override;
+	Eigen::VectorXd diagonal() const override;
+	double          norm(const Eigen::VectorXd& x) const override;
+	void            complete(double* sums, int count) const override; ///< the same in all processes, to the last bit
+
+private:
+	using Range = typename NodeMatrix<Dim>::Range;
+
+	/// With another process.
+	struct Border {
+		std::vector<int> own, others; ///< nodes that the one needs of the other, which both know from their own rows
+		Eigen::VectorXd  sent, received;
+	};
+
+	static Range    hereOf(const NodeMatrix<Dim>&, const NodeShare&);
+	void            findBorders(const NodeMatrix<Dim>&);
+	void            fetch(const Eigen::VectorXd& x) const;
+	Eigen::VectorXd ofEach(const double* own, int count) const;
+
+	const NodeShare&              share_;
+	Range                         here_; ///< own nodes and their neighbours, with what is between them
+	BlockMatrix<Dim>              blocks_;
+	mutable std::map<int, Border> borders_; ///< by process
+	mutable Eigen::VectorXd       x_, y_;   ///< of the nodes that are here
+};
+
+} // namespace gimpm
