@@ -198,3 +198,29 @@ def test_refused(yade):
 	found = outcomesOf(yade.folder, scene, [case + '; O.run(1, wait=True)' for case in cases])
 	for (statement, (_, said)), expected in zip(found.items(), cases.values()):
 		assert expected in said, (statement, said)
+
+
+def test_cells_are_halved_where_positions_ask_for_it(yade):
+	"""An L of positions: halved twice there, equal far away; whatever the dimension. Cells of any number of rows have a box each."""
+	yade('''
+from yade import mpm
+import numpy as np
+for dim in 2, 3:
+	grid = MpmGrid(cellSize=1, dim=dim, origin=(0.25, 0, 0))
+	places = [(0.3, 0.1, 0), (1.2, 0.2, 0.3), (0.4, 0.9, 0.1)]
+	grid.refinements = found = mpm.refinementsAt(places, grid, halvings=2)
+	assert len(found) == 3 and all(box.halvings == 2 for box in found)
+	for place, size in *[(place, 0.25) for place in places], ((1.5, 0.2, 0.3), 0.5), ((9.5, 9.5, 9.5), 1):
+		filled = mpm.fill(pack.inAlignedBox([x - 1 for x in place], [x + 1 for x in place]), grid, 1, O.materials.append(MpmElasticMat(young=1, poisson=0)))
+		nearest = min(filled, key=lambda body: np.linalg.norm((np.array(body.state.pos) - place)[:dim]))
+		assert 2 * nearest.shape.halfSize[0] == size, (dim, place, nearest.shape.halfSize)
+	assert mpm.refinementsAt(np.empty((0, 3)), grid) == []
+for wrong, parts in (([(0, 0)], 'positions'), ([(0, 0, np.nan)], 'positions'), ('here', 'positions')):
+	try: mpm.refinementsAt(wrong, grid)
+	except ValueError as error: assert parts in str(error), error
+	else: raise AssertionError(wrong)
+for arguments in (dict(grid=grid, halvings=4), dict(grid=1)):
+	try: mpm.refinementsAt([(0, 0, 0)], **arguments)
+	except (ValueError, TypeError) as error: assert 'halvings' in str(error) or 'grid' in str(error), error
+	else: raise AssertionError(arguments)
+''')

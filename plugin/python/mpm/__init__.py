@@ -31,6 +31,7 @@ While it runs, one line tells how far it is (``verbosity`` of the engine); ``plo
 :func:`solid`                region in a closed surface of an STL or GTS file
 :class:`terrain`             region below the surface of an elevation grid (.asc)
 :func:`fill`                 material points in a region
+:func:`refinementsAt`        boxes in which cells are halved, where something asks for it
 :func:`arrays`               data of all material points as NumPy arrays; :func:`assign` is the way back
 :func:`geostatic`            initial stress of level ground
 :func:`surface`              surface of a region, for loads on it
@@ -52,6 +53,7 @@ Units are SI; stress is positive in tension; strains are logarithmic; plane stra
 """
 from . import processes
 from .advice import advise
+from .cells import refinementsAt
 from .colouring import colour
 from .data import arrays, assign, contactForces
 from .discretisation import discretisationError, stressError
@@ -71,4 +73,4 @@ from .surfaces import surface
 from .tables import export
 
 __version__ = _engine.version
-__all__ = ['polygon', 'fill', 'arrays', 'assign', 'geostatic', 'plot', 'colour', 'export', 'save', 'advise', 'discretisationError', 'stressError', 'elementTest', 'respond', 'strengthReduction', 'surface', 'contactForces', 'histories', 'readHistory', 'solid', 'terrain', 'movie']
+__all__ = ['polygon', 'fill', 'refinementsAt', 'arrays', 'assign', 'geostatic', 'plot', 'colour', 'export', 'save', 'advise', 'discretisationError', 'stressError', 'elementTest', 'respond', 'strengthReduction', 'surface', 'contactForces', 'histories', 'readHistory', 'solid', 'terrain', 'movie']
