@@ -40,57 +40,82 @@ template <int Dim, class F> void forParts(const Patch<Dim>& patch, const PointBa
 	}
 }
 
-/// Where a cell is in its leaf, in leaves: at `corner`, `size` long.
-template <int Dim> struct InLeaf {
-	Vec<Dim> corner = Vec<Dim>::Zero();
-	double   size   = 1;
+/// Matter that has one dilation: that in a leaf. Points of windows with leaves of several sizes are beside it, in each of their cells: what is averaged along the axes must not
+/// be in places that differ from side to side.
+template <int Dim> class Matter {
+public:
+	explicit Matter(const CloudBasis<Dim>& basis) : basis_(basis), leaves_(int(basis.populatedLeaves().size())) { }
 
-	InLeaf(const CloudBasis<Dim>& basis, int cell)
+	int parts() const { return leaves_ + (basis_.leafOf.empty() ? 0 : int(basis_.cells.size())); }
+
+	/// Number of the part to which the points of a patch belong in a cell.
+	int of(const Patch<Dim>& patch, int cell) const { return hasSeveralSizes(patch) ? leaves_ + cell : basis_.leaf(cell); }
+
+	/// From places in a cell to those in what the part is in, both 0 to 1 along each axis: corner + size * place.
+	struct Frame {
+		Vec<Dim> corner = Vec<Dim>::Zero();
+		double   size   = 1;
+	};
+	Frame frame(int part, int cell) const
 	{
-		if (basis.leafOf.empty()) return;
-		const Key leaf = basis.leaves[basis.leafOf[cell]], key = basis.cells[cell];
-		size   = std::ldexp(1, Grid<Dim>::level(key) - Grid<Dim>::level(leaf));
-		corner = (Grid<Dim>::index(key) - Grid<Dim>::index(leaf)).template cast<double>() / (1 << Grid<Dim>::level(leaf));
+		if (basis_.leafOf.empty() || part >= leaves_) return {};
+		const Key leaf = basis_.leaves[part], key = basis_.cells[cell];
+		const int level = Grid<Dim>::level(leaf);
+		return { (Grid<Dim>::index(key) - Grid<Dim>::index(leaf)).template cast<double>() / (1 << level),
+			 std::ldexp(1, Grid<Dim>::level(key) - level) };
 	}
+
+private:
+	bool hasSeveralSizes(const Patch<Dim>& patch) const
+	{
+		if (basis_.leafOf.empty()) return false;
+		int level = -1;
+		for (const int cell : patch.reached) {
+			if (cell < 0) continue;
+			const int own = Grid<Dim>::level(basis_.leaves[basis_.leafOf[cell]]);
+			if (level >= 0 && own != level) return true;
+			level = own;
+		}
+		return false;
+	}
+
+	const CloudBasis<Dim>& basis_;
+	int                    leaves_;
 };
 
-/// Of the matter in the leaf of each cell, from the corner of the cell on, in cells: 0 to 1 along each axis where the cell is the leaf. Beyond its sides the functions of the
-/// cell go on as those of the leaf.
-template <int Dim> std::vector<Vec<Dim>> centresOfMatter(const PointCloud<Dim>& cloud, const CloudBasis<Dim>& basis)
+/// Centres of the parts, in what they are in: 0 to 1 along each axis.
+template <int Dim> std::vector<Vec<Dim>> centresOf(const Matter<Dim>& matter, const PointCloud<Dim>& cloud, const CloudBasis<Dim>& basis)
 {
-	const std::size_t        leaves = basis.populatedLeaves().size();
-	std::vector<Vec<Dim>>    centre(leaves, Vec<Dim>::Zero()), ofCell;
-	std::vector<double>      volume(leaves, 0);
-	std::vector<InLeaf<Dim>> inLeaf;
-	for (int cell = 0; cell < int(basis.cells.size()); ++cell)
-		inLeaf.emplace_back(basis, cell);
+	std::vector<Vec<Dim>> centre(matter.parts(), Vec<Dim>::Zero());
+	std::vector<double>   volume(centre.size(), 0);
 	for (const auto& patch : basis.patches)
 		for (int i = patch.first; i < patch.first + patch.count; ++i) {
 			const int    p   = basis.order[i];
 			const double own = cloud.volume0[p] * cloud.volumeRatio(p);
 			forParts(patch, basis.axes[i], [&](int c, int cell, const auto& parts, double share) {
-				const int leaf = basis.leaf(cell);
-				volume[leaf] += own * share;
+				const int  part  = matter.of(patch, cell);
+				const auto frame = matter.frame(part, cell);
+				volume[part] += own * share;
 				for (int a = 0; a < Dim; ++a)
-					centre[leaf][a] += own * share * (inLeaf[cell].corner[a] + inLeaf[cell].size * parts[a].centre[c >> a & 1]);
+					centre[part][a] += own * share * (frame.corner[a] + frame.size * parts[a].centre[c >> a & 1]);
 			});
 		}
-	for (int cell = 0; cell < int(basis.cells.size()); ++cell) {
-		const int leaf = basis.leaf(cell);
-		ofCell.push_back(
-		        volume[leaf] > 0 ? Vec<Dim>((centre[leaf] / volume[leaf] - inLeaf[cell].corner) / inLeaf[cell].size) : Vec<Dim>::Constant(0.5));
-	}
-	return ofCell;
+	for (std::size_t part = 0; part < centre.size(); ++part)
+		centre[part] = volume[part] > 0 ? Vec<Dim>(centre[part] / volume[part]) : Vec<Dim>::Constant(0.5);
+	return centre;
 }
 
 /// Along each axis, of the centres of the cells on a side the average by the shares of the domain.
-template <int Dim> PointBasis<Dim> atCentres(const Patch<Dim>& patch, const PointBasis<Dim>& axes, const std::vector<Vec<Dim>>& centre)
+template <int Dim>
+PointBasis<Dim> atCentres(const Patch<Dim>& patch, const PointBasis<Dim>& axes, const Matter<Dim>& matter, const std::vector<Vec<Dim>>& centre)
 {
 	double share[Dim][2] = {}, moment[Dim][2] = {};
-	forParts(patch, axes, [&](int c, int cell, const auto&, double part) {
+	forParts(patch, axes, [&](int c, int cell, const auto&, double ofDomain) {
+		const int  part  = matter.of(patch, cell);
+		const auto frame = matter.frame(part, cell); // beyond the sides of the cell its functions go on as those of the leaf
 		for (int a = 0; a < Dim; ++a) {
-			share[a][c >> a & 1] += part;
-			moment[a][c >> a & 1] += part * centre[cell][a];
+			share[a][c >> a & 1] += ofDomain;
+			moment[a][c >> a & 1] += ofDomain * (centre[part][a] - frame.corner[a]) / frame.size;
 		}
 	});
 	PointBasis<Dim> result = axes;
@@ -122,22 +147,23 @@ struct RingParts {
 	}
 };
 
-/// Radius of the middle of the section of the matter in each leaf: of parts with the volumes V at r the sum of V over that of V / r.
-template <int Dim> std::vector<double> sectionRadii(const PointCloud<Dim>& cloud, const CloudBasis<Dim>& basis)
+/// Radius of the middle of the section of each part: of domains with the volumes V at r the sum of V over that of V / r.
+template <int Dim> std::vector<double> sectionRadii(const Matter<Dim>& matter, const PointCloud<Dim>& cloud, const CloudBasis<Dim>& basis)
 {
-	std::vector<double> volume(basis.populatedLeaves().size(), 0), area(volume);
+	std::vector<double> volume(matter.parts(), 0), area(volume);
 	for (const auto& patch : basis.patches)
 		for (int i = patch.first; i < patch.first + patch.count; ++i) {
 			const int       p   = basis.order[i];
 			const double    own = cloud.volume0[p] * cloud.volumeRatio(p);
 			const RingParts ring(basis.axes[i][0], basis.hoop[i], cloud.halfSize[p][0], patch.span & 1, !basis.leafOf.empty());
 			forParts(patch, basis.axes[i], [&](int c, int cell, const auto&, double share) {
-				volume[basis.leaf(cell)] += own * share;
-				area[basis.leaf(cell)] += own * share / ring.radius[c & 1];
+				const int part = matter.of(patch, cell);
+				volume[part] += own * share;
+				area[part] += own * share / ring.radius[c & 1];
 			});
 		}
-	for (std::size_t leaf = 0; leaf < volume.size(); ++leaf)
-		volume[leaf] /= area[leaf];
+	for (std::size_t part = 0; part < volume.size(); ++part)
+		volume[part] /= area[part];
 	return volume;
 }
 
@@ -145,7 +171,8 @@ template <int Dim> std::vector<double> sectionRadii(const PointCloud<Dim>& cloud
 
 template <int Dim> std::vector<AxisValues> hoopAtCentres(const PointCloud<Dim>& cloud, const CloudBasis<Dim>& basis)
 {
-	const auto              radius = sectionRadii(cloud, basis);
+	const Matter<Dim>       matter(basis);
+	const auto              radius = sectionRadii(matter, cloud, basis);
 	std::vector<AxisValues> result(basis.axes.size());
 	for (const auto& patch : basis.patches)
 		for (int i = patch.first; i < patch.first + patch.count; ++i) {
@@ -153,7 +180,7 @@ template <int Dim> std::vector<AxisValues> hoopAtCentres(const PointCloud<Dim>& 
 			result[i].fill(0);
 			forParts(patch, basis.axes[i], [&](int c, int cell, const auto&, double share) {
 				const int    side  = c & 1;
-				const double r     = radius[basis.leaf(cell)];
+				const double r     = radius[matter.of(patch, cell)];
 				const double upper = (r - ring.face) / ring.size + 1 - side; // hat function of the upper node of the cell
 				result[i][side] += share * (1 - upper) / r;
 				result[i][side + 1] += share * upper / r;
@@ -164,13 +191,14 @@ template <int Dim> std::vector<AxisValues> hoopAtCentres(const PointCloud<Dim>& 
 
 template <int Dim> std::vector<PointBasis<Dim>> basisAtCentres(const PointCloud<Dim>& cloud, const CloudBasis<Dim>& basis)
 {
-	const auto                   centre = centresOfMatter(cloud, basis);
+	const Matter<Dim>            matter(basis);
+	const auto                   centre = centresOf(matter, cloud, basis);
 	std::vector<PointBasis<Dim>> result(basis.axes.size());
 #pragma omp parallel for schedule(static)
 	for (int k = 0; k < int(basis.patches.size()); ++k) {
 		const auto& patch = basis.patches[k];
 		for (int i = patch.first; i < patch.first + patch.count; ++i)
-			result[i] = atCentres(patch, basis.axes[i], centre);
+			result[i] = atCentres(patch, basis.axes[i], matter, centre);
 	}
 	return result;
 }
