@@ -40,82 +40,34 @@ template <int Dim, class F> void forParts(const Patch<Dim>& patch, const PointBa
 	}
 }
 
-/// Matter that has one dilation: that in a leaf. Points of windows with leaves of several sizes are beside it, in each of their cells: what is averaged along the axes must not
-/// be in places that differ from side to side.
-template <int Dim> class Matter {
-public:
-	explicit Matter(const CloudBasis<Dim>& basis) : basis_(basis), leaves_(int(basis.populatedLeaves().size())) { }
-
-	int parts() const { return leaves_ + (basis_.leafOf.empty() ? 0 : int(basis_.cells.size())); }
-
-	/// Number of the part to which the points of a patch belong in a cell.
-	int of(const Patch<Dim>& patch, int cell) const { return hasSeveralSizes(patch) ? leaves_ + cell : basis_.leaf(cell); }
-
-	/// From places in a cell to those in what the part is in, both 0 to 1 along each axis: corner + size * place.
-	struct Frame {
-		Vec<Dim> corner = Vec<Dim>::Zero();
-		double   size   = 1;
-	};
-	Frame frame(int part, int cell) const
-	{
-		if (basis_.leafOf.empty() || part >= leaves_) return {};
-		const Key leaf = basis_.leaves[part], key = basis_.cells[cell];
-		const int level = Grid<Dim>::level(leaf);
-		return { (Grid<Dim>::index(key) - Grid<Dim>::index(leaf)).template cast<double>() / (1 << level),
-			 std::ldexp(1, Grid<Dim>::level(key) - level) };
-	}
-
-private:
-	bool hasSeveralSizes(const Patch<Dim>& patch) const
-	{
-		if (basis_.leafOf.empty()) return false;
-		int level = -1;
-		for (const int cell : patch.reached) {
-			if (cell < 0) continue;
-			const int own = Grid<Dim>::level(basis_.leaves[basis_.leafOf[cell]]);
-			if (level >= 0 && own != level) return true;
-			level = own;
-		}
-		return false;
-	}
-
-	const CloudBasis<Dim>& basis_;
-	int                    leaves_;
-};
-
-/// Centres of the parts, in what they are in: 0 to 1 along each axis.
-template <int Dim> std::vector<Vec<Dim>> centresOf(const Matter<Dim>& matter, const PointCloud<Dim>& cloud, const CloudBasis<Dim>& basis)
+/// Of the matter in each cell, in the cell: 0 to 1 along each axis.
+template <int Dim> std::vector<Vec<Dim>> centresOfMatter(const PointCloud<Dim>& cloud, const CloudBasis<Dim>& basis)
 {
-	std::vector<Vec<Dim>> centre(matter.parts(), Vec<Dim>::Zero());
-	std::vector<double>   volume(centre.size(), 0);
+	std::vector<Vec<Dim>> centre(basis.cells.size(), Vec<Dim>::Zero());
+	std::vector<double>   volume(basis.cells.size(), 0);
 	for (const auto& patch : basis.patches)
 		for (int i = patch.first; i < patch.first + patch.count; ++i) {
 			const int    p   = basis.order[i];
 			const double own = cloud.volume0[p] * cloud.volumeRatio(p);
 			forParts(patch, basis.axes[i], [&](int c, int cell, const auto& parts, double share) {
-				const int  part  = matter.of(patch, cell);
-				const auto frame = matter.frame(part, cell);
-				volume[part] += own * share;
+				volume[cell] += own * share;
 				for (int a = 0; a < Dim; ++a)
-					centre[part][a] += own * share * (frame.corner[a] + frame.size * parts[a].centre[c >> a & 1]);
+					centre[cell][a] += own * share * parts[a].centre[c >> a & 1];
 			});
 		}
-	for (std::size_t part = 0; part < centre.size(); ++part)
-		centre[part] = volume[part] > 0 ? Vec<Dim>(centre[part] / volume[part]) : Vec<Dim>::Constant(0.5);
+	for (std::size_t cell = 0; cell < centre.size(); ++cell)
+		centre[cell] = volume[cell] > 0 ? Vec<Dim>(centre[cell] / volume[cell]) : Vec<Dim>::Constant(0.5);
 	return centre;
 }
 
 /// Along each axis, of the centres of the cells on a side the average by the shares of the domain.
-template <int Dim>
-PointBasis<Dim> atCentres(const Patch<Dim>& patch, const PointBasis<Dim>& axes, const Matter<Dim>& matter, const std::vector<Vec<Dim>>& centre)
+template <int Dim> PointBasis<Dim> atCentres(const Patch<Dim>& patch, const PointBasis<Dim>& axes, const std::vector<Vec<Dim>>& centre)
 {
 	double share[Dim][2] = {}, moment[Dim][2] = {};
-	forParts(patch, axes, [&](int c, int cell, const auto&, double ofDomain) {
-		const int  part  = matter.of(patch, cell);
-		const auto frame = matter.frame(part, cell); // beyond the sides of the cell its functions go on as those of the leaf
+	forParts(patch, axes, [&](int c, int cell, const auto&, double part) {
 		for (int a = 0; a < Dim; ++a) {
-			share[a][c >> a & 1] += ofDomain;
-			moment[a][c >> a & 1] += ofDomain * (centre[part][a] - frame.corner[a]) / frame.size;
+			share[a][c >> a & 1] += part;
+			moment[a][c >> a & 1] += part * centre[cell][a];
 		}
 	});
 	PointBasis<Dim> result = axes;
@@ -147,23 +99,22 @@ struct RingParts {
 	}
 };
 
-/// Radius of the middle of the section of each part: of domains with the volumes V at r the sum of V over that of V / r.
-template <int Dim> std::vector<double> sectionRadii(const Matter<Dim>& matter, const PointCloud<Dim>& cloud, const CloudBasis<Dim>& basis)
+/// Radius of the middle of the section of the matter in each cell: of parts with the volumes V at r the sum of V over that of V / r.
+template <int Dim> std::vector<double> sectionRadii(const PointCloud<Dim>& cloud, const CloudBasis<Dim>& basis)
 {
-	std::vector<double> volume(matter.parts(), 0), area(volume);
+	std::vector<double> volume(basis.cells.size(), 0), area(volume);
 	for (const auto& patch : basis.patches)
 		for (int i = patch.first; i < patch.first + patch.count; ++i) {
 			const int       p   = basis.order[i];
 			const double    own = cloud.volume0[p] * cloud.volumeRatio(p);
 			const RingParts ring(basis.axes[i][0], basis.hoop[i], cloud.halfSize[p][0], patch.span & 1, !basis.leafOf.empty());
 			forParts(patch, basis.axes[i], [&](int c, int cell, const auto&, double share) {
-				const int part = matter.of(patch, cell);
-				volume[part] += own * share;
-				area[part] += own * share / ring.radius[c & 1];
+				volume[cell] += own * share;
+				area[cell] += own * share / ring.radius[c & 1];
 			});
 		}
-	for (std::size_t part = 0; part < volume.size(); ++part)
-		volume[part] /= area[part];
+	for (std::size_t cell = 0; cell < volume.size(); ++cell)
+		volume[cell] /= area[cell];
 	return volume;
 }
 
@@ -171,8 +122,7 @@ template <int Dim> std::vector<double> sectionRadii(const Matter<Dim>& matter, c
 
 template <int Dim> std::vector<AxisValues> hoopAtCentres(const PointCloud<Dim>& cloud, const CloudBasis<Dim>& basis)
 {
-	const Matter<Dim>       matter(basis);
-	const auto              radius = sectionRadii(matter, cloud, basis);
+	const auto              radius = sectionRadii(cloud, basis);
 	std::vector<AxisValues> result(basis.axes.size());
 	for (const auto& patch : basis.patches)
 		for (int i = patch.first; i < patch.first + patch.count; ++i) {
@@ -180,10 +130,9 @@ template <int Dim> std::vector<AxisValues> hoopAtCentres(const PointCloud<Dim>& 
 			result[i].fill(0);
 			forParts(patch, basis.axes[i], [&](int c, int cell, const auto&, double share) {
 				const int    side  = c & 1;
-				const double r     = radius[matter.of(patch, cell)];
-				const double upper = (r - ring.face) / ring.size + 1 - side; // hat function of the upper node of the cell
-				result[i][side] += share * (1 - upper) / r;
-				result[i][side + 1] += share * upper / r;
+				const double upper = (radius[cell] - ring.face) / ring.size + 1 - side; // hat function of the upper node of the cell
+				result[i][side] += share * (1 - upper) / radius[cell];
+				result[i][side + 1] += share * upper / radius[cell];
 			});
 		}
 	return result;
@@ -191,14 +140,13 @@ template <int Dim> std::vector<AxisValues> hoopAtCentres(const PointCloud<Dim>& 
 
 template <int Dim> std::vector<PointBasis<Dim>> basisAtCentres(const PointCloud<Dim>& cloud, const CloudBasis<Dim>& basis)
 {
-	const Matter<Dim>            matter(basis);
-	const auto                   centre = centresOf(matter, cloud, basis);
+	const auto                   centre = centresOfMatter(cloud, basis);
 	std::vector<PointBasis<Dim>> result(basis.axes.size());
 #pragma omp parallel for schedule(static)
 	for (int k = 0; k < int(basis.patches.size()); ++k) {
 		const auto& patch = basis.patches[k];
 		for (int i = patch.first; i < patch.first + patch.count; ++i)
-			result[i] = atCentres(patch, basis.axes[i], matter, centre);
+			result[i] = atCentres(patch, basis.axes[i], centre);
 	}
 	return result;
 }
