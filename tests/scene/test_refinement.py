@@ -56,22 +56,22 @@ print(json.dumps([found, volume, all((p - Vector3(1, 1, 0)).norm() <= 1 for p in
 
 
 def test_a_plate_presses_across_the_sizes(yade):
-	"""To .75 of the height, nu = 0: E ln l / l per area, as with equal cells; with F-bar too, and around an axis."""
+	"""To .75 of the height, nu = 0: E ln l / l per area, the same at all points; with F-bar too, and around an axis, where it is even to a percent with equal cells."""
 	results = yade(scene + '''
 found = []
-for dim, options in (2, {}), (2, dict(fBar=True)), (2, dict(top=True)), (2, dict(axisymmetric=True)), (2, dict(axisymmetric=True, fBar=True)), (3, {}), (3, dict(fBar=True)), (3, dict(newton=MpmNewton(linearSolver='iterative'))):
+for dim, options in (2, {}), (2, dict(fBar=True)), (2, dict(top=True)), (2, dict(axisymmetric=True)), (2, dict(axisymmetric=True, fBar=True)), (3, {}), (3, dict(fBar=True)), (3, dict(newton=MpmNewton(linearSolver='iterative', tolerance=1e-9))):
 	block(dim, contacts=[MpmContact(friction=0)], **options)
 	plate()
 	O.run(10, wait=True)
 	stress = mpm.arrays()['stress'][:, 1, 1]
 	area = math.pi * 4 if 'axisymmetric' in options else 2.**(dim - 1)
-	found.append([solver.contacts[0].forces[0][1] / area, stress.min(), stress.max()])
+	found.append([solver.contacts[0].forces[0][1] / area, stress.min(), stress.max(), 'axisymmetric' in options])
 print(json.dumps(found))
 ''').result
 	exact = 1e6 * math.log(0.75) / 0.75
-	for pressure, low, high in results:
+	for pressure, low, high, isRing in results:
 		assert abs(-pressure / exact - 1) < 0.01
-		assert abs(low / exact - 1) < 0.06 and abs(high / exact - 1) < 0.06
+		assert abs(low / high - 1) < (0.06 if isRing else 1e-6)
 
 
 def test_a_slope_slides_through_smaller_cells(yade):

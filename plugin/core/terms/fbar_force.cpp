@@ -40,47 +40,24 @@ template <int Dim, class F> void forParts(const Patch<Dim>& patch, const PointBa
 	}
 }
 
-/// Where a cell is in its leaf, in leaves: at `corner`, `size` long.
-template <int Dim> struct InLeaf {
-	Vec<Dim> corner = Vec<Dim>::Zero();
-	double   size   = 1;
-
-	InLeaf(const CloudBasis<Dim>& basis, int cell)
-	{
-		if (basis.leafOf.empty()) return;
-		const Key leaf = basis.leaves[basis.leafOf[cell]], key = basis.cells[cell];
-		size   = std::ldexp(1, Grid<Dim>::level(key) - Grid<Dim>::level(leaf));
-		corner = (Grid<Dim>::index(key) - Grid<Dim>::index(leaf)).template cast<double>() / (1 << Grid<Dim>::level(leaf));
-	}
-};
-
-/// Of the matter in the leaf of each cell, from the corner of the cell on, in cells: 0 to 1 along each axis where the cell is the leaf. Beyond its sides the functions of the
-/// cell go on as those of the leaf.
+/// Of the matter in each cell, in the cell: 0 to 1 along each axis.
 template <int Dim> std::vector<Vec<Dim>> centresOfMatter(const PointCloud<Dim>& cloud, const CloudBasis<Dim>& basis)
 {
-	const std::size_t        leaves = basis.populatedLeaves().size();
-	std::vector<Vec<Dim>>    centre(leaves, Vec<Dim>::Zero()), ofCell;
-	std::vector<double>      volume(leaves, 0);
-	std::vector<InLeaf<Dim>> inLeaf;
-	for (int cell = 0; cell < int(basis.cells.size()); ++cell)
-		inLeaf.emplace_back(basis, cell);
+	std::vector<Vec<Dim>> centre(basis.cells.size(), Vec<Dim>::Zero());
+	std::vector<double>   volume(basis.cells.size(), 0);
 	for (const auto& patch : basis.patches)
 		for (int i = patch.first; i < patch.first + patch.count; ++i) {
 			const int    p   = basis.order[i];
 			const double own = cloud.volume0[p] * cloud.volumeRatio(p);
 			forParts(patch, basis.axes[i], [&](int c, int cell, const auto& parts, double share) {
-				const int leaf = basis.leaf(cell);
-				volume[leaf] += own * share;
+				volume[cell] += own * share;
 				for (int a = 0; a < Dim; ++a)
-					centre[leaf][a] += own * share * (inLeaf[cell].corner[a] + inLeaf[cell].size * parts[a].centre[c >> a & 1]);
+					centre[cell][a] += own * share * parts[a].centre[c >> a & 1];
 			});
 		}
-	for (int cell = 0; cell < int(basis.cells.size()); ++cell) {
-		const int leaf = basis.leaf(cell);
-		ofCell.push_back(
-		        volume[leaf] > 0 ? Vec<Dim>((centre[leaf] / volume[leaf] - inLeaf[cell].corner) / inLeaf[cell].size) : Vec<Dim>::Constant(0.5));
-	}
-	return ofCell;
+	for (std::size_t cell = 0; cell < centre.size(); ++cell)
+		centre[cell] = volume[cell] > 0 ? Vec<Dim>(centre[cell] / volume[cell]) : Vec<Dim>::Constant(0.5);
+	return centre;
 }
 
 /// Along each axis, of the centres of the cells on a side the average by the shares of the domain.
@@ -122,22 +99,22 @@ struct RingParts {
 	}
 };
 
-/// Radius of the middle of the section of the matter in each leaf: of parts with the volumes V at r the sum of V over that of V / r.
+/// Radius of the middle of the section of the matter in each cell: of parts with the volumes V at r the sum of V over that of V / r.
 template <int Dim> std::vector<double> sectionRadii(const PointCloud<Dim>& cloud, const CloudBasis<Dim>& basis)
 {
-	std::vector<double> volume(basis.populatedLeaves().size(), 0), area(volume);
+	std::vector<double> volume(basis.cells.size(), 0), area(volume);
 	for (const auto& patch : basis.patches)
 		for (int i = patch.first; i < patch.first + patch.count; ++i) {
 			const int       p   = basis.order[i];
 			const double    own = cloud.volume0[p] * cloud.volumeRatio(p);
 			const RingParts ring(basis.axes[i][0], basis.hoop[i], cloud.halfSize[p][0], patch.span & 1, !basis.leafOf.empty());
 			forParts(patch, basis.axes[i], [&](int c, int cell, const auto&, double share) {
-				volume[basis.leaf(cell)] += own * share;
-				area[basis.leaf(cell)] += own * share / ring.radius[c & 1];
+				volume[cell] += own * share;
+				area[cell] += own * share / ring.radius[c & 1];
 			});
 		}
-	for (std::size_t leaf = 0; leaf < volume.size(); ++leaf)
-		volume[leaf] /= area[leaf];
+	for (std::size_t cell = 0; cell < volume.size(); ++cell)
+		volume[cell] /= area[cell];
 	return volume;
 }
 
@@ -153,10 +130,9 @@ template <int Dim> std::vector<AxisValues> hoopAtCentres(const PointCloud<Dim>& 
 			result[i].fill(0);
 			forParts(patch, basis.axes[i], [&](int c, int cell, const auto&, double share) {
 				const int    side  = c & 1;
-				const double r     = radius[basis.leaf(cell)];
-				const double upper = (r - ring.face) / ring.size + 1 - side; // hat function of the upper node of the cell
-				result[i][side] += share * (1 - upper) / r;
-				result[i][side + 1] += share * upper / r;
+				const double upper = (radius[cell] - ring.face) / ring.size + 1 - side; // hat function of the upper node of the cell
+				result[i][side] += share * (1 - upper) / radius[cell];
+				result[i][side + 1] += share * upper / radius[cell];
 			});
 		}
 	return result;
