@@ -210,7 +210,7 @@ for dim in 2, 3:
 	places = [(0.3, 0.1, 0), (1.2, 0.2, 0.3), (0.4, 0.9, 0.1)]
 	grid.refinements = found = mpm.refinementsAt(places, grid, halvings=2)
 	assert len(found) == 2 and all(box.halvings == 2 for box in found)
-	for place, size in *[(place, 0.25) for place in places], ((1.5, 0.2, 0.3), 0.5), ((9.5, 9.5, 9.5), 1):
+	for place, size in *[(place, 0.25) for place in places], ((1.5, 0.2, 0.3), 0.5), ((9.5, 9.5, 0.2), 1):
 		filled = mpm.fill(pack.inAlignedBox([x - 1 for x in place], [x + 1 for x in place]), grid, 1, 'soil')
 		nearest = min(filled, key=lambda body: np.linalg.norm((np.array(body.state.pos) - place)[:dim]))
 		assert 2 * nearest.shape.halfSize[0] == size, (dim, place, nearest.shape.halfSize)
