@@ -62,6 +62,23 @@ namespace {
 		return advice;
 	}
 
+	// Cells that have become smaller than what the points stand for leave holes between them.
+	string adviceOnCells(const MpmImplicitEngine& engine, const vector<MaterialPoint>& points)
+	{
+		if (engine.grid->refinements.empty()) return "";
+		int        tooLarge = 0;
+		const auto count    = [&](const auto& grid) {
+                        constexpr int Dim = std::decay_t<decltype(grid.origin)>::RowsAtCompileTime;
+                        for (const auto& point : points)
+                                tooLarge += point.shape->halfSize.template head<Dim>().maxCoeff()
+                                        > (1 + 1e-9) * gimpm::largestHalf<Dim>(grid, point.state->pos.template head<Dim>());
+		};
+		engine.grid->dim == 3 ? count(engine.grid->lattice<3>()) : count(engine.grid->lattice<2>());
+		if (tooLarge == 0) return "";
+		return " " + std::to_string(tooLarge)
+		        + " material points are larger than the cells of MpmGrid.refinements that they lie in, which leaves holes between them: set maxSplits, which splits them.";
+	}
+
 	string stepOf(const MpmImplicitEngine& engine, Real time)
 	{
 		std::ostringstream text;
@@ -116,7 +133,7 @@ string reasonOf(const gimpm::StepReport& report, const MpmImplicitEngine& engine
 	if (part < 1) text << " (" << part << " of O.dt, after " << engine.cuts << " cuts)";
 	text << " failed: " << report.cause;
 	if (report.failedPoint >= 0) text << placeOf(points[report.failedPoint]);
-	text << "." << placeOfImbalance(report, engine, points) << adviceOn(report, *engine.ghost, part, engine.isExplicit());
+	text << "." << placeOfImbalance(report, engine, points) << adviceOn(report, *engine.ghost, part, engine.isExplicit()) << adviceOnCells(engine, points);
 	if (report.failure == gimpm::Failure::unrestrained) text << idleBoundaries(engine, points);
 	text << " The scene is at load factor " << engine.loadFactor << ", the last converged state, in iteration " << engine.scene->iter << ".";
 	return text.str();
