@@ -216,8 +216,9 @@ namespace {
 	TYPED_TEST(CloudBasisTest, FarFromTheOriginNothingChanges)
 	{
 		constexpr int Dim = TypeParam::value;
+		constexpr int far = Dim == 2 ? 900000 : 500000;
 		Grid<Dim>     grid;
-		for (const int shift : { 0, -900000, 900000 }) {
+		for (const int shift : { 0, -far, far }) {
 			const auto cells = block<Dim>(grid, Index<Dim>::Constant(3), 3, Index<Dim>::Constant(shift));
 			const auto basis = cloudBasis<Dim>(cells, grid, Basis::gimp, this->none);
 			EXPECT_EQ(int(basis.cells.size()), Dim == 2 ? 9 : 27) << shift;

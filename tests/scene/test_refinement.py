@@ -192,6 +192,7 @@ def test_refused(yade):
 	        "block(); solver.boundaries = [MpmBoundary(surface=[(-1, 0), (3, 0)], fix='n')]": 'boundaries[0].surface',
 	        'block(); O.engines = [MpmDynamicEngine(grid=solver.grid, boundaries=solver.boundaries)]': 'MpmDynamicEngine, as inertia',
 	        'block(); solver.grid.refinements = [MpmRefinement(min=(2, 0, 0), max=(1, 0, 0))]': 'MpmRefinement.min = 2 is greater than max = 1 along x',
+	        'block(); solver.boundaries = [*solver.boundaries, MpmBoundary(min=(1.125, 0.125, -inf), max=(1.125, 0.125, inf), fix="x")]': 'boundaries[2] lies between the nodes of larger cells',
 	        'block(); O.run(1, wait=True); mpm.stressError()': 'stressError: MpmGrid.refinements',
 	}
 	found = outcomesOf(yade.folder, scene, [case + '; O.run(1, wait=True)' for case in cases])

@@ -99,14 +99,15 @@ template <int Dim> bool holdsSoil(const HeldBox<Dim>& box, const CloudBasis<Dim>
 	return std::any_of(basis.nodes.begin(), basis.nodes.end(), [&](Key key) { return box.contains(Grid<Dim>::index(key)); });
 }
 
-/// Nodes that hang on others follow these, held or not.
-template <int Dim> bool holdsOnlyHangingNodes(const HeldBox<Dim>& box, const CloudBasis<Dim>& basis)
+/// A box that reaches a leaf and none of its corners, or only those that hang on others and follow these.
+template <int Dim> bool liesBetweenNodes(const HeldBox<Dim>& box, const CloudBasis<Dim>& basis)
 {
-	const auto isIn = [&](int node) { return box.contains(Grid<Dim>::index(basis.nodes[node])); };
-	if (std::none_of(basis.ties.node.begin(), basis.ties.node.end(), isIn)) return false;
 	for (int node = 0; node < int(basis.nodes.size()); ++node)
-		if (isIn(node) && !basis.ties.contains(node)) return false;
-	return true;
+		if (box.contains(Grid<Dim>::index(basis.nodes[node])) && !basis.ties.contains(node)) return false;
+	return std::any_of(basis.leaves.begin(), basis.leaves.end(), [&](Key leaf) {
+		const Index<Dim> low = Grid<Dim>::index(leaf), high = low + Index<Dim>::Constant(1 << Grid<Dim>::level(leaf));
+		return (low.cwiseMax(box.lower).array() <= high.cwiseMin(box.upper).array()).all();
+	});
 }
 
 template <class V> std::string listed(const V& x)
@@ -159,9 +160,6 @@ template <int Dim> std::string lostGrip(const PointCloud<Dim>& cloud, const Clou
 {
 	const auto& boxes = model.boundary.boxes();
 	for (std::size_t b = 0; b < boxes.size(); ++b) {
-		if (holdsOnlyHangingNodes(boxes[b], basis))
-			return "boundaries[" + std::to_string(b)
-			        + "] holds none but nodes that hang on those of larger cells: let it reach these, or halve the cells";
 		if (boxes[b].displacement.isZero(0)) continue;
 		const std::string wrong
 		        = holdsSoil(boxes[b], basis) ? withdrawn(boxes[b], cloud, model.grid, load.ofBox(int(b))) : withoutSoil(boxes[b], cloud, model.grid);
@@ -170,6 +168,18 @@ template <int Dim> std::string lostGrip(const PointCloud<Dim>& cloud, const Clou
 	return "";
 }
 
+template <int Dim> std::string boxBetweenNodes(const CloudBasis<Dim>& basis, const Boundary<Dim>& boundary)
+{
+	if (basis.leaves.empty()) return ""; // all cells are equal
+	for (const auto& box : boundary.boxes())
+		if (liesBetweenNodes(box, basis))
+			return "boundaries[" + std::to_string(&box - boundary.boxes().data())
+			        + "] lies between the nodes of larger cells, and holds none: let it reach them, or halve the cells there";
+	return "";
+}
+
+template std::string boxBetweenNodes(const CloudBasis<2>&, const Boundary<2>&);
+template std::string boxBetweenNodes(const CloudBasis<3>&, const Boundary<3>&);
 template std::string lostGrip(const PointCloud<2>&, const CloudBasis<2>&, const Model<2>&, const Load<2>&);
 template std::string lostGrip(const PointCloud<3>&, const CloudBasis<3>&, const Model<3>&, const Load<3>&);
 

@@ -11,4 +11,7 @@ namespace gimpm {
 /// with soil, or whose soil has gone more than half a cell away in front of a node; or empty. It depends on the present state only.
 template <int Dim> std::string lostGrip(const PointCloud<Dim>&, const CloudBasis<Dim>&, const Model<Dim>&, const Load<Dim>&);
 
+/// A box of the boundary that reaches soil in a refined grid and holds nothing, because it lies between the nodes. One clause, or empty.
+template <int Dim> std::string boxBetweenNodes(const CloudBasis<Dim>&, const Boundary<Dim>&);
+
 } // namespace gimpm

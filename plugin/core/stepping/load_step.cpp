@@ -19,6 +19,8 @@ template <int Dim> bool isHeld(const StepSystem<Dim>& system, const PointCloud<D
 	const std::string lost = system.hasInertia() ? "" : lostGrip(cloud, system.basis, system.model, load);
 	const Restraint   held = restraint(system.basis, system.model.grid, system.model.boundary, system.terms);
 	report.parts           = held.parts;
+	if (const std::string between = boxBetweenNodes(system.basis, system.model.boundary); !between.empty())
+		return !fail(report, Failure::misplaced, between);
 	if (!lost.empty()) return !fail(report, Failure::detached, lost);
 	for (const auto& term : system.terms) {
 		if (const std::string obstacle = term->obstacle(); !obstacle.empty()) return !fail(report, Failure::misplaced, obstacle);
