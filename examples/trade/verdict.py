@@ -88,6 +88,7 @@ def text(found):
 	elastic, plastic = kept.factors('steps', 'column', 'column3d'), kept.factors('steps', 'slope', of=('10', '40'))
 	points, contact = kept.factors('pointsPerCell', 'slope', 'collapse', 'clay', 'seepage', 'sphere'), kept.factors('stiffness', 'sphere', 'clay', of=('100', '1000'))
 	small = block('footing'), block('bar')
+	equal, around = (next(row for row in rows('two_sizes', 'results', 'footing.csv') if (row['dim'], row['cells'], row['reach']) == (2, 24, reach)) for reach in (0, 1))
 	ratios = stepRatios()
 	seconds, unknowns = solving()
 	split, coarse = found['runout'].points[0], found['runout'].beside[1][0]
@@ -107,6 +108,7 @@ What to set, and what not, from {sum(map(len, kept.runs.values()))} runs by `scr
 
 - *Load steps*: four times as many give the elastic columns {elastic[0]} times the error for {elastic[1]} times the time, the slope {plastic[0]} for {plastic[1]}. At a limit load steps decide; `newton.stepTolerance` finds how many, for {span(ratios)} times the solves of the best number ([load_steps](../load_steps/README.md)).
 - *`maxSplits=2`*: run-outs; {percent(split.error)} off instead of {percent(coarse.error)}, for {split.cost / coarse.cost:.2f} times the solves ([splitting](../splitting/README.md)); finer cells change run-outs by as much ([runout](../runout/README.md)). *Explicit steps*: where much error may stay; a pulse is {percent(lumped.error)} off in {lumped.cost:.1f} s ({said(lumped.setting)} cells a step) or {percent(better.error)} in {better.cost:.1f} s ({said(better.setting)}) ([waves](../waves/README.md)).
+- *`MpmGrid.refinements`*, where the body cannot be small: a strip footing in a large block takes {equal['seconds']:.0f} s with equal cells, {around['seconds']:.1f} s with cells that are halved twice around it, for the same load (within {percent(abs(around['load'] / equal['load'] - 1))}; [two_sizes](../two_sizes/footing.md)).
 - *`linearSolver`*: leave it at 'auto' ({seconds['auto']:.1f} s for one solve of a slender body of {unknowns:,} unknowns; direct {seconds['direct']:.1f}, conjugate gradients {seconds['iterative']:.1f}, multigrid {seconds['amg']:.1f}). *How wrong a run is*: `mpm.discretisationError` ([discretisation](../discretisation/README.md)).
 
 **Never worth it**

@@ -14,8 +14,10 @@ import time
 
 from yade import mpm
 import numpy as np
-sys.path.insert(0, os.path.join(os.path.dirname(sys.argv[0]), '..'))
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(sys.argv[0])), '..'))
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(sys.argv[0])), '..', '..', 'scripts', 'lib'))
 from options import readOptions
+from results import Results
 
 options = readOptions('Cells that are halved around a footing.',
         dim=(2, '2: strip, 3: square'),
@@ -62,12 +64,14 @@ def limitLoad():
 	return max(loads), solves, time.process_time() - begin
 
 
-equal, rows = None, []
+table = Results(options.out, 'footing', ['dim', 'cells', 'halvings', 'reach'], ['unknowns', 'points', 'load', 'solves', 'seconds'])
+equal = None
 variants = [(0, 0.)] * bool(options.equal) + [(options.halvings, float(reach)) for reach in str(options.reach).split(',')]
 for halvings, reach in variants:
 	scene(halvings, reach)
 	load, solves, seconds = limitLoad()
 	if not halvings: equal = load
+	table.add([dict(dim=options.dim, cells=options.cells, halvings=halvings, reach=reach, unknowns=solver.dofs, points=len(O.bodies), load=load, solves=solves, seconds=seconds)])
 	of = f'{100 * (load / (2 + np.pi) - 1):+.2f} % of 2 + pi' if options.dim == 2 else ''
 	beside = f'{100 * (load / equal - 1):+.2f} % of that of equal cells' if equal and halvings else ''
 	print(f'halvings {halvings}, to {reach:g} B: {solver.dofs} unknowns, {len(O.bodies)} points, N_c = {load:.4f} {of} {beside}; {solves} solves, {seconds:.1f} s of the processor')
