@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "engine/solver/failures.hpp"
 #include "engine/solver/MpmImplicitEngine.hpp"
+#include "engine/solver/exchange.hpp"
 #include "engine/solver/idle_boundaries.hpp"
 
 namespace yade {
@@ -62,7 +63,7 @@ namespace {
 		return advice;
 	}
 
-	// Cells that have become smaller than what the points stand for leave holes between them.
+	// Points that get into cells smaller than what they stand for leave holes between them.
 	string adviceOnCells(const MpmImplicitEngine& engine, const vector<MaterialPoint>& points)
 	{
 		if (engine.grid->refinements.empty()) return "";
@@ -70,7 +71,7 @@ namespace {
 		const auto count    = [&](const auto& grid) {
                         constexpr int Dim = std::decay_t<decltype(grid.origin)>::RowsAtCompileTime;
                         for (const auto& point : points)
-                                tooLarge += point.shape->halfSize.template head<Dim>().maxCoeff()
+                                tooLarge += stretched(point.shape->halfSize0, point.state->defGrad).template head<Dim>().maxCoeff()
                                         > (1 + 1e-9) * gimpm::largestHalf<Dim>(grid, point.state->pos.template head<Dim>());
 		};
 		engine.grid->dim == 3 ? count(engine.grid->lattice<3>()) : count(engine.grid->lattice<2>());
