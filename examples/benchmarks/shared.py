@@ -3,7 +3,7 @@
 
 The file has the positions of the points after each scene, by its name, and as `measured` a text of JSON: for each scene the solves and the iterations of conjugate
 gradients or GMRES; of each process CPU seconds, seconds by part, memory, and what it has sent to others. The argument `linearSolver=amg` sets the method, `size=2`
-halves the cells.
+halves the cells, `depth=60` sets that of the slope in 3D [m], and with `distributed` the processes divide the points among them.
 """
 import json
 import os
@@ -18,14 +18,14 @@ from yade import mpm, pack, utils
 from yade.mpm import processes
 from yade.mpm.library import engine as library
 
-h, method = 2., 'iterative'
+h, method, depth, distributed = 2., 'iterative', 6., False
 law = dict(young=1e6, poisson=.3, density=2400)
 profile = mpm.polygon([(0, 0), (30, 0), (30, 7), (15, 7), (10, 12), (0, 12)])
 
 
 def engine(kind=MpmImplicitEngine, dim=2, **settings):
 	newton = MpmNewton(linearSolver=method, tolerance=1e-10, maxIterations=30)
-	return kind(grid=MpmGrid(cellSize=h, dim=dim), newton=newton, verbosity=0, **settings)
+	return kind(grid=MpmGrid(cellSize=h, dim=dim), newton=newton, verbosity=0, distributed=distributed, **settings)
 
 
 def sides(*held):
@@ -48,14 +48,34 @@ def slope2():
 
 def slope3():
 	materials = [MpmVonMisesMat(yieldStress=k, label=label, **law) for label, k in (('soil', 15e3), ('weak', 7.5e3))]
-	ends = [MpmBoundary(max=(inf, inf, 0), fix='z'), MpmBoundary(min=(-inf, -inf, 6), fix='z')]
-	return weakLayer(engine(dim=3, gravity=(0, -9.81, 0), boundaries=sides(*ends)), profile & pack.inAlignedBox((0, 0, 0), (30, 12, 6)), materials, 3)
+	ends = [MpmBoundary(max=(inf, inf, 0), fix='z'), MpmBoundary(min=(-inf, -inf, depth), fix='z')]
+	return weakLayer(engine(dim=3, gravity=(0, -9.81, 0), boundaries=sides(*ends)), profile & pack.inAlignedBox((0, 0, 0), (30, 12, depth)), materials, 3)
 
 
 def friction():
 	"""The same of soil with friction that does not dilate: K is not symmetric."""
 	materials = [MpmMohrCoulombMat(cohesion=c, frictionAngle=np.radians(phi), dilationAngle=0, label=label, **law) for label, c, phi in (('soil', 1e4, 20), ('weak', 5e3, 12))]
 	return weakLayer(engine(gravity=(0, -9.81, 0), boundaries=sides()), profile, materials, 6)
+
+
+def incompressible():
+	"""The slope in the plane of soil that keeps its volume, with F-bar."""
+	materials = [MpmTrescaMat(young=1e6, poisson=.49, density=2400, undrainedStrength=k, label=label) for label, k in (('soil', 15e3), ('weak', 10e3))]
+	return weakLayer(engine(gravity=(0, -9.81, 0), boundaries=sides(), fBar=True), profile, materials, 4)
+
+
+def pushed():
+	"""A block of soil pushed from the side, with a load on its surface; its points go from cell to cell."""
+	O.materials.append(MpmVonMisesMat(yieldStress=6e4, label='soil', **law))
+	moved = [MpmBoundary(max=(0, inf, inf), fix='x', displacement=(.8, 0, 0)), MpmBoundary(max=(inf, 0, inf), fix='y')]
+	solver = engine(gravity=(0, -9.81, 0), boundaries=moved)
+	O.bodies.append(mpm.fill(pack.inAlignedBox((0, 0, -1), (20, 8, 1)), solver.grid, 2, 'soil'))
+	points = mpm.arrays()
+	top = points['pos'][:, 1] > 7
+	mpm.assign(ids=points['id'][top], force=[(0, -2e4, 0)] * top.sum())
+	O.engines = [solver]
+	O.dt = .25
+	return 4
 
 
 def contact():
@@ -130,6 +150,8 @@ out, *words = sys.argv[1:]
 for word in words:
 	if word.startswith('linearSolver='): method = word.partition('=')[2]
 	elif word.startswith('size='): h = 2 / float(word.partition('=')[2])
+	elif word.startswith('depth='): depth = float(word.partition('=')[2])
+	elif word == 'distributed': distributed = True
 	else:
 		O.reset()
 		mine = effort(globals()[word]())

@@ -9,6 +9,7 @@
 #include "engine/points/bulkAccess.hpp"
 #include "engine/points/columns.hpp"
 #include "engine/solver/MpmGrid.hpp"
+#include "engine/solver/distribution.hpp"
 #include "engine/solver/processes.hpp"
 #include "yade_api/verification.hpp"
 
@@ -25,6 +26,10 @@ BOOST_PYTHON_MODULE(mpm_engine)
 	py::def(
 	        "bytesSent", +[] { return processes() ? processes()->sent() : 0.; },
 	        "For measurements: what this process has sent to others that mpirun has started.");
+	py::def("isDivided", &isSceneDivided,
+	        "Whether several processes have divided the material points of the scene among them (MpmImplicitEngine.distributed).");
+	py::def("takePieces", &takePieces,
+	        "For mpm.load: the points of all pieces of the scene are in so many processes, of which this is the one with that number.");
 	py::def("betweenSteps", &betweenSteps, "For mpm.save: calls a function while no step in the background changes the state.");
 	py::def("columnsOfPoints", &columnsOfPoints,
 	        "For mpm.arrays: dict of bytearrays with the data of the material points that a mask means, in order of body id.");

@@ -178,6 +178,8 @@ public:
 	shared_ptr<Body>&       operator[](unsigned);
 	const shared_ptr<Body>& operator[](unsigned) const; // null after O.bodies.erase()
 	Body::id_t              insert(shared_ptr<Body>);
+	Body::id_t              insertAtId(shared_ptr<Body>, Body::id_t);
+	bool                    erase(Body::id_t, bool eraseClumpMembers);
 	bool                    exists(Body::id_t) const;
 	YADE_API_OVERRIDES(BodyContainer)
 };

@@ -115,6 +115,7 @@ outOfRange = {
         'MpmImplicitEngine.loadTime': None,
         'MpmImplicitEngine.verbosity': ['-1', '3'],
         'MpmImplicitEngine.maxSplits': ['-1'],
+        'MpmImplicitEngine.distributed': None,
         'MpmVtkRecorder.fileName': None,
         'MpmVtkRecorder.recorders': ['["lines"]'],
         'MpmVtkRecorder.fields': ['["lines"]'],

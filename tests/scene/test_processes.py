@@ -52,6 +52,122 @@ def test_two_processes_come_to_the_states_of_one(yade):
 	assert (solves, iterations) == (results['slope3'][0]['solves'], results['slope3'][0]['iterations']), 'conjugate gradients do the same'
 
 
+def test_points_in_pieces_come_to_the_states_of_one(yade):
+	"""Each process with its own points: von Mises' slope in the plane and in 3D, friction, F-bar, a pushed and loaded block whose points change the process."""
+	names = 'slope2', 'slope3', 'friction', 'incompressible', 'pushed'
+	results, alone = found(yade(scenes, 'out.npz', *names))
+	for processes in 2, 3:
+		together, positions = found(yade(scenes, 'out.npz', 'distributed', *names, processes=processes))
+		for name in names:
+			assert np.abs(positions[name] - alone[name]).max() < 1e-8, (name, processes)
+			assert [together[name][0][key] for key in ('points', 'solves')] == [results[name][0][key] for key in ('points', 'solves')]
+
+
+pieces = setting + '''
+import numpy as np
+solver = slope(2.0)
+solver.distributed, solver.newton.tolerance, solver.newton.linearSolver = True, 1e-10, 'iterative'
+'''
+
+
+def test_pieces_are_saved_and_loaded_in_any_number_of_processes(yade):
+	"""Each process holds a part of the bodies; arrays are of all, columns of a law that one process alone knows, too. Two processes save, three, one and two go on."""
+	run = yade(
+	        pieces + '''
+O.materials.append(MpmCamClayMat(density=2000, shearModulus=1e6, criticalStateRatio=1, compressionIndex=.1, swellingIndex=.02, preconsolidation=1e6, referencePressure=1e3, label='clay'))
+filled = len(mpm.arrays()['id'])
+top = [body for body in O.bodies if body.state.pos[1] > 11]
+for body in top:
+	body.material = O.materials[-1]
+mpm.assign(ids=[body.id for body in top], stress=[-2e4 * np.eye(3)] * len(top))
+O.engines += [MpmVtkRecorder(fileName='vtk/slope', iterPeriod=2, solver='solver')]
+O.run(2, wait=True)
+mpm.save('half.yade.gz')
+own = len([body for body in O.bodies if body])
+try:
+	O.save('plain.yade.gz')
+	said = ['']
+except RuntimeError as error:
+	said = [str(error)]
+for wrong in (lambda: mpm.assign(pos=mpm.arrays()['pos']), solver.conditionNumber):
+	try:
+		wrong()
+	except ValueError as error:
+		said.append(str(error))
+O.run(3, wait=True)
+points = mpm.arrays()
+with open(f'process{rank}.json', 'w') as file:
+	json.dump([filled, own, said, sorted(points), points['pos'].tolist(), points['id'].tolist(), solver.plotData()['settlement'], solver.report()['points']], file)
+''', processes=2
+	)
+	first, second = (json.loads((run.folder / f'process{rank}.json').read_text()) for rank in (0, 1))
+	filled, own, said, columns, pos, ids, settlement, points = first
+	assert first[3:] == second[3:] and filled == second[0] == own + second[1] == len(ids) == points and 0 < own < filled and ids == sorted(ids)
+	assert 'preconsolidation' in columns and np.isclose(settlement, settlement)
+	assert 'mpm.save' in said[0] and 'distributed' in said[1] and 'distributed' in said[2] and not (run.folder / 'plain.yade.gz').exists()
+	files = {path.name for path in (run.folder / 'vtk').iterdir()}
+	assert files >= {'slopepoints.pvd', 'slopepoints.4.pvtu', 'slopepoints.4-0.vtu', 'slopepoints.4-1.vtu'}, files
+	goesOn = setting + '''
+import numpy as np
+mpm.load('half.yade.gz')
+O.run(3, wait=True)
+pos = mpm.arrays()['pos']
+if rank == 0: np.save('pos.npy', pos)
+'''
+	for processes in 3, 1, 2:
+		yade(goesOn, processes=processes)
+		assert np.abs(np.load(run.folder / 'pos.npy') - pos).max() < 1e-8, processes
+
+
+def test_what_points_in_pieces_do_not_admit_is_named(yade):
+	"""In all processes, and the scene stays as it was; other settings in one, a piece by itself, a failure of the step with the body's id."""
+	run = yade(
+	        pieces + '''
+said = []
+def tried():
+	try:
+		O.run(1, wait=True)
+		said.append('')
+	except (ValueError, RuntimeError) as error:
+		said.append(str(error))
+for name, value in dict(maxSplits=2, contacts=[MpmContact(friction=.3)], water=[MpmWater(level=3)]).items():
+	before = getattr(solver, name)
+	setattr(solver, name, value)
+	tried()
+	setattr(solver, name, before)
+mpm.assign(ids=[5], yieldStress=[2e4])
+tried()
+O.bodies[5].state.parameters = []
+O.run(1, wait=True)
+if rank == 1: solver.gravity *= 1.01
+tried()
+if rank == 1: solver.gravity /= 1.01
+young = O.materials[0].young
+if rank == 1: O.materials[0].young = 1.01 * young
+tried()
+O.materials[0].young = young
+O.run(1, wait=True)
+mpm.save('piece.yade')
+before = mpm.arrays()['pos'].tolist()
+solver.gravity *= 100
+solver.newton.minStep = 1
+tried()
+said.append(mpm.arrays()['pos'].tolist() == before)
+O.load(f'piece-{1 - rank}of2.yade')
+tried()
+with open(f'process{rank}.json', 'w') as file:
+	json.dump(said, file)
+''', processes=2
+	)
+	first, second = (json.loads((run.folder / f'process{rank}.json').read_text()) for rank in (0, 1))
+	assert first[:-1] == [said.replace('Process 1 of 2 has failed: ', '') if isinstance(said, str) else said for said in second[:-1]] or first[:-1] == second[:-1], (first, second)
+	for said, named in zip(first, ('maxSplits = 2', 'contacts', 'water', 'a strength or modulus of its own (yieldStress)', 'settings', 'values of materials', 'failed: ')):
+		assert named in said, (named, first)
+	assert first[7] is True and 'mpm.load(file) puts together' in first[8]
+	alone = yade("O.load('piece-0of2.yade')\nO.run(1, wait=True)\n", fails=True)
+	assert 'mpm.load(file) puts together' in alone.stderr
+
+
 def test_the_first_process_writes_files_and_all_have_the_arrays(yade):
 	"""A recorder, pictures, tables and saves: of each file one writer, whose error is one of all. A save is there for all when it has been made."""
 	run = yade(

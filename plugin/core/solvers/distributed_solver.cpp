@@ -13,24 +13,28 @@ namespace {
 
 const DistributedModule& library() { return *PetscLibrary::get().distributed; }
 
-DistributedRows viewOf(const NodeRows& rows, const std::vector<double>& value)
+/// What rows have that there are none of, where other processes have some.
+DistributedRows viewOf(const NodeRows& rows, const std::vector<double>& value, bool isSymmetric, bool hasPositions)
 {
+	static const double none    = 0;
+	const auto          numbers = [](const std::vector<double>& x, bool areThere) { return !areThere ? nullptr : x.empty() ? &none : x.data(); };
 	return { rows.dim,
 		 rows.rows(),
 		 rows.all,
 		 rows.start.data(),
 		 rows.column.data(),
 		 value.data(),
-		 rows.symmetricPart.empty() ? nullptr : rows.symmetricPart.data(),
-		 rows.position.empty() ? nullptr : rows.position.data() };
+		 numbers(rows.symmetricPart, !isSymmetric),
+		 numbers(rows.position, hasPositions) };
 }
 
-/// Why not all processes can go on with their rows; empty if they can.
-std::string obstacleOf(const std::optional<NodeRows>& rows, const NodeShare& share)
+/// Why not all processes can go on with their rows; empty if they can. A process without rows hears whether the others' have positions.
+std::string obstacleOf(const std::optional<NodeRows>& rows, const NodeShare& share, bool& hasPositions)
 {
-	std::int64_t isFinite[2] = { rows.has_value(), 0 };
+	std::int64_t isFinite[3] = { rows.has_value(), 0, !(rows && !rows->position.empty()) };
 	if (rows) isFinite[1] = std::all_of(rows->value.begin(), rows->value.end(), [](double value) { return std::isfinite(value); });
-	share.processes.smallest(isFinite, 2);
+	share.processes.smallest(isFinite, 3);
+	hasPositions = !isFinite[2];
 	if (!isFinite[0]) return "the rows of one process have more entries than can be counted";
 	return isFinite[1] ? "" : "the matrix has numbers that are not finite";
 }
@@ -108,7 +112,7 @@ struct DistributedSolver::Task {
 	IterativeEffort&        effort;
 	Eigen::VectorXd         x {};
 	double                  error  = 1; ///< |b - K x| / |b|
-	bool                    goesOn = false, isIndefinite = false;
+	bool                    goesOn = false, isIndefinite = false, hasPositions = false;
 	std::string             failure {}; ///< of the iterations
 	std::optional<NodeRows> rows {};    ///< for the library; read when they are needed
 	std::unique_ptr<Spread> spread {};
@@ -118,7 +122,7 @@ struct DistributedSolver::Task {
 	{
 		if (rows) return "";
 		rows                       = problem.rows();
-		const std::string obstacle = obstacleOf(rows, *problem.share());
+		const std::string obstacle = obstacleOf(rows, *problem.share(), hasPositions);
 		if (!obstacle.empty()) rows.reset();
 		else
 			spread.reset(new Spread { *problem.share(), rows->dof, problem.unknowns().isFree });
@@ -225,7 +229,7 @@ bool DistributedSolver::giveMatrix(Task& task)
 {
 	const Stopwatch watch(task.times.solve);
 	if (std::string obstacle = task.readRows(); !obstacle.empty()) return task.failure = obstacle, false;
-	const auto view = viewOf(*task.rows, task.rows->value);
+	const auto view = viewOf(*task.rows, task.rows->value, task.isSymmetric, task.hasPositions);
 	library().setMatrix(solver_, &view);
 	return true;
 }
@@ -269,7 +273,7 @@ SolverStatus DistributedSolver::factorise(Task& task)
 	for (int r = 0; r < rows.rows(); ++r)
 		for (int e = rows.start[r]; e < rows.start[r + 1]; ++e)
 			scaled[e] *= scale[r] * ofAll[rows.column[e]];
-	const auto view = viewOf(rows, scaled);
+	const auto view = viewOf(rows, scaled, task.isSymmetric, task.hasPositions);
 	library().setMatrix(solver_, &view);
 	int negative = 0;
 	if (!library().factorise(solver_, smallestPivot, &negative)) return SolverStatus::singular;

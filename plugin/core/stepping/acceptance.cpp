@@ -4,6 +4,7 @@
 #include "core/stepping/beyond_walls.hpp"
 #include "core/stepping/outcome.hpp"
 #include "core/terms/point_update.hpp"
+#include <algorithm>
 #include <sstream>
 
 namespace gimpm {
@@ -32,16 +33,17 @@ template <int Dim> void updatePoints(PointCloud<Dim>& cloud, const StepSystem<Di
 			if (!cloud.hoopStretch.empty()) keepOffAxis(cloud, p);
 		}
 	});
-	for (const char c : clamped)
-		report.clampedDomains += c;
+	const auto& division  = system.model.division;
+	report.clampedDomains = int(std::count(clamped.begin(), division ? clamped.begin() + division->own() : clamped.end(), true));
+	if (division) report.clampedDomains = int(division->sum(report.clampedDomains));
 }
 
 /// Equilibrium may have been found where no state can be: a point that hardly anything held has left the grid, or has become so flat that
 /// numbers do not tell its size. The report says so.
-template <int Dim> bool requireState(const PointCloud<Dim>& cloud, const Grid<Dim>& grid, StepReport& report)
+template <int Dim> bool requireState(const PointCloud<Dim>& cloud, std::size_t points, const Grid<Dim>& grid, StepReport& report)
 {
 	const double limit = Grid<Dim>::indexLimit * grid.cellSize;
-	for (std::size_t p = 0; p < cloud.size(); ++p) {
+	for (std::size_t p = 0; p < points; ++p) {
 		const bool isOnGrid = ((cloud.position[p] - grid.origin).array().abs() < limit).all() && cloud.stress[p].c.allFinite();
 		if (isOnGrid && cloud.halfSize[p].minCoeff() > 0 && cloud.defGrad[p].determinant() > 0) continue;
 		std::ostringstream text;
@@ -55,10 +57,26 @@ template <int Dim> bool requireState(const PointCloud<Dim>& cloud, const Grid<Di
 	return true;
 }
 
+/// The same of points that are divided: all processes say what the first one says that has found such a point.
+template <int Dim> bool requireState(const PointCloud<Dim>& cloud, const Model<Dim>& model, StepReport& report)
+{
+	const auto& division = model.division;
+	const bool  isGood   = requireState(cloud, division ? division->own() : cloud.size(), model.grid, report);
+	if (!division) return isGood;
+	const Processes& all   = *division->processes;
+	std::int64_t     first = isGood ? all.size() : all.rank();
+	all.smallest(&first, 1);
+	if (first == all.size()) return true;
+	report.cause    = all.told(report.cause, int(first));
+	report.failure  = Failure::diverging;
+	report.accepted = false;
+	return false;
+}
+
 /// What is computed on from here must be the same everywhere. The report says so if not.
 template <int Dim> bool requireSamePoints(const PointCloud<Dim>& cloud, const Model<Dim>& model, StepReport& report)
 {
-	if (!model.processes || haveSamePoints(*model.processes, cloud)) return true;
+	if (!model.processes || model.division || haveSamePoints(*model.processes, cloud)) return true;
 	fail(report, Failure::apart, "the processes have come to different states of the points");
 	report.accepted = false;
 	return false;
@@ -91,7 +109,7 @@ template <int Dim> bool accept(const StepSystem<Dim>& system, PointCloud<Dim>& c
 	if (system.model.grid.axisymmetric) report.reactions.pop_back(); // of the axis, which nobody has asked for
 	PointCloud<Dim> updated = cloud;
 	updatePoints(updated, system, d, report);
-	if (!requireState(updated, system.model.grid, report) || !requireSamePoints(updated, system.model, report)) return false;
+	if (!requireState(updated, system.model, report) || !requireSamePoints(updated, system.model, report)) return false;
 	cloud = std::move(updated);
 	for (const auto& term : system.terms)
 		term->commit(d);

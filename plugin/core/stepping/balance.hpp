@@ -22,11 +22,14 @@ public:
 	/// Norm of the points' internal forces if each had an elastic strain of this size, strain(point) [N].
 	template <class F> double norm(F&& strain) const
 	{
-		const auto&     points = system_.points;
-		Eigen::VectorXd force(points.volume0.size());
-		for (int i = 0; i < int(force.size()); ++i)
-			force[i] = of(i, strain(i));
-		return force.stableNorm();
+		Eigen::VectorXd force = Eigen::VectorXd::Zero(system_.points.volume0.size());
+		for (const auto& patch : system_.basis.patches)
+			for (int i = patch.first; i < patch.first + patch.count && system_.counts(patch); ++i)
+				force[i] = of(i, strain(i));
+		const double norm = force.stableNorm();
+		if (!system_.model.division) return norm;
+		const auto norms = ofEach(*system_.model.processes, norm);
+		return Eigen::Map<const Eigen::VectorXd>(norms.data(), norms.size()).stableNorm();
 	}
 	/// Their sum over the points around each node [N].
 	template <class F> Eigen::VectorXd atNodes(F&& strain) const
@@ -39,6 +42,7 @@ public:
 			for (const int node : patch.node)
 				if (node >= 0) force[node] += sum;
 		}
+		system_.complete(force);
 		return force;
 	}
 	/// Size of the elastic strain of a point at the start of the step.

@@ -22,7 +22,8 @@ template <int Dim> struct CutPatches {
 			for (const auto& [first, last] : system.basis.colours[c]) {
 				const int begin = int(basis.patches.size());
 				for (int i = first; i < last; ++i)
-					if (system.basis.patches[i].cells != allCells(system.basis.patches[i])) add(system, system.basis.patches[i]);
+					if (const auto& patch = system.basis.patches[i]; patch.cells != allCells(patch) && system.counts(patch))
+						add(system, patch);
 				if (int(basis.patches.size()) > begin) basis.colours[c].push_back({ begin, int(basis.patches.size()) });
 			}
 	}
@@ -79,13 +80,12 @@ private:
 	int front; // number of nodes that are not behind walls
 };
 
-} // namespace
-
+/// By the patches that this process counts.
 template <int Dim>
-void addReactionsBeyondWalls(
-        const StepSystem<Dim>& system, const PointCloud<Dim>& cloud, const Load<Dim>& load, const Eigen::VectorXd& d, std::vector<Vec3>& reactions)
+void addReactionsOf(
+        const CutPatches<Dim>& cut, const StepSystem<Dim>& system, const PointCloud<Dim>& cloud, const Load<Dim>& load, const Eigen::VectorXd& d,
+        std::vector<Vec3>& reactions)
 {
-	const CutPatches<Dim> cut(system);
 	if (cut.nodes.empty()) return;
 	Eigen::VectorXd displacement = Eigen::VectorXd::Zero(cut.size()), internal = displacement, external = displacement;
 	displacement.head(d.size()) = system.model.atMiddle ? Eigen::VectorXd(d / 2) : d;
@@ -100,6 +100,21 @@ void addReactionsBeyondWalls(
 			const int at = int(d.size()) + Dim * int(n) + i;
 			reactions[box - boundary.boxes().data()][i] += internal[at] - external[at];
 		}
+}
+
+} // namespace
+
+template <int Dim>
+void addReactionsBeyondWalls(
+        const StepSystem<Dim>& system, const PointCloud<Dim>& cloud, const Load<Dim>& load, const Eigen::VectorXd& d, std::vector<Vec3>& reactions)
+{
+	const CutPatches<Dim> cut(system);
+	if (!system.model.division) return addReactionsOf(cut, system, cloud, load, d, reactions);
+	std::vector<Vec3> own(reactions.size(), Vec3::Zero());
+	addReactionsOf(cut, system, cloud, load, d, own);
+	for (std::size_t b = 0; b < reactions.size(); ++b)
+		for (int a = 0; a < Dim; ++a)
+			reactions[b][a] += system.model.division->sum(own[b][a]);
 }
 
 template void addReactionsBeyondWalls(const StepSystem<2>&, const PointCloud<2>&, const Load<2>&, const Eigen::VectorXd&, std::vector<Vec3>&);

@@ -26,10 +26,11 @@ public:
 		double     gap; ///< [cells]
 	};
 	/// The widest gap that has opened between a node and the soil before it, if one has.
-	std::optional<Loss> loss(const PointCloud<Dim>& cloud, const Grid<Dim>& grid)
+	std::optional<Loss> loss(const PointCloud<Dim>& cloud, const Grid<Dim>& grid, const Division* division)
 	{
 		for (std::size_t p = 0; p < cloud.size(); ++p)
 			look(cloud, int(p), grid);
+		if (division) takeFromOthers(*division);
 		std::optional<Loss> widest;
 		for (const auto& [node, gap] : gaps)
 			if (gap.hasOpened() && (!widest || gap.now > widest->gap)) widest = Loss { Grid<Dim>::index(node), gap.now };
@@ -37,6 +38,16 @@ public:
 	}
 
 private:
+	void takeFromOthers(const Division& division)
+	{
+		std::vector<NodeGap> own;
+		for (const auto& [node, gap] : gaps)
+			own.push_back({ node, gap });
+		gaps.clear();
+		for (const auto& [node, gap] : joined(*division.processes, own))
+			keep(node, gap);
+	}
+
 	/// Between a node and the soil before it, in cells; `first`: to the same soil before it ever moved.
 	struct Gap {
 		double now, first;
@@ -44,6 +55,11 @@ private:
 		/// Half a cell away the soil has taken part in 95 % of the movement, and soon it takes part in less than half of it. Soil that was about as far
 		/// from the beginning, as beside the crest of an embankment, is not lost.
 		bool hasOpened() const { return now > 0.5 + 1e-9 && now > std::max(first, 0.) + 0.25; }
+	};
+
+	struct NodeGap {
+		Key node;
+		Gap gap;
 	};
 
 	/// Of a point from its nearest image before or behind the front.
@@ -74,9 +90,13 @@ private:
 		}
 		forNodes(low, high, [&](const Index<Dim>& node) {
 			if (!box.contains(node)) return;
-			const auto [found, isNew] = gaps.try_emplace(Grid<Dim>::key(grid.first(node)), gap);
-			if (!isNew && gap.now < found->second.now) found->second = gap;
+			keep(Grid<Dim>::key(grid.first(node)), gap);
 		});
+	}
+	void keep(Key node, const Gap& gap)
+	{
+		const auto [found, isNew] = gaps.try_emplace(node, gap);
+		if (!isNew && gap.now < found->second.now) found->second = gap;
 	}
 	template <class F> static void forNodes(const Index<Dim>& low, const Index<Dim>& high, F&& f)
 	{
@@ -118,13 +138,15 @@ template <class V> std::string listed(const V& x)
 	return text.str() + ")";
 }
 
-template <int Dim> std::string withoutSoil(const HeldBox<Dim>& box, const PointCloud<Dim>& cloud, const Grid<Dim>& grid)
+template <int Dim> std::string withoutSoil(const HeldBox<Dim>& box, const PointCloud<Dim>& cloud, const Grid<Dim>& grid, const Division* division)
 {
 	Vec<Dim> low = Vec<Dim>::Constant(std::numeric_limits<double>::infinity()), high = -low;
 	for (std::size_t p = 0; p < cloud.size(); ++p) {
 		low  = low.cwiseMin(cloud.position[p] - cloud.halfSize[p]);
 		high = high.cwiseMax(cloud.position[p] + cloud.halfSize[p]);
 	}
+	for (int a = 0; a < Dim && division; ++a)
+		low[a] = -division->largest(-low[a]), high[a] = division->largest(high[a]);
 	const auto place = [&](const Index<Dim>& node) {
 		Vec<Dim> x = grid.nodePosition(node);
 		for (int a = 0; a < Dim; ++a)
@@ -135,15 +157,16 @@ template <int Dim> std::string withoutSoil(const HeldBox<Dim>& box, const PointC
 	        + listed(high);
 }
 
-template <int Dim> std::string withdrawn(const HeldBox<Dim>& box, const PointCloud<Dim>& cloud, const Grid<Dim>& grid, const LoadFactor& load)
+template <int Dim>
+std::string withdrawn(const HeldBox<Dim>& box, const PointCloud<Dim>& cloud, const Grid<Dim>& grid, const LoadFactor& load, const Division* division)
 {
-	if (cloud.position0.empty()) return "";
+	if (cloud.position0.empty() && !division) return "";
 	const double before = load.before(), factor = before != 0 ? before : load.growth; // what has pushed, or begins to
 	for (int a = 0; a < Dim; ++a) {
 		const double push = factor * box.displacement[a];
 		Front<Dim>   front(box, a, push);
 		if (push == 0 || !front.exists) continue;
-		const auto loss = front.loss(cloud, grid);
+		const auto loss = front.loss(cloud, grid, division);
 		if (!loss) continue;
 		std::ostringstream text;
 		text.precision(3);
@@ -158,11 +181,12 @@ template <int Dim> std::string withdrawn(const HeldBox<Dim>& box, const PointClo
 
 template <int Dim> std::string lostGrip(const PointCloud<Dim>& cloud, const CloudBasis<Dim>& basis, const Model<Dim>& model, const Load<Dim>& load)
 {
-	const auto& boxes = model.boundary.boxes();
+	const auto& boxes    = model.boundary.boxes();
+	const auto* division = model.division.get();
 	for (std::size_t b = 0; b < boxes.size(); ++b) {
 		if (boxes[b].displacement.isZero(0)) continue;
-		const std::string wrong
-		        = holdsSoil(boxes[b], basis) ? withdrawn(boxes[b], cloud, model.grid, load.ofBox(int(b))) : withoutSoil(boxes[b], cloud, model.grid);
+		const std::string wrong = holdsSoil(boxes[b], basis) ? withdrawn(boxes[b], cloud, model.grid, load.ofBox(int(b)), division)
+		                                                     : withoutSoil(boxes[b], cloud, model.grid, division);
 		if (!wrong.empty()) return "boundaries[" + std::to_string(b) + "] moves by " + listed(boxes[b].displacement) + " m, but " + wrong;
 	}
 	return "";

@@ -4,6 +4,7 @@
 #include "core/stepping/acceptance.hpp"
 #include "core/stepping/equilibrium.hpp"
 #include "core/stepping/grip.hpp"
+#include "core/stepping/halo.hpp"
 #include "core/stepping/outcome.hpp"
 #include "core/stepping/rate_change.hpp"
 #include "core/stepping/restraint.hpp"
@@ -17,7 +18,7 @@ template <int Dim> bool isHeld(const StepSystem<Dim>& system, const PointCloud<D
 {
 	const Stopwatch   watch(report.times.basis);
 	const std::string lost = system.hasInertia() ? "" : lostGrip(cloud, system.basis, system.model, load);
-	const Restraint   held = restraint(system.basis, system.model.grid, system.model.boundary, system.terms);
+	const Restraint   held = restraint(system.basis, system.model.grid, system.model.boundary, system.terms, bool(system.model.division));
 	report.parts           = held.parts;
 	if (const std::string between = boxBetweenNodes(system.basis, system.model.boundary); !between.empty())
 		return !fail(report, Failure::misplaced, between);
@@ -66,6 +67,7 @@ template <int Dim> StepReport loadStep(PointCloud<Dim>& cloud, const Model<Dim>&
 {
 	StepReport report;
 	solver.resetTimes();
+	const Halo<Dim> halo(cloud, model);
 	// 1. basis functions and populated cells; boundary cells, ghost faces and K_g
 	const StepSystem<Dim> system(cloud, model, load, report);
 	if (!isHeld(system, cloud, load, report)) return report;

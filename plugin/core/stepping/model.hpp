@@ -4,6 +4,7 @@
 #include "core/base/processes.hpp"
 #include "core/grid/basis.hpp"
 #include "core/grid/boundary.hpp"
+#include "core/grid/division.hpp"
 #include "core/materials/law.hpp"
 #include "core/solvers/linear_solver.hpp"
 #include "core/stepping/load_curve.hpp"
@@ -43,7 +44,8 @@ template <int Dim> struct Model {
 	NewtonSettings                            newton;
 	std::vector<TermOfStep<Dim>>              terms {};         ///< besides the points' resistance and the ghost stabilisation
 	bool                                      atMiddle = false; ///< the points' resistance is that after half of the displacements
-	std::shared_ptr<const Processes>          processes {};     ///< that work on it together, all with the same points; null: this one alone
+	std::shared_ptr<const Processes>          processes {};     ///< that work on it together; null: this one alone
+	std::shared_ptr<Division>                 division {};      ///< of the points among them; null: all have the same points
 };
 
 template <int Dim> struct Load {

@@ -19,11 +19,18 @@ public:
 		Index<Dim> length; ///< [cells]
 	};
 
-	Parts(const CloudBasis<Dim>& basis, const Grid<Dim>& grid) : basis_(basis), parent_(basis.nodes.size()), offset_(parent_.size(), Index<Dim>::Zero())
+	/// `byCells`: a process that does not have all patches joins the corners of the cells, which gives the same parts where the grid is not periodic.
+	Parts(const CloudBasis<Dim>& basis, const Grid<Dim>& grid, bool byCells)
+	        : basis_(basis), parent_(basis.nodes.size()), offset_(parent_.size(), Index<Dim>::Zero())
 	{
 		std::iota(parent_.begin(), parent_.end(), 0);
-		for (const auto& patch : basis.patches)
-			join(patch, grid);
+		if (byCells)
+			for (const Key cell : basis.cells)
+				for (int c = 1; c < windowCells<Dim>; ++c)
+					join(position(basis.nodes, cell), position(basis.nodes, cell + Grid<Dim>::keyOffset(c)), Index<Dim>::Zero());
+		else
+			for (const auto& patch : basis.patches)
+				join(patch, grid);
 		for (std::size_t t = 0; t < basis.ties.node.size(); ++t)
 			for (int m = basis.ties.start[t]; m < basis.ties.start[t + 1]; ++m)
 				join(basis.ties.node[t], basis.ties.master[m], Index<Dim>::Zero());
@@ -163,9 +170,9 @@ template <int Dim> std::string describe(const Part<Dim>& part, const Grid<Dim>& 
 
 /// `holds(term, hold)` tells what a term holds.
 template <int Dim, class F>
-Restraint restraintBy(const CloudBasis<Dim>& basis, const Grid<Dim>& grid, const Boundary<Dim>& boundary, const Terms<Dim>& terms, F&& holds)
+Restraint restraintBy(const CloudBasis<Dim>& basis, const Grid<Dim>& grid, const Boundary<Dim>& boundary, const Terms<Dim>& terms, bool byCells, F&& holds)
 {
-	const Parts<Dim>         parts(basis, grid);
+	const Parts<Dim>         parts(basis, grid, byCells);
 	std::map<int, Part<Dim>> found;
 	for (std::size_t n = 0; n < basis.nodes.size(); ++n) {
 		Part<Dim>& part = found[parts.root(n)];
@@ -195,19 +202,20 @@ Restraint restraintBy(const CloudBasis<Dim>& basis, const Grid<Dim>& grid, const
 
 } // namespace
 
-template <int Dim> Restraint restraint(const CloudBasis<Dim>& basis, const Grid<Dim>& grid, const Boundary<Dim>& boundary, const Terms<Dim>& terms)
+template <int Dim>
+Restraint restraint(const CloudBasis<Dim>& basis, const Grid<Dim>& grid, const Boundary<Dim>& boundary, const Terms<Dim>& terms, bool isDivided)
 {
-	return restraintBy(basis, grid, boundary, terms, [](const Term<Dim>& term, const typename Term<Dim>::Hold& hold) { term.restrain(hold); });
+	return restraintBy(basis, grid, boundary, terms, isDivided, [](const Term<Dim>& term, const typename Term<Dim>::Hold& hold) { term.restrain(hold); });
 }
 
 template <int Dim>
 Restraint restraintAt(const Eigen::VectorXd& d, const CloudBasis<Dim>& basis, const Grid<Dim>& grid, const Boundary<Dim>& boundary, const Terms<Dim>& terms)
 {
-	return restraintBy(basis, grid, boundary, terms, [&](const Term<Dim>& term, const typename Term<Dim>::Hold& hold) { term.restrainAt(d, hold); });
+	return restraintBy(basis, grid, boundary, terms, false, [&](const Term<Dim>& term, const typename Term<Dim>::Hold& hold) { term.restrainAt(d, hold); });
 }
 
-template Restraint restraint(const CloudBasis<2>&, const Grid<2>&, const Boundary<2>&, const Terms<2>&);
-template Restraint restraint(const CloudBasis<3>&, const Grid<3>&, const Boundary<3>&, const Terms<3>&);
+template Restraint restraint(const CloudBasis<2>&, const Grid<2>&, const Boundary<2>&, const Terms<2>&, bool);
+template Restraint restraint(const CloudBasis<3>&, const Grid<3>&, const Boundary<3>&, const Terms<3>&, bool);
 template Restraint restraintAt(const Eigen::VectorXd&, const CloudBasis<2>&, const Grid<2>&, const Boundary<2>&, const Terms<2>&);
 template Restraint restraintAt(const Eigen::VectorXd&, const CloudBasis<3>&, const Grid<3>&, const Boundary<3>&, const Terms<3>&);
 

@@ -11,7 +11,8 @@ struct Restraint {
 	std::string freeMotion; ///< of the first part found that can move freely ("translation along y of the material around (1, 2)"), or empty
 };
 
-template <int Dim> Restraint restraint(const CloudBasis<Dim>&, const Grid<Dim>&, const Boundary<Dim>&, const Terms<Dim>& = {});
+/// `isDivided`: the basis has the points of one of several processes.
+template <int Dim> Restraint restraint(const CloudBasis<Dim>&, const Grid<Dim>&, const Boundary<Dim>&, const Terms<Dim>& = {}, bool isDivided = false);
 
 /// The same with what the terms still hold at displacements d.
 template <int Dim> Restraint restraintAt(const Eigen::VectorXd& d, const CloudBasis<Dim>&, const Grid<Dim>&, const Boundary<Dim>&, const Terms<Dim>&);

@@ -98,12 +98,31 @@ private:
 	std::uint64_t sums_[width] = { 1, 2, 3, 4 };
 };
 
+/// No others, of which some points may be missing. What follows a gap in a tile is done after all the rest of its colour: a tile stays with one thread.
+template <int Dim> Colours<Dim> onlyTouching(const NodeShare& share, const CloudBasis<Dim>& basis)
+{
+	const std::size_t count = basis.colours.size();
+	Colours<Dim>      kept(count);
+	for (std::size_t c = 0; c < count; ++c)
+		for (const auto& [first, last] : basis.colours[c]) {
+			std::size_t colour = c;
+			for (int i = first, begin = first; i <= last; ++i) {
+				if (i < last && touches(share, basis.patches[i].node)) continue;
+				if (colour >= kept.size()) kept.resize(kept.size() + count);
+				if (begin < i) kept[colour].push_back({ begin, i }), colour += count;
+				begin = i + 1;
+			}
+		}
+	return kept;
+}
+
 } // namespace
 
 template <int Dim>
-Share<Dim>::Share(const Processes& processes, const CloudBasis<Dim>& basis, const std::vector<GhostFace<Dim>>& faces)
-        : nodes_ { processes, cutByWork(basis, processes.size()) }, colours_(basis.colours)
+Share<Dim>::Share(const Processes& processes, const CloudBasis<Dim>& basis, const std::vector<GhostFace<Dim>>& faces, const Division* division)
+        : division_(division), nodes_ { processes, division ? division->startsAmong(basis.nodes) : cutByWork(basis, processes.size()) }, colours_(basis.colours)
 {
+	if (division) colours_ = onlyTouching(nodes_, basis);
 	for (auto& tiles : colours_)
 		keepTouching(nodes_, basis.patches, tiles);
 	std::copy_if(faces.begin(), faces.end(), std::back_inserter(faces_), [&](const auto& face) {
@@ -113,8 +132,9 @@ Share<Dim>::Share(const Processes& processes, const CloudBasis<Dim>& basis, cons
 
 template <int Dim> std::optional<PointFailure> Share<Dim>::firstOf(const std::optional<PointFailure>& failure) const
 {
-	constexpr std::int64_t none = std::numeric_limits<std::int64_t>::max();
-	std::int64_t           code = failure ? 2 * std::int64_t(failure->point) + (failure->reason == PointFailure::Reason::noResponse) : none;
+	constexpr std::int64_t none   = std::numeric_limits<std::int64_t>::max();
+	const auto             number = [&] { return division_ ? division_->idOf(failure->point) : failure->point; };
+	std::int64_t           code   = failure ? 2 * number() + (failure->reason == PointFailure::Reason::noResponse) : none;
 	nodes_.processes.smallest(&code, 1);
 	if (code == none) return std::nullopt;
 	return PointFailure { int(code / 2), code % 2 ? PointFailure::Reason::noResponse : PointFailure::Reason::inverted };

@@ -30,6 +30,16 @@ std::vector<GhostFace<Dim>> stabilise(const PointStiffness& moduli, const Model<
 	return faces;
 }
 
+template <int Dim> int countOfMixed(const PointCloud<Dim>& cloud, const Model<Dim>& model, const CloudBasis<Dim>& basis)
+{
+	const auto mixed = mixedCells(basis, cloud.material);
+	const auto count = [&](std::size_t first, std::size_t last) { return int(std::count(mixed.begin() + first, mixed.begin() + last, true)); };
+	if (!model.division) return count(0, mixed.size());
+	const auto start = model.division->startsAmong(basis.cells);
+	const int  rank  = model.division->processes->rank();
+	return int(model.division->sum(count(start[rank], start[rank + 1])));
+}
+
 } // namespace
 
 template <int Dim> std::vector<Vec<Dim>> pointForces(const PointCloud<Dim>& cloud, const Model<Dim>& model, const Load<Dim>& load)
@@ -49,7 +59,8 @@ StepSystem<Dim>::StepSystem(const PointCloud<Dim>& cloud, const Model<Dim>& m, c
 {
 	{
 		const Stopwatch watch(report.times.basis);
-		basis    = cloudBasis(cloud, model.grid, model.basis, model.boundary);
+		basis    = model.division ? cloudBasis(cloud, model.grid, model.basis, model.boundary, *model.division)
+		                          : cloudBasis(cloud, model.grid, model.basis, model.boundary);
 		points   = stepPoints(cloud, model.materials, basis, model.fBar);
 		external = Eigen::VectorXd::Zero(nodalSize());
 		addPointForces(basis, pointForces(cloud, model, load), external);
@@ -57,15 +68,15 @@ StepSystem<Dim>::StepSystem(const PointCloud<Dim>& cloud, const Model<Dim>& m, c
 	}
 	faces = stabilise(stiffnessOf_, model, basis, report);
 	const Stopwatch watch(report.times.basis);
-	if (model.processes) share_ = std::make_unique<Share<Dim>>(*model.processes, basis, faces);
+	if (model.processes) share_ = std::make_unique<Share<Dim>>(*model.processes, basis, faces, model.division.get());
+	complete(external);
 	holdNodes(load);
 	makeTerms(load);
-	report.nodes          = int(basis.nodes.size());
-	report.dofs           = dofs.count;
-	report.populatedCells = int(basis.populatedLeaves().size());
-	for (const char mixed : mixedCells(basis, cloud.material))
-		report.mixedCells += mixed;
-	report.largestWallOverlap = basis.largestWallOverlap;
+	report.nodes              = int(basis.nodes.size());
+	report.dofs               = dofs.count;
+	report.populatedCells     = int(basis.populatedLeaves().size());
+	report.mixedCells         = countOfMixed(cloud, model, basis);
+	report.largestWallOverlap = model.division ? model.division->largest(basis.largestWallOverlap) : basis.largestWallOverlap;
 }
 
 template <int Dim> void StepSystem<Dim>::holdNodes(const Load<Dim>& load)
@@ -108,6 +119,7 @@ template <int Dim> void StepSystem<Dim>::makeTerms(const Load<Dim>& load)
 		for (const auto& term : terms)
 			term->addBefore(resistance);
 		if (share_) share_->nodes().complete(resistance);
+		complete(before);
 		return Eigen::VectorXd(before - resistance);
 	};
 	for (const auto& make : model.terms)

@@ -52,6 +52,14 @@ template <int Dim> struct StepSystem {
 	/// What round-off of d leaves of forces that strains do not tell [N].
 	Eigen::VectorXd roundOff(const Eigen::VectorXd& d) const;
 
+	/// Where points are divided: the sums of the points around nodes, which each process knows of its own nodes.
+	void complete(Eigen::VectorXd& nodal) const
+	{
+		if (model.division) share()->complete(nodal);
+	}
+	/// Whether this process is the one that counts the points of the patch, of those that have them.
+	bool counts(const Patch<Dim>& patch) const { return !model.division || model.division->owns(patch.cell); }
+
 	bool hasInertia() const { return ownMotion.size() > 0; }
 
 	/// How things are as the step begins; the cloud has to be as it was then.

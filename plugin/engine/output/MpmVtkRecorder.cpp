@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "engine/output/MpmVtkRecorder.hpp"
 #include "engine/output/gridCells.hpp"
+#include "engine/output/statePieces.hpp"
 #include "engine/output/vtkDataSets.hpp"
-#include "engine/output/vtkFiles.hpp"
 #include "engine/points/columns.hpp"
 #include "engine/solver/MpmImplicitEngine.hpp"
 #include "engine/solver/processes.hpp"
@@ -40,7 +40,7 @@ namespace {
 		return (scene.stopAtIter > 0 && scene.iter + 1 == scene.stopAtIter) || (scene.stopAtTime > 0 && scene.time + scene.dt >= scene.stopAtTime);
 	}
 
-	VtkCells pointData(const Scene& scene, const MpmImplicitEngine& solver, const vector<string>& fields, int sectors)
+	VtkCells pointData(const Scene& scene, const MpmImplicitEngine& solver, const Columns& known, const vector<string>& fields, int sectors)
 	{
 		if (sectors > 0 && !solver.grid->axisymmetric)
 			throw std::invalid_argument(
@@ -49,7 +49,7 @@ namespace {
 		const auto      points = materialPoints(scene, solver.mask);
 		for (const MaterialPoint& point : points)
 			point.requireAdmissible(solver.grid->dim, solver.grid->axisymmetric);
-		const auto domains = pointDomains(points, scene, *solver.grid, solver.basis == "gimp", sectors);
+		const auto domains = pointDomains(points, scene, *solver.grid, isDivided(solver) ? known : fieldsOf(points), solver.basis == "gimp", sectors);
 		if (!contains(fields, "all"))
 			for (const string& name : pointFields())
 				if (!contains(fields, name)) domains->GetCellData()->RemoveArray(name.c_str());
@@ -167,7 +167,7 @@ void MpmVtkRecorder::finish()
 	if (dead || !lastIsMissing()) return;
 	isUnwritten = false; // one attempt
 	try {
-		if (isFirstProcess()) writeAll(followed());
+		if (isFirstProcess() || isDivided(followed())) writeAll(followed());
 	} catch (const std::exception& error) { // must not take the place of what has ended the simulation
 		log(Severity::error, getClassName(), string("the last state is missing: ") + error.what());
 	}
@@ -225,7 +225,8 @@ bool MpmVtkRecorder::standsBehind(const MpmImplicitEngine& engine) const
 
 void MpmVtkRecorder::record(const MpmImplicitEngine& engine)
 {
-	if (isFirstProcess()) writeAll(engine);
+	if (isDivided(engine)) fieldsOfPoints = fieldsOfAll(engine);
+	writeTogether(engine, [&] { writeAll(engine); });
 	const Moment now = momentOf(engine);
 	if (isDue(now)) restartPeriods(now);
 	isUnwritten                    = false;
@@ -273,13 +274,13 @@ void MpmVtkRecorder::writeAll(const MpmImplicitEngine& engine)
 
 void MpmVtkRecorder::write(const string& kind, const Moment& now, const MpmImplicitEngine& engine)
 {
-	const string series = fileName + kind + ".", file = series + std::to_string(now.iter) + ".vtu";
+	const string series = fileName + kind + ".", file = stateFile(kind, series + std::to_string(now.iter), engine);
 	const auto   isOfSeries = [&](const auto& entry) { return entry.first.compare(0, series.size(), series) == 0; };
 	const auto   latest     = std::find_if(written.rbegin(), written.rend(), isOfSeries);
 	if (latest != written.rend() && latest->second == now.time) return;
 
-	const auto cells = kind == "points" ? pointData(*scene, engine, fields, sectors) : gridCells(kind, *scene, engine);
-	writeVtu(*cells, now.time, file, { ascii, compress });
+	const auto cells = kind == "points" ? pointData(*scene, engine, fieldsOfPoints, fields, sectors) : gridCells(kind, *scene, engine);
+	writeState(*cells, now.time, file, engine, { ascii, compress });
 
 	auto       entries    = written;
 	const auto isReplaced = [&](const auto& entry) { // by a repeated step, or after O.resetTime()
@@ -289,7 +290,7 @@ void MpmVtkRecorder::write(const string& kind, const Moment& now, const MpmImpli
 	entries.emplace_back(file, now.time);
 	vector<std::pair<string, Real>> own;
 	std::copy_if(entries.begin(), entries.end(), std::back_inserter(own), isOfSeries);
-	writePvd(own, series + "pvd");
+	if (isFirstProcess()) writePvd(own, series + "pvd");
 	written = entries;
 }
 

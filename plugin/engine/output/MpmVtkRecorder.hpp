@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
+#include "engine/points/columns.hpp"
 #include "engine/solver/LoadStepObserver.hpp"
 #include "yade_api/registration.hpp"
 
@@ -86,9 +87,10 @@ private:
 	void                     write(const string& kind, const Moment&, const MpmImplicitEngine&);
 
 	// Of this process, so they are not saved:
-	long lastStepIter = -1;                                     // O.iter in the last step
-	Real knownTime    = std::numeric_limits<Real>::quiet_NaN(); // time of the state that was met last
-	bool isUnwritten  = false;                                  // whether no file has that state, which this process has reached
+	long                       lastStepIter = -1;                                     // O.iter in the last step
+	Real                       knownTime    = std::numeric_limits<Real>::quiet_NaN(); // time of the state that was met last
+	vector<const PointColumn*> fieldsOfPoints;                                        // that there are, as they were written last
+	bool                       isUnwritten = false;                                   // whether no file has that state, which this process has reached
 };
 
 } // namespace yade

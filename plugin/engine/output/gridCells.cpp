@@ -15,9 +15,12 @@ namespace {
 	template <int Dim> VtkCells cells(const string& kind, const Scene& scene, const MpmImplicitEngine& solver)
 	{
 		const ValueLock lock;
-		auto            model = toModel<Dim>(*solver.grid, solver.basis, solver.fBar, solver.boundaries, *solver.ghost, *solver.newton);
-		const auto      cloud = gather(materialPoints(scene, solver.mask), model);
-		const Real      z     = solver.grid->origin[2];
+		if (isDivided(solver))
+			throw std::invalid_argument(
+			        "the cells of '" + kind + "' follow from all points, and with MpmImplicitEngine.distributed no process has them.");
+		auto       model = toModel<Dim>(*solver.grid, solver.basis, solver.fBar, solver.boundaries, *solver.ghost, *solver.newton);
+		const auto cloud = gather(materialPoints(scene, solver.mask), model);
+		const Real z     = solver.grid->origin[2];
 		return kind == "grid" ? populatedCells(cloud, model, z) : stabilisedFaces(cloud, model, z);
 	}
 

@@ -3,6 +3,7 @@
 #include "engine/points/MaterialPoints.hpp"
 #include "engine/solver/MpmImplicitEngine.hpp"
 #include "engine/solver/energies.hpp"
+#include "engine/solver/processes.hpp"
 #include "yade_api/value_lock.hpp"
 #include <numeric>
 
@@ -13,6 +14,7 @@ namespace {
 
 	// Over all material points.
 	struct Totals {
+		Real     points  = 0;
 		Real     volume0 = 0, plasticVolume0 = 0, elasticEnergy = 0, largestDisplacement = 0, settlement = -std::numeric_limits<Real>::infinity();
 		Vector3r massTimesDisplacement = Vector3r::Zero();
 	};
@@ -21,6 +23,7 @@ namespace {
 	{
 		Totals         t;
 		const Vector3r down = gravity.normalized(); // zero without gravity
+		t.points            = Real(points.size());
 		for (const MaterialPoint& point : points) {
 			const MpmState& state        = *point.state;
 			const Vector3r  displacement = state.pos - state.refPos;
@@ -30,6 +33,23 @@ namespace {
 			t.massTimesDisplacement += point.material->density * state.volume0 * displacement;
 			t.largestDisplacement = std::max(t.largestDisplacement, displacement.norm());
 			t.settlement          = std::max(t.settlement, displacement.dot(down));
+		}
+		return t;
+	}
+
+	// With those of the points in other processes.
+	Totals ofAll(const Totals& own, const gimpm::Processes& all)
+	{
+		Totals     t    = own;
+		const auto each = [&](Real value) { return gimpm::ofEach(all, value); };
+		for (Real* sum : { &t.points, &t.volume0, &t.plasticVolume0, &t.elasticEnergy, &t.massTimesDisplacement[0], &t.massTimesDisplacement[1],
+		                   &t.massTimesDisplacement[2] }) {
+			const auto values = each(*sum);
+			*sum              = std::accumulate(values.begin(), values.end(), Real(0));
+		}
+		for (Real* largest : { &t.largestDisplacement, &t.settlement }) {
+			const auto values = each(*largest);
+			*largest          = *std::max_element(values.begin(), values.end());
 		}
 		return t;
 	}
@@ -61,16 +81,17 @@ namespace {
 		engine.requireAdmissible();
 		const auto     points    = materialPoints(*engine.ownScene(), engine.mask);
 		const auto&    reactions = engine.reactions;
-		const Totals   t         = totals(points, engine.gravity);
+		const Totals   own       = totals(points, engine.gravity);
+		const Totals   t         = isDivided(engine) ? ofAll(own, *processes()) : own;
 		const bool     isKnown   = reactions.size() == engine.boundaries.size();
 		const Vector3r total     = std::accumulate(reactions.begin(), reactions.end(), Vector3r(Vector3r::Zero()));
 		py::dict       data;
 		engine.tell(data, RunResults::byReportAndPlot);
 		data["step"]             = engine.nDone;
-		data["points"]           = points.size();
-		data["settlement"]       = points.empty() || engine.gravity.isZero(0) ? unknown : t.settlement;
-		data["displacement"]     = points.empty() ? unknown : t.largestDisplacement;
-		data["plasticShare"]     = points.empty() ? unknown : t.plasticVolume0 / t.volume0;
+		data["points"]           = size_t(t.points);
+		data["settlement"]       = t.points == 0 || engine.gravity.isZero(0) ? unknown : t.settlement;
+		data["displacement"]     = t.points == 0 ? unknown : t.largestDisplacement;
+		data["plasticShare"]     = t.points == 0 ? unknown : t.plasticVolume0 / t.volume0;
 		data["elasticEnergy"]    = t.elasticEnergy;
 		data["gravityPotential"] = -engine.curveOfGravity().valueAt(engine.loadTime) * engine.gravity.dot(t.massTimesDisplacement);
 		for (int axis = 0; axis < engine.grid->dim; ++axis)

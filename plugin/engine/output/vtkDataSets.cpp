@@ -155,7 +155,18 @@ namespace {
 	}
 }
 
-VtkCells pointDomains(const vector<MaterialPoint>& points, const Scene& scene, const MpmGrid& grid, bool deform, int sectors)
+vector<const PointColumn*> fieldsOf(const vector<MaterialPoint>& points)
+{
+	const bool moves
+	        = std::any_of(points.begin(), points.end(), [](const MaterialPoint& p) { return !p.state->vel.isZero(0) || !p.state->acceleration.isZero(0); });
+	vector<const PointColumn*> fields;
+	for (const PointColumn* column : columnsOf(points))
+		if (column->is(PointColumn::inVtk) && (moves || !column->is(PointColumn::ofMotion))) fields.push_back(column);
+	return fields;
+}
+
+VtkCells pointDomains(
+        const vector<MaterialPoint>& points, const Scene& scene, const MpmGrid& grid, const vector<const PointColumn*>& fields, bool deform, int sectors)
 {
 	const int dim = grid.dim, boxDim = sectors > 0 ? 3 : dim;
 	Cells     domains(boxType(boxDim));
@@ -173,10 +184,8 @@ VtkCells pointDomains(const vector<MaterialPoint>& points, const Scene& scene, c
 		}
 	const auto cells          = domains.dataSet();
 	const auto turnsOfSectors = turns(sectors);
-	const bool moves
-	        = std::any_of(points.begin(), points.end(), [](const MaterialPoint& p) { return !p.state->vel.isZero(0) || !p.state->acceleration.isZero(0); });
-	for (const PointColumn* column : columnsOf(points))
-		if (column->is(PointColumn::inVtk) && (moves || !column->is(PointColumn::ofMotion))) addColumn(*cells, *column, points, scene, turnsOfSectors);
+	for (const PointColumn* column : fields)
+		addColumn(*cells, *column, points, scene, turnsOfSectors);
 	vector<char> clamped;
 	const auto   tell = [&](const auto& lattice) {
                 for (const MaterialPoint& p : points)

@@ -3,7 +3,7 @@
 // The state of an analysis as VTK data: cells with fields. In plane strain all lies in a plane of constant z.
 #include "core/grid/point_cloud.hpp"
 #include "core/stepping/model.hpp"
-#include "engine/points/MaterialPoints.hpp"
+#include "engine/points/columns.hpp"
 #include "engine/solver/MpmGrid.hpp"
 #include <vtkSmartPointer.h>
 
@@ -15,7 +15,10 @@ using VtkCells = vtkSmartPointer<vtkUnstructuredGrid>;
 
 // The domain of each material point, in the order given, with its fields. `deform`: the domains follow the deformation. `sectors`: parts into which each is
 // revolved about the axis x = 0, one after the other; vectors and tensors turn with them. 0: the section.
-VtkCells pointDomains(const vector<MaterialPoint>&, const Scene&, const MpmGrid&, bool deform, int sectors);
+VtkCells pointDomains(const vector<MaterialPoint>&, const Scene&, const MpmGrid&, const vector<const PointColumn*>& fields, bool deform, int sectors);
+
+// Which of the columns are fields of these points.
+vector<const PointColumn*> fieldsOf(const vector<MaterialPoint>&);
 
 // The background grid where it holds material, in the same configuration. `z` is the height of the plane in plane strain.
 template <int Dim> VtkCells populatedCells(const gimpm::PointCloud<Dim>&, const gimpm::Model<Dim>&, Real z);

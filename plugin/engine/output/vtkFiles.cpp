@@ -5,6 +5,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <vtkCellData.h>
 #include <vtkDoubleArray.h>
 #include <vtkFieldData.h>
 #include <vtkNew.h>
@@ -94,6 +95,29 @@ void writeVtu(vtkUnstructuredGrid& cells, Real time, const string& path, VtkForm
 	writeWhole(path, [&](const string& temporary) {
 		writer->SetFileName(temporary.c_str());
 		writer->Write();
+	});
+}
+
+string pieceOf(const string& path, int process) { return fs::path(path).replace_extension("").string() + "-" + std::to_string(process) + ".vtu"; }
+
+void writePvtu(vtkUnstructuredGrid& piece, Real time, const string& path, int pieces)
+{
+	writeWhole(path, [&](const string& temporary) {
+		std::ofstream file(temporary);
+		file << "<?xml version=\"1.0\"?>\n<VTKFile type=\"PUnstructuredGrid\" version=\"0.1\" byte_order=\"LittleEndian\">\n"
+		     << "<PUnstructuredGrid GhostLevel=\"0\">\n<FieldData>\n<DataArray type=\"Float64\" Name=\"TimeValue\" NumberOfTuples=\"1\" format=\"ascii\">"
+		     << exactly(time)
+		     << "</DataArray>\n</FieldData>\n<PPoints>\n<PDataArray type=\"Float64\" Name=\"Points\" NumberOfComponents=\"3\"/>\n</PPoints>\n"
+		     << "<PCellData>\n";
+		for (int a = 0; a < piece.GetCellData()->GetNumberOfArrays(); ++a) {
+			vtkDataArray& array = *piece.GetCellData()->GetArray(a);
+			file << "<PDataArray type=\"" << (array.GetDataType() == VTK_INT ? "Int32" : "Float64") << "\" Name=\"" << array.GetName()
+			     << "\" NumberOfComponents=\"" << array.GetNumberOfComponents() << "\"/>\n";
+		}
+		file << "</PCellData>\n";
+		for (int process = 0; process < pieces; ++process)
+			file << "<Piece Source=\"" << inXml(fs::path(pieceOf(path, process)).filename()) << "\"/>\n";
+		file << "</PUnstructuredGrid>\n</VTKFile>\n";
 	});
 }
 

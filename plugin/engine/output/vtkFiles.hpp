@@ -17,6 +17,10 @@ struct VtkFormat {
 // One state of a series as .vtu, with its time [s].
 void writeVtu(vtkUnstructuredGrid&, Real time, const string& path, VtkFormat);
 
+// The .pvtu of one state, of which each of so many processes has written a piece with the same fields: path of the piece of a process, and one of the pieces.
+void   writePvtu(vtkUnstructuredGrid&, Real time, const string& path, int pieces);
+string pieceOf(const string& path, int process);
+
 // The .pvd of a series: paths and times of its files, which are in the same folder.
 void writePvd(const vector<std::pair<string, Real>>& series, const string& path);
 

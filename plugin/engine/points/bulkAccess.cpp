@@ -132,7 +132,7 @@ void betweenSteps(const py::object& f)
 	f();
 }
 
-py::dict columnsOfPoints(int mask, bool withDerived)
+py::dict columnsOfPoints(int mask, bool withDerived, const py::tuple& besides)
 {
 	const ValueLock lock;
 	const Scene&    scene  = *Singleton<Omega>::instance().getScene();
@@ -140,6 +140,9 @@ py::dict columnsOfPoints(int mask, bool withDerived)
 	py::dict        columns;
 	for (const PointColumn* column : columnsOf(points))
 		if (column->is(PointColumn::inArrays) || (withDerived && column->is(PointColumn::derived)))
+			columns[column->name] = valuesOf(*column, points, scene);
+	for (py::ssize_t i = 0; i < py::len(besides); ++i)
+		if (const PointColumn* column = findColumn(py::extract<string>(besides[i])); column && !columns.has_key(column->name))
 			columns[column->name] = valuesOf(*column, points, scene);
 	addMaterials(columns, points);
 	return columns;

@@ -16,8 +16,8 @@ void betweenSteps(const py::object& f);
 
 // For each column of mpm.arrays(), or also of those that follow from them, its values in order of body id, one row after the other, as a
 // bytearray of double or int64: of the points that an engine with this mask moves. "materials" is the list of the bodies' own materials,
-// "materialNumber" the place in it.
-py::dict columnsOfPoints(int mask, bool withDerived);
+// "materialNumber" the place in it. With the columns `besides`, by their names, of points that others have.
+py::dict columnsOfPoints(int mask, bool withDerived, const py::tuple& besides);
 
 // Into YADE's log.
 void warn(const string& text);

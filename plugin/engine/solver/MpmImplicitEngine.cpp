@@ -51,33 +51,24 @@ void MpmImplicitEngine::action()
 template <int Dim> void MpmImplicitEngine::step(Agreement& agreement)
 {
 	const AtWork during;
-	Job<Dim>     job      = prepare<Dim>();
+	Job<Dim>     job      = prepare<Dim>(agreement);
 	double       agreeing = 0;
-	if (job.model.grid.refinement && basis == "gimp" && splitOutgrown(job)) job = prepare<Dim>();
+	if (job.model.grid.refinement && basis == "gimp" && splitOutgrown(job)) job = prepare<Dim>(agreement);
 	{
 		const gimpm::Stopwatch watch(agreeing);
-		agreement.reach(*this, job.cloud);
+		agreement.reach(*this, job.cloud, bool(job.model.division));
 	}
 	if (job.model.processes) addTime(*timingDeltas, "agree", agreeing);
+	doubt(job);
 	tellObservers(*scene, [this](LoadStepObserver& observer) { observer.stepBegins(*this); });
 	advance(job);
 	const ValueLock lock;
 	if ((maxSplits > 0 || job.model.grid.refinement) && clampedDomains > 0) splitOutgrown(job);
-	for (const string& doubt : plausibility.warningsOfResult(*this, points, job.cloud))
-		warn(doubt);
+	const auto doubts = plausibility.warningsOfResult(*this, points, job.cloud);
+	warnOfPoints(doubts.empty() ? "" : doubts.front());
 }
 
-// False if there are no points to be split.
-template <int Dim> bool MpmImplicitEngine::splitOutgrown(Job<Dim>& job)
-{
-	const ValueLock lock;
-	const size_t    before = points.size();
-	warn(splitting.split(*this, points, job));
-	plausibility.know(job.cloud);
-	return points.size() > before;
-}
-
-template <int Dim> Job<Dim> MpmImplicitEngine::prepare()
+template <int Dim> Job<Dim> MpmImplicitEngine::prepare(Agreement& agreement)
 {
 	const ValueLock lock;
 	requireRunnable(*this);
@@ -89,20 +80,16 @@ template <int Dim> Job<Dim> MpmImplicitEngine::prepare()
 		const gimpm::Stopwatch watch(gathering);
 		job.model           = toModel<Dim>(*grid, basis, fBar, boundaries, *ghost, *newton);
 		job.model.processes = processes();
-		updateMaterialPoints(points, *scene, mask);
-		requireAny(points, *this);
-		job.cloud = gather(points, job.model);
+		takePoints(job, agreement);
 		(job.surfaceLoads = SurfaceLoads<Dim>(*this, job.model.grid)).join(job.model);
 		(job.waters = Waters<Dim>(*this, job.model.grid, job.cloud)).join(job.model);
 		(job.contacts = Contacts<Dim>(contacts, *scene, job.model.grid, points, job.begin, job.target)).join(job.model);
 		setMoving(job, points); // inertia comes last
 	}
-	for (const string& doubt : plausibility.look(*this, points, job.cloud, job.model, checking))
-		warn(doubt);
+	job.doubts = plausibility.look(*this, points, job.cloud, job.model, checking);
 	begin(points.size());
 	addTime(*timingDeltas, "gather", gathering);
 	if (checking > 0) addTime(*timingDeltas, "check", checking);
-	warn(plausibility.doubtOfBoundaries(*this, points));
 	return job;
 }
 

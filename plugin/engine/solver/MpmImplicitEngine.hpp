@@ -9,6 +9,7 @@
 #include "engine/solver/PeriodicCounters.hpp"
 #include "engine/solver/ProgressLine.hpp"
 #include "engine/solver/RunResults.hpp"
+#include "engine/solver/distribution.hpp"
 #include "engine/solver/job.hpp"
 #include "engine/solver/plausibility.hpp"
 #include "engine/solver/splitting.hpp"
@@ -19,7 +20,7 @@ namespace yade {
 
 class Agreement;
 
-class MpmImplicitEngine : public Exposed<MpmImplicitEngine, PeriodicEngine>, public Loads, public RunResults {
+class MpmImplicitEngine : public Exposed<MpmImplicitEngine, PeriodicEngine>, public Loads, public RunResults, public Pieces {
 public:
 	shared_ptr<MpmGrid>            grid;
 	string                         basis = "gimp";
@@ -27,10 +28,11 @@ public:
 	vector<shared_ptr<MpmContact>> contacts;
 	shared_ptr<MpmGhost>           ghost { new MpmGhost };
 	shared_ptr<MpmNewton>          newton { new MpmNewton };
-	int                            mask      = -1;
-	Real                           loadTime  = 0;
-	int                            verbosity = 1;
-	int                            maxSplits = 0;
+	int                            mask        = -1;
+	Real                           loadTime    = 0;
+	int                            verbosity   = 1;
+	int                            maxSplits   = 0;
+	bool                           distributed = false;
 
 	MpmImplicitEngine();
 
@@ -69,6 +71,9 @@ public:
 		v("maxSplits", &E::maxSplits, 0,
 		  "How often a point whose domain outgrows half a cell is split in two, and its halves again. 0, the default: never; the domain stays at half a cell.",
 		  atLeast(0));
+		v("distributed", &E::distributed, 0,
+		  "Whether several processes (scripts/run -n) divide the material points among them, so that each holds its own in memory. Without effect in one process.");
+		Pieces::attributes(v);
 		results([&](auto name, auto member, const auto&, Told, unsigned flags, auto doc, auto validator) { v(name, member, flags, doc, validator); });
 	}
 	template <class C> static void python(C& c)
@@ -99,17 +104,21 @@ protected:
 private:
 	bool                            isEndOfLoads() const;
 	template <int Dim> void         step(Agreement&);
-	template <int Dim> Job<Dim>     prepare();
+	template <int Dim> Job<Dim>     prepare(Agreement&);
+	template <int Dim> void         takePoints(Job<Dim>&, Agreement&);
+	template <int Dim> void         doubt(const Job<Dim>&);
 	template <int Dim> bool         splitOutgrown(Job<Dim>&);
 	template <int Dim> void         advance(Job<Dim>&);
 	template <int Dim> Attempt<Dim> attempt(Job<Dim>&) const;
 	template <int Dim> void         reach(Job<Dim>&, const Attempt<Dim>&);
 	void                            warn(const string&); // nothing if it is empty
+	void                            warnOfPoints(const string&);
 
 	PeriodicCounters            beforeActivation;
 	ProgressLine                progressLine;
 	Plausibility                plausibility;
 	Splitting                   splitting;
+	Distribution                distribution;
 	boost::weak_ptr<Factorable> home;   // the scene where it was made or seen last
 	gimpm::LinearSolver         solver; // keeps the symbolic analysis; results do not depend on it
 };

@@ -30,7 +30,14 @@ namespace {
 	// Position in the model's list of materials, which grows by each material on its first point.
 	class MaterialIndex {
 	public:
-		explicit MaterialIndex(std::vector<gimpm::Material>& list) : list(list) { }
+		// `known`: those that the list begins with.
+		MaterialIndex(std::vector<gimpm::Material>& list, const MaterialList& known) : list(list)
+		{
+			for (const MpmMaterial* material : known) {
+				index.emplace(material, int(list.size()));
+				list.push_back(coreMaterial(*material));
+			}
+		}
 		int of(const MaterialPoint& point)
 		{
 			if (point.material.get() == last) return lastIndex;
@@ -169,12 +176,12 @@ gimpm::Model<Dim> toModel(
 	return model;
 }
 
-template <int Dim> gimpm::PointCloud<Dim> gather(const vector<MaterialPoint>& points, gimpm::Model<Dim>& model)
+template <int Dim> gimpm::PointCloud<Dim> gather(const vector<MaterialPoint>& points, gimpm::Model<Dim>& model, const MaterialList& known)
 {
 	gimpm::PointCloud<Dim> cloud;
 	cloud.resize(points.size());
 	if (model.grid.axisymmetric) cloud.hoopStretch.resize(points.size());
-	MaterialIndex materials(model.materials);
+	MaterialIndex materials(model.materials, known);
 	for (size_t p = 0; p < points.size(); ++p)
 		cloud.material[p] = materials.of(points[p]);
 	gimpm::provideInternals(cloud.internals, model.materials, points.size());
@@ -234,7 +241,7 @@ template <int Dim> void scatter(gimpm::PointCloud<Dim>& cloud, const gimpm::Grid
 
 #define MPM_INSTANTIATE(Dim)                                                                                                                                     \
 	template gimpm::Model<Dim>      toModel(const MpmGrid&, const string&, bool, const vector<shared_ptr<MpmBoundary>>&, const MpmGhost&, const MpmNewton&); \
-	template gimpm::PointCloud<Dim> gather(const vector<MaterialPoint>&, gimpm::Model<Dim>&);                                                                \
+	template gimpm::PointCloud<Dim> gather(const vector<MaterialPoint>&, gimpm::Model<Dim>&, const MaterialList&);                                           \
 	template void                   scatter(gimpm::PointCloud<Dim>&, const gimpm::Grid<Dim>&, const vector<MaterialPoint>&);                                 \
 	template Real                   reenter(Real&, int, const gimpm::Grid<Dim>&);
 MPM_INSTANTIATE(2)

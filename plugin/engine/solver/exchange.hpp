@@ -15,8 +15,10 @@ namespace yade {
 template <int Dim>
 gimpm::Model<Dim> toModel(const MpmGrid&, const string& basis, bool fBar, const vector<shared_ptr<MpmBoundary>>&, const MpmGhost&, const MpmNewton&);
 
-// Copies the points and adds their materials to the model. std::invalid_argument names the body that cannot be computed with.
-template <int Dim> gimpm::PointCloud<Dim> gather(const vector<MaterialPoint>&, gimpm::Model<Dim>&);
+using MaterialList = vector<const MpmMaterial*>;
+
+// Copies the points and adds their materials to the model, those that are `known` first. std::invalid_argument names the body that cannot be computed with.
+template <int Dim> gimpm::PointCloud<Dim> gather(const vector<MaterialPoint>&, gimpm::Model<Dim>&, const MaterialList& known = {});
 
 // Half the size of the domain into which the deformation gradient stretches an initial one; a step limits it to half a cell.
 Vector3r stretched(const Vector3r& halfSize0, const Matrix3r& defGrad);

@@ -2,6 +2,7 @@
 #include "engine/solver/failures.hpp"
 #include "engine/solver/MpmImplicitEngine.hpp"
 #include "engine/solver/idle_boundaries.hpp"
+#include "engine/solver/processes.hpp"
 
 namespace yade {
 
@@ -11,6 +12,27 @@ namespace {
 		std::ostringstream text;
 		text << " (body #" << point.id << " at " << point.state->pos.transpose() << ")";
 		return text.str();
+	}
+
+	// Wherever it is. Of points that are divided among processes the report has the id.
+	string placeOfFailed(int point, const MpmImplicitEngine& engine, const vector<MaterialPoint>& points)
+	{
+		if (point < 0) return "";
+		if (!isDivided(engine)) return placeOf(points[point]);
+		const auto found = std::find_if(points.begin(), points.end(), [&](const MaterialPoint& p) { return p.id == point; });
+		return firstSaid(found == points.end() ? "" : placeOf(*found), *processes());
+	}
+
+	string bodiesNear(const Vector3r& place, const MpmImplicitEngine& engine, const vector<MaterialPoint>& points)
+	{
+		constexpr int      listed = 5;
+		int                found  = 0;
+		std::ostringstream text;
+		for (const MaterialPoint& point : points)
+			if ((point.state->pos - place).head(engine.grid->dim).cwiseAbs().maxCoeff() < engine.grid->cellSize && ++found <= listed)
+				text << (found == 1 ? ", near it bodies #" : ", #") << point.id;
+		if (found > listed) text << " and " << found - listed << " more";
+		return isDivided(engine) ? firstSaid(text.str(), *processes()) : text.str();
 	}
 
 	string placeOfImbalance(const gimpm::StepReport& report, const MpmImplicitEngine& engine, const vector<MaterialPoint>& points)
@@ -23,13 +45,7 @@ namespace {
 			text << " " << r;
 		text << "; largest out-of-balance force " << report.worst.force << " N along "
 		     << "xyz"[report.worst.axis] << " at node (" << report.worst.position.head(dim).transpose() << ")";
-		constexpr int listed = 5;
-		int           found  = 0;
-		for (const MaterialPoint& point : points)
-			if ((point.state->pos - report.worst.position).head(dim).cwiseAbs().maxCoeff() < engine.grid->cellSize && ++found <= listed)
-				text << (found == 1 ? ", near it bodies #" : ", #") << point.id;
-		if (found > listed) text << " and " << found - listed << " more";
-		text << ".";
+		text << bodiesNear(report.worst.position, engine, points) << ".";
 		return text.str();
 	}
 
@@ -115,8 +131,8 @@ string reasonOf(const gimpm::StepReport& report, const MpmImplicitEngine& engine
 	}
 	if (part < 1) text << " (" << part << " of O.dt, after " << engine.cuts << " cuts)";
 	text << " failed: " << report.cause;
-	if (report.failedPoint >= 0) text << placeOf(points[report.failedPoint]);
-	text << "." << placeOfImbalance(report, engine, points) << adviceOn(report, *engine.ghost, part, engine.isExplicit());
+	text << placeOfFailed(report.failedPoint, engine, points) << "." << placeOfImbalance(report, engine, points)
+	     << adviceOn(report, *engine.ghost, part, engine.isExplicit());
 	if (report.failure == gimpm::Failure::unrestrained) text << idleBoundaries(engine, points);
 	text << " The scene is at load factor " << engine.loadFactor << ", the last converged state, in iteration " << engine.scene->iter << ".";
 	return text.str();

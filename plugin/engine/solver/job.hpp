@@ -20,6 +20,7 @@ template <int Dim> struct Job {
 	SurfaceLoads<Dim>      surfaceLoads {};
 	Waters<Dim>            waters {};
 	Contacts<Dim>          contacts {};
+	vector<string>         doubts {}; // whether all is as it is meant
 
 	std::shared_ptr<Moving<Dim>> moving {}; // null without inertia
 };

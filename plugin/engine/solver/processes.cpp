@@ -79,7 +79,24 @@ bool isRequested(bool here, const gimpm::Processes* all)
 	return !goesOn;
 }
 
-template <int Dim> void Agreement::reach(const MpmImplicitEngine& engine, const gimpm::PointCloud<Dim>& cloud)
+string firstSaid(const string& text, const gimpm::Processes& all)
+{
+	const int first = firstToFail(all, !text.empty());
+	return first < all.size() ? all.told(text, first) : "";
+}
+
+void failTogether(const std::exception_ptr& thrown, const gimpm::Processes& all)
+{
+	if (const string reason = firstSaid(messageOf(thrown), all); !reason.empty()) throw std::runtime_error(reason);
+}
+
+void Agreement::meet(const MpmImplicitEngine& engine)
+{
+	reach(engine, gimpm::PointCloud<2>(), true);
+	isAsked = false;
+}
+
+template <int Dim> void Agreement::reach(const MpmImplicitEngine& engine, const gimpm::PointCloud<Dim>& cloud, bool areDivided)
 {
 	const auto all = processes();
 	isAsked        = true;
@@ -88,7 +105,7 @@ template <int Dim> void Agreement::reach(const MpmImplicitEngine& engine, const 
 	if (first < all->size())
 		throw std::runtime_error("Process " + std::to_string(first) + " of " + std::to_string(all->size()) + " has failed: " + all->told("", first));
 	const bool isSameIteration = all->haveSame(std::uint64_t(engine.scene->iter)); // after an error in one of them it may not be
-	if (!isSameIteration || !gimpm::haveSamePoints(*all, cloud))
+	if (!isSameIteration || !(areDivided || gimpm::haveSamePoints(*all, cloud)))
 		throw std::runtime_error(
 		        engine.getClassName() + ": the processes "
 		        + (isSameIteration ? "hold different material points" : "are not in the same iteration; this one is") + " in iteration "
@@ -96,8 +113,8 @@ template <int Dim> void Agreement::reach(const MpmImplicitEngine& engine, const 
 		        + ". The script must do the same in all of them, in the same order: random numbers need a seed, and files the same content.");
 }
 
-template void Agreement::reach(const MpmImplicitEngine&, const gimpm::PointCloud<2>&);
-template void Agreement::reach(const MpmImplicitEngine&, const gimpm::PointCloud<3>&);
+template void Agreement::reach(const MpmImplicitEngine&, const gimpm::PointCloud<2>&, bool);
+template void Agreement::reach(const MpmImplicitEngine&, const gimpm::PointCloud<3>&, bool);
 
 void Agreement::breakOff(const std::exception_ptr& thrown)
 {

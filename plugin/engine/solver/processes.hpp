@@ -19,11 +19,20 @@ bool isFirstProcess();
 // Whether one of them is asked to give up; null: this one.
 bool isRequested(bool here, const gimpm::Processes*);
 
+// Of texts, empty where there is none: that of the first process which has one, in all of them.
+string firstSaid(const string& text, const gimpm::Processes&);
+
+// Where one of them has failed all throw what the first of those has thrown.
+void failTogether(const std::exception_ptr&, const gimpm::Processes&);
+
 // Whether all have come as far as this one. A process that waits for another which has failed would wait for ever.
 class Agreement {
 public:
-	// All are about to make a step with these points; std::runtime_error where another one has failed, with its reason, or has other points.
-	template <int Dim> void reach(const MpmImplicitEngine&, const gimpm::PointCloud<Dim>&);
+	// All are about to divide their points; std::runtime_error where another one has failed, with its reason.
+	void meet(const MpmImplicitEngine&);
+
+	// All are about to make a step with these points, which are the same in all unless they are divided; otherwise the same.
+	template <int Dim> void reach(const MpmImplicitEngine&, const gimpm::PointCloud<Dim>&, bool areDivided);
 
 	// This one has thrown, before or after reach().
 	void breakOff(const std::exception_ptr& thrown);

@@ -23,9 +23,18 @@ namespace {
 		return py::import("numpy").attr("frombuffer")(copy, type);
 	}
 
+	void requireUndivided(const MpmImplicitEngine& engine)
+	{
+		if (isDivided(engine))
+			throw std::invalid_argument(
+			        engine.getClassName()
+			        + ": studies of the stiffness or the strength need all points in one process, and with distributed = True each has its own.");
+	}
+
 	// f(cloud, model) with the points and settings of now
 	template <class F> auto onCurrentState(MpmImplicitEngine& engine, F f)
 	{
+		requireUndivided(engine);
 		const Threads threads(engine.ompThreads);
 		const auto    inSpace = [&](auto dim) {
                         constexpr int          Dim = decltype(dim)::value;

@@ -41,7 +41,7 @@ While it runs, one line tells how far it is (``verbosity`` of the engine); ``plo
 :func:`colour`               colours of the points in YADE's 3D view
 :func:`export`               table of the points, CSV or NPZ
 :class:`histories`           values at chosen points over time; :func:`readHistory` reads one from a file
-:func:`save`                 the scene, whole or not at all
+:func:`save`                 the scene, whole or not at all; :func:`load` reads it, from several processes, too
 :func:`advise`               what an analysis will cost, and what it could do without
 :func:`discretisationError`  how wrong a result is because of the size of the cells; :func:`stressError` tells of stresses, from one run
 :func:`elementTest`          the curve of a laboratory test on a material; :func:`respond` is one call of its law
@@ -57,7 +57,7 @@ from .cells import refinementsAt
 from .colouring import colour
 from .data import arrays, assign, contactForces
 from .discretisation import discretisationError, stressError
-from .files import save
+from .files import load, save
 from . import ending, stages
 from .filling import fill
 from .geostatics import geostatic
@@ -73,4 +73,4 @@ from .surfaces import surface
 from .tables import export
 
 __version__ = _engine.version
-__all__ = ['polygon', 'fill', 'refinementsAt', 'arrays', 'assign', 'geostatic', 'plot', 'colour', 'export', 'save', 'advise', 'discretisationError', 'stressError', 'elementTest', 'respond', 'strengthReduction', 'surface', 'contactForces', 'histories', 'readHistory', 'solid', 'terrain', 'movie']
+__all__ = ['polygon', 'fill', 'refinementsAt', 'arrays', 'assign', 'geostatic', 'plot', 'colour', 'export', 'save', 'load', 'advise', 'discretisationError', 'stressError', 'elementTest', 'respond', 'strengthReduction', 'surface', 'contactForces', 'histories', 'readHistory', 'solid', 'terrain', 'movie']

@@ -7,6 +7,7 @@ from yade import wrapper
 from yade.minieigenHP import Vector3
 
 from .analysis import solverOf
+from .divided import columnsOfPoints, refuse
 from .library import engine
 from .messages import brief, isNumber, place
 
@@ -28,7 +29,7 @@ def arrays():
 		and ``parent`` (N,), the id of the body that the point was split off from, -1: none. A scene without material points gives arrays of length 0.
 	:raises ValueError: a body with an ``MpmPoint`` shape that is no complete material point.
 	"""
-	return _asArrays(engine.columnsOfPoints(0, False))
+	return _asArrays(columnsOfPoints(0, False))
 
 
 def contactForces(solver=None):
@@ -45,7 +46,7 @@ def contactForces(solver=None):
 
 def fields():
 	"""The same, and what follows from it: ``displacement`` (N, 3) [m], ``strain`` (N, 3, 3) logarithmic, ``meanStress`` and ``sqrt2J2`` (N,) [Pa], and where there is water ``totalStress`` (N, 3, 3) [Pa]."""
-	return _asArrays(engine.columnsOfPoints(0, True))
+	return _asArrays(columnsOfPoints(0, True))
 
 
 def pointsOf(solver):
@@ -53,7 +54,8 @@ def pointsOf(solver):
 
 	``O.materials`` need not hold those, so ``material`` of :func:`arrays` may be no index.
 	"""
-	data = engine.columnsOfPoints(solver.mask, False)
+	refuse('the materials of all points')
+	data = columnsOfPoints(solver.mask, False)
 	return _asArrays(data), data['materials'], np.frombuffer(data['materialNumber'], np.int64)
 
 
@@ -104,6 +106,7 @@ def assign(ids=None, **columns):
 	A warning in YADE's log if nearly all of the stresses are tensile though an engine among O.engines has gravity: ground under its weight is in
 	compression, and stress is positive in tension.
 	"""
+	refuse('assign')
 	rows = _idsOfPoints() if ids is None else _ids(ids)
 	values = {name: _column(name, _atPoints(name, column, rows), len(rows)) for name, column in columns.items()}
 	if not values: raise TypeError(f"assign: no column is given; there are {', '.join(_assignable)}")
@@ -129,7 +132,7 @@ def _gravityActs():
 
 
 def _idsOfPoints():
-	return np.frombuffer(engine.columnsOfPoints(0, False)['id'], np.int64)
+	return np.frombuffer(columnsOfPoints(0, False)['id'], np.int64)
 
 
 def _ids(ids):

@@ -2,15 +2,21 @@
 """Files that are whole or not there at all."""
 import bz2
 import contextlib
+import errno
 import gzip
 import os
 import shutil
 
 from yade import wrapper
 
+from . import processes
+from .divided import isDivided
 from .library import engine
 from .messages import pathOf
+from .pieces import loadPieces, piecesOf, savePieces
 from .processes import withFirst
+
+_endings = '.xml', '.xml.gz', '.xml.bz2', '.yade', '.yade.gz', '.yade.bz2'
 
 
 @contextlib.contextmanager
@@ -48,12 +54,13 @@ def _naming(file, temporary, what=''):
 		raise OSError(error.errno, what + error.strerror, file) from None
 
 
-@withFirst
 def save(file):
 	"""Save the scene as ``O.save`` does, but whole or not at all: a process that is killed meanwhile leaves the file as it was.
 
 	For saving during a run: ``PyRunner(iterPeriod=10, command="mpm.save('slope.yade.gz')")`` behind the solver. While the scene runs
-	in the background, the script may save, too: the file has the last converged state, and its run goes on from there.
+	in the background, the script may save, too: the file has the last converged state, and its run goes on from there. Where several processes have divided the
+	points (``MpmImplicitEngine.distributed``) each writes its own, ``slope-0of4.yade.gz``, which take the place of all that there was by that name; :func:`load` puts
+	them together, in any number of processes.
 
 	:param file: path with one of YADE's endings, ``.xml``, ``.xml.gz``, ``.xml.bz2``, ``.yade``, ``.yade.gz`` or ``.yade.bz2``; folders that
 		are missing are made
@@ -62,9 +69,27 @@ def save(file):
 	:raises OSError: the file cannot be written; it is named, with the reason
 	"""
 	file = pathOf('save', 'file', file)
-	endings = '.xml', '.xml.gz', '.xml.bz2', '.yade', '.yade.gz', '.yade.bz2'
-	if not file.endswith(endings):
-		raise ValueError(f"save: file = {file!r} does not end in one of {', '.join(endings)}, which choose the format")
+	if not file.endswith(_endings):
+		raise ValueError(f"save: file = {file!r} does not end in one of {', '.join(_endings)}, which choose the format")
+	savePieces(file, _write) if isDivided() else withFirst(_write)(file)
+
+
+def load(file):
+	"""Load what :func:`save` has written, by one process or by several of which each had its own points: the scene goes on from there, in any number of processes.
+
+	:param file: the path that :func:`save` was given
+	:raises TypeError: no path
+	:raises OSError: there is no such file, nor pieces of it
+	:raises ValueError: pieces are missing or of different moments, or there are both a file and pieces.
+	"""
+	file = pathOf('load', 'file', file)
+	pieces = piecesOf(file)
+	if pieces: return loadPieces(pieces)
+	if not os.path.exists(file): raise FileNotFoundError(errno.ENOENT, 'load: there is no such file, nor pieces of it', file)
+	wrapper.Omega().load(file, quiet=True)
+
+
+def _write(file):
 	with replacing(file) as temporary:
 		plain = temporary.removesuffix('.gz').removesuffix('.bz2')
 		try:
@@ -77,7 +102,7 @@ def save(file):
 def _savePlain(path):
 	"""As O.save, whose errors name neither the file nor the reason."""
 	try:
-		wrapper.Omega().save(path, quiet=True)
+		(processes.saveScene or wrapper.Omega.save)(wrapper.Omega(), path, quiet=True)
 	except RuntimeError as error:
 		with open(path, 'ab') as file:  # an OSError says why, if the file can still not be written
 			file.write(bytes(2**16))

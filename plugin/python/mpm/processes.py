@@ -8,7 +8,8 @@ import threading
 import time
 
 count = int(os.environ.get('OMPI_COMM_WORLD_SIZE', 1))
-isFirst = int(os.environ.get('OMPI_COMM_WORLD_RANK', 0)) == 0
+rank = int(os.environ.get('OMPI_COMM_WORLD_RANK', 0))
+isFirst = rank == 0
 _grace = 10  # [s] that processes which have failed wait for the others to do so, too
 _endOfScript = 27183  # tag of a message, as in the library
 _hasFailed = _hasEnded = False
@@ -20,6 +21,11 @@ if count > 1:
 	sys.stderr.write = _speak  # which yade.mpy has turned to stdout, of which the first process alone may be shown
 	sys.stderr.reconfigure(line_buffering=True)  # for what is said before all are ended
 	_world = MPI.COMM_WORLD.Dup()  # steps in the background have one of their own
+
+
+def gathered(mine):
+	"""What each process has, in all of them; a list of one where there is one."""
+	return _world.allgather(mine) if count > 1 else [mine]
 
 
 def byFirst(write):
@@ -50,6 +56,17 @@ def withFirst(write):
 		if error: raise error
 
 	return wrapped
+
+
+def together(act):
+	"""Calls act() in each of them; an error is one of all."""
+	error = None
+	try:
+		act()
+	except Exception as thrown:
+		error = thrown
+	for thrown in gathered(error):
+		if thrown: raise thrown
 
 
 def _refuseDecomposition(*arguments, **options):
@@ -97,10 +114,20 @@ def _saying(end):
 	return wrapped
 
 
+def _saveByFirst(omega, *arguments, **options):
+	"""O.save: a file of the first process, unless it has only its own points."""
+	from .divided import isDivided
+	if isDivided(): raise RuntimeError('O.save: with MpmImplicitEngine.distributed = True each process has points of its own, which mpm.save(file) writes, and mpm.load(file) reads')
+	if isFirst: saveScene(omega, *arguments, **options)
+
+
+saveScene = wrapper.Omega.save if count > 1 else None  # of this process
+
 if count > 1:
 	mpy.mpirun = _refuseDecomposition
 	mpy.disconnect, mpy.spawnedProcessWaitCommand = _saying(mpy.disconnect), _saying(mpy.spawnedProcessWaitCommand)
 	sys.exit = _exit
 	atexit.register(_endOthers)
+	wrapper.Omega.save = _saveByFirst
 	if not isFirst:
-		wrapper.Omega.save = plot.saveDataTxt = plot.saveGnuplot = lambda *arguments, **options: None
+		plot.saveDataTxt = plot.saveGnuplot = lambda *arguments, **options: None

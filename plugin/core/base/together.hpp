@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// What several processes know together when each has said its part. All of them call these, in the same order, and come to the same, to the last bit.
+#pragma once
+#include "core/base/processes.hpp"
+#include <cstring>
+#include <numeric>
+#include <vector>
+
+namespace gimpm {
+
+/// One number of each process.
+inline std::vector<double> ofEach(const Processes& all, double own)
+{
+	std::vector<double> numbers(all.size(), 0);
+	std::vector<int>    start(all.size() + 1);
+	std::iota(start.begin(), start.end(), 0);
+	numbers[all.rank()] = own;
+	all.gather(numbers.data(), start.data());
+	return numbers;
+}
+
+/// What they have, one process after the other.
+template <class T> std::vector<T> joined(const Processes& all, const std::vector<T>& own)
+{
+	static_assert(sizeof(T) % sizeof(double) == 0 && std::is_trivially_copyable_v<T>);
+	constexpr int    words = sizeof(T) / sizeof(double);
+	std::vector<int> start { 0 };
+	for (const double count : ofEach(all, double(own.size())))
+		start.push_back(start.back() + words * int(count));
+	std::vector<double> numbers(start.back());
+	if (!own.empty()) std::memcpy(numbers.data() + start[all.rank()], own.data(), own.size() * sizeof(T));
+	all.gather(numbers.data(), start.data());
+	std::vector<T> result(numbers.size() / words);
+	if (!result.empty()) std::memcpy(static_cast<void*>(result.data()), numbers.data(), result.size() * sizeof(T));
+	return result;
+}
+
+/// The numbers that each process has for this one, for those that this one has for each.
+inline std::vector<std::vector<double>> exchanged(const Processes& all, const std::vector<std::vector<double>>& own)
+{
+	const int           size = all.size(), rank = all.rank();
+	std::vector<double> counts(size);
+	for (int r = 0; r < size; ++r)
+		counts[r] = double(own[r].size());
+	counts = joined(all, counts);
+	std::vector<std::vector<double>> received(size);
+	std::vector<Parcel>              parcels;
+	for (int r = 0; r < size; ++r) {
+		received[r].resize(std::size_t(counts[r * size + rank]));
+		if (r == rank) received[r] = own[r];
+		else if (!own[r].empty() || !received[r].empty())
+			parcels.push_back({ r, own[r].data(), int(own[r].size()), received[r].data(), int(received[r].size()) });
+	}
+	all.exchange(parcels.data(), int(parcels.size()));
+	return received;
+}
+
+} // namespace gimpm

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "core/grid/division.hpp"
+#include <algorithm>
+
+namespace gimpm {
+namespace {
+
+/// A solve goes with the nodes, an assembly with their points: on the slope in 3D the solves take twice as long.
+constexpr double solveOverAssembly = 2;
+
+/// Of the points and the node of a cell.
+double workOf(double points, double cells, double pointsOfCell) { return solveOverAssembly * cells + points / pointsOfCell; }
+
+} // namespace
+
+std::vector<int> Division::startsAmong(const std::vector<Key>& sorted) const
+{
+	std::vector<int> start { 0 };
+	for (const Key key : first)
+		start.push_back(position(sorted, key));
+	start.push_back(int(sorted.size()));
+	return start;
+}
+
+std::vector<Key> Division::united(const std::vector<Key>& sorted) const
+{
+	const auto start = startsAmong(sorted);
+	const int  rank  = processes->rank();
+	return joined(*processes, std::vector<Key>(sorted.begin() + start[rank], sorted.begin() + start[rank + 1]));
+}
+
+double Division::sum(double own) const
+{
+	const auto numbers = ofEach(*processes, own);
+	return std::accumulate(numbers.begin(), numbers.end(), 0.);
+}
+
+double Division::largest(double own) const
+{
+	const auto numbers = ofEach(*processes, own);
+	return *std::max_element(numbers.begin(), numbers.end());
+}
+
+template <int Dim> Key lowestCell(const Vec<Dim>& position, const Vec<Dim>& halfSize, const Grid<Dim>& grid, Basis basis)
+{
+	Index<Dim> lowest;
+	for (int a = 0; a < Dim; ++a) {
+		const double x = position[a] - grid.origin[a];
+		lowest[a]      = basis == Basis::gimp ? AxisCells::reached(x, halfSize[a], grid.cellSize).lowest : centreCell(x, grid.cellSize);
+	}
+	return Grid<Dim>::key(lowest);
+}
+
+std::vector<Key> cutByWork(std::vector<CellLoad> loads, int processes)
+{
+	std::sort(loads.begin(), loads.end(), [](const CellLoad& a, const CellLoad& b) { return a.lowest < b.lowest; });
+	double points = 0, cells = 0, before = 0;
+	for (std::size_t i = 0; i < loads.size(); ++i)
+		points += loads[i].points, cells += i == 0 || loads[i].lowest != loads[i - 1].lowest;
+	const double     pointsOfCell = points / cells, whole = workOf(points, cells, pointsOfCell);
+	std::vector<Key> first;
+	for (std::size_t i = 0; i < loads.size(); ++i) {
+		const bool isNew = i == 0 || loads[i].lowest != loads[i - 1].lowest; // several processes may have points of a cell
+		while (isNew && int(first.size()) + 1 < processes && before >= whole * double(first.size() + 1) / processes)
+			first.push_back(loads[i].lowest);
+		before += workOf(loads[i].points, isNew, pointsOfCell);
+	}
+	first.resize(processes - 1, ~Key(0));
+	return first;
+}
+
+double imbalance(const Processes& all, const std::vector<CellLoad>& own)
+{
+	double points = 0;
+	for (const auto& load : own)
+		points += load.points;
+	const auto   pointsOf = ofEach(all, points), cellsOf = ofEach(all, double(own.size()));
+	const double allPoints = std::accumulate(pointsOf.begin(), pointsOf.end(), 0.), allCells = std::accumulate(cellsOf.begin(), cellsOf.end(), 0.);
+	double       most = 0;
+	for (std::size_t r = 0; r < pointsOf.size(); ++r)
+		most = std::max(most, workOf(pointsOf[r], cellsOf[r], allPoints / allCells));
+	return most * double(pointsOf.size()) / workOf(allPoints, allCells, allPoints / allCells) - 1;
+}
+
+template <int Dim> std::vector<int> neededBy(const Division& division, Key lowest, bool isWide)
+{
+	const int        below = isWide ? -1 : 0, above = isWide ? 3 : 2, wide = above - below + 1; // nodes along an axis
+	std::vector<int> needed;
+	for (int row = 0; row < (Dim == 2 ? wide : wide * wide); ++row) {
+		Key begin = lowest + Key(std::int64_t(below));
+		for (int a = 1, rest = row; a < Dim; ++a, rest /= wide)
+			begin += Key(std::int64_t(below + rest % wide)) * Grid<Dim>::keyStep(a);
+		for (int r = division.holderOf(begin); r <= division.holderOf(begin + Key(wide - 1)); ++r)
+			needed.push_back(r);
+	}
+	std::sort(needed.begin(), needed.end());
+	needed.erase(std::unique(needed.begin(), needed.end()), needed.end());
+	return needed;
+}
+
+#define GIMPM_INSTANTIATE(Dim)                                                                                                                                 \
+	template Key              lowestCell(const Vec<Dim>&, const Vec<Dim>&, const Grid<Dim>&, Basis);                                                       \
+	template std::vector<int> neededBy<Dim>(const Division&, Key, bool);
+GIMPM_INSTANTIATE(2)
+GIMPM_INSTANTIATE(3)
+#undef GIMPM_INSTANTIATE
+
+} // namespace gimpm

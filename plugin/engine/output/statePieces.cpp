@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "engine/output/statePieces.hpp"
+#include "engine/output/vtkDataSets.hpp"
+#include "engine/solver/MpmImplicitEngine.hpp"
+#include "engine/solver/processes.hpp"
+#include "yade_api/value_lock.hpp"
+#include <vtkUnstructuredGrid.h>
+
+namespace yade {
+
+namespace {
+	// f(), of which an error is one of all processes.
+	template <class F> void tryTogether(F&& f, const gimpm::Processes& all)
+	{
+		std::exception_ptr thrown;
+		try {
+			f();
+		} catch (...) {
+			thrown = std::current_exception();
+		}
+		failTogether(thrown, all);
+	}
+}
+
+vector<const PointColumn*> fieldsOfAll(const MpmImplicitEngine& engine)
+{
+	const auto                 all = processes();
+	vector<const PointColumn*> own;
+	tryTogether(
+	        [&] {
+		        const ValueLock lock;
+		        own = fieldsOf(materialPoints(*engine.scene, engine.mask));
+	        },
+	        *all);
+	vector<int64_t> isMissing;
+	for (const PointColumn& column : pointColumns())
+		isMissing.push_back(std::find(own.begin(), own.end(), &column) == own.end());
+	all->smallest(isMissing.data(), int(isMissing.size()));
+	own.clear();
+	for (size_t c = 0; c < isMissing.size(); ++c)
+		if (!isMissing[c]) own.push_back(&pointColumns()[c]);
+	return own;
+}
+
+void writeTogether(const MpmImplicitEngine& engine, const std::function<void()>& write)
+{
+	if (isDivided(engine)) tryTogether(write, *processes());
+	else if (isFirstProcess())
+		write();
+}
+
+string stateFile(const string& kind, const string& path, const MpmImplicitEngine& engine)
+{
+	if (!isDivided(engine)) return path + ".vtu";
+	if (kind == "points") return path + ".pvtu";
+	throw std::invalid_argument(
+	        "MpmVtkRecorder.recorders = '" + kind
+	        + "' does not go with MpmImplicitEngine.distributed yet, by which no process has all points: there is 'points'.");
+}
+
+void writeState(vtkUnstructuredGrid& cells, Real time, const string& file, const MpmImplicitEngine& engine, VtkFormat format)
+{
+	if (!isDivided(engine)) return writeVtu(cells, time, file, format);
+	const auto all = processes();
+	writeVtu(cells, time, pieceOf(file, all->rank()), format);
+	if (all->rank() == 0) writePvtu(cells, time, file, all->size());
+}
+
+} // namespace yade

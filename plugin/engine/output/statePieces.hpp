@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+// Files of a state, of which several processes may have a piece each.
+#include "engine/output/vtkFiles.hpp"
+#include "engine/points/columns.hpp"
+#include <functional>
+
+namespace yade {
+class MpmImplicitEngine;
+
+using Columns = vector<const PointColumn*>;
+
+// Which columns are fields of the points of an engine that are divided, whatever process they are in. All processes call it.
+vector<const PointColumn*> fieldsOfAll(const MpmImplicitEngine&);
+
+// Calls write() in the first process, or where points are divided in all of them, which throw if one does.
+void writeTogether(const MpmImplicitEngine&, const std::function<void()>& write);
+
+// The path with its ending of what the .pvd lists, and the files: the .vtu, or the .pvtu and the piece of this process. std::invalid_argument for a kind of which
+// no process has the whole.
+string stateFile(const string& kind, const string& path, const MpmImplicitEngine&);
+void   writeState(vtkUnstructuredGrid&, Real time, const string& file, const MpmImplicitEngine&, VtkFormat);
+
+} // namespace yade

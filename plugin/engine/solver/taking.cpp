@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The points that an engine works on: those that it finds, divided among processes or not, and those that it splits.
+#include "engine/solver/MpmImplicitEngine.hpp"
+#include "engine/solver/exchange.hpp"
+#include "engine/solver/processes.hpp"
+#include "engine/solver/requirements.hpp"
+#include "engine/solver/sameness.hpp"
+#include "yade_api/value_lock.hpp"
+
+namespace yade {
+
+template <int Dim> void MpmImplicitEngine::takePoints(Job<Dim>& job, Agreement& agreement)
+{
+	updateMaterialPoints(points, *scene, mask);
+	Distribution::requireWhole(*this);
+	if (!isDivided(*this)) requireAny(points, *this);
+	vector<const MpmMaterial*> known;
+	if (distributed && job.model.processes) {
+		Distribution::requireDivisible(*this, points);
+		agreement.meet(*this);
+		job.model.division = distribution.divide<Dim>(*this, points);
+		known              = materialsOfAll(*scene, points, *job.model.processes);
+	}
+	job.cloud = gather(points, job.model, known);
+}
+
+template <int Dim> void MpmImplicitEngine::doubt(const Job<Dim>& job)
+{
+	const ValueLock lock;
+	if (job.model.division) pointsOfRun = size_t(job.model.division->sum(Real(points.size())));
+	for (int i = 0; i < Plausibility::mostDoubts; ++i) // the same number in all processes
+		warnOfPoints(i < int(job.doubts.size()) ? job.doubts[i] : "");
+	warn(plausibility.doubtOfBoundaries(*this, points));
+}
+
+// False if there are no points to be split.
+template <int Dim> bool MpmImplicitEngine::splitOutgrown(Job<Dim>& job)
+{
+	const ValueLock lock;
+	const size_t    before = points.size();
+	warn(splitting.split(*this, points, job));
+	plausibility.know(job.cloud);
+	return points.size() > before;
+}
+
+// Of points that this process has. Where they are divided, the others may have a reason, too, and one of them is heard.
+void MpmImplicitEngine::warnOfPoints(const string& text) { warn(isDivided(*this) ? firstSaid(text, *processes()) : text); }
+
+#define MPM_INSTANTIATE(Dim)                                                                                                                                   \
+	template void MpmImplicitEngine::takePoints(Job<Dim>&, Agreement&);                                                                                    \
+	template void MpmImplicitEngine::doubt(const Job<Dim>&);                                                                                               \
+	template bool MpmImplicitEngine::splitOutgrown(Job<Dim>&);
+MPM_INSTANTIATE(2)
+MPM_INSTANTIATE(3)
+#undef MPM_INSTANTIATE
+
+} // namespace yade
