@@ -3,65 +3,10 @@
 #include "core/solvers/conjugate_gradients.hpp"
 #include "core/solvers/shared_blocks.hpp"
 #include "springs.hpp"
-#include <condition_variable>
-#include <mutex>
-#include <thread>
+#include "threads_as_processes.hpp"
 
 namespace gimpm::testSharedBlocks {
 namespace {
-
-	/// Where they meet.
-	struct Place {
-		int                                        all, waiting = 0, rounds = 0;
-		std::mutex                                 mutex;
-		std::condition_variable                    isFull {};
-		std::vector<const double*>                 given {};
-		std::vector<std::pair<const Parcel*, int>> parcels {};
-
-		explicit Place(int all) : all(all), given(all), parcels(all) { }
-
-		void meet()
-		{
-			std::unique_lock<std::mutex> lock(mutex);
-			const int                    round = rounds;
-			if (++waiting == all) waiting = 0, ++rounds, isFull.notify_all();
-			else
-				isFull.wait(lock, [&] { return rounds != round; });
-		}
-	};
-
-	struct OneOfThreads : Processes {
-		Place& place;
-		int    number;
-
-		OneOfThreads(Place& place, int number) : place(place), number(number) { }
-		int  rank() const override { return number; }
-		int  size() const override { return place.all; }
-		void smallest(std::int64_t*, int) const override { ADD_FAILURE(); }
-		void gather(double* all, const int* start) const override
-		{
-			place.given[number] = all;
-			place.meet();
-			for (int r = 0; r < size(); ++r)
-				if (r != number) std::copy(place.given[r] + start[r], place.given[r] + start[r + 1], all + start[r]);
-			place.meet();
-		}
-		void exchange(const Parcel* parcels, int count) const override
-		{
-			place.parcels[number] = { parcels, count };
-			place.meet();
-			for (int i = 0; i < count; ++i) {
-				const auto [others, most] = place.parcels[parcels[i].process];
-				const auto* other         = std::find_if(others, others + most, [&](const Parcel& p) { return p.process == number; });
-				ASSERT_NE(other, others + most) << "who is not heard is not sent to";
-				ASSERT_EQ(other->sentCount, parcels[i].receivedCount);
-				std::copy(other->sent, other->sent + other->sentCount, parcels[i].received);
-			}
-			place.meet();
-		}
-		std::string told(const std::string& text, int) const override { return text; }
-		double      sent() const override { return 0; }
-	};
 
 	/// The rows and columns of the own nodes, as a process has them; of the rest not even the memory.
 	template <int Dim> NodeMatrix<Dim> ownPart(const Springs<Dim>& springs, const NodeShare& share)
@@ -81,18 +26,12 @@ namespace {
 	/// Calls f(share, matrix) for each of three processes, of which the first one has no nodes.
 	template <int Dim, class F> void forProcesses(const Springs<Dim>& springs, F&& f)
 	{
-		const int                nodes = springs.K.nodes();
-		Place                    place(3);
-		std::vector<std::thread> threads;
-		for (int r = 0; r < place.all; ++r)
-			threads.emplace_back([&, r] {
-				const OneOfThreads process(place, r);
-				const NodeShare    share { process, { 0, 0, nodes / 3, nodes } };
-				const auto         part = ownPart(springs, share);
-				f(share, SharedBlocks<Dim>(part, springs.dofs, share));
-			});
-		for (auto& thread : threads)
-			thread.join();
+		const int nodes = springs.K.nodes();
+		inThreads(3, [&](const std::shared_ptr<const Processes>& process) {
+			const NodeShare share { *process, { 0, 0, nodes / 3, nodes } };
+			const auto      part = ownPart(springs, share);
+			f(share, SharedBlocks<Dim>(part, springs.dofs, share));
+		});
 	}
 
 	template <class Dimension> struct SharedBlocksOf : InBothDimensions<Dimension> {

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Points that are divided among processes: each assembles its rows from its own points and copies of others'. Threads stand for the processes.
+#include "core/stepping/halo.hpp"
+#include "core/stepping/step_system.hpp"
+#include "scenes.hpp"
+#include "threads_as_processes.hpp"
+
+namespace gimpm::testDivision {
+namespace {
+
+	template <class Dimension> struct DivisionOf : InBothDimensions<Dimension> {
+		static constexpr int Dim = Dimension::value;
+
+		/// A block that hangs on its lowest layer, stretched unevenly, with points off the middle of the cells.
+		static PointCloud<Dim> cloud(const Grid<Dim>& grid)
+		{
+			auto   c = block(grid, cellsOf<Dim>(5, 5, 6), 2);
+			Random numbers(3);
+			for (std::size_t p = 0; p < c.size(); ++p) {
+				c.position[p].array() += 0.3;
+				c.defGrad[p] += numbers.matrix<Dim, Dim>(0.01);
+				c.halfSize[p] *= numbers.in(0.8, 1.2);
+			}
+			return c;
+		}
+		static Model<Dim> model(bool fBar, double ghost)
+		{
+			Model<Dim> m;
+			m.boundary     = Boundary<Dim>({ wallBelow<Dim>(m.grid, Dim - 1, 0) });
+			m.materials    = { { Hencky(1e6, 0.3), 2000 } };
+			m.fBar         = fBar;
+			m.ghost.factor = ghost;
+			return m;
+		}
+
+		/// The points of one process, and which of all these are.
+		static PointCloud<Dim> part(const PointCloud<Dim>& all, const Model<Dim>& model, Division& division)
+		{
+			PointCloud<Dim> own;
+			for (int p = 0; p < int(all.size()); ++p)
+				if (division.owns(lowestCell(all.position[p], all.halfSize[p], model.grid, model.basis))) division.id.push_back(p);
+			own.resize(division.id.size());
+			own.force.clear();
+			for (std::size_t i = 0; i < division.id.size(); ++i) {
+				const std::int64_t p = division.id[i];
+				own.position[i] = all.position[p], own.halfSize[i] = all.halfSize[p], own.halfSize0[i] = all.halfSize0[p],
+				own.volume0[i] = all.volume0[p];
+				own.defGrad[i] = all.defGrad[p], own.elasticStrain[i] = all.elasticStrain[p], own.stress[i] = all.stress[p],
+				own.material[i] = all.material[p];
+			}
+			return own;
+		}
+		static std::vector<CellLoad> loads(const PointCloud<Dim>& all, const Model<Dim>& model)
+		{
+			std::map<Key, double> points;
+			for (std::size_t p = 0; p < all.size(); ++p)
+				++points[lowestCell(all.position[p], all.halfSize[p], model.grid, model.basis)];
+			std::vector<CellLoad> found;
+			for (const auto& [cell, count] : points)
+				found.push_back({ cell, count });
+			return found;
+		}
+	};
+	TYPED_TEST_SUITE(DivisionOf, BothDimensions, DimensionName);
+
+	TYPED_TEST(DivisionOf, ForcesAreThoseOfAllPoints)
+	{
+		constexpr int Dim = TypeParam::value;
+		for (const auto& [fBar, ghost] : { std::pair(false, 0.), std::pair(false, 0.01), std::pair(true, 0.01) }) {
+			const auto            model = TestFixture::model(fBar, ghost);
+			const auto            all   = TestFixture::cloud(model.grid);
+			StepReport            report;
+			Load<Dim>             load { -9.81 * Vec<Dim>::Unit(Dim - 1), { 1, 1 } };
+			const StepSystem<Dim> whole(all, model, load, report);
+			const Eigen::VectorXd d = Random(1).vector(whole.nodalSize(), 0.02);
+			Eigen::VectorXd       force, sizes;
+			ASSERT_FALSE(whole.evaluate(d, force, nullptr, &sizes));
+			for (const int processes : { 2, 3 })
+				inThreads(processes, [&, fBar = fBar](const std::shared_ptr<const Processes>& process) {
+					auto mine      = TestFixture::model(fBar, model.ghost.factor);
+					mine.processes = process;
+					mine.division  = std::make_shared<Division>(Division { process, cutByWork(TestFixture::loads(all, model), processes) });
+					auto cloud     = TestFixture::part(all, model, *mine.division);
+					EXPECT_LT(cloud.size(), 0.7 * double(all.size()));
+					const std::size_t own = cloud.size();
+					{
+						const Halo<Dim>       halo(cloud, mine);
+						StepReport            ofMine;
+						const StepSystem<Dim> system(cloud, mine, load, ofMine);
+						if (process->rank() > 0) EXPECT_GT(cloud.size(), own) << "points reach nodes above them";
+						EXPECT_EQ(system.basis.nodes, whole.basis.nodes);
+						EXPECT_EQ(system.basis.cells, whole.basis.cells);
+						EXPECT_EQ(ofMine.ghostFaces, report.ghostFaces);
+						Eigen::VectorXd found, foundSizes;
+						EXPECT_FALSE(system.evaluate(d, found, nullptr, &foundSizes));
+						EXPECT_LT((found - force).norm(), 1e-13 * force.norm());
+						EXPECT_LT((foundSizes - sizes).norm(), 1e-13 * sizes.norm());
+						EXPECT_LT((system.external - whole.external).norm(), 1e-13 * whole.external.norm());
+					}
+					EXPECT_EQ(cloud.size(), own);
+				});
+		}
+	}
+
+	TYPED_TEST(DivisionOf, CutsAreBalanced)
+	{
+		constexpr int Dim   = TypeParam::value;
+		const auto    model = TestFixture::model(false, 0);
+		const auto    loads = TestFixture::loads(TestFixture::cloud(model.grid), model);
+		for (const int processes : { 2, 3, 4 }) {
+			const auto first = cutByWork(loads, processes);
+			ASSERT_EQ(int(first.size()), processes - 1);
+			inThreads(processes, [&](const std::shared_ptr<const Processes>& process) {
+				const Division        division { process, first };
+				std::vector<CellLoad> own;
+				std::copy_if(
+				        loads.begin(), loads.end(), std::back_inserter(own), [&](const CellLoad& load) { return division.owns(load.lowest); });
+				EXPECT_LT(imbalance(*process, own), Dim == 2 ? 0.2 : 0.05);
+			});
+		}
+		EXPECT_EQ(cutByWork({ { 7, 1 } }, 3), std::vector<Key>(2, ~Key(0))) << "one cell is one process's";
+	}
+
+} // namespace
+} // namespace gimpm::testDivision
