@@ -12,6 +12,7 @@ from .files import replacing
 from .library import engine
 from .markings import drawContours, drawTrace, drawVectors, labelOf, levelsOf, vectorsOf
 from .messages import brief, pathOf
+from .divided import isDivided
 from .processes import byFirst
 from .rigid import outline, touchable
 from .sections import boxEdges, cut, inOrder, signs, triangleSides
@@ -33,7 +34,7 @@ def plot(field='displacement', deformed=True, grid=None, ghost=None, fileName=No
 		(N,) array in order of body id
 	:param deformed: draw the current configuration, otherwise the initial one
 	:param grid: draw the cells that hold material, with a tint those at the boundary of the body; by default if *deformed*, as the
-		grid belongs to the current configuration
+		grid belongs to the current configuration, and if the points are not divided among processes, as no process has all cells then
 	:param ghost: draw the faces on which the ghost stabilisation acts; default as for *grid*
 	:param fileName: write the picture to this file, whole or not at all; its ending chooses the format (png, pdf, svg, ...). Folders that
 		are missing are made.
@@ -54,7 +55,8 @@ def plot(field='displacement', deformed=True, grid=None, ghost=None, fileName=No
 	"""
 	if not deformed and (grid or ghost or loads):
 		raise ValueError('plot: the grid and loads belong to the current configuration, so grid, ghost and loads need deformed=True')
-	grid, ghost, loads = (deformed if wanted is None else wanted for wanted in (grid, ghost, loads))
+	cells = deformed and not isDivided()
+	grid, ghost, loads = (default if wanted is None else wanted for wanted, default in ((grid, cells), (ghost, cells), (loads, deformed)))
 	solver = solverOf('plot', solver)
 	points = fields()
 	if not len(points['id']): raise ValueError('plot: the scene has no material points')
