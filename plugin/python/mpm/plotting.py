@@ -7,12 +7,12 @@ import numpy as np
 from .analysis import solverOf
 from .colouring import colourMap, limits, scalarOrArray
 from .data import fields
+from .divided import isDivided
 from .fields import labelled
 from .files import replacing
 from .library import engine
 from .markings import drawContours, drawTrace, drawVectors, labelOf, levelsOf, vectorsOf
 from .messages import brief, pathOf
-from .divided import isDivided
 from .processes import byFirst
 from .rigid import outline, touchable
 from .sections import boxEdges, cut, inOrder, signs, triangleSides
