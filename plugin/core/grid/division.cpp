@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "core/grid/division.hpp"
+#include "core/base/even_parts.hpp"
 #include <algorithm>
 
 namespace gimpm {
 namespace {
-
-/// A solve goes with the nodes, an assembly with their points: on the slope in 3D the solves take twice as long.
-constexpr double solveOverAssembly = 2;
 
 /// Of the points and the node of a cell.
 double workOf(double points, double cells, double pointsOfCell) { return solveOverAssembly * cells + points / pointsOfCell; }
@@ -54,18 +52,19 @@ template <int Dim> Key lowestCell(const Vec<Dim>& position, const Vec<Dim>& half
 std::vector<Key> cutByWork(std::vector<CellLoad> loads, int processes)
 {
 	std::sort(loads.begin(), loads.end(), [](const CellLoad& a, const CellLoad& b) { return a.lowest < b.lowest; });
-	double points = 0, cells = 0, before = 0;
-	for (std::size_t i = 0; i < loads.size(); ++i)
-		points += loads[i].points, cells += i == 0 || loads[i].lowest != loads[i - 1].lowest;
-	const double     pointsOfCell = points / cells, whole = workOf(points, cells, pointsOfCell);
+	std::vector<CellLoad> cells; // of which several processes may have points
+	for (const CellLoad& load : loads)
+		if (!cells.empty() && cells.back().lowest == load.lowest) cells.back().points += load.points;
+		else
+			cells.push_back(load);
+	const double        points = std::accumulate(cells.begin(), cells.end(), 0., [](double sum, const CellLoad& cell) { return sum + cell.points; });
+	std::vector<double> work;
+	for (const CellLoad& cell : cells)
+		work.push_back(workOf(cell.points, 1, points / double(cells.size())));
+	const auto       start = evenParts(work, processes);
 	std::vector<Key> first;
-	for (std::size_t i = 0; i < loads.size(); ++i) {
-		const bool isNew = i == 0 || loads[i].lowest != loads[i - 1].lowest; // several processes may have points of a cell
-		while (isNew && int(first.size()) + 1 < processes && before >= whole * double(first.size() + 1) / processes)
-			first.push_back(loads[i].lowest);
-		before += workOf(loads[i].points, isNew, pointsOfCell);
-	}
-	first.resize(processes - 1, ~Key(0));
+	for (int r = 1; r < processes; ++r)
+		first.push_back(start[r] < int(cells.size()) ? cells[start[r]].lowest : ~Key(0));
 	return first;
 }
 

@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "core/stepping/share.hpp"
+#include "core/base/checksum.hpp"
+#include "core/base/even_parts.hpp"
 #include <algorithm>
-#include <cstring>
 #include <limits>
 
 namespace gimpm {
 namespace {
-
-/// A solve goes with the nodes, an assembly with their points: on the slope in 3D the solves take twice as long.
-constexpr double solveOverAssembly = 2;
 
 /// What each node takes, in multiples of the mean assembly.
 template <int Dim> std::vector<double> workOf(const CloudBasis<Dim>& basis)
@@ -22,23 +20,6 @@ template <int Dim> std::vector<double> workOf(const CloudBasis<Dim>& basis)
 		for (const int node : patch.node)
 			if (node >= 0) work[node] += patch.count * double(work.size()) / touches;
 	return work;
-}
-
-/// First node of each process, and their number.
-template <int Dim> std::vector<int> cutByWork(const CloudBasis<Dim>& basis, int processes)
-{
-	const auto work  = workOf(basis);
-	double     whole = 0, before = 0;
-	for (const double w : work)
-		whole += w;
-	std::vector<int> start { 0 };
-	for (int n = 0; n < int(work.size()); ++n) {
-		while (int(start.size()) < processes && before >= whole * double(start.size()) / processes)
-			start.push_back(n);
-		before += work[n];
-	}
-	start.resize(processes + 1, int(work.size()));
-	return start;
 }
 
 template <class Nodes> bool touches(const NodeShare& share, const Nodes& nodes)
@@ -59,44 +40,6 @@ template <int Dim> void keepTouching(const NodeShare& share, const std::vector<P
 	}
 	tiles.swap(kept);
 }
-
-/// Of bytes, eight at a time, in turn by several sums: one alone would wait for itself at each word, three times as long as reading takes.
-class Checksum {
-public:
-	template <class T> void mix(const std::vector<T>& numbers)
-	{
-		static_assert(sizeof(T) % 4 == 0);
-		const auto* bytes = reinterpret_cast<const char*>(numbers.data());
-		std::size_t left  = numbers.size() * sizeof(T);
-		for (; left >= sizeof sums_; left -= sizeof sums_, bytes += sizeof sums_)
-			for (int i = 0; i < width; ++i)
-				mixWord(i, bytes + 8 * i, 8);
-		for (int i = 0; left > 0; ++i) {
-			const std::size_t size = std::min<std::size_t>(8, left);
-			mixWord(i, bytes, size);
-			left -= size, bytes += size;
-		}
-	}
-	std::uint64_t take()
-	{
-		for (int i = 1; i < width; ++i)
-			mixWord(0, reinterpret_cast<const char*>(&sums_[i]), 8);
-		return sums_[0];
-	}
-
-private:
-	static constexpr int width = 4;
-
-	void mixWord(int i, const char* bytes, std::size_t size)
-	{
-		std::uint64_t word = 0;
-		std::memcpy(&word, bytes, size);
-		sums_[i] = (sums_[i] ^ word) * 0x9E3779B97F4A7C15u;
-		sums_[i] ^= sums_[i] >> 29;
-	}
-
-	std::uint64_t sums_[width] = { 1, 2, 3, 4 };
-};
 
 /// No others, of which some points may be missing. What follows a gap in a tile is done after all the rest of its colour: a tile stays with one thread.
 template <int Dim> Colours<Dim> onlyTouching(const NodeShare& share, const CloudBasis<Dim>& basis)
@@ -120,7 +63,9 @@ template <int Dim> Colours<Dim> onlyTouching(const NodeShare& share, const Cloud
 
 template <int Dim>
 Share<Dim>::Share(const Processes& processes, const CloudBasis<Dim>& basis, const std::vector<GhostFace<Dim>>& faces, const Division* division)
-        : division_(division), nodes_ { processes, division ? division->startsAmong(basis.nodes) : cutByWork(basis, processes.size()) }, colours_(basis.colours)
+        : division_(division)
+        , nodes_ { processes, division ? division->startsAmong(basis.nodes) : evenParts(workOf(basis), processes.size()) }
+        , colours_(basis.colours)
 {
 	if (division) colours_ = onlyTouching(nodes_, basis);
 	for (auto& tiles : colours_)

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "engine/solver/plausibility.hpp"
+#include "core/base/checksum.hpp"
 #include "core/base/sentence.hpp"
 #include "core/base/stopwatch.hpp"
 #include "engine/materials/MpmElasticMat.hpp"
 #include "engine/solver/MpmImplicitEngine.hpp"
 #include "engine/solver/idle_boundaries.hpp"
 #include "engine/solver/overlaps.hpp"
-#include <cstring>
 
 namespace yade {
 
@@ -42,35 +42,14 @@ namespace {
 			       curve.front().first, " to ", engine.loadsEnd(), ": 1/80 of that gives 80 steps.");
 	}
 
-	// Four sums side by side, so that they do not wait for each other.
-	class Fingerprint {
-	public:
-		template <class T> void add(const vector<T>& values)
-		{
-			const char*  bytes = reinterpret_cast<const char*>(values.data());
-			const size_t words = values.size() * sizeof(T) / sizeof(uint64_t);
-			for (size_t i = 0; i < words; ++i) {
-				uint64_t word;
-				std::memcpy(&word, bytes + i * sizeof word, sizeof word);
-				sums[i % 4] = (sums[i % 4] ^ word) * 0x9e3779b97f4a7c15;
-				sums[i % 4] ^= sums[i % 4] >> 32;
-			}
-			sums[0] += words;
-		}
-		uint64_t value() const { return ((sums[0] * 31 + sums[1]) * 31 + sums[2]) * 31 + sums[3]; }
-
-	private:
-		uint64_t sums[4] = { 1, 2, 3, 4 };
-	};
-
 	// Of what a look at the points depends on: whoever changes the deformation changes the sizes, too, and the initial stress of points is
 	// that of their first look.
 	template <int Dim> uint64_t fingerprint(const gimpm::PointCloud<Dim>& cloud)
 	{
-		Fingerprint f;
-		f.add(cloud.position);
-		f.add(cloud.halfSize);
-		return f.value();
+		gimpm::Checksum sum;
+		sum.mix(cloud.position);
+		sum.mix(cloud.halfSize);
+		return sum.take();
 	}
 
 	string bothOf(const Overlaps::Pair& pair, const vector<MaterialPoint>& points)

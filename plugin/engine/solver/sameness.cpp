@@ -1,46 +1,28 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "engine/solver/sameness.hpp"
+#include "core/base/checksum.hpp"
 #include "core/base/sentence.hpp"
 #include "engine/solver/MpmImplicitEngine.hpp"
 #include "yade_api/serialization.hpp"
-#include <cstring>
 #include <sstream>
 
 namespace yade {
 
 namespace {
-	class Checksum {
-	public:
-		void mix(Real number)
-		{
-			std::uint64_t word;
-			std::memcpy(&word, &number, sizeof word);
-			sum = (sum ^ word) * 0x9E3779B97F4A7C15u;
-			sum ^= sum >> 29;
-		}
-		template <class V> void mixAll(const V& numbers)
-		{
-			for (int i = 0; i < int(numbers.size()); ++i)
-				mix(numbers.data()[i]);
-		}
-		std::uint64_t value() const { return sum; }
-
-	private:
-		std::uint64_t sum = 1;
-	};
-
 	std::uint64_t checksum(const vector<MaterialPoint>& points, size_t begin)
 	{
-		Checksum sum;
+		gimpm::Checksum sum;
+		vector<Real>    numbers;
+		const auto      add = [&](const auto& values) { numbers.insert(numbers.end(), values.data(), values.data() + values.size()); };
 		for (size_t p = begin; p < points.size(); ++p) {
 			const MpmState& s = *points[p].state;
-			sum.mix(points[p].id), sum.mix(s.volume0), sum.mix(points[p].material->id);
-			sum.mixAll(Vector3r(s.pos)), sum.mixAll(s.force), sum.mixAll(points[p].shape->halfSize);
-			sum.mixAll(s.defGrad), sum.mixAll(s.elasticStrain);
+			numbers           = { Real(points[p].id), s.volume0, Real(points[p].material->id) };
+			add(Vector3r(s.pos)), add(s.force), add(points[p].shape->halfSize), add(s.defGrad), add(s.elasticStrain);
 			for (const auto& internal : s.internals)
-				sum.mix(internal.second);
+				numbers.push_back(internal.second);
+			sum.mix(numbers);
 		}
-		return sum.value();
+		return sum.take();
 	}
 
 	// Of everything that goes into it, as it is saved.

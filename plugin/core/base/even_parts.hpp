@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Ranges with about the same work.
+#pragma once
+#include <numeric>
+#include <vector>
+
+namespace gimpm {
+
+/// A solve goes with the nodes, an assembly with their points: on the slope in 3D the solves take twice as long.
+constexpr double solveOverAssembly = 2;
+
+/// Of things in their order, with what each takes: the first one of each part, and their number.
+inline std::vector<int> evenParts(const std::vector<double>& work, int parts)
+{
+	const double     whole  = std::accumulate(work.begin(), work.end(), 0.);
+	double           before = 0;
+	std::vector<int> start { 0 };
+	for (int n = 0; n < int(work.size()); ++n) {
+		while (int(start.size()) < parts && before >= whole * double(start.size()) / parts)
+			start.push_back(n);
+		before += work[n];
+	}
+	start.resize(parts + 1, int(work.size()));
+	return start;
+}
+
+} // namespace gimpm
