@@ -126,7 +126,7 @@ namespace {
 		}
 	};
 
-	TYPED_TEST(RefinedStep, NewtonsMethodConvergesQuadratically)
+	TYPED_TEST(RefinedStep, AFewIterationsSufficeWhereItYields)
 	{
 		constexpr int Dim = TypeParam::value;
 		for (const bool fBar : { false, true }) {
