@@ -2,21 +2,32 @@
 // What several processes know together when each has said its part. All of them call these, in the same order, and come to the same, to the last bit.
 #pragma once
 #include "core/base/processes.hpp"
+#include <algorithm>
 #include <cstring>
-#include <numeric>
 #include <vector>
 
 namespace gimpm {
 
-/// One number of each process.
-inline std::vector<double> ofEach(const Processes& all, double own)
+/// `count` numbers of each process, one process after the other.
+inline std::vector<double> ofEach(const Processes& all, const double* own, int count)
 {
-	std::vector<double> numbers(all.size(), 0);
-	std::vector<int>    start(all.size() + 1);
-	std::iota(start.begin(), start.end(), 0);
-	numbers[all.rank()] = own;
+	std::vector<int> start(all.size() + 1);
+	for (int r = 0; r <= all.size(); ++r)
+		start[r] = r * count;
+	std::vector<double> numbers(start.back());
+	std::copy(own, own + count, numbers.begin() + start[all.rank()]);
 	all.gather(numbers.data(), start.data());
 	return numbers;
+}
+inline std::vector<double> ofEach(const Processes& all, double own) { return ofEach(all, &own, 1); }
+
+/// Each of the numbers becomes the sum of those that the processes have, in their order.
+inline void addUp(const Processes& all, double* numbers, int count)
+{
+	const auto ofAll = ofEach(all, numbers, count);
+	std::copy(ofAll.begin(), ofAll.begin() + count, numbers);
+	for (std::size_t i = count; i < ofAll.size(); ++i)
+		numbers[i % count] += ofAll[i];
 }
 
 /// What they have, one process after the other.

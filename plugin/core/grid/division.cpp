@@ -2,6 +2,7 @@
 #include "core/grid/division.hpp"
 #include "core/base/even_parts.hpp"
 #include <algorithm>
+#include <numeric>
 
 namespace gimpm {
 namespace {
@@ -29,8 +30,8 @@ std::vector<Key> Division::united(const std::vector<Key>& sorted) const
 
 double Division::sum(double own) const
 {
-	const auto numbers = ofEach(*processes, own);
-	return std::accumulate(numbers.begin(), numbers.end(), 0.);
+	addUp(*processes, &own, 1);
+	return own;
 }
 
 double Division::largest(double own) const

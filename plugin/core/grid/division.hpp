@@ -14,6 +14,7 @@ struct Division {
 	std::vector<Key>                 first;     ///< of each process but the first one: where its range begins; they do not fall
 	std::vector<std::int64_t>        id {};     ///< of the own points, in the order of the cloud, rising: the same in whatever process they are
 	std::vector<std::int64_t>        copied {}; ///< of the copies that follow them in the cloud
+	std::vector<std::vector<int>>    lent {};   ///< the own points of which each process has copies, while there are any
 
 	int          own() const { return int(id.size()); }
 	std::int64_t idOf(int point) const { return point < own() ? id[point] : copied[point - own()]; }
@@ -28,9 +29,29 @@ struct Division {
 	/// The keys of all, from those that each process has in its own range.
 	std::vector<Key> united(const std::vector<Key>& sorted) const;
 
+	/// Behind what there is of the own points that of the copies, in their order. Numbers only.
+	template <class T> void extend(std::vector<T>& ofPoints) const;
+
 	double sum(double own) const;
 	double largest(double own) const;
 };
+
+template <class T> void Division::extend(std::vector<T>& ofPoints) const
+{
+	static_assert(sizeof(T) % sizeof(double) == 0);
+	constexpr std::size_t            words = sizeof(T) / sizeof(double);
+	std::vector<std::vector<double>> sent(lent.size());
+	for (std::size_t r = 0; r < lent.size(); ++r) {
+		sent[r].resize(words * lent[r].size());
+		for (std::size_t i = 0; i < lent[r].size(); ++i)
+			std::memcpy(sent[r].data() + words * i, &ofPoints[lent[r][i]], sizeof(T));
+	}
+	for (const auto& received : exchanged(*processes, sent)) {
+		const std::size_t before = ofPoints.size();
+		ofPoints.resize(before + received.size() / words);
+		if (!received.empty()) std::memcpy(static_cast<void*>(ofPoints.data() + before), received.data(), received.size() * sizeof(double));
+	}
+}
 
 /// The lowest cell that a domain reaches.
 template <int Dim> Key lowestCell(const Vec<Dim>& position, const Vec<Dim>& halfSize, const Grid<Dim>&, Basis);

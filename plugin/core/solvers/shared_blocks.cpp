@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "core/solvers/shared_blocks.hpp"
+#include "core/base/together.hpp"
 #include <algorithm>
 
 namespace gimpm {
@@ -87,32 +88,11 @@ template <int Dim> Eigen::VectorXd SharedBlocks<Dim>::diagonal() const
 
 template <int Dim> double SharedBlocks<Dim>::norm(const Eigen::VectorXd& x) const
 {
-	const double own = x.stableNorm();
-	return ofEach(&own, 1).stableNorm();
+	const auto norms = ofEach(share_.processes, x.stableNorm());
+	return Eigen::Map<const Eigen::VectorXd>(norms.data(), norms.size()).stableNorm();
 }
 
-template <int Dim> void SharedBlocks<Dim>::complete(double* sums, int count) const
-{
-	const Eigen::VectorXd all = ofEach(sums, count);
-	for (int i = 0; i < count; ++i) {
-		sums[i] = 0;
-		for (Eigen::Index of = i; of < all.size(); of += count)
-			sums[i] += all[of];
-	}
-}
-
-/// What each process has given, in their order.
-template <int Dim> Eigen::VectorXd SharedBlocks<Dim>::ofEach(const double* own, int count) const
-{
-	const Processes& processes = share_.processes;
-	std::vector<int> start(processes.size() + 1, 0);
-	for (int p = 0; p < processes.size(); ++p)
-		start[p + 1] = start[p] + count;
-	Eigen::VectorXd all(start.back());
-	std::copy(own, own + count, all.data() + start[processes.rank()]);
-	processes.gather(all.data(), start.data());
-	return all;
-}
+template <int Dim> void SharedBlocks<Dim>::complete(double* sums, int count) const { addUp(share_.processes, sums, count); }
 
 template class SharedBlocks<2>;
 template class SharedBlocks<3>;

@@ -28,10 +28,9 @@ private:
 		Eigen::VectorXd  sent, received;
 	};
 
-	static Range    hereOf(const NodeMatrix<Dim>&, const NodeShare&);
-	void            findBorders(const NodeMatrix<Dim>&);
-	void            fetch(const Eigen::VectorXd& x) const;
-	Eigen::VectorXd ofEach(const double* own, int count) const;
+	static Range hereOf(const NodeMatrix<Dim>&, const NodeShare&);
+	void         findBorders(const NodeMatrix<Dim>&);
+	void         fetch(const Eigen::VectorXd& x) const;
 
 	const NodeShare&              share_;
 	Range                         here_; ///< own nodes and their neighbours, with what is between them

@@ -112,9 +112,9 @@ void addReactionsBeyondWalls(
 	if (!system.model.division) return addReactionsOf(cut, system, cloud, load, d, reactions);
 	std::vector<Vec3> own(reactions.size(), Vec3::Zero());
 	addReactionsOf(cut, system, cloud, load, d, own);
+	if (!own.empty()) addUp(*system.model.processes, own.front().data(), 3 * int(own.size()));
 	for (std::size_t b = 0; b < reactions.size(); ++b)
-		for (int a = 0; a < Dim; ++a)
-			reactions[b][a] += system.model.division->sum(own[b][a]);
+		reactions[b] += own[b];
 }
 
 template void addReactionsBeyondWalls(const StepSystem<2>&, const PointCloud<2>&, const Load<2>&, const Eigen::VectorXd&, std::vector<Vec3>&);

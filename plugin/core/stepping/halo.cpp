@@ -111,8 +111,9 @@ template <int Dim> Halo<Dim>::Halo(PointCloud<Dim>& cloud, const Model<Dim>& mod
 	forColumns(cloud, [&](auto& column) { // point loads that only others have
 		if (isThere[k++] && column.empty()) fillWithZeros(column, division_->own());
 	});
+	division_->lent = wanted(cloud, model);
 	std::vector<Numbers> own;
-	for (const auto& points : wanted(cloud, model))
+	for (const auto& points : division_->lent)
 		own.push_back(packed(cloud, *division_, points, isThere));
 	for (const Numbers& received : exchanged(all, own))
 		unpack(received, cloud, *division_, isThere);
@@ -122,7 +123,7 @@ template <int Dim> Halo<Dim>::~Halo()
 {
 	if (!division_) return;
 	forColumns(cloud_, [this](auto& column) { column.resize(std::min<std::size_t>(column.size(), division_->own())); });
-	division_->copied.clear();
+	division_->copied.clear(), division_->lent.clear();
 }
 
 template class Halo<2>;

@@ -63,7 +63,10 @@ template <int Dim> struct StepSystem {
 	bool hasInertia() const { return ownMotion.size() > 0; }
 
 	/// How things are as the step begins; the cloud has to be as it was then.
-	Beginning<Dim> beginning() const { return { cloud_, basis, model.grid, stiffnessOf_, faces, dofs, prescribed, imbalance_ }; }
+	Beginning<Dim> beginning() const
+	{
+		return { cloud_, basis, model.grid, stiffnessOf_, faces, dofs, prescribed, imbalance_, share(), model.division.get() };
+	}
 
 private:
 	const PointCloud<Dim>&           cloud_;

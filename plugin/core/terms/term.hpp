@@ -2,7 +2,9 @@
 // What the discrete equilibrium of a load step is the sum of.
 #pragma once
 #include "core/grid/cloud_basis.hpp"
+#include "core/grid/division.hpp"
 #include "core/solvers/node_matrix.hpp"
+#include "core/solvers/node_share.hpp"
 #include "core/solvers/reduce.hpp"
 #include "core/terms/cell_moduli.hpp"
 #include <functional>
@@ -109,7 +111,9 @@ template <int Dim> struct Beginning {
 	const FreeDofs&                    dofs;
 	const Eigen::VectorXd&             prescribed; ///< increments of the held degrees of freedom, zero elsewhere [m]
 	const std::function<Eigen::VectorXd()>&
-	        imbalance; ///< while a term is made: external forces less those of the terms made before it, all as they are now [N]
+	                 imbalance; ///< while a term is made: external forces less those of the terms made before it, all as they are now [N]
+	const NodeShare* share;     ///< rows of this process, of several; null: there is one
+	const Division*  division;  ///< of the points among processes, of which this one has its own and copies; null: it has all
 };
 
 /// Makes a term for a step.

@@ -38,18 +38,18 @@ namespace {
 	}
 
 	// With those of the points in other processes.
-	Totals ofAll(const Totals& own, const gimpm::Processes& all)
+	Totals ofAll(Totals t, const gimpm::Processes& all)
 	{
-		Totals     t    = own;
-		const auto each = [&](Real value) { return gimpm::ofEach(all, value); };
-		for (Real* sum : { &t.points, &t.volume0, &t.plasticVolume0, &t.elasticEnergy, &t.massTimesDisplacement[0], &t.massTimesDisplacement[1],
-		                   &t.massTimesDisplacement[2] }) {
-			const auto values = each(*sum);
-			*sum              = std::accumulate(values.begin(), values.end(), Real(0));
-		}
-		for (Real* largest : { &t.largestDisplacement, &t.settlement }) {
-			const auto values = each(*largest);
-			*largest          = *std::max_element(values.begin(), values.end());
+		vector<Real> sums { t.points, t.volume0, t.plasticVolume0, t.elasticEnergy };
+		sums.insert(sums.end(), t.massTimesDisplacement.data(), t.massTimesDisplacement.data() + 3);
+		gimpm::addUp(all, sums.data(), int(sums.size()));
+		t.points = sums[0], t.volume0 = sums[1], t.plasticVolume0 = sums[2], t.elasticEnergy = sums[3];
+		t.massTimesDisplacement = Vector3r(sums[4], sums[5], sums[6]);
+		const Real own[2]       = { t.largestDisplacement, t.settlement };
+		const auto largest      = gimpm::ofEach(all, own, 2);
+		for (size_t i = 0; i < largest.size(); i += 2) {
+			t.largestDisplacement = std::max(t.largestDisplacement, largest[i]);
+			t.settlement          = std::max(t.settlement, largest[i + 1]);
 		}
 		return t;
 	}
