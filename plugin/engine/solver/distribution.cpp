@@ -108,7 +108,6 @@ namespace {
 	// With a name and its value, if the engine has it.
 	string whatIsRefused(const MpmImplicitEngine& engine)
 	{
-		if (engine.isExplicit()) return "scheme = 'explicit'";
 		if (!engine.contacts.empty()) return "contacts";
 		if (!engine.loads.empty()) return "loads";
 		if (!engine.water.empty()) return "water";

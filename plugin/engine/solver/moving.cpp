@@ -42,8 +42,7 @@ Moving<Dim>::Moving(MpmDynamicEngine& e, Job<Dim>& job, const vector<MaterialPoi
 	motion->contacts   = job.contacts.weigh(motion->scheme.weightOfContact());
 	shaking            = std::make_unique<Shaking<Dim>>(engine, job, *motion);
 	job.model.atMiddle = motion->scheme.atMiddle;
-	if (engine.isExplicit()) requireStable(engine, job.cloud, job.model, job.target - job.begin);
-	else
+	if (!engine.isExplicit())
 		job.model.terms.push_back([known = motion](const gimpm::Beginning<Dim>& step) { return std::make_unique<gimpm::Inertia<Dim>>(*known, step); });
 	job.surfaceLoads.beginAt(job.begin);
 	job.waters.wantWork();
@@ -51,6 +50,7 @@ Moving<Dim>::Moving(MpmDynamicEngine& e, Job<Dim>& job, const vector<MaterialPoi
 
 template <int Dim> void Moving<Dim>::begin(Job<Dim>& job, Attempt<Dim>& next, Real from) const
 {
+	if (engine.isExplicit()) requireStable(engine, job.cloud, job.model, next.time - from); // by all processes, which are here together
 	if (std::isnan(engine.firstEnergy)) engine.firstEnergy = ofAll(energy, job);
 	motion->duration = next.time - from;
 	next.load.motion = motion->duration;
