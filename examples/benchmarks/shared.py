@@ -124,6 +124,41 @@ def splitting():
 	return 20
 
 
+def shaken():
+	"""Soil on an edge that absorbs waves, through which one comes from below; damped."""
+	O.materials.append(MpmElasticMat(label='soil', **law))
+	base = MpmAbsorbingBoundary(max=(inf, 0, inf), motion=MpmBaseMotion(history=[(0, 0), (.1, .3), (.2, -.2), (1, 0)], direction=(1, 0, 0)))
+	ends = [MpmBoundary(max=(0, inf, inf), fix='x'), MpmBoundary(min=(20, -inf, -inf), fix='x')]
+	solver = engine(MpmDynamicEngine, gravity=(0, -9.81, 0), boundaries=ends, absorbing=[base], rayleigh=(.5, .002), scheme='generalised-alpha')
+	O.bodies.append(mpm.fill(pack.inAlignedBox((0, 0, -1), (20, 10, 1)), solver.grid, 2, 'soil'))
+	O.engines = [solver]
+	O.dt = .03
+	return 5
+
+
+def explicit():
+	"""Blocks that meet in the air, one of them in pieces, by central differences."""
+	O.materials.append(MpmElasticMat(label='soil', **law))
+	solver = engine(MpmDynamicEngine, scheme='explicit')
+	isThere = lambda body: body.state.pos[0] < 8 or int(body.state.pos[0]) % 3 == 0
+	O.bodies.append([body for body in mpm.fill(pack.inAlignedBox((.3, 0, -1), (16.3, 6, 1)), solver.grid, 2, 'soil') if isThere(body)])
+	mpm.assign(velocity=[(3 if x < 8 else -3, .1 * x, 0) for x in mpm.arrays()['pos'][:, 0]])
+	O.engines = [solver]
+	O.dt = .7 * solver.criticalTimeStep()
+	return 12
+
+
+def chosen():
+	"""A vertical cut in soil that yields, in load steps as long as their error admits."""
+	O.materials.append(MpmMohrCoulombMat(cohesion=1.2e4, frictionAngle=.3, dilationAngle=.3, label='soil', **law))
+	solver = engine(gravity=(0, -9.81, 0), boundaries=[MpmBoundary(max=(0, inf, inf), fix='x'), MpmBoundary(max=(inf, 0, inf), fix='xy')])
+	solver.newton.stepTolerance, solver.newton.minStep = 5e-4, 1e-2
+	O.bodies.append(mpm.fill(pack.inAlignedBox((0, 0, -1), (12, 6, 1)), solver.grid, 2, 'soil'))
+	O.engines = [solver]
+	O.dt = .2
+	return 3
+
+
 def effort(steps):
 	"""Runs the scene; what it takes."""
 	solver, solves, iterations, parts = O.engines[0], 0, 0, Counter()
@@ -134,7 +169,7 @@ def effort(steps):
 		parts.update(solver.report()['times'])
 	return dict(
 	        points=len(mpm.arrays()['id']), steps=steps, solves=solves, iterations=iterations, fallbacks=solver.cgFallbacks, seconds=time.perf_counter() - begin,
-	        cpu=time.process_time() - cpu, parts=parts, sent=(library.bytesSent() - sent) / steps, memory=1024 * resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+	        cpu=time.process_time() - cpu, told=solver.plotData(), parts=parts, sent=(library.bytesSent() - sent) / steps, memory=1024 * resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
 	)
 
 

@@ -2,7 +2,7 @@
 #include "engine/solver/sameness.hpp"
 #include "core/base/checksum.hpp"
 #include "core/base/sentence.hpp"
-#include "engine/solver/MpmImplicitEngine.hpp"
+#include "engine/solver/MpmDynamicEngine.hpp"
 #include "yade_api/serialization.hpp"
 #include <sstream>
 
@@ -17,7 +17,8 @@ namespace {
 		for (size_t p = begin; p < points.size(); ++p) {
 			const MpmState& s = *points[p].state;
 			numbers           = { Real(points[p].id), s.volume0, Real(points[p].material->id) };
-			add(Vector3r(s.pos)), add(s.force), add(points[p].shape->halfSize), add(s.defGrad), add(s.elasticStrain);
+			add(Vector3r(s.pos)), add(s.vel), add(s.acceleration), add(s.force), add(points[p].shape->halfSize), add(s.defGrad),
+			        add(s.elasticStrain);
 			for (const auto& internal : s.internals)
 				numbers.push_back(internal.second);
 			sum.mix(numbers);
@@ -44,6 +45,13 @@ namespace {
 		        engine.gravityCurve, engine.loadTime, engine.stepPart, engine.lastDisplacements, engine.lastLoadIncrement, scene.dt, scene.time);
 	}
 
+	// Of inertia, if it has that.
+	std::uint64_t settingsInTimeOf(const MpmImplicitEngine& engine)
+	{
+		const auto* e = dynamic_cast<const MpmDynamicEngine*>(&engine);
+		return e ? checksumOf(e->scheme, e->beta, e->gamma, e->rhoInfinity, e->timeTolerance, e->absorbing, e->rayleigh) : 0;
+	}
+
 	string startOf(const MpmImplicitEngine& engine, const char* what)
 	{
 		return gimpm::sentence(engine.getClassName(), ": the processes hold different ", what, " in iteration ", engine.scene->iter);
@@ -53,7 +61,7 @@ namespace {
 void requireSame(const gimpm::Processes& all, const MpmImplicitEngine& engine, const vector<MaterialPoint>& points, size_t begin)
 {
 	const bool  areSameBodies = all.haveSame(engine.scene->bodies->size()), areSamePoints = all.haveSame(checksum(points, begin));
-	const bool  areSameSettings = all.haveSame(settingsOf(engine));
+	const bool  areSameSettings = all.haveSame(settingsOf(engine) ^ settingsInTimeOf(engine));
 	const char* what            = !areSameBodies ? "numbers of bodies" : !areSamePoints ? "material points" : !areSameSettings ? "settings" : nullptr;
 	if (what)
 		throw std::runtime_error(
