@@ -109,15 +109,8 @@ namespace {
 	string whatIsRefused(const MpmImplicitEngine& engine)
 	{
 		if (engine.isDynamic()) return engine.getClassName();
-		if (!engine.contacts.empty()) return "contacts";
-		if (!engine.loads.empty()) return "loads";
-		if (!engine.water.empty()) return "water";
 		if (engine.maxSplits > 0) return sentence("maxSplits = ", engine.maxSplits);
 		if (engine.newton->stepTolerance > 0) return sentence("newton.stepTolerance = ", engine.newton->stepTolerance);
-		if (!engine.grid->period.isZero(0)) return sentence("MpmGrid.period = (", engine.grid->period.transpose(), ")");
-		if (engine.grid->axisymmetric) return "MpmGrid.axisymmetric";
-		for (size_t b = 0; b < engine.boundaries.size(); ++b)
-			if (engine.boundaries[b]->surface) return sentence("boundaries[", b, "].surface");
 		for (const auto& other : engine.scene->engines)
 			if (other.get() != &engine && dynamic_cast<const MpmImplicitEngine*>(other.get()))
 				return "a second engine with material points in O.engines";
