@@ -23,9 +23,9 @@ law = dict(young=1e6, poisson=.3, density=2400)
 profile = mpm.polygon([(0, 0), (30, 0), (30, 7), (15, 7), (10, 12), (0, 12)])
 
 
-def engine(kind=MpmImplicitEngine, dim=2, **settings):
+def engine(kind=MpmImplicitEngine, dim=2, grid={}, **settings):
 	newton = MpmNewton(linearSolver=method, tolerance=1e-10, maxIterations=30)
-	return kind(grid=MpmGrid(cellSize=h, dim=dim), newton=newton, verbosity=0, distributed=distributed, **settings)
+	return kind(grid=MpmGrid(cellSize=h, dim=dim, **grid), newton=newton, verbosity=0, distributed=distributed, **settings)
 
 
 def sides(*held):
@@ -78,15 +78,59 @@ def pushed():
 	return 4
 
 
+def block(solver, region, strength=6e4, steps=4, end=1):
+	"""Of soil; the steps."""
+	O.materials.append(MpmVonMisesMat(yieldStress=strength, label='soil', **law))
+	O.bodies.append(mpm.fill(region, solver.grid, 2, 'soil'))
+	O.engines = [solver]
+	O.dt = end / steps
+	return steps
+
+
+def loaded():
+	"""A block with a pressure that follows its top, and a traction of fixed direction beside that."""
+	loads = [MpmTraction(surface=[(14, 8), (6, 8)], pressure=4e4), MpmTraction(surface=[(20, 8), (16, 8)], traction=(1e4, -1e4, 0))]
+	held = [MpmBoundary(max=(0, inf, inf), fix='x'), MpmBoundary(max=(inf, 0, inf), fix='xy')]
+	return block(engine(gravity=(0, -9.81, 0), boundaries=held, loads=loads), pack.inAlignedBox((0, 0, -1), (20, 8, 1)))
+
+
+def ring():
+	"""A circular footing on a cylinder of soil, around an axis of symmetry."""
+	footing = MpmBoundary(min=(-inf, 8, -inf), max=(4, 8, inf), fix='y', displacement=(0, -.3, 0))
+	held = [MpmBoundary(min=(14, -inf, -inf), fix='x'), MpmBoundary(max=(inf, 0, inf), fix='xy'), footing]
+	return block(engine(grid=dict(axisymmetric=True), gravity=(0, -9.81, 0), boundaries=held), pack.inAlignedBox((0, 0, -1), (14, 8, 1)), 3e4)
+
+
+def walls():
+	"""Soil on a slope of rock that rises, off the lines of the grid, beside a wall that leans and stays."""
+	rock, leaning = [(0, 1.3), (20, 3.7)], [(20, 0), (21, 10)]
+	held = [MpmBoundary(max=(0, inf, inf), fix='x'), MpmBoundary(surface=rock, fix='n', velocity=(0, .1, 0)), MpmBoundary(surface=leaning, fix='n')]
+	return block(engine(gravity=(0, -9.81, 0), boundaries=held), mpm.polygon([*rock, (20.37, 3.74), (20.9, 9), (0, 9)]))
+
+
+def periodic():
+	"""A step that repeats itself, carried along by its base until its points enter again on the other side."""
+	base = MpmBoundary(max=(inf, 0, inf), fix='xy', displacement=(6, 0, 0))
+	region = mpm.polygon([(0, 0), (16, 0), (16, 6), (8, 6), (8, 8), (0, 8)])
+	return block(engine(grid=dict(period=(16, 0, 0)), gravity=(2, -9.81, 0), boundaries=[base]), region)
+
+
+def wet():
+	"""The slope beside a lake that falls, with a head of its own in the pores; K is not symmetric."""
+	head = lambda x: 2e3 * max(0, 12 - x[1])
+	water = [MpmWater(levels=[(0, 9), (.75, 8)]), MpmWater(pressure=head, where='pores')]
+	return block(engine(gravity=(0, -9.81, 0), boundaries=sides(), water=water), profile, 6e4, 3, .75)
+
+
 def contact():
 	"""A heavy plate presses into soil that is pushed from the side."""
-	O.materials.append(MpmVonMisesMat(yieldStress=3e4, label='soil', **law))
+	O.materials.append(MpmVonMisesMat(yieldStress=6e4, label='soil', **law))
 	O.materials.append(FrictMat(frictionAngle=.3, density=2600, young=1e7, label='rigid'))
 	pushed = [MpmBoundary(max=(0, inf, inf), fix='x', displacement=(.05, 0, 0)), MpmBoundary(max=(inf, 0, inf), fix='y')]
 	solver = engine(gravity=(0, -9.81, 0), boundaries=pushed, contacts=[MpmContact(friction=.3)])
 	O.bodies.append(mpm.fill(pack.inAlignedBox((0, 0, -1), (20, 8, 1)), solver.grid, 2, 'soil'))
 	plate = O.bodies.append(utils.box((8, 9, 0), (3, 1, 2), material='rigid', fixed=True))
-	O.bodies[plate].state.vel = (.1, -.3, 0)
+	O.bodies[plate].state.vel = (.1, -1.5, 0)
 	O.engines = [solver]
 	O.dt = .2
 	return 4
@@ -159,6 +203,16 @@ def chosen():
 	return 3
 
 
+def results(solver):
+	"""What the engine and its conditions tell of the last step: forces, one number after the other."""
+	vectors = [*solver.reactions, *(load.resultant for load in solver.loads)]
+	for contact in solver.contacts:
+		vectors += [*contact.forces, *contact.torques]
+	for water in solver.water:
+		vectors += water.onBoundaries
+	return [number for vector in vectors for number in vector]
+
+
 def effort(steps):
 	"""Runs the scene; what it takes."""
 	solver, solves, iterations, parts = O.engines[0], 0, 0, Counter()
@@ -168,8 +222,9 @@ def effort(steps):
 		solves, iterations = solves + solver.iterations, iterations + solver.cgIterations
 		parts.update(solver.report()['times'])
 	return dict(
-	        points=len(mpm.arrays()['id']), steps=steps, solves=solves, iterations=iterations, fallbacks=solver.cgFallbacks, seconds=time.perf_counter() - begin,
-	        cpu=time.process_time() - cpu, told=solver.plotData(), parts=parts, sent=(library.bytesSent() - sent) / steps, memory=1024 * resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+	        results=results(solver), points=len(mpm.arrays()['id']), steps=steps, solves=solves, iterations=iterations, fallbacks=solver.cgFallbacks,
+	        seconds=time.perf_counter() - begin, cpu=time.process_time() - cpu, told=solver.plotData(), parts=parts, sent=(library.bytesSent() - sent) / steps,
+	        memory=1024 * resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
 	)
 
 

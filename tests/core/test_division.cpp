@@ -25,10 +25,11 @@ namespace {
 			}
 			return c;
 		}
-		static Model<Dim> model(bool fBar, double ghost)
+		static Model<Dim> model(bool fBar, double ghost, bool isPeriodic = false)
 		{
 			Model<Dim> m;
-			m.boundary     = Boundary<Dim>({ wallBelow<Dim>(m.grid, Dim - 1, 0) });
+			if (isPeriodic) m.grid.period[Dim - 1] = Dim == 2 ? 5 : 6; // which domains reach beyond
+			m.boundary     = Boundary<Dim>({ wallBelow<Dim>(m.grid, isPeriodic ? 0 : Dim - 1, 0) });
 			m.materials    = { { Hencky(1e6, 0.3), 2000 } };
 			m.fBar         = fBar;
 			m.ghost.factor = ghost;
@@ -68,8 +69,9 @@ namespace {
 	TYPED_TEST(DivisionOf, ForcesAreThoseOfAllPoints)
 	{
 		constexpr int Dim = TypeParam::value;
-		for (const auto& [fBar, ghost] : { std::pair(false, 0.), std::pair(false, 0.01), std::pair(true, 0.01) }) {
-			const auto            model = TestFixture::model(fBar, ghost);
+		for (const auto& [fBar, ghost, isPeriodic] :
+		     { std::tuple(false, 0., false), std::tuple(false, 0.01, false), std::tuple(true, 0.01, false), std::tuple(true, 0.01, true) }) {
+			const auto            model = TestFixture::model(fBar, ghost, isPeriodic);
 			const auto            all   = TestFixture::cloud(model.grid);
 			StepReport            report;
 			Load<Dim>             load { -9.81 * Vec<Dim>::Unit(Dim - 1), { 1, 1 } };
@@ -78,8 +80,8 @@ namespace {
 			Eigen::VectorXd       force, sizes;
 			ASSERT_FALSE(whole.evaluate(d, force, nullptr, &sizes));
 			for (const int processes : { 2, 3 })
-				inThreads(processes, [&, fBar = fBar](const std::shared_ptr<const Processes>& process) {
-					auto mine      = TestFixture::model(fBar, model.ghost.factor);
+				inThreads(processes, [&](const std::shared_ptr<const Processes>& process) {
+					auto mine      = model;
 					mine.processes = process;
 					mine.division  = std::make_shared<Division>(Division { process, cutByWork(TestFixture::loads(all, model), processes) });
 					auto cloud     = TestFixture::part(all, model, *mine.division);

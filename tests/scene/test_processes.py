@@ -53,9 +53,9 @@ def test_two_processes_come_to_the_states_of_one(yade):
 
 
 def test_points_in_pieces_come_to_the_states_of_one(yade):
-	"""Each process with its own points: von Mises' slope in the plane and in 3D, friction, F-bar, a pushed and loaded block whose points change the process; in time, by each way of
-	steps, with their energies; load steps chosen by their error; points that are split, under the ids of one process."""
-	names = 'slope2', 'slope3', 'friction', 'incompressible', 'pushed', 'dynamics', 'collapse', 'shaken', 'explicit', 'chosen', 'splitting'
+	"""Each process with its own points: von Mises' slope in the plane and in 3D, friction, F-bar, a pushed block whose points change the process; loaded surfaces, an axis of symmetry,
+	walls off the grid, contact, a period, water; in time, by each way of steps, with their energies; load steps chosen by their error; points that are split, under the ids of one process."""
+	names = 'slope2', 'slope3', 'friction', 'incompressible', 'pushed', 'loaded', 'ring', 'walls', 'contact', 'periodic', 'wet', 'dynamics', 'collapse', 'shaken', 'explicit', 'chosen', 'splitting'
 	results, alone = found(yade(scenes, 'out.npz', *names))
 	for processes in 2, 3:
 		together, positions = found(yade(scenes, 'out.npz', 'distributed', *names, processes=processes))
@@ -67,6 +67,9 @@ def test_points_in_pieces_come_to_the_states_of_one(yade):
 			energies = [key for key in one if 'Energy' in key or 'Work' in key]
 			assert np.isclose([first[key] for key in energies], [one[key] for key in energies], rtol=0, atol=1e-9 * max(abs(one[key]) for key in energies)).all(), (name, processes)
 			assert all(json.dumps(other) == json.dumps(first) for other in others)
+			forces = [of['results'] for of in together[name]]
+			assert all(of == forces[0] for of in forces), (name, 'the same in all processes, to the last bit')
+			assert np.allclose(forces[0], results[name][0]['results'], rtol=0, atol=1e-9 * np.abs(forces[0]).max()), (name, processes)
 
 
 pieces = setting + '''
@@ -162,11 +165,16 @@ def tried():
 		said.append('')
 	except (ValueError, RuntimeError) as error:
 		said.append(str(error))
-for name, value in dict(contacts=[MpmContact(friction=.3)], water=[MpmWater(level=3)]).items():
-	before = getattr(solver, name)
-	setattr(solver, name, value)
-	tried()
-	setattr(solver, name, before)
+O.engines = [solver, MpmImplicitEngine(grid=MpmGrid(cellSize=2), mask=2)]
+tried()
+O.engines = [solver]
+O.materials.append(FrictMat(frictionAngle=.3, density=2600, young=1e7, label='rigid'))
+plate = O.bodies.append(utils.box((15, 20, 0), (1, 1, 1), material='rigid', fixed=True))
+solver.contacts = [MpmContact()]
+if rank == 1: O.bodies[plate].state.vel = (0, -1, 0)
+tried()
+O.bodies.erase(plate)
+solver.contacts = []
 mpm.assign(ids=[5], yieldStress=[2e4])
 tried()
 O.bodies[5].state.parameters = []
@@ -193,7 +201,7 @@ with open(f'process{rank}.json', 'w') as file:
 	)
 	first, second = (json.loads((run.folder / f'process{rank}.json').read_text()) for rank in (0, 1))
 	assert first[:-1] == [said.replace('Process 1 of 2 has failed: ', '') if isinstance(said, str) else said for said in second[:-1]] or first[:-1] == second[:-1], (first, second)
-	for said, named in zip(first, ('contacts', 'water', 'a strength or modulus of its own (yieldStress)', 'settings', 'values of materials', 'failed: ')):
+	for said, named in zip(first, ('a second engine', 'rigid bodies', 'a strength or modulus of its own (yieldStress)', 'settings', 'values of materials', 'failed: ')):
 		assert named in said, (named, first)
 	assert first[6] is True and 'mpm.load(file) puts together' in first[7]
 	alone = yade("O.load('piece-0of2.yade')\nO.run(1, wait=True)\n", fails=True)

@@ -112,7 +112,7 @@ template <int Dim> void StepSystem<Dim>::makeTerms(const Load<Dim>& load)
 {
 	resistPoints();
 	for (const auto& [box, wall] : model.walls)
-		terms.push_back(std::make_unique<WallForce<Dim>>(*wall, basis, stiffnessOf_, model.grid));
+		terms.push_back(std::make_unique<WallForce<Dim>>(*wall, basis, stiffnessOf_, model.grid, model.division.get()));
 	imbalance_ = [this, earlier = load.before()] {
 		Eigen::VectorXd before = Eigen::VectorXd::Zero(nodalSize()), resistance = before;
 		addPointForces(basis, pointForces(cloud_, model, earlier), before);

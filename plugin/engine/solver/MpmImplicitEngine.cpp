@@ -82,8 +82,9 @@ template <int Dim> Job<Dim> MpmImplicitEngine::prepare(Agreement& agreement)
 		job.model.processes = processes();
 		takePoints(job, agreement);
 		(job.surfaceLoads = SurfaceLoads<Dim>(*this, job.model.grid)).join(job.model);
-		(job.waters = Waters<Dim>(*this, job.model.grid, job.cloud)).join(job.model);
-		(job.contacts = Contacts<Dim>(contacts, *scene, job.model.grid, points, job.begin, job.target)).join(job.model);
+		if (job.model.division && !water.empty()) agreement.meet(*this);
+		(job.waters = Waters<Dim>(*this, job.model.grid, job.cloud, job.model.division.get())).join(job.model);
+		(job.contacts = Contacts<Dim>(contacts, *scene, job.model.grid, points, bool(job.model.division), job.begin, job.target)).join(job.model);
 		setMoving(job, points); // inertia comes last
 	}
 	job.doubts = plausibility.look(*this, points, job.cloud, job.model, checking);

@@ -108,13 +108,6 @@ namespace {
 	// With a name and its value, if the engine has it.
 	string whatIsRefused(const MpmImplicitEngine& engine)
 	{
-		if (!engine.contacts.empty()) return "contacts";
-		if (!engine.loads.empty()) return "loads";
-		if (!engine.water.empty()) return "water";
-		if (!engine.grid->period.isZero(0)) return sentence("MpmGrid.period = (", engine.grid->period.transpose(), ")");
-		if (engine.grid->axisymmetric) return "MpmGrid.axisymmetric";
-		for (size_t b = 0; b < engine.boundaries.size(); ++b)
-			if (engine.boundaries[b]->surface) return sentence("boundaries[", b, "].surface");
 		for (const auto& other : engine.scene->engines)
 			if (other.get() != &engine && dynamic_cast<const MpmImplicitEngine*>(other.get()))
 				return "a second engine with material points in O.engines";

@@ -41,8 +41,30 @@ namespace {
 	{
 		const Scene& scene = *engine.scene;
 		return checksumOf(
-		        engine.grid, engine.basis, engine.fBar, engine.boundaries, engine.ghost, engine.newton, engine.mask, engine.gravity, engine.loadCurve,
-		        engine.gravityCurve, engine.loadTime, engine.stepPart, engine.lastDisplacements, engine.lastLoadIncrement, scene.dt, scene.time);
+		        engine.grid, engine.basis, engine.fBar, engine.boundaries, engine.loads, engine.water, engine.contacts, engine.ghost, engine.newton,
+		        engine.mask, engine.gravity, engine.loadCurve, engine.gravityCurve, engine.loadTime, engine.stepPart, engine.lastDisplacements,
+		        engine.lastLoadIncrement, scene.dt, scene.time);
+	}
+
+	// Of the rigid bodies that may touch the soil: where they are, and how they move.
+	std::uint64_t motionOf(const MpmImplicitEngine& engine)
+	{
+		vector<Real> numbers;
+		const auto   take = [&](const State& s) {
+                        for (const Vector3r& v : { Vector3r(s.pos), s.vel, s.angVel })
+                                numbers.insert(numbers.end(), v.data(), v.data() + 3);
+                        const Quaternionr ori = s.ori;
+                        numbers.insert(numbers.end(), ori.coeffs().data(), ori.coeffs().data() + 4);
+		};
+		const BodyContainer& all = *engine.scene->bodies;
+		for (const auto& contact : engine.contacts)
+			for (const auto& body : bodiesOf(*contact, *engine.scene)) {
+				take(*body->state);
+				if (body->isClumpMember() && all.exists(body->clumpId)) take(*all[body->clumpId]->state);
+			}
+		gimpm::Checksum sum;
+		sum.mix(numbers);
+		return sum.take();
 	}
 
 	// Of inertia, if it has that.
@@ -61,8 +83,12 @@ namespace {
 void requireSame(const gimpm::Processes& all, const MpmImplicitEngine& engine, const vector<MaterialPoint>& points, size_t begin)
 {
 	const bool  areSameBodies = all.haveSame(engine.scene->bodies->size()), areSamePoints = all.haveSame(checksum(points, begin));
-	const bool  areSameSettings = all.haveSame(settingsOf(engine) ^ settingsInTimeOf(engine));
-	const char* what            = !areSameBodies ? "numbers of bodies" : !areSamePoints ? "material points" : !areSameSettings ? "settings" : nullptr;
+	const bool  areSameSettings = all.haveSame(settingsOf(engine) ^ settingsInTimeOf(engine)), moveAlike = all.haveSame(motionOf(engine));
+	const char* what = !areSameBodies ? "numbers of bodies"
+	        : !areSamePoints          ? "material points"
+	        : !areSameSettings        ? "settings"
+	        : !moveAlike              ? "places or velocities of rigid bodies"
+	                                  : nullptr;
 	if (what)
 		throw std::runtime_error(
 		        startOf(engine, what)
