@@ -357,13 +357,14 @@ one after it is part of the update. Both tables were measured beside other progr
 
 """
 
-WAYS = dict(undivided='in all processes', appended='appended as a list, then divided', added='divided, by `mpm.add`')
+WAYS = dict(undivided='in all processes', appended='appended as a list, then divided', added='divided, by `mpm.add`', tall='the same, cut across its longest side')
 
 DIVISION = """## Points divided among processes
 
 Peak of memory (VmHWM) of the process that has most, at the stages of a run: before there are points, when the block of {points} points in 3D is filled, after each of two elastic steps by conjugate
 gradients (`scripts/bench division`, at revision {revision}); one thread each. With `MpmImplicitEngine.distributed` and `O.bodies.append(mpm.fill(...))` each process makes all points and erases the others' at the first
-step; with `mpm.add` it makes its own only. Measured beside other programs, so that the seconds are no more than a hint.
+step; with `mpm.add` it makes its own only. Slabs are cut across the last axis, here the second longest side of the block, and each process has copies of the points up to two cells beyond its nodes; the last rows have
+the same block turned. Measured beside other programs, so that the seconds are no more than a hint.
 
 """
 

@@ -29,6 +29,7 @@ defaults = dict(
         arrays=False, # reads all material points after every step
         distributed=False, # several processes divide the points
         added=False, # by mpm.add
+        extent=[60, 20, 25], # of the block [cells]
 )
 setting = SimpleNamespace(**defaults | json.loads(sys.argv[1]))
 
@@ -94,7 +95,7 @@ def block():
 	solver = MpmImplicitEngine(grid=MpmGrid(cellSize=1, dim=3), gravity=(0, -9.81, 0), boundaries=held, distributed=setting.distributed)
 	solver.newton.linearSolver = setting.linearSolver
 	O.engines, O.dt = [solver], .05
-	region = pack.inAlignedBox((0, 0, 0), (setting.depth, 20, 25))
+	region = pack.inAlignedBox((0, 0, 0), setting.extent)
 	if setting.added: mpm.add(region, solver, setting.pointsPerCell, 'soil')
 	else: O.bodies.append(mpm.fill(region, solver.grid, setting.pointsPerCell, 'soil'))
 	peaks['filled'] = memory('VmHWM')
