@@ -156,6 +156,17 @@ def sharing(results):
 	return SHARING.format(**results) + table(heads, rows)
 
 
+def division(results):
+	rows = []
+	for one in results['runs']:
+		each = one['each']
+		peak = lambda stage: f"{max(process['peaks'][stage] for process in each) / 1e6:.0f}"
+		stages = list(each[0]['peaks'])
+		rows.append([WAYS[one['way']], one['processes'], max(process['own'] for process in each), *map(peak, stages), f"{max(process['run'] for process in each):.1f}"])
+	heads = ['points', 'processes', 'points of one, at most', *(f'{stage} [MB]' for stage in stages), 'steps [s]']
+	return DIVISION.format(revision=results['revision'], points=results['runs'][0]['each'][0]['points']) + table(heads, rows)
+
+
 def onPaper():
 	"""A step of a million points in 3D (131,000 nodes, 372,000 unknowns) on 100 layers of nodes: 7 solves of 200 iterations. Of one process [s]: 2.4 that each
 	of several does, too, 30 of assembly, 90 of solving; 0.25 ms for a sum over 1,024 processes, 10 GB/s from each to its neighbours, 1 GB/s to all."""
@@ -232,7 +243,7 @@ def picture(results, path):
 	pyplot.close(figure)
 
 
-sections = dict(kernels=kernels, scenes=scenes, sizes=sizes, features=features, start=start, bodies=bodies, solvers=solvers, processes=processes, sharing=sharing, large=large)
+sections = dict(kernels=kernels, scenes=scenes, sizes=sizes, features=features, start=start, bodies=bodies, solvers=solvers, processes=processes, sharing=sharing, division=division, large=large)
 
 
 def comparison(found, revision):
@@ -343,6 +354,17 @@ SHARING = """## Two processes
 The first steps of the slope with a weak layer in 3D, 262,200 points and 101,197 unknowns, by conjugate gradients (`scripts/bench sharing`; this and the table above at revision {revision}): one process with one thread and with two, and two processes
 with one thread each, in turn; of each the quickest of five runs, with the parts of each process. What a process waits for another is in the parts where they meet. `agree`: checksum of the points before a step; the
 one after it is part of the update. Both tables were measured beside other programs, with precedence over them (`chrt -f 20`). With the first step comes what it takes to begin MPI and to open PETSc, some .2 s, in what is from and to bodies. Memory is the peak of the process.
+
+"""
+
+WAYS = dict(undivided='in all processes', appended='appended as a list, then divided', added='divided, by `mpm.add`', tall='the same, cut across its longest side')
+
+DIVISION = """## Points divided among processes
+
+Peak of memory (VmHWM) of the process that has most, at the stages of a run: before there are points, when the block of {points} points in 3D is filled, after each of two elastic steps by conjugate
+gradients (`scripts/bench division`, at revision {revision}); one thread each. With `MpmImplicitEngine.distributed` and `O.bodies.append(mpm.fill(...))` each process makes all points and erases the others' at the first
+step; with `mpm.add` it makes its own only. Slabs are cut across the last axis, here the second longest side of the block, and each process has copies of the points up to two cells beyond its nodes; the last rows have
+the same block turned. Measured beside other programs, so that the seconds are no more than a hint.
 
 """
 

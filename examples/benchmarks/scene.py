@@ -27,6 +27,9 @@ defaults = dict(
         fBar=False,
         recorder=False, # writes all material points after every step
         arrays=False, # reads all material points after every step
+        distributed=False, # several processes divide the points
+        added=False, # by mpm.add
+        extent=[60, 20, 25], # of the block [cells]
 )
 setting = SimpleNamespace(**defaults | json.loads(sys.argv[1]))
 
@@ -84,6 +87,26 @@ def slope():
 	)
 
 
+def block():
+	"""An elastic block in 3D: the peak of memory at each stage [bytes]."""
+	peaks = dict(start=memory('VmHWM'))
+	O.materials.append(MpmElasticMat(young=1e6, poisson=.3, density=2400, label='soil'))
+	held = [MpmBoundary(max=(0, inf, inf), fix='x'), MpmBoundary(max=(inf, 0, inf), fix='y'), MpmBoundary(max=(inf, inf, 0), fix='z')]
+	solver = MpmImplicitEngine(grid=MpmGrid(cellSize=1, dim=3), gravity=(0, -9.81, 0), boundaries=held, distributed=setting.distributed)
+	solver.newton.linearSolver = setting.linearSolver
+	O.engines, O.dt = [solver], .05
+	region = pack.inAlignedBox((0, 0, 0), setting.extent)
+	if setting.added: mpm.add(region, solver, setting.pointsPerCell, 'soil')
+	else: O.bodies.append(mpm.fill(region, solver.grid, setting.pointsPerCell, 'soil'))
+	peaks['filled'] = memory('VmHWM')
+	begin = time.perf_counter()
+	for step in range(setting.steps):
+		O.run(1, wait=True)
+		peaks[f'step {step + 1}'] = memory('VmHWM')
+	run = time.perf_counter() - begin
+	return dict(points=len(mpm.arrays()['id']), own=len([body for body in O.bodies if body]), run=run, peaks=peaks)
+
+
 def walls(h):
 	held = [MpmBoundary(max=(0, inf, inf), fix='x'), MpmBoundary(min=(30, -inf, -inf), fix='x'), MpmBoundary(max=(inf, 0, inf), fix='xyz' if setting.depth else 'xy')]
 	if setting.depth: held += [MpmBoundary(max=(inf, inf, 0), fix='z'), MpmBoundary(min=(-inf, -inf, setting.depth * h), fix='z')]
@@ -127,4 +150,4 @@ def points():
 	return appended(lambda: mpm.fill(pack.inAlignedBox((0, 0, -1), (side / 2, side / 2, 1)), MpmGrid(cellSize=1), 2, 'soil'))
 
 
-print(json.dumps(dict(slope=slope, points=points, spheres=spheres)[setting.scene]()), flush=True)
+print(json.dumps(dict(slope=slope, block=block, points=points, spheres=spheres)[setting.scene]()), flush=True)

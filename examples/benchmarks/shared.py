@@ -203,6 +203,55 @@ def chosen():
 	return 3
 
 
+def field():
+	"""The slope of soil whose cohesion is a random field within it; in the weak layer it also dilates less than it rubs, so that K is not symmetric only where points are that know it."""
+	O.materials.append(MpmMohrCoulombMat(cohesion=1e4, frictionAngle=.3, dilationAngle=.3, label='soil', **law))
+	solver = engine(gravity=(0, -9.81, 0), boundaries=sides())
+	O.engines = [solver]
+	mpm.add(profile, solver, 2, 'soil')
+	points = mpm.arrays()
+	random = np.random.default_rng(1).lognormal(np.log(8e3), .3, len(points['id']))
+	soft, weak = points['pos'][:, 0] < 16, (points['pos'][:, 1] > 7) & (points['pos'][:, 0] < 12)
+	mpm.assign(ids=points['id'][soft], cohesion=random[soft])
+	mpm.assign(ids=points['id'][weak], dilationAngle=np.zeros(weak.sum()))
+	O.dt = .15
+	return 4
+
+
+def layers():
+	"""Level ground at rest, on which a layer is placed, and beside which soil is dug out; each process makes its own points."""
+	O.materials.append([MpmVonMisesMat(yieldStress=1.2e5, label=label, **law) for label in ('ground', 'fill')])
+	solver = engine(gravity=(0, -9.81, 0), gravityCurve=[(0, 1)], boundaries=sides())
+	O.engines, O.dt = [solver], .2
+	mpm.add(pack.inAlignedBox((0, 0, -1), (30, 8, 1)), solver, 2, 'ground')
+	mpm.geostatic()
+	mpm.stages.place(mpm.add(pack.inAlignedBox((0, 8, -1), (12, 10, 1)), solver, 2, 'fill'), steps=2)
+	mpm.stages.excavate(pack.inAlignedBox((20, 6, -1), (26, 8, 1)), steps=2)
+	return 4
+
+
+def change():
+	"""What is done to the points of the next scene between its steps."""
+	solver, box = O.engines[-1], lambda low, high: pack.inAlignedBox((low, 0, -1), (high, 6, 1))
+	if O.iter == 1: O.bodies.append(mpm.fill(box(10, 16), solver.grid, 2, 'soil'))
+	if O.iter == 2: mpm.add(box(16, 24), solver, 2, 'soil')
+	if O.iter in (3, 4):
+		points = mpm.arrays()
+		for i in points['id'][(points['pos'][:, 1] > 5) & (abs(points['pos'][:, 0] - 20) < 3)].tolist():
+			if not O.bodies[i]: continue  # another process has it
+			if O.iter == 3: O.bodies[i].material = O.materials['stiff']
+			else: O.bodies.erase(i)
+
+
+def changing():
+	"""A block that grows to one side, so that the work must be cut anew, of which points become stiffer and are dug out."""
+	O.materials.append([MpmElasticMat(young=young, poisson=.3, density=2400, label=label) for label, young in (('soil', 1e6), ('stiff', 2e6))])
+	solver = engine(gravity=(0, -9.81, 0), gravityCurve=[(0, 1)], boundaries=sides())
+	O.bodies.append(mpm.fill(pack.inAlignedBox((0, 0, -1), (10, 6, 1)), solver.grid, 2, 'soil'))
+	O.engines, O.dt = [PyRunner(iterPeriod=1, command='change()'), solver], .1
+	return 6
+
+
 def results(solver):
 	"""What the engine and its conditions tell of the last step: forces, one number after the other."""
 	vectors = [*solver.reactions, *(load.resultant for load in solver.loads)]
@@ -215,7 +264,7 @@ def results(solver):
 
 def effort(steps):
 	"""Runs the scene; what it takes."""
-	solver, solves, iterations, parts = O.engines[0], 0, 0, Counter()
+	solver, solves, iterations, parts = next(engine for engine in O.engines if isinstance(engine, MpmImplicitEngine)), 0, 0, Counter()
 	sent, begin, cpu = library.bytesSent(), time.perf_counter(), time.process_time()
 	for step in range(steps):
 		O.run(1, wait=True)

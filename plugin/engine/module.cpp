@@ -8,6 +8,7 @@
 #include "engine/points/assignment.hpp"
 #include "engine/points/bulkAccess.hpp"
 #include "engine/points/columns.hpp"
+#include "engine/points/newPoints.hpp"
 #include "engine/solver/MpmGrid.hpp"
 #include "engine/solver/distribution.hpp"
 #include "engine/solver/processes.hpp"
@@ -19,8 +20,9 @@ BOOST_PYTHON_MODULE(mpm_engine)
 	py::scope().attr("version") = MPM_VERSION;
 	py::def("verify", &verifyPlugin, "ImportError if YADE does not fit the plugin, or has not registered all of its classes.");
 	py::def("newBodies", &newBodies,
-	        "For mpm.fill: bodies from positions, half size, materials, the index of each body's material, whether they are rings around x = 0, and a dict of "
-	        "columns of parameters.");
+	        "For mpm.fill: bodies from a grid, positions, half sizes, materials, the index of each body's material, and a dict of columns of parameters.");
+	py::def("addPoints", &addPoints,
+	        "For mpm.add: puts such bodies into the scene of an engine, or where processes divide them each its own; the id of the first.");
 	py::def("cellSizes", &cellSizesForPython, "For mpm.fill: bytearray of the sizes of a grid's cells at positions.");
 	py::def("multigridAbsence", &gimpm::Multigrid::absence, "For mpm.advise: why there is no algebraic multigrid; empty if there is.");
 	py::def(
@@ -31,6 +33,7 @@ BOOST_PYTHON_MODULE(mpm_engine)
 	py::def("takePieces", &takePieces,
 	        "For mpm.load: the points of all pieces of the scene are in so many processes, of which this is the one with that number.");
 	py::def("betweenSteps", &betweenSteps, "For mpm.save: calls a function while no step in the background changes the state.");
+	py::def("idsOfPoints", &idsOfPoints, "For mpm.assign: bytearray of the ids of the material points.");
 	py::def("columnsOfPoints", &columnsOfPoints,
 	        "For mpm.arrays: dict of bytearrays with the data of the material points that a mask means, in order of body id.");
 	py::def("pointColumns", &pointColumnsForPython, "What there is to know of a material point: a dict with name, unit, label, width ... for each column.");

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "engine/points/assignment.hpp"
+#include "core/base/checksum.hpp"
 #include "engine/materials/laws.hpp"
 #include "engine/points/buffers.hpp"
 #include "engine/points/columns.hpp"
 #include "engine/solver/AtWork.hpp"
+#include "engine/solver/distribution.hpp"
 #include "engine/solver/exchange.hpp"
+#include "engine/solver/processes.hpp"
 #include <Eigen/LU>
 #include <algorithm>
 #include <memory>
@@ -165,11 +168,39 @@ namespace {
 		std::optional<gimpm::Material>                          last;
 	};
 
-	const MaterialPoint& pointWith(Body::id_t id, const vector<MaterialPoint>& points)
+	// Those with these ids; null where another process has the point.
+	vector<const MaterialPoint*> pointsWith(const Column<int64_t>& ids, const vector<MaterialPoint>& points, const gimpm::Processes* all)
 	{
-		const auto found = std::lower_bound(points.begin(), points.end(), id, [](const MaterialPoint& p, Body::id_t i) { return p.id < i; });
-		if (found != points.end() && found->id == id) return *found;
-		throw std::invalid_argument("there is no material point with body id " + std::to_string(id) + ".");
+		vector<const MaterialPoint*> found;
+		vector<int64_t>              isMissing;
+		for (size_t row = 0; row < ids.size(); ++row) {
+			const int64_t id = ids.data()[row];
+			const auto    at = std::lower_bound(points.begin(), points.end(), id, [](const MaterialPoint& p, int64_t i) { return p.id < i; });
+			isMissing.push_back(at == points.end() || at->id != id);
+			found.push_back(isMissing.back() ? nullptr : &*at);
+		}
+		if (all) all->smallest(isMissing.data(), int(isMissing.size()));
+		const size_t first = std::find(isMissing.begin(), isMissing.end(), 1) - isMissing.begin();
+		if (first < ids.size()) throw std::invalid_argument("there is no material point with body id " + std::to_string(ids.data()[first]) + ".");
+		return found;
+	}
+
+	void requireSameIds(const Column<int64_t>& ids, const gimpm::Processes& all)
+	{
+		gimpm::Checksum sum;
+		sum.mix(vector<int64_t>(ids.data(), ids.data() + ids.size()));
+		if (!all.haveSame(sum.take()))
+			throw std::invalid_argument("the processes name different ids. All of them give the values of the same points, whichever have these.");
+	}
+
+	// The refusal of the first row that one of the processes has refused; null: this one alone.
+	void requireNone(const string& refusal, size_t row, const gimpm::Processes* all)
+	{
+		if (!all && !refusal.empty()) throw std::invalid_argument(refusal);
+		if (!all) return;
+		auto first = int64_t(row);
+		all->smallest(&first, 1);
+		if (const string said = firstSaid(first == int64_t(row) ? refusal : "", *all); !said.empty()) throw std::invalid_argument(said);
 	}
 }
 
@@ -178,24 +209,29 @@ void assignColumns(const py::object& ids, const py::dict& given)
 	const ValueLock lock;
 	if (AtWork::isAny())
 		throw std::runtime_error("assign: a load step is at work in the background and would overwrite the values; call O.pause() or O.wait() first.");
+	const auto            all    = isSceneDivided() ? processes() : nullptr;
 	const auto            points = materialPoints(*Singleton<Omega>::instance().getScene());
 	const Column<int64_t> rows(ids, "ids");
 	const Columns         columns(given, rows.size());
-	vector<Values>        values;
-	Materials             materials;
-	for (size_t row = 0; row < rows.size(); ++row) {
-		const MaterialPoint& point = pointWith(rows.data()[row], points);
-		try {
-			values.push_back(changed(point, columns, row, materials.of(point, columns, row)));
-		} catch (const std::invalid_argument& error) {
-			throw std::invalid_argument("Body #" + std::to_string(point.id) + ": " + error.what());
+	if (all) requireSameIds(rows, *all);
+	const auto     meant = pointsWith(rows, points, all.get());
+	vector<Values> values;
+	Materials      materials;
+	string         refusal;
+	size_t         row = 0;
+	for (; row < rows.size() && refusal.empty(); ++row)
+		if (const MaterialPoint* point = meant[row]) try {
+				values.push_back(changed(*point, columns, row, materials.of(*point, columns, row)));
+			} catch (const std::invalid_argument& error) {
+				refusal = "Body #" + std::to_string(point->id) + ": " + error.what();
+			}
+	requireNone(refusal, row, all.get());
+	auto value = values.begin();
+	for (row = 0; row < rows.size(); ++row)
+		if (const MaterialPoint* point = meant[row]) {
+			columns.assignTo(*point, row);
+			value++->assignTo(*point);
 		}
-	}
-	for (size_t row = 0; row < rows.size(); ++row) {
-		const MaterialPoint& point = pointWith(rows.data()[row], points);
-		columns.assignTo(point, row);
-		values[row].assignTo(point);
-	}
 }
 
 } // namespace yade

@@ -5,14 +5,11 @@
 
 namespace yade {
 
-// New bodies, not yet in the scene, one per row of `positions` (N x 3 double) with materials[index[i]] (N int64). `halfSize` is
-// that of the domain; its box is the initial volume. `parameters` has columns (N double) of those that differ from point to point, by their names.
-// std::invalid_argument if a material is not admissible, or a parameter of a point.
-py::list newBodies(
-        const py::object& positions, const Vector3r& halfSize, const py::list& materials, const py::object& index, bool areRings, const py::dict& parameters);
-
 // Calls f while no step in the background changes the material points or the engines.
 void betweenSteps(const py::object& f);
+
+// Of all material points of the scene, in rising order: a bytearray of int64.
+py::object idsOfPoints();
 
 // For each column of mpm.arrays(), or also of those that follow from them, its values in order of body id, one row after the other, as a
 // bytearray of double or int64: of the points that an engine with this mask moves. "materials" is the list of the bodies' own materials,

@@ -2,6 +2,8 @@
 #include "engine/solver/distribution.hpp"
 #include "core/base/sentence.hpp"
 #include "engine/points/bodyParcels.hpp"
+#include "engine/points/newPoints.hpp"
+#include "engine/solver/AtWork.hpp"
 #include "engine/solver/MpmImplicitEngine.hpp"
 #include "engine/solver/processes.hpp"
 #include "engine/solver/sameness.hpp"
@@ -33,6 +35,15 @@ namespace {
 		}
 	}
 
+	// Of a position and half of a domain, which reaches no farther than half a cell.
+	template <int Dim> auto lowestCellIn(const MpmImplicitEngine& engine)
+	{
+		return [lattice = engine.grid->lattice<Dim>(),
+		        basis   = engine.basis == "mpm" ? gimpm::Basis::linear : gimpm::Basis::gimp](const Vector3r& position, const Vector3r& halfSize) {
+			return gimpm::lowestCell<Dim>(position.head<Dim>(), halfSize.head<Dim>().cwiseMin(0.5 * lattice.cellSize), lattice, basis);
+		};
+	}
+
 	// By cell, in the order of the points.
 	vector<gimpm::CellLoad> loadsOf(vector<gimpm::Key> lowest)
 	{
@@ -46,37 +57,42 @@ namespace {
 	}
 }
 
-template <int Dim> vector<gimpm::Key> Distribution::lowestCells(const MpmImplicitEngine& engine, const vector<MaterialPoint>& points) const
+template <int Dim> vector<gimpm::Key> Distribution::lowestCells(const MpmImplicitEngine& engine, const NewPoints& added)
 {
-	const auto         lattice = engine.grid->lattice<Dim>();
-	const auto         basis   = engine.basis == "mpm" ? gimpm::Basis::linear : gimpm::Basis::gimp;
+	const auto         lowestCell = lowestCellIn<Dim>(engine);
 	vector<gimpm::Key> lowest;
-	for (const MaterialPoint& p : points) {
-		const gimpm::Vec<Dim> half = p.shape->halfSize.head<Dim>().cwiseMin(0.5 * lattice.cellSize);
-		lowest.push_back(gimpm::lowestCell<Dim>(p.state->pos.head<Dim>(), half, lattice, basis));
-	}
+	for (size_t p = 0; p < added.size(); ++p)
+		lowest.push_back(lowestCell(added.position(p), added.halfSize(p)));
 	return lowest;
 }
 
-// Anew where the work is not balanced to ten per cent. Points of all processes are counted by the first one.
-void Distribution::cut(const gimpm::Processes& all, const vector<gimpm::Key>& lowest, size_t own)
+// Anew where the work is not balanced to ten per cent. Behind the own points are those that all know, each of which counts once.
+void Distribution::cut(const std::shared_ptr<const gimpm::Processes>& all, const vector<gimpm::Key>& lowest, size_t own)
 {
-	constexpr Real admitted = 0.1;
-	const size_t   counted  = all.rank() == 0 ? lowest.size() : own;
-	const auto     loads    = loadsOf({ lowest.begin(), lowest.begin() + counted });
-	const bool     isCut    = int(first.size()) == all.size() - 1;
-	if (isCut && gimpm::imbalance(all, loads) <= admitted) return;
-	first = gimpm::cutByWork(gimpm::joined(all, loads), all.size());
+	constexpr Real        admitted = 0.1;
+	const bool            isCut    = int(first.size()) == all->size() - 1;
+	const gimpm::Division before { all, first };
+	const auto            isOfOther = [&](gimpm::Key key) { return isCut ? !before.owns(key) : all->rank() > 0; };
+	vector<gimpm::Key>    counted   = lowest;
+	counted.erase(std::remove_if(counted.begin() + own, counted.end(), isOfOther), counted.end());
+	const auto loads = loadsOf(std::move(counted));
+	if (isCut && gimpm::imbalance(*all, loads) <= admitted) return;
+	first = gimpm::cutByWork(gimpm::joined(*all, loads), all->size());
 }
 
-template <int Dim> std::shared_ptr<gimpm::Division> Distribution::divide(MpmImplicitEngine& engine, vector<MaterialPoint>& points)
+template <int Dim>
+std::shared_ptr<gimpm::Division> Distribution::divide(MpmImplicitEngine& engine, vector<MaterialPoint>& points, const vector<gimpm::Key>& added)
 {
-	const auto   all    = processes();
-	Scene&       scene  = *engine.scene;
-	const size_t own    = firstOfAll(points, engine.Pieces::bodies);
-	const auto   lowest = lowestCells<Dim>(engine, points);
+	const auto         all        = processes();
+	Scene&             scene      = *engine.scene;
+	const size_t       own        = firstOfAll(points, engine.Pieces::bodies);
+	const auto         lowestCell = lowestCellIn<Dim>(engine);
+	vector<gimpm::Key> lowest;
+	for (const MaterialPoint& p : points)
+		lowest.push_back(lowestCell(p.state->pos, p.shape->halfSize));
+	lowest.insert(lowest.end(), added.begin(), added.end());
 	requireSame(*all, engine, points, own);
-	cut(*all, lowest, own);
+	cut(all, lowest, own);
 	const auto                 division = std::make_shared<gimpm::Division>(gimpm::Division { all, first });
 	vector<vector<Body::id_t>> leaving(all->size());
 	vector<Body::id_t>         erased;
@@ -101,24 +117,20 @@ template <int Dim> std::shared_ptr<gimpm::Division> Distribution::divide(MpmImpl
 	return division;
 }
 
-template std::shared_ptr<gimpm::Division> Distribution::divide<2>(MpmImplicitEngine&, vector<MaterialPoint>&);
-template std::shared_ptr<gimpm::Division> Distribution::divide<3>(MpmImplicitEngine&, vector<MaterialPoint>&);
+#define MPM_INSTANTIATE(Dim)                                                                                                                                   \
+	template std::shared_ptr<gimpm::Division> Distribution::divide<Dim>(MpmImplicitEngine&, vector<MaterialPoint>&, const vector<gimpm::Key>&);            \
+	template vector<gimpm::Key>               Distribution::lowestCells<Dim>(const MpmImplicitEngine&, const NewPoints&);
+MPM_INSTANTIATE(2)
+MPM_INSTANTIATE(3)
+#undef MPM_INSTANTIATE
 
 namespace {
-	// With a name and its value, if the engine has it.
-	string whatIsRefused(const MpmImplicitEngine& engine)
+	bool isAlone(const MpmImplicitEngine& engine)
 	{
-		for (const auto& other : engine.scene->engines)
-			if (other.get() != &engine && dynamic_cast<const MpmImplicitEngine*>(other.get()))
-				return "a second engine with material points in O.engines";
-		return "";
-	}
-
-	string whatIsRefused(const MaterialPoint& point, const Scene& scene)
-	{
-		if (point.materialIndex(scene) < 0) return "a material that is not in O.materials";
-		if (!point.state->parameters.empty()) return "a strength or modulus of its own (" + point.state->parameters.front().first + ")";
-		return "";
+		const auto& engines = engine.scene->engines;
+		return std::none_of(engines.begin(), engines.end(), [&](const auto& other) {
+			return other.get() != &engine && dynamic_cast<const MpmImplicitEngine*>(other.get());
+		});
 	}
 }
 
@@ -137,11 +149,13 @@ void Distribution::requireWhole(const MpmImplicitEngine& engine)
 void Distribution::requireDivisible(const MpmImplicitEngine& engine, const vector<MaterialPoint>& points)
 {
 	const string start = engine.getClassName() + ".distributed = True";
-	if (const string what = whatIsRefused(engine); !what.empty())
-		throw std::invalid_argument(sentence(start, " does not go with ", what, " yet; leave it out, and each process holds all points."));
+	if (!isAlone(engine))
+		throw std::invalid_argument(
+		        start + " does not go with a second engine with material points in O.engines; leave it out, and each process holds all points.");
 	for (const MaterialPoint& point : points)
-		if (const string what = whatIsRefused(point, *engine.scene); !what.empty())
-			throw std::invalid_argument(sentence("Body #", point.id, ": ", start, " does not go with ", what, " yet."));
+		if (point.materialIndex(*engine.scene) < 0)
+			throw std::invalid_argument(
+			        sentence("Body #", point.id, ": ", start, " needs materials that are in O.materials, which its own is not."));
 }
 
 bool isDivided(const MpmImplicitEngine& engine) { return engine.Pieces::count > 1; }
@@ -151,6 +165,16 @@ bool isSceneDivided()
 	for (const auto& engine : Singleton<Omega>::instance().getScene()->engines)
 		if (const auto* found = dynamic_cast<const MpmImplicitEngine*>(engine.get()); found && isDivided(*found)) return true;
 	return false;
+}
+
+Body::id_t addPoints(
+        const shared_ptr<MpmImplicitEngine>& engine, const py::object& positions, const py::object& half, const py::list& materials, const py::object& index,
+        const py::dict& parameters)
+{
+	if (AtWork::isAny()) throw std::runtime_error("add: a load step is at work in the background; call O.pause() or O.wait() first.");
+	NewPoints points(*engine->grid, positions, half, materials, index, parameters);
+	engine->scene = Singleton<Omega>::instance().getScene().get(); // which it may not have seen yet
+	return engine->add(points);
 }
 
 void takePieces(int count, int number)

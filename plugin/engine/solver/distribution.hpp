@@ -7,6 +7,7 @@
 
 namespace yade {
 class MpmImplicitEngine;
+class NewPoints;
 
 // What files keep of it: the pieces that the points were in, this one's number, and of how many bodies. Those behind have been added to the scene since, by each process.
 struct Pieces {
@@ -28,12 +29,14 @@ public:
 	// std::invalid_argument names what points that are divided do not admit.
 	static void requireDivisible(const MpmImplicitEngine&, const vector<MaterialPoint>&);
 
-	// Leaves each process its own points, the work of all about the same. Each calls it with what it has of them, and gets what it keeps.
-	template <int Dim> std::shared_ptr<gimpm::Division> divide(MpmImplicitEngine&, vector<MaterialPoint>&);
+	// Leaves each process its own points, the work of all about the same. Each calls it with what it has of them, and gets what it keeps. Of points that all are about to add, each will have
+	// those whose lowest cells, `added`, the division gives it.
+	template <int Dim> std::shared_ptr<gimpm::Division> divide(MpmImplicitEngine&, vector<MaterialPoint>&, const vector<gimpm::Key>& added = {});
+
+	template <int Dim> static vector<gimpm::Key> lowestCells(const MpmImplicitEngine&, const NewPoints&);
 
 private:
-	template <int Dim> vector<gimpm::Key> lowestCells(const MpmImplicitEngine&, const vector<MaterialPoint>&) const;
-	void                                  cut(const gimpm::Processes&, const vector<gimpm::Key>& lowest, size_t own);
+	void cut(const std::shared_ptr<const gimpm::Processes>&, const vector<gimpm::Key>& lowest, size_t own);
 
 	vector<gimpm::Key> first; // of the ranges, as in gimpm::Division; empty before the first step
 };
@@ -43,6 +46,11 @@ bool isDivided(const MpmImplicitEngine&);
 
 // For Python: of one of the engines of the current scene.
 bool isSceneDivided();
+
+// For mpm.add: puts points into the current scene, which has this engine, given as newBodies() is; the id of the first one.
+Body::id_t addPoints(
+        const shared_ptr<MpmImplicitEngine>&, const py::object& positions, const py::object& half, const py::list& materials, const py::object& index,
+        const py::dict& parameters);
 
 // For mpm.load, which has put the points of all pieces of the current scene into so many processes.
 void takePieces(int count, int number);

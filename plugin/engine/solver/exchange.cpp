@@ -6,7 +6,6 @@
 #include "engine/solver/fit.hpp"
 #include "engine/solver/walls.hpp"
 #include <atomic>
-#include <set>
 #include <unordered_map>
 
 namespace yade {
@@ -63,21 +62,27 @@ namespace {
 		std::unordered_map<const MpmMaterial*, int> index;
 	};
 
-	// Makes the columns of parameters that points have of their own, and marks their materials.
+	// Makes the columns of parameters that points have of their own, in whatever process they are, and marks their materials.
 	template <int Dim> void provideParameters(const vector<MaterialPoint>& points, gimpm::Model<Dim>& model, gimpm::PointCloud<Dim>& cloud)
 	{
-		std::set<size_t> used; // numbers of parameters
+		vector<int64_t> isAlike(model.materials.size(), 1), isUnused(allParameters().size(), 1); // by number: of materials, of parameters of a class
 		for (size_t p = 0; p < points.size(); ++p) {
 			if (points[p].state->parameters.empty()) continue;
-			model.materials[cloud.material[p]].varies = true;
-			const auto& known                         = parametersOf(*points[p].material);
+			isAlike[cloud.material[p]] = 0;
+			const auto& known          = parametersOf(*points[p].material);
 			for (size_t k = 0; k < known.size(); ++k)
-				if (points[p].state->parameter(known[k].name)) used.insert(k);
+				if (points[p].state->parameter(known[k].name)) isUnused[k] = 0;
 		}
-		for (const size_t k : used) {
-			cloud.parameters.resize(std::max(cloud.parameters.size(), k + 1));
-			cloud.parameters[k].assign(points.size(), 0);
-		}
+		if (model.division)
+			for (auto* flags : { &isAlike, &isUnused })
+				model.division->processes->smallest(flags->data(), int(flags->size()));
+		for (size_t m = 0; m < isAlike.size(); ++m)
+			if (!isAlike[m]) model.materials[m].varies = true;
+		for (size_t k = 0; k < isUnused.size(); ++k)
+			if (!isUnused[k]) {
+				cloud.parameters.resize(std::max(cloud.parameters.size(), k + 1));
+				cloud.parameters[k].assign(points.size(), 0);
+			}
 	}
 
 	// Of point p, the columns of which are there.

@@ -6,6 +6,7 @@
 #include "yade_api/types.hpp"
 #include <exception>
 #include <memory>
+#include <stdexcept>
 
 namespace yade {
 class MpmImplicitEngine;
@@ -24,6 +25,18 @@ string firstSaid(const string& text, const gimpm::Processes&);
 
 // Where one of them has failed all throw what the first of those has thrown.
 void failTogether(const std::exception_ptr&, const gimpm::Processes&);
+
+// Calls f() in each, whose std::invalid_argument is one of all of them: that of the first one which throws.
+template <class F> void admitTogether(F&& f, const gimpm::Processes& all)
+{
+	string refusal;
+	try {
+		f();
+	} catch (const std::invalid_argument& error) {
+		refusal = error.what();
+	}
+	if (const string said = firstSaid(refusal, all); !said.empty()) throw std::invalid_argument(said);
+}
 
 // Whether all have come as far as this one. A process that waits for another which has failed would wait for ever.
 class Agreement {

@@ -2,6 +2,7 @@
 #include "engine/solver/sameness.hpp"
 #include "core/base/checksum.hpp"
 #include "core/base/sentence.hpp"
+#include "engine/points/newPoints.hpp"
 #include "engine/solver/MpmDynamicEngine.hpp"
 #include "yade_api/serialization.hpp"
 #include <sstream>
@@ -19,8 +20,9 @@ namespace {
 			numbers           = { Real(points[p].id), s.volume0, Real(points[p].material->id) };
 			add(Vector3r(s.pos)), add(s.vel), add(s.acceleration), add(s.force), add(points[p].shape->halfSize), add(s.defGrad),
 			        add(s.elasticStrain);
-			for (const auto& internal : s.internals)
-				numbers.push_back(internal.second);
+			for (const auto* named : { &s.internals, &s.parameters })
+				for (const auto& [name, value] : *named)
+					numbers.push_back(value);
 			sum.mix(numbers);
 		}
 		return sum.take();
@@ -74,6 +76,8 @@ namespace {
 		return e ? checksumOf(e->scheme, e->beta, e->gamma, e->rhoInfinity, e->timeTolerance, e->absorbing, e->rayleigh) : 0;
 	}
 
+	const char* const remedy = ". The script must do the same in all of them, in the same order: random numbers need a seed, and files the same content.";
+
 	string startOf(const MpmImplicitEngine& engine, const char* what)
 	{
 		return gimpm::sentence(engine.getClassName(), ": the processes hold different ", what, " in iteration ", engine.scene->iter);
@@ -89,10 +93,12 @@ void requireSame(const gimpm::Processes& all, const MpmImplicitEngine& engine, c
 	        : !areSameSettings        ? "settings"
 	        : !moveAlike              ? "places or velocities of rigid bodies"
 	                                  : nullptr;
-	if (what)
-		throw std::runtime_error(
-		        startOf(engine, what)
-		        + ". The script must do the same in all of them, in the same order: random numbers need a seed, and files the same content.");
+	if (what) throw std::runtime_error(startOf(engine, what) + remedy);
+}
+
+void requireSame(const gimpm::Processes& all, const NewPoints& points)
+{
+	if (!all.haveSame(points.checksum())) throw std::runtime_error(gimpm::sentence("the processes add different material points", remedy));
 }
 
 vector<const MpmMaterial*> materialsOfAll(const Scene& scene, const vector<MaterialPoint>& points, const gimpm::Processes& all)

@@ -6,9 +6,12 @@
 
 namespace yade {
 class MpmImplicitEngine;
+class NewPoints;
 
 // The number of bodies, the points from the one at `begin` on, which each of them has, and the settings of the engine.
 void requireSame(const gimpm::Processes&, const MpmImplicitEngine&, const vector<MaterialPoint>&, size_t begin);
+
+void requireSame(const gimpm::Processes&, const NewPoints&);
 
 // The materials that any of them has points of, in the order of O.materials; with the same values.
 vector<const MpmMaterial*> materialsOfAll(const Scene&, const vector<MaterialPoint>&, const gimpm::Processes&);

@@ -88,8 +88,9 @@ namespace {
 
 		bool split(size_t p, int axis)
 		{
-			const MaterialPoint whole  = points[p];
-			const Vector3r      middle = whole.state->pos, halfSize = whole.shape->halfSize;
+			const MaterialPoint whole   = points[p];
+			const auto          numbers = [](const Vector3r& v) { return std::array<Real, 3> { v[0], v[1], v[2] }; };
+			const auto          middle = numbers(whole.state->pos), halfSize = numbers(whole.shape->halfSize);
 			const auto          upper = halve(*(*scene.bodies)[whole.id], whole, axis, isRing());
 			const Body::id_t    none  = -1; // yet
 			points.push_back({ none, boost::static_pointer_cast<MpmPoint>(upper->shape), boost::static_pointer_cast<MpmState>(upper->state),
@@ -113,12 +114,25 @@ namespace {
 				place                = i > 0 && domain.lower == halves[i - 1].second.lower ? place + 1 : firstOf(wholes, domain.lower);
 				domain.upper = division ? scene.bodies->insertAtId(body, Body::id_t(end - wholes.size() + place)) : scene.bodies->insert(body);
 				point->id    = domain.upper;
-				job.contacts.share(domain);
 				if (division) division->id.push_back(domain.upper);
 			}
+			shareContacts();
 			halves.clear();
 			if (scene.bodies->size() < end) endWithGap(Body::id_t(end) - 1);
 			return !wholes.empty();
+		}
+
+		// What contacts remember of the points of all processes, which each of them knows.
+		void shareContacts() const
+		{
+			if (!job.contacts.areThere()) return;
+			vector<HalvedDomain> domains;
+			for (const auto& [body, domain] : halves)
+				domains.push_back(domain);
+			if (job.model.division) domains = gimpm::joined(*job.model.division->processes, domains);
+			std::sort(domains.begin(), domains.end(), [](const auto& a, const auto& b) { return a.upper < b.upper; });
+			for (const HalvedDomain& domain : domains)
+				job.contacts.share(domain);
 		}
 
 		// One for each upper half, rising.

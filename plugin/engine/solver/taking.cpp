@@ -1,13 +1,26 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The points that an engine works on: those that it finds, divided among processes or not, and those that it splits.
+#include "engine/points/newPoints.hpp"
 #include "engine/solver/MpmImplicitEngine.hpp"
 #include "engine/solver/exchange.hpp"
 #include "engine/solver/processes.hpp"
 #include "engine/solver/requirements.hpp"
 #include "engine/solver/sameness.hpp"
 #include "yade_api/value_lock.hpp"
+#include <numeric>
 
 namespace yade {
+
+namespace {
+	// So that O.bodies has as many places.
+	void provideGaps(Scene& scene, size_t places)
+	{
+		const auto last = Body::id_t(places) - 1;
+		if (scene.bodies->size() >= places) return;
+		scene.bodies->insertAtId(shared_ptr<Body>(new Body), last);
+		scene.bodies->erase(last, false);
+	}
+}
 
 template <int Dim> void MpmImplicitEngine::takePoints(Job<Dim>& job, Agreement& agreement)
 {
@@ -22,6 +35,50 @@ template <int Dim> void MpmImplicitEngine::takePoints(Job<Dim>& job, Agreement& 
 		known              = materialsOfAll(*scene, points, *job.model.processes);
 	}
 	job.cloud = gather(points, job.model, known);
+}
+
+// Of points that all processes know, the numbers of those that this one is to have. There may be no other moment for processes that differ to find out.
+template <int Dim> vector<size_t> MpmImplicitEngine::ownOf(const NewPoints& added)
+{
+	const auto all = processes();
+	admitTogether(
+	        [&] {
+		        updateMaterialPoints(points, *scene, mask);
+		        Distribution::requireWhole(*this);
+		        Distribution::requireDivisible(*this, points);
+	        },
+	        *all);
+	requireSame(*all, added);
+	const auto     lowest   = Distribution::lowestCells<Dim>(*this, added);
+	const auto     division = distribution.divide<Dim>(*this, points, lowest);
+	vector<size_t> own;
+	for (size_t i = 0; i < lowest.size(); ++i)
+		if (division->owns(lowest[i])) own.push_back(i);
+	return own;
+}
+
+Body::id_t MpmImplicitEngine::add(NewPoints& added)
+{
+	const ValueLock lock;
+	const auto      all = distributed ? processes() : nullptr;
+	vector<size_t>  own(added.size());
+	std::iota(own.begin(), own.end(), 0);
+	if (all) own = grid->dim == 3 ? ownOf<3>(added) : ownOf<2>(added);
+	vector<shared_ptr<Body>> bodies;
+	const auto               make = [&] {
+                for (const size_t i : own)
+                        bodies.push_back(added.body(i));
+	};
+	if (all) admitTogether(make, *all);
+	else
+		make();
+	const Body::id_t first = scene->bodies->size();
+	for (size_t i = 0; i < own.size(); ++i)
+		scene->bodies->insertAtId(bodies[i], first + Body::id_t(own[i]));
+	if (!all) return first;
+	provideGaps(*scene, first + added.size());
+	Pieces::bodies = int(scene->bodies->size());
+	return first;
 }
 
 template <int Dim> void MpmImplicitEngine::doubt(const Job<Dim>& job)

@@ -30,7 +30,7 @@ While it runs, one line tells how far it is (``verbosity`` of the engine); ``plo
 :func:`polygon`              region of the x-y plane
 :func:`solid`                region in a closed surface of an STL or GTS file
 :class:`terrain`             region below the surface of an elevation grid (.asc)
-:func:`fill`                 material points in a region
+:func:`fill`                 material points in a region; :func:`add` puts them into the scene, of several processes each its own
 :func:`refinementsAt`        boxes in which cells are halved, where something asks for it
 :func:`arrays`               data of all material points as NumPy arrays; :func:`assign` is the way back
 :func:`geostatic`            initial stress of level ground
@@ -59,7 +59,7 @@ from .data import arrays, assign, contactForces
 from .discretisation import discretisationError, stressError
 from .files import load, save
 from . import ending, stages
-from .filling import fill
+from .filling import add, fill
 from .geostatics import geostatic
 from .histories import histories, readHistory
 from .laboratory import elementTest, respond
@@ -73,4 +73,4 @@ from .surfaces import surface
 from .tables import export
 
 __version__ = _engine.version
-__all__ = ['polygon', 'fill', 'refinementsAt', 'arrays', 'assign', 'geostatic', 'plot', 'colour', 'export', 'save', 'load', 'advise', 'discretisationError', 'stressError', 'elementTest', 'respond', 'strengthReduction', 'surface', 'contactForces', 'histories', 'readHistory', 'solid', 'terrain', 'movie']
+__all__ = ['polygon', 'fill', 'add', 'refinementsAt', 'arrays', 'assign', 'geostatic', 'plot', 'colour', 'export', 'save', 'load', 'advise', 'discretisationError', 'stressError', 'elementTest', 'respond', 'strengthReduction', 'surface', 'contactForces', 'histories', 'readHistory', 'solid', 'terrain', 'movie']

@@ -7,9 +7,10 @@ from yade import wrapper
 from yade.minieigenHP import Vector3
 
 from .analysis import solverOf
-from .divided import columnsOfPoints, refuse
+from .divided import columnsOfPoints, idsOfPoints
 from .library import engine
 from .messages import brief, isNumber, place
+from .regions import each
 
 table = {column['name']: column for column in engine.pointColumns()}  # of all columns that there are
 
@@ -50,13 +51,21 @@ def fields():
 
 
 def pointsOf(solver):
-	"""The arrays of the points that an engine moves, the list of the materials that their bodies have, and the place of each point's (N,) in it.
+	"""As :func:`withMaterials`, of the points that an engine moves."""
+	return withMaterials(solver.mask)
 
-	``O.materials`` need not hold those, so ``material`` of :func:`arrays` may be no index.
+
+def withMaterials(mask=0):
+	"""The arrays of the points, the list of the materials that their bodies have, and the place of each point's (N,) in it.
+
+	``O.materials`` need not hold those, so ``material`` of :func:`arrays` may be no index; where processes divide the points it does.
 	"""
-	refuse('the materials of all points')
-	data = columnsOfPoints(solver.mask, False)
-	return _asArrays(data), data['materials'], np.frombuffer(data['materialNumber'], np.int64)
+	data = columnsOfPoints(mask, False)
+	points = _asArrays(data)
+	if 'materials' in data: return points, data['materials'], np.frombuffer(data['materialNumber'], np.int64)
+	numbers, number = np.unique(points['material'], return_inverse=True)
+	if -1 in numbers: raise ValueError(f"body #{points['id'][number == 0][0]}: its material is not in O.materials, as points that processes divide need it")
+	return points, [wrapper.Omega().materials[int(i)] for i in numbers], number
 
 
 def _asArrays(data):
@@ -103,11 +112,12 @@ def assign(ids=None, **columns):
 		that the material cannot carry without yielding; ids of no material points, or given twice.
 	:raises RuntimeError: a load step is at work in the background; it would overwrite the values.
 
+	Where several processes have divided the points all of them call this with the same, and each gives its points their values.
+
 	A warning in YADE's log if nearly all of the stresses are tensile though an engine among O.engines has gravity: ground under its weight is in
 	compression, and stress is positive in tension.
 	"""
-	refuse('assign')
-	rows = _idsOfPoints() if ids is None else _ids(ids)
+	rows = idsOfPoints() if ids is None else _ids(ids)
 	values = {name: _column(name, _atPoints(name, column, rows), len(rows)) for name, column in columns.items()}
 	if not values: raise TypeError(f"assign: no column is given; there are {', '.join(_assignable)}")
 	if 'stress' in values and 'elasticStrain' in values:
@@ -129,10 +139,6 @@ def _signOf(values):
 
 def _gravityActs():
 	return any(isinstance(e, wrapper.MpmImplicitEngine) and e.gravity.norm() > 0 for e in wrapper.Omega().engines)
-
-
-def _idsOfPoints():
-	return np.frombuffer(columnsOfPoints(0, False)['id'], np.int64)
 
 
 def _ids(ids):
@@ -180,7 +186,7 @@ def parameter(name, material, points, rows):
 def ofPositions(who, name, value, positions):
 	"""Column of a parameter: that of a function of the position, or what is given."""
 	if not callable(value): return value
-	column = [value(Vector3(*position)) for position in positions.tolist()]
+	column = [value(Vector3(*position)) for position in each(positions)]
 	for number, position in zip(column, positions):
 		if not isNumber(number): raise TypeError(f'{who}: the function {name} returned {brief(number)} at {place(position)}; it must return a number')
 	return column

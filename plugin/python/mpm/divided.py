@@ -3,7 +3,7 @@
 import numpy as np
 
 from .library import engine
-from .processes import count, gathered
+from .processes import count, gathered, together
 
 _ofEachScene = 'materials', 'materialNumber'
 
@@ -13,18 +13,20 @@ def isDivided():
 	return count > 1 and engine.isDivided()
 
 
-def refuse(who):
-	"""ValueError for what needs all points, or their bodies, in one process."""
-	if isDivided(): raise ValueError(f'{who}: not with MpmImplicitEngine.distributed = True once a step has been made, by which no process has all points; before the first step each has all')
+def idsOfPoints():
+	"""Of all processes (N,), rising; all of them call it."""
+	if not isDivided(): return np.frombuffer(engine.idsOfPoints(), np.int64)
+	own = together(engine.idsOfPoints)
+	return np.unique(np.frombuffer(b''.join(gathered(bytes(own))), np.int64))
 
 
 def columnsOfPoints(mask, withDerived):
-	"""As that of the library, of the points of all processes in order of body id; all of them call it."""
-	own = engine.columnsOfPoints(mask, withDerived, ())
-	if not isDivided(): return own
+	"""As that of the library, of the points of all processes in order of body id; all of them call it. Points that all have, as they have been appended since the last step, are there once."""
+	if not isDivided(): return engine.columnsOfPoints(mask, withDerived, ())
+	own = together(lambda: engine.columnsOfPoints(mask, withDerived, ()))
 	names = sorted(set().union(*gathered(list(own))))
 	if len(names) > len(own): own = engine.columnsOfPoints(mask, withDerived, tuple(names))
 	columns = {name: b''.join(gathered(bytes(own[name]))) for name in names if name not in _ofEachScene}
-	ids = np.frombuffer(columns['id'], np.int64)
-	order = np.argsort(ids, kind='stable')
-	return {name: np.frombuffer(values).reshape(len(ids), -1)[order].tobytes() for name, values in columns.items()} if len(ids) else columns
+	ids, order = np.unique(np.frombuffer(columns['id'], np.int64), return_index=True)
+	rows = len(columns['id']) // ids.itemsize
+	return {name: np.frombuffer(values).reshape(rows, -1)[order].tobytes() for name, values in columns.items()} if len(ids) else columns

@@ -10,7 +10,8 @@ from yade.minieigenHP import Vector3
 from .data import isParameter, ofPositions, table
 from .library import engine
 from .messages import brief, place
-from .regions import bounds, inside, volumeInBoxes
+from .processes import together
+from .regions import bounds, each, inside, volumeInBoxes
 
 
 def fill(predicate, grid, pointsPerCell, material, **parameters):
@@ -37,6 +38,47 @@ def fill(predicate, grid, pointsPerCell, material, **parameters):
 	:raises ValueError: a value that is not admitted, a parameter that the material of a point does not have, no point inside the region, or a point without material.
 	:raises KeyError: a label that is not in ``O.materials``.
 	"""
+	try:
+		return engine.newBodies(grid, *_points(predicate, grid, pointsPerCell, material, parameters))
+	except ValueError as error:
+		raise ValueError(f'fill: {str(error).removeprefix("fill: ")}') from None
+
+
+def add(predicate, solver, pointsPerCell, material, **parameters):
+	"""Fill a region with material points and put them into the scene, as ``O.bodies.append(fill(predicate, solver.grid, ...))`` does, without what that leaves behind in memory.
+
+	Where several processes divide the points (``MpmImplicitEngine.distributed``) each makes its own only, under the ids that they have in one process; ``O.bodies`` has gaps for those of the others. So
+	no process ever holds all. The solver comes first, with what it says of the points::
+
+		solver = MpmImplicitEngine(grid=grid, distributed=True, ...)
+		O.engines = [solver]
+		mpm.add(profile, solver, pointsPerCell=2, material='soil')
+
+	Also between steps; points that have been appended before are divided, too.
+
+	:param predicate: the region [m], as of :func:`fill`
+	:param solver: the ``MpmImplicitEngine``, which is in ``O.engines``; the points are those of its *grid*
+	:param pointsPerCell: as of :func:`fill`
+	:param material: as of :func:`fill`
+	:param parameters: as of :func:`fill`
+	:return: range of the ids of all new bodies, which :func:`assign` takes
+	:raises TypeError, KeyError: as of :func:`fill`.
+	:raises ValueError: as of :func:`fill`; the solver is not in ``O.engines``, or, where the points are to be divided, has what does not go with it.
+	:raises RuntimeError: a load step is at work in the background, or the processes do not add the same.
+	"""
+	if not isinstance(solver, wrapper.MpmImplicitEngine): raise TypeError(f'add: solver = {brief(solver)} must be an MpmImplicitEngine')
+	if solver not in wrapper.Omega().engines:
+		raise ValueError('add: the solver is not in O.engines, which must tell who has which points from the first one on; put it there before: O.engines = [solver]')
+	try:
+		points = together(lambda: _points(predicate, solver.grid, pointsPerCell, material, parameters))
+		first = engine.addPoints(solver, *points)
+	except (KeyError, TypeError, ValueError) as error:
+		raise type(error)('add: ' + str(error.args[0]).removeprefix('fill: ')) from None
+	return range(first, len(wrapper.Omega().bodies))
+
+
+def _points(predicate, grid, pointsPerCell, material, parameters):
+	"""Columns of the points as the library takes them: positions (N, 3), half sizes (N,), materials, the place of each point's among these (N,), and a dict of parameters (N,)."""
 	if not isinstance(grid, wrapper.MpmGrid):
 		raise TypeError(f'fill: grid = {brief(grid)} must be an MpmGrid')
 	grid.updateAttrs(grid.dict())  # looks again at all values: cellSize may not have been given
@@ -50,19 +92,7 @@ def fill(predicate, grid, pointsPerCell, material, **parameters):
 	_warnOfVolume(predicate, grid, n, sizes)
 	labels, index = _materialOf(positions, material)
 	materials = [_material(label) for label in labels]
-	columns = {name: _parameter(name, value, positions) for name, value in parameters.items()}
-	bodies = []
-	for size in np.unique(sizes)[::-1]:
-		those = slice(*np.flatnonzero(sizes == size)[[0, -1]] + (0, 1))
-		half = size / (2 * n)
-		halfSize = Vector3(half, half, half if grid.dim == 3 else 0.5)
-		try:
-			bodies += engine.newBodies(
-			        positions[those], halfSize, materials, index[those], grid.axisymmetric, {name: column[those] for name, column in columns.items()}
-			)
-		except ValueError as error:
-			raise ValueError(f'fill: {error}') from None
-	return bodies
+	return positions, sizes / (2 * n), materials, index, {name: _parameter(name, value, positions) for name, value in parameters.items()}
 
 
 def _parameter(name, value, positions):
@@ -204,7 +234,7 @@ def _materialOf(positions, material):
 
 def _labelsFromFunction(positions, function):
 	numbers, index = {}, np.empty(len(positions), dtype=np.int64)
-	for i, position in enumerate(positions.tolist()):
+	for i, position in enumerate(each(positions)):
 		label = function(Vector3(*position))
 		if not isinstance(label, str):
 			raise TypeError(f'fill: the material function returned {brief(label)} at {place(position)}; it must return the label of a material')

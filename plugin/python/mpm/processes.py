@@ -59,14 +59,16 @@ def withFirst(write):
 
 
 def together(act):
-	"""Calls act() in each of them; an error is one of all."""
-	error = None
+	"""What act() returns in each of them; an error is one of all."""
+	error = result = None
 	try:
-		act()
+		result = act()
 	except Exception as thrown:
+		if count == 1: raise
 		error = thrown
 	for thrown in gathered(error):
 		if thrown: raise thrown
+	return result
 
 
 def _refuseDecomposition(*arguments, **options):

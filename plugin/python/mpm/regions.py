@@ -18,7 +18,13 @@ def inside(predicate, points):
 	for kind, combine in _combinations.items():
 		if isinstance(predicate, kind):
 			return combine(inside(predicate.A, points), inside(predicate.B, points))
-	return np.fromiter((predicate(Vector3(*p), 0.) for p in points.tolist()), bool, len(points))
+	return np.fromiter((predicate(Vector3(*p), 0.) for p in each(points)), bool, len(points))
+
+
+def each(points):
+	"""The rows, as lists of which few are in memory at a time."""
+	for first in range(0, len(points), 2**14):
+		yield from points[first:first + 2**14].tolist()
 
 
 _combinations = {

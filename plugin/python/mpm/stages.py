@@ -16,7 +16,7 @@ import numpy as np
 from yade import wrapper
 
 from .analysis import noPoints, solverOf
-from .data import arrays, assign
+from .data import arrays, assign, withMaterials
 from .messages import brief
 from .regions import inside
 
@@ -29,22 +29,35 @@ def place(bodies, steps=1, solver=None):
 
 	Points begin without stress, where they have been filled. What has been there settles meanwhile: fill a layer up to its height at the end.
 
-	:param bodies: material points that the scene does not have yet
+	:param bodies: material points that the scene does not have yet; or the range of ids of those that :func:`add` has just put there
 	:param steps: load steps, an integer >= 1
 	:param solver: the ``MpmImplicitEngine``; may be left out when ``O.engines`` holds one
 	:return: ids of the bodies
 	:raises TypeError: an argument of the wrong kind.
-	:raises ValueError: no bodies, *steps* < 1, or a material that cannot be found by its label.
+	:raises ValueError: no bodies, *steps* < 1, ids of no material points, or a material that cannot be found by its label.
 	"""
 	solver, steps = _static('place', solver), _number('place', steps)
+	ids, materials = _added(bodies) if isinstance(bodies, range) else _append(bodies)
+	if steps > 1: _begin('placed', solver, steps, {label: _twin(material, f'{label}/placed', ids, density=material.density / steps) for label, material in materials.items()})
+	return ids
+
+
+def _append(bodies):
+	"""Ids, and materials by label."""
 	bodies = list(bodies) if isinstance(bodies, (list, tuple)) else []
 	if not bodies or not all(isinstance(body, wrapper.Body) and isinstance(body.shape, wrapper.MpmPoint) for body in bodies):
 		raise TypeError('place: bodies must be a list of material points, as mpm.fill(...) returns it')
 	if any(body.id >= 0 for body in bodies): raise ValueError('place: the scene has these bodies already; place(mpm.fill(...)) appends them')
-	materials = _materialsOf('place', bodies)
-	ids = wrapper.Omega().bodies.append(bodies)
-	if steps > 1: _begin('placed', solver, steps, {label: _twin(material, f'{label}/placed', ids, density=material.density / steps) for label, material in materials.items()})
-	return ids
+	materials = _byLabel('place', [body.material for body in bodies])
+	return wrapper.Omega().bodies.append(bodies), materials
+
+
+def _added(ids):
+	"""The same of points that the scene has."""
+	points, materials, number = withMaterials()
+	isNew = np.isin(points['id'], ids)
+	if not len(ids) or isNew.sum() < len(ids): raise ValueError(f'place: bodies = {brief(ids)} must be ids of material points of the scene, as mpm.add(...) returns them')
+	return list(ids), _byLabel('place', [materials[i] for i in np.unique(number[isNew])])
 
 
 def excavate(region, steps=1, solver=None):
@@ -61,13 +74,13 @@ def excavate(region, steps=1, solver=None):
 	"""
 	solver, steps = _static('excavate', solver), _number('excavate', steps)
 	if not callable(region): raise TypeError(f'excavate: region = {brief(region)} must be a predicate, as for mpm.fill')
-	points = arrays()
+	points, materials, number = withMaterials()
 	if not len(points['id']): raise ValueError(noPoints('excavate', solver))
 	inRegion = inside(region, points['pos'])
 	if not inRegion.any(): raise ValueError(f'excavate: no material point is in the region {brief(region)}')
 	if inRegion.all(): raise ValueError(f'excavate: all material points are in the region {brief(region)}')
 	ids, stress = points['id'][inRegion].tolist(), points['stress'][inRegion]
-	materials = _materialsOf('excavate', [wrapper.Omega().bodies[i] for i in ids])
+	materials = _byLabel('excavate', [materials[i] for i in np.unique(number[inRegion])])
 	if steps == 1:
 		_erase(ids)
 		return len(ids)
@@ -111,8 +124,8 @@ def advance(kind, label, first, steps, twins):
 	for own, (twin, density) in twins.items():
 		ids = _idsOf(twin)
 		if step == steps and kind == 'placed':
-			for i in ids:
-				scene.bodies[i].material = scene.materials[own]
+			for body in _here(ids):
+				body.material = scene.materials[own]
 		elif step == steps: _erase(ids)
 		else: _scale(scene.materials[twin], share * density, ids, kind)
 	if step == steps: engines[at].dead = True
@@ -148,9 +161,8 @@ def _soft(material, label, ids):
 	"""The same of an elastic one with a part of the stiffness, without memory and strengths of its own."""
 	young, poisson = (3 * material.shearModulus, 0.3) if isinstance(material, wrapper.MpmCamClayMat) else (material.young, material.poisson)
 	soft = wrapper.MpmElasticMat(young=_softness * young, poisson=poisson, density=material.density)
-	for i in ids:
-		state = wrapper.Omega().bodies[i].state
-		if wrapper.Omega().bodies[i].material == material: state.internals, state.parameters, state.plasticStrain = [], [], 0
+	for body in _here(ids):
+		if body.material == material: body.state.internals, body.state.parameters, body.state.plasticStrain = [], [], 0
 	return _give(soft, material, label, ids)
 
 
@@ -159,30 +171,35 @@ def _give(twin, material, label, ids):
 	known = {m.label for m in scene.materials}
 	twin.label = next(name for name in [label] + [f'{label}{i}' for i in range(2, len(known) + 3)] if name not in known)
 	scene.materials.append(twin)
-	for i in ids:
-		if scene.bodies[i].material == material: scene.bodies[i].material = twin
+	for body in _here(ids):
+		if body.material == material: body.material = twin
 	return twin
 
 
-def _materialsOf(who, bodies):
-	"""By label those of the bodies."""
+def _byLabel(who, materials):
 	found = {}
-	for body in bodies:
-		label = body.material.label
-		if label in found: continue
-		if not label or all(material != body.material for material in wrapper.Omega().materials):
-			raise ValueError(f'{who}: a material of the points (label {label!r}) is not in O.materials, by a label of its own')
-		found[label] = body.material
+	for material in materials:
+		if material.label in found: continue
+		if not material.label or all(known != material for known in wrapper.Omega().materials):
+			raise ValueError(f'{who}: a material of the points (label {material.label!r}) is not in O.materials, by a label of its own')
+		found[material.label] = material
 	return found
 
 
 def _idsOf(label):
-	return [body.id for body in wrapper.Omega().bodies if body.material and body.material.label == label]
+	points = arrays()
+	return points['id'][points['material'] == wrapper.Omega().materials[label].id].tolist()
+
+
+def _here(ids):
+	"""Of these bodies those that this process has."""
+	bodies = wrapper.Omega().bodies
+	return [body for body in (bodies[i] for i in ids) if body]
 
 
 def _erase(ids):
-	for i in ids:
-		wrapper.Omega().bodies.erase(i)
+	for body in _here(ids):
+		wrapper.Omega().bodies.erase(body.id)
 
 
 def _static(who, solver):
