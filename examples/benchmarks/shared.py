@@ -232,22 +232,22 @@ def layers():
 
 def change():
 	"""What is done to the points of the next scene between its steps."""
-	solver, box = O.engines[-1], lambda low, high: pack.inAlignedBox((low, 0, -1), (high, 6, 1))
-	if O.iter == 1: O.bodies.append(mpm.fill(box(10, 16), solver.grid, 2, 'soil'))
-	if O.iter == 2: mpm.add(box(16, 24), solver, 2, 'soil')
+	solver, box = O.engines[-1], lambda low, high: pack.inAlignedBox((0, low, -1), (16, high, 1))
+	if O.iter == 1: O.bodies.append(mpm.fill(box(4, 8), solver.grid, 2, 'soil'))
+	if O.iter == 2: mpm.add(box(8, 14), solver, 2, 'soil')
 	if O.iter in (3, 4):
 		points = mpm.arrays()
-		for i in points['id'][(points['pos'][:, 1] > 5) & (abs(points['pos'][:, 0] - 20) < 3)].tolist():
+		for i in points['id'][(points['pos'][:, 1] > 7) & (abs(points['pos'][:, 0] - 8) < 3)].tolist():
 			if not O.bodies[i]: continue  # another process has it
 			if O.iter == 3: O.bodies[i].material = O.materials['stiff']
 			else: O.bodies.erase(i)
 
 
 def changing():
-	"""A block that grows to one side, so that the work must be cut anew, of which points become stiffer and are dug out."""
+	"""A block that grows upwards, so that the work must be cut anew, of which points become stiffer and are dug out."""
 	O.materials.append([MpmElasticMat(young=young, poisson=.3, density=2400, label=label) for label, young in (('soil', 1e6), ('stiff', 2e6))])
 	solver = engine(gravity=(0, -9.81, 0), gravityCurve=[(0, 1)], boundaries=sides())
-	O.bodies.append(mpm.fill(pack.inAlignedBox((0, 0, -1), (10, 6, 1)), solver.grid, 2, 'soil'))
+	O.bodies.append(mpm.fill(pack.inAlignedBox((0, 0, -1), (16, 4, 1)), solver.grid, 2, 'soil'))
 	O.engines, O.dt = [PyRunner(iterPeriod=1, command='change()'), solver], .1
 	return 6
 
