@@ -3,6 +3,7 @@
 #include "core/base/sentence.hpp"
 #include "engine/points/bodyParcels.hpp"
 #include "engine/solver/MpmImplicitEngine.hpp"
+#include "engine/solver/divided_scene.hpp"
 #include "engine/solver/processes.hpp"
 #include "engine/solver/sameness.hpp"
 #include "yade_api/python_lock.hpp"
@@ -18,6 +19,12 @@ namespace {
 	size_t firstOfAll(const vector<MaterialPoint>& points, int bodiesInPieces)
 	{
 		return std::partition_point(points.begin(), points.end(), [&](const MaterialPoint& p) { return p.id < bodiesInPieces; }) - points.begin();
+	}
+
+	// Another engine goes on with its points.
+	void adopt(MpmImplicitEngine& engine)
+	{
+		if (engine.Pieces::count == 0 && DividedScene::last().is(engine.scene)) static_cast<Pieces&>(engine) = DividedScene::last().pieces;
 	}
 
 	// With what they consist of: YADE never lets go of bodies that O.bodies.append() was given in a list.
@@ -71,8 +78,9 @@ void Distribution::cut(const gimpm::Processes& all, const vector<gimpm::Key>& lo
 
 template <int Dim> std::shared_ptr<gimpm::Division> Distribution::divide(MpmImplicitEngine& engine, vector<MaterialPoint>& points)
 {
-	const auto   all    = processes();
-	Scene&       scene  = *engine.scene;
+	const auto all   = processes();
+	Scene&     scene = *engine.scene;
+	adopt(engine);
 	const size_t own    = firstOfAll(points, engine.Pieces::bodies);
 	const auto   lowest = lowestCells<Dim>(engine, points);
 	requireSame(*all, engine, points, own);
@@ -95,6 +103,7 @@ template <int Dim> std::shared_ptr<gimpm::Division> Distribution::divide(MpmImpl
 		unpackBodies(parcel, scene);
 	if (isFirst) malloc_trim(0); // most of what there was is free now
 	engine.Pieces::count = all->size(), engine.Pieces::number = all->rank(), engine.Pieces::bodies = int(scene.bodies->size());
+	DividedScene::last() = { scene, engine };
 	updateMaterialPoints(points, scene, engine.mask);
 	for (const MaterialPoint& p : points)
 		division->id.push_back(p.id);
@@ -133,7 +142,7 @@ void Distribution::requireWhole(const MpmImplicitEngine& engine)
 {
 	const auto  all   = processes();
 	const int   count = all ? all->size() : 1, number = all ? all->rank() : 0;
-	const auto& has = static_cast<const Pieces&>(engine);
+	const auto& has = engine.Pieces::count == 0 && DividedScene::last().is(engine.scene) ? DividedScene::last().pieces : static_cast<const Pieces&>(engine);
 	if (has.count == 0 || (has.count == count && has.number == number && engine.distributed)) return;
 	throw std::invalid_argument(sentence(
 	        engine.getClassName(), ": the scene has the material points of process ", has.number, " of ", has.count, ", and this is process ", number,
@@ -151,24 +160,29 @@ void Distribution::requireDivisible(const MpmImplicitEngine& engine, const vecto
 			throw std::invalid_argument(sentence("Body #", point.id, ": ", start, " does not go with ", what, " yet."));
 }
 
-bool isDivided(const MpmImplicitEngine& engine) { return engine.Pieces::count > 1; }
+bool isDivided(const MpmImplicitEngine& engine) { return engine.Pieces::count > 1 || (engine.Pieces::count == 0 && DividedScene::last().is(engine.scene)); }
 
 bool isSceneDivided()
 {
-	for (const auto& engine : Singleton<Omega>::instance().getScene()->engines)
-		if (const auto* found = dynamic_cast<const MpmImplicitEngine*>(engine.get()); found && isDivided(*found)) return true;
-	return false;
+	const auto scene = Singleton<Omega>::instance().getScene();
+	for (const auto& engine : scene->engines)
+		if (auto* found = dynamic_cast<MpmImplicitEngine*>(engine.get()); found && isDivided(*found)) {
+			adopt(*found); // so that files know of it
+			return true;
+		}
+	return DividedScene::last().is(scene.get());
 }
 
 void takePieces(int count, int number)
 {
 	const ValueLock lock;
-	const Scene&    scene = *Singleton<Omega>::instance().getScene();
+	Scene&          scene = *Singleton<Omega>::instance().getScene();
 	for (const auto& engine : scene.engines)
 		if (auto* found = dynamic_cast<MpmImplicitEngine*>(engine.get()); found && isDivided(*found)) {
 			found->Pieces::count  = count > 1 ? count : 0;
 			found->Pieces::number = number;
 			found->Pieces::bodies = count > 1 ? int(scene.bodies->size()) : 0;
+			if (count > 1) DividedScene::last() = { scene, *found };
 		}
 }
 

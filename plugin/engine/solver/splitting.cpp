@@ -3,6 +3,7 @@
 #include "core/grid/basis.hpp"
 #include "engine/points/halves.hpp"
 #include "engine/solver/MpmImplicitEngine.hpp"
+#include "engine/solver/divided_scene.hpp"
 #include "engine/solver/exchange.hpp"
 
 namespace yade {
@@ -208,7 +209,10 @@ template <int Dim> string Splitting::split(MpmImplicitEngine& engine, vector<Mat
 {
 	const Splits splits   = Outgrown<Dim>(points, job, *engine.scene, engine.maxSplits).splitAll();
 	engine.clampedDomains = splits.left;
-	if (isDivided(engine)) engine.Pieces::bodies = int(engine.scene->bodies->size());
+	if (isDivided(engine)) {
+		engine.Pieces::bodies = int(engine.scene->bodies->size());
+		DividedScene::last()  = { *engine.scene, engine };
+	}
 	if (splits.exhausted < 0 || isSaid) return "";
 	isSaid = true;
 	return "Body #" + std::to_string(splits.exhausted) + ": the domain of the material point has outgrown half a cell again, after maxSplits = "
