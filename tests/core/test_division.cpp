@@ -177,6 +177,48 @@ namespace {
 			});
 	}
 
+	/// A row of points that stands on the block, through the ranges of several processes: how far a cell is from one whose points tell its velocities is known to all.
+	TYPED_TEST(DivisionOf, LooseCellsAreThoseOfAllPoints)
+	{
+		constexpr int Dim   = TypeParam::value;
+		const auto    model = TestFixture::model(false, 0.01);
+		auto          all   = TestFixture::cloud(model.grid);
+		for (int k = 0; k < 200; ++k) {
+			Vec<Dim> x = Vec<Dim>::Constant(2.5);
+			x[Dim - 1] = (Dim == 2 ? 6.5 : 7.5) + k;
+			addPoint<Dim>(all, x, Vec<Dim>::Constant(0.2));
+		}
+		const auto keys = [&](const PointCloud<Dim>& cloud, const Model<Dim>& m, int reach) {
+			StepReport            report;
+			const StepSystem<Dim> system(cloud, m, {}, report);
+			Motion<Dim>           motion;
+			motion.mass.assign(cloud.size(), 1);
+			std::vector<Key> lowest;
+			for (const auto& cell : looseOf(motion, system.beginning(), reach))
+				lowest.push_back(system.basis.nodes[cell.node[0]]);
+			return lowest;
+		};
+		for (const int reach : { Dim, 1000 }) {
+			const auto whole = keys(all, model, reach);
+			EXPECT_EQ(whole.size() > 190, reach == Dim) << whole.size();
+			for (const int processes : { 2, 3 })
+				inThreads(processes, [&](const std::shared_ptr<const Processes>& process) {
+					auto mine      = model;
+					mine.processes = process;
+					mine.division  = std::make_shared<Division>(Division { process, cutByWork(TestFixture::loads(all, model), processes) });
+					auto            cloud = TestFixture::part(all, model, *mine.division);
+					const Halo<Dim> halo(cloud, mine);
+					const auto      ofOwn = [&](std::vector<Key> cells) {
+                                                cells.erase(
+						             std::remove_if(cells.begin(), cells.end(), [&](Key cell) { return !mine.division->owns(cell); }),
+						             cells.end());
+                                                return cells;
+					};
+					EXPECT_EQ(ofOwn(keys(cloud, mine, reach)), ofOwn(whole));
+				});
+		}
+	}
+
 	TYPED_TEST(DivisionOf, CutsAreBalanced)
 	{
 		constexpr int Dim   = TypeParam::value;

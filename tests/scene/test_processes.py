@@ -226,6 +226,37 @@ with open(f'process{rank}of{processes.count}.json', 'w') as file:
 		assert np.abs(np.load(run.folder / 'pos.npy') - alone[4]).max() < 1e-8, count
 
 
+def test_another_engine_goes_on_with_points_in_pieces(yade):
+	"""Inertia after a static stage, also when the scene has been saved in between; an engine that is to hold all points is refused."""
+	stages = setting + """
+import numpy as np
+static = slope(2.0)
+static.distributed, static.newton.tolerance = True, 1e-10
+O.run(1, wait=True)
+moving = MpmDynamicEngine(grid=static.grid, boundaries=static.boundaries, gravity=static.gravity, loadTime=O.time, verbosity=0, distributed=True)
+moving.newton.tolerance = 1e-10
+O.engines, O.dt = [moving], .02
+"""
+	goesOn = """
+O.run(3, wait=True)
+points = mpm.arrays()
+said = ''
+O.engines = [MpmImplicitEngine(grid=O.engines[0].grid, boundaries=O.engines[0].boundaries, gravity=(0, -9.81, 0), loadTime=O.time, verbosity=0)]
+try:
+	O.run(1, wait=True)
+except (ValueError, RuntimeError) as error:
+	said = str(error)
+if rank == 0: json.dump([points['id'].tolist(), points['pos'].tolist(), said], open('end.json', 'w'))
+"""
+	run = yade(stages + goesOn)
+	ids, pos, _ = json.loads((run.folder / 'end.json').read_text())
+	for first, processes in (stages, 2), (setting + "mpm.load('between.yade.gz')\n", 3):
+		yade(first + ("mpm.save('between.yade.gz')\n" if processes == 2 else '') + goesOn, processes=processes)
+		end = json.loads((run.folder / 'end.json').read_text())
+		assert end[0] == ids and np.abs(np.array(end[1]) - pos).max() < 1e-8, processes
+		assert 'without distributed = True' in end[2], processes
+
+
 def test_what_points_in_pieces_do_not_admit_is_named(yade):
 	"""In all processes, and the scene stays as it was; other settings in one, a piece by itself, a failure of the step with the body's id."""
 	run = yade(

@@ -5,6 +5,7 @@
 #include "engine/points/newPoints.hpp"
 #include "engine/solver/AtWork.hpp"
 #include "engine/solver/MpmImplicitEngine.hpp"
+#include "engine/solver/pieces.hpp"
 #include "engine/solver/processes.hpp"
 #include "engine/solver/sameness.hpp"
 #include "yade_api/python_lock.hpp"
@@ -85,7 +86,8 @@ std::shared_ptr<gimpm::Division> Distribution::divide(MpmImplicitEngine& engine,
 {
 	const auto         all        = processes();
 	Scene&             scene      = *engine.scene;
-	const size_t       own        = firstOfAll(points, engine.Pieces::bodies);
+	const Pieces       before     = Pieces::of(scene);
+	const size_t       own        = firstOfAll(points, before.bodies);
 	const auto         lowestCell = lowestCellIn<Dim>(engine);
 	vector<gimpm::Key> lowest;
 	for (const MaterialPoint& p : points)
@@ -104,13 +106,13 @@ std::shared_ptr<gimpm::Division> Distribution::divide(MpmImplicitEngine& engine,
 	vector<vector<double>> parcels;
 	for (const auto& ids : leaving)
 		parcels.push_back(packBodies(scene, ids));
-	const bool isFirst = engine.Pieces::count == 0;
+	const bool isFirst = before.count == 0;
 	points.clear();
 	eraseFrom(scene, erased);
 	for (const auto& parcel : gimpm::exchanged(*all, parcels))
 		unpackBodies(parcel, scene);
 	if (isFirst) malloc_trim(0); // most of what there was is free now
-	engine.Pieces::count = all->size(), engine.Pieces::number = all->rank(), engine.Pieces::bodies = int(scene.bodies->size());
+	Pieces::note(scene, all.get());
 	updateMaterialPoints(points, scene, engine.mask);
 	for (const MaterialPoint& p : points)
 		division->id.push_back(p.id);
@@ -136,9 +138,9 @@ namespace {
 
 void Distribution::requireWhole(const MpmImplicitEngine& engine)
 {
-	const auto  all   = processes();
-	const int   count = all ? all->size() : 1, number = all ? all->rank() : 0;
-	const auto& has = static_cast<const Pieces&>(engine);
+	const auto all   = processes();
+	const int  count = all ? all->size() : 1, number = all ? all->rank() : 0;
+	const auto has = Pieces::of(*engine.scene);
 	if (has.count == 0 || (has.count == count && has.number == number && engine.distributed)) return;
 	throw std::invalid_argument(sentence(
 	        engine.getClassName(), ": the scene has the material points of process ", has.number, " of ", has.count, ", and this is process ", number,
@@ -158,14 +160,14 @@ void Distribution::requireDivisible(const MpmImplicitEngine& engine, const vecto
 			        sentence("Body #", point.id, ": ", start, " needs materials that are in O.materials, which its own is not."));
 }
 
-bool isDivided(const MpmImplicitEngine& engine) { return engine.Pieces::count > 1; }
-
-bool isSceneDivided()
-{
-	for (const auto& engine : Singleton<Omega>::instance().getScene()->engines)
-		if (const auto* found = dynamic_cast<const MpmImplicitEngine*>(engine.get()); found && isDivided(*found)) return true;
-	return false;
+namespace {
+	// A scene of one process may be a piece, too, which no step is made with.
+	bool isDividedHere(const Scene& scene) { return Pieces::of(scene).count > 1 && processes(); }
 }
+
+bool isDivided(const MpmImplicitEngine& engine) { return isDividedHere(*engine.ownScene()); }
+
+bool isSceneDivided() { return isDividedHere(*Singleton<Omega>::instance().getScene()); }
 
 Body::id_t addPoints(
         const shared_ptr<MpmImplicitEngine>& engine, const py::object& positions, const py::object& half, const py::list& materials, const py::object& index,
@@ -177,16 +179,10 @@ Body::id_t addPoints(
 	return engine->add(points);
 }
 
-void takePieces(int count, int number)
+void takePieces()
 {
 	const ValueLock lock;
-	const Scene&    scene = *Singleton<Omega>::instance().getScene();
-	for (const auto& engine : scene.engines)
-		if (auto* found = dynamic_cast<MpmImplicitEngine*>(engine.get()); found && isDivided(*found)) {
-			found->Pieces::count  = count > 1 ? count : 0;
-			found->Pieces::number = number;
-			found->Pieces::bodies = count > 1 ? int(scene.bodies->size()) : 0;
-		}
+	Pieces::note(*Singleton<Omega>::instance().getScene(), processes().get());
 }
 
 } // namespace yade

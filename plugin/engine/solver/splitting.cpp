@@ -4,6 +4,7 @@
 #include "engine/points/halves.hpp"
 #include "engine/solver/MpmImplicitEngine.hpp"
 #include "engine/solver/exchange.hpp"
+#include "engine/solver/pieces.hpp"
 
 namespace yade {
 
@@ -222,7 +223,7 @@ template <int Dim> string Splitting::split(MpmImplicitEngine& engine, vector<Mat
 {
 	const Splits splits   = Outgrown<Dim>(points, job, *engine.scene, engine.maxSplits).splitAll();
 	engine.clampedDomains = splits.left;
-	if (isDivided(engine)) engine.Pieces::bodies = int(engine.scene->bodies->size());
+	if (job.model.division) Pieces::note(*engine.scene, job.model.processes.get());
 	if (splits.exhausted < 0 || isSaid) return "";
 	isSaid = true;
 	return "Body #" + std::to_string(splits.exhausted) + ": the domain of the material point has outgrown half a cell again, after maxSplits = "
