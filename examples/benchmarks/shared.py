@@ -124,7 +124,7 @@ def wet():
 
 def contact():
 	"""A heavy plate presses into soil that is pushed from the side."""
-	O.materials.append(MpmVonMisesMat(yieldStress=6e4, label='soil', **law))
+	O.materials.append(MpmVonMisesMat(yieldStress=8e4, label='soil', **law))
 	O.materials.append(FrictMat(frictionAngle=.3, density=2600, young=1e7, label='rigid'))
 	pushed = [MpmBoundary(max=(0, inf, inf), fix='x', displacement=(.05, 0, 0)), MpmBoundary(max=(inf, 0, inf), fix='y')]
 	solver = engine(gravity=(0, -9.81, 0), boundaries=pushed, contacts=[MpmContact(friction=.3)])

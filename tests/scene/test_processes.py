@@ -61,7 +61,9 @@ def test_points_in_pieces_come_to_the_states_of_one(yade):
 		together, positions = found(yade(scenes, 'out.npz', 'distributed', *names, processes=processes))
 		for name in names:
 			assert np.abs(positions[name] - alone[name]).max() < 1e-8, (name, processes)
-			assert [together[name][0][key] for key in ('points', 'solves')] == [results[name][0][key] for key in ('points', 'solves')]
+			assert together[name][0]['points'] == results[name][0]['points']
+			if name not in ('contact', 'wet'): # K is not symmetric: GMRES of one process has another preconditioner, and ends elsewhere below its tolerance
+				assert together[name][0]['solves'] == results[name][0]['solves'], (name, processes)
 			forces = [of['results'] for of in together[name]]
 			assert all(of == forces[0] for of in forces), (name, 'the same in all processes, to the last bit')
 			assert np.allclose(forces[0], results[name][0]['results'], rtol=0, atol=1e-9 * np.abs(forces[0]).max()), (name, processes)
