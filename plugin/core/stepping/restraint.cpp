@@ -212,14 +212,16 @@ Restraint restraint(const CloudBasis<Dim>& basis, const Grid<Dim>& grid, const B
 }
 
 template <int Dim>
-Restraint restraintAt(const Eigen::VectorXd& d, const CloudBasis<Dim>& basis, const Grid<Dim>& grid, const Boundary<Dim>& boundary, const Terms<Dim>& terms)
+Restraint restraintAt(
+        const Eigen::VectorXd& d, const CloudBasis<Dim>& basis, const Grid<Dim>& grid, const Boundary<Dim>& boundary, const Terms<Dim>& terms, bool isDivided)
 {
-	return restraintBy(basis, grid, boundary, terms, false, [&](const Term<Dim>& term, const typename Term<Dim>::Hold& hold) { term.restrainAt(d, hold); });
+	return restraintBy(
+	        basis, grid, boundary, terms, isDivided, [&](const Term<Dim>& term, const typename Term<Dim>::Hold& hold) { term.restrainAt(d, hold); });
 }
 
 template Restraint restraint(const CloudBasis<2>&, const Grid<2>&, const Boundary<2>&, const Terms<2>&, bool);
 template Restraint restraint(const CloudBasis<3>&, const Grid<3>&, const Boundary<3>&, const Terms<3>&, bool);
-template Restraint restraintAt(const Eigen::VectorXd&, const CloudBasis<2>&, const Grid<2>&, const Boundary<2>&, const Terms<2>&);
-template Restraint restraintAt(const Eigen::VectorXd&, const CloudBasis<3>&, const Grid<3>&, const Boundary<3>&, const Terms<3>&);
+template Restraint restraintAt(const Eigen::VectorXd&, const CloudBasis<2>&, const Grid<2>&, const Boundary<2>&, const Terms<2>&, bool);
+template Restraint restraintAt(const Eigen::VectorXd&, const CloudBasis<3>&, const Grid<3>&, const Boundary<3>&, const Terms<3>&, bool);
 
 } // namespace gimpm

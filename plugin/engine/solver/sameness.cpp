@@ -87,6 +87,12 @@ void requireSame(const gimpm::Processes& all, const MpmImplicitEngine& engine, c
 		        + ". The script must do the same in all of them, in the same order: random numbers need a seed, and files the same content.");
 }
 
+void requireSameWater(const gimpm::Processes& all, const MpmImplicitEngine& engine)
+{
+	if (engine.water.empty() || all.haveSame(checksumOf(engine.water))) return;
+	throw std::runtime_error(startOf(engine, "pressures of water") + ". MpmWater.pressure must answer the same in all of them.");
+}
+
 vector<const MpmMaterial*> materialsOfAll(const Scene& scene, const vector<MaterialPoint>& points, const gimpm::Processes& all)
 {
 	vector<int64_t> isMissing(scene.materials.size(), 1);

@@ -10,6 +10,9 @@ class MpmImplicitEngine;
 // The number of bodies, the points from the one at `begin` on, which each of them has, and the settings of the engine.
 void requireSame(const gimpm::Processes&, const MpmImplicitEngine&, const vector<MaterialPoint>&, size_t begin);
 
+// What functions of pressure have answered, once each of them has been asked.
+void requireSameWater(const gimpm::Processes&, const MpmImplicitEngine&);
+
 // The materials that any of them has points of, in the order of O.materials; with the same values.
 vector<const MpmMaterial*> materialsOfAll(const Scene&, const vector<MaterialPoint>&, const gimpm::Processes&);
 
