@@ -55,14 +55,14 @@ def test_two_processes_come_to_the_states_of_one(yade):
 def test_points_in_pieces_come_to_the_states_of_one(yade):
 	"""Each process with its own points: von Mises' slope in the plane and in 3D, friction, F-bar, a pushed block whose points change the process; loaded surfaces, an axis of symmetry,
 	walls off the grid, contact, a period, water."""
-	names = 'slope2', 'slope3', 'friction', 'incompressible', 'pushed', 'loaded', 'ring', 'walls', 'contact', 'periodic', 'wet'
+	names = 'slope2', 'slope3', 'friction', 'incompressible', 'pushed', 'loaded', 'ring', 'walls', 'rubbing', 'periodic', 'wet'
 	results, alone = found(yade(scenes, 'out.npz', *names))
 	for processes in 2, 3:
 		together, positions = found(yade(scenes, 'out.npz', 'distributed', *names, processes=processes))
 		for name in names:
 			assert np.abs(positions[name] - alone[name]).max() < 1e-8, (name, processes)
 			assert together[name][0]['points'] == results[name][0]['points']
-			if name not in ('contact', 'wet'): # K is not symmetric: GMRES of one process has another preconditioner, and ends elsewhere below its tolerance
+			if name not in ('rubbing', 'wet'): # K is not symmetric: GMRES of one process has another preconditioner, and ends elsewhere below its tolerance
 				assert together[name][0]['solves'] == results[name][0]['solves'], (name, processes)
 			forces = [of['results'] for of in together[name]]
 			assert all(of == forces[0] for of in forces), (name, 'the same in all processes, to the last bit')
