@@ -122,18 +122,23 @@ def wet():
 	return block(engine(gravity=(0, -9.81, 0), boundaries=sides(), water=water), profile, 6e4, 3, .75)
 
 
-def contact():
+def contact(strength=3e4, speed=.3):
 	"""A heavy plate presses into soil that is pushed from the side."""
-	O.materials.append(MpmVonMisesMat(yieldStress=6e4, label='soil', **law))
+	O.materials.append(MpmVonMisesMat(yieldStress=strength, label='soil', **law))
 	O.materials.append(FrictMat(frictionAngle=.3, density=2600, young=1e7, label='rigid'))
 	pushed = [MpmBoundary(max=(0, inf, inf), fix='x', displacement=(.05, 0, 0)), MpmBoundary(max=(inf, 0, inf), fix='y')]
 	solver = engine(gravity=(0, -9.81, 0), boundaries=pushed, contacts=[MpmContact(friction=.3)])
 	O.bodies.append(mpm.fill(pack.inAlignedBox((0, 0, -1), (20, 8, 1)), solver.grid, 2, 'soil'))
 	plate = O.bodies.append(utils.box((8, 9, 0), (3, 1, 2), material='rigid', fixed=True))
-	O.bodies[plate].state.vel = (.1, -1.5, 0)
+	O.bodies[plate].state.vel = (.1, -speed, 0)
 	O.engines = [solver]
 	O.dt = .2
 	return 4
+
+
+def rubbing():
+	"""A plate that is pressed into firmer soil, and rubs on it to the end."""
+	return contact(8e4, 1.5)
 
 
 def dynamics():

@@ -56,14 +56,16 @@ def test_points_in_pieces_come_to_the_states_of_one(yade):
 	"""Each process with its own points: von Mises' slope in the plane and in 3D, friction, F-bar, a pushed block whose points change the process; loaded surfaces, an axis of symmetry,
 	walls off the grid, contact, a period, water; in time, by each way of steps, with their energies; load steps chosen by their error; points that are split, under the ids of one process;
 	strengths of points' own, stages of construction, a block that grows, gets other materials and is dug out."""
-	static = 'slope2', 'slope3', 'friction', 'incompressible', 'pushed', 'loaded', 'ring', 'walls', 'contact', 'periodic', 'wet', 'field', 'layers', 'changing'
+	static = 'slope2', 'slope3', 'friction', 'incompressible', 'pushed', 'loaded', 'ring', 'walls', 'rubbing', 'periodic', 'wet', 'field', 'layers', 'changing'
 	names = *static, 'dynamics', 'collapse', 'shaken', 'explicit', 'chosen', 'splitting'
 	results, alone = found(yade(scenes, 'out.npz', *names))
 	for processes in 2, 3:
 		together, positions = found(yade(scenes, 'out.npz', 'distributed', *names, processes=processes))
 		for name in names:
 			assert np.abs(positions[name] - alone[name]).max() < 1e-8, (name, processes)
-			assert [together[name][0][key] for key in ('points', 'solves')] == [results[name][0][key] for key in ('points', 'solves')]
+			assert together[name][0]['points'] == results[name][0]['points']
+			if name not in ('rubbing', 'wet'): # K is not symmetric: GMRES of one process has another preconditioner, and ends elsewhere below its tolerance
+				assert together[name][0]['solves'] == results[name][0]['solves'], (name, processes)
 			first, *others = [each['told'] for each in together[name]]
 			one = results[name][0]['told']
 			energies = [key for key in one if 'Energy' in key or 'Work' in key]

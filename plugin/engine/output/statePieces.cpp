@@ -60,7 +60,7 @@ string stateFile(const string& kind, const string& path, const MpmImplicitEngine
 	        + "' does not go with MpmImplicitEngine.distributed yet, by which no process has all points: there are 'points', 'loads', 'walls' and 'contacts'.");
 }
 
-void writeState(vtkUnstructuredGrid& cells, Real time, const string& file, const MpmImplicitEngine& engine, VtkFormat format)
+void writeState(vtkUnstructuredGrid& cells, Real time, const string& file, VtkFormat format)
 {
 	if (std::filesystem::path(file).extension() == ".vtu") {
 		if (isFirstProcess()) writeVtu(cells, time, file, format);

@@ -101,6 +101,12 @@ void requireSame(const gimpm::Processes& all, const NewPoints& points)
 	if (!all.haveSame(points.checksum())) throw std::runtime_error(gimpm::sentence("the processes add different material points", remedy));
 }
 
+void requireSameWater(const gimpm::Processes& all, const MpmImplicitEngine& engine)
+{
+	if (engine.water.empty() || all.haveSame(checksumOf(engine.water))) return;
+	throw std::runtime_error(startOf(engine, "pressures of water") + ". MpmWater.pressure must answer the same in all of them.");
+}
+
 vector<const MpmMaterial*> materialsOfAll(const Scene& scene, const vector<MaterialPoint>& points, const gimpm::Processes& all)
 {
 	vector<int64_t> isMissing(scene.materials.size(), 1);
