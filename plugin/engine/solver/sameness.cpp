@@ -59,9 +59,7 @@ void requireSame(const gimpm::Processes& all, const MpmImplicitEngine& engine, c
 	const bool  areSameBodies = all.haveSame(engine.scene->bodies->size()), areSamePoints = all.haveSame(checksum(points, begin));
 	const bool  areSameSettings = all.haveSame(settingsOf(engine));
 	const char* what            = !areSameBodies ? "numbers of bodies" : !areSamePoints ? "material points" : !areSameSettings ? "settings" : nullptr;
-	if (what)
-		throw std::runtime_error(
-		        startOf(engine, what) + remedy);
+	if (what) throw std::runtime_error(startOf(engine, what) + remedy);
 }
 
 void requireSame(const gimpm::Processes& all, const NewPoints& points)
