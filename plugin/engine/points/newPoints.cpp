@@ -36,7 +36,8 @@ namespace {
 }
 
 NewPoints::NewPoints(
-        const MpmGrid& grid, const py::object& positions, const py::object& half, const py::list& materials, const py::object& index, const py::dict& parameters)
+        const MpmGrid& grid, const py::object& positions, const py::object& half, const py::list& materials, const py::object& index,
+        const py::dict& parameters)
         : isSolid(grid.dim == 3), areRings(grid.axisymmetric), positions(positions, "positions"), half(half, "half"), index(index, "index")
 {
 	requireLength("positions", this->positions.size(), 3 * size());
@@ -91,7 +92,8 @@ std::uint64_t NewPoints::checksum() const
 }
 
 py::list newBodies(
-        const MpmGrid& grid, const py::object& positions, const py::object& half, const py::list& materials, const py::object& index, const py::dict& parameters)
+        const MpmGrid& grid, const py::object& positions, const py::object& half, const py::list& materials, const py::object& index,
+        const py::dict& parameters)
 {
 	NewPoints points(grid, positions, half, materials, index, parameters);
 	py::list  bodies;

@@ -14,7 +14,8 @@ public:
 	// Positions (N x 3 double), half of the side of each point's box (N double), which is its initial volume, the material of each by its number (N int64) in a list, and columns
 	// (N double) of those parameters that differ from point to point, by their names. std::invalid_argument if a material is not admissible.
 	NewPoints(
-	        const MpmGrid&, const py::object& positions, const py::object& half, const py::list& materials, const py::object& index, const py::dict& parameters);
+	        const MpmGrid&, const py::object& positions, const py::object& half, const py::list& materials, const py::object& index,
+	        const py::dict& parameters);
 
 	size_t   size() const { return index.size(); }
 	Vector3r position(size_t point) const { return Eigen::Map<const Vector3r>(positions.data() + 3 * point); }

@@ -90,8 +90,7 @@ public:
 	virtual bool isExplicit() const { return false; }
 	virtual void tellMotion(py::dict&) const { }
 
-	// Puts new points into the scene: of several processes that divide them, all of which call this, each its own, under the ids that they would have in one. Returns the first of these.
-	// std::invalid_argument of all where one refuses.
+	// Puts new points into the scene, of several processes that divide them each its own. The id of the first one, or std::invalid_argument in all of them.
 	Body::id_t add(NewPoints&);
 
 	// The scene that holds this engine in O.engines: the current one, or the one where it was made or seen last (O.switchScene()). For an
@@ -105,18 +104,17 @@ protected:
 	vector<MaterialPoint> points; // of the step; kept for the next one
 
 private:
-	bool                              isEndOfLoads() const;
-	template <int Dim> void           step(Agreement&);
-	template <int Dim> Job<Dim>       prepare(Agreement&);
-	template <int Dim> void           takePoints(Job<Dim>&, Agreement&);
-	template <int Dim> vector<size_t> ownOf(const NewPoints&);
-	template <int Dim> void           doubt(const Job<Dim>&);
-	template <int Dim> bool           splitOutgrown(Job<Dim>&);
-	template <int Dim> void           advance(Job<Dim>&);
-	template <int Dim> Attempt<Dim>   attempt(Job<Dim>&) const;
-	template <int Dim> void           reach(Job<Dim>&, const Attempt<Dim>&);
-	void                              warn(const string&); // nothing if it is empty
-	void                              warnOfPoints(const string&);
+	bool                            isEndOfLoads() const;
+	template <int Dim> void         step(Agreement&);
+	template <int Dim> Job<Dim>     prepare(Agreement&);
+	template <int Dim> void         takePoints(Job<Dim>&, Agreement&);
+	template <int Dim> void         doubt(const Job<Dim>&);
+	template <int Dim> bool         splitOutgrown(Job<Dim>&);
+	template <int Dim> void         advance(Job<Dim>&);
+	template <int Dim> Attempt<Dim> attempt(Job<Dim>&) const;
+	template <int Dim> void         reach(Job<Dim>&, const Attempt<Dim>&);
+	void                            warn(const string&); // nothing if it is empty
+	void                            warnOfPoints(const string&);
 
 	PeriodicCounters                    beforeActivation;
 	ProgressLine                        progressLine;

@@ -58,15 +58,6 @@ namespace {
 	}
 }
 
-template <int Dim> vector<gimpm::Key> Distribution::lowestCells(const MpmImplicitEngine& engine, const NewPoints& added)
-{
-	const auto         lowestCell = lowestCellIn<Dim>(engine);
-	vector<gimpm::Key> lowest;
-	for (size_t p = 0; p < added.size(); ++p)
-		lowest.push_back(lowestCell(added.position(p), added.halfSize(p)));
-	return lowest;
-}
-
 // Anew where the work is not balanced to ten per cent. Behind the own points are those that all know, each of which counts once.
 void Distribution::cut(const std::shared_ptr<const gimpm::Processes>& all, const vector<gimpm::Key>& lowest, size_t own)
 {
@@ -106,12 +97,11 @@ std::shared_ptr<gimpm::Division> Distribution::divide(MpmImplicitEngine& engine,
 	vector<vector<double>> parcels;
 	for (const auto& ids : leaving)
 		parcels.push_back(packBodies(scene, ids));
-	const bool isFirst = before.count == 0;
 	points.clear();
 	eraseFrom(scene, erased);
 	for (const auto& parcel : gimpm::exchanged(*all, parcels))
 		unpackBodies(parcel, scene);
-	if (isFirst) malloc_trim(0); // most of what there was is free now
+	malloc_trim(0); // what has been erased, and what the step before has left in the heap of its own thread: a sixth of the peak
 	Pieces::note(scene, all.get());
 	updateMaterialPoints(points, scene, engine.mask);
 	for (const MaterialPoint& p : points)
@@ -119,9 +109,31 @@ std::shared_ptr<gimpm::Division> Distribution::divide(MpmImplicitEngine& engine,
 	return division;
 }
 
+template <int Dim> vector<int> Distribution::ownOf(MpmImplicitEngine& engine, vector<MaterialPoint>& points, const NewPoints& added)
+{
+	const auto all = processes();
+	admitTogether(
+	        [&] {
+		        updateMaterialPoints(points, *engine.scene, engine.mask);
+		        requireWhole(engine);
+		        requireDivisible(engine, points);
+	        },
+	        *all);
+	requireSame(*all, added);
+	const auto         lowestCell = lowestCellIn<Dim>(engine);
+	vector<gimpm::Key> lowest;
+	for (size_t i = 0; i < added.size(); ++i)
+		lowest.push_back(lowestCell(added.position(i), added.halfSize(i)));
+	const auto  division = divide<Dim>(engine, points, lowest);
+	vector<int> own;
+	for (size_t i = 0; i < lowest.size(); ++i)
+		if (division->owns(lowest[i])) own.push_back(int(i));
+	return own;
+}
+
 #define MPM_INSTANTIATE(Dim)                                                                                                                                   \
 	template std::shared_ptr<gimpm::Division> Distribution::divide<Dim>(MpmImplicitEngine&, vector<MaterialPoint>&, const vector<gimpm::Key>&);            \
-	template vector<gimpm::Key>               Distribution::lowestCells<Dim>(const MpmImplicitEngine&, const NewPoints&);
+	template vector<int>                      Distribution::ownOf<Dim>(MpmImplicitEngine&, vector<MaterialPoint>&, const NewPoints&);
 MPM_INSTANTIATE(2)
 MPM_INSTANTIATE(3)
 #undef MPM_INSTANTIATE

@@ -21,7 +21,8 @@ public:
 	// those whose lowest cells, `added`, the division gives it.
 	template <int Dim> std::shared_ptr<gimpm::Division> divide(MpmImplicitEngine&, vector<MaterialPoint>&, const vector<gimpm::Key>& added = {});
 
-	template <int Dim> static vector<gimpm::Key> lowestCells(const MpmImplicitEngine&, const NewPoints&);
+	// The same, before points are added that all know: the numbers of those that this process will have. std::invalid_argument of all where one refuses.
+	template <int Dim> vector<int> ownOf(MpmImplicitEngine&, vector<MaterialPoint>&, const NewPoints& added);
 
 private:
 	void cut(const std::shared_ptr<const gimpm::Processes>&, const vector<gimpm::Key>& lowest, size_t own);

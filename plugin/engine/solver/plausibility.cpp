@@ -126,6 +126,7 @@ namespace {
 			if (!isLight && !isSoft) continue;
 			const size_t first = std::find(cloud.material.begin(), cloud.material.end(), int(m)) - cloud.material.begin();
 			if (first == points.size()) continue; // another process has them
+
 			if (!isLight && !dynamic_cast<const MpmElasticMat*>(points[first].material.get())) continue; // its young is no attribute
 			const string name = "material '" + points[first].material->label + "' (of body #" + std::to_string(points[first].id) + ")";
 			if (isLight) return sentence(name, " has density = ", density, ", in kg/m3; was it meant in t/m3, that is ", 1e3 * density, " kg/m3?");

@@ -38,36 +38,16 @@ template <int Dim> void MpmImplicitEngine::takePoints(Job<Dim>& job, Agreement& 
 	job.cloud = gather(points, job.model, known);
 }
 
-// Of points that all processes know, the numbers of those that this one is to have. There may be no other moment for processes that differ to find out.
-template <int Dim> vector<size_t> MpmImplicitEngine::ownOf(const NewPoints& added)
-{
-	const auto all = processes();
-	admitTogether(
-	        [&] {
-		        updateMaterialPoints(points, *scene, mask);
-		        Distribution::requireWhole(*this);
-		        Distribution::requireDivisible(*this, points);
-	        },
-	        *all);
-	requireSame(*all, added);
-	const auto     lowest   = Distribution::lowestCells<Dim>(*this, added);
-	const auto     division = distribution.divide<Dim>(*this, points, lowest);
-	vector<size_t> own;
-	for (size_t i = 0; i < lowest.size(); ++i)
-		if (division->owns(lowest[i])) own.push_back(i);
-	return own;
-}
-
 Body::id_t MpmImplicitEngine::add(NewPoints& added)
 {
 	const ValueLock lock;
 	const auto      all = distributed ? processes() : nullptr;
-	vector<size_t>  own(added.size());
+	vector<int>     own(added.size());
 	std::iota(own.begin(), own.end(), 0);
-	if (all) own = grid->dim == 3 ? ownOf<3>(added) : ownOf<2>(added);
+	if (all) own = grid->dim == 3 ? distribution.ownOf<3>(*this, points, added) : distribution.ownOf<2>(*this, points, added);
 	vector<shared_ptr<Body>> bodies;
 	const auto               make = [&] {
-                for (const size_t i : own)
+                for (const int i : own)
                         bodies.push_back(added.body(i));
 	};
 	if (all) admitTogether(make, *all);
@@ -75,7 +55,7 @@ Body::id_t MpmImplicitEngine::add(NewPoints& added)
 		make();
 	const Body::id_t first = scene->bodies->size();
 	for (size_t i = 0; i < own.size(); ++i)
-		scene->bodies->insertAtId(bodies[i], first + Body::id_t(own[i]));
+		scene->bodies->insertAtId(bodies[i], first + own[i]);
 	if (!all) return first;
 	provideGaps(*scene, first + added.size());
 	Pieces::note(*scene, all.get());
