@@ -197,6 +197,19 @@ def explicit():
 	return 12
 
 
+def impact():
+	"""Soft soil thrown on a plate, that spreads on it and is split."""
+	O.materials.append(MpmElasticMat(young=5e4, poisson=.3, density=1000, label='soil'))
+	O.materials.append(FrictMat(frictionAngle=.3, density=2600, young=1e7, label='rigid'))
+	solver = engine(MpmDynamicEngine, gravity=(0, -9.81, 0), contacts=[MpmContact(friction=.3)], maxSplits=2)
+	O.bodies.append(mpm.fill(pack.inAlignedBox((0, .4, -1), (16, 12.4, 1)), solver.grid, 1, 'soil'))
+	O.bodies.append(utils.box((8, -2, 0), (12, 2, 4), material='rigid', fixed=True))
+	mpm.assign(velocity=[((x - 8) * abs(x - 8) / 2, -4, 0) for x in mpm.arrays()['pos'][:, 0]])
+	O.engines = [solver]
+	O.dt = .03
+	return 12
+
+
 def chosen():
 	"""A vertical cut in soil that yields, in load steps as long as their error admits."""
 	O.materials.append(MpmMohrCoulombMat(cohesion=1.2e4, frictionAngle=.3, dilationAngle=.3, label='soil', **law))
