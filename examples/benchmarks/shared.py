@@ -23,9 +23,9 @@ law = dict(young=1e6, poisson=.3, density=2400)
 profile = mpm.polygon([(0, 0), (30, 0), (30, 7), (15, 7), (10, 12), (0, 12)])
 
 
-def engine(kind=MpmImplicitEngine, dim=2, **settings):
+def engine(kind=MpmImplicitEngine, dim=2, grid={}, **settings):
 	newton = MpmNewton(linearSolver=method, tolerance=1e-10, maxIterations=30)
-	return kind(grid=MpmGrid(cellSize=h, dim=dim), newton=newton, verbosity=0, distributed=distributed, **settings)
+	return kind(grid=MpmGrid(cellSize=h, dim=dim, **grid), newton=newton, verbosity=0, distributed=distributed, **settings)
 
 
 def sides(*held):
@@ -78,18 +78,67 @@ def pushed():
 	return 4
 
 
-def contact():
+def block(solver, region, strength=6e4, steps=4, end=1):
+	"""Of soil; the steps."""
+	O.materials.append(MpmVonMisesMat(yieldStress=strength, label='soil', **law))
+	O.bodies.append(mpm.fill(region, solver.grid, 2, 'soil'))
+	O.engines = [solver]
+	O.dt = end / steps
+	return steps
+
+
+def loaded():
+	"""A block with a pressure that follows its top, and a traction of fixed direction beside that."""
+	loads = [MpmTraction(surface=[(14, 8), (6, 8)], pressure=4e4), MpmTraction(surface=[(20, 8), (16, 8)], traction=(1e4, -1e4, 0))]
+	held = [MpmBoundary(max=(0, inf, inf), fix='x'), MpmBoundary(max=(inf, 0, inf), fix='xy')]
+	return block(engine(gravity=(0, -9.81, 0), boundaries=held, loads=loads), pack.inAlignedBox((0, 0, -1), (20, 8, 1)))
+
+
+def ring():
+	"""A circular footing on a cylinder of soil, around an axis of symmetry."""
+	footing = MpmBoundary(min=(-inf, 8, -inf), max=(4, 8, inf), fix='y', displacement=(0, -.3, 0))
+	held = [MpmBoundary(min=(14, -inf, -inf), fix='x'), MpmBoundary(max=(inf, 0, inf), fix='xy'), footing]
+	return block(engine(grid=dict(axisymmetric=True), gravity=(0, -9.81, 0), boundaries=held), pack.inAlignedBox((0, 0, -1), (14, 8, 1)), 3e4)
+
+
+def walls():
+	"""Soil on a slope of rock that rises, off the lines of the grid, beside a wall that leans and stays."""
+	rock, leaning = [(0, 1.3), (20, 3.7)], [(20, 0), (21, 10)]
+	held = [MpmBoundary(max=(0, inf, inf), fix='x'), MpmBoundary(surface=rock, fix='n', velocity=(0, .1, 0)), MpmBoundary(surface=leaning, fix='n')]
+	return block(engine(gravity=(0, -9.81, 0), boundaries=held), mpm.polygon([*rock, (20.37, 3.74), (20.9, 9), (0, 9)]))
+
+
+def periodic():
+	"""A step that repeats itself, carried along by its base until its points enter again on the other side."""
+	base = MpmBoundary(max=(inf, 0, inf), fix='xy', displacement=(6, 0, 0))
+	region = mpm.polygon([(0, 0), (16, 0), (16, 6), (8, 6), (8, 8), (0, 8)])
+	return block(engine(grid=dict(period=(16, 0, 0)), gravity=(2, -9.81, 0), boundaries=[base]), region)
+
+
+def wet():
+	"""The slope beside a lake that falls, with a head of its own in the pores; K is not symmetric."""
+	head = lambda x: 2e3 * max(0, 12 - x[1])
+	water = [MpmWater(levels=[(0, 9), (.75, 8)]), MpmWater(pressure=head, where='pores')]
+	return block(engine(gravity=(0, -9.81, 0), boundaries=sides(), water=water), profile, 6e4, 3, .75)
+
+
+def contact(strength=3e4, speed=.3):
 	"""A heavy plate presses into soil that is pushed from the side."""
-	O.materials.append(MpmVonMisesMat(yieldStress=3e4, label='soil', **law))
+	O.materials.append(MpmVonMisesMat(yieldStress=strength, label='soil', **law))
 	O.materials.append(FrictMat(frictionAngle=.3, density=2600, young=1e7, label='rigid'))
 	pushed = [MpmBoundary(max=(0, inf, inf), fix='x', displacement=(.05, 0, 0)), MpmBoundary(max=(inf, 0, inf), fix='y')]
 	solver = engine(gravity=(0, -9.81, 0), boundaries=pushed, contacts=[MpmContact(friction=.3)])
 	O.bodies.append(mpm.fill(pack.inAlignedBox((0, 0, -1), (20, 8, 1)), solver.grid, 2, 'soil'))
 	plate = O.bodies.append(utils.box((8, 9, 0), (3, 1, 2), material='rigid', fixed=True))
-	O.bodies[plate].state.vel = (.1, -.3, 0)
+	O.bodies[plate].state.vel = (.1, -speed, 0)
 	O.engines = [solver]
 	O.dt = .2
 	return 4
+
+
+def rubbing():
+	"""A plate that is pressed into firmer soil, and rubs on it to the end."""
+	return contact(8e4, 1.5)
 
 
 def dynamics():
@@ -122,6 +171,41 @@ def splitting():
 	O.engines = [solver]
 	O.dt = .05
 	return 20
+
+
+def shaken():
+	"""Soil on an edge that absorbs waves, through which one comes from below; damped."""
+	O.materials.append(MpmElasticMat(label='soil', **law))
+	base = MpmAbsorbingBoundary(max=(inf, 0, inf), motion=MpmBaseMotion(history=[(0, 0), (.1, .3), (.2, -.2), (1, 0)], direction=(1, 0, 0)))
+	ends = [MpmBoundary(max=(0, inf, inf), fix='x'), MpmBoundary(min=(20, -inf, -inf), fix='x')]
+	solver = engine(MpmDynamicEngine, gravity=(0, -9.81, 0), boundaries=ends, absorbing=[base], rayleigh=(.5, .002), scheme='generalised-alpha')
+	O.bodies.append(mpm.fill(pack.inAlignedBox((0, 0, -1), (20, 10, 1)), solver.grid, 2, 'soil'))
+	O.engines = [solver]
+	O.dt = .03
+	return 5
+
+
+def explicit():
+	"""Blocks that meet in the air, one of them in pieces, by central differences."""
+	O.materials.append(MpmElasticMat(label='soil', **law))
+	solver = engine(MpmDynamicEngine, scheme='explicit')
+	isThere = lambda body: body.state.pos[0] < 8 or int(body.state.pos[0]) % 3 == 0
+	O.bodies.append([body for body in mpm.fill(pack.inAlignedBox((.3, 0, -1), (16.3, 6, 1)), solver.grid, 2, 'soil') if isThere(body)])
+	mpm.assign(velocity=[(3 if x < 8 else -3, .1 * x, 0) for x in mpm.arrays()['pos'][:, 0]])
+	O.engines = [solver]
+	O.dt = .7 * solver.criticalTimeStep()
+	return 12
+
+
+def chosen():
+	"""A vertical cut in soil that yields, in load steps as long as their error admits."""
+	O.materials.append(MpmMohrCoulombMat(cohesion=1.2e4, frictionAngle=.3, dilationAngle=.3, label='soil', **law))
+	solver = engine(gravity=(0, -9.81, 0), boundaries=[MpmBoundary(max=(0, inf, inf), fix='x'), MpmBoundary(max=(inf, 0, inf), fix='xy')])
+	solver.newton.stepTolerance, solver.newton.minStep = 5e-4, 1e-2
+	O.bodies.append(mpm.fill(pack.inAlignedBox((0, 0, -1), (12, 6, 1)), solver.grid, 2, 'soil'))
+	O.engines = [solver]
+	O.dt = .2
+	return 3
 
 
 def field():
@@ -173,6 +257,16 @@ def changing():
 	return 6
 
 
+def results(solver):
+	"""What the engine and its conditions tell of the last step: forces, one number after the other."""
+	vectors = [*solver.reactions, *(load.resultant for load in solver.loads)]
+	for contact in solver.contacts:
+		vectors += [*contact.forces, *contact.torques]
+	for water in solver.water:
+		vectors += water.onBoundaries
+	return [number for vector in vectors for number in vector]
+
+
 def effort(steps):
 	"""Runs the scene; what it takes."""
 	solver, solves, iterations, parts = next(engine for engine in O.engines if isinstance(engine, MpmImplicitEngine)), 0, 0, Counter()
@@ -182,8 +276,9 @@ def effort(steps):
 		solves, iterations = solves + solver.iterations, iterations + solver.cgIterations
 		parts.update(solver.report()['times'])
 	return dict(
-	        points=len(mpm.arrays()['id']), steps=steps, solves=solves, iterations=iterations, fallbacks=solver.cgFallbacks, seconds=time.perf_counter() - begin,
-	        cpu=time.process_time() - cpu, parts=parts, sent=(library.bytesSent() - sent) / steps, memory=1024 * resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+	        results=results(solver), points=len(mpm.arrays()['id']), steps=steps, solves=solves, iterations=iterations, fallbacks=solver.cgFallbacks,
+	        seconds=time.perf_counter() - begin, cpu=time.process_time() - cpu, told=solver.plotData(), parts=parts, sent=(library.bytesSent() - sent) / steps,
+	        memory=1024 * resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
 	)
 
 

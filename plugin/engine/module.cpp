@@ -30,8 +30,7 @@ BOOST_PYTHON_MODULE(mpm_engine)
 	        "For measurements: what this process has sent to others that mpirun has started.");
 	py::def("isDivided", &isSceneDivided,
 	        "Whether several processes have divided the material points of the scene among them (MpmImplicitEngine.distributed).");
-	py::def("takePieces", &takePieces,
-	        "For mpm.load: the points of all pieces of the scene are in so many processes, of which this is the one with that number.");
+	py::def("takePieces", &takePieces, "For mpm.load: the points of all pieces are in the processes that there are now.");
 	py::def("betweenSteps", &betweenSteps, "For mpm.save: calls a function while no step in the background changes the state.");
 	py::def("idsOfPoints", &idsOfPoints, "For mpm.assign: bytearray of the ids of the material points.");
 	py::def("columnsOfPoints", &columnsOfPoints,

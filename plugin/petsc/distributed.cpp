@@ -2,6 +2,7 @@
 // mpm_petsc.so: several processes, which talk by MPI and solve together by PETSc.
 #include "core/solvers/distributed_module.hpp"
 #include "petsc/begin.hpp"
+#include "petsc/matrix.hpp"
 #include "petsc/talk.hpp"
 #include <algorithm>
 #include <petscksp.h>
@@ -45,40 +46,17 @@ struct Solver {
 	bool isSymmetric() const { return K == symmetric; }
 };
 
-PetscErrorCode makeMatrix(const gimpm::DistributedRows& rows, const double* value, bool isSymmetric, Mat* K)
-{
-	PetscCall(MatCreate(comm, K));
-	PetscCall(MatSetSizes(*K, rows.rows, rows.rows, rows.all, rows.all));
-	PetscCall(MatSetBlockSize(*K, rows.dim));
-	PetscCall(MatSetType(*K, MATMPIAIJ));
-	PetscCall(MatMPIAIJSetPreallocationCSR(*K, rows.start, rows.column, value));
-	PetscCall(MatSetOption(*K, MAT_USE_INODES, PETSC_FALSE));                // whose product takes three times as long
-	if (isSymmetric) PetscCall(MatSetOption(*K, MAT_SYMMETRIC, PETSC_TRUE)); // not MAT_SPD, which it may not be
-	return 0;
-}
-
-/// The rigid motions, of which coarse levels are made.
-PetscErrorCode addRigidMotions(Mat K, const gimpm::DistributedRows& rows)
-{
-	if (!rows.position) return 0;
-	Vec          position;
-	MatNullSpace motions;
-	PetscCall(VecCreateMPIWithArray(comm, rows.dim, rows.rows, rows.all, rows.position, &position));
-	PetscCall(MatNullSpaceCreateRigidBody(position, &motions));
-	PetscCall(MatSetNearNullSpace(K, motions));
-	PetscCall(MatNullSpaceDestroy(&motions));
-	return VecDestroy(&position);
-}
-
 PetscErrorCode takeMatrix(Solver& s, const gimpm::DistributedRows& rows)
 {
 	s.clear();
-	PetscCall(makeMatrix(rows, rows.value, !rows.symmetricPart, &s.K));
+	CompressedRows own { comm, rows.dim, rows.rows, rows.all, rows.start, rows.column, rows.value };
+	PetscCall(makeMatrix(own, !rows.symmetricPart, &s.K));
 	s.symmetric = s.K;
-	if (rows.symmetricPart) PetscCall(makeMatrix(rows, rows.symmetricPart, true, &s.symmetric));
+	own.value   = rows.symmetricPart;
+	if (rows.symmetricPart) PetscCall(makeMatrix(own, true, &s.symmetric));
 	else
 		PetscCall(PetscObjectReference(reinterpret_cast<PetscObject>(s.K)));
-	PetscCall(addRigidMotions(s.symmetric, rows));
+	PetscCall(addRigidMotions(s.symmetric, own, rows.position));
 	return MatCreateVecs(s.K, &s.x, &s.b);
 }
 
@@ -127,11 +105,9 @@ PetscErrorCode makeIteration(Solver& s, const gimpm::DistributedIteration& wante
 	PetscCall(PetscObjectReference(reinterpret_cast<PetscObject>(before)));
 	PetscCall(KSPSetOperators(*ksp, s.K, before));
 	PetscCall(MatDestroy(&before));
-	PetscCall(KSPSetType(*ksp, s.isSymmetric() ? KSPCG : KSPGMRES));
-	if (!s.isSymmetric()) {
-		PetscCall(KSPGMRESSetRestart(*ksp, 100));
-		PetscCall(KSPSetPCSide(*ksp, PC_RIGHT));
-	}
+	PetscCall(KSPSetType(*ksp, KSPGMRES));
+	PetscCall(KSPGMRESSetRestart(*ksp, 100));
+	PetscCall(KSPSetPCSide(*ksp, PC_RIGHT));
 	PetscCall(KSPSetNormType(*ksp, KSP_NORM_UNPRECONDITIONED));
 	PetscCall(KSPSetTolerances(*ksp, wanted.tolerance, 1e-300, 1e30, wanted.atMost));
 	return KSPSetInitialGuessNonzero(*ksp, wanted.goesOn ? PETSC_TRUE : PETSC_FALSE);

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// mpm_petsc.so: algebraic multigrid by PETSc's GAMG (smoothed aggregation) in one process.
+// mpm_petsc.so: algebraic multigrid by PETSc's GAMG (smoothed aggregation).
 #include "core/solvers/multigrid_module.hpp"
 #include "petsc/begin.hpp"
+#include "petsc/matrix.hpp"
+#include "petsc/talk.hpp"
+#include <cstdio>
 #include <memory>
 #include <petscpc.h>
 
@@ -16,6 +19,7 @@ struct Hierarchy {
 	explicit Hierarchy(const gimpm::MultigridMatrix& K) : K(K) { }
 	Hierarchy(const Hierarchy&)            = delete;
 	Hierarchy& operator=(const Hierarchy&) = delete;
+	MPI_Comm   comm() const { return K.isShared ? ::comm : PETSC_COMM_SELF; }
 	~Hierarchy() { PCDestroy(&pc), MatDestroy(&rows), MatDestroy(&product), VecDestroy(&r), VecDestroy(&z); }
 };
 
@@ -34,32 +38,13 @@ PetscErrorCode multiply(Mat product, Vec x, Vec y)
 	return 0;
 }
 
-/// The rigid motions, of which coarse levels are made. Without rotations, bending takes three times as many iterations.
-PetscErrorCode addRigidMotions(Hierarchy& h)
-{
-	if (!h.K.position) return 0;
-	Vec          position;
-	MatNullSpace motions;
-	PetscCall(VecCreateSeqWithArray(PETSC_COMM_SELF, h.K.dim, h.K.rows, h.K.position, &position));
-	PetscCall(MatNullSpaceCreateRigidBody(position, &motions));
-	PetscCall(MatSetNearNullSpace(h.rows, motions));
-	PetscCall(MatNullSpaceDestroy(&motions));
-	PetscCall(VecDestroy(&position));
-	return 0;
-}
-
 PetscErrorCode setMatrix(Hierarchy& h)
 {
-	const auto& K = h.K;
-	// PETSc only reads them
-	PetscCall(MatCreateSeqAIJWithArrays(
-	        PETSC_COMM_SELF, K.rows, K.rows, const_cast<int*>(K.start), const_cast<int*>(K.column), const_cast<double*>(K.value), &h.rows));
-	PetscCall(MatSetBlockSize(h.rows, K.dim));
-	PetscCall(MatSetOption(h.rows, MAT_USE_INODES, PETSC_FALSE)); // whose product takes three times as long
-	// Not MAT_SPD: of a matrix that is not, PETSc would look for the largest eigenvalue by conjugate gradients and an iteration without end.
-	PetscCall(MatSetOption(h.rows, MAT_SYMMETRIC, PETSC_TRUE));
-	PetscCall(addRigidMotions(h));
-	PetscCall(MatCreateShell(PETSC_COMM_SELF, K.rows, K.rows, K.rows, K.rows, &h, &h.product));
+	const auto&          K = h.K;
+	const CompressedRows rows { h.comm(), K.dim, K.rows, K.all, K.start, K.column, K.value };
+	PetscCall(makeMatrix(rows, true, &h.rows));
+	PetscCall(addRigidMotions(h.rows, rows, K.position));
+	PetscCall(MatCreateShell(h.comm(), K.rows, K.rows, K.all, K.all, &h, &h.product));
 	PetscCall(MatShellSetOperation(h.product, MATOP_MULT, reinterpret_cast<void (*)()>(&multiply)));
 	PetscCall(MatSetOption(h.product, MAT_SYMMETRIC, PETSC_TRUE));
 	return MatCreateVecs(h.rows, &h.r, &h.z);
@@ -71,7 +56,7 @@ PetscErrorCode setMatrix(Hierarchy& h)
 PetscErrorCode setUp(Hierarchy& h)
 {
 	PetscCall(setMatrix(h));
-	PetscCall(PCCreate(PETSC_COMM_SELF, &h.pc));
+	PetscCall(PCCreate(h.comm(), &h.pc));
 	PetscCall(PCSetOptionsPrefix(h.pc, "mpm_"));
 	PetscCall(PCSetType(h.pc, PCGAMG));
 	PetscCall(PCGAMGSetAggressiveLevels(h.pc, 1));
@@ -88,26 +73,32 @@ void* create(const gimpm::MultigridMatrix* K, char* reason, int length)
 	PetscOptionsSetValue(nullptr, "-mat_no_inode", "1"); // of matrices that GAMG makes
 	const PetscErrorCode code = setUp(*h);
 	PetscOptionsClearValue(nullptr, "-mat_no_inode");
+	if (code && K->isShared) stop(reason);
 	return code ? nullptr : h.release();
 }
 
-PetscErrorCode cycle(Hierarchy& h, const double* r, double* z)
+PetscErrorCode cycle(Hierarchy& h, const double* r, double* z, PCFailedReason* failure)
 {
 	PetscCall(VecPlaceArray(h.r, r));
 	PetscCall(VecPlaceArray(h.z, z));
 	PetscCall(PCApply(h.pc, h.r, h.z));
 	PetscCall(VecResetArray(h.r));
 	PetscCall(VecResetArray(h.z));
-	PCFailedReason failure;
-	PetscCall(PCGetFailedReason(h.pc, &failure));
-	PetscCheck(failure == PC_NOERROR, PETSC_COMM_SELF, PETSC_ERR_NOT_CONVERGED, "a level cannot be solved: %s", PCFailedReasons[failure]);
-	return 0;
+	return PCGetFailedReason(h.pc, failure);
 }
 
 bool apply(void* hierarchy, const double* r, double* z, char* reason, int length)
 {
-	const Errors errors(reason, length);
-	return cycle(*static_cast<Hierarchy*>(hierarchy), r, z) == 0;
+	const Errors   errors(reason, length);
+	auto&          h       = *static_cast<Hierarchy*>(hierarchy);
+	PCFailedReason failure = PC_NOERROR;
+	const auto     code    = cycle(h, r, z, &failure);
+	if (code && h.K.isShared) stop(reason);
+	if (code) return false;
+	std::int64_t isRight = failure == PC_NOERROR;
+	if (h.K.isShared) smallest(&isRight, 1);
+	if (!isRight) std::snprintf(reason, length, "a level cannot be solved (reason %d)", int(failure));
+	return isRight;
 }
 
 void destroy(void* hierarchy)

@@ -2,6 +2,8 @@
 // Points that are divided among processes: each assembles its rows from its own points and copies of others'. Threads stand for the processes.
 #include "core/stepping/halo.hpp"
 #include "core/stepping/step_system.hpp"
+#include "core/terms/inertia.hpp"
+#include "core/terms/rayleigh.hpp"
 #include "scenes.hpp"
 #include "threads_as_processes.hpp"
 
@@ -23,10 +25,11 @@ namespace {
 			}
 			return c;
 		}
-		static Model<Dim> model(bool fBar, double ghost)
+		static Model<Dim> model(bool fBar, double ghost, bool isPeriodic = false)
 		{
 			Model<Dim> m;
-			m.boundary     = Boundary<Dim>({ wallBelow<Dim>(m.grid, Dim - 1, 0) });
+			if (isPeriodic) m.grid.period[Dim - 1] = Dim == 2 ? 5 : 6; // which domains reach beyond
+			m.boundary     = Boundary<Dim>({ wallBelow<Dim>(m.grid, isPeriodic ? 0 : Dim - 1, 0) });
 			m.materials    = { { Hencky(1e6, 0.3), 2000 } };
 			m.fBar         = fBar;
 			m.ghost.factor = ghost;
@@ -66,8 +69,9 @@ namespace {
 	TYPED_TEST(DivisionOf, ForcesAreThoseOfAllPoints)
 	{
 		constexpr int Dim = TypeParam::value;
-		for (const auto& [fBar, ghost] : { std::pair(false, 0.), std::pair(false, 0.01), std::pair(true, 0.01) }) {
-			const auto            model = TestFixture::model(fBar, ghost);
+		for (const auto& [fBar, ghost, isPeriodic] :
+		     { std::tuple(false, 0., false), std::tuple(false, 0.01, false), std::tuple(true, 0.01, false), std::tuple(true, 0.01, true) }) {
+			const auto            model = TestFixture::model(fBar, ghost, isPeriodic);
 			const auto            all   = TestFixture::cloud(model.grid);
 			StepReport            report;
 			Load<Dim>             load { -9.81 * Vec<Dim>::Unit(Dim - 1), { 1, 1 } };
@@ -76,8 +80,8 @@ namespace {
 			Eigen::VectorXd       force, sizes;
 			ASSERT_FALSE(whole.evaluate(d, force, nullptr, &sizes));
 			for (const int processes : { 2, 3 })
-				inThreads(processes, [&, fBar = fBar](const std::shared_ptr<const Processes>& process) {
-					auto mine      = TestFixture::model(fBar, model.ghost.factor);
+				inThreads(processes, [&](const std::shared_ptr<const Processes>& process) {
+					auto mine      = model;
 					mine.processes = process;
 					mine.division  = std::make_shared<Division>(Division { process, cutByWork(TestFixture::loads(all, model), processes) });
 					auto cloud     = TestFixture::part(all, model, *mine.division);
@@ -98,6 +102,119 @@ namespace {
 						EXPECT_LT((system.external - whole.external).norm(), 1e-13 * whole.external.norm());
 					}
 					EXPECT_EQ(cloud.size(), own);
+				});
+		}
+	}
+
+	/// How points with these numbers move, and what a step makes of it.
+	template <int Dim> struct Moved {
+		Motion<Dim>     motion {};
+		Rayleigh        rayleigh { 0.5, 0.01 };
+		Eigen::VectorXd force {}, own {};
+
+		explicit Moved(const std::vector<std::int64_t>& points)
+		{
+			motion.duration = 0.01;
+			for (const std::int64_t p : points) {
+				Random random(p + 1);
+				motion.mass.push_back(random.in(200, 300));
+				motion.velocity.push_back(random.vector(Dim, 1));
+				motion.acceleration.push_back(random.vector(Dim, 20));
+			}
+		}
+		void step(const PointCloud<Dim>& cloud, Model<Dim> model, const Eigen::VectorXd& d)
+		{
+			motion.damping = { [&](const Beginning<Dim>& step) {
+				return std::make_unique<RayleighDamping<Dim>>(rayleigh, model.materials, false, motion.mass, step);
+			} };
+			model.terms = { [&](const Beginning<Dim>& step) { return std::make_unique<Inertia<Dim>>(motion, step); } };
+			StepReport            report;
+			const StepSystem<Dim> system(cloud, model, { Vec<Dim>::Unit(0), { 1, 0 } }, report);
+			EXPECT_FALSE(system.evaluate(d, force, nullptr));
+			own = system.ownMotion;
+			system.terms.back()->commit(d);
+		}
+	};
+
+	/// With points by themselves above the block, in cells that are loose; velocities, accelerations and works of a step, and what is left of the motion for the next one.
+	TYPED_TEST(DivisionOf, MotionIsThatOfAllPoints)
+	{
+		constexpr int Dim   = TypeParam::value;
+		const auto    model = TestFixture::model(false, 0.01);
+		auto          all   = TestFixture::cloud(model.grid);
+		for (std::size_t p = 0, left = 0; p < all.size(); ++p)
+			if (all.position[p][Dim - 1] > 3 && p % 7 != 0) all.position[p][Dim - 1] = 0.6 + 1e-3 * double(left++ % 9);
+		std::vector<std::int64_t> numbers(all.size());
+		std::iota(numbers.begin(), numbers.end(), 0);
+		StepReport            report;
+		const StepSystem<Dim> system(all, model, {}, report);
+		const Eigen::VectorXd d = Random(1).vector(system.nodalSize(), 0.01);
+		Moved<Dim>            whole(numbers);
+		EXPECT_FALSE(looseOf(whole.motion, system.beginning()).empty());
+		whole.step(all, model, d);
+		for (const int processes : { 2, 3 })
+			inThreads(processes, [&](const std::shared_ptr<const Processes>& process) {
+				auto mine        = model;
+				mine.processes   = process;
+				mine.division    = std::make_shared<Division>(Division { process, cutByWork(TestFixture::loads(all, model), processes) });
+				auto       cloud = TestFixture::part(all, model, *mine.division);
+				Moved<Dim> part(mine.division->id);
+				{
+					const Halo<Dim> halo(cloud, mine);
+					part.step(cloud, mine, d);
+				}
+				EXPECT_LT((part.force - whole.force).norm(), 1e-11 * whole.force.norm());
+				EXPECT_LT((part.own - whole.own).norm(), 1e-10 * whole.own.norm());
+				EXPECT_NEAR(part.motion.ghostWork / whole.motion.ghostWork, 1, 1e-9);
+				EXPECT_NEAR(part.motion.gridWork / whole.motion.gridWork, 1, 1e-9);
+				EXPECT_NEAR(part.rayleigh.work / whole.rayleigh.work, 1, 1e-9);
+				ASSERT_EQ(part.motion.velocity.size(), mine.division->id.size()) << "those of copies have gone";
+				for (std::size_t i = 0; i < mine.division->id.size(); ++i) {
+					const auto p = mine.division->id[i];
+					EXPECT_LT((part.motion.velocity[i] - whole.motion.velocity[p]).norm(), 1e-9);
+					EXPECT_LT((part.motion.acceleration[i] - whole.motion.acceleration[p]).norm(), 1e-6);
+				}
+			});
+	}
+
+	/// A row of points that stands on the block, through the ranges of several processes: how far a cell is from one whose points tell its velocities is known to all.
+	TYPED_TEST(DivisionOf, LooseCellsAreThoseOfAllPoints)
+	{
+		constexpr int Dim   = TypeParam::value;
+		const auto    model = TestFixture::model(false, 0.01);
+		auto          all   = TestFixture::cloud(model.grid);
+		for (int k = 0; k < 200; ++k) {
+			Vec<Dim> x = Vec<Dim>::Constant(2.5);
+			x[Dim - 1] = (Dim == 2 ? 6.5 : 7.5) + k;
+			addPoint<Dim>(all, x, Vec<Dim>::Constant(0.2));
+		}
+		const auto keys = [&](const PointCloud<Dim>& cloud, const Model<Dim>& m, int reach) {
+			StepReport            report;
+			const StepSystem<Dim> system(cloud, m, {}, report);
+			Motion<Dim>           motion;
+			motion.mass.assign(cloud.size(), 1);
+			std::vector<Key> lowest;
+			for (const auto& cell : looseOf(motion, system.beginning(), reach))
+				lowest.push_back(system.basis.nodes[cell.node[0]]);
+			return lowest;
+		};
+		for (const int reach : { Dim, 1000 }) {
+			const auto whole = keys(all, model, reach);
+			EXPECT_EQ(whole.size() > 190, reach == Dim) << whole.size();
+			for (const int processes : { 2, 3 })
+				inThreads(processes, [&](const std::shared_ptr<const Processes>& process) {
+					auto mine      = model;
+					mine.processes = process;
+					mine.division  = std::make_shared<Division>(Division { process, cutByWork(TestFixture::loads(all, model), processes) });
+					auto            cloud = TestFixture::part(all, model, *mine.division);
+					const Halo<Dim> halo(cloud, mine);
+					const auto      ofOwn = [&](std::vector<Key> cells) {
+                                                cells.erase(
+						             std::remove_if(cells.begin(), cells.end(), [&](Key cell) { return !mine.division->owns(cell); }),
+						             cells.end());
+                                                return cells;
+					};
+					EXPECT_EQ(ofOwn(keys(cloud, mine, reach)), ofOwn(whole));
 				});
 		}
 	}

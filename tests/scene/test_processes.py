@@ -53,15 +53,27 @@ def test_two_processes_come_to_the_states_of_one(yade):
 
 
 def test_points_in_pieces_come_to_the_states_of_one(yade):
-	"""Each process with its own points: von Mises' slope in the plane and in 3D, friction, F-bar, a pushed and loaded block whose points change the process, strengths of points' own,
-	stages of construction, a block that grows, gets other materials and is dug out."""
-	names = 'slope2', 'slope3', 'friction', 'incompressible', 'pushed', 'field', 'layers', 'changing'
+	"""Each process with its own points: von Mises' slope in the plane and in 3D, friction, F-bar, a pushed block whose points change the process; loaded surfaces, an axis of symmetry,
+	walls off the grid, contact, a period, water; in time, by each way of steps, with their energies; load steps chosen by their error; points that are split, under the ids of one process;
+	strengths of points' own, stages of construction, a block that grows, gets other materials and is dug out."""
+	static = 'slope2', 'slope3', 'friction', 'incompressible', 'pushed', 'loaded', 'ring', 'walls', 'rubbing', 'periodic', 'wet', 'field', 'layers', 'changing'
+	names = *static, 'dynamics', 'collapse', 'shaken', 'explicit', 'chosen', 'splitting'
 	results, alone = found(yade(scenes, 'out.npz', *names))
 	for processes in 2, 3:
 		together, positions = found(yade(scenes, 'out.npz', 'distributed', *names, processes=processes))
 		for name in names:
 			assert np.abs(positions[name] - alone[name]).max() < 1e-8, (name, processes)
-			assert [together[name][0][key] for key in ('points', 'solves')] == [results[name][0][key] for key in ('points', 'solves')]
+			assert together[name][0]['points'] == results[name][0]['points']
+			if name not in ('rubbing', 'wet'): # K is not symmetric: GMRES of one process has another preconditioner, and ends elsewhere below its tolerance
+				assert together[name][0]['solves'] == results[name][0]['solves'], (name, processes)
+			first, *others = [each['told'] for each in together[name]]
+			one = results[name][0]['told']
+			energies = [key for key in one if 'Energy' in key or 'Work' in key]
+			assert np.isclose([first[key] for key in energies], [one[key] for key in energies], rtol=0, atol=1e-9 * max(abs(one[key]) for key in energies)).all(), (name, processes)
+			assert all(json.dumps(other) == json.dumps(first) for other in others)
+			forces = [of['results'] for of in together[name]]
+			assert all(of == forces[0] for of in forces), (name, 'the same in all processes, to the last bit')
+			assert np.allclose(forces[0], results[name][0]['results'], rtol=0, atol=1e-9 * np.abs(forces[0]).max()), (name, processes)
 
 
 pieces = setting + '''
@@ -118,6 +130,32 @@ if rank == 0: np.save('pos.npy', pos)
 	for processes in 3, 1, 2:
 		yade(goesOn, processes=processes)
 		assert np.abs(np.load(run.folder / 'pos.npy') - pos).max() < 1e-8, processes
+
+
+def test_motion_and_halves_are_saved_in_pieces(yade):
+	"""Soft soil that hangs, swings on an edge that shakes and is split meanwhile: two processes save, three go on, to the state of one that has not stopped."""
+	scene = setting + """
+import numpy as np
+O.materials.append(MpmElasticMat(young=2e4, poisson=.3, density=1000, label='soil'))
+top = MpmBoundary(min=(-inf, 0, -inf), fix='xy', motion=MpmBaseMotion(history=[(0, 0), (.1, .5), (.2, -.5), (1, 0)], direction=(1, 0, 0)))
+solver = MpmDynamicEngine(grid=MpmGrid(cellSize=1), gravity=(0, -9.81, 0), maxSplits=2, boundaries=[top], verbosity=0, distributed=True, rayleigh=(.2, 1e-3))
+solver.newton.tolerance = 1e-10
+O.bodies.append(mpm.fill(pack.inAlignedBox((0, -6, -1), (3, 0, 1)), solver.grid, 1, 'soil'))
+O.engines, O.dt = [solver], .04
+"""
+	goesOn = """
+O.run(4, wait=True)
+points, data, isLeft = mpm.arrays(), O.engines[0].plotData(), len([body for body in O.bodies if body])
+if rank == 0: json.dump([points['id'].tolist(), points['pos'].tolist(), points['velocity'].tolist(), data['energyImbalance'], data['kineticEnergy'], len(O.bodies), isLeft], open('end.json', 'w'))
+"""
+	run = yade(scene + 'O.run(8, wait=True)' + goesOn)
+	ids, pos, velocity, imbalance, kinetic, bodies, isLeft = json.loads((run.folder / 'end.json').read_text())
+	assert 18 < len(ids) == bodies == isLeft, 'points have been split'
+	yade(scene + "O.run(8, wait=True)\nmpm.save('swing.yade.gz')\n", processes=2)
+	yade(setting + "mpm.load('swing.yade.gz')\n" + goesOn, processes=3)
+	end = json.loads((run.folder / 'end.json').read_text())
+	assert end[0] == ids and np.abs(np.array(end[1]) - pos).max() < 1e-8 and np.abs(np.array(end[2]) - velocity).max() < 1e-7
+	assert abs(end[3] - imbalance) < 1e-8 * kinetic and end[5] == bodies and end[6] < bodies
 
 
 def test_each_process_makes_its_own_points_and_writes_to_them(yade):
@@ -190,6 +228,37 @@ with open(f'process{rank}of{processes.count}.json', 'w') as file:
 		assert np.abs(np.load(run.folder / 'pos.npy') - alone[4]).max() < 1e-8, count
 
 
+def test_another_engine_goes_on_with_points_in_pieces(yade):
+	"""Inertia after a static stage, also when the scene has been saved in between; an engine that is to hold all points is refused."""
+	stages = setting + """
+import numpy as np
+static = slope(2.0)
+static.distributed, static.newton.tolerance = True, 1e-10
+O.run(1, wait=True)
+moving = MpmDynamicEngine(grid=static.grid, boundaries=static.boundaries, gravity=static.gravity, loadTime=O.time, verbosity=0, distributed=True)
+moving.newton.tolerance = 1e-10
+O.engines, O.dt = [moving], .02
+"""
+	goesOn = """
+O.run(3, wait=True)
+points = mpm.arrays()
+said = ''
+O.engines = [MpmImplicitEngine(grid=O.engines[0].grid, boundaries=O.engines[0].boundaries, gravity=(0, -9.81, 0), loadTime=O.time, verbosity=0)]
+try:
+	O.run(1, wait=True)
+except (ValueError, RuntimeError) as error:
+	said = str(error)
+if rank == 0: json.dump([points['id'].tolist(), points['pos'].tolist(), said], open('end.json', 'w'))
+"""
+	run = yade(stages + goesOn)
+	ids, pos, _ = json.loads((run.folder / 'end.json').read_text())
+	for first, processes in (stages, 2), (setting + "mpm.load('between.yade.gz')\n", 3):
+		yade(first + ("mpm.save('between.yade.gz')\n" if processes == 2 else '') + goesOn, processes=processes)
+		end = json.loads((run.folder / 'end.json').read_text())
+		assert end[0] == ids and np.abs(np.array(end[1]) - pos).max() < 1e-8, processes
+		assert 'without distributed = True' in end[2], processes
+
+
 def test_what_points_in_pieces_do_not_admit_is_named(yade):
 	"""In all processes, and the scene stays as it was; other settings in one, a piece by itself, a failure of the step with the body's id."""
 	run = yade(
@@ -201,11 +270,16 @@ def tried():
 		said.append('')
 	except (ValueError, RuntimeError) as error:
 		said.append(str(error))
-for name, value in dict(maxSplits=2, contacts=[MpmContact(friction=.3)], water=[MpmWater(level=3)]).items():
-	before = getattr(solver, name)
-	setattr(solver, name, value)
-	tried()
-	setattr(solver, name, before)
+O.engines = [solver, MpmImplicitEngine(grid=MpmGrid(cellSize=2), mask=2)]
+tried()
+O.engines = [solver]
+O.materials.append(FrictMat(frictionAngle=.3, density=2600, young=1e7, label='rigid'))
+plate = O.bodies.append(utils.box((15, 20, 0), (1, 1, 1), material='rigid', fixed=True))
+solver.contacts = [MpmContact()]
+if rank == 1: O.bodies[plate].state.vel = (0, -1, 0)
+tried()
+O.bodies.erase(plate)
+solver.contacts = []
 O.run(1, wait=True)
 if rank == 1: solver.gravity *= 1.01
 tried()
@@ -229,9 +303,9 @@ with open(f'process{rank}.json', 'w') as file:
 	)
 	first, second = (json.loads((run.folder / f'process{rank}.json').read_text()) for rank in (0, 1))
 	assert first[:-1] == [said.replace('Process 1 of 2 has failed: ', '') if isinstance(said, str) else said for said in second[:-1]] or first[:-1] == second[:-1], (first, second)
-	for said, named in zip(first, ('maxSplits = 2', 'contacts', 'water', 'settings', 'values of materials', 'failed: ')):
+	for said, named in zip(first, ('a second engine', 'rigid bodies', 'settings', 'values of materials', 'failed: ')):
 		assert named in said, (named, first)
-	assert first[6] is True and 'mpm.load(file) puts together' in first[7]
+	assert first[5] is True and 'mpm.load(file) puts together' in first[6]
 	alone = yade("O.load('piece-0of2.yade')\nO.run(1, wait=True)\n", fails=True)
 	assert 'mpm.load(file) puts together' in alone.stderr
 
@@ -352,4 +426,4 @@ for step in range(100):
 def test_without_the_library_one_sentence_says_what_to_do(yadeWithoutPetsc):
 	"""In processes that mpirun has started."""
 	run = yadeWithoutPetsc(setting + 'slope(2.0)\nO.run(1, wait=True)\n', processes=2, fails=True)
-	assert 'mpirun has started 2 processes' in run.stderr and 'scripts/setup --with-petsc installs it' in run.stderr
+	assert 'mpirun has started 2 processes' in run.stderr and 'scripts/setup --with-petsc, or the package yade-mpm-petsc, installs it' in run.stderr

@@ -47,7 +47,7 @@ template <int Dim> Key lowestCell(const Vec<Dim>& position, const Vec<Dim>& half
 		const double x = position[a] - grid.origin[a];
 		lowest[a]      = basis == Basis::gimp ? AxisCells::reached(x, halfSize[a], grid.cellSize).lowest : centreCell(x, grid.cellSize);
 	}
-	return Grid<Dim>::key(lowest);
+	return Grid<Dim>::key(grid.first(lowest));
 }
 
 std::vector<Key> cutByWork(std::vector<CellLoad> loads, int processes)
@@ -82,16 +82,15 @@ double imbalance(const Processes& all, const std::vector<CellLoad>& own)
 	return most * double(pointsOf.size()) / workOf(allPoints, allCells, allPoints / allCells) - 1;
 }
 
-template <int Dim> std::vector<int> neededBy(const Division& division, Key lowest, bool isWide)
+template <int Dim> std::vector<int> neededBy(const Division& division, Key lowest, const Grid<Dim>& grid, bool isWide)
 {
 	const int        below = isWide ? -1 : 0, above = isWide ? 3 : 2, wide = above - below + 1; // nodes along an axis
 	std::vector<int> needed;
-	for (int row = 0; row < (Dim == 2 ? wide : wide * wide); ++row) {
-		Key begin = lowest + Key(std::int64_t(below));
-		for (int a = 1, rest = row; a < Dim; ++a, rest /= wide)
-			begin += Key(std::int64_t(below + rest % wide)) * Grid<Dim>::keyStep(a);
-		for (int r = division.holderOf(begin); r <= division.holderOf(begin + Key(wide - 1)); ++r)
-			needed.push_back(r);
+	for (int n = 0; n < (Dim == 2 ? wide * wide : wide * wide * wide); ++n) {
+		Key node = lowest;
+		for (int a = 0, rest = n; a < Dim; ++a, rest /= wide)
+			node += Key(std::int64_t(below + rest % wide)) * Grid<Dim>::keyStep(a);
+		if (const int holder = division.holderOf(grid.first(node)); needed.empty() || needed.back() != holder) needed.push_back(holder);
 	}
 	std::sort(needed.begin(), needed.end());
 	needed.erase(std::unique(needed.begin(), needed.end()), needed.end());
@@ -100,7 +99,7 @@ template <int Dim> std::vector<int> neededBy(const Division& division, Key lowes
 
 #define GIMPM_INSTANTIATE(Dim)                                                                                                                                 \
 	template Key              lowestCell(const Vec<Dim>&, const Vec<Dim>&, const Grid<Dim>&, Basis);                                                       \
-	template std::vector<int> neededBy<Dim>(const Division&, Key, bool);
+	template std::vector<int> neededBy<Dim>(const Division&, Key, const Grid<Dim>&, bool);
 GIMPM_INSTANTIATE(2)
 GIMPM_INSTANTIATE(3)
 #undef GIMPM_INSTANTIATE

@@ -53,7 +53,7 @@ template <class T> void Division::extend(std::vector<T>& ofPoints) const
 	}
 }
 
-/// The lowest cell that a domain reaches.
+/// The lowest cell that a domain reaches, in a periodic grid the one that stands for it.
 template <int Dim> Key lowestCell(const Vec<Dim>& position, const Vec<Dim>& halfSize, const Grid<Dim>&, Basis);
 
 /// Points whose domains begin in a cell.
@@ -70,7 +70,7 @@ double imbalance(const Processes&, const std::vector<CellLoad>& own);
 
 /// The processes that need a point with this lowest cell: those that have a node which it may reach, and, where others need to know all points of their cells (`isWide`), one that
 /// is a cell further. Rising.
-template <int Dim> std::vector<int> neededBy(const Division&, Key lowest, bool isWide);
+template <int Dim> std::vector<int> neededBy(const Division&, Key lowest, const Grid<Dim>&, bool isWide);
 
 /// As of one process, with the patches of the points of this one.
 template <int Dim> CloudBasis<Dim> cloudBasis(const PointCloud<Dim>&, const Grid<Dim>&, Basis, const Boundary<Dim>&, const Division&);

@@ -17,7 +17,7 @@ struct DistributedRows {
 	const double* position;      ///< dim numbers a node, for the rigid motions of the body; null: only translations leave it without stress
 };
 
-/// Conjugate gradients, or GMRES where K is not symmetric, with multigrid.
+/// GMRES with multigrid of the symmetric part.
 struct DistributedIteration {
 	bool   goesOn;    ///< from x, instead of from zero
 	double tolerance; ///< |b - K x| <= tolerance |b|
@@ -40,7 +40,7 @@ struct DistributedModule {
 	void* (*create)();
 	void (*destroy)(void* solver);
 	void (*setMatrix)(void* solver, const DistributedRows*);
-	void (*setUp)(void* solver); ///< multigrid of the matrix, for this one and those that follow
+	void (*setUp)(void* solver); ///< multigrid of the symmetric part, for this matrix and those that follow
 	void (*iterate)(void* solver, DistributedIteration*, const double* b, double* x);
 	/// False if a pivot is less than so small a part of the largest entry of a row.
 	bool (*factorise)(void* solver, double smallestPivot, int* negativePivots);

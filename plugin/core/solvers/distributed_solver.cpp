@@ -2,7 +2,6 @@
 #include "core/solvers/distributed_solver.hpp"
 #include "core/base/stopwatch.hpp"
 #include "core/solvers/blas_threads.hpp"
-#include "core/solvers/conjugate_gradients.hpp"
 #include "core/solvers/petsc_library.hpp"
 #include "core/solvers/solver_limits.hpp"
 #include <algorithm>
@@ -13,30 +12,16 @@ namespace {
 
 const DistributedModule& library() { return *PetscLibrary::get().distributed; }
 
-/// What rows have that there are none of, where other processes have some.
 DistributedRows viewOf(const NodeRows& rows, const std::vector<double>& value, bool isSymmetric, bool hasPositions)
 {
-	static const double none    = 0;
-	const auto          numbers = [](const std::vector<double>& x, bool areThere) { return !areThere ? nullptr : x.empty() ? &none : x.data(); };
 	return { rows.dim,
 		 rows.rows(),
 		 rows.all,
 		 rows.start.data(),
 		 rows.column.data(),
 		 value.data(),
-		 numbers(rows.symmetricPart, !isSymmetric),
-		 numbers(rows.position, hasPositions) };
-}
-
-/// Why not all processes can go on with their rows; empty if they can. A process without rows hears whether the others' have positions.
-std::string obstacleOf(const std::optional<NodeRows>& rows, const NodeShare& share, bool& hasPositions)
-{
-	std::int64_t isFinite[3] = { rows.has_value(), 0, !(rows && !rows->position.empty()) };
-	if (rows) isFinite[1] = std::all_of(rows->value.begin(), rows->value.end(), [](double value) { return std::isfinite(value); });
-	share.processes.smallest(isFinite, 3);
-	hasPositions = !isFinite[2];
-	if (!isFinite[0]) return "the rows of one process have more entries than can be counted";
-	return isFinite[1] ? "" : "the matrix has numbers that are not finite";
+		 numbersOf(rows.symmetricPart, !isSymmetric),
+		 numbersOf(rows.position, hasPositions) };
 }
 
 /// Powers of two, with which the diagonal is about one; where it has nothing the largest entry of the row.
@@ -112,7 +97,7 @@ struct DistributedSolver::Task {
 	IterativeEffort&        effort;
 	Eigen::VectorXd         x {};
 	double                  error  = 1; ///< |b - K x| / |b|
-	bool                    goesOn = false, isIndefinite = false, hasPositions = false;
+	bool                    goesOn = false, hasPositions = false;
 	std::string             failure {}; ///< of the iterations
 	std::optional<NodeRows> rows {};    ///< for the library; read when they are needed
 	std::unique_ptr<Spread> spread {};
@@ -122,7 +107,7 @@ struct DistributedSolver::Task {
 	{
 		if (rows) return "";
 		rows                       = problem.rows();
-		const std::string obstacle = obstacleOf(rows, *problem.share(), hasPositions);
+		const std::string obstacle = obstacleTo(rows, problem.share(), hasPositions);
 		if (!obstacle.empty()) rows.reset();
 		else
 			spread.reset(new Spread { *problem.share(), rows->dof, problem.unknowns().isFree });
@@ -175,33 +160,12 @@ bool DistributedSolver::solveAgain(const Eigen::VectorXd& b, Eigen::VectorXd& x)
 	return factor_->solve(solver_, b, x);
 }
 
+/// As one process does it where K is symmetric; where it is not, an incomplete factor would depend on how the nodes are cut.
 bool DistributedSolver::iterate(Task& task, LinearMethod method)
 {
-	if (task.isSymmetric && method == LinearMethod::iterative) return iterateWithDiagonal(task, mostIterations);
-	const bool isTried = task.isSymmetric && method == LinearMethod::automatic && !diagonalFails_;
-	if (isTried && iterateWithDiagonal(task, patience)) return true;
-	if (task.isIndefinite) return false; // which multigrid does not change
-	diagonalFails_ = diagonalFails_ || isTried;
-	return iterateWithMultigrid(task);
-}
-
-/// As one process does it: the library has to be given the matrix in another form, both triangles, of which a product takes twice as long.
-bool DistributedSolver::iterateWithDiagonal(Task& task, int atMost)
-{
-	const Stopwatch    watch(task.times.solve);
-	const auto         K   = task.problem.blocks();
-	Eigen::VectorXd    all = task.problem.expanded(task.b), own;
-	ConjugateGradients iteration(*K, task.problem.share()->own(all), task.tolerance);
-	iteration.iterate(atMost);
-	task.failure                   = iteration.take(own);
-	task.problem.share()->own(all) = own;
-	task.problem.share()->complete(all);
-	task.x = task.problem.ofFreeDofs(all);
-	task.effort.iterations += iteration.made();
-	task.error        = iteration.error();
-	task.isIndefinite = iteration.hasBrokenDown();
-	task.goesOn       = !task.isIndefinite && task.x.allFinite();
-	return iteration.hasConverged();
+	if (!task.isSymmetric) return iterateWithMultigrid(task);
+	task.failure = overNodes_.solve(task.problem, task.b, task.tolerance, method, task.x, task.times, task.effort);
+	return task.failure.empty();
 }
 
 bool DistributedSolver::iterateWithMultigrid(Task& task)

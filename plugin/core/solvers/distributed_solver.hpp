@@ -2,13 +2,12 @@
 // Linear systems that several processes solve together.
 #pragma once
 #include "core/solvers/linear_method.hpp"
-#include "core/solvers/node_problem.hpp"
+#include "core/solvers/node_solver.hpp"
 
 namespace gimpm {
 
-/// Each process has the rows of its nodes and comes to know the whole x. `direct`: MUMPS. `iterative`: conjugate gradients with the diagonal; `multigrid` and, where
-/// the diagonal does not get there, `automatic`: with algebraic multigrid, which is kept for the solves that follow. Where K is not symmetric all of these are GMRES
-/// with multigrid of its symmetric part. What cannot be solved so is solved directly.
+/// Each process has the rows of its nodes and comes to know the whole x. `direct`: MUMPS. `iterative`, `multigrid` and `automatic`: conjugate gradients as in one process.
+/// Where K is not symmetric all of these are GMRES with multigrid of its symmetric part, which is kept for the solves that follow. What cannot be solved so is solved directly.
 class DistributedSolver {
 public:
 	DistributedSolver();
@@ -32,18 +31,17 @@ private:
 
 	bool         iterate(Task&, LinearMethod);
 	bool         iterateWithMultigrid(Task&);
-	bool         iterateWithDiagonal(Task&, int atMost);
 	bool         giveMatrix(Task&);
 	bool         run(Task&, int atMost);
 	void         setUp(Task&);
 	SolverStatus factorise(Task&);
 
-	void*                   solver_;   ///< of the library
-	Unknowns                unknowns_; ///< of multigrid; none: there is none
-	std::vector<int>        start_;    ///< of the nodes of the processes, of multigrid
-	bool                    diagonalFails_ = false;
-	double                  perDecade_     = 0; ///< iterations of the first solve with multigrid
-	std::unique_ptr<Factor> factor_;            ///< of the last solve
+	void*                   solver_;        ///< of the library, where K is not, and for factors
+	Unknowns                unknowns_;      ///< of its multigrid; none: there is none
+	std::vector<int>        start_;         ///< of the nodes of the processes, of multigrid
+	double                  perDecade_ = 0; ///< iterations of the first solve with multigrid
+	std::unique_ptr<Factor> factor_;        ///< of the last solve
+	NodeSolver              overNodes_;     ///< where K is symmetric
 };
 
 } // namespace gimpm

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "core/solvers/multigrid.hpp"
 #include "core/solvers/petsc_library.hpp"
-#include <algorithm>
 #include <array>
-#include <cmath>
 
 namespace gimpm {
 namespace {
@@ -16,28 +14,33 @@ void Multigrid::openFrom(const std::string& file) { PetscLibrary::get() = { file
 
 std::string Multigrid::absence() { return PetscLibrary::get().open(); }
 
-Multigrid::Multigrid(NodeRows rows, Unknowns unknowns, std::shared_ptr<const SymmetricOperator> K)
+Multigrid::Multigrid(NodeRows rows, Unknowns unknowns, std::optional<NodeShare> share, std::shared_ptr<const SymmetricOperator> K)
         : rows_(std::move(rows))
         , unknowns_(std::move(unknowns))
+        , share_(std::move(share))
         , K_(std::move(K))
         , in_(rows_.rows())
         , out_(rows_.rows())
-        , all_(Eigen::VectorXd::Zero(Eigen::Index(unknowns_.isFree.size())))
-        , image_(all_)
+        , nodal_(Eigen::VectorXd::Zero(share_ ? rows_.dim * (share_->last() - share_->first()) : Eigen::Index(unknowns_.isFree.size())))
+        , image_(nodal_)
 {
+	if (share_)
+		for (int& dof : rows_.dof)
+			dof -= rows_.dim * share_->first();
 }
 
 std::unique_ptr<Multigrid> Multigrid::of(const NodeProblem& problem, std::shared_ptr<const SymmetricOperator> K, std::string& reason)
 {
 	reason = absence();
 	if (!reason.empty()) return nullptr;
-	auto rows = problem.rows();
-	if (!rows) {
-		reason = "the matrix has more entries than multigrid can count";
-		return nullptr;
-	}
-	std::unique_ptr<Multigrid> made(new Multigrid(std::move(*rows), problem.unknowns(), std::move(K)));
-	if (!made->setUp(reason)) return nullptr;
+	auto                     rows = problem.rows();
+	std::optional<NodeShare> share;
+	if (problem.share()) share.emplace(*problem.share());
+	bool hasPositions = false;
+	reason            = obstacleTo(rows, problem.share(), hasPositions);
+	if (!reason.empty()) return nullptr;
+	std::unique_ptr<Multigrid> made(new Multigrid(std::move(*rows), problem.unknowns(), std::move(share), std::move(K)));
+	if (!made->setUp(hasPositions, reason)) return nullptr;
 	return made;
 }
 
@@ -46,32 +49,34 @@ Multigrid::~Multigrid()
 	if (hierarchy_) PetscLibrary::get().multigrid->destroy(hierarchy_);
 }
 
-bool Multigrid::setUp(std::string& reason)
+bool Multigrid::setUp(bool hasPositions, std::string& reason)
 {
-	if (!std::all_of(rows_.value.begin(), rows_.value.end(), [](double value) { return std::isfinite(value); })) {
-		reason = "the matrix has numbers that are not finite";
-		return false;
-	}
 	Reason                said {};
-	const MultigridMatrix K {
-		rows_.dim, rows_.rows(), rows_.start.data(), rows_.column.data(), rows_.value.data(), rows_.position.empty() ? nullptr : rows_.position.data(),
-		this,      &multiply
-	};
+	const MultigridMatrix K { rows_.dim,
+		                  rows_.rows(),
+		                  rows_.all,
+		                  share_.has_value(),
+		                  rows_.start.data(),
+		                  rows_.column.data(),
+		                  numbersOf(rows_.value, true),
+		                  numbersOf(rows_.position, hasPositions),
+		                  this,
+		                  &multiply };
 	hierarchy_ = PetscLibrary::get().multigrid->create(&K, said.data(), int(said.size()));
 	reason     = said.data();
 	return hierarchy_ != nullptr;
 }
 
-bool Multigrid::fits(const NodeProblem& problem) const { return problem.unknowns() == unknowns_; }
+bool Multigrid::fits(const NodeProblem& problem) const { return problem.unknowns() == unknowns_ && (!share_ || problem.share()->start == share_->start); }
 
-/// The product over all nodes is done by blocks and in threads, and so takes a third to a fifth of that by rows.
+/// The product over nodes is done by blocks and in threads, and so takes a third to a fifth of that by rows.
 void Multigrid::multiply(void* self, const double* x, double* y)
 {
 	auto&           m    = *static_cast<Multigrid*>(self);
 	const NodeRows& rows = m.rows_;
 	for (int r = 0; r < rows.rows(); ++r)
-		m.all_[rows.dof[r]] = x[r];
-	m.K_->multiply(m.all_, m.image_);
+		m.nodal_[rows.dof[r]] = x[r];
+	m.K_->multiply(m.nodal_, m.image_);
 	for (int r = 0; r < rows.rows(); ++r)
 		y[r] = m.image_[rows.dof[r]];
 	for (const auto& held : rows.held) // for which K has ones

@@ -6,7 +6,8 @@
 
 namespace gimpm {
 
-/// Of a symmetric matrix, which it keeps: it goes on serving those that follow, as long as they have the same unknowns and are not too different.
+/// Of a symmetric matrix, which it keeps: it goes on serving those that follow, as long as they have the same unknowns and are not too different. Where processes share the
+/// matrix all of them call each function, and it has the rows of this one.
 class Multigrid : public Preconditioner {
 public:
 	/// The file of the library, by default mpm_petsc.so beside the one that holds the core.
@@ -21,20 +22,21 @@ public:
 
 	bool fits(const NodeProblem&) const;
 
-	/// Of vectors over all degrees of freedom, with zeros for the held ones.
+	/// Of vectors as the product with the matrix has them, with zeros for the held degrees of freedom.
 	std::string apply(const Eigen::VectorXd& r, Eigen::VectorXd& z) const override;
 
 private:
-	Multigrid(NodeRows, Unknowns, std::shared_ptr<const SymmetricOperator>);
-	bool        setUp(std::string& reason);
+	Multigrid(NodeRows, Unknowns, std::optional<NodeShare>, std::shared_ptr<const SymmetricOperator>);
+	bool        setUp(bool hasPositions, std::string& reason);
 	static void multiply(void* self, const double* x, double* y);
 
 	NodeRows                                 rows_;
 	Unknowns                                 unknowns_;
+	std::optional<NodeShare>                 share_; ///< none: the whole matrix is here
 	std::shared_ptr<const SymmetricOperator> K_;
 	void*                                    hierarchy_ = nullptr;
-	mutable Eigen::VectorXd                  in_, out_;    ///< of the hierarchy
-	Eigen::VectorXd                          all_, image_; ///< of the product
+	mutable Eigen::VectorXd                  in_, out_;      ///< of the hierarchy
+	Eigen::VectorXd                          nodal_, image_; ///< of the product
 };
 
 } // namespace gimpm

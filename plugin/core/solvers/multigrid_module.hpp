@@ -6,10 +6,12 @@ namespace gimpm {
 
 /// A symmetric positive definite matrix over nodes, in compressed rows. All of it must outlive the hierarchy that is made of it.
 struct MultigridMatrix {
-	int           dim;    ///< components a node
-	int           rows;   ///< dim times the nodes
-	const int*    start;  ///< of each row, and the end of the last one
-	const int*    column; ///< rising; rows of a node have the same ones, by whole blocks
+	int           dim;      ///< components a node
+	int           rows;     ///< dim times the nodes; where processes share the matrix, those of this one
+	int           all;      ///< rows of all processes
+	bool          isShared; ///< all processes call each function; who cannot go on says why and ends all of them
+	const int*    start;    ///< of each row, and the end of the last one
+	const int*    column;   ///< rising, among all; rows of a node have the same ones, by whole blocks
 	const double* value;
 	const double* position; ///< dim numbers a node, for the rigid motions of the body; null: only translations leave it without stress
 	void*         product;  ///< for multiply()
@@ -26,7 +28,7 @@ struct MultigridModule {
 	void (*destroy)(void* hierarchy);
 };
 
-constexpr int         multigridVersion = 1;
+constexpr int         multigridVersion = 2;
 constexpr const char* multigridSymbol  = "mpm_multigrid"; ///< const MultigridModule* mpm_multigrid(), in C
 
 } // namespace gimpm

@@ -30,10 +30,11 @@ public:
 	{
 		Eigen::VectorXd all = Eigen::VectorXd::Zero(dofs_.number.size());
 		forFree([&](int dof, int number) { all[dof] = x[number]; });
-		return all;
+		return share_ ? Eigen::VectorXd(share_->own(all)) : all;
 	}
-	Eigen::VectorXd ofFreeDofs(const Eigen::VectorXd& all) const override
+	Eigen::VectorXd ofFreeDofs(Eigen::VectorXd all) const override
 	{
+		if (share_) all = completed(all);
 		Eigen::VectorXd x(dofs_.count);
 		forFree([&](int dof, int number) { x[number] = all[dof]; });
 		return x;
@@ -78,6 +79,13 @@ public:
 	}
 
 private:
+	Eigen::VectorXd completed(const Eigen::VectorXd& own) const
+	{
+		Eigen::VectorXd all(dofs_.number.size());
+		share_->own(all) = own;
+		share_->complete(all);
+		return all;
+	}
 	/// Those that are not held in all directions.
 	std::vector<int> freeNodes() const
 	{

@@ -26,9 +26,9 @@ struct NodeProblem {
 	virtual std::variant<SymmetricCsc, GeneralCsc> compressed() const = 0;
 
 	/// Of a symmetric matrix, for vectors over all degrees of freedom, with zeros for the held ones; where processes share the matrix, for the rows of this one.
-	virtual std::unique_ptr<SymmetricOperator> blocks() const                             = 0;
-	virtual Eigen::VectorXd                    expanded(const Eigen::VectorXd& x) const   = 0;
-	virtual Eigen::VectorXd                    ofFreeDofs(const Eigen::VectorXd& x) const = 0;
+	virtual std::unique_ptr<SymmetricOperator> blocks() const                           = 0;
+	virtual Eigen::VectorXd                    expanded(const Eigen::VectorXd& x) const = 0; ///< of the free degrees of freedom
+	virtual Eigen::VectorXd                    ofFreeDofs(Eigen::VectorXd x) const      = 0; ///< the way back; all processes call it
 
 	/// For multigrid; where processes share the matrix, the rows of this one.
 	virtual std::optional<NodeRows> rows() const     = 0;

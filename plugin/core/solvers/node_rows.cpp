@@ -164,6 +164,16 @@ template <int Dim> std::optional<NodeRows> nodeRows(const NodeMatrix<Dim>& K, co
 	return rows.make();
 }
 
+std::string obstacleTo(const std::optional<NodeRows>& rows, const NodeShare* share, bool& hasPositions)
+{
+	std::int64_t isThere[3] = { rows.has_value(), 0, !(rows && !rows->position.empty()) };
+	if (rows) isThere[1] = std::all_of(rows->value.begin(), rows->value.end(), [](double value) { return std::isfinite(value); });
+	if (share) share->processes.smallest(isThere, 3);
+	hasPositions = !isThere[2];
+	if (!isThere[0]) return "the matrix has more entries than can be counted";
+	return isThere[1] ? "" : "the matrix has numbers that are not finite";
+}
+
 template std::optional<NodeRows> nodeRows(const NodeMatrix<2>&, const FreeDofs&, const NodeShare*);
 template std::optional<NodeRows> nodeRows(const NodeMatrix<3>&, const FreeDofs&, const NodeShare*);
 

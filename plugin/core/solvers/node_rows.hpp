@@ -4,6 +4,7 @@
 #include "core/solvers/node_share.hpp"
 #include "core/solvers/reduce.hpp"
 #include <optional>
+#include <string>
 
 namespace gimpm {
 
@@ -28,5 +29,16 @@ struct NodeRows {
 
 /// Nothing if there are more entries than an int can count. With a share those of this process.
 template <int Dim> std::optional<NodeRows> nodeRows(const NodeMatrix<Dim>&, const FreeDofs&, const NodeShare* = nullptr);
+
+/// Why a library cannot be given the rows, of several processes all of them; empty if it can. `hasPositions`: whether there are any, which a process without rows hears
+/// from the others.
+std::string obstacleTo(const std::optional<NodeRows>&, const NodeShare*, bool& hasPositions);
+
+/// What rows have that there are none of, where other processes have some.
+inline const double* numbersOf(const std::vector<double>& numbers, bool areThere)
+{
+	static const double none = 0;
+	return !areThere ? nullptr : numbers.empty() ? &none : numbers.data();
+}
 
 } // namespace gimpm

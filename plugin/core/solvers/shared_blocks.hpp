@@ -11,7 +11,7 @@ namespace gimpm {
 /// and each pair of an own node and another one by both processes.
 template <int Dim> class SharedBlocks : public SymmetricOperator {
 public:
-	/// With vectors of Dim components for each own node. The share must outlive it.
+	/// With vectors of Dim components for each own node. Its processes must outlive it.
 	SharedBlocks(const NodeMatrix<Dim>&, const FreeDofs&, const NodeShare&);
 
 	void            multiply(const Eigen::VectorXd& x, Eigen::VectorXd& y) const override;
@@ -32,8 +32,8 @@ private:
 	void         findBorders(const NodeMatrix<Dim>&);
 	void         fetch(const Eigen::VectorXd& x) const;
 
-	const NodeShare&              share_;
-	Range                         here_; ///< own nodes and their neighbours, with what is between them
+	const NodeShare               share_; // of its own: multigrid goes on with it in later steps
+	Range                         here_;  ///< own nodes and their neighbours, with what is between them
 	BlockMatrix<Dim>              blocks_;
 	mutable std::map<int, Border> borders_; ///< by process
 	mutable Eigen::VectorXd       x_, y_;   ///< of the nodes that are here

@@ -29,6 +29,7 @@ template <int Dim> Stiffest stiffest(const PointCloud<Dim>& cloud, const Model<D
 		bar                   = std::max(bar, young / material.density);
 		spacing               = std::max(spacing, 2 * cloud.halfSize[p].maxCoeff() / model.grid.cellSize);
 	}
+	if (const auto& division = model.division) return { division->largest(wave), division->largest(bar), division->largest(spacing) };
 	return { wave, bar, spacing };
 }
 

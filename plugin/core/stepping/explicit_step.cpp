@@ -2,6 +2,7 @@
 #include "core/stepping/explicit_step.hpp"
 #include "core/base/stopwatch.hpp"
 #include "core/stepping/acceptance.hpp"
+#include "core/stepping/halo.hpp"
 #include "core/stepping/outcome.hpp"
 #include "core/terms/explicit_inertia.hpp"
 
@@ -31,7 +32,8 @@ template <int Dim> bool balance(const StepSystem<Dim>& system, const Eigen::Vect
 
 template <int Dim> StepReport explicitStep(PointCloud<Dim>& cloud, const Model<Dim>& model, const Load<Dim>& load, Motion<Dim>& motion)
 {
-	StepReport report;
+	StepReport      report;
+	const Halo<Dim> halo(cloud, model);
 	// 1. basis functions and populated cells; boundary cells and ghost faces
 	const StepSystem<Dim> system(cloud, model, load, report);
 	// 2. points to nodes: velocities in the middle of the step, and so the displacements

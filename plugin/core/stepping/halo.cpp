@@ -60,7 +60,7 @@ template <int Dim> std::vector<std::vector<int>> wanted(const PointCloud<Dim>& c
 	for (int p = 0; p < division.own(); ++p) {
 		const Key lowest          = lowestCell<Dim>(cloud.position[p], cloud.halfSize[p], model.grid, model.basis);
 		const auto [found, isNew] = known.try_emplace(lowest);
-		if (isNew) found->second = neededBy<Dim>(division, lowest, isWide);
+		if (isNew) found->second = neededBy<Dim>(division, lowest, model.grid, isWide);
 		for (const int process : found->second)
 			if (process != division.processes->rank()) points[process].push_back(p);
 	}

@@ -35,7 +35,7 @@ template <int Dim> void explain(const StepSystem<Dim>& system, const Eigen::Vect
 {
 	if (report.converged()) return askTerms(system, d, report);
 	if (report.failure != Failure::singular && !canBeCut(report.failure)) return;
-	const Restraint held = restraintAt(d, system.basis, system.model.grid, system.model.boundary, system.terms);
+	const Restraint held = restraintAt(d, system.basis, system.model.grid, system.model.boundary, system.terms, bool(system.model.division));
 	if (!held.freeMotion.empty())
 		fail(report, Failure::slides, "only friction, which has reached its limit, holds the " + held.freeMotion + " (" + report.cause + ")");
 }

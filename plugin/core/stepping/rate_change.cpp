@@ -9,10 +9,11 @@
 namespace gimpm {
 namespace {
 
-/// The sum over the points, in their order.
-template <class Volumes> double weighed(const Volumes& volume, const std::vector<double>& ofPoints)
+/// The sum over the points, in their order, where they are divided over the own ones of all processes: copies have no volume.
+template <int Dim> double weighed(const StepSystem<Dim>& system, const std::vector<double>& volume, const std::vector<double>& ofPoints)
 {
-	return std::inner_product(volume.begin(), volume.end(), ofPoints.begin(), 0.);
+	const double own = std::inner_product(volume.begin(), volume.end(), ofPoints.begin(), 0.);
+	return system.model.division ? system.model.division->sum(own) : own;
 }
 
 /// Root of the mean square of a nodal vector at the points.
@@ -22,8 +23,10 @@ template <int Dim> double atPoints(const StepSystem<Dim>& system, const Eigen::V
 	forPointNodes(system.basis, [&](int i, const Patch<Dim>& patch, const double* value, int count) {
 		squares[i] = atPoint(patch, value, count, nodal).squaredNorm();
 	});
-	const auto& volume = system.points.volume0;
-	return std::sqrt(weighed(volume, squares) / std::accumulate(volume.begin(), volume.end(), 0.));
+	std::vector<double> volume = system.points.volume0;
+	for (std::size_t i = 0; system.model.division && i < volume.size(); ++i)
+		if (system.basis.order[i] >= system.model.division->own()) volume[i] = 0;
+	return std::sqrt(weighed(system, volume, squares) / weighed(system, volume, std::vector<double>(volume.size(), 1)));
 }
 
 /// |plastic strain| / |strain| of the step, both as roots of mean squares, at most 1. The trial elastic strain, what is left of it and what has become plastic, is what an elastic law would answer.
@@ -31,7 +34,7 @@ template <int Dim> double plasticShare(const StepSystem<Dim>& system, const Eige
 {
 	const auto& materials = system.model.materials;
 	if (std::all_of(materials.begin(), materials.end(), [](const Material& m) { return std::holds_alternative<Hencky>(m.law); })) return 0;
-	const std::vector<double>&  volume = system.beginning().cloud.volume0;
+	std::vector<double>         volume = system.beginning().cloud.volume0;
 	std::vector<SymTensor<Dim>> trial(volume.size());
 	std::vector<double>         all(volume.size()), plastic(volume.size());
 	forUpdatedPoints(system.basis, system.points, std::vector<Material>(materials.size(), { Hencky(1, 0), 1 }), d, [&](int p, const PointUpdate<Dim>& u) {
@@ -41,7 +44,8 @@ template <int Dim> double plasticShare(const StepSystem<Dim>& system, const Eige
 	forUpdatedPoints(system.basis, system.points, materials, d, [&](int p, const PointUpdate<Dim>& u) {
 		plastic[p] = (trial[p].full() - u.elasticStrain.full()).squaredNorm();
 	});
-	const double of = weighed(volume, plastic), whole = weighed(volume, all);
+	if (system.model.division) std::fill(volume.begin() + system.model.division->own(), volume.end(), 0);
+	const double of = weighed(system, volume, plastic), whole = weighed(system, volume, all);
 	return of < whole ? std::sqrt(of / whole) : of > 0 ? 1 : 0;
 }
 

@@ -19,15 +19,18 @@ public:
 		Index<Dim> length; ///< [cells]
 	};
 
-	/// `byCells`: a process that does not have all patches joins the corners of the cells, which gives the same parts where the grid is not periodic.
+	/// `byCells`: a process that does not have all patches joins the corners of the cells, which gives the same parts.
 	Parts(const CloudBasis<Dim>& basis, const Grid<Dim>& grid, bool byCells)
 	        : basis_(basis), parent_(basis.nodes.size()), offset_(parent_.size(), Index<Dim>::Zero())
 	{
 		std::iota(parent_.begin(), parent_.end(), 0);
 		if (byCells)
 			for (const Key cell : basis.cells)
-				for (int c = 1; c < windowCells<Dim>; ++c)
-					join(position(basis.nodes, cell), position(basis.nodes, cell + Grid<Dim>::keyOffset(c)), Index<Dim>::Zero());
+				for (int c = 1; c < windowCells<Dim>; ++c) {
+					const Key corner = cell + Grid<Dim>::keyOffset(c);
+					const int node   = position(basis.nodes, grid.first(corner));
+					join(position(basis.nodes, cell), node, Grid<Dim>::index(corner) - index(node));
+				}
 		else
 			for (const auto& patch : basis.patches)
 				join(patch, grid);
@@ -209,14 +212,16 @@ Restraint restraint(const CloudBasis<Dim>& basis, const Grid<Dim>& grid, const B
 }
 
 template <int Dim>
-Restraint restraintAt(const Eigen::VectorXd& d, const CloudBasis<Dim>& basis, const Grid<Dim>& grid, const Boundary<Dim>& boundary, const Terms<Dim>& terms)
+Restraint restraintAt(
+        const Eigen::VectorXd& d, const CloudBasis<Dim>& basis, const Grid<Dim>& grid, const Boundary<Dim>& boundary, const Terms<Dim>& terms, bool isDivided)
 {
-	return restraintBy(basis, grid, boundary, terms, false, [&](const Term<Dim>& term, const typename Term<Dim>::Hold& hold) { term.restrainAt(d, hold); });
+	return restraintBy(
+	        basis, grid, boundary, terms, isDivided, [&](const Term<Dim>& term, const typename Term<Dim>::Hold& hold) { term.restrainAt(d, hold); });
 }
 
 template Restraint restraint(const CloudBasis<2>&, const Grid<2>&, const Boundary<2>&, const Terms<2>&, bool);
 template Restraint restraint(const CloudBasis<3>&, const Grid<3>&, const Boundary<3>&, const Terms<3>&, bool);
-template Restraint restraintAt(const Eigen::VectorXd&, const CloudBasis<2>&, const Grid<2>&, const Boundary<2>&, const Terms<2>&);
-template Restraint restraintAt(const Eigen::VectorXd&, const CloudBasis<3>&, const Grid<3>&, const Boundary<3>&, const Terms<3>&);
+template Restraint restraintAt(const Eigen::VectorXd&, const CloudBasis<2>&, const Grid<2>&, const Boundary<2>&, const Terms<2>&, bool);
+template Restraint restraintAt(const Eigen::VectorXd&, const CloudBasis<3>&, const Grid<3>&, const Boundary<3>&, const Terms<3>&, bool);
 
 } // namespace gimpm

@@ -15,6 +15,7 @@ struct Restraint {
 template <int Dim> Restraint restraint(const CloudBasis<Dim>&, const Grid<Dim>&, const Boundary<Dim>&, const Terms<Dim>& = {}, bool isDivided = false);
 
 /// The same with what the terms still hold at displacements d.
-template <int Dim> Restraint restraintAt(const Eigen::VectorXd& d, const CloudBasis<Dim>&, const Grid<Dim>&, const Boundary<Dim>&, const Terms<Dim>&);
+template <int Dim>
+Restraint restraintAt(const Eigen::VectorXd& d, const CloudBasis<Dim>&, const Grid<Dim>&, const Boundary<Dim>&, const Terms<Dim>&, bool isDivided = false);
 
 } // namespace gimpm

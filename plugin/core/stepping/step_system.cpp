@@ -113,7 +113,7 @@ template <int Dim> void StepSystem<Dim>::makeTerms(const Load<Dim>& load)
 {
 	resistPoints();
 	for (const auto& [box, wall] : model.walls)
-		terms.push_back(std::make_unique<WallForce<Dim>>(*wall, basis, stiffnessOf_, model.grid));
+		terms.push_back(std::make_unique<WallForce<Dim>>(*wall, basis, stiffnessOf_, model.grid, model.division.get()));
 	imbalance_ = [this, earlier = load.before()] {
 		Eigen::VectorXd before = Eigen::VectorXd::Zero(nodalSize()), resistance = before;
 		addPointForces(basis, pointForces(cloud_, model, earlier), before);
@@ -163,11 +163,11 @@ std::optional<PointFailure> StepSystem<Dim>::evaluate(const Eigen::VectorXd& d, 
 		failure = (*term)->add(d, { force, K, sizes });
 	basis.ties.template fold<Dim>(force);
 	if (sizes) basis.ties.template fold<Dim>(*sizes);
-	if (share_) failure = share_->firstOf(failure);
-	if (failure || !share_) return failure;
-	share_->nodes().complete(force);
-	if (sizes) share_->nodes().complete(*sizes);
-	return std::nullopt;
+	if (!share_) return failure;
+	failure = share_->firstOf(failure);
+	share_->nodes().complete(force); // those of a failure are reported, by all alike
+	if (sizes && !failure) share_->nodes().complete(*sizes);
+	return failure;
 }
 
 template <int Dim> bool StepSystem<Dim>::isSymmetric() const

@@ -50,6 +50,7 @@ Absorption<Dim>::Absorption(
         : boundary_(boundary)
 {
 	addDrag(faces(step), materials, masses, step);
+	if (step.division) completeDrag(step);
 	takeOver(step);
 	for (auto& [node, dashpot] : dashpots_)
 		for (int a = 0; a < Dim; ++a)
@@ -107,6 +108,17 @@ void Absorption<Dim>::addDrag(
 			dashpots_[node].drag += area * impedance;
 		}
 	}
+}
+
+/// Of divided points those that fill the cells at its own nodes are in this process.
+template <int Dim> void Absorption<Dim>::completeDrag(const Beginning<Dim>& step)
+{
+	Eigen::VectorXd drag = Eigen::VectorXd::Zero(Dim * Eigen::Index(step.basis.nodes.size()));
+	for (const auto& [node, dashpot] : dashpots_)
+		drag.template segment<Dim>(Dim * node) = dashpot.drag;
+	step.share->complete(drag);
+	for (auto& [node, dashpot] : dashpots_)
+		dashpot.drag = drag.template segment<Dim>(Dim * node);
 }
 
 template <int Dim> void Absorption<Dim>::takeOver(const Beginning<Dim>& step)

@@ -46,6 +46,7 @@ private:
 	};
 	std::vector<Face> faces(const Beginning<Dim>&);
 	void              addDrag(const std::vector<Face>&, const std::vector<Material>&, const std::vector<double>& masses, const Beginning<Dim>&);
+	void              completeDrag(const Beginning<Dim>&);
 	void              takeOver(const Beginning<Dim>&);
 
 	AbsorbingBoundary<Dim>& boundary_;

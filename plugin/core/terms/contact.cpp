@@ -9,14 +9,6 @@
 namespace gimpm {
 namespace {
 
-template <int Dim> Vec<Dim> cornerOf(const PointCloud<Dim>& cloud, int point, int corner)
-{
-	Vec<Dim> x = cloud.position[point];
-	for (int a = 0; a < Dim; ++a)
-		x[a] += (corner >> a & 1 ? 1 : -1) * cloud.halfSize[point][a];
-	return x;
-}
-
 template <int Dim> auto keyOf(const ContactRecord<Dim>& r) { return std::tuple(r.point, r.corner, r.body); }
 
 template <int Dim> const ContactRecord<Dim>* recordOf(const std::vector<ContactRecord<Dim>>& records, const std::tuple<int, int, int>& key)
@@ -36,15 +28,22 @@ template <int Dim> std::string textAt(const RigidBody<Dim>& body, const char* wh
 
 template <int Dim>
 Contact<Dim>::Contact(ContactSystem<Dim>& system, const Beginning<Dim>& step)
-        : system_(system), tolerance_(1e-9 * step.grid.cellSize), isRing_(step.grid.axisymmetric), cloud_(step.cloud), basis_(step.basis), grid_(step.grid)
+        : system_(system)
+        , tolerance_(1e-9 * step.grid.cellSize)
+        , isRing_(step.grid.axisymmetric)
+        , cloud_(step.cloud)
+        , basis_(step.basis)
+        , grid_(step.grid)
+        , division_(step.division)
 {
 	system.acting = this;
-	near_         = nearPoints(system.bodies, step.cloud, step.basis, step.grid);
-	for (const NearPoint& near : near_) {
-		const auto& body = system.bodies[near.body];
-		if (body.isNew && body.proximity(body.begin, cloud_.position[near.point], near.side).gap < 0) // of a two-sided surface it never is
-			obstacle_ = textAt(body, " has the middle of a material point inside of it", cloud_.position[near.point]);
-		addCorners(near, step);
+	find(step);
+	for (int i = 0; i < int(near_.size()); ++i) {
+		const auto&    body   = system.bodies[near_[i].body];
+		const Vec<Dim> centre = near_[i].domain.centre();
+		if (body.isNew && body.proximity(body.begin, centre, near_[i].side).gap < 0) // of a two-sided surface it never is
+			obstacle_ = textAt(body, " has the middle of a material point inside of it", centre);
+		addCorners(i);
 	}
 	std::sort(corners_.begin(), corners_.end(), [](const Corner& a, const Corner& b) {
 		return std::tie(a.point, a.corner, a.body) < std::tie(b.point, b.corner, b.body);
@@ -53,35 +52,51 @@ Contact<Dim>::Contact(ContactSystem<Dim>& system, const Beginning<Dim>& step)
 		isSymmetric_ = isSymmetric_ && (corner.law.friction == 0 || corner.law.cap == 0);
 }
 
-template <int Dim> void Contact<Dim>::addCorners(const NearPoint& near, const Beginning<Dim>& step)
+template <int Dim> void Contact<Dim>::find(const Beginning<Dim>& step)
 {
+	for (const auto& [body, point, side] : nearPoints(system_.bodies, cloud_, basis_, grid_)) {
+		if (division_ && point >= division_->own()) continue; // the process that has it tells of it
+		const auto [volume, young] = step.stiffnessOf(point);
+		own_.push_back(point);
+		near_.push_back({ body, division_ ? int(division_->idOf(point)) : point, side, { cloud_, point }, volume, young });
+	}
+	if (division_) near_ = joined(*division_->processes, near_);
+}
+
+template <int Dim> std::vector<PointDomain<Dim>> Contact<Dim>::domainsNow() const
+{
+	std::vector<PointDomain<Dim>> domains;
+	for (const int p : own_)
+		domains.emplace_back(cloud_, p);
+	return division_ ? joined(*division_->processes, domains) : domains;
+}
+
+template <int Dim> void Contact<Dim>::addCorners(int number)
+{
+	const Near&  near  = near_[number];
 	const auto&  body  = system_.bodies[near.body];
 	const double reach = searchReach(body, grid_.size(grid_.refinement ? grid_.refinement->largest() : 0));
 	for (int c = 0; c < 1 << Dim; ++c) {
-		const Vec<Dim>       place = cornerOf(cloud_, near.point, c);
+		const Vec<Dim>       place = near.domain.corner(c);
 		const Proximity<Dim> at    = body.proximity(body.begin, place, near.side);
 		if (std::max(at.gap, at.beside) > reach) continue;
-		const auto attached = attach(place, step.basis, step.grid);
+		const auto attached = attach(place, basis_, grid_);
 		if (!attached) continue; // behind a wall
 		const auto*    record   = recordOf(system_.records, { near.point, c, near.body });
 		const double   offset   = record ? record->offset : body.isNew && at.beside < 0 ? std::min(0., at.gap) : 0;
 		const Vec<Dim> friction = record ? record->friction : Vec<Dim>(Vec<Dim>::Zero());
-		const auto     law      = lawOf(body, near, place, at.normal, step);
-		corners_.push_back({ near.point, c, near.body, near.side, place, offset, friction, law, *attached });
+		corners_.push_back({ near.point, c, near.body, near.side, number, place, offset, friction, lawOf(body, near, place, at.normal), *attached });
 	}
 }
 
 /// The area of a corner is its share of the domain's outline as seen along the normal, in axisymmetry of the ring through the corner.
-template <int Dim>
-ContactLaw<Dim> Contact<Dim>::lawOf(
-        const RigidBody<Dim>& body, const NearPoint& near, const Vec<Dim>& place, const Vec<Dim>& normal, const Beginning<Dim>& step) const
+template <int Dim> ContactLaw<Dim> Contact<Dim>::lawOf(const RigidBody<Dim>& body, const Near& near, const Vec<Dim>& place, const Vec<Dim>& normal) const
 {
-	const auto [volume, young] = step.stiffnessOf(near.point);
-	double area                = 0;
+	double area = 0;
 	for (int a = 0; a < Dim; ++a)
-		area += std::abs(normal[a]) * volume / (2 * cloud_.halfSize[near.point][a]) / (1 << (Dim - 1));
-	if (isRing_) area *= std::max(0., place[0] / cloud_.position[near.point][0]);
-	const double penalty = body.stiffness * young * area / grid_.cellSize;
+		area += std::abs(normal[a]) * near.volume / (2 * near.domain.halfSize[a]) / (1 << (Dim - 1));
+	if (isRing_) area *= std::max(0., place[0] / near.domain.position[0]);
+	const double penalty = body.stiffness * near.young * area / grid_.cellSize;
 	return { penalty, penalty / slipSoftness, body.friction, body.adhesion * area };
 }
 
@@ -167,7 +182,7 @@ template <int Dim> std::string Contact<Dim>::refusal(const Eigen::VectorXd& d) c
 {
 	std::string found;
 	forTouching(d, [&](const Corner& corner, const Vec<Dim>& x, double gap, const Touch<Dim>& touched) {
-		if (gap < -2 * touched.normal.cwiseAbs().dot(cloud_.halfSize[corner.point]))
+		if (gap < -2 * touched.normal.cwiseAbs().dot(near_[corner.near].domain.half()))
 			found = textAt(system_.bodies[corner.body], " would get a whole material point inside of it", x);
 	});
 	for (const Corner& corner : corners_) {
@@ -175,12 +190,13 @@ template <int Dim> std::string Contact<Dim>::refusal(const Eigen::VectorXd& d) c
 		const Vec<Dim> x    = corner.place + corner.attached.displacement(d);
 		if (body.isCrossed(corner.place, x)) found = textAt(body, " would let soil through, as it moves too far in a step for its thickness", x);
 	}
-	for (const NearPoint& near : near_) {
+	for (const Near& near : near_) {
 		const auto& body = system_.bodies[near.body];
 		if (!body.shape.isTwoSided) continue;
-		const auto centre = attach(cloud_.position[near.point], basis_, grid_);
+		const Vec<Dim> first  = near.domain.centre();
+		const auto     centre = attach(first, basis_, grid_);
 		if (!centre) continue;
-		const Vec<Dim>       x  = cloud_.position[near.point] + centre->displacement(d);
+		const Vec<Dim>       x  = first + centre->displacement(d);
 		const Proximity<Dim> at = body.proximity(body.end, x, near.side);
 		if (at.gap < 0 && at.beside < 0) found = textAt(body, " would get the middle of a material point on its other side", x);
 	}
@@ -209,11 +225,12 @@ template <int Dim> ContactLoad Contact<Dim>::loadOn(const Vec<Dim>& owner, const
 template <int Dim> void Contact<Dim>::commit(const Eigen::VectorXd& d)
 {
 	// Domains have followed the stretch of their points: a corner keeps the gap that the soil has there
+	const auto                      domains = domainsNow();
 	std::vector<ContactRecord<Dim>> records;
 	for (const Corner& corner : corners_) {
 		const auto&  body = system_.bodies[corner.body];
 		const double gap  = approach(corner, corner.place + corner.attached.displacement(d)).at.gap;
-		const double anew = body.proximity(body.end, cornerOf(cloud_, corner.point, corner.corner), corner.side).gap;
+		const double anew = body.proximity(body.end, domains[corner.near].corner(corner.corner), corner.side).gap;
 		records.push_back({ corner.point, corner.corner, corner.body, anew - gap });
 	}
 	system_.loads.assign(system_.owners.size(), {});

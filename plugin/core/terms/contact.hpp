@@ -10,7 +10,7 @@ namespace gimpm {
 
 /// A corner of a point's domain that touches a body at the end of a step that was accepted, or overlapped it when the body came.
 template <int Dim> struct ContactRecord {
-	int      point, corner, body; ///< bit a of the corner set: upper along axis a
+	int      point, corner, body; ///< number in the cloud, or id where points are divided; bit a of the corner set: upper along axis a
 	double   offset  = 0;         ///< how much farther the corner is from the body than the soil that it stands for [m]
 	bool     touches = false, slips = false;
 	double   gap      = 0;                                           ///< the offset taken off, < 0 by the penalty [m]
@@ -37,13 +37,34 @@ template <int Dim> struct ContactSystem {
 	const Term<Dim>*                acting {};  ///< the term of the step that is being made
 };
 
+/// Of a material point. Numbers only, to be told to other processes.
+template <int Dim> struct PointDomain {
+	std::array<double, Dim> position, halfSize;
+
+	PointDomain() = default;
+	PointDomain(const PointCloud<Dim>& cloud, int p)
+	{
+		std::copy_n(cloud.position[p].data(), Dim, position.data());
+		std::copy_n(cloud.halfSize[p].data(), Dim, halfSize.data());
+	}
+	Vec<Dim> centre() const { return Eigen::Map<const Vec<Dim>>(position.data()); }
+	Vec<Dim> half() const { return Eigen::Map<const Vec<Dim>>(halfSize.data()); }
+	Vec<Dim> corner(int bits) const
+	{
+		Vec<Dim> x = centre();
+		for (int a = 0; a < Dim; ++a)
+			x[a] += (bits >> a & 1 ? 1 : -1) * halfSize[a];
+		return x;
+	}
+};
+
 /// The penalty on the gap over that on the slip. With 20 a place slides after mu p h / (stiffness / 20 E). Blocks that are sheared to and fro by a plate, friction .3 to 4,
 /// take 5 solves a step; with 2 it is 8, and with 50 4.5.
 constexpr double slipSoftness = 20;
 
 /// Corners of the domains against the surfaces of the bodies. Corners move with the linear functions of the grid. The penalty on the gap g is a
 /// pressure of stiffness * E g / h, with Young's modulus E of the point and h of the smallest cells, over the corner's share of the domain's surface; Only
-/// prescribed motion of the bodies is known here.
+/// prescribed motion of the bodies is known here. Where points are divided among processes, each finds those of its own that are near, and all know the corners of all of them.
 template <int Dim> class Contact : public Term<Dim> {
 public:
 	/// The records and loads of the system are written in commit(). What add() adds has the weight of the system.
@@ -61,31 +82,41 @@ public:
 	void                        commit(const Eigen::VectorXd& d) override;
 
 private:
+	/// A point near a body, whichever process has it.
+	struct Near {
+		int              body, point, side; ///< `point` as in the records
+		PointDomain<Dim> domain;            ///< at the start of the step
+		double           volume, young;
+	};
 	/// A corner near a body.
 	struct Corner {
-		int             point, corner, body, side;
-		Vec<Dim>        place; ///< at the start of the step
+		int             point, corner, body, side, near; ///< near: number in near_
+		Vec<Dim>        place;                           ///< at the start of the step
 		double          offset;
 		Vec<Dim>        friction;
 		ContactLaw<Dim> law;
 		Attachment<Dim> attached;
 	};
 
-	void                    addCorners(const NearPoint&, const Beginning<Dim>&);
-	ContactLaw<Dim>         lawOf(const RigidBody<Dim>&, const NearPoint&, const Vec<Dim>& place, const Vec<Dim>& normal, const Beginning<Dim>&) const;
-	Approach<Dim>           approach(const Corner&, const Vec<Dim>& x) const;
-	template <class F> void forTouching(const Eigen::VectorXd& d, F&& f) const; // f(corner, its place, gap, touch)
-	ContactLoad             loadOn(const Vec<Dim>& owner, const Corner&, const Vec<Dim>& place, const Touch<Dim>&) const;
+	void                          find(const Beginning<Dim>&);
+	void                          addCorners(int near);
+	ContactLaw<Dim>               lawOf(const RigidBody<Dim>&, const Near&, const Vec<Dim>& place, const Vec<Dim>& normal) const;
+	Approach<Dim>                 approach(const Corner&, const Vec<Dim>& x) const;
+	template <class F> void       forTouching(const Eigen::VectorXd& d, F&& f) const; // f(corner, its place, gap, touch)
+	std::vector<PointDomain<Dim>> domainsNow() const;                                 // by number in near_
+	ContactLoad                   loadOn(const Vec<Dim>& owner, const Corner&, const Vec<Dim>& place, const Touch<Dim>&) const;
 
 	ContactSystem<Dim>&    system_;
 	double                 tolerance_; // of a gap that counts as touching [m]
 	bool                   isRing_, isSymmetric_ = true;
-	std::vector<NearPoint> near_;
+	std::vector<int>       own_;     // points of the cloud that are near, of this process
+	std::vector<Near>      near_;    // in the order of own_, one process after the other
 	std::vector<Corner>    corners_; // by point, corner and body
 	std::string            obstacle_;
 	const PointCloud<Dim>& cloud_;
 	const CloudBasis<Dim>& basis_;
 	const Grid<Dim>&       grid_;
+	const Division*        division_; // null: all points are here
 };
 
 } // namespace gimpm

@@ -17,7 +17,7 @@ public:
 	/// Adds the force at v, C times `slope`, which is dv / dd [1/s], and sizes.
 	virtual void add(const Eigen::VectorXd& v, double slope, const TermSum<Dim>&) const = 0;
 
-	/// Adds the force at the velocities with which the step begins.
+	/// Adds the force at the velocities with which the step begins; where points are divided it is right at the nodes of this process, as that of add().
 	virtual void addBefore(const Eigen::VectorXd& v, Eigen::VectorXd& force) const = 0;
 
 	/// Adds C where it is diagonal, by degree of freedom [N s/m]. False: it is not.
@@ -35,12 +35,13 @@ public:
 	virtual void commit(const Eigen::VectorXd& d, const Eigen::VectorXd& before, const Eigen::VectorXd& now) = 0;
 
 protected:
-	/// That the forces of the step have taken, by the trapezoidal rule [J].
-	double workTaken(const Eigen::VectorXd& d, const Eigen::VectorXd& before, const Eigen::VectorXd& now) const
+	/// That the forces of the step have taken, by the trapezoidal rule [J]; `divided`: the nodes at which they are right in this process, null: at all.
+	double workTaken(const Eigen::VectorXd& d, const Eigen::VectorXd& before, const Eigen::VectorXd& now, const NodeShare* divided = nullptr) const
 	{
 		Eigen::VectorXd twice = Eigen::VectorXd::Zero(d.size());
 		addBefore(before, twice);
 		add(now, 0, { twice });
+		if (divided) divided->complete(twice);
 		return twice.dot(d) / 2;
 	}
 };

@@ -37,6 +37,8 @@ private:
 	bool isHeld(Eigen::Index dof) const { return dofs_.number[dof] < 0; }
 
 	Motion<Dim>&                               motion_;
+	const NodeShare*                           share_; // null: this process has all points
+	const MotionOfCopies<Dim>                  copies_;
 	const CloudBasis<Dim>&                     basis_;
 	const FreeDofs&                            dofs_;
 	const std::vector<GhostFace<Dim>>&         faces_;

@@ -9,12 +9,15 @@ namespace gimpm {
 template <int Dim>
 Inertia<Dim>::Inertia(Motion<Dim>& motion, const Beginning<Dim>& step)
         : motion_(motion)
+        , division_(step.division)
+        , share_(step.division ? step.share : nullptr)
+        , copies_(motion, step.division)
         , basis_(step.basis)
         , dofs_(step.dofs)
         , prescribed_(step.prescribed)
         , faces_(step.faces)
         , h_(step.grid.cellSize)
-        , mass_(step.basis, motion.mass, massFaces(motion, step), step.grid.cellSize, looseOf(motion, step))
+        , mass_(massMatrix(motion, step))
         , nodal_(mass_)
         , iterates_(motion.ghostMass > 0)
 {
@@ -31,11 +34,11 @@ Inertia<Dim>::Inertia(Motion<Dim>& motion, const Beginning<Dim>& step)
 template <int Dim> void Inertia<Dim>::findStart(const Beginning<Dim>& step)
 {
 	const bool isDriven = motion_.scheme.dependsOnStart();
-	const bool begins   = std::all_of(motion_.acceleration.begin(), motion_.acceleration.end(), [](const Vec<Dim>& a) { return a.isZero(0); });
-	findVelocity(isDriven && !begins);
+	const bool isFirst  = begins(motion_, division_);
+	findVelocity(isDriven && !isFirst);
 	if (!isDriven) return;
 	const Eigen::VectorXd all = imbalanceOf(step), contact = ofContact(nullptr);
-	if (begins) solve({ { all, dofs_, expected_ } });
+	if (isFirst) solve({ { all, dofs_, expected_ } });
 	acceleration_ = expected_;
 	if (!contact.isZero(0)) acceleration_ -= solved(contact);
 	imbalance_ = all - contact;
@@ -54,6 +57,7 @@ template <int Dim> Eigen::VectorXd Inertia<Dim>::imbalanceOf(const Beginning<Dim
 	Eigen::VectorXd damping = Eigen::VectorXd::Zero(others.size());
 	for (const auto& each : damping_)
 		each->addBefore(velocity_, damping);
+	if (share_) share_->complete(damping);
 	return others - damping;
 }
 
@@ -61,8 +65,8 @@ template <int Dim> Eigen::VectorXd Inertia<Dim>::imbalanceOf(const Beginning<Dim
 template <int Dim> void Inertia<Dim>::findVelocity(bool withAcceleration)
 {
 	const double          roundOff = motion_.exactness;
-	const Eigen::VectorXd momentum = weighedAtNodes(basis_, motion_.mass, motion_.velocity);
-	const Eigen::VectorXd carried  = withAcceleration ? weighedAtNodes(basis_, motion_.mass, motion_.acceleration) : Eigen::VectorXd();
+	const Eigen::VectorXd momentum = weighedAtNodes(basis_, motion_.mass, motion_.velocity, share_);
+	const Eigen::VectorXd carried  = withAcceleration ? weighedAtNodes(basis_, motion_.mass, motion_.acceleration, share_) : Eigen::VectorXd();
 	const FreeDofs        all      = allFree(momentum.size());
 	const bool            together = iterates_ && dofs_.count < all.count;
 	Eigen::VectorXd       before   = Eigen::VectorXd::Zero(momentum.size());
@@ -237,6 +241,7 @@ template <int Dim> void Inertia<Dim>::commit(const Eigen::VectorXd& d)
 	const Eigen::VectorXd end = others + contact, growth = jump_ + T * ((1 - gamma) * acceleration_ + gamma * others + contact);
 	Eigen::VectorXd       ghost = Eigen::VectorXd::Zero(d.size());
 	addGhostForce(faces_, h_, d, ghost);
+	if (share_) share_->complete(ghost);
 	motion_.impactWork           = energyOfBlow(nodal_, velocity_, blow_, jump_, prescribed_ / T);
 	motion_.gridWork             = (1 - gamma) * d.dot(neglected_);
 	const Eigen::VectorXd looked = velocityAt(d);
@@ -251,8 +256,9 @@ template <int Dim> void Inertia<Dim>::commit(const Eigen::VectorXd& d)
 		motion_.velocity[p] += gained;
 		ofPoints[p] = motion_.mass[p] * gained.squaredNorm();
 	});
+	const double gained = std::accumulate(ofPoints.begin(), division_ ? ofPoints.begin() + division_->own() : ofPoints.end(), 0.);
 	// the force of the ghost stiffness begins at zero in each step; points do not take over what the nodes change in the ghost mass
-	motion_.ghostWork = gamma * d.dot(ghost) + (growth.dot(nodal_ * growth) - std::accumulate(ofPoints.begin(), ofPoints.end(), 0.)) / 2;
+	motion_.ghostWork = gamma * d.dot(ghost) + (growth.dot(nodal_ * growth) - (division_ ? division_->sum(gained) : gained)) / 2;
 }
 
 template class Inertia<2>;

@@ -42,6 +42,9 @@ private:
 	bool            isHeld(Eigen::Index dof) const { return dofs_.number[dof] < 0; }
 
 	Motion<Dim>&                               motion_;
+	const Division*                            division_; // null: this process has all points
+	const NodeShare*                           share_;    // null there
+	const MotionOfCopies<Dim>                  copies_;
 	const CloudBasis<Dim>&                     basis_;
 	const FreeDofs&                            dofs_;
 	const Eigen::VectorXd&                     prescribed_;

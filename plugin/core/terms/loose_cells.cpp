@@ -44,6 +44,14 @@ template <int Dim> std::vector<char> atEdge(const CloudBasis<Dim>& basis, const 
 	return isAt;
 }
 
+/// Of each cell by the process that has it.
+template <int Dim> void complete(std::vector<char>& isKnown, const CloudBasis<Dim>& basis, const Division& division)
+{
+	std::vector<double> ofCells(isKnown.begin(), isKnown.end());
+	division.processes->gather(ofCells.data(), division.startsAmong(basis.cells).data());
+	std::copy(ofCells.begin(), ofCells.end(), isKnown.begin());
+}
+
 /// Across so many faces.
 void spread(std::vector<char>& isKnown, const CellPairs& pairs, int reach)
 {
@@ -88,7 +96,8 @@ void addTo(std::vector<Filling<Dim>>& fillings, const std::vector<int>& slot, co
 
 template <int Dim>
 std::vector<LooseCell<Dim>> looseCells(
-        const CloudBasis<Dim>& basis, const std::vector<double>& masses, const std::vector<GhostFace<Dim>>& faces, const Grid<Dim>& grid, int reach)
+        const CloudBasis<Dim>& basis, const std::vector<double>& masses, const std::vector<GhostFace<Dim>>& faces, const Grid<Dim>& grid, int reach,
+        const Division* division)
 {
 	const auto              pairs = cellPairs(faces, basis, grid);
 	const std::vector<char> isAt  = atEdge(basis, pairs, grid);
@@ -104,6 +113,7 @@ std::vector<LooseCell<Dim>> looseCells(
 	std::vector<char> isKnown(slot.size(), true);
 	for (std::size_t c = 0; c < slot.size(); ++c)
 		if (isAt[c]) isKnown[c] = fillings[slot[c]].determines();
+	if (division) complete(isKnown, basis, *division);
 	spread(isKnown, pairs, reach);
 	std::vector<LooseCell<Dim>> loose;
 	for (std::size_t c = 0; c < slot.size(); ++c)
@@ -111,7 +121,11 @@ std::vector<LooseCell<Dim>> looseCells(
 	return loose;
 }
 
-template std::vector<LooseCell<2>> looseCells(const CloudBasis<2>&, const std::vector<double>&, const std::vector<GhostFace<2>>&, const Grid<2>&, int);
-template std::vector<LooseCell<3>> looseCells(const CloudBasis<3>&, const std::vector<double>&, const std::vector<GhostFace<3>>&, const Grid<3>&, int);
+#define GIMPM_INSTANTIATE(Dim)                                                                                                                                 \
+	template std::vector<LooseCell<Dim>> looseCells(                                                                                                       \
+	        const CloudBasis<Dim>&, const std::vector<double>&, const std::vector<GhostFace<Dim>>&, const Grid<Dim>&, int, const Division*);
+GIMPM_INSTANTIATE(2)
+GIMPM_INSTANTIATE(3)
+#undef GIMPM_INSTANTIATE
 
 } // namespace gimpm

@@ -2,6 +2,7 @@
 #include "core/terms/mass_matrix.hpp"
 #include "core/grid/point_nodes.hpp"
 #include <algorithm>
+#include <cstring>
 
 namespace gimpm {
 namespace {
@@ -56,6 +57,31 @@ template <int Dim> void MassMatrix<Dim>::addLoose(const LooseCell<Dim>& cell, do
 	for (int a = 0; a < n; ++a)
 		for (int b = a; b < n; ++b)
 			add(cell.node[a], cell.node[b], codeOf(corners, b) - codeOf(corners, a), (a == b) * m - m / n);
+}
+
+/// Values, and which there are, a bit for each code.
+template <int Dim> void MassMatrix<Dim>::complete(const NodeShare& share, const std::vector<Key>& nodes)
+{
+	std::vector<int> start(share.start);
+	for (int& row : start)
+		row *= codes;
+	share.processes.gather(value_.data(), start.data());
+	Eigen::VectorXd bits(nodes.size()); // they are told as they are
+	for (int a = share.first(); a < share.last(); ++a) {
+		std::uint64_t ofNode = 0;
+		for (int code = 0; code < codes; ++code)
+			ofNode |= std::uint64_t(neighbour_[std::size_t(a) * codes + code] >= 0) << code;
+		std::memcpy(&bits[a], &ofNode, sizeof ofNode);
+	}
+	share.complete(bits);
+	NodeMatrix<Dim> places; // without values
+	places.reset(nodes, true, {}, { 0, 0 });
+	for (int a = 0; a < int(nodes.size()); ++a) {
+		std::uint64_t ofNode;
+		std::memcpy(&ofNode, &bits[a], sizeof ofNode);
+		for (int code = 0; code < codes; ++code)
+			neighbour_[std::size_t(a) * codes + code] = ofNode >> code & 1 ? places.neighbour(a, code) : -1;
+	}
 }
 
 template <int Dim> void MassMatrix<Dim>::mark(NodeMatrix<Dim>& K) const

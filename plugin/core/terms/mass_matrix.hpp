@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The mass of the points on the nodes, consistent with the basis functions, with ghost mass.
 #pragma once
+#include "core/solvers/node_share.hpp"
 #include "core/solvers/reduce.hpp"
 #include "core/terms/loose_cells.hpp"
 
@@ -17,6 +18,9 @@ public:
 	MassMatrix(
 	        const CloudBasis<Dim>&, const std::vector<double>& masses, const std::vector<GhostFace<Dim>>&, double h,
 	        const std::vector<LooseCell<Dim>>& loose = {}, double share = usualLooseShare);
+
+	/// Where points are divided each process has the rows of its own nodes, and then all rows of all.
+	void complete(const NodeShare&, const std::vector<Key>& nodes);
 
 	int nodes() const { return int(neighbour_.size()) / codes; }
 

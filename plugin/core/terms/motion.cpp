@@ -2,8 +2,30 @@
 #include "core/terms/motion.hpp"
 #include "core/grid/point_nodes.hpp"
 #include "core/terms/internal_force.hpp"
+#include <algorithm>
 
 namespace gimpm {
+
+template <int Dim> MotionOfCopies<Dim>::MotionOfCopies(Motion<Dim>& motion, const Division* division) : motion_(motion), division_(division)
+{
+	if (!division) return;
+	motion.acceleration.resize(division->own(), Vec<Dim>::Zero());
+	division->extend(motion.mass), division->extend(motion.velocity), division->extend(motion.acceleration);
+}
+
+template <int Dim> MotionOfCopies<Dim>::~MotionOfCopies()
+{
+	if (!division_) return;
+	motion_.mass.resize(division_->own()), motion_.velocity.resize(division_->own()), motion_.acceleration.resize(division_->own());
+}
+
+template <int Dim> bool begins(const Motion<Dim>& motion, const Division* division)
+{
+	const auto&  all    = motion.acceleration;
+	std::int64_t isZero = std::all_of(all.begin(), all.end(), [](const Vec<Dim>& a) { return a.isZero(0); });
+	if (division) division->processes->smallest(&isZero, 1);
+	return isZero;
+}
 
 template <int Dim> std::vector<GhostFace<Dim>> massFaces(const Motion<Dim>& motion, const Beginning<Dim>& step)
 {
@@ -20,16 +42,25 @@ template <int Dim> std::vector<GhostFace<Dim>> massFaces(const Motion<Dim>& moti
 template <int Dim> std::vector<LooseCell<Dim>> looseOf(const Motion<Dim>& motion, const Beginning<Dim>& step, int reach)
 {
 	if (motion.ghostMass == 0) return {};
-	return looseCells(step.basis, motion.mass, step.faces, step.grid, reach);
+	return looseCells(step.basis, motion.mass, step.faces, step.grid, reach, step.division);
 }
 
-template <int Dim> Eigen::VectorXd weighedAtNodes(const CloudBasis<Dim>& basis, const std::vector<double>& mass, const std::vector<Vec<Dim>>& ofPoints)
+template <int Dim> MassMatrix<Dim> massMatrix(const Motion<Dim>& motion, const Beginning<Dim>& step)
+{
+	MassMatrix<Dim> M(step.basis, motion.mass, massFaces(motion, step), step.grid.cellSize, looseOf(motion, step));
+	if (step.division) M.complete(*step.share, step.basis.nodes);
+	return M;
+}
+
+template <int Dim>
+Eigen::VectorXd weighedAtNodes(const CloudBasis<Dim>& basis, const std::vector<double>& mass, const std::vector<Vec<Dim>>& ofPoints, const NodeShare* divided)
 {
 	std::vector<Vec<Dim>> weighted(ofPoints.size());
 	for (std::size_t p = 0; p < weighted.size(); ++p)
 		weighted[p] = mass[p] * ofPoints[p];
 	Eigen::VectorXd sum = Eigen::VectorXd::Zero(Dim * Eigen::Index(basis.nodes.size()));
 	addPointForces(basis, weighted, sum);
+	if (divided) divided->complete(sum);
 	return sum;
 }
 
@@ -48,8 +79,11 @@ Eigen::VectorXd ofHeld(const Eigen::VectorXd& otherwise, OfBase<Dim> value, cons
 #define GIMPM_INSTANTIATE(Dim)                                                                                                                                 \
 	template std::vector<LooseCell<Dim>> looseOf(const Motion<Dim>&, const Beginning<Dim>&, int);                                                          \
 	template std::vector<GhostFace<Dim>> massFaces(const Motion<Dim>&, const Beginning<Dim>&);                                                             \
-	template Eigen::VectorXd             weighedAtNodes(const CloudBasis<Dim>&, const std::vector<double>&, const std::vector<Vec<Dim>>&);                 \
-	template Eigen::VectorXd             ofHeld(const Eigen::VectorXd&, OfBase<Dim>, const std::vector<MovingBase<Dim>>&, const Beginning<Dim>&);
+	template MassMatrix<Dim>             massMatrix(const Motion<Dim>&, const Beginning<Dim>&);                                                            \
+	template bool                        begins(const Motion<Dim>&, const Division*);                                                                      \
+	template class MotionOfCopies<Dim>;                                                                                                                    \
+	template Eigen::VectorXd weighedAtNodes(const CloudBasis<Dim>&, const std::vector<double>&, const std::vector<Vec<Dim>>&, const NodeShare*);           \
+	template Eigen::VectorXd ofHeld(const Eigen::VectorXd&, OfBase<Dim>, const std::vector<MovingBase<Dim>>&, const Beginning<Dim>&);
 GIMPM_INSTANTIATE(2)
 GIMPM_INSTANTIATE(3)
 #undef GIMPM_INSTANTIATE

@@ -33,11 +33,16 @@ template <int Dim, class F> void forDofs(int side, std::size_t sides, int nodes,
 template <int Dim>
 NodalMass<Dim>::NodalMass(
         const CloudBasis<Dim>& basis, const std::vector<double>& masses, const std::vector<GhostFace<Dim>>& faces, double h,
-        const std::vector<LooseCell<Dim>>& loose)
+        const std::vector<LooseCell<Dim>>& loose, const NodeShare* divided)
 {
-	if (faces.empty()) lumped_ = lumped(basis, masses);
-	else
-		*this = NodalMass(MassMatrix<Dim>(basis, masses, faces, h, loose, lumpedShare));
+	if (faces.empty()) {
+		lumped_ = lumped(basis, masses);
+		if (divided) divided->processes.gather(lumped_.data(), divided->start.data());
+		return;
+	}
+	MassMatrix<Dim> mass(basis, masses, faces, h, loose, lumpedShare);
+	if (divided) mass.complete(*divided, basis.nodes);
+	*this = NodalMass(mass);
 }
 
 template <int Dim> NodalMass<Dim>::NodalMass(const MassMatrix<Dim>& mass) : lumped_(mass.nodes(), 0)

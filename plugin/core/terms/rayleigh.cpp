@@ -8,15 +8,19 @@ namespace gimpm {
 template <int Dim>
 RayleighDamping<Dim>::RayleighDamping(
         Rayleigh& settings, const std::vector<Material>& materials, bool fBar, const std::vector<double>& masses, const Beginning<Dim>& step)
-        : settings_(settings)
+        : settings_(settings), share_(step.division ? step.share : nullptr)
 {
 	const auto points = stepPoints(step.cloud, materials, step.basis, fBar);
-	C_.reset(step.basis.nodes, points.isSymmetric, step.grid);
+	if (share_) C_.reset(step.basis.nodes, points.isSymmetric, step.grid, { share_->first(), share_->last() });
+	else
+		C_.reset(step.basis.nodes, points.isSymmetric, step.grid);
 	markPointPattern(step.basis, C_);
 	if (settings.beta > 0) {
-		const Eigen::VectorXd still = Eigen::VectorXd::Zero(Dim * step.basis.nodes.size());
-		Eigen::VectorXd       force = still;
-		if (addInternalForce<Dim>(step.basis, points, materials, still, { force, &C_ })) obstacle_ = "a point has no stiffness to be damped by";
+		const Eigen::VectorXd still   = Eigen::VectorXd::Zero(Dim * step.basis.nodes.size());
+		Eigen::VectorXd       force   = still;
+		std::int64_t          isThere = !addInternalForce<Dim>(step.basis, points, materials, still, { force, &C_ });
+		if (share_) share_->processes.smallest(&isThere, 1);
+		if (!isThere) obstacle_ = "a point has no stiffness to be damped by";
 		C_.multiplyBy(settings.beta);
 	}
 	if (settings.alpha > 0) MassMatrix<Dim>(step.basis, masses, {}, step.grid.cellSize).addTo(C_, settings.alpha);
@@ -46,7 +50,7 @@ template <int Dim> void RayleighDamping<Dim>::add(const Eigen::VectorXd& v, doub
 
 template <int Dim> void RayleighDamping<Dim>::commit(const Eigen::VectorXd& d, const Eigen::VectorXd& before, const Eigen::VectorXd& now)
 {
-	settings_.work = this->workTaken(d, before, now);
+	settings_.work = this->workTaken(d, before, now, share_);
 }
 
 template class RayleighDamping<2>;

@@ -32,7 +32,8 @@ template <int Dim> Wall<Dim>::Wall(Surface<Dim> s, double cellSize) : surface(st
 }
 
 template <int Dim>
-WallForce<Dim>::WallForce(Wall<Dim>& wall, const CloudBasis<Dim>& basis, const PointStiffness& stiffnessOf, const Grid<Dim>& grid) : wall_(wall)
+WallForce<Dim>::WallForce(Wall<Dim>& wall, const CloudBasis<Dim>& basis, const PointStiffness& stiffnessOf, const Grid<Dim>& grid, const Division* division)
+        : wall_(wall)
 {
 	std::vector<char> isHeld(basis.cells.size(), 0);
 	std::vector<int>  cells;
@@ -46,7 +47,8 @@ WallForce<Dim>::WallForce(Wall<Dim>& wall, const CloudBasis<Dim>& basis, const P
 		cells.push_back(position(basis.cells, Grid<Dim>::key(grid.first(at->cell))));
 		isHeld[cells.back()] = 1;
 	}
-	const auto moduli = cellModuli(isHeld, basis, stiffnessOf, grid);
+	auto moduli = cellModuli(isHeld, basis, stiffnessOf, grid);
+	if (division) division->processes->gather(moduli.data(), division->startsAmong(basis.cells).data()); // who has a cell knows all points in it
 	for (std::size_t g = 0; g < grips_.size(); ++g)
 		grips_[g].stiffness = wall.penalty * moduli[cells[g]] / grid.cellSize;
 }

@@ -132,7 +132,9 @@ template <int Dim> void addTo(const TermSum<Dim>& sum, const WetPoint<Dim>& wet,
 
 } // namespace
 
-template <int Dim> WaterForce<Dim>::WaterForce(Water<Dim>& water, const Beginning<Dim>& step) : water_(water), basis_(step.basis), dofs_(step.dofs)
+template <int Dim>
+WaterForce<Dim>::WaterForce(Water<Dim>& water, const Beginning<Dim>& step)
+        : water_(water), basis_(step.basis), dofs_(step.dofs), share_(step.division ? step.share : nullptr)
 {
 	for (const int p : basis_.order) {
 		const double volume0 = step.cloud.volume0[p];
@@ -173,6 +175,14 @@ template <int Dim> void WaterForce<Dim>::addBefore(Eigen::VectorXd& force) const
 	});
 }
 
+template <int Dim> double WaterForce<Dim>::fromOutside(const Eigen::VectorXd& d) const
+{
+	Eigen::VectorXd force = Eigen::VectorXd::Zero(d.size());
+	add(d, { force });
+	complete(force);
+	return force.norm();
+}
+
 template <int Dim> void WaterForce<Dim>::commit(const Eigen::VectorXd& d)
 {
 	const bool      wets = water_.place != WaterPlace::outside, fillsWalls = water_.place != WaterPlace::pores;
@@ -181,6 +191,7 @@ template <int Dim> void WaterForce<Dim>::commit(const Eigen::VectorXd& d)
 		Eigen::VectorXd twice = onWalls;
 		addBefore(twice);
 		add(d, { twice });
+		complete(twice);
 		water_.work = -twice.dot(d) / 2;
 	}
 	water_.porePressure.assign(start_.size(), 0);
@@ -188,6 +199,7 @@ template <int Dim> void WaterForce<Dim>::commit(const Eigen::VectorXd& d)
 		if (wets) water_.porePressure[basis_.order[i]] = water_.factor * wet.p.value;
 		if (fillsWalls && !wet.isDry()) addTo<Dim>({ onWalls }, wet, -water_.factor);
 	});
+	complete(onWalls);
 	water_.onWalls.clear();
 	for (std::size_t n = 0; n < basis_.nodes.size() && fillsWalls; ++n) {
 		Vec<Dim> force = Vec<Dim>::Zero();

@@ -40,7 +40,7 @@ public:
 	std::optional<PointFailure> add(const Eigen::VectorXd& d, const TermSum<Dim>&) const override;
 	void                        addBefore(Eigen::VectorXd& force) const override;
 	bool                        isSymmetric() const override { return water_.place != WaterPlace::pores; }
-	double                      fromOutside(const Eigen::VectorXd& d) const override { return this->sizeOfForce(d); }
+	double                      fromOutside(const Eigen::VectorXd& d) const override;
 	void                        commit(const Eigen::VectorXd& d) override;
 
 private:
@@ -50,9 +50,16 @@ private:
 	};
 	template <class F> std::optional<PointFailure> forWetPoints(const WaterPressure<Dim>&, WaterPlace, const Eigen::VectorXd& d, F&&) const;
 
+	/// The sums over the points around nodes, where points are divided.
+	void complete(Eigen::VectorXd& nodal) const
+	{
+		if (share_) share_->complete(nodal);
+	}
+
 	Water<Dim>&            water_;
 	const CloudBasis<Dim>& basis_;
 	const FreeDofs&        dofs_;
+	const NodeShare*       share_; // null: all points are here
 	std::vector<Start>     start_; // in the order of the basis: the cloud goes on before commit()
 };
 

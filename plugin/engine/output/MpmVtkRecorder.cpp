@@ -280,7 +280,7 @@ void MpmVtkRecorder::write(const string& kind, const Moment& now, const MpmImpli
 	if (latest != written.rend() && latest->second == now.time) return;
 
 	const auto cells = kind == "points" ? pointData(*scene, engine, fieldsOfPoints, fields, sectors) : gridCells(kind, *scene, engine);
-	writeState(*cells, now.time, file, engine, { ascii, compress });
+	writeState(*cells, now.time, file, { ascii, compress });
 
 	auto       entries    = written;
 	const auto isReplaced = [&](const auto& entry) { // by a repeated step, or after O.resetTime()

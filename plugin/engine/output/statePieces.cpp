@@ -4,6 +4,7 @@
 #include "engine/solver/MpmImplicitEngine.hpp"
 #include "engine/solver/processes.hpp"
 #include "yade_api/value_lock.hpp"
+#include <filesystem>
 #include <vtkUnstructuredGrid.h>
 
 namespace yade {
@@ -51,16 +52,20 @@ void writeTogether(const MpmImplicitEngine& engine, const std::function<void()>&
 
 string stateFile(const string& kind, const string& path, const MpmImplicitEngine& engine)
 {
-	if (!isDivided(engine)) return path + ".vtu";
+	const bool isWhole = kind == "loads" || kind == "walls" || kind == "contacts"; // in every process
+	if (!isDivided(engine) || isWhole) return path + ".vtu";
 	if (kind == "points") return path + ".pvtu";
 	throw std::invalid_argument(
 	        "MpmVtkRecorder.recorders = '" + kind
-	        + "' does not go with MpmImplicitEngine.distributed yet, by which no process has all points: there is 'points'.");
+	        + "' does not go with MpmImplicitEngine.distributed yet, by which no process has all points: there are 'points', 'loads', 'walls' and 'contacts'.");
 }
 
-void writeState(vtkUnstructuredGrid& cells, Real time, const string& file, const MpmImplicitEngine& engine, VtkFormat format)
+void writeState(vtkUnstructuredGrid& cells, Real time, const string& file, VtkFormat format)
 {
-	if (!isDivided(engine)) return writeVtu(cells, time, file, format);
+	if (std::filesystem::path(file).extension() == ".vtu") {
+		if (isFirstProcess()) writeVtu(cells, time, file, format);
+		return;
+	}
 	const auto all = processes();
 	writeVtu(cells, time, pieceOf(file, all->rank()), format);
 	if (all->rank() == 0) writePvtu(cells, time, file, all->size());

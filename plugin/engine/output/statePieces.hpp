@@ -16,9 +16,9 @@ vector<const PointColumn*> fieldsOfAll(const MpmImplicitEngine&);
 // Calls write() in the first process, or where points are divided in all of them, which throw if one does.
 void writeTogether(const MpmImplicitEngine&, const std::function<void()>& write);
 
-// The path with its ending of what the .pvd lists, and the files: the .vtu, or the .pvtu and the piece of this process. std::invalid_argument for a kind of which
+// The path with its ending of what the .pvd lists, and the files: the .vtu of what every process has as a whole, or the .pvtu and the piece of this process. std::invalid_argument for a kind of which
 // no process has the whole.
 string stateFile(const string& kind, const string& path, const MpmImplicitEngine&);
-void   writeState(vtkUnstructuredGrid&, Real time, const string& file, const MpmImplicitEngine&, VtkFormat);
+void   writeState(vtkUnstructuredGrid&, Real time, const string& file, VtkFormat);
 
 } // namespace yade

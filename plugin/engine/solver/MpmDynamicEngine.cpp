@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "engine/solver/MpmDynamicEngine.hpp"
 #include "engine/points/MaterialPoints.hpp"
-#include "engine/solver/energies.hpp"
 #include "engine/solver/moving.hpp"
 
 namespace yade {
@@ -53,7 +52,6 @@ template <int Dim> void MpmDynamicEngine::makeMoving(Job<Dim>& job, const vector
 {
 	requireOnlyMover(points);
 	job.moving = std::make_shared<Moving<Dim>>(*this, job, points);
-	if (std::isnan(firstEnergy)) firstEnergy = energiesOf(points).total();
 }
 
 void MpmDynamicEngine::setMoving(Job<2>& job, const vector<MaterialPoint>& points) { makeMoving(job, points); }

@@ -11,6 +11,7 @@
 #include "engine/solver/processes.hpp"
 #include "engine/solver/progress.hpp"
 #include "engine/solver/requirements.hpp"
+#include "engine/solver/sameness.hpp"
 #include "engine/solver/step_errors.hpp"
 #include "engine/solver/walls.hpp"
 #include "yade_api/exceptions.hpp"
@@ -57,6 +58,7 @@ template <int Dim> void MpmImplicitEngine::step(Agreement& agreement)
 	{
 		const gimpm::Stopwatch watch(agreeing);
 		agreement.reach(*this, job.cloud, bool(job.model.division));
+		if (job.model.division) requireSameWater(*job.model.processes, *this);
 	}
 	if (job.model.processes) addTime(*timingDeltas, "agree", agreeing);
 	doubt(job);
@@ -82,8 +84,9 @@ template <int Dim> Job<Dim> MpmImplicitEngine::prepare(Agreement& agreement)
 		job.model.processes = processes();
 		takePoints(job, agreement);
 		(job.surfaceLoads = SurfaceLoads<Dim>(*this, job.model.grid)).join(job.model);
-		(job.waters = Waters<Dim>(*this, job.model.grid, job.cloud)).join(job.model);
-		(job.contacts = Contacts<Dim>(contacts, *scene, job.model.grid, points, job.begin, job.target)).join(job.model);
+		if (job.model.division && !water.empty()) agreement.meet(*this);
+		(job.waters = Waters<Dim>(*this, job.model.grid, job.cloud, job.model.division.get())).join(job.model);
+		(job.contacts = Contacts<Dim>(contacts, *scene, job.model.grid, points, bool(job.model.division), job.begin, job.target)).join(job.model);
 		setMoving(job, points); // inertia comes last
 	}
 	job.doubts = plausibility.look(*this, points, job.cloud, job.model, checking);

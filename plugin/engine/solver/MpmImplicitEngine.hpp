@@ -20,7 +20,7 @@ namespace yade {
 
 class Agreement;
 
-class MpmImplicitEngine : public Exposed<MpmImplicitEngine, PeriodicEngine>, public Loads, public RunResults, public Pieces {
+class MpmImplicitEngine : public Exposed<MpmImplicitEngine, PeriodicEngine>, public Loads, public RunResults {
 public:
 	shared_ptr<MpmGrid>            grid;
 	string                         basis = "gimp";
@@ -73,7 +73,6 @@ public:
 		  atLeast(0));
 		v("distributed", &E::distributed, 0,
 		  "Whether several processes (scripts/run -n) divide the material points among them, so that each holds its own in memory. Without effect in one process.");
-		Pieces::attributes(v);
 		results([&](auto name, auto member, const auto&, Told, unsigned flags, auto doc, auto validator) { v(name, member, flags, doc, validator); });
 	}
 	template <class C> static void python(C& c)
@@ -96,7 +95,7 @@ public:
 
 	// The scene that holds this engine in O.engines: the current one, or the one where it was made or seen last (O.switchScene()). For an
 	// engine that neither holds, the current one.
-	shared_ptr<Scene> ownScene();
+	shared_ptr<Scene> ownScene() const;
 
 protected:
 	virtual void setMoving(Job<2>&, const vector<MaterialPoint>&) { }
@@ -117,13 +116,13 @@ private:
 	void                            warn(const string&); // nothing if it is empty
 	void                            warnOfPoints(const string&);
 
-	PeriodicCounters            beforeActivation;
-	ProgressLine                progressLine;
-	Plausibility                plausibility;
-	Splitting                   splitting;
-	Distribution                distribution;
-	boost::weak_ptr<Factorable> home;   // the scene where it was made or seen last
-	gimpm::LinearSolver         solver; // keeps the symbolic analysis; results do not depend on it
+	PeriodicCounters                    beforeActivation;
+	ProgressLine                        progressLine;
+	Plausibility                        plausibility;
+	Splitting                           splitting;
+	Distribution                        distribution;
+	mutable boost::weak_ptr<Factorable> home;   // the scene where it was made or seen last
+	gimpm::LinearSolver                 solver; // keeps the symbolic analysis; results do not depend on it
 };
 
 } // namespace yade

@@ -17,7 +17,7 @@ namespace {
 
 	Vector3r placeOf(const HalvedDomain& domain, bool isUpper, int corner)
 	{
-		Vector3r place = domain.middle;
+		Vector3r place(domain.middle.data());
 		for (int a = 0; a < domain.dim; ++a) {
 			const Real sign = corner >> a & 1 ? 1 : -1;
 			place[a] += a == domain.axis ? domain.halfSize[a] / 2 * (sign + (isUpper ? 1 : -1)) : sign * domain.halfSize[a];

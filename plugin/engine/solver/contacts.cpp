@@ -96,8 +96,8 @@ void handOver(const vector<shared_ptr<MpmContact>>& contacts, Scene& scene)
 template <int Dim>
 Contacts<Dim>::Contacts(
         const vector<shared_ptr<MpmContact>>& contacts, const Scene& scene, const gimpm::Grid<Dim>& grid, const vector<MaterialPoint>& materialPoints,
-        Real begin, Real target)
-        : given(contacts), begin(begin), target(target), end(begin)
+        bool areDivided, Real begin, Real target)
+        : given(contacts), areDivided(areDivided), begin(begin), target(target), end(begin)
 {
 	if (contacts.empty()) return;
 	system    = boost::make_shared<gimpm::ContactSystem<Dim>>();
@@ -105,7 +105,7 @@ Contacts<Dim>::Contacts(
 	for (const auto& contact : contacts)
 		add(contact, scene, grid);
 	for (const MaterialPoint& point : materialPoints)
-		points.push_back(point.id);
+		if (!areDivided) points.push_back(point.id);
 	for (const auto& contact : contacts)
 		recall(*contact);
 	std::sort(system->records.begin(), system->records.end(), [](const auto& a, const auto& b) {
@@ -188,10 +188,9 @@ template <int Dim> void Contacts<Dim>::recall(const MpmContact& contact)
 	for (size_t i = 0; i < members.size(); ++i)
 		numbers[members[i].body->id] = int(i);
 	forRecords(contact.records, [&](const ContactRecordOfPoint& r) {
-		const auto point = std::lower_bound(points.begin(), points.end(), r.point);
-		const auto body  = numbers.find(r.body);
-		if (point == points.end() || *point != r.point || body == numbers.end()) return; // erased
-		const int  p        = int(point - points.begin());
+		const int  p    = numberOf(r.point);
+		const auto body = numbers.find(r.body);
+		if (p < 0 || body == numbers.end()) return; // erased
 		const auto friction = headOf<Dim>(r.friction), normal = headOf<Dim>(r.normal), place = headOf<Dim>(r.place);
 		system->records.push_back({ p, r.corner, body->second, r.offset, r.touches, r.slips, r.gap, r.pressure, friction, normal, place });
 	});
@@ -273,7 +272,7 @@ template <int Dim> void Contacts<Dim>::keepRecords() const
 	for (const auto& r : system->records) {
 		const Owner& owner = owners[system->bodies[r.body].owner];
 		MpmContact&  to    = *owner.contact;
-		ContactRecordOfPoint { points[r.point],
+		ContactRecordOfPoint { areDivided ? r.point : points[r.point],
 			               r.corner,
 			               members[r.body].body->id,
 			               r.offset,

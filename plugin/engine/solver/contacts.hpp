@@ -7,6 +7,7 @@
 #include "engine/points/MaterialPoints.hpp"
 #include "engine/solver/contact_halves.hpp"
 #include "yade_api/scene.hpp"
+#include <algorithm>
 #include <map>
 
 namespace yade {
@@ -21,7 +22,9 @@ template <int Dim> class Contacts {
 public:
 	Contacts() = default;
 	// For the load steps from one time to another. std::invalid_argument names what cannot be computed with.
-	Contacts(const vector<shared_ptr<MpmContact>>&, const Scene&, const gimpm::Grid<Dim>&, const vector<MaterialPoint>&, Real begin, Real target);
+	Contacts(
+	        const vector<shared_ptr<MpmContact>>&, const Scene&, const gimpm::Grid<Dim>&, const vector<MaterialPoint>&, bool areDivided, Real begin,
+	        Real target);
 
 	bool areThere() const { return bool(system); }
 
@@ -51,6 +54,14 @@ public:
 	void scatter(Real time);
 
 private:
+	// Of a point in the records of the system; -1: it has been erased.
+	int numberOf(Body::id_t id) const
+	{
+		if (areDivided) return id;
+		const auto point = std::lower_bound(points.begin(), points.end(), id);
+		return point == points.end() || *point != id ? -1 : int(point - points.begin());
+	}
+
 	// Who moves bodies: one of them alone, or a clump.
 	struct Owner {
 		shared_ptr<MpmContact> contact;
@@ -77,8 +88,8 @@ private:
 	vector<Owner>                         owners;
 	Places                                ownersById;
 	vector<Member>                        members; // as the system's bodies
-	vector<Body::id_t>                    points;  // ids
-	bool                                  yadeMoves = false, hasKept = false;
+	vector<Body::id_t>                    points;  // ids; none where they are divided, and the system knows them by their ids
+	bool                                  areDivided = false, yadeMoves = false, hasKept = false;
 	Real                                  begin = 0, target = 0, end = 0; // of the run; end: of the last step
 };
 

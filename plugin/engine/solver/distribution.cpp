@@ -5,6 +5,7 @@
 #include "engine/points/newPoints.hpp"
 #include "engine/solver/AtWork.hpp"
 #include "engine/solver/MpmImplicitEngine.hpp"
+#include "engine/solver/pieces.hpp"
 #include "engine/solver/processes.hpp"
 #include "engine/solver/sameness.hpp"
 #include "yade_api/python_lock.hpp"
@@ -76,7 +77,8 @@ std::shared_ptr<gimpm::Division> Distribution::divide(MpmImplicitEngine& engine,
 {
 	const auto         all        = processes();
 	Scene&             scene      = *engine.scene;
-	const size_t       own        = firstOfAll(points, engine.Pieces::bodies);
+	const Pieces       before     = Pieces::of(scene);
+	const size_t       own        = firstOfAll(points, before.bodies);
 	const auto         lowestCell = lowestCellIn<Dim>(engine);
 	vector<gimpm::Key> lowest;
 	for (const MaterialPoint& p : points)
@@ -100,7 +102,7 @@ std::shared_ptr<gimpm::Division> Distribution::divide(MpmImplicitEngine& engine,
 	for (const auto& parcel : gimpm::exchanged(*all, parcels))
 		unpackBodies(parcel, scene);
 	malloc_trim(0); // what has been erased, and what the step before has left in the heap of its own thread: a sixth of the peak
-	engine.Pieces::count = all->size(), engine.Pieces::number = all->rank(), engine.Pieces::bodies = int(scene.bodies->size());
+	Pieces::note(scene, all.get());
 	updateMaterialPoints(points, scene, engine.mask);
 	for (const MaterialPoint& p : points)
 		division->id.push_back(p.id);
@@ -137,37 +139,20 @@ MPM_INSTANTIATE(3)
 #undef MPM_INSTANTIATE
 
 namespace {
-	// With a name and its value, if the engine has it.
-	string whatIsRefused(const MpmImplicitEngine& engine)
+	bool isAlone(const MpmImplicitEngine& engine)
 	{
-		if (engine.isDynamic()) return engine.getClassName();
-		if (!engine.contacts.empty()) return "contacts";
-		if (!engine.loads.empty()) return "loads";
-		if (!engine.water.empty()) return "water";
-		if (engine.maxSplits > 0) return sentence("maxSplits = ", engine.maxSplits);
-		if (engine.newton->stepTolerance > 0) return sentence("newton.stepTolerance = ", engine.newton->stepTolerance);
-		if (!engine.grid->period.isZero(0)) return sentence("MpmGrid.period = (", engine.grid->period.transpose(), ")");
-		if (engine.grid->axisymmetric) return "MpmGrid.axisymmetric";
-		for (size_t b = 0; b < engine.boundaries.size(); ++b)
-			if (engine.boundaries[b]->surface) return sentence("boundaries[", b, "].surface");
-		for (const auto& other : engine.scene->engines)
-			if (other.get() != &engine && dynamic_cast<const MpmImplicitEngine*>(other.get()))
-				return "a second engine with material points in O.engines";
-		return "";
-	}
-
-	string whatIsRefused(const MaterialPoint& point, const Scene& scene)
-	{
-		if (point.materialIndex(scene) < 0) return "a material that is not in O.materials";
-		return "";
+		const auto& engines = engine.scene->engines;
+		return std::none_of(engines.begin(), engines.end(), [&](const auto& other) {
+			return other.get() != &engine && dynamic_cast<const MpmImplicitEngine*>(other.get());
+		});
 	}
 }
 
 void Distribution::requireWhole(const MpmImplicitEngine& engine)
 {
-	const auto  all   = processes();
-	const int   count = all ? all->size() : 1, number = all ? all->rank() : 0;
-	const auto& has = static_cast<const Pieces&>(engine);
+	const auto all   = processes();
+	const int  count = all ? all->size() : 1, number = all ? all->rank() : 0;
+	const auto has = Pieces::of(*engine.scene);
 	if (has.count == 0 || (has.count == count && has.number == number && engine.distributed)) return;
 	throw std::invalid_argument(sentence(
 	        engine.getClassName(), ": the scene has the material points of process ", has.number, " of ", has.count, ", and this is process ", number,
@@ -178,21 +163,23 @@ void Distribution::requireWhole(const MpmImplicitEngine& engine)
 void Distribution::requireDivisible(const MpmImplicitEngine& engine, const vector<MaterialPoint>& points)
 {
 	const string start = engine.getClassName() + ".distributed = True";
-	if (const string what = whatIsRefused(engine); !what.empty())
-		throw std::invalid_argument(sentence(start, " does not go with ", what, " yet; leave it out, and each process holds all points."));
+	if (!isAlone(engine))
+		throw std::invalid_argument(
+		        start + " does not go with a second engine with material points in O.engines; leave it out, and each process holds all points.");
 	for (const MaterialPoint& point : points)
-		if (const string what = whatIsRefused(point, *engine.scene); !what.empty())
-			throw std::invalid_argument(sentence("Body #", point.id, ": ", start, " does not go with ", what, " yet."));
+		if (point.materialIndex(*engine.scene) < 0)
+			throw std::invalid_argument(
+			        sentence("Body #", point.id, ": ", start, " needs materials that are in O.materials, which its own is not."));
 }
 
-bool isDivided(const MpmImplicitEngine& engine) { return engine.Pieces::count > 1; }
-
-bool isSceneDivided()
-{
-	for (const auto& engine : Singleton<Omega>::instance().getScene()->engines)
-		if (const auto* found = dynamic_cast<const MpmImplicitEngine*>(engine.get()); found && isDivided(*found)) return true;
-	return false;
+namespace {
+	// A scene of one process may be a piece, too, which no step is made with.
+	bool isDividedHere(const Scene& scene) { return Pieces::of(scene).count > 1 && processes(); }
 }
+
+bool isDivided(const MpmImplicitEngine& engine) { return isDividedHere(*engine.ownScene()); }
+
+bool isSceneDivided() { return isDividedHere(*Singleton<Omega>::instance().getScene()); }
 
 Body::id_t addPoints(
         const shared_ptr<MpmImplicitEngine>& engine, const py::object& positions, const py::object& half, const py::list& materials, const py::object& index,
@@ -204,16 +191,10 @@ Body::id_t addPoints(
 	return engine->add(points);
 }
 
-void takePieces(int count, int number)
+void takePieces()
 {
 	const ValueLock lock;
-	const Scene&    scene = *Singleton<Omega>::instance().getScene();
-	for (const auto& engine : scene.engines)
-		if (auto* found = dynamic_cast<MpmImplicitEngine*>(engine.get()); found && isDivided(*found)) {
-			found->Pieces::count  = count > 1 ? count : 0;
-			found->Pieces::number = number;
-			found->Pieces::bodies = count > 1 ? int(scene.bodies->size()) : 0;
-		}
+	Pieces::note(*Singleton<Omega>::instance().getScene(), processes().get());
 }
 
 } // namespace yade

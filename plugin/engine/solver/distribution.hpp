@@ -9,18 +9,6 @@ namespace yade {
 class MpmImplicitEngine;
 class NewPoints;
 
-// What files keep of it: the pieces that the points were in, this one's number, and of how many bodies. Those behind have been added to the scene since, by each process.
-struct Pieces {
-	int count = 0, number = 0, bodies = 0;
-
-	template <class V> static void attributes(V&& v)
-	{
-		v("pieces", &Pieces::count, hidden, "", atLeast(0));
-		v("piece", &Pieces::number, hidden, "", atLeast(0));
-		v("bodiesInPieces", &Pieces::bodies, hidden, "", atLeast(0));
-	}
-};
-
 class Distribution {
 public:
 	// std::invalid_argument where the scene is a piece that is not this process's, as after O.load().
@@ -53,7 +41,7 @@ Body::id_t addPoints(
         const shared_ptr<MpmImplicitEngine>&, const py::object& positions, const py::object& half, const py::list& materials, const py::object& index,
         const py::dict& parameters);
 
-// For mpm.load, which has put the points of all pieces of the current scene into so many processes.
-void takePieces(int count, int number);
+// For mpm.load, which has put the points of all pieces into the processes that there are now.
+void takePieces();
 
 } // namespace yade

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "engine/solver/energies.hpp"
+#include "core/base/together.hpp"
 #include "engine/solver/MpmDynamicEngine.hpp"
+#include "engine/solver/processes.hpp"
 
 namespace yade {
 
@@ -18,10 +20,19 @@ Energies energiesOf(const vector<MaterialPoint>& points)
 	return sum;
 }
 
+Energies ofAll(const Energies& own, const gimpm::Processes& all)
+{
+	Real sums[] = { own.kinetic,           own.elastic, own.momentum[0], own.momentum[1], own.momentum[2], own.angularMomentum[0], own.angularMomentum[1],
+		        own.angularMomentum[2] };
+	gimpm::addUp(all, sums, int(std::size(sums)));
+	return { sums[0], sums[1], Vector3r(sums[2], sums[3], sums[4]), Vector3r(sums[5], sums[6], sums[7]) };
+}
+
 // The imbalance is what integration in time and the way of velocities to the grid and back have added.
 void MpmDynamicEngine::tellMotion(py::dict& data) const
 {
-	const Energies now = energiesOf(materialPoints(*const_cast<MpmDynamicEngine*>(this)->ownScene(), mask));
+	const Energies own = energiesOf(materialPoints(*const_cast<MpmDynamicEngine*>(this)->ownScene(), mask));
+	const Energies now = isDivided(*this) ? ofAll(own, *processes()) : own;
 	for (int axis = 0; axis < 3; ++axis) {
 		if (axis < grid->dim) data[string("momentum_") + "xyz"[axis]] = now.momentum[axis];
 		if (axis == 2 || grid->dim == 3) data[string("angularMomentum_") + "xyz"[axis]] = now.angularMomentum[axis];

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
+#include "core/base/processes.hpp"
 #include "engine/points/MaterialPoints.hpp"
 
 namespace yade {
@@ -14,6 +15,9 @@ struct Energies {
 };
 
 Energies energiesOf(const vector<MaterialPoint>&);
+
+// From those of the points of each process.
+Energies ofAll(const Energies&, const gimpm::Processes&);
 
 // Half Kirchhoff stress times elastic strain over the initial volume: the energy of linear (Hencky) elasticity [J].
 inline Real elasticEnergy(const MpmState& state) { return 0.5 * state.volume * state.stress.cwiseProduct(state.elasticStrain).sum(); }

@@ -4,6 +4,7 @@
 #include "core/stepping/critical_step.hpp"
 #include "engine/solver/MpmDynamicEngine.hpp"
 #include "engine/solver/exchange.hpp"
+#include "engine/solver/processes.hpp"
 #include "yade_api/value_lock.hpp"
 
 namespace yade {
@@ -32,6 +33,7 @@ namespace {
 		const ValueLock lock;
 		engine.requireAdmissible();
 		auto model = toModel<Dim>(*engine.grid, engine.basis, engine.fBar, engine.boundaries, *engine.ghost, *engine.newton);
+		if (isDivided(engine)) model.division = std::make_shared<gimpm::Division>(gimpm::Division { processes(), {} });
 		return limit(engine, gather(materialPoints(*engine.ownScene(), engine.mask), model), model);
 	}
 }
@@ -66,7 +68,7 @@ template <int Dim> void requireStable(const MpmDynamicEngine& engine, const gimp
 
 Real criticalTimeStep(MpmDynamicEngine& engine)
 {
-	if (!engine.grid || materialPoints(*engine.ownScene(), engine.mask).empty()) return std::numeric_limits<Real>::quiet_NaN();
+	if (!engine.grid || (!isDivided(engine) && materialPoints(*engine.ownScene(), engine.mask).empty())) return std::numeric_limits<Real>::quiet_NaN();
 	return engine.grid->dim == 3 ? limitOfNow<3>(engine) : limitOfNow<2>(engine);
 }
 

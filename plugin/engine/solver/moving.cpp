@@ -4,6 +4,7 @@
 #include "core/terms/inertia.hpp"
 #include "engine/points/parallel.hpp"
 #include "engine/solver/MpmDynamicEngine.hpp"
+#include "engine/solver/energies.hpp"
 #include "engine/solver/explicit_steps.hpp"
 #include "engine/solver/plastic_work.hpp"
 
@@ -19,9 +20,14 @@ namespace {
 		     << (Dim == 2 ? ", without a component along z on a grid with dim=2." : ".");
 		throw std::invalid_argument(text.str());
 	}
+
+	// From that of the points of this process.
+	template <int Dim> Real ofAll(Real own, const Job<Dim>& job) { return job.model.division ? job.model.division->sum(own) : own; }
 }
 
-template <int Dim> Moving<Dim>::Moving(MpmDynamicEngine& e, Job<Dim>& job, const vector<MaterialPoint>& points) : engine(e), motion(new gimpm::Motion<Dim>)
+template <int Dim>
+Moving<Dim>::Moving(MpmDynamicEngine& e, Job<Dim>& job, const vector<MaterialPoint>& points)
+        : engine(e), energy(std::isnan(e.firstEnergy) ? energiesOf(points).total() : 0), motion(new gimpm::Motion<Dim>)
 {
 	motion->scheme    = engine.timeScheme();
 	motion->ghostMass = engine.ghostMass();
@@ -36,8 +42,7 @@ template <int Dim> Moving<Dim>::Moving(MpmDynamicEngine& e, Job<Dim>& job, const
 	motion->contacts   = job.contacts.weigh(motion->scheme.weightOfContact());
 	shaking            = std::make_unique<Shaking<Dim>>(engine, job, *motion);
 	job.model.atMiddle = motion->scheme.atMiddle;
-	if (engine.isExplicit()) requireStable(engine, job.cloud, job.model, job.target - job.begin);
-	else
+	if (!engine.isExplicit())
 		job.model.terms.push_back([known = motion](const gimpm::Beginning<Dim>& step) { return std::make_unique<gimpm::Inertia<Dim>>(*known, step); });
 	job.surfaceLoads.beginAt(job.begin);
 	job.waters.wantWork();
@@ -45,6 +50,8 @@ template <int Dim> Moving<Dim>::Moving(MpmDynamicEngine& e, Job<Dim>& job, const
 
 template <int Dim> void Moving<Dim>::begin(Job<Dim>& job, Attempt<Dim>& next, Real from) const
 {
+	if (engine.isExplicit()) requireStable(engine, job.cloud, job.model, next.time - from); // by all processes, which are here together
+	if (std::isnan(engine.firstEnergy)) engine.firstEnergy = ofAll(energy, job);
 	motion->duration = next.time - from;
 	next.load.motion = motion->duration;
 	shaking->begin(next, from, *motion);
@@ -84,12 +91,14 @@ template <int Dim> void Moving<Dim>::addWork(const Job<Dim>& job, Real time, con
 {
 	const Real     from   = engine.loadTime;
 	const auto     factor = engine.curveOfLoads().between(from, time), ofGravity = engine.curveOfGravity().between(from, time);
-	const Vector3r g = (ofGravity.value + ofGravity.before()) / 2 * engine.gravity;
+	const Vector3r g    = (ofGravity.value + ofGravity.before()) / 2 * engine.gravity;
+	Real           work = job.model.division ? 0 : engine.loadWork; // point by point
 	for (size_t p = 0; p < points.size(); ++p) {
 		Vector3r moved    = Vector3r::Zero();
 		moved.head<Dim>() = job.cloud.position[p] - points[p].state->pos.template head<Dim>();
-		engine.loadWork += moved.dot(motion->mass[p] * g + (factor.value + factor.before()) / 2 * points[p].state->force);
+		work += moved.dot(motion->mass[p] * g + (factor.value + factor.before()) / 2 * points[p].state->force);
 	}
+	engine.loadWork = job.model.division ? engine.loadWork + ofAll(work, job) : work;
 	engine.loadWork += job.surfaceLoads.work() + job.waters.work();
 	engine.boundaryWork += workOfBoundaries(from, time) + shaking->workOfEdges();
 	engine.dampingWork += shaking->dampingWork();
@@ -97,7 +106,7 @@ template <int Dim> void Moving<Dim>::addWork(const Job<Dim>& job, Real time, con
 	engine.impactWork += motion->impactWork;
 	engine.ghostWork += motion->ghostWork;
 	engine.gridWork += motion->gridWork;
-	engine.plasticWork += plasticWork(job.cloud, job.model.materials, points);
+	engine.plasticWork += ofAll(plasticWork(job.cloud, job.model.materials, points), job);
 	engine.reactionsBefore = engine.reactions;
 }
 

@@ -28,6 +28,7 @@ private:
 	Real workOfBoundaries(Real from, Real time) const;
 
 	MpmDynamicEngine&                   engine;
+	Real                                energy; // of the points of this process before the first step; 0 where that has been made
 	std::shared_ptr<gimpm::Motion<Dim>> motion;
 	std::unique_ptr<Shaking<Dim>>       shaking;
 };

@@ -3,7 +3,7 @@
 
 namespace yade {
 
-shared_ptr<Scene> MpmImplicitEngine::ownScene()
+shared_ptr<Scene> MpmImplicitEngine::ownScene() const
 {
 	const auto& current = Singleton<Omega>::instance().getScene();
 	const auto  holds

@@ -61,21 +61,7 @@ namespace {
 		return question->values;
 	}
 
-	// Cells that hold the middle of a point.
-	template <int Dim> vector<Key> cellsOf(const gimpm::PointCloud<Dim>& cloud, const gimpm::Grid<Dim>& grid)
-	{
-		vector<Key> cells;
-		for (const auto& x : cloud.position) {
-			const gimpm::Index<Dim> cell = ((x - grid.origin) / grid.cellSize).array().floor().template cast<int>();
-			const Key               key  = gimpm::Grid<Dim>::key(cell);
-			if (cells.empty() || cells.back() != key) cells.push_back(key);
-		}
-		std::sort(cells.begin(), cells.end());
-		cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
-		return cells;
-	}
-
-	// Their nodes, and those up to `margin` cells around.
+	// Nodes of the cells, and those up to `margin` cells around.
 	template <int Dim> vector<Key> nodesAround(const vector<Key>& cells, int margin, const gimpm::Grid<Dim>& grid)
 	{
 		const int   width = 2 + 2 * margin, count = Dim == 2 ? width * width : width * width * width;
@@ -136,17 +122,34 @@ namespace {
 	}
 }
 
+template <int Dim> vector<Key> cellsOf(const gimpm::PointCloud<Dim>& cloud, const gimpm::Grid<Dim>& grid, const gimpm::Division* division)
+{
+	vector<Key> cells;
+	for (const auto& x : cloud.position) {
+		const gimpm::Index<Dim> cell = ((x - grid.origin) / grid.cellSize).array().floor().template cast<int>();
+		const Key               key  = gimpm::Grid<Dim>::key(cell);
+		if (cells.empty() || cells.back() != key) cells.push_back(key);
+	}
+	const auto sortOut = [&] {
+		std::sort(cells.begin(), cells.end());
+		cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
+	};
+	sortOut();
+	if (!division) return cells;
+	cells = gimpm::joined(*division->processes, cells);
+	sortOut();
+	return cells;
+}
+
 template <int Dim>
-std::shared_ptr<const gimpm::WaterPressure<Dim>> tabulated(
-        MpmWater& water, const gimpm::Grid<Dim>& grid, const gimpm::PointCloud<Dim>& cloud, const string& name)
+std::shared_ptr<const gimpm::WaterPressure<Dim>> tabulated(MpmWater& water, const gimpm::Grid<Dim>& grid, const vector<Key>& cells, const string& name)
 {
 	constexpr int near = 1, far = 3; // cells that a point may reach in a step, and in the steps after a scene has been loaded
 	if (water.pressure && (water.evaluated != water.pressure.object.get() || water.tableGrid != numbersOf(grid))) water.forgetTable();
 	if (water.tableGrid != numbersOf(grid) && !water.pressure) refuseNode(gimpm::Grid<Dim>::key(gimpm::Index<Dim>::Zero()), grid, name);
-	PressureAt        values = valuesOf<Dim>(water);
-	const vector<Key> cells  = cellsOf(cloud, grid);
-	vector<Key>       missing;
-	const auto        lacks = [&](Key node) { return values.find(node) == values.end(); };
+	PressureAt  values = valuesOf<Dim>(water);
+	vector<Key> missing;
+	const auto  lacks = [&](Key node) { return values.find(node) == values.end(); };
 	for (const Key node : nodesAround(cells, near, grid))
 		if (lacks(node)) missing.push_back(node);
 	if (!missing.empty()) {
@@ -171,7 +174,11 @@ std::shared_ptr<const gimpm::WaterPressure<Dim>> tabulated(
 	return std::make_shared<gimpm::TabulatedWater<Dim>>(grid, nodes, numbers);
 }
 
-template std::shared_ptr<const gimpm::WaterPressure<2>> tabulated(MpmWater&, const gimpm::Grid<2>&, const gimpm::PointCloud<2>&, const string&);
-template std::shared_ptr<const gimpm::WaterPressure<3>> tabulated(MpmWater&, const gimpm::Grid<3>&, const gimpm::PointCloud<3>&, const string&);
+#define MPM_INSTANTIATE(Dim)                                                                                                                                   \
+	template vector<Key>                                      cellsOf(const gimpm::PointCloud<Dim>&, const gimpm::Grid<Dim>&, const gimpm::Division*);     \
+	template std::shared_ptr<const gimpm::WaterPressure<Dim>> tabulated(MpmWater&, const gimpm::Grid<Dim>&, const vector<Key>&, const string&);
+MPM_INSTANTIATE(2)
+MPM_INSTANTIATE(3)
+#undef MPM_INSTANTIATE
 
 } // namespace yade

@@ -36,7 +36,7 @@ namespace {
 			throw std::invalid_argument(
 			        "mpirun has started " + std::to_string(count)
 			        + " processes, which need the plugin's library for PETSc to work together; it cannot be opened (" + absence
-			        + "). scripts/setup --with-petsc installs it.");
+			        + "). scripts/setup --with-petsc, or the package yade-mpm-petsc, installs it.");
 		return found;
 	}
 

@@ -84,7 +84,7 @@ static void requireMultigrid()
 	if (!absence.empty())
 		throw std::invalid_argument(
 		        "MpmNewton.linearSolver = 'amg' needs the plugin's library for PETSc, which cannot be opened (" + absence
-		        + "). scripts/setup --with-petsc installs it; without it 'auto' comes to the same states.");
+		        + "). scripts/setup --with-petsc, or the package yade-mpm-petsc, installs it; without it 'auto' comes to the same states.");
 }
 
 // YADE's own way to several processes, which cuts the list of bodies and sends forces to and fro.

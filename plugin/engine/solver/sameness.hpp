@@ -13,6 +13,9 @@ void requireSame(const gimpm::Processes&, const MpmImplicitEngine&, const vector
 
 void requireSame(const gimpm::Processes&, const NewPoints&);
 
+// What functions of pressure have answered, once each of them has been asked.
+void requireSameWater(const gimpm::Processes&, const MpmImplicitEngine&);
+
 // The materials that any of them has points of, in the order of O.materials; with the same values.
 vector<const MpmMaterial*> materialsOfAll(const Scene&, const vector<MaterialPoint>&, const gimpm::Processes&);
 

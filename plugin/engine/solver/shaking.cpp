@@ -26,8 +26,8 @@ template <int Dim> Shaking<Dim>::Shaking(const MpmDynamicEngine& engine, Job<Dim
 	const auto [alpha, beta] = engine.rayleigh;
 	const bool isDamped      = alpha != 0 || beta != 0;
 	if (edges.empty() && !isDamped) return;
-	const auto materials = std::make_shared<const std::vector<gimpm::Material>>(job.model.materials);
-	const auto masses    = std::make_shared<const std::vector<double>>(motion.mass);
+	const auto  materials = std::make_shared<const std::vector<gimpm::Material>>(job.model.materials);
+	const auto* masses    = &motion.mass; // which have those of the copies, too, where points are divided
 	if (isDamped) {
 		*rayleigh = { alpha, beta };
 		motion.damping.push_back([known = rayleigh, materials, masses, fBar = job.model.fBar](const gimpm::Beginning<Dim>& step) {

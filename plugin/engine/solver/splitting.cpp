@@ -4,6 +4,7 @@
 #include "engine/points/halves.hpp"
 #include "engine/solver/MpmImplicitEngine.hpp"
 #include "engine/solver/exchange.hpp"
+#include "engine/solver/pieces.hpp"
 
 namespace yade {
 
@@ -19,9 +20,13 @@ namespace {
 
 		Splits splitAll()
 		{
-			for (size_t p = 0; p < points.size(); ++p) // of those that are new, too
-				while (splitOnce(p)) { }
+			size_t p = 0;
+			do { // with those that are new, which have their ids then
+				for (const size_t end = points.size(); p < end; ++p)
+					while (splitOnce(p)) { }
+			} while (insertHalves());
 			if (points.size() > job.cloud.size()) updateCloud();
+			if (job.model.division) countAll(*job.model.division);
 			return result;
 		}
 
@@ -84,16 +89,84 @@ namespace {
 
 		bool split(size_t p, int axis)
 		{
-			const MaterialPoint whole  = points[p];
-			const Vector3r      middle = whole.state->pos, halfSize = whole.shape->halfSize;
+			const MaterialPoint whole   = points[p];
+			const auto          numbers = [](const Vector3r& v) { return std::array<Real, 3> { v[0], v[1], v[2] }; };
+			const auto          middle = numbers(whole.state->pos), halfSize = numbers(whole.shape->halfSize);
 			const auto          upper = halve(*(*scene.bodies)[whole.id], whole, axis, isRing());
-			const auto          id    = scene.bodies->insert(upper);
-			points.push_back(
-			        { id, boost::static_pointer_cast<MpmPoint>(upper->shape), boost::static_pointer_cast<MpmState>(upper->state), whole.material });
-			job.contacts.share({ whole.id, id, axis, Dim, middle, halfSize });
+			const Body::id_t    none  = -1; // yet
+			points.push_back({ none, boost::static_pointer_cast<MpmPoint>(upper->shape), boost::static_pointer_cast<MpmState>(upper->state),
+			                   whole.material });
+			halves.push_back({ upper, { whole.id, none, axis, Dim, middle, halfSize } });
 			for (const MaterialPoint& half : { whole, points.back() })
 				settle(half);
 			return true;
+		}
+
+		// The upper halves, behind the other bodies, in the order of their wholes, whichever process has them. False: there are none.
+		bool insertHalves()
+		{
+			const auto&    division = job.model.division;
+			const auto     wholes   = wholesOfAll();
+			const size_t   end      = scene.bodies->size() + wholes.size();
+			size_t         place    = 0;
+			MaterialPoint* point    = points.data() + points.size() - halves.size();
+			for (size_t i = 0; i < halves.size(); ++i, ++point) {
+				auto& [body, domain] = halves[i];
+				place                = i > 0 && domain.lower == halves[i - 1].second.lower ? place + 1 : firstOf(wholes, domain.lower);
+				domain.upper = division ? scene.bodies->insertAtId(body, Body::id_t(end - wholes.size() + place)) : scene.bodies->insert(body);
+				point->id    = domain.upper;
+				if (division) division->id.push_back(domain.upper);
+			}
+			shareContacts();
+			halves.clear();
+			if (scene.bodies->size() < end) endWithGap(Body::id_t(end) - 1);
+			return !wholes.empty();
+		}
+
+		// What contacts remember of the points of all processes, which each of them knows.
+		void shareContacts() const
+		{
+			if (!job.contacts.areThere()) return;
+			vector<HalvedDomain> domains;
+			for (const auto& [body, domain] : halves)
+				domains.push_back(domain);
+			if (job.model.division) domains = gimpm::joined(*job.model.division->processes, domains);
+			std::sort(domains.begin(), domains.end(), [](const auto& a, const auto& b) { return a.upper < b.upper; });
+			for (const HalvedDomain& domain : domains)
+				job.contacts.share(domain);
+		}
+
+		// One for each upper half, rising.
+		vector<int64_t> wholesOfAll() const
+		{
+			vector<int64_t> wholes;
+			for (const auto& [body, domain] : halves)
+				wholes.push_back(domain.lower);
+			if (job.model.division) wholes = gimpm::joined(*job.model.division->processes, wholes);
+			std::sort(wholes.begin(), wholes.end());
+			return wholes;
+		}
+
+		static size_t firstOf(const vector<int64_t>& wholes, int64_t whole)
+		{
+			return std::lower_bound(wholes.begin(), wholes.end(), whole) - wholes.begin();
+		}
+
+		// The list of bodies is as long in all processes, also where others have the last ones.
+		void endWithGap(Body::id_t last)
+		{
+			scene.bodies->insertAtId(shared_ptr<Body>(new Body), last);
+			scene.bodies->erase(last, false);
+		}
+
+		// Of the points of all processes.
+		void countAll(const gimpm::Division& division)
+		{
+			constexpr int64_t none  = std::numeric_limits<int64_t>::max();
+			int64_t           first = result.exhausted < 0 ? none : result.exhausted;
+			division.processes->smallest(&first, 1);
+			result.exhausted = first == none ? -1 : Body::id_t(first);
+			result.left      = int(division.sum(result.left));
 		}
 
 		// On the grid: in its period, and with the domain that a step would give it.
@@ -141,6 +214,8 @@ namespace {
 		Scene&                 scene;
 		int                    most;
 		Splits                 result;
+
+		vector<std::pair<shared_ptr<Body>, HalvedDomain>> halves; // the upper ones, which have no ids yet
 	};
 }
 
@@ -148,6 +223,7 @@ template <int Dim> string Splitting::split(MpmImplicitEngine& engine, vector<Mat
 {
 	const Splits splits   = Outgrown<Dim>(points, job, *engine.scene, engine.maxSplits).splitAll();
 	engine.clampedDomains = splits.left;
+	if (job.model.division) Pieces::note(*engine.scene, job.model.processes.get());
 	if (splits.exhausted < 0 || isSaid) return "";
 	isSaid = true;
 	return "Body #" + std::to_string(splits.exhausted) + ": the domain of the material point has outgrown half a cell again, after maxSplits = "

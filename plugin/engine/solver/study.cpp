@@ -46,7 +46,7 @@ namespace {
                                 model             = toModel<Dim>(*engine.grid, engine.basis, engine.fBar, engine.boundaries, *engine.ghost, *engine.newton);
                                 const auto points = materialPoints(*engine.ownScene(), engine.mask);
                                 cloud             = gather(points, model);
-                                Contacts<Dim>(engine.contacts, *engine.ownScene(), model.grid, points, engine.loadTime, engine.loadTime).join(model);
+                                Contacts<Dim>(engine.contacts, *engine.ownScene(), model.grid, points, false, engine.loadTime, engine.loadTime).join(model);
                         }
                         const PythonUnlock python;
                         return f(cloud, model);

@@ -3,6 +3,7 @@
 #include "engine/points/newPoints.hpp"
 #include "engine/solver/MpmImplicitEngine.hpp"
 #include "engine/solver/exchange.hpp"
+#include "engine/solver/pieces.hpp"
 #include "engine/solver/processes.hpp"
 #include "engine/solver/requirements.hpp"
 #include "engine/solver/sameness.hpp"
@@ -57,7 +58,7 @@ Body::id_t MpmImplicitEngine::add(NewPoints& added)
 		scene->bodies->insertAtId(bodies[i], first + own[i]);
 	if (!all) return first;
 	provideGaps(*scene, first + added.size());
-	Pieces::bodies = int(scene->bodies->size());
+	Pieces::note(*scene, all.get());
 	return first;
 }
 

@@ -29,14 +29,17 @@ namespace {
 	}
 }
 
-template <int Dim> Waters<Dim>::Waters(const Loads& given, const gimpm::Grid<Dim>& grid, const gimpm::PointCloud<Dim>& cloud)
+template <int Dim> Waters<Dim>::Waters(const Loads& given, const gimpm::Grid<Dim>& grid, const gimpm::PointCloud<Dim>& cloud, const gimpm::Division* division)
 {
+	const auto hasFunction = [](const auto& water) { return std::isnan(water->level) && water->levels.empty(); };
+	const bool areAsked    = std::any_of(given.water.begin(), given.water.end(), hasFunction);
+	const auto cells       = areAsked ? cellsOf(cloud, grid, division) : vector<gimpm::Key>();
 	for (size_t i = 0; i < given.water.size(); ++i) {
 		MpmWater&    water = *given.water[i];
 		const string name  = "water[" + std::to_string(i) + "]";
 		water.requireAdmissible();
 		Source source { given.water[i], given.curveOf(water), nullptr, 0, 1 };
-		if (std::isnan(water.level) && water.levels.empty()) source.given = tabulated(water, grid, cloud, name);
+		if (hasFunction(&water)) source.given = tabulated(water, grid, cells, name);
 		else
 			std::tie(source.axis, source.up) = upwards(given.gravity, grid, name);
 		sources.push_back(source);

@@ -10,8 +10,8 @@ namespace yade {
 template <int Dim> class Waters {
 public:
 	Waters() = default;
-	// std::invalid_argument names what cannot be computed with. Functions are asked for pressures around the points.
-	Waters(const Loads&, const gimpm::Grid<Dim>&, const gimpm::PointCloud<Dim>&);
+	// std::invalid_argument names what cannot be computed with. Functions are asked for pressures around the points, also where these are divided among processes.
+	Waters(const Loads&, const gimpm::Grid<Dim>&, const gimpm::PointCloud<Dim>&, const gimpm::Division* = nullptr);
 
 	// Makes them act in the model's steps, for as long as this exists.
 	void join(gimpm::Model<Dim>&);

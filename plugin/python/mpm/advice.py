@@ -152,7 +152,7 @@ def _multigrid(scene):
 	iterations, method = scene.work['iterations'], scene.solver.newton.linearSolver
 	if iterations <= _manyIterations or method == 'amg': return []
 	text = f'linearSolver: conjugate gradients take {iterations} iterations to 1e-3 here; with algebraic multigrid they would take a tenth of that or less. '
-	if _engine.multigridAbsence(): return [text + 'It needs PETSc, which scripts/setup --with-petsc installs.']
+	if _engine.multigridAbsence(): return [text + 'It needs PETSc, which scripts/setup --with-petsc installs, or the package yade-mpm-petsc.']
 	return [text + "'auto' takes it when it is needed."] if method == 'iterative' else []
 
 

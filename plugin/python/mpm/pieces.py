@@ -60,7 +60,7 @@ def loadPieces(pieces):
 	moments = sum(gathered(moments), [])
 	if len(set(moments)) > 1: raise ValueError(f'load: the pieces, of which {pieces[0]!r} is the first, are of different moments (O.iter, O.time and bodies): {sorted(set(moments))}')
 	_insert(points)
-	engine.takePieces(count, rank)
+	engine.takePieces()
 
 
 def _load(path):

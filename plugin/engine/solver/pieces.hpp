@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+// Which of the material points of a scene this process has, where several have divided them.
+#include "core/base/processes.hpp"
+#include "yade_api/scene.hpp"
+
+namespace yade {
+
+// In a tag of the scene, so that it is saved, and known to whatever engine works on the points.
+struct Pieces {
+	int count = 0, number = 0; // of processes, and of this one; none: it has all points
+	int bodies = 0;            // places in O.bodies. Bodies behind have been added since, by each process
+	int gap    = 0;            // the first place of another process, or `bodies`
+
+	// None also where there are other bodies than those that were divided.
+	static Pieces of(const Scene&);
+
+	// That the scene is divided as it is now; null: that it is not.
+	static void note(Scene&, const gimpm::Processes*);
+};
+
+} // namespace yade
