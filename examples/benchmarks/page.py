@@ -162,8 +162,8 @@ def division(results):
 		each = one['each']
 		peak = lambda stage: f"{max(process['peaks'][stage] for process in each) / 1e6:.0f}"
 		stages = list(each[0]['peaks'])
-		rows.append([WAYS[one['way']], one['processes'], max(process['own'] for process in each), *map(peak, stages), f"{max(process['run'] for process in each):.1f}"])
-	heads = ['points', 'processes', 'points of one, at most', *(f'{stage} [MB]' for stage in stages), 'steps [s]']
+		rows.append([WAYS[one['way']], one['processes'], max(process['own'] for process in each), *map(peak, stages)])
+	heads = ['points', 'processes', 'points of one, at most', *(f'{stage} [MB]' for stage in stages)]
 	return DIVISION.format(revision=results['revision'], points=results['runs'][0]['each'][0]['points']) + table(heads, rows)
 
 
@@ -364,7 +364,7 @@ DIVISION = """## Points divided among processes
 Peak of memory (VmHWM) of the process that has most, at the stages of a run: before there are points, when the block of {points} points in 3D is filled, after each of two elastic steps by conjugate
 gradients (`scripts/bench division`, at revision {revision}); one thread each. With `MpmImplicitEngine.distributed` and `O.bodies.append(mpm.fill(...))` each process makes all points and erases the others' at the first
 step; with `mpm.add` it makes its own only. Slabs are cut across the last axis, here the second longest side of the block, and each process has copies of the points up to two cells beyond its nodes; the last rows have
-the same block turned. Measured beside other programs, so that the seconds are no more than a hint.
+the same block turned. Measured beside other programs, on which memory does not depend; times would.
 
 """
 
