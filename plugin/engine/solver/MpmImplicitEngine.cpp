@@ -11,7 +11,6 @@
 #include "engine/solver/processes.hpp"
 #include "engine/solver/progress.hpp"
 #include "engine/solver/requirements.hpp"
-#include "engine/solver/sameness.hpp"
 #include "engine/solver/step_errors.hpp"
 #include "engine/solver/walls.hpp"
 #include "yade_api/exceptions.hpp"
@@ -58,7 +57,6 @@ template <int Dim> void MpmImplicitEngine::step(Agreement& agreement)
 	{
 		const gimpm::Stopwatch watch(agreeing);
 		agreement.reach(*this, job.cloud, bool(job.model.division));
-		if (job.model.division) requireSameWater(*job.model.processes, *this);
 	}
 	if (job.model.processes) addTime(*timingDeltas, "agree", agreeing);
 	doubt(job);

@@ -65,7 +65,10 @@ Body::id_t MpmImplicitEngine::add(NewPoints& added)
 template <int Dim> void MpmImplicitEngine::doubt(const Job<Dim>& job)
 {
 	const ValueLock lock;
-	if (job.model.division) pointsOfRun = size_t(job.model.division->sum(Real(points.size())));
+	if (job.model.division) {
+		requireSameWater(*job.model.processes, *this);
+		pointsOfRun = size_t(job.model.division->sum(Real(points.size())));
+	}
 	for (int i = 0; i < Plausibility::mostDoubts; ++i) // the same number in all processes
 		warnOfPoints(i < int(job.doubts.size()) ? job.doubts[i] : "");
 	warn(plausibility.doubtOfBoundaries(*this, points));
