@@ -129,9 +129,8 @@ template <int Dim> Attempt<Dim> MpmImplicitEngine::attempt(Job<Dim>& job) const
 	job.surfaceLoads.advanceTo(time);
 	job.waters.advance(loadTime, time);
 	job.contacts.advanceTo(time);
-	const bool   wallsMove = moveWalls(boundaries, job.model, time - loadTime);
 	Attempt<Dim> next { time, loadBetween<Dim>(loadTime, time), newton->predictor, {} };
-	if (job.contacts.areThere() || wallsMove) next.load.motion = time - loadTime;
+	if (moveWalls(boundaries, job.model, time - loadTime) || job.contacts.areThere()) next.load.motion = time - loadTime;
 	if (job.moving) job.moving->begin(job, next, loadTime);
 	if (next.predicts) next.last = fromNumbers<Dim>(lastDisplacements, lastLoadIncrement, job.model.grid);
 	return next;
