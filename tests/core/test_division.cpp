@@ -63,6 +63,19 @@ namespace {
 				found.push_back({ cell, count });
 			return found;
 		}
+
+		/// Calls f(its points, its model) in each of two processes, and of three.
+		template <class F> static void inProcesses(const PointCloud<Dim>& all, const Model<Dim>& model, F&& f)
+		{
+			for (const int processes : { 2, 3 })
+				inThreads(processes, [&](const std::shared_ptr<const Processes>& process) {
+					auto mine      = model;
+					mine.processes = process;
+					mine.division  = std::make_shared<Division>(Division { process, cutByWork(loads(all, model), processes) });
+					auto cloud     = part(all, model, *mine.division);
+					f(cloud, mine);
+				});
+		}
 	};
 	TYPED_TEST_SUITE(DivisionOf, BothDimensions, DimensionName);
 
@@ -79,30 +92,25 @@ namespace {
 			const Eigen::VectorXd d = Random(1).vector(whole.nodalSize(), 0.02);
 			Eigen::VectorXd       force, sizes;
 			ASSERT_FALSE(whole.evaluate(d, force, nullptr, &sizes));
-			for (const int processes : { 2, 3 })
-				inThreads(processes, [&](const std::shared_ptr<const Processes>& process) {
-					auto mine      = model;
-					mine.processes = process;
-					mine.division  = std::make_shared<Division>(Division { process, cutByWork(TestFixture::loads(all, model), processes) });
-					auto cloud     = TestFixture::part(all, model, *mine.division);
-					EXPECT_LT(cloud.size(), 0.7 * double(all.size()));
-					const std::size_t own = cloud.size();
-					{
-						const Halo<Dim>       halo(cloud, mine);
-						StepReport            ofMine;
-						const StepSystem<Dim> system(cloud, mine, load, ofMine);
-						if (process->rank() > 0) EXPECT_GT(cloud.size(), own) << "points reach nodes above them";
-						EXPECT_EQ(system.basis.nodes, whole.basis.nodes);
-						EXPECT_EQ(system.basis.cells, whole.basis.cells);
-						EXPECT_EQ(ofMine.ghostFaces, report.ghostFaces);
-						Eigen::VectorXd found, foundSizes;
-						EXPECT_FALSE(system.evaluate(d, found, nullptr, &foundSizes));
-						EXPECT_LT((found - force).norm(), 1e-13 * force.norm());
-						EXPECT_LT((foundSizes - sizes).norm(), 1e-13 * sizes.norm());
-						EXPECT_LT((system.external - whole.external).norm(), 1e-13 * whole.external.norm());
-					}
-					EXPECT_EQ(cloud.size(), own);
-				});
+			TestFixture::inProcesses(all, model, [&](PointCloud<Dim>& cloud, const Model<Dim>& mine) {
+				EXPECT_LT(cloud.size(), 0.7 * double(all.size()));
+				const std::size_t own = cloud.size();
+				{
+					const Halo<Dim>       halo(cloud, mine);
+					StepReport            ofMine;
+					const StepSystem<Dim> system(cloud, mine, load, ofMine);
+					if (mine.processes->rank() > 0) EXPECT_GT(cloud.size(), own) << "points reach nodes above them";
+					EXPECT_EQ(system.basis.nodes, whole.basis.nodes);
+					EXPECT_EQ(system.basis.cells, whole.basis.cells);
+					EXPECT_EQ(ofMine.ghostFaces, report.ghostFaces);
+					Eigen::VectorXd found, foundSizes;
+					EXPECT_FALSE(system.evaluate(d, found, nullptr, &foundSizes));
+					EXPECT_LT((found - force).norm(), 1e-13 * force.norm());
+					EXPECT_LT((foundSizes - sizes).norm(), 1e-13 * sizes.norm());
+					EXPECT_LT((system.external - whole.external).norm(), 1e-13 * whole.external.norm());
+				}
+				EXPECT_EQ(cloud.size(), own);
+			});
 		}
 	}
 
@@ -152,29 +160,24 @@ namespace {
 		Moved<Dim>            whole(numbers);
 		EXPECT_FALSE(looseOf(whole.motion, system.beginning()).empty());
 		whole.step(all, model, d);
-		for (const int processes : { 2, 3 })
-			inThreads(processes, [&](const std::shared_ptr<const Processes>& process) {
-				auto mine        = model;
-				mine.processes   = process;
-				mine.division    = std::make_shared<Division>(Division { process, cutByWork(TestFixture::loads(all, model), processes) });
-				auto       cloud = TestFixture::part(all, model, *mine.division);
-				Moved<Dim> part(mine.division->id);
-				{
-					const Halo<Dim> halo(cloud, mine);
-					part.step(cloud, mine, d);
-				}
-				EXPECT_LT((part.force - whole.force).norm(), 1e-11 * whole.force.norm());
-				EXPECT_LT((part.own - whole.own).norm(), 1e-10 * whole.own.norm());
-				EXPECT_NEAR(part.motion.ghostWork / whole.motion.ghostWork, 1, 1e-9);
-				EXPECT_NEAR(part.motion.gridWork / whole.motion.gridWork, 1, 1e-9);
-				EXPECT_NEAR(part.rayleigh.work / whole.rayleigh.work, 1, 1e-9);
-				ASSERT_EQ(part.motion.velocity.size(), mine.division->id.size()) << "those of copies have gone";
-				for (std::size_t i = 0; i < mine.division->id.size(); ++i) {
-					const auto p = mine.division->id[i];
-					EXPECT_LT((part.motion.velocity[i] - whole.motion.velocity[p]).norm(), 1e-9);
-					EXPECT_LT((part.motion.acceleration[i] - whole.motion.acceleration[p]).norm(), 1e-6);
-				}
-			});
+		TestFixture::inProcesses(all, model, [&](PointCloud<Dim>& cloud, const Model<Dim>& mine) {
+			Moved<Dim> part(mine.division->id);
+			{
+				const Halo<Dim> halo(cloud, mine);
+				part.step(cloud, mine, d);
+			}
+			EXPECT_LT((part.force - whole.force).norm(), 1e-11 * whole.force.norm());
+			EXPECT_LT((part.own - whole.own).norm(), 1e-10 * whole.own.norm());
+			EXPECT_NEAR(part.motion.ghostWork / whole.motion.ghostWork, 1, 1e-9);
+			EXPECT_NEAR(part.motion.gridWork / whole.motion.gridWork, 1, 1e-9);
+			EXPECT_NEAR(part.rayleigh.work / whole.rayleigh.work, 1, 1e-9);
+			ASSERT_EQ(part.motion.velocity.size(), mine.division->id.size()) << "those of copies have gone";
+			for (std::size_t i = 0; i < mine.division->id.size(); ++i) {
+				const auto p = mine.division->id[i];
+				EXPECT_LT((part.motion.velocity[i] - whole.motion.velocity[p]).norm(), 1e-9);
+				EXPECT_LT((part.motion.acceleration[i] - whole.motion.acceleration[p]).norm(), 1e-6);
+			}
+		});
 	}
 
 	/// A row of points that stands on the block, through the ranges of several processes: how far a cell is from one whose points tell its velocities is known to all.
@@ -201,21 +204,15 @@ namespace {
 		for (const int reach : { Dim, 1000 }) {
 			const auto whole = keys(all, model, reach);
 			EXPECT_EQ(whole.size() > 190, reach == Dim) << whole.size();
-			for (const int processes : { 2, 3 })
-				inThreads(processes, [&](const std::shared_ptr<const Processes>& process) {
-					auto mine      = model;
-					mine.processes = process;
-					mine.division  = std::make_shared<Division>(Division { process, cutByWork(TestFixture::loads(all, model), processes) });
-					auto            cloud = TestFixture::part(all, model, *mine.division);
-					const Halo<Dim> halo(cloud, mine);
-					const auto      ofOwn = [&](std::vector<Key> cells) {
-                                                cells.erase(
-						             std::remove_if(cells.begin(), cells.end(), [&](Key cell) { return !mine.division->owns(cell); }),
-						             cells.end());
-                                                return cells;
-					};
-					EXPECT_EQ(ofOwn(keys(cloud, mine, reach)), ofOwn(whole));
-				});
+			TestFixture::inProcesses(all, model, [&](PointCloud<Dim>& cloud, const Model<Dim>& mine) {
+				const Halo<Dim> halo(cloud, mine);
+				const auto      ofOwn = [&](std::vector<Key> cells) {
+                                        cells.erase(
+					             std::remove_if(cells.begin(), cells.end(), [&](Key cell) { return !mine.division->owns(cell); }), cells.end());
+                                        return cells;
+				};
+				EXPECT_EQ(ofOwn(keys(cloud, mine, reach)), ofOwn(whole));
+			});
 		}
 	}
 
