@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Page and picture of what cells of several sizes would save, from results/runs.csv and the times kept in examples/trade; needs nothing of YADE."""
+"""Pages and picture of what cells of several sizes would save, from results/runs.csv and the times kept in examples/trade, and of what they save in the plugin, from
+results/footing.csv; needs nothing of YADE."""
 import csv
 import os
 import sys
@@ -125,7 +126,23 @@ def picture(runs, found, path):
 	plt.close(figure)
 
 
+def limitLoads(measured):
+	"""Of footings with cells that are halved, beside that with equal cells, which comes first."""
+	lines, equal = [], None
+	for row in measured:
+		isEqual = row['halvings'] == 0
+		if isEqual: equal = row
+		of = (('strip', 'square')[int(row['dim']) - 2], f"{row['cells']:.0f}", 'everywhere') if isEqual else ('', '', f"{row['reach']:g} B")
+		beside = ('', '') if isEqual else (f"{equal['unknowns'] / row['unknowns']:.1f}", f"{100 * (row['load'] / equal['load'] - 1):+.2f} %")
+		lines.append((*of, f"{row['unknowns']:.0f}", beside[0], f"{row['points']:.0f}", f"{row['load']:.4f}", beside[1], f"{row['solves']:.0f}", f"{row['seconds']:.1f}"))
+	heads = ['footing', 'cells over half the width', 'smallest to', 'unknowns', 'times fewer', 'points', 'N_c', 'beside equal cells', 'solves', 'processor seconds']
+	note = '*Smallest to*: how far from the edge of the footing, and below it, cells are smallest. One thread; rows of halved cells by `--equal 0 --reach 1,0.7,0.5`. The largest load within 16 load steps.'
+	return [pages.table(heads, lines), '', note, '']
+
+
 def write(folder):
+	footings = os.path.join(folder, 'results', 'footing.csv')
+	if os.path.exists(footings): pages.write(folder, [*pages.texts(os.path.join(here, 'footing_findings.md')), *limitLoads(rows(footings))], 'footing.md')
 	measured = rows(os.path.join(folder, 'results', 'runs.csv'))
 	runs = settled(measured)
 	found, growth = judged(runs), exponents(runs)
