@@ -148,12 +148,22 @@ def sharing(results):
 		for number, each in enumerate(one['each']):
 			times = split(each)
 			rows.append([
-			        *((one['processes'], one['threads']) if number == 0 else ('', '')), f"{each['run']:.2f}", f"{times['basis'] + times['ghost']:.2f}", f"{times['assembly']:.2f}",
+			        *((str(one['processes']) + ', with points divided' * one.get('areDivided', False), one['threads']) if number == 0 else ('', '')), f"{each['run']:.2f}", f"{times['basis'] + times['ghost']:.2f}", f"{times['assembly']:.2f}",
 			        f"{times['analyse'] + times['factorise'] + times['solve']:.2f}", f"{times['update']:.2f}", f"{times['check'] + times['gather'] + times['scatter']:.2f}", f"{times.get('agree', 0):.2f}", f"{times['rest']:.2f}",
 			        f"{each['peakMemory'] / 1e6:.0f}", f"{each['sent'] / each['steps'] / 1e6:.1f}"
 			])
 	heads = ['processes', 'threads of each', 'run [s]', 'basis and ghost', 'assembly', 'solve', 'update', 'from and to bodies', 'agree', 'rest', 'memory [MB]', 'sent a step [MB]']
 	return SHARING.format(**results) + table(heads, rows)
+
+
+def pieces(results):
+	rows = []
+	for one in results['found']:
+		each = [one['each'][count] for count in sorted(one['each'], key=int)]
+		solves = sorted({one['solves'], *(of['solves'] for of in each)})
+		rows.append([one['scene'], one['points'], ' to '.join(map(str, {solves[0]: 0, solves[-1]: 0})), *(f"{of['positions']:.0e}" for of in each), f"{max(of['forces'] for of in each):.0e}"])
+	counts = sorted(results['found'][0]['each'], key=int)
+	return PIECES.format(**results) + table(['scene', 'points at the end', 'solves', *(f'{count} processes [m]' for count in counts), 'forces'], rows)
 
 
 def division(results):
@@ -243,7 +253,7 @@ def picture(results, path):
 	pyplot.close(figure)
 
 
-sections = dict(kernels=kernels, scenes=scenes, sizes=sizes, features=features, start=start, bodies=bodies, solvers=solvers, processes=processes, sharing=sharing, division=division, large=large)
+sections = dict(kernels=kernels, scenes=scenes, sizes=sizes, features=features, start=start, bodies=bodies, solvers=solvers, processes=processes, pieces=pieces, sharing=sharing, division=division, large=large)
 
 
 def comparison(found, revision):
@@ -351,13 +361,20 @@ all points.
 
 SHARING = """## Two processes
 
-The first steps of the slope with a weak layer in 3D, 262,200 points and 101,197 unknowns, by conjugate gradients (`scripts/bench sharing`; this and the table above at revision {revision}): one process with one thread and with two, and two processes
-with one thread each, in turn; of each the quickest of five runs, with the parts of each process. What a process waits for another is in the parts where they meet. `agree`: checksum of the points before a step; the
+The first steps of the slope with a weak layer in 3D, 262,200 points and 101,197 unknowns, by conjugate gradients (`scripts/bench sharing`, at revision {revision}): one process with one thread and with two, and two processes
+with one thread each, with all points in both and with points divided by `mpm.add`, in turn; of each the quickest of five runs, with the parts of each process. What a process waits for another is in the parts where they meet. `agree`: checksum of the points before a step; the
 one after it is part of the update. Both tables were measured beside other programs, with precedence over them (`chrt -f 20`). With the first step comes what it takes to begin MPI and to open PETSc, some .2 s, in what is from and to bodies. Memory is the peak of the process.
 
 """
 
 WAYS = dict(undivided='in all processes', appended='appended as a list, then divided', added='divided, by `mpm.add`', tall='the same, cut across its longest side')
+
+PIECES = """## Scenes of which processes divide the points
+
+Small scenes of `shared.py` with `distributed`, each of one feature or two, `newton.tolerance` 1e-10: the largest difference of positions from those of one process, and of forces on boundaries, bodies and loaded surfaces as a part of the largest one
+(`scripts/bench pieces`, at revision {revision}). Where K is not symmetric, one process and several have different preconditioners, and numbers of solves may differ.
+
+"""
 
 DIVISION = """## Points divided among processes
 

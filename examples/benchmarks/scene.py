@@ -58,13 +58,14 @@ def slope():
 	soil = mpm.polygon([(0, 0), (30, 0), (30, 7), (15, 7), (10, 12), (0, 12)])
 	if setting.depth: soil = soil & pack.inAlignedBox((0, 0, 0), (30, 12, setting.depth * h))
 	layers = [(pack.inAlignedBox((-1, 7, -100), (31, 7.5, 100)), 'weak'), (soil, 'soil')]
-	start = memory()
-	fill, _ = timed(lambda: O.bodies.append(mpm.fill(soil, grid, setting.pointsPerCell, layers)))
-	filled = memory()
-
 	global solver, ended # for afterStep
 	solver = MpmImplicitEngine(grid=grid, gravity=(0, -9.81, 0), basis=setting.basis, boundaries=walls(h), ghost=MpmGhost(factor=setting.ghost))
 	if setting.fBar: solver.fBar = True
+	if setting.distributed: solver.distributed = True
+	start, O.engines = memory(), [solver]
+	fill, _ = timed(put, soil, solver, layers)
+	filled = memory()
+
 	for name in 'predictor', 'reuseFactor', 'linearSolver':
 		if hasattr(solver.newton, name): setattr(solver.newton, name, getattr(setting, name)) # other revisions may have none
 	engines = [solver]
@@ -78,13 +79,19 @@ def slope():
 				O.dt = load - O.time
 				O.run(1, wait=True)
 		else: O.run(steps, wait=True)
-	peak, points, work = memory('VmHWM'), mpm.arrays(), solver.workload()
+	peak, points, work = memory('VmHWM'), mpm.arrays(), dict(dofs=solver.dofs, factorFlops=0) if setting.distributed else solver.workload()
 	return dict(
 	        points=len(points['id']), unknowns=work['dofs'], peakMemory=peak, sent=getattr(library, 'bytesSent', float)(), # other revisions may have none
 	        steps=steps, **count, times=times, fill=fill, run=ended - begin, factorFlops=work['factorFlops'],
 	        sceneMemory=filled - start, runMemory=peak - filled, displacement=abs(points['pos'] - points['pos0']).max(),
 	        yielded=(points['plasticStrain'] > 0).mean(), last=last
 	)
+
+
+def put(region, solver, material):
+	"""Points into the scene, which has the solver."""
+	if setting.added: mpm.add(region, solver, setting.pointsPerCell, material)
+	else: O.bodies.append(mpm.fill(region, solver.grid, setting.pointsPerCell, material))
 
 
 def block():
@@ -96,8 +103,7 @@ def block():
 	solver.newton.linearSolver = setting.linearSolver
 	O.engines, O.dt = [solver], .05
 	region = pack.inAlignedBox((0, 0, 0), setting.extent)
-	if setting.added: mpm.add(region, solver, setting.pointsPerCell, 'soil')
-	else: O.bodies.append(mpm.fill(region, solver.grid, setting.pointsPerCell, 'soil'))
+	put(region, solver, 'soil')
 	peaks['filled'] = memory('VmHWM')
 	begin = time.perf_counter()
 	for step in range(setting.steps):

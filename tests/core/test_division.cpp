@@ -180,6 +180,13 @@ namespace {
 		});
 	}
 
+	std::vector<Key> ownOf(const std::vector<Key>& cells, const Division& division)
+	{
+		std::vector<Key> own;
+		std::copy_if(cells.begin(), cells.end(), std::back_inserter(own), [&](Key cell) { return division.owns(cell); });
+		return own;
+	}
+
 	/// A row of points that stands on the block, through the ranges of several processes: how far a cell is from one whose points tell its velocities is known to all.
 	TYPED_TEST(DivisionOf, LooseCellsAreThoseOfAllPoints)
 	{
@@ -206,12 +213,7 @@ namespace {
 			EXPECT_EQ(whole.size() > 190, reach == Dim) << whole.size();
 			TestFixture::inProcesses(all, model, [&](PointCloud<Dim>& cloud, const Model<Dim>& mine) {
 				const Halo<Dim> halo(cloud, mine);
-				const auto      ofOwn = [&](std::vector<Key> cells) {
-                                        cells.erase(
-					             std::remove_if(cells.begin(), cells.end(), [&](Key cell) { return !mine.division->owns(cell); }), cells.end());
-                                        return cells;
-				};
-				EXPECT_EQ(ofOwn(keys(cloud, mine, reach)), ofOwn(whole));
+				EXPECT_EQ(ownOf(keys(cloud, mine, reach), *mine.division), ownOf(whole, *mine.division));
 			});
 		}
 	}

@@ -150,6 +150,16 @@ namespace {
 template <int Dim> bool Plausibility::isNew(const gimpm::PointCloud<Dim>& cloud) const { return known != fingerprint(cloud); }
 template <int Dim> void Plausibility::know(const gimpm::PointCloud<Dim>& cloud) { known = fingerprint(cloud); }
 
+template <int Dim> bool Plausibility::knows(const vector<MaterialPoint>& points) const
+{
+	gimpm::PointCloud<Dim> cloud; // of which only this is looked at
+	for (const MaterialPoint& point : points) {
+		cloud.position.push_back(point.state->pos.template head<Dim>());
+		cloud.halfSize.push_back(point.shape->halfSize.template head<Dim>());
+	}
+	return !isNew(cloud);
+}
+
 template <int Dim> void Plausibility::requirePoints(const vector<MaterialPoint>& points, const gimpm::PointCloud<Dim>& cloud)
 {
 	smallest = std::numeric_limits<Real>::infinity();
@@ -221,7 +231,8 @@ vector<string> Plausibility::look(
 	requireGravityInPlane(engine);
 	requireSensibleIncrement(engine);
 	if (points.empty()) return {}; // other processes have them
-	if (isNew(cloud)) {
+	const bool areFirst = largest == 0;
+	if (areFirst || isNew(cloud)) {
 		const gimpm::Stopwatch watch(time);
 		requirePoints(points, cloud);
 	}
@@ -258,6 +269,7 @@ vector<string> Plausibility::warningsOfResult(const MpmImplicitEngine& engine, c
 
 #define MPM_INSTANTIATE(Dim)                                                                                                                                   \
 	template void           Plausibility::know(const gimpm::PointCloud<Dim>&);                                                                             \
+	template bool           Plausibility::knows<Dim>(const vector<MaterialPoint>&) const;                                                                  \
 	template vector<string> Plausibility::warningsOfResult(const MpmImplicitEngine&, const vector<MaterialPoint>&, const gimpm::PointCloud<Dim>&);         \
 	template vector<string> Plausibility::look(                                                                                                            \
 	        const MpmImplicitEngine&, const vector<MaterialPoint>&, const gimpm::PointCloud<Dim>&, const gimpm::Model<Dim>&, double&);

@@ -94,8 +94,9 @@ namespace {
 			const auto          middle = numbers(whole.state->pos), halfSize = numbers(whole.shape->halfSize);
 			const auto          upper = halve(*(*scene.bodies)[whole.id], whole, axis, isRing());
 			const Body::id_t    none  = -1; // yet
-			points.push_back({ none, boost::static_pointer_cast<MpmPoint>(upper->shape), boost::static_pointer_cast<MpmState>(upper->state),
-			                   whole.material });
+			const auto          shape = boost::static_pointer_cast<MpmPoint>(upper->shape);
+			const auto          state = boost::static_pointer_cast<MpmState>(upper->state);
+			points.push_back({ none, shape, state, whole.material });
 			halves.push_back({ upper, { whole.id, none, axis, Dim, middle, halfSize } });
 			for (const MaterialPoint& half : { whole, points.back() })
 				settle(half);

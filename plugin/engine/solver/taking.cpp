@@ -29,13 +29,18 @@ template <int Dim> void MpmImplicitEngine::takePoints(Job<Dim>& job, Agreement& 
 	Distribution::requireWhole(*this);
 	if (!isDivided(*this)) requireAny(points, *this);
 	vector<const MpmMaterial*> known;
+	bool                       areKnown = false;
 	if (distributed && job.model.processes) {
 		Distribution::requireDivisible(*this, points);
 		agreement.meet(*this);
+		std::int64_t isKnown = plausibility.knows<Dim>(points);
+		job.model.processes->smallest(&isKnown, 1);
+		areKnown           = isKnown;
 		job.model.division = distribution.divide<Dim>(*this, points);
 		known              = materialsOfAll(*scene, points, *job.model.processes);
 	}
 	job.cloud = gather(points, job.model, known);
+	if (areKnown) plausibility.know(job.cloud); // some have come from another process
 }
 
 Body::id_t MpmImplicitEngine::add(NewPoints& added)
