@@ -363,7 +363,7 @@ SHARING = """## Two processes
 
 The first steps of the slope with a weak layer in 3D, 262,200 points and 101,197 unknowns, by conjugate gradients (`scripts/bench sharing`, at revision {revision}): one process with one thread and with two, and two processes
 with one thread each, with all points in both and with points divided by `mpm.add`, in turn; of each the quickest of five runs, with the parts of each process. What a process waits for another is in the parts where they meet. `agree`: checksum of the points before a step; the
-one after it is part of the update. Both tables were measured beside other programs, with precedence over them (`chrt -f 20`). With the first step comes what it takes to begin MPI and to open PETSc, some .2 s, in what is from and to bodies. Memory is the peak of the process.
+one after it is part of the update. Measured with precedence over other programs (`chrt`). With the first step comes what it takes to begin MPI and to open PETSc, some .2 s, in what is from and to bodies. Memory is the peak of the process.
 
 """
 
