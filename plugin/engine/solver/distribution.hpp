@@ -33,7 +33,7 @@ private:
 // Whether the points of an engine are in several processes, of which this one has its own only.
 bool isDivided(const MpmImplicitEngine&);
 
-// For Python: of one of the engines of the current scene.
+// For Python: the same of those of the current scene, whichever engine has divided them.
 bool isSceneDivided();
 
 // For mpm.add: puts points into the current scene, which has this engine, given as newBodies() is; the id of the first one.

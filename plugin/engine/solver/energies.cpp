@@ -31,7 +31,7 @@ Energies ofAll(const Energies& own, const gimpm::Processes& all)
 // The imbalance is what integration in time and the way of velocities to the grid and back have added.
 void MpmDynamicEngine::tellMotion(py::dict& data) const
 {
-	const Energies own = energiesOf(materialPoints(*const_cast<MpmDynamicEngine*>(this)->ownScene(), mask));
+	const Energies own = energiesOf(materialPoints(*ownScene(), mask));
 	const Energies now = isDivided(*this) ? ofAll(own, *processes()) : own;
 	for (int axis = 0; axis < 3; ++axis) {
 		if (axis < grid->dim) data[string("momentum_") + "xyz"[axis]] = now.momentum[axis];

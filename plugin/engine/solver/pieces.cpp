@@ -35,4 +35,12 @@ void Pieces::note(Scene& scene, const gimpm::Processes* all)
 	scene.tags.push_back(text.str());
 }
 
+void provideGaps(Scene& scene, size_t places)
+{
+	if (scene.bodies->size() >= places) return;
+	const auto last = Body::id_t(places) - 1;
+	scene.bodies->insertAtId(shared_ptr<Body>(new Body), last);
+	scene.bodies->erase(last, false);
+}
+
 } // namespace yade

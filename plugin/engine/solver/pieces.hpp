@@ -19,4 +19,7 @@ struct Pieces {
 	static void note(Scene&, const gimpm::Processes*);
 };
 
+// So that the list of bodies is as long in all processes, also where others have the last ones.
+void provideGaps(Scene&, size_t places);
+
 } // namespace yade

@@ -120,7 +120,7 @@ namespace {
 			}
 			shareContacts();
 			halves.clear();
-			if (scene.bodies->size() < end) endWithGap(Body::id_t(end) - 1);
+			provideGaps(scene, end);
 			return !wholes.empty();
 		}
 
@@ -151,13 +151,6 @@ namespace {
 		static size_t firstOf(const vector<int64_t>& wholes, int64_t whole)
 		{
 			return std::lower_bound(wholes.begin(), wholes.end(), whole) - wholes.begin();
-		}
-
-		// The list of bodies is as long in all processes, also where others have the last ones.
-		void endWithGap(Body::id_t last)
-		{
-			scene.bodies->insertAtId(shared_ptr<Body>(new Body), last);
-			scene.bodies->erase(last, false);
 		}
 
 		// Of the points of all processes.

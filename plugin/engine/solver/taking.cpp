@@ -12,17 +12,6 @@
 
 namespace yade {
 
-namespace {
-	// So that O.bodies has as many places.
-	void provideGaps(Scene& scene, size_t places)
-	{
-		const auto last = Body::id_t(places) - 1;
-		if (scene.bodies->size() >= places) return;
-		scene.bodies->insertAtId(shared_ptr<Body>(new Body), last);
-		scene.bodies->erase(last, false);
-	}
-}
-
 template <int Dim> void MpmImplicitEngine::takePoints(Job<Dim>& job, Agreement& agreement)
 {
 	updateMaterialPoints(points, *scene, mask);
