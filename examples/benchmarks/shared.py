@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Scenes that several processes work on: `scripts/run -n 2 shared.py out.npz slope2 contact` runs these, and measures them.
 
-The file has the positions of the points after each scene, by its name, and as `measured` a text of JSON: for each scene the solves and the iterations of conjugate
-gradients or GMRES; of each process CPU seconds, seconds by part, memory, and what it has sent to others. The argument `linearSolver=amg` sets the method, `size=2`
+The file has the positions of the points after each scene, by its name, and as `measured` a text of JSON: for each scene the solves, the iterations of conjugate
+gradients or GMRES, and the SHA sum of the points and of what the conditions tell; of each process CPU seconds, seconds by part, memory, and what it has sent to others. The argument `linearSolver=amg` sets the method, `size=2`
 halves the cells, `depth=60` sets that of the slope in 3D [m], and with `distributed` the processes divide the points among them.
 """
+import hashlib
 import json
 import os
 import resource
@@ -248,6 +249,13 @@ def layers():
 	return 4
 
 
+def refined():
+	"""A footing on soil with small cells below it, which points come into and are split, with F-bar."""
+	footing = MpmBoundary(min=(-inf, 8, -inf), max=(2, 8, inf), fix='xy', displacement=(0, -.4, 0))
+	small = [MpmRefinement(min=(-1, 5, -1), max=(5, 9, 1))]
+	return block(engine(grid=dict(refinements=small), gravity=(0, -9.81, 0), boundaries=sides(footing), fBar=True), pack.inAlignedBox((0, 0, -1), (30, 8, 1)), 3e4)
+
+
 def change():
 	"""What is done to the points of the next scene between its steps."""
 	solver, box = O.engines[-1], lambda low, high: pack.inAlignedBox((0, low, -1), (16, high, 1))
@@ -280,6 +288,13 @@ def results(solver):
 	return [number for vector in vectors for number in vector]
 
 
+def digest(solver):
+	"""Of all that a user reads of the points, and of what acts on them: a change of the program that is not meant to change results leaves every bit of them."""
+	columns = 'id', 'pos', 'pos0', 'halfSize', 'stress', 'defGrad', 'elasticStrain', 'volume', 'plasticStrain', 'material', 'velocity', 'acceleration'
+	points = mpm.arrays()
+	return hashlib.sha256(b''.join(points[name].tobytes() for name in columns) + np.array(results(solver)).tobytes()).hexdigest()
+
+
 def effort(steps):
 	"""Runs the scene; what it takes."""
 	solver, solves, iterations, parts = next(engine for engine in O.engines if isinstance(engine, MpmImplicitEngine)), 0, 0, Counter()
@@ -289,7 +304,7 @@ def effort(steps):
 		solves, iterations = solves + solver.iterations, iterations + solver.cgIterations
 		parts.update(solver.report()['times'])
 	return dict(
-	        results=results(solver), points=len(mpm.arrays()['id']), steps=steps, solves=solves, iterations=iterations, fallbacks=solver.cgFallbacks,
+	        results=results(solver), digest=digest(solver), points=len(mpm.arrays()['id']), steps=steps, solves=solves, iterations=iterations, fallbacks=solver.cgFallbacks,
 	        seconds=time.perf_counter() - begin, cpu=time.process_time() - cpu, told=solver.plotData(), parts=parts, sent=(library.bytesSent() - sent) / steps,
 	        memory=1024 * resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
 	)
