@@ -10,6 +10,9 @@
 namespace yade {
 class MpmDynamicEngine;
 
+// The nodes of an edge by its number. std::invalid_argument names what is wrong with it.
+template <int Dim> gimpm::HeldBox<Dim> boxOfEdge(const shared_ptr<MpmAbsorbingBoundary>&, size_t number, const MpmGrid&, const gimpm::Grid<Dim>&);
+
 template <int Dim> class Shaking {
 public:
 	// Makes them act in the job's steps. std::invalid_argument names what cannot be computed with.
@@ -26,7 +29,7 @@ public:
 	Real dampingWork() const { return rayleigh->work; }
 
 private:
-	void join(const shared_ptr<MpmAbsorbingBoundary>&, const string& name, const MpmDynamicEngine&, const gimpm::Model<Dim>&);
+	void join(const shared_ptr<MpmAbsorbingBoundary>&, size_t number, const MpmDynamicEngine&, const gimpm::Model<Dim>&);
 	void requireFittingBases(const gimpm::Model<Dim>&) const;
 
 	using Edge = gimpm::AbsorbingBoundary<Dim>;
