@@ -9,7 +9,8 @@
 namespace gimpm::testAllTerms {
 namespace {
 
-	/// A block of 1.5 m in all directions: a pressure on top, water in the pores and outside, an oblique wall, a plate that presses from below.
+	/// A block of 1.5 m in all directions: a pressure on top, water in the pores and outside, an oblique wall, a plate that
+	/// presses from below.
 	template <int Dim> struct Scene {
 		Model<Dim>         model;
 		PointCloud<Dim>    cloud;
@@ -22,9 +23,9 @@ namespace {
 		{
 			const bool isRing = grid.axisymmetric;
 			model.grid        = grid;
-			model.materials = { { Hencky(1e6, 0.2), 2000 }, { MohrCoulomb(1e6, 0.2, 2e3, 0.5, 0.1), 2000 } };
-			model.ghost     = { 0.1 };
-			cloud           = grid.refinement ? refinedBlock<Dim>(grid, Index<Dim>::Constant(2), 2) : block<Dim>(grid, Index<Dim>::Constant(3), 2);
+			model.materials   = { { Hencky(1e6, 0.2), 2000 }, { MohrCoulomb(1e6, 0.2, 2e3, 0.5, 0.1), 2000 } };
+			model.ghost       = { 0.1 };
+			cloud = grid.refinement ? refinedBlock<Dim>(grid, Index<Dim>::Constant(2), 2) : block<Dim>(grid, Index<Dim>::Constant(3), 2);
 			Random random(5);
 			for (std::size_t p = 0; p < cloud.size(); ++p) {
 				cloud.material[p] = int(p % 2);
@@ -90,7 +91,8 @@ namespace {
 				EXPECT_FALSE(term->add(d, { force }));
 				EXPECT_GT(force.norm(), 1);
 			}
-			return relativeError(tangent(system, d), derivative([&](const Eigen::VectorXd& x) { return forces(system, x); }, free(system, d), 1e-8));
+			return relativeError(
+			        tangent(system, d), derivative([&](const Eigen::VectorXd& x) { return forces(system, x); }, free(system, d), 1e-8));
 		}
 
 	private:

@@ -11,7 +11,8 @@ namespace yade {
 
 template <int Dim> class Moving;
 
-// What the core computes with, and what acts on it. The terms of the model refer to the conditions, which live as long as this does.
+// What the core computes with, and what acts on it. The terms of the model refer to the conditions, which live as long
+// as this does.
 template <int Dim> struct Setup {
 	gimpm::Model<Dim>      model = gimpm::Model<Dim>();
 	gimpm::PointCloud<Dim> cloud {};

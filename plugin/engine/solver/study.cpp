@@ -196,8 +196,8 @@ void addStudyMethods(py::object pythonClass)
 	        pythonClass, "stiffness", py::make_function(&stiffness),
 	        "stiffness() -> (rows, columns, values, size)\n\nReduced tangent stiffness [N/m] of the current configuration, that of the first iteration of a load "
 	        "step from there with the loads of loadTime: of the points and the ghost stabilisation, of walls, contacts, pressures that follow and water. Of an "
-	        "MpmDynamicEngine, too, it is the derivative of these forces alone, without mass and damping. The free degrees of freedom only, both triangles, as NumPy arrays (M,) of "
-	        "int64, int64 and float, and the number of unknowns. Usable before any step. Raises ValueError for what a step cannot be made with.");
+	        "MpmDynamicEngine, too, it is the derivative of these forces alone, without mass and damping. The free degrees of freedom only, both "
+	        "triangles, as NumPy arrays (M,) of int64, int64 and float, and the number of unknowns. Usable before any step. Raises ValueError for what a step cannot be made with.");
 	py::objects::add_to_namespace(
 	        pythonClass, "conditionNumber", py::make_function(&conditionNumber),
 	        "conditionNumber() -> float\n\nCondition number [-] of stiffness() in the 2-norm, from all eigenvalues of the dense matrix (Coombs 2023, figure "
