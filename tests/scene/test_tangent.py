@@ -93,7 +93,7 @@ def test_a_small_force_moves_the_points_as_the_stiffness_tells(yade):
 print(json.dumps(dict(plane=error(), ring=error(axisymmetric=True), period=error(period=True), space=error(dim=3), fBar=error(fBar=True))))
 ''', timeout=300).result
 	for name, error in errors.items():
-		assert error < 1e-7, (name, error)
+		assert error < 1e-6, (name, error)
 
 
 def test_studies_refuse_what_a_step_refuses(tmp_path):
@@ -136,7 +136,7 @@ def test_steps_to_the_end_of_all_curves(yade):
 	"""Those of loads, boundaries and water of their own, too."""
 	found = yade(scene + '''
 ends = []
-for change in '', 'solver.loads[0].curve = [(0, 0), (3, 1)]', 'solver.water[0].curve = [(0, 1), (4, 1)]', 'solver.boundaries[0].curve = [(0, 0), (5, 1)]':
+for change in '', 'solver.loads[0].curve = [(0, 0), (3, 1)]', 'solver.water[0].curve = [(0, 1), (4, 1)]', 'solver.boundaries[0].displacement, solver.boundaries[0].curve = (1e-3, 0, 0), [(0, 0), (5, 1)]':
 	build()
 	exec(change)
 	ends.append((solver.loadsEnd(), mpm.advise()['steps']))
