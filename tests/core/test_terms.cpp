@@ -207,7 +207,7 @@ namespace {
 	{
 		constexpr int Dim = TypeParam::value;
 		Raft<Dim>     raft;
-		const double  strength = raft.weight() / 2;
+		const double  strength = raft.weight() / 4;
 		raft.model.terms = { [&](const Beginning<Dim>& step) { return std::make_unique<BrittleSprings<Dim>>(raft.springs, step.basis, strength); } };
 		ASSERT_TRUE(raft.step(0.1).converged());
 		const auto half   = raft.springs.elongation;
