@@ -38,7 +38,8 @@ namespace {
 		}
 		void addConditions()
 		{
-			load.surface  = top();
+			load.surface = top();
+			load.surface.refine(pieceLimit * model.grid.cellSize);
 			load.pressure = 3e4, load.traction = -1e4 * Vec<Dim>::Unit(0);
 			pores.place = WaterPlace::pores, outside.place = WaterPlace::outside;
 			pores.pressure = pores.before = std::make_shared<StillWater<Dim>>(1, 1, 1.1, 2e4);
