@@ -5,6 +5,7 @@
 #include "core/terms/motion.hpp"
 #include "core/terms/rayleigh.hpp"
 #include "engine/conditions/MpmAbsorbingBoundary.hpp"
+#include "engine/solver/MpmGrid.hpp"
 #include "engine/solver/job.hpp"
 
 namespace yade {
