@@ -97,7 +97,10 @@ void judge(const LocalError& error, StepReport& report)
 template <int Dim> void askTerms(const StepSystem<Dim>& system, const Eigen::VectorXd& d, StepReport& report)
 {
 	for (const auto& term : system.terms) {
-		if (const std::string refusal = term->refusal(d); !refusal.empty()) fail(report, Failure::penetrated, refusal);
+		if (const Refusal refusal = term->refusal(d); !refusal.cause.empty()) {
+			fail(report, refusal.failure, refusal.cause);
+			report.advice = refusal.advice;
+		}
 		judge(term->localError(d), report);
 	}
 }

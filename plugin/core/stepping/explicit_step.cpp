@@ -12,8 +12,7 @@ namespace {
 /// Whether the step can be made at all.
 template <int Dim> bool isPossible(const StepSystem<Dim>& system, const ExplicitInertia<Dim>& inertia, StepReport& report)
 {
-	for (const auto& term : system.terms)
-		if (const std::string obstacle = term->obstacle(); !obstacle.empty()) return !fail(report, Failure::misplaced, obstacle);
+	if (isObstructed(system, report)) return false;
 	if (const std::string obstacle = inertia.obstacle(); !obstacle.empty()) return !fail(report, Failure::misplaced, obstacle);
 	return !inertia.isSingular() || !fail(report, Failure::singular, "the mass matrix is singular to working precision");
 }

@@ -23,10 +23,7 @@ template <int Dim> bool isHeld(const StepSystem<Dim>& system, const PointCloud<D
 	if (const std::string between = boxBetweenNodes(system.basis, system.model.boundary); !between.empty())
 		return !fail(report, Failure::misplaced, between);
 	if (!lost.empty()) return !fail(report, Failure::detached, lost);
-	for (const auto& term : system.terms) {
-		if (const std::string obstacle = term->obstacle(); !obstacle.empty()) return !fail(report, Failure::misplaced, obstacle);
-		if (term->isSingular()) return !fail(report, Failure::singular, "the mass matrix is singular to working precision");
-	}
+	if (isObstructed(system, report)) return false;
 	return held.freeMotion.empty() || !fail(report, Failure::unrestrained, "nothing restrains the " + held.freeMotion);
 }
 
@@ -88,15 +85,17 @@ template <int Dim> StepReport loadStep(PointCloud<Dim>& cloud, const Model<Dim>&
 	return report;
 }
 
-template <int Dim> LinearProblem tangentStiffness(const PointCloud<Dim>& cloud, const Model<Dim>& model)
+template <int Dim> LinearProblem tangentStiffness(const PointCloud<Dim>& cloud, const Model<Dim>& model, StepReport* told)
 {
-	StepReport report;
-	return StepSystem<Dim>(cloud, model, Load<Dim>(), report).tangent();
+	StepReport            own, &report = told ? *told : own;
+	const StepSystem<Dim> system(cloud, model, Load<Dim>(), report);
+	NodeMatrix<Dim>       K;
+	return tangent(system, K, report) ? reduced(K, system.dofs) : LinearProblem(SymmetricCsc { { { 0 }, {}, {} } });
 }
 
 template StepReport    loadStep(PointCloud<2>&, const Model<2>&, const Load<2>&, LinearSolver&, LastIncrement<2>*);
 template StepReport    loadStep(PointCloud<3>&, const Model<3>&, const Load<3>&, LinearSolver&, LastIncrement<3>*);
-template LinearProblem tangentStiffness(const PointCloud<2>&, const Model<2>&);
-template LinearProblem tangentStiffness(const PointCloud<3>&, const Model<3>&);
+template LinearProblem tangentStiffness(const PointCloud<2>&, const Model<2>&, StepReport*);
+template LinearProblem tangentStiffness(const PointCloud<3>&, const Model<3>&, StepReport*);
 
 } // namespace gimpm

@@ -32,6 +32,12 @@ struct NewtonSettings {
 	double                stepTolerance = std::numeric_limits<double>::infinity(); ///< on rateChange() of a step without inertia that has a prediction [m]
 };
 
+/// What a condition that remembers its distance from the points has to do where a study makes all moduli larger and leaves the points in their places.
+template <int Dim> struct InPlace {
+	std::function<void(const PointCloud<Dim>&, double scale)> begin; ///< what has given way elastically is `scale` of what it was
+	std::function<void(const PointCloud<Dim>&)>               goOn;  ///< after a step, the points are back where they were
+};
+
 template <int Dim> struct Model {
 	Grid<Dim>             grid;
 	Basis                 basis = Basis::gimp;
@@ -43,6 +49,7 @@ template <int Dim> struct Model {
 	GhostSettings                             ghost;
 	NewtonSettings                            newton;
 	std::vector<TermOfStep<Dim>>              terms {};         ///< besides the points' resistance and the ghost stabilisation
+	std::vector<InPlace<Dim>>                 inPlace {};       ///< of those of the terms that need it
 	bool                                      atMiddle = false; ///< the points' resistance is that after half of the displacements
 	std::shared_ptr<const Processes>          processes {};     ///< that work on it together; null: this one alone
 	std::shared_ptr<Division>                 division {};      ///< of the points among them; null: all have the same points

@@ -8,6 +8,7 @@ bool fail(StepReport& report, Failure failure, const std::string& cause)
 {
 	report.failure = failure;
 	report.cause   = cause;
+	report.advice.clear();
 	return true;
 }
 
@@ -41,6 +42,22 @@ std::string causeOfDivergence(double correction)
 	return sentence("it diverges: a correction of ", correction, " m, more than a cell, does not reduce the residual");
 }
 
+template <int Dim> bool isObstructed(const StepSystem<Dim>& system, StepReport& report)
+{
+	for (const auto& term : system.terms) {
+		if (const std::string obstacle = term->obstacle(); !obstacle.empty()) return fail(report, Failure::misplaced, obstacle);
+		if (term->isSingular()) return fail(report, Failure::singular, "the mass matrix is singular to working precision");
+	}
+	return false;
+}
+
+template <int Dim> bool tangent(const StepSystem<Dim>& system, NodeMatrix<Dim>& K, StepReport& report)
+{
+	if (isObstructed(system, report)) return false;
+	const auto failure = system.tangent(K);
+	return !failure || !fail(report, *failure);
+}
+
 template <int Dim> void reportWorst(const StepSystem<Dim>& system, const Balance& balance, StepReport& report)
 {
 	if (balance.worst < 0) return;
@@ -63,6 +80,10 @@ template <int Dim> std::vector<Vec3> reactions(const StepSystem<Dim>& system, co
 	return sums;
 }
 
+template bool              isObstructed(const StepSystem<2>&, StepReport&);
+template bool              isObstructed(const StepSystem<3>&, StepReport&);
+template bool              tangent(const StepSystem<2>&, NodeMatrix<2>&, StepReport&);
+template bool              tangent(const StepSystem<3>&, NodeMatrix<3>&, StepReport&);
 template void              reportWorst(const StepSystem<2>&, const Balance&, StepReport&);
 template void              reportWorst(const StepSystem<3>&, const Balance&, StepReport&);
 template std::vector<Vec3> reactions(const StepSystem<2>&, const Eigen::VectorXd&);

@@ -145,11 +145,11 @@ template <int Dim> LinearProblem StepSystem<Dim>::tangent() const
 	return reduced(K, dofs);
 }
 
-template <int Dim> void StepSystem<Dim>::tangent(NodeMatrix<Dim>& K) const
+template <int Dim> std::optional<PointFailure> StepSystem<Dim>::tangent(NodeMatrix<Dim>& K) const
 {
 	Eigen::VectorXd force;
 	prepare(K);
-	evaluate(Eigen::VectorXd::Zero(nodalSize()), force, &K);
+	return evaluate(Eigen::VectorXd::Zero(nodalSize()), force, &K);
 }
 
 template <int Dim>

@@ -178,7 +178,7 @@ template <int Dim> void Contact<Dim>::restrainAt(const Eigen::VectorXd& d, const
 
 /// A whole domain inside, or a corner that has come through; or the middle of a point on the other side of a surface that soil may touch from both: there it
 /// would not be known again.
-template <int Dim> std::string Contact<Dim>::refusal(const Eigen::VectorXd& d) const
+template <int Dim> Refusal Contact<Dim>::refusal(const Eigen::VectorXd& d) const
 {
 	std::string found;
 	forTouching(d, [&](const Corner& corner, const Vec<Dim>& x, double gap, const Touch<Dim>& touched) {
@@ -200,7 +200,7 @@ template <int Dim> std::string Contact<Dim>::refusal(const Eigen::VectorXd& d) c
 		const Proximity<Dim> at = body.proximity(body.end, x, near.side);
 		if (at.gap < 0 && at.beside < 0) found = textAt(body, " would get the middle of a material point on its other side", x);
 	}
-	return found;
+	return { Failure::penetrated, found, "Smaller load steps (O.dt), or a larger stiffness of MpmContact, may help." };
 }
 
 template <int Dim> ContactLoad Contact<Dim>::loadOn(const Vec<Dim>& owner, const Corner& corner, const Vec<Dim>& place, const Touch<Dim>& touched) const
@@ -231,7 +231,7 @@ template <int Dim> void Contact<Dim>::commit(const Eigen::VectorXd& d)
 		const auto&  body = system_.bodies[corner.body];
 		const double gap  = approach(corner, corner.place + corner.attached.displacement(d)).at.gap;
 		const double anew = body.proximity(body.end, domains[corner.near].corner(corner.corner), corner.side).gap;
-		records.push_back({ corner.point, corner.corner, corner.body, anew - gap });
+		records.push_back({ corner.point, corner.corner, corner.body, anew - gap, false, false, gap });
 	}
 	system_.loads.assign(system_.owners.size(), {});
 	system_.work = 0;

@@ -78,7 +78,7 @@ public:
 	double                      fromOutside(const Eigen::VectorXd& d) const override { return this->sizeOfForce(d); }
 	void                        restrain(const typename Term<Dim>::Hold&) const override;
 	void                        restrainAt(const Eigen::VectorXd& d, const typename Term<Dim>::Hold&) const override;
-	std::string                 refusal(const Eigen::VectorXd& d) const override;
+	Refusal                     refusal(const Eigen::VectorXd& d) const override;
 	void                        commit(const Eigen::VectorXd& d) override;
 
 private:

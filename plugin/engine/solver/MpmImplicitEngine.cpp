@@ -5,6 +5,7 @@
 #include "engine/solver/AtWork.hpp"
 #include "engine/solver/LoadStepObserver.hpp"
 #include "engine/solver/Threads.hpp"
+#include "engine/solver/build_model.hpp"
 #include "engine/solver/exchange.hpp"
 #include "engine/solver/failures.hpp"
 #include "engine/solver/moving.hpp"
@@ -74,19 +75,16 @@ template <int Dim> Job<Dim> MpmImplicitEngine::prepare(Agreement& agreement)
 	requireRunnable(*this);
 	progressLine.start(scene->iter);
 	warn(plausibility.doubtOfEnd(*this));
-	double   gathering = 0, checking = 0;
-	Job<Dim> job { { stepPart, isExplicit() ? 1 : newton->minStep, newton->maxIterations }, loadTime, scene->time + scene->dt };
-	{
-		const gimpm::Stopwatch watch(gathering);
-		job.model           = toModel<Dim>(*grid, basis, fBar, boundaries, *ghost, *newton);
-		job.model.processes = processes();
-		takePoints(job, agreement);
-		(job.surfaceLoads = SurfaceLoads<Dim>(*this, job.model.grid)).join(job.model);
-		if (job.model.division && !water.empty()) agreement.meet(*this);
-		(job.waters = Waters<Dim>(*this, job.model.grid, job.cloud, job.model.division.get())).join(job.model);
-		(job.contacts = Contacts<Dim>(contacts, *scene, job.model.grid, points, bool(job.model.division), job.begin, job.target)).join(job.model);
-		setMoving(job, points); // inertia comes last
-	}
+	const Real target    = scene->time + scene->dt;
+	double     gathering = 0, checking = 0;
+	Job<Dim>   job = [&] {
+                const gimpm::Stopwatch   watch(gathering);
+                const gimpm::StepControl control(stepPart, isExplicit() ? 1 : newton->minStep, newton->maxIterations);
+                auto                     setup = buildModel<Dim>(*this, *scene, points, loadTime, target, [&](Setup<Dim>& to) { takePoints(to, agreement); });
+                Job<Dim>                 made(std::move(setup), control, loadTime, target);
+                setMoving(made, points); // inertia comes last
+                return made;
+	}();
 	job.doubts = plausibility.look(*this, points, job.cloud, job.model, checking);
 	begin(points.size());
 	addTime(*timingDeltas, "gather", gathering);
@@ -126,11 +124,8 @@ template <int Dim> Attempt<Dim> MpmImplicitEngine::attempt(Job<Dim>& job) const
 	const ValueLock lock;
 	const Real      time               = job.control.goal() == 1 ? job.target : job.begin + job.control.goal() * (job.target - job.begin);
 	job.model.newton.acceptUnconverged = newton->acceptUnconverged && job.control.isLeast();
-	job.surfaceLoads.advanceTo(time);
-	job.waters.advance(loadTime, time);
-	job.contacts.advanceTo(time);
 	Attempt<Dim> next { time, loadBetween<Dim>(loadTime, time), newton->predictor, {} };
-	if (moveWalls(boundaries, job.model, time - loadTime) || job.contacts.areThere()) next.load.motion = time - loadTime;
+	if (yade::advance<Dim>(job, *this, loadTime, time)) next.load.motion = time - loadTime;
 	if (job.moving) job.moving->begin(job, next, loadTime);
 	if (next.predicts) next.last = fromNumbers<Dim>(lastDisplacements, lastLoadIncrement, job.model.grid);
 	return next;

@@ -107,7 +107,7 @@ private:
 	bool                            isEndOfLoads() const;
 	template <int Dim> void         step(Agreement&);
 	template <int Dim> Job<Dim>     prepare(Agreement&);
-	template <int Dim> void         takePoints(Job<Dim>&, Agreement&);
+	template <int Dim> void         takePoints(Setup<Dim>&, Agreement&);
 	template <int Dim> void         doubt(const Job<Dim>&);
 	template <int Dim> bool         splitOutgrown(Job<Dim>&);
 	template <int Dim> void         advance(Job<Dim>&);

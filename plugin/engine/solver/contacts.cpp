@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "engine/solver/contacts.hpp"
+#include "core/terms/contact_in_place.hpp"
 #include "engine/conditions/contact_records.hpp"
 #include "engine/points/MpmPoint.hpp"
 #include "engine/solver/MpmImplicitEngine.hpp"
@@ -201,6 +202,8 @@ template <int Dim> void Contacts<Dim>::join(gimpm::Model<Dim>& model)
 	if (!system) return;
 	advanceTo(begin);
 	model.terms.push_back([known = system](const gimpm::Beginning<Dim>& step) { return std::make_unique<gimpm::Contact<Dim>>(*known, step); });
+	const auto begin = [known = system](const gimpm::PointCloud<Dim>& cloud, Real scale) { shrinkGaps(*known, cloud, scale); };
+	model.inPlace.push_back({ begin, [known = system](const gimpm::PointCloud<Dim>& cloud) { keepGaps(*known, cloud); } });
 }
 
 template <int Dim> void Contacts<Dim>::advanceTo(Real time)

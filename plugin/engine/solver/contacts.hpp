@@ -35,6 +35,15 @@ public:
 		return system.get();
 	}
 
+	// The largest of their stiffnesses, over Young's modulus per cell [-].
+	Real penalty() const
+	{
+		Real largest = 0;
+		for (const auto& contact : given)
+			largest = std::max(largest, contact->stiffness);
+		return largest;
+	}
+
 	// On the soil in the last step that was accepted [J].
 	Real work() const { return system ? system->work : 0; }
 

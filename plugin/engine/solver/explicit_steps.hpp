@@ -11,7 +11,7 @@ class MpmDynamicEngine;
 void requireExplicit(const MpmDynamicEngine&);
 
 // A step of this duration [s] is stable, or std::invalid_argument with the limit.
-template <int Dim> void requireStable(const MpmDynamicEngine&, const gimpm::PointCloud<Dim>&, const gimpm::Model<Dim>&, Real duration);
+template <int Dim> void requireStable(const MpmDynamicEngine&, const Setup<Dim>&, Real duration);
 
 // Of the present state of the scene [s]; NaN without grid or points.
 Real criticalTimeStep(MpmDynamicEngine&);

@@ -55,7 +55,7 @@ namespace {
 		string advice;
 		if (report.failure == Failure::unrestrained) return " Hold nodes of that material with MpmBoundary.";
 		if (report.failure == Failure::misplaced) return "";
-		if (report.failure == Failure::penetrated) return " Smaller load steps (O.dt), or a larger stiffness of MpmContact, may help.";
+		if (!report.advice.empty()) return " " + report.advice;
 		if (report.failure == Failure::inaccurate)
 			return " Smaller steps (O.dt), a smaller newton.minStep or a larger timeTolerance would let it pass.";
 		if (report.failure == Failure::slides)
@@ -96,6 +96,7 @@ const char* nameOf(gimpm::Failure failure)
 		case Failure::unrestrained: return "unrestrained";
 		case Failure::slides: return "slides";
 		case Failure::penetrated: return "penetrated";
+		case Failure::refused: return "refused";
 		case Failure::inaccurate: return "inaccurate";
 		case Failure::singular: return "singular";
 		case Failure::inverted: return "inverted";

@@ -50,7 +50,7 @@ Moving<Dim>::Moving(MpmDynamicEngine& e, Job<Dim>& job, const vector<MaterialPoi
 
 template <int Dim> void Moving<Dim>::begin(Job<Dim>& job, Attempt<Dim>& next, Real from) const
 {
-	if (engine.isExplicit()) requireStable(engine, job.cloud, job.model, next.time - from); // by all processes, which are here together
+	if (engine.isExplicit()) requireStable<Dim>(engine, job, next.time - from); // by all processes, which are here together
 	if (std::isnan(engine.firstEnergy)) engine.firstEnergy = ofAll(energy, job);
 	motion->duration = next.time - from;
 	next.load.motion = motion->duration;

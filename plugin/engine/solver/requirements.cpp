@@ -115,24 +115,29 @@ static void requireEqualCells(const MpmImplicitEngine& engine)
 		throw std::invalid_argument("MpmGrid.refinements, cells of several sizes, cannot go with " + what + " yet; leave one of the two out.");
 }
 
-void requireRunnable(const MpmImplicitEngine& engine)
+void requireSettings(const MpmImplicitEngine& engine)
 {
 	engine.requireAdmissible();
 	requireEqualCells(engine);
-	requireNoDecomposition(*engine.scene);
 	if (engine.newton->linearSolver == "amg") requireMultigrid();
 	if (engine.maxSplits > 0 && engine.basis != "gimp")
 		throw std::invalid_argument(
 		        "maxSplits = " + std::to_string(engine.maxSplits) + " needs basis='gimp': with basis='" + engine.basis
 		        + "' points have no domains on the grid that could outgrow a cell. Set maxSplits = 0.");
-	requireOnlyClaim(engine);
-	if (!engine.contacts.empty()) requireOnlyContact(engine);
 	requireOwnSurfaces(engine);
 	for (size_t b = 0; b < engine.boundaries.size() && !engine.isDynamic(); ++b)
 		if (engine.boundaries[b]->motion)
 			throw std::invalid_argument(
 			        "boundaries[" + std::to_string(b)
 			        + "].motion is a history in time, which MpmImplicitEngine knows nothing of: take MpmDynamicEngine, or give displacement.");
+}
+
+void requireRunnable(const MpmImplicitEngine& engine)
+{
+	engine.requireAdmissible();
+	requireNoDecomposition(*engine.scene);
+	requireOnlyClaim(engine);
+	if (!engine.contacts.empty()) requireOnlyContact(engine);
 	Scene&             scene = *engine.scene;
 	std::ostringstream text;
 	if (!(scene.dt > 0) || !std::isfinite(scene.dt))

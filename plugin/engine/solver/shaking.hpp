@@ -5,10 +5,14 @@
 #include "core/terms/motion.hpp"
 #include "core/terms/rayleigh.hpp"
 #include "engine/conditions/MpmAbsorbingBoundary.hpp"
+#include "engine/solver/MpmGrid.hpp"
 #include "engine/solver/job.hpp"
 
 namespace yade {
 class MpmDynamicEngine;
+
+// The nodes of an edge by its number. std::invalid_argument names what is wrong with it.
+template <int Dim> gimpm::HeldBox<Dim> boxOfEdge(const shared_ptr<MpmAbsorbingBoundary>&, size_t number, const MpmGrid&, const gimpm::Grid<Dim>&);
 
 template <int Dim> class Shaking {
 public:
@@ -26,7 +30,7 @@ public:
 	Real dampingWork() const { return rayleigh->work; }
 
 private:
-	void join(const shared_ptr<MpmAbsorbingBoundary>&, const string& name, const MpmDynamicEngine&, const gimpm::Model<Dim>&);
+	void join(const shared_ptr<MpmAbsorbingBoundary>&, size_t number, const MpmDynamicEngine&, const gimpm::Model<Dim>&);
 	void requireFittingBases(const gimpm::Model<Dim>&) const;
 
 	using Edge = gimpm::AbsorbingBoundary<Dim>;

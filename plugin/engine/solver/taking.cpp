@@ -12,24 +12,27 @@
 
 namespace yade {
 
-template <int Dim> void MpmImplicitEngine::takePoints(Job<Dim>& job, Agreement& agreement)
+template <int Dim> void MpmImplicitEngine::takePoints(Setup<Dim>& to, Agreement& agreement)
 {
+	auto& model     = to.model;
+	model.processes = processes();
 	updateMaterialPoints(points, *scene, mask);
 	Distribution::requireWhole(*this);
 	if (!isDivided(*this)) requireAny(points, *this);
 	vector<const MpmMaterial*> known;
 	bool                       areKnown = false;
-	if (distributed && job.model.processes) {
+	if (distributed && model.processes) {
 		Distribution::requireDivisible(*this, points);
 		agreement.meet(*this);
 		std::int64_t isKnown = plausibility.knows<Dim>(points);
-		job.model.processes->smallest(&isKnown, 1);
-		areKnown           = isKnown;
-		job.model.division = distribution.divide<Dim>(*this, points);
-		known              = materialsOfAll(*scene, points, *job.model.processes);
+		model.processes->smallest(&isKnown, 1);
+		areKnown       = isKnown;
+		model.division = distribution.divide<Dim>(*this, points);
+		known          = materialsOfAll(*scene, points, *model.processes);
 	}
-	job.cloud = gather(points, job.model, known);
-	if (areKnown) plausibility.know(job.cloud); // some have come from another process
+	to.cloud = gather(points, model, known);
+	if (areKnown) plausibility.know(to.cloud); // some have come from another process
+	if (model.division && !water.empty()) agreement.meet(*this);
 }
 
 Body::id_t MpmImplicitEngine::add(NewPoints& added)
@@ -82,7 +85,7 @@ template <int Dim> bool MpmImplicitEngine::splitOutgrown(Job<Dim>& job)
 void MpmImplicitEngine::warnOfPoints(const string& text) { warn(isDivided(*this) ? firstSaid(text, *processes()) : text); }
 
 #define MPM_INSTANTIATE(Dim)                                                                                                                                   \
-	template void MpmImplicitEngine::takePoints(Job<Dim>&, Agreement&);                                                                                    \
+	template void MpmImplicitEngine::takePoints(Setup<Dim>&, Agreement&);                                                                                  \
 	template void MpmImplicitEngine::doubt(const Job<Dim>&);                                                                                               \
 	template bool MpmImplicitEngine::splitOutgrown(Job<Dim>&);
 MPM_INSTANTIATE(2)

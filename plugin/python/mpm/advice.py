@@ -65,8 +65,7 @@ class _Scene:
 		self.low, self.high = data['pos'].min(axis=0) - data['halfSize'].min(axis=0), data['pos'].max(axis=0) + data['halfSize'].min(axis=0)
 		self.pointsPerCell = (self.points / self.work['activeCells'])**(1 / self.dim)
 		self.plastic = any(type(material) is not wrapper.MpmElasticMat for material in self.materials)
-		last = max(curve[-1][0] for curve in (solver.loadCurve, solver.gravityCurve) if curve)
-		self.left = max(0, last - wrapper.Omega().time)
+		self.left = max(0, solver.loadsEnd() - wrapper.Omega().time)
 		self.steps = self.runsOf(solver)
 		self.recorders = [e for e in wrapper.Omega().engines if isinstance(e, wrapper.MpmVtkRecorder) and not e.dead and e.solver in ('', solver.label)]
 
@@ -104,7 +103,7 @@ class _Scene:
 		"""Both ends held along z, and nothing acts along it: plane strain."""
 		tolerance = 1e-6 * self.h
 		ends = [any('z' in b.fix and not b.surface and b.min[2] <= z + tolerance and b.max[2] >= z - tolerance for b in self.solver.boundaries) for z in (self.low[2], self.high[2])]
-		return all(ends) and self.solver.gravity[2] == 0
+		return all(ends) and self.solver.gravity[2] == 0 and not self.solver.contacts and not any(load.traction[2] for load in self.solver.loads)
 
 
 def _notNeeded(scene):
@@ -130,7 +129,7 @@ def _notNeeded(scene):
 		        'for a factor of 10, 76 % for 100.'
 		)
 	for i, boundary in enumerate(solver.boundaries):
-		cells = max(abs(factor) for _, factor in solver.loadCurve) * max(map(abs, boundary.displacement)) / scene.h
+		cells = max(abs(factor) for _, factor in boundary.curve or solver.loadCurve) * max(map(abs, boundary.displacement)) / scene.h
 		if cells > 0.5:
 			found.append(
 			        f'boundaries[{i}]: it moves by {cells:.3g} cells, but its nodes stay in place: soil that they push away from its surface follows for half a '
