@@ -5,6 +5,7 @@
 #include "engine/materials/laws.hpp"
 #include "engine/output/contactPoints.hpp"
 #include "engine/output/gridCells.hpp"
+#include "engine/output/waterAround.hpp"
 #include "engine/points/assignment.hpp"
 #include "engine/points/bulkAccess.hpp"
 #include "engine/points/columns.hpp"
@@ -42,6 +43,15 @@ BOOST_PYTHON_MODULE(mpm_engine)
 	        "For mpm.respond: one call of the law of a material in principal axes, from trial strains and a dict of internal variables.");
 	py::def("elasticStrainOf", &elasticStrainForPython, "For mpm.elementTest: principal elastic strains of principal Kirchhoff stresses.");
 	py::def("touchableBodies", &touchableBodiesForPython, "For mpm.plot: ids of the rigid bodies that the contacts of an engine mean.");
+	py::def("waterAround", &waterAroundForPython,
+	        "For mpm.geostatic: pressure and gradient of each water of an engine, averaged over boxes, given their middles and half sizes.");
+	py::def(
+	        "actInPart",
+	        +[](MpmMaterial& material, Real share) {
+		        const ValueLock lock;
+		        material.share = share;
+	        },
+	        "For mpm.stages: the share of water and point loads that acts on points of a material, whose density is as small.");
 	py::def("gridCells", &gridCellsForPython,
 	        "For mpm.plot: corners and first field of the cells of 'grid', 'ghostFaces', 'loads', 'walls' or 'contacts' around the material points.");
 }

@@ -43,7 +43,8 @@ template <int Dim> struct Model {
 	Basis                 basis = Basis::gimp;
 	bool                  fBar  = false; ///< against volumetric locking; needs the ghost stabilisation, which holds the nodes of nearly empty cells
 	std::vector<Material> materials;
-	Boundary<Dim>         boundary; ///< the last box is that of the axis of symmetry, if there is one
+	std::vector<double> shares {}; ///< by material, of what acts of point loads and water in a stage of construction, as it does of the density; empty: all
+	Boundary<Dim>       boundary;  ///< the last box is that of the axis of symmetry, if there is one
 	/// Off the lines of the grid, by the box of the boundary that their reaction is reported with, which holds nothing; moved in each step that is accepted.
 	std::map<int, std::shared_ptr<Wall<Dim>>> walls {};
 	GhostSettings                             ghost;

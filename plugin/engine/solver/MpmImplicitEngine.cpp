@@ -52,8 +52,9 @@ void MpmImplicitEngine::action()
 template <int Dim> void MpmImplicitEngine::step(Agreement& agreement)
 {
 	const AtWork during;
-	Job<Dim>     job      = prepare<Dim>(agreement);
-	double       agreeing = 0;
+	if (!water.empty()) askWater<Dim>(agreement);
+	Job<Dim> job      = prepare<Dim>(agreement);
+	double   agreeing = 0;
 	if (job.model.grid.refinement && basis == "gimp" && splitOutgrown(job)) job = prepare<Dim>(agreement);
 	{
 		const gimpm::Stopwatch watch(agreeing);

@@ -106,6 +106,7 @@ protected:
 private:
 	bool                            isEndOfLoads() const;
 	template <int Dim> void         step(Agreement&);
+	template <int Dim> void         askWater(Agreement&);
 	template <int Dim> Job<Dim>     prepare(Agreement&);
 	template <int Dim> void         takePoints(Setup<Dim>&, Agreement&);
 	template <int Dim> void         doubt(const Job<Dim>&);

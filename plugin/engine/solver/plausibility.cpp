@@ -5,6 +5,7 @@
 #include "core/base/stopwatch.hpp"
 #include "engine/materials/MpmElasticMat.hpp"
 #include "engine/solver/MpmImplicitEngine.hpp"
+#include "engine/solver/doubtful_water.hpp"
 #include "engine/solver/idle_boundaries.hpp"
 #include "engine/solver/overlaps.hpp"
 
@@ -125,7 +126,8 @@ namespace {
 			const bool isLight = density < lightest, isSoft = young < softest && density > ofGround;
 			if (!isLight && !isSoft) continue;
 			const size_t first = std::find(cloud.material.begin(), cloud.material.end(), int(m)) - cloud.material.begin();
-			if (first == points.size()) continue; // another process has them
+			if (first == points.size()) continue;             // another process has them
+			if (points[first].material->share != 1) continue; // of a stage of construction, which makes it light, and soft
 
 			if (!isLight && !dynamic_cast<const MpmElasticMat*>(points[first].material.get())) continue; // its young is no attribute
 			const string name = "material '" + points[first].material->label + "' (of body #" + std::to_string(points[first].id) + ")";
@@ -243,6 +245,8 @@ vector<string> Plausibility::look(
 	say(sentences, Doubt::units, doubtOfUnits(engine.gravity, points, cloud, model.materials));
 	say(sentences, Doubt::tension, doubtOfTension(engine.gravity, initialStress));
 	say(sentences, Doubt::overlap, overlap);
+	say(sentences, Doubt::waterUnits, doubtOfWeight(engine));
+	say(sentences, Doubt::bothSides, doubtOfSides(engine, points));
 	return sentences;
 }
 

@@ -45,9 +45,9 @@ def contactForces(solver=None):
 	return tuple(np.frombuffer(data[name]).reshape(-1, 3) for name in ('corners', 'field'))
 
 
-def fields():
-	"""The same, and what follows from it: ``displacement`` (N, 3) [m], ``strain`` (N, 3, 3) logarithmic, ``meanStress`` and ``sqrt2J2`` (N,) [Pa], and where there is water ``totalStress`` (N, 3, 3) [Pa]."""
-	return _asArrays(columnsOfPoints(0, True))
+def fields(mask=0):
+	"""The same of the points that a mask means, and what follows from it: ``displacement`` (N, 3) [m], ``strain`` (N, 3, 3) logarithmic, ``meanStress`` and ``sqrt2J2`` (N,) [Pa], and where there is water ``totalStress`` (N, 3, 3) [Pa]."""
+	return _asArrays(columnsOfPoints(mask, True))
 
 
 def pointsOf(solver):
