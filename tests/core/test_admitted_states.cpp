@@ -11,7 +11,7 @@ namespace {
 		return 1 + (random.in(0, 1) < .5 ? 1e-15 * std::round(random.in(-8, 8)) : std::pow(10, random.in(-14, -1)) * random.in(-.2, 1));
 	}
 
-	template <class L> void expectAdmitted(const L& law, const Vec3& e, const decltype(law.initialInternals())& before, int& elastic, int& plastic)
+	template <class L> void expectAdmitted(const L& law, const Vec3& e, const decltype(law.initialInternals())& before, bool isInside)
 	{
 		const auto r = law.respond(e, before);
 		if (r.failed) return;
@@ -22,18 +22,15 @@ namespace {
 				EXPECT_GE(r.internals[k], before[k]) << "of strains " << e.transpose();
 			}
 		}
-		const bool isElastic = r.elasticStrain == e;
-		++(isElastic ? elastic : plastic);
-		if (isElastic) {
+		if (isInside) {
 			EXPECT_EQ(r.internals, before) << "of strains " << e.transpose();
 		}
 	}
 
-	/// Strains that are multiples of one that yields, around the multiple at which it begins to.
-	template <class L> void expectAdmittedAroundYield(const L& law, const std::vector<Vec3>& directions)
+	/// Strains that are multiples of one that yields, around the multiple at which it begins to; where that is sharp, less than that leaves all as it was.
+	template <class L> void expectAdmittedAroundYield(const L& law, const std::vector<Vec3>& directions, bool isSharp = true)
 	{
 		Random random(11);
-		int    elastic = 0, plastic = 0;
 		for (const Vec3& e : directions) {
 			double low = 0, high = 1;
 			for (int i = 0; i < 60; ++i) {
@@ -41,11 +38,11 @@ namespace {
 				const auto   r                                                  = respondTo(law, Vec3(middle * e));
 				(!r.failed && r.elasticStrain == Vec3(middle * e) ? low : high) = middle;
 			}
-			for (int i = 0; i < 8; ++i)
-				expectAdmitted(law, Vec3(high * around(random) * e), law.initialInternals(), elastic, plastic);
+			for (int i = 0; i < 8; ++i) {
+				const double factor = around(random);
+				expectAdmitted(law, Vec3(high * factor * e), law.initialInternals(), isSharp && factor < 1 - 1e-6);
+			}
 		}
-		EXPECT_GT(elastic, 20);
-		EXPECT_GT(plastic, 20);
 	}
 
 	std::vector<Vec3> directions(int count, double mean)
@@ -66,11 +63,19 @@ namespace {
 		}
 	}
 
+	// A point whose return passes through rounding: its plastic strain was -7e-19.
+	TEST(AdmittedStates, AreWhatCamClayLeavesOfOneThatHardlyFlows)
+	{
+		const CamClay clay(1039013.923773673, 1.133665873220736, 0.17909309073005497, 0.06968442121421436, 1e5, 1e4);
+		const Vec3    e(-0.05189086384253094, -0.054218142364232294, -0.054218142364232294);
+		expectAdmitted(clay, e, clay.initialInternals(), false);
+	}
+
 	// The plastic part of a hardening that is far stiffer than the soil is round-off.
 	TEST(AdmittedStates, AreWhatVonMisesLeaves)
 	{
 		for (const double hardening : { 0., -1e5, 1e6, 1e14, 1e17, 1e22 })
-			expectAdmittedAroundYield(VonMises(1e6, .3, 1e3, hardening), soilStrains(2000));
+			expectAdmittedAroundYield(VonMises(1e6, .3, 1e3, hardening), soilStrains(2000), hardening < 1e10);
 	}
 
 	TEST(AdmittedStates, AreWhatFrictionLeaves)
