@@ -13,6 +13,7 @@
 #include "engine/solver/MpmGrid.hpp"
 #include "engine/solver/distribution.hpp"
 #include "engine/solver/processes.hpp"
+#include "yade_api/naming.hpp"
 #include "yade_api/verification.hpp"
 
 BOOST_PYTHON_MODULE(mpm_engine)
@@ -37,6 +38,15 @@ BOOST_PYTHON_MODULE(mpm_engine)
 	py::def("columnsOfPoints", &columnsOfPoints,
 	        "For mpm.arrays: dict of bytearrays with the data of the material points that a mask means, in order of body id.");
 	py::def("pointColumns", &pointColumnsForPython, "What there is to know of a material point: a dict with name, unit, label, width ... for each column.");
+	py::def(
+	        "didYouMean",
+	        +[](const string& name, const py::list& known) {
+		        vector<string> names;
+		        for (py::ssize_t i = 0; i < py::len(known); ++i)
+			        names.push_back(py::extract<string>(known[i]));
+		        return didYouMean(name, names);
+	        },
+	        "For messages: the known names that are most like another one, as a question.");
 	py::def("warn", &warn, "A warning of module mpm in YADE's log.");
 	py::def("assignColumns", &assignColumns, "For mpm.assign: values of the material points with these body ids, from a dict of arrays; all or none.");
 	py::def("respond", &respondForPython,

@@ -2,6 +2,7 @@
 #pragma once
 // One attribute of a plugin class, as given by the attributes() list of that class.
 #include "yade_api/conversion.hpp"
+#include "yade_api/naming.hpp"
 #include "yade_api/validators.hpp"
 #include "yade_api/value_lock.hpp"
 #include <stdexcept>
@@ -45,8 +46,11 @@ template <class D, class T, class Validator> struct Attribute {
 
 	py::object read(const D& object) const
 	{
-		const T value = copy(object);
-		return Conversion<T>::toPython(value);
+		const T    value     = copy(object);
+		const auto converted = Conversion<T>::toPython(value);
+		if constexpr (std::is_same_v<decltype(converted), const py::tuple>) return copyOfAttribute(converted, qualifiedName(), is(readonly));
+		else
+			return converted;
 	}
 
 	// A Python ValueError.

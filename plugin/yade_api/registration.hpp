@@ -89,19 +89,22 @@ public:
 		PythonClass c(D::staticName(), D::doc(), py::no_init);
 		c.def("__init__", py::raw_function(Initializer { py::make_constructor(&fromKeywords) }, 1));
 		c.def("__setattr__", &setKnownAttribute);
+		c.def("__getattr__", &refuseUnknown);
 		forEachAttribute([&](const auto& attribute) { addProperty(c, attribute); });
 		D::python(c);
 	}
 
 protected:
-	// names of the attributes of D and of the plugin's classes that it derives from
-	static string attributeNames()
+	// names of the attributes of D and of the plugin's classes that it derives from: settings, or results that can only be read
+	static string attributeNames(bool areReadonly)
 	{
 		string names;
+		if constexpr (baseIsExposed(static_cast<B*>(nullptr))) names = B::attributeNames(areReadonly);
 		forEachAttribute([&](const auto& attribute) {
-			if (!attribute.is(hidden)) names += (names.empty() ? "" : ", ") + string(attribute.name);
+			const bool isListed = (", " + names + ",").find(", " + string(attribute.name) + ",") != string::npos; // that of a base
+			if (attribute.is(hidden) || attribute.is(readonly) != areReadonly || isListed) return;
+			names += (names.empty() ? "" : ", ") + string(attribute.name);
 		});
-		if constexpr (baseIsExposed(static_cast<B*>(nullptr))) names += (names.empty() ? "" : ", ") + B::attributeNames();
 		return names;
 	}
 
@@ -203,9 +206,25 @@ private:
 
 	static void requireSettable(const string& name)
 	{
-		if (!PyObject_HasAttrString(reinterpret_cast<PyObject*>(pythonType()), name.c_str()))
-			raisePython(PyExc_AttributeError, string(D::staticName()) + " has no attribute '" + name + "'; it has " + attributeNames() + ".");
+		if (!PyObject_HasAttrString(reinterpret_cast<PyObject*>(pythonType()), name.c_str())) raiseUnknown(name);
 		if (isReadonly(name)) raisePython(PyExc_AttributeError, string(D::staticName()) + "." + name + " can only be read. " + documentation(name));
+	}
+
+	[[noreturn]] static void raiseUnknown(const string& name)
+	{
+		const string meant = didYouMean(name, namesIn(pythonType())), results = attributeNames(true), settings = attributeNames(false);
+		raisePython(
+		        PyExc_AttributeError,
+		        string(D::staticName()) + " has no attribute '" + name + "'" + (meant.empty() ? "." : meant)
+		                + (settings.empty() ? "" : " Its settings: " + settings + ".")
+		                + (results.empty() ? "" : " Results, to be read: " + results + "."));
+	}
+
+	// Asked by Python for what it does not find. Names with underscores are those that it looks for itself.
+	static py::object refuseUnknown(const py::object& object, const string& name)
+	{
+		if (Py_TYPE(object.ptr()) == pythonType() && name.rfind('_', 0) != 0) raiseUnknown(name);
+		raisePython(PyExc_AttributeError, "'" + string(Py_TYPE(object.ptr())->tp_name) + "' object has no attribute '" + name + "'");
 	}
 
 	// A misspelt name would otherwise become a new Python attribute without effect. Classes derived in Python may add theirs.

@@ -40,7 +40,7 @@ template <int Dim> void scaleStrains(PointCloud<Dim>& cloud, double by)
 
 template <class L> L weak(const L& law, const Weakening& w)
 {
-	if constexpr (countOfParameters<L>(0) > 0) return law.with(weakened(law, w));
+	if constexpr (countOfParameters<L>(0) > 0) return law.with(law.weakened(w));
 	else
 		return law;
 }

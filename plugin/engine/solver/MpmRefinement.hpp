@@ -25,6 +25,9 @@ public:
 		v("halvings", &MpmRefinement::halvings, 0, "How often cells are halved, 1 to 3: *MpmGrid.cellSize* / 2, / 4 or / 8.", oneOf(1, 2, 3));
 	}
 
+	// Corners that are swapped in the constructor.
+	void postLoad() { requireCorners("MpmRefinement", min, max); }
+
 	// The attributes must go together, too.
 	void requireAdmissible() const override
 	{

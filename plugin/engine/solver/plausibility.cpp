@@ -3,11 +3,12 @@
 #include "core/base/checksum.hpp"
 #include "core/base/sentence.hpp"
 #include "core/base/stopwatch.hpp"
-#include "engine/materials/MpmElasticMat.hpp"
 #include "engine/solver/MpmImplicitEngine.hpp"
 #include "engine/solver/doubtful_water.hpp"
 #include "engine/solver/idle_boundaries.hpp"
+#include "engine/solver/lattice.hpp"
 #include "engine/solver/overlaps.hpp"
+#include "engine/solver/units.hpp"
 
 namespace yade {
 
@@ -114,27 +115,10 @@ namespace {
 		        " m); is it the grid that mpm.fill was given?");
 	}
 
-	// Numbers that fit another unit a thousand times as large. Under a gravity of 1 or less they are hardly those of ground on earth.
-	template <int Dim>
-	string doubtOfUnits(
-	        const Vector3r& gravity, const vector<MaterialPoint>& points, const gimpm::PointCloud<Dim>& cloud, const vector<gimpm::Material>& materials)
+	// From the bottom of a box to its top.
+	Real alongGravity(const std::pair<Vector3r, Vector3r>& box, const Vector3r& gravity)
 	{
-		constexpr Real lightest = 50, softest = 1e5, ofGround = 500; // kg/m3, Pa, kg/m3
-		if (gravity.norm() <= 1) return "";
-		for (size_t m = 0; m < materials.size(); ++m) {
-			const Real density = materials[m].density, young = materials[m].young({}, 0);
-			const bool isLight = density < lightest, isSoft = young < softest && density > ofGround;
-			if (!isLight && !isSoft) continue;
-			const size_t first = std::find(cloud.material.begin(), cloud.material.end(), int(m)) - cloud.material.begin();
-			if (first == points.size()) continue;             // another process has them
-			if (points[first].material->share != 1) continue; // of a stage of construction, which makes it light, and soft
-
-			if (!isLight && !dynamic_cast<const MpmElasticMat*>(points[first].material.get())) continue; // its young is no attribute
-			const string name = "material '" + points[first].material->label + "' (of body #" + std::to_string(points[first].id) + ")";
-			if (isLight) return sentence(name, " has density = ", density, ", in kg/m3; was it meant in t/m3, that is ", 1e3 * density, " kg/m3?");
-			return sentence(name, " has young = ", young, ", in Pa; was it meant in kPa, that is ", 1e3 * young, " Pa?");
-		}
-		return "";
+		return gravity.isZero(0) ? 0 : gravity.normalized().cwiseAbs().dot(box.second - box.first);
 	}
 
 	// Of all points, as they were in the beginning.
@@ -242,7 +226,8 @@ vector<string> Plausibility::look(
 	vector<string> sentences;
 	say(sentences, Doubt::gravityUpwards, doubtOfGravity(engine.gravity));
 	say(sentences, Doubt::largeCells, doubtOfCells(model.grid.cellSize, smallest));
-	say(sentences, Doubt::units, doubtOfUnits(engine.gravity, points, cloud, model.materials));
+	say(sentences, Doubt::units, doubtOfUnits(engine.gravity, alongGravity(box, engine.gravity), points, cloud.material, model.materials));
+	if (areFirst) say(sentences, Doubt::lattice, doubtOfLattice<Dim>(points, model.grid));
 	say(sentences, Doubt::tension, doubtOfTension(engine.gravity, initialStress));
 	say(sentences, Doubt::overlap, overlap);
 	say(sentences, Doubt::waterUnits, doubtOfWeight(engine));

@@ -38,7 +38,7 @@ public:
 	string doubtOfBoundaries(const MpmImplicitEngine&, const vector<MaterialPoint>&);
 
 private:
-	enum class Doubt { gravityUpwards, largeCells, units, tension, overlap, settlement, waterUnits, bothSides };
+	enum class Doubt { gravityUpwards, largeCells, units, lattice, tension, overlap, settlement, waterUnits, bothSides };
 
 	template <int Dim> bool isNew(const gimpm::PointCloud<Dim>&) const; // not those of the last call of know()
 	template <int Dim> void requirePoints(const vector<MaterialPoint>&, const gimpm::PointCloud<Dim>&);

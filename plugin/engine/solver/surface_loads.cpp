@@ -10,6 +10,7 @@ namespace {
 	template <int Dim> void requireFitting(const MpmTraction& load, const string& name)
 	{
 		requireDimension<Dim>(*load.surface, name);
+		if (load.pressure != 0 && load.surface->initialVertices.empty()) load.surface->requireOneSide(name + ".surface");
 		if (Dim == 2 && load.traction[2] != 0)
 			throw std::invalid_argument(name + ".traction = " + textOf(load.traction) + ": there is no direction z on a grid with dim=2.");
 	}

@@ -10,6 +10,7 @@ from .analysis import solverOf
 from .divided import columnsOfPoints, idsOfPoints
 from .library import engine
 from .messages import brief, isNumber, place
+from .naming import didYouMean
 from .regions import each
 
 table = {column['name']: column for column in engine.pointColumns()}  # of all columns that there are
@@ -160,7 +161,7 @@ def _column(name, values, rows):
 		if name in ('vel', 'velocities'): hint = 'it is called velocity'
 		elif name in table: hint = f'{name} is a result'
 		else: hint = 'there is no such column'
-		raise TypeError(f"assign: {name} cannot be assigned: {hint}; there are {', '.join(_assignable)}")
+		raise TypeError(f"assign: {name} cannot be assigned: {hint}{didYouMean(name, _assignable) or ';'} there are {', '.join(_assignable)}")
 	array = _numbers(name, values)
 	shape = (rows, ) + _shape(table[name])
 	if isParameter(name) and np.ndim(values) == 0:

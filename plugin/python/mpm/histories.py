@@ -9,6 +9,7 @@ from .data import fields
 from .fields import components, labelled
 from .files import replacing
 from .messages import brief, isNumber, pathOf
+from .naming import didYouMean
 from .processes import byFirst
 
 _kept = {}  # by label: what the PyRunners of this process write to
@@ -39,7 +40,7 @@ class histories:
 		columns = fields(self.solver.mask)
 		if not len(columns['id']): raise ValueError(noPoints('histories', self.solver))
 		for name in self.record:
-			if name not in columns: raise ValueError(f"histories: record has {brief(name)}, which is not known; there are {', '.join(columns)}")
+			if name not in columns: raise ValueError(f"histories: record has {brief(name)}, which is not known{didYouMean(name, columns) or ';'} there are {', '.join(columns)}")
 		self.ids = _chosen(at, columns)
 		self._begin(columns)
 		scene = wrapper.Omega()
@@ -72,7 +73,7 @@ class histories:
 		if name in self._values: return np.array(self._values[name])
 		base = str(name).partition('_')[0]
 		found = _scalars(base, np.array(self._values[base])) if base in self._values else {}
-		if name not in found: raise ValueError(f"histories: {brief(name)} is not recorded; there are {', '.join(found or self._values)}")
+		if name not in found: raise ValueError(f"histories: {brief(name)} is not recorded{didYouMean(name, found or self._values) or ';'} there are {', '.join(found or self._values)}")
 		return found[name]
 
 	@byFirst

@@ -19,6 +19,7 @@ from .analysis import noPoints, solverOf
 from .data import arrays, assign, pointsOf, withMaterials
 from .library import engine as _library
 from .messages import brief
+from .naming import materialOf
 from .regions import inside
 
 __all__ = ['place', 'excavate', 'release', 'resetDisplacements']
@@ -205,7 +206,7 @@ def _byLabel(who, materials):
 		if material.label in found: continue
 		if not material.label or all(known != material for known in wrapper.Omega().materials):
 			raise ValueError(f'{who}: a material of the points (label {material.label!r}) is not in O.materials, by a label of its own')
-		found[material.label] = material
+		found[material.label] = materialOf(who, material.label)
 	return found
 
 
