@@ -7,6 +7,7 @@
 #include "engine/solver/Threads.hpp"
 #include "engine/solver/exchange.hpp"
 #include "engine/solver/failures.hpp"
+#include "engine/solver/movers.hpp"
 #include "engine/solver/moving.hpp"
 #include "engine/solver/processes.hpp"
 #include "engine/solver/progress.hpp"
@@ -43,7 +44,7 @@ void MpmImplicitEngine::action()
 			tellObservers(*scene, [this](LoadStepObserver& observer) { observer.stepEnds(*this, false); });
 			throw;
 		}
-		handOver(contacts, *scene);
+		handOver(contacts, *scene, false);
 		tellObservers(*scene, [this](LoadStepObserver& observer) { observer.stepEnds(*this, true); });
 	});
 }
@@ -63,6 +64,9 @@ template <int Dim> void MpmImplicitEngine::step(Agreement& agreement)
 	tellObservers(*scene, [this](LoadStepObserver& observer) { observer.stepBegins(*this); });
 	advance(job);
 	const ValueLock lock;
+	for (const auto& [about, doubt] : job.contacts.doubts(isDynamic()))
+		warn(plausibility.once(about, doubt));
+	if (job.moving && job.contacts.areThere()) warn(plausibility.once("gift", job.moving->doubtOfContact()));
 	if ((maxSplits > 0 || job.model.grid.refinement) && clampedDomains > 0) splitOutgrown(job);
 	const auto doubts = plausibility.warningsOfResult(*this, points, job.cloud);
 	warnOfPoints(doubts.empty() ? "" : doubts.front());
@@ -85,6 +89,7 @@ template <int Dim> Job<Dim> MpmImplicitEngine::prepare(Agreement& agreement)
 		if (job.model.division && !water.empty()) agreement.meet(*this);
 		(job.waters = Waters<Dim>(*this, job.model.grid, job.cloud, job.model.division.get())).join(job.model);
 		(job.contacts = Contacts<Dim>(contacts, *scene, job.model.grid, points, bool(job.model.division), job.begin, job.target)).join(job.model);
+		Movers(*scene).requireOthers(points, *scene, isDynamic());
 		setMoving(job, points); // inertia comes last
 	}
 	job.doubts = plausibility.look(*this, points, job.cloud, job.model, checking);
@@ -140,6 +145,7 @@ template <int Dim> Attempt<Dim> MpmImplicitEngine::attempt(Job<Dim>& job) const
 template <int Dim> void MpmImplicitEngine::reach(Job<Dim>& job, const Attempt<Dim>& made)
 {
 	double scattering = 0;
+	job.contacts.requireStable();
 	{
 		const gimpm::Stopwatch watch(scattering);
 		if (job.moving) job.moving->reach(job, made.time, points);
