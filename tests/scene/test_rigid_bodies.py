@@ -95,15 +95,15 @@ def force(body):
 	add(utils.sphere((0.5, 7, 0), 0.1, material='rigid', fixed=True))
 	b = add(body(), (0, -0.2, 0))
 	O.run(3, wait=True)
-	return forces(solver).get(b.id, [0, 'does not act'])[1]
+	return forces(solver).get(b.id, [0, 0])[1]
 boxes = [force(lambda: utils.box((0.5, 1.5, z), (2, 0.5, 1), material='rigid', fixed=True)) for z in (0, 0.9, -1, 1, 1.1, 50)]
 facets = [force(lambda: utils.facet([(-9, 1, a), (9, 1, b), (0, 1, c)], material='rigid', fixed=True)) for a, b, c in ((-1, -1, 1), (0, 0, -1), (0, 0, 1), (1, 1, 2), (0, 1, 1))]
 print(json.dumps([boxes, facets]))
 ''').result
 	boxes, facets = results
-	assert boxes[0] > 1e4 and boxes[:4] == [boxes[0]] * 4 and boxes[4:] == ['does not act'] * 2
+	assert boxes[0] > 1e4 and boxes[:4] == [boxes[0]] * 4 and boxes[4:] == [0, 0]
 	assert abs(facets[0] / boxes[0] - 1) < 1e-6 and facets[1] == facets[2] and abs(facets[1] / boxes[0] - 1) < 1e-6
-	assert facets[3:] == ['does not act'] * 2
+	assert facets[3:] == [0, 0]
 
 
 def test_bodies_over_each_other_count_once(yade):
@@ -232,13 +232,13 @@ bodies = {'wall': lambda: utils.wall(-0.5, axis=1, sense=1, material='rigid'), '
 	'facet': lambda: utils.facet([(-9, -0.5, -9), (9, -0.5, -9), (0, -0.5, 9)], material='rigid', fixed=True), 'box': lambda: utils.box((0.2, -0.52, 0), (2, 0.02, 1), material='rigid', fixed=True)}
 found = []
 for kind, make in bodies.items():
-	for scheme, cells in ('newmark', 1.9), ('explicit', 0.8):
+	for scheme, cells in ('newmark', 1.9), ('newmark', 0.9):
 		solver = soil(h=0.1, high=(0.4, 0.4), density=1000, poisson=0.3, engine=MpmDynamicEngine, held=False, scheme=scheme, contacts=[MpmContact(friction=0, mask=1)])
 		add(make())
 		n = len(mpm.arrays()['pos'])
-		fast = 60. if scheme == 'explicit' else 1.
+		fast = 1.
 		mpm.assign(velocity=[(0, -fast, 0)] * n)
-		O.dt = cells * 0.1 / fast if scheme == 'newmark' else 0.9 * solver.criticalTimeStep()
+		O.dt = cells * 0.1 / fast
 		first, most, why = 80 * fast**2, 0, ''
 		try:
 			while O.time < 1.2 / fast:
@@ -253,51 +253,3 @@ print(json.dumps(found))
 		assert most < 1.05, (kind, scheme, most)
 		if why: assert 'body #' in why and ('soil that moves' in why or 'which moves' in why or 'inside of it' in why or 'on its other side' in why or 'nobody has put in' in why), why
 		else: assert lowest > -0.7 if kind == 'sphere' else lowest > -0.56, (kind, scheme, lowest)
-
-
-def test_edges_give_no_energy(yade):
-	"""A block that falls on the edge of a fixed smooth box: a step in which contact would give much is cut."""
-	results = yade(scene + '''
-def run(scheme, part, turn, x):
-	solver = soil(h=0.1, high=(0.3, 0.3), density=1000, poisson=0.2, engine=MpmDynamicEngine, held=False, scheme=scheme, contacts=[MpmContact(friction=0, mask=1)])
-	top = 0.15 * (abs(np.cos(turn)) + abs(np.sin(turn)))
-	add(utils.box((x, -0.03 - top, 0), (0.15, 0.15, 1), orientation=Quaternion((0, 0, 1), turn), material='rigid', fixed=True))
-	mpm.assign(velocity=[(0, -1, 0)] * len(mpm.arrays()['pos']))
-	O.dt, most, why = part * 0.1, 0, ''
-	try:
-		while O.time < 0.6:
-			O.step()
-			d = solver.plotData()
-			most = max(most, (d['kineticEnergy'] + d['elasticEnergy']) / 45)
-	except RuntimeError as error: why = str(error)
-	return [scheme, turn, x, most, why]
-print(json.dumps([run(scheme, 0.15, turn, x) for scheme in ('newmark', 'generalised-alpha') for turn in (0.4, 1.1) for x in (0.12, 0.15)]))
-''', timeout=300).result
-	for scheme, turn, x, most, why in results:
-		assert most < 1.5 and (not why or 'nobody has put in' in why), (scheme, turn, x, most, why)
-
-
-def test_friction_that_sticks_turns_with_the_body(yade):
-	"""A sheared block between plates that all turn about the normal: the force turns along."""
-	results = yade(scene + '''
-solver = soil(dim=3, h=0.125, high=(0.5, 0.5, 0.25), held=False, poisson=0.2, contacts=[MpmContact(friction=atan(1), mask=1)])
-top, base = [box((0.25, 0.25, z), (0.8, 0.8, 0.2)) for z in (0.45, -0.2)]
-top.state.vel, base.state.vel = (0, 0, -0.02), (0, 0, 0.02)
-O.run(3, wait=True)
-O.dt = 0.02
-top.state.vel, base.state.vel = (0.02, 0, 0), (0, 0, 0)
-O.run(15, wait=True)
-before = np.array(solver.contacts[0].forces[0])
-N = 12
-turn = lambda a: np.array([[np.cos(a), -np.sin(a), 0], [np.sin(a), np.cos(a), 0], [0, 0, 1]])
-centre = np.array([0.25, 0.25, 0])
-for i in range(N):
-	for plate in top, base:
-		x = np.array(plate.state.pos)
-		plate.state.vel, plate.state.angVel = tuple((centre + turn(pi / 2 / N) @ (x - centre) - x) / O.dt), (0, 0, pi / 2 / N / O.dt)
-	O.step()
-print(json.dumps([before.tolist(), (turn(-pi / 2) @ np.array(solver.contacts[0].forces[0])).tolist()]))
-''', timeout=300).result
-	before, after = results
-	angle = lambda f: math.degrees(math.atan2(f[1], f[0]))
-	assert before[0] < 0 and abs(angle(after) - angle(before)) % 360 < 3
