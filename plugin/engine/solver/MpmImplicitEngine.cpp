@@ -8,6 +8,7 @@
 #include "engine/solver/build_model.hpp"
 #include "engine/solver/exchange.hpp"
 #include "engine/solver/failures.hpp"
+#include "engine/solver/movers.hpp"
 #include "engine/solver/moving.hpp"
 #include "engine/solver/processes.hpp"
 #include "engine/solver/progress.hpp"
@@ -44,7 +45,7 @@ void MpmImplicitEngine::action()
 			tellObservers(*scene, [this](LoadStepObserver& observer) { observer.stepEnds(*this, false); });
 			throw;
 		}
-		handOver(contacts, *scene);
+		handOver(contacts, *scene, false);
 		tellObservers(*scene, [this](LoadStepObserver& observer) { observer.stepEnds(*this, true); });
 	});
 }
@@ -65,6 +66,9 @@ template <int Dim> void MpmImplicitEngine::step(Agreement& agreement)
 	tellObservers(*scene, [this](LoadStepObserver& observer) { observer.stepBegins(*this); });
 	advance(job);
 	const ValueLock lock;
+	for (const auto& [about, doubt] : job.contacts.doubts(isDynamic()))
+		warn(plausibility.once(about, doubt));
+	if (job.moving && job.contacts.areThere()) warn(plausibility.once("gift", job.moving->doubtOfContact()));
 	if ((maxSplits > 0 || job.model.grid.refinement) && clampedDomains > 0) splitOutgrown(job);
 	const auto doubts = plausibility.warningsOfResult(*this, points, job.cloud);
 	warnOfPoints(doubts.empty() ? "" : doubts.front());
@@ -83,6 +87,7 @@ template <int Dim> Job<Dim> MpmImplicitEngine::prepare(Agreement& agreement)
                 const gimpm::StepControl control(stepPart, isExplicit() ? 1 : newton->minStep, newton->maxIterations);
                 auto                     setup = buildModel<Dim>(*this, *scene, points, loadTime, target, [&](Setup<Dim>& to) { takePoints(to, agreement); });
                 Job<Dim>                 made(std::move(setup), control, loadTime, target);
+                Movers(*scene).requireOthers(points, *scene, isDynamic());
                 setMoving(made, points); // inertia comes last
                 return made;
 	}();
@@ -136,6 +141,7 @@ template <int Dim> Attempt<Dim> MpmImplicitEngine::attempt(Job<Dim>& job) const
 template <int Dim> void MpmImplicitEngine::reach(Job<Dim>& job, const Attempt<Dim>& made)
 {
 	double scattering = 0;
+	job.contacts.requireStable();
 	{
 		const gimpm::Stopwatch watch(scattering);
 		if (job.moving) job.moving->reach(job, made.time, points);

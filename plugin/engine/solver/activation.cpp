@@ -10,7 +10,7 @@ bool MpmImplicitEngine::isActivated()
 	beforeActivation.keep(*this);
 	const bool isDue = PeriodicEngine::isActivated(), ends = !isDue && isEndOfLoads();
 	nDone += ends;
-	if (!isDue && !ends) handOver(contacts, *scene);
+	if (!isDue && !ends) handOver(contacts, *scene, true);
 	return isDue || ends;
 }
 

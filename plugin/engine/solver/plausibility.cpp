@@ -193,6 +193,8 @@ string Plausibility::doubtOfBoundaries(const MpmImplicitEngine& engine, const ve
 	return idle.empty() ? "" : idle.substr(1) + " It holds nothing until soil arrives there.";
 }
 
+string Plausibility::once(const string& about, const string& sentence) { return sentence.empty() || !saidAbout.insert(about).second ? "" : sentence; }
+
 // No fill puts so many points into a cell that they are as small.
 void Plausibility::requireGrid(const MpmImplicitEngine& engine) const
 {

@@ -6,6 +6,7 @@
 #include "engine/points/MaterialPoints.hpp"
 #include <map>
 #include <optional>
+#include <set>
 
 namespace yade {
 class MpmBoundary;
@@ -37,6 +38,9 @@ public:
 	string doubtOfEnd(const MpmImplicitEngine&);
 	string doubtOfBoundaries(const MpmImplicitEngine&, const vector<MaterialPoint>&);
 
+	// The first of all sentences about the same.
+	string once(const string& about, const string& sentence);
+
 private:
 	enum class Doubt { gravityUpwards, largeCells, units, lattice, tension, overlap, settlement, waterUnits, bothSides };
 
@@ -50,6 +54,7 @@ private:
 	std::optional<uint64_t> known;
 	std::map<Doubt, bool>   said;
 	bool                    saidEnd = false;
+	std::set<string>        saidAbout;
 
 	vector<std::pair<Vector3r, Vector3r>> lookedAt; // boxes of boundaries: whether they reach any point
 
