@@ -72,7 +72,9 @@ template <int Dim> Job<Dim> MpmImplicitEngine::prepare(Agreement& agreement)
 {
 	const ValueLock lock;
 	requireRunnable(*this);
+	join();
 	progressLine.start(scene->iter);
+	warn(doubtOfAbsence());
 	warn(plausibility.doubtOfEnd(*this));
 	double   gathering = 0, checking = 0;
 	Job<Dim> job { { stepPart, isExplicit() ? 1 : newton->minStep, newton->maxIterations }, loadTime, scene->time + scene->dt };

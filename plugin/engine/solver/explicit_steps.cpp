@@ -28,13 +28,20 @@ namespace {
 		return gimpm::criticalStep(cloud, model, engine.ghostMass(), largestPenalty(engine));
 	}
 
-	template <int Dim> Real limitOfNow(MpmDynamicEngine& engine)
+	// of(cloud, model) in the present state.
+	template <int Dim, class F> Real ofNow(MpmDynamicEngine& engine, F&& of)
 	{
 		const ValueLock lock;
 		engine.requireAdmissible();
 		auto model = toModel<Dim>(*engine.grid, engine.basis, engine.fBar, engine.boundaries, *engine.ghost, *engine.newton);
 		if (isDivided(engine)) model.division = std::make_shared<gimpm::Division>(gimpm::Division { processes(), {} });
-		return limit(engine, gather(materialPoints(*engine.ownScene(), engine.mask), model), model);
+		return of(gather(materialPoints(*engine.ownScene(), engine.mask), model), model);
+	}
+	template <class F> Real ofNow(MpmDynamicEngine& engine, F&& of)
+	{
+		if (!engine.grid || (!isDivided(engine) && materialPoints(*engine.ownScene(), engine.mask).empty()))
+			return std::numeric_limits<Real>::quiet_NaN();
+		return engine.grid->dim == 3 ? ofNow<3>(engine, of) : ofNow<2>(engine, of);
 	}
 }
 
@@ -68,8 +75,12 @@ template <int Dim> void requireStable(const MpmDynamicEngine& engine, const gimp
 
 Real criticalTimeStep(MpmDynamicEngine& engine)
 {
-	if (!engine.grid || (!isDivided(engine) && materialPoints(*engine.ownScene(), engine.mask).empty())) return std::numeric_limits<Real>::quiet_NaN();
-	return engine.grid->dim == 3 ? limitOfNow<3>(engine) : limitOfNow<2>(engine);
+	return ofNow(engine, [&](const auto& cloud, const auto& model) { return limit(engine, cloud, model); });
+}
+
+Real waveSpeed(MpmDynamicEngine& engine)
+{
+	return ofNow(engine, [](const auto& cloud, const auto& model) { return std::sqrt(gimpm::stiffest(cloud, model).pressureWave); });
 }
 
 template void requireStable(const MpmDynamicEngine&, const gimpm::PointCloud<2>&, const gimpm::Model<2>&, Real);
