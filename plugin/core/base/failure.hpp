@@ -13,6 +13,7 @@ enum class Failure {
 	penetrated,
 	refused, ///< by a term, which has no kind of its own for it
 	inaccurate,
+	gainsEnergy,
 	singular,
 	inverted,
 	noResponse,

@@ -2,6 +2,7 @@
 #include "core/stepping/acceptance.hpp"
 #include "core/base/stopwatch.hpp"
 #include "core/stepping/beyond_walls.hpp"
+#include "core/stepping/energy_gain.hpp"
 #include "core/stepping/outcome.hpp"
 #include "core/terms/point_update.hpp"
 #include <algorithm>
@@ -108,11 +109,12 @@ template <int Dim> void askTerms(const StepSystem<Dim>& system, const Eigen::Vec
 template <int Dim> bool accept(const StepSystem<Dim>& system, PointCloud<Dim>& cloud, const Load<Dim>& load, const Eigen::VectorXd& d, StepReport& report)
 {
 	const Stopwatch watch(report.times.update);
-	addReactionsBeyondWalls(system, cloud, load, d, report.reactions);
+	addReactionsBeyondWalls(system, cloud, load, d, report);
 	if (system.model.grid.axisymmetric) report.reactions.pop_back(); // of the axis, which nobody has asked for
 	PointCloud<Dim> updated = cloud;
 	updatePoints(updated, system, d, report);
 	if (!requireState(updated, system.model, report) || !requireSamePoints(updated, system.model, report)) return false;
+	if (!report.accepted && !requireEnergy(system, cloud, updated, report)) return false;
 	cloud = std::move(updated);
 	for (const auto& term : system.terms)
 		term->commit(d);

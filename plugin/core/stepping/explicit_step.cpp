@@ -2,6 +2,7 @@
 #include "core/stepping/explicit_step.hpp"
 #include "core/base/stopwatch.hpp"
 #include "core/stepping/acceptance.hpp"
+#include "core/stepping/beyond_walls.hpp"
 #include "core/stepping/halo.hpp"
 #include "core/stepping/outcome.hpp"
 #include "core/terms/explicit_inertia.hpp"
@@ -50,7 +51,10 @@ template <int Dim> StepReport explicitStep(PointCloud<Dim>& cloud, const Model<D
 	report.times.linear.solve            = inertia.seconds();
 	if (inertia.isSingular()) return fail(report, Failure::singular, "the mass matrix is singular to working precision"), report;
 	// 5. nodes to points; 6. the grid is reset by not being kept
-	if (accept(system, cloud, load, d, report)) inertia.commit();
+	if (accept(system, cloud, load, d, report)) {
+		inertia.commit();
+		addInertiaBeyondWalls(system, motion, report);
+	}
 	return report;
 }
 

@@ -2,6 +2,7 @@
 #include "core/stepping/load_step.hpp"
 #include "core/base/stopwatch.hpp"
 #include "core/stepping/acceptance.hpp"
+#include "core/stepping/beyond_walls.hpp"
 #include "core/stepping/equilibrium.hpp"
 #include "core/stepping/grip.hpp"
 #include "core/stepping/halo.hpp"
@@ -9,6 +10,7 @@
 #include "core/stepping/rate_change.hpp"
 #include "core/stepping/restraint.hpp"
 #include "core/stepping/step_control.hpp"
+#include "core/terms/inertia.hpp"
 
 namespace gimpm {
 namespace {
@@ -27,14 +29,14 @@ template <int Dim> bool isHeld(const StepSystem<Dim>& system, const PointCloud<D
 	return held.freeMotion.empty() || !fail(report, Failure::unrestrained, "nothing restrains the " + held.freeMotion);
 }
 
-/// A converged step may have ended where a term does not admit it. One that has not may be due to friction which no longer holds the body: says so.
+/// A converged step may have ended where a term does not admit it. One that has not may be due to contact which no longer holds the body: says so.
 template <int Dim> void explain(const StepSystem<Dim>& system, const Eigen::VectorXd& d, StepReport& report)
 {
 	if (report.converged()) return askTerms(system, d, report);
 	if (report.failure != Failure::singular && !canBeCut(report.failure)) return;
 	const Restraint held = restraintAt(d, system.basis, system.model.grid, system.model.boundary, system.terms, bool(system.model.division));
 	if (!held.freeMotion.empty())
-		fail(report, Failure::slides, "only friction, which has reached its limit, holds the " + held.freeMotion + " (" + report.cause + ")");
+		fail(report, Failure::slides, "only contact, which slips or comes off there, would hold the " + held.freeMotion + " (" + report.cause + ")");
 }
 
 template <int Dim> Eigen::VectorXd predictionFor(const StepSystem<Dim>& system, const LastIncrement<Dim>& last, double growth)
@@ -80,8 +82,11 @@ template <int Dim> StepReport loadStep(PointCloud<Dim>& cloud, const Model<Dim>&
 	report.conjugateGradients = solver.iterativeEffort();
 	// 5. nodes to points; 6. the grid is reset by not being kept
 	report.accepted = report.failure == Failure::tooManyIterations && model.newton.acceptUnconverged;
-	if (report.converged() || report.accepted)
-		if (accept(system, cloud, load, d, report) && last) *last = incrementOf(system, d, load.growth());
+	if ((report.converged() || report.accepted) && accept(system, cloud, load, d, report)) {
+		for (const auto& term : system.terms)
+			if (const auto* inertia = dynamic_cast<const Inertia<Dim>*>(term.get())) addInertiaBeyondWalls(system, inertia->motion(), report);
+		if (last) *last = incrementOf(system, d, load.growth());
+	}
 	return report;
 }
 

@@ -50,6 +50,8 @@ struct StepReport {
 	/// For each of Boundary's boxes, the sum of the forces with which it holds its nodes; of a node in several boxes the last one is given.
 	std::vector<Vec3> reactions; ///< [N]
 
+	std::vector<Vec3> openReactions; ///< the same of the open boxes: what holds the parts of domains that reach through them [N]
+
 	int    clampedDomains     = 0; ///< points whose domain would have outgrown half a cell in this step
 	double largestWallOverlap = 0; ///< largest length by which a domain reached behind a wall [m]
 

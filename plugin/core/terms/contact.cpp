@@ -237,9 +237,21 @@ template <int Dim> void Contact<Dim>::addBefore(Eigen::VectorXd& force) const
 			addAttachedForce<Dim>(corner.attached, r->pressure * r->normal + r->friction, { force });
 }
 
+/// Where soil has touched until now, and where it would touch bodies that have moved if it stayed. Whether it then slips or comes off is for the iterations to find.
 template <int Dim> void Contact<Dim>::restrain(const typename Term<Dim>::Hold& hold) const
 {
-	restrainAt(Eigen::VectorXd::Zero(Dim * Eigen::Index(basis_.nodes.size())), hold);
+	const auto holds = [&](const Corner& corner, const Vec<Dim>& normal) {
+		const bool     sticks = corner.law.friction > 0 && corner.law.cap > 0;
+		const Vec<Dim> inCell = corner.attached.inCell();
+		hold(corner.attached.node[0], normal, inCell);
+		for (int a = 0; sticks && a < Dim; ++a)
+			hold(corner.attached.node[0], Vec<Dim>::Unit(a), inCell);
+	};
+	for (const Corner& corner : corners_)
+		if (const auto* r = recordOf(system_.records, { corner.point, corner.corner, corner.body }); r && r->touches) holds(corner, r->normal);
+	forTouching(
+	        Eigen::VectorXd::Zero(Dim * Eigen::Index(basis_.nodes.size())),
+	        [&](const Corner& corner, const Vec<Dim>&, double, const Touch<Dim>& touched) { holds(corner, touched.normal); });
 }
 
 template <int Dim> void Contact<Dim>::restrainAt(const Eigen::VectorXd& d, const typename Term<Dim>::Hold& hold) const

@@ -78,7 +78,9 @@ template <int Dim> Job<Dim> MpmImplicitEngine::prepare(Agreement& agreement)
 {
 	const ValueLock lock;
 	requireRunnable(*this);
+	join();
 	progressLine.start(scene->iter);
+	warn(doubtOfAbsence());
 	warn(plausibility.doubtOfEnd(*this));
 	const Real target    = scene->time + scene->dt;
 	double     gathering = 0, checking = 0;

@@ -20,12 +20,17 @@ namespace {
 		return gimpm::criticalStep(of.cloud, of.model, engine.ghostMass(), of.contacts.penalty());
 	}
 
-	template <int Dim> Real limitOfNow(MpmDynamicEngine& engine)
+	// Of the present state of the scene.
+	template <int Dim, class F> Real ofNow(MpmDynamicEngine& engine, F&& of)
 	{
 		const ValueLock lock;
-		return limit(
-		        engine,
-		        currentState<Dim>(engine, isDivided(engine) ? std::make_shared<gimpm::Division>(gimpm::Division { processes(), {} }) : nullptr));
+		return of(currentState<Dim>(engine, isDivided(engine) ? std::make_shared<gimpm::Division>(gimpm::Division { processes(), {} }) : nullptr));
+	}
+	template <class F> Real ofNow(MpmDynamicEngine& engine, F&& of)
+	{
+		if (!engine.grid || (!isDivided(engine) && materialPoints(*engine.ownScene(), engine.mask).empty()))
+			return std::numeric_limits<Real>::quiet_NaN();
+		return engine.grid->dim == 3 ? ofNow<3>(engine, of) : ofNow<2>(engine, of);
 	}
 }
 
@@ -58,8 +63,12 @@ template <int Dim> void requireStable(const MpmDynamicEngine& engine, const Setu
 
 Real criticalTimeStep(MpmDynamicEngine& engine)
 {
-	if (!engine.grid || (!isDivided(engine) && materialPoints(*engine.ownScene(), engine.mask).empty())) return std::numeric_limits<Real>::quiet_NaN();
-	return engine.grid->dim == 3 ? limitOfNow<3>(engine) : limitOfNow<2>(engine);
+	return ofNow(engine, [&](const auto& now) { return limit(engine, now); });
+}
+
+Real waveSpeed(MpmDynamicEngine& engine)
+{
+	return ofNow(engine, [](const auto& now) { return std::sqrt(gimpm::stiffest(now.cloud, now.model).pressureWave); });
 }
 
 template void requireStable(const MpmDynamicEngine&, const Setup<2>&, Real);

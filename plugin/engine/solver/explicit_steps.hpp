@@ -16,10 +16,15 @@ template <int Dim> void requireStable(const MpmDynamicEngine&, const Setup<Dim>&
 // Of the present state of the scene [s]; NaN without grid or points.
 Real criticalTimeStep(MpmDynamicEngine&);
 
+// Of the fastest pressure wave, there [m/s]; NaN without grid or points.
+Real waveSpeed(MpmDynamicEngine&);
+
 template <class C> void addExplicitSteps(C& c)
 {
 	c.def("criticalTimeStep", &criticalTimeStep,
 	      "criticalTimeStep() -> float\n\nLargest stable O.dt [s] of scheme='explicit' in the present state, estimated on the safe side; NaN without points. Take 0.9 of it.");
+	c.def("waveSpeed", &waveSpeed,
+	      "waveSpeed() -> float\n\nSpeed of the fastest pressure wave in the present state [m/s], sqrt((K + 4 G / 3) / density) within yield surfaces; NaN without points.");
 }
 
 } // namespace yade

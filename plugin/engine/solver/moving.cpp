@@ -131,7 +131,7 @@ template <int Dim> void Moving<Dim>::addWork(const Job<Dim>& job, Real time, con
 template <int Dim> void Moving<Dim>::reach(const Job<Dim>& job, Real time, const vector<MaterialPoint>& points)
 {
 	addWork(job, time, points);
-	shaking->scatter();
+	shaking->scatter(engine.last);
 	inRanges(points.size(), [&](size_t begin, size_t end) {
 		for (size_t p = begin; p < end; ++p) {
 			points[p].state->vel.template head<Dim>()          = motion->velocity[p];

@@ -3,6 +3,7 @@
 #include "core/base/checksum.hpp"
 #include "core/base/sentence.hpp"
 #include "core/base/stopwatch.hpp"
+#include "core/stepping/critical_step.hpp"
 #include "engine/solver/MpmImplicitEngine.hpp"
 #include "engine/solver/doubtful_water.hpp"
 #include "engine/solver/idle_boundaries.hpp"
@@ -205,6 +206,30 @@ void Plausibility::requireGrid(const MpmImplicitEngine& engine) const
 		       " m), so that all of them would move as one cell does; is it the grid that mpm.fill was given, in the same unit?");
 }
 
+// Of implicit steps in time, which are stable however long they are, but see nothing of what is over within one.
+template <int Dim>
+string Plausibility::doubtOfLength(
+        const MpmImplicitEngine& engine, const vector<MaterialPoint>& points, const gimpm::PointCloud<Dim>& cloud, const gimpm::Model<Dim>& model, bool areNew)
+{
+	constexpr Real mostOfWave = 100, mostOfPoint = 1; // cells a step
+	const Real     T = engine.scene->time + engine.scene->dt - engine.loadTime;
+	if (!engine.isDynamic() || engine.isExplicit() || (!areNew && std::abs(T - duration) <= 1e-3 * duration)) return length;
+	if (areNew) fastestWave = std::sqrt(gimpm::stiffestOfOwn(cloud, model).pressureWave);
+	duration     = T;
+	Real fastest = 0;
+	for (const MaterialPoint& point : points)
+		fastest = std::max(fastest, (T * point.state->vel + T * T / 2 * engine.gravity).norm());
+	const Real ofWave = T * fastestWave / model.grid.cellSize, ofPoint = fastest / model.grid.cellSize;
+	length = ofWave <= mostOfWave && ofPoint <= mostOfPoint
+	        ? ""
+	        : sentence(
+	                "a step in time lasts ", T, " s (O.dt = ", engine.scene->dt, "). In that time the fastest wave, of ", fastestWave, " m/s, goes ",
+	                ofWave, " cells, and the fastest point would fly ", ofPoint,
+	                " cells. For waves a step should be half a cell of theirs or less; what lasts longer is seen in steps of some cells, and "
+	                "points should move less than half a cell.");
+	return length;
+}
+
 void Plausibility::say(vector<string>& sentences, Doubt doubt, const string& sentence)
 {
 	bool& isSaid = said[doubt];
@@ -219,8 +244,8 @@ vector<string> Plausibility::look(
 	requireGravityInPlane(engine);
 	requireSensibleIncrement(engine);
 	if (points.empty()) return {}; // other processes have them
-	const bool areFirst = largest == 0;
-	if (areFirst || isNew(cloud)) {
+	const bool areNew = largest == 0 || isNew(cloud);
+	if (areNew) {
 		const gimpm::Stopwatch watch(time);
 		requirePoints(points, cloud);
 	}
@@ -234,6 +259,7 @@ vector<string> Plausibility::look(
 	say(sentences, Doubt::overlap, overlap);
 	say(sentences, Doubt::waterUnits, doubtOfWeight(engine));
 	say(sentences, Doubt::bothSides, doubtOfSides(engine, points));
+	say(sentences, Doubt::longStep, doubtOfLength(engine, points, cloud, model, areNew));
 	return sentences;
 }
 

@@ -53,6 +53,7 @@ void Shaking<Dim>::join(const shared_ptr<MpmAbsorbingBoundary>& boundary, size_t
 {
 	const string name = "absorbing[" + std::to_string(number) + "]";
 	const auto   edge = std::make_shared<Edge>();
+	edge->name        = name;
 	edge->box         = boxOfEdge(boundary, number, *engine.grid, model.grid);
 	edge->hasBegun    = boundary->hasBegun;
 	if (boundary->motion) requireInDimension<Dim>(*boundary->motion, name);
@@ -104,10 +105,11 @@ template <int Dim> void Shaking<Dim>::begin(Attempt<Dim>& next, Real from, gimpm
 	}
 }
 
-template <int Dim> void Shaking<Dim>::scatter() const
+template <int Dim> void Shaking<Dim>::scatter(const gimpm::StepReport& report) const
 {
-	for (const auto& [boundary, edge] : edges) {
-		boundary->hasBegun = true;
+	for (size_t e = 0; e < edges.size(); ++e) {
+		const auto& [boundary, edge] = edges[e];
+		boundary->hasBegun           = true;
 		boundary->nodes.clear();
 		boundary->borne.clear();
 		for (const auto& [key, force] : edge->borne) {
@@ -118,7 +120,7 @@ template <int Dim> void Shaking<Dim>::scatter() const
 			boundary->borne.push_back(inSpace);
 		}
 		boundary->reaction                      = Vector3r::Zero();
-		boundary->reaction.template head<Dim>() = edge->force;
+		boundary->reaction.template head<Dim>() = edge->force + report.openReactions[e].template head<Dim>(); // open boxes are in the order of edges
 	}
 }
 

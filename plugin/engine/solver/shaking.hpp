@@ -22,8 +22,8 @@ public:
 	// The next step goes from here to the time of the attempt.
 	void begin(Attempt<Dim>&, Real from, gimpm::Motion<Dim>&) const;
 
-	// Writes a converged state back.
-	void scatter() const;
+	// Writes a converged state back, to which the step has come that is reported.
+	void scatter(const gimpm::StepReport&) const;
 
 	// In the last step that was accepted [J].
 	Real workOfEdges() const;

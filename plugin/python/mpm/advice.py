@@ -65,6 +65,7 @@ class _Scene:
 		self.own = lambda name, material: parameter(name, material, data, number == self.materials.index(material))
 		self.points = self.work['points']
 		if self.points == 0: raise ValueError(noPoints('advise', solver))
+		self.velocity = data['velocity']
 		self.low, self.high = data['pos'].min(axis=0) - data['halfSize'].min(axis=0), data['pos'].max(axis=0) + data['halfSize'].min(axis=0)
 		self.pointsPerCell = (self.points / self.work['activeCells'])**(1 / self.dim)
 		self.plastic = any(type(material) is not wrapper.MpmElasticMat for material in self.materials)
@@ -77,6 +78,13 @@ class _Scene:
 		periods = [period for period in (engine.iterPeriod * wrapper.Omega().dt, engine.virtPeriod) if period > 0]
 		runs = self.left / min(periods) if periods else 0
 		return math.ceil(runs - 1e-6) if math.isfinite(runs) else runs
+
+	def cellsAStep(self):
+		"""Of the fastest wave, and of the fastest point as it moves and falls; of a MpmDynamicEngine."""
+		solver, scene = self.solver, wrapper.Omega()
+		step = scene.dt * max(1, solver.iterPeriod)
+		flown = step * self.velocity + step**2 / 2 * np.array(solver.gravity)
+		return step * solver.waveSpeed() / self.h, np.linalg.norm(flown, axis=1).max() / self.h
 
 	def neverYield(self):
 		"""Labels of materials that the weight of all that could lie above cannot bring to yield."""
@@ -117,6 +125,7 @@ def _notNeeded(scene):
 		found.append('dim: both ends are held along z, where gravity has no part. If the section is the same all along, dim=2 (plane strain) will do.')
 	if solver.iterPeriod == 1 and scene.steps > 1e6:
 		found.append(f'O.dt: {scene.steps:.3g} steps are more than an analysis may have (1e6); was O.dt forgotten? It is the load time of one step.')
+	if isinstance(solver, wrapper.MpmDynamicEngine): found.append(_stepInTime(scene))
 	strong = scene.neverYield()
 	if strong: found.append(f'plasticity: the weight cannot bring {strong} to yield; unless other loads do, MpmElasticMat does the same.')
 	locking = scene.keepVolume()
@@ -149,6 +158,16 @@ def _notNeeded(scene):
 	output = sum(_bytesOfOutput * scene.points * min(scene.steps, scene.runsOf(recorder)) for recorder in scene.recorders)
 	if output > 2**30: found.append(f'output: the recorders will write about {output / 2**30:.0f} GiB; a larger iterPeriod writes less.')
 	return found
+
+
+def _stepInTime(scene):
+	"""How far waves and points go in a step, and what would be better."""
+	solver, ofWave, ofPoint = scene.solver, *scene.cellsAStep()
+	text = f'O.dt: in a step the fastest wave goes {ofWave:.3g} cells and the fastest point {ofPoint:.3g}; '
+	if solver.scheme == 'explicit': return text + f'scheme=\'explicit\' admits {solver.criticalTimeStep():.3g} s, of which 0.9 are safe.'
+	if ofPoint > 0.5: return text + 'that is too far for points, which should move less than half a cell: a smaller O.dt.'
+	if ofWave > 0.5: return text + 'waves of some cells are averaged over: for them half a cell a step or less, for slower motion some cells are right.'
+	return text + 'that is short enough for waves of some cells; a longer step is cheaper for slower motion.'
 
 
 def _multigrid(scene):

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """The data of all material points as NumPy arrays, out and in."""
 import operator
+import sys
+import threading
 
 import numpy as np
 from yade import wrapper
@@ -31,7 +33,20 @@ def arrays():
 		and ``parent`` (N,), the id of the body that the point was split off from, -1: none. A scene without material points gives arrays of length 0.
 	:raises ValueError: a body with an ``MpmPoint`` shape that is no complete material point.
 	"""
+	_sayIfRunning()
 	return _asArrays(columnsOfPoints(0, False))
+
+
+_hasSaid = False
+
+
+def _sayIfRunning():
+	"""Once: a script that goes on beside O.run(n) reads what is there by then. What the run itself calls comes at the right time."""
+	global _hasSaid
+	scene = wrapper.Omega()
+	if _hasSaid or not scene.running or threading.current_thread() is not threading.main_thread(): return
+	_hasSaid = True
+	sys.stderr.write(f'\nyade.mpm: mpm.arrays() while the simulation runs, in iteration {scene.iter}: they are those of this moment. O.run(n, wait=True) or O.wait() waits for the end.\n')
 
 
 def contactForces(solver=None):
