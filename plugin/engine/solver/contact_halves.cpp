@@ -6,13 +6,14 @@
 namespace yade {
 
 namespace {
-	// Of the area that a corner stands for, the part of the faces across the axis: halves have these to themselves, and share the others.
+	// Of the area that a corner stands for, the part of the faces across the axis: halves have these to themselves, and share the others. A corner that does not touch, and remembers
+	// nothing but its offset, has no normal.
 	Real partAcross(const HalvedDomain& domain, const Vector3r& normal)
 	{
 		Vector3r faces = Vector3r::Zero();
 		for (int a = 0; a < domain.dim; ++a)
 			faces[a] = std::abs(normal[a]) / domain.halfSize[a];
-		return faces[domain.axis] / faces.sum();
+		return normal.isZero(0) ? 0 : faces[domain.axis] / faces.sum();
 	}
 
 	Vector3r placeOf(const HalvedDomain& domain, bool isUpper, int corner)

@@ -38,7 +38,7 @@ class Run:
 		space = {name: getattr(yade.wrapper, name) for name in dir(yade.wrapper) if not name.startswith('_')}
 		space |= dict(O=O, inf=np.inf, mpm=mpm, pack=pack, utils=utils, Vector3=yade.minieigenHP.Vector3)
 		exec(compile(self.text, '<scene>', 'exec'), space)
-		self.before = self._outside(space['solver']) if self.scene.isDynamic else None
+		self.steps = []  # of each, momentum [N s] and the forces from outside [N]
 		for step in range(space['steps']):
 			solver = next(e for e in O.engines if e.label == 'solver')
 			exec(space['actions'].get(step, ''), space | dict(solver=solver))
@@ -47,9 +47,25 @@ class Run:
 					mpm.save(os.path.join(folder, 'half.yade.gz'))
 					O.load(os.path.join(folder, 'half.yade.gz'))
 			O.step()
+			if self.isPlain: self.steps.append(self._balanceOfStep())
 		self.solver = next(e for e in O.engines if e.label == 'solver')
 
-	def _outside(self, solver): return None
+	@property
+	def isPlain(self):
+		v = self.view
+		return not v.restart and v.L == v.S == v.D == 1 and v.order is None and (v.turn == np.eye(3)).all()
+
+	def _balanceOfStep(self):
+		solver = next(e for e in O.engines if e.label == 'solver')
+		curve = dict(solver.gravityCurve or solver.loadCurve)
+		ofGravity, factor = (np.interp(solver.loadTime, *zip(*sorted(c.items()))) for c in (curve, dict(solver.loadCurve)))
+		forces = [np.array(f) for f in (*solver.reactions, *(load.resultant for load in solver.loads))] + [-np.array(f) for contact in solver.contacts for f in contact.forces]
+		momentum, points = np.zeros(3), [b for b in O.bodies if isinstance(b.shape, MpmPoint) and (solver.mask in (-1, 0) or b.groupMask & solver.mask)]
+		for b in points:
+			mass = b.material.density * b.state.volume0
+			momentum += mass * np.array(b.state.vel)
+			forces += [mass * ofGravity * np.array(solver.gravity), factor * np.array(b.state.force)]
+		return momentum, sum(forces), sum(np.linalg.norm(f) for f in forces)
 
 	def _collect(self):
 		v, solver = self.view, self.solver
@@ -140,4 +156,20 @@ def check(chosen, seed):
 
 
 def balance(run):
-	return []
+	"""Forces from outside are nothing in sum, or what momentum changes by; a fixed smooth body gives no energy. What water does to the body from outside is told by nobody: not asked there."""
+	scene, found = run.scene, []
+	axes = [1] if scene.isRing else range(scene.dim)
+	if not scene.isDynamic and not scene.water:
+		for step, (_, force, sizes) in enumerate(run.steps):
+			off = max(abs(force[a]) for a in axes) / max(sizes, unitsOf(scene)['force'])
+			if off > 1e-8: found.append(f'balance: {off:.1e} of the forces are left over after step {step + 1}')
+	isLoaded = scene.has('traction', 'pressure', 'pointLoad')  # by forces that change, of which the other schemes take other means, as contact does in all
+	if scene.isFreeAlongX and not scene.water and not scene.shape and (scene.scheme == 'newmark' or not isLoaded):
+		for step in range(1, len(run.steps)):
+			(before, force0, size0), (after, force1, size1) = run.steps[step - 1:step + 1]
+			off = abs((after - before - scene.dt * (force0 + force1) / 2)[0]) / (scene.dt * max(size0, size1, unitsOf(scene)['force']))
+			if off > 1e-8: found.append(f'momentum: {off:.1e} of the impulse is left over along x after step {step + 1}')
+	if scene.isDynamic and scene.has('fixedBody') and not scene.has('friction'):
+		given, energy = run.energies['contactWork'][0], max(unitsOf(scene)['energy'], run.energies['kineticEnergy'][0] + run.energies['elasticEnergy'][0])
+		if given > 1e-6 * energy: found.append(f'energy: a fixed smooth body has given {given / energy:.1e} of {energy:.3g} J')
+	return found

@@ -9,7 +9,7 @@ from .view import inf, pressures
 gravity, density, young = 10., 2000., 1e6
 _laws = {
         'elastic': ('MpmElasticMat', {}), 'vonMises': ('MpmVonMisesMat', dict(yieldStress=12e3)), 'tresca': ('MpmTrescaMat', dict(undrainedStrength=8e3)),
-        'mohrCoulomb': ('MpmMohrCoulombMat', dict(cohesion=3e3, frictionAngle=.5, dilationAngle=.1)), 'druckerPrager': ('MpmDruckerPragerMat', dict(cohesion=3e3, frictionAngle=.5, dilationAngle=.1)),
+        'mohrCoulomb': ('MpmMohrCoulombMat', dict(cohesion=6e3, frictionAngle=.5, dilationAngle=.1)), 'druckerPrager': ('MpmDruckerPragerMat', dict(cohesion=6e3, frictionAngle=.5, dilationAngle=.1)),
         'camClay': ('MpmCamClayMat', dict(shearModulus=4e5, criticalStateRatio=1.1, compressionIndex=.1, swellingIndex=.02, preconsolidation=3e4, referencePressure=5e3))
 }
 _fields = dict(elastic='young', vonMises='yieldStress', tresca='undrainedStrength', mohrCoulomb='cohesion', druckerPrager='cohesion', camClay='preconsolidation')
@@ -42,10 +42,12 @@ class Scene:
 		roughBase = 'smoothWall' not in self.chosen and self.places.get('pushed') != 'left' and draw.random() < .7
 		onLeft = self.places.get('roughWall', self.places.get('smoothWall')) == 'left' or self.places.get('pushed') == 'left'
 		self.isRough = roughBase or self.isPeriodic
-		self.holdsLeft = not self.isPeriodic and not self.isRing and (self.isConfined or onLeft or not self.isRough)
+		self.holdsLeft = not self.isPeriodic and not self.isRing and (self.isConfined or onLeft or (not self.isRough and (not self.isDynamic or draw.random() < .3)))
+		self.isFreeAlongX = self.isDynamic and not (self.isRing or self.isRough or self.holdsLeft or self.isConfined or self.has('roughWall', 'absorbing', 'baseMotion'))
 		wallPlace = self.places.get(self.wall)
 		self.offset = [draw.choice([.13, .25, 0.]) if not (self.holdsLeft or self.isPeriodic or self.isRing) else 0., 0., 0.]
 		if wallPlace == 'base': self.offset[1] = draw.choice([.13, .375])
+		if wallPlace == 'base' and not (self.holdsLeft or self.isPeriodic or self.isRing): self.offset[0] = .3  # off the lines: round-off would tell which cells hold material
 		if wallPlace == 'left': self.offset[0] = draw.choice([.13, .375])
 
 	def _motion(self, draw):
@@ -115,7 +117,7 @@ class _Text:
 			values['origin'] = tuple(x if p > 0 else 0. for x, p in zip(v.box((0, 0, 0), (s.size[0] * s.cell, 0, 0))[0], values['period']))
 		text = f'grid = MpmGrid({_arguments(values)})'
 		if s.has('refinement'):
-			low, high = v.box((-inf, -inf, -inf), (s.random.choice([.9, 1.4]) * s.cell, inf, inf) if s.random.random() < .5 or s.has('pressure') else (inf, .7 * s.cell, inf))
+			low, high = v.box((-inf, -inf, -inf), (s.random.choice([.9, 1.4] if not s.has('pressure') else [.9]) * s.cell, inf, inf) if s.random.random() < .5 or s.has('pressure') else (inf, .7 * s.cell, inf))
 			text = text[:-1] + f', refinements=[MpmRefinement(min={low}, max={high})])'
 		self.add(text)
 
@@ -216,7 +218,7 @@ class _Text:
 		"""As small as the engine wants them: how it divides larger ones depends on the corner with which they begin, and so on the side from which one looks."""
 		u, w = [k for k in range(3) if k != axis]
 		if (axis == 1) == (side > 0): u, w = w, u
-		n = {k: math.ceil((b[k] - a[k]) / self.scene.cell * 6 - 1e-9) for k in (u, w)}
+		n = {k: math.ceil((b[k] - a[k]) / self.scene.cell * (12 if self.scene.has('refinement') else 6) - 1e-9) for k in (u, w)}
 		corner = lambda i, j: tuple(a[k] if k == axis else a[k] + (b[k] - a[k]) * (i if k == u else j) / n[k] for k in range(3))
 		quads = [(corner(i, j), corner(i + 1, j), corner(i + 1, j + 1), corner(i, j + 1)) for i in range(n[u]) for j in range(n[w])]
 		return [[q[0], *q[k:k + 2]] for q in quads for k in (1, 2)]
