@@ -1,11 +1,13 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""In YADE: checks the scenes of a JSON file, each a list of features and a seed, and prints what became of them, as worker.runCases wants it."""
+"""In YADE: checks the scenes of a JSON file, each a list of features and a seed, and prints what became of them, as worker.runCases wants it. PYTHONPATH has scripts/lib."""
 import json
 import os
 import sys
 
-sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 from pairs.checks import check
+from yade import log
+
+log.setLevel('Default', log.ERROR)  # many scenes are warned of, for gravity that acts upwards where one looks at it so
 
 with open(sys.argv[-1]) as file:
 	cases = json.load(file)
