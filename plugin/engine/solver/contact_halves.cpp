@@ -38,16 +38,18 @@ namespace {
 			auto& to                    = found->second;
 			if (isFirst) {
 				to.point = point, to.corner = corner;
-				to.pressure = 0, to.friction.setZero();
-				to.place    = placeOf(domain, isUpper, corner);
-			} else { // from the other side of where the halves meet
+				to.pressure = part * from.pressure, to.friction = part * from.friction;
+				to.place = placeOf(domain, isUpper, corner);
+			} else { // from the other side of where the halves meet, where a round body has another normal
+				const Vector3r push = to.pressure * to.normal + part * from.pressure * from.normal;
+				to.pressure         = push.norm();
+				if (to.pressure > 0) to.normal = push / to.pressure;
+				to.friction += part * from.friction;
 				to.offset  = (to.offset + from.offset) / 2;
 				to.gap     = (to.gap + from.gap) / 2;
 				to.touches = to.touches || from.touches;
 				to.slips   = to.slips || from.slips;
 			}
-			to.pressure += part * from.pressure;
-			to.friction += part * from.friction;
 		}
 		void appendTo(vector<Real>& numbers) const
 		{

@@ -149,7 +149,9 @@ class _Text:
 		if s.random.random() < .4 and not s.isPeriodic and not s.isConfined and s.dim == 2: regions = [self._part((0, 0, 0), (nx, ny - 1, nz)), self._part((0, 0, 0), (nx - 1, ny, nz))] if not (s.places.keys() & {'traction', 'pressure', 'fixedBody', 'excavate', 'place'}) else regions
 		self._filled('points', regions)
 		if s.has('freeBody', 'twoEngines') or s.isFree: self.add('for body in points: body.groupMask = 2')
-		if s.has('pointLoad'): self.add(f'for body in points[::1]:\n\tif placeInScene(body.state.pos)[1] > {(ny - 1 + s.offset[1]) * s.cell}: body.state.force = {self.view.vector((60., -90., 0 if s.dim == 2 else 40.) if not s.isRing else (50., -90., 0), self.view.F)}')
+		# By volume, so that refined cells with more points do not bear more
+		force = self.view.vector((1.5e3, -2e3, 1e3 if s.dim == 3 else 0.), self.view.F / self.view.volume) if not s.isRing else self.view.vector((3e2, -5e2, 0.), self.view.F / self.view.volume)
+		if s.has('pointLoad'): self.add(f'for body in points[::1]:\n\tif placeInScene(body.state.pos)[1] > {(ny - 1 + s.offset[1]) * s.cell}: body.state.force = body.state.volume * Vector3({force})')
 
 	# Boundaries
 
@@ -190,8 +192,11 @@ class _Text:
 		s, v = self.scene, self.view
 		fix = 'n' if s.wall == 'smoothWall' else v.letters('xyz'[:s.dim])
 		nx, ny, nz = s.size
-		around = 0 if s.isPeriodic or s.isRing else .5
-		surface = self._flat((0 - around, 0, -around), (nx + (around if not s.isRing else .5), 0, nz + around), 1, -1) if place == 'base' else self._flat((0, -around, -around), (0, ny + around, nz + around), 0, -1)
+		# Wider than the body, by parts of a cell that differ: pieces that are equally far from two cells belong to none of them more than to the other
+		if place == 'base':
+			x = (0, nx) if s.isPeriodic else (0, nx + .5) if s.isRing else (-.5, nx + .47)
+			surface = self._flat((x[0], 0, -.37), (x[1], 0, nz + .43), 1, -1)
+		else: surface = self._flat((0, -.5, -.37), (0, ny + .47, nz + .43), 0, -1)
 		moving = ''
 		if s.has('movingWall'):
 			speed = .05 * s.cell / s.end
