@@ -19,7 +19,7 @@ class MpmImplicitEngine;
 // points in the same place, cells that are no match for the points, an O.dt that nobody has set or that jumps over the whole load curve.
 class Plausibility {
 public:
-	static constexpr int mostDoubts = 6; // before a step
+	static constexpr int mostDoubts = 9; // before a step
 
 	// Before a step. What can be meant, but seldom is: sentences for YADE's log. Each is said once as long as what it says stays so. Adds the
 	// time [s] that the points have taken, if they were looked at.
