@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "engine/conditions/MpmContact.hpp"
 #include "engine/conditions/contact_records.hpp"
+#include "yade_api/registration.hpp"
 #include "yade_api/scene.hpp"
 
 namespace yade {
