@@ -32,7 +32,6 @@ public:
 	static constexpr InternalVariable                preconsolidation { "preconsolidation", "Pa", "preconsolidation pressure", positive, anyNumber };
 	static constexpr std::array<InternalVariable, 2> variables { equivalentPlasticStrain, preconsolidation };
 	static constexpr bool                            mayFail = true;
-	static constexpr bool                            isLarge = true;
 
 	/// Pressures from e^-100 to e^100 times the reference; what is beyond has no answer.
 	static constexpr double mostExponent = 100;

@@ -74,7 +74,6 @@ public:
 
 	static constexpr std::array<InternalVariable, 1> variables { equivalentPlasticStrain };
 	static constexpr bool                            mayFail = false;
-	static constexpr bool                            isLarge = true;
 
 	std::array<double, 1> initialInternals() const { return { 0 }; }
 

@@ -2,6 +2,7 @@
 #include "engine/conditions/MpmContact.hpp"
 #include "core/base/sentence.hpp"
 #include "engine/conditions/contact_records.hpp"
+#include "yade_api/registration.hpp"
 #include "yade_api/scene.hpp"
 #include <Eigen/Eigenvalues>
 

@@ -2,7 +2,7 @@
 #pragma once
 #include "core/terms/contact.hpp"
 #include "engine/conditions/angles.hpp"
-#include "yade_api/registration.hpp"
+#include "yade_api/exposed.hpp"
 #include <map>
 
 namespace yade {

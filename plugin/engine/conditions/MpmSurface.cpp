@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "engine/conditions/MpmSurface.hpp"
 #include "core/grid/surface.hpp"
+#include "yade_api/registration.hpp"
 #include <algorithm>
 #include <map>
 

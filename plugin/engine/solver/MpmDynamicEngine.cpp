@@ -2,6 +2,7 @@
 #include "engine/solver/MpmDynamicEngine.hpp"
 #include "engine/points/MaterialPoints.hpp"
 #include "engine/solver/moving.hpp"
+#include "yade_api/registration.hpp"
 
 namespace yade {
 

@@ -17,6 +17,7 @@
 #include "engine/solver/walls.hpp"
 #include "yade_api/exceptions.hpp"
 #include "yade_api/logging.hpp"
+#include "yade_api/registration.hpp"
 
 namespace yade {
 

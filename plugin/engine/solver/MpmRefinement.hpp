@@ -2,7 +2,7 @@
 #pragma once
 #include "core/grid/grid.hpp"
 #include "engine/conditions/box.hpp"
-#include "yade_api/registration.hpp"
+#include "yade_api/exposed.hpp"
 
 namespace yade {
 

@@ -2,7 +2,7 @@
 #pragma once
 // What MpmDynamicEngine needs for scheme='explicit' alone.
 #include "engine/solver/job.hpp"
-#include "yade_api/registration.hpp"
+#include "yade_api/exposed.hpp"
 
 namespace yade {
 class MpmDynamicEngine;
