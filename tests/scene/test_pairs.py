@@ -47,6 +47,7 @@ def test_scenes_that_once_did(tmp_path, monkeypatch):
 	"""Walls wider than the body, of which order of cells and round-off chose the cells they hang on; halves of points at a rigid body that they do not touch."""
 	walls = [(['3d', 'elastic', 'static', wall], seed) for wall in ('roughWall', 'smoothWall') for seed in (0, 1)]
 	halves = [('plane vonMises generalisedAlpha clump movedBody friction splitting pushed'.split(), seed) for seed in (30, 31)]
+	halves += [('3d elastic newmark clump movedBody smoothWall fields movingWall splitting absorbing'.split(), 763)]
 	assert not findings(tmp_path, walls + halves, monkeypatch)
 
 
