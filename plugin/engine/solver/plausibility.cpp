@@ -244,7 +244,7 @@ vector<string> Plausibility::look(
 	requireGravityInPlane(engine);
 	requireSensibleIncrement(engine);
 	if (points.empty()) return {}; // other processes have them
-	const bool areNew = largest == 0 || isNew(cloud);
+	const bool areFirst = largest == 0, areNew = areFirst || isNew(cloud);
 	if (areNew) {
 		const gimpm::Stopwatch watch(time);
 		requirePoints(points, cloud);
