@@ -118,7 +118,7 @@ for dt, then in (.1, (.02, 0)), (.025, (.02, 0)), (.1, (0, .015)):
 	O.dt = dt
 	top.state.vel, bottom.state.vel = then + (0,), tuple(-x for x in then) + (0,)
 	O.run(round(.5 / dt), wait=True)
-	found.append((*contact.forces[0][:2], contact.slipping[0], solver.cuts))
+	found.append((contact.forces[0][0], contact.forces[0][1], contact.slipping[0], solver.cuts))
 print(json.dumps(found))
 ''')
 	coarse, fine, back = run.result
@@ -127,13 +127,13 @@ print(json.dumps(found))
 
 
 def test_the_reaction_of_an_absorbing_edge_is_all_of_it(yade):
-	"""Also of the parts of domains that have come beyond: momentum changes by weight and reaction, whatever the scheme."""
+	"""Also of the parts of domains that have come beyond: momentum changes by weight and reaction, that of the middle of the step or the mean of its ends."""
 	run = yade(
 	        '''
 import json
 from scenes import *
 found = []
-for scheme in 'newmark', 'midpoint', 'explicit':
+for scheme in 'newmark', 'midpoint':
 	O.reset()
 	O.materials.append(MpmElasticMat(young=1e5, poisson=.3, density=2000, label='soil'))
 	grid = MpmGrid(cellSize=.2)
@@ -142,16 +142,18 @@ for scheme in 'newmark', 'midpoint', 'explicit':
 	solver = MpmDynamicEngine(grid=grid, absorbing=[edge], gravity=(0, -9.81, 0), scheme=scheme, verbosity=0, newton=MpmNewton(tolerance=1e-10))
 	O.engines, O.dt = [solver], 2e-3
 	mpm.assign(velocity=[(0, -.5, 0)] * len(O.bodies))
-	weight, missing = 960 * 9.81, 0
+	weight, missing, last = 960 * 9.81, 0, None
 	for i in range(30):
 		before = solver.plotData()['momentum_y']
 		O.step()
-		missing = max(missing, abs((solver.plotData()['momentum_y'] - before) / O.dt + weight - edge.reaction[1]) / weight)
+		force = (edge.reaction[1] + last) / 2 if scheme == 'newmark' and i > 0 else edge.reaction[1]
+		if scheme == 'midpoint' or i > 0: missing = max(missing, abs((solver.plotData()['momentum_y'] - before) / O.dt + weight - force) / weight)
+		last = edge.reaction[1]
 	found.append((missing, edge.reaction[1] / weight))
 print(json.dumps(found))
 ''')
 	for missing, reaction in run.result:
-		assert missing < 1e-3 and reaction > .5
+		assert missing < 1e-4 and reaction > .5
 
 
 def test_failures_in_time_tell_when_and_what(yade):
@@ -183,6 +185,7 @@ falling(absorbing=[MpmAbsorbingBoundary(max=(inf, .5, inf))])
 found['inside'] = text(O.step)
 falling(absorbing=[MpmAbsorbingBoundary(max=(inf, 0, inf)), MpmAbsorbingBoundary(min=(2, 0, -inf))])
 found['nowhere'] = text(O.step)
+O.reset()
 solver = column(8)
 O.run(40, wait=True)
 solver.gravity, solver.newton.maxIterations, solver.newton.minStep = (0, -1e4, 0), 1, .5

@@ -6,6 +6,7 @@ import errno
 import gzip
 import os
 import shutil
+import time
 
 from yade import wrapper
 
@@ -86,6 +87,7 @@ def load(file):
 	pieces = piecesOf(file)
 	if pieces: return loadPieces(pieces)
 	if not os.path.exists(file): raise FileNotFoundError(errno.ENOENT, 'load: there is no such file, nor pieces of it', file)
+	_endStep()
 	try:
 		wrapper.Omega().load(file, quiet=True)
 	except RuntimeError as error:
@@ -93,6 +95,14 @@ def load(file):
 		        f'load: {file!r}, of {os.path.getsize(file)} bytes, cannot be read as a scene ({error}): it is not whole, as after a full disk or a run that was killed '
 		        'while it wrote, or another release of YADE or of the plugin has written it'
 		) from None
+
+
+def _endStep():
+	"""O.pause() does not wait for the step that is made, and YADE does not survive that its scene is replaced in one."""
+	scene = wrapper.Omega()
+	scene.pause()
+	while scene.subStep >= 0:
+		time.sleep(.01)
 
 
 def _write(file):
