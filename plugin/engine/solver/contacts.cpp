@@ -106,7 +106,7 @@ Contacts<Dim>::Contacts(
         : given(contacts), areDivided(areDivided), begin(begin), target(target), end(begin), dt(scene.dt)
 {
 	if (contacts.empty()) return;
-	system = boost::make_shared<gimpm::ContactSystem<Dim>>();
+	system = shared_ptr<gimpm::ContactSystem<Dim>>(new gimpm::ContactSystem<Dim>);
 	movers.emplace(scene);
 	for (const auto& contact : contacts)
 		add(contact, scene, grid);
