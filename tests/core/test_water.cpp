@@ -134,8 +134,11 @@ namespace {
 			for (auto& x : block.cloud.position)
 				x[0] += 0.3; // some reach over the far side
 			const Vec<Dim> fall = -slope * 1.5 * Vec<Dim>::Unit(0);
-			const auto     p    = table<Dim>(
-                                block.model.grid, [&](const Vec<Dim>& x) { return 3e4 - slope * x[0] + 1e3 * x[1]; }, fall);
+			const auto     wave = [](const Vec<Dim>& x) {
+                                return 400 * std::sin(2 * M_PI * x[0] / 1.5) * x[1];
+			}; // so that the gradient is not the same everywhere
+			const auto p = table<Dim>(
+			        block.model.grid, [&](const Vec<Dim>& x) { return 3e4 - slope * x[0] + 1e3 * x[1] + wave(x); }, fall);
 			block.water.pressure = block.water.before = p;
 			const bool isInPores                      = place != WaterPlace::outside;
 			EXPECT_NEAR(block.resultant()[0], isInPores ? slope * volume : 0, 1e-9 * slope) << int(place);
