@@ -12,6 +12,9 @@ namespace {
 /// Whether the step can be made at all.
 template <int Dim> bool isPossible(const StepSystem<Dim>& system, const ExplicitInertia<Dim>& inertia, StepReport& report)
 {
+	if (!system.map.isAlone())
+		return !fail(report, Failure::misplaced, "explicit steps are for displacements only, and there is the field '" + system.map[1].name + "'");
+	if (const std::string obstacle = system.obstacle(); !obstacle.empty()) return !fail(report, Failure::misplaced, obstacle);
 	for (const auto& term : system.terms)
 		if (const std::string obstacle = term->obstacle(); !obstacle.empty()) return !fail(report, Failure::misplaced, obstacle);
 	if (const std::string obstacle = inertia.obstacle(); !obstacle.empty()) return !fail(report, Failure::misplaced, obstacle);

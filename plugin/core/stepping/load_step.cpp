@@ -18,8 +18,9 @@ template <int Dim> bool isHeld(const StepSystem<Dim>& system, const PointCloud<D
 {
 	const Stopwatch   watch(report.times.basis);
 	const std::string lost = system.hasInertia() ? "" : lostGrip(cloud, system.basis, system.model, load);
-	const Restraint   held = restraint(system.basis, system.model.grid, system.model.boundary, system.terms, bool(system.model.division));
-	report.parts           = held.parts;
+	if (const std::string obstacle = system.obstacle(); !obstacle.empty()) return !fail(report, Failure::misplaced, obstacle);
+	const Restraint held = restraint(system.basis, system.model.grid, system.model.boundary, system.terms, bool(system.model.division));
+	report.parts         = held.parts;
 	if (const std::string between = boxBetweenNodes(system.basis, system.model.boundary); !between.empty())
 		return !fail(report, Failure::misplaced, between);
 	if (!lost.empty()) return !fail(report, Failure::detached, lost);
@@ -43,7 +44,7 @@ template <int Dim> void explain(const StepSystem<Dim>& system, const Eigen::Vect
 template <int Dim> Eigen::VectorXd predictionFor(const StepSystem<Dim>& system, const LastIncrement<Dim>& last, double growth)
 {
 	Eigen::VectorXd d = predict(last, system.basis.nodes, growth, system.model.grid);
-	if (d.size() > 0) system.basis.ties.template spread<Dim>(d);
+	if (d.size() > 0) system.constraints.template spread<Dim>(system.map, d);
 	return d;
 }
 
@@ -72,9 +73,11 @@ template <int Dim> StepReport loadStep(PointCloud<Dim>& cloud, const Model<Dim>&
 	const StepSystem<Dim> system(cloud, model, load, report);
 	if (!isHeld(system, cloud, load, report)) return report;
 	// 2. to 4. points to nodes, assembly and Newton's method on the nodes
-	const Eigen::VectorXd prediction = last && !system.hasInertia() ? predictionFor(system, *last, load.growth()) : Eigen::VectorXd();
-	const Eigen::VectorXd d          = equilibrium(system, solver, report, prediction);
-	if (!model.terms.empty()) explain(system, d, report);
+	const bool            predicts   = last && !system.hasInertia() && system.map.isAlone();
+	const Eigen::VectorXd prediction = predicts ? predictionFor(system, *last, load.growth()) : Eigen::VectorXd();
+	const Eigen::VectorXd growth     = equilibrium(system, solver, report, prediction);
+	const Eigen::VectorXd d          = system.map.displacements(growth);
+	if (!model.terms.empty() || system.isCoupled()) explain(system, d, report);
 	if (report.converged() && prediction.size() > 0 && std::isfinite(model.newton.stepTolerance)) {
 		const Stopwatch watch(report.times.update);
 		judge(rateChange(system, *last, load.growth(), prediction, d), report);
@@ -84,7 +87,7 @@ template <int Dim> StepReport loadStep(PointCloud<Dim>& cloud, const Model<Dim>&
 	// 5. nodes to points; 6. the grid is reset by not being kept
 	report.accepted = report.failure == Failure::tooManyIterations && model.newton.acceptUnconverged;
 	if (report.converged() || report.accepted)
-		if (accept(system, cloud, load, d, report) && last) *last = incrementOf(system, d, load.growth());
+		if (accept(system, cloud, load, growth, report) && last) *last = incrementOf(system, d, load.growth());
 	return report;
 }
 

@@ -30,7 +30,8 @@ std::string causeOfStall(const Convergence& convergence, double tolerance)
 std::string causeOfTooMany(const StepReport& report, double tolerance, bool isWholeInBalance, int iterations)
 {
 	const std::string after = sentence(" after ", iterations, " iterations");
-	if (!isWholeInBalance) return sentence("the residual ", report.residual(), " is above the tolerance ", tolerance, after);
+	const std::string where = report.worst.field.empty() ? "" : sentence(", and most of it is of the ", report.worst.field);
+	if (!isWholeInBalance) return sentence("the residual ", report.residual(), " is above the tolerance ", tolerance, after, where);
 	return sentence(
 	        "the residual ", report.residual(), " of the whole is small, but around a node it is still ", report.localResidual,
 	        " of the forces there, more than ", localTolerance, " times the tolerance ", tolerance, ",", after);
@@ -45,16 +46,18 @@ template <int Dim> void reportWorst(const StepSystem<Dim>& system, const Balance
 {
 	if (balance.worst < 0) return;
 	report.worst.position.setZero();
-	report.worst.position.template head<Dim>() = system.model.grid.nodePosition(Grid<Dim>::index(system.basis.nodes[balance.worst / Dim]));
-	report.worst.axis                          = balance.worst % Dim;
-	report.worst.force                         = balance.residual[system.dofs.number[balance.worst]];
+	const int field = system.map.fieldOf(balance.worst), inField = balance.worst - system.map.begin(field), width = system.map[field].width;
+	report.worst.position.template head<Dim>() = system.model.grid.nodePosition(Grid<Dim>::index(system.basis.nodes[inField / width]));
+	report.worst.axis                          = field == 0 ? inField % width : -1;
+	report.worst.field                         = field == 0 ? "" : system.map[field].name;
+	report.worst.force                         = balance.residual[system.dofs.number[balance.worst]] / system.map[field].scale;
 }
 
 template <int Dim> std::vector<Vec3> reactions(const StepSystem<Dim>& system, const Eigen::VectorXd& force)
 {
 	const auto&       boundary = system.model.boundary;
 	std::vector<Vec3> sums(boundary.boxes().size(), Vec3::Zero());
-	for (int i = 0; i < force.size(); ++i) {
+	for (int i = 0; i < system.nodalSize(); ++i) {
 		if (system.dofs.number[i] >= 0) continue;
 		const auto* box = boundary.holder(Grid<Dim>::index(system.basis.nodes[i / Dim]), i % Dim);
 		if (!box) continue; // the node is tied to others, which have taken its force

@@ -34,10 +34,11 @@ template <int Dim> Workload workload(const PointCloud<Dim>& cloud, const Model<D
 	StepReport            report;
 	const StepSystem<Dim> system(cloud, model, Load<Dim>(), report);
 	NodeMatrix<Dim>       blocks;
+	Couplings             beside;
 	const LinearProblem   K = [&] {
                 const Stopwatch watch(report.times.assembly);
-                system.tangent(blocks);
-                return LinearProblem(blocks, system.dofs);
+                system.tangent(blocks, &beside);
+                return LinearProblem(blocks, system.dofs, nullptr, system.isCoupled() ? &beside : nullptr);
 	}();
 	Workload w;
 	w.points         = int(cloud.size());
