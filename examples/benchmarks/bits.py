@@ -3,9 +3,9 @@
 of the program that is not meant to change results leaves every bit of them."""
 import hashlib
 import json
-from math import inf
+from math import inf, radians
 
-from yade import mpm, pack
+from yade import mpm, pack, utils
 
 columns = 'id', 'pos', 'pos0', 'halfSize', 'stress', 'defGrad', 'elasticStrain', 'volume', 'plasticStrain', 'material'
 
@@ -76,6 +76,66 @@ def footing(dim):
 	return run(8, 8, grid=grid, boundaries=sides + [foot])
 
 
+def plate(y, **motion):
+	"""A horizontal plate, its outer side up or down as *sense* of utils.wall says, of YADE's own bodies."""
+	if 'steel' not in [m.label for m in O.materials]: O.materials.append(FrictMat(young=1e9, frictionAngle=0, density=2000, label='steel'))
+	body = utils.wall(y, axis=1, sense=motion.pop('sense', 1), material='steel')
+	body.groupMask = 2
+	O.bodies.append(body)
+	for name, value in motion.items():
+		setattr(body.state, name, value)
+
+
+def block(dim=2, period=False, **grid):
+	"""4 m wide and 2 m high, of two laws."""
+	grid = MpmGrid(cellSize=.5, dim=dim, period=(4, 0, 0) if period else (0, 0, 0), **grid)
+	low = pack.inAlignedBox((-1, -1, -1), (5, 1, 5))
+	soil = mpm.polygon([(0, 0), (4, 0), (4, 2), (0, 2)]) if dim == 2 else pack.inAlignedBox((0, 0, 0), (4, 2, 1))
+	fill(soil, grid, 2, (low, MpmElasticMat(young=1e7, poisson=.3, density=2000)), (soil, MpmMohrCoulombMat(young=1e7, poisson=.3, density=1800, cohesion=2e4, frictionAngle=.5)))
+	return grid
+
+
+def conditions(dim=2, **of):
+	"""On a plate with friction, beside an oblique wall, under a pressure that follows and water in the pores."""
+	grid = block(dim, **of)
+	plate(0, sense=1)
+	top = [(3.5, 2), (.5, 2)] if dim == 2 else [[(.5, 2, .1), (.5, 2, .9), (3.5, 2, .1)]]
+	held = [MpmBoundary(max=(0, inf, inf), fix='x')] if not of.get('period') else []
+	if dim == 3: held += [MpmBoundary(max=(inf, inf, 0), fix='z'), MpmBoundary(min=(-inf, -inf, 1), fix='z')]
+	else: held.append(MpmBoundary(surface=[(3.6, 1.6), (3.8, .4)], fix='x'))
+	water = [MpmWater(level=1.5, where='pores'), MpmWater(level=1.2, where='outside')]
+	return run(
+	        8, 8, grid=grid, gravity=(0, -9.81, 0), boundaries=held, water=water, loads=[MpmTraction(surface=top, pressure=2e4)],
+	        contacts=[MpmContact(mask=2, friction=radians(20))])
+
+
+def cells():
+	"""Halved below the load; domains are split."""
+	grid = block(refinements=[MpmRefinement(min=(1, 1, -inf), max=(3, 2, inf), halvings=1)])
+	return run(
+	        8, 8, grid=grid, gravity=(0, -9.81, 0), boundaries=walls(2, 4, 'xy'), loads=[MpmTraction(surface=[(2.75, 2), (1.25, 2)], traction=(0, -1e5, 0))],
+	        maxSplits=2)
+
+
+def moving(steps, **engine):
+	"""A plate moves into soil that shakes, with an edge that absorbs waves."""
+	grid = block()
+	plate(2, sense=-1, vel=(0, -.5, 0))
+	shaking = MpmBaseMotion(history=[(0, 0), (.01, .2), (.03, -.2), (.05, 0)], direction=(1, 0, 0))
+	O.engines = [
+	        MpmDynamicEngine(
+	                grid=grid, gravity=(0, -9.81, 0), verbosity=0, boundaries=[MpmBoundary(max=(inf, 0, inf), fix='xy', motion=shaking)],
+	                water=[MpmWater(level=1)], contacts=[MpmContact(mask=2, friction=radians(20))], absorbing=[MpmAbsorbingBoundary(min=(4, -inf, -inf))],
+	                **engine)]
+	O.dt = .02 / steps
+	solves = 0
+	for _ in range(steps):
+		O.step()
+		solves += O.engines[0].iterations
+	points = mpm.arrays()
+	return hashlib.sha256(b''.join(points[name].tobytes() for name in columns + ('velocity', 'acceleration'))).hexdigest(), solves
+
+
 def paper():
 	return MpmNewton(predictor=False, reuseFactor=False)
 
@@ -84,6 +144,13 @@ plans = {f'slope h=1, {n} x {n} points, Newton from zero': lambda n=n: slope(1, 
 plans |= {f'slope h=0.5, {n} x {n} points': lambda n=n: slope(.5, n, 40, 20, MpmNewton()) for n in (2, 3, 4)}
 plans |= {f'column in {dim}D': lambda dim=dim: column(dim, 32) for dim in (2, 3)}
 plans |= dict(collapse=collapse, cantilever=cantilever) | {f'footing in {dim}D': lambda dim=dim: footing(dim) for dim in (2, 3)}
+plans |= {
+        'conditions in 2D': conditions, 'conditions in 3D': lambda: conditions(3), 'conditions with a period': lambda: conditions(period=True),
+        'conditions around an axis': lambda: conditions(axisymmetric=True), 'refined cells': cells}
+plans |= {
+        'moving, damped': lambda: moving(8, rayleigh=(.1, 1e-4)), 'moving, generalised-alpha': lambda: moving(8, scheme='generalised-alpha'),
+        'moving, midpoint': lambda: moving(8, scheme='midpoint'),
+        'moving, explicit': lambda: moving(100, scheme='explicit', ghost=MpmGhost(factor=0))}
 found = {}
 for name, scene in plans.items():
 	O.reset()

@@ -5,6 +5,7 @@
 #include "engine/materials/laws.hpp"
 #include "engine/output/contactPoints.hpp"
 #include "engine/output/gridCells.hpp"
+#include "engine/output/waterAround.hpp"
 #include "engine/points/assignment.hpp"
 #include "engine/points/bulkAccess.hpp"
 #include "engine/points/columns.hpp"
@@ -12,6 +13,7 @@
 #include "engine/solver/MpmGrid.hpp"
 #include "engine/solver/distribution.hpp"
 #include "engine/solver/processes.hpp"
+#include "yade_api/naming.hpp"
 #include "yade_api/verification.hpp"
 
 BOOST_PYTHON_MODULE(mpm_engine)
@@ -36,12 +38,30 @@ BOOST_PYTHON_MODULE(mpm_engine)
 	py::def("columnsOfPoints", &columnsOfPoints,
 	        "For mpm.arrays: dict of bytearrays with the data of the material points that a mask means, in order of body id.");
 	py::def("pointColumns", &pointColumnsForPython, "What there is to know of a material point: a dict with name, unit, label, width ... for each column.");
+	py::def(
+	        "didYouMean",
+	        +[](const string& name, const py::list& known) {
+		        vector<string> names;
+		        for (py::ssize_t i = 0; i < py::len(known); ++i)
+			        names.push_back(py::extract<string>(known[i]));
+		        return didYouMean(name, names);
+	        },
+	        "For messages: the known names that are most like another one, as a question.");
 	py::def("warn", &warn, "A warning of module mpm in YADE's log.");
 	py::def("assignColumns", &assignColumns, "For mpm.assign: values of the material points with these body ids, from a dict of arrays; all or none.");
 	py::def("respond", &respondForPython,
 	        "For mpm.respond: one call of the law of a material in principal axes, from trial strains and a dict of internal variables.");
 	py::def("elasticStrainOf", &elasticStrainForPython, "For mpm.elementTest: principal elastic strains of principal Kirchhoff stresses.");
 	py::def("touchableBodies", &touchableBodiesForPython, "For mpm.plot: ids of the rigid bodies that the contacts of an engine mean.");
+	py::def("waterAround", &waterAroundForPython,
+	        "For mpm.geostatic: pressure and gradient of each water of an engine, averaged over boxes, given their middles and half sizes.");
+	py::def(
+	        "actInPart",
+	        +[](MpmMaterial& material, Real share) {
+		        const ValueLock lock;
+		        material.share = share;
+	        },
+	        "For mpm.stages: the share of water and point loads that acts on points of a material, whose density is as small.");
 	py::def("gridCells", &gridCellsForPython,
 	        "For mpm.plot: corners and first field of the cells of 'grid', 'ghostFaces', 'loads', 'walls' or 'contacts' around the material points.");
 }

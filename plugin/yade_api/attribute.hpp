@@ -1,76 +1,165 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-// One attribute of a plugin class, as given by the attributes() list of that class.
-#include "yade_api/conversion.hpp"
-#include "yade_api/validators.hpp"
-#include "yade_api/value_lock.hpp"
-#include <stdexcept>
+// The attributes of a plugin class, as given by its attributes() list. What can be done with an attribute depends on its type; where it is, on the class.
+#include "yade_api/exposed.hpp"
+#include "yade_api/naming.hpp"
+#include "yade_api/serialization.hpp"
+#include <functional>
+#include <memory>
 
 namespace yade {
 
-// Bits of an attribute's flags, with YADE's values.
-enum AttributeFlag : unsigned {
-	noSave          = 1, // not part of saved files
-	readonly        = 2, // from Python; still saved, copied and restored
-	triggerPostLoad = 4, // assignment is followed by postLoad()
-	hidden          = 8, // not shown in Python
+// What is said of an attribute of any type.
+struct ListedAttribute {
+	const char* className;
+	const char* name;
+	unsigned    flags;
+	const char* doc;
 };
 
-template <class D, class T> using MemberOf = T D::*;
-
-template <class D, class T, class Validator> struct Attribute {
-	using Type = T;
-
-	const char*          name;
-	const MemberOf<D, T> member;
-	unsigned             flags;
-	const char*          doc;
-	Validator            validator;
-
+class Attribute : public ListedAttribute {
+public:
+	explicit Attribute(const ListedAttribute& listed) : ListedAttribute(listed) { }
+	virtual ~Attribute() = default;
 	bool is(AttributeFlag flag) const { return flags & flag; }
 
 	// TypeError or ValueError leave the old value in place.
-	void assign(D& object, const py::object& value) const
+	virtual void       assign(Serializable&, const py::object& value) const = 0;
+	virtual py::object read(const Serializable&) const                      = 0;
+	// std::invalid_argument, a ValueError in Python
+	virtual void requireAdmitted(const Serializable&) const = 0;
+	// The function of Python that gives its value.
+	virtual py::object getter() const;
+
+	virtual void serialize(boost::archive::xml_iarchive&, Serializable&) const    = 0;
+	virtual void serialize(boost::archive::xml_oarchive&, Serializable&) const    = 0;
+	virtual void serialize(boost::archive::binary_iarchive&, Serializable&) const = 0;
+	virtual void serialize(boost::archive::binary_oarchive&, Serializable&) const = 0;
+
+protected:
+	string            qualifiedName() const { return string(className) + "." + name; }
+	[[noreturn]] void refuseType(const py::object& value, const string& expected, bool isItem) const;
+	[[noreturn]] void refuseValue(const string& value, const string& expected) const;
+};
+
+template <class T> class AttributeOf : public Attribute {
+public:
+	using Admits = std::function<bool(const T&)>;
+
+	AttributeOf(const ListedAttribute& listed, Admits admits, std::function<string()> admitted)
+	        : Attribute(listed), admits_(std::move(admits)), admitted_(std::move(admitted))
+	{
+	}
+	void assign(Serializable& object, const py::object& value) const override
 	{
 		const std::optional<T> converted = Conversion<T>::fromPython(value);
-		if (!converted)
-			raisePython(
-			        PyExc_TypeError,
-			        qualifiedName() + " = " + repr(value) + ": expected " + Conversion<T>::expected() + "."
-			                + (ItemOf<T>::is(value) ? " For one item write [item]." : ""));
+		if (!converted) refuseType(value, Conversion<T>::expected(), ItemOf<T>::is(value));
 		requireAdmitted(*converted);
 		const ValueLock lock;
-		object.*member = *converted;
+		in(object) = *converted;
 	}
-
-	py::object read(const D& object) const
+	py::object read(const Serializable& object) const override
 	{
-		const T value = copy(object);
-		return Conversion<T>::toPython(value);
+		const T    value     = copy(object);
+		const auto converted = Conversion<T>::toPython(value);
+		if constexpr (std::is_same_v<decltype(converted), const py::tuple>) return copyOfAttribute(converted, qualifiedName(), is(readonly));
+		else
+			return converted;
+	}
+	void requireAdmitted(const Serializable& object) const override { requireAdmitted(in(const_cast<Serializable&>(object))); }
+
+	void serialize(boost::archive::xml_iarchive& archive, Serializable& object) const override { serializeBy(archive, object); }
+	void serialize(boost::archive::xml_oarchive& archive, Serializable& object) const override { serializeBy(archive, object); }
+	void serialize(boost::archive::binary_iarchive& archive, Serializable& object) const override { serializeBy(archive, object); }
+	void serialize(boost::archive::binary_oarchive& archive, Serializable& object) const override { serializeBy(archive, object); }
+
+	// Vectors and matrices that may be written come by reference, as in YADE: b.state.force[1] = 3
+	py::object getter() const override
+	{
+		if constexpr (std::is_same_v<T, Vector3r> || std::is_same_v<T, Matrix3r>)
+			if (!is(readonly)) {
+				const auto reference = [this](Serializable& object) -> T& { return in(object); };
+				return py::make_function(reference, py::return_internal_reference<>(), boost::mpl::vector2<T&, Serializable&>());
+			}
+		return Attribute::getter();
 	}
 
-	// A Python ValueError.
+protected:
+	virtual T& in(Serializable&) const = 0;
+
+private:
+	T copy(const Serializable& object) const
+	{
+		const ValueLock lock;
+		return in(const_cast<Serializable&>(object));
+	}
 	void requireAdmitted(const T& value) const
 	{
-		if (validator(value)) return;
+		if (admits_(value)) return;
 		// An engine in the background must not wait for Python's lock, which O.reset() keeps while it waits for the engine.
-		const string text = PyGILState_Check() ? repr(Conversion<T>::toPython(value)) : textOf(value);
-		throw std::invalid_argument(qualifiedName() + " = " + text + " is not admitted: expected " + validator.description() + ".");
+		refuseValue(PyGILState_Check() ? repr(Conversion<T>::toPython(value)) : textOf(value), admitted_());
+	}
+	template <class Archive> void serializeBy(Archive& archive, Serializable& object) const
+	{
+		if (!is(noSave)) archive& boost::serialization::make_nvp(name, in(object));
+	}
+
+	Admits                  admits_;
+	std::function<string()> admitted_;
+};
+
+// A member of D, or of a base of it.
+template <class D, class T> class MemberAttribute final : public AttributeOf<T> {
+public:
+	template <class... Said> MemberAttribute(T D::*member, Said&&... said) : AttributeOf<T>(std::forward<Said>(said)...), member_(member) { }
+
+private:
+	T& in(Serializable& object) const override { return static_cast<D&>(object).*member_; }
+
+	T D::*member_;
+};
+
+class AttributeTable {
+public:
+	AttributeTable* base = nullptr; // of the plugin's class that this one derives from
+
+	explicit AttributeTable(const char* ofClass) : className_(ofClass) { }
+
+	template <class D, class T, class Owner, class Validator = AnyValue>
+	void add(const char* name, T Owner::*member, unsigned flags, const char* doc, Validator validator = {})
+	{
+		attributes_.push_back(std::make_unique<MemberAttribute<D, T>>(
+		        member, ListedAttribute { className_, name, flags, doc }, validator, [validator] { return string(validator.description()); }));
+	}
+
+	// Whether there is one of this name.
+	bool     assign(Serializable&, const string& name, const py::object& value) const;
+	py::dict read(const Serializable&) const;
+	void     requireAdmitted(const Serializable&) const;
+
+	// Makes the class of Python: properties, and the constructor by keywords.
+	void addTo(const py::object& c, const py::object& construct);
+	void setKeywords(Serializable&, const py::tuple& positional, const py::dict& keywords) const;
+
+	template <class Archive> void serialize(Archive& archive, Serializable& object) const
+	{
+		for (const auto& attribute : attributes_)
+			attribute->serialize(archive, object);
 	}
 
 private:
-	T copy(const D& object) const
-	{
-		const ValueLock lock;
-		return object.*member;
-	}
-	string qualifiedName() const { return string(D::staticName()) + "." + name; }
-};
+	// Of the plugin's classes that it derives from, too: settings, or results that can only be read.
+	string            names(bool areReadonly) const;
+	const Attribute*  find(const string& name) const;
+	static void       addProperty(py::object c, const Attribute&);
+	void              requireSettable(const string& name) const;
+	[[noreturn]] void raiseUnknown(const string& name) const;
+	py::object        refuseUnknown(const py::object&, const string& name) const;
+	void              setKnownAttribute(const py::object&, const string& name, const py::object& value) const;
 
-template <class D, class T, class Owner, class Validator = AnyValue>
-Attribute<D, T, Validator> makeAttribute(const char* name, MemberOf<Owner, T> member, unsigned flags, const char* doc, Validator validator = {})
-{
-	return { name, member, flags, doc, validator };
-}
+	const char*                                   className_;
+	PyTypeObject*                                 type_ = nullptr; // once there is a class of Python
+	std::vector<std::unique_ptr<const Attribute>> attributes_;
+};
 
 } // namespace yade

@@ -185,7 +185,7 @@ template <class T> struct Conversion<vector<T>> {
 		}
 		return result;
 	}
-	static py::object toPython(const vector<T>& value)
+	static py::tuple toPython(const vector<T>& value)
 	{
 		py::list items;
 		for (const T& item : value)

@@ -2,6 +2,7 @@
 #include "yade_api/exceptions.hpp"
 #include "yade_api/python_lock.hpp"
 #include "yade_api/scene.hpp"
+#include <boost/thread/exceptions.hpp>
 
 namespace yade {
 
@@ -17,12 +18,27 @@ static int raiseIfUnseen(void*)
 	return -1;
 }
 
-void announceError()
+static void announceError()
 {
 	const ThreadRunner* const runner = Singleton<Omega>::instance().simulationLoop.get();
-	if (PyGILState_Check() || !runner || !runner->looping) return;
 	// O.run(n, wait=True) holds Python's lock until it waits: when someone has got it, this thread cannot end too early.
 	withPython(runner->looping, [] { Py_AddPendingCall(&raiseIfUnseen, nullptr); }); // the call is for O.run(n)
+}
+
+static void keepFor(ThreadRunner& runner, const std::exception& error)
+{
+	announceError();
+	runner.workerException = std::runtime_error(error.what());
+	runner.workerThrew     = true;
+	runner.looping         = false;
+}
+
+void endRun(const std::exception& error)
+{
+	ThreadRunner* const runner = Singleton<Omega>::instance().simulationLoop.get();
+	if (PyGILState_Check() || !runner || !runner->looping) return;
+	keepFor(*runner, error);
+	throw boost::thread_interrupted(); // YADE would log a std::exception; this one the thread itself catches
 }
 
 // The first error of O.step(), which has returned when Python runs this.
@@ -55,12 +71,8 @@ void raiseLater(const std::exception& error)
 	const std::lock_guard<std::mutex> lock(kept.guard);
 	ThreadRunner* const               runner = Singleton<Omega>::instance().simulationLoop.get();
 	if (kept.type || (runner && runner->workerThrew)) return; // one is enough
-	if (runner && runner->looping) {
-		announceError();
-		runner->workerException = std::runtime_error(error.what());
-		runner->workerThrew     = true;
-		runner->looping         = false;
-	} else {
+	if (runner && runner->looping) keepFor(*runner, error);
+	else {
 		kept.type = dynamic_cast<const std::invalid_argument*>(&error) ? PyExc_ValueError : PyExc_RuntimeError;
 		kept.text = error.what();
 		Py_AddPendingCall(&raiseKept, nullptr);

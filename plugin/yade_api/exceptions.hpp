@@ -3,7 +3,7 @@
 // Errors of an engine must reach the script, also from the background thread of O.run().
 //
 // YADE keeps an exception of that thread for O.wait() to raise. But O.run(n, wait=True) returns silently if the thread has already
-// ended when it begins to wait, and O.run(n) only writes a line to the log.
+// ended when it begins to wait, and O.run(n) only writes a line to the log, which O.run(n, wait=True) writes besides.
 #include <omp.h>
 #include <stdexcept>
 
@@ -14,8 +14,8 @@ struct Interrupted : std::runtime_error {
 	using runtime_error::runtime_error;
 };
 
-// Sees to it that the script gets the exception that is about to end YADE's background thread. Does nothing outside that thread.
-void announceError();
+// In YADE's background thread: ends it, and has the script raise the exception, once. Does nothing outside that thread.
+void endRun(const std::exception&);
 
 // In an OpenMP region, which no exception may leave: ends the run, and has the script raise it as soon as Python executes again.
 void raiseLater(const std::exception&);
@@ -29,7 +29,7 @@ template <class Step> void deliveringErrors(Step&& step)
 		throw;
 	} catch (const std::exception& error) {
 		if (omp_get_level() > 0) return raiseLater(error);
-		announceError();
+		endRun(error);
 		throw;
 	}
 }

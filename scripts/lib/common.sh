@@ -6,6 +6,7 @@ root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 build=$root/build
 overlay=$build/overlay
 forUser=no # option --user
+docsPackages=(python3-sphinx python3-myst-parser libjs-mathjax)
 
 fail() {
 	echo "${0##*/}: $*" >&2

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // A term from outside the core, given to it by Model::terms alone: springs between nodes and the ground. It is what the developer's page
 // tells how to add.
+#include "core/stepping/step_control.hpp"
 #include "core/stepping/step_system.hpp"
 #include "scenes.hpp"
 #include <map>
@@ -185,6 +186,37 @@ namespace {
 		ASSERT_TRUE(raft.step(0).converged());
 		EXPECT_NEAR(raft.springs.total()[1], 0, 1e-8 * raft.weight());
 		EXPECT_GT(raft.cloud.position.back()[1], top) << "it has come back";
+	}
+
+	/// Springs that break.
+	template <int Dim> class BrittleSprings : public SpringForce<Dim> {
+	public:
+		BrittleSprings(Springs<Dim>& springs, const CloudBasis<Dim>& basis, double strength) : SpringForce<Dim>(springs, basis), strength_(strength) { }
+
+		Refusal refusal(const Eigen::VectorXd& d) const override
+		{
+			if (this->fromOutside(d) <= strength_) return {};
+			return { Failure::refused, "springs would break", "Stronger springs would bear it." };
+		}
+
+	private:
+		double strength_;
+	};
+
+	TYPED_TEST(SpringTerm, WhatItRefusesIsToldInItsWords)
+	{
+		constexpr int Dim = TypeParam::value;
+		Raft<Dim>     raft;
+		const double  strength = raft.weight() / 4;
+		raft.model.terms = { [&](const Beginning<Dim>& step) { return std::make_unique<BrittleSprings<Dim>>(raft.springs, step.basis, strength); } };
+		ASSERT_TRUE(raft.step(0.1).converged());
+		const auto half   = raft.springs.elongation;
+		const auto report = raft.step(1);
+		EXPECT_EQ(report.failure, Failure::refused);
+		EXPECT_EQ(report.cause, "springs would break");
+		EXPECT_EQ(report.advice, "Stronger springs would bear it.");
+		EXPECT_TRUE(canBeCut(report.failure));
+		EXPECT_EQ(raft.springs.elongation, half) << "the step has been turned down";
 	}
 
 	TYPED_TEST(SpringTerm, WithAnUnsymmetricStiffnessNewtonsMethodConvergesQuadratically)

@@ -63,9 +63,9 @@ namespace {
 			model.grid.cellSize    = 0.5;
 			model.materials        = { { Hencky(1e6, 0), 0 } };
 			model.newton.tolerance = 1e-9;
-			model.terms  = { [this](const Beginning<Dim>& step) { return std::make_unique<Traction<Dim>>(load, step.basis, step.grid); } };
-			cloud        = block<Dim>(model.grid, Index<Dim>::Constant(3), 2);
-			load.surface = surface;
+			model.terms            = { [this](const Beginning<Dim>& step) { return std::make_unique<Traction<Dim>>(load, step); } };
+			cloud                  = block<Dim>(model.grid, Index<Dim>::Constant(3), 2);
+			load.surface           = surface;
 			load.surface.refine(pieceLimit * model.grid.cellSize);
 		}
 		void rollers(bool onAllSides)
@@ -247,7 +247,7 @@ namespace {
 			const auto report   = block.step();
 			EXPECT_EQ(report.converged(), !isNew);
 			if (isNew) {
-				EXPECT_EQ(report.cause.substr(0, 66), "a surface under pressure has the body on its outer side: reverse t");
+				EXPECT_EQ(report.cause.substr(0, 71), "a loaded surface is under pressure and has the body on its outer side: ");
 			}
 		}
 		Block<Dim> right(lid<Dim>(1.5, 1.5));

@@ -10,7 +10,7 @@ namespace {
 	constexpr double weight = 1e4;
 
 	/// Nodes from -3 to 8 along each axis with these pressures.
-	template <int Dim, class F> std::shared_ptr<WaterPressure<Dim>> table(const Grid<Dim>& grid, F&& pressure)
+	template <int Dim, class F> std::shared_ptr<WaterPressure<Dim>> table(const Grid<Dim>& grid, F&& pressure, const Vec<Dim>& fall = Vec<Dim>::Zero())
 	{
 		std::vector<Key>    nodes;
 		std::vector<double> values;
@@ -18,7 +18,7 @@ namespace {
 			nodes.push_back(Grid<Dim>::key(node));
 			values.push_back(pressure(grid.nodePosition(node)));
 		});
-		return std::make_shared<TabulatedWater<Dim>>(grid, nodes, values);
+		return std::make_shared<TabulatedWater<Dim>>(grid, nodes, values, fall);
 	}
 
 	/// Three cells of 0.5 m a side, of mass density 2000, in water.
@@ -121,6 +121,38 @@ namespace {
 			block.cloud.hoopStretch.assign(block.cloud.size(), 1.1);
 			block.water.pressure = table<2>(block.model.grid, [](const Vec<2>& x) { return 100 * wavy<2>(x).prod(); });
 			EXPECT_LT(tangentErrorOfLastTerm(block.system(), block.model.grid, 1e-5), 1e-7) << int(place);
+		}
+	}
+
+	TYPED_TEST(WaterOf, ThatFallsAlongThePeriodDragsTheBodyByTheForceInItsPores)
+	{
+		constexpr int Dim   = TypeParam::value;
+		const double  slope = 7e3, volume = std::pow(1.5, Dim);
+		for (const auto place : { WaterPlace::everywhere, WaterPlace::pores, WaterPlace::outside }) {
+			Block<Dim> block(place);
+			block.model.grid.period[0] = 3;
+			for (auto& x : block.cloud.position)
+				x[0] += 0.3; // some reach over the far side
+			const Vec<Dim> fall = -slope * 1.5 * Vec<Dim>::Unit(0);
+			const auto     p    = table<Dim>(
+                                block.model.grid, [&](const Vec<Dim>& x) { return 3e4 - slope * x[0] + 1e3 * x[1]; }, fall);
+			block.water.pressure = block.water.before = p;
+			const bool isInPores                      = place != WaterPlace::outside;
+			EXPECT_NEAR(block.resultant()[0], isInPores ? slope * volume : 0, 1e-9 * slope) << int(place);
+			EXPECT_LT(tangentErrorOfLastTerm(block.system(), block.model.grid, 1e-5), 1e-7) << int(place);
+			EXPECT_EQ(block.system().isSymmetric(), place == WaterPlace::everywhere) << int(place);
+		}
+	}
+
+	TYPED_TEST(WaterOf, ActsInPartOnWhatIsThereInPart)
+	{
+		constexpr int Dim = TypeParam::value;
+		for (const auto place : { WaterPlace::everywhere, WaterPlace::outside }) {
+			Block<Dim> block(place);
+			const auto whole   = block.resultant();
+			block.water.shares = { 0.25 };
+			EXPECT_LT((block.resultant() - 0.25 * whole).norm(), 1e-12 * whole.norm());
+			EXPECT_GT(whole.norm(), 0.1 * weight);
 		}
 	}
 

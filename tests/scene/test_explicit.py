@@ -57,6 +57,10 @@ assert 0.4 < found['usual'] < 0.42 and 0.54 < found['lumped'] < 0.56, found
 assert abs(found['fine'] / found['usual'] - 0.5) < 1e-9 and abs(found['stiff'] / found['usual'] - 0.5) < 1e-9, found
 assert found['lightGhost'] < 0.3 * found['usual'], found
 solver.contacts = [MpmContact(stiffness=100)]
+try: assert not solver.criticalTimeStep()
+except ValueError as error: assert 'no body that could touch the soil' in str(error), 'as in a step'
+from yade import utils
+O.bodies.append(utils.wall(-1, axis=1, sense=1, material=FrictMat(density=1000)))
 assert solver.criticalTimeStep() < 0.1, 'penalties count'
 ''')
 

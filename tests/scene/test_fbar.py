@@ -59,6 +59,15 @@ for fBar in False, True:
 	found.append(mpm.advise(solver)['advice'])
 O.reset()
 found.append(mpm.advise(column(8))['advice'])
+def sand(dilation, **own):
+	O.reset()
+	O.materials.append(MpmMohrCoulombMat(young=1e6, poisson=0.3, density=2000, cohesion=1e3, frictionAngle=0.6, dilationAngle=dilation, label='sand'))
+	grid = MpmGrid(cellSize=1)
+	O.bodies.append(mpm.fill(mpm.polygon([(0, 0), (2, 0), (2, 2), (0, 2)]), grid, 2, 'sand', **own))
+	O.engines, O.dt = [MpmImplicitEngine(grid=grid, gravity=(0, -9.81, 0), boundaries=[MpmBoundary(max=(inf, 0, inf), fix='xy')])], 1 / 8
+	found.append(mpm.advise()['advice'])
+for dilation in 0, 0.05, 0.3, 0.5, 0.6: sand(dilation)
+sand(0.6, dilationAngle=lambda x: 0.05 if x[1] < 1 else 0.6) # in a part
 print(json.dumps([sum(text.startswith('fBar') for text in advice) for advice in found]))
 ''').result
-	assert found == [1, 0, 0]
+	assert found == [1, 0, 0] + [1, 1, 1, 0, 0] + [1]

@@ -68,7 +68,9 @@ refusals = [
         ('ProbeEngine', 'points', '[(1, 2)]', 'TypeError', 'expected a sequence, each item three numbers.'),
         ('ProbeEngine', 'runs', '3', 'AttributeError', 'ProbeEngine.runs can only be read.'),
         ('ProbeEngine', 'secret', '3', 'AttributeError', "ProbeEngine has no attribute 'secret'"),
-        ('ProbeDerivedMat', 'yuong', '3', 'AttributeError', "ProbeDerivedMat has no attribute 'yuong'; it has poisson, limit, density, young."),
+        ('ProbeDerivedMat', 'yuong', '3', 'AttributeError', "ProbeDerivedMat has no attribute 'yuong'; did you mean 'young'? Its settings: density, young, poisson, limit."),
+        ('ProbeEngine', 'itms', '[]', 'AttributeError', "ProbeEngine has no attribute 'itms'; did you mean 'items'"),
+        ('ProbeEngine', 'unlike', '[]', 'AttributeError', 'Results, to be read: runs, posts.'),
 ]
 
 
@@ -85,7 +87,7 @@ found.append([refusal(lambda: setattr(thing, '{attribute}', {value})), refusal(l
 	for (name, attribute, value, kind, words), (assigned, constructed, kept) in zip(refusals, results, strict=True):
 		assert assigned[0] == kind and words in assigned[1], (name, attribute, value, assigned)
 		assert constructed == assigned
-		assert kept or attribute in ('secret', 'yuong')
+		assert kept or attribute in ('secret', 'yuong', 'itms', 'unlike')
 
 
 def test_refusedConstruction(yade):
@@ -121,7 +123,7 @@ print(json.dumps({
 	        'low': [-float('inf'), 0, 1], 'letters': ['x', 'yz'], 'curve': [[0, 0], [1, 0.5]], 'names': ['a', 'b'], 'points': [[1, 2, 3], [4, 5, 6]],
 	        'flag': True, 'choice': 3, 'count': 2**62, 'number': 2.5, 'scaling': 'second', 'doubled': 5, 'kinds': ['tuple'] * 4,
 	        'empty': [[], [], None], 'vector': [0, 7, 0], 'row': [4, 5, 6],
-	        'append': ['AttributeError', "'tuple' object has no attribute 'append'"], 'note': 'own attribute', 'doc': 'Curve. :yattrflags:`4`',
+	        'append': ['AttributeError', 'ProbeEngine.items can be read only as a copy, a tuple, which is not the attribute itself: assign a new one, as in x.items = [*x.items, another].'], 'note': 'own attribute', 'doc': 'Curve. :yattrflags:`4`',
 	        'readonlyCopy': 'accepted', 'fixed': [1, 1, 1], 'dict': ['dead', 'posts', 'runs'],
 	}
 

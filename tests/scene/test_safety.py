@@ -92,3 +92,33 @@ def test_refused(found):
 	expected = ['all materials are elastic', 'tolerance = 0', "tolerance = '1' must be a number", 'first = -1', 'factor = 1', 'expected a finite number > 0', 'Body #0 is of MpmCamClayMat']
 	for part, message in zip(expected, found[1], strict=True):
 		assert part in message, (part, message)
+
+
+def test_a_body_that_a_contact_holds_has_the_factor_of_one_that_nodes_hold(yade):
+	"""The scaled moduli leave the forces of the penalty as they are: on a smooth plate as on rollers, with friction as on held nodes, and with a gap that carries nothing."""
+	found = yade(
+	        scene + '''
+from yade import utils
+
+def stands(how):
+	O.reset()
+	O.materials.append(MpmTrescaMat(young=1e7, poisson=.3, density=2000, undrainedStrength=60e3, label='soil'))
+	O.materials.append(FrictMat(young=1e9, frictionAngle=0, density=2000, label='steel'))
+	grid = MpmGrid(cellSize=.5)
+	O.bodies.append(mpm.fill(mpm.polygon([(0, 0), (4, 0), (4, 2), (0, 2)]), grid, 2, 'soil'))
+	held = [MpmBoundary(max=(0, inf, inf), fix='x')]
+	if how in ('nodes', 'held'): held.append(MpmBoundary(max=(inf, 0, inf), fix='y' if how == 'nodes' else 'xy'))
+	else: O.bodies.append(utils.wall(0, axis=1, sense=1, material='steel'))
+	contacts = dict(nodes=[], held=[]).get(how, [MpmContact(friction=1.5 if how == 'rough' else 0, stiffness=1000 if how == 'rough' else 100)])
+	O.engines = [MpmImplicitEngine(grid=grid, gravity=(0, -10, 0), boundaries=held, contacts=contacts, verbosity=0)]
+	O.dt = .25
+	O.run(4, wait=True)
+	kept = [contact.dict() for contact in contacts], mpm.arrays()['pos'].tobytes()
+	safety = mpm.strengthReduction(tolerance=.01, first=2)
+	assert kept == ([contact.dict() for contact in contacts], mpm.arrays()['pos'].tobytes()), 'the scene is left alone'
+	return safety['lower'], safety['upper']
+
+print(json.dumps({how: stands(how) for how in ('nodes', 'smooth', 'held', 'rough')}))
+''').result
+	for nodes, contact in ('nodes', 'smooth'), ('held', 'rough'):
+		assert abs(found[contact][0] / found[nodes][0] - 1) < 0.03, found

@@ -130,7 +130,7 @@ print(json.dumps(dict(
 def test_what_cannot_be_meant_is_refused(yade):
 	refused = {
 	        'column(surface=[(2, 2), (0, 2)][::-1])': ['reverse the order of its points'],
-	        'column(surface=[(2, 2.3), (0, 2.3)])': ['a loaded surface has a vertex at (', '2.3), where the grid holds no material within 0.25 cells'],
+	        'column(surface=[(2, 2.3), (0, 2.3)])': ['loads[0] has a vertex at (', '2.3), where there is no material within 0.25 cells'],
 	        'column(surface=[[(0, 2, 0), (0, 2, 1), (1, 2, 0)]])': ['loads[0].surface is made of triangles, but the grid has dim=2'],
 	        'column(dim=3, surface=[(2, 2), (0, 2)])': ['loads[0].surface is made of segments, but the grid has dim=3'],
 	        'column(traction=(0, 0, 1))': ['loads[0].traction = Vector3(0,0,1)', 'no direction z'],

@@ -5,26 +5,27 @@
 namespace gimpm {
 namespace {
 
-/// How far a place in cell coordinates is outside of a cell, in cells along the worst axis.
-template <int Dim> double distance(const Vec<Dim>& xi, const Index<Dim>& cell)
+/// How far a place in cell coordinates is outside of a cell along each axis [cells].
+template <int Dim> Vec<Dim> outside(const Vec<Dim>& xi, const Index<Dim>& cell)
 {
 	const auto local = (xi - cell.template cast<double>()).array();
-	return (-local).max(local - 1).max(0.).maxCoeff();
+	return (-local).max(local - 1).max(0.);
 }
 
-/// The populated cell of a level that is nearest to a place in coordinates of such cells, of equally near ones the first.
+/// The populated cell of a level that is nearest to a place in coordinates of such cells, as the crow flies: by the worst axis alone the cells beside the nearest one would be as
+/// near as that, and the order of cells or round-off would choose. Of equally near ones the first.
 template <int Dim> std::optional<Index<Dim>> nearestCell(const Vec<Dim>& xi, const std::vector<Key>& populated, const Grid<Dim>& grid, int level)
 {
 	std::optional<Index<Dim>> nearest;
-	double                    least = attachmentTolerance;
+	double                    least = std::numeric_limits<double>::infinity();
 	const Index<Dim>          own   = xi.array().floor().template cast<int>();
 	for (int i = 0; i < (Dim == 2 ? 9 : 27); ++i) {
 		Index<Dim> cell = own;
 		for (int a = 0, rest = i; a < Dim; ++a, rest /= 3)
 			cell[a] += rest % 3 - 1;
-		const double away = distance<Dim>(xi, cell);
-		if (away > least || (nearest && away == least)) continue;
-		if (find(populated, Grid<Dim>::key(grid.first(cell * (1 << level)), level)) >= 0) nearest = cell, least = away;
+		const Vec<Dim> away = outside<Dim>(xi, cell);
+		if (away.maxCoeff() > attachmentTolerance || away.squaredNorm() >= least) continue;
+		if (find(populated, Grid<Dim>::key(grid.first(cell * (1 << level)), level)) >= 0) nearest = cell, least = away.squaredNorm();
 	}
 	return nearest;
 }
@@ -40,8 +41,10 @@ template <int Dim> std::optional<Attachment<Dim>> attach(const Vec<Dim>& place, 
 		const Vec<Dim> xi = (place - grid.origin) / grid.size(level);
 		if (!(xi.array().abs() < Grid<Dim>::indexLimit >> level).all()) return std::nullopt;
 		const auto cell = nearestCell<Dim>(xi, basis.populatedLeaves(), grid, level);
-		if (!cell || !(distance<Dim>(xi, *cell) * (1 << level) < least)) continue;
-		least    = distance<Dim>(xi, *cell) * (1 << level);
+		if (!cell) continue;
+		const double away = outside<Dim>(xi, *cell).norm() * (1 << level);
+		if (away >= least) continue;
+		least    = away;
 		local    = xi - cell->template cast<double>();
 		attached = Attachment<Dim> { *cell, level, {}, {} };
 	}

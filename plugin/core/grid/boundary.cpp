@@ -49,9 +49,10 @@ template <int Dim> const HeldBox<Dim>* Boundary<Dim>::holder(const Index<Dim>& n
 	return nullptr;
 }
 
-template <int Dim> bool Boundary<Dim>::isInOpenBox(const Index<Dim>& node) const
+template <int Dim> const HeldBox<Dim>* Boundary<Dim>::opening(const Index<Dim>& node) const
 {
-	return std::any_of(open_.begin(), open_.end(), [&](const HeldBox<Dim>& b) { return b.contains(node); });
+	const auto found = std::find_if(open_.rbegin(), open_.rend(), [&](const HeldBox<Dim>& b) { return b.contains(node); });
+	return found == open_.rend() ? nullptr : &*found;
 }
 
 template <int Dim> bool Boundary<Dim>::lowerFaceIsWall(const Index<Dim>& cell, int axis, int level) const
@@ -65,7 +66,7 @@ template <int Dim> bool Boundary<Dim>::lowerFaceIsWall(const Index<Dim>& cell, i
 		Index<Dim> node = cell;
 		for (int a = 0; a < Dim; ++a)
 			node[a] += (corner >> a & 1) << level;
-		if (!holder(node, axis) && !isInOpenBox(node)) return false;
+		if (!holder(node, axis) && !opening(node)) return false;
 	}
 	return true;
 }

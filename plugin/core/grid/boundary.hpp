@@ -51,13 +51,15 @@ public:
 	const HeldBox<Dim>* holder(const Index<Dim>& node, int axis) const;
 
 	const std::vector<HeldBox<Dim>>& boxes() const { return boxes_; }
+	const std::vector<HeldBox<Dim>>& open() const { return open_; }
+
+	/// The open box that the node is in, the last one given, or null.
+	const HeldBox<Dim>* opening(const Index<Dim>& node) const;
 
 	/// Whether all nodes of the lower face of this cell in this direction are held in the face's normal direction, or in open boxes.
 	bool lowerFaceIsWall(const Index<Dim>& cell, int axis, int level = 0) const;
 
 private:
-	bool isInOpenBox(const Index<Dim>& node) const;
-
 	std::vector<HeldBox<Dim>> boxes_, open_;
 };
 

@@ -27,11 +27,11 @@ public:
 	using Parameters = std::array<double, 2>;
 	Parameters parameters() const { return { shear_, ratio_ }; }
 	CamClay    with(const Parameters& p) const { return { p[0], p[1], compression_, swelling_, preconsolidation_, reference_ }; }
+	Parameters weakened(const Weakening&) const { return parameters(); } // strength grows from preconsolidation: there is no single one to be divided
 
 	static constexpr InternalVariable                preconsolidation { "preconsolidation", "Pa", "preconsolidation pressure", positive, anyNumber };
 	static constexpr std::array<InternalVariable, 2> variables { equivalentPlasticStrain, preconsolidation };
 	static constexpr bool                            mayFail = true;
-	static constexpr bool                            isLarge = true;
 
 	/// Pressures from e^-100 to e^100 times the reference; what is beyond has no answer.
 	static constexpr double mostExponent = 100;
@@ -70,7 +70,7 @@ public:
 			r.elasticStrain[i] = select(trial.flows, theta * dev[i] + mean, trialStrain[i]);
 			r.stress[i]        = T(2) * secant * dev[i] - pressure;
 		}
-		r.internals[0] = internals[0] + (T(1) - theta) * trial.shear;
+		r.internals[0] = internals[0] + select(trial.flows, takenOf(trial.shear, theta), T(0));
 		r.internals[1] = select(trial.flows, pressure * (T(1) + flow.root * flow.root), internals[1]);
 		r.shear.fill(secant);
 		r.failed = select(trial.isAdmitted, select(trial.flows, flow.failed, T(0)), T(1));

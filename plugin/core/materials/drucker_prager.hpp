@@ -70,10 +70,10 @@ public:
 	using Parameters = std::array<double, 5>;
 	Parameters    parameters() const { return { elastic_.young(), cone_.cohesion, cone_.frictionAngle, cone_.dilationAngle, tension_ }; }
 	DruckerPrager with(const Parameters& p) const { return { p[0], elastic_.poisson(), cone_.match(p[1], p[2], p[3]), p[4] }; }
+	Parameters    weakened(const Weakening& w) const { return weakenedFriction(parameters(), w); }
 
 	static constexpr std::array<InternalVariable, 1> variables { equivalentPlasticStrain };
 	static constexpr bool                            mayFail = false;
-	static constexpr bool                            isLarge = true;
 
 	std::array<double, 1> initialInternals() const { return { 0 }; }
 
@@ -92,7 +92,7 @@ public:
 		for (int i = 0; i < 3; ++i)
 			r.elasticStrain[i] = select(back.flows, back.theta * dev[i] + end, trialStrain[i]);
 		r.take(elastic_.respond<T>(r.elasticStrain, {}));
-		r.internals[0] = internals[0] + select(back.yields | back.isCut, T(std::sqrt(2. / 3)) * (T(1) - back.theta) * length, T(0));
+		r.internals[0] = internals[0] + select(back.yields | back.isCut, T(std::sqrt(2. / 3)) * takenOf(length, back.theta), T(0));
 
 		const TangentForm<T>     form = tangentForm(back);
 		const PrincipalValues<T> n    = dev * (T(1) / select(length > T(0), length, T(1)));

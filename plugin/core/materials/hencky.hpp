@@ -3,6 +3,7 @@
 #pragma once
 #include "core/materials/internal_variable.hpp"
 #include "core/materials/response.hpp"
+#include "core/materials/weakening.hpp"
 
 namespace gimpm {
 
@@ -18,6 +19,7 @@ public:
 	using Parameters = std::array<double, 1>;
 	Parameters parameters() const { return { young_ }; }
 	Hencky     with(const Parameters& p) const { return { p[0], poisson() }; }
+	Parameters weakened(const Weakening& w) const { return { young_ * w.moduli }; }
 
 	std::array<double, 0> initialInternals() const { return {}; }
 

@@ -5,7 +5,7 @@
 // answer; and it answers with young() and respond(), which are given the values of those variables at the start of the step, in this order.
 // young() may ask for the elastic volumetric strain too. A law whose tangent is not always symmetric says isSymmetric(); the others need not.
 // A law of which strengths or moduli may differ from point to point has them as an array of `Parameters`: parameters() are its own, and with() is
-// the same law with others. A law with so many cases that it takes the compiler long says that it isLarge.
+// the same law with others, weakened() what strength reduction makes of them.
 #pragma once
 #include "core/materials/cam_clay.hpp"
 #include "core/materials/drucker_prager.hpp"

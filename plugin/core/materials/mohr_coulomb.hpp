@@ -38,10 +38,10 @@ public:
 	using Parameters = std::array<double, 5>;
 	Parameters  parameters() const { return given_; }
 	MohrCoulomb with(const Parameters& p) const { return { p[0], elastic_.poisson(), p[1], p[2], p[3], p[4] }; }
+	Parameters  weakened(const Weakening& w) const { return weakenedFriction(parameters(), w); }
 
 	static constexpr std::array<InternalVariable, 1> variables { equivalentPlasticStrain };
 	static constexpr bool                            mayFail = false;
-	static constexpr bool                            isLarge = true;
 
 	std::array<double, 1> initialInternals() const { return { 0 }; }
 

@@ -18,6 +18,14 @@ inline constexpr double sectorTolerance = 1e-9;
 /// take as many iterations with 0 to 1e-3; with 1e-2 one of them stops.
 inline constexpr double tangentFloor = 1e-8;
 
+/// Weakened cohesion, frictionAngle, dilationAngle, tensileStrength behind Young's modulus; the soil cannot dilate more than it has friction.
+inline std::array<double, 5> weakenedFriction(const std::array<double, 5>& parameters, const Weakening& w)
+{
+	const auto [young, cohesion, friction, dilation, tension] = parameters;
+	const double angle                                        = w.reducedAngle(friction);
+	return { young * w.moduli, cohesion / w.strength, angle, std::min(dilation, angle), tension / w.strength };
+}
+
 /// Equivalent plastic strain of a return: sqrt(2/3) times the norm of the deviator.
 template <class T> GIMPM_INLINE T equivalentPlasticStrainOf(const PrincipalValues<T>& trialStrain, const PrincipalValues<T>& elasticStrain)
 {

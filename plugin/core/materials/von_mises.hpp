@@ -27,6 +27,10 @@ public:
 	using Parameters = std::array<double, 4>;
 	Parameters parameters() const { return { elastic_.young(), yield_, hardening_, residual_ }; }
 	VonMises   with(const Parameters& p) const { return { p[0], elastic_.poisson(), p[1], p[2], p[3] }; }
+	Parameters weakened(const Weakening& w) const
+	{
+		return { elastic_.young() * w.moduli, yield_ / w.strength, hardening_ * w.moduli / w.strength, residual_ / w.strength };
+	}
 
 	std::array<double, 1> initialInternals() const { return { 0 }; }
 
@@ -49,7 +53,7 @@ public:
 			elasticStrain[i] = select(yields, theta * dev[i] + third, trialStrain[i]);
 		ResponseWith<T, 1> r;
 		r.take(elastic_.respond<T>(elasticStrain, {}));
-		r.internals[0] = internals[0] + T(std::sqrt(2. / 3)) * (T(1) - theta) * length;
+		r.internals[0] = internals[0] + T(std::sqrt(2. / 3)) * takenOf(length, theta);
 
 		const PrincipalValues<T> n = dev * (T(1) / select(yields, length, T(1)));
 		const T shear = T(G) * theta, lambda = T(elastic_.bulk()) - T(2. / 3) * shear, growth = select(end > T(residual_), T(share_), T(0)),

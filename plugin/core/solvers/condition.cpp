@@ -1,12 +1,44 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "core/solvers/condition.hpp"
+#include "core/solvers/blas_threads.hpp"
 #include "core/solvers/linear_solver.hpp"
-#include <Eigen/Eigenvalues>
-#include <Eigen/SVD>
 #include <limits>
+
+// Of LAPACK, with the lengths of the texts last. Eigen's templates for the same took the compiler longer than all other solvers together.
+extern "C" {
+void dsterf_(const int* size, double* diagonal, double* beside, int* info);
+void dsyev_(
+        const char* vectors, const char* triangle, const int* size, double* matrix, const int* stride, double* values, double* work, const int* workSize,
+        int* info, std::size_t, std::size_t);
+void dgesvd_(
+        const char* left, const char* right, const int* rows, const int* columns, double* matrix, const int* stride, double* values, double* u,
+        const int* uStride, double* v, const int* vStride, double* work, const int* workSize, int* info, std::size_t, std::size_t);
+}
 
 namespace gimpm {
 namespace {
+
+Eigen::VectorXd eigenvaluesOfTridiagonal(Eigen::VectorXd diagonal, Eigen::VectorXd beside)
+{
+	const int size = int(diagonal.size());
+	int       info = 0;
+	dsterf_(&size, diagonal.data(), beside.data(), &info);
+	return diagonal;
+}
+
+/// Moduli of the eigenvalues of a symmetric matrix, or singular values.
+Eigen::VectorXd magnitudes(Eigen::MatrixXd matrix, bool isSymmetric)
+{
+	const OneBlasThread one;
+	const int           size = int(matrix.rows()), workSize = 8 * size, none = 1;
+	int                 info = 0;
+	Eigen::VectorXd     values(size), work(workSize);
+	if (isSymmetric) dsyev_("N", "L", &size, matrix.data(), &size, values.data(), work.data(), &workSize, &info, 1, 1);
+	else
+		dgesvd_("N", "N", &size, &size, matrix.data(), &size, values.data(), nullptr, &none, nullptr, &none, work.data(), &workSize, &info, 1, 1);
+	if (info != 0) values.setConstant(std::numeric_limits<double>::quiet_NaN());
+	return values.cwiseAbs();
+}
 
 /// A direction that is no eigenvector of anything: the same in every run.
 Eigen::VectorXd startVector(int size)
@@ -30,11 +62,9 @@ template <class Apply> double largestEigenvalue(int size, Apply&& apply)
 		diagonal[k]  = basis.col(k).dot(next);
 		for (int twice = 0; twice < 2; ++twice) // once leaves what cancellation hides
 			next -= basis.leftCols(k + 1) * (basis.leftCols(k + 1).transpose() * next);
-		const double                                   before = largest;
-		Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> ritz;
-		ritz.computeFromTridiagonal(diagonal.head(k + 1), beside.head(k), Eigen::EigenvaluesOnly);
-		largest   = ritz.eigenvalues().cwiseAbs().maxCoeff();
-		beside[k] = next.norm();
+		const double before = largest;
+		largest             = eigenvaluesOfTridiagonal(diagonal.head(k + 1), beside.head(k)).cwiseAbs().maxCoeff();
+		beside[k]           = next.norm();
 		if (!std::isfinite(largest) || beside[k] <= 1e-14 * largest || (k > 4 && largest - before < settled * largest)) break;
 		next /= beside[k];
 	}
@@ -47,9 +77,7 @@ double conditionNumber(const LinearProblem& K)
 {
 	Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(K.size(), K.size());
 	K.forEntries([&](int row, int column, double value) { dense(row, column) = value; });
-	const Eigen::VectorXd size = K.isSymmetric()
-	        ? Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(dense, Eigen::EigenvaluesOnly).eigenvalues().cwiseAbs().eval()
-	        : Eigen::BDCSVD<Eigen::MatrixXd>(dense).singularValues();
+	const Eigen::VectorXd size = magnitudes(std::move(dense), K.isSymmetric());
 	return size.maxCoeff() / size.minCoeff();
 }
 

@@ -2,6 +2,7 @@
 #include "core/stepping/acceptance.hpp"
 #include "core/base/stopwatch.hpp"
 #include "core/stepping/beyond_walls.hpp"
+#include "core/stepping/energy_gain.hpp"
 #include "core/stepping/outcome.hpp"
 #include "core/terms/point_update.hpp"
 #include <algorithm>
@@ -97,7 +98,10 @@ void judge(const LocalError& error, StepReport& report)
 template <int Dim> void askTerms(const StepSystem<Dim>& system, const Eigen::VectorXd& d, StepReport& report)
 {
 	for (const auto& term : system.terms) {
-		if (const std::string refusal = term->refusal(d); !refusal.empty()) fail(report, Failure::penetrated, refusal);
+		if (const Refusal refusal = term->refusal(d); !refusal.cause.empty()) {
+			fail(report, refusal.failure, refusal.cause);
+			report.advice = refusal.advice;
+		}
 		judge(term->localError(d), report);
 	}
 }
@@ -106,11 +110,12 @@ template <int Dim> bool accept(const StepSystem<Dim>& system, PointCloud<Dim>& c
 {
 	const Stopwatch       watch(report.times.update);
 	const Eigen::VectorXd displacements = system.map.displacements(d);
-	addReactionsBeyondWalls(system, cloud, load, displacements, report.reactions);
+	addReactionsBeyondWalls(system, cloud, load, displacements, report);
 	if (system.model.grid.axisymmetric) report.reactions.pop_back(); // of the axis, which nobody has asked for
 	PointCloud<Dim> updated = cloud;
 	updatePoints(updated, system, displacements, report);
 	if (!requireState(updated, system.model, report) || !requireSamePoints(updated, system.model, report)) return false;
+	if (!report.accepted && !requireEnergy(system, cloud, updated, report)) return false;
 	cloud = std::move(updated);
 	system.commit(d);
 	for (const auto& [box, wall] : system.model.walls)

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "core/stepping/beyond_walls.hpp"
+#include "core/grid/point_nodes.hpp"
 #include <algorithm>
 
 namespace gimpm {
@@ -80,44 +81,72 @@ private:
 	int front; // number of nodes that are not behind walls
 };
 
-/// By the patches that this process counts.
-template <int Dim>
-void addReactionsOf(
-        const CutPatches<Dim>& cut, const StepSystem<Dim>& system, const PointCloud<Dim>& cloud, const Load<Dim>& load, const Eigen::VectorXd& d,
-        std::vector<Vec3>& reactions)
+/// Whose the force on a node behind a wall is: the number of a box, those of the open ones following; -1: nobody's.
+template <int Dim> int ownerOf(const typename CutPatches<Dim>::Node& node, int axis, const Boundary<Dim>& boundary)
 {
-	if (cut.nodes.empty()) return;
-	Eigen::VectorXd displacement = Eigen::VectorXd::Zero(cut.size()), internal = displacement, external = displacement;
-	displacement.head(d.size()) = system.model.atMiddle ? Eigen::VectorXd(d / 2) : d;
-	addInternalForce<Dim>(cut.basis, cut.points, system.model.materials, displacement, { internal });
-	addPointForces(cut.basis, pointForces(cloud, system.model, load), external);
-	const auto& boundary = system.model.boundary;
+	const auto* box = boundary.holder(node.nearest, axis);
+	if (!box) box = boundary.holder(node.nearest, node.axis);
+	if (box) return int(box - boundary.boxes().data());
+	const auto* open = boundary.opening(node.nearest);
+	return open ? int(boundary.boxes().size() + (open - boundary.open().data())) : -1;
+}
+
+/// Adds forces at the nodes behind walls to the reactions, by the patches that each process counts.
+template <int Dim> void addForces(const CutPatches<Dim>& cut, const StepSystem<Dim>& system, const Eigen::VectorXd& force, StepReport& report)
+{
+	const auto&       boundary = system.model.boundary;
+	const bool        isShared = bool(system.model.division);
+	const std::size_t boxes = boundary.boxes().size(), told = report.reactions.size(); // that of an axis may have been taken off
+	report.openReactions.resize(boundary.open().size(), Vec3::Zero());
+	std::vector<Vec3> sums(boxes + boundary.open().size(), Vec3::Zero());
+	if (!isShared) {
+		std::copy(report.reactions.begin(), report.reactions.end(), sums.begin());
+		std::copy(report.openReactions.begin(), report.openReactions.end(), sums.begin() + boxes);
+	}
+	const auto first = force.size() - Dim * Eigen::Index(cut.nodes.size());
 	for (std::size_t n = 0; n < cut.nodes.size(); ++n)
-		for (int i = 0; i < Dim; ++i) {
-			const auto* box = boundary.holder(cut.nodes[n].nearest, i);
-			if (!box) box = boundary.holder(cut.nodes[n].nearest, cut.nodes[n].axis);
-			if (!box) continue; // an open one
-			const int at = int(d.size()) + Dim * int(n) + i;
-			reactions[box - boundary.boxes().data()][i] += internal[at] - external[at];
-		}
+		for (int i = 0; i < Dim; ++i)
+			if (const int owner = ownerOf(cut.nodes[n], i, boundary); owner >= 0) sums[owner][i] += force[first + Dim * int(n) + i];
+	if (isShared && !sums.empty()) addUp(*system.model.processes, sums.front().data(), 3 * int(sums.size()));
+	const auto give = [&](Vec3& reaction, const Vec3& sum) { reaction = isShared ? Vec3(reaction + sum) : sum; };
+	for (std::size_t b = 0; b < told; ++b)
+		give(report.reactions[b], sums[b]);
+	for (std::size_t b = 0; b < report.openReactions.size(); ++b)
+		give(report.openReactions[b], sums[boxes + b]);
 }
 
 } // namespace
 
 template <int Dim>
-void addReactionsBeyondWalls(
-        const StepSystem<Dim>& system, const PointCloud<Dim>& cloud, const Load<Dim>& load, const Eigen::VectorXd& d, std::vector<Vec3>& reactions)
+void addReactionsBeyondWalls(const StepSystem<Dim>& system, const PointCloud<Dim>& cloud, const Load<Dim>& load, const Eigen::VectorXd& d, StepReport& report)
 {
 	const CutPatches<Dim> cut(system);
-	if (!system.model.division) return addReactionsOf(cut, system, cloud, load, d, reactions);
-	std::vector<Vec3> own(reactions.size(), Vec3::Zero());
-	addReactionsOf(cut, system, cloud, load, d, own);
-	if (!own.empty()) addUp(*system.model.processes, own.front().data(), 3 * int(own.size()));
-	for (std::size_t b = 0; b < reactions.size(); ++b)
-		reactions[b] += own[b];
+	Eigen::VectorXd       displacement = Eigen::VectorXd::Zero(cut.size()), internal = displacement, external = displacement;
+	if (!cut.nodes.empty()) {
+		displacement.head(d.size()) = system.model.atMiddle ? Eigen::VectorXd(d / 2) : d;
+		addInternalForce<Dim>(cut.basis, cut.points, system.model.materials, displacement, { internal });
+		addPointForces(cut.basis, pointForces(cloud, system.model, load), external);
+	}
+	addForces(cut, system, Eigen::VectorXd(internal - external), report);
 }
 
-template void addReactionsBeyondWalls(const StepSystem<2>&, const PointCloud<2>&, const Load<2>&, const Eigen::VectorXd&, std::vector<Vec3>&);
-template void addReactionsBeyondWalls(const StepSystem<3>&, const PointCloud<3>&, const Load<3>&, const Eigen::VectorXd&, std::vector<Vec3>&);
+template <int Dim> void addInertiaBeyondWalls(const StepSystem<Dim>& system, const Motion<Dim>& motion, StepReport& report)
+{
+	const CutPatches<Dim> cut(system);
+	Eigen::VectorXd       growth = Eigen::VectorXd::Zero(cut.size()), force = growth;
+	growth.head(motion.growth.size()) = motion.growth / motion.duration;
+	std::vector<Vec<Dim>> ofPoints(motion.mass.size(), Vec<Dim>::Zero());
+	forPointNodes(cut.basis, [&](int i, const Patch<Dim>& patch, const double* value, int count) {
+		const int p = cut.basis.order[i];
+		ofPoints[p] = motion.mass[p] * atPoint(patch, value, count, growth);
+	});
+	if (!cut.nodes.empty()) addPointForces(cut.basis, ofPoints, force);
+	addForces(cut, system, force, report);
+}
+
+template void addInertiaBeyondWalls(const StepSystem<2>&, const Motion<2>&, StepReport&);
+template void addInertiaBeyondWalls(const StepSystem<3>&, const Motion<3>&, StepReport&);
+template void addReactionsBeyondWalls(const StepSystem<2>&, const PointCloud<2>&, const Load<2>&, const Eigen::VectorXd&, StepReport&);
+template void addReactionsBeyondWalls(const StepSystem<3>&, const PointCloud<3>&, const Load<3>&, const Eigen::VectorXd&, StepReport&);
 
 } // namespace gimpm

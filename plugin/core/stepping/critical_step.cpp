@@ -17,7 +17,7 @@ double factor(int dim, double ghostMass, double spacing)
 } // namespace
 
 /// Under compression the modulus of a wave is larger by twice the stress.
-template <int Dim> Stiffest stiffest(const PointCloud<Dim>& cloud, const Model<Dim>& model)
+template <int Dim> Stiffest stiffestOfOwn(const PointCloud<Dim>& cloud, const Model<Dim>& model)
 {
 	double wave = 0, bar = 0, spacing = 0;
 #pragma omp parallel for reduction(max : wave, bar, spacing)
@@ -29,8 +29,14 @@ template <int Dim> Stiffest stiffest(const PointCloud<Dim>& cloud, const Model<D
 		bar                   = std::max(bar, young / material.density);
 		spacing               = std::max(spacing, 2 * cloud.halfSize[p].maxCoeff() / model.grid.cellSize);
 	}
-	if (const auto& division = model.division) return { division->largest(wave), division->largest(bar), division->largest(spacing) };
 	return { wave, bar, spacing };
+}
+
+template <int Dim> Stiffest stiffest(const PointCloud<Dim>& cloud, const Model<Dim>& model)
+{
+	const Stiffest own      = stiffestOfOwn(cloud, model);
+	const auto&    division = model.division;
+	return division ? Stiffest { division->largest(own.pressureWave), division->largest(own.bar), division->largest(own.spacing) } : own;
 }
 
 template <int Dim> double criticalStep(const PointCloud<Dim>& cloud, const Model<Dim>& model, double ghostMass, double penalty)
@@ -44,6 +50,8 @@ template <int Dim> double criticalStep(const PointCloud<Dim>& cloud, const Model
 	return 2 * h / std::sqrt(C * C * most.pressureWave + (ghost + 16 * penalty) * most.bar);
 }
 
+template Stiffest stiffestOfOwn(const PointCloud<2>&, const Model<2>&);
+template Stiffest stiffestOfOwn(const PointCloud<3>&, const Model<3>&);
 template Stiffest stiffest(const PointCloud<2>&, const Model<2>&);
 template Stiffest stiffest(const PointCloud<3>&, const Model<3>&);
 template double   criticalStep(const PointCloud<2>&, const Model<2>&, double, double);

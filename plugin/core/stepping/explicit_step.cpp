@@ -2,6 +2,7 @@
 #include "core/stepping/explicit_step.hpp"
 #include "core/base/stopwatch.hpp"
 #include "core/stepping/acceptance.hpp"
+#include "core/stepping/beyond_walls.hpp"
 #include "core/stepping/halo.hpp"
 #include "core/stepping/outcome.hpp"
 #include "core/terms/explicit_inertia.hpp"
@@ -14,9 +15,7 @@ template <int Dim> bool isPossible(const StepSystem<Dim>& system, const Explicit
 {
 	if (!system.map.isAlone())
 		return !fail(report, Failure::misplaced, "explicit steps are for displacements only, and there is the field '" + system.map[1].name + "'");
-	if (const std::string obstacle = system.obstacle(); !obstacle.empty()) return !fail(report, Failure::misplaced, obstacle);
-	for (const auto& term : system.terms)
-		if (const std::string obstacle = term->obstacle(); !obstacle.empty()) return !fail(report, Failure::misplaced, obstacle);
+	if (isObstructed(system, report)) return false;
 	if (const std::string obstacle = inertia.obstacle(); !obstacle.empty()) return !fail(report, Failure::misplaced, obstacle);
 	return !inertia.isSingular() || !fail(report, Failure::singular, "the mass matrix is singular to working precision");
 }
@@ -54,7 +53,10 @@ template <int Dim> StepReport explicitStep(PointCloud<Dim>& cloud, const Model<D
 	report.times.linear.solve            = inertia.seconds();
 	if (inertia.isSingular()) return fail(report, Failure::singular, "the mass matrix is singular to working precision"), report;
 	// 5. nodes to points; 6. the grid is reset by not being kept
-	if (accept(system, cloud, load, d, report)) inertia.commit();
+	if (accept(system, cloud, load, d, report)) {
+		inertia.commit();
+		addInertiaBeyondWalls(system, motion, report);
+	}
 	return report;
 }
 

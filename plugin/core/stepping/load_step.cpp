@@ -2,6 +2,7 @@
 #include "core/stepping/load_step.hpp"
 #include "core/base/stopwatch.hpp"
 #include "core/stepping/acceptance.hpp"
+#include "core/stepping/beyond_walls.hpp"
 #include "core/stepping/equilibrium.hpp"
 #include "core/stepping/grip.hpp"
 #include "core/stepping/halo.hpp"
@@ -9,6 +10,7 @@
 #include "core/stepping/rate_change.hpp"
 #include "core/stepping/restraint.hpp"
 #include "core/stepping/step_control.hpp"
+#include "core/terms/inertia.hpp"
 
 namespace gimpm {
 namespace {
@@ -18,27 +20,23 @@ template <int Dim> bool isHeld(const StepSystem<Dim>& system, const PointCloud<D
 {
 	const Stopwatch   watch(report.times.basis);
 	const std::string lost = system.hasInertia() ? "" : lostGrip(cloud, system.basis, system.model, load);
-	if (const std::string obstacle = system.obstacle(); !obstacle.empty()) return !fail(report, Failure::misplaced, obstacle);
-	const Restraint held = restraint(system.basis, system.model.grid, system.model.boundary, system.terms, bool(system.model.division));
-	report.parts         = held.parts;
+	const Restraint   held = restraint(system.basis, system.model.grid, system.model.boundary, system.terms, bool(system.model.division));
+	report.parts           = held.parts;
 	if (const std::string between = boxBetweenNodes(system.basis, system.model.boundary); !between.empty())
 		return !fail(report, Failure::misplaced, between);
 	if (!lost.empty()) return !fail(report, Failure::detached, lost);
-	for (const auto& term : system.terms) {
-		if (const std::string obstacle = term->obstacle(); !obstacle.empty()) return !fail(report, Failure::misplaced, obstacle);
-		if (term->isSingular()) return !fail(report, Failure::singular, "the mass matrix is singular to working precision");
-	}
+	if (isObstructed(system, report)) return false;
 	return held.freeMotion.empty() || !fail(report, Failure::unrestrained, "nothing restrains the " + held.freeMotion);
 }
 
-/// A converged step may have ended where a term does not admit it. One that has not may be due to friction which no longer holds the body: says so.
+/// A converged step may have ended where a term does not admit it. One that has not may be due to contact which no longer holds the body: says so.
 template <int Dim> void explain(const StepSystem<Dim>& system, const Eigen::VectorXd& d, StepReport& report)
 {
 	if (report.converged()) return askTerms(system, d, report);
 	if (report.failure != Failure::singular && !canBeCut(report.failure)) return;
 	const Restraint held = restraintAt(d, system.basis, system.model.grid, system.model.boundary, system.terms, bool(system.model.division));
 	if (!held.freeMotion.empty())
-		fail(report, Failure::slides, "only friction, which has reached its limit, holds the " + held.freeMotion + " (" + report.cause + ")");
+		fail(report, Failure::slides, "only contact, which slips or comes off there, would hold the " + held.freeMotion + " (" + report.cause + ")");
 }
 
 template <int Dim> Eigen::VectorXd predictionFor(const StepSystem<Dim>& system, const LastIncrement<Dim>& last, double growth)
@@ -86,20 +84,27 @@ template <int Dim> StepReport loadStep(PointCloud<Dim>& cloud, const Model<Dim>&
 	report.conjugateGradients = solver.iterativeEffort();
 	// 5. nodes to points; 6. the grid is reset by not being kept
 	report.accepted = report.failure == Failure::tooManyIterations && model.newton.acceptUnconverged;
-	if (report.converged() || report.accepted)
-		if (accept(system, cloud, load, growth, report) && last) *last = incrementOf(system, d, load.growth());
+	if ((report.converged() || report.accepted) && accept(system, cloud, load, growth, report)) {
+		for (const auto& term : system.terms)
+			if (const auto* inertia = dynamic_cast<const Inertia<Dim>*>(term.get())) addInertiaBeyondWalls(system, inertia->motion(), report);
+		if (last) *last = incrementOf(system, d, load.growth());
+	}
 	return report;
 }
 
-template <int Dim> LinearProblem tangentStiffness(const PointCloud<Dim>& cloud, const Model<Dim>& model)
+template <int Dim> LinearProblem tangentStiffness(const PointCloud<Dim>& cloud, const Model<Dim>& model, StepReport* told)
 {
-	StepReport report;
-	return StepSystem<Dim>(cloud, model, Load<Dim>(), report).tangent();
+	StepReport            own, &report = told ? *told : own;
+	const StepSystem<Dim> system(cloud, model, Load<Dim>(), report);
+	NodeMatrix<Dim>       K;
+	Couplings             beside;
+	return tangent(system, K, beside, report) ? reduced(K, system.dofs, system.isCoupled() ? &beside : nullptr)
+	                                          : LinearProblem(SymmetricCsc { { { 0 }, {}, {} } });
 }
 
 template StepReport    loadStep(PointCloud<2>&, const Model<2>&, const Load<2>&, LinearSolver&, LastIncrement<2>*);
 template StepReport    loadStep(PointCloud<3>&, const Model<3>&, const Load<3>&, LinearSolver&, LastIncrement<3>*);
-template LinearProblem tangentStiffness(const PointCloud<2>&, const Model<2>&);
-template LinearProblem tangentStiffness(const PointCloud<3>&, const Model<3>&);
+template LinearProblem tangentStiffness(const PointCloud<2>&, const Model<2>&, StepReport*);
+template LinearProblem tangentStiffness(const PointCloud<3>&, const Model<3>&, StepReport*);
 
 } // namespace gimpm

@@ -13,7 +13,8 @@ namespace gimpm {
 /// prediction, and leaves its own displacements there for the next one.
 template <int Dim> StepReport loadStep(PointCloud<Dim>&, const Model<Dim>&, const Load<Dim>&, LinearSolver&, LastIncrement<Dim>* last = nullptr);
 
-/// Reduced tangent K + K_g (free degrees of freedom) of the current configuration.
-template <int Dim> LinearProblem tangentStiffness(const PointCloud<Dim>&, const Model<Dim>&);
+/// Reduced tangent (free degrees of freedom) of all terms in the current configuration: that of the first iteration of a step from there. Where a term
+/// cannot act the matrix is empty, and the report, if there is one, says why.
+template <int Dim> LinearProblem tangentStiffness(const PointCloud<Dim>&, const Model<Dim>&, StepReport* = nullptr);
 
 } // namespace gimpm

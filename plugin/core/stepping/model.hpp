@@ -33,12 +33,19 @@ struct NewtonSettings {
 	double                stepTolerance = std::numeric_limits<double>::infinity(); ///< on rateChange() of a step without inertia that has a prediction [m]
 };
 
+/// What a condition that remembers its distance from the points has to do where a study makes all moduli larger and leaves the points in their places.
+template <int Dim> struct InPlace {
+	std::function<void(const PointCloud<Dim>&, double scale)> begin; ///< what has given way elastically is `scale` of what it was
+	std::function<void(const PointCloud<Dim>&)>               goOn;  ///< after a step, the points are back where they were
+};
+
 template <int Dim> struct Model {
 	Grid<Dim>             grid;
 	Basis                 basis = Basis::gimp;
 	bool                  fBar  = false; ///< against volumetric locking; needs the ghost stabilisation, which holds the nodes of nearly empty cells
 	std::vector<Material> materials;
-	Boundary<Dim>         boundary; ///< the last box is that of the axis of symmetry, if there is one
+	std::vector<double> shares {}; ///< by material, of what acts of point loads and water in a stage of construction, as it does of the density; empty: all
+	Boundary<Dim>       boundary;  ///< the last box is that of the axis of symmetry, if there is one
 	/// Off the lines of the grid, by the box of the boundary that their reaction is reported with, which holds nothing; moved in each step that is accepted.
 	std::map<int, std::shared_ptr<Wall<Dim>>> walls {};
 	GhostSettings                             ghost;
@@ -46,6 +53,7 @@ template <int Dim> struct Model {
 	std::vector<TermOfStep<Dim>>              terms {};         ///< besides the points' resistance and the ghost stabilisation
 	std::vector<NodalField<Dim>>              fields {};        ///< besides the displacements
 	std::vector<CoupledTermOfStep<Dim>>       coupledTerms {};  ///< of all fields, and of nodes that are apart
+	std::vector<InPlace<Dim>>                 inPlace {};       ///< of those of the terms that need it
 	bool                                      atMiddle = false; ///< the points' resistance is that after half of the displacements
 	std::shared_ptr<const Processes>          processes {};     ///< that work on it together; null: this one alone
 	std::shared_ptr<Division>                 division {};      ///< of the points among them; null: all have the same points

@@ -8,6 +8,7 @@ bool fail(StepReport& report, Failure failure, const std::string& cause)
 {
 	report.failure = failure;
 	report.cause   = cause;
+	report.advice.clear();
 	return true;
 }
 
@@ -42,6 +43,23 @@ std::string causeOfDivergence(double correction)
 	return sentence("it diverges: a correction of ", correction, " m, more than a cell, does not reduce the residual");
 }
 
+template <int Dim> bool isObstructed(const StepSystem<Dim>& system, StepReport& report)
+{
+	if (const std::string obstacle = system.obstacle(); !obstacle.empty()) return fail(report, Failure::misplaced, obstacle);
+	for (const auto& term : system.terms) {
+		if (const std::string obstacle = term->obstacle(); !obstacle.empty()) return fail(report, Failure::misplaced, obstacle);
+		if (term->isSingular()) return fail(report, Failure::singular, "the mass matrix is singular to working precision");
+	}
+	return false;
+}
+
+template <int Dim> bool tangent(const StepSystem<Dim>& system, NodeMatrix<Dim>& K, Couplings& beside, StepReport& report)
+{
+	if (isObstructed(system, report)) return false;
+	const auto failure = system.tangent(K, &beside);
+	return !failure || !fail(report, *failure);
+}
+
 template <int Dim> void reportWorst(const StepSystem<Dim>& system, const Balance& balance, StepReport& report)
 {
 	if (balance.worst < 0) return;
@@ -66,6 +84,10 @@ template <int Dim> std::vector<Vec3> reactions(const StepSystem<Dim>& system, co
 	return sums;
 }
 
+template bool              isObstructed(const StepSystem<2>&, StepReport&);
+template bool              isObstructed(const StepSystem<3>&, StepReport&);
+template bool              tangent(const StepSystem<2>&, NodeMatrix<2>&, Couplings&, StepReport&);
+template bool              tangent(const StepSystem<3>&, NodeMatrix<3>&, Couplings&, StepReport&);
 template void              reportWorst(const StepSystem<2>&, const Balance&, StepReport&);
 template void              reportWorst(const StepSystem<3>&, const Balance&, StepReport&);
 template std::vector<Vec3> reactions(const StepSystem<2>&, const Eigen::VectorXd&);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // How a load step went. Failure is a value.
 #pragma once
+#include "core/base/failure.hpp"
 #include "core/base/types.hpp"
 #include "core/solvers/linear_method.hpp"
 #include <limits>
@@ -8,25 +9,6 @@
 #include <vector>
 
 namespace gimpm {
-
-enum class Failure {
-	none,
-	detached,
-	misplaced,
-	unrestrained,
-	slides,
-	penetrated,
-	inaccurate,
-	singular,
-	inverted,
-	noResponse,
-	notFinite,
-	diverging,
-	tooManyIterations,
-	stalled,
-	apart,
-	interrupted
-};
 
 /// Of a stiffness matrix, as far as its factorisation told: an equilibrium may be unstable where it is not positive definite.
 enum class Definiteness { notChecked, positive, indefinite };
@@ -39,6 +21,7 @@ struct StepTimes {
 struct StepReport {
 	Failure             failure = Failure::none;
 	std::string         cause;                    ///< one clause for the user, empty when converged
+	std::string         advice;                   ///< what may help, in sentences, of the term that has refused the step; empty if none has
 	bool                accepted         = false; ///< the points took over an iterate that had not converged
 	int                 iterations       = 0;     ///< linear solves
 	int                 reusedFactors    = 0;     ///< solves with the factor of the solve before
@@ -67,6 +50,8 @@ struct StepReport {
 
 	/// For each of Boundary's boxes, the sum of the forces with which it holds its nodes; of a node in several boxes the last one is given.
 	std::vector<Vec3> reactions; ///< [N]
+
+	std::vector<Vec3> openReactions; ///< the same of the open boxes: what holds the parts of domains that reach through them [N]
 
 	int    clampedDomains     = 0; ///< points whose domain would have outgrown half a cell in this step
 	double largestWallOverlap = 0; ///< largest length by which a domain reached behind a wall [m]

@@ -188,11 +188,11 @@ template <int Dim> LinearProblem StepSystem<Dim>::tangent() const
 	return reduced(K, dofs, isCoupled() ? &beside : nullptr);
 }
 
-template <int Dim> void StepSystem<Dim>::tangent(NodeMatrix<Dim>& K, Couplings* beside) const
+template <int Dim> std::optional<PointFailure> StepSystem<Dim>::tangent(NodeMatrix<Dim>& K, Couplings* beside) const
 {
 	Eigen::VectorXd force;
 	prepare(K, beside);
-	evaluate(Eigen::VectorXd::Zero(map.size()), force, &K, nullptr, beside);
+	return evaluate(Eigen::VectorXd::Zero(map.size()), force, &K, nullptr, beside);
 }
 
 template <int Dim> std::optional<PointFailure> StepSystem<Dim>::addTerms(const Eigen::VectorXd& d, const TermSum<Dim>& sum) const

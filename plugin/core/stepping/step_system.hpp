@@ -48,8 +48,8 @@ template <int Dim> struct StepSystem {
 	void prepare(NodeMatrix<Dim>& K, Couplings* beside = nullptr) const;
 
 	/// Reduced tangent of all terms at the start of the step.
-	LinearProblem tangent() const;
-	void          tangent(NodeMatrix<Dim>& K, Couplings* beside = nullptr) const; ///< of all nodes
+	LinearProblem               tangent() const;
+	std::optional<PointFailure> tangent(NodeMatrix<Dim>& K, Couplings* beside = nullptr) const; ///< of all nodes
 
 	/// The sum of the terms at d: sets `force`, and K and the sizes of the forces where they are given. Of K only the share is right, rows and columns. Forces
 	/// at tied nodes are given to their masters; of K that is left to whoever reduces it. `beside` goes with K.

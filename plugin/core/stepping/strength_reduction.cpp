@@ -40,7 +40,7 @@ template <int Dim> void scaleStrains(PointCloud<Dim>& cloud, double by)
 
 template <class L> L weak(const L& law, const Weakening& w)
 {
-	if constexpr (countOfParameters<L>(0) > 0) return law.with(weakened(law, w));
+	if constexpr (countOfParameters<L>(0) > 0) return law.with(law.weakened(w));
 	else
 		return law;
 }
@@ -123,6 +123,8 @@ WeakBody<Dim> reduceStrength(
 	PointCloud<Dim> start     = cloud;
 	WeakBody<Dim>   body;
 	scaleStrains(start, 1 / scale);
+	for (const auto& condition : model.inPlace)
+		condition.begin(start, 1 / scale);
 	weakModel.ghost.factor *= ghostShare;
 	body.displacement.assign(cloud.size(), Vec<Dim>::Zero());
 	while (!control.isDone()) {
@@ -137,6 +139,8 @@ WeakBody<Dim> reduceStrength(
 		if (report.converged()) {
 			const double largest = add(body.displacement, now, start);
 			takeState(start, now);
+			for (const auto& condition : model.inPlace)
+				condition.goOn(start);
 			if (largest > limit) {
 				body.cause = beyondSmall(largest, limit);
 				break;

@@ -2,7 +2,7 @@
 #include "core/stepping/workload.hpp"
 #include "core/base/stopwatch.hpp"
 #include "core/solvers/linear_solver.hpp"
-#include "core/stepping/step_system.hpp"
+#include "core/stepping/outcome.hpp"
 
 namespace gimpm {
 namespace {
@@ -35,12 +35,18 @@ template <int Dim> Workload workload(const PointCloud<Dim>& cloud, const Model<D
 	const StepSystem<Dim> system(cloud, model, Load<Dim>(), report);
 	NodeMatrix<Dim>       blocks;
 	Couplings             beside;
-	const LinearProblem   K = [&] {
-                const Stopwatch watch(report.times.assembly);
-                system.tangent(blocks, &beside);
-                return LinearProblem(blocks, system.dofs, nullptr, system.isCoupled() ? &beside : nullptr);
+	Workload              w;
+	{
+		const Stopwatch watch(report.times.assembly);
+		if (!tangent(system, blocks, beside, report)) {
+			w.obstacle = report.cause;
+			return w;
+		}
+	}
+	const LinearProblem K = [&] {
+		const Stopwatch watch(report.times.assembly);
+		return LinearProblem(blocks, system.dofs, nullptr, system.isCoupled() ? &beside : nullptr);
 	}();
-	Workload w;
 	w.points         = int(cloud.size());
 	w.nodes          = report.nodes;
 	w.dofs           = report.dofs;

@@ -3,6 +3,8 @@
 #include "core/terms/overlap.hpp"
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <sstream>
 
 namespace gimpm {
 namespace {
@@ -52,6 +54,7 @@ Absorption<Dim>::Absorption(
 	addDrag(faces(step), materials, masses, step);
 	if (step.division) completeDrag(step);
 	takeOver(step);
+	if (dashpots_.empty()) obstacle_ = boundary_.name + ": no face of a cell with material has all of its nodes in the box of that absorbing boundary";
 	for (auto& [node, dashpot] : dashpots_)
 		for (int a = 0; a < Dim; ++a)
 			if (step.dofs.number[Dim * node + a] < 0) dashpot.drag[a] = dashpot.borne[a] = 0;
@@ -61,6 +64,7 @@ Absorption<Dim>::Absorption(
 template <int Dim> std::vector<typename Absorption<Dim>::Face> Absorption<Dim>::faces(const Beginning<Dim>& step)
 {
 	std::vector<Face> found;
+	std::vector<int>  both; // cells with material beyond a face of the boundary
 	for (int c = 0; c < int(step.basis.cells.size()); ++c) {
 		const Index<Dim> cell = Grid<Dim>::index(step.basis.cells[c]);
 		for (int side = 0; side < 2 * Dim; ++side) {
@@ -68,7 +72,8 @@ template <int Dim> std::vector<typename Absorption<Dim>::Face> Absorption<Dim>::
 			const bool isUpper = side % 2;
 			if (!holdsFace(boundary_.box, cell, axis, isUpper)) continue;
 			const Index<Dim> beyond = step.grid.first(Index<Dim>(cell + (isUpper ? 1 : -1) * Index<Dim>::Unit(axis)));
-			if (find(step.basis.cells, Grid<Dim>::key(beyond)) >= 0) isInside_ = true;
+			if (const int other = find(step.basis.cells, Grid<Dim>::key(beyond)); other >= 0)
+				both.push_back(holdsFace(boundary_.box, cell, axis, !isUpper) ? c : other);
 			if (holdsFace(boundary_.box, cell, axis, !isUpper)) continue;
 			Face face { c, axis, {} };
 			for (int n = 0; n < 1 << (Dim - 1); ++n)
@@ -76,7 +81,28 @@ template <int Dim> std::vector<typename Absorption<Dim>::Face> Absorption<Dim>::
 			found.push_back(face);
 		}
 	}
+	if (!both.empty()) obstacle_ = textOfBothSides(both, step);
 	return found;
+}
+
+/// Where most of it is, and how much there is, of the points that this process has.
+template <int Dim> std::string Absorption<Dim>::textOfBothSides(const std::vector<int>& beyond, const Beginning<Dim>& step) const
+{
+	std::vector<char>   isAskedFor(step.basis.cells.size(), 0);
+	std::vector<double> filled(step.basis.cells.size(), 0);
+	for (const int cell : beyond)
+		isAskedFor[cell] = 1;
+	const double h      = step.grid.cellSize;
+	const auto centreOf = [&](int cell) { return Vec<Dim>(step.grid.nodePosition(Grid<Dim>::index(step.basis.cells[cell])) + Vec<Dim>::Constant(h / 2)); };
+	forOverlaps(isAskedFor, step.basis, step.grid, [&](int cell, int p, auto within) {
+		filled[cell] += within(step.stiffnessOf(p).volume) / (std::pow(h, Dim) * ring(centreOf(cell)[0], step.grid));
+	});
+	const int          most = int(std::max_element(filled.begin(), filled.end()) - filled.begin());
+	std::ostringstream text;
+	text << boundary_.name << " has material on both sides: behind it are " << std::accumulate(filled.begin(), filled.end(), 0.)
+	     << " cells full, most of it in the cell around (" << centreOf(most).transpose() << "), of which it fills " << filled[most]
+	     << "; it has to be at the edge of the body, and what moves there has to stay in front of it";
+	return text.str();
 }
 
 /// A face is covered to the part to which its cell is filled.
@@ -163,13 +189,6 @@ template <int Dim> bool Absorption<Dim>::addDiagonal(Eigen::VectorXd& drag) cons
 	for (const auto& [node, dashpot] : dashpots_)
 		drag.template segment<Dim>(Dim * node) += dashpot.drag;
 	return true;
-}
-
-template <int Dim> std::string Absorption<Dim>::obstacle() const
-{
-	if (isInside_) return "an absorbing boundary has material on both sides: it has to be at the edge of the body";
-	if (dashpots_.empty()) return "no face of a cell with material is in an absorbing boundary";
-	return {};
 }
 
 template <int Dim> double Absorption<Dim>::fromOutside(const Eigen::VectorXd& v) const

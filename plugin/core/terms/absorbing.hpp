@@ -19,6 +19,7 @@ template <int Dim> struct AbsorbingBoundary {
 	std::map<Key, Vec<Dim>> borne {};                 ///< what goes on acting, by node [N]
 	Vec<Dim>                force = Vec<Dim>::Zero(); ///< on the body in the last step that was accepted [N]
 	double                  work  = 0;                ///< on the body in that step [J]
+	std::string             name {};                  ///< for messages
 };
 
 template <int Dim> class Absorption : public Damping<Dim> {
@@ -30,7 +31,7 @@ public:
 	void        add(const Eigen::VectorXd& v, double slope, const TermSum<Dim>&) const override;
 	void        addBefore(const Eigen::VectorXd& v, Eigen::VectorXd& force) const override;
 	bool        addDiagonal(Eigen::VectorXd& drag) const override;
-	std::string obstacle() const override;
+	std::string obstacle() const override { return obstacle_; }
 	double      fromOutside(const Eigen::VectorXd& v) const override;
 	void        commit(const Eigen::VectorXd& d, const Eigen::VectorXd& before, const Eigen::VectorXd& now) override;
 
@@ -45,13 +46,14 @@ private:
 		int node[1 << (Dim - 1)];
 	};
 	std::vector<Face> faces(const Beginning<Dim>&);
+	std::string       textOfBothSides(const std::vector<int>& beyond, const Beginning<Dim>&) const;
 	void              addDrag(const std::vector<Face>&, const std::vector<Material>&, const std::vector<double>& masses, const Beginning<Dim>&);
 	void              completeDrag(const Beginning<Dim>&);
 	void              takeOver(const Beginning<Dim>&);
 
 	AbsorbingBoundary<Dim>& boundary_;
 	std::map<int, Dashpot>  dashpots_;
-	bool                    isInside_ = false; ///< of the body
+	std::string             obstacle_; ///< why it cannot act
 };
 
 /// Moduli of waves [Pa]: K + 4 G / 3 and G of a point's law within its yield surface, at its present volume.

@@ -34,7 +34,11 @@ template <int Dim> struct ContactSystem {
 	std::vector<ContactLoad>        loads {};   ///< on the owners, then
 	double                          work   = 0; ///< on the soil in that step, with the forces at its end [J]
 	double                          weight = 1; ///< with which forces enter the balance of a step in time (core/terms/time_scheme.hpp)
-	const Term<Dim>*                acting {};  ///< the term of the step that is being made
+	/// Of a step in time: energy that has come into the system before it [J]; infinite: nobody asks for what contact gives.
+	double                   energy = std::numeric_limits<double>::infinity();
+	double                   given  = 0; ///< work of contact in that step beyond what it had stored, which is that of no body [J]
+	std::vector<std::string> doubts {};  ///< sentences about bodies near the soil, of the step that is being made
+	const Term<Dim>*         acting {};  ///< the term of the step that is being made
 };
 
 /// Of a material point. Numbers only, to be told to other processes.
@@ -64,7 +68,7 @@ constexpr double slipSoftness = 20;
 
 /// Corners of the domains against the surfaces of the bodies. Corners move with the linear functions of the grid. The penalty on the gap g is a
 /// pressure of stiffness * E g / h, with Young's modulus E of the point and h of the smallest cells, over the corner's share of the domain's surface; Only
-/// prescribed motion of the bodies is known here. Where points are divided among processes, each finds those of its own that are near, and all know the corners of all of them.
+/// prescribed motion of the bodies is known here. Of bodies that overlap, with surfaces that face alike, one acts on a corner: the one that it is deepest in. Where points are divided among processes, each finds those of its own that are near, and all know the corners of all of them.
 template <int Dim> class Contact : public Term<Dim> {
 public:
 	/// The records and loads of the system are written in commit(). What add() adds has the weight of the system.
@@ -78,7 +82,7 @@ public:
 	double                      fromOutside(const Eigen::VectorXd& d) const override { return this->sizeOfForce(d); }
 	void                        restrain(const typename Term<Dim>::Hold&) const override;
 	void                        restrainAt(const Eigen::VectorXd& d, const typename Term<Dim>::Hold&) const override;
-	std::string                 refusal(const Eigen::VectorXd& d) const override;
+	Refusal                     refusal(const Eigen::VectorXd& d) const override;
 	void                        commit(const Eigen::VectorXd& d) override;
 
 private:
@@ -94,16 +98,24 @@ private:
 		Vec<Dim>        place;                           ///< at the start of the step
 		double          offset;
 		Vec<Dim>        friction;
+		bool            turns; // its friction, with the body
 		ContactLaw<Dim> law;
 		Attachment<Dim> attached;
 	};
 
-	void                          find(const Beginning<Dim>&);
-	void                          addCorners(int near);
-	ContactLaw<Dim>               lawOf(const RigidBody<Dim>&, const Near&, const Vec<Dim>& place, const Vec<Dim>& normal) const;
-	Approach<Dim>                 approach(const Corner&, const Vec<Dim>& x) const;
-	template <class F> void       forTouching(const Eigen::VectorXd& d, F&& f) const; // f(corner, its place, gap, touch)
-	std::vector<PointDomain<Dim>> domainsNow() const;                                 // by number in near_
+	void                    find(const Beginning<Dim>&);
+	void                    addCorners(int near);
+	ContactLaw<Dim>         lawOf(const RigidBody<Dim>&, const Near&, const Vec<Dim>& place, const Vec<Dim>& normal) const;
+	Approach<Dim>           approach(const Corner&, const Vec<Dim>& x) const;
+	template <class F> void forTouching(const Eigen::VectorXd& d, F&& f) const; // f(corner, its place, gap, touch)
+	struct Acting;
+	void                          choose(std::vector<Acting>&, const Corner&, const Approach<Dim>&) const;
+	void                          look(const Near&);
+	std::string                   missed(const Eigen::VectorXd& d) const;
+	std::string                   missed(const NearPoint&, const Eigen::VectorXd& d) const;
+	double                        given(const Eigen::VectorXd& d) const;
+	std::string                   refusalOfGift(const Eigen::VectorXd& d) const;
+	std::vector<PointDomain<Dim>> domainsNow() const; // by number in near_
 	ContactLoad                   loadOn(const Vec<Dim>& owner, const Corner&, const Vec<Dim>& place, const Touch<Dim>&) const;
 
 	ContactSystem<Dim>&    system_;
@@ -112,6 +124,7 @@ private:
 	std::vector<int>       own_;     // points of the cloud that are near, of this process
 	std::vector<Near>      near_;    // in the order of own_, one process after the other
 	std::vector<Corner>    corners_; // by point, corner and body
+	std::vector<Vec<Dim>>  spins_;   // of the bodies
 	std::string            obstacle_;
 	const PointCloud<Dim>& cloud_;
 	const CloudBasis<Dim>& basis_;

@@ -47,13 +47,14 @@ private:
 } // namespace
 
 template <int Dim>
-std::vector<NearPoint> nearPoints(const std::vector<RigidBody<Dim>>& bodies, const PointCloud<Dim>& cloud, const CloudBasis<Dim>& basis, const Grid<Dim>& grid)
+std::vector<NearPoint> nearPoints(
+        const std::vector<RigidBody<Dim>>& bodies, const PointCloud<Dim>& cloud, const CloudBasis<Dim>& basis, const Grid<Dim>& grid, double motionOfSoil)
 {
 	const PatchesOfCells<Dim> patches(basis, grid);
 	std::vector<NearPoint>    found;
 	for (std::size_t b = 0; b < bodies.size(); ++b) {
 		const auto&  body      = bodies[b];
-		const double reach     = searchReach(body, grid.size(grid.refinement ? grid.refinement->largest() : 0));
+		const double reach     = searchReach(body, grid) + motionOfSoil;
 		const auto [low, high] = body.bounds(body.begin);
 		const Vec<Dim> margin  = Vec<Dim>::Constant(reach);
 		patches.inBox(low - margin, high + margin, [&](int patch) {
@@ -68,7 +69,7 @@ std::vector<NearPoint> nearPoints(const std::vector<RigidBody<Dim>>& bodies, con
 	return found;
 }
 
-template std::vector<NearPoint> nearPoints(const std::vector<RigidBody<2>>&, const PointCloud<2>&, const CloudBasis<2>&, const Grid<2>&);
-template std::vector<NearPoint> nearPoints(const std::vector<RigidBody<3>>&, const PointCloud<3>&, const CloudBasis<3>&, const Grid<3>&);
+template std::vector<NearPoint> nearPoints(const std::vector<RigidBody<2>>&, const PointCloud<2>&, const CloudBasis<2>&, const Grid<2>&, double);
+template std::vector<NearPoint> nearPoints(const std::vector<RigidBody<3>>&, const PointCloud<3>&, const CloudBasis<3>&, const Grid<3>&, double);
 
 } // namespace gimpm

@@ -54,7 +54,8 @@ template <int Dim> void ExplicitInertia<Dim>::begin(const Beginning<Dim>& step)
 		force -= drag;
 	}
 	solve(force, dofs_, a);
-	atMiddle_ = motion_.velocity;
+	motion_.growth = T / 2 * a;
+	atMiddle_      = motion_.velocity;
 	forPointNodes(basis_, [&](int i, const Patch<Dim>& patch, const double* value, int count) {
 		atMiddle_[basis_.order[i]] += T / 2 * atPoint(patch, value, count, a);
 	});
@@ -118,6 +119,7 @@ template <int Dim> void ExplicitInertia<Dim>::commit()
 	motion_.ghostWork  = T / 4 * (middle_ + end_).dot(ghost); // it acts in the second half, on the velocities' way from the one to the other
 	for (const auto& each : damping_)
 		each->commit(d, start_, end_);
+	motion_.growth += growth;
 	motion_.acceleration.resize(motion_.velocity.size());
 	forPointNodes(basis_, [&](int i, const Patch<Dim>& patch, const double* value, int count) {
 		const int p             = basis_.order[i];

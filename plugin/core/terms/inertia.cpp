@@ -233,6 +233,14 @@ template <int Dim> LocalError Inertia<Dim>::localError(const Eigen::VectorXd& d)
 	return { error.template lpNorm<Eigen::Infinity>(), motion_.tolerance };
 }
 
+template <int Dim> double Inertia<Dim>::kineticEnergy() const
+{
+	double sum = 0;
+	for (int p = 0, own = division_ ? division_->own() : int(motion_.velocity.size()); p < own; ++p)
+		sum += motion_.mass[p] * motion_.velocity[p].squaredNorm() / 2;
+	return division_ ? division_->sum(sum) : sum;
+}
+
 template <int Dim> void Inertia<Dim>::commit(const Eigen::VectorXd& d)
 {
 	const double          beta = motion_.scheme.beta, gamma = motion_.scheme.gamma, T = motion_.duration;
@@ -257,6 +265,7 @@ template <int Dim> void Inertia<Dim>::commit(const Eigen::VectorXd& d)
 		ofPoints[p] = motion_.mass[p] * gained.squaredNorm();
 	});
 	const double gained = std::accumulate(ofPoints.begin(), division_ ? ofPoints.begin() + division_->own() : ofPoints.end(), 0.);
+	motion_.growth      = growth;
 	// the force of the ghost stiffness begins at zero in each step; points do not take over what the nodes change in the ghost mass
 	motion_.ghostWork = gamma * d.dot(ghost) + (growth.dot(nodal_ * growth) - (division_ ? division_->sum(gained) : gained)) / 2;
 }

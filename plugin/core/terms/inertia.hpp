@@ -27,6 +27,9 @@ public:
 	LocalError                  localError(const Eigen::VectorXd& d) const override;
 	void                        commit(const Eigen::VectorXd& d) override;
 
+	const Motion<Dim>& motion() const { return motion_; }
+	double             kineticEnergy() const; ///< of the points as the step begins, of all processes [J]
+
 private:
 	using Side = typename NodalMass<Dim>::Side;
 

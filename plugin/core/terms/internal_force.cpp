@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "core/terms/fbar_force.hpp"
+#include "core/terms/centres.hpp"
+#include "core/terms/fbar.hpp"
+#include "core/terms/pair_codes.hpp"
 #include "core/terms/point_pass.hpp"
-#include "core/terms/ring_force.hpp"
 
 namespace gimpm {
 
@@ -38,8 +39,8 @@ std::optional<PointFailure> addInternalForce(
 {
 	const Pass<Dim> pass { basis, points, materials, d, sum, colours };
 	if constexpr (Dim == 2)
-		if (basis.isAxisymmetric()) return addRingForce(pass);
-	return points.hasFBar() ? addFBarForce(pass) : addPoints<Chunk<Dim>>(pass);
+		if (basis.isAxisymmetric()) return points.hasFBar() ? addPoints<FBarChunk<2, 3>>(pass) : addPoints<Chunk<2, 3>>(pass);
+	return points.hasFBar() ? addPoints<FBarChunk<Dim, Dim>>(pass) : addPoints<Chunk<Dim, Dim>>(pass);
 }
 
 template <int Dim> void markPointPattern(const CloudBasis<Dim>& basis, NodeMatrix<Dim>& K)

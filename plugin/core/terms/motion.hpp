@@ -29,8 +29,9 @@ template <int Dim> struct Motion {
 	double                    impactWork = 0;       ///< that held nodes have taken in it by their blow, beyond what they have worked with it [J]
 	double                    gridWork   = 0;     ///< of the forces that are out of balance with the accelerations of the points as the last step began [J]
 	double                    exactness  = 1e-13; ///< of velocities and accelerations of the nodes, of the momenta of those of the points
-	const ContactSystem<Dim>* contacts   = nullptr;  ///< if there are some, of TimeScheme::weightOfContact()
-	LinearSolver              solvers[Dim + 1] = {}; ///< by axis, and of all nodes; keep their symbolic analyses
+	Eigen::VectorXd           growth {};          ///< of velocities of the nodes in the last step that was accepted [m/s]
+	const ContactSystem<Dim>* contacts         = nullptr; ///< if there are some, of TimeScheme::weightOfContact()
+	LinearSolver              solvers[Dim + 1] = {};      ///< by axis, and of all nodes; keep their symbolic analyses
 
 	std::vector<DampingOfStep<Dim>> damping {}; ///< in each step
 	std::vector<MovingBase<Dim>>    bases {};   ///< of nodes in several boxes the last one counts

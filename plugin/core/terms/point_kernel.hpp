@@ -4,7 +4,7 @@
 #pragma once
 #include "core/materials/kinematics.hpp"
 #include "core/terms/internal_force.hpp"
-#include "core/terms/large_laws.hpp"
+#include "core/terms/law_response.hpp"
 
 namespace gimpm {
 
@@ -244,18 +244,7 @@ private:
 	/// In the lanes of other materials there are any numbers.
 	GIMPM_INLINE void respond(const Material& material, const Batch& batch, const StepPoints<Dim>& points, OfLaw& response) const
 	{
-		if (material.varies) return respondOneByOne(material, points.parameters, points.internals, batch.point, strain, response);
-		withLaw(material.law, [&](const auto& l) GIMPM_INLINE_LAMBDA {
-			using L = std::decay_t<decltype(l)>;
-			std::array<Lanes, L::variables.size()> internals;
-			for (std::size_t k = 0; k < internals.size(); ++k) {
-				const double* column = points.internals[columnOf<L>(k)].data();
-				internals[k]         = batch.load([&](int p) GIMPM_INLINE_LAMBDA { return column[p]; });
-			}
-			if constexpr (isLarge<L>) respondOfLargeLaw(material.law, strain, internals.data(), response);
-			else
-				response.take(l.template respond<Lanes>(strain, internals));
-		});
+		respondTogether(material, points.parameters, points.internals, batch.point, strain, response);
 	}
 };
 

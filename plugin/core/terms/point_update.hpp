@@ -2,7 +2,7 @@
 // Step 5 of the method: nodes to points.
 #pragma once
 #include "core/base/instruction_set.hpp"
-#include "core/terms/fbar.hpp"
+#include "core/terms/internal_force.hpp"
 
 namespace gimpm {
 
@@ -16,120 +16,19 @@ template <int Dim> struct PointUpdate {
 	double                                            hoop = 0;  ///< of the increment, around the axis of a body of revolution
 };
 
-/// Value at one point of a field given by nodal vectors; `along`: the functions of x, if not those of the point's axes.
-template <int Dim, int Span> GIMPM_INLINE Vec<Dim> interpolate(const PointBasis<Dim>& axes, const PatchVectors<Dim, Span>& u, const double* along = nullptr)
-{
-	using Nodes = PatchNodes<Dim, Span>;
-	Vec<Dim> value;
-	for (int i = 0; i < Dim; ++i) {
-		Lanes products(0);
-		for (int r = 0; r < Nodes::rows; ++r)
-			products += u.row[i][r] * Lanes(Nodes::rowFactor(axes, r, 0));
-		value[i] = sum(products * loadLanes(along ? along : axes[0].value));
-	}
-	return value;
-}
-
-/// Displacement in the middle of a domain. Of a ring the functions of the hoop strain give it over the radius, which is one over their sum.
-template <int Axes, int Dim, int Span> GIMPM_INLINE Vec<Dim> displacementOf(const CloudBasis<Dim>& basis, int point, const PatchVectors<Dim, Span>& u)
-{
-	if constexpr (Axes > Dim) {
-		const AxisValues& hoop = basis.hoop[point];
-		return interpolate<Dim, Span>(basis.axes[point], u, hoop.data()) / (hoop[0] + hoop[1] + hoop[2]);
-	}
-	return interpolate<Dim, Span>(basis.axes[point], u);
-}
-
-/// For which spans a part of the update is compiled for all processors, in functions of its own. Elsewhere its multiplications and additions may
-/// be fused, which rounds otherwise. Left to the compiler, the choice and with it the last bits of the results would change with any line near it.
-template <int Dim> struct PortableParts {
-	static constexpr bool ofPiece(int span) { return Dim == 3 && (span == 2 || span == 4); }
-	static constexpr bool ofInterpolation(int span) { return Dim == 2 ? span == 1 || span == 2 : span == 1 || span >= 5; }
-};
-/// noipa: where GCC knows that f leaves the upper halves of the vector registers alone it does not clear them before the call, and f, which has
-/// instructions of older processors, takes several times as long.
-template <class F> [[gnu::noipa]] void              callApart(F&& f) { f(); }
-template <bool Portable, class F> GIMPM_INLINE void callPart(F&& f)
-{
-	if constexpr (Portable) callApart(f);
-	else
-		f();
-}
-
-/// What the laws of a batch see of the increment.
-template <int Dim, int Axes> GIMPM_INLINE const Increment<Dim, Axes>& seenByLaws(const Chunk<Dim, Axes>&, int, const Increment<Dim, Axes>& increment)
-{
-	return increment;
-}
-template <int Dim, int Axes> GIMPM_INLINE Increment<Dim, Axes> seenByLaws(const FBarChunk<Dim, Axes>& chunk, int b, const Increment<Dim, Axes>&)
-{
-	return FBarIncrement<Dim, Axes>(chunk, b).seen;
-}
-
-/// Calls f(index in the cloud, PointUpdate) for the points of the patches [first, last).
-template <class ChunkOfPoints, int Dim, class F>
+/// Calls call(f, index in the cloud, PointUpdate) for every point, from several threads.
+template <int Dim>
 void forUpdatedPoints(
-        const CloudBasis<Dim>& basis, const StepPoints<Dim>& points, const std::vector<Material>& materials, const Eigen::VectorXd& d, int first, int last,
-        F&& f)
-{
-	constexpr int Axes = ChunkOfPoints::axes;
-	forChunks<ChunkOfPoints>(basis, first, last, [&](ChunkOfPoints& chunk, int patch) {
-		Vec<Dim> displacement[ChunkOfPoints::capacity];
-		forPieces(basis, chunk, patch, [&](auto span, const Patch<Dim>& p, int begin, int end) GIMPM_INLINE_LAMBDA {
-			constexpr int Span = decltype(span)::value;
-			callPart<PortableParts<Dim>::ofPiece(Span)>([&]() GIMPM_INLINE_LAMBDA {
-				const PatchVectors<Dim, Span> u(p, d);
-				prepare(basis, points, u, begin, end, chunk);
-				for (int q = begin; q < end; ++q)
-					callPart<PortableParts<Dim>::ofInterpolation(Span)>(
-					        [&]() GIMPM_INLINE_LAMBDA { displacement[q - chunk.first] = displacementOf<Axes, Dim, Span>(basis, q, u); });
-			});
-		});
-		for (int b = 0; b * Lanes::count < chunk.count; ++b) {
-			const Batch                batch(chunk.first + b * Lanes::count, chunk.last());
-			const Increment<Dim, Axes> increment(chunk.gradient[b]);
-			const auto& [gradient, hoop] = increment;
-			const BatchResponse<Dim> response(batch, points, materials, seenByLaws(chunk, b, increment));
-			const auto               elasticStrain = assemble<Lanes, Dim>(response.law.elasticStrain, response.trial.axes);
-			const auto               stress        = assemble<Lanes, Dim>(response.law.stress, response.trial.axes);
-			for (int lane = 0, q = b * Lanes::count; lane < Lanes::count && q < chunk.count; ++lane, ++q) {
-				const auto       one = [lane](const Lanes& x) { return x[lane]; };
-				const Law&       law = materials[points.material[chunk.first + q]].law;
-				PointUpdate<Dim> u {
-					displacement[q], gradient.unaryExpr(one), { elasticStrain.c.unaryExpr(one) }, { stress.c.unaryExpr(one) }, law, {}
-				};
-				for (std::size_t k = 0; k < u.internals.size(); ++k)
-					u.internals[k] = response.law.internals[k][lane];
-				if constexpr (Axes > Dim) u.hoop = hoop[lane];
-				f(basis.order[chunk.first + q], u);
-			}
-		}
-	});
-}
+        const CloudBasis<Dim>&, const StepPoints<Dim>&, const std::vector<Material>&, const Eigen::VectorXd& d, const void* f,
+        void (*call)(const void* f, int point, const PointUpdate<Dim>&));
 
-template <class ChunkOfPoints, int Dim, class F>
-void forUpdatedPoints(const CloudBasis<Dim>& basis, const StepPoints<Dim>& points, const std::vector<Material>& materials, const Eigen::VectorXd& d, F&& f)
-{
-	constexpr int patchesAtOnce = 64;
-	const int     patches       = int(basis.patches.size());
-#pragma omp parallel for schedule(dynamic)
-	for (int first = 0; first < patches; first += patchesAtOnce)
-		callForProcessor([&] { forUpdatedPoints<ChunkOfPoints>(basis, points, materials, d, first, std::min(first + patchesAtOnce, patches), f); });
-}
-
-/// The same for every point, from several threads; f must not touch other points.
+/// Calls f(index in the cloud, PointUpdate) for every point, from several threads; f must not touch other points. It is compiled as the update is, for two
+/// kinds of processors.
 template <int Dim, class F>
-void forUpdatedPoints(const CloudBasis<Dim>& basis, const StepPoints<Dim>& points, const std::vector<Material>& materials, const Eigen::VectorXd& d, F&& f)
+void forUpdatedPoints(const CloudBasis<Dim>& basis, const StepPoints<Dim>& points, const std::vector<Material>& materials, const Eigen::VectorXd& d, const F& f)
 {
-	const auto with = [&](auto axes) {
-		constexpr int Axes = decltype(axes)::value;
-		if (points.hasFBar()) forUpdatedPoints<FBarChunk<Dim, Axes>>(basis, points, materials, d, f);
-		else
-			forUpdatedPoints<Chunk<Dim, Axes>>(basis, points, materials, d, f);
-	};
-	if constexpr (Dim == 2)
-		if (basis.isAxisymmetric()) return with(std::integral_constant<int, 3>());
-	with(std::integral_constant<int, Dim>());
+	const auto call = [](const void* g, int p, const PointUpdate<Dim>& u) { callForProcessor([&] { (*static_cast<const F*>(g))(p, u); }); };
+	forUpdatedPoints<Dim>(basis, points, materials, d, static_cast<const void*>(&f), call);
 }
 
 } // namespace gimpm

@@ -46,12 +46,16 @@ template <int Dim> struct RigidBody {
 	double          adhesion  = std::numeric_limits<double>::infinity(); ///< cap of the shear stress [Pa]
 	double          stiffness = 0;                                       ///< of the contact, over Young's modulus per cell [-]
 	Pose<Dim>       begin {}, end {};                                    ///< of the step
+	double          turn = 0; ///< by which it turns from one load step to the next, also where its poses do not tell [rad]
 
 	/// `side` of a two-sided surface from which it is looked at: 1 where its normal points to, or -1.
 	Proximity<Dim> proximity(const Pose<Dim>&, const Vec<Dim>& x, int side) const;
 
 	/// Of a two-sided surface that on which a place is.
 	int sideOf(const Pose<Dim>&, const Vec<Dim>& x) const;
+
+	/// The smallest size of it that soil meets on its way, as seen from the body; infinite for planes and sheets. Of a block on no way, its largest size.
+	double widthAcross(const Vec<Dim>& way) const;
 
 	/// Whether what went straight from one place to another, as seen from the body, came out on another side of it, or is about to. Of planes and sheets
 	/// the sides are known.
@@ -66,6 +70,9 @@ template <int Dim> struct RigidBody {
 	/// Where the body's matter that is at x at the end was at the beginning.
 	Vec<Dim> before(const Vec<Dim>& x) const { return begin.inSpace(end.inBody(x)); }
 	Mat<Dim> beforeSlope() const { return begin.rotation * end.rotation.transpose(); }
+
+	/// Angle times axis by which it turns in the step [rad]; in the plane zero, as no axis lies in it.
+	Vec<Dim> spin() const;
 };
 
 } // namespace gimpm

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // What the discrete equilibrium of a load step is the sum of.
 #pragma once
+#include "core/base/failure.hpp"
 #include "core/grid/cloud_basis.hpp"
 #include "core/grid/division.hpp"
 #include "core/solvers/node_matrix.hpp"
@@ -23,6 +24,13 @@ struct PointFailure {
 	};
 	int    point; ///< index in the cloud; of several the smallest
 	Reason reason = Reason::inverted;
+};
+
+/// Why a term does not admit an equilibrium that was found. Without a cause it does.
+struct Refusal {
+	Failure     failure = Failure::refused;
+	std::string cause;  ///< a clause
+	std::string advice; ///< what may help, in sentences
 };
 
 /// Of the displacements of a step, and what it may be [m].
@@ -78,8 +86,8 @@ public:
 	/// The same for what still keeps it at d, as friction does until it slips.
 	virtual void restrainAt(const Eigen::VectorXd&, const Hold& hold) const { restrain(hold); }
 
-	/// Why equilibrium with these displacements cannot be accepted, a clause; empty if it can.
-	virtual std::string refusal(const Eigen::VectorXd&) const { return {}; }
+	/// Why equilibrium with these displacements cannot be accepted.
+	virtual Refusal refusal(const Eigen::VectorXd&) const { return {}; }
 
 	/// What the length of the step has left out of them.
 	virtual LocalError localError(const Eigen::VectorXd&) const { return {}; }

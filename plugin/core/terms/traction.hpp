@@ -15,9 +15,10 @@ template <int Dim> struct SurfaceLoad {
 	Vec<Dim>     traction       = Vec<Dim>::Zero(); ///< force over the area that the surface had at first; keeps its direction [Pa]
 	double       pressureBefore = 0;                ///< the same as the step begins, where something asks for it
 	Vec<Dim>     tractionBefore = Vec<Dim>::Zero();
-	double       work           = 0;                ///< in that step, with the mean of the forces at its two ends [J]
-	bool         isNew          = false;            ///< its outer side is still to be compared with where material is
-	Vec<Dim>     resultant      = Vec<Dim>::Zero(); ///< of both, in the last step that was accepted [N]
+	double       work           = 0;                  ///< in that step, with the mean of the forces at its two ends [J]
+	bool         isNew          = false;              ///< its outer side is still to be compared with where material is
+	Vec<Dim>     resultant      = Vec<Dim>::Zero();   ///< of both, in the last step that was accepted [N]
+	std::string  name           = "a loaded surface"; ///< what a message calls it
 };
 
 /// Vertices follow the linear functions of the grid, and the forces on them act on the nodes by the same functions: virtual work, resultant and
@@ -27,7 +28,7 @@ template <int Dim> struct SurfaceLoad {
 template <int Dim> class Traction : public Term<Dim> {
 public:
 	/// The load is moved in commit().
-	Traction(SurfaceLoad<Dim>&, const CloudBasis<Dim>&, const Grid<Dim>&);
+	Traction(SurfaceLoad<Dim>&, const Beginning<Dim>&);
 
 	void                        mark(NodeMatrix<Dim>&) const override;
 	std::optional<PointFailure> add(const Eigen::VectorXd& d, const TermSum<Dim>&) const override;
@@ -46,6 +47,7 @@ private:
 	Places forcesAt(const Places& places) const { return forcesAt(places, load_.pressure, load_.traction); }
 	void   addStiffness(const Places&, NodeMatrix<Dim>& K) const;
 
+	std::string attachAll(const Beginning<Dim>&);
 	std::string betweenLevels() const;
 
 	SurfaceLoad<Dim>&            load_;

@@ -83,7 +83,8 @@ template <int Dim, class F> void forMovedPoints(const CloudBasis<Dim>& basis, co
 template <int Dim> struct WetPoint {
 	const MovedPoint<Dim>&     at;
 	const PressureAround<Dim>& p;
-	double                     weighs, presses; // volumes [m3]
+	double                     weighs, presses;  // volumes [m3]
+	const double*              beyond = nullptr; // what the pressure has gained from the node to its image that is near the point [Pa]; null: nothing
 
 	WetPoint(const MovedPoint<Dim>& moved, const PressureAround<Dim>& around, WaterPlace place, double volume0, double volume)
 	        : at(moved)
@@ -98,7 +99,7 @@ template <int Dim> struct WetPoint {
 	{
 	}
 	/// That resists.
-	Vec<Dim> force(int n) const { return weighs * at.value[n] * p.gradient + presses * p.value * at.dilation(n); }
+	Vec<Dim> force(int n) const { return weighs * at.value[n] * p.gradient + presses * valueFor(n) * at.dilation(n); }
 
 	Mat<Dim> stiffness(int n, int m) const
 	{
@@ -108,13 +109,14 @@ template <int Dim> struct WetPoint {
 		if (presses == 0) return K;
 		Mat<Dim> turn = wn * wm.transpose() - at.slope[m] * at.slope[n].transpose();
 		turn(0, 0) -= at.hoop[n] * at.hoop[m];
-		return K + presses * (p.value * turn + at.value[m] * wn * p.gradient.transpose());
+		return K + presses * (valueFor(n) * turn + at.value[m] * wn * p.gradient.transpose());
 	}
-	bool isDry() const { return p.value == 0 && p.gradient.isZero(0); }
+	bool isDry() const { return p.value == 0 && p.gradient.isZero(0) && !beyond; }
 	bool isStiff() const { return presses != 0 || !p.slope.isZero(0); }
 
 private:
-	bool follows_;
+	double valueFor(int n) const { return beyond ? p.value - beyond[n] : p.value; }
+	bool   follows_;
 };
 
 template <int Dim> void addTo(const TermSum<Dim>& sum, const WetPoint<Dim>& wet, double factor)
@@ -130,14 +132,29 @@ template <int Dim> void addTo(const TermSum<Dim>& sum, const WetPoint<Dim>& wet,
 	}
 }
 
+/// What a pressure gains from a node of the periodic grid to its image near a place: all of a node's forces come from one side of the period.
+template <int Dim>
+std::array<double, windowNodes<Dim>> gainBeyond(
+        const MovedPoint<Dim>& moved, const CloudBasis<Dim>& basis, const Grid<Dim>& grid, const Vec<Dim>& place, const Vec<Dim>& fall)
+{
+	std::array<double, windowNodes<Dim>> gain {};
+	for (int n = 0; n < moved.count; ++n) {
+		if (!moved.isThere(n)) continue;
+		const Vec<Dim> node = grid.nodePosition(Grid<Dim>::index(basis.nodes[moved.patch.node[n]]));
+		for (int a = 0; a < Dim; ++a)
+			if (fall[a] != 0) gain[n] += fall[a] * std::round((place[a] - node[a]) / (grid.cellSize * grid.period[a]));
+	}
+	return gain;
+}
+
 } // namespace
 
 template <int Dim>
 WaterForce<Dim>::WaterForce(Water<Dim>& water, const Beginning<Dim>& step)
-        : water_(water), basis_(step.basis), dofs_(step.dofs), share_(step.division ? step.share : nullptr)
+        : water_(water), basis_(step.basis), grid_(step.grid), dofs_(step.dofs), share_(step.division ? step.share : nullptr)
 {
 	for (const int p : basis_.order) {
-		const double volume0 = step.cloud.volume0[p];
+		const double volume0 = water.shares.empty() ? step.cloud.volume0[p] : water.shares[step.cloud.material[p]] * step.cloud.volume0[p];
 		start_.push_back({ step.cloud.position[p], step.cloud.halfSize[p], volume0, volume0 * step.cloud.volumeRatio(p) });
 	}
 }
@@ -148,10 +165,18 @@ template <class F>
 std::optional<PointFailure> WaterForce<Dim>::forWetPoints(const WaterPressure<Dim>& pressure, WaterPlace place, const Eigen::VectorXd& d, F&& f) const
 {
 	std::atomic_int failed { std::numeric_limits<int>::max() };
+	const Vec<Dim>  fall  = pressure.fall();
+	const bool      falls = !fall.isZero(0);
 	forMovedPoints(basis_, d, [&](int i, const MovedPoint<Dim>& moved) {
 		const Start& start = start_[i];
 		const auto around = moved.J > 0 && std::isfinite(moved.J) ? pressure.around(start.position + moved.displacement, start.halfSize) : std::nullopt;
-		if (around) return f(i, WetPoint<Dim>(moved, *around, place, start.volume0, start.volume * moved.J));
+		if (around) {
+			WetPoint<Dim> wet(moved, *around, place, start.volume0, start.volume * moved.J);
+			if (!falls) return f(i, wet);
+			const auto gain = gainBeyond(moved, basis_, grid_, start.position, fall);
+			wet.beyond      = gain.data();
+			return f(i, wet);
+		}
 		const int p = basis_.order[i];
 		for (int known = failed; p < known && !failed.compare_exchange_weak(known, p);) { }
 	});

@@ -11,11 +11,12 @@ enum class WaterPlace { everywhere, pores, outside };
 
 /// What acts at the end of a step, and as it begins.
 template <int Dim> struct Water {
-	using Pressure   = std::shared_ptr<const WaterPressure<Dim>>;
-	WaterPlace place = WaterPlace::everywhere;
-	Pressure   pressure {}, before {};
-	double     factor = 1, factorBefore = 1; ///< of the pressures
-	bool       wantsWork = false;            ///< which takes two passes over the points
+	using Pressure            = std::shared_ptr<const WaterPressure<Dim>>;
+	WaterPlace          place = WaterPlace::everywhere;
+	Pressure            pressure {}, before {};
+	double              factor = 1, factorBefore = 1; ///< of the pressures
+	bool                wantsWork = false;            ///< which takes two passes over the points
+	std::vector<double> shares {};                    ///< by material, of what acts on its points; empty: all
 
 	// of the last step that was accepted
 	std::vector<double>                   porePressure {}; ///< by point of the cloud, at its end [Pa]
@@ -39,9 +40,12 @@ public:
 	void                        mark(NodeMatrix<Dim>&) const override;
 	std::optional<PointFailure> add(const Eigen::VectorXd& d, const TermSum<Dim>&) const override;
 	void                        addBefore(Eigen::VectorXd& force) const override;
-	bool                        isSymmetric() const override { return water_.place != WaterPlace::pores; }
-	double                      fromOutside(const Eigen::VectorXd& d) const override;
-	void                        commit(const Eigen::VectorXd& d) override;
+	bool                        isSymmetric() const override
+	{
+		return water_.place == WaterPlace::everywhere || (water_.place == WaterPlace::outside && water_.pressure->fall().isZero(0));
+	}
+	double fromOutside(const Eigen::VectorXd& d) const override;
+	void   commit(const Eigen::VectorXd& d) override;
 
 private:
 	struct Start { // of a point
@@ -58,6 +62,7 @@ private:
 
 	Water<Dim>&            water_;
 	const CloudBasis<Dim>& basis_;
+	const Grid<Dim>&       grid_;
 	const FreeDofs&        dofs_;
 	const NodeShare*       share_; // null: all points are here
 	std::vector<Start>     start_; // in the order of the basis: the cloud goes on before commit()

@@ -72,6 +72,15 @@ template <int Dim> std::optional<PressureAround<Dim>> StillWater<Dim>::around(co
 	return p;
 }
 
+/// What it has gained from the first period to the one that this node is in.
+template <int Dim> double TabulatedWater<Dim>::sincePeriod(const Index<Dim>& node, const Index<Dim>& first) const
+{
+	double gain = 0;
+	for (int a = 0; a < Dim; ++a)
+		if (fall_[a] != 0) gain += fall_[a] * ((node[a] - first[a]) / grid_.period[a]);
+	return gain;
+}
+
 template <int Dim> std::optional<PressureAround<Dim>> TabulatedWater<Dim>::around(const Vec<Dim>& x, const Vec<Dim>& half) const
 {
 	std::array<AveragedHats, Dim> hats;
@@ -87,9 +96,10 @@ template <int Dim> std::optional<PressureAround<Dim>> TabulatedWater<Dim>::aroun
 		Index<Dim> node, at;
 		for (int a = 0, rest = n; a < Dim; rest /= hats[a].count, ++a)
 			node[a] = rest % hats[a].count, at[a] = hats[a].first + node[a];
-		const int place = find(nodes_, Grid<Dim>::key(grid_.first(at)));
+		const Index<Dim> first = grid_.first(at);
+		const int        place = find(nodes_, Grid<Dim>::key(first));
 		if (place < 0) return std::nullopt;
-		addNode<Dim>(sum, values_[place], hats, node);
+		addNode<Dim>(sum, values_[place] + sincePeriod(at, first), hats, node);
 	}
 	return sum;
 }

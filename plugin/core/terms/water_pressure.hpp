@@ -19,6 +19,9 @@ public:
 
 	/// Of the box x -+ half. Averages change continuously, with their derivatives, as the box moves through a water table. Nothing: not known there.
 	virtual std::optional<PressureAround<Dim>> around(const Vec<Dim>& x, const Vec<Dim>& half) const = 0;
+
+	/// What it gains along each axis over one period of the grid [Pa], everywhere the same; zero along others.
+	virtual Vec<Dim> fall() const { return Vec<Dim>::Zero(); }
 };
 
 /// Still water: weight times the depth below a level, zero above it.
@@ -36,17 +39,21 @@ private:
 /// Values at nodes of the grid, linear in between along each axis.
 template <int Dim> class TabulatedWater : public WaterPressure<Dim> {
 public:
-	/// Sorted nodes, and their values.
-	TabulatedWater(const Grid<Dim>& grid, std::vector<Key> nodes, std::vector<double> values)
-	        : grid_(grid), nodes_(std::move(nodes)), values_(std::move(values))
+	/// Sorted nodes, and their values; those of the first period stand for all, to which each period adds the fall.
+	TabulatedWater(const Grid<Dim>& grid, std::vector<Key> nodes, std::vector<double> values, const Vec<Dim>& fall = Vec<Dim>::Zero())
+	        : grid_(grid), nodes_(std::move(nodes)), values_(std::move(values)), fall_(fall)
 	{
 	}
+	Vec<Dim>                           fall() const override { return fall_; }
 	std::optional<PressureAround<Dim>> around(const Vec<Dim>& x, const Vec<Dim>& half) const override;
 
 private:
 	Grid<Dim>           grid_;
 	std::vector<Key>    nodes_;
 	std::vector<double> values_;
+	Vec<Dim>            fall_;
+
+	double sincePeriod(const Index<Dim>& node, const Index<Dim>& first) const;
 };
 
 } // namespace gimpm

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 #include "engine/conditions/MpmBaseMotion.hpp"
+#include "engine/conditions/box.hpp"
 
 namespace yade {
 
@@ -35,6 +36,9 @@ public:
 		v("borne", &B::borne, hidden, "",
 		  admitting("forces of finite numbers [N]", [](const auto& forces) { return std::all_of(forces.begin(), forces.end(), finite); }));
 	}
+
+	// Corners that are swapped in the constructor.
+	void postLoad() { requireCorners("MpmAbsorbingBoundary", min, max); }
 
 	// The attributes must go together, too.
 	void requireAdmissible() const override;

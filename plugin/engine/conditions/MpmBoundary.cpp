@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "engine/conditions/MpmBoundary.hpp"
 #include "engine/conditions/box.hpp"
+#include "yade_api/registration.hpp"
 
 namespace yade {
 

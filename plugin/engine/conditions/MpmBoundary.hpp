@@ -2,6 +2,7 @@
 #pragma once
 #include "engine/conditions/MpmBaseMotion.hpp"
 #include "engine/conditions/MpmSurface.hpp"
+#include "engine/conditions/box.hpp"
 #include "engine/conditions/load_curves.hpp"
 
 namespace yade {
@@ -61,6 +62,9 @@ public:
 
 	// Lower and upper corner of the box, or of one around the surface.
 	std::pair<Vector3r, Vector3r> extent() const;
+
+	// Corners that are swapped in the constructor.
+	void postLoad() { requireCorners("MpmBoundary", min, max); }
 
 	// The attributes must go together, too.
 	void requireAdmissible() const override;

@@ -2,9 +2,11 @@
 #pragma once
 #include "core/terms/contact.hpp"
 #include "engine/conditions/angles.hpp"
-#include "yade_api/registration.hpp"
+#include "yade_api/exposed.hpp"
+#include <map>
 
 namespace yade {
+class Body;
 class Scene;
 
 class MpmContact : public Exposed<MpmContact, Serializable> {
@@ -21,6 +23,15 @@ public:
 	vector<Real>     poses, stiffnesses, records;
 	vector<int>      areFree;
 	vector<Vector3r> impulsesSince;
+	// Not saved. Of members of clumps, where they were in these; of free bodies, what has been exchanged since they touch; and the O.dt that has been looked at
+	struct Exchange {
+		Vector3r added = Vector3r::Zero(); // of the momentum, by the stiffness [N s]
+		Real     all   = 0;
+		int      steps = 0;
+	};
+	std::map<int, Se3r>     ownPoses;
+	std::map<int, Exchange> exchanges;
+	Real                    stableFor = 0;
 
 	YADE_API_NAME(MpmContact)
 	static const char* doc()
@@ -68,8 +79,15 @@ public:
 	// Of the last exchange, number i of the bodies.
 	Se3r poseOf(size_t i) const;
 
-	// For the bodies that are free: the force of the last load step, less stiffness times the movement since, for this iteration of YADE.
-	void handOver(Scene&);
+	// std::invalid_argument where YADE's integrator would not be stable with the stiffness. In every iteration the soil itself is asked, or it is handed over to some.
+	void requireStable(const Body&, const gimpm::ContactLoad::Stiffness&, Real dt, bool isHandedOver) const;
+
+	// What the last load step and the iterations before it have given to one of the bodies. A sentence where too much of that is not from the soil.
+	void   note(size_t i, Real period);
+	string doubtOfExchange() const;
+
+	// For the bodies that are free: the force of the last load step, less stiffness times the movement since, for this iteration of YADE, with a load step or between two.
+	void handOver(Scene&, bool isBetween);
 };
 
 } // namespace yade

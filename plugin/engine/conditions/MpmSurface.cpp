@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "engine/conditions/MpmSurface.hpp"
 #include "core/grid/surface.hpp"
+#include "yade_api/registration.hpp"
 #include <algorithm>
 #include <map>
 
@@ -93,6 +94,36 @@ void MpmSurface::requireAdmissible() const
 		throw std::invalid_argument(
 		        "MpmSurface.vertices: " + std::to_string(vertices.size()) + " points after steps with " + std::to_string(initialVertices.size())
 		        + "; make a new surface instead.");
+}
+
+namespace {
+	// Of a segment or triangle, what it may have in common with one neighbour, and whether it goes along it from the lower number of its vertices to the higher one; of a
+	// segment its ends, and whether it begins there.
+	vector<std::pair<vector<int>, bool>> sidesOf(const vector<int>& piece)
+	{
+		if (piece.size() == 2) return { { { piece[0] }, true }, { { piece[1] }, false } };
+		vector<std::pair<vector<int>, bool>> sides;
+		for (size_t i = 0; i < piece.size(); ++i) {
+			const int a = piece[i], b = piece[(i + 1) % piece.size()];
+			sides.push_back({ { std::min(a, b), std::max(a, b) }, a < b });
+		}
+		return sides;
+	}
+}
+
+void MpmSurface::requireOneSide(const string& name) const
+{
+	std::map<vector<int>, vector<std::pair<size_t, bool>>> bySide;
+	for (size_t i = 0; i < pieces.size(); ++i)
+		for (const auto& [side, isUpwards] : sidesOf(pieces[i]))
+			bySide[side].emplace_back(i, isUpwards);
+	for (const auto& [side, there] : bySide)
+		if (there.size() == 2 && there[0].second == there[1].second)
+			throw std::invalid_argument(
+			        name + ": of the pieces " + std::to_string(there[0].first) + " and " + std::to_string(there[1].first) + ", which meet at "
+			        + textOf(vertices[side[0]])
+			        + ", one is inside out: its outer side is where the other has its inner one, so that the pressure would push there and pull here. "
+			          "Reverse the order of its vertices.");
 }
 
 shared_ptr<MpmSurface> MpmSurface::line(const vector<Vector3r>& points)

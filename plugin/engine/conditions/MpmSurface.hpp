@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-#include "yade_api/registration.hpp"
+#include "yade_api/exposed.hpp"
 
 namespace yade {
 
@@ -36,6 +36,9 @@ public:
 
 	// Also whether the pieces fit the vertices, are of one kind, and have a size.
 	void requireAdmissible() const override;
+
+	// std::invalid_argument names two neighbours of which one has its outer side where the other has its inner one.
+	void requireOneSide(const string& name) const;
 
 	static shared_ptr<MpmSurface> line(const vector<Vector3r>& points);
 	static shared_ptr<MpmSurface> triangles(const vector<vector<Vector3r>>& corners); // equal corners become one vertex

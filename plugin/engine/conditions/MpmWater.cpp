@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "engine/conditions/MpmWater.hpp"
 #include "yade_api/python_lock.hpp"
+#include "yade_api/registration.hpp"
 
 namespace yade {
 

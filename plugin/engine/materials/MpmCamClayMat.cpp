@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "engine/materials/MpmCamClayMat.hpp"
 #include "engine/points/MpmState.hpp"
+#include "yade_api/registration.hpp"
 
 namespace yade {
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "engine/materials/MpmFrictionalMat.hpp"
+#include "yade_api/registration.hpp"
 
 namespace yade {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-#include "yade_api/registration.hpp"
+#include "yade_api/exposed.hpp"
 
 namespace yade {
 
@@ -8,6 +8,9 @@ class MpmState;
 
 class MpmMaterial : public ExposedIndexed<MpmMaterial, Material> {
 public:
+	Real share
+	        = 1; // of what acts on its points in a stage of construction, whose density is as small; the stage gives it anew after a scene has been loaded
+
 	YADE_API_NAME(MpmMaterial)
 	static const char*             doc() { return "Base of the materials of material points. It has no constitutive law itself and is refused when used."; }
 	template <class V> static void attributes(V&& v)

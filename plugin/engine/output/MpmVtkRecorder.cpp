@@ -8,6 +8,7 @@
 #include "engine/solver/processes.hpp"
 #include "yade_api/exceptions.hpp"
 #include "yade_api/logging.hpp"
+#include "yade_api/registration.hpp"
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>

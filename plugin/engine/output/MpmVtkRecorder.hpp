@@ -2,7 +2,7 @@
 #pragma once
 #include "engine/points/columns.hpp"
 #include "engine/solver/LoadStepObserver.hpp"
-#include "yade_api/registration.hpp"
+#include "yade_api/exposed.hpp"
 
 namespace yade {
 

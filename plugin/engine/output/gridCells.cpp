@@ -3,6 +3,7 @@
 #include "engine/output/contactPoints.hpp"
 #include "engine/output/loadedSurfaces.hpp"
 #include "engine/points/parallel.hpp"
+#include "engine/solver/build_model.hpp"
 #include "engine/solver/exchange.hpp"
 #include <vtkCellData.h>
 #include <vtkDataArray.h>
@@ -18,7 +19,7 @@ namespace {
 		if (isDivided(solver))
 			throw std::invalid_argument(
 			        "the cells of '" + kind + "' follow from all points, and with MpmImplicitEngine.distributed no process has them.");
-		auto       model = toModel<Dim>(*solver.grid, solver.basis, solver.fBar, solver.boundaries, *solver.ghost, *solver.newton);
+		auto       model = emptyModel<Dim>(solver);
 		const auto cloud = gather(materialPoints(scene, solver.mask), model);
 		const Real z     = solver.grid->origin[2];
 		return kind == "grid" ? populatedCells(cloud, model, z) : stabilisedFaces(cloud, model, z);

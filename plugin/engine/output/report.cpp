@@ -43,7 +43,7 @@ void addReport(py::object pythonClass)
 	py::objects::add_to_namespace(
 	        pythonClass, "report", py::make_function(&report),
 	        "report() -> dict\n\nHow the last run of this engine in this process went; empty before the first.\n\n"
-	        "Outcome: 'converged'; 'accepted' (see MpmNewton.acceptUnconverged); 'failure', one of 'none', 'detached' (a boundary that is to move has no hold of the soil), 'misplaced' (a load, wall or rigid body), 'unrestrained', 'slides' (friction at its limit does not hold it), 'penetrated' (by a rigid body), 'inaccurate' (MpmDynamicEngine.timeTolerance; beyond newton.stepTolerance steps are cut), 'singular', 'inverted', "
+	        "Outcome: 'converged'; 'accepted' (see MpmNewton.acceptUnconverged); 'failure', one of 'none', 'detached' (a boundary that is to move has no hold of the soil), 'misplaced' (a load, wall or rigid body), 'unrestrained', 'slides' (friction at its limit does not hold it), 'penetrated' (by a rigid body), 'refused' (by a condition that does not admit the equilibrium), 'inaccurate' (MpmDynamicEngine.timeTolerance; beyond newton.stepTolerance steps are cut), 'gainsEnergy' (a step in time makes energy of nothing), 'singular', 'inverted', "
 	        "'notFinite', 'diverging', 'tooManyIterations', 'stalled' (at round-off), 'apart' (processes in different states), 'interrupted'; 'cause', a clause, empty when converged; 'loadTime' [s] and 'loadFactor' of the "
 	        "last converged state; 'stepPart', part of O.dt that the next step tries.\n\n"
 	        "Effort of the run, undone tries included: 'iterations' (linear solves), 'substeps', 'cuts', 'lineSearchTrials', 'reusedFactors', 'luSolves', 'cgIterations', 'cgFallbacks', 'amgSetups'; 'times' [s], dict "

@@ -9,6 +9,7 @@
 #include <vtkDoubleArray.h>
 #include <vtkFieldData.h>
 #include <vtkNew.h>
+#include <vtkObject.h>
 #include <vtkUnstructuredGrid.h>
 #include <vtkXMLUnstructuredGridWriter.h>
 
@@ -28,6 +29,16 @@ namespace {
 		file.seekg(-std::streamoff(end.size()), std::ios::end);
 		return file.read(found.data(), found.size()) && found == end;
 	}
+
+	// VTK prints what fails, as long as this does not exist.
+	class QuietVtk {
+		const int before = vtkObject::GetGlobalWarningDisplay();
+
+	public:
+		QuietVtk() { vtkObject::GlobalWarningDisplayOff(); }
+		QuietVtk(const QuietVtk&) = delete;
+		~QuietVtk() { vtkObject::SetGlobalWarningDisplay(before); }
+	};
 
 	// Why a file has not been finished, found by writing more to it: who has failed to may have removed its name, as VTK does, and not say why.
 	string whyIncomplete(std::ofstream& file)
@@ -94,6 +105,7 @@ void writeVtu(vtkUnstructuredGrid& cells, Real time, const string& path, VtkForm
 	if (!format.compress) writer->SetCompressorTypeToNone();
 	writeWhole(path, [&](const string& temporary) {
 		writer->SetFileName(temporary.c_str());
+		const QuietVtk quiet; // whoever reads the exception needs no words of VTK before it
 		writer->Write();
 	});
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-#include "yade_api/registration.hpp"
+#include "yade_api/exposed.hpp"
 
 namespace yade {
 

@@ -2,7 +2,7 @@
 #pragma once
 #include "core/materials/internal_variable.hpp"
 #include "engine/materials/parameters.hpp"
-#include "yade_api/registration.hpp"
+#include "yade_api/exposed.hpp"
 #include <string_view>
 
 namespace yade {

@@ -35,6 +35,23 @@ namespace {
 	template <class T> vector<T> copyOf(const Column<T>& column) { return { column.data(), column.data() + column.size() }; }
 }
 
+namespace {
+	// The same as a step would refuse.
+	template <int Dim> void requireNumberable(const NewPoints& points, const gimpm::Grid<Dim>& grid)
+	{
+		for (size_t i = 0; i < points.size(); ++i) {
+			const Vector3r x = points.position(i);
+			if (((x.head<Dim>() - grid.origin) / grid.cellSize).cwiseAbs().maxCoeff() < grid.indexLimit) continue;
+			std::ostringstream text;
+			text << "a point at (" << x[0] << ", " << x[1] << ", " << x[2] << ") is more than " << grid.indexLimit << " cells of " << grid.cellSize
+			     << " m from MpmGrid.origin = (" << grid.origin.transpose()
+			     << "), too far to be numbered. Coordinates of a national grid have that size: shift the region to the origin, as mpm.terrain(origin=...) and "
+			        "mpm.solid(shift=...) do, or give the grid an origin near it.";
+			throw std::invalid_argument(text.str());
+		}
+	}
+}
+
 NewPoints::NewPoints(
         const MpmGrid& grid, const py::object& positions, const py::object& half, const py::list& materials, const py::object& index,
         const py::dict& parameters)
@@ -46,6 +63,9 @@ NewPoints::NewPoints(
 		this->materials.push_back(py::extract<shared_ptr<MpmMaterial>>(materials[i]));
 		this->materials.back()->requireAdmissible();
 	}
+	if (isSolid) requireNumberable<3>(*this, grid.lattice<3>());
+	else
+		requireNumberable<2>(*this, grid.lattice<2>());
 	const py::list names = parameters.keys();
 	for (py::ssize_t i = 0; i < py::len(names); ++i) {
 		const string name = py::extract<string>(names[i]);

@@ -4,7 +4,7 @@
 #include "engine/conditions/MpmBoundary.hpp"
 #include "engine/conditions/MpmTraction.hpp"
 #include "engine/conditions/MpmWater.hpp"
-#include "yade_api/registration.hpp"
+#include "yade_api/exposed.hpp"
 
 namespace yade {
 

@@ -14,6 +14,7 @@ public:
 	Real             loadWork = 0, boundaryWork = 0, contactWork = 0, impactWork = 0, ghostWork = 0, gridWork = 0, plasticWork = 0, dampingWork = 0;
 	Real             firstEnergy = std::numeric_limits<Real>::quiet_NaN(); // when the first step began; NaN: there was none
 	vector<Vector3r> reactionsBefore;                                      // those of the step before
+	Real             givenByContact = 0; // not saved: part of contactWork that neither a body has worked nor contact had stored [J]
 
 	vector<shared_ptr<MpmAbsorbingBoundary>> absorbing;
 	std::pair<Real, Real>                    rayleigh { 0, 0 };
@@ -69,7 +70,6 @@ public:
 
 	template <class C> static void python(C& c) { addExplicitSteps(c); }
 
-	void action() override;
 	bool isDynamic() const override { return true; }
 	bool isExplicit() const override { return scheme == "explicit"; }
 	void tellMotion(py::dict&) const override;
@@ -84,12 +84,7 @@ protected:
 	void setMoving(Job<3>& job, const vector<MaterialPoint>& points) override;
 
 private:
-	void                    watch(); // where points are: nobody else shall move them until the next step
 	template <int Dim> void makeMoving(Job<Dim>&, const vector<MaterialPoint>&);
-	void                    requireOnlyMover(const vector<MaterialPoint>&) const;
-
-	Body::id_t watched   = -1; // a point that moves, and where it was after the last step of this process
-	Vector3r   watchedAt = Vector3r::Zero();
 };
 
 } // namespace yade

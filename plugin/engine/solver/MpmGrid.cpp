@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "engine/solver/MpmGrid.hpp"
 #include "engine/points/buffers.hpp"
+#include "yade_api/registration.hpp"
 
 namespace yade {
 

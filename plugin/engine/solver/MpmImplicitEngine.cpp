@@ -5,8 +5,10 @@
 #include "engine/solver/AtWork.hpp"
 #include "engine/solver/LoadStepObserver.hpp"
 #include "engine/solver/Threads.hpp"
+#include "engine/solver/build_model.hpp"
 #include "engine/solver/exchange.hpp"
 #include "engine/solver/failures.hpp"
+#include "engine/solver/movers.hpp"
 #include "engine/solver/moving.hpp"
 #include "engine/solver/processes.hpp"
 #include "engine/solver/progress.hpp"
@@ -15,6 +17,7 @@
 #include "engine/solver/walls.hpp"
 #include "yade_api/exceptions.hpp"
 #include "yade_api/logging.hpp"
+#include "yade_api/registration.hpp"
 
 namespace yade {
 
@@ -43,7 +46,7 @@ void MpmImplicitEngine::action()
 			tellObservers(*scene, [this](LoadStepObserver& observer) { observer.stepEnds(*this, false); });
 			throw;
 		}
-		handOver(contacts, *scene);
+		handOver(contacts, *scene, false);
 		tellObservers(*scene, [this](LoadStepObserver& observer) { observer.stepEnds(*this, true); });
 	});
 }
@@ -51,8 +54,9 @@ void MpmImplicitEngine::action()
 template <int Dim> void MpmImplicitEngine::step(Agreement& agreement)
 {
 	const AtWork during;
-	Job<Dim>     job      = prepare<Dim>(agreement);
-	double       agreeing = 0;
+	if (!water.empty()) askWater<Dim>(agreement);
+	Job<Dim> job      = prepare<Dim>(agreement);
+	double   agreeing = 0;
 	if (job.model.grid.refinement && basis == "gimp" && splitOutgrown(job)) job = prepare<Dim>(agreement);
 	{
 		const gimpm::Stopwatch watch(agreeing);
@@ -63,6 +67,9 @@ template <int Dim> void MpmImplicitEngine::step(Agreement& agreement)
 	tellObservers(*scene, [this](LoadStepObserver& observer) { observer.stepBegins(*this); });
 	advance(job);
 	const ValueLock lock;
+	for (const auto& [about, doubt] : job.contacts.doubts(isDynamic()))
+		warn(plausibility.once(about, doubt));
+	if (job.moving && job.contacts.areThere()) warn(plausibility.once("gift", job.moving->doubtOfContact()));
 	if ((maxSplits > 0 || job.model.grid.refinement) && clampedDomains > 0) splitOutgrown(job);
 	const auto doubts = plausibility.warningsOfResult(*this, points, job.cloud);
 	warnOfPoints(doubts.empty() ? "" : doubts.front());
@@ -72,21 +79,21 @@ template <int Dim> Job<Dim> MpmImplicitEngine::prepare(Agreement& agreement)
 {
 	const ValueLock lock;
 	requireRunnable(*this);
+	join();
 	progressLine.start(scene->iter);
+	warn(doubtOfAbsence());
 	warn(plausibility.doubtOfEnd(*this));
-	double   gathering = 0, checking = 0;
-	Job<Dim> job { { stepPart, isExplicit() ? 1 : newton->minStep, newton->maxIterations }, loadTime, scene->time + scene->dt };
-	{
-		const gimpm::Stopwatch watch(gathering);
-		job.model           = toModel<Dim>(*grid, basis, fBar, boundaries, *ghost, *newton);
-		job.model.processes = processes();
-		takePoints(job, agreement);
-		(job.surfaceLoads = SurfaceLoads<Dim>(*this, job.model.grid)).join(job.model);
-		if (job.model.division && !water.empty()) agreement.meet(*this);
-		(job.waters = Waters<Dim>(*this, job.model.grid, job.cloud, job.model.division.get())).join(job.model);
-		(job.contacts = Contacts<Dim>(contacts, *scene, job.model.grid, points, bool(job.model.division), job.begin, job.target)).join(job.model);
-		setMoving(job, points); // inertia comes last
-	}
+	const Real target    = scene->time + scene->dt;
+	double     gathering = 0, checking = 0;
+	Job<Dim>   job = [&] {
+                const gimpm::Stopwatch   watch(gathering);
+                const gimpm::StepControl control(stepPart, isExplicit() ? 1 : newton->minStep, newton->maxIterations);
+                auto                     setup = buildModel<Dim>(*this, *scene, points, loadTime, target, [&](Setup<Dim>& to) { takePoints(to, agreement); });
+                Job<Dim>                 made(std::move(setup), control, loadTime, target);
+                Movers(*scene).requireOthers(points, *scene, isDynamic());
+                setMoving(made, points); // inertia comes last
+                return made;
+	}();
 	job.doubts = plausibility.look(*this, points, job.cloud, job.model, checking);
 	begin(points.size());
 	addTime(*timingDeltas, "gather", gathering);
@@ -126,11 +133,8 @@ template <int Dim> Attempt<Dim> MpmImplicitEngine::attempt(Job<Dim>& job) const
 	const ValueLock lock;
 	const Real      time               = job.control.goal() == 1 ? job.target : job.begin + job.control.goal() * (job.target - job.begin);
 	job.model.newton.acceptUnconverged = newton->acceptUnconverged && job.control.isLeast();
-	job.surfaceLoads.advanceTo(time);
-	job.waters.advance(loadTime, time);
-	job.contacts.advanceTo(time);
 	Attempt<Dim> next { time, loadBetween<Dim>(loadTime, time), newton->predictor, {} };
-	if (moveWalls(boundaries, job.model, time - loadTime) || job.contacts.areThere()) next.load.motion = time - loadTime;
+	if (yade::advance<Dim>(job, *this, loadTime, time)) next.load.motion = time - loadTime;
 	if (job.moving) job.moving->begin(job, next, loadTime);
 	if (next.predicts) next.last = fromNumbers<Dim>(lastDisplacements, lastLoadIncrement, job.model.grid);
 	return next;
@@ -140,6 +144,7 @@ template <int Dim> Attempt<Dim> MpmImplicitEngine::attempt(Job<Dim>& job) const
 template <int Dim> void MpmImplicitEngine::reach(Job<Dim>& job, const Attempt<Dim>& made)
 {
 	double scattering = 0;
+	job.contacts.requireStable();
 	{
 		const gimpm::Stopwatch watch(scattering);
 		if (job.moving) job.moving->reach(job, made.time, points);

@@ -63,7 +63,9 @@ public:
 		v("newton", &E::newton, 0, "Solution of a load step (MpmNewton).", notNull);
 		v("mask", &E::mask, 0,
 		  "Material points to move: those whose body.groupMask has a bit in common with it; 0 or -1, the default: all. No two engines may claim the same.");
-		v("loadTime", &E::loadTime, 0, "Time [s] of the last converged state, where the next step starts. After O.resetTime() set it to O.time.",
+		v("loadTime", &E::loadTime, 0,
+		  "Time [s] of the last converged state, where the next step starts; of an engine that has not run, 0: O.time as it joins the scene. After O.resetTime() set it to "
+		  "O.time.",
 		  finite);
 		v("verbosity", &E::verbosity, 0,
 		  "What a run says on stderr. 0: nothing; 1: one line of progress, redrawn on a terminal, repeated every 10 s in a log; 2: a line each step.",
@@ -104,10 +106,13 @@ protected:
 	vector<MaterialPoint> points; // of the step; kept for the next one
 
 private:
+	void                            join();
+	string                          doubtOfAbsence();
 	bool                            isEndOfLoads() const;
 	template <int Dim> void         step(Agreement&);
+	template <int Dim> void         askWater(Agreement&);
 	template <int Dim> Job<Dim>     prepare(Agreement&);
-	template <int Dim> void         takePoints(Job<Dim>&, Agreement&);
+	template <int Dim> void         takePoints(Setup<Dim>&, Agreement&);
 	template <int Dim> void         doubt(const Job<Dim>&);
 	template <int Dim> bool         splitOutgrown(Job<Dim>&);
 	template <int Dim> void         advance(Job<Dim>&);
@@ -117,6 +122,8 @@ private:
 	void                            warnOfPoints(const string&);
 
 	PeriodicCounters                    beforeActivation;
+	bool                                hasJoined = false, wasAway = false;
+	long                                seen = -1; // iteration of YADE in which it was asked to run; -1: in none
 	ProgressLine                        progressLine;
 	Plausibility                        plausibility;
 	Splitting                           splitting;

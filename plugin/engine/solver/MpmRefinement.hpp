@@ -2,7 +2,7 @@
 #pragma once
 #include "core/grid/grid.hpp"
 #include "engine/conditions/box.hpp"
-#include "yade_api/registration.hpp"
+#include "yade_api/exposed.hpp"
 
 namespace yade {
 
@@ -24,6 +24,9 @@ public:
 		v("max", &MpmRefinement::max, 0, "Upper corner of the box [m]; inf, the default, where it has no limit.", notNaN);
 		v("halvings", &MpmRefinement::halvings, 0, "How often cells are halved, 1 to 3: *MpmGrid.cellSize* / 2, / 4 or / 8.", oneOf(1, 2, 3));
 	}
+
+	// Corners that are swapped in the constructor.
+	void postLoad() { requireCorners("MpmRefinement", min, max); }
 
 	// The attributes must go together, too.
 	void requireAdmissible() const override

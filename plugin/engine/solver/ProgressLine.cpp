@@ -85,13 +85,16 @@ std::string ProgressLine::text(const Progress& now) const
 	const double       elapsed = std::chrono::duration<double>(Clock::now() - begin).count();
 	const long         done    = now.step - first;
 	std::ostringstream line;
-	line << "load factor " << now.loadFactor << ", step " << now.step;
+	line << now.place << ", step " << now.step;
 	if (now.lastStep >= now.step) line << "/" << now.lastStep;
 	line << ", " << clockTime(elapsed) << " elapsed, ";
 	if (now.lastStep > now.step) line << clockTime(elapsed / done * (now.lastStep - now.step)) << " left, ";
-	line << now.iterations << " iterations, " << now.cuts << " cuts, residual ";
-	line.precision(2);
-	line << now.residual << ", " << now.points << " points";
+	if (!std::isnan(now.residual)) {
+		line << now.iterations << " iterations, " << now.cuts << " cuts, residual ";
+		line.precision(2);
+		line << now.residual << ", ";
+	}
+	line << now.points << " points";
 	return line.str();
 }
 

@@ -7,10 +7,10 @@
 namespace yade {
 
 struct Progress {
-	double      loadFactor;
+	std::string place;          ///< in the course of the loads, or in time
 	long        step, lastStep; ///< O.iter at the end of this step and of the run; lastStep < step: no end is known
 	int         iterations, cuts;
-	double      residual;
+	double      residual; ///< NaN: nothing was solved
 	std::size_t points;
 	bool        inBackground; ///< by O.run(), so that nothing but the script's output can come between two steps
 	bool        ends;         ///< with this step the run comes to its end

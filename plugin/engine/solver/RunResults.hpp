@@ -3,7 +3,7 @@
 // What the last run of an engine has come to.
 #include "core/stepping/report.hpp"
 #include "engine/solver/last_increment.hpp"
-#include "yade_api/registration.hpp"
+#include "yade_api/exposed.hpp"
 #include <functional>
 #include <map>
 

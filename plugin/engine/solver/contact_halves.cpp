@@ -6,13 +6,14 @@
 namespace yade {
 
 namespace {
-	// Of the area that a corner stands for, the part of the faces across the axis: halves have these to themselves, and share the others.
+	// Of the area that a corner stands for, the part of the faces across the axis: halves have these to themselves, and share the others. A corner that does not touch, and remembers
+	// nothing but its offset, has no normal.
 	Real partAcross(const HalvedDomain& domain, const Vector3r& normal)
 	{
 		Vector3r faces = Vector3r::Zero();
 		for (int a = 0; a < domain.dim; ++a)
 			faces[a] = std::abs(normal[a]) / domain.halfSize[a];
-		return faces[domain.axis] / faces.sum();
+		return normal.isZero(0) ? 0 : faces[domain.axis] / faces.sum();
 	}
 
 	Vector3r placeOf(const HalvedDomain& domain, bool isUpper, int corner)
@@ -37,16 +38,18 @@ namespace {
 			auto& to                    = found->second;
 			if (isFirst) {
 				to.point = point, to.corner = corner;
-				to.pressure = 0, to.friction.setZero();
-				to.place    = placeOf(domain, isUpper, corner);
-			} else { // from the other side of where the halves meet
+				to.pressure = part * from.pressure, to.friction = part * from.friction;
+				to.place = placeOf(domain, isUpper, corner);
+			} else { // from the other side of where the halves meet, where a round body has another normal
+				const Vector3r push = to.pressure * to.normal + part * from.pressure * from.normal;
+				to.pressure         = push.norm();
+				if (to.pressure > 0) to.normal = push / to.pressure;
+				to.friction += part * from.friction;
 				to.offset  = (to.offset + from.offset) / 2;
 				to.gap     = (to.gap + from.gap) / 2;
 				to.touches = to.touches || from.touches;
 				to.slips   = to.slips || from.slips;
 			}
-			to.pressure += part * from.pressure;
-			to.friction += part * from.friction;
 		}
 		void appendTo(vector<Real>& numbers) const
 		{

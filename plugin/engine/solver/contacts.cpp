@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "engine/solver/contacts.hpp"
+#include "core/terms/contact_in_place.hpp"
+#include "core/base/sentence.hpp"
 #include "engine/conditions/contact_records.hpp"
 #include "engine/points/MpmPoint.hpp"
 #include "engine/solver/MpmImplicitEngine.hpp"
@@ -11,12 +13,6 @@
 namespace yade {
 
 namespace {
-	bool hasNewtonIntegrator(const Scene& scene)
-	{
-		return std::any_of(
-		        scene.engines.begin(), scene.engines.end(), [](const auto& e) { return e->getClassName() == "NewtonIntegrator" && !e->dead; });
-	}
-
 	Se3r poseOf(const State& state) { return { state.pos, state.ori.normalized() }; }
 
 	// A body that moves with its velocities for some time.
@@ -35,33 +31,43 @@ namespace {
 		return { from.position + time * state.vel, (turn * from.orientation).normalized() };
 	}
 
-	Real frictionOf(const MpmContact& contact, const Body& body)
+	// A coefficient of 1 is given for rough bodies, and is no usual angle.
+	string doubtOfAngle(const string& name, Real angle)
+	{
+		const bool isRound = std::abs(1e3 * angle - std::round(1e3 * angle)) < 1e-9;
+		if (!(angle > M_PI / 4) || !isRound) return "";
+		return gimpm::sentence(
+		        name, " = ", angle, " is an angle in radians, ", angle * 180 / M_PI, " degrees; was a coefficient meant, that is atan(", angle,
+		        "), or an angle in degrees, that is radians(...)?");
+	}
+
+	// Its coefficient, and a doubt about the angle.
+	Real frictionOf(const MpmContact& contact, const Body& body, string& doubt)
 	{
 		const auto* material = dynamic_cast<const FrictMat*>(body.material.get());
+		if (doubt.empty() && !std::isnan(contact.friction)) doubt = doubtOfAngle("MpmContact.friction", contact.friction);
 		if (!std::isnan(contact.friction)) return std::tan(contact.friction);
 		if (!material || !isFrictionAngle(material->frictionAngle))
 			throw std::invalid_argument(
 			        "Body #" + std::to_string(body.id) + ": MpmContact.friction is not given, so frictionAngle of its material counts, which "
 			        + (material ? "is " + std::to_string(material->frictionAngle) + ": expected radians from 0 to below pi/2."
 			                    : "is no FrictMat: give one of them."));
+		if (doubt.empty()) doubt = doubtOfAngle("frictionAngle of the material of body #" + std::to_string(body.id), material->frictionAngle);
 		return std::tan(material->frictionAngle);
 	}
 
-	// It is solved with positions of YADE's integrator, and its forces are for that.
-	void requireBefore(const string& what, const Scene& scene)
+	bool areSame(const Se3r& a, const State& state) { return a.position == state.pos && a.orientation.coeffs() == state.ori.coeffs(); }
+
+	void requireSmallTurn(const Body& body, const Se3r& before, const Se3r& after)
 	{
-		int reset = -1, self = -1, newton = -1;
-		for (size_t i = 0; i < scene.engines.size(); ++i) {
-			const string name = scene.engines[i]->getClassName();
-			if (name == "ForceResetter") reset = int(i);
-			if (dynamic_cast<const MpmImplicitEngine*>(scene.engines[i].get())) self = int(i);
-			if (name == "NewtonIntegrator") newton = int(i);
-		}
-		if (!(reset < self && self < newton))
-			throw std::invalid_argument(
-			        what
-			        + " is free to move and gets the forces of the soil: the engine of its contact must stand behind ForceResetter and before NewtonIntegrator in O.engines.");
+		const Real angle = before.orientation.angularDistance(after.orientation);
+		if (angle > 1)
+			throw std::invalid_argument(gimpm::sentence(
+			        "Body #", body.id, " has been turned by ", angle,
+			        " rad since the last load step, by its state.ori and angVel together; admitted is 1 rad: turn it in more steps."));
 	}
+
+	Real angleBetween(const Se3r& a, const Se3r& b) { return a.orientation.angularDistance(b.orientation); }
 
 	template <int Dim> gimpm::Vec<Dim> headOf(const Vector3r& x) { return x.head<Dim>(); }
 
@@ -85,23 +91,23 @@ vector<shared_ptr<Body>> bodiesOf(const MpmContact& contact, const Scene& scene)
 	return found;
 }
 
-void handOver(const vector<shared_ptr<MpmContact>>& contacts, Scene& scene)
+void handOver(const vector<shared_ptr<MpmContact>>& contacts, Scene& scene, bool isBetween)
 {
 	if (contacts.empty()) return;
 	const ValueLock lock;
 	for (const auto& contact : contacts)
-		contact->handOver(scene);
+		contact->handOver(scene, isBetween);
 }
 
 template <int Dim>
 Contacts<Dim>::Contacts(
         const vector<shared_ptr<MpmContact>>& contacts, const Scene& scene, const gimpm::Grid<Dim>& grid, const vector<MaterialPoint>& materialPoints,
         bool areDivided, Real begin, Real target)
-        : given(contacts), areDivided(areDivided), begin(begin), target(target), end(begin)
+        : given(contacts), areDivided(areDivided), begin(begin), target(target), end(begin), dt(scene.dt)
 {
 	if (contacts.empty()) return;
-	system    = boost::make_shared<gimpm::ContactSystem<Dim>>();
-	yadeMoves = hasNewtonIntegrator(scene);
+	system = shared_ptr<gimpm::ContactSystem<Dim>>(new gimpm::ContactSystem<Dim>);
+	movers.emplace(scene);
 	for (const auto& contact : contacts)
 		add(contact, scene, grid);
 	for (const MaterialPoint& point : materialPoints)
@@ -141,35 +147,53 @@ template <int Dim> int Contacts<Dim>::ownerOf(const shared_ptr<MpmContact>& cont
 		throw std::invalid_argument(
 		        "Body #" + std::to_string(body.id) + " is claimed by two MpmContacts; give them masks that go with different bodies.");
 	}
-	Owner owner { contact, (*scene.bodies)[body.id], poseOf(*body.state), poseOf(*body.state), {} };
-	owner.isFree = yadeMoves && (body.state->blockedDOFs & State::DOF_ALL) != State::DOF_ALL;
+	const Se3r now = poseOf(*body.state);
+	Owner      owner { contact, (*scene.bodies)[body.id], now, now, now, {} };
+	owner.byYade = movers->move(body);
+	owner.isFree = owner.byYade && (body.state->blockedDOFs & State::DOF_ALL) != State::DOF_ALL;
 	if (owner.isFree && Dim == 2)
 		throw std::invalid_argument(
 		        "Body #" + std::to_string(body.id)
 		        + " is free to move, but on a grid with dim=2 a body is its section, without a mass: prescribe its motion (dynamic=False), or take dim=3.");
-	if (owner.isFree) requireBefore("Body #" + std::to_string(body.id), scene);
+	if (owner.isFree) requireExchange(body, scene);
 	const auto former = known.find(body.id);
 	owner.isNew       = former == known.end();
-	if (!yadeMoves) owner.target = moved(body, owner.begin, target - begin);
-	else if (!owner.isNew)
-		owner.begin = contact->poseOf(former->second);
+	if (!owner.byYade) owner.target = moved(body, owner.given, target - begin);
+	owner.byScript = !owner.isNew && !owner.byYade && !areSame(contact->poseOf(former->second), *body.state);
+	if (owner.byScript || (!owner.isNew && owner.byYade)) owner.begin = contact->poseOf(former->second);
+	if (owner.byScript) requireSmallTurn(body, owner.begin, owner.target);
 	owner.reached = owner.begin;
 	owners.push_back(owner);
 	system->owners.push_back(headOf<Dim>(owner.begin.position));
 	return int(owners.size()) - 1;
 }
 
+// A script that moves a clump by state.pos has to move its members, too, as YADE does.
+template <int Dim> void Contacts<Dim>::requireTogether(const MpmContact& contact, const Body& body, const Owner& owner, const Se3r& own) const
+{
+	constexpr Real roundOff = 1e-7;
+	const auto     known    = contact.ownPoses.find(body.id);
+	if (owner.body->id == body.id || known == contact.ownPoses.end()) return;
+	const Se3r& before = known->second;
+	if ((own.position - before.position).norm() <= roundOff * (1 + own.position.norm()) && angleBetween(own, before) <= roundOff) return;
+	throw std::invalid_argument(gimpm::sentence(
+	        "Body #", body.id, ", a member of clump #", owner.body->id,
+	        ", is not where it was in the clump: one of them has been moved without the other. Move the clump by its state.vel and angVel, or move it and all members alike."));
+}
+
 template <int Dim> void Contacts<Dim>::addMember(const MpmContact& contact, const shared_ptr<Body>& body, int number, const gimpm::Grid<Dim>& grid)
 {
 	const Owner& owner = owners[number];
-	const Se3r   own = inverse(yadeMoves ? owner.target : owner.begin) * poseOf(*body->state), first = owner.begin * own;
-	auto         rigid = rigidBody<Dim>(*body, first, grid);
+	const Se3r   own = inverse(owner.given) * poseOf(*body->state), first = owner.begin * own;
+	requireTogether(contact, *body, owner, own);
+	auto rigid = rigidBody<Dim>(*body, first, grid);
 	if (!rigid) return;
 	rigid->owner         = number;
 	rigid->isNew         = owner.isNew;
-	rigid->friction      = frictionOf(contact, *body);
+	rigid->friction      = frictionOf(contact, *body, coefficient);
 	rigid->adhesion      = contact.adhesion;
 	rigid->stiffness     = contact.stiffness;
+	rigid->turn          = std::max(angleBetween(owner.begin, owner.target), owner.byYade ? owner.body->state->angVel.norm() * (target - begin) : 0);
 	const Vector3r shift = owner.target.position - owner.begin.position;
 	if ((Dim == 2 && shift[2] != 0) || (grid.axisymmetric && (shift[0] != 0 || !owner.target.orientation.isApprox(owner.begin.orientation, 1e-12))))
 		throw std::invalid_argument(
@@ -201,12 +225,13 @@ template <int Dim> void Contacts<Dim>::join(gimpm::Model<Dim>& model)
 	if (!system) return;
 	advanceTo(begin);
 	model.terms.push_back([known = system](const gimpm::Beginning<Dim>& step) { return std::make_unique<gimpm::Contact<Dim>>(*known, step); });
+	const auto begin = [known = system](const gimpm::PointCloud<Dim>& cloud, Real scale) { shrinkGaps(*known, cloud, scale); };
+	model.inPlace.push_back({ begin, [known = system](const gimpm::PointCloud<Dim>& cloud) { keepGaps(*known, cloud); } });
 }
 
 template <int Dim> void Contacts<Dim>::advanceTo(Real time)
 {
 	if (!system) return;
-	const auto partAt = [&](Real t) { return target > begin ? std::min(1., (t - begin) / (target - begin)) : 1; };
 	for (size_t i = 0; i < owners.size(); ++i) {
 		owners[i].reached = between(owners[i].begin, owners[i].target, partAt(time));
 		system->owners[i] = headOf<Dim>(owners[i].reached.position);
@@ -242,12 +267,33 @@ template <int Dim> void Contacts<Dim>::scatter(Real time)
 		keep(*contact);
 	keepRecords();
 	hasKept = true;
-	if (yadeMoves) return;
-	for (const Owner& owner : owners)
-		owner.body->state->se3 = owner.reached;
-	for (size_t i = 0; i < members.size(); ++i)
-		if (const Owner& owner = owners[system->bodies[i].owner]; owner.body != members[i].body)
-			members[i].body->state->se3 = owner.reached * members[i].own;
+	for (const Owner& owner : owners) { // where a script has put it, it stays: the rest of that way is made by the next step
+		if (owner.byYade) continue;
+		const bool isLate      = owner.byScript && partAt(time) < 1;
+		owner.body->state->se3 = isLate ? between(owner.given, owner.target, partAt(time)) : owner.reached;
+	}
+	for (size_t i = 0; i < members.size(); ++i) {
+		const Owner& owner                           = owners[system->bodies[i].owner];
+		owner.contact->ownPoses[members[i].body->id] = members[i].own;
+		if (!owner.byYade && owner.body != members[i].body) members[i].body->state->se3 = owner.body->state->se3 * members[i].own;
+	}
+}
+
+template <int Dim> void Contacts<Dim>::requireStable() const
+{
+	for (size_t i = 0; i < owners.size(); ++i)
+		if (owners[i].isFree) owners[i].contact->requireStable(*owners[i].body, system->loads[i].stiffness, dt, target - begin > 1.5 * dt);
+}
+
+template <int Dim> std::map<string, string> Contacts<Dim>::doubts(bool isDynamic) const
+{
+	std::map<string, string> found;
+	if (!system) return found;
+	found["coefficient"] = coefficient;
+	found["thin"]        = system->doubts.empty() ? "" : system->doubts.front();
+	for (const auto& contact : given)
+		if (isDynamic && found["exchange"].empty()) found["exchange"] = contact->doubtOfExchange();
+	return found;
 }
 
 // The impulses are those since the last run.
@@ -257,6 +303,7 @@ template <int Dim> void Contacts<Dim>::keep(MpmContact& contact)
 	for (size_t i = 0; i < contact.bodies.size(); ++i)
 		impulses[contact.bodies[i]] = hasKept ? contact.impulses[i] : contact.impulsesSince[i];
 	contact.forget();
+	contact.ownPoses.clear();
 	for (size_t i = 0; i < owners.size(); ++i)
 		if (owners[i].contact.get() == &contact) {
 			const auto since = impulses.find(owners[i].body->id);
@@ -264,6 +311,7 @@ template <int Dim> void Contacts<Dim>::keep(MpmContact& contact)
 			contact.keep(
 			        owners[i].body->id, system->loads[i], owners[i].reached, owners[i].isFree,
 			        since == impulses.end() ? Vector3r(Vector3r::Zero()) : since->second);
+			if (owners[i].isFree && !hasKept && target - begin > 1.5 * dt) contact.note(contact.bodies.size() - 1, target - begin);
 		}
 }
 

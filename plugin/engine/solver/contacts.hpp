@@ -6,9 +6,11 @@
 #include "engine/conditions/MpmContact.hpp"
 #include "engine/points/MaterialPoints.hpp"
 #include "engine/solver/contact_halves.hpp"
+#include "engine/solver/movers.hpp"
 #include "yade_api/scene.hpp"
 #include <algorithm>
 #include <map>
+#include <optional>
 
 namespace yade {
 
@@ -16,7 +18,7 @@ namespace yade {
 vector<shared_ptr<Body>> bodiesOf(const MpmContact&, const Scene&);
 
 // Between load steps, too, the bodies that YADE moves feel the soil.
-void handOver(const vector<shared_ptr<MpmContact>>&, Scene&);
+void handOver(const vector<shared_ptr<MpmContact>>&, Scene&, bool isBetween);
 
 template <int Dim> class Contacts {
 public:
@@ -35,11 +37,33 @@ public:
 		return system.get();
 	}
 
+	// The largest of their stiffnesses, over Young's modulus per cell [-].
+	Real penalty() const
+	{
+		Real largest = 0;
+		for (const auto& contact : given)
+			largest = std::max(largest, contact->stiffness);
+		return largest;
+	}
+
 	// On the soil in the last step that was accepted [J].
 	Real work() const { return system ? system->work : 0; }
 
 	// Makes them act in the model's steps, for as long as this exists.
 	void join(gimpm::Model<Dim>&);
+
+	// Before the state of a step is kept: std::invalid_argument names a free body that is too light for the stiffness that it would be handed.
+	void requireStable() const;
+
+	// What the soil cannot feel of bodies near it, and other doubts: sentences for YADE's log.
+	std::map<string, string> doubts(bool isDynamic) const; // by what they are about
+
+	// Of a step in time: all energy that has come in before it [J]. What contact itself has given in the last step that was accepted [J].
+	void know(Real energy)
+	{
+		if (system) system->energy = energy;
+	}
+	Real gift() const { return system ? system->given : 0; }
 
 	// The next step ends here.
 	void advanceTo(Real time);
@@ -66,9 +90,11 @@ private:
 	struct Owner {
 		shared_ptr<MpmContact> contact;
 		shared_ptr<Body>       body;
+		Se3r                   given;                  // where it stood when the run began: the scripts may have moved it since the last one
 		Se3r                   begin, target, reached; // of the run; reached: the end of the step
-		bool                   isFree = false, isNew = true;
-		size_t                 place = 0; // in the contact's list of bodies, once that is written
+		bool                   byYade = false, isFree = false, isNew = true;
+		bool                   byScript = false; // has been moved since the last run, or its way was not finished then
+		size_t                 place    = 0;     // in the contact's list of bodies, once that is written
 	};
 	using Places = std::map<Body::id_t, int>; // of bodies in a list
 	struct Member {
@@ -78,6 +104,8 @@ private:
 
 	void add(const shared_ptr<MpmContact>&, const Scene&, const gimpm::Grid<Dim>&);
 	int  ownerOf(const shared_ptr<MpmContact>&, const Places& known, const Body&, const Scene&);
+	void requireTogether(const MpmContact&, const Body&, const Owner&, const Se3r& own) const;
+	Real partAt(Real time) const { return target > begin ? std::min(1., (time - begin) / (target - begin)) : 1; }
 	void addMember(const MpmContact&, const shared_ptr<Body>&, int owner, const gimpm::Grid<Dim>&);
 	void recall(const MpmContact&);
 	void keep(MpmContact&);
@@ -89,8 +117,11 @@ private:
 	Places                                ownersById;
 	vector<Member>                        members; // as the system's bodies
 	vector<Body::id_t>                    points;  // ids; none where they are divided, and the system knows them by their ids
-	bool                                  areDivided = false, yadeMoves = false, hasKept = false;
+	bool                                  areDivided = false, hasKept = false;
 	Real                                  begin = 0, target = 0, end = 0; // of the run; end: of the last step
+	Real                                  dt = 0;                         // of an iteration of YADE
+	string                                coefficient;                    // doubt about an angle of friction
+	std::optional<Movers>                 movers;
 };
 
 } // namespace yade

@@ -37,6 +37,9 @@ void MpmDynamicEngine::tellMotion(py::dict& data) const
 		if (axis < grid->dim) data[string("momentum_") + "xyz"[axis]] = now.momentum[axis];
 		if (axis == 2 || grid->dim == 3) data[string("angularMomentum_") + "xyz"[axis]] = now.angularMomentum[axis];
 	}
+	for (size_t i = 0; i < absorbing.size(); ++i)
+		for (int axis = 0; axis < grid->dim; ++axis)
+			data["absorbing" + std::to_string(i) + "_" + "xyz"[axis]] = absorbing[i]->reaction[axis];
 	data["kineticEnergy"] = now.kinetic;
 	data["elasticEnergy"] = now.elastic;
 	data["loadWork"]      = loadWork;

@@ -30,11 +30,11 @@ namespace {
 	class MaterialIndex {
 	public:
 		// `known`: those that the list begins with.
-		MaterialIndex(std::vector<gimpm::Material>& list, const MaterialList& known) : list(list)
+		MaterialIndex(std::vector<gimpm::Material>& list, std::vector<double>& shares, const MaterialList& known) : list(list), shares(shares)
 		{
 			for (const MpmMaterial* material : known) {
 				index.emplace(material, int(list.size()));
-				list.push_back(coreMaterial(*material));
+				add(*material);
 			}
 		}
 		int of(const MaterialPoint& point)
@@ -45,11 +45,16 @@ namespace {
 		}
 
 	private:
+		void add(const MpmMaterial& material)
+		{
+			list.push_back(coreMaterial(material));
+			shares.push_back(material.share);
+		}
 		int find(const MaterialPoint& point)
 		{
 			const auto [found, isNew] = index.try_emplace(point.material.get(), int(list.size()));
 			if (isNew) try {
-					list.push_back(coreMaterial(*point.material));
+					add(*point.material);
 				} catch (const std::invalid_argument& error) {
 					throw std::invalid_argument("Body #" + std::to_string(point.id) + ": " + error.what());
 				}
@@ -59,6 +64,7 @@ namespace {
 		const MpmMaterial*                          last      = nullptr; // points of one material follow each other
 		int                                         lastIndex = 0;
 		std::vector<gimpm::Material>&               list;
+		std::vector<double>&                        shares;
 		std::unordered_map<const MpmMaterial*, int> index;
 	};
 
@@ -186,7 +192,7 @@ template <int Dim> gimpm::PointCloud<Dim> gather(const vector<MaterialPoint>& po
 	gimpm::PointCloud<Dim> cloud;
 	cloud.resize(points.size());
 	if (model.grid.axisymmetric) cloud.hoopStretch.resize(points.size());
-	MaterialIndex materials(model.materials, known);
+	MaterialIndex materials(model.materials, model.shares, known);
 	for (size_t p = 0; p < points.size(); ++p)
 		cloud.material[p] = materials.of(points[p]);
 	gimpm::provideInternals(cloud.internals, model.materials, points.size());
@@ -214,7 +220,7 @@ template <int Dim> gimpm::PointCloud<Dim> gather(const vector<MaterialPoint>& po
 	});
 	if (hasForce)
 		for (const MaterialPoint& point : points)
-			cloud.force.push_back(point.state->force.template head<Dim>());
+			cloud.force.push_back(point.material->share * point.state->force.template head<Dim>());
 	const auto& boxes = model.boundary.boxes();
 	if (std::any_of(boxes.begin(), boxes.end(), [](const auto& box) { return !box.displacement.isZero(0); }))
 		for (const MaterialPoint& point : points)

@@ -3,7 +3,7 @@
 #include "core/base/sentence.hpp"
 #include "core/stepping/critical_step.hpp"
 #include "engine/solver/MpmDynamicEngine.hpp"
-#include "engine/solver/exchange.hpp"
+#include "engine/solver/build_model.hpp"
 #include "engine/solver/processes.hpp"
 #include "yade_api/value_lock.hpp"
 
@@ -15,26 +15,22 @@ namespace {
 		throw std::invalid_argument(gimpm::sentence("MpmDynamicEngine, scheme='explicit': ", parts...));
 	}
 
-	Real largestPenalty(const MpmDynamicEngine& engine)
+	template <int Dim> Real limit(const MpmDynamicEngine& engine, const Setup<Dim>& of)
 	{
-		Real largest = 0;
-		for (const auto& contact : engine.contacts)
-			largest = std::max(largest, contact->stiffness);
-		return largest;
+		return gimpm::criticalStep(of.cloud, of.model, engine.ghostMass(), of.contacts.penalty());
 	}
 
-	template <int Dim> Real limit(const MpmDynamicEngine& engine, const gimpm::PointCloud<Dim>& cloud, const gimpm::Model<Dim>& model)
-	{
-		return gimpm::criticalStep(cloud, model, engine.ghostMass(), largestPenalty(engine));
-	}
-
-	template <int Dim> Real limitOfNow(MpmDynamicEngine& engine)
+	// Of the present state of the scene.
+	template <int Dim, class F> Real ofNow(MpmDynamicEngine& engine, F&& of)
 	{
 		const ValueLock lock;
-		engine.requireAdmissible();
-		auto model = toModel<Dim>(*engine.grid, engine.basis, engine.fBar, engine.boundaries, *engine.ghost, *engine.newton);
-		if (isDivided(engine)) model.division = std::make_shared<gimpm::Division>(gimpm::Division { processes(), {} });
-		return limit(engine, gather(materialPoints(*engine.ownScene(), engine.mask), model), model);
+		return of(currentState<Dim>(engine, isDivided(engine) ? std::make_shared<gimpm::Division>(gimpm::Division { processes(), {} }) : nullptr));
+	}
+	template <class F> Real ofNow(MpmDynamicEngine& engine, F&& of)
+	{
+		if (!engine.grid || (!isDivided(engine) && materialPoints(*engine.ownScene(), engine.mask).empty()))
+			return std::numeric_limits<Real>::quiet_NaN();
+		return engine.grid->dim == 3 ? ofNow<3>(engine, of) : ofNow<2>(engine, of);
 	}
 }
 
@@ -54,25 +50,28 @@ void requireExplicit(const MpmDynamicEngine& engine)
 		        "mass; with it a massFactor > 0 (1/4).");
 }
 
-template <int Dim> void requireStable(const MpmDynamicEngine& engine, const gimpm::PointCloud<Dim>& cloud, const gimpm::Model<Dim>& model, Real duration)
+template <int Dim> void requireStable(const MpmDynamicEngine& engine, const Setup<Dim>& setup, Real duration)
 {
-	const Real     critical = limit(engine, cloud, model);
+	const Real     critical = limit(engine, setup);
 	constexpr Real margin   = 0.02; // a step that was admitted is not refused for the small strains that it leads to
 	if (duration <= critical * (1 + margin)) return;
-	const Real penalty = largestPenalty(engine);
 	refuseExplicit(
 	        "a step of ", duration, " s (O.dt", engine.iterPeriod > 1 ? " times iterPeriod" : "", ") is above the critical one, ", critical,
-	        " s, and would be unstable. Give a smaller O.dt, as 0.9 * solver.criticalTimeStep()", penalty > 0 ? ", smaller MpmContact.stiffness" : "",
-	        ", larger cells, or an implicit scheme, which has no limit.");
+	        " s, and would be unstable. Give a smaller O.dt, as 0.9 * solver.criticalTimeStep()",
+	        setup.contacts.penalty() > 0 ? ", smaller MpmContact.stiffness" : "", ", larger cells, or an implicit scheme, which has no limit.");
 }
 
 Real criticalTimeStep(MpmDynamicEngine& engine)
 {
-	if (!engine.grid || (!isDivided(engine) && materialPoints(*engine.ownScene(), engine.mask).empty())) return std::numeric_limits<Real>::quiet_NaN();
-	return engine.grid->dim == 3 ? limitOfNow<3>(engine) : limitOfNow<2>(engine);
+	return ofNow(engine, [&](const auto& now) { return limit(engine, now); });
 }
 
-template void requireStable(const MpmDynamicEngine&, const gimpm::PointCloud<2>&, const gimpm::Model<2>&, Real);
-template void requireStable(const MpmDynamicEngine&, const gimpm::PointCloud<3>&, const gimpm::Model<3>&, Real);
+Real waveSpeed(MpmDynamicEngine& engine)
+{
+	return ofNow(engine, [](const auto& now) { return std::sqrt(gimpm::stiffest(now.cloud, now.model).pressureWave); });
+}
+
+template void requireStable(const MpmDynamicEngine&, const Setup<2>&, Real);
+template void requireStable(const MpmDynamicEngine&, const Setup<3>&, Real);
 
 } // namespace yade

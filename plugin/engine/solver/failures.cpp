@@ -49,18 +49,32 @@ namespace {
 		return text.str();
 	}
 
-	string adviceOn(const gimpm::StepReport& report, const MpmGhost& ghost, Real part, bool isExplicit)
+	// Steps that are shorter may find what longer ones did not; of loads that grow the rest may be too much.
+	string adviceOnConvergence(const MpmImplicitEngine& engine, Real time, Real part)
+	{
+		const bool grows = engine.curveOfLoads().valueAt(time) != engine.loadFactor;
+		if (part == 1) return " Smaller steps (O.dt), or newton.minStep < 1, may help.";
+		if (engine.isDynamic())
+			return " Smaller steps (O.dt) or a smaller newton.minStep may help; where the motion is right until then, what strikes, pushes or pulls so hard is "
+			       "near the place that is named.";
+		if (grows) return " The load may be more than the body can carry in equilibrium.";
+		return " What has changed since the step before (soil, water, strength, boundaries or bodies that move) may be more than the body can carry in equilibrium.";
+	}
+
+	string adviceOn(const gimpm::StepReport& report, const MpmImplicitEngine& engine, Real time, Real part)
 	{
 		using gimpm::Failure;
 		string advice;
 		if (report.failure == Failure::unrestrained) return " Hold nodes of that material with MpmBoundary.";
 		if (report.failure == Failure::misplaced) return "";
-		if (report.failure == Failure::penetrated) return " Smaller load steps (O.dt), or a larger stiffness of MpmContact, may help.";
+		if (!report.advice.empty()) return " " + report.advice;
+		if (report.failure == Failure::gainsEnergy)
+			return " Smaller steps (O.dt), a smaller newton.minStep or scheme='midpoint' would follow the motion.";
 		if (report.failure == Failure::inaccurate)
 			return " Smaller steps (O.dt), a smaller newton.minStep or a larger timeTolerance would let it pass.";
 		if (report.failure == Failure::slides)
 			return " It may have no equilibrium; more friction, or nodes that are held (MpmBoundary), would hold it.";
-		if (isExplicit) return " Explicit steps are not cut: a smaller O.dt may help, or an implicit scheme.";
+		if (engine.isExplicit()) return " Explicit steps are not cut: a smaller O.dt may help, or an implicit scheme.";
 		if (report.failure == Failure::interrupted) return " O.run() goes on from there.";
 		if (report.failure == Failure::apart)
 			return " The script must do the same in all of them, with one thread each where grains move (YADE's sums depend on the threads), and the "
@@ -69,19 +83,41 @@ namespace {
 		if (report.failure == Failure::detached)
 			return " Nodes stay in place while the soil moves, and push it by half a cell: put the box where the soil is now, in each step if it is pushed further, push it with a rigid body (MpmContact), or "
 			       "move a block of stiff material points by nodes inside of it (examples/README.md, recipes).";
-		if (ghost.factor == 0)
+		if (engine.ghost->factor == 0)
 			advice += " The ghost stabilisation is off (factor=0): small overlaps of material and cells make the system ill conditioned.";
-		if (part < 1) advice += " The load may be more than the body can carry in equilibrium.";
-		else
-			advice += " Smaller load steps (O.dt), or newton.minStep < 1, may help.";
+		advice += adviceOnConvergence(engine, time, part);
 		if (report.clampedDomains > 0) advice += " " + std::to_string(report.clampedDomains) + " domains had outgrown half a cell.";
 		return advice;
 	}
 
+	// What began between two steps and goes on in this one.
+	string stageOf(const MpmImplicitEngine& engine)
+	{
+		for (const auto& other : engine.scene->engines)
+			if (!other->dead && other->label.rfind("stage_", 0) == 0) return ", in the " + other->label + " of mpm.stages,";
+		return "";
+	}
+
+	// Loads that grow tell where a static step is; otherwise it is the time.
 	string stepOf(const MpmImplicitEngine& engine, Real time)
 	{
+		const gimpm::LoadCurve curve = engine.curveOfLoads();
+		const Real             from = curve.valueAt(engine.loadTime), to = curve.valueAt(time);
+		std::ostringstream     text;
+		if (!engine.isDynamic() && from != to) text << "the load step from factor " << engine.loadFactor << " to " << to;
+		else
+			text << (engine.isDynamic() ? "the step in time" : "the load step") << " from O.time = " << engine.loadTime << " to " << time << " s";
+		if (engine.isDynamic() && from != to) text << ", of loads from factor " << from << " to " << to << ",";
+		return text.str() + stageOf(engine);
+	}
+
+	string whereSceneIs(const MpmImplicitEngine& engine)
+	{
 		std::ostringstream text;
-		text << "the load step from factor " << engine.loadFactor << " to " << engine.curveOfLoads().valueAt(time);
+		if (engine.isDynamic()) text << " The scene is at " << engine.loadTime << " s";
+		else
+			text << " The scene is at load factor " << engine.loadFactor;
+		text << ", the last converged state, in iteration " << engine.scene->iter << ".";
 		return text.str();
 	}
 }
@@ -96,7 +132,9 @@ const char* nameOf(gimpm::Failure failure)
 		case Failure::unrestrained: return "unrestrained";
 		case Failure::slides: return "slides";
 		case Failure::penetrated: return "penetrated";
+		case Failure::refused: return "refused";
 		case Failure::inaccurate: return "inaccurate";
+		case Failure::gainsEnergy: return "gainsEnergy";
 		case Failure::singular: return "singular";
 		case Failure::inverted: return "inverted";
 		case Failure::noResponse: return "noResponse";
@@ -131,11 +169,9 @@ string reasonOf(const gimpm::StepReport& report, const MpmImplicitEngine& engine
 	}
 	if (part < 1) text << " (" << part << " of O.dt, after " << engine.cuts << " cuts)";
 	text << " failed: " << report.cause;
-	text << placeOfFailed(report.failedPoint, engine, points) << "." << placeOfImbalance(report, engine, points)
-	     << adviceOn(report, *engine.ghost, part, engine.isExplicit());
+	text << placeOfFailed(report.failedPoint, engine, points) << "." << placeOfImbalance(report, engine, points) << adviceOn(report, engine, time, part);
 	if (report.failure == gimpm::Failure::unrestrained) text << idleBoundaries(engine, points);
-	text << " The scene is at load factor " << engine.loadFactor << ", the last converged state, in iteration " << engine.scene->iter << ".";
-	return text.str();
+	return text.str() + whereSceneIs(engine);
 }
 
 string warningOfAccepted(const gimpm::StepReport& report, const MpmImplicitEngine& engine, Real time)

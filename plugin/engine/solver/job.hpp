@@ -11,16 +11,25 @@ namespace yade {
 
 template <int Dim> class Moving;
 
-// What a run works on, and what remains to be done.
-template <int Dim> struct Job {
-	gimpm::StepControl     control;
-	Real                   begin, target; // load times
+// What the core computes with, and what acts on it. The terms of the model refer to the conditions, which live as long
+// as this does.
+template <int Dim> struct Setup {
 	gimpm::Model<Dim>      model = gimpm::Model<Dim>();
 	gimpm::PointCloud<Dim> cloud {};
 	SurfaceLoads<Dim>      surfaceLoads {};
 	Waters<Dim>            waters {};
 	Contacts<Dim>          contacts {};
-	vector<string>         doubts {}; // whether all is as it is meant
+};
+
+// What a run works on, and what remains to be done.
+template <int Dim> struct Job : Setup<Dim> {
+	Job(Setup<Dim>&& setup, const gimpm::StepControl& control, Real begin, Real target)
+	        : Setup<Dim>(std::move(setup)), control(control), begin(begin), target(target)
+	{
+	}
+	gimpm::StepControl control;
+	Real               begin, target; // load times
+	vector<string>     doubts {};     // whether all is as it is meant
 
 	std::shared_ptr<Moving<Dim>> moving {}; // null without inertia
 };

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "engine/solver/moving.hpp"
+#include "core/base/sentence.hpp"
 #include "core/stepping/explicit_step.hpp"
 #include "core/terms/inertia.hpp"
 #include "engine/points/parallel.hpp"
@@ -48,12 +49,28 @@ Moving<Dim>::Moving(MpmDynamicEngine& e, Job<Dim>& job, const vector<MaterialPoi
 	job.waters.wantWork();
 }
 
+// What contact has given itself is no part of it.
+template <int Dim> Real Moving<Dim>::energyComeIn() const
+{
+	return std::abs(engine.firstEnergy) + std::abs(engine.loadWork) + std::abs(engine.boundaryWork) + std::abs(engine.contactWork - engine.givenByContact);
+}
+
+template <int Dim> string Moving<Dim>::doubtOfContact() const
+{
+	constexpr Real most = 0.02;
+	if (engine.givenByContact <= most * energyComeIn()) return "";
+	return gimpm::sentence(
+	        "contact has given ", engine.givenByContact, " J that no body has worked, beside ", energyComeIn(),
+	        " J that have come in otherwise: steps are too long for soil that passes edges or curved sides of bodies. A smaller O.dt makes it less.");
+}
+
 template <int Dim> void Moving<Dim>::begin(Job<Dim>& job, Attempt<Dim>& next, Real from) const
 {
-	if (engine.isExplicit()) requireStable(engine, job.cloud, job.model, next.time - from); // by all processes, which are here together
+	if (engine.isExplicit()) requireStable<Dim>(engine, job, next.time - from); // by all processes, which are here together
 	if (std::isnan(engine.firstEnergy)) engine.firstEnergy = ofAll(energy, job);
 	motion->duration = next.time - from;
 	next.load.motion = motion->duration;
+	job.contacts.know(energyComeIn());
 	shaking->begin(next, from, *motion);
 	if (!motion->scheme.atMiddle) return;
 	const auto toMiddle = [](gimpm::LoadFactor& factor) { factor.value -= factor.growth / 2; };
@@ -103,6 +120,7 @@ template <int Dim> void Moving<Dim>::addWork(const Job<Dim>& job, Real time, con
 	engine.boundaryWork += workOfBoundaries(from, time) + shaking->workOfEdges();
 	engine.dampingWork += shaking->dampingWork();
 	engine.contactWork += job.contacts.work();
+	engine.givenByContact += std::max(0., job.contacts.gift());
 	engine.impactWork += motion->impactWork;
 	engine.ghostWork += motion->ghostWork;
 	engine.gridWork += motion->gridWork;
@@ -113,7 +131,7 @@ template <int Dim> void Moving<Dim>::addWork(const Job<Dim>& job, Real time, con
 template <int Dim> void Moving<Dim>::reach(const Job<Dim>& job, Real time, const vector<MaterialPoint>& points)
 {
 	addWork(job, time, points);
-	shaking->scatter();
+	shaking->scatter(engine.last);
 	inRanges(points.size(), [&](size_t begin, size_t end) {
 		for (size_t p = begin; p < end; ++p) {
 			points[p].state->vel.template head<Dim>()          = motion->velocity[p];

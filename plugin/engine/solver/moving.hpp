@@ -23,9 +23,13 @@ public:
 	// Adds up what the step that has been accepted has worked, while the points are still as before it, and gives them their velocities.
 	void reach(const Job<Dim>&, Real time, const vector<MaterialPoint>&);
 
+	// A sentence where contact has given much energy that nobody has put in.
+	string doubtOfContact() const;
+
 private:
 	void addWork(const Job<Dim>&, Real time, const vector<MaterialPoint>&);
 	Real workOfBoundaries(Real from, Real time) const;
+	Real energyComeIn() const;
 
 	MpmDynamicEngine&                   engine;
 	Real                                energy; // of the points of this process before the first step; 0 where that has been made

@@ -3,10 +3,13 @@
 #include "core/base/checksum.hpp"
 #include "core/base/sentence.hpp"
 #include "core/base/stopwatch.hpp"
-#include "engine/materials/MpmElasticMat.hpp"
+#include "core/stepping/critical_step.hpp"
 #include "engine/solver/MpmImplicitEngine.hpp"
+#include "engine/solver/doubtful_water.hpp"
 #include "engine/solver/idle_boundaries.hpp"
+#include "engine/solver/lattice.hpp"
 #include "engine/solver/overlaps.hpp"
+#include "engine/solver/units.hpp"
 
 namespace yade {
 
@@ -113,26 +116,10 @@ namespace {
 		        " m); is it the grid that mpm.fill was given?");
 	}
 
-	// Numbers that fit another unit a thousand times as large. Under a gravity of 1 or less they are hardly those of ground on earth.
-	template <int Dim>
-	string doubtOfUnits(
-	        const Vector3r& gravity, const vector<MaterialPoint>& points, const gimpm::PointCloud<Dim>& cloud, const vector<gimpm::Material>& materials)
+	// From the bottom of a box to its top.
+	Real alongGravity(const std::pair<Vector3r, Vector3r>& box, const Vector3r& gravity)
 	{
-		constexpr Real lightest = 50, softest = 1e5, ofGround = 500; // kg/m3, Pa, kg/m3
-		if (gravity.norm() <= 1) return "";
-		for (size_t m = 0; m < materials.size(); ++m) {
-			const Real density = materials[m].density, young = materials[m].young({}, 0);
-			const bool isLight = density < lightest, isSoft = young < softest && density > ofGround;
-			if (!isLight && !isSoft) continue;
-			const size_t first = std::find(cloud.material.begin(), cloud.material.end(), int(m)) - cloud.material.begin();
-			if (first == points.size()) continue; // another process has them
-
-			if (!isLight && !dynamic_cast<const MpmElasticMat*>(points[first].material.get())) continue; // its young is no attribute
-			const string name = "material '" + points[first].material->label + "' (of body #" + std::to_string(points[first].id) + ")";
-			if (isLight) return sentence(name, " has density = ", density, ", in kg/m3; was it meant in t/m3, that is ", 1e3 * density, " kg/m3?");
-			return sentence(name, " has young = ", young, ", in Pa; was it meant in kPa, that is ", 1e3 * young, " Pa?");
-		}
-		return "";
+		return gravity.isZero(0) ? 0 : gravity.normalized().cwiseAbs().dot(box.second - box.first);
 	}
 
 	// Of all points, as they were in the beginning.
@@ -207,6 +194,8 @@ string Plausibility::doubtOfBoundaries(const MpmImplicitEngine& engine, const ve
 	return idle.empty() ? "" : idle.substr(1) + " It holds nothing until soil arrives there.";
 }
 
+string Plausibility::once(const string& about, const string& sentence) { return sentence.empty() || !saidAbout.insert(about).second ? "" : sentence; }
+
 // No fill puts so many points into a cell that they are as small.
 void Plausibility::requireGrid(const MpmImplicitEngine& engine) const
 {
@@ -215,6 +204,30 @@ void Plausibility::requireGrid(const MpmImplicitEngine& engine) const
 	if (h / most > largest)
 		refuse("MpmGrid.cellSize = ", h, " m is ", h / largest, " times the size of the largest material point (", largest,
 		       " m), so that all of them would move as one cell does; is it the grid that mpm.fill was given, in the same unit?");
+}
+
+// Of implicit steps in time, which are stable however long they are, but see nothing of what is over within one.
+template <int Dim>
+string Plausibility::doubtOfLength(
+        const MpmImplicitEngine& engine, const vector<MaterialPoint>& points, const gimpm::PointCloud<Dim>& cloud, const gimpm::Model<Dim>& model, bool areNew)
+{
+	constexpr Real mostOfWave = 100, mostOfPoint = 1; // cells a step
+	const Real     T = engine.scene->time + engine.scene->dt - engine.loadTime;
+	if (!engine.isDynamic() || engine.isExplicit() || (!areNew && std::abs(T - duration) <= 1e-3 * duration)) return length;
+	if (areNew) fastestWave = std::sqrt(gimpm::stiffestOfOwn(cloud, model).pressureWave);
+	duration     = T;
+	Real fastest = 0;
+	for (const MaterialPoint& point : points)
+		fastest = std::max(fastest, (T * point.state->vel + T * T / 2 * engine.gravity).norm());
+	const Real ofWave = T * fastestWave / model.grid.cellSize, ofPoint = fastest / model.grid.cellSize;
+	length = ofWave <= mostOfWave && ofPoint <= mostOfPoint
+	        ? ""
+	        : sentence(
+	                "a step in time lasts ", T, " s (O.dt = ", engine.scene->dt, "). In that time the fastest wave, of ", fastestWave, " m/s, goes ",
+	                ofWave, " cells, and the fastest point would fly ", ofPoint,
+	                " cells. For waves a step should be half a cell of theirs or less; what lasts longer is seen in steps of some cells, and "
+	                "points should move less than half a cell.");
+	return length;
 }
 
 void Plausibility::say(vector<string>& sentences, Doubt doubt, const string& sentence)
@@ -231,8 +244,8 @@ vector<string> Plausibility::look(
 	requireGravityInPlane(engine);
 	requireSensibleIncrement(engine);
 	if (points.empty()) return {}; // other processes have them
-	const bool areFirst = largest == 0;
-	if (areFirst || isNew(cloud)) {
+	const bool areFirst = largest == 0, areNew = areFirst || isNew(cloud);
+	if (areNew) {
 		const gimpm::Stopwatch watch(time);
 		requirePoints(points, cloud);
 	}
@@ -240,9 +253,13 @@ vector<string> Plausibility::look(
 	vector<string> sentences;
 	say(sentences, Doubt::gravityUpwards, doubtOfGravity(engine.gravity));
 	say(sentences, Doubt::largeCells, doubtOfCells(model.grid.cellSize, smallest));
-	say(sentences, Doubt::units, doubtOfUnits(engine.gravity, points, cloud, model.materials));
+	say(sentences, Doubt::units, doubtOfUnits(engine.gravity, alongGravity(box, engine.gravity), points, cloud.material, model.materials));
+	if (areFirst) say(sentences, Doubt::lattice, doubtOfLattice<Dim>(points, model.grid));
 	say(sentences, Doubt::tension, doubtOfTension(engine.gravity, initialStress));
 	say(sentences, Doubt::overlap, overlap);
+	say(sentences, Doubt::waterUnits, doubtOfWeight(engine));
+	say(sentences, Doubt::bothSides, doubtOfSides(engine, points));
+	say(sentences, Doubt::longStep, doubtOfLength(engine, points, cloud, model, areNew));
 	return sentences;
 }
 

@@ -6,6 +6,7 @@
 #include "engine/points/MaterialPoints.hpp"
 #include <map>
 #include <optional>
+#include <set>
 
 namespace yade {
 class MpmBoundary;
@@ -18,7 +19,7 @@ class MpmImplicitEngine;
 // points in the same place, cells that are no match for the points, an O.dt that nobody has set or that jumps over the whole load curve.
 class Plausibility {
 public:
-	static constexpr int mostDoubts = 5; // before a step
+	static constexpr int mostDoubts = 9; // before a step
 
 	// Before a step. What can be meant, but seldom is: sentences for YADE's log. Each is said once as long as what it says stays so. Adds the
 	// time [s] that the points have taken, if they were looked at.
@@ -37,12 +38,19 @@ public:
 	string doubtOfEnd(const MpmImplicitEngine&);
 	string doubtOfBoundaries(const MpmImplicitEngine&, const vector<MaterialPoint>&);
 
+	// The first of all sentences about the same.
+	string once(const string& about, const string& sentence);
+
 private:
-	enum class Doubt { gravityUpwards, largeCells, units, tension, overlap, settlement };
+	enum class Doubt { gravityUpwards, largeCells, units, lattice, tension, overlap, settlement, waterUnits, bothSides, longStep };
 
 	template <int Dim> bool isNew(const gimpm::PointCloud<Dim>&) const; // not those of the last call of know()
 	template <int Dim> void requirePoints(const vector<MaterialPoint>&, const gimpm::PointCloud<Dim>&);
 	void                    requireGrid(const MpmImplicitEngine&) const; // of the sizes that requirePoints() has found
+
+	// Looked at where the points are, and where the length of steps has changed.
+	template <int Dim>
+	string doubtOfLength(const MpmImplicitEngine&, const vector<MaterialPoint>&, const gimpm::PointCloud<Dim>&, const gimpm::Model<Dim>&, bool areNew);
 
 	// Takes the sentence, which is empty where there is no doubt, unless it has been said.
 	void say(vector<string>&, Doubt, const string& sentence);
@@ -50,6 +58,7 @@ private:
 	std::optional<uint64_t> known;
 	std::map<Doubt, bool>   said;
 	bool                    saidEnd = false;
+	std::set<string>        saidAbout;
 
 	vector<std::pair<Vector3r, Vector3r>> lookedAt; // boxes of boundaries: whether they reach any point
 
@@ -57,6 +66,9 @@ private:
 	Real                          smallest = 0, largest = 0;                  // initial sizes [m]
 	Matrix3r                      initialStress = Matrix3r::Zero();           // mean [Pa]
 	string                        overlap;                                    // the doubt about it
+	Real                          fastestWave = 0;                            // [m/s]
+	Real                          duration    = 0;                            // of a step, as it was looked at [s]
+	string                        length;                                     // the doubt about it
 	std::pair<Vector3r, Vector3r> box { Vector3r::Zero(), Vector3r::Zero() }; // that all were in at first: its corners [m]
 };
 

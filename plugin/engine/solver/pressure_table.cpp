@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "engine/solver/pressure_table.hpp"
+#include "core/base/sentence.hpp"
 #include "yade_api/python_lock.hpp"
 #include "yade_api/scene.hpp"
 #include <algorithm>
@@ -114,6 +115,43 @@ namespace {
 		return x;
 	}
 
+	// The first nodes of the period along an axis again, behind its last ones.
+	template <int Dim> vector<Key> withFarSide(vector<Key> nodes, const gimpm::Grid<Dim>& grid)
+	{
+		const size_t first = nodes.size();
+		for (size_t i = 0; i < first; ++i)
+			for (int a = 0; a < Dim; ++a)
+				if (grid.period[a] != 0 && gimpm::Grid<Dim>::index(nodes[i])[a] == 0)
+					nodes.push_back(nodes[i] + grid.period[a] * gimpm::Grid<Dim>::keyStep(a));
+		return nodes;
+	}
+
+	// What the pressure gains along each axis over a period of the grid: the same in all cells that hold points, or there is no such state.
+	template <int Dim> gimpm::Vec<Dim> fallOf(const PressureAt& values, const vector<Key>& cells, const gimpm::Grid<Dim>& grid, const string& name)
+	{
+		constexpr Real        roundOff = 1e-9;
+		const gimpm::Vec<Dim> none     = gimpm::Vec<Dim>::Zero();
+		gimpm::Vec<Dim>       fall     = none;
+		if (!grid.isPeriodic()) return none;
+		const vector<Key> nodes = nodesAround(cells, 0, grid);
+		for (int a = 0; a < Dim; ++a) {
+			Key at = 0; // where it is known
+			for (const Key node : nodes) {
+				const auto far = values.find(node + grid.period[a] * gimpm::Grid<Dim>::keyStep(a));
+				if (grid.period[a] == 0 || gimpm::Grid<Dim>::index(node)[a] != 0 || far == values.end()) continue;
+				const Real near = values.at(node), gain = far->second - near,
+				           tolerance = roundOff * std::max(std::abs(near), std::abs(far->second));
+				if (at == 0) at = node, fall[a] = std::abs(gain) > tolerance ? gain : 0;
+				if (std::abs(gain - fall[a]) <= tolerance) continue;
+				throw std::invalid_argument(gimpm::sentence(
+				        name, ".pressure gains ", fall[a], " Pa along the period of the grid from (", placeOf(at, grid).transpose(),
+				        ") on, but ", gain, " Pa from (", placeOf(node, grid).transpose(),
+				        ") on: in a body that repeats itself it must be the same everywhere, as that of flow with one gradient, or 0; is there a water table within the body that falls along the period?"));
+			}
+		}
+		return fall;
+	}
+
 	template <int Dim> [[noreturn]] void refuseNode(Key node, const gimpm::Grid<Dim>& grid, const string& name)
 	{
 		throw std::invalid_argument(
@@ -142,40 +180,64 @@ template <int Dim> vector<Key> cellsOf(const gimpm::PointCloud<Dim>& cloud, cons
 }
 
 template <int Dim>
-std::shared_ptr<const gimpm::WaterPressure<Dim>> tabulated(MpmWater& water, const gimpm::Grid<Dim>& grid, const vector<Key>& cells, const string& name)
+std::optional<PressureQuestion<Dim>> PressureQuestion<Dim>::of(MpmWater& water, const gimpm::Grid<Dim>& grid, const vector<Key>& cells, const string& name)
 {
 	constexpr int near = 1, far = 3; // cells that a point may reach in a step, and in the steps after a scene has been loaded
 	if (water.pressure && (water.evaluated != water.pressure.object.get() || water.tableGrid != numbersOf(grid))) water.forgetTable();
 	if (water.tableGrid != numbersOf(grid) && !water.pressure) refuseNode(gimpm::Grid<Dim>::key(gimpm::Index<Dim>::Zero()), grid, name);
-	PressureAt  values = valuesOf<Dim>(water);
-	vector<Key> missing;
-	const auto  lacks = [&](Key node) { return values.find(node) == values.end(); };
-	for (const Key node : nodesAround(cells, near, grid))
-		if (lacks(node)) missing.push_back(node);
-	if (!missing.empty()) {
-		if (!water.pressure) refuseNode(missing[0], grid, name);
-		missing.clear();
-		for (const Key node : nodesAround(cells, far, grid))
-			if (lacks(node)) missing.push_back(node);
-		vector<Vector3r> places;
-		for (const Key node : missing)
-			places.push_back(placeOf(node, grid));
-		const vector<Real> found = answers(water.pressure, places, name);
-		for (size_t i = 0; i < found.size(); ++i)
-			values[missing[i]] = found[i];
-		store<Dim>(values, water);
-		water.tableGrid = numbersOf(grid);
-		water.evaluated = water.pressure.object.get();
+	const PressureAt values  = valuesOf<Dim>(water);
+	const auto       missing = [&](const vector<Key>& nodes) {
+                vector<Key> found;
+                for (const Key node : nodes)
+                        if (values.find(node) == values.end()) found.push_back(node);
+                return found;
+	};
+	const vector<Key> nearest = nodesAround(cells, near, grid);
+	if (!water.pressure) {
+		const vector<Key> unknown = missing(nearest); // scenes of earlier revisions have no nodes at the far side of a period
+		if (!unknown.empty()) refuseNode(unknown[0], grid, name);
+		return std::nullopt;
 	}
-	vector<Key>  nodes;
-	vector<Real> numbers;
+	if (missing(withFarSide(nearest, grid)).empty()) return std::nullopt;
+	return PressureQuestion { &water, water.pressure, name, grid, missing(withFarSide(nodesAround(cells, far, grid), grid)) };
+}
+
+template <int Dim> void PressureQuestion<Dim>::ask()
+{
+	vector<Vector3r> places;
+	for (const Key node : nodes)
+		places.push_back(placeOf(node, grid));
+	found = answers(function, places, name);
+}
+
+template <int Dim> void PressureQuestion<Dim>::store() const
+{
+	PressureAt values = valuesOf<Dim>(*water);
+	for (size_t i = 0; i < found.size(); ++i)
+		values[nodes[i]] = found[i];
+	yade::store<Dim>(values, *water);
+	water->tableGrid = numbersOf(grid);
+	water->evaluated = function.object.get();
+}
+
+template <int Dim>
+std::shared_ptr<const gimpm::WaterPressure<Dim>> tabulated(MpmWater& water, const gimpm::Grid<Dim>& grid, const vector<Key>& cells, const string& name)
+{
+	if (auto question = PressureQuestion<Dim>::of(water, grid, cells, name)) {
+		question->ask();
+		question->store();
+	}
+	const PressureAt values = valuesOf<Dim>(water);
+	vector<Key>      nodes;
+	vector<Real>     numbers;
 	for (const auto& [key, value] : values)
 		nodes.push_back(key), numbers.push_back(value);
-	return std::make_shared<gimpm::TabulatedWater<Dim>>(grid, nodes, numbers);
+	return std::make_shared<gimpm::TabulatedWater<Dim>>(grid, nodes, numbers, fallOf(values, cells, grid, name));
 }
 
 #define MPM_INSTANTIATE(Dim)                                                                                                                                   \
-	template vector<Key>                                      cellsOf(const gimpm::PointCloud<Dim>&, const gimpm::Grid<Dim>&, const gimpm::Division*);     \
+	template vector<Key> cellsOf(const gimpm::PointCloud<Dim>&, const gimpm::Grid<Dim>&, const gimpm::Division*);                                          \
+	template class PressureQuestion<Dim>;                                                                                                                  \
 	template std::shared_ptr<const gimpm::WaterPressure<Dim>> tabulated(MpmWater&, const gimpm::Grid<Dim>&, const vector<Key>&, const string&);
 MPM_INSTANTIATE(2)
 MPM_INSTANTIATE(3)

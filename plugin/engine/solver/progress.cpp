@@ -14,6 +14,15 @@ namespace {
 		if (scene.stopAtTime > scene.time) return iterationAt(scene.stopAtTime);
 		return engine.loadsEnd() > scene.time ? iterationAt(engine.loadsEnd()) : 0;
 	}
+
+	string placeOf(const MpmImplicitEngine& engine)
+	{
+		std::ostringstream text;
+		if (engine.isDynamic()) text << "time " << engine.loadTime << " s";
+		else
+			text << "load factor " << engine.loadFactor;
+		return text.str();
+	}
 }
 
 Progress progressOf(const MpmImplicitEngine& engine, bool isIterationDone)
@@ -22,7 +31,7 @@ Progress progressOf(const MpmImplicitEngine& engine, bool isIterationDone)
 	const long   step      = scene.iter + 1;
 	const bool   runEnds   = scene.stopAtIter > scene.iter && step + engine.iterPeriod > scene.stopAtIter;
 	const bool   isRunning = Singleton<Omega>::instance().isRunning();
-	return { engine.loadFactor,  step,      lastIteration(engine),     engine.iterations, engine.cuts, engine.residual,
+	return { placeOf(engine),    step,      lastIteration(engine),     engine.iterations, engine.cuts, engine.residual,
 		 engine.pointsOfRun, isRunning, isIterationDone && runEnds };
 }
 

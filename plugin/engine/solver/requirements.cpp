@@ -69,6 +69,17 @@ static void requireOnlyContact(const MpmImplicitEngine& engine)
 	}
 }
 
+// What is listed twice would act twice.
+template <class T> static void requireOnce(const char* attribute, const vector<shared_ptr<T>>& list)
+{
+	for (size_t j = 0; j < list.size(); ++j)
+		for (size_t i = 0; i < j; ++i)
+			if (list[i] == list[j])
+				throw std::invalid_argument(
+				        string(attribute) + "[" + std::to_string(i) + "] and " + attribute + "[" + std::to_string(j) + "] are the same "
+				        + T::staticName() + ", which would act twice: list it once.");
+}
+
 void requireCallable(const string& engine)
 {
 	if (omp_get_level() > 0)
@@ -115,24 +126,33 @@ static void requireEqualCells(const MpmImplicitEngine& engine)
 		throw std::invalid_argument("MpmGrid.refinements, cells of several sizes, cannot go with " + what + " yet; leave one of the two out.");
 }
 
-void requireRunnable(const MpmImplicitEngine& engine)
+void requireSettings(const MpmImplicitEngine& engine)
 {
 	engine.requireAdmissible();
 	requireEqualCells(engine);
-	requireNoDecomposition(*engine.scene);
 	if (engine.newton->linearSolver == "amg") requireMultigrid();
 	if (engine.maxSplits > 0 && engine.basis != "gimp")
 		throw std::invalid_argument(
 		        "maxSplits = " + std::to_string(engine.maxSplits) + " needs basis='gimp': with basis='" + engine.basis
 		        + "' points have no domains on the grid that could outgrow a cell. Set maxSplits = 0.");
-	requireOnlyClaim(engine);
-	if (!engine.contacts.empty()) requireOnlyContact(engine);
+	requireOnce("boundaries", engine.boundaries);
+	requireOnce("loads", engine.loads);
+	requireOnce("water", engine.water);
+	requireOnce("contacts", engine.contacts);
 	requireOwnSurfaces(engine);
 	for (size_t b = 0; b < engine.boundaries.size() && !engine.isDynamic(); ++b)
 		if (engine.boundaries[b]->motion)
 			throw std::invalid_argument(
 			        "boundaries[" + std::to_string(b)
 			        + "].motion is a history in time, which MpmImplicitEngine knows nothing of: take MpmDynamicEngine, or give displacement.");
+}
+
+void requireRunnable(const MpmImplicitEngine& engine)
+{
+	engine.requireAdmissible();
+	requireNoDecomposition(*engine.scene);
+	requireOnlyClaim(engine);
+	if (!engine.contacts.empty()) requireOnlyContact(engine);
 	Scene&             scene = *engine.scene;
 	std::ostringstream text;
 	if (!(scene.dt > 0) || !std::isfinite(scene.dt))

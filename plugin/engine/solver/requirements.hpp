@@ -9,7 +9,10 @@ class MpmImplicitEngine;
 // A thread that may make one; std::runtime_error while the scene runs in another.
 void requireCallable(const string& engine);
 
-// Settings, clock and the other engines.
+// Settings that are admitted, and go with each other: of runs and studies alike.
+void requireSettings(const MpmImplicitEngine&);
+
+// The clock and the other engines.
 void requireRunnable(const MpmImplicitEngine&);
 
 // Material points that the engine is to move.

@@ -23,6 +23,8 @@ namespace {
 		if (!is) refuseBody(body, string("cannot touch the soil: its ") + attribute + " = " + value + ", expected finite numbers > 0.");
 	}
 
+	constexpr Real roundOff = 1e-9; // of what a body touches the plane z = 0 with
+
 	// The others keep the axes of the scene as their own until they turn.
 	bool hasOwnAxes(const Body& body) { return dynamic_cast<const Box*>(body.shape.get()); }
 
@@ -35,13 +37,13 @@ namespace {
 		return shape.radius > 0;
 	}
 
-	template <int Dim> bool makeShape(const Body& body, const Box& box, const gimpm::Grid<Dim>& grid, gimpm::RigidShape<Dim>& shape)
+	template <int Dim> bool makeShape(const Body& body, const Box& box, const Se3r& at, const gimpm::Grid<Dim>& grid, gimpm::RigidShape<Dim>& shape)
 	{
 		requirePositive(body, box.extents.allFinite() && box.extents.head<Dim>().minCoeff() > 0, "extents", numbers(box.extents));
 		shape.kind     = RigidKind::block;
 		shape.halfSize = box.extents.head<Dim>();
 		shape.radius   = std::min(0.1 * grid.cellSize, 0.5 * shape.halfSize.minCoeff());
-		return true;
+		return Dim == 3 || std::abs(at.position[2]) <= box.extents[2] * (1 + roundOff);
 	}
 
 	template <int Dim> bool makeShape(const Body& body, const Wall& wall, gimpm::RigidShape<Dim>& shape)
@@ -75,16 +77,21 @@ namespace {
 		std::copy(corners.begin(), corners.end(), shape.corners.begin());
 		return true;
 	}
-	// The segment in which it meets the plane z = 0.
+	// The segment in which it meets the plane z = 0: through it, or an edge that lies in it.
 	bool makeSheet(const Body& body, const Facet& facet, const Se3r& at, gimpm::RigidShape<2>& shape)
 	{
-		const auto            corners = cornersOf(body, facet, at.orientation);
+		const auto corners = cornersOf(body, facet, at.orientation);
+		const Real size    = std::max((corners[1] - corners[0]).norm(), (corners[2] - corners[0]).norm());
+		Vector3r   z;
+		for (int i = 0; i < 3; ++i) {
+			z[i] = corners[i][2] + at.position[2];
+			if (std::abs(z[i]) <= roundOff * size) z[i] = 0;
+		}
 		vector<gimpm::Vec<2>> ends;
 		for (int i = 0; i < 3; ++i) {
-			const Vector3r &a = corners[i], &b = corners[(i + 1) % 3];
-			const Real      za = a[2] + at.position[2], zb = b[2] + at.position[2];
-			if ((za < 0) == (zb < 0)) continue;
-			ends.push_back((a + za / (za - zb) * (b - a)).head<2>());
+			const int j = (i + 1) % 3;
+			if (z[i] == 0) ends.push_back(corners[i].head<2>());
+			if (z[i] * z[j] < 0) ends.push_back((corners[i] + z[i] / (z[i] - z[j]) * (corners[j] - corners[i])).head<2>());
 		}
 		if (ends.size() != 2 || ends[0] == ends[1]) return false;
 		shape.corners = { ends[0], ends[1] };
@@ -125,7 +132,7 @@ template <int Dim> std::optional<gimpm::RigidBody<Dim>> rigidBody(const Body& bo
 	const auto* sphere          = dynamic_cast<const Sphere*>(shape);
 	if (sphere && shape->getClassName() == Sphere::staticName()) acts = makeShape(body, *sphere, at, rigid.shape);
 	else if (const auto* box = dynamic_cast<const Box*>(shape))
-		acts = makeShape(body, *box, grid, rigid.shape);
+		acts = makeShape(body, *box, at, grid, rigid.shape);
 	else if (const auto* wall = dynamic_cast<const Wall*>(shape))
 		acts = makeShape(body, *wall, rigid.shape);
 	else if (const auto* facet = dynamic_cast<const Facet*>(shape)) {

@@ -44,11 +44,24 @@ namespace {
 		const Scene& scene = *engine.scene;
 		return checksumOf(
 		        engine.grid, engine.basis, engine.fBar, engine.boundaries, engine.loads, engine.water, engine.contacts, engine.ghost, engine.newton,
-		        engine.mask, engine.gravity, engine.loadCurve, engine.gravityCurve, engine.loadTime, engine.stepPart, engine.lastDisplacements,
-		        engine.lastLoadIncrement, scene.dt, scene.time);
+		        engine.mask, engine.maxSplits, engine.gravity, engine.loadCurve, engine.gravityCurve, engine.loadTime, engine.stepPart,
+		        engine.lastDisplacements, engine.lastLoadIncrement, scene.dt, scene.time);
 	}
 
-	// Of the rigid bodies that may touch the soil: where they are, and how they move.
+	// Of the rigid bodies that may touch the soil: what they are, with their own friction.
+	std::uint64_t shapesOf(const MpmImplicitEngine& engine)
+	{
+		vector<shared_ptr<Shape>>    shapes;
+		vector<shared_ptr<Material>> materials;
+		for (const auto& contact : engine.contacts)
+			for (const auto& body : bodiesOf(*contact, *engine.scene)) {
+				shapes.push_back(body->shape);
+				materials.push_back(body->material);
+			}
+		return checksumOf(shapes, materials);
+	}
+
+	// Where they are, and how they move.
 	std::uint64_t motionOf(const MpmImplicitEngine& engine)
 	{
 		vector<Real> numbers;
@@ -88,11 +101,13 @@ void requireSame(const gimpm::Processes& all, const MpmImplicitEngine& engine, c
 {
 	const bool  areSameBodies = all.haveSame(engine.scene->bodies->size()), areSamePoints = all.haveSame(checksum(points, begin));
 	const bool  areSameSettings = all.haveSame(settingsOf(engine) ^ settingsInTimeOf(engine)), moveAlike = all.haveSame(motionOf(engine));
-	const char* what = !areSameBodies ? "numbers of bodies"
-	        : !areSamePoints          ? "material points"
-	        : !areSameSettings        ? "settings"
-	        : !moveAlike              ? "places or velocities of rigid bodies"
-	                                  : nullptr;
+	const bool  areSameShapes = all.haveSame(shapesOf(engine));
+	const char* what          = !areSameBodies ? "numbers of bodies"
+	                 : !areSamePoints          ? "material points"
+	                 : !areSameSettings        ? "settings"
+	                 : !areSameShapes          ? "shapes or materials of rigid bodies"
+	                 : !moveAlike              ? "places or velocities of rigid bodies"
+	                                           : nullptr;
 	if (what) throw std::runtime_error(startOf(engine, what) + remedy);
 }
 

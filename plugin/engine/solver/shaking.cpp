@@ -16,10 +16,18 @@ namespace {
 	}
 }
 
+template <int Dim>
+gimpm::HeldBox<Dim> boxOfEdge(const shared_ptr<MpmAbsorbingBoundary>& edge, size_t number, const MpmGrid& grid, const gimpm::Grid<Dim>& lattice)
+{
+	if (!edge) throw std::invalid_argument("absorbing[" + std::to_string(number) + "] = None is not admitted: expected an MpmAbsorbingBoundary.");
+	edge->requireAdmissible();
+	return boxOfNodes<Dim>("MpmAbsorbingBoundary", edge->min, edge->max, grid, lattice);
+}
+
 template <int Dim> Shaking<Dim>::Shaking(const MpmDynamicEngine& engine, Job<Dim>& job, gimpm::Motion<Dim>& motion) : boxes(job.model.boundary.boxes())
 {
 	for (size_t i = 0; i < engine.absorbing.size(); ++i)
-		join(engine.absorbing[i], "absorbing[" + std::to_string(i) + "]", engine, job.model);
+		join(engine.absorbing[i], i, engine, job.model);
 	for (size_t b = 0; b < engine.boundaries.size(); ++b)
 		if (engine.boundaries[b]->motion) bases[int(b)] = engine.boundaries[b]->motion;
 	requireFittingBases(job.model);
@@ -34,25 +42,21 @@ template <int Dim> Shaking<Dim>::Shaking(const MpmDynamicEngine& engine, Job<Dim
 			return std::make_unique<gimpm::RayleighDamping<Dim>>(*known, *materials, fBar, *masses, step);
 		});
 	}
-	vector<gimpm::HeldBox<Dim>> open;
-	for (const auto& [from, edge] : edges) {
-		open.push_back(edge->box);
+	for (const auto& [from, edge] : edges)
 		motion.damping.push_back([known = edge, materials, masses](const gimpm::Beginning<Dim>& step) {
 			return std::make_unique<gimpm::Absorption<Dim>>(*known, *materials, *masses, step);
 		});
-	}
-	job.model.boundary = gimpm::Boundary<Dim>(boxes, open);
 }
 
 template <int Dim>
-void Shaking<Dim>::join(const shared_ptr<MpmAbsorbingBoundary>& boundary, const string& name, const MpmDynamicEngine& engine, const gimpm::Model<Dim>& model)
+void Shaking<Dim>::join(const shared_ptr<MpmAbsorbingBoundary>& boundary, size_t number, const MpmDynamicEngine& engine, const gimpm::Model<Dim>& model)
 {
-	if (!boundary) throw std::invalid_argument(name + " = None is not admitted: expected an MpmAbsorbingBoundary.");
-	boundary->requireAdmissible();
+	const string name = "absorbing[" + std::to_string(number) + "]";
+	const auto   edge = std::make_shared<Edge>();
+	edge->name        = name;
+	edge->box         = boxOfEdge(boundary, number, *engine.grid, model.grid);
+	edge->hasBegun    = boundary->hasBegun;
 	if (boundary->motion) requireInDimension<Dim>(*boundary->motion, name);
-	const auto edge = std::make_shared<Edge>();
-	edge->box       = boxOfNodes<Dim>("MpmAbsorbingBoundary", boundary->min, boundary->max, *engine.grid, model.grid);
-	edge->hasBegun  = boundary->hasBegun;
 	if (boundary->nodes.size() != boundary->borne.size()) throw std::invalid_argument(name + " has lost what it bears: give a new MpmAbsorbingBoundary.");
 	for (size_t n = 0; n < boundary->nodes.size(); ++n)
 		edge->borne[gimpm::Grid<Dim>::key(boundary->nodes[n].template head<Dim>().template cast<int>())] = boundary->borne[n].template head<Dim>();
@@ -101,10 +105,11 @@ template <int Dim> void Shaking<Dim>::begin(Attempt<Dim>& next, Real from, gimpm
 	}
 }
 
-template <int Dim> void Shaking<Dim>::scatter() const
+template <int Dim> void Shaking<Dim>::scatter(const gimpm::StepReport& report) const
 {
-	for (const auto& [boundary, edge] : edges) {
-		boundary->hasBegun = true;
+	for (size_t e = 0; e < edges.size(); ++e) {
+		const auto& [boundary, edge] = edges[e];
+		boundary->hasBegun           = true;
 		boundary->nodes.clear();
 		boundary->borne.clear();
 		for (const auto& [key, force] : edge->borne) {
@@ -115,7 +120,7 @@ template <int Dim> void Shaking<Dim>::scatter() const
 			boundary->borne.push_back(inSpace);
 		}
 		boundary->reaction                      = Vector3r::Zero();
-		boundary->reaction.template head<Dim>() = edge->force;
+		boundary->reaction.template head<Dim>() = edge->force + report.openReactions[e].template head<Dim>(); // open boxes are in the order of edges
 	}
 }
 
@@ -127,6 +132,8 @@ template <int Dim> Real Shaking<Dim>::workOfEdges() const
 	return sum;
 }
 
+template gimpm::HeldBox<2> boxOfEdge(const shared_ptr<MpmAbsorbingBoundary>&, size_t, const MpmGrid&, const gimpm::Grid<2>&);
+template gimpm::HeldBox<3> boxOfEdge(const shared_ptr<MpmAbsorbingBoundary>&, size_t, const MpmGrid&, const gimpm::Grid<3>&);
 template class Shaking<2>;
 template class Shaking<3>;
 

@@ -5,10 +5,14 @@
 #include "core/terms/motion.hpp"
 #include "core/terms/rayleigh.hpp"
 #include "engine/conditions/MpmAbsorbingBoundary.hpp"
+#include "engine/solver/MpmGrid.hpp"
 #include "engine/solver/job.hpp"
 
 namespace yade {
 class MpmDynamicEngine;
+
+// The nodes of an edge by its number. std::invalid_argument names what is wrong with it.
+template <int Dim> gimpm::HeldBox<Dim> boxOfEdge(const shared_ptr<MpmAbsorbingBoundary>&, size_t number, const MpmGrid&, const gimpm::Grid<Dim>&);
 
 template <int Dim> class Shaking {
 public:
@@ -18,15 +22,15 @@ public:
 	// The next step goes from here to the time of the attempt.
 	void begin(Attempt<Dim>&, Real from, gimpm::Motion<Dim>&) const;
 
-	// Writes a converged state back.
-	void scatter() const;
+	// Writes a converged state back, to which the step has come that is reported.
+	void scatter(const gimpm::StepReport&) const;
 
 	// In the last step that was accepted [J].
 	Real workOfEdges() const;
 	Real dampingWork() const { return rayleigh->work; }
 
 private:
-	void join(const shared_ptr<MpmAbsorbingBoundary>&, const string& name, const MpmDynamicEngine&, const gimpm::Model<Dim>&);
+	void join(const shared_ptr<MpmAbsorbingBoundary>&, size_t number, const MpmDynamicEngine&, const gimpm::Model<Dim>&);
 	void requireFittingBases(const gimpm::Model<Dim>&) const;
 
 	using Edge = gimpm::AbsorbingBoundary<Dim>;

@@ -9,8 +9,7 @@
 #include "engine/materials/MpmElasticMat.hpp"
 #include "engine/solver/MpmImplicitEngine.hpp"
 #include "engine/solver/Threads.hpp"
-#include "engine/solver/contacts.hpp"
-#include "engine/solver/exchange.hpp"
+#include "engine/solver/build_model.hpp"
 #include "yade_api/value_lock.hpp"
 
 namespace yade {
@@ -31,32 +30,39 @@ namespace {
 			        + ": studies of the stiffness or the strength need all points in one process, and with distributed = True each has its own.");
 	}
 
-	// f(cloud, model) with the points and settings of now
+	// f(cloud, model, load) with the points, settings and loads of now
 	template <class F> auto onCurrentState(MpmImplicitEngine& engine, F f)
 	{
 		requireUndivided(engine);
 		const Threads threads(engine.ompThreads);
 		const auto    inSpace = [&](auto dim) {
-                        constexpr int          Dim = decltype(dim)::value;
-                        gimpm::Model<Dim>      model;
-                        gimpm::PointCloud<Dim> cloud;
+                        constexpr int    Dim = decltype(dim)::value;
+                        Setup<Dim>       now;
+                        gimpm::Load<Dim> load;
                         {
                                 const ValueLock lock;
-                                engine.requireAdmissible();
-                                model             = toModel<Dim>(*engine.grid, engine.basis, engine.fBar, engine.boundaries, *engine.ghost, *engine.newton);
-                                const auto points = materialPoints(*engine.ownScene(), engine.mask);
-                                cloud             = gather(points, model);
-                                Contacts<Dim>(engine.contacts, *engine.ownScene(), model.grid, points, false, engine.loadTime, engine.loadTime).join(model);
+                                now  = currentState<Dim>(engine);
+                                load = engine.loadBetween<Dim>(engine.loadTime, engine.loadTime);
                         }
                         const PythonUnlock python;
-                        return f(cloud, model);
+                        return f(now.cloud, now.model, load);
 		};
 		return engine.grid && engine.grid->dim == 3 ? inSpace(std::integral_constant<int, 3>()) : inSpace(std::integral_constant<int, 2>());
 	}
 
+	void requireUnobstructed(const MpmImplicitEngine& engine, const string& obstacle)
+	{
+		if (!obstacle.empty())
+			throw std::invalid_argument(engine.getClassName() + ": a load step from the current state would fail: " + obstacle + ".");
+	}
+
 	gimpm::LinearProblem reducedStiffness(MpmImplicitEngine& engine)
 	{
-		return onCurrentState(engine, [](const auto& cloud, const auto& model) { return gimpm::tangentStiffness(cloud, model); });
+		gimpm::StepReport report;
+		auto              K = onCurrentState(
+		                     engine, [&](const auto& cloud, const auto& model, const auto&) { return gimpm::tangentStiffness(cloud, model, &report); });
+		requireUnobstructed(engine, report.cause);
+		return K;
 	}
 
 	py::tuple stiffness(MpmImplicitEngine& engine)
@@ -117,23 +123,10 @@ namespace {
 			throw std::invalid_argument("factor = " + std::to_string(factor) + " is not admitted: expected a finite number > 0.");
 		requireStrength(materialPoints(*engine.ownScene(), engine.mask));
 		gimpm::WeakBody<3> found; // of either dimension
-		onCurrentState(engine, [&](const auto& cloud, const auto& model) {
-			constexpr int            Dim  = std::decay_t<decltype(cloud.position[0])>::RowsAtCompileTime;
-			const auto               load = engine.loadBetween<Dim>(engine.loadTime, engine.loadTime);
+		onCurrentState(engine, [&](const auto& cloud, const auto& model, const auto& load) {
 			const gimpm::StepControl control(1, engine.newton->minStep, engine.newton->maxIterations);
 			gimpm::LinearSolver      solver;
-			auto                     loaded = model;
-			SurfaceLoads<Dim>        onSurfaces(engine, model.grid);
-			onSurfaces.join(loaded);
-			Waters<Dim> waters;
-			{
-				const PythonLock python; // for functions of the pressure
-				waters = Waters<Dim>(engine, model.grid, cloud);
-			}
-			waters.join(loaded);
-			onSurfaces.advanceTo(engine.loadTime);
-			waters.advance(engine.loadTime, engine.loadTime);
-			found = inSpace(gimpm::reduceStrength(cloud, loaded, load, factor, control, solver));
+			found = inSpace(gimpm::reduceStrength(cloud, model, load, factor, control, solver));
 			return 0;
 		});
 		vector<Real> displacement;
@@ -159,11 +152,12 @@ namespace {
 			double gathering = 0, rest = 0;
 			{
 				const gimpm::Stopwatch watch(gathering);
-				w = onCurrentState(engine, [&](const auto& cloud, const auto& model) {
+				w = onCurrentState(engine, [&](const auto& cloud, const auto& model, const auto&) {
 					const gimpm::Stopwatch watch(rest);
 					return gimpm::workload(cloud, model);
 				});
 			}
+			requireUnobstructed(engine, w.obstacle);
 			const auto& t = w.times;
 			// scattering takes as long as gathering, the update of the points and the last residual as long as an assembly
 			perStep  = std::min(perStep, 2 * (gathering - rest) + t.basis + t.ghost + t.linear.analyse + t.assembly);
@@ -186,13 +180,24 @@ namespace {
 	}
 }
 
+static Real loadsEnd(const MpmImplicitEngine& engine)
+{
+	const ValueLock lock;
+	return engine.loadsEnd();
+}
+
 void addStudyMethods(py::object pythonClass)
 {
 	py::objects::add_to_namespace(
+	        pythonClass, "loadsEnd", py::make_function(&loadsEnd),
+	        "loadsEnd() -> float\n\nTime [s] when the last of the curves of loads has come to rest: those of the engine, of its loads, its "
+	        "boundaries and its water.");
+	py::objects::add_to_namespace(
 	        pythonClass, "stiffness", py::make_function(&stiffness),
-	        "stiffness() -> (rows, columns, values, size)\n\nReduced tangent stiffness K + K_g [N/m] of the current configuration: the free degrees of "
-	        "freedom only, both triangles, as NumPy arrays (M,) of int64, int64 and float, and the number of unknowns. Usable before any step. Raises "
-	        "ValueError as a step does.");
+	        "stiffness() -> (rows, columns, values, size)\n\nReduced tangent stiffness [N/m] of the current configuration, that of the first iteration of a load "
+	        "step from there with the loads of loadTime: of the points and the ghost stabilisation, of walls, contacts, pressures that follow and water. Of an "
+	        "MpmDynamicEngine, too, it is the derivative of these forces alone, without mass and damping. The free degrees of freedom only, both "
+	        "triangles, as NumPy arrays (M,) of int64, int64 and float, and the number of unknowns. Usable before any step. Raises ValueError for what a step cannot be made with.");
 	py::objects::add_to_namespace(
 	        pythonClass, "conditionNumber", py::make_function(&conditionNumber),
 	        "conditionNumber() -> float\n\nCondition number [-] of stiffness() in the 2-norm, from all eigenvalues of the dense matrix (Coombs 2023, figure "

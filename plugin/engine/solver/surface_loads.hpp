@@ -27,6 +27,9 @@ public:
 	// Writes a converged state back.
 	void scatter() const;
 
+	// About those that have not acted yet: whether one of them is inside of the body; empty if none is.
+	string doubt(const gimpm::PointCloud<Dim>&, const gimpm::Grid<Dim>&) const;
+
 private:
 	struct Load {
 		shared_ptr<MpmTraction> from;

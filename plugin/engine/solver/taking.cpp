@@ -4,6 +4,7 @@
 #include "engine/solver/MpmImplicitEngine.hpp"
 #include "engine/solver/exchange.hpp"
 #include "engine/solver/pieces.hpp"
+#include "engine/solver/pressure_table.hpp"
 #include "engine/solver/processes.hpp"
 #include "engine/solver/requirements.hpp"
 #include "engine/solver/sameness.hpp"
@@ -12,24 +13,60 @@
 
 namespace yade {
 
-template <int Dim> void MpmImplicitEngine::takePoints(Job<Dim>& job, Agreement& agreement)
+// Functions of the pressure answer before the step begins, and before anything is taken over from the scene, which they may ask and even change: then they are asked about what
+// there is now.
+template <int Dim> void MpmImplicitEngine::askWater(Agreement& agreement)
 {
+	constexpr int mostTimes = 100;
+	for (int time = 0; time < mostTimes; ++time) {
+		gimpm::Grid<Dim>   lattice;
+		vector<gimpm::Key> cells;
+		{
+			const ValueLock lock;
+			requireRunnable(*this);
+			grid->requireAdmissible();
+			lattice = grid->lattice<Dim>();
+			updateMaterialPoints(points, *scene, mask);
+			gimpm::PointCloud<Dim> middles;
+			for (const MaterialPoint& point : points)
+				if (const gimpm::Vec<Dim> x = point.state->pos.head<Dim>(); // others are refused in a moment
+				    x.allFinite() && ((x - lattice.origin) / lattice.cellSize).cwiseAbs().maxCoeff() < lattice.indexLimit)
+					middles.position.push_back(x);
+			cells = cellsOf(middles, lattice, nullptr);
+		}
+		if (distributed && processes()) {
+			agreement.meet(*this);
+			cells = gimpm::joined(*processes(), cells);
+			std::sort(cells.begin(), cells.end());
+			cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
+		}
+		if (!Waters<Dim>::ask(*this, lattice, cells)) return;
+	}
+	throw std::invalid_argument(
+	        getClassName() + ".water: MpmWater.pressure brings other material points into the scene whenever it is asked; it must only answer.");
+}
+
+template <int Dim> void MpmImplicitEngine::takePoints(Setup<Dim>& to, Agreement& agreement)
+{
+	auto& model     = to.model;
+	model.processes = processes();
 	updateMaterialPoints(points, *scene, mask);
 	Distribution::requireWhole(*this);
 	if (!isDivided(*this)) requireAny(points, *this);
 	vector<const MpmMaterial*> known;
 	bool                       areKnown = false;
-	if (distributed && job.model.processes) {
+	if (distributed && model.processes) {
 		Distribution::requireDivisible(*this, points);
 		agreement.meet(*this);
 		std::int64_t isKnown = plausibility.knows<Dim>(points);
-		job.model.processes->smallest(&isKnown, 1);
-		areKnown           = isKnown;
-		job.model.division = distribution.divide<Dim>(*this, points);
-		known              = materialsOfAll(*scene, points, *job.model.processes);
+		model.processes->smallest(&isKnown, 1);
+		areKnown       = isKnown;
+		model.division = distribution.divide<Dim>(*this, points);
+		known          = materialsOfAll(*scene, points, *model.processes);
 	}
-	job.cloud = gather(points, job.model, known);
-	if (areKnown) plausibility.know(job.cloud); // some have come from another process
+	to.cloud = gather(points, model, known);
+	if (areKnown) plausibility.know(to.cloud); // some have come from another process
+	if (model.division && !water.empty()) agreement.meet(*this);
 }
 
 Body::id_t MpmImplicitEngine::add(NewPoints& added)
@@ -66,6 +103,7 @@ template <int Dim> void MpmImplicitEngine::doubt(const Job<Dim>& job)
 	for (int i = 0; i < Plausibility::mostDoubts; ++i) // the same number in all processes
 		warnOfPoints(i < int(job.doubts.size()) ? job.doubts[i] : "");
 	warn(plausibility.doubtOfBoundaries(*this, points));
+	if (!job.model.division) warn(job.surfaceLoads.doubt(job.cloud, job.model.grid));
 }
 
 // False if there are no points to be split.
@@ -82,7 +120,8 @@ template <int Dim> bool MpmImplicitEngine::splitOutgrown(Job<Dim>& job)
 void MpmImplicitEngine::warnOfPoints(const string& text) { warn(isDivided(*this) ? firstSaid(text, *processes()) : text); }
 
 #define MPM_INSTANTIATE(Dim)                                                                                                                                   \
-	template void MpmImplicitEngine::takePoints(Job<Dim>&, Agreement&);                                                                                    \
+	template void MpmImplicitEngine::takePoints(Setup<Dim>&, Agreement&);                                                                                  \
+	template void MpmImplicitEngine::askWater<Dim>(Agreement&);                                                                                            \
 	template void MpmImplicitEngine::doubt(const Job<Dim>&);                                                                                               \
 	template bool MpmImplicitEngine::splitOutgrown(Job<Dim>&);
 MPM_INSTANTIATE(2)

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "engine/solver/waters.hpp"
 #include "engine/points/parallel.hpp"
+#include "engine/solver/MpmImplicitEngine.hpp"
 #include "engine/solver/pressure_table.hpp"
+#include "yade_api/value_lock.hpp"
 
 namespace yade {
 
@@ -27,19 +29,35 @@ namespace {
 		if (water.where == "pores") return gimpm::WaterPlace::pores;
 		return water.where == "outside" ? gimpm::WaterPlace::outside : gimpm::WaterPlace::everywhere;
 	}
+
+	bool hasFunction(const MpmWater& water) { return std::isnan(water.level) && water.levels.empty(); }
+
+	// That a function of one of the waters has to answer still, and the water, which lives on meanwhile.
+	template <int Dim>
+	std::pair<shared_ptr<MpmWater>, std::optional<PressureQuestion<Dim>>> nextQuestion(
+	        const MpmImplicitEngine& engine, const gimpm::Grid<Dim>& grid, const vector<gimpm::Key>& cells)
+	{
+		const ValueLock lock;
+		for (size_t i = 0; i < engine.water.size(); ++i) {
+			const auto& water = engine.water[i];
+			if (!hasFunction(*water) || !water->pressure) continue;
+			if (auto question = PressureQuestion<Dim>::of(*water, grid, cells, "water[" + std::to_string(i) + "]"))
+				return { water, std::move(question) };
+		}
+		return {};
+	}
 }
 
 template <int Dim> Waters<Dim>::Waters(const Loads& given, const gimpm::Grid<Dim>& grid, const gimpm::PointCloud<Dim>& cloud, const gimpm::Division* division)
 {
-	const auto hasFunction = [](const auto& water) { return std::isnan(water->level) && water->levels.empty(); };
-	const bool areAsked    = std::any_of(given.water.begin(), given.water.end(), hasFunction);
-	const auto cells       = areAsked ? cellsOf(cloud, grid, division) : vector<gimpm::Key>();
+	const bool areAsked = std::any_of(given.water.begin(), given.water.end(), [](const auto& water) { return hasFunction(*water); });
+	const auto cells    = areAsked ? cellsOf(cloud, grid, division) : vector<gimpm::Key>();
 	for (size_t i = 0; i < given.water.size(); ++i) {
 		MpmWater&    water = *given.water[i];
 		const string name  = "water[" + std::to_string(i) + "]";
 		water.requireAdmissible();
 		Source source { given.water[i], given.curveOf(water), nullptr, 0, 1 };
-		if (hasFunction(&water)) source.given = tabulated(water, grid, cells, name);
+		if (hasFunction(water)) source.given = tabulated(water, grid, cells, name);
 		else
 			std::tie(source.axis, source.up) = upwards(given.gravity, grid, name);
 		sources.push_back(source);
@@ -47,10 +65,36 @@ template <int Dim> Waters<Dim>::Waters(const Loads& given, const gimpm::Grid<Dim
 	}
 }
 
+template <int Dim> bool Waters<Dim>::ask(const MpmImplicitEngine& engine, const gimpm::Grid<Dim>& grid, const vector<gimpm::Key>& cells)
+{
+	for (bool isAsked = false;; isAsked = true) {
+		auto [water, question] = nextQuestion(engine, grid, cells);
+		if (!question) return isAsked;
+		question->ask();
+		const ValueLock lock;
+		question->store();
+	}
+}
+
 template <int Dim> void Waters<Dim>::join(gimpm::Model<Dim>& model)
 {
-	for (auto& water : waters)
+	for (auto& water : waters) {
+		water.shares = model.shares;
 		model.terms.push_back([&water](const gimpm::Beginning<Dim>& step) { return std::make_unique<gimpm::WaterForce<Dim>>(water, step); });
+	}
+}
+
+template <int Dim>
+auto Waters<Dim>::around(const gimpm::Vec<Dim>& x, const gimpm::Vec<Dim>& half) const
+        -> vector<std::pair<gimpm::WaterPlace, std::optional<gimpm::PressureAround<Dim>>>>
+{
+	vector<std::pair<gimpm::WaterPlace, std::optional<gimpm::PressureAround<Dim>>>> found;
+	for (const auto& water : waters) {
+		auto around = water.pressure->around(x, half);
+		if (around) around->value *= water.factor, around->gradient *= water.factor;
+		found.emplace_back(water.place, around);
+	}
+	return found;
 }
 
 template <int Dim> auto Waters<Dim>::pressureAt(const Source& source, Real time) const -> Pressure

@@ -6,6 +6,7 @@
 #include "engine/solver/Loads.hpp"
 
 namespace yade {
+class MpmImplicitEngine;
 
 template <int Dim> class Waters {
 public:
@@ -13,11 +14,18 @@ public:
 	// std::invalid_argument names what cannot be computed with. Functions are asked for pressures around the points, also where these are divided among processes.
 	Waters(const Loads&, const gimpm::Grid<Dim>&, const gimpm::PointCloud<Dim>&, const gimpm::Division* = nullptr);
 
+	// The same before a step: the cells are those of the points, of all processes. Nothing is asked while the lock of values is held, since a function may well ask the engine.
+	// Returns whether any was asked.
+	static bool ask(const MpmImplicitEngine&, const gimpm::Grid<Dim>&, const vector<gimpm::Key>& cells);
+
 	// Makes them act in the model's steps, for as long as this exists.
 	void join(gimpm::Model<Dim>&);
 
 	// The next step goes from here to there.
 	void advance(Real from, Real to);
+
+	// Averaged over a box, at the end of that step, of each with its factor.
+	vector<std::pair<gimpm::WaterPlace, std::optional<gimpm::PressureAround<Dim>>>> around(const gimpm::Vec<Dim>& x, const gimpm::Vec<Dim>& half) const;
 
 	// On the points in the last step that was accepted [J], if it is wanted of the steps to come.
 	void wantWork();

@@ -69,8 +69,20 @@ from .outline import polygon
 from .plotting import plot
 from .safety import strengthReduction
 from .solids import solid, terrain
+from .naming import didYouMean as _didYouMean, telling as _telling
 from .surfaces import surface
 from .tables import export
 
 __version__ = _engine.version
 __all__ = ['polygon', 'fill', 'add', 'refinementsAt', 'arrays', 'assign', 'geostatic', 'plot', 'colour', 'export', 'save', 'load', 'advise', 'discretisationError', 'stressError', 'elementTest', 'respond', 'strengthReduction', 'surface', 'contactForces', 'histories', 'readHistory', 'solid', 'terrain', 'movie']
+
+for _name in __all__:
+	_thing = globals()[_name] = _telling(globals()[_name])
+	_thing.__module__ = __name__  # where it is found by that name
+for _name in stages.__all__:
+	setattr(stages, _name, _telling(getattr(stages, _name)))
+
+
+def __getattr__(name):
+	meant = '' if name.startswith('_') else _didYouMean(name, __all__ + ['stages'])
+	raise AttributeError(f"module 'yade.mpm' has no attribute {name!r}{meant}")

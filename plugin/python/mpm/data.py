@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """The data of all material points as NumPy arrays, out and in."""
 import operator
+import sys
+import threading
 
 import numpy as np
 from yade import wrapper
@@ -10,6 +12,7 @@ from .analysis import solverOf
 from .divided import columnsOfPoints, idsOfPoints
 from .library import engine
 from .messages import brief, isNumber, place
+from .naming import didYouMean
 from .regions import each
 
 table = {column['name']: column for column in engine.pointColumns()}  # of all columns that there are
@@ -30,7 +33,20 @@ def arrays():
 		and ``parent`` (N,), the id of the body that the point was split off from, -1: none. A scene without material points gives arrays of length 0.
 	:raises ValueError: a body with an ``MpmPoint`` shape that is no complete material point.
 	"""
+	_sayIfRunning()
 	return _asArrays(columnsOfPoints(0, False))
+
+
+_hasSaid = False
+
+
+def _sayIfRunning():
+	"""Once: a script that goes on beside O.run(n) reads what is there by then. What the run itself calls comes at the right time."""
+	global _hasSaid
+	scene = wrapper.Omega()
+	if _hasSaid or not scene.running or threading.current_thread() is not threading.main_thread(): return
+	_hasSaid = True
+	sys.stderr.write(f'\nyade.mpm: mpm.arrays() while the simulation runs, in iteration {scene.iter}: they are those of this moment. O.run(n, wait=True) or O.wait() waits for the end.\n')
 
 
 def contactForces(solver=None):
@@ -45,9 +61,9 @@ def contactForces(solver=None):
 	return tuple(np.frombuffer(data[name]).reshape(-1, 3) for name in ('corners', 'field'))
 
 
-def fields():
-	"""The same, and what follows from it: ``displacement`` (N, 3) [m], ``strain`` (N, 3, 3) logarithmic, ``meanStress`` and ``sqrt2J2`` (N,) [Pa], and where there is water ``totalStress`` (N, 3, 3) [Pa]."""
-	return _asArrays(columnsOfPoints(0, True))
+def fields(mask=0):
+	"""The same of the points that a mask means, and what follows from it: ``displacement`` (N, 3) [m], ``strain`` (N, 3, 3) logarithmic, ``meanStress`` and ``sqrt2J2`` (N,) [Pa], and where there is water ``totalStress`` (N, 3, 3) [Pa]."""
+	return _asArrays(columnsOfPoints(mask, True))
 
 
 def pointsOf(solver):
@@ -160,7 +176,7 @@ def _column(name, values, rows):
 		if name in ('vel', 'velocities'): hint = 'it is called velocity'
 		elif name in table: hint = f'{name} is a result'
 		else: hint = 'there is no such column'
-		raise TypeError(f"assign: {name} cannot be assigned: {hint}; there are {', '.join(_assignable)}")
+		raise TypeError(f"assign: {name} cannot be assigned: {hint}{didYouMean(name, _assignable) or ';'} there are {', '.join(_assignable)}")
 	array = _numbers(name, values)
 	shape = (rows, ) + _shape(table[name])
 	if isParameter(name) and np.ndim(values) == 0:

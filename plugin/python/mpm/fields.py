@@ -4,6 +4,7 @@ import numpy as np
 
 from .data import table
 from .messages import brief
+from .naming import didYouMean
 
 
 def components(name, column):
@@ -26,7 +27,11 @@ def scalar(who, name, columns):
 	found = components(base, columns[base]) if base in columns else {}
 	if name in found: return found[name]
 	if found: raise ValueError(f"{who}: field = {brief(name)}: one component must be chosen, out of {', '.join(found)}")
-	raise ValueError(f"{who}: field = {brief(name)} is not known; there are {', '.join(columns)}, with components as in stress_xy or displacement_y")
+	raise ValueError(f"{who}: field = {brief(name)} is not known{didYouMean(name, _scalars(columns)) or ';'} there are {', '.join(columns)}, with components as in stress_xy or displacement_y")
+
+
+def _scalars(columns):
+	return [scalar for name, column in columns.items() for scalar in components(name, column)]
 
 
 def labelled(name, values):

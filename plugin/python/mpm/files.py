@@ -6,6 +6,7 @@ import errno
 import gzip
 import os
 import shutil
+import time
 
 from yade import wrapper
 
@@ -79,14 +80,29 @@ def load(file):
 
 	:param file: the path that :func:`save` was given
 	:raises TypeError: no path
-	:raises OSError: there is no such file, nor pieces of it
+	:raises OSError: there is no such file, nor pieces of it, or it cannot be read as a scene
 	:raises ValueError: pieces are missing or of different moments, or there are both a file and pieces.
 	"""
 	file = pathOf('load', 'file', file)
 	pieces = piecesOf(file)
 	if pieces: return loadPieces(pieces)
 	if not os.path.exists(file): raise FileNotFoundError(errno.ENOENT, 'load: there is no such file, nor pieces of it', file)
-	wrapper.Omega().load(file, quiet=True)
+	_endStep()
+	try:
+		wrapper.Omega().load(file, quiet=True)
+	except RuntimeError as error:
+		raise OSError(
+		        f'load: {file!r}, of {os.path.getsize(file)} bytes, cannot be read as a scene ({error}): it is not whole, as after a full disk or a run that was killed '
+		        'while it wrote, or another release of YADE or of the plugin has written it'
+		) from None
+
+
+def _endStep():
+	"""O.pause() does not wait for the step that is made, and YADE does not survive that its scene is replaced in one."""
+	scene = wrapper.Omega()
+	scene.pause()
+	while scene.subStep >= 0:
+		time.sleep(.01)
 
 
 def _write(file):

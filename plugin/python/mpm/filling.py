@@ -10,8 +10,9 @@ from yade.minieigenHP import Vector3
 from .data import isParameter, ofPositions, table
 from .library import engine
 from .messages import brief, place
+from .naming import didYouMean, materialOf
 from .processes import together
-from .regions import bounds, each, inside, volumeInBoxes
+from .regions import bounds, each, inside, requireRightWay, volumeInBoxes
 
 
 def fill(predicate, grid, pointsPerCell, material, **parameters):
@@ -37,6 +38,8 @@ def fill(predicate, grid, pointsPerCell, material, **parameters):
 	:raises TypeError: an argument of the wrong kind, or a name that is no strength or modulus.
 	:raises ValueError: a value that is not admitted, a parameter that the material of a point does not have, no point inside the region, or a point without material.
 	:raises KeyError: a label that is not in ``O.materials``.
+
+	A label that several materials have, an empty one, a closed surface of triangles that is inside out, and points that the grid cannot number are refused, too (ValueError).
 	"""
 	try:
 		return engine.newBodies(grid, *_points(predicate, grid, pointsPerCell, material, parameters))
@@ -97,7 +100,7 @@ def _points(predicate, grid, pointsPerCell, material, parameters):
 
 def _parameter(name, value, positions):
 	known = [column for column in table if isParameter(column)]
-	if name not in known: raise TypeError(f"fill: {name} is no strength or modulus that differs from point to point; there are {', '.join(known)}")
+	if name not in known: raise TypeError(f"fill: {name} is no strength or modulus that differs from point to point{didYouMean(name, known) or ';'} there are {', '.join(known)}")
 	try:
 		column = np.ascontiguousarray(ofPositions('fill', name, value, positions), dtype=float)
 	except ValueError:
@@ -192,6 +195,7 @@ def _cellRange(predicate, grid, n):
 	"""First cell and one past the last cell of each axis that may have points inside the predicate."""
 	if isinstance(predicate, type) or not callable(predicate) or not callable(getattr(predicate, 'aabb', None)):
 		raise TypeError(f'fill: predicate = {brief(predicate)} must be an mpm.polygon or a predicate of yade.pack{_meant(predicate)}')
+	requireRightWay('fill', predicate)
 	low, high = bounds(predicate, grid.dim)
 	if not np.isfinite([low, high]).all():
 		raise ValueError(f'fill: predicate = {brief(predicate)} has no bounds (its box reaches from {place(low)} to {place(high)}); '
@@ -260,12 +264,7 @@ def _labelsFromList(positions, pairs):
 
 
 def _material(label):
-	try:
-		found = wrapper.Omega().materials[label]
-	except KeyError:
-		known = [m.label for m in wrapper.Omega().materials if m.label]
-		there = f'which has {known}' if known else 'which has no material with a label yet; append it there before filling'
-		raise KeyError(f'fill: material {brief(label)} is not in O.materials, {there}') from None
+	found = materialOf('fill', label)
 	if not isinstance(found, wrapper.MpmMaterial):
 		raise TypeError(f'fill: material {brief(label)} is a {type(found).__name__}; material points need one of the Mpm materials')
 	return found

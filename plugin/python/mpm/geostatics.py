@@ -8,8 +8,11 @@ from yade import wrapper
 
 from .analysis import noPoints, solverOf
 from .data import assign, parameter, pointsOf
+from .library import engine as _library
 from .messages import brief, isNumber, place
-from .water import pressures
+from .water import pressuresOfEach
+
+_mostPressed = 6  # K0: the coefficient of passive earth pressure for a friction angle of 45 degrees
 
 
 def geostatic(K0=None, surface=None, solver=None, OCR=1):
@@ -65,7 +68,9 @@ def geostatic(K0=None, surface=None, solver=None, OCR=1):
 	elif not isNumber(surface): raise TypeError(f'geostatic: surface = {brief(surface)} must be a height [m]')
 	elif not (math.isfinite(surface) and surface >= top - 1e-9 * abs(top)):
 		raise ValueError(f'geostatic: surface = {surface} is below the top of the highest points, at {top} m; at what height does the ground end?')
-	pressure = _weightAbove(points, axis, height, half, density, surface - top) * np.linalg.norm(solver.gravity) + _ofWater(solver, points, axis, up * surface)
+	rows = _Rows(points, height, half, density)
+	pressure = rows.weightAbove(surface - top) * np.linalg.norm(solver.gravity)
+	if solver.water: pressure = pressure + _ofWater(solver, points, rows, axis, up, surface - top)
 	lifted = np.flatnonzero(pressure <= 0)
 	if lifted.size: raise ValueError(f'geostatic: at the height {height[lifted[0]]} m the water bears all of the ground: is its density that of saturated soil?')
 	depth = surface - height
@@ -76,12 +81,25 @@ def geostatic(K0=None, surface=None, solver=None, OCR=1):
 	_assign(points, stress, past, depth, horizontal / pressure)
 
 
-def _ofWater(solver, points, axis, surface):
-	"""What water adds to the effective vertical pressure of the points: what stands on the ground, less what is in the pores."""
-	if not solver.water: return 0
+def _ofWater(solver, points, rows, axis, up, cover):
+	"""What water adds to the effective vertical pressure of the points, by the means over domains that a step takes: it lifts what is in it by the gradient of its
+	pressure; where it is in the pores or outside alone, its pressure acts, too."""
 	ground = points['pos'].copy()
-	ground[:, axis] = surface
-	return pressures(solver, ground)[1] - pressures(solver, points['pos'])[0]
+	top = rows.level[0] + rows.thickness[0] / 2
+	ofCover = np.zeros((len(solver.water), len(ground)))
+	for height, sign in ((top + cover, 1), (top, -1)) if cover > 0 else ():
+		ground[:, axis] = up * height
+		ofCover += sign * np.reshape(pressuresOfEach(solver, ground), ofCover.shape)
+	result = np.zeros(len(ground))
+	around = _library.waterAround(solver, np.ascontiguousarray(points['pos']), np.ascontiguousarray(points['halfSize']))
+	ground[:, axis] = up * top
+	onTop = pressuresOfEach(solver, ground)
+	for water, above, top, (pressure, gradient) in zip(solver.water, ofCover, onTop, around):
+		pressure, lift = np.frombuffer(pressure), -up * np.frombuffer(gradient).reshape(-1, 3)[:, axis]
+		lifted = rows.above(lift) if rows.areAlike(lift) else pressure - top  # where it varies along a row, each column by itself
+		if water.where == 'pores': result -= pressure
+		else: result += above - lifted + (pressure if water.where == 'outside' else 0)
+	return result
 
 
 def _history(K0, OCR, points, materials, number, pressure, depth):
@@ -169,6 +187,7 @@ def _ratio(K0, material, sine, history):
 		return np.full(len(history), material.poisson / (1 - material.poisson)) if sine is None else (1 - sine) * history**sine
 	if not isNumber(value): raise TypeError(f'geostatic: K0 = {brief(value)} must be a number, the ratio of horizontal to vertical stress, or a dict of them')
 	if not (math.isfinite(value) and value >= 0): raise ValueError(f'geostatic: K0 = {brief(value)} must be finite and >= 0')
+	if value > _mostPressed: _library.warn(f'geostatic: K0 = {brief(value)}: the horizontal stress would be that many times the vertical one, more than sand bears when it is pushed; is it in percent?')
 	return np.full(len(history), float(value))
 
 
@@ -182,28 +201,55 @@ def _preconsolidation(criticalStateRatio, sine, pressure, ratio, history):
 	return np.maximum(through(history * pressure, ratio / history**sine), through(pressure, ratio))
 
 
-def _weightAbove(points, axis, height, half, density, cover):
-	"""Mass per area above the middle of each point [kg/m2]; *cover*: height of soil above the highest points."""
-	step = 2 * half.min()
-	order = np.argsort(-height, kind='stable')
-	rows = np.concatenate([[0], np.cumsum(-np.diff(height[order]) > 1e-6 * step)])  # number of the row of each point, from the top
-	first = np.flatnonzero(np.diff(rows, prepend=-1))
-	area = np.bincount(rows, (points['volume'] / (2 * half))[order])
-	level, thickness, rho = height[order][first], 2 * half[order][first], density[order][first]
-	mixed = np.flatnonzero((density[order] != rho[rows]) | (np.abs(half[order] * 2 / thickness[rows] - 1) > 1e-9))
-	if mixed.size:
-		raise ValueError(f'geostatic: the points at the height {level[rows[mixed[0]]]} m differ in density or size; only horizontal layers are at rest')
-	unequal = np.flatnonzero(np.abs(area / area[0] - 1) > 1e-9)
-	if unequal.size:
-		raise ValueError(
-		        f'geostatic: the ground is not level: the points at the height {level[0]} m cover {area[0]} m2, those at '
-		        f'{level[unequal[0]]} m cover {area[unequal[0]]} m2 (in plane strain per metre of thickness). Let gravity grow first, and then the loads: '
-		        'gravityCurve = [(0, 0), (1, 1)], loadCurve = [(1, 0), (2, 1)]'
-		)
-	gaps = np.flatnonzero(np.abs(level[:-1] - level[1:] - (thickness[:-1] + thickness[1:]) / 2) > 1e-6 * step)
-	if gaps.size: raise ValueError(f'geostatic: the ground has a gap or an overlap between the heights {level[gaps[0] + 1]} and {level[gaps[0]]} m')
-	masses = rho * thickness
-	above = cover * rho[0] + np.cumsum(masses) - masses / 2
-	result = np.empty(len(height))
-	result[order] = above[rows]
-	return result
+class _Rows:
+	"""The horizontal rows of points, from the top; refuses ground that is not level."""
+
+	def __init__(self, points, height, half, density):
+		self.order = np.argsort(-height, kind='stable')
+		step = 2 * half.min()
+		self.row = np.concatenate([[0], np.cumsum(-np.diff(height[self.order]) > 1e-6 * step)])  # of each point, in this order
+		first = np.flatnonzero(np.diff(self.row, prepend=-1))
+		self.level, self.thickness, self.density = height[self.order][first], 2 * half[self.order][first], density[self.order][first]
+		self._requireEqual(density[self.order], half[self.order], np.bincount(self.row, (points['volume'] / (2 * half))[self.order]))
+		gaps = np.flatnonzero(np.abs(self.level[:-1] - self.level[1:] - (self.thickness[:-1] + self.thickness[1:]) / 2) > 1e-6 * step)
+		if gaps.size: raise ValueError(f'geostatic: the ground has a gap or an overlap between the heights {self.level[gaps[0] + 1]} and {self.level[gaps[0]]} m')
+
+	def _requireEqual(self, density, half, area):
+		level, row = self.level, self.row
+		mixed = np.flatnonzero(np.abs(half * 2 / self.thickness[row] - 1) > 1e-9)
+		if mixed.size: raise ValueError(f'geostatic: the points at the height {level[row[mixed[0]]]} m differ in size; only horizontal layers are at rest')
+		heavier = np.flatnonzero(density != self.density[row])
+		if heavier.size:
+			raise ValueError(
+			        f'geostatic: the points at the height {level[row[heavier[0]]]} m differ in density ({self.density[row[heavier[0]]]} and {density[heavier[0]]} kg/m3); only horizontal '
+			        'layers are at rest. A wall or pile that is wished in place: fill it with a material of the density of the ground beside it, call geostatic, then give its bodies the heavier '
+			        'material (body.material = O.materials["wall"]), the weight of which acts from the first step on. Or let gravity grow first: gravityCurve = [(0, 0), (1, 1)], loadCurve = [(1, 0), (2, 1)]'
+			)
+		unequal = np.flatnonzero(np.abs(area / area[0] - 1) > 1e-9)
+		if unequal.size:
+			raise ValueError(
+			        f'geostatic: the ground is not level: the points at the height {level[0]} m cover {area[0]} m2, those at '
+			        f'{level[unequal[0]]} m cover {area[unequal[0]]} m2 (in plane strain per metre of thickness). Let gravity grow first, and then the loads: '
+			        'gravityCurve = [(0, 0), (1, 1)], loadCurve = [(1, 0), (2, 1)]'
+			)
+
+	def areAlike(self, values):
+		"""Whether values (N,) of the points are the same all along each row."""
+		ordered = values[self.order]
+		first = ordered[np.flatnonzero(np.diff(self.row, prepend=-1))]
+		return (np.abs(ordered - first[self.row]) <= 1e-9 * np.abs(values).max()).all()
+
+	def above(self, values):
+		"""Integral of values (N,) of the points over the height, from the top to the middle of each point; of each row their mean."""
+		parts = np.bincount(self.row, values[self.order]) / np.bincount(self.row) * self.thickness
+		return self.toPoints(np.cumsum(parts) - parts / 2)
+
+	def weightAbove(self, cover):
+		"""Mass per area above the middle of each point [kg/m2]; *cover*: height of soil above the highest points."""
+		masses = self.density * self.thickness
+		return self.toPoints(cover * self.density[0] + np.cumsum(masses) - masses / 2)
+
+	def toPoints(self, ofRows):
+		result = np.empty(len(self.order))
+		result[self.order] = ofRows[self.row]
+		return result

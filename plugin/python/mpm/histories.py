@@ -2,12 +2,14 @@
 """What happens at chosen points over time, and histories from files."""
 import numpy as np
 from yade import wrapper
+from yade.minieigenHP import Vector3
 
 from .analysis import noPoints, solverOf
 from .data import fields
 from .fields import components, labelled
 from .files import replacing
 from .messages import brief, isNumber, pathOf
+from .naming import didYouMean
 from .processes import byFirst
 
 _kept = {}  # by label: what the PyRunners of this process write to
@@ -20,7 +22,7 @@ class histories:
 	of the call. Points move: positions only choose them. ``O.save`` keeps what is recorded, and of what, not the values: save them to a file. A loaded scene goes on with
 	``mpm.histories.loaded(label)``, from the state that was saved.
 
-	:param at: ids of bodies, or positions [m] (N, 3), each of which stands for the nearest material point
+	:param at: list or array of ids of bodies, or positions [m] (N, 3), each of which stands for the nearest material point of the engine
 	:param record: columns of :func:`arrays`, or ``displacement``, ``strain``, ``meanStress``, ``sqrt2J2``, ``totalStress``
 	:param every: iterations from one value to the next, >= 1, beginning with the first
 	:param label: name, by which a loaded scene finds it
@@ -35,14 +37,14 @@ class histories:
 		if any(getattr(engine, 'label', '') == _runner(label) for engine in wrapper.Omega().engines):
 			raise ValueError(f'histories: label = {brief(label)} is taken by other histories of the scene')
 		if self.solver not in wrapper.Omega().engines: raise ValueError('histories: the solver is not in O.engines; put it there first')
-		columns = fields()
+		columns = fields(self.solver.mask)
 		if not len(columns['id']): raise ValueError(noPoints('histories', self.solver))
 		for name in self.record:
-			if name not in columns: raise ValueError(f"histories: record has {brief(name)}, which is not known; there are {', '.join(columns)}")
+			if name not in columns: raise ValueError(f"histories: record has {brief(name)}, which is not known{didYouMean(name, columns) or ';'} there are {', '.join(columns)}")
 		self.ids = _chosen(at, columns)
 		self._begin(columns)
 		scene = wrapper.Omega()
-		command = f"__import__('sys').modules['yade.mpm.histories'].add({label!r}, {self.ids.tolist()}, {self.record}, {list(scene.engines).index(self.solver)})"
+		command = f"__import__('sys').modules['yade.mpm.histories'].add({label!r}, {self.ids.tolist()}, {self.record}, number={_solvers().index(self.solver)})"
 		scene.engines = list(scene.engines) + [wrapper.PyRunner(command=command, iterPeriod=int(every), initRun=True, label=_runner(label))]
 
 	def _begin(self, columns):
@@ -71,7 +73,7 @@ class histories:
 		if name in self._values: return np.array(self._values[name])
 		base = str(name).partition('_')[0]
 		found = _scalars(base, np.array(self._values[base])) if base in self._values else {}
-		if name not in found: raise ValueError(f"histories: {brief(name)} is not recorded; there are {', '.join(found or self._values)}")
+		if name not in found: raise ValueError(f"histories: {brief(name)} is not recorded{didYouMean(name, found or self._values) or ';'} there are {', '.join(found or self._values)}")
 		return found[name]
 
 	@byFirst
@@ -122,14 +124,20 @@ class histories:
 		ax.figure.follow.start()
 
 
-def add(label, ids, record, solver):
-	"""For the PyRunner: the values of now. In a scene that was loaded they are the first."""
+def add(label, ids, record, place=None, number=None):
+	"""For the PyRunner: the values of now. In a scene that was loaded they are the first. *number*: of the solver among those in O.engines, before which stages put engines; *place*: in O.engines, of scenes saved earlier."""
 	if label not in _kept or _kept[label].solver not in wrapper.Omega().engines:
 		again = histories.__new__(histories)
-		again.solver, again.label, again.record, again.ids = solverOf('histories', wrapper.Omega().engines[solver]), label, tuple(record), np.array(ids)
-		again._begin(fields())
+		solver = wrapper.Omega().engines[place] if number is None else _solvers()[number]
+		again.solver, again.label, again.record, again.ids = solverOf('histories', solver), label, tuple(record), np.array(ids)
+		again._begin(fields(again.solver.mask))
 	else:
-		_kept[label]._add(fields())
+		kept = _kept[label]
+		kept._add(fields(kept.solver.mask))
+
+
+def _solvers():
+	return [engine for engine in wrapper.Omega().engines if isinstance(engine, wrapper.MpmImplicitEngine)]
 
 
 def _runner(label):
@@ -159,6 +167,9 @@ def _chosen(at, columns):
 		raise TypeError(f'histories: at = {brief(at)} must be ids of bodies, or positions with three numbers each') from None
 	if not values.size or values.ndim > 2 or (values.ndim == 2 and values.shape[1] != 3) or not np.isfinite(values).all():
 		raise ValueError(f'histories: at = {brief(at)} is not admitted: expected ids of bodies, or positions with three finite numbers each')
+	isOne = isinstance(at, (tuple, Vector3)) or np.asarray(at).dtype.kind == 'f'
+	if isOne and values.shape == (3, ):
+		raise ValueError(f'histories: at = {brief(at)} may be a position or three ids: a position needs brackets, as in at=[{brief(at)}], and ids are a list of integers')
 	if values.ndim == 2: return columns['id'][[int(((columns['pos'] - x)**2).sum(1).argmin()) for x in values]]
 	ids = np.atleast_1d(values).astype(int)
 	missing = [x for x, i in zip(np.atleast_1d(values), ids) if x != i or i not in columns['id']]

@@ -9,6 +9,7 @@ from yade import wrapper
 from .data import table
 from .library import engine
 from .messages import brief, isNumber
+from .naming import didYouMean, materialOf
 from .plotting import write
 
 
@@ -58,7 +59,7 @@ def elementTest(material, kind, strain, steps=100, confiningPressure=0, initialS
 	=====================  ====================================================================================================
 
 	Strains are finite; the stress that is kept and that of the result are Cauchy's, with the state at first as reference (F = 1). The laws have their strength in
-	Kirchhoff stress, which is det F times Cauchy's. A step finds the strain across by Newton's method with the law's tangent, to 1e-10 of the stress; where that fails, it is
+	Kirchhoff stress, which is det F times Cauchy's. A step finds the strain across by Newton's method with the law's tangent, to 1e-10 of the stress, or to the round-off of strain times stiffness where that is more; where that fails, it is
 	halved up to ten times.
 
 	:param material: material of the plugin, or the label of one in O.materials
@@ -102,9 +103,9 @@ def elementTest(material, kind, strain, steps=100, confiningPressure=0, initialS
 def _material(who, material):
 	if isinstance(material, str):
 		try:
-			material = wrapper.Omega().materials[material]
-		except (KeyError, IndexError):
-			raise ValueError(f'{who}: material = {brief(material)} is not the label of a material in O.materials') from None
+			material = materialOf(who, material)
+		except KeyError as error:
+			raise ValueError(error.args[0]) from None
 	if not isinstance(material, wrapper.MpmMaterial):
 		raise TypeError(f'{who}: material = {brief(material)} must be a material of the plugin, as MpmMohrCoulombMat(...), or the label of one')
 	return material
@@ -136,7 +137,7 @@ def _strain(who, strain):
 def _internals(who, internals):
 	known = [name for name, column in table.items() if column['isInternal']]
 	for name in internals:
-		if name not in known: raise ValueError(f"{who}: {name} is no internal variable of a law; there are {', '.join(known)}")
+		if name not in known: raise ValueError(f"{who}: {name} is no internal variable of a law{didYouMean(name, known) or ';'} there are {', '.join(known)}")
 	return {name: _number(who, name, value, 'a finite number') for name, value in internals.items()}
 
 
@@ -220,13 +221,18 @@ def _solve(test, material, state, to, kept):
 		if not free.any(): return trial
 		J, directions = np.linalg.det(trial.defGrad), free / free.sum()
 		residual = directions @ (np.diag(trial.kirchhoff) - J * kept)
-		if abs(residual) <= tolerance * np.linalg.norm(trial.kirchhoff): return trial
+		if abs(residual) <= max(tolerance * np.linalg.norm(trial.kirchhoff), _roundOff(trial)): return trial
 		slope = directions @ np.diag(_rate(trial, np.diag(free))) - J * free.sum() * (directions @ kept)
 		if not abs(slope) > 0: raise _NoSolution('the stress across does not change with the strain across')
 		u -= residual / slope
 		if not abs(u) < 1: raise _NoSolution('the strain across grows without bounds')
 		lowest = min(lowest, abs(residual))
 	raise _NoSolution(f"Newton's method misses the stress that is kept by {lowest:.3g} Pa or more after {most} iterations")
+
+
+def _roundOff(trial):
+	"""Of the stress [Pa]: strains are logarithms of numbers near one, whose round-off the stiffness multiplies, of nearly incompressible soil by its bulk modulus."""
+	return 8 * np.finfo(float).eps * np.abs(trial.trial.answer['tangent']).sum(axis=1).max()
 
 
 def _trial(material, state, increment, to):

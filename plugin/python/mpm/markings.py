@@ -4,6 +4,7 @@ import numpy as np
 
 from .data import table
 from .messages import brief, isNumber
+from .naming import didYouMean
 
 _ink = '#212529'
 
@@ -17,7 +18,7 @@ def vectorsOf(name, points):
 		raise ValueError(f'plot: vectors = {brief(name)} must be the name of a vector, or an array ({len(points["id"])}, 3) of finite numbers')
 	if name in points and points[name].ndim == 2: return points[name]
 	known = [column for column, values in points.items() if values.ndim == 2]
-	raise ValueError(f"plot: vectors = {brief(name)} is no vector of the points; there are {', '.join(known)}")
+	raise ValueError(f"plot: vectors = {brief(name)} is no vector of the points{didYouMean(name, known) or ';'} there are {', '.join(known)}")
 
 
 def drawVectors(ax, vectors, places, shown, label):

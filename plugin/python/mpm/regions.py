@@ -21,6 +21,18 @@ def inside(predicate, points):
 	return np.fromiter((predicate(Vector3(*p), 0.) for p in each(points)), bool, len(points))
 
 
+def requireRightWay(who, predicate):
+	"""ValueError for a closed surface of triangles that face inwards, by itself or in a combination: its inside would be all that is around it."""
+	if isinstance(predicate, tuple(_combinations)):
+		requireRightWay(who, predicate.A)
+		requireRightWay(who, predicate.B)
+	elif isinstance(predicate, pack.inGtsSurface) and predicate.surf.volume() < 0:
+		raise ValueError(
+		        f'{who}: the triangles of the closed surface face inwards (its volume is {predicate.surf.volume():.6g} m3), so that its inside would be what is around it; turn it by '
+		        'surface.revert() before pack.inGtsSurface(surface). mpm.solid turns what it reads from a file.'
+		)
+
+
 def each(points):
 	"""The rows, as lists of which few are in memory at a time."""
 	for first in range(0, len(points), 2**14):

@@ -5,7 +5,7 @@ import math
 import numpy as np
 
 from .analysis import noPoints, solverOf
-from .data import arrays
+from .data import pointsOf
 from .messages import brief, isNumber
 
 _criterion = 'no equilibrium, or displacements of more than 3 times the largest elastic strain times the smallest extent of the body'
@@ -39,7 +39,7 @@ def strengthReduction(solver=None, tolerance=0.01, first=1.0, factor=1.25):
 	for name, value, low, high in ('tolerance', tolerance, 0, 1), ('first', first, 0, math.inf), ('factor', factor, 1, math.inf):
 		if not isNumber(value): raise TypeError(f'strengthReduction: {name} = {brief(value)} must be a number')
 		if not low < value < high: raise ValueError(f'strengthReduction: {name} = {value} is not admitted: expected a number > {low} and < {high}')
-	if not len(arrays()['id']): raise ValueError(noPoints('strengthReduction', solver))
+	if not len(pointsOf(solver)[0]['id']): raise ValueError(noPoints('strengthReduction', solver))
 	search = _Search(solver)
 	lower, upper = search.bracket(first, factor)
 	while upper - lower > tolerance * lower:

@@ -7,6 +7,7 @@ import numpy as np
 from yade import pack, ymport
 from yade.minieigenHP import Vector3
 
+from .library import engine
 from .messages import brief, isNumber, pathOf, place
 
 
@@ -72,6 +73,7 @@ def _closedSurface(corners, fileName):
 	numbers = vertex.reshape(-1, 3)
 	numbers = numbers[(numbers != np.roll(numbers, 1, axis=1)).all(axis=1)]  # without those that have shrunk to a line
 	_requireClosed(numbers, places, fileName)
+	numbers = _facingOutwards(numbers, places, fileName)
 	vertices = [gts.Vertex(*x) for x in places.tolist()]
 	edges, surface = {}, gts.Surface()
 
@@ -83,6 +85,48 @@ def _closedSurface(corners, fileName):
 	for a, b, c in numbers.tolist():
 		surface.add(gts.Face(edge(a, b), edge(b, c), edge(c, a)))
 	return surface
+
+
+def _facingOutwards(triangles, places, fileName):
+	"""The same triangles, those of whole shells turned that face the wrong way: outwards is where an even number of other shells is around."""
+	shell = _shells(triangles)
+	count, corners = shell.max() + 1, places[triangles]
+	turned = []
+	for number in range(count):
+		own = corners[shell == number]
+		a, b, c = (own - own[0, 0]).transpose(1, 0, 2)
+		volume = (np.cross(a, b) * c).sum()  # six times that of the tetrahedra between a point and the triangles
+		around = sum(_isAround(corners[shell == other], own[0, 0]) for other in range(count) if other != number)
+		if (volume > 0) != (around % 2 == 0): turned.append(number)
+	if not turned: return triangles
+	which = 'its triangles face' if count == 1 else f'the triangles of {len(turned)} of its {count} closed shells face'
+	engine.warn(
+	        f'solid: {fileName!r}: {which} the wrong way, to where the solid is; they are turned. The solid is what an odd number of closed shells is around, so that a shell within another one is '
+	        'the wall of a cavity.'
+	)
+	return np.where(np.isin(shell, turned)[:, None], triangles[:, ::-1], triangles)
+
+
+def _shells(triangles):
+	"""Number of the shell of each triangle (N,): those that are joined by vertices have the same."""
+	label = np.arange(triangles.max() + 1)
+	while True:
+		least = label[triangles].min(axis=1)
+		grown = label.copy()
+		np.minimum.at(grown, triangles, least[:, None])
+		grown = grown[grown]
+		if (grown == label).all(): return np.unique(label[triangles[:, 0]], return_inverse=True)[1].ravel()
+		label = grown
+
+
+def _isAround(triangles, point):
+	"""Whether a closed surface is around a point, whichever way its triangles (N, 3, 3) face: the solid angles that they fill add up to a full one (van Oosterom and Strackee 1983)."""
+	a, b, c = (triangles - point).transpose(1, 0, 2)
+	lengths = [np.linalg.norm(v, axis=1) for v in (a, b, c)]
+	dot = lambda v, w: (v * w).sum(axis=1)
+	above = dot(a, np.cross(b, c))
+	below = lengths[0] * lengths[1] * lengths[2] + dot(a, b) * lengths[2] + dot(b, c) * lengths[0] + dot(c, a) * lengths[1]
+	return abs(np.arctan2(above, below).sum()) > math.pi
 
 
 def _joined(points, step):
@@ -152,6 +196,7 @@ class terrain(pack.Predicate):
 		if not (self.low < self.high).all():
 			raise ValueError(f'terrain: nothing of {top!r}, which reaches from {place(grids[0].low)} to {place(grids[0].high)}, is between min = {place(low)} and max = {place(high)}')
 		for grid in grids:
+			grid.requireMetres(bottom if isNumber(bottom) else [])
 			grid.requireKnown(self.low, self.high)
 		self.origin, self._top, self._bottom = origin, grids[0], grids[1] if len(grids) > 1 else float(bottom)
 		self._requireThickness()
@@ -189,6 +234,10 @@ class terrain(pack.Predicate):
 		return Vector3(*(self.low - self.origin), self._bottomAt(places).min()), Vector3(*(self.high - self.origin), self._top.at(places).max())
 
 
+# Where ground cannot be that steep in metres, half of it; nor a model of it as thick, over its width.
+_steepest, _thickest = 5, 50
+
+
 class _Heights:
 	"""Heights on a lattice, from a file."""
 
@@ -220,10 +269,40 @@ class _Heights:
 			values = np.array(' '.join(lines).split(), float)
 		except ValueError as error:
 			raise refuse(error) from None
+		for name in 'nrows', 'ncols':
+			if header[name] != int(header[name]): raise refuse(f'{name} = {header[name]:g} is no whole number')
 		shape = int(header['nrows']), int(header['ncols'])
 		if values.size != shape[0] * shape[1] or min(shape) < 2: raise refuse(f'{shape[0]} rows of {shape[1]} heights are announced, at least 2 of each, and {values.size} are there')
 		if not header['cellsize'] > 0: raise refuse('cellsize must be > 0')
+		ends = np.cumsum([len(line.split()) for line in lines])
+		cut = np.setdiff1d(shape[1] * np.arange(1, shape[0] + 1), ends)
+		if cut.size:
+			row, line = cut[0] // shape[1], np.searchsorted(ends, cut[0])
+			raise refuse(
+			        f'each of its {shape[0]} rows has {shape[1]} heights (ncols), but row {row} does not end with a line: line {line + 1} of the heights has {len(lines[line].split())}; is ncols '
+			        'right, or has a height been lost or doubled?'
+			)
 		return header, values.reshape(shape)
+
+	def requireMetres(self, bottom):
+		"""ValueError if the grid is one in degrees of longitude and latitude: ground would be some hundred thousand times as steep as it is."""
+		low, high = self.low - self.step / 2, self.high + self.step / 2
+		if not ((-180 <= low[0]) & (high[0] <= 360) & (-90 <= low[1]) & (high[1] <= 90)): return
+		known = self.values[np.isfinite(self.values)]
+		slopes = [np.abs(np.diff(self.values, axis=axis)) / self.step for axis in (0, 1)]
+		slopes = np.concatenate([s[np.isfinite(s)] for s in slopes])
+		steep = np.median(slopes) if slopes.size else 0
+		thick = np.ptp(np.append(known, bottom)) / (high - low).max()
+		if not (steep > _steepest or thick > _thickest): return
+		longitude, latitude = (low + high) / 2
+		metres = 111.2e3 * np.array([math.cos(math.radians(latitude)), 1])
+		zone = int((longitude + 180) % 360 // 6) + 1
+		raise ValueError(
+		        f'terrain: {self.fileName!r} is {high[0] - low[0]:.3g} wide, {high[1] - low[1]:.3g} long and {np.ptp(known):.3g} m high, around ({longitude:.6g}, {latitude:.6g}): are these degrees of '
+		        f'longitude and latitude? One degree is {metres[0] / 1e3:.4g} km along x and {metres[1] / 1e3:.4g} km along y there, so that its cells of {self.step:.3g} would be '
+		        f'{self.step * metres[0]:.3g} m by {self.step * metres[1]:.3g} m. Have a GIS project it to metres, as by gdalwarp -t_srs EPSG:{(32600 if latitude >= 0 else 32700) + zone} (UTM zone {zone}) and '
+		        'gdal_translate -of AAIGrid, and give mpm.terrain an origin near it.'
+		)
 
 	def requireKnown(self, low, high):
 		first = self._cells(low[None])[0]

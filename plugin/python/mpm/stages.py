@@ -16,8 +16,10 @@ import numpy as np
 from yade import wrapper
 
 from .analysis import noPoints, solverOf
-from .data import arrays, assign, withMaterials
+from .data import arrays, assign, pointsOf, withMaterials
+from .library import engine as _library
 from .messages import brief
+from .naming import materialOf
 from .regions import inside
 
 __all__ = ['place', 'excavate', 'release', 'resetDisplacements']
@@ -25,7 +27,7 @@ _softness = 0.05  # of what is dug out: the part of its stiffness that is left
 
 
 def place(bodies, steps=1, solver=None):
-	"""Append material points, as :func:`fill` returns them, to the scene; their weight grows to its full value in the next *steps* load steps, in equal parts.
+	"""Append material points, as :func:`fill` returns them, to the scene; their weight grows to its full value in the next *steps* load steps, in equal parts, and with it what water does to them and point loads on them.
 
 	Points begin without stress, where they have been filled. What has been there settles meanwhile: fill a layer up to its height at the end.
 
@@ -34,51 +36,57 @@ def place(bodies, steps=1, solver=None):
 	:param solver: the ``MpmImplicitEngine``; may be left out when ``O.engines`` holds one
 	:return: ids of the bodies
 	:raises TypeError: an argument of the wrong kind.
-	:raises ValueError: no bodies, *steps* < 1, ids of no material points, or a material that cannot be found by its label.
+	:raises ValueError: no bodies, *steps* < 1, ids of no material points or of another engine, or a material that cannot be found by its label.
 	"""
 	solver, steps = _static('place', solver), _number('place', steps)
-	ids, materials = _added(bodies) if isinstance(bodies, range) else _append(bodies)
+	ids, materials = _added(bodies, solver) if isinstance(bodies, range) else _append(bodies, solver)
 	if steps > 1: _begin('placed', solver, steps, {label: _twin(material, f'{label}/placed', ids, density=material.density / steps) for label, material in materials.items()})
 	return ids
 
 
-def _append(bodies):
+def _append(bodies, solver):
 	"""Ids, and materials by label."""
 	bodies = list(bodies) if isinstance(bodies, (list, tuple)) else []
 	if not bodies or not all(isinstance(body, wrapper.Body) and isinstance(body.shape, wrapper.MpmPoint) for body in bodies):
 		raise TypeError('place: bodies must be a list of material points, as mpm.fill(...) returns it')
 	if any(body.id >= 0 for body in bodies): raise ValueError('place: the scene has these bodies already; place(mpm.fill(...)) appends them')
+	if not all(_isOf(solver, body.groupMask) for body in bodies): raise ValueError(f'place: bodies have a groupMask that does not go with mask = {solver.mask} of the solver, whose steps the stage counts')
 	materials = _byLabel('place', [body.material for body in bodies])
 	return wrapper.Omega().bodies.append(bodies), materials
 
 
-def _added(ids):
+def _isOf(solver, groupMask):
+	return solver.mask in (0, -1) or groupMask & solver.mask
+
+
+def _added(ids, solver):
 	"""The same of points that the scene has."""
-	points, materials, number = withMaterials()
+	points, materials, number = pointsOf(solver)
 	isNew = np.isin(points['id'], ids)
-	if not len(ids) or isNew.sum() < len(ids): raise ValueError(f'place: bodies = {brief(ids)} must be ids of material points of the scene, as mpm.add(...) returns them')
+	if not len(ids) or isNew.sum() < len(ids): raise ValueError(f'place: bodies = {brief(ids)} must be ids of material points of the scene and of the solver, as mpm.add(...) returns them')
 	return list(ids), _byLabel('place', [materials[i] for i in np.unique(number[isNew])])
 
 
 def excavate(region, steps=1, solver=None):
-	"""Take the material points out of a region. What they do to the others, by stress and weight, goes to zero in the next *steps* load steps, in equal parts.
+	"""Take the material points of an engine out of a region. What they do to the others, by stress, weight, point loads and water, goes to zero in the next *steps* load steps, in equal parts.
 
 	Until they are erased in the last one, they go along as elastic material with a twentieth of their stiffness.
 
 	:param region: predicate of the current positions, as for :func:`fill`
 	:param steps: load steps, an integer >= 1
-	:param solver: the ``MpmImplicitEngine``; may be left out when ``O.engines`` holds one
+	:param solver: the ``MpmImplicitEngine`` whose points are meant (those of its ``mask``); may be left out when ``O.engines`` holds one
 	:return: number of the points
 	:raises TypeError: an argument of the wrong kind.
-	:raises ValueError: no point is in the region, all are, *steps* < 1, or a material that cannot be found by its label.
+	:raises ValueError: no point is in the region, all are, a load of the engine would be left in the air, *steps* < 1, or a material that cannot be found by its label.
 	"""
 	solver, steps = _static('excavate', solver), _number('excavate', steps)
 	if not callable(region): raise TypeError(f'excavate: region = {brief(region)} must be a predicate, as for mpm.fill')
-	points, materials, number = withMaterials()
+	points, materials, number = pointsOf(solver)
 	if not len(points['id']): raise ValueError(noPoints('excavate', solver))
 	inRegion = inside(region, points['pos'])
 	if not inRegion.any(): raise ValueError(f'excavate: no material point is in the region {brief(region)}')
 	if inRegion.all(): raise ValueError(f'excavate: all material points are in the region {brief(region)}')
+	_requireNoLoad(solver, points, inRegion)
 	ids, stress = points['id'][inRegion].tolist(), points['stress'][inRegion]
 	materials = _byLabel('excavate', [materials[i] for i in np.unique(number[inRegion])])
 	if steps == 1:
@@ -88,6 +96,19 @@ def excavate(region, steps=1, solver=None):
 	assign(ids=ids, stress=stress)
 	_begin('excavated', solver, steps, twins)
 	return len(ids)
+
+
+def _requireNoLoad(solver, points, inRegion):
+	"""What lies on ground that goes away would act in the air."""
+	reach = points['halfSize'][:, :solver.grid.dim] + solver.grid.cellSize * 3 / 8  # of the domains, as far as a step admits
+	middle = points['pos'][:, :solver.grid.dim]
+	for i, load in enumerate(solver.loads):
+		vertices = np.array(load.surface.vertices)
+		places = np.concatenate([vertices, vertices[np.array(load.surface.pieces)].mean(axis=1)])[:, :solver.grid.dim]
+		for place in places:
+			isNear = (np.abs(middle - place) <= reach).all(axis=1)
+			if isNear.any() and inRegion[isNear].all():
+				raise ValueError(f'excavate: loads[{i}] acts on what is to be dug out, at {brief(tuple(place.tolist()))}; take it from the loads of the engine first, or end its surface where the ground will end')
 
 
 def release(boundary, solver=None):
@@ -127,11 +148,13 @@ def advance(kind, label, first, steps, twins):
 			for body in _here(ids):
 				body.material = scene.materials[own]
 		elif step == steps: _erase(ids)
-		else: _scale(scene.materials[twin], share * density, ids, kind)
+		else: _scale(scene.materials[twin], share, density, ids, kind)
 	if step == steps: engines[at].dead = True
 
 
-def _scale(material, density, ids, kind):
+def _scale(material, share, ofAll, ids, kind):
+	_library.actInPart(material, share)  # which a loaded scene does not know
+	density = share * ofAll
 	if abs(material.density - density) <= 1e-12 * density: return
 	if kind == 'excavated':  # in proportion to the density; the law of what is dug out is linear
 		points = arrays()
@@ -145,6 +168,7 @@ def _begin(kind, solver, steps, twins):
 	scene = wrapper.Omega()
 	engines = [engine for engine in scene.engines if not (engine.dead and engine.label.startswith('stage_'))]
 	names = {own: (twin.label, scene.materials[own].density) for own, twin in twins.items()}
+	for twin in twins.values(): _library.actInPart(twin, 1 / steps if kind == 'placed' else 1)
 	label = next(name for name in (f'stage_{i}' for i in range(len(engines) + 1)) if all(engine.label != name for engine in engines))
 	command = f"__import__('sys').modules['yade.mpm.stages'].advance({kind!r}, {label!r}, {solver.nDone}, {steps}, {names!r})"
 	at = engines.index(solver)
@@ -182,7 +206,7 @@ def _byLabel(who, materials):
 		if material.label in found: continue
 		if not material.label or all(known != material for known in wrapper.Omega().materials):
 			raise ValueError(f'{who}: a material of the points (label {material.label!r}) is not in O.materials, by a label of its own')
-		found[material.label] = material
+		found[material.label] = materialOf(who, material.label)
 	return found
 
 

@@ -8,7 +8,7 @@ from yade.wrapper import MpmSurface
 
 from .messages import brief, place
 from .outline import polygon
-from .regions import bounds, inside
+from .regions import bounds, inside, requireRightWay
 
 
 def surface(region, min=(-math.inf, ) * 3, max=(math.inf, ) * 3, dim=2, spacing=None):
@@ -104,6 +104,7 @@ def _onEdge(middles, isIn, axes, step):
 def _triangles(region):
 	"""(3, 3) corners of triangles, counterclockwise from outside."""
 	if isinstance(region, pack.inGtsSurface):
+		requireRightWay('surface', region)
 		return [np.array([v.coords() for v in face.vertices()]) for face in region.surf.faces()]
 	if isinstance(region, pack.inAlignedBox):
 		low, high = bounds(region, 3)

@@ -5,14 +5,9 @@ from yade import wrapper
 from yade.minieigenHP import Vector3
 
 
-def pressures(solver, positions):
-	"""Pressures (N,) [Pa] at positions (N, 3): in the pores, and on a surface there."""
-	pores, surface = np.zeros(len(positions)), np.zeros(len(positions))
-	for water in solver.water:
-		pressure = _factor(solver, water) * _pressure(solver, water, positions)
-		if water.where != 'outside': pores += pressure
-		if water.where != 'pores': surface += pressure
-	return pores, surface
+def pressuresOfEach(solver, positions):
+	"""Of each water the pressures (N,) [Pa] at positions (N, 3)."""
+	return [_factor(solver, water) * _pressure(solver, water, positions) for water in solver.water]
 
 
 def _factor(solver, water):

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The internal force with F-bar, compiled apart.
+// Basis functions with the gradients at the centres of the matter in cells, for F-bar.
 #pragma once
-#include "core/terms/term.hpp"
+#include "core/grid/cloud_basis.hpp"
 
 namespace gimpm {
 
@@ -14,8 +14,5 @@ template <int Dim> std::vector<PointBasis<Dim>> basisAtCentres(const PointCloud<
 /// The same of the functions of the hoop strain around an axis of symmetry: over the radius of the middle of the matter's section, with which the points of a
 /// cell have on average the hoop functions of their own.
 template <int Dim> std::vector<AxisValues> hoopAtCentres(const PointCloud<Dim>&, const CloudBasis<Dim>&);
-
-template <int Dim> struct Pass;
-template <int Dim> std::optional<PointFailure> addFBarForce(const Pass<Dim>&);
 
 } // namespace gimpm

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "core/terms/fbar_force.hpp"
-#include "core/terms/point_pass.hpp"
+#include "core/terms/centres.hpp"
 
 namespace gimpm {
 namespace {
@@ -151,12 +150,9 @@ template <int Dim> std::vector<PointBasis<Dim>> basisAtCentres(const PointCloud<
 	return result;
 }
 
-template <int Dim> std::optional<PointFailure> addFBarForce(const Pass<Dim>& pass) { return addPoints<FBarChunk<Dim>>(pass); }
-
 #define GIMPM_INSTANTIATE(Dim)                                                                                                                                 \
 	template std::vector<PointBasis<Dim>> basisAtCentres(const PointCloud<Dim>&, const CloudBasis<Dim>&);                                                  \
-	template std::vector<AxisValues>      hoopAtCentres(const PointCloud<Dim>&, const CloudBasis<Dim>&);                                                   \
-	template std::optional<PointFailure>  addFBarForce(const Pass<Dim>&);
+	template std::vector<AxisValues>      hoopAtCentres(const PointCloud<Dim>&, const CloudBasis<Dim>&);
 GIMPM_INSTANTIATE(2)
 GIMPM_INSTANTIATE(3)
 #undef GIMPM_INSTANTIATE

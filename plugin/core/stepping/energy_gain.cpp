@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "core/stepping/energy_gain.hpp"
+#include "core/base/sentence.hpp"
+#include "core/stepping/outcome.hpp"
+#include "core/terms/inertia.hpp"
+#include <algorithm>
+
+namespace gimpm {
+namespace {
+
+/// Kirchhoff stress over the plane or space of the grid, and around an axis.
+template <int Dim> struct KirchhoffStress {
+	Mat<Dim> inSpace;
+	double   hoop;   ///< of a ring
+	double   energy; ///< of Hencky's elasticity, over the initial volume
+
+	KirchhoffStress(const PointCloud<Dim>& cloud, std::size_t p)
+	{
+		const double J    = cloud.volumeRatio(p);
+		const Mat3   full = J * cloud.stress[p].full();
+		inSpace           = full.template topLeftCorner<Dim, Dim>();
+		hoop              = full(2, 2);
+		energy            = full.cwiseProduct(cloud.elasticStrain[p].full()).sum() / 2;
+	}
+};
+
+/// Of one point, without kinetic energy.
+template <int Dim> EnergyGain gainOf(const PointCloud<Dim>& before, const PointCloud<Dim>& after, std::size_t p, bool isHencky)
+{
+	constexpr double           roundOff = 1e-12; // of strains
+	const KirchhoffStress<Dim> first(before, p), last(after, p);
+	const Mat<Dim>             I = Mat<Dim>::Identity(), &F0 = before.defGrad[p], &F1 = after.defGrad[p];
+	double work = (first.inSpace.cwiseProduct(F1 * F0.inverse() - I).sum() + last.inSpace.cwiseProduct(I - F0 * F1.inverse()).sum()) / 2;
+	if (!before.hoopStretch.empty()) {
+		const double ratio = after.hoopStretch[p] / before.hoopStretch[p];
+		work += (first.hoop * (ratio - 1) + last.hoop * (1 - 1 / ratio)) / 2;
+	}
+	const double V0 = before.volume0[p], inPlay = std::abs(work) + roundOff * (first.inSpace.norm() + last.inSpace.norm());
+	if (!isHencky) return { 0, V0 * inPlay };
+	return { V0 * (last.energy - first.energy - work), V0 * (inPlay + first.energy) };
+}
+
+/// In pieces whose sums do not depend on the number of threads.
+template <class F> EnergyGain sumOf(std::size_t count, F&& of)
+{
+	constexpr std::size_t   atOnce = 1024;
+	std::vector<EnergyGain> sums((count + atOnce - 1) / atOnce);
+#pragma omp parallel for
+	for (std::size_t s = 0; s < sums.size(); ++s)
+		for (std::size_t p = s * atOnce; p < std::min(count, (s + 1) * atOnce); ++p) {
+			const EnergyGain one = of(p);
+			sums[s].gain += one.gain, sums[s].inPlay += one.inPlay;
+		}
+	EnergyGain all;
+	for (const EnergyGain& sum : sums)
+		all.gain += sum.gain, all.inPlay += sum.inPlay;
+	return all;
+}
+
+} // namespace
+
+template <int Dim> EnergyGain energyGain(const StepSystem<Dim>& system, const PointCloud<Dim>& before, const PointCloud<Dim>& after)
+{
+	const auto&       model = system.model;
+	std::vector<char> isHencky;
+	for (const auto& material : model.materials)
+		isHencky.push_back(!std::holds_alternative<CamClay>(material.law));
+	const std::size_t count = model.division ? model.division->own() : before.size();
+	EnergyGain        sum   = sumOf(count, [&](std::size_t p) { return gainOf(before, after, p, isHencky[before.material[p]]); });
+	if (model.division) sum = { model.division->sum(sum.gain), model.division->sum(sum.inPlay) };
+	for (const auto& term : system.terms)
+		if (const auto* inertia = dynamic_cast<const Inertia<Dim>*>(term.get())) sum.inPlay += inertia->kineticEnergy();
+	return sum;
+}
+
+template <int Dim> bool requireEnergy(const StepSystem<Dim>& system, const PointCloud<Dim>& before, const PointCloud<Dim>& after, StepReport& report)
+{
+	if (!system.hasInertia() || system.model.atMiddle) return true;
+	const EnergyGain energy = energyGain(system, before, after);
+	if (getenv("MPM_GAIN")) fprintf(stderr, "GAIN %g %g %g\n", energy.gain / energy.inPlay, energy.gain, energy.inPlay);
+	if (energy.isAdmissible()) return true;
+	return !fail(
+	        report, Failure::gainsEnergy,
+	        sentence(
+	                "integration in time would make ", energy.gain, " J of energy out of nothing, more than ", EnergyGain::most, " of the ", energy.inPlay,
+	                " J that are in play"));
+}
+
+template bool       requireEnergy(const StepSystem<2>&, const PointCloud<2>&, const PointCloud<2>&, StepReport&);
+template bool       requireEnergy(const StepSystem<3>&, const PointCloud<3>&, const PointCloud<3>&, StepReport&);
+template EnergyGain energyGain(const StepSystem<2>&, const PointCloud<2>&, const PointCloud<2>&);
+template EnergyGain energyGain(const StepSystem<3>&, const PointCloud<3>&, const PointCloud<3>&);
+
+} // namespace gimpm

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Energy that a step in time makes of nothing.
+#pragma once
+#include "core/stepping/step_system.hpp"
+
+namespace gimpm {
+
+/// Of all points, of all processes where they are divided.
+struct EnergyGain {
+	double gain   = 0; ///< of elastic energy, beyond what stress has taken up on its way [J]
+	double inPlay = 0; ///< kinetic and elastic energy as the step begins, and the size of that work [J]
+
+	static constexpr double most = 0.25; ///< of what is in play
+
+	bool isAdmissible() const { return !(gain > most * inPlay); }
+};
+
+/// By Newmark's rule the body loses kinetic energy by the mean of the stresses at both ends of the step. Where strains are
+/// small in it that is what elastic energy grows by. Where they are large it may grow by much more: Newton's method has then
+/// found an equilibrium far from the motion. Plastic flow takes its part, which is no gain. Of laws whose elastic energy is
+/// not Hencky's nothing is known but the work.
+template <int Dim> EnergyGain energyGain(const StepSystem<Dim>&, const PointCloud<Dim>& before, const PointCloud<Dim>& after);
+
+/// Whether a step in time has not ended in such an equilibrium; the report says so if it has. The midpoint rule takes its
+/// stress elsewhere, and has not been seen to.
+template <int Dim> bool requireEnergy(const StepSystem<Dim>&, const PointCloud<Dim>& before, const PointCloud<Dim>& after, StepReport&);
+
+} // namespace gimpm

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "yade_api/naming.hpp"
+#include "yade_api/conversion.hpp"
+#include <algorithm>
+
+namespace yade {
+
+string didYouMean(const string& name, const vector<string>& known)
+{
+	py::dict byLowerCase;
+	for (const string& one : known)
+		byLowerCase[py::str(one).lower()] = one;
+	const py::object like = py::import("difflib").attr("get_close_matches")(py::str(name).lower(), py::list(byLowerCase.keys()));
+	string           text;
+	for (py::ssize_t i = 0, count = py::len(like); i < count; ++i)
+		text += (i == 0 ? "; did you mean " : i + 1 < count ? ", " : " or ") + repr(byLowerCase[like[i]]);
+	return text.empty() ? text : text + "?";
+}
+
+vector<string> namesIn(PyTypeObject* type)
+{
+	const py::object all { py::handle<>(PyObject_Dir(reinterpret_cast<PyObject*>(type))) };
+	vector<string>   names;
+	for (py::ssize_t i = 0; i < py::len(all); ++i)
+		if (const string name = py::extract<string>(all[i]); name.front() != '_') names.push_back(name);
+	return names;
+}
+
+namespace {
+	constexpr const char* sentenceOfCopy = "_sentenceOfCopy";
+
+	[[noreturn]] void refuseChange(const py::object& self, PyObject* exception)
+	{
+		raisePython(exception, py::extract<string>(self.attr("__dict__")[sentenceOfCopy]));
+	}
+
+	// Of names that a tuple does not have, those of a list are explained.
+	py::object missing(const py::object& self, const string& name)
+	{
+		if (PyObject_HasAttrString(reinterpret_cast<PyObject*>(&PyList_Type), name.c_str())) refuseChange(self, PyExc_AttributeError);
+		raisePython(PyExc_AttributeError, "'tuple' object has no attribute '" + name + "'");
+	}
+	void       setItem(const py::object& self, const py::object&, const py::object&) { refuseChange(self, PyExc_TypeError); }
+	void       removeItem(const py::object& self, const py::object&) { refuseChange(self, PyExc_TypeError); }
+	py::object sum(const py::object& self, const py::object& other)
+	{
+		return py::tuple(self).attr("__add__")(PyList_Check(other.ptr()) ? py::object(py::tuple(other)) : other);
+	}
+	py::object whole(const py::object& self, const py::object&)
+	{
+		const py::object plain(py::handle<>(py::borrowed(reinterpret_cast<PyObject*>(&PyTuple_Type))));
+		py::list         items(self);
+		return py::make_tuple(plain, py::make_tuple(items));
+	}
+
+	py::object classOfCopies()
+	{
+		const auto object = [](PyTypeObject& type) { return py::object(py::handle<>(py::borrowed(reinterpret_cast<PyObject*>(&type)))); };
+		py::dict   members;
+		members["__getattr__"]   = py::make_function(&missing);
+		members["__setitem__"]   = py::make_function(&setItem);
+		members["__delitem__"]   = py::make_function(&removeItem);
+		members["__add__"]       = py::make_function(&sum);
+		members["__reduce_ex__"] = py::make_function(&whole); // copies and files have plain tuples
+		return object(PyType_Type)("tuple", py::make_tuple(object(PyTuple_Type)), members);
+	}
+}
+
+py::object copyOfAttribute(const py::tuple& items, const string& attribute, bool isReadonly)
+{
+	static const py::object& kind         = *new py::object(classOfCopies()); // Python ends before the library does
+	py::object               copy         = kind(items);
+	const string             name         = attribute.substr(attribute.find('.') + 1);
+	copy.attr("__dict__")[sentenceOfCopy] = attribute + " can be read only as a copy, a tuple, which is not the attribute itself: "
+	        + (isReadonly ? "it is a result, which cannot be changed." : "assign a new one, as in x." + name + " = [*x." + name + ", another].");
+	return copy;
+}
+
+} // namespace yade

@@ -1,0 +1,176 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Runs a scene in YADE as it is and as others would look at it, and compares; and looks at its balance."""
+import os
+import random
+import tempfile
+
+import numpy as np
+
+import yade
+from yade import mpm, pack, utils
+from yade.wrapper import *
+
+from .features import refusals, refused
+from .scene import Scene, density, gravity, textOf, young
+from .view import View, views
+
+O = Omega()
+close = 1e-9  # where round-off differs: of the largest of the quantity
+# Where an operation is exact in binary numbers, and nothing is summed in another order, bits are asked for: see differences
+exact = {'again', 'two threads', 'saved and loaded', 'scaled'}
+
+
+class Run:
+	"""What became of a scene: quantities by name, as the scene has them; forces, energies; or the refusal."""
+
+	def __init__(self, scene, view):
+		self.scene, self.view, self.error = scene, view, None
+		self.text = textOf(scene, view)
+		self.impulse, self.first = np.zeros(3), None
+		try:
+			self._make()
+		except Exception as error:
+			self.error = f'{type(error).__name__}: {error}'
+			return
+		self._collect()
+
+	def _make(self):
+		space = {name: getattr(yade.wrapper, name) for name in dir(yade.wrapper) if not name.startswith('_')}
+		space |= dict(O=O, inf=np.inf, mpm=mpm, pack=pack, utils=utils, Vector3=yade.minieigenHP.Vector3)
+		exec(compile(self.text, '<scene>', 'exec'), space)
+		self.steps = []  # of each, momentum [N s] and the forces from outside [N]
+		for step in range(space['steps']):
+			solver = next(e for e in O.engines if e.label == 'solver')
+			exec(space['actions'].get(step, ''), space | dict(solver=solver))
+			if self.view.restart and step == 2:
+				with tempfile.TemporaryDirectory() as folder:
+					mpm.save(os.path.join(folder, 'half.yade.gz'))
+					O.load(os.path.join(folder, 'half.yade.gz'))
+			O.step()
+			if self.isPlain: self.steps.append(self._balanceOfStep())
+		self.solver = next(e for e in O.engines if e.label == 'solver')
+
+	@property
+	def isPlain(self):
+		v = self.view
+		return not v.restart and v.L == v.S == v.D == 1 and v.order is None and (v.turn == np.eye(3)).all()
+
+	def _balanceOfStep(self):
+		solver = next(e for e in O.engines if e.label == 'solver')
+		curve = dict(solver.gravityCurve or solver.loadCurve)
+		ofGravity, factor = (np.interp(solver.loadTime, *zip(*sorted(c.items()))) for c in (curve, dict(solver.loadCurve)))
+		forces = [np.array(f) for f in (*solver.reactions, *(load.resultant for load in solver.loads))] + [-np.array(f) for contact in solver.contacts for f in contact.forces]
+		momentum, points = np.zeros(3), [b for b in O.bodies if isinstance(b.shape, MpmPoint) and (solver.mask in (-1, 0) or b.groupMask & solver.mask)]
+		for b in points:
+			mass = b.material.density * b.state.volume0
+			momentum += mass * np.array(b.state.vel)
+			forces += [mass * ofGravity * np.array(solver.gravity), factor * np.array(b.state.force)]
+		return momentum, sum(forces), sum(np.linalg.norm(f) for f in forces)
+
+	def _collect(self):
+		v, solver = self.view, self.solver
+		points = mpm.arrays()
+		where = v.back('pos0', points['pos0'])
+		keys = np.round(where / (self.scene.cell * 1e-4)).astype(int)
+		if self.scene.dim == 2: keys[:, 2] = 0
+		order = np.lexsort((keys[:, 2], keys[:, 1], keys[:, 0]))
+		self.keys = keys[order]
+		skipped = ('id', 'material', 'parent', 'pos0', 'halfSize0', 'velocity0', 'colour', 'parameters')
+		self.points = {name: v.back(name, values)[order] for name, values in points.items() if name not in skipped and np.asarray(values).dtype.kind in 'fi'}
+		self.points['displacement'] = (self.points['pos'] - where[order])
+		if self.scene.dim == 2: self.points['displacement'][:, 2] = 0
+		self.forces = {'reactions': v.forces(solver.reactions), 'resultants': v.forces([load.resultant for load in solver.loads])}
+		self.torques = {}
+		for contact in solver.contacts:
+			self.forces['contact'] = v.forces(contact.forces)
+			about = np.array(v.point((0, 0, 0)))
+			self.torques['contact'] = v.torques([np.array(t) + np.cross(np.array(O.bodies[i].state.pos) - about, f) for i, f, t in zip(contact.bodies, contact.forces, contact.torques)])
+		data = solver.plotData()
+		self.data = data
+		names = ['elasticEnergy', 'kineticEnergy', 'loadWork', 'boundaryWork', 'contactWork', 'impactWork', 'ghostWork', 'gridWork', 'plasticWork', 'dampingWork', 'energyImbalance']
+		self.energies = {name: np.array([data[name]]) / (v.F * v.L) for name in names if name in data}
+		self.iterations, self.cuts = solver.iterations, solver.cuts
+		self.weight = sum(density * b.state.volume0 / v.volume for b in O.bodies if isinstance(b.shape, MpmPoint) and (solver.mask in (-1, 0) or b.groupMask & solver.mask))
+
+
+def unitsOf(scene):
+	"""The sizes of quantities: where all is next to nothing, that is not compared with itself."""
+	height = scene.size[1] * scene.cell
+	stress = density * gravity * height
+	area = height if scene.dim == 2 and not scene.isRing else height**2
+	return dict(stress=stress, strain=stress / young, displacement=stress / young * height, force=stress * area, energy=stress * area * stress / young * height)
+
+
+def differences(run, other, name):
+	"""What differs more than it should, as sentences."""
+	if run.error or other.error: return [] if (run.error or '').split(' ')[:3] == (other.error or '').split(' ')[:3] else [f'{name}: {other.error or "no exception"}, unlike {run.error or "no exception"}']
+	units = unitsOf(run.scene)
+	if run.keys.shape != other.keys.shape or (run.keys != other.keys).any():
+		if run.keys.shape != other.keys.shape: return [f'{name}: {len(other.keys)} points instead of {len(run.keys)}']
+		return [f'{name}: initial positions differ']
+	isMeanWithZ = name == 'scaled' and run.scene.shape == 'facet' and run.scene.dim == 2  # YADE's place of a facet, from which it counts its corners; z stays in the plane
+	limit = 0 if name in exact and not isMeanWithZ else close
+	found = []
+
+	def compare(what, a, b, unit):
+		with np.errstate(invalid='ignore'):
+			if a.shape != b.shape: return found.append(f'{name}: {what} has another shape')
+			if np.array_equal(a, b, equal_nan=True): return
+			largest = max(np.nanmax(np.abs(a), initial=0), unit)
+			off = np.abs(a - b)
+			if (np.isnan(a) != np.isnan(b)).any(): return found.append(f'{name}: {what} is not a number in one of them only')
+			if np.nanmax(off) > limit * largest: found.append(f'{name}: {what} differs by {np.nanmax(off) / largest:.1e} of {largest:.3g}')
+
+	kinds = dict(stress=units['stress'], porePressure=units['stress'], elasticStrain=units['strain'], displacement=units['displacement'], pos=1e300 if limit else 0, defGrad=1, volume=0, halfSize=0, velocity=gravity * run.scene.dt, acceleration=gravity)
+	for what, values in run.points.items():
+		if what == 'pos' and limit: continue
+		compare(what, values, other.points[what], kinds.get(what, 0))
+	force = max([units['force']] + [np.nanmax(np.abs(f), initial=0) for f in run.forces.values()])
+	for what, values in run.forces.items():
+		compare(what, values, other.forces[what], force)
+	for what, values in run.torques.items():
+		if run.scene.dim == 2: values, other.torques[what] = values[:, 2:], other.torques[what][:, 2:]
+		compare('torque', values, other.torques[what], force * run.scene.size[0] * run.scene.cell)
+	energy = max([units['energy']] + [np.nanmax(np.abs(e), initial=0) for e in run.energies.values()])
+	for what, values in run.energies.items():
+		compare(what, values, other.energies[what], energy)
+	if limit == 0 and (run.iterations, run.cuts) != (other.iterations, other.cuts): found.append(f'{name}: {other.iterations} iterations and {other.cuts} cuts instead of {run.iterations} and {run.cuts}')
+	return found
+
+
+def check(chosen, seed):
+	"""One scene: outcome ('right', 'refused', 'failed' at a step, or 'wrong'), findings, and the error of the run if there was one."""
+	scene = lambda: Scene(chosen, seed)
+	dim, isRing = scene().dim, scene().isRing
+	plain = View(dim, isRing)
+	run = Run(scene(), plain)
+	pairs = refusals(chosen)
+	if pairs:
+		words = refused[pairs[0]]
+		isSo = run.error and all(word in run.error for word in words)
+		return dict(outcome='refused' if isSo else 'wrong', findings=[] if isSo else [f'not refused by {words}: {run.error or "no exception"}'], error=run.error)
+	if run.error: return dict(outcome='wrong', findings=[f'failed: {run.error}'], error=run.error)
+	found = balance(run)
+	for name, view in views(dim, chosen, random.Random(seed), scene().cell).items():
+		found += differences(run, Run(scene(), view), name)
+	return dict(outcome='wrong' if found else 'right', findings=found, error=None)
+
+
+def balance(run):
+	"""Forces from outside are nothing in sum, or what momentum changes by; a fixed smooth body gives no energy. What water does to the body from outside is told by nobody: not asked there."""
+	scene, found = run.scene, []
+	axes = [1] if scene.isRing else range(scene.dim)
+	if not scene.isDynamic and not scene.water:
+		for step, (_, force, sizes) in enumerate(run.steps):
+			off = max(abs(force[a]) for a in axes) / max(sizes, unitsOf(scene)['force'])
+			if off > 1e-8: found.append(f'balance: {off:.1e} of the forces are left over after step {step + 1}')
+	isLoaded = scene.has('traction', 'pressure', 'pointLoad')  # by forces that change, of which the other schemes take other means, as contact does in all
+	if scene.isFreeAlongX and not scene.water and not scene.shape and (scene.scheme == 'newmark' or not isLoaded):
+		for step in range(1, len(run.steps)):
+			(before, force0, size0), (after, force1, size1) = run.steps[step - 1:step + 1]
+			off = abs((after - before - scene.dt * (force0 + force1) / 2)[0]) / (scene.dt * max(size0, size1, unitsOf(scene)['force']))
+			if off > 1e-8: found.append(f'momentum: {off:.1e} of the impulse is left over along x after step {step + 1}')
+	if scene.isDynamic and scene.has('fixedBody') and not scene.has('friction'):
+		given, energy = run.energies['contactWork'][0], max(unitsOf(scene)['energy'], run.energies['kineticEnergy'][0] + run.energies['elasticEnergy'][0])
+		if given > 1e-6 * energy: found.append(f'energy: a fixed smooth body has given {given / energy:.1e} of {energy:.3g} J')
+	return found

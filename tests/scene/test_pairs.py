@@ -1,0 +1,59 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Small scenes of pairs of features do not depend on how they are looked at, and what does not go together is refused by name: the short form of scripts/pairs."""
+import os
+import subprocess
+import sys
+
+from conftest import Yade, root
+
+from pairs.features import Plan, allPairs, features, ordered, refusals, refused
+from worker import runCases
+
+worker = root / 'scripts/lib/pairs/worker.py'
+
+
+def findings(folder, cases, monkeypatch):
+	"""All of them, each with its scene in front."""
+	monkeypatch.setenv('PYTHONPATH', str(root / 'scripts/lib'))
+	monkeypatch.setenv('OMP_WAIT_POLICY', 'passive')
+	found, number = [], 0
+	for (chosen, seed), result in runCases([Yade(folder).command, '-n', '-x', '-j2', str(worker)], cases, 60):
+		number += 1
+		if isinstance(result, str): found.append(f"{seed} {' '.join(chosen)}: {result}")
+		else: found += [f"{seed} {' '.join(chosen)}: {line}" for line in result['findings']]
+	assert number == len(cases)
+	return found
+
+
+def test_the_plan_has_every_pair_often_enough():
+	"""Of features that can be together; those that are refused stand alone, so that nothing else can be the reason."""
+	counts = dict.fromkeys(allPairs, 0)
+	for chosen in Plan().until(20):
+		pairs = [ordered(a, b) for i, a in enumerate(chosen) for b in chosen[i + 1:]]
+		assert len({tuple(refused[pair]) for pair in refusals(chosen)}) <= 1
+		for pair in refusals(chosen) or pairs:
+			counts[pair] += 1
+	assert min(counts.values()) >= 20 and len(counts) > 800
+	assert {feature for pair in counts for feature in pair} == set(features)
+
+
+def test_scenes_of_pairs_do_not_depend_on_how_they_are_looked_at(tmp_path, monkeypatch):
+	plan = Plan()
+	plan.until(1)
+	assert not findings(tmp_path, [(chosen, seed) for seed, chosen in enumerate(plan.scenes)][::2], monkeypatch)
+
+
+def test_scenes_that_once_did(tmp_path, monkeypatch):
+	"""Walls wider than the body, of which order of cells and round-off chose the cells they hang on; halves of points at a rigid body that they do not touch."""
+	walls = [(['3d', 'elastic', 'static', wall], seed) for wall in ('roughWall', 'smoothWall') for seed in (0, 1)]
+	halves = [('plane vonMises generalisedAlpha clump movedBody friction splitting pushed'.split(), seed) for seed in (30, 31)]
+	halves += [('3d elastic newmark clump movedBody smoothWall fields movingWall splitting absorbing'.split(), 763)]
+	assert not findings(tmp_path, walls + halves, monkeypatch)
+
+
+def test_a_scene_as_a_script_of_its_own(yade):
+	"""It needs nothing of the generator, and gives what the worker has compared."""
+	script = yade.folder / 'scene.py'
+	subprocess.run([sys.executable, str(root / 'scripts/pairs'), '--only', '0', '--times', '1', '--script', str(script)], check=True, env=os.environ)
+	assert 'pairs' not in script.read_text()
+	assert 'kineticEnergy' in yade(script).stdout or 'elasticEnergy' in yade(script).stdout

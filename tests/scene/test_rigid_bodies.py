@@ -1,0 +1,255 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Rigid bodies in scenes as users build them: moved by scripts, in sections, over each other, spun, light, thin, hit by soil; and who else moves what."""
+import math
+
+from conftest import outcomesOf
+
+scene = '''
+import json
+import numpy as np
+from yade import mpm, pack, utils
+
+def soil(dim=2, h=0.25, high=(1, 1), density=1, poisson=0, engine=MpmImplicitEngine, held=True, **settings):
+	"""A block with E = 1 MPa and groupMask 2, with its base held, that bodies of material 'rigid' may touch."""
+	O.reset()
+	O.materials.append(MpmElasticMat(young=1e6, poisson=poisson, density=density, label='soil'))
+	O.materials.append(FrictMat(frictionAngle=0.3, density=2600, label='rigid'))
+	grid = MpmGrid(cellSize=h, dim=dim)
+	O.bodies.append(mpm.fill(pack.inAlignedBox((0, 0, 0 if dim == 3 else -1), tuple(high) + (() if dim == 3 else (1, ))), grid, 2, 'soil'))
+	for body in O.bodies: body.groupMask = 2
+	low = np.full(3, inf)
+	low[dim - 1] = 0
+	solver = engine(grid=grid, boundaries=[MpmBoundary(max=low, fix='xyz'[:dim])] if held else [], verbosity=0, **settings)
+	O.engines, O.dt = [solver], 0.1
+	return solver
+
+def add(body, velocity=(0, 0, 0)):
+	body = O.bodies[O.bodies.append(body)]
+	body.state.vel = velocity
+	return body
+
+def box(at=(0.5, 1.5, 0), size=(3, 0.5, 1), velocity=(0, 0, 0)): return add(utils.box(at, size, material='rigid', fixed=True), velocity)
+def ball(at, radius, velocity=(0, 0, 0)): return add(utils.sphere(at, radius, material='rigid'), velocity)
+def forces(solver): return {i: list(f) for c in solver.contacts for i, f in zip(c.bodies, c.forces)}
+'''
+
+
+def test_a_body_moved_by_state_pos_presses_and_rubs(yade):
+	"""As one with a velocity; where a step fails, it stays where the script has put it, and the next step makes the rest of the way."""
+	results = yade(scene + '''
+def pushed(how):
+	solver = soil(contacts=[MpmContact(friction=0.3, mask=1)])
+	plate = box()
+	plate.state.pos = (0.5, 1.7, 0)  # before the first step it may go anywhere
+	plate.state.pos = (0.5, 1.5, 0)
+	if how == 'vel':
+		plate.state.vel = (0.1, -0.1, 0)
+		O.run(6, wait=True)
+	else:
+		O.step()
+		plate.state.pos += Vector3(0.02, -0.02, 0)
+		O.step()
+		for step in range(4):
+			if how == 'loaded' and step == 2:
+				mpm.save('between.xml')
+				O.load('between.xml')
+				solver, plate = O.engines[0], O.bodies[plate.id]
+			plate.state.pos += Vector3(0.01, -0.01, 0)
+			O.step()
+	return [list(solver.contacts[0].forces[0]), list(plate.state.pos), list(solver.contacts[0].slipping)]
+found = [pushed('vel'), pushed('pos'), pushed('loaded')]
+
+solver = soil(contacts=[MpmContact(friction=0.3, mask=1, stiffness=0.05)], newton=MpmNewton(minStep=0.25))
+plate = box()
+O.step()
+plate.state.pos -= Vector3(0, 0.9, 0)
+try: O.step()
+except RuntimeError as error: failed = str(error)
+reached, put = solver.loadTime, plate.state.pos[1]
+
+solver = soil(dim=3, high=(1, 1, 0.5), contacts=[MpmContact(friction=0.3, mask=1)])
+clump, members = O.bodies.appendClumped([utils.sphere((x, 0.5, 0.7), 0.2, material='rigid') for x in (0.3, 0.7)])
+O.step()
+O.bodies[clump].state.pos -= Vector3(0, 0, 0.01)
+try: O.step()
+except ValueError as error: apart = str(error)
+for i in members: O.bodies[i].state.pos -= Vector3(0, 0, 0.01)
+O.step()
+print(json.dumps([found, [failed, reached, put], [apart, forces(solver)[clump][2]]]))
+''').result
+	(vel, pos, loaded), (failed, reached, put), (apart, force) = results
+	assert vel[0][0] < 0 < vel[0][1] and vel[2][0] > 0
+	for key in 0, 1:
+		assert max(abs(a - b) for a, b in zip(vel[1], pos[1])) < 1e-12
+	assert abs(pos[0][1] / vel[0][1] - 1) < 0.03 and abs(pos[0][0] / vel[0][0] - 1) < 0.1 and pos[2][0] > 0
+	assert pos == loaded
+	assert 'penetrated' in failed or 'material point inside' in failed
+	assert put == 0.6 and 0.1 <= reached <= 0.2
+	assert 'one of them has been moved without the other' in apart and force > 0
+
+
+def test_sections_in_the_plane(yade):
+	results = yade(scene + '''
+def force(body):
+	solver = soil(contacts=[MpmContact(friction=0, mask=1)])
+	add(utils.sphere((0.5, 7, 0), 0.1, material='rigid', fixed=True))
+	b = add(body(), (0, -0.2, 0))
+	O.run(3, wait=True)
+	return forces(solver).get(b.id, [0, 0])[1]
+boxes = [force(lambda: utils.box((0.5, 1.5, z), (2, 0.5, 1), material='rigid', fixed=True)) for z in (0, 0.9, -1, 1, 1.1, 50)]
+facets = [force(lambda: utils.facet([(-9, 1, a), (9, 1, b), (0, 1, c)], material='rigid', fixed=True)) for a, b, c in ((-1, -1, 1), (0, 0, -1), (0, 0, 1), (1, 1, 2), (0, 1, 1))]
+print(json.dumps([boxes, facets]))
+''').result
+	boxes, facets = results
+	assert boxes[0] > 1e4 and boxes[:4] == [boxes[0]] * 4 and boxes[4:] == [0, 0]
+	assert abs(facets[0] / boxes[0] - 1) < 1e-6 and facets[1] == facets[2] and abs(facets[1] / boxes[0] - 1) < 1e-6
+	assert facets[3:] == [0, 0]
+
+
+def test_bodies_over_each_other_count_once(yade):
+	"""In adhesion, in the penalty, and so in the critical step; two faces that meet in a corner both act."""
+	results = yade(scene + '''
+def sheared(kind, n):
+	solver = soil(contacts=[MpmContact(friction=1, adhesion=2e3, mask=1)])
+	for i in range(n):
+		if kind == 'box': box(velocity=(0.05, -0.2, 0))
+		if kind == 'wall': add(utils.wall(1, axis=1, sense=-1, material='rigid'), (0.05, -0.2, 0))
+		if kind == 'facet': add(utils.facet([(-9, 1, -9), (9, 1, -9), (0, 1, 9)], material='rigid', fixed=True), (0.05, -0.2, 0))
+		if kind == 'mixed' and i: box(velocity=(0.05, -0.2, 0))
+		if kind == 'mixed' and not i: add(utils.wall(1, axis=1, sense=-1, material='rigid'), (0.05, -0.2, 0))
+	O.dt = 0.02
+	O.run(20, wait=True)
+	return np.sum(list(forces(solver).values()), axis=0).tolist()
+shear = [[kind, n, *sheared(kind, n)] for kind, n in (('box', 1), ('box', 2), ('box', 3), ('wall', 3), ('facet', 3), ('mixed', 2))]
+
+def shaken(n):
+	solver = soil(h=0.1, high=(0.4, 0.4), density=1000, engine=MpmDynamicEngine, held=False, contacts=[MpmContact(friction=0, mask=1)], scheme='explicit', gravity=(0, -9.81, 0))
+	for i in range(n): box((0.2, -0.1, 0), (3, 0.1, 1))
+	O.dt = 0.95 * solver.criticalTimeStep()
+	O.run(600, wait=True)
+	return solver.plotData()['energyImbalance']
+
+solver = soil(contacts=[MpmContact(friction=0, mask=1)])
+box(velocity=(0, -0.1, 0))
+box((1.5, 0.5, 0), (0.5, 2, 1), (-0.1, 0, 0))
+O.run(3, wait=True)
+print(json.dumps([shear, [shaken(1), shaken(8)], forces(solver)]))
+''').result
+	shear, imbalance, corner = results
+	for kind, n, x, y, z in shear:
+		assert abs(x / shear[0][2] - 1) < 1e-9 and abs(y / shear[0][3] - 1) < 1e-6, (kind, n)
+	assert abs(shear[0][2] / -2000 - 1) < 1e-3
+	assert imbalance[0] == imbalance[1]
+	below, beside = corner.values()
+	assert below[1] > 1e4 and beside[0] > 1e4
+
+
+def test_what_cannot_be_right_is_refused_before_it_is(yade):
+	free = 'O.engines = [ForceResetter(), s, NewtonIntegrator(mask=1, gravity=(0, 0, -9.81))]; O.dt = 1e-3'
+	ground = 's = soil(dim=3, high=(0.5, 0.5, 0.5), contacts=[MpmContact(friction=0.3, mask=1)]); '
+	grain = ground + 'b = ball((0.25, 0.25, 0.59), 0.1); '
+	light = grain + free + '; b.state.inertia = b.state.inertia * (m / b.state.mass); b.state.mass = m; '
+	refused = {
+	        grain + free + '; b.state.mass = 0; O.step()': ['is free to move, but its mass is 0 kg: expected a finite number > 0'],
+	        grain + free + '; b.state.mass = nan; O.step()': ['its mass is nan kg'],
+	        grain + free + '; b.state.inertia = (0, 0, 0); O.step()': ['is free to turn, but its inertia is (0 0 0)'],
+	        grain + free + '; O.engines = O.engines[1:]; O.step()': ['O.engines has no ForceResetter'],
+	        grain + free + '; O.engines[0].dead = True; O.step()': ['O.engines has no ForceResetter'],
+	        grain + free + '; O.engines = [s, ForceResetter(), O.engines[2]]; O.step()': ['must stand behind ForceResetter and before NewtonIntegrator'],
+	        'm = 1e-3; ' + light + 'O.run(50, wait=True)': ['of 0.001 kg is too light for O.dt = 0.001 s', 'in series with the soil', 'stable up to', 'smaller O.dt'],
+	        'm = 0.1; ' + light + 's.iterPeriod = 5; O.run(50, wait=True)': ['of 0.1 kg is too light for O.dt = 0.001 s', 'stable up to'],
+	        grain + free + '; s.iterPeriod = 20; b.dynamic = False; b.state.angVel = (0, 2 * pi / 0.02, 0); O.run(50, wait=True)': ['turns by 6.28', 'soil near it can follow 1 rad', 'angVel'],
+	        ground + 's.contacts = list(s.contacts) * 2; ball((0.25, 0.25, 0.59), 0.1); O.step()': ['contacts[0] and contacts[1] are the same MpmContact, which would act twice'],
+	        's = soil(); s.boundaries = list(s.boundaries) * 2; O.step()': ['boundaries[0] and boundaries[1] are the same MpmBoundary'],
+	        's = soil(contacts=[MpmContact(friction=0, mask=1)]); box(); O.engines += [ParallelEngine([[NewtonIntegrator()]])]; O.step()': ['a NewtonIntegrator inside a ParallelEngine'],
+	        's = soil(engine=MpmDynamicEngine); O.engines += [ParallelEngine([[ForceResetter(), NewtonIntegrator()]])]; O.step()': ['a NewtonIntegrator inside a ParallelEngine'],
+	        's = soil(engine=MpmDynamicEngine); O.engines += [NewtonIntegrator()]; O.step()': ['MpmDynamicEngine: body #0, a material point, is moved along its velocity by a NewtonIntegrator'],
+	        's = soil(); mpm.assign(velocity=[(1, 0, 0)] * len(O.bodies)); O.engines += [NewtonIntegrator()]; O.step()': ['MpmImplicitEngine: body #0, a material point with the velocity (1 0 0)'],
+	        's = soil(contacts=[MpmContact(friction=0, mask=1)]); b = box(); O.step(); b.state.ori = Quaternion((0, 0, 1), 2); O.step()': ['has been turned by 2 rad since the last load step'],
+	}
+	outcomes = outcomesOf(yade.folder, scene, list(refused))
+	for statement, parts in refused.items():
+		for part in parts:
+			assert part in outcomes[statement][1], (statement, outcomes[statement])
+
+
+def test_who_moves_what_goes_by_masks(yade):
+	"""What an integrator's mask leaves out, the engine moves; points that it means may stand beside it in statics; a ParallelEngine without one is none."""
+	results = yade(scene + '''
+found = []
+for engines in [], [NewtonIntegrator(damping=0)], [NewtonIntegrator(damping=0, mask=4)], [NewtonIntegrator(dead=True)], [ParallelEngine([[ForceResetter()]])]:
+	solver = soil(contacts=[MpmContact(friction=0, mask=1)])
+	plate = box(velocity=(0, -0.1, 0))
+	O.engines += engines
+	O.run(4, wait=True)
+	found.append([1.5 - plate.state.pos[1], forces(solver)[plate.id][1]])
+print(json.dumps(found))
+''').result
+	for moved, force in results:
+		assert abs(moved - 0.04) < 1e-12 and force > 1e4
+	assert results[0] == results[2] == results[3] == results[4]
+
+
+def test_doubts_are_said_once(yade):
+	run = yade(scene + '''
+solver = soil(contacts=[MpmContact(friction=1.0, mask=1)])
+box(velocity=(0, -0.01, 0))
+O.run(3, wait=True)
+solver = soil(contacts=[MpmContact(friction=atan(1), mask=1)])
+box(velocity=(0, -0.01, 0))
+O.run(3, wait=True)
+solver = soil(contacts=[MpmContact(friction=0.3, mask=1)])
+box((0.4, 1.5, 0), (0.02, 0.5, 1), velocity=(0, -0.1, 0))
+O.run(3, wait=True)
+print(json.dumps([]))
+''')
+	words = run.stdout + run.stderr
+	assert words.count('MpmContact.friction = 1 is an angle in radians, 57.2958 degrees; was a coefficient meant, that is atan(1)') == 1 and words.count('radians(...)') == 1
+	assert words.count('is 0.04 m wide, and the domains of the material points near it 0.125 m: it can pass between their corners') == 1
+	assert 'Cells of 0.08 m' in words
+
+
+def test_momentum_that_an_exchange_adds_is_said(yade):
+	run = yade(scene + '''
+found = []
+for N in 1, 20:
+	solver = soil(dim=3, h=0.1, high=(0.4, 0.4, 0.2), density=1500, poisson=0.3, engine=MpmDynamicEngine, held=False, contacts=[MpmContact(friction=0.3, mask=1)], iterPeriod=N)
+	b = ball((0.25, 0.22, 0.301), 0.1, (0.3, 0, -1))
+	O.engines, O.dt = [ForceResetter(), solver, NewtonIntegrator(damping=0, mask=1)], 2e-4
+	print('with', N, file=__import__('sys').stderr)
+	O.run(300, wait=True)
+print(json.dumps([]))
+''')
+	words = run.stdout + run.stderr
+	assert words.count('has been added to the body by the stiffness handed over between the load steps') == 1
+	assert 'momentum grows by that. A smaller iterPeriod' in words
+
+
+def test_soil_that_moves_far_in_a_step_is_not_lost(yade):
+	"""It was let through bodies, or thrown out of them with many times its energy: it meets them in shorter steps, or the step fails and says so."""
+	results = yade(scene + '''
+bodies = {'wall': lambda: utils.wall(-0.5, axis=1, sense=1, material='rigid'), 'sphere': lambda: utils.sphere((0.2, -0.6, 0), 0.1, material='rigid', fixed=True),
+	'facet': lambda: utils.facet([(-9, -0.5, -9), (9, -0.5, -9), (0, -0.5, 9)], material='rigid', fixed=True), 'box': lambda: utils.box((0.2, -0.52, 0), (2, 0.02, 1), material='rigid', fixed=True)}
+found = []
+for kind, make in bodies.items():
+	for scheme, cells in ('newmark', 1.9), ('newmark', 0.9):
+		solver = soil(h=0.1, high=(0.4, 0.4), density=1000, poisson=0.3, engine=MpmDynamicEngine, held=False, scheme=scheme, contacts=[MpmContact(friction=0, mask=1)])
+		add(make())
+		n = len(mpm.arrays()['pos'])
+		fast = 1.
+		mpm.assign(velocity=[(0, -fast, 0)] * n)
+		O.dt = cells * 0.1 / fast
+		first, most, why = 80 * fast**2, 0, ''
+		try:
+			while O.time < 1.2 / fast:
+				O.step()
+				d = solver.plotData()
+				most = max(most, (d['kineticEnergy'] + d['elasticEnergy']) / first)
+		except RuntimeError as error: why = str(error)
+		found.append([kind, scheme, most, float(mpm.arrays()['pos'][:, 1].min()), why])
+print(json.dumps(found))
+''', timeout=300).result
+	for kind, scheme, most, lowest, why in results:
+		assert most < 1.05, (kind, scheme, most)
+		if why: assert 'body #' in why and ('soil that moves' in why or 'which moves' in why or 'inside of it' in why or 'on its other side' in why or 'nobody has put in' in why), why
+		else: assert lowest > -0.7 if kind == 'sphere' else lowest > -0.56, (kind, scheme, lowest)
