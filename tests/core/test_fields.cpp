@@ -283,7 +283,7 @@ namespace {
                                 prescribedSurface<Dim>(body.model.grid, cellsOf<Dim>(4, 1, 2), [](const Vec<Dim>&) -> Vec<Dim> { return Vec<Dim>::Zero(); }));
                         return conditionEstimate(tangentStiffness(body.cloud, body.model));
 		};
-		EXPECT_NEAR(condition(1e-8, 0.01) / condition(1e-4, 0.01), 1, 0.01);
+		EXPECT_LT(condition(1e-8, 0.01), 1.05 * condition(1e-4, 0.01));
 		EXPECT_GT(condition(1e-8, 0), 1e3 * condition(1e-4, 0));
 	}
 
