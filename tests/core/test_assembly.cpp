@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Nodal forces of a cloud: balance, virial, external forces, and independence of the number of threads.
+#include "core/materials/kinematics.hpp"
 #include "core/stepping/step_system.hpp"
 #include "core/terms/point_update.hpp"
 #include "scenes.hpp"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Bodies of revolution: x is the distance from the axis, y goes along it.
+#include "core/materials/kinematics.hpp"
 #include "core/stepping/restraint.hpp"
 #include "core/stepping/step_system.hpp"
 #include "core/terms/point_update.hpp"

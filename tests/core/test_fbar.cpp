@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // F-bar: the kernel against its formulas written down point by point, and what it must leave as it is.
+#include "core/materials/kinematics.hpp"
 #include "core/stepping/step_system.hpp"
 #include "core/terms/point_update.hpp"
 #include "scenes.hpp"

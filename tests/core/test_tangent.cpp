@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // K + K_g against the finite-difference derivative of the nodal forces, for random clouds in finite strain.
+#include "core/materials/kinematics.hpp"
 #include "core/stepping/step_system.hpp"
 #include "core/terms/point_update.hpp"
 #include "derivatives.hpp"

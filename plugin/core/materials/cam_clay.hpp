@@ -70,7 +70,7 @@ public:
 			r.elasticStrain[i] = select(trial.flows, theta * dev[i] + mean, trialStrain[i]);
 			r.stress[i]        = T(2) * secant * dev[i] - pressure;
 		}
-		r.internals[0] = internals[0] + select(trial.flows, takenOf(trial.shear, theta), T(0));
+		r.internals[0] = internals[0] + select(trial.flows, partTaken(theta) * trial.shear, T(0));
 		r.internals[1] = select(trial.flows, pressure * (T(1) + flow.root * flow.root), internals[1]);
 		r.shear.fill(secant);
 		r.failed = select(trial.isAdmitted, select(trial.flows, flow.failed, T(0)), T(1));

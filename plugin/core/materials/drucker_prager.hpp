@@ -92,7 +92,7 @@ public:
 		for (int i = 0; i < 3; ++i)
 			r.elasticStrain[i] = select(back.flows, back.theta * dev[i] + end, trialStrain[i]);
 		r.take(elastic_.respond<T>(r.elasticStrain, {}));
-		r.internals[0] = internals[0] + select(back.yields | back.isCut, T(std::sqrt(2. / 3)) * takenOf(length, back.theta), T(0));
+		r.internals[0] = internals[0] + select(back.yields | back.isCut, T(std::sqrt(2. / 3)) * partTaken(back.theta) * length, T(0));
 
 		const TangentForm<T>     form = tangentForm(back);
 		const PrincipalValues<T> n    = dev * (T(1) / select(length > T(0), length, T(1)));

@@ -14,6 +14,7 @@ public:
 
 	static constexpr std::array<InternalVariable, 0> variables {};
 	static constexpr bool                            mayFail = false;
+	static constexpr bool                            isShort = true;
 
 	/// What may differ from point to point: Young's modulus.
 	using Parameters = std::array<double, 1>;

@@ -5,7 +5,8 @@
 // answer; and it answers with young() and respond(), which are given the values of those variables at the start of the step, in this order.
 // young() may ask for the elastic volumetric strain too. A law whose tangent is not always symmetric says isSymmetric(); the others need not.
 // A law of which strengths or moduli may differ from point to point has them as an array of `Parameters`: parameters() are its own, and with() is
-// the same law with others, weakened() what strength reduction makes of them.
+// the same law with others, weakened() what strength reduction makes of them. A law of a few lines may say that it
+// isShort, and is compiled into the kernels.
 #pragma once
 #include "core/materials/cam_clay.hpp"
 #include "core/materials/drucker_prager.hpp"

@@ -32,12 +32,12 @@ template <class T> struct ResponseOf {
 };
 using Response = ResponseOf<double>;
 
-/// What a return that leaves the part theta of a trial deviator takes of its length. It adds to none: where little flows theta may be above 1 by round-off, and a
-/// plastic strain that falls below zero would be refused as the state of the next step.
-template <class T> GIMPM_INLINE T takenOf(const T& length, const T& theta)
+/// The part that a return takes of a trial deviator of which it leaves the part theta. It adds to none: where little flows theta may be above 1 by round-off,
+/// and a plastic strain that falls below zero would be refused as the state of the next step.
+template <class T> GIMPM_INLINE T partTaken(const T& theta)
 {
 	const T part = T(1) - theta;
-	return select(part > T(0), part, T(0)) * length;
+	return select(part > T(0), part, T(0));
 }
 
 /// With the internal variables of the law after the return.

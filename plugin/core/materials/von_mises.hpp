@@ -22,6 +22,7 @@ public:
 
 	static constexpr std::array<InternalVariable, 1> variables { equivalentPlasticStrain };
 	static constexpr bool                            mayFail = false;
+	static constexpr bool                            isShort = true;
 
 	/// What may differ from point to point: Young's modulus, yieldStress, hardening, residualYieldStress.
 	using Parameters = std::array<double, 4>;
@@ -53,7 +54,7 @@ public:
 			elasticStrain[i] = select(yields, theta * dev[i] + third, trialStrain[i]);
 		ResponseWith<T, 1> r;
 		r.take(elastic_.respond<T>(elasticStrain, {}));
-		r.internals[0] = internals[0] + T(std::sqrt(2. / 3)) * takenOf(length, theta);
+		r.internals[0] = internals[0] + T(std::sqrt(2. / 3)) * partTaken(theta) * length;
 
 		const PrincipalValues<T> n = dev * (T(1) / select(yields, length, T(1)));
 		const T shear = T(G) * theta, lambda = T(elastic_.bulk()) - T(2. / 3) * shear, growth = select(end > T(residual_), T(share_), T(0)),

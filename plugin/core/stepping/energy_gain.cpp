@@ -77,7 +77,6 @@ template <int Dim> bool requireEnergy(const StepSystem<Dim>& system, const Point
 {
 	if (!system.hasInertia() || system.model.atMiddle) return true;
 	const EnergyGain energy = energyGain(system, before, after);
-	if (getenv("MPM_GAIN")) fprintf(stderr, "GAIN %g %g %g\n", energy.gain / energy.inPlay, energy.gain, energy.inPlay);
 	if (energy.isAdmissible()) return true;
 	return !fail(
 	        report, Failure::gainsEnergy,

@@ -4,19 +4,15 @@
 
 namespace gimpm {
 
-void respondTogether(
-        const Material& material, const ParameterColumns& parameters, const InternalColumns& columns, const int* point,
-        const PrincipalValues<Lanes>& trialStrain, LanesOfLaws& response)
+void respondByCall(const Law& law, const PrincipalValues<Lanes>& trialStrain, const Lanes* internals, LanesOfLaws& response)
 {
-	if (material.varies) return respondOneByOne(material, parameters, columns, point, trialStrain, response);
-	withLaw(material.law, [&](const auto& law) {
-		using L = std::decay_t<decltype(law)>;
-		std::array<Lanes, L::variables.size()> internals;
-		for (std::size_t k = 0; k < internals.size(); ++k) {
-			const double* column = columns[columnOf<L>(k)].data();
-			internals[k]         = lanes([&](int lane) { return column[point[lane]]; });
+	withLaw(law, [&](const auto& l) {
+		using L = std::decay_t<decltype(l)>;
+		if constexpr (!isShort<L>) {
+			std::array<Lanes, L::variables.size()> own;
+			std::copy_n(internals, own.size(), own.begin());
+			callForProcessor([&] { response.take(l.template respond<Lanes>(trialStrain, own)); });
 		}
-		callForProcessor([&] { response.take(law.template respond<Lanes>(trialStrain, internals)); });
 	});
 }
 

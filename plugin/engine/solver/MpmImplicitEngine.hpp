@@ -64,8 +64,7 @@ public:
 		v("mask", &E::mask, 0,
 		  "Material points to move: those whose body.groupMask has a bit in common with it; 0 or -1, the default: all. No two engines may claim the same.");
 		v("loadTime", &E::loadTime, 0,
-		  "Time [s] of the last converged state, where the next step starts; of an engine that has not run, 0: O.time as it joins the scene. After O.resetTime() set it to "
-		  "O.time.",
+		  "Time [s] of the last converged state, where the next step starts; 0 before the first: O.time as it joins. After O.resetTime() set it to O.time.",
 		  finite);
 		v("verbosity", &E::verbosity, 0,
 		  "What a run says on stderr. 0: nothing; 1: one line of progress, redrawn on a terminal, repeated every 10 s in a log; 2: a line each step.",
