@@ -237,7 +237,7 @@ template <int Dim> void Contact<Dim>::addBefore(Eigen::VectorXd& force) const
 			addAttachedForce<Dim>(corner.attached, r->pressure * r->normal + r->friction, { force });
 }
 
-/// Where soil has touched until now, and where it would touch bodies that have moved if it stayed. Whether it then slips or comes off is for the iterations to find.
+/// Where soil touches as the step begins, and where it would touch bodies that have moved if it stayed. Whether it then slips or comes off is for the iterations to find.
 template <int Dim> void Contact<Dim>::restrain(const typename Term<Dim>::Hold& hold) const
 {
 	const auto holds = [&](const Corner& corner, const Vec<Dim>& normal) {
@@ -248,7 +248,11 @@ template <int Dim> void Contact<Dim>::restrain(const typename Term<Dim>::Hold& h
 			hold(corner.attached.node[0], Vec<Dim>::Unit(a), inCell);
 	};
 	for (const Corner& corner : corners_)
-		if (const auto* r = recordOf(system_.records, { corner.point, corner.corner, corner.body }); r && r->touches) holds(corner, r->normal);
+		if (const auto* r = recordOf(system_.records, { corner.point, corner.corner, corner.body }); r && r->touches) {
+			const auto&          body = system_.bodies[corner.body];
+			const Proximity<Dim> at   = body.proximity(body.begin, corner.place, corner.side);
+			if (at.gap - corner.offset <= tolerance_) holds(corner, at.normal); // otherwise it has been put elsewhere
+		}
 	forTouching(
 	        Eigen::VectorXd::Zero(Dim * Eigen::Index(basis_.nodes.size())),
 	        [&](const Corner& corner, const Vec<Dim>&, double, const Touch<Dim>& touched) { holds(corner, touched.normal); });
