@@ -19,9 +19,10 @@ below = {
         'base': [],
         'grid': ['base'],
         'materials': ['base'],
-        'solvers': ['base', 'grid', 'materials'],
-        'terms': ['base', 'grid', 'materials', 'solvers'],
-        'stepping': ['base', 'grid', 'materials', 'solvers', 'terms'],
+        'fields': ['base', 'grid'],
+        'solvers': ['base', 'fields', 'grid', 'materials'],
+        'terms': ['base', 'fields', 'grid', 'materials', 'solvers'],
+        'stepping': ['base', 'fields', 'grid', 'materials', 'solvers', 'terms'],
 }
 
 

@@ -15,8 +15,8 @@ public:
 
 	/// These must outlive it. With a share it is solved by all processes together.
 	template <int Dim>
-	LinearProblem(const NodeMatrix<Dim>& K, const FreeDofs& dofs, const NodeShare* share = nullptr)
-	        : size_(dofs.count), isSymmetric_(K.isSymmetric()), overNodes_(nodeProblem(K, dofs, share))
+	LinearProblem(const NodeMatrix<Dim>& K, const FreeDofs& dofs, const NodeShare* share = nullptr, const Couplings* couplings = nullptr)
+	        : size_(dofs.count), isSymmetric_(K.isSymmetric()), overNodes_(nodeProblem(K, dofs, share, couplings))
 	{
 	}
 
@@ -24,8 +24,12 @@ public:
 	bool                isSymmetric() const { return isSymmetric_; }
 	const SymmetricCsc& symmetric() const { return std::get<SymmetricCsc>(compressed()); }
 	const GeneralCsc&   general() const { return std::get<GeneralCsc>(compressed()); }
-	const NodeProblem*  overNodes() const { return overNodes_.get(); } ///< null: only compressed
+	const NodeProblem*  overNodes() const { return isOfOneField() ? overNodes_.get() : nullptr; } ///< null: only compressed
 	bool                isShared() const { return overNodes_ && overNodes_->share(); }
+	bool                isOfOneField() const { return !overNodes_ || overNodes_->isOfOneField(); }
+
+	/// NodeProblem::ordering; empty where nodes are not known.
+	Order ordering() const { return overNodes_ ? overNodes_->ordering() : Order(); }
 
 	/// What is stored: of a symmetric matrix one triangle.
 	const Csc& stored() const { return isSymmetric() ? static_cast<const Csc&>(symmetric()) : general(); }
@@ -57,9 +61,9 @@ private:
 };
 
 /// Compressed: K may go.
-template <int Dim> LinearProblem reduced(const NodeMatrix<Dim>& K, const FreeDofs& dofs)
+template <int Dim> LinearProblem reduced(const NodeMatrix<Dim>& K, const FreeDofs& dofs, const Couplings* couplings = nullptr)
 {
-	return std::visit([](auto&& compressed) { return LinearProblem(std::move(compressed)); }, nodeProblem(K, dofs)->compressed());
+	return std::visit([](auto&& compressed) { return LinearProblem(std::move(compressed)); }, nodeProblem(K, dofs, nullptr, couplings)->compressed());
 }
 
 } // namespace gimpm

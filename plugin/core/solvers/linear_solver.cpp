@@ -47,8 +47,8 @@ constexpr int worthDissecting = 4000;
 
 Order ordering(const LinearProblem& K)
 {
-	if (!K.overNodes() || K.size() < worthDissecting) return {};
-	Order order = K.overNodes()->ordering();
+	if (K.size() < worthDissecting) return {};
+	Order order = K.ordering();
 	for (int& number : order.numbers)
 		number = K.size() - 1 - number; // of the matrix in reverse
 	return order;
@@ -156,7 +156,9 @@ bool LinearSolver::prefersIterative(const LinearProblem& K)
 bool LinearSolver::solveIteratively(const LinearProblem& K, const Eigen::VectorXd& b, Eigen::VectorXd& x, double tolerance, LinearMethod method)
 {
 	std::string failure;
-	if (K.isSymmetric() && K.overNodes()) failure = overNodes_->solve(*K.overNodes(), b, tolerance, method, x, times_, effort_);
+	if (method == LinearMethod::multigrid && !K.isOfOneField()) failure = "multigrid is for displacements alone";
+	else if (K.isSymmetric() && K.overNodes())
+		failure = overNodes_->solve(*K.overNodes(), b, tolerance, method, x, times_, effort_);
 	else {
 		const Stopwatch watch(times_.solve);
 		failure = K.isSymmetric()                                         ? inColumns(K.symmetric(), b, tolerance, x, effort_.iterations)

@@ -8,23 +8,51 @@
 namespace gimpm {
 namespace {
 
+/// Displacements of neighbours block by block, and of nodes that are apart entry by entry.
+template <int Dim> class CoupledBlocks : public SymmetricOperator {
+public:
+	CoupledBlocks(const NodeMatrix<Dim>& K, const FreeDofs& dofs, const Couplings& couplings) : blocks_(K, dofs), entries_(freeEntries(couplings, dofs)) { }
+	void multiply(const Eigen::VectorXd& x, Eigen::VectorXd& y) const override
+	{
+		blocks_.multiply(x, y);
+		for (const MatrixEntry& entry : entries_)
+			y[entry.row] += entry.value * x[entry.column];
+	}
+	Eigen::VectorXd diagonal() const override
+	{
+		Eigen::VectorXd diagonal = blocks_.diagonal();
+		for (const MatrixEntry& entry : entries_)
+			if (entry.row == entry.column) diagonal[entry.row] += entry.value;
+		return diagonal;
+	}
+
+private:
+	BlockMatrix<Dim>         blocks_;
+	std::vector<MatrixEntry> entries_;
+};
+
 template <int Dim> class Problem : public NodeProblem {
 public:
-	Problem(const NodeMatrix<Dim>& K, const FreeDofs& dofs, const NodeShare* share) : K_(K), dofs_(dofs), share_(share) { }
+	Problem(const NodeMatrix<Dim>& K, const FreeDofs& dofs, const NodeShare* share, const Couplings* couplings)
+	        : K_(K), dofs_(dofs), share_(share), couplings_(couplings)
+	{
+	}
 
 	std::variant<SymmetricCsc, GeneralCsc> compressed() const override
 	{
 		const auto in = [&](auto form) {
-			reduce(K_, dofs_, form);
+			reduce(K_, dofs_, form, couplings_);
 			return std::variant<SymmetricCsc, GeneralCsc>(std::move(form));
 		};
 		return K_.isSymmetric() ? in(SymmetricCsc()) : in(GeneralCsc());
 	}
 	std::unique_ptr<SymmetricOperator> blocks() const override
 	{
-		if (share_) return std::make_unique<SharedBlocks<Dim>>(K_, dofs_, *share_);
+		if (share_) return std::make_unique<SharedBlocks<Dim>>(K_, dofs_, *share_, couplings_);
+		if (couplings_) return std::make_unique<CoupledBlocks<Dim>>(K_, dofs_, *couplings_);
 		return std::make_unique<BlockMatrix<Dim>>(K_, dofs_);
 	}
+	bool isOfOneField() const override { return !couplings_ || couplings_->map().isAlone(); }
 
 	Eigen::VectorXd expanded(const Eigen::VectorXd& x) const override
 	{
@@ -39,7 +67,7 @@ public:
 		forFree([&](int dof, int number) { x[number] = all[dof]; });
 		return x;
 	}
-	std::optional<NodeRows> rows() const override { return nodeRows(K_, dofs_, share_); }
+	std::optional<NodeRows> rows() const override { return nodeRows(K_, dofs_, share_, couplings_); }
 	const NodeShare*        share() const override { return share_; }
 	Unknowns                unknowns() const override
 	{
@@ -70,8 +98,9 @@ public:
 		Order                  order;
 		int                    taken = 0;
 		for (const int n : ofNodes.numbers) {
-			for (int i = Dim * nodes[n]; i < Dim * (nodes[n] + 1); ++i)
+			forUnknowns(nodes[n], [&](int i) {
 				if (dofs_.number[i] >= 0) order.numbers.push_back(dofs_.number[i]);
+			});
 			if (++taken == ofNodes.first) order.first = int(order.numbers.size());
 			if (taken == ofNodes.first + ofNodes.second) order.second = int(order.numbers.size()) - order.first;
 		}
@@ -86,13 +115,25 @@ private:
 		share_->complete(all);
 		return all;
 	}
-	/// Those that are not held in all directions.
+	/// Calls f(unknown) for those of a node, of all fields.
+	template <class F> void forUnknowns(int node, F&& f) const
+	{
+		for (int i = Dim * node; i < Dim * (node + 1); ++i)
+			f(i);
+		if (isOfOneField()) return;
+		const DofMap& map = couplings_->map();
+		for (int field = 1; field < map.fields(); ++field)
+			for (int i = map.at(field, node); i < map.at(field, node) + map[field].width; ++i)
+				f(i);
+	}
+	/// Those of which not all unknowns are held.
 	std::vector<int> freeNodes() const
 	{
 		std::vector<int> nodes;
 		for (int a = 0; a < K_.nodes(); ++a) {
-			const auto number = dofs_.number.begin() + Dim * a;
-			if (std::any_of(number, number + Dim, [](int n) { return n >= 0; })) nodes.push_back(a);
+			bool isFree = false;
+			forUnknowns(a, [&](int i) { isFree |= dofs_.number[i] >= 0; });
+			if (isFree) nodes.push_back(a);
 		}
 		return nodes;
 	}
@@ -113,6 +154,11 @@ private:
 					const int b = K_.used(a, c) ? K_.neighbour(a, c) : a;
 					if (b != a && number[b] >= 0) f(number[a], number[b]), f(number[b], number[a]);
 				}
+			if (!couplings_) return;
+			couplings_->forBlocks([&](const FieldNode& row, const FieldNode& column, const double*) {
+				const int a = number[row.node], b = number[column.node];
+				if (row.node != column.node && a >= 0 && b >= 0) f(a, b), f(b, a);
+			});
 		};
 		graph.start.assign(nodes.size() + 1, 0);
 		forPairs([&](int a, int) { ++graph.start[a + 1]; });
@@ -131,16 +177,17 @@ private:
 	const NodeMatrix<Dim>& K_;
 	const FreeDofs&        dofs_;
 	const NodeShare*       share_;
+	const Couplings*       couplings_; ///< null: there are none
 };
 
 } // namespace
 
-template <int Dim> std::unique_ptr<NodeProblem> nodeProblem(const NodeMatrix<Dim>& K, const FreeDofs& dofs, const NodeShare* share)
+template <int Dim> std::unique_ptr<NodeProblem> nodeProblem(const NodeMatrix<Dim>& K, const FreeDofs& dofs, const NodeShare* share, const Couplings* couplings)
 {
-	return std::make_unique<Problem<Dim>>(K, dofs, share);
+	return std::make_unique<Problem<Dim>>(K, dofs, share, couplings);
 }
 
-template std::unique_ptr<NodeProblem> nodeProblem(const NodeMatrix<2>&, const FreeDofs&, const NodeShare*);
-template std::unique_ptr<NodeProblem> nodeProblem(const NodeMatrix<3>&, const FreeDofs&, const NodeShare*);
+template std::unique_ptr<NodeProblem> nodeProblem(const NodeMatrix<2>&, const FreeDofs&, const NodeShare*, const Couplings*);
+template std::unique_ptr<NodeProblem> nodeProblem(const NodeMatrix<3>&, const FreeDofs&, const NodeShare*, const Couplings*);
 
 } // namespace gimpm

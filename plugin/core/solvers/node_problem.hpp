@@ -25,6 +25,9 @@ struct NodeProblem {
 
 	virtual std::variant<SymmetricCsc, GeneralCsc> compressed() const = 0;
 
+	/// Of several fields there are no blocks, rows and unknowns, and it is not known how large it is.
+	virtual bool isOfOneField() const = 0;
+
 	/// Of a symmetric matrix, for vectors over all degrees of freedom, with zeros for the held ones; where processes share the matrix, for the rows of this one.
 	virtual std::unique_ptr<SymmetricOperator> blocks() const                           = 0;
 	virtual Eigen::VectorXd                    expanded(const Eigen::VectorXd& x) const = 0; ///< of the free degrees of freedom
@@ -43,6 +46,6 @@ struct NodeProblem {
 };
 
 /// All must outlive it.
-template <int Dim> std::unique_ptr<NodeProblem> nodeProblem(const NodeMatrix<Dim>&, const FreeDofs&, const NodeShare* = nullptr);
+template <int Dim> std::unique_ptr<NodeProblem> nodeProblem(const NodeMatrix<Dim>&, const FreeDofs&, const NodeShare* = nullptr, const Couplings* = nullptr);
 
 } // namespace gimpm

@@ -8,7 +8,8 @@ namespace {
 
 template <int Dim> class Rows {
 public:
-	Rows(const NodeMatrix<Dim>& K, const FreeDofs& dofs, const NodeShare* share) : K_(K), dofs_(dofs), row_(K.nodes(), -1)
+	Rows(const NodeMatrix<Dim>& K, const FreeDofs& dofs, const NodeShare* share, const Couplings* couplings)
+	        : K_(K), dofs_(dofs), couplings_(couplings), row_(K.nodes(), -1)
 	{
 		for (int a = 0; a < K.nodes(); ++a) {
 			bool isFree = false;
@@ -51,12 +52,15 @@ private:
 		int           column; ///< number of the node among those with rows
 		bool          isTransposed;
 		const double* values;
-		const double* skew;             ///< null: none
-		bool          isItself = false; ///< of one node, with the whole of what is not symmetric
+		const double* skew;                ///< null: none
+		bool          isItself  = false;   ///< of one node, with the whole of what is not symmetric
+		bool          isCoupled = false;   ///< by couplings, which add to what neighbours have
+		const double* opposite  = nullptr; ///< K_ba of couplings that are not symmetric
 
 		/// With this part of what K_ba^T differs from K_ab by, if it is K_ba.
 		double at(int i, int j, double part) const
 		{
+			if (opposite) return part * values[Dim * i + j] + (1 - part) * opposite[Dim * j + i];
 			if (isItself) return part * values[Dim * i + j] + (1 - part) * values[Dim * j + i];
 			if (!isTransposed) return values[Dim * i + j] + (skew ? (1 - part) * skew[Dim * i + j] : 0);
 			return values[Dim * j + i] + (skew ? part * skew[Dim * j + i] : 0);
@@ -88,7 +92,18 @@ private:
 				if (isOwn(row_[a])) f(row_[a], Block { row_[b], false, K_.at(a, c), skew, c == 0 && !K_.isSymmetric() });
 				if (c > 0 && isOwn(row_[b])) f(row_[b], Block { row_[a], true, K_.at(a, c), skew });
 			}
+		if (couplings_) forCoupledBlocks(f);
 	}
+	template <class F> void forCoupledBlocks(F&& f) const
+	{
+		couplings_->forBlocks([&](const FieldNode& row, const FieldNode& column, const double* values) {
+			const int a = row_[row.node], b = row_[column.node];
+			if (a < 0 || b < 0) return;
+			if (isOwn(a)) f(a, Block { b, false, values, nullptr, false, true, couplings_->opposite(row, column) });
+			if (K_.isSymmetric() && a != b && isOwn(b)) f(b, Block { a, true, values, nullptr, false, true });
+		});
+	}
+	bool hasOrder() const { return !K_.isPeriodic() && !couplings_; } ///< columns rise, because lower nodes are visited first
 
 	void findBlocks()
 	{
@@ -100,11 +115,11 @@ private:
 		std::vector<int> next(first_.begin(), first_.end() - 1);
 		forBlocks([&](int row, const Block& block) { blocks_[next[row - begin_]++] = block; });
 		const auto before = [](const Block& a, const Block& b) { return a.column < b.column; };
-		for (int n = 0; n < count() && K_.isPeriodic(); ++n) // otherwise they rise, because lower nodes are visited first
+		for (int n = 0; n < count() && !hasOrder(); ++n)
 			std::stable_sort(blocks_.begin() + first_[n], blocks_.begin() + first_[n + 1], before);
 	}
 
-	/// On a small periodic grid two blocks may be for the same nodes.
+	/// On a small periodic grid two blocks may be for the same nodes, and where there are couplings.
 	bool isSameAsBefore(int n, int block) const { return block > firstOf(n) && blocks_[block].column == blocks_[block - 1].column; }
 
 	void startRows(NodeRows& out) const
@@ -129,7 +144,7 @@ private:
 				for (int j = 0; j < Dim; ++j) {
 					const bool isDiagonal = block.column == n && i == j, holds = isHeld(nodes_[n], i) || isHeld(nodes_[block.column], j);
 					out.column[at + j] = Dim * block.column + j;
-					if (isDiagonal) value[at + j] = diagonalOf(nodes_[n], i);
+					if (isDiagonal && !block.isCoupled) value[at + j] = diagonalOf(nodes_[n], i);
 					else if (!holds)
 						value[at + j] += block.at(i, j, part);
 				}
@@ -149,6 +164,7 @@ private:
 
 	const NodeMatrix<Dim>& K_;
 	const FreeDofs&        dofs_;
+	const Couplings*       couplings_;           ///< null: there are none
 	std::vector<int>       row_, nodes_;         ///< number of each node among those with rows, or -1; and these
 	int                    begin_ = 0, end_ = 0; ///< of these, those whose rows are wanted
 	std::vector<int>       first_;               ///< block of each row of blocks
@@ -157,9 +173,9 @@ private:
 
 } // namespace
 
-template <int Dim> std::optional<NodeRows> nodeRows(const NodeMatrix<Dim>& K, const FreeDofs& dofs, const NodeShare* share)
+template <int Dim> std::optional<NodeRows> nodeRows(const NodeMatrix<Dim>& K, const FreeDofs& dofs, const NodeShare* share, const Couplings* couplings)
 {
-	Rows<Dim> rows(K, dofs, share);
+	Rows<Dim> rows(K, dofs, share, couplings);
 	if (rows.entries() > std::size_t(std::numeric_limits<int>::max())) return std::nullopt;
 	return rows.make();
 }
@@ -174,7 +190,7 @@ std::string obstacleTo(const std::optional<NodeRows>& rows, const NodeShare* sha
 	return isThere[1] ? "" : "the matrix has numbers that are not finite";
 }
 
-template std::optional<NodeRows> nodeRows(const NodeMatrix<2>&, const FreeDofs&, const NodeShare*);
-template std::optional<NodeRows> nodeRows(const NodeMatrix<3>&, const FreeDofs&, const NodeShare*);
+template std::optional<NodeRows> nodeRows(const NodeMatrix<2>&, const FreeDofs&, const NodeShare*, const Couplings*);
+template std::optional<NodeRows> nodeRows(const NodeMatrix<3>&, const FreeDofs&, const NodeShare*, const Couplings*);
 
 } // namespace gimpm

@@ -28,7 +28,7 @@ struct NodeRows {
 };
 
 /// Nothing if there are more entries than an int can count. With a share those of this process.
-template <int Dim> std::optional<NodeRows> nodeRows(const NodeMatrix<Dim>&, const FreeDofs&, const NodeShare* = nullptr);
+template <int Dim> std::optional<NodeRows> nodeRows(const NodeMatrix<Dim>&, const FreeDofs&, const NodeShare* = nullptr, const Couplings* = nullptr);
 
 /// Why a library cannot be given the rows, of several processes all of them; empty if it can. `hasPositions`: whether there are any, which a process without rows hears
 /// from the others.

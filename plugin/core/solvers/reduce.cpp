@@ -26,28 +26,28 @@ template <int Dim, class F> void forFreeEntries(const NodeMatrix<Dim>& K, const 
 /// What a node stands for among the nodes that are not tied.
 class MastersOf {
 public:
-	MastersOf(int nodes, const Ties& ties) : ties_(ties), tie_(nodes, -1)
+	MastersOf(int nodes, const Ties* ties) : ties_(ties), tie_(nodes, -1)
 	{
-		for (std::size_t t = 0; t < ties.node.size(); ++t)
-			tie_[ties.node[t]] = int(t);
+		for (std::size_t t = 0; ties && t < ties->node.size(); ++t)
+			tie_[ties->node[t]] = int(t);
 	}
 	/// Calls f(node, weight).
 	template <class F> void each(int node, F&& f) const
 	{
 		if (tie_[node] < 0) return f(node, 1.);
-		for (int m = ties_.start[tie_[node]]; m < ties_.start[tie_[node] + 1]; ++m)
-			f(ties_.master[m], ties_.weight[m]);
+		for (int m = ties_->start[tie_[node]]; m < ties_->start[tie_[node] + 1]; ++m)
+			f(ties_->master[m], ties_->weight[m]);
 	}
 
 private:
-	const Ties&      ties_;
+	const Ties*      ties_;
 	std::vector<int> tie_;
 };
 
 /// The same with ties.
 template <int Dim, class F> void forTiedEntries(const NodeMatrix<Dim>& K, const FreeDofs& dofs, F&& f)
 {
-	const MastersOf masters(K.nodes(), *dofs.ties);
+	const MastersOf masters(K.nodes(), dofs.ties);
 	for (int a = 0; a < K.nodes(); ++a)
 		for (int c = 0; c < NodeMatrix<Dim>::codes; ++c) {
 			if (!K.used(a, c)) continue;
@@ -66,6 +66,38 @@ template <int Dim, class F> void forTiedEntries(const NodeMatrix<Dim>& K, const 
 				});
 			});
 		}
+}
+
+/// The same of the couplings, scaled.
+template <class F> void forCoupledEntries(const Couplings& K, const FreeDofs& dofs, F&& f)
+{
+	const DofMap&   map = K.map();
+	const MastersOf masters(map.nodes(), dofs.ties);
+	K.forBlocks([&](const FieldNode& row, const FieldNode& column, const double* values) {
+		const Field &ofRow = map[row.field], &ofColumn = map[column.field];
+		const bool   isMirrored = K.isSymmetric() && (row.field != column.field || row.node != column.node);
+		masters.each(row.node, [&](int m, double ofM) {
+			masters.each(column.node, [&](int n, double ofN) {
+				const double weight = ofM * ofN * ofRow.scale * ofColumn.scale;
+				for (int i = 0, k = 0; i < ofRow.width; ++i)
+					for (int j = 0; j < ofColumn.width; ++j, ++k) {
+						const int p = dofs.number[map.at(row.field, m) + i], q = dofs.number[map.at(column.field, n) + j];
+						if (p < 0 || q < 0) continue;
+						f(p, q, weight * values[k]);
+						if (isMirrored) f(q, p, weight * values[k]);
+					}
+			});
+		});
+	});
+}
+
+/// Of all of them.
+template <int Dim, class F> void forEntries(const NodeMatrix<Dim>& K, const FreeDofs& dofs, const Couplings* couplings, F&& f)
+{
+	if (dofs.ties) forTiedEntries(K, dofs, f);
+	else
+		forFreeEntries(K, dofs, f);
+	if (couplings) forCoupledEntries(*couplings, dofs, f);
 }
 
 /// Columns of the entries for which forEntries(f) calls f(row, column, value), twice the same, in their order.
@@ -106,25 +138,23 @@ void sortColumns(Csc& K)
 	K.value.resize(end);
 }
 
-/// In any order, and several entries in one place: nodes beyond the sides of a periodic grid have lower numbers, and masters may have any.
-template <int Dim> void reduceUnordered(const NodeMatrix<Dim>& K, const FreeDofs& dofs, SymmetricCsc& out)
+/// In any order, and several entries in one place: nodes beyond the sides of a periodic grid have lower numbers, masters
+/// and nodes that are coupled may have any.
+template <int Dim> void reduceUnordered(const NodeMatrix<Dim>& K, const FreeDofs& dofs, const Couplings* couplings, SymmetricCsc& out)
 {
 	fill(out, dofs.count, [&](auto&& f) {
-		const auto lower = [&](int row, int column, double value) {
+		forEntries(K, dofs, couplings, [&](int row, int column, double value) {
 			if (row >= column) f(row, column, value);
-		};
-		if (dofs.ties) forTiedEntries(K, dofs, lower);
-		else
-			forFreeEntries(K, dofs, lower);
+		});
 	});
 	sortColumns(out);
 }
 
 } // namespace
 
-template <int Dim> void reduce(const NodeMatrix<Dim>& K, const FreeDofs& dofs, SymmetricCsc& out)
+template <int Dim> void reduce(const NodeMatrix<Dim>& K, const FreeDofs& dofs, SymmetricCsc& out, const Couplings* couplings)
 {
-	if (K.isPeriodic() || dofs.ties) return reduceUnordered(K, dofs, out);
+	if (K.isPeriodic() || dofs.ties || couplings) return reduceUnordered(K, dofs, couplings, out);
 	out.start.assign(1, 0);
 	out.row.clear();
 	out.value.clear();
@@ -145,19 +175,15 @@ template <int Dim> void reduce(const NodeMatrix<Dim>& K, const FreeDofs& dofs, S
 		}
 }
 
-template <int Dim> void reduce(const NodeMatrix<Dim>& K, const FreeDofs& dofs, GeneralCsc& out)
+template <int Dim> void reduce(const NodeMatrix<Dim>& K, const FreeDofs& dofs, GeneralCsc& out, const Couplings* couplings)
 {
-	fill(out, dofs.count, [&](auto&& f) {
-		if (dofs.ties) forTiedEntries(K, dofs, f);
-		else
-			forFreeEntries(K, dofs, f);
-	});
-	if (K.isPeriodic() || dofs.ties) sortColumns(out);
+	fill(out, dofs.count, [&](auto&& f) { forEntries(K, dofs, couplings, f); });
+	if (K.isPeriodic() || dofs.ties || couplings) sortColumns(out);
 }
 
 #define GIMPM_INSTANTIATE(Dim)                                                                                                                                 \
-	template void reduce(const NodeMatrix<Dim>&, const FreeDofs&, SymmetricCsc&);                                                                          \
-	template void reduce(const NodeMatrix<Dim>&, const FreeDofs&, GeneralCsc&);
+	template void reduce(const NodeMatrix<Dim>&, const FreeDofs&, SymmetricCsc&, const Couplings*);                                                        \
+	template void reduce(const NodeMatrix<Dim>&, const FreeDofs&, GeneralCsc&, const Couplings*);
 GIMPM_INSTANTIATE(2)
 GIMPM_INSTANTIATE(3)
 #undef GIMPM_INSTANTIATE

@@ -6,8 +6,8 @@
 namespace gimpm {
 namespace {
 
-/// Calls f(own node, neighbour) for each pair, of which both may be own.
-template <int Dim, class F> void forOwnPairs(const NodeMatrix<Dim>& K, const NodeShare& share, F&& f)
+/// Calls f(own node, neighbour or node that is coupled) for each pair, of which both may be own.
+template <int Dim, class F> void forOwnPairs(const NodeMatrix<Dim>& K, const NodeShare& share, const Couplings* couplings, F&& f)
 {
 	const int  first = share.first(), last = share.last();
 	const auto isOwn = [&](int node) { return node >= first && node < last; };
@@ -17,33 +17,44 @@ template <int Dim, class F> void forOwnPairs(const NodeMatrix<Dim>& K, const Nod
 			if (isOwn(a)) f(a, b);
 			if (isOwn(b)) f(b, a);
 		}
+	if (!couplings) return;
+	couplings->forBlocks([&](const FieldNode& row, const FieldNode& column, const double*) {
+		if (isOwn(row.node)) f(row.node, column.node);
+		if (isOwn(column.node)) f(column.node, row.node);
+	});
 }
 
 } // namespace
 
 template <int Dim>
-SharedBlocks<Dim>::SharedBlocks(const NodeMatrix<Dim>& K, const FreeDofs& dofs, const NodeShare& share)
+SharedBlocks<Dim>::SharedBlocks(const NodeMatrix<Dim>& K, const FreeDofs& dofs, const NodeShare& share, const Couplings* couplings)
         : share_(share)
-        , here_(hereOf(K, share))
+        , here_(hereOf(K, share, couplings))
         , blocks_(K, dofs, here_, { share.first(), share.last() })
         , x_(Eigen::VectorXd::Zero(Dim * (here_.second - here_.first)))
         , y_(x_)
 {
-	findBorders(K);
+	findBorders(K, couplings);
+	if (!couplings) return;
+	entries_ = freeEntries(*couplings, dofs);
+	entries_.erase(
+	        std::remove_if(entries_.begin(), entries_.end(), [&](const MatrixEntry& entry) { return !share.owns(entry.row / Dim); }), entries_.end());
+	for (auto& entry : entries_)
+		entry.row -= Dim * here_.first, entry.column -= Dim * here_.first;
 }
 
-template <int Dim> typename SharedBlocks<Dim>::Range SharedBlocks<Dim>::hereOf(const NodeMatrix<Dim>& K, const NodeShare& share)
+template <int Dim> typename SharedBlocks<Dim>::Range SharedBlocks<Dim>::hereOf(const NodeMatrix<Dim>& K, const NodeShare& share, const Couplings* couplings)
 {
 	Range here(share.first(), share.last());
-	forOwnPairs(K, share, [&](int, int b) { here = { std::min(here.first, b), std::max(here.second, b + 1) }; });
+	forOwnPairs(K, share, couplings, [&](int, int b) { here = { std::min(here.first, b), std::max(here.second, b + 1) }; });
 	return here;
 }
 
-template <int Dim> void SharedBlocks<Dim>::findBorders(const NodeMatrix<Dim>& K)
+template <int Dim> void SharedBlocks<Dim>::findBorders(const NodeMatrix<Dim>& K, const Couplings* couplings)
 {
 	const auto ownerOf = [&](int node) { return int(std::upper_bound(share_.start.begin(), share_.start.end(), node) - share_.start.begin()) - 1; };
 	const int  first = share_.first(), last = share_.last();
-	forOwnPairs(K, share_, [&](int a, int b) {
+	forOwnPairs(K, share_, couplings, [&](int a, int b) {
 		if (b >= first && b < last) return;
 		Border& border = borders_[ownerOf(b)];
 		border.own.push_back(a), border.others.push_back(b);
@@ -78,12 +89,17 @@ template <int Dim> void SharedBlocks<Dim>::multiply(const Eigen::VectorXd& x, Ei
 {
 	fetch(x);
 	blocks_.multiply(x_, y_);
+	for (const MatrixEntry& entry : entries_)
+		y_[entry.row] += entry.value * x_[entry.column];
 	y = y_.segment(Dim * (share_.first() - here_.first), x.size());
 }
 
 template <int Dim> Eigen::VectorXd SharedBlocks<Dim>::diagonal() const
 {
-	return blocks_.diagonal().segment(Dim * (share_.first() - here_.first), Dim * (share_.last() - share_.first()));
+	Eigen::VectorXd diagonal = blocks_.diagonal();
+	for (const MatrixEntry& entry : entries_)
+		if (entry.row == entry.column) diagonal[entry.row] += entry.value;
+	return diagonal.segment(Dim * (share_.first() - here_.first), Dim * (share_.last() - share_.first()));
 }
 
 template <int Dim> double SharedBlocks<Dim>::norm(const Eigen::VectorXd& x) const

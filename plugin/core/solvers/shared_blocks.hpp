@@ -12,7 +12,7 @@ namespace gimpm {
 template <int Dim> class SharedBlocks : public SymmetricOperator {
 public:
 	/// With vectors of Dim components for each own node. Its processes must outlive it.
-	SharedBlocks(const NodeMatrix<Dim>&, const FreeDofs&, const NodeShare&);
+	SharedBlocks(const NodeMatrix<Dim>&, const FreeDofs&, const NodeShare&, const Couplings* = nullptr);
 
 	void            multiply(const Eigen::VectorXd& x, Eigen::VectorXd& y) const override;
 	Eigen::VectorXd diagonal() const override;
@@ -28,13 +28,14 @@ private:
 		Eigen::VectorXd  sent, received;
 	};
 
-	static Range hereOf(const NodeMatrix<Dim>&, const NodeShare&);
-	void         findBorders(const NodeMatrix<Dim>&);
+	static Range hereOf(const NodeMatrix<Dim>&, const NodeShare&, const Couplings*);
+	void         findBorders(const NodeMatrix<Dim>&, const Couplings*);
 	void         fetch(const Eigen::VectorXd& x) const;
 
 	const NodeShare               share_; // of its own: multigrid goes on with it in later steps
 	Range                         here_;  ///< own nodes and their neighbours, with what is between them
 	BlockMatrix<Dim>              blocks_;
+	std::vector<MatrixEntry>      entries_; ///< of couplings, in the rows of own nodes, by places among those that are here
 	mutable std::map<int, Border> borders_; ///< by process
 	mutable Eigen::VectorXd       x_, y_;   ///< of the nodes that are here
 };

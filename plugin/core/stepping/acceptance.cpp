@@ -108,16 +108,16 @@ template <int Dim> void askTerms(const StepSystem<Dim>& system, const Eigen::Vec
 
 template <int Dim> bool accept(const StepSystem<Dim>& system, PointCloud<Dim>& cloud, const Load<Dim>& load, const Eigen::VectorXd& d, StepReport& report)
 {
-	const Stopwatch watch(report.times.update);
-	addReactionsBeyondWalls(system, cloud, load, d, report);
+	const Stopwatch       watch(report.times.update);
+	const Eigen::VectorXd displacements = system.map.displacements(d);
+	addReactionsBeyondWalls(system, cloud, load, displacements, report);
 	if (system.model.grid.axisymmetric) report.reactions.pop_back(); // of the axis, which nobody has asked for
 	PointCloud<Dim> updated = cloud;
-	updatePoints(updated, system, d, report);
+	updatePoints(updated, system, displacements, report);
 	if (!requireState(updated, system.model, report) || !requireSamePoints(updated, system.model, report)) return false;
 	if (!report.accepted && !requireEnergy(system, cloud, updated, report)) return false;
 	cloud = std::move(updated);
-	for (const auto& term : system.terms)
-		term->commit(d);
+	system.commit(d);
 	for (const auto& [box, wall] : system.model.walls)
 		report.reactions[box].template head<Dim>() += wall->reaction;
 	return true;

@@ -6,12 +6,19 @@
 
 namespace gimpm {
 
-/// Out-of-balance forces on the free degrees of freedom.
+/// Out-of-balance forces on the free degrees of freedom. Those of other fields than the displacements are scaled.
 struct Balance {
 	Eigen::VectorXd residual;       ///< by number of the free degree of freedom [N]
-	double          size      = 0;  ///< |residual|, infinite where there is no such number [N]
+	double          size      = 0;  ///< |residual| of all fields together, infinite where there is no such number [N]
 	double          reference = 0;  ///< |external forces + reactions| [N]
-	int             worst     = -1; ///< nodal degree of freedom
+	int             worst     = -1; ///< unknown
+
+	/// Of one field.
+	struct Part {
+		double size = 0, reference = 0, vanishing = 0; ///< |residual|; forces that it is compared with; what is round-off
+		int    worst = -1;                             ///< unknown
+	};
+	std::vector<Part> fields {}; ///< all, in their order; empty where there are displacements alone
 };
 
 /// The points' stiffness as a measure of forces.
@@ -52,7 +59,7 @@ public:
 	double prescribedStrain() const { return strainOf(system_.prescribed); }
 
 	/// Strain of a cell of which one side is held and the other moves like the node that moves most.
-	double strainOf(const Eigen::VectorXd& d) const { return d.template lpNorm<Eigen::Infinity>() / system_.model.grid.cellSize; }
+	double strainOf(const Eigen::VectorXd& d) const { return system_.map.of(0, d).template lpNorm<Eigen::Infinity>() / system_.model.grid.cellSize; }
 
 	static constexpr double roundOff = 10 * std::numeric_limits<double>::epsilon(); ///< of strains, a part of them
 
@@ -72,28 +79,37 @@ template <int Dim> class WholeBalance {
 public:
 	explicit WholeBalance(const StepSystem<Dim>& system) : system_(system), elastic_(system) { }
 
-	/// Of this sum of the terms at d.
-	Balance of(const Eigen::VectorXd& d, const Eigen::VectorXd& force) const;
+	/// Of this sum of the terms at d; their sizes where there are several fields.
+	Balance of(const Eigen::VectorXd& d, const Eigen::VectorXd& force, const Eigen::VectorXd& sizes) const;
 
 	/// The one at the start of the step: forces of this size are its scale to the end.
 	void begin(const Balance&);
 
 	/// The one with which prescribed displacements entered: no more than they can cause by themselves, for points that other loads have nearly
 	/// turned inside out resist with any force.
-	void enter(const Balance&);
+	/// `caused`: what prescribed growth of several fields causes.
+	void enter(const Balance&, const Eigen::VectorXd& caused);
 
 	/// |residual| / |external forces + reactions|. Where both end at zero, the residual is compared with the forces at the start of the
 	/// step, as in unloading, or with those that prescribed displacements cause at first, as in a rigid motion; and it is zero where it is
 	/// round-off of stresses that balance each other, at an iterate that a solve has led to.
+	/// Of several fields that which is least in balance counts. Others than displacements are compared with the sizes of
+	/// all that enters or leaves at the nodes.
 	double relative(const Balance&, bool isSolved) const;
 
 	/// What round-off of the displacements d and of the strains at the start of the step leaves of any residual [N].
 	double roundOff(const Eigen::VectorXd& d) const;
 
 private:
+	void   addFields(Balance&, const Eigen::VectorXd& d, const Eigen::VectorXd& force, const Eigen::VectorXd& sizes) const;
+	double normOf(int field, const Eigen::VectorXd& all) const;
+	double relativeOfDisplacements(double size, double reference, bool isSolved) const;
+	double relativeOf(int field, const Balance::Part&, bool isSolved) const;
+
 	const StepSystem<Dim>& system_;
 	ElasticForces<Dim>     elastic_;
 	double                 initial_ = 0, entering_ = 0, vanishing_ = 0; // [N]
+	std::vector<double>    initialOfFields_, enteringOfFields_;         // the same of the other fields, scaled
 };
 
 } // namespace gimpm

@@ -12,11 +12,11 @@ template <int Dim> Eigen::VectorXd equilibrium(const StepSystem<Dim>& system, Li
 		if (attempt.converged() || attempt.failure == Failure::interrupted || !result.predicted) {
 			attempt.predicted = result.predicted;
 			report            = std::move(attempt);
-			return result.displacements;
+			return result.growth;
 		}
 		report.takeEffort(attempt);
 	}
-	return newton(system, solver, report, {}).displacements;
+	return newton(system, solver, report, {}).growth;
 }
 
 template Eigen::VectorXd equilibrium(const StepSystem<2>&, LinearSolver&, StepReport&, const Eigen::VectorXd&);

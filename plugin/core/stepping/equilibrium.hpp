@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Step 4 of the method: the displacements of the nodes at which the step is in equilibrium.
+// Step 4 of the method: the growth of the fields at the nodes, first of all displacements, with which the step is in equilibrium.
 #pragma once
 #include "core/stepping/step_system.hpp"
 

@@ -13,6 +13,8 @@ namespace {
 /// Whether the step can be made at all.
 template <int Dim> bool isPossible(const StepSystem<Dim>& system, const ExplicitInertia<Dim>& inertia, StepReport& report)
 {
+	if (!system.map.isAlone())
+		return !fail(report, Failure::misplaced, "explicit steps are for displacements only, and there is the field '" + system.map[1].name + "'");
 	if (isObstructed(system, report)) return false;
 	if (const std::string obstacle = inertia.obstacle(); !obstacle.empty()) return !fail(report, Failure::misplaced, obstacle);
 	return !inertia.isSingular() || !fail(report, Failure::singular, "the mass matrix is singular to working precision");

@@ -13,17 +13,17 @@ public:
 	Iterate(const StepSystem<Dim>& system, StepReport& report) : whole(system), system_(system), report_(report), local_(system, K)
 	{
 		const Stopwatch watch(report.times.assembly);
-		system.prepare(K);
+		system.prepare(K, &beside);
 	}
 
 	/// A failure of a point or a residual that is not a number leaves balance.size infinite.
 	void evaluate(const Eigen::VectorXd& d, bool withStiffness)
 	{
 		const Stopwatch watch(report_.times.assembly);
-		failure      = system_.evaluate(d, force, withStiffness ? &K : nullptr, withStiffness ? nullptr : &sizes_);
 		hasStiffness = withStiffness;
-		hasSizes_    = !withStiffness; // where no stiffness is needed the iteration is about to end
-		balance      = whole.of(d, force);
+		hasSizes_    = !withStiffness || !system_.map.isAlone(); // where no stiffness is needed the iteration is about to end
+		failure      = system_.evaluate(d, force, withStiffness ? &K : nullptr, hasSizes_ ? &sizes_ : nullptr, withStiffness ? &beside : nullptr);
+		balance      = whole.of(d, force, sizes_);
 		if (failure || !std::isfinite(balance.size)) balance.size = std::numeric_limits<double>::infinity();
 	}
 
@@ -34,11 +34,19 @@ public:
 		Eigen::VectorXd again;
 		if (!hasSizes_) system_.evaluate(d, again, nullptr, &sizes_);
 		hasSizes_ = true;
-		return local_.ratio(balance.residual, sizes_, d, enough);
+		return local_.ratio(balance.residual, sizes_, d, enough, caused_);
+	}
+
+	/// With the last evaluation prescribed growth has entered, which of several fields alone would cause these forces.
+	void enter(const Eigen::VectorXd& caused)
+	{
+		caused_ = caused.cwiseAbs();
+		whole.enter(balance, caused_);
 	}
 
 	WholeBalance<Dim>           whole;
-	NodeMatrix<Dim>             K; ///< of the last evaluation with stiffness
+	NodeMatrix<Dim>             K;      ///< of the last evaluation with stiffness
+	Couplings                   beside; ///< K, of the same evaluation
 	Eigen::VectorXd             force;
 	Balance                     balance;
 	std::optional<PointFailure> failure;
@@ -49,6 +57,7 @@ private:
 	StepReport&            report_;
 	LocalBalance<Dim>      local_;
 	Eigen::VectorXd        sizes_; // of the forces
+	Eigen::VectorXd        caused_;
 	bool                   hasSizes_ = false;
 };
 

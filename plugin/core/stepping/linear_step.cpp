@@ -11,21 +11,33 @@ LinearStep<Dim>::LinearStep(const StepSystem<Dim>& system, LinearSolver& solver,
 	if (system.prescribed.any()) prescribed_ = system.prescribed;
 }
 
-template <int Dim> bool LinearStep<Dim>::solve(const NodeMatrix<Dim>& K, Eigen::VectorXd residual, double forcing, Eigen::VectorXd& step)
+/// Of the unknowns that are solved for, the residuals of which are multiplied by the scale.
+template <int Dim> template <class F> void LinearStep<Dim>::forFree(F&& f) const
 {
-	step = Eigen::VectorXd::Zero(system_.nodalSize());
+	const DofMap& map = system_.map;
+	for (int field = 0; field < map.fields(); ++field)
+		for (int i = map.begin(field); i < map.end(field); ++i)
+			if (system_.dofs.number[i] >= 0) f(i, system_.dofs.number[i], map[field].scale);
+}
+
+template <int Dim>
+bool LinearStep<Dim>::solve(const NodeMatrix<Dim>& K, const Couplings& beside, Eigen::VectorXd residual, double forcing, Eigen::VectorXd& step)
+{
+	const Couplings* couplings = system_.isCoupled() ? &beside : nullptr;
+	step                       = Eigen::VectorXd::Zero(system_.map.size());
 	if (prescribes()) {
 		Eigen::VectorXd held = step;
 		K.multiplyAdd(prescribed_, held);
-		system_.basis.ties.template fold<Dim>(held);
+		if (couplings) couplings->multiplyAdd(prescribed_, held);
+		system_.constraints.template fold<Dim>(system_.map, held);
 		if (system_.share()) system_.share()->complete(held);
-		for (int i = 0; i < held.size(); ++i)
-			if (system_.dofs.number[i] >= 0) residual[system_.dofs.number[i]] -= held[i];
+		forFree([&](int i, int number, double scale) { residual[number] -= scale * held[i]; });
 		step = prescribed_;
+		if (!system_.map.isAlone()) caused_ = held;
 		hasPrescribed();
 	}
 	if (system_.dofs.count == 0) return true;
-	const LinearProblem problem = system_.basis.ties.empty() ? LinearProblem(K, system_.dofs, system_.share()) : reduced(K, system_.dofs);
+	const LinearProblem problem = system_.dofs.ties ? reduced(K, system_.dofs, couplings) : LinearProblem(K, system_.dofs, system_.share(), couplings);
 	if (!solver_.staysOverNodes(method_, problem)) {
 		const Stopwatch watch(report_.times.assembly);
 		problem.stored();
@@ -47,7 +59,7 @@ template <int Dim> bool LinearStep<Dim>::solve(const NodeMatrix<Dim>& K, Eigen::
 template <int Dim> bool LinearStep<Dim>::solveAgain(const Eigen::VectorXd& residual, Eigen::VectorXd& step)
 {
 	Eigen::VectorXd correction;
-	step = Eigen::VectorXd::Zero(system_.nodalSize());
+	step = Eigen::VectorXd::Zero(system_.map.size());
 	if (!solver_.solveAgain(residual, correction)) return false;
 	addTo(step, correction);
 	return true;
@@ -55,9 +67,8 @@ template <int Dim> bool LinearStep<Dim>::solveAgain(const Eigen::VectorXd& resid
 
 template <int Dim> void LinearStep<Dim>::addTo(Eigen::VectorXd& step, const Eigen::VectorXd& correction) const
 {
-	for (int i = 0; i < step.size(); ++i)
-		if (system_.dofs.number[i] >= 0) step[i] += correction[system_.dofs.number[i]];
-	system_.basis.ties.template spread<Dim>(step);
+	forFree([&](int i, int number, double scale) { step[i] += scale * correction[number]; });
+	system_.constraints.template spread<Dim>(system_.map, step);
 }
 
 template class LinearStep<2>;

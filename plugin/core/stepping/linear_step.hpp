@@ -14,9 +14,12 @@ public:
 	bool prescribes() const { return prescribed_.size() > 0; }
 	void hasPrescribed() { prescribed_.resize(0); } ///< The iterate contains these displacements.
 
+	/// Forces on the free nodes if nothing but what is prescribed grew; of several fields only.
+	const Eigen::VectorXd& causedByPrescribed() const { return caused_; }
+
 	/// step = K^-1 (residual - K_fc prescribed), with the prescribed displacements themselves; an iterative solver may leave the part `forcing`
 	/// of the right side. False where K is singular.
-	bool solve(const NodeMatrix<Dim>& K, Eigen::VectorXd residual, double forcing, Eigen::VectorXd& step);
+	bool solve(const NodeMatrix<Dim>& K, const Couplings& beside, Eigen::VectorXd residual, double forcing, Eigen::VectorXd& step);
 
 	/// The same with the factor that is kept.
 	bool solveAgain(const Eigen::VectorXd& residual, Eigen::VectorXd& step);
@@ -25,6 +28,8 @@ public:
 	void dropFactor() { keepsFactor_ = false; }
 
 private:
+	template <class F> void forFree(F&& f) const; // f(unknown, number, scale)
+
 	void addTo(Eigen::VectorXd& step, const Eigen::VectorXd& correction) const;
 
 	const StepSystem<Dim>& system_;
@@ -32,6 +37,7 @@ private:
 	StepReport&            report_;
 	LinearMethod           method_;
 	Eigen::VectorXd        prescribed_; // empty once it is part of the iterate
+	Eigen::VectorXd        caused_;
 	bool                   keepsFactor_ = false;
 };
 

@@ -42,7 +42,7 @@ template <int Dim> void explain(const StepSystem<Dim>& system, const Eigen::Vect
 template <int Dim> Eigen::VectorXd predictionFor(const StepSystem<Dim>& system, const LastIncrement<Dim>& last, double growth)
 {
 	Eigen::VectorXd d = predict(last, system.basis.nodes, growth, system.model.grid);
-	if (d.size() > 0) system.basis.ties.template spread<Dim>(d);
+	if (d.size() > 0) system.constraints.template spread<Dim>(system.map, d);
 	return d;
 }
 
@@ -71,9 +71,11 @@ template <int Dim> StepReport loadStep(PointCloud<Dim>& cloud, const Model<Dim>&
 	const StepSystem<Dim> system(cloud, model, load, report);
 	if (!isHeld(system, cloud, load, report)) return report;
 	// 2. to 4. points to nodes, assembly and Newton's method on the nodes
-	const Eigen::VectorXd prediction = last && !system.hasInertia() ? predictionFor(system, *last, load.growth()) : Eigen::VectorXd();
-	const Eigen::VectorXd d          = equilibrium(system, solver, report, prediction);
-	if (!model.terms.empty()) explain(system, d, report);
+	const bool            predicts   = last && !system.hasInertia() && system.map.isAlone();
+	const Eigen::VectorXd prediction = predicts ? predictionFor(system, *last, load.growth()) : Eigen::VectorXd();
+	const Eigen::VectorXd growth     = equilibrium(system, solver, report, prediction);
+	const Eigen::VectorXd d          = system.map.displacements(growth);
+	if (!model.terms.empty() || system.isCoupled()) explain(system, d, report);
 	if (report.converged() && prediction.size() > 0 && std::isfinite(model.newton.stepTolerance)) {
 		const Stopwatch watch(report.times.update);
 		judge(rateChange(system, *last, load.growth(), prediction, d), report);
@@ -82,7 +84,7 @@ template <int Dim> StepReport loadStep(PointCloud<Dim>& cloud, const Model<Dim>&
 	report.conjugateGradients = solver.iterativeEffort();
 	// 5. nodes to points; 6. the grid is reset by not being kept
 	report.accepted = report.failure == Failure::tooManyIterations && model.newton.acceptUnconverged;
-	if ((report.converged() || report.accepted) && accept(system, cloud, load, d, report)) {
+	if ((report.converged() || report.accepted) && accept(system, cloud, load, growth, report)) {
 		for (const auto& term : system.terms)
 			if (const auto* inertia = dynamic_cast<const Inertia<Dim>*>(term.get())) addInertiaBeyondWalls(system, inertia->motion(), report);
 		if (last) *last = incrementOf(system, d, load.growth());
@@ -95,7 +97,9 @@ template <int Dim> LinearProblem tangentStiffness(const PointCloud<Dim>& cloud, 
 	StepReport            own, &report = told ? *told : own;
 	const StepSystem<Dim> system(cloud, model, Load<Dim>(), report);
 	NodeMatrix<Dim>       K;
-	return tangent(system, K, report) ? reduced(K, system.dofs) : LinearProblem(SymmetricCsc { { { 0 }, {}, {} } });
+	Couplings             beside;
+	return tangent(system, K, beside, report) ? reduced(K, system.dofs, system.isCoupled() ? &beside : nullptr)
+	                                          : LinearProblem(SymmetricCsc { { { 0 }, {}, {} } });
 }
 
 template StepReport    loadStep(PointCloud<2>&, const Model<2>&, const Load<2>&, LinearSolver&, LastIncrement<2>*);

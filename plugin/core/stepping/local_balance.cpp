@@ -4,6 +4,10 @@
 namespace gimpm {
 namespace {
 
+/// Strains this much smaller than the largest of the scene count for nothing: parts that carry no load need not be as exact
+/// as those that do.
+constexpr double negligible = 1e-4;
+
 /// Codes of the offsets to the neighbours at most one cell away along each axis, the node itself left out; the others are their opposites.
 template <int Dim> const std::vector<int>& neighbourCodes()
 {
@@ -34,13 +38,35 @@ double largestRatio(const Eigen::VectorXd& residual, const Eigen::VectorXd& forc
 
 } // namespace
 
-template <int Dim> double LocalBalance<Dim>::ratio(const Eigen::VectorXd& residual, const Eigen::VectorXd& sizes, const Eigen::VectorXd& d, double enough) const
+template <int Dim>
+double LocalBalance<Dim>::ratio(
+        const Eigen::VectorXd& residual, const Eigen::VectorXd& sizes, const Eigen::VectorXd& d, double enough, const Eigen::VectorXd& caused) const
 {
-	// Strains this much smaller than the largest of the scene count for nothing: parts that carry no load need not be as exact as those that do.
-	constexpr double negligible = 1e-4;
-	Eigen::VectorXd  nodal      = Eigen::VectorXd::Zero(d.size());
+	Eigen::VectorXd nodal = Eigen::VectorXd::Zero(d.size());
 	for (int i = 0; i < nodal.size(); ++i)
 		if (system_.dofs.number[i] >= 0) nodal[i] = residual[system_.dofs.number[i]];
+	double largest = ratioOfDisplacements(nodal, sizes, d, enough);
+	for (int field = 1; field < system_.map.fields(); ++field)
+		largest = std::max(largest, ratioOf(field, nodal, caused.size() > 0 ? Eigen::VectorXd(sizes + caused) : sizes, system_.roundOff(d)));
+	return largest;
+}
+
+/// Flows are compared with the largest one in all, as strains are.
+template <int Dim>
+double LocalBalance<Dim>::ratioOf(int field, const Eigen::VectorXd& residual, const Eigen::VectorXd& sizes, const Eigen::VectorXd& roundOff) const
+{
+	const auto lengths = [&](const Eigen::VectorXd& nodal) {
+		const int width = system_.map[field].width;
+		return Eigen::VectorXd(
+		        Eigen::Map<const Eigen::MatrixXd>(nodal.data() + system_.map.begin(field), width, system_.map.nodes()).colwise().template lpNorm<1>());
+	};
+	const Eigen::VectorXd left = around(lengths(residual)) / system_.map[field].scale, there = around(lengths(sizes));
+	return largestRatio((left - around(lengths(roundOff))).cwiseMax(0), there.array() + negligible * there.maxCoeff());
+}
+
+template <int Dim>
+double LocalBalance<Dim>::ratioOfDisplacements(const Eigen::VectorXd& nodal, const Eigen::VectorXd& sizes, const Eigen::VectorXd& d, double enough) const
+{
 	const Eigen::VectorXd left = around(lengths(nodal)), there = around(lengths(sizes + system_.external.cwiseAbs()));
 	const double          found = largestRatio(left, there);
 	if (found <= enough) return found;
@@ -51,10 +77,10 @@ template <int Dim> double LocalBalance<Dim>::ratio(const Eigen::VectorXd& residu
 	return largestRatio((left - around(roundOff)).cwiseMax(0), there + around(before));
 }
 
-/// Of the vectors at the nodes.
+/// Of the displacements, or forces, at the nodes.
 template <int Dim> Eigen::VectorXd LocalBalance<Dim>::lengths(const Eigen::VectorXd& nodal) const
 {
-	return Eigen::Map<const Eigen::Matrix<double, Dim, Eigen::Dynamic>>(nodal.data(), Dim, nodal.size() / Dim).colwise().template lpNorm<1>();
+	return Eigen::Map<const Eigen::Matrix<double, Dim, Eigen::Dynamic>>(nodal.data(), Dim, system_.map.nodes()).colwise().template lpNorm<1>();
 }
 
 /// Sums over the nodes and their neighbours.

@@ -8,6 +8,7 @@
 #include "core/materials/law.hpp"
 #include "core/solvers/linear_solver.hpp"
 #include "core/stepping/load_curve.hpp"
+#include "core/terms/coupled_term.hpp"
 #include "core/terms/ghost.hpp"
 #include "core/terms/wall.hpp"
 #include <functional>
@@ -50,6 +51,8 @@ template <int Dim> struct Model {
 	GhostSettings                             ghost;
 	NewtonSettings                            newton;
 	std::vector<TermOfStep<Dim>>              terms {};         ///< besides the points' resistance and the ghost stabilisation
+	std::vector<NodalField<Dim>>              fields {};        ///< besides the displacements
+	std::vector<CoupledTermOfStep<Dim>>       coupledTerms {};  ///< of all fields, and of nodes that are apart
 	std::vector<InPlace<Dim>>                 inPlace {};       ///< of those of the terms that need it
 	bool                                      atMiddle = false; ///< the points' resistance is that after half of the displacements
 	std::shared_ptr<const Processes>          processes {};     ///< that work on it together; null: this one alone

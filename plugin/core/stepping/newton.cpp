@@ -33,7 +33,7 @@ private:
 		const bool      prescribes = linear_.prescribes();
 		const double    before     = iterate_.balance.size;
 		Eigen::VectorXd step;
-		if (!linear_.solve(iterate_.K, iterate_.balance.residual, judge_.convergence.forcing(), step)) {
+		if (!linear_.solve(iterate_.K, iterate_.beside, iterate_.balance.residual, judge_.convergence.forcing(), step)) {
 			if (watchdog_.isOpen()) return goBack();
 			return !fail(report_, Failure::singular, "the stiffness matrix is singular to working precision");
 		}
@@ -49,7 +49,7 @@ private:
 			if (!mayGoOn()) return search(d_, step, before, after);
 			watchdog_.begin(d_, step, before, after);
 		}
-		if (prescribes) iterate_.whole.enter(iterate_.balance);
+		if (prescribes) iterate_.enter(linear_.causedByPrescribed());
 		d_ += step;
 		return true;
 	}
@@ -89,7 +89,7 @@ private:
 			return iterate_.balance.size;
 		});
 		report_.lineSearchTrials += best.trials;
-		const double length = best.length * step.template lpNorm<Eigen::Infinity>();
+		const double length = best.length * system_.map.displacements(step).template lpNorm<Eigen::Infinity>();
 		if (settings_.lineSearchTrials > 0 && best.size >= before && length > system_.model.grid.cellSize) {
 			report_.residuals.push_back(judge_.relative(solves_));
 			return !fail(report_, Failure::diverging, causeOfDivergence(length));
@@ -107,7 +107,7 @@ private:
 	Judge<Dim>             judge_ { system_, iterate_, report_ };
 	Watchdog               watchdog_;
 	Rounds                 rounds_;
-	Eigen::VectorXd        d_         = Eigen::VectorXd::Zero(system_.nodalSize());
+	Eigen::VectorXd        d_         = Eigen::VectorXd::Zero(system_.map.size());
 	int                    solves_    = 0;
 	bool                   predicted_ = false;
 };

@@ -6,8 +6,8 @@
 namespace gimpm {
 
 struct NewtonResult {
-	Eigen::VectorXd displacements; ///< Dim components a node [m]
-	bool            predicted;     ///< it started from the prediction
+	Eigen::VectorXd growth;    ///< of the fields, block by block: of the displacements Dim components a node [m]
+	bool            predicted; ///< it started from the prediction
 };
 
 /// Finds d with external - (sum of the terms at d) = 0 on the free degrees of freedom, starting from d = 0; prescribed displacements enter with

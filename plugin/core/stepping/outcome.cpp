@@ -31,7 +31,8 @@ std::string causeOfStall(const Convergence& convergence, double tolerance)
 std::string causeOfTooMany(const StepReport& report, double tolerance, bool isWholeInBalance, int iterations)
 {
 	const std::string after = sentence(" after ", iterations, " iterations");
-	if (!isWholeInBalance) return sentence("the residual ", report.residual(), " is above the tolerance ", tolerance, after);
+	const std::string where = report.worst.field.empty() ? "" : sentence(", and most of it is of the ", report.worst.field);
+	if (!isWholeInBalance) return sentence("the residual ", report.residual(), " is above the tolerance ", tolerance, after, where);
 	return sentence(
 	        "the residual ", report.residual(), " of the whole is small, but around a node it is still ", report.localResidual,
 	        " of the forces there, more than ", localTolerance, " times the tolerance ", tolerance, ",", after);
@@ -44,6 +45,7 @@ std::string causeOfDivergence(double correction)
 
 template <int Dim> bool isObstructed(const StepSystem<Dim>& system, StepReport& report)
 {
+	if (const std::string obstacle = system.obstacle(); !obstacle.empty()) return fail(report, Failure::misplaced, obstacle);
 	for (const auto& term : system.terms) {
 		if (const std::string obstacle = term->obstacle(); !obstacle.empty()) return fail(report, Failure::misplaced, obstacle);
 		if (term->isSingular()) return fail(report, Failure::singular, "the mass matrix is singular to working precision");
@@ -51,10 +53,10 @@ template <int Dim> bool isObstructed(const StepSystem<Dim>& system, StepReport& 
 	return false;
 }
 
-template <int Dim> bool tangent(const StepSystem<Dim>& system, NodeMatrix<Dim>& K, StepReport& report)
+template <int Dim> bool tangent(const StepSystem<Dim>& system, NodeMatrix<Dim>& K, Couplings& beside, StepReport& report)
 {
 	if (isObstructed(system, report)) return false;
-	const auto failure = system.tangent(K);
+	const auto failure = system.tangent(K, &beside);
 	return !failure || !fail(report, *failure);
 }
 
@@ -62,16 +64,18 @@ template <int Dim> void reportWorst(const StepSystem<Dim>& system, const Balance
 {
 	if (balance.worst < 0) return;
 	report.worst.position.setZero();
-	report.worst.position.template head<Dim>() = system.model.grid.nodePosition(Grid<Dim>::index(system.basis.nodes[balance.worst / Dim]));
-	report.worst.axis                          = balance.worst % Dim;
-	report.worst.force                         = balance.residual[system.dofs.number[balance.worst]];
+	const int field = system.map.fieldOf(balance.worst), inField = balance.worst - system.map.begin(field), width = system.map[field].width;
+	report.worst.position.template head<Dim>() = system.model.grid.nodePosition(Grid<Dim>::index(system.basis.nodes[inField / width]));
+	report.worst.axis                          = field == 0 ? inField % width : -1;
+	report.worst.field                         = field == 0 ? "" : system.map[field].name;
+	report.worst.force                         = balance.residual[system.dofs.number[balance.worst]] / system.map[field].scale;
 }
 
 template <int Dim> std::vector<Vec3> reactions(const StepSystem<Dim>& system, const Eigen::VectorXd& force)
 {
 	const auto&       boundary = system.model.boundary;
 	std::vector<Vec3> sums(boundary.boxes().size(), Vec3::Zero());
-	for (int i = 0; i < force.size(); ++i) {
+	for (int i = 0; i < system.nodalSize(); ++i) {
 		if (system.dofs.number[i] >= 0) continue;
 		const auto* box = boundary.holder(Grid<Dim>::index(system.basis.nodes[i / Dim]), i % Dim);
 		if (!box) continue; // the node is tied to others, which have taken its force
@@ -82,8 +86,8 @@ template <int Dim> std::vector<Vec3> reactions(const StepSystem<Dim>& system, co
 
 template bool              isObstructed(const StepSystem<2>&, StepReport&);
 template bool              isObstructed(const StepSystem<3>&, StepReport&);
-template bool              tangent(const StepSystem<2>&, NodeMatrix<2>&, StepReport&);
-template bool              tangent(const StepSystem<3>&, NodeMatrix<3>&, StepReport&);
+template bool              tangent(const StepSystem<2>&, NodeMatrix<2>&, Couplings&, StepReport&);
+template bool              tangent(const StepSystem<3>&, NodeMatrix<3>&, Couplings&, StepReport&);
 template void              reportWorst(const StepSystem<2>&, const Balance&, StepReport&);
 template void              reportWorst(const StepSystem<3>&, const Balance&, StepReport&);
 template std::vector<Vec3> reactions(const StepSystem<2>&, const Eigen::VectorXd&);

@@ -10,11 +10,11 @@ namespace gimpm {
 bool fail(StepReport&, Failure, const std::string& cause);
 bool fail(StepReport&, const PointFailure&);
 
-/// Whether one of the terms cannot act at all where it is. The report says so.
+/// Whether the system cannot be solved, or one of the terms cannot act at all where it is. The report says so.
 template <int Dim> bool isObstructed(const StepSystem<Dim>&, StepReport&);
 
 /// The tangent as the step begins, of all nodes. False if there is none, and the report says why.
-template <int Dim> bool tangent(const StepSystem<Dim>&, NodeMatrix<Dim>&, StepReport&);
+template <int Dim> bool tangent(const StepSystem<Dim>&, NodeMatrix<Dim>&, Couplings& beside, StepReport&);
 
 std::string causeOfStall(const Convergence&, double tolerance);
 std::string causeOfTooMany(const StepReport&, double tolerance, bool isWholeInBalance, int iterations);

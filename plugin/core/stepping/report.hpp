@@ -42,9 +42,10 @@ struct StepReport {
 
 	/// Free degree of freedom with the largest out-of-balance force.
 	struct {
-		Vec3   position = Vec3::Constant(std::numeric_limits<double>::quiet_NaN()); ///< of the node [m]
-		int    axis     = -1;
-		double force    = 0; ///< [N]
+		Vec3        position = Vec3::Constant(std::numeric_limits<double>::quiet_NaN()); ///< of the node [m]
+		int         axis     = -1;                                                       ///< -1: of another field than the displacements
+		double      force    = 0;                                                        ///< [N]
+		std::string field {};                                                            ///< the name of another field
 	} worst;
 
 	/// For each of Boundary's boxes, the sum of the forces with which it holds its nodes; of a node in several boxes the last one is given.

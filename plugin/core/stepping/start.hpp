@@ -47,14 +47,14 @@ private:
 		const double fromZero = iterate_.balance.size;
 		for (int i = 0; i < prediction.size(); ++i)
 			if (system_.dofs.number[i] < 0) prediction[i] = held[i];
-		system_.basis.ties.template spread<Dim>(prediction);
+		system_.constraints.template spread<Dim>(system_.map, prediction);
 		iterate_.evaluate(prediction, true);
 		if (!(iterate_.balance.size < toleratedStart * fromZero)) {
 			iterate_.evaluate(d, true);
 			return false;
 		}
 		d = std::move(prediction);
-		if (linear_.prescribes()) iterate_.whole.enter(iterate_.balance);
+		if (linear_.prescribes()) iterate_.enter({});
 		linear_.hasPrescribed();
 		return true;
 	}

@@ -63,9 +63,10 @@ StepSystem<Dim>::StepSystem(const PointCloud<Dim>& cloud, const Model<Dim>& m, c
 		                        : cloudBasis(cloud, model.grid, model.basis, model.boundary);
 		points = stepPoints(cloud, model.materials, basis, model.fBar);
 		if (model.division) points.isSymmetric = model.division->largest(points.isSymmetric ? 0 : 1) == 0; // also for points that others have
-		external = Eigen::VectorXd::Zero(nodalSize());
+		mapFields();
+		external = Eigen::VectorXd::Zero(map.size());
 		addPointForces(basis, pointForces(cloud, model, load), external);
-		basis.ties.template fold<Dim>(external);
+		constraints.template fold<Dim>(map, external);
 	}
 	faces = stabilise(stiffnessOf_, model, basis, report);
 	const Stopwatch watch(report.times.basis);
@@ -80,23 +81,47 @@ StepSystem<Dim>::StepSystem(const PointCloud<Dim>& cloud, const Model<Dim>& m, c
 	report.largestWallOverlap = model.division ? model.division->largest(basis.largestWallOverlap) : basis.largestWallOverlap;
 }
 
+template <int Dim> void StepSystem<Dim>::mapFields()
+{
+	std::vector<Field> fields { { "displacement", "m", Dim } };
+	for (const auto& other : model.fields)
+		fields.push_back(other.field);
+	map = DofMap(int(basis.nodes.size()), std::move(fields));
+	constraints.reset(map, basis.ties);
+	before_.resize(map.fields());
+}
+
 template <int Dim> void StepSystem<Dim>::holdNodes(const Load<Dim>& load)
 {
-	prescribed = Eigen::VectorXd::Zero(nodalSize());
-	dofs.number.assign(nodalSize(), -1);
-	dofs.ties = basis.ties.empty() ? nullptr : &basis.ties;
 	for (std::size_t n = 0; n < basis.nodes.size(); ++n)
 		for (int a = 0; a < Dim; ++a) {
 			if (basis.ties.contains(int(n))) continue;
 			if (const auto* box = model.boundary.holder(Grid<Dim>::index(basis.nodes[n]), a)) {
-				const int  number = int(box - model.boundary.boxes().data());
-				const auto moves  = load.boxMotion.find(number);
-				prescribed[Dim * n + a]
-				        = load.ofBox(number).growth * box->displacement[a] + (moves == load.boxMotion.end() ? 0 : moves->second[a]);
+				const int    number = int(box - model.boundary.boxes().data());
+				const auto   moves  = load.boxMotion.find(number);
+				const double motion = moves == load.boxMotion.end() ? 0 : moves->second[a];
+				constraints.hold(int(Dim * n + a), load.ofBox(number).growth * box->displacement[a] + motion);
 			} else
-				dofs.number[Dim * n + a] = dofs.count++;
+				constraints.free(int(Dim * n + a));
 		}
-	basis.ties.template spread<Dim>(prescribed);
+	for (int f = 1; f < map.fields(); ++f)
+		holdField(f, model.fields[f - 1].begin(cloud_, basis, model.grid));
+	constraints.template spread<Dim>(map, constraints.prescribed);
+	if (!map.isAlone()) ofDisplacements_ = constraints.ofDisplacements(map);
+}
+
+template <int Dim> void StepSystem<Dim>::holdField(int field, const FieldStart& start)
+{
+	Eigen::VectorXd before = Eigen::VectorXd::Zero(map.size());
+	map.of(field, before)  = start.before;
+	constraints.template spread<Dim>(map, before);
+	before_[field] = map.of(field, before);
+	for (int n = 0; n < map.nodes(); ++n)
+		for (int i = map.at(field, n); i < map.at(field, n + 1) && !basis.ties.contains(n); ++i)
+			if (const auto given = start.given.find(i - map.begin(field)); given != start.given.end())
+				constraints.hold(i, given->second - before[i]);
+			else
+				constraints.free(i);
 }
 
 /// The terms that processes share.
@@ -119,50 +144,101 @@ template <int Dim> void StepSystem<Dim>::makeTerms(const Load<Dim>& load)
 		addPointForces(basis, pointForces(cloud_, model, earlier), before);
 		for (const auto& term : terms)
 			term->addBefore(resistance);
+		if (isCoupled()) addCoupledBefore(resistance);
 		if (share_) share_->nodes().complete(resistance);
 		complete(before);
 		return Eigen::VectorXd(before - resistance);
 	};
+	for (const auto& make : model.coupledTerms) { // of which inertia knows the imbalance
+		auto term = make(beginning(), state(Eigen::VectorXd::Zero(map.size())));
+		coupled_.push_back(term.get());
+		terms.push_back(std::move(term));
+	}
 	for (const auto& make : model.terms)
 		terms.push_back(make(beginning()));
 	for (const auto& term : terms)
-		if (auto d = term->ownMotion(); d.size() > 0) ownMotion = std::move(d);
+		if (const auto d = term->ownMotion(); d.size() > 0) ownMotion = prescribed, map.of(0, ownMotion) = d;
 }
 
-template <int Dim> void StepSystem<Dim>::prepare(NodeMatrix<Dim>& K) const
+template <int Dim> std::string StepSystem<Dim>::obstacle() const
+{
+	if (!map.isAlone() && coupled_.empty()) return "no term is for the field '" + map[1].name + "'";
+	if (!map.isAlone() && model.processes) return "several processes can share displacements only, and there is the field '" + map[1].name + "'";
+	return "";
+}
+
+template <int Dim> void StepSystem<Dim>::prepare(NodeMatrix<Dim>& K, Couplings* beside) const
 {
 	if (share()) K.reset(basis.nodes, isSymmetric(), model.grid, { share()->first(), share()->last() });
 	else
 		K.reset(basis.nodes, isSymmetric(), model.grid);
 	for (const auto& term : terms)
 		term->mark(K);
+	if (!beside || !isCoupled()) return;
+	beside->reset(map, isSymmetric());
+	for (const auto* term : coupled_)
+		term->markCouplings(*beside);
 }
 
 template <int Dim> LinearProblem StepSystem<Dim>::tangent() const
 {
 	NodeMatrix<Dim> K;
-	tangent(K);
-	return reduced(K, dofs);
+	Couplings       beside;
+	tangent(K, &beside);
+	return reduced(K, dofs, isCoupled() ? &beside : nullptr);
 }
 
-template <int Dim> std::optional<PointFailure> StepSystem<Dim>::tangent(NodeMatrix<Dim>& K) const
+template <int Dim> std::optional<PointFailure> StepSystem<Dim>::tangent(NodeMatrix<Dim>& K, Couplings* beside) const
 {
 	Eigen::VectorXd force;
-	prepare(K);
-	return evaluate(Eigen::VectorXd::Zero(nodalSize()), force, &K);
+	prepare(K, beside);
+	return evaluate(Eigen::VectorXd::Zero(map.size()), force, &K, nullptr, beside);
+}
+
+template <int Dim> std::optional<PointFailure> StepSystem<Dim>::addTerms(const Eigen::VectorXd& d, const TermSum<Dim>& sum) const
+{
+	std::optional<PointFailure> failure;
+	for (auto term = terms.begin(); term != terms.end() && !failure; ++term)
+		failure = (*term)->add(d, sum);
+	return failure;
+}
+
+/// The other terms first: where points fail there is no state to couple.
+template <int Dim>
+std::optional<PointFailure> StepSystem<Dim>::addCoupled(
+        const Eigen::VectorXd& d, Eigen::VectorXd& force, NodeMatrix<Dim>* K, Eigen::VectorXd* sizes, Couplings* beside) const
+{
+	const State at     = state(d);
+	auto        forces = map.zeros(), parts = forces;
+	if (beside) beside->setZero();
+	auto                failure = addTerms(at.displacements(), { forces[0], K, sizes ? &parts[0] : nullptr });
+	const FieldSum<Dim> sum { forces, parts, K, beside };
+	for (auto term = coupled_.begin(); term != coupled_.end() && !failure; ++term)
+		failure = (*term)->addCoupled(at, sum);
+	force = map.joined(forces);
+	if (sizes) *sizes = map.joined(parts);
+	return failure;
+}
+
+/// Forces on the nodes of the other terms, as the step begins.
+template <int Dim> void StepSystem<Dim>::addCoupledBefore(Eigen::VectorXd& resistance) const
+{
+	auto forces = map.zeros(), sizes = forces;
+	for (const auto* term : coupled_)
+		term->addCoupled(state(Eigen::VectorXd::Zero(map.size())), { forces, sizes });
+	resistance += forces[0];
 }
 
 template <int Dim>
-std::optional<PointFailure> StepSystem<Dim>::evaluate(const Eigen::VectorXd& d, Eigen::VectorXd& force, NodeMatrix<Dim>* K, Eigen::VectorXd* sizes) const
+std::optional<PointFailure> StepSystem<Dim>::evaluate(
+        const Eigen::VectorXd& d, Eigen::VectorXd& force, NodeMatrix<Dim>* K, Eigen::VectorXd* sizes, Couplings* beside) const
 {
-	force = Eigen::VectorXd::Zero(nodalSize());
+	force = Eigen::VectorXd::Zero(map.size());
 	if (K) K->setZero();
 	if (sizes) *sizes = force;
-	std::optional<PointFailure> failure;
-	for (auto term = terms.begin(); term != terms.end() && !failure; ++term)
-		failure = (*term)->add(d, { force, K, sizes });
-	basis.ties.template fold<Dim>(force);
-	if (sizes) basis.ties.template fold<Dim>(*sizes);
+	std::optional<PointFailure> failure = isCoupled() ? addCoupled(d, force, K, sizes, beside) : addTerms(d, { force, K, sizes });
+	constraints.template fold<Dim>(map, force);
+	if (sizes) constraints.template fold<Dim>(map, *sizes);
 	if (!share_) return failure;
 	failure = share_->firstOf(failure);
 	share_->nodes().complete(force); // those of a failure are reported, by all alike
@@ -185,11 +261,32 @@ template <int Dim> double StepSystem<Dim>::fromOutside(const Eigen::VectorXd& d)
 
 template <int Dim> Eigen::VectorXd StepSystem<Dim>::roundOff(const Eigen::VectorXd& d) const
 {
-	Eigen::VectorXd sizes = Eigen::VectorXd::Zero(nodalSize());
+	const Eigen::VectorXd displacements = map.displacements(d);
+	Eigen::VectorXd       sizes         = Eigen::VectorXd::Zero(nodalSize());
 	for (const auto& term : terms)
-		term->addRoundOff(d, sizes);
-	basis.ties.template fold<Dim>(sizes);
+		term->addRoundOff(displacements, sizes);
+	if (isCoupled()) {
+		auto blocks = map.zeros();
+		blocks[0]   = sizes;
+		for (const auto* term : coupled_)
+			term->addCoupledRoundOff(state(d), blocks);
+		sizes = map.joined(blocks);
+	}
+	constraints.template fold<Dim>(map, sizes);
 	return sizes;
+}
+
+template <int Dim> void StepSystem<Dim>::commit(const Eigen::VectorXd& d) const
+{
+	Eigen::VectorXd force;
+	if (!map.isAlone()) evaluate(d, force, nullptr); // before terms go on
+	const State at = state(d);
+	for (const auto& term : terms)
+		term->commit(at.displacements());
+	for (auto* term : coupled_)
+		term->commitCoupled(at);
+	for (int f = 1; f < map.fields(); ++f)
+		if (const auto& commit = model.fields[f - 1].commit) commit(basis, at.value(f), map.of(f, force));
 }
 
 template std::vector<Vec<2>> pointForces(const PointCloud<2>&, const Model<2>&, const Load<2>&);

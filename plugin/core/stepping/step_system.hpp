@@ -23,33 +23,43 @@ template <int Dim> struct StepSystem {
 	StepPoints<Dim>             points;
 	std::vector<GhostFace<Dim>> faces;
 	Terms<Dim>                  terms; ///< whose sum balances the external forces
-	FreeDofs                    dofs;
-	Eigen::VectorXd             external;   ///< body and point forces, Dim components a node [N]
-	Eigen::VectorXd             prescribed; ///< increments of the held degrees of freedom, and of nodes tied to them, zero elsewhere [m]
-	Eigen::VectorXd             ownMotion;  ///< displacements by which the body goes on by itself, with the prescribed ones; empty without inertia [m]
+	/// Vectors have a block for each field, and first that of the displacements: Dim components a node.
+	DofMap                 map;
+	Constraints            constraints;
+	const FreeDofs&        dofs       = constraints.dofs;
+	const Eigen::VectorXd& prescribed = constraints.prescribed; ///< of displacements [m]
+	Eigen::VectorXd        external;                            ///< body and point forces [N]
+	Eigen::VectorXd        ownMotion; ///< displacements by which the body goes on by itself, with the prescribed ones; empty without inertia [m]
 
-	int nodalSize() const { return Dim * int(basis.nodes.size()); }
+	int nodalSize() const { return Dim * int(basis.nodes.size()); } ///< of the displacements
+
+	/// The fields after they have grown so much in the step.
+	State state(Eigen::VectorXd growth) const { return State(map, before_, std::move(growth)); }
 
 	bool isSymmetric() const;
 
 	/// Rows of the nodes that this process assembles; null: all.
 	const NodeShare* share() const { return share_ ? &share_->nodes() : nullptr; }
 
-	/// Sets K up for evaluate(): pattern and zeros.
-	void prepare(NodeMatrix<Dim>& K) const;
+	/// Why the system cannot be solved as it is asked for, a clause; empty if it can.
+	std::string obstacle() const;
+
+	/// Sets K up for evaluate(), and what is beside it: pattern and zeros.
+	void prepare(NodeMatrix<Dim>& K, Couplings* beside = nullptr) const;
 
 	/// Reduced tangent of all terms at the start of the step.
 	LinearProblem               tangent() const;
-	std::optional<PointFailure> tangent(NodeMatrix<Dim>& K) const; ///< of all nodes
+	std::optional<PointFailure> tangent(NodeMatrix<Dim>& K, Couplings* beside = nullptr) const; ///< of all nodes
 
 	/// The sum of the terms at d: sets `force`, and K and the sizes of the forces where they are given. Of K only the share is right, rows and columns. Forces
-	/// at tied nodes are given to their masters; of K that is left to whoever reduces it.
-	std::optional<PointFailure> evaluate(const Eigen::VectorXd& d, Eigen::VectorXd& force, NodeMatrix<Dim>* K, Eigen::VectorXd* sizes = nullptr) const;
+	/// at tied nodes are given to their masters; of K that is left to whoever reduces it. `beside` goes with K.
+	std::optional<PointFailure> evaluate(
+	        const Eigen::VectorXd& d, Eigen::VectorXd& force, NodeMatrix<Dim>* K, Eigen::VectorXd* sizes = nullptr, Couplings* beside = nullptr) const;
 
-	/// Forces from outside among the terms at d [N].
+	/// Forces from outside among the terms at these displacements [N].
 	double fromOutside(const Eigen::VectorXd& d) const;
 
-	/// What round-off of d leaves of forces that strains do not tell [N].
+	/// What round-off of d leaves of forces that strains do not tell.
 	Eigen::VectorXd roundOff(const Eigen::VectorXd& d) const;
 
 	/// Where points are divided: the sums of the points around nodes, which each process knows of its own nodes.
@@ -61,22 +71,36 @@ template <int Dim> struct StepSystem {
 	bool counts(const Patch<Dim>& patch) const { return !model.division || model.division->owns(patch.cell); }
 
 	bool hasInertia() const { return ownMotion.size() > 0; }
+	bool isCoupled() const { return !coupled_.empty() || !map.isAlone(); } ///< nodes that are apart, or several fields
+
+	/// The step has been accepted.
+	void commit(const Eigen::VectorXd& d) const;
 
 	/// How things are as the step begins; the cloud has to be as it was then.
 	Beginning<Dim> beginning() const
 	{
-		return { cloud_, basis, model.grid, stiffnessOf_, faces, dofs, prescribed, imbalance_, share(), model.division.get() };
+		const Constraints& held = map.isAlone() ? constraints : ofDisplacements_;
+		return { cloud_, basis, model.grid, stiffnessOf_, faces, held.dofs, held.prescribed, imbalance_, share(), model.division.get() };
 	}
 
 private:
 	const PointCloud<Dim>&           cloud_;
 	PointStiffness                   stiffnessOf_;
 	std::function<Eigen::VectorXd()> imbalance_;
-	std::unique_ptr<Share<Dim>>      share_; ///< null: there is one process
+	std::unique_ptr<Share<Dim>>      share_;           ///< null: there is one process
+	std::vector<Eigen::VectorXd>     before_;          ///< the fields as the step begins; displacements are those of the step
+	Constraints                      ofDisplacements_; ///< where there are other fields
+	std::vector<CoupledTerm<Dim>*>   coupled_;         ///< of the terms
 
-	void makeTerms(const Load<Dim>&);
-	void resistPoints();
-	void holdNodes(const Load<Dim>&);
+	void                        mapFields();
+	void                        makeTerms(const Load<Dim>&);
+	void                        resistPoints();
+	void                        holdNodes(const Load<Dim>&);
+	void                        holdField(int field, const FieldStart&);
+	void                        addCoupledBefore(Eigen::VectorXd& resistance) const;
+	std::optional<PointFailure> addTerms(const Eigen::VectorXd& d, const TermSum<Dim>&) const;
+	std::optional<PointFailure> addCoupled(
+	        const Eigen::VectorXd& d, Eigen::VectorXd& force, NodeMatrix<Dim>* K, Eigen::VectorXd* sizes, Couplings* beside) const;
 };
 
 } // namespace gimpm

@@ -34,17 +34,18 @@ template <int Dim> Workload workload(const PointCloud<Dim>& cloud, const Model<D
 	StepReport            report;
 	const StepSystem<Dim> system(cloud, model, Load<Dim>(), report);
 	NodeMatrix<Dim>       blocks;
+	Couplings             beside;
 	Workload              w;
 	{
 		const Stopwatch watch(report.times.assembly);
-		if (!tangent(system, blocks, report)) {
+		if (!tangent(system, blocks, beside, report)) {
 			w.obstacle = report.cause;
 			return w;
 		}
 	}
 	const LinearProblem K = [&] {
 		const Stopwatch watch(report.times.assembly);
-		return LinearProblem(blocks, system.dofs);
+		return LinearProblem(blocks, system.dofs, nullptr, system.isCoupled() ? &beside : nullptr);
 	}();
 	w.points         = int(cloud.size());
 	w.nodes          = report.nodes;

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "core/fields/constraints.hpp"
+
+namespace gimpm {
+namespace {
+
+/// Calls f(values by node) for each component of the fields besides the displacements.
+template <class F> void forComponents(const DofMap& map, Eigen::VectorXd& all, F&& f)
+{
+	for (int field = 1; field < map.fields(); ++field)
+		for (int i = 0; i < map[field].width; ++i) {
+			const auto      places = Eigen::seqN(map.begin(field) + i, map.nodes(), map[field].width);
+			Eigen::VectorXd values = all(places);
+			f(values);
+			all(places) = values;
+		}
+}
+
+} // namespace
+
+void Constraints::reset(const DofMap& map, const Ties& ties)
+{
+	prescribed = Eigen::VectorXd::Zero(map.size());
+	dofs.number.assign(map.size(), -1);
+	dofs.count = 0;
+	dofs.ties  = ties.empty() ? nullptr : &ties;
+}
+
+Constraints Constraints::ofDisplacements(const DofMap& map) const
+{
+	Constraints own { { { dofs.number.begin(), dofs.number.begin() + map.end(0) }, 0, dofs.ties }, map.displacements(prescribed) };
+	for (const int number : own.dofs.number)
+		own.dofs.count += number >= 0;
+	return own;
+}
+
+template <int Dim> void Constraints::spread(const DofMap& map, Eigen::VectorXd& values) const
+{
+	if (!dofs.ties) return;
+	dofs.ties->template spread<Dim>(values); // of the first block
+	forComponents(map, values, [&](Eigen::VectorXd& component) { dofs.ties->template spread<1>(component); });
+}
+
+template <int Dim> void Constraints::fold(const DofMap& map, Eigen::VectorXd& forces) const
+{
+	if (!dofs.ties) return;
+	dofs.ties->template fold<Dim>(forces);
+	forComponents(map, forces, [&](Eigen::VectorXd& component) { dofs.ties->template fold<1>(component); });
+}
+
+template void Constraints::spread<2>(const DofMap&, Eigen::VectorXd&) const;
+template void Constraints::spread<3>(const DofMap&, Eigen::VectorXd&) const;
+template void Constraints::fold<2>(const DofMap&, Eigen::VectorXd&) const;
+template void Constraints::fold<3>(const DofMap&, Eigen::VectorXd&) const;
+
+} // namespace gimpm

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Unknowns that are not solved for: held ones, which grow as prescribed, and those of tied nodes, which follow others.
+#pragma once
+#include "core/fields/dof_map.hpp"
+#include "core/grid/ties.hpp"
+
+namespace gimpm {
+
+/// The free ones among the unknowns of a vector over nodes: number of each, rising, -1 for the held ones and those of tied
+/// nodes.
+struct FreeDofs {
+	std::vector<int> number;
+	int              count = 0;
+	const Ties*      ties  = nullptr; ///< null: there are none
+};
+
+/// Of all fields, which are tied alike.
+struct Constraints {
+	FreeDofs        dofs;
+	Eigen::VectorXd prescribed; ///< growth of the held unknowns in the step, and of those tied to them, zero elsewhere
+
+	/// Nothing is held yet; the ties must outlive it.
+	void reset(const DofMap&, const Ties&);
+
+	/// After reset(), in the order of the unknowns.
+	void free(int unknown) { dofs.number[unknown] = dofs.count++; }
+	void hold(int unknown, double growth) { prescribed[unknown] = growth; }
+
+	/// Those of the displacements alone.
+	Constraints ofDisplacements(const DofMap&) const;
+
+	/// Gives the tied nodes the values that follow from their masters. Dim: components of the displacements.
+	template <int Dim> void spread(const DofMap&, Eigen::VectorXd& values) const;
+
+	/// The transpose: forces at tied nodes become forces at their masters.
+	template <int Dim> void fold(const DofMap&, Eigen::VectorXd& forces) const;
+};
+
+} // namespace gimpm

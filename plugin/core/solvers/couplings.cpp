@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "core/solvers/couplings.hpp"
+#include <algorithm>
+
+namespace gimpm {
+
+void Couplings::reset(const DofMap& map, bool isSymmetric)
+{
+	map_         = &map;
+	isSymmetric_ = isSymmetric;
+	rows_.assign(std::size_t(map.fields()) * map.nodes(), {});
+	values_.clear();
+}
+
+void Couplings::mark(const FieldNode& row, const FieldNode& column)
+{
+	markKept(numberOf(row), numberOf(column));
+	markKept(numberOf(column), numberOf(row));
+}
+
+/// Places among the values are given in the order of the marks.
+void Couplings::markKept(int row, int column)
+{
+	if (!keeps(row, column)) return;
+	const auto at = std::lower_bound(rows_[row].begin(), rows_[row].end(), column);
+	if (at != rows_[row].end() && at->column == column) return;
+	rows_[row].insert(at, { column, values_.size() });
+	values_.resize(values_.size() + std::size_t((*map_)[placeOf(row).field].width) * (*map_)[placeOf(column).field].width);
+}
+
+void Couplings::setZero() { std::fill(values_.begin(), values_.end(), 0.); }
+
+/// Of the values of a block that is kept.
+std::size_t Couplings::firstOf(int row, int column) const { return std::lower_bound(rows_[row].begin(), rows_[row].end(), column)->first; }
+
+const double* Couplings::opposite(const FieldNode& row, const FieldNode& column) const
+{
+	return isSymmetric_ ? nullptr : values_.data() + firstOf(numberOf(column), numberOf(row));
+}
+
+void Couplings::multiplyAdd(const Eigen::VectorXd& x, Eigen::VectorXd& y) const
+{
+	forBlocks([&](const FieldNode& row, const FieldNode& column, const double* values) {
+		const int                        rows = (*map_)[row.field].width, columns = (*map_)[column.field].width;
+		const int                        i = map_->at(row.field, row.node), j = map_->at(column.field, column.node);
+		const Eigen::Map<const RowMajor> K(values, rows, columns);
+		y.segment(i, rows) += K * x.segment(j, columns);
+		if (isSymmetric_ && i != j) y.segment(j, columns) += K.transpose() * x.segment(i, rows);
+	});
+}
+
+std::vector<MatrixEntry> freeEntries(const Couplings& K, const FreeDofs& dofs)
+{
+	const int                width = K.map()[0].width;
+	std::vector<MatrixEntry> entries;
+	K.forBlocks([&](const FieldNode& row, const FieldNode& column, const double* values) {
+		for (int i = width * row.node; i < width * (row.node + 1); ++i)
+			for (int j = width * column.node; j < width * (column.node + 1); ++j, ++values) {
+				if (dofs.number[i] < 0 || dofs.number[j] < 0) continue;
+				entries.push_back({ i, j, *values });
+				if (K.isSymmetric() && row.node != column.node) entries.push_back({ j, i, *values });
+			}
+	});
+	return entries;
+}
+
+} // namespace gimpm

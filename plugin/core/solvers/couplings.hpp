@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Blocks of a matrix between any two nodes of any two fields.
+#pragma once
+#include "core/fields/constraints.hpp"
+
+namespace gimpm {
+
+/// Where a block begins: a node in one of the fields.
+struct FieldNode {
+	int field = 0, node = 0;
+};
+
+/// What a matrix has beside the blocks of NodeMatrix, which are for displacements of neighbours on the grid: blocks for
+/// pairs of fields, and for nodes that are apart. There is memory for those only that have been marked. Of a symmetric
+/// matrix the blocks above the diagonal are kept: who adds K_ab and K_ba need not know of it.
+class Couplings {
+public:
+	/// Sets up a matrix without blocks. The map must outlive it.
+	void reset(const DofMap&, bool isSymmetric);
+	void mark(const FieldNode& row, const FieldNode& column); ///< and the transposed block: the pattern is symmetric
+	void setZero();
+
+	/// To a block that was marked, after setZero(). Threads may add at the same time in different rows.
+	template <class Block> void add(const FieldNode& row, const FieldNode& column, const Block& block)
+	{
+		const int r = numberOf(row), c = numberOf(column);
+		if (keeps(r, c)) Eigen::Map<RowMajor>(values_.data() + firstOf(r, c), block.rows(), block.cols()) += block;
+	}
+	void add(const FieldNode& row, const FieldNode& column, double value) { add(row, column, Eigen::Matrix<double, 1, 1>(value)); }
+
+	bool          isSymmetric() const { return isSymmetric_; }
+	const DofMap& map() const { return *map_; }
+
+	/// Values of the block that is opposite to one that is kept; null: the matrix is symmetric.
+	const double* opposite(const FieldNode& row, const FieldNode& column) const;
+
+	/// y += K x
+	void multiplyAdd(const Eigen::VectorXd& x, Eigen::VectorXd& y) const;
+
+	/// Calls f(row, column, values row by row) for the blocks that are kept, row by row.
+	template <class F> void forBlocks(F&& f) const
+	{
+		for (int r = 0; r < int(rows_.size()); ++r)
+			for (const Entry& entry : rows_[r])
+				f(placeOf(r), placeOf(entry.column), values_.data() + entry.first);
+	}
+
+private:
+	using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+	/// A block: its column, and the first of its values.
+	struct Entry {
+		int         column;
+		std::size_t first;
+		bool        operator<(int c) const { return column < c; }
+	};
+
+	int         numberOf(const FieldNode& place) const { return place.field * map_->nodes() + place.node; }
+	FieldNode   placeOf(int number) const { return { number / map_->nodes(), number % map_->nodes() }; }
+	bool        keeps(int row, int column) const { return !isSymmetric_ || row <= column; }
+	void        markKept(int row, int column);
+	std::size_t firstOf(int row, int column) const;
+
+	const DofMap*                   map_         = nullptr;
+	bool                            isSymmetric_ = true;
+	std::vector<std::vector<Entry>> rows_; // of each node in each field, by rising columns
+	std::vector<double>             values_;
+};
+
+/// By unknowns.
+struct MatrixEntry {
+	int    row, column;
+	double value;
+};
+
+/// Of couplings of displacements, between free ones: both triangles.
+std::vector<MatrixEntry> freeEntries(const Couplings&, const FreeDofs&);
+
+} // namespace gimpm
