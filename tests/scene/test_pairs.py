@@ -60,7 +60,7 @@ def test_point_loads_go_with_the_weight_of_a_stage(tmp_path, monkeypatch):
 @pytest.mark.xfail(strict=True, reason='refused as an edge that soil passes too far in one step, which it is not, at any length of the step')
 @pytest.mark.parametrize('chosen, seed', [
         ('plane vonMises generalisedAlpha clump movedBody friction splitting pushed', 31),  # halves meet where a round body has come between the corners of the whole
-        ('axisymmetric camClay newmark box movedBody waterLevel friction', 626),  # springs follow the moduli of the soil from one step to the next
+        ('axisymmetric camClay newmark box movedBody waterLevel friction', 626),  # Cam clay, whose stiffness the springs of contact follow from one step to the next
 ])
 def test_a_body_gives_no_energy_that_it_has_not(tmp_path, monkeypatch, chosen, seed):
 	assert not findings(tmp_path, [(chosen.split(), seed)], monkeypatch)
