@@ -64,7 +64,8 @@ class Run:
 		for b in points:
 			mass = b.material.density * b.state.volume0
 			momentum += mass * np.array(b.state.vel)
-			forces += [mass * ofGravity * np.array(solver.gravity), factor * np.array(b.state.force)]
+			share = b.material.density / density  # of what is placed or dug out step by step: its twin of the material has it, and point loads go with the weight
+			forces += [mass * ofGravity * np.array(solver.gravity), share * factor * np.array(b.state.force)]
 		return momentum, sum(forces), sum(np.linalg.norm(f) for f in forces)
 
 	def _collect(self):
