@@ -18,6 +18,16 @@ namespace {
 		}
 	};
 
+	// The name of the first class derived from a type that has an attribute, or nothing.
+	string derivedWith(PyTypeObject* type, const string& name)
+	{
+		const py::object classes = py::object(py::handle<>(py::borrowed(reinterpret_cast<PyObject*>(type)))).attr("__subclasses__")();
+		for (py::ssize_t i = 0; i < py::len(classes); ++i)
+			if (const py::object one = classes[i]; PyObject_HasAttrString(one.ptr(), name.c_str()))
+				return py::extract<string>(one.attr("__name__"));
+		return "";
+	}
+
 } // namespace
 
 py::object Attribute::getter() const
@@ -129,7 +139,8 @@ void AttributeTable::requireSettable(const string& name) const
 
 void AttributeTable::raiseUnknown(const string& name) const
 {
-	const string meant = didYouMean(name, namesIn(type_)), results = names(true), settings = names(false);
+	const string owner = derivedWith(type_, name);
+	const string meant = owner.empty() ? didYouMean(name, namesIn(type_)) : ", as " + owner + " has.", results = names(true), settings = names(false);
 	raisePython(
 	        PyExc_AttributeError,
 	        string(className_) + " has no attribute '" + name + "'" + (meant.empty() ? "." : meant)

@@ -335,11 +335,17 @@ template <int Dim> std::string Contact<Dim>::missed(const NearPoint& near, const
 }
 
 /// Work on the soil as seen from the bodies, beyond what the springs had stored. As their energy is convex in the gap, it is never above zero on a flat face.
+/// They follow the moduli of the soil from step to step: what they have stored is that of the stiffness that they have now, as no length of the step changes that.
 template <int Dim> double Contact<Dim>::given(const Eigen::VectorXd& d) const
 {
-	double sum = 0;
-	for (const auto& r : system_.records)
-		if (r.touches) sum -= stored(r.pressure, r.gap, r.friction.norm());
+	const auto isBefore = [](const Corner& c, const auto& key) { return std::tuple(c.point, c.corner, c.body) < key; };
+	double     sum      = 0;
+	for (const auto& r : system_.records) {
+		if (!r.touches) continue;
+		const auto corner = std::lower_bound(corners_.begin(), corners_.end(), keyOf(r), isBefore);
+		const bool isHere = corner != corners_.end() && std::tuple(corner->point, corner->corner, corner->body) == keyOf(r);
+		sum -= stored(isHere ? corner->law.normal * -r.gap : r.pressure, r.gap, r.friction.norm());
+	}
 	forTouching(d, [&](const Corner& corner, const Vec<Dim>& x, double gap, const Touch<Dim>& touched) {
 		const auto&    body  = system_.bodies[corner.body];
 		const Vec<Dim> moved = body.beforeSlope().transpose() * (body.before(x) - corner.place);

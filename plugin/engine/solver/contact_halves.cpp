@@ -36,6 +36,7 @@ namespace {
 			const int point             = isUpper ? domain.upper : domain.lower;
 			const auto [found, isFirst] = records.try_emplace(Key { point, corner, from.body }, from);
 			auto& to                    = found->second;
+			pressing[found->first] += from.touches;
 			if (isFirst) {
 				to.point = point, to.corner = corner;
 				to.pressure = part * from.pressure, to.friction = part * from.friction;
@@ -51,6 +52,23 @@ namespace {
 				to.slips   = to.slips || from.slips;
 			}
 		}
+		// Where the halves meet. Of two corners of the whole beside it, one that has not touched has felt nothing.
+		void fit(const HalvedDomain& domain, bool isUpper, int corner, const KnownBody& body)
+		{
+			const Vector3r place = placeOf(domain, isUpper, corner);
+			const Key      key { isUpper ? domain.upper : domain.lower, corner, body.id };
+			const auto     found    = records.find(key);
+			const bool     isKnown  = found != records.end();
+			const Real     felt     = isKnown && pressing[key] > 0 ? found->second.gap * pressing[key] / 2 : 0;
+			const Real     distance = body.distance(place), roundOff = 1e-9 * domain.halfSize[domain.axis];
+			if (distance >= felt + (isKnown ? found->second.offset : 0) - roundOff) return;
+			const Vector3r none = Vector3r::Zero();
+			if (!isKnown)
+				records.emplace(
+				        key, ContactRecordOfPoint { std::get<0>(key), corner, body.id, distance, 0, 0, false, false, none, none, place });
+			else
+				found->second.gap = felt, found->second.offset = distance - felt;
+		}
 		void appendTo(vector<Real>& numbers) const
 		{
 			for (const auto& [key, record] : records)
@@ -59,10 +77,11 @@ namespace {
 
 	private:
 		std::map<Key, ContactRecordOfPoint> records;
+		std::map<Key, int>                  pressing; // how many of the corners from which they are have touched
 	};
 }
 
-void shareRecords(MpmContact& contact, const HalvedDomain& domain)
+void shareRecords(MpmContact& contact, const HalvedDomain& domain, const vector<KnownBody>& bodies)
 {
 	vector<Real> kept;
 	Shared       shared;
@@ -75,6 +94,9 @@ void shareRecords(MpmContact& contact, const HalvedDomain& domain)
 		shared.add(r, domain, isUpper, inner, (1 - across) / 4);
 		shared.add(r, domain, !isUpper, r.corner, (1 - across) / 4);
 	});
+	for (const KnownBody& body : bodies)
+		for (int corner = 0; corner < 1 << domain.dim; ++corner)
+			shared.fit(domain, !(corner >> domain.axis & 1), corner, body);
 	shared.appendTo(kept);
 	contact.records.swap(kept);
 }

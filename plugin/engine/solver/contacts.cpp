@@ -255,8 +255,20 @@ template <int Dim> bool Contacts<Dim>::areBeside(const gimpm::Vec<Dim>& point, c
 
 template <int Dim> void Contacts<Dim>::share(const HalvedDomain& domain) const
 {
-	for (const auto& contact : given)
-		shareRecords(*contact, domain);
+	if (!system) return;
+	const Vector3r middle(domain.middle.data());
+	for (const auto& contact : given) {
+		vector<KnownBody> known;
+		for (size_t i = 0; i < members.size(); ++i) {
+			const auto& body = system->bodies[i];
+			if (owners[body.owner].contact != contact) continue;
+			known.push_back({ members[i].body->id, [&body, side = body.sideOf(body.end, headOf<Dim>(middle))](const Vector3r& place) {
+				                 const auto at = body.proximity(body.end, headOf<Dim>(place), side);
+				                 return at.beside < 0 ? at.gap : std::numeric_limits<Real>::infinity();
+			                 } });
+		}
+		shareRecords(*contact, domain, known);
+	}
 }
 
 template <int Dim> void Contacts<Dim>::scatter(Real time)

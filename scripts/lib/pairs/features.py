@@ -16,7 +16,7 @@ features = [feature for group in groups for feature in group] + others
 dynamic = schemes[1:]
 
 # Pairs that are refused, with words of the sentence that says so
-refused = {('axisymmetric', 'period'): ['axisymmetric', 'period'], ('period', 'refinement'): ['period', 'refinements'], ('static', 'absorbing'): ['MpmImplicitEngine', 'absorbing'], ('static', 'baseMotion'): ['motion', 'MpmDynamicEngine']}
+refused = {('axisymmetric', 'period'): ['axisymmetric', 'period'], ('period', 'refinement'): ['period', 'refinements'], ('static', 'absorbing'): ['MpmImplicitEngine', 'absorbing', 'MpmDynamicEngine'], ('static', 'baseMotion'): ['motion', 'MpmDynamicEngine']}
 refused |= {(shape, 'period'): ['periodic grid', 'Walls'] for shape in shapes if shape != 'plate'}
 refused[('freeBody', 'period')] = ['periodic grid', 'Walls']
 refused |= {(scheme, 'refinement'): ['refinements', 'inertia'] for scheme in dynamic}
