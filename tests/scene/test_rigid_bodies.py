@@ -183,6 +183,15 @@ for engines in [], [NewtonIntegrator(damping=0)], [NewtonIntegrator(damping=0, m
 	O.engines += engines
 	O.run(4, wait=True)
 	found.append([1.5 - plate.state.pos[1], forces(solver)[plate.id][1]])
+
+solver = soil(contacts=[MpmContact(friction=0, mask=1)])
+plate = box(velocity=(0, -0.1, 0))
+O.engines += [NewtonIntegrator(damping=0, label='newton'), PyRunner(iterPeriod=1, command='newton.mask = [1, 4, 4, 1, -1][O.iter % 5]')]
+O.run(4, wait=True)
+for step in range(4):
+	newton.mask = 4 if step % 2 else 1
+	O.step()
+found.append([(1.5 - plate.state.pos[1]) / 2, forces(solver)[plate.id][1]])
 print(json.dumps(found))
 ''').result
 	for moved, force in results:
