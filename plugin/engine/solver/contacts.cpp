@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "engine/solver/contacts.hpp"
-#include "core/terms/contact_in_place.hpp"
 #include "core/base/sentence.hpp"
+#include "core/terms/contact_in_place.hpp"
 #include "engine/conditions/contact_records.hpp"
 #include "engine/points/MpmPoint.hpp"
 #include "engine/solver/MpmImplicitEngine.hpp"
