@@ -201,3 +201,21 @@ print(json.dumps(refused(mpm.geostatic)))
 	assert 'both of its sides along x' in dam and 'pressure=lambda' in dam
 	assert 'both of its sides' not in rest and 'K0 = 50' in rest and 'percent' in rest
 	assert 'differ in density' in run.result and '2500' in run.result and 'body.material' in run.result
+
+
+def test_a_scene_saved_in_mid_stage_has_its_share_of_water_at_once(yade):
+	"""Studies may be asked between loading and the next step."""
+	before, after = yade(setting + '''
+begin(soil=MpmElasticMat(young=1e7, poisson=.3, density=2000), layer=MpmElasticMat(young=1e7, poisson=.3, density=2000))
+O.bodies.append(mpm.fill(part(0, 2), grid, 2, 'soil'))
+O.engines = [engine(water=[MpmWater(level=2.6, where='outside', weight=weight)])]
+mpm.geostatic(K0=.5)
+mpm.stages.place(mpm.fill(part(2, 3), grid, 2, 'layer'), steps=4)
+O.run(1, wait=True)
+size = lambda: float(abs(O.engines[-1].stiffness()[2]).sum())
+before = size()
+mpm.save('stage.yade.gz')
+mpm.load('stage.yade.gz')
+print(json.dumps([before, size()]))
+''').result
+	assert after == pytest.approx(before, rel=1e-12)

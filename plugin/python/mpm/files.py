@@ -10,7 +10,7 @@ import time
 
 from yade import wrapper
 
-from . import processes
+from . import processes, stages
 from .divided import isDivided
 from .library import engine
 from .messages import pathOf
@@ -95,6 +95,7 @@ def load(file):
 		        f'load: {file!r}, of {os.path.getsize(file)} bytes, cannot be read as a scene ({error}): it is not whole, as after a full disk or a run that was killed '
 		        'while it wrote, or another release of YADE or of the plugin has written it'
 		) from None
+	stages.resume()
 
 
 def _endStep():

@@ -12,6 +12,8 @@ Each function changes the scene between two load steps; what it begins goes on w
 
 A load that comes back is a ``curve`` of its MpmTraction, as ``[(0, 0), (1, 1), (2, 0), (3, 1)]``.
 """
+import ast
+
 import numpy as np
 from yade import wrapper
 
@@ -152,8 +154,18 @@ def advance(kind, label, first, steps, twins):
 	if step == steps: engines[at].dead = True
 
 
+def resume():
+	"""For a scene that has been loaded in mid-stage: water and point loads act on its layers as in the step before, which files do not say."""
+	scene = wrapper.Omega()
+	for engine in scene.engines:
+		if engine.dead or not engine.label.startswith('stage_'): continue
+		twins = ast.literal_eval('(' + engine.command.partition('.advance(')[2])[-1]
+		for twin, density in twins.values():
+			_library.actInPart(scene.materials[twin], scene.materials[twin].density / density)
+
+
 def _scale(material, share, ofAll, ids, kind):
-	_library.actInPart(material, share)  # which a loaded scene does not know
+	_library.actInPart(material, share)
 	density = share * ofAll
 	if abs(material.density - density) <= 1e-12 * density: return
 	if kind == 'excavated':  # in proportion to the density; the law of what is dug out is linear
