@@ -16,6 +16,31 @@
 #include "yade_api/naming.hpp"
 #include "yade_api/verification.hpp"
 
+namespace {
+// What single functions of Python are for.
+void defineHelpers()
+{
+	using namespace yade;
+	py::def("warn", &warn, "A warning of module mpm in YADE's log.");
+	py::def("assignColumns", &assignColumns, "For mpm.assign: values of the material points with these body ids, from a dict of arrays; all or none.");
+	py::def("respond", &respondForPython,
+	        "For mpm.respond: one call of the law of a material in principal axes, from trial strains and a dict of internal variables.");
+	py::def("elasticStrainOf", &elasticStrainForPython, "For mpm.elementTest: principal elastic strains of principal Kirchhoff stresses.");
+	py::def("touchableBodies", &touchableBodiesForPython, "For mpm.plot: ids of the rigid bodies that the contacts of an engine mean.");
+	py::def("waterAround", &waterAroundForPython,
+	        "For mpm.geostatic: pressure and gradient of each water of an engine, averaged over boxes, given their middles and half sizes.");
+	py::def(
+	        "actInPart",
+	        +[](MpmMaterial& material, Real share) {
+		        const ValueLock lock;
+		        material.share = share;
+	        },
+	        "For mpm.stages: the share of water and point loads that acts on points of a material, whose density is as small.");
+	py::def("gridCells", &gridCellsForPython,
+	        "For mpm.plot: corners and first field of the cells of 'grid', 'ghostFaces', 'loads', 'walls' or 'contacts' around the material points.");
+}
+}
+
 BOOST_PYTHON_MODULE(mpm_engine)
 {
 	using namespace yade;
@@ -47,21 +72,5 @@ BOOST_PYTHON_MODULE(mpm_engine)
 		        return didYouMean(name, names);
 	        },
 	        "For messages: the known names that are most like another one, as a question.");
-	py::def("warn", &warn, "A warning of module mpm in YADE's log.");
-	py::def("assignColumns", &assignColumns, "For mpm.assign: values of the material points with these body ids, from a dict of arrays; all or none.");
-	py::def("respond", &respondForPython,
-	        "For mpm.respond: one call of the law of a material in principal axes, from trial strains and a dict of internal variables.");
-	py::def("elasticStrainOf", &elasticStrainForPython, "For mpm.elementTest: principal elastic strains of principal Kirchhoff stresses.");
-	py::def("touchableBodies", &touchableBodiesForPython, "For mpm.plot: ids of the rigid bodies that the contacts of an engine mean.");
-	py::def("waterAround", &waterAroundForPython,
-	        "For mpm.geostatic: pressure and gradient of each water of an engine, averaged over boxes, given their middles and half sizes.");
-	py::def(
-	        "actInPart",
-	        +[](MpmMaterial& material, Real share) {
-		        const ValueLock lock;
-		        material.share = share;
-	        },
-	        "For mpm.stages: the share of water and point loads that acts on points of a material, whose density is as small.");
-	py::def("gridCells", &gridCellsForPython,
-	        "For mpm.plot: corners and first field of the cells of 'grid', 'ghostFaces', 'loads', 'walls' or 'contacts' around the material points.");
+	defineHelpers();
 }

@@ -38,12 +38,16 @@ namespace {
 
 string doubtOfWeight(const MpmImplicitEngine& engine)
 {
-	constexpr Real lightest = 500; // N/m3, of a fluid under the gravity of the earth
+	constexpr Real lightest = 500, earth = 9.81;                                            // N/m3, of a fluid under the gravity of the earth
+	const auto     isDensity = [](Real weight) { return weight >= 950 && weight <= 1100; }; // of water, fresh or salt
 	if (engine.gravity.norm() <= 1) return "";
 	for (size_t i = 0; i < engine.water.size(); ++i) {
 		const MpmWater& water = *engine.water[i];
-		if ((std::isnan(water.level) && water.levels.empty()) || water.weight >= lightest) continue;
-		return sentence("water[", i, "] has weight = ", water.weight, ", in N/m3; was it meant in kN/m3, that is ", 1e3 * water.weight, " N/m3?");
+		if (std::isnan(water.level) && water.levels.empty()) continue;
+		const string has = sentence("water[", i, "] has weight = ", water.weight, ", in N/m3; was it meant in ");
+		if (water.weight < lightest) return sentence(has, "kN/m3, that is ", 1e3 * water.weight, " N/m3?");
+		if (isDensity(water.weight) && engine.gravity.norm() > earth / 2)
+			return sentence(has, "kg/m3, a density, that is ", earth * water.weight, " N/m3?");
 	}
 	return "";
 }

@@ -65,7 +65,8 @@ namespace {
 	{
 		using gimpm::Failure;
 		string advice;
-		if (report.failure == Failure::unrestrained) return " Hold nodes of that material with MpmBoundary.";
+		if (report.failure == Failure::unrestrained)
+			return " Hold nodes of that material with MpmBoundary, or let it rest on a rigid body (MpmContact).";
 		if (report.failure == Failure::misplaced) return "";
 		if (!report.advice.empty()) return " " + report.advice;
 		if (report.failure == Failure::gainsEnergy)
@@ -94,7 +95,7 @@ namespace {
 	string stageOf(const MpmImplicitEngine& engine)
 	{
 		for (const auto& other : engine.scene->engines)
-			if (!other->dead && other->label.rfind("stage_", 0) == 0) return ", in the " + other->label + " of mpm.stages,";
+			if (!other->dead && other->label.rfind("stage_", 0) == 0) return " in " + other->label + " of mpm.stages";
 		return "";
 	}
 
@@ -107,8 +108,9 @@ namespace {
 		if (!engine.isDynamic() && from != to) text << "the load step from factor " << engine.loadFactor << " to " << to;
 		else
 			text << (engine.isDynamic() ? "the step in time" : "the load step") << " from O.time = " << engine.loadTime << " to " << time << " s";
-		if (engine.isDynamic() && from != to) text << ", of loads from factor " << from << " to " << to << ",";
-		return text.str() + stageOf(engine);
+		text << stageOf(engine);
+		if (engine.isDynamic() && from != to) text << ", of loads from factor " << from << " to " << to;
+		return text.str();
 	}
 
 	string whereSceneIs(const MpmImplicitEngine& engine)
@@ -116,7 +118,7 @@ namespace {
 		std::ostringstream text;
 		if (engine.isDynamic()) text << " The scene is at " << engine.loadTime << " s";
 		else
-			text << " The scene is at load factor " << engine.loadFactor;
+			text << " The scene is at load factor " << engine.loadFactor << ", O.time = " << engine.loadTime;
 		text << ", the last converged state, in iteration " << engine.scene->iter << ".";
 		return text.str();
 	}
@@ -165,12 +167,13 @@ string reasonOf(const gimpm::StepReport& report, const MpmImplicitEngine& engine
 	text << engine.getClassName() << ": " << stepOf(engine, time);
 	if (!engine.gravityCurve.empty()) {
 		const gimpm::LoadCurve curve = engine.curveOfGravity();
-		text << ", of gravity from " << curve.valueAt(engine.loadTime) << " to " << curve.valueAt(time) << ",";
+		const Real             from = curve.valueAt(engine.loadTime), to = curve.valueAt(time);
+		if (from != to) text << ", of gravity from " << from << " to " << to;
 	}
 	if (part < 1) text << " (" << part << " of O.dt, after " << engine.cuts << " cuts)";
 	text << " failed: " << report.cause;
 	text << placeOfFailed(report.failedPoint, engine, points) << "." << placeOfImbalance(report, engine, points) << adviceOn(report, engine, time, part);
-	if (report.failure == gimpm::Failure::unrestrained) text << idleBoundaries(engine, points);
+	if (report.failure == gimpm::Failure::unrestrained) text << idleBoundaries(engine, points) << idleContacts(engine);
 	return text.str() + whereSceneIs(engine);
 }
 

@@ -41,4 +41,15 @@ string idleBoundaries(const MpmImplicitEngine& engine, const vector<MaterialPoin
 	return text.str();
 }
 
+string idleContacts(const MpmImplicitEngine& engine)
+{
+	std::ostringstream text;
+	for (size_t c = 0; c < engine.contacts.size(); ++c) {
+		const vector<int>& touching = engine.contacts[c]->touching;
+		if (std::any_of(touching.begin(), touching.end(), [](int corners) { return corners > 0; })) continue;
+		text << " contacts[" << c << "] touches nothing yet: a body holds what it touches, and by friction (MpmContact.friction) also along itself.";
+	}
+	return text.str();
+}
+
 } // namespace yade
