@@ -48,17 +48,14 @@ namespace {
 		        engine.lastDisplacements, engine.lastLoadIncrement, scene.dt, scene.time);
 	}
 
-	// Of the rigid bodies that may touch the soil: what they are, with their own friction.
-	std::uint64_t shapesOf(const MpmImplicitEngine& engine)
+	// Of the rigid bodies that may touch the soil: with which friction. Their shapes have a colour by chance, and are not compared.
+	std::uint64_t frictionOf(const MpmImplicitEngine& engine)
 	{
-		vector<shared_ptr<Shape>>    shapes;
 		vector<shared_ptr<Material>> materials;
 		for (const auto& contact : engine.contacts)
-			for (const auto& body : bodiesOf(*contact, *engine.scene)) {
-				shapes.push_back(body->shape);
+			for (const auto& body : bodiesOf(*contact, *engine.scene))
 				materials.push_back(body->material);
-			}
-		return checksumOf(shapes, materials);
+		return checksumOf(materials);
 	}
 
 	// Where they are, and how they move.
@@ -101,13 +98,13 @@ void requireSame(const gimpm::Processes& all, const MpmImplicitEngine& engine, c
 {
 	const bool  areSameBodies = all.haveSame(engine.scene->bodies->size()), areSamePoints = all.haveSame(checksum(points, begin));
 	const bool  areSameSettings = all.haveSame(settingsOf(engine) ^ settingsInTimeOf(engine)), moveAlike = all.haveSame(motionOf(engine));
-	const bool  areSameShapes = all.haveSame(shapesOf(engine));
-	const char* what          = !areSameBodies ? "numbers of bodies"
-	                 : !areSamePoints          ? "material points"
-	                 : !areSameSettings        ? "settings"
-	                 : !areSameShapes          ? "shapes or materials of rigid bodies"
-	                 : !moveAlike              ? "places or velocities of rigid bodies"
-	                                           : nullptr;
+	const bool  rubAlike = all.haveSame(frictionOf(engine));
+	const char* what     = !areSameBodies ? "numbers of bodies"
+	            : !areSamePoints          ? "material points"
+	            : !areSameSettings        ? "settings"
+	            : !rubAlike               ? "materials of rigid bodies"
+	            : !moveAlike              ? "places or velocities of rigid bodies"
+	                                      : nullptr;
 	if (what) throw std::runtime_error(startOf(engine, what) + remedy);
 }
 
