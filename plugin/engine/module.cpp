@@ -13,7 +13,9 @@
 #include "engine/solver/MpmGrid.hpp"
 #include "engine/solver/distribution.hpp"
 #include "engine/solver/processes.hpp"
+#include "yade_api/background.hpp"
 #include "yade_api/naming.hpp"
+#include "yade_api/python_lock.hpp"
 #include "yade_api/verification.hpp"
 
 namespace {
@@ -59,6 +61,12 @@ BOOST_PYTHON_MODULE(mpm_engine)
 	        "Whether several processes have divided the material points of the scene among them (MpmImplicitEngine.distributed).");
 	py::def("takePieces", &takePieces, "For mpm.load: the points of all pieces are in the processes that there are now.");
 	py::def("betweenSteps", &betweenSteps, "For mpm.save: calls a function while no step in the background changes the state.");
+	py::def(
+	        "endBackgroundRun", +[] {
+		        const PythonUnlock python;
+		        endBackgroundRun();
+	        },
+	        "For mpm.load: ends what O.run(n) has begun, after the step that is being made.");
 	py::def("idsOfPoints", &idsOfPoints, "For mpm.assign: bytearray of the ids of the material points.");
 	py::def("columnsOfPoints", &columnsOfPoints,
 	        "For mpm.arrays: dict of bytearrays with the data of the material points that a mask means, in order of body id.");

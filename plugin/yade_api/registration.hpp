@@ -47,7 +47,12 @@ template <class D, class B> py::dict Exposed<D, B>::pyDict() const
 template <class D, class B> void Exposed<D, B>::requireAdmissible() const
 {
 	if constexpr (isExposed(static_cast<B*>(nullptr))) B::requireAdmissible();
-	table().requireAdmitted(self());
+	// Every material point is asked at the beginning of every step: here without the table, which is asked for the message.
+	bool areAdmitted = true;
+	D::attributes([&](const char*, auto member, unsigned, const char*, auto... validator) {
+		areAdmitted = areAdmitted && (validator(self().*member) && ...);
+	});
+	if (!areAdmitted) table().requireAdmitted(self());
 }
 
 template <class D, class B> void Exposed<D, B>::pyRegisterClass(py::object scope)

@@ -202,6 +202,28 @@ print(json.dumps(found))
 	assert 'the load step from O.time = 1 to ' in found['static'] and 'from factor' not in found['static']
 
 
+def test_a_scene_can_be_loaded_while_a_run_begins(yade):
+	run = yade(
+	        '''
+import json
+from scenes import *
+O.materials.append(MpmElasticMat(young=1e6, poisson=.3, density=2000, label='soil'))
+grid = MpmGrid(cellSize=.25)
+O.bodies.append(mpm.fill(pack.inAlignedBox((0, 0, -1), (.5, .5, 1)), grid, 2, 'soil'))
+O.engines = [MpmDynamicEngine(grid=grid, gravity=(0, -9.81, 0), boundaries=[MpmBoundary(max=(inf, 0, inf), fix='xy')], scheme='explicit', verbosity=0)]
+O.dt = 1e-3
+O.run(2, wait=True)
+mpm.save('scene.yade.gz')
+for i in range(60): # a thread of YADE that has not yet begun would take a lock of the scene before
+	O.run(3000)
+	mpm.load('scene.yade.gz')
+	assert O.iter == 2
+	O.step()
+print(json.dumps([O.iter, len(O.bodies)]))
+''')
+	assert run.result == [3, 16]
+
+
 def test_long_steps_and_early_looks_are_remarked(yade):
 	run = yade(
 	        '''

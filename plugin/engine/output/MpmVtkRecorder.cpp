@@ -6,6 +6,7 @@
 #include "engine/points/columns.hpp"
 #include "engine/solver/MpmImplicitEngine.hpp"
 #include "engine/solver/processes.hpp"
+#include "yade_api/background.hpp"
 #include "yade_api/exceptions.hpp"
 #include "yade_api/logging.hpp"
 #include "yade_api/registration.hpp"
@@ -57,20 +58,11 @@ namespace {
 		return domains;
 	}
 
-	// A simulation that still runs when the script has ended is stopped after the current iteration.
-	void stopRunning()
-	{
-		const shared_ptr<ThreadRunner> runner = Singleton<Omega>::instance().simulationLoop;
-		if (!runner) return;
-		runner->looping = false;
-		const std::lock_guard<std::mutex> untilItHasEnded(runner->runMutex);
-	}
-
 	void finishAll()
 	{
 		{
-			const PythonUnlock python; // the simulation may wait for it
-			stopRunning();
+			const PythonUnlock python;
+			endBackgroundRun(); // of a simulation that still runs when the script has ended
 		}
 		for (const auto& engine : Singleton<Omega>::instance().getScene()->engines)
 			if (auto* recorder = dynamic_cast<MpmVtkRecorder*>(engine.get())) recorder->finish();

@@ -6,7 +6,6 @@ import errno
 import gzip
 import os
 import shutil
-import time
 
 from yade import wrapper
 
@@ -87,7 +86,7 @@ def load(file):
 	pieces = piecesOf(file)
 	if pieces: return loadPieces(pieces)
 	if not os.path.exists(file): raise FileNotFoundError(errno.ENOENT, 'load: there is no such file, nor pieces of it', file)
-	_endStep()
+	engine.endBackgroundRun()  # YADE does not survive that its scene is replaced in a step, and O.pause() does not wait for its end
 	try:
 		wrapper.Omega().load(file, quiet=True)
 	except RuntimeError as error:
@@ -96,14 +95,6 @@ def load(file):
 		        'while it wrote, or another release of YADE or of the plugin has written it'
 		) from None
 	stages.resume()
-
-
-def _endStep():
-	"""O.pause() does not wait for the step that is made, and YADE does not survive that its scene is replaced in one."""
-	scene = wrapper.Omega()
-	scene.pause()
-	while scene.subStep >= 0:
-		time.sleep(.01)
 
 
 def _write(file):
