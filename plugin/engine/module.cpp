@@ -2,17 +2,17 @@
 // The plugin is also a Python extension module, imported by yade.mpm for what can be checked only when YADE has started, and for
 // work on all material points at once.
 #include "core/solvers/multigrid.hpp"
+#include "engine/conditions/water/waterAround.hpp"
+#include "engine/grid/MpmGrid.hpp"
 #include "engine/materials/laws.hpp"
 #include "engine/output/contactPoints.hpp"
 #include "engine/output/gridCells.hpp"
-#include "engine/output/waterAround.hpp"
+#include "engine/parallel/distribution.hpp"
+#include "engine/parallel/processes.hpp"
 #include "engine/points/assignment.hpp"
 #include "engine/points/bulkAccess.hpp"
 #include "engine/points/columns.hpp"
 #include "engine/points/newPoints.hpp"
-#include "engine/solver/MpmGrid.hpp"
-#include "engine/solver/distribution.hpp"
-#include "engine/solver/processes.hpp"
 #include "yade_api/background.hpp"
 #include "yade_api/naming.hpp"
 #include "yade_api/python_lock.hpp"
@@ -62,7 +62,8 @@ BOOST_PYTHON_MODULE(mpm_engine)
 	py::def("takePieces", &takePieces, "For mpm.load: the points of all pieces are in the processes that there are now.");
 	py::def("betweenSteps", &betweenSteps, "For mpm.save: calls a function while no step in the background changes the state.");
 	py::def(
-	        "endBackgroundRun", +[] {
+	        "endBackgroundRun",
+	        +[] {
 		        const PythonUnlock python;
 		        endBackgroundRun();
 	        },

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "engine/output/MpmVtkRecorder.hpp"
+#include "engine/engines/MpmImplicitEngine.hpp"
 #include "engine/output/gridCells.hpp"
 #include "engine/output/statePieces.hpp"
 #include "engine/output/vtkDataSets.hpp"
+#include "engine/parallel/processes.hpp"
 #include "engine/points/columns.hpp"
-#include "engine/solver/MpmImplicitEngine.hpp"
-#include "engine/solver/processes.hpp"
 #include "yade_api/background.hpp"
 #include "yade_api/exceptions.hpp"
 #include "yade_api/logging.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
+#include "engine/analysis/LoadStepObserver.hpp"
 #include "engine/points/columns.hpp"
-#include "engine/solver/LoadStepObserver.hpp"
 #include "yade_api/exposed.hpp"
 
 namespace yade {

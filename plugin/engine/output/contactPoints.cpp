@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "engine/output/contactPoints.hpp"
-#include "engine/conditions/contact_records.hpp"
-#include "engine/solver/MpmImplicitEngine.hpp"
+#include "engine/conditions/contact/contact_records.hpp"
+#include "engine/engines/MpmImplicitEngine.hpp"
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
 #include <vtkCellType.h>

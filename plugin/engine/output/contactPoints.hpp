@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 // Where material points touch rigid bodies, as VTK data.
-#include "engine/conditions/MpmContact.hpp"
+#include "engine/conditions/contact/MpmContact.hpp"
 #include "engine/output/vtkDataSets.hpp"
 
 namespace yade {

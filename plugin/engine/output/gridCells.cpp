@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "engine/output/gridCells.hpp"
+#include "engine/analysis/build_model.hpp"
+#include "engine/analysis/exchange.hpp"
 #include "engine/output/contactPoints.hpp"
 #include "engine/output/loadedSurfaces.hpp"
 #include "engine/points/parallel.hpp"
-#include "engine/solver/build_model.hpp"
-#include "engine/solver/exchange.hpp"
 #include <vtkCellData.h>
 #include <vtkDataArray.h>
 #include <vtkIdList.h>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 // The background grid of an analysis in the current configuration, as an engine sees it.
+#include "engine/engines/MpmImplicitEngine.hpp"
 #include "engine/output/vtkDataSets.hpp"
-#include "engine/solver/MpmImplicitEngine.hpp"
 
 namespace yade {
 

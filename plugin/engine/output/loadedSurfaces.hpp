@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 // The surfaces that an engine's loads act on, and those that hold, as VTK data.
-#include "engine/conditions/MpmBoundary.hpp"
+#include "engine/analysis/Loads.hpp"
+#include "engine/conditions/boundary/MpmBoundary.hpp"
 #include "engine/output/vtkDataSets.hpp"
-#include "engine/solver/Loads.hpp"
 
 namespace yade {
 

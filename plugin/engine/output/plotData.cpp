@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "engine/output/plotData.hpp"
+#include "engine/engines/MpmImplicitEngine.hpp"
+#include "engine/parallel/processes.hpp"
 #include "engine/points/MaterialPoints.hpp"
-#include "engine/solver/MpmImplicitEngine.hpp"
-#include "engine/solver/energies.hpp"
-#include "engine/solver/processes.hpp"
+#include "engine/points/energies.hpp"
 #include "yade_api/value_lock.hpp"
 #include <numeric>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "engine/output/report.hpp"
-#include "engine/solver/MpmImplicitEngine.hpp"
-#include "engine/solver/failures.hpp"
+#include "engine/engines/MpmImplicitEngine.hpp"
+#include "engine/messages/failures.hpp"
 #include "yade_api/value_lock.hpp"
 
 namespace yade {

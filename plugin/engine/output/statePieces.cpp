@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "engine/output/statePieces.hpp"
+#include "engine/engines/MpmImplicitEngine.hpp"
 #include "engine/output/vtkDataSets.hpp"
-#include "engine/solver/MpmImplicitEngine.hpp"
-#include "engine/solver/processes.hpp"
+#include "engine/parallel/processes.hpp"
 #include "yade_api/value_lock.hpp"
 #include <filesystem>
 #include <vtkUnstructuredGrid.h>

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "engine/points/assignment.hpp"
 #include "core/base/checksum.hpp"
+#include "engine/analysis/exchange.hpp"
 #include "engine/materials/laws.hpp"
+#include "engine/parallel/distribution.hpp"
+#include "engine/parallel/processes.hpp"
+#include "engine/points/AtWork.hpp"
 #include "engine/points/buffers.hpp"
 #include "engine/points/columns.hpp"
-#include "engine/solver/AtWork.hpp"
-#include "engine/solver/distribution.hpp"
-#include "engine/solver/exchange.hpp"
-#include "engine/solver/processes.hpp"
 #include <Eigen/LU>
 #include <algorithm>
 #include <memory>

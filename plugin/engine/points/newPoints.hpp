@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 // Material points that are not yet in a scene.
+#include "engine/grid/MpmGrid.hpp"
 #include "engine/materials/parameters.hpp"
 #include "engine/points/buffers.hpp"
-#include "engine/solver/MpmGrid.hpp"
 #include <memory>
 
 namespace yade {
