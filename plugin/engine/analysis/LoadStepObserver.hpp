@@ -3,7 +3,7 @@
 #include "yade_api/scene.hpp"
 
 namespace yade {
-class MpmImplicitEngine;
+class Analysis;
 
 // An engine that follows the load steps of an MpmImplicitEngine, which tells all of them among O.engines, wherever they stand.
 class LoadStepObserver {
@@ -11,10 +11,10 @@ public:
 	virtual ~LoadStepObserver() = default;
 
 	// The scene has been found fit for computing, and is in the state where the step starts.
-	virtual void stepBegins(const MpmImplicitEngine&) = 0;
+	virtual void stepBegins(const Analysis&) = 0;
 
 	// The scene is in the state that the step has reached; without convergence that is the state where it started.
-	virtual void stepEnds(const MpmImplicitEngine&, bool converged) = 0;
+	virtual void stepEnds(const Analysis&, bool converged) = 0;
 };
 
 template <class F> void tellObservers(Scene& scene, F tell)

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "engine/analysis/exchange.hpp"
 #include "core/materials/kinematics.hpp"
-#include "engine/conditions/boundary/walls.hpp"
 #include "engine/grid/fit.hpp"
 #include "engine/materials/laws.hpp"
 #include "engine/points/parallel.hpp"
@@ -153,38 +152,50 @@ template <int Dim> Real reenter(Real& x, int axis, const gimpm::Grid<Dim>& grid)
 	return shift;
 }
 
-Vector3r stretched(const Vector3r& halfSize0, const Matrix3r& defGrad)
+template <int Dim> gimpm::Model<Dim> emptyModel(const Analysis& analysis, const Conditions<Dim>& conditions)
 {
-	const Matrix3r change = defGrad - Matrix3r::Identity();
-	if (!change.col(2).isZero(0) || !change.row(2).isZero(0)) return halfSize0.cwiseProduct(gimpm::stretchAlongAxes<3>(defGrad));
-	const gimpm::Vec<2> stretch = gimpm::stretchAlongAxes<2>(defGrad.topLeftCorner<2, 2>());
-	return halfSize0.cwiseProduct(Vector3r(stretch[0], stretch[1], 1));
-}
-
-template <int Dim>
-gimpm::Model<Dim> toModel(
-        const MpmGrid& grid, const string& basis, bool fBar, const vector<shared_ptr<MpmBoundary>>& boundaries, const MpmGhost& ghost, const MpmNewton& newton)
-{
-	grid.requireAdmissible();
+	const MpmGhost&  ghost  = *analysis.ghost;
+	const MpmNewton& newton = *analysis.newton;
+	analysis.grid->requireAdmissible();
 	ghost.requireAdmissible();
 	newton.requireAdmissible();
-	if (fBar && ghost.factor == 0)
+	if (analysis.fBar && ghost.factor == 0)
 		throw std::invalid_argument(
 		        "fBar takes the dilation of points from the centres of their cells, also where these are nearly empty: it needs ghost stabilisation, "
 		        "such as ghost=MpmGhost(), instead of ghost.factor=0.");
 	gimpm::Model<Dim> model;
-	model.grid     = grid.lattice<Dim>();
-	model.basis    = basis == "mpm" ? gimpm::Basis::linear : gimpm::Basis::gimp;
-	model.fBar     = fBar;
-	model.boundary = gimpm::Boundary<Dim>(heldBoxes<Dim>(boundaries, grid, model.grid));
-	model.ghost    = { ghost.factor, ghost.scaling == "paper" ? gimpm::GhostScaling::paper : gimpm::GhostScaling::meshIndependent };
-	addWalls(boundaries, model);
+	model.grid                    = analysis.grid->lattice<Dim>();
+	model.basis                   = analysis.basis == "mpm" ? gimpm::Basis::linear : gimpm::Basis::gimp;
+	model.fBar                    = analysis.fBar;
+	model.ghost                   = { ghost.factor, ghost.scaling == "paper" ? gimpm::GhostScaling::paper : gimpm::GhostScaling::meshIndependent };
 	model.newton.tolerance        = newton.tolerance;
 	model.newton.maxIterations    = newton.maxIterations;
 	model.newton.lineSearchTrials = newton.lineSearchTrials;
 	model.newton.reuseFactor      = newton.reuseFactor;
 	model.newton.linearSolver     = linearMethod(newton.linearSolver);
+	if (analysis.grid->axisymmetric) model.boundary = gimpm::Boundary<Dim>({ gimpm::HeldBox<Dim>::ofAxis(model.grid) });
+	for (const auto& condition : conditions)
+		condition->hold(model);
 	return model;
+}
+
+template <int Dim> vector<gimpm::Key> cellsOf(const gimpm::PointCloud<Dim>& cloud, const gimpm::Grid<Dim>& grid, const gimpm::Division* division)
+{
+	vector<gimpm::Key> cells;
+	for (const auto& x : cloud.position) {
+		const gimpm::Index<Dim> cell = ((x - grid.origin) / grid.cellSize).array().floor().template cast<int>();
+		const gimpm::Key        key  = gimpm::Grid<Dim>::key(cell);
+		if (cells.empty() || cells.back() != key) cells.push_back(key);
+	}
+	const auto sortOut = [&] {
+		std::sort(cells.begin(), cells.end());
+		cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
+	};
+	sortOut();
+	if (!division) return cells;
+	cells = gimpm::joined(*division->processes, cells);
+	sortOut();
+	return cells;
 }
 
 template <int Dim> gimpm::PointCloud<Dim> gather(const vector<MaterialPoint>& points, gimpm::Model<Dim>& model, const MaterialList& known)
@@ -241,6 +252,7 @@ template <int Dim> void scatter(gimpm::PointCloud<Dim>& cloud, const gimpm::Grid
 			state.elasticStrain                            = cloud.elasticStrain[p].full();
 			state.stress                                   = cloud.stress[p].full();
 			state.volume                                   = cloud.volume0[p] * cloud.volumeRatio(p);
+			state.porePressure                             = std::numeric_limits<Real>::quiet_NaN(); // conditions give it
 			points[p].shape->halfSize.template head<Dim>() = cloud.halfSize[p];
 			if (grid.axisymmetric) scatterAround(points[p], cloud.hoopStretch[p]);
 			if (p == begin || points[p].material.get() != points[p - 1].material.get()) internals = internalsFor(*points[p].material, cloud);
@@ -250,10 +262,11 @@ template <int Dim> void scatter(gimpm::PointCloud<Dim>& cloud, const gimpm::Grid
 	});
 }
 
-#define MPM_INSTANTIATE(Dim)                                                                                                                                     \
-	template gimpm::Model<Dim>      toModel(const MpmGrid&, const string&, bool, const vector<shared_ptr<MpmBoundary>>&, const MpmGhost&, const MpmNewton&); \
-	template gimpm::PointCloud<Dim> gather(const vector<MaterialPoint>&, gimpm::Model<Dim>&, const MaterialList&);                                           \
-	template void                   scatter(gimpm::PointCloud<Dim>&, const gimpm::Grid<Dim>&, const vector<MaterialPoint>&);                                 \
+#define MPM_INSTANTIATE(Dim)                                                                                                                                   \
+	template gimpm::Model<Dim>      emptyModel(const Analysis&, const Conditions<Dim>&);                                                                   \
+	template vector<gimpm::Key>     cellsOf(const gimpm::PointCloud<Dim>&, const gimpm::Grid<Dim>&, const gimpm::Division*);                               \
+	template gimpm::PointCloud<Dim> gather(const vector<MaterialPoint>&, gimpm::Model<Dim>&, const MaterialList&);                                         \
+	template void                   scatter(gimpm::PointCloud<Dim>&, const gimpm::Grid<Dim>&, const vector<MaterialPoint>&);                               \
 	template Real                   reenter(Real&, int, const gimpm::Grid<Dim>&);
 MPM_INSTANTIATE(2)
 MPM_INSTANTIATE(3)

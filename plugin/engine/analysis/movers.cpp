@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "engine/analysis/movers.hpp"
 #include "core/base/sentence.hpp"
-#include "engine/engines/MpmImplicitEngine.hpp"
+#include "engine/analysis/analysis.hpp"
 #include "yade_api/serialization.hpp"
 #include <sstream>
 
@@ -77,7 +77,7 @@ void requireExchange(const Body& body, const Scene& scene)
 {
 	const string what  = "Body #" + std::to_string(body.id);
 	const int    reset = placeOf("ForceResetter", scene), newton = placeOf("NewtonIntegrator", scene);
-	const auto   isSelf = [](const auto& engine) { return dynamic_cast<const MpmImplicitEngine*>(engine.get()) != nullptr; };
+	const auto   isSelf = [](const auto& engine) { return dynamic_cast<const Analysis*>(engine.get()) != nullptr; };
 	const int    self   = int(std::find_if(scene.engines.begin(), scene.engines.end(), isSelf) - scene.engines.begin());
 	if (reset < 0)
 		throw std::invalid_argument(

@@ -1,7 +1,15 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "engine/engines/MpmDynamicEngine.hpp"
+#include "core/base/together.hpp"
+#include "engine/conditions/boundary/MpmBoundary.hpp"
+#include "engine/conditions/contact/MpmContact.hpp"
+#include "engine/conditions/shaking/MpmAbsorbingBoundary.hpp"
+#include "engine/conditions/water/MpmWater.hpp"
 #include "engine/engines/moving.hpp"
+#include "engine/parallel/archived.hpp"
+#include "engine/parallel/processes.hpp"
 #include "engine/points/MaterialPoints.hpp"
+#include "engine/points/energies.hpp"
 #include "yade_api/registration.hpp"
 
 namespace yade {
@@ -32,6 +40,42 @@ void MpmDynamicEngine::requireAdmissible() const
 		throw std::invalid_argument(
 		        "MpmDynamicEngine.timeTolerance = " + std::to_string(timeTolerance)
 		        + " needs accelerations at both ends of a step, which scheme='midpoint' does without: take 'newmark' or 'generalised-alpha'.");
+}
+
+vector<Listed> MpmDynamicEngine::conditions() const
+{
+	auto all = MpmImplicitEngine::conditions();
+	for (size_t i = 0; i < absorbing.size(); ++i)
+		all.push_back({ absorbing[i], "absorbing", i, absorbing.size() });
+	return all;
+}
+
+std::uint64_t MpmDynamicEngine::checksumInTime() const { return checksumOf(scheme, beta, gamma, rhoInfinity, timeTolerance, rayleigh); }
+
+// The imbalance is what integration in time and the way of velocities to the grid and back have added.
+void MpmDynamicEngine::tellMotion(py::dict& data) const
+{
+	const Energies own = energiesOf(materialPoints(*ownScene(), mask));
+	const Energies now = isDivided(*this) ? ofAll(own, *processes()) : own;
+	for (int axis = 0; axis < 3; ++axis) {
+		if (axis < grid->dim) data[string("momentum_") + "xyz"[axis]] = now.momentum[axis];
+		if (axis == 2 || grid->dim == 3) data[string("angularMomentum_") + "xyz"[axis]] = now.angularMomentum[axis];
+	}
+	Rows rows(data);
+	for (size_t i = 0; i < absorbing.size(); ++i)
+		absorbing[i]->tell(rows, *this, { absorbing[i], "absorbing", i, absorbing.size() });
+	data["kineticEnergy"] = now.kinetic;
+	data["elasticEnergy"] = now.elastic;
+	data["loadWork"]      = loadWork;
+	data["boundaryWork"]  = boundaryWork;
+	data["contactWork"]   = contactWork;
+	data["impactWork"]    = impactWork;
+	data["ghostWork"]     = ghostWork;
+	data["gridWork"]      = gridWork;
+	data["plasticWork"]   = plasticWork;
+	data["dampingWork"]   = dampingWork;
+	data["energyImbalance"]
+	        = now.total() - firstEnergy - loadWork - boundaryWork - contactWork + impactWork + ghostWork + gridWork + plasticWork + dampingWork;
 }
 
 template <int Dim> void MpmDynamicEngine::makeMoving(Job<Dim>& job, const vector<MaterialPoint>& points)

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 #include "core/terms/time_scheme.hpp"
-#include "engine/conditions/shaking/MpmAbsorbingBoundary.hpp"
 #include "engine/engines/MpmImplicitEngine.hpp"
 #include "engine/engines/explicit_steps.hpp"
 
 namespace yade {
+class MpmAbsorbingBoundary;
 
 class MpmDynamicEngine : public Exposed<MpmDynamicEngine, MpmImplicitEngine> {
 public:
@@ -74,14 +74,18 @@ public:
 	bool isExplicit() const override { return scheme == "explicit"; }
 	void tellMotion(py::dict&) const override;
 
+	vector<Listed> conditions() const override;
+	std::uint64_t  checksumInTime() const override;
+
 	gimpm::TimeScheme timeScheme() const;
 	Real              ghostMass() const; // over the density
 
 	void requireAdmissible() const override;
 
 protected:
-	void setMoving(Job<2>& job, const vector<MaterialPoint>& points) override;
-	void setMoving(Job<3>& job, const vector<MaterialPoint>& points) override;
+	const vector<Vector3r>& formerReactions() const override { return reactionsBefore; }
+	void                    setMoving(Job<2>& job, const vector<MaterialPoint>& points) override;
+	void                    setMoving(Job<3>& job, const vector<MaterialPoint>& points) override;
 
 private:
 	template <int Dim> void makeMoving(Job<Dim>&, const vector<MaterialPoint>&);

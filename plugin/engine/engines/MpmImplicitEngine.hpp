@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-#include "engine/analysis/MpmGhost.hpp"
-#include "engine/analysis/MpmNewton.hpp"
-#include "engine/analysis/RunResults.hpp"
-#include "engine/analysis/job.hpp"
-#include "engine/conditions/boundary/MpmBoundary.hpp"
+#include "engine/analysis/analysis.hpp"
+#include "engine/conditions/load_curves.hpp"
 #include "engine/engines/PeriodicCounters.hpp"
+#include "engine/engines/job.hpp"
 #include "engine/engines/splitting.hpp"
 #include "engine/engines/study.hpp"
-#include "engine/grid/MpmGrid.hpp"
+#include "engine/grid/newPoints.hpp"
 #include "engine/messages/ProgressLine.hpp"
 #include "engine/messages/plausibility.hpp"
 #include "engine/output/plotData.hpp"
@@ -19,20 +17,17 @@
 namespace yade {
 
 class Agreement;
+class MpmBoundary;
+class MpmContact;
+class MpmWater;
 
-class MpmImplicitEngine : public Exposed<MpmImplicitEngine, PeriodicEngine>, public Loads, public RunResults {
+class MpmImplicitEngine : public Exposed<MpmImplicitEngine, PeriodicEngine>, public Analysis {
 public:
-	shared_ptr<MpmGrid>            grid;
-	string                         basis = "gimp";
-	bool                           fBar  = false;
-	vector<shared_ptr<MpmContact>> contacts;
-	shared_ptr<MpmGhost>           ghost { new MpmGhost };
-	shared_ptr<MpmNewton>          newton { new MpmNewton };
-	int                            mask        = -1;
-	Real                           loadTime    = 0;
-	int                            verbosity   = 1;
-	int                            maxSplits   = 0;
-	bool                           distributed = false;
+	vector<shared_ptr<MpmCondition>> loads;
+	vector<shared_ptr<MpmWater>>     water;
+	vector<shared_ptr<MpmBoundary>>  boundaries;
+	vector<shared_ptr<MpmContact>>   contacts;
+	int                              verbosity = 1;
 
 	MpmImplicitEngine();
 
@@ -56,7 +51,22 @@ public:
 		  "the solution).",
 		  oneOf("gimp", "mpm"));
 		v("fBar", &E::fBar, 0, "Cure for volumetric locking of materials that keep their volume: one dilation in a cell. Needs ghost stabilisation.");
-		Loads::attributes(v);
+		v("gravity", &E::gravity, 0, "Acceleration [m/s²] of all material points at load factor 1, finite.", finite);
+		v("loadCurve", &E::loadCurve, 0,
+		  "Load factor [-] as a sequence of (time [s], factor), times increasing; linear between, constant before and after. Multiplies gravity (but see "
+		  "*gravityCurve*), point loads and prescribed displacements.",
+		  admitting("one or more (time, factor), all finite, with increasing times", gimpm::LoadCurve::isAdmissible));
+		v("gravityCurve", &E::gravityCurve, 0,
+		  "Factor [-] of gravity as *loadCurve*, where it shall not go with the other loads; empty, the default: it does. [(0, 1)]: gravity acts from the "
+		  "beginning, as after mpm.geostatic.",
+		  curveOrNothing);
+		v("loads", &E::loads, 0,
+		  "Loads on surfaces of the body (MpmTraction), and other conditions (MpmCondition) without a list of their own; read as a tuple, so assign a new one to change it.",
+		  admitting(
+		          "MpmTractions; an MpmWater belongs into water, an MpmBoundary into boundaries, an MpmContact into contacts, an MpmAbsorbingBoundary into absorbing",
+		          areLoads));
+		v("water", &E::water, 0,
+		  "Water in the pores and around the body (MpmWater); several add up. Read as a tuple, so assign a new one to change it.");
 		v("boundaries", &E::boundaries, 0, "Essential boundary conditions (MpmBoundary); read as a tuple, so assign a new one to change it.");
 		v("contacts", &E::contacts, 0, "Contact with rigid bodies (MpmContact); read as a tuple, so assign a new one to change it.");
 		v("ghost", &E::ghost, 0, "Ghost stabilisation (MpmGhost).", notNull);
@@ -80,25 +90,30 @@ public:
 	{
 		Interruption::prepare();
 		addStudyMethods(c);
-		addReport(c);
-		addPlotData(c);
+		addReport(c, py::make_function(+[](const MpmImplicitEngine& engine) { return yade::report(engine); }));
+		addPlotData(c, py::make_function(+[](const MpmImplicitEngine& engine) { return yade::plotData(engine); }));
 	}
 
 	bool isActivated() override;
 	void action() override;
 
-	virtual bool isDynamic() const { return false; }
-	virtual bool isExplicit() const { return false; }
-	virtual void tellMotion(py::dict&) const { }
+	vector<Listed>    conditions() const override;
+	string            className() const override { return getClassName(); }
+	void              requireAttributes() const override { requireAdmissible(); }
+	shared_ptr<Scene> ownScene() const override; // for an engine that no scene holds, the current one
+	Scene&            sceneOfRun() const override { return *scene; }
+	long              period() const override { return iterPeriod; }
+	long              runs() const override { return nDone; }
+
+	static bool areLoads(const vector<shared_ptr<MpmCondition>>&);
 
 	// Puts new points into the scene, of several processes that divide them each its own. The id of the first one, or std::invalid_argument in all of them.
 	Body::id_t add(NewPoints&);
 
-	// The scene that holds this engine in O.engines: the current one, or the one where it was made or seen last (O.switchScene()). For an
-	// engine that neither holds, the current one.
-	shared_ptr<Scene> ownScene() const;
-
 protected:
+	virtual const vector<Vector3r>& formerReactions() const { return reactions; } // of the step before, where it matters
+	void                            handOver(bool isBetween);                     // between load steps, too, the bodies that YADE moves feel the soil
+
 	virtual void setMoving(Job<2>&, const vector<MaterialPoint>&) { }
 	virtual void setMoving(Job<3>&, const vector<MaterialPoint>&) { }
 
@@ -109,7 +124,9 @@ private:
 	string                          doubtOfAbsence();
 	bool                            isEndOfLoads() const;
 	template <int Dim> void         step(Agreement&);
-	template <int Dim> void         askWater(Agreement&);
+	template <int Dim> void         askFunctions(Agreement&);
+	template <int Dim> bool         ask(const gimpm::Grid<Dim>&, const vector<gimpm::Key>& cells) const;
+	bool                            hasQuestions() const;
 	template <int Dim> Job<Dim>     prepare(Agreement&);
 	template <int Dim> void         takePoints(Setup<Dim>&, Agreement&);
 	template <int Dim> void         doubt(const Job<Dim>&);
@@ -130,6 +147,11 @@ private:
 	mutable boost::weak_ptr<Factorable> home;   // the scene where it was made or seen last
 	gimpm::LinearSolver                 solver; // keeps the symbolic analysis; results do not depend on it
 };
+
+// For mpm.add: puts points into the current scene, which has this engine, given as newBodies() is; the id of the first one.
+Body::id_t addPoints(
+        const shared_ptr<MpmImplicitEngine>&, const py::object& positions, const py::object& half, const py::list& materials, const py::object& index,
+        const py::dict& parameters);
 
 } // namespace yade
 

@@ -2,8 +2,9 @@
 #include "engine/engines/explicit_steps.hpp"
 #include "core/base/sentence.hpp"
 #include "core/stepping/critical_step.hpp"
-#include "engine/analysis/build_model.hpp"
 #include "engine/engines/MpmDynamicEngine.hpp"
+#include "engine/engines/build_model.hpp"
+#include "engine/parallel/distribution.hpp"
 #include "engine/parallel/processes.hpp"
 #include "yade_api/value_lock.hpp"
 
@@ -15,9 +16,17 @@ namespace {
 		throw std::invalid_argument(gimpm::sentence("MpmDynamicEngine, scheme='explicit': ", parts...));
 	}
 
+	template <int Dim> Penalty stiffestOf(const Setup<Dim>& setup)
+	{
+		Penalty stiffest;
+		for (const auto& condition : setup.conditions)
+			if (const Penalty own = condition->penalty(); own.size > stiffest.size) stiffest = own;
+		return stiffest;
+	}
+
 	template <int Dim> Real limit(const MpmDynamicEngine& engine, const Setup<Dim>& of)
 	{
-		return gimpm::criticalStep(of.cloud, of.model, engine.ghostMass(), of.contacts.penalty());
+		return gimpm::criticalStep(of.cloud, of.model, engine.ghostMass(), stiffestOf(of).size);
 	}
 
 	// Of the present state of the scene.
@@ -55,10 +64,11 @@ template <int Dim> void requireStable(const MpmDynamicEngine& engine, const Setu
 	const Real     critical = limit(engine, setup);
 	constexpr Real margin   = 0.02; // a step that was admitted is not refused for the small strains that it leads to
 	if (duration <= critical * (1 + margin)) return;
+	const string remedy = stiffestOf(setup).remedy;
 	refuseExplicit(
 	        "a step of ", duration, " s (O.dt", engine.iterPeriod > 1 ? " times iterPeriod" : "", ") is above the critical one, ", critical,
-	        " s, and would be unstable. Give a smaller O.dt, as 0.9 * solver.criticalTimeStep()",
-	        setup.contacts.penalty() > 0 ? ", smaller MpmContact.stiffness" : "", ", larger cells, or an implicit scheme, which has no limit.");
+	        " s, and would be unstable. Give a smaller O.dt, as 0.9 * solver.criticalTimeStep()", remedy.empty() ? "" : ", ", remedy,
+	        ", larger cells, or an implicit scheme, which has no limit.");
 }
 
 Real criticalTimeStep(MpmDynamicEngine& engine)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 // What MpmDynamicEngine needs for scheme='explicit' alone.
-#include "engine/analysis/job.hpp"
+#include "engine/engines/job.hpp"
 #include "yade_api/exposed.hpp"
 
 namespace yade {

@@ -40,13 +40,24 @@ Moving<Dim>::Moving(MpmDynamicEngine& e, Job<Dim>& job, const vector<MaterialPoi
 		motion->velocity.push_back(finiteInDimension<Dim>(points[p], "vel", points[p].state->vel));
 		motion->acceleration.push_back(finiteInDimension<Dim>(points[p], "acceleration", points[p].state->acceleration));
 	}
-	motion->contacts   = job.contacts.weigh(motion->scheme.weightOfContact());
-	shaking            = std::make_unique<Shaking<Dim>>(engine, job, *motion);
+	joinRayleigh(job);
+	for (const auto& condition : job.conditions)
+		condition->joinMotion(*motion, job.model, job.begin);
 	job.model.atMiddle = motion->scheme.atMiddle;
 	if (!engine.isExplicit())
 		job.model.terms.push_back([known = motion](const gimpm::Beginning<Dim>& step) { return std::make_unique<gimpm::Inertia<Dim>>(*known, step); });
-	job.surfaceLoads.beginAt(job.begin);
-	job.waters.wantWork();
+}
+
+template <int Dim> void Moving<Dim>::joinRayleigh(const Job<Dim>& job)
+{
+	const auto [alpha, beta] = engine.rayleigh;
+	if (alpha == 0 && beta == 0) return;
+	*rayleigh             = { alpha, beta };
+	const auto  materials = std::make_shared<const std::vector<gimpm::Material>>(job.model.materials);
+	const auto* masses    = &motion->mass; // which have those of the copies, too, where points are divided
+	motion->damping.push_back([known = rayleigh, materials, masses, fBar = job.model.fBar](const gimpm::Beginning<Dim>& step) {
+		return std::make_unique<gimpm::RayleighDamping<Dim>>(*known, *materials, fBar, *masses, step);
+	});
 }
 
 // What contact has given itself is no part of it.
@@ -64,20 +75,21 @@ template <int Dim> string Moving<Dim>::doubtOfContact() const
 	        " J that have come in otherwise: steps are too long for soil that passes edges or curved sides of bodies. A smaller O.dt makes it less.");
 }
 
-template <int Dim> void Moving<Dim>::begin(Job<Dim>& job, Attempt<Dim>& next, Real from) const
+template <int Dim> StepTime Moving<Dim>::begin(Job<Dim>& job, Real from, Real to) const
 {
-	if (engine.isExplicit()) requireStable<Dim>(engine, job, next.time - from); // by all processes, which are here together
+	if (engine.isExplicit()) requireStable<Dim>(engine, job, to - from); // by all processes, which are here together
 	if (std::isnan(engine.firstEnergy)) engine.firstEnergy = ofAll(energy, job);
-	motion->duration = next.time - from;
-	next.load.motion = motion->duration;
-	job.contacts.know(energyComeIn());
-	shaking->begin(next, from, *motion);
+	motion->duration = to - from;
+	return { from, to, motion->scheme.atMiddle ? from + motion->duration / 2 : to, energyComeIn() };
+}
+
+template <int Dim> void Moving<Dim>::weigh(gimpm::Load<Dim>& load) const
+{
+	load.motion = motion->duration;
 	if (!motion->scheme.atMiddle) return;
 	const auto toMiddle = [](gimpm::LoadFactor& factor) { factor.value -= factor.growth / 2; };
-	toMiddle(next.load.factor);
-	if (next.load.ofGravity) toMiddle(*next.load.ofGravity);
-	job.surfaceLoads.advanceTo(from + motion->duration / 2);
-	job.waters.advance(from, from + motion->duration / 2);
+	toMiddle(load.factor);
+	if (load.ofGravity) toMiddle(*load.ofGravity);
 }
 
 template <int Dim> gimpm::StepReport Moving<Dim>::step(Job<Dim>& job, const Attempt<Dim>& tried) const
@@ -85,28 +97,10 @@ template <int Dim> gimpm::StepReport Moving<Dim>::step(Job<Dim>& job, const Atte
 	return gimpm::explicitStep(job.cloud, job.model, tried.load, *motion);
 }
 
-// Reactions are those of the two ends, where they are known; with the midpoint rule those of the middle.
-template <int Dim> Real Moving<Dim>::workOfBoundaries(Real from, Real time) const
+template <int Dim> void Moving<Dim>::addWork(const Job<Dim>& job, const StepOutcome<Dim>& step)
 {
-	const auto &now = engine.reactions, &before = engine.reactionsBefore;
-	const bool  hasBefore = before.size() == now.size() && !motion->scheme.atMiddle;
-	Real        work      = 0;
-	for (size_t b = 0; b < now.size(); ++b) {
-		const MpmBoundary& boundary = *engine.boundaries[b];
-		if (boundary.motion) {
-			work += boundary.motion->displacementBetween(from, time).dot(hasBefore ? Vector3r((now[b] + before[b]) / 2) : now[b]);
-			continue;
-		}
-		const Real     growth = engine.curveOf(boundary).between(from, time).growth;
-		const Vector3r moved  = boundary.surface ? Vector3r((time - from) * boundary.velocity) : Vector3r(growth * boundary.displacement);
-		work += moved.dot(hasBefore ? Vector3r((now[b] + before[b]) / 2) : now[b]);
-	}
-	return work;
-}
-
-template <int Dim> void Moving<Dim>::addWork(const Job<Dim>& job, Real time, const vector<MaterialPoint>& points)
-{
-	const Real     from   = engine.loadTime;
+	const auto&    points = step.points;
+	const Real     from = step.from, time = step.time;
 	const auto     factor = engine.curveOfLoads().between(from, time), ofGravity = engine.curveOfGravity().between(from, time);
 	const Vector3r g    = (ofGravity.value + ofGravity.before()) / 2 * engine.gravity;
 	Real           work = job.model.division ? 0 : engine.loadWork; // point by point
@@ -116,11 +110,14 @@ template <int Dim> void Moving<Dim>::addWork(const Job<Dim>& job, Real time, con
 		work += moved.dot(motion->mass[p] * g + (factor.value + factor.before()) / 2 * points[p].state->force);
 	}
 	engine.loadWork = job.model.division ? engine.loadWork + ofAll(work, job) : work;
-	engine.loadWork += job.surfaceLoads.work() + job.waters.work();
-	engine.boundaryWork += workOfBoundaries(from, time) + shaking->workOfEdges();
-	engine.dampingWork += shaking->dampingWork();
-	engine.contactWork += job.contacts.work();
-	engine.givenByContact += std::max(0., job.contacts.gift());
+	Work sum;
+	for (const auto& condition : job.conditions)
+		sum += condition->work(step);
+	engine.loadWork += sum.ofLoads;
+	engine.boundaryWork += sum.ofBoundaries;
+	engine.dampingWork += rayleigh->work;
+	engine.contactWork += sum.ofContacts;
+	engine.givenByContact += sum.given;
 	engine.impactWork += motion->impactWork;
 	engine.ghostWork += motion->ghostWork;
 	engine.gridWork += motion->gridWork;
@@ -128,10 +125,10 @@ template <int Dim> void Moving<Dim>::addWork(const Job<Dim>& job, Real time, con
 	engine.reactionsBefore = engine.reactions;
 }
 
-template <int Dim> void Moving<Dim>::reach(const Job<Dim>& job, Real time, const vector<MaterialPoint>& points)
+template <int Dim> void Moving<Dim>::reach(const Job<Dim>& job, const StepOutcome<Dim>& step)
 {
-	addWork(job, time, points);
-	shaking->scatter(engine.last);
+	const auto& points = step.points;
+	addWork(job, step);
 	inRanges(points.size(), [&](size_t begin, size_t end) {
 		for (size_t p = begin; p < end; ++p) {
 			points[p].state->vel.template head<Dim>()          = motion->velocity[p];

@@ -2,8 +2,8 @@
 #pragma once
 // Inertia in the steps of a run.
 #include "core/terms/motion.hpp"
-#include "engine/analysis/job.hpp"
-#include "engine/conditions/shaking/shaking.hpp"
+#include "core/terms/rayleigh.hpp"
+#include "engine/engines/job.hpp"
 
 namespace yade {
 class MpmDynamicEngine;
@@ -14,27 +14,30 @@ public:
 	// computed with.
 	Moving(MpmDynamicEngine&, Job<Dim>&, const vector<MaterialPoint>&);
 
-	// The next step goes from here to the time of the attempt.
-	void begin(Job<Dim>&, Attempt<Dim>&, Real from) const;
+	// The next step goes from one time to another.
+	StepTime begin(Job<Dim>&, Real from, Real to) const;
+
+	// What acts in it as the scheme in time looks at it.
+	void weigh(gimpm::Load<Dim>&) const;
 
 	// Makes an explicit step.
 	gimpm::StepReport step(Job<Dim>&, const Attempt<Dim>&) const;
 
 	// Adds up what the step that has been accepted has worked, while the points are still as before it, and gives them their velocities.
-	void reach(const Job<Dim>&, Real time, const vector<MaterialPoint>&);
+	void reach(const Job<Dim>&, const StepOutcome<Dim>&);
 
 	// A sentence where contact has given much energy that nobody has put in.
 	string doubtOfContact() const;
 
 private:
-	void addWork(const Job<Dim>&, Real time, const vector<MaterialPoint>&);
-	Real workOfBoundaries(Real from, Real time) const;
+	void joinRayleigh(const Job<Dim>&);
+	void addWork(const Job<Dim>&, const StepOutcome<Dim>&);
 	Real energyComeIn() const;
 
 	MpmDynamicEngine&                   engine;
 	Real                                energy; // of the points of this process before the first step; 0 where that has been made
 	std::shared_ptr<gimpm::Motion<Dim>> motion;
-	std::unique_ptr<Shaking<Dim>>       shaking;
+	std::shared_ptr<gimpm::Rayleigh>    rayleigh { new gimpm::Rayleigh };
 };
 
 } // namespace yade

@@ -5,6 +5,7 @@
 #include "engine/engines/MpmImplicitEngine.hpp"
 #include "engine/parallel/pieces.hpp"
 #include "engine/points/halves.hpp"
+#include "engine/points/stretched.hpp"
 
 namespace yade {
 
@@ -67,7 +68,7 @@ namespace {
 			return isFree(middle, middle + offset) && isFree(middle, middle - offset);
 		}
 
-		// No wall, on the grid's lines or off them, axis of symmetry or rigid body comes between the middles of the whole and of a half.
+		// No wall on the grid's lines, axis of symmetry or condition comes between the middles of the whole and of a half.
 		bool isFree(const gimpm::Vec<Dim>& from, const gimpm::Vec<Dim>& to) const
 		{
 			using namespace gimpm;
@@ -82,9 +83,7 @@ namespace {
 				for (face[a] = first + 1; face[a] <= last; ++face[a])
 					if (job.model.boundary.lowerFaceIsWall(face, a)) return false;
 			}
-			for (const auto& [boundary, wall] : job.model.walls)
-				if (wall->surface.isBetween(from, to)) return false;
-			return job.contacts.areBeside(from, to);
+			return std::all_of(job.conditions.begin(), job.conditions.end(), [&](const auto& one) { return one->areBeside(from, to); });
 		}
 
 		bool split(size_t p, int axis)
@@ -118,23 +117,25 @@ namespace {
 				point->id    = domain.upper;
 				if (division) division->id.push_back(domain.upper);
 			}
-			shareContacts();
+			shareMemory();
 			halves.clear();
 			provideGaps(scene, end);
 			return !wholes.empty();
 		}
 
-		// What contacts remember of the points of all processes, which each of them knows.
-		void shareContacts() const
+		// What conditions remember of the points of all processes, which each of them knows.
+		void shareMemory() const
 		{
-			if (!job.contacts.areThere()) return;
+			const auto remembers = [](const auto& condition) { return condition->remembersPoints(); };
+			if (std::none_of(job.conditions.begin(), job.conditions.end(), remembers)) return;
 			vector<HalvedDomain> domains;
 			for (const auto& [body, domain] : halves)
 				domains.push_back(domain);
 			if (job.model.division) domains = gimpm::joined(*job.model.division->processes, domains);
 			std::sort(domains.begin(), domains.end(), [](const auto& a, const auto& b) { return a.upper < b.upper; });
 			for (const HalvedDomain& domain : domains)
-				job.contacts.share(domain);
+				for (const auto& condition : job.conditions)
+					condition->share(domain);
 		}
 
 		// One for each upper half, rising.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 // Material points whose domains have outgrown half a cell are split in two.
-#include "engine/analysis/job.hpp"
+#include "engine/engines/job.hpp"
 
 namespace yade {
 

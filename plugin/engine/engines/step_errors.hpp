@@ -2,7 +2,7 @@
 #pragma once
 #include "core/stepping/model.hpp"
 #include "core/stepping/report.hpp"
-#include "engine/analysis/job.hpp"
+#include "engine/engines/job.hpp"
 
 namespace yade {
 class MpmImplicitEngine;

@@ -5,9 +5,9 @@
 #include "core/stepping/load_step.hpp"
 #include "core/stepping/strength_reduction.hpp"
 #include "core/stepping/workload.hpp"
-#include "engine/analysis/build_model.hpp"
 #include "engine/engines/MpmImplicitEngine.hpp"
 #include "engine/engines/Threads.hpp"
+#include "engine/engines/build_model.hpp"
 #include "engine/materials/MpmCamClayMat.hpp"
 #include "engine/materials/MpmElasticMat.hpp"
 #include "yade_api/value_lock.hpp"
@@ -36,16 +36,14 @@ namespace {
 		requireUndivided(engine);
 		const Threads threads(engine.ompThreads);
 		const auto    inSpace = [&](auto dim) {
-                        constexpr int    Dim = decltype(dim)::value;
-                        Setup<Dim>       now;
-                        gimpm::Load<Dim> load;
+                        constexpr int     Dim = decltype(dim)::value;
+                        CurrentState<Dim> now;
                         {
                                 const ValueLock lock;
-                                now  = currentState<Dim>(engine);
-                                load = engine.loadBetween<Dim>(engine.loadTime, engine.loadTime);
+                                now = currentState<Dim>(engine);
                         }
                         const PythonUnlock python;
-                        return f(now.cloud, now.model, load);
+                        return f(now.cloud, now.model, now.load);
 		};
 		return engine.grid && engine.grid->dim == 3 ? inSpace(std::integral_constant<int, 3>()) : inSpace(std::integral_constant<int, 2>());
 	}

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 #include "core/grid/grid.hpp"
-#include "engine/conditions/box.hpp"
+#include "engine/grid/box.hpp"
 #include "yade_api/exposed.hpp"
 
 namespace yade {

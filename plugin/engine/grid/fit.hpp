@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-// Whether points and boundaries go with the grid of an analysis.
+// Whether points and boxes of nodes go with the grid of an analysis.
 #include "core/grid/basis.hpp"
 #include "core/grid/boundary.hpp"
-#include "engine/conditions/boundary/MpmBoundary.hpp"
 #include "engine/grid/MpmGrid.hpp"
 #include "engine/points/MaterialPoints.hpp"
 
@@ -14,8 +13,5 @@ template <int Dim> void requireFit(const MaterialPoint&, const gimpm::Grid<Dim>&
 
 // Nodes in a box, by the name of its class. std::invalid_argument if there is none.
 template <int Dim> gimpm::HeldBox<Dim> boxOfNodes(const string& name, const Vector3r& min, const Vector3r& max, const MpmGrid&, const gimpm::Grid<Dim>&);
-
-// The nodes that the boundaries hold, and those on an axis of symmetry. std::invalid_argument names boundaries that hold none, or contradict each other.
-template <int Dim> vector<gimpm::HeldBox<Dim>> heldBoxes(const vector<shared_ptr<MpmBoundary>>&, const MpmGrid&, const gimpm::Grid<Dim>&);
 
 } // namespace yade

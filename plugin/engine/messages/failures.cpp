@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "engine/messages/failures.hpp"
-#include "engine/engines/MpmImplicitEngine.hpp"
-#include "engine/messages/idle_boundaries.hpp"
+#include "engine/analysis/analysis.hpp"
+#include "engine/messages/idle.hpp"
+#include "engine/parallel/distribution.hpp"
 #include "engine/parallel/processes.hpp"
 
 namespace yade {
@@ -15,7 +16,7 @@ namespace {
 	}
 
 	// Wherever it is. Of points that are divided among processes the report has the id.
-	string placeOfFailed(int point, const MpmImplicitEngine& engine, const vector<MaterialPoint>& points)
+	string placeOfFailed(int point, const Analysis& engine, const vector<MaterialPoint>& points)
 	{
 		if (point < 0) return "";
 		if (!isDivided(engine)) return placeOf(points[point]);
@@ -23,7 +24,7 @@ namespace {
 		return firstSaid(found == points.end() ? "" : placeOf(*found), *processes());
 	}
 
-	string bodiesNear(const Vector3r& place, const MpmImplicitEngine& engine, const vector<MaterialPoint>& points)
+	string bodiesNear(const Vector3r& place, const Analysis& engine, const vector<MaterialPoint>& points)
 	{
 		constexpr int      listed = 5;
 		int                found  = 0;
@@ -35,7 +36,7 @@ namespace {
 		return isDivided(engine) ? firstSaid(text.str(), *processes()) : text.str();
 	}
 
-	string placeOfImbalance(const gimpm::StepReport& report, const MpmImplicitEngine& engine, const vector<MaterialPoint>& points)
+	string placeOfImbalance(const gimpm::StepReport& report, const Analysis& engine, const vector<MaterialPoint>& points)
 	{
 		if (report.residuals.empty() || report.worst.axis < 0) return "";
 		const int          dim = engine.grid->dim;
@@ -50,7 +51,7 @@ namespace {
 	}
 
 	// Steps that are shorter may find what longer ones did not; of loads that grow the rest may be too much.
-	string adviceOnConvergence(const MpmImplicitEngine& engine, Real time, Real part)
+	string adviceOnConvergence(const Analysis& engine, Real time, Real part)
 	{
 		const bool grows = engine.curveOfLoads().valueAt(time) != engine.loadFactor;
 		if (part == 1) return " Smaller steps (O.dt), or newton.minStep < 1, may help.";
@@ -61,7 +62,7 @@ namespace {
 		return " What has changed since the step before (soil, water, strength, boundaries or bodies that move) may be more than the body can carry in equilibrium.";
 	}
 
-	string adviceOn(const gimpm::StepReport& report, const MpmImplicitEngine& engine, Real time, Real part)
+	string adviceOn(const gimpm::StepReport& report, const Analysis& engine, Real time, Real part)
 	{
 		using gimpm::Failure;
 		string advice;
@@ -92,15 +93,15 @@ namespace {
 	}
 
 	// What began between two steps and goes on in this one.
-	string stageOf(const MpmImplicitEngine& engine)
+	string stageOf(const Analysis& engine)
 	{
-		for (const auto& other : engine.scene->engines)
+		for (const auto& other : engine.sceneOfRun().engines)
 			if (!other->dead && other->label.rfind("stage_", 0) == 0) return " in " + other->label + " of mpm.stages";
 		return "";
 	}
 
 	// Loads that grow tell where a static step is; otherwise it is the time.
-	string stepOf(const MpmImplicitEngine& engine, Real time)
+	string stepOf(const Analysis& engine, Real time)
 	{
 		const gimpm::LoadCurve curve = engine.curveOfLoads();
 		const Real             from = curve.valueAt(engine.loadTime), to = curve.valueAt(time);
@@ -113,13 +114,13 @@ namespace {
 		return text.str();
 	}
 
-	string whereSceneIs(const MpmImplicitEngine& engine)
+	string whereSceneIs(const Analysis& engine)
 	{
 		std::ostringstream text;
 		if (engine.isDynamic()) text << " The scene is at " << engine.loadTime << " s";
 		else
 			text << " The scene is at load factor " << engine.loadFactor << ", O.time = " << engine.loadTime;
-		text << ", the last converged state, in iteration " << engine.scene->iter << ".";
+		text << ", the last converged state, in iteration " << engine.sceneOfRun().iter << ".";
 		return text.str();
 	}
 }
@@ -161,10 +162,10 @@ const char* nameOf(gimpm::Definiteness definiteness)
 	return "";
 }
 
-string reasonOf(const gimpm::StepReport& report, const MpmImplicitEngine& engine, const vector<MaterialPoint>& points, Real time, Real part)
+string reasonOf(const gimpm::StepReport& report, const Analysis& engine, const vector<MaterialPoint>& points, Real time, Real part)
 {
 	std::ostringstream text;
-	text << engine.getClassName() << ": " << stepOf(engine, time);
+	text << engine.className() << ": " << stepOf(engine, time);
 	if (!engine.gravityCurve.empty()) {
 		const gimpm::LoadCurve curve = engine.curveOfGravity();
 		const Real             from = curve.valueAt(engine.loadTime), to = curve.valueAt(time);
@@ -173,11 +174,13 @@ string reasonOf(const gimpm::StepReport& report, const MpmImplicitEngine& engine
 	if (part < 1) text << " (" << part << " of O.dt, after " << engine.cuts << " cuts)";
 	text << " failed: " << report.cause;
 	text << placeOfFailed(report.failedPoint, engine, points) << "." << placeOfImbalance(report, engine, points) << adviceOn(report, engine, time, part);
-	if (report.failure == gimpm::Failure::unrestrained) text << idleBoundaries(engine, points) << idleContacts(engine);
+	if (report.failure == gimpm::Failure::unrestrained)
+		text << (engine.countOf("boundaries") == 0 ? " The engine has no boundaries." : "")
+		     << idleConditions(engine, points, [](const auto&) { return true; });
 	return text.str() + whereSceneIs(engine);
 }
 
-string warningOfAccepted(const gimpm::StepReport& report, const MpmImplicitEngine& engine, Real time)
+string warningOfAccepted(const gimpm::StepReport& report, const Analysis& engine, Real time)
 {
 	return stepOf(engine, time) + " has not converged and is accepted (newton.acceptUnconverged): " + report.cause + ".";
 }

@@ -5,14 +5,14 @@
 #include "engine/points/MaterialPoints.hpp"
 
 namespace yade {
-class MpmImplicitEngine;
+class Analysis;
 
 const char* nameOf(gimpm::Failure);
 const char* nameOf(gimpm::Definiteness);
 
 // Of a step up to a time [s] that tried a part of O.dt and was given up.
-string reasonOf(const gimpm::StepReport&, const MpmImplicitEngine&, const vector<MaterialPoint>&, Real time, Real part);
+string reasonOf(const gimpm::StepReport&, const Analysis&, const vector<MaterialPoint>&, Real time, Real part);
 
-string warningOfAccepted(const gimpm::StepReport&, const MpmImplicitEngine&, Real time);
+string warningOfAccepted(const gimpm::StepReport&, const Analysis&, Real time);
 
 } // namespace yade

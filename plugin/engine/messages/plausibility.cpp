@@ -4,12 +4,12 @@
 #include "core/base/sentence.hpp"
 #include "core/base/stopwatch.hpp"
 #include "core/stepping/critical_step.hpp"
-#include "engine/conditions/water/doubtful_water.hpp"
-#include "engine/engines/MpmImplicitEngine.hpp"
+#include "engine/analysis/analysis.hpp"
 #include "engine/grid/lattice.hpp"
 #include "engine/grid/overlaps.hpp"
-#include "engine/messages/idle_boundaries.hpp"
+#include "engine/messages/idle.hpp"
 #include "engine/messages/units.hpp"
+#include "engine/parallel/distribution.hpp"
 
 namespace yade {
 
@@ -18,31 +18,31 @@ namespace {
 
 	template <class... Parts> [[noreturn]] void refuse(const Parts&... parts) { throw std::invalid_argument(sentence(parts...)); }
 
-	void requireGravityInPlane(const MpmImplicitEngine& engine)
+	void requireGravityInPlane(const Analysis& engine)
 	{
 		if (engine.grid->axisymmetric && engine.gravity[0] != 0)
-			refuse(engine.getClassName(), ".gravity = (", engine.gravity.transpose(),
+			refuse(engine.className(), ".gravity = (", engine.gravity.transpose(),
 			       ") has an x component, which with MpmGrid.axisymmetric would pull away from the axis on all sides; there gravity acts along the axis, y, "
 			       "as in (0, -9.81, 0).");
 		if (engine.grid->dim == 3 || engine.gravity[2] == 0) return;
-		refuse(engine.getClassName(), ".gravity = (", engine.gravity.transpose(),
+		refuse(engine.className(), ".gravity = (", engine.gravity.transpose(),
 		       ") has a z component, which a grid with dim=2 (plane strain in x-y) would leave out; ",
 		       "there gravity acts along y, as in (0, -9.81, 0).");
 	}
 
 	// YADE begins with O.dt = 1e-8, for grains.
-	void requireSensibleIncrement(const MpmImplicitEngine& engine)
+	void requireSensibleIncrement(const Analysis& engine)
 	{
 		constexpr Real mostSteps = 1e6;
 		const auto&    curve     = engine.loadCurve;
-		const Real     dt = engine.scene->dt, left = engine.loadsEnd() - engine.scene->time, length = engine.loadsEnd() - curve.front().first;
-		if (engine.iterPeriod != 1 || left <= 0) return;
+		const Real dt = engine.sceneOfRun().dt, left = engine.loadsEnd() - engine.sceneOfRun().time, length = engine.loadsEnd() - curve.front().first;
+		if (engine.period() != 1 || left <= 0) return;
 		if (left / dt > mostSteps)
-			refuse(engine.getClassName(), ": with O.dt = ", dt, " the load curve would take ", left / dt,
+			refuse(engine.className(), ": with O.dt = ", dt, " the load curve would take ", left / dt,
 			       " steps; was O.dt forgotten? It is the load time of one step: 1/80 gives 80 steps with the default loadCurve.");
 		if (curve.size() > 1 && dt > length * (1 + 1e-9))
-			refuse(engine.getClassName(), ": O.dt = ", dt, ", the load time of one step, is more than the whole loadCurve, from ",
-			       curve.front().first, " to ", engine.loadsEnd(), ": 1/80 of that gives 80 steps.");
+			refuse(engine.className(), ": O.dt = ", dt, ", the load time of one step, is more than the whole loadCurve, from ", curve.front().first,
+			       " to ", engine.loadsEnd(), ": 1/80 of that gives 80 steps.");
 	}
 
 	// Of what a look at the points depends on: whoever changes the deformation changes the sizes, too, and the initial stress of points is
@@ -122,6 +122,17 @@ namespace {
 		return gravity.isZero(0) ? 0 : gravity.normalized().cwiseAbs().dot(box.second - box.first);
 	}
 
+	// The first of each, by what it is about; of points that are divided no process has all.
+	std::map<string, string> doubtsOfConditions(const Analysis& engine, const vector<MaterialPoint>& points)
+	{
+		std::map<string, string>    found;
+		const vector<MaterialPoint> none;
+		for (const Listed& listed : engine.conditions())
+			for (const auto& [about, doubt] : listed.condition->doubts(engine, isDivided(engine) ? none : points, listed.name()))
+				if (found[about].empty()) found[about] = doubt;
+		return found;
+	}
+
 	// Of all points, as they were in the beginning.
 	std::pair<Vector3r, Vector3r> initialBox(const vector<MaterialPoint>& points)
 	{
@@ -165,13 +176,14 @@ template <int Dim> void Plausibility::requirePoints(const vector<MaterialPoint>&
 	know(cloud);
 }
 
-string Plausibility::doubtOfEnd(const MpmImplicitEngine& engine)
+string Plausibility::doubtOfEnd(const Analysis& engine)
 {
 	const size_t knees  = engine.gravityCurve.size();
 	const Real   end    = engine.loadsEnd();
-	const auto   goesOn = [](const auto& boundary) { return !boundary->velocity.isZero(0); };
-	if (saidEnd || engine.isDynamic() || !engine.contacts.empty() || std::any_of(engine.boundaries.begin(), engine.boundaries.end(), goesOn)
-	    || std::max(engine.loadCurve.size(), knees) < 2 || engine.loadTime < end - 1e-9 * engine.scene->dt)
+	const auto   all    = engine.conditions();
+	const auto   goesOn = [](const Listed& listed) { return listed.condition->goesOn(); };
+	if (saidEnd || engine.isDynamic() || std::any_of(all.begin(), all.end(), goesOn) || std::max(engine.loadCurve.size(), knees) < 2
+	    || engine.loadTime < end - 1e-9 * engine.sceneOfRun().dt)
 		return "";
 	saidEnd = true;
 	return sentence(
@@ -180,24 +192,27 @@ string Plausibility::doubtOfEnd(const MpmImplicitEngine& engine)
 	        ". Unless something else changes, further steps move the points a little only, as each finds equilibrium on the grid that has been reset.");
 }
 
-string Plausibility::doubtOfBoundaries(const MpmImplicitEngine& engine, const vector<MaterialPoint>& points)
+string Plausibility::doubtOfPlaces(const Analysis& engine, const vector<MaterialPoint>& points)
 {
-	vector<const MpmBoundary*> except;
-	decltype(lookedAt)         boxes;
-	for (const auto& boundary : engine.boundaries) {
-		boxes.push_back(boundary->extent());
-		const bool isKnown = std::find(lookedAt.begin(), lookedAt.end(), boxes.back()) != lookedAt.end();
-		if (isKnown || boundary->moves()) except.push_back(boundary.get());
+	std::set<const MpmCondition*> asked;
+	decltype(lookedAt)            boxes;
+	for (const Listed& listed : engine.conditions()) {
+		const auto box = listed.condition->extent();
+		if (!box) continue;
+		boxes.push_back(*box);
+		const bool isKnown = std::find(lookedAt.begin(), lookedAt.end(), *box) != lookedAt.end();
+		if (!isKnown && !listed.condition->moves()) asked.insert(listed.condition.get());
 	}
 	lookedAt.swap(boxes);
-	const string idle = except.size() == engine.boundaries.size() ? "" : idleBoundaries(engine, points, except);
+	const auto   isAsked = [&](const MpmCondition& condition) { return asked.count(&condition) > 0; };
+	const string idle    = asked.empty() ? "" : idleConditions(engine, points, isAsked);
 	return idle.empty() ? "" : idle.substr(1) + " It holds nothing until soil arrives there.";
 }
 
 string Plausibility::once(const string& about, const string& sentence) { return sentence.empty() || !saidAbout.insert(about).second ? "" : sentence; }
 
 // No fill puts so many points into a cell that they are as small.
-void Plausibility::requireGrid(const MpmImplicitEngine& engine) const
+void Plausibility::requireGrid(const Analysis& engine) const
 {
 	constexpr Real most = 1e5; // points per cell and axis
 	const Real     h    = engine.grid->cellSize;
@@ -209,10 +224,10 @@ void Plausibility::requireGrid(const MpmImplicitEngine& engine) const
 // Of implicit steps in time, which are stable however long they are, but see nothing of what is over within one.
 template <int Dim>
 string Plausibility::doubtOfLength(
-        const MpmImplicitEngine& engine, const vector<MaterialPoint>& points, const gimpm::PointCloud<Dim>& cloud, const gimpm::Model<Dim>& model, bool areNew)
+        const Analysis& engine, const vector<MaterialPoint>& points, const gimpm::PointCloud<Dim>& cloud, const gimpm::Model<Dim>& model, bool areNew)
 {
 	constexpr Real mostOfWave = 100, mostOfPoint = 1; // cells a step
-	const Real     T = engine.scene->time + engine.scene->dt - engine.loadTime;
+	const Real     T = engine.sceneOfRun().time + engine.sceneOfRun().dt - engine.loadTime;
 	if (!engine.isDynamic() || engine.isExplicit() || (!areNew && std::abs(T - duration) <= 1e-3 * duration)) return length;
 	if (areNew) fastestWave = std::sqrt(gimpm::stiffestOfOwn(cloud, model).pressureWave);
 	duration     = T;
@@ -223,23 +238,23 @@ string Plausibility::doubtOfLength(
 	length = ofWave <= mostOfWave && ofPoint <= mostOfPoint
 	        ? ""
 	        : sentence(
-	                "a step in time lasts ", T, " s (O.dt = ", engine.scene->dt, "). In that time the fastest wave, of ", fastestWave, " m/s, goes ",
+	                "a step in time lasts ", T, " s (O.dt = ", engine.sceneOfRun().dt, "). In that time the fastest wave, of ", fastestWave, " m/s, goes ",
 	                ofWave, " cells, and the fastest point would fly ", ofPoint,
 	                " cells. For waves a step should be half a cell of theirs or less; what lasts longer is seen in steps of some cells, and "
 	                "points should move less than half a cell.");
 	return length;
 }
 
-void Plausibility::say(vector<string>& sentences, Doubt doubt, const string& sentence)
+void Plausibility::say(vector<string>& sentences, const string& about, const string& sentence)
 {
-	bool& isSaid = said[doubt];
+	bool& isSaid = said[about];
 	if (!sentence.empty() && !isSaid) sentences.push_back(sentence);
 	isSaid = !sentence.empty();
 }
 
 template <int Dim>
 vector<string> Plausibility::look(
-        const MpmImplicitEngine& engine, const vector<MaterialPoint>& points, const gimpm::PointCloud<Dim>& cloud, const gimpm::Model<Dim>& model, double& time)
+        const Analysis& engine, const vector<MaterialPoint>& points, const gimpm::PointCloud<Dim>& cloud, const gimpm::Model<Dim>& model, double& time)
 {
 	requireGravityInPlane(engine);
 	requireSensibleIncrement(engine);
@@ -251,23 +266,23 @@ vector<string> Plausibility::look(
 	}
 	requireGrid(engine);
 	vector<string> sentences;
-	say(sentences, Doubt::gravityUpwards, doubtOfGravity(engine.gravity));
-	say(sentences, Doubt::largeCells, doubtOfCells(model.grid.cellSize, smallest));
-	say(sentences, Doubt::units, doubtOfUnits(engine.gravity, alongGravity(box, engine.gravity), points, cloud.material, model.materials));
-	if (areFirst) say(sentences, Doubt::lattice, doubtOfLattice<Dim>(points, model.grid));
-	say(sentences, Doubt::tension, doubtOfTension(engine.gravity, initialStress));
-	say(sentences, Doubt::overlap, overlap);
-	say(sentences, Doubt::waterUnits, doubtOfWeight(engine));
-	say(sentences, Doubt::bothSides, doubtOfSides(engine, points));
-	say(sentences, Doubt::longStep, doubtOfLength(engine, points, cloud, model, areNew));
+	say(sentences, "gravityUpwards", doubtOfGravity(engine.gravity));
+	say(sentences, "largeCells", doubtOfCells(model.grid.cellSize, smallest));
+	say(sentences, "units", doubtOfUnits(engine.gravity, alongGravity(box, engine.gravity), points, cloud.material, model.materials));
+	if (areFirst) say(sentences, "lattice", doubtOfLattice<Dim>(points, model.grid));
+	say(sentences, "tension", doubtOfTension(engine.gravity, initialStress));
+	say(sentences, "overlap", overlap);
+	for (const auto& [about, doubt] : doubtsOfConditions(engine, points))
+		say(sentences, about, doubt);
+	say(sentences, "longStep", doubtOfLength(engine, points, cloud, model, areNew));
 	return sentences;
 }
 
 template <int Dim>
-vector<string> Plausibility::warningsOfResult(const MpmImplicitEngine& engine, const vector<MaterialPoint>& points, const gimpm::PointCloud<Dim>& cloud)
+vector<string> Plausibility::warningsOfResult(const Analysis& engine, const vector<MaterialPoint>& points, const gimpm::PointCloud<Dim>& cloud)
 {
 	vector<string> sentences;
-	if (engine.isDynamic() || engine.gravity.isZero(0) || said[Doubt::settlement] || said[Doubt::units]) return sentences;
+	if (engine.isDynamic() || engine.gravity.isZero(0) || said["settlement"] || said["units"]) return sentences;
 	const Vector3r down = engine.gravity.normalized(), sides = box.second - box.first;
 	const Real     size    = sides.head<Dim>().maxCoeff(); // not the height: a slender beam may well bend by more than that
 	const Real     bottom  = (box.first + box.second + sides.cwiseProduct(down.cwiseSign())).dot(down) / 2;
@@ -277,7 +292,7 @@ vector<string> Plausibility::warningsOfResult(const MpmImplicitEngine& engine, c
 	for (const MaterialPoint& p : points)
 		settlement = std::max(settlement, (p.state->pos - p.state->refPos).dot(down));
 	if (settlement > size)
-		say(sentences, Doubt::settlement,
+		say(sentences, "settlement",
 		    sentence(
 		            "the largest settlement, ", settlement, " m, is more than the size of the body, ", size,
 		            " m; are the moduli in Pa, densities in kg/m3 and lengths in m?"));
@@ -287,9 +302,9 @@ vector<string> Plausibility::warningsOfResult(const MpmImplicitEngine& engine, c
 #define MPM_INSTANTIATE(Dim)                                                                                                                                   \
 	template void           Plausibility::know(const gimpm::PointCloud<Dim>&);                                                                             \
 	template bool           Plausibility::knows<Dim>(const vector<MaterialPoint>&) const;                                                                  \
-	template vector<string> Plausibility::warningsOfResult(const MpmImplicitEngine&, const vector<MaterialPoint>&, const gimpm::PointCloud<Dim>&);         \
+	template vector<string> Plausibility::warningsOfResult(const Analysis&, const vector<MaterialPoint>&, const gimpm::PointCloud<Dim>&);                  \
 	template vector<string> Plausibility::look(                                                                                                            \
-	        const MpmImplicitEngine&, const vector<MaterialPoint>&, const gimpm::PointCloud<Dim>&, const gimpm::Model<Dim>&, double&);
+	        const Analysis&, const vector<MaterialPoint>&, const gimpm::PointCloud<Dim>&, const gimpm::Model<Dim>&, double&);
 MPM_INSTANTIATE(2)
 MPM_INSTANTIATE(3)
 #undef MPM_INSTANTIATE

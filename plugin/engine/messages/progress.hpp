@@ -3,9 +3,9 @@
 #include "engine/messages/ProgressLine.hpp"
 
 namespace yade {
-class MpmImplicitEngine;
+class Analysis;
 
 // For the line on the terminal, after a load step. It may be a part of that of the iteration, which is then not done.
-Progress progressOf(const MpmImplicitEngine&, bool isIterationDone);
+Progress progressOf(const Analysis&, bool isIterationDone);
 
 } // namespace yade

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "engine/messages/requirements.hpp"
 #include "core/solvers/multigrid.hpp"
-#include "engine/conditions/contact/contacts.hpp"
-#include "engine/engines/MpmImplicitEngine.hpp"
+#include "engine/analysis/analysis.hpp"
 #include "engine/parallel/processes.hpp"
 #include <omp.h>
 #include <set>
@@ -11,19 +10,19 @@ namespace yade {
 
 namespace {
 	// Of several engines none may claim a point of another: it would be moved twice.
-	void requireOnlyClaim(const MpmImplicitEngine& engine)
+	void requireOnlyClaim(const Analysis& engine)
 	{
-		const Scene&                     scene = *engine.scene;
-		vector<const MpmImplicitEngine*> others;
-		int                              entries = 0;
+		const Scene&            scene = engine.sceneOfRun();
+		vector<const Analysis*> others;
+		int                     entries = 0;
 		for (const auto& listed : scene.engines) {
-			const auto* other = dynamic_cast<const MpmImplicitEngine*>(listed.get());
+			const auto* other = dynamic_cast<const Analysis*>(listed.get());
 			if (other == &engine) ++entries;
-			else if (other && !other->dead)
+			else if (other && !listed->dead)
 				others.push_back(other);
 		}
 		if (entries > 1)
-			throw std::invalid_argument(engine.getClassName() + ": the same engine is listed " + std::to_string(entries) + " times in O.engines.");
+			throw std::invalid_argument(engine.className() + ": the same engine is listed " + std::to_string(entries) + " times in O.engines.");
 		for (const auto* other : others)
 			for (const MaterialPoint& point : materialPoints(scene, engine.mask))
 				if (maskMatches(*(*scene.bodies)[point.id], other->mask))
@@ -33,51 +32,44 @@ namespace {
 					        + " and " + std::to_string(other->mask) + "; give each body a groupMask that goes with one of them.");
 	}
 
-	// A load and a wall would move it in different ways.
-	void requireOwnSurfaces(const MpmImplicitEngine& engine)
+	// What is listed twice would act twice, and two that move the same surface would do that in different ways.
+	void requireOnce(const vector<Listed>& all)
 	{
-		for (size_t b = 0; b < engine.boundaries.size(); ++b)
-			for (size_t i = 0; i < engine.loads.size(); ++i)
-				if (engine.boundaries[b]->surface && engine.boundaries[b]->surface == engine.loads[i]->surface)
+		for (size_t j = 0; j < all.size(); ++j)
+			for (size_t i = 0; i < j; ++i) {
+				const auto names = all[i].name() + " and " + all[j].name();
+				if (all[i].condition == all[j].condition)
 					throw std::invalid_argument(
-					        "boundaries[" + std::to_string(b) + "] and loads[" + std::to_string(i)
-					        + "] have the same MpmSurface: give each its own.");
+					        names + " are the same " + all[i].condition->getClassName() + ", which would act twice: list it once.");
+				const auto* surface = all[i].condition->ownSurface();
+				if (surface && surface == all[j].condition->ownSurface())
+					throw std::invalid_argument(names + " have the same MpmSurface, which would move twice: give each its own.");
+			}
+	}
+
+	std::set<Body::id_t> idsOfRigidBodies(const Analysis& engine, const Scene& scene)
+	{
+		std::set<Body::id_t> ids;
+		for (const Listed& listed : engine.conditions())
+			for (const auto& body : listed.condition->rigidBodies(scene))
+				ids.insert(body->id);
+		return ids;
 	}
 }
 
-static std::set<Body::id_t> idsOfContacts(const MpmImplicitEngine& engine, const Scene& scene)
-{
-	std::set<Body::id_t> ids;
-	for (const auto& contact : engine.contacts)
-		for (const auto& body : bodiesOf(*contact, scene))
-			ids.insert(body->id);
-	return ids;
-}
-
 // Nor a rigid body, which would be moved twice.
-static void requireOnlyContact(const MpmImplicitEngine& engine)
+static void requireOnlyContact(const Analysis& engine)
 {
-	for (const auto& listed : engine.scene->engines) {
-		const auto* other = dynamic_cast<const MpmImplicitEngine*>(listed.get());
-		if (!other || other == &engine || other->dead || other->contacts.empty()) continue;
-		const auto own = idsOfContacts(engine, *engine.scene);
-		for (const Body::id_t id : idsOfContacts(*other, *engine.scene))
+	for (const auto& listed : engine.sceneOfRun().engines) {
+		const auto* other = dynamic_cast<const Analysis*>(listed.get());
+		if (!other || other == &engine || listed->dead) continue;
+		const auto own = idsOfRigidBodies(engine, engine.sceneOfRun());
+		for (const Body::id_t id : idsOfRigidBodies(*other, engine.sceneOfRun()))
 			if (own.count(id))
 				throw std::invalid_argument(
 				        "Body #" + std::to_string(id)
 				        + " is claimed by contacts of two engines; give these MpmContacts masks that go with different bodies.");
 	}
-}
-
-// What is listed twice would act twice.
-template <class T> static void requireOnce(const char* attribute, const vector<shared_ptr<T>>& list)
-{
-	for (size_t j = 0; j < list.size(); ++j)
-		for (size_t i = 0; i < j; ++i)
-			if (list[i] == list[j])
-				throw std::invalid_argument(
-				        string(attribute) + "[" + std::to_string(i) + "] and " + attribute + "[" + std::to_string(j) + "] are the same "
-				        + T::staticName() + ", which would act twice: list it once.");
 }
 
 void requireCallable(const string& engine)
@@ -109,56 +101,48 @@ static void requireNoDecomposition(const Scene& scene)
 }
 
 // What has not been shown to be right there.
-static void requireEqualCells(const MpmImplicitEngine& engine)
+static void requireEqualCells(const Analysis& engine)
 {
 	if (!engine.grid || engine.grid->refinements.empty()) return;
 	string what;
-	if (engine.isDynamic()) what = engine.getClassName() + ", as inertia";
-	else if (!engine.water.empty())
-		what = "water";
+	if (engine.isDynamic()) what = engine.className() + ", as inertia";
 	else if (engine.newton->linearSolver == "amg")
 		what = "MpmNewton.linearSolver = 'amg'";
 	else if (processes())
 		what = "several processes";
-	for (size_t b = 0; b < engine.boundaries.size(); ++b)
-		if (engine.boundaries[b]->surface) what = "boundaries[" + std::to_string(b) + "].surface";
+	for (const Listed& listed : engine.conditions())
+		if (const string own = listed.condition->needsEqualCells(listed.name()); !own.empty()) what = own;
 	if (!what.empty())
 		throw std::invalid_argument("MpmGrid.refinements, cells of several sizes, cannot go with " + what + " yet; leave one of the two out.");
 }
 
-void requireSettings(const MpmImplicitEngine& engine)
+void requireSettings(const Analysis& engine)
 {
-	engine.requireAdmissible();
+	engine.requireAttributes();
 	requireEqualCells(engine);
 	if (engine.newton->linearSolver == "amg") requireMultigrid();
 	if (engine.maxSplits > 0 && engine.basis != "gimp")
 		throw std::invalid_argument(
 		        "maxSplits = " + std::to_string(engine.maxSplits) + " needs basis='gimp': with basis='" + engine.basis
 		        + "' points have no domains on the grid that could outgrow a cell. Set maxSplits = 0.");
-	requireOnce("boundaries", engine.boundaries);
-	requireOnce("loads", engine.loads);
-	requireOnce("water", engine.water);
-	requireOnce("contacts", engine.contacts);
-	requireOwnSurfaces(engine);
-	for (size_t b = 0; b < engine.boundaries.size() && !engine.isDynamic(); ++b)
-		if (engine.boundaries[b]->motion)
-			throw std::invalid_argument(
-			        "boundaries[" + std::to_string(b)
-			        + "].motion is a history in time, which MpmImplicitEngine knows nothing of: take MpmDynamicEngine, or give displacement.");
+	const auto conditions = engine.conditions();
+	requireOnce(conditions);
+	for (const Listed& listed : conditions)
+		listed.condition->requireFitting(engine, listed.name());
 }
 
-void requireRunnable(const MpmImplicitEngine& engine)
+void requireRunnable(const Analysis& engine)
 {
-	engine.requireAdmissible();
-	requireNoDecomposition(*engine.scene);
+	engine.requireAttributes();
+	requireNoDecomposition(engine.sceneOfRun());
 	requireOnlyClaim(engine);
-	if (!engine.contacts.empty()) requireOnlyContact(engine);
-	Scene&             scene = *engine.scene;
+	requireOnlyContact(engine);
+	Scene&             scene = engine.sceneOfRun();
 	std::ostringstream text;
 	if (!(scene.dt > 0) || !std::isfinite(scene.dt))
 		text << "O.dt = " << scene.dt
 		     << " is not admitted: expected a finite number > 0, the load time of one step (with the default loadCurve, 1/80 gives 80 steps).";
-	else if (engine.iterPeriod == 1 && scene.timeStepperActive())
+	else if (engine.period() == 1 && scene.timeStepperActive())
 		text << "an active TimeStepper among O.engines sets O.dt, which is the load increment of a step: remove it, set its active=False, or run this engine "
 		        "every N iterations with iterPeriod=N.";
 	else if (scene.isPeriodic)
@@ -168,16 +152,16 @@ void requireRunnable(const MpmImplicitEngine& engine)
 		     << ". After O.resetTime() set loadTime = O.time.";
 	else
 		return;
-	throw std::invalid_argument(engine.getClassName() + ": " + text.str());
+	throw std::invalid_argument(engine.className() + ": " + text.str());
 }
 
-void requireAny(const vector<MaterialPoint>& points, const MpmImplicitEngine& engine)
+void requireAny(const vector<MaterialPoint>& points, const Analysis& engine)
 {
 	if (!points.empty()) return;
-	if (materialPoints(*engine.scene).empty())
-		throw std::invalid_argument(engine.getClassName() + ": the scene has no material points; add them with O.bodies.append(mpm.fill(...)).");
+	if (materialPoints(engine.sceneOfRun()).empty())
+		throw std::invalid_argument(engine.className() + ": the scene has no material points; add them with O.bodies.append(mpm.fill(...)).");
 	throw std::invalid_argument(
-	        engine.getClassName() + ": the scene has no material points whose groupMask goes with mask = " + std::to_string(engine.mask) + ".");
+	        engine.className() + ": the scene has no material points whose groupMask goes with mask = " + std::to_string(engine.mask) + ".");
 }
 
 } // namespace yade

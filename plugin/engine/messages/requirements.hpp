@@ -4,18 +4,18 @@
 #include "engine/points/MaterialPoints.hpp"
 
 namespace yade {
-class MpmImplicitEngine;
+class Analysis;
 
 // A thread that may make one; std::runtime_error while the scene runs in another.
 void requireCallable(const string& engine);
 
 // Settings that are admitted, and go with each other: of runs and studies alike.
-void requireSettings(const MpmImplicitEngine&);
+void requireSettings(const Analysis&);
 
 // The clock and the other engines.
-void requireRunnable(const MpmImplicitEngine&);
+void requireRunnable(const Analysis&);
 
 // Material points that the engine is to move.
-void requireAny(const vector<MaterialPoint>&, const MpmImplicitEngine&);
+void requireAny(const vector<MaterialPoint>&, const Analysis&);
 
 } // namespace yade

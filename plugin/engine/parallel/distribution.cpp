@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "engine/parallel/distribution.hpp"
 #include "core/base/sentence.hpp"
-#include "engine/engines/MpmImplicitEngine.hpp"
+#include "engine/analysis/analysis.hpp"
+#include "engine/grid/newPoints.hpp"
 #include "engine/parallel/bodyParcels.hpp"
 #include "engine/parallel/pieces.hpp"
 #include "engine/parallel/processes.hpp"
 #include "engine/parallel/sameness.hpp"
-#include "engine/points/AtWork.hpp"
-#include "engine/points/newPoints.hpp"
 #include "yade_api/python_lock.hpp"
 #include "yade_api/value_lock.hpp"
 #include <malloc.h>
@@ -37,7 +36,7 @@ namespace {
 	}
 
 	// Of a position and half of a domain, which reaches no farther than half a cell.
-	template <int Dim> auto lowestCellIn(const MpmImplicitEngine& engine)
+	template <int Dim> auto lowestCellIn(const Analysis& engine)
 	{
 		return [lattice = engine.grid->lattice<Dim>(),
 		        basis   = engine.basis == "mpm" ? gimpm::Basis::linear : gimpm::Basis::gimp](const Vector3r& position, const Vector3r& halfSize) {
@@ -72,11 +71,10 @@ void Distribution::cut(const std::shared_ptr<const gimpm::Processes>& all, const
 	first = gimpm::cutByWork(gimpm::joined(*all, loads), all->size());
 }
 
-template <int Dim>
-std::shared_ptr<gimpm::Division> Distribution::divide(MpmImplicitEngine& engine, vector<MaterialPoint>& points, const vector<gimpm::Key>& added)
+template <int Dim> std::shared_ptr<gimpm::Division> Distribution::divide(Analysis& engine, vector<MaterialPoint>& points, const vector<gimpm::Key>& added)
 {
 	const auto         all        = processes();
-	Scene&             scene      = *engine.scene;
+	Scene&             scene      = engine.sceneOfRun();
 	const Pieces       before     = Pieces::of(scene);
 	const size_t       own        = firstOfAll(points, before.bodies);
 	const auto         lowestCell = lowestCellIn<Dim>(engine);
@@ -109,12 +107,12 @@ std::shared_ptr<gimpm::Division> Distribution::divide(MpmImplicitEngine& engine,
 	return division;
 }
 
-template <int Dim> vector<int> Distribution::ownOf(MpmImplicitEngine& engine, vector<MaterialPoint>& points, const NewPoints& added)
+template <int Dim> vector<int> Distribution::ownOf(Analysis& engine, vector<MaterialPoint>& points, const NewPoints& added)
 {
 	const auto all = processes();
 	admitTogether(
 	        [&] {
-		        updateMaterialPoints(points, *engine.scene, engine.mask);
+		        updateMaterialPoints(points, engine.sceneOfRun(), engine.mask);
 		        requireWhole(engine);
 		        requireDivisible(engine, points);
 	        },
@@ -132,42 +130,43 @@ template <int Dim> vector<int> Distribution::ownOf(MpmImplicitEngine& engine, ve
 }
 
 #define MPM_INSTANTIATE(Dim)                                                                                                                                   \
-	template std::shared_ptr<gimpm::Division> Distribution::divide<Dim>(MpmImplicitEngine&, vector<MaterialPoint>&, const vector<gimpm::Key>&);            \
-	template vector<int>                      Distribution::ownOf<Dim>(MpmImplicitEngine&, vector<MaterialPoint>&, const NewPoints&);
+	template std::shared_ptr<gimpm::Division> Distribution::divide<Dim>(Analysis&, vector<MaterialPoint>&, const vector<gimpm::Key>&);                     \
+	template vector<int>                      Distribution::ownOf<Dim>(Analysis&, vector<MaterialPoint>&, const NewPoints&);
 MPM_INSTANTIATE(2)
 MPM_INSTANTIATE(3)
 #undef MPM_INSTANTIATE
 
 namespace {
-	bool isAlone(const MpmImplicitEngine& engine)
+	bool isAlone(const Analysis& engine)
 	{
-		const auto& engines = engine.scene->engines;
+		const auto& engines = engine.sceneOfRun().engines;
 		return std::none_of(engines.begin(), engines.end(), [&](const auto& other) {
-			return other.get() != &engine && dynamic_cast<const MpmImplicitEngine*>(other.get());
+			const auto* analysis = dynamic_cast<const Analysis*>(other.get());
+			return analysis && analysis != &engine;
 		});
 	}
 }
 
-void Distribution::requireWhole(const MpmImplicitEngine& engine)
+void Distribution::requireWhole(const Analysis& engine)
 {
 	const auto all   = processes();
 	const int  count = all ? all->size() : 1, number = all ? all->rank() : 0;
-	const auto has = Pieces::of(*engine.scene);
+	const auto has = Pieces::of(engine.sceneOfRun());
 	if (has.count == 0 || (has.count == count && has.number == number && engine.distributed)) return;
 	throw std::invalid_argument(sentence(
-	        engine.getClassName(), ": the scene has the material points of process ", has.number, " of ", has.count, ", and this is process ", number,
-	        " of ", count, engine.distributed ? "" : ", without distributed = True",
+	        engine.className(), ": the scene has the material points of process ", has.number, " of ", has.count, ", and this is process ", number, " of ",
+	        count, engine.distributed ? "" : ", without distributed = True",
 	        ". mpm.load(file) puts together what mpm.save has written in several processes, for any number of them."));
 }
 
-void Distribution::requireDivisible(const MpmImplicitEngine& engine, const vector<MaterialPoint>& points)
+void Distribution::requireDivisible(const Analysis& engine, const vector<MaterialPoint>& points)
 {
-	const string start = engine.getClassName() + ".distributed = True";
+	const string start = engine.className() + ".distributed = True";
 	if (!isAlone(engine))
 		throw std::invalid_argument(
 		        start + " does not go with a second engine with material points in O.engines; leave it out, and each process holds all points.");
 	for (const MaterialPoint& point : points)
-		if (point.materialIndex(*engine.scene) < 0)
+		if (point.materialIndex(engine.sceneOfRun()) < 0)
 			throw std::invalid_argument(
 			        sentence("Body #", point.id, ": ", start, " needs materials that are in O.materials, which its own is not."));
 }
@@ -177,19 +176,9 @@ namespace {
 	bool isDividedHere(const Scene& scene) { return Pieces::of(scene).count > 1 && processes(); }
 }
 
-bool isDivided(const MpmImplicitEngine& engine) { return isDividedHere(*engine.ownScene()); }
+bool isDivided(const Analysis& engine) { return isDividedHere(*engine.ownScene()); }
 
 bool isSceneDivided() { return isDividedHere(*Singleton<Omega>::instance().getScene()); }
-
-Body::id_t addPoints(
-        const shared_ptr<MpmImplicitEngine>& engine, const py::object& positions, const py::object& half, const py::list& materials, const py::object& index,
-        const py::dict& parameters)
-{
-	if (AtWork::isAny()) throw std::runtime_error("add: a load step is at work in the background; call O.pause() or O.wait() first.");
-	NewPoints points(*engine->grid, positions, half, materials, index, parameters);
-	engine->scene = Singleton<Omega>::instance().getScene().get(); // which it may not have seen yet
-	return engine->add(points);
-}
 
 void takePieces()
 {

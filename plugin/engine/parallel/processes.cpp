@@ -2,7 +2,7 @@
 #include "engine/parallel/processes.hpp"
 #include "core/solvers/opened_processes.hpp"
 #include "core/stepping/share.hpp"
-#include "engine/engines/MpmImplicitEngine.hpp"
+#include "engine/analysis/analysis.hpp"
 #include "yade_api/python_lock.hpp"
 #include <cstdlib>
 
@@ -85,18 +85,25 @@ string firstSaid(const string& text, const gimpm::Processes& all)
 	return first < all.size() ? all.told(text, first) : "";
 }
 
+int largestOf(int number, const gimpm::Processes& all)
+{
+	std::int64_t least = -number;
+	all.smallest(&least, 1);
+	return int(-least);
+}
+
 void failTogether(const std::exception_ptr& thrown, const gimpm::Processes& all)
 {
 	if (const string reason = firstSaid(messageOf(thrown), all); !reason.empty()) throw std::runtime_error(reason);
 }
 
-void Agreement::meet(const MpmImplicitEngine& engine)
+void Agreement::meet(const Analysis& engine)
 {
 	reach(engine, gimpm::PointCloud<2>(), true);
 	isAsked = false;
 }
 
-template <int Dim> void Agreement::reach(const MpmImplicitEngine& engine, const gimpm::PointCloud<Dim>& cloud, bool areDivided)
+template <int Dim> void Agreement::reach(const Analysis& engine, const gimpm::PointCloud<Dim>& cloud, bool areDivided)
 {
 	const auto all = processes();
 	isAsked        = true;
@@ -104,17 +111,17 @@ template <int Dim> void Agreement::reach(const MpmImplicitEngine& engine, const 
 	const int first = firstToFail(*all, false);
 	if (first < all->size())
 		throw std::runtime_error("Process " + std::to_string(first) + " of " + std::to_string(all->size()) + " has failed: " + all->told("", first));
-	const bool isSameIteration = all->haveSame(std::uint64_t(engine.scene->iter)); // after an error in one of them it may not be
+	const bool isSameIteration = all->haveSame(std::uint64_t(engine.sceneOfRun().iter)); // after an error in one of them it may not be
 	if (!isSameIteration || !(areDivided || gimpm::haveSamePoints(*all, cloud)))
 		throw std::runtime_error(
-		        engine.getClassName() + ": the processes "
+		        engine.className() + ": the processes "
 		        + (isSameIteration ? "hold different material points" : "are not in the same iteration; this one is") + " in iteration "
-		        + std::to_string(engine.scene->iter)
+		        + std::to_string(engine.sceneOfRun().iter)
 		        + ". The script must do the same in all of them, in the same order: random numbers need a seed, and files the same content.");
 }
 
-template void Agreement::reach(const MpmImplicitEngine&, const gimpm::PointCloud<2>&, bool);
-template void Agreement::reach(const MpmImplicitEngine&, const gimpm::PointCloud<3>&, bool);
+template void Agreement::reach(const Analysis&, const gimpm::PointCloud<2>&, bool);
+template void Agreement::reach(const Analysis&, const gimpm::PointCloud<3>&, bool);
 
 void Agreement::breakOff(const std::exception_ptr& thrown)
 {

@@ -9,7 +9,7 @@
 #include <stdexcept>
 
 namespace yade {
-class MpmImplicitEngine;
+class Analysis;
 
 // Null: this one alone. All of them call this; it opens the library with MPI. std::invalid_argument if that is not there.
 std::shared_ptr<const gimpm::Processes> processes();
@@ -22,6 +22,9 @@ bool isRequested(bool here, const gimpm::Processes*);
 
 // Of texts, empty where there is none: that of the first process which has one, in all of them.
 string firstSaid(const string& text, const gimpm::Processes&);
+
+// The largest of their numbers.
+int largestOf(int, const gimpm::Processes&);
 
 // Where one of them has failed all throw what the first of those has thrown.
 void failTogether(const std::exception_ptr&, const gimpm::Processes&);
@@ -42,10 +45,10 @@ template <class F> void admitTogether(F&& f, const gimpm::Processes& all)
 class Agreement {
 public:
 	// All are about to divide their points; std::runtime_error where another one has failed, with its reason.
-	void meet(const MpmImplicitEngine&);
+	void meet(const Analysis&);
 
 	// All are about to make a step with these points, which are the same in all unless they are divided; otherwise the same.
-	template <int Dim> void reach(const MpmImplicitEngine&, const gimpm::PointCloud<Dim>&, bool areDivided);
+	template <int Dim> void reach(const Analysis&, const gimpm::PointCloud<Dim>&, bool areDivided);
 
 	// This one has thrown, before or after reach().
 	void breakOff(const std::exception_ptr& thrown);

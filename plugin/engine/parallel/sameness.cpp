@@ -2,10 +2,9 @@
 #include "engine/parallel/sameness.hpp"
 #include "core/base/checksum.hpp"
 #include "core/base/sentence.hpp"
-#include "engine/engines/MpmDynamicEngine.hpp"
-#include "engine/points/newPoints.hpp"
-#include "yade_api/serialization.hpp"
-#include <sstream>
+#include "engine/analysis/analysis.hpp"
+#include "engine/grid/newPoints.hpp"
+#include "engine/parallel/archived.hpp"
 
 namespace yade {
 
@@ -28,38 +27,41 @@ namespace {
 		return sum.take();
 	}
 
-	// Of everything that goes into it, as it is saved.
-	template <class... Parts> std::uint64_t checksumOf(const Parts&... parts)
+	// With what acts in it, pointers of each list after the other.
+	std::uint64_t settingsOf(const Analysis& engine)
 	{
-		std::ostringstream stream(std::ios::binary);
-		{
-			boost::archive::binary_oarchive archive(stream);
-			(archive << ... << parts);
-		}
-		return std::hash<string>()(stream.str());
+		const Scene&                     scene = engine.sceneOfRun();
+		vector<shared_ptr<MpmCondition>> conditions;
+		string                           names;
+		for (const Listed& listed : engine.conditions())
+			conditions.push_back(listed.condition), names += listed.name();
+		return checksumOf(
+		        engine.grid, engine.basis, engine.fBar, names, conditions, engine.ghost, engine.newton, engine.mask, engine.maxSplits, engine.gravity,
+		        engine.loadCurve, engine.gravityCurve, engine.loadTime, engine.stepPart, engine.lastDisplacements, engine.lastLoadIncrement, scene.dt,
+		        scene.time);
 	}
 
-	std::uint64_t settingsOf(const MpmImplicitEngine& engine)
+	vector<shared_ptr<Body>> rigidBodiesOf(const Analysis& engine)
 	{
-		const Scene& scene = *engine.scene;
-		return checksumOf(
-		        engine.grid, engine.basis, engine.fBar, engine.boundaries, engine.loads, engine.water, engine.contacts, engine.ghost, engine.newton,
-		        engine.mask, engine.maxSplits, engine.gravity, engine.loadCurve, engine.gravityCurve, engine.loadTime, engine.stepPart,
-		        engine.lastDisplacements, engine.lastLoadIncrement, scene.dt, scene.time);
+		vector<shared_ptr<Body>> all;
+		for (const Listed& listed : engine.conditions()) {
+			const auto own = listed.condition->rigidBodies(engine.sceneOfRun());
+			all.insert(all.end(), own.begin(), own.end());
+		}
+		return all;
 	}
 
 	// Of the rigid bodies that may touch the soil: with which friction. Their shapes have a colour by chance, and are not compared.
-	std::uint64_t frictionOf(const MpmImplicitEngine& engine)
+	std::uint64_t frictionOf(const Analysis& engine)
 	{
 		vector<shared_ptr<Material>> materials;
-		for (const auto& contact : engine.contacts)
-			for (const auto& body : bodiesOf(*contact, *engine.scene))
-				materials.push_back(body->material);
+		for (const auto& body : rigidBodiesOf(engine))
+			materials.push_back(body->material);
 		return checksumOf(materials);
 	}
 
 	// Where they are, and how they move.
-	std::uint64_t motionOf(const MpmImplicitEngine& engine)
+	std::uint64_t motionOf(const Analysis& engine)
 	{
 		vector<Real> numbers;
 		const auto   take = [&](const State& s) {
@@ -68,36 +70,28 @@ namespace {
                         const Quaternionr ori = s.ori;
                         numbers.insert(numbers.end(), ori.coeffs().data(), ori.coeffs().data() + 4);
 		};
-		const BodyContainer& all = *engine.scene->bodies;
-		for (const auto& contact : engine.contacts)
-			for (const auto& body : bodiesOf(*contact, *engine.scene)) {
-				take(*body->state);
-				if (body->isClumpMember() && all.exists(body->clumpId)) take(*all[body->clumpId]->state);
-			}
+		const BodyContainer& all = *engine.sceneOfRun().bodies;
+		for (const auto& body : rigidBodiesOf(engine)) {
+			take(*body->state);
+			if (body->isClumpMember() && all.exists(body->clumpId)) take(*all[body->clumpId]->state);
+		}
 		gimpm::Checksum sum;
 		sum.mix(numbers);
 		return sum.take();
 	}
 
-	// Of inertia, if it has that.
-	std::uint64_t settingsInTimeOf(const MpmImplicitEngine& engine)
-	{
-		const auto* e = dynamic_cast<const MpmDynamicEngine*>(&engine);
-		return e ? checksumOf(e->scheme, e->beta, e->gamma, e->rhoInfinity, e->timeTolerance, e->absorbing, e->rayleigh) : 0;
-	}
-
 	const char* const remedy = ". The script must do the same in all of them, in the same order: random numbers need a seed, and files the same content.";
 
-	string startOf(const MpmImplicitEngine& engine, const char* what)
+	string startOf(const Analysis& engine, const char* what)
 	{
-		return gimpm::sentence(engine.getClassName(), ": the processes hold different ", what, " in iteration ", engine.scene->iter);
+		return gimpm::sentence(engine.className(), ": the processes hold different ", what, " in iteration ", engine.sceneOfRun().iter);
 	}
 }
 
-void requireSame(const gimpm::Processes& all, const MpmImplicitEngine& engine, const vector<MaterialPoint>& points, size_t begin)
+void requireSame(const gimpm::Processes& all, const Analysis& engine, const vector<MaterialPoint>& points, size_t begin)
 {
-	const bool  areSameBodies = all.haveSame(engine.scene->bodies->size()), areSamePoints = all.haveSame(checksum(points, begin));
-	const bool  areSameSettings = all.haveSame(settingsOf(engine) ^ settingsInTimeOf(engine)), moveAlike = all.haveSame(motionOf(engine));
+	const bool  areSameBodies = all.haveSame(engine.sceneOfRun().bodies->size()), areSamePoints = all.haveSame(checksum(points, begin));
+	const bool  areSameSettings = all.haveSame(settingsOf(engine) ^ engine.checksumInTime()), moveAlike = all.haveSame(motionOf(engine));
 	const bool  rubAlike = all.haveSame(frictionOf(engine));
 	const char* what     = !areSameBodies ? "numbers of bodies"
 	            : !areSamePoints          ? "material points"
@@ -113,10 +107,17 @@ void requireSame(const gimpm::Processes& all, const NewPoints& points)
 	if (!all.haveSame(points.checksum())) throw std::runtime_error(gimpm::sentence("the processes add different material points", remedy));
 }
 
-void requireSameWater(const gimpm::Processes& all, const MpmImplicitEngine& engine)
+void requireSameAnswers(const gimpm::Processes& all, const Analysis& engine)
 {
-	if (engine.water.empty() || all.haveSame(checksumOf(engine.water))) return;
-	throw std::runtime_error(startOf(engine, "pressures of water") + ". MpmWater.pressure must answer the same in all of them.");
+	vector<shared_ptr<MpmCondition>> asked;
+	string                           what, classes;
+	for (const Listed& listed : engine.conditions()) {
+		if (!listed.condition->hasQuestions()) continue;
+		if (asked.empty()) what = listed.condition->answers(), classes = listed.condition->getClassName();
+		asked.push_back(listed.condition);
+	}
+	if (asked.empty() || all.haveSame(checksumOf(asked))) return;
+	throw std::runtime_error(startOf(engine, what.c_str()) + ". Functions of " + classes + " must answer the same in all of them.");
 }
 
 vector<const MpmMaterial*> materialsOfAll(const Scene& scene, const vector<MaterialPoint>& points, const gimpm::Processes& all)

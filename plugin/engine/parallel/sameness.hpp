@@ -5,16 +5,16 @@
 #include "engine/points/MaterialPoints.hpp"
 
 namespace yade {
-class MpmImplicitEngine;
+class Analysis;
 class NewPoints;
 
 // The number of bodies, the points from the one at `begin` on, which each of them has, and the settings of the engine.
-void requireSame(const gimpm::Processes&, const MpmImplicitEngine&, const vector<MaterialPoint>&, size_t begin);
+void requireSame(const gimpm::Processes&, const Analysis&, const vector<MaterialPoint>&, size_t begin);
 
 void requireSame(const gimpm::Processes&, const NewPoints&);
 
-// What functions of pressure have answered, once each of them has been asked.
-void requireSameWater(const gimpm::Processes&, const MpmImplicitEngine&);
+// What functions of conditions have answered, once each of them has been asked.
+void requireSameAnswers(const gimpm::Processes&, const Analysis&);
 
 // The materials that any of them has points of, in the order of O.materials; with the same values.
 vector<const MpmMaterial*> materialsOfAll(const Scene&, const vector<MaterialPoint>&, const gimpm::Processes&);

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "engine/conditions/boundary/MpmBoundary.hpp"
-#include "engine/conditions/box.hpp"
+#include "core/base/sentence.hpp"
+#include "engine/analysis/analysis.hpp"
+#include "engine/conditions/boundary/boundaries.hpp"
+#include "engine/conditions/surface/drawing.hpp"
+#include "engine/grid/box.hpp"
 #include "yade_api/registration.hpp"
 
 namespace yade {
@@ -13,13 +17,13 @@ bool MpmBoundary::namesDirections(const string& letters)
 	return !letters.empty();
 }
 
-std::pair<Vector3r, Vector3r> MpmBoundary::extent() const
+std::optional<std::pair<Vector3r, Vector3r>> MpmBoundary::extent() const
 {
-	if (!surface) return { min, max };
+	if (!surface) return { { min, max } };
 	Vector3r lower = surface->vertices.front(), upper = lower;
 	for (const Vector3r& x : surface->vertices)
 		lower = lower.cwiseMin(x), upper = upper.cwiseMax(x);
-	return { lower, upper };
+	return { { lower, upper } };
 }
 
 // Along one axis; empty if nothing does.
@@ -50,7 +54,7 @@ string MpmBoundary::whatContradicts(int axis) const
 
 void MpmBoundary::requireAdmissible() const
 {
-	Exposed<MpmBoundary, Serializable>::requireAdmissible();
+	Exposed<MpmBoundary, MpmCondition>::requireAdmissible();
 	if (surface) surface->requireAdmissible();
 	else if (fixesNormal())
 		throw std::invalid_argument("MpmBoundary.fix = 'n' is the normal of a surface, which is not given: name directions of the box, as in fix='x'.");
@@ -62,6 +66,57 @@ void MpmBoundary::requireAdmissible() const
 	requireCorners("MpmBoundary", min, max);
 	for (int axis = 0; axis < 3; ++axis)
 		if (const string text = whatContradicts(axis); !text.empty()) throw std::invalid_argument(text);
+}
+
+std::shared_ptr<Condition<2>> MpmBoundary::make(InPlane, const Group& group, const Analysis& analysis) const
+{
+	return std::make_shared<Boundaries<2>>(group, analysis);
+}
+
+std::shared_ptr<Condition<3>> MpmBoundary::make(InSpace, const Group& group, const Analysis& analysis) const
+{
+	return std::make_shared<Boundaries<3>>(group, analysis);
+}
+
+Real MpmBoundary::end(const Analysis& analysis) const { return analysis.curveOfLoad(curve).end(); }
+
+void MpmBoundary::requireFitting(const Analysis& analysis, const string& name) const
+{
+	if (motion && !analysis.isDynamic())
+		throw std::invalid_argument(
+		        name + ".motion is a history in time, which MpmImplicitEngine knows nothing of: take MpmDynamicEngine, or give displacement.");
+}
+
+bool MpmBoundary::mayHold(int axis, Real place, Real near) const
+{
+	if (surface) return true;
+	return fixes(axis) && min[axis] <= place + near && max[axis] >= place - near && (std::isfinite(min[axis]) || std::isfinite(max[axis]));
+}
+
+string MpmBoundary::idleness(const string& name, bool reaches) const
+{
+	if (reaches) return "";
+	const auto [lower, upper] = *extent();
+	return gimpm::sentence(
+	        " ", name, ", from (", lower.transpose(), ") to (", upper.transpose(), "), holds ", surface ? "no material." : "no node of any material.");
+}
+
+void MpmBoundary::tell(Rows& rows, const Analysis& analysis, const Listed& listed) const
+{
+	const bool isKnown = analysis.reactions.size() == listed.count;
+	for (int axis = 0; axis < analysis.grid->dim; ++axis)
+		if (fixes(axis) || fixesNormal())
+			rows.set(
+			        "reaction" + std::to_string(listed.number) + "_" + "xyz"[axis],
+			        isKnown ? analysis.reactions[listed.number][axis] : std::numeric_limits<Real>::quiet_NaN());
+}
+
+void MpmBoundary::draw(Picture& picture, const Analysis&, const Listed& listed) const
+{
+	if (!surface) return;
+	drawSurface(picture, *surface, "boundary", listed.number, [&](size_t i) { // empty before the first step
+		return i < tractions.size() ? tractions[i] : Vector3r(Vector3r::Zero());
+	});
 }
 
 } // namespace yade

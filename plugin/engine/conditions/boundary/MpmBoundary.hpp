@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-#include "engine/conditions/box.hpp"
+#include "engine/analysis/MpmCondition.hpp"
 #include "engine/conditions/load_curves.hpp"
 #include "engine/conditions/shaking/MpmBaseMotion.hpp"
 #include "engine/conditions/surface/MpmSurface.hpp"
+#include "engine/grid/box.hpp"
 
 namespace yade {
 
-class MpmBoundary : public Exposed<MpmBoundary, Serializable> {
+class MpmBoundary : public Exposed<MpmBoundary, MpmCondition> {
 public:
 	Vector3r                  min = Vector3r::Constant(-std::numeric_limits<Real>::infinity());
 	Vector3r                  max = Vector3r::Constant(std::numeric_limits<Real>::infinity());
@@ -58,10 +59,10 @@ public:
 
 	bool fixes(int axis) const { return fix.find("xyz"[axis]) != string::npos; }
 	bool fixesNormal() const { return fix == "n"; }
-	bool moves() const { return !displacement.isZero(0) || !velocity.isZero(0) || motion; }
+	bool moves() const override { return !displacement.isZero(0) || !velocity.isZero(0) || motion; }
 
 	// Lower and upper corner of the box, or of one around the surface.
-	std::pair<Vector3r, Vector3r> extent() const;
+	std::optional<std::pair<Vector3r, Vector3r>> extent() const override;
 
 	// Corners that are swapped in the constructor.
 	void postLoad() { requireCorners("MpmBoundary", min, max); }
@@ -70,6 +71,21 @@ public:
 	void requireAdmissible() const override;
 
 	static bool namesDirections(const string&);
+
+	const char*                   list() const override { return "boundaries"; }
+	std::shared_ptr<Condition<2>> make(InPlane, const Group&, const Analysis&) const override;
+	std::shared_ptr<Condition<3>> make(InSpace, const Group&, const Analysis&) const override;
+
+	Real                end(const Analysis&) const override;
+	bool                goesOn() const override { return !velocity.isZero(0); }
+	void                requireFitting(const Analysis&, const string& name) const override;
+	string              needsEqualCells(const string& name) const override { return surface ? name + ".surface" : ""; }
+	const Serializable* ownSurface() const override { return surface.get(); }
+	bool                mayHold(int axis, Real place, Real near) const override;
+	string              idleness(const string& name, bool reaches) const override;
+	void                tell(Rows&, const Analysis&, const Listed&) const override;
+	const char*         picture() const override { return "walls"; }
+	void                draw(Picture&, const Analysis&, const Listed&) const override;
 
 private:
 	string whatContradicts(int axis) const;

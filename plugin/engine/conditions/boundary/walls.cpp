@@ -18,7 +18,7 @@ namespace {
 	// Nodes a period apart are the same: what is longer would act twice.
 	template <int Dim> void requireWithinPeriod(const MpmBoundary& boundary, const string& name, const gimpm::Grid<Dim>& grid)
 	{
-		const auto [lower, upper] = boundary.extent();
+		const auto [lower, upper] = *boundary.extent();
 		for (int axis = 0; axis < Dim; ++axis) {
 			const Real period = grid.period[axis] * grid.cellSize, length = upper[axis] - lower[axis];
 			if (period == 0 || length <= period * (1 + 1e-9)) continue;
@@ -28,68 +28,33 @@ namespace {
 			throw std::invalid_argument(text.str());
 		}
 	}
-
-	template <int Dim> std::shared_ptr<gimpm::Wall<Dim>> wallOf(const MpmBoundary& boundary, const string& name, const gimpm::Grid<Dim>& grid)
-	{
-		requireFitting<Dim>(boundary, name);
-		requireWithinPeriod<Dim>(boundary, name, grid);
-		const auto wall = std::make_shared<gimpm::Wall<Dim>>(coreSurface<Dim>(*boundary.surface), grid.cellSize);
-		wall->penalty   = boundary.penalty;
-		for (int axis = 0; axis < Dim; ++axis)
-			wall->fixed[axis] = boundary.fixes(axis);
-		if (boundary.surface->initialVertices.empty() || boundary.tractions.empty()) return wall; // it has not borne anything yet
-		if (boundary.tractions.size() != wall->tractions.size())
-			throw std::invalid_argument(
-			        name + ".surface has " + std::to_string(wall->tractions.size()) + " pieces of a size for cells of "
-			        + std::to_string(grid.cellSize) + " m, but what it bears is known of " + std::to_string(boundary.tractions.size())
-			        + ": after a change of the grid or of the pieces give it a new MpmSurface, which bears nothing at first.");
-		wall->tractions = inDimension<Dim>(boundary.tractions);
-		return wall;
-	}
 }
 
-template <int Dim> void addWalls(const vector<shared_ptr<MpmBoundary>>& boundaries, gimpm::Model<Dim>& model)
+template <int Dim> std::shared_ptr<gimpm::Wall<Dim>> wallOf(const MpmBoundary& boundary, const string& name, const gimpm::Model<Dim>& model)
 {
-	for (size_t b = 0; b < boundaries.size(); ++b) {
-		if (!boundaries[b]->surface) continue;
-		const string name = "boundaries[" + std::to_string(b) + "]";
-		for (const auto& [other, wall] : model.walls)
-			if (boundaries[other]->surface == boundaries[b]->surface)
-				throw std::invalid_argument(
-				        "boundaries[" + std::to_string(other) + "] and " + name + " have the same MpmSurface: give each its own.");
-		if (model.ghost.factor == 0)
-			throw std::invalid_argument(
-			        name
-			        + ".surface may hold nodes that hardly any material is near: it needs ghost stabilisation, such as ghost=MpmGhost(), instead of "
-			          "ghost.factor=0.");
-		model.walls[int(b)] = wallOf<Dim>(*boundaries[b], name, model.grid);
-	}
+	const auto& grid = model.grid;
+	if (model.ghost.factor == 0)
+		throw std::invalid_argument(
+		        name
+		        + ".surface may hold nodes that hardly any material is near: it needs ghost stabilisation, such as ghost=MpmGhost(), instead of "
+		          "ghost.factor=0.");
+	requireFitting<Dim>(boundary, name);
+	requireWithinPeriod<Dim>(boundary, name, grid);
+	const auto wall = std::make_shared<gimpm::Wall<Dim>>(coreSurface<Dim>(*boundary.surface), grid.cellSize);
+	wall->penalty   = boundary.penalty;
+	for (int axis = 0; axis < Dim; ++axis)
+		wall->fixed[axis] = boundary.fixes(axis);
+	if (boundary.surface->initialVertices.empty() || boundary.tractions.empty()) return wall; // it has not borne anything yet
+	if (boundary.tractions.size() != wall->tractions.size())
+		throw std::invalid_argument(
+		        name + ".surface has " + std::to_string(wall->tractions.size()) + " pieces of a size for cells of " + std::to_string(grid.cellSize)
+		        + " m, but what it bears is known of " + std::to_string(boundary.tractions.size())
+		        + ": after a change of the grid or of the pieces give it a new MpmSurface, which bears nothing at first.");
+	wall->tractions = inDimension<Dim>(boundary.tractions);
+	return wall;
 }
 
-template <int Dim> bool moveWalls(const vector<shared_ptr<MpmBoundary>>& boundaries, gimpm::Model<Dim>& model, Real duration)
-{
-	bool moves = false;
-	for (auto& [b, wall] : model.walls) {
-		wall->motion = duration * boundaries[b]->velocity.template head<Dim>();
-		moves        = moves || !wall->motion.isZero(0);
-	}
-	return moves;
-}
-
-template <int Dim> void scatterWalls(const gimpm::Model<Dim>& model, const vector<shared_ptr<MpmBoundary>>& boundaries)
-{
-	for (const auto& [b, wall] : model.walls) {
-		scatter<Dim>(wall->surface, *boundaries[b]->surface);
-		boundaries[b]->tractions = inSpace<Dim>(wall->tractions, 0);
-	}
-}
-
-#define MPM_INSTANTIATE(Dim)                                                                                                                                   \
-	template void addWalls(const vector<shared_ptr<MpmBoundary>>&, gimpm::Model<Dim>&);                                                                    \
-	template bool moveWalls(const vector<shared_ptr<MpmBoundary>>&, gimpm::Model<Dim>&, Real);                                                             \
-	template void scatterWalls(const gimpm::Model<Dim>&, const vector<shared_ptr<MpmBoundary>>&);
-MPM_INSTANTIATE(2)
-MPM_INSTANTIATE(3)
-#undef MPM_INSTANTIATE
+template std::shared_ptr<gimpm::Wall<2>> wallOf(const MpmBoundary&, const string&, const gimpm::Model<2>&);
+template std::shared_ptr<gimpm::Wall<3>> wallOf(const MpmBoundary&, const string&, const gimpm::Model<3>&);
 
 } // namespace yade

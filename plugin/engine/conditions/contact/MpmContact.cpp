@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "engine/conditions/contact/MpmContact.hpp"
 #include "core/base/sentence.hpp"
+#include "engine/analysis/analysis.hpp"
 #include "engine/conditions/contact/contact_records.hpp"
+#include "engine/conditions/contact/contacts.hpp"
+#include "engine/points/MpmPoint.hpp"
 #include "yade_api/registration.hpp"
 #include "yade_api/scene.hpp"
 #include <Eigen/Eigenvalues>
@@ -23,7 +26,7 @@ namespace {
 
 void MpmContact::requireAdmissible() const
 {
-	Exposed<MpmContact, Serializable>::requireAdmissible();
+	Exposed<MpmContact, MpmCondition>::requireAdmissible();
 	const size_t n = bodies.size();
 	for (const size_t size : { forces.size(), torques.size(), impulses.size(), touching.size(), slipping.size(), areFree.size(), impulsesSince.size(),
 	                           poses.size() / 7, stiffnesses.size() / 36 })
@@ -108,7 +111,7 @@ string MpmContact::doubtOfExchange() const
 	return "";
 }
 
-void MpmContact::handOver(Scene& scene, bool isBetween)
+void MpmContact::actOnBodies(Scene& scene, bool isBetween)
 {
 	for (size_t i = 0; isBetween && i < bodies.size() && scene.dt > stableFor; ++i)
 		if (areFree[i] && scene.bodies->exists(bodies[i]))
@@ -122,6 +125,61 @@ void MpmContact::handOver(Scene& scene, bool isBetween)
 		scene.forces.addTorque(bodies[i], torques[i] + since.tail<3>());
 		impulsesSince[i] += since.head<3>() * scene.dt;
 	}
+}
+
+std::shared_ptr<Condition<2>> MpmContact::make(InPlane, const Group& group, const Analysis&) const { return std::make_shared<Contacts<2>>(group); }
+std::shared_ptr<Condition<3>> MpmContact::make(InSpace, const Group& group, const Analysis&) const { return std::make_shared<Contacts<3>>(group); }
+
+vector<shared_ptr<Body>> MpmContact::rigidBodies(const Scene& scene) const
+{
+	vector<shared_ptr<Body>> found;
+	const BodyContainer&     all = *scene.bodies;
+	for (unsigned id = 0; id < all.size(); ++id) {
+		const auto& body = all[id];
+		if (!body || !body->shape || !maskMatches(*body, mask) || body->isClump() || dynamic_cast<const MpmPoint*>(body->shape.get())) continue;
+		found.push_back(body);
+	}
+	return found;
+}
+
+string MpmContact::idleness(const string& name, bool) const
+{
+	if (std::any_of(touching.begin(), touching.end(), [](int corners) { return corners > 0; })) return "";
+	return " " + name + " touches nothing yet: a body holds what it touches, and by friction (MpmContact.friction) also along itself.";
+}
+
+// Sums, and of bodies that do not move freely also one by one.
+void MpmContact::tell(Rows& rows, const Analysis& analysis, const Listed& listed) const
+{
+	const int    dim     = analysis.grid->dim;
+	const string name    = "contact" + std::to_string(listed.number);
+	Vector3r     total   = Vector3r::Constant(bodies.empty() ? std::numeric_limits<Real>::quiet_NaN() : 0);
+	int          corners = 0;
+	for (size_t b = 0; b < bodies.size(); ++b) {
+		total += forces[b];
+		corners += touching[b];
+		const string body = "body" + std::to_string(bodies[b]);
+		for (int axis = 0; axis < 3 && !areFree[b]; ++axis) {
+			if (axis < dim) rows.set(body + "_" + "xyz"[axis], forces[b][axis]);
+			if (axis == 2 || dim == 3) rows.set(body + "_torque_" + "xyz"[axis], torques[b][axis]);
+		}
+	}
+	rows.setVector(name, total, dim);
+	rows.set(name + "_touching", corners);
+}
+
+// A vertex for each corner that touches.
+void MpmContact::draw(Picture& picture, const Analysis&, const Listed&) const
+{
+	forRecords(records, [&](const ContactRecordOfPoint& r) {
+		if (!r.touches) return;
+		picture.add({ int(picture.corners.size()) });
+		picture.corners.push_back(r.place);
+		picture.set("force", r.force()); // on the soil [N]
+		picture.set("gap", r.gap);       // [m], < 0 by the penalty
+		picture.set("slips", int(r.slips));
+		picture.set("body", r.body);
+	});
 }
 
 } // namespace yade

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 #include "core/terms/contact.hpp"
+#include "engine/analysis/MpmCondition.hpp"
 #include "engine/materials/angles.hpp"
 #include "yade_api/exposed.hpp"
 #include <map>
@@ -9,7 +10,7 @@ namespace yade {
 class Body;
 class Scene;
 
-class MpmContact : public Exposed<MpmContact, Serializable> {
+class MpmContact : public Exposed<MpmContact, MpmCondition> {
 public:
 	int              mask      = -1;
 	Real             friction  = std::numeric_limits<Real>::quiet_NaN(); // that of the bodies' materials
@@ -88,8 +89,22 @@ public:
 	void   note(size_t i, Real period);
 	string doubtOfExchange() const;
 
+	const char*                   list() const override { return "contacts"; }
+	std::shared_ptr<Condition<2>> make(InPlane, const Group&, const Analysis&) const override;
+	std::shared_ptr<Condition<3>> make(InSpace, const Group&, const Analysis&) const override;
+
+	// Those that its mask means: neither material points nor clumps, but members of these.
+	vector<shared_ptr<Body>> rigidBodies(const Scene&) const override;
+
 	// For the bodies that are free: the force of the last load step, less stiffness times the movement since, for this iteration of YADE, with a load step or between two.
-	void handOver(Scene&, bool isBetween);
+	void actOnBodies(Scene&, bool isBetween) override;
+
+	bool        goesOn() const override { return true; }
+	bool        mayHold(int, Real, Real) const override { return true; }
+	string      idleness(const string& name, bool reaches) const override;
+	void        tell(Rows&, const Analysis&, const Listed&) const override;
+	const char* picture() const override { return "contacts"; }
+	void        draw(Picture&, const Analysis&, const Listed&) const override;
 };
 
 } // namespace yade

@@ -7,13 +7,6 @@
 
 namespace yade {
 
-// A point whose domain is halved along an axis; its number stays with the lower half.
-struct HalvedDomain {
-	int                 lower, upper; // ids
-	int                 axis, dim;
-	std::array<Real, 3> middle, halfSize; // of the whole [m]
-};
-
 // A place's distance from a body, < 0 inside [m], as seen from the middle of the whole; beside the edge of a sheet infinity.
 struct KnownBody {
 	int                                  id;

@@ -2,11 +2,10 @@
 #include "engine/conditions/contact/contacts.hpp"
 #include "core/base/sentence.hpp"
 #include "core/terms/contact_in_place.hpp"
+#include "core/terms/motion.hpp"
+#include "engine/analysis/analysis.hpp"
 #include "engine/conditions/contact/contact_records.hpp"
 #include "engine/conditions/contact/rigid_bodies.hpp"
-#include "engine/engines/MpmImplicitEngine.hpp"
-#include "engine/points/MpmPoint.hpp"
-#include "yade_api/value_lock.hpp"
 #include <algorithm>
 #include <map>
 
@@ -79,44 +78,10 @@ namespace {
 	}
 }
 
-vector<shared_ptr<Body>> bodiesOf(const MpmContact& contact, const Scene& scene)
+template <int Dim> Contacts<Dim>::Contacts(const MpmCondition::Group& group) : system(new gimpm::ContactSystem<Dim>)
 {
-	vector<shared_ptr<Body>> found;
-	const BodyContainer&     all = *scene.bodies;
-	for (unsigned id = 0; id < all.size(); ++id) {
-		const auto& body = all[id];
-		if (!body || !body->shape || !maskMatches(*body, contact.mask) || body->isClump() || dynamic_cast<const MpmPoint*>(body->shape.get())) continue;
-		found.push_back(body);
-	}
-	return found;
-}
-
-void handOver(const vector<shared_ptr<MpmContact>>& contacts, Scene& scene, bool isBetween)
-{
-	if (contacts.empty()) return;
-	const ValueLock lock;
-	for (const auto& contact : contacts)
-		contact->handOver(scene, isBetween);
-}
-
-template <int Dim>
-Contacts<Dim>::Contacts(
-        const vector<shared_ptr<MpmContact>>& contacts, const Scene& scene, const gimpm::Grid<Dim>& grid, const vector<MaterialPoint>& materialPoints,
-        bool areDivided, Real begin, Real target)
-        : given(contacts), areDivided(areDivided), begin(begin), target(target), end(begin), dt(scene.dt)
-{
-	if (contacts.empty()) return;
-	system = shared_ptr<gimpm::ContactSystem<Dim>>(new gimpm::ContactSystem<Dim>);
-	movers.emplace(scene);
-	for (const auto& contact : contacts)
-		add(contact, scene, grid);
-	for (const MaterialPoint& point : materialPoints)
-		if (!areDivided) points.push_back(point.id);
-	for (const auto& contact : contacts)
-		recall(*contact);
-	std::sort(system->records.begin(), system->records.end(), [](const auto& a, const auto& b) {
-		return std::tie(a.point, a.corner, a.body) < std::tie(b.point, b.corner, b.body);
-	});
+	for (const Listed& listed : group)
+		given.push_back(boost::static_pointer_cast<MpmContact>(listed.condition));
 }
 
 template <int Dim> void Contacts<Dim>::add(const shared_ptr<MpmContact>& contact, const Scene& scene, const gimpm::Grid<Dim>& grid)
@@ -126,7 +91,7 @@ template <int Dim> void Contacts<Dim>::add(const shared_ptr<MpmContact>& contact
 	Places       known; // of its bodies in the last run
 	for (size_t i = 0; i < contact->bodies.size(); ++i)
 		known[contact->bodies[i]] = int(i);
-	for (const auto& body : bodiesOf(*contact, scene)) {
+	for (const auto& body : contact->rigidBodies(scene)) {
 		if (!body->material)
 			throw std::invalid_argument(
 			        "Body #" + std::to_string(body->id) + " has no material; MpmContact needs one of bodies that touch the soil.");
@@ -220,18 +185,41 @@ template <int Dim> void Contacts<Dim>::recall(const MpmContact& contact)
 	});
 }
 
-template <int Dim> void Contacts<Dim>::join(gimpm::Model<Dim>& model)
+template <int Dim> void Contacts<Dim>::join(gimpm::Model<Dim>& model, const Surroundings<Dim>& around)
 {
-	if (!system) return;
+	begin = end = around.begin, target = around.target, dt = around.scene.dt;
+	areDivided = model.division != nullptr;
+	movers.emplace(around.scene);
+	for (const auto& contact : given)
+		add(contact, around.scene, model.grid);
+	for (const MaterialPoint& point : around.points)
+		if (!areDivided) points.push_back(point.id);
+	for (const auto& contact : given)
+		recall(*contact);
+	std::sort(system->records.begin(), system->records.end(), [](const auto& a, const auto& b) {
+		return std::tie(a.point, a.corner, a.body) < std::tie(b.point, b.corner, b.body);
+	});
 	advanceTo(begin);
 	model.terms.push_back([known = system](const gimpm::Beginning<Dim>& step) { return std::make_unique<gimpm::Contact<Dim>>(*known, step); });
-	const auto begin = [known = system](const gimpm::PointCloud<Dim>& cloud, Real scale) { shrinkGaps(*known, cloud, scale); };
-	model.inPlace.push_back({ begin, [known = system](const gimpm::PointCloud<Dim>& cloud) { keepGaps(*known, cloud); } });
+	const auto shrink = [known = system](const gimpm::PointCloud<Dim>& cloud, Real scale) { shrinkGaps(*known, cloud, scale); };
+	model.inPlace.push_back({ shrink, [known = system](const gimpm::PointCloud<Dim>& cloud) { keepGaps(*known, cloud); } });
+}
+
+template <int Dim> void Contacts<Dim>::joinMotion(gimpm::Motion<Dim>& motion, const gimpm::Model<Dim>&, Real)
+{
+	system->weight  = motion.scheme.weightOfContact();
+	motion.contacts = system.get();
+}
+
+template <int Dim> void Contacts<Dim>::advance(const StepTime& step, gimpm::Model<Dim>&, gimpm::Load<Dim>& load)
+{
+	advanceTo(step.to);
+	system->energy = step.energy;
+	load.motion    = step.to - step.from;
 }
 
 template <int Dim> void Contacts<Dim>::advanceTo(Real time)
 {
-	if (!system) return;
 	for (size_t i = 0; i < owners.size(); ++i) {
 		owners[i].reached = between(owners[i].begin, owners[i].target, partAt(time));
 		system->owners[i] = headOf<Dim>(owners[i].reached.position);
@@ -245,9 +233,25 @@ template <int Dim> void Contacts<Dim>::advanceTo(Real time)
 	}
 }
 
+template <int Dim> Work Contacts<Dim>::work(const StepOutcome<Dim>&) const
+{
+	Work sum;
+	sum.ofContacts = system->work;
+	sum.given      = std::max(0., system->given);
+	return sum;
+}
+
+template <int Dim> Penalty Contacts<Dim>::penalty() const
+{
+	Penalty largest { 0, "smaller MpmContact.stiffness" };
+	for (const auto& contact : given)
+		largest.size = std::max(largest.size, contact->stiffness);
+	return largest;
+}
+
 template <int Dim> bool Contacts<Dim>::areBeside(const gimpm::Vec<Dim>& point, const gimpm::Vec<Dim>& part) const
 {
-	return !system || std::none_of(system->bodies.begin(), system->bodies.end(), [&](const auto& body) {
+	return std::none_of(system->bodies.begin(), system->bodies.end(), [&](const auto& body) {
 		const auto at = body.proximity(body.end, part, body.sideOf(body.end, point));
 		return at.gap < 0 && at.beside < 0;
 	});
@@ -255,7 +259,6 @@ template <int Dim> bool Contacts<Dim>::areBeside(const gimpm::Vec<Dim>& point, c
 
 template <int Dim> void Contacts<Dim>::share(const HalvedDomain& domain) const
 {
-	if (!system) return;
 	const Vector3r middle(domain.middle.data());
 	for (const auto& contact : given) {
 		vector<KnownBody> known;
@@ -271,10 +274,10 @@ template <int Dim> void Contacts<Dim>::share(const HalvedDomain& domain) const
 	}
 }
 
-template <int Dim> void Contacts<Dim>::scatter(Real time)
+template <int Dim> void Contacts<Dim>::reach(const StepOutcome<Dim>& step)
 {
-	if (!system) return;
-	end = time;
+	const Real time = step.time;
+	end             = time;
 	for (const auto& contact : given)
 		keep(*contact);
 	keepRecords();
@@ -291,7 +294,7 @@ template <int Dim> void Contacts<Dim>::scatter(Real time)
 	}
 }
 
-template <int Dim> void Contacts<Dim>::requireStable() const
+template <int Dim> void Contacts<Dim>::requireKept() const
 {
 	for (size_t i = 0; i < owners.size(); ++i)
 		if (owners[i].isFree) owners[i].contact->requireStable(*owners[i].body, system->loads[i].stiffness, dt, target - begin > 1.5 * dt);
@@ -300,7 +303,6 @@ template <int Dim> void Contacts<Dim>::requireStable() const
 template <int Dim> std::map<string, string> Contacts<Dim>::doubts(bool isDynamic) const
 {
 	std::map<string, string> found;
-	if (!system) return found;
 	found["coefficient"] = coefficient;
 	found["thin"]        = system->doubts.empty() ? "" : system->doubts.front();
 	for (const auto& contact : given)

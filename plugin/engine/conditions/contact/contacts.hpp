@@ -14,68 +14,33 @@
 
 namespace yade {
 
-// The bodies that a contact means: neither material points nor clumps, but members of these.
-vector<shared_ptr<Body>> bodiesOf(const MpmContact&, const Scene&);
-
-// Between load steps, too, the bodies that YADE moves feel the soil.
-void handOver(const vector<shared_ptr<MpmContact>>&, Scene&, bool isBetween);
-
-template <int Dim> class Contacts {
+template <int Dim> class Contacts : public Condition<Dim> {
 public:
-	Contacts() = default;
-	// For the load steps from one time to another. std::invalid_argument names what cannot be computed with.
-	Contacts(
-	        const vector<shared_ptr<MpmContact>>&, const Scene&, const gimpm::Grid<Dim>&, const vector<MaterialPoint>&, bool areDivided, Real begin,
-	        Real target);
+	explicit Contacts(const MpmCondition::Group&);
 
-	bool areThere() const { return bool(system); }
+	void join(gimpm::Model<Dim>&, const Surroundings<Dim>&) override;
 
-	// Their forces enter the balance with this weight. Null: there are none.
-	const gimpm::ContactSystem<Dim>* weigh(Real weight)
-	{
-		if (system) system->weight = weight;
-		return system.get();
-	}
+	// Their forces enter the balance with a weight.
+	void joinMotion(gimpm::Motion<Dim>&, const gimpm::Model<Dim>&, Real begin) override;
+	void advance(const StepTime&, gimpm::Model<Dim>&, gimpm::Load<Dim>&) override;
 
-	// The largest of their stiffnesses, over Young's modulus per cell [-].
-	Real penalty() const
-	{
-		Real largest = 0;
-		for (const auto& contact : given)
-			largest = std::max(largest, contact->stiffness);
-		return largest;
-	}
+	// A free body must not be too light for the stiffness that it would be handed.
+	void requireKept() const override;
 
-	// On the soil in the last step that was accepted [J].
-	Real work() const { return system ? system->work : 0; }
+	Work work(const StepOutcome<Dim>&) const override;
 
-	// Makes them act in the model's steps, for as long as this exists.
-	void join(gimpm::Model<Dim>&);
+	// What the contacts keep, and where the bodies are if nobody else moves them.
+	void reach(const StepOutcome<Dim>&) override;
 
-	// Before the state of a step is kept: std::invalid_argument names a free body that is too light for the stiffness that it would be handed.
-	void requireStable() const;
+	// The largest of their stiffnesses.
+	Penalty penalty() const override;
 
-	// What the soil cannot feel of bodies near it, and other doubts: sentences for YADE's log.
-	std::map<string, string> doubts(bool isDynamic) const; // by what they are about
+	// What the soil cannot feel of bodies near it, and others.
+	std::map<string, string> doubts(bool isDynamic) const override;
 
-	// Of a step in time: all energy that has come in before it [J]. What contact itself has given in the last step that was accepted [J].
-	void know(Real energy)
-	{
-		if (system) system->energy = energy;
-	}
-	Real gift() const { return system ? system->given : 0; }
-
-	// The next step ends here.
-	void advanceTo(Real time);
-
-	// Whether the middle of a part of a point, as seen from that of the point, is on the same side of all bodies as they are at the end of the step.
-	bool areBeside(const gimpm::Vec<Dim>& point, const gimpm::Vec<Dim>& part) const;
-
-	// What is remembered of a point is shared by its halves.
-	void share(const HalvedDomain&) const;
-
-	// Writes a converged state back: what the contacts keep, and where the bodies are if nobody else moves them.
-	void scatter(Real time);
+	bool areBeside(const gimpm::Vec<Dim>& point, const gimpm::Vec<Dim>& part) const override;
+	bool remembersPoints() const override { return true; }
+	void share(const HalvedDomain&) const override;
 
 private:
 	// Of a point in the records of the system; -1: it has been erased.
@@ -102,6 +67,7 @@ private:
 		Se3r             own, first; // as seen from the owner; in space when the run begins
 	};
 
+	void advanceTo(Real time);
 	void add(const shared_ptr<MpmContact>&, const Scene&, const gimpm::Grid<Dim>&);
 	int  ownerOf(const shared_ptr<MpmContact>&, const Places& known, const Body&, const Scene&);
 	void requireTogether(const MpmContact&, const Body&, const Owner&, const Se3r& own) const;

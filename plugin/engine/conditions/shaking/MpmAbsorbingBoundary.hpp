@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-#include "engine/conditions/box.hpp"
+#include "engine/analysis/MpmCondition.hpp"
 #include "engine/conditions/shaking/MpmBaseMotion.hpp"
+#include "engine/grid/box.hpp"
 
 namespace yade {
 
-class MpmAbsorbingBoundary : public Exposed<MpmAbsorbingBoundary, Serializable> {
+class MpmAbsorbingBoundary : public Exposed<MpmAbsorbingBoundary, MpmCondition> {
 public:
 	Vector3r                  min = Vector3r::Constant(-std::numeric_limits<Real>::infinity());
 	Vector3r                  max = Vector3r::Constant(std::numeric_limits<Real>::infinity());
@@ -42,6 +43,12 @@ public:
 
 	// The attributes must go together, too.
 	void requireAdmissible() const override;
+
+	const char*                   list() const override { return "absorbing"; }
+	std::shared_ptr<Condition<2>> make(InPlane, const Group&, const Analysis&) const override;
+	std::shared_ptr<Condition<3>> make(InSpace, const Group&, const Analysis&) const override;
+
+	void tell(Rows&, const Analysis&, const Listed&) const override;
 };
 
 } // namespace yade

@@ -25,6 +25,14 @@ Vector3r MpmBaseMotion::displacementBetween(Real begin, Real end) const
 	return sum * direction;
 }
 
+void MpmBaseMotion::requireInDimension(int dim, const string& name) const
+{
+	requireAdmissible();
+	if (dim == 2 && direction[2] != 0)
+		throw std::invalid_argument(
+		        name + ".motion.direction = " + textOf(direction) + ": there is no direction z on a grid with dim=2 (plane strain in x-y).");
+}
+
 } // namespace yade
 
 BOOST_CLASS_EXPORT_IMPLEMENT(yade::MpmBaseMotion)

@@ -28,6 +28,9 @@ public:
 	Vector3r velocityAt(Real time) const { return speedAt(time) * direction; }
 	Vector3r displacementBetween(Real begin, Real end) const;
 
+	// std::invalid_argument, in the name of what has it, for a direction that a grid in the plane does not have.
+	void requireInDimension(int dim, const string& name) const;
+
 private:
 	Real speedAt(Real time) const;
 };

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
+#include "engine/analysis/MpmCondition.hpp"
 #include "engine/conditions/load_curves.hpp"
 #include "engine/conditions/surface/MpmSurface.hpp"
 
 namespace yade {
 
-class MpmTraction : public Exposed<MpmTraction, Serializable> {
+class MpmTraction : public Exposed<MpmTraction, MpmCondition> {
 public:
 	shared_ptr<MpmSurface>  surface; // must be given
 	Real                    pressure = 0;
@@ -35,6 +36,15 @@ public:
 
 	// The attributes must go together, too.
 	void requireAdmissible() const override;
+
+	std::shared_ptr<Condition<2>> make(InPlane, const Group&, const Analysis&) const override;
+	std::shared_ptr<Condition<3>> make(InSpace, const Group&, const Analysis&) const override;
+
+	Real                end(const Analysis&) const override;
+	const Serializable* ownSurface() const override { return surface.get(); }
+	void                tell(Rows&, const Analysis&, const Listed&) const override;
+	const char*         picture() const override { return "loads"; }
+	void                draw(Picture&, const Analysis&, const Listed&) const override;
 };
 
 } // namespace yade

@@ -51,28 +51,18 @@ namespace {
 	};
 }
 
-template <int Dim> SurfaceLoads<Dim>::SurfaceLoads(const Loads& given, const gimpm::Grid<Dim>& grid)
+template <int Dim> void SurfaceLoads<Dim>::join(gimpm::Model<Dim>& model, const Surroundings<Dim>& around)
 {
-	for (size_t i = 0; i < given.loads.size(); ++i) {
-		const auto&  load = given.loads[i];
-		const string name = "loads[" + std::to_string(i) + "]";
+	for (const Listed& listed : group) {
+		const auto load = boost::static_pointer_cast<MpmTraction>(listed.condition);
 		load->requireAdmissible();
-		requireFitting<Dim>(*load, name);
-		for (size_t j = 0; j < i; ++j)
-			if (given.loads[j]->surface == load->surface)
-				throw std::invalid_argument(
-				        "loads[" + std::to_string(j) + "] and " + name
-				        + " have the same MpmSurface, which would move twice: give each its own.");
-		sources.push_back({ load, given.curveOf(*load) });
+		requireFitting<Dim>(*load, listed.name());
+		sources.push_back({ load, around.analysis.curveOfLoad(load->curve) });
 		loads.push_back({ coreSurface<Dim>(*load->surface) });
 		loads.back().isNew = load->surface->initialVertices.empty();
-		loads.back().name  = name;
-		loads.back().surface.refine(gimpm::pieceLimit * grid.cellSize);
+		loads.back().name  = listed.name();
+		loads.back().surface.refine(gimpm::pieceLimit * model.grid.cellSize);
 	}
-}
-
-template <int Dim> void SurfaceLoads<Dim>::join(gimpm::Model<Dim>& model)
-{
 	for (auto& load : loads)
 		model.terms.push_back([&load](const gimpm::Beginning<Dim>& step) { return std::make_unique<gimpm::Traction<Dim>>(load, step); });
 }
@@ -86,24 +76,24 @@ template <int Dim> void SurfaceLoads<Dim>::advanceTo(Real time)
 	}
 }
 
-template <int Dim> void SurfaceLoads<Dim>::beginAt(Real time)
+template <int Dim> void SurfaceLoads<Dim>::joinMotion(gimpm::Motion<Dim>&, const gimpm::Model<Dim>&, Real begin)
 {
-	advanceTo(time);
+	advanceTo(begin);
 	for (auto& load : loads) {
 		load.pressureBefore = load.pressure;
 		load.tractionBefore = load.traction;
 	}
 }
 
-template <int Dim> Real SurfaceLoads<Dim>::work() const
+template <int Dim> Work SurfaceLoads<Dim>::work(const StepOutcome<Dim>&) const
 {
-	Real sum = 0;
+	Work sum;
 	for (const auto& load : loads)
-		sum += load.work;
+		sum.ofLoads += load.work;
 	return sum;
 }
 
-template <int Dim> void SurfaceLoads<Dim>::scatter() const
+template <int Dim> void SurfaceLoads<Dim>::reach(const StepOutcome<Dim>&)
 {
 	for (size_t i = 0; i < loads.size(); ++i) {
 		yade::scatter<Dim>(loads[i].surface, *sources[i].from->surface);
@@ -112,7 +102,7 @@ template <int Dim> void SurfaceLoads<Dim>::scatter() const
 	}
 }
 
-template <int Dim> string SurfaceLoads<Dim>::doubt(const gimpm::PointCloud<Dim>& cloud, const gimpm::Grid<Dim>& grid) const
+template <int Dim> string SurfaceLoads<Dim>::doubtOfPlace(const gimpm::PointCloud<Dim>& cloud, const gimpm::Grid<Dim>& grid) const
 {
 	for (size_t i = 0; i < loads.size(); ++i) {
 		const MpmTraction& load = *sources[i].from;

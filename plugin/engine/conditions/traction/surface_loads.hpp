@@ -2,39 +2,30 @@
 #pragma once
 // Loads on surfaces, between the conditions of a scene and the terms of a step.
 #include "core/terms/traction.hpp"
-#include "engine/analysis/Loads.hpp"
+#include "engine/analysis/analysis.hpp"
+#include "engine/conditions/traction/MpmTraction.hpp"
 
 namespace yade {
 
-template <int Dim> class SurfaceLoads {
+template <int Dim> class SurfaceLoads : public Condition<Dim> {
 public:
-	SurfaceLoads() = default;
-	// std::invalid_argument names what cannot be computed with.
-	explicit SurfaceLoads(const Loads&, const gimpm::Grid<Dim>&);
+	explicit SurfaceLoads(const MpmCondition::Group& group) : group(group) { }
 
-	// Makes them act in the model's steps, for as long as this exists.
-	void join(gimpm::Model<Dim>&);
-
-	// What acts at the end of the next step.
-	void advanceTo(Real time);
-
-	// The first step begins here; only where something asks for what acted before it.
-	void beginAt(Real time);
-
-	// In the last step that was accepted [J].
-	Real work() const;
-
-	// Writes a converged state back.
-	void scatter() const;
-
-	// About those that have not acted yet: whether one of them is inside of the body; empty if none is.
-	string doubt(const gimpm::PointCloud<Dim>&, const gimpm::Grid<Dim>&) const;
+	void   join(gimpm::Model<Dim>&, const Surroundings<Dim>&) override;
+	void   joinMotion(gimpm::Motion<Dim>&, const gimpm::Model<Dim>&, Real begin) override;
+	void   advance(const StepTime& step, gimpm::Model<Dim>&, gimpm::Load<Dim>&) override { advanceTo(step.looked); }
+	Work   work(const StepOutcome<Dim>&) const override;
+	void   reach(const StepOutcome<Dim>&) override;
+	string doubtOfPlace(const gimpm::PointCloud<Dim>&, const gimpm::Grid<Dim>&) const override; // whether one that has not acted yet is inside of the body
 
 private:
+	void advanceTo(Real time);
+
 	struct Load {
 		shared_ptr<MpmTraction> from;
 		gimpm::LoadCurve        curve;
 	};
+	MpmCondition::Group             group;
 	vector<Load>                    sources;
 	vector<gimpm::SurfaceLoad<Dim>> loads;
 };

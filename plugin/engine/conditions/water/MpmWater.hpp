@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
+#include "engine/analysis/MpmCondition.hpp"
 #include "engine/conditions/load_curves.hpp"
 
 namespace yade {
@@ -18,7 +19,7 @@ template <> struct Conversion<PythonFunction> {
 };
 inline string textOf(const PythonFunction& f) { return f ? "a function" : "None"; }
 
-class MpmWater : public Exposed<MpmWater, Serializable> {
+class MpmWater : public Exposed<MpmWater, MpmCondition> {
 public:
 	Real                    level = std::numeric_limits<Real>::quiet_NaN();
 	gimpm::LoadCurve::Knees levels;
@@ -59,6 +60,21 @@ public:
 
 	// The attributes must go together, too.
 	void requireAdmissible() const override;
+
+	const char*                   list() const override { return "water"; }
+	std::shared_ptr<Condition<2>> make(InPlane, const Group&, const Analysis&) const override;
+	std::shared_ptr<Condition<3>> make(InSpace, const Group&, const Analysis&) const override;
+
+	Real                      end(const Analysis&) const override;
+	string                    needsEqualCells(const string&) const override { return "water"; }
+	bool                      hasQuestions() const override { return true; }
+	std::unique_ptr<Question> question(const gimpm::Grid<2>&, const vector<gimpm::Key>&, const string& name) override;
+	std::unique_ptr<Question> question(const gimpm::Grid<3>&, const vector<gimpm::Key>&, const string& name) override;
+	string                    answers() const override { return "pressures of water"; }
+	std::map<string, string>  doubts(const Analysis&, const vector<MaterialPoint>&, const string& name) const override;
+
+	// Its pressure is that of a function.
+	bool hasFunction() const { return std::isnan(level) && levels.empty(); }
 	void forgetTable() { table.clear(), evaluated = nullptr; }
 
 	const void* evaluated = nullptr; // the function whose values the table has; null: one that has not been saved

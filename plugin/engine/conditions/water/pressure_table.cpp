@@ -160,25 +160,6 @@ namespace {
 	}
 }
 
-template <int Dim> vector<Key> cellsOf(const gimpm::PointCloud<Dim>& cloud, const gimpm::Grid<Dim>& grid, const gimpm::Division* division)
-{
-	vector<Key> cells;
-	for (const auto& x : cloud.position) {
-		const gimpm::Index<Dim> cell = ((x - grid.origin) / grid.cellSize).array().floor().template cast<int>();
-		const Key               key  = gimpm::Grid<Dim>::key(cell);
-		if (cells.empty() || cells.back() != key) cells.push_back(key);
-	}
-	const auto sortOut = [&] {
-		std::sort(cells.begin(), cells.end());
-		cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
-	};
-	sortOut();
-	if (!division) return cells;
-	cells = gimpm::joined(*division->processes, cells);
-	sortOut();
-	return cells;
-}
-
 template <int Dim>
 std::optional<PressureQuestion<Dim>> PressureQuestion<Dim>::of(MpmWater& water, const gimpm::Grid<Dim>& grid, const vector<Key>& cells, const string& name)
 {
@@ -199,7 +180,7 @@ std::optional<PressureQuestion<Dim>> PressureQuestion<Dim>::of(MpmWater& water, 
 		return std::nullopt;
 	}
 	if (missing(withFarSide(nearest, grid)).empty()) return std::nullopt;
-	return PressureQuestion { &water, water.pressure, name, grid, missing(withFarSide(nodesAround(cells, far, grid), grid)) };
+	return PressureQuestion(water, name, grid, missing(withFarSide(nodesAround(cells, far, grid), grid)));
 }
 
 template <int Dim> void PressureQuestion<Dim>::ask()
@@ -236,7 +217,6 @@ std::shared_ptr<const gimpm::WaterPressure<Dim>> tabulated(MpmWater& water, cons
 }
 
 #define MPM_INSTANTIATE(Dim)                                                                                                                                   \
-	template vector<Key> cellsOf(const gimpm::PointCloud<Dim>&, const gimpm::Grid<Dim>&, const gimpm::Division*);                                          \
 	template class PressureQuestion<Dim>;                                                                                                                  \
 	template std::shared_ptr<const gimpm::WaterPressure<Dim>> tabulated(MpmWater&, const gimpm::Grid<Dim>&, const vector<Key>&, const string&);
 MPM_INSTANTIATE(2)

@@ -7,20 +7,22 @@
 
 namespace yade {
 
-// Cells that hold the middle of a point, in a row; of a division, those of all processes.
-template <int Dim> vector<gimpm::Key> cellsOf(const gimpm::PointCloud<Dim>&, const gimpm::Grid<Dim>&, const gimpm::Division*);
-
 // What a function is still to be asked, about nodes around the cells that the water's table does not have yet.
-template <int Dim> class PressureQuestion {
+template <int Dim> class PressureQuestion : public Question {
 public:
+	PressureQuestion(MpmWater& water, const string& name, const gimpm::Grid<Dim>& grid, const vector<gimpm::Key>& nodes)
+	        : water(&water), function(water.pressure), name(name), grid(grid), nodes(nodes)
+	{
+	}
+
 	// None if the table has all. std::invalid_argument, in the name given, where something is missing and there is no function any more.
 	static std::optional<PressureQuestion> of(MpmWater&, const gimpm::Grid<Dim>&, const vector<gimpm::Key>& cells, const string& name);
 
 	// The function may do anything that a script can, so the lock of values must not be held. std::invalid_argument for what it returns or raises.
-	void ask();
+	void ask() override;
 
 	// Puts the answers into the table.
-	void store() const;
+	void store() const override;
 
 	MpmWater*          water;
 	PythonFunction     function;

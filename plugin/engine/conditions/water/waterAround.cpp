@@ -12,7 +12,7 @@ namespace {
 		return py::object(py::handle<>(PyByteArray_FromStringAndSize(begin, values.size() * sizeof(Real))));
 	}
 
-	template <int Dim> py::list waterAround(const MpmImplicitEngine& engine, const Column<Real>& places, const Column<Real>& halves)
+	template <int Dim> py::list waterAround(const Analysis& engine, const Column<Real>& places, const Column<Real>& halves)
 	{
 		const auto             grid = engine.grid->lattice<Dim>();
 		gimpm::PointCloud<Dim> cloud;
@@ -22,9 +22,13 @@ namespace {
 			                                 .template head<Dim>()
 			                                 .cwiseMin(gimpm::largestHalf<Dim>(grid, cloud.position.back())));
 		}
-		Waters<Dim> waters(engine, grid, cloud);
+		MpmCondition::Group all;
+		for (const Listed& listed : engine.conditions())
+			if (dynamic_cast<const MpmWater*>(listed.condition.get())) all.push_back(listed);
+		Waters<Dim> waters(all);
+		waters.take(engine, grid, cloud);
 		waters.advance(engine.ownScene()->time, engine.ownScene()->time);
-		vector<vector<Real>> pressures(engine.water.size()), gradients(engine.water.size());
+		vector<vector<Real>> pressures(all.size()), gradients(all.size());
 		for (size_t p = 0; p < cloud.position.size(); ++p) {
 			const auto all = waters.around(cloud.position[p], cloud.halfSize[p]);
 			for (size_t i = 0; i < all.size(); ++i) {
@@ -41,13 +45,13 @@ namespace {
 	}
 }
 
-py::list waterAroundForPython(const shared_ptr<MpmImplicitEngine>& engine, const py::object& positions, const py::object& halfSizes)
+py::list waterAroundForPython(const Analysis& engine, const py::object& positions, const py::object& halfSizes)
 {
 	const ValueLock lock;
-	engine->requireAdmissible();
-	engine->grid->requireAdmissible();
+	engine.requireAttributes();
+	engine.grid->requireAdmissible();
 	const Column<Real> places(positions, "positions"), halves(halfSizes, "halfSizes");
-	return engine->grid->dim == 3 ? waterAround<3>(*engine, places, halves) : waterAround<2>(*engine, places, halves);
+	return engine.grid->dim == 3 ? waterAround<3>(engine, places, halves) : waterAround<2>(engine, places, halves);
 }
 
 } // namespace yade

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "engine/conditions/water/waters.hpp"
+#include "engine/analysis/exchange.hpp"
 #include "engine/conditions/water/pressure_table.hpp"
-#include "engine/engines/MpmImplicitEngine.hpp"
 #include "engine/points/parallel.hpp"
-#include "yade_api/value_lock.hpp"
 
 namespace yade {
 
@@ -29,55 +28,29 @@ namespace {
 		if (water.where == "pores") return gimpm::WaterPlace::pores;
 		return water.where == "outside" ? gimpm::WaterPlace::outside : gimpm::WaterPlace::everywhere;
 	}
-
-	bool hasFunction(const MpmWater& water) { return std::isnan(water.level) && water.levels.empty(); }
-
-	// That a function of one of the waters has to answer still, and the water, which lives on meanwhile.
-	template <int Dim>
-	std::pair<shared_ptr<MpmWater>, std::optional<PressureQuestion<Dim>>> nextQuestion(
-	        const MpmImplicitEngine& engine, const gimpm::Grid<Dim>& grid, const vector<gimpm::Key>& cells)
-	{
-		const ValueLock lock;
-		for (size_t i = 0; i < engine.water.size(); ++i) {
-			const auto& water = engine.water[i];
-			if (!hasFunction(*water) || !water->pressure) continue;
-			if (auto question = PressureQuestion<Dim>::of(*water, grid, cells, "water[" + std::to_string(i) + "]"))
-				return { water, std::move(question) };
-		}
-		return {};
-	}
 }
 
-template <int Dim> Waters<Dim>::Waters(const Loads& given, const gimpm::Grid<Dim>& grid, const gimpm::PointCloud<Dim>& cloud, const gimpm::Division* division)
+template <int Dim>
+void Waters<Dim>::take(const Analysis& analysis, const gimpm::Grid<Dim>& grid, const gimpm::PointCloud<Dim>& cloud, const gimpm::Division* division)
 {
-	const bool areAsked = std::any_of(given.water.begin(), given.water.end(), [](const auto& water) { return hasFunction(*water); });
+	const auto waterOf  = [](const Listed& listed) { return boost::static_pointer_cast<MpmWater>(listed.condition); };
+	const bool areAsked = std::any_of(group.begin(), group.end(), [&](const Listed& listed) { return waterOf(listed)->hasFunction(); });
 	const auto cells    = areAsked ? cellsOf(cloud, grid, division) : vector<gimpm::Key>();
-	for (size_t i = 0; i < given.water.size(); ++i) {
-		MpmWater&    water = *given.water[i];
-		const string name  = "water[" + std::to_string(i) + "]";
-		water.requireAdmissible();
-		Source source { given.water[i], given.curveOf(water), nullptr, 0, 1 };
-		if (hasFunction(water)) source.given = tabulated(water, grid, cells, name);
+	for (const Listed& listed : group) {
+		const auto water = waterOf(listed);
+		water->requireAdmissible();
+		Source source { water, analysis.curveOfWeight(water->curve), nullptr, 0, 1 };
+		if (water->hasFunction()) source.given = tabulated(*water, grid, cells, listed.name());
 		else
-			std::tie(source.axis, source.up) = upwards(given.gravity, grid, name);
+			std::tie(source.axis, source.up) = upwards(analysis.gravity, grid, listed.name());
 		sources.push_back(source);
-		waters.push_back({ placeOf(water) });
+		waters.push_back({ placeOf(*water) });
 	}
 }
 
-template <int Dim> bool Waters<Dim>::ask(const MpmImplicitEngine& engine, const gimpm::Grid<Dim>& grid, const vector<gimpm::Key>& cells)
+template <int Dim> void Waters<Dim>::join(gimpm::Model<Dim>& model, const Surroundings<Dim>& around)
 {
-	for (bool isAsked = false;; isAsked = true) {
-		auto [water, question] = nextQuestion(engine, grid, cells);
-		if (!question) return isAsked;
-		question->ask();
-		const ValueLock lock;
-		question->store();
-	}
-}
-
-template <int Dim> void Waters<Dim>::join(gimpm::Model<Dim>& model)
-{
+	take(around.analysis, model.grid, around.cloud, model.division.get());
 	for (auto& water : waters) {
 		water.shares = model.shares;
 		model.terms.push_back([&water](const gimpm::Beginning<Dim>& step) { return std::make_unique<gimpm::WaterForce<Dim>>(water, step); });
@@ -115,28 +88,29 @@ template <int Dim> void Waters<Dim>::advance(Real from, Real to)
 	}
 }
 
-template <int Dim> void Waters<Dim>::wantWork()
+template <int Dim> void Waters<Dim>::joinMotion(gimpm::Motion<Dim>&, const gimpm::Model<Dim>&, Real)
 {
 	for (auto& water : waters)
 		water.wantsWork = true;
 }
 
-template <int Dim> Real Waters<Dim>::work() const
+template <int Dim> Work Waters<Dim>::work(const StepOutcome<Dim>&) const
 {
-	Real sum = 0;
+	Work sum;
 	for (const auto& water : waters)
-		sum += water.work;
+		sum.ofLoads += water.work;
 	return sum;
 }
 
-template <int Dim> void Waters<Dim>::scatter(const vector<MaterialPoint>& points, const gimpm::Boundary<Dim>& boundary, vector<Vector3r>& reactions) const
+template <int Dim> void Waters<Dim>::reach(const StepOutcome<Dim>& step)
 {
-	const bool areThere = !waters.empty(), hadSome = !points.empty() && !std::isnan(points[0].state->porePressure);
-	if (!areThere && !hadSome) return;
+	const auto& points    = step.points;
+	const auto& boundary  = step.model.boundary;
+	auto&       reactions = step.reactions;
 	inRanges(points.size(), [&](size_t begin, size_t end) {
 		for (size_t p = begin; p < end; ++p) {
 			Real& sum = points[p].state->porePressure;
-			sum       = areThere ? 0 : std::numeric_limits<Real>::quiet_NaN();
+			sum       = 0;
 			for (const auto& water : waters)
 				sum += water.porePressure[p];
 		}

@@ -2,37 +2,29 @@
 #pragma once
 // Water, between the conditions of a scene and the terms of a step.
 #include "core/terms/water.hpp"
-#include "engine/analysis/Loads.hpp"
-#include "engine/points/MaterialPoints.hpp"
+#include "engine/analysis/analysis.hpp"
+#include "engine/conditions/water/MpmWater.hpp"
 
 namespace yade {
-class MpmImplicitEngine;
 
-template <int Dim> class Waters {
+template <int Dim> class Waters : public Condition<Dim> {
 public:
-	Waters() = default;
-	// std::invalid_argument names what cannot be computed with. Functions are asked for pressures around the points, also where these are divided among processes.
-	Waters(const Loads&, const gimpm::Grid<Dim>&, const gimpm::PointCloud<Dim>&, const gimpm::Division* = nullptr);
+	explicit Waters(const MpmCondition::Group& group) : group(group) { }
 
-	// The same before a step: the cells are those of the points, of all processes. Nothing is asked while the lock of values is held, since a function may well ask the engine.
-	// Returns whether any was asked.
-	static bool ask(const MpmImplicitEngine&, const gimpm::Grid<Dim>&, const vector<gimpm::Key>& cells);
+	void join(gimpm::Model<Dim>&, const Surroundings<Dim>&) override;
+	void joinMotion(gimpm::Motion<Dim>&, const gimpm::Model<Dim>&, Real begin) override;
+	void advance(const StepTime& step, gimpm::Model<Dim>&, gimpm::Load<Dim>&) override { advance(step.from, step.looked); }
+	Work work(const StepOutcome<Dim>&) const override;
 
-	// Makes them act in the model's steps, for as long as this exists.
-	void join(gimpm::Model<Dim>&);
+	// The pressure in the pores, and that on boundaries, whose reactions are then of total stress.
+	void reach(const StepOutcome<Dim>&) override;
 
-	// The next step goes from here to there.
+	// Takes its pressures from a scene, without a model: functions are asked for pressures around the points.
+	void take(const Analysis&, const gimpm::Grid<Dim>&, const gimpm::PointCloud<Dim>&, const gimpm::Division* = nullptr);
 	void advance(Real from, Real to);
 
 	// Averaged over a box, at the end of that step, of each with its factor.
 	vector<std::pair<gimpm::WaterPlace, std::optional<gimpm::PressureAround<Dim>>>> around(const gimpm::Vec<Dim>& x, const gimpm::Vec<Dim>& half) const;
-
-	// On the points in the last step that was accepted [J], if it is wanted of the steps to come.
-	void wantWork();
-	Real work() const;
-
-	// Writes a converged state back: the pressure in the pores, and on boundaries, whose reactions are then of total stress.
-	void scatter(const vector<MaterialPoint>&, const gimpm::Boundary<Dim>&, vector<Vector3r>& reactions) const;
 
 private:
 	using Pressure = typename gimpm::Water<Dim>::Pressure;
@@ -45,6 +37,7 @@ private:
 	};
 	Pressure pressureAt(const Source&, Real time) const;
 
+	MpmCondition::Group       group;
 	vector<Source>            sources;
 	vector<gimpm::Water<Dim>> waters;
 };

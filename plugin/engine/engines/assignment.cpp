@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "engine/points/assignment.hpp"
+#include "engine/engines/assignment.hpp"
 #include "core/base/checksum.hpp"
-#include "engine/analysis/exchange.hpp"
+#include "engine/points/stretched.hpp"
 #include "engine/materials/laws.hpp"
 #include "engine/parallel/distribution.hpp"
 #include "engine/parallel/processes.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "engine/points/newPoints.hpp"
+#include "engine/grid/newPoints.hpp"
 #include "core/base/checksum.hpp"
 #include "engine/points/MpmPoint.hpp"
 #include "engine/points/MpmState.hpp"

@@ -3,9 +3,7 @@
 #include "core/grid/point_cloud.hpp"
 #include "core/stepping/predictor.hpp"
 #include "core/stepping/step_control.hpp"
-#include "engine/conditions/contact/contacts.hpp"
-#include "engine/conditions/traction/surface_loads.hpp"
-#include "engine/conditions/water/waters.hpp"
+#include "engine/analysis/analysis.hpp"
 
 namespace yade {
 
@@ -16,9 +14,7 @@ template <int Dim> class Moving;
 template <int Dim> struct Setup {
 	gimpm::Model<Dim>      model = gimpm::Model<Dim>();
 	gimpm::PointCloud<Dim> cloud {};
-	SurfaceLoads<Dim>      surfaceLoads {};
-	Waters<Dim>            waters {};
-	Contacts<Dim>          contacts {};
+	Conditions<Dim>        conditions {};
 };
 
 // What a run works on, and what remains to be done.
