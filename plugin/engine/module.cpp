@@ -2,17 +2,17 @@
 // The plugin is also a Python extension module, imported by yade.mpm for what can be checked only when YADE has started, and for
 // work on all material points at once.
 #include "core/solvers/multigrid.hpp"
+#include "engine/conditions/water/waterAround.hpp"
+#include "engine/engines/MpmImplicitEngine.hpp"
+#include "engine/engines/assignment.hpp"
+#include "engine/grid/MpmGrid.hpp"
+#include "engine/grid/newPoints.hpp"
 #include "engine/materials/laws.hpp"
-#include "engine/output/contactPoints.hpp"
 #include "engine/output/gridCells.hpp"
-#include "engine/output/waterAround.hpp"
-#include "engine/points/assignment.hpp"
+#include "engine/parallel/distribution.hpp"
+#include "engine/parallel/processes.hpp"
 #include "engine/points/bulkAccess.hpp"
 #include "engine/points/columns.hpp"
-#include "engine/points/newPoints.hpp"
-#include "engine/solver/MpmGrid.hpp"
-#include "engine/solver/distribution.hpp"
-#include "engine/solver/processes.hpp"
 #include "yade_api/background.hpp"
 #include "yade_api/naming.hpp"
 #include "yade_api/python_lock.hpp"
@@ -28,8 +28,14 @@ void defineHelpers()
 	py::def("respond", &respondForPython,
 	        "For mpm.respond: one call of the law of a material in principal axes, from trial strains and a dict of internal variables.");
 	py::def("elasticStrainOf", &elasticStrainForPython, "For mpm.elementTest: principal elastic strains of principal Kirchhoff stresses.");
-	py::def("touchableBodies", &touchableBodiesForPython, "For mpm.plot: ids of the rigid bodies that the contacts of an engine mean.");
-	py::def("waterAround", &waterAroundForPython,
+	py::def(
+	        "touchableBodies", +[](const MpmImplicitEngine& engine) { return touchableBodiesForPython(engine); },
+	        "For mpm.plot: ids of the rigid bodies that the contacts of an engine mean.");
+	py::def(
+	        "waterAround",
+	        +[](const MpmImplicitEngine& engine, const py::object& positions, const py::object& halfSizes) {
+		        return waterAroundForPython(engine, positions, halfSizes);
+	        },
 	        "For mpm.geostatic: pressure and gradient of each water of an engine, averaged over boxes, given their middles and half sizes.");
 	py::def(
 	        "actInPart",
@@ -38,7 +44,8 @@ void defineHelpers()
 		        material.share = share;
 	        },
 	        "For mpm.stages: the share of water and point loads that acts on points of a material, whose density is as small.");
-	py::def("gridCells", &gridCellsForPython,
+	py::def(
+	        "gridCells", +[](const string& kind, const MpmImplicitEngine& engine) { return gridCellsForPython(kind, engine); },
 	        "For mpm.plot: corners and first field of the cells of 'grid', 'ghostFaces', 'loads', 'walls' or 'contacts' around the material points.");
 }
 }
@@ -62,7 +69,8 @@ BOOST_PYTHON_MODULE(mpm_engine)
 	py::def("takePieces", &takePieces, "For mpm.load: the points of all pieces are in the processes that there are now.");
 	py::def("betweenSteps", &betweenSteps, "For mpm.save: calls a function while no step in the background changes the state.");
 	py::def(
-	        "endBackgroundRun", +[] {
+	        "endBackgroundRun",
+	        +[] {
 		        const PythonUnlock python;
 		        endBackgroundRun();
 	        },

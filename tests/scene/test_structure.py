@@ -26,6 +26,13 @@ below = {
 }
 
 
+# the folders of the engine: each may include those before it, and what it has itself
+engineFolders = ['materials', 'points', 'grid', 'analysis', 'conditions', 'parallel', 'messages', 'output', 'engines']
+# kinds of conditions: whatever else is in the engine knows none of them, but for the engines, which have lists of them, and what Python asks for by name
+kindsOfConditions = {'boundary', 'contact', 'shaking', 'surface', 'traction', 'water'}
+knowKinds = {'MpmImplicitEngine.cpp', 'MpmDynamicEngine.cpp', 'module.cpp'}
+
+
 def sources(folder):
 	found = [path for path in (plugin / folder).rglob('*') if path.suffix in ('.hpp', '.cpp')]
 	assert found
@@ -51,6 +58,39 @@ def test_foldersOfTheCoreIncludeThoseBelow():
 		target = re.match(r'"core/(\w+)/', included)
 		if target and target[1] != path.parent.name and target[1] not in below[path.parent.name]: wrong.append(f'{path.relative_to(plugin)}: {included}')
 	assert not wrong
+
+
+def test_foldersOfTheEngineIncludeThoseBelow():
+	assert {path.name for path in (plugin / 'engine').iterdir() if path.is_dir()} == set(engineFolders)
+	wrong = []
+	for path, included in includes('engine'):
+		own, target = path.relative_to(plugin / 'engine').parts[0], re.match(r'"engine/(\w+)/', included)
+		if own not in engineFolders or not target: continue
+		if engineFolders.index(target[1]) > engineFolders.index(own): wrong.append(f'{path.relative_to(plugin)}: {included}')
+	assert not wrong
+
+
+def test_conditionsAreKnownByTheirInterface():
+	assert {path.name for path in (plugin / 'engine' / 'conditions').iterdir() if path.is_dir()} == kindsOfConditions
+	wrong = []
+	for path, included in includes('engine'):
+		isKind = re.match(rf'"engine/conditions/({"|".join(kindsOfConditions)})/', included)
+		if isKind and 'conditions' not in path.parts and path.name not in knowKinds: wrong.append(f'{path.relative_to(plugin)}: {included}')
+	assert not wrong
+
+
+def test_onlyEnginesTakeAnEngine():
+	"""What is below takes an Analysis: settings, conditions and results."""
+	wrong = []
+	for path in sources('engine'):
+		if path.parent.name == 'engines' or path.name == 'module.cpp': continue
+		if re.search(r'\bMpm(Implicit|Dynamic)Engine\s*(&|>)', code(path.read_text())): wrong.append(str(path.relative_to(plugin)))
+	assert not wrong
+
+
+def test_foldersOfTheEngineAreNotCrowded():
+	folders = [folder for folder in (plugin / 'engine').rglob('*') if folder.is_dir()]
+	assert not [folder.name for folder in folders if sum(path.is_file() for path in folder.iterdir()) > 30]
 
 
 def test_topLevelHoldsWhatItIsMeantTo():

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-#include "engine/conditions/angles.hpp"
 #include "engine/materials/MpmElasticMat.hpp"
+#include "engine/materials/angles.hpp"
 
 namespace yade {
 

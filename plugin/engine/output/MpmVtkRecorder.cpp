@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "engine/output/MpmVtkRecorder.hpp"
+#include "engine/analysis/analysis.hpp"
 #include "engine/output/gridCells.hpp"
 #include "engine/output/statePieces.hpp"
 #include "engine/output/vtkDataSets.hpp"
+#include "engine/parallel/processes.hpp"
+#include "engine/parallel/distribution.hpp"
 #include "engine/points/columns.hpp"
-#include "engine/solver/MpmImplicitEngine.hpp"
-#include "engine/solver/processes.hpp"
 #include "yade_api/background.hpp"
 #include "yade_api/exceptions.hpp"
 #include "yade_api/logging.hpp"
@@ -42,7 +43,7 @@ namespace {
 		return (scene.stopAtIter > 0 && scene.iter + 1 == scene.stopAtIter) || (scene.stopAtTime > 0 && scene.time + scene.dt >= scene.stopAtTime);
 	}
 
-	VtkCells pointData(const Scene& scene, const MpmImplicitEngine& solver, const Columns& known, const vector<string>& fields, int sectors)
+	VtkCells pointData(const Scene& scene, const Analysis& solver, const Columns& known, const vector<string>& fields, int sectors)
 	{
 		if (sectors > 0 && !solver.grid->axisymmetric)
 			throw std::invalid_argument(
@@ -117,8 +118,8 @@ bool MpmVtkRecorder::isActivated()
 {
 	bool activated = false;
 	deliveringErrors([&] {
-		const MpmImplicitEngine& engine = followed();
-		activated                       = isDue(momentOf(engine)) || (lastIsMissing() && endsWithThisIteration(*scene) && standsBehind(engine));
+		const Analysis& engine = followed();
+		activated              = isDue(momentOf(engine)) || (lastIsMissing() && endsWithThisIteration(*scene) && standsBehind(engine));
 	});
 	return activated;
 }
@@ -128,7 +129,7 @@ void MpmVtkRecorder::action()
 	deliveringErrors([&] { record(followed()); });
 }
 
-void MpmVtkRecorder::stepBegins(const MpmImplicitEngine& engine)
+void MpmVtkRecorder::stepBegins(const Analysis& engine)
 {
 	if (&engine != &followed()) return;
 	lastStepIter = -1;
@@ -136,7 +137,7 @@ void MpmVtkRecorder::stepBegins(const MpmImplicitEngine& engine)
 	if (isDue(momentOf(engine))) record(engine); // the initial state
 }
 
-void MpmVtkRecorder::stepEnds(const MpmImplicitEngine& engine, bool converged)
+void MpmVtkRecorder::stepEnds(const Analysis& engine, bool converged)
 {
 	if (!converged) return stepFailed(engine);
 	if (&engine != &followed()) return;
@@ -146,7 +147,7 @@ void MpmVtkRecorder::stepEnds(const MpmImplicitEngine& engine, bool converged)
 	if (lastIsMissing() && endsWithThisIteration(*scene)) record(engine);
 }
 
-void MpmVtkRecorder::stepFailed(const MpmImplicitEngine& engine)
+void MpmVtkRecorder::stepFailed(const Analysis& engine)
 {
 	const bool hasAdvanced = engine.loadTime > knownTime; // by a part of the step
 	if (hasAdvanced) lastStepIter = scene->iter;
@@ -166,12 +167,12 @@ void MpmVtkRecorder::finish()
 	}
 }
 
-const MpmImplicitEngine& MpmVtkRecorder::followed() const
+const Analysis& MpmVtkRecorder::followed() const
 {
-	vector<const MpmImplicitEngine*> candidates;
+	vector<const Analysis*> candidates;
 	for (const auto& engine : scene->engines)
-		if (const auto* found = dynamic_cast<MpmImplicitEngine*>(engine.get()))
-			if (solver.empty() || found->label == solver) candidates.push_back(found);
+		if (const auto* found = dynamic_cast<const Analysis*>(engine.get()))
+			if (solver.empty() || engine->label == solver) candidates.push_back(found);
 	if (candidates.size() == 1) return *candidates.front();
 	const string wanted = solver.empty() ? "" : " labelled '" + solver + "', as the attribute solver says";
 	throw std::invalid_argument(
@@ -180,7 +181,7 @@ const MpmImplicitEngine& MpmVtkRecorder::followed() const
 }
 
 // The state in the bodies: a step counts as soon as it is made, though O.iter follows at the end of the iteration.
-MpmVtkRecorder::Moment MpmVtkRecorder::momentOf(const MpmImplicitEngine& engine) const
+MpmVtkRecorder::Moment MpmVtkRecorder::momentOf(const Analysis& engine) const
 {
 	return { scene->iter + (scene->iter == lastStepIter ? 1 : 0), engine.loadTime };
 }
@@ -210,13 +211,16 @@ void MpmVtkRecorder::restartPeriods(const Moment& now)
 
 bool MpmVtkRecorder::lastIsMissing() const { return isUnwritten && nDone > 0 && (nDo < 0 || nDone < nDo); }
 
-bool MpmVtkRecorder::standsBehind(const MpmImplicitEngine& engine) const
+bool MpmVtkRecorder::standsBehind(const Analysis& engine) const
 {
-	const auto first = std::find_if(scene->engines.begin(), scene->engines.end(), [&](const auto& e) { return e.get() == this || e.get() == &engine; });
-	return first->get() == &engine;
+	for (const auto& listed : scene->engines) {
+		if (listed.get() == this) return false;
+		if (dynamic_cast<const Analysis*>(listed.get()) == &engine) return true;
+	}
+	return false;
 }
 
-void MpmVtkRecorder::record(const MpmImplicitEngine& engine)
+void MpmVtkRecorder::record(const Analysis& engine)
 {
 	if (isDivided(engine)) fieldsOfPoints = fieldsOfAll(engine);
 	writeTogether(engine, [&] { writeAll(engine); });
@@ -255,17 +259,17 @@ void MpmVtkRecorder::requireOwnFiles() const
 	}
 }
 
-void MpmVtkRecorder::writeAll(const MpmImplicitEngine& engine)
+void MpmVtkRecorder::writeAll(const Analysis& engine)
 {
 	requireAdmissible();
 	requireOwnFiles();
-	engine.requireAdmissible();
+	engine.requireAttributes();
 	engine.grid->requireAdmissible();
 	for (const string& kind : kinds)
 		if (contains(recorders, kind) || contains(recorders, "all")) write(kind, momentOf(engine), engine);
 }
 
-void MpmVtkRecorder::write(const string& kind, const Moment& now, const MpmImplicitEngine& engine)
+void MpmVtkRecorder::write(const string& kind, const Moment& now, const Analysis& engine)
 {
 	const string series = fileName + kind + ".", file = stateFile(kind, series + std::to_string(now.iter), engine);
 	const auto   isOfSeries = [&](const auto& entry) { return entry.first.compare(0, series.size(), series) == 0; };

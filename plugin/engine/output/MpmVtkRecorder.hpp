@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
+#include "engine/analysis/LoadStepObserver.hpp"
 #include "engine/points/columns.hpp"
-#include "engine/solver/LoadStepObserver.hpp"
 #include "yade_api/exposed.hpp"
 
 namespace yade {
@@ -55,8 +55,8 @@ public:
 
 	bool isActivated() override;
 	void action() override;
-	void stepBegins(const MpmImplicitEngine&) override;
-	void stepEnds(const MpmImplicitEngine&, bool converged) override;
+	void stepBegins(const Analysis&) override;
+	void stepEnds(const Analysis&, bool converged) override;
 
 	// Writes the last state of this process if no file has it.
 	void finish();
@@ -73,18 +73,18 @@ private:
 		Real time;
 	};
 
-	const MpmImplicitEngine& followed() const;
-	void                     requireOwnFiles() const;
-	vector<string>           seriesWritten() const;
-	Moment                   momentOf(const MpmImplicitEngine&) const;
-	bool                     isDue(const Moment&);
-	void                     restartPeriods(const Moment&);
-	bool                     lastIsMissing() const;
-	bool                     standsBehind(const MpmImplicitEngine&) const;
-	void                     stepFailed(const MpmImplicitEngine&);
-	void                     record(const MpmImplicitEngine&);
-	void                     writeAll(const MpmImplicitEngine&);
-	void                     write(const string& kind, const Moment&, const MpmImplicitEngine&);
+	const Analysis& followed() const;
+	void            requireOwnFiles() const;
+	vector<string>  seriesWritten() const;
+	Moment          momentOf(const Analysis&) const;
+	bool            isDue(const Moment&);
+	void            restartPeriods(const Moment&);
+	bool            lastIsMissing() const;
+	bool            standsBehind(const Analysis&) const;
+	void            stepFailed(const Analysis&);
+	void            record(const Analysis&);
+	void            writeAll(const Analysis&);
+	void            write(const string& kind, const Moment&, const Analysis&);
 
 	// Of this process, so they are not saved:
 	long                       lastStepIter = -1;                                     // O.iter in the last step

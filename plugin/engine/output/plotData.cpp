@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "engine/output/plotData.hpp"
+#include "engine/analysis/analysis.hpp"
+#include "engine/parallel/processes.hpp"
 #include "engine/points/MaterialPoints.hpp"
-#include "engine/solver/MpmImplicitEngine.hpp"
-#include "engine/solver/energies.hpp"
-#include "engine/solver/processes.hpp"
+#include "engine/parallel/distribution.hpp"
+#include "engine/points/energies.hpp"
 #include "yade_api/value_lock.hpp"
 #include <numeric>
 
@@ -53,67 +54,40 @@ namespace {
 		}
 		return t;
 	}
-
-	string reactionName(const string& number, int axis) { return "reaction" + number + "_" + "xyz"[axis]; }
-
-	// Sums, and of bodies that do not move freely also one by one.
-	void tellContact(py::dict& data, const string& name, const MpmContact& contact, int dim)
-	{
-		Vector3r total    = Vector3r::Zero();
-		int      touching = 0;
-		for (size_t b = 0; b < contact.bodies.size(); ++b) {
-			total += contact.forces[b];
-			touching += contact.touching[b];
-			const string body = "body" + std::to_string(contact.bodies[b]);
-			for (int axis = 0; axis < 3 && !contact.areFree[b]; ++axis) {
-				if (axis < dim) data[body + "_" + "xyz"[axis]] = contact.forces[b][axis];
-				if (axis == 2 || dim == 3) data[body + "_torque_" + "xyz"[axis]] = contact.torques[b][axis];
-			}
-		}
-		for (int axis = 0; axis < dim; ++axis)
-			data[name + "_" + "xyz"[axis]] = contact.bodies.empty() ? unknown : total[axis];
-		data[name + "_touching"] = touching;
-	}
-
-	py::dict plotData(MpmImplicitEngine& engine)
-	{
-		const ValueLock lock;
-		engine.requireAdmissible();
-		const auto     points    = materialPoints(*engine.ownScene(), engine.mask);
-		const auto&    reactions = engine.reactions;
-		const Totals   own       = totals(points, engine.gravity);
-		const Totals   t         = isDivided(engine) ? ofAll(own, *processes()) : own;
-		const bool     isKnown   = reactions.size() == engine.boundaries.size();
-		const Vector3r total     = std::accumulate(reactions.begin(), reactions.end(), Vector3r(Vector3r::Zero()));
-		py::dict       data;
-		engine.tell(data, RunResults::byReportAndPlot);
-		data["step"]             = engine.nDone;
-		data["points"]           = size_t(t.points);
-		data["settlement"]       = t.points == 0 || engine.gravity.isZero(0) ? unknown : t.settlement;
-		data["displacement"]     = t.points == 0 ? unknown : t.largestDisplacement;
-		data["plasticShare"]     = t.points == 0 ? unknown : t.plasticVolume0 / t.volume0;
-		data["elasticEnergy"]    = t.elasticEnergy;
-		data["gravityPotential"] = -engine.curveOfGravity().valueAt(engine.loadTime) * engine.gravity.dot(t.massTimesDisplacement);
-		for (int axis = 0; axis < engine.grid->dim; ++axis)
-			data[reactionName("", axis)] = isKnown && !reactions.empty() ? total[axis] : unknown;
-		for (size_t b = 0; b < engine.boundaries.size(); ++b)
-			for (int axis = 0; axis < engine.grid->dim; ++axis)
-				if (engine.boundaries[b]->fixes(axis) || engine.boundaries[b]->fixesNormal())
-					data[reactionName(std::to_string(b), axis)] = isKnown ? reactions[b][axis] : unknown;
-		for (size_t i = 0; i < engine.loads.size(); ++i)
-			for (int axis = 0; axis < engine.grid->dim; ++axis)
-				data["load" + std::to_string(i) + "_" + "xyz"[axis]] = engine.loads[i]->resultant[axis];
-		for (size_t i = 0; i < engine.contacts.size(); ++i)
-			tellContact(data, "contact" + std::to_string(i), *engine.contacts[i], engine.grid->dim);
-		engine.tellMotion(data);
-		return data;
-	}
 }
 
-void addPlotData(py::object pythonClass)
+py::dict plotData(const Analysis& engine)
+{
+	const ValueLock lock;
+	engine.requireAttributes();
+	const auto     points    = materialPoints(*engine.ownScene(), engine.mask);
+	const auto&    reactions = engine.reactions;
+	const Totals   own       = totals(points, engine.gravity);
+	const Totals   t         = isDivided(engine) ? ofAll(own, *processes()) : own;
+	const bool     isKnown   = reactions.size() == engine.countOf("boundaries");
+	const Vector3r total     = std::accumulate(reactions.begin(), reactions.end(), Vector3r(Vector3r::Zero()));
+	py::dict       data;
+	engine.tell(data, RunResults::byReportAndPlot);
+	data["step"]             = engine.runs();
+	data["points"]           = size_t(t.points);
+	data["settlement"]       = t.points == 0 || engine.gravity.isZero(0) ? unknown : t.settlement;
+	data["displacement"]     = t.points == 0 ? unknown : t.largestDisplacement;
+	data["plasticShare"]     = t.points == 0 ? unknown : t.plasticVolume0 / t.volume0;
+	data["elasticEnergy"]    = t.elasticEnergy;
+	data["gravityPotential"] = -engine.curveOfGravity().valueAt(engine.loadTime) * engine.gravity.dot(t.massTimesDisplacement);
+	for (int axis = 0; axis < engine.grid->dim; ++axis)
+		data[string("reaction_") + "xyz"[axis]] = isKnown && !reactions.empty() ? total[axis] : unknown;
+	Rows rows(data);
+	for (const Listed& listed : engine.conditions())
+		listed.condition->tell(rows, engine, listed);
+	engine.tellMotion(data);
+	return data;
+}
+
+void addPlotData(py::object pythonClass, const py::object& function)
 {
 	py::objects::add_to_namespace(
-	        pythonClass, "plotData", py::make_function(&plotData),
+	        pythonClass, "plotData", function,
 	        "plotData() -> dict\n\nNumbers of the current state for YADE's plot: plot.addData(**solver.plotData()). They are worked out in the call, NaN "
 	        "where there is no such number.\n\n"
 	        "step: load steps made; loadFactor [-], iterations, cuts, residual [-]: of the last step; points: their number; settlement: largest displacement "

@@ -4,7 +4,11 @@
 #include "yade_api/types.hpp"
 
 namespace yade {
+class Analysis;
 
-void addPlotData(py::object pythonClass);
+py::dict plotData(const Analysis&);
+
+// The function of Python that calls it, with its documentation.
+void addPlotData(py::object pythonClass, const py::object& function);
 
 } // namespace yade

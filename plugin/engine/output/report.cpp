@@ -1,47 +1,45 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "engine/output/report.hpp"
-#include "engine/solver/MpmImplicitEngine.hpp"
-#include "engine/solver/failures.hpp"
+#include "engine/analysis/analysis.hpp"
+#include "engine/messages/failures.hpp"
 #include "yade_api/value_lock.hpp"
 
 namespace yade {
 
-namespace {
-	py::dict report(const MpmImplicitEngine& engine)
-	{
-		const ValueLock lock;
-		py::dict        result;
-		if (engine.times.empty()) return result;
-		const gimpm::StepReport& last = engine.last;
-		engine.tell(result, RunResults::byReport);
-		result["loadTime"]      = engine.loadTime;
-		result["accepted"]      = last.accepted;
-		result["failure"]       = nameOf(last.failure);
-		result["cause"]         = last.cause;
-		result["cgFailure"]     = last.conjugateGradients.reason;
-		result["localResidual"] = last.localResidual;
-		result["localError"]    = last.localError;
-		result["stiffness"]     = nameOf(last.definiteness);
-		result["worstNode"]     = Vector3r(last.worst.position);
-		result["worstAxis"]     = last.worst.axis < 0 ? string() : string(1, "xyz"[last.worst.axis]);
-		result["worstForce"]    = last.worst.force;
-		result["points"]        = engine.pointsOfRun;
-		result["nodes"]         = last.nodes;
-		result["mixedCells"]    = last.mixedCells;
-		result["islands"]       = last.parts;
-		py::dict seconds;
-		for (const auto& [phase, time] : engine.times)
-			seconds[phase] = time;
-		result["times"] = seconds;
-		engine.tellMotion(result);
-		return result;
-	}
+py::dict report(const Analysis& engine)
+{
+	const ValueLock lock;
+	py::dict        result;
+	if (engine.times.empty()) return result;
+	const gimpm::StepReport& last = engine.last;
+	engine.tell(result, RunResults::byReport);
+	result["loadTime"]      = engine.loadTime;
+	result["accepted"]      = last.accepted;
+	result["failure"]       = nameOf(last.failure);
+	result["cause"]         = last.cause;
+	result["cgFailure"]     = last.conjugateGradients.reason;
+	result["localResidual"] = last.localResidual;
+	result["localError"]    = last.localError;
+	result["stiffness"]     = nameOf(last.definiteness);
+	result["worstNode"]     = Vector3r(last.worst.position);
+	result["worstAxis"]     = last.worst.axis < 0 ? string() : string(1, "xyz"[last.worst.axis]);
+	result["worstForce"]    = last.worst.force;
+	result["points"]        = engine.pointsOfRun;
+	result["nodes"]         = last.nodes;
+	result["mixedCells"]    = last.mixedCells;
+	result["islands"]       = last.parts;
+	py::dict seconds;
+	for (const auto& [phase, time] : engine.times)
+		seconds[phase] = time;
+	result["times"] = seconds;
+	engine.tellMotion(result);
+	return result;
 }
 
-void addReport(py::object pythonClass)
+void addReport(py::object pythonClass, const py::object& function)
 {
 	py::objects::add_to_namespace(
-	        pythonClass, "report", py::make_function(&report),
+	        pythonClass, "report", function,
 	        "report() -> dict\n\nHow the last run of this engine in this process went; empty before the first.\n\n"
 	        "Outcome: 'converged'; 'accepted' (see MpmNewton.acceptUnconverged); 'failure', one of 'none', 'detached' (a boundary that is to move has no hold of the soil), 'misplaced' (a load, wall or rigid body), 'unrestrained', 'slides' (friction at its limit does not hold it), 'penetrated' (by a rigid body), 'refused' (by a condition that does not admit the equilibrium), 'inaccurate' (MpmDynamicEngine.timeTolerance; beyond newton.stepTolerance steps are cut), 'gainsEnergy' (a step in time makes energy of nothing), 'singular', 'inverted', "
 	        "'notFinite', 'diverging', 'tooManyIterations', 'stalled' (at round-off), 'apart' (processes in different states), 'interrupted'; 'cause', a clause, empty when converged; 'loadTime' [s] and 'loadFactor' of the "

@@ -4,7 +4,11 @@
 #include "yade_api/types.hpp"
 
 namespace yade {
+class Analysis;
 
-void addReport(py::object pythonClass);
+py::dict report(const Analysis&);
+
+// The function of Python that calls it, with its documentation.
+void addReport(py::object pythonClass, const py::object& function);
 
 } // namespace yade

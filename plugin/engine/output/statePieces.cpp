@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "engine/output/statePieces.hpp"
+#include "engine/analysis/analysis.hpp"
+#include "engine/output/gridCells.hpp"
 #include "engine/output/vtkDataSets.hpp"
-#include "engine/solver/MpmImplicitEngine.hpp"
-#include "engine/solver/processes.hpp"
+#include "engine/parallel/distribution.hpp"
+#include "engine/parallel/processes.hpp"
 #include "yade_api/value_lock.hpp"
 #include <filesystem>
 #include <vtkUnstructuredGrid.h>
@@ -23,14 +25,14 @@ namespace {
 	}
 }
 
-vector<const PointColumn*> fieldsOfAll(const MpmImplicitEngine& engine)
+vector<const PointColumn*> fieldsOfAll(const Analysis& engine)
 {
 	const auto                 all = processes();
 	vector<const PointColumn*> own;
 	tryTogether(
 	        [&] {
 		        const ValueLock lock;
-		        own = fieldsOf(materialPoints(*engine.scene, engine.mask));
+		        own = fieldsOf(materialPoints(engine.sceneOfRun(), engine.mask));
 	        },
 	        *all);
 	vector<int64_t> isMissing;
@@ -43,17 +45,16 @@ vector<const PointColumn*> fieldsOfAll(const MpmImplicitEngine& engine)
 	return own;
 }
 
-void writeTogether(const MpmImplicitEngine& engine, const std::function<void()>& write)
+void writeTogether(const Analysis& engine, const std::function<void()>& write)
 {
 	if (isDivided(engine)) tryTogether(write, *processes());
 	else if (isFirstProcess())
 		write();
 }
 
-string stateFile(const string& kind, const string& path, const MpmImplicitEngine& engine)
+string stateFile(const string& kind, const string& path, const Analysis& engine)
 {
-	const bool isWhole = kind == "loads" || kind == "walls" || kind == "contacts"; // in every process
-	if (!isDivided(engine) || isWhole) return path + ".vtu";
+	if (!isDivided(engine) || isOfConditions(kind)) return path + ".vtu";
 	if (kind == "points") return path + ".pvtu";
 	throw std::invalid_argument(
 	        "MpmVtkRecorder.recorders = '" + kind

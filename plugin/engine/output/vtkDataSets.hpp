@@ -3,8 +3,8 @@
 // The state of an analysis as VTK data: cells with fields. In plane strain all lies in a plane of constant z.
 #include "core/grid/point_cloud.hpp"
 #include "core/stepping/model.hpp"
+#include "engine/grid/MpmGrid.hpp"
 #include "engine/points/columns.hpp"
-#include "engine/solver/MpmGrid.hpp"
 #include <vtkSmartPointer.h>
 
 class vtkUnstructuredGrid;

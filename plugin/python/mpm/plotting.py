@@ -172,16 +172,19 @@ def _drawFaces(ax, section, solver):
 
 
 def _drawSurfaces(ax, section, solver, kind, colour):
-	"""Of loads or walls, with the forces that act on the body."""
+	"""Of loads or walls, with the first field of their picture where that is a vector, as the forces that act on the body."""
 	from matplotlib.collections import LineCollection
 	data = engine.gridCells(kind, solver)
-	tractions = np.frombuffer(data['field']).reshape(-1, 3)
-	lines, kept = section.lines(np.frombuffer(data['corners']).reshape(len(tractions), -1, 3))
+	count = data['count']
+	if not count: return
+	lines, kept = section.lines(np.frombuffer(data['corners']).reshape(count, -1, 3))
 	if not len(kept): return
 	ax.add_collection(LineCollection(lines, colors=colour, linewidths=1.8, zorder=5, label=kind))
 	ax.update_datalim(lines.reshape(-1, 2))
+	vectors = np.frombuffer(data['field']).reshape(count, -1)
+	if vectors.shape[1] != 3: return
 	shown = np.linspace(0, len(kept) - 1, min(len(kept), 25)).astype(int)
-	tips, forces = lines[shown].mean(axis=1), tractions[kept[shown]][:, section.shown]
+	tips, forces = lines[shown].mean(axis=1), np.nan_to_num(vectors[kept[shown]])[:, section.shown]
 	length = 0.06 * np.ptp(ax.dataLim.get_points(), axis=0).max()
 	largest = np.abs(forces).max()
 	if largest == 0: return

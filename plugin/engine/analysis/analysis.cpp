@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "engine/analysis/analysis.hpp"
+
+namespace yade {
+
+Real Analysis::loadsEnd() const
+{
+	Real end = std::max(curveOfLoads().end(), curveOfGravity().end());
+	for (const Listed& listed : conditions())
+		end = std::max(end, listed.condition->end(*this));
+	return end;
+}
+
+size_t Analysis::countOf(const string& list) const
+{
+	const auto all = conditions();
+	return std::count_if(all.begin(), all.end(), [&](const Listed& listed) { return listed.list == list; });
+}
+
+} // namespace yade

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+// What an analysis is set to, what acts in it, and what it has come to: an engine, as everything below the engines knows it.
+#include "core/stepping/load_curve.hpp"
+#include "core/stepping/model.hpp"
+#include "engine/analysis/MpmCondition.hpp"
+#include "engine/analysis/MpmGhost.hpp"
+#include "engine/analysis/MpmNewton.hpp"
+#include "engine/analysis/RunResults.hpp"
+#include "engine/grid/MpmGrid.hpp"
+#include "yade_api/scene.hpp"
+
+namespace yade {
+
+class Analysis : public RunResults {
+public:
+	shared_ptr<MpmGrid>     grid;
+	string                  basis   = "gimp";
+	bool                    fBar    = false;
+	Vector3r                gravity = Vector3r::Zero();
+	gimpm::LoadCurve::Knees loadCurve { { 0, 0 }, { 1, 1 } };
+	gimpm::LoadCurve::Knees gravityCurve; // empty: loadCurve
+	shared_ptr<MpmGhost>    ghost { new MpmGhost };
+	shared_ptr<MpmNewton>   newton { new MpmNewton };
+	int                     mask        = -1;
+	Real                    loadTime    = 0;
+	int                     maxSplits   = 0;
+	bool                    distributed = false;
+
+	virtual ~Analysis() = default;
+
+	// What acts on the material points, in the order of its terms.
+	virtual vector<Listed> conditions() const = 0;
+
+	virtual bool          isDynamic() const { return false; }
+	virtual bool          isExplicit() const { return false; }
+	virtual void          tellMotion(py::dict&) const { }
+	virtual std::uint64_t checksumInTime() const { return 0; } // of the settings of steps in time
+
+	// The engine.
+	virtual string            className() const         = 0;
+	virtual void              requireAttributes() const = 0; // std::invalid_argument names one that is not admitted
+	virtual shared_ptr<Scene> ownScene() const          = 0; // that has it
+	virtual Scene&            sceneOfRun() const        = 0; // that it was called in
+	virtual long              period() const            = 0; // iterations from run to run
+	virtual long              runs() const              = 0; // so far
+
+	gimpm::LoadCurve curveOfLoads() const { return gimpm::LoadCurve(loadCurve); }
+	gimpm::LoadCurve curveOfGravity() const { return gimpm::LoadCurve(gravityCurve.empty() ? loadCurve : gravityCurve); }
+
+	// An own curve, or where it is empty that of the loads, or of gravity.
+	gimpm::LoadCurve curveOfLoad(const gimpm::LoadCurve::Knees& own) const { return own.empty() ? curveOfLoads() : gimpm::LoadCurve(own); }
+	gimpm::LoadCurve curveOfWeight(const gimpm::LoadCurve::Knees& own) const { return own.empty() ? curveOfGravity() : gimpm::LoadCurve(own); }
+
+	// When the last of the histories has come to rest.
+	Real loadsEnd() const;
+
+	// How many conditions an attribute has.
+	size_t countOf(const string& list) const;
+
+	template <int Dim> gimpm::Load<Dim> loadBetween(Real begin, Real end) const
+	{
+		gimpm::Load<Dim> load { gravity.head<Dim>(), curveOfLoads().between(begin, end) };
+		if (!gravityCurve.empty()) load.ofGravity = curveOfGravity().between(begin, end);
+		return load;
+	}
+};
+
+} // namespace yade

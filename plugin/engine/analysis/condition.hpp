@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+// What acts on the soil, in the load steps of a run, of a study, and of the limit of explicit steps.
+#include "core/stepping/model.hpp"
+#include "core/stepping/report.hpp"
+#include "engine/points/MaterialPoints.hpp"
+#include <array>
+#include <map>
+
+namespace gimpm {
+template <int Dim> struct Motion;
+}
+
+namespace yade {
+class Analysis;
+class MpmCondition;
+
+// A condition, and where it stands among the attributes of an engine.
+struct Listed {
+	shared_ptr<MpmCondition> condition;
+	const char*              list;
+	size_t                   number, count; // in the list, and of all in it
+
+	string name() const { return string(list) + "[" + std::to_string(number) + "]"; }
+};
+
+// What there is as a run or a study begins.
+template <int Dim> struct Surroundings {
+	const Analysis&               analysis;
+	const Scene&                  scene;
+	const vector<MaterialPoint>&  points;
+	const gimpm::PointCloud<Dim>& cloud;
+	Real                          begin, target; // load times
+};
+
+// The step that comes next.
+struct StepTime {
+	Real from, to;                                       // load times
+	Real looked;                                         // when loads are looked at: at its end, or with the midpoint rule in its middle
+	Real energy = std::numeric_limits<Real>::infinity(); // of a step in time: all that has come in before it [J]
+};
+
+// A step that has been accepted.
+template <int Dim> struct StepOutcome {
+	const gimpm::Model<Dim>&     model;
+	const gimpm::StepReport&     report;
+	const vector<MaterialPoint>& points;
+	Real                         from, time; // load times
+	vector<Vector3r>&            reactions;  // of the boundaries [N], to which conditions may add what they put in their place
+	const vector<Vector3r>&      reactionsBefore;
+};
+
+// In a step in time [J], by what is made of it in the balance of energy.
+struct Work {
+	Real ofLoads = 0, ofBoundaries = 0;
+	Real ofContacts = 0, given = 0; // given: part of that which no body has worked
+
+	Work& operator+=(const Work& other)
+	{
+		ofLoads += other.ofLoads, ofBoundaries += other.ofBoundaries, ofContacts += other.ofContacts, given += other.given;
+		return *this;
+	}
+};
+
+// Springs that limit the length of explicit steps: the stiffest, over Young's modulus per cell [-], and what makes it smaller.
+struct Penalty {
+	Real   size = 0;
+	string remedy {};
+};
+
+// A point whose domain is halved along an axis; its number stays with the lower half.
+struct HalvedDomain {
+	int                 lower, upper; // ids
+	int                 axis, dim;
+	std::array<Real, 3> middle, halfSize; // of the whole [m]
+};
+
+// One for each kind of condition that an engine has, made by it (MpmCondition::make). Terms refer to it, so that it lives as long as the model.
+template <int Dim> class Condition {
+public:
+	virtual ~Condition() = default;
+
+	// Nodes that it holds or lets go, before there are points.
+	virtual void hold(gimpm::Model<Dim>&) { }
+
+	// Makes it act in the steps of the model. std::invalid_argument names what cannot be computed with.
+	virtual void join(gimpm::Model<Dim>&, const Surroundings<Dim>&) = 0;
+
+	// The steps are those in time: `motion` lives as long as the model. The first one begins at a load time.
+	virtual void joinMotion(gimpm::Motion<Dim>&, const gimpm::Model<Dim>&, Real /*begin*/) { }
+
+	// Sets what acts in the next step, and of its load what the condition prescribes.
+	virtual void advance(const StepTime&, gimpm::Model<Dim>&, gimpm::Load<Dim>&) { }
+
+	// Before the state of an accepted step is kept: std::invalid_argument where that cannot be gone on with.
+	virtual void requireKept() const { }
+
+	// On the soil in the accepted step, while the points are still as before it; only in steps in time.
+	virtual Work work(const StepOutcome<Dim>&) const { return {}; }
+
+	// Writes an accepted state back.
+	virtual void reach(const StepOutcome<Dim>&) { }
+
+	virtual Penalty penalty() const { return {}; }
+
+	// Before the first step: a doubt about where it acts, a sentence; empty if there is none.
+	virtual string doubtOfPlace(const gimpm::PointCloud<Dim>&, const gimpm::Grid<Dim>&) const { return ""; }
+
+	// After the steps of a run: doubts, sentences by what they are about.
+	virtual std::map<string, string> doubts(bool /*isDynamic*/) const { return {}; }
+
+	// Whether the middle of a part of a point, as seen from that of the point, is on the same side of it.
+	virtual bool areBeside(const gimpm::Vec<Dim>& /*point*/, const gimpm::Vec<Dim>& /*part*/) const { return true; }
+
+	// Where it remembers something of points, what is remembered of a point is shared by its halves. It is told of the points of all processes.
+	virtual bool remembersPoints() const { return false; }
+	virtual void share(const HalvedDomain&) const { }
+};
+
+template <int Dim> using Conditions = vector<std::shared_ptr<Condition<Dim>>>;
+
+// Those of an analysis, in the order of their terms.
+template <int Dim> Conditions<Dim> conditionsOf(const Analysis&);
+
+} // namespace yade

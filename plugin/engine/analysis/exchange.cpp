@@ -1,0 +1,275 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "engine/analysis/exchange.hpp"
+#include "core/materials/kinematics.hpp"
+#include "engine/grid/fit.hpp"
+#include "engine/materials/laws.hpp"
+#include "engine/points/parallel.hpp"
+#include <atomic>
+#include <unordered_map>
+
+namespace yade {
+
+namespace {
+	// As at the end of a step, no domain of the basis 'gimp' reaches farther than half a cell.
+	template <int Dim> gimpm::Vec<Dim> domainIn(const gimpm::Model<Dim>& model, const MaterialPoint& point)
+	{
+		const gimpm::Vec<Dim> half = point.shape->halfSize.head<Dim>();
+		return model.basis == gimpm::Basis::gimp ? gimpm::Vec<Dim>(half.cwiseMin(gimpm::largestHalf<Dim>(model.grid, point.state->pos.head<Dim>())))
+		                                         : half;
+	}
+
+	gimpm::LinearMethod linearMethod(const string& name)
+	{
+		if (name == "auto") return gimpm::LinearMethod::automatic;
+		if (name == "amg") return gimpm::LinearMethod::multigrid;
+		return name == "direct" ? gimpm::LinearMethod::direct : gimpm::LinearMethod::iterative;
+	}
+
+	// Position in the model's list of materials, which grows by each material on its first point.
+	class MaterialIndex {
+	public:
+		// `known`: those that the list begins with.
+		MaterialIndex(std::vector<gimpm::Material>& list, std::vector<double>& shares, const MaterialList& known) : list(list), shares(shares)
+		{
+			for (const MpmMaterial* material : known) {
+				index.emplace(material, int(list.size()));
+				add(*material);
+			}
+		}
+		int of(const MaterialPoint& point)
+		{
+			if (point.material.get() == last) return lastIndex;
+			last             = point.material.get();
+			return lastIndex = find(point);
+		}
+
+	private:
+		void add(const MpmMaterial& material)
+		{
+			list.push_back(coreMaterial(material));
+			shares.push_back(material.share);
+		}
+		int find(const MaterialPoint& point)
+		{
+			const auto [found, isNew] = index.try_emplace(point.material.get(), int(list.size()));
+			if (isNew) try {
+					add(*point.material);
+				} catch (const std::invalid_argument& error) {
+					throw std::invalid_argument("Body #" + std::to_string(point.id) + ": " + error.what());
+				}
+			return found->second;
+		}
+
+		const MpmMaterial*                          last      = nullptr; // points of one material follow each other
+		int                                         lastIndex = 0;
+		std::vector<gimpm::Material>&               list;
+		std::vector<double>&                        shares;
+		std::unordered_map<const MpmMaterial*, int> index;
+	};
+
+	// Makes the columns of parameters that points have of their own, in whatever process they are, and marks their materials.
+	template <int Dim> void provideParameters(const vector<MaterialPoint>& points, gimpm::Model<Dim>& model, gimpm::PointCloud<Dim>& cloud)
+	{
+		vector<int64_t> isAlike(model.materials.size(), 1), isUnused(allParameters().size(), 1); // by number: of materials, of parameters of a class
+		for (size_t p = 0; p < points.size(); ++p) {
+			if (points[p].state->parameters.empty()) continue;
+			isAlike[cloud.material[p]] = 0;
+			const auto& known          = parametersOf(*points[p].material);
+			for (size_t k = 0; k < known.size(); ++k)
+				if (points[p].state->parameter(known[k].name)) isUnused[k] = 0;
+		}
+		if (model.division)
+			for (auto* flags : { &isAlike, &isUnused })
+				model.division->processes->smallest(flags->data(), int(flags->size()));
+		for (size_t m = 0; m < isAlike.size(); ++m)
+			if (!isAlike[m]) model.materials[m].varies = true;
+		for (size_t k = 0; k < isUnused.size(); ++k)
+			if (!isUnused[k]) {
+				cloud.parameters.resize(std::max(cloud.parameters.size(), k + 1));
+				cloud.parameters[k].assign(points.size(), 0);
+			}
+	}
+
+	// Of point p, the columns of which are there.
+	template <int Dim>
+	void gatherParameters(const MaterialPoint& point, const gimpm::Law& law, OwnMaterial& ownMaterial, gimpm::PointCloud<Dim>& cloud, size_t p)
+	{
+		try {
+			const MpmMaterial& material = ownMaterial.of(*point.material, point.state->parameters);
+			auto               values   = gimpm::parametersOf(law);
+			for (const ParameterOfClass& known : parametersOf(material))
+				values[&known - parametersOf(material).data()] = known.valueIn(material);
+			for (size_t k = 0; k < std::min(values.size(), cloud.parameters.size()); ++k)
+				if (!cloud.parameters[k].empty()) cloud.parameters[k][p] = values[k];
+		} catch (const std::invalid_argument& error) {
+			throw std::invalid_argument("Body #" + std::to_string(point.id) + ": " + error.what());
+		}
+	}
+
+	// Names and columns of the variables that points of this material have.
+	template <int Dim> vector<std::pair<std::string_view, const Real*>> internalsFor(const MpmMaterial& material, const gimpm::PointCloud<Dim>& cloud)
+	{
+		vector<std::pair<std::string_view, const Real*>> found;
+		for (const gimpm::InternalVariable& variable : variablesOf(material))
+			found.emplace_back(variable.name, cloud.internals[gimpm::internalVariables.find(variable.name)].data());
+		return found;
+	}
+
+	// Along the circle around the axis of symmetry: half of its length is the half size.
+	void scatterAround(const MaterialPoint& point, Real stretch)
+	{
+		point.state->defGrad(2, 2) = stretch;
+		point.shape->halfSize[2]   = point.shape->halfSize0[2] * stretch;
+	}
+
+	// Of point p; its column is there.
+	template <int Dim> void gatherInternals(const MaterialPoint& point, const gimpm::Law& law, gimpm::PointCloud<Dim>& cloud, size_t p)
+	{
+		withLaw(law, [&](const auto& l) {
+			const auto values = point.internalsOf(l);
+			point.requireInternals(l.variables.data(), values.data(), values.size());
+			gimpm::storeInternals(l, values, cloud.internals, p);
+		});
+	}
+
+	template <int Dim> void reenterAll(gimpm::PointCloud<Dim>& cloud, const gimpm::Grid<Dim>& grid, const vector<MaterialPoint>& points)
+	{
+		for (int a = 0; a < Dim; ++a)
+			for (size_t p = 0; grid.period[a] > 0 && p < points.size(); ++p) {
+				const Real shift = reenter(cloud.position[p][a], a, grid);
+				points[p].state->refPos[a] -= shift;
+				if (!cloud.position0.empty()) cloud.position0[p][a] -= shift;
+			}
+	}
+}
+
+template <int Dim> Real reenter(Real& x, int axis, const gimpm::Grid<Dim>& grid)
+{
+	const Real length = grid.period[axis] * grid.cellSize, low = grid.origin[axis], high = low + length;
+	if (length == 0 || (x >= low && x < high)) return 0;
+	const Real shift = length * std::floor((x - low) / length);
+	x                = std::clamp(x - shift, low, high); // round-off
+	return shift;
+}
+
+template <int Dim> gimpm::Model<Dim> emptyModel(const Analysis& analysis, const Conditions<Dim>& conditions)
+{
+	const MpmGhost&  ghost  = *analysis.ghost;
+	const MpmNewton& newton = *analysis.newton;
+	analysis.grid->requireAdmissible();
+	ghost.requireAdmissible();
+	newton.requireAdmissible();
+	if (analysis.fBar && ghost.factor == 0)
+		throw std::invalid_argument(
+		        "fBar takes the dilation of points from the centres of their cells, also where these are nearly empty: it needs ghost stabilisation, "
+		        "such as ghost=MpmGhost(), instead of ghost.factor=0.");
+	gimpm::Model<Dim> model;
+	model.grid                    = analysis.grid->lattice<Dim>();
+	model.basis                   = analysis.basis == "mpm" ? gimpm::Basis::linear : gimpm::Basis::gimp;
+	model.fBar                    = analysis.fBar;
+	model.ghost                   = { ghost.factor, ghost.scaling == "paper" ? gimpm::GhostScaling::paper : gimpm::GhostScaling::meshIndependent };
+	model.newton.tolerance        = newton.tolerance;
+	model.newton.maxIterations    = newton.maxIterations;
+	model.newton.lineSearchTrials = newton.lineSearchTrials;
+	model.newton.reuseFactor      = newton.reuseFactor;
+	model.newton.linearSolver     = linearMethod(newton.linearSolver);
+	if (analysis.grid->axisymmetric) model.boundary = gimpm::Boundary<Dim>({ gimpm::HeldBox<Dim>::ofAxis(model.grid) });
+	for (const auto& condition : conditions)
+		condition->hold(model);
+	return model;
+}
+
+template <int Dim> vector<gimpm::Key> cellsOf(const gimpm::PointCloud<Dim>& cloud, const gimpm::Grid<Dim>& grid, const gimpm::Division* division)
+{
+	vector<gimpm::Key> cells;
+	for (const auto& x : cloud.position) {
+		const gimpm::Index<Dim> cell = ((x - grid.origin) / grid.cellSize).array().floor().template cast<int>();
+		const gimpm::Key        key  = gimpm::Grid<Dim>::key(cell);
+		if (cells.empty() || cells.back() != key) cells.push_back(key);
+	}
+	const auto sortOut = [&] {
+		std::sort(cells.begin(), cells.end());
+		cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
+	};
+	sortOut();
+	if (!division) return cells;
+	cells = gimpm::joined(*division->processes, cells);
+	sortOut();
+	return cells;
+}
+
+template <int Dim> gimpm::PointCloud<Dim> gather(const vector<MaterialPoint>& points, gimpm::Model<Dim>& model, const MaterialList& known)
+{
+	gimpm::PointCloud<Dim> cloud;
+	cloud.resize(points.size());
+	if (model.grid.axisymmetric) cloud.hoopStretch.resize(points.size());
+	MaterialIndex materials(model.materials, model.shares, known);
+	for (size_t p = 0; p < points.size(); ++p)
+		cloud.material[p] = materials.of(points[p]);
+	gimpm::provideInternals(cloud.internals, model.materials, points.size());
+	provideParameters(points, model, cloud);
+	std::atomic_bool hasForce { false };
+	inRanges(points.size(), [&](size_t begin, size_t end) {
+		OwnMaterial ownMaterial;
+		for (size_t p = begin; p < end; ++p) {
+			const MaterialPoint& point = points[p];
+			point.requireAdmissible(Dim, model.grid.axisymmetric);
+			point.requireStart();
+			requireFit<Dim>(point, model.grid, model.basis);
+			cloud.position[p]  = point.state->pos.template head<Dim>();
+			cloud.halfSize[p]  = domainIn(model, point);
+			cloud.halfSize0[p] = point.shape->halfSize0.template head<Dim>();
+			cloud.volume0[p]   = point.state->volume0;
+			cloud.defGrad[p]   = point.state->defGrad.template topLeftCorner<Dim, Dim>();
+			if (model.grid.axisymmetric) cloud.hoopStretch[p] = point.state->defGrad(2, 2);
+			cloud.elasticStrain[p] = gimpm::SymTensor<Dim>::from(point.state->elasticStrain);
+			cloud.stress[p]        = gimpm::SymTensor<Dim>::from(point.state->stress);
+			gatherInternals(point, model.materials[cloud.material[p]].law, cloud, p);
+			if (model.materials[cloud.material[p]].varies) gatherParameters(point, model.materials[cloud.material[p]].law, ownMaterial, cloud, p);
+			if (!point.state->force.isZero(0)) hasForce = true;
+		}
+	});
+	if (hasForce)
+		for (const MaterialPoint& point : points)
+			cloud.force.push_back(point.material->share * point.state->force.template head<Dim>());
+	const auto& boxes = model.boundary.boxes();
+	if (std::any_of(boxes.begin(), boxes.end(), [](const auto& box) { return !box.displacement.isZero(0); }))
+		for (const MaterialPoint& point : points)
+			cloud.position0.push_back(point.state->refPos.template head<Dim>());
+	return cloud;
+}
+
+// Plane strain leaves the components out of the plane alone, but for the zz component of strain and stress; axisymmetry has that of the deformation too.
+template <int Dim> void scatter(gimpm::PointCloud<Dim>& cloud, const gimpm::Grid<Dim>& grid, const vector<MaterialPoint>& points)
+{
+	reenterAll(cloud, grid, points);
+	inRanges(points.size(), [&](size_t begin, size_t end) {
+		vector<std::pair<std::string_view, const Real*>> internals;
+		for (size_t p = begin; p < end; ++p) {
+			MpmState& state                                = *points[p].state;
+			state.pos.head<Dim>()                          = cloud.position[p];
+			state.defGrad.topLeftCorner<Dim, Dim>()        = cloud.defGrad[p];
+			state.elasticStrain                            = cloud.elasticStrain[p].full();
+			state.stress                                   = cloud.stress[p].full();
+			state.volume                                   = cloud.volume0[p] * cloud.volumeRatio(p);
+			state.porePressure                             = std::numeric_limits<Real>::quiet_NaN(); // conditions give it
+			points[p].shape->halfSize.template head<Dim>() = cloud.halfSize[p];
+			if (grid.axisymmetric) scatterAround(points[p], cloud.hoopStretch[p]);
+			if (p == begin || points[p].material.get() != points[p - 1].material.get()) internals = internalsFor(*points[p].material, cloud);
+			for (const auto& [name, column] : internals)
+				state.setInternal(name, column[p]);
+		}
+	});
+}
+
+#define MPM_INSTANTIATE(Dim)                                                                                                                                   \
+	template gimpm::Model<Dim>      emptyModel(const Analysis&, const Conditions<Dim>&);                                                                   \
+	template vector<gimpm::Key>     cellsOf(const gimpm::PointCloud<Dim>&, const gimpm::Grid<Dim>&, const gimpm::Division*);                               \
+	template gimpm::PointCloud<Dim> gather(const vector<MaterialPoint>&, gimpm::Model<Dim>&, const MaterialList&);                                         \
+	template void                   scatter(gimpm::PointCloud<Dim>&, const gimpm::Grid<Dim>&, const vector<MaterialPoint>&);                               \
+	template Real                   reenter(Real&, int, const gimpm::Grid<Dim>&);
+MPM_INSTANTIATE(2)
+MPM_INSTANTIATE(3)
+#undef MPM_INSTANTIATE
+
+} // namespace yade

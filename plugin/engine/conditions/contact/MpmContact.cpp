@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "engine/conditions/contact/MpmContact.hpp"
+#include "core/base/sentence.hpp"
+#include "engine/analysis/analysis.hpp"
+#include "engine/conditions/contact/contact_records.hpp"
+#include "engine/conditions/contact/contacts.hpp"
+#include "engine/points/MpmPoint.hpp"
+#include "yade_api/registration.hpp"
+#include "yade_api/scene.hpp"
+#include <Eigen/Eigenvalues>
+
+namespace yade {
+
+namespace {
+	using Stiffness = Eigen::Matrix<Real, 6, 6>;
+
+	// Translation and turn.
+	Eigen::Matrix<Real, 6, 1> movement(const Se3r& before, const State& now)
+	{
+		const Eigen::AngleAxis<Real> turn(now.ori * before.orientation.conjugate());
+		Eigen::Matrix<Real, 6, 1>    result;
+		result << now.pos - before.position, turn.angle() * turn.axis();
+		return result;
+	}
+}
+
+void MpmContact::requireAdmissible() const
+{
+	Exposed<MpmContact, MpmCondition>::requireAdmissible();
+	const size_t n = bodies.size();
+	for (const size_t size : { forces.size(), torques.size(), impulses.size(), touching.size(), slipping.size(), areFree.size(), impulsesSince.size(),
+	                           poses.size() / 7, stiffnesses.size() / 36 })
+		if (size != n) throw std::invalid_argument("MpmContact: what is kept of the bodies does not go together; is the saved file damaged?");
+	if (records.size() % ContactRecordOfPoint::width != 0)
+		throw std::invalid_argument("MpmContact: what is kept of the points that touch is incomplete; is the saved file damaged?");
+}
+
+void MpmContact::forget()
+{
+	for (auto* list : { &bodies, &touching, &slipping, &areFree })
+		list->clear();
+	for (auto* list : { &forces, &torques, &impulses, &impulsesSince })
+		list->clear();
+	for (auto* list : { &poses, &stiffnesses, &records })
+		list->clear();
+}
+
+void MpmContact::keep(int id, const gimpm::ContactLoad& load, const Se3r& pose, bool isFree, const Vector3r& impulse)
+{
+	bodies.push_back(id);
+	forces.push_back(load.force);
+	torques.push_back(load.torque);
+	impulses.push_back(impulse);
+	impulsesSince.push_back(Vector3r::Zero());
+	touching.push_back(0);
+	slipping.push_back(0);
+	areFree.push_back(isFree);
+	poses.insert(poses.end(), pose.position.data(), pose.position.data() + 3);
+	poses.insert(poses.end(), pose.orientation.coeffs().data(), pose.orientation.coeffs().data() + 4);
+	stiffnesses.insert(stiffnesses.end(), load.stiffness.data(), load.stiffness.data() + load.stiffness.size());
+}
+
+Se3r MpmContact::poseOf(size_t i) const
+{
+	const Real* pose = &poses[7 * i];
+	return { Vector3r::Map(pose), Quaternionr(Eigen::Map<const Eigen::Matrix<Real, 4, 1>>(pose + 3)) };
+}
+
+// Of a body that moves by the inverse of its masses, blocked ones left out.
+void MpmContact::requireStable(const Body& body, const Stiffness& K, Real dt, bool isHandedOver) const
+{
+	const State& state  = *body.state;
+	const auto   isFree = [&](int dof) { return !(state.blockedDOFs >> dof & 1); };
+	const bool   spins  = isFree(3) && isFree(4) && isFree(5);
+	Stiffness    moves  = Stiffness::Zero(); // root of the inverse of the masses
+	const auto   axes   = state.ori.toRotationMatrix();
+	for (int i = 0; i < 3; ++i) {
+		if (isFree(i)) moves(i, i) = 1 / std::sqrt(state.mass);
+		if (isFree(3 + i)) moves(3 + i, 3 + i) = 1 / std::sqrt(state.inertia[i]);
+	}
+	if (spins) moves.bottomRightCorner<3, 3>() = (axes * moves.bottomRightCorner<3, 3>() * axes.transpose()).eval();
+	const Real fastest  = Eigen::SelfAdjointEigenSolver<Stiffness>(moves * K * moves, Eigen::EigenvaluesOnly).eigenvalues()[5];
+	const Real critical = 2 / std::sqrt(std::max(fastest, 1e-300) / (isHandedOver ? 1 : 1 + stiffness));
+	if (dt <= critical * (1 + 1e-9)) return;
+	throw std::invalid_argument(gimpm::sentence(
+	        "Body #", body.id, " of ", state.mass, " kg is too light for O.dt = ", dt, " s: contact is a spring of ",
+	        K.topLeftCorner<3, 3>().diagonal().maxCoeff(), " N/m to it", isHandedOver ? "" : ", in series with the soil",
+	        ", and YADE's integrator is stable up to ", critical, " s. Give a smaller O.dt, a smaller MpmContact.stiffness (", stiffness,
+	        "), or a heavier body."));
+}
+
+void MpmContact::note(size_t i, Real period)
+{
+	if (touching.size() <= i) return;
+	Exchange& sum = exchanges[bodies[i]];
+	if (forces[i].isZero(0) && impulses[i].isZero(0)) sum = {};
+	else
+		sum.added += impulses[i], sum.all += impulses[i].norm() + period * forces[i].norm(), ++sum.steps;
+}
+
+string MpmContact::doubtOfExchange() const
+{
+	constexpr Real most   = 0.1; // of what is exchanged
+	constexpr int  fewest = 5;   // load steps
+	for (const auto& [id, sum] : exchanges)
+		if (sum.steps >= fewest && sum.added.norm() > most * sum.all)
+			return gimpm::sentence(
+			        "iterPeriod > 1: of ", sum.all, " N s that body #", id, " and the soil have exchanged, (", sum.added.transpose(),
+			        ") N s has been added to the body by the stiffness handed over between the load steps (MpmContact.impulses), and not been taken from the soil: "
+			        "momentum grows by that. A smaller iterPeriod, 1 at best, keeps it.");
+	return "";
+}
+
+void MpmContact::actOnBodies(Scene& scene, bool isBetween)
+{
+	for (size_t i = 0; isBetween && i < bodies.size() && scene.dt > stableFor; ++i)
+		if (areFree[i] && scene.bodies->exists(bodies[i]))
+			requireStable(*(*scene.bodies)[bodies[i]], Eigen::Map<const Stiffness>(&stiffnesses[36 * i]), scene.dt, true);
+	stableFor = scene.dt;
+	for (size_t i = 0; i < bodies.size(); ++i) {
+		if (!areFree[i] || !scene.bodies->exists(bodies[i])) continue;
+		const State&                    state = *(*scene.bodies)[bodies[i]]->state;
+		const Eigen::Matrix<Real, 6, 1> since = -(Eigen::Map<const Stiffness>(&stiffnesses[36 * i]) * movement(poseOf(i), state));
+		scene.forces.addForce(bodies[i], forces[i] + since.head<3>());
+		scene.forces.addTorque(bodies[i], torques[i] + since.tail<3>());
+		impulsesSince[i] += since.head<3>() * scene.dt;
+	}
+}
+
+std::shared_ptr<Condition<2>> MpmContact::make(InPlane, const Group& group, const Analysis&) const { return std::make_shared<Contacts<2>>(group); }
+std::shared_ptr<Condition<3>> MpmContact::make(InSpace, const Group& group, const Analysis&) const { return std::make_shared<Contacts<3>>(group); }
+
+vector<shared_ptr<Body>> MpmContact::rigidBodies(const Scene& scene) const
+{
+	vector<shared_ptr<Body>> found;
+	const BodyContainer&     all = *scene.bodies;
+	for (unsigned id = 0; id < all.size(); ++id) {
+		const auto& body = all[id];
+		if (!body || !body->shape || !maskMatches(*body, mask) || body->isClump() || dynamic_cast<const MpmPoint*>(body->shape.get())) continue;
+		found.push_back(body);
+	}
+	return found;
+}
+
+string MpmContact::idleness(const string& name, bool) const
+{
+	if (std::any_of(touching.begin(), touching.end(), [](int corners) { return corners > 0; })) return "";
+	return " " + name + " touches nothing yet: a body holds what it touches, and by friction (MpmContact.friction) also along itself.";
+}
+
+// Sums, and of bodies that do not move freely also one by one.
+void MpmContact::tell(Rows& rows, const Analysis& analysis, const Listed& listed) const
+{
+	const int    dim     = analysis.grid->dim;
+	const string name    = "contact" + std::to_string(listed.number);
+	Vector3r     total   = Vector3r::Constant(bodies.empty() ? std::numeric_limits<Real>::quiet_NaN() : 0);
+	int          corners = 0;
+	for (size_t b = 0; b < bodies.size(); ++b) {
+		total += forces[b];
+		corners += touching[b];
+		const string body = "body" + std::to_string(bodies[b]);
+		for (int axis = 0; axis < 3 && !areFree[b]; ++axis) {
+			if (axis < dim) rows.set(body + "_" + "xyz"[axis], forces[b][axis]);
+			if (axis == 2 || dim == 3) rows.set(body + "_torque_" + "xyz"[axis], torques[b][axis]);
+		}
+	}
+	rows.setVector(name, total, dim);
+	rows.set(name + "_touching", corners);
+}
+
+// A vertex for each corner that touches.
+void MpmContact::draw(Picture& picture, const Analysis&, const Listed&) const
+{
+	forRecords(records, [&](const ContactRecordOfPoint& r) {
+		if (!r.touches) return;
+		picture.add({ int(picture.corners.size()) });
+		picture.corners.push_back(r.place);
+		picture.set("force", r.force()); // on the soil [N]
+		picture.set("gap", r.gap);       // [m], < 0 by the penalty
+		picture.set("slips", int(r.slips));
+		picture.set("body", r.body);
+	});
+}
+
+} // namespace yade
+
+BOOST_CLASS_EXPORT_IMPLEMENT(yade::MpmContact)
+static const yade::PluginClasses<yade::MpmContact> registeredMpmContact(__FILE__);

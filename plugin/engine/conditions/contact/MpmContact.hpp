@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+#include "core/terms/contact.hpp"
+#include "engine/analysis/MpmCondition.hpp"
+#include "engine/materials/angles.hpp"
+#include "yade_api/exposed.hpp"
+#include <map>
+
+namespace yade {
+class Body;
+class Scene;
+
+class MpmContact : public Exposed<MpmContact, MpmCondition> {
+public:
+	int              mask      = -1;
+	Real             friction  = std::numeric_limits<Real>::quiet_NaN(); // that of the bodies' materials
+	Real             adhesion  = std::numeric_limits<Real>::infinity();
+	Real             stiffness = 100;
+	vector<int>      bodies;
+	vector<Vector3r> forces, torques, impulses;
+	vector<int>      touching, slipping;
+	// Hidden: of each of the bodies position and orientation of its last exchange (7 numbers), whether YADE moves it freely, the stiffness that is handed over
+	// to those (36), and the impulse of that since; and what is remembered of corners that touch (contact_records.hpp)
+	vector<Real>     poses, stiffnesses, records;
+	vector<int>      areFree;
+	vector<Vector3r> impulsesSince;
+	// Not saved. Of members of clumps, where they were in these; of free bodies, what has been exchanged since they touch; and the O.dt that has been looked at
+	struct Exchange {
+		Vector3r added = Vector3r::Zero(); // of the momentum, by the stiffness [N s]
+		Real     all   = 0;
+		int      steps = 0;
+	};
+	std::map<int, Se3r>     ownPoses;
+	std::map<int, Exchange> exchanges;
+	Real                    stableFor = 0;
+
+	YADE_API_NAME(MpmContact)
+	static const char* doc()
+	{
+		return "Contact with rigid bodies of YADE (Sphere, Box, Facet, Wall, and clumps of them), which the corners of the material points' domains cannot "
+		       "enter. Without a NewtonIntegrator in O.engines the MpmImplicitEngine moves the bodies by their velocities; with one YADE does, and bodies that are "
+		       "free to move get the forces of the soil: the engine then stands before the NewtonIntegrator.\n\n"
+		       "In plane strain a body acts by its section at z = 0, per metre, around an axis of symmetry by that revolved; neither moves freely.\n\n"
+		       "A stiffness of 100, the default, leaves .6 % of error in the force of a plate; grains that move freely take 20, with a longer O.dt. More is said in "
+		       "plugin/docs/classes/MpmContact.md.";
+	}
+	template <class V> static void attributes(V&& v)
+	{
+		v("mask", &MpmContact::mask, 0,
+		  "Bodies that touch the soil: those, but for material points, whose groupMask has a bit in common with it; 0 or -1, the default: all.");
+		v("friction", &MpmContact::friction, 0,
+		  "Angle of friction [rad], from 0 to below pi/2: radians(30) of 30 degrees. NaN, the default: frictionAngle of each body's FrictMat.",
+		  admitting("an angle [rad] from 0 to below pi/2, as radians(30), or NaN for that of the bodies' FrictMat", [](Real angle) {
+			  return std::isnan(angle) || isFrictionAngle(angle);
+		  }));
+		v("adhesion", &MpmContact::adhesion, 0, "Cap of the shear stress [Pa] >= 0, as of undrained clay; inf, the default: none.",
+		  admitting("a number >= 0, or inf", [](Real cap) { return cap >= 0; }));
+		v("stiffness", &MpmContact::stiffness, 0,
+		  "Penalty [-] > 0: a pressure p presses p h / (stiffness E) deep, with cell size h and Young's modulus E of the soil.", positive);
+		v("bodies", &MpmContact::bodies, readonly, "Ids of the bodies (of clumps, those of the clumps) in the last step.");
+		v("forces", &MpmContact::forces, readonly,
+		  "Of each of *bodies*, force of the soil [N] at the end of the last converged step; per metre of thickness in plane strain.");
+		v("torques", &MpmContact::torques, readonly, "The same of the torques [N m] about their positions.");
+		v("impulses", &MpmContact::impulses, readonly,
+		  "Impulse [N s] that the stiffness handed over to a free body has added in the iterations between the last two load steps.");
+		v("touching", &MpmContact::touching, readonly, "Number of corners of domains that touch each of *bodies*.");
+		v("slipping", &MpmContact::slipping, readonly, "Number of those at the limit of friction.");
+		v("poses", &MpmContact::poses, hidden, "");
+		v("stiffnesses", &MpmContact::stiffnesses, hidden, "");
+		v("records", &MpmContact::records, hidden, "");
+		v("areFree", &MpmContact::areFree, hidden, "");
+		v("impulsesSince", &MpmContact::impulsesSince, hidden, "");
+	}
+
+	// The lists must go together.
+	void requireAdmissible() const override;
+
+	// What there is of the last load step, body by body.
+	void forget();
+	void keep(int id, const gimpm::ContactLoad&, const Se3r& pose, bool isFree, const Vector3r& impulse);
+
+	// Of the last exchange, number i of the bodies.
+	Se3r poseOf(size_t i) const;
+
+	// std::invalid_argument where YADE's integrator would not be stable with the stiffness. In every iteration the soil itself is asked, or it is handed over to some.
+	void requireStable(const Body&, const gimpm::ContactLoad::Stiffness&, Real dt, bool isHandedOver) const;
+
+	// What the last load step and the iterations before it have given to one of the bodies. A sentence where too much of that is not from the soil.
+	void   note(size_t i, Real period);
+	string doubtOfExchange() const;
+
+	const char*                   list() const override { return "contacts"; }
+	std::shared_ptr<Condition<2>> make(InPlane, const Group&, const Analysis&) const override;
+	std::shared_ptr<Condition<3>> make(InSpace, const Group&, const Analysis&) const override;
+
+	// Those that its mask means: neither material points nor clumps, but members of these.
+	vector<shared_ptr<Body>> rigidBodies(const Scene&) const override;
+
+	// For the bodies that are free: the force of the last load step, less stiffness times the movement since, for this iteration of YADE, with a load step or between two.
+	void actOnBodies(Scene&, bool isBetween) override;
+
+	bool        goesOn() const override { return true; }
+	bool        mayHold(int, Real, Real) const override { return true; }
+	string      idleness(const string& name, bool reaches) const override;
+	void        tell(Rows&, const Analysis&, const Listed&) const override;
+	const char* picture() const override { return "contacts"; }
+	void        draw(Picture&, const Analysis&, const Listed&) const override;
+};
+
+} // namespace yade
+
+BOOST_CLASS_EXPORT_KEY(yade::MpmContact)

@@ -1,0 +1,357 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "engine/conditions/contact/contacts.hpp"
+#include "core/base/sentence.hpp"
+#include "core/terms/contact_in_place.hpp"
+#include "core/terms/motion.hpp"
+#include "engine/analysis/analysis.hpp"
+#include "engine/conditions/contact/contact_records.hpp"
+#include "engine/conditions/contact/rigid_bodies.hpp"
+#include <algorithm>
+#include <map>
+
+namespace yade {
+
+namespace {
+	Se3r poseOf(const State& state) { return { state.pos, state.ori.normalized() }; }
+
+	// A body that moves with its velocities for some time.
+	Se3r moved(const Body& body, const Se3r& from, Real time)
+	{
+		const State& state = *body.state;
+		if (!state.vel.allFinite() || !state.angVel.allFinite())
+			throw std::invalid_argument(
+			        "Body #" + std::to_string(body.id) + ": its velocities are not finite, and the engine of its contact moves it by them.");
+		const Real angle = state.angVel.norm() * time;
+		if (angle > 1)
+			throw std::invalid_argument(
+			        "Body #" + std::to_string(body.id) + " turns by " + std::to_string(angle)
+			        + " in one load step; admitted is 1 rad: decrease angVel or O.dt.");
+		const Quaternionr turn(Eigen::AngleAxis<Real>(angle, angle > 0 ? Vector3r(state.angVel.normalized()) : Vector3r(Vector3r::UnitX())));
+		return { from.position + time * state.vel, (turn * from.orientation).normalized() };
+	}
+
+	// A coefficient of 1 is given for rough bodies, and is no usual angle.
+	string doubtOfAngle(const string& name, Real angle)
+	{
+		const bool isRound = std::abs(1e3 * angle - std::round(1e3 * angle)) < 1e-9;
+		if (!(angle > M_PI / 4) || !isRound) return "";
+		return gimpm::sentence(
+		        name, " = ", angle, " is an angle in radians, ", angle * 180 / M_PI, " degrees; was a coefficient meant, that is atan(", angle,
+		        "), or an angle in degrees, that is radians(...)?");
+	}
+
+	// Its coefficient, and a doubt about the angle.
+	Real frictionOf(const MpmContact& contact, const Body& body, string& doubt)
+	{
+		const auto* material = dynamic_cast<const FrictMat*>(body.material.get());
+		if (doubt.empty() && !std::isnan(contact.friction)) doubt = doubtOfAngle("MpmContact.friction", contact.friction);
+		if (!std::isnan(contact.friction)) return std::tan(contact.friction);
+		if (!material || !isFrictionAngle(material->frictionAngle))
+			throw std::invalid_argument(
+			        "Body #" + std::to_string(body.id) + ": MpmContact.friction is not given, so frictionAngle of its material counts, which "
+			        + (material ? "is " + std::to_string(material->frictionAngle) + ": expected radians from 0 to below pi/2."
+			                    : "is no FrictMat: give one of them."));
+		if (doubt.empty()) doubt = doubtOfAngle("frictionAngle of the material of body #" + std::to_string(body.id), material->frictionAngle);
+		return std::tan(material->frictionAngle);
+	}
+
+	bool areSame(const Se3r& a, const State& state) { return a.position == state.pos && a.orientation.coeffs() == state.ori.coeffs(); }
+
+	void requireSmallTurn(const Body& body, const Se3r& before, const Se3r& after)
+	{
+		const Real angle = before.orientation.angularDistance(after.orientation);
+		if (angle > 1)
+			throw std::invalid_argument(gimpm::sentence(
+			        "Body #", body.id, " has been turned by ", angle,
+			        " rad since the last load step, by its state.ori and angVel together; admitted is 1 rad: turn it in more steps."));
+	}
+
+	Real angleBetween(const Se3r& a, const Se3r& b) { return a.orientation.angularDistance(b.orientation); }
+
+	template <int Dim> gimpm::Vec<Dim> headOf(const Vector3r& x) { return x.head<Dim>(); }
+
+	template <int Dim> Vector3r inSpace(const gimpm::Vec<Dim>& x)
+	{
+		Vector3r result    = Vector3r::Zero();
+		result.head<Dim>() = x;
+		return result;
+	}
+}
+
+template <int Dim> Contacts<Dim>::Contacts(const MpmCondition::Group& group) : system(new gimpm::ContactSystem<Dim>)
+{
+	for (const Listed& listed : group)
+		given.push_back(boost::static_pointer_cast<MpmContact>(listed.condition));
+}
+
+template <int Dim> void Contacts<Dim>::add(const shared_ptr<MpmContact>& contact, const Scene& scene, const gimpm::Grid<Dim>& grid)
+{
+	contact->requireAdmissible();
+	const size_t count = members.size();
+	Places       known; // of its bodies in the last run
+	for (size_t i = 0; i < contact->bodies.size(); ++i)
+		known[contact->bodies[i]] = int(i);
+	for (const auto& body : contact->rigidBodies(scene)) {
+		if (!body->material)
+			throw std::invalid_argument(
+			        "Body #" + std::to_string(body->id) + " has no material; MpmContact needs one of bodies that touch the soil.");
+		const bool isMember = body->isClumpMember() && scene.bodies->exists(body->clumpId);
+		addMember(*contact, body, ownerOf(contact, known, isMember ? *(*scene.bodies)[body->clumpId] : *body, scene), grid);
+	}
+	if (members.size() == count)
+		throw std::invalid_argument(
+		        "MpmContact: no body that could touch the soil goes with mask = " + std::to_string(contact->mask)
+		        + (Dim == 2 ? ", or none of them has a section at z = 0." : "."));
+}
+
+template <int Dim> int Contacts<Dim>::ownerOf(const shared_ptr<MpmContact>& contact, const Places& known, const Body& body, const Scene& scene)
+{
+	const auto [found, isFirst] = ownersById.try_emplace(body.id, int(owners.size()));
+	if (!isFirst) {
+		if (owners[found->second].contact == contact) return found->second;
+		throw std::invalid_argument(
+		        "Body #" + std::to_string(body.id) + " is claimed by two MpmContacts; give them masks that go with different bodies.");
+	}
+	const Se3r now = poseOf(*body.state);
+	Owner      owner { contact, (*scene.bodies)[body.id], now, now, now, {} };
+	owner.byYade = movers->move(body);
+	owner.isFree = owner.byYade && (body.state->blockedDOFs & State::DOF_ALL) != State::DOF_ALL;
+	if (owner.isFree && Dim == 2)
+		throw std::invalid_argument(
+		        "Body #" + std::to_string(body.id)
+		        + " is free to move, but on a grid with dim=2 a body is its section, without a mass: prescribe its motion (dynamic=False), or take dim=3.");
+	if (owner.isFree) requireExchange(body, scene);
+	const auto former = known.find(body.id);
+	owner.isNew       = former == known.end();
+	if (!owner.byYade) owner.target = moved(body, owner.given, target - begin);
+	owner.byScript = !owner.isNew && !owner.byYade && !areSame(contact->poseOf(former->second), *body.state);
+	if (owner.byScript || (!owner.isNew && owner.byYade)) owner.begin = contact->poseOf(former->second);
+	if (owner.byScript) requireSmallTurn(body, owner.begin, owner.target);
+	owner.reached = owner.begin;
+	owners.push_back(owner);
+	system->owners.push_back(headOf<Dim>(owner.begin.position));
+	return int(owners.size()) - 1;
+}
+
+// A script that moves a clump by state.pos has to move its members, too, as YADE does.
+template <int Dim> void Contacts<Dim>::requireTogether(const MpmContact& contact, const Body& body, const Owner& owner, const Se3r& own) const
+{
+	constexpr Real roundOff = 1e-7;
+	const auto     known    = contact.ownPoses.find(body.id);
+	if (owner.body->id == body.id || known == contact.ownPoses.end()) return;
+	const Se3r& before = known->second;
+	if ((own.position - before.position).norm() <= roundOff * (1 + own.position.norm()) && angleBetween(own, before) <= roundOff) return;
+	throw std::invalid_argument(gimpm::sentence(
+	        "Body #", body.id, ", a member of clump #", owner.body->id,
+	        ", is not where it was in the clump: one of them has been moved without the other. Move the clump by its state.vel and angVel, or move it and all members alike."));
+}
+
+template <int Dim> void Contacts<Dim>::addMember(const MpmContact& contact, const shared_ptr<Body>& body, int number, const gimpm::Grid<Dim>& grid)
+{
+	const Owner& owner = owners[number];
+	const Se3r   own = inverse(owner.given) * poseOf(*body->state), first = owner.begin * own;
+	requireTogether(contact, *body, owner, own);
+	auto rigid = rigidBody<Dim>(*body, first, grid);
+	if (!rigid) return;
+	rigid->owner         = number;
+	rigid->isNew         = owner.isNew;
+	rigid->friction      = frictionOf(contact, *body, coefficient);
+	rigid->adhesion      = contact.adhesion;
+	rigid->stiffness     = contact.stiffness;
+	rigid->turn          = std::max(angleBetween(owner.begin, owner.target), owner.byYade ? owner.body->state->angVel.norm() * (target - begin) : 0);
+	const Vector3r shift = owner.target.position - owner.begin.position;
+	if ((Dim == 2 && shift[2] != 0) || (grid.axisymmetric && (shift[0] != 0 || !owner.target.orientation.isApprox(owner.begin.orientation, 1e-12))))
+		throw std::invalid_argument(
+		        "Body #" + std::to_string(owner.body->id) + " moves by (" + std::to_string(shift[0]) + ", " + std::to_string(shift[1]) + ", "
+		        + std::to_string(shift[2]) + ") m, or turns: "
+		        + (grid.axisymmetric ? "around the axis of symmetry only movement along it is admitted."
+		                             : "with dim=2 it can only move in the plane."));
+	members.push_back({ body, own, first });
+	system->bodies.push_back(*rigid);
+}
+
+// What a contact keeps, in numbers of this run.
+template <int Dim> void Contacts<Dim>::recall(const MpmContact& contact)
+{
+	Places numbers;
+	for (size_t i = 0; i < members.size(); ++i)
+		numbers[members[i].body->id] = int(i);
+	forRecords(contact.records, [&](const ContactRecordOfPoint& r) {
+		const int  p    = numberOf(r.point);
+		const auto body = numbers.find(r.body);
+		if (p < 0 || body == numbers.end()) return; // erased
+		const auto friction = headOf<Dim>(r.friction), normal = headOf<Dim>(r.normal), place = headOf<Dim>(r.place);
+		system->records.push_back({ p, r.corner, body->second, r.offset, r.touches, r.slips, r.gap, r.pressure, friction, normal, place });
+	});
+}
+
+template <int Dim> void Contacts<Dim>::join(gimpm::Model<Dim>& model, const Surroundings<Dim>& around)
+{
+	begin = end = around.begin, target = around.target, dt = around.scene.dt;
+	areDivided = model.division != nullptr;
+	movers.emplace(around.scene);
+	for (const auto& contact : given)
+		add(contact, around.scene, model.grid);
+	for (const MaterialPoint& point : around.points)
+		if (!areDivided) points.push_back(point.id);
+	for (const auto& contact : given)
+		recall(*contact);
+	std::sort(system->records.begin(), system->records.end(), [](const auto& a, const auto& b) {
+		return std::tie(a.point, a.corner, a.body) < std::tie(b.point, b.corner, b.body);
+	});
+	advanceTo(begin);
+	model.terms.push_back([known = system](const gimpm::Beginning<Dim>& step) { return std::make_unique<gimpm::Contact<Dim>>(*known, step); });
+	const auto shrink = [known = system](const gimpm::PointCloud<Dim>& cloud, Real scale) { shrinkGaps(*known, cloud, scale); };
+	model.inPlace.push_back({ shrink, [known = system](const gimpm::PointCloud<Dim>& cloud) { keepGaps(*known, cloud); } });
+}
+
+template <int Dim> void Contacts<Dim>::joinMotion(gimpm::Motion<Dim>& motion, const gimpm::Model<Dim>&, Real)
+{
+	system->weight  = motion.scheme.weightOfContact();
+	motion.contacts = system.get();
+}
+
+template <int Dim> void Contacts<Dim>::advance(const StepTime& step, gimpm::Model<Dim>&, gimpm::Load<Dim>& load)
+{
+	advanceTo(step.to);
+	system->energy = step.energy;
+	load.motion    = step.to - step.from;
+}
+
+template <int Dim> void Contacts<Dim>::advanceTo(Real time)
+{
+	for (size_t i = 0; i < owners.size(); ++i) {
+		owners[i].reached = between(owners[i].begin, owners[i].target, partAt(time));
+		system->owners[i] = headOf<Dim>(owners[i].reached.position);
+	}
+	for (size_t i = 0; i < members.size(); ++i) {
+		auto&        rigid = system->bodies[i];
+		const Owner& owner = owners[rigid.owner];
+		const auto   at    = [&](const Se3r& pose) { return yade::poseOf<Dim>(*members[i].body, members[i].first, pose * members[i].own); };
+		rigid.begin        = at(between(owner.begin, owner.target, partAt(end)));
+		rigid.end          = at(owner.reached);
+	}
+}
+
+template <int Dim> Work Contacts<Dim>::work(const StepOutcome<Dim>&) const
+{
+	Work sum;
+	sum.ofContacts = system->work;
+	sum.given      = std::max(0., system->given);
+	return sum;
+}
+
+template <int Dim> Penalty Contacts<Dim>::penalty() const
+{
+	Penalty largest { 0, "smaller MpmContact.stiffness" };
+	for (const auto& contact : given)
+		largest.size = std::max(largest.size, contact->stiffness);
+	return largest;
+}
+
+template <int Dim> bool Contacts<Dim>::areBeside(const gimpm::Vec<Dim>& point, const gimpm::Vec<Dim>& part) const
+{
+	return std::none_of(system->bodies.begin(), system->bodies.end(), [&](const auto& body) {
+		const auto at = body.proximity(body.end, part, body.sideOf(body.end, point));
+		return at.gap < 0 && at.beside < 0;
+	});
+}
+
+template <int Dim> void Contacts<Dim>::share(const HalvedDomain& domain) const
+{
+	const Vector3r middle(domain.middle.data());
+	for (const auto& contact : given) {
+		vector<KnownBody> known;
+		for (size_t i = 0; i < members.size(); ++i) {
+			const auto& body = system->bodies[i];
+			if (owners[body.owner].contact != contact) continue;
+			known.push_back({ members[i].body->id, [&body, side = body.sideOf(body.end, headOf<Dim>(middle))](const Vector3r& place) {
+				                 const auto at = body.proximity(body.end, headOf<Dim>(place), side);
+				                 return at.beside < 0 ? at.gap : std::numeric_limits<Real>::infinity();
+			                 } });
+		}
+		shareRecords(*contact, domain, known);
+	}
+}
+
+template <int Dim> void Contacts<Dim>::reach(const StepOutcome<Dim>& step)
+{
+	const Real time = step.time;
+	end             = time;
+	for (const auto& contact : given)
+		keep(*contact);
+	keepRecords();
+	hasKept = true;
+	for (const Owner& owner : owners) { // where a script has put it, it stays: the rest of that way is made by the next step
+		if (owner.byYade) continue;
+		const bool isLate      = owner.byScript && partAt(time) < 1;
+		owner.body->state->se3 = isLate ? between(owner.given, owner.target, partAt(time)) : owner.reached;
+	}
+	for (size_t i = 0; i < members.size(); ++i) {
+		const Owner& owner                           = owners[system->bodies[i].owner];
+		owner.contact->ownPoses[members[i].body->id] = members[i].own;
+		if (!owner.byYade && owner.body != members[i].body) members[i].body->state->se3 = owner.body->state->se3 * members[i].own;
+	}
+}
+
+template <int Dim> void Contacts<Dim>::requireKept() const
+{
+	for (size_t i = 0; i < owners.size(); ++i)
+		if (owners[i].isFree) owners[i].contact->requireStable(*owners[i].body, system->loads[i].stiffness, dt, target - begin > 1.5 * dt);
+}
+
+template <int Dim> std::map<string, string> Contacts<Dim>::doubts(bool isDynamic) const
+{
+	std::map<string, string> found;
+	found["coefficient"] = coefficient;
+	found["thin"]        = system->doubts.empty() ? "" : system->doubts.front();
+	for (const auto& contact : given)
+		if (isDynamic && found["exchange"].empty()) found["exchange"] = contact->doubtOfExchange();
+	return found;
+}
+
+// The impulses are those since the last run.
+template <int Dim> void Contacts<Dim>::keep(MpmContact& contact)
+{
+	std::map<Body::id_t, Vector3r> impulses;
+	for (size_t i = 0; i < contact.bodies.size(); ++i)
+		impulses[contact.bodies[i]] = hasKept ? contact.impulses[i] : contact.impulsesSince[i];
+	contact.forget();
+	contact.ownPoses.clear();
+	for (size_t i = 0; i < owners.size(); ++i)
+		if (owners[i].contact.get() == &contact) {
+			const auto since = impulses.find(owners[i].body->id);
+			owners[i].place  = contact.bodies.size();
+			contact.keep(
+			        owners[i].body->id, system->loads[i], owners[i].reached, owners[i].isFree,
+			        since == impulses.end() ? Vector3r(Vector3r::Zero()) : since->second);
+			if (owners[i].isFree && !hasKept && target - begin > 1.5 * dt) contact.note(contact.bodies.size() - 1, target - begin);
+		}
+}
+
+template <int Dim> void Contacts<Dim>::keepRecords() const
+{
+	for (const auto& r : system->records) {
+		const Owner& owner = owners[system->bodies[r.body].owner];
+		MpmContact&  to    = *owner.contact;
+		ContactRecordOfPoint { areDivided ? r.point : points[r.point],
+			               r.corner,
+			               members[r.body].body->id,
+			               r.offset,
+			               r.gap,
+			               r.pressure,
+			               r.touches,
+			               r.slips,
+			               inSpace<Dim>(r.friction),
+			               inSpace<Dim>(r.normal),
+			               inSpace<Dim>(r.place) }
+		        .appendTo(to.records);
+		to.touching[owner.place] += r.touches;
+		to.slipping[owner.place] += r.slips;
+	}
+}
+
+template class Contacts<2>;
+template class Contacts<3>;
+
+} // namespace yade

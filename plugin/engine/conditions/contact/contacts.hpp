@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+// Contact with rigid bodies, between the bodies of a scene and the term of a step.
+#include "core/stepping/model.hpp"
+#include "core/terms/contact.hpp"
+#include "engine/analysis/movers.hpp"
+#include "engine/conditions/contact/MpmContact.hpp"
+#include "engine/conditions/contact/contact_halves.hpp"
+#include "engine/points/MaterialPoints.hpp"
+#include "yade_api/scene.hpp"
+#include <algorithm>
+#include <map>
+#include <optional>
+
+namespace yade {
+
+template <int Dim> class Contacts : public Condition<Dim> {
+public:
+	explicit Contacts(const MpmCondition::Group&);
+
+	void join(gimpm::Model<Dim>&, const Surroundings<Dim>&) override;
+
+	// Their forces enter the balance with a weight.
+	void joinMotion(gimpm::Motion<Dim>&, const gimpm::Model<Dim>&, Real begin) override;
+	void advance(const StepTime&, gimpm::Model<Dim>&, gimpm::Load<Dim>&) override;
+
+	// A free body must not be too light for the stiffness that it would be handed.
+	void requireKept() const override;
+
+	Work work(const StepOutcome<Dim>&) const override;
+
+	// What the contacts keep, and where the bodies are if nobody else moves them.
+	void reach(const StepOutcome<Dim>&) override;
+
+	// The largest of their stiffnesses.
+	Penalty penalty() const override;
+
+	// What the soil cannot feel of bodies near it, and others.
+	std::map<string, string> doubts(bool isDynamic) const override;
+
+	bool areBeside(const gimpm::Vec<Dim>& point, const gimpm::Vec<Dim>& part) const override;
+	bool remembersPoints() const override { return true; }
+	void share(const HalvedDomain&) const override;
+
+private:
+	// Of a point in the records of the system; -1: it has been erased.
+	int numberOf(Body::id_t id) const
+	{
+		if (areDivided) return id;
+		const auto point = std::lower_bound(points.begin(), points.end(), id);
+		return point == points.end() || *point != id ? -1 : int(point - points.begin());
+	}
+
+	// Who moves bodies: one of them alone, or a clump.
+	struct Owner {
+		shared_ptr<MpmContact> contact;
+		shared_ptr<Body>       body;
+		Se3r                   given;                  // where it stood when the run began: the scripts may have moved it since the last one
+		Se3r                   begin, target, reached; // of the run; reached: the end of the step
+		bool                   byYade = false, isFree = false, isNew = true;
+		bool                   byScript = false; // has been moved since the last run, or its way was not finished then
+		size_t                 place    = 0;     // in the contact's list of bodies, once that is written
+	};
+	using Places = std::map<Body::id_t, int>; // of bodies in a list
+	struct Member {
+		shared_ptr<Body> body;
+		Se3r             own, first; // as seen from the owner; in space when the run begins
+	};
+
+	void advanceTo(Real time);
+	void add(const shared_ptr<MpmContact>&, const Scene&, const gimpm::Grid<Dim>&);
+	int  ownerOf(const shared_ptr<MpmContact>&, const Places& known, const Body&, const Scene&);
+	void requireTogether(const MpmContact&, const Body&, const Owner&, const Se3r& own) const;
+	Real partAt(Real time) const { return target > begin ? std::min(1., (time - begin) / (target - begin)) : 1; }
+	void addMember(const MpmContact&, const shared_ptr<Body>&, int owner, const gimpm::Grid<Dim>&);
+	void recall(const MpmContact&);
+	void keep(MpmContact&);
+	void keepRecords() const;
+
+	vector<shared_ptr<MpmContact>>        given;
+	shared_ptr<gimpm::ContactSystem<Dim>> system; // its terms refer to it
+	vector<Owner>                         owners;
+	Places                                ownersById;
+	vector<Member>                        members; // as the system's bodies
+	vector<Body::id_t>                    points;  // ids; none where they are divided, and the system knows them by their ids
+	bool                                  areDivided = false, hasKept = false;
+	Real                                  begin = 0, target = 0, end = 0; // of the run; end: of the last step
+	Real                                  dt = 0;                         // of an iteration of YADE
+	string                                coefficient;                    // doubt about an angle of friction
+	std::optional<Movers>                 movers;
+};
+
+} // namespace yade

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+#include "engine/analysis/MpmCondition.hpp"
+#include "engine/conditions/load_curves.hpp"
+
+namespace yade {
+
+// A function of Python, which may be let go of in any thread, or none. It is not saved.
+struct PythonFunction {
+	shared_ptr<py::object> object;
+
+	explicit                      operator bool() const { return bool(object); }
+	template <class Archive> void serialize(Archive&, unsigned) { }
+};
+template <> struct Conversion<PythonFunction> {
+	static string                        expected() { return "a function of the position that returns the pressure [Pa], or None"; }
+	static std::optional<PythonFunction> fromPython(const py::object&);
+	static py::object                    toPython(const PythonFunction& f) { return f ? *f.object : py::object(); }
+};
+inline string textOf(const PythonFunction& f) { return f ? "a function" : "None"; }
+
+class MpmWater : public Exposed<MpmWater, MpmCondition> {
+public:
+	Real                    level = std::numeric_limits<Real>::quiet_NaN();
+	gimpm::LoadCurve::Knees levels;
+	PythonFunction          pressure;
+	Real                    weight = 9810;
+	gimpm::LoadCurve::Knees curve; // empty: that of gravity
+	string                  where = "everywhere";
+	vector<Vector3r>        onBoundaries;
+	// Hidden: values of the function at nodes of the grid, of each three grid coordinates and the pressure, and the size of its cells and where it begins
+	vector<Real> table, tableGrid;
+
+	YADE_API_NAME(MpmWater)
+	static const char* doc()
+	{
+		return "Water of given pressure in the pores and around the body: laws then know effective stress, *density* is that of the saturated soil where there is "
+		       "water. One of *level*, *levels*, *pressure* says how high it is. Waters of one engine add up.\n\n"
+		       "The pressure does not depend on the deformation: flow that takes time and undrained loading are not computed.";
+	}
+	template <class V> static void attributes(V&& v)
+	{
+		v("level", &MpmWater::level, 0, "Height [m], against gravity, up to which water stands still; NaN, the default: see *levels* and *pressure*.",
+		  admitting("a finite height [m], or NaN if levels or pressure are given", [](Real height) { return !std::isinf(height); }));
+		v("levels", &MpmWater::levels, 0,
+		  "The same as it rises and falls: (time [s], level [m]), times increasing, linear between; empty, the default: see *level*.", curveOrNothing);
+		v("pressure", &MpmWater::pressure, noSave,
+		  "Function of the position that returns the pressure [Pa]: seepage. Taken at the grid's nodes, linear between; files keep those near the points.");
+		v("weight", &MpmWater::weight, 0, "Weight of water by volume [N/m³] > 0, with *level* and *levels*.", positive);
+		v("curve", &MpmWater::curve, 0, "Factor [-] of all pressures as *MpmImplicitEngine.loadCurve*; empty, the default: that of gravity.",
+		  curveOrNothing);
+		v("where", &MpmWater::where, 0,
+		  "'everywhere': in the pores and, with the same pressure, on the body's surface; 'pores': surface dry, as after rapid drawdown; 'outside': no water in the pores.",
+		  oneOf("everywhere", "pores", "outside"));
+		v("onBoundaries", &MpmWater::onBoundaries, readonly,
+		  "Of each of the engine's *boundaries*, the part [N] of its reaction that is due to the water's pressure in its place.");
+		v("table", &MpmWater::table, hidden, "", AnyValue());
+		v("tableGrid", &MpmWater::tableGrid, hidden, "", AnyValue());
+	}
+
+	// The attributes must go together, too.
+	void requireAdmissible() const override;
+
+	const char*                   list() const override { return "water"; }
+	std::shared_ptr<Condition<2>> make(InPlane, const Group&, const Analysis&) const override;
+	std::shared_ptr<Condition<3>> make(InSpace, const Group&, const Analysis&) const override;
+
+	Real                      end(const Analysis&) const override;
+	string                    needsEqualCells(const string&) const override { return "water"; }
+	bool                      hasQuestions() const override { return true; }
+	std::unique_ptr<Question> question(const gimpm::Grid<2>&, const vector<gimpm::Key>&, const string& name) override;
+	std::unique_ptr<Question> question(const gimpm::Grid<3>&, const vector<gimpm::Key>&, const string& name) override;
+	string                    answers() const override { return "pressures of water"; }
+	std::map<string, string>  doubts(const Analysis&, const vector<MaterialPoint>&, const string& name) const override;
+
+	// Its pressure is that of a function.
+	bool hasFunction() const { return std::isnan(level) && levels.empty(); }
+	void forgetTable() { table.clear(), evaluated = nullptr; }
+
+	const void* evaluated = nullptr; // the function whose values the table has; null: one that has not been saved
+};
+
+} // namespace yade
+
+BOOST_CLASS_EXPORT_KEY(yade::MpmWater)

@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "engine/conditions/water/pressure_table.hpp"
+#include "core/base/sentence.hpp"
+#include "yade_api/python_lock.hpp"
+#include "yade_api/scene.hpp"
+#include <algorithm>
+#include <map>
+
+namespace yade {
+
+namespace {
+	using gimpm::Key;
+
+	// Values of a function at these places, or why there are none.
+	struct Question {
+		PythonFunction   function;
+		vector<Vector3r> places;
+		vector<Real>     values;
+		string           error;
+
+		void ask()
+		{
+			for (const Vector3r& x : places) {
+				string answer;
+				try {
+					const py::object value  = (*function.object)(x);
+					const auto       number = Conversion<Real>::fromPython(value);
+					if (number && std::isfinite(*number)) {
+						values.push_back(*number);
+						continue;
+					}
+					answer = "returned " + repr(value);
+				} catch (const py::error_already_set&) {
+					answer = "raised " + raised();
+				}
+				error = "MpmWater.pressure " + answer + " at " + textOf(x) + ": expected a finite pressure [Pa].";
+				return;
+			}
+		}
+
+	private:
+		static string raised()
+		{
+			PyObject *type, *value, *traceback;
+			PyErr_Fetch(&type, &value, &traceback);
+			PyErr_NormalizeException(&type, &value, &traceback);
+			const py::handle<> keep[] = { py::handle<>(type), py::handle<>(py::allow_null(value)), py::handle<>(py::allow_null(traceback)) };
+			return repr(py::object(py::handle<>(py::borrowed(value ? value : type))));
+		}
+	};
+
+	// In whatever thread this is.
+	vector<Real> answers(const PythonFunction& function, vector<Vector3r> places, const string& name)
+	{
+		const auto question = std::make_shared<Question>(Question { function, std::move(places), {}, {} });
+		if (PyGILState_Check()) question->ask();
+		else
+			withPython(Singleton<Omega>::instance().simulationLoop->looping, [question] { question->ask(); });
+		if (!question->error.empty()) throw std::invalid_argument(name + ": " + question->error);
+		if (question->values.size() < question->places.size())
+			throw std::invalid_argument(name + ": the run was ended before MpmWater.pressure was known.");
+		return question->values;
+	}
+
+	// Nodes of the cells, and those up to `margin` cells around.
+	template <int Dim> vector<Key> nodesAround(const vector<Key>& cells, int margin, const gimpm::Grid<Dim>& grid)
+	{
+		const int   width = 2 + 2 * margin, count = Dim == 2 ? width * width : width * width * width;
+		vector<Key> nodes;
+		for (const Key cell : cells)
+			for (int n = 0; n < count; ++n) {
+				gimpm::Index<Dim> node = gimpm::Grid<Dim>::index(cell);
+				for (int a = 0, rest = n; a < Dim; rest /= width, ++a)
+					node[a] += rest % width - margin;
+				nodes.push_back(gimpm::Grid<Dim>::key(grid.first(node)));
+			}
+		std::sort(nodes.begin(), nodes.end());
+		nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+		return nodes;
+	}
+
+	using PressureAt = std::map<Key, Real>;
+
+	template <int Dim> PressureAt valuesOf(const MpmWater& water)
+	{
+		PressureAt values;
+		for (size_t i = 0; i + 3 < water.table.size(); i += 4) {
+			const Vector3r node(water.table[i], water.table[i + 1], water.table[i + 2]);
+			values[gimpm::Grid<Dim>::key(node.head<Dim>().template cast<int>())] = water.table[i + 3];
+		}
+		return values;
+	}
+
+	template <int Dim> void store(const PressureAt& values, MpmWater& water)
+	{
+		water.table.clear();
+		for (const auto& [key, value] : values) {
+			Vector3r node    = Vector3r::Zero();
+			node.head<Dim>() = gimpm::Grid<Dim>::index(key).template cast<Real>();
+			water.table.insert(water.table.end(), { node[0], node[1], node[2], value });
+		}
+	}
+
+	template <int Dim> vector<Real> numbersOf(const gimpm::Grid<Dim>& grid)
+	{
+		vector<Real> numbers { grid.cellSize };
+		numbers.insert(numbers.end(), grid.origin.data(), grid.origin.data() + Dim);
+		return numbers;
+	}
+
+	template <int Dim> Vector3r placeOf(Key node, const gimpm::Grid<Dim>& grid)
+	{
+		Vector3r x    = Vector3r::Zero();
+		x.head<Dim>() = grid.nodePosition(gimpm::Grid<Dim>::index(node));
+		return x;
+	}
+
+	// The first nodes of the period along an axis again, behind its last ones.
+	template <int Dim> vector<Key> withFarSide(vector<Key> nodes, const gimpm::Grid<Dim>& grid)
+	{
+		const size_t first = nodes.size();
+		for (size_t i = 0; i < first; ++i)
+			for (int a = 0; a < Dim; ++a)
+				if (grid.period[a] != 0 && gimpm::Grid<Dim>::index(nodes[i])[a] == 0)
+					nodes.push_back(nodes[i] + grid.period[a] * gimpm::Grid<Dim>::keyStep(a));
+		return nodes;
+	}
+
+	// What the pressure gains along each axis over a period of the grid: the same in all cells that hold points, or there is no such state.
+	template <int Dim> gimpm::Vec<Dim> fallOf(const PressureAt& values, const vector<Key>& cells, const gimpm::Grid<Dim>& grid, const string& name)
+	{
+		constexpr Real        roundOff = 1e-9;
+		const gimpm::Vec<Dim> none     = gimpm::Vec<Dim>::Zero();
+		gimpm::Vec<Dim>       fall     = none;
+		if (!grid.isPeriodic()) return none;
+		const vector<Key> nodes = nodesAround(cells, 0, grid);
+		for (int a = 0; a < Dim; ++a) {
+			Key at = 0; // where it is known
+			for (const Key node : nodes) {
+				const auto far = values.find(node + grid.period[a] * gimpm::Grid<Dim>::keyStep(a));
+				if (grid.period[a] == 0 || gimpm::Grid<Dim>::index(node)[a] != 0 || far == values.end()) continue;
+				const Real near = values.at(node), gain = far->second - near,
+				           tolerance = roundOff * std::max(std::abs(near), std::abs(far->second));
+				if (at == 0) at = node, fall[a] = std::abs(gain) > tolerance ? gain : 0;
+				if (std::abs(gain - fall[a]) <= tolerance) continue;
+				throw std::invalid_argument(gimpm::sentence(
+				        name, ".pressure gains ", fall[a], " Pa along the period of the grid from (", placeOf(at, grid).transpose(),
+				        ") on, but ", gain, " Pa from (", placeOf(node, grid).transpose(),
+				        ") on: in a body that repeats itself it must be the same everywhere, as that of flow with one gradient, or 0; is there a water table within the body that falls along the period?"));
+			}
+		}
+		return fall;
+	}
+
+	template <int Dim> [[noreturn]] void refuseNode(Key node, const gimpm::Grid<Dim>& grid, const string& name)
+	{
+		throw std::invalid_argument(
+		        name + ": the pressure at " + textOf(placeOf(node, grid))
+		        + " is not known: functions are not saved with a scene, only their values near the points that it has. Give MpmWater.pressure again.");
+	}
+}
+
+template <int Dim>
+std::optional<PressureQuestion<Dim>> PressureQuestion<Dim>::of(MpmWater& water, const gimpm::Grid<Dim>& grid, const vector<Key>& cells, const string& name)
+{
+	constexpr int near = 1, far = 3; // cells that a point may reach in a step, and in the steps after a scene has been loaded
+	if (water.pressure && (water.evaluated != water.pressure.object.get() || water.tableGrid != numbersOf(grid))) water.forgetTable();
+	if (water.tableGrid != numbersOf(grid) && !water.pressure) refuseNode(gimpm::Grid<Dim>::key(gimpm::Index<Dim>::Zero()), grid, name);
+	const PressureAt values  = valuesOf<Dim>(water);
+	const auto       missing = [&](const vector<Key>& nodes) {
+                vector<Key> found;
+                for (const Key node : nodes)
+                        if (values.find(node) == values.end()) found.push_back(node);
+                return found;
+	};
+	const vector<Key> nearest = nodesAround(cells, near, grid);
+	if (!water.pressure) {
+		const vector<Key> unknown = missing(nearest); // scenes of earlier revisions have no nodes at the far side of a period
+		if (!unknown.empty()) refuseNode(unknown[0], grid, name);
+		return std::nullopt;
+	}
+	if (missing(withFarSide(nearest, grid)).empty()) return std::nullopt;
+	return PressureQuestion(water, name, grid, missing(withFarSide(nodesAround(cells, far, grid), grid)));
+}
+
+template <int Dim> void PressureQuestion<Dim>::ask()
+{
+	vector<Vector3r> places;
+	for (const Key node : nodes)
+		places.push_back(placeOf(node, grid));
+	found = answers(function, places, name);
+}
+
+template <int Dim> void PressureQuestion<Dim>::store() const
+{
+	PressureAt values = valuesOf<Dim>(*water);
+	for (size_t i = 0; i < found.size(); ++i)
+		values[nodes[i]] = found[i];
+	yade::store<Dim>(values, *water);
+	water->tableGrid = numbersOf(grid);
+	water->evaluated = function.object.get();
+}
+
+template <int Dim>
+std::shared_ptr<const gimpm::WaterPressure<Dim>> tabulated(MpmWater& water, const gimpm::Grid<Dim>& grid, const vector<Key>& cells, const string& name)
+{
+	if (auto question = PressureQuestion<Dim>::of(water, grid, cells, name)) {
+		question->ask();
+		question->store();
+	}
+	const PressureAt values = valuesOf<Dim>(water);
+	vector<Key>      nodes;
+	vector<Real>     numbers;
+	for (const auto& [key, value] : values)
+		nodes.push_back(key), numbers.push_back(value);
+	return std::make_shared<gimpm::TabulatedWater<Dim>>(grid, nodes, numbers, fallOf(values, cells, grid, name));
+}
+
+#define MPM_INSTANTIATE(Dim)                                                                                                                                   \
+	template class PressureQuestion<Dim>;                                                                                                                  \
+	template std::shared_ptr<const gimpm::WaterPressure<Dim>> tabulated(MpmWater&, const gimpm::Grid<Dim>&, const vector<Key>&, const string&);
+MPM_INSTANTIATE(2)
+MPM_INSTANTIATE(3)
+#undef MPM_INSTANTIATE
+
+} // namespace yade

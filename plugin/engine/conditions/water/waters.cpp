@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "engine/conditions/water/waters.hpp"
+#include "engine/analysis/exchange.hpp"
+#include "engine/conditions/water/pressure_table.hpp"
+#include "engine/points/parallel.hpp"
+
+namespace yade {
+
+namespace {
+	// Against which direction of the grid gravity acts: axis, and the sign of heights.
+	template <int Dim> std::pair<int, Real> upwards(const Vector3r& gravity, const gimpm::Grid<Dim>& grid, const string& name)
+	{
+		const Eigen::Array<bool, 3, 1> acts = gravity.array() != 0;
+		if (acts.count() > 1 || (Dim == 2 && acts[2]))
+			throw std::invalid_argument(
+			        name + " has a level, but gravity = " + textOf(gravity)
+			        + " is not along an axis of the grid: give pressure, a function of the position.");
+		int axis = Dim - 1;
+		for (int a = 0; a < Dim; ++a)
+			if (acts[a]) axis = a;
+		if (grid.period[axis] != 0)
+			throw std::invalid_argument(name + " has a level, but the grid repeats itself upwards: give pressure, a function of the position.");
+		return { axis, gravity[axis] > 0 ? -1 : 1 };
+	}
+
+	gimpm::WaterPlace placeOf(const MpmWater& water)
+	{
+		if (water.where == "pores") return gimpm::WaterPlace::pores;
+		return water.where == "outside" ? gimpm::WaterPlace::outside : gimpm::WaterPlace::everywhere;
+	}
+}
+
+template <int Dim>
+void Waters<Dim>::take(const Analysis& analysis, const gimpm::Grid<Dim>& grid, const gimpm::PointCloud<Dim>& cloud, const gimpm::Division* division)
+{
+	const auto waterOf  = [](const Listed& listed) { return boost::static_pointer_cast<MpmWater>(listed.condition); };
+	const bool areAsked = std::any_of(group.begin(), group.end(), [&](const Listed& listed) { return waterOf(listed)->hasFunction(); });
+	const auto cells    = areAsked ? cellsOf(cloud, grid, division) : vector<gimpm::Key>();
+	for (const Listed& listed : group) {
+		const auto water = waterOf(listed);
+		water->requireAdmissible();
+		Source source { water, analysis.curveOfWeight(water->curve), nullptr, 0, 1 };
+		if (water->hasFunction()) source.given = tabulated(*water, grid, cells, listed.name());
+		else
+			std::tie(source.axis, source.up) = upwards(analysis.gravity, grid, listed.name());
+		sources.push_back(source);
+		waters.push_back({ placeOf(*water) });
+	}
+}
+
+template <int Dim> void Waters<Dim>::join(gimpm::Model<Dim>& model, const Surroundings<Dim>& around)
+{
+	take(around.analysis, model.grid, around.cloud, model.division.get());
+	for (auto& water : waters) {
+		water.shares = model.shares;
+		model.terms.push_back([&water](const gimpm::Beginning<Dim>& step) { return std::make_unique<gimpm::WaterForce<Dim>>(water, step); });
+	}
+}
+
+template <int Dim>
+auto Waters<Dim>::around(const gimpm::Vec<Dim>& x, const gimpm::Vec<Dim>& half) const
+        -> vector<std::pair<gimpm::WaterPlace, std::optional<gimpm::PressureAround<Dim>>>>
+{
+	vector<std::pair<gimpm::WaterPlace, std::optional<gimpm::PressureAround<Dim>>>> found;
+	for (const auto& water : waters) {
+		auto around = water.pressure->around(x, half);
+		if (around) around->value *= water.factor, around->gradient *= water.factor;
+		found.emplace_back(water.place, around);
+	}
+	return found;
+}
+
+template <int Dim> auto Waters<Dim>::pressureAt(const Source& source, Real time) const -> Pressure
+{
+	if (source.given) return source.given;
+	const MpmWater& water = *source.from;
+	const Real      level = water.levels.empty() ? water.level : gimpm::LoadCurve(water.levels).valueAt(time);
+	return std::make_shared<gimpm::StillWater<Dim>>(source.axis, source.up, level, water.weight);
+}
+
+template <int Dim> void Waters<Dim>::advance(Real from, Real to)
+{
+	for (size_t i = 0; i < waters.size(); ++i) {
+		waters[i].before       = pressureAt(sources[i], from);
+		waters[i].pressure     = pressureAt(sources[i], to);
+		waters[i].factorBefore = sources[i].curve.valueAt(from);
+		waters[i].factor       = sources[i].curve.valueAt(to);
+	}
+}
+
+template <int Dim> void Waters<Dim>::joinMotion(gimpm::Motion<Dim>&, const gimpm::Model<Dim>&, Real)
+{
+	for (auto& water : waters)
+		water.wantsWork = true;
+}
+
+template <int Dim> Work Waters<Dim>::work(const StepOutcome<Dim>&) const
+{
+	Work sum;
+	for (const auto& water : waters)
+		sum.ofLoads += water.work;
+	return sum;
+}
+
+template <int Dim> void Waters<Dim>::reach(const StepOutcome<Dim>& step)
+{
+	const auto& points    = step.points;
+	const auto& boundary  = step.model.boundary;
+	auto&       reactions = step.reactions;
+	inRanges(points.size(), [&](size_t begin, size_t end) {
+		for (size_t p = begin; p < end; ++p) {
+			Real& sum = points[p].state->porePressure;
+			sum       = 0;
+			for (const auto& water : waters)
+				sum += water.porePressure[p];
+		}
+	});
+	for (size_t i = 0; i < waters.size(); ++i) {
+		auto& onBoundaries = sources[i].from->onBoundaries;
+		onBoundaries.assign(reactions.size(), Vector3r::Zero());
+		for (const auto& [node, force] : waters[i].onWalls)
+			for (int a = 0; a < Dim; ++a) {
+				const auto*  box = boundary.holder(gimpm::Grid<Dim>::index(node), a);
+				const size_t b   = box ? box - boundary.boxes().data() : reactions.size();
+				if (b < reactions.size()) onBoundaries[b][a] += force[a]; // the axis of symmetry is none of them
+			}
+		for (size_t b = 0; b < reactions.size(); ++b)
+			reactions[b] += onBoundaries[b];
+	}
+}
+
+template class Waters<2>;
+template class Waters<3>;
+
+} // namespace yade

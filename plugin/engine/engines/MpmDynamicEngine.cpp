@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "engine/engines/MpmDynamicEngine.hpp"
+#include "core/base/together.hpp"
+#include "engine/conditions/boundary/MpmBoundary.hpp"
+#include "engine/conditions/contact/MpmContact.hpp"
+#include "engine/conditions/shaking/MpmAbsorbingBoundary.hpp"
+#include "engine/conditions/water/MpmWater.hpp"
+#include "engine/engines/moving.hpp"
+#include "engine/parallel/archived.hpp"
+#include "engine/parallel/processes.hpp"
+#include "engine/points/MaterialPoints.hpp"
+#include "engine/points/energies.hpp"
+#include "yade_api/registration.hpp"
+
+namespace yade {
+
+gimpm::TimeScheme MpmDynamicEngine::timeScheme() const
+{
+	if (scheme == "newmark") return gimpm::TimeScheme::newmark(beta, gamma);
+	if (isExplicit()) return gimpm::TimeScheme::centralDifferences();
+	return scheme == "midpoint" ? gimpm::TimeScheme::midpoint() : gimpm::TimeScheme::generalisedAlpha(rhoInfinity);
+}
+
+Real MpmDynamicEngine::ghostMass() const
+{
+	if (ghost->factor == 0) return 0; // there are no faces
+	if (!std::isnan(ghost->massFactor)) return ghost->massFactor;
+	return isExplicit() ? MpmGhost::usualExplicitMassFactor : MpmGhost::usualMassFactor;
+}
+
+void MpmDynamicEngine::requireAdmissible() const
+{
+	Exposed<MpmDynamicEngine, MpmImplicitEngine>::requireAdmissible();
+	if (isExplicit()) requireExplicit(*this);
+	if (newton->stepTolerance > 0)
+		throw std::invalid_argument(
+		        "MpmNewton.stepTolerance = " + std::to_string(newton->stepTolerance)
+		        + " is of quasi-static steps: MpmDynamicEngine has timeTolerance for that; leave stepTolerance=0.");
+	if (scheme == "midpoint" && timeTolerance > 0)
+		throw std::invalid_argument(
+		        "MpmDynamicEngine.timeTolerance = " + std::to_string(timeTolerance)
+		        + " needs accelerations at both ends of a step, which scheme='midpoint' does without: take 'newmark' or 'generalised-alpha'.");
+}
+
+vector<Listed> MpmDynamicEngine::conditions() const
+{
+	auto all = MpmImplicitEngine::conditions();
+	for (size_t i = 0; i < absorbing.size(); ++i)
+		all.push_back({ absorbing[i], "absorbing", i, absorbing.size() });
+	return all;
+}
+
+std::uint64_t MpmDynamicEngine::checksumInTime() const { return checksumOf(scheme, beta, gamma, rhoInfinity, timeTolerance, rayleigh); }
+
+// The imbalance is what integration in time and the way of velocities to the grid and back have added.
+void MpmDynamicEngine::tellMotion(py::dict& data) const
+{
+	const Energies own = energiesOf(materialPoints(*ownScene(), mask));
+	const Energies now = isDivided(*this) ? ofAll(own, *processes()) : own;
+	for (int axis = 0; axis < 3; ++axis) {
+		if (axis < grid->dim) data[string("momentum_") + "xyz"[axis]] = now.momentum[axis];
+		if (axis == 2 || grid->dim == 3) data[string("angularMomentum_") + "xyz"[axis]] = now.angularMomentum[axis];
+	}
+	Rows rows(data);
+	for (size_t i = 0; i < absorbing.size(); ++i)
+		absorbing[i]->tell(rows, *this, { absorbing[i], "absorbing", i, absorbing.size() });
+	data["kineticEnergy"] = now.kinetic;
+	data["elasticEnergy"] = now.elastic;
+	data["loadWork"]      = loadWork;
+	data["boundaryWork"]  = boundaryWork;
+	data["contactWork"]   = contactWork;
+	data["impactWork"]    = impactWork;
+	data["ghostWork"]     = ghostWork;
+	data["gridWork"]      = gridWork;
+	data["plasticWork"]   = plasticWork;
+	data["dampingWork"]   = dampingWork;
+	data["energyImbalance"]
+	        = now.total() - firstEnergy - loadWork - boundaryWork - contactWork + impactWork + ghostWork + gridWork + plasticWork + dampingWork;
+}
+
+template <int Dim> void MpmDynamicEngine::makeMoving(Job<Dim>& job, const vector<MaterialPoint>& points)
+{
+	job.moving = std::make_shared<Moving<Dim>>(*this, job, points);
+}
+
+void MpmDynamicEngine::setMoving(Job<2>& job, const vector<MaterialPoint>& points) { makeMoving(job, points); }
+void MpmDynamicEngine::setMoving(Job<3>& job, const vector<MaterialPoint>& points) { makeMoving(job, points); }
+
+} // namespace yade
+
+BOOST_CLASS_EXPORT_IMPLEMENT(yade::MpmDynamicEngine)
+static const yade::PluginClasses<yade::MpmDynamicEngine> registeredMpmDynamicEngine(__FILE__);

@@ -1,0 +1,401 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "engine/engines/MpmImplicitEngine.hpp"
+#include "core/base/stopwatch.hpp"
+#include "core/stepping/load_step.hpp"
+#include "engine/analysis/LoadStepObserver.hpp"
+#include "engine/analysis/exchange.hpp"
+#include "engine/analysis/movers.hpp"
+#include "engine/conditions/boundary/MpmBoundary.hpp"
+#include "engine/conditions/contact/MpmContact.hpp"
+#include "engine/conditions/water/MpmWater.hpp"
+#include "engine/engines/Threads.hpp"
+#include "engine/engines/build_model.hpp"
+#include "engine/engines/moving.hpp"
+#include "engine/engines/step_errors.hpp"
+#include "engine/messages/failures.hpp"
+#include "engine/messages/progress.hpp"
+#include "engine/messages/requirements.hpp"
+#include "engine/parallel/pieces.hpp"
+#include "engine/parallel/processes.hpp"
+#include "engine/parallel/sameness.hpp"
+#include "engine/points/AtWork.hpp"
+#include "yade_api/exceptions.hpp"
+#include "yade_api/logging.hpp"
+#include "yade_api/registration.hpp"
+#include "yade_api/value_lock.hpp"
+#include <numeric>
+
+namespace yade {
+
+MpmImplicitEngine::MpmImplicitEngine()
+{
+	iterPeriod   = 1;
+	initRun      = true;
+	timingDeltas = boost::make_shared<TimingDeltas>();
+	if (scene) home = scene->weak_from_this(); // the current one
+}
+
+vector<Listed> MpmImplicitEngine::conditions() const
+{
+	vector<Listed> all;
+	const auto     add = [&](const char* list, const auto& conditions) {
+                for (size_t i = 0; i < conditions.size(); ++i)
+                        all.push_back({ conditions[i], list, i, conditions.size() });
+	};
+	add("boundaries", boundaries);
+	add("loads", loads);
+	add("water", water);
+	add("contacts", contacts);
+	return all;
+}
+
+bool MpmImplicitEngine::areLoads(const vector<shared_ptr<MpmCondition>>& conditions)
+{
+	return std::all_of(conditions.begin(), conditions.end(), [](const auto& one) { return string(one->list()) == "loads"; });
+}
+
+void MpmImplicitEngine::handOver(bool isBetween)
+{
+	const ValueLock lock;
+	for (const Listed& listed : conditions())
+		listed.condition->actOnBodies(*scene, isBetween);
+}
+
+shared_ptr<Scene> MpmImplicitEngine::ownScene() const
+{
+	const auto& current = Singleton<Omega>::instance().getScene();
+	const auto  holds
+	        = [this](const Scene& s) { return std::any_of(s.engines.begin(), s.engines.end(), [this](const auto& e) { return e.get() == this; }); };
+	if (holds(*current)) home = current;
+	const auto other = boost::dynamic_pointer_cast<Scene>(home.lock());
+	return other && holds(*other) ? other : current;
+}
+
+bool MpmImplicitEngine::isActivated()
+{
+	beforeActivation.keep(*this);
+	join();
+	wasAway          = wasAway || (seen >= 0 && scene->iter > seen + 1);
+	seen             = scene->iter;
+	const bool isDue = PeriodicEngine::isActivated(), ends = !isDue && isEndOfLoads();
+	nDone += ends;
+	if (!isDue && !ends) handOver(true);
+	return isDue || ends;
+}
+
+// Grains may have been poured for a while before. What has run, or was given another time, goes on from there.
+void MpmImplicitEngine::join()
+{
+	const ValueLock lock;
+	if (!hasJoined && nDone == 0 && loadTime == 0) loadTime = scene->time;
+	hasJoined = true;
+}
+
+// YADE asks no engine that is dead, or not among O.engines.
+string MpmImplicitEngine::doubtOfAbsence()
+{
+	const Real goal = scene->time + scene->dt;
+	if (!wasAway || goal <= loadTime) return "";
+	wasAway = false;
+	std::ostringstream text;
+	text << "it was dead or out of O.engines for some time: this step makes up for that and goes from loadTime = " << loadTime << " to " << goal
+	     << " s at once. Where the soil shall have stood still, set loadTime = O.time first.";
+	return text.str();
+}
+
+// An engine that does not run in every iteration would leave out the end of the load curve, where a run usually stops.
+bool MpmImplicitEngine::isEndOfLoads() const
+{
+	const ValueLock lock;
+	if (nDone == 0 || (nDo >= 0 && nDone >= nDo) || loadCurve.empty()) return false;
+	const Real reached = loadsEnd() - 1e-9 * scene->dt;
+	return loadTime < reached && scene->time + scene->dt >= reached;
+}
+
+void MpmImplicitEngine::action()
+{
+	deliveringErrors([&] {
+		home = scene->weak_from_this();
+		requireCallable(getClassName());
+		Agreement agreement;
+		try {
+			const Threads threads(ompThreads);
+			grid && grid->dim == 3 ? step<3>(agreement) : step<2>(agreement);
+		} catch (...) {
+			agreement.breakOff(std::current_exception());
+			beforeActivation.putBack(*this);
+			if (!scene->subStepping) scene->subStep = -1; // YADE would count the iteration as begun, and finish it later
+			progressLine.end();
+			tellObservers(*scene, [this](LoadStepObserver& observer) { observer.stepEnds(*this, false); });
+			throw;
+		}
+		handOver(false);
+		tellObservers(*scene, [this](LoadStepObserver& observer) { observer.stepEnds(*this, true); });
+	});
+}
+
+template <int Dim> void MpmImplicitEngine::step(Agreement& agreement)
+{
+	const AtWork during;
+	if (hasQuestions()) askFunctions<Dim>(agreement);
+	Job<Dim> job      = prepare<Dim>(agreement);
+	double   agreeing = 0;
+	if (job.model.grid.refinement && basis == "gimp" && splitOutgrown(job)) job = prepare<Dim>(agreement);
+	{
+		const gimpm::Stopwatch watch(agreeing);
+		agreement.reach(*this, job.cloud, bool(job.model.division));
+	}
+	if (job.model.processes) addTime(*timingDeltas, "agree", agreeing);
+	doubt(job);
+	tellObservers(*scene, [this](LoadStepObserver& observer) { observer.stepBegins(*this); });
+	advance(job);
+	const ValueLock lock;
+	for (const auto& condition : job.conditions)
+		for (const auto& [about, doubt] : condition->doubts(isDynamic()))
+			warn(plausibility.once(about, doubt));
+	if (job.moving) warn(plausibility.once("gift", job.moving->doubtOfContact()));
+	if ((maxSplits > 0 || job.model.grid.refinement) && clampedDomains > 0) splitOutgrown(job);
+	const auto doubts = plausibility.warningsOfResult(*this, points, job.cloud);
+	warnOfPoints(doubts.empty() ? "" : doubts.front());
+}
+
+bool MpmImplicitEngine::hasQuestions() const
+{
+	const auto all = conditions();
+	return std::any_of(all.begin(), all.end(), [](const Listed& listed) { return listed.condition->hasQuestions(); });
+}
+
+// Nothing is asked while the lock of values is held, since a function may well ask the engine. Whether any was asked.
+template <int Dim> bool MpmImplicitEngine::ask(const gimpm::Grid<Dim>& lattice, const vector<gimpm::Key>& cells) const
+{
+	for (bool isAsked = false;; isAsked = true) {
+		std::unique_ptr<Question> question;
+		vector<Listed>            asked; // which lives on meanwhile
+		{
+			const ValueLock lock;
+			asked    = conditions();
+			question = nextQuestion<Dim>(asked, lattice, cells);
+		}
+		if (!question) return isAsked;
+		question->ask();
+		const ValueLock lock;
+		question->store();
+	}
+}
+
+// Functions of conditions, as of the pressure of water, answer before the step begins, and before anything is taken over from the scene, which they may ask and even change: then they are asked about what
+// there is now.
+template <int Dim> void MpmImplicitEngine::askFunctions(Agreement& agreement)
+{
+	constexpr int mostTimes = 100;
+	for (int time = 0; time < mostTimes; ++time) {
+		gimpm::Grid<Dim>   lattice;
+		vector<gimpm::Key> cells;
+		{
+			const ValueLock lock;
+			requireRunnable(*this);
+			grid->requireAdmissible();
+			lattice = grid->lattice<Dim>();
+			updateMaterialPoints(points, *scene, mask);
+			gimpm::PointCloud<Dim> middles;
+			for (const MaterialPoint& point : points)
+				if (const gimpm::Vec<Dim> x = point.state->pos.head<Dim>(); // others are refused in a moment
+				    x.allFinite() && ((x - lattice.origin) / lattice.cellSize).cwiseAbs().maxCoeff() < lattice.indexLimit)
+					middles.position.push_back(x);
+			cells = cellsOf(middles, lattice, nullptr);
+		}
+		if (distributed && processes()) {
+			agreement.meet(*this);
+			cells = gimpm::joined(*processes(), cells);
+			std::sort(cells.begin(), cells.end());
+			cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
+		}
+		if (!ask<Dim>(lattice, cells)) return;
+	}
+	throw std::invalid_argument(
+	        getClassName()
+	        + ": a function of its conditions, as MpmWater.pressure, brings other material points into the scene whenever it is asked; it must only answer.");
+}
+
+template <int Dim> void MpmImplicitEngine::takePoints(Setup<Dim>& to, Agreement& agreement)
+{
+	auto& model     = to.model;
+	model.processes = processes();
+	updateMaterialPoints(points, *scene, mask);
+	Distribution::requireWhole(*this);
+	if (!isDivided(*this)) requireAny(points, *this);
+	vector<const MpmMaterial*> known;
+	bool                       areKnown = false;
+	if (distributed && model.processes) {
+		Distribution::requireDivisible(*this, points);
+		agreement.meet(*this);
+		std::int64_t isKnown = plausibility.knows<Dim>(points);
+		model.processes->smallest(&isKnown, 1);
+		areKnown       = isKnown;
+		model.division = distribution.divide<Dim>(*this, points);
+		known          = materialsOfAll(*scene, points, *model.processes);
+	}
+	to.cloud = gather(points, model, known);
+	if (areKnown) plausibility.know(to.cloud); // some have come from another process
+	if (model.division && hasQuestions()) agreement.meet(*this);
+}
+
+Body::id_t MpmImplicitEngine::add(NewPoints& added)
+{
+	const ValueLock lock;
+	const auto      all = distributed ? processes() : nullptr;
+	vector<int>     own(added.size());
+	std::iota(own.begin(), own.end(), 0);
+	if (all) own = grid->dim == 3 ? distribution.ownOf<3>(*this, points, added) : distribution.ownOf<2>(*this, points, added);
+	vector<shared_ptr<Body>> bodies;
+	const auto               make = [&] {
+                for (const int i : own)
+                        bodies.push_back(added.body(i));
+	};
+	if (all) admitTogether(make, *all);
+	else
+		make();
+	const Body::id_t first = scene->bodies->size();
+	for (size_t i = 0; i < own.size(); ++i)
+		scene->bodies->insertAtId(bodies[i], first + own[i]);
+	if (!all) return first;
+	provideGaps(*scene, first + added.size());
+	Pieces::note(*scene, all.get());
+	return first;
+}
+
+template <int Dim> void MpmImplicitEngine::doubt(const Job<Dim>& job)
+{
+	const ValueLock lock;
+	if (job.model.division) {
+		requireSameAnswers(*job.model.processes, *this);
+		pointsOfRun = size_t(job.model.division->sum(Real(points.size())));
+	}
+	const int own = int(job.doubts.size()), count = job.model.division ? largestOf(own, *job.model.processes) : own; // the same in all processes
+	for (int i = 0; i < count; ++i)
+		warnOfPoints(i < own ? job.doubts[i] : "");
+	warn(plausibility.doubtOfPlaces(*this, points));
+	if (job.model.division) return;
+	for (const auto& condition : job.conditions)
+		warn(condition->doubtOfPlace(job.cloud, job.model.grid));
+}
+
+// False if there are no points to be split.
+template <int Dim> bool MpmImplicitEngine::splitOutgrown(Job<Dim>& job)
+{
+	const ValueLock lock;
+	const size_t    before = points.size();
+	warn(splitting.split(*this, points, job));
+	plausibility.know(job.cloud);
+	return points.size() > before;
+}
+
+// Of points that this process has. Where they are divided, the others may have a reason, too, and one of them is heard.
+void MpmImplicitEngine::warnOfPoints(const string& text) { warn(isDivided(*this) ? firstSaid(text, *processes()) : text); }
+
+template <int Dim> Job<Dim> MpmImplicitEngine::prepare(Agreement& agreement)
+{
+	const ValueLock lock;
+	requireRunnable(*this);
+	join();
+	progressLine.start(scene->iter);
+	warn(doubtOfAbsence());
+	warn(plausibility.doubtOfEnd(*this));
+	const Real target    = scene->time + scene->dt;
+	double     gathering = 0, checking = 0;
+	Job<Dim>   job = [&] {
+                const gimpm::Stopwatch   watch(gathering);
+                const gimpm::StepControl control(stepPart, isExplicit() ? 1 : newton->minStep, newton->maxIterations);
+                auto                     setup = buildModel<Dim>(*this, *scene, points, loadTime, target, [&](Setup<Dim>& to) { takePoints(to, agreement); });
+                Job<Dim>                 made(std::move(setup), control, loadTime, target);
+                Movers(*scene).requireOthers(points, *scene, isDynamic());
+                setMoving(made, points); // inertia comes last
+                return made;
+	}();
+	job.doubts = plausibility.look(*this, points, job.cloud, job.model, checking);
+	begin(points.size());
+	addTime(*timingDeltas, "gather", gathering);
+	if (checking > 0) addTime(*timingDeltas, "check", checking);
+	return job;
+}
+
+// Load steps up to the target, as many as it takes.
+template <int Dim> void MpmImplicitEngine::advance(Job<Dim>& job)
+{
+	Interruption interruption;
+	StepErrors   errors(*this);
+	job.model.newton.interrupted = [&] { return isRequested(interruption.isRequested(), job.model.processes.get()); };
+	while (!job.control.isDone()) {
+		Attempt<Dim>    tried  = errors.next(job, [&] { return attempt(job); });
+		const auto      report = isExplicit() ? job.moving->step(job, tried)
+		                                      : gimpm::loadStep(job.cloud, job.model, tried.load, solver, tried.predicts ? &tried.last : nullptr);
+		const ValueLock lock;
+		take(report, *timingDeltas);
+		lastDisplacements = toNumbers(tried.last, job.model.grid), lastLoadIncrement = tried.last.load;
+		const Real part   = job.control.part();
+		const bool goesOn = job.control.take(report);
+		cuts = job.control.cuts(), stepPart = job.control.nextPart();
+		if (!goesOn) {
+			const string reason = reasonOf(report, *this, points, tried.time, part);
+			if (report.failure == gimpm::Failure::interrupted) interruption.raise(reason);
+			throw std::runtime_error(reason);
+		}
+		warn(report.accepted ? warningOfAccepted(report, *this, tried.time) : errors.doubtOf(report, job.control));
+		if (report.converged() || report.accepted) reach(job, tried);
+		progressLine.show(progressOf(*this, job.control.isDone()), isFirstProcess() ? verbosity : 0);
+	}
+}
+
+template <int Dim> Attempt<Dim> MpmImplicitEngine::attempt(Job<Dim>& job) const
+{
+	const ValueLock lock;
+	const Real      time               = job.control.goal() == 1 ? job.target : job.begin + job.control.goal() * (job.target - job.begin);
+	job.model.newton.acceptUnconverged = newton->acceptUnconverged && job.control.isLeast();
+	const StepTime step                = job.moving ? job.moving->begin(job, loadTime, time) : StepTime { loadTime, time, time };
+	Attempt<Dim>   next { time, yade::advance<Dim>(job, *this, step), newton->predictor, {} };
+	if (job.moving) job.moving->weigh(next.load);
+	if (next.predicts) next.last = fromNumbers<Dim>(lastDisplacements, lastLoadIncrement, job.model.grid);
+	return next;
+}
+
+// Points and load time move on together: whoever reads or saves the scene at any moment finds a converged state.
+template <int Dim> void MpmImplicitEngine::reach(Job<Dim>& job, const Attempt<Dim>& made)
+{
+	double scattering = 0;
+	for (const auto& condition : job.conditions)
+		condition->requireKept();
+	const StepOutcome<Dim> outcome { job.model, last, points, loadTime, made.time, reactions, formerReactions() };
+	{
+		const gimpm::Stopwatch watch(scattering);
+		if (job.moving) job.moving->reach(job, outcome);
+		scatter(job.cloud, job.model.grid, points);
+		for (const auto& condition : job.conditions)
+			condition->reach(outcome);
+	}
+	addTime(*timingDeltas, "scatter", scattering);
+	plausibility.know(job.cloud);
+	++substeps;
+	loadTime = made.time, loadFactor = made.load.factor.value;
+}
+
+Body::id_t addPoints(
+        const shared_ptr<MpmImplicitEngine>& engine, const py::object& positions, const py::object& half, const py::list& materials, const py::object& index,
+        const py::dict& parameters)
+{
+	if (AtWork::isAny()) throw std::runtime_error("add: a load step is at work in the background; call O.pause() or O.wait() first.");
+	NewPoints points(*engine->grid, positions, half, materials, index, parameters);
+	engine->scene = Singleton<Omega>::instance().getScene().get(); // which it may not have seen yet
+	return engine->add(points);
+}
+
+void MpmImplicitEngine::warn(const string& text)
+{
+	if (text.empty() || !isFirstProcess()) return;
+	progressLine.breakLine();
+	log(Severity::warning, staticName(), text);
+}
+
+} // namespace yade
+
+BOOST_CLASS_EXPORT_IMPLEMENT(yade::MpmImplicitEngine)
+static const yade::PluginClasses<yade::MpmImplicitEngine> registeredMpmImplicitEngine(__FILE__);

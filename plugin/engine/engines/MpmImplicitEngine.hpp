@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+#include "engine/analysis/analysis.hpp"
+#include "engine/conditions/load_curves.hpp"
+#include "engine/engines/PeriodicCounters.hpp"
+#include "engine/engines/job.hpp"
+#include "engine/engines/splitting.hpp"
+#include "engine/engines/study.hpp"
+#include "engine/grid/newPoints.hpp"
+#include "engine/messages/ProgressLine.hpp"
+#include "engine/messages/plausibility.hpp"
+#include "engine/output/plotData.hpp"
+#include "engine/output/report.hpp"
+#include "engine/parallel/distribution.hpp"
+#include "yade_api/interruption.hpp"
+
+namespace yade {
+
+class Agreement;
+class MpmBoundary;
+class MpmContact;
+class MpmWater;
+
+class MpmImplicitEngine : public Exposed<MpmImplicitEngine, PeriodicEngine>, public Analysis {
+public:
+	vector<shared_ptr<MpmCondition>> loads;
+	vector<shared_ptr<MpmWater>>     water;
+	vector<shared_ptr<MpmBoundary>>  boundaries;
+	vector<shared_ptr<MpmContact>>   contacts;
+	int                              verbosity = 1;
+
+	MpmImplicitEngine();
+
+	YADE_API_NAME(MpmImplicitEngine)
+	static const char* doc()
+	{
+		return "Implicit quasi-static analysis by the ghost-stabilised generalised interpolation material point method (Coombs 2023). Each run advances "
+		       "the material points of the scene by one load step, from the last converged load time to O.time + O.dt: YADE's time is the load clock. A step "
+		       "that does not converge is cut (see MpmNewton); at last it raises RuntimeError, and the scene stays at the last converged state.\n\n"
+		       "Bodies of other kinds are left alone. Bodies, materials and settings may be changed between steps. Several engines, each with its own grid, may "
+		       "share a scene if their *mask* gives every material point to one of them at most; none inside a ParallelEngine. Ctrl-C stops a step within an "
+		       "iteration.";
+	}
+	template <class V> static void attributes(V&& v)
+	{
+		using E = MpmImplicitEngine;
+		v("grid", &E::grid, 0, "Background grid (MpmGrid); must be given.",
+		  admitting("the MpmGrid that mpm.fill was given, as in grid=MpmGrid(cellSize=1)", notNull));
+		v("basis", &E::basis, 0,
+		  "Basis functions: 'gimp', averaged over the points' domains, or 'mpm', the linear functions of the grid (points that cross cells then disturb "
+		  "the solution).",
+		  oneOf("gimp", "mpm"));
+		v("fBar", &E::fBar, 0, "Cure for volumetric locking of materials that keep their volume: one dilation in a cell. Needs ghost stabilisation.");
+		v("gravity", &E::gravity, 0, "Acceleration [m/s²] of all material points at load factor 1, finite.", finite);
+		v("loadCurve", &E::loadCurve, 0,
+		  "Load factor [-] as a sequence of (time [s], factor), times increasing; linear between, constant before and after. Multiplies gravity (but see "
+		  "*gravityCurve*), point loads and prescribed displacements.",
+		  admitting("one or more (time, factor), all finite, with increasing times", gimpm::LoadCurve::isAdmissible));
+		v("gravityCurve", &E::gravityCurve, 0,
+		  "Factor [-] of gravity as *loadCurve*, where it shall not go with the other loads; empty, the default: it does. [(0, 1)]: gravity acts from the "
+		  "beginning, as after mpm.geostatic.",
+		  curveOrNothing);
+		v("loads", &E::loads, 0,
+		  "Loads on surfaces of the body (MpmTraction), and other conditions (MpmCondition) without a list of their own; read as a tuple, so assign a new one to change it.",
+		  admitting(
+		          "MpmTractions; an MpmWater belongs into water, an MpmBoundary into boundaries, an MpmContact into contacts, an MpmAbsorbingBoundary into absorbing",
+		          areLoads));
+		v("water", &E::water, 0,
+		  "Water in the pores and around the body (MpmWater); several add up. Read as a tuple, so assign a new one to change it.");
+		v("boundaries", &E::boundaries, 0, "Essential boundary conditions (MpmBoundary); read as a tuple, so assign a new one to change it.");
+		v("contacts", &E::contacts, 0, "Contact with rigid bodies (MpmContact); read as a tuple, so assign a new one to change it.");
+		v("ghost", &E::ghost, 0, "Ghost stabilisation (MpmGhost).", notNull);
+		v("newton", &E::newton, 0, "Solution of a load step (MpmNewton).", notNull);
+		v("mask", &E::mask, 0,
+		  "Material points to move: those whose body.groupMask has a bit in common with it; 0 or -1, the default: all. No two engines may claim the same.");
+		v("loadTime", &E::loadTime, 0,
+		  "Time [s] of the last converged state, where the next step starts; 0 before the first: O.time as it joins. After O.resetTime() set it to O.time.",
+		  finite);
+		v("verbosity", &E::verbosity, 0,
+		  "What a run says on stderr. 0: nothing; 1: one line of progress, redrawn on a terminal, repeated every 10 s in a log; 2: a line each step.",
+		  oneOf(0, 1, 2));
+		v("maxSplits", &E::maxSplits, 0,
+		  "How often a point whose domain outgrows half a cell is split in two, and its halves again. 0, the default: never; the domain stays at half a cell.",
+		  atLeast(0));
+		v("distributed", &E::distributed, 0,
+		  "Whether several processes (scripts/run -n) divide the material points among them, so that each holds its own in memory. Without effect in one process.");
+		results([&](auto name, auto member, const auto&, Told, unsigned flags, auto doc, auto validator) { v(name, member, flags, doc, validator); });
+	}
+	template <class C> static void python(C& c)
+	{
+		Interruption::prepare();
+		addStudyMethods(c);
+		addReport(c, py::make_function(+[](const MpmImplicitEngine& engine) { return yade::report(engine); }));
+		addPlotData(c, py::make_function(+[](const MpmImplicitEngine& engine) { return yade::plotData(engine); }));
+	}
+
+	bool isActivated() override;
+	void action() override;
+
+	vector<Listed>    conditions() const override;
+	string            className() const override { return getClassName(); }
+	void              requireAttributes() const override { requireAdmissible(); }
+	shared_ptr<Scene> ownScene() const override; // for an engine that no scene holds, the current one
+	Scene&            sceneOfRun() const override { return *scene; }
+	long              period() const override { return iterPeriod; }
+	long              runs() const override { return nDone; }
+
+	static bool areLoads(const vector<shared_ptr<MpmCondition>>&);
+
+	// Puts new points into the scene, of several processes that divide them each its own. The id of the first one, or std::invalid_argument in all of them.
+	Body::id_t add(NewPoints&);
+
+protected:
+	virtual const vector<Vector3r>& formerReactions() const { return reactions; } // of the step before, where it matters
+	void                            handOver(bool isBetween);                     // between load steps, too, the bodies that YADE moves feel the soil
+
+	virtual void setMoving(Job<2>&, const vector<MaterialPoint>&) { }
+	virtual void setMoving(Job<3>&, const vector<MaterialPoint>&) { }
+
+	vector<MaterialPoint> points; // of the step; kept for the next one
+
+private:
+	void                            join();
+	string                          doubtOfAbsence();
+	bool                            isEndOfLoads() const;
+	template <int Dim> void         step(Agreement&);
+	template <int Dim> void         askFunctions(Agreement&);
+	template <int Dim> bool         ask(const gimpm::Grid<Dim>&, const vector<gimpm::Key>& cells) const;
+	bool                            hasQuestions() const;
+	template <int Dim> Job<Dim>     prepare(Agreement&);
+	template <int Dim> void         takePoints(Setup<Dim>&, Agreement&);
+	template <int Dim> void         doubt(const Job<Dim>&);
+	template <int Dim> bool         splitOutgrown(Job<Dim>&);
+	template <int Dim> void         advance(Job<Dim>&);
+	template <int Dim> Attempt<Dim> attempt(Job<Dim>&) const;
+	template <int Dim> void         reach(Job<Dim>&, const Attempt<Dim>&);
+	void                            warn(const string&); // nothing if it is empty
+	void                            warnOfPoints(const string&);
+
+	PeriodicCounters                    beforeActivation;
+	bool                                hasJoined = false, wasAway = false;
+	long                                seen = -1; // iteration of YADE in which it was asked to run; -1: in none
+	ProgressLine                        progressLine;
+	Plausibility                        plausibility;
+	Splitting                           splitting;
+	Distribution                        distribution;
+	mutable boost::weak_ptr<Factorable> home;   // the scene where it was made or seen last
+	gimpm::LinearSolver                 solver; // keeps the symbolic analysis; results do not depend on it
+};
+
+// For mpm.add: puts points into the current scene, which has this engine, given as newBodies() is; the id of the first one.
+Body::id_t addPoints(
+        const shared_ptr<MpmImplicitEngine>&, const py::object& positions, const py::object& half, const py::list& materials, const py::object& index,
+        const py::dict& parameters);
+
+} // namespace yade
+
+BOOST_CLASS_EXPORT_KEY(yade::MpmImplicitEngine)

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+#include "core/grid/refinement.hpp"
+#include "engine/grid/MpmRefinement.hpp"
+
+namespace yade {
+
+class MpmGrid : public Exposed<MpmGrid, Serializable> {
+public:
+	Real     cellSize     = std::numeric_limits<Real>::quiet_NaN(); // must be given
+	Vector3r origin       = Vector3r::Zero();
+	int      dim          = 2;
+	Vector3r period       = Vector3r::Zero();
+	bool     axisymmetric = false;
+
+	vector<shared_ptr<MpmRefinement>> refinements;
+
+	YADE_API_NAME(MpmGrid)
+	static const char* doc()
+	{
+		return "Background grid of square (dim=2) or cubic (dim=3) cells. It is unbounded: there are no extents to declare, and only cells that "
+		       "material points touch take memory.";
+	}
+	template <class V> static void attributes(V&& v)
+	{
+		v("cellSize", &MpmGrid::cellSize, 0, "Edge length h of a cell [m] > 0, without default; of the largest ones with *refinements*.",
+		  admitting("a finite number > 0 [m]; there is no default", positive));
+		v("origin", &MpmGrid::origin, 0,
+		  "Position of a node [m], finite; all others are whole cells away from it. With dim=2, mpm.fill puts the points into its plane z.", finite);
+		v("dim", &MpmGrid::dim, 0, "2: plane strain in x-y, per metre of thickness, or *axisymmetric*; 3: three-dimensional.", oneOf(2, 3));
+		v("period", &MpmGrid::period, 0,
+		  "Lengths [m] along x, y, z after which the scene repeats itself, from *origin* on: whole numbers of cells, at least 3. 0, the default: it does not.",
+		  nonNegative);
+		v("axisymmetric", &MpmGrid::axisymmetric, 0,
+		  "With dim=2: bodies of revolution about the grid line x = 0. x is the radius, y goes along the axis; volumes and forces are of the whole circle.");
+		v("refinements", &MpmGrid::refinements, 0,
+		  "Boxes (MpmRefinement) in which cells are halved; empty, the default: all are equal. Read as a tuple, so assign a new one to change it, also between steps.");
+	}
+
+	// As the core understands it. std::invalid_argument unless periods are whole numbers of cells, as many as basis functions need, and the axis of
+	// symmetry is on nodes.
+	template <int Dim> gimpm::Grid<Dim> lattice() const;
+
+	// The refinements must be admissible, too.
+	void requireAdmissible() const override;
+
+private:
+	Vector3i periodInCells() const;
+	void     requireAxis() const;
+
+	template <int Dim> void refine(gimpm::Grid<Dim>&) const;
+};
+
+// For mpm.fill: sizes of the cells (N double) at positions (N x 3 double), on a line between cells of two sizes that of the smaller one, as a bytearray.
+py::object cellSizesForPython(const MpmGrid&, const py::object& positions);
+
+} // namespace yade
+
+BOOST_CLASS_EXPORT_KEY(yade::MpmGrid)

@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "engine/messages/failures.hpp"
+#include "engine/analysis/analysis.hpp"
+#include "engine/messages/idle.hpp"
+#include "engine/parallel/distribution.hpp"
+#include "engine/parallel/processes.hpp"
+
+namespace yade {
+
+namespace {
+	string placeOf(const MaterialPoint& point)
+	{
+		std::ostringstream text;
+		text << " (body #" << point.id << " at " << point.state->pos.transpose() << ")";
+		return text.str();
+	}
+
+	// Wherever it is. Of points that are divided among processes the report has the id.
+	string placeOfFailed(int point, const Analysis& engine, const vector<MaterialPoint>& points)
+	{
+		if (point < 0) return "";
+		if (!isDivided(engine)) return placeOf(points[point]);
+		const auto found = std::find_if(points.begin(), points.end(), [&](const MaterialPoint& p) { return p.id == point; });
+		return firstSaid(found == points.end() ? "" : placeOf(*found), *processes());
+	}
+
+	string bodiesNear(const Vector3r& place, const Analysis& engine, const vector<MaterialPoint>& points)
+	{
+		constexpr int      listed = 5;
+		int                found  = 0;
+		std::ostringstream text;
+		for (const MaterialPoint& point : points)
+			if ((point.state->pos - place).head(engine.grid->dim).cwiseAbs().maxCoeff() < engine.grid->cellSize && ++found <= listed)
+				text << (found == 1 ? ", near it bodies #" : ", #") << point.id;
+		if (found > listed) text << " and " << found - listed << " more";
+		return isDivided(engine) ? firstSaid(text.str(), *processes()) : text.str();
+	}
+
+	string placeOfImbalance(const gimpm::StepReport& report, const Analysis& engine, const vector<MaterialPoint>& points)
+	{
+		if (report.residuals.empty() || report.worst.axis < 0) return "";
+		const int          dim = engine.grid->dim;
+		std::ostringstream text;
+		text << " Residuals:";
+		for (const Real r : report.residuals)
+			text << " " << r;
+		text << "; largest out-of-balance force " << report.worst.force << " N along "
+		     << "xyz"[report.worst.axis] << " at node (" << report.worst.position.head(dim).transpose() << ")";
+		text << bodiesNear(report.worst.position, engine, points) << ".";
+		return text.str();
+	}
+
+	// Steps that are shorter may find what longer ones did not; of loads that grow the rest may be too much.
+	string adviceOnConvergence(const Analysis& engine, Real time, Real part)
+	{
+		const bool grows = engine.curveOfLoads().valueAt(time) != engine.loadFactor;
+		if (part == 1) return " Smaller steps (O.dt), or newton.minStep < 1, may help.";
+		if (engine.isDynamic())
+			return " Smaller steps (O.dt) or a smaller newton.minStep may help; where the motion is right until then, what strikes, pushes or pulls so hard is "
+			       "near the place that is named.";
+		if (grows) return " The load may be more than the body can carry in equilibrium.";
+		return " What has changed since the step before (soil, water, strength, boundaries or bodies that move) may be more than the body can carry in equilibrium.";
+	}
+
+	string adviceOn(const gimpm::StepReport& report, const Analysis& engine, Real time, Real part)
+	{
+		using gimpm::Failure;
+		string advice;
+		if (report.failure == Failure::unrestrained)
+			return " Hold nodes of that material with MpmBoundary, or let it rest on a rigid body (MpmContact).";
+		if (report.failure == Failure::misplaced) return "";
+		if (!report.advice.empty()) return " " + report.advice;
+		if (report.failure == Failure::gainsEnergy)
+			return " Smaller steps (O.dt), a smaller newton.minStep or scheme='midpoint' would follow the motion.";
+		if (report.failure == Failure::inaccurate)
+			return " Smaller steps (O.dt), a smaller newton.minStep or a larger timeTolerance would let it pass.";
+		if (report.failure == Failure::slides)
+			return " It may have no equilibrium; more friction, or nodes that are held (MpmBoundary), would hold it.";
+		if (engine.isExplicit()) return " Explicit steps are not cut: a smaller O.dt may help, or an implicit scheme.";
+		if (report.failure == Failure::interrupted) return " O.run() goes on from there.";
+		if (report.failure == Failure::apart)
+			return " The script must do the same in all of them, with one thread each where grains move (YADE's sums depend on the threads), and the "
+			       "machines must be of one kind.";
+		if (report.failure == Failure::stalled) return " Set newton.tolerance to that or more.";
+		if (report.failure == Failure::detached)
+			return " Nodes stay in place while the soil moves, and push it by half a cell: put the box where the soil is now, in each step if it is pushed further, push it with a rigid body (MpmContact), or "
+			       "move a block of stiff material points by nodes inside of it (examples/README.md, recipes).";
+		if (engine.ghost->factor == 0)
+			advice += " The ghost stabilisation is off (factor=0): small overlaps of material and cells make the system ill conditioned.";
+		advice += adviceOnConvergence(engine, time, part);
+		if (report.clampedDomains > 0) advice += " " + std::to_string(report.clampedDomains) + " domains had outgrown half a cell.";
+		return advice;
+	}
+
+	// What began between two steps and goes on in this one.
+	string stageOf(const Analysis& engine)
+	{
+		for (const auto& other : engine.sceneOfRun().engines)
+			if (!other->dead && other->label.rfind("stage_", 0) == 0) return " in " + other->label + " of mpm.stages";
+		return "";
+	}
+
+	// Loads that grow tell where a static step is; otherwise it is the time.
+	string stepOf(const Analysis& engine, Real time)
+	{
+		const gimpm::LoadCurve curve = engine.curveOfLoads();
+		const Real             from = curve.valueAt(engine.loadTime), to = curve.valueAt(time);
+		std::ostringstream     text;
+		if (!engine.isDynamic() && from != to) text << "the load step from factor " << engine.loadFactor << " to " << to;
+		else
+			text << (engine.isDynamic() ? "the step in time" : "the load step") << " from O.time = " << engine.loadTime << " to " << time << " s";
+		text << stageOf(engine);
+		if (engine.isDynamic() && from != to) text << ", of loads from factor " << from << " to " << to;
+		return text.str();
+	}
+
+	string whereSceneIs(const Analysis& engine)
+	{
+		std::ostringstream text;
+		if (engine.isDynamic()) text << " The scene is at " << engine.loadTime << " s";
+		else
+			text << " The scene is at load factor " << engine.loadFactor << ", O.time = " << engine.loadTime;
+		text << ", the last converged state, in iteration " << engine.sceneOfRun().iter << ".";
+		return text.str();
+	}
+}
+
+const char* nameOf(gimpm::Failure failure)
+{
+	using gimpm::Failure;
+	switch (failure) {
+		case Failure::none: return "none";
+		case Failure::detached: return "detached";
+		case Failure::misplaced: return "misplaced";
+		case Failure::unrestrained: return "unrestrained";
+		case Failure::slides: return "slides";
+		case Failure::penetrated: return "penetrated";
+		case Failure::refused: return "refused";
+		case Failure::inaccurate: return "inaccurate";
+		case Failure::gainsEnergy: return "gainsEnergy";
+		case Failure::singular: return "singular";
+		case Failure::inverted: return "inverted";
+		case Failure::noResponse: return "noResponse";
+		case Failure::notFinite: return "notFinite";
+		case Failure::diverging: return "diverging";
+		case Failure::tooManyIterations: return "tooManyIterations";
+		case Failure::stalled: return "stalled";
+		case Failure::apart: return "apart";
+		case Failure::interrupted: return "interrupted";
+	}
+	return "";
+}
+
+const char* nameOf(gimpm::Definiteness definiteness)
+{
+	using gimpm::Definiteness;
+	switch (definiteness) {
+		case Definiteness::notChecked: return "not checked";
+		case Definiteness::positive: return "positive definite";
+		case Definiteness::indefinite: return "indefinite";
+	}
+	return "";
+}
+
+string reasonOf(const gimpm::StepReport& report, const Analysis& engine, const vector<MaterialPoint>& points, Real time, Real part)
+{
+	std::ostringstream text;
+	text << engine.className() << ": " << stepOf(engine, time);
+	if (!engine.gravityCurve.empty()) {
+		const gimpm::LoadCurve curve = engine.curveOfGravity();
+		const Real             from = curve.valueAt(engine.loadTime), to = curve.valueAt(time);
+		if (from != to) text << ", of gravity from " << from << " to " << to;
+	}
+	if (part < 1) text << " (" << part << " of O.dt, after " << engine.cuts << " cuts)";
+	text << " failed: " << report.cause;
+	text << placeOfFailed(report.failedPoint, engine, points) << "." << placeOfImbalance(report, engine, points) << adviceOn(report, engine, time, part);
+	if (report.failure == gimpm::Failure::unrestrained)
+		text << (engine.countOf("boundaries") == 0 ? " The engine has no boundaries." : "")
+		     << idleConditions(engine, points, [](const auto&) { return true; });
+	return text.str() + whereSceneIs(engine);
+}
+
+string warningOfAccepted(const gimpm::StepReport& report, const Analysis& engine, Real time)
+{
+	return stepOf(engine, time) + " has not converged and is accepted (newton.acceptUnconverged): " + report.cause + ".";
+}
+
+} // namespace yade

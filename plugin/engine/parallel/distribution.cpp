@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "engine/parallel/distribution.hpp"
+#include "core/base/sentence.hpp"
+#include "engine/analysis/analysis.hpp"
+#include "engine/grid/newPoints.hpp"
+#include "engine/parallel/bodyParcels.hpp"
+#include "engine/parallel/pieces.hpp"
+#include "engine/parallel/processes.hpp"
+#include "engine/parallel/sameness.hpp"
+#include "yade_api/python_lock.hpp"
+#include "yade_api/value_lock.hpp"
+#include <malloc.h>
+
+namespace yade {
+
+namespace {
+	using gimpm::sentence;
+
+	// The first point that all processes have, as it has been added since the last division.
+	size_t firstOfAll(const vector<MaterialPoint>& points, int bodiesInPieces)
+	{
+		return std::partition_point(points.begin(), points.end(), [&](const MaterialPoint& p) { return p.id < bodiesInPieces; }) - points.begin();
+	}
+
+	// With what they consist of: YADE never lets go of bodies that O.bodies.append() was given in a list.
+	void eraseFrom(Scene& scene, const vector<Body::id_t>& ids)
+	{
+		if (ids.empty()) return;
+		const PythonLock python; // which holds them, too
+		for (const Body::id_t id : ids) {
+			const shared_ptr<Body> body = (*scene.bodies)[id];
+			scene.bodies->erase(id, false);
+			body->state.reset();
+			body->shape.reset();
+		}
+	}
+
+	// Of a position and half of a domain, which reaches no farther than half a cell.
+	template <int Dim> auto lowestCellIn(const Analysis& engine)
+	{
+		return [lattice = engine.grid->lattice<Dim>(),
+		        basis   = engine.basis == "mpm" ? gimpm::Basis::linear : gimpm::Basis::gimp](const Vector3r& position, const Vector3r& halfSize) {
+			return gimpm::lowestCell<Dim>(position.head<Dim>(), halfSize.head<Dim>().cwiseMin(0.5 * lattice.cellSize), lattice, basis);
+		};
+	}
+
+	// By cell, in the order of the points.
+	vector<gimpm::CellLoad> loadsOf(vector<gimpm::Key> lowest)
+	{
+		std::sort(lowest.begin(), lowest.end());
+		vector<gimpm::CellLoad> loads;
+		for (const gimpm::Key key : lowest)
+			if (!loads.empty() && loads.back().lowest == key) ++loads.back().points;
+			else
+				loads.push_back({ key, 1 });
+		return loads;
+	}
+}
+
+// Anew where the work is not balanced to ten per cent. Behind the own points are those that all know, each of which counts once.
+void Distribution::cut(const std::shared_ptr<const gimpm::Processes>& all, const vector<gimpm::Key>& lowest, size_t own)
+{
+	constexpr Real        admitted = 0.1;
+	const bool            isCut    = int(first.size()) == all->size() - 1;
+	const gimpm::Division before { all, first };
+	const auto            isOfOther = [&](gimpm::Key key) { return isCut ? !before.owns(key) : all->rank() > 0; };
+	vector<gimpm::Key>    counted   = lowest;
+	counted.erase(std::remove_if(counted.begin() + own, counted.end(), isOfOther), counted.end());
+	const auto loads = loadsOf(std::move(counted));
+	if (isCut && gimpm::imbalance(*all, loads) <= admitted) return;
+	first = gimpm::cutByWork(gimpm::joined(*all, loads), all->size());
+}
+
+template <int Dim> std::shared_ptr<gimpm::Division> Distribution::divide(Analysis& engine, vector<MaterialPoint>& points, const vector<gimpm::Key>& added)
+{
+	const auto         all        = processes();
+	Scene&             scene      = engine.sceneOfRun();
+	const Pieces       before     = Pieces::of(scene);
+	const size_t       own        = firstOfAll(points, before.bodies);
+	const auto         lowestCell = lowestCellIn<Dim>(engine);
+	vector<gimpm::Key> lowest;
+	for (const MaterialPoint& p : points)
+		lowest.push_back(lowestCell(p.state->pos, p.shape->halfSize));
+	lowest.insert(lowest.end(), added.begin(), added.end());
+	requireSame(*all, engine, points, own);
+	cut(all, lowest, own);
+	const auto                 division = std::make_shared<gimpm::Division>(gimpm::Division { all, first });
+	vector<vector<Body::id_t>> leaving(all->size());
+	vector<Body::id_t>         erased;
+	for (size_t p = 0; p < points.size(); ++p) {
+		if (division->owns(lowest[p])) continue;
+		if (p < own) leaving[division->holderOf(lowest[p])].push_back(points[p].id);
+		erased.push_back(points[p].id);
+	}
+	vector<vector<double>> parcels;
+	for (const auto& ids : leaving)
+		parcels.push_back(packBodies(scene, ids));
+	points.clear();
+	eraseFrom(scene, erased);
+	for (const auto& parcel : gimpm::exchanged(*all, parcels))
+		unpackBodies(parcel, scene);
+	malloc_trim(0); // what has been erased, and what the step before has left in the heap of its own thread: a sixth of the peak
+	Pieces::note(scene, all.get());
+	updateMaterialPoints(points, scene, engine.mask);
+	for (const MaterialPoint& p : points)
+		division->id.push_back(p.id);
+	return division;
+}
+
+template <int Dim> vector<int> Distribution::ownOf(Analysis& engine, vector<MaterialPoint>& points, const NewPoints& added)
+{
+	const auto all = processes();
+	admitTogether(
+	        [&] {
+		        updateMaterialPoints(points, engine.sceneOfRun(), engine.mask);
+		        requireWhole(engine);
+		        requireDivisible(engine, points);
+	        },
+	        *all);
+	requireSame(*all, added);
+	const auto         lowestCell = lowestCellIn<Dim>(engine);
+	vector<gimpm::Key> lowest;
+	for (size_t i = 0; i < added.size(); ++i)
+		lowest.push_back(lowestCell(added.position(i), added.halfSize(i)));
+	const auto  division = divide<Dim>(engine, points, lowest);
+	vector<int> own;
+	for (size_t i = 0; i < lowest.size(); ++i)
+		if (division->owns(lowest[i])) own.push_back(int(i));
+	return own;
+}
+
+#define MPM_INSTANTIATE(Dim)                                                                                                                                   \
+	template std::shared_ptr<gimpm::Division> Distribution::divide<Dim>(Analysis&, vector<MaterialPoint>&, const vector<gimpm::Key>&);                     \
+	template vector<int>                      Distribution::ownOf<Dim>(Analysis&, vector<MaterialPoint>&, const NewPoints&);
+MPM_INSTANTIATE(2)
+MPM_INSTANTIATE(3)
+#undef MPM_INSTANTIATE
+
+namespace {
+	bool isAlone(const Analysis& engine)
+	{
+		const auto& engines = engine.sceneOfRun().engines;
+		return std::none_of(engines.begin(), engines.end(), [&](const auto& other) {
+			const auto* analysis = dynamic_cast<const Analysis*>(other.get());
+			return analysis && analysis != &engine;
+		});
+	}
+}
+
+void Distribution::requireWhole(const Analysis& engine)
+{
+	const auto all   = processes();
+	const int  count = all ? all->size() : 1, number = all ? all->rank() : 0;
+	const auto has = Pieces::of(engine.sceneOfRun());
+	if (has.count == 0 || (has.count == count && has.number == number && engine.distributed)) return;
+	throw std::invalid_argument(sentence(
+	        engine.className(), ": the scene has the material points of process ", has.number, " of ", has.count, ", and this is process ", number, " of ",
+	        count, engine.distributed ? "" : ", without distributed = True",
+	        ". mpm.load(file) puts together what mpm.save has written in several processes, for any number of them."));
+}
+
+void Distribution::requireDivisible(const Analysis& engine, const vector<MaterialPoint>& points)
+{
+	const string start = engine.className() + ".distributed = True";
+	if (!isAlone(engine))
+		throw std::invalid_argument(
+		        start + " does not go with a second engine with material points in O.engines; leave it out, and each process holds all points.");
+	for (const MaterialPoint& point : points)
+		if (point.materialIndex(engine.sceneOfRun()) < 0)
+			throw std::invalid_argument(
+			        sentence("Body #", point.id, ": ", start, " needs materials that are in O.materials, which its own is not."));
+}
+
+namespace {
+	// A scene of one process may be a piece, too, which no step is made with.
+	bool isDividedHere(const Scene& scene) { return Pieces::of(scene).count > 1 && processes(); }
+}
+
+bool isDivided(const Analysis& engine) { return isDividedHere(*engine.ownScene()); }
+
+bool isSceneDivided() { return isDividedHere(*Singleton<Omega>::instance().getScene()); }
+
+void takePieces()
+{
+	const ValueLock lock;
+	Pieces::note(*Singleton<Omega>::instance().getScene(), processes().get());
+}
+
+} // namespace yade

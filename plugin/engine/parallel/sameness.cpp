@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "engine/parallel/sameness.hpp"
+#include "core/base/checksum.hpp"
+#include "core/base/sentence.hpp"
+#include "engine/analysis/analysis.hpp"
+#include "engine/grid/newPoints.hpp"
+#include "engine/parallel/archived.hpp"
+
+namespace yade {
+
+namespace {
+	std::uint64_t checksum(const vector<MaterialPoint>& points, size_t begin)
+	{
+		gimpm::Checksum sum;
+		vector<Real>    numbers;
+		const auto      add = [&](const auto& values) { numbers.insert(numbers.end(), values.data(), values.data() + values.size()); };
+		for (size_t p = begin; p < points.size(); ++p) {
+			const MpmState& s = *points[p].state;
+			numbers           = { Real(points[p].id), s.volume0, Real(points[p].material->id) };
+			add(Vector3r(s.pos)), add(s.vel), add(s.acceleration), add(s.force), add(points[p].shape->halfSize), add(s.defGrad),
+			        add(s.elasticStrain);
+			for (const auto* named : { &s.internals, &s.parameters })
+				for (const auto& [name, value] : *named)
+					numbers.push_back(value);
+			sum.mix(numbers);
+		}
+		return sum.take();
+	}
+
+	// With what acts in it, pointers of each list after the other.
+	std::uint64_t settingsOf(const Analysis& engine)
+	{
+		const Scene&                     scene = engine.sceneOfRun();
+		vector<shared_ptr<MpmCondition>> conditions;
+		string                           names;
+		for (const Listed& listed : engine.conditions())
+			conditions.push_back(listed.condition), names += listed.name();
+		return checksumOf(
+		        engine.grid, engine.basis, engine.fBar, names, conditions, engine.ghost, engine.newton, engine.mask, engine.maxSplits, engine.gravity,
+		        engine.loadCurve, engine.gravityCurve, engine.loadTime, engine.stepPart, engine.lastDisplacements, engine.lastLoadIncrement, scene.dt,
+		        scene.time);
+	}
+
+	vector<shared_ptr<Body>> rigidBodiesOf(const Analysis& engine)
+	{
+		vector<shared_ptr<Body>> all;
+		for (const Listed& listed : engine.conditions()) {
+			const auto own = listed.condition->rigidBodies(engine.sceneOfRun());
+			all.insert(all.end(), own.begin(), own.end());
+		}
+		return all;
+	}
+
+	// Of the rigid bodies that may touch the soil: with which friction. Their shapes have a colour by chance, and are not compared.
+	std::uint64_t frictionOf(const Analysis& engine)
+	{
+		vector<shared_ptr<Material>> materials;
+		for (const auto& body : rigidBodiesOf(engine))
+			materials.push_back(body->material);
+		return checksumOf(materials);
+	}
+
+	// Where they are, and how they move.
+	std::uint64_t motionOf(const Analysis& engine)
+	{
+		vector<Real> numbers;
+		const auto   take = [&](const State& s) {
+                        for (const Vector3r& v : { Vector3r(s.pos), s.vel, s.angVel })
+                                numbers.insert(numbers.end(), v.data(), v.data() + 3);
+                        const Quaternionr ori = s.ori;
+                        numbers.insert(numbers.end(), ori.coeffs().data(), ori.coeffs().data() + 4);
+		};
+		const BodyContainer& all = *engine.sceneOfRun().bodies;
+		for (const auto& body : rigidBodiesOf(engine)) {
+			take(*body->state);
+			if (body->isClumpMember() && all.exists(body->clumpId)) take(*all[body->clumpId]->state);
+		}
+		gimpm::Checksum sum;
+		sum.mix(numbers);
+		return sum.take();
+	}
+
+	const char* const remedy = ". The script must do the same in all of them, in the same order: random numbers need a seed, and files the same content.";
+
+	string startOf(const Analysis& engine, const char* what)
+	{
+		return gimpm::sentence(engine.className(), ": the processes hold different ", what, " in iteration ", engine.sceneOfRun().iter);
+	}
+}
+
+void requireSame(const gimpm::Processes& all, const Analysis& engine, const vector<MaterialPoint>& points, size_t begin)
+{
+	const bool  areSameBodies = all.haveSame(engine.sceneOfRun().bodies->size()), areSamePoints = all.haveSame(checksum(points, begin));
+	const bool  areSameSettings = all.haveSame(settingsOf(engine) ^ engine.checksumInTime()), moveAlike = all.haveSame(motionOf(engine));
+	const bool  rubAlike = all.haveSame(frictionOf(engine));
+	const char* what     = !areSameBodies ? "numbers of bodies"
+	            : !areSamePoints          ? "material points"
+	            : !areSameSettings        ? "settings"
+	            : !rubAlike               ? "materials of rigid bodies"
+	            : !moveAlike              ? "places or velocities of rigid bodies"
+	                                      : nullptr;
+	if (what) throw std::runtime_error(startOf(engine, what) + remedy);
+}
+
+void requireSame(const gimpm::Processes& all, const NewPoints& points)
+{
+	if (!all.haveSame(points.checksum())) throw std::runtime_error(gimpm::sentence("the processes add different material points", remedy));
+}
+
+void requireSameAnswers(const gimpm::Processes& all, const Analysis& engine)
+{
+	vector<shared_ptr<MpmCondition>> asked;
+	string                           what, classes;
+	for (const Listed& listed : engine.conditions()) {
+		if (!listed.condition->hasQuestions()) continue;
+		if (asked.empty()) what = listed.condition->answers(), classes = listed.condition->getClassName();
+		asked.push_back(listed.condition);
+	}
+	if (asked.empty() || all.haveSame(checksumOf(asked))) return;
+	throw std::runtime_error(startOf(engine, what.c_str()) + ". Functions of " + classes + " must answer the same in all of them.");
+}
+
+vector<const MpmMaterial*> materialsOfAll(const Scene& scene, const vector<MaterialPoint>& points, const gimpm::Processes& all)
+{
+	vector<int64_t> isMissing(scene.materials.size(), 1);
+	for (const MaterialPoint& point : points)
+		isMissing[point.materialIndex(scene)] = 0;
+	all.smallest(isMissing.data(), int(isMissing.size()));
+	vector<const MpmMaterial*>   materials;
+	vector<shared_ptr<Material>> values;
+	for (size_t m = 0; m < isMissing.size(); ++m)
+		if (!isMissing[m]) {
+			values.push_back(scene.materials[m]);
+			materials.push_back(dynamic_cast<const MpmMaterial*>(scene.materials[m].get()));
+		}
+	if (all.haveSame(checksumOf(values))) return materials;
+	throw std::runtime_error("the processes hold different values of materials. The script must do the same in all of them.");
+}
+
+} // namespace yade
