@@ -59,6 +59,7 @@ struct Loads {
 	template <int Dim> gimpm::Load<Dim> loadBetween(Real begin, Real end) const
 	{
 		gimpm::Load<Dim> load { gravity.head<Dim>(), curveOfLoads().between(begin, end) };
+		load.duration = end - begin;
 		if (!gravityCurve.empty()) load.ofGravity = curveOfGravity().between(begin, end);
 		for (size_t b = 0; b < boundaries.size(); ++b)
 			if (!boundaries[b]->curve.empty()) load.ofBoxes[int(b)] = curveOf(*boundaries[b]).between(begin, end);
