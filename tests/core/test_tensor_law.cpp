@@ -149,7 +149,7 @@ namespace {
 		};
 		EXPECT_DOUBLE_EQ(after(1e4, 0), after(1e30, 1));
 		EXPECT_NEAR(after(1e4, 1e12), after(0, 0), 1e-6 * yield);
-		EXPECT_GT(after(1e4, 0), after(1e4, 1) + yield);
+		EXPECT_GT(after(1e4, 0), after(1e4, 1) + .5 * yield);
 		EXPECT_GT(after(1e4, 1), after(1e4, 100) + .1 * yield);
 	}
 
@@ -179,9 +179,12 @@ namespace {
 			provideInternals(cloud.internals, model.materials, cloud.size());
 			for (auto& e : cloud.elasticStrain)
 				e = assemble(Vec3(Vec3(.05, -.03, .01) + random.matrix<3>(.05)), random.rotation<Dim>());
-			for (const char* end : { "XX", "YY", "ZZ", "XY" })
-				for (double& value : cloud.internals[internalVariables.find(std::string("backStress") + end)])
+			const auto column = [&](const char* end) -> auto& { return cloud.internals[internalVariables.find(std::string("backStress") + end)]; };
+			for (const char* end : { "XX", "YY", "XY" })
+				for (double& value : column(end))
 					value = random.in(-30, 30);
+			for (std::size_t p = 0; p < cloud.size(); ++p)
+				column("ZZ")[p] = -column("XX")[p] - column("YY")[p]; // a deviator
 		}
 		double error(double size)
 		{
