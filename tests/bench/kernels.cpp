@@ -3,6 +3,7 @@
 #include "bench/scenes.hpp"
 #include "core/stepping/step_system.hpp"
 #include "core/terms/point_update.hpp"
+#include "law/kinematic_hardening.hpp"
 #include <benchmark/benchmark.h>
 #include <malloc.h>
 
@@ -99,6 +100,7 @@ namespace {
 			model.materials  = { { law, 2000 } };
 			const auto scene = slope<Dim>(0.5, 4);
 			model.grid = scene.model.grid, cloud = scene.cloud;
+			std::fill(cloud.material.begin(), cloud.material.end(), 0);
 			unsigned state = 1;
 			for (auto& strain : cloud.elasticStrain)
 				for (int k = 0; k < strain.size; ++k)
@@ -120,7 +122,7 @@ namespace {
 		perItem(state, "s_per_point", double(points.cloud.size()));
 	}
 	const Law vonMises = VonMises(20e6, 0.3, 15e3), tresca = MohrCoulomb::tresca(20e6, 0.3, 5e3), friction = MohrCoulomb(20e6, 0.3, 5e3, 0.5, 0),
-	          camClay = CamClay(5e6, 1.2, 0.1, 0.03, 1e5, 1e5);
+	          camClay = CamClay(5e6, 1.2, 0.1, 0.03, 1e5, 1e5), tensors = KinematicHardening(20e6, 0.3, 15e3, 0);
 
 	template <int Dim> void update(benchmark::State& state)
 	{
@@ -225,6 +227,7 @@ namespace {
 	BENCHMARK_CAPTURE(stiffnessOf, tresca, tresca)->UseRealTime();
 	BENCHMARK_CAPTURE(stiffnessOf, friction, friction)->UseRealTime();
 	BENCHMARK_CAPTURE(stiffnessOf, camClay, camClay)->UseRealTime();
+	BENCHMARK_CAPTURE(stiffnessOf, tensors, tensors)->UseRealTime();
 	BENCHMARK(update<2>)->UseRealTime();
 	BENCHMARK(reduction<2>)->UseRealTime();
 	BENCHMARK(linearSolve<2>)->UseRealTime();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Scenes for the benchmarks of the core.
 #pragma once
+#include "core/materials/law.hpp"
 #include "core/stepping/load_step.hpp"
 #include <limits>
 #include <stdexcept>

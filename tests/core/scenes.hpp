@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Scenes for the tests of the core: points, regular blocks of them, held boxes of nodes, random numbers.
 #pragma once
+#include "core/materials/law.hpp"
 #include "core/solvers/condition.hpp"
 #include "core/solvers/linear_solver.hpp"
 #include "core/stepping/load_step.hpp"

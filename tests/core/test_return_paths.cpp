@@ -213,7 +213,7 @@ namespace {
 				EXPECT_LT((turned.stress.full() - R * point.stress.full() * R.transpose()).norm(), 1e-12);
 				EXPECT_NEAR(turned.plasticStrain(), point.plasticStrain(), 1e-12);
 			}
-			EXPECT_EQ(point.plasticStrain() > 0.5, law.index() == 1);
+			EXPECT_EQ(point.plasticStrain() > 0.5, law.principal().is.index() == 1);
 		}
 	}
 

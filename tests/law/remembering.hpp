@@ -10,7 +10,13 @@ public:
 	Remembering(double young, double initialPressure, double limit) : elastic_(young, 0), initial_(initialPressure), limit_(limit) { }
 
 	static constexpr std::array<InternalVariable, 1> variables { { { "largestPressure", "Pa", "largest pressure", positive, anyNumber } } };
-	static constexpr bool                            mayFail = true;
+	static constexpr bool                            mayFail = true, isShort = false, isElastic = false, isLinear = true, canBeWeakened = false;
+
+	using Parameters = std::array<double, 0>;
+	Parameters  parameters() const { return {}; }
+	Remembering with(const Parameters&) const { return *this; }
+	Parameters  weakened(const Weakening&) const { return {}; }
+	bool        isSymmetric() const { return true; }
 
 	std::array<double, 1> initialInternals() const { return { initial_ }; }
 
@@ -25,6 +31,10 @@ public:
 		r.internals[0]   = select(pressure > internals[0], pressure, internals[0]);
 		r.failed         = select(pressure > T(limit_), T(1), T(0));
 		return r;
+	}
+	ResponseWith<double, 1> respond(const Vec3& trialStrain, const std::array<double, 1>& internals) const
+	{
+		return respond<double>(trialStrain, internals);
 	}
 
 private:

@@ -3,6 +3,7 @@
 // shear modulus, and compression along straight lines of ln v over ln p (Borja and Tamagnini 1998).
 #pragma once
 #include "core/materials/perfect_plasticity.hpp"
+#include <optional>
 
 namespace gimpm {
 
@@ -31,7 +32,7 @@ public:
 
 	static constexpr InternalVariable                preconsolidation { "preconsolidation", "Pa", "preconsolidation pressure", positive, anyNumber };
 	static constexpr std::array<InternalVariable, 2> variables { equivalentPlasticStrain, preconsolidation };
-	static constexpr bool                            mayFail = true;
+	static constexpr bool                            mayFail = true, isShort = false, isElastic = false, isLinear = false, canBeWeakened = false;
 
 	/// Pressures from e^-100 to e^100 times the reference; what is beyond has no answer.
 	static constexpr double mostExponent = 100;
@@ -54,6 +55,9 @@ public:
 		const double mean = stress.mean();
 		return (stress.array() - mean) / (2 * shear_) - swelling_ / 3 * std::log(-mean / reference_);
 	}
+
+	/// There are no stresses whose mean is no pressure.
+	std::optional<Vec3> strainNear(const Vec3& stress) const { return stress.sum() < 0 ? std::optional<Vec3>(strainOf(stress)) : std::nullopt; }
 
 	template <class T> ResponseWith<T, 2> respond(const PrincipalValues<T>& trialStrain, const std::array<T, 2>& internals) const
 	{

@@ -13,8 +13,7 @@ public:
 	Hencky(double young, double poisson) : young_(young), poisson_(poisson), bulk_(young / (3 * (1 - 2 * poisson))), shear_(young / (2 * (1 + poisson))) { }
 
 	static constexpr std::array<InternalVariable, 0> variables {};
-	static constexpr bool                            mayFail = false;
-	static constexpr bool                            isShort = true;
+	static constexpr bool                            mayFail = false, isShort = true, isElastic = true, isLinear = true, canBeWeakened = false;
 
 	/// What may differ from point to point: Young's modulus.
 	using Parameters = std::array<double, 1>;
@@ -23,6 +22,8 @@ public:
 	Parameters weakened(const Weakening& w) const { return { young_ * w.moduli }; }
 
 	std::array<double, 0> initialInternals() const { return {}; }
+
+	bool isSymmetric() const { return true; }
 
 	double young(const std::array<double, 0>& = {}) const { return young_; }
 	double poisson() const { return poisson_; }

@@ -41,7 +41,7 @@ public:
 	Parameters  weakened(const Weakening& w) const { return weakenedFriction(parameters(), w); }
 
 	static constexpr std::array<InternalVariable, 1> variables { equivalentPlasticStrain };
-	static constexpr bool                            mayFail = false;
+	static constexpr bool                            mayFail = false, isShort = false, isElastic = false, isLinear = true, canBeWeakened = true;
 
 	std::array<double, 1> initialInternals() const { return { 0 }; }
 

@@ -21,8 +21,7 @@ public:
 	static constexpr double yieldTolerance = 1e-9;
 
 	static constexpr std::array<InternalVariable, 1> variables { equivalentPlasticStrain };
-	static constexpr bool                            mayFail = false;
-	static constexpr bool                            isShort = true;
+	static constexpr bool                            mayFail = false, isShort = true, isElastic = false, isLinear = true, canBeWeakened = true;
 
 	/// What may differ from point to point: Young's modulus, yieldStress, hardening, residualYieldStress.
 	using Parameters = std::array<double, 4>;
@@ -34,6 +33,8 @@ public:
 	}
 
 	std::array<double, 1> initialInternals() const { return { 0 }; }
+
+	bool isSymmetric() const { return true; }
 
 	double young(const std::array<double, 1>&) const { return elastic_.young(); }
 

@@ -23,7 +23,7 @@ template <int Dim> void updatePoints(PointCloud<Dim>& cloud, const StepSystem<Di
 		cloud.position[p] += u.displacement;
 		cloud.defGrad[p]       = (cloud.defGrad[p] + u.gradient * cloud.defGrad[p]).eval();
 		cloud.elasticStrain[p] = u.elasticStrain;
-		withLaw(u.law, [&](const auto& law) { storeInternals(law, u.internals, cloud.internals, p); });
+		storeInternals(u.law, u.internals, cloud.internals, p);
 		if (!cloud.hoopStretch.empty()) cloud.hoopStretch[p] *= 1 + u.hoop;
 		cloud.stress[p].c = u.kirchhoffStress.c / cloud.volumeRatio(p);
 		if (system.model.basis == Basis::gimp) {

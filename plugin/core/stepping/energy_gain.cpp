@@ -64,7 +64,7 @@ template <int Dim> EnergyGain energyGain(const StepSystem<Dim>& system, const Po
 	const auto&       model = system.model;
 	std::vector<char> isHencky;
 	for (const auto& material : model.materials)
-		isHencky.push_back(!std::holds_alternative<CamClay>(material.law));
+		isHencky.push_back(material.law->isLinear);
 	const std::size_t count = model.division ? model.division->own() : before.size();
 	EnergyGain        sum   = sumOf(count, [&](std::size_t p) { return gainOf(before, after, p, isHencky[before.material[p]]); });
 	if (model.division) sum = { model.division->sum(sum.gain), model.division->sum(sum.inPlay) };

@@ -5,7 +5,7 @@
 #include "core/grid/basis.hpp"
 #include "core/grid/boundary.hpp"
 #include "core/grid/division.hpp"
-#include "core/materials/law.hpp"
+#include "core/materials/material.hpp"
 #include "core/solvers/linear_solver.hpp"
 #include "core/stepping/load_curve.hpp"
 #include "core/terms/coupled_term.hpp"
@@ -65,6 +65,7 @@ template <int Dim> struct Load {
 	std::optional<LoadFactor> ofGravity {};               ///< if it has its own
 	std::map<int, LoadFactor> ofBoxes {};                 ///< of the displacement of boxes of the boundary that have their own
 	double                    motion = 0;                 ///< duration of the step where something moves by its velocity [s]
+	double                    duration = 0;               ///< of the step, for laws that depend on it, in the time of the loads
 	std::map<int, Vec<Dim>>   boxMotion {};               ///< of the nodes held by boxes of the boundary, in the step, besides their displacement [m]
 
 	LoadFactor ofBox(int number) const

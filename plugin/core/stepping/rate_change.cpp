@@ -33,11 +33,11 @@ template <int Dim> double atPoints(const StepSystem<Dim>& system, const Eigen::V
 template <int Dim> double plasticShare(const StepSystem<Dim>& system, const Eigen::VectorXd& d)
 {
 	const auto& materials = system.model.materials;
-	if (std::all_of(materials.begin(), materials.end(), [](const Material& m) { return std::holds_alternative<Hencky>(m.law); })) return 0;
+	if (std::all_of(materials.begin(), materials.end(), [](const Material& m) { return m.law->isElastic; })) return 0;
 	std::vector<double>         volume = system.beginning().cloud.volume0;
 	std::vector<SymTensor<Dim>> trial(volume.size());
 	std::vector<double>         all(volume.size()), plastic(volume.size());
-	forUpdatedPoints(system.basis, system.points, std::vector<Material>(materials.size(), { Hencky(1, 0), 1 }), d, [&](int p, const PointUpdate<Dim>& u) {
+	forUpdatedPoints(system.basis, system.points, std::vector<Material>(materials.size(), { Law::ofTrialStrain(), 1 }), d, [&](int p, const PointUpdate<Dim>& u) {
 		trial[p] = u.elasticStrain;
 		all[p]   = (u.gradient + u.gradient.transpose()).squaredNorm() / 4 + u.hoop * u.hoop;
 	});

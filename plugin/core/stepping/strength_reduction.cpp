@@ -38,20 +38,13 @@ template <int Dim> void scaleStrains(PointCloud<Dim>& cloud, double by)
 			value *= by;
 }
 
-template <class L> L weak(const L& law, const Weakening& w)
-{
-	if constexpr (countOfParameters<L>(0) > 0) return law.with(law.weakened(w));
-	else
-		return law;
-}
-
 template <int Dim> ParameterColumns weakParameters(const Model<Dim>& model, const PointCloud<Dim>& cloud, const Weakening& w)
 {
 	ParameterColumns columns;
 	for (std::size_t p = 0; p < cloud.size(); ++p) {
 		const Material& material = model.materials[cloud.material[p]];
 		if (!material.varies) continue;
-		const auto values = material.withLawOf(cloud.parameters, p, [&](const auto& law) { return parametersOf(Law(weak(law, w))); });
+		const auto values = material.law->weakened(cloud.parameters, p, w);
 		columns.resize(std::max(columns.size(), values.size()));
 		for (std::size_t k = 0; k < values.size(); ++k) {
 			columns[k].resize(cloud.size());
@@ -65,7 +58,7 @@ template <int Dim> std::vector<Material> weakMaterials(const Model<Dim>& model, 
 {
 	auto materials = model.materials;
 	for (Material& material : materials)
-		material.law = withLaw(material.law, [&](const auto& law) { return Law(weak(law, w)); });
+		material.law = material.law->with(material.law->weakened({}, 0, w));
 	return materials;
 }
 

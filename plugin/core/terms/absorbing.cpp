@@ -38,12 +38,10 @@ struct Filling {
 /// A state of isotropic pressure yields under no law that can carry one.
 template <int Dim> WaveModuli waveModuli(const std::vector<Material>& materials, const PointCloud<Dim>& cloud, int p)
 {
-	return materials[cloud.material[p]].withLawOf(cloud.parameters, p, [&](const auto& law) {
-		constexpr double little = -1e-6; // off the apex of laws that carry no tension
-		const double     strain = std::min(cloud.elasticStrain[p].full().trace(), little) / 3;
-		const auto       r      = law.template respond<double>(Vec3::Constant(strain), internalsOf(law, cloud.internals, p));
-		return WaveModuli { r.tangent(0, 0), r.shear[0] };
-	});
+	constexpr double little   = -1e-6; // off the apex of laws that carry no tension
+	const Material&  material = materials[cloud.material[p]];
+	const auto       strain   = [&] { return std::min(cloud.elasticStrain[p].full().trace(), little); };
+	return material.law->waveModuli({ material.ofPoints(cloud.parameters), cloud.internals, std::size_t(p) }, VolumetricStrain(strain));
 }
 
 template <int Dim>

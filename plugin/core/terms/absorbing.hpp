@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Edges of the body where waves leave it, and come from beyond.
 #pragma once
-#include "core/materials/law.hpp"
+#include "core/materials/material.hpp"
 #include "core/terms/damping.hpp"
 #include <map>
 
@@ -57,9 +57,6 @@ private:
 };
 
 /// Moduli of waves [Pa]: K + 4 G / 3 and G of a point's law within its yield surface, at its present volume.
-struct WaveModuli {
-	double pressure, shear;
-};
 template <int Dim> WaveModuli waveModuli(const std::vector<Material>&, const PointCloud<Dim>&, int point);
 
 } // namespace gimpm

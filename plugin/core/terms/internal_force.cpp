@@ -3,6 +3,7 @@
 #include "core/terms/fbar.hpp"
 #include "core/terms/pair_codes.hpp"
 #include "core/terms/point_pass.hpp"
+#include <algorithm>
 
 namespace gimpm {
 
@@ -24,9 +25,10 @@ template <int Dim> StepPoints<Dim> stepPoints(const PointCloud<Dim>& cloud, cons
 		s.leftCauchyGreen[i] = leftCauchyGreenMinusOne(cloud.elasticStrain[p]);
 		s.volume0[i]         = cloud.volume0[p];
 		s.material[i]        = cloud.material[p];
-		withLaw(materials[s.material[i]].law, [&](const auto& law) { storeInternals(law, internalsOf(law, cloud.internals, p), s.internals, i); });
+		materials[s.material[i]].law->copyInternals(cloud.internals, p, s.internals, i);
 	}
-	s.isSymmetric = areSymmetric(materials, s.material, s.parameters);
+	s.isSymmetric   = areSymmetric(materials, s.material, s.parameters);
+	s.hasTensorLaws = std::any_of(materials.begin(), materials.end(), [](const Material& m) { return m.law->isTensorLaw; });
 	if (fBar) s.centres = basisAtCentres(cloud, basis);
 	if (fBar && basis.isAxisymmetric()) s.hoopCentres = hoopAtCentres(cloud, basis);
 	return s;
@@ -35,9 +37,9 @@ template <int Dim> StepPoints<Dim> stepPoints(const PointCloud<Dim>& cloud, cons
 template <int Dim>
 std::optional<PointFailure> addInternalForce(
         const CloudBasis<Dim>& basis, const Colours<Dim>& colours, const StepPoints<Dim>& points, const std::vector<Material>& materials,
-        const Eigen::VectorXd& d, const TermSum<Dim>& sum)
+        const Eigen::VectorXd& d, const TermSum<Dim>& sum, double part)
 {
-	const Pass<Dim> pass { basis, points, materials, d, sum, colours };
+	const Pass<Dim> pass { basis, points, materials, d, sum, colours, part * points.duration };
 	if constexpr (Dim == 2)
 		if (basis.isAxisymmetric()) return points.hasFBar() ? addPoints<FBarChunk<2, 3>>(pass) : addPoints<Chunk<2, 3>>(pass);
 	return points.hasFBar() ? addPoints<FBarChunk<Dim, Dim>>(pass) : addPoints<Chunk<Dim, Dim>>(pass);
@@ -75,7 +77,7 @@ template <int Dim> void addPointForces(const CloudBasis<Dim>& basis, const std::
 	template StepPoints<Dim>             stepPoints(const PointCloud<Dim>&, const std::vector<Material>&, const CloudBasis<Dim>&, bool);                   \
 	template std::optional<PointFailure> addInternalForce(                                                                                                 \
 	        const CloudBasis<Dim>&, const Colours<Dim>&, const StepPoints<Dim>&, const std::vector<Material>&, const Eigen::VectorXd&,                     \
-	        const TermSum<Dim>&);                                                                                                                          \
+	        const TermSum<Dim>&, double);                                                                                                                       \
 	template void markPointPattern(const CloudBasis<Dim>&, NodeMatrix<Dim>&);                                                                              \
 	template void addPointForces(const CloudBasis<Dim>&, const std::vector<Vec<Dim>>&, Eigen::VectorXd&);
 GIMPM_INSTANTIATE(2)

@@ -2,7 +2,7 @@
 // Steps 2 and 3 of the method: points to nodes. Internal force, stiffness and external force of the current iterate.
 #pragma once
 #include "core/grid/cloud_basis.hpp"
-#include "core/materials/law.hpp"
+#include "core/materials/material.hpp"
 #include "core/terms/term.hpp"
 
 namespace gimpm {
@@ -14,7 +14,9 @@ template <int Dim> struct StepPoints {
 	std::vector<int>             material;
 	InternalColumns              internals;
 	ParameterColumns             parameters;
-	bool                         isSymmetric = true; ///< the tangents of their laws
+	bool                         isSymmetric    = true;  ///< the tangents of their laws
+	bool                         hasTensorLaws  = false; ///< some of them
+	double                       duration       = 0;     ///< of the step, for laws that depend on it
 	std::vector<PointBasis<Dim>> centres;     ///< only with F-bar (core/terms/fbar.hpp): basis functions with the gradients at the centres of the cells
 	std::vector<AxisValues>      hoopCentres; ///< and those of the hoop strain, around an axis of symmetry
 
@@ -43,11 +45,11 @@ template <int Dim> using Colours = decltype(CloudBasis<Dim>::colours);
 template <int Dim> StepPoints<Dim> stepPoints(const PointCloud<Dim>&, const std::vector<Material>&, const CloudBasis<Dim>&, bool fBar = false);
 
 /// force += internal force of the nodal displacements d (from the start of the step), K += its derivative, and sizes += the magnitudes of the
-/// patches' forces, as far as they are asked for; of the patches in `colours`. Fails for points with det F <= 0 or without an answer of their law. The result does not depend on the number of threads.
+/// patches' forces, as far as they are asked for; of the patches in `colours`. Fails for points with det F <= 0 or without an answer of their law. The result does not depend on the number of threads. `part`: of the step's time has gone by.
 template <int Dim>
 std::optional<PointFailure> addInternalForce(
         const CloudBasis<Dim>&, const Colours<Dim>& colours, const StepPoints<Dim>&, const std::vector<Material>&, const Eigen::VectorXd& d,
-        const TermSum<Dim>&);
+        const TermSum<Dim>&, double part = 1);
 template <int Dim>
 std::optional<PointFailure> addInternalForce(
         const CloudBasis<Dim>& basis, const StepPoints<Dim>& points, const std::vector<Material>& materials, const Eigen::VectorXd& d, const TermSum<Dim>& sum)
@@ -67,11 +69,15 @@ public:
 	{
 	}
 	void                        mark(NodeMatrix<Dim>& K) const override { markPointPattern(basis_, K); }
-	std::optional<PointFailure> add(const Eigen::VectorXd& d, const TermSum<Dim>& sum) const override
-	{
-		return addInternalForce(basis_, colours_, points_, materials_, d, sum);
-	}
+	std::optional<PointFailure> add(const Eigen::VectorXd& d, const TermSum<Dim>& sum) const override { return add(d, sum, 1); }
 	bool isSymmetric() const override { return points_.isSymmetric; }
+
+protected:
+	/// After so much of the step's time.
+	std::optional<PointFailure> add(const Eigen::VectorXd& d, const TermSum<Dim>& sum, double part) const
+	{
+		return addInternalForce(basis_, colours_, points_, materials_, d, sum, part);
+	}
 
 private:
 	const CloudBasis<Dim>&       basis_;

@@ -4,11 +4,11 @@
 
 namespace gimpm {
 
-void respondByCall(const Law& law, const PrincipalValues<Lanes>& trialStrain, const Lanes* internals, LanesOfLaws& response)
+void respondByCall(const PrincipalLaw& law, const PrincipalValues<Lanes>& trialStrain, const Lanes* internals, LanesOfLaws& response)
 {
-	withLaw(law, [&](const auto& l) {
+	withLaw(law.is, [&](const auto& l) {
 		using L = std::decay_t<decltype(l)>;
-		if constexpr (!isShort<L>) {
+		if constexpr (!L::isShort) {
 			std::array<Lanes, L::variables.size()> own;
 			std::copy_n(internals, own.size(), own.begin());
 			callForProcessor([&] { response.take(l.template respond<Lanes>(trialStrain, own)); });

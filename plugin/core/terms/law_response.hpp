@@ -6,12 +6,8 @@
 
 namespace gimpm {
 
-/// Whether law L says that it `isShort`.
-template <class L, class = void> inline constexpr bool isShort                                       = false;
-template <class L> inline constexpr bool               isShort<L, std::void_t<decltype(L::isShort)>> = L::isShort;
-
 /// Response of Lanes::count points to their trial strains by a law that is not short, with the values of its variables at the start of the step.
-void respondByCall(const Law&, const PrincipalValues<Lanes>& trialStrain, const Lanes* internals, LanesOfLaws&);
+void respondByCall(const PrincipalLaw&, const PrincipalValues<Lanes>& trialStrain, const Lanes* internals, LanesOfLaws&);
 
 /// The same by any law, with the variables of these points; of those that are of another material there are any numbers.
 GIMPM_INLINE void respondTogether(
@@ -26,9 +22,9 @@ GIMPM_INLINE void respondTogether(
 			const double* column = columns[columnOf<L>(k)].data();
 			internals[k]         = lanes([&](int lane) GIMPM_INLINE_LAMBDA { return column[point[lane]]; });
 		}
-		if constexpr (isShort<L>) response.take(law.template respond<Lanes>(trialStrain, internals));
+		if constexpr (L::isShort) response.take(law.template respond<Lanes>(trialStrain, internals));
 		else
-			respondByCall(material.law, trialStrain, internals.data(), response);
+			respondByCall(material.law.principal(), trialStrain, internals.data(), response);
 	});
 }
 

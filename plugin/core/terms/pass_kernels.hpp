@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // What a pass does with the points of a patch.
 #pragma once
+#include "core/terms/batch_response.hpp"
 #include "core/terms/fbar.hpp"
 #include "core/terms/pair_codes.hpp"
 #include "core/terms/patch_stiffness.hpp"
 #include "core/terms/point_pass.hpp"
+#include "core/terms/tensor_response.hpp"
 
 namespace gimpm {
 
@@ -118,13 +120,13 @@ template <int Dim, int Axes> GIMPM_INLINE FailureCode respond(const Pass<Dim>& p
 	if (const auto inverted = invertedIn(batch, pass.basis.order, F.determinant()); inverted != noFailure) return inverted;
 	if (const auto inverted = invertedAround(batch, pass.basis.order, increment); inverted != noFailure) return inverted;
 	const BatchResponse<Dim> response(batch, pass.points, pass.materials, increment);
-	if constexpr (LawTraits<Law>::mayFail)
+	if constexpr (LawTraits<PrincipalLaws>::mayFail)
 		if (const auto unanswered = unansweredIn(batch, pass.basis.order, response.law.failed); unanswered != noFailure) return unanswered;
 	const Lanes            volume = batch.load([&](int p) GIMPM_INLINE_LAMBDA { return pass.points.volume0[p]; });
 	const Frame<Dim, Axes> frame(response.trial.axes, F, increment);
 	dyads(chunk.flux[b], response.law.stress, volume, frame);
 	if (pass.sum.K) keepModuli(pass, chunk, b, volume, response.law, response.strain, frame);
-	return noFailure;
+	return pass.points.hasTensorLaws ? respondOfTensors(pass, chunk, batch, b) : noFailure;
 }
 
 /// The same with F-bar. What changes shapes goes with the gradients at the points, what changes volumes with those at the centres.
@@ -138,7 +140,7 @@ template <int Dim, int Axes> GIMPM_INLINE FailureCode respond(const Pass<Dim>& p
 	const FailureCode around = std::min(invertedAround(batch, order, increment.own), invertedAround(batch, order, increment.centre));
 	if (around != noFailure) return around;
 	const BatchResponse<Dim> response(batch, pass.points, pass.materials, increment.seen);
-	if constexpr (LawTraits<Law>::mayFail)
+	if constexpr (LawTraits<PrincipalLaws>::mayFail)
 		if (const auto unanswered = unansweredIn(batch, pass.basis.order, response.law.failed); unanswered != noFailure) return unanswered;
 	const Lanes                      volume = batch.load([&](int p) GIMPM_INLINE_LAMBDA { return pass.points.volume0[p]; });
 	const Frame<Dim, Axes>           frame(response.trial.axes, increment.F, increment.own);
@@ -146,12 +148,12 @@ template <int Dim, int Axes> GIMPM_INLINE FailureCode respond(const Pass<Dim>& p
 	chunk.turn(b, increment.F0.inverse(), Axes > Dim ? Lanes(1) / (Lanes(1) + increment.centre.hoop) : Lanes(1));
 	dyads(chunk.flux[b], split.deviator.stress, volume, frame);
 	chunk.meanStress[b] = volume * split.mean;
-	if (!pass.sum.K) return noFailure;
+	if (!pass.sum.K) return pass.points.hasTensorLaws ? respondOfTensors(pass, chunk, batch, b) : noFailure;
 	keepModuli(pass, chunk, b, volume, split.deviator, response.strain, frame);
 	dyads(chunk.meanOfStrain[b], split.meanOfStrain, volume, frame);
 	dyads(chunk.stressOfDilation[b], split.stressOfDilation, volume, frame);
 	chunk.bulk[b] = volume * split.bulk;
-	return noFailure;
+	return pass.points.hasTensorLaws ? respondOfTensors(pass, chunk, batch, b) : noFailure;
 }
 
 /// Internal force (and stiffness) of the points [begin, end) of a patch.

@@ -4,7 +4,6 @@
 #pragma once
 #include "core/materials/kinematics.hpp"
 #include "core/terms/internal_force.hpp"
-#include "core/terms/law_response.hpp"
 
 namespace gimpm {
 
@@ -206,47 +205,6 @@ template <int Dim, int Axes> GIMPM_INLINE SymTensor<Dim, Lanes> pushForward(cons
 	if constexpr (Axes > Dim) pushed.c[3] += (Lanes(1) + pushed.c[3]) * increment.hoop * (Lanes(2) + increment.hoop);
 	return pushed;
 }
-
-/// Response of points to the gradient of the incremental displacement.
-template <int Dim> struct BatchResponse {
-	using OfLaw = LanesOfLaws;
-
-	Principal<Dim, Lanes>  trial; ///< of b - 1
-	PrincipalValues<Lanes> strain;
-	OfLaw                  law; ///< in each lane that of the law of the point
-
-	template <int Axes>
-	GIMPM_INLINE BatchResponse(
-	        const Batch& batch, const StepPoints<Dim>& points, const std::vector<Material>& materials, const Increment<Dim, Axes>& increment)
-	        : trial(principal(pushForward(leftCauchyGreen(batch, points), increment))), strain(logStrain(trial.value))
-	{
-		respond(materials[points.material[batch.point[0]]], batch, points, law);
-		for (int lane = 1; lane < Lanes::count; ++lane) { // seldom: another material among them
-			const int material = points.material[batch.point[lane]];
-			if (material == points.material[batch.point[lane - 1]]) continue;
-			OfLaw other;
-			respond(materials[material], batch, points, other);
-			for (int l = lane; l < Lanes::count; ++l) {
-				law.takeLane(l, other);
-				if constexpr (LawTraits<Law>::mayFail) law.failed.v[l] = other.failed[l];
-			}
-		}
-	}
-
-private:
-	GIMPM_INLINE static SymTensor<Dim, Lanes> leftCauchyGreen(const Batch& batch, const StepPoints<Dim>& points)
-	{
-		SymTensor<Dim, Lanes> b1;
-		for (int k = 0; k < b1.size; ++k)
-			b1.c[k] = batch.load([&](int p) GIMPM_INLINE_LAMBDA { return points.leftCauchyGreen[p].c[k]; });
-		return b1;
-	}
-	/// In the lanes of other materials there are any numbers.
-	GIMPM_INLINE void respond(const Material& material, const Batch& batch, const StepPoints<Dim>& points, OfLaw& response) const
-	{
-		respondTogether(material, points.parameters, points.internals, batch.point, strain, response);
-	}
-};
 
 /// Calls f(std::integral_constant<int, span>) with the patch's span as a compile-time constant.
 template <int Dim, int Span = (1 << Dim) - 1, class F> GIMPM_INLINE void withSpan(int span, F&& f)

@@ -16,6 +16,7 @@ template <int Dim> struct Pass {
 	const Eigen::VectorXd&       d;
 	const TermSum<Dim>&          sum;
 	const Colours<Dim>&          colours     = basis.colours; ///< or what one process does of them
+	const double                 duration    = 0;             ///< of the step until now
 	const bool                   isSymmetric = points.isSymmetric;
 };
 

@@ -12,7 +12,7 @@ template <int Dim> struct PointUpdate {
 	Mat<Dim>                                          gradient; ///< of the increment, with respect to the configuration at the start of the step
 	SymTensor<Dim>                                    elasticStrain, kirchhoffStress;
 	const Law&                                        law;
-	std::array<double, LawTraits<Law>::mostVariables> internals; ///< in the order of the law
+	const double*                                     internals; ///< in the order of the law
 	double                                            hoop = 0;  ///< of the increment, around the axis of a body of revolution
 };
 

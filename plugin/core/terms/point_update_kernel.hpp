@@ -1,16 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The update of the points of some patches, for the files that compile it for a kind of processor.
 #pragma once
+#include "core/terms/batch_response.hpp"
 #include "core/terms/fbar.hpp"
-#include "core/terms/point_update.hpp"
+#include "core/terms/tensor_response.hpp"
 
 namespace gimpm {
-
-/// What is done with an update.
-template <int Dim> struct Visitor {
-	const void* f;
-	void (*call)(const void*, int, const PointUpdate<Dim>&);
-};
 
 /// visitPatches() for all processors.
 template <class ChunkOfPoints, int Dim>
@@ -92,18 +87,25 @@ void visitPatches(
 			const Batch                batch(chunk.first + b * Lanes::count, chunk.last());
 			const Increment<Dim, Axes> increment(chunk.gradient[b]);
 			const auto& [gradient, hoop] = increment;
-			const BatchResponse<Dim> response(batch, points, materials, seenByLaws(chunk, b, increment));
+			const auto&              seen = seenByLaws(chunk, b, increment);
+			const BatchResponse<Dim> response(batch, points, materials, seen);
 			const auto               elasticStrain = assemble<Lanes, Dim>(response.law.elasticStrain, response.trial.axes);
 			const auto               stress        = assemble<Lanes, Dim>(response.law.stress, response.trial.axes);
 			for (int lane = 0, q = b * Lanes::count; lane < Lanes::count && q < chunk.count; ++lane, ++q) {
 				const auto       one = [lane](const Lanes& x) { return x[lane]; };
 				const Law&       law = materials[points.material[chunk.first + q]].law;
+				std::array<double, LawTraits<PrincipalLaws>::mostVariables> internals;
+				for (std::size_t k = 0; k < internals.size(); ++k)
+					internals[k] = response.law.internals[k][lane];
 				PointUpdate<Dim> u {
-					displacement[q], gradient.unaryExpr(one), { elasticStrain.c.unaryExpr(one) }, { stress.c.unaryExpr(one) }, law, {}
+					displacement[q], gradient.unaryExpr(one), { elasticStrain.c.unaryExpr(one) }, { stress.c.unaryExpr(one) }, law,
+					internals.data()
 				};
-				for (std::size_t k = 0; k < u.internals.size(); ++k)
-					u.internals[k] = response.law.internals[k][lane];
 				if constexpr (Axes > Dim) u.hoop = hoop[lane];
+				if (points.hasTensorLaws && law->isTensorLaw) {
+					visitWithTensors<Dim>(points, materials, chunk.first + q, gradientOf(seen, lane), u, basis.order, visitor);
+					continue;
+				}
 				visitor.call(visitor.f, basis.order[chunk.first + q], u);
 			}
 		}

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Damping in proportion to mass and stiffness.
 #pragma once
-#include "core/materials/law.hpp"
+#include "core/materials/material.hpp"
 #include "core/terms/damping.hpp"
 
 namespace gimpm {

@@ -25,7 +25,7 @@ void respondOneByOne(
         const PrincipalValues<Lanes>& trialStrain, LanesOfLaws& response)
 {
 	for (int lane = 0; lane < Lanes::count; ++lane)
-		material.withLawOf(parameters, point[lane], [&](const auto& law) {
+		withLawOf(material, parameters, point[lane], [&](const auto& law) {
 			const Vec3 strain(trialStrain[0][lane], trialStrain[1][lane], trialStrain[2][lane]);
 			setLane(response, lane, law.respond(strain, internalsOf(law, columns, point[lane])));
 		});

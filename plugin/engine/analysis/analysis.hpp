@@ -61,6 +61,7 @@ public:
 	template <int Dim> gimpm::Load<Dim> loadBetween(Real begin, Real end) const
 	{
 		gimpm::Load<Dim> load { gravity.head<Dim>(), curveOfLoads().between(begin, end) };
+		load.duration = end - begin;
 		if (!gravityCurve.empty()) load.ofGravity = curveOfGravity().between(begin, end);
 		return load;
 	}

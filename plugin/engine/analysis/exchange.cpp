@@ -110,8 +110,8 @@ namespace {
 	template <int Dim> vector<std::pair<std::string_view, const Real*>> internalsFor(const MpmMaterial& material, const gimpm::PointCloud<Dim>& cloud)
 	{
 		vector<std::pair<std::string_view, const Real*>> found;
-		for (const gimpm::InternalVariable& variable : variablesOf(material))
-			found.emplace_back(variable.name, cloud.internals[gimpm::internalVariables.find(variable.name)].data());
+		for (const auto& [variable, first] : initialInternalsOf(material))
+			found.emplace_back(variable->name, cloud.internals[gimpm::internalVariables.find(variable->name)].data());
 		return found;
 	}
 
@@ -125,11 +125,9 @@ namespace {
 	// Of point p; its column is there.
 	template <int Dim> void gatherInternals(const MaterialPoint& point, const gimpm::Law& law, gimpm::PointCloud<Dim>& cloud, size_t p)
 	{
-		withLaw(law, [&](const auto& l) {
-			const auto values = point.internalsOf(l);
-			point.requireInternals(l.variables.data(), values.data(), values.size());
-			gimpm::storeInternals(l, values, cloud.internals, p);
-		});
+		point.requireInternals(law);
+		for (size_t k = 0; k < law->columns.size(); ++k)
+			cloud.internals[law->columns[k]][p] = point.internalOf(law, k);
 	}
 
 	template <int Dim> void reenterAll(gimpm::PointCloud<Dim>& cloud, const gimpm::Grid<Dim>& grid, const vector<MaterialPoint>& points)

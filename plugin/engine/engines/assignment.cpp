@@ -114,13 +114,10 @@ namespace {
 	// In the order of the law of the point.
 	vector<Real> internalsOf(const MaterialPoint& point, const Columns& columns, size_t row, const gimpm::Material& material)
 	{
-		return withLaw(material.law, [&](const auto& law) {
-			const auto   before = point.internalsOf(law);
-			vector<Real> values(before.begin(), before.end());
-			for (size_t k = 0; k < values.size(); ++k)
-				if (const Real* given = columns.find(law.variables[k].name, row)) values[k] = *given;
-			return values;
-		});
+		vector<Real> values = point.internalsOf(material.law);
+		for (size_t k = 0; k < values.size(); ++k)
+			if (const Real* given = columns.find(gimpm::internalVariables[material.law->columns[k]].name, row)) values[k] = *given;
+		return values;
 	}
 
 	// Stress and elastic strain depend on each other.

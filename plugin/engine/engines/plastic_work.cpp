@@ -37,7 +37,7 @@ template <int Dim> Real plasticWork(const gimpm::PointCloud<Dim>& cloud, const s
 	std::vector<Real> work(points.size(), 0);
 	inRanges(points.size(), [&](size_t begin, size_t end) {
 		for (size_t p = begin; p < end; ++p)
-			if (!std::holds_alternative<gimpm::Hencky>(materials[cloud.material[p]].law)) work[p] = workOf(cloud, p, *points[p].state);
+			if (!materials[cloud.material[p]].law->isElastic) work[p] = workOf(cloud, p, *points[p].state);
 	});
 	return std::accumulate(work.begin(), work.end(), Real(0)); // in the order of the points, whatever the threads
 }

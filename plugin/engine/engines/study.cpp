@@ -8,8 +8,7 @@
 #include "engine/engines/MpmImplicitEngine.hpp"
 #include "engine/engines/Threads.hpp"
 #include "engine/engines/build_model.hpp"
-#include "engine/materials/MpmCamClayMat.hpp"
-#include "engine/materials/MpmElasticMat.hpp"
+#include "engine/materials/laws.hpp"
 #include "yade_api/value_lock.hpp"
 
 namespace yade {
@@ -98,11 +97,12 @@ namespace {
 	{
 		bool hasStrength = false;
 		for (const MaterialPoint& p : points) {
-			if (dynamic_cast<const MpmCamClayMat*>(p.material.get()))
+			const bool carriesAll = isElastic(*p.material);
+			if (!carriesAll && !canBeWeakened(*p.material))
 				throw std::invalid_argument(
 				        "Body #" + std::to_string(p.id) + " is of " + p.material->getClassName()
-				        + ", the strength of which follows from its preconsolidation and its volume: there is no single one that could be divided.");
-			hasStrength = hasStrength || typeid(*p.material) != typeid(MpmElasticMat);
+				        + ", the strength of which follows from what its points remember: there is no single one that could be divided.");
+			hasStrength = hasStrength || !carriesAll;
 		}
 		if (!hasStrength) throw std::invalid_argument("all materials are elastic (MpmElasticMat): they carry any load.");
 	}

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "engine/materials/MpmCamClayMat.hpp"
+#include "core/materials/law.hpp"
+#include "engine/materials/law_of_class.hpp"
 #include "engine/points/MpmState.hpp"
 #include "yade_api/registration.hpp"
 
@@ -22,6 +24,15 @@ void MpmCamClayMat::requireStart(const MpmState& state) const
 	throw std::invalid_argument(refusal + "Give its stress with mpm.geostatic() or mpm.assign(stress=...).");
 }
 
+} // namespace yade
+
+namespace yade {
+static const RegisteredLaw<MpmCamClayMat> lawOfMpmCamClayMat(
+	[](const MpmCamClayMat& m) {
+		        return gimpm::CamClay(
+		                m.shearModulus, m.criticalStateRatio, m.compressionIndex, m.swellingIndex, m.preconsolidation, m.referencePressure);
+	        },
+	        std::pair("shearModulus", &MpmCamClayMat::shearModulus), std::pair("criticalStateRatio", &MpmCamClayMat::criticalStateRatio));
 } // namespace yade
 
 BOOST_CLASS_EXPORT_IMPLEMENT(yade::MpmCamClayMat)

@@ -39,8 +39,10 @@ public:
 		v("referencePressure", &MpmCamClayMat::referencePressure, 0, "Pressure [Pa] > 0 at zero elastic strain, without default.",
 		  given("a finite number > 0 [Pa], positive in compression; there is no default"));
 	}
-	void requireAdmissible() const override;
-	void requireStart(const MpmState&) const override;
+	void       requireAdmissible() const override;
+	void       requireStart(const MpmState&) const override;
+	Quantities moduli() const override { return { { "shearModulus", shearModulus } }; }
+	Quantities strengths() const override { return { { "preconsolidation", preconsolidation } }; }
 };
 
 } // namespace yade

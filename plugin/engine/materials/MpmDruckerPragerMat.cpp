@@ -1,6 +1,20 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "engine/materials/MpmDruckerPragerMat.hpp"
+#include "core/materials/law.hpp"
+#include "engine/materials/law_of_class.hpp"
 #include "yade_api/registration.hpp"
+
+namespace yade {
+static const RegisteredLaw<MpmDruckerPragerMat> lawOfMpmDruckerPragerMat(
+	[](const MpmDruckerPragerMat& m) {
+		        using Cone       = gimpm::DruckerPragerCone;
+		        const auto match = m.match == "compression" ? Cone::compression : m.match == "extension" ? Cone::extension : Cone::planeStrain;
+		        return gimpm::DruckerPrager(m.young, m.poisson, match(m.cohesion, m.frictionAngle, m.dilationAngle), m.tensileStrength);
+	        },
+	        std::pair("young", &MpmElasticMat::young), std::pair("cohesion", &MpmFrictionalMat::cohesion),
+	        std::pair("frictionAngle", &MpmFrictionalMat::frictionAngle), std::pair("dilationAngle", &MpmFrictionalMat::dilationAngle),
+	        std::pair("tensileStrength", &MpmFrictionalMat::tensileStrength));
+} // namespace yade
 
 BOOST_CLASS_EXPORT_IMPLEMENT(yade::MpmDruckerPragerMat)
 static const yade::PluginClasses<yade::MpmDruckerPragerMat> registeredMpmDruckerPragerMat(__FILE__);

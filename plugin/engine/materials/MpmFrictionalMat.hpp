@@ -27,7 +27,8 @@ public:
 		v("tensileStrength", &MpmFrictionalMat::tensileStrength, 0, "Cut of tension [Pa] >= 0, of use below the apex c cot(phi); infinite: none.",
 		  admitting("a number >= 0 [Pa], finite or infinite", [](Real value) { return value >= 0; }));
 	}
-	void requireAdmissible() const override;
+	void       requireAdmissible() const override;
+	Quantities strengths() const override { return frictionAngle == 0 ? Quantities { { "cohesion", cohesion } } : Quantities(); }
 };
 
 } // namespace yade

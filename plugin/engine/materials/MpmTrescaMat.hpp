@@ -20,6 +20,7 @@ public:
 		  "Undrained shear strength c_u [Pa] > 0 in Kirchhoff stress: half of the largest difference of principal stresses.",
 		  admitting("a finite number > 0 [Pa]; there is no default", positive));
 	}
+	Quantities strengths() const override { return { { "undrainedStrength", undrainedStrength } }; }
 };
 
 } // namespace yade

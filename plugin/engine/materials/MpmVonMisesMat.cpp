@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "engine/materials/MpmVonMisesMat.hpp"
+#include "core/materials/law.hpp"
+#include "engine/materials/law_of_class.hpp"
 #include "yade_api/registration.hpp"
 
 namespace yade {
@@ -20,6 +22,13 @@ void MpmVonMisesMat::requireAdmissible() const
 	throw std::invalid_argument(text.str());
 }
 
+} // namespace yade
+
+namespace yade {
+static const RegisteredLaw<MpmVonMisesMat> lawOfMpmVonMisesMat(
+	[](const MpmVonMisesMat& m) { return gimpm::VonMises(m.young, m.poisson, m.yieldStress, m.hardening, m.residualYieldStress); },
+	        std::pair("young", &MpmElasticMat::young), std::pair("yieldStress", &MpmVonMisesMat::yieldStress),
+	        std::pair("hardening", &MpmVonMisesMat::hardening), std::pair("residualYieldStress", &MpmVonMisesMat::residualYieldStress));
 } // namespace yade
 
 BOOST_CLASS_EXPORT_IMPLEMENT(yade::MpmVonMisesMat)

@@ -28,7 +28,8 @@ public:
 		v("residualYieldStress", &MpmVonMisesMat::residualYieldStress, 0, "Below this [Pa], from 0 to *yieldStress*, softening does not bring rho_y.",
 		  nonNegative);
 	}
-	void requireAdmissible() const override;
+	void       requireAdmissible() const override;
+	Quantities strengths() const override { return { { "yieldStress", yieldStress } }; }
 };
 
 } // namespace yade

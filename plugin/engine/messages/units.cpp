@@ -1,10 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "engine/messages/units.hpp"
 #include "core/base/sentence.hpp"
-#include "engine/materials/MpmCamClayMat.hpp"
-#include "engine/materials/MpmFrictionalMat.hpp"
-#include "engine/materials/MpmTrescaMat.hpp"
-#include "engine/materials/MpmVonMisesMat.hpp"
 #include <algorithm>
 
 namespace yade {
@@ -16,11 +12,6 @@ namespace {
 		const char* name;
 		Real        size; // in SI units
 	};
-	struct Quantity {
-		const char* name;
-		Real        value;
-	};
-
 	constexpr Real     earth = 9.81; // m/s2; a weight per volume divided by it is a density
 	const vector<Unit> unitsOfDensity { { "t/m3", 1e3 }, { "kN/m3, a unit weight", 1e3 / earth }, { "N/m3, a unit weight", 1 / earth }, { "t/mm3", 1e12 } };
 	const vector<Unit> unitsOfStress { { "kPa", 1e3 }, { "MPa", 1e6 }, { "GPa", 1e9 } };
@@ -46,33 +37,15 @@ namespace {
 		return sentence("density = ", density, ", in kg/m3", meant(density, unitsOfDensity, lightestGround, heaviestGround, "kg/m3"));
 	}
 
-	vector<Quantity> moduliOf(const MpmMaterial& material)
-	{
-		if (const auto* m = dynamic_cast<const MpmElasticMat*>(&material)) return { { "young", m->young } };
-		if (const auto* m = dynamic_cast<const MpmCamClayMat*>(&material)) return { { "shearModulus", m->shearModulus } };
-		return {};
-	}
-
-	// Of soil whose strength does not grow with the pressure; next to friction a cohesion may be next to nothing.
-	vector<Quantity> strengthsOf(const MpmMaterial& material)
-	{
-		if (const auto* m = dynamic_cast<const MpmTrescaMat*>(&material)) return { { "undrainedStrength", m->undrainedStrength } };
-		if (const auto* m = dynamic_cast<const MpmVonMisesMat*>(&material)) return { { "yieldStress", m->yieldStress } };
-		if (const auto* m = dynamic_cast<const MpmCamClayMat*>(&material)) return { { "preconsolidation", m->preconsolidation } };
-		const auto* frictional = dynamic_cast<const MpmFrictionalMat*>(&material);
-		if (frictional && frictional->frictionAngle == 0) return { { "cohesion", frictional->cohesion } };
-		return {};
-	}
-
 	string doubtOfModulus(const MpmMaterial& material)
 	{
 		constexpr Real softest = 1e5, ofGround = 500, softestGround = 2e5, stiffestGround = 1e11; // Pa, kg/m3, Pa
 		if (material.density <= ofGround) return "";
-		for (const Quantity& modulus : moduliOf(material))
-			if (modulus.value < softest)
+		for (const auto& [name, value] : material.moduli())
+			if (value < softest)
 				return sentence(
-				        modulus.name, " = ", modulus.value, ", in Pa",
-				        meant(modulus.value, unitsOfStress, softestGround, stiffestGround, "Pa"));
+				        name, " = ", value, ", in Pa",
+				        meant(value, unitsOfStress, softestGround, stiffestGround, "Pa"));
 		return "";
 	}
 
@@ -80,12 +53,12 @@ namespace {
 	string doubtOfStrength(const MpmMaterial& material, Real stress)
 	{
 		constexpr Real least = 0.005, leastMeant = 0.02, mostMeant = 100;
-		for (const Quantity& strength : strengthsOf(material))
-			if (strength.value < least * stress)
+		for (const auto& [name, value] : material.strengths())
+			if (value < least * stress)
 				return sentence(
-				        strength.name, " = ", strength.value, ", in Pa, which is ", strength.value / stress,
+				        name, " = ", value, ", in Pa, which is ", value / stress,
 				        " times the stress that its weight gives, ", stress, " Pa",
-				        meant(strength.value, unitsOfStress, leastMeant * stress, mostMeant * stress, "Pa"));
+				        meant(value, unitsOfStress, leastMeant * stress, mostMeant * stress, "Pa"));
 		return "";
 	}
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 // Numbers of materials that hardly any ground has, but which fit another unit.
-#include "core/materials/law.hpp"
+#include "core/materials/material.hpp"
 #include "engine/points/MaterialPoints.hpp"
 
 namespace yade {

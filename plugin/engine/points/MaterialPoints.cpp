@@ -78,7 +78,7 @@ string refusalOf(const gimpm::InternalVariable& variable, Real value)
 	std::ostringstream text;
 	text << variable.name << " = " << value << " is not admitted: expected a finite number ";
 	if (variable.least == gimpm::positive) text << "> 0";
-	else
+	else if (variable.least > -gimpm::anyNumber)
 		text << ">= " << variable.least;
 	if (variable.most < gimpm::anyNumber) text << " and <= " << variable.most;
 	text << " [" << variable.unit << "].";
@@ -105,12 +105,28 @@ void MaterialPoint::requireStart() const
 	}
 }
 
-void MaterialPoint::requireInternals(const gimpm::InternalVariable* variables, const Real* values, size_t count) const
+Real MaterialPoint::internalOf(const gimpm::Law& law, size_t k) const
 {
-	for (size_t k = 0; k < count; ++k)
-		if (!variables[k].admits(values[k])) refuse(id, refusalOf(variables[k], values[k]));
+	const Real* value = state->internal(gimpm::internalVariables[law->columns[k]].name);
+	return value ? *value : law->initialInternals[k];
+}
+
+vector<Real> MaterialPoint::internalsOf(const gimpm::Law& law) const
+{
+	vector<Real> values;
+	for (size_t k = 0; k < law->columns.size(); ++k)
+		values.push_back(internalOf(law, k));
+	return values;
+}
+
+void MaterialPoint::requireInternals(const gimpm::Law& law) const
+{
+	const auto& columns = law->columns;
+	for (size_t k = 0; k < columns.size(); ++k)
+		if (const auto& variable = gimpm::internalVariables[columns[k]]; !variable.admits(internalOf(law, k)))
+			refuse(id, refusalOf(variable, internalOf(law, k)));
 	for (const auto& [name, value] : state->internals)
-		if (std::none_of(variables, variables + count, [&name = name](const auto& variable) { return name == variable.name; }))
+		if (std::none_of(columns.begin(), columns.end(), [&name = name](int column) { return name == gimpm::internalVariables[column].name; }))
 			refuse(id, "MpmState.internals has '" + name + "', which is no internal variable of " + material->getClassName() + ".");
 }
 

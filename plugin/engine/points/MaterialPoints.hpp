@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 // The material points among the bodies of a scene.
-#include "core/materials/law.hpp"
+#include "core/materials/material.hpp"
 #include "engine/materials/MpmMaterial.hpp"
 #include "engine/points/MpmPoint.hpp"
 #include "engine/points/MpmState.hpp"
@@ -23,16 +23,11 @@ struct MaterialPoint {
 	void requireStart() const;
 
 	// Of its internal variables in the order of its law.
-	template <class L> auto internalsOf(const L& law) const
-	{
-		auto values = law.initialInternals();
-		for (size_t k = 0; k < values.size(); ++k)
-			if (const Real* value = state->internal(law.variables[k].name)) values[k] = *value;
-		return values;
-	}
+	Real         internalOf(const gimpm::Law&, size_t k) const;
+	vector<Real> internalsOf(const gimpm::Law&) const;
 
-	// std::invalid_argument names one of these values that its variable does not admit, or one of the state that is none of these variables.
-	void requireInternals(const gimpm::InternalVariable*, const Real* values, size_t count) const;
+	// std::invalid_argument names one of them that its variable does not admit, or one of the state that the law does not have.
+	void requireInternals(const gimpm::Law&) const;
 
 	// Index into O.materials, -1 if it is not in there. The number in the material itself may be that of another scene's list.
 	int materialIndex(const Scene&) const;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "engine/points/MpmState.hpp"
-#include "core/materials/law.hpp"
+#include "core/materials/internal_variables.hpp"
 #include "yade_api/registration.hpp"
 #include <algorithm>
 #include <set>

@@ -67,10 +67,9 @@ namespace {
 	// Of a point that nobody has given the variable and that has made no step.
 	Real initialValue(Point p, const gimpm::InternalVariable& variable)
 	{
-		const auto variables = variablesOf(*p.material);
-		const auto found     = std::find_if(variables.begin(), variables.end(), [&](const auto& v) { return v.name == string(variable.name); });
-		if (found == variables.end()) return std::numeric_limits<Real>::quiet_NaN(); // its law has none
-		return initialInternalsOf(*p.material)[found - variables.begin()];
+		for (const auto& [known, value] : initialInternalsOf(*p.material))
+			if (known == &variable) return value;
+		return std::numeric_limits<Real>::quiet_NaN(); // its law has none
 	}
 	PointColumn internal(const gimpm::InternalVariable& variable)
 	{
@@ -162,8 +161,8 @@ vector<const PointColumn*> columnsOf(const vector<MaterialPoint>& points)
 			names.insert(own.first);
 		if (point.material.get() == last) continue;
 		last = point.material.get();
-		for (const auto& variable : variablesOf(*last))
-			names.insert(variable.name);
+		for (const auto& [variable, first] : initialInternalsOf(*last))
+			names.insert(variable->name);
 	}
 	vector<const PointColumn*> columns;
 	const auto                 isThere = [&](const PointColumn& column) {

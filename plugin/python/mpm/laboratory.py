@@ -13,7 +13,7 @@ from .naming import didYouMean, materialOf
 from .plotting import write
 
 
-def respond(material, strain, **internals):
+def respond(material, strain, duration=0, **internals):
 	"""One call of a material's law, as for one material point in one iteration: what it answers to a trial elastic strain. ::
 
 		clay = MpmTrescaMat(young=20e6, poisson=0.3, density=2000, undrainedStrength=20e3)
@@ -21,12 +21,14 @@ def respond(material, strain, **internals):
 
 	:param material: material of the plugin, or the label of one in O.materials
 	:param strain: trial elastic logarithmic strain [-], positive in extension, finite: three principal values, or a symmetric tensor (3, 3)
+	:param duration: of the step in the time of the loads >= 0, for laws that depend on it
 	:param internals: internal variables of the law at the start of the step by name, as ``plasticStrain`` [-] or ``preconsolidation``
 		[Pa]; what is not given has the value of a point that nothing has happened to
 	:return: dict of ``stress``, Kirchhoff stress [Pa] in the shape of *strain*, positive in tension; ``elasticStrain``, what the return leaves of *strain*, in its
 		shape; ``tangent`` (3, 3), derivatives of the principal stresses by the principal trial strains [Pa]; ``shear`` (3,), secant shear moduli [Pa]
 		of the pairs of principal axes (0, 1), (1, 2), (2, 0); ``axes`` (3, 3), the principal axes as columns, in the order that *tangent* and *shear* have; and
-		the internal variables after the return by name.
+		the internal variables after the return by name. Of a law with tensors, which need not share the axes of the strain: *stress* and *elasticStrain*
+		as tensors, and *tangent* (6, 6) by Mandel's numbers: xx, yy, zz, and sqrt(2) times xy, yz, zx; no *shear* and *axes*.
 	:raises TypeError: *material* is no material of the plugin; *strain* or an internal variable is no number.
 	:raises ValueError: a label that does not exist; values of the material that are not admitted; a wrong shape, or a tensor that is not symmetric;
 		a strain that is not finite, or to which the law has no answer; an internal variable that the law does not have, or that is not admitted.
@@ -35,8 +37,12 @@ def respond(material, strain, **internals):
 	material = _material(who, material)
 	strain = _strain(who, strain)
 	internals = _internals(who, internals)
+	duration = _number(who, 'duration', duration, 'a finite number >= 0', lambda value: value >= 0)
+	if _named(who, engine.hasTensorLaw, material):
+		answer = _named(who, engine.respondInSpace, material, _rows(np.diag(strain) if strain.ndim == 1 else strain), internals, duration)
+		return {name: np.array(answer[name]) for name in ('stress', 'elasticStrain', 'tangent')} | answer['internals']
 	values, axes = (strain, np.eye(3)) if strain.ndim == 1 else np.linalg.eigh(strain)
-	answer = _named(who, engine.respond, material, values, internals)
+	answer = _named(who, engine.respond, material, _numbers(values), internals)
 	inShape = (lambda v: np.array(v)) if strain.ndim == 1 else (lambda v: _assemble(v, axes))
 	result = dict(stress=inShape(answer['stress']), elasticStrain=inShape(answer['elasticStrain']))
 	result |= dict(tangent=np.array(answer['tangent']), shear=np.array(answer['shear']), axes=axes)
@@ -141,10 +147,18 @@ def _internals(who, internals):
 	return {name: _number(who, name, value, 'a finite number') for name, value in internals.items()}
 
 
-def _named(who, function, material, values, internals):
+def _numbers(values):
+	return tuple(map(float, values))
+
+
+def _rows(tensor):
+	return list(map(float, np.ravel(tensor)))
+
+
+def _named(who, function, *arguments):
 	"""What a function of the library answers, with its errors in the name of the caller."""
 	try:
-		return function(material, tuple(map(float, values)), internals)
+		return function(*arguments)
 	except ValueError as error:
 		raise ValueError(f'{who}: {error}') from None
 
@@ -188,9 +202,10 @@ def _firstState(who, material, stress, internals):
 	"""Of a point with this stress, which it bears without yielding."""
 	if isinstance(material, wrapper.MpmCamClayMat) and not stress.any():
 		raise ValueError(f'{who}: confiningPressure = 0 is not admitted for an MpmCamClayMat, which has no stiffness without pressure')
-	elasticStrain = np.array(_named(who, engine.elasticStrainOf, material, stress, internals))
-	answer = _named(who, engine.respond, material, elasticStrain, internals)
-	return SimpleNamespace(strain=0., defGrad=np.eye(3), elasticStrain=np.diag(elasticStrain), stress=np.diag(stress), internals=internals | answer['internals'])
+	elasticStrain = np.array(_named(who, engine.elasticStrainOf, material, _numbers(stress), internals))
+	hasTensors = _named(who, engine.hasTensorLaw, material)
+	answer = _named(who, engine.respondInSpace, material, _rows(np.diag(elasticStrain)), internals, 0.) if hasTensors else _named(who, engine.respond, material, _numbers(elasticStrain), internals)
+	return SimpleNamespace(hasTensors=hasTensors, strain=0., defGrad=np.eye(3), elasticStrain=np.diag(elasticStrain), stress=np.diag(stress), internals=internals | answer['internals'])
 
 
 def _advance(test, material, state, to, kept):
@@ -237,6 +252,7 @@ def _roundOff(trial):
 
 def _trial(material, state, increment, to):
 	"""The state after an increment F <- increment F: the elastic left Cauchy-Green tensor is pushed forward, then the law answers."""
+	if state.hasTensors: return _tensorTrial(material, state, increment, to)
 	values, axes = np.linalg.eigh(state.elasticStrain)
 	pushed = increment @ _assemble(np.exp(2 * values), axes) @ increment.T
 	squares, axes = np.linalg.eigh(pushed)
@@ -248,6 +264,7 @@ def _trial(material, state, increment, to):
 	defGrad = increment @ state.defGrad
 	kirchhoff = _assemble(answer['stress'], axes)
 	return SimpleNamespace(
+	        hasTensors=False,
 	        strain=to,
 	        defGrad=defGrad,
 	        elasticStrain=_assemble(answer['elasticStrain'], axes),
@@ -258,8 +275,29 @@ def _trial(material, state, increment, to):
 	)
 
 
+def _tensorTrial(material, state, increment, to):
+	"""The same by a law with tensors, which turn with the material."""
+	try:
+		answer = engine.stepInSpace(material, _rows(state.elasticStrain), _rows(increment), state.internals, 0.)
+	except ValueError as error:
+		raise _NoSolution(error) from None
+	defGrad = increment @ state.defGrad
+	kirchhoff, elasticStrain, rates = (np.array(answer[name]) for name in ('stress', 'elasticStrain', 'rates'))
+	return SimpleNamespace(
+	        hasTensors=True,
+	        strain=to,
+	        defGrad=defGrad,
+	        elasticStrain=elasticStrain,
+	        stress=kirchhoff / np.linalg.det(defGrad),
+	        internals=answer['internals'],
+	        kirchhoff=kirchhoff,
+	        trial=SimpleNamespace(rates=rates, answer=dict(tangent=rates))
+	)
+
+
 def _rate(state, velocityGradient):
 	"""Of the Kirchhoff stress: the tangent in principal axes, and the rotation of the axes, which the secant shear moduli stand for."""
+	if state.hasTensors: return (state.trial.rates @ velocityGradient.ravel()).reshape(3, 3)
 	strain, axes, answer = state.trial.strain, state.trial.axes, state.trial.answer
 	l, squares = axes.T @ velocityGradient @ axes, np.exp(2 * strain)
 	rate = np.diag(np.array(answer['tangent']) @ np.diag(l))
