@@ -3,12 +3,15 @@
 
 The environment variable YADE names the command to test; scripts/test sets it. By default it is the installed yade.
 """
+import functools
 import json
 import os
 import shutil
 import signal
+import socket
 import subprocess
 import sys
+import tempfile
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -39,12 +42,71 @@ class Run:
 		return f'exit code {self.exitCode}\n--- stdout\n{self.stdout}\n--- stderr\n{self.stderr}'
 
 
+def theCommand():
+	return os.environ.get('YADE', 'yade')
+
+
+class Started:
+	"""A YADE that has started, once for many scripts: most of them end sooner than YADE starts. Each runs in a copy of its process (waiting.py)."""
+
+	def __init__(self):
+		self.folder = tempfile.TemporaryDirectory()
+		self.connection, theirs = socket.socketpair(socket.AF_UNIX, socket.SOCK_SEQPACKET)
+		with theirs, open(self.path('said'), 'w') as said:
+			self.process = subprocess.Popen(
+			        [theCommand(), '-n', '-x', '-j1', str(root / 'tests/scene/waiting.py'), str(theirs.fileno())],
+			        cwd=self.folder.name,
+			        env=os.environ | makingRoom | Yade(Path(self.folder.name)).ownSettings() | {'IPYTHONDIR': self.path('ipython')},
+			        stdin=subprocess.DEVNULL,
+			        stdout=said,
+			        stderr=said,
+			        pass_fds=[theirs.fileno()],
+			        preexec_fn=interruptible
+			)
+
+	def path(self, name):
+		return os.path.join(self.folder.name, name)
+
+	def answer(self, timeout):
+		self.connection.settimeout(timeout)
+		message = self.connection.recv(1 << 20)
+		assert message, 'YADE that was to run the scripts has ended: ' + Path(self.path('said')).read_text()
+		return json.loads(message)
+
+	def run(self, arguments, folder, environment, timeout):
+		with tempfile.TemporaryFile('w+', errors='replace') as stdout, tempfile.TemporaryFile('w+', errors='replace') as stderr:
+			message = json.dumps([arguments, str(folder), environment]).encode()
+			socket.send_fds(self.connection, [message], [stdout.fileno(), stderr.fileno()])
+			copy = self.answer(timeout)
+			try:
+				exitCode = self.answer(timeout)
+			except TimeoutError:
+				os.kill(copy, signal.SIGKILL)
+				self.answer(timeout)
+				raise
+			for file in stdout, stderr:
+				file.seek(0)
+			return Run(exitCode, stdout.read(), stderr.read(), folder)
+
+	def end(self):
+		self.connection.close()
+		self.process.wait()
+		self.folder.cleanup()
+
+
+started = functools.cache(Started)
+
+
+def pytest_unconfigure():
+	if started.cache_info().currsize: started().end()
+
+
 class Yade:
 	"""Runs scripts in YADE without windows."""
 
 	def __init__(self, folder):
 		self.folder = folder
-		self.command = os.environ.get('YADE', 'yade')
+		self.command = theCommand()
 		self.environment = {}  # variables in addition to those of this process
 
 	def __call__(self, script, *arguments, threads=1, processes=1, timeout=120, fails=False, environment={}, options=(), stderr=subprocess.PIPE):
@@ -63,6 +125,10 @@ class Yade:
 		if not isinstance(script, Path):
 			text, script = script, self.folder / 'script.py'
 			script.write_text(text)
+		if self.command == theCommand() and not self.environment and (processes, threads, environment, options, stderr) == (1, 1, {}, (), subprocess.PIPE):
+			run = started().run([str(script), *map(str, arguments)], self.folder, self.ownSettings(), timeout)
+			assert (run.exitCode != 0) == fails, str(run)
+			return run
 		ended = subprocess.run(
 		        [*byMpi(processes), self.command, '-n', '-x', f'-j{threads}', *options, str(script), *map(str, arguments)],
 		        cwd=self.folder,

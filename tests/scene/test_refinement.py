@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Cells that are halved in boxes (MpmGrid.refinements), from the filling to the files; tests/core/test_refined_step.cpp has what is exact across the sizes."""
+"""Cells that are halved in boxes (MpmGrid.refinements), from the filling to the files; tests/core/stepping/test_refined_step.cpp has what is exact across the sizes."""
 import math
 
 import pytest
