@@ -8,8 +8,13 @@
 #include <cstdint>
 
 #pragma GCC diagnostic ignored "-Wpsabi" // vectors in interfaces: there are none once the functions are inlined
+#ifdef GIMPM_COMPILES_QUICKLY // for processors that hardly anybody has any more: small functions stay functions
+#define GIMPM_INLINE inline
+#define GIMPM_INLINE_LAMBDA
+#else
 #define GIMPM_INLINE __attribute__((always_inline)) inline
 #define GIMPM_INLINE_LAMBDA __attribute__((always_inline))
+#endif
 
 namespace gimpm {
 

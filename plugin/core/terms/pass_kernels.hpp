@@ -210,7 +210,7 @@ template <class Kernels, class ChunkOfPoints, int Dim> GIMPM_INLINE FailureCode 
 // What does not depend on the kind of patch is not inlined into the code for all kinds.
 #define GIMPM_KERNELS(Name, ...)                                                                                                                               \
 	struct Name##Parts {                                                                                                                                   \
-		template <class C, int Dim> [[gnu::flatten, gnu::noinline]] __VA_ARGS__ static FailureCode respond(const Pass<Dim>& pass, C& chunk)            \
+		template <class C, int Dim> [[GIMPM_FLATTEN gnu::noinline]] __VA_ARGS__ static FailureCode respond(const Pass<Dim>& pass, C& chunk)            \
 		{                                                                                                                                              \
 			FailureCode failure = noFailure;                                                                                                       \
 			for (int batch = 0; batch * Lanes::count < chunk.count; ++batch)                                                                       \
