@@ -14,7 +14,7 @@ PetscErrorCode makeMatrix(const CompressedRows& rows, bool isSymmetric, Mat* K)
 		PetscCall(MatMPIAIJSetPreallocationCSR(*K, rows.start, rows.column, rows.value));
 	}
 	PetscCall(MatSetBlockSize(*K, rows.dim));
-	PetscCall(MatSetOption(*K, MAT_USE_INODES, PETSC_FALSE)); // whose product takes three times as long
+	PetscCall(MatSetOption(*K, MAT_USE_INODES, PETSC_FALSE)); // whose product takes longer
 	// Not MAT_SPD: of a matrix that is not, PETSc would look for the largest eigenvalue by conjugate gradients and an iteration without end.
 	if (isSymmetric) PetscCall(MatSetOption(*K, MAT_SYMMETRIC, PETSC_TRUE));
 	return 0;

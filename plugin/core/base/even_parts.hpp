@@ -6,7 +6,7 @@
 
 namespace gimpm {
 
-/// A solve goes with the nodes, an assembly with their points: on the slope in 3D the solves take twice as long.
+/// A solve goes with the nodes, an assembly with their points, and the solves take longer.
 constexpr double solveOverAssembly = 2;
 
 /// Of things in their order, with what each takes: the first one of each part, and their number.

@@ -77,7 +77,7 @@ struct AxisBasis {
 	double share(int cell, double h) const { return h * (cell == 0 ? -slope[0] : slope[2]); }
 
 private:
-	/// Number by number: a whole that is put together elsewhere and then copied takes twice the time.
+	/// Number by number: a whole that is put together elsewhere and then copied takes longer.
 	void set(double v0, double v1, double v2, double s0, double s1, double s2)
 	{
 		value[0] = v0, value[1] = v1, value[2] = v2, value[3] = 0;

@@ -9,9 +9,8 @@ extern "C" __attribute__((weak)) void openblas_set_num_threads(int);
 namespace gimpm {
 namespace {
 
-/// Operations of a factorisation above which the threads of the BLAS have enough to do. Seconds with one and two of them: 2D, 0.2 GFLOP,
-/// 0.0133 and 0.0195; 3D, 5 GFLOP, 0.147 and 0.119; 49 GFLOP, 1.42 and 0.93. Beside another program, which keeps one of the two waiting, two take
-/// three to four times as long as one: a gain of a fifth is not worth that.
+/// Operations of a factorisation above which the threads of the BLAS have enough to do. Beside another program, which keeps
+/// one of two waiting, two take several times as long as one: a gain of a fifth is not worth that.
 constexpr double flopsForThreads = 2e10;
 
 } // namespace

@@ -8,12 +8,8 @@
 namespace gimpm {
 namespace {
 
-/// Parts of the unknowns: a larger separator costs more, dense as it is, than two threads gain, and so do halves that are less alike. Whole and with two
-/// threads: unknowns, those of the separator, operations, analysis, factorisation and solution [ms].
-///   2D    8,300   112    .19 G    4.4 and  2.3     12 and 7.5     1.3 and .8    slope, half way through its failure: one half takes twice the operations of
-///                                                                             the other; a cut that parts them evenly is longer, and gains nothing
-///        35,000   116    .28 G   11   and  4.5     39 and 21      7.1 and 3.3
-///   3D   14,000   370   5.0  G   28   and 18      175 and 128     6.3 and 4.5   slice of a slope
+/// Parts of the unknowns: a larger separator costs more, dense as it is, than two threads gain, and so do halves that are
+/// less alike. A cut that parts them evenly is longer, and gains nothing.
 constexpr double mostOfSeparator = 0.03, leastOfHalf = 0.3;
 
 bool isWorthHalving(const Order& order)

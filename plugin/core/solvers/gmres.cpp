@@ -6,9 +6,8 @@
 namespace gimpm {
 namespace {
 
-/// Directions that are kept before the iteration starts again from where it is: 0.8 kB an unknown, a tenth of what a factor takes where GMRES
-/// is preferred. Close to failure fewer do not suffice: on the slope of 28,200 unknowns with half of its cells yielding at constant volume,
-/// to 1e-4, 100 take 64 iterations, 50 take 130 and 30 take 318.
+/// Directions that are kept before the iteration starts again from where it is; they take a tenth of the memory of a factor
+/// where GMRES is preferred. Close to failure fewer do not suffice.
 constexpr int kept = 100;
 
 /// Where they do not suffice they have taken as long as a factorisation, and more would hardly: zero-energy modes, as of one point a cell in the
@@ -17,8 +16,8 @@ constexpr int maxIterations = 200;
 
 struct NoPivot { };
 
-/// LU factors of K without the entries that K does not have. On that slope it takes 0.4 s and the iteration 1.5 s. Division by the diagonal
-/// takes 11 s and a multiple of the iterations, Eigen's IncompleteLUT 7 s and 0.5 s, a factorisation 4 s.
+/// LU factors of K without the entries that K does not have. With the diagonal alone there are far more iterations, and
+/// Eigen's IncompleteLUT takes longer than a factorisation.
 class IncompleteLu {
 public:
 	/// Column c of K is row c of its transpose, of which the factors are: L with a diagonal of ones, left of the diagonal, and U.

@@ -14,35 +14,20 @@
 namespace gimpm {
 namespace {
 
-/// Operations of the factorisation for each stored entry of K above which an iterative solver is preferred. The number grows with the unknowns
-/// in 3D, with their square root in 2D; so does the number of conjugate gradients' iterations, with the cube and the square root. Measured on
-/// the slope with a weak layer, one thread: unknowns, operations an entry, factor [MB], factorisation [s], conjugate gradients to 1e-2 and
-/// 1e-4 [s].
-///   3D    3,700     830     5  0.016  0.007  0.012
-///        14,200   5,600    47  0.22   0.03   0.06
-///        28,100   6,300    91  0.35   0.08   0.14
-///       109,200  39,900   784  5.5    0.37   0.58
-///   2D   35,000     960    18  0.06   0.12   0.27
-///       139,700   2,050    89  0.29   1.5    2.2
-/// So 3D changes over between 20,000 and 50,000 unknowns, well past the point where both are equal, because the direct solver is the one
-/// that finds singular matrices and is not slowed down by ill-conditioned ones; 2D would at some 3 million.
+/// Operations of the factorisation for each stored entry of K above which an iterative solver is preferred. The number
+/// grows with the unknowns in 3D, with their square root in 2D; so does the number of conjugate gradients' iterations, with
+/// the cube and the square root. This is well past the number where both take as long, because the direct solver is the one
+/// that finds singular matrices and is not slowed down by ill-conditioned ones.
 constexpr double worthwhileFlops = 1e4;
 
-/// What the places of the nodes say of it must be beyond doubt: over 13 matrices of slopes, cubes and beams in 3D it was .4 to .9 of what the analysis finds. That takes
-/// longer than the decision is worth: 2.7 to 5.6 s for 170,000 unknowns.
+/// What the places of the nodes say of it must be beyond doubt: it may be less than half of what the analysis finds, which
+/// takes longer than the decision is worth.
 constexpr double beyondDoubt = 2;
 
 bool isTooLarge(const LinearProblem& K) { return K.overNodes() && K.overNodes()->needsMoreFlopsPerEntry(beyondDoubt * worthwhileFlops); }
 
-/// Unknowns from which their order is sought by dissection of the grid. Beside CHOLMOD's own order, by one thread: unknowns, milliseconds for the analysis, operations
-/// of the factorisation, its milliseconds.
-///   2D    2,100     1.4 and 1.1     .019 and .019 G     1.8 and 1.6   half way through the failure of a slope
-///         8,300     5.2 and 5.1      .21 and .19       12   and 11.8
-///   3D   14,500      17 and 15       2.1 and 1.1       70   and 46
-///        14,000     127 and 35       5.3 and 5.0      151   and 152   with yielded points, and domains that cross cells
-///        25,500     280 and 68      22.8 and 23.3     680   and 690   the same
-///        19,200     196 and 56      12.3 and 11.8     390   and 390   a beam
-/// METIS on the graph of the nodes takes longer (25,500: 167), with a factor as large, and in the plane CHOLMOD's AMD is as quick there as for unknowns.
+/// Unknowns from which their order is sought by dissection of the grid: there CHOLMOD's own order takes longer to find, and
+/// is no better.
 constexpr int worthDissecting = 4000;
 
 Order ordering(const LinearProblem& K)

@@ -6,8 +6,8 @@
 
 namespace gimpm {
 
-constexpr int worthwhileNodes = 4000; ///< in threads: some 50 us
-constexpr int nodesInBlock    = 2048; ///< with half as many, Gauss-Seidel's method takes 1.1 times the iterations
+constexpr int worthwhileNodes = 4000; ///< in threads
+constexpr int nodesInBlock    = 2048; ///< with fewer, Gauss-Seidel's method takes more iterations
 
 /// f(begin, end) for blocks of nodes, which may be done side by side, compiled for the processor.
 template <class F> void forBlocks(int nodes, F&& f)

@@ -6,7 +6,7 @@
 namespace gimpm {
 namespace {
 
-/// h omega_max / c of the body alone: measured up to 4.72 in 2D and 4.4 in 3D at a quarter of the density, 17.6 at 1e-3; lumped 3.45 in both.
+/// At least h omega_max / c of the body alone (tests/core/stepping/test_explicit.cpp).
 double factor(int dim, double ghostMass, double spacing)
 {
 	if (ghostMass == 0) return 3.6;

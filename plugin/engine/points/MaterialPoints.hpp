@@ -43,7 +43,7 @@ inline bool maskMatches(const Body& body, int mask) { return mask == 0 || mask =
 // left to YADE's collider or integrator, alone or in a clump, or if another body has a material that is for material points only.
 vector<MaterialPoint> materialPoints(const Scene&, int mask = 0);
 
-// The same, from those of before, which are kept as far as they are still there: that takes half the time.
+// The same, from those of before, which are kept as far as they are still there, which is quicker.
 void updateMaterialPoints(vector<MaterialPoint>&, const Scene&, int mask);
 
 } // namespace yade

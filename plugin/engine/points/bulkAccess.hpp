@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-// What module mpm does with all material points at once, a hundred times faster than body by body in Python.
+// What module mpm does with all material points at once, far faster than body by body in Python.
 #include "yade_api/yade_api.hpp"
 
 namespace yade {
