@@ -103,8 +103,11 @@ namespace {
 					        = from->elongations[n].template head<Dim>();
 				beds.push_back(bed);
 			}
-			for (Bed<Dim>& bed : beds)
+			for (Bed<Dim>& bed : beds) {
 				model.terms.push_back([&bed](const gimpm::Beginning<Dim>& step) { return std::make_unique<Springs<Dim>>(bed, step); });
+				model.inPlace.push_back(
+				        { [&bed](const gimpm::PointCloud<Dim>&, Real scale) { stiffen(bed, scale); }, [](const gimpm::PointCloud<Dim>&) {} });
+			}
 		}
 		void advance(const StepTime& step, gimpm::Model<Dim>&, gimpm::Load<Dim>&) override
 		{
@@ -150,6 +153,14 @@ namespace {
 		}
 
 	private:
+		// As the soil is in a study of its strength.
+		static void stiffen(Bed<Dim>& bed, Real scale)
+		{
+			bed.stiffness /= scale;
+			for (auto& [node, elongation] : bed.elongation)
+				elongation *= scale;
+		}
+
 		vector<shared_ptr<MpmSpringBed>> given;
 		vector<Bed<Dim>>                 beds;
 	};

@@ -146,7 +146,7 @@ print(json.dumps(dict(off=abs(difference - np.diag(diagonal)).max(), diagonal=so
 ''').result
 	assert result['off'] == 0 and result['diagonal'] == [0, 2e6] and result['count'] == 3  # along y: x is held there
 	assert result['condition'][0] != result['condition'][1]
-	assert result['strong'] and result['moved'] < 1e-3 and not result['weak'], result
+	assert result['strong'] and result['moved'] < 0.05 and not result['weak'], result
 
 
 def test_processes_compare_it(yade):
