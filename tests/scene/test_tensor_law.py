@@ -136,8 +136,23 @@ points = mpm.arrays()
 assert (points['backStressXY'] == 800).all() and np.allclose(points['stress'][:, 0, 1], 1200)
 assert np.allclose(points['elasticStrain'][:, 0, 1], 1200 / 2e9, rtol=1e-9)
 try: mpm.assign(backStressXY=np.full(n, np.nan))
-except ValueError: pass
+except ValueError as error: assert 'backStressXY' in str(error)
 else: assert False
+
+# stretched until points outgrow half a cell
+O.reset()
+O.materials.append(MpmKinematicMat(young=1e6, poisson=.3, density=2000, yieldStress=1e3, hardening=1e5, label='clay'))
+O.bodies.append(mpm.fill(pack.inAlignedBox((0, 0, -1), (1, 1, 1)), MpmGrid(cellSize=1), 2, 'clay'))
+pulled = MpmBoundary(min=(.9, -inf, -inf), fix='x', displacement=(1.5, 0, 0))
+O.engines = [MpmImplicitEngine(grid=MpmGrid(cellSize=1), boundaries=[MpmBoundary(max=(.1, inf, inf), fix='x'), MpmBoundary(fix='y'), pulled], maxSplits=2, verbosity=0)]
+O.dt = 1 / 30
+while len(O.bodies) == 4:
+	O.step()
+points = mpm.arrays()
+parents = np.searchsorted(points['id'], points['parent'][4:])
+assert len(parents) > 0 and (points['backStressXX'][4:] > 1e3).all()
+for name in 'backStressXX', 'backStressYY', 'backStressZZ', 'backStressXY', 'plasticStrain':
+	assert (points[name][4:] == points[name][parents]).all()
 '''
 	)
 
@@ -174,13 +189,12 @@ def test_two_processes(yade):
 	script = scene + '''
 import sys
 solver = sheared(cells=6, distributed=sys.argv[1] == 'divided')
-O.run(25, wait=True)
+O.run(30, wait=True)
 points = mpm.arrays()
 np.savez(sys.argv[2], **points)
 '''
 	if not list((build / 'mpm').glob('mpm_petsc.so')): pytest.skip('needs scripts/setup --with-petsc')
 	alone = yade(script, 'whole', 'alone.npz').folder
-	results = {}
 	for how in 'whole', 'divided':
 		yade(script, how, f'{how}.npz', processes=2)
 	one = np.load(alone / 'alone.npz')

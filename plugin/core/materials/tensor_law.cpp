@@ -32,29 +32,38 @@ struct TrialState {
 		R                  = F + shrink * F;
 		strain             = b.axes * e.asDiagonal() * b.axes.transpose();
 	}
+};
 
+/// The rates of R and of the trial strain. In the axes of V the spin is (l_ij lambda_j - l_ji lambda_i) / (lambda_i + lambda_j). In those of b the rate of the
+/// strain is half of that of log b, whose divided differences are 2 d / (exp(2 e_i) - exp(2 e_j)) with d = e_i - e_j.
+class TrialRates {
+public:
+	explicit TrialRates(const TrialState& trial) : trial_(trial)
+	{
+		for (int i = 0; i < 3; ++i)
+			for (int j = 0; j < 3; ++j) {
+				const double d   = trial.e[i] - trial.e[j];
+				spinOf_(i, j)   = trial.lambda[j] / (trial.lambda[i] + trial.lambda[j]);
+				strainOf_(i, j) = overSinh(d) / 2 * std::exp(-d);
+			}
+	}
 	/// Rate of R, times the transpose of R.
 	Mat3 spin(const Mat3& l) const
 	{
-		Mat3 inAxes = V.axes.transpose() * l * V.axes;
-		Mat3 spin   = Mat3::Zero();
-		for (int i = 0; i < 3; ++i)
-			for (int j = 0; j < 3; ++j)
-				if (i != j) spin(i, j) = (inAxes(i, j) * lambda[j] - inAxes(j, i) * lambda[i]) / (lambda[i] + lambda[j]);
-		return V.axes * spin * V.axes.transpose();
+		const Mat3& q    = trial_.V.axes;
+		const Mat3  part = spinOf_.cwiseProduct(q.transpose() * l * q);
+		return q * (part - part.transpose()) * q.transpose();
 	}
-	/// Rate of the trial strain: half of that of log b, whose divided differences are 2 d / (exp(2 e_i) - exp(2 e_j)) with d = e_i - e_j.
-	Mat3 strainRate(const Mat3& l) const
+	Mat3 strain(const Mat3& l) const
 	{
-		const Mat3 inAxes = b.axes.transpose() * l * b.axes;
-		Mat3       rate;
-		for (int i = 0; i < 3; ++i)
-			for (int j = 0; j < 3; ++j) {
-				const double d = e[i] - e[j];
-				rate(i, j)     = overSinh(d) / 2 * (inAxes(i, j) * std::exp(-d) + inAxes(j, i) * std::exp(d));
-			}
-		return b.axes * rate * b.axes.transpose();
+		const Mat3& q    = trial_.b.axes;
+		const Mat3  part = strainOf_.cwiseProduct(q.transpose() * l * q);
+		return q * (part + part.transpose()) * q.transpose();
 	}
+
+private:
+	const TrialState& trial_;
+	Mat3              spinOf_, strainOf_;
 };
 
 Mat3 turned(const Mat3& R, const Mat3& tensor) { return R * tensor * R.transpose(); }
@@ -62,6 +71,7 @@ Mat3 turned(const Mat3& R, const Mat3& tensor) { return R * tensor * R.transpose
 /// The stress turns with R, and so does what the law sees of the strain.
 void setRates(TensorPoint& point, const TrialState& trial, const Mandel& tangent, const TensorQuestion& question)
 {
+	const TrialRates rates(trial);
 	point.rates.setZero();
 	for (int k = 0; k < 3; ++k)
 		for (int l = 0; l < 3; ++l) {
@@ -69,7 +79,7 @@ void setRates(TensorPoint& point, const TrialState& trial, const Mandel& tangent
 			if (!isInPlane && !isAround) continue;
 			Mat3 gradient  = Mat3::Zero();
 			gradient(k, l) = 1;
-			const Mat3 W = trial.spin(gradient), seen = trial.strainRate(gradient) - W * trial.strain + trial.strain * W;
+			const Mat3 W = rates.spin(gradient), seen = rates.strain(gradient) - W * trial.strain + trial.strain * W;
 			const Mat3 law  = fromMandel(tangent * toMandel(turned(trial.R.transpose(), seen)));
 			const Mat3 rate = turned(trial.R, law) + W * point.stress - point.stress * W;
 			for (int i = 0; i < 9; ++i)

@@ -137,11 +137,12 @@ namespace {
 		throw std::invalid_argument(text.str());
 	}
 
+	// The first solve is that of a point that nothing has happened to: with what others remember no strain at all may be beyond yield.
 	Matrix3r strainInSpace(const gimpm::Material& material, const Matrix3r& stress, const vector<Real>& internals)
 	{
 		Matrix3r strain = Matrix3r::Zero();
-		for (int solve = 0; solve < 2; ++solve) {
-			const auto answer = respondInSpace(material, strain, internals);
+		for (const auto* values : { &material.law->initialInternals, &internals, &internals }) {
+			const auto answer = answerOf(material.law, strain, *values);
 			strain += gimpm::fromMandel(answer.tangent.fullPivLu().solve(gimpm::toMandel(stress - answer.stress)));
 		}
 		respondInSpace(material, strain, internals);
