@@ -125,7 +125,7 @@ def figure4():
         ['order with 40 steps, with ghost', 'not degraded', f'{between(stabilised)}; without ghost {between(without)}', 'same']])}
 
 The paper prints a graph; the errors at 8 to 64 cells (2 x 2 points) agree with independent implementations of
-the method to one part in 1e6 (`tests/scene/test_paper.py`).
+the method to one part in 1e6 (`tests/scene/project/test_paper.py`).
 ''']
 	for n, series in fixed.items():
 		parts.append(f'40 load steps, {n:g} x {n:g} points per cell:\n\n{errorTable(series)}\n')

@@ -97,6 +97,12 @@ class Started:
 started = functools.cache(Started)
 
 
+def pytest_collection_modifyitems(items):
+	"""Files that take long come first: where processes take a file each, the last ones to end then have little left to wait for."""
+	first = ['test_processes', 'test_examples', 'test_pairs', 'test_studies', 'test_documentation', 'test_loading', 'test_reproduce']
+	items.sort(key=lambda item: first.index(item.path.stem) if item.path.stem in first else len(first))
+
+
 def pytest_unconfigure():
 	if started.cache_info().currsize: started().end()
 

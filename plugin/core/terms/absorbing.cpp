@@ -123,12 +123,14 @@ void Absorption<Dim>::addDrag(
 	for (const Face& face : faces) {
 		const Filling& cell   = cells[face.cell];
 		const double   inside = step.grid.origin[0] + h * (Grid<Dim>::index(step.basis.cells[face.cell])[0] + 0.5);
-		const double   at     = face.axis == 0 ? step.grid.origin[0] + h * Grid<Dim>::index(step.basis.nodes[face.node[0]])[0] : inside;
 		const double   filled = std::min(cell.volume / (std::pow(h, Dim) * ring(inside, step.grid)), 1.);
-		const double   area   = filled * std::pow(h, Dim - 1) * ring(at, step.grid) / (1 << (Dim - 1));
 		for (const int node : face.node) {
-			Vec<Dim> impedance   = Vec<Dim>::Constant(cell.shear / cell.volume);
-			impedance[face.axis] = cell.pressure / cell.volume;
+			// the integral of the node's shape function over the face, in axisymmetry over a part of a ring
+			const double at        = step.grid.origin[0] + h * Grid<Dim>::index(step.basis.nodes[node])[0];
+			const double radius    = face.axis == 0 ? at : (at + 2 * inside) / 3;
+			const double area      = filled * std::pow(h, Dim - 1) * ring(radius, step.grid) / (1 << (Dim - 1));
+			Vec<Dim>     impedance = Vec<Dim>::Constant(cell.shear / cell.volume);
+			impedance[face.axis]   = cell.pressure / cell.volume;
 			dashpots_[node].drag += area * impedance;
 		}
 	}

@@ -6,58 +6,111 @@
 
 namespace yade {
 
+namespace {
+	// A key of the report and what it says. Without a value it is one of RunResults, which has an attribute of its own, and there is more to say of it than there.
+	struct Row {
+		const char* key;
+		const char* meaning;
+		py::object (*value)(const Analysis&);
+	};
+
+	py::dict secondsByPhase(const Analysis& engine)
+	{
+		py::dict seconds;
+		for (const auto& [phase, time] : engine.times)
+			seconds[phase] = time;
+		return seconds;
+	}
+
+	string axisOf(const Analysis& engine) { return engine.last.worst.axis < 0 ? string() : string(1, "xyz"[engine.last.worst.axis]); }
+
+	using E          = const Analysis&;
+	const Row rows[] = {
+		{ "accepted", "Whether a step that has not converged was taken over (see MpmNewton.acceptUnconverged).",
+		  [](E e) { return py::object(e.last.accepted); } },
+		{ "failure",
+		  "'none', 'detached' (a boundary that is to move has no hold of the soil), 'misplaced' (a load, wall or rigid body), 'unrestrained', 'slides' "
+		  "(friction at its limit does not hold it), 'penetrated' (by a rigid body), 'refused' (by a condition that does not admit the equilibrium), "
+		  "'inaccurate' (MpmDynamicEngine.timeTolerance; beyond newton.stepTolerance steps are cut), 'gainsEnergy' (a step in time makes energy of nothing), "
+		  "'singular', 'inverted', 'notFinite', 'diverging', 'tooManyIterations', 'stalled' (at round-off), 'apart' (processes in different states) or "
+		  "'interrupted'.",
+		  [](E e) { return py::object(nameOf(e.last.failure)); } },
+		{ "cause", "The reason, a clause, empty when converged.", [](E e) { return py::object(e.last.cause); } },
+		{ "loadTime", "Of the last converged state [s].", [](E e) { return py::object(e.loadTime); } },
+		{ "times",
+		  "Of the run by phase [s], a dict: 'check' (of points that are new or were changed), 'gather', 'agree' (several processes, on the points), 'basis', "
+		  "'ghost', 'assembly', 'analyse', 'factorise', 'solve', 'update', 'scatter'.",
+		  [](E e) { return py::object(secondsByPhase(e)); } },
+		{ "points", "Material points in the run.", [](E e) { return py::object(e.pointsOfRun); } },
+		{ "nodes", "Grid nodes of the last load step that was tried.", [](E e) { return py::object(e.last.nodes); } },
+		{ "cgFailure", "Why an iterative solve of it was left to the direct solver, or multigrid was not set up; empty if neither was so.",
+		  [](E e) { return py::object(e.last.conjugateGradients.reason); } },
+		{ "localResidual",
+		  "The largest residual around a node over the forces there, or a bound of it [-], at most 3 newton.tolerance when converged (NaN where it was not "
+		  "asked for).",
+		  [](E e) { return py::object(e.last.localResidual); } },
+		{ "localError",
+		  "The estimated error of the displacements over newton.stepTolerance or timeTolerance [-], 0 where neither is given, or nothing is known of it or "
+		  "asked, as in steps of newton.minStep.",
+		  [](E e) { return py::object(e.last.localError); } },
+		{ "stiffness",
+		  "Of the last matrix that was factorised: 'positive definite', 'indefinite' (the equilibrium may not be stable: the body may go on by itself, or have "
+		  "another state under the same load) or 'not checked' (it is not symmetric, or none was factorised: an iterative solver, or nothing to solve).",
+		  [](E e) { return py::object(nameOf(e.last.definiteness)); } },
+		{ "worstNode", "Position [m] of the largest out-of-balance force, NaN if there is none.",
+		  [](E e) { return py::object(Vector3r(e.last.worst.position)); } },
+		{ "worstAxis", "Its direction, 'x', 'y', 'z' or ''.", [](E e) { return py::object(axisOf(e)); } },
+		{ "worstForce", "Its size [N].", [](E e) { return py::object(e.last.worst.force); } },
+		{ "mixedCells",
+		  "Cells populated by points of different materials: each point keeps its own law, so the cell's stiffness is the sum, and the interface is resolved to "
+		  "one cell.",
+		  [](E e) { return py::object(e.last.mixedCells); } },
+		{ "islands",
+		  "Parts of the body that share no grid node, 1 for a body in one piece (0 if the step was refused before they were counted): the body may break up as "
+		  "long as every part is held against rigid motion; a part that is not ends the run as 'unrestrained', with its place, since no equilibrium determines "
+		  "where it goes.",
+		  [](E e) { return py::object(e.last.parts); } },
+		{ "clampedDomains",
+		  "Points whose domain would outgrow half a cell in the last step: it is kept at half a cell, the rest of the point's volume acts within it (see "
+		  "maxSplits).",
+		  nullptr },
+		{ "wallOverlap",
+		  "The largest length [m] by which a domain reached behind a wall in the last step: no cell is populated there, and the point's share in nodes behind "
+		  "the wall counts as held.",
+		  nullptr },
+	};
+
+	string docstring()
+	{
+		string text
+		        = "report() -> dict\n\nHow the last run of this engine in this process went; empty before the first. What is counted has undone tries in it.\n\n";
+		const auto line = [&](const string& key, const string& meaning) { text += "- *" + key + "*: " + meaning + "\n"; };
+		const auto hasRow
+		        = [](const string& key) { return std::any_of(std::begin(rows), std::end(rows), [&](const Row& row) { return row.key == key; }); };
+		for (const Row& row : rows)
+			line(row.key, row.meaning);
+		RunResults::results([&](const char* key, auto, const auto&, RunResults::Told told, int, const char* meaning, auto&&...) {
+			if (told >= RunResults::byReport && !hasRow(key)) line(key, meaning);
+		});
+		return text + "\nThat of MpmDynamicEngine also has what its plotData() tells of motion and energies.";
+	}
+}
+
 py::dict report(const Analysis& engine)
 {
 	const ValueLock lock;
 	py::dict        result;
 	if (engine.times.empty()) return result;
-	const gimpm::StepReport& last = engine.last;
 	engine.tell(result, RunResults::byReport);
-	result["loadTime"]      = engine.loadTime;
-	result["accepted"]      = last.accepted;
-	result["failure"]       = nameOf(last.failure);
-	result["cause"]         = last.cause;
-	result["cgFailure"]     = last.conjugateGradients.reason;
-	result["localResidual"] = last.localResidual;
-	result["localError"]    = last.localError;
-	result["stiffness"]     = nameOf(last.definiteness);
-	result["worstNode"]     = Vector3r(last.worst.position);
-	result["worstAxis"]     = last.worst.axis < 0 ? string() : string(1, "xyz"[last.worst.axis]);
-	result["worstForce"]    = last.worst.force;
-	result["points"]        = engine.pointsOfRun;
-	result["nodes"]         = last.nodes;
-	result["mixedCells"]    = last.mixedCells;
-	result["islands"]       = last.parts;
-	py::dict seconds;
-	for (const auto& [phase, time] : engine.times)
-		seconds[phase] = time;
-	result["times"] = seconds;
+	for (const Row& row : rows)
+		if (row.value) result[row.key] = row.value(engine);
 	engine.tellMotion(result);
 	return result;
 }
 
 void addReport(py::object pythonClass, const py::object& function)
 {
-	py::objects::add_to_namespace(
-	        pythonClass, "report", function,
-	        "report() -> dict\n\nHow the last run of this engine in this process went; empty before the first.\n\n"
-	        "Outcome: 'converged'; 'accepted' (see MpmNewton.acceptUnconverged); 'failure', one of 'none', 'detached' (a boundary that is to move has no hold of the soil), 'misplaced' (a load, wall or rigid body), 'unrestrained', 'slides' (friction at its limit does not hold it), 'penetrated' (by a rigid body), 'refused' (by a condition that does not admit the equilibrium), 'inaccurate' (MpmDynamicEngine.timeTolerance; beyond newton.stepTolerance steps are cut), 'gainsEnergy' (a step in time makes energy of nothing), 'singular', 'inverted', "
-	        "'notFinite', 'diverging', 'tooManyIterations', 'stalled' (at round-off), 'apart' (processes in different states), 'interrupted'; 'cause', a clause, empty when converged; 'loadTime' [s] and 'loadFactor' of the "
-	        "last converged state; 'stepPart', part of O.dt that the next step tries.\n\n"
-	        "Effort of the run, undone tries included: 'iterations' (linear solves), 'substeps', 'cuts', 'lineSearchTrials', 'reusedFactors', 'luSolves', 'cgIterations', 'cgFallbacks', 'amgSetups'; 'times' [s], dict "
-	        "by phase: 'check' (of points that are new or were changed), 'gather', 'agree' (several processes, on the points), 'basis', 'ghost', 'assembly', 'analyse', 'factorise', 'solve', 'update', 'scatter'.\n\n"
-	        "Of the last load step that was tried: 'cgFailure', why an iterative solve was left to the direct solver, or multigrid was not set up, empty if neither was so; 'residuals', list; 'residual', the last of them [-]; 'localResidual', the largest residual around a node "
-	        "over the forces there, or a bound of it [-], at most 3 newton.tolerance when converged (NaN where it was not asked for); 'localError', the estimated error of the displacements over newton.stepTolerance or timeTolerance [-], 0 where neither is given, or nothing is known of it or asked, as in steps of newton.minStep; 'stiffness' of the last "
-	        "matrix that was factorised, 'positive definite', 'indefinite' (the equilibrium may not be stable: the body may go on by itself, or have another "
-	        "state under the same load) or 'not checked' (it is not symmetric, or none was factorised: an iterative solver, or nothing to solve); 'worstNode' (position [m], NaN if none), "
-	        "'worstAxis' ('x', 'y', 'z' or '') and 'worstForce' [N] of the largest out-of-balance force; 'points', 'nodes', 'dofs', 'activeCells', "
-	        "'boundaryCells', 'ghostFaces'.\n\n"
-	        "What deserves a look there, with the rule for it: 'clampedDomains', points whose domain would outgrow half a cell: it is kept at half a cell, "
-	        "the rest of the point's volume acts within it (see maxSplits). 'wallOverlap' [m], the largest length by which a domain reached behind a wall: no cell is "
-	        "populated there, and the point's share in nodes behind the wall counts as held. 'mixedCells', cells populated by points of different materials: each point "
-	        "keeps its own law, so the cell's stiffness is the sum, and the interface is resolved to one cell. 'islands', parts of the body that share "
-	        "no grid node, 1 for a body in one piece (0 if the step was refused before they were counted): the body may break up as long as every part is held against rigid motion; a part that is not "
-	        "ends the run as 'unrestrained', with its place, since no equilibrium determines where it goes.");
+	py::objects::add_to_namespace(pythonClass, "report", function, docstring().c_str());
 }
 
 } // namespace yade

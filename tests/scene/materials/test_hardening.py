@@ -110,7 +110,7 @@ def test_curve(run, name):
 
 def test_outputs(run):
 	"""In arrays, table and files of ParaView, picture, colours: the same numbers."""
-	from test_vtk import Vtu
+	from vtu import Vtu
 	points = np.load(run.folder / 'straight.npz')
 	assert points['plasticStrain'].min() > .05
 	table = np.genfromtxt(run.folder / 'soft.csv', delimiter=',', names=True)

@@ -128,7 +128,7 @@ def test_field_equals_layers(run):
 
 
 def test_outputs(run):
-	from test_vtk import Vtu
+	from vtu import Vtu
 	points = np.load(run.folder / 'field.npz')
 	table = np.genfromtxt(run.folder / 'field.csv', delimiter=',', names=True)
 	assert (table['undrainedStrength'] == points['undrainedStrength']).all()

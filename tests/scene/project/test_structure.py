@@ -93,6 +93,17 @@ def test_foldersOfTheEngineAreNotCrowded():
 	assert not [folder.name for folder in folders if sum(path.is_file() for path in folder.iterdir()) > 30]
 
 
+def test_testsAreInTheFoldersOfWhatTheyTest():
+	"""Those in YADE also in folders of what makes the plugin a plugin (yade_api) and the project one (project)."""
+	core = {path.name for path in (plugin / 'core').iterdir()} | {'parallel'}
+	scene = {'points', 'materials', 'grid', 'conditions', 'parallel', 'messages', 'engines', 'output', 'python', 'yade_api', 'project'}
+	for name, ending, folders in ('core', 'cpp', core), ('scene', 'py', scene):
+		found = {path.parent.relative_to(root / 'tests' / name).as_posix() for path in (root / 'tests' / name).rglob(f'test_*.{ending}')}
+		assert found <= folders and len(found) > 5
+	names = [path.name for path in (root / 'tests/scene').rglob('test_*.py')]
+	assert len(names) == len(set(names)), 'pytest imports them by these names'
+
+
 def test_topLevelHoldsWhatItIsMeantTo():
 	"""What is in the repository, where this is one: trials leave files behind."""
 	listed = subprocess.run(['git', 'ls-files'], cwd=root, capture_output=True, text=True)

@@ -263,7 +263,7 @@ advice = mpm.advise()
 assert advice['points'] == n and not any('plasticity' in sentence and 'heavy' in sentence for sentence in advice['advice'])
 assert rest() < 1e-9
 ''')
-	from test_vtk import Vtu
+	from vtu import Vtu
 	assert set(Vtu(run.folder / 'foreign-points.1.vtu').fields['material']) == {-1}
 
 

@@ -67,7 +67,7 @@ report = solver.report()
 assert report['failure'] == 'unrestrained' and report['islands'] == 2 and report['iterations'] == 0 and 'around (5.5' in report['cause']
 '''
 	)
-	from test_vtk import Vtu
+	from vtu import Vtu
 	cells = Vtu(yade.folder / 'two-grid.1.vtu')
 	mixed = {tuple(box[0, :2]) for box, is_ in zip(cells.boxes, cells.fields['mixed']) if is_}
 	assert mixed == {(0, 1), (5, 1)}
@@ -90,7 +90,7 @@ assert solver.report()['clampedDomains'] == solver.clampedDomains == 4
 assert mpm.arrays()['halfSize'][:, 0].max() == 0.5
 '''
 	)
-	from test_vtk import Vtu
+	from vtu import Vtu
 	assert list(Vtu(yade.folder / 'pulled-points.0.vtu').fields['clamped']) == [0] * 4
 	assert list(Vtu(yade.folder / 'pulled-points.1.vtu').fields['clamped']) == [1] * 4
 
@@ -191,7 +191,7 @@ with refused(ValueError, 'listed 2 times'):
 	O.step()
 '''
 	)
-	from test_vtk import Vtu
+	from vtu import Vtu
 	assert len(Vtu(yade.folder / 'two-points.4.vtu')) == 256
 
 
