@@ -60,9 +60,9 @@ template <int Dim> void MpmImplicitEngine::step(Agreement& agreement)
 	if (job.model.grid.refinement && basis == "gimp" && splitOutgrown(job)) job = prepare<Dim>(agreement);
 	{
 		const gimpm::Stopwatch watch(agreeing);
-		agreement.reach(*this, job.cloud, bool(job.model.division));
+		agreement.reach(*this, job.cloud, *job.model.division);
 	}
-	if (job.model.processes) addTime(*timingDeltas, "agree", agreeing);
+	if (job.model.processes->size() > 1) addTime(*timingDeltas, "agree", agreeing);
 	doubt(job);
 	tellObservers(*scene, [this](LoadStepObserver& observer) { observer.stepBegins(*this); });
 	advance(job);
@@ -106,7 +106,7 @@ template <int Dim> void MpmImplicitEngine::advance(Job<Dim>& job)
 {
 	Interruption interruption;
 	StepErrors   errors(*this);
-	job.model.newton.interrupted = [&] { return isRequested(interruption.isRequested(), job.model.processes.get()); };
+	job.model.newton.interrupted = [&] { return isRequested(interruption.isRequested(), *job.model.processes); };
 	while (!job.control.isDone()) {
 		Attempt<Dim>    tried  = errors.next(job, [&] { return attempt(job); });
 		const auto      report = isExplicit() ? job.moving->step(job, tried)

@@ -36,10 +36,10 @@ Setup<Dim> buildModel(
 	Setup<Dim> setup;
 	auto&      model = setup.model = emptyModel<Dim>(engine);
 	takePoints(setup);
-	const auto* division = model.division.get();
+	const auto& division = *model.division;
 	(setup.surfaceLoads = SurfaceLoads<Dim>(engine, model.grid)).join(model);
 	(setup.waters = Waters<Dim>(engine, model.grid, setup.cloud, division)).join(model);
-	(setup.contacts = Contacts<Dim>(engine.contacts, scene, model.grid, points, division != nullptr, begin, target)).join(model);
+	(setup.contacts = Contacts<Dim>(engine.contacts, scene, model.grid, points, division, begin, target)).join(model);
 	return setup;
 }
 

@@ -25,6 +25,6 @@ template <int Dim> bool advance(Setup<Dim>&, const MpmImplicitEngine&, Real from
 
 // The state of the scene as it is: what a load step from here begins with, and loads that stay as they are. The points
 // may be divided among processes.
-template <int Dim> Setup<Dim> currentState(MpmImplicitEngine&, const std::shared_ptr<gimpm::Division>& = nullptr);
+template <int Dim> Setup<Dim> currentState(MpmImplicitEngine&, const std::shared_ptr<gimpm::Division>& = std::make_shared<gimpm::Division>());
 
 } // namespace yade

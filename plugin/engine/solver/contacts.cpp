@@ -102,8 +102,8 @@ void handOver(const vector<shared_ptr<MpmContact>>& contacts, Scene& scene, bool
 template <int Dim>
 Contacts<Dim>::Contacts(
         const vector<shared_ptr<MpmContact>>& contacts, const Scene& scene, const gimpm::Grid<Dim>& grid, const vector<MaterialPoint>& materialPoints,
-        bool areDivided, Real begin, Real target)
-        : given(contacts), areDivided(areDivided), begin(begin), target(target), end(begin), dt(scene.dt)
+        const gimpm::Division& division, Real begin, Real target)
+        : given(contacts), areDivided(!division.isWhole()), begin(begin), target(target), end(begin), dt(scene.dt)
 {
 	if (contacts.empty()) return;
 	system = shared_ptr<gimpm::ContactSystem<Dim>>(new gimpm::ContactSystem<Dim>);

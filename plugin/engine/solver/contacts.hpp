@@ -25,7 +25,7 @@ public:
 	Contacts() = default;
 	// For the load steps from one time to another. std::invalid_argument names what cannot be computed with.
 	Contacts(
-	        const vector<shared_ptr<MpmContact>>&, const Scene&, const gimpm::Grid<Dim>&, const vector<MaterialPoint>&, bool areDivided, Real begin,
+	        const vector<shared_ptr<MpmContact>>&, const Scene&, const gimpm::Grid<Dim>&, const vector<MaterialPoint>&, const gimpm::Division&, Real begin,
 	        Real target);
 
 	bool areThere() const { return bool(system); }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "engine/solver/distribution.hpp"
 #include "core/base/sentence.hpp"
+#include "core/grid/neighbourhood.hpp"
 #include "engine/points/bodyParcels.hpp"
 #include "engine/points/newPoints.hpp"
 #include "engine/solver/AtWork.hpp"
@@ -102,7 +103,7 @@ std::shared_ptr<gimpm::Division> Distribution::divide(MpmImplicitEngine& engine,
 	for (const auto& parcel : gimpm::exchanged(*all, parcels))
 		unpackBodies(parcel, scene);
 	malloc_trim(0); // what has been erased, and what the step before has left in the heap of its own thread: a sixth of the peak
-	Pieces::note(scene, all.get());
+	Pieces::note(scene, *all);
 	updateMaterialPoints(points, scene, engine.mask);
 	for (const MaterialPoint& p : points)
 		division->id.push_back(p.id);
@@ -112,7 +113,7 @@ std::shared_ptr<gimpm::Division> Distribution::divide(MpmImplicitEngine& engine,
 template <int Dim> vector<int> Distribution::ownOf(MpmImplicitEngine& engine, vector<MaterialPoint>& points, const NewPoints& added)
 {
 	const auto all = processes();
-	admitTogether(
+	together(
 	        [&] {
 		        updateMaterialPoints(points, *engine.scene, engine.mask);
 		        requireWhole(engine);
@@ -151,7 +152,7 @@ namespace {
 void Distribution::requireWhole(const MpmImplicitEngine& engine)
 {
 	const auto all   = processes();
-	const int  count = all ? all->size() : 1, number = all ? all->rank() : 0;
+	const int  count = all->size(), number = all->rank();
 	const auto has = Pieces::of(*engine.scene);
 	if (has.count == 0 || (has.count == count && has.number == number && engine.distributed)) return;
 	throw std::invalid_argument(sentence(
@@ -172,14 +173,14 @@ void Distribution::requireDivisible(const MpmImplicitEngine& engine, const vecto
 			        sentence("Body #", point.id, ": ", start, " needs materials that are in O.materials, which its own is not."));
 }
 
-namespace {
-	// A scene of one process may be a piece, too, which no step is made with.
-	bool isDividedHere(const Scene& scene) { return Pieces::of(scene).count > 1 && processes(); }
-}
+// A scene of one process may be a piece, too, which no step is made with.
+std::shared_ptr<const gimpm::Processes> holdersOf(const Scene& scene) { return Pieces::of(scene).count > 1 ? processes() : gimpm::Processes::alone(); }
 
-bool isDivided(const MpmImplicitEngine& engine) { return isDividedHere(*engine.ownScene()); }
+std::shared_ptr<const gimpm::Processes> holdersOf(const MpmImplicitEngine& engine) { return holdersOf(*engine.ownScene()); }
 
-bool isSceneDivided() { return isDividedHere(*Singleton<Omega>::instance().getScene()); }
+bool isDivided(const MpmImplicitEngine& engine) { return holdersOf(engine)->size() > 1; }
+
+bool isSceneDivided() { return holdersOf(*Singleton<Omega>::instance().getScene())->size() > 1; }
 
 Body::id_t addPoints(
         const shared_ptr<MpmImplicitEngine>& engine, const py::object& positions, const py::object& half, const py::list& materials, const py::object& index,
@@ -194,7 +195,7 @@ Body::id_t addPoints(
 void takePieces()
 {
 	const ValueLock lock;
-	Pieces::note(*Singleton<Omega>::instance().getScene(), processes().get());
+	Pieces::note(*Singleton<Omega>::instance().getScene(), *processes());
 }
 
 } // namespace yade

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 // The material points of a scene divided among processes (MpmImplicitEngine.distributed).
-#include "core/grid/division.hpp"
+#include "core/parallel/division.hpp"
 #include "engine/points/MaterialPoints.hpp"
 #include "engine/solver/MpmGrid.hpp"
 
@@ -30,10 +30,13 @@ private:
 	vector<gimpm::Key> first; // of the ranges, as in gimpm::Division; empty before the first step
 };
 
-// Whether the points of an engine are in several processes, of which this one has its own only.
+// The processes among which the points of an engine are divided, so that each has its own only; this one alone where it has all of them.
+std::shared_ptr<const gimpm::Processes> holdersOf(const MpmImplicitEngine&);
+std::shared_ptr<const gimpm::Processes> holdersOf(const Scene&); // whichever engine has divided them
+
 bool isDivided(const MpmImplicitEngine&);
 
-// For Python: the same of those of the current scene, whichever engine has divided them.
+// For Python: the same of those of the current scene.
 bool isSceneDivided();
 
 // For mpm.add: puts points into the current scene, which has this engine, given as newBodies() is; the id of the first one.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "engine/solver/energies.hpp"
-#include "core/base/together.hpp"
+#include "core/parallel/together.hpp"
 #include "engine/solver/MpmDynamicEngine.hpp"
 #include "engine/solver/processes.hpp"
 
@@ -32,7 +32,7 @@ Energies ofAll(const Energies& own, const gimpm::Processes& all)
 void MpmDynamicEngine::tellMotion(py::dict& data) const
 {
 	const Energies own = energiesOf(materialPoints(*ownScene(), mask));
-	const Energies now = isDivided(*this) ? ofAll(own, *processes()) : own;
+	const Energies now = ofAll(own, *holdersOf(*this));
 	for (int axis = 0; axis < 3; ++axis) {
 		if (axis < grid->dim) data[string("momentum_") + "xyz"[axis]] = now.momentum[axis];
 		if (axis == 2 || grid->dim == 3) data[string("angularMomentum_") + "xyz"[axis]] = now.angularMomentum[axis];

@@ -20,7 +20,7 @@ namespace {
 			};
 			isIdle.push_back(std::none_of(points.begin(), points.end(), isNear));
 		}
-		if (isDivided(engine)) processes()->smallest(isIdle.data(), int(isIdle.size()));
+		holdersOf(engine)->smallest(isIdle.data(), int(isIdle.size()));
 		return isIdle;
 	}
 }

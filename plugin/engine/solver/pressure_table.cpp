@@ -160,7 +160,7 @@ namespace {
 	}
 }
 
-template <int Dim> vector<Key> cellsOf(const gimpm::PointCloud<Dim>& cloud, const gimpm::Grid<Dim>& grid, const gimpm::Division* division)
+template <int Dim> vector<Key> cellsOf(const gimpm::PointCloud<Dim>& cloud, const gimpm::Grid<Dim>& grid, const gimpm::Division& division)
 {
 	vector<Key> cells;
 	for (const auto& x : cloud.position) {
@@ -168,15 +168,9 @@ template <int Dim> vector<Key> cellsOf(const gimpm::PointCloud<Dim>& cloud, cons
 		const Key               key  = gimpm::Grid<Dim>::key(cell);
 		if (cells.empty() || cells.back() != key) cells.push_back(key);
 	}
-	const auto sortOut = [&] {
-		std::sort(cells.begin(), cells.end());
-		cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
-	};
-	sortOut();
-	if (!division) return cells;
-	cells = gimpm::joined(*division->processes, cells);
-	sortOut();
-	return cells;
+	std::sort(cells.begin(), cells.end());
+	cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
+	return gimpm::united(*division.processes, std::move(cells));
 }
 
 template <int Dim>
@@ -236,7 +230,7 @@ std::shared_ptr<const gimpm::WaterPressure<Dim>> tabulated(MpmWater& water, cons
 }
 
 #define MPM_INSTANTIATE(Dim)                                                                                                                                   \
-	template vector<Key> cellsOf(const gimpm::PointCloud<Dim>&, const gimpm::Grid<Dim>&, const gimpm::Division*);                                          \
+	template vector<Key> cellsOf(const gimpm::PointCloud<Dim>&, const gimpm::Grid<Dim>&, const gimpm::Division&);                                          \
 	template class PressureQuestion<Dim>;                                                                                                                  \
 	template std::shared_ptr<const gimpm::WaterPressure<Dim>> tabulated(MpmWater&, const gimpm::Grid<Dim>&, const vector<Key>&, const string&);
 MPM_INSTANTIATE(2)

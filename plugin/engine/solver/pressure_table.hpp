@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 // The pressure that a function of Python gives, at the nodes around the material points.
-#include "core/grid/division.hpp"
+#include "core/parallel/division.hpp"
 #include "core/terms/water_pressure.hpp"
 #include "engine/conditions/MpmWater.hpp"
 
 namespace yade {
 
 // Cells that hold the middle of a point, in a row; of a division, those of all processes.
-template <int Dim> vector<gimpm::Key> cellsOf(const gimpm::PointCloud<Dim>&, const gimpm::Grid<Dim>&, const gimpm::Division*);
+template <int Dim> vector<gimpm::Key> cellsOf(const gimpm::PointCloud<Dim>&, const gimpm::Grid<Dim>&, const gimpm::Division& = {});
 
 // What a function is still to be asked, about nodes around the cells that the water's table does not have yet.
 template <int Dim> class PressureQuestion {

@@ -118,7 +118,7 @@ static void requireEqualCells(const MpmImplicitEngine& engine)
 		what = "water";
 	else if (engine.newton->linearSolver == "amg")
 		what = "MpmNewton.linearSolver = 'amg'";
-	else if (processes())
+	else if (processes()->size() > 1)
 		what = "several processes";
 	for (size_t b = 0; b < engine.boundaries.size(); ++b)
 		if (engine.boundaries[b]->surface) what = "boundaries[" + std::to_string(b) + "].surface";

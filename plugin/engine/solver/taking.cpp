@@ -32,13 +32,11 @@ template <int Dim> void MpmImplicitEngine::askWater(Agreement& agreement)
 				if (const gimpm::Vec<Dim> x = point.state->pos.head<Dim>(); // others are refused in a moment
 				    x.allFinite() && ((x - lattice.origin) / lattice.cellSize).cwiseAbs().maxCoeff() < lattice.indexLimit)
 					middles.position.push_back(x);
-			cells = cellsOf(middles, lattice, nullptr);
+			cells = cellsOf(middles, lattice);
 		}
-		if (distributed && processes()) {
+		if (distributed) {
 			agreement.meet(*this);
-			cells = gimpm::joined(*processes(), cells);
-			std::sort(cells.begin(), cells.end());
-			cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
+			cells = gimpm::united(*processes(), std::move(cells));
 		}
 		if (!Waters<Dim>::ask(*this, lattice, cells)) return;
 	}
@@ -55,7 +53,7 @@ template <int Dim> void MpmImplicitEngine::takePoints(Setup<Dim>& to, Agreement&
 	if (!isDivided(*this)) requireAny(points, *this);
 	vector<const MpmMaterial*> known;
 	bool                       areKnown = false;
-	if (distributed && model.processes) {
+	if (distributed && model.processes->size() > 1) {
 		Distribution::requireDivisible(*this, points);
 		agreement.meet(*this);
 		std::int64_t isKnown = plausibility.knows<Dim>(points);
@@ -66,44 +64,40 @@ template <int Dim> void MpmImplicitEngine::takePoints(Setup<Dim>& to, Agreement&
 	}
 	to.cloud = gather(points, model, known);
 	if (areKnown) plausibility.know(to.cloud); // some have come from another process
-	if (model.division && !water.empty()) agreement.meet(*this);
+	if (!model.division->isWhole() && !water.empty()) agreement.meet(*this);
 }
 
 Body::id_t MpmImplicitEngine::add(NewPoints& added)
 {
 	const ValueLock lock;
-	const auto      all = distributed ? processes() : nullptr;
+	const auto      all = distributed ? processes() : gimpm::Processes::alone();
 	vector<int>     own(added.size());
 	std::iota(own.begin(), own.end(), 0);
-	if (all) own = grid->dim == 3 ? distribution.ownOf<3>(*this, points, added) : distribution.ownOf<2>(*this, points, added);
+	if (all->size() > 1) own = grid->dim == 3 ? distribution.ownOf<3>(*this, points, added) : distribution.ownOf<2>(*this, points, added);
 	vector<shared_ptr<Body>> bodies;
 	const auto               make = [&] {
                 for (const int i : own)
                         bodies.push_back(added.body(i));
 	};
-	if (all) admitTogether(make, *all);
-	else
-		make();
+	together(make, *all);
 	const Body::id_t first = scene->bodies->size();
 	for (size_t i = 0; i < own.size(); ++i)
 		scene->bodies->insertAtId(bodies[i], first + own[i]);
-	if (!all) return first;
+	if (all->size() == 1) return first;
 	provideGaps(*scene, first + added.size());
-	Pieces::note(*scene, all.get());
+	Pieces::note(*scene, *all);
 	return first;
 }
 
 template <int Dim> void MpmImplicitEngine::doubt(const Job<Dim>& job)
 {
 	const ValueLock lock;
-	if (job.model.division) {
-		requireSameWater(*job.model.processes, *this);
-		pointsOfRun = size_t(job.model.division->sum(Real(points.size())));
-	}
+	requireSameWater(*job.model.division->processes, *this);
+	pointsOfRun = size_t(job.model.division->sum(Real(points.size())));
 	for (int i = 0; i < Plausibility::mostDoubts; ++i) // the same number in all processes
 		warnOfPoints(i < int(job.doubts.size()) ? job.doubts[i] : "");
 	warn(plausibility.doubtOfBoundaries(*this, points));
-	if (!job.model.division) warn(job.surfaceLoads.doubt(job.cloud, job.model.grid));
+	if (job.model.division->isWhole()) warn(job.surfaceLoads.doubt(job.cloud, job.model.grid));
 }
 
 // False if there are no points to be split.
@@ -117,7 +111,7 @@ template <int Dim> bool MpmImplicitEngine::splitOutgrown(Job<Dim>& job)
 }
 
 // Of points that this process has. Where they are divided, the others may have a reason, too, and one of them is heard.
-void MpmImplicitEngine::warnOfPoints(const string& text) { warn(isDivided(*this) ? firstSaid(text, *processes()) : text); }
+void MpmImplicitEngine::warnOfPoints(const string& text) { warn(gimpm::firstSaid(*holdersOf(*this), text)); }
 
 #define MPM_INSTANTIATE(Dim)                                                                                                                                   \
 	template void MpmImplicitEngine::takePoints(Setup<Dim>&, Agreement&);                                                                                  \

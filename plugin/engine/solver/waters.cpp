@@ -48,7 +48,7 @@ namespace {
 	}
 }
 
-template <int Dim> Waters<Dim>::Waters(const Loads& given, const gimpm::Grid<Dim>& grid, const gimpm::PointCloud<Dim>& cloud, const gimpm::Division* division)
+template <int Dim> Waters<Dim>::Waters(const Loads& given, const gimpm::Grid<Dim>& grid, const gimpm::PointCloud<Dim>& cloud, const gimpm::Division& division)
 {
 	const bool areAsked = std::any_of(given.water.begin(), given.water.end(), [](const auto& water) { return hasFunction(*water); });
 	const auto cells    = areAsked ? cellsOf(cloud, grid, division) : vector<gimpm::Key>();

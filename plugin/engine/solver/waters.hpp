@@ -12,7 +12,7 @@ template <int Dim> class Waters {
 public:
 	Waters() = default;
 	// std::invalid_argument names what cannot be computed with. Functions are asked for pressures around the points, also where these are divided among processes.
-	Waters(const Loads&, const gimpm::Grid<Dim>&, const gimpm::PointCloud<Dim>&, const gimpm::Division* = nullptr);
+	Waters(const Loads&, const gimpm::Grid<Dim>&, const gimpm::PointCloud<Dim>&, const gimpm::Division& = {});
 
 	// The same before a step: the cells are those of the points, of all processes. Nothing is asked while the lock of values is held, since a function may well ask the engine.
 	// Returns whether any was asked.
