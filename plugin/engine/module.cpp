@@ -65,8 +65,7 @@ BOOST_PYTHON_MODULE(mpm_engine)
 	py::def("cellSizes", &cellSizesForPython, "For mpm.fill: bytearray of the sizes of a grid's cells at positions.");
 	py::def("multigridAbsence", &gimpm::Multigrid::absence, "For mpm.advise: why there is no algebraic multigrid; empty if there is.");
 	py::def(
-	        "bytesSent", +[] { return processes() ? processes()->sent() : 0.; },
-	        "For measurements: what this process has sent to others that mpirun has started.");
+	        "bytesSent", +[] { return processes()->sent(); }, "For measurements: what this process has sent to others that mpirun has started.");
 	py::def("isDivided", &isSceneDivided,
 	        "Whether several processes have divided the material points of the scene among them (MpmImplicitEngine.distributed).");
 	py::def("takePieces", &takePieces, "For mpm.load: the points of all pieces are in the processes that there are now.");

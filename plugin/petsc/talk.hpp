@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // What processes tell each other by MPI: see DistributedModule.
 #pragma once
-#include "core/base/processes.hpp"
+#include "core/parallel/processes.hpp"
 #include <petscsys.h> // MPI without its old interface for C++
 
 extern MPI_Comm comm; // one of our own: messages of the script, by mpi4py, are not taken for ours

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Threads that stand for processes.
 #pragma once
-#include "core/base/processes.hpp"
+#include "core/parallel/processes.hpp"
 #include <algorithm>
 #include <condition_variable>
 #include <functional>

@@ -15,6 +15,11 @@ using Mat3                   = Mat<3>;
 /// Integer coordinates of a cell or node of the background grid.
 template <int Dim> using Index = Eigen::Matrix<int, Dim, 1>;
 
+/// Sortable name of a cell or node: its integer coordinates packed so that x runs fastest, and above them its level: cells of level l are 2^l times as
+/// large as the smallest ones, of which coordinates are numbers. A cell is named after its lowest node, and the key of a neighbour of the same level is the key plus a
+/// constant, whatever the place in the grid.
+using Key = std::uint64_t;
+
 /// What the laws remember of the points, column by column (core/materials/law.hpp says which is which). A column that is missing or empty is
 /// at its initial values.
 using InternalColumns = std::vector<std::vector<double>>;

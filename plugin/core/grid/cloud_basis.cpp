@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "core/grid/cloud_basis.hpp"
-#include "core/grid/division.hpp"
 #include "core/grid/place.hpp"
 #include "core/grid/tile_order.hpp"
 #include <algorithm>
@@ -160,11 +159,10 @@ template <int Dim> void refine(CloudBasis<Dim>& b, const Refinement<Dim>& refine
 }
 
 /// The active nodes are the corners of the populated cells; in a refined grid also those of their leaves and those beside the faces between leaves of two
-/// sizes, with the masters of all. Points may be divided among processes (`division`, or null).
-template <int Dim> void numberNodes(CloudBasis<Dim>& b, const Grid<Dim>& grid, const Division* division)
+/// sizes, with the masters of all.
+template <int Dim> void numberNodes(CloudBasis<Dim>& b, const Grid<Dim>& grid, const Division& division)
 {
-	b.cells = populatedCells(b.patches, grid);
-	if (division) b.cells = division->united(b.cells);
+	b.cells = division.united(populatedCells(b.patches, grid));
 	if (grid.refinement) refine(b, *grid.refinement);
 	else
 		b.nodes = cornersOf<Dim>(b.cells);
@@ -191,8 +189,10 @@ template <int Dim> void colourPatches(CloudBasis<Dim>& b, const Grid<Dim>& grid)
 	}
 }
 
+} // namespace
+
 template <int Dim>
-CloudBasis<Dim> basisOf(const PointCloud<Dim>& cloud, const Grid<Dim>& grid, Basis basis, const Boundary<Dim>& boundary, const Division* division)
+CloudBasis<Dim> cloudBasis(const PointCloud<Dim>& cloud, const Grid<Dim>& grid, Basis basis, const Boundary<Dim>& boundary, const Division& division)
 {
 	CloudBasis<Dim>         b;
 	std::vector<Place<Dim>> places(cloud.size());
@@ -209,21 +209,6 @@ CloudBasis<Dim> basisOf(const PointCloud<Dim>& cloud, const Grid<Dim>& grid, Bas
 	return b;
 }
 
-} // namespace
-
-template <int Dim> CloudBasis<Dim> cloudBasis(const PointCloud<Dim>& cloud, const Grid<Dim>& grid, Basis basis, const Boundary<Dim>& boundary)
-{
-	return basisOf(cloud, grid, basis, boundary, nullptr);
-}
-
-template <int Dim>
-CloudBasis<Dim> cloudBasis(const PointCloud<Dim>& cloud, const Grid<Dim>& grid, Basis basis, const Boundary<Dim>& boundary, const Division& division)
-{
-	return basisOf(cloud, grid, basis, boundary, &division);
-}
-
-template CloudBasis<2> cloudBasis(const PointCloud<2>&, const Grid<2>&, Basis, const Boundary<2>&);
-template CloudBasis<3> cloudBasis(const PointCloud<3>&, const Grid<3>&, Basis, const Boundary<3>&);
 template CloudBasis<2> cloudBasis(const PointCloud<2>&, const Grid<2>&, Basis, const Boundary<2>&, const Division&);
 template CloudBasis<3> cloudBasis(const PointCloud<3>&, const Grid<3>&, Basis, const Boundary<3>&, const Division&);
 

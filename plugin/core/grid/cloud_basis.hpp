@@ -5,6 +5,7 @@
 #include "core/grid/boundary.hpp"
 #include "core/grid/point_cloud.hpp"
 #include "core/grid/ties.hpp"
+#include "core/parallel/division.hpp"
 #include <array>
 
 namespace gimpm {
@@ -49,6 +50,7 @@ template <int Dim> struct CloudBasis {
 };
 
 /// Positions must be finite and within the grid's index limit, half sizes in (0, h/2] with h of the largest cells; where cells are smaller, a domain reaches no farther than half of them.
-template <int Dim> CloudBasis<Dim> cloudBasis(const PointCloud<Dim>&, const Grid<Dim>&, Basis, const Boundary<Dim>&);
+/// With a division there are the patches of the points of this process, and the cells and nodes of all.
+template <int Dim> CloudBasis<Dim> cloudBasis(const PointCloud<Dim>&, const Grid<Dim>&, Basis, const Boundary<Dim>&, const Division& = {});
 
 } // namespace gimpm

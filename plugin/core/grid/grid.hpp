@@ -9,11 +9,6 @@
 
 namespace gimpm {
 
-/// Sortable name of a cell or node: its integer coordinates packed so that x runs fastest, and above them its level: cells of level l are 2^l times as
-/// large as the smallest ones, of which coordinates are numbers. A cell is named after its lowest node, and the key of a neighbour of the same level is the key plus a
-/// constant, whatever the place in the grid.
-using Key = std::uint64_t;
-
 /// Where a key stands among sorted ones, or would stand.
 inline int position(const std::vector<Key>& sorted, Key key) { return int(std::lower_bound(sorted.begin(), sorted.end(), key) - sorted.begin()); }
 

@@ -1,12 +1,28 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Material points as structure of arrays; all arrays have the same length.
+// Material points as structure of arrays.
 #pragma once
+#include "core/base/checksum.hpp"
 #include "core/base/types.hpp"
 #include <Eigen/LU>
+#include <tuple>
 #include <vector>
 
 namespace gimpm {
 
+/// Which of the columns of a cloud there are.
+enum class Presence {
+	always,   ///< there is a value for each point
+	ifNeeded, ///< the column is empty where none of the points needs it
+};
+
+/// A column of a cloud, or a list of columns, each of which may be empty.
+template <class Cloud, class Values> struct CloudColumn {
+	Values Cloud::*of;
+	Presence       presence;
+};
+
+/// All columns that are there have the same length. A new one is a member and its entry in columns(), without which nothing compiles: so it goes wherever points go, from process to
+/// process too.
 template <int Dim> struct PointCloud {
 	std::vector<Vec<Dim>>       position;      ///< [m]
 	std::vector<Vec<Dim>>       position0;     ///< where the points were at first [m]; empty: they are there still, or no boundary moves nodes
@@ -22,6 +38,17 @@ template <int Dim> struct PointCloud {
 	std::vector<Vec<Dim>>       force;         ///< point load at load factor 1 [N]; empty: no point loads
 	std::vector<int>            material;      ///< position in the list of materials
 
+	static constexpr auto columns()
+	{
+		using C              = PointCloud;
+		const auto all       = [](auto C::*of) { return CloudColumn<C, std::decay_t<decltype(std::declval<C>().*of)>> { of, Presence::always }; };
+		const auto sometimes = [](auto C::*of) { return CloudColumn<C, std::decay_t<decltype(std::declval<C>().*of)>> { of, Presence::ifNeeded }; };
+		return std::make_tuple(
+		        all(&C::position), sometimes(&C::position0), all(&C::halfSize), all(&C::halfSize0), all(&C::volume0), all(&C::defGrad),
+		        sometimes(&C::hoopStretch), all(&C::elasticStrain), all(&C::stress), sometimes(&C::internals), sometimes(&C::parameters),
+		        sometimes(&C::force), all(&C::material));
+	}
+
 	std::size_t size() const { return position.size(); }
 
 	/// Current volume over the initial one.
@@ -30,21 +57,47 @@ template <int Dim> struct PointCloud {
 		const double J = defGrad[p].determinant();
 		return hoopStretch.empty() ? J : J * hoopStretch[p];
 	}
-	void resize(std::size_t n)
-	{
-		position.resize(n);
-		halfSize.resize(n);
-		halfSize0.resize(n);
-		volume0.resize(n);
-		defGrad.resize(n);
-		elasticStrain.resize(n);
-		stress.resize(n);
-		for (auto& column : internals)
-			if (!column.empty()) column.resize(n);
-		for (auto& column : parameters)
-			if (!column.empty()) column.resize(n);
-		material.resize(n);
-	}
+
+	/// Those that are always there, and of the lists of columns those that are not empty.
+	void resize(std::size_t n);
 };
+
+/// Calls f(column, presence) for each column of a cloud, also for those that are empty and for each of a list.
+template <class Cloud, class F> void forColumns(Cloud& cloud, F&& f)
+{
+	const auto visit = [&](auto& values, Presence presence) {
+		using Column = typename std::decay_t<decltype(values)>::value_type;
+		if constexpr (std::is_same_v<Column, std::vector<double>>)
+			for (auto& column : values)
+				f(column, presence);
+		else
+			f(values, presence);
+	};
+	std::apply([&](const auto&... column) { (visit(cloud.*column.of, column.presence), ...); }, std::decay_t<Cloud>::columns());
+}
+
+/// Bytes of the members that a list of columns names.
+template <class Cloud, class... Values> constexpr std::size_t sizeOfColumns(const std::tuple<CloudColumn<Cloud, Values>...>&) { return (sizeof(Values) + ...); }
+
+static_assert(sizeOfColumns(PointCloud<2>::columns()) == sizeof(PointCloud<2>), "PointCloud::columns() has to name each member of PointCloud, once");
+static_assert(sizeOfColumns(PointCloud<3>::columns()) == sizeof(PointCloud<3>), "PointCloud::columns() has to name each member of PointCloud, once");
+
+template <int Dim> void PointCloud<Dim>::resize(std::size_t n)
+{
+	for (auto* columns : { &internals, &parameters })
+		for (auto& column : *columns)
+			if (!column.empty()) column.resize(n);
+	forColumns(*this, [n](auto& column, Presence presence) {
+		if (presence == Presence::always) column.resize(n);
+	});
+}
+
+/// Of all columns: the same where points are the same, to the last bit.
+template <int Dim> std::uint64_t checksumOf(const PointCloud<Dim>& cloud)
+{
+	Checksum sum;
+	forColumns(cloud, [&](const auto& column, Presence) { sum.mix(column); });
+	return sum.take() ^ cloud.size();
+}
 
 } // namespace gimpm

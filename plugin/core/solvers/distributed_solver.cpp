@@ -110,7 +110,7 @@ struct DistributedSolver::Task {
 		const std::string obstacle = obstacleTo(rows, problem.share(), hasPositions);
 		if (!obstacle.empty()) rows.reset();
 		else
-			spread.reset(new Spread { *problem.share(), rows->dof, problem.unknowns().isFree });
+			spread.reset(new Spread { problem.share(), rows->dof, problem.unknowns().isFree });
 		return obstacle;
 	}
 };
@@ -171,7 +171,7 @@ bool DistributedSolver::iterate(Task& task, LinearMethod method)
 bool DistributedSolver::iterateWithMultigrid(Task& task)
 {
 	if (!giveMatrix(task)) return false;
-	if (task.problem.unknowns() == unknowns_ && task.problem.share()->start == start_) {
+	if (task.problem.unknowns() == unknowns_ && task.problem.share().start == start_) {
 		const double expected = perDecade_ * std::log10(task.error / task.tolerance);
 		const int    before   = task.effort.iterations;
 		if (run(task, few + int(tooMany * expected))) {
@@ -222,7 +222,7 @@ void DistributedSolver::setUp(Task& task)
 	library().setUp(solver_);
 	++task.effort.hierarchies;
 	unknowns_ = task.problem.unknowns();
-	start_    = task.problem.share()->start;
+	start_    = task.problem.share().start;
 }
 
 /// D K D with ones on the diagonal, as in one process.

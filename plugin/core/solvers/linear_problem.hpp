@@ -13,10 +13,15 @@ public:
 	LinearProblem(SymmetricCsc K) : size_(K.size()), isSymmetric_(true), compressed_(std::move(K)) { }
 	LinearProblem(GeneralCsc K) : size_(K.size()), isSymmetric_(false), compressed_(std::move(K)) { }
 
-	/// These must outlive it. With a share it is solved by all processes together.
+	/// The matrix and what is beside it must outlive it. It is solved by all processes that share its rows.
 	template <int Dim>
-	LinearProblem(const NodeMatrix<Dim>& K, const FreeDofs& dofs, const NodeShare* share = nullptr, const Couplings* couplings = nullptr)
+	LinearProblem(const NodeMatrix<Dim>& K, const FreeDofs& dofs, const NodeShare& share, const Couplings* couplings = nullptr)
 	        : size_(dofs.count), isSymmetric_(K.isSymmetric()), overNodes_(nodeProblem(K, dofs, share, couplings))
+	{
+	}
+	template <int Dim>
+	LinearProblem(const NodeMatrix<Dim>& K, const FreeDofs& dofs, const Couplings* couplings = nullptr)
+	        : LinearProblem(K, dofs, NodeShare::whole(K.nodes()), couplings)
 	{
 	}
 
@@ -25,7 +30,7 @@ public:
 	const SymmetricCsc& symmetric() const { return std::get<SymmetricCsc>(compressed()); }
 	const GeneralCsc&   general() const { return std::get<GeneralCsc>(compressed()); }
 	const NodeProblem*  overNodes() const { return isOfOneField() ? overNodes_.get() : nullptr; } ///< null: only compressed
-	bool                isShared() const { return overNodes_ && overNodes_->share(); }
+	bool                isShared() const { return overNodes_ && !overNodes_->share().isWhole(); }
 	bool                isOfOneField() const { return !overNodes_ || overNodes_->isOfOneField(); }
 
 	/// NodeProblem::ordering; empty where nodes are not known.
@@ -63,7 +68,9 @@ private:
 /// Compressed: K may go.
 template <int Dim> LinearProblem reduced(const NodeMatrix<Dim>& K, const FreeDofs& dofs, const Couplings* couplings = nullptr)
 {
-	return std::visit([](auto&& compressed) { return LinearProblem(std::move(compressed)); }, nodeProblem(K, dofs, nullptr, couplings)->compressed());
+	return std::visit(
+	        [](auto&& compressed) { return LinearProblem(std::move(compressed)); },
+	        nodeProblem(K, dofs, NodeShare::whole(K.nodes()), couplings)->compressed());
 }
 
 } // namespace gimpm

@@ -176,7 +176,7 @@ LinearSolver::Status LinearSolver::solveTogether(const LinearProblem& K, const E
 	if (!together_) together_.reset(new DistributedSolver);
 	if (method == LinearMethod::automatic) {
 		std::int64_t isLarge = K.overNodes()->needsMoreFlopsPerEntry(worthwhileFlops); // by the blocks that each of them knows
-		K.overNodes()->share()->processes.smallest(&isLarge, 1);
+		K.overNodes()->share().processes.smallest(&isLarge, 1);
 		if (!isLarge) method = LinearMethod::direct;
 	}
 	return together_->solve(*K.overNodes(), K.isSymmetric(), b, x, method, tolerance, times_, effort_);

@@ -26,13 +26,13 @@ public:
 	std::string apply(const Eigen::VectorXd& r, Eigen::VectorXd& z) const override;
 
 private:
-	Multigrid(NodeRows, Unknowns, std::optional<NodeShare>, std::shared_ptr<const SymmetricOperator>);
+	Multigrid(NodeRows, Unknowns, NodeShare, std::shared_ptr<const SymmetricOperator>);
 	bool        setUp(bool hasPositions, std::string& reason);
 	static void multiply(void* self, const double* x, double* y);
 
 	NodeRows                                 rows_;
 	Unknowns                                 unknowns_;
-	std::optional<NodeShare>                 share_; ///< none: the whole matrix is here
+	NodeShare                                share_; ///< of the rows
 	std::shared_ptr<const SymmetricOperator> K_;
 	void*                                    hierarchy_ = nullptr;
 	mutable Eigen::VectorXd                  in_, out_;      ///< of the hierarchy

@@ -33,7 +33,7 @@ private:
 
 template <int Dim> class Problem : public NodeProblem {
 public:
-	Problem(const NodeMatrix<Dim>& K, const FreeDofs& dofs, const NodeShare* share, const Couplings* couplings)
+	Problem(const NodeMatrix<Dim>& K, const FreeDofs& dofs, const NodeShare& share, const Couplings* couplings)
 	        : K_(K), dofs_(dofs), share_(share), couplings_(couplings)
 	{
 	}
@@ -48,7 +48,7 @@ public:
 	}
 	std::unique_ptr<SymmetricOperator> blocks() const override
 	{
-		if (share_) return std::make_unique<SharedBlocks<Dim>>(K_, dofs_, *share_, couplings_);
+		if (!share_.isWhole()) return std::make_unique<SharedBlocks<Dim>>(K_, dofs_, share_, couplings_);
 		if (couplings_) return std::make_unique<CoupledBlocks<Dim>>(K_, dofs_, *couplings_);
 		return std::make_unique<BlockMatrix<Dim>>(K_, dofs_);
 	}
@@ -58,17 +58,17 @@ public:
 	{
 		Eigen::VectorXd all = Eigen::VectorXd::Zero(dofs_.number.size());
 		forFree([&](int dof, int number) { all[dof] = x[number]; });
-		return share_ ? Eigen::VectorXd(share_->own(all)) : all;
+		return share_.isWhole() ? all : Eigen::VectorXd(share_.own(all));
 	}
 	Eigen::VectorXd ofFreeDofs(Eigen::VectorXd all) const override
 	{
-		if (share_) all = completed(all);
+		if (!share_.isWhole()) all = completed(all);
 		Eigen::VectorXd x(dofs_.count);
 		forFree([&](int dof, int number) { x[number] = all[dof]; });
 		return x;
 	}
 	std::optional<NodeRows> rows() const override { return nodeRows(K_, dofs_, share_, couplings_); }
-	const NodeShare*        share() const override { return share_; }
+	const NodeShare&        share() const override { return share_; }
 	Unknowns                unknowns() const override
 	{
 		Unknowns all { K_.keys(), {} };
@@ -111,8 +111,8 @@ private:
 	Eigen::VectorXd completed(const Eigen::VectorXd& own) const
 	{
 		Eigen::VectorXd all(dofs_.number.size());
-		share_->own(all) = own;
-		share_->complete(all);
+		share_.own(all) = own;
+		share_.complete(all);
 		return all;
 	}
 	/// Calls f(unknown) for those of a node, of all fields.
@@ -176,18 +176,18 @@ private:
 
 	const NodeMatrix<Dim>& K_;
 	const FreeDofs&        dofs_;
-	const NodeShare*       share_;
+	const NodeShare        share_;
 	const Couplings*       couplings_; ///< null: there are none
 };
 
 } // namespace
 
-template <int Dim> std::unique_ptr<NodeProblem> nodeProblem(const NodeMatrix<Dim>& K, const FreeDofs& dofs, const NodeShare* share, const Couplings* couplings)
+template <int Dim> std::unique_ptr<NodeProblem> nodeProblem(const NodeMatrix<Dim>& K, const FreeDofs& dofs, const NodeShare& share, const Couplings* couplings)
 {
 	return std::make_unique<Problem<Dim>>(K, dofs, share, couplings);
 }
 
-template std::unique_ptr<NodeProblem> nodeProblem(const NodeMatrix<2>&, const FreeDofs&, const NodeShare*, const Couplings*);
-template std::unique_ptr<NodeProblem> nodeProblem(const NodeMatrix<3>&, const FreeDofs&, const NodeShare*, const Couplings*);
+template std::unique_ptr<NodeProblem> nodeProblem(const NodeMatrix<2>&, const FreeDofs&, const NodeShare&, const Couplings*);
+template std::unique_ptr<NodeProblem> nodeProblem(const NodeMatrix<3>&, const FreeDofs&, const NodeShare&, const Couplings*);
 
 } // namespace gimpm

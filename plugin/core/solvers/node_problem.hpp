@@ -36,7 +36,7 @@ struct NodeProblem {
 	/// For multigrid; where processes share the matrix, the rows of this one.
 	virtual std::optional<NodeRows> rows() const     = 0;
 	virtual Unknowns                unknowns() const = 0;
-	virtual const NodeShare*        share() const    = 0; ///< null: the whole matrix is here
+	virtual const NodeShare&        share() const    = 0; ///< of the rows
 
 	/// Whether a factor takes more operations for each entry of a triangle, by the places of the nodes alone.
 	virtual bool needsMoreFlopsPerEntry(double flops) const = 0;
@@ -45,7 +45,7 @@ struct NodeProblem {
 	virtual Order ordering() const = 0;
 };
 
-/// All must outlive it.
-template <int Dim> std::unique_ptr<NodeProblem> nodeProblem(const NodeMatrix<Dim>&, const FreeDofs&, const NodeShare* = nullptr, const Couplings* = nullptr);
+/// The matrix and what is beside it must outlive it.
+template <int Dim> std::unique_ptr<NodeProblem> nodeProblem(const NodeMatrix<Dim>&, const FreeDofs&, const NodeShare&, const Couplings* = nullptr);
 
 } // namespace gimpm

@@ -8,7 +8,7 @@ namespace {
 
 template <int Dim> class Rows {
 public:
-	Rows(const NodeMatrix<Dim>& K, const FreeDofs& dofs, const NodeShare* share, const Couplings* couplings)
+	Rows(const NodeMatrix<Dim>& K, const FreeDofs& dofs, const NodeShare& share, const Couplings* couplings)
 	        : K_(K), dofs_(dofs), couplings_(couplings), row_(K.nodes(), -1)
 	{
 		for (int a = 0; a < K.nodes(); ++a) {
@@ -18,8 +18,8 @@ public:
 			if (!isFree) continue;
 			row_[a] = int(nodes_.size());
 			nodes_.push_back(a);
-			if (share && a < share->first()) begin_ = int(nodes_.size());
-			if (!share || a < share->last()) end_ = int(nodes_.size());
+			if (a < share.first()) begin_ = int(nodes_.size());
+			if (a < share.last()) end_ = int(nodes_.size());
 		}
 		findBlocks();
 	}
@@ -173,24 +173,24 @@ private:
 
 } // namespace
 
-template <int Dim> std::optional<NodeRows> nodeRows(const NodeMatrix<Dim>& K, const FreeDofs& dofs, const NodeShare* share, const Couplings* couplings)
+template <int Dim> std::optional<NodeRows> nodeRows(const NodeMatrix<Dim>& K, const FreeDofs& dofs, const NodeShare& share, const Couplings* couplings)
 {
 	Rows<Dim> rows(K, dofs, share, couplings);
 	if (rows.entries() > std::size_t(std::numeric_limits<int>::max())) return std::nullopt;
 	return rows.make();
 }
 
-std::string obstacleTo(const std::optional<NodeRows>& rows, const NodeShare* share, bool& hasPositions)
+std::string obstacleTo(const std::optional<NodeRows>& rows, const NodeShare& share, bool& hasPositions)
 {
 	std::int64_t isThere[3] = { rows.has_value(), 0, !(rows && !rows->position.empty()) };
 	if (rows) isThere[1] = std::all_of(rows->value.begin(), rows->value.end(), [](double value) { return std::isfinite(value); });
-	if (share) share->processes.smallest(isThere, 3);
+	share.processes.smallest(isThere, 3);
 	hasPositions = !isThere[2];
 	if (!isThere[0]) return "the matrix has more entries than can be counted";
 	return isThere[1] ? "" : "the matrix has numbers that are not finite";
 }
 
-template std::optional<NodeRows> nodeRows(const NodeMatrix<2>&, const FreeDofs&, const NodeShare*, const Couplings*);
-template std::optional<NodeRows> nodeRows(const NodeMatrix<3>&, const FreeDofs&, const NodeShare*, const Couplings*);
+template std::optional<NodeRows> nodeRows(const NodeMatrix<2>&, const FreeDofs&, const NodeShare&, const Couplings*);
+template std::optional<NodeRows> nodeRows(const NodeMatrix<3>&, const FreeDofs&, const NodeShare&, const Couplings*);
 
 } // namespace gimpm

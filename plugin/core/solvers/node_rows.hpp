@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // A matrix over nodes in compressed rows, as multigrid is given it: all rows, or those of one of several processes.
 #pragma once
-#include "core/solvers/node_share.hpp"
+#include "core/parallel/node_share.hpp"
 #include "core/solvers/reduce.hpp"
 #include <optional>
 #include <string>
@@ -27,12 +27,12 @@ struct NodeRows {
 	int rows() const { return int(dof.size()); }
 };
 
-/// Nothing if there are more entries than an int can count. With a share those of this process.
-template <int Dim> std::optional<NodeRows> nodeRows(const NodeMatrix<Dim>&, const FreeDofs&, const NodeShare* = nullptr, const Couplings* = nullptr);
+/// Nothing if there are more entries than an int can count. Those of this process.
+template <int Dim> std::optional<NodeRows> nodeRows(const NodeMatrix<Dim>&, const FreeDofs&, const NodeShare&, const Couplings* = nullptr);
 
 /// Why a library cannot be given the rows, of several processes all of them; empty if it can. `hasPositions`: whether there are any, which a process without rows hears
 /// from the others.
-std::string obstacleTo(const std::optional<NodeRows>&, const NodeShare*, bool& hasPositions);
+std::string obstacleTo(const std::optional<NodeRows>&, const NodeShare&, bool& hasPositions);
 
 /// What rows have that there are none of, where other processes have some.
 inline const double* numbersOf(const std::vector<double>& numbers, bool areThere)

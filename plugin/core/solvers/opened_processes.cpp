@@ -43,7 +43,7 @@ std::shared_ptr<const Processes> openProcesses(std::string& reason)
 		reason = said.data();
 		return nullptr;
 	}
-	if (size == 1) return nullptr;
+	if (size == 1) return Processes::alone();
 	auto         processes  = std::make_shared<OpenedProcesses>(*library.distributed, rank, size);
 	std::int64_t hasSameSet = processorHasAvx2();
 	processes->smallest(&hasSameSet, 1);

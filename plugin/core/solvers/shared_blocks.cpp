@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "core/solvers/shared_blocks.hpp"
-#include "core/base/together.hpp"
+#include "core/parallel/together.hpp"
 #include <algorithm>
 
 namespace gimpm {
@@ -102,11 +102,7 @@ template <int Dim> Eigen::VectorXd SharedBlocks<Dim>::diagonal() const
 	return diagonal.segment(Dim * (share_.first() - here_.first), Dim * (share_.last() - share_.first()));
 }
 
-template <int Dim> double SharedBlocks<Dim>::norm(const Eigen::VectorXd& x) const
-{
-	const auto norms = ofEach(share_.processes, x.stableNorm());
-	return Eigen::Map<const Eigen::VectorXd>(norms.data(), norms.size()).stableNorm();
-}
+template <int Dim> double SharedBlocks<Dim>::norm(const Eigen::VectorXd& x) const { return normOfAll(share_.processes, x.stableNorm()); }
 
 template <int Dim> void SharedBlocks<Dim>::complete(double* sums, int count) const { addUp(share_.processes, sums, count); }
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // A symmetric matrix over nodes of which each of several processes has the rows of its nodes.
 #pragma once
+#include "core/parallel/node_share.hpp"
 #include "core/solvers/block_matrix.hpp"
-#include "core/solvers/node_share.hpp"
 #include <map>
 
 namespace gimpm {

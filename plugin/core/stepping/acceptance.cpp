@@ -34,41 +34,33 @@ template <int Dim> void updatePoints(PointCloud<Dim>& cloud, const StepSystem<Di
 			if (!cloud.hoopStretch.empty()) keepOffAxis(cloud, p);
 		}
 	});
-	const auto& division  = system.model.division;
-	report.clampedDomains = int(std::count(clamped.begin(), division ? clamped.begin() + division->own() : clamped.end(), true));
-	if (division) report.clampedDomains = int(division->sum(report.clampedDomains));
+	const Division& division = *system.model.division;
+	report.clampedDomains    = int(division.sum(std::count(clamped.begin(), clamped.begin() + division.ownOf(clamped.size()), true)));
 }
 
 /// Equilibrium may have been found where no state can be: a point that hardly anything held has left the grid, or has become so flat that
-/// numbers do not tell its size. The report says so.
-template <int Dim> bool requireState(const PointCloud<Dim>& cloud, std::size_t points, const Grid<Dim>& grid, StepReport& report)
+/// numbers do not tell its size. Says so, or nothing.
+template <int Dim> std::string impossibleState(const PointCloud<Dim>& cloud, int points, const Grid<Dim>& grid)
 {
 	const double limit = Grid<Dim>::indexLimit * grid.cellSize;
-	for (std::size_t p = 0; p < points; ++p) {
+	for (int p = 0; p < points; ++p) {
 		const bool isOnGrid = ((cloud.position[p] - grid.origin).array().abs() < limit).all() && cloud.stress[p].c.allFinite();
 		if (isOnGrid && cloud.halfSize[p].minCoeff() > 0 && cloud.defGrad[p].determinant() > 0) continue;
 		std::ostringstream text;
 		text << "a material point was " << (isOnGrid ? "flattened to nothing, at (" : "thrown off the grid, to (") << cloud.position[p].transpose()
 		     << ")";
-		report.failure  = Failure::diverging;
-		report.accepted = false;
-		report.cause    = text.str();
-		return false;
+		return text.str();
 	}
-	return true;
+	return "";
 }
 
-/// The same of points that are divided: all processes say what the first one says that has found such a point.
+/// The report says what the first process says that has found such a point.
 template <int Dim> bool requireState(const PointCloud<Dim>& cloud, const Model<Dim>& model, StepReport& report)
 {
-	const auto& division = model.division;
-	const bool  isGood   = requireState(cloud, division ? division->own() : cloud.size(), model.grid, report);
-	if (!division) return isGood;
-	const Processes& all   = *division->processes;
-	std::int64_t     first = isGood ? all.size() : all.rank();
-	all.smallest(&first, 1);
-	if (first == all.size()) return true;
-	report.cause    = all.told(report.cause, int(first));
+	const Division&   division = *model.division;
+	const std::string wrong    = division.firstSaid(impossibleState(cloud, division.ownOf(cloud.size()), model.grid));
+	if (wrong.empty()) return true;
+	report.cause    = wrong;
 	report.failure  = Failure::diverging;
 	report.accepted = false;
 	return false;
@@ -77,7 +69,7 @@ template <int Dim> bool requireState(const PointCloud<Dim>& cloud, const Model<D
 /// What is computed on from here must be the same everywhere. The report says so if not.
 template <int Dim> bool requireSamePoints(const PointCloud<Dim>& cloud, const Model<Dim>& model, StepReport& report)
 {
-	if (!model.processes || model.division || haveSamePoints(*model.processes, cloud)) return true;
+	if (!model.division->isWhole() || haveSamePoints(*model.processes, cloud)) return true;
 	fail(report, Failure::apart, "the processes have come to different states of the points");
 	report.accepted = false;
 	return false;

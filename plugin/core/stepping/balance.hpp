@@ -33,10 +33,7 @@ public:
 		for (const auto& patch : system_.basis.patches)
 			for (int i = patch.first; i < patch.first + patch.count && system_.counts(patch); ++i)
 				force[i] = of(i, strain(i));
-		const double norm = force.stableNorm();
-		if (!system_.model.division) return norm;
-		const auto norms = ofEach(*system_.model.processes, norm);
-		return Eigen::Map<const Eigen::VectorXd>(norms.data(), norms.size()).stableNorm();
+		return normOfAll(*system_.model.division->processes, force.stableNorm());
 	}
 	/// Their sum over the points around each node [N].
 	template <class F> Eigen::VectorXd atNodes(F&& strain) const

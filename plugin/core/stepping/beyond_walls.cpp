@@ -95,11 +95,11 @@ template <int Dim> int ownerOf(const typename CutPatches<Dim>::Node& node, int a
 template <int Dim> void addForces(const CutPatches<Dim>& cut, const StepSystem<Dim>& system, const Eigen::VectorXd& force, StepReport& report)
 {
 	const auto&       boundary = system.model.boundary;
-	const bool        isShared = bool(system.model.division);
+	const Division&   division = *system.model.division;
 	const std::size_t boxes = boundary.boxes().size(), told = report.reactions.size(); // that of an axis may have been taken off
 	report.openReactions.resize(boundary.open().size(), Vec3::Zero());
 	std::vector<Vec3> sums(boxes + boundary.open().size(), Vec3::Zero());
-	if (!isShared) {
+	if (division.processes->rank() == 0) { // who brings along what there is already
 		std::copy(report.reactions.begin(), report.reactions.end(), sums.begin());
 		std::copy(report.openReactions.begin(), report.openReactions.end(), sums.begin() + boxes);
 	}
@@ -107,12 +107,11 @@ template <int Dim> void addForces(const CutPatches<Dim>& cut, const StepSystem<D
 	for (std::size_t n = 0; n < cut.nodes.size(); ++n)
 		for (int i = 0; i < Dim; ++i)
 			if (const int owner = ownerOf(cut.nodes[n], i, boundary); owner >= 0) sums[owner][i] += force[first + Dim * int(n) + i];
-	if (isShared && !sums.empty()) addUp(*system.model.processes, sums.front().data(), 3 * int(sums.size()));
-	const auto give = [&](Vec3& reaction, const Vec3& sum) { reaction = isShared ? Vec3(reaction + sum) : sum; };
+	if (!sums.empty()) addUp(*division.processes, sums.front().data(), 3 * int(sums.size()));
 	for (std::size_t b = 0; b < told; ++b)
-		give(report.reactions[b], sums[b]);
+		report.reactions[b] = sums[b];
 	for (std::size_t b = 0; b < report.openReactions.size(); ++b)
-		give(report.openReactions[b], sums[boxes + b]);
+		report.openReactions[b] = sums[boxes + b];
 }
 
 } // namespace

@@ -34,9 +34,9 @@ template <int Dim> Stiffest stiffestOfOwn(const PointCloud<Dim>& cloud, const Mo
 
 template <int Dim> Stiffest stiffest(const PointCloud<Dim>& cloud, const Model<Dim>& model)
 {
-	const Stiffest own      = stiffestOfOwn(cloud, model);
-	const auto&    division = model.division;
-	return division ? Stiffest { division->largest(own.pressureWave), division->largest(own.bar), division->largest(own.spacing) } : own;
+	const Stiffest  own      = stiffestOfOwn(cloud, model);
+	const Division& division = *model.division;
+	return { division.largest(own.pressureWave), division.largest(own.bar), division.largest(own.spacing) };
 }
 
 template <int Dim> double criticalStep(const PointCloud<Dim>& cloud, const Model<Dim>& model, double ghostMass, double penalty)

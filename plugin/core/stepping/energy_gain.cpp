@@ -65,9 +65,9 @@ template <int Dim> EnergyGain energyGain(const StepSystem<Dim>& system, const Po
 	std::vector<char> isHencky;
 	for (const auto& material : model.materials)
 		isHencky.push_back(material.law->isLinear);
-	const std::size_t count = model.division ? model.division->own() : before.size();
+	const std::size_t count = model.division->ownOf(before.size());
 	EnergyGain        sum   = sumOf(count, [&](std::size_t p) { return gainOf(before, after, p, isHencky[before.material[p]]); });
-	if (model.division) sum = { model.division->sum(sum.gain), model.division->sum(sum.inPlay) };
+	sum                     = { model.division->sum(sum.gain), model.division->sum(sum.inPlay) };
 	for (const auto& term : system.terms)
 		if (const auto* inertia = dynamic_cast<const Inertia<Dim>*>(term.get())) sum.inPlay += inertia->kineticEnergy();
 	return sum;

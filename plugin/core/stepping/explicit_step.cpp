@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "core/stepping/explicit_step.hpp"
 #include "core/base/stopwatch.hpp"
+#include "core/parallel/halo.hpp"
 #include "core/stepping/acceptance.hpp"
 #include "core/stepping/beyond_walls.hpp"
-#include "core/stepping/halo.hpp"
 #include "core/stepping/outcome.hpp"
 #include "core/terms/explicit_inertia.hpp"
 
@@ -34,8 +34,8 @@ template <int Dim> bool balance(const StepSystem<Dim>& system, const Eigen::Vect
 
 template <int Dim> StepReport explicitStep(PointCloud<Dim>& cloud, const Model<Dim>& model, const Load<Dim>& load, Motion<Dim>& motion)
 {
-	StepReport      report;
-	const Halo<Dim> halo(cloud, model);
+	StepReport report;
+	const Halo halo(cloud, *model.division, [&] { return pointsForOthers(cloud, model); });
 	// 1. basis functions and populated cells; boundary cells and ghost faces
 	const StepSystem<Dim> system(cloud, model, load, report);
 	// 2. points to nodes: velocities in the middle of the step, and so the displacements

@@ -26,11 +26,11 @@ public:
 		double     gap; ///< [cells]
 	};
 	/// The widest gap that has opened between a node and the soil before it, if one has.
-	std::optional<Loss> loss(const PointCloud<Dim>& cloud, const Grid<Dim>& grid, const Division* division)
+	std::optional<Loss> loss(const PointCloud<Dim>& cloud, const Grid<Dim>& grid, const Division& division)
 	{
 		for (std::size_t p = 0; p < cloud.size(); ++p)
 			look(cloud, int(p), grid);
-		if (division) takeFromOthers(*division);
+		takeFromOthers(division);
 		std::optional<Loss> widest;
 		for (const auto& [node, gap] : gaps)
 			if (gap.hasOpened() && (!widest || gap.now > widest->gap)) widest = Loss { Grid<Dim>::index(node), gap.now };
@@ -44,7 +44,7 @@ private:
 		for (const auto& [node, gap] : gaps)
 			own.push_back({ node, gap });
 		gaps.clear();
-		for (const auto& [node, gap] : joined(*division.processes, own))
+		for (const auto& [node, gap] : division.joined(std::move(own)))
 			keep(node, gap);
 	}
 
@@ -138,15 +138,15 @@ template <class V> std::string listed(const V& x)
 	return text.str() + ")";
 }
 
-template <int Dim> std::string withoutSoil(const HeldBox<Dim>& box, const PointCloud<Dim>& cloud, const Grid<Dim>& grid, const Division* division)
+template <int Dim> std::string withoutSoil(const HeldBox<Dim>& box, const PointCloud<Dim>& cloud, const Grid<Dim>& grid, const Division& division)
 {
 	Vec<Dim> low = Vec<Dim>::Constant(std::numeric_limits<double>::infinity()), high = -low;
 	for (std::size_t p = 0; p < cloud.size(); ++p) {
 		low  = low.cwiseMin(cloud.position[p] - cloud.halfSize[p]);
 		high = high.cwiseMax(cloud.position[p] + cloud.halfSize[p]);
 	}
-	for (int a = 0; a < Dim && division; ++a)
-		low[a] = -division->largest(-low[a]), high[a] = division->largest(high[a]);
+	for (int a = 0; a < Dim; ++a)
+		low[a] = -division.largest(-low[a]), high[a] = division.largest(high[a]);
 	const auto place = [&](const Index<Dim>& node) {
 		Vec<Dim> x = grid.nodePosition(node);
 		for (int a = 0; a < Dim; ++a)
@@ -158,9 +158,9 @@ template <int Dim> std::string withoutSoil(const HeldBox<Dim>& box, const PointC
 }
 
 template <int Dim>
-std::string withdrawn(const HeldBox<Dim>& box, const PointCloud<Dim>& cloud, const Grid<Dim>& grid, const LoadFactor& load, const Division* division)
+std::string withdrawn(const HeldBox<Dim>& box, const PointCloud<Dim>& cloud, const Grid<Dim>& grid, const LoadFactor& load, const Division& division)
 {
-	if (cloud.position0.empty() && !division) return "";
+	if (division.largest(double(cloud.position0.size())) == 0) return "";             // no process knows
 	const double before = load.before(), factor = before != 0 ? before : load.growth; // what has pushed, or begins to
 	for (int a = 0; a < Dim; ++a) {
 		const double push = factor * box.displacement[a];
@@ -181,8 +181,8 @@ std::string withdrawn(const HeldBox<Dim>& box, const PointCloud<Dim>& cloud, con
 
 template <int Dim> std::string lostGrip(const PointCloud<Dim>& cloud, const CloudBasis<Dim>& basis, const Model<Dim>& model, const Load<Dim>& load)
 {
-	const auto& boxes    = model.boundary.boxes();
-	const auto* division = model.division.get();
+	const auto&     boxes    = model.boundary.boxes();
+	const Division& division = *model.division;
 	for (std::size_t b = 0; b < boxes.size(); ++b) {
 		if (boxes[b].displacement.isZero(0)) continue;
 		const std::string wrong = holdsSoil(boxes[b], basis) ? withdrawn(boxes[b], cloud, model.grid, load.ofBox(int(b)), division)

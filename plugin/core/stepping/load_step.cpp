@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "core/stepping/load_step.hpp"
 #include "core/base/stopwatch.hpp"
+#include "core/parallel/halo.hpp"
 #include "core/stepping/acceptance.hpp"
 #include "core/stepping/beyond_walls.hpp"
 #include "core/stepping/equilibrium.hpp"
 #include "core/stepping/grip.hpp"
-#include "core/stepping/halo.hpp"
 #include "core/stepping/outcome.hpp"
 #include "core/stepping/rate_change.hpp"
 #include "core/stepping/restraint.hpp"
@@ -20,7 +20,7 @@ template <int Dim> bool isHeld(const StepSystem<Dim>& system, const PointCloud<D
 {
 	const Stopwatch   watch(report.times.basis);
 	const std::string lost = system.hasInertia() ? "" : lostGrip(cloud, system.basis, system.model, load);
-	const Restraint   held = restraint(system.basis, system.model.grid, system.model.boundary, system.terms, bool(system.model.division));
+	const Restraint   held = restraint(system.basis, system.model.grid, system.model.boundary, system.terms, *system.model.division);
 	report.parts           = held.parts;
 	if (const std::string between = boxBetweenNodes(system.basis, system.model.boundary); !between.empty())
 		return !fail(report, Failure::misplaced, between);
@@ -34,7 +34,7 @@ template <int Dim> void explain(const StepSystem<Dim>& system, const Eigen::Vect
 {
 	if (report.converged()) return askTerms(system, d, report);
 	if (report.failure != Failure::singular && !canBeCut(report.failure)) return;
-	const Restraint held = restraintAt(d, system.basis, system.model.grid, system.model.boundary, system.terms, bool(system.model.division));
+	const Restraint held = restraintAt(d, system.basis, system.model.grid, system.model.boundary, system.terms, *system.model.division);
 	if (!held.freeMotion.empty())
 		fail(report, Failure::slides, "only contact, which slips or comes off there, would hold the " + held.freeMotion + " (" + report.cause + ")");
 }
@@ -66,7 +66,7 @@ template <int Dim> StepReport loadStep(PointCloud<Dim>& cloud, const Model<Dim>&
 {
 	StepReport report;
 	solver.resetTimes();
-	const Halo<Dim> halo(cloud, model);
+	const Halo halo(cloud, *model.division, [&] { return pointsForOthers(cloud, model); });
 	// 1. basis functions and populated cells; boundary cells, ghost faces and K_g
 	const StepSystem<Dim> system(cloud, model, load, report);
 	if (!isHeld(system, cloud, load, report)) return report;

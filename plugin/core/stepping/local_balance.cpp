@@ -97,7 +97,7 @@ template <int Dim> double LocalBalance<Dim>::largestStrain(const Eigen::VectorXd
 	double before = 0, difference = 0;
 	for (int i = 0; i < int(system_.points.volume0.size()); ++i)
 		before = std::max(before, elastic_.strainAtStart(i));
-	if (system_.model.division) before = system_.model.division->largest(before);
+	before = system_.model.division->largest(before);
 	forNeighbours(K_, [&](int a, int b) {
 		const int cells = 1 << Grid<Dim>::level(K_.keys()[a]);
 		difference      = std::max(difference, (d.segment<Dim>(Dim * a) - d.segment<Dim>(Dim * b)).template lpNorm<Eigen::Infinity>() / cells);

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // What a load step is given besides the points.
 #pragma once
-#include "core/base/processes.hpp"
 #include "core/grid/basis.hpp"
 #include "core/grid/boundary.hpp"
-#include "core/grid/division.hpp"
 #include "core/materials/material.hpp"
+#include "core/parallel/division.hpp"
 #include "core/solvers/linear_solver.hpp"
 #include "core/stepping/load_curve.hpp"
 #include "core/terms/coupled_term.hpp"
@@ -50,13 +49,13 @@ template <int Dim> struct Model {
 	std::map<int, std::shared_ptr<Wall<Dim>>> walls {};
 	GhostSettings                             ghost;
 	NewtonSettings                            newton;
-	std::vector<TermOfStep<Dim>>              terms {};         ///< besides the points' resistance and the ghost stabilisation
-	std::vector<NodalField<Dim>>              fields {};        ///< besides the displacements
-	std::vector<CoupledTermOfStep<Dim>>       coupledTerms {};  ///< of all fields, and of nodes that are apart
-	std::vector<InPlace<Dim>>                 inPlace {};       ///< of those of the terms that need it
-	bool                                      atMiddle = false; ///< the points' resistance is that after half of the displacements
-	std::shared_ptr<const Processes>          processes {};     ///< that work on it together; null: this one alone
-	std::shared_ptr<Division>                 division {};      ///< of the points among them; null: all have the same points
+	std::vector<TermOfStep<Dim>>              terms {};                                 ///< besides the points' resistance and the ghost stabilisation
+	std::vector<NodalField<Dim>>              fields {};                                ///< besides the displacements
+	std::vector<CoupledTermOfStep<Dim>>       coupledTerms {};                          ///< of all fields, and of nodes that are apart
+	std::vector<InPlace<Dim>>                 inPlace {};                               ///< of those of the terms that need it
+	bool                                      atMiddle  = false;                        ///< the points' resistance is that after half of the displacements
+	std::shared_ptr<const Processes>          processes = Processes::alone();           ///< that work on it together
+	std::shared_ptr<Division>                 division  = std::make_shared<Division>(); ///< of the points among them; whole where all have the same points
 };
 
 template <int Dim> struct Load {

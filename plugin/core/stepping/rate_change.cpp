@@ -13,7 +13,7 @@ namespace {
 template <int Dim> double weighed(const StepSystem<Dim>& system, const std::vector<double>& volume, const std::vector<double>& ofPoints)
 {
 	const double own = std::inner_product(volume.begin(), volume.end(), ofPoints.begin(), 0.);
-	return system.model.division ? system.model.division->sum(own) : own;
+	return system.model.division->sum(own);
 }
 
 /// Root of the mean square of a nodal vector at the points.
@@ -24,8 +24,9 @@ template <int Dim> double atPoints(const StepSystem<Dim>& system, const Eigen::V
 		squares[i] = atPoint(patch, value, count, nodal).squaredNorm();
 	});
 	std::vector<double> volume = system.points.volume0;
-	for (std::size_t i = 0; system.model.division && i < volume.size(); ++i)
-		if (system.basis.order[i] >= system.model.division->own()) volume[i] = 0;
+	const int           own    = system.model.division->ownOf(volume.size());
+	for (std::size_t i = 0; i < volume.size(); ++i)
+		if (system.basis.order[i] >= own) volume[i] = 0;
 	return std::sqrt(weighed(system, volume, squares) / weighed(system, volume, std::vector<double>(volume.size(), 1)));
 }
 
@@ -44,7 +45,7 @@ template <int Dim> double plasticShare(const StepSystem<Dim>& system, const Eige
 	forUpdatedPoints(system.basis, system.points, materials, d, [&](int p, const PointUpdate<Dim>& u) {
 		plastic[p] = (trial[p].full() - u.elasticStrain.full()).squaredNorm();
 	});
-	if (system.model.division) std::fill(volume.begin() + system.model.division->own(), volume.end(), 0);
+	std::fill(volume.begin() + system.model.division->ownOf(volume.size()), volume.end(), 0);
 	const double of = weighed(system, volume, plastic), whole = weighed(system, volume, all);
 	return of < whole ? std::sqrt(of / whole) : of > 0 ? 1 : 0;
 }

@@ -173,9 +173,10 @@ template <int Dim> std::string describe(const Part<Dim>& part, const Grid<Dim>& 
 
 /// `holds(term, hold)` tells what a term holds.
 template <int Dim, class F>
-Restraint restraintBy(const CloudBasis<Dim>& basis, const Grid<Dim>& grid, const Boundary<Dim>& boundary, const Terms<Dim>& terms, bool byCells, F&& holds)
+Restraint restraintBy(
+        const CloudBasis<Dim>& basis, const Grid<Dim>& grid, const Boundary<Dim>& boundary, const Terms<Dim>& terms, const Division& division, F&& holds)
 {
-	const Parts<Dim>         parts(basis, grid, byCells);
+	const Parts<Dim>         parts(basis, grid, !division.isWhole());
 	std::map<int, Part<Dim>> found;
 	for (std::size_t n = 0; n < basis.nodes.size(); ++n) {
 		Part<Dim>& part = found[parts.root(n)];
@@ -206,22 +207,23 @@ Restraint restraintBy(const CloudBasis<Dim>& basis, const Grid<Dim>& grid, const
 } // namespace
 
 template <int Dim>
-Restraint restraint(const CloudBasis<Dim>& basis, const Grid<Dim>& grid, const Boundary<Dim>& boundary, const Terms<Dim>& terms, bool isDivided)
+Restraint restraint(const CloudBasis<Dim>& basis, const Grid<Dim>& grid, const Boundary<Dim>& boundary, const Terms<Dim>& terms, const Division& division)
 {
-	return restraintBy(basis, grid, boundary, terms, isDivided, [](const Term<Dim>& term, const typename Term<Dim>::Hold& hold) { term.restrain(hold); });
+	return restraintBy(basis, grid, boundary, terms, division, [](const Term<Dim>& term, const typename Term<Dim>::Hold& hold) { term.restrain(hold); });
 }
 
 template <int Dim>
 Restraint restraintAt(
-        const Eigen::VectorXd& d, const CloudBasis<Dim>& basis, const Grid<Dim>& grid, const Boundary<Dim>& boundary, const Terms<Dim>& terms, bool isDivided)
+        const Eigen::VectorXd& d, const CloudBasis<Dim>& basis, const Grid<Dim>& grid, const Boundary<Dim>& boundary, const Terms<Dim>& terms,
+        const Division& division)
 {
 	return restraintBy(
-	        basis, grid, boundary, terms, isDivided, [&](const Term<Dim>& term, const typename Term<Dim>::Hold& hold) { term.restrainAt(d, hold); });
+	        basis, grid, boundary, terms, division, [&](const Term<Dim>& term, const typename Term<Dim>::Hold& hold) { term.restrainAt(d, hold); });
 }
 
-template Restraint restraint(const CloudBasis<2>&, const Grid<2>&, const Boundary<2>&, const Terms<2>&, bool);
-template Restraint restraint(const CloudBasis<3>&, const Grid<3>&, const Boundary<3>&, const Terms<3>&, bool);
-template Restraint restraintAt(const Eigen::VectorXd&, const CloudBasis<2>&, const Grid<2>&, const Boundary<2>&, const Terms<2>&, bool);
-template Restraint restraintAt(const Eigen::VectorXd&, const CloudBasis<3>&, const Grid<3>&, const Boundary<3>&, const Terms<3>&, bool);
+template Restraint restraint(const CloudBasis<2>&, const Grid<2>&, const Boundary<2>&, const Terms<2>&, const Division&);
+template Restraint restraint(const CloudBasis<3>&, const Grid<3>&, const Boundary<3>&, const Terms<3>&, const Division&);
+template Restraint restraintAt(const Eigen::VectorXd&, const CloudBasis<2>&, const Grid<2>&, const Boundary<2>&, const Terms<2>&, const Division&);
+template Restraint restraintAt(const Eigen::VectorXd&, const CloudBasis<3>&, const Grid<3>&, const Boundary<3>&, const Terms<3>&, const Division&);
 
 } // namespace gimpm

@@ -11,11 +11,10 @@ struct Restraint {
 	std::string freeMotion; ///< of the first part found that can move freely ("translation along y of the material around (1, 2)"), or empty
 };
 
-/// `isDivided`: the basis has the points of one of several processes.
-template <int Dim> Restraint restraint(const CloudBasis<Dim>&, const Grid<Dim>&, const Boundary<Dim>&, const Terms<Dim>& = {}, bool isDivided = false);
+template <int Dim> Restraint restraint(const CloudBasis<Dim>&, const Grid<Dim>&, const Boundary<Dim>&, const Terms<Dim>& = {}, const Division& = {});
 
 /// The same with what the terms still hold at displacements d.
 template <int Dim>
-Restraint restraintAt(const Eigen::VectorXd& d, const CloudBasis<Dim>&, const Grid<Dim>&, const Boundary<Dim>&, const Terms<Dim>&, bool isDivided = false);
+Restraint restraintAt(const Eigen::VectorXd& d, const CloudBasis<Dim>&, const Grid<Dim>&, const Boundary<Dim>&, const Terms<Dim>&, const Division& = {});
 
 } // namespace gimpm

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "core/stepping/share.hpp"
-#include "core/base/checksum.hpp"
 #include "core/base/even_parts.hpp"
 #include <algorithm>
 #include <limits>
@@ -61,13 +60,23 @@ template <int Dim> Colours<Dim> onlyTouching(const NodeShare& share, const Cloud
 
 } // namespace
 
-template <int Dim>
-Share<Dim>::Share(const Processes& processes, const CloudBasis<Dim>& basis, const std::vector<GhostFace<Dim>>& faces, const Division* division)
-        : division_(division)
-        , nodes_ { processes, division ? division->startsAmong(basis.nodes) : evenParts(workOf(basis), processes.size()) }
-        , colours_(basis.colours)
+/// Whoever has the points around a node has its row; those who know all points divide the work.
+template <int Dim> std::vector<int> Share<Dim>::startsAmong(const Processes& processes, const CloudBasis<Dim>& basis, const Division& division)
 {
-	if (division) colours_ = onlyTouching(nodes_, basis);
+	if (processes.size() == 1) return { 0, int(basis.nodes.size()) };
+	return division.isWhole() ? evenParts(workOf(basis), processes.size()) : division.startsAmong(basis.nodes);
+}
+
+template <int Dim>
+Share<Dim>::Share(const Processes& processes, const CloudBasis<Dim>& basis, const std::vector<GhostFace<Dim>>& faces, const Division& division)
+        : basis_(basis)
+        , allFaces_(faces)
+        , division_(division)
+        , nodes_ { processes, startsAmong(processes, basis, division) }
+        , known_(division.shareOf(basis.nodes))
+{
+	if (nodes_.isWhole()) return;
+	colours_ = division.isWhole() ? basis.colours : onlyTouching(nodes_, basis);
 	for (auto& tiles : colours_)
 		keepTouching(nodes_, basis.patches, tiles);
 	std::copy_if(faces.begin(), faces.end(), std::back_inserter(faces_), [&](const auto& face) {
@@ -77,9 +86,8 @@ Share<Dim>::Share(const Processes& processes, const CloudBasis<Dim>& basis, cons
 
 template <int Dim> std::optional<PointFailure> Share<Dim>::firstOf(const std::optional<PointFailure>& failure) const
 {
-	constexpr std::int64_t none   = std::numeric_limits<std::int64_t>::max();
-	const auto             number = [&] { return division_ ? division_->idOf(failure->point) : failure->point; };
-	std::int64_t           code   = failure ? 2 * number() + (failure->reason == PointFailure::Reason::noResponse) : none;
+	constexpr std::int64_t none = std::numeric_limits<std::int64_t>::max();
+	std::int64_t           code = failure ? 2 * division_.idOf(failure->point) + (failure->reason == PointFailure::Reason::noResponse) : none;
 	nodes_.processes.smallest(&code, 1);
 	if (code == none) return std::nullopt;
 	return PointFailure { int(code / 2), code % 2 ? PointFailure::Reason::noResponse : PointFailure::Reason::inverted };
@@ -87,13 +95,7 @@ template <int Dim> std::optional<PointFailure> Share<Dim>::firstOf(const std::op
 
 template <int Dim> bool haveSamePoints(const Processes& processes, const PointCloud<Dim>& cloud)
 {
-	Checksum sum;
-	sum.mix(cloud.position), sum.mix(cloud.halfSize), sum.mix(cloud.volume0), sum.mix(cloud.defGrad), sum.mix(cloud.hoopStretch);
-	sum.mix(cloud.elasticStrain), sum.mix(cloud.stress), sum.mix(cloud.force), sum.mix(cloud.material);
-	for (const auto* columns : { &cloud.internals, &cloud.parameters })
-		for (const auto& column : *columns)
-			sum.mix(column);
-	return processes.haveSame(sum.take() ^ cloud.size());
+	return haveSame(processes, [&] { return checksumOf(cloud); });
 }
 
 #define GIMPM_INSTANTIATE(Dim)                                                                                                                                 \

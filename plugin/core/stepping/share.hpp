@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The part of a load step that is done by one of several processes.
 #pragma once
-#include "core/grid/division.hpp"
-#include "core/solvers/node_share.hpp"
-#include "core/terms/ghost.hpp"
+#include "core/grid/neighbourhood.hpp"
+#include "core/stepping/model.hpp"
 #include "core/terms/internal_force.hpp"
 
 namespace gimpm {
@@ -13,22 +12,34 @@ namespace gimpm {
 /// nodes: they take little, and some of them need to be whole. Where points are divided among processes, they are not, and what the points add elsewhere is completed.
 template <int Dim> class Share {
 public:
-	/// The processes are kept by reference, and so is the division of the points, if there is one.
-	Share(const Processes&, const CloudBasis<Dim>&, const std::vector<GhostFace<Dim>>&, const Division* = nullptr);
+	/// All are kept by reference. One process that is alone has all there is.
+	Share(const Processes&, const CloudBasis<Dim>&, const std::vector<GhostFace<Dim>>&, const Division&);
+	Share(const Share&) = delete;
 
 	const NodeShare&                   nodes() const { return nodes_; }
-	const Colours<Dim>&                colours() const { return colours_; } ///< patches that touch them
-	const std::vector<GhostFace<Dim>>& faces() const { return faces_; }
+	const NodeShare&                   knownNodes() const { return known_; } ///< around which this process has all points
+	const Colours<Dim>&                colours() const { return nodes_.isWhole() ? basis_.colours : colours_; } ///< patches that touch the nodes
+	const std::vector<GhostFace<Dim>>& faces() const { return nodes_.isWhole() ? allFaces_ : faces_; }
 
 	/// That of the point with the smallest number, or id where points are divided, wherever it is.
 	std::optional<PointFailure> firstOf(const std::optional<PointFailure>&) const;
 
 private:
-	const Division*             division_;
-	NodeShare                   nodes_;
-	Colours<Dim>                colours_;
-	std::vector<GhostFace<Dim>> faces_;
+	static std::vector<int> startsAmong(const Processes&, const CloudBasis<Dim>&, const Division&);
+
+	const CloudBasis<Dim>&             basis_;
+	const std::vector<GhostFace<Dim>>& allFaces_;
+	const Division&                    division_;
+	const NodeShare                    nodes_, known_;
+	Colours<Dim>                       colours_;
+	std::vector<GhostFace<Dim>>        faces_;
 };
+
+/// Those that others need to make the step with.
+template <int Dim> std::vector<std::vector<int>> pointsForOthers(const PointCloud<Dim>& cloud, const Model<Dim>& model)
+{
+	return neededPoints(cloud, *model.division, model.grid, model.basis, model.fBar || model.ghost.factor != 0);
+}
 
 /// Whether all processes hold the same points, to the last bit.
 template <int Dim> bool haveSamePoints(const Processes&, const PointCloud<Dim>&);

@@ -34,7 +34,6 @@ template <int Dim> int countOfMixed(const PointCloud<Dim>& cloud, const Model<Di
 {
 	const auto mixed = mixedCells(basis, cloud.material);
 	const auto count = [&](std::size_t first, std::size_t last) { return int(std::count(mixed.begin() + first, mixed.begin() + last, true)); };
-	if (!model.division) return count(0, mixed.size());
 	const auto start = model.division->startsAmong(basis.cells);
 	const int  rank  = model.division->processes->rank();
 	return int(model.division->sum(count(start[rank], start[rank + 1])));
@@ -59,11 +58,10 @@ StepSystem<Dim>::StepSystem(const PointCloud<Dim>& cloud, const Model<Dim>& m, c
 {
 	{
 		const Stopwatch watch(report.times.basis);
-		basis  = model.division ? cloudBasis(cloud, model.grid, model.basis, model.boundary, *model.division)
-		                        : cloudBasis(cloud, model.grid, model.basis, model.boundary);
-		points = stepPoints(cloud, model.materials, basis, model.fBar);
-		points.duration = load.duration;
-		if (model.division) points.isSymmetric = model.division->largest(points.isSymmetric ? 0 : 1) == 0; // also for points that others have
+		basis              = cloudBasis(cloud, model.grid, model.basis, model.boundary, *model.division);
+		points             = stepPoints(cloud, model.materials, basis, model.fBar);
+		points.duration    = load.duration;
+		points.isSymmetric = model.division->largest(points.isSymmetric ? 0 : 1) == 0; // also for points that others have
 		mapFields();
 		external = Eigen::VectorXd::Zero(map.size());
 		addPointForces(basis, pointForces(cloud, model, load), external);
@@ -71,7 +69,7 @@ StepSystem<Dim>::StepSystem(const PointCloud<Dim>& cloud, const Model<Dim>& m, c
 	}
 	faces = stabilise(stiffnessOf_, model, basis, report);
 	const Stopwatch watch(report.times.basis);
-	if (model.processes) share_ = std::make_unique<Share<Dim>>(*model.processes, basis, faces, model.division.get());
+	share_ = std::make_unique<Share<Dim>>(*model.processes, basis, faces, *model.division);
 	complete(external);
 	holdNodes(load);
 	makeTerms(load);
@@ -79,7 +77,7 @@ StepSystem<Dim>::StepSystem(const PointCloud<Dim>& cloud, const Model<Dim>& m, c
 	report.dofs               = dofs.count;
 	report.populatedCells     = int(basis.populatedLeaves().size());
 	report.mixedCells         = countOfMixed(cloud, model, basis);
-	report.largestWallOverlap = model.division ? model.division->largest(basis.largestWallOverlap) : basis.largestWallOverlap;
+	report.largestWallOverlap = model.division->largest(basis.largestWallOverlap);
 }
 
 template <int Dim> void StepSystem<Dim>::mapFields()
@@ -128,25 +126,25 @@ template <int Dim> void StepSystem<Dim>::holdField(int field, const FieldStart& 
 /// The terms that processes share.
 template <int Dim> void StepSystem<Dim>::resistPoints()
 {
-	const auto& colours = share_ ? share_->colours() : basis.colours;
+	const auto& colours = share_->colours();
 	if (model.atMiddle) terms.push_back(std::make_unique<InternalForceAtMiddle<Dim>>(basis, colours, points, model.materials));
 	else
 		terms.push_back(std::make_unique<InternalForce<Dim>>(basis, colours, points, model.materials));
-	if (!faces.empty()) terms.push_back(std::make_unique<GhostForce<Dim>>(share_ ? share_->faces() : faces, model.grid.cellSize));
+	if (!faces.empty()) terms.push_back(std::make_unique<GhostForce<Dim>>(share_->faces(), model.grid.cellSize));
 }
 
 template <int Dim> void StepSystem<Dim>::makeTerms(const Load<Dim>& load)
 {
 	resistPoints();
 	for (const auto& [box, wall] : model.walls)
-		terms.push_back(std::make_unique<WallForce<Dim>>(*wall, basis, stiffnessOf_, model.grid, model.division.get()));
+		terms.push_back(std::make_unique<WallForce<Dim>>(*wall, basis, stiffnessOf_, model.grid, *model.division));
 	imbalance_ = [this, earlier = load.before()] {
 		Eigen::VectorXd before = Eigen::VectorXd::Zero(nodalSize()), resistance = before;
 		addPointForces(basis, pointForces(cloud_, model, earlier), before);
 		for (const auto& term : terms)
 			term->addBefore(resistance);
 		if (isCoupled()) addCoupledBefore(resistance);
-		if (share_) share_->nodes().complete(resistance);
+		share().complete(resistance);
 		complete(before);
 		return Eigen::VectorXd(before - resistance);
 	};
@@ -164,15 +162,14 @@ template <int Dim> void StepSystem<Dim>::makeTerms(const Load<Dim>& load)
 template <int Dim> std::string StepSystem<Dim>::obstacle() const
 {
 	if (!map.isAlone() && coupled_.empty()) return "no term is for the field '" + map[1].name + "'";
-	if (!map.isAlone() && model.processes) return "several processes can share displacements only, and there is the field '" + map[1].name + "'";
+	if (!map.isAlone() && model.processes->size() > 1)
+		return "several processes can share displacements only, and there is the field '" + map[1].name + "'";
 	return "";
 }
 
 template <int Dim> void StepSystem<Dim>::prepare(NodeMatrix<Dim>& K, Couplings* beside) const
 {
-	if (share()) K.reset(basis.nodes, isSymmetric(), model.grid, { share()->first(), share()->last() });
-	else
-		K.reset(basis.nodes, isSymmetric(), model.grid);
+	K.reset(basis.nodes, isSymmetric(), model.grid, share().range());
 	for (const auto& term : terms)
 		term->mark(K);
 	if (!beside || !isCoupled()) return;
@@ -240,10 +237,9 @@ std::optional<PointFailure> StepSystem<Dim>::evaluate(
 	std::optional<PointFailure> failure = isCoupled() ? addCoupled(d, force, K, sizes, beside) : addTerms(d, { force, K, sizes });
 	constraints.template fold<Dim>(map, force);
 	if (sizes) constraints.template fold<Dim>(map, *sizes);
-	if (!share_) return failure;
 	failure = share_->firstOf(failure);
-	share_->nodes().complete(force); // those of a failure are reported, by all alike
-	if (sizes && !failure) share_->nodes().complete(*sizes);
+	share().complete(force); // those of a failure are reported, by all alike
+	if (sizes && !failure) share().complete(*sizes);
 	return failure;
 }
 

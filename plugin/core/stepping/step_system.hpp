@@ -38,8 +38,8 @@ template <int Dim> struct StepSystem {
 
 	bool isSymmetric() const;
 
-	/// Rows of the nodes that this process assembles; null: all.
-	const NodeShare* share() const { return share_ ? &share_->nodes() : nullptr; }
+	/// Rows of the nodes that this process assembles.
+	const NodeShare& share() const { return share_->nodes(); }
 
 	/// Why the system cannot be solved as it is asked for, a clause; empty if it can.
 	std::string obstacle() const;
@@ -62,13 +62,11 @@ template <int Dim> struct StepSystem {
 	/// What round-off of d leaves of forces that strains do not tell.
 	Eigen::VectorXd roundOff(const Eigen::VectorXd& d) const;
 
-	/// Where points are divided: the sums of the points around nodes, which each process knows of its own nodes.
-	void complete(Eigen::VectorXd& nodal) const
-	{
-		if (model.division) share()->complete(nodal);
-	}
+	/// The sums of the points around nodes, which each process knows of the nodes around which it has all points.
+	void complete(Eigen::VectorXd& nodal) const { share_->knownNodes().complete(nodal); }
+
 	/// Whether this process is the one that counts the points of the patch, of those that have them.
-	bool counts(const Patch<Dim>& patch) const { return !model.division || model.division->owns(patch.cell); }
+	bool counts(const Patch<Dim>& patch) const { return model.division->owns(patch.cell); }
 
 	bool hasInertia() const { return ownMotion.size() > 0; }
 	bool isCoupled() const { return !coupled_.empty() || !map.isAlone(); } ///< nodes that are apart, or several fields
@@ -80,14 +78,14 @@ template <int Dim> struct StepSystem {
 	Beginning<Dim> beginning() const
 	{
 		const Constraints& held = map.isAlone() ? constraints : ofDisplacements_;
-		return { cloud_, basis, model.grid, stiffnessOf_, faces, held.dofs, held.prescribed, imbalance_, share(), model.division.get() };
+		return { cloud_, basis, model.grid, stiffnessOf_, faces, held.dofs, held.prescribed, imbalance_, share_->knownNodes(), *model.division };
 	}
 
 private:
 	const PointCloud<Dim>&           cloud_;
 	PointStiffness                   stiffnessOf_;
 	std::function<Eigen::VectorXd()> imbalance_;
-	std::unique_ptr<Share<Dim>>      share_;           ///< null: there is one process
+	std::unique_ptr<Share<Dim>>      share_;
 	std::vector<Eigen::VectorXd>     before_;          ///< the fields as the step begins; displacements are those of the step
 	Constraints                      ofDisplacements_; ///< where there are other fields
 	std::vector<CoupledTerm<Dim>*>   coupled_;         ///< of the terms

@@ -45,7 +45,7 @@ template <int Dim> Workload workload(const PointCloud<Dim>& cloud, const Model<D
 	}
 	const LinearProblem K = [&] {
 		const Stopwatch watch(report.times.assembly);
-		return LinearProblem(blocks, system.dofs, nullptr, system.isCoupled() ? &beside : nullptr);
+		return LinearProblem(blocks, system.dofs, system.isCoupled() ? &beside : nullptr);
 	}();
 	w.points         = int(cloud.size());
 	w.nodes          = report.nodes;

@@ -50,7 +50,7 @@ Absorption<Dim>::Absorption(
         : boundary_(boundary)
 {
 	addDrag(faces(step), materials, masses, step);
-	if (step.division) completeDrag(step);
+	completeDrag(step);
 	takeOver(step);
 	if (dashpots_.empty()) obstacle_ = boundary_.name + ": no face of a cell with material has all of its nodes in the box of that absorbing boundary";
 	for (auto& [node, dashpot] : dashpots_)
@@ -142,7 +142,7 @@ template <int Dim> void Absorption<Dim>::completeDrag(const Beginning<Dim>& step
 	Eigen::VectorXd drag = Eigen::VectorXd::Zero(Dim * Eigen::Index(step.basis.nodes.size()));
 	for (const auto& [node, dashpot] : dashpots_)
 		drag.template segment<Dim>(Dim * node) = dashpot.drag;
-	step.share->complete(drag);
+	step.share.complete(drag);
 	for (auto& [node, dashpot] : dashpots_)
 		dashpot.drag = drag.template segment<Dim>(Dim * node);
 }

@@ -43,16 +43,6 @@ template <int Dim> Vec<Dim> turned(const Vec<Dim>& force, const Vec<Dim>& axis, 
 	return force;
 }
 
-/// What one process has found; of several the first one that has.
-std::string ofAny(const std::string& found, const Division* division)
-{
-	if (!division) return found;
-	const Processes& all   = *division->processes;
-	std::int64_t     first = found.empty() ? all.size() : all.rank();
-	all.smallest(&first, 1);
-	return first == all.size() ? "" : all.told(found, int(first));
-}
-
 } // namespace
 
 template <int Dim>
@@ -108,12 +98,12 @@ template <int Dim> void Contact<Dim>::look(const Near& near)
 template <int Dim> void Contact<Dim>::find(const Beginning<Dim>& step)
 {
 	for (const auto& [body, point, side] : nearPoints(system_.bodies, cloud_, basis_, grid_)) {
-		if (division_ && point >= division_->own()) continue; // the process that has it tells of it
+		if (point >= division_.ownOf(cloud_.size())) continue; // the process that has it tells of it
 		const auto [volume, young] = step.stiffnessOf(point);
 		own_.push_back(point);
-		near_.push_back({ body, division_ ? int(division_->idOf(point)) : point, side, { cloud_, point }, volume, young });
+		near_.push_back({ body, int(division_.idOf(point)), side, { cloud_, point }, volume, young });
 	}
-	if (division_) near_ = joined(*division_->processes, near_);
+	near_ = division_.joined(std::move(near_));
 }
 
 template <int Dim> std::vector<PointDomain<Dim>> Contact<Dim>::domainsNow() const
@@ -121,7 +111,7 @@ template <int Dim> std::vector<PointDomain<Dim>> Contact<Dim>::domainsNow() cons
 	std::vector<PointDomain<Dim>> domains;
 	for (const int p : own_)
 		domains.emplace_back(cloud_, p);
-	return division_ ? joined(*division_->processes, domains) : domains;
+	return division_.joined(std::move(domains));
 }
 
 template <int Dim> void Contact<Dim>::addCorners(int number)
@@ -303,12 +293,12 @@ template <int Dim> Refusal Contact<Dim>::refusal(const Eigen::VectorXd& d) const
 template <int Dim> std::string Contact<Dim>::missed(const Eigen::VectorXd& d) const
 {
 	double most = d.size() > 0 ? Eigen::Map<const Eigen::Matrix<double, Dim, -1>>(d.data(), Dim, d.size() / Dim).colwise().norm().maxCoeff() : 0;
-	if (division_) most = division_->largest(most);
+	most        = division_.largest(most);
 	if (!(most > reachOfSoil(grid_))) return {};
 	std::string found;
 	for (const NearPoint& near : nearPoints(system_.bodies, cloud_, basis_, grid_, most))
-		if (found.empty() && !(division_ && near.point >= division_->own())) found = missed(near, d);
-	return ofAny(found, division_);
+		if (found.empty() && near.point < division_.ownOf(cloud_.size())) found = missed(near, d);
+	return division_.firstSaid(found);
 }
 
 template <int Dim> std::string Contact<Dim>::missed(const NearPoint& near, const Eigen::VectorXd& d) const

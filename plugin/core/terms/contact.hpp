@@ -129,7 +129,7 @@ private:
 	const PointCloud<Dim>& cloud_;
 	const CloudBasis<Dim>& basis_;
 	const Grid<Dim>&       grid_;
-	const Division*        division_; // null: all points are here
+	const Division&        division_;
 };
 
 } // namespace gimpm

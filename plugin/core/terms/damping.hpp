@@ -35,13 +35,13 @@ public:
 	virtual void commit(const Eigen::VectorXd& d, const Eigen::VectorXd& before, const Eigen::VectorXd& now) = 0;
 
 protected:
-	/// That the forces of the step have taken, by the trapezoidal rule [J]; `divided`: the nodes at which they are right in this process, null: at all.
-	double workTaken(const Eigen::VectorXd& d, const Eigen::VectorXd& before, const Eigen::VectorXd& now, const NodeShare* divided = nullptr) const
+	/// That the forces of the step have taken, by the trapezoidal rule [J]; `share`: the nodes at which they are right in this process, if not all.
+	double workTaken(const Eigen::VectorXd& d, const Eigen::VectorXd& before, const Eigen::VectorXd& now, const NodeShare& share = NodeShare::whole()) const
 	{
 		Eigen::VectorXd twice = Eigen::VectorXd::Zero(d.size());
 		addBefore(before, twice);
 		add(now, 0, { twice });
-		if (divided) divided->complete(twice);
+		share.complete(twice);
 		return twice.dot(d) / 2;
 	}
 };

@@ -11,8 +11,7 @@ template <int Dim> NodalMass<Dim> massOf(const Motion<Dim>& motion, const Beginn
 {
 	const Stopwatch watch(seconds);
 	const int       anyWay = int(step.faces.size()); // what is lumped wholly loses angular momentum: only bodies of which no cell is filled
-	return NodalMass<Dim>(
-	        step.basis, motion.mass, massFaces(motion, step), step.grid.cellSize, looseOf(motion, step, anyWay), step.division ? step.share : nullptr);
+	return NodalMass<Dim>(step.basis, motion.mass, massFaces(motion, step), step.grid.cellSize, looseOf(motion, step, anyWay), step.share);
 }
 
 } // namespace
@@ -20,7 +19,7 @@ template <int Dim> NodalMass<Dim> massOf(const Motion<Dim>& motion, const Beginn
 template <int Dim>
 ExplicitInertia<Dim>::ExplicitInertia(Motion<Dim>& motion, const Beginning<Dim>& step)
         : motion_(motion)
-        , share_(step.division ? step.share : nullptr)
+        , share_(step.share)
         , copies_(motion, step.division)
         , basis_(step.basis)
         , dofs_(step.dofs)
@@ -50,7 +49,7 @@ template <int Dim> void ExplicitInertia<Dim>::begin(const Beginning<Dim>& step)
 		solve(weighedAtNodes(basis_, motion_.mass, motion_.velocity, share_), dofs_, start_);
 		for (const auto& each : damping_)
 			each->addBefore(start_, drag);
-		if (share_) share_->complete(drag);
+		share_.complete(drag);
 		force -= drag;
 	}
 	solve(force, dofs_, a);
@@ -97,7 +96,7 @@ template <int Dim> Eigen::VectorXd ExplicitInertia<Dim>::accelerate(const Eigen:
 		each->add(middle_, 0, { force });
 		each->addDiagonal(C);
 	}
-	if (share_ && !damping_.empty()) share_->complete(force), share_->complete(C);
+	if (!damping_.empty()) share_.complete(force), share_.complete(C);
 	C *= T / 2;
 	const Eigen::VectorXd driving = imbalance - force;
 	solve(driving, dofs_, acceleration_, damping_.empty() ? nullptr : &C);
@@ -114,7 +113,7 @@ template <int Dim> void ExplicitInertia<Dim>::commit()
 	const Eigen::VectorXd d = displacements(), growth = jump_ + T / 2 * acceleration_;
 	Eigen::VectorXd       ghost = Eigen::VectorXd::Zero(d.size());
 	addGhostForce(faces_, h_, d, ghost);
-	if (share_) share_->complete(ghost);
+	share_.complete(ghost);
 	motion_.impactWork = energyOfBlow(mass_, middle_, blow_, jump_, middle_);
 	motion_.ghostWork  = T / 4 * (middle_ + end_).dot(ghost); // it acts in the second half, on the velocities' way from the one to the other
 	for (const auto& each : damping_)

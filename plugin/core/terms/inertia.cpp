@@ -10,7 +10,7 @@ template <int Dim>
 Inertia<Dim>::Inertia(Motion<Dim>& motion, const Beginning<Dim>& step)
         : motion_(motion)
         , division_(step.division)
-        , share_(step.division ? step.share : nullptr)
+        , share_(step.share)
         , copies_(motion, step.division)
         , basis_(step.basis)
         , dofs_(step.dofs)
@@ -57,7 +57,7 @@ template <int Dim> Eigen::VectorXd Inertia<Dim>::imbalanceOf(const Beginning<Dim
 	Eigen::VectorXd damping = Eigen::VectorXd::Zero(others.size());
 	for (const auto& each : damping_)
 		each->addBefore(velocity_, damping);
-	if (share_) share_->complete(damping);
+	share_.complete(damping);
 	return others - damping;
 }
 
@@ -236,9 +236,9 @@ template <int Dim> LocalError Inertia<Dim>::localError(const Eigen::VectorXd& d)
 template <int Dim> double Inertia<Dim>::kineticEnergy() const
 {
 	double sum = 0;
-	for (int p = 0, own = division_ ? division_->own() : int(motion_.velocity.size()); p < own; ++p)
+	for (int p = 0, own = division_.ownOf(motion_.velocity.size()); p < own; ++p)
 		sum += motion_.mass[p] * motion_.velocity[p].squaredNorm() / 2;
-	return division_ ? division_->sum(sum) : sum;
+	return division_.sum(sum);
 }
 
 template <int Dim> void Inertia<Dim>::commit(const Eigen::VectorXd& d)
@@ -249,7 +249,7 @@ template <int Dim> void Inertia<Dim>::commit(const Eigen::VectorXd& d)
 	const Eigen::VectorXd end = others + contact, growth = jump_ + T * ((1 - gamma) * acceleration_ + gamma * others + contact);
 	Eigen::VectorXd       ghost = Eigen::VectorXd::Zero(d.size());
 	addGhostForce(faces_, h_, d, ghost);
-	if (share_) share_->complete(ghost);
+	share_.complete(ghost);
 	motion_.impactWork           = energyOfBlow(nodal_, velocity_, blow_, jump_, prescribed_ / T);
 	motion_.gridWork             = (1 - gamma) * d.dot(neglected_);
 	const Eigen::VectorXd looked = velocityAt(d);
@@ -264,10 +264,10 @@ template <int Dim> void Inertia<Dim>::commit(const Eigen::VectorXd& d)
 		motion_.velocity[p] += gained;
 		ofPoints[p] = motion_.mass[p] * gained.squaredNorm();
 	});
-	const double gained = std::accumulate(ofPoints.begin(), division_ ? ofPoints.begin() + division_->own() : ofPoints.end(), 0.);
+	const double gained = std::accumulate(ofPoints.begin(), ofPoints.begin() + division_.ownOf(ofPoints.size()), 0.);
 	motion_.growth      = growth;
 	// the force of the ghost stiffness begins at zero in each step; points do not take over what the nodes change in the ghost mass
-	motion_.ghostWork = gamma * d.dot(ghost) + (growth.dot(nodal_ * growth) - (division_ ? division_->sum(gained) : gained)) / 2;
+	motion_.ghostWork = gamma * d.dot(ghost) + (growth.dot(nodal_ * growth) - division_.sum(gained)) / 2;
 }
 
 template class Inertia<2>;

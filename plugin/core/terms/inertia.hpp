@@ -45,8 +45,8 @@ private:
 	bool            isHeld(Eigen::Index dof) const { return dofs_.number[dof] < 0; }
 
 	Motion<Dim>&                               motion_;
-	const Division*                            division_; // null: this process has all points
-	const NodeShare*                           share_;    // null there
+	const Division&                            division_;
+	const NodeShare&                           share_;
 	const MotionOfCopies<Dim>                  copies_;
 	const CloudBasis<Dim>&                     basis_;
 	const FreeDofs&                            dofs_;

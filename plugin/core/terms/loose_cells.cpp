@@ -44,14 +44,6 @@ template <int Dim> std::vector<char> atEdge(const CloudBasis<Dim>& basis, const 
 	return isAt;
 }
 
-/// Of each cell by the process that has it.
-template <int Dim> void complete(std::vector<char>& isKnown, const CloudBasis<Dim>& basis, const Division& division)
-{
-	std::vector<double> ofCells(isKnown.begin(), isKnown.end());
-	division.processes->gather(ofCells.data(), division.startsAmong(basis.cells).data());
-	std::copy(ofCells.begin(), ofCells.end(), isKnown.begin());
-}
-
 /// Across so many faces.
 void spread(std::vector<char>& isKnown, const CellPairs& pairs, int reach)
 {
@@ -97,7 +89,7 @@ void addTo(std::vector<Filling<Dim>>& fillings, const std::vector<int>& slot, co
 template <int Dim>
 std::vector<LooseCell<Dim>> looseCells(
         const CloudBasis<Dim>& basis, const std::vector<double>& masses, const std::vector<GhostFace<Dim>>& faces, const Grid<Dim>& grid, int reach,
-        const Division* division)
+        const Division& division)
 {
 	const auto              pairs = cellPairs(faces, basis, grid);
 	const std::vector<char> isAt  = atEdge(basis, pairs, grid);
@@ -113,7 +105,7 @@ std::vector<LooseCell<Dim>> looseCells(
 	std::vector<char> isKnown(slot.size(), true);
 	for (std::size_t c = 0; c < slot.size(); ++c)
 		if (isAt[c]) isKnown[c] = fillings[slot[c]].determines();
-	if (division) complete(isKnown, basis, *division);
+	division.complete(basis.cells, isKnown);
 	spread(isKnown, pairs, reach);
 	std::vector<LooseCell<Dim>> loose;
 	for (std::size_t c = 0; c < slot.size(); ++c)
@@ -123,7 +115,7 @@ std::vector<LooseCell<Dim>> looseCells(
 
 #define GIMPM_INSTANTIATE(Dim)                                                                                                                                 \
 	template std::vector<LooseCell<Dim>> looseCells(                                                                                                       \
-	        const CloudBasis<Dim>&, const std::vector<double>&, const std::vector<GhostFace<Dim>>&, const Grid<Dim>&, int, const Division*);
+	        const CloudBasis<Dim>&, const std::vector<double>&, const std::vector<GhostFace<Dim>>&, const Grid<Dim>&, int, const Division&);
 GIMPM_INSTANTIATE(2)
 GIMPM_INSTANTIATE(3)
 #undef GIMPM_INSTANTIATE

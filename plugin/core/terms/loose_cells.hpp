@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Cells whose points are too few to tell the velocities of their nodes.
 #pragma once
-#include "core/grid/division.hpp"
+#include "core/parallel/division.hpp"
 #include "core/terms/ghost.hpp"
 
 namespace gimpm {
@@ -19,10 +19,9 @@ constexpr double usualLooseShare = 1e-6;
 /// Of the populated cells with points those whose points do not determine a multilinear field, and which no chain of `reach` ghost faces connects with a cell whose points do, as at a corner of a body (the
 /// condition number grows with the fourth power of the way):
 /// fewer than 2^Dim points by themselves, or any number of them in a row. There nodal fields exist that no point sees. Masses by point of the cloud [kg]. Where points are divided
-/// (`division`, or null) the cells at the own nodes are right.
+/// the cells at the own nodes are right.
 template <int Dim>
 std::vector<LooseCell<Dim>> looseCells(
-        const CloudBasis<Dim>&, const std::vector<double>& masses, const std::vector<GhostFace<Dim>>&, const Grid<Dim>&, int reach = Dim,
-        const Division* division = nullptr);
+        const CloudBasis<Dim>&, const std::vector<double>& masses, const std::vector<GhostFace<Dim>>&, const Grid<Dim>&, int reach = Dim, const Division& = {});
 
 } // namespace gimpm

@@ -62,6 +62,7 @@ template <int Dim> void MassMatrix<Dim>::addLoose(const LooseCell<Dim>& cell, do
 /// Values, and which there are, a bit for each code.
 template <int Dim> void MassMatrix<Dim>::complete(const NodeShare& share, const std::vector<Key>& nodes)
 {
+	if (share.isWhole()) return;
 	std::vector<int> start(share.start);
 	for (int& row : start)
 		row *= codes;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The mass of the points on the nodes, consistent with the basis functions, with ghost mass.
 #pragma once
-#include "core/solvers/node_share.hpp"
+#include "core/parallel/node_share.hpp"
 #include "core/solvers/reduce.hpp"
 #include "core/terms/loose_cells.hpp"
 

@@ -6,24 +6,19 @@
 
 namespace gimpm {
 
-template <int Dim> MotionOfCopies<Dim>::MotionOfCopies(Motion<Dim>& motion, const Division* division) : motion_(motion), division_(division)
+template <int Dim> MotionOfCopies<Dim>::MotionOfCopies(Motion<Dim>& motion, const Division& division) : motion_(motion), own_(motion.mass.size())
 {
-	if (!division) return;
-	motion.acceleration.resize(division->own(), Vec<Dim>::Zero());
-	division->extend(motion.mass), division->extend(motion.velocity), division->extend(motion.acceleration);
+	motion.acceleration.resize(own_, Vec<Dim>::Zero());
+	division.extend(motion.mass), division.extend(motion.velocity), division.extend(motion.acceleration);
 }
 
-template <int Dim> MotionOfCopies<Dim>::~MotionOfCopies()
-{
-	if (!division_) return;
-	motion_.mass.resize(division_->own()), motion_.velocity.resize(division_->own()), motion_.acceleration.resize(division_->own());
-}
+template <int Dim> MotionOfCopies<Dim>::~MotionOfCopies() { motion_.mass.resize(own_), motion_.velocity.resize(own_), motion_.acceleration.resize(own_); }
 
-template <int Dim> bool begins(const Motion<Dim>& motion, const Division* division)
+template <int Dim> bool begins(const Motion<Dim>& motion, const Division& division)
 {
 	const auto&  all    = motion.acceleration;
 	std::int64_t isZero = std::all_of(all.begin(), all.end(), [](const Vec<Dim>& a) { return a.isZero(0); });
-	if (division) division->processes->smallest(&isZero, 1);
+	division.smallest(&isZero, 1);
 	return isZero;
 }
 
@@ -48,19 +43,19 @@ template <int Dim> std::vector<LooseCell<Dim>> looseOf(const Motion<Dim>& motion
 template <int Dim> MassMatrix<Dim> massMatrix(const Motion<Dim>& motion, const Beginning<Dim>& step)
 {
 	MassMatrix<Dim> M(step.basis, motion.mass, massFaces(motion, step), step.grid.cellSize, looseOf(motion, step));
-	if (step.division) M.complete(*step.share, step.basis.nodes);
+	M.complete(step.share, step.basis.nodes);
 	return M;
 }
 
 template <int Dim>
-Eigen::VectorXd weighedAtNodes(const CloudBasis<Dim>& basis, const std::vector<double>& mass, const std::vector<Vec<Dim>>& ofPoints, const NodeShare* divided)
+Eigen::VectorXd weighedAtNodes(const CloudBasis<Dim>& basis, const std::vector<double>& mass, const std::vector<Vec<Dim>>& ofPoints, const NodeShare& share)
 {
 	std::vector<Vec<Dim>> weighted(ofPoints.size());
 	for (std::size_t p = 0; p < weighted.size(); ++p)
 		weighted[p] = mass[p] * ofPoints[p];
 	Eigen::VectorXd sum = Eigen::VectorXd::Zero(Dim * Eigen::Index(basis.nodes.size()));
 	addPointForces(basis, weighted, sum);
-	if (divided) divided->complete(sum);
+	share.complete(sum);
 	return sum;
 }
 
@@ -80,9 +75,9 @@ Eigen::VectorXd ofHeld(const Eigen::VectorXd& otherwise, OfBase<Dim> value, cons
 	template std::vector<LooseCell<Dim>> looseOf(const Motion<Dim>&, const Beginning<Dim>&, int);                                                          \
 	template std::vector<GhostFace<Dim>> massFaces(const Motion<Dim>&, const Beginning<Dim>&);                                                             \
 	template MassMatrix<Dim>             massMatrix(const Motion<Dim>&, const Beginning<Dim>&);                                                            \
-	template bool                        begins(const Motion<Dim>&, const Division*);                                                                      \
+	template bool                        begins(const Motion<Dim>&, const Division&);                                                                      \
 	template class MotionOfCopies<Dim>;                                                                                                                    \
-	template Eigen::VectorXd weighedAtNodes(const CloudBasis<Dim>&, const std::vector<double>&, const std::vector<Vec<Dim>>&, const NodeShare*);           \
+	template Eigen::VectorXd weighedAtNodes(const CloudBasis<Dim>&, const std::vector<double>&, const std::vector<Vec<Dim>>&, const NodeShare&);           \
 	template Eigen::VectorXd ofHeld(const Eigen::VectorXd&, OfBase<Dim>, const std::vector<MovingBase<Dim>>&, const Beginning<Dim>&);
 GIMPM_INSTANTIATE(2)
 GIMPM_INSTANTIATE(3)

@@ -39,21 +39,21 @@ template <int Dim> struct Motion {
 	static constexpr double infinite = std::numeric_limits<double>::infinity();
 };
 
-/// Where points are divided (`division`, or null): how the copies of others' points move, behind the own ones, as long as this lives.
+/// How the copies of others' points move, behind the own ones, as long as this lives.
 template <int Dim> class MotionOfCopies {
 public:
-	MotionOfCopies(Motion<Dim>&, const Division* division);
+	MotionOfCopies(Motion<Dim>&, const Division&);
 	~MotionOfCopies();
 	MotionOfCopies(const MotionOfCopies&)            = delete;
 	MotionOfCopies& operator=(const MotionOfCopies&) = delete;
 
 private:
-	Motion<Dim>&    motion_;
-	const Division* division_;
+	Motion<Dim>&      motion_;
+	const std::size_t own_;
 };
 
 /// Whether no point moves with an acceleration, wherever it is.
-template <int Dim> bool begins(const Motion<Dim>&, const Division*);
+template <int Dim> bool begins(const Motion<Dim>&, const Division&);
 
 /// Faces with gamma_M h^3 / 3 for their stiffness, gamma_M by the density of the lighter of the two cells.
 template <int Dim> std::vector<GhostFace<Dim>> massFaces(const Motion<Dim>&, const Beginning<Dim>&);
@@ -64,10 +64,9 @@ template <int Dim> std::vector<LooseCell<Dim>> looseOf(const Motion<Dim>&, const
 /// (M + M_g) of all points.
 template <int Dim> MassMatrix<Dim> massMatrix(const Motion<Dim>&, const Beginning<Dim>&);
 
-/// Sum of S m x_p at the nodes; `divided`: of the nodes whose points this process has, null where it has all.
+/// Sum of S m x_p at the nodes; `share`: those around which this process knows all points.
 template <int Dim>
-Eigen::VectorXd weighedAtNodes(
-        const CloudBasis<Dim>&, const std::vector<double>& mass, const std::vector<Vec<Dim>>& ofPoints, const NodeShare* divided = nullptr);
+Eigen::VectorXd weighedAtNodes(const CloudBasis<Dim>&, const std::vector<double>& mass, const std::vector<Vec<Dim>>& ofPoints, const NodeShare& share);
 
 template <int Dim> using OfBase = Vec<Dim> MovingBase<Dim>::*;
 

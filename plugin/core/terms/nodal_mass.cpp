@@ -33,15 +33,15 @@ template <int Dim, class F> void forDofs(int side, std::size_t sides, int nodes,
 template <int Dim>
 NodalMass<Dim>::NodalMass(
         const CloudBasis<Dim>& basis, const std::vector<double>& masses, const std::vector<GhostFace<Dim>>& faces, double h,
-        const std::vector<LooseCell<Dim>>& loose, const NodeShare* divided)
+        const std::vector<LooseCell<Dim>>& loose, const NodeShare& share)
 {
 	if (faces.empty()) {
 		lumped_ = lumped(basis, masses);
-		if (divided) divided->processes.gather(lumped_.data(), divided->start.data());
+		share.complete(lumped_);
 		return;
 	}
 	MassMatrix<Dim> mass(basis, masses, faces, h, loose, lumpedShare);
-	if (divided) mass.complete(*divided, basis.nodes);
+	mass.complete(share, basis.nodes);
 	*this = NodalMass(mass);
 }
 

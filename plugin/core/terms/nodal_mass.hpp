@@ -15,10 +15,10 @@ inline FreeDofs allFree(Eigen::Index size) { return { std::vector<int>(size, 0),
 /// the density). Without ghost mass it has no bound, and the mass is lumped: the sum of each row goes to its node.
 template <int Dim> class NodalMass {
 public:
-	/// Masses by point of the cloud [kg]. Without faces it is lumped. `divided`: of the nodes whose points this process has, null where it has all.
+	/// Masses by point of the cloud [kg]. Without faces it is lumped. `share`: the nodes around which this process knows all points.
 	NodalMass(
 	        const CloudBasis<Dim>&, const std::vector<double>& masses, const std::vector<GhostFace<Dim>>&, double h,
-	        const std::vector<LooseCell<Dim>>& loose = {}, const NodeShare* divided = nullptr);
+	        const std::vector<LooseCell<Dim>>& loose = {}, const NodeShare& share = NodeShare::whole());
 	explicit NodalMass(const MassMatrix<Dim>&);
 
 	Eigen::VectorXd operator*(const Eigen::VectorXd& x) const; ///< for nodal vectors of Dim components a node

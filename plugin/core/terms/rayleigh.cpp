@@ -8,18 +8,16 @@ namespace gimpm {
 template <int Dim>
 RayleighDamping<Dim>::RayleighDamping(
         Rayleigh& settings, const std::vector<Material>& materials, bool fBar, const std::vector<double>& masses, const Beginning<Dim>& step)
-        : settings_(settings), share_(step.division ? step.share : nullptr)
+        : settings_(settings), share_(step.share)
 {
 	const auto points = stepPoints(step.cloud, materials, step.basis, fBar);
-	if (share_) C_.reset(step.basis.nodes, points.isSymmetric, step.grid, { share_->first(), share_->last() });
-	else
-		C_.reset(step.basis.nodes, points.isSymmetric, step.grid);
+	C_.reset(step.basis.nodes, points.isSymmetric, step.grid, share_.range());
 	markPointPattern(step.basis, C_);
 	if (settings.beta > 0) {
 		const Eigen::VectorXd still   = Eigen::VectorXd::Zero(Dim * step.basis.nodes.size());
 		Eigen::VectorXd       force   = still;
 		std::int64_t          isThere = !addInternalForce<Dim>(step.basis, points, materials, still, { force, &C_ });
-		if (share_) share_->processes.smallest(&isThere, 1);
+		step.division.smallest(&isThere, 1);
 		if (!isThere) obstacle_ = "a point has no stiffness to be damped by";
 		C_.multiplyBy(settings.beta);
 	}

@@ -28,7 +28,7 @@ public:
 
 private:
 	Rayleigh&        settings_;
-	const NodeShare* share_; // null: this process has all points
+	const NodeShare& share_;
 	NodeMatrix<Dim>  C_;
 	std::string      obstacle_;
 };

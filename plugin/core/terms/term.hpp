@@ -3,9 +3,9 @@
 #pragma once
 #include "core/base/failure.hpp"
 #include "core/grid/cloud_basis.hpp"
-#include "core/grid/division.hpp"
+#include "core/parallel/division.hpp"
+#include "core/parallel/node_share.hpp"
 #include "core/solvers/node_matrix.hpp"
-#include "core/solvers/node_share.hpp"
 #include "core/solvers/reduce.hpp"
 #include "core/terms/cell_moduli.hpp"
 #include <functional>
@@ -120,8 +120,8 @@ template <int Dim> struct Beginning {
 	const Eigen::VectorXd&             prescribed; ///< increments of the held degrees of freedom, zero elsewhere [m]
 	const std::function<Eigen::VectorXd()>&
 	                 imbalance; ///< while a term is made: external forces less those of the terms made before it, all as they are now [N]
-	const NodeShare* share;     ///< rows of this process, of several; null: there is one
-	const Division*  division;  ///< of the points among processes, of which this one has its own and copies; null: it has all
+	const NodeShare& share;     ///< the nodes around which this process knows all points; what is summed over points is completed by it
+	const Division&  division;  ///< of the points among processes, of which this one has its own and copies
 };
 
 /// Makes a term for a step.

@@ -98,7 +98,7 @@ template <int Dim> std::string Traction<Dim>::attachAll(const Beginning<Dim>& st
 		if (!attached) return emptyAt(vertex, load_.name, attachmentTolerance);
 	}
 	auto isFar = areFarFromMaterial<Dim>(load_.surface.vertices, reach, step.cloud, step.grid);
-	if (step.division) step.division->processes->smallest(isFar.data(), int(isFar.size()));
+	step.division.smallest(isFar.data(), isFar.size());
 	const auto far = std::find(isFar.begin(), isFar.end(), 1);
 	return far == isFar.end() ? "" : emptyAt(load_.surface.vertices[far - isFar.begin()], load_.name, domainTolerance);
 }

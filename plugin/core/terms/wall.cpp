@@ -32,7 +32,7 @@ template <int Dim> Wall<Dim>::Wall(Surface<Dim> s, double cellSize) : surface(st
 }
 
 template <int Dim>
-WallForce<Dim>::WallForce(Wall<Dim>& wall, const CloudBasis<Dim>& basis, const PointStiffness& stiffnessOf, const Grid<Dim>& grid, const Division* division)
+WallForce<Dim>::WallForce(Wall<Dim>& wall, const CloudBasis<Dim>& basis, const PointStiffness& stiffnessOf, const Grid<Dim>& grid, const Division& division)
         : wall_(wall)
 {
 	std::vector<char> isHeld(basis.cells.size(), 0);
@@ -48,7 +48,7 @@ WallForce<Dim>::WallForce(Wall<Dim>& wall, const CloudBasis<Dim>& basis, const P
 		isHeld[cells.back()] = 1;
 	}
 	auto moduli = cellModuli(isHeld, basis, stiffnessOf, grid);
-	if (division) division->processes->gather(moduli.data(), division->startsAmong(basis.cells).data()); // who has a cell knows all points in it
+	division.complete(basis.cells, moduli);
 	for (std::size_t g = 0; g < grips_.size(); ++g)
 		grips_[g].stiffness = wall.penalty * moduli[cells[g]] / grid.cellSize;
 }

@@ -28,7 +28,7 @@ template <int Dim> struct Wall {
 template <int Dim> class WallForce : public Term<Dim> {
 public:
 	/// The wall is moved in commit().
-	WallForce(Wall<Dim>&, const CloudBasis<Dim>&, const PointStiffness&, const Grid<Dim>&, const Division* = nullptr);
+	WallForce(Wall<Dim>&, const CloudBasis<Dim>&, const PointStiffness&, const Grid<Dim>&, const Division& = {});
 
 	void                        mark(NodeMatrix<Dim>&) const override;
 	std::optional<PointFailure> add(const Eigen::VectorXd& d, const TermSum<Dim>&) const override;

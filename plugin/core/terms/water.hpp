@@ -54,17 +54,11 @@ private:
 	};
 	template <class F> std::optional<PointFailure> forWetPoints(const WaterPressure<Dim>&, WaterPlace, const Eigen::VectorXd& d, F&&) const;
 
-	/// The sums over the points around nodes, where points are divided.
-	void complete(Eigen::VectorXd& nodal) const
-	{
-		if (share_) share_->complete(nodal);
-	}
-
 	Water<Dim>&            water_;
 	const CloudBasis<Dim>& basis_;
 	const Grid<Dim>&       grid_;
 	const FreeDofs&        dofs_;
-	const NodeShare*       share_; // null: all points are here
+	const NodeShare&       share_;
 	std::vector<Start>     start_; // in the order of the basis: the cloud goes on before commit()
 };
 

@@ -5,6 +5,7 @@
 #include "engine/materials/laws.hpp"
 #include "engine/points/parallel.hpp"
 #include <atomic>
+#include <tuple>
 #include <unordered_map>
 
 namespace yade {
@@ -78,9 +79,8 @@ namespace {
 			for (size_t k = 0; k < known.size(); ++k)
 				if (points[p].state->parameter(known[k].name)) isUnused[k] = 0;
 		}
-		if (model.division)
-			for (auto* flags : { &isAlike, &isUnused })
-				model.division->processes->smallest(flags->data(), int(flags->size()));
+		for (auto* flags : { &isAlike, &isUnused })
+			model.division->smallest(flags->data(), flags->size());
 		for (size_t m = 0; m < isAlike.size(); ++m)
 			if (!isAlike[m]) model.materials[m].varies = true;
 		for (size_t k = 0; k < isUnused.size(); ++k)
@@ -130,6 +130,91 @@ namespace {
 			cloud.internals[law->columns[k]][p] = point.internalOf(law, k);
 	}
 
+	// What a column of the core is of a point in YADE: take(point, model) is its value, give(point, value) puts what a step has made of it back.
+	template <class Cloud, class Values, class Take, class Give> struct Exchanged {
+		Values Cloud::*of;
+		Take           take;
+		Give           give;
+	};
+	template <class Cloud, class Values, class Take, class Give> auto exchanged(Values Cloud::*of, Take take, Give give)
+	{
+		return Exchanged<Cloud, Values, Take, Give> { of, take, give };
+	}
+
+	struct Elsewhere { };
+	constexpr auto stays = [](const MaterialPoint&, const auto&) {}; // as it is in YADE
+
+	// Columns that depend on materials and laws, which are gone through one after the other.
+	template <class Cloud, class Values> auto byMaterial(Values Cloud::*of) { return exchanged(of, Elsewhere(), Elsewhere()); }
+
+	template <int Dim> auto pointLoad()
+	{
+		const auto take = [](const MaterialPoint& p, const gimpm::Model<Dim>&) {
+			return gimpm::Vec<Dim>(p.material->share * p.state->force.template head<Dim>());
+		};
+		return exchanged(&gimpm::PointCloud<Dim>::force, take, stays);
+	}
+
+	// All columns of the core: a new one does not compile until it is here. Plane strain leaves the components out of the plane alone, but for the zz component of strain and stress;
+	// axisymmetry has that of the deformation too.
+	template <int Dim> auto exchange()
+	{
+		using C      = gimpm::PointCloud<Dim>;
+		using Point  = const MaterialPoint&;
+		using Model  = const gimpm::Model<Dim>&;
+		using Vector = gimpm::Vec<Dim>;
+		using Tensor = gimpm::SymTensor<Dim>;
+		return std::make_tuple(
+		        exchanged(
+		                &C::position, [](Point p, Model) { return Vector(p.state->pos.template head<Dim>()); },
+		                [](Point p, const Vector& x) { p.state->pos.template head<Dim>() = x; }),
+		        exchanged(
+		                &C::position0, [](Point p, Model) { return Vector(p.state->refPos.template head<Dim>()); }, stays),
+		        exchanged(
+		                &C::halfSize, [](Point p, Model model) { return domainIn(model, p); },
+		                [](Point p, const Vector& x) { p.shape->halfSize.template head<Dim>() = x; }),
+		        exchanged(
+		                &C::halfSize0, [](Point p, Model) { return Vector(p.shape->halfSize0.template head<Dim>()); }, stays),
+		        exchanged(
+		                &C::volume0, [](Point p, Model) { return p.state->volume0; }, stays),
+		        exchanged(
+		                &C::defGrad, [](Point p, Model) { return gimpm::Mat<Dim>(p.state->defGrad.template topLeftCorner<Dim, Dim>()); },
+		                [](Point p, const gimpm::Mat<Dim>& F) { p.state->defGrad.template topLeftCorner<Dim, Dim>() = F; }),
+		        exchanged(
+		                &C::hoopStretch, [](Point p, Model) { return p.state->defGrad(2, 2); }, &scatterAround),
+		        exchanged(
+		                &C::elasticStrain, [](Point p, Model) { return Tensor::from(p.state->elasticStrain); },
+		                [](Point p, const Tensor& e) { p.state->elasticStrain = e.full(); }),
+		        exchanged(
+		                &C::stress, [](Point p, Model) { return Tensor::from(p.state->stress); },
+		                [](Point p, const Tensor& s) { p.state->stress = s.full(); }),
+		        pointLoad<Dim>(), byMaterial(&C::material), byMaterial(&C::internals), byMaterial(&C::parameters));
+	}
+
+	template <class... Cloud, class... Values, class... Take, class... Give>
+	constexpr size_t sizeOf(const std::tuple<Exchanged<Cloud, Values, Take, Give>...>*)
+	{
+		return (sizeof(Values) + ...);
+	}
+	template <int Dim> constexpr bool areAllExchanged = sizeOf(static_cast<decltype(exchange<Dim>())*>(nullptr)) == sizeof(gimpm::PointCloud<Dim>);
+	static_assert(areAllExchanged<2> && areAllExchanged<3>, "exchange() has to name each column of PointCloud, once");
+
+	// Calls f(column of the cloud, its row of the table) for the columns that there are.
+	template <int Dim, class F> void forExchanged(gimpm::PointCloud<Dim>& cloud, F&& f)
+	{
+		const auto visit = [&](const auto& row) {
+			if constexpr (!std::is_same_v<decltype(row.take), Elsewhere>)
+				if (!(cloud.*row.of).empty()) f(cloud.*row.of, row);
+		};
+		std::apply([&](const auto&... row) { (visit(row), ...); }, exchange<Dim>());
+	}
+
+	template <int Dim> bool hasMovingBox(const gimpm::Boundary<Dim>& boundary)
+	{
+		const auto& boxes = boundary.boxes();
+		return std::any_of(boxes.begin(), boxes.end(), [](const auto& box) { return !box.displacement.isZero(0); });
+	}
+
 	template <int Dim> void reenterAll(gimpm::PointCloud<Dim>& cloud, const gimpm::Grid<Dim>& grid, const vector<MaterialPoint>& points)
 	{
 		for (int a = 0; a < Dim; ++a)
@@ -177,7 +262,7 @@ template <int Dim> gimpm::Model<Dim> emptyModel(const Analysis& analysis, const 
 	return model;
 }
 
-template <int Dim> vector<gimpm::Key> cellsOf(const gimpm::PointCloud<Dim>& cloud, const gimpm::Grid<Dim>& grid, const gimpm::Division* division)
+template <int Dim> vector<gimpm::Key> cellsOf(const gimpm::PointCloud<Dim>& cloud, const gimpm::Grid<Dim>& grid, const gimpm::Division& division)
 {
 	vector<gimpm::Key> cells;
 	for (const auto& x : cloud.position) {
@@ -185,15 +270,9 @@ template <int Dim> vector<gimpm::Key> cellsOf(const gimpm::PointCloud<Dim>& clou
 		const gimpm::Key        key  = gimpm::Grid<Dim>::key(cell);
 		if (cells.empty() || cells.back() != key) cells.push_back(key);
 	}
-	const auto sortOut = [&] {
-		std::sort(cells.begin(), cells.end());
-		cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
-	};
-	sortOut();
-	if (!division) return cells;
-	cells = gimpm::joined(*division->processes, cells);
-	sortOut();
-	return cells;
+	std::sort(cells.begin(), cells.end());
+	cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
+	return gimpm::united(*division.processes, std::move(cells));
 }
 
 template <int Dim> gimpm::PointCloud<Dim> gather(const vector<MaterialPoint>& points, gimpm::Model<Dim>& model, const MaterialList& known)
@@ -201,6 +280,7 @@ template <int Dim> gimpm::PointCloud<Dim> gather(const vector<MaterialPoint>& po
 	gimpm::PointCloud<Dim> cloud;
 	cloud.resize(points.size());
 	if (model.grid.axisymmetric) cloud.hoopStretch.resize(points.size());
+	if (hasMovingBox(model.boundary)) cloud.position0.resize(points.size());
 	MaterialIndex materials(model.materials, model.shares, known);
 	for (size_t p = 0; p < points.size(); ++p)
 		cloud.material[p] = materials.of(points[p]);
@@ -214,14 +294,7 @@ template <int Dim> gimpm::PointCloud<Dim> gather(const vector<MaterialPoint>& po
 			point.requireAdmissible(Dim, model.grid.axisymmetric);
 			point.requireStart();
 			requireFit<Dim>(point, model.grid, model.basis);
-			cloud.position[p]  = point.state->pos.template head<Dim>();
-			cloud.halfSize[p]  = domainIn(model, point);
-			cloud.halfSize0[p] = point.shape->halfSize0.template head<Dim>();
-			cloud.volume0[p]   = point.state->volume0;
-			cloud.defGrad[p]   = point.state->defGrad.template topLeftCorner<Dim, Dim>();
-			if (model.grid.axisymmetric) cloud.hoopStretch[p] = point.state->defGrad(2, 2);
-			cloud.elasticStrain[p] = gimpm::SymTensor<Dim>::from(point.state->elasticStrain);
-			cloud.stress[p]        = gimpm::SymTensor<Dim>::from(point.state->stress);
+			forExchanged(cloud, [&](auto& column, const auto& row) { column[p] = row.take(point, model); });
 			gatherInternals(point, model.materials[cloud.material[p]].law, cloud, p);
 			if (model.materials[cloud.material[p]].varies) gatherParameters(point, model.materials[cloud.material[p]].law, ownMaterial, cloud, p);
 			if (!point.state->force.isZero(0)) hasForce = true;
@@ -229,30 +302,20 @@ template <int Dim> gimpm::PointCloud<Dim> gather(const vector<MaterialPoint>& po
 	});
 	if (hasForce)
 		for (const MaterialPoint& point : points)
-			cloud.force.push_back(point.material->share * point.state->force.template head<Dim>());
-	const auto& boxes = model.boundary.boxes();
-	if (std::any_of(boxes.begin(), boxes.end(), [](const auto& box) { return !box.displacement.isZero(0); }))
-		for (const MaterialPoint& point : points)
-			cloud.position0.push_back(point.state->refPos.template head<Dim>());
+			cloud.force.push_back(pointLoad<Dim>().take(point, model));
 	return cloud;
 }
 
-// Plane strain leaves the components out of the plane alone, but for the zz component of strain and stress; axisymmetry has that of the deformation too.
 template <int Dim> void scatter(gimpm::PointCloud<Dim>& cloud, const gimpm::Grid<Dim>& grid, const vector<MaterialPoint>& points)
 {
 	reenterAll(cloud, grid, points);
 	inRanges(points.size(), [&](size_t begin, size_t end) {
 		vector<std::pair<std::string_view, const Real*>> internals;
 		for (size_t p = begin; p < end; ++p) {
-			MpmState& state                                = *points[p].state;
-			state.pos.head<Dim>()                          = cloud.position[p];
-			state.defGrad.topLeftCorner<Dim, Dim>()        = cloud.defGrad[p];
-			state.elasticStrain                            = cloud.elasticStrain[p].full();
-			state.stress                                   = cloud.stress[p].full();
-			state.volume                                   = cloud.volume0[p] * cloud.volumeRatio(p);
-			state.porePressure                             = std::numeric_limits<Real>::quiet_NaN(); // conditions give it
-			points[p].shape->halfSize.template head<Dim>() = cloud.halfSize[p];
-			if (grid.axisymmetric) scatterAround(points[p], cloud.hoopStretch[p]);
+			MpmState& state = *points[p].state;
+			forExchanged(cloud, [&](const auto& column, const auto& row) { row.give(points[p], column[p]); });
+			state.volume       = cloud.volume0[p] * cloud.volumeRatio(p);
+			state.porePressure = std::numeric_limits<Real>::quiet_NaN(); // conditions give it
 			if (p == begin || points[p].material.get() != points[p - 1].material.get()) internals = internalsFor(*points[p].material, cloud);
 			for (const auto& [name, column] : internals)
 				state.setInternal(name, column[p]);
@@ -262,7 +325,7 @@ template <int Dim> void scatter(gimpm::PointCloud<Dim>& cloud, const gimpm::Grid
 
 #define MPM_INSTANTIATE(Dim)                                                                                                                                   \
 	template gimpm::Model<Dim>      emptyModel(const Analysis&, const Conditions<Dim>&);                                                                   \
-	template vector<gimpm::Key>     cellsOf(const gimpm::PointCloud<Dim>&, const gimpm::Grid<Dim>&, const gimpm::Division*);                               \
+	template vector<gimpm::Key>     cellsOf(const gimpm::PointCloud<Dim>&, const gimpm::Grid<Dim>&, const gimpm::Division&);                               \
 	template gimpm::PointCloud<Dim> gather(const vector<MaterialPoint>&, gimpm::Model<Dim>&, const MaterialList&);                                         \
 	template void                   scatter(gimpm::PointCloud<Dim>&, const gimpm::Grid<Dim>&, const vector<MaterialPoint>&);                               \
 	template Real                   reenter(Real&, int, const gimpm::Grid<Dim>&);

@@ -12,7 +12,7 @@ namespace yade {
 template <int Dim> gimpm::Model<Dim> emptyModel(const Analysis&, const Conditions<Dim>&);
 
 // Cells that hold the middle of a point, in a row; of a division, those of all processes.
-template <int Dim> vector<gimpm::Key> cellsOf(const gimpm::PointCloud<Dim>&, const gimpm::Grid<Dim>&, const gimpm::Division*);
+template <int Dim> vector<gimpm::Key> cellsOf(const gimpm::PointCloud<Dim>&, const gimpm::Grid<Dim>&, const gimpm::Division& = {});
 
 using MaterialList = vector<const MpmMaterial*>;
 

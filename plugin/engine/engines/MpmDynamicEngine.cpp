@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "engine/engines/MpmDynamicEngine.hpp"
-#include "core/base/together.hpp"
+#include "core/parallel/together.hpp"
 #include "engine/conditions/boundary/MpmBoundary.hpp"
 #include "engine/conditions/contact/MpmContact.hpp"
 #include "engine/conditions/shaking/MpmAbsorbingBoundary.hpp"
@@ -56,7 +56,7 @@ std::uint64_t MpmDynamicEngine::checksumInTime() const { return checksumOf(schem
 void MpmDynamicEngine::tellMotion(py::dict& data) const
 {
 	const Energies own = energiesOf(materialPoints(*ownScene(), mask));
-	const Energies now = isDivided(*this) ? ofAll(own, *processes()) : own;
+	const Energies now = ofAll(own, *holdersOf(*this));
 	for (int axis = 0; axis < 3; ++axis) {
 		if (axis < grid->dim) data[string("momentum_") + "xyz"[axis]] = now.momentum[axis];
 		if (axis == 2 || grid->dim == 3) data[string("angularMomentum_") + "xyz"[axis]] = now.angularMomentum[axis];

@@ -143,9 +143,9 @@ template <int Dim> void MpmImplicitEngine::step(Agreement& agreement)
 	if (job.model.grid.refinement && basis == "gimp" && splitOutgrown(job)) job = prepare<Dim>(agreement);
 	{
 		const gimpm::Stopwatch watch(agreeing);
-		agreement.reach(*this, job.cloud, bool(job.model.division));
+		agreement.reach(*this, job.cloud, *job.model.division);
 	}
-	if (job.model.processes) addTime(*timingDeltas, "agree", agreeing);
+	if (job.model.processes->size() > 1) addTime(*timingDeltas, "agree", agreeing);
 	doubt(job);
 	tellObservers(*scene, [this](LoadStepObserver& observer) { observer.stepBegins(*this); });
 	advance(job);
@@ -202,13 +202,11 @@ template <int Dim> void MpmImplicitEngine::askFunctions(Agreement& agreement)
 				if (const gimpm::Vec<Dim> x = point.state->pos.head<Dim>(); // others are refused in a moment
 				    x.allFinite() && ((x - lattice.origin) / lattice.cellSize).cwiseAbs().maxCoeff() < lattice.indexLimit)
 					middles.position.push_back(x);
-			cells = cellsOf(middles, lattice, nullptr);
+			cells = cellsOf(middles, lattice);
 		}
-		if (distributed && processes()) {
+		if (distributed) {
 			agreement.meet(*this);
-			cells = gimpm::joined(*processes(), cells);
-			std::sort(cells.begin(), cells.end());
-			cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
+			cells = gimpm::united(*processes(), std::move(cells));
 		}
 		if (!ask<Dim>(lattice, cells)) return;
 	}
@@ -226,7 +224,7 @@ template <int Dim> void MpmImplicitEngine::takePoints(Setup<Dim>& to, Agreement&
 	if (!isDivided(*this)) requireAny(points, *this);
 	vector<const MpmMaterial*> known;
 	bool                       areKnown = false;
-	if (distributed && model.processes) {
+	if (distributed && model.processes->size() > 1) {
 		Distribution::requireDivisible(*this, points);
 		agreement.meet(*this);
 		std::int64_t isKnown = plausibility.knows<Dim>(points);
@@ -237,45 +235,42 @@ template <int Dim> void MpmImplicitEngine::takePoints(Setup<Dim>& to, Agreement&
 	}
 	to.cloud = gather(points, model, known);
 	if (areKnown) plausibility.know(to.cloud); // some have come from another process
-	if (model.division && hasQuestions()) agreement.meet(*this);
+	if (!model.division->isWhole() && hasQuestions()) agreement.meet(*this);
 }
 
 Body::id_t MpmImplicitEngine::add(NewPoints& added)
 {
 	const ValueLock lock;
-	const auto      all = distributed ? processes() : nullptr;
+	const auto      all = distributed ? processes() : gimpm::Processes::alone();
 	vector<int>     own(added.size());
 	std::iota(own.begin(), own.end(), 0);
-	if (all) own = grid->dim == 3 ? distribution.ownOf<3>(*this, points, added) : distribution.ownOf<2>(*this, points, added);
+	if (all->size() > 1) own = grid->dim == 3 ? distribution.ownOf<3>(*this, points, added) : distribution.ownOf<2>(*this, points, added);
 	vector<shared_ptr<Body>> bodies;
 	const auto               make = [&] {
                 for (const int i : own)
                         bodies.push_back(added.body(i));
 	};
-	if (all) admitTogether(make, *all);
-	else
-		make();
+	together(make, *all);
 	const Body::id_t first = scene->bodies->size();
 	for (size_t i = 0; i < own.size(); ++i)
 		scene->bodies->insertAtId(bodies[i], first + own[i]);
-	if (!all) return first;
+	if (all->size() == 1) return first;
 	provideGaps(*scene, first + added.size());
-	Pieces::note(*scene, all.get());
+	Pieces::note(*scene, *all);
 	return first;
 }
 
 template <int Dim> void MpmImplicitEngine::doubt(const Job<Dim>& job)
 {
 	const ValueLock lock;
-	if (job.model.division) {
-		requireSameAnswers(*job.model.processes, *this);
-		pointsOfRun = size_t(job.model.division->sum(Real(points.size())));
-	}
-	const int own = int(job.doubts.size()), count = job.model.division ? largestOf(own, *job.model.processes) : own; // the same in all processes
+	const auto& division = *job.model.division;
+	requireSameAnswers(*division.processes, *this);
+	pointsOfRun   = size_t(division.sum(Real(points.size())));
+	const int own = int(job.doubts.size()), count = largestOf(own, *division.processes); // the same in all processes
 	for (int i = 0; i < count; ++i)
 		warnOfPoints(i < own ? job.doubts[i] : "");
 	warn(plausibility.doubtOfPlaces(*this, points));
-	if (job.model.division) return;
+	if (!division.isWhole()) return;
 	for (const auto& condition : job.conditions)
 		warn(condition->doubtOfPlace(job.cloud, job.model.grid));
 }
@@ -291,7 +286,7 @@ template <int Dim> bool MpmImplicitEngine::splitOutgrown(Job<Dim>& job)
 }
 
 // Of points that this process has. Where they are divided, the others may have a reason, too, and one of them is heard.
-void MpmImplicitEngine::warnOfPoints(const string& text) { warn(isDivided(*this) ? firstSaid(text, *processes()) : text); }
+void MpmImplicitEngine::warnOfPoints(const string& text) { warn(gimpm::firstSaid(*holdersOf(*this), text)); }
 
 template <int Dim> Job<Dim> MpmImplicitEngine::prepare(Agreement& agreement)
 {
@@ -324,7 +319,7 @@ template <int Dim> void MpmImplicitEngine::advance(Job<Dim>& job)
 {
 	Interruption interruption;
 	StepErrors   errors(*this);
-	job.model.newton.interrupted = [&] { return isRequested(interruption.isRequested(), job.model.processes.get()); };
+	job.model.newton.interrupted = [&] { return isRequested(interruption.isRequested(), *job.model.processes); };
 	while (!job.control.isDone()) {
 		Attempt<Dim>    tried  = errors.next(job, [&] { return attempt(job); });
 		const auto      report = isExplicit() ? job.moving->step(job, tried)

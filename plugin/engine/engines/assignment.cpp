@@ -166,7 +166,7 @@ namespace {
 	};
 
 	// Those with these ids; null where another process has the point.
-	vector<const MaterialPoint*> pointsWith(const Column<int64_t>& ids, const vector<MaterialPoint>& points, const gimpm::Processes* all)
+	vector<const MaterialPoint*> pointsWith(const Column<int64_t>& ids, const vector<MaterialPoint>& points, const gimpm::Processes& all)
 	{
 		vector<const MaterialPoint*> found;
 		vector<int64_t>              isMissing;
@@ -176,7 +176,7 @@ namespace {
 			isMissing.push_back(at == points.end() || at->id != id);
 			found.push_back(isMissing.back() ? nullptr : &*at);
 		}
-		if (all) all->smallest(isMissing.data(), int(isMissing.size()));
+		all.smallest(isMissing.data(), int(isMissing.size()));
 		const size_t first = std::find(isMissing.begin(), isMissing.end(), 1) - isMissing.begin();
 		if (first < ids.size()) throw std::invalid_argument("there is no material point with body id " + std::to_string(ids.data()[first]) + ".");
 		return found;
@@ -184,20 +184,21 @@ namespace {
 
 	void requireSameIds(const Column<int64_t>& ids, const gimpm::Processes& all)
 	{
-		gimpm::Checksum sum;
-		sum.mix(vector<int64_t>(ids.data(), ids.data() + ids.size()));
-		if (!all.haveSame(sum.take()))
+		const auto checksum = [&] {
+			gimpm::Checksum sum;
+			sum.mix(vector<int64_t>(ids.data(), ids.data() + ids.size()));
+			return sum.take();
+		};
+		if (!gimpm::haveSame(all, checksum))
 			throw std::invalid_argument("the processes name different ids. All of them give the values of the same points, whichever have these.");
 	}
 
-	// The refusal of the first row that one of the processes has refused; null: this one alone.
-	void requireNone(const string& refusal, size_t row, const gimpm::Processes* all)
+	// The refusal of the first row that one of the processes has refused.
+	void requireNone(const string& refusal, size_t row, const gimpm::Processes& all)
 	{
-		if (!all && !refusal.empty()) throw std::invalid_argument(refusal);
-		if (!all) return;
 		auto first = int64_t(row);
-		all->smallest(&first, 1);
-		if (const string said = firstSaid(first == int64_t(row) ? refusal : "", *all); !said.empty()) throw std::invalid_argument(said);
+		all.smallest(&first, 1);
+		if (const string said = gimpm::firstSaid(all, first == int64_t(row) ? refusal : ""); !said.empty()) throw std::invalid_argument(said);
 	}
 }
 
@@ -206,12 +207,12 @@ void assignColumns(const py::object& ids, const py::dict& given)
 	const ValueLock lock;
 	if (AtWork::isAny())
 		throw std::runtime_error("assign: a load step is at work in the background and would overwrite the values; call O.pause() or O.wait() first.");
-	const auto            all    = isSceneDivided() ? processes() : nullptr;
+	const auto            all    = holdersOf(*Singleton<Omega>::instance().getScene());
 	const auto            points = materialPoints(*Singleton<Omega>::instance().getScene());
 	const Column<int64_t> rows(ids, "ids");
 	const Columns         columns(given, rows.size());
-	if (all) requireSameIds(rows, *all);
-	const auto     meant = pointsWith(rows, points, all.get());
+	requireSameIds(rows, *all);
+	const auto     meant = pointsWith(rows, points, *all);
 	vector<Values> values;
 	Materials      materials;
 	string         refusal;
@@ -222,7 +223,7 @@ void assignColumns(const py::object& ids, const py::dict& given)
 			} catch (const std::invalid_argument& error) {
 				refusal = "Body #" + std::to_string(point->id) + ": " + error.what();
 			}
-	requireNone(refusal, row, all.get());
+	requireNone(refusal, row, *all);
 	auto value = values.begin();
 	for (row = 0; row < rows.size(); ++row)
 		if (const MaterialPoint* point = meant[row]) {

@@ -23,6 +23,6 @@ template <int Dim> gimpm::Load<Dim> advance(Setup<Dim>&, const Analysis&, const 
 template <int Dim> struct CurrentState : Setup<Dim> {
 	gimpm::Load<Dim> load;
 };
-template <int Dim> CurrentState<Dim> currentState(const Analysis&, const std::shared_ptr<gimpm::Division>& = nullptr);
+template <int Dim> CurrentState<Dim> currentState(const Analysis&, const std::shared_ptr<gimpm::Division>& = std::make_shared<gimpm::Division>());
 
 } // namespace yade

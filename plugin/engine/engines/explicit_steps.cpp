@@ -33,7 +33,7 @@ namespace {
 	template <int Dim, class F> Real ofNow(MpmDynamicEngine& engine, F&& of)
 	{
 		const ValueLock lock;
-		return of(currentState<Dim>(engine, isDivided(engine) ? std::make_shared<gimpm::Division>(gimpm::Division { processes(), {} }) : nullptr));
+		return of(currentState<Dim>(engine, std::make_shared<gimpm::Division>(gimpm::Division { holdersOf(engine) })));
 	}
 	template <class F> Real ofNow(MpmDynamicEngine& engine, F&& of)
 	{

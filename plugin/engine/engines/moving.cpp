@@ -23,7 +23,7 @@ namespace {
 	}
 
 	// From that of the points of this process.
-	template <int Dim> Real ofAll(Real own, const Job<Dim>& job) { return job.model.division ? job.model.division->sum(own) : own; }
+	template <int Dim> Real ofAll(Real own, const Job<Dim>& job) { return job.model.division->sum(own); }
 }
 
 template <int Dim>
@@ -103,13 +103,13 @@ template <int Dim> void Moving<Dim>::addWork(const Job<Dim>& job, const StepOutc
 	const Real     from = step.from, time = step.time;
 	const auto     factor = engine.curveOfLoads().between(from, time), ofGravity = engine.curveOfGravity().between(from, time);
 	const Vector3r g    = (ofGravity.value + ofGravity.before()) / 2 * engine.gravity;
-	Real           work = job.model.division ? 0 : engine.loadWork; // point by point
+	Real           work = job.model.division->processes->rank() == 0 ? engine.loadWork : 0; // who brings along what there is already
 	for (size_t p = 0; p < points.size(); ++p) {
 		Vector3r moved    = Vector3r::Zero();
 		moved.head<Dim>() = job.cloud.position[p] - points[p].state->pos.template head<Dim>();
 		work += moved.dot(motion->mass[p] * g + (factor.value + factor.before()) / 2 * points[p].state->force);
 	}
-	engine.loadWork = job.model.division ? engine.loadWork + ofAll(work, job) : work;
+	engine.loadWork = ofAll(work, job);
 	Work sum;
 	for (const auto& condition : job.conditions)
 		sum += condition->work(step);

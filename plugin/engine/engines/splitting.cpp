@@ -27,7 +27,7 @@ namespace {
 					while (splitOnce(p)) { }
 			} while (insertHalves());
 			if (points.size() > job.cloud.size()) updateCloud();
-			if (job.model.division) countAll(*job.model.division);
+			countAll(*job.model.division);
 			return result;
 		}
 
@@ -105,7 +105,7 @@ namespace {
 		// The upper halves, behind the other bodies, in the order of their wholes, whichever process has them. False: there are none.
 		bool insertHalves()
 		{
-			const auto&    division = job.model.division;
+			auto&          division = *job.model.division;
 			const auto     wholes   = wholesOfAll();
 			const size_t   end      = scene.bodies->size() + wholes.size();
 			size_t         place    = 0;
@@ -113,9 +113,9 @@ namespace {
 			for (size_t i = 0; i < halves.size(); ++i, ++point) {
 				auto& [body, domain] = halves[i];
 				place                = i > 0 && domain.lower == halves[i - 1].second.lower ? place + 1 : firstOf(wholes, domain.lower);
-				domain.upper = division ? scene.bodies->insertAtId(body, Body::id_t(end - wholes.size() + place)) : scene.bodies->insert(body);
-				point->id    = domain.upper;
-				if (division) division->id.push_back(domain.upper);
+				domain.upper         = scene.bodies->insertAtId(body, Body::id_t(end - wholes.size() + place));
+				point->id            = domain.upper;
+				division.append(domain.upper);
 			}
 			shareMemory();
 			halves.clear();
@@ -131,7 +131,7 @@ namespace {
 			vector<HalvedDomain> domains;
 			for (const auto& [body, domain] : halves)
 				domains.push_back(domain);
-			if (job.model.division) domains = gimpm::joined(*job.model.division->processes, domains);
+			domains = job.model.division->joined(std::move(domains));
 			std::sort(domains.begin(), domains.end(), [](const auto& a, const auto& b) { return a.upper < b.upper; });
 			for (const HalvedDomain& domain : domains)
 				for (const auto& condition : job.conditions)
@@ -144,7 +144,7 @@ namespace {
 			vector<int64_t> wholes;
 			for (const auto& [body, domain] : halves)
 				wholes.push_back(domain.lower);
-			if (job.model.division) wholes = gimpm::joined(*job.model.division->processes, wholes);
+			wholes = job.model.division->joined(std::move(wholes));
 			std::sort(wholes.begin(), wholes.end());
 			return wholes;
 		}
@@ -159,7 +159,7 @@ namespace {
 		{
 			constexpr int64_t none  = std::numeric_limits<int64_t>::max();
 			int64_t           first = result.exhausted < 0 ? none : result.exhausted;
-			division.processes->smallest(&first, 1);
+			division.smallest(&first, 1);
 			result.exhausted = first == none ? -1 : Body::id_t(first);
 			result.left      = int(division.sum(result.left));
 		}
@@ -218,7 +218,7 @@ template <int Dim> string Splitting::split(MpmImplicitEngine& engine, vector<Mat
 {
 	const Splits splits   = Outgrown<Dim>(points, job, *engine.scene, engine.maxSplits).splitAll();
 	engine.clampedDomains = splits.left;
-	if (job.model.division) Pieces::note(*engine.scene, job.model.processes.get());
+	Pieces::note(*engine.scene, *job.model.division->processes);
 	if (splits.exhausted < 0 || isSaid) return "";
 	isSaid = true;
 	return "Body #" + std::to_string(splits.exhausted) + ": the domain of the material point has outgrown half a cell again, after maxSplits = "

@@ -21,7 +21,7 @@ namespace {
 		if (point < 0) return "";
 		if (!isDivided(engine)) return placeOf(points[point]);
 		const auto found = std::find_if(points.begin(), points.end(), [&](const MaterialPoint& p) { return p.id == point; });
-		return firstSaid(found == points.end() ? "" : placeOf(*found), *processes());
+		return gimpm::firstSaid(*processes(), found == points.end() ? "" : placeOf(*found));
 	}
 
 	string bodiesNear(const Vector3r& place, const Analysis& engine, const vector<MaterialPoint>& points)
@@ -33,7 +33,7 @@ namespace {
 			if ((point.state->pos - place).head(engine.grid->dim).cwiseAbs().maxCoeff() < engine.grid->cellSize && ++found <= listed)
 				text << (found == 1 ? ", near it bodies #" : ", #") << point.id;
 		if (found > listed) text << " and " << found - listed << " more";
-		return isDivided(engine) ? firstSaid(text.str(), *processes()) : text.str();
+		return gimpm::firstSaid(*holdersOf(engine), text.str());
 	}
 
 	string placeOfImbalance(const gimpm::StepReport& report, const Analysis& engine, const vector<MaterialPoint>& points)

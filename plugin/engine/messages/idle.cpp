@@ -22,7 +22,7 @@ namespace {
 			const auto box = listed.condition->extent();
 			isFar.push_back(box && std::none_of(points.begin(), points.end(), [&](const auto& p) { return isNear(p, *box, *analysis.grid); }));
 		}
-		if (isDivided(analysis)) processes()->smallest(isFar.data(), int(isFar.size()));
+		holdersOf(analysis)->smallest(isFar.data(), int(isFar.size()));
 		return isFar;
 	}
 }

@@ -108,7 +108,7 @@ static void requireEqualCells(const Analysis& engine)
 	if (engine.isDynamic()) what = engine.className() + ", as inertia";
 	else if (engine.newton->linearSolver == "amg")
 		what = "MpmNewton.linearSolver = 'amg'";
-	else if (processes())
+	else if (processes()->size() > 1)
 		what = "several processes";
 	for (const Listed& listed : engine.conditions())
 		if (const string own = listed.condition->needsEqualCells(listed.name()); !own.empty()) what = own;

@@ -63,7 +63,7 @@ py::dict plotData(const Analysis& engine)
 	const auto     points    = materialPoints(*engine.ownScene(), engine.mask);
 	const auto&    reactions = engine.reactions;
 	const Totals   own       = totals(points, engine.gravity);
-	const Totals   t         = isDivided(engine) ? ofAll(own, *processes()) : own;
+	const Totals   t         = ofAll(own, *holdersOf(engine));
 	const bool     isKnown   = reactions.size() == engine.countOf("boundaries");
 	const Vector3r total     = std::accumulate(reactions.begin(), reactions.end(), Vector3r(Vector3r::Zero()));
 	py::dict       data;

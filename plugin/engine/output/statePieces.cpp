@@ -11,25 +11,11 @@
 
 namespace yade {
 
-namespace {
-	// f(), of which an error is one of all processes.
-	template <class F> void tryTogether(F&& f, const gimpm::Processes& all)
-	{
-		std::exception_ptr thrown;
-		try {
-			f();
-		} catch (...) {
-			thrown = std::current_exception();
-		}
-		failTogether(thrown, all);
-	}
-}
-
 vector<const PointColumn*> fieldsOfAll(const Analysis& engine)
 {
-	const auto                 all = processes();
+	const auto                 all = holdersOf(engine);
 	vector<const PointColumn*> own;
-	tryTogether(
+	together(
 	        [&] {
 		        const ValueLock lock;
 		        own = fieldsOf(materialPoints(engine.sceneOfRun(), engine.mask));
@@ -47,7 +33,7 @@ vector<const PointColumn*> fieldsOfAll(const Analysis& engine)
 
 void writeTogether(const Analysis& engine, const std::function<void()>& write)
 {
-	if (isDivided(engine)) tryTogether(write, *processes());
+	if (isDivided(engine)) together(write, *processes());
 	else if (isFirstProcess())
 		write();
 }

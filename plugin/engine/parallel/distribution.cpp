@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "engine/parallel/distribution.hpp"
 #include "core/base/sentence.hpp"
+#include "core/grid/neighbourhood.hpp"
 #include "engine/analysis/analysis.hpp"
 #include "engine/grid/newPoints.hpp"
 #include "engine/parallel/bodyParcels.hpp"
@@ -100,7 +101,7 @@ template <int Dim> std::shared_ptr<gimpm::Division> Distribution::divide(Analysi
 	for (const auto& parcel : gimpm::exchanged(*all, parcels))
 		unpackBodies(parcel, scene);
 	malloc_trim(0); // what has been erased, and what the step before has left in the heap of its own thread: a sixth of the peak
-	Pieces::note(scene, all.get());
+	Pieces::note(scene, *all);
 	updateMaterialPoints(points, scene, engine.mask);
 	for (const MaterialPoint& p : points)
 		division->id.push_back(p.id);
@@ -110,7 +111,7 @@ template <int Dim> std::shared_ptr<gimpm::Division> Distribution::divide(Analysi
 template <int Dim> vector<int> Distribution::ownOf(Analysis& engine, vector<MaterialPoint>& points, const NewPoints& added)
 {
 	const auto all = processes();
-	admitTogether(
+	together(
 	        [&] {
 		        updateMaterialPoints(points, engine.sceneOfRun(), engine.mask);
 		        requireWhole(engine);
@@ -150,7 +151,7 @@ namespace {
 void Distribution::requireWhole(const Analysis& engine)
 {
 	const auto all   = processes();
-	const int  count = all ? all->size() : 1, number = all ? all->rank() : 0;
+	const int  count = all->size(), number = all->rank();
 	const auto has = Pieces::of(engine.sceneOfRun());
 	if (has.count == 0 || (has.count == count && has.number == number && engine.distributed)) return;
 	throw std::invalid_argument(sentence(
@@ -171,19 +172,19 @@ void Distribution::requireDivisible(const Analysis& engine, const vector<Materia
 			        sentence("Body #", point.id, ": ", start, " needs materials that are in O.materials, which its own is not."));
 }
 
-namespace {
-	// A scene of one process may be a piece, too, which no step is made with.
-	bool isDividedHere(const Scene& scene) { return Pieces::of(scene).count > 1 && processes(); }
-}
+// A scene of one process may be a piece, too, which no step is made with.
+std::shared_ptr<const gimpm::Processes> holdersOf(const Scene& scene) { return Pieces::of(scene).count > 1 ? processes() : gimpm::Processes::alone(); }
 
-bool isDivided(const Analysis& engine) { return isDividedHere(*engine.ownScene()); }
+std::shared_ptr<const gimpm::Processes> holdersOf(const Analysis& engine) { return holdersOf(*engine.ownScene()); }
 
-bool isSceneDivided() { return isDividedHere(*Singleton<Omega>::instance().getScene()); }
+bool isDivided(const Analysis& engine) { return holdersOf(engine)->size() > 1; }
+
+bool isSceneDivided() { return holdersOf(*Singleton<Omega>::instance().getScene())->size() > 1; }
 
 void takePieces()
 {
 	const ValueLock lock;
-	Pieces::note(*Singleton<Omega>::instance().getScene(), processes().get());
+	Pieces::note(*Singleton<Omega>::instance().getScene(), *processes());
 }
 
 } // namespace yade

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 // The material points of a scene divided among processes (MpmImplicitEngine.distributed).
-#include "core/grid/division.hpp"
+#include "core/parallel/division.hpp"
 #include "engine/points/MaterialPoints.hpp"
 
 namespace yade {
@@ -29,10 +29,13 @@ private:
 	vector<gimpm::Key> first; // of the ranges, as in gimpm::Division; empty before the first step
 };
 
-// Whether the points of an engine are in several processes, of which this one has its own only.
+// The processes among which the points of an engine are divided, so that each has its own only; this one alone where it has all of them.
+std::shared_ptr<const gimpm::Processes> holdersOf(const Analysis&);
+std::shared_ptr<const gimpm::Processes> holdersOf(const Scene&); // whichever engine has divided them
+
 bool isDivided(const Analysis&);
 
-// For Python: the same of those of the current scene, whichever engine has divided them.
+// For Python: the same of those of the current scene.
 bool isSceneDivided();
 
 // For mpm.load, which has put the points of all pieces into the processes that there are now.

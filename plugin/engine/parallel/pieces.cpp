@@ -22,16 +22,16 @@ Pieces Pieces::of(const Scene& scene)
 	return areThose ? p : Pieces();
 }
 
-void Pieces::note(Scene& scene, const gimpm::Processes* all)
+void Pieces::note(Scene& scene, const gimpm::Processes& all)
 {
 	scene.tags.erase(std::remove_if(scene.tags.begin(), scene.tags.end(), isKeptIn), scene.tags.end());
-	if (!all) return;
+	if (all.size() == 1) return;
 	const int bodies = int(scene.bodies->size());
 	int       gap    = 0;
 	while (gap < bodies && (*scene.bodies)[gap])
 		++gap;
 	std::ostringstream text;
-	text << key << all->size() << ' ' << all->rank() << ' ' << bodies << ' ' << gap;
+	text << key << all.size() << ' ' << all.rank() << ' ' << bodies << ' ' << gap;
 	scene.tags.push_back(text.str());
 }
 

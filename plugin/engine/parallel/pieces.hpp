@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 // Which of the material points of a scene this process has, where several have divided them.
-#include "core/base/processes.hpp"
+#include "core/parallel/processes.hpp"
 #include "yade_api/scene.hpp"
 
 namespace yade {
@@ -15,8 +15,8 @@ struct Pieces {
 	// None also where there are other bodies than those that were divided.
 	static Pieces of(const Scene&);
 
-	// That the scene is divided as it is now; null: that it is not.
-	static void note(Scene&, const gimpm::Processes*);
+	// That the scene is divided among these as it is now; of one alone that it is not.
+	static void note(Scene&, const gimpm::Processes&);
 };
 
 // So that the list of bodies is as long in all processes, also where others have the last ones.

@@ -40,14 +40,6 @@ namespace {
 		return found;
 	}
 
-	// As many as there are if none does.
-	int firstToFail(const gimpm::Processes& all, bool fails)
-	{
-		std::int64_t first = fails ? all.rank() : all.size();
-		all.smallest(&first, 1);
-		return int(first);
-	}
-
 	string messageOf(const std::exception_ptr& thrown)
 	{
 		if (!thrown) return "";
@@ -59,30 +51,35 @@ namespace {
 			return "the step was given up";
 		}
 	}
+
+	// Whether what has been thrown says that something given is not admitted.
+	bool isRefusal(const std::exception_ptr& thrown)
+	{
+		try {
+			std::rethrow_exception(thrown);
+		} catch (const std::invalid_argument&) {
+			return true;
+		} catch (...) {
+			return false;
+		}
+	}
 }
 
 std::shared_ptr<const gimpm::Processes> processes()
 {
-	static std::shared_ptr<const gimpm::Processes> known;
+	static std::shared_ptr<const gimpm::Processes> known = gimpm::Processes::alone();
 	const int                                      count = toldByMpirun("OMPI_COMM_WORLD_SIZE", 1);
-	if (!known && count > 1) known = begin(count);
+	if (known->size() < count) known = begin(count);
 	return known;
 }
 
 bool isFirstProcess() { return toldByMpirun("OMPI_COMM_WORLD_RANK", 0) == 0; }
 
-bool isRequested(bool here, const gimpm::Processes* all)
+bool isRequested(bool here, const gimpm::Processes& all)
 {
-	if (!all) return here;
 	std::int64_t goesOn = !here;
-	all->smallest(&goesOn, 1);
+	all.smallest(&goesOn, 1);
 	return !goesOn;
-}
-
-string firstSaid(const string& text, const gimpm::Processes& all)
-{
-	const int first = firstToFail(all, !text.empty());
-	return first < all.size() ? all.told(text, first) : "";
 }
 
 int largestOf(int number, const gimpm::Processes& all)
@@ -94,25 +91,24 @@ int largestOf(int number, const gimpm::Processes& all)
 
 void failTogether(const std::exception_ptr& thrown, const gimpm::Processes& all)
 {
-	if (const string reason = firstSaid(messageOf(thrown), all); !reason.empty()) throw std::runtime_error(reason);
+	constexpr char refusal = 'r', other = 'o';
+	const int      first = gimpm::firstOf(all, bool(thrown));
+	if (first == all.size()) return;
+	const string said = all.told(thrown ? (isRefusal(thrown) ? refusal : other) + messageOf(thrown) : "", first);
+	if (first == all.rank()) std::rethrow_exception(thrown);
+	if (said[0] == refusal) throw std::invalid_argument(said.substr(1));
+	throw std::runtime_error(said.substr(1));
 }
 
-void Agreement::meet(const Analysis& engine)
+template <class F> void Agreement::requireAgreement(const Analysis& engine, F&& haveSamePoints)
 {
-	reach(engine, gimpm::PointCloud<2>(), true);
-	isAsked = false;
-}
-
-template <int Dim> void Agreement::reach(const Analysis& engine, const gimpm::PointCloud<Dim>& cloud, bool areDivided)
-{
-	const auto all = processes();
-	isAsked        = true;
-	if (!all) return;
-	const int first = firstToFail(*all, false);
+	const auto all  = processes();
+	isAsked         = true;
+	const int first = gimpm::firstOf(*all, false);
 	if (first < all->size())
 		throw std::runtime_error("Process " + std::to_string(first) + " of " + std::to_string(all->size()) + " has failed: " + all->told("", first));
 	const bool isSameIteration = all->haveSame(std::uint64_t(engine.sceneOfRun().iter)); // after an error in one of them it may not be
-	if (!isSameIteration || !(areDivided || gimpm::haveSamePoints(*all, cloud)))
+	if (!isSameIteration || !haveSamePoints(*all))
 		throw std::runtime_error(
 		        engine.className() + ": the processes "
 		        + (isSameIteration ? "hold different material points" : "are not in the same iteration; this one is") + " in iteration "
@@ -120,19 +116,29 @@ template <int Dim> void Agreement::reach(const Analysis& engine, const gimpm::Po
 		        + ". The script must do the same in all of them, in the same order: random numbers need a seed, and files the same content.");
 }
 
-template void Agreement::reach(const Analysis&, const gimpm::PointCloud<2>&, bool);
-template void Agreement::reach(const Analysis&, const gimpm::PointCloud<3>&, bool);
+void Agreement::meet(const Analysis& engine)
+{
+	requireAgreement(engine, [](const gimpm::Processes&) { return true; });
+	isAsked = false;
+}
+
+template <int Dim> void Agreement::reach(const Analysis& engine, const gimpm::PointCloud<Dim>& cloud, const gimpm::Division& division)
+{
+	requireAgreement(engine, [&](const gimpm::Processes& all) { return !division.isWhole() || gimpm::haveSamePoints(all, cloud); });
+}
+
+template void Agreement::reach(const Analysis&, const gimpm::PointCloud<2>&, const gimpm::Division&);
+template void Agreement::reach(const Analysis&, const gimpm::PointCloud<3>&, const gimpm::Division&);
 
 void Agreement::breakOff(const std::exception_ptr& thrown)
 {
 	if (isAsked) return;
 	isAsked = true;
-	std::shared_ptr<const gimpm::Processes> all;
 	try {
-		all = processes();
+		const auto all = processes();
+		all->told(messageOf(thrown), gimpm::firstOf(*all, true));
 	} catch (const std::invalid_argument&) { // there are none to talk to
 	}
-	if (all) all->told(messageOf(thrown), firstToFail(*all, true));
 }
 
 } // namespace yade

@@ -2,6 +2,7 @@
 #include "engine/parallel/sameness.hpp"
 #include "core/base/checksum.hpp"
 #include "core/base/sentence.hpp"
+#include "core/parallel/together.hpp"
 #include "engine/analysis/analysis.hpp"
 #include "engine/grid/newPoints.hpp"
 #include "engine/parallel/archived.hpp"
@@ -9,19 +10,28 @@
 namespace yade {
 
 namespace {
+	// An attribute, of whatever kind: a number, a vector or tensor, or numbers by their names.
+	template <class T> void append(const T& value, vector<Real>& numbers)
+	{
+		if constexpr (std::is_arithmetic_v<T>) numbers.push_back(value);
+		else if constexpr (std::is_base_of_v<Eigen::MatrixBase<T>, T>)
+			numbers.insert(numbers.end(), value.data(), value.data() + value.size());
+		else
+			for (const auto& [name, number] : value)
+				numbers.push_back(number);
+	}
+
+	// Of all attributes, and of the place and the velocity that belong to YADE's State.
 	std::uint64_t checksum(const vector<MaterialPoint>& points, size_t begin)
 	{
 		gimpm::Checksum sum;
 		vector<Real>    numbers;
-		const auto      add = [&](const auto& values) { numbers.insert(numbers.end(), values.data(), values.data() + values.size()); };
 		for (size_t p = begin; p < points.size(); ++p) {
-			const MpmState& s = *points[p].state;
-			numbers           = { Real(points[p].id), s.volume0, Real(points[p].material->id) };
-			add(Vector3r(s.pos)), add(s.vel), add(s.acceleration), add(s.force), add(points[p].shape->halfSize), add(s.defGrad),
-			        add(s.elasticStrain);
-			for (const auto* named : { &s.internals, &s.parameters })
-				for (const auto& [name, value] : *named)
-					numbers.push_back(value);
+			const MaterialPoint& point = points[p];
+			numbers                    = { Real(point.id), Real(point.material->id) };
+			append(Vector3r(point.state->pos), numbers), append(point.state->vel, numbers);
+			MpmState::attributes([&](const char*, auto member, auto&&...) { append((*point.state).*member, numbers); });
+			MpmPoint::attributes([&](const char*, auto member, auto&&...) { append((*point.shape).*member, numbers); });
 			sum.mix(numbers);
 		}
 		return sum.take();
@@ -116,7 +126,7 @@ void requireSameAnswers(const gimpm::Processes& all, const Analysis& engine)
 		if (asked.empty()) what = listed.condition->answers(), classes = listed.condition->getClassName();
 		asked.push_back(listed.condition);
 	}
-	if (asked.empty() || all.haveSame(checksumOf(asked))) return;
+	if (asked.empty() || gimpm::haveSame(all, [&] { return checksumOf(asked); })) return;
 	throw std::runtime_error(startOf(engine, what.c_str()) + ". Functions of " + classes + " must answer the same in all of them.");
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "engine/points/energies.hpp"
-#include "core/base/together.hpp"
+#include "core/parallel/together.hpp"
 
 namespace yade {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-#include "core/base/processes.hpp"
+#include "core/parallel/processes.hpp"
 #include "engine/points/MaterialPoints.hpp"
 
 namespace yade {

@@ -46,24 +46,19 @@ namespace {
 		return copy;
 	}
 
-	// What there is once only. A part of a half to all of it, and the rest, have it as their sum to the last bit.
-	struct Amounts {
-		explicit Amounts(const MpmState& s) : volume(s.volume), volume0(s.volume0), mass(s.mass), force(s.force) { }
-		void giveTo(MpmState& s) const { s.volume = volume, s.volume0 = volume0, s.mass = mass, s.force = force; }
-		void take(Real part)
-		{
-			for (Real* x : { &volume, &volume0, &mass })
-				*x *= part;
-			force *= part;
-		}
-		void subtract(const Amounts& other)
-		{
-			volume -= other.volume, volume0 -= other.volume0, mass -= other.mass;
-			force -= other.force;
-		}
-		Real     volume, volume0, mass;
-		Vector3r force;
-	};
+	// Takes a part of what there is once only, and leaves the rest: halves have it as their sum to the last bit.
+	void takePart(MpmState& from, MpmState& to, Real part)
+	{
+		MpmState::amounts([&](auto member) {
+			to.*member = part * from.*member;
+			from.*member -= to.*member;
+		});
+	}
+
+	void exchangeAmounts(MpmState& one, MpmState& other)
+	{
+		MpmState::amounts([&](auto member) { std::swap(one.*member, other.*member); });
+	}
 
 	// The initial domains of halves are those of the initial one; but the initial radius of a ring is that with which it is stretched around the axis as the whole is.
 	void moveHalf(MpmState& state, MpmPoint& shape, int axis, Real sign, const Vector3r& offset, bool isRing)
@@ -87,11 +82,8 @@ shared_ptr<Body> halve(const Body& body, const MaterialPoint& point, int axis, b
 	auto&      state = static_cast<MpmState&>(*upper->state);
 	state.parent     = body.id;
 	const Real part  = isRing ? (1 + offset[0] / point.state->pos[0]) / 2 : 0.5;
-	Amounts    rest(*point.state), larger = rest;
-	larger.take(std::max(part, 1 - part));
-	rest.subtract(larger);
-	(part < 0.5 ? rest : larger).giveTo(state);
-	(part < 0.5 ? larger : rest).giveTo(*point.state);
+	takePart(*point.state, state, std::max(part, 1 - part)); // the larger one
+	if (part < 0.5) exchangeAmounts(*point.state, state);
 	moveHalf(*point.state, *point.shape, axis, -1, offset, isRing);
 	moveHalf(state, static_cast<MpmPoint&>(*upper->shape), axis, 1, offset, isRing);
 	return upper;

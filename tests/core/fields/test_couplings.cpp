@@ -95,7 +95,7 @@ namespace {
 			const Eigen::MatrixXd scaled = scale.asDiagonal() * full() * scale.asDiagonal();
 			return scaled(free, free);
 		}
-		LinearProblem problem() const { return LinearProblem(springs.K, dofs, nullptr, &beside); }
+		LinearProblem problem() const { return LinearProblem(springs.K, dofs, &beside); }
 	};
 
 	/// Whether there is a library for it.
@@ -375,16 +375,11 @@ namespace {
 		EXPECT_LT((foundDiagonal - diagonal).norm(), 1e-14 * diagonal.norm());
 	}
 
-	struct OneOf : Processes {
+	struct OneOf : OneProcess {
 		int number;
 		explicit OneOf(int number) : number(number) { }
-		int         rank() const override { return number; }
-		int         size() const override { return 2; }
-		void        smallest(std::int64_t*, int) const override { }
-		void        gather(double*, const int*) const override { }
-		void        exchange(const Parcel*, int) const override { }
-		std::string told(const std::string& text, int) const override { return text; }
-		double      sent() const override { return 0; }
+		int rank() const override { return number; }
+		int size() const override { return 2; }
 	};
 
 	/// As multigrid and factors of several processes are given them.
@@ -395,13 +390,13 @@ namespace {
 			Coupled<Dim> c(Index<Dim>::Constant(5), { Coupled<Dim>::displacement() }, isSymmetric);
 			c.fill(60);
 			const Eigen::MatrixXd full   = c.full();
-			const NodeRows        whole  = *nodeRows(c.springs.K, c.dofs, nullptr, &c.beside);
+			const NodeRows        whole  = *nodeRows(c.springs.K, c.dofs, NodeShare::whole(c.nodes()), &c.beside);
 			const auto            isFree = [&](int i) { return c.dofs.number[i] >= 0; };
 			double                sum = 0, expected = 0;
 			for (const int rank : { 0, 1 }) {
 				const OneOf     process(rank);
 				const NodeShare share { process, { 0, c.nodes() / 3, c.nodes() } };
-				const NodeRows  rows = *nodeRows(c.springs.K, c.dofs, &share, &c.beside);
+				const NodeRows  rows = *nodeRows(c.springs.K, c.dofs, share, &c.beside);
 				for (int r = 0; r < rows.rows(); ++r)
 					for (int e = rows.start[r]; e < rows.start[r + 1]; ++e) {
 						const int i = rows.dof[r], j = whole.dof[rows.column[e]];

@@ -441,17 +441,11 @@ namespace {
 		body.model.coupledTerms.clear();
 		EXPECT_EQ(body.step().cause, "no term is for the field 'pressure'");
 
-		struct Alone : Processes {
-			int         rank() const override { return 0; }
-			int         size() const override { return 1; }
-			void        smallest(std::int64_t*, int) const override { }
-			void        gather(double*, const int*) const override { }
-			void        exchange(const Parcel*, int) const override { }
-			std::string told(const std::string& text, int) const override { return text; }
-			double      sent() const override { return 0; }
+		struct FirstOfTwo : OneProcess {
+			int size() const override { return 2; }
 		};
 		Body<2> shared(0.3);
-		shared.model.processes  = std::make_shared<Alone>();
+		shared.model.processes  = std::make_shared<FirstOfTwo>();
 		const StepReport report = shared.step();
 		EXPECT_EQ(report.failure, Failure::misplaced);
 		EXPECT_EQ(report.cause, "several processes can share displacements only, and there is the field 'pressure'");

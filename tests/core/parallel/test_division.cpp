@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Points that are divided among processes: each assembles its rows from its own points and copies of others'. Threads stand for the processes.
-#include "core/stepping/halo.hpp"
+#include "core/parallel/halo.hpp"
 #include "core/stepping/step_system.hpp"
 #include "core/terms/inertia.hpp"
 #include "core/terms/rayleigh.hpp"
 #include "scenes.hpp"
 #include "threads_as_processes.hpp"
+#include <atomic>
 
 namespace gimpm::testDivision {
 namespace {
@@ -39,18 +40,15 @@ namespace {
 		/// The points of one process, and which of all these are.
 		static PointCloud<Dim> part(const PointCloud<Dim>& all, const Model<Dim>& model, Division& division)
 		{
-			PointCloud<Dim> own;
 			for (int p = 0; p < int(all.size()); ++p)
 				if (division.owns(lowestCell(all.position[p], all.halfSize[p], model.grid, model.basis))) division.id.push_back(p);
-			own.resize(division.id.size());
-			own.force.clear();
-			for (std::size_t i = 0; i < division.id.size(); ++i) {
-				const std::int64_t p = division.id[i];
-				own.position[i] = all.position[p], own.halfSize[i] = all.halfSize[p], own.halfSize0[i] = all.halfSize0[p],
-				own.volume0[i] = all.volume0[p];
-				own.defGrad[i] = all.defGrad[p], own.elasticStrain[i] = all.elasticStrain[p], own.stress[i] = all.stress[p],
-				own.material[i] = all.material[p];
-			}
+			PointCloud<Dim> own = all;
+			forColumns(own, [&](auto& column, Presence) {
+				const auto ofAll = column;
+				column.clear();
+				for (const std::int64_t p : division.id)
+					if (!ofAll.empty()) column.push_back(ofAll[p]);
+			});
 			return own;
 		}
 		static std::vector<CellLoad> loads(const PointCloud<Dim>& all, const Model<Dim>& model)
@@ -96,7 +94,7 @@ namespace {
 				EXPECT_LT(cloud.size(), 0.7 * double(all.size()));
 				const std::size_t own = cloud.size();
 				{
-					const Halo<Dim>       halo(cloud, mine);
+					const Halo            halo(cloud, *mine.division, [&] { return pointsForOthers(cloud, mine); });
 					StepReport            ofMine;
 					const StepSystem<Dim> system(cloud, mine, load, ofMine);
 					if (mine.processes->rank() > 0) EXPECT_GT(cloud.size(), own) << "points reach nodes above them";
@@ -163,7 +161,7 @@ namespace {
 		TestFixture::inProcesses(all, model, [&](PointCloud<Dim>& cloud, const Model<Dim>& mine) {
 			Moved<Dim> part(mine.division->id);
 			{
-				const Halo<Dim> halo(cloud, mine);
+				const Halo halo(cloud, *mine.division, [&] { return pointsForOthers(cloud, mine); });
 				part.step(cloud, mine, d);
 			}
 			EXPECT_LT((part.force - whole.force).norm(), 1e-11 * whole.force.norm());
@@ -212,7 +210,7 @@ namespace {
 			const auto whole = keys(all, model, reach);
 			EXPECT_EQ(whole.size() > 190, reach == Dim) << whole.size();
 			TestFixture::inProcesses(all, model, [&](PointCloud<Dim>& cloud, const Model<Dim>& mine) {
-				const Halo<Dim> halo(cloud, mine);
+				const Halo halo(cloud, *mine.division, [&] { return pointsForOthers(cloud, mine); });
 				EXPECT_EQ(ownOf(keys(cloud, mine, reach), *mine.division), ownOf(whole, *mine.division));
 			});
 		}
@@ -235,6 +233,101 @@ namespace {
 			});
 		}
 		EXPECT_EQ(cutByWork({ { 7, 1 } }, 3), std::vector<Key>(2, ~Key(0))) << "one cell is one process's";
+	}
+
+	/// Whatever columns there are.
+	TYPED_TEST(DivisionOf, CopiesHaveAllThatPointsHave)
+	{
+		constexpr int Dim   = TypeParam::value;
+		const auto    model = TestFixture::model(false, 0.01);
+		auto          all   = TestFixture::cloud(model.grid);
+		all.internals       = { {}, std::vector<double>(1) };
+		all.parameters      = { std::vector<double>(1) };
+		int number          = 0;
+		forColumns(all, [&](auto& column, Presence presence) {
+			++number;
+			if (presence == Presence::always || static_cast<void*>(&column) == &all.internals[0]) return; // which no point needs
+			column.resize(all.size());
+			for (auto& value : column)
+				std::memset(static_cast<void*>(&value), number, sizeof value);
+		});
+		std::atomic_int compared { 0 };
+		TestFixture::inProcesses(all, model, [&](PointCloud<Dim>& cloud, const Model<Dim>& mine) {
+			const Halo halo(cloud, *mine.division, [&] { return pointsForOthers(cloud, mine); });
+			const auto compare = [&](const auto& found, const auto& expected) {
+				ASSERT_EQ(found.size(), expected.empty() ? 0 : cloud.size());
+				for (std::size_t p = 0; p < found.size(); ++p)
+					EXPECT_EQ(std::memcmp(&found[p], &expected[mine.division->idOf(int(p))], sizeof found[p]), 0);
+				++compared;
+			};
+			const auto look = [&](auto of) {
+				if constexpr (std::is_same_v<std::decay_t<decltype(cloud.*of)>, InternalColumns>)
+					for (std::size_t k = 0; k < (all.*of).size(); ++k)
+						compare((cloud.*of)[k], (all.*of)[k]);
+				else
+					compare(cloud.*of, all.*of);
+			};
+			std::apply([&](const auto&... column) { (look(column.of), ...); }, PointCloud<Dim>::columns());
+		});
+		EXPECT_EQ(compared, (2 + 3) * 14) << "columns in each of two processes, and of three";
+	}
+
+	/// One alone is asked as several are, and answers without a word to others.
+	TEST(OneProcess, KnowsWhatAllKnow)
+	{
+		const Processes& one = *Processes::alone();
+		EXPECT_EQ(one.size(), 1);
+		EXPECT_EQ(one.rank(), 0);
+		EXPECT_EQ(joined(one, std::vector<Key> { 3, 1 }), (std::vector<Key> { 3, 1 }));
+		EXPECT_EQ(ofEach(one, 2.5), std::vector<double> { 2.5 });
+		EXPECT_EQ(exchanged(one, { { 1, 2 } }), (std::vector<std::vector<double>> { { 1, 2 } }));
+		EXPECT_EQ(firstSaid(one, "no"), "no");
+		EXPECT_EQ(firstSaid(one, ""), "");
+		EXPECT_TRUE(haveSame(one, []() -> std::uint64_t { throw std::logic_error("nobody is there to compare with"); }));
+		EXPECT_EQ(one.sent(), 0);
+	}
+
+	TEST(OneProcess, HasAllPointsAndNodes)
+	{
+		const Division         all;
+		const std::vector<Key> keys { 2, 5, 9 };
+		std::vector<double>    values { 1, 2, 3 };
+		all.complete(keys, values);
+		all.extend(values);
+		EXPECT_EQ(values, (std::vector<double> { 1, 2, 3 }));
+		EXPECT_TRUE(all.isWhole());
+		EXPECT_TRUE(all.owns(0) && all.owns(~Key(0)));
+		EXPECT_EQ(all.united(keys), keys);
+		EXPECT_EQ(all.startsAmong(keys), (std::vector<int> { 0, 3 }));
+		EXPECT_EQ(all.ownOf(7), 7);
+		EXPECT_EQ(all.idOf(4), 4);
+		EXPECT_EQ(all.sum(0.1), 0.1);
+		EXPECT_EQ(all.largest(-1), -1);
+		Eigen::VectorXd nodal = Eigen::VectorXd::Ones(6);
+		all.shareOf(keys).complete(nodal);
+		EXPECT_EQ(nodal, Eigen::VectorXd::Ones(6));
+	}
+
+	/// As processes compare them.
+	TEST(PointCloud, ChecksumIsThatOfEachColumn)
+	{
+		PointCloud<2> cloud;
+		cloud.internals = cloud.parameters = { std::vector<double>(1) };
+		forColumns(cloud, [](auto& column, Presence) {
+			column.resize(3);
+			std::memset(static_cast<void*>(column.data()), 0, 3 * sizeof column[0]);
+		});
+		const std::uint64_t whole = checksumOf(cloud);
+		int                 count = 0;
+		forColumns(cloud, [&](auto& column, Presence) {
+			const auto before = column;
+			std::memset(static_cast<void*>(&column[1]), 1, 4);
+			EXPECT_NE(checksumOf(cloud), whole) << count;
+			column = before;
+			EXPECT_EQ(checksumOf(cloud), whole) << count;
+			++count;
+		});
+		EXPECT_EQ(count, 13);
 	}
 
 } // namespace

@@ -309,3 +309,13 @@ print(json.dumps([table.dtype.names, [bool(s) for s in same], len(table) == len(
 ''').result
 	assert {'id', 'pos_x', 'stress_xx', 'stress_zz', 'plasticStrain', 'meanStress', 'sqrt2J2', 'volume', 'material'} <= set(names)
 	assert all(same) and kinds and sorted(left) == ['points.csv', 'points.npz']
+
+
+def test_whatAPointHasIsAColumn(yade):
+	"""An attribute that somebody adds to points is one of mpm.arrays; the initial volume follows from other columns, and what laws have of their own has columns by its names."""
+	attributes, columns = yade(scene + '''
+from yade.mpm.data import table
+own = (set(MpmState().dict()) - set(State().dict())) | (set(MpmPoint().dict()) - set(Sphere().dict()))
+print(json.dumps([sorted(own), sorted(table)]))
+''').result
+	assert len(attributes) > 10 and set(attributes) - set(columns) == {'volume0', 'internals', 'parameters'}

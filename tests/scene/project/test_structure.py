@@ -17,12 +17,13 @@ interfaceIncludes = re.compile(r'<.*>|"yade_api/\w+\.hpp"')
 # each folder of the core, and those below it
 below = {
         'base': [],
-        'grid': ['base'],
+        'parallel': ['base'],
+        'grid': ['base', 'parallel'],
         'materials': ['base'],
         'fields': ['base', 'grid'],
-        'solvers': ['base', 'fields', 'grid', 'materials'],
-        'terms': ['base', 'fields', 'grid', 'materials', 'solvers'],
-        'stepping': ['base', 'fields', 'grid', 'materials', 'solvers', 'terms'],
+        'solvers': ['base', 'fields', 'grid', 'materials', 'parallel'],
+        'terms': ['base', 'fields', 'grid', 'materials', 'parallel', 'solvers'],
+        'stepping': ['base', 'fields', 'grid', 'materials', 'parallel', 'solvers', 'terms'],
 }
 
 

@@ -188,7 +188,7 @@ template <int Dim> void Contacts<Dim>::recall(const MpmContact& contact)
 template <int Dim> void Contacts<Dim>::join(gimpm::Model<Dim>& model, const Surroundings<Dim>& around)
 {
 	begin = end = around.begin, target = around.target, dt = around.scene.dt;
-	areDivided = model.division != nullptr;
+	areDivided = !model.division->isWhole();
 	movers.emplace(around.scene);
 	for (const auto& contact : given)
 		add(contact, around.scene, model.grid);

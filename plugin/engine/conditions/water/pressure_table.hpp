@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 // The pressure that a function of Python gives, at the nodes around the material points.
-#include "core/grid/division.hpp"
+#include "core/parallel/division.hpp"
 #include "core/terms/water_pressure.hpp"
 #include "engine/conditions/water/MpmWater.hpp"
 

@@ -31,7 +31,7 @@ namespace {
 }
 
 template <int Dim>
-void Waters<Dim>::take(const Analysis& analysis, const gimpm::Grid<Dim>& grid, const gimpm::PointCloud<Dim>& cloud, const gimpm::Division* division)
+void Waters<Dim>::take(const Analysis& analysis, const gimpm::Grid<Dim>& grid, const gimpm::PointCloud<Dim>& cloud, const gimpm::Division& division)
 {
 	const auto waterOf  = [](const Listed& listed) { return boost::static_pointer_cast<MpmWater>(listed.condition); };
 	const bool areAsked = std::any_of(group.begin(), group.end(), [&](const Listed& listed) { return waterOf(listed)->hasFunction(); });
@@ -50,7 +50,7 @@ void Waters<Dim>::take(const Analysis& analysis, const gimpm::Grid<Dim>& grid, c
 
 template <int Dim> void Waters<Dim>::join(gimpm::Model<Dim>& model, const Surroundings<Dim>& around)
 {
-	take(around.analysis, model.grid, around.cloud, model.division.get());
+	take(around.analysis, model.grid, around.cloud, *model.division);
 	for (auto& water : waters) {
 		water.shares = model.shares;
 		model.terms.push_back([&water](const gimpm::Beginning<Dim>& step) { return std::make_unique<gimpm::WaterForce<Dim>>(water, step); });

@@ -20,7 +20,7 @@ public:
 	void reach(const StepOutcome<Dim>&) override;
 
 	// Takes its pressures from a scene, without a model: functions are asked for pressures around the points.
-	void take(const Analysis&, const gimpm::Grid<Dim>&, const gimpm::PointCloud<Dim>&, const gimpm::Division* = nullptr);
+	void take(const Analysis&, const gimpm::Grid<Dim>&, const gimpm::PointCloud<Dim>&, const gimpm::Division&);
 	void advance(Real from, Real to);
 
 	// Averaged over a box, at the end of that step, of each with its factor.

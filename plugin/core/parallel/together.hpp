@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // What several processes know together when each has said its part. All of them call these, in the same order, and come to the same, to the last bit.
 #pragma once
-#include "core/base/processes.hpp"
+#include "core/parallel/processes.hpp"
+#include <Eigen/Core>
 #include <algorithm>
 #include <cstring>
+#include <type_traits>
 #include <vector>
 
 namespace gimpm {
@@ -30,9 +32,18 @@ inline void addUp(const Processes& all, double* numbers, int count)
 		numbers[i % count] += ofAll[i];
 }
 
-/// What they have, one process after the other.
-template <class T> std::vector<T> joined(const Processes& all, const std::vector<T>& own)
+/// Of a vector of which each has a part with this norm.
+inline double normOfAll(const Processes& all, double own)
 {
+	if (all.size() == 1) return own;
+	const auto norms = ofEach(all, own);
+	return Eigen::Map<const Eigen::VectorXd>(norms.data(), Eigen::Index(norms.size())).stableNorm();
+}
+
+/// What they have, one process after the other.
+template <class T> std::vector<T> joined(const Processes& all, std::vector<T> own)
+{
+	if (all.size() == 1) return own;
 	static_assert(sizeof(T) % sizeof(double) == 0 && std::is_trivially_copyable_v<T>);
 	constexpr int    words = sizeof(T) / sizeof(double);
 	std::vector<int> start { 0 };
@@ -44,6 +55,16 @@ template <class T> std::vector<T> joined(const Processes& all, const std::vector
 	std::vector<T> result(numbers.size() / words);
 	if (!result.empty()) std::memcpy(static_cast<void*>(result.data()), numbers.data(), result.size() * sizeof(T));
 	return result;
+}
+
+/// What one of them has, sorted; each process gives what it has itself, sorted and once.
+template <class T> std::vector<T> united(const Processes& all, std::vector<T> own)
+{
+	if (all.size() == 1) return own;
+	own = joined(all, std::move(own));
+	std::sort(own.begin(), own.end());
+	own.erase(std::unique(own.begin(), own.end()), own.end());
+	return own;
 }
 
 /// The numbers that each process has for this one, for those that this one has for each.
@@ -65,5 +86,23 @@ inline std::vector<std::vector<double>> exchanged(const Processes& all, const st
 	all.exchange(parcels.data(), int(parcels.size()));
 	return received;
 }
+
+/// The first one of them for which this is so; as many as there are: it is for none.
+inline int firstOf(const Processes& all, bool isSo)
+{
+	std::int64_t first = isSo ? all.rank() : all.size();
+	all.smallest(&first, 1);
+	return int(first);
+}
+
+/// Of texts, empty where there is none: that of the first process which has one, in all of them.
+inline std::string firstSaid(const Processes& all, const std::string& text)
+{
+	const int first = firstOf(all, !text.empty());
+	return first < all.size() ? all.told(text, first) : "";
+}
+
+/// Whether a number that takes time to be found is the same in all of them; one alone does not look for it.
+template <class F> bool haveSame(const Processes& all, F&& number) { return all.size() == 1 || all.haveSame(number()); }
 
 } // namespace gimpm

@@ -1,23 +1,39 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Points that are divided among processes, of which each knows all nodes and cells, but only the points at its own.
+// How points are divided among processes, of which each knows all nodes and cells, but only the points at its own.
 #pragma once
-#include "core/base/together.hpp"
-#include "core/grid/cloud_basis.hpp"
+#include "core/base/types.hpp"
+#include "core/parallel/node_share.hpp"
+#include "core/parallel/together.hpp"
+#include <algorithm>
 #include <memory>
 
 namespace gimpm {
 
 /// Each process has a range of the nodes in the order of their keys, and the cells that are named after them. It holds the points whose domain begins in one of its cells, and while
-/// a step is made copies of all others that reach its nodes and cells: what is summed over points is whole there.
+/// a step is made copies of all others that reach its nodes and cells: what is summed over points is whole there. Where nothing is said the process is alone with its points: it has
+/// all nodes and cells, what it sums is the sum, and points are numbered as they are in the cloud. So it is also where several processes hold the same points.
 struct Division {
-	std::shared_ptr<const Processes> processes;
-	std::vector<Key>                 first;     ///< of each process but the first one: where its range begins; they do not fall
+	std::shared_ptr<const Processes> processes = Processes::alone();
+	std::vector<Key>                 first {};  ///< of each process but the first one: where its range begins; they do not fall
 	std::vector<std::int64_t>        id {};     ///< of the own points, in the order of the cloud, rising: the same in whatever process they are
 	std::vector<std::int64_t>        copied {}; ///< of the copies that follow them in the cloud
 	std::vector<std::vector<int>>    lent {};   ///< the own points of which each process has copies, while there are any
 
-	int          own() const { return int(id.size()); }
-	std::int64_t idOf(int point) const { return point < own() ? id[point] : copied[point - own()]; }
+	bool isWhole() const { return processes->size() == 1; } ///< all points are here
+
+	/// Of so many points in a cloud, of which the last ones are copies.
+	int          ownOf(std::size_t points) const { return int(points - copied.size()); }
+	std::int64_t idOf(int point) const
+	{
+		const int own = int(id.size()), all = own + int(copied.size());
+		return point < own ? id[point] : point < all ? copied[point - own] : point;
+	}
+
+	/// Of a new point, behind the others; points that are not divided are numbered by their places.
+	void append(std::int64_t newId)
+	{
+		if (!isWhole()) id.push_back(newId);
+	}
 
 	/// Who has the node or the cell.
 	int  holderOf(Key key) const { return int(std::upper_bound(first.begin(), first.end(), key) - first.begin()); }
@@ -26,19 +42,34 @@ struct Division {
 	/// First of each process among sorted keys, and their number.
 	std::vector<int> startsAmong(const std::vector<Key>& sorted) const;
 
+	/// The nodes around which each process knows all points.
+	NodeShare shareOf(const std::vector<Key>& sortedNodes) const { return { *processes, startsAmong(sortedNodes) }; }
+
 	/// The keys of all, from those that each process has in its own range.
-	std::vector<Key> united(const std::vector<Key>& sorted) const;
+	std::vector<Key> united(std::vector<Key> sorted) const;
 
 	/// Behind what there is of the own points that of the copies, in their order. Numbers only.
 	template <class T> void extend(std::vector<T>& ofPoints) const;
 
+	/// Who has a cell, or a node, knows all points around it, and tells its value.
+	void complete(const std::vector<Key>& sorted, std::vector<double>& values) const;
+	void complete(const std::vector<Key>& sorted, std::vector<char>& values) const;
+
+	void   smallest(std::int64_t* numbers, std::size_t count) const { processes->smallest(numbers, int(count)); }
 	double sum(double own) const;
 	double largest(double own) const;
+
+	/// The same of what several numbers are, one after the other.
+	template <class T> std::vector<T> joined(std::vector<T> own) const { return gimpm::joined(*processes, std::move(own)); }
+
+	/// The first one that has something to say is heard by all.
+	std::string firstSaid(const std::string& text) const { return gimpm::firstSaid(*processes, text); }
 };
 
 template <class T> void Division::extend(std::vector<T>& ofPoints) const
 {
 	static_assert(sizeof(T) % sizeof(double) == 0);
+	if (isWhole()) return;
 	constexpr std::size_t            words = sizeof(T) / sizeof(double);
 	std::vector<std::vector<double>> sent(lent.size());
 	for (std::size_t r = 0; r < lent.size(); ++r) {
@@ -53,9 +84,6 @@ template <class T> void Division::extend(std::vector<T>& ofPoints) const
 	}
 }
 
-/// The lowest cell that a domain reaches, in a periodic grid the one that stands for it.
-template <int Dim> Key lowestCell(const Vec<Dim>& position, const Vec<Dim>& halfSize, const Grid<Dim>&, Basis);
-
 /// Points whose domains begin in a cell.
 struct CellLoad {
 	Key    lowest;
@@ -67,12 +95,5 @@ std::vector<Key> cutByWork(std::vector<CellLoad> loads, int processes);
 
 /// By how much the process that has most to do is above the mean of all, as a part of it.
 double imbalance(const Processes&, const std::vector<CellLoad>& own);
-
-/// The processes that need a point with this lowest cell: those that have a node which it may reach, and, where others need to know all points of their cells (`isWide`), one that
-/// is a cell further. Rising.
-template <int Dim> std::vector<int> neededBy(const Division&, Key lowest, const Grid<Dim>&, bool isWide);
-
-/// As of one process, with the patches of the points of this one.
-template <int Dim> CloudBasis<Dim> cloudBasis(const PointCloud<Dim>&, const Grid<Dim>&, Basis, const Boundary<Dim>&, const Division&);
 
 } // namespace gimpm

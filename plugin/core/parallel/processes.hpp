@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Several processes at work on the same scene, of which each holds all points.
+// The processes that are at work on the same scene: one that is alone, or several.
 #pragma once
 #include <cstdint>
+#include <memory>
 #include <string>
 
 namespace gimpm {
@@ -38,6 +39,9 @@ public:
 	/// What this process has sent so far [bytes].
 	virtual double sent() const = 0;
 
+	/// This process, and no others.
+	static const std::shared_ptr<const Processes>& alone();
+
 	bool haveSame(std::uint64_t number) const
 	{
 		std::int64_t both[2] = { std::int64_t(number), ~std::int64_t(number) }; // the smallest, and what only the largest is the complement of
@@ -45,5 +49,23 @@ public:
 		return both[0] == ~both[1];
 	}
 };
+
+/// Has nobody to talk to: what it knows is what all know.
+class OneProcess : public Processes {
+public:
+	int         rank() const override { return 0; }
+	int         size() const override { return 1; }
+	void        smallest(std::int64_t*, int) const override { }
+	void        gather(double*, const int*) const override { }
+	void        exchange(const Parcel*, int) const override { }
+	std::string told(const std::string& text, int) const override { return text; }
+	double      sent() const override { return 0; }
+};
+
+inline const std::shared_ptr<const Processes>& Processes::alone()
+{
+	static const std::shared_ptr<const Processes> one = std::make_shared<OneProcess>();
+	return one;
+}
 
 } // namespace gimpm

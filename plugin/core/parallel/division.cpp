@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "core/grid/division.hpp"
+#include "core/parallel/division.hpp"
 #include "core/base/even_parts.hpp"
 #include <algorithm>
 #include <numeric>
@@ -16,16 +16,31 @@ std::vector<int> Division::startsAmong(const std::vector<Key>& sorted) const
 {
 	std::vector<int> start { 0 };
 	for (const Key key : first)
-		start.push_back(position(sorted, key));
+		start.push_back(int(std::lower_bound(sorted.begin(), sorted.end(), key) - sorted.begin()));
 	start.push_back(int(sorted.size()));
 	return start;
 }
 
-std::vector<Key> Division::united(const std::vector<Key>& sorted) const
+std::vector<Key> Division::united(std::vector<Key> sorted) const
 {
 	const auto start = startsAmong(sorted);
 	const int  rank  = processes->rank();
-	return joined(*processes, std::vector<Key>(sorted.begin() + start[rank], sorted.begin() + start[rank + 1]));
+	sorted.erase(sorted.begin() + start[rank + 1], sorted.end());
+	sorted.erase(sorted.begin(), sorted.begin() + start[rank]);
+	return joined(std::move(sorted));
+}
+
+void Division::complete(const std::vector<Key>& sorted, std::vector<double>& values) const
+{
+	if (!isWhole()) processes->gather(values.data(), startsAmong(sorted).data());
+}
+
+void Division::complete(const std::vector<Key>& sorted, std::vector<char>& values) const
+{
+	if (isWhole()) return;
+	std::vector<double> numbers(values.begin(), values.end());
+	complete(sorted, numbers);
+	std::copy(numbers.begin(), numbers.end(), values.begin());
 }
 
 double Division::sum(double own) const
@@ -38,16 +53,6 @@ double Division::largest(double own) const
 {
 	const auto numbers = ofEach(*processes, own);
 	return *std::max_element(numbers.begin(), numbers.end());
-}
-
-template <int Dim> Key lowestCell(const Vec<Dim>& position, const Vec<Dim>& halfSize, const Grid<Dim>& grid, Basis basis)
-{
-	Index<Dim> lowest;
-	for (int a = 0; a < Dim; ++a) {
-		const double x = position[a] - grid.origin[a];
-		lowest[a]      = basis == Basis::gimp ? AxisCells::reached(x, halfSize[a], grid.cellSize).lowest : centreCell(x, grid.cellSize);
-	}
-	return Grid<Dim>::key(grid.first(lowest));
 }
 
 std::vector<Key> cutByWork(std::vector<CellLoad> loads, int processes)
@@ -81,27 +86,5 @@ double imbalance(const Processes& all, const std::vector<CellLoad>& own)
 		most = std::max(most, workOf(pointsOf[r], cellsOf[r], allPoints / allCells));
 	return most * double(pointsOf.size()) / workOf(allPoints, allCells, allPoints / allCells) - 1;
 }
-
-template <int Dim> std::vector<int> neededBy(const Division& division, Key lowest, const Grid<Dim>& grid, bool isWide)
-{
-	const int        below = isWide ? -1 : 0, above = isWide ? 3 : 2, wide = above - below + 1; // nodes along an axis
-	std::vector<int> needed;
-	for (int n = 0; n < (Dim == 2 ? wide * wide : wide * wide * wide); ++n) {
-		Key node = lowest;
-		for (int a = 0, rest = n; a < Dim; ++a, rest /= wide)
-			node += Key(std::int64_t(below + rest % wide)) * Grid<Dim>::keyStep(a);
-		if (const int holder = division.holderOf(grid.first(node)); needed.empty() || needed.back() != holder) needed.push_back(holder);
-	}
-	std::sort(needed.begin(), needed.end());
-	needed.erase(std::unique(needed.begin(), needed.end()), needed.end());
-	return needed;
-}
-
-#define GIMPM_INSTANTIATE(Dim)                                                                                                                                 \
-	template Key              lowestCell(const Vec<Dim>&, const Vec<Dim>&, const Grid<Dim>&, Basis);                                                       \
-	template std::vector<int> neededBy<Dim>(const Division&, Key, const Grid<Dim>&, bool);
-GIMPM_INSTANTIATE(2)
-GIMPM_INSTANTIATE(3)
-#undef GIMPM_INSTANTIATE
 
 } // namespace gimpm
