@@ -73,11 +73,11 @@ void gather(double* all, const int* start)
 }
 
 /// PETSc counts what is sent so, with names of its own for these functions of MPI.
-void exchange(const gimpm::Parcel* parcels, int count)
+void exchange(const gimpm::Message* messages, int count)
 {
 	std::vector<MPI_Request> requests(2 * count);
 	for (int i = 0; i < count; ++i) {
-		const gimpm::Parcel& p = parcels[i];
+		const gimpm::Message& p = messages[i];
 		MPI_Irecv(p.received, p.receivedCount, MPI_DOUBLE, p.process, 0, comm, &requests[2 * i]);
 		MPI_Isend(p.sent, p.sentCount, MPI_DOUBLE, p.process, 0, comm, &requests[2 * i + 1]);
 	}

@@ -15,6 +15,6 @@ int  sizeOf();
 
 void   smallest(std::int64_t* numbers, int count);
 void   gather(double* all, const int* start);
-void   exchange(const gimpm::Parcel* parcels, int count);
+void   exchange(const gimpm::Message* messages, int count);
 void   tell(char* text, int length, int from);
 double sent(); ///< that of PETSc, too

@@ -19,10 +19,10 @@ struct Place {
 	std::mutex                                 mutex;
 	std::condition_variable                    isFull {};
 	std::vector<const double*>                 given {};
-	std::vector<std::pair<const Parcel*, int>> parcels {};
+	std::vector<std::pair<const Message*, int>> messages {};
 	std::vector<std::vector<std::int64_t>>     numbers {};
 
-	explicit Place(int all) : all(all), given(all), parcels(all), numbers(all) { }
+	explicit Place(int all) : all(all), given(all), messages(all), numbers(all) { }
 
 	void meet()
 	{
@@ -58,16 +58,16 @@ struct OneOfThreads : Processes {
 			if (r != number) std::copy(place.given[r] + start[r], place.given[r] + start[r + 1], all + start[r]);
 		place.meet();
 	}
-	void exchange(const Parcel* parcels, int count) const override
+	void exchange(const Message* messages, int count) const override
 	{
-		place.parcels[number] = { parcels, count };
+		place.messages[number] = { messages, count };
 		place.meet();
 		for (int i = 0; i < count; ++i) {
-			const auto [others, most] = place.parcels[parcels[i].process];
-			const auto* other         = std::find_if(others, others + most, [&](const Parcel& p) { return p.process == number; });
+			const auto [others, most] = place.messages[messages[i].process];
+			const auto* other         = std::find_if(others, others + most, [&](const Message& p) { return p.process == number; });
 			ASSERT_NE(other, others + most) << "who is not heard is not sent to";
-			ASSERT_EQ(other->sentCount, parcels[i].receivedCount);
-			std::copy(other->sent, other->sent + other->sentCount, parcels[i].received);
+			ASSERT_EQ(other->sentCount, messages[i].receivedCount);
+			std::copy(other->sent, other->sent + other->sentCount, messages[i].received);
 		}
 		place.meet();
 	}

@@ -7,7 +7,7 @@
 namespace gimpm {
 
 /// Numbers for another process, one after the other.
-class ParcelWriter {
+class MessageWriter {
 public:
 	void                    add(int number) { numbers.push_back(number); }
 	template <class T> void add(const T& value)
@@ -20,9 +20,9 @@ public:
 };
 
 /// The same on the other side.
-class ParcelReader {
+class MessageReader {
 public:
-	explicit ParcelReader(const std::vector<double>& numbers) : next_(numbers.data()) { }
+	explicit MessageReader(const std::vector<double>& numbers) : next_(numbers.data()) { }
 	void                    take(int& number) { number = int(*next_++); }
 	template <class T> void take(T& value)
 	{
@@ -84,32 +84,32 @@ private:
 	/// Number, ids and then column by column.
 	std::vector<double> packed(const std::vector<int>& points, const std::vector<char>& isThere) const
 	{
-		ParcelWriter parcel;
+		MessageWriter message;
 		if (points.empty()) return {};
-		parcel.add(int(points.size()));
+		message.add(int(points.size()));
 		for (const int p : points)
-			parcel.add(division_.id[p]);
+			message.add(division_.id[p]);
 		int k = 0;
 		forColumns(cloud_, [&](const auto& column, auto) {
 			if (isThere[k++])
 				for (const int p : points)
-					parcel.add(column[p]);
+					message.add(column[p]);
 		});
-		return std::move(parcel.numbers);
+		return std::move(message.numbers);
 	}
 	void unpack(const std::vector<double>& numbers, const std::vector<char>& isThere)
 	{
 		if (numbers.empty()) return;
-		ParcelReader parcel(numbers);
+		MessageReader message(numbers);
 		int          count = 0, k = 0;
-		parcel.take(count);
+		message.take(count);
 		for (int i = 0; i < count; ++i)
-			parcel.take(division_.copied.emplace_back());
+			message.take(division_.copied.emplace_back());
 		forColumns(cloud_, [&](auto& column, auto) {
 			if (!isThere[k++]) return;
 			column.resize(column.size() + count);
 			for (auto value = column.end() - count; value != column.end(); ++value)
-				parcel.take(*value);
+				message.take(*value);
 		});
 	}
 

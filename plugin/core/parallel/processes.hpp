@@ -8,7 +8,7 @@
 namespace gimpm {
 
 /// Numbers for another process, and those that it has for this one.
-struct Parcel {
+struct Message {
 	int           process;
 	const double* sent;
 	int           sentCount;
@@ -30,8 +30,8 @@ public:
 	/// Process r gives all[start[r]] ... all[start[r + 1] - 1] to the others.
 	virtual void gather(double* all, const int* start) const = 0;
 
-	/// One parcel at most with each process, which calls this with the other side of it.
-	virtual void exchange(const Parcel* parcels, int count) const = 0;
+	/// One message at most with each process, which calls this with the other side of it.
+	virtual void exchange(const Message* messages, int count) const = 0;
 
 	/// The text of the process `from`.
 	virtual std::string told(const std::string& text, int from) const = 0;
@@ -57,7 +57,7 @@ public:
 	int         size() const override { return 1; }
 	void        smallest(std::int64_t*, int) const override { }
 	void        gather(double*, const int*) const override { }
-	void        exchange(const Parcel*, int) const override { }
+	void        exchange(const Message*, int) const override { }
 	std::string told(const std::string& text, int) const override { return text; }
 	double      sent() const override { return 0; }
 };

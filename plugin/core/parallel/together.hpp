@@ -76,14 +76,14 @@ inline std::vector<std::vector<double>> exchanged(const Processes& all, const st
 		counts[r] = double(own[r].size());
 	counts = joined(all, counts);
 	std::vector<std::vector<double>> received(size);
-	std::vector<Parcel>              parcels;
+	std::vector<Message>              messages;
 	for (int r = 0; r < size; ++r) {
 		received[r].resize(std::size_t(counts[r * size + rank]));
 		if (r == rank) received[r] = own[r];
 		else if (!own[r].empty() || !received[r].empty())
-			parcels.push_back({ r, own[r].data(), int(own[r].size()), received[r].data(), int(received[r].size()) });
+			messages.push_back({ r, own[r].data(), int(own[r].size()), received[r].data(), int(received[r].size()) });
 	}
-	all.exchange(parcels.data(), int(parcels.size()));
+	all.exchange(messages.data(), int(messages.size()));
 	return received;
 }
 

@@ -34,7 +34,7 @@ struct DistributedModule {
 	bool (*begin)(int* rank, int* size, char* reason, int length);
 	void (*smallest)(std::int64_t* numbers, int count);
 	void (*gather)(double* all, const int* start);
-	void (*exchange)(const Parcel* parcels, int count);
+	void (*exchange)(const Message* messages, int count);
 	void (*tell)(char* text, int length, int from);
 	double (*sent)(); ///< by this process [bytes]
 	void* (*create)();

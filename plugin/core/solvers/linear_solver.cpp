@@ -22,9 +22,9 @@ constexpr double worthwhileFlops = 1e4;
 
 /// What the places of the nodes say of it must be beyond doubt: it may be less than half of what the analysis finds, which
 /// takes longer than the decision is worth.
-constexpr double beyondDoubt = 2;
+constexpr double safetyFactor = 2;
 
-bool isTooLarge(const LinearProblem& K) { return K.overNodes() && K.overNodes()->needsMoreFlopsPerEntry(beyondDoubt * worthwhileFlops); }
+bool isTooLarge(const LinearProblem& K) { return K.overNodes() && K.overNodes()->needsMoreFlopsPerEntry(safetyFactor * worthwhileFlops); }
 
 /// Unknowns from which their order is sought by dissection of the grid: there CHOLMOD's own order takes longer to find, and
 /// is no better.

@@ -15,7 +15,7 @@ public:
 	int         size() const override { return size_; }
 	void        smallest(std::int64_t* numbers, int count) const override { library_.smallest(numbers, count); }
 	void        gather(double* all, const int* start) const override { library_.gather(all, start); }
-	void        exchange(const Parcel* parcels, int count) const override { library_.exchange(parcels, count); }
+	void        exchange(const Message* messages, int count) const override { library_.exchange(messages, count); }
 	double      sent() const override { return library_.sent(); }
 	std::string told(const std::string& text, int from) const override
 	{

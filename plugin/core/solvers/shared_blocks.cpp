@@ -73,13 +73,13 @@ template <int Dim> void SharedBlocks<Dim>::findBorders(const NodeMatrix<Dim>& K,
 template <int Dim> void SharedBlocks<Dim>::fetch(const Eigen::VectorXd& x) const
 {
 	x_.segment(Dim * (share_.first() - here_.first), x.size()) = x;
-	std::vector<Parcel> parcels;
+	std::vector<Message> messages;
 	for (auto& [process, border] : borders_) {
 		for (std::size_t n = 0; n < border.own.size(); ++n)
 			border.sent.template segment<Dim>(Dim * n) = x.template segment<Dim>(Dim * (border.own[n] - share_.first()));
-		parcels.push_back({ process, border.sent.data(), int(border.sent.size()), border.received.data(), int(border.received.size()) });
+		messages.push_back({ process, border.sent.data(), int(border.sent.size()), border.received.data(), int(border.received.size()) });
 	}
-	share_.processes.exchange(parcels.data(), int(parcels.size()));
+	share_.processes.exchange(messages.data(), int(messages.size()));
 	for (const auto& [process, border] : borders_)
 		for (std::size_t n = 0; n < border.others.size(); ++n)
 			x_.template segment<Dim>(Dim * (border.others[n] - here_.first)) = border.received.template segment<Dim>(Dim * n);

@@ -87,7 +87,7 @@ void judge(const LocalError& error, StepReport& report)
 	fail(report, Failure::inaccurate, text.str());
 }
 
-template <int Dim> void askTerms(const StepSystem<Dim>& system, const Eigen::VectorXd& d, StepReport& report)
+template <int Dim> void askForRefusals(const StepSystem<Dim>& system, const Eigen::VectorXd& d, StepReport& report)
 {
 	for (const auto& term : system.terms) {
 		if (const Refusal refusal = term->refusal(d); !refusal.cause.empty()) {
@@ -116,7 +116,7 @@ template <int Dim> bool accept(const StepSystem<Dim>& system, PointCloud<Dim>& c
 }
 
 #define GIMPM_INSTANTIATE(Dim)                                                                                                                                 \
-	template void askTerms(const StepSystem<Dim>&, const Eigen::VectorXd&, StepReport&);                                                                   \
+	template void askForRefusals(const StepSystem<Dim>&, const Eigen::VectorXd&, StepReport&);                                                                   \
 	template bool accept(const StepSystem<Dim>&, PointCloud<Dim>&, const Load<Dim>&, const Eigen::VectorXd&, StepReport&);
 GIMPM_INSTANTIATE(2)
 GIMPM_INSTANTIATE(3)

@@ -6,7 +6,7 @@
 namespace gimpm {
 
 /// The displacements may lead where a term does not admit it. The report says so.
-template <int Dim> void askTerms(const StepSystem<Dim>&, const Eigen::VectorXd& d, StepReport&);
+template <int Dim> void askForRefusals(const StepSystem<Dim>&, const Eigen::VectorXd& d, StepReport&);
 
 /// An error above its tolerance makes the step fail. The report says so.
 void judge(const LocalError&, StepReport&);

@@ -45,7 +45,7 @@ template <int Dim> StepReport explicitStep(PointCloud<Dim>& cloud, const Model<D
 	// 3. the forces at the end of the step
 	Eigen::VectorXd imbalance;
 	if (!balance(system, d, imbalance, report)) return report;
-	askTerms(system, d, report);
+	askForRefusals(system, d, report);
 	if (!report.converged()) return report;
 	// 4. accelerations there, and what holds the held nodes
 	report.reactions                     = reactions(system, Eigen::VectorXd(system.external + inertia.accelerate(imbalance)));

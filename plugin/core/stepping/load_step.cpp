@@ -5,7 +5,7 @@
 #include "core/stepping/acceptance.hpp"
 #include "core/stepping/beyond_walls.hpp"
 #include "core/stepping/equilibrium.hpp"
-#include "core/stepping/grip.hpp"
+#include "core/stepping/boundary_hold.hpp"
 #include "core/stepping/outcome.hpp"
 #include "core/stepping/rate_change.hpp"
 #include "core/stepping/restraint.hpp"
@@ -19,7 +19,7 @@ namespace {
 template <int Dim> bool isHeld(const StepSystem<Dim>& system, const PointCloud<Dim>& cloud, const Load<Dim>& load, StepReport& report)
 {
 	const Stopwatch   watch(report.times.basis);
-	const std::string lost = system.hasInertia() ? "" : lostGrip(cloud, system.basis, system.model, load);
+	const std::string lost = system.hasInertia() ? "" : lostHold(cloud, system.basis, system.model, load);
 	const Restraint   held = restraint(system.basis, system.model.grid, system.model.boundary, system.terms, *system.model.division);
 	report.parts           = held.parts;
 	if (const std::string between = boxBetweenNodes(system.basis, system.model.boundary); !between.empty())
@@ -32,7 +32,7 @@ template <int Dim> bool isHeld(const StepSystem<Dim>& system, const PointCloud<D
 /// A converged step may have ended where a term does not admit it. One that has not may be due to contact which no longer holds the body: says so.
 template <int Dim> void explain(const StepSystem<Dim>& system, const Eigen::VectorXd& d, StepReport& report)
 {
-	if (report.converged()) return askTerms(system, d, report);
+	if (report.converged()) return askForRefusals(system, d, report);
 	if (report.failure != Failure::singular && !canBeCut(report.failure)) return;
 	const Restraint held = restraintAt(d, system.basis, system.model.grid, system.model.boundary, system.terms, *system.model.division);
 	if (!held.freeMotion.empty())

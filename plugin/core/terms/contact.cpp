@@ -56,7 +56,7 @@ Contact<Dim>::Contact(ContactSystem<Dim>& system, const Beginning<Dim>& step)
         , division_(step.division)
 {
 	system.acting = this;
-	system.doubts.clear();
+	system.warnings.clear();
 	for (const auto& body : system.bodies)
 		spins_.push_back(body.spin());
 	find(step);
@@ -88,11 +88,11 @@ template <int Dim> void Contact<Dim>::look(const Near& near)
 	const Vec<Dim> centre = near.domain.centre();
 	const double   width = body.widthAcross(body.end.inBody(centre) - body.begin.inBody(centre)), size = 2 * near.domain.half().maxCoeff();
 	const double   seen = (Dim == 3 && body.shape.kind == RigidKind::ball ? std::sqrt(2.) : 1) * size;
-	if (width >= (1 - 1e-9) * seen || !system_.doubts.empty()) return;
+	if (width >= (1 - 1e-9) * seen || !system_.warnings.empty()) return;
 	text << body.name << " is " << width << " m wide, and the domains of the material points near it " << size
 	     << " m: it can pass between their corners, where nothing feels it. Cells of " << grid_.cellSize * width / seen
 	     << " m with as many points each would see it.";
-	system_.doubts.push_back(text.str());
+	system_.warnings.push_back(text.str());
 }
 
 template <int Dim> void Contact<Dim>::find(const Beginning<Dim>& step)

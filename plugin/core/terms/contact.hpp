@@ -37,7 +37,7 @@ template <int Dim> struct ContactSystem {
 	/// Of a step in time: energy that has come into the system before it [J]; infinite: nobody asks for what contact gives.
 	double                   energy = std::numeric_limits<double>::infinity();
 	double                   given  = 0; ///< work of contact in that step beyond what it had stored, which is that of no body [J]
-	std::vector<std::string> doubts {};  ///< sentences about bodies near the soil, of the step that is being made
+	std::vector<std::string> warnings {};  ///< sentences about bodies near the soil, of the step that is being made
 	const Term<Dim>*         acting {};  ///< the term of the step that is being made
 };
 

@@ -43,63 +43,63 @@ WallForce<Dim>::WallForce(Wall<Dim>& wall, const CloudBasis<Dim>& basis, const P
 		const auto at         = attach(centre, basis, grid);
 		if (!at || (grid.axisymmetric && centre[0] <= 0)) continue;
 		const double ring = grid.axisymmetric ? 2 * M_PI * centre[0] : 1;
-		grips_.push_back({ i, *at, ring * normal.norm(), heldBy<Dim>(wall, normal.normalized()), 0 });
+		heldPieces_.push_back({ i, *at, ring * normal.norm(), heldBy<Dim>(wall, normal.normalized()), 0 });
 		cells.push_back(position(basis.cells, Grid<Dim>::key(grid.first(at->cell))));
 		isHeld[cells.back()] = 1;
 	}
 	auto moduli = cellModuli(isHeld, basis, stiffnessOf, grid);
 	division.complete(basis.cells, moduli);
-	for (std::size_t g = 0; g < grips_.size(); ++g)
-		grips_[g].stiffness = wall.penalty * moduli[cells[g]] / grid.cellSize;
+	for (std::size_t g = 0; g < heldPieces_.size(); ++g)
+		heldPieces_[g].stiffness = wall.penalty * moduli[cells[g]] / grid.cellSize;
 }
 
 /// On the body.
-template <int Dim> Vec<Dim> WallForce<Dim>::tractionOn(const Grip& grip, const Eigen::VectorXd& d) const
+template <int Dim> Vec<Dim> WallForce<Dim>::tractionOn(const HeldPiece& piece, const Eigen::VectorXd& d) const
 {
-	return wall_.tractions[grip.piece] - grip.stiffness * (grip.held * (grip.at.displacement(d) - wall_.motion));
+	return wall_.tractions[piece.piece] - piece.stiffness * (piece.held * (piece.at.displacement(d) - wall_.motion));
 }
 
 template <int Dim> void WallForce<Dim>::mark(NodeMatrix<Dim>& K) const
 {
-	for (const Grip& grip : grips_)
-		markAttached(grip.at, grip.at, K);
+	for (const HeldPiece& piece : heldPieces_)
+		markAttached(piece.at, piece.at, K);
 }
 
 template <int Dim> std::optional<PointFailure> WallForce<Dim>::add(const Eigen::VectorXd& d, const TermSum<Dim>& sum) const
 {
-	for (const Grip& grip : grips_) {
-		addAttachedForce<Dim>(grip.at, grip.area * tractionOn(grip, d), sum);
-		if (sum.K) addAttachedStiffness<Dim>(grip.at, grip.at, -grip.area * grip.stiffness * grip.held, *sum.K);
+	for (const HeldPiece& piece : heldPieces_) {
+		addAttachedForce<Dim>(piece.at, piece.area * tractionOn(piece, d), sum);
+		if (sum.K) addAttachedStiffness<Dim>(piece.at, piece.at, -piece.area * piece.stiffness * piece.held, *sum.K);
 	}
 	return std::nullopt;
 }
 
 template <int Dim> void WallForce<Dim>::addBefore(Eigen::VectorXd& force) const
 {
-	for (const Grip& grip : grips_)
-		addAttachedForce<Dim>(grip.at, grip.area * wall_.tractions[grip.piece], { force });
+	for (const HeldPiece& piece : heldPieces_)
+		addAttachedForce<Dim>(piece.at, piece.area * wall_.tractions[piece.piece], { force });
 }
 
 template <int Dim> std::string WallForce<Dim>::obstacle() const
 {
-	if (!grips_.empty() || wall_.motion.isZero(0)) return {};
+	if (!heldPieces_.empty() || wall_.motion.isZero(0)) return {};
 	return "a wall moves, but none of it is where the grid holds material";
 }
 
 template <int Dim> void WallForce<Dim>::restrain(const typename Term<Dim>::Hold& hold) const
 {
-	for (const Grip& grip : grips_)
+	for (const HeldPiece& piece : heldPieces_)
 		for (int a = 0; a < Dim; ++a)
-			if (!grip.held.col(a).isZero(0)) hold(grip.at.node[0], grip.held.col(a), grip.at.inCell());
+			if (!piece.held.col(a).isZero(0)) hold(piece.at.node[0], piece.held.col(a), piece.at.inCell());
 }
 
 template <int Dim> void WallForce<Dim>::commit(const Eigen::VectorXd& d)
 {
 	std::vector<Vec<Dim>> tractions(wall_.tractions.size(), Vec<Dim>::Zero());
 	wall_.reaction.setZero();
-	for (const Grip& grip : grips_) {
-		tractions[grip.piece] = tractionOn(grip, d);
-		wall_.reaction += grip.area * tractions[grip.piece];
+	for (const HeldPiece& piece : heldPieces_) {
+		tractions[piece.piece] = tractionOn(piece, d);
+		wall_.reaction += piece.area * tractions[piece.piece];
 	}
 	wall_.tractions = std::move(tractions);
 	for (Vec<Dim>& x : wall_.surface.vertices)

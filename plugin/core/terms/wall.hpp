@@ -40,7 +40,7 @@ public:
 
 private:
 	/// Of a piece, with material at its centre.
-	struct Grip {
+	struct HeldPiece {
 		int             piece;
 		Attachment<Dim> at;
 		double          area;      ///< around an axis of symmetry that of the ring [m2]
@@ -48,10 +48,10 @@ private:
 		double          stiffness; ///< [Pa/m]
 	};
 
-	Vec<Dim> tractionOn(const Grip&, const Eigen::VectorXd& d) const;
+	Vec<Dim> tractionOn(const HeldPiece&, const Eigen::VectorXd& d) const;
 
 	Wall<Dim>&        wall_;
-	std::vector<Grip> grips_;
+	std::vector<HeldPiece> heldPieces_;
 };
 
 } // namespace gimpm

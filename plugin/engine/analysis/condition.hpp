@@ -104,10 +104,10 @@ public:
 	virtual Penalty penalty() const { return {}; }
 
 	// Before the first step: a doubt about where it acts, a sentence; empty if there is none.
-	virtual string doubtOfPlace(const gimpm::PointCloud<Dim>&, const gimpm::Grid<Dim>&) const { return ""; }
+	virtual string warningOfPlace(const gimpm::PointCloud<Dim>&, const gimpm::Grid<Dim>&) const { return ""; }
 
 	// After the steps of a run: doubts, sentences by what they are about.
-	virtual std::map<string, string> doubts(bool /*isDynamic*/) const { return {}; }
+	virtual std::map<string, string> warnings(bool /*isDynamic*/) const { return {}; }
 
 	// Whether the middle of a part of a point, as seen from that of the point, is on the same side of it.
 	virtual bool areBeside(const gimpm::Vec<Dim>& /*point*/, const gimpm::Vec<Dim>& /*part*/) const { return true; }

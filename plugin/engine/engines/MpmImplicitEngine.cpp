@@ -17,7 +17,7 @@
 #include "engine/messages/requirements.hpp"
 #include "engine/parallel/pieces.hpp"
 #include "engine/parallel/processes.hpp"
-#include "engine/parallel/sameness.hpp"
+#include "engine/parallel/common_state.hpp"
 #include "engine/points/AtWork.hpp"
 #include "yade_api/exceptions.hpp"
 #include "yade_api/logging.hpp"
@@ -92,7 +92,7 @@ void MpmImplicitEngine::join()
 }
 
 // YADE asks no engine that is dead, or not among O.engines.
-string MpmImplicitEngine::doubtOfAbsence()
+string MpmImplicitEngine::warningOfAbsence()
 {
 	const Real goal = scene->time + scene->dt;
 	if (!wasAway || goal <= loadTime) return "";
@@ -146,17 +146,17 @@ template <int Dim> void MpmImplicitEngine::step(Agreement& agreement)
 		agreement.reach(*this, job.cloud, *job.model.division);
 	}
 	if (job.model.processes->size() > 1) addTime(*timingDeltas, "agree", agreeing);
-	doubt(job);
+	warnOf(job);
 	tellObservers(*scene, [this](LoadStepObserver& observer) { observer.stepBegins(*this); });
 	advance(job);
 	const ValueLock lock;
 	for (const auto& condition : job.conditions)
-		for (const auto& [about, doubt] : condition->doubts(isDynamic()))
-			warn(plausibility.once(about, doubt));
-	if (job.moving) warn(plausibility.once("gift", job.moving->doubtOfContact()));
+		for (const auto& [about, warning] : condition->warnings(isDynamic()))
+			warn(plausibility.once(about, warning));
+	if (job.moving) warn(plausibility.once("gift", job.moving->warningOfContact()));
 	if ((maxSplits > 0 || job.model.grid.refinement) && clampedDomains > 0) splitOutgrown(job);
-	const auto doubts = plausibility.warningsOfResult(*this, points, job.cloud);
-	warnOfPoints(doubts.empty() ? "" : doubts.front());
+	const auto warnings = plausibility.warningsOfResult(*this, points, job.cloud);
+	warnOfPoints(warnings.empty() ? "" : warnings.front());
 }
 
 bool MpmImplicitEngine::hasQuestions() const
@@ -260,19 +260,19 @@ Body::id_t MpmImplicitEngine::add(NewPoints& added)
 	return first;
 }
 
-template <int Dim> void MpmImplicitEngine::doubt(const Job<Dim>& job)
+template <int Dim> void MpmImplicitEngine::warnOf(const Job<Dim>& job)
 {
 	const ValueLock lock;
 	const auto& division = *job.model.division;
 	requireSameAnswers(*division.processes, *this);
 	pointsOfRun   = size_t(division.sum(Real(points.size())));
-	const int own = int(job.doubts.size()), count = largestOf(own, *division.processes); // the same in all processes
+	const int own = int(job.warnings.size()), count = largestOf(own, *division.processes); // the same in all processes
 	for (int i = 0; i < count; ++i)
-		warnOfPoints(i < own ? job.doubts[i] : "");
-	warn(plausibility.doubtOfPlaces(*this, points));
+		warnOfPoints(i < own ? job.warnings[i] : "");
+	warn(plausibility.warningOfPlaces(*this, points));
 	if (!division.isWhole()) return;
 	for (const auto& condition : job.conditions)
-		warn(condition->doubtOfPlace(job.cloud, job.model.grid));
+		warn(condition->warningOfPlace(job.cloud, job.model.grid));
 }
 
 // False if there are no points to be split.
@@ -294,8 +294,8 @@ template <int Dim> Job<Dim> MpmImplicitEngine::prepare(Agreement& agreement)
 	requireRunnable(*this);
 	join();
 	progressLine.start(scene->iter);
-	warn(doubtOfAbsence());
-	warn(plausibility.doubtOfEnd(*this));
+	warn(warningOfAbsence());
+	warn(plausibility.warningOfEnd(*this));
 	const Real target    = scene->time + scene->dt;
 	double     gathering = 0, checking = 0;
 	Job<Dim>   job = [&] {
@@ -307,7 +307,7 @@ template <int Dim> Job<Dim> MpmImplicitEngine::prepare(Agreement& agreement)
                 setMoving(made, points); // inertia comes last
                 return made;
 	}();
-	job.doubts = plausibility.look(*this, points, job.cloud, job.model, checking);
+	job.warnings = plausibility.look(*this, points, job.cloud, job.model, checking);
 	begin(points.size());
 	addTime(*timingDeltas, "gather", gathering);
 	if (checking > 0) addTime(*timingDeltas, "check", checking);
@@ -335,7 +335,7 @@ template <int Dim> void MpmImplicitEngine::advance(Job<Dim>& job)
 			if (report.failure == gimpm::Failure::interrupted) interruption.raise(reason);
 			throw std::runtime_error(reason);
 		}
-		warn(report.accepted ? warningOfAccepted(report, *this, tried.time) : errors.doubtOf(report, job.control));
+		warn(report.accepted ? warningOfAccepted(report, *this, tried.time) : errors.warningOf(report, job.control));
 		if (report.converged() || report.accepted) reach(job, tried);
 		progressLine.show(progressOf(*this, job.control.isDone()), isFirstProcess() ? verbosity : 0);
 	}

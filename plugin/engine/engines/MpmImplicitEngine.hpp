@@ -121,7 +121,7 @@ protected:
 
 private:
 	void                            join();
-	string                          doubtOfAbsence();
+	string                          warningOfAbsence();
 	bool                            isEndOfLoads() const;
 	template <int Dim> void         step(Agreement&);
 	template <int Dim> void         askFunctions(Agreement&);
@@ -129,7 +129,7 @@ private:
 	bool                            hasQuestions() const;
 	template <int Dim> Job<Dim>     prepare(Agreement&);
 	template <int Dim> void         takePoints(Setup<Dim>&, Agreement&);
-	template <int Dim> void         doubt(const Job<Dim>&);
+	template <int Dim> void         warnOf(const Job<Dim>&);
 	template <int Dim> bool         splitOutgrown(Job<Dim>&);
 	template <int Dim> void         advance(Job<Dim>&);
 	template <int Dim> Attempt<Dim> attempt(Job<Dim>&) const;

@@ -66,7 +66,7 @@ template <int Dim> Real Moving<Dim>::energyComeIn() const
 	return std::abs(engine.firstEnergy) + std::abs(engine.loadWork) + std::abs(engine.boundaryWork) + std::abs(engine.contactWork - engine.givenByContact);
 }
 
-template <int Dim> string Moving<Dim>::doubtOfContact() const
+template <int Dim> string Moving<Dim>::warningOfContact() const
 {
 	constexpr Real most = 0.02;
 	if (engine.givenByContact <= most * energyComeIn()) return "";

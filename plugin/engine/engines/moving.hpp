@@ -27,7 +27,7 @@ public:
 	void reach(const Job<Dim>&, const StepOutcome<Dim>&);
 
 	// A sentence where contact has given much energy that nobody has put in.
-	string doubtOfContact() const;
+	string warningOfContact() const;
 
 private:
 	void joinRayleigh(const Job<Dim>&);

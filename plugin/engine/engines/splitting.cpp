@@ -4,7 +4,7 @@
 #include "engine/analysis/exchange.hpp"
 #include "engine/engines/MpmImplicitEngine.hpp"
 #include "engine/parallel/pieces.hpp"
-#include "engine/points/halves.hpp"
+#include "engine/points/split_point.hpp"
 #include "engine/points/stretched.hpp"
 
 namespace yade {

@@ -11,7 +11,7 @@ StepErrors::StepErrors(const MpmImplicitEngine& engine) : engine(engine)
 	tolerance = engine.newton->stepTolerance;
 }
 
-string StepErrors::doubtOf(const gimpm::StepReport& report, const gimpm::StepControl& next)
+string StepErrors::warningOf(const gimpm::StepReport& report, const gimpm::StepControl& next)
 {
 	if (tolerance == 0 || report.failure != gimpm::Failure::inaccurate || !next.isLeast() || isTold) return "";
 	isTold = true;

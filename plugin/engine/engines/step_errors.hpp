@@ -26,7 +26,7 @@ public:
 	}
 
 	// Of steps which come next and cannot be made smaller, once in a run; empty if there are none.
-	string doubtOf(const gimpm::StepReport&, const gimpm::StepControl& next);
+	string warningOf(const gimpm::StepReport&, const gimpm::StepControl& next);
 
 private:
 	const MpmImplicitEngine& engine;

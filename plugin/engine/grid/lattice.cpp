@@ -24,7 +24,7 @@ namespace {
 	};
 }
 
-template <int Dim> string doubtOfLattice(const vector<MaterialPoint>& points, const gimpm::Grid<Dim>& grid)
+template <int Dim> string warningOfLattice(const vector<MaterialPoint>& points, const gimpm::Grid<Dim>& grid)
 {
 	if (std::any_of(points.begin(), points.end(), [&](const MaterialPoint& point) { return InCells<Dim>(point, grid).isOnLattice(); })) return "";
 	const MaterialPoint&  first = points.front();
@@ -42,7 +42,7 @@ template <int Dim> string doubtOfLattice(const vector<MaterialPoint>& points, co
 	        " m.", meant);
 }
 
-template string doubtOfLattice<2>(const vector<MaterialPoint>&, const gimpm::Grid<2>&);
-template string doubtOfLattice<3>(const vector<MaterialPoint>&, const gimpm::Grid<3>&);
+template string warningOfLattice<2>(const vector<MaterialPoint>&, const gimpm::Grid<2>&);
+template string warningOfLattice<3>(const vector<MaterialPoint>&, const gimpm::Grid<3>&);
 
 } // namespace yade

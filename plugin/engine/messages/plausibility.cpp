@@ -64,7 +64,7 @@ namespace {
 	}
 
 	// Shear makes neighbours overlap here and there; what has been filled or loaded twice does so as a whole.
-	string doubtOfOverlap(const Overlaps& overlaps, const vector<MaterialPoint>& points)
+	string warningOfOverlap(const Overlaps& overlaps, const vector<MaterialPoint>& points)
 	{
 		constexpr Real byShear = 0.05; // of all volume; in a vertical cut that has run out to half its height it was 0.006
 		Real           all     = 0;
@@ -89,7 +89,7 @@ namespace {
 		return volume > 0 ? Matrix3r(sum / volume) : sum;
 	}
 
-	string doubtOfTension(const Vector3r& gravity, const Matrix3r& initialStress)
+	string warningOfTension(const Vector3r& gravity, const Matrix3r& initialStress)
 	{
 		const Vector3r down    = gravity.normalized(); // zero without gravity
 		const Real     tension = down.dot(initialStress * down);
@@ -99,7 +99,7 @@ namespace {
 		        " Pa on average; stress is positive in tension: that of ground which carries its weight has a minus.");
 	}
 
-	string doubtOfGravity(const Vector3r& gravity)
+	string warningOfGravity(const Vector3r& gravity)
 	{
 		for (int axis = 0; axis < 3; ++axis)
 			if (gravity[axis] > 0 && gravity[axis] == gravity.norm())
@@ -107,7 +107,7 @@ namespace {
 		return "";
 	}
 
-	string doubtOfCells(Real cellSize, Real smallest)
+	string warningOfCells(Real cellSize, Real smallest)
 	{
 		constexpr Real most = 20; // points per cell and axis
 		if (cellSize <= most * smallest) return "";
@@ -123,13 +123,13 @@ namespace {
 	}
 
 	// The first of each, by what it is about; of points that are divided no process has all.
-	std::map<string, string> doubtsOfConditions(const Analysis& engine, const vector<MaterialPoint>& points)
+	std::map<string, string> warningsOfConditions(const Analysis& engine, const vector<MaterialPoint>& points)
 	{
 		std::map<string, string>    found;
 		const vector<MaterialPoint> none;
 		for (const Listed& listed : engine.conditions())
-			for (const auto& [about, doubt] : listed.condition->doubts(engine, isDivided(engine) ? none : points, listed.name()))
-				if (found[about].empty()) found[about] = doubt;
+			for (const auto& [about, warning] : listed.condition->warnings(engine, isDivided(engine) ? none : points, listed.name()))
+				if (found[about].empty()) found[about] = warning;
 		return found;
 	}
 
@@ -170,13 +170,13 @@ template <int Dim> void Plausibility::requirePoints(const vector<MaterialPoint>&
 	if (overlaps.ofFills != Overlaps::none)
 		refuse("Bodies ", bothOf(overlaps.ofFills, points),
 		       ": has a region been filled twice, or do two fills overlap? Give mpm.fill one region, with a list or function as material.");
-	overlap       = doubtOfOverlap(overlaps, points);
+	overlap       = warningOfOverlap(overlaps, points);
 	initialStress = meanInitialStress(cloud);
 	box           = initialBox(points);
 	know(cloud);
 }
 
-string Plausibility::doubtOfEnd(const Analysis& engine)
+string Plausibility::warningOfEnd(const Analysis& engine)
 {
 	const size_t knees  = engine.gravityCurve.size();
 	const Real   end    = engine.loadsEnd();
@@ -192,7 +192,7 @@ string Plausibility::doubtOfEnd(const Analysis& engine)
 	        ". Unless something else changes, further steps move the points a little only, as each finds equilibrium on the grid that has been reset.");
 }
 
-string Plausibility::doubtOfPlaces(const Analysis& engine, const vector<MaterialPoint>& points)
+string Plausibility::warningOfPlaces(const Analysis& engine, const vector<MaterialPoint>& points)
 {
 	std::set<const MpmCondition*> asked;
 	decltype(lookedAt)            boxes;
@@ -223,7 +223,7 @@ void Plausibility::requireGrid(const Analysis& engine) const
 
 // Of implicit steps in time, which are stable however long they are, but see nothing of what is over within one.
 template <int Dim>
-string Plausibility::doubtOfLength(
+string Plausibility::warningOfLength(
         const Analysis& engine, const vector<MaterialPoint>& points, const gimpm::PointCloud<Dim>& cloud, const gimpm::Model<Dim>& model, bool areNew)
 {
 	constexpr Real mostOfWave = 100, mostOfPoint = 1; // cells a step
@@ -266,15 +266,15 @@ vector<string> Plausibility::look(
 	}
 	requireGrid(engine);
 	vector<string> sentences;
-	say(sentences, "gravityUpwards", doubtOfGravity(engine.gravity));
-	say(sentences, "largeCells", doubtOfCells(model.grid.cellSize, smallest));
-	say(sentences, "units", doubtOfUnits(engine.gravity, alongGravity(box, engine.gravity), points, cloud.material, model.materials));
-	if (areFirst) say(sentences, "lattice", doubtOfLattice<Dim>(points, model.grid));
-	say(sentences, "tension", doubtOfTension(engine.gravity, initialStress));
+	say(sentences, "gravityUpwards", warningOfGravity(engine.gravity));
+	say(sentences, "largeCells", warningOfCells(model.grid.cellSize, smallest));
+	say(sentences, "units", warningOfUnits(engine.gravity, alongGravity(box, engine.gravity), points, cloud.material, model.materials));
+	if (areFirst) say(sentences, "lattice", warningOfLattice<Dim>(points, model.grid));
+	say(sentences, "tension", warningOfTension(engine.gravity, initialStress));
 	say(sentences, "overlap", overlap);
-	for (const auto& [about, doubt] : doubtsOfConditions(engine, points))
-		say(sentences, about, doubt);
-	say(sentences, "longStep", doubtOfLength(engine, points, cloud, model, areNew));
+	for (const auto& [about, warning] : warningsOfConditions(engine, points))
+		say(sentences, about, warning);
+	say(sentences, "longStep", warningOfLength(engine, points, cloud, model, areNew));
 	return sentences;
 }
 

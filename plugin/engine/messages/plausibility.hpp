@@ -32,8 +32,8 @@ public:
 
 	// Once: that the load curves are at their end, and which conditions reach no point. A wall may wait for soil that arrives later; that a
 	// boundary moves nothing is an error of the step.
-	string doubtOfEnd(const Analysis&);
-	string doubtOfPlaces(const Analysis&, const vector<MaterialPoint>&);
+	string warningOfEnd(const Analysis&);
+	string warningOfPlaces(const Analysis&, const vector<MaterialPoint>&);
 
 	// The first of all sentences about the same.
 	string once(const string& about, const string& sentence);
@@ -45,7 +45,7 @@ private:
 
 	// Looked at where the points are, and where the length of steps has changed.
 	template <int Dim>
-	string doubtOfLength(const Analysis&, const vector<MaterialPoint>&, const gimpm::PointCloud<Dim>&, const gimpm::Model<Dim>&, bool areNew);
+	string warningOfLength(const Analysis&, const vector<MaterialPoint>&, const gimpm::PointCloud<Dim>&, const gimpm::Model<Dim>&, bool areNew);
 
 	// Takes the sentence, which is empty where there is no doubt, unless it has been said.
 	void say(vector<string>&, const string& about, const string& sentence);

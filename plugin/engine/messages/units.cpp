@@ -30,14 +30,14 @@ namespace {
 	}
 
 	// Lighter than peat under water or heavier than copper; in between are foams and metals, which ground may be beside.
-	string doubtOfDensity(Real density)
+	string warningOfDensity(Real density)
 	{
 		constexpr Real lightest = 50, heaviest = 9000, lightestGround = 750, heaviestGround = 4000; // kg/m3
 		if (density >= lightest && density <= heaviest) return "";
 		return sentence("density = ", density, ", in kg/m3", meant(density, unitsOfDensity, lightestGround, heaviestGround, "kg/m3"));
 	}
 
-	string doubtOfModulus(const MpmMaterial& material)
+	string warningOfModulus(const MpmMaterial& material)
 	{
 		constexpr Real softest = 1e5, ofGround = 500, softestGround = 2e5, stiffestGround = 1e11; // Pa, kg/m3, Pa
 		if (material.density <= ofGround) return "";
@@ -50,7 +50,7 @@ namespace {
 	}
 
 	// Beside the stress that the weight of the body gives.
-	string doubtOfStrength(const MpmMaterial& material, Real stress)
+	string warningOfStrength(const MpmMaterial& material, Real stress)
 	{
 		constexpr Real least = 0.005, leastMeant = 0.02, mostMeant = 100;
 		for (const auto& [name, value] : material.strengths())
@@ -63,16 +63,16 @@ namespace {
 	}
 
 	// Where points have strengths or moduli of their own, those of the material need not be anybody's.
-	string doubtOf(const MpmMaterial& material, bool varies, Real gravity, Real height)
+	string warningOf(const MpmMaterial& material, bool varies, Real gravity, Real height)
 	{
-		const string density = doubtOfDensity(material.density);
+		const string density = warningOfDensity(material.density);
 		if (!density.empty() || varies) return density;
-		const string modulus = doubtOfModulus(material);
-		return modulus.empty() ? doubtOfStrength(material, material.density * gravity * height) : modulus;
+		const string modulus = warningOfModulus(material);
+		return modulus.empty() ? warningOfStrength(material, material.density * gravity * height) : modulus;
 	}
 }
 
-string doubtOfUnits(
+string warningOfUnits(
         const Vector3r& gravity, Real height, const vector<MaterialPoint>& points, const vector<int>& index, const vector<gimpm::Material>& materials)
 {
 	if (gravity.norm() <= 1) return "";
@@ -81,8 +81,8 @@ string doubtOfUnits(
 		if (first >= points.size()) continue; // another process has them
 		const MaterialPoint& point = points[first];
 		if (point.material->share != 1) continue; // of a stage of construction, which makes it light, and soft
-		const string doubt = doubtOf(*point.material, materials[m].varies, gravity.norm(), height);
-		if (!doubt.empty()) return sentence("material '", point.material->label, "' (of body #", point.id, ") has ", doubt);
+		const string warning = warningOf(*point.material, materials[m].varies, gravity.norm(), height);
+		if (!warning.empty()) return sentence("material '", point.material->label, "' (of body #", point.id, ") has ", warning);
 	}
 	return "";
 }

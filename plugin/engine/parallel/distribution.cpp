@@ -4,10 +4,10 @@
 #include "core/grid/neighbourhood.hpp"
 #include "engine/analysis/analysis.hpp"
 #include "engine/grid/newPoints.hpp"
-#include "engine/parallel/bodyParcels.hpp"
+#include "engine/parallel/packed_bodies.hpp"
 #include "engine/parallel/pieces.hpp"
 #include "engine/parallel/processes.hpp"
-#include "engine/parallel/sameness.hpp"
+#include "engine/parallel/common_state.hpp"
 #include "yade_api/python_lock.hpp"
 #include "yade_api/value_lock.hpp"
 #include <malloc.h>
@@ -93,13 +93,13 @@ template <int Dim> std::shared_ptr<gimpm::Division> Distribution::divide(Analysi
 		if (p < own) leaving[division->holderOf(lowest[p])].push_back(points[p].id);
 		erased.push_back(points[p].id);
 	}
-	vector<vector<double>> parcels;
+	vector<vector<double>> messages;
 	for (const auto& ids : leaving)
-		parcels.push_back(packBodies(scene, ids));
+		messages.push_back(packBodies(scene, ids));
 	points.clear();
 	eraseFrom(scene, erased);
-	for (const auto& parcel : gimpm::exchanged(*all, parcels))
-		unpackBodies(parcel, scene);
+	for (const auto& message : gimpm::exchanged(*all, messages))
+		unpackBodies(message, scene);
 	malloc_trim(0); // what has been erased, and what the step before has left in the heap of its own thread: a sixth of the peak
 	Pieces::note(scene, *all);
 	updateMaterialPoints(points, scene, engine.mask);

@@ -98,7 +98,7 @@ void MpmContact::note(size_t i, Real period)
 		sum.added += impulses[i], sum.all += impulses[i].norm() + period * forces[i].norm(), ++sum.steps;
 }
 
-string MpmContact::doubtOfExchange() const
+string MpmContact::warningOfExchange() const
 {
 	constexpr Real most   = 0.1; // of what is exchanged
 	constexpr int  fewest = 5;   // load steps

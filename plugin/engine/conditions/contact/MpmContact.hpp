@@ -87,7 +87,7 @@ public:
 
 	// What the last load step and the iterations before it have given to one of the bodies. A sentence where too much of that is not from the soil.
 	void   note(size_t i, Real period);
-	string doubtOfExchange() const;
+	string warningOfExchange() const;
 
 	const char*                   list() const override { return "contacts"; }
 	std::shared_ptr<Condition<2>> make(InPlane, const Group&, const Analysis&) const override;

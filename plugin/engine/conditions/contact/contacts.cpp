@@ -31,7 +31,7 @@ namespace {
 	}
 
 	// A coefficient of 1 is given for rough bodies, and is no usual angle.
-	string doubtOfAngle(const string& name, Real angle)
+	string warningOfAngle(const string& name, Real angle)
 	{
 		const bool isRound = std::abs(1e3 * angle - std::round(1e3 * angle)) < 1e-9;
 		if (!(angle > M_PI / 4) || !isRound) return "";
@@ -41,17 +41,17 @@ namespace {
 	}
 
 	// Its coefficient, and a doubt about the angle.
-	Real frictionOf(const MpmContact& contact, const Body& body, string& doubt)
+	Real frictionOf(const MpmContact& contact, const Body& body, string& warning)
 	{
 		const auto* material = dynamic_cast<const FrictMat*>(body.material.get());
-		if (doubt.empty() && !std::isnan(contact.friction)) doubt = doubtOfAngle("MpmContact.friction", contact.friction);
+		if (warning.empty() && !std::isnan(contact.friction)) warning = warningOfAngle("MpmContact.friction", contact.friction);
 		if (!std::isnan(contact.friction)) return std::tan(contact.friction);
 		if (!material || !isFrictionAngle(material->frictionAngle))
 			throw std::invalid_argument(
 			        "Body #" + std::to_string(body.id) + ": MpmContact.friction is not given, so frictionAngle of its material counts, which "
 			        + (material ? "is " + std::to_string(material->frictionAngle) + ": expected radians from 0 to below pi/2."
 			                    : "is no FrictMat: give one of them."));
-		if (doubt.empty()) doubt = doubtOfAngle("frictionAngle of the material of body #" + std::to_string(body.id), material->frictionAngle);
+		if (warning.empty()) warning = warningOfAngle("frictionAngle of the material of body #" + std::to_string(body.id), material->frictionAngle);
 		return std::tan(material->frictionAngle);
 	}
 
@@ -300,13 +300,13 @@ template <int Dim> void Contacts<Dim>::requireKept() const
 		if (owners[i].isFree) owners[i].contact->requireStable(*owners[i].body, system->loads[i].stiffness, dt, target - begin > 1.5 * dt);
 }
 
-template <int Dim> std::map<string, string> Contacts<Dim>::doubts(bool isDynamic) const
+template <int Dim> std::map<string, string> Contacts<Dim>::warnings(bool isDynamic) const
 {
 	std::map<string, string> found;
 	found["coefficient"] = coefficient;
-	found["thin"]        = system->doubts.empty() ? "" : system->doubts.front();
+	found["thin"]        = system->warnings.empty() ? "" : system->warnings.front();
 	for (const auto& contact : given)
-		if (isDynamic && found["exchange"].empty()) found["exchange"] = contact->doubtOfExchange();
+		if (isDynamic && found["exchange"].empty()) found["exchange"] = contact->warningOfExchange();
 	return found;
 }
 

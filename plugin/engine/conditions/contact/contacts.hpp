@@ -5,7 +5,7 @@
 #include "core/terms/contact.hpp"
 #include "engine/analysis/movers.hpp"
 #include "engine/conditions/contact/MpmContact.hpp"
-#include "engine/conditions/contact/contact_halves.hpp"
+#include "engine/conditions/contact/split_contacts.hpp"
 #include "engine/points/MaterialPoints.hpp"
 #include "yade_api/scene.hpp"
 #include <algorithm>
@@ -36,7 +36,7 @@ public:
 	Penalty penalty() const override;
 
 	// What the soil cannot feel of bodies near it, and others.
-	std::map<string, string> doubts(bool isDynamic) const override;
+	std::map<string, string> warnings(bool isDynamic) const override;
 
 	bool areBeside(const gimpm::Vec<Dim>& point, const gimpm::Vec<Dim>& part) const override;
 	bool remembersPoints() const override { return true; }

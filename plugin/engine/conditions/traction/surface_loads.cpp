@@ -102,7 +102,7 @@ template <int Dim> void SurfaceLoads<Dim>::reach(const StepOutcome<Dim>&)
 	}
 }
 
-template <int Dim> string SurfaceLoads<Dim>::doubtOfPlace(const gimpm::PointCloud<Dim>& cloud, const gimpm::Grid<Dim>& grid) const
+template <int Dim> string SurfaceLoads<Dim>::warningOfPlace(const gimpm::PointCloud<Dim>& cloud, const gimpm::Grid<Dim>& grid) const
 {
 	for (size_t i = 0; i < loads.size(); ++i) {
 		const MpmTraction& load = *sources[i].from;

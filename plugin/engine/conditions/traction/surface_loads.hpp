@@ -16,7 +16,7 @@ public:
 	void   advance(const StepTime& step, gimpm::Model<Dim>&, gimpm::Load<Dim>&) override { advanceTo(step.looked); }
 	Work   work(const StepOutcome<Dim>&) const override;
 	void   reach(const StepOutcome<Dim>&) override;
-	string doubtOfPlace(const gimpm::PointCloud<Dim>&, const gimpm::Grid<Dim>&) const override; // whether one that has not acted yet is inside of the body
+	string warningOfPlace(const gimpm::PointCloud<Dim>&, const gimpm::Grid<Dim>&) const override; // whether one that has not acted yet is inside of the body
 
 private:
 	void advanceTo(Real time);

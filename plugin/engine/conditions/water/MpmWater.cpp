@@ -64,9 +64,9 @@ std::unique_ptr<Question> MpmWater::question(const gimpm::Grid<3>& grid, const v
 	return questionOf(*this, grid, cells, name);
 }
 
-std::map<string, string> MpmWater::doubts(const Analysis& analysis, const vector<MaterialPoint>& points, const string& name) const
+std::map<string, string> MpmWater::warnings(const Analysis& analysis, const vector<MaterialPoint>& points, const string& name) const
 {
-	return { { "unit of water", doubtOfWeight(*this, analysis, name) }, { "water on both sides", doubtOfSides(*this, analysis, points, name) } };
+	return { { "unit of water", warningOfWeight(*this, analysis, name) }, { "water on both sides", warningOfSides(*this, analysis, points, name) } };
 }
 
 } // namespace yade

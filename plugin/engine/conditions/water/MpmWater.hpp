@@ -71,7 +71,7 @@ public:
 	std::unique_ptr<Question> question(const gimpm::Grid<2>&, const vector<gimpm::Key>&, const string& name) override;
 	std::unique_ptr<Question> question(const gimpm::Grid<3>&, const vector<gimpm::Key>&, const string& name) override;
 	string                    answers() const override { return "pressures of water"; }
-	std::map<string, string>  doubts(const Analysis&, const vector<MaterialPoint>&, const string& name) const override;
+	std::map<string, string>  warnings(const Analysis&, const vector<MaterialPoint>&, const string& name) const override;
 
 	// Its pressure is that of a function.
 	bool hasFunction() const { return std::isnan(level) && levels.empty(); }

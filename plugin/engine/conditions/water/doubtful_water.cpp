@@ -33,7 +33,7 @@ namespace {
 	}
 }
 
-string doubtOfWeight(const MpmWater& water, const Analysis& analysis, const string& name)
+string warningOfWeight(const MpmWater& water, const Analysis& analysis, const string& name)
 {
 	constexpr Real lightest = 500, earth = 9.81;                                            // N/m3, of a fluid under the gravity of the earth
 	const auto     isDensity = [](Real weight) { return weight >= 950 && weight <= 1100; }; // of water, fresh or salt
@@ -44,7 +44,7 @@ string doubtOfWeight(const MpmWater& water, const Analysis& analysis, const stri
 	return "";
 }
 
-string doubtOfSides(const MpmWater& water, const Analysis& analysis, const vector<MaterialPoint>& points, const string& name)
+string warningOfSides(const MpmWater& water, const Analysis& analysis, const vector<MaterialPoint>& points, const string& name)
 {
 	const Real level = highestLevel(water);
 	if (water.where != "outside" || analysis.gravity.isZero(0) || analysis.grid->axisymmetric) return "";

@@ -7,9 +7,9 @@ class Analysis;
 class MpmWater;
 
 // Water whose numbers are of another unit, a sentence; empty if there is none.
-string doubtOfWeight(const MpmWater&, const Analysis&, const string& name);
+string warningOfWeight(const MpmWater&, const Analysis&, const string& name);
 
 // The same of water with a level that presses on both sides of a body which stands out of it, where nothing holds these.
-string doubtOfSides(const MpmWater&, const Analysis&, const vector<MaterialPoint>&, const string& name);
+string warningOfSides(const MpmWater&, const Analysis&, const vector<MaterialPoint>&, const string& name);
 
 } // namespace yade

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "engine/conditions/contact/contact_halves.hpp"
+#include "engine/conditions/contact/split_contacts.hpp"
 #include "engine/conditions/contact/contact_records.hpp"
 #include <map>
 

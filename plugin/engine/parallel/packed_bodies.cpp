@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "engine/parallel/bodyParcels.hpp"
+#include "engine/parallel/packed_bodies.hpp"
 #include "yade_api/serialization.hpp"
 #include <cstring>
 #include <sstream>

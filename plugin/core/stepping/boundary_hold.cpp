@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "core/stepping/grip.hpp"
+#include "core/stepping/boundary_hold.hpp"
 #include <algorithm>
 #include <limits>
 #include <map>
@@ -179,7 +179,7 @@ std::string withdrawn(const HeldBox<Dim>& box, const PointCloud<Dim>& cloud, con
 
 } // namespace
 
-template <int Dim> std::string lostGrip(const PointCloud<Dim>& cloud, const CloudBasis<Dim>& basis, const Model<Dim>& model, const Load<Dim>& load)
+template <int Dim> std::string lostHold(const PointCloud<Dim>& cloud, const CloudBasis<Dim>& basis, const Model<Dim>& model, const Load<Dim>& load)
 {
 	const auto&     boxes    = model.boundary.boxes();
 	const Division& division = *model.division;
@@ -204,7 +204,7 @@ template <int Dim> std::string boxBetweenNodes(const CloudBasis<Dim>& basis, con
 
 template std::string boxBetweenNodes(const CloudBasis<2>&, const Boundary<2>&);
 template std::string boxBetweenNodes(const CloudBasis<3>&, const Boundary<3>&);
-template std::string lostGrip(const PointCloud<2>&, const CloudBasis<2>&, const Model<2>&, const Load<2>&);
-template std::string lostGrip(const PointCloud<3>&, const CloudBasis<3>&, const Model<3>&, const Load<3>&);
+template std::string lostHold(const PointCloud<2>&, const CloudBasis<2>&, const Model<2>&, const Load<2>&);
+template std::string lostHold(const PointCloud<3>&, const CloudBasis<3>&, const Model<3>&, const Load<3>&);
 
 } // namespace gimpm

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "engine/parallel/sameness.hpp"
+#include "engine/parallel/common_state.hpp"
 #include "core/base/checksum.hpp"
 #include "core/base/sentence.hpp"
 #include "core/parallel/together.hpp"

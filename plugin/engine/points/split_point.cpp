@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "engine/points/halves.hpp"
+#include "engine/points/split_point.hpp"
 
 namespace yade {
 

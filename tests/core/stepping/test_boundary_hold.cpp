@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // A box that moves nodes is named when they hold no soil, or when a gap has opened between them and the soil that they push.
-#include "core/stepping/grip.hpp"
+#include "core/stepping/boundary_hold.hpp"
 #include "scenes.hpp"
 
 namespace gimpm::testGrip {
 namespace {
 
 	/// A block of 3 cells a side, from (1, 1) to (2.5, 2.5), whose top is moved by a plate of nodes.
-	template <class Dimension> class Grip : public ::testing::Test {
+	template <class Dimension> class HeldPiece : public ::testing::Test {
 	public:
 		static constexpr int Dim = Dimension::value;
 
@@ -16,7 +16,7 @@ namespace {
 		Load<Dim>       load;
 		LinearSolver    solver;
 
-		Grip()
+		HeldPiece()
 		{
 			model.grid      = { 0.5, Vec<Dim>::Ones() };
 			model.materials = { { Hencky(1e6, 0.25), 1 } };
@@ -40,11 +40,11 @@ namespace {
 			for (auto& x : cloud.position)
 				if (x[1] > 1.5) x[1] -= cells * model.grid.cellSize;
 		}
-		std::string lost() const { return lostGrip<Dim>(cloud, cloudBasis<Dim>(cloud, model.grid, model.basis, model.boundary), model, load); }
+		std::string lost() const { return lostHold<Dim>(cloud, cloudBasis<Dim>(cloud, model.grid, model.basis, model.boundary), model, load); }
 	};
-	TYPED_TEST_SUITE(Grip, BothDimensions, DimensionName);
+	TYPED_TEST_SUITE(HeldPiece, BothDimensions, DimensionName);
 
-	TYPED_TEST(Grip, IsLostWhenMoreThanHalfACellHasOpened)
+	TYPED_TEST(HeldPiece, IsLostWhenMoreThanHalfACellHasOpened)
 	{
 		EXPECT_EQ(this->lost(), "");
 		this->lower(0.5);
@@ -55,7 +55,7 @@ namespace {
 		EXPECT_NE(lost.find("along -y is 0.51 cells away from its node at (1, 2.5"), std::string::npos) << lost;
 	}
 
-	TYPED_TEST(Grip, IsLostAlsoWhereTheNodesCarryNoSoilAnyMore)
+	TYPED_TEST(HeldPiece, IsLostAlsoWhereTheNodesCarryNoSoilAnyMore)
 	{
 		// one column of points stays: the other nodes are still missed
 		const double edge = 1.25;
@@ -64,7 +64,7 @@ namespace {
 		EXPECT_NE(this->lost().find("1.2 cells away"), std::string::npos) << this->lost();
 	}
 
-	TYPED_TEST(Grip, IsNotOfSoilThatWasNeverThere)
+	TYPED_TEST(HeldPiece, IsNotOfSoilThatWasNeverThere)
 	{
 		this->cloud.position0.clear();
 		this->lower(0.75);
@@ -76,7 +76,7 @@ namespace {
 		EXPECT_NE(this->lost(), "");
 	}
 
-	TYPED_TEST(Grip, DependsOnTheDirection)
+	TYPED_TEST(HeldPiece, DependsOnTheDirection)
 	{
 		constexpr int Dim = TypeParam::value;
 		this->lower(0.6);
@@ -95,7 +95,7 @@ namespace {
 		EXPECT_EQ(this->lost(), "") << "before it has begun";
 	}
 
-	TYPED_TEST(Grip, IsKeptByNodesInsideOfTheSoil)
+	TYPED_TEST(HeldPiece, IsKeptByNodesInsideOfTheSoil)
 	{
 		constexpr int Dim = TypeParam::value;
 		this->plate(-Vec<Dim>::Unit(1), 2);
@@ -105,7 +105,7 @@ namespace {
 		EXPECT_NE(this->lost(), "");
 	}
 
-	TYPED_TEST(Grip, NeedsANodeWithSoil)
+	TYPED_TEST(HeldPiece, NeedsANodeWithSoil)
 	{
 		constexpr int Dim = TypeParam::value;
 		this->plate(-Vec<Dim>::Unit(1), 3.5);
@@ -117,7 +117,7 @@ namespace {
 		EXPECT_EQ(this->lost(), "") << "a box that holds nodes may wait for soil";
 	}
 
-	TYPED_TEST(Grip, LostEndsTheStep)
+	TYPED_TEST(HeldPiece, LostEndsTheStep)
 	{
 		this->lower(0.6);
 		const auto before = this->cloud.position;
