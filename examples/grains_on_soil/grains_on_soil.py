@@ -42,7 +42,8 @@ if options.travel:
 	plough, members = O.bodies.appendClumped(spheres)
 	O.bodies[plough].dynamic = False
 
-# layers of grains above each other, and walls around them which only they touch: grains have the bits 1 and 2, walls 2, and the contact means 1
+# layers of grains above each other, and walls around them which only they touch: grains have the bits 1 and 2, walls 2,
+# and the contact means 1
 shake = np.random.default_rng(1)
 rows = [int((size - 4 * radius) / (2.2 * radius)) for size in (length, width)]
 grains, place = [], 0

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The plugin is also a Python extension module, imported by yade.mpm for what can be checked only when YADE has started, and for
-// work on all material points at once.
+// The plugin is also a Python extension module, imported by yade.mpm for what can be checked only when YADE has
+// started, and for work on all material points at once.
 #include "core/solvers/multigrid.hpp"
 #include "engine/conditions/water/waterAround.hpp"
 #include "engine/engines/MpmImplicitEngine.hpp"
@@ -28,7 +28,8 @@ void defineHelpers()
 	py::def("respond", &respondForPython,
 	        "For mpm.respond: one call of the law of a material in principal axes, from trial strains and a dict of internal variables.");
 	py::def("hasTensorLaw", &hasTensorLaw, "For mpm.respond: whether the law of a material is asked in space.");
-	py::def("respondInSpace", &respondInSpaceForPython, "For mpm.respond: one call of a tensor law, from a trial strain, internal variables and a step of time.");
+	py::def("respondInSpace", &respondInSpaceForPython,
+	        "For mpm.respond: one call of a tensor law, from a trial strain, internal variables and a step of time.");
 	py::def("stepInSpace", &stepInSpaceForPython, "For mpm.elementTest: a point of a tensor law after an increment of its deformation gradient.");
 	py::def("elasticStrainOf", &elasticStrainForPython, "For mpm.elementTest: principal elastic strains of principal Kirchhoff stresses.");
 	py::def(

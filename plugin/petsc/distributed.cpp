@@ -197,7 +197,8 @@ void iterate(void* solver, gimpm::DistributedIteration* iteration, const double*
 bool factorise(void* solver, double smallestPivot, int* negativePivots)
 {
 	PCFailedReason failure = PC_NOERROR;
-	for (const int percent : { 20, 100, 400 }) { // pivots off the diagonal take more memory than the analysis can foresee
+	// Pivots off the diagonal take more memory than the analysis can foresee.
+	for (const int percent : { 20, 100, 400 }) {
 		check([&] { return makeFactor(*static_cast<Solver*>(solver), smallestPivot, percent, &failure, negativePivots); });
 		if (failure != PC_FACTOR_OUTMEMORY) break;
 	}

@@ -15,7 +15,8 @@ PetscErrorCode makeMatrix(const CompressedRows& rows, bool isSymmetric, Mat* K)
 	}
 	PetscCall(MatSetBlockSize(*K, rows.dim));
 	PetscCall(MatSetOption(*K, MAT_USE_INODES, PETSC_FALSE)); // whose product takes longer
-	// Not MAT_SPD: of a matrix that is not, PETSc would look for the largest eigenvalue by conjugate gradients and an iteration without end.
+	// Not MAT_SPD: of a matrix that is not, PETSc would look for the largest eigenvalue by conjugate gradients and
+	// an iteration without end.
 	if (isSymmetric) PetscCall(MatSetOption(*K, MAT_SYMMETRIC, PETSC_TRUE));
 	return 0;
 }

@@ -15,5 +15,6 @@ struct CompressedRows {
 /// A copy, but where there is one process: there `rows` must outlive it.
 PetscErrorCode makeMatrix(const CompressedRows& rows, bool isSymmetric, Mat* K);
 
-/// The rigid motions, of which coarse levels are made, by dim numbers a node; null: none. Without rotations, bending takes many more iterations.
+/// The rigid motions, of which coarse levels are made, by dim numbers a node; null: none. Without rotations, bending
+/// takes many more iterations.
 PetscErrorCode addRigidMotions(Mat K, const CompressedRows&, const double* position);

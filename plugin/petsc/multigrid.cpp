@@ -50,9 +50,9 @@ PetscErrorCode setMatrix(Hierarchy& h)
 	return MatCreateVecs(h.rows, &h.r, &h.z);
 }
 
-/// Smoothed aggregation with Chebyshev's polynomial of the diagonal as smoother. Smoothers that invert blocks fail on coarse levels, where aggregates of one or
-/// two nodes have fewer independent motions than unknowns. The first level of aggregates takes neighbours of neighbours: without that, setting up
-/// takes longer than the iterations that it saves.
+/// Smoothed aggregation with Chebyshev's polynomial of the diagonal as smoother. Smoothers that invert blocks fail on
+/// coarse levels, where aggregates of one or two nodes have fewer independent motions than unknowns. The first level of
+/// aggregates takes neighbours of neighbours: without that, setting up takes longer than the iterations that it saves.
 PetscErrorCode setUp(Hierarchy& h)
 {
 	PetscCall(setMatrix(h));

@@ -10,7 +10,8 @@ namespace {
 
 double bytes = 0; // that this process has sent to others, besides what PETSc has
 
-/// Waits as MPI_Wait() does, but not for a process that has come to the end of its script, of which yade.mpm.processes tells.
+/// Waits as MPI_Wait() does, but not for a process that has come to the end of its script, of which yade.mpm.processes
+/// tells.
 void wait(MPI_Request& request)
 {
 	constexpr int    endOfScript = 27183, seldom = 1000; // a tag, and tests between two looks

@@ -9,7 +9,8 @@
 namespace yade {
 namespace {
 
-	// boost.python passes the new object as first positional argument; the constructor wants (object, positional, keywords)
+	// boost.python passes the new object as first positional argument; the constructor wants (object, positional,
+	// keywords)
 	struct Initializer {
 		py::object construct;
 		py::object operator()(const py::tuple& positional, const py::dict& keywords) const
@@ -74,7 +75,8 @@ string AttributeTable::names(bool areReadonly) const
 {
 	string names = base ? base->names(areReadonly) : "";
 	for (const auto& attribute : attributes_) {
-		const bool isListed = (", " + names + ",").find(", " + string(attribute->name) + ",") != string::npos; // that of a base
+		// That of a base.
+		const bool isListed = (", " + names + ",").find(", " + string(attribute->name) + ",") != string::npos;
 		if (attribute->is(hidden) || attribute->is(readonly) != areReadonly || isListed) continue;
 		names += (names.empty() ? "" : ", ") + string(attribute->name);
 	}
@@ -91,7 +93,8 @@ const Attribute* AttributeTable::find(const string& name) const
 void AttributeTable::addProperty(py::object c, const Attribute& attribute)
 {
 	if (attribute.is(hidden)) return;
-	const string doc = string(attribute.doc) + " :yattrflags:`" + std::to_string(attribute.flags) + "`"; // YADE's inspector reads the flags
+	// YADE's inspector reads the flags.
+	const string doc = string(attribute.doc) + " :yattrflags:`" + std::to_string(attribute.flags) + "`";
 	py::object   setter;
 	if (!attribute.is(readonly)) {
 		const auto set = [&attribute](Serializable& object, const py::object& value) {
@@ -154,7 +157,8 @@ py::object AttributeTable::refuseUnknown(const py::object& object, const string&
 	raisePython(PyExc_AttributeError, "'" + string(Py_TYPE(object.ptr())->tp_name) + "' object has no attribute '" + name + "'");
 }
 
-// A misspelt name would otherwise become a new Python attribute without effect. Classes derived in Python may add theirs.
+// A misspelt name would otherwise become a new Python attribute without effect. Classes derived in Python may add
+// theirs.
 void AttributeTable::setKnownAttribute(const py::object& object, const string& name, const py::object& value) const
 {
 	if (Py_TYPE(object.ptr()) == type_) requireSettable(name);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-// The attributes of a plugin class, as given by its attributes() list. What can be done with an attribute depends on its type; where it is, on the class.
+// The attributes of a plugin class, as given by its attributes() list. What can be done with an attribute depends on
+// its type; where it is, on the class.
 #include "yade_api/exposed.hpp"
 #include "yade_api/naming.hpp"
 #include "yade_api/serialization.hpp"
@@ -96,7 +97,8 @@ private:
 	void requireAdmitted(const T& value) const
 	{
 		if (admits_(value)) return;
-		// An engine in the background must not wait for Python's lock, which O.reset() keeps while it waits for the engine.
+		// An engine in the background must not wait for Python's lock, which O.reset() keeps while it waits for
+		// the engine.
 		refuseValue(PyGILState_Check() ? repr(Conversion<T>::toPython(value)) : textOf(value), admitted_());
 	}
 	template <class Archive> void serializeBy(Archive& archive, Serializable& object) const

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-// Bodies and what they consist of. Members inside of #ifdef belong to a feature that YADE is built with or not, or came with a later version: CMakeLists.txt finds out.
+// Bodies and what they consist of. Members inside of #ifdef belong to a feature that YADE is built with or not, or came
+// with a later version: CMakeLists.txt finds out.
 #include "yade_api/serializable.hpp"
 #include <bitset>
 #include <map>
@@ -15,9 +16,10 @@ class InternalForceFunctor;
 
 class State : public Serializable, public Indexable {
 public:
-	enum { DOF_X = 1, DOF_Y = 2, DOF_Z = 4, DOF_RX = 8, DOF_RY = 16, DOF_RZ = 32, DOF_ALL = 63 }; // bits of blockedDOFs
-	Vector3r&    pos;                                                                             // se3.position
-	Quaternionr& ori;                                                                             // se3.orientation
+	// Bits of blockedDOFs.
+	enum { DOF_X = 1, DOF_Y = 2, DOF_Z = 4, DOF_RX = 8, DOF_RY = 16, DOF_RZ = 32, DOF_ALL = 63 };
+	Vector3r&    pos; // se3.position
+	Quaternionr& ori; // se3.orientation
 	std::mutex   updateMutex;
 	Se3r         se3;
 	Vector3r     vel;
@@ -169,7 +171,8 @@ public:
 	YADE_API_OVERRIDES(Body)
 };
 
-class BodyContainer : public Serializable { // only its exported functions are used: members are left out, and so is its constructor
+// Only its exported functions are used: members are left out, and so is its constructor.
+class BodyContainer : public Serializable {
 	BodyContainer();
 
 public:

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-// Attribute values between Python and C++, stricter than YADE's own conversion: a bool is not a number, None is not a bool,
-// a string is not a sequence. Sequences come back as tuples: what is read is a copy, so appending to it must fail.
+// Attribute values between Python and C++, stricter than YADE's own conversion: a bool is not a number, None is not a
+// bool, a string is not a sequence. Sequences come back as tuples: what is read is a copy, so appending to it must
+// fail.
 #include "yade_api/types.hpp"
 #include <cstdlib>
 #include <limits>
@@ -77,7 +78,8 @@ template <> struct Conversion<string> : RegisteredConversion<string> {
 	static string                expected() { return "a string"; }
 	static std::optional<string> fromPython(const py::object& value)
 	{
-		return PyUnicode_Check(value.ptr()) ? RegisteredConversion<string>::fromPython(value) : std::nullopt; // bytes are none
+		// Bytes are none.
+		return PyUnicode_Check(value.ptr()) ? RegisteredConversion<string>::fromPython(value) : std::nullopt;
 	}
 };
 template <> struct Conversion<Vector3r> : RegisteredConversion<Vector3r> {

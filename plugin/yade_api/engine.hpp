@@ -16,8 +16,8 @@ struct TimingInfo {
 	static bool enabled; // O.timingEnabled
 };
 
-// Phases of an engine, as printed by yade.timing.stats(). YADE's own checkpoints are inline functions of its headers; this
-// adds durations that were measured elsewhere.
+// Phases of an engine, as printed by yade.timing.stats(). YADE's own checkpoints are inline functions of its headers;
+// this adds durations that were measured elsewhere.
 class TimingDeltas {
 	TimingInfo::delta last    = 0;
 	size_t            current = 0;

@@ -10,7 +10,8 @@ namespace yade {
 static int raiseIfUnseen(void*)
 {
 	Omega& omega = Singleton<Omega>::instance();
-	if (omega.isRunning()) return Py_AddPendingCall(&raiseIfUnseen, nullptr); // the exception is still on its way out of the thread
+	// The exception is still on its way out of the thread.
+	if (omega.isRunning()) return Py_AddPendingCall(&raiseIfUnseen, nullptr);
 
 	const shared_ptr<ThreadRunner>& runner = omega.simulationLoop;
 	if (!runner || !runner->workerThrew.exchange(false)) return 0; // O.wait() has raised it
@@ -21,7 +22,8 @@ static int raiseIfUnseen(void*)
 static void announceError()
 {
 	const ThreadRunner* const runner = Singleton<Omega>::instance().simulationLoop.get();
-	// O.run(n, wait=True) holds Python's lock until it waits: when someone has got it, this thread cannot end too early.
+	// O.run(n, wait=True) holds Python's lock until it waits: when someone has got it, this thread cannot end too
+	// early.
 	withPython(runner->looping, [] { Py_AddPendingCall(&raiseIfUnseen, nullptr); }); // the call is for O.run(n)
 }
 
@@ -48,8 +50,9 @@ static struct {
 	string     text;
 } kept;
 
-// Asked from another thread than its main one, Python before 3.13 might make a pending call many statements later. An exception, which the call takes
-// back, makes it look at once. The lock is with the thread of O.step(), which waits for the end of the region. Since 3.12 others cannot tell which it is.
+// Asked from another thread than its main one, Python before 3.13 might make a pending call many statements later. An
+// exception, which the call takes back, makes it look at once. The lock is with the thread of O.step(), which waits for
+// the end of the region. Since 3.12 others cannot tell which it is.
 static void setPassing([[maybe_unused]] PyObject* exception)
 {
 #if PY_VERSION_HEX < 0x030d0000

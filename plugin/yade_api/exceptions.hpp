@@ -2,8 +2,9 @@
 #pragma once
 // Errors of an engine must reach the script, also from the background thread of O.run().
 //
-// YADE keeps an exception of that thread for O.wait() to raise. But O.run(n, wait=True) returns silently if the thread has already
-// ended when it begins to wait, and O.run(n) only writes a line to the log, which O.run(n, wait=True) writes besides.
+// YADE keeps an exception of that thread for O.wait() to raise. But O.run(n, wait=True) returns silently if the thread
+// has already ended when it begins to wait, and O.run(n) only writes a line to the log, which O.run(n, wait=True)
+// writes besides.
 #include <omp.h>
 #include <stdexcept>
 
@@ -17,10 +18,12 @@ struct Interrupted : std::runtime_error {
 // In YADE's background thread: ends it, and has the script raise the exception, once. Does nothing outside that thread.
 void endRun(const std::exception&);
 
-// In an OpenMP region, which no exception may leave: ends the run, and has the script raise it as soon as Python executes again.
+// In an OpenMP region, which no exception may leave: ends the run, and has the script raise it as soon as Python
+// executes again.
 void raiseLater(const std::exception&);
 
-// The body of an engine's action(): errors leave it as usual, and reach the script. YADE's ParallelEngine calls it in an OpenMP region.
+// The body of an engine's action(): errors leave it as usual, and reach the script. YADE's ParallelEngine calls it in
+// an OpenMP region.
 template <class Step> void deliveringErrors(Step&& step)
 {
 	try {

@@ -19,11 +19,11 @@
 //	BOOST_CLASS_EXPORT_IMPLEMENT(yade::MpmThing)
 //	static const yade::PluginClasses<yade::MpmThing> registered(__FILE__);
 //
-// An attribute of a YADE base class listed again, with the flag noSave because its own class saves it, gets the documentation and
-// the validator given here.
+// An attribute of a YADE base class listed again, with the flag noSave because its own class saves it, gets the
+// documentation and the validator given here.
 //
-// Optional: void postLoad(), run after loading, after construction from keywords and after assignments that ask for it; and
-// template <class C> static void python(C& c), which adds methods and properties to the Python class c.
+// Optional: void postLoad(), run after loading, after construction from keywords and after assignments that ask for it;
+// and template <class C> static void python(C& c), which adds methods and properties to the Python class c.
 #include "yade_api/conversion.hpp"
 #include "yade_api/validators.hpp"
 #include "yade_api/value_lock.hpp"
@@ -46,7 +46,8 @@ enum AttributeFlag : unsigned {
 
 class AttributeTable;
 
-// The functions without a body are in yade_api/registration.hpp: they are compiled where the class is registered, and nowhere else.
+// The functions without a body are in yade_api/registration.hpp: they are compiled where the class is registered, and
+// nowhere else.
 template <class D, class B> class Exposed : public B {
 public:
 	string getClassName() const override;
@@ -59,8 +60,8 @@ public:
 	py::dict pyDict() const override;
 	void     pyRegisterClass(py::object scope) override;
 
-	// Checks all attributes of this plugin's classes again: elements of vectors can be changed in place, and values can come
-	// from a file. std::invalid_argument (a ValueError in Python) as at assignment.
+	// Checks all attributes of this plugin's classes again: elements of vectors can be changed in place, and values
+	// can come from a file. std::invalid_argument (a ValueError in Python) as at assignment.
 	virtual void requireAdmissible() const;
 
 	template <class C> static void python(C&) { }

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // mpm/mpm_guard.so: checks what it has been opened by, and only then opens the plugin.
 //
-// YADE misreads memory if a library is made for another build of it. So this one is linked without YADE's libraries and calls virtual
-// functions only, until sizes, attributes and tables of virtual functions have been found to be as declared. If anything is wrong it says
-// so in one sentence, and YADE starts as if the plugin were not there.
+// YADE misreads memory if a library is made for another build of it. So this one is linked without YADE's libraries and
+// calls virtual functions only, until sizes, attributes and tables of virtual functions have been found to be as
+// declared. If anything is wrong it says so in one sentence, and YADE starts as if the plugin were not there.
 #include "yade_api/layout_check.hpp"
 #include "yade_api/virtual_functions.hpp"
 #include <dlfcn.h>
@@ -24,7 +24,8 @@ namespace {
 	// Says more than a difference in the binary does; is no reason to refuse by itself.
 	string thisYade()
 	{
-		const string version = py::extract<string>(py::import("yade.config").attr("version")); // imported by YADE before it opens libraries
+		// Imported by YADE before it opens libraries.
+		const string version = py::extract<string>(py::import("yade.config").attr("version"));
 		return version == YADE_API_VERSION ? "this build of YADE " + version
 		                                   : "this YADE " + version + " (the plugin was built for " YADE_API_VERSION ")";
 	}

@@ -38,8 +38,9 @@ namespace {
 		sigaction(SIGINT, &ours, nullptr);
 	}
 
-	// Whether Ctrl-C is for the run: YADE waits for it in Python's main thread, and the script has no handler of its own. Otherwise
-	// Python has handled the signal, since its main thread executes Python: then it executes the call below, too.
+	// Whether Ctrl-C is for the run: YADE waits for it in Python's main thread, and the script has no handler of
+	// its own. Otherwise Python has handled the signal, since its main thread executes Python: then it executes the
+	// call below, too.
 	bool isForTheRun(const std::atomic_bool& isRunning)
 	{
 		struct Answers {
@@ -101,7 +102,8 @@ bool Interruption::pressedWhileYadeWaits()
 void Interruption::raise(const string& message) const
 {
 	if (byKey) throw Interrupted(message);
-	if (!type) throw boost::thread_interrupted(); // YADE would log a std::exception as fatal; this one the thread itself catches
+	// YADE would log a std::exception as fatal; this one the thread itself catches.
+	if (!type) throw boost::thread_interrupted();
 	PyErr_Restore(type, value, traceback);
 	py::throw_error_already_set();
 	std::abort(); // not reached

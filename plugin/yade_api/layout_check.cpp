@@ -67,7 +67,8 @@ static void checkThreadRunner(LayoutCheck& check)
 	if (!omega.simulationLoop || omega.isRunning()) return;
 	const ThreadRunner& runner = *omega.simulationLoop;
 	const size_t        size   = malloc_usable_size(omega.simulationLoop.get());
-	check.require(sizeof(ThreadRunner) <= size && size < sizeof(ThreadRunner) + 32, "size of ThreadRunner"); // of one piece of memory
+	// Of one piece of memory.
+	check.require(sizeof(ThreadRunner) <= size && size < sizeof(ThreadRunner) + 32, "size of ThreadRunner");
 	check.require(!runner.looping && !runner.workerThrew, "ThreadRunner.workerThrew");
 }
 

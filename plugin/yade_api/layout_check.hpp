@@ -2,8 +2,8 @@
 #pragma once
 // Does YADE, as it runs, have the layout that this folder declares?
 //
-// Objects are made by YADE's factory and their attributes are set by name by YADE's code; then they are read as declared here.
-// A member that sits elsewhere shows another value.
+// Objects are made by YADE's factory and their attributes are set by name by YADE's code; then they are read as
+// declared here. A member that sits elsewhere shows another value.
 #include "yade_api/yade_api.hpp"
 #include <functional>
 #include <malloc.h>
@@ -16,8 +16,8 @@ public:
 
 	explicit LayoutCheck(Create create_) : create(std::move(create_)) { }
 
-	// Sizes of all declared classes, and their attributes of plain types. Calls no function of YADE but virtual ones and the given
-	// one, so it can run before anything is known about the libraries.
+	// Sizes of all declared classes, and their attributes of plain types. Calls no function of YADE but virtual
+	// ones and the given one, so it can run before anything is known about the libraries.
 	void checkSizesAndScalars()
 	{
 		checkScene();

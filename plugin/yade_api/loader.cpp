@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // libpkg_mpm.so: the only file of the plugin that YADE opens by itself.
 //
-// YADE aborts if it cannot open a library of its folder. So this one needs nothing but the C library, whatever an upgrade of the system has
-// replaced since it was built, and opens the guard if the process has no other boost.python than the one that that is made for: two of them
-// would crash it. If anything is wrong it says so in one sentence, and YADE starts as if the plugin were not there.
+// YADE aborts if it cannot open a library of its folder. So this one needs nothing but the C library, whatever an
+// upgrade of the system has replaced since it was built, and opens the guard if the process has no other boost.python
+// than the one that that is made for: two of them would crash it. If anything is wrong it says so in one sentence, and
+// YADE starts as if the plugin were not there.
 #include <cstdio>
 #include <cstring>
 #include <dlfcn.h>

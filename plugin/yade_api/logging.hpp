@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-// Messages through YADE's log: shown, filtered by class name and redirected like those of YADE itself (module yade.log).
+// Messages through YADE's log: shown, filtered by class name and redirected like those of YADE itself (module
+// yade.log).
 #include <string>
 
 namespace yade {

@@ -16,8 +16,8 @@ public:
 	~PythonLock() { PyGILState_Release(state); }
 };
 
-// Calls f with that lock, in YADE's background thread. O.reset() keeps the lock while it waits for that thread to end, after telling it
-// so: then f is not waited for, and may be called much later. So it must own what it uses.
+// Calls f with that lock, in YADE's background thread. O.reset() keeps the lock while it waits for that thread to end,
+// after telling it so: then f is not waited for, and may be called much later. So it must own what it uses.
 void withPython(const std::atomic_bool& isWanted, std::function<void()> f);
 
 // The opposite of PythonLock, for a call from Python that waits for something which may itself need that lock.

@@ -47,11 +47,11 @@ template <class D, class B> py::dict Exposed<D, B>::pyDict() const
 template <class D, class B> void Exposed<D, B>::requireAdmissible() const
 {
 	if constexpr (isExposed(static_cast<B*>(nullptr))) B::requireAdmissible();
-	// Every material point is asked at the beginning of every step: here without the table, which is asked for the message.
+	// Every material point is asked at the beginning of every step: here without the table, which is asked for the
+	// message.
 	bool areAdmitted = true;
-	D::attributes([&](const char*, auto member, unsigned, const char*, auto... validator) {
-		areAdmitted = areAdmitted && (validator(self().*member) && ...);
-	});
+	D::attributes(
+	        [&](const char*, auto member, unsigned, const char*, auto... validator) { areAdmitted = areAdmitted && (validator(self().*member) && ...); });
 	if (!areAdmitted) table().requireAdmitted(self());
 }
 

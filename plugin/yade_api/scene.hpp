@@ -83,7 +83,8 @@ public:
 	vector<shared_ptr<DisplayParameters>> dispParams;
 	Scene();
 	~Scene() override;
-	bool timeStepperActive(); // whether a TimeStepper among the engines sets dt; std::runtime_error if there are several
+	// Whether a TimeStepper among the engines sets dt; std::runtime_error if there are several.
+	bool timeStepperActive();
 	YADE_API_OVERRIDES(Scene)
 };
 

@@ -2,8 +2,8 @@
 #pragma once
 // Root classes of everything that YADE creates by name, saves, and shows in Python.
 //
-// The order of members and of virtual functions in this folder is that of libyade.so since 2023.02a;
-// layout_check.cpp and virtual_functions.cpp verify it in the running program. Functions without a body are defined there.
+// The order of members and of virtual functions in this folder is that of libyade.so since 2023.02a; layout_check.cpp
+// and virtual_functions.cpp verify it in the running program. Functions without a body are defined there.
 #include "yade_api/types.hpp"
 #include <stdexcept>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-// Saving and loading in YADE's own format: Eigen types element by element with YADE's XML names, raw in binary archives; base
-// classes by the functions compiled into YADE's libraries.
+// Saving and loading in YADE's own format: Eigen types element by element with YADE's XML names, raw in binary
+// archives; base classes by the functions compiled into YADE's libraries.
 #include "yade_api/yade_api.hpp"
 
 #pragma GCC visibility push(default)

@@ -6,8 +6,9 @@
 
 namespace yade {
 
-// Held while values of this plugin's objects are read or written, by an engine in YADE's background thread or by a call from
-// Python, but not while an engine computes from copies of them: Python then gets whole values without waiting for a step.
+// Held while values of this plugin's objects are read or written, by an engine in YADE's background thread or by a call
+// from Python, but not while an engine computes from copies of them: Python then gets whole values without waiting for
+// a step.
 //
 // Python's own lock would not do: O.reset() keeps it while it waits for the background thread.
 class ValueLock {

@@ -81,7 +81,8 @@ namespace {
 		const std::unique_ptr<char, decltype(&std::free)> text(abi::__cxa_demangle(symbol.dli_sname, nullptr, nullptr, nullptr), &std::free);
 		const string                                      found = text ? text.get() : "";
 		const size_t                                      start = found.find(string("::") + name), end = start + 2 + std::strlen(name);
-		return start != string::npos && (found[end] == '(' || found[end] == '['); // [ before the tag of a string's ABI
+		// [ before the tag of a string's ABI.
+		return start != string::npos && (found[end] == '(' || found[end] == '[');
 	}
 
 	// What differs in the table of a class; nothing: ''.

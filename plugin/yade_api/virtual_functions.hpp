@@ -2,8 +2,8 @@
 #pragma once
 // Are the tables of virtual functions in YADE's libraries those that this folder declares?
 //
-// A function more or less in one of YADE's classes changes neither the size of an object nor its attributes; each call of a function behind it
-// ends in another one.
+// A function more or less in one of YADE's classes changes neither the size of an object nor its attributes; each call
+// of a function behind it ends in another one.
 #include "yade_api/types.hpp"
 
 namespace yade {

@@ -15,8 +15,9 @@ fail() {
 
 debianYade=/usr/lib/x86_64-linux-gnu/yade-double
 
-# Sets $systemYade to the folder of libyade.so, $yadePrefix to the one that it is installed in, $systemCommand to the command: those of the
-# variable YADE_DIR, of the command yade of PATH where that is none of Debian's package, or of the package.
+# Sets $systemYade to the folder of libyade.so, $yadePrefix to the one that it is installed in, $systemCommand to the
+# command: those of the variable YADE_DIR, of the command yade of PATH where that is none of Debian's package, or of the
+# package.
 findYade() {
 	systemYade=${YADE_DIR:-$(besideCommandOfPath)}
 	systemYade=${systemYade:-$debianYade}
@@ -30,7 +31,8 @@ findYade() {
 	[ -x "$systemCommand" ] || fail "the command $systemCommand is missing, which belongs to YADE_DIR = $systemYade"
 }
 
-# The folder of libyade.so that belongs to the command yade of PATH; nothing if that is of Debian's package, or of an overlay.
+# The folder of libyade.so that belongs to the command yade of PATH; nothing if that is of Debian's package, or of an
+# overlay.
 besideCommandOfPath() {
 	local command prefix
 	command=$(type -P yade) || return 0
@@ -57,7 +59,8 @@ isInstalled() {
 	dpkg-query --show --showformat '${db:Status-Status}' "$1" 2>/dev/null | grep -q '^installed'
 }
 
-# apt-get as root, which waits while another one is at work. Its option for that, DPkg::Lock::Timeout, is for one of its three locks only.
+# apt-get as root, which waits while another one is at work. Its option for that, DPkg::Lock::Timeout, is for one of its
+# three locks only.
 aptGet() {
 	local asRoot=() said='' waiting=no deadline=$((SECONDS + 1200))
 	[ "$(id -u)" = 0 ] || asRoot=(sudo)

@@ -3,7 +3,8 @@
 #
 # usage: scripts/lib/process.sh <folder> <command> ...
 #
-# One of several processes that scripts/run -n has mpirun start: the first one speaks, and the others write their errors to the folder.
+# One of several processes that scripts/run -n has mpirun start: the first one speaks, and the others write their errors
+# to the folder.
 
 said=$1/$OMPI_COMM_WORLD_RANK
 shift

@@ -151,7 +151,8 @@ namespace {
 		const double          before = heap();
 		LinearSolver          solver;
 		solver.solve(K, b, x);
-		state.counters["bytes_per_unknown"] = (heap() - before) / K.size(); // that the solver holds: factor, scaled matrix
+		// That the solver holds: factor, scaled matrix.
+		state.counters["bytes_per_unknown"] = (heap() - before) / K.size();
 		const double flops                  = solver.analyse(K).flops;
 		solver.resetTimes();
 		for (auto _ : state)
@@ -214,7 +215,8 @@ namespace {
 		for (auto _ : state)
 			dgemm_("N", "N", &n, &n, &n, &one, A.data(), &n, A.data(), &n, &one, C.data(), &n);
 		benchmark::DoNotOptimize(C.sum());
-		state.counters["flops"] = benchmark::Counter(2. * n * n * n, benchmark::Counter::kIsIterationInvariantRate); // per second
+		// Per second.
+		state.counters["flops"] = benchmark::Counter(2. * n * n * n, benchmark::Counter::kIsIterationInvariantRate);
 	}
 
 	BENCHMARK(dgemm)->UseRealTime();

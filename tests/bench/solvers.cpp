@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// One solve of a step in 3D by several methods: iterations, and seconds to set up and to solve. scripts/bench says of what.
+// One solve of a step in 3D by several methods: iterations, and seconds to set up and to solve. scripts/bench says of
+// what.
 //
-// usage: solvers cantilever|tilted <cells across> <length / height> <cut> <ghost factor> <Poisson's ratio> <tolerance> <method>...
+// usage: solvers cantilever|tilted <cells across> <length / height> <cut> <ghost factor> <Poisson's ratio> <tolerance>
+// <method>...
 //        solvers slope <cell size> <depth, cells> <load factor> <ghost factor> <Poisson's ratio> <tolerance> <method>...
 #include "bench/scenes.hpp"
 #include "core/stepping/step_system.hpp"
@@ -12,8 +14,8 @@
 namespace gimpm {
 namespace {
 
-	/// Held at x = 0, under its own weight, inclined by an angle. Its upper and rear sides reach into the next cells by the part `cut` of them; where it is
-	/// inclined, cells are cut in all ways.
+	/// Held at x = 0, under its own weight, inclined by an angle. Its upper and rear sides reach into the next
+	/// cells by the part `cut` of them; where it is inclined, cells are cut in all ways.
 	BenchScene<3> cantilever(int cells, int slenderness, double cut, double angle)
 	{
 		BenchScene<3> s;

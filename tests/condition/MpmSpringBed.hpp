@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-// A condition that the plugin does not know: a bed of springs below the soil, the other ends of which move by a history.
+// A condition that the plugin does not know: a bed of springs below the soil, the other ends of which move by a
+// history.
 #include "engine/analysis/MpmCondition.hpp"
 #include "engine/conditions/load_curves.hpp"
 

@@ -31,7 +31,8 @@ template <int Dim> std::pair<Eigen::MatrixXd, Eigen::MatrixXd> tangentAndDerivat
 	return { dense(K), derivative(forces, d, step) };
 }
 
-/// Of the tangent stiffness of a step at d along a direction, from central differences with a step along it, relative to what it is.
+/// Of the tangent stiffness of a step at d along a direction, from central differences with a step along it, relative
+/// to what it is.
 template <int Dim> double tangentErrorAlong(const StepSystem<Dim>& system, const Eigen::VectorXd& d, const Eigen::VectorXd& direction, double step)
 {
 	NodeMatrix<Dim> K;
@@ -49,7 +50,8 @@ inline double relativeError(const Eigen::MatrixXd& found, const Eigen::MatrixXd&
 	return (found - expected).cwiseAbs().maxCoeff() / expected.cwiseAbs().maxCoeff();
 }
 
-/// Of the stiffness of the last term of a step, at random displacements, from the derivative of its forces. These must not vanish.
+/// Of the stiffness of the last term of a step, at random displacements, from the derivative of its forces. These must
+/// not vanish.
 template <int Dim> double tangentErrorOfLastTerm(const StepSystem<Dim>& system, const Grid<Dim>& grid, double step)
 {
 	const Term<Dim>&      term   = *system.terms.back();

@@ -96,7 +96,8 @@ template <int Dim> PointCloud<Dim> shifted(PointCloud<Dim> cloud, const Vec<Dim>
 	return cloud;
 }
 
-/// A bar along x that is held at x = 0, one cell wide on rollers, swings in its first mode; nu = 0. Its end lies anywhere in a cell.
+/// A bar along x that is held at x = 0, one cell wide on rollers, swings in its first mode; nu = 0. Its end lies
+/// anywhere in a cell.
 template <int Dim> struct Bar : Moving<Dim> {
 	static constexpr double young = 1e6, density = 1000;
 	const double            wave = std::sqrt(young / density);

@@ -44,7 +44,8 @@ template <int Dim> PointCloud<Dim> refinedBlock(const Grid<Dim>& grid, const Ind
 template <int Dim> Grid<Dim>  cornerGrid() { return refinedGrid<Dim>({ { Vec<Dim>::Constant(0.1), Vec<Dim>::Constant(0.6), 2 } }); }
 template <int Dim> Index<Dim> cornerSize() { return cellsOf<Dim>(4, 3, 3); }
 
-/// Prescribes displacement(position) at the nodes on the surface of a block of largest cells that are tied to no others.
+/// Prescribes displacement(position) at the nodes on the surface of a block of largest cells that are tied to no
+/// others.
 template <int Dim, class Displacement> std::vector<HeldBox<Dim>> prescribedLeaves(const Grid<Dim>& grid, const Index<Dim>& size, Displacement&& displacement)
 {
 	std::vector<HeldBox<Dim>> boxes;

@@ -14,12 +14,14 @@ namespace gimpm {
 constexpr double infinity  = std::numeric_limits<double>::infinity();
 constexpr double precision = std::numeric_limits<double>::epsilon();
 
-/// Tests written once for both dimensions: TYPED_TEST_SUITE(Suite, BothDimensions, DimensionName); Dim is TypeParam::value.
+/// Tests written once for both dimensions: TYPED_TEST_SUITE(Suite, BothDimensions, DimensionName); Dim is
+/// TypeParam::value.
 using BothDimensions = ::testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
 struct DimensionName {
 	template <class T> static std::string GetName(int) { return std::to_string(T::value) + "D"; }
 };
-/// The fixture of suites that need none of their own: template <class Dimension> using Suite = InBothDimensions<Dimension>;
+/// The fixture of suites that need none of their own: template <class Dimension> using Suite =
+/// InBothDimensions<Dimension>;
 template <class Dimension> class InBothDimensions : public ::testing::Test {
 public:
 	static constexpr int dim = Dimension::value;
@@ -131,7 +133,8 @@ HeldBox<Dim> held(const Grid<Dim>& grid, const Vec<Dim>& min, const Vec<Dim>& ma
 	return box;
 }
 
-/// All nodes on one side of a plane held along its normal: a wall at x[axis] = place with everything below (or above) it behind it.
+/// All nodes on one side of a plane held along its normal: a wall at x[axis] = place with everything below (or above)
+/// it behind it.
 template <int Dim> HeldBox<Dim> wallBelow(const Grid<Dim>& grid, int axis, double place)
 {
 	Vec<Dim> max = Vec<Dim>::Constant(infinity);
@@ -154,7 +157,8 @@ void prescribe(std::vector<HeldBox<Dim>>& boxes, const Grid<Dim>& grid, const In
 	boxes.push_back(box);
 }
 
-/// Prescribes displacement(position) at the nodes on the surface of a box of size cells from node 0 (of which inner nodes stay free).
+/// Prescribes displacement(position) at the nodes on the surface of a box of size cells from node 0 (of which inner
+/// nodes stay free).
 template <int Dim, class Displacement> std::vector<HeldBox<Dim>> prescribedSurface(const Grid<Dim>& grid, const Index<Dim>& size, Displacement&& displacement)
 {
 	std::vector<HeldBox<Dim>> boxes;
@@ -202,8 +206,8 @@ template <int Dim, class Field> Eigen::VectorXd nodal(const CloudBasis<Dim>& bas
 	return d;
 }
 
-/// Compaction of a column under its own weight (Coombs 2023, section 4.1): nu = 0, one cell wide on rollers, 2 points per axis and cell.
-/// Lengths and stresses may be given other units.
+/// Compaction of a column under its own weight (Coombs 2023, section 4.1): nu = 0, one cell wide on rollers, 2 points
+/// per axis and cell. Lengths and stresses may be given other units.
 template <int Dim> struct Column {
 	double          height, young, weight; // l0 [m], E [Pa], b [N/m3]
 	Model<Dim>      model;

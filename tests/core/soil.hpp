@@ -101,7 +101,8 @@ template <class L> void expectSameResponseNear(const L& law, double young, const
 	}
 }
 
-/// Between strains in different sectors, which have different tangents, halves the way until a boundary is found to the last bit.
+/// Between strains in different sectors, which have different tangents, halves the way until a boundary is found to the
+/// last bit.
 template <class L> void expectContinuousOverBoundaries(const L& law, double young, const std::vector<Vec3>& strains)
 {
 	int boundaries = 0;
@@ -148,13 +149,15 @@ template <class L> void expectSameInLanes(const L& law, const std::vector<Vec3>&
 	}
 }
 
-/// Principal stresses (lateral, axial, out of plane) of plane-strain compression after a long way, with the lateral one kept.
+/// Principal stresses (lateral, axial, out of plane) of plane-strain compression after a long way, with the lateral one
+/// kept.
 template <class L> Vec3 biaxialStrength(const L& law, const Hencky& elastic, double lateral)
 {
 	Vec3 elasticStrain = elastic.strainOf<double>(Vec3::Constant(lateral)), stress;
 	for (int step = 0; step < 400; ++step) {
 		Vec3 trial = elasticStrain - 1e-4 * Vec3::Unit(1);
-		for (double from = -1e-3, to = 1e-3; to - from > 1e-18;) { // lateral stress grows with the lateral strain
+		// Lateral stress grows with the lateral strain.
+		for (double from = -1e-3, to = 1e-3; to - from > 1e-18;) {
 			const double middle = 0.5 * (from + to);
 			if (middle == from || middle == to) break;
 			trial[0]                                                = elasticStrain[0] + middle;

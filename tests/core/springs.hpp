@@ -34,7 +34,8 @@ template <int Dim> struct Springs {
 	NodeMatrix<Dim>  K;
 	FreeDofs         dofs;
 
-	/// Of a box of so many nodes without those that `isGap` names; the lowest layer is held, and a node above it along its first axis.
+	/// Of a box of so many nodes without those that `isGap` names; the lowest layer is held, and a node above it
+	/// along its first axis.
 	template <class F> Springs(const Index<Dim>& size, int reach, F&& isGap, const Index<Dim>& period = Index<Dim>::Zero())
 	{
 		grid.period = period;
@@ -52,8 +53,8 @@ template <int Dim> struct Springs {
 	Springs(const Index<Dim>& size, int reach) : Springs(size, reach, [](const Index<Dim>&) { return false; }) { }
 };
 
-/// A long body is solved to the tolerance, and to the same bits by one thread and by two; by multigrid to the tolerance: of newer releases of PETSc no two runs have
-/// the same bits.
+/// A long body is solved to the tolerance, and to the same bits by one thread and by two; by multigrid to the
+/// tolerance: of newer releases of PETSc no two runs have the same bits.
 template <int Dim> void expectSameInThreads(double tolerance, LinearMethod method)
 {
 	Index<Dim> size = Index<Dim>::Constant(Dim == 2 ? 60 : 12);

@@ -15,12 +15,12 @@ namespace gimpm {
 
 /// Where they meet.
 struct Place {
-	int                                        all, waiting = 0, rounds = 0;
-	std::mutex                                 mutex;
-	std::condition_variable                    isFull {};
-	std::vector<const double*>                 given {};
+	int                                         all, waiting = 0, rounds = 0;
+	std::mutex                                  mutex;
+	std::condition_variable                     isFull {};
+	std::vector<const double*>                  given {};
 	std::vector<std::pair<const Message*, int>> messages {};
-	std::vector<std::vector<std::int64_t>>     numbers {};
+	std::vector<std::vector<std::int64_t>>      numbers {};
 
 	explicit Place(int all) : all(all), given(all), messages(all), numbers(all) { }
 

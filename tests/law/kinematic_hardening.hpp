@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// A tensor law that the plugin does not have, for tests: Hencky elasticity and von Mises plasticity with a back stress that grows linearly (Prager), and with a
-// viscosity if there is one.
+// A tensor law that the plugin does not have, for tests: Hencky elasticity and von Mises plasticity with a back stress
+// that grows linearly (Prager), and with a viscosity if there is one.
 #pragma once
 #include "core/materials/tensor_law.hpp"
 
@@ -8,8 +8,8 @@ namespace gimpm {
 
 class KinematicHardening : public TensorLaw {
 public:
-	/// The length of dev(stress) - back stress is at most yieldStress [Pa], and more by viscosity [Pa s] times the rate of plastic strain. The back stress
-	/// grows by `hardening` [Pa] times the plastic strain.
+	/// The length of dev(stress) - back stress is at most yieldStress [Pa], and more by viscosity [Pa s] times the
+	/// rate of plastic strain. The back stress grows by `hardening` [Pa] times the plastic strain.
 	KinematicHardening(double young, double poisson, double yieldStress, double hardening, double viscosity = 0)
 	        : elastic_(young, poisson), yield_(yieldStress), hardening_(hardening), viscosity_(viscosity)
 	{
@@ -25,9 +25,10 @@ public:
 	using Parameters = std::array<double, 3>;
 	Parameters         parameters() const { return { elastic_.young(), yield_, hardening_ }; }
 	KinematicHardening with(const Parameters& p) const { return { p[0], elastic_.poisson(), p[1], p[2], viscosity_ }; }
-	Parameters         weakened(const Weakening& w) const { return { elastic_.young() * w.moduli, yield_ / w.strength, hardening_ * w.moduli / w.strength }; }
+	Parameters weakened(const Weakening& w) const { return { elastic_.young() * w.moduli, yield_ / w.strength, hardening_ * w.moduli / w.strength }; }
 
-	/// The axes of stress and trial strain differ, so that the stiffness is symmetric but for products of stresses and strains.
+	/// The axes of stress and trial strain differ, so that the stiffness is symmetric but for products of stresses
+	/// and strains.
 	bool isSymmetric() const { return false; }
 
 	double young(const TensorState&) const { return elastic_.young(); }
@@ -38,10 +39,11 @@ public:
 		const Mat3   I = Mat3::Identity(), dev = step.trialStrain - step.trialStrain.trace() / 3 * I, back = step.state.tensor(backStress);
 		const Mat3   relative = 2 * G * dev - back;
 		const double length = relative.norm(), excess = length - yield_;
-		const double resistance = 2 * G + hardening_ + (viscosity_ > 0 ? viscosity_ / step.duration : 0); // infinite where no time goes by
-		const bool   yields = excess > 1e-9 * yield_;
-		const double flow   = yields ? excess / resistance : 0;
-		const Mat3   n      = yields ? Mat3(relative / length) : Mat3::Zero();
+		// Infinite where no time goes by.
+		const double resistance = 2 * G + hardening_ + (viscosity_ > 0 ? viscosity_ / step.duration : 0);
+		const bool   yields     = excess > 1e-9 * yield_;
+		const double flow       = yields ? excess / resistance : 0;
+		const Mat3   n          = yields ? Mat3(relative / length) : Mat3::Zero();
 		TensorAnswer answer(step.state);
 		answer.elasticStrain = step.trialStrain - flow * n;
 		answer.stress        = 2 * G * (dev - flow * n) + K * step.trialStrain.trace() * I;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// A law that the plugin does not have, for tests: elasticity that remembers the largest pressure, and has no answer beyond a limit.
+// A law that the plugin does not have, for tests: elasticity that remembers the largest pressure, and has no answer
+// beyond a limit.
 #pragma once
 #include "core/materials/hencky.hpp"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What a law with a variable and a failure of its own takes in the core: its header and one entry of core/materials/law.hpp. The core is compiled with
-// an entry for Remembering here.
+// What a law with a variable and a failure of its own takes in the core: its header and one entry of
+// core/materials/law.hpp. The core is compiled with an entry for Remembering here.
 #include "core/stepping/step_system.hpp"
 #include "remembering.hpp"
 #include "scenes.hpp"
@@ -15,8 +15,9 @@ namespace {
 	public:
 		static constexpr int Dim = Dimension::value;
 
-		Model<Dim>      model;
-		PointCloud<Dim> cloud = block<Dim>(model.grid, cellsOf<Dim>(2, 2, 2), 3); // 9 or 27 points a cell: other batches than cells
+		Model<Dim> model;
+		// 9 or 27 points a cell: other batches than cells.
+		PointCloud<Dim> cloud = block<Dim>(model.grid, cellsOf<Dim>(2, 2, 2), 3);
 		LinearSolver    solver;
 
 		/// Every third point is elastic, every third yields.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// A plugin that has nothing but one attribute of each type and with each validator, and an engine that fails: for the tests of
-// registration. It takes the place of the real one beside the loader.
+// A plugin that has nothing but one attribute of each type and with each validator, and an engine that fails: for the
+// tests of registration. It takes the place of the real one beside the loader.
 #include "yade_api/exceptions.hpp"
 #include "yade_api/logging.hpp"
 #include "yade_api/registration.hpp"

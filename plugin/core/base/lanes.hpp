@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Several numbers side by side, as the number type of formulas that are written once for one point and for a row of them.
+// Several numbers side by side, as the number type of formulas that are written once for one point and for a row of
+// them.
 //
 // A formula that branches uses select(), so that it has the same text for double and for Lanes.
 #pragma once
@@ -8,7 +9,7 @@
 #include <cstdint>
 
 #pragma GCC diagnostic ignored "-Wpsabi" // vectors in interfaces: there are none once the functions are inlined
-#ifdef GIMPM_COMPILES_QUICKLY // for processors that hardly anybody has any more: small functions stay functions
+#ifdef GIMPM_COMPILES_QUICKLY            // for processors that hardly anybody has any more: small functions stay functions
 #define GIMPM_INLINE inline
 #define GIMPM_INLINE_LAMBDA
 #else
@@ -27,7 +28,8 @@ public:
 	Vector v;
 
 	Lanes() = default;
-	// Not left to the compiler: a class with a copy constructor is passed in memory, in the same way for every instruction set.
+	// Not left to the compiler: a class with a copy constructor is passed in memory, in the same way for every
+	// instruction set.
 	GIMPM_INLINE        Lanes(const Lanes& o) : v(o.v) { }
 	GIMPM_INLINE Lanes& operator=(const Lanes& o) { return v = o.v, *this; }
 	GIMPM_INLINE        Lanes(double x) : v { x, x, x, x } { }

@@ -15,17 +15,18 @@ using Mat3                   = Mat<3>;
 /// Integer coordinates of a cell or node of the background grid.
 template <int Dim> using Index = Eigen::Matrix<int, Dim, 1>;
 
-/// Sortable name of a cell or node: its integer coordinates packed so that x runs fastest, and above them its level: cells of level l are 2^l times as
-/// large as the smallest ones, of which coordinates are numbers. A cell is named after its lowest node, and the key of a neighbour of the same level is the key plus a
-/// constant, whatever the place in the grid.
+/// Sortable name of a cell or node: its integer coordinates packed so that x runs fastest, and above them its level:
+/// cells of level l are 2^l times as large as the smallest ones, of which coordinates are numbers. A cell is named
+/// after its lowest node, and the key of a neighbour of the same level is the key plus a constant, whatever the place
+/// in the grid.
 using Key = std::uint64_t;
 
-/// What the laws remember of the points, column by column (core/materials/law.hpp says which is which). A column that is missing or empty is
-/// at its initial values.
+/// What the laws remember of the points, column by column (core/materials/law.hpp says which is which). A column that
+/// is missing or empty is at its initial values.
 using InternalColumns = std::vector<std::vector<double>>;
 
-/// Parameters of the laws of material points where they differ from point to point: column k has the k-th parameter of the law of each point, whatever
-/// that is. Empty: all points have that of their material.
+/// Parameters of the laws of material points where they differ from point to point: column k has the k-th parameter of
+/// the law of each point, whatever that is. Empty: all points have that of their material.
 using ParameterColumns = std::vector<std::vector<double>>;
 
 /// Symmetric second-order tensor. Plane strain keeps the out-of-plane normal component.

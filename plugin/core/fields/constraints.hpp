@@ -6,8 +6,8 @@
 
 namespace gimpm {
 
-/// The free ones among the unknowns of a vector over nodes: number of each, rising, -1 for the held ones and those of tied
-/// nodes.
+/// The free ones among the unknowns of a vector over nodes: number of each, rising, -1 for the held ones and those of
+/// tied nodes.
 struct FreeDofs {
 	std::vector<int> number;
 	int              count = 0;
@@ -16,8 +16,9 @@ struct FreeDofs {
 
 /// Of all fields, which are tied alike.
 struct Constraints {
-	FreeDofs        dofs;
-	Eigen::VectorXd prescribed; ///< growth of the held unknowns in the step, and of those tied to them, zero elsewhere
+	FreeDofs dofs;
+	/// Growth of the held unknowns in the step, and of those tied to them, zero elsewhere.
+	Eigen::VectorXd prescribed;
 
 	/// Nothing is held yet; the ties must outlive it.
 	void reset(const DofMap&, const Ties&);

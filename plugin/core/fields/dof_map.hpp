@@ -11,8 +11,9 @@ namespace gimpm {
 struct Field {
 	std::string name, unit;
 	int         width = 1; ///< unknowns a node
-	/// How much the unknowns grow where displacements grow by 1 m: of a pressure the modulus of the soil over the size
-	/// of a cell. Where fields meet, in a norm and in the matrix, unknowns are divided by it and residuals multiplied.
+	/// How much the unknowns grow where displacements grow by 1 m: of a pressure the modulus of the soil over the
+	/// size of a cell. Where fields meet, in a norm and in the matrix, unknowns are divided by it and residuals
+	/// multiplied.
 	double scale = 1;
 };
 
@@ -34,7 +35,8 @@ public:
 	int size() const { return begin_.back(); }
 	int begin(int field) const { return begin_[field]; }
 	int end(int field) const { return begin_[field + 1]; }
-	int at(int field, int node) const { return begin_[field] + fields_[field].width * node; } ///< first unknown of a node
+	/// First unknown of a node.
+	int at(int field, int node) const { return begin_[field] + fields_[field].width * node; }
 
 	int fieldOf(int unknown) const
 	{

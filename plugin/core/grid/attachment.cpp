@@ -12,8 +12,9 @@ template <int Dim> Vec<Dim> outside(const Vec<Dim>& xi, const Index<Dim>& cell)
 	return (-local).max(local - 1).max(0.);
 }
 
-/// The populated cell of a level that is nearest to a place in coordinates of such cells, as the crow flies: by the worst axis alone the cells beside the nearest one would be as
-/// near as that, and the order of cells or round-off would choose. Of equally near ones the first.
+/// The populated cell of a level that is nearest to a place in coordinates of such cells, as the crow flies: by the
+/// worst axis alone the cells beside the nearest one would be as near as that, and the order of cells or round-off
+/// would choose. Of equally near ones the first.
 template <int Dim> std::optional<Index<Dim>> nearestCell(const Vec<Dim>& xi, const std::vector<Key>& populated, const Grid<Dim>& grid, int level)
 {
 	std::optional<Index<Dim>> nearest;

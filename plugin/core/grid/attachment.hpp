@@ -6,8 +6,9 @@
 
 namespace gimpm {
 
-/// The linear functions of one populated cell, in a refined grid of a leaf, at a place in it or close to it. Unlike a material point a place is no domain: its functions are not
-/// averaged. They are one in sum and reproduce the place, so that forces on it keep resultant and moment.
+/// The linear functions of one populated cell, in a refined grid of a leaf, at a place in it or close to it. Unlike a
+/// material point a place is no domain: its functions are not averaged. They are one in sum and reproduce the place, so
+/// that forces on it keep resultant and moment.
 template <int Dim> struct Attachment {
 	static constexpr int nodes = 1 << Dim;
 
@@ -44,8 +45,8 @@ template <int Dim> struct Attachment {
 	}
 };
 
-/// A place may be outside of the populated cells by this fraction of a cell, as surfaces do not follow the domains of the points to the last
-/// digit; the functions of the nearest populated cell are then continued.
+/// A place may be outside of the populated cells by this fraction of a cell, as surfaces do not follow the domains of
+/// the points to the last digit; the functions of the nearest populated cell are then continued.
 constexpr double attachmentTolerance = 0.25;
 
 /// None where no populated cell is near.

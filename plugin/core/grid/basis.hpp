@@ -14,7 +14,8 @@ constexpr double overlapTolerance = 1.5e-8; // sqrt(machine epsilon)
 /// A point on a cell face (within this fraction of a cell) belongs to the lower cell.
 constexpr double faceTolerance = 1e-9;
 
-/// Largest integer <= x, for |x| < 2^31: std::floor() is a call of the library on processors without an instruction for it.
+/// Largest integer <= x, for |x| < 2^31: std::floor() is a call of the library on processors without an instruction for
+/// it.
 inline int floorToInt(double x)
 {
 	const int truncated = int(x);
@@ -37,22 +38,24 @@ struct AxisCells {
 	}
 };
 
-/// Values and derivatives of the basis functions of one axis. The point's domain lies in one cell (2 nodes) or in two (3 nodes).
+/// Values and derivatives of the basis functions of one axis. The point's domain lies in one cell (2 nodes) or in two
+/// (3 nodes).
 struct AxisBasis {
 	double value[4]; ///< the last one is zero: four numbers fill a row of lanes
 	double slope[4]; ///< [1/m]
 
-	/// Linear (hat) functions at coordinate x, measured from the grid's origin in cells of size h, as seen from the given cell. They are
-	/// also the exact average over any domain inside that cell.
+	/// Linear (hat) functions at coordinate x, measured from the grid's origin in cells of size h, as seen from the
+	/// given cell. They are also the exact average over any domain inside that cell.
 	void setLinear(double x, double h, int cell)
 	{
 		const double xi = x / h - cell, w = 1 / h;
 		set(1 - xi, xi, 0, -w, w, 0);
 	}
 
-	/// Hat functions averaged over the domain [x - l, x + l] in its cells (Bardenhagen and Kober 2004). With the overlaps a and b of the
-	/// domain with the lower and the upper cell the pieces are S = a^2/4lh, 1 - S_lower - S_upper, b^2/4lh: their sum is one, their
-	/// slopes add up to zero, sum S x_v = x and sum dS/dx x_v = 1, all to round-off: a + b = 2l however far the point is from the origin.
+	/// Hat functions averaged over the domain [x - l, x + l] in its cells (Bardenhagen and Kober 2004). With the
+	/// overlaps a and b of the domain with the lower and the upper cell the pieces are S = a^2/4lh, 1 - S_lower -
+	/// S_upper, b^2/4lh: their sum is one, their slopes add up to zero, sum S x_v = x and sum dS/dx x_v = 1, all to
+	/// round-off: a + b = 2l however far the point is from the origin.
 	void setGimp(double x, double l, double h, const AxisCells& cells)
 	{
 		if (cells.count == 1) return setLinear(x, h, cells.lowest);
@@ -61,9 +64,9 @@ struct AxisBasis {
 		set(sa, 1 - sa - sb, sb, -w * a, w * (a - b), w * b);
 	}
 
-	/// Hat functions averaged over the ring whose section is that domain, at the distance r of its middle from the axis: each place counts with its
-	/// own distance (Nairn and Guilkey 2015). So a uniform stress is in balance wherever domains lie in the cells. Linear fields have their values at
-	/// the centre of the ring, r + l^2 / 3r.
+	/// Hat functions averaged over the ring whose section is that domain, at the distance r of its middle from the
+	/// axis: each place counts with its own distance (Nairn and Guilkey 2015). So a uniform stress is in balance
+	/// wherever domains lie in the cells. Linear fields have their values at the centre of the ring, r + l^2 / 3r.
 	void setRing(double x, double r, double l, double h, const AxisCells& cells)
 	{
 		if (cells.count == 1) return setLinear(x + l * l / (3 * r), h, cells.lowest);
@@ -72,8 +75,8 @@ struct AxisBasis {
 		set(sa, 1 - sa - sb, sb, -la, la - lb, lb);
 	}
 
-	/// Share of the length of a domain in two cells, or of the volume of a ring, that lies in the lower (0) or the upper one (1): there the outer
-	/// functions have the slope 1/h, elsewhere none.
+	/// Share of the length of a domain in two cells, or of the volume of a ring, that lies in the lower (0) or the
+	/// upper one (1): there the outer functions have the slope 1/h, elsewhere none.
 	double share(int cell, double h) const { return h * (cell == 0 ? -slope[0] : slope[2]); }
 
 private:

@@ -14,8 +14,8 @@ template <int Dim> struct HeldBox {
 	Vec<Dim>              displacement = Vec<Dim>::Zero();   ///< prescribed total at load factor 1 [m]
 	Index<Dim>            period       = Index<Dim>::Zero(); ///< of the grid; there the limits are between 0 and period, which is node 0 again
 
-	/// The nodes of a box in space; a coordinate on a node within 1e-9 h holds it. Infinite limits are admitted. Along a periodic axis the box
-	/// is that between the two sides, both included.
+	/// The nodes of a box in space; a coordinate on a node within 1e-9 h holds it. Infinite limits are admitted.
+	/// Along a periodic axis the box is that between the two sides, both included.
 	static HeldBox from(const Grid<Dim>& grid, const Vec<Dim>& min, const Vec<Dim>& max);
 
 	/// The nodes on the axis of symmetry, along x.
@@ -56,7 +56,8 @@ public:
 	/// The open box that the node is in, the last one given, or null.
 	const HeldBox<Dim>* opening(const Index<Dim>& node) const;
 
-	/// Whether all nodes of the lower face of this cell in this direction are held in the face's normal direction, or in open boxes.
+	/// Whether all nodes of the lower face of this cell in this direction are held in the face's normal direction,
+	/// or in open boxes.
 	bool lowerFaceIsWall(const Index<Dim>& cell, int axis, int level = 0) const;
 
 private:

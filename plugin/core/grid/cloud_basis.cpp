@@ -17,7 +17,8 @@ inline int cellsAtNode(const int (&n)[3])
 	return cells;
 }
 
-/// Calls f(position in patch.node, key, position in a window of three nodes along each axis) for every node of the patch that touches a reached cell.
+/// Calls f(position in patch.node, key, position in a window of three nodes along each axis) for every node of the
+/// patch that touches a reached cell.
 template <int Dim, class F> void forPatchNodes(const Patch<Dim>& patch, F&& f)
 {
 	int n[3] = { 0, 0, 0 }, local = 0;
@@ -80,7 +81,8 @@ template <int Dim> void fillAxes(const PointCloud<Dim>& cloud, const Grid<Dim>& 
 	}
 }
 
-/// a = the union of a and { key + offset of the key's level : key in b }, all sorted. The offset is that from a cell to the one above it along the axes of the bits.
+/// a = the union of a and { key + offset of the key's level : key in b }, all sorted. The offset is that from a cell to
+/// the one above it along the axes of the bits.
 template <int Dim> void unite(std::vector<Key>& a, const std::vector<Key>& b, int bits)
 {
 	std::vector<Key> shifted(b.size()), both;
@@ -158,8 +160,8 @@ template <int Dim> void refine(CloudBasis<Dim>& b, const Refinement<Dim>& refine
 	b.ties  = tieNodes(b.nodes, refinement);
 }
 
-/// The active nodes are the corners of the populated cells; in a refined grid also those of their leaves and those beside the faces between leaves of two
-/// sizes, with the masters of all.
+/// The active nodes are the corners of the populated cells; in a refined grid also those of their leaves and those
+/// beside the faces between leaves of two sizes, with the masters of all.
 template <int Dim> void numberNodes(CloudBasis<Dim>& b, const Grid<Dim>& grid, const Division& division)
 {
 	b.cells = division.united(populatedCells(b.patches, grid));

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Step 1 of the method: how the material points and the background grid interact in the configuration at the start of a load step.
+// Step 1 of the method: how the material points and the background grid interact in the configuration at the start of a
+// load step.
 #pragma once
 #include "core/grid/basis.hpp"
 #include "core/grid/boundary.hpp"
@@ -10,12 +11,14 @@
 
 namespace gimpm {
 
-/// Nodes and cells around one lowest cell: a domain of at most one cell's width reaches two cells and three nodes per axis.
+/// Nodes and cells around one lowest cell: a domain of at most one cell's width reaches two cells and three nodes per
+/// axis.
 template <int Dim> constexpr int windowNodes = Dim == 2 ? 9 : 27;
 template <int Dim> constexpr int windowCells = Dim == 2 ? 4 : 8;
 
-/// Material points that share their nodes: same lowest cell and level, same number of cells per axis, same walls. A point is of the level of the smallest leaf that its domain touches; what of its window
-/// lies in larger leaves are cells of that level too, whose nodes are tied.
+/// Material points that share their nodes: same lowest cell and level, same number of cells per axis, same walls. A
+/// point is of the level of the smallest leaf that its domain touches; what of its window lies in larger leaves are
+/// cells of that level too, whose nodes are tied.
 template <int Dim> struct Patch {
 	Key                               cell;                 ///< lowest cell
 	int                               span  = 0;            ///< bit a set: the domains reach two cells along axis a
@@ -37,11 +40,13 @@ template <int Dim> struct CloudBasis {
 	Ties                         ties;    ///< among the nodes
 	std::vector<Key>             leaves;  ///< that hold populated cells, sorted; empty in a grid of equal cells, whose cells are the leaves
 	std::vector<int>             leafOf;  ///< numbers of the leaves of the cells; empty there too
-	/// Tiles are blocks of a few cells: what their points add to on the grid stays in the processor's cache, and lies in memory as it is
-	/// read. Ranges of patches [first, last) with the lowest cell in the same tile, by colour: the tiles of one of the 2^Dim colours are no
-	/// neighbours, so that no two of its ranges share a node. Where the grid is periodic there may be 3^Dim.
+	/// Tiles are blocks of a few cells: what their points add to on the grid stays in the processor's cache, and
+	/// lies in memory as it is read. Ranges of patches [first, last) with the lowest cell in the same tile, by
+	/// colour: the tiles of one of the 2^Dim colours are no neighbours, so that no two of its ranges share a node.
+	/// Where the grid is periodic there may be 3^Dim.
 	std::vector<std::vector<std::pair<int, int>>> colours;
-	double largestWallOverlap = 0; ///< largest length by which a domain reaches behind a wall [m]; that part is dropped
+	/// Largest length by which a domain reaches behind a wall [m]; that part is dropped.
+	double largestWallOverlap = 0;
 
 	bool isAxisymmetric() const { return !hoop.empty(); }
 
@@ -49,8 +54,9 @@ template <int Dim> struct CloudBasis {
 	int                     leaf(int cell) const { return leafOf.empty() ? cell : leafOf[cell]; }
 };
 
-/// Positions must be finite and within the grid's index limit, half sizes in (0, h/2] with h of the largest cells; where cells are smaller, a domain reaches no farther than half of them.
-/// With a division there are the patches of the points of this process, and the cells and nodes of all.
+/// Positions must be finite and within the grid's index limit, half sizes in (0, h/2] with h of the largest cells;
+/// where cells are smaller, a domain reaches no farther than half of them. With a division there are the patches of the
+/// points of this process, and the cells and nodes of all.
 template <int Dim> CloudBasis<Dim> cloudBasis(const PointCloud<Dim>&, const Grid<Dim>&, Basis, const Boundary<Dim>&, const Division& = {});
 
 } // namespace gimpm

@@ -22,13 +22,15 @@ inline int find(const std::vector<Key>& sorted, Key key)
 template <int Dim> class Refinement;
 
 template <int Dim> struct Grid {
-	double   cellSize = 1;                ///< edge length h of a cell, of the smallest ones where there are several sizes [m]
+	/// Edge length h of a cell, of the smallest ones where there are several sizes [m].
+	double   cellSize = 1;
 	Vec<Dim> origin   = Vec<Dim>::Zero(); ///< position of node (0, 0[, 0]) [m]
-	/// Cells along each axis after which the grid repeats itself: nodes so far apart are one node, and so are cells. 0: it never does. The first
-	/// ones, from 0 to period - 1, stand for all.
+	/// Cells along each axis after which the grid repeats itself: nodes so far apart are one node, and so are
+	/// cells. 0: it never does. The first ones, from 0 to period - 1, stand for all.
 	Index<Dim> period = Index<Dim>::Zero();
 
-	/// Of bodies of revolution, in 2D: x is the distance from the axis, where x = 0 is on a node, and y goes along it.
+	/// Of bodies of revolution, in 2D: x is the distance from the axis, where x = 0 is on a node, and y goes along
+	/// it.
 	bool axisymmetric = false;
 
 	/// Where cells are smaller and where larger; null: they are equal.
@@ -39,7 +41,8 @@ template <int Dim> struct Grid {
 
 	static constexpr int keyBits   = Dim == 2 ? 31 : 20;
 	static constexpr int mostLevel = 3;
-	/// Integer coordinates must stay below this limit in magnitude; two cells of it, of the largest, are kept free for neighbours.
+	/// Integer coordinates must stay below this limit in magnitude; two cells of it, of the largest, are kept free
+	/// for neighbours.
 	static constexpr int endOfKeys = 1 << (keyBits - 1), indexLimit = endOfKeys - (2 << mostLevel);
 
 	static constexpr int level(Key k) { return int(k >> (keyBits * Dim)); }

@@ -17,7 +17,8 @@ template <int Dim> Key lowestCell(const Vec<Dim>& position, const Vec<Dim>& half
 
 template <int Dim> std::vector<int> neededBy(const Division& division, Key lowest, const Grid<Dim>& grid, bool isWide)
 {
-	const int        below = isWide ? -1 : 0, above = isWide ? 3 : 2, wide = above - below + 1; // nodes along an axis
+	// Nodes along an axis.
+	const int        below = isWide ? -1 : 0, above = isWide ? 3 : 2, wide = above - below + 1;
 	std::vector<int> needed;
 	for (int n = 0; n < (Dim == 2 ? wide * wide : wide * wide * wide); ++n) {
 		Key node = lowest;

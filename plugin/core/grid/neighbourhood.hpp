@@ -11,8 +11,8 @@ namespace gimpm {
 /// The lowest cell that a domain reaches, in a periodic grid the one that stands for it.
 template <int Dim> Key lowestCell(const Vec<Dim>& position, const Vec<Dim>& halfSize, const Grid<Dim>&, Basis);
 
-/// The processes that need a point with this lowest cell: those that have a node which it may reach, and, where others need to know all points of their cells (`isWide`), one that
-/// is a cell further. Rising.
+/// The processes that need a point with this lowest cell: those that have a node which it may reach, and, where others
+/// need to know all points of their cells (`isWide`), one that is a cell further. Rising.
 template <int Dim> std::vector<int> neededBy(const Division&, Key lowest, const Grid<Dim>&, bool isWide);
 
 /// The points of this process that each of the others needs, by their places in the cloud (Division::lent).

@@ -20,7 +20,8 @@ template <int Dim> bool lowerFaceIsWall(const Boundary<Dim>& boundary, const Ind
 	return boundary.lowerFaceIsWall(cell * (1 << level), axis, level);
 }
 
-/// The cell that holds the point's centre. On a face it is the lower cell, unless that lies behind the wall of that face.
+/// The cell that holds the point's centre. On a face it is the lower cell, unless that lies behind the wall of that
+/// face.
 template <int Dim> Index<Dim> containingCell(const Vec<Dim>& x, double h, const Boundary<Dim>& boundary, int level)
 {
 	const auto isWall = [&](const Index<Dim>& cell, int axis) { return lowerFaceIsWall(boundary, cell, axis, level); };
@@ -65,13 +66,15 @@ template <int Dim> struct Place {
 	int  span() const { return int(kind >> (1 << Dim)); }
 	int  cells() const { return int(kind & ((1 << (1 << Dim)) - 1)); }
 	bool samePatch(const Place& o) const { return order == o.order && kind == o.kind; }
-	bool operator<(const Place& o) const { return whole() < o.whole(); } // without branches, which could only guess here
+	// Without branches, which could only guess here.
+	bool operator<(const Place& o) const { return whole() < o.whole(); }
 
 private:
 	unsigned __int128 whole() const { return (unsigned __int128)order << 64 | Key(kind) << 32 | unsigned(point); }
 };
 
-/// How far the domain reaches behind walls, as a length of its own axis: the part on the other side of a face than the centre.
+/// How far the domain reaches behind walls, as a length of its own axis: the part on the other side of a face than the
+/// centre.
 template <int Dim> double hiddenLength(const Place<Dim>& p, const Vec<Dim>& x, const Vec<Dim>& halfSize, double h, const Index<Dim>& lowest, int centre)
 {
 	double length = 0;

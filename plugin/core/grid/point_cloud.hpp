@@ -21,8 +21,8 @@ template <class Cloud, class Values> struct CloudColumn {
 	Presence       presence;
 };
 
-/// All columns that are there have the same length. A new one is a member and its entry in columns(), without which nothing compiles: so it goes wherever points go, from process to
-/// process too.
+/// All columns that are there have the same length. A new one is a member and its entry in columns(), without which
+/// nothing compiles: so it goes wherever points go, from process to process too.
 template <int Dim> struct PointCloud {
 	std::vector<Vec<Dim>>       position;      ///< [m]
 	std::vector<Vec<Dim>>       position0;     ///< where the points were at first [m]; empty: they are there still, or no boundary moves nodes

@@ -5,7 +5,8 @@
 
 namespace gimpm {
 
-/// Calls f(point of the basis, its patch, values in the order of the patch's nodes, their number) for the patches [first, last).
+/// Calls f(point of the basis, its patch, values in the order of the patch's nodes, their number) for the patches
+/// [first, last).
 template <int Dim, class F> void forPointNodes(const CloudBasis<Dim>& basis, int first, int last, F&& f)
 {
 	for (int i = first; i < last; ++i) {
@@ -25,7 +26,8 @@ template <int Dim, class F> void forPointNodes(const CloudBasis<Dim>& basis, int
 	}
 }
 
-/// The same for all patches from several threads, so that no two work on the same node at a time; the order of sums does not depend on their number.
+/// The same for all patches from several threads, so that no two work on the same node at a time; the order of sums
+/// does not depend on their number.
 template <int Dim, class F> void forPointNodes(const CloudBasis<Dim>& basis, F&& f)
 {
 	for (const auto& colour : basis.colours) {

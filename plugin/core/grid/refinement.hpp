@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Where the cells of a grid are halved, once or more: cells of several sizes, of which neighbours differ by one level at most.
+// Where the cells of a grid are halved, once or more: cells of several sizes, of which neighbours differ by one level
+// at most.
 #pragma once
 #include "core/grid/basis.hpp"
 #include "core/grid/grid.hpp"
@@ -16,12 +17,14 @@ template <int Dim> struct RefinedBox {
 	int      halvings = 1;
 };
 
-/// The cells that are not halved are the leaves of a tree; a leaf of level l is 2^l times as large as the smallest cells, those of level 0. All cells that overlap a box are
-/// halved. Around them cells are halved as often as it takes for leaves that touch, be it in a corner, to differ by one level at most: around a block
-/// of cells these are blocks again, so that no cell needs to be stored.
+/// The cells that are not halved are the leaves of a tree; a leaf of level l is 2^l times as large as the smallest
+/// cells, those of level 0. All cells that overlap a box are halved. Around them cells are halved as often as it takes
+/// for leaves that touch, be it in a corner, to differ by one level at most: around a block of cells these are blocks
+/// again, so that no cell needs to be stored.
 template <int Dim> class Refinement {
 public:
-	/// `grid` has the size of the largest cells. There is at least one box, of at least one halving and at most Grid::mostLevel.
+	/// `grid` has the size of the largest cells. There is at least one box, of at least one halving and at most
+	/// Grid::mostLevel.
 	Refinement(const std::vector<RefinedBox<Dim>>& boxes, const Grid<Dim>& grid);
 
 	int largest() const { return largest_; } ///< level of the cells that are nowhere halved
@@ -43,7 +46,8 @@ public:
 		return Grid<Dim>::key(ancestor(cell, level), level);
 	}
 
-	/// The lowest level among the leaves that a box in space touches: it is given from the grid's origin on, in smallest cells.
+	/// The lowest level among the leaves that a box in space touches: it is given from the grid's origin on, in
+	/// smallest cells.
 	int levelIn(const Vec<Dim>& low, const Vec<Dim>& high) const;
 
 	/// Level of the largest of the leaves that touch a node.
@@ -94,8 +98,8 @@ template <int Dim> int levelTouched(const Grid<Dim>& grid, const Vec<Dim>& place
 	return grid.refinement->levelIn(x - l, x + l);
 }
 
-/// Calls f(leaf below, leaf above, cell below the face, axis) for the faces between two leaves of a list, sorted; of two sizes the smaller one's face
-/// is meant, and the cell, or the one above it, is part of the larger leaf.
+/// Calls f(leaf below, leaf above, cell below the face, axis) for the faces between two leaves of a list, sorted; of
+/// two sizes the smaller one's face is meant, and the cell, or the one above it, is part of the larger leaf.
 template <int Dim, class F> void forLeafFaces(const std::vector<Key>& leaves, const Refinement<Dim>& refinement, F&& f)
 {
 	for (const Key leaf : leaves)

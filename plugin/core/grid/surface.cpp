@@ -18,8 +18,8 @@ using Middles = std::map<Side, int>;
 
 template <int Dim> int sidesOf() { return Dim == 2 ? 1 : 3; }
 
-/// Divides all sides that are too long, at one of the places that would divide them into equal parts: parts of a straight line on the grid fit
-/// into its cells if the line does.
+/// Divides all sides that are too long, at one of the places that would divide them into equal parts: parts of a
+/// straight line on the grid fit into its cells if the line does.
 template <int Dim> Middles divideSides(Surface<Dim>& surface, double limit)
 {
 	Middles middles;
@@ -93,7 +93,8 @@ template <int Dim> bool Surface<Dim>::isBetween(const Vec<Dim>& a, const Vec<Dim
 		sides.col(0) = a - b;
 		for (int i = 1; i < Dim; ++i)
 			sides.col(i) = vertices[piece[i]] - vertices[piece[0]];
-		const Vec<Dim> part = sides.inverse() * (a - vertices[piece[0]]); // not finite where the way is along the piece
+		// Not finite where the way is along the piece.
+		const Vec<Dim> part = sides.inverse() * (a - vertices[piece[0]]);
 		return part.minCoeff() >= -onEdge && part[0] <= 1 + onEdge && part.template tail<Dim - 1>().sum() <= 1 + onEdge;
 	});
 }

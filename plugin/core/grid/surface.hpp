@@ -6,15 +6,18 @@
 
 namespace gimpm {
 
-/// Length of a segment times the normal on its right; area of a triangle times the normal on the side from which its corners run counterclockwise.
+/// Length of a segment times the normal on its right; area of a triangle times the normal on the side from which its
+/// corners run counterclockwise.
 Vec<2> pieceNormal(const Vec<2>& a, const Vec<2>& b);
 Vec<3> pieceNormal(const Vec<3>& a, const Vec<3>& b, const Vec<3>& c);
 
-/// Length of the sides of a surface's pieces where they act on the grid, in cells. Nodes are then given their shares of a uniform
-/// load to a per cent or better (exactly where segments fit into the cells); the error falls with the square of the length.
+/// Length of the sides of a surface's pieces where they act on the grid, in cells. Nodes are then given their shares of
+/// a uniform load to a per cent or better (exactly where segments fit into the cells); the error falls with the square
+/// of the length.
 constexpr double pieceLimit = 0.25;
 
-/// The body is on the left of a segment, from its first to its second vertex; of a triangle on the side from which its vertices run clockwise.
+/// The body is on the left of a segment, from its first to its second vertex; of a triangle on the side from which its
+/// vertices run clockwise.
 template <int Dim> struct Surface {
 	using Piece = std::array<int, Dim>;
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Nodes that move as others prescribe: hanging nodes between cells of two sizes, and nodes of small cells within large ones.
+// Nodes that move as others prescribe: hanging nodes between cells of two sizes, and nodes of small cells within large
+// ones.
 #pragma once
 #include "core/grid/refinement.hpp"
 
@@ -38,9 +39,10 @@ struct Ties {
 	}
 };
 
-/// Ties the nodes of a refined grid, to which their masters are added; they stay sorted. A node is tied to the corners of the largest leaf that touches it, and these
-/// in turn to theirs; a corner of that leaf itself to the node of the leaf's level there, unless it is that node. So the functions of all levels together are
-/// continuous, and in a leaf they are linear along each axis.
+/// Ties the nodes of a refined grid, to which their masters are added; they stay sorted. A node is tied to the corners
+/// of the largest leaf that touches it, and these in turn to theirs; a corner of that leaf itself to the node of the
+/// leaf's level there, unless it is that node. So the functions of all levels together are continuous, and in a leaf
+/// they are linear along each axis.
 template <int Dim> Ties tieNodes(std::vector<Key>& nodes, const Refinement<Dim>&);
 
 } // namespace gimpm

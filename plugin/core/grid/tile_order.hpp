@@ -5,9 +5,10 @@
 
 namespace gimpm {
 
-/// Where a cell stands in the order of colours, of the tiles of a colour and of the cells of a tile. Domains with the lowest cell in a tile
-/// reach the first nodes beyond it, and no others as long as a tile is at least two cells wide: between two tiles of a colour lies another. Each level of cells has
-/// tiles of its own, which share no node with those of others.
+/// Where a cell stands in the order of colours, of the tiles of a colour and of the cells of a tile. Domains with the
+/// lowest cell in a tile reach the first nodes beyond it, and no others as long as a tile is at least two cells wide:
+/// between two tiles of a colour lies another. Each level of cells has tiles of its own, which share no node with those
+/// of others.
 template <int Dim> struct TileOrder {
 	static constexpr int widthBits = 2; ///< a tile is 2^widthBits cells wide
 	static constexpr int bits = Grid<Dim>::keyBits, highBits = bits - widthBits - 1;
@@ -41,8 +42,8 @@ private:
 	static constexpr Key low(Key k, int bits) { return k & ((Key(1) << bits) - 1); }
 };
 
-/// Along one axis tiles take turns. Where the grid repeats itself, the last of an odd number of tiles meets the first, of its own colour; so does the
-/// last but one where the last is a single cell, beyond which its domains reach.
+/// Along one axis tiles take turns. Where the grid repeats itself, the last of an odd number of tiles meets the first,
+/// of its own colour; so does the last but one where the last is a single cell, beyond which its domains reach.
 template <int Dim> int colourAlong(int tile, int period)
 {
 	constexpr int width      = 1 << TileOrder<Dim>::widthBits;

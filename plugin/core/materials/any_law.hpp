@@ -55,25 +55,29 @@ public:
 	bool canBeWeakened = false; ///< by one factor of safety
 	bool isTensorLaw   = false;
 
-	const PrincipalLaw* principal = nullptr; ///< the law itself, or of a tensor law one that kernels ask instead of it without using the answer
+	/// The law itself, or of a tensor law one that kernels ask instead of it without using the answer.
+	const PrincipalLaw* principal = nullptr;
 
 	/// Of a point. Young's modulus is that of unloading, as it is now.
-	virtual bool       isSymmetric(const ParameterColumns&, std::size_t point) const    = 0;
-	virtual double     young(const PointOfLaw&, const VolumetricStrain&) const          = 0;
-	virtual WaveModuli waveModuli(const PointOfLaw&, const VolumetricStrain&) const     = 0;
+	virtual bool       isSymmetric(const ParameterColumns&, std::size_t point) const = 0;
+	virtual double     young(const PointOfLaw&, const VolumetricStrain&) const       = 0;
+	virtual WaveModuli waveModuli(const PointOfLaw&, const VolumetricStrain&) const  = 0;
 
 	/// What may differ from point to point, and what a factor of safety makes of it.
-	virtual std::vector<double> parameters() const                                                          = 0;
+	virtual std::vector<double> parameters() const                                                           = 0;
 	virtual std::vector<double> weakened(const ParameterColumns&, std::size_t point, const Weakening&) const = 0;
 	virtual Law                 with(const std::vector<double>& parameters) const                            = 0;
 
-	/// Stores the variables of point `from` of some columns, which may be missing, as those of point `to` of others.
+	/// Stores the variables of point `from` of some columns, which may be missing, as those of point `to` of
+	/// others.
 	virtual void copyInternals(const InternalColumns&, std::size_t from, InternalColumns&, std::size_t to) const = 0;
 
-	/// A principal strain near that of these stresses, from which Newton's method finds it; none where no elastic strain can have them.
+	/// A principal strain near that of these stresses, from which Newton's method finds it; none where no elastic
+	/// strain can have them.
 	virtual std::optional<Vec3> strainNear(const Vec3& stress) const = 0;
 
-	/// One answer, with the internal variables as the step begins: of a principal law in principal axes, of a tensor law in those that turn with the material.
+	/// One answer, with the internal variables as the step begins: of a principal law in principal axes, of a
+	/// tensor law in those that turn with the material.
 	virtual PrincipalAnswer respond(const Vec3& trialStrain, const std::vector<double>& internals) const = 0;
 	virtual TensorAnswer    respond(const PointOfLaw&, const TensorStep&) const                          = 0;
 };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Modified Cam clay (Roscoe and Burland 1968) for finite strain: elastic energy whose pressure is an exponential of the volumetric strain, with constant
-// shear modulus, and compression along straight lines of ln v over ln p (Borja and Tamagnini 1998).
+// Modified Cam clay (Roscoe and Burland 1968) for finite strain: elastic energy whose pressure is an exponential of the
+// volumetric strain, with constant shear modulus, and compression along straight lines of ln v over ln p (Borja and
+// Tamagnini 1998).
 #pragma once
 #include "core/materials/perfect_plasticity.hpp"
 #include <optional>
@@ -10,8 +11,8 @@ namespace gimpm {
 /// Yield function Q^2 / M^2 + P (P - pc), associated flow; P and Q of the Kirchhoff stress, P positive in compression.
 class CamClay {
 public:
-	/// All > 0 and swellingIndex < compressionIndex. Indices: slopes of ln v over ln p. preconsolidation: pc at first [Pa]; referencePressure: P without
-	/// elastic strain [Pa].
+	/// All > 0 and swellingIndex < compressionIndex. Indices: slopes of ln v over ln p. preconsolidation: pc at
+	/// first [Pa]; referencePressure: P without elastic strain [Pa].
 	CamClay(double shearModulus, double criticalStateRatio, double compressionIndex, double swellingIndex, double preconsolidation,
 	        double referencePressure)
 	        : shear_(shearModulus)
@@ -28,7 +29,8 @@ public:
 	using Parameters = std::array<double, 2>;
 	Parameters parameters() const { return { shear_, ratio_ }; }
 	CamClay    with(const Parameters& p) const { return { p[0], p[1], compression_, swelling_, preconsolidation_, reference_ }; }
-	Parameters weakened(const Weakening&) const { return parameters(); } // strength grows from preconsolidation: there is no single one to be divided
+	// Strength grows from preconsolidation: there is no single one to be divided.
+	Parameters weakened(const Weakening&) const { return parameters(); }
 
 	static constexpr InternalVariable                preconsolidation { "preconsolidation", "Pa", "preconsolidation pressure", positive, anyNumber };
 	static constexpr std::array<InternalVariable, 2> variables { equivalentPlasticStrain, preconsolidation };
@@ -41,8 +43,8 @@ public:
 
 	bool isSymmetric() const { return false; }
 
-	/// At an elastic volumetric strain. It is no less than at a thousandth of the preconsolidation pressure: a point that lost its pressure would leave
-	/// nothing to compare forces with.
+	/// At an elastic volumetric strain. It is no less than at a thousandth of the preconsolidation pressure: a
+	/// point that lost its pressure would leave nothing to compare forces with.
 	double young(const std::array<double, 2>& internals, double volumetricStrain) const
 	{
 		const double bulk = std::max(reference_ * std::exp(-volumetricStrain / swelling_), 1e-3 * internals[1]) / swelling_;
@@ -113,13 +115,15 @@ private:
 			pressure            = T(law.reference_) * exponential(power);
 			excess              = power - logarithm(T(preconsolidation * T(1 / law.reference_)));
 			ratio               = T(3 * law.shear_ / law.ratio_) * shear / pressure;
-			const T passing     = select(isAdmitted, pressure * (T(1) + ratio * ratio), T(0)); // its ellipse's pc
-			flows               = passing > preconsolidation;
-			yields              = passing > preconsolidation * T(1 + sectorTolerance);
+			// Its ellipse's pc.
+			const T passing = select(isAdmitted, pressure * (T(1) + ratio * ratio), T(0));
+			flows           = passing > preconsolidation;
+			yields          = passing > preconsolidation * T(1 + sectorTolerance);
 		}
 	};
 
-	/// The end of a return, by the one unknown u = Q / (M P). On the yield surface P = pc / (1 + u^2); with the volumetric plastic strain v
+	/// The end of a return, by the one unknown u = Q / (M P). On the yield surface P = pc / (1 + u^2); with the
+	/// volumetric plastic strain v
 	///   P = P_tr exp(-v / kappa), pc = pc_n exp(v / (lambda - kappa)), so that v = kappa (1 - kappa / lambda) (ln(P_tr / pc_n) + ln(1 + u^2));
 	/// and flow is normal to the surface where
 	///   S(u) = (es_tr - M P u / 3G) (1 - u^2) - 2 u v / M = 0.
@@ -143,8 +147,9 @@ private:
 		        - perRatio * (f.volumetric + u * T(swelling_ * plasticShare_) * f.growth);
 		return f;
 	}
-	/// S changes its sign once, from plus to minus, between the ratio at which the volume would stay and 1, that of the critical state: flow leads
-	/// towards the critical state. Newton's method is kept in this interval, which halves where it would leave it.
+	/// S changes its sign once, from plus to minus, between the ratio at which the volume would stay and 1, that of
+	/// the critical state: flow leads towards the critical state. Newton's method is kept in this interval, which
+	/// halves where it would leave it.
 	template <class T> GIMPM_INLINE Flow<T> returned(const Trial<T>& trial) const
 	{
 		const T zero(0), one(1), squared = trial.preconsolidation / trial.pressure - one, still = sqrt(select(squared > zero, squared, zero));
@@ -180,10 +185,11 @@ private:
 	/// By the derivatives of S(u; strains) = 0.
 	template <class T> GIMPM_INLINE Derivatives<T> derivatives(const Trial<T>& trial, const Flow<T>& f) const
 	{
-		const T    P = f.pressure, u = f.root, left = T(1) - u * u, Q = T(ratio_) * P * u, perLength(1 / compression_);
-		const T    byVolume = left * Q * T(1 / (3 * shear_)) * perLength + T(2 * plasticShare_ / ratio_) * u;
-		const T    inverse = T(-1) / select(trial.yields, f.slope, T(-1)), uByShear = left * inverse, uByVolume = byVolume * inverse;
-		const T    share = T(plasticShare_) * f.growth, logByVolume = -perLength - share * uByVolume, logByShear = -share * uByShear; // of ln P
+		const T P = f.pressure, u = f.root, left = T(1) - u * u, Q = T(ratio_) * P * u, perLength(1 / compression_);
+		const T byVolume = left * Q * T(1 / (3 * shear_)) * perLength + T(2 * plasticShare_ / ratio_) * u;
+		const T inverse = T(-1) / select(trial.yields, f.slope, T(-1)), uByShear = left * inverse, uByVolume = byVolume * inverse;
+		// Of ln P.
+		const T    share = T(plasticShare_) * f.growth, logByVolume = -perLength - share * uByVolume, logByShear = -share * uByShear;
 		const auto of = [&](const T& plastic, const T& elastic) GIMPM_INLINE_LAMBDA { return select(trial.yields, plastic, elastic); };
 		return { of(P * logByVolume, trial.pressure * T(-1 / swelling_)), of(P * logByShear, T(0)),
 			 of(T(ratio_) * P * uByVolume + Q * logByVolume, T(0)), of(T(ratio_) * P * uByShear + Q * logByShear, T(3 * shear_)) };

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Hencky elasticity with Drucker and Prager's perfect plasticity: cone, apex, and a cut of the mean stress (de Souza Neto, Peric and Owen 2008,
-// Computational methods for plasticity, section 8.3, for cone and apex).
+// Hencky elasticity with Drucker and Prager's perfect plasticity: cone, apex, and a cut of the mean stress (de Souza
+// Neto, Peric and Owen 2008, Computational methods for plasticity, section 8.3, for cone and apex).
 #pragma once
 #include "core/materials/perfect_plasticity.hpp"
 
 namespace gimpm {
 
-/// Yield function sqrt(J2) + friction p - strength, plastic potential sqrt(J2) + dilation p, with the mean stress p; three ways to match Mohr and Coulomb's
-/// law.
+/// Yield function sqrt(J2) + friction p - strength, plastic potential sqrt(J2) + dilation p, with the mean stress p;
+/// three ways to match Mohr and Coulomb's law.
 struct DruckerPragerCone {
 	double friction, dilation, strength; ///< [-], [-], [Pa]
 
@@ -15,8 +15,9 @@ struct DruckerPragerCone {
 	Match  match;                                  ///< the one that made it
 	double cohesion, frictionAngle, dilationAngle; ///< from these
 
-	/// The same strength in plane strain, for any dilation: flow without strain out of the plane fixes the stress there, on which the share of
-	/// friction in the plane depends. The customary 3 tan phi / sqrt(9 + 12 tan^2 phi) is the case of associated flow.
+	/// The same strength in plane strain, for any dilation: flow without strain out of the plane fixes the stress
+	/// there, on which the share of friction in the plane depends. The customary 3 tan phi / sqrt(9 + 12 tan^2 phi)
+	/// is the case of associated flow.
 	static DruckerPragerCone planeStrain(double cohesion, double frictionAngle, double dilationAngle)
 	{
 		const double s = std::sin(frictionAngle), q = std::sin(dilationAngle), dilation = 3 * q / std::sqrt(9 + 3 * q * q);
@@ -29,7 +30,8 @@ struct DruckerPragerCone {
 			 frictionAngle,
 			 dilationAngle };
 	}
-	/// The same strength in triaxial compression, and in triaxial extension: the outer and the inner edges of the pyramid.
+	/// The same strength in triaxial compression, and in triaxial extension: the outer and the inner edges of the
+	/// pyramid.
 	static DruckerPragerCone compression(double cohesion, double frictionAngle, double dilationAngle)
 	{
 		return triaxial(cohesion, frictionAngle, dilationAngle, -1, &compression);
@@ -55,8 +57,8 @@ private:
 
 class DruckerPrager {
 public:
-	/// 0 <= dilation <= friction of the cone, strength >= 0, one of friction and strength not zero. The mean stress reaches no more than
-	/// tensileStrength >= 0 [Pa], which is of use below the apex.
+	/// 0 <= dilation <= friction of the cone, strength >= 0, one of friction and strength not zero. The mean stress
+	/// reaches no more than tensileStrength >= 0 [Pa], which is of use below the apex.
 	DruckerPrager(double young, double poisson, const DruckerPragerCone& cone, double tensileStrength = std::numeric_limits<double>::infinity())
 	        : elastic_(young, poisson), cone_(cone), tension_(tensileStrength)
 	{
@@ -66,7 +68,8 @@ public:
 		inverse_          = 1 / (elastic_.shear() + elastic_.bulk() * cone.friction * cone.dilation);
 	}
 
-	/// What may differ from point to point: Young's modulus, cohesion, frictionAngle, dilationAngle, tensileStrength.
+	/// What may differ from point to point: Young's modulus, cohesion, frictionAngle, dilationAngle,
+	/// tensileStrength.
 	using Parameters = std::array<double, 5>;
 	Parameters    parameters() const { return { elastic_.young(), cone_.cohesion, cone_.frictionAngle, cone_.dilationAngle, tension_ }; }
 	DruckerPrager with(const Parameters& p) const { return { p[0], elastic_.poisson(), cone_.match(p[1], p[2], p[3]), p[4] }; }
@@ -113,18 +116,21 @@ public:
 private:
 	template <class T> using Mask = decltype(T() > T());
 
-	/// The masks say which tangent belongs to the stress; they are chosen with a tolerance, but for `flows`, which is exact.
+	/// The masks say which tangent belongs to the stress; they are chosen with a tolerance, but for `flows`, which
+	/// is exact.
 	template <class T> struct Return {
 		T       mean, theta; ///< mean stress; what remains of the trial deviator
 		Mask<T> flows, yields, isCut, isCorner;
 	};
-	/// Tangent = bulk 1 1^T + 2 shear (I - 1 1^T / 3) + radial n n^T + pressing n 1^T + dilating 1 n^T, n: direction of the deviator.
+	/// Tangent = bulk 1 1^T + 2 shear (I - 1 1^T / 3) + radial n n^T + pressing n 1^T + dilating 1 n^T, n:
+	/// direction of the deviator.
 	template <class T> struct TangentForm {
 		T bulk, shear, radial, pressing, dilating;
 	};
 
-	/// From the trial's mean stress and sqrt(J2). A return to the cone that ends above the cut, ends at it; where sqrt(J2) may then be larger than the
-	/// trial's, only the mean stress changes. The apex is a cut that leaves nothing.
+	/// From the trial's mean stress and sqrt(J2). A return to the cone that ends above the cut, ends at it; where
+	/// sqrt(J2) may then be larger than the trial's, only the mean stress changes. The apex is a cut that leaves
+	/// nothing.
 	template <class T> GIMPM_INLINE Return<T> returned(const T& mean, const T& root) const
 	{
 		const T    G(elastic_.shear()), most(mostMean_), radius(radius_);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The internal variables that there are. Those of the principal laws come first; those of tensor laws are added when the library with the law is opened, or
-// when the first law of its kind is made.
+// The internal variables that there are. Those of the principal laws come first; those of tensor laws are added when
+// the library with the law is opened, or when the first law of its kind is made.
 #pragma once
 #include "core/materials/internal_variable.hpp"
 #include <deque>

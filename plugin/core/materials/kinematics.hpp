@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Finite-strain kinematics of one material point, and the tangent in principal axes. T is double, or Lanes for several points at once.
+// Finite-strain kinematics of one material point, and the tangent in principal axes. T is double, or Lanes for several
+// points at once.
 //
-// The elastic left Cauchy-Green tensor b is carried as b - 1: strains as small as 1e-300 keep their relative precision, where
-// b itself would round them to 1e-16.
+// The elastic left Cauchy-Green tensor b is carried as b - 1: strains as small as 1e-300 keep their relative precision,
+// where b itself would round them to 1e-16.
 #pragma once
 #include "core/materials/response.hpp"
 #include <Eigen/Eigenvalues>
@@ -44,7 +45,8 @@ template <class T> GIMPM_INLINE Principal<2, T> principal(const SymTensor<2, T>&
 	return result;
 }
 
-/// Jacobi's method turns the plane (p, q) such that m(p, q) vanishes (Golub and Van Loan, Matrix Computations, section 8.5).
+/// Jacobi's method turns the plane (p, q) such that m(p, q) vanishes (Golub and Van Loan, Matrix Computations, section
+/// 8.5).
 template <class T> GIMPM_INLINE void jacobiRotation(MatrixOf<3, T>& m, MatrixOf<3, T>& axes, int p, int q)
 {
 	const T    off   = m(p, q);
@@ -69,9 +71,10 @@ template <class T> GIMPM_INLINE void jacobiRotation(MatrixOf<3, T>& m, MatrixOf<
 template <class T> GIMPM_INLINE Principal<3, T> principal(const SymTensor<3, T>& t)
 {
 	Principal<3, T> result;
-	MatrixOf<3, T>  m    = t.full();
-	result.axes          = MatrixOf<3, T>::Identity();
-	constexpr int sweeps = 12; // convergence is quadratic: five are enough, and numbers that are none must not keep it going
+	MatrixOf<3, T>  m = t.full();
+	result.axes       = MatrixOf<3, T>::Identity();
+	// Convergence is quadratic: five are enough, and numbers that are none must not keep it going.
+	constexpr int sweeps = 12;
 	for (int sweep = 0; sweep < sweeps; ++sweep) {
 		const T off = abs(m(0, 1)) + abs(m(1, 2)) + abs(m(0, 2)), size = abs(m(0, 0)) + abs(m(1, 1)) + abs(m(2, 2));
 		if (everywhere(off <= T(1e-18) * size)) break;
@@ -135,11 +138,13 @@ template <int Dim> double volumetricStrain(const SymTensor<Dim>& b1) { return 0.
 /// Rows and columns (i, j) -> i * Dim + j: moduli a such that stiffness_ab,ik = grad_a,j a_ijkl grad_b,l.
 template <int Dim, class T = double> using Moduli = Eigen::Matrix<T, Dim * Dim, Dim * Dim>;
 
-/// J times the tangent a = D:L:B / 2J - sigma_il delta_jk, in the axes q_k (columns) for the first index of a pair, w_k for the second.
-/// With w = q these are the moduli for gradients in the current configuration. With w = F^-1 q (F of the increment) they go with
-/// gradients in the configuration at the start of the step, which do not change from iteration to iteration.
+/// J times the tangent a = D:L:B / 2J - sigma_il delta_jk, in the axes q_k (columns) for the first index of a pair, w_k
+/// for the second. With w = q these are the moduli for gradients in the current configuration. With w = F^-1 q (F of
+/// the increment) they go with gradients in the configuration at the start of the step, which do not change from
+/// iteration to iteration.
 ///
-/// In the principal axes of the trial strain (strains e, stresses t) with d = e_i - e_j and the law's secant shear modulus G_s
+/// In the principal axes of the trial strain (strains e, stresses t) with d = e_i - e_j and the law's secant shear
+/// modulus G_s
 ///   J a_iijj = D_ij - t_i delta_ij,   J a_ijji = m,   J a_ijij = m + t_j,   m = G_s d coth d - (t_i + t_j)/2,
 /// where d coth d -> 1 for coinciding stretches: there is nothing to switch.
 template <int Dim, class T>
@@ -184,7 +189,8 @@ template <int Dim> Vec<Dim> stretchAlongAxes(const Mat<Dim>& F)
 		return Vec<2>(cxx + J, cyy + J) / std::sqrt(cxx + cyy + 2 * J);
 	} else {
 		const Eigen::SelfAdjointEigenSolver<Mat3> eigen(Mat3(F.transpose() * F));
-		const Vec3                                stretch = eigen.eigenvalues().cwiseMax(0).cwiseSqrt(); // one of 1e-8 others is lost in round-off
+		// One of 1e-8 others is lost in round-off.
+		const Vec3 stretch = eigen.eigenvalues().cwiseMax(0).cwiseSqrt();
 		return eigen.eigenvectors().cwiseAbs2() * stretch;
 	}
 }

@@ -54,7 +54,8 @@ public:
 		const auto r = this->own_.respond(trialStrain, values);
 		return { r, this->listOf(r.internals) };
 	}
-	TensorAnswer respond(const PointOfLaw&, const TensorStep& step) const override { return TensorAnswer(step.state); } // it is asked in principal axes
+	// It is asked in principal axes.
+	TensorAnswer respond(const PointOfLaw&, const TensorStep& step) const override { return TensorAnswer(step.state); }
 
 private:
 	const PrincipalLaw self_;

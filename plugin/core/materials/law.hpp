@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The table of principal laws, for the kernels and whoever makes a law: a new one is one header beside this one and one entry here. Laws that need more than
-// the principal values of the trial strain are tensor laws (core/materials/tensor_law.hpp), which are in no table.
+// The table of principal laws, for the kernels and whoever makes a law: a new one is one header beside this one and one
+// entry here. Laws that need more than the principal values of the trial strain are tensor laws
+// (core/materials/tensor_law.hpp), which are in no table.
 //
-// What a law must have is in core/materials/required_members.hpp and in hasPrincipalMembers(). It declares its internal `variables` and their values at first
-// (initialInternals), and answers with young() and respond(), which are given the values of those variables at the start of the step, in this order.
-// young() may ask for the elastic volumetric strain too. Strengths or moduli that may differ from point to point are an array of `Parameters`:
-// parameters() are its own, and with() is the same law with others, weakened() what strength reduction makes of them. A law of a few lines may say that it
-// isShort, and is compiled into the kernels.
+// What a law must have is in core/materials/required_members.hpp and in hasPrincipalMembers(). It declares its internal
+// `variables` and their values at first (initialInternals), and answers with young() and respond(), which are given the
+// values of those variables at the start of the step, in this order. young() may ask for the elastic volumetric strain
+// too. Strengths or moduli that may differ from point to point are an array of `Parameters`: parameters() are its own,
+// and with() is the same law with others, weakened() what strength reduction makes of them. A law of a few lines may
+// say that it isShort, and is compiled into the kernels.
 #pragma once
 #include "core/materials/cam_clay.hpp"
 #include "core/materials/drucker_prager.hpp"
@@ -56,8 +58,10 @@ template <class L> constexpr bool hasPrincipalMembers()
 template <class Laws> struct LawTraits;
 template <class... Laws> struct LawTraits<std::variant<Laws...>> {
 	static_assert((hasPrincipalMembers<Laws>() && ...));
-	static constexpr bool        mayFail       = (Laws::mayFail || ...);                                  ///< one of them
-	static constexpr std::size_t mostVariables = std::max({ std::size_t(0), Laws::variables.size()... }); ///< of one of them
+	/// One of them.
+	static constexpr bool mayFail = (Laws::mayFail || ...);
+	/// Of one of them.
+	static constexpr std::size_t mostVariables = std::max({ std::size_t(0), Laws::variables.size()... });
 
 	/// The variables of all laws, each once.
 	struct Variables {

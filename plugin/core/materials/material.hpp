@@ -5,7 +5,8 @@
 
 namespace gimpm {
 
-/// A law, principal (core/materials/law.hpp) or of tensors (core/materials/tensor_law.hpp). Copies share it: laws do not change.
+/// A law, principal (core/materials/law.hpp) or of tensors (core/materials/tensor_law.hpp). Copies share it: laws do
+/// not change.
 class Law {
 public:
 	/// Of a class of laws: the header that knows of its kind has handleOf(law).
@@ -31,8 +32,8 @@ struct Material {
 	double density;        ///< initial density [kg/m3]
 	bool   varies = false; ///< points have parameters of their own
 
-	/// Young's modulus [Pa] of a point with these parameters and internal variables; volumetricStrain() gives its elastic volumetric strain to the laws
-	/// that ask for it.
+	/// Young's modulus [Pa] of a point with these parameters and internal variables; volumetricStrain() gives its
+	/// elastic volumetric strain to the laws that ask for it.
 	template <class F> double young(const ParameterColumns& parameters, const InternalColumns& columns, std::size_t point, F&& volumetricStrain) const
 	{
 		return law->young({ ofPoints(parameters), columns, point }, VolumetricStrain(volumetricStrain));
@@ -56,7 +57,8 @@ inline std::vector<double> parametersOf(const Law& law) { return law->parameters
 /// Whether the laws of all of these points have symmetric tangents, and so a stiffness that is symmetric.
 bool areSymmetric(const std::vector<Material>&, const std::vector<int>& material, const ParameterColumns&);
 
-/// Makes the columns that the laws of these materials have variables for, and that are not there yet, for so many points, of zeros.
+/// Makes the columns that the laws of these materials have variables for, and that are not there yet, for so many
+/// points, of zeros.
 void provideInternals(InternalColumns&, const std::vector<Material>&, std::size_t points);
 
 /// Stores the internal variables of a point of this law, of which `values` has at least as many as it has variables.

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Hencky elasticity with Mohr-Coulomb's perfect plasticity: exact edges and apex, tension planes, flow with a dilation angle of its own.
+// Hencky elasticity with Mohr-Coulomb's perfect plasticity: exact edges and apex, tension planes, flow with a dilation
+// angle of its own.
 //
-// With principal Kirchhoff stresses t1 >= t2 >= t3 the yield function is k t1 - t3 - s and the plastic potential m t1 - t3 (de Souza Neto, Peric and Owen
-// 2008, Computational methods for plasticity, section 8.2), where k = (1 + sin phi) / (1 - sin phi), s = 2 c sqrt(k), and m is k of the dilation angle.
-// Tension planes t1 - tensileStrength flow along their normals.
+// With principal Kirchhoff stresses t1 >= t2 >= t3 the yield function is k t1 - t3 - s and the plastic potential m t1 -
+// t3 (de Souza Neto, Peric and Owen 2008, Computational methods for plasticity, section 8.2), where k = (1 + sin phi) /
+// (1 - sin phi), s = 2 c sqrt(k), and m is k of the dilation angle. Tension planes t1 - tensileStrength flow along
+// their normals.
 #pragma once
 #include "core/materials/perfect_plasticity.hpp"
 #include "core/materials/principal_order.hpp"
@@ -12,8 +14,8 @@ namespace gimpm {
 
 class MohrCoulomb {
 public:
-	/// cohesion >= 0 [Pa] and 0 <= dilationAngle <= frictionAngle < pi/2; one of cohesion and friction is not zero. tensileStrength >= 0 [Pa] is of use
-	/// below the stress of the apex.
+	/// cohesion >= 0 [Pa] and 0 <= dilationAngle <= frictionAngle < pi/2; one of cohesion and friction is not zero.
+	/// tensileStrength >= 0 [Pa] is of use below the stress of the apex.
 	MohrCoulomb(double young, double poisson, double cohesion, double frictionAngle, double dilationAngle, double tensileStrength = infinite)
 	        : elastic_(young, poisson)
 	        , given_ { young, cohesion, frictionAngle, dilationAngle, tensileStrength }
@@ -34,7 +36,8 @@ public:
 	/// Without friction; the undrained strength [Pa] is half of the largest difference of principal stresses.
 	static MohrCoulomb tresca(double young, double poisson, double undrainedStrength) { return { young, poisson, undrainedStrength, 0, 0 }; }
 
-	/// What may differ from point to point: Young's modulus, cohesion, frictionAngle, dilationAngle, tensileStrength.
+	/// What may differ from point to point: Young's modulus, cohesion, frictionAngle, dilationAngle,
+	/// tensileStrength.
 	using Parameters = std::array<double, 5>;
 	Parameters  parameters() const { return given_; }
 	MohrCoulomb with(const Parameters& p) const { return { p[0], elastic_.poisson(), p[1], p[2], p[3], p[4] }; }
@@ -66,7 +69,8 @@ public:
 		for (int i = 0; i < 3; ++i)
 			for (int j = 0; j < 3; ++j)
 				r.tangent(i, j) = (i == j ? diagonal : lambda) - flow[i] * normal[j] + form.along * axis[i] * axis[j];
-		const PrincipalValues<T> opposite = order.restored(secants(back)); // an axis' value is that of the pair of the others
+		// An axis' value is that of the pair of the others.
+		const PrincipalValues<T> opposite = order.restored(secants(back));
 		r.shear                           = { opposite[2], opposite[0], opposite[1] };
 		return r;
 	}
@@ -80,13 +84,14 @@ private:
 
 	template <class T> using Mask = decltype(T() > T());
 
-	/// A plane of the yield surface, or the mean of the two that meet in an edge: normal f, De g with the direction g of flow, De f / (f De g).
+	/// A plane of the yield surface, or the mean of the two that meet in an edge: normal f, De g with the direction
+	/// g of flow, De f / (f De g).
 	template <class T> struct Plane {
 		PrincipalValues<T> normal, flow, scaled;
 		T                  inverse; ///< of f De g
 	};
-	/// A return in the order of the principal values. The masks say which tangent belongs to the stress; they are chosen with the tolerance, but for
-	/// `flows`, which is exact.
+	/// A return in the order of the principal values. The masks say which tangent belongs to the stress; they are
+	/// chosen with the tolerance, but for `flows`, which is exact.
 	template <class T> struct Return {
 		PrincipalValues<T> strain, trial, stress;
 		T                  tolerance; ///< [Pa]
@@ -135,8 +140,9 @@ private:
 		if (isCut_) cutTension(r);
 		return r;
 	}
-	/// To the main plane; where that would change the order of the principal stresses, to an edge, and where this leads beyond the apex, to the apex. The
-	/// multiplier of an edge's second plane is positive where, and only where, the return to the main plane changes the order.
+	/// To the main plane; where that would change the order of the principal stresses, to an edge, and where this
+	/// leads beyond the apex, to the apex. The multiplier of an edge's second plane is positive where, and only
+	/// where, the return to the main plane changes the order.
 	template <class T> GIMPM_INLINE void returnToPlanes(Return<T>& r) const
 	{
 		const auto& t    = r.trial;
@@ -159,8 +165,9 @@ private:
 		r.left   = beyondLeft > r.tolerance;
 		r.apex   = beyondApex > T(k_ - 1) * r.tolerance;
 	}
-	/// What the other planes leave above the tensile strength: t1 is cut; t2 and t3 where they would still be above it; and where that would violate the
-	/// yield function, t3 follows from it. A stress on none of these planes does without plastic strain along its axis, as in uniaxial stress.
+	/// What the other planes leave above the tensile strength: t1 is cut; t2 and t3 where they would still be above
+	/// it; and where that would violate the yield function, t3 follows from it. A stress on none of these planes
+	/// does without plastic strain along its axis, as in uniaxial stress.
 	template <class T> GIMPM_INLINE void cutTension(Return<T>& r) const
 	{
 		const T    cut(cut_), remote(remote_), excess = (r.trial[0] - cut) * T(tension_.flow[1] * tension_.inverse);
@@ -218,7 +225,8 @@ private:
 		}
 		return form;
 	}
-	/// Secant shear moduli, by the axis that a pair leaves out. Equal stresses that were not equal have none; t2 and t3 keep theirs where t1 is cut alone.
+	/// Secant shear moduli, by the axis that a pair leaves out. Equal stresses that were not equal have none; t2
+	/// and t3 keep theirs where t1 is cut alone.
 	template <class T> GIMPM_INLINE PrincipalValues<T> secants(const Return<T>& r) const
 	{
 		const T    zero(0), one(1), G(elastic_.shear());

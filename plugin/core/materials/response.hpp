@@ -9,8 +9,8 @@ namespace gimpm {
 
 template <class T> using PrincipalValues = Eigen::Matrix<T, 3, 1>;
 
-/// Isotropic law: stress and trial strain share their principal axes, so that a law needs principal values only. T is double, or Lanes
-/// for several points at once.
+/// Isotropic law: stress and trial strain share their principal axes, so that a law needs principal values only. T is
+/// double, or Lanes for several points at once.
 template <class T> struct ResponseOf {
 	PrincipalValues<T>     stress;        ///< principal Kirchhoff stresses [Pa]
 	Eigen::Matrix<T, 3, 3> tangent;       ///< consistent tangent d stress_i / d trialStrain_j [Pa]; symmetric, as the stiffness is
@@ -32,8 +32,9 @@ template <class T> struct ResponseOf {
 };
 using Response = ResponseOf<double>;
 
-/// The part that a return takes of a trial deviator of which it leaves the part theta. It adds to none: where little flows theta may be above 1 by round-off,
-/// and a plastic strain that falls below zero would be refused as the state of the next step.
+/// The part that a return takes of a trial deviator of which it leaves the part theta. It adds to none: where little
+/// flows theta may be above 1 by round-off, and a plastic strain that falls below zero would be refused as the state of
+/// the next step.
 template <class T> GIMPM_INLINE T partTaken(const T& theta)
 {
 	const T part = T(1) - theta;

@@ -16,7 +16,8 @@ const char* kept(std::string name)
 /// x / sinh x.
 double overSinh(double x) { return std::abs(x) < 1e-3 ? 1 - x * x * (1. / 6 - x * x * 7. / 360) : x / std::sinh(x); }
 
-/// Of one step: stretches V and rotation R with F = V R, and the trial elastic strain e, the axes of which are those of b.
+/// Of one step: stretches V and rotation R with F = V R, and the trial elastic strain e, the axes of which are those of
+/// b.
 struct TrialState {
 	Principal<3> V, b;
 	Vec3         lambda, e;
@@ -27,22 +28,24 @@ struct TrialState {
 	{
 		const Vec3 stretch = logStrain<double>(V.value);
 		lambda             = stretch.array().exp();
-		const Mat3 shrink  = V.axes * Vec3(stretch.unaryExpr([](double x) { return std::expm1(-x); })).asDiagonal() * V.axes.transpose(); // of V, less 1
-		const Mat3 F       = gradient + Mat3::Identity();
-		R                  = F + shrink * F;
-		strain             = b.axes * e.asDiagonal() * b.axes.transpose();
+		// Of V, less 1.
+		const Mat3 shrink = V.axes * Vec3(stretch.unaryExpr([](double x) { return std::expm1(-x); })).asDiagonal() * V.axes.transpose();
+		const Mat3 F      = gradient + Mat3::Identity();
+		R                 = F + shrink * F;
+		strain            = b.axes * e.asDiagonal() * b.axes.transpose();
 	}
 };
 
-/// The rates of R and of the trial strain. In the axes of V the spin is (l_ij lambda_j - l_ji lambda_i) / (lambda_i + lambda_j). In those of b the rate of the
-/// strain is half of that of log b, whose divided differences are 2 d / (exp(2 e_i) - exp(2 e_j)) with d = e_i - e_j.
+/// The rates of R and of the trial strain. In the axes of V the spin is (l_ij lambda_j - l_ji lambda_i) / (lambda_i +
+/// lambda_j). In those of b the rate of the strain is half of that of log b, whose divided differences are 2 d / (exp(2
+/// e_i) - exp(2 e_j)) with d = e_i - e_j.
 class TrialRates {
 public:
 	explicit TrialRates(const TrialState& trial) : trial_(trial)
 	{
 		for (int i = 0; i < 3; ++i)
 			for (int j = 0; j < 3; ++j) {
-				const double d   = trial.e[i] - trial.e[j];
+				const double d  = trial.e[i] - trial.e[j];
 				spinOf_(i, j)   = trial.lambda[j] / (trial.lambda[i] + trial.lambda[j]);
 				strainOf_(i, j) = overSinh(d) / 2 * std::exp(-d);
 			}
@@ -96,8 +99,8 @@ std::vector<int> TensorVariable::columns() const
 	if (kind == Kind::scalar) return { internalVariables.add(variable) };
 	std::vector<int> columns;
 	for (int i = 0; i < count(); ++i) {
-		const char* const end  = kind == Kind::tensor ? ends[i] : axes[i];
-		const std::string name = variable.name + std::string(end);
+		const char* const end   = kind == Kind::tensor ? ends[i] : axes[i];
+		const std::string name  = variable.name + std::string(end);
 		const int         known = internalVariables.find(name);
 		InternalVariable  one   = variable;
 		if (known < 0) one.name = kept(name), one.description = kept(variable.description + (" " + std::string(end)));

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Laws that need more than the principal values of the trial strain: that remember vectors or tensors, as a back stress or a fabric, that depend on the step
-// of time, or whose stress has other axes than the strain. They answer one point at a time, and cost several times as much as principal laws.
+// Laws that need more than the principal values of the trial strain: that remember vectors or tensors, as a back stress
+// or a fabric, that depend on the step of time, or whose stress has other axes than the strain. They answer one point
+// at a time, and cost several times as much as principal laws.
 //
-// Such a law is a class from TensorLaw, in whatever library: it is in no table. It has the members of core/materials/required_members.hpp and of
-// hasTensorMembers(). Everything it is given, and answers, is seen by somebody who turns with the material in the step, so that there are no rotations in it:
-// with the deformation gradient F = R U of the step, of which R is a rotation, strains, stresses and tensors are those turned back by R. What it remembers is
-// turned by R after the step. Its stress is Kirchhoff's, and its strain logarithmic, as of all laws.
+// Such a law is a class from TensorLaw, in whatever library: it is in no table. It has the members of
+// core/materials/required_members.hpp and of hasTensorMembers(). Everything it is given, and answers, is seen by
+// somebody who turns with the material in the step, so that there are no rotations in it: with the deformation gradient
+// F = R U of the step, of which R is a rotation, strains, stresses and tensors are those turned back by R. What it
+// remembers is turned by R after the step. Its stress is Kirchhoff's, and its strain logarithmic, as of all laws.
 #pragma once
 #include "core/materials/kinematics.hpp"
 #include "core/materials/law_of.hpp"
@@ -16,8 +18,8 @@ namespace gimpm {
 /// The mark of a tensor law.
 struct TensorLaw { };
 
-/// A scalar, a vector or a symmetric tensor that a law remembers of a point, as 1, 3 or 6 internal variables: their names end in X, Y, Z or in XX, YY, ZZ,
-/// XY, YZ, ZX.
+/// A scalar, a vector or a symmetric tensor that a law remembers of a point, as 1, 3 or 6 internal variables: their
+/// names end in X, Y, Z or in XX, YY, ZZ, XY, YZ, ZX.
 struct TensorVariable {
 	enum class Kind { scalar = 1, vector = 3, tensor = 6 };
 	InternalVariable variable;
@@ -25,8 +27,14 @@ struct TensorVariable {
 
 	constexpr TensorVariable() = default;
 	constexpr TensorVariable(const InternalVariable& scalar) : variable(scalar) { }
-	static constexpr TensorVariable vector(const char* name, const char* unit, const char* description) { return { name, unit, description, Kind::vector }; }
-	static constexpr TensorVariable tensor(const char* name, const char* unit, const char* description) { return { name, unit, description, Kind::tensor }; }
+	static constexpr TensorVariable vector(const char* name, const char* unit, const char* description)
+	{
+		return { name, unit, description, Kind::vector };
+	}
+	static constexpr TensorVariable tensor(const char* name, const char* unit, const char* description)
+	{
+		return { name, unit, description, Kind::tensor };
+	}
 
 	constexpr int count() const { return int(kind); } ///< of numbers
 
@@ -81,8 +89,9 @@ private:
 	}
 };
 
-/// Derivatives of six numbers by six. The numbers of a symmetric tensor are xx, yy, zz, and sqrt(2) times xy, yz, zx (Mandel), so that products of vectors are
-/// those of tensors, and the derivative is symmetric if the tensor of fourth order is.
+/// Derivatives of six numbers by six. The numbers of a symmetric tensor are xx, yy, zz, and sqrt(2) times xy, yz, zx
+/// (Mandel), so that products of vectors are those of tensors, and the derivative is symmetric if the tensor of fourth
+/// order is.
 using Mandel = Eigen::Matrix<double, 6, 6>;
 using Vec6   = Eigen::Matrix<double, 6, 1>;
 
@@ -103,11 +112,11 @@ inline Mat3 fromMandel(const Vec6& v)
 
 /// What a tensor law is asked.
 struct TensorStep {
-	Mat3        trialStrain;          ///< elastic logarithmic strain if nothing flows in the step
-	Mat3        stretch;              ///< U of the step
-	double      duration       = 0;   ///< of the step, in the time of the loads; 0: none goes by
-	TensorState state          = {};  ///< as the step begins
-	bool        wantsTangent   = true;
+	Mat3        trialStrain;       ///< elastic logarithmic strain if nothing flows in the step
+	Mat3        stretch;           ///< U of the step
+	double      duration     = 0;  ///< of the step, in the time of the loads; 0: none goes by
+	TensorState state        = {}; ///< as the step begins
+	bool        wantsTangent = true;
 };
 
 /// What it answers.
@@ -126,7 +135,8 @@ template <class L> constexpr bool hasTensorMembers()
 	static_assert(
 	        GIMPM_HAS(law.young(law.initialInternals())),
 	        "the tensor law has no `double young(const TensorState&) const`: Young's modulus of unloading, as it is now");
-	static_assert(GIMPM_HAS(law.respond(std::declval<const TensorStep&>()).stress), "the tensor law has no `TensorAnswer respond(const TensorStep&) const`");
+	static_assert(
+	        GIMPM_HAS(law.respond(std::declval<const TensorStep&>()).stress), "the tensor law has no `TensorAnswer respond(const TensorStep&) const`");
 	if constexpr (hasRequiredMembers<L>()) {
 		int numbers = 0;
 		for (const TensorVariable& variable : L::variables)
@@ -155,9 +165,9 @@ template <class L> class HandleOfTensorLaw : public LawOf<L> {
 public:
 	explicit HandleOfTensorLaw(const L& law) : LawOf<L>(law)
 	{
-		this->isTensorLaw = true;
-		this->principal   = &placeholder();
-		this->columns     = knownColumns.empty() ? columnsOfTensorLaw<L>() : knownColumns;
+		this->isTensorLaw       = true;
+		this->principal         = &placeholder();
+		this->columns           = knownColumns.empty() ? columnsOfTensorLaw<L>() : knownColumns;
 		const TensorState first = law.initialInternals();
 		this->initialInternals.assign(first.numbers(), first.numbers() + first.size());
 	}
@@ -178,7 +188,8 @@ public:
 	}
 	std::optional<Vec3> strainNear(const Vec3&) const override { return Vec3(Vec3::Zero()); }
 
-	PrincipalAnswer respond(const Vec3&, const std::vector<double>& internals) const override { return { {}, internals }; } // it is asked as a tensor law
+	// It is asked as a tensor law.
+	PrincipalAnswer respond(const Vec3&, const std::vector<double>& internals) const override { return { {}, internals }; }
 
 	TensorAnswer respond(const PointOfLaw& p, const TensorStep& step) const override
 	{
@@ -192,7 +203,8 @@ private:
 	{
 		TensorState state = this->own_.initialInternals();
 		for (std::size_t k = 0; k < this->columns.size(); ++k)
-			if (const std::size_t c = this->columns[k]; c < p.internals.size() && !p.internals[c].empty()) state.numbers()[k] = p.internals[c][p.point];
+			if (const std::size_t c = this->columns[k]; c < p.internals.size() && !p.internals[c].empty())
+				state.numbers()[k] = p.internals[c][p.point];
 		return state;
 	}
 };
@@ -214,8 +226,8 @@ struct TensorPoint {
 	Rates       rates; ///< of the stress, row by row; where they are asked for
 };
 
-/// `b1`: elastic left Cauchy-Green tensor less 1 as the step begins. `gradient`: F - 1 of the step. Of the velocity gradients only those in the first `dim`
-/// axes, and that along the third, if `axes` says so.
+/// `b1`: elastic left Cauchy-Green tensor less 1 as the step begins. `gradient`: F - 1 of the step. Of the velocity
+/// gradients only those in the first `dim` axes, and that along the third, if `axes` says so.
 struct TensorQuestion {
 	SymTensor<3> b1;
 	Mat3         gradient;

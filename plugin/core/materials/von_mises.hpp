@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Hencky elasticity with von Mises plasticity (Coombs 2023, eqs. 8 and 9), perfect or with linear isotropic hardening or softening.
+// Hencky elasticity with von Mises plasticity (Coombs 2023, eqs. 8 and 9), perfect or with linear isotropic hardening
+// or softening.
 #pragma once
 #include "core/materials/hencky.hpp"
 
@@ -7,8 +8,9 @@ namespace gimpm {
 
 class VonMises {
 public:
-	/// yieldStress > 0 [Pa] bounds rho = sqrt(2 J2) of the Kirchhoff stress at first. The bound grows by hardening > -sqrt(6) G [Pa] times the
-	/// equivalent plastic strain, and falls no further than to residualYieldStress, between 0 and yieldStress.
+	/// yieldStress > 0 [Pa] bounds rho = sqrt(2 J2) of the Kirchhoff stress at first. The bound grows by hardening
+	/// > -sqrt(6) G [Pa] times the equivalent plastic strain, and falls no further than to residualYieldStress,
+	/// between 0 and yieldStress.
 	VonMises(double young, double poisson, double yieldStress, double hardening = 0, double residualYieldStress = 0)
 	        : elastic_(young, poisson), yield_(yieldStress), hardening_(hardening), residual_(residualYieldStress)
 	{
@@ -16,8 +18,8 @@ public:
 		share_             = ratio / (1 + ratio);
 	}
 
-	/// Relative. A point that was returned to the yield surface lies on it to round-off, which must not decide between the elastic and
-	/// the plastic tangent with which its next step starts.
+	/// Relative. A point that was returned to the yield surface lies on it to round-off, which must not decide
+	/// between the elastic and the plastic tangent with which its next step starts.
 	static constexpr double yieldTolerance = 1e-9;
 
 	static constexpr std::array<InternalVariable, 1> variables { equivalentPlasticStrain };
@@ -38,8 +40,9 @@ public:
 
 	double young(const std::array<double, 1>&) const { return elastic_.young(); }
 
-	/// Radial return: exact with an associated rule, because the deviator only shrinks. Of the excess over the yield stress, hardening leaves
-	/// the part share_; a return that would pass the residual yield stress ends on it.
+	/// Radial return: exact with an associated rule, because the deviator only shrinks. Of the excess over the
+	/// yield stress, hardening leaves the part share_; a return that would pass the residual yield stress ends on
+	/// it.
 	template <class T> ResponseWith<T, 1> respond(const PrincipalValues<T>& trialStrain, const std::array<T, 1>& internals) const
 	{
 		const double             G      = elastic_.shear();
@@ -49,8 +52,9 @@ public:
 		const T                  yield  = atLeastResidual(T(yield_) + T(hardening_) * internals[0]);
 		const auto               yields = rho > yield * T(1 + yieldTolerance);
 		const T                  end    = T(1 - share_) * yield + T(share_) * rho;
-		const T                  theta  = select(yields, atLeastResidual(end) / rho, T(1)); // remaining share of the trial deviator
-		PrincipalValues<T>       elasticStrain;
+		// Remaining share of the trial deviator.
+		const T            theta = select(yields, atLeastResidual(end) / rho, T(1));
+		PrincipalValues<T> elasticStrain;
 		for (int i = 0; i < 3; ++i)
 			elasticStrain[i] = select(yields, theta * dev[i] + third, trialStrain[i]);
 		ResponseWith<T, 1> r;

@@ -9,15 +9,19 @@
 
 namespace gimpm {
 
-/// Each process has a range of the nodes in the order of their keys, and the cells that are named after them. It holds the points whose domain begins in one of its cells, and while
-/// a step is made copies of all others that reach its nodes and cells: what is summed over points is whole there. Where nothing is said the process is alone with its points: it has
-/// all nodes and cells, what it sums is the sum, and points are numbered as they are in the cloud. So it is also where several processes hold the same points.
+/// Each process has a range of the nodes in the order of their keys, and the cells that are named after them. It holds
+/// the points whose domain begins in one of its cells, and while a step is made copies of all others that reach its
+/// nodes and cells: what is summed over points is whole there. Where nothing is said the process is alone with its
+/// points: it has all nodes and cells, what it sums is the sum, and points are numbered as they are in the cloud. So it
+/// is also where several processes hold the same points.
 struct Division {
 	std::shared_ptr<const Processes> processes = Processes::alone();
-	std::vector<Key>                 first {};  ///< of each process but the first one: where its range begins; they do not fall
-	std::vector<std::int64_t>        id {};     ///< of the own points, in the order of the cloud, rising: the same in whatever process they are
-	std::vector<std::int64_t>        copied {}; ///< of the copies that follow them in the cloud
-	std::vector<std::vector<int>>    lent {};   ///< the own points of which each process has copies, while there are any
+	/// Of each process but the first one: where its range begins; they do not fall.
+	std::vector<Key> first {};
+	/// Of the own points, in the order of the cloud, rising: the same in whatever process they are.
+	std::vector<std::int64_t>     id {};
+	std::vector<std::int64_t>     copied {}; ///< of the copies that follow them in the cloud
+	std::vector<std::vector<int>> lent {};   ///< the own points of which each process has copies, while there are any
 
 	bool isWhole() const { return processes->size() == 1; } ///< all points are here
 
@@ -90,7 +94,8 @@ struct CellLoad {
 	double points;
 };
 
-/// Where the ranges of the processes begin (Division::first) so that their work is about the same: that of a point, and of the nodes that go with it.
+/// Where the ranges of the processes begin (Division::first) so that their work is about the same: that of a point, and
+/// of the nodes that go with it.
 std::vector<Key> cutByWork(std::vector<CellLoad> loads, int processes);
 
 /// By how much the process that has most to do is above the mean of all, as a part of it.

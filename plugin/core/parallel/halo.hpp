@@ -34,7 +34,8 @@ private:
 	const double* next_;
 };
 
-/// Copies of them behind the own ones of the cloud, as long as this lives; none where the process has all points. Whatever columns the cloud has go with them (forColumns).
+/// Copies of them behind the own ones of the cloud, as long as this lives; none where the process has all points.
+/// Whatever columns the cloud has go with them (forColumns).
 template <class Cloud> class Halo {
 public:
 	/// `needed()`: the own points that each process needs.
@@ -101,7 +102,7 @@ private:
 	{
 		if (numbers.empty()) return;
 		MessageReader message(numbers);
-		int          count = 0, k = 0;
+		int           count = 0, k = 0;
 		message.take(count);
 		for (int i = 0; i < count; ++i)
 			message.take(division_.copied.emplace_back());

@@ -16,7 +16,8 @@ struct Message {
 	int           receivedCount;
 };
 
-/// What one of them says to the others. Each function is called by all of them, in the same order; a process that cannot go on ends all.
+/// What one of them says to the others. Each function is called by all of them, in the same order; a process that
+/// cannot go on ends all.
 class Processes {
 public:
 	virtual ~Processes() = default;
@@ -44,7 +45,8 @@ public:
 
 	bool haveSame(std::uint64_t number) const
 	{
-		std::int64_t both[2] = { std::int64_t(number), ~std::int64_t(number) }; // the smallest, and what only the largest is the complement of
+		// The smallest, and what only the largest is the complement of.
+		std::int64_t both[2] = { std::int64_t(number), ~std::int64_t(number) };
 		smallest(both, 2);
 		return both[0] == ~both[1];
 	}

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What several processes know together when each has said its part. All of them call these, in the same order, and come to the same, to the last bit.
+// What several processes know together when each has said its part. All of them call these, in the same order, and come
+// to the same, to the last bit.
 #pragma once
 #include "core/parallel/processes.hpp"
 #include <Eigen/Core>
@@ -76,7 +77,7 @@ inline std::vector<std::vector<double>> exchanged(const Processes& all, const st
 		counts[r] = double(own[r].size());
 	counts = joined(all, counts);
 	std::vector<std::vector<double>> received(size);
-	std::vector<Message>              messages;
+	std::vector<Message>             messages;
 	for (int r = 0; r < size; ++r) {
 		received[r].resize(std::size_t(counts[r * size + rank]));
 		if (r == rank) received[r] = own[r];

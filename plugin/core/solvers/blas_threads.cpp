@@ -9,8 +9,8 @@ extern "C" __attribute__((weak)) void openblas_set_num_threads(int);
 namespace gimpm {
 namespace {
 
-/// Operations of a factorisation above which the threads of the BLAS have enough to do. Beside another program, which keeps
-/// one of two waiting, two take several times as long as one: a gain of a fifth is not worth that.
+/// Operations of a factorisation above which the threads of the BLAS have enough to do. Beside another program, which
+/// keeps one of two waiting, two take several times as long as one: a gain of a fifth is not worth that.
 constexpr double flopsForThreads = 2e10;
 
 } // namespace

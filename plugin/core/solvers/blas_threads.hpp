@@ -16,8 +16,8 @@ private:
 	int before_; // 1 if they are left alone
 };
 
-/// For its lifetime. CHOLMOD opens its own OpenMP threads for every supernode, which costs more than it gains; so do the threads of the BLAS
-/// if the matrix is not large.
+/// For its lifetime. CHOLMOD opens its own OpenMP threads for every supernode, which costs more than it gains; so do
+/// the threads of the BLAS if the matrix is not large.
 class FewerThreads {
 public:
 	/// For a factorisation of so many operations.

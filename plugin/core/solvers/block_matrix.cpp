@@ -6,7 +6,8 @@
 namespace gimpm {
 namespace {
 
-constexpr std::size_t worthwhileInThreads = 100000; ///< numbers: some 50 us, ten times what threads take to begin and to end
+/// Numbers: some 50 us, ten times what threads take to begin and to end.
+constexpr std::size_t worthwhileInThreads = 100000;
 
 }
 
@@ -27,7 +28,8 @@ template <int Dim> BlockMatrix<Dim>::BlockMatrix(const NodeMatrix<Dim>& K, const
 	for (int a = here.first; a < here.second; ++a)
 		for (int c = 0; c < K.codes; ++c) {
 			if (!isThere(a, c)) continue;
-			const bool    isAlone = c == 0 && !isOwn(a); // this block is in no row or column of the own nodes
+			// This block is in no row or column of the own nodes.
+			const bool    isAlone = c == 0 && !isOwn(a);
 			const double* in      = isAlone ? nullptr : K.at(a, c);
 			for (int i = 0; i < Dim; ++i)
 				for (int j = 0; j < Dim; ++j)
@@ -46,7 +48,8 @@ template <int Dim> void BlockMatrix<Dim>::cutIntoSlabs()
 			before = reached;
 		}
 		const auto [low, high] = std::minmax_element(neighbour_.begin() + first_[a], neighbour_.begin() + first_[a + 1]);
-		reached                = *low < a ? nodes() : std::max(reached, *high); // around a periodic grid: no further slabs
+		// Around a periodic grid: no further slabs.
+		reached = *low < a ? nodes() : std::max(reached, *high);
 	}
 	if (reached >= nodes()) slab_.assign(1, 0);
 	slab_.push_back(nodes());

@@ -13,12 +13,12 @@ public:
 
 	BlockMatrix(const NodeMatrix<Dim>&, const FreeDofs&);
 
-	/// Of the nodes `here`, which are numbered from the first one on, what is in the rows and columns of the nodes `own`, whose neighbours they must contain. The other
-	/// rows of a product say nothing.
+	/// Of the nodes `here`, which are numbered from the first one on, what is in the rows and columns of the nodes
+	/// `own`, whose neighbours they must contain. The other rows of a product say nothing.
 	BlockMatrix(const NodeMatrix<Dim>&, const FreeDofs&, const Range& here, const Range& own);
 
-	/// The result does not depend on the number of threads. With two of them it takes less than half as long as the product
-	/// with the same matrix in compressed columns.
+	/// The result does not depend on the number of threads. With two of them it takes less than half as long as the
+	/// product with the same matrix in compressed columns.
 	void multiply(const Eigen::VectorXd& x, Eigen::VectorXd& y) const override;
 
 	Eigen::VectorXd diagonal() const override;

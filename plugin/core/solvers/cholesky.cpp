@@ -8,8 +8,8 @@
 namespace gimpm {
 namespace {
 
-/// Parts of the unknowns: a larger separator costs more, dense as it is, than two threads gain, and so do halves that are
-/// less alike. A cut that parts them evenly is longer, and gains nothing.
+/// Parts of the unknowns: a larger separator costs more, dense as it is, than two threads gain, and so do halves that
+/// are less alike. A cut that parts them evenly is longer, and gains nothing.
 constexpr double mostOfSeparator = 0.03, leastOfHalf = 0.3;
 
 bool isWorthHalving(const Order& order)

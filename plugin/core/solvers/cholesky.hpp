@@ -8,10 +8,11 @@
 
 namespace gimpm {
 
-/// Of matrices given by their upper triangles; entries below are ignored. With an order whose two parts are separated by few, K has blocks A_1, A_2 of the
-/// parts, B_1, B_2 between the separator and them, and C of the separator. The factor of A_h, B_h and C ends with the block L_h, and
-/// L_h L_h^T = C - B_h A_h^-1 B_h^T: both are found at the same time. What is left for the separator is L_1 L_1^T + L_2 L_2^T - C.
-/// The result does not depend on the number of threads.
+/// Of matrices given by their upper triangles; entries below are ignored. With an order whose two parts are separated
+/// by few, K has blocks A_1, A_2 of the parts, B_1, B_2 between the separator and them, and C of the separator. The
+/// factor of A_h, B_h and C ends with the block L_h, and L_h L_h^T = C - B_h A_h^-1 B_h^T: both are found at the same
+/// time. What is left for the separator is L_1 L_1^T + L_2 L_2^T - C. The result does not depend on the number of
+/// threads.
 class Cholesky {
 public:
 	/// Finds the pattern of the factor, in this order; of an empty one, in an order that CHOLMOD looks for.
@@ -24,14 +25,16 @@ public:
 
 	/// Of a matrix with the pattern that was analysed; false if it is not positive definite.
 	bool factorise(const Csc& K);
-	/// A rough inverse of the factor's condition number: the square of its smallest over its largest diagonal entry.
+	/// A rough inverse of the factor's condition number: the square of its smallest over its largest diagonal
+	/// entry.
 	double rcond();
 	bool   solve(const Eigen::VectorXd& b, Eigen::VectorXd& x);
 
 private:
 	struct Half {
 		SupernodalFactor factor;
-		std::vector<int> rows;          ///< numbers in K of those of the half and then of the separator, in the order of elimination
+		/// Numbers in K of those of the half and then of the separator, in the order of elimination.
+		std::vector<int> rows;
 		Csc              K;             ///< of them, in the order of K
 		std::vector<int> source;        ///< of each entry, its place in K
 		Eigen::MatrixXd  last, product; ///< L_h, and L_h L_h^T

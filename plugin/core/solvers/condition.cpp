@@ -4,7 +4,8 @@
 #include "core/solvers/linear_solver.hpp"
 #include <limits>
 
-// Of LAPACK, with the lengths of the texts last. Eigen's templates for the same took the compiler longer than all other solvers together.
+// Of LAPACK, with the lengths of the texts last. Eigen's templates for the same took the compiler longer than all other
+// solvers together.
 extern "C" {
 void dsterf_(const int* size, double* diagonal, double* beside, int* info);
 void dsyev_(
@@ -46,8 +47,8 @@ Eigen::VectorXd startVector(int size)
 	return Eigen::VectorXd::NullaryExpr(size, [](Eigen::Index i) { return 1 + std::sin(double(i * i % 9973) + 1); }).normalized();
 }
 
-/// Largest modulus of an eigenvalue of a symmetric operator, from below: Lanczos' method, which keeps all its vectors orthogonal (a few
-/// dozen), until the largest Ritz value no longer grows.
+/// Largest modulus of an eigenvalue of a symmetric operator, from below: Lanczos' method, which keeps all its vectors
+/// orthogonal (a few dozen), until the largest Ritz value no longer grows.
 template <class Apply> double largestEigenvalue(int size, Apply&& apply)
 {
 	constexpr int    most    = 60;

@@ -9,7 +9,8 @@ namespace {
 
 constexpr const char* notDefinite = "the matrix is not positive definite";
 
-/// Vectors are gone through in parts, side by side in the threads; the parts of a sum are added in their order, whatever the number of threads.
+/// Vectors are gone through in parts, side by side in the threads; the parts of a sum are added in their order,
+/// whatever the number of threads.
 constexpr int partSize = 8192, worthwhileInThreads = 8; ///< the latter parts: see BlockMatrix
 
 template <class F> void forParts(Eigen::Index size, F&& f)
@@ -40,8 +41,8 @@ double dot(const Eigen::VectorXd& a, const Eigen::VectorXd& b)
 
 } // namespace
 
-/// An incomplete Cholesky factor instead of the diagonal takes a third of the iterations, but in 3D computing that factor takes longer than all of
-/// them, and may break down.
+/// An incomplete Cholesky factor instead of the diagonal takes a third of the iterations, but in 3D computing that
+/// factor takes longer than all of them, and may break down.
 ConjugateGradients::ConjugateGradients(const SymmetricOperator& K, const Eigen::VectorXd& b, double tolerance)
         : K_(K), size_(K.norm(b)), tolerance_(tolerance), x_(Eigen::VectorXd::Zero(b.size())) // its square may vanish or overflow
 {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The iterative way through step 4, for bodies whose Cholesky factor is too large: conjugate gradients, preconditioned with the diagonal or with
-// something better.
+// The iterative way through step 4, for bodies whose Cholesky factor is too large: conjugate gradients, preconditioned
+// with the diagonal or with something better.
 #pragma once
 #include "core/solvers/symmetric_operator.hpp"
 #include <string>
@@ -14,14 +14,15 @@ struct Preconditioner {
 	virtual std::string apply(const Eigen::VectorXd& r, Eigen::VectorXd& z) const = 0;
 };
 
-/// K x = b to |b - K x| <= tolerance |b|, with the diagonal as preconditioner until precondition(). A singular K is not told from a regular one if b
-/// lies in its range. The result does not depend on the number of threads.
+/// K x = b to |b - K x| <= tolerance |b|, with the diagonal as preconditioner until precondition(). A singular K is not
+/// told from a regular one if b lies in its range. The result does not depend on the number of threads.
 class ConjugateGradients {
 public:
 	/// K must outlive it.
 	ConjugateGradients(const SymmetricOperator& K, const Eigen::VectorXd& b, double tolerance);
 
-	/// Goes on with it from the x that has been reached; null: with the diagonal again, also where the preconditioner has failed.
+	/// Goes on with it from the x that has been reached; null: with the diagonal again, also where the
+	/// preconditioner has failed.
 	void precondition(const Preconditioner*);
 
 	/// So many iterations at most. Whether it has come to an end.

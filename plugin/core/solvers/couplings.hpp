@@ -17,7 +17,8 @@ class Couplings {
 public:
 	/// Sets up a matrix without blocks. The map must outlive it.
 	void reset(const DofMap&, bool isSymmetric);
-	void mark(const FieldNode& row, const FieldNode& column); ///< and the transposed block: the pattern is symmetric
+	/// And the transposed block: the pattern is symmetric.
+	void mark(const FieldNode& row, const FieldNode& column);
 	void setZero();
 
 	/// To a block that was marked, after setZero(). Threads may add at the same time in different rows.

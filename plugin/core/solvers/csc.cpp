@@ -20,8 +20,9 @@ Eigen::VectorXd GeneralCsc::transposedTimes(const Eigen::VectorXd& x) const { re
 
 GeneralCsc bothTriangles(const Csc& K)
 {
-	const int  n       = K.size();
-	const auto forBoth = [&](auto&& f) { // f(row, column, entry), by rising column of K: so rows rise too in the columns that are filled
+	const int n = K.size();
+	// f(row, column, entry), by rising column of K: so rows rise too in the columns that are filled.
+	const auto forBoth = [&](auto&& f) {
 		for (int c = 0; c < n; ++c)
 			for (int e = K.start[c]; e < K.start[c + 1]; ++e) {
 				f(K.row[e], c, e);

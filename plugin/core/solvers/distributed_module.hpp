@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What the core asks of a library that lets several processes talk and solve together, which it opens only then: nothing of it is known here.
+// What the core asks of a library that lets several processes talk and solve together, which it opens only then:
+// nothing of it is known here.
 #pragma once
 #include "core/parallel/processes.hpp"
 

@@ -160,7 +160,8 @@ bool DistributedSolver::solveAgain(const Eigen::VectorXd& b, Eigen::VectorXd& x)
 	return factor_->solve(solver_, b, x);
 }
 
-/// As one process does it where K is symmetric; where it is not, an incomplete factor would depend on how the nodes are cut.
+/// As one process does it where K is symmetric; where it is not, an incomplete factor would depend on how the nodes are
+/// cut.
 bool DistributedSolver::iterate(Task& task, LinearMethod method)
 {
 	if (!task.isSymmetric) return iterateWithMultigrid(task);

@@ -6,8 +6,9 @@
 
 namespace gimpm {
 
-/// Each process has the rows of its nodes and comes to know the whole x. `direct`: MUMPS. `iterative`, `multigrid` and `automatic`: conjugate gradients as in one process.
-/// Where K is not symmetric all of these are GMRES with multigrid of its symmetric part, which is kept for the solves that follow. What cannot be solved so is solved directly.
+/// Each process has the rows of its nodes and comes to know the whole x. `direct`: MUMPS. `iterative`, `multigrid` and
+/// `automatic`: conjugate gradients as in one process. Where K is not symmetric all of these are GMRES with multigrid
+/// of its symmetric part, which is kept for the solves that follow. What cannot be solved so is solved directly.
 class DistributedSolver {
 public:
 	DistributedSolver();

@@ -19,7 +19,8 @@ struct Cut {
 	double cost    = std::numeric_limits<double>::infinity();
 };
 
-/// How many of the nodes lie in each layer across an axis, and are coupled across the plane below it: from below and from above.
+/// How many of the nodes lie in each layer across an axis, and are coupled across the plane below it: from below and
+/// from above.
 struct Layers {
 	int              lowest;
 	std::vector<int> nodes, fromBelow, fromAbove;

@@ -11,15 +11,15 @@ struct NodeGraph {
 	std::vector<int>       start, neighbours; ///< those of node a: start[a] ... start[a + 1] - 1, without itself
 };
 
-/// Numbers, the first to be eliminated first. Some of them, and some that follow, are two parts which are not coupled to each other; what is left
-/// separates them.
+/// Numbers, the first to be eliminated first. Some of them, and some that follow, are two parts which are not coupled
+/// to each other; what is left separates them.
 struct Order {
 	std::vector<int> numbers;
 	int              first = 0, second = 0; ///< how many there are in the parts
 };
 
-/// Of the nodes, by nested dissection (George, SIAM J. Numer. Anal. 10, 1973): they are parted by a plane across one of the axes; those beside it that are
-/// coupled to the other side come last, and each side is parted in turn.
+/// Of the nodes, by nested dissection (George, SIAM J. Numer. Anal. 10, 1973): they are parted by a plane across one of
+/// the axes; those beside it that are coupled to the other side come last, and each side is parted in turn.
 Order eliminationOrder(const NodeGraph&);
 
 } // namespace gimpm

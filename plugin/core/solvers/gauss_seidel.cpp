@@ -76,7 +76,8 @@ Eigen::VectorXd GaussSeidel::right(const Eigen::VectorXd& b) const
 	return y;
 }
 
-/// Nodes begin ... end - 1 of scaledHalf = S (1 + U)^-1 x. Stored in one go, so that the next node need not wait for single numbers.
+/// Nodes begin ... end - 1 of scaledHalf = S (1 + U)^-1 x. Stored in one go, so that the next node need not wait for
+/// single numbers.
 template <int C> void GaussSeidel::sweepBack(int begin, int end, const double* x) const
 {
 	double *const halves = half_.data(), *const scaledHalves = scaledHalf_.data();

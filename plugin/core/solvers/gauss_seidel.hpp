@@ -6,7 +6,8 @@
 
 namespace gimpm {
 
-/// A symmetric matrix with one number for a pair of nodes, whatever the components of what it is multiplied with: both triangles.
+/// A symmetric matrix with one number for a pair of nodes, whatever the components of what it is multiplied with: both
+/// triangles.
 struct NodePairs {
 	std::vector<double> value;
 	std::vector<int>    first, neighbour; ///< of each node, itself first and then rising
@@ -19,9 +20,10 @@ struct NodePairs {
 	void sort();
 };
 
-/// With A = S K S, S a diagonal matrix of which D = 1 / S^2 becomes ones, and L and U what is below and above it in blocks of nodes, which may be swept side by side, it
-/// is (1 + L)^-1 A (1 + U)^-1: one product an iteration (Eisenstat, SIAM J. Sci. Stat. Comput. 2, 1981), and for a mass a third of the iterations that the diagonal takes.
-/// D may differ from the diagonal of K: it is K + D - diag K of which all this is said.
+/// With A = S K S, S a diagonal matrix of which D = 1 / S^2 becomes ones, and L and U what is below and above it in
+/// blocks of nodes, which may be swept side by side, it is (1 + L)^-1 A (1 + U)^-1: one product an iteration
+/// (Eisenstat, SIAM J. Sci. Stat. Comput. 2, 1981), and for a mass a third of the iterations that the diagonal takes. D
+/// may differ from the diagonal of K: it is K + D - diag K of which all this is said.
 class GaussSeidel : public SymmetricOperator {
 public:
 	/// `scale`: S for `columns` components a node (2, 3, 4, 6 or 9), zero for what is left out. K must outlive it.
@@ -42,10 +44,11 @@ private:
 	template <int C> void   sweepBack(int begin, int end, const double* x) const;
 	template <int C> void   sweepOn(int begin, int end, const double* x, double* y) const;
 
-	const NodePairs&        K_;
-	Eigen::VectorXd         scale_;
-	int                     columns_;
-	mutable Eigen::VectorXd half_, scaledHalf_, other_; // (1 + U)^-1 x, and scaled; the scaled result of the second sweep
+	const NodePairs& K_;
+	Eigen::VectorXd  scale_;
+	int              columns_;
+	// (1 + U)^-1 x, and scaled; the scaled result of the second sweep.
+	mutable Eigen::VectorXd half_, scaledHalf_, other_;
 };
 
 } // namespace gimpm

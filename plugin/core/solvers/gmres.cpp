@@ -6,12 +6,12 @@
 namespace gimpm {
 namespace {
 
-/// Directions that are kept before the iteration starts again from where it is; they take a tenth of the memory of a factor
-/// where GMRES is preferred. Close to failure fewer do not suffice.
+/// Directions that are kept before the iteration starts again from where it is; they take a tenth of the memory of a
+/// factor where GMRES is preferred. Close to failure fewer do not suffice.
 constexpr int kept = 100;
 
-/// Where they do not suffice they have taken as long as a factorisation, and more would hardly: zero-energy modes, as of one point a cell in the
-/// middle of it, make the incomplete factor useless.
+/// Where they do not suffice they have taken as long as a factorisation, and more would hardly: zero-energy modes, as
+/// of one point a cell in the middle of it, make the incomplete factor useless.
 constexpr int maxIterations = 200;
 
 struct NoPivot { };
@@ -20,7 +20,8 @@ struct NoPivot { };
 /// Eigen's IncompleteLUT takes longer than a factorisation.
 class IncompleteLu {
 public:
-	/// Column c of K is row c of its transpose, of which the factors are: L with a diagonal of ones, left of the diagonal, and U.
+	/// Column c of K is row c of its transpose, of which the factors are: L with a diagonal of ones, left of the
+	/// diagonal, and U.
 	explicit IncompleteLu(const GeneralCsc& K) : K_(K), value_(K.value), diagonal_(K.size())
 	{
 		std::vector<int> place(K.size(), -1); // of the entries of row c
@@ -80,7 +81,8 @@ try {
 	const IncompleteLu lu(K);
 	Eigen::Index       made  = maxIterations;
 	double             error = tolerance;
-	// the function behind Eigen::GMRES, which takes an operator of our own without the traits that the class asks for
+	// the function behind Eigen::GMRES, which takes an operator of our own without the traits that the class asks
+	// for
 	Eigen::internal::gmres(Preconditioned { K, lu }, Eigen::VectorXd(b / size), x, Eigen::IdentityPreconditioner(), made, Eigen::Index(kept), error);
 	iterations += int(made);
 	x = size * lu.solve(x);

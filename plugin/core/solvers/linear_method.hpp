@@ -5,8 +5,8 @@
 
 namespace gimpm {
 
-/// `automatic`: iterative where a factor would take much longer, and with multigrid where that takes too many iterations. `multigrid` is the same
-/// from the first iteration on.
+/// `automatic`: iterative where a factor would take much longer, and with multigrid where that takes too many
+/// iterations. `multigrid` is the same from the first iteration on.
 enum class LinearMethod { automatic, direct, iterative, multigrid };
 
 /// How it was solved. `lu`: by pivots, as K is not positive definite, or not symmetric.

@@ -6,8 +6,8 @@
 
 namespace gimpm {
 
-/// The matrix of K x = b on the free degrees of freedom: in compressed columns, in one of two forms, or over nodes, and then compressed when that is
-/// asked for.
+/// The matrix of K x = b on the free degrees of freedom: in compressed columns, in one of two forms, or over nodes, and
+/// then compressed when that is asked for.
 class LinearProblem {
 public:
 	LinearProblem(SymmetricCsc K) : size_(K.size()), isSymmetric_(true), compressed_(std::move(K)) { }
@@ -29,9 +29,10 @@ public:
 	bool                isSymmetric() const { return isSymmetric_; }
 	const SymmetricCsc& symmetric() const { return std::get<SymmetricCsc>(compressed()); }
 	const GeneralCsc&   general() const { return std::get<GeneralCsc>(compressed()); }
-	const NodeProblem*  overNodes() const { return isOfOneField() ? overNodes_.get() : nullptr; } ///< null: only compressed
-	bool                isShared() const { return overNodes_ && !overNodes_->share().isWhole(); }
-	bool                isOfOneField() const { return !overNodes_ || overNodes_->isOfOneField(); }
+	/// Null: only compressed.
+	const NodeProblem* overNodes() const { return isOfOneField() ? overNodes_.get() : nullptr; }
+	bool               isShared() const { return overNodes_ && !overNodes_->share().isWhole(); }
+	bool               isOfOneField() const { return !overNodes_ || overNodes_->isOfOneField(); }
 
 	/// NodeProblem::ordering; empty where nodes are not known.
 	Order ordering() const { return overNodes_ ? overNodes_->ordering() : Order(); }

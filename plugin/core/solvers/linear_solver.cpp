@@ -15,19 +15,19 @@ namespace gimpm {
 namespace {
 
 /// Operations of the factorisation for each stored entry of K above which an iterative solver is preferred. The number
-/// grows with the unknowns in 3D, with their square root in 2D; so does the number of conjugate gradients' iterations, with
-/// the cube and the square root. This is well past the number where both take as long, because the direct solver is the one
-/// that finds singular matrices and is not slowed down by ill-conditioned ones.
+/// grows with the unknowns in 3D, with their square root in 2D; so does the number of conjugate gradients' iterations,
+/// with the cube and the square root. This is well past the number where both take as long, because the direct solver
+/// is the one that finds singular matrices and is not slowed down by ill-conditioned ones.
 constexpr double worthwhileFlops = 1e4;
 
-/// What the places of the nodes say of it must be beyond doubt: it may be less than half of what the analysis finds, which
-/// takes longer than the decision is worth.
+/// What the places of the nodes say of it must be beyond doubt: it may be less than half of what the analysis finds,
+/// which takes longer than the decision is worth.
 constexpr double safetyFactor = 2;
 
 bool isTooLarge(const LinearProblem& K) { return K.overNodes() && K.overNodes()->needsMoreFlopsPerEntry(safetyFactor * worthwhileFlops); }
 
-/// Unknowns from which their order is sought by dissection of the grid: there CHOLMOD's own order takes longer to find, and
-/// is no better.
+/// Unknowns from which their order is sought by dissection of the grid: there CHOLMOD's own order takes longer to find,
+/// and is no better.
 constexpr int worthDissecting = 4000;
 
 Order ordering(const LinearProblem& K)
@@ -135,7 +135,8 @@ bool LinearSolver::prefersIterative(const LinearProblem& K)
 {
 	if (isTooLarge(K)) return true;
 	const double flops = analyse(K).flops;
-	return !direct_->cholesky.isAnalysed() || flops > worthwhileFlops * double(K.stored().row.size()); // no factor: it is too large for CHOLMOD
+	// No factor: it is too large for CHOLMOD.
+	return !direct_->cholesky.isAnalysed() || flops > worthwhileFlops * double(K.stored().row.size());
 }
 
 bool LinearSolver::solveIteratively(const LinearProblem& K, const Eigen::VectorXd& b, Eigen::VectorXd& x, double tolerance, LinearMethod method)
@@ -170,12 +171,14 @@ LinearSolver::Status LinearSolver::solve(const LinearProblem& K, const Eigen::Ve
 	return solve(K, b, x);
 }
 
-/// Whether a factor is worthwhile is left to the places of the nodes: an analysis would need the whole matrix in one process.
+/// Whether a factor is worthwhile is left to the places of the nodes: an analysis would need the whole matrix in one
+/// process.
 LinearSolver::Status LinearSolver::solveTogether(const LinearProblem& K, const Eigen::VectorXd& b, Eigen::VectorXd& x, LinearMethod method, double tolerance)
 {
 	if (!together_) together_.reset(new DistributedSolver);
 	if (method == LinearMethod::automatic) {
-		std::int64_t isLarge = K.overNodes()->needsMoreFlopsPerEntry(worthwhileFlops); // by the blocks that each of them knows
+		// By the blocks that each of them knows.
+		std::int64_t isLarge = K.overNodes()->needsMoreFlopsPerEntry(worthwhileFlops);
 		K.overNodes()->share().processes.smallest(&isLarge, 1);
 		if (!isLarge) method = LinearMethod::direct;
 	}

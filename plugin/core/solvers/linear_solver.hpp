@@ -10,9 +10,10 @@ namespace gimpm {
 class DistributedSolver;
 class NodeSolver;
 
-/// Direct solver: supernodal Cholesky (CHOLMOD), and LU with pivoting for a matrix that is not symmetric (MUMPS; UMFPACK judges what MUMPS
-/// refuses) or not positive definite (UMFPACK). The symbolic analysis is repeated only when the pattern changes. On demand conjugate gradients
-/// (alone or with multigrid) or, for a matrix that is not symmetric, GMRES. One object serves one thread.
+/// Direct solver: supernodal Cholesky (CHOLMOD), and LU with pivoting for a matrix that is not symmetric (MUMPS;
+/// UMFPACK judges what MUMPS refuses) or not positive definite (UMFPACK). The symbolic analysis is repeated only when
+/// the pattern changes. On demand conjugate gradients (alone or with multigrid) or, for a matrix that is not symmetric,
+/// GMRES. One object serves one thread.
 class LinearSolver {
 public:
 	using Status = SolverStatus;
@@ -25,11 +26,13 @@ public:
 	/// K x = b. On `singular` (a pivot is lost in round-off, whatever the scale of its row) x is meaningless.
 	Status solve(const LinearProblem& K, const Eigen::VectorXd& b, Eigen::VectorXd& x);
 
-	/// The same by the given method; where that is iterative, to |b - K x| <= tolerance |b|. What cannot be solved so is solved directly. A
-	/// singular matrix whose range contains b is not found so. What several processes share they solve together.
+	/// The same by the given method; where that is iterative, to |b - K x| <= tolerance |b|. What cannot be solved
+	/// so is solved directly. A singular matrix whose range contains b is not found so. What several processes
+	/// share they solve together.
 	Status solve(const LinearProblem& K, const Eigen::VectorXd& b, Eigen::VectorXd& x, LinearMethod, double tolerance);
 
-	/// Iteratively, whatever it takes; false, with x meaningless, if it fails. Multigrid is for symmetric matrices over nodes.
+	/// Iteratively, whatever it takes; false, with x meaningless, if it fails. Multigrid is for symmetric matrices
+	/// over nodes.
 	bool solveIteratively(const LinearProblem& K, const Eigen::VectorXd& b, Eigen::VectorXd& x, double tolerance, LinearMethod = LinearMethod::iterative);
 
 	/// Whether `automatic` stands for `iterative`.
@@ -42,7 +45,8 @@ public:
 		return isAlwaysIterative(method) || (method == LinearMethod::automatic && prefersIterative(K));
 	}
 
-	/// Size of the factor of K, or of the two of LU, if its diagonal can be kept for the pivots, and operations that they take.
+	/// Size of the factor of K, or of the two of LU, if its diagonal can be kept for the pivots, and operations
+	/// that they take.
 	struct FactorSize {
 		double entries, flops;
 	};

@@ -12,10 +12,10 @@ public:
 	Lu(const Lu&)            = delete;
 	Lu& operator=(const Lu&) = delete;
 
-	/// False if K is singular to working precision: a pivot below `smallestPivot` of the largest. With an ordering of rows and columns that
-	/// keeps the factor sparse, pivots are taken from the diagonal where they are large enough, and it holds for all matrices that follow until
-	/// forget(): MUMPS factorises it, and where that finds no good pivots, UMFPACK does and judges them. Without (null) UMFPACK looks at K for how
-	/// to order it.
+	/// False if K is singular to working precision: a pivot below `smallestPivot` of the largest. With an ordering
+	/// of rows and columns that keeps the factor sparse, pivots are taken from the diagonal where they are large
+	/// enough, and it holds for all matrices that follow until forget(): MUMPS factorises it, and where that finds
+	/// no good pivots, UMFPACK does and judges them. Without (null) UMFPACK looks at K for how to order it.
 	bool factorise(const Csc& K, const int* ordering, double smallestPivot);
 
 	/// K x = b or, transposed, K^T x = b, for the matrix of the last factorise(), which must still be as it was.

@@ -7,7 +7,8 @@
 
 namespace gimpm {
 
-/// Of matrices with a symmetric pattern and a diagonal of about one. The pattern is analysed once, for all matrices that have it.
+/// Of matrices with a symmetric pattern and a diagonal of about one. The pattern is analysed once, for all matrices
+/// that have it.
 class MultifrontalLu {
 public:
 	/// With an ordering of rows and columns: the number of each in K.
@@ -16,8 +17,8 @@ public:
 	MultifrontalLu(const MultifrontalLu&)            = delete;
 	MultifrontalLu& operator=(const MultifrontalLu&) = delete;
 
-	/// Of a matrix with the pattern that was analysed. False if a row that is left for a pivot is below `smallestRow` of the largest of K, or if
-	/// the memory does not suffice.
+	/// Of a matrix with the pattern that was analysed. False if a row that is left for a pivot is below
+	/// `smallestRow` of the largest of K, or if the memory does not suffice.
 	bool factorise(const Csc& K, double smallestRow);
 
 	/// K x = b or, transposed, K^T x = b, for the matrix of the last factorise(), which must still be as it was.

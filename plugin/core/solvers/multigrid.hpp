@@ -6,8 +6,9 @@
 
 namespace gimpm {
 
-/// Of a symmetric matrix, which it keeps: it goes on serving those that follow, as long as they have the same unknowns and are not too different. Where processes share the
-/// matrix all of them call each function, and it has the rows of this one.
+/// Of a symmetric matrix, which it keeps: it goes on serving those that follow, as long as they have the same unknowns
+/// and are not too different. Where processes share the matrix all of them call each function, and it has the rows of
+/// this one.
 class Multigrid : public Preconditioner {
 public:
 	/// The file of the library, by default mpm_petsc.so beside the one that holds the core.

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What the core asks of a library with algebraic multigrid, which it opens only when that is needed: nothing of it is known here.
+// What the core asks of a library with algebraic multigrid, which it opens only when that is needed: nothing of it is
+// known here.
 #pragma once
 
 namespace gimpm {
 
-/// A symmetric positive definite matrix over nodes, in compressed rows. All of it must outlive the hierarchy that is made of it.
+/// A symmetric positive definite matrix over nodes, in compressed rows. All of it must outlive the hierarchy that is
+/// made of it.
 struct MultigridMatrix {
 	int           dim;      ///< components a node
 	int           rows;     ///< dim times the nodes; where processes share the matrix, those of this one
@@ -13,8 +15,9 @@ struct MultigridMatrix {
 	const int*    start;    ///< of each row, and the end of the last one
 	const int*    column;   ///< rising, among all; rows of a node have the same ones, by whole blocks
 	const double* value;
-	const double* position; ///< dim numbers a node, for the rigid motions of the body; null: only translations leave it without stress
-	void*         product;  ///< for multiply()
+	/// Dim numbers a node, for the rigid motions of the body; null: only translations leave it without stress.
+	const double* position;
+	void*         product;                                       ///< for multiply()
 	void (*multiply)(void* product, const double* x, double* y); ///< y = K x, faster than by rows
 };
 

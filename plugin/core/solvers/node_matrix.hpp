@@ -8,11 +8,12 @@
 
 namespace gimpm {
 
-/// Blocks of Dim x Dim for a node a and the nodes b >= a (in key order) at most two cells away along each axis: GIMP functions and
-/// ghost faces reach no further. Block (a, b) is K_ab row by row. In a periodic grid the order is that before nodes are taken as the same, so
-/// that b may have the lower number, and on a small one two blocks may belong to the same nodes, and add up. In a grid of several cell sizes
-/// there are blocks between nodes of the same level. Of a matrix that is not symmetric, what K_ba^T differs from K_ab by is stored
-/// beside: who adds something symmetric need not know of it.
+/// Blocks of Dim x Dim for a node a and the nodes b >= a (in key order) at most two cells away along each axis: GIMP
+/// functions and ghost faces reach no further. Block (a, b) is K_ab row by row. In a periodic grid the order is that
+/// before nodes are taken as the same, so that b may have the lower number, and on a small one two blocks may belong to
+/// the same nodes, and add up. In a grid of several cell sizes there are blocks between nodes of the same level. Of a
+/// matrix that is not symmetric, what K_ba^T differs from K_ab by is stored beside: who adds something symmetric need
+/// not know of it.
 template <int Dim> class NodeMatrix {
 public:
 	static constexpr int width = 5;                             ///< offsets -2 ... 2 per axis
@@ -25,13 +26,15 @@ public:
 	/// A range of nodes, as first one and end.
 	using Range = std::pair<int, int>;
 
-	/// Sets up a zero matrix for these nodes (sorted). Of one that several processes share only the rows and columns of the nodes `own` are wanted.
+	/// Sets up a zero matrix for these nodes (sorted). Of one that several processes share only the rows and
+	/// columns of the nodes `own` are wanted.
 	void reset(const std::vector<Key>& nodes, bool isSymmetric = true, const Grid<Dim>& = {});
 	void reset(const std::vector<Key>& nodes, bool isSymmetric, const Grid<Dim>&, const Range& own);
 	void setZero();
 	void multiplyBy(double factor);
 
-	/// Whether there are blocks of this node, which rows or columns that are wanted may need. Others are neither read nor written.
+	/// Whether there are blocks of this node, which rows or columns that are wanted may need. Others are neither
+	/// read nor written.
 	bool keeps(int node) const { return unsigned(node) - unsigned(kept_.first) < unsigned(kept_.second - kept_.first); }
 
 	double*                 at(int node, int code) { return values_.data() + place(node, code); }
@@ -48,8 +51,9 @@ public:
 	double*       skewAt(int node, int code) { return skew_.data() + place(node, code); }
 	const double* skewAt(int node, int code) const { return skew_.data() + place(node, code); }
 
-	/// Adds to K_ab, not to K_ba, of two nodes in any order; `code` is that of the offset b - a, negative where b is the lower one. A symmetric
-	/// matrix keeps only what is for the lower node's row. Of nodes without blocks nothing is added.
+	/// Adds to K_ab, not to K_ba, of two nodes in any order; `code` is that of the offset b - a, negative where b
+	/// is the lower one. A symmetric matrix keeps only what is for the lower node's row. Of nodes without blocks
+	/// nothing is added.
 	void add(int a, int b, int code, const Mat<Dim>& ab);
 
 	/// y += K x, for nodal vectors of Dim components a node; right in the rows that are wanted.

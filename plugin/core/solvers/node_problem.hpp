@@ -28,10 +28,13 @@ struct NodeProblem {
 	/// Of several fields there are no blocks, rows and unknowns, and it is not known how large it is.
 	virtual bool isOfOneField() const = 0;
 
-	/// Of a symmetric matrix, for vectors over all degrees of freedom, with zeros for the held ones; where processes share the matrix, for the rows of this one.
-	virtual std::unique_ptr<SymmetricOperator> blocks() const                           = 0;
-	virtual Eigen::VectorXd                    expanded(const Eigen::VectorXd& x) const = 0; ///< of the free degrees of freedom
-	virtual Eigen::VectorXd                    ofFreeDofs(Eigen::VectorXd x) const      = 0; ///< the way back; all processes call it
+	/// Of a symmetric matrix, for vectors over all degrees of freedom, with zeros for the held ones; where
+	/// processes share the matrix, for the rows of this one.
+	virtual std::unique_ptr<SymmetricOperator> blocks() const = 0;
+	/// Of the free degrees of freedom.
+	virtual Eigen::VectorXd expanded(const Eigen::VectorXd& x) const = 0;
+	/// The way back; all processes call it.
+	virtual Eigen::VectorXd ofFreeDofs(Eigen::VectorXd x) const = 0;
 
 	/// For multigrid; where processes share the matrix, the rows of this one.
 	virtual std::optional<NodeRows> rows() const     = 0;
@@ -41,7 +44,8 @@ struct NodeProblem {
 	/// Whether a factor takes more operations for each entry of a triangle, by the places of the nodes alone.
 	virtual bool needsMoreFlopsPerEntry(double flops) const = 0;
 
-	/// Of the free degrees of freedom, the first to be eliminated first: such that a factor has few entries, whatever the matrix's values.
+	/// Of the free degrees of freedom, the first to be eliminated first: such that a factor has few entries,
+	/// whatever the matrix's values.
 	virtual Order ordering() const = 0;
 };
 

@@ -103,7 +103,8 @@ private:
 			if (K_.isSymmetric() && a != b && isOwn(b)) f(b, Block { a, true, values, nullptr, false, true });
 		});
 	}
-	bool hasOrder() const { return !K_.isPeriodic() && !couplings_; } ///< columns rise, because lower nodes are visited first
+	/// Columns rise, because lower nodes are visited first.
+	bool hasOrder() const { return !K_.isPeriodic() && !couplings_; }
 
 	void findBlocks()
 	{

@@ -8,7 +8,8 @@
 
 namespace gimpm {
 
-/// Rows of the nodes that are not held altogether, both triangles, by whole blocks. A held component has only its diagonal.
+/// Rows of the nodes that are not held altogether, both triangles, by whole blocks. A held component has only its
+/// diagonal.
 struct NodeRows {
 	int                 dim;
 	int                 all;   ///< rows, of all processes
@@ -30,8 +31,8 @@ struct NodeRows {
 /// Nothing if there are more entries than an int can count. Those of this process.
 template <int Dim> std::optional<NodeRows> nodeRows(const NodeMatrix<Dim>&, const FreeDofs&, const NodeShare&, const Couplings* = nullptr);
 
-/// Why a library cannot be given the rows, of several processes all of them; empty if it can. `hasPositions`: whether there are any, which a process without rows hears
-/// from the others.
+/// Why a library cannot be given the rows, of several processes all of them; empty if it can. `hasPositions`: whether
+/// there are any, which a process without rows hears from the others.
 std::string obstacleTo(const std::optional<NodeRows>&, const NodeShare&, bool& hasPositions);
 
 /// What rows have that there are none of, where other processes have some.

@@ -9,7 +9,8 @@
 namespace gimpm {
 namespace {
 
-/// A body in which the diagonal has failed stays as it is, though its nodes change: so many times it is not tried again.
+/// A body in which the diagonal has failed stays as it is, though its nodes change: so many times it is not tried
+/// again.
 constexpr int memory = 8;
 
 } // namespace

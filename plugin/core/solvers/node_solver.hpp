@@ -6,10 +6,12 @@
 
 namespace gimpm {
 
-/// Multigrid is kept for the solves that follow, until they need half as many iterations again as the first one, or have other unknowns.
+/// Multigrid is kept for the solves that follow, until they need half as many iterations again as the first one, or
+/// have other unknowns.
 class NodeSolver {
 public:
-	/// K x = b to |b - K x| <= tolerance |b|. Empty, or why it fails. The result does not depend on the number of threads.
+	/// K x = b to |b - K x| <= tolerance |b|. Empty, or why it fails. The result does not depend on the number of
+	/// threads.
 	std::string solve(const NodeProblem&, const Eigen::VectorXd& b, double tolerance, LinearMethod, Eigen::VectorXd& x, SolverTimes&, IterativeEffort&);
 
 private:

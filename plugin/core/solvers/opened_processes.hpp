@@ -6,8 +6,8 @@
 
 namespace gimpm {
 
-/// The library is opened, and all processes agree on the instructions that each of them has. Null, with the reason, where they
-/// cannot be found. All of them call this.
+/// The library is opened, and all processes agree on the instructions that each of them has. Null, with the reason,
+/// where they cannot be found. All of them call this.
 std::shared_ptr<const Processes> openProcesses(std::string& reason);
 
 } // namespace gimpm

@@ -5,7 +5,8 @@
 namespace gimpm {
 namespace {
 
-/// Calls f(row, column, value) for the entries of the free rows and columns. Nodes are taken in their order, so the rows of each column rise.
+/// Calls f(row, column, value) for the entries of the free rows and columns. Nodes are taken in their order, so the
+/// rows of each column rise.
 template <int Dim, class F> void forFreeEntries(const NodeMatrix<Dim>& K, const FreeDofs& dofs, F&& f)
 {
 	for (int a = 0; a < K.nodes(); ++a)
@@ -138,8 +139,8 @@ void sortColumns(Csc& K)
 	K.value.resize(end);
 }
 
-/// In any order, and several entries in one place: nodes beyond the sides of a periodic grid have lower numbers, masters
-/// and nodes that are coupled may have any.
+/// In any order, and several entries in one place: nodes beyond the sides of a periodic grid have lower numbers,
+/// masters and nodes that are coupled may have any.
 template <int Dim> void reduceUnordered(const NodeMatrix<Dim>& K, const FreeDofs& dofs, const Couplings* couplings, SymmetricCsc& out)
 {
 	fill(out, dofs.count, [&](auto&& f) {
@@ -163,8 +164,9 @@ template <int Dim> void reduce(const NodeMatrix<Dim>& K, const FreeDofs& dofs, S
 			if (dofs.number[Dim * a + i] < 0) continue;
 			for (int c = 0; c < NodeMatrix<Dim>::codes; ++c) {
 				if (!K.used(a, c)) continue;
-				const int     b = K.neighbour(a, c);
-				const double* k = K.at(a, c) + i * Dim; // row i of K_ab is the part of this column in block (b, a)
+				const int b = K.neighbour(a, c);
+				// Row i of K_ab is the part of this column in block (b, a).
+				const double* k = K.at(a, c) + i * Dim;
 				for (int j = b == a ? i : 0; j < Dim; ++j)
 					if (dofs.number[Dim * b + j] >= 0) {
 						out.row.push_back(dofs.number[Dim * b + j]);

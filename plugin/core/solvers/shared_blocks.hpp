@@ -7,8 +7,8 @@
 
 namespace gimpm {
 
-/// A product needs what other processes have at the neighbours of the own nodes: they tell each other before it. Each pair of own nodes is read once, as in one process,
-/// and each pair of an own node and another one by both processes.
+/// A product needs what other processes have at the neighbours of the own nodes: they tell each other before it. Each
+/// pair of own nodes is read once, as in one process, and each pair of an own node and another one by both processes.
 template <int Dim> class SharedBlocks : public SymmetricOperator {
 public:
 	/// With vectors of Dim components for each own node. Its processes must outlive it.
@@ -17,14 +17,16 @@ public:
 	void            multiply(const Eigen::VectorXd& x, Eigen::VectorXd& y) const override;
 	Eigen::VectorXd diagonal() const override;
 	double          norm(const Eigen::VectorXd& x) const override;
-	void            complete(double* sums, int count) const override; ///< the same in all processes, to the last bit
+	/// The same in all processes, to the last bit.
+	void complete(double* sums, int count) const override;
 
 private:
 	using Range = typename NodeMatrix<Dim>::Range;
 
 	/// With another process.
 	struct Border {
-		std::vector<int> own, others; ///< nodes that the one needs of the other, which both know from their own rows
+		/// Nodes that the one needs of the other, which both know from their own rows.
+		std::vector<int> own, others;
 		Eigen::VectorXd  sent, received;
 	};
 
@@ -32,10 +34,11 @@ private:
 	void         findBorders(const NodeMatrix<Dim>&, const Couplings*);
 	void         fetch(const Eigen::VectorXd& x) const;
 
-	const NodeShare               share_; // of its own: multigrid goes on with it in later steps
-	Range                         here_;  ///< own nodes and their neighbours, with what is between them
-	BlockMatrix<Dim>              blocks_;
-	std::vector<MatrixEntry>      entries_; ///< of couplings, in the rows of own nodes, by places among those that are here
+	const NodeShare  share_; // of its own: multigrid goes on with it in later steps
+	Range            here_;  ///< own nodes and their neighbours, with what is between them
+	BlockMatrix<Dim> blocks_;
+	/// Of couplings, in the rows of own nodes, by places among those that are here.
+	std::vector<MatrixEntry>      entries_;
 	mutable std::map<int, Border> borders_; ///< by process
 	mutable Eigen::VectorXd       x_, y_;   ///< of the nodes that are here
 };

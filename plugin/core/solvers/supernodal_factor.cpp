@@ -41,7 +41,8 @@ void SupernodalFactor::analyse(const Csc& K, std::vector<int> order, int last)
 {
 	cholmod_sparse A = upper(K);
 	forget();
-	common_.nmethods   = order.empty() ? 0 : 1; // its default is AMD, and METIS if that is not good; its first method is the given order
+	// Its default is AMD, and METIS if that is not good; its first method is the given order.
+	common_.nmethods   = order.empty() ? 0 : 1;
 	common_.supernodal = last == 0 ? CHOLMOD_AUTO : CHOLMOD_SUPERNODAL;
 	for (const bool postorder : { true, false }) { // which the last ones survive if all before them are connected
 		common_.postorder = postorder;

@@ -14,11 +14,12 @@ public:
 	SupernodalFactor(const SupernodalFactor&)            = delete;
 	SupernodalFactor& operator=(const SupernodalFactor&) = delete;
 
-	/// Finds the pattern of the factor, with rows and columns in the given order; of none, in one that CHOLMOD looks for. The last ones, so many as
-	/// lastBlock() will be asked for, stay where they are.
-	void   analyse(const Csc& K, std::vector<int> order = {}, int last = 0);
-	void   forget() { cholmod_free_factor(&factor_, &common_); }
-	bool   isAnalysed() const { return factor_; } ///< not before analyse(), nor if the factor would be too large for CHOLMOD
+	/// Finds the pattern of the factor, with rows and columns in the given order; of none, in one that CHOLMOD
+	/// looks for. The last ones, so many as lastBlock() will be asked for, stay where they are.
+	void analyse(const Csc& K, std::vector<int> order = {}, int last = 0);
+	void forget() { cholmod_free_factor(&factor_, &common_); }
+	/// Not before analyse(), nor if the factor would be too large for CHOLMOD.
+	bool   isAnalysed() const { return factor_; }
 	double entries() const { return common_.lnz; }
 	double flops() const { return common_.fl; }
 	/// Of rows and columns: the number of each in K.
@@ -26,7 +27,8 @@ public:
 
 	/// Of a matrix with the pattern that was analysed; false if it is not positive definite.
 	bool factorise(const Csc& K);
-	/// A rough inverse of the factor's condition number: the square of its smallest over its largest diagonal entry.
+	/// A rough inverse of the factor's condition number: the square of its smallest over its largest diagonal
+	/// entry.
 	double rcond() { return cholmod_rcond(factor_, &common_); }
 	bool   solve(const Eigen::VectorXd& b, Eigen::VectorXd& x) { return solve(CHOLMOD_A, b, x); }
 

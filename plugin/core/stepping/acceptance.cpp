@@ -38,8 +38,8 @@ template <int Dim> void updatePoints(PointCloud<Dim>& cloud, const StepSystem<Di
 	report.clampedDomains    = int(division.sum(std::count(clamped.begin(), clamped.begin() + division.ownOf(clamped.size()), true)));
 }
 
-/// Equilibrium may have been found where no state can be: a point that hardly anything held has left the grid, or has become so flat that
-/// numbers do not tell its size. Says so, or nothing.
+/// Equilibrium may have been found where no state can be: a point that hardly anything held has left the grid, or has
+/// become so flat that numbers do not tell its size. Says so, or nothing.
 template <int Dim> std::string impossibleState(const PointCloud<Dim>& cloud, int points, const Grid<Dim>& grid)
 {
 	const double limit = Grid<Dim>::indexLimit * grid.cellSize;
@@ -116,7 +116,7 @@ template <int Dim> bool accept(const StepSystem<Dim>& system, PointCloud<Dim>& c
 }
 
 #define GIMPM_INSTANTIATE(Dim)                                                                                                                                 \
-	template void askForRefusals(const StepSystem<Dim>&, const Eigen::VectorXd&, StepReport&);                                                                   \
+	template void askForRefusals(const StepSystem<Dim>&, const Eigen::VectorXd&, StepReport&);                                                             \
 	template bool accept(const StepSystem<Dim>&, PointCloud<Dim>&, const Load<Dim>&, const Eigen::VectorXd&, StepReport&);
 GIMPM_INSTANTIATE(2)
 GIMPM_INSTANTIATE(3)

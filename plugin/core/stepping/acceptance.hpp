@@ -11,8 +11,9 @@ template <int Dim> void askForRefusals(const StepSystem<Dim>&, const Eigen::Vect
 /// An error above its tolerance makes the step fail. The report says so.
 void judge(const LocalError&, StepReport&);
 
-/// Steps 5 and 6 of the method: the points take the displacements over, and the terms and walls what they remember; reactions of what lies behind walls and of walls are
-/// added. If a point cannot be where it would be the report says so, and nothing has changed.
+/// Steps 5 and 6 of the method: the points take the displacements over, and the terms and walls what they remember;
+/// reactions of what lies behind walls and of walls are added. If a point cannot be where it would be the report says
+/// so, and nothing has changed.
 template <int Dim> bool accept(const StepSystem<Dim>&, PointCloud<Dim>&, const Load<Dim>&, const Eigen::VectorXd& d, StepReport&);
 
 } // namespace gimpm

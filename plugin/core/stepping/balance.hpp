@@ -15,8 +15,9 @@ struct Balance {
 
 	/// Of one field.
 	struct Part {
-		double size = 0, reference = 0, vanishing = 0; ///< |residual|; forces that it is compared with; what is round-off
-		int    worst = -1;                             ///< unknown
+		/// |residual|; forces that it is compared with; what is round-off.
+		double size = 0, reference = 0, vanishing = 0;
+		int    worst = -1; ///< unknown
 	};
 	std::vector<Part> fields {}; ///< all, in their order; empty where there are displacements alone
 };
@@ -82,19 +83,20 @@ public:
 	/// The one at the start of the step: forces of this size are its scale to the end.
 	void begin(const Balance&);
 
-	/// The one with which prescribed displacements entered: no more than they can cause by themselves, for points that other loads have nearly
-	/// turned inside out resist with any force.
-	/// `caused`: what prescribed growth of several fields causes.
+	/// The one with which prescribed displacements entered: no more than they can cause by themselves, for points
+	/// that other loads have nearly turned inside out resist with any force. `caused`: what prescribed growth of
+	/// several fields causes.
 	void enter(const Balance&, const Eigen::VectorXd& caused);
 
-	/// |residual| / |external forces + reactions|. Where both end at zero, the residual is compared with the forces at the start of the
-	/// step, as in unloading, or with those that prescribed displacements cause at first, as in a rigid motion; and it is zero where it is
-	/// round-off of stresses that balance each other, at an iterate that a solve has led to.
-	/// Of several fields that which is least in balance counts. Others than displacements are compared with the sizes of
-	/// all that enters or leaves at the nodes.
+	/// |residual| / |external forces + reactions|. Where both end at zero, the residual is compared with the forces at
+	/// the start of the step, as in unloading, or with those that prescribed displacements cause at first, as in a
+	/// rigid motion; and it is zero where it is round-off of stresses that balance each other, at an iterate that a
+	/// solve has led to. Of several fields that which is least in balance counts. Others than displacements are
+	/// compared with the sizes of all that enters or leaves at the nodes.
 	double relative(const Balance&, bool isSolved) const;
 
-	/// What round-off of the displacements d and of the strains at the start of the step leaves of any residual [N].
+	/// What round-off of the displacements d and of the strains at the start of the step leaves of any residual
+	/// [N].
 	double roundOff(const Eigen::VectorXd& d) const;
 
 private:

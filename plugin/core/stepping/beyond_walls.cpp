@@ -6,7 +6,8 @@
 namespace gimpm {
 namespace {
 
-/// The patches that walls cut off, with their points; their nodes behind walls follow the others, each patch with its own.
+/// The patches that walls cut off, with their points; their nodes behind walls follow the others, each patch with its
+/// own.
 template <int Dim> struct CutPatches {
 	struct Node {
 		Index<Dim> nearest; ///< node in front of the wall
@@ -65,7 +66,8 @@ private:
 			points.append(system.points, p);
 		}
 	}
-	/// The nearest node in front of walls lies on the wall: the cells on its side are reached, their neighbours are not.
+	/// The nearest node in front of walls lies on the wall: the cells on its side are reached, their neighbours are
+	/// not.
 	static Node behind(const StepSystem<Dim>& system, const Patch<Dim>& patch, int hidden, int count)
 	{
 		const Index<Dim> place   = along(patch, hidden);
@@ -94,9 +96,10 @@ template <int Dim> int ownerOf(const typename CutPatches<Dim>::Node& node, int a
 /// Adds forces at the nodes behind walls to the reactions, by the patches that each process counts.
 template <int Dim> void addForces(const CutPatches<Dim>& cut, const StepSystem<Dim>& system, const Eigen::VectorXd& force, StepReport& report)
 {
-	const auto&       boundary = system.model.boundary;
-	const Division&   division = *system.model.division;
-	const std::size_t boxes = boundary.boxes().size(), told = report.reactions.size(); // that of an axis may have been taken off
+	const auto&     boundary = system.model.boundary;
+	const Division& division = *system.model.division;
+	// That of an axis may have been taken off.
+	const std::size_t boxes = boundary.boxes().size(), told = report.reactions.size();
 	report.openReactions.resize(boundary.open().size(), Vec3::Zero());
 	std::vector<Vec3> sums(boxes + boundary.open().size(), Vec3::Zero());
 	if (division.processes->rank() == 0) { // who brings along what there is already

@@ -6,9 +6,10 @@
 
 namespace gimpm {
 
-/// A domain that has outgrown a wall has a share in nodes behind it. They are left out of the system, which amounts to holding them in
-/// place in all directions. Adds the forces that hold them to the reactions of the walls, so that reactions and loads are in balance.
-/// A component along which a wall's own nodes are free goes to the box that makes the wall, or to the open box.
+/// A domain that has outgrown a wall has a share in nodes behind it. They are left out of the system, which amounts to
+/// holding them in place in all directions. Adds the forces that hold them to the reactions of the walls, so that
+/// reactions and loads are in balance. A component along which a wall's own nodes are free goes to the box that makes
+/// the wall, or to the open box.
 template <int Dim> void addReactionsBeyondWalls(const StepSystem<Dim>&, const PointCloud<Dim>&, const Load<Dim>&, const Eigen::VectorXd& d, StepReport&);
 
 /// The same for their inertia in a step in time, when the motion has taken it over.

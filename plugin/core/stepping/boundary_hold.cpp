@@ -52,8 +52,9 @@ private:
 	struct Gap {
 		double now, first;
 
-		/// Half a cell away the soil has taken part in 95 % of the movement, and soon it takes part in less than half of it. Soil that was about as far
-		/// from the beginning, as beside the crest of an embankment, is not lost.
+		/// Half a cell away the soil has taken part in 95 % of the movement, and soon it takes part in less
+		/// than half of it. Soil that was about as far from the beginning, as beside the crest of an
+		/// embankment, is not lost.
 		bool hasOpened() const { return now > 0.5 + 1e-9 && now > std::max(first, 0.) + 0.25; }
 	};
 
@@ -69,8 +70,8 @@ private:
 		return sign * (grid.imageNear(x[axis] - grid.origin[axis], front, axis) / h - front * (grid.cellSize / h));
 	}
 
-	/// Of soil that is not near only what has been in the first cell counts. Straight before a node is what lies within a quarter of a cell beside it:
-	/// soil further out hangs on to other nodes too.
+	/// Of soil that is not near only what has been in the first cell counts. Straight before a node is what lies
+	/// within a quarter of a cell beside it: soil further out hangs on to other nodes too.
 	void look(const PointCloud<Dim>& cloud, int p, const Grid<Dim>& grid)
 	{
 		const double h      = 2 * largestHalf<Dim>(grid, cloud.position[p]); // of the cells that the soil is in

@@ -5,13 +5,15 @@
 
 namespace gimpm {
 
-/// What the tolerance is multiplied by for the residual around a node over the forces there. Where the whole consists of one kind of soil its
-/// norm shall decide: on the paper's largest slope the 160 steps then take 486 instead of 475 solves (with 1: 507), 286 instead of 284
-/// factorisations; its scenes of h = 1 m, where every iteration is a full one, take none more.
+/// What the tolerance is multiplied by for the residual around a node over the forces there. Where the whole consists
+/// of one kind of soil its norm shall decide: on the paper's largest slope the 160 steps then take 486 instead of 475
+/// solves (with 1: 507), 286 instead of 284 factorisations; its scenes of h = 1 m, where every iteration is a full one,
+/// take none more.
 constexpr double localTolerance = 3;
 
-/// Residuals of the whole, and excesses: how far each iterate is from the end of the iteration, which has converged at 1. The excess is
-/// the residual over the tolerance, or where the whole is in balance that of the part that is least so.
+/// Residuals of the whole, and excesses: how far each iterate is from the end of the iteration, which has converged at
+/// 1. The excess is the residual over the tolerance, or where the whole is in balance that of the part that is least
+/// so.
 class Convergence {
 public:
 	/// With reuseFactor, the last iterations may keep the factor of the one before.
@@ -23,14 +25,16 @@ public:
 	double                     residual() const { return residuals_.back(); }
 	double                     excess() const { return excesses_.back(); }
 
-	/// With the last factor, the error of K is that of the iteration before: it reduces the residual about as much again.
+	/// With the last factor, the error of K is that of the iteration before: it reduces the residual about as much
+	/// again.
 	bool isLastFactorEnough() const { return suffices(excess(), reduction()); }
 
 	/// No further stiffness will be needed after the next solve, of which the solver keeps a factor or not.
 	bool isLastStiffness(bool keepsFactor) const;
 
-	/// Part of the residual that an iterative solver may leave (inexact Newton): in proportion to the residual, which keeps the convergence
-	/// quadratic, but no less than the step needs in the end; and just that if this solve is expected to be the last one.
+	/// Part of the residual that an iterative solver may leave (inexact Newton): in proportion to the residual,
+	/// which keeps the convergence quadratic, but no less than the step needs in the end; and just that if this
+	/// solve is expected to be the last one.
 	double forcing() const;
 
 	/// Whether several iterations have not halved what was left.

@@ -18,9 +18,10 @@ template <int Dim> Stiffest stiffestOfOwn(const PointCloud<Dim>&, const Model<Di
 ///
 ///     omega_max^2 <= (C^2 c^2 + gamma_K / gamma_M E / density + 16 penalty E / density) / h^2
 ///
-/// with the speed c of pressure waves and the penalty of contacts and walls, which is weighed four times as much as stability needs: a bar that bounces off a Box
-/// wins energy with the longest stable step, and hardly any with half of it (examples/waves/explicit.py). C is the largest of
-/// many blocks that cut cells anywhere, with Poisson's ratios 0 to .49 and 2 to 4 points along each axis of a cell (tests/core/stepping/test_explicit.cpp). Where domains are larger
+/// with the speed c of pressure waves and the penalty of contacts and walls, which is weighed four times as much as
+/// stability needs: a bar that bounces off a Box wins energy with the longest stable step, and hardly any with half of
+/// it (examples/waves/explicit.py). C is the largest of many blocks that cut cells anywhere, with Poisson's ratios 0 to
+/// .49 and 2 to 4 points along each axis of a cell (tests/core/stepping/test_explicit.cpp). Where domains are larger
 /// than three quarters of a cell there are too few points for the consistent mass, and C grows.
 template <int Dim> double criticalStep(const PointCloud<Dim>&, const Model<Dim>&, double ghostMass, double penalty);
 

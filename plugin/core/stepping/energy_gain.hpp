@@ -15,14 +15,14 @@ struct EnergyGain {
 	bool isAdmissible() const { return !(gain > most * inPlay); }
 };
 
-/// By Newmark's rule the body loses kinetic energy by the mean of the stresses at both ends of the step. Where strains are
-/// small in it that is what elastic energy grows by. Where they are large it may grow by much more: Newton's method has then
-/// found an equilibrium far from the motion. Plastic flow takes its part, which is no gain. Of laws whose elastic energy is
-/// not Hencky's nothing is known but the work.
+/// By Newmark's rule the body loses kinetic energy by the mean of the stresses at both ends of the step. Where strains
+/// are small in it that is what elastic energy grows by. Where they are large it may grow by much more: Newton's method
+/// has then found an equilibrium far from the motion. Plastic flow takes its part, which is no gain. Of laws whose
+/// elastic energy is not Hencky's nothing is known but the work.
 template <int Dim> EnergyGain energyGain(const StepSystem<Dim>&, const PointCloud<Dim>& before, const PointCloud<Dim>& after);
 
-/// Whether a step in time has not ended in such an equilibrium; the report says so if it has. The midpoint rule takes its
-/// stress elsewhere, and has not been seen to.
+/// Whether a step in time has not ended in such an equilibrium; the report says so if it has. The midpoint rule takes
+/// its stress elsewhere, and has not been seen to.
 template <int Dim> bool requireEnergy(const StepSystem<Dim>&, const PointCloud<Dim>& before, const PointCloud<Dim>& after, StepReport&);
 
 } // namespace gimpm

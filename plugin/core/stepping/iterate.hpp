@@ -21,13 +21,15 @@ public:
 	{
 		const Stopwatch watch(report_.times.assembly);
 		hasStiffness = withStiffness;
-		hasSizes_    = !withStiffness || !system_.map.isAlone(); // where no stiffness is needed the iteration is about to end
-		failure      = system_.evaluate(d, force, withStiffness ? &K : nullptr, hasSizes_ ? &sizes_ : nullptr, withStiffness ? &beside : nullptr);
-		balance      = whole.of(d, force, sizes_);
+		// Where no stiffness is needed the iteration is about to end.
+		hasSizes_ = !withStiffness || !system_.map.isAlone();
+		failure   = system_.evaluate(d, force, withStiffness ? &K : nullptr, hasSizes_ ? &sizes_ : nullptr, withStiffness ? &beside : nullptr);
+		balance   = whole.of(d, force, sizes_);
 		if (failure || !std::isfinite(balance.size)) balance.size = std::numeric_limits<double>::infinity();
 	}
 
-	/// Largest residual around a node over the forces there, at d, where the last evaluation was; exact if above `enough`.
+	/// Largest residual around a node over the forces there, at d, where the last evaluation was; exact if above
+	/// `enough`.
 	double localResidual(const Eigen::VectorXd& d, double enough)
 	{
 		const Stopwatch watch(report_.times.assembly);
@@ -37,7 +39,8 @@ public:
 		return local_.ratio(balance.residual, sizes_, d, enough, caused_);
 	}
 
-	/// With the last evaluation prescribed growth has entered, which of several fields alone would cause these forces.
+	/// With the last evaluation prescribed growth has entered, which of several fields alone would cause these
+	/// forces.
 	void enter(const Eigen::VectorXd& caused)
 	{
 		caused_ = caused.cwiseAbs();

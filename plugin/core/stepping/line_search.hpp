@@ -11,9 +11,10 @@ namespace gimpm {
 /// A full step may raise the residual by this much: points that begin to yield do so in steps that converge well.
 constexpr double toleratedGrowth = 1.1;
 
-/// Full steps after one that raised the residual, which may be the way all the same, as in bending: the stretch that straight displacements
-/// cause is gone after the next solve. They must bring the residual down quickly, at least to a half each time, until it is smaller than
-/// before; else the iteration goes back and shortens the first one (the watchdog technique: Chamberlain et al. 1982).
+/// Full steps after one that raised the residual, which may be the way all the same, as in bending: the stretch that
+/// straight displacements cause is gone after the next solve. They must bring the residual down quickly, at least to a
+/// half each time, until it is smaller than before; else the iteration goes back and shortens the first one (the
+/// watchdog technique: Chamberlain et al. 1982).
 class Watchdog {
 public:
 	Eigen::VectorXd from, step;             ///< displacements before the first step, and that step
@@ -62,8 +63,8 @@ struct Shortened {
 	int    trials = 0; ///< residuals looked at
 };
 
-/// A full step raised the residual from `before` to `full`: tries halves of it, at most `trials` times, until Armijo's condition holds, and
-/// takes the best. size(part) gives the residual of a part of the step.
+/// A full step raised the residual from `before` to `full`: tries halves of it, at most `trials` times, until Armijo's
+/// condition holds, and takes the best. size(part) gives the residual of a part of the step.
 template <class F> Shortened lineSearch(double before, double full, int trials, F&& size)
 {
 	Shortened best { 1, full };

@@ -17,14 +17,15 @@ public:
 	/// Forces on the free nodes if nothing but what is prescribed grew; of several fields only.
 	const Eigen::VectorXd& causedByPrescribed() const { return caused_; }
 
-	/// step = K^-1 (residual - K_fc prescribed), with the prescribed displacements themselves; an iterative solver may leave the part `forcing`
-	/// of the right side. False where K is singular.
+	/// step = K^-1 (residual - K_fc prescribed), with the prescribed displacements themselves; an iterative solver
+	/// may leave the part `forcing` of the right side. False where K is singular.
 	bool solve(const NodeMatrix<Dim>& K, const Couplings& beside, Eigen::VectorXd residual, double forcing, Eigen::VectorXd& step);
 
 	/// The same with the factor that is kept.
 	bool solveAgain(const Eigen::VectorXd& residual, Eigen::VectorXd& step);
 
-	bool keepsFactor() const { return keepsFactor_; } ///< of the last solve: of Cholesky or, where K is not symmetric, of LU
+	/// Of the last solve: of Cholesky or, where K is not symmetric, of LU.
+	bool keepsFactor() const { return keepsFactor_; }
 	void dropFactor() { keepsFactor_ = false; }
 
 private:

@@ -4,8 +4,8 @@
 #include "core/parallel/halo.hpp"
 #include "core/stepping/acceptance.hpp"
 #include "core/stepping/beyond_walls.hpp"
-#include "core/stepping/equilibrium.hpp"
 #include "core/stepping/boundary_hold.hpp"
+#include "core/stepping/equilibrium.hpp"
 #include "core/stepping/outcome.hpp"
 #include "core/stepping/rate_change.hpp"
 #include "core/stepping/restraint.hpp"
@@ -29,7 +29,8 @@ template <int Dim> bool isHeld(const StepSystem<Dim>& system, const PointCloud<D
 	return held.freeMotion.empty() || !fail(report, Failure::unrestrained, "nothing restrains the " + held.freeMotion);
 }
 
-/// A converged step may have ended where a term does not admit it. One that has not may be due to contact which no longer holds the body: says so.
+/// A converged step may have ended where a term does not admit it. One that has not may be due to contact which no
+/// longer holds the body: says so.
 template <int Dim> void explain(const StepSystem<Dim>& system, const Eigen::VectorXd& d, StepReport& report)
 {
 	if (report.converged()) return askForRefusals(system, d, report);

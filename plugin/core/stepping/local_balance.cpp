@@ -4,11 +4,12 @@
 namespace gimpm {
 namespace {
 
-/// Strains this much smaller than the largest of the scene count for nothing: parts that carry no load need not be as exact
-/// as those that do.
+/// Strains this much smaller than the largest of the scene count for nothing: parts that carry no load need not be as
+/// exact as those that do.
 constexpr double negligible = 1e-4;
 
-/// Codes of the offsets to the neighbours at most one cell away along each axis, the node itself left out; the others are their opposites.
+/// Codes of the offsets to the neighbours at most one cell away along each axis, the node itself left out; the others
+/// are their opposites.
 template <int Dim> const std::vector<int>& neighbourCodes()
 {
 	static const std::vector<int> codes = [] {

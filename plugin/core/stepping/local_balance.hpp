@@ -5,20 +5,21 @@
 
 namespace gimpm {
 
-/// One norm over the whole body does not see a soft or lightly loaded part beside a stiff or strongly loaded one. So the same is asked of
-/// the nodes around each node, up to one cell away: what is left there of the residual, over the forces there. Neighbours together, because
-/// a node that the body hardly touches has next to no forces of its own, and because each node of a soft part has some neighbourhood that
-/// reaches no stiff one.
+/// One norm over the whole body does not see a soft or lightly loaded part beside a stiff or strongly loaded one. So
+/// the same is asked of the nodes around each node, up to one cell away: what is left there of the residual, over the
+/// forces there. Neighbours together, because a node that the body hardly touches has next to no forces of its own, and
+/// because each node of a soft part has some neighbourhood that reaches no stiff one.
 template <int Dim> class LocalBalance {
 public:
 	/// All are kept by reference.
 	LocalBalance(const StepSystem<Dim>& system, const NodeMatrix<Dim>& K) : system_(system), elastic_(system), K_(K) { }
 
-	/// The largest ratio over all neighbourhoods of residual to forces, if that is above `enough`; else an upper bound of it. The forces are
-	/// the `sizes` of the terms' (StepSystem::evaluate) and the external ones; where these are too small for that, as after unloading, also
-	/// those of the stresses at the start of the step and those that prescribed displacements can cause. What is round-off of the
-	/// displacements d is no residual. Of several fields each is looked at, and the least balanced one counts; there is
-	/// also what prescribed growth has `caused`.
+	/// The largest ratio over all neighbourhoods of residual to forces, if that is above `enough`; else an upper
+	/// bound of it. The forces are the `sizes` of the terms' (StepSystem::evaluate) and the external ones; where
+	/// these are too small for that, as after unloading, also those of the stresses at the start of the step and
+	/// those that prescribed displacements can cause. What is round-off of the displacements d is no residual. Of
+	/// several fields each is looked at, and the least balanced one counts; there is also what prescribed growth
+	/// has `caused`.
 	double ratio(
 	        const Eigen::VectorXd& residual, const Eigen::VectorXd& sizes, const Eigen::VectorXd& d, double enough, const Eigen::VectorXd& caused) const;
 

@@ -22,40 +22,58 @@ struct GhostSettings {
 };
 
 struct NewtonSettings {
-	double                tolerance         = 1e-6;  ///< on |residual| / |external forces + reactions|; three times it around each node
-	int                   maxIterations     = 20;    ///< linear solves
-	int                   lineSearchTrials  = 5;     ///< shorter steps tried when a full one does not reduce the residual; 0: none
-	bool                  acceptUnconverged = false; ///< take over the last iterate after maxIterations
-	LinearMethod          linearSolver      = LinearMethod::automatic;
-	bool                  reuseFactor       = true; ///< of the last solve, where the convergence history says that it suffices
-	std::function<bool()> interrupted;              ///< asked once per iteration; may be empty
-	double                stepTolerance = std::numeric_limits<double>::infinity(); ///< on rateChange() of a step without inertia that has a prediction [m]
+	/// On |residual| / |external forces + reactions|; three times it around each node.
+	double       tolerance         = 1e-6;
+	int          maxIterations     = 20;    ///< linear solves
+	int          lineSearchTrials  = 5;     ///< shorter steps tried when a full one does not reduce the residual; 0: none
+	bool         acceptUnconverged = false; ///< take over the last iterate after maxIterations
+	LinearMethod linearSolver      = LinearMethod::automatic;
+	/// Of the last solve, where the convergence history says that it suffices.
+	bool reuseFactor = true;
+	/// Asked once per iteration; may be empty.
+	std::function<bool()> interrupted;
+	/// On rateChange() of a step without inertia that has a prediction [m].
+	double stepTolerance = std::numeric_limits<double>::infinity();
 };
 
-/// What a condition that remembers its distance from the points has to do where a study makes all moduli larger and leaves the points in their places.
+/// What a condition that remembers its distance from the points has to do where a study makes all moduli larger and
+/// leaves the points in their places.
 template <int Dim> struct InPlace {
-	std::function<void(const PointCloud<Dim>&, double scale)> begin; ///< what has given way elastically is `scale` of what it was
-	std::function<void(const PointCloud<Dim>&)>               goOn;  ///< after a step, the points are back where they were
+	/// What has given way elastically is `scale` of what it was.
+	std::function<void(const PointCloud<Dim>&, double scale)> begin;
+	/// After a step, the points are back where they were.
+	std::function<void(const PointCloud<Dim>&)> goOn;
 };
 
 template <int Dim> struct Model {
-	Grid<Dim>             grid;
-	Basis                 basis = Basis::gimp;
-	bool                  fBar  = false; ///< against volumetric locking; needs the ghost stabilisation, which holds the nodes of nearly empty cells
+	Grid<Dim> grid;
+	Basis     basis = Basis::gimp;
+	/// Against volumetric locking; needs the ghost stabilisation, which holds the nodes of nearly empty cells.
+	bool                  fBar = false;
 	std::vector<Material> materials;
-	std::vector<double> shares {}; ///< by material, of what acts of point loads and water in a stage of construction, as it does of the density; empty: all
-	Boundary<Dim>       boundary;  ///< the last box is that of the axis of symmetry, if there is one
-	/// Off the lines of the grid, by the box of the boundary that their reaction is reported with, which holds nothing; moved in each step that is accepted.
+	/// By material, of what acts of point loads and water in a stage of construction, as it does of the density;
+	/// empty: all.
+	std::vector<double> shares {};
+	Boundary<Dim>       boundary; ///< the last box is that of the axis of symmetry, if there is one
+	/// Off the lines of the grid, by the box of the boundary that their reaction is reported with, which holds
+	/// nothing; moved in each step that is accepted.
 	std::map<int, std::shared_ptr<Wall<Dim>>> walls {};
 	GhostSettings                             ghost;
 	NewtonSettings                            newton;
-	std::vector<TermOfStep<Dim>>              terms {};                                 ///< besides the points' resistance and the ghost stabilisation
-	std::vector<NodalField<Dim>>              fields {};                                ///< besides the displacements
-	std::vector<CoupledTermOfStep<Dim>>       coupledTerms {};                          ///< of all fields, and of nodes that are apart
-	std::vector<InPlace<Dim>>                 inPlace {};                               ///< of those of the terms that need it
-	bool                                      atMiddle  = false;                        ///< the points' resistance is that after half of the displacements
-	std::shared_ptr<const Processes>          processes = Processes::alone();           ///< that work on it together
-	std::shared_ptr<Division>                 division  = std::make_shared<Division>(); ///< of the points among them; whole where all have the same points
+	/// Besides the points' resistance and the ghost stabilisation.
+	std::vector<TermOfStep<Dim>> terms {};
+	/// Besides the displacements.
+	std::vector<NodalField<Dim>> fields {};
+	/// Of all fields, and of nodes that are apart.
+	std::vector<CoupledTermOfStep<Dim>> coupledTerms {};
+	/// Of those of the terms that need it.
+	std::vector<InPlace<Dim>> inPlace {};
+	/// The points' resistance is that after half of the displacements.
+	bool atMiddle = false;
+	/// That work on it together.
+	std::shared_ptr<const Processes> processes = Processes::alone();
+	/// Of the points among them; whole where all have the same points.
+	std::shared_ptr<Division> division = std::make_shared<Division>();
 };
 
 template <int Dim> struct Load {
@@ -63,7 +81,7 @@ template <int Dim> struct Load {
 	LoadFactor                factor {};                  ///< of point loads, and of prescribed displacements, which go with its growth
 	std::optional<LoadFactor> ofGravity {};               ///< if it has its own
 	std::map<int, LoadFactor> ofBoxes {};                 ///< of the displacement of boxes of the boundary that have their own
-	double                    motion = 0;                 ///< duration of the step where something moves by its velocity [s]
+	double                    motion   = 0;               ///< duration of the step where something moves by its velocity [s]
 	double                    duration = 0;               ///< of the step, for laws that depend on it, in the time of the loads
 	std::map<int, Vec<Dim>>   boxMotion {};               ///< of the nodes held by boxes of the boundary, in the step, besides their displacement [m]
 

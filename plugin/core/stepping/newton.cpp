@@ -29,7 +29,8 @@ private:
 	{
 		if (linear_.keepsFactor() && !watchdog_.isOpen() && judge_.convergence.isLastFactorEnough() && reuse()) return true;
 		if (!iterate_.hasStiffness) iterate_.evaluate(d_, true);
-		// Prescribed displacements enter in full: the residual before says nothing of them, and a shorter step would lose a part.
+		// Prescribed displacements enter in full: the residual before says nothing of them, and a shorter step
+		// would lose a part.
 		const bool      prescribes = linear_.prescribes();
 		const double    before     = iterate_.balance.size;
 		Eigen::VectorXd step;
@@ -40,7 +41,8 @@ private:
 		iterate_.evaluate(d_ + step, !judge_.convergence.isLastStiffness(linear_.keepsFactor()));
 		const double& after = iterate_.balance.size;
 		if (judge_.staysInBalance(solves_)) {
-			// the whole had converged before, and the step is for a part of it: what is left of the whole says nothing of that
+			// the whole had converged before, and the step is for a part of it: what is left of the whole
+			// says nothing of that
 		} else if (predicted_ && !(after < before)) { // and zero is tried
 			return !fail(report_, Failure::diverging, "the prediction leads nowhere");
 		} else if (watchdog_.isOpen()) {
@@ -54,7 +56,8 @@ private:
 		return true;
 	}
 
-	/// One step of the modified Newton method, with the last factor. Nothing is changed unless it reduces the residual.
+	/// One step of the modified Newton method, with the last factor. Nothing is changed unless it reduces the
+	/// residual.
 	bool reuse()
 	{
 		Eigen::VectorXd step;

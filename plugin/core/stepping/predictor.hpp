@@ -13,8 +13,9 @@ template <int Dim> struct LastIncrement {
 	double           load = 0;     ///< growth of the load factor in that step
 };
 
-/// Start for a step in which the load factor grows by `load`; empty where the last step says nothing of it: there was none, or its load
-/// did not grow in the same direction. A node that was not active takes the mean of its neighbours that were, layer by layer.
+/// Start for a step in which the load factor grows by `load`; empty where the last step says nothing of it: there was
+/// none, or its load did not grow in the same direction. A node that was not active takes the mean of its neighbours
+/// that were, layer by layer.
 template <int Dim> Eigen::VectorXd predict(const LastIncrement<Dim>&, const std::vector<Key>& nodes, double load, const Grid<Dim>& = {});
 
 } // namespace gimpm

@@ -9,7 +9,8 @@
 namespace gimpm {
 namespace {
 
-/// The sum over the points, in their order, where they are divided over the own ones of all processes: copies have no volume.
+/// The sum over the points, in their order, where they are divided over the own ones of all processes: copies have no
+/// volume.
 template <int Dim> double weighed(const StepSystem<Dim>& system, const std::vector<double>& volume, const std::vector<double>& ofPoints)
 {
 	const double own = std::inner_product(volume.begin(), volume.end(), ofPoints.begin(), 0.);
@@ -38,10 +39,11 @@ template <int Dim> double plasticShare(const StepSystem<Dim>& system, const Eige
 	std::vector<double>         volume = system.beginning().cloud.volume0;
 	std::vector<SymTensor<Dim>> trial(volume.size());
 	std::vector<double>         all(volume.size()), plastic(volume.size());
-	forUpdatedPoints(system.basis, system.points, std::vector<Material>(materials.size(), { Law::ofTrialStrain(), 1 }), d, [&](int p, const PointUpdate<Dim>& u) {
-		trial[p] = u.elasticStrain;
-		all[p]   = (u.gradient + u.gradient.transpose()).squaredNorm() / 4 + u.hoop * u.hoop;
-	});
+	forUpdatedPoints(
+	        system.basis, system.points, std::vector<Material>(materials.size(), { Law::ofTrialStrain(), 1 }), d, [&](int p, const PointUpdate<Dim>& u) {
+		        trial[p] = u.elasticStrain;
+		        all[p]   = (u.gradient + u.gradient.transpose()).squaredNorm() / 4 + u.hoop * u.hoop;
+	        });
 	forUpdatedPoints(system.basis, system.points, materials, d, [&](int p, const PointUpdate<Dim>& u) {
 		plastic[p] = (trial[p].full() - u.elasticStrain.full()).squaredNorm();
 	});

@@ -10,7 +10,8 @@
 
 namespace gimpm {
 
-/// Of a stiffness matrix, as far as its factorisation told: an equilibrium may be unstable where it is not positive definite.
+/// Of a stiffness matrix, as far as its factorisation told: an equilibrium may be unstable where it is not positive
+/// definite.
 enum class Definiteness { notChecked, positive, indefinite };
 
 struct StepTimes {
@@ -48,10 +49,12 @@ struct StepReport {
 		std::string field {};                                                            ///< the name of another field
 	} worst;
 
-	/// For each of Boundary's boxes, the sum of the forces with which it holds its nodes; of a node in several boxes the last one is given.
+	/// For each of Boundary's boxes, the sum of the forces with which it holds its nodes; of a node in several
+	/// boxes the last one is given.
 	std::vector<Vec3> reactions; ///< [N]
 
-	std::vector<Vec3> openReactions; ///< the same of the open boxes: what holds the parts of domains that reach through them [N]
+	/// The same of the open boxes: what holds the parts of domains that reach through them [N].
+	std::vector<Vec3> openReactions;
 
 	int    clampedDomains     = 0; ///< points whose domain would have outgrown half a cell in this step
 	double largestWallOverlap = 0; ///< largest length by which a domain reached behind a wall [m]

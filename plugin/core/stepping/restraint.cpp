@@ -10,7 +10,8 @@
 namespace gimpm {
 namespace {
 
-/// Parts of the body: nodes joined by patches. In a periodic grid the places of a part's nodes follow the patches beyond the sides.
+/// Parts of the body: nodes joined by patches. In a periodic grid the places of a part's nodes follow the patches
+/// beyond the sides.
 template <int Dim> class Parts {
 public:
 	/// A part meets its own image: it goes around the grid.
@@ -19,7 +20,8 @@ public:
 		Index<Dim> length; ///< [cells]
 	};
 
-	/// `byCells`: a process that does not have all patches joins the corners of the cells, which gives the same parts.
+	/// `byCells`: a process that does not have all patches joins the corners of the cells, which gives the same
+	/// parts.
 	Parts(const CloudBasis<Dim>& basis, const Grid<Dim>& grid, bool byCells)
 	        : basis_(basis), parent_(basis.nodes.size()), offset_(parent_.size(), Index<Dim>::Zero())
 	{
@@ -42,7 +44,8 @@ public:
 		for (Turn& turn : turns_)
 			turn.root = root(turn.root);
 	}
-	int                      root(std::size_t node) const { return parent_[node]; } ///< the same for all nodes of a part
+	/// The same for all nodes of a part.
+	int                      root(std::size_t node) const { return parent_[node]; }
 	const std::vector<Turn>& turns() const { return turns_; }
 
 	/// In cells.
@@ -66,7 +69,8 @@ private:
 	{
 		const Index<Dim> cell  = Grid<Dim>::index(patch.cell);
 		int              first = -1;
-		Index<Dim>       image; // how far the place of the first node in the patch is from that which its number stands for
+		// How far the place of the first node in the patch is from that which its number stands for.
+		Index<Dim> image;
 		for (int n = 0; n < windowNodes<Dim>; ++n) {
 			if (patch.node[n] < 0) continue;
 			Index<Dim> place = cell;
@@ -92,9 +96,10 @@ private:
 			parent_[rootA] = rootB, offset_[rootA] = -further;
 	}
 
-	const CloudBasis<Dim>&  basis_;
-	std::vector<int>        parent_;
-	std::vector<Index<Dim>> offset_; // images: how much further than their numbers tell a node is from its parent, in cells
+	const CloudBasis<Dim>& basis_;
+	std::vector<int>       parent_;
+	// Images: how much further than their numbers tell a node is from its parent, in cells.
+	std::vector<Index<Dim>> offset_;
 	std::vector<Turn>       turns_;
 };
 
@@ -135,7 +140,8 @@ template <int Dim> struct Part {
 	}
 
 private:
-	/// Value of the rigid modes in a direction at a place: translations, then rotations of unit displacement at `reach`.
+	/// Value of the rigid modes in a direction at a place: translations, then rotations of unit displacement at
+	/// `reach`.
 	Eigen::Matrix<double, modes, 1> rigidModes(const Vec<Dim>& place, int axis) const
 	{
 		Eigen::Matrix<double, modes, 1> m = Eigen::Matrix<double, modes, 1>::Zero();

@@ -40,7 +40,8 @@ template <int Dim> void keepTouching(const NodeShare& share, const std::vector<P
 	tiles.swap(kept);
 }
 
-/// No others, of which some points may be missing. What follows a gap in a tile is done after all the rest of its colour: a tile stays with one thread.
+/// No others, of which some points may be missing. What follows a gap in a tile is done after all the rest of its
+/// colour: a tile stays with one thread.
 template <int Dim> Colours<Dim> onlyTouching(const NodeShare& share, const CloudBasis<Dim>& basis)
 {
 	const std::size_t count = basis.colours.size();

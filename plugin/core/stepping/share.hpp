@@ -7,18 +7,22 @@
 
 namespace gimpm {
 
-/// Each process has a range of the nodes, a slab of the grid, and adds up what the points and ghost faces that touch it contribute: its rows of the forces and the
-/// stiffness are complete, without a word from the others, and the points at the borders are looked at twice. The other terms are added up by every process for all
-/// nodes: they take little, and some of them need to be whole. Where points are divided among processes, they are not, and what the points add elsewhere is completed.
+/// Each process has a range of the nodes, a slab of the grid, and adds up what the points and ghost faces that touch it
+/// contribute: its rows of the forces and the stiffness are complete, without a word from the others, and the points at
+/// the borders are looked at twice. The other terms are added up by every process for all nodes: they take little, and
+/// some of them need to be whole. Where points are divided among processes, they are not, and what the points add
+/// elsewhere is completed.
 template <int Dim> class Share {
 public:
 	/// All are kept by reference. One process that is alone has all there is.
 	Share(const Processes&, const CloudBasis<Dim>&, const std::vector<GhostFace<Dim>>&, const Division&);
 	Share(const Share&) = delete;
 
-	const NodeShare&                   nodes() const { return nodes_; }
-	const NodeShare&                   knownNodes() const { return known_; } ///< around which this process has all points
-	const Colours<Dim>&                colours() const { return nodes_.isWhole() ? basis_.colours : colours_; } ///< patches that touch the nodes
+	const NodeShare& nodes() const { return nodes_; }
+	/// Around which this process has all points.
+	const NodeShare& knownNodes() const { return known_; }
+	/// Patches that touch the nodes.
+	const Colours<Dim>&                colours() const { return nodes_.isWhole() ? basis_.colours : colours_; }
 	const std::vector<GhostFace<Dim>>& faces() const { return nodes_.isWhole() ? allFaces_ : faces_; }
 
 	/// That of the point with the smallest number, or id where points are divided, wherever it is.

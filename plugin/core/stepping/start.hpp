@@ -6,9 +6,9 @@
 
 namespace gimpm {
 
-/// A prediction may start from this many times the residual of zero: where only little load is added in a step, its residual may be the
-/// larger one, and it is still much closer to the solution in what counts, which points yield. On the largest slope of the paper, starting
-/// from the smaller residual takes 493 solves, this 387, and zero 752.
+/// A prediction may start from this many times the residual of zero: where only little load is added in a step, its
+/// residual may be the larger one, and it is still much closer to the solution in what counts, which points yield. On
+/// the largest slope of the paper, starting from the smaller residual takes 493 solves, this 387, and zero 752.
 constexpr double toleratedStart = 2;
 
 template <int Dim> class Start {
@@ -16,8 +16,9 @@ public:
 	/// All are kept by reference.
 	Start(const StepSystem<Dim>& system, Iterate<Dim>& iterate, LinearStep<Dim>& linear) : system_(system), iterate_(iterate), linear_(linear) { }
 
-	/// Leaves d at zero, with inertia at where the body moves by itself, or at the prediction (which may be empty) if that is not much further from
-	/// equilibrium. Returns whether it is there. The last evaluation is that at d, with stiffness.
+	/// Leaves d at zero, with inertia at where the body moves by itself, or at the prediction (which may be empty)
+	/// if that is not much further from equilibrium. Returns whether it is there. The last evaluation is that at d,
+	/// with stiffness.
 	bool from(const Eigen::VectorXd& prediction, Eigen::VectorXd& d)
 	{
 		const bool predicts = prediction.size() > 0;
@@ -38,8 +39,8 @@ private:
 		return true;
 	}
 
-	/// Takes the prediction as the start unless its residual is much the larger one. Zero is given the prescribed displacements for that,
-	/// without which its residual says nothing of them.
+	/// Takes the prediction as the start unless its residual is much the larger one. Zero is given the prescribed
+	/// displacements for that, without which its residual says nothing of them.
 	bool takes(Eigen::VectorXd prediction, Eigen::VectorXd& d)
 	{
 		const Eigen::VectorXd& held = system_.prescribed;

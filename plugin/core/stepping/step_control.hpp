@@ -5,12 +5,14 @@
 
 namespace gimpm {
 
-/// Whether a smaller load may help. It does not against boundaries that hold too little, nor against a tolerance below round-off, and who
-/// has asked for an end shall have it.
+/// Whether a smaller load may help. It does not against boundaries that hold too little, nor against a tolerance below
+/// round-off, and who has asked for an end shall have it.
 bool canBeCut(Failure);
 
-/// A part that fails is tried again with half of it, down to a least one, or with as small a one as its local error, which grows with a power of the step, asks for.
-/// After one that took few iterations the next is twice as large, if the error admits it. All are made by halving and by taking away, so that they have few digits and their sum is exact.
+/// A part that fails is tried again with half of it, down to a least one, or with as small a one as its local error,
+/// which grows with a power of the step, asks for. After one that took few iterations the next is twice as large, if
+/// the error admits it. All are made by halving and by taking away, so that they have few digits and their sum is
+/// exact.
 class StepControl {
 public:
 	/// Begins with the part that the step before has left, 1 at first.
@@ -26,7 +28,8 @@ public:
 	void                    beginAnew();
 	static constexpr double firstPart = 1. / 8;
 
-	/// How the part went that was tried. False: it has failed and is not cut, so the step is given up; the next one will be tried as a whole.
+	/// How the part went that was tried. False: it has failed and is not cut, so the step is given up; the next one
+	/// will be tried as a whole.
 	bool take(const StepReport&);
 
 	double nextPart() const { return part_; } ///< what the next step may begin with

@@ -58,10 +58,11 @@ StepSystem<Dim>::StepSystem(const PointCloud<Dim>& cloud, const Model<Dim>& m, c
 {
 	{
 		const Stopwatch watch(report.times.basis);
-		basis              = cloudBasis(cloud, model.grid, model.basis, model.boundary, *model.division);
-		points             = stepPoints(cloud, model.materials, basis, model.fBar);
-		points.duration    = load.duration;
-		points.isSymmetric = model.division->largest(points.isSymmetric ? 0 : 1) == 0; // also for points that others have
+		basis           = cloudBasis(cloud, model.grid, model.basis, model.boundary, *model.division);
+		points          = stepPoints(cloud, model.materials, basis, model.fBar);
+		points.duration = load.duration;
+		// Also for points that others have.
+		points.isSymmetric = model.division->largest(points.isSymmetric ? 0 : 1) == 0;
 		mapFields();
 		external = Eigen::VectorXd::Zero(map.size());
 		addPointForces(basis, pointForces(cloud, model, load), external);

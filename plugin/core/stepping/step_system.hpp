@@ -51,8 +51,9 @@ template <int Dim> struct StepSystem {
 	LinearProblem               tangent() const;
 	std::optional<PointFailure> tangent(NodeMatrix<Dim>& K, Couplings* beside = nullptr) const; ///< of all nodes
 
-	/// The sum of the terms at d: sets `force`, and K and the sizes of the forces where they are given. Of K only the share is right, rows and columns. Forces
-	/// at tied nodes are given to their masters; of K that is left to whoever reduces it. `beside` goes with K.
+	/// The sum of the terms at d: sets `force`, and K and the sizes of the forces where they are given. Of K only
+	/// the share is right, rows and columns. Forces at tied nodes are given to their masters; of K that is left to
+	/// whoever reduces it. `beside` goes with K.
 	std::optional<PointFailure> evaluate(
 	        const Eigen::VectorXd& d, Eigen::VectorXd& force, NodeMatrix<Dim>* K, Eigen::VectorXd* sizes = nullptr, Couplings* beside = nullptr) const;
 
@@ -69,7 +70,8 @@ template <int Dim> struct StepSystem {
 	bool counts(const Patch<Dim>& patch) const { return model.division->owns(patch.cell); }
 
 	bool hasInertia() const { return ownMotion.size() > 0; }
-	bool isCoupled() const { return !coupled_.empty() || !map.isAlone(); } ///< nodes that are apart, or several fields
+	/// Nodes that are apart, or several fields.
+	bool isCoupled() const { return !coupled_.empty() || !map.isAlone(); }
 
 	/// The step has been accepted.
 	void commit(const Eigen::VectorXd& d) const;
@@ -86,9 +88,10 @@ private:
 	PointStiffness                   stiffnessOf_;
 	std::function<Eigen::VectorXd()> imbalance_;
 	std::unique_ptr<Share<Dim>>      share_;
-	std::vector<Eigen::VectorXd>     before_;          ///< the fields as the step begins; displacements are those of the step
-	Constraints                      ofDisplacements_; ///< where there are other fields
-	std::vector<CoupledTerm<Dim>*>   coupled_;         ///< of the terms
+	/// The fields as the step begins; displacements are those of the step.
+	std::vector<Eigen::VectorXd>   before_;
+	Constraints                    ofDisplacements_; ///< where there are other fields
+	std::vector<CoupledTerm<Dim>*> coupled_;         ///< of the terms
 
 	void                        mapFields();
 	void                        makeTerms(const Load<Dim>&);

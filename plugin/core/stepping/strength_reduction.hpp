@@ -16,16 +16,20 @@ template <int Dim> struct WeakBody {
 	std::vector<double>   plasticStrain; ///< that has been added meanwhile
 };
 
-/// Strains that a body may have by elasticity, for displacements that are small: the moduli are scaled up to that. Stresses stay as they are, and so does
-/// the load that they can carry; what comes out is scaled back, so that displacements are those of the theory of small displacements.
+/// Strains that a body may have by elasticity, for displacements that are small: the moduli are scaled up to that.
+/// Stresses stay as they are, and so does the load that they can carry; what comes out is scaled back, so that
+/// displacements are those of the theory of small displacements.
 inline constexpr double smallStrain = 1e-7;
-/// Of the ghost stabilisation that is left: as it is, it holds what flows, in a slip one cell thick by some percent of the strength.
+/// Of the ghost stabilisation that is left: as it is, it holds what flows, in a slip one cell thick by some percent of
+/// the strength.
 inline constexpr double ghostShare = 1e-2;
-/// Displacements that count as flow, over the largest elastic strain times the smallest extent of the body. Of a vertical cut that is H / 70, where elasticity gives H / 300; left to
-/// itself a body that flows would find another equilibrium at last, held by ghost stabilisation or with another geometry.
+/// Displacements that count as flow, over the largest elastic strain times the smallest extent of the body. Of a
+/// vertical cut that is H / 70, where elasticity gives H / 300; left to itself a body that flows would find another
+/// equilibrium at last, held by ghost stabilisation or with another geometry.
 inline constexpr double flowsBeyond = 3;
 
-/// From a state in equilibrium under a constant load, in which points do not move: the strength falls in parts, cut as load steps are.
+/// From a state in equilibrium under a constant load, in which points do not move: the strength falls in parts, cut as
+/// load steps are.
 template <int Dim> WeakBody<Dim> reduceStrength(const PointCloud<Dim>&, const Model<Dim>&, const Load<Dim>&, double factor, StepControl, LinearSolver&);
 
 } // namespace gimpm

@@ -18,8 +18,8 @@ struct Workload {
 	StepTimes   times;             ///< of the parts of a step with one solve; measured, but for a factorisation that would take long
 };
 
-/// Does the parts of a load step once, from the current state and without load, and leaves the points alone. A factorisation of more than
-/// some 1e10 operations is not made; its time is that at the speed of a core of 2020.
+/// Does the parts of a load step once, from the current state and without load, and leaves the points alone. A
+/// factorisation of more than some 1e10 operations is not made; its time is that at the speed of a core of 2020.
 template <int Dim> Workload workload(const PointCloud<Dim>&, const Model<Dim>&);
 
 } // namespace gimpm

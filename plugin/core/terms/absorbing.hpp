@@ -7,13 +7,16 @@
 
 namespace gimpm {
 
-/// Where the body goes on beyond what is computed, as if it were linear elastic there: dashpots (Lysmer and Kuhlemeyer 1969) on the faces of cells whose
-/// nodes are all in a box, rho c_p along the normal and rho c_s across it, by the material beside the face. A wave that comes from beyond with the velocity v adds 2 rho c v
-/// (Joyner and Chen 1975). They do not hold what is at rest: forces by which nodes of the box are out of balance when the boundary first acts, that is what has held
-/// them until then, go on acting.
+/// Where the body goes on beyond what is computed, as if it were linear elastic there: dashpots (Lysmer and Kuhlemeyer
+/// 1969) on the faces of cells whose nodes are all in a box, rho c_p along the normal and rho c_s across it, by the
+/// material beside the face. A wave that comes from beyond with the velocity v adds 2 rho c v (Joyner and Chen 1975).
+/// They do not hold what is at rest: forces by which nodes of the box are out of balance when the boundary first acts,
+/// that is what has held them until then, go on acting.
 template <int Dim> struct AbsorbingBoundary {
-	HeldBox<Dim>            box;                               ///< its directions mean nothing; an open one of the boundary (core/grid/boundary.hpp)
-	Vec<Dim>                incomingBefore = Vec<Dim>::Zero(); ///< velocity of the wave from beyond at the start of the step [m/s]
+	/// Its directions mean nothing; an open one of the boundary (core/grid/boundary.hpp).
+	HeldBox<Dim> box;
+	/// Velocity of the wave from beyond at the start of the step [m/s].
+	Vec<Dim>                incomingBefore = Vec<Dim>::Zero();
 	Vec<Dim>                incoming       = Vec<Dim>::Zero(); ///< the same where forces of the step are looked at
 	bool                    hasBegun       = false;
 	std::map<Key, Vec<Dim>> borne {};                 ///< what goes on acting, by node [N]

@@ -12,7 +12,8 @@ public:
 
 	std::optional<PointFailure> add(const Eigen::VectorXd& d, const TermSum<Dim>& sum) const override
 	{
-		if (sum.K) sum.K->multiplyBy(2); // so that half of the sum leaves to others what is theirs, to the last bit
+		// So that half of the sum leaves to others what is theirs, to the last bit.
+		if (sum.K) sum.K->multiplyBy(2);
 		const auto failure = InternalForce<Dim>::add(0.5 * d, sum, 0.5);
 		if (sum.K) sum.K->multiplyBy(0.5);
 		return failure;

@@ -6,7 +6,8 @@
 
 namespace gimpm {
 
-/// Calls f(a, b, code of the offset from a to b, product of the weights) for each node a of one place and each node b of another, no farther than a cell away.
+/// Calls f(a, b, code of the offset from a to b, product of the weights) for each node a of one place and each node b
+/// of another, no farther than a cell away.
 template <int Dim, class F> void forNodePairs(const Attachment<Dim>& from, const Attachment<Dim>& to, F&& f)
 {
 	for (int m = 0; m < from.nodes; ++m)

@@ -12,8 +12,8 @@ struct VolumeAndModulus {
 };
 using PointStiffness = std::function<VolumeAndModulus(int point)>;
 
-/// Young's moduli of the populated leaves that are asked for, by number, zero for the others: the means of their points, weighted by the volumes of the
-/// overlaps.
+/// Young's moduli of the populated leaves that are asked for, by number, zero for the others: the means of their
+/// points, weighted by the volumes of the overlaps.
 template <int Dim>
 std::vector<double> cellModuli(const std::vector<char>& isAskedFor, const CloudBasis<Dim>&, const PointStiffness& stiffnessOf, const Grid<Dim>&);
 

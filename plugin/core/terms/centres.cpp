@@ -98,7 +98,8 @@ struct RingParts {
 	}
 };
 
-/// Radius of the middle of the section of the matter in each cell: of parts with the volumes V at r the sum of V over that of V / r.
+/// Radius of the middle of the section of the matter in each cell: of parts with the volumes V at r the sum of V over
+/// that of V / r.
 template <int Dim> std::vector<double> sectionRadii(const PointCloud<Dim>& cloud, const CloudBasis<Dim>& basis)
 {
 	std::vector<double> volume(basis.cells.size(), 0), area(volume);
@@ -128,8 +129,9 @@ template <int Dim> std::vector<AxisValues> hoopAtCentres(const PointCloud<Dim>& 
 			const RingParts ring(basis.axes[i][0], basis.hoop[i], cloud.halfSize[basis.order[i]][0], patch.span & 1, !basis.leafOf.empty());
 			result[i].fill(0);
 			forParts(patch, basis.axes[i], [&](int c, int cell, const auto&, double share) {
-				const int    side  = c & 1;
-				const double upper = (radius[cell] - ring.face) / ring.size + 1 - side; // hat function of the upper node of the cell
+				const int side = c & 1;
+				// Hat function of the upper node of the cell.
+				const double upper = (radius[cell] - ring.face) / ring.size + 1 - side;
 				result[i][side] += share * (1 - upper) / radius[cell];
 				result[i][side + 1] += share * upper / radius[cell];
 			});

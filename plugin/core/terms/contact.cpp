@@ -63,7 +63,8 @@ Contact<Dim>::Contact(ContactSystem<Dim>& system, const Beginning<Dim>& step)
 	for (int i = 0; i < int(near_.size()); ++i) {
 		const auto&    body   = system.bodies[near_[i].body];
 		const Vec<Dim> centre = near_[i].domain.centre();
-		if (body.isNew && body.proximity(body.begin, centre, near_[i].side).gap < 0) // of a two-sided surface it never is
+		// Of a two-sided surface it never is.
+		if (body.isNew && body.proximity(body.begin, centre, near_[i].side).gap < 0)
 			obstacle_ = textAt(body, " has the middle of a material point inside of it", centre);
 		addCorners(i);
 		look(near_[i]);
@@ -134,7 +135,8 @@ template <int Dim> void Contact<Dim>::addCorners(int number)
 	}
 }
 
-/// The area of a corner is its share of the domain's outline as seen along the normal, in axisymmetry of the ring through the corner.
+/// The area of a corner is its share of the domain's outline as seen along the normal, in axisymmetry of the ring
+/// through the corner.
 template <int Dim> ContactLaw<Dim> Contact<Dim>::lawOf(const RigidBody<Dim>& body, const Near& near, const Vec<Dim>& place, const Vec<Dim>& normal) const
 {
 	double area = 0;
@@ -159,8 +161,8 @@ template <int Dim> struct Contact<Dim>::Acting {
 	Approach<Dim> approach;
 };
 
-/// Where surfaces that face alike lie over each other, the corner is held by one of them: of sheets by the first, otherwise by that which it is deepest in. What it
-/// has stuck with goes with it from one to the other.
+/// Where surfaces that face alike lie over each other, the corner is held by one of them: of sheets by the first,
+/// otherwise by that which it is deepest in. What it has stuck with goes with it from one to the other.
 template <int Dim> void Contact<Dim>::choose(std::vector<Acting>& acting, const Corner& corner, const Approach<Dim>& approach) const
 {
 	const auto isSheet = [&](const Corner& c) { return system_.bodies[c.body].shape.kind == RigidKind::sheet; };
@@ -175,8 +177,8 @@ template <int Dim> void Contact<Dim>::choose(std::vector<Acting>& acting, const 
 	other->approach.friction = friction;
 }
 
-/// Of sheets that a corner is behind those count which it is straight behind. Behind an edge between sheets, and so beside all of them, it is the one that it is
-/// least beside.
+/// Of sheets that a corner is behind those count which it is straight behind. Behind an edge between sheets, and so
+/// beside all of them, it is the one that it is least beside.
 template <int Dim> template <class F> void Contact<Dim>::forTouching(const Eigen::VectorXd& d, F&& f) const
 {
 	const double        margin = 0.1 * grid_.cellSize;
@@ -227,7 +229,8 @@ template <int Dim> void Contact<Dim>::addBefore(Eigen::VectorXd& force) const
 			addAttachedForce<Dim>(corner.attached, r->pressure * r->normal + r->friction, { force });
 }
 
-/// Where soil touches as the step begins, and where it would touch bodies that have moved if it stayed. Whether it then slips or comes off is for the iterations to find.
+/// Where soil touches as the step begins, and where it would touch bodies that have moved if it stayed. Whether it then
+/// slips or comes off is for the iterations to find.
 template <int Dim> void Contact<Dim>::restrain(const typename Term<Dim>::Hold& hold) const
 {
 	const auto holds = [&](const Corner& corner, const Vec<Dim>& normal) {
@@ -241,7 +244,8 @@ template <int Dim> void Contact<Dim>::restrain(const typename Term<Dim>::Hold& h
 		if (const auto* r = recordOf(system_.records, { corner.point, corner.corner, corner.body }); r && r->touches) {
 			const auto&          body = system_.bodies[corner.body];
 			const Proximity<Dim> at   = body.proximity(body.begin, corner.place, corner.side);
-			if (at.gap - corner.offset <= tolerance_) holds(corner, at.normal); // otherwise it has been put elsewhere
+			// Otherwise it has been put elsewhere.
+			if (at.gap - corner.offset <= tolerance_) holds(corner, at.normal);
 		}
 	forTouching(
 	        Eigen::VectorXd::Zero(Dim * Eigen::Index(basis_.nodes.size())),
@@ -259,8 +263,8 @@ template <int Dim> void Contact<Dim>::restrainAt(const Eigen::VectorXd& d, const
 	});
 }
 
-/// A whole domain inside, or a corner that has come through; or the middle of a point on the other side of a surface that soil may touch from both: there it
-/// would not be known again.
+/// A whole domain inside, or a corner that has come through; or the middle of a point on the other side of a surface
+/// that soil may touch from both: there it would not be known again.
 template <int Dim> Refusal Contact<Dim>::refusal(const Eigen::VectorXd& d) const
 {
 	std::string found;
@@ -324,8 +328,9 @@ template <int Dim> std::string Contact<Dim>::missed(const NearPoint& near, const
 	return {};
 }
 
-/// Work on the soil as seen from the bodies, beyond what the springs had stored. As their energy is convex in the gap, it is never above zero on a flat face.
-/// They follow the moduli of the soil from step to step: what they have stored is that of the stiffness that they have now, as no length of the step changes that.
+/// Work on the soil as seen from the bodies, beyond what the springs had stored. As their energy is convex in the gap,
+/// it is never above zero on a flat face. They follow the moduli of the soil from step to step: what they have stored
+/// is that of the stiffness that they have now, as no length of the step changes that.
 template <int Dim> double Contact<Dim>::given(const Eigen::VectorXd& d) const
 {
 	const auto isBefore = [](const Corner& c, const auto& key) { return std::tuple(c.point, c.corner, c.body) < key; };
@@ -344,7 +349,8 @@ template <int Dim> double Contact<Dim>::given(const Eigen::VectorXd& d) const
 	return sum;
 }
 
-/// At an edge of a body a corner may belong to one face as the step begins, and to another as it ends, of which the force then works along its whole way.
+/// At an edge of a body a corner may belong to one face as the step begins, and to another as it ends, of which the
+/// force then works along its whole way.
 template <int Dim> std::string Contact<Dim>::refusalOfGift(const Eigen::VectorXd& d) const
 {
 	constexpr double most = 0.1; // of all energy that there is

@@ -8,12 +8,16 @@
 
 namespace gimpm {
 
-/// A corner of a point's domain that touches a body at the end of a step that was accepted, or overlapped it when the body came.
+/// A corner of a point's domain that touches a body at the end of a step that was accepted, or overlapped it when the
+/// body came.
 template <int Dim> struct ContactRecord {
-	int      point, corner, body; ///< number in the cloud, or id where points are divided; bit a of the corner set: upper along axis a
-	double   offset  = 0;         ///< how much farther the corner is from the body than the soil that it stands for [m]
-	bool     touches = false, slips = false;
-	double   gap      = 0;                                           ///< the offset taken off, < 0 by the penalty [m]
+	/// Number in the cloud, or id where points are divided; bit a of the corner set: upper along axis a.
+	int point, corner, body;
+	/// How much farther the corner is from the body than the soil that it stands for [m].
+	double offset  = 0;
+	bool   touches = false, slips = false;
+	/// The offset taken off, < 0 by the penalty [m].
+	double   gap      = 0;
 	double   pressure = 0;                                           ///< normal force [N]
 	Vec<Dim> friction = Vec<Dim>::Zero(), normal = Vec<Dim>::Zero(); ///< on the soil [N]; of the body
 	Vec<Dim> place = Vec<Dim>::Zero();                               ///< of the corner at the end of the step [m]
@@ -34,11 +38,13 @@ template <int Dim> struct ContactSystem {
 	std::vector<ContactLoad>        loads {};   ///< on the owners, then
 	double                          work   = 0; ///< on the soil in that step, with the forces at its end [J]
 	double                          weight = 1; ///< with which forces enter the balance of a step in time (core/terms/time_scheme.hpp)
-	/// Of a step in time: energy that has come into the system before it [J]; infinite: nobody asks for what contact gives.
-	double                   energy = std::numeric_limits<double>::infinity();
-	double                   given  = 0; ///< work of contact in that step beyond what it had stored, which is that of no body [J]
-	std::vector<std::string> warnings {};  ///< sentences about bodies near the soil, of the step that is being made
-	const Term<Dim>*         acting {};  ///< the term of the step that is being made
+	/// Of a step in time: energy that has come into the system before it [J]; infinite: nobody asks for what
+	/// contact gives.
+	double energy = std::numeric_limits<double>::infinity();
+	/// Work of contact in that step beyond what it had stored, which is that of no body [J].
+	double                   given = 0;
+	std::vector<std::string> warnings {}; ///< sentences about bodies near the soil, of the step that is being made
+	const Term<Dim>*         acting {};   ///< the term of the step that is being made
 };
 
 /// Of a material point. Numbers only, to be told to other processes.
@@ -62,13 +68,16 @@ template <int Dim> struct PointDomain {
 	}
 };
 
-/// The penalty on the gap over that on the slip. With 20 a place slides after mu p h / (stiffness / 20 E). Blocks that are sheared to and fro by a plate, friction .3 to 4,
-/// take 5 solves a step; with 2 it is 8, and with 50 4.5.
+/// The penalty on the gap over that on the slip. With 20 a place slides after mu p h / (stiffness / 20 E). Blocks that
+/// are sheared to and fro by a plate, friction .3 to 4, take 5 solves a step; with 2 it is 8, and with 50 4.5.
 constexpr double slipSoftness = 20;
 
-/// Corners of the domains against the surfaces of the bodies. Corners move with the linear functions of the grid. The penalty on the gap g is a
-/// pressure of stiffness * E g / h, with Young's modulus E of the point and h of the smallest cells, over the corner's share of the domain's surface; Only
-/// prescribed motion of the bodies is known here. Of bodies that overlap, with surfaces that face alike, one acts on a corner: the one that it is deepest in. Where points are divided among processes, each finds those of its own that are near, and all know the corners of all of them.
+/// Corners of the domains against the surfaces of the bodies. Corners move with the linear functions of the grid. The
+/// penalty on the gap g is a pressure of stiffness * E g / h, with Young's modulus E of the point and h of the smallest
+/// cells, over the corner's share of the domain's surface; Only prescribed motion of the bodies is known here. Of
+/// bodies that overlap, with surfaces that face alike, one acts on a corner: the one that it is deepest in. Where
+/// points are divided among processes, each finds those of its own that are near, and all know the corners of all of
+/// them.
 template <int Dim> class Contact : public Term<Dim> {
 public:
 	/// The records and loads of the system are written in commit(). What add() adds has the weight of the system.

@@ -21,16 +21,18 @@ template <int Dim> struct Approach {
 };
 
 template <int Dim> struct Touch {
-	Vec<Dim> normal = Vec<Dim>::Zero(), friction = Vec<Dim>::Zero(); ///< of the body; frictional force on the soil [N]
-	double   pressure = 0;                                           ///< normal force [N]
+	/// Of the body; frictional force on the soil [N].
+	Vec<Dim> normal = Vec<Dim>::Zero(), friction = Vec<Dim>::Zero();
+	double   pressure = 0; ///< normal force [N]
 	bool     slips    = false;
 	Mat<Dim> slope    = Mat<Dim>::Zero(); ///< derivative of the force by the place [N/m]
 
 	Vec<Dim> force() const { return pressure * normal + friction; } ///< on the soil
 };
 
-/// A penalty on the gap, and Coulomb's friction with a cap, returned from a penalty on the slip since the place began to stick. None where
-/// the gap is wider than the tolerance. Within it a place that is not pressed counts as sticking in the derivative: a body that only touches is held.
+/// A penalty on the gap, and Coulomb's friction with a cap, returned from a penalty on the slip since the place began
+/// to stick. None where the gap is wider than the tolerance. Within it a place that is not pressed counts as sticking
+/// in the derivative: a body that only touches is held.
 template <int Dim> std::optional<Touch<Dim>> touch(const ContactLaw<Dim>&, const Approach<Dim>&, double tolerance);
 
 } // namespace gimpm

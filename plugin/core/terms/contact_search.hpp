@@ -11,8 +11,8 @@ struct NearPoint {
 	int body, point, side;
 };
 
-/// Of each body the points whose domains are within h/2, and as much more as the body moves in the step, from it or inside of it, and others by as much as soil
-/// moves. The time goes with the number of cells that the bodies reach.
+/// Of each body the points whose domains are within h/2, and as much more as the body moves in the step, from it or
+/// inside of it, and others by as much as soil moves. The time goes with the number of cells that the bodies reach.
 template <int Dim>
 std::vector<NearPoint> nearPoints(
         const std::vector<RigidBody<Dim>>&, const PointCloud<Dim>&, const CloudBasis<Dim>&, const Grid<Dim>&, double motionOfSoil = 0);

@@ -27,8 +27,8 @@ public:
 	/// Adds forces, sizes and their derivatives at an iterate.
 	virtual std::optional<PointFailure> addCoupled(const State&, const FieldSum<Dim>&) const = 0;
 
-	/// Adds what round-off of the unknowns leaves of its forces, where round-off of strains leaves less: of a flow by
-	/// gradients, what large values of little slope leave.
+	/// Adds what round-off of the unknowns leaves of its forces, where round-off of strains leaves less: of a flow
+	/// by gradients, what large values of little slope leave.
 	virtual void addCoupledRoundOff(const State&, std::vector<Eigen::VectorXd>& /*sizes*/) const { }
 
 	/// The step has been accepted at this state.
@@ -52,8 +52,8 @@ template <int Dim> struct NodalField {
 	Field                                                                                       field;
 	std::function<FieldStart(const PointCloud<Dim>&, const CloudBasis<Dim>&, const Grid<Dim>&)> begin;
 
-	/// The step has been accepted: values at the nodes, and the sum of the terms there, which is what holds given values.
-	/// May be empty.
+	/// The step has been accepted: values at the nodes, and the sum of the terms there, which is what holds given
+	/// values. May be empty.
 	std::function<void(const CloudBasis<Dim>&, const Eigen::VectorXd& value, const Eigen::VectorXd& force)> commit {};
 };
 

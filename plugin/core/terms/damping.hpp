@@ -5,8 +5,8 @@
 
 namespace gimpm {
 
-/// One kind of forces on the nodes that are linear in their velocities v, a part of inertia (core/terms/inertia.hpp), which knows v: C v - what drives. It lives for one
-/// attempt at a step, as terms do.
+/// One kind of forces on the nodes that are linear in their velocities v, a part of inertia (core/terms/inertia.hpp),
+/// which knows v: C v - what drives. It lives for one attempt at a step, as terms do.
 template <int Dim> class Damping {
 public:
 	virtual ~Damping() = default;
@@ -17,7 +17,8 @@ public:
 	/// Adds the force at v, C times `slope`, which is dv / dd [1/s], and sizes.
 	virtual void add(const Eigen::VectorXd& v, double slope, const TermSum<Dim>&) const = 0;
 
-	/// Adds the force at the velocities with which the step begins; where points are divided it is right at the nodes of this process, as that of add().
+	/// Adds the force at the velocities with which the step begins; where points are divided it is right at the
+	/// nodes of this process, as that of add().
 	virtual void addBefore(const Eigen::VectorXd& v, Eigen::VectorXd& force) const = 0;
 
 	/// Adds C where it is diagonal, by degree of freedom [N s/m]. False: it is not.
@@ -31,11 +32,13 @@ public:
 	/// Forces from outside of the body among those at v [N].
 	virtual double fromOutside(const Eigen::VectorXd&) const { return 0; }
 
-	/// The step has been accepted with these displacements; velocities at its beginning, and where the forces of the step are looked at.
+	/// The step has been accepted with these displacements; velocities at its beginning, and where the forces of
+	/// the step are looked at.
 	virtual void commit(const Eigen::VectorXd& d, const Eigen::VectorXd& before, const Eigen::VectorXd& now) = 0;
 
 protected:
-	/// That the forces of the step have taken, by the trapezoidal rule [J]; `share`: the nodes at which they are right in this process, if not all.
+	/// That the forces of the step have taken, by the trapezoidal rule [J]; `share`: the nodes at which they are
+	/// right in this process, if not all.
 	double workTaken(const Eigen::VectorXd& d, const Eigen::VectorXd& before, const Eigen::VectorXd& now, const NodeShare& share = NodeShare::whole()) const
 	{
 		Eigen::VectorXd twice = Eigen::VectorXd::Zero(d.size());

@@ -10,7 +10,8 @@ namespace {
 template <int Dim> NodalMass<Dim> massOf(const Motion<Dim>& motion, const Beginning<Dim>& step, double& seconds)
 {
 	const Stopwatch watch(seconds);
-	const int       anyWay = int(step.faces.size()); // what is lumped wholly loses angular momentum: only bodies of which no cell is filled
+	// What is lumped wholly loses angular momentum: only bodies of which no cell is filled.
+	const int anyWay = int(step.faces.size());
 	return NodalMass<Dim>(step.basis, motion.mass, massFaces(motion, step), step.grid.cellSize, looseOf(motion, step, anyWay), step.share);
 }
 
@@ -115,7 +116,8 @@ template <int Dim> void ExplicitInertia<Dim>::commit()
 	addGhostForce(faces_, h_, d, ghost);
 	share_.complete(ghost);
 	motion_.impactWork = energyOfBlow(mass_, middle_, blow_, jump_, middle_);
-	motion_.ghostWork  = T / 4 * (middle_ + end_).dot(ghost); // it acts in the second half, on the velocities' way from the one to the other
+	// It acts in the second half, on the velocities' way from the one to the other.
+	motion_.ghostWork = T / 4 * (middle_ + end_).dot(ghost);
 	for (const auto& each : damping_)
 		each->commit(d, start_, end_);
 	motion_.growth += growth;

@@ -6,11 +6,13 @@
 
 namespace gimpm {
 
-/// Central differences in the form with velocities at the ends of steps (velocity Verlet, Newmark's rule with beta = 0 and gamma = 1/2):
-/// M a_0 = f(0), v_1/2 = v_0 + T/2 a_0, d = T v_1/2, M a_1 = f(d), v_1 = v_1/2 + T/2 a_1. Forces as the step begins are those in its own cells, not those at the end of the step
-/// before: so each step is the same forwards and backwards, and what cells that change do to energy is of second order. With accelerations that points carry along, and one evaluation of
-/// forces a step, two blocks that meet win energy in proportion to the length of a step, a hundred times as much. Momentum is exact to
-/// round-off, angular momentum too but for what ghost mass takes from accelerations that are not linear.
+/// Central differences in the form with velocities at the ends of steps (velocity Verlet, Newmark's rule with beta = 0
+/// and gamma = 1/2): M a_0 = f(0), v_1/2 = v_0 + T/2 a_0, d = T v_1/2, M a_1 = f(d), v_1 = v_1/2 + T/2 a_1. Forces as
+/// the step begins are those in its own cells, not those at the end of the step before: so each step is the same
+/// forwards and backwards, and what cells that change do to energy is of second order. With accelerations that points
+/// carry along, and one evaluation of forces a step, two blocks that meet win energy in proportion to the length of a
+/// step, a hundred times as much. Momentum is exact to round-off, angular momentum too but for what ghost mass takes
+/// from accelerations that are not linear.
 template <int Dim> class ExplicitInertia {
 public:
 	/// Velocities and accelerations are written in commit().
@@ -23,7 +25,8 @@ public:
 
 	Eigen::VectorXd displacements() const { return motion_.duration * middle_; }
 
-	/// Takes external forces less those that resist at the end of the step. Returns the forces with which held nodes have to be held, zero at the others.
+	/// Takes external forces less those that resist at the end of the step. Returns the forces with which held
+	/// nodes have to be held, zero at the others.
 	Eigen::VectorXd accelerate(const Eigen::VectorXd& imbalance);
 
 	/// The step has been accepted.

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// F-bar against volumetric locking: the law of a point sees the increment dF-bar = (J_0 / J)^(1/n) dF, whose volumetric part J_0 = det dF_0 is that in the
-// centre of the matter in the cells that the point's domain lies in. n axes are scaled: the two of plane strain, or three, of which one may go around.
+// F-bar against volumetric locking: the law of a point sees the increment dF-bar = (J_0 / J)^(1/n) dF, whose volumetric
+// part J_0 = det dF_0 is that in the centre of the matter in the cells that the point's domain lies in. n axes are
+// scaled: the two of plane strain, or three, of which one may go around.
 //
-// The forces are the derivative of what a hyperelastic law stores, sum V_0 psi(F-bar): f_a = V_0 (dev t g_a + tr_n t / n g0_a), with t the Kirchhoff stress
-// and g, g0 the gradients of the basis functions at the point and at the centres. So a symmetric law has a symmetric stiffness, which the form of
-// E. de Souza Neto et al. (1996, Int. J. Solids Struct. 33: 3277-3296) has not, and no node is coupled to others than without F-bar.
+// The forces are the derivative of what a hyperelastic law stores, sum V_0 psi(F-bar): f_a = V_0 (dev t g_a + tr_n t /
+// n g0_a), with t the Kirchhoff stress and g, g0 the gradients of the basis functions at the point and at the centres.
+// So a symmetric law has a symmetric stiffness, which the form of E. de Souza Neto et al. (1996, Int. J. Solids Struct.
+// 33: 3277-3296) has not, and no node is coupled to others than without F-bar.
 #pragma once
 #include "core/terms/point_kernel.hpp"
 
@@ -42,7 +44,8 @@ template <int Dim, int Axes = Dim> struct FBarChunk : Chunk<Dim, Axes> {
 	using Chunk<Dim, Axes>::width;
 	static constexpr bool hasCentres = true;
 
-	Lanes centre[capacity][Axes][width];        ///< gradients of the basis functions at the centres, node by node; turn() makes g0 of them
+	/// Gradients of the basis functions at the centres, node by node; turn() makes g0 of them.
+	Lanes centre[capacity][Axes][width];
 	Lanes centreGradient[batches][Dim][Axes];   ///< of the displacements
 	Lanes meanStress[batches];                  ///< times volume: its force on node a is along g0_a
 	Lanes bulk[batches];                        ///< its derivative, times volume

@@ -10,8 +10,9 @@ bool contains(const std::vector<Key>& sorted, Key key) { return find(sorted, key
 /// Jump of dN/dn across a face for the nodes below, on and above it, times h.
 constexpr double jump[3] = { -1, 2, -1 };
 
-/// Integral over the face of N_s N_t for the nodes of the face: the linear mass matrix h/6 [2 1; 1 2] of each tangential axis. Around an axis of
-/// symmetry each of its entries has the circumference at its own mean distance from the axis.
+/// Integral over the face of N_s N_t for the nodes of the face: the linear mass matrix h/6 [2 1; 1 2] of each
+/// tangential axis. Around an axis of symmetry each of its entries has the circumference at its own mean distance from
+/// the axis.
 template <int Dim> double faceMass(const GhostFace<Dim>& face, int s, int t, double h)
 {
 	double m = face.girth + (s + t) * face.widening;
@@ -20,7 +21,8 @@ template <int Dim> double faceMass(const GhostFace<Dim>& face, int s, int t, dou
 	return m;
 }
 
-/// Young's moduli of the leaves at the faces, by number: the means of their points, weighted by the volumes of the overlaps.
+/// Young's moduli of the leaves at the faces, by number: the means of their points, weighted by the volumes of the
+/// overlaps.
 template <int Dim>
 std::vector<double> moduliAtFaces(
         const std::vector<GhostFace<Dim>>& faces, const CloudBasis<Dim>& basis, const PointStiffness& stiffnessOf, const Grid<Dim>& grid)
@@ -60,7 +62,8 @@ template <int Dim, class F> void forNeighbours(Key cell, int axis, bool isAbove,
 	f(grid.first(isAbove ? cell + step : cell - step), 0);
 }
 
-/// The circumference 2 pi r of a face around the axis of symmetry: over a cell from r_0 on, the mean of r weighted by N_s N_t is r_0 + h (1 + s + t) / 4.
+/// The circumference 2 pi r of a face around the axis of symmetry: over a cell from r_0 on, the mean of r weighted by
+/// N_s N_t is r_0 + h (1 + s + t) / 4.
 template <int Dim> void revolve(GhostFace<Dim>& face, const Grid<Dim>& grid)
 {
 	const double radius = grid.cellSize * (Grid<Dim>::index(face.lower)[0] - grid.axisNode());

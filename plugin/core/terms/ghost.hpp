@@ -7,15 +7,17 @@
 
 namespace gimpm {
 
-/// Power of the cell size h in the ghost stiffness. Eq. (2) has h^3, which fades against K on fine grids; h keeps the ratio. The two
-/// agree for h = 1 m.
+/// Power of the cell size h in the ghost stiffness. Eq. (2) has h^3, which fades against K on fine grids; h keeps the
+/// ratio. The two agree for h = 1 m.
 enum class GhostScaling { meshIndependent, paper };
 
-/// Of populated cells, in a refined grid the populated leaves, those that share a face, or a part of it, with an unpopulated one. A wall is no free surface: what lies behind it does not count.
+/// Of populated cells, in a refined grid the populated leaves, those that share a face, or a part of it, with an
+/// unpopulated one. A wall is no free surface: what lies behind it does not count.
 template <int Dim> std::vector<Key> boundaryCells(const std::vector<Key>& populated, const Boundary<Dim>&, const Grid<Dim>& = {});
 
-/// Face between two populated cells of which at least one is a boundary cell. Where a cell is larger than its neighbour, the part of it that is as large as that is meant, and the nodes
-/// in it are tied: the jump is that of the same functions.
+/// Face between two populated cells of which at least one is a boundary cell. Where a cell is larger than its
+/// neighbour, the part of it that is as large as that is meant, and the nodes in it are tied: the jump is that of the
+/// same functions.
 template <int Dim> struct GhostFace {
 	static constexpr int tangentialNodes = 1 << (Dim - 1);
 	int                  axis;                        ///< normal direction
@@ -24,8 +26,8 @@ template <int Dim> struct GhostFace {
 	double               stiffness = 0;               ///< gamma_k h^3/3 of eq. (2), or gamma_k h/3
 	double girth = 1, widening = 0; ///< around an axis of symmetry: circumference with two lower nodes, and how much it grows with each higher one [m]
 
-	/// The nodes below, on and above the face (i = 0, 1, 2): bits of s are set for the upper ends along the other axes, in order. At the far side of a
-	/// periodic grid another node may stand for it.
+	/// The nodes below, on and above the face (i = 0, 1, 2): bits of s are set for the upper ends along the other
+	/// axes, in order. At the far side of a periodic grid another node may stand for it.
 	Key key(int i, int s) const
 	{
 		Key node = lower + i * Grid<Dim>::keyStep(axis, level());
@@ -43,9 +45,11 @@ std::vector<GhostFace<Dim>> ghostFaces(const std::vector<Key>& populated, const 
 /// Numbers of the populated leaves below and above a face.
 template <int Dim> std::array<int, 2> cellsAt(const GhostFace<Dim>&, const CloudBasis<Dim>&, const Grid<Dim>&);
 
-/// Sets node numbers and stiffness = factor * modulus * (h or h^3) / 3, with h of the larger of the two cells: it is what a nearly empty large cell needs. A cell's modulus is the mean of Young's moduli of its points,
-/// weighted by the volumes of their domains' overlaps with it; a face has that of the softer of its two cells. With the stiffer one or a
-/// mean, soft layers could not be strained beside stiff ones: the kink of the displacements is what equilibrium asks for there.
+/// Sets node numbers and stiffness = factor * modulus * (h or h^3) / 3, with h of the larger of the two cells: it is
+/// what a nearly empty large cell needs. A cell's modulus is the mean of Young's moduli of its points, weighted by the
+/// volumes of their domains' overlaps with it; a face has that of the softer of its two cells. With the stiffer one or
+/// a mean, soft layers could not be strained beside stiff ones: the kink of the displacements is what equilibrium asks
+/// for there.
 template <int Dim>
 void weighGhostFaces(std::vector<GhostFace<Dim>>&, const CloudBasis<Dim>&, const PointStiffness&, const Grid<Dim>&, double factor, GhostScaling);
 
@@ -53,7 +57,8 @@ void weighGhostFaces(std::vector<GhostFace<Dim>>&, const CloudBasis<Dim>&, const
 template <int Dim> void addGhostStiffness(const std::vector<GhostFace<Dim>>&, double h, NodeMatrix<Dim>& K);
 template <int Dim> void markGhostPattern(const std::vector<GhostFace<Dim>>&, NodeMatrix<Dim>& K);
 
-/// Calls f(node a, node b, code of the offset from a to b, entry of K_g) for pairs of nodes, b not before a; the entry is the same for each displacement component.
+/// Calls f(node a, node b, code of the offset from a to b, entry of K_g) for pairs of nodes, b not before a; the entry
+/// is the same for each displacement component.
 template <int Dim> void forGhostPairs(const std::vector<GhostFace<Dim>>&, double h, const std::function<void(int, int, int, double)>& f);
 
 /// f += K_g d (eq. 6).

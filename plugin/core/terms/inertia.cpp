@@ -29,8 +29,9 @@ Inertia<Dim>::Inertia(Motion<Dim>& motion, const Beginning<Dim>& step)
 	findStart(step);
 }
 
-/// Velocities and accelerations at the nodes, those of the points, or where they are at the beginning the accelerations of equilibrium. What the latter would do besides
-/// is kept for the balance of energy: found anew in each step, they would throw nodes of hardly any mass about, and in long steps change their sign from one to the next.
+/// Velocities and accelerations at the nodes, those of the points, or where they are at the beginning the accelerations
+/// of equilibrium. What the latter would do besides is kept for the balance of energy: found anew in each step, they
+/// would throw nodes of hardly any mass about, and in long steps change their sign from one to the next.
 template <int Dim> void Inertia<Dim>::findStart(const Beginning<Dim>& step)
 {
 	const bool isDriven = motion_.scheme.dependsOnStart();
@@ -61,7 +62,8 @@ template <int Dim> Eigen::VectorXd Inertia<Dim>::imbalanceOf(const Beginning<Dim
 	return others - damping;
 }
 
-/// Where nodes are held, also what the velocities would be if they were not: the blow of what holds them has changed them by the difference.
+/// Where nodes are held, also what the velocities would be if they were not: the blow of what holds them has changed
+/// them by the difference.
 template <int Dim> void Inertia<Dim>::findVelocity(bool withAcceleration)
 {
 	const double          roundOff = motion_.exactness;
@@ -91,8 +93,8 @@ template <int Dim> Eigen::VectorXd Inertia<Dim>::ofContact(const Eigen::VectorXd
 	return -resistance / (d ? motion_.contacts->weight : 1);
 }
 
-/// (M + M_g) x = right at the free degrees of freedom, with the values that the held ones have. Conjugate gradients where ghost mass bounds the condition number; for little
-/// of it, or points that lie alone, the factor is cheaper.
+/// (M + M_g) x = right at the free degrees of freedom, with the values that the held ones have. Conjugate gradients
+/// where ghost mass bounds the condition number; for little of it, or points that lie alone, the factor is cheaper.
 template <int Dim> void Inertia<Dim>::solve(const std::vector<Side>& sides)
 {
 	constexpr int worthwhile = 300;
@@ -266,7 +268,8 @@ template <int Dim> void Inertia<Dim>::commit(const Eigen::VectorXd& d)
 	});
 	const double gained = std::accumulate(ofPoints.begin(), ofPoints.begin() + division_.ownOf(ofPoints.size()), 0.);
 	motion_.growth      = growth;
-	// the force of the ghost stiffness begins at zero in each step; points do not take over what the nodes change in the ghost mass
+	// the force of the ghost stiffness begins at zero in each step; points do not take over what the nodes change
+	// in the ghost mass
 	motion_.ghostWork = gamma * d.dot(ghost) + (growth.dot(nodal_ * growth) - division_.sum(gained)) / 2;
 }
 

@@ -6,9 +6,11 @@
 
 namespace gimpm {
 
-/// Consistent mass times acceleration, and damping. Points give momentum to the nodes, which have the velocities v of (M + M_g) v = sum of S m v_p, held ones those that
-/// the step prescribes, by a blow where points have brought others along; points take back what changes of them (FLIP). Every other force is that at the end of the step. Where
-/// the scheme weighs it with that of the beginning the whole balance is divided by its weight: so other terms are as in a step without inertia.
+/// Consistent mass times acceleration, and damping. Points give momentum to the nodes, which have the velocities v of
+/// (M + M_g) v = sum of S m v_p, held ones those that the step prescribes, by a blow where points have brought others
+/// along; points take back what changes of them (FLIP). Every other force is that at the end of the step. Where the
+/// scheme weighs it with that of the beginning the whole balance is divided by its weight: so other terms are as in a
+/// step without inertia.
 template <int Dim> class Inertia : public Term<Dim> {
 public:
 	/// To be made after all other terms. Velocities and accelerations are written in commit().
@@ -58,12 +60,16 @@ private:
 	bool                                       iterates_; // its condition number is bounded, and conjugate gradients have got there
 	std::vector<std::unique_ptr<Damping<Dim>>> damping_;
 	bool                                       isSingular_ = false;
-	std::array<bool, Dim + 1>                  factorised_ {};           // of the solvers of the motion, in this step
-	Eigen::VectorXd                            imbalance_;               // at the start, without contact, where the scheme asks for it; zero at held nodes
-	Eigen::VectorXd                            neglected_;               // forces at the start beyond those of acceleration_; zero at held nodes
-	Eigen::VectorXd                            velocity_, acceleration_; // at the start, without what contact does to the latter
-	Eigen::VectorXd                            expected_;                // acceleration, with contact
-	Eigen::VectorXd                            blow_, jump_; // impulse of what holds nodes as the step begins, and the velocities that it changes
+	// Of the solvers of the motion, in this step.
+	std::array<bool, Dim + 1> factorised_ {};
+	// At the start, without contact, where the scheme asks for it; zero at held nodes.
+	Eigen::VectorXd imbalance_;
+	// Forces at the start beyond those of acceleration_; zero at held nodes.
+	Eigen::VectorXd neglected_;
+	// At the start, without what contact does to the latter.
+	Eigen::VectorXd velocity_, acceleration_;
+	Eigen::VectorXd expected_;    // acceleration, with contact
+	Eigen::VectorXd blow_, jump_; // impulse of what holds nodes as the step begins, and the velocities that it changes
 };
 
 } // namespace gimpm

@@ -14,9 +14,9 @@ template <int Dim> struct StepPoints {
 	std::vector<int>             material;
 	InternalColumns              internals;
 	ParameterColumns             parameters;
-	bool                         isSymmetric    = true;  ///< the tangents of their laws
-	bool                         hasTensorLaws  = false; ///< some of them
-	double                       duration       = 0;     ///< of the step, for laws that depend on it
+	bool                         isSymmetric   = true;  ///< the tangents of their laws
+	bool                         hasTensorLaws = false; ///< some of them
+	double                       duration      = 0;     ///< of the step, for laws that depend on it
 	std::vector<PointBasis<Dim>> centres;     ///< only with F-bar (core/terms/fbar.hpp): basis functions with the gradients at the centres of the cells
 	std::vector<AxisValues>      hoopCentres; ///< and those of the hoop strain, around an axis of symmetry
 
@@ -44,8 +44,10 @@ template <int Dim> using Colours = decltype(CloudBasis<Dim>::colours);
 
 template <int Dim> StepPoints<Dim> stepPoints(const PointCloud<Dim>&, const std::vector<Material>&, const CloudBasis<Dim>&, bool fBar = false);
 
-/// force += internal force of the nodal displacements d (from the start of the step), K += its derivative, and sizes += the magnitudes of the
-/// patches' forces, as far as they are asked for; of the patches in `colours`. Fails for points with det F <= 0 or without an answer of their law. The result does not depend on the number of threads. `part`: of the step's time has gone by.
+/// force += internal force of the nodal displacements d (from the start of the step), K += its derivative, and sizes +=
+/// the magnitudes of the patches' forces, as far as they are asked for; of the patches in `colours`. Fails for points
+/// with det F <= 0 or without an answer of their law. The result does not depend on the number of threads. `part`: of
+/// the step's time has gone by.
 template <int Dim>
 std::optional<PointFailure> addInternalForce(
         const CloudBasis<Dim>&, const Colours<Dim>& colours, const StepPoints<Dim>&, const std::vector<Material>&, const Eigen::VectorXd& d,
@@ -70,7 +72,7 @@ public:
 	}
 	void                        mark(NodeMatrix<Dim>& K) const override { markPointPattern(basis_, K); }
 	std::optional<PointFailure> add(const Eigen::VectorXd& d, const TermSum<Dim>& sum) const override { return add(d, sum, 1); }
-	bool isSymmetric() const override { return points_.isSymmetric; }
+	bool                        isSymmetric() const override { return points_.isSymmetric; }
 
 protected:
 	/// After so much of the step's time.

@@ -1,15 +1,18 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The laws' answers, several points at once. Short laws are compiled into the kernels, which then need not call anything. The others are compiled once
-// for each kind of processor: into each of the kernels they would take the compiler minutes.
+// The laws' answers, several points at once. Short laws are compiled into the kernels, which then need not call
+// anything. The others are compiled once for each kind of processor: into each of the kernels they would take the
+// compiler minutes.
 #pragma once
 #include "core/terms/varying_law.hpp"
 
 namespace gimpm {
 
-/// Response of Lanes::count points to their trial strains by a law that is not short, with the values of its variables at the start of the step.
+/// Response of Lanes::count points to their trial strains by a law that is not short, with the values of its variables
+/// at the start of the step.
 void respondByCall(const PrincipalLaw&, const PrincipalValues<Lanes>& trialStrain, const Lanes* internals, LanesOfLaws&);
 
-/// The same by any law, with the variables of these points; of those that are of another material there are any numbers.
+/// The same by any law, with the variables of these points; of those that are of another material there are any
+/// numbers.
 GIMPM_INLINE void respondTogether(
         const Material& material, const ParameterColumns& parameters, const InternalColumns& columns, const int* point,
         const PrincipalValues<Lanes>& trialStrain, LanesOfLaws& response)

@@ -6,8 +6,8 @@
 namespace gimpm {
 namespace {
 
-/// Of the second moments of (1, x) (1, y)[ (1, z)] over the points of a cell, with x from -1 to 1, the least eigenvalue with which they determine a field there. Two points along
-/// each axis that fill the cell have 4^-Dim.
+/// Of the second moments of (1, x) (1, y)[ (1, z)] over the points of a cell, with x from -1 to 1, the least eigenvalue
+/// with which they determine a field there. Two points along each axis that fill the cell have 4^-Dim.
 template <int Dim> constexpr double leastMoment = Dim == 2 ? 1e-3 : 1e-4;
 
 /// The points of a cell.
@@ -31,7 +31,8 @@ template <int Dim> CellPairs cellPairs(const std::vector<GhostFace<Dim>>& faces,
 	return pairs;
 }
 
-/// Cells at ghost faces, and those that have none but not all neighbours, as by themselves or behind a wall; the others are within the body.
+/// Cells at ghost faces, and those that have none but not all neighbours, as by themselves or behind a wall; the others
+/// are within the body.
 template <int Dim> std::vector<char> atEdge(const CloudBasis<Dim>& basis, const CellPairs& pairs, const Grid<Dim>& grid)
 {
 	std::vector<char> isAt(basis.cells.size(), false);

@@ -13,13 +13,15 @@ template <int Dim> struct LooseCell {
 	double                   mass = 0;
 };
 
-/// Share of the mass of loose cells that MassMatrix lumps. Its angular momentum is lost in each step, its inverse bounds the condition number (docs/theory.md).
+/// Share of the mass of loose cells that MassMatrix lumps. Its angular momentum is lost in each step, its inverse
+/// bounds the condition number (docs/theory.md).
 constexpr double usualLooseShare = 1e-6;
 
-/// Of the populated cells with points those whose points do not determine a multilinear field, and which no chain of `reach` ghost faces connects with a cell whose points do, as at a corner of a body (the
-/// condition number grows with the fourth power of the way):
-/// fewer than 2^Dim points by themselves, or any number of them in a row. There nodal fields exist that no point sees. Masses by point of the cloud [kg]. Where points are divided
-/// the cells at the own nodes are right.
+/// Of the populated cells with points those whose points do not determine a multilinear field, and which no chain of
+/// `reach` ghost faces connects with a cell whose points do, as at a corner of a body (the condition number grows with
+/// the fourth power of the way): fewer than 2^Dim points by themselves, or any number of them in a row. There nodal
+/// fields exist that no point sees. Masses by point of the cloud [kg]. Where points are divided the cells at the own
+/// nodes are right.
 template <int Dim>
 std::vector<LooseCell<Dim>> looseCells(
         const CloudBasis<Dim>&, const std::vector<double>& masses, const std::vector<GhostFace<Dim>>&, const Grid<Dim>&, int reach = Dim, const Division& = {});

@@ -7,11 +7,13 @@
 
 namespace gimpm {
 
-/// M_ab = sum of m_p S_a S_b over the points, and M_g, which is K_g (core/terms/ghost.hpp) with gamma_M h^3 / 3 for the faces' stiffness (Sticko et al. 2020): it
-/// penalises jumps of the gradient of velocities, so that the condition number does not depend on how little of a cell is filled. Its rows add up to
-/// zero: mass, momentum and every linear field of velocities are left alone. Where points are too few by themselves, loose cells are given a share of lumped less consistent mass, m (1 / n - 1 / n^2)
-/// for their n nodes and -m / n^2 for pairs of them: its rows add up to zero too, so that mass, momentum and uniform velocities are left alone, but not
-/// linear ones. One number for a pair of nodes, the same for each component.
+/// M_ab = sum of m_p S_a S_b over the points, and M_g, which is K_g (core/terms/ghost.hpp) with gamma_M h^3 / 3 for the
+/// faces' stiffness (Sticko et al. 2020): it penalises jumps of the gradient of velocities, so that the condition
+/// number does not depend on how little of a cell is filled. Its rows add up to zero: mass, momentum and every linear
+/// field of velocities are left alone. Where points are too few by themselves, loose cells are given a share of lumped
+/// less consistent mass, m (1 / n - 1 / n^2) for their n nodes and -m / n^2 for pairs of them: its rows add up to zero
+/// too, so that mass, momentum and uniform velocities are left alone, but not linear ones. One number for a pair of
+/// nodes, the same for each component.
 template <int Dim> class MassMatrix {
 public:
 	/// Masses by point of the cloud [kg].

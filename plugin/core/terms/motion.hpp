@@ -84,8 +84,8 @@ Eigen::VectorXd blowOf(const Mass& M, const Eigen::VectorXd& velocity, const Eig
 	return blow;
 }
 
-/// Kinetic energy of the nodes before a blow, p v / 2 with M v = p, less that of `velocity` after it, and with the work of what holds them, whose velocity is `held`.
-/// `jump`: M^-1 `blow`.
+/// Kinetic energy of the nodes before a blow, p v / 2 with M v = p, less that of `velocity` after it, and with the work
+/// of what holds them, whose velocity is `held`. `jump`: M^-1 `blow`.
 template <class Mass>
 double energyOfBlow(const Mass& M, const Eigen::VectorXd& velocity, const Eigen::VectorXd& blow, const Eigen::VectorXd& jump, const Eigen::VectorXd& held)
 {

@@ -8,7 +8,8 @@
 namespace gimpm {
 namespace {
 
-/// Of loose cells. What their points do not see has stiffness all the same, where a displacement vanishes and its gradient does not: with less mass it would not be stable.
+/// Of loose cells. What their points do not see has stiffness all the same, where a displacement vanishes and its
+/// gradient does not: with less mass it would not be stable.
 constexpr double lumpedShare = 1;
 
 template <int Dim> std::vector<double> lumped(const CloudBasis<Dim>& basis, const std::vector<double>& masses)
@@ -106,7 +107,8 @@ template <int Dim> Eigen::VectorXd NodalMass<Dim>::rest(const Side& side, const 
 	return left;
 }
 
-/// Of two guesses the better one: nothing, or that of a lumped mass, which is right where all moves alike, and wrong for forces that grip light nodes.
+/// Of two guesses the better one: nothing, or that of a lumped mass, which is right where all moves alike, and wrong
+/// for forces that grip light nodes.
 template <int Dim> typename NodalMass<Dim>::Start NodalMass<Dim>::start(const Side& side, const Eigen::VectorXd* C) const
 {
 	Eigen::VectorXd guessed = side.x;
@@ -127,7 +129,8 @@ template <int Dim> double NodalMass<Dim>::sizeOf(const Eigen::VectorXd& momenta)
 	return Eigen::VectorXd::NullaryExpr(momenta.size(), [&](Eigen::Index i) { return momenta[i] / std::sqrt(rows_.diagonal(int(i) / Dim)); }).stableNorm();
 }
 
-/// Along axes on which nothing is held momentum is right to round-off, whatever the tolerance: a rigid motion takes what is left of it.
+/// Along axes on which nothing is held momentum is right to round-off, whatever the tolerance: a rigid motion takes
+/// what is left of it.
 template <int Dim> void NodalMass<Dim>::keepMomentum(const Side& side, const Eigen::VectorXd* C) const
 {
 	Eigen::Map<const Eigen::Array<int, Dim, Eigen::Dynamic>> numbers(side.dofs.number.data(), Dim, rows_.nodes());

@@ -11,11 +11,13 @@ namespace gimpm {
 /// All degrees of freedom, as of a body that nothing holds.
 inline FreeDofs allFree(Eigen::Index size) { return { std::vector<int>(size, 0), int(size) }; }
 
-/// Consistent mass with ghost mass, for conjugate gradients: its condition number is bounded however little of a cell is filled (150 in 2D, 400 in 3D at a quarter of
-/// the density). Without ghost mass it has no bound, and the mass is lumped: the sum of each row goes to its node.
+/// Consistent mass with ghost mass, for conjugate gradients: its condition number is bounded however little of a cell
+/// is filled (150 in 2D, 400 in 3D at a quarter of the density). Without ghost mass it has no bound, and the mass is
+/// lumped: the sum of each row goes to its node.
 template <int Dim> class NodalMass {
 public:
-	/// Masses by point of the cloud [kg]. Without faces it is lumped. `share`: the nodes around which this process knows all points.
+	/// Masses by point of the cloud [kg]. Without faces it is lumped. `share`: the nodes around which this process
+	/// knows all points.
 	NodalMass(
 	        const CloudBasis<Dim>&, const std::vector<double>& masses, const std::vector<GhostFace<Dim>>&, double h,
 	        const std::vector<LooseCell<Dim>>& loose = {}, const NodeShare& share = NodeShare::whole());
@@ -33,8 +35,9 @@ public:
 		int    atMost    = mostIterations;
 	};
 
-	/// (M + C) x = right at the free degrees of freedom for up to three sides at the same time, where C is a diagonal matrix or nothing. False, with x meaningless there, if
-	/// that takes more iterations or M is singular. The result does not depend on the number of threads.
+	/// (M + C) x = right at the free degrees of freedom for up to three sides at the same time, where C is a
+	/// diagonal matrix or nothing. False, with x meaningless there, if that takes more iterations or M is singular.
+	/// The result does not depend on the number of threads.
 	bool solve(const std::vector<Side>&, Effort = {}, const Eigen::VectorXd* C = nullptr);
 
 	bool isLumped() const { return rows_.value.empty(); }

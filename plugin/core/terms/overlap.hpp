@@ -5,7 +5,8 @@
 
 namespace gimpm {
 
-/// Calls f(cell, point of the cloud, within) for the populated cells in the leaves that are asked for, by number; within(volume of the point) is what of it is in the cell.
+/// Calls f(cell, point of the cloud, within) for the populated cells in the leaves that are asked for, by number;
+/// within(volume of the point) is what of it is in the cell.
 template <int Dim, class F> void forOverlaps(const std::vector<char>& isAskedFor, const CloudBasis<Dim>& basis, const Grid<Dim>& grid, F&& f)
 {
 	for (const auto& patch : basis.patches)

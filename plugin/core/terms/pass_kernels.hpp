@@ -38,7 +38,8 @@ GIMPM_INLINE FailureCode unansweredIn(const Batch& batch, const std::vector<int>
 	return firstFailure(batch, order, PointFailure::Reason::noResponse, [&](int lane) { return !(failed[lane] <= 0); });
 }
 
-/// Principal axes q_k, and w_k = F^-1 q_k with F of the increment. Of a body of revolution the third axis goes around, and F^-1 along it is `around`.
+/// Principal axes q_k, and w_k = F^-1 q_k with F of the increment. Of a body of revolution the third axis goes around,
+/// and F^-1 along it is `around`.
 template <int Dim, int Axes> struct Frame {
 	const MatrixOf<Dim, Lanes>& q;
 	MatrixOf<Dim, Lanes>        w;
@@ -65,7 +66,8 @@ GIMPM_INLINE void dyads(Lanes (&sum)[Dim][Axes], const PrincipalValues<Lanes>& v
 	if constexpr (Axes > Dim) sum[0][Dim] = volume * value[2] * frame.around;
 }
 
-/// Between the gradients of component i and the hoop strain, with the derivatives of the principal stresses by it, or of its stress by the principal strains.
+/// Between the gradients of component i and the hoop strain, with the derivatives of the principal stresses by it, or
+/// of its stress by the principal strains.
 template <int Dim> GIMPM_INLINE Lanes hoopModulus(const Lanes (&tangent)[Dim], const Frame<Dim, Dim + 1>& frame, int i, int j)
 {
 	Lanes sum(0);
@@ -109,8 +111,9 @@ GIMPM_INLINE void keepModuli(
 
 /// Flux and moduli of one batch of a chunk. Returns a point that fails, or noFailure.
 ///
-/// With principal axes q_k and Kirchhoff stresses t_k, and w_k = F^-1 q_k, the flux is V_0 sum_k t_k q_k w_k: current volume times Cauchy
-/// stress is initial volume times Kirchhoff stress. It goes with gradients in the configuration at the start of the step.
+/// With principal axes q_k and Kirchhoff stresses t_k, and w_k = F^-1 q_k, the flux is V_0 sum_k t_k q_k w_k: current
+/// volume times Cauchy stress is initial volume times Kirchhoff stress. It goes with gradients in the configuration at
+/// the start of the step.
 template <int Dim, int Axes> GIMPM_INLINE FailureCode respond(const Pass<Dim>& pass, Chunk<Dim, Axes>& chunk, int b)
 {
 	using M = MatrixOf<Dim, Lanes>;
@@ -129,7 +132,8 @@ template <int Dim, int Axes> GIMPM_INLINE FailureCode respond(const Pass<Dim>& p
 	return pass.points.hasTensorLaws ? respondOfTensors(pass, chunk, batch, b) : noFailure;
 }
 
-/// The same with F-bar. What changes shapes goes with the gradients at the points, what changes volumes with those at the centres.
+/// The same with F-bar. What changes shapes goes with the gradients at the points, what changes volumes with those at
+/// the centres.
 template <int Dim, int Axes> GIMPM_INLINE FailureCode respond(const Pass<Dim>& pass, FBarChunk<Dim, Axes>& chunk, int b)
 {
 	const Batch                    batch(chunk.first + b * Lanes::count, chunk.last());
@@ -210,7 +214,7 @@ template <class Kernels, class ChunkOfPoints, int Dim> GIMPM_INLINE FailureCode 
 // What does not depend on the kind of patch is not inlined into the code for all kinds.
 #define GIMPM_KERNELS(Name, ...)                                                                                                                               \
 	struct Name##Parts {                                                                                                                                   \
-		template <class C, int Dim> [[GIMPM_FLATTEN gnu::noinline]] __VA_ARGS__ static FailureCode respond(const Pass<Dim>& pass, C& chunk)            \
+		template <class C, int Dim>[[GIMPM_FLATTEN gnu::noinline]] __VA_ARGS__ static FailureCode respond(const Pass<Dim>& pass, C& chunk)             \
 		{                                                                                                                                              \
 			FailureCode failure = noFailure;                                                                                                       \
 			for (int batch = 0; batch * Lanes::count < chunk.count; ++batch)                                                                       \

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The pass for all processors. Without fused multiplications the compiler may optimise as little as it likes: results keep their bits.
+// The pass for all processors. Without fused multiplications the compiler may optimise as little as it likes: results
+// keep their bits.
 #include "core/terms/pass_kernels.hpp"
 
 namespace gimpm {

@@ -5,11 +5,11 @@
 
 namespace gimpm {
 
-/// Sum over points of grad_a,j V a_ijkl grad_b,l for the N nodes of a patch, by pairs of displacement components (i <= k if it is symmetric):
-/// block(i, k)(a, b) = K_(a,i)(b,k).
+/// Sum over points of grad_a,j V a_ijkl grad_b,l for the N nodes of a patch, by pairs of displacement components (i <=
+/// k if it is symmetric): block(i, k)(a, b) = K_(a,i)(b,k).
 ///
-/// F-bar adds products with the gradients g0 at the centres (core/terms/fbar.hpp), those with g0_a,i and, of the change of g0 with the displacements,
-/// with g0_a,k: to each, as to each grad_a,j, belongs a flux of node b.
+/// F-bar adds products with the gradients g0 at the centres (core/terms/fbar.hpp), those with g0_a,i and, of the change
+/// of g0 with the displacements, with g0_a,k: to each, as to each grad_a,j, belongs a flux of node b.
 template <class ChunkOfPoints, int N, bool Symmetric> class PatchStiffness {
 	static constexpr int Dim = ChunkOfPoints::dim, Axes = ChunkOfPoints::axes;
 	using Pairs                     = PairModuli<Dim>;
@@ -107,11 +107,13 @@ private:
 	}
 	static constexpr bool isRing = Axes > Dim;
 	static constexpr int  directions(int component) { return directionsOf<Dim, Axes>(component); }
-	/// Fluxes of a point for a pair of components: one for each gradient of the first one, then those for gradients at the centres.
+	/// Fluxes of a point for a pair of components: one for each gradient of the first one, then those for gradients
+	/// at the centres.
 	static constexpr int rowsOf(int i, int k) { return ChunkOfPoints::hasCentres ? 2 * directions(i) - Dim + 1 + (i != k) : directions(i); }
 	/// The same where it is known to the compiler, which unrolls the sums then; 0: it is not.
 	static constexpr int fluxes(bool onDiagonal) { return isRing ? 0 : onDiagonal ? rowsOf(0, 0) : rowsOf(0, 1); }
-	/// The direction at the centres of the flux number j: those of the first component, by which volumes change, then k.
+	/// The direction at the centres of the flux number j: those of the first component, by which volumes change,
+	/// then k.
 	static constexpr int centreOf(int j, int i, int k)
 	{
 		const int number = j - directions(i);

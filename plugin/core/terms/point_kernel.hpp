@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The way of the material points through a pass. What depends on the number of nodes is computed point by point, with the nodes of its
-// patch side by side; the response of the material, which does not, with several points side by side.
+// The way of the material points through a pass. What depends on the number of nodes is computed point by point, with
+// the nodes of its patch side by side; the response of the material, which does not, with several points side by side.
 #pragma once
 #include "core/materials/kinematics.hpp"
 #include "core/terms/internal_force.hpp"
 
 namespace gimpm {
 
-// Axes: directions of gradients. Where there is one more than displacement components, the body is one of revolution about an axis, x is the radius, and
-// the last direction goes around: along it only the radial displacement has a gradient, u_x / x.
+// Axes: directions of gradients. Where there is one more than displacement components, the body is one of revolution
+// about an axis, x is the radius, and the last direction goes around: along it only the radial displacement has a
+// gradient, u_x / x.
 
 /// Directions along which a displacement component has a gradient.
 template <int Dim, int Axes> constexpr int directionsOf(int component) { return component == 0 ? Axes : Dim; }
@@ -80,8 +81,8 @@ template <int Dim, int Span> struct PatchVectors {
 /// Points that go through a pass together, Lanes::count times.
 constexpr int batchesAtOnce = 4;
 
-/// Moduli times volume of these points, by pairs of displacement components: value(i, k)[batch][j][l] = V a_ijkl. The pairs i <= k come first; the
-/// others are touched only where a law is not symmetric.
+/// Moduli times volume of these points, by pairs of displacement components: value(i, k)[batch][j][l] = V a_ijkl. The
+/// pairs i <= k come first; the others are touched only where a law is not symmetric.
 template <int Dim, int Axes = Dim> struct PairModuli {
 	static constexpr int upper = Dim * (Dim + 1) / 2;
 	Lanes                value[Dim * Dim][batchesAtOnce][Axes][Axes];
@@ -105,8 +106,9 @@ template <int Dim, int Axes = Dim> struct Chunk {
 	static constexpr int  width      = (windowNodes<Dim> + Lanes::count - 1) / Lanes::count;
 	static constexpr bool hasCentres = false; ///< see FBarChunk
 
-	int                   first = 0, count = 0;
-	Lanes                 basis[capacity][Axes][width]; ///< gradients of the basis functions of a point, node by node
+	int first = 0, count = 0;
+	/// Gradients of the basis functions of a point, node by node.
+	Lanes                 basis[capacity][Axes][width];
 	Lanes                 gradient[batches][Dim][Axes]; ///< of the displacements, a point in each lane
 	Lanes                 flux[batches][Dim][Axes];     ///< the force on node a is flux . grad_a
 	PairModuli<Dim, Axes> moduli;
@@ -129,8 +131,8 @@ template <int Dim, int Axes = Dim> struct Chunk {
 	double&       gradientAt(int point, int i, int j) { return gradient[(point - first) / Lanes::count][i][j].v[(point - first) % Lanes::count]; }
 };
 
-/// The gradients of a point's basis functions, stored at basisAt(axis), and keep(i, j, d u_i / d x_j) of the displacements u. `hoop`: the functions of x
-/// that give the hoop strain, if there is one.
+/// The gradients of a point's basis functions, stored at basisAt(axis), and keep(i, j, d u_i / d x_j) of the
+/// displacements u. `hoop`: the functions of x that give the hoop strain, if there is one.
 template <int Axes, int Dim, int Span, class At, class Keep>
 GIMPM_INLINE void formGradients(const PointBasis<Dim>& axes, const AxisValues* hoop, const PatchVectors<Dim, Span>& u, At&& basisAt, Keep&& keep)
 {
@@ -143,7 +145,8 @@ GIMPM_INLINE void formGradients(const PointBasis<Dim>& axes, const AxisValues* h
 	for (int r = 0; r < Nodes::rows; ++r) {
 		for (int j = 0; j < Dim; ++j) {
 			const Lanes g = (j == 0 ? slope : value) * Lanes(Nodes::rowFactor(axes, r, j));
-			storeLanes(basisAt(j) + r * Nodes::inRow, g); // the next row begins where the nodes of this one end
+			// The next row begins where the nodes of this one end.
+			storeLanes(basisAt(j) + r * Nodes::inRow, g);
 			for (int i = 0; i < Dim; ++i)
 				gradient[i][j] += u.row[i][r] * g;
 		}
@@ -216,7 +219,8 @@ template <int Dim, int Span = (1 << Dim) - 1, class F> GIMPM_INLINE void withSpa
 	}
 }
 
-/// Calls f(span, patch, begin, end) for the points of each patch that are in the chunk; `patch` is the first that may be.
+/// Calls f(span, patch, begin, end) for the points of each patch that are in the chunk; `patch` is the first that may
+/// be.
 template <int Dim, int Axes, class F> GIMPM_INLINE void forPieces(const CloudBasis<Dim>& basis, const Chunk<Dim, Axes>& chunk, int patch, F&& f)
 {
 	for (; patch < int(basis.patches.size()) && basis.patches[patch].first < chunk.last(); ++patch) {

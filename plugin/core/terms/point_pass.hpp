@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// A pass over the points that adds their forces, and their stiffness, to the nodes: the same text with F-bar and without, and around an axis.
+// A pass over the points that adds their forces, and their stiffness, to the nodes: the same text with F-bar and
+// without, and around an axis.
 #pragma once
 #include "core/base/instruction_set.hpp"
 #include "core/terms/internal_force.hpp"
@@ -27,7 +28,8 @@ constexpr FailureCode noFailure = std::numeric_limits<FailureCode>::max();
 constexpr FailureCode  codeOf(const PointFailure& f) { return 2 * FailureCode(f.point) + (f.reason == PointFailure::Reason::noResponse); }
 constexpr PointFailure failureOf(FailureCode code) { return { int(code / 2), code % 2 ? PointFailure::Reason::noResponse : PointFailure::Reason::inverted }; }
 
-/// For each kind of processor compiled in files of its own: the patches [first, last). Returns a point that fails, or noFailure.
+/// For each kind of processor compiled in files of its own: the patches [first, last). Returns a point that fails, or
+/// noFailure.
 struct PortableKernels {
 	template <class ChunkOfPoints, int Dim> static FailureCode addPatches(const Pass<Dim>&, int first, int last);
 };
@@ -46,8 +48,9 @@ template <class ChunkOfPoints, int Dim> std::optional<PointFailure> addPoints(co
 {
 	std::atomic<FailureCode> failure { noFailure };
 	const auto               add = processorHasAvx2() ? Avx2Kernels::addPatches<ChunkOfPoints, Dim> : PortableKernels::addPatches<ChunkOfPoints, Dim>;
-	// Threads meet after each colour. Of few points a pass is over before they have: alone that costs little, but where another program takes
-	// a processor away they wait for its time slice, a thousand times as long as the pass.
+	// Threads meet after each colour. Of few points a pass is over before they have: alone that costs little, but
+	// where another program takes a processor away they wait for its time slice, a thousand times as long as the
+	// pass.
 	const bool threadsPay = pass.points.volume0.size() >= (Dim == 2 ? 4000 : 1000);
 	for (const auto& colour : pass.colours) {
 #pragma omp parallel for schedule(dynamic) if (threadsPay)

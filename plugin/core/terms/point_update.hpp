@@ -8,12 +8,13 @@ namespace gimpm {
 
 /// State of one point for displacements d.
 template <int Dim> struct PointUpdate {
-	Vec<Dim>                                          displacement;
-	Mat<Dim>                                          gradient; ///< of the increment, with respect to the configuration at the start of the step
-	SymTensor<Dim>                                    elasticStrain, kirchhoffStress;
-	const Law&                                        law;
-	const double*                                     internals; ///< in the order of the law
-	double                                            hoop = 0;  ///< of the increment, around the axis of a body of revolution
+	Vec<Dim> displacement;
+	/// Of the increment, with respect to the configuration at the start of the step.
+	Mat<Dim>       gradient;
+	SymTensor<Dim> elasticStrain, kirchhoffStress;
+	const Law&     law;
+	const double*  internals; ///< in the order of the law
+	double         hoop = 0;  ///< of the increment, around the axis of a body of revolution
 };
 
 /// Calls call(f, index in the cloud, PointUpdate) for every point, from several threads.
@@ -22,8 +23,8 @@ void forUpdatedPoints(
         const CloudBasis<Dim>&, const StepPoints<Dim>&, const std::vector<Material>&, const Eigen::VectorXd& d, const void* f,
         void (*call)(const void* f, int point, const PointUpdate<Dim>&));
 
-/// Calls f(index in the cloud, PointUpdate) for every point, from several threads; f must not touch other points. It is compiled as the update is, for two
-/// kinds of processors.
+/// Calls f(index in the cloud, PointUpdate) for every point, from several threads; f must not touch other points. It is
+/// compiled as the update is, for two kinds of processors.
 template <int Dim, class F>
 void forUpdatedPoints(const CloudBasis<Dim>& basis, const StepPoints<Dim>& points, const std::vector<Material>& materials, const Eigen::VectorXd& d, const F& f)
 {

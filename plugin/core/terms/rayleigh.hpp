@@ -6,8 +6,8 @@
 
 namespace gimpm {
 
-/// (alpha M + beta K) v, M without ghost mass, K the tangent of the points as the step begins: what yields resists as if it unloaded, so that K has no
-/// negative eigenvalues where soil fails; initial stress is in it.
+/// (alpha M + beta K) v, M without ghost mass, K the tangent of the points as the step begins: what yields resists as
+/// if it unloaded, so that K has no negative eigenvalues where soil fails; initial stress is in it.
 struct Rayleigh {
 	double alpha = 0; ///< [1/s]
 	double beta  = 0; ///< [s]

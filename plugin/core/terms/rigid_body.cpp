@@ -16,7 +16,8 @@ template <int Dim> Proximity<Dim> fromBall(double radius, const Vec<Dim>& fromCe
 	return near;
 }
 
-/// In its own axes. Its edges are those of a smaller block with everything within the radius of it, so that the normal turns without a jump.
+/// In its own axes. Its edges are those of a smaller block with everything within the radius of it, so that the normal
+/// turns without a jump.
 template <int Dim> Proximity<Dim> fromBlock(const RigidShape<Dim>& shape, const Vec<Dim>& own)
 {
 	const Vec<Dim> beyond = own.cwiseAbs() - (shape.halfSize - Vec<Dim>::Constant(shape.radius)), out = beyond.cwiseMax(0);

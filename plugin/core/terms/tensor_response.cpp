@@ -7,7 +7,8 @@ namespace {
 
 using Rates = TensorPoint::Rates;
 
-/// Flux of a Kirchhoff stress t, t F^-T, and its derivatives by F; F of the step, around an axis with the stretch there.
+/// Flux of a Kirchhoff stress t, t F^-T, and its derivatives by F; F of the step, around an axis with the stretch
+/// there.
 struct FluxOfPoint {
 	Mat3 stress, inverse;
 
@@ -26,7 +27,8 @@ struct FluxOfPoint {
 	}
 };
 
-/// Component i has gradients along the axes of the plane or space, and the radial one also around; `axis` of direction j of component i.
+/// Component i has gradients along the axes of the plane or space, and the radial one also around; `axis` of direction
+/// j of component i.
 template <int Dim> int rowOf(int i, int j) { return j < Dim ? i : 2; }
 template <int Dim> int columnOf(int j) { return j < Dim ? j : 2; }
 
@@ -51,7 +53,8 @@ void setModuli(const Pass<Dim>& pass, Chunk<Dim, Axes>& chunk, int b, int lane, 
 		PairModuli<Dim>::template forPairs<false>(set);
 }
 
-/// What changes shapes, and what changes volumes, in the first n axes: see VolumetricSplit, which has it in principal axes.
+/// What changes shapes, and what changes volumes, in the first n axes: see VolumetricSplit, which has it in principal
+/// axes.
 struct TensorSplit {
 	double mean = 0, bulk = 0;
 	Mat3   axes = Mat3::Zero(), deviator, meanOfStrain = Mat3::Zero(), stressOfDilation = Mat3::Zero();
@@ -78,9 +81,9 @@ struct TensorSplit {
 
 template <int Dim> SymTensor<3> inSpace(const SymTensor<Dim>& b1) { return SymTensor<3>::from(b1.full()); }
 
-/// Calls f(lane, index of the point, its response to the gradient that it sees) for those of the batch that have a tensor law. Returns a point that fails.
-template <int Dim, int Axes, class F>
-FailureCode forTensorPoints(const Pass<Dim>& pass, const Batch& batch, const Increment<Dim, Axes>& seen, F&& f)
+/// Calls f(lane, index of the point, its response to the gradient that it sees) for those of the batch that have a
+/// tensor law. Returns a point that fails.
+template <int Dim, int Axes, class F> FailureCode forTensorPoints(const Pass<Dim>& pass, const Batch& batch, const Increment<Dim, Axes>& seen, F&& f)
 {
 	FailureCode first = noFailure;
 	for (int lane = 0; lane < batch.count; ++lane) {
@@ -89,8 +92,7 @@ FailureCode forTensorPoints(const Pass<Dim>& pass, const Batch& batch, const Inc
 		if (!material.law->isTensorLaw) continue;
 		const PointOfLaw at { material.ofPoints(pass.points.parameters), pass.points.internals, std::size_t(i) };
 		const auto       r = respondInSpace(
-                        material.law, at,
-                        { inSpace(pass.points.leftCauchyGreen[i]), gradientOf(seen, lane), pass.duration, pass.sum.K != nullptr, Dim, Axes });
+		              material.law, at, { inSpace(pass.points.leftCauchyGreen[i]), gradientOf(seen, lane), pass.duration, pass.sum.K != nullptr, Dim, Axes });
 		if (r.failed) first = std::min(first, codeOf({ pass.basis.order[i], PointFailure::Reason::noResponse }));
 		else
 			f(lane, i, r);

@@ -24,11 +24,13 @@ template <int Dim, int Axes> Mat3 gradientOf(const Increment<Dim, Axes>& increme
 	return gradient;
 }
 
-/// Flux and moduli of those points of a batch that have a tensor law, in the place of what is there. Returns a point that fails, or noFailure.
+/// Flux and moduli of those points of a batch that have a tensor law, in the place of what is there. Returns a point
+/// that fails, or noFailure.
 template <int Dim, int Axes> FailureCode respondOfTensors(const Pass<Dim>&, Chunk<Dim, Axes>&, const Batch&, int b);
 template <int Dim, int Axes> FailureCode respondOfTensors(const Pass<Dim>&, FBarChunk<Dim, Axes>&, const Batch&, int b);
 
-/// Hands on the update u of point i, in the order of the basis, with what its tensor law answers to the gradient that it sees.
+/// Hands on the update u of point i, in the order of the basis, with what its tensor law answers to the gradient that
+/// it sees.
 template <int Dim>
 void visitWithTensors(
         const StepPoints<Dim>&, const std::vector<Material>&, int i, const Mat3& gradient, PointUpdate<Dim> u, const std::vector<int>& order,

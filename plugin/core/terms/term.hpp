@@ -46,8 +46,9 @@ template <int Dim> struct TermSum {
 	Eigen::VectorXd* sizes = nullptr; ///< of the parts that make up the force, whatever their signs, when they are asked for [N]
 };
 
-/// One kind of forces that resist the displacements d of the nodes in the step: residual = external forces - sum of the terms. It lives for one
-/// attempt at a load step; what it remembers from step to step belongs to whoever makes it (TermOfStep), and is written in commit().
+/// One kind of forces that resist the displacements d of the nodes in the step: residual = external forces - sum of the
+/// terms. It lives for one attempt at a load step; what it remembers from step to step belongs to whoever makes it
+/// (TermOfStep), and is written in commit().
 template <int Dim> class Term {
 public:
 	virtual ~Term() = default;
@@ -70,7 +71,8 @@ public:
 	/// Whether something that it had to solve is singular.
 	virtual bool isSingular() const { return false; }
 
-	/// Forces from outside among those it adds at d, as those of a support [N], for what the residual is compared with; 0 for forces within the body.
+	/// Forces from outside among those it adds at d, as those of a support [N], for what the residual is compared
+	/// with; 0 for forces within the body.
 	virtual double fromOutside(const Eigen::VectorXd&) const { return 0; }
 
 	/// Adds what round-off of d leaves of its force, where that is more than round-off of strains does [N].
@@ -79,7 +81,8 @@ public:
 	/// Displacements by which the body goes on by itself, with the prescribed ones; empty where it does not.
 	virtual Eigen::VectorXd ownMotion() const { return {}; }
 
-	/// Calls hold(node, direction, place) for what keeps the body from moving there, however softly; the place is given from the node on [cells].
+	/// Calls hold(node, direction, place) for what keeps the body from moving there, however softly; the place is
+	/// given from the node on [cells].
 	using Hold = std::function<void(int node, const Vec<Dim>& direction, const Vec<Dim>& place)>;
 	virtual void restrain(const Hold&) const { }
 
@@ -117,7 +120,8 @@ template <int Dim> struct Beginning {
 	const PointStiffness&              stiffnessOf; ///< while a term is made
 	const std::vector<GhostFace<Dim>>& faces;
 	const FreeDofs&                    dofs;
-	const Eigen::VectorXd&             prescribed; ///< increments of the held degrees of freedom, zero elsewhere [m]
+	/// Increments of the held degrees of freedom, zero elsewhere [m].
+	const Eigen::VectorXd& prescribed;
 	const std::function<Eigen::VectorXd()>&
 	                 imbalance; ///< while a term is made: external forces less those of the terms made before it, all as they are now [N]
 	const NodeShare& share;     ///< the nodes around which this process knows all points; what is summed over points is completed by it

@@ -21,7 +21,8 @@ std::array<Mat3, 3> normalSlopes(const Surface<3>::Piece& piece, const std::vect
 {
 	std::array<Mat3, 3> slopes;
 	for (int i = 0; i < 3; ++i) {
-		const Vec3 v = x[piece[(i + 2) % 3]] - x[piece[(i + 1) % 3]]; // n = (x2 - x1) x (x3 - x1) / 2 gives dn/dx_i w = v x w / 2
+		// n = (x2 - x1) x (x3 - x1) / 2 gives dn/dx_i w = v x w / 2.
+		const Vec3 v = x[piece[(i + 2) % 3]] - x[piece[(i + 1) % 3]];
 		slopes[i]    = 0.5 * (Mat3() << 0, -v[2], v[1], v[2], 0, -v[0], -v[1], v[0], 0).finished();
 	}
 	return slopes;
@@ -29,8 +30,8 @@ std::array<Mat3, 3> normalSlopes(const Surface<3>::Piece& piece, const std::vect
 
 constexpr double circle = 2 * M_PI;
 
-/// What each vertex of a piece gets of the force on it, over traction and length (or area): around the axis of symmetry r = x this is the integral of its linear
-/// function times the circumference.
+/// What each vertex of a piece gets of the force on it, over traction and length (or area): around the axis of symmetry
+/// r = x this is the integral of its linear function times the circumference.
 template <int Dim> std::array<double, Dim> shares(const std::array<int, Dim>& piece, const std::vector<Vec<Dim>>& x, bool isRing)
 {
 	std::array<double, Dim> share;
@@ -43,7 +44,8 @@ template <int Dim> std::array<double, Dim> shares(const std::array<int, Dim>& pi
 /// The derivative of the share of vertex i of a ring by the radius of its vertex j.
 double shareSlope(int i, int j) { return circle / 6 * (i == j ? 2 : 1); }
 
-/// As attachmentTolerance, from the nearest domain [cells]: more than half of a domain with two points a cell, by which a fill may fall short of its region, and less than a whole one.
+/// As attachmentTolerance, from the nearest domain [cells]: more than half of a domain with two points a cell, by which
+/// a fill may fall short of its region, and less than a whole one.
 constexpr double domainTolerance = 0.375;
 
 template <int Dim> std::string emptyAt(const Vec<Dim>& vertex, const std::string& name, double tolerance)
@@ -86,8 +88,8 @@ Traction<Dim>::Traction(SurfaceLoad<Dim>& load, const Beginning<Dim>& step)
 		obstacle_ = load.name + " is under pressure and has the body on its outer side: reverse the order of its points";
 }
 
-/// A cell counts as populated by the least of a domain that reaches into it, so vertices must be near a domain, too: what acts in a cell whose soil is gone
-/// would hang on what is beside it, by round-off or not. Returns the obstacle.
+/// A cell counts as populated by the least of a domain that reaches into it, so vertices must be near a domain, too:
+/// what acts in a cell whose soil is gone would hang on what is beside it, by round-off or not. Returns the obstacle.
 template <int Dim> std::string Traction<Dim>::attachAll(const Beginning<Dim>& step)
 {
 	std::vector<double> reach;
@@ -103,7 +105,8 @@ template <int Dim> std::string Traction<Dim>::attachAll(const Beginning<Dim>& st
 	return far == isFar.end() ? "" : emptyAt(load_.surface.vertices[far - isFar.begin()], load_.name, domainTolerance);
 }
 
-/// The derivative of a pressure couples the vertices of a piece, which a matrix over nodes has no place for where their cells are of different sizes.
+/// The derivative of a pressure couples the vertices of a piece, which a matrix over nodes has no place for where their
+/// cells are of different sizes.
 template <int Dim> std::string Traction<Dim>::betweenLevels() const
 {
 	for (const Piece& piece : load_.surface.pieces)

@@ -10,20 +10,25 @@ namespace gimpm {
 
 /// What acts on a surface at the end of a step.
 template <int Dim> struct SurfaceLoad {
-	Surface<Dim> surface;                           ///< at the start of the step, with sides of at most `pieceLimit`
-	double       pressure       = 0;                ///< against the outward normal of the deformed surface: it follows [Pa]
-	Vec<Dim>     traction       = Vec<Dim>::Zero(); ///< force over the area that the surface had at first; keeps its direction [Pa]
-	double       pressureBefore = 0;                ///< the same as the step begins, where something asks for it
-	Vec<Dim>     tractionBefore = Vec<Dim>::Zero();
-	double       work           = 0;                  ///< in that step, with the mean of the forces at its two ends [J]
-	bool         isNew          = false;              ///< its outer side is still to be compared with where material is
-	Vec<Dim>     resultant      = Vec<Dim>::Zero();   ///< of both, in the last step that was accepted [N]
-	std::string  name           = "a loaded surface"; ///< what a message calls it
+	/// At the start of the step, with sides of at most `pieceLimit`.
+	Surface<Dim> surface;
+	/// Against the outward normal of the deformed surface: it follows [Pa].
+	double pressure = 0;
+	/// Force over the area that the surface had at first; keeps its direction [Pa].
+	Vec<Dim> traction       = Vec<Dim>::Zero();
+	double   pressureBefore = 0; ///< the same as the step begins, where something asks for it
+	Vec<Dim> tractionBefore = Vec<Dim>::Zero();
+	/// In that step, with the mean of the forces at its two ends [J].
+	double work = 0;
+	/// Its outer side is still to be compared with where material is.
+	bool        isNew     = false;
+	Vec<Dim>    resultant = Vec<Dim>::Zero();   ///< of both, in the last step that was accepted [N]
+	std::string name      = "a loaded surface"; ///< what a message calls it
 };
 
-/// Vertices follow the linear functions of the grid, and the forces on them act on the nodes by the same functions: virtual work, resultant and
-/// moment are exact. A piece hands equal parts of its force to its vertices, around an axis of
-/// symmetry those of a ring: the shares of its area. The force of a pressure is differentiated; its tangent is
+/// Vertices follow the linear functions of the grid, and the forces on them act on the nodes by the same functions:
+/// virtual work, resultant and moment are exact. A piece hands equal parts of its force to its vertices, around an axis
+/// of symmetry those of a ring: the shares of its area. The force of a pressure is differentiated; its tangent is
 /// symmetric for closed surfaces only.
 template <int Dim> class Traction : public Term<Dim> {
 public:

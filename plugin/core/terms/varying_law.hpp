@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Points whose laws have parameters of their own. The constants of such laws differ from lane to lane, so that each answers for itself.
+// Points whose laws have parameters of their own. The constants of such laws differ from lane to lane, so that each
+// answers for itself.
 #pragma once
 #include "core/materials/law.hpp"
 

@@ -14,17 +14,20 @@ template <int Dim> struct Wall {
 	/// Makes the pieces so small that the force on each may act at its centre.
 	Wall(Surface<Dim> surface, double cellSize);
 
-	Surface<Dim>          surface;
-	std::array<bool, Dim> fixed {};                    ///< directions in which material is held; none: along the normal of each piece
-	double                penalty = 100;               ///< the wall gives way by pressure / (penalty * Young's modulus) cells [-]
+	Surface<Dim> surface;
+	/// Directions in which material is held; none: along the normal of each piece.
+	std::array<bool, Dim> fixed {};
+	/// The wall gives way by pressure / (penalty * Young's modulus) cells [-].
+	double                penalty = 100;
 	Vec<Dim>              motion  = Vec<Dim>::Zero();  ///< in the step, rigid [m]
 	std::vector<Vec<Dim>> tractions;                   ///< of each piece on the body [Pa]; zero where there is none
 	Vec<Dim>              reaction = Vec<Dim>::Zero(); ///< their resultant at the end of the last step that was accepted [N]
 };
 
-/// Each piece holds the material that is at its centre x with the traction t - penalty E / h P (N(x) d - motion), where P is the projection on what is held,
-/// E the modulus of the soil in the cell and t the traction at the start of the step: the step begins in equilibrium, and what the wall has given way by
-/// is in proportion to what it bears. Centres where the grid holds no material do nothing, and forget.
+/// Each piece holds the material that is at its centre x with the traction t - penalty E / h P (N(x) d - motion), where
+/// P is the projection on what is held, E the modulus of the soil in the cell and t the traction at the start of the
+/// step: the step begins in equilibrium, and what the wall has given way by is in proportion to what it bears. Centres
+/// where the grid holds no material do nothing, and forget.
 template <int Dim> class WallForce : public Term<Dim> {
 public:
 	/// The wall is moved in commit().
@@ -50,7 +53,7 @@ private:
 
 	Vec<Dim> tractionOn(const HeldPiece&, const Eigen::VectorXd& d) const;
 
-	Wall<Dim>&        wall_;
+	Wall<Dim>&             wall_;
 	std::vector<HeldPiece> heldPieces_;
 };
 

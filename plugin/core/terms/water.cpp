@@ -79,7 +79,8 @@ template <int Dim, class F> void forMovedPoints(const CloudBasis<Dim>& basis, co
 	}
 }
 
-/// Pressure, volumes and what acts, of one point. The parts: `weighs` of the gradient with S, `presses` of the pressure with grad S.
+/// Pressure, volumes and what acts, of one point. The parts: `weighs` of the gradient with S, `presses` of the pressure
+/// with grad S.
 template <int Dim> struct WetPoint {
 	const MovedPoint<Dim>&     at;
 	const PressureAround<Dim>& p;
@@ -132,7 +133,8 @@ template <int Dim> void addTo(const TermSum<Dim>& sum, const WetPoint<Dim>& wet,
 	}
 }
 
-/// What a pressure gains from a node of the periodic grid to its image near a place: all of a node's forces come from one side of the period.
+/// What a pressure gains from a node of the periodic grid to its image near a place: all of a node's forces come from
+/// one side of the period.
 template <int Dim>
 std::array<double, windowNodes<Dim>> gainBeyond(
         const MovedPoint<Dim>& moved, const CloudBasis<Dim>& basis, const Grid<Dim>& grid, const Vec<Dim>& place, const Vec<Dim>& fall)
@@ -159,7 +161,8 @@ WaterForce<Dim>::WaterForce(Water<Dim>& water, const Beginning<Dim>& step)
 	}
 }
 
-/// Calls f(place in the basis, wet point) for all points at d. Returns the first point that has left the known places or has turned inside out; the others are done.
+/// Calls f(place in the basis, wet point) for all points at d. Returns the first point that has left the known places
+/// or has turned inside out; the others are done.
 template <int Dim>
 template <class F>
 std::optional<PointFailure> WaterForce<Dim>::forWetPoints(const WaterPressure<Dim>& pressure, WaterPlace place, const Eigen::VectorXd& d, F&& f) const

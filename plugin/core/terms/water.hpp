@@ -24,14 +24,15 @@ template <int Dim> struct Water {
 	double                                work = 0;        ///< with the mean of the forces at its two ends [J], where it is wanted
 };
 
-/// The laws know the effective stress s' = s + p I alone. With the surface loaded by the same pressure as the pores, all that is left of p in the virtual
-/// work of a displacement v is that of a body force (divergence theorem): pores + outside: -int p div v dV + int p n.v dA = int v.grad p dV. So
+/// The laws know the effective stress s' = s + p I alone. With the surface loaded by the same pressure as the pores,
+/// all that is left of p in the virtual work of a displacement v is that of a body force (divergence theorem): pores +
+/// outside: -int p div v dV + int p n.v dA = int v.grad p dV. So
 ///
 ///     everywhere: V0 grad p S_a     pores: -V p grad S_a     outside: V (grad p S_a + p grad S_a)
 ///
-/// with the current volume V and its derivative, but for the first. There, water that the pores lose takes its weight along, which the mass of a point,
-/// constant, does not know: with the initial volume V0, (density - that of water) V0 g is exactly the weight of submerged soil, however it deforms.
-/// The second one has no symmetric stiffness.
+/// with the current volume V and its derivative, but for the first. There, water that the pores lose takes its weight
+/// along, which the mass of a point, constant, does not know: with the initial volume V0, (density - that of water) V0
+/// g is exactly the weight of submerged soil, however it deforms. The second one has no symmetric stiffness.
 template <int Dim> class WaterForce : public Term<Dim> {
 public:
 	/// Results are written to the water in commit().

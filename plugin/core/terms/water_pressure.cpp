@@ -35,7 +35,8 @@ private:
 	}
 };
 
-/// The product over the axes of values, but of slopes along the axes a and b, where they are given; along both, if they are the same, of second derivatives.
+/// The product over the axes of values, but of slopes along the axes a and b, where they are given; along both, if they
+/// are the same, of second derivatives.
 template <int Dim> double product(const std::array<AveragedHats, Dim>& hats, const Index<Dim>& node, int a = -1, int b = -1)
 {
 	double result = 1;
@@ -58,7 +59,8 @@ template <int Dim> void addNode(PressureAround<Dim>& sum, double pressure, const
 
 } // namespace
 
-// With the wet part of the box's height 2 l, o: the mean of weight (level - s) over it is weight o^2 / 4 l, and its derivative is that of o.
+// With the wet part of the box's height 2 l, o: the mean of weight (level - s) over it is weight o^2 / 4 l, and its
+// derivative is that of o.
 template <int Dim> std::optional<PressureAround<Dim>> StillWater<Dim>::around(const Vec<Dim>& x, const Vec<Dim>& half) const
 {
 	PressureAround<Dim> p;

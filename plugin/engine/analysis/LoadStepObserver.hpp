@@ -5,7 +5,8 @@
 namespace yade {
 class Analysis;
 
-// An engine that follows the load steps of an MpmImplicitEngine, which tells all of them among O.engines, wherever they stand.
+// An engine that follows the load steps of an MpmImplicitEngine, which tells all of them among O.engines, wherever they
+// stand.
 class LoadStepObserver {
 public:
 	virtual ~LoadStepObserver() = default;

@@ -8,7 +8,8 @@
 
 namespace yade {
 
-// What a function of Python is asked before a step. It may do anything that a script can, so that the lock of values is not held meanwhile.
+// What a function of Python is asked before a step. It may do anything that a script can, so that the lock of values is
+// not held meanwhile.
 class Question {
 public:
 	virtual ~Question()        = default;
@@ -58,7 +59,8 @@ public:
 	// In an iteration of YADE, with a load step or between two.
 	virtual void actOnBodies(Scene&, bool /*isBetween*/) { }
 
-	// What functions of Python have to be asked around cells. Answers: what they are called where processes have got different ones.
+	// What functions of Python have to be asked around cells. Answers: what they are called where processes have
+	// got different ones.
 	virtual bool                      hasQuestions() const { return false; }
 	virtual std::unique_ptr<Question> question(const gimpm::Grid<2>&, const vector<gimpm::Key>&, const string& /*name*/) { return nullptr; }
 	virtual std::unique_ptr<Question> question(const gimpm::Grid<3>&, const vector<gimpm::Key>&, const string& /*name*/) { return nullptr; }
@@ -70,7 +72,8 @@ public:
 	// Whether it may hold the soil at this coordinate along the axis, to a distance.
 	virtual bool mayHold(int /*axis*/, Real /*place*/, Real /*near*/) const { return false; }
 
-	// Where it acts, if that has limits: lower and upper corner. A sentence, with a blank before it, if it does not hold anything now; `reaches`: there are points.
+	// Where it acts, if that has limits: lower and upper corner. A sentence, with a blank before it, if it does not
+	// hold anything now; `reaches`: there are points.
 	virtual std::optional<std::pair<Vector3r, Vector3r>> extent() const { return std::nullopt; }
 	virtual string                                       idleness(const string& /*name*/, bool /*reaches*/) const { return ""; }
 	virtual bool                                         moves() const { return false; }
@@ -78,7 +81,8 @@ public:
 	// Columns of plotData().
 	virtual void tell(Rows&, const Analysis&, const Listed&) const { }
 
-	// Adds its cells to the picture of its kind, which MpmVtkRecorder.recorders and mpm.plot name; null: it has none.
+	// Adds its cells to the picture of its kind, which MpmVtkRecorder.recorders and mpm.plot name; null: it has
+	// none.
 	virtual const char* picture() const { return nullptr; }
 	virtual void        draw(Picture&, const Analysis&, const Listed&) const { }
 };

@@ -64,10 +64,12 @@ struct RunResults {
 	// Who tells a number besides the attribute of its name.
 	enum Told { byAttribute, byReport, byReportAndPlot };
 
-	// v(name, member, source, told by, flags, documentation, validator) for each of them. The order is that of saved files.
+	// v(name, member, source, told by, flags, documentation, validator) for each of them. The order is that of
+	// saved files.
 	template <class V> static void results(V&& v);
 
-	// Not by name, for report(): the last load step that was tried, the number of points, and the times of the run by phase [s].
+	// Not by name, for report(): the last load step that was tried, the number of points, and the times of the run
+	// by phase [s].
 	gimpm::StepReport      last;
 	size_t                 pointsOfRun = 0;
 	std::map<string, Real> times;

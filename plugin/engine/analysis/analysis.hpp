@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-// What an analysis is set to, what acts in it, and what it has come to: an engine, as everything below the engines knows it.
+// What an analysis is set to, what acts in it, and what it has come to: an engine, as everything below the engines
+// knows it.
 #include "core/stepping/load_curve.hpp"
 #include "core/stepping/model.hpp"
 #include "engine/analysis/MpmCondition.hpp"

@@ -62,7 +62,8 @@ struct Work {
 	}
 };
 
-// Springs that limit the length of explicit steps: the stiffest, over Young's modulus per cell [-], and what makes it smaller.
+// Springs that limit the length of explicit steps: the stiffest, over Young's modulus per cell [-], and what makes it
+// smaller.
 struct Penalty {
 	Real   size = 0;
 	string remedy {};
@@ -75,7 +76,8 @@ struct HalvedDomain {
 	std::array<Real, 3> middle, halfSize; // of the whole [m]
 };
 
-// One for each kind of condition that an engine has, made by it (MpmCondition::make). Terms refer to it, so that it lives as long as the model.
+// One for each kind of condition that an engine has, made by it (MpmCondition::make). Terms refer to it, so that it
+// lives as long as the model.
 template <int Dim> class Condition {
 public:
 	virtual ~Condition() = default;
@@ -112,7 +114,8 @@ public:
 	// Whether the middle of a part of a point, as seen from that of the point, is on the same side of it.
 	virtual bool areBeside(const gimpm::Vec<Dim>& /*point*/, const gimpm::Vec<Dim>& /*part*/) const { return true; }
 
-	// Where it remembers something of points, what is remembered of a point is shared by its halves. It is told of the points of all processes.
+	// Where it remembers something of points, what is remembered of a point is shared by its halves. It is told of
+	// the points of all processes.
 	virtual bool remembersPoints() const { return false; }
 	virtual void share(const HalvedDomain&) const { }
 };

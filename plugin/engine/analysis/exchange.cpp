@@ -61,17 +61,20 @@ namespace {
 			return found->second;
 		}
 
-		const MpmMaterial*                          last      = nullptr; // points of one material follow each other
+		// Points of one material follow each other.
+		const MpmMaterial*                          last      = nullptr;
 		int                                         lastIndex = 0;
 		std::vector<gimpm::Material>&               list;
 		std::vector<double>&                        shares;
 		std::unordered_map<const MpmMaterial*, int> index;
 	};
 
-	// Makes the columns of parameters that points have of their own, in whatever process they are, and marks their materials.
+	// Makes the columns of parameters that points have of their own, in whatever process they are, and marks their
+	// materials.
 	template <int Dim> void provideParameters(const vector<MaterialPoint>& points, gimpm::Model<Dim>& model, gimpm::PointCloud<Dim>& cloud)
 	{
-		vector<int64_t> isAlike(model.materials.size(), 1), isUnused(allParameters().size(), 1); // by number: of materials, of parameters of a class
+		// By number: of materials, of parameters of a class.
+		vector<int64_t> isAlike(model.materials.size(), 1), isUnused(allParameters().size(), 1);
 		for (size_t p = 0; p < points.size(); ++p) {
 			if (points[p].state->parameters.empty()) continue;
 			isAlike[cloud.material[p]] = 0;
@@ -130,7 +133,8 @@ namespace {
 			cloud.internals[law->columns[k]][p] = point.internalOf(law, k);
 	}
 
-	// What a column of the core is of a point in YADE: take(point, model) is its value, give(point, value) puts what a step has made of it back.
+	// What a column of the core is of a point in YADE: take(point, model) is its value, give(point, value) puts
+	// what a step has made of it back.
 	template <class Cloud, class Values, class Take, class Give> struct Exchanged {
 		Values Cloud::*of;
 		Take           take;
@@ -155,8 +159,9 @@ namespace {
 		return exchanged(&gimpm::PointCloud<Dim>::force, take, stays);
 	}
 
-	// All columns of the core: a new one does not compile until it is here. Plane strain leaves the components out of the plane alone, but for the zz component of strain and stress;
-	// axisymmetry has that of the deformation too.
+	// All columns of the core: a new one does not compile until it is here. Plane strain leaves the components out
+	// of the plane alone, but for the zz component of strain and stress; axisymmetry has that of the deformation
+	// too.
 	template <int Dim> auto exchange()
 	{
 		using C      = gimpm::PointCloud<Dim>;

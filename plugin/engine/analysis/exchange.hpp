@@ -8,7 +8,8 @@
 
 namespace yade {
 
-// What an analysis is set to, as the core understands it, with the nodes that its conditions hold; without points and without what acts on them.
+// What an analysis is set to, as the core understands it, with the nodes that its conditions hold; without points and
+// without what acts on them.
 template <int Dim> gimpm::Model<Dim> emptyModel(const Analysis&, const Conditions<Dim>&);
 
 // Cells that hold the middle of a point, in a row; of a division, those of all processes.
@@ -16,14 +17,16 @@ template <int Dim> vector<gimpm::Key> cellsOf(const gimpm::PointCloud<Dim>&, con
 
 using MaterialList = vector<const MpmMaterial*>;
 
-// Copies the points and adds their materials to the model, those that are `known` first. std::invalid_argument names the body that cannot be computed with.
+// Copies the points and adds their materials to the model, those that are `known` first. std::invalid_argument names
+// the body that cannot be computed with.
 template <int Dim> gimpm::PointCloud<Dim> gather(const vector<MaterialPoint>&, gimpm::Model<Dim>&, const MaterialList& known = {});
 
-// A place beyond the period of the grid re-enters it on the other side; returns by how much it has moved back [m], 0 where it has not.
+// A place beyond the period of the grid re-enters it on the other side; returns by how much it has moved back [m], 0
+// where it has not.
 template <int Dim> Real reenter(Real& x, int axis, const gimpm::Grid<Dim>&);
 
-// Writes a converged state back. Before, points that have left a periodic grid re-enter it on the other side. Their initial positions go with them, so that
-// displacements stay.
+// Writes a converged state back. Before, points that have left a periodic grid re-enter it on the other side. Their
+// initial positions go with them, so that displacements stay.
 template <int Dim> void scatter(gimpm::PointCloud<Dim>&, const gimpm::Grid<Dim>&, const vector<MaterialPoint>&);
 
 } // namespace yade

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-// A scene that is saved carries the last increment along, so that it continues with the same bits: of each node the grid coordinates, in cells of MpmGrid.cellSize,
-// and the displacement, three numbers each. Nodes that the grid does not have are left out: its refinements may have changed.
+// A scene that is saved carries the last increment along, so that it continues with the same bits: of each node the
+// grid coordinates, in cells of MpmGrid.cellSize, and the displacement, three numbers each. Nodes that the grid does
+// not have are left out: its refinements may have changed.
 #include "core/stepping/predictor.hpp"
 #include "yade_api/types.hpp"
 

@@ -8,7 +8,8 @@
 namespace yade {
 
 namespace {
-	// As in a saved scene. That way needs neither the layout of a class, which differs from release to release, nor Python, which this thread must not wait for.
+	// As in a saved scene. That way needs neither the layout of a class, which differs from release to release, nor
+	// Python, which this thread must not wait for.
 	string saved(const shared_ptr<Serializable>& object)
 	{
 		std::ostringstream text;

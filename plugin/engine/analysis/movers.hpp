@@ -22,7 +22,8 @@ private:
 	vector<int> masks;
 };
 
-// For a body that gets the forces of the soil. It is solved with positions of YADE's integrator, and its forces are for that.
+// For a body that gets the forces of the soil. It is solved with positions of YADE's integrator, and its forces are for
+// that.
 void requireExchange(const Body&, const Scene&);
 
 } // namespace yade

@@ -9,11 +9,12 @@ class MpmAbsorbingBoundary;
 
 class MpmDynamicEngine : public Exposed<MpmDynamicEngine, MpmImplicitEngine> {
 public:
-	string           scheme = "newmark";
-	Real             beta = 0.25, gamma = 0.5, rhoInfinity = 0.8, timeTolerance = 0;
-	Real             loadWork = 0, boundaryWork = 0, contactWork = 0, impactWork = 0, ghostWork = 0, gridWork = 0, plasticWork = 0, dampingWork = 0;
-	Real             firstEnergy = std::numeric_limits<Real>::quiet_NaN(); // when the first step began; NaN: there was none
-	vector<Vector3r> reactionsBefore;                                      // those of the step before
+	string scheme = "newmark";
+	Real   beta = 0.25, gamma = 0.5, rhoInfinity = 0.8, timeTolerance = 0;
+	Real   loadWork = 0, boundaryWork = 0, contactWork = 0, impactWork = 0, ghostWork = 0, gridWork = 0, plasticWork = 0, dampingWork = 0;
+	// When the first step began; NaN: there was none.
+	Real             firstEnergy = std::numeric_limits<Real>::quiet_NaN();
+	vector<Vector3r> reactionsBefore;    // those of the step before
 	Real             givenByContact = 0; // not saved: part of contactWork that neither a body has worked nor contact had stored [J]
 
 	vector<shared_ptr<MpmAbsorbingBoundary>> absorbing;

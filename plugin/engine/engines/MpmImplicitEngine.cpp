@@ -15,9 +15,9 @@
 #include "engine/messages/failures.hpp"
 #include "engine/messages/progress.hpp"
 #include "engine/messages/requirements.hpp"
+#include "engine/parallel/common_state.hpp"
 #include "engine/parallel/pieces.hpp"
 #include "engine/parallel/processes.hpp"
-#include "engine/parallel/common_state.hpp"
 #include "engine/points/AtWork.hpp"
 #include "yade_api/exceptions.hpp"
 #include "yade_api/logging.hpp"
@@ -124,7 +124,8 @@ void MpmImplicitEngine::action()
 		} catch (...) {
 			agreement.breakOff(std::current_exception());
 			beforeActivation.putBack(*this);
-			if (!scene->subStepping) scene->subStep = -1; // YADE would count the iteration as begun, and finish it later
+			// YADE would count the iteration as begun, and finish it later.
+			if (!scene->subStepping) scene->subStep = -1;
 			progressLine.end();
 			tellObservers(*scene, [this](LoadStepObserver& observer) { observer.stepEnds(*this, false); });
 			throw;
@@ -183,8 +184,8 @@ template <int Dim> bool MpmImplicitEngine::ask(const gimpm::Grid<Dim>& lattice, 
 	}
 }
 
-// Functions of conditions, as of the pressure of water, answer before the step begins, and before anything is taken over from the scene, which they may ask and even change: then they are asked about what
-// there is now.
+// Functions of conditions, as of the pressure of water, answer before the step begins, and before anything is taken
+// over from the scene, which they may ask and even change: then they are asked about what there is now.
 template <int Dim> void MpmImplicitEngine::askFunctions(Agreement& agreement)
 {
 	constexpr int mostTimes = 100;
@@ -263,10 +264,11 @@ Body::id_t MpmImplicitEngine::add(NewPoints& added)
 template <int Dim> void MpmImplicitEngine::warnOf(const Job<Dim>& job)
 {
 	const ValueLock lock;
-	const auto& division = *job.model.division;
+	const auto&     division = *job.model.division;
 	requireSameAnswers(*division.processes, *this);
-	pointsOfRun   = size_t(division.sum(Real(points.size())));
-	const int own = int(job.warnings.size()), count = largestOf(own, *division.processes); // the same in all processes
+	pointsOfRun = size_t(division.sum(Real(points.size())));
+	// The same in all processes.
+	const int own = int(job.warnings.size()), count = largestOf(own, *division.processes);
 	for (int i = 0; i < count; ++i)
 		warnOfPoints(i < own ? job.warnings[i] : "");
 	warn(plausibility.warningOfPlaces(*this, points));

@@ -107,12 +107,15 @@ public:
 
 	static bool areLoads(const vector<shared_ptr<MpmCondition>>&);
 
-	// Puts new points into the scene, of several processes that divide them each its own. The id of the first one, or std::invalid_argument in all of them.
+	// Puts new points into the scene, of several processes that divide them each its own. The id of the first one,
+	// or std::invalid_argument in all of them.
 	Body::id_t add(NewPoints&);
 
 protected:
-	virtual const vector<Vector3r>& formerReactions() const { return reactions; } // of the step before, where it matters
-	void                            handOver(bool isBetween);                     // between load steps, too, the bodies that YADE moves feel the soil
+	// Of the step before, where it matters.
+	virtual const vector<Vector3r>& formerReactions() const { return reactions; }
+	// Between load steps, too, the bodies that YADE moves feel the soil.
+	void handOver(bool isBetween);
 
 	virtual void setMoving(Job<2>&, const vector<MaterialPoint>&) { }
 	virtual void setMoving(Job<3>&, const vector<MaterialPoint>&) { }
@@ -148,7 +151,8 @@ private:
 	gimpm::LinearSolver                 solver; // keeps the symbolic analysis; results do not depend on it
 };
 
-// For mpm.add: puts points into the current scene, which has this engine, given as newBodies() is; the id of the first one.
+// For mpm.add: puts points into the current scene, which has this engine, given as newBodies() is; the id of the first
+// one.
 Body::id_t addPoints(
         const shared_ptr<MpmImplicitEngine>&, const py::object& positions, const py::object& half, const py::list& materials, const py::object& index,
         const py::dict& parameters);

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "engine/engines/assignment.hpp"
 #include "core/base/checksum.hpp"
-#include "engine/points/stretched.hpp"
 #include "engine/materials/laws.hpp"
 #include "engine/parallel/distribution.hpp"
 #include "engine/parallel/processes.hpp"
 #include "engine/points/AtWork.hpp"
 #include "engine/points/buffers.hpp"
 #include "engine/points/columns.hpp"
+#include "engine/points/stretched.hpp"
 #include <Eigen/LU>
 #include <algorithm>
 #include <memory>

@@ -61,8 +61,9 @@ void requireExplicit(const MpmDynamicEngine& engine)
 
 template <int Dim> void requireStable(const MpmDynamicEngine& engine, const Setup<Dim>& setup, Real duration)
 {
-	const Real     critical = limit(engine, setup);
-	constexpr Real margin   = 0.02; // a step that was admitted is not refused for the small strains that it leads to
+	const Real critical = limit(engine, setup);
+	// a step that was admitted is not refused for the small strains that it leads to.
+	constexpr Real margin = 0.02;
 	if (duration <= critical * (1 + margin)) return;
 	const string remedy = stiffestOf(setup).remedy;
 	refuseExplicit(

@@ -7,7 +7,8 @@
 namespace yade {
 class MpmDynamicEngine;
 
-// Settings that explicit steps can be made with, or std::invalid_argument, which names the one that does not go with them.
+// Settings that explicit steps can be made with, or std::invalid_argument, which names the one that does not go with
+// them.
 void requireExplicit(const MpmDynamicEngine&);
 
 // A step of this duration [s] is stable, or std::invalid_argument with the limit.

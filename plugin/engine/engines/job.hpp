@@ -25,7 +25,7 @@ template <int Dim> struct Job : Setup<Dim> {
 	}
 	gimpm::StepControl control;
 	Real               begin, target; // load times
-	vector<string>     warnings {};     // whether all is as it is meant
+	vector<string>     warnings {};   // whether all is as it is meant
 
 	std::shared_ptr<Moving<Dim>> moving {}; // null without inertia
 };

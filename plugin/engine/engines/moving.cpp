@@ -77,7 +77,8 @@ template <int Dim> string Moving<Dim>::warningOfContact() const
 
 template <int Dim> StepTime Moving<Dim>::begin(Job<Dim>& job, Real from, Real to) const
 {
-	if (engine.isExplicit()) requireStable<Dim>(engine, job, to - from); // by all processes, which are here together
+	// By all processes, which are here together.
+	if (engine.isExplicit()) requireStable<Dim>(engine, job, to - from);
 	if (std::isnan(engine.firstEnergy)) engine.firstEnergy = ofAll(energy, job);
 	motion->duration = to - from;
 	return { from, to, motion->scheme.atMiddle ? from + motion->duration / 2 : to, energyComeIn() };
@@ -102,8 +103,9 @@ template <int Dim> void Moving<Dim>::addWork(const Job<Dim>& job, const StepOutc
 	const auto&    points = step.points;
 	const Real     from = step.from, time = step.time;
 	const auto     factor = engine.curveOfLoads().between(from, time), ofGravity = engine.curveOfGravity().between(from, time);
-	const Vector3r g    = (ofGravity.value + ofGravity.before()) / 2 * engine.gravity;
-	Real           work = job.model.division->processes->rank() == 0 ? engine.loadWork : 0; // who brings along what there is already
+	const Vector3r g = (ofGravity.value + ofGravity.before()) / 2 * engine.gravity;
+	// Who brings along what there is already.
+	Real work = job.model.division->processes->rank() == 0 ? engine.loadWork : 0;
 	for (size_t p = 0; p < points.size(); ++p) {
 		Vector3r moved    = Vector3r::Zero();
 		moved.head<Dim>() = job.cloud.position[p] - points[p].state->pos.template head<Dim>();

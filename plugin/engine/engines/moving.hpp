@@ -10,8 +10,8 @@ class MpmDynamicEngine;
 
 template <int Dim> class Moving {
 public:
-	// Takes the velocities over and makes inertia act in the job's model, after everything else. std::invalid_argument names a velocity that cannot be
-	// computed with.
+	// Takes the velocities over and makes inertia act in the job's model, after everything else.
+	// std::invalid_argument names a velocity that cannot be computed with.
 	Moving(MpmDynamicEngine&, Job<Dim>&, const vector<MaterialPoint>&);
 
 	// The next step goes from one time to another.
@@ -23,7 +23,8 @@ public:
 	// Makes an explicit step.
 	gimpm::StepReport step(Job<Dim>&, const Attempt<Dim>&) const;
 
-	// Adds up what the step that has been accepted has worked, while the points are still as before it, and gives them their velocities.
+	// Adds up what the step that has been accepted has worked, while the points are still as before it, and gives
+	// them their velocities.
 	void reach(const Job<Dim>&, const StepOutcome<Dim>&);
 
 	// A sentence where contact has given much energy that nobody has put in.
@@ -34,8 +35,9 @@ private:
 	void addWork(const Job<Dim>&, const StepOutcome<Dim>&);
 	Real energyComeIn() const;
 
-	MpmDynamicEngine&                   engine;
-	Real                                energy; // of the points of this process before the first step; 0 where that has been made
+	MpmDynamicEngine& engine;
+	// Of the points of this process before the first step; 0 where that has been made.
+	Real                                energy;
 	std::shared_ptr<gimpm::Motion<Dim>> motion;
 	std::shared_ptr<gimpm::Rayleigh>    rayleigh { new gimpm::Rayleigh };
 };

@@ -68,7 +68,8 @@ namespace {
 			return isFree(middle, middle + offset) && isFree(middle, middle - offset);
 		}
 
-		// No wall on the grid's lines, axis of symmetry or condition comes between the middles of the whole and of a half.
+		// No wall on the grid's lines, axis of symmetry or condition comes between the middles of the whole and
+		// of a half.
 		bool isFree(const gimpm::Vec<Dim>& from, const gimpm::Vec<Dim>& to) const
 		{
 			using namespace gimpm;
@@ -102,7 +103,8 @@ namespace {
 			return true;
 		}
 
-		// The upper halves, behind the other bodies, in the order of their wholes, whichever process has them. False: there are none.
+		// The upper halves, behind the other bodies, in the order of their wholes, whichever process has them.
+		// False: there are none.
 		bool insertHalves()
 		{
 			auto&          division = *job.model.division;
@@ -201,7 +203,8 @@ namespace {
 
 		bool isRing() const { return job.model.grid.axisymmetric; }
 
-		// One point a cell has a domain of the limit from the beginning, which lateral strains, or round-off, would split.
+		// One point a cell has a domain of the limit from the beginning, which lateral strains, or round-off,
+		// would split.
 		static constexpr Real margin = 1.01;
 
 		vector<MaterialPoint>& points;

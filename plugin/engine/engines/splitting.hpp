@@ -9,8 +9,9 @@ class MpmImplicitEngine;
 
 class Splitting {
 public:
-	// At the end of a run, of which the points of the job are those. Halves are split again until none has outgrown half a cell, or has been split maxSplits times; the
-	// engine's clampedDomains is the number of those that are left. New bodies follow the others, in the scene and in the lists of points. Returns a sentence for the log,
+	// At the end of a run, of which the points of the job are those. Halves are split again until none has outgrown
+	// half a cell, or has been split maxSplits times; the engine's clampedDomains is the number of those that are
+	// left. New bodies follow the others, in the scene and in the lists of points. Returns a sentence for the log,
 	// empty if there is nothing to say.
 	template <int Dim> string split(MpmImplicitEngine&, vector<MaterialPoint>&, Job<Dim>&);
 

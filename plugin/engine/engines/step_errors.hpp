@@ -12,7 +12,8 @@ class StepErrors {
 public:
 	explicit StepErrors(const MpmImplicitEngine&); // as a run begins
 
-	// The load step that is to be tried now, as attempt() makes it. Where loads begin to grow, or turn, no step before tells what the tolerance admits: there it is a small one.
+	// The load step that is to be tried now, as attempt() makes it. Where loads begin to grow, or turn, no step
+	// before tells what the tolerance admits: there it is a small one.
 	template <int Dim, class F> Attempt<Dim> next(Job<Dim>& job, F&& attempt) const
 	{
 		Attempt<Dim> tried = attempt();

@@ -157,7 +157,8 @@ namespace {
 			}
 			requireUnobstructed(engine, w.obstacle);
 			const auto& t = w.times;
-			// scattering takes as long as gathering, the update of the points and the last residual as long as an assembly
+			// scattering takes as long as gathering, the update of the points and the last residual as long
+			// as an assembly
 			perStep  = std::min(perStep, 2 * (gathering - rest) + t.basis + t.ghost + t.linear.analyse + t.assembly);
 			perSolve = std::min(perSolve, t.assembly + t.linear.factorise + t.linear.solve);
 		}

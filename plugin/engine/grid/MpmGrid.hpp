@@ -37,8 +37,8 @@ public:
 		  "Boxes (MpmRefinement) in which cells are halved; empty, the default: all are equal. Read as a tuple, so assign a new one to change it, also between steps.");
 	}
 
-	// As the core understands it. std::invalid_argument unless periods are whole numbers of cells, as many as basis functions need, and the axis of
-	// symmetry is on nodes.
+	// As the core understands it. std::invalid_argument unless periods are whole numbers of cells, as many as basis
+	// functions need, and the axis of symmetry is on nodes.
 	template <int Dim> gimpm::Grid<Dim> lattice() const;
 
 	// The refinements must be admissible, too.
@@ -51,7 +51,8 @@ private:
 	template <int Dim> void refine(gimpm::Grid<Dim>&) const;
 };
 
-// For mpm.fill: sizes of the cells (N double) at positions (N x 3 double), on a line between cells of two sizes that of the smaller one, as a bytearray.
+// For mpm.fill: sizes of the cells (N double) at positions (N x 3 double), on a line between cells of two sizes that of
+// the smaller one, as a bytearray.
 py::object cellSizesForPython(const MpmGrid&, const py::object& positions);
 
 } // namespace yade

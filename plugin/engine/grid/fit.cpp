@@ -58,7 +58,8 @@ namespace {
 		throw std::invalid_argument(text.str());
 	}
 
-	// As a point that is not deformed was made; where the displacements of others have been counted anew, as near as a hoop strain is to the change of its radius.
+	// As a point that is not deformed was made; where the displacements of others have been counted anew, as near
+	// as a hoop strain is to the change of its radius.
 	bool isRing(const MaterialPoint& point)
 	{
 		constexpr Real tolerance = 1e-6;

@@ -6,8 +6,9 @@
 
 namespace yade {
 
-// mpm.fill puts a whole number of points into a cell and along each axis, also into cells that are halved, and so do points that are split. Fills of other lattices may
-// lie beside those of the grid; where not a single point belongs to it, a sentence says so. Else it is empty.
+// mpm.fill puts a whole number of points into a cell and along each axis, also into cells that are halved, and so do
+// points that are split. Fills of other lattices may lie beside those of the grid; where not a single point belongs to
+// it, a sentence says so. Else it is empty.
 template <int Dim> string warningOfLattice(const vector<MaterialPoint>&, const gimpm::Grid<Dim>&);
 
 } // namespace yade

@@ -7,7 +7,8 @@
 namespace yade {
 
 namespace {
-	// Points by their place, for each power of two of their sizes in a lattice of that width: a point reaches only into cells next to its own.
+	// Points by their place, for each power of two of their sizes in a lattice of that width: a point reaches only
+	// into cells next to its own.
 	template <int Dim> class Lattices {
 	public:
 		using Cell = Eigen::Matrix<int64_t, Dim, 1>;
@@ -98,7 +99,8 @@ namespace {
 			cover.share += common / own;
 			cover.twice += lattices.areAlike(p, q) ? common / 2 : common;
 			if (!isDeformed[p] && !isDeformed[q] && areInSamePlace(cloud, p, q)) cover.samePlace = q;
-			return cover.samePlace < 0 && cover.share < 2; // that is enough to know, and thousands may be in one place
+			// That is enough to know, and thousands may be in one place.
+			return cover.samePlace < 0 && cover.share < 2;
 		});
 		return cover;
 	}
@@ -126,7 +128,8 @@ template <int Dim> Overlaps findOverlaps(const gimpm::PointCloud<Dim>& cloud)
 		if (cover.share < wholly) continue;
 		if (!isDeformed[p]) take(found.ofFills, p, cover.by);
 		take(found.ofAny, p, cover.by);
-		found.volume += cover.twice * cloud.volume0[p] / (2 * cloud.halfSize0[p]).prod(); // of the thickness that the point stands for
+		// Of the thickness that the point stands for.
+		found.volume += cover.twice * cloud.volume0[p] / (2 * cloud.halfSize0[p]).prod();
 	}
 	return found;
 }

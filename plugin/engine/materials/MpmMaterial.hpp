@@ -25,8 +25,8 @@ public:
 	// std::invalid_argument if no step can begin from this state of a point.
 	virtual void requireStart(const MpmState&) const { }
 
-	// Attributes [Pa] of which a number in another unit is doubted: its moduli; and its strengths, unless they grow with the pressure: next to friction a
-	// cohesion may be next to nothing.
+	// Attributes [Pa] of which a number in another unit is doubted: its moduli; and its strengths, unless they grow
+	// with the pressure: next to friction a cohesion may be next to nothing.
 	using Quantities = vector<std::pair<const char*, Real>>;
 	virtual Quantities moduli() const { return {}; }
 	virtual Quantities strengths() const { return {}; }

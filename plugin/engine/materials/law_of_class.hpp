@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-// Pairs a class of materials with its constitutive law, in the file that registers the class: a law and its class may be in any library that YADE opens.
+// Pairs a class of materials with its constitutive law, in the file that registers the class: a law and its class may
+// be in any library that YADE opens.
 #include "core/materials/material.hpp"
 #include "core/materials/required_members.hpp"
 #include "engine/materials/parameters.hpp"
@@ -18,8 +19,8 @@ struct LawOfClass {
 // Adds it to those that there are.
 void registerLaw(std::type_index, LawOfClass);
 
-// A static object of each class that has a law: make(material of class M) returns the law, and the members are its parameters, in its order; others that it
-// has stay the same.
+// A static object of each class that has a law: make(material of class M) returns the law, and the members are its
+// parameters, in its order; others that it has stay the same.
 template <class M> struct RegisteredLaw {
 	template <class Make, class... Members> explicit RegisteredLaw(Make make, const std::pair<const char*, Members>&... parameters)
 	{

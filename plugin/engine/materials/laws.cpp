@@ -104,8 +104,8 @@ namespace {
 		if (isKept((answer.elasticStrain - strain).norm(), strain.norm())) return answer;
 		std::ostringstream text;
 		text << "the material yields under the elastic strain (" << gimpm::SymTensor<3>::from(strain).c.transpose()
-		     << ") along xx, yy, zz, xy, yz, zx: it can carry no more than the Kirchhoff stress (" << gimpm::SymTensor<3>::from(answer.stress).c.transpose()
-		     << ") Pa.";
+		     << ") along xx, yy, zz, xy, yz, zx: it can carry no more than the Kirchhoff stress ("
+		     << gimpm::SymTensor<3>::from(answer.stress).c.transpose() << ") Pa.";
 		throw std::invalid_argument(text.str());
 	}
 
@@ -137,7 +137,8 @@ namespace {
 		throw std::invalid_argument(text.str());
 	}
 
-	// The first solve is that of a point that nothing has happened to: with what others remember no strain at all may be beyond yield.
+	// The first solve is that of a point that nothing has happened to: with what others remember no strain at all
+	// may be beyond yield.
 	Matrix3r strainInSpace(const gimpm::Material& material, const Matrix3r& stress, const vector<Real>& internals)
 	{
 		Matrix3r strain = Matrix3r::Zero();

@@ -15,30 +15,35 @@ const vector<ParameterOfClass>& parametersOf(const MpmMaterial&);
 // Of the same class and with the same values. The class has a law.
 shared_ptr<MpmMaterial> copyOf(const MpmMaterial&);
 
-// Whether nothing flows under any load, and whether a factor of safety can divide the strength; false for classes without a law.
+// Whether nothing flows under any load, and whether a factor of safety can divide the strength; false for classes
+// without a law.
 bool isElastic(const MpmMaterial&);
 bool canBeWeakened(const MpmMaterial&);
 
-// The internal variables of its law with their values at first, whether the material is admissible or not; none for other classes.
+// The internal variables of its law with their values at first, whether the material is admissible or not; none for
+// other classes.
 vector<std::pair<const gimpm::InternalVariable*, Real>> initialInternalsOf(const MpmMaterial&);
 
-// Between Kirchhoff stress [Pa] and elastic logarithmic strain of a point at rest with these internal variables, in the order of its law.
-// std::invalid_argument if that state lies outside of the law's yield surface.
+// Between Kirchhoff stress [Pa] and elastic logarithmic strain of a point at rest with these internal variables, in the
+// order of its law. std::invalid_argument if that state lies outside of the law's yield surface.
 Matrix3r kirchhoffStressOf(const gimpm::Material&, const Matrix3r& elasticStrain, const vector<Real>& internals);
 Matrix3r elasticStrainOf(const gimpm::Material&, const Matrix3r& kirchhoffStress, const vector<Real>& internals);
 
-// For mpm.respond: one call of the law in principal axes, with a dict of internal variables by name where they are not those at first. Returns a dict of
-// tuples with what the law answers, and the internal variables. std::invalid_argument where it has no answer, or for a variable that it does not have.
+// For mpm.respond: one call of the law in principal axes, with a dict of internal variables by name where they are not
+// those at first. Returns a dict of tuples with what the law answers, and the internal variables. std::invalid_argument
+// where it has no answer, or for a variable that it does not have.
 py::dict respondForPython(const shared_ptr<MpmMaterial>&, const Vector3r& trialStrain, const py::dict& internals);
 
-// The same of a tensor law, for a strain and a step of time: tensors by their rows, and the tangent by Mandel's six numbers. And for mpm.elementTest the state
-// after an increment of the deformation gradient, with the rates of the stress by the nine velocity gradients.
+// The same of a tensor law, for a strain and a step of time: tensors by their rows, and the tangent by Mandel's six
+// numbers. And for mpm.elementTest the state after an increment of the deformation gradient, with the rates of the
+// stress by the nine velocity gradients.
 bool     hasTensorLaw(const shared_ptr<MpmMaterial>&);
 py::dict respondInSpaceForPython(const shared_ptr<MpmMaterial>&, const vector<Real>& trialStrain, const py::dict& internals, Real duration);
 py::dict stepInSpaceForPython(
         const shared_ptr<MpmMaterial>&, const vector<Real>& elasticStrain, const vector<Real>& increment, const py::dict& internals, Real duration);
 
-// For mpm.elementTest: principal elastic strains of principal Kirchhoff stresses [Pa]; std::invalid_argument beyond yield.
+// For mpm.elementTest: principal elastic strains of principal Kirchhoff stresses [Pa]; std::invalid_argument beyond
+// yield.
 py::tuple elasticStrainForPython(const shared_ptr<MpmMaterial>&, const Vector3r& kirchhoffStress, const py::dict& internals);
 
 } // namespace yade

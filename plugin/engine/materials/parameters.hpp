@@ -28,8 +28,8 @@ using OwnParameters = vector<std::pair<string, Real>>; // of a point: name and v
 // Materials as points have them, one point after the other.
 class OwnMaterial {
 public:
-	// The material itself for a point without parameters of its own, else one that has them, until the next call. std::invalid_argument as the
-	// material would give, or for a name that it does not have.
+	// The material itself for a point without parameters of its own, else one that has them, until the next call.
+	// std::invalid_argument as the material would give, or for a name that it does not have.
 	const MpmMaterial& of(const MpmMaterial&, const OwnParameters&);
 
 private:

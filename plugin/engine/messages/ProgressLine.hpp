@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-// What a user sees while an analysis runs: one line on stderr, redrawn in place on a terminal and now and then repeated in a log.
+// What a user sees while an analysis runs: one line on stderr, redrawn in place on a terminal and now and then repeated
+// in a log.
 #include <chrono>
 #include <string>
 

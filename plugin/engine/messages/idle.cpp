@@ -9,7 +9,8 @@ namespace yade {
 namespace {
 	bool isNear(const MaterialPoint& p, const std::pair<Vector3r, Vector3r>& box, const MpmGrid& grid)
 	{
-		const Vector3r reach = p.shape->halfSize + Vector3r::Constant(grid.cellSize); // nodes of the cells that it touches
+		// Nodes of the cells that it touches.
+		const Vector3r reach = p.shape->halfSize + Vector3r::Constant(grid.cellSize);
 		return ((p.state->pos + reach - box.first).head(grid.dim).array() > 0).all()
 		        && ((box.second - p.state->pos + reach).head(grid.dim).array() > 0).all();
 	}

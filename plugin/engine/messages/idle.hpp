@@ -6,7 +6,8 @@
 namespace yade {
 class Analysis;
 
-// Of conditions that hold nothing now, as no point is near them or touches them, a sentence for each; empty if there is none. Those may be chosen.
+// Of conditions that hold nothing now, as no point is near them or touches them, a sentence for each; empty if there is
+// none. Those may be chosen.
 string idleConditions(const Analysis&, const vector<MaterialPoint>&, const std::function<bool(const MpmCondition&)>& isMeant);
 
 } // namespace yade

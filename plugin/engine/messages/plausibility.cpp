@@ -45,8 +45,8 @@ namespace {
 			       " to ", engine.loadsEnd(), ": 1/80 of that gives 80 steps.");
 	}
 
-	// Of what a look at the points depends on: whoever changes the deformation changes the sizes, too, and the initial stress of points is
-	// that of their first look.
+	// Of what a look at the points depends on: whoever changes the deformation changes the sizes, too, and the
+	// initial stress of points is that of their first look.
 	template <int Dim> uint64_t fingerprint(const gimpm::PointCloud<Dim>& cloud)
 	{
 		gimpm::Checksum sum;
@@ -66,7 +66,8 @@ namespace {
 	// Shear makes neighbours overlap here and there; what has been filled or loaded twice does so as a whole.
 	string warningOfOverlap(const Overlaps& overlaps, const vector<MaterialPoint>& points)
 	{
-		constexpr Real byShear = 0.05; // of all volume; in a vertical cut that has run out to half its height it was 0.006
+		// Of all volume; in a vertical cut that has run out to half its height it was 0.006.
+		constexpr Real byShear = 0.05;
 		Real           all     = 0;
 		for (const MaterialPoint& p : points)
 			all += p.state->volume;
@@ -284,10 +285,12 @@ vector<string> Plausibility::warningsOfResult(const Analysis& engine, const vect
 	vector<string> sentences;
 	if (engine.isDynamic() || engine.gravity.isZero(0) || said["settlement"] || said["units"]) return sentences;
 	const Vector3r down = engine.gravity.normalized(), sides = box.second - box.first;
-	const Real     size    = sides.head<Dim>().maxCoeff(); // not the height: a slender beam may well bend by more than that
-	const Real     bottom  = (box.first + box.second + sides.cwiseProduct(down.cwiseSign())).dot(down) / 2;
-	const auto     isBelow = [&](const gimpm::Vec<Dim>& x) { return x.dot(down.head<Dim>()) > bottom; };
-	if (std::none_of(cloud.position.begin(), cloud.position.end(), isBelow)) return sentences; // then none has settled by more than the height
+	// Not the height: a slender beam may well bend by more than that.
+	const Real size    = sides.head<Dim>().maxCoeff();
+	const Real bottom  = (box.first + box.second + sides.cwiseProduct(down.cwiseSign())).dot(down) / 2;
+	const auto isBelow = [&](const gimpm::Vec<Dim>& x) { return x.dot(down.head<Dim>()) > bottom; };
+	// Then none has settled by more than the height.
+	if (std::none_of(cloud.position.begin(), cloud.position.end(), isBelow)) return sentences;
 	Real settlement = 0;
 	for (const MaterialPoint& p : points)
 		settlement = std::max(settlement, (p.state->pos - p.state->refPos).dot(down));

@@ -11,15 +11,17 @@
 namespace yade {
 class Analysis;
 
-// Asked around every step. Settings and materials are looked at each time. Points, which takes longer, are looked at when they are not as
-// this engine has left them: in the first step, when bodies come or go, and when a script has changed them.
+// Asked around every step. Settings and materials are looked at each time. Points, which takes longer, are looked at
+// when they are not as this engine has left them: in the first step, when bodies come or go, and when a script has
+// changed them.
 //
-// std::invalid_argument for what would be left out without a word, or counted twice: gravity across the plane of a two-dimensional grid,
-// points in the same place, cells that are no match for the points, an O.dt that nobody has set or that jumps over the whole load curve.
+// std::invalid_argument for what would be left out without a word, or counted twice: gravity across the plane of a
+// two-dimensional grid, points in the same place, cells that are no match for the points, an O.dt that nobody has set
+// or that jumps over the whole load curve.
 class Plausibility {
 public:
-	// Before a step. What can be meant, but seldom is: sentences for YADE's log. Each is said once as long as what it says stays so. Adds the
-	// time [s] that the points have taken, if they were looked at.
+	// Before a step. What can be meant, but seldom is: sentences for YADE's log. Each is said once as long as what
+	// it says stays so. Adds the time [s] that the points have taken, if they were looked at.
 	template <int Dim>
 	vector<string> look(const Analysis&, const vector<MaterialPoint>&, const gimpm::PointCloud<Dim>&, const gimpm::Model<Dim>&, double& time);
 
@@ -30,8 +32,8 @@ public:
 	template <int Dim> void know(const gimpm::PointCloud<Dim>&);
 	template <int Dim> bool knows(const vector<MaterialPoint>&) const;
 
-	// Once: that the load curves are at their end, and which conditions reach no point. A wall may wait for soil that arrives later; that a
-	// boundary moves nothing is an error of the step.
+	// Once: that the load curves are at their end, and which conditions reach no point. A wall may wait for soil
+	// that arrives later; that a boundary moves nothing is an error of the step.
 	string warningOfEnd(const Analysis&);
 	string warningOfPlaces(const Analysis&, const vector<MaterialPoint>&);
 

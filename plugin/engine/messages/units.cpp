@@ -29,7 +29,8 @@ namespace {
 		return names.empty() ? "; was another unit meant?" : "; was it meant in " + names + ", that is " + values + " " + unit + "?";
 	}
 
-	// Lighter than peat under water or heavier than copper; in between are foams and metals, which ground may be beside.
+	// Lighter than peat under water or heavier than copper; in between are foams and metals, which ground may be
+	// beside.
 	string warningOfDensity(Real density)
 	{
 		constexpr Real lightest = 50, heaviest = 9000, lightestGround = 750, heaviestGround = 4000; // kg/m3
@@ -39,13 +40,11 @@ namespace {
 
 	string warningOfModulus(const MpmMaterial& material)
 	{
-		constexpr Real softest = 1e5, ofGround = 500, softestGround = 2e5, stiffestGround = 1e11; // Pa, kg/m3, Pa
+		// Pa, kg/m3, Pa.
+		constexpr Real softest = 1e5, ofGround = 500, softestGround = 2e5, stiffestGround = 1e11;
 		if (material.density <= ofGround) return "";
 		for (const auto& [name, value] : material.moduli())
-			if (value < softest)
-				return sentence(
-				        name, " = ", value, ", in Pa",
-				        meant(value, unitsOfStress, softestGround, stiffestGround, "Pa"));
+			if (value < softest) return sentence(name, " = ", value, ", in Pa", meant(value, unitsOfStress, softestGround, stiffestGround, "Pa"));
 		return "";
 	}
 
@@ -56,8 +55,7 @@ namespace {
 		for (const auto& [name, value] : material.strengths())
 			if (value < least * stress)
 				return sentence(
-				        name, " = ", value, ", in Pa, which is ", value / stress,
-				        " times the stress that its weight gives, ", stress, " Pa",
+				        name, " = ", value, ", in Pa, which is ", value / stress, " times the stress that its weight gives, ", stress, " Pa",
 				        meant(value, unitsOfStress, leastMeant * stress, mostMeant * stress, "Pa"));
 		return "";
 	}

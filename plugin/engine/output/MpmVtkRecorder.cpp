@@ -4,8 +4,8 @@
 #include "engine/output/gridCells.hpp"
 #include "engine/output/statePieces.hpp"
 #include "engine/output/vtkDataSets.hpp"
-#include "engine/parallel/processes.hpp"
 #include "engine/parallel/distribution.hpp"
+#include "engine/parallel/processes.hpp"
 #include "engine/points/columns.hpp"
 #include "yade_api/background.hpp"
 #include "yade_api/exceptions.hpp"
@@ -69,8 +69,8 @@ namespace {
 			if (auto* recorder = dynamic_cast<MpmVtkRecorder*>(engine.get())) recorder->finish();
 	}
 
-	// YADE's script mode ends Python first. Its prompt ends the process with Python alive, and leaves out what Python would do at
-	// its end. Called when VTK has been used, so that this comes before VTK's own end.
+	// YADE's script mode ends Python first. Its prompt ends the process with Python alive, and leaves out what
+	// Python would do at its end. Called when VTK has been used, so that this comes before VTK's own end.
 	bool finishAtExit()
 	{
 		const PythonLock lock;

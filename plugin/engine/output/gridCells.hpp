@@ -6,11 +6,13 @@
 
 namespace yade {
 
-// "grid": the cells that hold material; "ghostFaces": the faces that are stabilised; otherwise the picture of conditions of that kind (MpmCondition::picture): "loads", loaded surfaces; "walls", surfaces
-// of boundaries; "contacts", where points touch rigid bodies. With their fields.
+// "grid": the cells that hold material; "ghostFaces": the faces that are stabilised; otherwise the picture of
+// conditions of that kind (MpmCondition::picture): "loads", loaded surfaces; "walls", surfaces of boundaries;
+// "contacts", where points touch rigid bodies. With their fields.
 VtkCells gridCells(const string& kind, const Scene&, const Analysis&);
 
-// For mpm.plot: the same as a dict of bytearrays, "corners" (cells x corners x 3 double) and "field", the first of the fields, and the "count" of cells.
+// For mpm.plot: the same as a dict of bytearrays, "corners" (cells x corners x 3 double) and "field", the first of the
+// fields, and the "count" of cells.
 py::dict gridCellsForPython(const string& kind, const Analysis&);
 
 // For mpm.plot: ids of the rigid bodies that conditions act by.

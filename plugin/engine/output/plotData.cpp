@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "engine/output/plotData.hpp"
 #include "engine/analysis/analysis.hpp"
+#include "engine/parallel/distribution.hpp"
 #include "engine/parallel/processes.hpp"
 #include "engine/points/MaterialPoints.hpp"
-#include "engine/parallel/distribution.hpp"
 #include "engine/points/energies.hpp"
 #include "yade_api/value_lock.hpp"
 #include <numeric>

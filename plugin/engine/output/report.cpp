@@ -7,7 +7,8 @@
 namespace yade {
 
 namespace {
-	// A key of the report and what it says. Without a value it is one of RunResults, which has an attribute of its own, and there is more to say of it than there.
+	// A key of the report and what it says. Without a value it is one of RunResults, which has an attribute of its
+	// own, and there is more to say of it than there.
 	struct Row {
 		const char* key;
 		const char* meaning;
@@ -108,9 +109,6 @@ py::dict report(const Analysis& engine)
 	return result;
 }
 
-void addReport(py::object pythonClass, const py::object& function)
-{
-	py::objects::add_to_namespace(pythonClass, "report", function, docstring().c_str());
-}
+void addReport(py::object pythonClass, const py::object& function) { py::objects::add_to_namespace(pythonClass, "report", function, docstring().c_str()); }
 
 } // namespace yade

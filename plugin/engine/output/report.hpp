@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-// MpmImplicitEngine.report(): how the last run went. One table of keys makes the answer, its docstring and the page of the reference.
+// MpmImplicitEngine.report(): how the last run went. One table of keys makes the answer, its docstring and the page of
+// the reference.
 #include "yade_api/types.hpp"
 
 namespace yade {

@@ -10,14 +10,15 @@ class Analysis;
 
 using Columns = vector<const PointColumn*>;
 
-// Which columns are fields of the points of an engine that are divided, whatever process they are in. All processes call it.
+// Which columns are fields of the points of an engine that are divided, whatever process they are in. All processes
+// call it.
 vector<const PointColumn*> fieldsOfAll(const Analysis&);
 
 // Calls write() in the first process, or where points are divided in all of them, which throw if one does.
 void writeTogether(const Analysis&, const std::function<void()>& write);
 
-// The path with its ending of what the .pvd lists, and the files: the .vtu of what every process has as a whole, or the .pvtu and the piece of this process. std::invalid_argument for a kind of which
-// no process has the whole.
+// The path with its ending of what the .pvd lists, and the files: the .vtu of what every process has as a whole, or the
+// .pvtu and the piece of this process. std::invalid_argument for a kind of which no process has the whole.
 string stateFile(const string& kind, const string& path, const Analysis&);
 void   writeState(vtkUnstructuredGrid&, Real time, const string& file, VtkFormat);
 

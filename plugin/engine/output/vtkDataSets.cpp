@@ -17,7 +17,8 @@
 namespace yade {
 
 namespace {
-	// Corners of quadrilateral (the first four) and hexahedron in VTK's order: bit a set for the upper end along axis a.
+	// Corners of quadrilateral (the first four) and hexahedron in VTK's order: bit a set for the upper end along
+	// axis a.
 	constexpr int corners[] = { 0, 1, 3, 2, 4, 5, 7, 6 };
 
 	constexpr int boxType(int dim) { return dim == 2 ? VTK_QUAD : VTK_HEXAHEDRON; }
@@ -140,7 +141,8 @@ namespace {
 		return placeOf<Dim>(cell + gimpm::Grid<Dim>::keyOffset(corner, gimpm::Grid<Dim>::level(cell)));
 	}
 
-	// The corners of the populated leaves, with some nodes in a refined grid, sorted. At the far sides of a periodic grid these are not the nodes that stand for them.
+	// The corners of the populated leaves, with some nodes in a refined grid, sorted. At the far sides of a
+	// periodic grid these are not the nodes that stand for them.
 	template <int Dim>
 	vector<gimpm::Key> cornersOf(const gimpm::CloudBasis<Dim>& basis, const gimpm::Grid<Dim>& grid, const vector<gimpm::Key>& besides = {})
 	{

@@ -13,14 +13,16 @@ namespace yade {
 
 using VtkCells = vtkSmartPointer<vtkUnstructuredGrid>;
 
-// The domain of each material point, in the order given, with its fields. `deform`: the domains follow the deformation. `sectors`: parts into which each is
-// revolved about the axis x = 0, one after the other; vectors and tensors turn with them. 0: the section.
+// The domain of each material point, in the order given, with its fields. `deform`: the domains follow the deformation.
+// `sectors`: parts into which each is revolved about the axis x = 0, one after the other; vectors and tensors turn with
+// them. 0: the section.
 VtkCells pointDomains(const vector<MaterialPoint>&, const Scene&, const MpmGrid&, const vector<const PointColumn*>& fields, bool deform, int sectors);
 
 // Which of the columns are fields of these points.
 vector<const PointColumn*> fieldsOf(const vector<MaterialPoint>&);
 
-// The background grid where it holds material, in the same configuration. `z` is the height of the plane in plane strain.
+// The background grid where it holds material, in the same configuration. `z` is the height of the plane in plane
+// strain.
 template <int Dim> VtkCells populatedCells(const gimpm::PointCloud<Dim>&, const gimpm::Model<Dim>&, Real z);
 
 // The faces that the ghost stabilisation acts on, with their stiffness; none if it is switched off.

@@ -40,7 +40,8 @@ namespace {
 		~QuietVtk() { vtkObject::SetGlobalWarningDisplay(before); }
 	};
 
-	// Why a file has not been finished, found by writing more to it: who has failed to may have removed its name, as VTK does, and not say why.
+	// Why a file has not been finished, found by writing more to it: who has failed to may have removed its name,
+	// as VTK does, and not say why.
 	string whyIncomplete(std::ofstream& file)
 	{
 		const vector<char> more(1 << 16);

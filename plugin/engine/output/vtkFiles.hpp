@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-// Files for ParaView. A file is written under another name and then renamed: what has its final name is complete. Missing folders
-// are created. std::runtime_error names the file that cannot be written, and says why.
+// Files for ParaView. A file is written under another name and then renamed: what has its final name is complete.
+// Missing folders are created. std::runtime_error names the file that cannot be written, and says why.
 #include "yade_api/types.hpp"
 #include <utility>
 
@@ -17,7 +17,8 @@ struct VtkFormat {
 // One state of a series as .vtu, with its time [s].
 void writeVtu(vtkUnstructuredGrid&, Real time, const string& path, VtkFormat);
 
-// The .pvtu of one state, of which each of so many processes has written a piece with the same fields: path of the piece of a process, and one of the pieces.
+// The .pvtu of one state, of which each of so many processes has written a piece with the same fields: path of the
+// piece of a process, and one of the pieces.
 void   writePvtu(vtkUnstructuredGrid&, Real time, const string& path, int pieces);
 string pieceOf(const string& path, int process);
 

@@ -61,7 +61,8 @@ namespace {
 		return all;
 	}
 
-	// Of the rigid bodies that may touch the soil: with which friction. Their shapes have a colour by chance, and are not compared.
+	// Of the rigid bodies that may touch the soil: with which friction. Their shapes have a colour by chance, and
+	// are not compared.
 	std::uint64_t frictionOf(const Analysis& engine)
 	{
 		vector<shared_ptr<Material>> materials;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-// What processes that divide the material points of a scene among them must have in common. std::runtime_error, of all of them, where they have not.
+// What processes that divide the material points of a scene among them must have in common. std::runtime_error, of all
+// of them, where they have not.
 #include "core/parallel/processes.hpp"
 #include "engine/points/MaterialPoints.hpp"
 

@@ -4,10 +4,10 @@
 #include "core/grid/neighbourhood.hpp"
 #include "engine/analysis/analysis.hpp"
 #include "engine/grid/newPoints.hpp"
+#include "engine/parallel/common_state.hpp"
 #include "engine/parallel/packed_bodies.hpp"
 #include "engine/parallel/pieces.hpp"
 #include "engine/parallel/processes.hpp"
-#include "engine/parallel/common_state.hpp"
 #include "yade_api/python_lock.hpp"
 #include "yade_api/value_lock.hpp"
 #include <malloc.h>
@@ -58,7 +58,8 @@ namespace {
 	}
 }
 
-// Anew where the work is not balanced to ten per cent. Behind the own points are those that all know, each of which counts once.
+// Anew where the work is not balanced to ten per cent. Behind the own points are those that all know, each of which
+// counts once.
 void Distribution::cut(const std::shared_ptr<const gimpm::Processes>& all, const vector<gimpm::Key>& lowest, size_t own)
 {
 	constexpr Real        admitted = 0.1;
@@ -100,7 +101,8 @@ template <int Dim> std::shared_ptr<gimpm::Division> Distribution::divide(Analysi
 	eraseFrom(scene, erased);
 	for (const auto& message : gimpm::exchanged(*all, messages))
 		unpackBodies(message, scene);
-	malloc_trim(0); // what has been erased, and what the step before has left in the heap of its own thread: a sixth of the peak
+	// What has been erased, and what the step before has left in the heap of its own thread: a sixth of the peak.
+	malloc_trim(0);
 	Pieces::note(scene, *all);
 	updateMaterialPoints(points, scene, engine.mask);
 	for (const MaterialPoint& p : points)

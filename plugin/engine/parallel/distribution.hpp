@@ -16,11 +16,13 @@ public:
 	// std::invalid_argument names what points that are divided do not admit.
 	static void requireDivisible(const Analysis&, const vector<MaterialPoint>&);
 
-	// Leaves each process its own points, the work of all about the same. Each calls it with what it has of them, and gets what it keeps. Of points that all are about to add, each will have
-	// those whose lowest cells, `added`, the division gives it.
+	// Leaves each process its own points, the work of all about the same. Each calls it with what it has of them,
+	// and gets what it keeps. Of points that all are about to add, each will have those whose lowest cells,
+	// `added`, the division gives it.
 	template <int Dim> std::shared_ptr<gimpm::Division> divide(Analysis&, vector<MaterialPoint>&, const vector<gimpm::Key>& added = {});
 
-	// The same, before points are added that all know: the numbers of those that this process will have. std::invalid_argument of all where one refuses.
+	// The same, before points are added that all know: the numbers of those that this process will have.
+	// std::invalid_argument of all where one refuses.
 	template <int Dim> vector<int> ownOf(Analysis&, vector<MaterialPoint>&, const NewPoints& added);
 
 private:
@@ -29,7 +31,8 @@ private:
 	vector<gimpm::Key> first; // of the ranges, as in gimpm::Division; empty before the first step
 };
 
-// The processes among which the points of an engine are divided, so that each has its own only; this one alone where it has all of them.
+// The processes among which the points of an engine are divided, so that each has its own only; this one alone where it
+// has all of them.
 std::shared_ptr<const gimpm::Processes> holdersOf(const Analysis&);
 std::shared_ptr<const gimpm::Processes> holdersOf(const Scene&); // whichever engine has divided them
 

@@ -107,7 +107,8 @@ template <class F> void Agreement::requireAgreement(const Analysis& engine, F&& 
 	const int first = gimpm::firstOf(*all, false);
 	if (first < all->size())
 		throw std::runtime_error("Process " + std::to_string(first) + " of " + std::to_string(all->size()) + " has failed: " + all->told("", first));
-	const bool isSameIteration = all->haveSame(std::uint64_t(engine.sceneOfRun().iter)); // after an error in one of them it may not be
+	// After an error in one of them it may not be.
+	const bool isSameIteration = all->haveSame(std::uint64_t(engine.sceneOfRun().iter));
 	if (!isSameIteration || !haveSamePoints(*all))
 		throw std::runtime_error(
 		        engine.className() + ": the processes "

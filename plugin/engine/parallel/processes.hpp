@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-// The processes that run the same script and work on each load step together: this one alone, or those that mpirun has started.
+// The processes that run the same script and work on each load step together: this one alone, or those that mpirun has
+// started.
 #include "core/grid/point_cloud.hpp"
 #include "core/parallel/division.hpp"
 #include "yade_api/types.hpp"
@@ -23,7 +24,8 @@ bool isRequested(bool here, const gimpm::Processes&);
 // The largest of their numbers.
 int largestOf(int, const gimpm::Processes&);
 
-// Where one of them has failed all throw what the first of those has thrown: a std::invalid_argument, or a std::runtime_error.
+// Where one of them has failed all throw what the first of those has thrown: a std::invalid_argument, or a
+// std::runtime_error.
 void failTogether(const std::exception_ptr&, const gimpm::Processes&);
 
 // Calls f() in each of them; whatever one throws, all do. None is left waiting for one that has failed.
@@ -44,7 +46,8 @@ public:
 	// All are about to divide their points; std::runtime_error where another one has failed, with its reason.
 	void meet(const Analysis&);
 
-	// All are about to make a step with these points, which are the same in all unless they are divided among them; otherwise the same.
+	// All are about to make a step with these points, which are the same in all unless they are divided among them;
+	// otherwise the same.
 	template <int Dim> void reach(const Analysis&, const gimpm::PointCloud<Dim>&, const gimpm::Division&);
 
 	// This one has thrown, before or after reach().

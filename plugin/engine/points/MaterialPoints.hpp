@@ -15,8 +15,8 @@ struct MaterialPoint {
 	shared_ptr<MpmState>    state;
 	shared_ptr<MpmMaterial> material;
 
-	// std::invalid_argument unless all its values can be computed with in this dimension (2 or 3), in two of them as a ring or in plane strain. Its
-	// material is not looked at.
+	// std::invalid_argument unless all its values can be computed with in this dimension (2 or 3), in two of them
+	// as a ring or in plane strain. Its material is not looked at.
 	void requireAdmissible(int dim, bool isRing) const;
 
 	// std::invalid_argument unless its material admits that a step begins from its state.
@@ -26,10 +26,12 @@ struct MaterialPoint {
 	Real         internalOf(const gimpm::Law&, size_t k) const;
 	vector<Real> internalsOf(const gimpm::Law&) const;
 
-	// std::invalid_argument names one of them that its variable does not admit, or one of the state that the law does not have.
+	// std::invalid_argument names one of them that its variable does not admit, or one of the state that the law
+	// does not have.
 	void requireInternals(const gimpm::Law&) const;
 
-	// Index into O.materials, -1 if it is not in there. The number in the material itself may be that of another scene's list.
+	// Index into O.materials, -1 if it is not in there. The number in the material itself may be that of another
+	// scene's list.
 	int materialIndex(const Scene&) const;
 };
 
@@ -39,8 +41,9 @@ string refusalOf(const gimpm::InternalVariable&, Real value);
 // Whether an engine with this mask is to look at the body: 0 and -1 mean all, also a body whose groupMask has no bits.
 inline bool maskMatches(const Body& body, int mask) { return mask == 0 || mask == -1 || (body.groupMask & Body::mask_t(mask)) != Body::mask_t(0); }
 
-// All bodies with an MpmPoint shape that the mask means, in order of body id. std::invalid_argument if one of them is incomplete, is
-// left to YADE's collider or integrator, alone or in a clump, or if another body has a material that is for material points only.
+// All bodies with an MpmPoint shape that the mask means, in order of body id. std::invalid_argument if one of them is
+// incomplete, is left to YADE's collider or integrator, alone or in a clump, or if another body has a material that is
+// for material points only.
 vector<MaterialPoint> materialPoints(const Scene&, int mask = 0);
 
 // The same, from those of before, which are kept as far as they are still there, which is quicker.

@@ -68,7 +68,8 @@ public:
 		  "Id of the body that this one was split off from, which keeps the other half; -1 of points that were there at first.", atLeast(-1));
 	}
 
-	// Calls v(member) for what there is once only, of which each half of a point has its part; the rest both have. The mass belongs to YADE's State.
+	// Calls v(member) for what there is once only, of which each half of a point has its part; the rest both have.
+	// The mass belongs to YADE's State.
 	template <class V> static void amounts(V&& v) { v(&MpmState::volume), v(&MpmState::volume0), v(&MpmState::mass), v(&MpmState::force); }
 
 	// Position and initial position belong to YADE's State, which admits every number.

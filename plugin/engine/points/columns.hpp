@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-// The table of what there is to know of a material point, in numbers: whatever reads, writes, shows or stores all points reads this.
+// The table of what there is to know of a material point, in numbers: whatever reads, writes, shows or stores all
+// points reads this.
 #include "engine/points/MaterialPoints.hpp"
 #include <functional>
 
@@ -39,8 +40,8 @@ vector<const PointColumn*> columnsOf(const vector<MaterialPoint>&);
 // Null: there is no such column.
 const PointColumn* findColumn(const string& name);
 
-// For Python: dicts with name, unit, label, width, isInteger, isGiven (to points, by mpm.assign), derived, isInternal (a variable of laws)
-// and isParameter (of laws).
+// For Python: dicts with name, unit, label, width, isInteger, isGiven (to points, by mpm.assign), derived, isInternal
+// (a variable of laws) and isParameter (of laws).
 py::list pointColumnsForPython();
 
 } // namespace yade

@@ -12,8 +12,8 @@ namespace yade {
 // That opened this library.
 inline const pid_t firstProcess = getpid();
 
-// To be asked before several threads work. GNU OpenMP keeps them for the next time, and YADE has had some even before the first step; a
-// process that is forked then waits for ever for those, which it does not have.
+// To be asked before several threads work. GNU OpenMP keeps them for the next time, and YADE has had some even before
+// the first step; a process that is forked then waits for ever for those, which it does not have.
 inline void requireThreadsOfThisProcess(int threads)
 {
 	if (threads == 1 || getpid() == firstProcess) return;
@@ -22,7 +22,8 @@ inline void requireThreadsOfThisProcess(int threads)
 	        "the engine.");
 }
 
-// Calls f(begin, end) for ranges that make up [0, n), a thread each. Of what they throw, that of the first range is thrown.
+// Calls f(begin, end) for ranges that make up [0, n), a thread each. Of what they throw, that of the first range is
+// thrown.
 template <class F> void inRanges(size_t n, F f)
 {
 	constexpr size_t                worthwhile = 2000; // bodies for which to wake another thread

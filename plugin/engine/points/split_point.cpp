@@ -60,7 +60,8 @@ namespace {
 		MpmState::amounts([&](auto member) { std::swap(one.*member, other.*member); });
 	}
 
-	// The initial domains of halves are those of the initial one; but the initial radius of a ring is that with which it is stretched around the axis as the whole is.
+	// The initial domains of halves are those of the initial one; but the initial radius of a ring is that with
+	// which it is stretched around the axis as the whole is.
 	void moveHalf(MpmState& state, MpmPoint& shape, int axis, Real sign, const Vector3r& offset, bool isRing)
 	{
 		const Real scale = isRing ? 1 + sign * offset[0] / state.pos[0] : 1, radius = state.refPos[0] * scale;

@@ -5,7 +5,8 @@
 
 namespace yade {
 
-// Half the size of the domain into which the deformation gradient stretches an initial one; a step limits it to half a cell.
+// Half the size of the domain into which the deformation gradient stretches an initial one; a step limits it to half a
+// cell.
 inline Vector3r stretched(const Vector3r& halfSize0, const Matrix3r& defGrad)
 {
 	const Matrix3r change = defGrad - Matrix3r::Identity();

@@ -9,15 +9,19 @@ from .analysis import noPoints, solverOf
 from .data import parameter, pointsOf
 from .library import engine as _engine
 
-# Cost of a load step in solves, elastic and elasto-plastic: small, usual, large (examples/trade). Plastic steps need 2 to 6 solves as a rule, but also
-# residuals without a solve, and cost more than the one that is measured, because points yield and the body spreads over more cells.
+# Cost of a load step in solves, elastic and elasto-plastic: small, usual, large (examples/trade). Plastic steps need 2
+# to 6 solves as a rule, but also residuals without a solve, and cost more than the one that is measured, because points
+# yield and the body spreads over more cells.
 _solves = {False: (2, 4, 20), True: (4, 8, 15)}
-# Memory that a step needs on top of the bodies, fitted to examples/trade/estimates.py: a part for YADE's threads and libraries, one for each
-# point, and four times the bytes of the matrices' entries, which stand for the working space of ordering and factorisation too.
+# Memory that a step needs on top of the bodies, fitted to examples/trade/estimates.py: a part for YADE's threads and
+# libraries, one for each point, and four times the bytes of the matrices' entries, which stand for the working space of
+# ordering and factorisation too.
 _bytes, _bytesOfPoint = 6e5, {2: 1150, 3: 1600}
 _bytesOfEntry = {'blockEntries': 32, 'matrixEntries': 96, 'factorEntries': 44}
-# Dilation over friction up to which flow counts as keeping the volume. Without F-bar a strip footing, 8 cells wide, on weightless soil (friction 35 degrees, cohesion 10 kPa, pressed
-# by a twenty-fifth of its width) bears 35 % more where the soil does not dilate, 29 % for 3 degrees, 25 % for a quarter of the friction, 19 % for half of it, 13 % for three quarters.
+# Dilation over friction up to which flow counts as keeping the volume. Without F-bar a strip footing, 8 cells wide, on
+# weightless soil (friction 35 degrees, cohesion 10 kPa, pressed by a twenty-fifth of its width) bears 35 % more where
+# the soil does not dilate, 29 % for 3 degrees, 25 % for a quarter of the friction, 19 % for half of it, 13 % for three
+# quarters.
 _littleDilation = 0.5
 _manyIterations = 250  # of conjugate gradients to 1e-3: as long as multigrid takes with being set up
 _bytesOfOutput = 560  # of a point in an MpmVtkRecorder's files

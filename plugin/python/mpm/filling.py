@@ -216,7 +216,8 @@ def _cellPoints(cells, grid, n):
 	shape = [len(c) for c in reversed(cells)] + [n] * dim
 	points = np.full(shape + [3], grid.origin[2])
 	for axis, numbers in enumerate(cells):
-		# h (2k + 1) / 2n with integer k: exactly odd about the origin, so a symmetric scene is symmetric to the last bit
+		# h (2k + 1) / 2n with integer k: exactly odd about the origin, so a symmetric scene is symmetric to the
+		# last bit
 		odd = 2 * (n * numbers[:, None] + np.arange(n)) + 1
 		along = [1] * (2 * dim)
 		along[dim - 1 - axis], along[2 * dim - 1 - axis] = odd.shape

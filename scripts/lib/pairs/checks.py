@@ -16,7 +16,8 @@ from .view import View, views
 
 O = Omega()
 close = 1e-9  # where round-off differs: of the largest of the quantity
-# Where an operation is exact in binary numbers, and nothing is summed in another order, bits are asked for: see differences
+# Where an operation is exact in binary numbers, and nothing is summed in another order, bits are asked for: see
+# differences
 exact = {'again', 'two threads', 'saved and loaded', 'scaled'}
 
 

@@ -27,7 +27,8 @@ refused |= {('refinement', shaking): ['refinements', 'inertia'] for shaking in (
 refused |= {(stage, shaking): ['inertia'] for stage in ('place', 'excavate') for shaking in ('absorbing', 'baseMotion')}
 refused |= {(geometry, 'freeBody'): ['free to move'] for geometry in ('plane', 'axisymmetric')}
 
-# Pairs without a meaning: YADE never moves facets and walls by their forces, what moves the rigid base is the wave that comes through it, and the like
+# Pairs without a meaning: YADE never moves facets and walls by their forces, what moves the rigid base is the wave that
+# comes through it, and the like
 senseless = {
         ('facet', 'freeBody'), ('plate', 'freeBody'), ('refinement', 'movingWall'), ('period', 'clump'), ('place', 'excavate'),
         ('axisymmetric', 'clump'),  # it would have to lie on the axis, as one body of revolution

@@ -192,7 +192,8 @@ class _Text:
 		s, v = self.scene, self.view
 		fix = 'n' if s.wall == 'smoothWall' else v.letters('xyz'[:s.dim])
 		nx, ny, nz = s.size
-		# Wider than the body, by parts of a cell that differ: pieces that are equally far from two cells belong to none of them more than to the other
+		# Wider than the body, by parts of a cell that differ: pieces that are equally far from two cells belong
+		# to none of them more than to the other
 		if place == 'base':
 			x = (0, nx) if s.isPeriodic else (0, nx + .5) if s.isRing else (-.5, nx + .47)
 			surface = self._flat((x[0], 0, -.37), (x[1], 0, nz + .43), 1, -1)

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Blocks between any nodes and fields: products, reduction, order of elimination and solvers against dense matrices; and a body whose ends a spring joins.
+// Blocks between any nodes and fields: products, reduction, order of elimination and solvers against dense matrices;
+// and a body whose ends a spring joins.
 #include "core/solvers/multigrid.hpp"
 #include "core/solvers/shared_blocks.hpp"
 #include "core/stepping/step_system.hpp"
@@ -203,7 +204,8 @@ namespace {
 			Coupled<Dim> other(Index<Dim>::Constant(size), { Coupled<Dim>::displacement() }, false);
 			other.join(other.nodes() - 1, other.nodes() - size, 3);
 			expectSolved(other, LinearMethod::direct, Status::lu);
-			if (size == 6) expectSolved(other, LinearMethod::iterative, Status::iterative); // larger ones take GMRES too long
+			// Larger ones take GMRES too long.
+			if (size == 6) expectSolved(other, LinearMethod::iterative, Status::iterative);
 		}
 	}
 

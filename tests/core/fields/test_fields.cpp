@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// A second field at the nodes, solved for together with displacements: pressure in pores, or temperature. It is what the developer's page tells how to add.
+// A second field at the nodes, solved for together with displacements: pressure in pores, or temperature. It is what
+// the developer's page tells how to add.
 #include "core/grid/point_nodes.hpp"
 #include "core/stepping/load_step.hpp"
 #include "derivatives.hpp"
@@ -10,7 +11,8 @@ namespace {
 
 	/// What flows through the soil, and what it does to it.
 	struct Medium {
-		double conductivity = 1;    ///< of a flow by the gradient of the pressure, times the duration of the step
+		/// Of a flow by the gradient of the pressure, times the duration of the step.
+		double conductivity = 1;
 		double growth       = 0;    ///< of the conductivity, by the pressure [1/Pa]
 		double push         = 0;    ///< of the stress, by the pressure: 1 in pores, Young's modulus times expansion for a temperature
 		double storage      = 0;    ///< of the balance of what flows, by the volume of the soil: 1 in pores, 0 for a temperature
@@ -35,7 +37,8 @@ namespace {
 		});
 	}
 
-	/// Balance of what flows, its work on the soil, and a ghost penalty. The flow is that through the soil as the step begins.
+	/// Balance of what flows, its work on the soil, and a ghost penalty. The flow is that through the soil as the
+	/// step begins.
 	template <int Dim> class Flow : public CoupledTerm<Dim> {
 	public:
 		static constexpr int field = 1;
@@ -170,7 +173,8 @@ namespace {
 		std::vector<double>         volume_;
 	};
 
-	/// A body of four cells by two on rollers, with a layer on top that fills so much of its cells. The pressure is given at both ends.
+	/// A body of four cells by two on rollers, with a layer on top that fills so much of its cells. The pressure is
+	/// given at both ends.
 	template <int Dim> struct Body {
 		static constexpr double h = 0.5, length = 4 * h, young = 1e6;
 		Model<Dim>              model;
@@ -277,8 +281,9 @@ namespace {
 		constexpr int Dim       = TypeParam::value;
 		const auto    condition = [](double cut, double ghost) {
                         Body<Dim> body(cut);
-                        body.medium.ghost        = ghost;
-                        body.medium.conductivity = 1 / body.young; // as large as the stiffness, with the scale of the field
+                        body.medium.ghost = ghost;
+                        // As large as the stiffness, with the scale of the field.
+                        body.medium.conductivity = 1 / body.young;
                         body.model.boundary      = Boundary<Dim>(
                                 prescribedSurface<Dim>(body.model.grid, cellsOf<Dim>(4, 1, 2), [](const Vec<Dim>&) -> Vec<Dim> { return Vec<Dim>::Zero(); }));
                         return conditionEstimate(tangentStiffness(body.cloud, body.model));
@@ -287,7 +292,8 @@ namespace {
 		EXPECT_GT(condition(1e-8, 0), 1e3 * condition(1e-4, 0));
 	}
 
-	/// A temperature that is the same everywhere expands the body alike along all axes: E ln l = push T J, J = l^Dim.
+	/// A temperature that is the same everywhere expands the body alike along all axes: E ln l = push T J, J =
+	/// l^Dim.
 	TYPED_TEST(Fields, WarmthExpandsTheBodyAsInTheClosedForm)
 	{
 		constexpr int Dim = TypeParam::value;
@@ -317,7 +323,8 @@ namespace {
 			}
 	}
 
-	/// Coupled one way, both ways, and so that the matrix is symmetric: each block of it along directions in one of the fields.
+	/// Coupled one way, both ways, and so that the matrix is symmetric: each block of it along directions in one of
+	/// the fields.
 	TYPED_TEST(Fields, TheTangentIsThatOfTheForces)
 	{
 		constexpr int Dim = TypeParam::value;
@@ -366,14 +373,16 @@ namespace {
 		}
 	}
 
-	/// What leaves the body is what its volume loses, and the order of convergence is that of Newton's method, whether or not the matrix is symmetric.
+	/// What leaves the body is what its volume loses, and the order of convergence is that of Newton's method,
+	/// whether or not the matrix is symmetric.
 	TYPED_TEST(Fields, WaterThatLeavesIsTheLossOfVolume)
 	{
 		constexpr int Dim = TypeParam::value;
 		for (const double sign : { 1., -1. }) {
 			Body<Dim> body(0.3);
-			body.medium  = { 1e-8, 0, 1, 1, sign, 0.01 };
-			body.before  = 4e4; // above that at the ends: the body has been swollen by nothing, and now it shrinks
+			body.medium = { 1e-8, 0, 1, 1, sign, 0.01 };
+			// Above that at the ends: the body has been swollen by nothing, and now it shrinks.
+			body.before  = 4e4;
 			body.ends[0] = -2e4, body.ends[1] = -5e4;
 			body.model.newton.reuseFactor = false;
 			body.model.newton.tolerance   = 1e-12;
@@ -451,11 +460,13 @@ namespace {
 		EXPECT_EQ(report.cause, "several processes can share displacements only, and there is the field 'pressure'");
 	}
 
-	/// Of a column on an impermeable base under a load, which drains at its top: the settlement is that of Terzaghi's series.
+	/// Of a column on an impermeable base under a load, which drains at its top: the settlement is that of
+	/// Terzaghi's series.
 	TEST(Fields, AColumnConsolidates)
 	{
-		constexpr int    cells = 10, steps = 40;
-		constexpr double h = 0.1, young = 1e6, kappa = 1e-8, load = 100, duration = 0.5 / (kappa * young) / steps; // up to T = 0.5
+		constexpr int cells = 10, steps = 40;
+		// Up to T = 0.5.
+		constexpr double h = 0.1, young = 1e6, kappa = 1e-8, load = 100, duration = 0.5 / (kappa * young) / steps;
 		Model<2>         model;
 		model.grid.cellSize = h;
 		model.materials     = { { Hencky(young, 0), 0 } };

@@ -22,8 +22,8 @@ namespace {
 		double x, l, h;
 	};
 
-	/// Random domains at most `reach` cells from the origin, and domains whose centre or end lies exactly on a cell face; half lengths
-	/// down to 1e-6 of a cell.
+	/// Random domains at most `reach` cells from the origin, and domains whose centre or end lies exactly on a cell
+	/// face; half lengths down to 1e-6 of a cell.
 	std::vector<Domain> domains(int reach)
 	{
 		std::vector<Domain> all;
@@ -40,7 +40,8 @@ namespace {
 
 	double hat(double x, double h) { return std::max(0., 1 - std::abs(x) / h); }
 
-	/// Average of the hat function of the node at `node` over the domain: Simpson's rule between the kinks, exact for its linear pieces.
+	/// Average of the hat function of the node at `node` over the domain: Simpson's rule between the kinks, exact
+	/// for its linear pieces.
 	double averagedHat(const Domain& d, double node)
 	{
 		double       ends[] = { d.x - d.l, node - d.h, node, node + d.h, d.x + d.l }, sum = 0;
@@ -90,10 +91,12 @@ namespace {
 			for (int n = -1; n <= b.cells + 1; ++n) {
 				const bool   active = n >= 0 && n <= b.cells;
 				const double node   = (b.cell + n) * d.h;
-				const double noise  = positionNoise(d) * d.h / d.l; // of the differences between ends and kinks
+				// Of the differences between ends and kinks.
+				const double noise = positionNoise(d) * d.h / d.l;
 				EXPECT_NEAR(active ? b.value[n] : 0, averagedHat(d, node), noise) << d.x << " " << d.l << " " << d.h << " node " << n;
 				const double slope = (hat(d.x + d.l - node, d.h) - hat(d.x - d.l - node, d.h)) / (2 * d.l);
-				EXPECT_NEAR(active ? b.slope[n] * d.h : 0, slope * d.h, overlapTolerance + noise) // a smaller overlap counts as none
+				// a smaller overlap counts as none.
+				EXPECT_NEAR(active ? b.slope[n] * d.h : 0, slope * d.h, overlapTolerance + noise)
 				        << d.x << " " << d.l << " " << d.h << " node " << n;
 			}
 		}
@@ -113,7 +116,8 @@ namespace {
 
 	TEST(GimpBasis, DomainEndingOnAFaceStaysInItsCell)
 	{
-		// Points of regular fillings, computed in the ways that differ by round-off: 3 * 0.1 > 0.3, sums, offsets below precision.
+		// Points of regular fillings, computed in the ways that differ by round-off: 3 * 0.1 > 0.3, sums,
+		// offsets below precision.
 		for (const double h : { 0.1, 0.3, 1. / 3, 1., 1e-9, 7e8 })
 			for (const int perCell : { 1, 2, 3, 4, 7 }) {
 				double sum = h / (2 * perCell);

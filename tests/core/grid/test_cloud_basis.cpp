@@ -234,7 +234,8 @@ namespace {
 		constexpr int limit    = Grid<Dim>::indexLimit;
 		Key           previous = 0;
 		for (const int i : { -limit, -limit + 1, -2, -1, 0, 1, limit - 1, limit }) {
-			Index<Dim> index = Index<Dim>::Constant(limit); // neighbours of the last node must not reach the next axis
+			// Neighbours of the last node must not reach the next axis.
+			Index<Dim> index = Index<Dim>::Constant(limit);
 			index[Dim - 1]   = i;
 			const Key key    = Grid<Dim>::key(index);
 			EXPECT_EQ(Grid<Dim>::index(key), index);

@@ -71,7 +71,8 @@ namespace {
 		const auto    grid     = refinedGrid<Dim>({ { Vec<Dim>::Constant(2), Vec<Dim>::Constant(3), 2 } });
 		int           count[3] = {};
 		forLeaves<Dim>(grid, Index<Dim>::Constant(6), [&](Key leaf) { ++count[Grid<Dim>::level(leaf)]; });
-		const int inside = int(std::pow(4, Dim)); // of the box, which is a largest cell: its neighbours are halved once
+		// Of the box, which is a largest cell: its neighbours are halved once.
+		const int inside = int(std::pow(4, Dim));
 		EXPECT_EQ(count[0], inside);
 		EXPECT_EQ(count[1], int((std::pow(3, Dim) - 1) * std::pow(2, Dim)));
 		EXPECT_EQ(count[2], int(std::pow(6, Dim) - std::pow(3, Dim)));
@@ -154,7 +155,8 @@ namespace {
 		EXPECT_GT(kinks, pairs / 4);
 	}
 
-	/// A large domain reaches into small cells: all nodes that it needs are there, and what it does not see of the large cells is tied to them.
+	/// A large domain reaches into small cells: all nodes that it needs are there, and what it does not see of the
+	/// large cells is tied to them.
 	TYPED_TEST(RefinementTest, MastersAreTiedToNoneAndWeightsAddUpToOne)
 	{
 		constexpr int Dim   = TypeParam::value;

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What a law leaves of a state the next step must admit, whatever round-off does: internal variables, and that of elastic answers nothing is left but the state before.
+// What a law leaves of a state the next step must admit, whatever round-off does: internal variables, and that of
+// elastic answers nothing is left but the state before.
 #include "soil.hpp"
 
 namespace gimpm::soil::testAdmittedStates {
 namespace {
 
-	/// A principal stress whose return begins on a yield surface, times a number around one: next to it, and by round-off on either side.
+	/// A principal stress whose return begins on a yield surface, times a number around one: next to it, and by
+	/// round-off on either side.
 	double around(Random& random)
 	{
 		return 1 + (random.in(0, 1) < .5 ? 1e-15 * std::round(random.in(-8, 8)) : std::pow(10, random.in(-14, -1)) * random.in(-.2, 1));
@@ -27,7 +29,8 @@ namespace {
 		}
 	}
 
-	/// Strains that are multiples of one that yields, around the multiple at which it begins to; where that is sharp, less than that leaves all as it was.
+	/// Strains that are multiples of one that yields, around the multiple at which it begins to; where that is
+	/// sharp, less than that leaves all as it was.
 	template <class L> void expectAdmittedAroundYield(const L& law, const std::vector<Vec3>& directions, bool isSharp = true)
 	{
 		Random random(11);
@@ -48,7 +51,8 @@ namespace {
 	std::vector<Vec3> directions(int count, double mean)
 	{
 		std::vector<Vec3> all = soilStrains(count);
-		for (std::size_t i = 0; i < all.size(); i += 2) { // nearly isotropic, as ground that has been consolidated only
+		// Nearly isotropic, as ground that has been consolidated only.
+		for (std::size_t i = 0; i < all.size(); i += 2) {
 			all[i] = Vec3::Constant(mean) + 1e-9 * all[i];
 			if (i % 4 == 0) all[i][2] = all[i][1];
 		}

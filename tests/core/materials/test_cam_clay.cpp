@@ -17,7 +17,8 @@ namespace {
 		double surface(double pc) const { return Q * Q / (M * M) + P * (P - pc); }
 	};
 
-	/// Trial strains from a point under the reference pressure, whose preconsolidation pressure is `ratio` times that.
+	/// Trial strains from a point under the reference pressure, whose preconsolidation pressure is `ratio` times
+	/// that.
 	std::vector<Vec3> strains(int count, double size)
 	{
 		std::vector<Vec3> all;
@@ -202,7 +203,8 @@ namespace {
 		EXPECT_NEAR(t.Q, M * 3 * p0 / (3 - M), 300);
 	}
 
-	// Compression: along the line of slope lambda beyond the preconsolidation pressure, of slope kappa before and in unloading.
+	// Compression: along the line of slope lambda beyond the preconsolidation pressure, of slope kappa before and
+	// in unloading.
 	TEST(CamClay, CompressionFollowsItsLines)
 	{
 		const CamClay law(G, M, lambda, kappa, 3 * p0, p0);

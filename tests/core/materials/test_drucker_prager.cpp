@@ -63,7 +63,8 @@ namespace {
 		}
 	}
 
-	// k s3 - 2 c sqrt(k), as Mohr and Coulomb's law, at any dilation; with the customary constants 5.5 percent less.
+	// k s3 - 2 c sqrt(k), as Mohr and Coulomb's law, at any dilation; with the customary constants 5.5 percent
+	// less.
 	TEST(DruckerPrager, BiaxialStrengthIsThatOfMohrAndCoulomb)
 	{
 		const auto strength = [](const Cone& cone) { return biaxialStrength(DruckerPrager(50e6, nu, cone), Hencky(50e6, nu), -50e3)[1]; };

@@ -88,7 +88,8 @@ namespace {
 
 	TYPED_TEST(Kinematics, StressOfTinyStrainsIsAsPreciseAsThatOfLargeOnes)
 	{
-		// linear elasticity of the displacement gradient; the terms left out are of the relative size of the strain
+		// linear elasticity of the displacement gradient; the terms left out are of the relative size of the
+		// strain
 		constexpr int Dim = TypeParam::value;
 		const Hencky  law(2.6, 0.3); // G = 1, lambda = 1.5
 		for (const double size : { 1e-11, 1e-14, 1e-20, 1e-100, 1e-300 })
@@ -129,7 +130,8 @@ namespace {
 
 	TYPED_TEST(Kinematics, StretchOfSimpleShearByHand)
 	{
-		// F = 1 + g e_x e_y: C = [1 g; g 1 + g^2]; sqrt(C) = (C + 1 sqrt(det C)) / sqrt(tr C + 2 sqrt(det C)) with det C = 1 in the plane
+		// F = 1 + g e_x e_y: C = [1 g; g 1 + g^2]; sqrt(C) = (C + 1 sqrt(det C)) / sqrt(tr C + 2 sqrt(det C))
+		// with det C = 1 in the plane
 		constexpr int Dim = TypeParam::value;
 		const double  g = 1.7, root = std::sqrt(4 + g * g);
 		Mat<Dim>      F = Mat<Dim>::Identity();

@@ -60,7 +60,8 @@ namespace {
 	TEST(Hencky, TangentIsTheDerivativeOfStress)
 	{
 		const Vec3 e(0.3, -0.2, 0.05);
-		EXPECT_LT((elastic.respond(e, {}).tangent - differences(elastic, e, 1e-3)).norm(), 1e-11); // linear law: any step
+		// Linear law: any step.
+		EXPECT_LT((elastic.respond(e, {}).tangent - differences(elastic, e, 1e-3)).norm(), 1e-11);
 		const Response r = elastic.respond(e, {});
 		for (int p = 0; p < 3; ++p)
 			EXPECT_NEAR(r.stress[p] - r.stress[(p + 1) % 3], 2 * r.shear[p] * (e[p] - e[(p + 1) % 3]), 1e-15);
@@ -195,7 +196,8 @@ namespace {
 				const auto   r    = law.respond(e, { 0 });
 				const double step = 1e-3 * deviator(e).norm();
 				const Mat3   fine = differences(law, e, step / 2), coarse = differences(law, e, step);
-				if ((fine - coarse).norm() > 1e-4 * fine.norm()) continue; // the residual yield stress is reached between: a kink
+				// The residual yield stress is reached between: a kink.
+				if ((fine - coarse).norm() > 1e-4 * fine.norm()) continue;
 				++compared;
 				EXPECT_LT((r.tangent - (4 * fine - coarse) / 3).norm(), 1e-9 * r.tangent.norm());
 				EXPECT_LT((r.tangent - r.tangent.transpose()).norm(), 1e-15 * r.tangent.norm()) << "associated flow";

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The spatial moduli against derivatives of the stress that the nodes feel.
 //
-// The force on a node is V_0 tau dF^-T times the gradient of its basis function at the start of the step, so the moduli A = J a must be
+// The force on a node is V_0 tau dF^-T times the gradient of its basis function at the start of the step, so the moduli
+// A = J a must be
 //   A_ijkl = dF_jJ dF_lL d(tau dF^-T)_iJ / d(dF)_kL.
 #include "core/materials/kinematics.hpp"
 #include "core/materials/law.hpp"
@@ -99,7 +100,8 @@ namespace {
 			for (const Mat<Dim>& grad : { none, turned }) {
 				this->expectDerivative(elastic, this->strained(strain), grad, 1e-3, 1e-9);
 				this->expectDerivative(elastic, leftCauchyGreenMinusOne(SymTensor<Dim>::from(Mat3(strain.asDiagonal()))), grad, 1e-3, 1e-9);
-				this->expectDerivative(plastic, this->strained(strain), grad, 3e-4, 1e-8); // the last two are elastic
+				// The last two are elastic.
+				this->expectDerivative(plastic, this->strained(strain), grad, 3e-4, 1e-8);
 			}
 	}
 

@@ -48,7 +48,8 @@ namespace {
 		}
 	}
 
-	// tau / sigma_n = sin phi cos psi / (1 - sin phi sin psi) in simple shear at constant normal stress (Davis 1968), not tan phi.
+	// tau / sigma_n = sin phi cos psi / (1 - sin phi sin psi) in simple shear at constant normal stress (Davis
+	// 1968), not tan phi.
 	TEST(MohrCoulomb, SimpleShearStrength)
 	{
 		for (const auto& [dilation, ratio] : { std::pair { 30., 0.57735 }, std::pair { 15., 0.55475 }, std::pair { 0., 0.5 } }) {
@@ -57,8 +58,8 @@ namespace {
 		}
 	}
 
-	/// Planes of the yield surface for sorted stresses, and the sets that can be active together (Koiter): the first set with positive multipliers
-	/// and an admissible stress.
+	/// Planes of the yield surface for sorted stresses, and the sets that can be active together (Koiter): the
+	/// first set with positive multipliers and an admissible stress.
 	struct Koiter {
 		struct Plane {
 			Vec3   normal, flow;
@@ -146,7 +147,8 @@ namespace {
 			expectContinuousOverBoundaries(p.law(), E, soilStrains(400));
 	}
 
-	// Pure shear without cohesion and dilation ends at the apex, where all sectors meet; returned states begin their next step on a boundary.
+	// Pure shear without cohesion and dilation ends at the apex, where all sectors meet; returned states begin
+	// their next step on a boundary.
 	TEST(MohrCoulomb, RoundOffDoesNotDecideAtTheApexOrOnAnEdge)
 	{
 		const MohrCoulomb law = Parameters { 0, 30, 0, infinity }.law();

@@ -22,8 +22,9 @@ namespace {
 	}
 
 	template <int Dim> struct Body {
-		Model<Dim>      model;
-		PointCloud<Dim> cloud = block<Dim>(model.grid, cellsOf<Dim>(2, 2, 2), 3); // 9 or 27 points a cell: other batches than cells
+		Model<Dim> model;
+		// 9 or 27 points a cell: other batches than cells.
+		PointCloud<Dim> cloud = block<Dim>(model.grid, cellsOf<Dim>(2, 2, 2), 3);
 
 		StepReport press()
 		{

@@ -54,8 +54,8 @@ namespace {
 
 	constexpr double G = 1, K = 13. / 6, yield = 0.05; // E = 2.6, nu = 0.3
 
-	// Plane-strain compression without change of volume: the trial deviator keeps its direction, so the return is exact for any steps.
-	// Yield at 2 G sqrt(2) e = yield; from there on the stress stays and the strain flows.
+	// Plane-strain compression without change of volume: the trial deviator keeps its direction, so the return is
+	// exact for any steps. Yield at 2 G sqrt(2) e = yield; from there on the stress stays and the strain flows.
 	TYPED_TEST(Path, PlaneStrainCompressionWithoutChangeOfVolume)
 	{
 		constexpr int  Dim = TypeParam::value;
@@ -71,8 +71,8 @@ namespace {
 		}
 	}
 
-	// The same with a yield stress that grows with the flow, or falls with it to a residual one, which a step may pass:
-	// 2 G sqrt(2) e = yield(a) + 2 G sqrt(3/2) a.
+	// The same with a yield stress that grows with the flow, or falls with it to a residual one, which a step may
+	// pass: 2 G sqrt(2) e = yield(a) + 2 G sqrt(3/2) a.
 	TYPED_TEST(Path, HardeningAndSofteningFollowTheClosedForm)
 	{
 		constexpr int Dim  = TypeParam::value;
@@ -93,7 +93,8 @@ namespace {
 		}
 	}
 
-	// Confined compression: deviator e (1/3, -2/3, 1/3), |dev| = sqrt(2/3) e; the pressure goes on rising after yield.
+	// Confined compression: deviator e (1/3, -2/3, 1/3), |dev| = sqrt(2/3) e; the pressure goes on rising after
+	// yield.
 	TYPED_TEST(Path, ConfinedCompression)
 	{
 		constexpr int  Dim = TypeParam::value;
@@ -107,7 +108,8 @@ namespace {
 		}
 	}
 
-	// Simple shear F = 1 + g e_x e_y of an elastic point: principal strains +-e, sinh e = g/2, axis at tan(angle) = exp(-e).
+	// Simple shear F = 1 + g e_x e_y of an elastic point: principal strains +-e, sinh e = g/2, axis at tan(angle) =
+	// exp(-e).
 	TYPED_TEST(Path, ElasticSimpleShearWithLargeRotation)
 	{
 		constexpr int Dim = TypeParam::value;
@@ -123,8 +125,9 @@ namespace {
 		}
 	}
 
-	// Simple shear of a von Mises point. After yield the principal elastic strains stay at +-e_y = yield / (2 sqrt(2) G) while their axes
-	// turn. With the angle a of the first axis, t = tan a, plastic flow along the axes and db/dg = l b + b l^T, l = e_x e_y:
+	// Simple shear of a von Mises point. After yield the principal elastic strains stay at +-e_y = yield / (2
+	// sqrt(2) G) while their axes turn. With the angle a of the first axis, t = tan a, plastic flow along the axes
+	// and db/dg = l b + b l^T, l = e_x e_y:
 	//   dt/dg = (exp(-2 e_y) - t^2 exp(2 e_y)) / (2 sinh 2 e_y),  t = exp(-e_y) at yield,
 	// which has the solution t = exp(-2 e_y) coth((g - g_y) / (2 sinh 2 e_y) + arcoth exp(e_y)).
 	struct ShearFlow {
@@ -195,7 +198,8 @@ namespace {
 		EXPECT_NEAR(point.stress.full()(0, 0), s - 2 * G * 0.01, 1e-14);
 	}
 
-	// A path seen from a frame that turns by R_k with each increment: dF* = R_k dF R_(k-1)^T, and the stress must turn along.
+	// A path seen from a frame that turns by R_k with each increment: dF* = R_k dF R_(k-1)^T, and the stress must
+	// turn along.
 	TYPED_TEST(Path, StressTurnsWithTheFrame)
 	{
 		constexpr int Dim = TypeParam::value;

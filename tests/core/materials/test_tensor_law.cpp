@@ -54,7 +54,8 @@ namespace {
 		void   apply(double g)
 		{
 			const double trial = stress + G * g, limit = yield / root2, excess = std::abs(trial - back) - limit;
-			const double flow = excess > 0 ? std::copysign(excess / (2 * G + H), trial - back) : 0; // of the tensor's component
+			// Of the tensor's component.
+			const double flow = excess > 0 ? std::copysign(excess / (2 * G + H), trial - back) : 0;
 			stress            = trial - 2 * G * flow;
 			back += H * flow;
 		}
@@ -73,7 +74,8 @@ namespace {
 		EXPECT_EQ(law->columns, Law(hardening())->columns);
 	}
 
-	// Stress and strain in units of the modulus: with 1e-6 of strain at yield, products of strains are below the tolerance.
+	// Stress and strain in units of the modulus: with 1e-6 of strain at yield, products of strains are below the
+	// tolerance.
 	TEST(TensorLaw, CyclicShearFollowsTheLoopOfBilinearKinematicHardening)
 	{
 		constexpr double scale = 1e-6;
@@ -94,7 +96,8 @@ namespace {
 		EXPECT_LT(flowing, 450);
 	}
 
-	// Of large strains, in whatever axes: what is seen turns with the observer, and a rotation by itself turns stress and back stress.
+	// Of large strains, in whatever axes: what is seen turns with the observer, and a rotation by itself turns
+	// stress and back stress.
 	TEST(TensorLaw, IsObjective)
 	{
 		Random random(5);
@@ -103,7 +106,8 @@ namespace {
 		for (int step = 0; step < 20; ++step) {
 			const Mat3 F = Mat3::Identity() + random.matrix<3, 3>(.05), turn = random.rotation<3>();
 			ours.apply(F - Mat3::Identity());
-			theirs.apply(turn * F * Q.transpose() - Mat3::Identity()); // the observer has turned by Q before, and turns to `turn`
+			// The observer has turned by Q before, and turns to `turn`.
+			theirs.apply(turn * F * Q.transpose() - Mat3::Identity());
 			Q = turn;
 			EXPECT_LT((theirs.stress - Q * ours.stress * Q.transpose()).norm(), 1e-11 * E);
 			EXPECT_LT((theirs.backStress() - Q * ours.backStress() * Q.transpose()).norm(), 1e-11 * E);
@@ -114,7 +118,8 @@ namespace {
 		EXPECT_LT((ours.stress - R * stress * R.transpose()).norm(), 1e-11 * E);
 		EXPECT_LT((ours.backStress() - R * back * R.transpose()).norm(), 1e-11 * E);
 		ours.apply(Mat3::Zero());
-		EXPECT_LT((ours.stress - R * stress * R.transpose()).norm(), 1e-11 * E); // a step without motion changes nothing
+		// a step without motion changes nothing.
+		EXPECT_LT((ours.stress - R * stress * R.transpose()).norm(), 1e-11 * E);
 	}
 
 	TEST(TensorLaw, RatesAreDerivativesOfTheStress)
@@ -191,7 +196,8 @@ namespace {
 			StepReport            report;
 			const StepSystem<Dim> system(cloud, model, {}, report);
 			EXPECT_FALSE(system.isSymmetric());
-			Eigen::VectorXd d = nodal<Dim>(system.basis, model.grid, [&](const Vec<Dim>& x) { return Vec<Dim>(size * x.sum() * Vec<Dim>::Unit(0)); });
+			Eigen::VectorXd d
+			        = nodal<Dim>(system.basis, model.grid, [&](const Vec<Dim>& x) { return Vec<Dim>(size * x.sum() * Vec<Dim>::Unit(0)); });
 			d += random.vector(d.size(), size / 2);
 			const auto [K, expected] = tangentAndDerivative(system, d, 1e-4);
 			return relativeError(K, expected);
@@ -264,7 +270,7 @@ namespace {
 		Model<Dim>       model;
 		PointCloud<Dim>  cloud = block<Dim>(model.grid, cellsOf<Dim>(2, 2, 2), 2);
 		model.materials        = { { KinematicHardening(E, nu, scale * yield, H), 1 } };
-		const double      inf  = infinity, amplitude = 3 * yield / root2 / G;
+		const double      inf = infinity, amplitude = 3 * yield / root2 / G;
 		LinearSolver      solver;
 		Loop              loop;
 		const std::size_t column = Law(hardening())->columns[4];

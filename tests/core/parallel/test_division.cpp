@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Points that are divided among processes: each assembles its rows from its own points and copies of others'. Threads stand for the processes.
+// Points that are divided among processes: each assembles its rows from its own points and copies of others'. Threads
+// stand for the processes.
 #include "core/parallel/halo.hpp"
 #include "core/stepping/step_system.hpp"
 #include "core/terms/inertia.hpp"
@@ -142,7 +143,8 @@ namespace {
 		}
 	};
 
-	/// With points by themselves above the block, in cells that are loose; velocities, accelerations and works of a step, and what is left of the motion for the next one.
+	/// With points by themselves above the block, in cells that are loose; velocities, accelerations and works of a
+	/// step, and what is left of the motion for the next one.
 	TYPED_TEST(DivisionOf, MotionIsThatOfAllPoints)
 	{
 		constexpr int Dim   = TypeParam::value;
@@ -185,7 +187,8 @@ namespace {
 		return own;
 	}
 
-	/// A row of points that stands on the block, through the ranges of several processes: how far a cell is from one whose points tell its velocities is known to all.
+	/// A row of points that stands on the block, through the ranges of several processes: how far a cell is from
+	/// one whose points tell its velocities is known to all.
 	TYPED_TEST(DivisionOf, LooseCellsAreThoseOfAllPoints)
 	{
 		constexpr int Dim   = TypeParam::value;
@@ -246,7 +249,8 @@ namespace {
 		int number          = 0;
 		forColumns(all, [&](auto& column, Presence presence) {
 			++number;
-			if (presence == Presence::always || static_cast<void*>(&column) == &all.internals[0]) return; // which no point needs
+			// Which no point needs.
+			if (presence == Presence::always || static_cast<void*>(&column) == &all.internals[0]) return;
 			column.resize(all.size());
 			for (auto& value : column)
 				std::memset(static_cast<void*>(&value), number, sizeof value);

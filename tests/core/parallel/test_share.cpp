@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What one of several processes assembles, without the others: its rows of forces and stiffness, and of the matrix that is solved.
+// What one of several processes assembles, without the others: its rows of forces and stiffness, and of the matrix that
+// is solved.
 #include "core/solvers/node_rows.hpp"
 #include "core/stepping/step_system.hpp"
 #include "springs.hpp"
@@ -18,7 +19,8 @@ namespace {
 	template <class Dimension> struct ShareOf : InBothDimensions<Dimension> {
 		static constexpr int Dim = Dimension::value;
 
-		/// A block that hangs on its lowest layer, with points off the middle of the cells, of a law with a symmetric tangent or another.
+		/// A block that hangs on its lowest layer, with points off the middle of the cells, of a law with a
+		/// symmetric tangent or another.
 		static Model<Dim> model(bool isSymmetric)
 		{
 			Model<Dim> m;
@@ -122,8 +124,9 @@ namespace {
 			const auto   all   = dense(whole, whole.value);
 			const int    nodes = springs.K.nodes();
 			for (int rank = 0, next = 0; rank < 4; ++rank) {
-				const OneOf     process(rank, 4);
-				const NodeShare share { process, { 0, 0, nodes / 3, nodes, nodes } }; // the first one and the last one have none
+				const OneOf process(rank, 4);
+				// The first one and the last one have none.
+				const NodeShare share { process, { 0, 0, nodes / 3, nodes, nodes } };
 				const auto      own = *nodeRows(springs.K, springs.dofs, share);
 				EXPECT_EQ(own.first, next);
 				EXPECT_EQ(own.all, whole.rows());

@@ -77,7 +77,8 @@ namespace {
 		const auto    size = slender<Dim>();
 		expectHalvesSolveAsTheWholeDoes(Springs<Dim>(size, 1));
 		expectHalvesSolveAsTheWholeDoes(Springs<Dim>(size, 1, [](const Index<Dim>& i) { return (i.array() == 3).all(); }));
-		expectHalvesSolveAsTheWholeDoes(Springs<Dim>(size, 1, [](const Index<Dim>& i) { return i[0] == 35; })); // nothing has to separate them
+		// Nothing has to separate them.
+		expectHalvesSolveAsTheWholeDoes(Springs<Dim>(size, 1, [](const Index<Dim>& i) { return i[0] == 35; }));
 		expectHalvesSolveAsTheWholeDoes(
 		        Springs<Dim>(size, 1, [](const Index<Dim>& i) { return i[0] > 33 && i[0] < 37 && i[1] == 2; })); // parts of the separator apart
 	}
@@ -102,7 +103,8 @@ namespace {
 		}
 	}
 
-	// The separator is where it shows: halves with one held end each are definite, and so is each half with the separator.
+	// The separator is where it shows: halves with one held end each are definite, and so is each half with the
+	// separator.
 	TYPED_TEST(CholeskyOf, FreeBodiesAreSingularInHalves)
 	{
 		constexpr int         Dim = TypeParam::value;

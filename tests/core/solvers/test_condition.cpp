@@ -5,7 +5,8 @@
 namespace gimpm {
 namespace {
 
-	/// 2 x 1 cells with 8 points, moved by a into the next cell, on rollers; the base node at x = 2h is held. E = 1, nu = 0, h = 1.
+	/// 2 x 1 cells with 8 points, moved by a into the next cell, on rollers; the base node at x = 2h is held. E =
+	/// 1, nu = 0, h = 1.
 	double condition(double a, double ghostFactor, Basis basis = Basis::gimp)
 	{
 		Model<2> model;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The order in which nodes are eliminated: of all unknowns, with a factor that is no larger than those of other orders, and the same solutions.
+// The order in which nodes are eliminated: of all unknowns, with a factor that is no larger than those of other orders,
+// and the same solutions.
 #include "core/solvers/linear_solver.hpp"
 #include "springs.hpp"
 #include <numeric>
@@ -38,12 +39,14 @@ namespace {
 		for (const int reach : { 1, 2 }) {
 			expectEachUnknownOnce(Springs<Dim>(Index<Dim>::Constant(2), reach));
 			expectEachUnknownOnce(Springs<Dim>(Index<Dim>::Constant(9), reach, hole));
-			expectEachUnknownOnce(Springs<Dim>(Index<Dim>::Constant(9), reach, hole, Index<Dim>::Unit(0) * 9)); // around
+			// Around.
+			expectEachUnknownOnce(Springs<Dim>(Index<Dim>::Constant(9), reach, hole, Index<Dim>::Unit(0) * 9));
 			expectParted(Springs<Dim>(Index<Dim>::Constant(20 - 5 * Dim), reach, hole));
 		}
 	}
 
-	/// Operations of the factor over those in the order that CHOLMOD finds, which knows nothing of nodes in a matrix that is compressed.
+	/// Operations of the factor over those in the order that CHOLMOD finds, which knows nothing of nodes in a
+	/// matrix that is compressed.
 	template <int Dim> double flopsOverThoseOfCholmod(const Springs<Dim>& springs)
 	{
 		LinearSolver one, other;

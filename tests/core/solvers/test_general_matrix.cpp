@@ -99,7 +99,8 @@ namespace {
 	{
 		LinearSolver    solver;
 		Eigen::VectorXd x;
-		// columns that sum up to zero, a zero row, a zero matrix, a row three times, a row twice but for round-off
+		// columns that sum up to zero, a zero row, a zero matrix, a row three times, a row twice but for
+		// round-off
 		Eigen::MatrixXd closed = dominant(6, 0.5, 1), empty = dominant(5, 1, 1);
 		closed.row(2) -= closed.colwise().sum();
 		empty.row(2).setZero();
@@ -214,7 +215,8 @@ namespace {
 	{
 		LinearSolver    solver;
 		Eigen::VectorXd x;
-		// nothing on the diagonal; and a shift by one node, which every Krylov space sees too late, with a diagonal too small to help
+		// nothing on the diagonal; and a shift by one node, which every Krylov space sees too late, with a
+		// diagonal too small to help
 		ASSERT_EQ(
 		        solver.solve(sparse((Eigen::MatrixXd(2, 2) << 0, 1, 2, 0).finished()), Eigen::Vector2d(3, 4), x, LinearMethod::iterative, 1e-6),
 		        Status::lu);

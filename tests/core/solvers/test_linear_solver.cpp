@@ -75,7 +75,8 @@ namespace {
 	{
 		LinearSolver    solver;
 		Eigen::VectorXd x;
-		// a free chain of springs, a zero row, a zero matrix, a singular indefinite one, a row twice but for round-off
+		// a free chain of springs, a zero row, a zero matrix, a singular indefinite one, a row twice but for
+		// round-off
 		Eigen::MatrixXd chain = Eigen::MatrixXd::Zero(5, 5);
 		for (int i = 0; i < 4; ++i)
 			chain.block<2, 2>(i, i) += (Eigen::Matrix2d() << 1, -1, -1, 1).finished();
@@ -114,7 +115,8 @@ namespace {
 
 	TEST(LinearSolver, SolvesWhereNodesAreHardlyTouched)
 	{
-		// overlaps of 1e-7 of a cell, without ghost stabilisation: the condition number is 1e15, but every row is well behaved in its own scale
+		// overlaps of 1e-7 of a cell, without ghost stabilisation: the condition number is 1e15, but every row
+		// is well behaved in its own scale
 		for (const double a : { 1e-3, 1e-5, 1e-7, 1e-8 }) {
 			Model<2> model;
 			model.materials.push_back({ Hencky(1e6, 0.3), 1 });
@@ -131,7 +133,8 @@ namespace {
 				EXPECT_GT(conditionNumber(K), 1e14);
 			}
 			ASSERT_EQ(solver.solve(K, K * x, found), Status::cholesky) << a;
-			const Eigen::VectorXd error = found - x; // large where a node is hardly touched, but without energy
+			// Large where a node is hardly touched, but without energy.
+			const Eigen::VectorXd error = found - x;
 			EXPECT_LT(error.dot(K * error), 1e-20 * x.dot(K * x)) << a;
 		}
 	}

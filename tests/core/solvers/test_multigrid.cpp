@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Conjugate gradients with algebraic multigrid: what it is given, what it gains, when it is kept, and what happens where it fails or is not there.
+// Conjugate gradients with algebraic multigrid: what it is given, what it gains, when it is kept, and what happens
+// where it fails or is not there.
 #include "core/solvers/block_matrix.hpp"
 #include "core/solvers/linear_solver.hpp"
 #include "core/solvers/multigrid.hpp"
@@ -74,7 +75,8 @@ namespace {
 		for (const int reach : { 1, 2 }) {
 			expectSameMatrix(Springs<Dim>(Index<Dim>::Constant(5), reach, hole));
 			expectSameMatrix(Springs<Dim>(Index<Dim>::Constant(6), reach, hole, Index<Dim>::Unit(0) * 6));
-			expectSameMatrix(Springs<Dim>(Index<Dim>::Constant(3), reach, hole, Index<Dim>::Unit(0) * 3)); // two springs between the same nodes
+			// Two springs between the same nodes.
+			expectSameMatrix(Springs<Dim>(Index<Dim>::Constant(3), reach, hole, Index<Dim>::Unit(0) * 3));
 		}
 	}
 

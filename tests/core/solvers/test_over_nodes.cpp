@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What is made of a matrix because it belongs to nodes: products by blocks, conjugate gradients without compressing it, the size of its factor.
+// What is made of a matrix because it belongs to nodes: products by blocks, conjugate gradients without compressing it,
+// the size of its factor.
 #include "core/solvers/block_matrix.hpp"
 #include "core/solvers/dissection.hpp"
 #include "core/solvers/linear_solver.hpp"
@@ -29,7 +30,8 @@ namespace {
 		const auto    hole = [](const Index<Dim>& i) { return (i.array() == 2).all(); };
 		for (const int reach : { 1, 2 }) {
 			expectSameProduct(Springs<Dim>(Index<Dim>::Constant(5), reach, hole));
-			expectSameProduct(Springs<Dim>(Index<Dim>::Constant(6), reach, hole, Index<Dim>::Unit(0) * 6)); // around
+			// Around.
+			expectSameProduct(Springs<Dim>(Index<Dim>::Constant(6), reach, hole, Index<Dim>::Unit(0) * 6));
 		}
 		Index<Dim> slender = Index<Dim>::Constant(3);
 		slender[Dim - 1]   = 40; // many slabs

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// A box that moves nodes is named when they hold no soil, or when a gap has opened between them and the soil that they push.
+// A box that moves nodes is named when they hold no soil, or when a gap has opened between them and the soil that they
+// push.
 #include "core/stepping/boundary_hold.hpp"
 #include "scenes.hpp"
 

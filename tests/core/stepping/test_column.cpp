@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The column of Coombs (2023), section 4.1: stress errors known from independent implementations, and what must not change them.
+// The column of Coombs (2023), section 4.1: stress errors known from independent implementations, and what must not
+// change them.
 #include "scenes.hpp"
 
 namespace gimpm {
@@ -67,8 +68,9 @@ namespace {
 
 	TEST(Column, SettlesToTheExactHeight)
 	{
-		// Dead weight s = b l0 / E: log(lambda) / lambda = -s (1 - Y) has the solution lambda = W(x) / x with x = s (1 - Y); its integral
-		// is (W + W^2/2) / s at s = 4. The centre of the topmost points lies their half length below the top.
+		// Dead weight s = b l0 / E: log(lambda) / lambda = -s (1 - Y) has the solution lambda = W(x) / x with x
+		// = s (1 - Y); its integral is (W + W^2/2) / s at s = 4. The centre of the topmost points lies their
+		// half length below the top.
 		double W = 1;
 		for (int i = 0; i < 50; ++i)
 			W -= (W * std::exp(W) - 4) / ((W + 1) * std::exp(W));
@@ -113,7 +115,8 @@ namespace {
 
 	TEST(Column, TinyLoadsAreAsPreciseAsLargeOnes)
 	{
-		// far below the precision of 1 + strain: stress and displacement per load must be those of a linear analysis
+		// far below the precision of 1 + strain: stress and displacement per load must be those of a linear
+		// analysis
 		const auto perLoad = [](double load, std::vector<double>& strain) {
 			Column<2>  column(8, consistent);
 			const auto original = column.cloud.position;

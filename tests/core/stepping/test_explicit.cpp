@@ -62,7 +62,8 @@ namespace {
 		}
 	}
 
-	/// A body that swings by strains of 5 % as it flies: what energy is above that of the beginning falls with the square of the step.
+	/// A body that swings by strains of 5 % as it flies: what energy is above that of the beginning falls with the
+	/// square of the step.
 	TYPED_TEST(Explicit, MomentumIsKeptToRoundOffAndEnergyWithinBounds)
 	{
 		constexpr int Dim = TypeParam::value;
@@ -100,7 +101,8 @@ namespace {
 		}
 	}
 
-	/// The longest stable step of a block of so many cells that cuts cells on all sides, 2 / omega_max, by power iteration.
+	/// The longest stable step of a block of so many cells that cuts cells on all sides, 2 / omega_max, by power
+	/// iteration.
 	template <int Dim> double longestStep(Moving<Dim>& body, int cells, int perAxis, double cut)
 	{
 		body.put(shifted<Dim>(block<Dim>(body.model.grid, Index<Dim>::Constant(cells), perAxis), Vec<Dim>::Constant(cut)), [](const Vec<Dim>& x) {
@@ -120,7 +122,8 @@ namespace {
 		return 2 / std::sqrt(square);
 	}
 
-	/// The estimate is on the safe side wherever the block lies, and not by much where it lies worst. Printed: what it is over h / c, and the least that was found.
+	/// The estimate is on the safe side wherever the block lies, and not by much where it lies worst. Printed: what
+	/// it is over h / c, and the least that was found.
 	TYPED_TEST(Explicit, CriticalStepIsThatOfTheHighestFrequency)
 	{
 		constexpr int Dim = TypeParam::value;
@@ -163,7 +166,8 @@ namespace {
 		}
 	}
 
-	/// Whatever the step is, as internal forces exert no torque on the points where they are at its end. Lumping loses some: by .1 in this spin of a radian.
+	/// Whatever the step is, as internal forces exert no torque on the points where they are at its end. Lumping
+	/// loses some: by .1 in this spin of a radian.
 	TYPED_TEST(Explicit, AngularMomentumOfASpinIsKept)
 	{
 		constexpr int Dim    = TypeParam::value;
@@ -178,7 +182,8 @@ namespace {
 		EXPECT_NEAR(body.angularMomentum() / before, 1, 1e-6);
 	}
 
-	/// A body flies against held nodes, which keep it: reactions, by the trapezoidal rule, are the change of its momentum, the first blow included.
+	/// A body flies against held nodes, which keep it: reactions, by the trapezoidal rule, are the change of its
+	/// momentum, the first blow included.
 	TYPED_TEST(Explicit, ReactionsAreTheChangeOfMomentum)
 	{
 		constexpr int Dim = TypeParam::value;

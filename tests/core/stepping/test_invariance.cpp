@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Results do not depend on the place of the scene on the grid, on its mirror image, on the order of axes or on the order of bodies.
+// Results do not depend on the place of the scene on the grid, on its mirror image, on the order of axes or on the
+// order of bodies.
 #include "scenes.hpp"
 #include <algorithm>
 
 namespace gimpm {
 namespace {
 
-	/// A step (an L turned upside down in 3D: one part higher than the other) of two materials on a rough floor, leaning on a wall.
+	/// A step (an L turned upside down in 3D: one part higher than the other) of two materials on a rough floor,
+	/// leaning on a wall.
 	template <int Dim> struct LScene {
 		Model<Dim>      model;
 		PointCloud<Dim> cloud;

@@ -127,7 +127,8 @@ namespace {
 	TYPED_TEST(LoadStep, AtConstantLoadMovesNothing)
 	{
 		Standing<TypeParam::value> scene;
-		ASSERT_TRUE(scene.step(1e-4).converged()); // hardly deformed, so that the new basis functions are the old ones
+		// Hardly deformed, so that the new basis functions are the old ones.
+		ASSERT_TRUE(scene.step(1e-4).converged());
 		const auto before = scene.cloud;
 		for (int i = 0; i < 5; ++i) {
 			const auto report = scene.step(1e-4, 0);
@@ -147,7 +148,8 @@ namespace {
 		EXPECT_EQ(report.nodes, nodes);
 		EXPECT_EQ(report.dofs, Dim * (nodes - floor));
 		EXPECT_EQ(report.populatedCells, Dim == 2 ? 9 : 27);
-		EXPECT_EQ(report.boundaryCells, Dim == 2 ? 7 : 25); // all but the one in the middle and the one below it
+		// All but the one in the middle and the one below it.
+		EXPECT_EQ(report.boundaryCells, Dim == 2 ? 7 : 25);
 		EXPECT_EQ(report.ghostFaces, Dim == 2 ? 11 : 53);
 		EXPECT_EQ(report.luSolves, 0);
 		EXPECT_EQ(report.cause, "");

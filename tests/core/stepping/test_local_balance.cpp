@@ -146,7 +146,8 @@ namespace {
 		c.add(0, 4, 1e6, 80);
 		EXPECT_EQ(c.run(1e-6, LinearMethod::direct).definiteness, Definiteness::positive);
 		EXPECT_EQ(c.run(1e-6, LinearMethod::iterative).definiteness, Definiteness::notChecked);
-		// A column on its head, free at the sides: it hangs from nothing but its prescribed ends, compressed far beyond buckling.
+		// A column on its head, free at the sides: it hangs from nothing but its prescribed ends, compressed
+		// far beyond buckling.
 		Model<2>      model;
 		PointCloud<2> cloud = block<2>(model.grid, { 1, 20 }, 2);
 		model.materials     = { { Hencky(1e6, 0), 0 } };

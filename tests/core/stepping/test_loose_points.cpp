@@ -102,7 +102,8 @@ namespace {
 			}
 	}
 
-	/// A row that turns by 1 rad/s as it flies: 3.4e-6 of the angular momentum of four points in two cells are lost in a step with Newmark's rule.
+	/// A row that turns by 1 rad/s as it flies: 3.4e-6 of the angular momentum of four points in two cells are lost
+	/// in a step with Newmark's rule.
 	TYPED_TEST(LoosePoints, ARowSpins)
 	{
 		constexpr int Dim = TypeParam::value;

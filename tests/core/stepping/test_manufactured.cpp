@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Manufactured solutions in finite strain: for a chosen motion x = X + u(X) of a Hencky body the forces that hold it are -Div P(X) per
-// initial volume, given to the points as point loads; the error must fall with the cell size as theory says.
+// Manufactured solutions in finite strain: for a chosen motion x = X + u(X) of a Hencky body the forces that hold it
+// are -Div P(X) per initial volume, given to the points as point loads; the error must fall with the cell size as
+// theory says.
 #include "scenes.hpp"
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
@@ -141,8 +142,9 @@ namespace {
 		return order;
 	}
 
-	// In one step from a regular filling the domains tile the body and each lies in one cell: bilinear elements with one stress for each
-	// domain. Displacements are of second order; stresses, of the elements' gradients away from their centres, of first.
+	// In one step from a regular filling the domains tile the body and each lies in one cell: bilinear elements
+	// with one stress for each domain. Displacements are of second order; stresses, of the elements' gradients away
+	// from their centres, of first.
 	void expectOrdersOfElements(const Errors& order)
 	{
 		EXPECT_NEAR(order.displacement, 2, 0.1);
@@ -161,8 +163,9 @@ namespace {
 		expectOrdersOfElements(orders<FreeTop, 3>({ 6, 12 }, 1));
 	}
 
-	// In several steps the points leave their places in the cells and most domains reach several of them: the basis functions are smoother,
-	// so stresses gain, up to one order; displacements keep their second order, which is approached from above.
+	// In several steps the points leave their places in the cells and most domains reach several of them: the basis
+	// functions are smoother, so stresses gain, up to one order; displacements keep their second order, which is
+	// approached from above.
 	void expectOrdersOfMovedPoints(const Errors& order)
 	{
 		EXPECT_GT(order.displacement, 1.9);

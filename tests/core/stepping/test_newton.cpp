@@ -73,7 +73,8 @@ namespace {
 
 	TYPED_TEST(Newton, ResidualIsRelativeToExternalForcesAndReactions)
 	{
-		// At the start of the first step nothing is stressed: no reactions, and all of the load on free nodes is out of balance.
+		// At the start of the first step nothing is stressed: no reactions, and all of the load on free nodes
+		// is out of balance.
 		Block<TypeParam::value> block(Hencky(1.5e5, 0.3));
 		EXPECT_NEAR(block.step().residuals.front(), 1, 1e-15);
 	}

@@ -37,7 +37,8 @@ namespace {
 					x[a] -= length * std::floor((x[a] - grid.origin[a]) / length);
 	}
 
-	// Points that lie around the sides, taken as they are on a grid that goes on for ever, and then nodes with their images put together.
+	// Points that lie around the sides, taken as they are on a grid that goes on for ever, and then nodes with
+	// their images put together.
 	template <int Dim> void expectSameStiffness(int period, const Material& material)
 	{
 		Model<Dim> endless;
@@ -154,8 +155,8 @@ namespace {
 		}
 	}
 
-	// Stress in a layer on a slope: sigma_yy = rho g_y (H - y), sigma_xy = -rho g_x (H - y), the means over a cell being those in its middle. The place
-	// of the points along the slope is of no importance.
+	// Stress in a layer on a slope: sigma_yy = rho g_y (H - y), sigma_xy = -rho g_x (H - y), the means over a cell
+	// being those in its middle. The place of the points along the slope is of no importance.
 	TYPED_TEST(Periodic, InfiniteSlope)
 	{
 		constexpr int Dim = TypeParam::value;
@@ -193,7 +194,8 @@ namespace {
 		}
 	}
 
-	/// Simple shear of a layer under a normal stress, well beyond failure; the ratio of shear to normal stress, which must be the same at all points.
+	/// Simple shear of a layer under a normal stress, well beyond failure; the ratio of shear to normal stress,
+	/// which must be the same at all points.
 	double shearRatio(double friction, double dilation)
 	{
 		constexpr double h = 0.5, normal = 1e5;
@@ -207,7 +209,8 @@ namespace {
 		cloud.position0 = cloud.position;
 		for (std::size_t p = 0; p < cloud.size(); ++p) {
 			const double y = cloud.position[p][1] - 3 * h;
-			// forces on the two rows of points below the surface that amount to forces on the nodes of the surface
+			// forces on the two rows of points below the surface that amount to forces on the nodes of the
+			// surface
 			cloud.force.push_back(y < 0 ? Vec<2>::Zero() : Vec<2>(0, -normal * h / 2 * (y > h / 2 ? 1.5 : -0.5)));
 		}
 		LinearSolver solver;

@@ -98,7 +98,8 @@ namespace {
 		auto          base = wallBelow<2>(grid, 1, 0), top = held<2>(grid, { -infinity, 4 }, { infinity, 4 }, "y", { 0, -0.8 });
 		base.fixed[0] = true;
 		Blocks blocks({ 4, 4 }, { base, top });
-		for (int i = 1; i <= 4; ++i) { // the top of the body leaves the nodes that move it after less than half a cell
+		// The top of the body leaves the nodes that move it after less than half a cell.
+		for (int i = 1; i <= 4; ++i) {
 			const auto [a, b] = blocks.step({ Vec<2>::Zero(), i / 16., 1 / 16. });
 			ASSERT_TRUE(a.converged() && b.converged()) << a.cause << b.cause;
 			EXPECT_EQ(b.predicted, i > 1);
@@ -107,8 +108,8 @@ namespace {
 		}
 	}
 
-	// A body that is pushed ahead by more than a cell while its weight is put on. Zero, with the nodes that push it moved, turns points inside
-	// out: its forces are no measure for the prediction.
+	// A body that is pushed ahead by more than a cell while its weight is put on. Zero, with the nodes that push it
+	// moved, turns points inside out: its forces are no measure for the prediction.
 	TEST(Predictor, IsNoSolutionBecauseZeroIsFarFromOne)
 	{
 		const Grid<2> grid;

@@ -80,7 +80,8 @@ namespace {
 		        << "more compressed below, by about half the weight";
 	}
 
-	/// Turns and moves four lines of nodes in the middle of a bar, whose ends are free, in two steps: stresses must vanish.
+	/// Turns and moves four lines of nodes in the middle of a bar, whose ends are free, in two steps: stresses must
+	/// vanish.
 	template <int Dim> void moveRigidly(double angle, const Vec<Dim>& by)
 	{
 		Model<Dim> model;

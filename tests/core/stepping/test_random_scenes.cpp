@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Random small scenes, hostile ones among them: a load step ends, with a state that is finite and complete or with the old one.
+// Random small scenes, hostile ones among them: a load step ends, with a state that is finite and complete or with the
+// old one.
 #include "core/stepping/step_system.hpp"
 #include "scenes.hpp"
 #include <Eigen/LU>
@@ -106,8 +107,9 @@ namespace {
 		return { residual.stableNorm(), others.stableNorm() };
 	}
 
-	/// A step that says it has converged ends with displacements whose residual is small beside the forces there or at the start, or both are
-	/// small beside what prescribed displacements cause by themselves, as in a rigid motion; or it is round-off.
+	/// A step that says it has converged ends with displacements whose residual is small beside the forces there or
+	/// at the start, or both are small beside what prescribed displacements cause by themselves, as in a rigid
+	/// motion; or it is round-off.
 	template <int Dim> void expectEquilibrium(const PointCloud<Dim>& before, const Model<Dim>& model, const Load<Dim>& load, const Eigen::VectorXd& d)
 	{
 		StepReport            report;
@@ -163,11 +165,12 @@ namespace {
 
 	TYPED_TEST(RandomScenes, EndInAFiniteStateOrInTheOldOne)
 	{
-		constexpr int Dim   = TypeParam::value;
-		const char*   asked = std::getenv("RANDOM_SCENES"); // for longer searches: number of scenes and, after a comma, the first seed
-		const char*   comma = asked ? std::strchr(asked, ',') : nullptr;
-		const int     count = asked ? std::atoi(asked) : Dim == 2 ? 400 : 60, first = comma ? std::atoi(comma + 1) : 0;
-		int           ended[failures] = {};
+		constexpr int Dim = TypeParam::value;
+		// For longer searches: number of scenes and, after a comma, the first seed.
+		const char* asked = std::getenv("RANDOM_SCENES");
+		const char* comma = asked ? std::strchr(asked, ',') : nullptr;
+		const int   count = asked ? std::atoi(asked) : Dim == 2 ? 400 : 60, first = comma ? std::atoi(comma + 1) : 0;
+		int         ended[failures] = {};
 		for (int seed = first; seed < first + count; ++seed)
 			expectSoundSteps<Dim>(seed, ended);
 		EXPECT_GT(ended[int(Failure::none)], count / 4) << "too few scenes are sane";

@@ -35,7 +35,8 @@ namespace {
 	template <class Dimension> using RefinedStep = InBothDimensions<Dimension>;
 	TYPED_TEST_SUITE(RefinedStep, BothDimensions, DimensionName);
 
-	/// Patch test: nodes on the surface are moved linearly, and the stress of all points is that of the strain, elastic and plastic, with and without F-bar.
+	/// Patch test: nodes on the surface are moved linearly, and the stress of all points is that of the strain,
+	/// elastic and plastic, with and without F-bar.
 	TYPED_TEST(RefinedStep, AffineMotionOfTheSurfaceGivesUniformStress)
 	{
 		constexpr int Dim = TypeParam::value;
@@ -61,7 +62,8 @@ namespace {
 		}
 	}
 
-	/// K on the free degrees of freedom against the derivative of the folded forces there, of points of all sizes anywhere.
+	/// K on the free degrees of freedom against the derivative of the folded forces there, of points of all sizes
+	/// anywhere.
 	TYPED_TEST(RefinedStep, TheTangentIsTheDerivativeOfTheForces)
 	{
 		constexpr int Dim = TypeParam::value;
@@ -168,7 +170,8 @@ namespace {
 		EXPECT_NEAR(report.reactions[0][0] / (size.prod() * 2e4), 0, 1e-10);
 	}
 
-	/// The stiffness of a block that overlaps the next cells by a little. Some cells are small: none, all, those that are cut or the others.
+	/// The stiffness of a block that overlaps the next cells by a little. Some cells are small: none, all, those
+	/// that are cut or the others.
 	enum class Small { none, all, cut, others };
 	template <int Dim> double condition(double overlap, Small small, double factor)
 	{
@@ -204,10 +207,11 @@ namespace {
 	/// A box between the lines of large cells.
 	TYPED_TEST(RefinedStep, ABoxThatHoldsOnlyHangingNodesIsRefused)
 	{
-		constexpr int  Dim     = TypeParam::value;
-		Model<Dim>     m       = model<Dim>(cornerGrid<Dim>());
-		auto           cloud   = refinedBlock<Dim>(m.grid, cornerSize<Dim>(), 2);
-		const Vec<Dim> hanging = Vec<Dim>::Unit(0) + 0.25 * Vec<Dim>::Unit(1); // on the face of a cell that has been halved once
+		constexpr int Dim   = TypeParam::value;
+		Model<Dim>    m     = model<Dim>(cornerGrid<Dim>());
+		auto          cloud = refinedBlock<Dim>(m.grid, cornerSize<Dim>(), 2);
+		// On the face of a cell that has been halved once.
+		const Vec<Dim> hanging = Vec<Dim>::Unit(0) + 0.25 * Vec<Dim>::Unit(1);
 		m.boundary             = Boundary<Dim>({ wallBelow<Dim>(m.grid, 0, 0), held<Dim>(m.grid, hanging, hanging, "x") });
 		LinearSolver solver;
 		const auto   report = loadStep<Dim>(cloud, m, {}, solver);
@@ -215,7 +219,8 @@ namespace {
 		EXPECT_NE(report.cause.find("boundaries[1] lies between the nodes"), std::string::npos) << report.cause;
 	}
 
-	/// Ghost faces between leaves of one size and of two: their forces vanish for linear fields, and not for others.
+	/// Ghost faces between leaves of one size and of two: their forces vanish for linear fields, and not for
+	/// others.
 	TYPED_TEST(RefinedStep, GhostForcesOfLinearFieldsVanish)
 	{
 		constexpr int         Dim   = TypeParam::value;

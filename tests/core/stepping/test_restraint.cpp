@@ -7,8 +7,9 @@ namespace gimpm::testRestraint {
 namespace {
 
 	template <int Dim> struct Body {
-		Grid<Dim>       grid { 0.5, Vec<Dim>::Ones() };
-		PointCloud<Dim> cloud = block<Dim>(grid, Index<Dim>::Constant(2), 2); // from (1, 1) to (2, 2), its middle at 1.5
+		Grid<Dim> grid { 0.5, Vec<Dim>::Ones() };
+		// From (1, 1) to (2, 2), its middle at 1.5.
+		PointCloud<Dim> cloud = block<Dim>(grid, Index<Dim>::Constant(2), 2);
 
 		Restraint restraint(const std::vector<HeldBox<Dim>>& boxes) const
 		{

@@ -37,7 +37,8 @@ namespace {
 				if (axis != 1)
 					for (const auto& side : { std::pair { Vec<Dim>(Vec<Dim>::Constant(-infinity)), upTo(axis, 0) },
 					                          std::pair { Vec<Dim>(-upTo(axis, -top)), Vec<Dim>(Vec<Dim>::Constant(infinity)) } }) {
-						if (!isPressed && axis == 0 && side.first[0] == top) continue; // a free face
+						// a free face.
+						if (!isPressed && axis == 0 && side.first[0] == top) continue;
 						boxes.push_back(inside(side.first, side.second, axis, top));
 					}
 			model.boundary = Boundary<Dim>(boxes);
@@ -96,7 +97,8 @@ namespace {
 
 	TYPED_TEST(SoilSteps, CamClay) { expectQuadratic<TypeParam::value>(CamClay(3e6, 1.2, 0.1, 0.02, 6e4, 5e4), true); }
 
-	// Symmetric laws, also beside others, pay for no second triangle; one that is not makes the whole model unsymmetric.
+	// Symmetric laws, also beside others, pay for no second triangle; one that is not makes the whole model
+	// unsymmetric.
 	TYPED_TEST(SoilSteps, StiffnessIsAsSymmetricAsTheLaws)
 	{
 		constexpr int Dim       = TypeParam::value;

@@ -81,7 +81,8 @@ namespace {
 		EXPECT_EQ(control.part(), .25);
 		EXPECT_EQ(control.cuts(), 1);
 		EXPECT_EQ(partsOf(control, { inaccurate(1.1), inaccurate(.1) }), (Parts { .25, .125 }));
-		StepControl coarse(1, .25, maxIterations); // not further than to the least part, and no further than once
+		// Not further than to the least part, and no further than once.
+		StepControl coarse(1, .25, maxIterations);
 		EXPECT_EQ(partsOf(coarse, { inaccurate(1e6) }), Parts { 1 });
 		EXPECT_EQ(coarse.part(), .25);
 		EXPECT_FALSE(coarse.take(inaccurate(1e6)));
@@ -162,7 +163,8 @@ namespace {
 		EXPECT_EQ(control.goal(), 1);
 	}
 
-	// Whatever happens: a rest that is cut may be no half of a half of the whole, but has few digits, and all add up to the bit.
+	// Whatever happens: a rest that is cut may be no half of a half of the whole, but has few digits, and all add
+	// up to the bit.
 	TEST(StepControl, partsAddUpExactly)
 	{
 		std::mt19937 random(1);

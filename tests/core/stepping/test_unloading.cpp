@@ -47,7 +47,8 @@ namespace {
 
 	TYPED_TEST(Unloading, APrestressedBlockLetGo)
 	{
-		// Only rollers below and what fixes the place: no node is held against the stress, which does not reach the reactions.
+		// Only rollers below and what fixes the place: no node is held against the stress, which does not reach
+		// the reactions.
 		constexpr int   Dim = TypeParam::value;
 		Model<Dim>      model;
 		PointCloud<Dim> cloud  = block<Dim>(model.grid, Index<Dim>::Constant(4), 2);

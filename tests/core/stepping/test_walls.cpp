@@ -152,7 +152,8 @@ namespace {
 
 	TYPED_TEST(WallReactions, BalanceTheLoadsThoughDomainsReachBehind)
 	{
-		// soft soil on a rough base, along smooth walls, that a weight which acts obliquely shears away from one of them; and a point load
+		// soft soil on a rough base, along smooth walls, that a weight which acts obliquely shears away from
+		// one of them; and a point load
 		constexpr int Dim = TypeParam::value;
 		Model<Dim>    model;
 		auto          cloud = block<Dim>(model.grid, Index<Dim>::Constant(2), 2);

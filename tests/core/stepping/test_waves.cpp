@@ -15,7 +15,8 @@ namespace {
 	/// Ground of a depth, along x, free at x = depth, that repeats itself along the other axes.
 	template <int Dim> struct Ground : Moving<Dim> {
 		static constexpr double young = 1e6, poisson = 0.25, density = 1000;
-		const double shear = young / (2 * (1 + poisson)), cs = std::sqrt(shear / density), cp = std::sqrt(3 * shear / density); // K + 4 G / 3 = 3 G
+		// K + 4 G / 3 = 3 G.
+		const double shear = young / (2 * (1 + poisson)), cs = std::sqrt(shear / density), cp = std::sqrt(3 * shear / density);
 		int          depth;
 		double       time = 0;
 
@@ -114,8 +115,8 @@ namespace {
 				EXPECT_LT(leftOfPulse<2>(24, 4, along, scheme, 0.5), 1e-2);
 	}
 
-	/// Held until then, ground stays at rest where what held it is taken away. Points that have moved on the grid are not in balance to the last digit
-	/// before further steps without load.
+	/// Held until then, ground stays at rest where what held it is taken away. Points that have moved on the grid
+	/// are not in balance to the last digit before further steps without load.
 	TYPED_TEST(Waves, StaticReactionsGoOnActing)
 	{
 		constexpr int Dim = TypeParam::value;
@@ -142,7 +143,8 @@ namespace {
 		}
 	}
 
-	/// The free surface moves with twice the velocity of the wave that comes from below, and the wave goes back through the base.
+	/// The free surface moves with twice the velocity of the wave that comes from below, and the wave goes back
+	/// through the base.
 	TEST(Waves, FreeSurfaceOverACompliantBaseDoublesTheWave)
 	{
 		for (const auto& scheme : { TimeScheme(), TimeScheme::midpoint() })
@@ -217,10 +219,11 @@ namespace {
 			ground.holdBase();
 			ground.damp(0, beta);
 			const std::complex<double> i(0, 1), k = omega / ground.cs / std::sqrt(1. + i * omega * beta);
-			const double               closed  = std::abs(std::cos(0.25 * k) / std::cos(10. * k)); // at a quarter of a cell under the surface
-			const auto                 history = [&](double t) { return 1e-5 * std::sin(omega * t) * std::min(t * first / (4 * M_PI), 1.); };
-			std::complex<double>       sum     = 0;
-			const int                  swing   = int(60 * std::ceil(14 * std::max(ratio, 1.)));
+			// At a quarter of a cell under the surface.
+			const double         closed  = std::abs(std::cos(0.25 * k) / std::cos(10. * k));
+			const auto           history = [&](double t) { return 1e-5 * std::sin(omega * t) * std::min(t * first / (4 * M_PI), 1.); };
+			std::complex<double> sum     = 0;
+			const int            swing   = int(60 * std::ceil(14 * std::max(ratio, 1.)));
 			for (int n = 0; n < swing; ++n) {
 				ASSERT_TRUE(shake(ground, history, T));
 				if (n >= swing - 60) sum += ground.speedAtTop() * std::exp(-i * omega * ground.time);

@@ -49,7 +49,8 @@ namespace {
 
 	TYPED_TEST(Work, IsStoredAndGivenBack)
 	{
-		// The trapezoidal rule makes an error of second order in the load steps, new basis functions in every step one of first order.
+		// The trapezoidal rule makes an error of second order in the load steps, new basis functions in every
+		// step one of first order.
 		double previous = 0, previousNet = 0;
 		for (const int steps : { 4, 8, 16 }) {
 			const Cycle  c     = cycle<TypeParam::value>(steps);

@@ -104,7 +104,8 @@ namespace {
 		Random        random(5);
 		for (int i = 0; i < 5; ++i) {
 			AffineBlock<Dim> block;
-			// a state of strain on the yield surface of the second material, so that the least excess would yield
+			// a state of strain on the yield surface of the second material, so that the least excess would
+			// yield
 			Mat3       strain = assemble(Vec3(0.2, -0.3, 0.1), random.rotation<Dim>()).full();
 			const Mat3 mean   = strain.trace() / 3 * Mat3::Identity();
 			strain            = mean + (strain - mean) * (yield / (2 * G) / (strain - mean).norm());
@@ -113,7 +114,8 @@ namespace {
 				block.cloud.material[p]      = i % 2;
 				block.cloud.elasticStrain[p] = SymTensor<Dim>::from(strain);
 				block.cloud.defGrad[p]       = V;
-				block.cloud.halfSize0[p]     = block.cloud.halfSize[p].cwiseQuotient(V.diagonal()); // U = V
+				// U = V.
+				block.cloud.halfSize0[p] = block.cloud.halfSize[p].cwiseQuotient(V.diagonal());
 			}
 			const Mat<Dim> R      = random.rotation<Dim>();
 			const Mat3     before = exactStress(Mat3::Identity(), strain, false) / V.determinant(), Q = in3D<Dim>(R);

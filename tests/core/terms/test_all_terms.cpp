@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The tangent of a step in which everything acts at once that resists displacements, against the derivative of its forces.
+// The tangent of a step in which everything acts at once that resists displacements, against the derivative of its
+// forces.
 #include "core/terms/contact.hpp"
 #include "core/terms/traction.hpp"
 #include "core/terms/water.hpp"
@@ -9,8 +10,8 @@
 namespace gimpm::testAllTerms {
 namespace {
 
-	/// A block of 1.5 m in all directions: a pressure on top, water in the pores and outside, an oblique wall, a plate that
-	/// presses from below.
+	/// A block of 1.5 m in all directions: a pressure on top, water in the pores and outside, an oblique wall, a
+	/// plate that presses from below.
 	template <int Dim> struct Scene {
 		Model<Dim>         model;
 		PointCloud<Dim>    cloud;
@@ -153,7 +154,8 @@ namespace {
 		EXPECT_LT(scene.error(7), roundOff);
 	}
 
-	/// Cells of half the size where the load acts, whose pieces stay among cells of one size; walls and water are not there yet.
+	/// Cells of half the size where the load acts, whose pieces stay among cells of one size; walls and water are
+	/// not there yet.
 	TYPED_TEST(TangentOfAll, WithCellsOfSeveralSizes)
 	{
 		constexpr int   Dim = TypeParam::value;

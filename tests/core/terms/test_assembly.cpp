@@ -68,7 +68,8 @@ namespace {
 
 	TYPED_TEST(Assembly, FirstMomentOfInternalForcesIsTheSumOfVolumeTimesStress)
 	{
-		// sum f_a (x) x_a = sum_p V_0 tau_p with the nodes' displaced positions; symmetric, so there is no moment either
+		// sum f_a (x) x_a = sum_p V_0 tau_p with the nodes' displaced positions; symmetric, so there is no
+		// moment either
 		constexpr int    Dim = TypeParam::value;
 		RandomScene<Dim> scene(100);
 		scene.model.ghost.factor = 0;
@@ -204,12 +205,14 @@ namespace {
 		EXPECT_EQ(inverted, first);
 	}
 
-	// Points are handled sixteen at a time, four side by side. The last one of seventeen is alone, beside what is left of those before.
+	// Points are handled sixteen at a time, four side by side. The last one of seventeen is alone, beside what is
+	// left of those before.
 	TEST(Assembly, APointIsNotInvertedBesideInvertedOnes)
 	{
 		RandomScene<2> scene(0);
 		scene.model.grid = { 1, Vec<2>::Zero() };
-		addPoint<2>(scene.cloud, { 0.9, 0.5 }, { 0.2, 0.2 }); // reaches the next cell, and is sorted behind the others for that
+		// Reaches the next cell, and is sorted behind the others for that.
+		addPoint<2>(scene.cloud, { 0.9, 0.5 }, { 0.2, 0.2 });
 		for (int i = 0; i < 16; ++i)
 			addPoint<2>(scene.cloud, { 0.5, 0.5 }, { 0.2, 0.2 });
 		const auto      system = scene.system();

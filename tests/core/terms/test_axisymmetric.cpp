@@ -50,7 +50,8 @@ namespace {
 		return model;
 	}
 
-	// u_r = a r, u_z = b z: every point, wherever its domain lies, has the strains a, b and around the axis a, and moves as the field says.
+	// u_r = a r, u_z = b z: every point, wherever its domain lies, has the strains a, b and around the axis a, and
+	// moves as the field says.
 	TEST(Axisymmetric, LinearFieldsAreExactAtEveryPoint)
 	{
 		const double a = 0.1, b = -0.2;
@@ -76,7 +77,8 @@ namespace {
 			}
 	}
 
-	/// Cylinder between plates, of which the upper one moves; its surface is free and lies anywhere in a cell, or is held by a wall that moves along.
+	/// Cylinder between plates, of which the upper one moves; its surface is free and lies anywhere in a cell, or
+	/// is held by a wall that moves along.
 	void expectUniform(unsigned seed, bool isConfined, bool fBar)
 	{
 		const double height = 3, radius = isConfined ? 3 : 2.37, stretch = 0.8, wall = isConfined ? 1.1 : 1, young = 1e6, nu = 0.3;
@@ -117,7 +119,8 @@ namespace {
 		}
 	}
 
-	/// The largest difference between K and the derivative of the forces (fourth-order central), relative to the largest entry, and the asymmetry of K.
+	/// The largest difference between K and the derivative of the forces (fourth-order central), relative to the
+	/// largest entry, and the asymmetry of K.
 	std::pair<double, double> tangentErrors(const Material& material, bool fBar, const Vec3& strain)
 	{
 		Random        random(3);
@@ -177,7 +180,8 @@ namespace {
 		}
 	}
 
-	// K_g of a face is the integral of 2 pi r N_s N_t over it: checked by a field whose normal derivative jumps by a linear function of r.
+	// K_g of a face is the integral of 2 pi r N_s N_t over it: checked by a field whose normal derivative jumps by
+	// a linear function of r.
 	TEST(Axisymmetric, GhostFacesCountWithTheirCircumference)
 	{
 		Model<2> model;

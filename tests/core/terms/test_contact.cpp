@@ -204,7 +204,8 @@ namespace {
 		EXPECT_NEAR(force[0], force[1], 1e-12);
 	}
 
-	/// What overlaps when a body comes fits; what comes later does not, and a body around the middle of a point is misplaced.
+	/// What overlaps when a body comes fits; what comes later does not, and a body around the middle of a point is
+	/// misplaced.
 	TEST(Contact, WishedInPlace)
 	{
 		for (const bool isNew : { true, false }) {
@@ -262,7 +263,8 @@ namespace {
 		EXPECT_FALSE(body.isCrossed(above, below)) << "its side is known";
 	}
 
-	/// A corner belongs to the side that it is closest to: what moves by more than half its thickness would find soil on the wrong one.
+	/// A corner belongs to the side that it is closest to: what moves by more than half its thickness would find
+	/// soil on the wrong one.
 	TYPED_TEST(ContactOf, WhatIsThinDoesNotLetSoilThrough)
 	{
 		constexpr int Dim = TypeParam::value;

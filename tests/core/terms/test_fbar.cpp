@@ -180,7 +180,8 @@ namespace {
 			EXPECT_LT((after[p] - R * before[p] * R.transpose()).norm(), 1e-11 * before[p].norm());
 	}
 
-	// The blocks above the diagonal stand for those below: the tangent's test against finite differences sees whether they may.
+	// The blocks above the diagonal stand for those below: the tangent's test against finite differences sees
+	// whether they may.
 	TYPED_TEST(FBar, DiagonalBlocksOfTheStiffnessAreSymmetric)
 	{
 		constexpr int   Dim = TypeParam::value;
@@ -196,7 +197,8 @@ namespace {
 		}
 	}
 
-	// The upper side of a cell turns round: J = 0.7 at the lower point, negative at the upper one and at the centre of both.
+	// The upper side of a cell turns round: J = 0.7 at the lower point, negative at the upper one and at the centre
+	// of both.
 	TEST(FBar, APointIsInvertedWhereItsCellIs)
 	{
 		Scene<2> scene;
@@ -221,7 +223,9 @@ namespace {
 		Model<Dim>    model;
 		model.materials = { { Hencky(1, 0), 1 } };
 		model.fBar      = true;
-		PointCloud<Dim> cloud; // in a cell the lower 0.7 along x, of which the first half is twice as dense with points; a full cell above along y
+		// In a cell the lower 0.7 along x, of which the first half is twice as dense with points; a full cell
+		// above along y.
+		PointCloud<Dim> cloud;
 		for (const double x : { 0.175, 0.175, 0.525 })
 			addPoint<Dim>(cloud, Vec<Dim>::Constant(0.5) + (x - 0.5) * Vec<Dim>::Unit(0), Vec<Dim>::Constant(0.5) - 0.325 * Vec<Dim>::Unit(0));
 		addPoint<Dim>(cloud, Vec<Dim>::Constant(0.5) + Vec<Dim>::Unit(1), Vec<Dim>::Constant(0.5));

@@ -107,8 +107,9 @@ namespace {
 		}
 	}
 
-	// Two cells with one face at x = h, and displacements that are zero below it and grow by k (x - h) above it, so that the normal
-	// derivative jumps by k. The derivatives of the nodal functions below, on and above the face jump by (1, -2, 1) / h.
+	// Two cells with one face at x = h, and displacements that are zero below it and grow by k (x - h) above it, so
+	// that the normal derivative jumps by k. The derivatives of the nodal functions below, on and above the face
+	// jump by (1, -2, 1) / h.
 	//   f = (gamma h / 3) (1, -2, 1) / h * integral over the face of k N_s
 	constexpr double young = 3e4, factor = 0.05, h = 0.5, k = 0.02;
 	constexpr double gamma3 = factor * young * h / 3; // 250: gamma h / 3
@@ -128,7 +129,8 @@ namespace {
 			EXPECT_NEAR(body.at(f, { 2, y })[0], 2.5, 1e-13);
 			for (int x = 0; x < 3; ++x) {
 				EXPECT_EQ(body.at(f, { x, y })[1], 0);
-				EXPECT_NEAR(body.at(p, { x, y })[0], h * h * body.at(f, { x, y })[0], 1e-14); // eq. (2) has h^3
+				// eq. (2) has h^3.
+				EXPECT_NEAR(body.at(p, { x, y })[0], h * h * body.at(f, { x, y })[0], 1e-14);
 			}
 		}
 	}
@@ -171,7 +173,8 @@ namespace {
 		const Body<3> body(block<3>(grid, { 1, 2, 1 }, 2), grid, young, factor); // face at y = h
 		const auto    f
 		        = body.force(nodal<3>(body.basis, grid, [](const Vec3& x) { return Vec3(0, 0, k * x[0] * x[2] / (h * h) * std::max(x[1] - h, 0.)); }));
-		// jump k x z / h^2: its integral with N_s is the product of h/6 (at 0) or h/3 (at h) of the two directions
+		// jump k x z / h^2: its integral with N_s is the product of h/6 (at 0) or h/3 (at h) of the two
+		// directions
 		const double share[] = { 1. / 6, 1. / 3 }, jump[] = { 1, -2, 1 };
 		forIndices<3>({ 0, 0, 0 }, { 2, 3, 2 }, [&](const Index<3>& n) {
 			EXPECT_NEAR(body.at(f, n)[2], gamma3 * k * h * share[n[0]] * share[n[2]] * jump[n[1]], 1e-13);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The modulus of a ghost face is that of the softer of its two cells: the mean of its points, weighted by their overlap with the cell.
+// The modulus of a ghost face is that of the softer of its two cells: the mean of its points, weighted by their overlap
+// with the cell.
 #include "core/stepping/step_system.hpp"
 #include "scenes.hpp"
 
@@ -43,14 +44,16 @@ namespace {
 
 	TEST(GhostModulus, OverlapsMultiplyOverTheAxes)
 	{
-		// one point around the corner (1, 1), a quarter of it below along x, three eighths along y; another one in cell (1, 1)
+		// one point around the corner (1, 1), a quarter of it below along x, three eighths along y; another one
+		// in cell (1, 1)
 		PointCloud<2> cloud;
 		addPoint<2>(cloud, { 1.2, 1.1 }, { 0.4, 0.4 });
 		addPoint<2>(cloud, { 1.5, 1.5 }, { 0.3, 0.3 });
 		const double        V = 0.64, W = 0.36;
 		const double        share = 0.75 * 0.625, mixed = (1000 * V * share + 10 * W) / (V * share + W);
 		std::vector<double> young { 1000, 10 };
-		EXPECT_NEAR(modulus<2>(cloud, young, 0, { 0, 0 }), 1000, 1e-10); // the second point does not touch this face's cells
+		// The second point does not touch this face's cells.
+		EXPECT_NEAR(modulus<2>(cloud, young, 0, { 0, 0 }), 1000, 1e-10);
 		EXPECT_NEAR(modulus<2>(cloud, young, 0, { 0, 1 }), mixed, 1e-10);
 		EXPECT_NEAR(modulus<2>(cloud, young, 1, { 1, 0 }), mixed, 1e-10);
 	}

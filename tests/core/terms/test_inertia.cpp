@@ -10,7 +10,8 @@ namespace {
 	template <class T> using InertiaTerm = InBothDimensions<T>;
 	TYPED_TEST_SUITE(InertiaTerm, BothDimensions, DimensionName);
 
-	/// A block of 3 cells along each axis, moved off the lines of the grid so that it fills the part `cut` of cells on two sides.
+	/// A block of 3 cells along each axis, moved off the lines of the grid so that it fills the part `cut` of cells
+	/// on two sides.
 	template <int Dim> PointCloud<Dim> cutBlock(const Grid<Dim>& grid, double cut)
 	{
 		return shifted<Dim>(block<Dim>(grid, Index<Dim>::Constant(3), 2), Vec<Dim>::Constant(cut * grid.cellSize));
@@ -63,7 +64,8 @@ namespace {
 		EXPECT_GT(square.dot(ghost * square), 1e-3 * square.dot(mass.matrix(0.5) * square)) << "other fields have some";
 	}
 
-	/// Over more nodes than a block of the sweeps has, with other nodes held for each side, to round-off and with the same bits in two threads.
+	/// Over more nodes than a block of the sweeps has, with other nodes held for each side, to round-off and with
+	/// the same bits in two threads.
 	TYPED_TEST(InertiaTerm, ConjugateGradientsSolveForSeveralSidesAtOnce)
 	{
 		constexpr int         Dim = TypeParam::value;
@@ -128,7 +130,8 @@ namespace {
 		EXPECT_LT((reduced * along - expected).norm(), 1e-13 * expected.norm());
 	}
 
-	/// However little of a cell is filled. Without ghost mass it grows with the inverse of the cut's square and more.
+	/// However little of a cell is filled. Without ghost mass it grows with the inverse of the cut's square and
+	/// more.
 	TYPED_TEST(InertiaTerm, ConditionOfTheMassDoesNotDependOnTheCut)
 	{
 		constexpr int   Dim = TypeParam::value;
@@ -222,8 +225,8 @@ namespace {
 		return body;
 	}
 
-	/// Trapezoidal rule: a stiff body loses (omega T)^2 / 2 of it in the first step, while it has no stress yet. Midpoint rule: nothing, but for what ghost mass
-	/// takes from velocities that are not linear, when it swings.
+	/// Trapezoidal rule: a stiff body loses (omega T)^2 / 2 of it in the first step, while it has no stress yet.
+	/// Midpoint rule: nothing, but for what ghost mass takes from velocities that are not linear, when it swings.
 	TYPED_TEST(InertiaTerm, AngularMomentumOfARigidSpin)
 	{
 		constexpr int Dim = TypeParam::value;
@@ -331,7 +334,8 @@ namespace {
 		EXPECT_EQ(body.cloud.position, position);
 	}
 
-	/// A body flies against held nodes, which keep it: reactions, here those of the middle of steps, are the whole change of its momentum, the first blow included.
+	/// A body flies against held nodes, which keep it: reactions, here those of the middle of steps, are the whole
+	/// change of its momentum, the first blow included.
 	TYPED_TEST(InertiaTerm, ReactionsAreTheChangeOfMomentum)
 	{
 		constexpr int Dim = TypeParam::value;
@@ -352,7 +356,8 @@ namespace {
 		EXPECT_NEAR(body.momentum()[1], 0.5 * body.mass(), 1e-9 * body.mass());
 	}
 
-	/// Points that come to held nodes with another velocity have theirs afterwards; with nodes that move at 1 m/s half of the mass is lost as energy, not its work.
+	/// Points that come to held nodes with another velocity have theirs afterwards; with nodes that move at 1 m/s
+	/// half of the mass is lost as energy, not its work.
 	TYPED_TEST(InertiaTerm, HeldNodesTakeEnergyByTheirBlow)
 	{
 		constexpr int Dim = TypeParam::value;

@@ -5,7 +5,8 @@
 namespace gimpm::testLocking {
 namespace {
 
-	/// 8 m long, 1 m high, under a weight that bends it by some 1e-2 of its height; it lies across the grid lines along x.
+	/// 8 m long, 1 m high, under a weight that bends it by some 1e-2 of its height; it lies across the grid lines
+	/// along x.
 	struct Cantilever {
 		static constexpr double length = 8, height = 1, young = 1e6, weight = 0.5; // [m], [Pa], [N/m3]
 		double                  poisson, h;
@@ -38,7 +39,8 @@ namespace {
 			             shear   = w * length * length / (2 * (5. / 6) * G * height);
 			return sum / count / (bending + shear);
 		}
-		/// The largest jump of the mean stress between neighbours along the axis, a height away from the clamp, over the largest bending stress.
+		/// The largest jump of the mean stress between neighbours along the axis, a height away from the clamp,
+		/// over the largest bending stress.
 		double checkerboard() const
 		{
 			double jump = 0;

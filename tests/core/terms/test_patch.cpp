@@ -5,7 +5,8 @@
 namespace gimpm {
 namespace {
 
-	/// Ends of domains along one axis from 0 to length: random ones of at most a cell, and what makes points and domains meet cell edges.
+	/// Ends of domains along one axis from 0 to length: random ones of at most a cell, and what makes points and
+	/// domains meet cell edges.
 	std::vector<double> cuts(double length, Random& random)
 	{
 		std::vector<double> at { 0 };
@@ -38,7 +39,8 @@ namespace {
 	template <class Dimension> using PatchTest = InBothDimensions<Dimension>;
 	TYPED_TEST_SUITE(PatchTest, BothDimensions, DimensionName);
 
-	/// A bar of 4 cells between a roller and a moving grip, on rollers below, with free surfaces across: uniaxial stress in finite strain.
+	/// A bar of 4 cells between a roller and a moving grip, on rollers below, with free surfaces across: uniaxial
+	/// stress in finite strain.
 	///   stretch lambda along x, e_x = log lambda; free surfaces: e_y = e_z = -nu e_x and tau_xx = E e_x in 3D,
 	///   e_y = -nu/(1-nu) e_x, tau_xx = E/(1-nu^2) e_x and tau_zz = nu tau_xx in plane strain.
 	template <int Dim> void expectUniaxialStress(double lambda, unsigned seed, const Vec<Dim>& size, bool fBar)

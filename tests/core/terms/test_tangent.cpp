@@ -10,7 +10,8 @@
 namespace gimpm {
 namespace {
 
-	/// Random overlapping domains on 3 cells a side, partly against a wall, of an elastic and a plastic material, with ghost faces.
+	/// Random overlapping domains on 3 cells a side, partly against a wall, of an elastic and a plastic material,
+	/// with ghost faces.
 	template <int Dim> struct Scene {
 		Random          random { 11 };
 		Model<Dim>      model;
@@ -31,8 +32,8 @@ namespace {
 			for (auto& e : cloud.elasticStrain)
 				e = assemble(Vec3(principalStrains + random.matrix<3>(scatter)), random.rotation<Dim>());
 		}
-		/// The largest difference between K and the derivative of the forces (fourth-order central), relative to the largest entry of K.
-		/// The displacements are those of an affine deformation plus random ones.
+		/// The largest difference between K and the derivative of the forces (fourth-order central), relative
+		/// to the largest entry of K. The displacements are those of an affine deformation plus random ones.
 		double error(const Mat<Dim>& deformation, double scatter)
 		{
 			StepReport            report;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// A term from outside the core, given to it by Model::terms alone: springs between nodes and the ground. It is what the developer's page
-// tells how to add.
+// A term from outside the core, given to it by Model::terms alone: springs between nodes and the ground. It is what the
+// developer's page tells how to add.
 #include "core/stepping/step_control.hpp"
 #include "core/stepping/step_system.hpp"
 #include "scenes.hpp"
@@ -11,7 +11,8 @@ namespace {
 
 	/// What the springs at nodes of the grid remember from step to step: how far each is stretched.
 	template <int Dim> struct Springs {
-		Mat<Dim>                stiffness;  ///< force on the node over its displacement; not symmetric if it also pushes sideways one way [N/m]
+		/// Force on the node over its displacement; not symmetric if it also pushes sideways one way [N/m].
+		Mat<Dim>                stiffness;
 		std::map<Key, Vec<Dim>> elongation; ///< by node [m]
 
 		Vec<Dim> total() const
@@ -223,7 +224,8 @@ namespace {
 	{
 		for (const auto method : { LinearMethod::direct, LinearMethod::iterative }) {
 			Raft<TypeParam::value> raft;
-			raft.model.materials           = { { Hencky(1e5, 0.3), 2000 } }; // settles by a tenth, and leans
+			// Settles by a tenth, and leans.
+			raft.model.materials           = { { Hencky(1e5, 0.3), 2000 } };
 			raft.springs.stiffness(0, 1)   = 0.3 * raft.stiffness;
 			raft.springs.stiffness(1, 0)   = -0.1 * raft.stiffness;
 			raft.model.newton.reuseFactor  = false; // whose convergence is linear

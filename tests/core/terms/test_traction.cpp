@@ -196,7 +196,8 @@ namespace {
 			const auto report    = block.step();
 			ASSERT_TRUE(report.converged()) << report.cause;
 			EXPECT_NEAR(block.load.resultant[1], -2e5 * std::pow(1.5, Dim - 1), Dim == 2 ? 1e-3 : 3e4);
-			for (const auto& vertex : block.load.surface.vertices) // triangles share their force with the nodes less evenly
+			// Triangles share their force with the nodes less evenly.
+			for (const auto& vertex : block.load.surface.vertices)
 				EXPECT_NEAR(vertex[1] / 1.5, 0.844580, Dim == 2 && shift == 0 ? 2e-6 : 3e-3);
 		}
 	}
@@ -270,7 +271,8 @@ namespace {
 				EXPECT_TRUE(surface.isBetween(outside, Vec<Dim>(middle + 0.1 * Vec<Dim>::LinSpaced(1, 2))));
 				EXPECT_FALSE(surface.isBetween(middle, Vec<Dim>(middle + 0.49 * side)));
 				EXPECT_FALSE(surface.isBetween(outside, Vec<Dim>(middle + 0.51 * side)));
-				EXPECT_FALSE(surface.isBetween(outside, Vec<Dim>(outside + 2 * Vec<Dim>::Unit((a + 1) % Dim)))); // along it
+				// Along it.
+				EXPECT_FALSE(surface.isBetween(outside, Vec<Dim>(outside + 2 * Vec<Dim>::Unit((a + 1) % Dim))));
 			}
 	}
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// A term whose stiffness is not symmetric, beside those whose are: Newton's method stays quadratic, with LU and with GMRES.
+// A term whose stiffness is not symmetric, beside those whose are: Newton's method stays quadratic, with LU and with
+// GMRES.
 #include "core/stepping/step_system.hpp"
 #include "scenes.hpp"
 #include <cstdio>
@@ -7,8 +8,8 @@
 namespace gimpm::testUnsymmetricTerm {
 namespace {
 
-	/// Nodes push their neighbours, a cell away along an axis, and themselves sideways: f_a = c (1 + |d_b|^2 / h^2) R d_b, with a matrix R that
-	/// is not symmetric. No energy has such forces.
+	/// Nodes push their neighbours, a cell away along an axis, and themselves sideways: f_a = c (1 + |d_b|^2 / h^2)
+	/// R d_b, with a matrix R that is not symmetric. No energy has such forces.
 	template <int Dim> class SidewaysForce : public Term<Dim> {
 	public:
 		SidewaysForce(double stiffness, const CloudBasis<Dim>& basis, const Grid<Dim>& grid) : stiffness_(stiffness), h_(grid.cellSize)
@@ -151,7 +152,8 @@ namespace {
 		EXPECT_EQ(byGmres.luSolves, 0);
 		EXPECT_EQ(byGmres.conjugateGradients.fallbacks, 0);
 		EXPECT_GT(byGmres.conjugateGradients.iterations, byGmres.iterations);
-		withFactor.model.newton.tolerance = Dim == 2 ? 1e-7 : 1e-5; // at which the last factor suffices for the last solve
+		// At which the last factor suffices for the last solve.
+		withFactor.model.newton.tolerance = Dim == 2 ? 1e-7 : 1e-5;
 		const StepReport twice            = withFactor.step(LinearMethod::direct, true);
 		ASSERT_TRUE(twice.converged()) << twice.cause;
 		EXPECT_GT(twice.reusedFactors, 0);

@@ -129,7 +129,8 @@ namespace {
 		EXPECT_GT(system.fromOutside(Eigen::VectorXd::Constant(d.size(), 0.01)), 1e3);
 	}
 
-	/// A column on rollers under its own weight, all turned by an angle against the grid: how well it is balanced, and the stresses of its points along its axis.
+	/// A column on rollers under its own weight, all turned by an angle against the grid: how well it is balanced,
+	/// and the stresses of its points along its axis.
 	template <int Dim> class Column {
 	public:
 		static constexpr double width = 1, height = 4, spacing = Dim == 2 ? 0.125 : 0.25, weight = 2e4;
@@ -224,7 +225,8 @@ namespace {
 				const auto report = scene.step();
 				ASSERT_TRUE(report.converged()) << report.cause;
 				EXPECT_NEAR(report.reactions[boxes.size()][1], lid.reaction[1], 0);
-				EXPECT_NEAR(report.reactions[2][1] / -lid.reaction[1], 1, 1e-7); // as exact as the forces of the penalty at first
+				// As exact as the forces of the penalty at first.
+				EXPECT_NEAR(report.reactions[2][1] / -lid.reaction[1], 1, 1e-7);
 			}
 			EXPECT_NEAR(lid.surface.vertices[0][1], 1.35, 1e-12);
 			const double area = std::pow(1.5, Dim - 1), exact = 1e6 * std::log(0.9) / 0.9;

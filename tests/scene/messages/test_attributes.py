@@ -10,7 +10,8 @@ import os
 import pytest
 from conftest import Yade
 
-# Values beyond the limits, as Python text. None: there are no limits beside being finite, or of the kind that the attribute has.
+# Values beyond the limits, as Python text. None: there are no limits beside being finite, or of the kind that the
+# attribute has.
 outOfRange = {
         'MpmMaterial.density': ['0.', '-1.'],
         'MpmElasticMat.young': ['0.', '-1.'],

@@ -151,7 +151,8 @@ for dim, F in (2, F2), (3, F3):
 	mpm.assign(defGrad=[np.eye(3)] * len(before['id']))
 	assert (mpm.arrays()['halfSize'] == before['halfSize']).all()
 
-# a state that steps have made, given to new points, one a cell, with domains that have outgrown it: the next step is the same
+# a state that steps have made, given to new points, one a cell, with domains that have outgrown it: the next step is
+# the same
 def pulled():
 	O.reset()
 	O.materials.append(MpmElasticMat(young=1e4, poisson=0, density=80, label='soil'))

@@ -29,7 +29,8 @@ def block(F, engine=MpmImplicitEngine, dim=2, size=(1, 1, 1), low=(0, 0, 0), poi
 held = [MpmBoundary(max=(0, inf, inf), fix='x'), MpmBoundary(max=(inf, 0, inf), fix='y')]
 '''
 
-# Row of the first of all in the arrays, for each point; and what a point was before is the sum of all that came from it.
+# Row of the first of all in the arrays, for each point; and what a point was before is the sum of all that came from
+# it.
 ancestry = '''
 def roots(points):
 	of = {}
@@ -62,7 +63,8 @@ assert set(np.bincount(of)) == {{2**{halvings}}}
 for name in 'volume', 'force':
 	assert np.array_equal(halves[name] * 2**{halvings}, whole[name][of]), name
 assert np.array_equal(mass * 2**{halvings}, massBefore[of])
-# matter is where it was: first and second moments of boxes that lie side by side are those of the unlimited domains of before
+# matter is where it was: first and second moments of boxes that lie side by side are those of the unlimited domains of
+# before
 U = np.array([{F}[0], {F}[4], {F}[8]])
 box = whole['halfSize0'] * U
 first, second = sums(halves['volume'][:, None] * halves['pos']), sums(halves['volume'][:, None] * (halves['pos']**2 + halves['halfSize']**2 / 3))

@@ -109,7 +109,8 @@ def test_the_program_of_the_developers_page(tmp_path):
 	subprocess.run(command.split(), cwd=tmp_path, check=True)
 	printed = subprocess.run([tmp_path / 'column'], stdout=subprocess.PIPE, text=True, check=True).stdout
 	settlement = float(re.fullmatch(r'settlement (\d\.\d{6}) m\n', printed)[1])
-	# Stretch W(x)/x at the load x = s (1 - Y), with x = W exp(W); over the height it makes (W + W^2/2)/s, with W = W(s).
+	# Stretch W(x)/x at the load x = s (1 - Y), with x = W exp(W); over the height it makes (W + W^2/2)/s, with W =
+	# W(s).
 	height, s, W = 10, 2000 * 10 * 10 / 1e6, 0.2
 	for _ in range(20):
 		W -= (W * math.exp(W) - s) / ((W + 1) * math.exp(W))
@@ -118,8 +119,8 @@ def test_the_program_of_the_developers_page(tmp_path):
 	assert f'prints {settlement:.6f} m' in section and f'is {exact:.6f} m' in section and f'{s * height / 2:g} m.' in section
 
 
-# Run in YADE: what is not documented, or at too great length for the prompt (the rest is on a page of the class), one line for each. A real
-# number needs a unit, [-] if it has none.
+# Run in YADE: what is not documented, or at too great length for the prompt (the rest is on a page of the class), one
+# line for each. A real number needs a unit, [-] if it has none.
 check = '''
 import inspect, re, sys
 from yade import mpm, wrapper

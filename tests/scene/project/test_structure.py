@@ -29,7 +29,8 @@ below = {
 
 # the folders of the engine: each may include those before it, and what it has itself
 engineFolders = ['materials', 'points', 'grid', 'analysis', 'conditions', 'parallel', 'messages', 'output', 'engines']
-# kinds of conditions: whatever else is in the engine knows none of them, but for the engines, which have lists of them, and what Python asks for by name
+# kinds of conditions: whatever else is in the engine knows none of them, but for the engines, which have lists of them,
+# and what Python asks for by name
 kindsOfConditions = {'boundary', 'contact', 'shaking', 'surface', 'traction', 'water'}
 knowKinds = {'MpmImplicitEngine.cpp', 'MpmDynamicEngine.cpp', 'module.cpp'}
 
@@ -171,3 +172,13 @@ def test_filesHoldOneConcept():
 	for path in sources('core') + sources('engine'):
 		lines = path.read_text().count('\n')
 		if lines > 450: warnings.warn(f'{path.relative_to(plugin)} has {lines} lines: does it hold one concept?')
+
+
+def test_commentsAreAtMost120ColumnsWide():
+	"""But for formulas, tables and code in them, which are indented or begin with a bar."""
+	wrong = []
+	for path in [path for folder in ('plugin', 'tests') for path in (root / folder).rglob('*.[ch]pp')]:
+		for number, line in enumerate(path.read_text().splitlines(), 1):
+			text = re.match(r'\s*//+[!<]? ?(.*)', line)
+			if text and len(line.expandtabs(8)) > 120 and not text[1].startswith((' ', '\t', '|')): wrong.append(f'{path.relative_to(root)}:{number}')
+	assert not wrong

@@ -71,7 +71,8 @@ result['titles'] = [result['first'].pop(), first.get_title()]
 print(json.dumps(result))
 ''')
 	result = run.result
-	# the engine counted at the start of its last step, the picture shows its end: the same kind of numbers, not always the same
+	# the engine counted at the start of its last step, the picture shows its end: the same kind of numbers, not
+	# always the same
 	for name in 'boundary', 'cells', 'faces':
 		drawn, counted = result[name]
 		assert drawn > 0 and abs(drawn - counted) <= 0.1 * counted

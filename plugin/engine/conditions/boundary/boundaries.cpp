@@ -70,7 +70,8 @@ template <int Dim> void Boundaries<Dim>::advance(const StepTime& step, gimpm::Mo
 template <int Dim> void Boundaries<Dim>::moveBases(const StepTime& step, gimpm::Load<Dim>& load) const
 {
 	const Real duration = step.to - step.from;
-	const Real centre   = motion->scheme.isExplicit ? step.to : step.from + duration / 2; // of the steps that accelerations belong to
+	// Of the steps that accelerations belong to.
+	const Real centre = motion->scheme.isExplicit ? step.to : step.from + duration / 2;
 	motion->bases.clear();
 	for (const auto& [b, history] : bases) {
 		const Vector3r v0     = history->velocityAt(step.from),

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-// What holds the body, between the boundaries of a scene and the core: boxes of nodes, walls off the lines of the grid, and bases that move by a history.
+// What holds the body, between the boundaries of a scene and the core: boxes of nodes, walls off the lines of the grid,
+// and bases that move by a history.
 #include "core/terms/motion.hpp"
 #include "engine/analysis/analysis.hpp"
 #include "engine/conditions/boundary/MpmBoundary.hpp"
@@ -17,7 +18,8 @@ public:
 	void advance(const StepTime&, gimpm::Model<Dim>&, gimpm::Load<Dim>&) override;
 	bool areBeside(const gimpm::Vec<Dim>& point, const gimpm::Vec<Dim>& part) const override;
 
-	// Reactions are those of the two ends of the step, where they are known; with the midpoint rule those of the middle.
+	// Reactions are those of the two ends of the step, where they are known; with the midpoint rule those of the
+	// middle.
 	Work work(const StepOutcome<Dim>&) const override;
 	void reach(const StepOutcome<Dim>&) override;
 

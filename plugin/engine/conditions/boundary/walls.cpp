@@ -44,7 +44,8 @@ template <int Dim> std::shared_ptr<gimpm::Wall<Dim>> wallOf(const MpmBoundary& b
 	wall->penalty   = boundary.penalty;
 	for (int axis = 0; axis < Dim; ++axis)
 		wall->fixed[axis] = boundary.fixes(axis);
-	if (boundary.surface->initialVertices.empty() || boundary.tractions.empty()) return wall; // it has not borne anything yet
+	// It has not borne anything yet.
+	if (boundary.surface->initialVertices.empty() || boundary.tractions.empty()) return wall;
 	if (boundary.tractions.size() != wall->tractions.size())
 		throw std::invalid_argument(
 		        name + ".surface has " + std::to_string(wall->tractions.size()) + " pieces of a size for cells of " + std::to_string(grid.cellSize)

@@ -19,12 +19,14 @@ public:
 	vector<int>      bodies;
 	vector<Vector3r> forces, torques, impulses;
 	vector<int>      touching, slipping;
-	// Hidden: of each of the bodies position and orientation of its last exchange (7 numbers), whether YADE moves it freely, the stiffness that is handed over
-	// to those (36), and the impulse of that since; and what is remembered of corners that touch (contact_records.hpp)
+	// Hidden: of each of the bodies position and orientation of its last exchange (7 numbers), whether YADE moves
+	// it freely, the stiffness that is handed over to those (36), and the impulse of that since; and what is
+	// remembered of corners that touch (contact_records.hpp)
 	vector<Real>     poses, stiffnesses, records;
 	vector<int>      areFree;
 	vector<Vector3r> impulsesSince;
-	// Not saved. Of members of clumps, where they were in these; of free bodies, what has been exchanged since they touch; and the O.dt that has been looked at
+	// Not saved. Of members of clumps, where they were in these; of free bodies, what has been exchanged since they
+	// touch; and the O.dt that has been looked at
 	struct Exchange {
 		Vector3r added = Vector3r::Zero(); // of the momentum, by the stiffness [N s]
 		Real     all   = 0;
@@ -82,10 +84,12 @@ public:
 	// Of the last exchange, number i of the bodies.
 	Se3r poseOf(size_t i) const;
 
-	// std::invalid_argument where YADE's integrator would not be stable with the stiffness. In every iteration the soil itself is asked, or it is handed over to some.
+	// std::invalid_argument where YADE's integrator would not be stable with the stiffness. In every iteration the
+	// soil itself is asked, or it is handed over to some.
 	void requireStable(const Body&, const gimpm::ContactLoad::Stiffness&, Real dt, bool isHandedOver) const;
 
-	// What the last load step and the iterations before it have given to one of the bodies. A sentence where too much of that is not from the soil.
+	// What the last load step and the iterations before it have given to one of the bodies. A sentence where too
+	// much of that is not from the soil.
 	void   note(size_t i, Real period);
 	string warningOfExchange() const;
 
@@ -96,7 +100,8 @@ public:
 	// Those that its mask means: neither material points nor clumps, but members of these.
 	vector<shared_ptr<Body>> rigidBodies(const Scene&) const override;
 
-	// For the bodies that are free: the force of the last load step, less stiffness times the movement since, for this iteration of YADE, with a load step or between two.
+	// For the bodies that are free: the force of the last load step, less stiffness times the movement since, for
+	// this iteration of YADE, with a load step or between two.
 	void actOnBodies(Scene&, bool isBetween) override;
 
 	bool        goesOn() const override { return true; }

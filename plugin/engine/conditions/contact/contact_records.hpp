@@ -4,7 +4,8 @@
 
 namespace yade {
 
-// What an MpmContact keeps of a corner of a material point's domain that touches a body, as numbers one after the other.
+// What an MpmContact keeps of a corner of a material point's domain that touches a body, as numbers one after the
+// other.
 struct ContactRecordOfPoint {
 	static constexpr int width = 17;
 

@@ -282,7 +282,8 @@ template <int Dim> void Contacts<Dim>::reach(const StepOutcome<Dim>& step)
 		keep(*contact);
 	keepRecords();
 	hasKept = true;
-	for (const Owner& owner : owners) { // where a script has put it, it stays: the rest of that way is made by the next step
+	// Where a script has put it, it stays: the rest of that way is made by the next step.
+	for (const Owner& owner : owners) {
 		if (owner.byYade) continue;
 		const bool isLate      = owner.byScript && partAt(time) < 1;
 		owner.body->state->se3 = isLate ? between(owner.given, owner.target, partAt(time)) : owner.reached;

@@ -55,11 +55,13 @@ private:
 	struct Owner {
 		shared_ptr<MpmContact> contact;
 		shared_ptr<Body>       body;
-		Se3r                   given;                  // where it stood when the run began: the scripts may have moved it since the last one
-		Se3r                   begin, target, reached; // of the run; reached: the end of the step
-		bool                   byYade = false, isFree = false, isNew = true;
-		bool                   byScript = false; // has been moved since the last run, or its way was not finished then
-		size_t                 place    = 0;     // in the contact's list of bodies, once that is written
+		// Where it stood when the run began: the scripts may have moved it since the last one.
+		Se3r given;
+		Se3r begin, target, reached; // of the run; reached: the end of the step
+		bool byYade = false, isFree = false, isNew = true;
+		// Has been moved since the last run, or its way was not finished then.
+		bool   byScript = false;
+		size_t place    = 0; // in the contact's list of bodies, once that is written
 	};
 	using Places = std::map<Body::id_t, int>; // of bodies in a list
 	struct Member {

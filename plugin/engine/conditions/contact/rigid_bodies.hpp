@@ -17,8 +17,8 @@ inline Se3r between(const Se3r& a, const Se3r& b, Real part)
 	return { (1 - part) * a.position + part * b.position, a.orientation.slerp(part, b.orientation) };
 }
 
-// Its shape, where the body is at this pose, and pose and name of it; none of a body that has no section at z = 0 in the plane. std::invalid_argument
-// names what the body is that cannot touch.
+// Its shape, where the body is at this pose, and pose and name of it; none of a body that has no section at z = 0 in
+// the plane. std::invalid_argument names what the body is that cannot touch.
 template <int Dim> std::optional<gimpm::RigidBody<Dim>> rigidBody(const Body&, const Se3r& at, const gimpm::Grid<Dim>&);
 
 // Of the same body, at another pose.

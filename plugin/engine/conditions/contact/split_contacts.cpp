@@ -6,8 +6,8 @@
 namespace yade {
 
 namespace {
-	// Of the area that a corner stands for, the part of the faces across the axis: halves have these to themselves, and share the others. A corner that does not touch, and remembers
-	// nothing but its offset, has no normal.
+	// Of the area that a corner stands for, the part of the faces across the axis: halves have these to themselves,
+	// and share the others. A corner that does not touch, and remembers nothing but its offset, has no normal.
 	Real partAcross(const HalvedDomain& domain, const Vector3r& normal)
 	{
 		Vector3r faces = Vector3r::Zero();
@@ -52,7 +52,8 @@ namespace {
 				to.slips   = to.slips || from.slips;
 			}
 		}
-		// Where the halves meet. Of two corners of the whole beside it, one that has not touched has felt nothing.
+		// Where the halves meet. Of two corners of the whole beside it, one that has not touched has felt
+		// nothing.
 		void fit(const HalvedDomain& domain, bool isUpper, int corner, const KnownBody& body)
 		{
 			const Vector3r place = placeOf(domain, isUpper, corner);
@@ -77,7 +78,8 @@ namespace {
 
 	private:
 		std::map<Key, ContactRecordOfPoint> records;
-		std::map<Key, int>                  pressing; // how many of the corners from which they are have touched
+		// How many of the corners from which they are have touched.
+		std::map<Key, int> pressing;
 	};
 }
 

@@ -13,7 +13,8 @@ public:
 	shared_ptr<MpmBaseMotion> motion; // none: no wave comes from beyond
 	Vector3r                  reaction = Vector3r::Constant(std::numeric_limits<Real>::quiet_NaN());
 	bool                      hasBegun = false;
-	vector<Vector3r>          nodes, borne; // what goes on acting [N], and on which nodes of the grid (integer coordinates)
+	// What goes on acting [N], and on which nodes of the grid (integer coordinates).
+	vector<Vector3r> nodes, borne;
 
 	YADE_API_NAME(MpmAbsorbingBoundary)
 	static const char* doc()

@@ -41,7 +41,8 @@ public:
 	void requireOneSide(const string& name) const;
 
 	static shared_ptr<MpmSurface> line(const vector<Vector3r>& points);
-	static shared_ptr<MpmSurface> triangles(const vector<vector<Vector3r>>& corners); // equal corners become one vertex
+	// Equal corners become one vertex.
+	static shared_ptr<MpmSurface> triangles(const vector<vector<Vector3r>>& corners);
 
 private:
 	static bool areFinite(const vector<Vector3r>&);

@@ -6,7 +6,8 @@
 
 namespace yade {
 
-// Segments in the plane, triangles in space, with the number of whoever has the surface and tractionOn(i), that on piece i [Pa].
+// Segments in the plane, triangles in space, with the number of whoever has the surface and tractionOn(i), that on
+// piece i [Pa].
 template <class F> void drawSurface(Picture& picture, const MpmSurface& surface, const char* owner, size_t number, F&& tractionOn)
 {
 	const int first = int(picture.corners.size());

@@ -15,7 +15,8 @@ namespace {
 			throw std::invalid_argument(name + ".traction = " + textOf(load.traction) + ": there is no direction z on a grid with dim=2.");
 	}
 
-	// The part of a surface that has material on both of its sides, half a cell away, and the middle of the first such piece.
+	// The part of a surface that has material on both of its sides, half a cell away, and the middle of the first
+	// such piece.
 	template <int Dim> struct Inside {
 		Real            part = 0;
 		gimpm::Vec<Dim> place {};

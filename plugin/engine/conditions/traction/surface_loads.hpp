@@ -11,12 +11,13 @@ template <int Dim> class SurfaceLoads : public Condition<Dim> {
 public:
 	explicit SurfaceLoads(const MpmCondition::Group& group) : group(group) { }
 
-	void   join(gimpm::Model<Dim>&, const Surroundings<Dim>&) override;
-	void   joinMotion(gimpm::Motion<Dim>&, const gimpm::Model<Dim>&, Real begin) override;
-	void   advance(const StepTime& step, gimpm::Model<Dim>&, gimpm::Load<Dim>&) override { advanceTo(step.looked); }
-	Work   work(const StepOutcome<Dim>&) const override;
-	void   reach(const StepOutcome<Dim>&) override;
-	string warningOfPlace(const gimpm::PointCloud<Dim>&, const gimpm::Grid<Dim>&) const override; // whether one that has not acted yet is inside of the body
+	void join(gimpm::Model<Dim>&, const Surroundings<Dim>&) override;
+	void joinMotion(gimpm::Motion<Dim>&, const gimpm::Model<Dim>&, Real begin) override;
+	void advance(const StepTime& step, gimpm::Model<Dim>&, gimpm::Load<Dim>&) override { advanceTo(step.looked); }
+	Work work(const StepOutcome<Dim>&) const override;
+	void reach(const StepOutcome<Dim>&) override;
+	// Whether one that has not acted yet is inside of the body.
+	string warningOfPlace(const gimpm::PointCloud<Dim>&, const gimpm::Grid<Dim>&) const override;
 
 private:
 	void advanceTo(Real time);

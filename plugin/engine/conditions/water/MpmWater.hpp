@@ -28,7 +28,8 @@ public:
 	gimpm::LoadCurve::Knees curve; // empty: that of gravity
 	string                  where = "everywhere";
 	vector<Vector3r>        onBoundaries;
-	// Hidden: values of the function at nodes of the grid, of each three grid coordinates and the pressure, and the size of its cells and where it begins
+	// Hidden: values of the function at nodes of the grid, of each three grid coordinates and the pressure, and the
+	// size of its cells and where it begins
 	vector<Real> table, tableGrid;
 
 	YADE_API_NAME(MpmWater)

@@ -35,8 +35,10 @@ namespace {
 
 string warningOfWeight(const MpmWater& water, const Analysis& analysis, const string& name)
 {
-	constexpr Real lightest = 500, earth = 9.81;                                            // N/m3, of a fluid under the gravity of the earth
-	const auto     isDensity = [](Real weight) { return weight >= 950 && weight <= 1100; }; // of water, fresh or salt
+	// N/m3, of a fluid under the gravity of the earth.
+	constexpr Real lightest = 500, earth = 9.81;
+	// Of water, fresh or salt.
+	const auto isDensity = [](Real weight) { return weight >= 950 && weight <= 1100; };
 	if (analysis.gravity.norm() <= 1 || water.hasFunction()) return "";
 	const string has = sentence(name, " has weight = ", water.weight, ", in N/m3; was it meant in ");
 	if (water.weight < lightest) return sentence(has, "kN/m3, that is ", 1e3 * water.weight, " N/m3?");

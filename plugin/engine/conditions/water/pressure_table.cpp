@@ -126,7 +126,8 @@ namespace {
 		return nodes;
 	}
 
-	// What the pressure gains along each axis over a period of the grid: the same in all cells that hold points, or there is no such state.
+	// What the pressure gains along each axis over a period of the grid: the same in all cells that hold points, or
+	// there is no such state.
 	template <int Dim> gimpm::Vec<Dim> fallOf(const PressureAt& values, const vector<Key>& cells, const gimpm::Grid<Dim>& grid, const string& name)
 	{
 		constexpr Real        roundOff = 1e-9;
@@ -163,7 +164,8 @@ namespace {
 template <int Dim>
 std::optional<PressureQuestion<Dim>> PressureQuestion<Dim>::of(MpmWater& water, const gimpm::Grid<Dim>& grid, const vector<Key>& cells, const string& name)
 {
-	constexpr int near = 1, far = 3; // cells that a point may reach in a step, and in the steps after a scene has been loaded
+	// Cells that a point may reach in a step, and in the steps after a scene has been loaded.
+	constexpr int near = 1, far = 3;
 	if (water.pressure && (water.evaluated != water.pressure.object.get() || water.tableGrid != numbersOf(grid))) water.forgetTable();
 	if (water.tableGrid != numbersOf(grid) && !water.pressure) refuseNode(gimpm::Grid<Dim>::key(gimpm::Index<Dim>::Zero()), grid, name);
 	const PressureAt values  = valuesOf<Dim>(water);
@@ -175,7 +177,8 @@ std::optional<PressureQuestion<Dim>> PressureQuestion<Dim>::of(MpmWater& water, 
 	};
 	const vector<Key> nearest = nodesAround(cells, near, grid);
 	if (!water.pressure) {
-		const vector<Key> unknown = missing(nearest); // scenes of earlier revisions have no nodes at the far side of a period
+		// Scenes of earlier revisions have no nodes at the far side of a period.
+		const vector<Key> unknown = missing(nearest);
 		if (!unknown.empty()) refuseNode(unknown[0], grid, name);
 		return std::nullopt;
 	}

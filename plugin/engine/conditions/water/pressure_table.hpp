@@ -15,10 +15,12 @@ public:
 	{
 	}
 
-	// None if the table has all. std::invalid_argument, in the name given, where something is missing and there is no function any more.
+	// None if the table has all. std::invalid_argument, in the name given, where something is missing and there is
+	// no function any more.
 	static std::optional<PressureQuestion> of(MpmWater&, const gimpm::Grid<Dim>&, const vector<gimpm::Key>& cells, const string& name);
 
-	// The function may do anything that a script can, so the lock of values must not be held. std::invalid_argument for what it returns or raises.
+	// The function may do anything that a script can, so the lock of values must not be held. std::invalid_argument
+	// for what it returns or raises.
 	void ask() override;
 
 	// Puts the answers into the table.
@@ -32,8 +34,8 @@ public:
 	vector<Real>       found {};
 };
 
-// Asks the function at nodes around the cells that the water's table does not have yet. std::invalid_argument, in the name given, for what it returns or raises, or where there is no
-// function any more.
+// Asks the function at nodes around the cells that the water's table does not have yet. std::invalid_argument, in the
+// name given, for what it returns or raises, or where there is no function any more.
 template <int Dim>
 std::shared_ptr<const gimpm::WaterPressure<Dim>> tabulated(MpmWater&, const gimpm::Grid<Dim>&, const vector<gimpm::Key>& cells, const string& name);
 

@@ -122,7 +122,8 @@ template <int Dim> void Waters<Dim>::reach(const StepOutcome<Dim>& step)
 			for (int a = 0; a < Dim; ++a) {
 				const auto*  box = boundary.holder(gimpm::Grid<Dim>::index(node), a);
 				const size_t b   = box ? box - boundary.boxes().data() : reactions.size();
-				if (b < reactions.size()) onBoundaries[b][a] += force[a]; // the axis of symmetry is none of them
+				// The axis of symmetry is none of them.
+				if (b < reactions.size()) onBoundaries[b][a] += force[a];
 			}
 		for (size_t b = 0; b < reactions.size(); ++b)
 			reactions[b] += onBoundaries[b];
