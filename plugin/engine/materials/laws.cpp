@@ -7,7 +7,7 @@
 #include "engine/materials/MpmMohrCoulombMat.hpp"
 #include "engine/materials/MpmTrescaMat.hpp"
 #include "engine/materials/MpmVonMisesMat.hpp"
-#include "engine/points/MaterialPoints.hpp"
+#include "engine/materials/refusals.hpp"
 #include <Eigen/LU>
 #include <functional>
 #include <typeindex>
