@@ -30,6 +30,13 @@ public:
 		       "nothing itself.";
 	}
 	template <class V> static void attributes(V&&) { }
+	template <class C> static void python(C& c)
+	{
+		c.def(
+		        "_places", +[](const MpmCondition& condition) { return Conversion<vector<Vector3r>>::toPython(condition.places()); },
+		        "For mpm.stages: where it acts, which is not to be dug out.");
+		c.def("_actsAlong", &MpmCondition::actsAlong, "For mpm.advise: whether it may act along the axis of this number.");
+	}
 
 	// The attribute of the engine that it belongs to.
 	virtual const char* list() const { return "loads"; }
@@ -77,6 +84,10 @@ public:
 	virtual std::optional<std::pair<Vector3r, Vector3r>> extent() const { return std::nullopt; }
 	virtual string                                       idleness(const string& /*name*/, bool /*reaches*/) const { return ""; }
 	virtual bool                                         moves() const { return false; }
+
+	// Where it acts on the soil, which must not be dug out there; whether it may act along an axis.
+	virtual vector<Vector3r> places() const { return {}; }
+	virtual bool             actsAlong(int /*axis*/) const { return true; }
 
 	// Columns of plotData().
 	virtual void tell(Rows&, const Analysis&, const Listed&) const { }

@@ -2,7 +2,6 @@
 #include "engine/materials/MpmCamClayMat.hpp"
 #include "core/materials/law.hpp"
 #include "engine/materials/law_of_class.hpp"
-#include "engine/points/MpmState.hpp"
 #include "yade_api/registration.hpp"
 
 namespace yade {
@@ -17,9 +16,9 @@ void MpmCamClayMat::requireAdmissible() const
 	throw std::invalid_argument(text.str());
 }
 
-void MpmCamClayMat::requireStart(const MpmState& state) const
+void MpmCamClayMat::requireStart(const Matrix3r& stress) const
 {
-	if (!state.stress.isZero(0)) return;
+	if (!stress.isZero(0)) return;
 	const string refusal = "MpmState.stress = 0 is not admitted: a point of an MpmCamClayMat has no stiffness without pressure. ";
 	throw std::invalid_argument(refusal + "Give its stress with mpm.geostatic() or mpm.assign(stress=...).");
 }

@@ -40,7 +40,7 @@ public:
 		  given("a finite number > 0 [Pa], positive in compression; there is no default"));
 	}
 	void       requireAdmissible() const override;
-	void       requireStart(const MpmState&) const override;
+	void       requireStart(const Matrix3r& stress) const override;
 	Quantities moduli() const override { return { { "shearModulus", shearModulus } }; }
 	Quantities strengths() const override { return { { "preconsolidation", preconsolidation } }; }
 };

@@ -1,13 +1,20 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "engine/materials/MpmMaterial.hpp"
-#include "engine/points/MpmState.hpp"
 #include "yade_api/registration.hpp"
+#include "yade_api/scene.hpp"
 
 namespace yade {
 
-shared_ptr<State> MpmMaterial::newAssocState() const { return shared_ptr<State>(new MpmState); }
+namespace {
+	const char* const stateClass = "MpmState"; // which is of material points, and knows materials
+}
 
-bool MpmMaterial::stateTypeOk(State* state) const { return dynamic_cast<MpmState*>(state); }
+shared_ptr<State> MpmMaterial::newAssocState() const
+{
+	return boost::dynamic_pointer_cast<State>(Singleton<ClassFactory>::instance().createShared(stateClass));
+}
+
+bool MpmMaterial::stateTypeOk(State* state) const { return state && state->getClassName() == stateClass; }
 
 void MpmMaterial::requireAdmissible() const
 {

@@ -4,8 +4,6 @@
 
 namespace yade {
 
-class MpmState;
-
 class MpmMaterial : public ExposedIndexed<MpmMaterial, Material> {
 public:
 	Real share
@@ -23,7 +21,7 @@ public:
 	void              requireAdmissible() const override;
 
 	// std::invalid_argument if no step can begin from this state of a point.
-	virtual void requireStart(const MpmState&) const { }
+	virtual void requireStart(const Matrix3r& /*stress*/) const { }
 
 	// Attributes [Pa] of which a number in another unit is doubted: its moduli; and its strengths, unless they grow
 	// with the pressure: next to friction a cohesion may be next to nothing.

@@ -2,7 +2,7 @@
 #include "engine/materials/laws.hpp"
 #include "core/materials/tensor_law.hpp"
 #include "engine/materials/law_of_class.hpp"
-#include "engine/points/MaterialPoints.hpp"
+#include "engine/materials/refusals.hpp"
 #include <Eigen/LU>
 #include <unordered_map>
 

@@ -73,18 +73,6 @@ namespace {
 	}
 }
 
-string refusalOf(const gimpm::InternalVariable& variable, Real value)
-{
-	std::ostringstream text;
-	text << variable.name << " = " << value << " is not admitted: expected a finite number ";
-	if (variable.least == gimpm::positive) text << "> 0";
-	else if (variable.least > -gimpm::anyNumber)
-		text << ">= " << variable.least;
-	if (variable.most < gimpm::anyNumber) text << " and <= " << variable.most;
-	text << " [" << variable.unit << "].";
-	return text.str();
-}
-
 void MaterialPoint::requireAdmissible(int dim, bool isRing) const
 {
 	try {
@@ -99,7 +87,7 @@ void MaterialPoint::requireAdmissible(int dim, bool isRing) const
 void MaterialPoint::requireStart() const
 {
 	try {
-		material->requireStart(*state);
+		material->requireStart(state->stress);
 	} catch (const std::invalid_argument& error) {
 		refuse(id, error.what());
 	}

@@ -3,6 +3,7 @@
 // The material points among the bodies of a scene.
 #include "core/materials/material.hpp"
 #include "engine/materials/MpmMaterial.hpp"
+#include "engine/materials/refusals.hpp"
 #include "engine/points/MpmPoint.hpp"
 #include "engine/points/MpmState.hpp"
 
@@ -34,9 +35,6 @@ struct MaterialPoint {
 	// scene's list.
 	int materialIndex(const Scene&) const;
 };
-
-// Why an internal variable cannot have this value.
-string refusalOf(const gimpm::InternalVariable&, Real value);
 
 // Whether an engine with this mask is to look at the body: 0 and -1 mean all, also a body whose groupMask has no bits.
 inline bool maskMatches(const Body& body, int mask) { return mask == 0 || mask == -1 || (body.groupMask & Body::mask_t(mask)) != Body::mask_t(0); }

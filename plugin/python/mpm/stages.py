@@ -105,9 +105,7 @@ def _requireNoLoad(solver, points, inRegion):
 	reach = points['halfSize'][:, :solver.grid.dim] + solver.grid.cellSize * 3 / 8  # of the domains, as far as a step admits
 	middle = points['pos'][:, :solver.grid.dim]
 	for i, load in enumerate(solver.loads):
-		vertices = np.array(load.surface.vertices)
-		places = np.concatenate([vertices, vertices[np.array(load.surface.pieces)].mean(axis=1)])[:, :solver.grid.dim]
-		for place in places:
+		for place in np.array(load._places()).reshape(-1, 3)[:, :solver.grid.dim]:
 			isNear = (np.abs(middle - place) <= reach).all(axis=1)
 			if isNear.any() and inRegion[isNear].all():
 				raise ValueError(f'excavate: loads[{i}] acts on what is to be dug out, at {brief(tuple(place.tolist()))}; take it from the loads of the engine first, or end its surface where the ground will end')

@@ -182,6 +182,19 @@ print(json.dumps(dict(new=len(mpm.arrays()['id']) - n, heard=springs.halves)))
 	assert result['new'] == result['heard'] == 16
 
 
+def test_what_looks_at_all_loads_takes_it(yade):
+	result = yade(scene + '''
+solver, springs = block(dim=3, boundaries=[MpmBoundary(max=(inf, inf, 0), fix='z'), MpmBoundary(min=(-inf, -inf, 1), fix='z')])
+O.run(4, wait=True)
+advice = mpm.advise()
+dug = mpm.stages.excavate(lambda x: x[1] > 1.5)
+O.run(4, wait=True)
+print(json.dumps(dict(advice=str(advice), dug=dug, force=springs.resultant[1])))
+''').result
+	assert 'dim=2 (plane strain) will do' not in result['advice']  # what it does along z is not known
+	assert result['dug'] > 0 and result['force'] < weight
+
+
 def test_what_belongs_elsewhere_is_refused_by_name(yade):
 	result = yade(scene + '''
 solver, springs = block()

@@ -18,6 +18,18 @@ std::shared_ptr<Condition<3>> MpmTraction::make(InSpace, const Group& group, con
 
 Real MpmTraction::end(const Analysis& analysis) const { return analysis.curveOfLoad(curve).end(); }
 
+vector<Vector3r> MpmTraction::places() const
+{
+	vector<Vector3r> found = surface->vertices;
+	for (const auto& piece : surface->pieces) {
+		Vector3r sum = Vector3r::Zero();
+		for (const int v : piece)
+			sum += surface->vertices[v];
+		found.push_back(sum / Real(piece.size()));
+	}
+	return found;
+}
+
 void MpmTraction::tell(Rows& rows, const Analysis& analysis, const Listed& listed) const
 {
 	rows.setVector("load" + std::to_string(listed.number), resultant, analysis.grid->dim);

@@ -42,6 +42,8 @@ public:
 
 	Real                end(const Analysis&) const override;
 	const Serializable* ownSurface() const override { return surface.get(); }
+	vector<Vector3r>    places() const override; // vertices and middles of pieces
+	bool                actsAlong(int axis) const override { return traction[axis] != 0; }
 	void                tell(Rows&, const Analysis&, const Listed&) const override;
 	const char*         picture() const override { return "loads"; }
 	void                draw(Picture&, const Analysis&, const Listed&) const override;
