@@ -27,8 +27,12 @@ void defineHelpers()
 	py::def("assignColumns", &assignColumns, "For mpm.assign: values of the material points with these body ids, from a dict of arrays; all or none.");
 	py::def("respond", &respondForPython,
 	        "For mpm.respond: one call of the law of a material in principal axes, from trial strains and a dict of internal variables.");
+	py::def(
+	        "isElastic", +[](const shared_ptr<MpmMaterial>& material) { return isElastic(*material); },
+	        "For mpm.advise: whether the law of a material knows no flow.");
 	py::def("hasTensorLaw", &hasTensorLaw, "For mpm.respond: whether the law of a material is asked in space.");
-	py::def("respondInSpace", &respondInSpaceForPython, "For mpm.respond: one call of a tensor law, from a trial strain, internal variables and a step of time.");
+	py::def("respondInSpace", &respondInSpaceForPython,
+	        "For mpm.respond: one call of a tensor law, from a trial strain, internal variables and a step of time.");
 	py::def("stepInSpace", &stepInSpaceForPython, "For mpm.elementTest: a point of a tensor law after an increment of its deformation gradient.");
 	py::def("elasticStrainOf", &elasticStrainForPython, "For mpm.elementTest: principal elastic strains of principal Kirchhoff stresses.");
 	py::def("touchableBodies", &touchableBodiesForPython, "For mpm.plot: ids of the rigid bodies that the contacts of an engine mean.");
@@ -65,7 +69,8 @@ BOOST_PYTHON_MODULE(mpm_engine)
 	py::def("takePieces", &takePieces, "For mpm.load: the points of all pieces are in the processes that there are now.");
 	py::def("betweenSteps", &betweenSteps, "For mpm.save: calls a function while no step in the background changes the state.");
 	py::def(
-	        "endBackgroundRun", +[] {
+	        "endBackgroundRun",
+	        +[] {
 		        const PythonUnlock python;
 		        endBackgroundRun();
 	        },

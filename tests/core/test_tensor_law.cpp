@@ -191,7 +191,8 @@ namespace {
 			StepReport            report;
 			const StepSystem<Dim> system(cloud, model, {}, report);
 			EXPECT_FALSE(system.isSymmetric());
-			Eigen::VectorXd d = nodal<Dim>(system.basis, model.grid, [&](const Vec<Dim>& x) { return Vec<Dim>(size * x.sum() * Vec<Dim>::Unit(0)); });
+			Eigen::VectorXd d
+			        = nodal<Dim>(system.basis, model.grid, [&](const Vec<Dim>& x) { return Vec<Dim>(size * x.sum() * Vec<Dim>::Unit(0)); });
 			d += random.vector(d.size(), size / 2);
 			const auto [K, expected] = tangentAndDerivative(system, d, 1e-4);
 			return relativeError(K, expected);
@@ -264,7 +265,7 @@ namespace {
 		Model<Dim>       model;
 		PointCloud<Dim>  cloud = block<Dim>(model.grid, cellsOf<Dim>(2, 2, 2), 2);
 		model.materials        = { { KinematicHardening(E, nu, scale * yield, H), 1 } };
-		const double      inf  = infinity, amplitude = 3 * yield / root2 / G;
+		const double      inf = infinity, amplitude = 3 * yield / root2 / G;
 		LinearSolver      solver;
 		Loop              loop;
 		const std::size_t column = Law(hardening())->columns[4];

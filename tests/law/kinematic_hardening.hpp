@@ -25,7 +25,7 @@ public:
 	using Parameters = std::array<double, 3>;
 	Parameters         parameters() const { return { elastic_.young(), yield_, hardening_ }; }
 	KinematicHardening with(const Parameters& p) const { return { p[0], elastic_.poisson(), p[1], p[2], viscosity_ }; }
-	Parameters         weakened(const Weakening& w) const { return { elastic_.young() * w.moduli, yield_ / w.strength, hardening_ * w.moduli / w.strength }; }
+	Parameters weakened(const Weakening& w) const { return { elastic_.young() * w.moduli, yield_ / w.strength, hardening_ * w.moduli / w.strength }; }
 
 	/// The axes of stress and trial strain differ, so that the stiffness is symmetric but for products of stresses and strains.
 	bool isSymmetric() const { return false; }
@@ -39,9 +39,9 @@ public:
 		const Mat3   relative = 2 * G * dev - back;
 		const double length = relative.norm(), excess = length - yield_;
 		const double resistance = 2 * G + hardening_ + (viscosity_ > 0 ? viscosity_ / step.duration : 0); // infinite where no time goes by
-		const bool   yields = excess > 1e-9 * yield_;
-		const double flow   = yields ? excess / resistance : 0;
-		const Mat3   n      = yields ? Mat3(relative / length) : Mat3::Zero();
+		const bool   yields     = excess > 1e-9 * yield_;
+		const double flow       = yields ? excess / resistance : 0;
+		const Mat3   n          = yields ? Mat3(relative / length) : Mat3::Zero();
 		TensorAnswer answer(step.state);
 		answer.elasticStrain = step.trialStrain - flow * n;
 		answer.stress        = 2 * G * (dev - flow * n) + K * step.trialStrain.trace() * I;

@@ -58,12 +58,12 @@ public:
 	const PrincipalLaw* principal = nullptr; ///< the law itself, or of a tensor law one that kernels ask instead of it without using the answer
 
 	/// Of a point. Young's modulus is that of unloading, as it is now.
-	virtual bool       isSymmetric(const ParameterColumns&, std::size_t point) const    = 0;
-	virtual double     young(const PointOfLaw&, const VolumetricStrain&) const          = 0;
-	virtual WaveModuli waveModuli(const PointOfLaw&, const VolumetricStrain&) const     = 0;
+	virtual bool       isSymmetric(const ParameterColumns&, std::size_t point) const = 0;
+	virtual double     young(const PointOfLaw&, const VolumetricStrain&) const       = 0;
+	virtual WaveModuli waveModuli(const PointOfLaw&, const VolumetricStrain&) const  = 0;
 
 	/// What may differ from point to point, and what a factor of safety makes of it.
-	virtual std::vector<double> parameters() const                                                          = 0;
+	virtual std::vector<double> parameters() const                                                           = 0;
 	virtual std::vector<double> weakened(const ParameterColumns&, std::size_t point, const Weakening&) const = 0;
 	virtual Law                 with(const std::vector<double>& parameters) const                            = 0;
 

@@ -15,13 +15,15 @@ template <class L, class E> constexpr bool compiles(E&&) { return std::is_invoca
 
 template <class L> constexpr bool hasRequiredMembers()
 {
-	static_assert(GIMPM_HAS(law.variables.size()), "the law has no `static constexpr std::array<..., n> variables`: what it remembers of a point, if anything");
+	static_assert(
+	        GIMPM_HAS(law.variables.size()), "the law has no `static constexpr std::array<..., n> variables`: what it remembers of a point, if anything");
 	static_assert(GIMPM_HAS(law.initialInternals()), "the law has no `initialInternals() const`: the values of its variables at first");
 	static_assert(GIMPM_HAS(law.mayFail ? 0 : 1), "the law has no `static constexpr bool mayFail`: whether there are strains that it has no answer to");
 	static_assert(GIMPM_HAS(law.isElastic ? 0 : 1), "the law has no `static constexpr bool isElastic`: whether nothing ever flows");
 	static_assert(GIMPM_HAS(law.isLinear ? 0 : 1), "the law has no `static constexpr bool isLinear`: whether stress is linear in the elastic strain");
 	static_assert(
-	        GIMPM_HAS(law.canBeWeakened ? 0 : 1), "the law has no `static constexpr bool canBeWeakened`: whether a factor of safety can divide its strength");
+	        GIMPM_HAS(law.canBeWeakened ? 0 : 1),
+	        "the law has no `static constexpr bool canBeWeakened`: whether a factor of safety can divide its strength");
 	static_assert(GIMPM_HAS(law.isSymmetric() ? 0 : 1), "the law has no `bool isSymmetric() const`: whether its tangent is");
 	static_assert(
 	        GIMPM_HAS(law.parameters().size()),

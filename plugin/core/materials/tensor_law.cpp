@@ -27,10 +27,10 @@ struct TrialState {
 	{
 		const Vec3 stretch = logStrain<double>(V.value);
 		lambda             = stretch.array().exp();
-		const Mat3 shrink  = V.axes * Vec3(stretch.unaryExpr([](double x) { return std::expm1(-x); })).asDiagonal() * V.axes.transpose(); // of V, less 1
-		const Mat3 F       = gradient + Mat3::Identity();
-		R                  = F + shrink * F;
-		strain             = b.axes * e.asDiagonal() * b.axes.transpose();
+		const Mat3 shrink = V.axes * Vec3(stretch.unaryExpr([](double x) { return std::expm1(-x); })).asDiagonal() * V.axes.transpose(); // of V, less 1
+		const Mat3 F      = gradient + Mat3::Identity();
+		R                 = F + shrink * F;
+		strain            = b.axes * e.asDiagonal() * b.axes.transpose();
 	}
 };
 
@@ -42,7 +42,7 @@ public:
 	{
 		for (int i = 0; i < 3; ++i)
 			for (int j = 0; j < 3; ++j) {
-				const double d   = trial.e[i] - trial.e[j];
+				const double d  = trial.e[i] - trial.e[j];
 				spinOf_(i, j)   = trial.lambda[j] / (trial.lambda[i] + trial.lambda[j]);
 				strainOf_(i, j) = overSinh(d) / 2 * std::exp(-d);
 			}
@@ -96,8 +96,8 @@ std::vector<int> TensorVariable::columns() const
 	if (kind == Kind::scalar) return { internalVariables.add(variable) };
 	std::vector<int> columns;
 	for (int i = 0; i < count(); ++i) {
-		const char* const end  = kind == Kind::tensor ? ends[i] : axes[i];
-		const std::string name = variable.name + std::string(end);
+		const char* const end   = kind == Kind::tensor ? ends[i] : axes[i];
+		const std::string name  = variable.name + std::string(end);
 		const int         known = internalVariables.find(name);
 		InternalVariable  one   = variable;
 		if (known < 0) one.name = kept(name), one.description = kept(variable.description + (" " + std::string(end)));

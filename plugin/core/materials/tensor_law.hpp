@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Laws that need more than the principal values of the trial strain: that remember vectors or tensors, as a back stress or a fabric, that depend on the step
-// of time, or whose stress has other axes than the strain. They answer one point at a time, and cost several times as much as principal laws.
+// of time, or whose stress has other axes than the strain. They answer one point at a time, and cost many times as much as principal laws.
 //
 // Such a law is a class from TensorLaw, in whatever library: it is in no table. It has the members of core/materials/required_members.hpp and of
 // hasTensorMembers(). Everything it is given, and answers, is seen by somebody who turns with the material in the step, so that there are no rotations in it:
@@ -25,8 +25,14 @@ struct TensorVariable {
 
 	constexpr TensorVariable() = default;
 	constexpr TensorVariable(const InternalVariable& scalar) : variable(scalar) { }
-	static constexpr TensorVariable vector(const char* name, const char* unit, const char* description) { return { name, unit, description, Kind::vector }; }
-	static constexpr TensorVariable tensor(const char* name, const char* unit, const char* description) { return { name, unit, description, Kind::tensor }; }
+	static constexpr TensorVariable vector(const char* name, const char* unit, const char* description)
+	{
+		return { name, unit, description, Kind::vector };
+	}
+	static constexpr TensorVariable tensor(const char* name, const char* unit, const char* description)
+	{
+		return { name, unit, description, Kind::tensor };
+	}
 
 	constexpr int count() const { return int(kind); } ///< of numbers
 
@@ -103,11 +109,11 @@ inline Mat3 fromMandel(const Vec6& v)
 
 /// What a tensor law is asked.
 struct TensorStep {
-	Mat3        trialStrain;          ///< elastic logarithmic strain if nothing flows in the step
-	Mat3        stretch;              ///< U of the step
-	double      duration       = 0;   ///< of the step, in the time of the loads; 0: none goes by
-	TensorState state          = {};  ///< as the step begins
-	bool        wantsTangent   = true;
+	Mat3        trialStrain;       ///< elastic logarithmic strain if nothing flows in the step
+	Mat3        stretch;           ///< U of the step
+	double      duration     = 0;  ///< of the step, in the time of the loads; 0: none goes by
+	TensorState state        = {}; ///< as the step begins
+	bool        wantsTangent = true;
 };
 
 /// What it answers.
@@ -126,7 +132,8 @@ template <class L> constexpr bool hasTensorMembers()
 	static_assert(
 	        GIMPM_HAS(law.young(law.initialInternals())),
 	        "the tensor law has no `double young(const TensorState&) const`: Young's modulus of unloading, as it is now");
-	static_assert(GIMPM_HAS(law.respond(std::declval<const TensorStep&>()).stress), "the tensor law has no `TensorAnswer respond(const TensorStep&) const`");
+	static_assert(
+	        GIMPM_HAS(law.respond(std::declval<const TensorStep&>()).stress), "the tensor law has no `TensorAnswer respond(const TensorStep&) const`");
 	if constexpr (hasRequiredMembers<L>()) {
 		int numbers = 0;
 		for (const TensorVariable& variable : L::variables)
@@ -155,9 +162,9 @@ template <class L> class HandleOfTensorLaw : public LawOf<L> {
 public:
 	explicit HandleOfTensorLaw(const L& law) : LawOf<L>(law)
 	{
-		this->isTensorLaw = true;
-		this->principal   = &placeholder();
-		this->columns     = knownColumns.empty() ? columnsOfTensorLaw<L>() : knownColumns;
+		this->isTensorLaw       = true;
+		this->principal         = &placeholder();
+		this->columns           = knownColumns.empty() ? columnsOfTensorLaw<L>() : knownColumns;
 		const TensorState first = law.initialInternals();
 		this->initialInternals.assign(first.numbers(), first.numbers() + first.size());
 	}
@@ -192,7 +199,8 @@ private:
 	{
 		TensorState state = this->own_.initialInternals();
 		for (std::size_t k = 0; k < this->columns.size(); ++k)
-			if (const std::size_t c = this->columns[k]; c < p.internals.size() && !p.internals[c].empty()) state.numbers()[k] = p.internals[c][p.point];
+			if (const std::size_t c = this->columns[k]; c < p.internals.size() && !p.internals[c].empty())
+				state.numbers()[k] = p.internals[c][p.point];
 		return state;
 	}
 };

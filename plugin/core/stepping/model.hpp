@@ -64,7 +64,7 @@ template <int Dim> struct Load {
 	LoadFactor                factor {};                  ///< of point loads, and of prescribed displacements, which go with its growth
 	std::optional<LoadFactor> ofGravity {};               ///< if it has its own
 	std::map<int, LoadFactor> ofBoxes {};                 ///< of the displacement of boxes of the boundary that have their own
-	double                    motion = 0;                 ///< duration of the step where something moves by its velocity [s]
+	double                    motion   = 0;               ///< duration of the step where something moves by its velocity [s]
 	double                    duration = 0;               ///< of the step, for laws that depend on it, in the time of the loads
 	std::map<int, Vec<Dim>>   boxMotion {};               ///< of the nodes held by boxes of the boundary, in the step, besides their displacement [m]
 

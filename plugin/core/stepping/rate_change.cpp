@@ -37,10 +37,11 @@ template <int Dim> double plasticShare(const StepSystem<Dim>& system, const Eige
 	std::vector<double>         volume = system.beginning().cloud.volume0;
 	std::vector<SymTensor<Dim>> trial(volume.size());
 	std::vector<double>         all(volume.size()), plastic(volume.size());
-	forUpdatedPoints(system.basis, system.points, std::vector<Material>(materials.size(), { Law::ofTrialStrain(), 1 }), d, [&](int p, const PointUpdate<Dim>& u) {
-		trial[p] = u.elasticStrain;
-		all[p]   = (u.gradient + u.gradient.transpose()).squaredNorm() / 4 + u.hoop * u.hoop;
-	});
+	forUpdatedPoints(
+	        system.basis, system.points, std::vector<Material>(materials.size(), { Law::ofTrialStrain(), 1 }), d, [&](int p, const PointUpdate<Dim>& u) {
+		        trial[p] = u.elasticStrain;
+		        all[p]   = (u.gradient + u.gradient.transpose()).squaredNorm() / 4 + u.hoop * u.hoop;
+	        });
 	forUpdatedPoints(system.basis, system.points, materials, d, [&](int p, const PointUpdate<Dim>& u) {
 		plastic[p] = (trial[p].full() - u.elasticStrain.full()).squaredNorm();
 	});

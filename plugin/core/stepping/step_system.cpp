@@ -59,9 +59,9 @@ StepSystem<Dim>::StepSystem(const PointCloud<Dim>& cloud, const Model<Dim>& m, c
 {
 	{
 		const Stopwatch watch(report.times.basis);
-		basis  = model.division ? cloudBasis(cloud, model.grid, model.basis, model.boundary, *model.division)
-		                        : cloudBasis(cloud, model.grid, model.basis, model.boundary);
-		points = stepPoints(cloud, model.materials, basis, model.fBar);
+		basis           = model.division ? cloudBasis(cloud, model.grid, model.basis, model.boundary, *model.division)
+		                                 : cloudBasis(cloud, model.grid, model.basis, model.boundary);
+		points          = stepPoints(cloud, model.materials, basis, model.fBar);
 		points.duration = load.duration;
 		if (model.division) points.isSymmetric = model.division->largest(points.isSymmetric ? 0 : 1) == 0; // also for points that others have
 		mapFields();

@@ -77,7 +77,7 @@ template <int Dim> void addPointForces(const CloudBasis<Dim>& basis, const std::
 	template StepPoints<Dim>             stepPoints(const PointCloud<Dim>&, const std::vector<Material>&, const CloudBasis<Dim>&, bool);                   \
 	template std::optional<PointFailure> addInternalForce(                                                                                                 \
 	        const CloudBasis<Dim>&, const Colours<Dim>&, const StepPoints<Dim>&, const std::vector<Material>&, const Eigen::VectorXd&,                     \
-	        const TermSum<Dim>&, double);                                                                                                                       \
+	        const TermSum<Dim>&, double);                                                                                                                  \
 	template void markPointPattern(const CloudBasis<Dim>&, NodeMatrix<Dim>&);                                                                              \
 	template void addPointForces(const CloudBasis<Dim>&, const std::vector<Vec<Dim>>&, Eigen::VectorXd&);
 GIMPM_INSTANTIATE(2)

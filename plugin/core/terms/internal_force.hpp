@@ -14,9 +14,9 @@ template <int Dim> struct StepPoints {
 	std::vector<int>             material;
 	InternalColumns              internals;
 	ParameterColumns             parameters;
-	bool                         isSymmetric    = true;  ///< the tangents of their laws
-	bool                         hasTensorLaws  = false; ///< some of them
-	double                       duration       = 0;     ///< of the step, for laws that depend on it
+	bool                         isSymmetric   = true;  ///< the tangents of their laws
+	bool                         hasTensorLaws = false; ///< some of them
+	double                       duration      = 0;     ///< of the step, for laws that depend on it
 	std::vector<PointBasis<Dim>> centres;     ///< only with F-bar (core/terms/fbar.hpp): basis functions with the gradients at the centres of the cells
 	std::vector<AxisValues>      hoopCentres; ///< and those of the hoop strain, around an axis of symmetry
 
@@ -70,7 +70,7 @@ public:
 	}
 	void                        mark(NodeMatrix<Dim>& K) const override { markPointPattern(basis_, K); }
 	std::optional<PointFailure> add(const Eigen::VectorXd& d, const TermSum<Dim>& sum) const override { return add(d, sum, 1); }
-	bool isSymmetric() const override { return points_.isSymmetric; }
+	bool                        isSymmetric() const override { return points_.isSymmetric; }
 
 protected:
 	/// After so much of the step's time.

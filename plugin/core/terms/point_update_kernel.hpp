@@ -86,14 +86,14 @@ void visitPatches(
 		for (int b = 0; b * Lanes::count < chunk.count; ++b) {
 			const Batch                batch(chunk.first + b * Lanes::count, chunk.last());
 			const Increment<Dim, Axes> increment(chunk.gradient[b]);
-			const auto& [gradient, hoop] = increment;
+			const auto& [gradient, hoop]  = increment;
 			const auto&              seen = seenByLaws(chunk, b, increment);
 			const BatchResponse<Dim> response(batch, points, materials, seen);
 			const auto               elasticStrain = assemble<Lanes, Dim>(response.law.elasticStrain, response.trial.axes);
 			const auto               stress        = assemble<Lanes, Dim>(response.law.stress, response.trial.axes);
 			for (int lane = 0, q = b * Lanes::count; lane < Lanes::count && q < chunk.count; ++lane, ++q) {
-				const auto       one = [lane](const Lanes& x) { return x[lane]; };
-				const Law&       law = materials[points.material[chunk.first + q]].law;
+				const auto                                                  one = [lane](const Lanes& x) { return x[lane]; };
+				const Law&                                                  law = materials[points.material[chunk.first + q]].law;
 				std::array<double, LawTraits<PrincipalLaws>::mostVariables> internals;
 				for (std::size_t k = 0; k < internals.size(); ++k)
 					internals[k] = response.law.internals[k][lane];

@@ -79,8 +79,7 @@ struct TensorSplit {
 template <int Dim> SymTensor<3> inSpace(const SymTensor<Dim>& b1) { return SymTensor<3>::from(b1.full()); }
 
 /// Calls f(lane, index of the point, its response to the gradient that it sees) for those of the batch that have a tensor law. Returns a point that fails.
-template <int Dim, int Axes, class F>
-FailureCode forTensorPoints(const Pass<Dim>& pass, const Batch& batch, const Increment<Dim, Axes>& seen, F&& f)
+template <int Dim, int Axes, class F> FailureCode forTensorPoints(const Pass<Dim>& pass, const Batch& batch, const Increment<Dim, Axes>& seen, F&& f)
 {
 	FailureCode first = noFailure;
 	for (int lane = 0; lane < batch.count; ++lane) {
@@ -89,8 +88,7 @@ FailureCode forTensorPoints(const Pass<Dim>& pass, const Batch& batch, const Inc
 		if (!material.law->isTensorLaw) continue;
 		const PointOfLaw at { material.ofPoints(pass.points.parameters), pass.points.internals, std::size_t(i) };
 		const auto       r = respondInSpace(
-                        material.law, at,
-                        { inSpace(pass.points.leftCauchyGreen[i]), gradientOf(seen, lane), pass.duration, pass.sum.K != nullptr, Dim, Axes });
+		              material.law, at, { inSpace(pass.points.leftCauchyGreen[i]), gradientOf(seen, lane), pass.duration, pass.sum.K != nullptr, Dim, Axes });
 		if (r.failed) first = std::min(first, codeOf({ pass.basis.order[i], PointFailure::Reason::noResponse }));
 		else
 			f(lane, i, r);

@@ -28,11 +28,10 @@ void MpmCamClayMat::requireStart(const MpmState& state) const
 
 namespace yade {
 static const RegisteredLaw<MpmCamClayMat> lawOfMpmCamClayMat(
-	[](const MpmCamClayMat& m) {
-		        return gimpm::CamClay(
-		                m.shearModulus, m.criticalStateRatio, m.compressionIndex, m.swellingIndex, m.preconsolidation, m.referencePressure);
-	        },
-	        std::pair("shearModulus", &MpmCamClayMat::shearModulus), std::pair("criticalStateRatio", &MpmCamClayMat::criticalStateRatio));
+        [](const MpmCamClayMat& m) {
+	        return gimpm::CamClay(m.shearModulus, m.criticalStateRatio, m.compressionIndex, m.swellingIndex, m.preconsolidation, m.referencePressure);
+        },
+        std::pair("shearModulus", &MpmCamClayMat::shearModulus), std::pair("criticalStateRatio", &MpmCamClayMat::criticalStateRatio));
 } // namespace yade
 
 BOOST_CLASS_EXPORT_IMPLEMENT(yade::MpmCamClayMat)

@@ -6,14 +6,14 @@
 
 namespace yade {
 static const RegisteredLaw<MpmDruckerPragerMat> lawOfMpmDruckerPragerMat(
-	[](const MpmDruckerPragerMat& m) {
-		        using Cone       = gimpm::DruckerPragerCone;
-		        const auto match = m.match == "compression" ? Cone::compression : m.match == "extension" ? Cone::extension : Cone::planeStrain;
-		        return gimpm::DruckerPrager(m.young, m.poisson, match(m.cohesion, m.frictionAngle, m.dilationAngle), m.tensileStrength);
-	        },
-	        std::pair("young", &MpmElasticMat::young), std::pair("cohesion", &MpmFrictionalMat::cohesion),
-	        std::pair("frictionAngle", &MpmFrictionalMat::frictionAngle), std::pair("dilationAngle", &MpmFrictionalMat::dilationAngle),
-	        std::pair("tensileStrength", &MpmFrictionalMat::tensileStrength));
+        [](const MpmDruckerPragerMat& m) {
+	        using Cone       = gimpm::DruckerPragerCone;
+	        const auto match = m.match == "compression" ? Cone::compression : m.match == "extension" ? Cone::extension : Cone::planeStrain;
+	        return gimpm::DruckerPrager(m.young, m.poisson, match(m.cohesion, m.frictionAngle, m.dilationAngle), m.tensileStrength);
+        },
+        std::pair("young", &MpmElasticMat::young), std::pair("cohesion", &MpmFrictionalMat::cohesion),
+        std::pair("frictionAngle", &MpmFrictionalMat::frictionAngle), std::pair("dilationAngle", &MpmFrictionalMat::dilationAngle),
+        std::pair("tensileStrength", &MpmFrictionalMat::tensileStrength));
 } // namespace yade
 
 BOOST_CLASS_EXPORT_IMPLEMENT(yade::MpmDruckerPragerMat)

@@ -6,7 +6,7 @@
 
 namespace yade {
 static const RegisteredLaw<MpmElasticMat> lawOfMpmElasticMat(
-	[](const MpmElasticMat& m) { return gimpm::Hencky(m.young, m.poisson); }, std::pair("young", &MpmElasticMat::young));
+        [](const MpmElasticMat& m) { return gimpm::Hencky(m.young, m.poisson); }, std::pair("young", &MpmElasticMat::young));
 } // namespace yade
 
 BOOST_CLASS_EXPORT_IMPLEMENT(yade::MpmElasticMat)

@@ -6,12 +6,10 @@
 
 namespace yade {
 static const RegisteredLaw<MpmMohrCoulombMat> lawOfMpmMohrCoulombMat(
-	[](const MpmMohrCoulombMat& m) {
-		        return gimpm::MohrCoulomb(m.young, m.poisson, m.cohesion, m.frictionAngle, m.dilationAngle, m.tensileStrength);
-	        },
-	        std::pair("young", &MpmElasticMat::young), std::pair("cohesion", &MpmFrictionalMat::cohesion),
-	        std::pair("frictionAngle", &MpmFrictionalMat::frictionAngle), std::pair("dilationAngle", &MpmFrictionalMat::dilationAngle),
-	        std::pair("tensileStrength", &MpmFrictionalMat::tensileStrength));
+        [](const MpmMohrCoulombMat& m) { return gimpm::MohrCoulomb(m.young, m.poisson, m.cohesion, m.frictionAngle, m.dilationAngle, m.tensileStrength); },
+        std::pair("young", &MpmElasticMat::young), std::pair("cohesion", &MpmFrictionalMat::cohesion),
+        std::pair("frictionAngle", &MpmFrictionalMat::frictionAngle), std::pair("dilationAngle", &MpmFrictionalMat::dilationAngle),
+        std::pair("tensileStrength", &MpmFrictionalMat::tensileStrength));
 } // namespace yade
 
 BOOST_CLASS_EXPORT_IMPLEMENT(yade::MpmMohrCoulombMat)

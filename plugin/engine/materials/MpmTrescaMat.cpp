@@ -6,8 +6,8 @@
 
 namespace yade {
 static const RegisteredLaw<MpmTrescaMat> lawOfMpmTrescaMat(
-	[](const MpmTrescaMat& m) { return gimpm::MohrCoulomb::tresca(m.young, m.poisson, m.undrainedStrength); },
-	        std::pair("young", &MpmElasticMat::young), std::pair("undrainedStrength", &MpmTrescaMat::undrainedStrength));
+        [](const MpmTrescaMat& m) { return gimpm::MohrCoulomb::tresca(m.young, m.poisson, m.undrainedStrength); }, std::pair("young", &MpmElasticMat::young),
+        std::pair("undrainedStrength", &MpmTrescaMat::undrainedStrength));
 } // namespace yade
 
 BOOST_CLASS_EXPORT_IMPLEMENT(yade::MpmTrescaMat)

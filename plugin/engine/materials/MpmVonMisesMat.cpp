@@ -26,9 +26,9 @@ void MpmVonMisesMat::requireAdmissible() const
 
 namespace yade {
 static const RegisteredLaw<MpmVonMisesMat> lawOfMpmVonMisesMat(
-	[](const MpmVonMisesMat& m) { return gimpm::VonMises(m.young, m.poisson, m.yieldStress, m.hardening, m.residualYieldStress); },
-	        std::pair("young", &MpmElasticMat::young), std::pair("yieldStress", &MpmVonMisesMat::yieldStress),
-	        std::pair("hardening", &MpmVonMisesMat::hardening), std::pair("residualYieldStress", &MpmVonMisesMat::residualYieldStress));
+        [](const MpmVonMisesMat& m) { return gimpm::VonMises(m.young, m.poisson, m.yieldStress, m.hardening, m.residualYieldStress); },
+        std::pair("young", &MpmElasticMat::young), std::pair("yieldStress", &MpmVonMisesMat::yieldStress), std::pair("hardening", &MpmVonMisesMat::hardening),
+        std::pair("residualYieldStress", &MpmVonMisesMat::residualYieldStress));
 } // namespace yade
 
 BOOST_CLASS_EXPORT_IMPLEMENT(yade::MpmVonMisesMat)

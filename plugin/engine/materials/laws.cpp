@@ -104,8 +104,8 @@ namespace {
 		if (isKept((answer.elasticStrain - strain).norm(), strain.norm())) return answer;
 		std::ostringstream text;
 		text << "the material yields under the elastic strain (" << gimpm::SymTensor<3>::from(strain).c.transpose()
-		     << ") along xx, yy, zz, xy, yz, zx: it can carry no more than the Kirchhoff stress (" << gimpm::SymTensor<3>::from(answer.stress).c.transpose()
-		     << ") Pa.";
+		     << ") along xx, yy, zz, xy, yz, zx: it can carry no more than the Kirchhoff stress ("
+		     << gimpm::SymTensor<3>::from(answer.stress).c.transpose() << ") Pa.";
 		throw std::invalid_argument(text.str());
 	}
 

@@ -42,10 +42,7 @@ namespace {
 		constexpr Real softest = 1e5, ofGround = 500, softestGround = 2e5, stiffestGround = 1e11; // Pa, kg/m3, Pa
 		if (material.density <= ofGround) return "";
 		for (const auto& [name, value] : material.moduli())
-			if (value < softest)
-				return sentence(
-				        name, " = ", value, ", in Pa",
-				        meant(value, unitsOfStress, softestGround, stiffestGround, "Pa"));
+			if (value < softest) return sentence(name, " = ", value, ", in Pa", meant(value, unitsOfStress, softestGround, stiffestGround, "Pa"));
 		return "";
 	}
 
@@ -56,8 +53,7 @@ namespace {
 		for (const auto& [name, value] : material.strengths())
 			if (value < least * stress)
 				return sentence(
-				        name, " = ", value, ", in Pa, which is ", value / stress,
-				        " times the stress that its weight gives, ", stress, " Pa",
+				        name, " = ", value, ", in Pa, which is ", value / stress, " times the stress that its weight gives, ", stress, " Pa",
 				        meant(value, unitsOfStress, leastMeant * stress, mostMeant * stress, "Pa"));
 		return "";
 	}
