@@ -64,6 +64,24 @@ template <int Dim, int Axes> GIMPM_INLINE Increment<Dim, Axes> seenByLaws(const 
 	return FBarIncrement<Dim, Axes>(chunk, b).seen;
 }
 
+template <std::size_t Count> GIMPM_INLINE std::array<double, Count> inLane(const std::array<Lanes, Count>& values, int lane)
+{
+	std::array<double, Count> one;
+	for (std::size_t k = 0; k < Count; ++k)
+		one[k] = values[k][lane];
+	return one;
+}
+
+/// The update of point i, in the order of the basis, which is that of its tensor law if it has one.
+template <int Dim, int Axes>
+GIMPM_INLINE void handOn(
+        const StepPoints<Dim>& points, const std::vector<Material>& materials, int i, const Increment<Dim, Axes>& seen, int lane, const PointUpdate<Dim>& u,
+        const std::vector<int>& order, const Visitor<Dim>& visitor)
+{
+	if (points.hasTensorLaws && u.law->isTensorLaw) return visitWithTensors<Dim>(points, materials, i, gradientOf(seen, lane), u, order, visitor);
+	visitor.call(visitor.f, order[i], u);
+}
+
 /// For the points of the patches [first, last).
 template <class ChunkOfPoints, int Dim>
 void visitPatches(
@@ -92,21 +110,15 @@ void visitPatches(
 			const auto               elasticStrain = assemble<Lanes, Dim>(response.law.elasticStrain, response.trial.axes);
 			const auto               stress        = assemble<Lanes, Dim>(response.law.stress, response.trial.axes);
 			for (int lane = 0, q = b * Lanes::count; lane < Lanes::count && q < chunk.count; ++lane, ++q) {
-				const auto                                                  one = [lane](const Lanes& x) { return x[lane]; };
-				const Law&                                                  law = materials[points.material[chunk.first + q]].law;
-				std::array<double, LawTraits<PrincipalLaws>::mostVariables> internals;
-				for (std::size_t k = 0; k < internals.size(); ++k)
-					internals[k] = response.law.internals[k][lane];
+				const auto       one       = [lane](const Lanes& x) { return x[lane]; };
+				const Law&       law       = materials[points.material[chunk.first + q]].law;
+				const auto       internals = inLane(response.law.internals, lane);
 				PointUpdate<Dim> u {
 					displacement[q], gradient.unaryExpr(one), { elasticStrain.c.unaryExpr(one) }, { stress.c.unaryExpr(one) }, law,
 					internals.data()
 				};
 				if constexpr (Axes > Dim) u.hoop = hoop[lane];
-				if (points.hasTensorLaws && law->isTensorLaw) {
-					visitWithTensors<Dim>(points, materials, chunk.first + q, gradientOf(seen, lane), u, basis.order, visitor);
-					continue;
-				}
-				visitor.call(visitor.f, basis.order[chunk.first + q], u);
+				handOn(points, materials, chunk.first + q, seen, lane, u, basis.order, visitor);
 			}
 		}
 	});
