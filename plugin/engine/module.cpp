@@ -27,6 +27,9 @@ void defineHelpers()
 	py::def("assignColumns", &assignColumns, "For mpm.assign: values of the material points with these body ids, from a dict of arrays; all or none.");
 	py::def("respond", &respondForPython,
 	        "For mpm.respond: one call of the law of a material in principal axes, from trial strains and a dict of internal variables.");
+	py::def(
+	        "isElastic", +[](const shared_ptr<MpmMaterial>& material) { return isElastic(*material); },
+	        "For mpm.advise: whether the law of a material knows no flow.");
 	py::def("hasTensorLaw", &hasTensorLaw, "For mpm.respond: whether the law of a material is asked in space.");
 	py::def("respondInSpace", &respondInSpaceForPython,
 	        "For mpm.respond: one call of a tensor law, from a trial strain, internal variables and a step of time.");

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Laws that need more than the principal values of the trial strain: that remember vectors or tensors, as a back stress
 // or a fabric, that depend on the step of time, or whose stress has other axes than the strain. They answer one point
-// at a time, and cost several times as much as principal laws.
+// at a time, and cost many times as much as principal laws.
 //
 // Such a law is a class from TensorLaw, in whatever library: it is in no table. It has the members of
 // core/materials/required_members.hpp and of hasTensorMembers(). Everything it is given, and answers, is seen by

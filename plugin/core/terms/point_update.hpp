@@ -8,9 +8,8 @@ namespace gimpm {
 
 /// State of one point for displacements d.
 template <int Dim> struct PointUpdate {
-	Vec<Dim> displacement;
-	/// Of the increment, with respect to the configuration at the start of the step.
-	Mat<Dim>       gradient;
+	Vec<Dim>       displacement;
+	Mat<Dim>       gradient; ///< of the increment, with respect to the configuration at the start of the step
 	SymTensor<Dim> elasticStrain, kirchhoffStress;
 	const Law&     law;
 	const double*  internals; ///< in the order of the law

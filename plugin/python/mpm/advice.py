@@ -72,7 +72,7 @@ class _Scene:
 		self.velocity = data['velocity']
 		self.low, self.high = data['pos'].min(axis=0) - data['halfSize'].min(axis=0), data['pos'].max(axis=0) + data['halfSize'].min(axis=0)
 		self.pointsPerCell = (self.points / self.work['activeCells'])**(1 / self.dim)
-		self.plastic = any(type(material) is not wrapper.MpmElasticMat for material in self.materials)
+		self.plastic = not all(_engine.isElastic(material) for material in self.materials)
 		self.left = max(0, solver.loadsEnd() - wrapper.Omega().time)
 		self.steps = self.runsOf(solver)
 		self.recorders = [e for e in wrapper.Omega().engines if isinstance(e, wrapper.MpmVtkRecorder) and not e.dead and e.solver in ('', solver.label)]
@@ -98,21 +98,21 @@ class _Scene:
 
 	def difference(self, material):
 		"""A difference of principal stresses at which it does not yield yet; 0 of elastic materials and of those whose strength goes with the pressure."""
-		if isinstance(material, wrapper.MpmVonMisesMat): return np.min(self.own('yieldStress', material))
-		return 2 * np.min(self.own('undrainedStrength', material)) if isinstance(material, wrapper.MpmTrescaMat) else 0
+		if hasattr(material, 'yieldStress'): return np.min(self.own('yieldStress', material))
+		return 2 * np.min(self.own('undrainedStrength', material)) if hasattr(material, 'undrainedStrength') else 0
 
 	def keepVolume(self):
 		"""Labels of materials that keep their volume, nearly, as a whole or in plastic flow."""
 
 		def keeps(material):
-			if isinstance(material, (wrapper.MpmVonMisesMat, wrapper.MpmTrescaMat)) or getattr(material, 'poisson', 0) > 0.45: return True
-			if not isinstance(material, wrapper.MpmFrictionalMat): return False
+			if hasattr(material, 'yieldStress') or hasattr(material, 'undrainedStrength') or getattr(material, 'poisson', 0) > 0.45: return True
+			if not hasattr(material, 'frictionAngle'): return False
 			return np.any(self.own('dilationAngle', material) <= _littleDilation * self.own('frictionAngle', material))
 
 		return [m.label or 'a material without label' for m in self.materials if keeps(m)]
 
 	def contrast(self):
-		own = [self.own('young', material) for material in self.materials if isinstance(material, wrapper.MpmElasticMat)] # that of the others varies
+		own = [self.own('young', material) for material in self.materials if hasattr(material, 'young')] # that of the others varies
 		return max(map(np.max, own)) / min(map(np.min, own)) if own else 1
 
 	def uniformAlongZ(self):

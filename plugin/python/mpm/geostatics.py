@@ -111,7 +111,7 @@ def _history(K0, OCR, points, materials, number, pressure, depth):
 		sine = _sineOfFriction(material, points, rows)
 		ratio = _ratio(K0, material, sine, history)
 		horizontal[rows] = ratio * pressure[rows]
-		if OCR is not None and isinstance(material, wrapper.MpmCamClayMat): past[rows] = _preconsolidation(parameter('criticalStateRatio', material, points, rows), sine, pressure[rows], ratio, history)
+		if OCR is not None and hasattr(material, 'criticalStateRatio'): past[rows] = _preconsolidation(parameter('criticalStateRatio', material, points, rows), sine, pressure[rows], ratio, history)
 	return horizontal, past
 
 
@@ -174,10 +174,10 @@ def _overconsolidation(OCR, material, depth):
 
 def _sineOfFriction(material, points, rows):
 	"""Of Cam clay: that of triaxial compression. None without friction."""
-	if isinstance(material, wrapper.MpmCamClayMat):
+	if hasattr(material, 'criticalStateRatio'):
 		ratio = parameter('criticalStateRatio', material, points, rows)
 		return 3 * ratio / (6 + ratio)
-	return np.sin(parameter('frictionAngle', material, points, rows)) if isinstance(material, wrapper.MpmFrictionalMat) else None
+	return np.sin(parameter('frictionAngle', material, points, rows)) if hasattr(material, 'frictionAngle') else None
 
 
 def _ratio(K0, material, sine, history):

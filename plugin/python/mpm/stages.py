@@ -193,7 +193,7 @@ def _twin(material, label, ids, **changes):
 
 def _soft(material, label, ids):
 	"""The same of an elastic one with a part of the stiffness, without memory and strengths of its own."""
-	young, poisson = (3 * material.shearModulus, 0.3) if isinstance(material, wrapper.MpmCamClayMat) else (material.young, material.poisson)
+	young, poisson = (material.young, material.poisson) if hasattr(material, 'young') else (3 * material.shearModulus, 0.3)
 	soft = wrapper.MpmElasticMat(young=_softness * young, poisson=poisson, density=material.density)
 	for body in _here(ids):
 		if body.material == material: body.state.internals, body.state.parameters, body.state.plasticStrain = [], [], 0

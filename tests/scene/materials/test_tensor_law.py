@@ -2,12 +2,14 @@
 """A law with tensors, and its class of materials, that the plugin does not have: tests/law is linked to it, and nothing else."""
 import json
 import os
+import re
 import shutil
+import subprocess
 from pathlib import Path
 
 import numpy as np
 import pytest
-from conftest import Yade, build
+from conftest import Yade, build, root
 
 library = build / 'tests' / 'engine_with_law' / 'mpm_engine.so'
 
@@ -238,3 +240,13 @@ print(json.dumps([curve['stress'][:, 0, 1].tolist(), curve['backStressXY'].tolis
 	K, deviator = 2.6e9 / 1.2, 2e9 * (2 / 3)**.5 * strain
 	s = deviator - 2e9 * np.maximum(0, deviator - 1e3) / 2.3e9
 	assert np.abs(axial + K * strain + (2 / 3)**.5 * s).max() < .1
+
+
+@pytest.mark.parametrize('member', ['isElastic', 'isSymmetric', 'young', 'weakened'])
+def test_what_is_forgotten_is_named_by_the_compiler(tmp_path, member):
+	text = (root / 'tests/law/kinematic_hardening.hpp').read_text()
+	(tmp_path / 'law.hpp').write_text(re.sub(rf'(?<!\.)\b{member}\b(?=\(\w* ?\w*|\(const| = )', 'other', text, count=1))
+	(tmp_path / 'law.cpp').write_text('#include "law.hpp"\ngimpm::Law law = gimpm::KinematicHardening(1, .3, 1, 1);\n')
+	command = ['g++', '-std=c++17', '-fsyntax-only', '-I', root / 'plugin', '-I', '/usr/include/eigen3', 'law.cpp']
+	ended = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True)
+	assert ended.returncode and re.search(rf'static assertion failed: the (tensor )?law has no `[^`]*\b{member}\b', ended.stderr), ended.stderr[:2000]
