@@ -228,6 +228,36 @@ with open(f'process{rank}of{processes.count}.json', 'w') as file:
 		assert np.abs(np.load(run.folder / 'pos.npy') - alone[4]).max() < 1e-8, count
 
 
+def test_whatever_stops_one_process_in_adding_points_stops_all(yade):
+	"""Also what is no refusal: the material of a point that only one of them has is not in the list. The scene is as it was, and goes on."""
+	run = yade(
+	        setting + '''
+from yade.mpm.filling import _points
+from yade.mpm.library import engine
+O.materials.append(MpmElasticMat(young=1e6, poisson=.3, density=2000, label='soil'))
+solver = MpmImplicitEngine(grid=MpmGrid(cellSize=1), boundaries=[MpmBoundary(max=(inf, 0, inf), fix='xy')], distributed=True, verbosity=0)
+O.engines, O.dt, said = [solver], 1, []
+points = _points(pack.inAlignedBox((0, 0, -1), (20, 4, 1)), solver.grid, 2, 'soil', {})
+for wrong in 0, -1:
+	index = points[3].copy()
+	index[wrong] = 7
+	try:
+		engine.addPoints(solver, *points[:3], index, {})
+	except Exception as error:
+		said.append(type(error).__name__)
+bodies = len(O.bodies)
+engine.addPoints(solver, *points)
+O.run(1, wait=True)
+with open(f'process{rank}.json', 'w') as file:
+	json.dump([said, bodies, len(mpm.arrays()['id'])], file)
+''',
+	        processes=2
+	)
+	first, second = (json.loads((run.folder / f'process{rank}.json').read_text()) for rank in range(2))
+	assert first[1:] == second[1:] == [0, 320]
+	assert len(first[0]) == len(second[0]) == 2
+
+
 def test_another_engine_goes_on_with_points_in_pieces(yade):
 	"""Inertia after a static stage, also when the scene has been saved in between; an engine that is to hold all points is refused."""
 	stages = setting + """
