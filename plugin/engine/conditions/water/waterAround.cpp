@@ -26,7 +26,7 @@ namespace {
 		for (const Listed& listed : engine.conditions())
 			if (dynamic_cast<const MpmWater*>(listed.condition.get())) all.push_back(listed);
 		Waters<Dim> waters(all);
-		waters.take(engine, grid, cloud);
+		waters.take(engine, grid, cloud, {});
 		waters.advance(engine.ownScene()->time, engine.ownScene()->time);
 		vector<vector<Real>> pressures(all.size()), gradients(all.size());
 		for (size_t p = 0; p < cloud.position.size(); ++p) {
