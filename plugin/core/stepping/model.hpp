@@ -39,6 +39,11 @@ template <int Dim> struct InPlace {
 	std::function<void(const PointCloud<Dim>&)>               goOn;  ///< after a step, the points are back where they were
 };
 
+template <int Dim> class Inertia;
+
+/// Makes inertia for a step, in which it is the last of the terms.
+template <int Dim> using InertiaOfStep = std::function<std::unique_ptr<Inertia<Dim>>(const Beginning<Dim>&)>;
+
 template <int Dim> struct Model {
 	Grid<Dim>             grid;
 	Basis                 basis = Basis::gimp;
@@ -51,6 +56,7 @@ template <int Dim> struct Model {
 	GhostSettings                             ghost;
 	NewtonSettings                            newton;
 	std::vector<TermOfStep<Dim>>              terms {};         ///< besides the points' resistance and the ghost stabilisation
+	InertiaOfStep<Dim>                        inertia {};       ///< of steps in time; null: those without
 	std::vector<NodalField<Dim>>              fields {};        ///< besides the displacements
 	std::vector<CoupledTermOfStep<Dim>>       coupledTerms {};  ///< of all fields, and of nodes that are apart
 	std::vector<InPlace<Dim>>                 inPlace {};       ///< of those of the terms that need it
