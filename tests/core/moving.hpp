@@ -23,8 +23,7 @@ template <int Dim> struct Moving {
 		model.newton.tolerance = 1e-9;
 		model.atMiddle         = scheme.atMiddle;
 		motion->scheme         = scheme;
-		if (!scheme.isExplicit)
-			model.terms = { [motion = motion](const Beginning<Dim>& step) { return std::make_unique<Inertia<Dim>>(*motion, step); } };
+		if (!scheme.isExplicit) model.inertia = [motion = motion](const Beginning<Dim>& step) { return std::make_unique<Inertia<Dim>>(*motion, step); };
 	}
 	/// Points with the velocity(position).
 	template <class F> void put(PointCloud<Dim> points, F&& velocity)

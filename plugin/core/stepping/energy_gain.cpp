@@ -68,8 +68,7 @@ template <int Dim> EnergyGain energyGain(const StepSystem<Dim>& system, const Po
 	const std::size_t count = model.division->ownOf(before.size());
 	EnergyGain        sum   = sumOf(count, [&](std::size_t p) { return gainOf(before, after, p, isHencky[before.material[p]]); });
 	sum                     = { model.division->sum(sum.gain), model.division->sum(sum.inPlay) };
-	for (const auto& term : system.terms)
-		if (const auto* inertia = dynamic_cast<const Inertia<Dim>*>(term.get())) sum.inPlay += inertia->kineticEnergy();
+	if (system.inertia) sum.inPlay += system.inertia->kineticEnergy();
 	return sum;
 }
 

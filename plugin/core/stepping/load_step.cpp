@@ -76,7 +76,7 @@ template <int Dim> StepReport loadStep(PointCloud<Dim>& cloud, const Model<Dim>&
 	const Eigen::VectorXd prediction = predicts ? predictionFor(system, *last, load.growth()) : Eigen::VectorXd();
 	const Eigen::VectorXd growth     = equilibrium(system, solver, report, prediction);
 	const Eigen::VectorXd d          = system.map.displacements(growth);
-	if (!model.terms.empty() || system.isCoupled()) explain(system, d, report);
+	if (!model.terms.empty() || system.hasInertia() || system.isCoupled()) explain(system, d, report);
 	if (report.converged() && prediction.size() > 0 && std::isfinite(model.newton.stepTolerance)) {
 		const Stopwatch watch(report.times.update);
 		judge(rateChange(system, *last, load.growth(), prediction, d), report);
@@ -86,8 +86,7 @@ template <int Dim> StepReport loadStep(PointCloud<Dim>& cloud, const Model<Dim>&
 	// 5. nodes to points; 6. the grid is reset by not being kept
 	report.accepted = report.failure == Failure::tooManyIterations && model.newton.acceptUnconverged;
 	if ((report.converged() || report.accepted) && accept(system, cloud, load, growth, report)) {
-		for (const auto& term : system.terms)
-			if (const auto* inertia = dynamic_cast<const Inertia<Dim>*>(term.get())) addInertiaBeyondWalls(system, inertia->motion(), report);
+		if (system.inertia) addInertiaBeyondWalls(system, system.inertia->motion(), report);
 		if (last) *last = incrementOf(system, d, load.growth());
 	}
 	return report;

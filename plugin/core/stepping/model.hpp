@@ -45,6 +45,11 @@ template <int Dim> struct InPlace {
 	std::function<void(const PointCloud<Dim>&)> goOn;
 };
 
+template <int Dim> class Inertia;
+
+/// Makes inertia for a step, in which it is the last of the terms.
+template <int Dim> using InertiaOfStep = std::function<std::unique_ptr<Inertia<Dim>>(const Beginning<Dim>&)>;
+
 template <int Dim> struct Model {
 	Grid<Dim> grid;
 	Basis     basis = Basis::gimp;
@@ -63,6 +68,7 @@ template <int Dim> struct Model {
 	/// Besides the points' resistance and the ghost stabilisation.
 	std::vector<TermOfStep<Dim>> terms {};
 	/// Besides the displacements.
+	InertiaOfStep<Dim>           inertia {}; ///< of steps in time; null: those without
 	std::vector<NodalField<Dim>> fields {};
 	/// Of all fields, and of nodes that are apart.
 	std::vector<CoupledTermOfStep<Dim>> coupledTerms {};

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "core/stepping/outcome.hpp"
 #include "core/base/sentence.hpp"
+#include "core/terms/inertia.hpp"
 
 namespace gimpm {
 
@@ -46,11 +47,9 @@ std::string causeOfDivergence(double correction)
 template <int Dim> bool isObstructed(const StepSystem<Dim>& system, StepReport& report)
 {
 	if (const std::string obstacle = system.obstacle(); !obstacle.empty()) return fail(report, Failure::misplaced, obstacle);
-	for (const auto& term : system.terms) {
+	for (const auto& term : system.terms)
 		if (const std::string obstacle = term->obstacle(); !obstacle.empty()) return fail(report, Failure::misplaced, obstacle);
-		if (term->isSingular()) return fail(report, Failure::singular, "the mass matrix is singular to working precision");
-	}
-	return false;
+	return system.inertia && system.inertia->isSingular() && fail(report, Failure::singular, "the mass matrix is singular to working precision");
 }
 
 template <int Dim> bool tangent(const StepSystem<Dim>& system, NodeMatrix<Dim>& K, Couplings& beside, StepReport& report)

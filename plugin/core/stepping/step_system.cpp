@@ -3,6 +3,7 @@
 #include "core/base/stopwatch.hpp"
 #include "core/grid/mixed_cells.hpp"
 #include "core/terms/at_middle.hpp"
+#include "core/terms/inertia.hpp"
 #include <algorithm>
 
 namespace gimpm {
@@ -156,8 +157,11 @@ template <int Dim> void StepSystem<Dim>::makeTerms(const Load<Dim>& load)
 	}
 	for (const auto& make : model.terms)
 		terms.push_back(make(beginning()));
-	for (const auto& term : terms)
-		if (const auto d = term->ownMotion(); d.size() > 0) ownMotion = prescribed, map.of(0, ownMotion) = d;
+	if (!model.inertia) return;
+	auto made = model.inertia(beginning());
+	ownMotion = prescribed, map.of(0, ownMotion) = made->ownMotion();
+	inertia = made.get();
+	terms.push_back(std::move(made));
 }
 
 template <int Dim> std::string StepSystem<Dim>::obstacle() const
@@ -261,8 +265,7 @@ template <int Dim> Eigen::VectorXd StepSystem<Dim>::roundOff(const Eigen::Vector
 {
 	const Eigen::VectorXd displacements = map.displacements(d);
 	Eigen::VectorXd       sizes         = Eigen::VectorXd::Zero(nodalSize());
-	for (const auto& term : terms)
-		term->addRoundOff(displacements, sizes);
+	if (inertia) inertia->addRoundOff(displacements, sizes);
 	if (isCoupled()) {
 		auto blocks = map.zeros();
 		blocks[0]   = sizes;

@@ -22,7 +22,8 @@ template <int Dim> struct StepSystem {
 	CloudBasis<Dim>             basis;
 	StepPoints<Dim>             points;
 	std::vector<GhostFace<Dim>> faces;
-	Terms<Dim>                  terms; ///< whose sum balances the external forces
+	Terms<Dim>                  terms;             ///< whose sum balances the external forces
+	const Inertia<Dim>*         inertia = nullptr; ///< the last of them, in a step in time
 	/// Vectors have a block for each field, and first that of the displacements: Dim components a node.
 	DofMap                 map;
 	Constraints            constraints;
@@ -69,7 +70,7 @@ template <int Dim> struct StepSystem {
 	/// Whether this process is the one that counts the points of the patch, of those that have them.
 	bool counts(const Patch<Dim>& patch) const { return model.division->owns(patch.cell); }
 
-	bool hasInertia() const { return ownMotion.size() > 0; }
+	bool hasInertia() const { return inertia != nullptr; }
 	/// Nodes that are apart, or several fields.
 	bool isCoupled() const { return !coupled_.empty() || !map.isAlone(); }
 

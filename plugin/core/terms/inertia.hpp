@@ -21,13 +21,19 @@ public:
 	void                        addBefore(Eigen::VectorXd&) const override { }
 	bool                        isSymmetric() const override;
 	std::string                 obstacle() const override;
-	bool                        isSingular() const override { return isSingular_; }
 	double                      fromOutside(const Eigen::VectorXd& d) const override;
-	void                        addRoundOff(const Eigen::VectorXd& d, Eigen::VectorXd& sizes) const override;
-	Eigen::VectorXd             ownMotion() const override;
 	void                        restrain(const typename Term<Dim>::Hold&) const override;
 	LocalError                  localError(const Eigen::VectorXd& d) const override;
 	void                        commit(const Eigen::VectorXd& d) override;
+
+	/// Whether the mass matrix is singular to working precision.
+	bool isSingular() const { return isSingular_; }
+
+	/// Displacements by which the body goes on by itself, with the prescribed ones.
+	Eigen::VectorXd ownMotion() const;
+
+	/// Adds what round-off of d leaves of its force, which is more than round-off of strains does [N].
+	void addRoundOff(const Eigen::VectorXd& d, Eigen::VectorXd& sizes) const;
 
 	const Motion<Dim>& motion() const { return motion_; }
 	double             kineticEnergy() const; ///< of the points as the step begins, of all processes [J]

@@ -68,18 +68,9 @@ public:
 	/// Why the step cannot be made with it, a clause; empty if it can.
 	virtual std::string obstacle() const { return {}; }
 
-	/// Whether something that it had to solve is singular.
-	virtual bool isSingular() const { return false; }
-
 	/// Forces from outside among those it adds at d, as those of a support [N], for what the residual is compared
 	/// with; 0 for forces within the body.
 	virtual double fromOutside(const Eigen::VectorXd&) const { return 0; }
-
-	/// Adds what round-off of d leaves of its force, where that is more than round-off of strains does [N].
-	virtual void addRoundOff(const Eigen::VectorXd&, Eigen::VectorXd&) const { }
-
-	/// Displacements by which the body goes on by itself, with the prescribed ones; empty where it does not.
-	virtual Eigen::VectorXd ownMotion() const { return {}; }
 
 	/// Calls hold(node, direction, place) for what keeps the body from moving there, however softly; the place is
 	/// given from the node on [cells].

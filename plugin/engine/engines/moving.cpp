@@ -45,7 +45,7 @@ Moving<Dim>::Moving(MpmDynamicEngine& e, Job<Dim>& job, const vector<MaterialPoi
 		condition->joinMotion(*motion, job.model, job.begin);
 	job.model.atMiddle = motion->scheme.atMiddle;
 	if (!engine.isExplicit())
-		job.model.terms.push_back([known = motion](const gimpm::Beginning<Dim>& step) { return std::make_unique<gimpm::Inertia<Dim>>(*known, step); });
+		job.model.inertia = [known = motion](const gimpm::Beginning<Dim>& step) { return std::make_unique<gimpm::Inertia<Dim>>(*known, step); };
 }
 
 template <int Dim> void Moving<Dim>::joinRayleigh(const Job<Dim>& job)

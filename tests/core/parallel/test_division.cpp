@@ -134,7 +134,7 @@ namespace {
 			motion.damping = { [&](const Beginning<Dim>& step) {
 				return std::make_unique<RayleighDamping<Dim>>(rayleigh, model.materials, false, motion.mass, step);
 			} };
-			model.terms = { [&](const Beginning<Dim>& step) { return std::make_unique<Inertia<Dim>>(motion, step); } };
+			model.inertia = [&](const Beginning<Dim>& step) { return std::make_unique<Inertia<Dim>>(motion, step); };
 			StepReport            report;
 			const StepSystem<Dim> system(cloud, model, { Vec<Dim>::Unit(0), { 1, 0 } }, report);
 			EXPECT_FALSE(system.evaluate(d, force, nullptr));
