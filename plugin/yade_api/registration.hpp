@@ -50,8 +50,9 @@ template <class D, class B> void Exposed<D, B>::requireAdmissible() const
 	// Every material point is asked at the beginning of every step: here without the table, which is asked for the
 	// message.
 	bool areAdmitted = true;
-	D::attributes(
-	        [&](const char*, auto member, unsigned, const char*, auto... validator) { areAdmitted = areAdmitted && (validator(self().*member) && ...); });
+	D::attributes([&](const char*, [[maybe_unused]] auto member, unsigned, const char*, auto... validator) {
+		areAdmitted = areAdmitted && (validator(self().*member) && ...);
+	});
 	if (!areAdmitted) table().requireAdmitted(self());
 }
 
