@@ -127,7 +127,7 @@ namespace {
 			ground.model.newton.tolerance = 1e-13;
 			ground.holdBase();
 			auto still  = ground.model;
-			still.terms = {}, still.atMiddle = false;
+			still.terms = {}, still.inertia = nullptr, still.atMiddle = false;
 			LinearSolver solver;
 			for (const double growth : { 1, 0, 0, 0, 0 })
 				ASSERT_TRUE(loadStep(ground.cloud, still, { ground.gravity, { 1, growth } }, solver).converged());
