@@ -3,7 +3,7 @@
 // or a fabric, that depend on the step of time, or whose stress has other axes than the strain. They answer one point
 // at a time, and cost many times as much as principal laws.
 //
-// Such a law is a class from TensorLaw, in whatever library: it is in no table. It has the members of
+// Such a law is a class from TensorLaw, which is in no table. It has the members of
 // core/materials/required_members.hpp and of hasTensorMembers(). Everything it is given, and answers, is seen by
 // somebody who turns with the material in the step, so that there are no rotations in it: with the deformation gradient
 // F = R U of the step, of which R is a rotation, strains, stresses and tensors are those turned back by R. What it

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-// Pairs a class of materials with its constitutive law, in the file that registers the class: a law and its class may
-// be in any library that YADE opens.
+// Pairs a class of materials with its constitutive law, in the file that registers the class. No other file of the
+// plugin has to know of them: it is enough that they are linked into it.
 #include "core/materials/material.hpp"
 #include "core/materials/required_members.hpp"
 #include "engine/materials/parameters.hpp"
