@@ -187,7 +187,7 @@ def test_what_looks_at_all_loads_takes_it(yade):
 solver, springs = block(dim=3, boundaries=[MpmBoundary(max=(inf, inf, 0), fix='z'), MpmBoundary(min=(-inf, -inf, 1), fix='z')])
 O.run(4, wait=True)
 advice = mpm.advise()
-dug = mpm.stages.excavate(lambda x: x[1] > 1.5)
+dug = mpm.stages.excavate(pack.inAlignedBox((-1, 1.5, -1), (9, 9, 9)))
 O.run(4, wait=True)
 print(json.dumps(dict(advice=str(advice), dug=dug, force=springs.resultant[1])))
 ''').result
