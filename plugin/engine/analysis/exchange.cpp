@@ -133,6 +133,20 @@ namespace {
 			cloud.internals[law->columns[k]][p] = point.internalOf(law, k);
 	}
 
+	// Component by component: a matrix that is made first and copied then takes far longer.
+	template <int Dim> void setFull(Matrix3r& m, const gimpm::SymTensor<Dim>& tensor)
+	{
+		const auto& c = tensor.c;
+		m(0, 0) = c[0], m(1, 1) = c[1];
+		if constexpr (Dim == 2) {
+			m(0, 1) = m(1, 0) = c[2], m(2, 2) = c[3];
+			m(0, 2) = m(2, 0) = m(1, 2) = m(2, 1) = 0;
+		} else {
+			m(2, 2) = c[2];
+			m(0, 1) = m(1, 0) = c[3], m(1, 2) = m(2, 1) = c[4], m(2, 0) = m(0, 2) = c[5];
+		}
+	}
+
 	// What a column of the core is of a point in YADE: take(point, model) is its value, give(point, value) puts
 	// what a step has made of it back.
 	template <class Cloud, class Values, class Take, class Give> struct Exchanged {
@@ -140,7 +154,7 @@ namespace {
 		Take           take;
 		Give           give;
 	};
-	template <class Cloud, class Values, class Take, class Give> auto exchanged(Values Cloud::*of, Take take, Give give)
+	template <class Cloud, class Values, class Take, class Give> constexpr auto exchanged(Values Cloud::*of, Take take, Give give)
 	{
 		return Exchanged<Cloud, Values, Take, Give> { of, take, give };
 	}
@@ -149,9 +163,9 @@ namespace {
 	constexpr auto stays = [](const MaterialPoint&, const auto&) {}; // as it is in YADE
 
 	// Columns that depend on materials and laws, which are gone through one after the other.
-	template <class Cloud, class Values> auto byMaterial(Values Cloud::*of) { return exchanged(of, Elsewhere(), Elsewhere()); }
+	template <class Cloud, class Values> constexpr auto byMaterial(Values Cloud::*of) { return exchanged(of, Elsewhere(), Elsewhere()); }
 
-	template <int Dim> auto pointLoad()
+	template <int Dim> constexpr auto pointLoad()
 	{
 		const auto take = [](const MaterialPoint& p, const gimpm::Model<Dim>&) {
 			return gimpm::Vec<Dim>(p.material->share * p.state->force.template head<Dim>());
@@ -162,7 +176,7 @@ namespace {
 	// All columns of the core: a new one does not compile until it is here. Plane strain leaves the components out
 	// of the plane alone, but for the zz component of strain and stress; axisymmetry has that of the deformation
 	// too.
-	template <int Dim> auto exchange()
+	template <int Dim> constexpr auto exchange()
 	{
 		using C      = gimpm::PointCloud<Dim>;
 		using Point  = const MaterialPoint&;
@@ -171,28 +185,28 @@ namespace {
 		using Tensor = gimpm::SymTensor<Dim>;
 		return std::make_tuple(
 		        exchanged(
-		                &C::position, [](Point p, Model) { return Vector(p.state->pos.template head<Dim>()); },
+		                &C::position, [](Point p, Model) { return p.state->pos.template head<Dim>(); },
 		                [](Point p, const Vector& x) { p.state->pos.template head<Dim>() = x; }),
 		        exchanged(
-		                &C::position0, [](Point p, Model) { return Vector(p.state->refPos.template head<Dim>()); }, stays),
+		                &C::position0, [](Point p, Model) { return p.state->refPos.template head<Dim>(); }, stays),
 		        exchanged(
 		                &C::halfSize, [](Point p, Model model) { return domainIn(model, p); },
 		                [](Point p, const Vector& x) { p.shape->halfSize.template head<Dim>() = x; }),
 		        exchanged(
-		                &C::halfSize0, [](Point p, Model) { return Vector(p.shape->halfSize0.template head<Dim>()); }, stays),
+		                &C::halfSize0, [](Point p, Model) { return p.shape->halfSize0.template head<Dim>(); }, stays),
 		        exchanged(
 		                &C::volume0, [](Point p, Model) { return p.state->volume0; }, stays),
 		        exchanged(
-		                &C::defGrad, [](Point p, Model) { return gimpm::Mat<Dim>(p.state->defGrad.template topLeftCorner<Dim, Dim>()); },
+		                &C::defGrad, [](Point p, Model) { return p.state->defGrad.template topLeftCorner<Dim, Dim>(); },
 		                [](Point p, const gimpm::Mat<Dim>& F) { p.state->defGrad.template topLeftCorner<Dim, Dim>() = F; }),
 		        exchanged(
 		                &C::hoopStretch, [](Point p, Model) { return p.state->defGrad(2, 2); }, &scatterAround),
 		        exchanged(
 		                &C::elasticStrain, [](Point p, Model) { return Tensor::from(p.state->elasticStrain); },
-		                [](Point p, const Tensor& e) { p.state->elasticStrain = e.full(); }),
+		                [](Point p, const Tensor& e) { setFull(p.state->elasticStrain, e); }),
 		        exchanged(
 		                &C::stress, [](Point p, Model) { return Tensor::from(p.state->stress); },
-		                [](Point p, const Tensor& s) { p.state->stress = s.full(); }),
+		                [](Point p, const Tensor& s) { setFull(p.state->stress, s); }),
 		        pointLoad<Dim>(), byMaterial(&C::material), byMaterial(&C::internals), byMaterial(&C::parameters));
 	}
 
@@ -207,11 +221,12 @@ namespace {
 	// Calls f(column of the cloud, its row of the table) for the columns that there are.
 	template <int Dim, class F> void forExchanged(gimpm::PointCloud<Dim>& cloud, F&& f)
 	{
-		const auto visit = [&](const auto& row) {
-			if constexpr (!std::is_same_v<decltype(row.take), Elsewhere>)
-				if (!(cloud.*row.of).empty()) f(cloud.*row.of, row);
+		static constexpr auto rows  = exchange<Dim>(); // made by the compiler, not for each point
+		const auto            visit = [&](const auto& row) {
+                        if constexpr (!std::is_same_v<decltype(row.take), Elsewhere>)
+                                if (!(cloud.*row.of).empty()) f(cloud.*row.of, row);
 		};
-		std::apply([&](const auto&... row) { (visit(row), ...); }, exchange<Dim>());
+		std::apply([&](const auto&... row) { (visit(row), ...); }, rows);
 	}
 
 	template <int Dim> bool hasMovingBox(const gimpm::Boundary<Dim>& boundary)

@@ -15,11 +15,11 @@ public:
 	Vector3r                        force         = Vector3r::Zero();
 	Real                            volume        = std::numeric_limits<Real>::quiet_NaN(); // must be given
 	Real                            volume0       = std::numeric_limits<Real>::quiet_NaN(); // must be given
+	Real                            porePressure  = std::numeric_limits<Real>::quiet_NaN(); // there is no water
 	Real                            plasticStrain = 0;
 	vector<std::pair<string, Real>> internals; // of the law's variables those that are no attribute here
 	OwnParameters                   parameters;
 	Vector3r                        acceleration = Vector3r::Zero();
-	Real                            porePressure = std::numeric_limits<Real>::quiet_NaN(); // there is no water
 	int                             splits       = 0;
 	int                             parent       = -1; // the body is none of another one
 
