@@ -4,23 +4,22 @@
 #include "core/grid/attachment.hpp"
 #include "core/terms/contact_law.hpp"
 #include "core/terms/contact_search.hpp"
+#include "core/terms/contact_sight.hpp"
+#include "core/terms/contact_surface.hpp"
 #include "core/terms/term.hpp"
 
 namespace gimpm {
 
-/// A corner of a point's domain that touches a body at the end of a step that was accepted, or overlapped it when the
-/// body came.
+/// A place on the surface of a body that had soil in front of it at the end of a step that was accepted.
 template <int Dim> struct ContactRecord {
-	/// Number in the cloud, or id where points are divided; bit a of the corner set: upper along axis a.
-	int point, corner, body;
-	/// How much farther the corner is from the body than the soil that it stands for [m].
-	double offset  = 0;
-	bool   touches = false, slips = false;
-	/// The offset taken off, < 0 by the penalty [m].
-	double   gap      = 0;
-	double   pressure = 0;                                           ///< normal force [N]
-	Vec<Dim> friction = Vec<Dim>::Zero(), normal = Vec<Dim>::Zero(); ///< on the soil [N]; of the body
-	Vec<Dim> place = Vec<Dim>::Zero();                               ///< of the corner at the end of the step [m]
+	int          body;
+	std::int64_t number;                                             ///< of the place on the body
+	double       gap     = 0;                                        ///< to the soil, < 0 by the penalty [m]
+	bool         touches = false, slips = false;
+	double       pressure = 0;                                       ///< normal force [N]
+	double       travel   = 0;                                       ///< how far soil moved along the body in that step [m]
+	Vec<Dim>     friction = Vec<Dim>::Zero(), normal = Vec<Dim>::Zero(); ///< on the soil [N]; of the body
+	Vec<Dim>     place = Vec<Dim>::Zero();                           ///< of the soil at the end of the step [m]
 };
 
 /// What the soil does to whoever owns bodies.
@@ -34,7 +33,7 @@ struct ContactLoad {
 template <int Dim> struct ContactSystem {
 	std::vector<RigidBody<Dim>>     bodies;
 	std::vector<Vec<Dim>>           owners;     ///< positions at the end of the step [m]
-	std::vector<ContactRecord<Dim>> records {}; ///< of the last step that was accepted, sorted by point, corner and body
+	std::vector<ContactRecord<Dim>> records {}; ///< of the last step that was accepted, sorted by body and number
 	std::vector<ContactLoad>        loads {};   ///< on the owners, then
 	double                          work   = 0; ///< on the soil in that step, with the forces at its end [J]
 	double                          weight = 1; ///< with which forces enter the balance of a step in time (core/terms/time_scheme.hpp)
@@ -47,37 +46,17 @@ template <int Dim> struct ContactSystem {
 	const Term<Dim>*         acting {};   ///< the term of the step that is being made
 };
 
-/// Of a material point. Numbers only, to be told to other processes.
-template <int Dim> struct PointDomain {
-	std::array<double, Dim> position, halfSize;
-
-	PointDomain() = default;
-	PointDomain(const PointCloud<Dim>& cloud, int p)
-	{
-		std::copy_n(cloud.position[p].data(), Dim, position.data());
-		std::copy_n(cloud.halfSize[p].data(), Dim, halfSize.data());
-	}
-	Vec<Dim> centre() const { return Eigen::Map<const Vec<Dim>>(position.data()); }
-	Vec<Dim> half() const { return Eigen::Map<const Vec<Dim>>(halfSize.data()); }
-	Vec<Dim> corner(int bits) const
-	{
-		Vec<Dim> x = centre();
-		for (int a = 0; a < Dim; ++a)
-			x[a] += (bits >> a & 1 ? 1 : -1) * halfSize[a];
-		return x;
-	}
-};
-
 /// The penalty on the gap over that on the slip. With 20 a place slides after mu p h / (stiffness / 20 E). Blocks that
 /// are sheared to and fro by a plate, friction .3 to 4, take 5 solves a step; with 2 it is 8, and with 50 4.5.
 constexpr double slipSoftness = 20;
 
-/// Corners of the domains against the surfaces of the bodies. Corners move with the linear functions of the grid. The
-/// penalty on the gap g is a pressure of stiffness * E g / h, with Young's modulus E of the point and h of the smallest
-/// cells, over the corner's share of the domain's surface; Only prescribed motion of the bodies is known here. Of
-/// bodies that overlap, with surfaces that face alike, one acts on a corner: the one that it is deepest in. Where
-/// points are divided among processes, each finds those of its own that are near, and all know the corners of all of
-/// them.
+/// Places on the surfaces of the bodies against the soil in front of them, which moves with the linear functions of the
+/// grid. The penalty on the gap g is a pressure of stiffness * E g / h, with Young's modulus E of the soil there and h of
+/// the smallest cells, over the place's part of the surface. The gap is that which there was when soil came into sight, and
+/// since then what soil and body have moved towards each other, along the normal of the place's own face: which neither
+/// edges nor domains that come and go let jump. Only prescribed motion of the bodies is known here. What of a surface lies
+/// in another body, or on one that came first, does not count. Where points are divided among processes, all know those
+/// that are near.
 template <int Dim> class Contact : public Term<Dim> {
 public:
 	/// The records and loads of the system are written in commit(). What add() adds has the weight of the system.
@@ -95,45 +74,45 @@ public:
 	void                        commit(const Eigen::VectorXd& d) override;
 
 private:
-	/// A point near a body, whichever process has it.
+	/// A material point near a body, whichever process has it. Numbers only.
 	struct Near {
-		int              body, point, side; ///< `point` as in the records
-		PointDomain<Dim> domain;            ///< at the start of the step
-		double           volume, young;
+		int                     body, side;
+		std::array<double, Dim> position, halfSize; ///< at the start of the step
+		double                  young;
+
+		Vec<Dim> centre() const { return Eigen::Map<const Vec<Dim>>(position.data()); }
+		Vec<Dim> half() const { return Eigen::Map<const Vec<Dim>>(halfSize.data()); }
 	};
-	/// A corner near a body.
-	struct Corner {
-		int             point, corner, body, side, near; ///< near: number in near_
-		Vec<Dim>        place;                           ///< at the start of the step
-		double          offset;
-		Vec<Dim>        friction;
-		bool            turns; // its friction, with the body
+	/// A place on a body with soil in front of it.
+	struct Place {
+		int             body;
+		std::int64_t    number;
+		Vec<Dim>        soil;     ///< where that begins, at the start of the step
+		Vec<Dim>        carried;  ///< by which the body would have moved it by the end
+		Vec<Dim>        normal;   ///< at the end
+		double          gap;      ///< at the start
+		Vec<Dim>        friction; ///< at the start, turned with the body
 		ContactLaw<Dim> law;
 		Attachment<Dim> attached;
 	};
 
-	void                    find(const Beginning<Dim>&);
-	void                    addCorners(int near);
-	ContactLaw<Dim>         lawOf(const RigidBody<Dim>&, const Near&, const Vec<Dim>& place, const Vec<Dim>& normal) const;
-	Approach<Dim>           approach(const Corner&, const Vec<Dim>& x) const;
-	template <class F> void forTouching(const Eigen::VectorXd& d, F&& f) const; // f(corner, its place, gap, touch)
-	struct Acting;
-	void                          choose(std::vector<Acting>&, const Corner&, const Approach<Dim>&) const;
-	void                          look(const Near&);
-	std::string                   missed(const Eigen::VectorXd& d) const;
-	std::string                   missed(const NearPoint&, const Eigen::VectorXd& d) const;
-	double                        given(const Eigen::VectorXd& d) const;
-	std::string                   refusalOfGift(const Eigen::VectorXd& d) const;
-	std::vector<PointDomain<Dim>> domainsNow() const; // by number in near_
-	ContactLoad                   loadOn(const Vec<Dim>& owner, const Corner&, const Vec<Dim>& place, const Touch<Dim>&) const;
+	void                     find(const Beginning<Dim>&);
+	void                     addPlaces(int body);
+	void                     addPlace(int body, const SurfacePoint<Dim>&, const SoilNear<Dim>&);
+	bool                     isHidden(int body, const Vec<Dim>& place, const Vec<Dim>& normal) const;
+	void                     look(int body);
+	const ContactRecord<Dim>* recordOf(const Place&) const;
+	Approach<Dim>            approach(const Place&, const Eigen::VectorXd& d) const;
+	template <class F> void  forTouching(const Eigen::VectorXd& d, F&& f) const; // f(place, approach, touch)
+	std::string              entered(const Eigen::VectorXd& d) const;
+	double                   given(const Eigen::VectorXd& d) const;
+	ContactLoad              loadOn(const Vec<Dim>& owner, const Place&, const Vec<Dim>& place, const Touch<Dim>&) const;
 
 	ContactSystem<Dim>&    system_;
 	double                 tolerance_; // of a gap that counts as touching [m]
 	bool                   isRing_, isSymmetric_ = true;
-	std::vector<int>       own_;     // points of the cloud that are near, of this process
-	std::vector<Near>      near_;    // in the order of own_, one process after the other
-	std::vector<Corner>    corners_; // by point, corner and body
-	std::vector<Vec<Dim>>  spins_;   // of the bodies
+	std::vector<Near>      near_;   // by body
+	std::vector<Place>     places_; // by body and number
 	std::string            obstacle_;
 	const PointCloud<Dim>& cloud_;
 	const CloudBasis<Dim>& basis_;

@@ -31,7 +31,7 @@ void MpmContact::requireAdmissible() const
 	for (const size_t size : { forces.size(), torques.size(), impulses.size(), touching.size(), slipping.size(), areFree.size(), impulsesSince.size(),
 	                           poses.size() / 7, stiffnesses.size() / 36 })
 		if (size != n) throw std::invalid_argument("MpmContact: what is kept of the bodies does not go together; is the saved file damaged?");
-	if (records.size() % ContactRecordOfPoint::width != 0)
+	if (records.size() % ContactRecordOfPlace::width != 0)
 		throw std::invalid_argument("MpmContact: what is kept of the points that touch is incomplete; is the saved file damaged?");
 }
 
@@ -171,7 +171,7 @@ void MpmContact::tell(Rows& rows, const Analysis& analysis, const Listed& listed
 // A vertex for each corner that touches.
 void MpmContact::draw(Picture& picture, const Analysis&, const Listed&) const
 {
-	forRecords(records, [&](const ContactRecordOfPoint& r) {
+	forRecords(records, [&](const ContactRecordOfPlace& r) {
 		if (!r.touches) return;
 		picture.add({ int(picture.corners.size()) });
 		picture.corners.push_back(r.place);

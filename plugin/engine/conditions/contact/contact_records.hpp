@@ -4,33 +4,25 @@
 
 namespace yade {
 
-// What an MpmContact keeps of a corner of a material point's domain that touches a body, as numbers one after the
+// What an MpmContact keeps of a place on the surface of a body that has soil in front of it, as numbers one after the
 // other.
-struct ContactRecordOfPoint {
-	static constexpr int width = 17;
+struct ContactRecordOfPlace {
+	static constexpr int width = 16;
 
-	int      point, corner, body; // ids
-	Real     offset, gap, pressure;
-	bool     touches, slips;
-	Vector3r friction, normal, place;
+	std::int64_t number;
+	int          body; // id
+	Real         gap, pressure, travel;
+	bool         touches, slips;
+	Vector3r     friction, normal, place;
 
-	static ContactRecordOfPoint from(const Real* x)
+	static ContactRecordOfPlace from(const Real* x)
 	{
-		return { int(x[0]),
-			 int(x[1]),
-			 int(x[2]),
-			 x[3],
-			 x[4],
-			 x[5],
-			 x[6] != 0,
-			 x[7] != 0,
-			 Vector3r::Map(x + 8),
-			 Vector3r::Map(x + 11),
-			 Vector3r::Map(x + 14) };
+		return { std::int64_t(x[0]),   int(x[1]), x[2], x[3], x[4], x[5] != 0, x[6] != 0, Vector3r::Map(x + 7), Vector3r::Map(x + 10),
+			 Vector3r::Map(x + 13) };
 	}
 	void appendTo(vector<Real>& numbers) const
 	{
-		for (const Real x : { Real(point), Real(corner), Real(body), offset, gap, pressure, Real(touches), Real(slips) })
+		for (const Real x : { Real(number), Real(body), gap, pressure, travel, Real(touches), Real(slips) })
 			numbers.push_back(x);
 		for (const Vector3r& v : { friction, normal, place })
 			numbers.insert(numbers.end(), v.data(), v.data() + 3);
@@ -41,8 +33,8 @@ struct ContactRecordOfPoint {
 // Calls f(record) for each of them.
 template <class F> void forRecords(const vector<Real>& numbers, F&& f)
 {
-	for (size_t i = 0; i + ContactRecordOfPoint::width <= numbers.size(); i += ContactRecordOfPoint::width)
-		f(ContactRecordOfPoint::from(&numbers[i]));
+	for (size_t i = 0; i + ContactRecordOfPlace::width <= numbers.size(); i += ContactRecordOfPlace::width)
+		f(ContactRecordOfPlace::from(&numbers[i]));
 }
 
 } // namespace yade

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "engine/conditions/contact/contacts.hpp"
 #include "core/base/sentence.hpp"
-#include "core/terms/contact_in_place.hpp"
 #include "core/terms/motion.hpp"
 #include "engine/analysis/analysis.hpp"
 #include "engine/conditions/contact/contact_records.hpp"
@@ -176,33 +175,32 @@ template <int Dim> void Contacts<Dim>::recall(const MpmContact& contact)
 	Places numbers;
 	for (size_t i = 0; i < members.size(); ++i)
 		numbers[members[i].body->id] = int(i);
-	forRecords(contact.records, [&](const ContactRecordOfPoint& r) {
-		const int  p    = numberOf(r.point);
+	forRecords(contact.records, [&](const ContactRecordOfPlace& r) {
 		const auto body = numbers.find(r.body);
-		if (p < 0 || body == numbers.end()) return; // erased
+		if (body == numbers.end()) return; // erased
 		const auto friction = headOf<Dim>(r.friction), normal = headOf<Dim>(r.normal), place = headOf<Dim>(r.place);
-		system->records.push_back({ p, r.corner, body->second, r.offset, r.touches, r.slips, r.gap, r.pressure, friction, normal, place });
+		system->records.push_back({ body->second, r.number, r.gap, r.touches, r.slips, r.pressure, r.travel, friction, normal, place });
 	});
 }
 
 template <int Dim> void Contacts<Dim>::join(gimpm::Model<Dim>& model, const Surroundings<Dim>& around)
 {
 	begin = end = around.begin, target = around.target, dt = around.scene.dt;
-	areDivided = !model.division->isWhole();
 	movers.emplace(around.scene);
 	for (const auto& contact : given)
 		add(contact, around.scene, model.grid);
-	for (const MaterialPoint& point : around.points)
-		if (!areDivided) points.push_back(point.id);
 	for (const auto& contact : given)
 		recall(*contact);
 	std::sort(system->records.begin(), system->records.end(), [](const auto& a, const auto& b) {
-		return std::tie(a.point, a.corner, a.body) < std::tie(b.point, b.corner, b.body);
+		return std::tie(a.body, a.number) < std::tie(b.body, b.number);
 	});
 	advanceTo(begin);
 	model.terms.push_back([known = system](const gimpm::Beginning<Dim>& step) { return std::make_unique<gimpm::Contact<Dim>>(*known, step); });
-	const auto shrink = [known = system](const gimpm::PointCloud<Dim>& cloud, Real scale) { shrinkGaps(*known, cloud, scale); };
-	model.inPlace.push_back({ shrink, [known = system](const gimpm::PointCloud<Dim>& cloud) { keepGaps(*known, cloud); } });
+	const auto shrink = [known = system](const gimpm::PointCloud<Dim>&, Real scale) {
+		for (auto& record : known->records)
+			record.gap *= scale;
+	};
+	model.inPlace.push_back({ shrink, [](const gimpm::PointCloud<Dim>&) {} });
 }
 
 template <int Dim> void Contacts<Dim>::joinMotion(gimpm::Motion<Dim>& motion, const gimpm::Model<Dim>&, Real)
@@ -255,23 +253,6 @@ template <int Dim> bool Contacts<Dim>::areBeside(const gimpm::Vec<Dim>& point, c
 		const auto at = body.proximity(body.end, part, body.sideOf(body.end, point));
 		return at.gap < 0 && at.beside < 0;
 	});
-}
-
-template <int Dim> void Contacts<Dim>::share(const HalvedDomain& domain) const
-{
-	const Vector3r middle(domain.middle.data());
-	for (const auto& contact : given) {
-		vector<KnownBody> known;
-		for (size_t i = 0; i < members.size(); ++i) {
-			const auto& body = system->bodies[i];
-			if (owners[body.owner].contact != contact) continue;
-			known.push_back({ members[i].body->id, [&body, side = body.sideOf(body.end, headOf<Dim>(middle))](const Vector3r& place) {
-				                 const auto at = body.proximity(body.end, headOf<Dim>(place), side);
-				                 return at.beside < 0 ? at.gap : std::numeric_limits<Real>::infinity();
-			                 } });
-		}
-		shareRecords(*contact, domain, known);
-	}
 }
 
 template <int Dim> void Contacts<Dim>::reach(const StepOutcome<Dim>& step)
@@ -335,12 +316,11 @@ template <int Dim> void Contacts<Dim>::keepRecords() const
 	for (const auto& r : system->records) {
 		const Owner& owner = owners[system->bodies[r.body].owner];
 		MpmContact&  to    = *owner.contact;
-		ContactRecordOfPoint { areDivided ? r.point : points[r.point],
-			               r.corner,
+		ContactRecordOfPlace { r.number,
 			               members[r.body].body->id,
-			               r.offset,
 			               r.gap,
 			               r.pressure,
+			               r.travel,
 			               r.touches,
 			               r.slips,
 			               inSpace<Dim>(r.friction),

@@ -5,7 +5,6 @@
 #include "core/terms/contact.hpp"
 #include "engine/analysis/movers.hpp"
 #include "engine/conditions/contact/MpmContact.hpp"
-#include "engine/conditions/contact/split_contacts.hpp"
 #include "engine/points/MaterialPoints.hpp"
 #include "yade_api/scene.hpp"
 #include <algorithm>
@@ -39,18 +38,8 @@ public:
 	std::map<string, string> warnings(bool isDynamic) const override;
 
 	bool areBeside(const gimpm::Vec<Dim>& point, const gimpm::Vec<Dim>& part) const override;
-	bool remembersPoints() const override { return true; }
-	void share(const HalvedDomain&) const override;
 
 private:
-	// Of a point in the records of the system; -1: it has been erased.
-	int numberOf(Body::id_t id) const
-	{
-		if (areDivided) return id;
-		const auto point = std::lower_bound(points.begin(), points.end(), id);
-		return point == points.end() || *point != id ? -1 : int(point - points.begin());
-	}
-
 	// Who moves bodies: one of them alone, or a clump.
 	struct Owner {
 		shared_ptr<MpmContact> contact;
@@ -84,8 +73,7 @@ private:
 	vector<Owner>                         owners;
 	Places                                ownersById;
 	vector<Member>                        members; // as the system's bodies
-	vector<Body::id_t>                    points;  // ids; none where they are divided, and the system knows them by their ids
-	bool                                  areDivided = false, hasKept = false;
+	bool                                  hasKept = false;
 	Real                                  begin = 0, target = 0, end = 0; // of the run; end: of the last step
 	Real                                  dt = 0;                         // of an iteration of YADE
 	string                                coefficient;                    // doubt about an angle of friction

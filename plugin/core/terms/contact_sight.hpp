@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// What soil there is in front of a place on the surface of a body.
+#pragma once
+#include "core/base/types.hpp"
+#include <cstdint>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace gimpm {
+
+/// The domain of a material point near a body.
+template <int Dim> struct SoilDomain {
+	Vec<Dim> centre, half; ///< [m]
+	double   young;        ///< [Pa]
+	Vec<Dim> outward;      ///< normal of the body's surface closest to its centre, unit
+};
+
+/// Soil in front of a place.
+struct Sight {
+	double gap;      ///< to it along the normal, < 0 where it overlaps the body [m]
+	double presence; ///< from 0, no soil, to 1, soil in full
+	double young;    ///< mean modulus [Pa]
+};
+
+/// The domains near one body, by bins of the size of the smallest cells.
+template <int Dim> class SoilNear {
+public:
+	SoilNear(std::vector<SoilDomain<Dim>>, double cellSize);
+
+	/// Looks from a place along the normal, no farther than the reach. Soil whose closest side of the body looks elsewhere, as
+	/// beyond an edge or behind a thin body, does not count.
+	std::optional<Sight> from(const Vec<Dim>& place, const Vec<Dim>& normal, double reach) const;
+
+	std::pair<Vec<Dim>, Vec<Dim>> bounds() const { return { low_, high_ }; }
+
+private:
+	template <class F> void forIn(const Vec<Dim>& low, const Vec<Dim>& high, F&& f) const;
+	Index<Dim>              bin(const Vec<Dim>& x) const { return ((x - low_) / cellSize_).array().floor().template cast<int>(); }
+
+	std::vector<SoilDomain<Dim>>               domains_;
+	std::vector<std::pair<std::int64_t, int>>  bins_; ///< and numbers of domains, sorted
+	Vec<Dim>                                   low_, high_;
+	Index<Dim>                                 size_;
+	double                                     cellSize_, largest_ = 0;
+};
+
+} // namespace gimpm
