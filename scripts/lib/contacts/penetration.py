@@ -7,7 +7,7 @@ Sides are 32 radii away. Cells grow with the distance by three halvings.
 from math import atan, ceil, inf, log, pi, radians, tan
 
 import numpy as np
-from yade import mpm, utils
+from yade import mpm, pack, utils
 from yade.wrapper import MpmBoundary, MpmContact, MpmGrid, MpmImplicitEngine, MpmMohrCoulombMat, MpmNewton, MpmRefinement, MpmTraction, MpmTrescaMat, MpmVonMisesMat, Omega
 
 from .bodies import One, Outline, steel
@@ -162,6 +162,31 @@ def fullFlow(kind, law='tresca', rough=0., cells=4, depth=3., pressure=15., poin
 	area = (pi * R * R if isBall else R) * strength
 	travel, N, inside = _push(course, body, contact, h, depth * D, lambda F: F / area)
 	return _told(course, h, depth * D, R, travel, N, inside, .5 * depth * D, diameters=travel[-1] / D)
+
+
+def inSpace(kind, law='vonMises', depth=3., cells=2, wide=5., points=2, stiffness=10., seconds=300):
+	"""A quarter of a smooth square pile or of a ball in 3D, from the surface into clay; sides and base *wide* radii away.
+
+	:param kind: 'box' or 'ball'
+	:param depth: travel in radii
+	"""
+	O.reset()
+	clay(law)
+	steel()
+	h, travel = R / cells, depth * R
+	width, low = ceil(wide * cells) * h, -ceil((wide + depth) * cells) * h
+	grid = MpmGrid(cellSize=h, dim=3)
+	O.bodies.append(mpm.fill(pack.inAlignedBox((0, low, 0), (width, 0, width)), grid, points, 'soil'))
+	length = travel + R
+	body = One(utils.box((0, length / 2, 0), (R, length / 2, R), material='rigid', fixed=True) if kind == 'box' else utils.sphere((0, R, 0), R, material='rigid', fixed=True))
+	contact = MpmContact(friction=0, stiffness=stiffness)
+	sides = [MpmBoundary(max=(0, inf, inf), fix='x'), MpmBoundary(max=(inf, inf, 0), fix='z'), MpmBoundary(min=(width, -inf, -inf), fix='x'), MpmBoundary(min=(-inf, -inf, width), fix='z'), MpmBoundary(max=(inf, low, inf), fix='xyz')]
+	solver = MpmImplicitEngine(grid=grid, fBar=True, boundaries=sides, contacts=[contact], newton=MpmNewton(minStep=1 / 64), verbosity=0)
+	O.engines, O.dt = [solver], 1
+	course = Course(solver, seconds)
+	area = (R * R if kind == 'box' else pi * R * R / 4) * strength
+	found, N, inside = _push(course, body, contact, h, travel, lambda F: F / area)
+	return _told(course, h, travel, R, found, N, inside, .6 * travel)
 
 
 def sand(kind, depth=4., cells=3, points=2, friction=None, stiffness=20., seconds=300):

@@ -58,10 +58,10 @@ def _spread(places):
 
 
 def strip(width, deep=.5, places=5, law='vonMises', stiffness=10., points=2, seconds=120):
-	"""A smooth Box of this width pushed into clay, in cells; force over c_u h. Rigid-plastic by Prandtl and Meyerhof: (5.14 + s / w) w, at most 8.3 w, of a body that the grid could resolve."""
+	"""A smooth Box of this width pushed into clay, in cells; force over c_u h. As *resolved*, what a body would feel that the cells could resolve: 5.14 (1 + .27 sqrt(s / w)) w (Salgado et al. 2004)."""
 	body = lambda x: One(utils.box((x, 5 * h, 0), (width / 2 * h, 5 * h, 1), material='rigid', fixed=True))
 	result = _places(body, strength * h, deep * h, _spread(places), lambda: _claySoil(law, points=points), dict(friction=0, stiffness=stiffness), seconds)
-	return result | dict(resolved=min(5.14 + deep / width, 8.3) * width)
+	return result | dict(resolved=5.14 * (1 + .27 * sqrt(deep / width)) * width)
 
 
 def tip(degrees=45., deep=.5, places=5, law='vonMises', stiffness=10., points=2, seconds=120):
