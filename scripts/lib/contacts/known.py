@@ -1,0 +1,32 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""What was right with the corners of domains: scenes of examples/penetration, by their own scripts."""
+import contextlib
+import io
+import os
+import re
+import sys
+import tempfile
+import time
+
+from yade.wrapper import Omega
+
+O = Omega()
+script = os.path.join(os.path.dirname(os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))), 'examples', 'penetration', 'penetration.py')
+
+
+def example(scene, seconds=300, **options):
+	"""Error of the scene's number against its closed form, as the script tells it; *seconds* is not looked at."""
+	O.reset()
+	began, said, kept = time.process_time(), io.StringIO(), (sys.argv, list(sys.path))
+	with tempfile.TemporaryDirectory() as folder:
+		sys.argv = [script, '--scene', scene, '--picture', '0', '--out', folder, *(text for name, value in options.items() for text in (f'--{name}', str(value)))]
+		names = dict(vars(sys.modules['__main__']), __file__=script)
+		try:
+			with open(script) as file, contextlib.redirect_stdout(said):
+				exec(compile(file.read(), script, 'exec'), names)
+		finally:
+			sys.argv, sys.path[:] = kept
+	failed = re.findall(r'step \d+ of \d+ fails: .*', said.getvalue())
+	pressure = re.search(r'largest mean pressure.*\(([+-][\d.]+) %\)', said.getvalue())
+	more = dict(pressure=float(pressure[1]) / 100) if pressure else {}
+	return dict(error=float(names['error']), **more, iterations=sum(names['solves']), steps=len(names['solves']), seconds=round(time.process_time() - began, 1), why=failed[0][:110] if failed else '')

@@ -1,0 +1,109 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""The cases: which function with which arguments, what is different in their short form, and the bounds by which its numbers are judged. Nothing here needs YADE."""
+from collections import namedtuple
+from math import inf, log
+
+Case = namedtuple('Case', 'name function arguments short bounds')
+cases = {}
+
+
+def add(name, function, bounds, short=None, **arguments):
+	"""short: arguments that differ in the short form."""
+	cases[name] = Case(name, function, arguments, short or {}, bounds)
+
+
+def near(value, part):
+	return value * (1 - part), value * (1 + part)
+
+
+atMost, atLeast = lambda x: (-inf, x), lambda x: (x, inf)
+
+# 1. Penetration. Of the cone N is judged in Tresca's clay, by Lu et al. (2004) with the roughness of its face; von Mises' is told, as it has less strength in triaxial compression.
+smooth = dict(part=atLeast(.999), scatter=atMost(.03), largest=atMost(.08), inside=atMost(.05))
+lu = lambda rough: dict(late=near(3.4 + 1.6 * log(200) + 1.3 * rough, .08))
+for cells in 2, 3, 4:
+	add(f'cone-R{cells}', 'penetration.onAxis', smooth | lu(0) if cells > 2 else dict(part=smooth['part'], inside=smooth['inside']) | lu(0), dict(depth=4.), kind='cone', cells=cells)
+add('cone-rough', 'penetration.onAxis', smooth | lu(1), dict(depth=3.), kind='cone', rough=1.)
+add('cone-mises', 'penetration.onAxis', smooth, dict(depth=3.), kind='cone', law='vonMises')
+add('cone-mises-rough', 'penetration.onAxis', smooth, dict(depth=3.), kind='cone', law='vonMises', rough=1.)
+add('cone-surface', 'penetration.onAxis', smooth, dict(depth=3.), kind='cone', wished=False)
+add('cone-fine', 'penetration.onAxis', smooth, dict(depth=1.5), kind='cone', cells=6, depth=5., seconds=600)
+add('punch', 'penetration.onAxis', smooth, dict(depth=3.), kind='box', wished=False)
+add('punch-mises', 'penetration.onAxis', smooth, dict(depth=3.), kind='box', wished=False, law='vonMises')
+add('pile', 'penetration.onAxis', smooth, dict(depth=3.), kind='pile')
+add('pile-box', 'penetration.onAxis', smooth, dict(depth=3.), kind='box')
+add('pile-rough', 'penetration.onAxis', smooth, dict(depth=3.), kind='pile', rough=.5)
+# T-bar: Randolph and Houlsby (1984), exact for a rough one, a lower bound within .8 % of the least upper one for a smooth one. Ball in Tresca's clay: lower bounds of Randolph et al. (2000), upper
+# ones by minimising the dissipation of smooth stream functions, which gives 10.26 and 14.12 in von Mises'.
+for rough in 0, 1:
+	end = '-rough' if rough else ''
+	add('tbar' + end, 'penetration.fullFlow', smooth | dict(late=near(11.94 if rough else 9.14, .05)), dict(depth=1.), kind='tbar', rough=rough)
+	add('tbar-mises' + end, 'penetration.fullFlow', smooth | dict(late=near(11.94 if rough else 9.14, .05)), dict(depth=1.), kind='tbar', rough=rough, law='vonMises')
+	add('ball' + end, 'penetration.fullFlow', smooth | dict(late=(.95 * 15.1, 1.05 * 15.12) if rough else (.95 * 10.97, 1.05 * 11.04)), dict(depth=1.), kind='ball', rough=rough)
+	add('ball-mises' + end, 'penetration.fullFlow', smooth, dict(depth=1.), kind='ball', rough=rough, law='vonMises')
+add('tbar-fine', 'penetration.fullFlow', smooth | dict(late=near(9.14, .05)), dict(depth=.5), kind='tbar', cells=8, depth=1., seconds=600)
+add('pile-3d', 'penetration.inSpace', dict(part=atLeast(.999), inside=atMost(.05)), dict(depth=1.5), kind='box')
+add('ball-3d', 'penetration.inSpace', dict(part=atLeast(.999), inside=atMost(.05)), dict(depth=1.), kind='ball', depth=2.)
+add('cone-sand', 'penetration.sand', smooth, dict(depth=2.), kind='cone')
+add('pile-sand', 'penetration.sand', smooth, dict(depth=2.), kind='box', friction=20.)
+
+# 2. Thin and small bodies: a force that is there, and the same at five places in a cell
+alike = dict(spread=atMost(.05), least=atLeast(1e-6))
+for width in .1, .3, 1.:
+	add(f'strip-{width:g}', 'thin.strip', alike | (dict(warned=atLeast(1)) if width < 1 else {}), width=width)
+add('ball-half-domain', 'thin.ball', alike | dict(warned=atLeast(1)), diameter=.25)
+add('tip-45', 'thin.tip', alike, degrees=45.)
+add('tip-20', 'thin.tip', alike, degrees=20.)
+add('edge-upright', 'thin.edge', alike | dict(mean=near(1., .2)), degrees=90., rough=1.)
+add('edge-leaning', 'thin.edge', alike, degrees=45., rough=0.)
+
+# 3. Energy over the first: how much more there has been, and what contact has given; in how many scenes either was more than 1e-3
+honest = dict(energy=atMost(1.001), contactWork=atMost(1e-3), failed=atMost(0))
+for scheme in 'newmark', 'generalised-alpha', 'midpoint':
+	add(f'energy-{scheme}', 'energy.edges', honest, dict(parts=[.3, .15]), scheme=scheme)
+add('energy-random', 'energy.drawn', dict(gifts=atMost(0), contactWork=atMost(1e-3), failed=atMost(0)), dict(seeds=[0, 60], seconds=60), seeds=[0, 1000], seconds=900)
+
+# 4. Tunnels: at .3 to 5 cells a step, in how many scenes a middle of a point was more than a tenth of a cell inside of a body or behind it
+for mode in 'soilFlies', 'bodyFlies', 'soilPushed', 'bodyPushed':
+	add(f'tunnel-{mode}', 'tunnel.met', dict(behind=atMost(0), failed=atMost(0)) | (dict(contactWork=atMost(1e-3)) if mode == 'soilFlies' else {}), dict(parts=[.7, 2., 5.]), mode=mode)
+
+# 5. Turning: one full turn of a sheared block with its plates [degrees, -], and torques over their closed forms
+turned = dict(turned=atLeast(359.9), angle=atMost(1), size=atMost(.02))
+add('turn-plane', 'turning.block', turned, dim=2)
+add('turn-normal', 'turning.block', turned, dict(steps=60), dim=3)
+add('turn-across', 'turning.block', turned, dict(steps=60), dim=3, axis=1)
+add('cylinder', 'turning.cylinder', dict(turned=atLeast(57), torque=near(1, .05), largest=atMost(.08)), angle=1.)
+add('vane', 'turning.vane', dict(turned=atLeast(57), torque=(.95, 1.17), largest=atMost(.08)), dict(angle=1.), angle=1.5)
+add('ring-shear', 'turning.ring', dict(turned=atLeast(359.9), torque=near(1, .02), largest=atMost(.02)), dict(steps=30))
+
+# 6. Overlap: largest difference of the force from that of one body
+add('layers', 'overlap.layers', dict(off=atMost(.01), rubs=atMost(.02)))
+add('embracing', 'overlap.embracing', dict(off=atMost(.01)))
+add('clumps', 'overlap.clumps', dict(off=atMost(.01)))
+add('mesh', 'overlap.mesh', dict(off=atMost(1e-3), narrow=atMost(.05)))
+add('mesh-closed', 'overlap.closed', dict(off=atMost(.05)))
+add('floors-explicit', 'overlap.explicitFloors', dict(imbalance=atMost(.01)))
+
+# 7. Free bodies: way and speeds over those of closed forms, and the change of momentum in an impact over that of the sphere
+rolls = dict(way=near(1, .01), speed=near(1, .01))
+for friction in 0., .1, .2, .4:
+	add(f'rolling-{friction:g}', 'free.rolling', rolls | (dict(rim=near(1, .02)) if friction else {}), dict(end=.3), friction=friction)
+add('rolling-askew', 'free.rolling', rolls, dict(end=.3), friction=.4, heading=30.)
+add('rolling-flat', 'free.rolling', rolls, dict(end=.6), friction=.1, degrees=10., end=.8)
+add('rolling-static', 'free.rolling', rolls, dict(end=.3), friction=.4, isDynamic=False)
+add('wheel', 'free.driven', dict(way=near(1, .02), speed=near(1, .02)))
+for every in 1, 5, 20:
+	add(f'impact-{every}', 'free.impact', dict(off=atMost(.01)), every=every)
+
+# 8. What was right with the corners of domains
+add('plate', 'known.example', dict(error=(-.02, .02)), scene='plate', stiffness=50)
+add('hertz', 'known.example', dict(error=(-.02, .02)), dict(cells=5), scene='sphere', cells=10, steps=5)
+add('hertz-free', 'known.example', dict(error=(-.03, .03)), scene='free', cells=2, stiffness=20)
+add('hertz-line', 'known.example', dict(error=(-.03, .03), pressure=(-.03, .03)), dict(cells=6), scene='cylinder', cells=10)
+for cells, points in (4, 2), (8, 3), (16, 2):
+	add(f'footing-{cells}', 'known.example', dict(error=(-.04, .04)) if cells >= 8 else dict(error=(-.1, .1)), scene='footing', cells=cells, pointsPerCell=points, depth=.03)
+add('footing-rough', 'known.example', dict(error=(-.04, .04)), scene='footing', cells=8, pointsPerCell=3, depth=.03, rough=1)
+
+# 9. Random scenes: the part of them that ends, and the largest of what is left over of the forces in statics.
+# A residual of 1e-6 is that of single nodes; over the hundred that a body touches it may add up to ten times that.
+add('random', 'scenes.drawn', dict(ended=atLeast(.995), balance=atMost(1e-5)), dict(seeds=[0, 60], seconds=120), seeds=[0, 1000])

@@ -1,0 +1,141 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Friction that turns with the matter: a sheared block with its plates, and torques of bodies that turn in soil."""
+from math import atan, cos, degrees, inf, log, pi, sin, sqrt
+
+import numpy as np
+from yade import mpm, pack, utils
+from yade.wrapper import MpmBoundary, MpmContact, MpmElasticMat, MpmGrid, MpmImplicitEngine, MpmNewton, Omega
+
+from .bodies import One, steel
+from .course import Course
+from .penetration import R, adhesion, clay, strength
+
+O = Omega()
+
+
+def _rotation(axis, a):
+	c, s = cos(a), sin(a)
+	return np.array([[c, -s, 0], [s, c, 0], [0, 0, 1]]) if axis == 2 else np.array([[c, 0, s], [0, 1, 0], [-s, 0, c]])
+
+
+def block(dim=3, axis=2, mu=1., steps=120, turns=1., stiffness=20., seconds=300):
+	"""A block between two plates is squeezed and sheared by them; then everything turns rigidly. Angle and size of the force on a plate, in axes that turn along, against those before.
+
+	:param axis: 2, z: the normal of the plates in 3D; in the plane they are turned about z, too, which there is across their normal. 1: in 3D across the normal
+	"""
+	O.reset()
+	O.materials.append(MpmElasticMat(young=1e6, poisson=.2, density=1, label='soil'))
+	steel()
+	size, half = .125, .125
+	grid = MpmGrid(cellSize=size, dim=dim)
+	normal = 2 if dim == 3 else 1
+	low = (-.25, -.25, -half) if dim == 3 else (-.25, -half, -1)
+	O.bodies.append(mpm.fill(pack.inAlignedBox(low, tuple(-x for x in low)), grid, 2, 'soil'))
+	along = np.eye(3)[normal]
+	extents = tuple(.2 if k == normal else .6 for k in range(3))
+	plates = [One(utils.box(tuple(side * (half + .2) * along), extents, material='rigid', fixed=True)) for side in (1, -1)]
+	contact = MpmContact(friction=atan(mu), stiffness=stiffness)
+	solver = MpmImplicitEngine(grid=grid, contacts=[contact], newton=MpmNewton(minStep=1 / 64), verbosity=0)
+	O.engines, O.dt = [solver], 1
+	course = Course(solver, seconds)
+	for plate, side in zip(plates, (1, -1)): plate.move(tuple(-side * .002 * along))
+	course.run(5)
+	plates[0].move((.0005 * 1.5, 0, 0))
+	plates[1].move((0, 0, 0))
+	course.run(10)
+	before = plates[0].force(contact)
+	off, sizes = [0.], [1.]
+
+	def look():
+		angle = 2 * pi * turns * len(off) / steps
+		F = _rotation(axis, angle).T @ plates[0].force(contact)
+		cosine = F @ before / (np.linalg.norm(F) * np.linalg.norm(before) or 1)
+		off.append(degrees(np.arccos(np.clip(cosine, -1, 1))))
+		sizes.append(np.linalg.norm(F) / np.linalg.norm(before))
+		look.shear = np.linalg.norm(F - along * (F @ along)) / np.linalg.norm(before - along * (before @ along))
+
+	look.shear = float('nan')
+	_turn(course, plates, axis, 2 * pi * turns / steps, steps, look)
+	return dict(turned=360 * turns * (len(off) - 1) / steps, angle=max(off), size=max(abs(s - 1) for s in sizes), last=sizes[-1], shear=look.shear, before=list(before / 1e3), **course.told())
+
+
+def _turn(course, plates, axis, angle, steps, look):
+	matrix = _rotation(axis, angle)
+	for _ in range(steps):
+		for plate in plates:
+			x = np.array(plate.state.pos)
+			plate.move(tuple(matrix @ x - x))
+			plate.state.angVel = tuple(angle * np.eye(3)[axis])
+		if not course.run(1, look): return
+
+
+def _inClay(hole, bodies, cells, rough, stiffness, pressure, points, wide=5 * R):
+	"""Clay under a pressure, around the origin, with a hole where bodies are wished in place."""
+	O.reset()
+	clay('tresca')
+	steel()
+	h = R / cells
+	grid = MpmGrid(cellSize=h)
+	O.bodies.append(mpm.fill(pack.inAlignedBox((-wide, -wide, -1), (wide, wide, 1)) - hole, grid, points, 'soil'))
+	mpm.assign(stress=np.repeat(-pressure * strength * np.eye(3)[None], len(O.bodies), axis=0))
+	rigid = [One(body) for body in bodies()]
+	contact = MpmContact(stiffness=stiffness, **adhesion(rough))
+	sides = [MpmBoundary(max=(-wide, inf, inf), fix='x'), MpmBoundary(min=(wide, -inf, -inf), fix='x'), MpmBoundary(max=(inf, -wide, inf), fix='y'), MpmBoundary(min=(-inf, wide, -inf), fix='y')]
+	solver = MpmImplicitEngine(grid=grid, fBar=True, boundaries=sides, contacts=[contact], newton=MpmNewton(minStep=1 / 64), verbosity=0)
+	O.engines, O.dt = [solver], 1
+	return h, rigid, contact, solver
+
+
+def _torques(rigid, contact, course, perStep, angle, exact):
+	"""About the origin, over the exact one, of each step."""
+	found, aside = [], []
+
+	def look():
+		found.append(-sum(body.torque(contact)[2] + np.cross(np.array(body.state.pos), body.force(contact))[2] for body in rigid) / exact)
+		aside.append(np.linalg.norm(sum(body.force(contact)[:2] for body in rigid)) * R / exact)
+
+	course.run(1)
+	for body in rigid: body.state.angVel = (0, 0, perStep)
+	course.run(round(angle / perStep), look)
+	late = found[len(found) // 2:] or [float('nan')]
+	T = float(np.mean(np.abs(late)))
+	return dict(turned=degrees(len(found) * perStep), torque=T, scatter=float(np.mean(np.abs(np.abs(late) / T - 1))), largest=float(np.max(np.abs(np.abs(late) / T - 1))), aside=float(np.mean(aside[len(aside) // 2:] or [float('nan')])), **course.told())
+
+
+def cylinder(cells=4, rough=.5, angle=1., stiffness=10., pressure=5., points=3, seconds=200):
+	"""A rough cylinder wished in place turns about its axis: 2 pi R^2 of its adhesion, per metre."""
+	hole = pack.inCylinder((0, 0, -2), (0, 0, 2), R)
+	h, rigid, contact, solver = _inClay(hole, lambda: [utils.sphere((0, 0, 0), R, material='rigid', fixed=True)], cells, rough, stiffness, pressure, points)
+	return _torques(rigid, contact, Course(solver, seconds), .1 * h / R, angle, 2 * pi * R**2 * rough * strength)
+
+
+def vane(cells=6, width=1., angle=1., stiffness=10., pressure=5., points=2, seconds=300):
+	"""Two Boxes crossed, *width* cells thick, rough. The cylinder through their edges that slips is an upper bound, 2 pi r^2 c_u; where it is a band of one cell around that, (1 + h / 2 r)^2 of it."""
+	w = width * R / cells / 2
+	hole = pack.inAlignedBox((-R, -w, -2), (R, w, 2)) | pack.inAlignedBox((-w, -R, -2), (w, R, 2))
+	bodies = lambda: [utils.box((0, 0, 0), extents, material='rigid', fixed=True) for extents in ((R, w, 1), (w, R, 1))]
+	h, rigid, contact, solver = _inClay(hole, bodies, cells, 1., stiffness, pressure, points)
+	return _torques(rigid, contact, Course(solver, seconds), .1 * h / R, angle, 2 * pi * (R**2 + w**2) * strength)
+
+
+def ring(turns=1., steps=60, cells=4, stiffness=20., seconds=300):
+	"""In 3D a plate turns on a square block about its normal, with an adhesion that slips everywhere: torque of that, s^3 (sqrt 2 + ln(1 + sqrt 2)) / 6 of it."""
+	O.reset()
+	E, cap, side = 1e7, 1e4, 1.
+	O.materials.append(MpmElasticMat(young=E, poisson=0, density=1, label='soil'))
+	steel()
+	h = side / cells
+	grid = MpmGrid(cellSize=h, dim=3)
+	O.bodies.append(mpm.fill(pack.inAlignedBox((-.5, -.5, -2 * h), (.5, .5, 0)), grid, 2, 'soil'))
+	plate = One(utils.box((0, 0, .2), (1.5, 1.5, .2), material='rigid', fixed=True))
+	contact = MpmContact(friction=atan(5), adhesion=cap, stiffness=stiffness)
+	solver = MpmImplicitEngine(grid=grid, boundaries=[MpmBoundary(max=(inf, inf, -2 * h), fix='xyz')], contacts=[contact], newton=MpmNewton(minStep=1 / 64), verbosity=0)
+	O.engines, O.dt = [solver], 1
+	course, exact, found = Course(solver, seconds), cap * side**3 * (sqrt(2) + log(1 + sqrt(2))) / 6, []
+	plate.move((0, 0, -.001))
+	course.run(5)
+	plate.move((0, 0, 0))
+	plate.state.angVel = (0, 0, 2 * pi * turns / steps)
+	course.run(steps, lambda: found.append(abs(plate.torque(contact)[2]) / exact))
+	late = found[len(found) // 4:] or [float('nan')]
+	return dict(turned=360 * turns * len(found) / steps, torque=float(np.mean(late)), largest=float(np.max(np.abs(np.array(late) / np.mean(late) - 1))), slipping=contact.slipping[0] / max(1, contact.touching[0]), **course.told())
