@@ -117,7 +117,7 @@ template <int Dim> void Contact<Dim>::addPlace(int number, const SurfacePoint<Di
 	if (isRing_ && onBody[0] <= 0) return;
 	const auto sight = soil.from(onBody, normal, searchReach(body, grid_));
 	if (!sight || isHidden(number, onBody, normal)) return;
-	Place          place { number, point.number, onBody + std::max(0., sight->gap) * normal, {}, body.end.rotation * point.normal, std::max(0., sight->gap), Vec<Dim>::Zero(), {}, {} };
+	Place          place { number, point.number, onBody + std::max(0., sight->gap) * normal, {}, body.end.rotation * point.normal, std::max(0., sight->gap), std::max(0., sight->gap), Vec<Dim>::Zero(), {}, {} };
 	const auto     attached = attach(place.soil, basis_, grid_);
 	if (!attached) return; // behind a wall
 	place.attached       = *attached;
@@ -138,11 +138,19 @@ template <int Dim> void Contact<Dim>::addPlace(int number, const SurfacePoint<Di
 	places_.push_back(place);
 }
 
+/// Of the place's own face, which has no end; so a round one keeps soil that slides around it.
 template <int Dim> Approach<Dim> Contact<Dim>::approach(const Place& place, const Eigen::VectorXd& d) const
 {
-	Approach<Dim> a { {}, place.attached.displacement(d) - place.carried, Mat<Dim>::Identity(), place.friction };
-	a.at.gap    = place.gap + place.normal.dot(a.slip);
-	a.at.normal = place.normal;
+	const auto&    body = system_.bodies[place.body];
+	const Vec<Dim> u    = place.attached.displacement(d);
+	Approach<Dim>  a { {}, u - place.carried, Mat<Dim>::Identity(), place.friction };
+	if (body.shape.kind == RigidKind::ball) {
+		a.at = body.proximity(body.end, place.soil + u, 1);
+		a.at.gap += place.gap - place.away;
+	} else {
+		a.at.gap    = place.gap + place.normal.dot(a.slip);
+		a.at.normal = place.normal;
+	}
 	return a;
 }
 
@@ -274,8 +282,8 @@ template <int Dim> void Contact<Dim>::commit(const Eigen::VectorXd& d)
 	std::vector<ContactRecord<Dim>> records;
 	for (const Place& place : places_) {
 		const Approach<Dim> near = approach(place, d);
-		const Vec<Dim>      along = near.slip - near.slip.dot(place.normal) * place.normal;
-		records.push_back({ place.body, place.number, near.at.gap, false, false, 0, along.norm(), Vec<Dim>::Zero(), place.normal, place.soil + place.attached.displacement(d) });
+		const Vec<Dim>      along = near.slip - near.slip.dot(near.at.normal) * near.at.normal;
+		records.push_back({ place.body, place.number, near.at.gap, false, false, 0, along.norm(), Vec<Dim>::Zero(), near.at.normal, place.soil + place.attached.displacement(d) });
 	}
 	system_.loads.assign(system_.owners.size(), {});
 	system_.work  = 0;

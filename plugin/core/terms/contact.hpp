@@ -90,7 +90,8 @@ private:
 		Vec<Dim>        soil;     ///< where that begins, at the start of the step
 		Vec<Dim>        carried;  ///< by which the body would have moved it by the end
 		Vec<Dim>        normal;   ///< at the end
-		double          gap;      ///< at the start
+		double          away;     ///< of the soil from the body, at the start [m]
+		double          gap;      ///< what counts as that
 		Vec<Dim>        friction; ///< at the start, turned with the body
 		ContactLaw<Dim> law;
 		Attachment<Dim> attached;
