@@ -62,19 +62,19 @@ struct Shortened {
 /// leaves a tenth of the interval at either end. work(part) gives it; minus infinity where there is no force.
 template <class F> Shortened lineSearch(const NewtonStep& step, int trials, F&& work)
 {
-	Shortened found;
-	double    low = 0, high = 1, atLow = step.before, atHigh = step.after;
-	while (found.trials < trials) {
-		const double share = std::isfinite(atHigh) ? std::clamp(atLow / (atLow - atHigh), 0.1, 0.9) : 0.1;
-		found.length       = low + share * (high - low);
-		const double at    = work(found.length);
-		++found.trials;
-		if (step.before > 0 ? std::abs(at) <= 0.5 * step.before : std::isfinite(at)) break;
-		if (at > 0) low = found.length, atLow = at;
+	double     low = 0, high = 1, atLow = step.before, atHigh = step.after;
+	const auto between = [&] {
+		if (!std::isfinite(atHigh)) return low > 0 ? (low + high) / 2 : high / 4;
+		return low + (high - low) * std::clamp(atLow / (atLow - atHigh), 0.1, 0.9);
+	};
+	for (int trial = 1; trial <= trials; ++trial) {
+		const double part = between(), at = work(part);
+		if (step.before > 0 ? std::abs(at) <= 0.5 * step.before : std::isfinite(at)) return { part, trial };
+		if (at > 0) low = part, atLow = at;
 		else
-			high = found.length, atHigh = at;
+			high = part, atHigh = at;
 	}
-	return found;
+	return { low > 0 && atLow < -atHigh ? low : high, trials };
 }
 
 } // namespace gimpm
