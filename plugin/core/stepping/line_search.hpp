@@ -1,34 +1,45 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What is done with a full Newton step that raises the residual; functions of its size |r(d)| only.
+// What is done with a full Newton step after which the forces resist it.
 #pragma once
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
-#include <vector>
 
 namespace gimpm {
 
-/// A full step may raise the residual by this much: points that begin to yield do so in steps that converge well.
-constexpr double toleratedGrowth = 1.1;
+/// A Newton step d from some displacements, and how it went. The work of the out-of-balance force on it is r.d: where
+/// forces have a potential, as at small strains with associated flow, that is the slope of the potential along the step,
+/// and it falls to zero where the potential is least. The size of the residual is no such guide where soil yields by
+/// friction: at the apex of its yield surface large forces store next to no energy.
+struct NewtonStep {
+	Eigen::VectorXd from, step;               ///< displacements before it, and the whole of it [m]
+	double          before = 0, after = 0;    ///< work of the out-of-balance force on it, before and after all of it [J]
+	double          sizeBefore = 0, size = 0; ///< of the residual [N]
 
-/// Full steps after one that raised the residual, which may be the way all the same, as in bending: the stretch that
-/// straight displacements cause is gone after the next solve. They must bring the residual down quickly, at least to a
-/// half each time, until it is smaller than before; else the iteration goes back and shortens the first one (the
-/// watchdog technique: Chamberlain et al. 1982).
+	/// Whether the step may be taken as it is: it may lead a little past the least potential. One that does not lead
+	/// downhill, as it may where flow is not associated, is not judged by its work.
+	bool isTaken() const { return before > 0 ? after > -0.5 * before : std::isfinite(after); }
+};
+
+/// Full steps after one that is not taken, which may be the way all the same, as in bending: the stretch that straight
+/// displacements cause is gone after the next solve. They must bring the residual down quickly, at least to a quarter
+/// each time, until it is smaller than before; else the iteration goes back and shortens the first one (the watchdog
+/// technique: Chamberlain et al. 1982).
 class Watchdog {
 public:
-	Eigen::VectorXd from, step;             ///< displacements before the first step, and that step
-	double          before = 0, raised = 0; ///< residual before it and after it [N]
+	NewtonStep first;
 
-	void begin(const Eigen::VectorXd& d, const Eigen::VectorXd& firstStep, double residualBefore, double residual)
+	void begin(NewtonStep step)
 	{
-		from = d, step = firstStep, before = residualBefore, raised = bound_ = residual, isOpen_ = true;
+		first   = std::move(step);
+		bound_  = first.size;
+		isOpen_ = true;
 	}
 	/// Whether the next full step, which ended with this residual, is taken.
 	bool admits(double residual)
 	{
-		bound_ /= 2;
-		isOpen_ = residual >= before;
+		bound_ /= 4;
+		isOpen_ = residual >= first.sizeBefore;
 		return residual <= bound_;
 	}
 	void giveUp() { isOpen_ = false, wasVain_ = true; }
@@ -40,41 +51,30 @@ private:
 	bool   isOpen_ = false, wasVain_ = false;
 };
 
-/// Full steps that lead round in a circle, as where places begin to slip and to stick in turn.
-class Rounds {
-public:
-	/// Whether a step has raised the residual to where it has been.
-	bool isBack(double before, double after)
-	{
-		const auto hasBeen = [&](double size) { return std::abs(size - after) < 1e-3 * after; };
-		const bool found   = after > before && std::any_of(sizes_.begin(), sizes_.end(), hasBeen);
-		sizes_.push_back(after);
-		return found;
-	}
-
-private:
-	std::vector<double> sizes_; // [N]
-};
-
 /// Which part of a step to take.
 struct Shortened {
 	double length = 1; ///< part of the full step
-	double size   = 0; ///< residual there [N]
 	int    trials = 0; ///< residuals looked at
 };
 
-/// A full step raised the residual from `before` to `full`: tries halves of it, at most `trials` times, until Armijo's
-/// condition holds, and takes the best. size(part) gives the residual of a part of the step.
-template <class F> Shortened lineSearch(double before, double full, int trials, F&& size)
+/// Looks for the part of a step where the out-of-balance force does at most half as much work on it as before (Matthies
+/// and Strang 1979), between the parts where that pulls on and where it pulls back, by linear interpolation that
+/// leaves a tenth of the interval at either end. work(part) gives it; minus infinity where there is no force.
+template <class F> Shortened lineSearch(const NewtonStep& step, int trials, F&& work)
 {
-	Shortened best { 1, full };
-	for (double part = 0.5; best.trials < trials; part /= 2) {
-		const double found = size(part);
-		++best.trials;
-		if (found < best.size) best.size = found, best.length = part;
-		if (found <= (1 - 1e-4 * part) * before) break;
+	double     low = 0, high = 1, atLow = step.before, atHigh = step.after;
+	const auto between = [&] {
+		if (!std::isfinite(atHigh)) return low > 0 ? (low + high) / 2 : high / 4;
+		return low + (high - low) * std::clamp(atLow / (atLow - atHigh), 0.1, 0.9);
+	};
+	for (int trial = 1; trial <= trials; ++trial) {
+		const double part = between(), at = work(part);
+		if (step.before > 0 ? std::abs(at) <= 0.5 * step.before : std::isfinite(at)) return { part, trial };
+		if (at > 0) low = part, atLow = at;
+		else
+			high = part, atHigh = at;
 	}
-	return best;
+	return { low > 0 && atLow < -atHigh ? low : high, trials };
 }
 
 } // namespace gimpm

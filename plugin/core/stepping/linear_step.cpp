@@ -65,6 +65,13 @@ template <int Dim> bool LinearStep<Dim>::solveAgain(const Eigen::VectorXd& resid
 	return true;
 }
 
+template <int Dim> double LinearStep<Dim>::product(const Eigen::VectorXd& step, const Eigen::VectorXd& force) const
+{
+	double sum = 0;
+	forFree([&](int i, int number, double scale) { sum += step[i] / scale * force[number]; });
+	return sum;
+}
+
 template <int Dim> void LinearStep<Dim>::addTo(Eigen::VectorXd& step, const Eigen::VectorXd& correction) const
 {
 	forFree([&](int i, int number, double scale) { step[i] += scale * correction[number]; });

@@ -24,6 +24,9 @@ public:
 	/// The same with the factor that is kept.
 	bool solveAgain(const Eigen::VectorXd& residual, Eigen::VectorXd& step);
 
+	/// Work of forces on the free degrees of freedom, scaled as the residual, on a step.
+	double product(const Eigen::VectorXd& step, const Eigen::VectorXd& force) const;
+
 	/// Of the last solve: of Cholesky or, where K is not symmetric, of LU.
 	bool keepsFactor() const { return keepsFactor_; }
 	void dropFactor() { keepsFactor_ = false; }

@@ -31,28 +31,28 @@ private:
 		if (!iterate_.hasStiffness) iterate_.evaluate(d_, true);
 		// Prescribed displacements enter in full: the residual before says nothing of them, and a shorter step
 		// would lose a part.
-		const bool      prescribes = linear_.prescribes();
-		const double    before     = iterate_.balance.size;
-		Eigen::VectorXd step;
-		if (!linear_.solve(iterate_.K, iterate_.beside, iterate_.balance.residual, judge_.convergence.forcing(), step)) {
+		const bool prescribes = linear_.prescribes();
+		NewtonStep next;
+		next.from       = d_;
+		next.sizeBefore = iterate_.balance.size;
+		if (!linear_.solve(iterate_.K, iterate_.beside, iterate_.balance.residual, judge_.convergence.forcing(), next.step)) {
 			if (watchdog_.isOpen()) return goBack();
 			return !fail(report_, Failure::singular, "the stiffness matrix is singular to working precision");
 		}
-		iterate_.evaluate(d_ + step, !judge_.convergence.isLastStiffness(linear_.keepsFactor()));
-		const double& after = iterate_.balance.size;
+		next.before = workOn(next.step);
+		iterate_.evaluate(d_ + next.step, !judge_.convergence.isLastStiffness(linear_.keepsFactor()));
+		next.after = workOn(next.step), next.size = iterate_.balance.size;
 		if (judge_.staysInBalance(solves_)) {
 			// the whole had converged before, and the step is for a part of it: what is left of the whole
 			// says nothing of that
-		} else if (predicted_ && !(after < before)) { // and zero is tried
-			return !fail(report_, Failure::diverging, "the prediction leads nowhere");
 		} else if (watchdog_.isOpen()) {
-			if (!watchdog_.admits(after)) return goBack();
-		} else if (!prescribes && (!(after < toleratedGrowth * before) || rounds_.isBack(before, after))) {
-			if (!mayGoOn()) return search(d_, step, before, after);
-			watchdog_.begin(d_, step, before, after);
+			if (!watchdog_.admits(next.size)) return goBack();
+		} else if (!prescribes && !next.isTaken() && settings_.lineSearchTrials > 0) {
+			if (!mayGoOn()) return search(next);
+			watchdog_.begin(next);
 		}
 		if (prescribes) iterate_.enter(linear_.causedByPrescribed());
-		d_ += step;
+		d_ += next.step;
 		return true;
 	}
 
@@ -74,32 +74,33 @@ private:
 		return true;
 	}
 
-	bool mayGoOn() const
+	/// Of the out-of-balance force at the iterate on the free degrees of freedom [J].
+	double workOn(const Eigen::VectorXd& step) const
 	{
-		return settings_.lineSearchTrials > 0 && !watchdog_.wasVain() && std::isfinite(iterate_.balance.size) && solves_ + 1 < settings_.maxIterations;
+		if (!std::isfinite(iterate_.balance.size)) return -std::numeric_limits<double>::infinity();
+		return linear_.product(step, iterate_.balance.residual);
 	}
+
+	bool mayGoOn() const { return !watchdog_.wasVain() && std::isfinite(iterate_.balance.size) && solves_ + 1 < settings_.maxIterations; }
 	bool goBack()
 	{
 		watchdog_.giveUp();
-		return search(watchdog_.from, watchdog_.step, watchdog_.before, watchdog_.raised);
+		return search(watchdog_.first);
 	}
 
-	/// A full step from d raised the residual to `full`.
-	bool search(const Eigen::VectorXd& d, const Eigen::VectorXd& step, double before, double full)
+	bool search(const NewtonStep& step)
 	{
-		const Shortened best = lineSearch(before, full, settings_.lineSearchTrials, [&](double part) {
-			iterate_.evaluate(d + part * step, false);
-			return iterate_.balance.size;
+		const Shortened best = lineSearch(step, settings_.lineSearchTrials, [&](double part) {
+			iterate_.evaluate(step.from + part * step.step, false);
+			return workOn(step.step);
 		});
 		report_.lineSearchTrials += best.trials;
-		const double length = best.length * system_.map.displacements(step).template lpNorm<Eigen::Infinity>();
-		if (settings_.lineSearchTrials > 0 && best.size >= before && length > system_.model.grid.cellSize) {
-			report_.residuals.push_back(judge_.relative(solves_));
-			return !fail(report_, Failure::diverging, causeOfDivergence(length));
-		}
-		d_ = d + best.length * step;
+		d_ = step.from + best.length * step.step;
 		iterate_.evaluate(d_, true);
-		return true;
+		const double length = best.length * system_.map.displacements(step.step).template lpNorm<Eigen::Infinity>();
+		if (iterate_.balance.size < step.sizeBefore || length <= system_.model.grid.cellSize) return true;
+		report_.residuals.push_back(judge_.relative(solves_));
+		return !fail(report_, Failure::diverging, causeOfDivergence(length));
 	}
 
 	const StepSystem<Dim>& system_;
@@ -109,7 +110,6 @@ private:
 	Iterate<Dim>           iterate_ { system_, report_ };
 	Judge<Dim>             judge_ { system_, iterate_, report_ };
 	Watchdog               watchdog_;
-	Rounds                 rounds_;
 	Eigen::VectorXd        d_         = Eigen::VectorXd::Zero(system_.map.size());
 	int                    solves_    = 0;
 	bool                   predicted_ = false;

@@ -29,7 +29,7 @@ def block(seed):
 	return solver, 45 * v @ v, .6 / np.linalg.norm(v)
 
 found = []
-for scheme, seed in ('newmark', 98), ('newmark', 102), ('generalised-alpha', 91):
+for scheme, seed in ('newmark', 101), ('newmark', 119), ('generalised-alpha', 78):
 	solver, first, end = block(seed)
 	most, cuts = 0, 0
 	while O.time < end:
@@ -42,7 +42,7 @@ print(json.dumps(found))
 
 
 def test_no_step_makes_energy_of_nothing(yade):
-	"""In these, with the arithmetic of this kind of processor, Newton's method finds an equilibrium with 3 to 30 times the energy of the motion."""
+	"""In these, with the arithmetic of this kind of processor, Newton's method finds an equilibrium with 5 to 17 times the energy of the motion."""
 	for most, cuts in yade(bouncing, environment={'OPENBLAS_CORETYPE': 'Haswell'}).result:
 		assert most < 1.1 and cuts > 0
 
