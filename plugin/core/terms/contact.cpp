@@ -117,15 +117,20 @@ template <int Dim> void Contact<Dim>::addPlace(int number, const SurfacePoint<Di
 	if (isRing_ && onBody[0] <= 0) return;
 	const auto sight = soil.from(onBody, normal, searchReach(body, grid_));
 	if (!sight || isHidden(number, onBody, normal)) return;
-	Place          place { number, point.number, onBody + std::max(0., sight->gap) * normal, {}, body.end.rotation * point.normal, std::max(0., sight->gap), std::max(0., sight->gap), Vec<Dim>::Zero(), {}, {} };
+	Place place { number, point.number, onBody + std::max(0., sight->gap) * normal, {}, body.end.rotation * point.normal, std::max(0., sight->gap), std::max(0., sight->gap), sight->presence, Vec<Dim>::Zero(), {}, {} };
+	const auto* record = recordOf(place);
+	// Domains turn and stretch; but soil that presses goes no faster than it slides, a quarter of a cell from being there in
+	// full to not being there.
+	if (record && record->touches) place.presence = std::max(place.presence, record->presence - 4 * record->travel / grid_.cellSize);
+	if (place.presence <= 0) return;
 	const auto     attached = attach(place.soil, basis_, grid_);
 	if (!attached) return; // behind a wall
 	place.attached       = *attached;
 	place.carried        = body.end.inSpace(body.begin.inBody(place.soil)) - place.soil;
-	const double area    = sight->presence * point.area * (isRing_ ? 2 * M_PI * onBody[0] : 1);
+	const double area    = place.presence * point.area * (isRing_ ? 2 * M_PI * onBody[0] : 1);
 	const double penalty = body.stiffness * sight->young * area / grid_.cellSize;
 	place.law            = { penalty, penalty / slipSoftness, body.friction, body.adhesion * area };
-	if (const auto* record = recordOf(place)) {
+	if (record) {
 		place.friction = body.end.rotation * body.begin.rotation.transpose() * record->friction;
 		if (record->touches && record->gap < 0) {
 			place.gap = record->gap;
@@ -283,7 +288,7 @@ template <int Dim> void Contact<Dim>::commit(const Eigen::VectorXd& d)
 	for (const Place& place : places_) {
 		const Approach<Dim> near = approach(place, d);
 		const Vec<Dim>      along = near.slip - near.slip.dot(near.at.normal) * near.at.normal;
-		records.push_back({ place.body, place.number, near.at.gap, false, false, 0, along.norm(), Vec<Dim>::Zero(), near.at.normal, place.soil + place.attached.displacement(d) });
+		records.push_back({ place.body, place.number, near.at.gap, false, false, 0, place.presence, along.norm(), Vec<Dim>::Zero(), near.at.normal, place.soil + place.attached.displacement(d) });
 	}
 	system_.loads.assign(system_.owners.size(), {});
 	system_.work  = 0;

@@ -17,6 +17,7 @@ template <int Dim> struct ContactRecord {
 	double       gap     = 0;                                        ///< to the soil, < 0 by the penalty [m]
 	bool         touches = false, slips = false;
 	double       pressure = 0;                                       ///< normal force [N]
+	double       presence = 0;                                       ///< of soil in front of it (core/terms/contact_sight.hpp)
 	double       travel   = 0;                                       ///< how far soil moved along the body in that step [m]
 	Vec<Dim>     friction = Vec<Dim>::Zero(), normal = Vec<Dim>::Zero(); ///< on the soil [N]; of the body
 	Vec<Dim>     place = Vec<Dim>::Zero();                           ///< of the soil at the end of the step [m]
@@ -92,6 +93,7 @@ private:
 		Vec<Dim>        normal;   ///< at the end
 		double          away;     ///< of the soil from the body, at the start [m]
 		double          gap;      ///< what counts as that
+		double          presence;
 		Vec<Dim>        friction; ///< at the start, turned with the body
 		ContactLaw<Dim> law;
 		Attachment<Dim> attached;

@@ -92,9 +92,8 @@ template <int Dim> std::optional<Sight> SoilNear<Dim>::from(const Vec<Dim>& plac
 		const double part = ((middle + size).cwiseMin(d.centre + d.half) - (middle - size).cwiseMax(d.centre - d.half)).cwiseMax(0).prod();
 		volume += part, stiff += part * d.young;
 	});
-	const double presence = std::clamp(2 * volume / std::pow(2 * beside, Dim) - 0.5, 0., 1.);
-	if (presence == 0) return std::nullopt;
-	return Sight { gap, presence, stiff / volume };
+	if (volume == 0) return std::nullopt;
+	return Sight { gap, std::clamp(2 * volume / std::pow(2 * beside, Dim) - 0.5, 0., 1.), stiff / volume };
 }
 
 template class SoilNear<2>;

@@ -18,7 +18,7 @@ def _rotation(axis, a):
 	return np.array([[c, -s, 0], [s, c, 0], [0, 0, 1]]) if axis == 2 else np.array([[c, 0, s], [0, 1, 0], [-s, 0, c]])
 
 
-def block(dim=3, axis=2, mu=1., steps=120, turns=1., stiffness=20., seconds=300):
+def block(dim=3, axis=2, mu=1., steps=120, turns=1., stiffness=20., cells=1, points=2, seconds=300):
 	"""A block between two plates is squeezed and sheared by them; then everything turns rigidly. Angle and size of the force on a plate, in axes that turn along, against those before.
 
 	:param axis: 2, z: the normal of the plates in 3D; in the plane they are turned about z, too, which there is across their normal. 1: in 3D across the normal
@@ -26,11 +26,11 @@ def block(dim=3, axis=2, mu=1., steps=120, turns=1., stiffness=20., seconds=300)
 	O.reset()
 	O.materials.append(MpmElasticMat(young=1e6, poisson=.2, density=1, label='soil'))
 	steel()
-	size, half = .125, .125
+	size, half = .125 / cells, .125
 	grid = MpmGrid(cellSize=size, dim=dim)
 	normal = 2 if dim == 3 else 1
 	low = (-.25, -.25, -half) if dim == 3 else (-.25, -half, -1)
-	O.bodies.append(mpm.fill(pack.inAlignedBox(low, tuple(-x for x in low)), grid, 2, 'soil'))
+	O.bodies.append(mpm.fill(pack.inAlignedBox(low, tuple(-x for x in low)), grid, points, 'soil'))
 	along = np.eye(3)[normal]
 	extents = tuple(.2 if k == normal else .6 for k in range(3))
 	plates = [One(utils.box(tuple(side * (half + .2) * along), extents, material='rigid', fixed=True)) for side in (1, -1)]

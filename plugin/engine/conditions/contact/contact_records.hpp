@@ -7,22 +7,21 @@ namespace yade {
 // What an MpmContact keeps of a place on the surface of a body that has soil in front of it, as numbers one after the
 // other.
 struct ContactRecordOfPlace {
-	static constexpr int width = 16;
+	static constexpr int width = 17;
 
 	std::int64_t number;
 	int          body; // id
-	Real         gap, pressure, travel;
+	Real         gap, pressure, presence, travel;
 	bool         touches, slips;
 	Vector3r     friction, normal, place;
 
 	static ContactRecordOfPlace from(const Real* x)
 	{
-		return { std::int64_t(x[0]),   int(x[1]), x[2], x[3], x[4], x[5] != 0, x[6] != 0, Vector3r::Map(x + 7), Vector3r::Map(x + 10),
-			 Vector3r::Map(x + 13) };
+		return { std::int64_t(x[0]), int(x[1]), x[2], x[3], x[4], x[5], x[6] != 0, x[7] != 0, Vector3r::Map(x + 8), Vector3r::Map(x + 11), Vector3r::Map(x + 14) };
 	}
 	void appendTo(vector<Real>& numbers) const
 	{
-		for (const Real x : { Real(number), Real(body), gap, pressure, travel, Real(touches), Real(slips) })
+		for (const Real x : { Real(number), Real(body), gap, pressure, presence, travel, Real(touches), Real(slips) })
 			numbers.push_back(x);
 		for (const Vector3r& v : { friction, normal, place })
 			numbers.insert(numbers.end(), v.data(), v.data() + 3);

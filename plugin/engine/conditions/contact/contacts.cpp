@@ -179,7 +179,7 @@ template <int Dim> void Contacts<Dim>::recall(const MpmContact& contact)
 		const auto body = numbers.find(r.body);
 		if (body == numbers.end()) return; // erased
 		const auto friction = headOf<Dim>(r.friction), normal = headOf<Dim>(r.normal), place = headOf<Dim>(r.place);
-		system->records.push_back({ body->second, r.number, r.gap, r.touches, r.slips, r.pressure, r.travel, friction, normal, place });
+		system->records.push_back({ body->second, r.number, r.gap, r.touches, r.slips, r.pressure, r.presence, r.travel, friction, normal, place });
 	});
 }
 
@@ -320,6 +320,7 @@ template <int Dim> void Contacts<Dim>::keepRecords() const
 			               members[r.body].body->id,
 			               r.gap,
 			               r.pressure,
+			               r.presence,
 			               r.travel,
 			               r.touches,
 			               r.slips,
