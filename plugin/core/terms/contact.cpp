@@ -149,7 +149,7 @@ template <int Dim> Approach<Dim> Contact<Dim>::approach(const Place& place, cons
 	const auto&    body = system_.bodies[place.body];
 	const Vec<Dim> u    = place.attached.displacement(d);
 	Approach<Dim>  a { {}, u - place.carried, Mat<Dim>::Identity(), place.friction };
-	if (body.shape.kind == RigidKind::ball) {
+	if (body.shape.kind == RigidKind::ball && !std::isfinite(system_.energy)) {
 		a.at = body.proximity(body.end, place.soil + u, 1);
 		a.at.gap += place.gap - place.away;
 	} else {
@@ -229,7 +229,7 @@ template <int Dim> std::string Contact<Dim>::entered(const Eigen::VectorXd& d) c
 {
 	double most = d.size() > 0 ? Eigen::Map<const Eigen::Matrix<double, Dim, -1>>(d.data(), Dim, d.size() / Dim).colwise().norm().maxCoeff() : 0;
 	most        = division_.largest(most);
-	const double deepest = 0.25 * grid_.cellSize;
+	const double deepest = 0.1 * grid_.cellSize;
 	for (const NearPoint& near : nearPoints(system_.bodies, cloud_, basis_, grid_, most)) {
 		if (near.point >= division_.ownOf(cloud_.size())) continue;
 		const auto&    body     = system_.bodies[near.body];
