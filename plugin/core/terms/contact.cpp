@@ -55,48 +55,66 @@ template <int Dim> void Contact<Dim>::find(const Beginning<Dim>& step)
 	std::stable_sort(near_.begin(), near_.end(), [](const Near& a, const Near& b) { return a.body < b.body; });
 }
 
-/// What cannot be computed with the body.
+template <int Dim> auto Contact<Dim>::nearTo(int body) const
+{
+	const auto first = std::lower_bound(near_.begin(), near_.end(), body, [](const Near& near, int b) { return near.body < b; });
+	return std::pair(first, std::find_if(first, near_.end(), [&](const Near& near) { return near.body != body; }));
+}
+
+/// What cannot be computed with a body near the soil.
 template <int Dim> void Contact<Dim>::look(int number)
 {
-	const auto& body    = system_.bodies[number];
-	const auto  isOfIt  = [&](const Near& near) { return near.body == number; };
-	const bool  isNear  = std::any_of(near_.begin(), near_.end(), isOfIt);
-	const bool  isPlain = body.shape.kind == RigidKind::ball && (body.friction == 0 || body.adhesion == 0);
-	if (isNear && body.turn > 1 && !isPlain) {
+	const auto& body         = system_.bodies[number];
+	const auto [first, last] = nearTo(number);
+	const bool isPlain       = body.shape.kind == RigidKind::ball && (body.friction == 0 || body.adhesion == 0);
+	if (first != last && body.turn > 1 && !isPlain) {
 		std::ostringstream text;
 		text << body.name << " turns by " << body.turn
 		     << " rad from one load step to the next; soil near it can follow 1 rad: decrease angVel, O.dt or iterPeriod";
 		obstacle_ = text.str();
 	}
-	for (const Near& near : near_) // Of a two-sided surface it never is.
-		if (near.body == number && body.isNew && body.proximity(body.begin, near.centre(), near.side).gap < 0)
-			obstacle_ = textAt(body, " has the middle of a material point inside of it", near.centre());
+	for (auto near = first; body.isNew && near != last; ++near) // Of a two-sided surface it never is.
+		if (body.proximity(body.begin, near->centre(), near->side).gap < 0)
+			obstacle_ = textAt(body, " has the middle of a material point inside of it", near->centre());
 }
 
 template <int Dim> void Contact<Dim>::addPlaces(int number)
 {
-	const auto&                  body = system_.bodies[number];
+	const auto& body         = system_.bodies[number];
+	const auto [first, last] = nearTo(number);
+	if (first == last) return;
 	std::vector<SoilDomain<Dim>> domains;
-	const auto isBefore = [](const Near& near, int b) { return near.body < b; };
-	for (auto near = std::lower_bound(near_.begin(), near_.end(), number, isBefore); near != near_.end() && near->body == number; ++near)
+	for (auto near = first; near != last; ++near)
 		domains.push_back({ near->centre(), near->half(), near->young, body.proximity(body.begin, near->centre(), near->side).normal });
-	if (domains.empty()) return;
-	const SoilNear<Dim>  soil(std::move(domains), grid_.cellSize);
-	const auto [low, high] = soil.bounds();
-	const Vec<Dim> margin  = Vec<Dim>::Constant(grid_.cellSize);
-	for (const auto& point : surfacePoints<Dim>(body.shape, grid_.cellSize / 4, low - margin - body.begin.position, high + margin - body.begin.position))
-		addPlace(number, point, soil);
+	const SoilNear<Dim> soil(std::move(domains), grid_.cellSize);
+	const auto [low, high]        = soil.bounds();
+	const Vec<Dim>         margin = Vec<Dim>::Constant(grid_.cellSize), origin = body.begin.position;
+	const std::vector<int> around = bodiesAround(number);
+	for (const auto& point : surfacePoints<Dim>(body.shape, grid_.cellSize / 4, low - margin - origin, high + margin - origin))
+		addPlace(number, point, soil, around);
 }
 
-template <int Dim> bool Contact<Dim>::isHidden(int number, const Vec<Dim>& place, const Vec<Dim>& normal) const
+/// Those in or on which a place of the body may be.
+template <int Dim> std::vector<int> Contact<Dim>::bodiesAround(int number) const
 {
+	const auto [low, high] = system_.bodies[number].bounds(system_.bodies[number].begin);
+	std::vector<int> found;
 	for (int b = 0; b < int(system_.bodies.size()); ++b) {
-		const auto& other      = system_.bodies[b];
-		const auto [low, high] = other.bounds(other.begin);
-		if (b == number || (place.array() < low.array() - tolerance_).any() || (place.array() > high.array() + tolerance_).any()) continue;
-		const auto at       = other.proximity(other.begin, place, other.shape.isTwoSided ? other.sideOf(other.begin, place + grid_.cellSize * normal) : 1);
-		const bool isAlike  = at.normal.dot(normal) > 1 - 1e-6 && std::abs(at.gap) <= tolerance_ && at.beside < 0;
-		const bool isInside = !other.shape.isTwoSided && at.gap < -tolerance_;
+		const auto [otherLow, otherHigh] = system_.bodies[b].bounds(system_.bodies[b].begin);
+		const bool isApart               = (otherLow.array() > high.array() + tolerance_).any() || (otherHigh.array() < low.array() - tolerance_).any();
+		if (b != number && !isApart) found.push_back(b);
+	}
+	return found;
+}
+
+/// Whether the place is in another body, or on the surface of one that came first and faces alike.
+template <int Dim> bool Contact<Dim>::isHidden(int number, const Vec<Dim>& place, const Vec<Dim>& normal, const std::vector<int>& around) const
+{
+	for (const int b : around) {
+		const auto& other    = system_.bodies[b];
+		const auto  at       = other.proximity(other.begin, place, other.sideOf(other.begin, place + grid_.cellSize * normal));
+		const bool  isAlike  = at.normal.dot(normal) > 1 - 1e-6 && std::abs(at.gap) <= tolerance_ && at.beside < 0;
+		const bool  isInside = !other.shape.isTwoSided && at.gap < -tolerance_;
 		if (isInside || (isAlike && b < number)) return true;
 	}
 	return false;
@@ -109,21 +127,25 @@ template <int Dim> const ContactRecord<Dim>* Contact<Dim>::recordOf(const Place&
 	return found != system_.records.end() && found->body == place.body && found->number == place.number ? &*found : nullptr;
 }
 
-template <int Dim> void Contact<Dim>::addPlace(int number, const SurfacePoint<Dim>& point, const SoilNear<Dim>& soil)
+template <int Dim> void Contact<Dim>::addPlace(int number, const SurfacePoint<Dim>& point, const SoilNear<Dim>& soil, const std::vector<int>& around)
 {
-	const auto&    body    = system_.bodies[number];
-	const Vec<Dim> onBody  = body.begin.inSpace(point.place);
-	const Vec<Dim> normal  = body.begin.rotation * point.normal;
+	const auto&    body   = system_.bodies[number];
+	const Vec<Dim> onBody = body.begin.inSpace(point.place), normal = body.begin.rotation * point.normal;
 	if (isRing_ && onBody[0] <= 0) return;
 	const auto sight = soil.from(onBody, normal, searchReach(body, grid_));
-	if (!sight || isHidden(number, onBody, normal)) return;
-	Place place { number, point.number, onBody + std::max(0., sight->gap) * normal, {}, body.end.rotation * point.normal, std::max(0., sight->gap), std::max(0., sight->gap), sight->presence, Vec<Dim>::Zero(), {}, {} };
-	const auto* record = recordOf(place);
+	if (!sight || isHidden(number, onBody, normal, around)) return;
+	Place place;
+	place.body = number, place.number = point.number;
+	place.away = place.gap = std::max(0., sight->gap);
+	place.soil             = onBody + place.away * normal;
+	place.normal           = body.end.rotation * point.normal;
+	place.presence         = sight->presence;
+	const auto* record     = recordOf(place);
 	// Domains turn and stretch; but soil that presses goes no faster than it slides, a quarter of a cell from being there in
 	// full to not being there.
 	if (record && record->touches) place.presence = std::max(place.presence, record->presence - 4 * record->travel / grid_.cellSize);
 	if (place.presence <= 0) return;
-	const auto     attached = attach(place.soil, basis_, grid_);
+	const auto attached = attach(place.soil, basis_, grid_);
 	if (!attached) return; // behind a wall
 	place.attached       = *attached;
 	place.away           = body.proximity(body.begin, place.soil, 1).gap; // as it is found at the end: where nothing moves no gap is left by round-off
@@ -228,8 +250,8 @@ template <int Dim> Refusal Contact<Dim>::refusal(const Eigen::VectorXd& d) const
 /// Soil farther from a body than it is looked for may move as far as that and more.
 template <int Dim> std::string Contact<Dim>::entered(const Eigen::VectorXd& d) const
 {
-	double most = d.size() > 0 ? Eigen::Map<const Eigen::Matrix<double, Dim, -1>>(d.data(), Dim, d.size() / Dim).colwise().norm().maxCoeff() : 0;
-	most        = division_.largest(most);
+	double most          = d.size() > 0 ? Eigen::Map<const Eigen::Matrix<double, Dim, -1>>(d.data(), Dim, d.size() / Dim).colwise().norm().maxCoeff() : 0;
+	most                 = division_.largest(most);
 	const double deepest = 0.1 * grid_.cellSize;
 	for (const NearPoint& near : nearPoints(system_.bodies, cloud_, basis_, grid_, most)) {
 		if (near.point >= division_.ownOf(cloud_.size())) continue;
@@ -243,8 +265,8 @@ template <int Dim> std::string Contact<Dim>::entered(const Eigen::VectorXd& d) c
 		const bool           isInside  = !body.shape.isTwoSided && after.gap < -deepest && after.gap < before.gap - deepest / 2;
 		if (!isThrough && !isInside) continue;
 		std::ostringstream text;
-		text << (isThrough ? " would let soil through" : " would get soil inside of it") << ", which moves " << u.norm() << " m in the step, and the body up to "
-		     << body.motion() << " m";
+		text << (isThrough ? " would let soil through" : " would get soil inside of it") << ", which moves " << u.norm()
+		     << " m in the step, and the body up to " << body.motion() << " m";
 		return textAt(body, text.str().c_str(), x);
 	}
 	return {};
@@ -287,9 +309,10 @@ template <int Dim> void Contact<Dim>::commit(const Eigen::VectorXd& d)
 {
 	std::vector<ContactRecord<Dim>> records;
 	for (const Place& place : places_) {
-		const Approach<Dim> near = approach(place, d);
+		const Approach<Dim> near  = approach(place, d);
 		const Vec<Dim>      along = near.slip - near.slip.dot(near.at.normal) * near.at.normal;
-		records.push_back({ place.body, place.number, near.at.gap, false, false, 0, place.presence, along.norm(), Vec<Dim>::Zero(), near.at.normal, place.soil + place.attached.displacement(d) });
+		records.push_back({ place.body, place.number, near.at.gap, false, false, 0, place.presence, along.norm(), Vec<Dim>::Zero(), near.at.normal,
+		                    place.soil + place.attached.displacement(d) });
 	}
 	system_.loads.assign(system_.owners.size(), {});
 	system_.work  = 0;

@@ -13,14 +13,14 @@ namespace gimpm {
 /// A place on the surface of a body that had soil in front of it at the end of a step that was accepted.
 template <int Dim> struct ContactRecord {
 	int          body;
-	std::int64_t number;                                             ///< of the place on the body
-	double       gap     = 0;                                        ///< to the soil, < 0 by the penalty [m]
+	std::int64_t number;      ///< of the place on the body
+	double       gap     = 0; ///< to the soil, < 0 by the penalty [m]
 	bool         touches = false, slips = false;
-	double       pressure = 0;                                       ///< normal force [N]
-	double       presence = 0;                                       ///< of soil in front of it (core/terms/contact_sight.hpp)
-	double       travel   = 0;                                       ///< how far soil moved along the body in that step [m]
+	double       pressure = 0;                                           ///< normal force [N]
+	double       presence = 0;                                           ///< of soil in front of it (core/terms/contact_sight.hpp)
+	double       travel   = 0;                                           ///< how far soil moved along the body in that step [m]
 	Vec<Dim>     friction = Vec<Dim>::Zero(), normal = Vec<Dim>::Zero(); ///< on the soil [N]; of the body
-	Vec<Dim>     place = Vec<Dim>::Zero();                           ///< of the soil at the end of the step [m]
+	Vec<Dim>     place = Vec<Dim>::Zero();                               ///< of the soil at the end of the step [m]
 };
 
 /// What the soil does to whoever owns bodies.
@@ -93,23 +93,25 @@ private:
 		Vec<Dim>        normal;   ///< at the end
 		double          away;     ///< of the soil from the body, at the start [m]
 		double          gap;      ///< what counts as that
-		double          presence;
+		double          presence; ///< of soil in front of it
 		Vec<Dim>        friction; ///< at the start, turned with the body
 		ContactLaw<Dim> law;
 		Attachment<Dim> attached;
 	};
 
-	void                     find(const Beginning<Dim>&);
-	void                     addPlaces(int body);
-	void                     addPlace(int body, const SurfacePoint<Dim>&, const SoilNear<Dim>&);
-	bool                     isHidden(int body, const Vec<Dim>& place, const Vec<Dim>& normal) const;
-	void                     look(int body);
+	void                      find(const Beginning<Dim>&);
+	void                      addPlaces(int body);
+	void                      addPlace(int body, const SurfacePoint<Dim>&, const SoilNear<Dim>&, const std::vector<int>& around);
+	std::vector<int>          bodiesAround(int body) const;
+	bool                      isHidden(int body, const Vec<Dim>& place, const Vec<Dim>& normal, const std::vector<int>& around) const;
+	void                      look(int body);
+	auto                      nearTo(int body) const; // first and last in near_
 	const ContactRecord<Dim>* recordOf(const Place&) const;
-	Approach<Dim>            approach(const Place&, const Eigen::VectorXd& d) const;
-	template <class F> void  forTouching(const Eigen::VectorXd& d, F&& f) const; // f(place, approach, touch)
-	std::string              entered(const Eigen::VectorXd& d) const;
-	double                   given(const Eigen::VectorXd& d) const;
-	ContactLoad              loadOn(const Vec<Dim>& owner, const Place&, const Vec<Dim>& place, const Touch<Dim>&) const;
+	Approach<Dim>             approach(const Place&, const Eigen::VectorXd& d) const;
+	template <class F> void   forTouching(const Eigen::VectorXd& d, F&& f) const; // f(place, approach, touch)
+	std::string               entered(const Eigen::VectorXd& d) const;
+	double                    given(const Eigen::VectorXd& d) const;
+	ContactLoad               loadOn(const Vec<Dim>& owner, const Place&, const Vec<Dim>& place, const Touch<Dim>&) const;
 
 	ContactSystem<Dim>&    system_;
 	double                 tolerance_; // of a gap that counts as touching [m]

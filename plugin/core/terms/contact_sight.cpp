@@ -36,7 +36,7 @@ template <int Dim> SoilNear<Dim>::SoilNear(std::vector<SoilDomain<Dim>> domains,
 	if (domains_.empty()) return;
 	size_ = bin(high_) + Index<Dim>::Ones();
 	for (std::size_t i = 0; i < domains_.size(); ++i) {
-		const Index<Dim> at = bin(domains_[i].centre);
+		const Index<Dim> at  = bin(domains_[i].centre);
 		std::int64_t     key = 0;
 		for (int a = Dim - 1; a >= 0; --a)
 			key = key * size_[a] + at[a];

@@ -38,11 +38,11 @@ private:
 	template <class F> void forIn(const Vec<Dim>& low, const Vec<Dim>& high, F&& f) const;
 	Index<Dim>              bin(const Vec<Dim>& x) const { return ((x - low_) / cellSize_).array().floor().template cast<int>(); }
 
-	std::vector<SoilDomain<Dim>>               domains_;
-	std::vector<std::pair<std::int64_t, int>>  bins_; ///< and numbers of domains, sorted
-	Vec<Dim>                                   low_, high_;
-	Index<Dim>                                 size_;
-	double                                     cellSize_, largest_ = 0;
+	std::vector<SoilDomain<Dim>>              domains_;
+	std::vector<std::pair<std::int64_t, int>> bins_; ///< and numbers of domains, sorted
+	Vec<Dim>                                  low_, high_;
+	Index<Dim>                                size_;
+	double                                    cellSize_, largest_ = 0;
 };
 
 } // namespace gimpm

@@ -99,8 +99,8 @@ SurfacePoints<3> onSheet(const std::array<Vec3, 3>& corner, double spacing, bool
 			for (int turned = 0; turned < (i + j + 1 < parts ? 2 : 1); ++turned) {
 				const double at = turned ? 2. / 3 : 1. / 3;
 				addSides<3>(
-				        points, number++, corner[0] + (i + at) / parts * u + (j + at) / parts * v, normal,
-				        across.norm() / 2 / (parts * parts), isTwoSided);
+				        points, number++, corner[0] + (i + at) / parts * u + (j + at) / parts * v, normal, across.norm() / 2 / (parts * parts),
+				        isTwoSided);
 			}
 	return points;
 }
@@ -131,8 +131,7 @@ template <int Dim> SurfacePoints<Dim> onPlane(const RigidShape<Dim>& shape, doub
 
 } // namespace
 
-template <int Dim>
-std::vector<SurfacePoint<Dim>> surfacePoints(const RigidShape<Dim>& shape, double spacing, const Vec<Dim>& low, const Vec<Dim>& high)
+template <int Dim> std::vector<SurfacePoint<Dim>> surfacePoints(const RigidShape<Dim>& shape, double spacing, const Vec<Dim>& low, const Vec<Dim>& high)
 {
 	if (shape.kind == RigidKind::ball) return onBall(shape.radius, spacing, Vec<Dim>());
 	if (shape.kind == RigidKind::block) return onBlock<Dim>(shape.halfSize, spacing);

@@ -17,7 +17,8 @@ struct ContactRecordOfPlace {
 
 	static ContactRecordOfPlace from(const Real* x)
 	{
-		return { std::int64_t(x[0]), int(x[1]), x[2], x[3], x[4], x[5], x[6] != 0, x[7] != 0, Vector3r::Map(x + 8), Vector3r::Map(x + 11), Vector3r::Map(x + 14) };
+		return { std::int64_t(x[0]),   int(x[1]), x[2], x[3], x[4], x[5], x[6] != 0, x[7] != 0, Vector3r::Map(x + 8), Vector3r::Map(x + 11),
+			 Vector3r::Map(x + 14) };
 	}
 	void appendTo(vector<Real>& numbers) const
 	{
