@@ -107,15 +107,10 @@ template <int Dim> std::pair<Vec<Dim>, Vec<Dim>> RigidBody<Dim>::bounds(const Po
 	return { pose.position - reach, pose.position + reach };
 }
 
-template <int Dim> double RigidBody<Dim>::widthAcross(const Vec<Dim>& way) const
+template <int Dim> double RigidBody<Dim>::thickness() const
 {
-	if (shape.kind == RigidKind::plane || shape.kind == RigidKind::sheet) return std::numeric_limits<double>::infinity();
-	if (shape.kind == RigidKind::ball) return 2 * shape.radius;
-	int along = 0;
-	if (way.cwiseAbs().maxCoeff(&along) == 0) return 2 * shape.halfSize.maxCoeff();
-	Vec<Dim> others = shape.halfSize;
-	others[along]   = std::numeric_limits<double>::infinity();
-	return 2 * others.minCoeff();
+	if (shape.kind == RigidKind::plane || shape.kind == RigidKind::sheet) return 0;
+	return 2 * (shape.kind == RigidKind::ball ? shape.radius : shape.halfSize.minCoeff());
 }
 
 template <> Vec<2> RigidBody<2>::spin() const { return Vec<2>::Zero(); }

@@ -54,9 +54,8 @@ template <int Dim> struct RigidBody {
 	/// Of a two-sided surface that on which a place is.
 	int sideOf(const Pose<Dim>&, const Vec<Dim>& x) const;
 
-	/// The smallest size of it that soil meets on its way, as seen from the body; infinite for planes and sheets.
-	/// Of a block on no way, its largest size.
-	double widthAcross(const Vec<Dim>& way) const;
+	/// Its smallest size; planes and sheets have none [m].
+	double thickness() const;
 
 	/// Whether what went straight from one place to another, as seen from the body, came out on another side of it,
 	/// or is about to. Of planes and sheets the sides are known.

@@ -31,8 +31,13 @@ void MpmContact::requireAdmissible() const
 	for (const size_t size : { forces.size(), torques.size(), impulses.size(), touching.size(), slipping.size(), areFree.size(), impulsesSince.size(),
 	                           poses.size() / 7, stiffnesses.size() / 36 })
 		if (size != n) throw std::invalid_argument("MpmContact: what is kept of the bodies does not go together; is the saved file damaged?");
-	if (records.size() % ContactRecordOfPlace::width != 0)
-		throw std::invalid_argument("MpmContact: what is kept of the points that touch is incomplete; is the saved file damaged?");
+	if (records.empty()) return;
+	if (!ContactRecordOfPlace::areIn(records))
+		throw std::invalid_argument(
+		        "MpmContact: what is kept of what touches is that of an earlier revision, by corners of domains, and cannot be gone on with. Give the engine a new one, as solver.contacts = [MpmContact(...)]: "
+		        "its bodies begin without force where they are.");
+	if (records.size() % ContactRecordOfPlace::width != 1)
+		throw std::invalid_argument("MpmContact: what is kept of the places that touch is incomplete; is the saved file damaged?");
 }
 
 void MpmContact::forget()
@@ -144,7 +149,7 @@ vector<shared_ptr<Body>> MpmContact::rigidBodies(const Scene& scene) const
 
 string MpmContact::idleness(const string& name, bool) const
 {
-	if (std::any_of(touching.begin(), touching.end(), [](int corners) { return corners > 0; })) return "";
+	if (std::any_of(touching.begin(), touching.end(), [](int places) { return places > 0; })) return "";
 	return " " + name + " touches nothing yet: a body holds what it touches, and by friction (MpmContact.friction) also along itself.";
 }
 
@@ -154,10 +159,10 @@ void MpmContact::tell(Rows& rows, const Analysis& analysis, const Listed& listed
 	const int    dim     = analysis.grid->dim;
 	const string name    = "contact" + std::to_string(listed.number);
 	Vector3r     total   = Vector3r::Constant(bodies.empty() ? std::numeric_limits<Real>::quiet_NaN() : 0);
-	int          corners = 0;
+	int          places = 0;
 	for (size_t b = 0; b < bodies.size(); ++b) {
 		total += forces[b];
-		corners += touching[b];
+		places += touching[b];
 		const string body = "body" + std::to_string(bodies[b]);
 		for (int axis = 0; axis < 3 && !areFree[b]; ++axis) {
 			if (axis < dim) rows.set(body + "_" + "xyz"[axis], forces[b][axis]);
@@ -165,10 +170,10 @@ void MpmContact::tell(Rows& rows, const Analysis& analysis, const Listed& listed
 		}
 	}
 	rows.setVector(name, total, dim);
-	rows.set(name + "_touching", corners);
+	rows.set(name + "_touching", places);
 }
 
-// A vertex for each corner that touches.
+// A vertex for each place that touches.
 void MpmContact::draw(Picture& picture, const Analysis&, const Listed&) const
 {
 	forRecords(records, [&](const ContactRecordOfPlace& r) {

@@ -21,7 +21,7 @@ public:
 	vector<int>      touching, slipping;
 	// Hidden: of each of the bodies position and orientation of its last exchange (7 numbers), whether YADE moves
 	// it freely, the stiffness that is handed over to those (36), and the impulse of that since; and what is
-	// remembered of corners that touch (contact_records.hpp)
+	// remembered of places on them (contact_records.hpp)
 	vector<Real>     poses, stiffnesses, records;
 	vector<int>      areFree;
 	vector<Vector3r> impulsesSince;
@@ -39,8 +39,8 @@ public:
 	YADE_API_NAME(MpmContact)
 	static const char* doc()
 	{
-		return "Contact with rigid bodies of YADE (Sphere, Box, Facet, Wall, and clumps of them), which the corners of the material points' domains cannot "
-		       "enter. Without a NewtonIntegrator in O.engines the MpmImplicitEngine moves the bodies by their velocities; with one YADE does, and bodies that are "
+		return "Contact with rigid bodies of YADE (Sphere, Box, Facet, Wall, and clumps of them), which soil cannot enter: "
+		       "places on their surfaces, a quarter of a cell apart, press on it. Without a NewtonIntegrator in O.engines the MpmImplicitEngine moves the bodies by their velocities; with one YADE does, and bodies that are "
 		       "free to move get the forces of the soil: the engine then stands before the NewtonIntegrator.\n\n"
 		       "In plane strain a body acts by its section at z = 0, per metre, around an axis of symmetry by that revolved; neither moves freely.\n\n"
 		       "A stiffness of 100, the default, leaves .6 % of error in the force of a plate; grains that move freely take 20, with a longer O.dt. More is said in "
@@ -65,7 +65,7 @@ public:
 		v("torques", &MpmContact::torques, readonly, "The same of the torques [N m] about their positions.");
 		v("impulses", &MpmContact::impulses, readonly,
 		  "Impulse [N s] that the stiffness handed over to a free body has added in the iterations between the last two load steps.");
-		v("touching", &MpmContact::touching, readonly, "Number of corners of domains that touch each of *bodies*.");
+		v("touching", &MpmContact::touching, readonly, "Number of places on each of *bodies*, a quarter of a cell apart, that soil touches.");
 		v("slipping", &MpmContact::slipping, readonly, "Number of those at the limit of friction.");
 		v("poses", &MpmContact::poses, hidden, "");
 		v("stiffnesses", &MpmContact::stiffnesses, hidden, "");

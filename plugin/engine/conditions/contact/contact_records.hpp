@@ -5,9 +5,10 @@
 namespace yade {
 
 // What an MpmContact keeps of a place on the surface of a body that has soil in front of it, as numbers one after the
-// other.
+// other. Before them all stands a mark; earlier revisions, which kept other numbers, had none, but the id of a point.
 struct ContactRecordOfPlace {
-	static constexpr int width = 17;
+	static constexpr int  width = 17;
+	static constexpr Real mark  = -width;
 
 	std::int64_t number;
 	int          body; // id
@@ -20,8 +21,10 @@ struct ContactRecordOfPlace {
 		return { std::int64_t(x[0]),   int(x[1]), x[2], x[3], x[4], x[5], x[6] != 0, x[7] != 0, Vector3r::Map(x + 8), Vector3r::Map(x + 11),
 			 Vector3r::Map(x + 14) };
 	}
-	void appendTo(vector<Real>& numbers) const
+	static bool areIn(const vector<Real>& numbers) { return !numbers.empty() && numbers[0] == mark; }
+	void        appendTo(vector<Real>& numbers) const
 	{
+		if (numbers.empty()) numbers.push_back(mark);
 		for (const Real x : { Real(number), Real(body), gap, pressure, presence, travel, Real(touches), Real(slips) })
 			numbers.push_back(x);
 		for (const Vector3r& v : { friction, normal, place })
@@ -33,7 +36,8 @@ struct ContactRecordOfPlace {
 // Calls f(record) for each of them.
 template <class F> void forRecords(const vector<Real>& numbers, F&& f)
 {
-	for (size_t i = 0; i + ContactRecordOfPlace::width <= numbers.size(); i += ContactRecordOfPlace::width)
+	if (!ContactRecordOfPlace::areIn(numbers)) return;
+	for (size_t i = 1; i + ContactRecordOfPlace::width <= numbers.size(); i += ContactRecordOfPlace::width)
 		f(ContactRecordOfPlace::from(&numbers[i]));
 }
 

@@ -186,6 +186,7 @@ template <int Dim> void Contacts<Dim>::recall(const MpmContact& contact)
 template <int Dim> void Contacts<Dim>::join(gimpm::Model<Dim>& model, const Surroundings<Dim>& around)
 {
 	begin = end = around.begin, target = around.target, dt = around.scene.dt;
+	cellSize = model.grid.cellSize;
 	movers.emplace(around.scene);
 	for (const auto& contact : given)
 		add(contact, around.scene, model.grid);
@@ -282,11 +283,30 @@ template <int Dim> void Contacts<Dim>::requireKept() const
 		if (owners[i].isFree) owners[i].contact->requireStable(*owners[i].body, system->loads[i].stiffness, dt, target - begin > 1.5 * dt);
 }
 
+// The soil is one field: on both sides of what is thinner than a cell the same nodes move it.
+template <int Dim> string Contacts<Dim>::warningOfThinness() const
+{
+	for (size_t i = 0; i < members.size(); ++i) {
+		const auto& body = system->bodies[i];
+		if (body.thickness() >= cellSize * (1 - 1e-9)) continue;
+		std::optional<gimpm::Vec<Dim>> first;
+		for (const auto& r : system->records) {
+			if (r.body != int(i) || !r.touches) continue;
+			if (!first) first = r.normal;
+			if (first->dot(r.normal) > -0.5) continue;
+			return gimpm::sentence(
+			        body.name, " is ", body.thickness(), " m thick, less than a cell (", cellSize,
+			        " m), with soil on both sides: they press on it, but move as one soil, which neither slides along the body nor comes off it on one side alone. Cells smaller than its thickness part them.");
+		}
+	}
+	return "";
+}
+
 template <int Dim> std::map<string, string> Contacts<Dim>::warnings(bool isDynamic) const
 {
 	std::map<string, string> found;
 	found["coefficient"] = coefficient;
-	found["thin"]        = system->warnings.empty() ? "" : system->warnings.front();
+	found["thin"]        = warningOfThinness();
 	for (const auto& contact : given)
 		if (isDynamic && found["exchange"].empty()) found["exchange"] = contact->warningOfExchange();
 	return found;

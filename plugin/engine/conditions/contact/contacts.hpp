@@ -68,6 +68,9 @@ private:
 	void keep(MpmContact&);
 	void keepRecords() const;
 
+	// About a body that does not part the soil on its two sides.
+	string warningOfThinness() const;
+
 	vector<shared_ptr<MpmContact>>        given;
 	shared_ptr<gimpm::ContactSystem<Dim>> system; // its terms refer to it
 	vector<Owner>                         owners;
@@ -76,6 +79,7 @@ private:
 	bool                                  hasKept = false;
 	Real                                  begin = 0, target = 0, end = 0; // of the run; end: of the last step
 	Real                                  dt = 0;                         // of an iteration of YADE
+	Real                                  cellSize = 0;                   // of the smallest cells
 	string                                coefficient;                    // doubt about an angle of friction
 	std::optional<Movers>                 movers;
 };
