@@ -8,17 +8,23 @@
 namespace gimpm {
 
 /// A Newton step d from some displacements, and how it went. The work of the out-of-balance force on it is r.d: where
-/// forces have a potential, as at small strains with associated flow, that is the slope of the potential along the step,
-/// and it falls to zero where the potential is least. The size of the residual is no such guide where soil yields by
-/// friction: at the apex of its yield surface large forces store next to no energy.
+/// forces have a potential, as at small strains with associated flow, that is the slope of the potential along the
+/// step, and it falls to zero where the potential is least. The size of the residual is no such guide where soil yields
+/// by friction: at the apex of its yield surface large forces store next to no energy.
 struct NewtonStep {
 	Eigen::VectorXd from, step;               ///< displacements before it, and the whole of it [m]
 	double          before = 0, after = 0;    ///< work of the out-of-balance force on it, before and after all of it [J]
 	double          sizeBefore = 0, size = 0; ///< of the residual [N]
+	double          length = 0;               ///< largest displacement in it [m]
 
-	/// Whether the step may be taken as it is: it may lead a little past the least potential. One that does not lead
-	/// downhill, as it may where flow is not associated, is not judged by its work.
-	bool isTaken() const { return before > 0 ? after > -0.5 * before : std::isfinite(after); }
+	/// Whether the step may be taken as it is: it may lead a little past the least potential. One that does not
+	/// lead downhill, as it may where flow is not associated, is not judged by its work. One of more than a cell
+	/// must reduce the residual: points that nothing holds fly without work.
+	bool isTaken(double cell) const
+	{
+		if (length > cell && !(size < sizeBefore)) return false;
+		return before > 0 ? after > -0.5 * before : std::isfinite(after);
+	}
 };
 
 /// Full steps after one that is not taken, which may be the way all the same, as in bending: the stretch that straight

@@ -40,6 +40,7 @@ private:
 			return !fail(report_, Failure::singular, "the stiffness matrix is singular to working precision");
 		}
 		next.before = workOn(next.step);
+		next.length = system_.map.displacements(next.step).template lpNorm<Eigen::Infinity>();
 		iterate_.evaluate(d_ + next.step, !judge_.convergence.isLastStiffness(linear_.keepsFactor()));
 		next.after = workOn(next.step), next.size = iterate_.balance.size;
 		if (judge_.staysInBalance(solves_)) {
@@ -47,7 +48,7 @@ private:
 			// says nothing of that
 		} else if (watchdog_.isOpen()) {
 			if (!watchdog_.admits(next.size)) return goBack();
-		} else if (!prescribes && !next.isTaken() && settings_.lineSearchTrials > 0) {
+		} else if (!prescribes && !next.isTaken(system_.model.grid.cellSize) && settings_.lineSearchTrials > 0) {
 			if (!mayGoOn()) return search(next);
 			watchdog_.begin(next);
 		}
@@ -97,7 +98,7 @@ private:
 		report_.lineSearchTrials += best.trials;
 		d_ = step.from + best.length * step.step;
 		iterate_.evaluate(d_, true);
-		const double length = best.length * system_.map.displacements(step.step).template lpNorm<Eigen::Infinity>();
+		const double length = best.length * step.length;
 		if (iterate_.balance.size < step.sizeBefore || length <= system_.model.grid.cellSize) return true;
 		report_.residuals.push_back(judge_.relative(solves_));
 		return !fail(report_, Failure::diverging, causeOfDivergence(length));

@@ -16,8 +16,7 @@ struct NewtonResult {
 /// node at most three times the tolerance of the forces there is left (LocalBalance). Fills the report's failure,
 /// iterations, residuals, reactions and worst degree of freedom.
 ///
-/// A prediction (not empty) is the start unless its residual is more than twice that of zero. From there the first step
-/// must reduce the residual.
+/// A prediction (not empty) is the start unless its residual is more than twice that of zero.
 template <int Dim> NewtonResult newton(const StepSystem<Dim>&, LinearSolver&, StepReport&, const Eigen::VectorXd& prediction);
 
 } // namespace gimpm

@@ -29,7 +29,7 @@ public:
 		  "Smallest load step [-] as a part of O.dt, > 0 and <= 1: a step that does not converge is tried again with half the increment, down to this.",
 		  part);
 		v("lineSearchTrials", &MpmNewton::lineSearchTrials, 0,
-		  "Shorter steps (a half, a quarter, ...) tried when a full Newton step raises the residual and full steps after it do not lower it; 0 takes each "
+		  "Shorter steps tried when forces pull back after a full Newton step and full steps after it do not lower the residual; 0 takes each "
 		  "full step.",
 		  atLeast(0));
 		v("acceptUnconverged", &MpmNewton::acceptUnconverged, 0,

@@ -7,7 +7,7 @@
 	square   the same in 3D, a quarter of it
 	slope    the slope of examples/slope/friction.py: the largest displacement
 
-Run it with `scripts/run examples/sand/sand.py [options]`, or by yade-batch with sand.table.
+Run it with `scripts/run examples/benchmarks/sand.py [options]`, or by yade-batch with the options as columns of a parameter table.
 """
 import os
 import sys
