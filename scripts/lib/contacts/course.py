@@ -5,6 +5,7 @@ import os
 import re
 import tempfile
 import time
+from collections import Counter
 
 import numpy as np
 from yade.wrapper import Omega
@@ -50,6 +51,12 @@ def reason(failure):
 	"""The part of the message of a step that failed which says why, short."""
 	text = str(failure).split(' failed: ')[-1].split(' Residuals: ')[0].split('. ')[0]
 	return re.sub(r'\s+', ' ', text)[:110]
+
+
+def reasons(whys, most=5):
+	"""How often each of them, numbers left out."""
+	count = Counter(re.sub(r'[-+]?\d[\d.e+-]*|\(.*?\)', '..', why) for why in whys if why)
+	return '; '.join(f'{n} x {why}' for why, n in count.most_common(most))
 
 
 def smoothness(s, F, cell, since):

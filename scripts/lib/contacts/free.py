@@ -36,23 +36,26 @@ def exactOf(friction, slope):
 	return g * (sin(slope) - friction * cos(slope)), 5 / 2 * friction * g * cos(slope)
 
 
-def rolling(friction, degrees=30., heading=0., isDynamic=True, every=1, end=.5, young=5e7, stiffness=20., seconds=200):
-	"""Down a slope, by gravity that is turned; way and speeds of middle and rim over those on rigid ground.
+def rolling(friction, degrees=30., heading=0., isDynamic=True, every=1, end=.5, starts=(0., .5), young=5e7, stiffness=20., seconds=200):
+	"""Down a slope, by gravity that is turned; way and speeds of middle and rim over those on rigid ground, and how far way and speed are off at most.
 
 	:param heading: direction on the ground, from the x axis [degrees]
+	:param starts: where in a cell it begins, run by run
 	"""
-	slope, way = radians(degrees), radians(heading)
-	down = np.array((cos(way), sin(way), 0))
-	ball, contact, solver = _ground(young, friction, tuple(g * sin(slope) * down - (0, 0, g * cos(slope))), every, isDynamic, stiffness, wide=4 if not heading else 10, long=13 if not heading else 11)
-	start = np.array(ball.state.pos)
-	course = Course(solver, seconds)
-	course.run(int(round(end / O.dt)))
-	t, (a, spin) = O.time, exactOf(friction, slope)
-	gone, v = (np.array(ball.state.pos) - start) @ down, np.array(ball.state.vel) @ down
-	rim = np.linalg.norm(ball.state.angVel) * R
-	told = dict(way=float(gone / (a * t * t / 2)), speed=float(v / (a * t)), kind='rolls' if friction >= 2 / 7 * tan(slope) else 'slips', went=float(gone / h))
-	if friction: told['rim'] = float(rim / (spin * t))
-	return told | course.told()
+	slope, direction = radians(degrees), radians(heading)
+	down = np.array((cos(direction), sin(direction), 0))
+	ways, speeds, rims, courses = [], [], [], []
+	for off in starts:
+		ball, contact, solver = _ground(young, friction, tuple(g * sin(slope) * down - (0, 0, g * cos(slope))), every, isDynamic, stiffness, wide=10 if heading else 4, long=11 if heading else 13, off=off)
+		start, course = np.array(ball.state.pos), Course(solver, seconds / len(starts))
+		course.run(int(round(end / O.dt)))
+		t, (a, spin) = O.time, exactOf(friction, slope)
+		ways.append(float((np.array(ball.state.pos) - start) @ down / (a * t * t / 2)))
+		speeds.append(float(np.array(ball.state.vel) @ down / (a * t)))
+		if friction: rims.append(float(np.linalg.norm(ball.state.angVel) * R / (spin * t)))
+		courses.append(course)
+	told = dict(kind='rolls' if friction >= 2 / 7 * tan(slope) else 'slips', off=max(abs(x - 1) for x in ways), speedOff=max(abs(x - 1) for x in speeds), way=ways, speed=speeds, rim=rims, cells=a * t * t / 2 / h)
+	return told | dict(iterations=sum(c.iterations for c in courses), cuts=sum(c.cuts for c in courses), seconds=sum(c.told()['seconds'] for c in courses), why='; '.join(c.why for c in courses if c.why))
 
 
 def driven(friction=.4, speed=1.5, end=.6, every=1, young=5e7, stiffness=20., seconds=200):

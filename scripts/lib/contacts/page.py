@@ -28,7 +28,8 @@ def misses(case, result):
 def table(cases, results, command, revision, day):
 	"""All results in Markdown."""
 	right = sum(not misses(cases[name], result) for name, result in results.items())
-	lines = ['# Contact with rigid bodies, case by case', '', 'Written by `scripts/contacts`, whose `--help` says what the numbers are.', '', f'`{command}`, {day}, revision {revision}: {right} of {len(results)} cases are within their bounds.', '']
+	lines = ['# Contact with rigid bodies, case by case', '', 'Written by `scripts/contacts`, whose `--help` says what the numbers are.', '']
+	lines += [f'`{command}`, {day}, revision {revision}: {right} of {len(results)} cases are within their bounds.', '']
 	lines += ['| case | numbers | bounds | missed |', '|---|---|---|---|']
 	for name, result in results.items():
 		case = cases[name]

@@ -84,7 +84,9 @@ def _push(course, body, contact, h, depth, of):
 def _told(course, h, depth, radius, travel, N, inside, late, **more):
 	mean, largest = smoothness(travel, N, h, radius)
 	curve = ' '.join(f'{s:g}:{np.interp(s * radius, travel, N):.2f}' for s in (.1, .25, .5, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10) if s * radius <= travel[-1] + 1e-9)
-	return dict(reached=travel[-1] / radius, part=travel[-1] / depth, N=meanBetween(travel, N, radius, inf), late=meanBetween(travel, N, late, inf), scatter=mean, largest=largest, inside=inside, **more, **course.told(), curve=curve)
+	way = dict(reached=travel[-1] / radius, part=travel[-1] / depth)
+	means = dict(N=meanBetween(travel, N, radius, inf), late=meanBetween(travel, N, late, inf))
+	return way | means | dict(scatter=mean, largest=largest, inside=inside, **more, **course.told(), curve=curve)
 
 
 def onAxis(kind, law='tresca', rough=0., cells=3, depth=10., wished=True, pressure=5., points=3, stiffness=10., seconds=300):
@@ -109,12 +111,9 @@ def onAxis(kind, law='tresca', rough=0., cells=3, depth=10., wished=True, pressu
 	loads = [ground.overburden(pressure * strength, R)] if wished else []
 	solver = _engine(ground, contact, loads, True)
 	course = Course(solver, seconds)
-	above = pressure if wished else 0.
-	ends = None if kind == 'box' else [0]
-	area = pi * R * R * strength
+	above, area = pressure if wished else 0., pi * R * R * strength
 	if loads: course.run(1)
-	endOnly = _Part(body, ends)
-	travel, N, inside = _push(course, endOnly, contact, h, depth * R, lambda F: F / area - above)
+	travel, N, inside = _push(course, _Part(body, None if kind == 'box' else [0]), contact, h, depth * R, lambda F: F / area - above)
 	return _told(course, h, depth * R, R, travel, N, inside, .6 * depth * R, lu=3.4 + 1.6 * log(rigidity) + 1.3 * rough)
 
 
@@ -180,7 +179,8 @@ def inSpace(kind, law='vonMises', depth=3., cells=2, wide=5., points=2, stiffnes
 	length = travel + R
 	body = One(utils.box((0, length / 2, 0), (R, length / 2, R), material='rigid', fixed=True) if kind == 'box' else utils.sphere((0, R, 0), R, material='rigid', fixed=True))
 	contact = MpmContact(friction=0, stiffness=stiffness)
-	sides = [MpmBoundary(max=(0, inf, inf), fix='x'), MpmBoundary(max=(inf, inf, 0), fix='z'), MpmBoundary(min=(width, -inf, -inf), fix='x'), MpmBoundary(min=(-inf, -inf, width), fix='z'), MpmBoundary(max=(inf, low, inf), fix='xyz')]
+	sides = [MpmBoundary(max=(0, inf, inf), fix='x'), MpmBoundary(max=(inf, inf, 0), fix='z'), MpmBoundary(max=(inf, low, inf), fix='xyz')]
+	sides += [MpmBoundary(min=(width, -inf, -inf), fix='x'), MpmBoundary(min=(-inf, -inf, width), fix='z')]
 	solver = MpmImplicitEngine(grid=grid, fBar=True, boundaries=sides, contacts=[contact], newton=MpmNewton(minStep=1 / 64), verbosity=0)
 	O.engines, O.dt = [solver], 1
 	course = Course(solver, seconds)

@@ -5,6 +5,7 @@ from math import inf, log
 
 Case = namedtuple('Case', 'name function arguments short bounds')
 cases = {}
+derived = {}  # what follows from the results of several cases: functions of these, None if one is missing
 
 
 def add(name, function, bounds, short=None, **arguments):
@@ -21,13 +22,28 @@ atMost, atLeast = lambda x: (-inf, x), lambda x: (x, inf)
 # 1. Penetration. Of the cone N is judged in Tresca's clay, by Lu et al. (2004) with the roughness of its face; von Mises' is told, as it has less strength in triaxial compression.
 smooth = dict(part=atLeast(.999), scatter=atMost(.03), largest=atMost(.08), inside=atMost(.05))
 lu = lambda rough: dict(late=near(3.4 + 1.6 * log(200) + 1.3 * rough, .08))
-for cells in 2, 3, 4:
-	add(f'cone-R{cells}', 'penetration.onAxis', smooth | lu(0) if cells > 2 else dict(part=smooth['part'], inside=smooth['inside']) | lu(0), dict(depth=4.), kind='cone', cells=cells)
+for cells in 2, 3, 4, 6:
+	rules = smooth if cells in (3, 6) else dict(part=smooth['part'], inside=smooth['inside'])
+	add(f'cone-R{cells}', 'penetration.onAxis', rules | lu(0), dict(depth=4. if cells < 6 else 1.5), kind='cone', cells=cells, seconds=300 if cells < 6 else 900)
+
+
+def ofCone(results):
+	"""N on cells of no size, by a straight line through its values on three grids or four that got as deep."""
+	found = {cells: results.get(f'cone-R{cells}', {}) for cells in (2, 3, 4, 6)}
+	deepest = max(result.get('reached', 0) for result in found.values())
+	found = {cells: result for cells, result in found.items() if result.get('part', 0) > .999 and result['reached'] > .999 * deepest}
+	if len(found) < 3: return None
+	size, N = [1 / cells for cells in found], [result['late'] for result in found.values()]
+	mean = sum(size) / len(found), sum(N) / len(found)
+	slope = sum((x - mean[0]) * (y - mean[1]) for x, y in zip(size, N)) / sum((x - mean[0])**2 for x in size)
+	return dict(late=mean[1] - slope * mean[0], slope=slope)
+
+
+derived['cone-limit'] = Case('cone-limit', ofCone, {}, {}, lu(0))
 add('cone-rough', 'penetration.onAxis', smooth | lu(1), dict(depth=3.), kind='cone', rough=1.)
 add('cone-mises', 'penetration.onAxis', smooth, dict(depth=3.), kind='cone', law='vonMises')
 add('cone-mises-rough', 'penetration.onAxis', smooth, dict(depth=3.), kind='cone', law='vonMises', rough=1.)
 add('cone-surface', 'penetration.onAxis', smooth, dict(depth=3.), kind='cone', wished=False)
-add('cone-fine', 'penetration.onAxis', smooth, dict(depth=1.5), kind='cone', cells=6, depth=5., seconds=600)
 add('punch', 'penetration.onAxis', smooth, dict(depth=3.), kind='box', wished=False)
 add('punch-mises', 'penetration.onAxis', smooth, dict(depth=3.), kind='box', wished=False, law='vonMises')
 add('pile', 'penetration.onAxis', smooth, dict(depth=3.), kind='pile')
@@ -58,10 +74,10 @@ add('edge-upright', 'thin.edge', alike | dict(mean=near(1., .2)), degrees=90., r
 add('edge-leaning', 'thin.edge', alike, degrees=45., rough=0.)
 
 # 3. Energy over the first: how much more there has been, and what contact has given; in how many scenes either was more than 1e-3
-honest = dict(energy=atMost(1.001), contactWork=atMost(1e-3), failed=atMost(0))
+honest = dict(energy=atMost(1.001), contactWork=atMost(1e-3), ended=atLeast(.995))
 for scheme in 'newmark', 'generalised-alpha', 'midpoint':
 	add(f'energy-{scheme}', 'energy.edges', honest, dict(parts=[.3, .15]), scheme=scheme)
-add('energy-random', 'energy.drawn', dict(gifts=atMost(0), contactWork=atMost(1e-3), failed=atMost(0)), dict(seeds=[0, 60], seconds=60), seeds=[0, 1000], seconds=900)
+add('energy-random', 'energy.drawn', dict(gifts=atMost(0), contactWork=atMost(1e-3), ended=atLeast(.995)), dict(seeds=[0, 60], seconds=60), seeds=[0, 1000], seconds=900)
 
 # 4. Tunnels: at .3 to 5 cells a step, in how many scenes a middle of a point was more than a tenth of a cell inside of a body or behind it
 for mode in 'soilFlies', 'bodyFlies', 'soilPushed', 'bodyPushed':
@@ -84,10 +100,10 @@ add('mesh', 'overlap.mesh', dict(off=atMost(1e-3), narrow=atMost(.05)))
 add('mesh-closed', 'overlap.closed', dict(off=atMost(.05)))
 add('floors-explicit', 'overlap.explicitFloors', dict(imbalance=atMost(.01)))
 
-# 7. Free bodies: way and speeds over those of closed forms, and the change of momentum in an impact over that of the sphere
-rolls = dict(way=near(1, .01), speed=near(1, .01))
+# 7. Free bodies: by how much way and speed are off those of closed forms, from two places in a cell, and the change of momentum in an impact over that of the sphere
+rolls = dict(off=atMost(.01), speedOff=atMost(.01))
 for friction in 0., .1, .2, .4:
-	add(f'rolling-{friction:g}', 'free.rolling', rolls | (dict(rim=near(1, .02)) if friction else {}), dict(end=.3), friction=friction)
+	add(f'rolling-{friction:g}', 'free.rolling', rolls, dict(end=.3), friction=friction)
 add('rolling-askew', 'free.rolling', rolls, dict(end=.3), friction=.4, heading=30.)
 add('rolling-flat', 'free.rolling', rolls, dict(end=.6), friction=.1, degrees=10., end=.8)
 add('rolling-static', 'free.rolling', rolls, dict(end=.3), friction=.4, isDynamic=False)
@@ -104,6 +120,5 @@ for cells, points in (4, 2), (8, 3), (16, 2):
 	add(f'footing-{cells}', 'known.example', dict(error=(-.04, .04)) if cells >= 8 else dict(error=(-.1, .1)), scene='footing', cells=cells, pointsPerCell=points, depth=.03)
 add('footing-rough', 'known.example', dict(error=(-.04, .04)), scene='footing', cells=8, pointsPerCell=3, depth=.03, rough=1)
 
-# 9. Random scenes: the part of them that ends, and the largest of what is left over of the forces in statics.
-# A residual of 1e-6 is that of single nodes; over the hundred that a body touches it may add up to ten times that.
-add('random', 'scenes.drawn', dict(ended=atLeast(.995), balance=atMost(1e-5)), dict(seeds=[0, 60], seconds=120), seeds=[0, 1000])
+# 9. Random scenes: the part of them that ends, and the largest of what is left over of the forces in statics
+add('random', 'scenes.drawn', dict(ended=atLeast(.995), balance=atMost(1e-6)), dict(seeds=[0, 60], seconds=120), seeds=[0, 1000])

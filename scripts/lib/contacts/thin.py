@@ -37,7 +37,8 @@ def _places(body, area, deep, places, soil, contact, seconds, push=None):
 			if course.why: why.append(course.why)
 		warned += 'domain' in text.text and 'WARN' in text.text
 	whole = [F for F in found if F == F]
-	return dict(forces=found, mean=float(np.mean(whole)) if whole else float('nan'), least=min(whole, default=float('nan')), spread=spread(whole) if len(whole) == len(found) else float('nan'), warned=warned, **total, seconds=round(time.process_time() - began, 1), why='; '.join(dict.fromkeys(why)))
+	of = dict(mean=float(np.mean(whole)) if whole else float('nan'), least=min(whole, default=float('nan')), spread=spread(whole) if len(whole) == len(found) else float('nan'))
+	return dict(forces=found, **of, warned=warned, **total, seconds=round(time.process_time() - began, 1), why='; '.join(dict.fromkeys(why)))
 
 
 def _upwards(grid):

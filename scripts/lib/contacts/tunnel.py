@@ -1,14 +1,12 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Soil and bodies that move up to several cells a step at each other: nothing ends inside of a body or behind it."""
-from collections import Counter
-
 import numpy as np
 from yade import mpm, pack, utils
 from yade.minieigenHP import Quaternion
 from yade.wrapper import MpmBoundary, MpmContact, MpmDynamicEngine, MpmElasticMat, MpmGrid, MpmImplicitEngine, Omega
 
 from .bodies import One, steel
-from .course import Course, said
+from .course import Course, reasons, said
 
 O = Omega()
 h, side, place = .1, .4, -.5
@@ -95,7 +93,8 @@ def met(mode, parts=(.3, .7, 1.4, 2., 3., 5.), seconds=120):
 		for cells in parts:
 			with said():
 				runs[f'{kind} {cells}'] = scene(kind, cells, isSoil, seconds / len(parts) / len(kinds))
-	why = Counter(course.why for *_, course in runs.values() if course.why)
+	why = [course.why for *_, course in runs.values() if course.why]
 	through = {name: behind for name, (behind, *_) in runs.items() if behind}
 	told = dict(energy=max(most for _, most, _, _ in runs.values()), contactWork=max(gave for _, _, gave, _ in runs.values())) if mode == 'soilFlies' else {}
-	return dict(scenes=len(runs), behind=len(through), **told, failed=sum(why.values()), cuts=sum(c.cuts for *_, c in runs.values()), iterations=sum(c.iterations for *_, c in runs.values()), first=', '.join(list(through)[:6]), why='; '.join(f'{n} x {w}' for w, n in why.most_common(4)))
+	told |= dict(failed=len(why), cuts=sum(c.cuts for *_, c in runs.values()))
+	return dict(scenes=len(runs), behind=len(through), **told, iterations=sum(c.iterations for *_, c in runs.values()), first=', '.join(list(through)[:6]), why=reasons(why))

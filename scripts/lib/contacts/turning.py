@@ -69,21 +69,16 @@ def _turn(course, plates, axis, angle, steps, look):
 		if not course.run(1, look): return
 
 
-def _inClay(hole, bodies, cells, rough, stiffness, pressure, points, wide=5 * R):
-	"""Clay under a pressure, around the origin, with a hole where bodies are wished in place."""
-	O.reset()
-	clay('tresca')
-	steel()
-	h = R / cells
+def _around(hole, bodies, h, contact, pressure, points, fBar, wide=5 * R):
+	"""Soil under a pressure between rollers, with a hole where bodies are wished in place; its material is in the scene."""
 	grid = MpmGrid(cellSize=h)
 	O.bodies.append(mpm.fill(pack.inAlignedBox((-wide, -wide, -1), (wide, wide, 1)) - hole, grid, points, 'soil'))
-	mpm.assign(stress=np.repeat(-pressure * strength * np.eye(3)[None], len(O.bodies), axis=0))
-	rigid = [One(body) for body in bodies()]
-	contact = MpmContact(stiffness=stiffness, **adhesion(rough))
+	mpm.assign(stress=np.repeat(-pressure * np.eye(3)[None], len(O.bodies), axis=0))
+	rigid = [One(body) for body in bodies]
 	sides = [MpmBoundary(max=(-wide, inf, inf), fix='x'), MpmBoundary(min=(wide, -inf, -inf), fix='x'), MpmBoundary(max=(inf, -wide, inf), fix='y'), MpmBoundary(min=(-inf, wide, -inf), fix='y')]
-	solver = MpmImplicitEngine(grid=grid, fBar=True, boundaries=sides, contacts=[contact], newton=MpmNewton(minStep=1 / 64), verbosity=0)
+	solver = MpmImplicitEngine(grid=grid, fBar=fBar, boundaries=sides, contacts=[contact], newton=MpmNewton(minStep=1 / 64), verbosity=0)
 	O.engines, O.dt = [solver], 1
-	return h, rigid, contact, solver
+	return rigid, solver
 
 
 def _torques(rigid, contact, course, perStep, angle, exact):
@@ -102,20 +97,29 @@ def _torques(rigid, contact, course, perStep, angle, exact):
 	return dict(turned=degrees(len(found) * perStep), torque=T, scatter=float(np.mean(np.abs(np.abs(late) / T - 1))), largest=float(np.max(np.abs(np.abs(late) / T - 1))), aside=float(np.mean(aside[len(aside) // 2:] or [float('nan')])), **course.told())
 
 
-def cylinder(cells=4, rough=.5, angle=1., stiffness=10., pressure=5., points=3, seconds=200):
-	"""A rough cylinder wished in place turns about its axis: 2 pi R^2 of its adhesion, per metre."""
-	hole = pack.inCylinder((0, 0, -2), (0, 0, 2), R)
-	h, rigid, contact, solver = _inClay(hole, lambda: [utils.sphere((0, 0, 0), R, material='rigid', fixed=True)], cells, rough, stiffness, pressure, points)
-	return _torques(rigid, contact, Course(solver, seconds), .1 * h / R, angle, 2 * pi * R**2 * rough * strength)
+def cylinder(cells=4, angle=1., stiffness=10., points=3, seconds=200):
+	"""A cylinder turns in soft elastic soil that presses on it from all around, with an adhesion that slips everywhere: 2 pi R^2 of it, per metre."""
+	O.reset()
+	O.materials.append(MpmElasticMat(young=1e5, poisson=.2, density=1, label='soil'))
+	cap = 5e3
+	contact = MpmContact(friction=atan(5), adhesion=cap, stiffness=stiffness)
+	steel()
+	body = utils.sphere((0, 0, 0), R, material='rigid', fixed=True)
+	rigid, solver = _around(pack.inCylinder((0, 0, -2), (0, 0, 2), R), [body], R / cells, contact, 5e4, points, False)
+	return _torques(rigid, contact, Course(solver, seconds), .1 / cells, angle, 2 * pi * R**2 * cap)
 
 
 def vane(cells=6, width=1., angle=1., stiffness=10., pressure=5., points=2, seconds=300):
-	"""Two Boxes crossed, *width* cells thick, rough. The cylinder through their edges that slips is an upper bound, 2 pi r^2 c_u; where it is a band of one cell around that, (1 + h / 2 r)^2 of it."""
+	"""Two Boxes crossed, *width* cells thick, rough, in clay. The cylinder through their edges that slips is an upper bound, 2 pi r^2 c_u; where it is a band of one cell around that, (1 + h / 2 r)^2 of it."""
+	O.reset()
+	clay('tresca')
+	steel()
 	w = width * R / cells / 2
 	hole = pack.inAlignedBox((-R, -w, -2), (R, w, 2)) | pack.inAlignedBox((-w, -R, -2), (w, R, 2))
-	bodies = lambda: [utils.box((0, 0, 0), extents, material='rigid', fixed=True) for extents in ((R, w, 1), (w, R, 1))]
-	h, rigid, contact, solver = _inClay(hole, bodies, cells, 1., stiffness, pressure, points)
-	return _torques(rigid, contact, Course(solver, seconds), .1 * h / R, angle, 2 * pi * (R**2 + w**2) * strength)
+	contact = MpmContact(stiffness=stiffness, **adhesion(1.))
+	bodies = [utils.box((0, 0, 0), extents, material='rigid', fixed=True) for extents in ((R, w, 1), (w, R, 1))]
+	rigid, solver = _around(hole, bodies, R / cells, contact, pressure * strength, points, True)
+	return _torques(rigid, contact, Course(solver, seconds), .1 / cells, angle, 2 * pi * (R**2 + w**2) * strength)
 
 
 def ring(turns=1., steps=60, cells=4, stiffness=20., seconds=300):

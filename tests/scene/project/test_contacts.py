@@ -1,0 +1,67 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""The cases of scripts/contacts are what their functions take, and are judged by their bounds."""
+import ast
+import json
+import os
+import subprocess
+
+from conftest import Yade, root
+
+from contacts.page import misses, table
+from contacts.plan import Case, cases, derived
+
+folder = root / 'scripts/lib/contacts'
+
+
+def parametersOf(function):
+	"""Names of what a function of the modules takes, and whether it takes others, too."""
+	module, name = function.split('.')
+	found = [node for node in ast.parse((folder / f'{module}.py').read_text()).body if isinstance(node, ast.FunctionDef) and node.name == name]
+	assert len(found) == 1, function
+	return {argument.arg for argument in found[0].args.args}, found[0].args.kwarg is not None
+
+
+def test_the_cases_are_what_their_functions_take():
+	assert len(cases) > 60
+	for case in cases.values():
+		names, takesOthers = parametersOf(case.function)
+		assert takesOthers or set(case.arguments) | set(case.short) <= names, case.name
+		assert 'seconds' in names and case.bounds and all(low < high for low, high in case.bounds.values()), case.name
+
+
+def test_what_is_not_there_is_missed():
+	case = Case('a', 'b.c', {}, {}, dict(N=(1, 2), part=(.9, 1)))
+	assert misses(case, dict(N=1.5, part=1)) == [] and misses(case, dict(N=3., part=.5)) == ['N', 'part']
+	assert misses(case, dict(N='nan', part=1)) == ['N'] and misses(case, dict(why='crash')) == ['N', 'part']
+	page = table(dict(a=case), dict(a=dict(N=3., part=1, why='it | stops')), 'scripts/contacts a', 'r', 'today')
+	assert '| a | N 3, part 1 — it / stops | N 1 ... 2; part 0.9 ... 1 | **N** |' in page and '0 of 1 cases' in page
+
+
+def test_the_limit_of_the_cone():
+	"""Of N = 10 + 3 / cells, if three grids at least have got to the end, and as deep."""
+	results = {f'cone-R{cells}': dict(part=1, reached=10, late=10 + 3 / cells) for cells in (2, 3, 4)}
+	for more in {}, {'cone-R6': dict(part=1, reached=10, late=10.5)}, {'cone-R6': dict(part=1, reached=2, late=99)}:
+		assert abs(derived['cone-limit'].function(results | more)['late'] - 10) < 1e-12
+	assert derived['cone-limit'].function(results | {'cone-R3': dict(part=.5, reached=5, late=11)}) is None
+
+
+def test_cases_that_are_right(yade):
+	"""By the command; what is not right is told by how it ends."""
+	out = yade.folder / 'out'
+	command = [root / 'scripts/contacts', 'plate', 'ring-shear', 'embracing', 'energy-random', '--short', '--seeds', '2:5', '--out', out]
+	run = subprocess.run(command, env=os.environ | yade.ownSettings() | {'YADE': Yade(yade.folder).command}, capture_output=True, text=True, timeout=300)
+	found = json.loads((out / 'contacts.json').read_text())
+	assert set(found) == {'plate', 'ring-shear', 'embracing', 'energy-random'}, run.stdout + run.stderr
+	assert not [name for name in ('plate', 'ring-shear', 'embracing') if misses(cases[name], found[name])]
+	assert found['energy-random']['scenes'] == 3 and '| ring-shear |' in (out / 'contacts.md').read_text()
+	assert run.returncode == int(any(misses(cases[name], result) for name, result in found.items()))
+
+
+def test_random_scenes_end_in_balance(yade):
+	"""The first thirty of those that scripts/contacts draws."""
+	out = yade.folder / 'out'
+	command = [root / 'scripts/contacts', 'random', '--seeds', '0:30', '--out', out]
+	run = subprocess.run(command, env=os.environ | yade.ownSettings() | {'YADE': Yade(yade.folder).command}, capture_output=True, text=True, timeout=300)
+	found = json.loads((out / 'contacts.json').read_text())['random']
+	assert found['scenes'] == 30 and not misses(cases['random'], found), found
+	assert run.returncode == 0
