@@ -136,7 +136,7 @@ old = [7, 1, 64] + [0.5] * 14
 assert count > 16 and (count - 1) % 16 == 0
 items = ''.join(f'<item>{x:.17e}</item>' for x in old * 16)  # as many numbers as of 17 places
 import re
-head = re.match(r'\s*<count>\\d+</count>(.*?)<item>', middle, re.S).group(1)
+head = re.match(r'\\s*<count>\\d+</count>(.*?)<item>', middle, re.S).group(1)
 open('then.xml', 'w').write(first + f'<records><count>{len(old) * 16}</count>{head}{items}</records>' + last)
 O.load('then.xml')
 try: O.step()
