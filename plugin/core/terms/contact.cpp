@@ -145,6 +145,8 @@ template <int Dim> void Contact<Dim>::addPlace(int number, const SurfacePoint<Di
 	// full to not being there.
 	if (record && record->touches) place.presence = std::max(place.presence, record->presence - 4 * record->travel / grid_.cellSize);
 	if (place.presence <= 0) return;
+	// Pressed soil begins inside of the body: at the face instead, even pressure would not be in balance with even stress.
+	if (record && record->touches && record->gap < 0) place.soil = onBody + record->gap * normal;
 	const auto attached = attach(place.soil, basis_, grid_);
 	if (!attached) return; // behind a wall
 	place.attached       = *attached;
