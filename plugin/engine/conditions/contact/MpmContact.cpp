@@ -156,9 +156,9 @@ string MpmContact::idleness(const string& name, bool) const
 // Sums, and of bodies that do not move freely also one by one.
 void MpmContact::tell(Rows& rows, const Analysis& analysis, const Listed& listed) const
 {
-	const int    dim     = analysis.grid->dim;
-	const string name    = "contact" + std::to_string(listed.number);
-	Vector3r     total   = Vector3r::Constant(bodies.empty() ? std::numeric_limits<Real>::quiet_NaN() : 0);
+	const int    dim    = analysis.grid->dim;
+	const string name   = "contact" + std::to_string(listed.number);
+	Vector3r     total  = Vector3r::Constant(bodies.empty() ? std::numeric_limits<Real>::quiet_NaN() : 0);
 	int          places = 0;
 	for (size_t b = 0; b < bodies.size(); ++b) {
 		total += forces[b];

@@ -78,7 +78,7 @@ private:
 	vector<Member>                        members; // as the system's bodies
 	bool                                  hasKept = false;
 	Real                                  begin = 0, target = 0, end = 0; // of the run; end: of the last step
-	Real                                  dt = 0;                         // of an iteration of YADE
+	Real                                  dt       = 0;                   // of an iteration of YADE
 	Real                                  cellSize = 0;                   // of the smallest cells
 	string                                coefficient;                    // doubt about an angle of friction
 	std::optional<Movers>                 movers;
