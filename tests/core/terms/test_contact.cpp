@@ -86,7 +86,8 @@ namespace {
 
 	template <int Dim> double tangentError(Block<Dim>& block) { return tangentErrorOfLastTerm(block.system(), block.model.grid, 1e-7); }
 
-	/// A body of each kind that comes down on the block; friction that makes all places slip, some, and none, and a cap.
+	/// A body of each kind that comes down on the block; friction that makes all places slip, some, and none, and a
+	/// cap.
 	template <int Dim> void testTangents(bool isRing)
 	{
 		const double limit = infinity;
@@ -232,8 +233,8 @@ namespace {
 		EXPECT_NEAR(height[0], height[1], 0.03 * pressedIn);
 	}
 
-	/// What overlaps when it comes into sight fits, whether the body has just come or not. A body around the middle of a point
-	/// is misplaced when it comes.
+	/// What overlaps when it comes into sight fits, whether the body has just come or not. A body around the middle
+	/// of a point is misplaced when it comes.
 	TEST(Contact, WishedInPlace)
 	{
 		for (const bool isNew : { true, false }) {

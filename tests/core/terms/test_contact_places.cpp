@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Contact over the surfaces of bodies: uniform pressure, action and reaction, areas, what turns with the body, energy, and
-// points that are divided among processes.
+// Contact over the surfaces of bodies: uniform pressure, action and reaction, areas, what turns with the body, energy,
+// and points that are divided among processes.
 #include "core/parallel/halo.hpp"
 #include "core/stepping/step_system.hpp"
 #include "core/terms/contact.hpp"
@@ -88,7 +88,8 @@ namespace {
 			for (auto& body : contacts.bodies)
 				body.begin = body.end;
 		}
-		/// A step in which the nodes go as they are told. Returns the forces on them, and where they are at its end.
+		/// A step in which the nodes go as they are told. Returns the forces on them, and where they are at its
+		/// end.
 		template <class F> std::pair<Eigen::VectorXd, std::vector<Vec<Dim>>> go(F&& displacement)
 		{
 			const StepSystem<Dim> system(cloud, model, Load<Dim>(), report);
@@ -101,7 +102,8 @@ namespace {
 				places[n] += d.template segment<Dim>(Dim * Eigen::Index(n));
 			return { -resistance, places };
 		}
-		/// In space a place at a corner of the soil, three quarters of which there are along each of its edges, counts for .625.
+		/// In space a place at a corner of the soil, three quarters of which there are along each of its edges,
+		/// counts for .625.
 		static constexpr double lostAtCorners = Dim == 3 ? 4 * 0.375 * h * h / 16 : 0;
 
 		/// Area by which soil is pressed, from what presses it.
@@ -124,8 +126,8 @@ namespace {
 	template <class T> using ContactPlacesOf = InBothDimensions<T>;
 	TYPED_TEST_SUITE(ContactPlacesOf, BothDimensions, DimensionName);
 
-	/// Soil ends on a line of the grid, or anywhere in a cell: in the plane the pressure is the same everywhere, to round-off,
-	/// in space but for its corners.
+	/// Soil ends on a line of the grid, or anywhere in a cell: in the plane the pressure is the same everywhere, to
+	/// round-off, in space but for its corners.
 	TYPED_TEST(ContactPlacesOf, UniformPressureWithAFaceInMidCell)
 	{
 		constexpr int Dim = TypeParam::value;
@@ -296,8 +298,8 @@ namespace {
 		}
 	}
 
-	/// Soil that goes about an edge at random, in steps of up to .6 of a cell, and through the body: contact never gives back
-	/// more than it has taken, as there is nothing that a fixed body without friction could have done.
+	/// Soil that goes about an edge at random, in steps of up to .6 of a cell, and through the body: contact never
+	/// gives back more than it has taken, as there is nothing that a fixed body without friction could have done.
 	TYPED_TEST(ContactPlacesOf, NoEnergyIsGivenAtEdges)
 	{
 		constexpr int Dim = TypeParam::value;
@@ -322,7 +324,8 @@ namespace {
 		}
 	}
 
-	/// A part of the points in each process, and copies of others: forces, loads and what is remembered are those of all.
+	/// A part of the points in each process, and copies of others: forces, loads and what is remembered are those
+	/// of all.
 	TYPED_TEST(ContactPlacesOf, DividedPointsGiveTheSame)
 	{
 		constexpr int Dim  = TypeParam::value;

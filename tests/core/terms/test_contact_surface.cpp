@@ -26,8 +26,8 @@ namespace {
 		return surfacePoints<Dim>(shape, spacing, Vec<Dim>::Constant(-1), Vec<Dim>::Constant(1));
 	}
 
-	/// Areas, of places and normals too: of a closed surface the normals add up to nothing, and place times normal to Dim times
-	/// the volume.
+	/// Areas, of places and normals too: of a closed surface the normals add up to nothing, and place times normal
+	/// to Dim times the volume.
 	template <int Dim> struct Sums {
 		double   area = 0, volume = 0;
 		Vec<Dim> normal = Vec<Dim>::Zero(), place = Vec<Dim>::Zero();
