@@ -118,6 +118,9 @@ template <int Dim> void Contact<Dim>::addPlace(int number, const SurfacePoint<Di
 	const auto sight = soil.from(onBody, normal, searchReach(body, grid_));
 	if (!sight || isHidden(number, onBody, normal)) return;
 	Place          place { number, point.number, onBody + std::max(0., sight->gap) * normal, {}, body.end.rotation * point.normal, std::max(0., sight->gap), std::max(0., sight->gap), Vec<Dim>::Zero(), {}, {} };
+	// Pressed soil begins inside of the body: at the face instead, even pressure would not be in balance with even stress.
+	if (const auto* record = recordOf(place); record && record->touches && record->gap < 0)
+		place.soil = onBody + record->gap * normal;
 	const auto     attached = attach(place.soil, basis_, grid_);
 	if (!attached) return; // behind a wall
 	place.attached       = *attached;
