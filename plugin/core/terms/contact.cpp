@@ -124,7 +124,7 @@ template <int Dim> void Contact<Dim>::addPlace(int number, const SurfacePoint<Di
 	const auto     attached = attach(place.soil, basis_, grid_);
 	if (!attached) return; // behind a wall
 	place.attached       = *attached;
-	place.away           = body.proximity(body.begin, place.soil, 1).gap; // as it is found at the end: where nothing moves no gap is left by round-off
+	place.away           = body.proximity(body.begin, place.soil, 1).gap; // found as at the end: no gap by round-off
 	place.carried        = body.end.inSpace(body.begin.inBody(place.soil)) - place.soil;
 	const double area    = sight->presence * point.area * (isRing_ ? 2 * M_PI * onBody[0] : 1);
 	const double penalty = body.stiffness * sight->young * area / grid_.cellSize;
