@@ -19,6 +19,32 @@ template <int Dim> std::string textAt(const RigidBody<Dim>& body, const char* wh
 /// Of a place's springs on gap and slip [J].
 double stored(double pressure, double gap, double friction) { return pressure > 0 ? -gap / 2 * (pressure + slipSoftness * friction * friction / pressure) : 0; }
 
+/// Soil on a periodic grid is in the first period, and beside each end of that, where the other end goes on.
+template <int Dim> void addImages(std::vector<SoilDomain<Dim>>& domains, const Grid<Dim>& grid)
+{
+	for (int a = 0; a < Dim; ++a) {
+		const double length = grid.cellSize * grid.period[a], near = 2 * grid.cellSize;
+		for (std::size_t i = 0, count = length > 0 ? domains.size() : 0; i < count; ++i) {
+			domains[i].centre[a] -= length * std::floor((domains[i].centre[a] - grid.origin[a]) / length);
+			const double from = domains[i].centre[a] - grid.origin[a];
+			for (const int side : { 1, -1 }) {
+				if ((side > 0 ? from : length - from) > near) continue;
+				domains.push_back(domains[i]);
+				domains.back().centre[a] += side * length;
+			}
+		}
+	}
+}
+
+template <int Dim> bool isInPeriod(const Vec<Dim>& place, const Grid<Dim>& grid)
+{
+	for (int a = 0; a < Dim; ++a) {
+		const double from = place[a] - grid.origin[a];
+		if (grid.period[a] > 0 && !(from >= 0 && from < grid.cellSize * grid.period[a])) return false;
+	}
+	return true;
+}
+
 } // namespace
 
 template <int Dim>
@@ -131,7 +157,7 @@ template <int Dim> void Contact<Dim>::addPlace(int number, const SurfacePoint<Di
 {
 	const auto&    body   = system_.bodies[number];
 	const Vec<Dim> onBody = body.begin.inSpace(point.place), normal = body.begin.rotation * point.normal;
-	if (isRing_ && onBody[0] <= 0) return;
+	if ((isRing_ && onBody[0] <= 0) || !isInPeriod(onBody, grid_)) return;
 	const auto sight = soil.from(onBody, normal, searchReach(body, grid_));
 	if (!sight || isHidden(number, onBody, normal, around)) return;
 	Place place;
@@ -141,16 +167,17 @@ template <int Dim> void Contact<Dim>::addPlace(int number, const SurfacePoint<Di
 	place.normal           = body.end.rotation * point.normal;
 	place.presence         = sight->presence;
 	const auto* record     = recordOf(place);
-	// Domains turn and stretch; but soil that presses goes no faster than it slides, a quarter of a cell from being there in
-	// full to not being there.
+	// Domains turn and stretch; but soil that presses goes no faster than it slides, a quarter of a cell from being
+	// there in full to not being there.
 	if (record && record->touches) place.presence = std::max(place.presence, record->presence - 4 * record->travel / grid_.cellSize);
 	if (place.presence <= 0) return;
-	// Pressed soil begins inside of the body: at the face instead, even pressure would not be in balance with even stress.
+	// Pressed soil begins inside of the body: at the face instead, even pressure would not be in balance with even
+	// stress.
 	if (record && record->touches && record->gap < 0) place.soil = onBody + record->gap * normal;
 	const auto attached = attach(place.soil, basis_, grid_);
 	if (!attached) return; // behind a wall
 	place.attached       = *attached;
-	place.away           = body.proximity(body.begin, place.soil, 1).gap; // as it is found at the end: where nothing moves no gap is left by round-off
+	place.away           = body.proximity(body.begin, place.soil, 1).gap; // found as at the end: no gap by round-off
 	place.carried        = body.end.inSpace(body.begin.inBody(place.soil)) - place.soil;
 	const double area    = place.presence * point.area * (isRing_ ? 2 * M_PI * onBody[0] : 1);
 	const double penalty = body.stiffness * sight->young * area / grid_.cellSize;
@@ -264,7 +291,8 @@ template <int Dim> std::string Contact<Dim>::entered(const Eigen::VectorXd& d) c
 		const Vec<Dim>       u = attached->displacement(d), x = centre + u;
 		const Proximity<Dim> before = body.proximity(body.begin, centre, near.side), after = body.proximity(body.end, x, near.side);
 		const bool           isThrough = body.shape.isTwoSided ? after.gap < 0 && after.beside < 0 && before.gap >= 0 : body.isCrossed(centre, x);
-		const bool           isInside  = !body.shape.isTwoSided && after.gap < -deepest && after.gap < before.gap - deepest / 2;
+		const double         deeper    = before.gap - after.gap;
+		const bool           isInside  = !body.shape.isTwoSided && after.gap < -deepest && deeper > (after.gap < -5 * deepest ? 0 : deepest / 2);
 		if (!isThrough && !isInside) continue;
 		std::ostringstream text;
 		text << (isThrough ? " would let soil through" : " would get soil inside of it") << ", which moves " << u.norm()
@@ -274,9 +302,9 @@ template <int Dim> std::string Contact<Dim>::entered(const Eigen::VectorXd& d) c
 	return {};
 }
 
-/// Work on the soil as seen from the bodies, beyond what the springs had stored. As their energy is convex in the gap, it is
-/// never above zero. They follow the moduli of the soil from step to step: what they have stored is that of the stiffness
-/// that they have now, as no length of the step changes that.
+/// Work on the soil as seen from the bodies, beyond what the springs had stored. As their energy is convex in the gap,
+/// it is never above zero. They follow the moduli of the soil from step to step: what they have stored is that of the
+/// stiffness that they have now, as no length of the step changes that.
 template <int Dim> double Contact<Dim>::given(const Eigen::VectorXd& d) const
 {
 	double sum = 0;

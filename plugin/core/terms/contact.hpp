@@ -52,12 +52,12 @@ template <int Dim> struct ContactSystem {
 constexpr double slipSoftness = 20;
 
 /// Places on the surfaces of the bodies against the soil in front of them, which moves with the linear functions of the
-/// grid. The penalty on the gap g is a pressure of stiffness * E g / h, with Young's modulus E of the soil there and h of
-/// the smallest cells, over the place's part of the surface. The gap is that which there was when soil came into sight, and
-/// since then what soil and body have moved towards each other, along the normal of the place's own face: which neither
-/// edges nor domains that come and go let jump. Only prescribed motion of the bodies is known here. What of a surface lies
-/// in another body, or on one that came first, does not count. Where points are divided among processes, all know those
-/// that are near.
+/// grid. The penalty on the gap g is a pressure of stiffness * E g / h, with Young's modulus E of the soil there and h
+/// of the smallest cells, over the place's part of the surface. The gap is that which there was when soil came into
+/// sight, and since then what soil and body have moved towards each other, along the normal of the place's own face:
+/// which neither edges nor domains that come and go let jump. Only prescribed motion of the bodies is known here. What
+/// of a surface lies in another body, or on one that came first, does not count. Where points are divided among
+/// processes, all know those that are near.
 template <int Dim> class Contact : public Term<Dim> {
 public:
 	/// The records and loads of the system are written in commit(). What add() adds has the weight of the system.

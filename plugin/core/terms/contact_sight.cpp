@@ -64,10 +64,11 @@ template <int Dim> template <class F> void SoilNear<Dim>::forIn(const Vec<Dim>& 
 	}
 }
 
-/// The line along the normal may pass between domains, which do not tile the soil where it is sheared or stretched: then
-/// those count which it misses by a quarter of a cell. How much soil there is is a volume, which does not jump: that in a box
-/// in front of the place where the soil begins. A quarter of the box is nothing, three quarters are full, so that over the
-/// places on both sides of where soil ends the parts add up to the area that it covers.
+/// The line along the normal may pass between domains, which do not tile the soil where it is sheared or stretched:
+/// then those count which it misses by a quarter of a cell. How much soil there is is a volume, which does not jump:
+/// that in a box in front of the place where the soil begins. A quarter of the box is nothing, three quarters are full,
+/// so that over the places on both sides of where soil ends the parts add up to the area that it covers. Along each
+/// axis of the face it is another box, which is narrow along the other one: so it is also at corners of the soil.
 template <int Dim> std::optional<Sight> SoilNear<Dim>::from(const Vec<Dim>& place, const Vec<Dim>& normal, double reach) const
 {
 	const double   beside = 0.25 * cellSize_;
@@ -85,15 +86,30 @@ template <int Dim> std::optional<Sight> SoilNear<Dim>::from(const Vec<Dim>& plac
 	});
 	const double gap = hit < infinite && hit < near + 2 * beside ? hit : near;
 	if (!(gap <= reach)) return std::nullopt;
-	const Vec<Dim> middle = place + (std::max(0., gap) + beside) * normal, size = Vec<Dim>::Constant(beside);
-	double         volume = 0, stiff = 0;
-	forIn(middle - size - margin, middle + size + margin, [&](const SoilDomain<Dim>& d) {
-		if (!isInFront(d)) return;
-		const double part = ((middle + size).cwiseMin(d.centre + d.half) - (middle - size).cwiseMax(d.centre - d.half)).cwiseMax(0).prod();
-		volume += part, stiff += part * d.young;
-	});
+	const Vec<Dim> middle = place + (std::max(0., gap) + beside) * normal;
+	const auto     soilIn = [&](const Vec<Dim>& size, double& stiff) {
+                double volume = 0;
+                forIn(middle - size - margin, middle + size + margin, [&](const SoilDomain<Dim>& d) {
+                        if (!isInFront(d)) return;
+                        const Vec<Dim> low = (middle - size).cwiseMax(d.centre - d.half), high = (middle + size).cwiseMin(d.centre + d.half);
+                        const double   part = (high - low).cwiseMax(0).prod();
+                        volume += part, stiff += part * d.young;
+                });
+                return volume;
+	};
+	double       stiff = 0, presence = 1;
+	const double volume = soilIn(Vec<Dim>::Constant(beside), stiff);
 	if (volume == 0) return std::nullopt;
-	return Sight { gap, std::clamp(2 * volume / std::pow(2 * beside, Dim) - 0.5, 0., 1.), stiff / volume };
+	int across;
+	normal.cwiseAbs().maxCoeff(&across);
+	for (int a = 0; a < Dim; ++a) {
+		if (a == across) continue;
+		Vec<Dim> size = Vec<Dim>::Constant(beside / 2);
+		size[a] = size[across] = beside;
+		double unused          = 0;
+		presence *= std::clamp(2 * soilIn(size, unused) / (std::pow(2., Dim) * size.prod()) - 0.5, 0., 1.);
+	}
+	return Sight { gap, presence, stiff / volume };
 }
 
 template class SoilNear<2>;

@@ -28,8 +28,8 @@ template <int Dim> class SoilNear {
 public:
 	SoilNear(std::vector<SoilDomain<Dim>>, double cellSize);
 
-	/// Looks from a place along the normal, no farther than the reach. Soil whose closest side of the body looks elsewhere, as
-	/// beyond an edge or behind a thin body, does not count.
+	/// Looks from a place along the normal, no farther than the reach. Soil whose closest side of the body looks
+	/// elsewhere, as beyond an edge or behind a thin body, does not count.
 	std::optional<Sight> from(const Vec<Dim>& place, const Vec<Dim>& normal, double reach) const;
 
 	std::pair<Vec<Dim>, Vec<Dim>> bounds() const { return { low_, high_ }; }

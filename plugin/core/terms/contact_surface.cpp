@@ -24,8 +24,8 @@ SurfacePoints<2> onBall(double radius, double spacing, Vec<2>)
 	return points;
 }
 
-/// Each face of a cube around the ball is divided in equal angles; the area goes with the element of that map, and in sum is
-/// that of the ball.
+/// Each face of a cube around the ball is divided in equal angles; the area goes with the element of that map, and in
+/// sum is that of the ball.
 SurfacePoints<3> onBall(double radius, double spacing, Vec3)
 {
 	const int        parts = evenParts(M_PI / 2 * radius, spacing);

@@ -14,8 +14,9 @@ template <int Dim> struct SurfacePoint {
 	double       area;          ///< [m2], in 2D per metre; around an axis of symmetry to be multiplied by the circumference
 };
 
-/// Points no farther apart than the spacing, at least two along each edge, in mirror symmetry to the middle of a ball or a
-/// block. Of a plane, which has no end, those within a box in its axes. A two-sided surface has points on both sides.
+/// Points no farther apart than the spacing, at least two along each edge, in mirror symmetry to the middle of a ball
+/// or a block. Of a plane, which has no end, those within a box in its axes. A two-sided surface has points on both
+/// sides.
 template <int Dim> std::vector<SurfacePoint<Dim>> surfacePoints(const RigidShape<Dim>&, double spacing, const Vec<Dim>& low, const Vec<Dim>& high);
 
 } // namespace gimpm

@@ -12,16 +12,16 @@
 namespace yade {
 
 namespace {
-using Stiffness = Eigen::Matrix<Real, 6, 6>;
+	using Stiffness = Eigen::Matrix<Real, 6, 6>;
 
-// Translation and turn.
-Eigen::Matrix<Real, 6, 1> movement(const Se3r& before, const State& now)
-{
-	const Eigen::AngleAxis<Real> turn(now.ori * before.orientation.conjugate());
-	Eigen::Matrix<Real, 6, 1>    result;
-	result << now.pos - before.position, turn.angle() * turn.axis();
-	return result;
-}
+	// Translation and turn.
+	Eigen::Matrix<Real, 6, 1> movement(const Se3r& before, const State& now)
+	{
+		const Eigen::AngleAxis<Real> turn(now.ori * before.orientation.conjugate());
+		Eigen::Matrix<Real, 6, 1>    result;
+		result << now.pos - before.position, turn.angle() * turn.axis();
+		return result;
+	}
 }
 
 void MpmContact::requireAdmissible() const

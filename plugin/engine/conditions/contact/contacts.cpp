@@ -11,70 +11,70 @@
 namespace yade {
 
 namespace {
-Se3r poseOf(const State& state) { return { state.pos, state.ori.normalized() }; }
+	Se3r poseOf(const State& state) { return { state.pos, state.ori.normalized() }; }
 
-// A body that moves with its velocities for some time.
-Se3r moved(const Body& body, const Se3r& from, Real time)
-{
-	const State& state = *body.state;
-	if (!state.vel.allFinite() || !state.angVel.allFinite())
-		throw std::invalid_argument(
-		        "Body #" + std::to_string(body.id) + ": its velocities are not finite, and the engine of its contact moves it by them.");
-	const Real angle = state.angVel.norm() * time;
-	if (angle > 1)
-		throw std::invalid_argument(
-		        "Body #" + std::to_string(body.id) + " turns by " + std::to_string(angle)
-		        + " in one load step; admitted is 1 rad: decrease angVel or O.dt.");
-	const Quaternionr turn(Eigen::AngleAxis<Real>(angle, angle > 0 ? Vector3r(state.angVel.normalized()) : Vector3r(Vector3r::UnitX())));
-	return { from.position + time * state.vel, (turn * from.orientation).normalized() };
-}
+	// A body that moves with its velocities for some time.
+	Se3r moved(const Body& body, const Se3r& from, Real time)
+	{
+		const State& state = *body.state;
+		if (!state.vel.allFinite() || !state.angVel.allFinite())
+			throw std::invalid_argument(
+			        "Body #" + std::to_string(body.id) + ": its velocities are not finite, and the engine of its contact moves it by them.");
+		const Real angle = state.angVel.norm() * time;
+		if (angle > 1)
+			throw std::invalid_argument(
+			        "Body #" + std::to_string(body.id) + " turns by " + std::to_string(angle)
+			        + " in one load step; admitted is 1 rad: decrease angVel or O.dt.");
+		const Quaternionr turn(Eigen::AngleAxis<Real>(angle, angle > 0 ? Vector3r(state.angVel.normalized()) : Vector3r(Vector3r::UnitX())));
+		return { from.position + time * state.vel, (turn * from.orientation).normalized() };
+	}
 
-// A coefficient of 1 is given for rough bodies, and is no usual angle.
-string warningOfAngle(const string& name, Real angle)
-{
-	const bool isRound = std::abs(1e3 * angle - std::round(1e3 * angle)) < 1e-9;
-	if (!(angle > M_PI / 4) || !isRound) return "";
-	return gimpm::sentence(
-	        name, " = ", angle, " is an angle in radians, ", angle * 180 / M_PI, " degrees; was a coefficient meant, that is atan(", angle,
-	        "), or an angle in degrees, that is radians(...)?");
-}
+	// A coefficient of 1 is given for rough bodies, and is no usual angle.
+	string warningOfAngle(const string& name, Real angle)
+	{
+		const bool isRound = std::abs(1e3 * angle - std::round(1e3 * angle)) < 1e-9;
+		if (!(angle > M_PI / 4) || !isRound) return "";
+		return gimpm::sentence(
+		        name, " = ", angle, " is an angle in radians, ", angle * 180 / M_PI, " degrees; was a coefficient meant, that is atan(", angle,
+		        "), or an angle in degrees, that is radians(...)?");
+	}
 
-// Its coefficient, and a doubt about the angle.
-Real frictionOf(const MpmContact& contact, const Body& body, string& warning)
-{
-	const auto* material = dynamic_cast<const FrictMat*>(body.material.get());
-	if (warning.empty() && !std::isnan(contact.friction)) warning = warningOfAngle("MpmContact.friction", contact.friction);
-	if (!std::isnan(contact.friction)) return std::tan(contact.friction);
-	if (!material || !isFrictionAngle(material->frictionAngle))
-		throw std::invalid_argument(
-		        "Body #" + std::to_string(body.id) + ": MpmContact.friction is not given, so frictionAngle of its material counts, which "
-		        + (material ? "is " + std::to_string(material->frictionAngle) + ": expected radians from 0 to below pi/2."
-		                    : "is no FrictMat: give one of them."));
-	if (warning.empty()) warning = warningOfAngle("frictionAngle of the material of body #" + std::to_string(body.id), material->frictionAngle);
-	return std::tan(material->frictionAngle);
-}
+	// Its coefficient, and a doubt about the angle.
+	Real frictionOf(const MpmContact& contact, const Body& body, string& warning)
+	{
+		const auto* material = dynamic_cast<const FrictMat*>(body.material.get());
+		if (warning.empty() && !std::isnan(contact.friction)) warning = warningOfAngle("MpmContact.friction", contact.friction);
+		if (!std::isnan(contact.friction)) return std::tan(contact.friction);
+		if (!material || !isFrictionAngle(material->frictionAngle))
+			throw std::invalid_argument(
+			        "Body #" + std::to_string(body.id) + ": MpmContact.friction is not given, so frictionAngle of its material counts, which "
+			        + (material ? "is " + std::to_string(material->frictionAngle) + ": expected radians from 0 to below pi/2."
+			                    : "is no FrictMat: give one of them."));
+		if (warning.empty()) warning = warningOfAngle("frictionAngle of the material of body #" + std::to_string(body.id), material->frictionAngle);
+		return std::tan(material->frictionAngle);
+	}
 
-bool areSame(const Se3r& a, const State& state) { return a.position == state.pos && a.orientation.coeffs() == state.ori.coeffs(); }
+	bool areSame(const Se3r& a, const State& state) { return a.position == state.pos && a.orientation.coeffs() == state.ori.coeffs(); }
 
-void requireSmallTurn(const Body& body, const Se3r& before, const Se3r& after)
-{
-	const Real angle = before.orientation.angularDistance(after.orientation);
-	if (angle > 1)
-		throw std::invalid_argument(gimpm::sentence(
-		        "Body #", body.id, " has been turned by ", angle,
-		        " rad since the last load step, by its state.ori and angVel together; admitted is 1 rad: turn it in more steps."));
-}
+	void requireSmallTurn(const Body& body, const Se3r& before, const Se3r& after)
+	{
+		const Real angle = before.orientation.angularDistance(after.orientation);
+		if (angle > 1)
+			throw std::invalid_argument(gimpm::sentence(
+			        "Body #", body.id, " has been turned by ", angle,
+			        " rad since the last load step, by its state.ori and angVel together; admitted is 1 rad: turn it in more steps."));
+	}
 
-Real angleBetween(const Se3r& a, const Se3r& b) { return a.orientation.angularDistance(b.orientation); }
+	Real angleBetween(const Se3r& a, const Se3r& b) { return a.orientation.angularDistance(b.orientation); }
 
-template <int Dim> gimpm::Vec<Dim> headOf(const Vector3r& x) { return x.head<Dim>(); }
+	template <int Dim> gimpm::Vec<Dim> headOf(const Vector3r& x) { return x.head<Dim>(); }
 
-template <int Dim> Vector3r inSpace(const gimpm::Vec<Dim>& x)
-{
-	Vector3r result    = Vector3r::Zero();
-	result.head<Dim>() = x;
-	return result;
-}
+	template <int Dim> Vector3r inSpace(const gimpm::Vec<Dim>& x)
+	{
+		Vector3r result    = Vector3r::Zero();
+		result.head<Dim>() = x;
+		return result;
+	}
 }
 
 template <int Dim> Contacts<Dim>::Contacts(const MpmCondition::Group& group) : system(new gimpm::ContactSystem<Dim>)

@@ -4,113 +4,116 @@
 namespace yade {
 
 namespace {
-using gimpm::RigidKind;
+	using gimpm::RigidKind;
 
-[[noreturn]] void refuseBody(const Body& body, const string& what)
-{
-	throw std::invalid_argument("Body #" + std::to_string(body.id) + ", a " + body.shape->getClassName() + ", " + what);
-}
-
-string numbers(const Vector3r& v)
-{
-	std::ostringstream text;
-	text << "(" << v.transpose() << ")";
-	return text.str();
-}
-
-void requirePositive(const Body& body, bool is, const char* attribute, const string& value)
-{
-	if (!is) refuseBody(body, string("cannot touch the soil: its ") + attribute + " = " + value + ", expected finite numbers > 0.");
-}
-
-constexpr Real roundOff = 1e-9; // of what a body touches the plane z = 0 with
-
-// The others keep the axes of the scene as their own until they turn.
-bool hasOwnAxes(const Body& body) { return dynamic_cast<const Box*>(body.shape.get()); }
-
-template <int Dim> bool makeShape(const Body& body, const Sphere& sphere, const Se3r& at, gimpm::RigidShape<Dim>& shape)
-{
-	requirePositive(body, std::isfinite(sphere.radius) && sphere.radius > 0, "radius", std::to_string(sphere.radius));
-	const Real away = Dim == 2 ? std::abs(at.position[2]) : 0; // from the plane
-	shape.kind      = RigidKind::ball;
-	shape.radius    = away == 0 ? sphere.radius : std::sqrt(std::max(0., sphere.radius * sphere.radius - away * away));
-	return shape.radius > 0;
-}
-
-template <int Dim> bool makeShape(const Body& body, const Box& box, const Se3r& at, const gimpm::Grid<Dim>& grid, gimpm::RigidShape<Dim>& shape)
-{
-	requirePositive(body, box.extents.allFinite() && box.extents.head<Dim>().minCoeff() > 0, "extents", numbers(box.extents));
-	shape.kind     = RigidKind::block;
-	shape.halfSize = box.extents.head<Dim>();
-	shape.radius   = std::min(0.1 * grid.cellSize, 0.5 * shape.halfSize.minCoeff());
-	return Dim == 3 || std::abs(at.position[2]) <= box.extents[2] * (1 + roundOff);
-}
-
-template <int Dim> bool makeShape(const Body& body, const Wall& wall, gimpm::RigidShape<Dim>& shape)
-{
-	if (wall.axis < 0 || wall.axis > 2 || wall.sense < -1 || wall.sense > 1)
-		refuseBody(
-		        body,
-		        "has axis = " + std::to_string(wall.axis) + " and sense = " + std::to_string(wall.sense) + ": expected 0, 1 or 2 and -1, 0 or 1.");
-	if (wall.axis >= Dim) return false;
-	shape.kind       = RigidKind::plane;
-	shape.isTwoSided = wall.sense == 0;
-	shape.normal     = (wall.sense < 0 ? -1 : 1) * gimpm::Vec<Dim>::Unit(wall.axis);
-	return true;
-}
-
-vector<Vector3r> cornersOf(const Body& body, const Facet& facet, const Quaternionr& ori)
-{
-	vector<Vector3r> corners;
-	for (const Vector3r& vertex : facet.vertices)
-		corners.push_back(ori * vertex);
-	const bool isOne = corners.size() == 3 && (corners[1] - corners[0]).cross(corners[2] - corners[0]).norm() > 0;
-	if (!isOne || !(corners[0] + corners[1] + corners[2]).allFinite()) refuseBody(body, "cannot touch the soil: its vertices do not span a triangle.");
-	return corners;
-}
-
-bool makeSheet(const Body& body, const Facet& facet, const Se3r& at, gimpm::RigidShape<3>& shape)
-{
-	const auto corners = cornersOf(body, facet, at.orientation);
-	std::copy(corners.begin(), corners.end(), shape.corners.begin());
-	return true;
-}
-// The segment in which it meets the plane z = 0: through it, or an edge that lies in it.
-bool makeSheet(const Body& body, const Facet& facet, const Se3r& at, gimpm::RigidShape<2>& shape)
-{
-	const auto corners = cornersOf(body, facet, at.orientation);
-	const Real size    = std::max((corners[1] - corners[0]).norm(), (corners[2] - corners[0]).norm());
-	Vector3r   z;
-	for (int i = 0; i < 3; ++i) {
-		z[i] = corners[i][2] + at.position[2];
-		if (std::abs(z[i]) <= roundOff * size) z[i] = 0;
+	[[noreturn]] void refuseBody(const Body& body, const string& what)
+	{
+		throw std::invalid_argument("Body #" + std::to_string(body.id) + ", a " + body.shape->getClassName() + ", " + what);
 	}
-	vector<gimpm::Vec<2>> ends;
-	for (int i = 0; i < 3; ++i) {
-		const int j = (i + 1) % 3;
-		if (z[i] == 0) ends.push_back(corners[i].head<2>());
-		if (z[i] * z[j] < 0) ends.push_back((corners[i] + z[i] / (z[i] - z[j]) * (corners[j] - corners[i])).head<2>());
+
+	string numbers(const Vector3r& v)
+	{
+		std::ostringstream text;
+		text << "(" << v.transpose() << ")";
+		return text.str();
 	}
-	if (ends.size() != 2 || ends[0] == ends[1]) return false;
-	shape.corners = { ends[0], ends[1] };
-	return true;
-}
 
-template <int Dim> void requireOnAxis(const Body& body, const gimpm::RigidBody<Dim>& rigid)
-{
-	const bool isRound = rigid.shape.kind == RigidKind::sheet
-	        || (rigid.shape.kind == RigidKind::plane ? rigid.shape.normal[0] == 0 : std::abs(rigid.begin.position[0]) <= 1e-9 * rigid.shape.radius);
-	if (!isRound || !rigid.begin.rotation.isIdentity(1e-9))
-		refuseBody(
-		        body,
-		        "is no body of revolution about the axis x = 0: on an axisymmetric grid Spheres and upright Boxes (cylinders) in the middle, Walls across the axis and Facets (cones) touch the soil.");
-}
+	void requirePositive(const Body& body, bool is, const char* attribute, const string& value)
+	{
+		if (!is) refuseBody(body, string("cannot touch the soil: its ") + attribute + " = " + value + ", expected finite numbers > 0.");
+	}
 
-template <int Dim> gimpm::Mat<Dim> rotationInDimension(const Body& body, const Matrix3r& rotation)
-{
-	if (Dim == 2 && std::abs(rotation(2, 2) - 1) > 1e-9) refuseBody(body, "turns out of the plane of a grid with dim=2, where it acts by its section.");
-	return rotation.topLeftCorner<Dim, Dim>();
-}
+	constexpr Real roundOff = 1e-9; // of what a body touches the plane z = 0 with
+
+	// The others keep the axes of the scene as their own until they turn.
+	bool hasOwnAxes(const Body& body) { return dynamic_cast<const Box*>(body.shape.get()); }
+
+	template <int Dim> bool makeShape(const Body& body, const Sphere& sphere, const Se3r& at, gimpm::RigidShape<Dim>& shape)
+	{
+		requirePositive(body, std::isfinite(sphere.radius) && sphere.radius > 0, "radius", std::to_string(sphere.radius));
+		const Real away = Dim == 2 ? std::abs(at.position[2]) : 0; // from the plane
+		shape.kind      = RigidKind::ball;
+		shape.radius    = away == 0 ? sphere.radius : std::sqrt(std::max(0., sphere.radius * sphere.radius - away * away));
+		return shape.radius > 0;
+	}
+
+	template <int Dim> bool makeShape(const Body& body, const Box& box, const Se3r& at, const gimpm::Grid<Dim>& grid, gimpm::RigidShape<Dim>& shape)
+	{
+		requirePositive(body, box.extents.allFinite() && box.extents.head<Dim>().minCoeff() > 0, "extents", numbers(box.extents));
+		shape.kind     = RigidKind::block;
+		shape.halfSize = box.extents.head<Dim>();
+		shape.radius   = std::min(0.1 * grid.cellSize, 0.5 * shape.halfSize.minCoeff());
+		return Dim == 3 || std::abs(at.position[2]) <= box.extents[2] * (1 + roundOff);
+	}
+
+	template <int Dim> bool makeShape(const Body& body, const Wall& wall, gimpm::RigidShape<Dim>& shape)
+	{
+		if (wall.axis < 0 || wall.axis > 2 || wall.sense < -1 || wall.sense > 1)
+			refuseBody(
+			        body,
+			        "has axis = " + std::to_string(wall.axis) + " and sense = " + std::to_string(wall.sense)
+			                + ": expected 0, 1 or 2 and -1, 0 or 1.");
+		if (wall.axis >= Dim) return false;
+		shape.kind       = RigidKind::plane;
+		shape.isTwoSided = wall.sense == 0;
+		shape.normal     = (wall.sense < 0 ? -1 : 1) * gimpm::Vec<Dim>::Unit(wall.axis);
+		return true;
+	}
+
+	vector<Vector3r> cornersOf(const Body& body, const Facet& facet, const Quaternionr& ori)
+	{
+		vector<Vector3r> corners;
+		for (const Vector3r& vertex : facet.vertices)
+			corners.push_back(ori * vertex);
+		const bool isOne = corners.size() == 3 && (corners[1] - corners[0]).cross(corners[2] - corners[0]).norm() > 0;
+		if (!isOne || !(corners[0] + corners[1] + corners[2]).allFinite())
+			refuseBody(body, "cannot touch the soil: its vertices do not span a triangle.");
+		return corners;
+	}
+
+	bool makeSheet(const Body& body, const Facet& facet, const Se3r& at, gimpm::RigidShape<3>& shape)
+	{
+		const auto corners = cornersOf(body, facet, at.orientation);
+		std::copy(corners.begin(), corners.end(), shape.corners.begin());
+		return true;
+	}
+	// The segment in which it meets the plane z = 0: through it, or an edge that lies in it.
+	bool makeSheet(const Body& body, const Facet& facet, const Se3r& at, gimpm::RigidShape<2>& shape)
+	{
+		const auto corners = cornersOf(body, facet, at.orientation);
+		const Real size    = std::max((corners[1] - corners[0]).norm(), (corners[2] - corners[0]).norm());
+		Vector3r   z;
+		for (int i = 0; i < 3; ++i) {
+			z[i] = corners[i][2] + at.position[2];
+			if (std::abs(z[i]) <= roundOff * size) z[i] = 0;
+		}
+		vector<gimpm::Vec<2>> ends;
+		for (int i = 0; i < 3; ++i) {
+			const int j = (i + 1) % 3;
+			if (z[i] == 0) ends.push_back(corners[i].head<2>());
+			if (z[i] * z[j] < 0) ends.push_back((corners[i] + z[i] / (z[i] - z[j]) * (corners[j] - corners[i])).head<2>());
+		}
+		if (ends.size() != 2 || ends[0] == ends[1]) return false;
+		shape.corners = { ends[0], ends[1] };
+		return true;
+	}
+
+	template <int Dim> void requireOnAxis(const Body& body, const gimpm::RigidBody<Dim>& rigid)
+	{
+		const bool isRound = rigid.shape.kind == RigidKind::sheet
+		        || (rigid.shape.kind == RigidKind::plane ? rigid.shape.normal[0] == 0 : std::abs(rigid.begin.position[0]) <= 1e-9 * rigid.shape.radius);
+		if (!isRound || !rigid.begin.rotation.isIdentity(1e-9))
+			refuseBody(
+			        body,
+			        "is no body of revolution about the axis x = 0: on an axisymmetric grid Spheres and upright Boxes (cylinders) in the middle, Walls across the axis and Facets (cones) touch the soil.");
+	}
+
+	template <int Dim> gimpm::Mat<Dim> rotationInDimension(const Body& body, const Matrix3r& rotation)
+	{
+		if (Dim == 2 && std::abs(rotation(2, 2) - 1) > 1e-9)
+			refuseBody(body, "turns out of the plane of a grid with dim=2, where it acts by its section.");
+		return rotation.topLeftCorner<Dim, Dim>();
+	}
 }
 
 template <int Dim> gimpm::Pose<Dim> poseOf(const Body& body, const Se3r& first, const Se3r& now)
