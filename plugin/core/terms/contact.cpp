@@ -182,17 +182,21 @@ template <int Dim> void Contact<Dim>::addPlace(int number, const SurfacePoint<Di
 	const double area    = place.presence * point.area * (isRing_ ? 2 * M_PI * onBody[0] : 1);
 	const double penalty = body.stiffness * sight->young * area / grid_.cellSize;
 	place.law            = { penalty, penalty / slipSoftness, body.friction, body.adhesion * area };
-	if (record) {
-		place.friction = body.end.rotation * body.begin.rotation.transpose() * record->friction;
-		if (record->touches && record->gap < 0) {
-			place.gap = record->gap;
-			// A stiffer spring has the force that the softer one had: it has been given no energy.
-			if (penalty > -record->pressure / record->gap) place.gap = -record->pressure / penalty;
-			const double creeps = std::min(0.1, record->travel / grid_.cellSize);
-			if (!std::isfinite(system_.energy)) place.gap += creeps * std::min(0., sight->gap - place.gap);
-		}
-	}
+	if (record) recall(place, *record, sight->gap);
 	places_.push_back(place);
+}
+
+/// What pressed stays pressed, wherever domains are seen now. Where it slides it follows them slowly, so that it does
+/// not creep in; in steps in time that would be work of nobody.
+template <int Dim> void Contact<Dim>::recall(Place& place, const ContactRecord<Dim>& record, double seen) const
+{
+	const auto& body = system_.bodies[place.body];
+	place.friction   = body.end.rotation * body.begin.rotation.transpose() * record.friction;
+	if (!record.touches || record.gap >= 0) return;
+	// A stiffer spring has the force that the softer one had: it has been given no energy.
+	place.gap           = std::max(record.gap, -record.pressure / place.law.normal);
+	const double creeps = std::isfinite(system_.energy) ? 0 : std::min(0.1, record.travel / grid_.cellSize);
+	place.gap += creeps * std::min(0., seen - place.gap);
 }
 
 /// Of the place's own face, which has no end; so a round one keeps soil that slides around it.

@@ -88,13 +88,13 @@ private:
 	struct Place {
 		int             body;
 		std::int64_t    number;
-		Vec<Dim>        soil;     ///< where that begins, at the start of the step
-		Vec<Dim>        carried;  ///< by which the body would have moved it by the end
-		Vec<Dim>        normal;   ///< at the end
-		double          away;     ///< of the soil from the body, at the start [m]
-		double          gap;      ///< what counts as that
-		double          presence; ///< of soil in front of it
-		Vec<Dim>        friction; ///< at the start, turned with the body
+		Vec<Dim>        soil;                        ///< where that begins, at the start of the step
+		Vec<Dim>        carried;                     ///< by which the body would have moved it by the end
+		Vec<Dim>        normal;                      ///< at the end
+		double          away;                        ///< of the soil from the body, at the start [m]
+		double          gap;                         ///< what counts as that
+		double          presence;                    ///< of soil in front of it
+		Vec<Dim>        friction = Vec<Dim>::Zero(); ///< at the start, turned with the body
 		ContactLaw<Dim> law;
 		Attachment<Dim> attached;
 	};
@@ -102,6 +102,7 @@ private:
 	void                      find(const Beginning<Dim>&);
 	void                      addPlaces(int body);
 	void                      addPlace(int body, const SurfacePoint<Dim>&, const SoilNear<Dim>&, const std::vector<int>& around);
+	void                      recall(Place&, const ContactRecord<Dim>&, double seen) const;
 	std::vector<int>          bodiesAround(int body) const;
 	bool                      isHidden(int body, const Vec<Dim>& place, const Vec<Dim>& normal, const std::vector<int>& around) const;
 	void                      look(int body);

@@ -137,6 +137,8 @@ others = {
         **{(term, 'refinements'): equal + 'MpmDynamicEngine, as inertia' for term in ('inertia', 'explicit', 'Rayleigh damping', 'absorbing', 'base motion')},
         ('wall', 'axisymmetric'): onRings,
         ('contact', 'axisymmetric'): onRings,
+        # Beside the rollers to which the period is compared, domains move by round-off across the edge of what a place sees.
+        ('contact', 'period'): 1e-5,
 }
 
 
