@@ -65,51 +65,52 @@ template <int Dim> template <class F> void SoilNear<Dim>::forIn(const Vec<Dim>& 
 }
 
 /// The line along the normal may pass between domains, which do not tile the soil where it is sheared or stretched:
-/// then those count which it misses by a quarter of a cell. How much soil there is is a volume, which does not jump:
-/// that in a box in front of the place where the soil begins. A quarter of the box is nothing, three quarters are full,
-/// so that over the places on both sides of where soil ends the parts add up to the area that it covers. Along each
-/// axis of the face it is another box, which is narrow along the other one: so it is also at corners of the soil.
-template <int Dim> std::optional<Sight> SoilNear<Dim>::from(const Vec<Dim>& place, const Vec<Dim>& normal, double reach) const
+/// then those count which it misses by a quarter of a cell.
+template <int Dim> template <class F> double SoilNear<Dim>::gapFrom(const Vec<Dim>& place, const Vec<Dim>& normal, double reach, const F& isInFront) const
 {
 	const double   beside = 0.25 * cellSize_;
 	double         hit = infinite, near = infinite;
 	const Vec<Dim> margin = Vec<Dim>::Constant(largest_ + beside), end = place + reach * normal;
-	const auto     isInFront = [&](const SoilDomain<Dim>& d) { return d.outward.dot(normal) > 0.7; };
 	forIn(place.cwiseMin(end) - margin, place.cwiseMax(end) + margin, [&](const SoilDomain<Dim>& d) {
 		if (!isInFront(d)) return;
-		const double distance = entry(place, normal, d);
-		if (distance < infinite) hit = std::min(hit, distance);
+		hit                   = std::min(hit, entry(place, normal, d));
 		const Vec<Dim> away   = d.centre - place;
 		const double   across = away.dot(normal);
 		const bool     passes = ((away - across * normal).array().abs() > d.half.array() + beside).any();
 		if (!passes) near = std::min(near, across - normal.cwiseAbs().dot(d.half));
 	});
-	const double gap = hit < infinite && hit < near + 2 * beside ? hit : near;
+	return hit < infinite && hit < near + 2 * beside ? hit : near;
+}
+
+/// How much soil there is is a volume, which does not jump: that in a box in front of the place where the soil begins. A
+/// quarter of the box is nothing, three quarters are full, so that over the places on both sides of where soil ends the
+/// parts add up to the area that it covers. How much of the box that end leaves along an axis is told by the middle of
+/// the soil in it; what is missing besides are gaps.
+template <int Dim> std::optional<Sight> SoilNear<Dim>::from(const Vec<Dim>& place, const Vec<Dim>& normal, double reach) const
+{
+	const auto   isInFront = [&](const SoilDomain<Dim>& d) { return d.outward.dot(normal) > 0.7; };
+	const double half = 0.25 * cellSize_, gap = gapFrom(place, normal, reach, isInFront);
 	if (!(gap <= reach)) return std::nullopt;
-	const Vec<Dim> middle = place + (std::max(0., gap) + beside) * normal;
-	const auto     soilIn = [&](const Vec<Dim>& size, double& stiff) {
-                double volume = 0;
-                forIn(middle - size - margin, middle + size + margin, [&](const SoilDomain<Dim>& d) {
-                        if (!isInFront(d)) return;
-                        const Vec<Dim> low = (middle - size).cwiseMax(d.centre - d.half), high = (middle + size).cwiseMin(d.centre + d.half);
-                        const double   part = (high - low).cwiseMax(0).prod();
-                        volume += part, stiff += part * d.young;
-                });
-                return volume;
-	};
-	double       stiff = 0, presence = 1;
-	const double volume = soilIn(Vec<Dim>::Constant(beside), stiff);
+	const Vec<Dim> size = Vec<Dim>::Constant(half), middle = place + (std::max(0., gap) + half) * normal, margin = Vec<Dim>::Constant(largest_);
+	double         volume = 0, stiff = 0;
+	Vec<Dim>       moment = Vec<Dim>::Zero();
+	forIn(middle - size - margin, middle + size + margin, [&](const SoilDomain<Dim>& d) {
+		if (!isInFront(d)) return;
+		const Vec<Dim> low = (middle - size).cwiseMax(d.centre - d.half), high = (middle + size).cwiseMin(d.centre + d.half);
+		const double   part = (high - low).cwiseMax(0).prod();
+		volume += part, stiff += part * d.young, moment += part * ((low + high) / 2 - middle);
+	});
 	if (volume == 0) return std::nullopt;
-	int across;
+	const auto counts   = [](double part) { return std::clamp(2 * part - 0.5, 0., 1.); };
+	double     presence = 1, tiled = volume / std::pow(2 * half, Dim);
+	int        across;
 	normal.cwiseAbs().maxCoeff(&across);
 	for (int a = 0; a < Dim; ++a) {
 		if (a == across) continue;
-		Vec<Dim> size = Vec<Dim>::Constant(beside / 2);
-		size[a] = size[across] = beside;
-		double unused          = 0;
-		presence *= std::clamp(2 * soilIn(size, unused) / (std::pow(2., Dim) * size.prod()) - 0.5, 0., 1.);
+		const double left = 1 - std::abs(moment[a]) / (volume * half);
+		presence *= counts(left), tiled /= left;
 	}
-	return Sight { gap, presence, stiff / volume };
+	return Sight { gap, presence * counts(tiled), stiff / volume };
 }
 
 template class SoilNear<2>;

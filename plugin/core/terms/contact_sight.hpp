@@ -35,8 +35,9 @@ public:
 	std::pair<Vec<Dim>, Vec<Dim>> bounds() const { return { low_, high_ }; }
 
 private:
-	template <class F> void forIn(const Vec<Dim>& low, const Vec<Dim>& high, F&& f) const;
-	Index<Dim>              bin(const Vec<Dim>& x) const { return ((x - low_) / cellSize_).array().floor().template cast<int>(); }
+	template <class F> double gapFrom(const Vec<Dim>& place, const Vec<Dim>& normal, double reach, const F& isInFront) const;
+	template <class F> void   forIn(const Vec<Dim>& low, const Vec<Dim>& high, F&& f) const;
+	Index<Dim>                bin(const Vec<Dim>& x) const { return ((x - low_) / cellSize_).array().floor().template cast<int>(); }
 
 	std::vector<SoilDomain<Dim>>              domains_;
 	std::vector<std::pair<std::int64_t, int>> bins_; ///< and numbers of domains, sorted
