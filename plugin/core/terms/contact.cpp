@@ -58,7 +58,6 @@ Contact<Dim>::Contact(ContactSystem<Dim>& system, const Beginning<Dim>& step)
         , division_(step.division)
 {
 	system.acting = this;
-	system.warnings.clear();
 	find(step);
 	for (int body = 0; body < int(system.bodies.size()); ++body) {
 		look(body);

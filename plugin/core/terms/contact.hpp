@@ -42,9 +42,8 @@ template <int Dim> struct ContactSystem {
 	/// contact gives.
 	double energy = std::numeric_limits<double>::infinity();
 	/// Work of contact in that step beyond what it had stored, which is that of no body [J].
-	double                   given = 0;
-	std::vector<std::string> warnings {}; ///< sentences about bodies near the soil, of the step that is being made
-	const Term<Dim>*         acting {};   ///< the term of the step that is being made
+	double           given = 0;
+	const Term<Dim>* acting {}; ///< the term of the step that is being made
 };
 
 /// The penalty on the gap over that on the slip. With 20 a place slides after mu p h / (stiffness / 20 E). Blocks that
