@@ -295,7 +295,7 @@ template <int Dim> std::string Contact<Dim>::entered(const Eigen::VectorXd& d) c
 		const Proximity<Dim> before = body.proximity(body.begin, centre, near.side), after = body.proximity(body.end, x, near.side);
 		const bool           isThrough = body.shape.isTwoSided ? after.gap < 0 && after.beside < 0 && before.gap >= 0 : body.isCrossed(centre, x);
 		const double         deeper    = before.gap - after.gap;
-		const bool           isInside  = !body.shape.isTwoSided && after.gap < -deepest && deeper > (after.gap < -5 * deepest ? 0 : deepest / 2);
+		const bool           isInside  = !body.shape.isTwoSided && -deepest > after.gap && deeper > (-5 * deepest > after.gap ? 0 : deepest / 2);
 		if (!isThrough && !isInside) continue;
 		std::ostringstream text;
 		text << (isThrough ? " would let soil through" : " would get soil inside of it") << ", which moves " << u.norm()
