@@ -82,10 +82,10 @@ template <int Dim> template <class F> double SoilNear<Dim>::gapFrom(const Vec<Di
 	return hit < infinite && hit < near + 2 * beside ? hit : near;
 }
 
-/// How much soil there is is a volume, which does not jump: that in a box in front of the place where the soil begins. A
-/// quarter of the box is nothing, three quarters are full, so that over the places on both sides of where soil ends the
-/// parts add up to the area that it covers. How much of the box that end leaves along an axis is told by the middle of
-/// the soil in it; what is missing besides are gaps.
+/// How much soil there is is a volume, which does not jump: that in a box in front of the place where the soil begins.
+/// A quarter of the box is nothing, three quarters are full, so that over the places on both sides of where soil ends
+/// the parts add up to the area that it covers. How much of the box that end leaves along an axis is told by the middle
+/// of the soil in it; what is missing besides are gaps.
 template <int Dim> std::optional<Sight> SoilNear<Dim>::from(const Vec<Dim>& place, const Vec<Dim>& normal, double reach) const
 {
 	const auto   isInFront = [&](const SoilDomain<Dim>& d) { return d.outward.dot(normal) > 0.7; };

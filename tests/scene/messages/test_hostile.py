@@ -333,7 +333,7 @@ def press(seconds):
 def hard():
 	"""Its steps near failure take tens of iterations."""
 	solver = slope(cellSize=0.25, steps=2)
-	solver.newton.minStep, solver.newton.maxIterations = 1 / 2, 1000
+	solver.newton.minStep, solver.newton.maxIterations = 1 / 64, 1000
 	return solver
 '''
 

@@ -48,12 +48,12 @@ def test_the_limit_of_the_cone():
 def test_cases_that_are_right(yade):
 	"""By the command; what is not right is told by how it ends."""
 	out = yade.folder / 'out'
-	command = [root / 'scripts/contacts', 'plate', 'ring-shear', 'embracing', 'energy-random', '--short', '--seeds', '2:5', '--out', out]
+	command = [root / 'scripts/contacts', 'plate', 'clumps', 'embracing', 'energy-random', '--short', '--seeds', '2:5', '--out', out]
 	run = subprocess.run(command, env=os.environ | yade.ownSettings() | {'YADE': Yade(yade.folder).command}, capture_output=True, text=True, timeout=300)
 	found = json.loads((out / 'contacts.json').read_text())
-	assert set(found) == {'plate', 'ring-shear', 'embracing', 'energy-random'}, run.stdout + run.stderr
-	assert not [name for name in ('plate', 'ring-shear', 'embracing') if misses(cases[name], found[name])]
-	assert found['energy-random']['scenes'] == 3 and '| ring-shear |' in (out / 'contacts.md').read_text()
+	assert set(found) == {'plate', 'clumps', 'embracing', 'energy-random'}, run.stdout + run.stderr
+	assert not [name for name in ('plate', 'clumps', 'embracing') if misses(cases[name], found[name])]
+	assert found['energy-random']['scenes'] == 3 and '| clumps |' in (out / 'contacts.md').read_text()
 	assert run.returncode == int(any(misses(cases[name], result) for name, result in found.items()))
 
 
