@@ -113,9 +113,9 @@ template <int Dim> void Contact<Dim>::addPlaces(int number)
 		domains.push_back({ near->centre(), near->half(), near->young, body.proximity(body.begin, near->centre(), near->side).normal });
 	const SoilNear<Dim> soil(std::move(domains), grid_.cellSize);
 	const auto [low, high]        = soil.bounds();
-	const Vec<Dim>         margin = Vec<Dim>::Constant(grid_.cellSize), origin = body.begin.position;
+	const Vec<Dim>         margin = Vec<Dim>::Constant(grid_.cellSize + searchReach(body, grid_));
 	const std::vector<int> around = bodiesAround(number);
-	for (const auto& point : surfacePoints<Dim>(body.shape, grid_.cellSize / 4, low - margin - origin, high + margin - origin))
+	for (const auto& point : surfacePointsAt<Dim>(body.shape, body.begin, grid_.cellSize, low - margin, high + margin))
 		addPlace(number, point, soil, around);
 }
 

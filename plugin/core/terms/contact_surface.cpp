@@ -7,106 +7,167 @@
 namespace gimpm {
 namespace {
 
+template <int Dim> struct Box {
+	Vec<Dim> low, high;
+
+	bool has(const Vec<Dim>& x) const { return (x.array() >= low.array()).all() && (x.array() <= high.array()).all(); }
+};
+
 template <int Dim> using SurfacePoints = std::vector<SurfacePoint<Dim>>;
 
 /// An even number of parts of a length, so that its middle is between two of them.
 int evenParts(double length, double spacing) { return 2 * std::max(1, int(std::ceil(length / (2 * spacing) - 1e-9))); }
 
-SurfacePoints<2> onBall(double radius, double spacing, Vec<2>)
+/// Of the part of a surface that reaches from its middle as far as `half` to both sides, along one or two lines.
+std::array<Vec<2>, 2> cornersAround(const Vec<2>& x, const Vec<2>& half) { return { x - half, x + half }; }
+std::array<Vec3, 4>   cornersAround(const Vec3& x, const Vec3& half, const Vec3& other)
+{
+	return { x - half - other, x + half - other, x + half + other, x - half + other };
+}
+
+SurfacePoints<2> onBall(double radius, double spacing, const Box<2>& box)
 {
 	const int        parts = 4 * std::max(2, int(std::ceil(M_PI / 2 * radius / spacing - 1e-9)));
 	SurfacePoints<2> points;
 	for (int i = 0; i < parts; ++i) {
-		const double angle = 2 * M_PI * (i + 0.5) / parts;
-		const Vec<2> normal(std::cos(angle), std::sin(angle));
-		points.push_back({ i, radius * normal, normal, 2 * M_PI * radius / parts });
+		const double angle = 2 * M_PI * (i + 0.5) / parts, half      = std::tan(M_PI / parts);
+		const Vec<2> normal(std::cos(angle), std::sin(angle)), place = radius * normal;
+		if (box.has(place)) points.push_back({ i, place, normal, 2 * M_PI * radius / parts, cornersAround(place, half * Vec<2>(-place[1], place[0])) });
 	}
 	return points;
 }
 
 /// Each face of a cube around the ball is divided in equal angles; the area goes with the element of that map, and in
 /// sum is that of the ball.
-SurfacePoints<3> onBall(double radius, double spacing, Vec3)
+SurfacePoints<3> onBall(double radius, double spacing, const Box<3>& box)
 {
-	const int        parts = evenParts(M_PI / 2 * radius, spacing);
+	const int           parts = evenParts(M_PI / 2 * radius, spacing);
+	std::vector<double> tangents; // at the ends of the parts and, between these, in their middles
+	for (int k = -parts; k <= parts; ++k)
+		tangents.push_back(std::tan(M_PI / 4 * k / parts));
+	const auto areaAt = [&](int i, int j) {
+		const double u = tangents[2 * i + 1], v = tangents[2 * j + 1], size2 = 1 + u * u + v * v;
+		return (1 + u * u) * (1 + v * v) / (size2 * std::sqrt(size2));
+	};
+	double sum = 0;
+	for (int i = 0; i < parts * parts; ++i)
+		sum += 6 * areaAt(i % parts, i / parts);
 	SurfacePoints<3> points;
-	double           sum = 0;
-	for (int face = 0; face < 6; ++face)
-		for (int i = 0; i < parts * parts; ++i) {
-			const auto   tangent = [&](int k) { return std::tan(M_PI / 4 * (2 * k + 1 - parts) / parts); };
-			const double u = tangent(i % parts), v = tangent(i / parts), size2 = 1 + u * u + v * v;
-			Vec3         normal;
-			normal[face / 2] = face % 2 ? 1 : -1, normal[(face / 2 + 1) % 3] = u, normal[(face / 2 + 2) % 3] = v;
-			const double area = (1 + u * u) * (1 + v * v) / (size2 * std::sqrt(size2));
-			sum += area;
-			normal /= std::sqrt(size2);
-			points.push_back({ std::int64_t(points.size()), radius * normal, normal, area });
-		}
-	for (auto& point : points)
-		point.area *= 4 * M_PI * radius * radius / sum;
-	return points;
-}
-
-template <int Dim> SurfacePoints<Dim> onBlock(const Vec<Dim>& half, double spacing)
-{
-	SurfacePoints<Dim> points;
-	for (int face = 0; face < 2 * Dim; ++face) {
-		const int  across = face / 2;
-		Index<Dim> parts  = Index<Dim>::Ones();
-		double     area   = 1;
-		for (int a = 0; a < Dim; ++a)
-			if (a != across) parts[a] = evenParts(2 * half[a], spacing), area *= 2 * half[a] / parts[a];
-		const Vec<Dim> normal = (face % 2 ? 1 : -1) * Vec<Dim>::Unit(across);
-		for (int i = 0; i < parts.prod(); ++i) {
-			Vec<Dim> place = half[across] * normal;
-			for (int a = 0, rest = i; a < Dim; ++a) {
-				if (a == across) continue;
-				place[a] = half[a] * ((2 * (rest % parts[a]) + 1.) / parts[a] - 1);
-				rest /= parts[a];
-			}
-			points.push_back({ std::int64_t(points.size()), place, normal, area });
-		}
+	for (int number = 0; number < 6 * parts * parts; ++number) {
+		const int  face = number / (parts * parts), i = number % parts, j = number / parts % parts;
+		const auto at = [&](int k, int l) { // in halves of parts
+			Vec3 x;
+			x[face / 2] = face % 2 ? 1 : -1, x[(face / 2 + 1) % 3] = tangents[k], x[(face / 2 + 2) % 3] = tangents[l];
+			return Vec3(x.normalized());
+		};
+		const Vec3 normal = at(2 * i + 1, 2 * j + 1), place = radius * normal;
+		if (!box.has(place)) continue;
+		const double              area = 4 * M_PI * radius * radius * areaAt(i, j) / sum;
+		const std::array<Vec3, 4> corners { radius * at(2 * i, 2 * j), radius * at(2 * i + 2, 2 * j), radius * at(2 * i + 2, 2 * j + 2),
+			                            radius * at(2 * i, 2 * j + 2) };
+		points.push_back({ number, place, normal, area, corners });
 	}
 	return points;
 }
 
-template <int Dim> void addSides(SurfacePoints<Dim>& points, std::int64_t number, const Vec<Dim>& place, const Vec<Dim>& normal, double area, bool isTwoSided)
+std::array<Vec<2>, 2> cornersAcross(const Vec<2>& place, const Vec<2>& half, int across)
 {
-	points.push_back({ 2 * number, place, normal, area });
-	if (isTwoSided) points.push_back({ 2 * number + 1, place, Vec<Dim>(-normal), area });
+	return cornersAround(place, half[1 - across] * Vec<2>::Unit(1 - across));
+}
+std::array<Vec3, 4> cornersAcross(const Vec3& place, const Vec3& half, int across)
+{
+	const int a = (across + 1) % 3, b = (across + 2) % 3;
+	return cornersAround(place, half[a] * Vec3::Unit(a), half[b] * Vec3::Unit(b));
 }
 
-SurfacePoints<2> onSheet(const std::array<Vec<2>, 2>& corner, double spacing, bool isTwoSided)
+/// Numbered row by row, face by face.
+template <int Dim> SurfacePoints<Dim> onBlock(const Vec<Dim>& half, double spacing, const Box<Dim>& box)
+{
+	SurfacePoints<Dim> points;
+	std::int64_t       first = 0; // number on the face
+	for (int face = 0; face < 2 * Dim; ++face) {
+		const int      across = face / 2;
+		const Vec<Dim> normal = (face % 2 ? 1 : -1) * Vec<Dim>::Unit(across);
+		Index<Dim>     parts = Index<Dim>::Ones(), from = Index<Dim>::Zero(), to = Index<Dim>::Zero();
+		double         area  = 1;
+		bool           isMet = half[across] * normal[across] >= box.low[across] && half[across] * normal[across] <= box.high[across];
+		Vec<Dim>       part  = Vec<Dim>::Zero(); // half of one
+		for (int a = 0; a < Dim; ++a) {
+			if (a == across) continue;
+			parts[a] = evenParts(2 * half[a], spacing), part[a] = half[a] / parts[a], area *= 2 * part[a];
+			const auto indexOf = [&](double x) { return (x + half[a]) / (2 * part[a]) - 0.5; };
+			from[a]            = int(std::ceil(std::clamp(indexOf(box.low[a]), 0., double(parts[a]))));
+			to[a]              = int(std::floor(std::clamp(indexOf(box.high[a]), -1., parts[a] - 1.)));
+			isMet              = isMet && from[a] <= to[a];
+		}
+		for (Index<Dim> i = from; isMet;) {
+			Vec<Dim>     place  = half[across] * normal;
+			std::int64_t number = 0;
+			for (int a = Dim - 1; a >= 0; --a) {
+				if (a != across) place[a] = half[a] * ((2 * i[a] + 1.) / parts[a] - 1);
+				number = number * parts[a] + i[a];
+			}
+			points.push_back({ first + number, place, normal, area, cornersAcross(place, part, across) });
+			int a = 0;
+			while (a < Dim && ++i[a] > to[a])
+				i[a] = from[a], ++a;
+			isMet = a < Dim;
+		}
+		first += parts.template cast<std::int64_t>().prod();
+	}
+	return points;
+}
+
+template <int Dim> void addSides(SurfacePoints<Dim>& points, SurfacePoint<Dim> point, bool isTwoSided, const Box<Dim>& box)
+{
+	if (!box.has(point.place)) return;
+	point.number *= 2;
+	points.push_back(point);
+	++point.number;
+	point.normal *= -1;
+	if (isTwoSided) points.push_back(point);
+}
+
+SurfacePoints<2> onSheet(const std::array<Vec<2>, 2>& corner, double spacing, bool isTwoSided, const Box<2>& box)
 {
 	const Vec<2>     along = corner[1] - corner[0], normal = Vec<2>(along[1], -along[0]).normalized();
 	const int        parts = evenParts(along.norm(), spacing);
 	SurfacePoints<2> points;
-	for (int i = 0; i < parts; ++i)
-		addSides<2>(points, i, corner[0] + (i + 0.5) / parts * along, normal, along.norm() / parts, isTwoSided);
+	for (int i = 0; i < parts; ++i) {
+		const Vec<2> place = corner[0] + (i + 0.5) / parts * along;
+		addSides<2>(points, { i, place, normal, along.norm() / parts, cornersAround(place, along / (2 * parts)) }, isTwoSided, box);
+	}
 	return points;
 }
 
 /// The middles of the triangles into which lines parallel to the edges cut it.
-SurfacePoints<3> onSheet(const std::array<Vec3, 3>& corner, double spacing, bool isTwoSided)
+SurfacePoints<3> onSheet(const std::array<Vec3, 3>& corner, double spacing, bool isTwoSided, const Box<3>& box)
 {
 	const Vec3       u = corner[1] - corner[0], v = corner[2] - corner[0], across = u.cross(v), normal = across.normalized();
 	const double     longest = std::max({ u.norm(), v.norm(), (v - u).norm() });
 	const int        parts   = std::max(2, int(std::ceil(longest / (std::sqrt(2.) * spacing) - 1e-9)));
 	SurfacePoints<3> points;
 	std::int64_t     number = 0;
+	const auto       at     = [&](double i, double j) { return Vec3(corner[0] + i / parts * u + j / parts * v); };
 	for (int i = 0; i < parts; ++i)
 		for (int j = 0; i + j < parts; ++j)
 			for (int turned = 0; turned < (i + j + 1 < parts ? 2 : 1); ++turned) {
-				const double at = turned ? 2. / 3 : 1. / 3;
+				const double middle = turned ? 2. / 3 : 1. / 3, area = across.norm() / 2 / (parts * parts);
+				const Vec3   last = at(i, j + 1);
 				addSides<3>(
-				        points, number++, corner[0] + (i + at) / parts * u + (j + at) / parts * v, normal, across.norm() / 2 / (parts * parts),
-				        isTwoSided);
+				        points,
+				        { number++,
+				          at(i + middle, j + middle),
+				          normal,
+				          area,
+				          { turned ? at(i + 1, j + 1) : at(i, j), at(i + 1, j), last, last } },
+				        isTwoSided, box);
 			}
 	return points;
 }
 
 /// On a lattice through the origin of the plane's axes; planes are across one of the axes of space.
-template <int Dim> SurfacePoints<Dim> onPlane(const RigidShape<Dim>& shape, double spacing, const Vec<Dim>& low, const Vec<Dim>& high)
+template <int Dim> SurfacePoints<Dim> onPlane(const RigidShape<Dim>& shape, double spacing, const Box<Dim>& box)
 {
 	constexpr std::int64_t most = 1 << 24;
 	int                    across;
@@ -116,7 +177,7 @@ template <int Dim> SurfacePoints<Dim> onPlane(const RigidShape<Dim>& shape, doub
 	int                axes[2] = { 0, 0 }, n = 0;
 	for (int a = 0; a < Dim; ++a) {
 		if (a == across) continue;
-		axes[n] = a, from[n] = std::int64_t(std::floor(low[a] / spacing)), to[n] = std::int64_t(std::floor(high[a] / spacing));
+		axes[n] = a, from[n] = std::int64_t(std::floor(box.low[a] / spacing)), to[n] = std::int64_t(std::floor(box.high[a] / spacing));
 		++n;
 	}
 	for (std::int64_t i = from[0]; i <= to[0]; ++i)
@@ -124,7 +185,11 @@ template <int Dim> SurfacePoints<Dim> onPlane(const RigidShape<Dim>& shape, doub
 			Vec<Dim> place = Vec<Dim>::Zero();
 			place[axes[0]] = (double(i) + 0.5) * spacing;
 			if (Dim == 3) place[axes[1]] = (double(j) + 0.5) * spacing;
-			addSides<Dim>(points, (i + most) * 2 * most + j + most, place, shape.normal, std::pow(spacing, Dim - 1), shape.isTwoSided);
+			const std::int64_t number = (i + most) * 2 * most + j + most;
+			addSides<Dim>(
+			        points,
+			        { number, place, shape.normal, std::pow(spacing, Dim - 1), cornersAcross(place, Vec<Dim>::Constant(spacing / 2), across) },
+			        shape.isTwoSided, box);
 		}
 	return points;
 }
@@ -133,13 +198,23 @@ template <int Dim> SurfacePoints<Dim> onPlane(const RigidShape<Dim>& shape, doub
 
 template <int Dim> std::vector<SurfacePoint<Dim>> surfacePoints(const RigidShape<Dim>& shape, double spacing, const Vec<Dim>& low, const Vec<Dim>& high)
 {
-	if (shape.kind == RigidKind::ball) return onBall(shape.radius, spacing, Vec<Dim>());
-	if (shape.kind == RigidKind::block) return onBlock<Dim>(shape.halfSize, spacing);
-	if (shape.kind == RigidKind::sheet) return onSheet(shape.corners, spacing, shape.isTwoSided);
-	return onPlane<Dim>(shape, spacing, low, high);
+	const Box<Dim> box { low, high };
+	if (shape.kind == RigidKind::ball) return onBall(shape.radius, spacing, box);
+	if (shape.kind == RigidKind::block) return onBlock<Dim>(shape.halfSize, spacing, box);
+	if (shape.kind == RigidKind::sheet) return onSheet(shape.corners, spacing, shape.isTwoSided, box);
+	return onPlane<Dim>(shape, spacing, box);
+}
+
+template <int Dim>
+std::vector<SurfacePoint<Dim>> surfacePointsAt(const RigidShape<Dim>& shape, const Pose<Dim>& pose, double cellSize, const Vec<Dim>& low, const Vec<Dim>& high)
+{
+	const Vec<Dim> middle = pose.inBody((low + high) / 2), half = pose.rotation.transpose().cwiseAbs() * (high - low) / 2;
+	return surfacePoints<Dim>(shape, cellSize / 4, middle - half, middle + half);
 }
 
 template std::vector<SurfacePoint<2>> surfacePoints(const RigidShape<2>&, double, const Vec<2>&, const Vec<2>&);
 template std::vector<SurfacePoint<3>> surfacePoints(const RigidShape<3>&, double, const Vec<3>&, const Vec<3>&);
+template std::vector<SurfacePoint<2>> surfacePointsAt(const RigidShape<2>&, const Pose<2>&, double, const Vec<2>&, const Vec<2>&);
+template std::vector<SurfacePoint<3>> surfacePointsAt(const RigidShape<3>&, const Pose<3>&, double, const Vec<3>&, const Vec<3>&);
 
 } // namespace gimpm

@@ -2,6 +2,7 @@
 // Points on the surfaces of rigid bodies, over which contact is integrated.
 #pragma once
 #include "core/terms/rigid_body.hpp"
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -12,11 +13,17 @@ template <int Dim> struct SurfacePoint {
 	std::int64_t number;        ///< its name as long as shape and spacing stay the same
 	Vec<Dim>     place, normal; ///< the normal is that of its face, unit, out of the body
 	double       area;          ///< [m2], in 2D per metre; around an axis of symmetry to be multiplied by the circumference
+
+	/// Of that part, around it; of a triangle the last two are one.
+	std::array<Vec<Dim>, 2 * (Dim - 1)> corners;
 };
 
 /// Points no farther apart than the spacing, at least two along each edge, in mirror symmetry to the middle of a ball
-/// or a block. Of a plane, which has no end, those within a box in its axes. A two-sided surface has points on both
-/// sides.
+/// or a block: those within a box in the body's axes. A two-sided surface has points on both sides.
 template <int Dim> std::vector<SurfacePoint<Dim>> surfacePoints(const RigidShape<Dim>&, double spacing, const Vec<Dim>& low, const Vec<Dim>& high);
+
+/// Those of contact on a grid with cells of this size, on a body at a pose: within a box in the axes of space.
+template <int Dim>
+std::vector<SurfacePoint<Dim>> surfacePointsAt(const RigidShape<Dim>&, const Pose<Dim>&, double cellSize, const Vec<Dim>& low, const Vec<Dim>& high);
 
 } // namespace gimpm

@@ -23,8 +23,8 @@ private:
 	py::dict& to;
 };
 
-// Vertices, segments and triangles, each with as many numbers of each field as that is wide. Conditions of one kind of
-// picture share it: where one has no number of a field, it is NaN, or -1 of whole numbers.
+// Vertices, segments, triangles and quadrilaterals, each with as many numbers of each field as that is wide.
+// Conditions of one kind of picture share it: where one has no number of a field, it is NaN, or -1 of whole numbers.
 class Picture {
 public:
 	struct Field {

@@ -37,7 +37,7 @@ public:
 		          isFileName));
 		v("recorders", &MpmVtkRecorder::recorders, 0,
 		  "What to write: 'points', domains with *fields*; 'grid', cells with material; 'ghostFaces', stabilised faces; 'loads', loaded surfaces; "
-		  "'walls', surfaces of boundaries; 'contacts', touched places; 'all'. "
+		  "'walls', surfaces of boundaries; 'contacts', faces of bodies; 'all'. "
 		  "Read as a tuple.",
 		  admitting("one or more of 'points', 'grid', 'ghostFaces', 'loads', 'walls', 'contacts' and 'all'", areKinds));
 		v("fields", &MpmVtkRecorder::fields, 0,

@@ -47,10 +47,10 @@ namespace {
 		return array;
 	}
 
-	// Cells of one, two and three corners.
+	// Cells of one to four corners.
 	VtkCells toVtk(const Picture& picture)
 	{
-		constexpr int        kinds[] = { VTK_EMPTY_CELL, VTK_VERTEX, VTK_LINE, VTK_TRIANGLE };
+		constexpr int        kinds[] = { VTK_EMPTY_CELL, VTK_VERTEX, VTK_LINE, VTK_TRIANGLE, VTK_QUAD };
 		vtkNew<vtkPoints>    points;
 		vtkNew<vtkCellArray> cells;
 		vector<int>          types;
@@ -106,19 +106,23 @@ py::dict gridCellsForPython(const string& kind, const Analysis& solver)
 	const VtkCells    grid   = gridCells(kind, *solver.ownScene(), solver);
 	vtkDataArray*     values = grid->GetCellData()->GetArray(0); // none where there is nothing
 	const int         width  = values ? values->GetNumberOfComponents() : 0;
-	vector<Real>      corners, field;
+	vector<Real>      corners, middles, field;
 	vtkNew<vtkIdList> nodes;
 	for (vtkIdType cell = 0; cell < grid->GetNumberOfCells(); ++cell) {
 		grid->GetCellPoints(cell, nodes);
+		Vector3r middle = Vector3r::Zero();
 		for (vtkIdType n = 0; n < nodes->GetNumberOfIds(); ++n) {
-			const double* x = grid->GetPoint(nodes->GetId(n));
-			corners.insert(corners.end(), x, x + 3);
+			const Vector3r x(grid->GetPoint(nodes->GetId(n)));
+			corners.insert(corners.end(), x.data(), x.data() + 3);
+			middle += x / Real(nodes->GetNumberOfIds());
 		}
+		middles.insert(middles.end(), middle.data(), middle.data() + 3);
 		for (int i = 0; i < width; ++i)
 			field.push_back(values->GetComponent(cell, i));
 	}
 	py::dict result;
 	result["corners"] = bytes(corners);
+	result["middles"] = bytes(middles);
 	result["field"]   = bytes(field);
 	result["count"]   = grid->GetNumberOfCells();
 	return result;

@@ -50,15 +50,23 @@ def _sayIfRunning():
 
 
 def contactForces(solver=None):
-	"""Where material points touch rigid bodies at the end of the last converged step, and the forces there.
+	"""Where soil touches rigid bodies at the end of the last converged step, and the forces there.
 
 	:param solver: ``MpmImplicitEngine`` with the contacts; needed if there are several
-	:return: places (N, 3) [m] of the corners of domains that touch, and forces (N, 3) on the soil [N], per metre of thickness in plane strain; of length 0
+	:return: places (N, 3) [m] on the bodies, a quarter of a cell apart, and forces (N, 3) on the soil [N], per metre of thickness in plane strain; of length 0
 		if nothing touches
 	:raises ValueError: no engine, or several of which none is named.
 	"""
-	data = engine.gridCells('contacts', solverOf('contactForces', solver))
-	return tuple(np.frombuffer(data[name]).reshape(-1, 3) for name in ('corners', 'field'))
+	places, force, _ = contactFaces(solverOf('contactForces', solver))
+	touching = force.any(axis=1)
+	return places[touching], force[touching]
+
+
+def contactFaces(solver):
+	"""Of all places on bodies near the soil: middles (N, 3) [m], forces on the soil (N, 3) [N], and in the plane the ends of their parts of the face (N, 2, 3) [m], else None."""
+	data = engine.gridCells('contacts', solver)
+	places, force, corners = (np.frombuffer(data[name]).reshape(-1, 3) for name in ('middles', 'field', 'corners'))
+	return places, force, corners.reshape(-1, 2, 3) if solver.grid.dim == 2 else None
 
 
 def fields(mask=0):

@@ -6,7 +6,7 @@ import numpy as np
 
 from .analysis import solverOf
 from .colouring import colourMap, limits, scalarOrArray
-from .data import fields
+from .data import contactFaces, fields
 from .divided import isDivided
 from .fields import labelled
 from .files import replacing
@@ -44,7 +44,7 @@ def plot(field='displacement', deformed=True, grid=None, ghost=None, fileName=No
 	:param colormap: name of a colour map of matplotlib; by default viridis, or RdBu_r for values of both signs
 	:param plane: in 3D, axis and coordinate [m] of the slice, as in ``('z', 0.5)``; by default across z, through the point nearest to the middle
 	:param solver: ``MpmImplicitEngine`` whose grid is drawn; needed if there are several
-	:param loads: draw the loaded surfaces and the walls that are surfaces, with arrows in the direction of the force on the body, and the rigid bodies that may touch it; default as for *grid*
+	:param loads: draw the loaded surfaces and the walls that are surfaces, with arrows in the direction of the force on the body, and the rigid bodies that may touch it, in the plane with lines as long as the traction of contact is large; default as for *grid*
 	:param vectors: arrows on top: name of a vector (``displacement``, ``velocity``, ``force``, ...), or an (N, 3) array in order of body id
 	:param contours: lines of equal value of *field* on top: their number, or their values in the field's SI unit, increasing
 	:return: the axes
@@ -74,6 +74,7 @@ def plot(field='displacement', deformed=True, grid=None, ghost=None, fileName=No
 	if loads and len(solver.loads): _drawSurfaces(ax, section, solver, 'loads', _loadColour)
 	if loads and any(boundary.surface for boundary in solver.boundaries): _drawSurfaces(ax, section, solver, 'walls', _wallColour)
 	if loads and len(solver.contacts): _drawRigid(ax, section, solver)
+	if loads and len(solver.contacts) and section.normal is None: _drawPressure(ax, section, solver)
 	_finish(ax, section, f'load factor {solver.loadFactor:.4g}' + ('' if deformed else ', at the initial positions'))
 	if fileName is not None: write('plot', ax.figure, fileName)
 	return ax
@@ -201,6 +202,22 @@ def _drawRigid(ax, section, solver):
 	ax.add_collection(LineCollection([line for line in lines if len(line)], colors=_rigidColour, linewidths=1.2, zorder=5, label='rigid bodies'), autolim=False)
 	for line in lines:
 		ax.update_datalim(line.clip(low - margin, high + margin))
+
+
+def _drawPressure(ax, section, solver):
+	"""What bodies press and rub with, per area: lines from their faces, against the force on the soil."""
+	from matplotlib.collections import LineCollection
+	places, force, ends = contactFaces(solver)
+	touching = force.any(axis=1)
+	if not touching.any(): return
+	area = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1) * (2 * np.pi * places[:, 0] if solver.grid.axisymmetric else 1)
+	places, traction = places[touching][:, section.shown], (force[touching].T / area[touching]).T[:, section.shown]
+	largest = np.linalg.norm(traction, axis=1).max()
+	lengths = -0.1 * (ax.dataLim.get_points()[1] - ax.dataLim.get_points()[0]).max() / largest * traction
+	size, label = labelled('meanStress', traction)
+	unit = label[label.index('[') + 1:-1]
+	lines = LineCollection(np.stack([places, places + lengths], 1), colors=_rigidColour, linewidths=0.6, zorder=5, label=f'contact, up to {largest / size:.4g} {unit}')
+	ax.add_collection(lines, autolim=False)
 
 
 def _drawMatter(ax, matter, values, field, range, colormap):

@@ -2,7 +2,7 @@
 """Rigid bodies of the scene in the plane of a picture."""
 
 import numpy as np
-from yade import O, Box, Facet, Sphere, Vector3, Wall
+from yade import Body, O, Box, Facet, Sphere, Vector3, Wall
 
 from .library import engine
 from .sections import boxEdges, cut, inOrder, signs, triangleSides
@@ -13,6 +13,24 @@ def touchable(solver):
 	return [O.bodies[number] for number in engine.touchableBodies(solver)]
 
 
+def bodiesIn(given):
+	"""The bodies of a list of them, or the one that is given; none if that is something else."""
+	given = given if isinstance(given, (list, tuple)) else [given]
+	return given if given and all(isinstance(body, Body) for body in given) else []
+
+
+def cornersOf(body):
+	"""(N, 3) corners of what the body fills, of a sphere those of the box around it, of a clump those of its members; None if it has no end."""
+	shape = body.shape
+	if body.isClump:
+		found = [cornersOf(O.bodies[member]) for member in shape.members]
+		return None if any(corners is None for corners in found) else np.concatenate(found)
+	if isinstance(shape, Sphere): return np.array(body.state.pos) + shape.radius * signs
+	if isinstance(shape, Box): return _inSpace(body, signs * np.array(shape.extents))
+	if isinstance(shape, Facet): return _inSpace(body, shape.vertices)
+	return None
+
+
 def outline(body, normal, at, limits):
 	"""(M, 2) points of a line around or along the body, in the plane x[normal] = at, seen along it; none where it is not cut.
 
@@ -21,8 +39,8 @@ def outline(body, normal, at, limits):
 	shape, shown = body.shape, [axis for axis in (0, 1, 2) if axis != normal]
 	if isinstance(shape, Sphere): return _circle(np.array(body.state.pos), shape.radius, normal, at, shown)
 	if isinstance(shape, Wall): return _line(shape.axis, body.state.pos[shape.axis], normal, shown, limits)
-	if isinstance(shape, Facet): corners, edges = _inSpace(body, shape.vertices), triangleSides
-	elif isinstance(shape, Box): corners, edges = _inSpace(body, signs * np.array(shape.extents)), boxEdges
+	if isinstance(shape, Facet): corners, edges = cornersOf(body), triangleSides
+	elif isinstance(shape, Box): corners, edges = cornersOf(body), boxEdges
 	else: return np.empty((0, 2))
 	ends = cut(corners, corners[:, normal] >= at, edges, normal, at)
 	return np.concatenate([inOrder(ends), inOrder(ends)[:1]]) if len(ends) else ends

@@ -98,22 +98,69 @@ namespace {
 		}
 	}
 
-	/// Whatever box of it is asked for, its points are the same.
-	TYPED_TEST(ContactSurfaceOf, APlaneIsALatticeThatStaysWhereItIs)
+	/// Whatever box of a surface is asked for, its places are the same.
+	TYPED_TEST(ContactSurfaceOf, PlacesInABoxAreThoseOfTheWhole)
 	{
-		constexpr int  Dim   = TypeParam::value;
-		const auto     shape = shapeOf<Dim>(RigidKind::plane);
-		const Vec<Dim> low   = Vec<Dim>::Constant(-0.31);
-		const auto     all = pointsOf(shape), some = surfacePoints<Dim>(shape, 0.1, low, -low);
-		for (const auto& p : some) {
-			const auto same = std::find_if(all.begin(), all.end(), [&](const auto& q) { return q.number == p.number; });
-			ASSERT_NE(same, all.end());
-			EXPECT_EQ(same->place, p.place);
-			EXPECT_EQ(p.place[1], 0);
+		constexpr int  Dim = TypeParam::value;
+		const Vec<Dim> low = Vec<Dim>::Constant(-0.31), high = Vec<Dim>::Constant(0.55);
+		for (const RigidKind kind : { RigidKind::ball, RigidKind::block, RigidKind::sheet, RigidKind::plane }) {
+			const auto                     shape = shapeOf<Dim>(kind);
+			const auto                     some  = surfacePoints<Dim>(shape, 0.1, low, high);
+			std::vector<SurfacePoint<Dim>> inBox;
+			for (const auto& p : pointsOf(shape))
+				if ((p.place.array() >= low.array()).all() && (p.place.array() <= high.array()).all()) inBox.push_back(p);
+			ASSERT_EQ(some.size(), inBox.size()) << int(kind);
+			EXPECT_LT(some.size(), pointsOf(shape).size());
+			EXPECT_GT(some.size(), 0u) << int(kind);
+			for (std::size_t i = 0; i < some.size(); ++i) {
+				EXPECT_EQ(some[i].number, inBox[i].number);
+				EXPECT_EQ(some[i].place, inBox[i].place);
+			}
 		}
-		EXPECT_LT(some.size(), all.size());
-		Sums<Dim> sums(some);
-		EXPECT_NEAR(sums.area, std::pow(0.8, Dim - 1), 1e-12) << "whole places of .1 that touch the box";
+	}
+
+	/// The part of the surface around a place has its area, around its middle.
+	TYPED_TEST(ContactSurfaceOf, CornersSpanThePartOfAPlace)
+	{
+		constexpr int Dim = TypeParam::value;
+		for (const RigidKind kind : { RigidKind::ball, RigidKind::block, RigidKind::sheet, RigidKind::plane })
+			for (const auto& p : pointsOf(shapeOf<Dim>(kind), 0.05)) {
+				double   area   = (p.corners[1] - p.corners[0]).norm();
+				Vec<Dim> middle = (p.corners[0] + p.corners[1]) / 2;
+				if constexpr (Dim == 3) {
+					const Vec3 first = p.corners[2] - p.corners[0], second = p.corners[3] - p.corners[1];
+					const bool isTriangle = p.corners[2] == p.corners[3];
+					area                  = first.cross(second).norm() / 2;
+					middle                = isTriangle ? Vec3((p.corners[0] + p.corners[1] + p.corners[2]) / 3)
+					                                   : Vec3((p.corners[0] + p.corners[1] + p.corners[2] + p.corners[3]) / 4);
+				}
+				const double error = kind == RigidKind::ball ? 0.02 : 1e-12; // flat parts of a curve
+				EXPECT_NEAR(area, p.area, error * p.area) << int(kind);
+				EXPECT_LT((middle - p.place).norm(), (kind == RigidKind::ball ? 0.02 : 1e-12) * 0.05 + 1e-12) << int(kind);
+			}
+	}
+
+	/// In the axes of space, of a body that is turned.
+	TYPED_TEST(ContactSurfaceOf, OfATurnedBodyTheBoxIsThatOfSpace)
+	{
+		constexpr int Dim   = TypeParam::value;
+		const auto    shape = shapeOf<Dim>(RigidKind::block);
+		Pose<Dim>     pose;
+		pose.position                            = Vec<Dim>::LinSpaced(1, 2);
+		pose.rotation.template block<2, 2>(0, 0) = Eigen::Rotation2Dd(0.6).toRotationMatrix();
+		const Vec<Dim>         low = pose.position - Vec<Dim>::Constant(0.2), high = pose.position + Vec<Dim>::Constant(0.8);
+		std::set<std::int64_t> some;
+		for (const auto& p : surfacePointsAt<Dim>(shape, pose, 0.4, low, high))
+			some.insert(p.number);
+		int inBox = 0;
+		for (const auto& p : pointsOf(shape)) {
+			const Vec<Dim> x = pose.inSpace(p.place);
+			if (!((x.array() >= low.array()).all() && (x.array() <= high.array()).all())) continue;
+			++inBox;
+			EXPECT_EQ(some.count(p.number), 1u);
+		}
+		EXPECT_GT(inBox, 0);
+		EXPECT_LT(some.size(), pointsOf(shape).size());
 	}
 
 	TYPED_TEST(ContactSurfaceOf, PlacesAreNoFartherApartThanTheSpacingAndHaveNamesOfTheirOwn)

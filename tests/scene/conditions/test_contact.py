@@ -2,8 +2,12 @@
 """Rigid bodies of YADE that touch the soil: who moves them, what they feel, what is kept, and what is refused."""
 import math
 
+import numpy as np
 import pytest
 from conftest import outcomesOf
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkCommonDataModel import VTK_LINE, VTK_QUAD
+from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
 
 scene = '''
 import json
@@ -261,23 +265,58 @@ def test_what_cannot_touch_is_refused(yade):
 
 
 def test_pictures_and_files(yade):
+	"""The faces of bodies, cut into places, with what acts there: the sum is the body's force, and pressure times area its normal part."""
 	run = yade(scene + '''
+forces = []
+def written(name):
+	O.engines += [MpmVtkRecorder(fileName=name, recorders=['contacts'])]
 block(contact=dict(friction=0.3))
 plate(velocity=(0.01, -0.1, 0))
-O.engines += [MpmVtkRecorder(fileName='pressed-', recorders=['contacts'])]
+written('pressed-')
 O.run(2, wait=True)
+forces.append(list(force()))
 labels = [c.get_label() for c in mpm.plot('stress_yy', fileName='plane.png').collections]
+block(axisymmetric=True)
+plate('facet')
+written('round-')
+O.run(2, wait=True)
+forces.append(list(force()))
 block(dim=3)
 add(utils.sphere((0.5, 1.3, 0.5), 0.3, material='rigid'), (0, -0.2, 0))
 plate('wall', y=1.7, velocity=(0, 0, 0))
 plate('facet', y=1.6, velocity=(0, 0, 0))
+written('space-')
 O.run(1, wait=True)
+forces.append(list(force()))
 mpm.plot('stress_yy', fileName='space.png', plane=('x', 0.5))
-print(json.dumps(labels))
+print(json.dumps([labels, forces, len(mpm.contactForces()[0])]))
 ''')
-	assert 'rigid bodies' in run.result
+	labels, forces, touching = run.result
+	assert 'rigid bodies' in labels and any('contact, up to' in label and label.endswith(' kPa') for label in labels)
 	assert (run.folder / 'plane.png').stat().st_size > 5000 and (run.folder / 'space.png').stat().st_size > 5000
 	assert 'pressed-contacts.2.vtu' in (run.folder / 'pressed-contacts.pvd').read_text()
+	for name, kind, force in zip(['pressed-contacts.2', 'round-contacts.2', 'space-contacts.1'], [VTK_LINE, VTK_LINE, VTK_QUAD], forces, strict=True):
+		cells = read(run.folder / f'{name}.vtu')
+		assert {cells.GetCellType(i) for i in range(cells.GetNumberOfCells())} == {kind}
+		field = {name: vtk_to_numpy(cells.GetCellData().GetArray(name)) for name in ('force', 'pressure', 'shear', 'gap', 'slip', 'touches', 'slips', 'body')}
+		on = field['touches'] == 1
+		total = field['force'].sum(axis=0)
+		if name[0] == 'r': total[0] = 0  # all around the axis
+		assert np.allclose(-total, force, rtol=1e-12) and (field['gap'][on] < 1e-12).all() and not field['force'][~on].any() and (field['pressure'][on] > 0).all()
+		assert on.any() and (field['slips'] <= field['touches']).all() and np.isfinite(field['slip'][on]).all()
+	assert touching == on.sum() and (~on).any() and np.isnan(field['gap']).any()
+	pressed = read(run.folder / 'pressed-contacts.2.vtu')
+	places, pressure = vtk_to_numpy(pressed.GetPoints().GetData()).reshape(-1, 2, 3), vtk_to_numpy(pressed.GetCellData().GetArray('pressure'))
+	x, y = places.mean(axis=1)[:, :2].T
+	middle = (np.abs(x - 0.5) < 0.4) & (y < 1)  # of the lower face; there is soil all along it
+	assert pressure[middle].min() > 0 and abs(np.linalg.norm(places[:, 1] - places[:, 0], axis=1) @ pressure / forces[0][1] - 1) < 0.05
+
+
+def read(path):
+	reader = vtkXMLUnstructuredGridReader()
+	reader.SetFileName(str(path))
+	reader.Update()
+	return reader.GetOutput()
 
 
 @pytest.mark.parametrize('axisymmetric', [True, False])

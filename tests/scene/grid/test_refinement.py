@@ -225,3 +225,66 @@ for arguments in (dict(grid=grid, halvings=4), dict(grid=1)):
 	except (ValueError, TypeError) as error: assert 'halvings' in str(error) or 'grid' in str(error), error
 	else: raise AssertionError(arguments)
 ''')
+
+
+def test_cells_are_halved_around_bodies_and_along_their_way(yade):
+	"""One box around each, or along a straight way; several across the axes. Without limits out of the plane."""
+	yade('''
+from yade import mpm, utils
+import numpy as np
+O.materials.append(FrictMat(label='rigid'))
+def add(body): return O.bodies[O.bodies.append(body)]
+def limits(box): return np.array([box.min, box.max])
+ball, box = add(utils.sphere((1, 2, 3), 0.5)), add(utils.box((0, 0, 0), (1, 0.5, 0.25)))
+facet = add(utils.facet([(0, 0, 0), (1, 0, 0), (0, 2, 0)]))
+box.state.ori = Quaternion((0, 0, 1), pi / 2)
+clump = O.bodies[O.bodies.appendClumped([utils.sphere((5, 0, 0), 1), utils.sphere((6, 0, 0), 1)])[0]]
+space, plane = MpmGrid(cellSize=0.5, dim=3), MpmGrid(cellSize=0.5, dim=2)
+for body, middle, half in (ball, (1, 2, 3), (0.5, 0.5, 0.5)), (box, (0, 0, 0), (0.5, 1, 0.25)), (facet, (0.5, 1, 0), (0.5, 1, 0)), (clump, (5.5, 0, 0), (1.5, 1, 1)):
+	found, = mpm.refinementsAt(body, space, halvings=2, margin=0.125)
+	assert found.halvings == 2 and np.allclose(limits(found), [np.array(middle) - half - 0.125 * np.ones(3), np.array(middle) + half + 0.125 * np.ones(3)])
+found, = mpm.refinementsAt([ball], plane, way=(0, -4, 0))
+assert np.allclose(limits(found), [(0, -3, -inf), (2, 3, inf)])
+assert len(mpm.refinementsAt([ball, box], plane)) == 2
+oblique = mpm.refinementsAt(ball, plane, way=(3, -4, 0), margin=0)
+assert len(oblique) == 10
+for part in np.linspace(0, 1, 50):
+	place = (1 + 3 * part, 2 - 4 * part, 0)
+	assert any((limits(b)[0] <= place).all() and (place <= limits(b)[1]).all() for b in oblique)
+assert max((limits(b)[1] - limits(b)[0])[:2].max() for b in oblique) < 1.5
+wall = add(utils.wall(0, axis=1, material='rigid'))
+for arguments, said in ((wall, {}), 'has no end'), ((ball, dict(margin=-1)), 'margin = -1'), ((ball, dict(way=(1, nan, 0))), 'way'), (([(0, 0, 0)], dict(way=(1, 0, 0))), 'way'):
+	try: mpm.refinementsAt(arguments[0], plane, **arguments[1])
+	except ValueError as error: assert said in str(error), error
+	else: raise AssertionError(said)
+''')
+
+
+def test_small_cells_travel_with_a_body(yade):
+	"""A ball presses into cells that are halved around it, along its way or where it is: nearly as into small cells everywhere, with large ones alone an eighth harder."""
+	forces = yade('''
+import json
+from yade import mpm, utils
+def press(refine):
+	O.reset()
+	O.materials.append(MpmElasticMat(young=1e6, poisson=0.3, density=1, label='soil'))
+	O.materials.append(FrictMat(label='rigid'))
+	grid = MpmGrid(cellSize=0.125 if refine is None else 0.25, dim=2)
+	ball = O.bodies[O.bodies.append(utils.sphere((0, 1.25, 0), 0.25, material='rigid', fixed=True))]
+	ball.state.vel = (0, -0.05, 0)
+	along = refine == 'along'
+	if along: grid.refinements = mpm.refinementsAt(ball, grid, way=(0, -0.3, 0))
+	O.bodies.append(mpm.fill(pack.inAlignedBox((-1.5, -0.5, -1), (1.5, 1, 1)), grid, 2, 'soil'))
+	solver = MpmImplicitEngine(grid=grid, boundaries=[MpmBoundary(max=(inf, -0.5, inf), fix='xy')], contacts=[MpmContact(friction=0)], verbosity=0, label='solver')
+	travels = PyRunner(iterPeriod=1, initRun=True, command='solver.grid.refinements = mpm.refinementsAt(O.bodies[0], solver.grid)')
+	O.engines = [travels, solver] if refine == 'travels' else [solver]
+	__builtins__.__dict__['solver'] = solver
+	O.dt = 1
+	O.run(5, wait=True)
+	return solver.contacts[0].forces[0][1], solver.dofs
+print(json.dumps([press(None), press('along'), press('travels'), press('coarse')]))
+''').result
+	(fine, dofs), along, travels, coarse = forces
+	assert 0.1 < coarse[0] / fine - 1 < 0.15
+	for (force, unknowns), error in (along, 0.01), (travels, 0.03):
+		assert abs(force / fine - 1) < error and unknowns < dofs / 2

@@ -2,6 +2,7 @@
 #include "engine/conditions/contact/MpmContact.hpp"
 #include "core/base/sentence.hpp"
 #include "engine/analysis/analysis.hpp"
+#include "engine/conditions/contact/contact_picture.hpp"
 #include "engine/conditions/contact/contact_records.hpp"
 #include "engine/conditions/contact/contacts.hpp"
 #include "engine/points/MpmPoint.hpp"
@@ -173,18 +174,9 @@ void MpmContact::tell(Rows& rows, const Analysis& analysis, const Listed& listed
 	rows.set(name + "_touching", places);
 }
 
-// A vertex for each place that touches.
-void MpmContact::draw(Picture& picture, const Analysis&, const Listed&) const
+void MpmContact::draw(Picture& picture, const Analysis& analysis, const Listed&) const
 {
-	forRecords(records, [&](const ContactRecordOfPlace& r) {
-		if (!r.touches) return;
-		picture.add({ int(picture.corners.size()) });
-		picture.corners.push_back(r.place);
-		picture.set("force", r.force()); // on the soil [N]
-		picture.set("gap", r.gap);       // [m], < 0 by the penalty
-		picture.set("slips", int(r.slips));
-		picture.set("body", r.body);
-	});
+	analysis.grid->dim == 2 ? drawFaces<2>(picture, *this, analysis) : drawFaces<3>(picture, *this, analysis);
 }
 
 } // namespace yade

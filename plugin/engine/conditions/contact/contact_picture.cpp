@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "engine/conditions/contact/contact_picture.hpp"
+#include "core/terms/contact_surface.hpp"
+#include "engine/analysis/analysis.hpp"
+#include "engine/conditions/contact/MpmContact.hpp"
+#include "engine/conditions/contact/contact_records.hpp"
+#include "engine/conditions/contact/rigid_bodies.hpp"
+#include "engine/grid/MpmGrid.hpp"
+#include <Eigen/Geometry>
+#include <map>
+
+namespace yade {
+
+namespace {
+	// Of one body, by the number of the place.
+	using RecordsOfBody = std::map<std::int64_t, ContactRecordOfPlace>;
+
+	std::map<int, RecordsOfBody> byBody(const vector<Real>& records)
+	{
+		std::map<int, RecordsOfBody> found;
+		forRecords(records, [&](const ContactRecordOfPlace& r) { found[r.body].emplace(r.number, r); });
+		return found;
+	}
+
+	// The soil that it has in front of it, and some cells more.
+	template <int Dim> Eigen::AlignedBox<Real, Dim> extent(const RecordsOfBody& records, Real cellSize)
+	{
+		constexpr Real               margin = 4; // cells
+		Eigen::AlignedBox<Real, Dim> box;
+		for (const auto& [number, r] : records)
+			box.extend(gimpm::Vec<Dim>(r.place.template head<Dim>()));
+		return { box.min().array() - margin * cellSize, box.max().array() + margin * cellSize };
+	}
+
+	template <int Dim> void addCell(Picture& picture, const gimpm::SurfacePoint<Dim>& point, const gimpm::Pose<Dim>& pose)
+	{
+		vector<int> cell;
+		for (size_t c = 0; c < point.corners.size(); ++c) {
+			if (c > 0 && point.corners[c] == point.corners[c - 1]) continue; // a triangle
+			Vector3r x    = Vector3r::Zero();
+			x.head<Dim>() = pose.inSpace(point.corners[c]);
+			cell.push_back(int(picture.corners.size()));
+			picture.corners.push_back(x);
+		}
+		picture.add(cell);
+	}
+
+	// Stresses are those on the part of the surface that has soil in front of it.
+	void addFields(Picture& picture, const ContactRecordOfPlace* r, Real area)
+	{
+		const bool touches = r && r->touches;
+		const Real wetted  = r ? area * r->presence : area;
+		picture.set("force", touches ? r->force() : Vector3r(Vector3r::Zero()));
+		picture.set("pressure", touches ? r->pressure / wetted : 0);
+		picture.set("shear", touches ? r->friction.norm() / wetted : 0);
+		if (r) picture.set("gap", r->gap), picture.set("slip", r->travel);
+		picture.set("touches", int(touches));
+		picture.set("slips", int(touches && r->slips));
+	}
+}
+
+template <int Dim> void drawFaces(Picture& picture, const MpmContact& contact, const Analysis& analysis)
+{
+	const auto grid  = analysis.grid->lattice<Dim>();
+	const auto scene = analysis.ownScene();
+	for (const auto& [id, records] : byBody(contact.records)) {
+		if (!scene->bodies->exists(id)) continue;
+		const Body& body  = *(*scene->bodies)[id];
+		const auto  rigid = rigidBody<Dim>(body, body.state->se3, grid);
+		if (!rigid) continue;
+		const auto box = extent<Dim>(records, grid.cellSize);
+		for (const auto& point : gimpm::surfacePointsAt<Dim>(rigid->shape, rigid->begin, grid.cellSize, box.min(), box.max())) {
+			const auto found        = records.find(point.number);
+			const Real around       = grid.axisymmetric ? 2 * M_PI * rigid->begin.inSpace(point.place)[0] : 1;
+			const bool isBeyondAxis = around <= 0, isOtherSide = rigid->shape.isTwoSided && found == records.end();
+			if (isBeyondAxis || isOtherSide) continue;
+			addCell<Dim>(picture, point, rigid->begin);
+			addFields(picture, found == records.end() ? nullptr : &found->second, around * point.area);
+			picture.set("body", id);
+		}
+	}
+}
+
+template void drawFaces<2>(Picture&, const MpmContact&, const Analysis&);
+template void drawFaces<3>(Picture&, const MpmContact&, const Analysis&);
+
+} // namespace yade
