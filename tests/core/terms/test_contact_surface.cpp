@@ -129,7 +129,9 @@ namespace {
 					double closest = infinity;
 					for (const auto& q : points)
 						if (&q != &p && q.normal.dot(p.normal) > 0.1) closest = std::min(closest, (q.place - p.place).norm());
-					if (spacing < 1) EXPECT_LE(closest, spacing * (1 + 1e-9));
+					if (spacing < 1) {
+						EXPECT_LE(closest, spacing * (1 + 1e-9));
+					}
 				}
 				EXPECT_EQ(numbers.size(), points.size());
 				EXPECT_GE(points.size(), Dim == 2 ? 2u : 3u);
