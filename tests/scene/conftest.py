@@ -23,6 +23,7 @@ from mpi import byMpi, makingRoom
 
 build = root / 'build'
 systemYade = Path('/usr/lib/x86_64-linux-gnu/yade-double')
+systemCommand = '/usr/bin/yade'
 
 
 @dataclass
@@ -202,25 +203,43 @@ def libraries(yade):
 
 	:return: the folder; the guard looks for mpm/mpm_engine.so in it
 	"""
-	folder = yade.folder / 'prefix/lib/x86_64-linux-gnu/yade-double'
+	yade.command = systemCommand
+	yade.environment['YADE_PREFIX'] = str(yade.folder / 'prefix')
+	return makeLibraries(yade.folder / 'prefix')
+
+
+def makeLibraries(prefix):
+	"""A folder of YADE's libraries with the loader and the guard, which opens the plugin in its folder mpm."""
+	folder = prefix / systemYade.relative_to('/usr')
 	(folder / 'mpm').mkdir(parents=True)
 	for path in [*systemYade.glob('*.so'), systemYade / 'py']:
-		(folder / path.name).symlink_to(path)
-	(folder / 'libpkg_mpm.so').unlink(missing_ok=True)
+		if path.name != 'libpkg_mpm.so': (folder / path.name).symlink_to(path)
 	shutil.copy(build / 'libpkg_mpm.so', folder)
 	shutil.copy(build / 'mpm/mpm_guard.so', folder / 'mpm')
-	yade.command = '/usr/bin/yade'
-	yade.environment['YADE_PREFIX'] = str(yade.folder / 'prefix')
 	return folder
 
 
-@pytest.fixture
-def yadeWithoutPetsc(yade, libraries):
-	"""`yade` with all of the plugin but mpm_petsc.so."""
-	prefix = yade.folder / 'prefix'
-	shutil.copy(build / 'mpm/mpm_engine.so', libraries / 'mpm')
-	shutil.copytree(root / 'plugin/python', prefix / 'python')
+def makeOverlay(prefix, engine=build / 'mpm/mpm_engine.so', withPetsc=True):
+	"""What scripts/setup --user makes, with the plugin of the build, or another library in its place.
+
+	:return: the command of YADE in it
+	"""
+	folder = makeLibraries(prefix) / 'mpm'
+	shutil.copy(engine, folder)
+	if withPetsc and (build / 'mpm/mpm_petsc.so').exists(): shutil.copy(build / 'mpm/mpm_petsc.so', folder)
+	return provideCommand(prefix)
+
+
+def provideCommand(prefix):
+	"""YADE's command in an overlay, which finds yade.mpm there."""
+	(prefix / 'python').symlink_to(root / 'plugin/python')
 	(prefix / 'bin').mkdir()
-	(prefix / 'host').write_text('/usr/bin/yade')
-	yade.command = str(shutil.copy(root / 'scripts/lib/yade-in-overlay.py', prefix / 'bin/yade'))
+	(prefix / 'host').write_text(systemCommand)
+	return str(shutil.copy(root / 'scripts/lib/yade-in-overlay.py', prefix / 'bin/yade'))
+
+
+@pytest.fixture
+def yadeWithoutPetsc(yade):
+	"""`yade` with all of the plugin but mpm_petsc.so."""
+	yade.command = makeOverlay(yade.folder / 'prefix', withPetsc=False)
 	return yade

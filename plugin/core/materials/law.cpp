@@ -54,8 +54,13 @@ public:
 		const auto r = this->own_.respond(trialStrain, values);
 		return { r, this->listOf(r.internals) };
 	}
-	// It is asked in principal axes.
-	TensorAnswer respond(const PointOfLaw&, const TensorStep& step) const override { return TensorAnswer(step.state); }
+	// It is asked in principal axes, and has no other answer.
+	TensorAnswer respond(const PointOfLaw&, const TensorStep& step) const override
+	{
+		TensorAnswer none(step.state);
+		none.failed = true;
+		return none;
+	}
 
 private:
 	const PrincipalLaw self_;

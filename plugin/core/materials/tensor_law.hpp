@@ -186,10 +186,15 @@ public:
 		for (std::size_t k = 0; k < this->columns.size(); ++k)
 			to[this->columns[k]][i] = state.numbers()[k];
 	}
-	std::optional<Vec3> strainNear(const Vec3&) const override { return Vec3(Vec3::Zero()); }
 
-	// It is asked as a tensor law.
-	PrincipalAnswer respond(const Vec3&, const std::vector<double>& internals) const override { return { {}, internals }; }
+	// It is asked as a tensor law: in principal axes it has no answer.
+	std::optional<Vec3> strainNear(const Vec3&) const override { return std::nullopt; }
+	PrincipalAnswer     respond(const Vec3&, const std::vector<double>& internals) const override
+	{
+		PrincipalAnswer none { {}, internals };
+		none.failed = true;
+		return none;
+	}
 
 	TensorAnswer respond(const PointOfLaw& p, const TensorStep& step) const override
 	{

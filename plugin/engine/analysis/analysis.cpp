@@ -11,6 +11,12 @@ Real Analysis::loadsEnd() const
 	return end;
 }
 
+void Analysis::requireConditions() const
+{
+	for (const Listed& listed : conditions())
+		listed.condition->requireAdmissible();
+}
+
 size_t Analysis::countOf(const string& list) const
 {
 	const auto all = conditions();

@@ -56,6 +56,9 @@ public:
 	// When the last of the histories has come to rest.
 	Real loadsEnd() const;
 
+	// std::invalid_argument names an attribute of a condition that is not admitted. Whoever makes conditions asks before: they do not ask again.
+	void requireConditions() const;
+
 	// How many conditions an attribute has.
 	size_t countOf(const string& list) const;
 

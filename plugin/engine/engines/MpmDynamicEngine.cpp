@@ -61,9 +61,6 @@ void MpmDynamicEngine::tellMotion(py::dict& data) const
 		if (axis < grid->dim) data[string("momentum_") + "xyz"[axis]] = now.momentum[axis];
 		if (axis == 2 || grid->dim == 3) data[string("angularMomentum_") + "xyz"[axis]] = now.angularMomentum[axis];
 	}
-	Rows rows(data);
-	for (size_t i = 0; i < absorbing.size(); ++i)
-		absorbing[i]->tell(rows, *this, { absorbing[i], "absorbing", i, absorbing.size() });
 	data["kineticEnergy"] = now.kinetic;
 	data["elasticEnergy"] = now.elastic;
 	data["loadWork"]      = loadWork;

@@ -137,17 +137,24 @@ namespace {
 		throw std::invalid_argument(text.str());
 	}
 
-	// The first solve is that of a point that nothing has happened to: with what others remember no strain at all
-	// may be beyond yield.
+	// Newton's method. Its first solve is that of a point that nothing has happened to: with what others remember
+	// no strain at all may be beyond yield.
 	Matrix3r strainInSpace(const gimpm::Material& material, const Matrix3r& stress, const vector<Real>& internals)
 	{
-		Matrix3r strain = Matrix3r::Zero();
-		for (const auto* values : { &material.law->initialInternals, &internals, &internals }) {
-			const auto answer = answerOf(material.law, strain, *values);
-			strain += gimpm::fromMandel(answer.tangent.fullPivLu().solve(gimpm::toMandel(stress - answer.stress)));
+		constexpr int mostSolves = 30, fewestSolves = 3; // enough where stress is linear in the strain
+		Matrix3r      strain = Matrix3r::Zero();
+		for (int solves = 0; solves < mostSolves; ++solves) {
+			const auto     answer     = answerOf(material.law, strain, solves == 0 ? material.law->initialInternals : internals);
+			const Matrix3r difference = stress - answer.stress;
+			if (solves >= fewestSolves) respondInSpace(material, strain, internals); // which refuses what yields
+			if (solves >= fewestSolves && difference.norm() <= 1e-9 * stress.norm()) return strain;
+			strain += gimpm::fromMandel(answer.tangent.fullPivLu().solve(gimpm::toMandel(difference)));
+			if (!strain.allFinite()) break;
 		}
-		respondInSpace(material, strain, internals);
-		return strain;
+		std::ostringstream text;
+		text << "no elastic strain was found that gives the Kirchhoff stress (" << gimpm::SymTensor<3>::from(stress).c.transpose()
+		     << ") Pa along xx, yy, zz, xy, yz, zx: can the law of the material carry it?";
+		throw std::invalid_argument(text.str());
 	}
 }
 

@@ -127,10 +127,9 @@ void requireSettings(const Analysis& engine)
 		        + "' points have no domains on the grid that could outgrow a cell. Set maxSplits = 0.");
 	const auto conditions = engine.conditions();
 	requireOnce(conditions);
-	for (const Listed& listed : conditions) {
-		listed.condition->requireAdmissible();
+	engine.requireConditions();
+	for (const Listed& listed : conditions)
 		listed.condition->requireFitting(engine, listed.name());
-	}
 }
 
 void requireRunnable(const Analysis& engine)

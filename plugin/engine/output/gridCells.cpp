@@ -22,6 +22,7 @@ namespace {
 		if (isDivided(solver))
 			throw std::invalid_argument(
 			        "the cells of '" + kind + "' follow from all points, and with MpmImplicitEngine.distributed no process has them.");
+		solver.requireConditions();
 		auto       model = emptyModel<Dim>(solver, conditionsOf<Dim>(solver));
 		const auto cloud = gather(materialPoints(scene, solver.mask), model);
 		const Real z     = solver.grid->origin[2];

@@ -40,7 +40,7 @@ def geostatic(K0=None, surface=None, solver=None, OCR=1):
 	gravity grow first, and then the loads, by ``gravityCurve=[(0, 0), (1, 1)]`` and ``loadCurve=[(1, 0), (2, 1)]``.
 
 	:param K0: ratio of horizontal to vertical stress [-], a number >= 0, or a dict of one for each label of the materials that the bodies have;
-		by default that of the table above
+		by default that of the table above; to be given for materials of other classes
 	:param surface: height of the ground's surface [m]: the coordinate against gravity's direction; by default the top of the highest
 		points. Higher than that: the ground above is not modelled, its weight acts as a stress (of the density of the highest points),
 		and the scene has to provide it as a load.
@@ -184,11 +184,21 @@ def _ratio(K0, material, sine, history):
 	"""K0 of a material with these overconsolidation ratios."""
 	value = _ofMaterial('K0', K0, material)
 	if value is None:
+		_requireKnownRatio(material, sine)
 		return np.full(len(history), material.poisson / (1 - material.poisson)) if sine is None else (1 - sine) * history**sine
 	if not isNumber(value): raise TypeError(f'geostatic: K0 = {brief(value)} must be a number, the ratio of horizontal to vertical stress, or a dict of them')
 	if not (math.isfinite(value) and value >= 0): raise ValueError(f'geostatic: K0 = {brief(value)} must be finite and >= 0')
 	if value > _mostPressed: _library.warn(f'geostatic: K0 = {brief(value)}: the horizontal stress would be that many times the vertical one, more than sand bears when it is pushed; is it in percent?')
 	return np.full(len(history), float(value))
+
+
+def _requireKnownRatio(material, sine):
+	"""A law with tensors need not be isotropic, whatever its class has of Young's modulus and Poisson's ratio."""
+	if not _library.hasTensorLaw(material) and (sine is not None or hasattr(material, 'poisson')): return
+	raise ValueError(
+	        f"geostatic: K0 = None, but that of the material {material.label!r} is not known: {type(material).__name__} is no class of the table of K0, whose laws are isotropic; give "
+	        f"its ratio of horizontal to vertical stress, as K0=0.5 or K0={{{material.label or 'soil'!r}: 0.5}}"
+	)
 
 
 def _preconsolidation(criticalStateRatio, sine, pressure, ratio, history):

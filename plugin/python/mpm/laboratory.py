@@ -57,7 +57,7 @@ def elementTest(material, kind, strain, steps=100, confiningPressure=0, initialS
 		print(curve['q'].max())
 
 	=====================  ====================================================================================================
-	``triaxial``           strain along y, the stress along x and z is kept: drained compression or extension
+	``triaxial``           strain along y, the stresses along x and z are kept: drained compression or extension
 	``biaxial``            strain along y, the stress along x is kept, no strain along z: plane strain
 	``oedometer``          strain along y, none along x and z
 	``undrainedTriaxial``  strain along y, as much along x as along z, and the volume stays: *stress* is the effective stress
@@ -65,8 +65,8 @@ def elementTest(material, kind, strain, steps=100, confiningPressure=0, initialS
 	=====================  ====================================================================================================
 
 	Strains are finite; the stress that is kept and that of the result are Cauchy's, with the state at first as reference (F = 1). The laws have their strength in
-	Kirchhoff stress, which is det F times Cauchy's. A step finds the strain across by Newton's method with the law's tangent, to 1e-10 of the stress, or to the round-off of strain times stiffness where that is more; where that fails, it is
-	halved up to ten times.
+	Kirchhoff stress, which is det F times Cauchy's. A step finds the strains across by Newton's method with the law's tangent, to 1e-10 of the stress, or to the round-off of strain times stiffness where that is more; where that fails, it is
+	halved up to ten times. No time goes by, for laws that depend on it.
 
 	:param material: material of the plugin, or the label of one in O.materials
 	:param kind: one of the above
@@ -83,7 +83,8 @@ def elementTest(material, kind, strain, steps=100, confiningPressure=0, initialS
 		``elasticStrain`` (N, 3, 3) logarithmic [-]; ``defGrad`` (N, 3, 3) [-]; and the internal variables (N,) by name.
 	:raises TypeError: *material* is no material of the plugin, or a value is no number.
 	:raises ValueError: a label or kind that does not exist; a value that is not admitted; a stress at first that the material cannot carry without yielding.
-	:raises RuntimeError: a step has found no solution; the strain that was reached is named, with the reason.
+	:raises RuntimeError: a step has found no solution; the strain that was reached is named, with the reason. So ends a law with tensors whose stress
+		gets other axes than those of a triaxial or biaxial test, which would shear the body.
 	:raises OSError: the file cannot be written.
 	"""
 	who = 'elementTest'
@@ -94,6 +95,7 @@ def elementTest(material, kind, strain, steps=100, confiningPressure=0, initialS
 	if steps < 1: raise ValueError(f'{who}: steps = {steps} must be > 0')
 	state = _firstState(who, material, _firstStress(who, confiningPressure, initialStress), _internals(who, internals))
 	kept = np.diag(state.stress).copy()
+	if state.hasTensors or kept[0] != kept[2]: test.free = test.each
 	states = [state]
 	for at in end * np.arange(1, steps + 1) / steps:
 		try:
@@ -169,7 +171,11 @@ def _assemble(values, axes):
 
 
 def _testOf(kind):
-	"""Along which axes one strain is free, for the mean stress along them to be kept; and the increment of F of a strain that is driven from one value to another."""
+	"""What of a test is free, whether its sides are free of shear stress, and the increment of F of a strain that is driven from one value to another.
+
+	A row of `free` is one unknown strain along the axes that it marks, by which the mean stress along them is kept. Where isotropic soil is pressed alike along x and z
+	that is one strain: by two, a corner of a yield surface would leave their difference open. `each` has one for each axis.
+	"""
 
 	def stretch(lateral):
 		return lambda state, to: np.diag(np.exp((to - state.strain) * np.array([lateral, 1, lateral])))
@@ -180,15 +186,16 @@ def _testOf(kind):
 		return increment
 
 	tests = {
-	        'triaxial': ('axialStrain', [1, 0, 1], stretch(0)),
-	        'biaxial': ('axialStrain', [1, 0, 0], stretch(0)),
-	        'oedometer': ('axialStrain', [0, 0, 0], stretch(0)),
-	        'undrainedTriaxial': ('axialStrain', [0, 0, 0], stretch(-0.5)),
-	        'simpleShear': ('shearStrain', [0, 1, 0], shear),
+	        'triaxial': ('axialStrain', [1, 0, 1], True, stretch(0)),
+	        'biaxial': ('axialStrain', [1, 0, 0], True, stretch(0)),
+	        'oedometer': ('axialStrain', [0, 0, 0], False, stretch(0)),
+	        'undrainedTriaxial': ('axialStrain', [0, 0, 0], False, stretch(-0.5)),
+	        'simpleShear': ('shearStrain', [0, 1, 0], False, shear),
 	}
 	if kind not in list(tests): raise ValueError(f"elementTest: kind = {brief(kind)} must be one of {', '.join(map(repr, tests))}")
-	strain, free, increment = tests[kind]
-	return SimpleNamespace(strain=strain, free=np.array(free, float), increment=increment)
+	strain, axes, isSmooth, increment = tests[kind]
+	each = np.diag(axes)[np.flatnonzero(axes)].astype(float)
+	return SimpleNamespace(strain=strain, free=each.sum(axis=0)[None, :] if any(axes) else each, each=each, isSmooth=isSmooth, increment=increment)
 
 
 def _firstStress(who, confiningPressure, initialStress):
@@ -227,22 +234,34 @@ class _NoSolution(Exception):
 
 
 def _solve(test, material, state, to, kept):
-	"""Newton's method for the one free strain u, along the axes of the test, at which the mean of the stresses along them is that kept."""
+	"""Newton's method for the free strains u of the test, at which the means of the stresses along their axes are those kept."""
 	increment = test.increment(state, to)
 	free, most, tolerance = test.free, 50, 1e-10
-	u, lowest = 0., math.inf
+	u, lowest = np.zeros(len(free)), math.inf
 	for _ in range(most):
-		trial = _trial(material, state, np.diag(np.exp(u * free)) @ increment, to)
+		trial = _trial(material, state, np.diag(np.exp(u @ free)) @ increment, to)
 		if not free.any(): return trial
-		J, directions = np.linalg.det(trial.defGrad), free / free.sum()
+		J, directions = np.linalg.det(trial.defGrad), free / free.sum(axis=1, keepdims=True)
 		residual = directions @ (np.diag(trial.kirchhoff) - J * kept)
-		if abs(residual) <= max(tolerance * np.linalg.norm(trial.kirchhoff), _roundOff(trial)): return trial
-		slope = directions @ np.diag(_rate(trial, np.diag(free))) - J * free.sum() * (directions @ kept)
-		if not abs(slope) > 0: raise _NoSolution('the stress across does not change with the strain across')
-		u -= residual / slope
-		if not abs(u) < 1: raise _NoSolution('the strain across grows without bounds')
-		lowest = min(lowest, abs(residual))
+		missed, allowed = np.abs(residual).max(), max(tolerance * np.linalg.norm(trial.kirchhoff), _roundOff(trial))
+		if missed <= allowed:
+			_requireNoShear(test, trial, allowed)
+			return trial
+		slope = np.transpose([directions @ np.diag(_rate(trial, np.diag(axes))) - J * axes.sum() * (directions @ kept) for axes in free])
+		try:
+			u -= np.linalg.solve(slope, residual)
+		except np.linalg.LinAlgError:
+			raise _NoSolution('the stress across does not change with the strain across') from None
+		if not np.abs(u).max() < 1: raise _NoSolution('the strain across grows without bounds')
+		lowest = min(lowest, missed)
 	raise _NoSolution(f"Newton's method misses the stress that is kept by {lowest:.3g} Pa or more after {most} iterations")
+
+
+def _requireNoShear(test, trial, allowed):
+	"""Sides that only press bear no shear stress: a body whose law answers with some would be sheared."""
+	shear = np.abs(trial.kirchhoff - np.diag(np.diag(trial.kirchhoff))).max()
+	if test.isSmooth and shear > max(allowed, 1e-6 * np.linalg.norm(trial.kirchhoff)):
+		raise _NoSolution(f'the stress of the law has other axes than the test: a shear stress of {shear:.3g} Pa would shear the body, which no side of it holds')
 
 
 def _roundOff(trial):

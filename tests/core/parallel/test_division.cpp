@@ -98,7 +98,9 @@ namespace {
 					const Halo            halo(cloud, *mine.division, [&] { return pointsForOthers(cloud, mine); });
 					StepReport            ofMine;
 					const StepSystem<Dim> system(cloud, mine, load, ofMine);
-					if (mine.processes->rank() > 0) EXPECT_GT(cloud.size(), own) << "points reach nodes above them";
+					if (mine.processes->rank() > 0) {
+						EXPECT_GT(cloud.size(), own) << "points reach nodes above them";
+					}
 					EXPECT_EQ(system.basis.nodes, whole.basis.nodes);
 					EXPECT_EQ(system.basis.cells, whole.basis.cells);
 					EXPECT_EQ(ofMine.ghostFaces, report.ghostFaces);

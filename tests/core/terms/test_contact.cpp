@@ -1,84 +1,18 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Soil against rigid bodies: equilibrium, tangent, restraint, what is remembered, and what is refused.
 #include "core/stepping/step_system.hpp"
-#include "core/terms/contact.hpp"
 #include "derivatives.hpp"
-#include "scenes.hpp"
+#include "touched_soil.hpp"
 
 namespace gimpm::testContact {
 namespace {
 
-	constexpr double young = 1e6;
+	constexpr double young = TouchedSoil<2>::young;
 
-	template <int Dim> Mat<Dim> turn(double angle)
-	{
-		if constexpr (Dim == 2) return planeRotation(angle);
-		else
-			return rotation({ 1, 2, 3 }, angle);
-	}
+	template <int Dim> struct Block : TouchedSoil<Dim> {
+		explicit Block(bool isRing = false) : TouchedSoil<Dim>(0, 1e-9, 1.5, isRing) { }
 
-	/// Three cells a side, 1.5 m, nu = 0.
-	template <int Dim> struct Block {
-		Model<Dim>         model;
-		PointCloud<Dim>    cloud;
-		ContactSystem<Dim> contacts;
-		LinearSolver       solver;
-		StepReport         report;
-
-		explicit Block(bool isRing = false)
-		{
-			model.grid.cellSize     = 0.5;
-			model.grid.axisymmetric = isRing;
-			model.materials         = { { Hencky(young, 0), 0 } };
-			model.newton.tolerance  = 1e-9;
-			model.terms             = { [this](const Beginning<Dim>& step) { return std::make_unique<Contact<Dim>>(contacts, step); } };
-			cloud                   = block<Dim>(model.grid, Index<Dim>::Constant(3), 2);
-			if (isRing) cloud.hoopStretch.assign(cloud.size(), 1);
-			for (std::size_t p = 0; isRing && p < cloud.size(); ++p)
-				cloud.volume0[p] *= 2 * M_PI * cloud.position[p][0];
-		}
-		RigidBody<Dim>& add(RigidKind kind, const Vec<Dim>& position, double friction = 0)
-		{
-			RigidBody<Dim> body;
-			body.shape.kind     = kind;
-			body.shape.radius   = kind == RigidKind::ball ? 1 : 0.05;
-			body.shape.halfSize = Vec<Dim>::Constant(1);
-			body.shape.normal   = -Vec<Dim>::Unit(1);
-			body.shape.corners  = sheet();
-			body.name           = "body #7";
-			body.owner          = int(contacts.bodies.size());
-			body.friction       = friction;
-			body.stiffness      = 100;
-			body.begin.position = body.end.position = position;
-			contacts.bodies.push_back(body);
-			contacts.owners.push_back(position);
-			return contacts.bodies.back();
-		}
-		/// Beyond the block, looking down.
-		static std::array<Vec<Dim>, Dim> sheet()
-		{
-			if constexpr (Dim == 2) return { Vec<2>(-4, 0), Vec<2>(4, 0) };
-			else
-				return { Vec3(-9, 0, -9), Vec3(9, 0, -9), Vec3(0, 0, 9) };
-		}
-		/// Rollers on the sides below 0; with `above` on those at 1.5 too, but not on top.
-		void rollers(bool above = false)
-		{
-			std::vector<HeldBox<Dim>> walls;
-			for (int a = 0; a < Dim; ++a) {
-				walls.push_back(wallBelow<Dim>(model.grid, a, 0));
-				if (above && a != 1) walls.push_back(wallAbove<Dim>(model.grid, a, 1.5));
-			}
-			model.boundary = Boundary<Dim>(walls);
-		}
-		StepReport step(const Load<Dim>& load = {})
-		{
-			report = loadStep(cloud, model, load, solver);
-			for (auto& body : contacts.bodies)
-				if (report.converged()) body.begin = body.end;
-			return report;
-		}
-		StepSystem<Dim> system() { return { cloud, model, Load<Dim>(), report }; }
+		StepSystem<Dim> system() { return { this->cloud, this->model, Load<Dim>(), this->report }; }
 	};
 
 	template <class T> using ContactOf = InBothDimensions<T>;
@@ -255,7 +189,7 @@ namespace {
 			deep.rollers();
 			deep.add(RigidKind::ball, { 0.75, 2.2 }).isNew = isNew;
 			EXPECT_EQ(deep.step().failure == Failure::misplaced, isNew);
-			EXPECT_EQ(deep.report.cause.find("body #7 has the middle of a material point inside of it, at (") != std::string::npos, isNew)
+			EXPECT_EQ(deep.report.cause.find("body #0 has the middle of a material point inside of it, at (") != std::string::npos, isNew)
 			        << deep.report.cause;
 		}
 	}
@@ -270,7 +204,7 @@ namespace {
 		plate.end.position[1] -= 0.4;
 		const auto before = block.cloud.position;
 		EXPECT_EQ(block.step().failure, Failure::penetrated);
-		EXPECT_NE(block.report.cause.find("body #7 would get soil inside of it, which moves "), std::string::npos) << block.report.cause;
+		EXPECT_NE(block.report.cause.find("body #0 would get soil inside of it, which moves "), std::string::npos) << block.report.cause;
 		EXPECT_NE(block.report.cause.find("and the body up to 0.4 m, at ("), std::string::npos) << block.report.cause;
 		EXPECT_EQ(before, block.cloud.position);
 	}

@@ -3,91 +3,29 @@
 // and points that are divided among processes.
 #include "core/parallel/halo.hpp"
 #include "core/stepping/step_system.hpp"
-#include "core/terms/contact.hpp"
-#include "scenes.hpp"
 #include "threads_as_processes.hpp"
+#include "touched_soil.hpp"
 #include <Eigen/Geometry>
 
 namespace gimpm::testContactPlaces {
 namespace {
 
-	constexpr double young = 1e6, h = 0.5;
+	constexpr double young = TouchedSoil<2>::young, h = TouchedSoil<2>::h;
 
-	template <int Dim> Mat<Dim> turn(double angle)
-	{
-		if constexpr (Dim == 2) return planeRotation(angle);
-		else
-			return rotation({ 1, 2, 3 }, angle);
-	}
+	template <int Dim> struct Scene : TouchedSoil<Dim> {
+		using TouchedSoil<Dim>::model, TouchedSoil<Dim>::cloud, TouchedSoil<Dim>::contacts, TouchedSoil<Dim>::report;
 
-	/// Soil of 1.5 m in all directions, but of `height` along y; nu = 0.
-	template <int Dim> struct Scene {
-		Model<Dim>         model;
-		PointCloud<Dim>    cloud;
-		ContactSystem<Dim> contacts;
-		StepReport         report;
+		explicit Scene(double height = 1.5, bool isRing = false) : TouchedSoil<Dim>(1000, 1e-10, height, isRing) { }
 
-		explicit Scene(double height = 1.5, bool isRing = false)
-		{
-			model.grid.cellSize     = h;
-			model.grid.axisymmetric = isRing;
-			model.materials         = { { Hencky(young, 0), 1000 } };
-			model.newton.tolerance  = 1e-10;
-			model.terms             = { [this](const Beginning<Dim>& step) { return std::make_unique<Contact<Dim>>(contacts, step); } };
-			const double spacing    = h / 2;
-			Index<Dim>   n          = Index<Dim>::Constant(6);
-			n[1]                    = int(std::round(height / spacing));
-			forIndices<Dim>(Index<Dim>::Zero(), n, [&](const Index<Dim>& i) {
-				addPoint<Dim>(cloud, spacing * (i.template cast<double>() + Vec<Dim>::Constant(0.5)), Vec<Dim>::Constant(spacing / 2));
-			});
-			if (isRing) cloud.hoopStretch.assign(cloud.size(), 1);
-			for (std::size_t p = 0; isRing && p < cloud.size(); ++p)
-				cloud.volume0[p] *= 2 * M_PI * cloud.position[p][0];
-		}
-		RigidBody<Dim>& add(RigidKind kind, const Vec<Dim>& position, double friction = 0)
-		{
-			RigidBody<Dim> body;
-			body.shape.kind     = kind;
-			body.shape.radius   = kind == RigidKind::ball ? 1 : 0.05;
-			body.shape.halfSize = Vec<Dim>::Constant(1);
-			body.shape.normal   = -Vec<Dim>::Unit(1);
-			for (int i = 0; i < Dim; ++i) // an oblique sheet
-				body.shape.corners[i] = Vec<Dim>::Unit(i) - Vec<Dim>::Constant(1. / Dim);
-			body.name           = "body #" + std::to_string(contacts.bodies.size());
-			body.owner          = int(contacts.bodies.size());
-			body.friction       = friction;
-			body.stiffness      = 100;
-			body.begin.position = body.end.position = position;
-			contacts.bodies.push_back(body);
-			contacts.owners.push_back(position);
-			return contacts.bodies.back();
-		}
 		/// A sheet at this height, beyond the soil, that looks down, or up, or both ways.
 		RigidBody<Dim>& addSheet(double height, bool isTwoSided, bool up = false)
 		{
-			auto& body = add(RigidKind::sheet, height * Vec<Dim>::Unit(1));
-			if constexpr (Dim == 2) body.shape.corners = { Vec<2>(-4, 0), Vec<2>(4, 0) };
-			else
-				body.shape.corners = { Vec3(-9, 0, -9), Vec3(9, 0, -9), Vec3(0, 0, 9) };
+			auto& body = this->add(RigidKind::sheet, height * Vec<Dim>::Unit(1));
 			if (up) std::swap(body.shape.corners[0], body.shape.corners[1]);
 			body.shape.isTwoSided = isTwoSided;
 			return body;
 		}
-		void rollers()
-		{
-			std::vector<HeldBox<Dim>> walls;
-			for (int a = 0; a < Dim; ++a)
-				walls.push_back(wallBelow<Dim>(model.grid, a, 0));
-			model.boundary = Boundary<Dim>(walls);
-		}
-		void step(const Load<Dim>& load = {})
-		{
-			LinearSolver solver;
-			report = loadStep(cloud, model, load, solver);
-			ASSERT_TRUE(report.converged()) << report.cause;
-			for (auto& body : contacts.bodies)
-				body.begin = body.end;
-		}
+		void step() { ASSERT_TRUE(TouchedSoil<Dim>::step().converged()) << report.cause; }
 		/// A step in which the nodes go as they are told. Returns the forces on them, and where they are at its
 		/// end.
 		template <class F> std::pair<Eigen::VectorXd, std::vector<Vec<Dim>>> go(F&& displacement)
@@ -167,6 +105,8 @@ namespace {
 			Vec<Dim>   place = Vec<Dim>::Constant(0.7);
 			place[1]         = kind == RigidKind::plane || kind == RigidKind::sheet ? 1.5 : 2.5;
 			auto& body       = scene.add(kind, place, 0.3);
+			for (int i = 0; i < Dim; ++i) // an oblique sheet
+				body.shape.corners[i] = Vec<Dim>::Unit(i) - Vec<Dim>::Constant(1. / Dim);
 			if (kind != RigidKind::plane) body.end.rotation = turn<Dim>(0.02);
 			body.end.position += 0.01 * Vec<Dim>::LinSpaced(1, 2) - 0.06 * Vec<Dim>::Unit(1);
 			body.shape.isTwoSided    = kind == RigidKind::sheet;

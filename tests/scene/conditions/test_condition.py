@@ -1,12 +1,10 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """A condition that the plugin does not know (tests/condition): a bed of springs goes through all that acts on the soil, without a line of the plugin that names it."""
 import json
-import os
-import shutil
 
 import numpy as np
 import pytest
-from conftest import Yade, build, root, systemYade
+from conftest import Yade, build, makeOverlay
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
 
@@ -17,27 +15,13 @@ library = build / 'tests' / 'condition' / 'mpm_engine.so'
 def overlay(tmp_path_factory):
 	"""YADE with the plugin that has one condition more."""
 	if not library.exists(): pytest.skip('scripts/setup --tests builds the condition')
-	top = tmp_path_factory.mktemp('overlay')
-	libraries = top / 'lib' / systemYade.parent.name / systemYade.name
-	(libraries / 'mpm').mkdir(parents=True)
-	for file in [*systemYade.glob('*.so'), systemYade / 'py']:
-		if file.name != 'libpkg_mpm.so': (libraries / file.name).symlink_to(file)
-	shutil.copy(build / 'libpkg_mpm.so', libraries)
-	for file in (build / 'mpm').glob('*.so'):
-		shutil.copy(library if file.name == library.name else file, libraries / 'mpm')
-	(top / 'python').mkdir()
-	(top / 'python' / 'mpm').symlink_to(root / 'plugin' / 'python' / 'mpm')
-	(top / 'bin').mkdir()
-	shutil.copy(root / 'scripts' / 'lib' / 'yade-in-overlay.py', top / 'bin' / 'yade')
-	os.chmod(top / 'bin' / 'yade', 0o755)
-	(top / 'host').write_text('/usr/bin/yade')
-	return top / 'bin' / 'yade'
+	return makeOverlay(tmp_path_factory.mktemp('overlay'), engine=library)
 
 
 @pytest.fixture
 def yade(tmp_path, overlay):
 	found = Yade(tmp_path)
-	found.command = str(overlay)
+	found.command = overlay
 	return found
 
 

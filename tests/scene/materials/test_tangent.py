@@ -127,6 +127,7 @@ before = solver.workload()
 assert all(np.isnan(solver.plotData()[f'absorbing0_{axis}']) for axis in 'xy')
 O.step()
 assert all(np.isfinite(solver.plotData()[f'absorbing0_{axis}']) for axis in 'xy')
+assert 'kineticEnergy' in solver.report() and 'absorbing0_x' not in solver.report() # which has energies, but not what acts
 print(json.dumps([before['activeCells'], before['ghostFaces'], solver.activeCells, solver.ghostFaces]))
 ''').result
 	assert found[:2] == found[2:] and found[0] == 9, found

@@ -8,7 +8,7 @@ import shutil
 import subprocess
 
 import pytest
-from conftest import build, compiled, root, systemYade
+from conftest import build, compiled, provideCommand, root, systemYade
 
 # Prints whether YADE works and knows the plugin's classes.
 probe = '''
@@ -194,10 +194,7 @@ except ImportError as error:
 @pytest.fixture
 def importable(complete, yade):
 	"""Makes yade.mpm importable without installing it."""
-	shutil.copytree(root / 'plugin/python', yade.folder / 'prefix/python')
-	(yade.folder / 'prefix/bin').mkdir()
-	(yade.folder / 'prefix/host').write_text('/usr/bin/yade')
-	yade.command = str(shutil.copy(root / 'scripts/lib/yade-in-overlay.py', yade.folder / 'prefix/bin/yade'))
+	yade.command = provideCommand(yade.folder / 'prefix')
 
 
 def test_otherPlaceOfForces(yade, importable):

@@ -15,7 +15,6 @@ namespace {
 
 	template <int Dim> gimpm::HeldBox<Dim> heldBox(const MpmBoundary& boundary, const MpmGrid& grid, const gimpm::Grid<Dim>& lattice)
 	{
-		boundary.requireAdmissible();
 		if (boundary.surface) return holdsNothing<Dim>();
 		auto box         = boxOfNodes<Dim>("MpmBoundary", boundary.min, boundary.max, grid, lattice);
 		box.displacement = boundary.displacement.head<Dim>();

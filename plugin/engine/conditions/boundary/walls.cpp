@@ -7,7 +7,6 @@ namespace yade {
 namespace {
 	template <int Dim> void requireFitting(const MpmBoundary& boundary, const string& name)
 	{
-		boundary.requireAdmissible();
 		requireDimension<Dim>(*boundary.surface, name);
 		if (Dim == 2 && (boundary.fixes(2) || boundary.velocity[2] != 0))
 			throw std::invalid_argument(

@@ -85,7 +85,6 @@ template <int Dim> Contacts<Dim>::Contacts(const MpmCondition::Group& group) : s
 
 template <int Dim> void Contacts<Dim>::add(const shared_ptr<MpmContact>& contact, const Scene& scene, const gimpm::Grid<Dim>& grid)
 {
-	contact->requireAdmissible();
 	const size_t count = members.size();
 	Places       known; // of its bodies in the last run
 	for (size_t i = 0; i < contact->bodies.size(); ++i)

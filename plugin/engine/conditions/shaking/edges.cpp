@@ -10,7 +10,6 @@ namespace {
 
 template <int Dim> gimpm::HeldBox<Dim> Edges<Dim>::boxOf(const MpmAbsorbingBoundary& boundary, const gimpm::Grid<Dim>& lattice) const
 {
-	boundary.requireAdmissible();
 	return boxOfNodes<Dim>("MpmAbsorbingBoundary", boundary.min, boundary.max, *analysis.grid, lattice);
 }
 

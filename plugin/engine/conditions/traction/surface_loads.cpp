@@ -56,7 +56,6 @@ template <int Dim> void SurfaceLoads<Dim>::join(gimpm::Model<Dim>& model, const 
 {
 	for (const Listed& listed : group) {
 		const auto load = boost::static_pointer_cast<MpmTraction>(listed.condition);
-		load->requireAdmissible();
 		requireFitting<Dim>(*load, listed.name());
 		sources.push_back({ load, around.analysis.curveOfLoad(load->curve) });
 		loads.push_back({ coreSurface<Dim>(*load->surface) });

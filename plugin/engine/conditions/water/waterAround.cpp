@@ -50,6 +50,7 @@ py::list waterAroundForPython(const Analysis& engine, const py::object& position
 	const ValueLock lock;
 	engine.requireAttributes();
 	engine.grid->requireAdmissible();
+	engine.requireConditions();
 	const Column<Real> places(positions, "positions"), halves(halfSizes, "halfSizes");
 	return engine.grid->dim == 3 ? waterAround<3>(engine, places, halves) : waterAround<2>(engine, places, halves);
 }

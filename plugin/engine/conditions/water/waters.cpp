@@ -38,8 +38,7 @@ void Waters<Dim>::take(const Analysis& analysis, const gimpm::Grid<Dim>& grid, c
 	const auto cells    = areAsked ? cellsOf(cloud, grid, division) : vector<gimpm::Key>();
 	for (const Listed& listed : group) {
 		const auto water = waterOf(listed);
-		water->requireAdmissible();
-		Source source { water, analysis.curveOfWeight(water->curve), nullptr, 0, 1 };
+		Source     source { water, analysis.curveOfWeight(water->curve), nullptr, 0, 1 };
 		if (water->hasFunction()) source.given = tabulated(*water, grid, cells, listed.name());
 		else
 			std::tie(source.axis, source.up) = upwards(analysis.gravity, grid, listed.name());
