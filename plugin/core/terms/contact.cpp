@@ -178,9 +178,10 @@ template <int Dim> void Contact<Dim>::addPlace(int number, const SurfacePoint<Di
 	place.attached       = *attached;
 	place.away           = body.proximity(body.begin, place.soil, 1).gap; // found as at the end: no gap by round-off
 	place.carried        = body.end.inSpace(body.begin.inBody(place.soil)) - place.soil;
-	const double area    = place.presence * point.area * (isRing_ ? 2 * M_PI * onBody[0] : 1);
-	const double penalty = body.stiffness * sight->young * area / grid_.cellSize;
-	place.law            = { penalty, penalty / slipSoftness, body.friction, body.adhesion * area };
+	place.area           = place.presence * point.area * (isRing_ ? 2 * M_PI * onBody[0] : 1);
+	place.young          = sight->young;
+	const double penalty = body.stiffness * place.young * place.area / grid_.cellSize;
+	place.law            = { penalty, penalty / slipSoftness, body.friction, body.adhesion * place.area };
 	if (record) recall(place, *record, sight->gap);
 	places_.push_back(place);
 }
@@ -358,6 +359,7 @@ template <int Dim> void Contact<Dim>::commit(const Eigen::VectorXd& d)
 		const auto   load  = loadOn(system_.owners[owner], place, r.place, touched);
 		ContactLoad& sum   = system_.loads[owner];
 		sum.force += load.force, sum.torque += load.torque, sum.stiffness += load.stiffness;
+		sum.area += place.area, sum.young += place.area * place.young;
 	});
 	system_.records = std::move(records);
 	std::stable_sort(system_.records.begin(), system_.records.end(), [](const auto& a, const auto& b) {
