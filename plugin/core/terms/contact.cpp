@@ -173,8 +173,12 @@ template <int Dim> void Contact<Dim>::addPlace(int number, const SurfacePoint<Di
 	// Pressed soil begins inside of the body: at the face instead, even pressure would not be in balance with even
 	// stress.
 	if (record && record->touches && record->gap < 0) place.soil = onBody + record->gap * normal;
-	const auto attached = attach(place.soil, basis_, grid_);
-	if (!attached) return; // behind a wall
+	const Vec<Dim> beside   = place.soil + body.begin.rotation * point.aside;
+	auto           attached = attach(beside, basis_, grid_);
+	if (attached) place.soil = beside;
+	else
+		attached = attach(place.soil, basis_, grid_); // at an end of the soil
+	if (!attached) return;                                // behind a wall
 	place.attached       = *attached;
 	place.away           = body.proximity(body.begin, place.soil, 1).gap; // found as at the end: no gap by round-off
 	place.carried        = body.end.inSpace(body.begin.inBody(place.soil)) - place.soil;

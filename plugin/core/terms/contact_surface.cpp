@@ -49,22 +49,24 @@ SurfacePoints<3> onBall(double radius, double spacing, Vec3)
 
 template <int Dim> SurfacePoints<Dim> onBlock(const Vec<Dim>& half, double spacing)
 {
+	const Vec<Dim>     acting = half.cwiseMax(2 * spacing);
 	SurfacePoints<Dim> points;
 	for (int face = 0; face < 2 * Dim; ++face) {
 		const int  across = face / 2;
 		Index<Dim> parts  = Index<Dim>::Ones();
 		double     area   = 1;
 		for (int a = 0; a < Dim; ++a)
-			if (a != across) parts[a] = evenParts(2 * half[a], spacing), area *= 2 * half[a] / parts[a];
+			if (a != across) parts[a] = evenParts(2 * acting[a], spacing), area *= 2 * half[a] / parts[a];
 		const Vec<Dim> normal = (face % 2 ? 1 : -1) * Vec<Dim>::Unit(across);
 		for (int i = 0; i < parts.prod(); ++i) {
-			Vec<Dim> place = half[across] * normal;
+			Vec<Dim> place = half[across] * normal, aside = Vec<Dim>::Zero();
 			for (int a = 0, rest = i; a < Dim; ++a) {
 				if (a == across) continue;
-				place[a] = half[a] * ((2 * (rest % parts[a]) + 1.) / parts[a] - 1);
+				const double at = (2 * (rest % parts[a]) + 1.) / parts[a] - 1;
+				place[a] = half[a] * at, aside[a] = (acting[a] - half[a]) * at;
 				rest /= parts[a];
 			}
-			points.push_back({ std::int64_t(points.size()), place, normal, area });
+			points.push_back({ std::int64_t(points.size()), place, normal, area, aside });
 		}
 	}
 	return points;
@@ -78,7 +80,7 @@ template <int Dim> void addSides(SurfacePoints<Dim>& points, std::int64_t number
 
 SurfacePoints<2> onSheet(const std::array<Vec<2>, 2>& corner, double spacing, bool isTwoSided)
 {
-	const Vec<2>     along = corner[1] - corner[0], normal = Vec<2>(along[1], -along[0]).normalized();
+	const Vec<2>     along = corner[1] - corner[0], normal = normalOf(corner);
 	const int        parts = evenParts(along.norm(), spacing);
 	SurfacePoints<2> points;
 	for (int i = 0; i < parts; ++i)
@@ -89,7 +91,7 @@ SurfacePoints<2> onSheet(const std::array<Vec<2>, 2>& corner, double spacing, bo
 /// The middles of the triangles into which lines parallel to the edges cut it.
 SurfacePoints<3> onSheet(const std::array<Vec3, 3>& corner, double spacing, bool isTwoSided)
 {
-	const Vec3       u = corner[1] - corner[0], v = corner[2] - corner[0], across = u.cross(v), normal = across.normalized();
+	const Vec3       u = corner[1] - corner[0], v = corner[2] - corner[0], normal = normalOf(corner);
 	const double     longest = std::max({ u.norm(), v.norm(), (v - u).norm() });
 	const int        parts   = std::max(2, int(std::ceil(longest / (std::sqrt(2.) * spacing) - 1e-9)));
 	SurfacePoints<3> points;
@@ -99,8 +101,8 @@ SurfacePoints<3> onSheet(const std::array<Vec3, 3>& corner, double spacing, bool
 			for (int turned = 0; turned < (i + j + 1 < parts ? 2 : 1); ++turned) {
 				const double at = turned ? 2. / 3 : 1. / 3;
 				addSides<3>(
-				        points, number++, corner[0] + (i + at) / parts * u + (j + at) / parts * v, normal, across.norm() / 2 / (parts * parts),
-				        isTwoSided);
+				        points, number++, corner[0] + (i + at) / parts * u + (j + at) / parts * v, normal,
+				        u.cross(v).norm() / 2 / (parts * parts), isTwoSided);
 			}
 	return points;
 }

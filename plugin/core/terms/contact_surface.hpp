@@ -9,14 +9,17 @@ namespace gimpm {
 
 /// A place on a body, in the body's axes, and the part of the surface around it that it stands for.
 template <int Dim> struct SurfacePoint {
-	std::int64_t number;        ///< its name as long as shape and spacing stay the same
-	Vec<Dim>     place, normal; ///< the normal is that of its face, unit, out of the body
-	double       area;          ///< [m2], in 2D per metre; around an axis of symmetry to be multiplied by the circumference
+	std::int64_t number;                   ///< its name as long as shape and spacing stay the same
+	Vec<Dim>     place, normal;            ///< the normal is that of its face, unit, out of the body
+	double       area;                     ///< [m2], in 2D per metre; around an axis of symmetry to be multiplied by the circumference
+	Vec<Dim>     aside = Vec<Dim>::Zero(); ///< along the face, from the place to where it acts on the soil
 };
 
 /// Points no farther apart than the spacing, at least two along each edge, in mirror symmetry to the middle of a ball
 /// or a block. Of a plane, which has no end, those within a box in its axes. A two-sided surface has points on both
-/// sides.
+/// sides. A block's face that is narrower than a cell, four spacings, acts on the soil over the width of one: a single
+/// node of the grid gives way more easily than two, and what a narrower face meets would depend on where it stands
+/// among them.
 template <int Dim> std::vector<SurfacePoint<Dim>> surfacePoints(const RigidShape<Dim>&, double spacing, const Vec<Dim>& low, const Vec<Dim>& high);
 
 } // namespace gimpm

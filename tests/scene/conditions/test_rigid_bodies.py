@@ -213,11 +213,14 @@ O.run(3, wait=True)
 solver = soil(contacts=[MpmContact(friction=0.3, mask=1)])
 box((0.4, 1.5, 0), (0.02, 0.5, 1), velocity=(0, -0.01, 0))  # soil is below it only
 O.run(3, wait=True)
+solver = soil(contacts=[MpmContact(friction=0.3, mask=1)])
+add(utils.facet([(-1, 1, 0), (2, 1, 0), (0, 1, 1)], material='rigid', fixed=True)).state.vel = (0, -0.01, 0)  # on one side a sheet is as good as a body
+O.run(3, wait=True)
 print(json.dumps([]))
 ''')
 	words = run.stdout + run.stderr
 	assert words.count('MpmContact.friction = 1 is an angle in radians, 57.2958 degrees; was a coefficient meant, that is atan(1)') == 1 and words.count('radians(...)') == 1
-	assert words.count('is 0.04 m thick, less than a cell (0.25 m), with soil on both sides') == 1
+	assert words.count('is 0.04 m thick, less than a cell (0.25 m)') == 2 and words.count('Cells of at most 0.04 m resolve it') == 2 and words.count('Soil on its two sides') == 1
 
 
 def test_an_impact_keeps_momentum_with_any_period_that_is_admitted(yade):

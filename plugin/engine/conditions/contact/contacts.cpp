@@ -305,21 +305,27 @@ template <int Dim> void Contacts<Dim>::requireKept() const
 			owners[i].contact->requireStable(*owners[i].body, system->loads[i].stiffness, dt, isBetween());
 }
 
-// The soil is one field: on both sides of what is thinner than a cell the same nodes move it.
+// The soil is one field: on both sides of what is thinner than a cell the same nodes move it, and before its narrow
+// faces they are farther apart than these are wide.
 template <int Dim> string Contacts<Dim>::warningOfThinness() const
 {
 	for (size_t i = 0; i < members.size(); ++i) {
 		const auto& body = system->bodies[i];
 		if (body.thickness() >= cellSize * (1 - 1e-9)) continue;
 		std::optional<gimpm::Vec<Dim>> first;
+		bool                           isBetween = false, isNarrow = false;
 		for (const auto& r : system->records) {
 			if (r.body != int(i) || !r.touches) continue;
 			if (!first) first = r.normal;
-			if (first->dot(r.normal) > -0.5) continue;
-			return gimpm::sentence(
-			        body.name, " is ", body.thickness(), " m thick, less than a cell (", cellSize,
-			        " m), with soil on both sides: they press on it, but move as one soil, which neither slides along the body nor comes off it on one side alone. Cells smaller than its thickness part them.");
+			isBetween = isBetween || first->dot(r.normal) < -0.5;
+			isNarrow  = isNarrow || body.isNarrow(body.end.rotation.transpose() * r.normal);
 		}
+		if (!isNarrow && !isBetween) continue;
+		return gimpm::sentence(
+		        body.name, " is ", body.thickness(), " m thick, less than a cell (", cellSize, " m). ",
+		        isNarrow ? "Before it the soil resists about as to a body of that width. " : "",
+		        isBetween ? "Soil on its two sides moves as one, which neither slides along the body nor comes off it on one side alone. " : "",
+		        body.thickness() > 0 ? gimpm::sentence("Cells of at most ", body.thickness(), " m resolve it.") : "");
 	}
 	return "";
 }
