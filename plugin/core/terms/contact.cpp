@@ -132,7 +132,7 @@ template <int Dim> std::vector<int> Contact<Dim>::bodiesAround(int number) const
 	return found;
 }
 
-/// Whether the place is in another body, or on the surface of one that came first and faces alike.
+/// Whether the place is in another body, in a joint with it, or on the surface of one that came first and faces alike.
 template <int Dim> bool Contact<Dim>::isHidden(int number, const Vec<Dim>& place, const Vec<Dim>& normal, const std::vector<int>& around) const
 {
 	for (const int b : around) {
@@ -140,7 +140,8 @@ template <int Dim> bool Contact<Dim>::isHidden(int number, const Vec<Dim>& place
 		const auto  at       = other.proximity(other.begin, place, other.sideOf(other.begin, place + grid_.cellSize * normal));
 		const bool  isAlike  = at.normal.dot(normal) > 1 - 1e-6 && std::abs(at.gap) <= tolerance_ && at.beside < 0;
 		const bool  isInside = !other.shape.isTwoSided && at.gap < -tolerance_;
-		if (isInside || (isAlike && b < number)) return true;
+		const bool  isJoint  = !other.shape.isTwoSided && at.normal.dot(normal) < -1 + 1e-6 && at.gap <= tolerance_;
+		if (isInside || isJoint || (isAlike && b < number)) return true;
 	}
 	return false;
 }
