@@ -132,7 +132,7 @@ template <int Dim> std::vector<int> Contact<Dim>::bodiesAround(int number) const
 	return found;
 }
 
-/// Whether the place is in another body, or on the surface of one that came first and faces alike.
+/// Whether the place is in another body, in a joint with it, or on the surface of one that came first and faces alike.
 template <int Dim> bool Contact<Dim>::isHidden(int number, const Vec<Dim>& place, const Vec<Dim>& normal, const std::vector<int>& around) const
 {
 	for (const int b : around) {
@@ -140,7 +140,8 @@ template <int Dim> bool Contact<Dim>::isHidden(int number, const Vec<Dim>& place
 		const auto  at       = other.proximity(other.begin, place, other.sideOf(other.begin, place + grid_.cellSize * normal));
 		const bool  isAlike  = at.normal.dot(normal) > 1 - 1e-6 && std::abs(at.gap) <= tolerance_ && at.beside < 0;
 		const bool  isInside = !other.shape.isTwoSided && at.gap < -tolerance_;
-		if (isInside || (isAlike && b < number)) return true;
+		const bool  isJoint  = !other.shape.isTwoSided && at.normal.dot(normal) < -1 + 1e-6 && at.gap <= tolerance_;
+		if (isInside || isJoint || (isAlike && b < number)) return true;
 	}
 	return false;
 }
@@ -173,14 +174,19 @@ template <int Dim> void Contact<Dim>::addPlace(int number, const SurfacePoint<Di
 	// Pressed soil begins inside of the body: at the face instead, even pressure would not be in balance with even
 	// stress.
 	if (record && record->touches && record->gap < 0) place.soil = onBody + record->gap * normal;
-	const auto attached = attach(place.soil, basis_, grid_);
-	if (!attached) return; // behind a wall
+	const Vec<Dim> beside   = place.soil + body.begin.rotation * point.aside;
+	auto           attached = attach(beside, basis_, grid_);
+	if (attached) place.soil = beside;
+	else
+		attached = attach(place.soil, basis_, grid_); // at an end of the soil
+	if (!attached) return;                                // behind a wall
 	place.attached       = *attached;
 	place.away           = body.proximity(body.begin, place.soil, 1).gap; // found as at the end: no gap by round-off
 	place.carried        = body.end.inSpace(body.begin.inBody(place.soil)) - place.soil;
-	const double area    = place.presence * point.area * (isRing_ ? 2 * M_PI * onBody[0] : 1);
-	const double penalty = body.stiffness * sight->young * area / grid_.cellSize;
-	place.law            = { penalty, penalty / slipSoftness, body.friction, body.adhesion * area };
+	place.area           = place.presence * point.area * (isRing_ ? 2 * M_PI * onBody[0] : 1);
+	place.young          = sight->young;
+	const double penalty = body.stiffness * place.young * place.area / grid_.cellSize;
+	place.law            = { penalty, penalty / slipSoftness, body.friction, body.adhesion * place.area };
 	if (record) recall(place, *record, sight->gap);
 	places_.push_back(place);
 }
@@ -293,9 +299,12 @@ template <int Dim> std::string Contact<Dim>::entered(const Eigen::VectorXd& d) c
 		if (!attached) continue;
 		const Vec<Dim>       u = attached->displacement(d), x = centre + u;
 		const Proximity<Dim> before = body.proximity(body.begin, centre, near.side), after = body.proximity(body.end, x, near.side);
-		const bool           isThrough = body.shape.isTwoSided ? after.gap < 0 && after.beside < 0 && before.gap >= 0 : body.isCrossed(centre, x);
-		const double         deeper    = before.gap - after.gap;
-		const bool           isInside  = !body.shape.isTwoSided && -deepest > after.gap && deeper > (-5 * deepest > after.gap ? 0 : deepest / 2);
+		const double         deeper = before.gap - after.gap, side = after.gap - after.normal.cwiseAbs().dot(cloud_.halfSize[near.point]);
+		// Soil may get to a sheet from where it has not been looked for, and would be on both sides of it then.
+		const bool isUnseen  = side < -deepest && deeper > searchReach(body, grid_);
+		const bool isThrough = body.shape.isTwoSided ? (after.gap < 0 || isUnseen) && after.beside < 0 && before.gap >= 0
+		                                             : body.isCrossed(centre, x);
+		const bool   isInside  = !body.shape.isTwoSided && -deepest > after.gap && deeper > (-5 * deepest > after.gap ? 0 : deepest / 2);
 		if (!isThrough && !isInside) continue;
 		std::ostringstream text;
 		text << (isThrough ? " would let soil through" : " would get soil inside of it") << ", which moves " << u.norm()
@@ -358,6 +367,7 @@ template <int Dim> void Contact<Dim>::commit(const Eigen::VectorXd& d)
 		const auto   load  = loadOn(system_.owners[owner], place, r.place, touched);
 		ContactLoad& sum   = system_.loads[owner];
 		sum.force += load.force, sum.torque += load.torque, sum.stiffness += load.stiffness;
+		sum.area += place.area, sum.young += place.area * place.young;
 	});
 	system_.records = std::move(records);
 	std::stable_sort(system_.records.begin(), system_.records.end(), [](const auto& a, const auto& b) {

@@ -28,6 +28,7 @@ struct ContactLoad {
 	using Stiffness = Eigen::Matrix<double, 6, 6>;
 	Vec3      force = Vec3::Zero(), torque = Vec3::Zero(); ///< about the owner's position [N], [N m]
 	Stiffness stiffness = Stiffness::Zero();               ///< in 3D, an upper bound: of the penalties alone, for a translation and a rotation of the owner
+	double    area = 0, young = 0;                         ///< of the places that touch [m2], and that by Young's modulus of the soil there [N]
 };
 
 /// The rigid bodies beside the soil, and what is between them.
@@ -93,6 +94,7 @@ private:
 		double          away;                        ///< of the soil from the body, at the start [m]
 		double          gap;                         ///< what counts as that
 		double          presence;                    ///< of soil in front of it
+		double          area, young;                 ///< of the surface with soil in front of it [m2]; of the soil [Pa]
 		Vec<Dim>        friction = Vec<Dim>::Zero(); ///< at the start, turned with the body
 		ContactLaw<Dim> law;
 		Attachment<Dim> attached;

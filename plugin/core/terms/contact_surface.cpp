@@ -32,7 +32,9 @@ SurfacePoints<2> onBall(double radius, double spacing, const Box<2>& box)
 	for (int i = 0; i < parts; ++i) {
 		const double angle = 2 * M_PI * (i + 0.5) / parts, half      = std::tan(M_PI / parts);
 		const Vec<2> normal(std::cos(angle), std::sin(angle)), place = radius * normal;
-		if (box.has(place)) points.push_back({ i, place, normal, 2 * M_PI * radius / parts, cornersAround(place, half * Vec<2>(-place[1], place[0])) });
+		if (box.has(place))
+			points.push_back(
+			        { i, place, normal, 2 * M_PI * radius / parts, Vec<2>::Zero(), cornersAround(place, half * Vec<2>(-place[1], place[0])) });
 	}
 	return points;
 }
@@ -65,7 +67,7 @@ SurfacePoints<3> onBall(double radius, double spacing, const Box<3>& box)
 		const double              area = 4 * M_PI * radius * radius * areaAt(i, j) / sum;
 		const std::array<Vec3, 4> corners { radius * at(2 * i, 2 * j), radius * at(2 * i + 2, 2 * j), radius * at(2 * i + 2, 2 * j + 2),
 			                            radius * at(2 * i, 2 * j + 2) };
-		points.push_back({ number, place, normal, area, corners });
+		points.push_back({ number, place, normal, area, Vec3::Zero(), corners });
 	}
 	return points;
 }
@@ -80,40 +82,60 @@ std::array<Vec3, 4> cornersAcross(const Vec3& place, const Vec3& half, int acros
 	return cornersAround(place, half[a] * Vec3::Unit(a), half[b] * Vec3::Unit(b));
 }
 
-/// Numbered row by row, face by face.
-template <int Dim> SurfacePoints<Dim> onBlock(const Vec<Dim>& half, double spacing, const Box<Dim>& box)
-{
-	SurfacePoints<Dim> points;
-	std::int64_t       first = 0; // number on the face
-	for (int face = 0; face < 2 * Dim; ++face) {
-		const int      across = face / 2;
-		const Vec<Dim> normal = (face % 2 ? 1 : -1) * Vec<Dim>::Unit(across);
-		Index<Dim>     parts = Index<Dim>::Ones(), from = Index<Dim>::Zero(), to = Index<Dim>::Zero();
-		double         area  = 1;
-		bool           isMet = half[across] * normal[across] >= box.low[across] && half[across] * normal[across] <= box.high[across];
-		Vec<Dim>       part  = Vec<Dim>::Zero(); // half of one
+/// The places on a face of a block, numbered row by row, of which those in a box are met.
+template <int Dim> struct FaceOfBlock {
+	int        across;
+	Vec<Dim>   normal, half, acting, part = Vec<Dim>::Zero(); // half of the block and of what acts, and of the part of a place
+	Index<Dim> parts = Index<Dim>::Ones(), from = Index<Dim>::Zero(), to = Index<Dim>::Zero();
+	double     area = 1;
+	bool       isMet;
+
+	FaceOfBlock(int face, const Vec<Dim>& h, double spacing, const Box<Dim>& box)
+	        : across(face / 2), normal((face % 2 ? 1 : -1) * Vec<Dim>::Unit(across)), half(h), acting(h.cwiseMax(2 * spacing))
+	{
+		const double at = half[across] * normal[across];
+		isMet           = at >= box.low[across] && at <= box.high[across];
 		for (int a = 0; a < Dim; ++a) {
 			if (a == across) continue;
-			parts[a] = evenParts(2 * half[a], spacing), part[a] = half[a] / parts[a], area *= 2 * part[a];
+			parts[a] = evenParts(2 * acting[a], spacing), part[a] = half[a] / parts[a], area *= 2 * part[a];
 			const auto indexOf = [&](double x) { return (x + half[a]) / (2 * part[a]) - 0.5; };
 			from[a]            = int(std::ceil(std::clamp(indexOf(box.low[a]), 0., double(parts[a]))));
 			to[a]              = int(std::floor(std::clamp(indexOf(box.high[a]), -1., parts[a] - 1.)));
 			isMet              = isMet && from[a] <= to[a];
 		}
-		for (Index<Dim> i = from; isMet;) {
-			Vec<Dim>     place  = half[across] * normal;
-			std::int64_t number = 0;
-			for (int a = Dim - 1; a >= 0; --a) {
-				if (a != across) place[a] = half[a] * ((2 * i[a] + 1.) / parts[a] - 1);
-				number = number * parts[a] + i[a];
-			}
-			points.push_back({ first + number, place, normal, area, cornersAcross(place, part, across) });
-			int a = 0;
-			while (a < Dim && ++i[a] > to[a])
-				i[a] = from[a], ++a;
-			isMet = a < Dim;
+	}
+
+	SurfacePoint<Dim> at(std::int64_t first, const Index<Dim>& i) const
+	{
+		Vec<Dim>     place = half[across] * normal, aside = Vec<Dim>::Zero();
+		std::int64_t number = 0;
+		for (int a = Dim - 1; a >= 0; --a) {
+			const double share = (2 * i[a] + 1.) / parts[a] - 1;
+			if (a != across) place[a] = half[a] * share, aside[a] = (acting[a] - half[a]) * share;
+			number = number * parts[a] + i[a];
 		}
-		first += parts.template cast<std::int64_t>().prod();
+		return { first + number, place, normal, area, aside, cornersAcross(place, part, across) };
+	}
+
+	bool next(Index<Dim>& i) const
+	{
+		int a = 0;
+		while (a < Dim && ++i[a] > to[a])
+			i[a] = from[a], ++a;
+		return a < Dim;
+	}
+};
+
+template <int Dim> SurfacePoints<Dim> onBlock(const Vec<Dim>& half, double spacing, const Box<Dim>& box)
+{
+	SurfacePoints<Dim> points;
+	std::int64_t       first = 0; // number on the face
+	for (int number = 0; number < 2 * Dim; ++number) {
+		const FaceOfBlock<Dim> face(number, half, spacing, box);
+		Index<Dim>             i = face.from;
+		for (bool goesOn = face.isMet; goesOn; goesOn = face.next(i))
+			points.push_back(face.at(first, i));
+		first += face.parts.template cast<std::int64_t>().prod();
 	}
 	return points;
 }
@@ -130,12 +152,12 @@ template <int Dim> void addSides(SurfacePoints<Dim>& points, SurfacePoint<Dim> p
 
 SurfacePoints<2> onSheet(const std::array<Vec<2>, 2>& corner, double spacing, bool isTwoSided, const Box<2>& box)
 {
-	const Vec<2>     along = corner[1] - corner[0], normal = Vec<2>(along[1], -along[0]).normalized();
+	const Vec<2>     along = corner[1] - corner[0], normal = normalOf(corner);
 	const int        parts = evenParts(along.norm(), spacing);
 	SurfacePoints<2> points;
 	for (int i = 0; i < parts; ++i) {
 		const Vec<2> place = corner[0] + (i + 0.5) / parts * along;
-		addSides<2>(points, { i, place, normal, along.norm() / parts, cornersAround(place, along / (2 * parts)) }, isTwoSided, box);
+		addSides<2>(points, { i, place, normal, along.norm() / parts, Vec<2>::Zero(), cornersAround(place, along / (2 * parts)) }, isTwoSided, box);
 	}
 	return points;
 }
@@ -143,7 +165,7 @@ SurfacePoints<2> onSheet(const std::array<Vec<2>, 2>& corner, double spacing, bo
 /// The middles of the triangles into which lines parallel to the edges cut it.
 SurfacePoints<3> onSheet(const std::array<Vec3, 3>& corner, double spacing, bool isTwoSided, const Box<3>& box)
 {
-	const Vec3       u = corner[1] - corner[0], v = corner[2] - corner[0], across = u.cross(v), normal = across.normalized();
+	const Vec3       u = corner[1] - corner[0], v = corner[2] - corner[0], normal = normalOf(corner);
 	const double     longest = std::max({ u.norm(), v.norm(), (v - u).norm() });
 	const int        parts   = std::max(2, int(std::ceil(longest / (std::sqrt(2.) * spacing) - 1e-9)));
 	SurfacePoints<3> points;
@@ -152,7 +174,7 @@ SurfacePoints<3> onSheet(const std::array<Vec3, 3>& corner, double spacing, bool
 	for (int i = 0; i < parts; ++i)
 		for (int j = 0; i + j < parts; ++j)
 			for (int turned = 0; turned < (i + j + 1 < parts ? 2 : 1); ++turned) {
-				const double middle = turned ? 2. / 3 : 1. / 3, area = across.norm() / 2 / (parts * parts);
+				const double middle = turned ? 2. / 3 : 1. / 3, area = u.cross(v).norm() / 2 / (parts * parts);
 				const Vec3   last = at(i, j + 1);
 				addSides<3>(
 				        points,
@@ -160,6 +182,7 @@ SurfacePoints<3> onSheet(const std::array<Vec3, 3>& corner, double spacing, bool
 				          at(i + middle, j + middle),
 				          normal,
 				          area,
+				          Vec3::Zero(),
 				          { turned ? at(i + 1, j + 1) : at(i, j), at(i + 1, j), last, last } },
 				        isTwoSided, box);
 			}
@@ -188,7 +211,8 @@ template <int Dim> SurfacePoints<Dim> onPlane(const RigidShape<Dim>& shape, doub
 			const std::int64_t number = (i + most) * 2 * most + j + most;
 			addSides<Dim>(
 			        points,
-			        { number, place, shape.normal, std::pow(spacing, Dim - 1), cornersAcross(place, Vec<Dim>::Constant(spacing / 2), across) },
+			        { number, place, shape.normal, std::pow(spacing, Dim - 1), Vec<Dim>::Zero(),
+			          cornersAcross(place, Vec<Dim>::Constant(spacing / 2), across) },
 			        shape.isTwoSided, box);
 		}
 	return points;

@@ -13,13 +13,16 @@ template <int Dim> struct SurfacePoint {
 	std::int64_t number;        ///< its name as long as shape and spacing stay the same
 	Vec<Dim>     place, normal; ///< the normal is that of its face, unit, out of the body
 	double       area;          ///< [m2], in 2D per metre; around an axis of symmetry to be multiplied by the circumference
+	Vec<Dim>     aside;         ///< along the face, from the place to where it acts on the soil
 
 	/// Of that part, around it; of a triangle the last two are one.
 	std::array<Vec<Dim>, 2 * (Dim - 1)> corners;
 };
 
 /// Points no farther apart than the spacing, at least two along each edge, in mirror symmetry to the middle of a ball
-/// or a block: those within a box in the body's axes. A two-sided surface has points on both sides.
+/// or a block: those within a box in the body's axes. A two-sided surface has points on both sides. A block's face that
+/// is narrower than a cell, four spacings, acts on the soil over the width of one: a single node of the grid gives way
+/// more easily than two, and what a narrower face meets would depend on where it stands among them.
 template <int Dim> std::vector<SurfacePoint<Dim>> surfacePoints(const RigidShape<Dim>&, double spacing, const Vec<Dim>& low, const Vec<Dim>& high);
 
 /// Those of contact on a grid with cells of this size, on a body at a pose: within a box in the axes of space.

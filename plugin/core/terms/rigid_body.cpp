@@ -46,13 +46,6 @@ double besideOf(const std::array<Vec3, 3>& corner, const Vec3& normal, const Vec
 	return beside;
 }
 
-Vec<2> normalOf(const std::array<Vec<2>, 2>& corner)
-{
-	const Vec<2> along = corner[1] - corner[0];
-	return Vec<2>(along[1], -along[0]).normalized();
-}
-Vec3 normalOf(const std::array<Vec3, 3>& corner) { return (corner[1] - corner[0]).cross(corner[2] - corner[0]).normalized(); }
-
 template <int Dim> Proximity<Dim> fromSheet(const RigidShape<Dim>& shape, const Vec<Dim>& own, int side)
 {
 	const Vec<Dim> normal = normalOf(shape.corners);
@@ -60,6 +53,13 @@ template <int Dim> Proximity<Dim> fromSheet(const RigidShape<Dim>& shape, const 
 }
 
 } // namespace
+
+Vec<2> normalOf(const std::array<Vec<2>, 2>& corner)
+{
+	const Vec<2> along = corner[1] - corner[0];
+	return Vec<2>(along[1], -along[0]).normalized();
+}
+Vec3 normalOf(const std::array<Vec3, 3>& corner) { return (corner[1] - corner[0]).cross(corner[2] - corner[0]).normalized(); }
 
 template <int Dim> Proximity<Dim> RigidBody<Dim>::proximity(const Pose<Dim>& pose, const Vec<Dim>& x, int side) const
 {
@@ -111,6 +111,14 @@ template <int Dim> double RigidBody<Dim>::thickness() const
 {
 	if (shape.kind == RigidKind::plane || shape.kind == RigidKind::sheet) return 0;
 	return 2 * (shape.kind == RigidKind::ball ? shape.radius : shape.halfSize.minCoeff());
+}
+
+template <int Dim> bool RigidBody<Dim>::isNarrow(const Vec<Dim>& normal) const
+{
+	if (shape.kind != RigidKind::block) return shape.kind == RigidKind::ball;
+	int thinnest;
+	shape.halfSize.minCoeff(&thinnest);
+	return std::abs(normal[thinnest]) < 0.7;
 }
 
 template <> Vec<2> RigidBody<2>::spin() const { return Vec<2>::Zero(); }

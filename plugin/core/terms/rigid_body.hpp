@@ -29,6 +29,10 @@ template <int Dim> struct RigidShape {
 	bool                      isTwoSided = false;          ///< a plane, or a sheet, that soil may touch from either side
 };
 
+/// Of a sheet, unit; in the plane that on the right of the way from the first corner to the second.
+Vec<2> normalOf(const std::array<Vec<2>, 2>& corners);
+Vec3   normalOf(const std::array<Vec3, 3>& corners);
+
 /// Of a place from a body.
 template <int Dim> struct Proximity {
 	double   gap    = 0;                                        ///< distance to the surface, < 0 inside [m]
@@ -56,6 +60,9 @@ template <int Dim> struct RigidBody {
 
 	/// Its smallest size; planes and sheets have none [m].
 	double thickness() const;
+
+	/// Whether what presses along a normal, in its own axes, is as narrow as that.
+	bool isNarrow(const Vec<Dim>& normal) const;
 
 	/// Whether what went straight from one place to another, as seen from the body, came out on another side of it,
 	/// or is about to. Of planes and sheets the sides are known.

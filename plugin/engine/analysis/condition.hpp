@@ -109,7 +109,7 @@ public:
 	virtual string warningOfPlace(const gimpm::PointCloud<Dim>&, const gimpm::Grid<Dim>&) const { return ""; }
 
 	// After the steps of a run: doubts, sentences by what they are about.
-	virtual std::map<string, string> warnings(bool /*isDynamic*/) const { return {}; }
+	virtual std::map<string, string> warnings() const { return {}; }
 
 	// Whether the middle of a part of a point, as seen from that of the point, is on the same side of it.
 	virtual bool areBeside(const gimpm::Vec<Dim>& /*point*/, const gimpm::Vec<Dim>& /*part*/) const { return true; }

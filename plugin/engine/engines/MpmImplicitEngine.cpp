@@ -152,7 +152,7 @@ template <int Dim> void MpmImplicitEngine::step(Agreement& agreement)
 	advance(job);
 	const ValueLock lock;
 	for (const auto& condition : job.conditions)
-		for (const auto& [about, warning] : condition->warnings(isDynamic()))
+		for (const auto& [about, warning] : condition->warnings())
 			warn(plausibility.once(about, warning));
 	if (job.moving) warn(plausibility.once("gift", job.moving->warningOfContact()));
 	if ((maxSplits > 0 || job.model.grid.refinement) && clampedDomains > 0) splitOutgrown(job);

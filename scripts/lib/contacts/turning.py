@@ -110,7 +110,7 @@ def cylinder(cells=4, angle=1., stiffness=10., points=3, seconds=200):
 
 
 def vane(cells=6, width=1., angle=1., stiffness=10., pressure=5., points=2, seconds=300):
-	"""Two Boxes crossed, *width* cells thick, rough, in clay. The cylinder through their edges that slips is an upper bound, 2 pi r^2 c_u; where it is a band of one cell around that, (1 + h / 2 r)^2 of it."""
+	"""Two Boxes crossed, *width* cells thick, rough, in clay. The cylinder through their edges that slips is an upper bound, 2 pi r^2 c_u; on a grid the nodes of the cells in which the edges end, half a cell farther on average, turn with them, and the row of cells beyond is what shears, in its middle another half farther: (1 + h / r)^2 of it. As *band*, the torque over that."""
 	O.reset()
 	clay('tresca')
 	steel()
@@ -119,7 +119,8 @@ def vane(cells=6, width=1., angle=1., stiffness=10., pressure=5., points=2, seco
 	contact = MpmContact(stiffness=stiffness, **adhesion(1.))
 	bodies = [utils.box((0, 0, 0), extents, material='rigid', fixed=True) for extents in ((R, w, 1), (w, R, 1))]
 	rigid, solver = _around(hole, bodies, R / cells, contact, pressure * strength, points, True)
-	return _torques(rigid, contact, Course(solver, seconds), .1 / cells, angle, 2 * pi * (R**2 + w**2) * strength)
+	told = _torques(rigid, contact, Course(solver, seconds), .1 / cells, angle, 2 * pi * (R**2 + w**2) * strength)
+	return told | dict(band=told['torque'] / (1 + R / cells / sqrt(R**2 + w**2))**2)
 
 
 def ring(turns=1., steps=60, cells=4, stiffness=20., seconds=300):

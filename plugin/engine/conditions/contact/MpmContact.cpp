@@ -5,10 +5,10 @@
 #include "engine/conditions/contact/contact_picture.hpp"
 #include "engine/conditions/contact/contact_records.hpp"
 #include "engine/conditions/contact/contacts.hpp"
+#include "engine/conditions/contact/free_bodies.hpp"
 #include "engine/points/MpmPoint.hpp"
 #include "yade_api/registration.hpp"
 #include "yade_api/scene.hpp"
-#include <Eigen/Eigenvalues>
 
 namespace yade {
 
@@ -72,49 +72,15 @@ Se3r MpmContact::poseOf(size_t i) const
 	return { Vector3r::Map(pose), Quaternionr(Eigen::Map<const Eigen::Matrix<Real, 4, 1>>(pose + 3)) };
 }
 
-// Of a body that moves by the inverse of its masses, blocked ones left out.
 void MpmContact::requireStable(const Body& body, const Stiffness& K, Real dt, bool isHandedOver) const
 {
-	const State& state  = *body.state;
-	const auto   isFree = [&](int dof) { return !(state.blockedDOFs >> dof & 1); };
-	const bool   spins  = isFree(3) && isFree(4) && isFree(5);
-	Stiffness    moves  = Stiffness::Zero(); // root of the inverse of the masses
-	const auto   axes   = state.ori.toRotationMatrix();
-	for (int i = 0; i < 3; ++i) {
-		if (isFree(i)) moves(i, i) = 1 / std::sqrt(state.mass);
-		if (isFree(3 + i)) moves(3 + i, 3 + i) = 1 / std::sqrt(state.inertia[i]);
-	}
-	if (spins) moves.bottomRightCorner<3, 3>() = (axes * moves.bottomRightCorner<3, 3>() * axes.transpose()).eval();
-	const Real fastest  = Eigen::SelfAdjointEigenSolver<Stiffness>(moves * K * moves, Eigen::EigenvaluesOnly).eigenvalues()[5];
-	const Real critical = 2 / std::sqrt(std::max(fastest, 1e-300) / (isHandedOver ? 1 : 1 + stiffness));
+	const Real critical = 2 / std::sqrt(std::max(frequency2(*body.state, K), 1e-300) / (isHandedOver ? 1 : 1 + stiffness));
 	if (dt <= critical * (1 + 1e-9)) return;
 	throw std::invalid_argument(gimpm::sentence(
-	        "Body #", body.id, " of ", state.mass, " kg is too light for O.dt = ", dt, " s: contact is a spring of ",
+	        "Body #", body.id, " of ", body.state->mass, " kg is too light for O.dt = ", dt, " s: contact is a spring of ",
 	        K.topLeftCorner<3, 3>().diagonal().maxCoeff(), " N/m to it", isHandedOver ? "" : ", in series with the soil",
 	        ", and YADE's integrator is stable up to ", critical, " s. Give a smaller O.dt, a smaller MpmContact.stiffness (", stiffness,
 	        "), or a heavier body."));
-}
-
-void MpmContact::note(size_t i, Real period)
-{
-	if (touching.size() <= i) return;
-	Exchange& sum = exchanges[bodies[i]];
-	if (forces[i].isZero(0) && impulses[i].isZero(0)) sum = {};
-	else
-		sum.added += impulses[i], sum.all += impulses[i].norm() + period * forces[i].norm(), ++sum.steps;
-}
-
-string MpmContact::warningOfExchange() const
-{
-	constexpr Real most   = 0.1; // of what is exchanged
-	constexpr int  fewest = 5;   // load steps
-	for (const auto& [id, sum] : exchanges)
-		if (sum.steps >= fewest && sum.added.norm() > most * sum.all)
-			return gimpm::sentence(
-			        "iterPeriod > 1: of ", sum.all, " N s that body #", id, " and the soil have exchanged, (", sum.added.transpose(),
-			        ") N s has been added to the body by the stiffness handed over between the load steps (MpmContact.impulses), and not been taken from the soil: "
-			        "momentum grows by that. A smaller iterPeriod, 1 at best, keeps it.");
-	return "";
 }
 
 void MpmContact::actOnBodies(Scene& scene, bool isBetween)

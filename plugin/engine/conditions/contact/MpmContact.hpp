@@ -25,16 +25,9 @@ public:
 	vector<Real>     poses, stiffnesses, records;
 	vector<int>      areFree;
 	vector<Vector3r> impulsesSince;
-	// Not saved. Of members of clumps, where they were in these; of free bodies, what has been exchanged since they
-	// touch; and the O.dt that has been looked at
-	struct Exchange {
-		Vector3r added = Vector3r::Zero(); // of the momentum, by the stiffness [N s]
-		Real     all   = 0;
-		int      steps = 0;
-	};
-	std::map<int, Se3r>     ownPoses;
-	std::map<int, Exchange> exchanges;
-	Real                    stableFor = 0;
+	// Not saved. Of members of clumps, where they were in these; and the O.dt that has been looked at
+	std::map<int, Se3r> ownPoses;
+	Real                stableFor = 0;
 
 	YADE_API_NAME(MpmContact)
 	static const char* doc()
@@ -61,10 +54,10 @@ public:
 		  "Penalty [-] > 0: a pressure p presses p h / (stiffness E) deep, with cell size h and Young's modulus E of the soil.", positive);
 		v("bodies", &MpmContact::bodies, readonly, "Ids of the bodies (of clumps, those of the clumps) in the last step.");
 		v("forces", &MpmContact::forces, readonly,
-		  "Of each of *bodies*, force of the soil [N] at the end of the last converged step; per metre of thickness in plane strain.");
+		  "Of each of *bodies*, force of the soil [N] at the end of the last converged step; per metre of thickness in plane strain. Of a free body on the soil of MpmDynamicEngine, its mean over the load step if that has been cut.");
 		v("torques", &MpmContact::torques, readonly, "The same of the torques [N m] about their positions.");
 		v("impulses", &MpmContact::impulses, readonly,
-		  "Impulse [N s] that the stiffness handed over to a free body has added in the iterations between the last two load steps.");
+		  "Impulse [N s] that the stiffness handed over to a free body by MpmImplicitEngine has added in the iterations between the last two load steps; MpmDynamicEngine hands none over.");
 		v("touching", &MpmContact::touching, readonly, "Number of places on each of *bodies*, a quarter of a cell apart, that soil touches.");
 		v("slipping", &MpmContact::slipping, readonly, "Number of those at the limit of friction.");
 		v("poses", &MpmContact::poses, hidden, "");
@@ -87,11 +80,6 @@ public:
 	// std::invalid_argument where YADE's integrator would not be stable with the stiffness. In every iteration the
 	// soil itself is asked, or it is handed over to some.
 	void requireStable(const Body&, const gimpm::ContactLoad::Stiffness&, Real dt, bool isHandedOver) const;
-
-	// What the last load step and the iterations before it have given to one of the bodies. A sentence where too
-	// much of that is not from the soil.
-	void   note(size_t i, Real period);
-	string warningOfExchange() const;
 
 	const char*                   list() const override { return "contacts"; }
 	std::shared_ptr<Condition<2>> make(InPlane, const Group&, const Analysis&) const override;

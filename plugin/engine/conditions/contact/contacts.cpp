@@ -13,7 +13,15 @@ namespace yade {
 namespace {
 	Se3r poseOf(const State& state) { return { state.pos, state.ori.normalized() }; }
 
-	// A body that moves with its velocities for some time.
+	// Where a body gets with its velocities in some time.
+	Se3r ahead(const State& state, const Se3r& from, Real time)
+	{
+		const Real        angle = state.angVel.norm() * time;
+		const Quaternionr turn(Eigen::AngleAxis<Real>(angle, angle > 0 ? Vector3r(state.angVel.normalized()) : Vector3r(Vector3r::UnitX())));
+		return { from.position + time * state.vel, (turn * from.orientation).normalized() };
+	}
+
+	// The same of one that the engine moves.
 	Se3r moved(const Body& body, const Se3r& from, Real time)
 	{
 		const State& state = *body.state;
@@ -25,8 +33,7 @@ namespace {
 			throw std::invalid_argument(
 			        "Body #" + std::to_string(body.id) + " turns by " + std::to_string(angle)
 			        + " in one load step; admitted is 1 rad: decrease angVel or O.dt.");
-		const Quaternionr turn(Eigen::AngleAxis<Real>(angle, angle > 0 ? Vector3r(state.angVel.normalized()) : Vector3r(Vector3r::UnitX())));
-		return { from.position + time * state.vel, (turn * from.orientation).normalized() };
+		return ahead(state, from, time);
 	}
 
 	// A coefficient of 1 is given for rough bodies, and is no usual angle.
@@ -122,6 +129,7 @@ template <int Dim> int Contacts<Dim>::ownerOf(const shared_ptr<MpmContact>& cont
 	const auto former = known.find(body.id);
 	owner.isNew       = former == known.end();
 	if (!owner.byYade) owner.target = moved(body, owner.given, target - begin);
+	if (owner.isFree && inTime) owner.target = ahead(*body.state, now, target - begin - dt);
 	owner.byScript = !owner.isNew && !owner.byYade && !areSame(contact->poseOf(former->second), *body.state);
 	if (owner.byScript || (!owner.isNew && owner.byYade)) owner.begin = contact->poseOf(former->second);
 	if (owner.byScript) requireSmallTurn(body, owner.begin, owner.target);
@@ -186,6 +194,10 @@ template <int Dim> void Contacts<Dim>::join(gimpm::Model<Dim>& model, const Surr
 {
 	begin = end = around.begin, target = around.target, dt = around.scene.dt;
 	cellSize = model.grid.cellSize;
+	inTime   = around.analysis.isDynamic();
+	for (const auto& material : model.materials)
+		soil.density = std::max(soil.density, material.density);
+	soil.cellSize = cellSize, soil.answers = !around.analysis.isExplicit();
 	movers.emplace(around.scene);
 	for (const auto& contact : given)
 		add(contact, around.scene, model.grid);
@@ -259,6 +271,7 @@ template <int Dim> void Contacts<Dim>::reach(const StepOutcome<Dim>& step)
 {
 	const Real time = step.time;
 	end             = time;
+	addToMeans((time - step.from) / (target - begin));
 	for (const auto& contact : given)
 		keep(*contact);
 	keepRecords();
@@ -276,38 +289,51 @@ template <int Dim> void Contacts<Dim>::reach(const StepOutcome<Dim>& step)
 	}
 }
 
+// What a free body gets until the next load step: the impulse that the soil has got in this one.
+template <int Dim> void Contacts<Dim>::addToMeans(Real part)
+{
+	for (size_t i = 0; inTime && i < owners.size(); ++i)
+		owners[i].mean.force += part * system->loads[i].force, owners[i].mean.torque += part * system->loads[i].torque;
+}
+
 template <int Dim> void Contacts<Dim>::requireKept() const
 {
 	for (size_t i = 0; i < owners.size(); ++i)
-		if (owners[i].isFree) owners[i].contact->requireStable(*owners[i].body, system->loads[i].stiffness, dt, target - begin > 1.5 * dt);
+		if (owners[i].isFree && inTime && isBetween()) requirePeriod(*owners[i].body, system->loads[i], soil, dt, target - begin);
+		else if (owners[i].isFree)
+			owners[i].contact->requireStable(*owners[i].body, system->loads[i].stiffness, dt, isBetween());
 }
 
-// The soil is one field: on both sides of what is thinner than a cell the same nodes move it.
+// The soil is one field: on both sides of what is thinner than a cell the same nodes move it, and before its narrow
+// faces they are farther apart than these are wide.
 template <int Dim> string Contacts<Dim>::warningOfThinness() const
 {
 	for (size_t i = 0; i < members.size(); ++i) {
 		const auto& body = system->bodies[i];
 		if (body.thickness() >= cellSize * (1 - 1e-9)) continue;
 		std::optional<gimpm::Vec<Dim>> first;
+		bool                           isBetween = false, isNarrow = false;
 		for (const auto& r : system->records) {
 			if (r.body != int(i) || !r.touches) continue;
 			if (!first) first = r.normal;
-			if (first->dot(r.normal) > -0.5) continue;
-			return gimpm::sentence(
-			        body.name, " is ", body.thickness(), " m thick, less than a cell (", cellSize,
-			        " m), with soil on both sides: they press on it, but move as one soil, which neither slides along the body nor comes off it on one side alone. Cells smaller than its thickness part them.");
+			isBetween = isBetween || first->dot(r.normal) < -0.5;
+			isNarrow  = isNarrow || body.isNarrow(body.end.rotation.transpose() * r.normal);
 		}
+		if (!isNarrow && !isBetween) continue;
+		return gimpm::sentence(
+		        body.name, " is ", body.thickness(), " m thick, less than a cell (", cellSize, " m). ",
+		        isNarrow ? "Before it the soil resists about as to a body of that width. " : "",
+		        isBetween ? "Soil on its two sides moves as one, which neither slides along the body nor comes off it on one side alone. " : "",
+		        body.thickness() > 0 ? gimpm::sentence("Cells of at most ", body.thickness(), " m resolve it.") : "");
 	}
 	return "";
 }
 
-template <int Dim> std::map<string, string> Contacts<Dim>::warnings(bool isDynamic) const
+template <int Dim> std::map<string, string> Contacts<Dim>::warnings() const
 {
 	std::map<string, string> found;
 	found["coefficient"] = coefficient;
 	found["thin"]        = warningOfThinness();
-	for (const auto& contact : given)
-		if (isDynamic && found["exchange"].empty()) found["exchange"] = contact->warningOfExchange();
 	return found;
 }
 
@@ -324,9 +350,8 @@ template <int Dim> void Contacts<Dim>::keep(MpmContact& contact)
 			const auto since = impulses.find(owners[i].body->id);
 			owners[i].place  = contact.bodies.size();
 			contact.keep(
-			        owners[i].body->id, system->loads[i], owners[i].reached, owners[i].isFree,
+			        owners[i].body->id, owners[i].isFree && inTime ? owners[i].mean : system->loads[i], owners[i].reached, owners[i].isFree,
 			        since == impulses.end() ? Vector3r(Vector3r::Zero()) : since->second);
-			if (owners[i].isFree && !hasKept && target - begin > 1.5 * dt) contact.note(contact.bodies.size() - 1, target - begin);
 		}
 }
 

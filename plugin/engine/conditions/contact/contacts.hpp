@@ -5,6 +5,7 @@
 #include "core/terms/contact.hpp"
 #include "engine/analysis/movers.hpp"
 #include "engine/conditions/contact/MpmContact.hpp"
+#include "engine/conditions/contact/free_bodies.hpp"
 #include "engine/points/MaterialPoints.hpp"
 #include "yade_api/scene.hpp"
 #include <algorithm>
@@ -35,7 +36,7 @@ public:
 	Penalty penalty() const override;
 
 	// What the soil cannot feel of bodies near it, and others.
-	std::map<string, string> warnings(bool isDynamic) const override;
+	std::map<string, string> warnings() const override;
 
 	bool areBeside(const gimpm::Vec<Dim>& point, const gimpm::Vec<Dim>& part) const override;
 
@@ -45,9 +46,10 @@ private:
 		shared_ptr<MpmContact> contact;
 		shared_ptr<Body>       body;
 		// Where it stood when the run began: the scripts may have moved it since the last one.
-		Se3r given;
-		Se3r begin, target, reached; // of the run; reached: the end of the step
-		bool byYade = false, isFree = false, isNew = true;
+		Se3r               given;
+		Se3r               begin, target, reached; // of the run; reached: the end of the step
+		gimpm::ContactLoad mean;                   // of the run so far, in steps in time
+		bool               byYade = false, isFree = false, isNew = true;
 		// Has been moved since the last run, or its way was not finished then.
 		bool   byScript = false;
 		size_t place    = 0; // in the contact's list of bodies, once that is written
@@ -59,6 +61,8 @@ private:
 	};
 
 	void advanceTo(Real time);
+	void addToMeans(Real part);
+	bool isBetween() const { return target - begin > 1.5 * dt; } // whether YADE makes iterations between load steps
 	void add(const shared_ptr<MpmContact>&, const Scene&, const gimpm::Grid<Dim>&);
 	int  ownerOf(const shared_ptr<MpmContact>&, const Places& known, const Body&, const Scene&);
 	void requireTogether(const MpmContact&, const Body&, const Owner&, const Se3r& own) const;
@@ -80,7 +84,9 @@ private:
 	Real                                  begin = 0, target = 0, end = 0; // of the run; end: of the last step
 	Real                                  dt       = 0;                   // of an iteration of YADE
 	Real                                  cellSize = 0;                   // of the smallest cells
-	string                                coefficient;                    // doubt about an angle of friction
+	bool                                  inTime   = false;
+	SoilAtBody                            soil;
+	string                                coefficient; // doubt about an angle of friction
 	std::optional<Movers>                 movers;
 };
 
