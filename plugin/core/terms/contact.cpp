@@ -16,6 +16,9 @@ template <int Dim> std::string textAt(const RigidBody<Dim>& body, const char* wh
 	return text.str();
 }
 
+/// Soil that gets deeper into a body than this in a step has not been stopped by it, over the size of a cell.
+constexpr double deepest = 0.1;
+
 /// Of a place's springs on gap and slip [J].
 double stored(double pressure, double gap, double friction) { return pressure > 0 ? -gap / 2 * (pressure + slipSoftness * friction * friction / pressure) : 0; }
 
@@ -58,6 +61,7 @@ Contact<Dim>::Contact(ContactSystem<Dim>& system, const Beginning<Dim>& step)
         , division_(step.division)
 {
 	system.acting = this;
+	takeSides();
 	find(step);
 	for (int body = 0; body < int(system.bodies.size()); ++body) {
 		look(body);
@@ -65,6 +69,19 @@ Contact<Dim>::Contact(ContactSystem<Dim>& system, const Beginning<Dim>& step)
 	}
 	for (const Place& place : places_)
 		isSymmetric_ = isSymmetric_ && (place.law.friction == 0 || place.law.cap == 0);
+}
+
+/// Between nodes soil is straight, so that the middle of a point may get behind a facet by a little, as at the tip of a
+/// cone. Where soil is on one side alone, as at a closed mesh, that is no passage, and the facet is like a face of a Box.
+template <int Dim> void Contact<Dim>::takeSides()
+{
+	for (auto& body : system_.bodies)
+		body.soilSide = 0, body.slack = deepest * grid_.cellSize;
+	for (auto first = system_.records.begin(), last = first; first != system_.records.end(); first = last) {
+		last          = std::find_if(first, system_.records.end(), [&](const auto& r) { return r.body != first->body; });
+		const int odd = int(std::count_if(first, last, [](const auto& r) { return r.number % 2 != 0; }));
+		if (odd == 0 || odd == last - first) system_.bodies[first->body].soilSide = odd == 0 ? 1 : -1;
+	}
 }
 
 template <int Dim> void Contact<Dim>::find(const Beginning<Dim>& step)
@@ -282,9 +299,9 @@ template <int Dim> Refusal Contact<Dim>::refusal(const Eigen::VectorXd& d) const
 /// Soil farther from a body than it is looked for may move as far as that and more.
 template <int Dim> std::string Contact<Dim>::entered(const Eigen::VectorXd& d) const
 {
-	double most          = d.size() > 0 ? Eigen::Map<const Eigen::Matrix<double, Dim, -1>>(d.data(), Dim, d.size() / Dim).colwise().norm().maxCoeff() : 0;
-	most                 = division_.largest(most);
-	const double deepest = 0.1 * grid_.cellSize;
+	double most        = d.size() > 0 ? Eigen::Map<const Eigen::Matrix<double, Dim, -1>>(d.data(), Dim, d.size() / Dim).colwise().norm().maxCoeff() : 0;
+	most               = division_.largest(most);
+	const double depth = deepest * grid_.cellSize;
 	for (const NearPoint& near : nearPoints(system_.bodies, cloud_, basis_, grid_, most)) {
 		if (near.point >= division_.ownOf(cloud_.size())) continue;
 		const auto&    body     = system_.bodies[near.body];
@@ -293,9 +310,10 @@ template <int Dim> std::string Contact<Dim>::entered(const Eigen::VectorXd& d) c
 		if (!attached) continue;
 		const Vec<Dim>       u = attached->displacement(d), x = centre + u;
 		const Proximity<Dim> before = body.proximity(body.begin, centre, near.side), after = body.proximity(body.end, x, near.side);
-		const bool           isThrough = body.shape.isTwoSided ? after.gap < 0 && after.beside < 0 && before.gap >= 0 : body.isCrossed(centre, x);
+		const double         behind    = near.side == body.soilSide ? body.slack : 0;
+		const bool           isThrough = body.shape.isTwoSided ? after.gap < -behind && after.beside < 0 : body.isCrossed(centre, x);
 		const double         deeper    = before.gap - after.gap;
-		const bool           isInside  = !body.shape.isTwoSided && -deepest > after.gap && deeper > (-5 * deepest > after.gap ? 0 : deepest / 2);
+		const bool           isInside  = !body.shape.isTwoSided && -depth > after.gap && deeper > (-5 * depth > after.gap ? 0 : depth / 2);
 		if (!isThrough && !isInside) continue;
 		std::ostringstream text;
 		text << (isThrough ? " would let soil through" : " would get soil inside of it") << ", which moves " << u.norm()
