@@ -72,15 +72,18 @@ Contact<Dim>::Contact(ContactSystem<Dim>& system, const Beginning<Dim>& step)
 }
 
 /// Between nodes soil is straight, so that the middle of a point may get behind a facet by a little, as at the tip of a
-/// cone. Where soil is on one side alone, as at a closed mesh, that is no passage, and the facet is like a face of a Box.
+/// cone. Where soil touches on one side alone, as at a closed mesh, that is no passage, and the facet is like a face of
+/// a Box. Soil that is in sight of the other side counts only where nothing touches: at edges it is that of a neighbour.
 template <int Dim> void Contact<Dim>::takeSides()
 {
 	for (auto& body : system_.bodies)
 		body.soilSide = 0, body.slack = deepest * grid_.cellSize;
 	for (auto first = system_.records.begin(), last = first; first != system_.records.end(); first = last) {
-		last          = std::find_if(first, system_.records.end(), [&](const auto& r) { return r.body != first->body; });
-		const int odd = int(std::count_if(first, last, [](const auto& r) { return r.number % 2 != 0; }));
-		if (odd == 0 || odd == last - first) system_.bodies[first->body].soilSide = odd == 0 ? 1 : -1;
+		last                 = std::find_if(first, system_.records.end(), [&](const auto& r) { return r.body != first->body; });
+		const bool isTouched = std::any_of(first, last, [](const auto& r) { return r.touches; });
+		const auto isOn
+		        = [&](int odd) { return std::any_of(first, last, [&](const auto& r) { return r.number % 2 == odd && (r.touches || !isTouched); }); };
+		if (isOn(0) != isOn(1)) system_.bodies[first->body].soilSide = isOn(0) ? 1 : -1;
 	}
 }
 
@@ -117,7 +120,8 @@ template <int Dim> void Contact<Dim>::look(int number)
 	}
 	for (auto near = first; body.isNew && near != last; ++near) // Of a two-sided surface it never is.
 		if (body.proximity(body.begin, near->centre(), near->side).gap < 0)
-			obstacle_ = textAt(body, " has the middle of a material point inside of it", near->centre());
+			obstacle_ = textAt(body, " has the middle of a material point inside of it", near->centre())
+			        + ": let it begin beside the soil, or leave its place out of the region that is filled, as pack.inAlignedBox(...) - pack.inSphere(...)";
 }
 
 template <int Dim> void Contact<Dim>::addPlaces(int number)

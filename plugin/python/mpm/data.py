@@ -53,8 +53,8 @@ def contactForces(solver=None):
 	"""Where material points touch rigid bodies at the end of the last converged step, and the forces there.
 
 	:param solver: ``MpmImplicitEngine`` with the contacts; needed if there are several
-	:return: places (N, 3) [m] of the corners of domains that touch, and forces (N, 3) on the soil [N], per metre of thickness in plane strain; of length 0
-		if nothing touches
+	:return: places (N, 3) [m] of the soil that is touched, a quarter of a cell apart on the bodies' surfaces, and forces (N, 3) on it [N], per metre of thickness in plane strain; of length 0 if nothing
+		touches
 	:raises ValueError: no engine, or several of which none is named.
 	"""
 	data = engine.gridCells('contacts', solverOf('contactForces', solver))
