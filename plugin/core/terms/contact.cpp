@@ -73,7 +73,7 @@ Contact<Dim>::Contact(ContactSystem<Dim>& system, const Beginning<Dim>& step)
 
 /// Between nodes soil is straight, so that the middle of a point may get behind a facet by a little, as at the tip of a
 /// cone. Where soil touches on one side alone, as at a closed mesh, that is no passage, and the facet is like a face of
-/// a Box. Soil that is in sight of the other side counts only where nothing touches: at edges it is that of a neighbour.
+/// a Box. Soil in sight of the other side counts only where nothing touches: at edges it is that of a neighbour.
 template <int Dim> void Contact<Dim>::takeSides()
 {
 	for (auto& body : system_.bodies)
