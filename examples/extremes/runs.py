@@ -252,7 +252,7 @@ kinds = [ # of failures, by what the exception says
         ('not finite', 'not finite'),
         ('thrown off', 'thrown off the grid'),
         ('diverges', 'diverging'),
-        ('whole material point inside', 'penetrated'),
+        ('would get soil inside of it', 'penetrated'),
         ('would let soil through', 'penetrated'),
         ('above the tolerance', 'not converging'),
         ('times the tolerance', 'not converging'), # around a node

@@ -4,8 +4,6 @@
 
 	plate      a Box on a block of four cells a side without Poisson's ratio, pressed to .75 of its height: E ln .75 / .75
 	footing    a Box on undrained clay in plane strain, half by symmetry: load over width and c_u, Prandtl 2 + pi as long as it is shallow
-	tbar       a cylinder, wished in place in clay without weight under a pressure of 15 c_u, and moved through it in plane strain, half by symmetry: resistance
-	           over D c_u, plasticity theory 9.14 (smooth) and 11.94 (rough; Randolph and Houlsby 1984)
 	sphere     a smooth Sphere on an elastic half-space, axisymmetric, in a box 15 contact radii wide and deep: force of Hertz
 	free       the same in 3D, a quarter of it, and free: YADE lets the Sphere sink under its weight, which is the force of Hertz, until it rests
 	cylinder   the Sphere in plane strain, where a Sphere is a cylinder: half width and pressure of the contact for the measured force
@@ -22,11 +20,11 @@ sys.path.insert(0, os.path.join(os.path.dirname(sys.argv[0]), '..'))
 from options import readOptions
 
 options = readOptions('Rigid bodies pressed into soil.',
-        scene=('footing', "'plate', 'footing', 'tbar', 'sphere', 'free' or 'cylinder'"),
-        cells=(8, 'cells over half the width of the footing, over the radius of the bar, or over that of the contact'),
-        pointsPerCell=(2, 'material points per cell and axis; the bar needs 4, as its round side is made of their corners'),
-        depth=(0.1, 'of the footing at the end, as a part of its width B, or way of the bar, as a part of D'),
-        steps=(0, 'load steps; 0: 200 for a width, 20 for a cell of the bar, 10 for sphere and cylinder, 80 equilibria for the free sphere'),
+        scene=('footing', "'plate', 'footing', 'sphere', 'free' or 'cylinder'"),
+        cells=(8, 'cells over half the width of the footing, or over the radius of the contact'),
+        pointsPerCell=(2, 'material points per cell and axis'),
+        depth=(0.1, 'of the footing at the end, as a part of its width B'),
+        steps=(0, 'load steps; 0: 200 for a width, 10 for sphere and cylinder, 80 equilibria for the free sphere'),
         stiffness=(100., 'of the contact, over E / h'),
         every=(4, 'iterations of YADE from one equilibrium of the soil to the next, for the free Sphere'),
         rough=(0, '1: clay sticks to the footing up to c_u, 0: it slips freely'),
@@ -62,32 +60,6 @@ def plate():
 	F, exact = contact.forces[0][1], -E * np.log(0.75) / 0.75 * size
 	print(f'F = {F:.1f} N/m, exact {exact:.1f} N/m ({100 * (F / exact - 1):+.2f} %)')
 	return F / exact - 1, 'stress_yy', lambda ax: None
-
-
-def tbar():
-	D, cu = 1., 1e4
-	h = D / 2 / options.cells
-	size = 3 * D
-	grid = MpmGrid(cellSize=h)
-	O.materials.append(MpmVonMisesMat(young=200 * cu, poisson=0.49, density=1, yieldStress=np.sqrt(2) * cu, label='clay'))
-	O.materials.append(FrictMat(label='rigid'))
-	O.bodies.append(mpm.fill(pack.inAlignedBox((0, -size, -1), (size, size, 1)) - pack.inCylinder((0, 0, -2), (0, 0, 2), D / 2), grid, options.pointsPerCell, 'clay'))
-	bar = O.bodies[O.bodies.append(utils.sphere((0, 0, 0), D / 2, material='rigid', fixed=True))]
-	contact = MpmContact(friction=np.arctan(5) if options.rough else 0, adhesion=cu if options.rough else np.inf, stiffness=options.stiffness)
-	sides = [MpmBoundary(max=(0, inf, inf), fix='x'), MpmBoundary(min=(size, -inf, -inf), fix='x'), MpmBoundary(max=(inf, -size, inf), fix='y')]
-	around = MpmTraction(surface=[(size, size), (0, size)], pressure=15 * cu)
-	O.engines = [MpmImplicitEngine(grid=grid, fBar=True, boundaries=sides, loads=[around], contacts=[contact], newton=MpmNewton(minStep=1 / 64), label='solver')]
-	run(10, lambda: None)  # the pressure
-	bar.state.vel = (0, -options.depth * D, 0)
-	found = []
-	run(options.steps or int(np.ceil(20 * options.depth * D / h)), lambda: found.append([-bar.state.pos[1] / D, 2 * contact.forces[0][1] / (D * cu)]))
-	s, N = np.array(found).T
-	print('s/D    N = F / (D c_u)')
-	for i in np.linspace(0, len(s) - 1, min(len(s), 12)).astype(int): print(f'{s[i]:.3f}  {N[i]:.3f}')
-	late = s >= 0.5 * s[-1]
-	exact = 11.94 if options.rough else 9.14
-	print(f'mean from s = {s[late][0]:.2f} to {s[-1]:.2f} D: N = {N[late].mean():.3f}, from {N[late].min():.2f} to {N[late].max():.2f}; theory {exact} ({100 * (N[late].mean() / exact - 1):+.1f} %)')
-	return N[late].mean() / exact - 1, 'plasticStrain', lambda ax: ax.set(xlim=(-0.1 * D, 1.2 * D), ylim=(-(options.depth + 1) * D, D))
 
 
 def footing():
@@ -185,16 +157,17 @@ def compareLine(F, R, stiffness, h):
 	half = np.sqrt(4 * F * R / (np.pi * stiffness))
 	largest = 2 * F / (np.pi * half)
 	pos, force = mpm.contactForces()
-	down, x = -force[:, 1], pos[:, 0] / h
-	below, above = np.ceil(x - 0.1).astype(int) - 1, np.floor(x + 0.1).astype(int)  # cells of a corner; those at their sides have two
-	pressure = (np.bincount(below.clip(0), down, above.max() + 1) + np.bincount(above, down, above.max() + 1)) / 2 / h
-	width = np.sqrt(4 * (2 * down * pos[:, 0]**2).sum() / F)  # of the half ellipse with the same second moment
+	pos, force = (values[np.argsort(pos[:, 0])] for values in (pos, force))
+	x, down = pos[:, 0], -force[:, 1]
+	between = np.concatenate([[0], (x[1:] + x[:-1]) / 2, x[-1:] + h / 8])  # places on the body are as wide
+	pressure = np.diff(np.interp(np.arange(0, x[-1] + h, h), between, np.concatenate([[0], np.cumsum(down)]))) / h
+	width = np.sqrt(4 * (2 * down * x**2).sum() / F)  # of the half ellipse with the same second moment
 	print(f'F = {F:.0f} N/m: half width {width / h:.2f} h, Hertz {half / h:.2f} h ({100 * (width / half - 1):+.1f} %)')
 	print(f'largest mean pressure in a cell {pressure.max():.0f} Pa, Hertz {largest:.0f} Pa ({100 * (pressure.max() / largest - 1):+.1f} %)')
 	return width / half - 1
 
 
-error, *drawn = dict(plate=plate, footing=footing, tbar=tbar, sphere=lambda: halfSpace(True), free=free, cylinder=lambda: halfSpace(False))[options.scene]()
+error, *drawn = dict(plate=plate, footing=footing, sphere=lambda: halfSpace(True), free=free, cylinder=lambda: halfSpace(False))[options.scene]()
 print(f'{len(mpm.arrays()["id"])} material points, {sum(solves)} iterations in {len(solves)} steps, {time.time() - began:.1f} s')
 if options.picture:
 	field, limit, *plane = drawn

@@ -130,6 +130,13 @@ plans = {
                 contact(
                         'footing', '6', dict(cells=['2', '4', '8', '16'], stiffness=['5', '20', '100', '1000'], pointsPerCell=['2', '3']),
                         dict(cells=['2'], stiffness=['20']), dict(cells='cells over half the width', error='limit load'), depth='0.03'),
+        'tbar':
+                Plan(
+                        script=os.path.join(here, '..', 'penetration', 'deep.py'), errors=['error'],
+                        parameters=dict(scene="'tbar'", cells='4', pointsPerCell='3', depth='0.8', stiffness='10', stepsPerCell='8', picture='0', out="'out'"),
+                        together=dict(cells=['2', '4'], stiffness=['5', '10', '20'], pointsPerCell=['2', '3']), alone=dict(stepsPerCell=['4', '16']),
+                        quick=dict(cells=['2'], stiffness=['10'], pointsPerCell=['2']),
+                        words=dict(cells='cells over the radius', pointsPerCell='points per cell and axis', stepsPerCell='steps while the bar moves by a cell', error='resistance')),
         'seepage':
                 Plan(
                         script=os.path.join(here, '..', 'water', 'water.py'), errors=['error'],

@@ -16,6 +16,9 @@ template <int Dim> std::string textAt(const RigidBody<Dim>& body, const char* wh
 	return text.str();
 }
 
+/// Soil that gets deeper into a body than this in a step has not been stopped by it, over the size of a cell.
+constexpr double deepest = 0.1;
+
 /// Of a place's springs on gap and slip [J].
 double stored(double pressure, double gap, double friction) { return pressure > 0 ? -gap / 2 * (pressure + slipSoftness * friction * friction / pressure) : 0; }
 
@@ -58,6 +61,7 @@ Contact<Dim>::Contact(ContactSystem<Dim>& system, const Beginning<Dim>& step)
         , division_(step.division)
 {
 	system.acting = this;
+	takeSides();
 	find(step);
 	for (int body = 0; body < int(system.bodies.size()); ++body) {
 		look(body);
@@ -65,6 +69,22 @@ Contact<Dim>::Contact(ContactSystem<Dim>& system, const Beginning<Dim>& step)
 	}
 	for (const Place& place : places_)
 		isSymmetric_ = isSymmetric_ && (place.law.friction == 0 || place.law.cap == 0);
+}
+
+/// Between nodes soil is straight, so that the middle of a point may get behind a facet by a little, as at the tip of a
+/// cone. Where soil touches on one side alone, as at a closed mesh, that is no passage, and the facet is like a face of
+/// a Box. Soil in sight of the other side counts only where nothing touches: at edges it is that of a neighbour.
+template <int Dim> void Contact<Dim>::takeSides()
+{
+	for (auto& body : system_.bodies)
+		body.soilSide = 0, body.slack = deepest * grid_.cellSize;
+	for (auto first = system_.records.begin(), last = first; first != system_.records.end(); first = last) {
+		last                 = std::find_if(first, system_.records.end(), [&](const auto& r) { return r.body != first->body; });
+		const bool isTouched = std::any_of(first, last, [](const auto& r) { return r.touches; });
+		const auto isOn
+		        = [&](int odd) { return std::any_of(first, last, [&](const auto& r) { return r.number % 2 == odd && (r.touches || !isTouched); }); };
+		if (isOn(0) != isOn(1)) system_.bodies[first->body].soilSide = isOn(0) ? 1 : -1;
+	}
 }
 
 template <int Dim> void Contact<Dim>::find(const Beginning<Dim>& step)
@@ -100,7 +120,8 @@ template <int Dim> void Contact<Dim>::look(int number)
 	}
 	for (auto near = first; body.isNew && near != last; ++near) // Of a two-sided surface it never is.
 		if (body.proximity(body.begin, near->centre(), near->side).gap < 0)
-			obstacle_ = textAt(body, " has the middle of a material point inside of it", near->centre());
+			obstacle_ = textAt(body, " has the middle of a material point inside of it", near->centre())
+			        + ": let it begin beside the soil, or leave its place out of the region that is filled, as pack.inAlignedBox(...) - pack.inSphere(...)";
 }
 
 template <int Dim> void Contact<Dim>::addPlaces(int number)
@@ -288,9 +309,9 @@ template <int Dim> Refusal Contact<Dim>::refusal(const Eigen::VectorXd& d) const
 /// Soil farther from a body than it is looked for may move as far as that and more.
 template <int Dim> std::string Contact<Dim>::entered(const Eigen::VectorXd& d) const
 {
-	double most          = d.size() > 0 ? Eigen::Map<const Eigen::Matrix<double, Dim, -1>>(d.data(), Dim, d.size() / Dim).colwise().norm().maxCoeff() : 0;
-	most                 = division_.largest(most);
-	const double deepest = 0.1 * grid_.cellSize;
+	double most        = d.size() > 0 ? Eigen::Map<const Eigen::Matrix<double, Dim, -1>>(d.data(), Dim, d.size() / Dim).colwise().norm().maxCoeff() : 0;
+	most               = division_.largest(most);
+	const double depth = deepest * grid_.cellSize;
 	for (const NearPoint& near : nearPoints(system_.bodies, cloud_, basis_, grid_, most)) {
 		if (near.point >= division_.ownOf(cloud_.size())) continue;
 		const auto&    body     = system_.bodies[near.body];
@@ -299,12 +320,12 @@ template <int Dim> std::string Contact<Dim>::entered(const Eigen::VectorXd& d) c
 		if (!attached) continue;
 		const Vec<Dim>       u = attached->displacement(d), x = centre + u;
 		const Proximity<Dim> before = body.proximity(body.begin, centre, near.side), after = body.proximity(body.end, x, near.side);
-		const double         deeper = before.gap - after.gap, side = after.gap - after.normal.cwiseAbs().dot(cloud_.halfSize[near.point]);
+		const double         deeper = before.gap - after.gap, behind = near.side == body.soilSide ? body.slack : 0;
 		// Soil may get to a sheet from where it has not been looked for, and would be on both sides of it then.
-		const bool isUnseen  = side < -deepest && deeper > searchReach(body, grid_);
-		const bool isThrough = body.shape.isTwoSided ? (after.gap < 0 || isUnseen) && after.beside < 0 && before.gap >= 0
-		                                             : body.isCrossed(centre, x);
-		const bool   isInside  = !body.shape.isTwoSided && -deepest > after.gap && deeper > (-5 * deepest > after.gap ? 0 : deepest / 2);
+		const double side      = after.gap - after.normal.cwiseAbs().dot(cloud_.halfSize[near.point]);
+		const bool   isUnseen  = side < -depth && deeper > searchReach(body, grid_) && before.gap >= 0;
+		const bool   isThrough = body.shape.isTwoSided ? (after.gap < -behind || isUnseen) && after.beside < 0 : body.isCrossed(centre, x);
+		const bool   isInside  = !body.shape.isTwoSided && -depth > after.gap && deeper > (-5 * depth > after.gap ? 0 : depth / 2);
 		if (!isThrough && !isInside) continue;
 		std::ostringstream text;
 		text << (isThrough ? " would let soil through" : " would get soil inside of it") << ", which moves " << u.norm()

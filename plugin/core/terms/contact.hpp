@@ -100,6 +100,7 @@ private:
 		Attachment<Dim> attached;
 	};
 
+	void                      takeSides();
 	void                      find(const Beginning<Dim>&);
 	void                      addPlaces(int body);
 	void                      addPlace(int body, const SurfacePoint<Dim>&, const SoilNear<Dim>&, const std::vector<int>& around);

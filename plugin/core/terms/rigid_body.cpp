@@ -74,7 +74,10 @@ template <int Dim> Proximity<Dim> RigidBody<Dim>::proximity(const Pose<Dim>& pos
 
 template <int Dim> int RigidBody<Dim>::sideOf(const Pose<Dim>& pose, const Vec<Dim>& x) const
 {
-	return shape.isTwoSided && proximity(pose, x, 1).gap < 0 ? -1 : 1;
+	if (!shape.isTwoSided) return 1;
+	const double gap = proximity(pose, x, 1).gap;
+	if (soilSide != 0 && std::abs(gap) <= slack) return soilSide;
+	return gap < 0 ? -1 : 1;
 }
 
 template <int Dim> bool RigidBody<Dim>::isCrossed(const Vec<Dim>& beginsAt, const Vec<Dim>& endsAt) const

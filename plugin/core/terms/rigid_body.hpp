@@ -50,7 +50,9 @@ template <int Dim> struct RigidBody {
 	double          adhesion  = std::numeric_limits<double>::infinity(); ///< cap of the shear stress [Pa]
 	double          stiffness = 0;                                       ///< of the contact, over Young's modulus per cell [-]
 	Pose<Dim>       begin {}, end {};                                    ///< of the step
-	double          turn = 0; ///< by which it turns from one load step to the next, also where its poses do not tell [rad]
+	double          turn     = 0; ///< by which it turns from one load step to the next, also where its poses do not tell [rad]
+	int             soilSide = 0; ///< of a two-sided surface that has had soil in sight on one side alone: that side
+	double          slack    = 0; ///< how far behind the surface soil still counts as on that side [m]
 
 	/// `side` of a two-sided surface from which it is looked at: 1 where its normal points to, or -1.
 	Proximity<Dim> proximity(const Pose<Dim>&, const Vec<Dim>& x, int side) const;

@@ -26,7 +26,7 @@ _rigidColour = '#212529'
 def plot(field='displacement', deformed=True, grid=None, ghost=None, fileName=None, ax=None, range=None, colormap=None, plane=None, solver=None, loads=None, vectors=None, contours=None):
 	"""Draw the material points, coloured by a scalar field, and the background grid around them.
 
-	Each point is drawn as the box of matter that it stands for, deformed by its deformation gradient. In 3D the picture is a slice; a small one beside it, unless *ax* is given, shows where. Its title is
+	Each point is drawn as the box of matter that it stands for, deformed by its deformation gradient; where that is drawn out to five times the box, as beside bodies that are pushed deep into soil, as its domain. In 3D the picture is a slice; a small one beside it, unless *ax* is given, shows where. Its title is
 	the load factor, unless the axes have a title.
 
 	:param field: ``displacement`` (its length), ``strain_xy``, ``meanStress``, ``sqrt2J2``, ``totalStress_yy``, or a column of :func:`arrays`, of which a vector or tensor
@@ -62,7 +62,7 @@ def plot(field='displacement', deformed=True, grid=None, ghost=None, fileName=No
 	if not len(points['id']): raise ValueError('plot: the scene has no material points')
 	values, arrows, levels = scalarOrArray('plot', field, points), vectorsOf(vectors, points), levelsOf(contours)
 	section = _Section(solver, points, plane)
-	matter, kept = section.through(_corners(points, deformed))
+	matter, kept = section.through(_corners(points, deformed, solver.grid.dim))
 	isOwn, ax = ax is None, ax or _newAxes(fileName, np.concatenate(matter))
 	if grid: _drawGrid(ax, section, solver)
 	_drawMatter(ax, matter, values[kept], field, range, colormap)
@@ -124,10 +124,13 @@ def _slicePlane(plane, points):
 	return axis, at + 1e-6 * points['halfSize'][:, axis].min()  # not where boxes meet, but for round-off
 
 
-def _corners(points, deformed):
-	"""(N, 8, 3) corners of the matter of each point."""
+def _corners(points, deformed, dim):
+	"""(N, 8, 3) corners of the matter of each point; where that has become a needle, of its domain, which is all that the grid knows of it."""
 	box = signs * points['halfSize0'][:, None, :]
-	return points['pos'][:, None, :] + np.einsum('pij,pcj->pci', points['defGrad'], box) if deformed else points['pos0'][:, None, :] + box
+	if not deformed: return points['pos0'][:, None, :] + box
+	matter = np.einsum('pij,pcj->pci', points['defGrad'], box)
+	isNeedle = np.abs(matter[:, :, :dim]).max(axis=(1, 2)) > 5 * points['halfSize0'][:, :dim].max(axis=1)
+	return points['pos'][:, None, :] + np.where(isNeedle[:, None, None], signs * points['halfSize'][:, None, :], matter)
 
 
 def _newAxes(fileName, outlines):

@@ -39,7 +39,10 @@ def outline(body, normal, at, limits):
 	shape, shown = body.shape, [axis for axis in (0, 1, 2) if axis != normal]
 	if isinstance(shape, Sphere): return _circle(np.array(body.state.pos), shape.radius, normal, at, shown)
 	if isinstance(shape, Wall): return _line(shape.axis, body.state.pos[shape.axis], normal, shown, limits)
-	if isinstance(shape, Facet): corners, edges = cornersOf(body), triangleSides
+	if isinstance(shape, Facet):
+		corners, edges = cornersOf(body), triangleSides
+		isIn = np.abs(corners[:, normal] - at) <= 1e-9 * np.ptp(corners)
+		if isIn.sum() == 2: return corners[isIn][:, shown]  # an edge in the plane, by which it is felt there
 	elif isinstance(shape, Box): corners, edges = cornersOf(body), boxEdges
 	else: return np.empty((0, 2))
 	ends = cut(corners, corners[:, normal] >= at, edges, normal, at)

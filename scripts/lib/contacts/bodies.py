@@ -56,6 +56,32 @@ class Outline:
 		return np.where(inside, least, 0.)
 
 
+class QuarterCone:
+	"""A cone of 60 degrees and its shaft around the y axis as triangles, where x and z are positive, with the tip in the origin and as much cross section as a round one."""
+
+	def __init__(self, radius, length, sectors=6):
+		turns = np.linspace(0, np.pi / 2, sectors + 1)
+		self.radius, self.tip = radius, radius * np.sqrt(3)
+		rim = radius * np.sqrt(turns[1] / np.sin(turns[1])) * np.array([np.cos(turns), 0 * turns, np.sin(turns)]).T
+		low, high = rim + (0, self.tip, 0), rim + (0, self.tip + length, 0)
+		corners = [((0, 0, 0), low[k], low[k + 1]) for k in range(sectors)]
+		corners += [triangle for k in range(sectors) for triangle in ((low[k], high[k], high[k + 1]), (low[k], high[k + 1], low[k + 1]))]
+		self.ids = [O.bodies.append(utils.facet([tuple(map(float, c)) for c in three], material='rigid', fixed=True)) for three in corners]
+		self.start = np.array(O.bodies[self.ids[0]].state.pos)[:2]
+
+	move, way = Outline.move, Outline.way
+
+	def force(self, contact):
+		return Outline.force(self, contact)
+
+	def depths(self, places):
+		"""As of an Outline, from the round faces."""
+		x = places - (0, self.way[1], 0)
+		across = np.hypot(x[:, 0], x[:, 2])
+		fromCone = (x[:, 1] * self.radius / self.tip - across) * np.cos(np.pi / 6)
+		return np.maximum(0, np.minimum(fromCone, self.radius - across))
+
+
 class One:
 	"""A Box, Sphere, Wall or Facet by itself."""
 

@@ -10,7 +10,7 @@ import numpy as np
 from yade import mpm, pack, utils
 from yade.wrapper import MpmBoundary, MpmContact, MpmGrid, MpmImplicitEngine, MpmMohrCoulombMat, MpmNewton, MpmRefinement, MpmTraction, MpmTrescaMat, MpmVonMisesMat, Omega
 
-from .bodies import One, Outline, steel
+from .bodies import One, Outline, QuarterCone, steel
 from .course import Course, meanBetween, smoothness
 
 O = Omega()
@@ -163,6 +163,12 @@ def fullFlow(kind, law='tresca', rough=0., cells=4, depth=3., pressure=15., poin
 	return _told(course, h, depth * D, R, travel, N, inside, .5 * depth * D, diameters=travel[-1] / D)
 
 
+def _quarter(width, low):
+	"""Two planes of symmetry, two smooth sides, and the base."""
+	sides = [MpmBoundary(max=(0, inf, inf), fix='x'), MpmBoundary(max=(inf, inf, 0), fix='z'), MpmBoundary(max=(inf, low, inf), fix='xyz')]
+	return sides + [MpmBoundary(min=(width, -inf, -inf), fix='x'), MpmBoundary(min=(-inf, -inf, width), fix='z')]
+
+
 def inSpace(kind, law='vonMises', depth=3., cells=2, wide=5., points=2, stiffness=10., seconds=300):
 	"""A quarter of a smooth square pile or of a ball in 3D, from the surface into clay; sides and base *wide* radii away.
 
@@ -179,9 +185,7 @@ def inSpace(kind, law='vonMises', depth=3., cells=2, wide=5., points=2, stiffnes
 	length = travel + R
 	body = One(utils.box((0, length / 2, 0), (R, length / 2, R), material='rigid', fixed=True) if kind == 'box' else utils.sphere((0, R, 0), R, material='rigid', fixed=True))
 	contact = MpmContact(friction=0, stiffness=stiffness)
-	sides = [MpmBoundary(max=(0, inf, inf), fix='x'), MpmBoundary(max=(inf, inf, 0), fix='z'), MpmBoundary(max=(inf, low, inf), fix='xyz')]
-	sides += [MpmBoundary(min=(width, -inf, -inf), fix='x'), MpmBoundary(min=(-inf, -inf, width), fix='z')]
-	solver = MpmImplicitEngine(grid=grid, fBar=True, boundaries=sides, contacts=[contact], newton=MpmNewton(minStep=1 / 64), verbosity=0)
+	solver = MpmImplicitEngine(grid=grid, fBar=True, boundaries=_quarter(width, low), contacts=[contact], newton=MpmNewton(minStep=1 / 64), verbosity=0)
 	O.engines, O.dt = [solver], 1
 	course = Course(solver, seconds)
 	area = (R * R if kind == 'box' else pi * R * R / 4) * strength
@@ -189,17 +193,29 @@ def inSpace(kind, law='vonMises', depth=3., cells=2, wide=5., points=2, stiffnes
 	return _told(course, h, travel, R, found, N, inside, .6 * travel)
 
 
-def sand(kind, depth=4., cells=3, points=2, friction=None, stiffness=20., seconds=300):
-	"""A smooth cone or a rough pile with a flat end, jacked from the surface into sand of phi = 32 degrees, psi = 2 degrees, c = .3 kPa, whose stiffness grows with the depth.
+def _sand(grid, contact, sides):
+	"""Sand of phi = 32 degrees, psi = 2 degrees, c = .3 kPa with its weight, whose stiffness grows with the depth."""
+	solver = MpmImplicitEngine(grid=grid, boundaries=sides, loadCurve=[(0, 1)], contacts=[contact], newton=MpmNewton(minStep=1 / 64), verbosity=0, gravity=(0, -9.81, 0), gravityCurve=[(0, 1)])
+	O.engines, O.dt = [solver], 1
+	mpm.geostatic()
+	mpm.assign(young=lambda x: 5e6 + 15e6 * max(0., -x[1]))
+	return solver
+
+
+def _sandMaterial():
+	O.materials.append(MpmMohrCoulombMat(young=20e6, poisson=.3, density=1700, cohesion=300, frictionAngle=radians(32), dilationAngle=radians(2), label='soil'))
+	steel()
+
+
+def sand(kind, depth=10., radius=.4, cells=3, points=2, friction=None, stiffness=20., seconds=600):
+	"""A smooth cone or a rough pile with a flat end, jacked from the surface into sand, around the axis.
 
 	:param kind: 'cone' or 'box'
-	:param depth: travel in radii, of .2 m
+	:param depth: travel in radii
 	:param friction: of the body [degrees]
 	"""
 	O.reset()
-	radius = .2
-	O.materials.append(MpmMohrCoulombMat(young=20e6, poisson=.3, density=1700, cohesion=300, frictionAngle=radians(32), dilationAngle=radians(2), label='soil'))
-	steel()
+	_sandMaterial()
 	h, travel = radius / cells, depth * radius
 	ground = Ground(h, -travel, below=8 * radius, far=12 * radius, halvings=0, axisymmetric=True)
 	ground.fill(points)
@@ -207,10 +223,20 @@ def sand(kind, depth=4., cells=3, points=2, friction=None, stiffness=20., second
 	line = [(0, 0), (radius, tip), (radius, tip + travel + radius), (0, tip + travel + radius)]
 	body = Outline(line) if kind == 'cone' else One(utils.box((0, travel, 0), (radius, travel, radius), material='rigid', fixed=True))
 	contact = MpmContact(stiffness=stiffness, friction=radians(friction or 0))
-	solver = _engine(ground, contact, [], True, gravity=(0, -9.81, 0), gravityCurve=[(0, 1)])
-	solver.fBar = False
-	mpm.geostatic()
-	mpm.assign(young=lambda x: 5e6 + 15e6 * max(0., -x[1]))
-	course = Course(solver, seconds)
+	course = Course(_sand(ground.grid, contact, ground.rollers(True)), seconds)
 	found, N, inside = _push(course, body, contact, h, travel, lambda F: F / (pi * radius**2) / 1e3)
+	return _told(course, h, travel, radius, found, N, inside, .6 * travel, unit='kPa')
+
+
+def sandInSpace(depth=3., radius=.4, cells=2, wide=5., points=2, stiffness=20., seconds=600):
+	"""A quarter of the smooth cone in 3D; sides and base *wide* radii away."""
+	O.reset()
+	_sandMaterial()
+	h, travel = radius / cells, depth * radius
+	width, low = ceil(wide * cells) * h, -ceil((wide + depth) * cells) * h
+	grid = MpmGrid(cellSize=h, dim=3)
+	O.bodies.append(mpm.fill(pack.inAlignedBox((0, low, 0), (width, 0, width)), grid, points, 'soil'))
+	body, contact = QuarterCone(radius, travel + radius), MpmContact(friction=0, stiffness=stiffness)
+	course = Course(_sand(grid, contact, _quarter(width, low)), seconds)
+	found, N, inside = _push(course, body, contact, h, travel, lambda F: F / (pi * radius**2 / 4) / 1e3)
 	return _told(course, h, travel, radius, found, N, inside, .6 * travel, unit='kPa')

@@ -61,6 +61,7 @@ add('tbar-fine', 'penetration.fullFlow', smooth | dict(late=near(9.14, .05)), di
 add('pile-3d', 'penetration.inSpace', dict(part=atLeast(.999), inside=atMost(.05)), dict(depth=1.5), kind='box')
 add('ball-3d', 'penetration.inSpace', dict(part=atLeast(.999), inside=atMost(.05)), dict(depth=1.), kind='ball', depth=2.)
 add('cone-sand', 'penetration.sand', smooth, dict(depth=2.), kind='cone')
+add('cone-sand-3d', 'penetration.sandInSpace', dict(part=atLeast(.999), inside=atMost(.05)), dict(depth=1.))
 add('pile-sand', 'penetration.sand', smooth, dict(depth=2.), kind='box', friction=20.)
 
 # 2. Thin and small bodies: a force that is there, and the same at five places in a cell

@@ -209,6 +209,29 @@ namespace {
 		EXPECT_EQ(before, block.cloud.position);
 	}
 
+	/// The middles of the highest points are .125 m from it. A tenth of a cell is .05 m.
+	TEST(Contact, SoilOnOneSideOfASheetMayGetBehindItALittle)
+	{
+		Block<2> block;
+		block.rollers();
+		auto& sheet            = block.add(RigidKind::sheet, { 0, 1.5 });
+		sheet.shape.isTwoSided = true;
+		sheet.stiffness        = 0.01;
+		sheet.end.position[1] -= 0.15;
+		EXPECT_EQ(block.step().failure, Failure::penetrated) << "which side is the soil's is not known yet";
+		EXPECT_NE(block.report.cause.find("body #7 would let soil through"), std::string::npos) << block.report.cause;
+		for (const double down : { 0.05, 0.15, 0.16 }) {
+			sheet.end.position[1] = 1.5 - down;
+			EXPECT_TRUE(block.step().converged()) << block.report.cause;
+			EXPECT_GT(block.contacts.loads[0].force[1], 0);
+		}
+		EXPECT_GT(block.cloud.position.back()[1], sheet.end.position[1]);
+		for (const auto& record : block.contacts.records)
+			EXPECT_EQ(record.number % 2, block.contacts.records[0].number % 2) << "its other side does not see what is behind it";
+		sheet.end.position[1] = 1.5 - 0.2;
+		EXPECT_EQ(block.step().failure, Failure::penetrated);
+	}
+
 	TYPED_TEST(ContactOf, WhatIsCrossed)
 	{
 		constexpr int  Dim   = TypeParam::value;

@@ -152,6 +152,12 @@ namespace {
 		EXPECT_NEAR(body.proximity(body.begin, { 0.2, 0.2, -0.1 }, 1).beside, -0.2, 1e-15);
 		EXPECT_NEAR(body.proximity(body.begin, { 0.5, -0.3, 0 }, 1).beside, 0.3, 1e-15);
 		EXPECT_NEAR(body.proximity(body.begin, { 1, 1, 0 }, 1).beside, std::sqrt(0.5), 1e-15);
+		body.soilSide = 1, body.slack = 0.02;
+		EXPECT_EQ(body.sideOf(body.begin, { 0.2, 0.2, -0.01 }), 1);
+		EXPECT_EQ(body.sideOf(body.begin, { 0.2, 0.2, -0.03 }), -1);
+		body.soilSide = -1;
+		EXPECT_EQ(body.sideOf(body.begin, { 0.2, 0.2, 0.01 }), -1);
+		EXPECT_EQ(body.sideOf(body.begin, { 0.2, 0.2, 0.03 }), 1);
 	}
 
 } // namespace
