@@ -29,6 +29,8 @@ options = readOptions('Sand that yields: iterations, cuts and loads.',
         young=(2e8, "Young's modulus of the sand below the footing [Pa]"),
         steps=(40, 'load steps'),
         factor=(1e-2, 'of the ghost stabilisation'),
+        memory=(0., "of the ghost stabilisation, 0 to 1"),
+        where=('boundary', "'boundary' or 'aggregates'"),
         axisymmetric=(0, '1: the footing is circular, of diameter B'))
 
 B, density, gravity = 1., 2000, 10.
@@ -40,7 +42,7 @@ def material(label, cohesion, phi, psi, young, density):
 
 
 def solverOf(grid, boundaries, **settings):
-	O.engines = [MpmImplicitEngine(grid=grid, boundaries=boundaries, ghost=MpmGhost(factor=options.factor), verbosity=0, label='solver', **settings)]
+	O.engines = [MpmImplicitEngine(grid=grid, boundaries=boundaries, ghost=MpmGhost(factor=options.factor, where=options.where, memory=options.memory), verbosity=0, label='solver', **settings)]
 	O.dt = 1 / options.steps
 
 
@@ -98,7 +100,7 @@ for _ in range(options.steps):
 	curve.append((solver.loadFactor, measure()))
 times, values = np.array(curve).T if curve else (np.zeros(1), np.zeros(1))
 parts = [part for part in (.25, .5, .75, 1) if part <= times[-1] + 1e-9]
-print(f"{options.scene} psi {options.psi:g} cells {options.cells} cut {options.cut:g} settlement {options.settlement:g} steps {options.steps} factor {options.factor:g}: {outcome}; {name} "
+print(f"{options.scene} psi {options.psi:g} cells {options.cells} cut {options.cut:g} settlement {options.settlement:g} steps {options.steps} factor {options.factor:g} {options.where} memory {options.memory:g}: {outcome}; {name} "
       f"{' '.join(format(np.interp(part, times, values), form) for part in parts)}; {count['iterations']} iterations (at most {worst}), {count['cuts']} cuts, "
       f"{count['lineSearchTrials']} trials, {count['luSolves']} LU, {count['reusedFactors']} factors again; {time.process_time() - begin:.1f} s")
 if outcome != 'complete': print(reason)

@@ -69,13 +69,14 @@ template <int Dim> StepReport loadStep(PointCloud<Dim>& cloud, const Model<Dim>&
 	solver.resetTimes();
 	const Halo halo(cloud, *model.division, [&] { return pointsForOthers(cloud, model); });
 	// 1. basis functions and populated cells; boundary cells, ghost faces and K_g
-	const StepSystem<Dim> system(cloud, model, load, report);
+	StepSystem<Dim> system(cloud, model, load, report);
 	if (!isHeld(system, cloud, load, report)) return report;
 	// 2. to 4. points to nodes, assembly and Newton's method on the nodes
 	const bool            predicts   = last && !system.hasInertia() && system.map.isAlone();
 	const Eigen::VectorXd prediction = predicts ? predictionFor(system, *last, load.growth()) : Eigen::VectorXd();
-	const Eigen::VectorXd growth     = equilibrium(system, solver, report, prediction);
-	const Eigen::VectorXd d          = system.map.displacements(growth);
+	if (model.ghost.memory > 0) system.ghostFrom = model.ghost.memory * prediction;
+	const Eigen::VectorXd growth = equilibrium(system, solver, report, prediction);
+	const Eigen::VectorXd d      = system.map.displacements(growth);
 	if (!model.terms.empty() || system.hasInertia() || system.isCoupled()) explain(system, d, report);
 	if (report.converged() && prediction.size() > 0 && std::isfinite(model.newton.stepTolerance)) {
 		const Stopwatch watch(report.times.update);

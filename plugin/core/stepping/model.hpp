@@ -19,6 +19,14 @@ namespace gimpm {
 struct GhostSettings {
 	double       factor  = 1e-2; ///< gamma_k over the modulus; 0: plain GIMPM, no faces are looked for
 	GhostScaling scaling = GhostScaling::meshIndependent;
+	/// Part of the last step's displacements, in the ratio of the loads, of which kinks cost nothing.
+	double memory = 0;
+	/// Of a cell, below which it is ill-filled: then it is tied to others, and other faces keep `elsewhere` of their
+	/// stiffness (core/terms/aggregates.hpp). 0: all faces alike.
+	double threshold = 0;
+
+	/// Holds what no stress holds, as points at the apex of their yield surface in well-filled cells.
+	static constexpr double elsewhere = 1e-2;
 };
 
 struct NewtonSettings {

@@ -2,6 +2,7 @@
 #include "core/stepping/step_system.hpp"
 #include "core/base/stopwatch.hpp"
 #include "core/grid/mixed_cells.hpp"
+#include "core/terms/aggregates.hpp"
 #include "core/terms/at_middle.hpp"
 #include "core/terms/inertia.hpp"
 #include <algorithm>
@@ -28,6 +29,8 @@ std::vector<GhostFace<Dim>> stabilise(const PointStiffness& moduli, const Model<
 	report.boundaryCells     = int(boundary.size());
 	report.ghostFaces        = int(faces.size());
 	weighGhostFaces(faces, basis, moduli, model.grid, model.ghost.factor, model.ghost.scaling);
+	if (model.ghost.threshold > 0)
+		lessenElsewhere(faces, tiesOfIllFilled(faces, basis, moduli, model.grid, model.ghost.threshold), GhostSettings::elsewhere);
 	return faces;
 }
 
@@ -132,7 +135,7 @@ template <int Dim> void StepSystem<Dim>::resistPoints()
 	if (model.atMiddle) terms.push_back(std::make_unique<InternalForceAtMiddle<Dim>>(basis, colours, points, model.materials));
 	else
 		terms.push_back(std::make_unique<InternalForce<Dim>>(basis, colours, points, model.materials));
-	if (!faces.empty()) terms.push_back(std::make_unique<GhostForce<Dim>>(share_->faces(), model.grid.cellSize));
+	if (!faces.empty()) terms.push_back(std::make_unique<GhostForce<Dim>>(share_->faces(), model.grid.cellSize, ghostFrom));
 }
 
 template <int Dim> void StepSystem<Dim>::makeTerms(const Load<Dim>& load)

@@ -30,6 +30,7 @@ template <int Dim> struct StepSystem {
 	const FreeDofs&        dofs       = constraints.dofs;
 	const Eigen::VectorXd& prescribed = constraints.prescribed; ///< of displacements [m]
 	Eigen::VectorXd        external;                            ///< body and point forces [N]
+	Eigen::VectorXd        ghostFrom;                           ///< displacements of which kinks cost nothing, by GhostSettings::memory; empty: none [m]
 	Eigen::VectorXd        ownMotion; ///< displacements by which the body goes on by itself, with the prescribed ones; empty without inertia [m]
 
 	int nodalSize() const { return Dim * int(basis.nodes.size()); } ///< of the displacements

@@ -64,10 +64,10 @@ template <int Dim> void forGhostPairs(const std::vector<GhostFace<Dim>>&, double
 /// f += K_g d (eq. 6).
 template <int Dim> void addGhostForce(const std::vector<GhostFace<Dim>>&, double h, const Eigen::VectorXd& d, Eigen::VectorXd& f);
 
-/// K_g d with the faces of a step.
+/// K_g (d - from) with the faces of a step; an empty `from` is zero.
 template <int Dim> class GhostForce : public Term<Dim> {
 public:
-	GhostForce(const std::vector<GhostFace<Dim>>& faces, double h) : faces_(faces), h_(h) { }
+	GhostForce(const std::vector<GhostFace<Dim>>& faces, double h, const Eigen::VectorXd& from) : faces_(faces), h_(h), from_(from) { }
 
 	void                        mark(NodeMatrix<Dim>& K) const override { markGhostPattern(faces_, K); }
 	std::optional<PointFailure> add(const Eigen::VectorXd& d, const TermSum<Dim>& sum) const override;
@@ -75,6 +75,7 @@ public:
 private:
 	const std::vector<GhostFace<Dim>>& faces_;
 	double                             h_;
+	const Eigen::VectorXd&             from_;
 };
 
 } // namespace gimpm

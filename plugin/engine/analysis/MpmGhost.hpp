@@ -12,6 +12,9 @@ public:
 
 	Real   factor     = 1e-2;
 	string scaling    = "mesh-independent";
+	string where      = "boundary";
+	Real   threshold  = 0.25;
+	Real   memory     = 0;
 	Real   massFactor = std::numeric_limits<Real>::quiet_NaN();
 
 	YADE_API_NAME(MpmGhost)
@@ -29,6 +32,14 @@ public:
 		  "Factor of the integral over a face. 'mesh-independent': gamma_k h / 3; 'paper': gamma_k h^3 / 3 (eq. 2), which fades on fine grids. Equal at "
 		  "h = 1 m.",
 		  oneOf("mesh-independent", "paper"));
+		v("where", &MpmGhost::where, 0,
+		  "'boundary', the default: alike on all faces of boundary cells; 'aggregates', for sand: on those that tie ill-filled cells to well-filled ones, a hundredth elsewhere.",
+		  oneOf("boundary", "aggregates"));
+		v("threshold", &MpmGhost::threshold, 0, "With where='aggregates', part of a cell, from above 0 to 1, below which it is ill-filled.",
+		  admitting("a number from above 0 to 1", [](Real part) { return part > 0 && part <= 1; }));
+		v("memory", &MpmGhost::memory, 0,
+		  "Part [-] of the last step's displacements, in the ratio of the loads, of which kinks cost nothing: 0, the default, to 1. For sand: steady flow is not resisted.",
+		  admitting("a number from 0 to 1", [](Real part) { return part >= 0 && part <= 1; }));
 		v("massFactor", &MpmGhost::massFactor, 0,
 		  "Of MpmDynamicEngine, ghost mass [-] >= 0: gamma_M is this times the density, the lower of a face's two cells. NaN, the default: 1e-3, with scheme='explicit' 1/4. 0: none.",
 		  admitting("a finite number >= 0, or NaN for the default", [](Real value) { return std::isnan(value) || nonNegative(value); }));

@@ -271,6 +271,8 @@ template <int Dim> gimpm::Model<Dim> emptyModel(const Analysis& analysis, const 
 	model.basis                   = analysis.basis == "mpm" ? gimpm::Basis::linear : gimpm::Basis::gimp;
 	model.fBar                    = analysis.fBar;
 	model.ghost                   = { ghost.factor, ghost.scaling == "paper" ? gimpm::GhostScaling::paper : gimpm::GhostScaling::meshIndependent };
+	model.ghost.memory            = ghost.memory;
+	model.ghost.threshold         = ghost.where == "aggregates" ? ghost.threshold : 0;
 	model.newton.tolerance        = newton.tolerance;
 	model.newton.maxIterations    = newton.maxIterations;
 	model.newton.lineSearchTrials = newton.lineSearchTrials;

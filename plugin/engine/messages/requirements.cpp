@@ -116,9 +116,21 @@ static void requireEqualCells(const Analysis& engine)
 		throw std::invalid_argument("MpmGrid.refinements, cells of several sizes, cannot go with " + what + " yet; leave one of the two out.");
 }
 
+static void requireGhost(const Analysis& engine)
+{
+	if (engine.ghost->memory > 0 && engine.isDynamic())
+		throw std::invalid_argument(
+		        "MpmGhost.memory = " + std::to_string(engine.ghost->memory)
+		        + " is of steps that are predicted from the last one, which steps in time are not: with " + engine.className() + " 0 is admitted.");
+	if (engine.ghost->where == "aggregates" && processes()->size() > 1)
+		throw std::invalid_argument(
+		        "MpmGhost.where = 'aggregates' cannot go with several processes yet, none of which knows how all cells are filled: 'boundary', or one process, is admitted.");
+}
+
 void requireSettings(const Analysis& engine)
 {
 	engine.requireAttributes();
+	requireGhost(engine);
 	requireEqualCells(engine);
 	if (engine.newton->linearSolver == "amg") requireMultigrid();
 	if (engine.maxSplits > 0 && engine.basis != "gimp")
