@@ -22,7 +22,7 @@ targets = .2, .1, .05, .02, .01, .003
 
 def picture(found, path):
 	"""The front of each scene, all that was run, and one choice beside it."""
-	figure, plots = plt.subplots(4, 4, figsize=(13.5, 9.4), layout='constrained')
+	figure, plots = plt.subplots(5, 4, figsize=(13.5, 11.6), layout='constrained')
 	for axes, panel in zip(plots.flat, found.values()):
 		front, (name, beside) = panel.front(), panel.beside
 		for points, style in (panel.points, dict(marker='o', color='.75', markersize=3)), (beside, dict(marker='^', color='tab:orange', markersize=4.5, zorder=3)), (front, dict(marker='o', color='tab:blue', markersize=4)):
@@ -42,6 +42,7 @@ def picture(found, path):
 			axis.set_tick_params(labelsize=8, pad=2)
 	for axes in plots[:, 0]: axes.set_ylabel('error [%]', fontsize=8.5)
 	legend(plots.flat[len(found)])
+	for axes in plots.flat[len(found) + 1:]: axes.axis('off')
 	figure.savefig(path, dpi=130)
 	plt.close(figure)
 

@@ -240,3 +240,18 @@ O.run(2, wait=True)
 ''')
 	texts = sorted(path.read_bytes() for path in yade.folder.glob('split-*.vtu'))
 	assert any(b'"parent"' in text and b'"splits"' in text and b'NumberOfCells="32"' in text for text in texts)
+
+
+def test_a_needle_is_not_split_into_soil_that_lies_elsewhere(yade):
+	"""Its halves would be more than a cell away."""
+	bodies = yade(stretched + '''
+found = []
+for stretch in 2.5, 9:
+	solver = block((stretch, 0, 0, 0, 0.8, 0, 0, 0, 1), engine=MpmDynamicEngine, maxSplits=4)
+	before = len(O.bodies)
+	O.step()
+	found.append([len(O.bodies) - before, solver.clampedDomains])
+print(json.dumps(found))
+''').result
+	(halves, left), (none, kept) = bodies
+	assert halves > 0 and left == 0 and none == 0 and kept > 0
