@@ -302,9 +302,8 @@ template <int Dim> std::string Contact<Dim>::entered(const Eigen::VectorXd& d) c
 		const double         deeper = before.gap - after.gap, side = after.gap - after.normal.cwiseAbs().dot(cloud_.halfSize[near.point]);
 		// Soil may get to a sheet from where it has not been looked for, and would be on both sides of it then.
 		const bool isUnseen  = side < -deepest && deeper > searchReach(body, grid_);
-		const bool isThrough = body.shape.isTwoSided ? (after.gap < 0 || isUnseen) && after.beside < 0 && before.gap >= 0
-		                                             : body.isCrossed(centre, x);
-		const bool   isInside  = !body.shape.isTwoSided && -deepest > after.gap && deeper > (-5 * deepest > after.gap ? 0 : deepest / 2);
+		const bool isThrough = body.shape.isTwoSided ? (after.gap < 0 || isUnseen) && after.beside < 0 && before.gap >= 0 : body.isCrossed(centre, x);
+		const bool isInside  = !body.shape.isTwoSided && -deepest > after.gap && deeper > (-5 * deepest > after.gap ? 0 : deepest / 2);
 		if (!isThrough && !isInside) continue;
 		std::ostringstream text;
 		text << (isThrough ? " would let soil through" : " would get soil inside of it") << ", which moves " << u.norm()
