@@ -125,5 +125,11 @@ for cells, points in (4, 2), (8, 3), (16, 2):
 	add(f'footing-{cells}', 'known.example', dict(error=(-.04, .04)) if cells >= 8 else dict(error=(-.1, .1)), scene='footing', cells=cells, pointsPerCell=points, depth=.03)
 add('footing-rough', 'known.example', dict(error=(-.04, .04)), scene='footing', cells=8, pointsPerCell=3, depth=.03, rough=1)
 
+# Cost: the part of an iteration with a plate on 5 % of the cells, and microseconds a place by their number
+for dim, wide in (2, 80), (3, 10):
+	for friction in 0., .1:
+		add(f'cost-{dim}d-{friction:g}', 'cost.share', dict(share=atMost(.25)), dim=dim, wide=wide, friction=friction)
+add('cost-search', 'cost.search', dict(growth=atMost(2)))
+
 # 9. Random scenes: the part of them that ends, and the largest of what is left over of the forces in statics
 add('random', 'scenes.drawn', dict(ended=atLeast(.995), balance=atMost(1e-6)), dict(seeds=[0, 60], seconds=120), seeds=[0, 1000])

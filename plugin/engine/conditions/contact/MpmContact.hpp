@@ -54,7 +54,7 @@ public:
 		  "Penalty [-] > 0: a pressure p presses p h / (stiffness E) deep, with cell size h and Young's modulus E of the soil.", positive);
 		v("bodies", &MpmContact::bodies, readonly, "Ids of the bodies (of clumps, those of the clumps) in the last step.");
 		v("forces", &MpmContact::forces, readonly,
-		  "Of each of *bodies*, force of the soil [N] at the end of the last converged step; per metre of thickness in plane strain. Of a free body on the soil of MpmDynamicEngine, its mean over the load step if that has been cut.");
+		  "Of each of *bodies*, force of the soil [N] at the end of the last converged step; per metre of thickness in plane strain.");
 		v("torques", &MpmContact::torques, readonly, "The same of the torques [N m] about their positions.");
 		v("impulses", &MpmContact::impulses, readonly,
 		  "Impulse [N s] that the stiffness handed over to a free body by MpmImplicitEngine has added in the iterations between the last two load steps; MpmDynamicEngine hands none over.");
