@@ -12,8 +12,8 @@ namespace gimpm {
 template <int Dim> struct Attachment {
 	static constexpr int nodes = 1 << Dim;
 
-	Index<Dim>                cell; ///< as if the grid were not periodic, in cells of its level
-	int                       level;
+	Index<Dim>                cell  = Index<Dim>::Zero(); ///< as if the grid were not periodic, in cells of its level
+	int                       level = 0;
 	std::array<int, nodes>    node;   ///< numbers, x fastest
 	std::array<double, nodes> weight; ///< values of the functions [-]
 

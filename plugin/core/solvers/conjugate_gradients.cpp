@@ -11,12 +11,12 @@ constexpr const char* notDefinite = "the matrix is not positive definite";
 
 /// Vectors are gone through in parts, side by side in the threads; the parts of a sum are added in their order,
 /// whatever the number of threads.
-constexpr int partSize = 8192, worthwhileInThreads = 8; ///< the latter parts: see BlockMatrix
+constexpr int partSize = 8192, partsWorthThreads = 8; ///< the latter: see BlockMatrix
 
 template <class F> void forParts(Eigen::Index size, F&& f)
 {
 	const int parts = int((size + partSize - 1) / partSize);
-#pragma omp parallel for schedule(static) if (parts > worthwhileInThreads)
+#pragma omp parallel for schedule(static) if (parts > partsWorthThreads)
 	for (int i = 0; i < parts; ++i) {
 		const Eigen::Index begin = Eigen::Index(i) * partSize;
 		f(i, begin, std::min<Eigen::Index>(partSize, size - begin));

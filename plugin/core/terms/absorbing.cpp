@@ -29,7 +29,7 @@ template <int Dim> bool holdsFace(const HeldBox<Dim>& box, const Index<Dim>& cel
 }
 
 /// Of the material in a cell: its volume, and impedances rho c times that.
-struct Filling {
+struct FilledCell {
 	double volume = 0, pressure = 0, shear = 0;
 };
 
@@ -111,7 +111,7 @@ void Absorption<Dim>::addDrag(
 	std::vector<char> isAskedFor(step.basis.cells.size(), 0);
 	for (const Face& face : faces)
 		isAskedFor[face.cell] = 1;
-	std::vector<Filling> cells(step.basis.cells.size());
+	std::vector<FilledCell> cells(step.basis.cells.size());
 	forOverlaps(isAskedFor, step.basis, step.grid, [&](int cell, int p, auto within) {
 		const double     volume = step.stiffnessOf(p).volume, density = masses[p] / volume, overlap = within(volume);
 		const WaveModuli moduli = waveModuli(materials, step.cloud, p);
@@ -121,9 +121,9 @@ void Absorption<Dim>::addDrag(
 	});
 	const double h = step.grid.cellSize;
 	for (const Face& face : faces) {
-		const Filling& cell   = cells[face.cell];
-		const double   inside = step.grid.origin[0] + h * (Grid<Dim>::index(step.basis.cells[face.cell])[0] + 0.5);
-		const double   filled = std::min(cell.volume / (std::pow(h, Dim) * ring(inside, step.grid)), 1.);
+		const FilledCell& cell   = cells[face.cell];
+		const double      inside = step.grid.origin[0] + h * (Grid<Dim>::index(step.basis.cells[face.cell])[0] + 0.5);
+		const double      filled = std::min(cell.volume / (std::pow(h, Dim) * ring(inside, step.grid)), 1.);
 		for (const int node : face.node) {
 			// the integral of the node's shape function over the face, in axisymmetry over a part of a ring
 			const double at        = step.grid.origin[0] + h * Grid<Dim>::index(step.basis.nodes[node])[0];

@@ -56,7 +56,7 @@ public:
 	// When the last of the histories has come to rest.
 	Real loadsEnd() const;
 
-	// std::invalid_argument names an attribute of a condition that is not admitted. Whoever makes conditions asks before: they do not ask again.
+	// std::invalid_argument names one of a condition; who makes conditions asks before, as they do not ask.
 	void requireConditions() const;
 
 	// How many conditions an attribute has.

@@ -4,6 +4,7 @@
 #include "core/grid/point_nodes.hpp"
 #include "core/stepping/load_step.hpp"
 #include "derivatives.hpp"
+#include "moving.hpp"
 #include "scenes.hpp"
 
 namespace gimpm::testFields {
@@ -458,6 +459,16 @@ namespace {
 		const StepReport report = shared.step();
 		EXPECT_EQ(report.failure, Failure::misplaced);
 		EXPECT_EQ(report.cause, "several processes can share displacements only, and there is the field 'pressure'");
+
+		Body<2>   field(0.3);
+		Moving<2> inTime(1, Hencky(1e6, 0), 1000, TimeScheme::centralDifferences());
+		inTime.put(field.cloud, [](const Vec<2>&) { return Vec<2>(Vec<2>::Zero()); });
+		inTime.model.grid           = field.model.grid;
+		inTime.model.fields         = field.model.fields;
+		inTime.model.coupledTerms   = field.model.coupledTerms;
+		const StepReport explicitly = inTime.step(1e-4);
+		EXPECT_EQ(explicitly.failure, Failure::misplaced);
+		EXPECT_EQ(explicitly.cause, "explicit steps are for displacements only, and there is the field 'pressure'");
 	}
 
 	/// Of a column on an impermeable base under a load, which drains at its top: the settlement is that of
