@@ -118,7 +118,7 @@ template <int Dim> int Contacts<Dim>::ownerOf(const shared_ptr<MpmContact>& cont
 		        "Body #" + std::to_string(body.id) + " is claimed by two MpmContacts; give them masks that go with different bodies.");
 	}
 	const Se3r now = poseOf(*body.state);
-	Owner      owner { contact, (*scene.bodies)[body.id], now, now, now, {} };
+	Owner      owner { contact, (*scene.bodies)[body.id], now, now, now, {}, {} };
 	owner.byYade = movers->move(body);
 	owner.isFree = owner.byYade && (body.state->blockedDOFs & State::DOF_ALL) != State::DOF_ALL;
 	if (owner.isFree && Dim == 2)
