@@ -182,7 +182,9 @@ template <int Dim> void addGhostForce(const std::vector<GhostFace<Dim>>& faces, 
 template <int Dim> std::optional<PointFailure> GhostForce<Dim>::add(const Eigen::VectorXd& d, const TermSum<Dim>& sum) const
 {
 	const Eigen::VectorXd before = sum.sizes ? sum.force : Eigen::VectorXd();
-	addGhostForce(faces_, h_, from_.size() > 0 ? Eigen::VectorXd(d - from_) : d, sum.force);
+	if (from_.size() > 0) addGhostForce<Dim>(faces_, h_, d - from_, sum.force);
+	else
+		addGhostForce(faces_, h_, d, sum.force);
 	if (sum.sizes) *sum.sizes += (sum.force - before).cwiseAbs();
 	if (sum.K) addGhostStiffness(faces_, h_, *sum.K);
 	return std::nullopt;
