@@ -118,10 +118,10 @@ static void requireEqualCells(const Analysis& engine)
 
 static void requireGhost(const Analysis& engine)
 {
-	if (engine.ghost->memory > 0 && engine.isDynamic())
+	if (engine.ghost->memory > 0 && (engine.isDynamic() || !engine.newton->predictor))
 		throw std::invalid_argument(
-		        "MpmGhost.memory = " + std::to_string(engine.ghost->memory)
-		        + " is of steps that are predicted from the last one, which steps in time are not: with " + engine.className() + " 0 is admitted.");
+		        "MpmGhost.memory = " + std::to_string(engine.ghost->memory) + " is of steps that are predicted from the last one: with "
+		        + (engine.isDynamic() ? engine.className() : "MpmNewton.predictor = False") + " 0 is admitted.");
 	if (engine.ghost->where == "aggregates" && processes()->size() > 1)
 		throw std::invalid_argument(
 		        "MpmGhost.where = 'aggregates' cannot go with several processes yet, none of which knows how all cells are filled: 'boundary', or one process, is admitted.");

@@ -36,13 +36,13 @@ def test_the_memory_of_the_stabilisation_is_kept_in_a_saved_scene_and_refused_wi
 	yade('''
 import numpy as np
 from yade import mpm
-def sand(Engine=MpmImplicitEngine, **ghost):
+def sand(Engine=MpmImplicitEngine, predictor=True, **ghost):
 	O.reset()
 	O.materials.append(MpmMohrCoulombMat(young=1e7, poisson=0.3, density=2000, cohesion=1e3, frictionAngle=radians(30), dilationAngle=0, label='sand'))
 	grid = MpmGrid(cellSize=0.5)
 	O.bodies.append(mpm.fill(mpm.polygon([(0, 0), (4, 0), (2.6, 1.7), (0, 1.7)]), grid, 2, 'sand'))
 	sides = [MpmBoundary(max=(0, inf, inf), fix='x'), MpmBoundary(max=(inf, 0, inf), fix='xy')]
-	O.engines = [Engine(grid=grid, boundaries=sides, ghost=MpmGhost(**ghost), gravity=(0, -10, 0), verbosity=0, label='solver')]
+	O.engines = [Engine(grid=grid, boundaries=sides, ghost=MpmGhost(**ghost), newton=MpmNewton(predictor=predictor), gravity=(0, -10, 0), verbosity=0, label='solver')]
 	O.dt = 1 / 8
 def stresses(): return mpm.arrays()['stress']
 sand(memory=0.9, where='aggregates')
@@ -60,8 +60,9 @@ for arguments, said in ((dict(memory=1.5), 'MpmGhost.memory'), (dict(threshold=0
 	try: sand(**arguments)
 	except (ValueError, TypeError) as error: assert said in str(error), error
 	else: raise AssertionError(said)
-sand(MpmDynamicEngine, memory=0.5)
-try: O.run(1, wait=True)
-except (ValueError, RuntimeError) as error: assert 'MpmGhost.memory = 0.5' in str(error), error
-else: raise AssertionError
+for engine, predictor, said in ((MpmDynamicEngine, True, 'with MpmDynamicEngine 0 is'), (MpmImplicitEngine, False, 'with MpmNewton.predictor = False 0 is')):
+	sand(engine, predictor, memory=0.5)
+	try: O.run(1, wait=True)
+	except (ValueError, RuntimeError) as error: assert 'MpmGhost.memory = 0.5' in str(error) and said in str(error), error
+	else: raise AssertionError
 ''')
