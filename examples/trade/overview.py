@@ -22,7 +22,7 @@ targets = .2, .1, .05, .02, .01, .003
 
 def picture(found, path):
 	"""The front of each scene, all that was run, and one choice beside it."""
-	figure, plots = plt.subplots(5, 4, figsize=(13.5, 11.6), layout='constrained')
+	figure, plots = plt.subplots(4, 5, figsize=(14.5, 9.9), layout='constrained')
 	for axes, panel in zip(plots.flat, found.values()):
 		front, (name, beside) = panel.front(), panel.beside
 		for points, style in (panel.points, dict(marker='o', color='.75', markersize=3)), (beside, dict(marker='^', color='tab:orange', markersize=4.5, zorder=3)), (front, dict(marker='o', color='tab:blue', markersize=4)):

@@ -21,8 +21,8 @@ struct GhostSettings {
 	GhostScaling scaling = GhostScaling::meshIndependent;
 	/// Part of the last step's displacements, in the ratio of the loads, of which kinks cost nothing.
 	double memory = 0;
-	/// Of a cell, below which it is ill-filled: then it is tied to others, and other faces keep `elsewhere` of their
-	/// stiffness (core/terms/aggregates.hpp). 0: all faces alike.
+	/// Of a cell, below which it is ill-filled: then it is tied to others, and other faces keep `elsewhere` of
+	/// their stiffness (core/terms/aggregates.hpp). 0: all faces alike.
 	double threshold = 0;
 
 	/// Holds what no stress holds, as points at the apex of their yield surface in well-filled cells.

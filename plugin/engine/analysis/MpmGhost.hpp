@@ -35,7 +35,7 @@ public:
 		v("where", &MpmGhost::where, 0,
 		  "'boundary', the default: alike on all faces of boundary cells; 'aggregates', for sand: on those that tie ill-filled cells to well-filled ones, a hundredth elsewhere.",
 		  oneOf("boundary", "aggregates"));
-		v("threshold", &MpmGhost::threshold, 0, "With where='aggregates', part of a cell, from above 0 to 1, below which it is ill-filled.",
+		v("threshold", &MpmGhost::threshold, 0, "With where='aggregates', part of a cell [-], from above 0 to 1, below which it is ill-filled.",
 		  admitting("a number from above 0 to 1", [](Real part) { return part > 0 && part <= 1; }));
 		v("memory", &MpmGhost::memory, 0,
 		  "Part [-] of the last step's displacements, in the ratio of the loads, of which kinks cost nothing: 0, the default, to 1. For sand: steady flow is not resisted.",

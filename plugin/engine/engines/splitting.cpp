@@ -65,8 +65,9 @@ namespace {
 		bool isFree(const MaterialPoint& point, int axis) const
 		{
 			const gimpm::Vec<Dim> middle = point.state->pos.template head<Dim>(), offset = toUpperHalf(point, axis).head<Dim>();
-			// What a body has kept from being split has become a needle by the time it has passed. Its gradient is none of
-			// what lies more than a cell away, and halves there would be soil that has jumped.
+			// What a body has kept from being split has become a needle by the time it has passed. Its
+			// gradient is none of what lies more than a cell away, and halves there would be soil that has
+			// jumped.
 			if (offset.norm() > 2 * limitOf(point)) return false;
 			return isFree(middle, middle + offset) && isFree(middle, middle - offset);
 		}

@@ -65,7 +65,8 @@ namespace {
 		EXPECT_EQ(Body(filmOnBlock(0.3), 0.5).tied().size(), 3u);
 	}
 
-	/// A cell beside two that are filled alike is tied to both, so that mirrored bodies are; else to the fuller one.
+	/// A cell beside two that are filled alike is tied to both, so that mirrored bodies are; else to the fuller
+	/// one.
 	TEST(Aggregates, TheFullestNeighbourHolds)
 	{
 		PointCloud<2> cloud;
