@@ -167,6 +167,20 @@ template <int Dim> bool Contact<Dim>::isHidden(int number, const Vec<Dim>& place
 	return false;
 }
 
+/// Whether another sheet is between the two. At the edge that it shares with the one of the place, as below a pile that
+/// is made of sheets, soil outside is beside the places inside.
+template <int Dim> bool Contact<Dim>::isBehindSheet(const Vec<Dim>& place, const Vec<Dim>& soil, const std::vector<int>& around) const
+{
+	return std::any_of(around.begin(), around.end(), [&](int b) {
+		const auto& sheet = system_.bodies[b];
+		if (sheet.shape.kind != RigidKind::sheet) return false;
+		const double here = sheet.proximity(sheet.begin, place, 1).gap, there = sheet.proximity(sheet.begin, soil, 1).gap;
+		if (std::abs(here) <= tolerance_ || here * there >= 0) return false;
+		const Vec<Dim> crossing = place + here / (here - there) * (soil - place);
+		return sheet.proximity(sheet.begin, crossing, 1).beside < 0;
+	});
+}
+
 template <int Dim> const ContactRecord<Dim>* Contact<Dim>::recordOf(const Place& place) const
 {
 	const auto isBefore = [](const ContactRecord<Dim>& r, const Place& p) { return std::tie(r.body, r.number) < std::tie(p.body, p.number); };
@@ -179,7 +193,9 @@ template <int Dim> void Contact<Dim>::addPlace(int number, const SurfacePoint<Di
 	const auto&    body   = system_.bodies[number];
 	const Vec<Dim> onBody = body.begin.inSpace(point.place), normal = body.begin.rotation * point.normal;
 	if ((isRing_ && onBody[0] <= 0) || !isInPeriod(onBody, grid_)) return;
-	const auto sight = soil.from(onBody, normal, searchReach(body, grid_));
+	const bool isScreened = std::any_of(around.begin(), around.end(), [&](int b) { return system_.bodies[b].shape.kind == RigidKind::sheet; });
+	const auto hides      = [&](const Vec<Dim>& soil) { return isBehindSheet(onBody, soil, around); };
+	const auto sight      = soil.from(onBody, normal, searchReach(body, grid_), isScreened ? hides : typename SoilNear<Dim>::Hides());
 	if (!sight || isHidden(number, onBody, normal, around)) return;
 	Place place;
 	place.body = number, place.number = point.number;

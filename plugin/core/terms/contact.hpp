@@ -107,6 +107,7 @@ private:
 	void                      recall(Place&, const ContactRecord<Dim>&, double seen) const;
 	std::vector<int>          bodiesAround(int body) const;
 	bool                      isHidden(int body, const Vec<Dim>& place, const Vec<Dim>& normal, const std::vector<int>& around) const;
+	bool                      isBehindSheet(const Vec<Dim>& place, const Vec<Dim>& soil, const std::vector<int>& around) const;
 	void                      look(int body);
 	auto                      nearTo(int body) const; // first and last in near_
 	const ContactRecord<Dim>* recordOf(const Place&) const;

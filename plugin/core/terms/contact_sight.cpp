@@ -86,9 +86,9 @@ template <int Dim> template <class F> double SoilNear<Dim>::gapFrom(const Vec<Di
 /// A quarter of the box is nothing, three quarters are full, so that over the places on both sides of where soil ends
 /// the parts add up to the area that it covers. How much of the box that end leaves along an axis is told by the middle
 /// of the soil in it; what is missing besides are gaps.
-template <int Dim> std::optional<Sight> SoilNear<Dim>::from(const Vec<Dim>& place, const Vec<Dim>& normal, double reach) const
+template <int Dim> std::optional<Sight> SoilNear<Dim>::from(const Vec<Dim>& place, const Vec<Dim>& normal, double reach, const Hides& hides) const
 {
-	const auto   isInFront = [&](const SoilDomain<Dim>& d) { return d.outward.dot(normal) > 0.7; };
+	const auto   isInFront = [&](const SoilDomain<Dim>& d) { return d.outward.dot(normal) > 0.7 && !(hides && hides(d.centre)); };
 	const double half = 0.25 * cellSize_, gap = gapFrom(place, normal, reach, isInFront);
 	if (!(gap <= reach)) return std::nullopt;
 	const Vec<Dim> size = Vec<Dim>::Constant(half), middle = place + (std::max(0., gap) + half) * normal, margin = Vec<Dim>::Constant(largest_);

@@ -3,6 +3,7 @@
 #pragma once
 #include "core/base/types.hpp"
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -29,8 +30,10 @@ public:
 	SoilNear(std::vector<SoilDomain<Dim>>, double cellSize);
 
 	/// Looks from a place along the normal, no farther than the reach. Soil whose closest side of the body looks
-	/// elsewhere, as beyond an edge or behind a thin body, does not count.
-	std::optional<Sight> from(const Vec<Dim>& place, const Vec<Dim>& normal, double reach) const;
+	/// elsewhere, as beyond an edge or behind a thin body, does not count, nor what is hidden: a test of the middles of
+	/// domains, empty where nothing hides any.
+	using Hides = std::function<bool(const Vec<Dim>& centre)>;
+	std::optional<Sight> from(const Vec<Dim>& place, const Vec<Dim>& normal, double reach, const Hides& = {}) const;
 
 	std::pair<Vec<Dim>, Vec<Dim>> bounds() const { return { low_, high_ }; }
 

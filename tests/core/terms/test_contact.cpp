@@ -232,6 +232,28 @@ namespace {
 		EXPECT_EQ(block.step().failure, Failure::penetrated);
 	}
 
+	/// A pile made of two sheets, whose inside nothing may press: soil below it is beside its side only as seen through
+	/// its bottom.
+	TEST(Contact, SoilBehindAnotherSheetIsNotSeen)
+	{
+		Block<2> block;
+		block.rollers();
+		const Vec<2> corner(0.75, 1.5);
+		for (const auto& [from, to] : { std::pair<Vec<2>, Vec<2>>({ -1, 1.5 }, corner), std::pair<Vec<2>, Vec<2>>({ 0.75, 3 }, corner) }) {
+			auto& sheet            = block.add(RigidKind::sheet, corner);
+			sheet.shape.isTwoSided = true;
+			sheet.shape.corners    = { from - corner, to - corner };
+		}
+		for (int step = 0; step < 3; ++step) {
+			for (auto& sheet : block.contacts.bodies)
+				sheet.end.position[1] -= 0.02;
+			ASSERT_TRUE(block.step().converged()) << block.report.cause;
+			EXPECT_GT(block.contacts.loads[0].force[1], 0);
+			for (const auto& record : block.contacts.records)
+				EXPECT_FALSE(record.body == 1 && record.normal[0] < 0) << "seen at " << record.place.transpose();
+		}
+	}
+
 	TYPED_TEST(ContactOf, WhatIsCrossed)
 	{
 		constexpr int  Dim   = TypeParam::value;
