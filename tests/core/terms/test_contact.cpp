@@ -239,7 +239,7 @@ namespace {
 		Block<2> block;
 		block.rollers();
 		const Vec<2> corner(0.75, 1.5);
-		for (const auto& [from, to] : { std::pair<Vec<2>, Vec<2>>({ -1, 1.5 }, corner), std::pair<Vec<2>, Vec<2>>({ 0.75, 3 }, corner) }) {
+		for (const auto& [from, to] : { std::pair<Vec<2>, Vec<2>>({ -1, 1.5 }, corner), std::pair<Vec<2>, Vec<2>>({ 0.75, 1.6 }, corner) }) {
 			auto& sheet            = block.add(RigidKind::sheet, corner);
 			sheet.shape.isTwoSided = true;
 			sheet.shape.corners    = { from - corner, to - corner };
