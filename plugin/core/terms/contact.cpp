@@ -168,15 +168,15 @@ template <int Dim> bool Contact<Dim>::isHidden(int number, const Vec<Dim>& place
 }
 
 /// Whether another sheet is between the two. At the edge that it shares with the one of the place, as below a pile that
-/// is made of sheets, soil outside is beside the places inside.
+/// is made of sheets, soil outside is beside the places inside. Soil that is a little behind the sheet counts as before.
 template <int Dim> bool Contact<Dim>::isBehindSheet(const Vec<Dim>& place, const Vec<Dim>& soil, const std::vector<int>& around) const
 {
 	return std::any_of(around.begin(), around.end(), [&](int b) {
 		const auto& sheet = system_.bodies[b];
 		if (sheet.shape.kind != RigidKind::sheet) return false;
 		const double here = sheet.proximity(sheet.begin, place, 1).gap, there = sheet.proximity(sheet.begin, soil, 1).gap;
-		if (std::abs(here) <= tolerance_ || here * there >= 0) return false;
-		const Vec<Dim> crossing = place + here / (here - there) * (soil - place);
+		if (std::abs(here) <= tolerance_ || here * sheet.sideOf(sheet.begin, soil) > 0) return false;
+		const Vec<Dim> crossing = here * there < 0 ? Vec<Dim>(place + here / (here - there) * (soil - place)) : soil;
 		return sheet.proximity(sheet.begin, crossing, 1).beside < 0;
 	});
 }
