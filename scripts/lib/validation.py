@@ -112,11 +112,17 @@ def difference(row):
 	return ours / theirs - 1 if theirs else ours
 
 
-words = re.compile(r"closed form|exact(?:ly)? (?:solution|answer|value)|by hand|published|experiments?\b|Rankine|Prandtl|Hertz|Boussinesq|Lame|Lam\u00e9|Coulomb's|Skempton|Griffiths|limit analysis|Timoshenko|elastica|Archimedes|Terzaghi|Davis|the paper's|independent implementation", re.IGNORECASE)
+def closedForms():
+	"""What the tests are held against: rows of test, against."""
+	with open(os.path.join(root, 'tests', 'data', 'closed_forms.csv'), newline='') as file:
+		return list(csv.DictReader(file))
+
+
+words = re.compile(r"closed form|by hand|published|Rankine|Prandtl|Hertz|Boussinesq|Lame|Coulomb's law|Skempton|Griffiths|limit analysis|Timoshenko|elastica\b|Archimedes|Terzaghi|Davis|Clapeyron|independent implementation")
 
 
 def ofTests():
-	"""(file, name of the test, its sentence that tells what it is held against) of all tests that say so, in the order of the files."""
+	"""(file, name of the test, docstring or comments) of all tests but those of the project itself."""
 	for folder, ending in ('scene', '.py'), ('core', '.cpp'):
 		for place, _, files in sorted(os.walk(os.path.join(root, 'tests', folder))):
 			if os.path.basename(place) == 'project': continue
@@ -125,20 +131,22 @@ def ofTests():
 				path = os.path.join(place, name)
 				with open(path) as file:
 					text = file.read()
-				for test, said in _documented(text) if ending == '.py' else _commented(text):
-					sentences = [sentence for sentence in re.split(r'(?<=[.;]) ', ' '.join(said.split())) if words.search(sentence)]
-					if sentences: yield os.path.relpath(path, root), test, sentences[0]
+				for test, said in _documented(text) if ending == '.py' else _commented(text): yield os.path.relpath(path, root), test, ' '.join(said.split())
 
 
 def _documented(text):
-	for match in re.finditer(r'^def (test_\w+)\([^)]*\):\n\t"""(.*?)"""', text, re.MULTILINE | re.DOTALL):
-		yield match[1], match[2]
+	"""Tests in Python: name, docstring with comments."""
+	for match in re.finditer(r'^def (test_\w+)\((.*?)(?=^\S|\Z)', text, re.MULTILINE | re.DOTALL):
+		docstring = re.match(r'[^\n]*\n\t"""(.*?)"""', match[2], re.DOTALL)
+		comments = re.findall(r'(?:^|\s)# (.*)$', match[2], re.MULTILINE)
+		yield match[1], '. '.join(([docstring[1].rstrip('.')] if docstring else []) + comments)
 
 
 def _commented(text):
-	"""Tests of the core, with the comment before them."""
-	for match in re.finditer(r'((?:^[ \t]*//[^\n]*\n)+)^(?:TYPED_)?TEST(?:_[FP])?\((\w+), (\w+)\)', text, re.MULTILINE):
-		yield f'{match[2]}.{match[3]}', re.sub(r'^[ \t]*//+[!<]? ?', '', match[1], flags=re.MULTILINE)
+	"""Tests of the core: name, comment before them with those in them."""
+	for match in re.finditer(r'((?:^[ \t]*//[^\n]*\n)*)^[ \t]*(?:TYPED_)?TEST(?:_[FP])?\((\w+), (\w+)\)(.*?)(?=^\t?\}|^[ \t]*(?:TYPED_)?TEST|\Z)', text, re.MULTILINE | re.DOTALL):
+		before = ' '.join(re.findall(r'//+[!<]? ?(.*)', match[1]))
+		yield f'{match[2]}.{match[3]}', '. '.join([before.rstrip('.')] * bool(before) + re.findall(r'//+[!<]? ?(.*)', match[4]))
 
 
 def commandOf(folder, command):
@@ -175,7 +183,7 @@ The same answers on many grids: [discretisation](../../examples/discretisation/R
 
 TESTS = '''## In the tests
 
-{count} tests that run on every change name what they are held against. `scripts/test` runs all; one of the first kind: `/usr/bin/python3 -m pytest {example}`, of the second: `build/tests/core_tests --gtest_filter=NAME`.
+{count} tests that run on every change are held against closed forms and numbers of others, to tolerances that they name. Those of the core by `build/tests/core_tests --gtest_filter=NAME`, those in YADE by `/usr/bin/python3 -m pytest FILE -k NAME`, all by `scripts/test`.
 '''
 
 
@@ -186,9 +194,9 @@ def page(found):
 	for group, folders in groups.items():
 		links = ', '.join(f'[{folder}](../../examples/{folder}/README.md)' for folder in folders if folder != 'tasks') or '[the course](../../examples/README.md#tasks)'
 		parts += [f'## {group}\n', f'From {links}.\n', table(row for folder in folders for row in found[folder]), '']
-	tests = list(ofTests())
-	listed = pages.table(['file', 'test', 'held against'], [(f'`{file}`', f'`{test}`', escaped(said)) for file, test, said in tests])
-	return '\n'.join([*parts, STUDIES, TESTS.format(count=len(tests), example=tests[0][0]), listed, ''])
+	forms, files = closedForms(), {test: file for file, test, _ in ofTests()}
+	listed = pages.table(['test', 'held against', 'file'], [(f"`{row['test']}`", escaped(row['against']), f"`{files[row['test']]}`") for row in forms])
+	return '\n'.join([*parts, STUDIES, TESTS.format(count=len(forms)), listed, ''])
 
 
 def kindOf(source):
