@@ -1,6 +1,6 @@
 #!/usr/bin/env yade
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Earth pressure: a smooth retaining wall moves away from dry sand until the sand has yielded. By hand: K_A = (1 - sin phi) / (1 + sin phi) (Rankine)."""
+"""A smooth retaining wall moves away from dry sand until its pressure is that of sand that has yielded. By hand: K_A = (1 - sin phi) / (1 + sin phi) (Rankine)."""
 import numpy as np
 from yade import mpm
 H, L, phi, gamma, cells = 5, 20, np.radians(30), 2e4, 10

@@ -159,7 +159,7 @@ def test_the_program_of_the_developers_page(tmp_path):
 # Run in YADE: what is not documented, or at too great length for the prompt (the rest is on a page of the class), one
 # line for each. A real number needs a unit, [-] if it has none.
 check = '''
-import inspect, re, sys
+import inspect, os, re, sys
 from yade import mpm, wrapper
 sys.argv = ['reference.py', 'reference.rst']
 exec(open(REFERENCE).read())
@@ -170,6 +170,8 @@ for name in classes():
 	cls = getattr(wrapper, name)
 	if len(cls.__doc__ or '') < 20: print('no description:', name)
 	if len(cls.__doc__.split()) > 120: print('too long:', name, len(cls.__doc__.split()))
+	page = re.search(r'Page: (plugin/docs/\\S+\\.md)\\.', cls.__doc__)
+	if not page or not os.path.exists(os.path.join(os.path.dirname(REFERENCE), '..', '..', page[1])): print('no page:', name)
 	values = cls().dict()
 	for entry, value in entries(cls):
 		found += 1
