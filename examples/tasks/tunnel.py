@@ -1,6 +1,6 @@
 #!/usr/bin/env yade
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""A deep tunnel in elastic ground, whose lining takes less and less of the stress that was there. By hand: its wall moves in by (1 + nu) / E (p0 - p) R (Kirsch)."""
+"""A deep tunnel in elastic ground, whose lining takes less and less of the stress that was there (below a surface: dug out after mpm.geostatic, by mpm.stages.excavate). By hand: its wall moves in by (1 + nu) / E (p0 - p) R (Kirsch)."""
 import numpy as np
 from yade import mpm
 R, size, E, nu, p0, released, cells = 3, 30, 1e8, 0.3, 5e5, 0.8, 6
