@@ -29,8 +29,8 @@ runs = {
         'water': ['water.py'],
         'embankment': ['embankment.py'],
         'penetration': [
-                'deep.py --cells 4', 'deep.py --scene pile --cells 4', 'deep.py --scene tbar', 'deep.py --scene tbar --rough 1', 'wheel.py', 'penetration.py --cells 16 --depth 0.03',
-                'penetration.py --scene sphere --cells 10', 'penetration.py --scene free --cells 2 --stiffness 20', 'penetration.py --scene cylinder --cells 10', 'penetration.py --scene plate'
+                'penetration.py --cells 16 --depth 0.03', 'penetration.py --scene sphere --cells 10', 'penetration.py --scene plate', 'deep.py --scene tbar', 'deep.py --scene tbar --rough 1', 'deep.py --cells 3',
+                'deep.py --scene pile --cells 4', 'wheel.py', 'penetration.py --scene cylinder --cells 10', 'penetration.py --scene free --cells 2 --stiffness 20'
         ],
         'grains_on_soil': ['grains_on_soil.py'],
         'mpm_vs_dem': ['mpm_vs_dem.py'],
