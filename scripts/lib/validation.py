@@ -157,11 +157,15 @@ def escaped(text):
 	return text.replace('|', '\\|')
 
 
+def percentOf(difference):
+	return f'{100 * difference:+.2g} %' if difference else '0'
+
+
 def table(rows):
 	lines = []
 	for row in rows:
-		unit = f" {row['unit']}" if row['unit'] else ''
-		lines.append([escaped(row['quantity']), row['ours'] + unit, row['theirs'] + unit, f'{100 * difference(row):+.2g} %', escaped(row['source']), f"`{row['command']}`"])
+		unit = f" {row['unit']}" if row['unit'] not in ('', '-') else ''
+		lines.append([escaped(row['quantity']), row['ours'] + unit, row['theirs'] + unit, percentOf(difference(row)), escaped(row['source']), f"`{row['command']}`"])
 	return pages.table(['what', 'ours', 'theirs', 'difference', 'theirs is of', 'command'], lines)
 
 
