@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""How the examples read their options."""
+"""How the examples read their options, and keep what they are compared with."""
 import argparse
+import csv
 import os
 import sys
 
@@ -27,4 +28,28 @@ def readOptions(purpose, **options):
 	parser.add_argument('--out', default=table.out or f'out/{name}{inBatch}', help='folder of the results (default %(default)s)')
 	chosen = parser.parse_args()
 	os.makedirs(chosen.out, exist_ok=True)
+	_startComparisons(os.path.join(chosen.out, 'compared.csv'))
 	return chosen
+
+
+_file = None
+
+
+def _startComparisons(path):
+	global _file
+	_file = path
+	with open(path, 'w', newline='') as file:
+		csv.writer(file).writerow(['quantity', 'ours', 'theirs', 'unit', 'source'])
+
+
+def compared(quantity, ours, theirs, source, unit=''):
+	"""Keep a number of a run beside the one that it is held against, in compared.csv in the folder of the results; scripts/validate makes the page of all of them.
+
+	:param quantity: what it is, and what of the options changes it, as 'limit load, 17 cells over the width'
+	:param ours: found by the run
+	:param theirs: closed form, measured or published
+	:param source: whose it is, as 'Prandtl 1921'
+	:param unit: of both
+	"""
+	with open(_file, 'a', newline='') as file:
+		csv.writer(file).writerow([quantity, f'{float(ours):.6g}', f'{float(theirs):.6g}', unit, source])

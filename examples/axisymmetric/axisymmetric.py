@@ -24,7 +24,7 @@ import time
 from yade import mpm
 import numpy as np
 sys.path.insert(0, os.path.join(os.path.dirname(sys.argv[0]), '..'))
-from options import readOptions
+from options import compared, readOptions
 
 options = readOptions('Thick tube and circular footing, axisymmetric.',
         scene=('section', "'section': tube and footing, axisymmetric; 'circle': the rough footing in 3D, 'rough': it alone in axisymmetry"),
@@ -58,8 +58,10 @@ def elasticTube():
 	inner, outer = (np.isclose(points['pos0'][:, 0], 1 + part * cell) for part in (0.25, 0.75)) # the two rows of points in the first cell
 	found, exact = solver.loads[0].surface.vertices[0][0] - 1, p / young * (1 + nu) * ((1 - 2 * nu) + 4) / 3
 	print(f'tube, elastic: u(a) / a = {found:.6g}, exact {exact:.6g} (difference {100 * (found / exact - 1):+.2f} %)')
+	compared(f'widening of a thick tube, {options.tubeCells} cells', found, exact, 'Lame', 'a')
 	hoop, exact = points['stress'][inner | outer, 2, 2].mean() / p, (1 + 4 / (1 + cell / 2)**2) / 3
 	print(f'tube, elastic: hoop stress in the first cell {hoop:.4f} p, exact in its middle {exact:.4f} (difference {100 * (hoop / exact - 1):+.2f} %)')
+	compared(f'hoop stress of a thick tube, {options.tubeCells} cells', hoop, exact, 'Lame', 'p')
 
 
 def plasticTube():
@@ -71,6 +73,7 @@ def plasticTube():
 		pass
 	found = most * solver.loadFactor
 	print(f'tube, Tresca: last converged at p = {found:.4f} c_u, collapse at {exact:.4f} c_u (difference {100 * (found / exact - 1):+.2f} %)')
+	compared(f'collapse of a thick tube, {options.tubeCells} cells', found, exact, '2 ln(b / a)', 'c_u')
 	points = mpm.arrays()
 	return points['pos'][:, 0], points['stress']
 
@@ -130,6 +133,7 @@ def report(name, curve, seconds, reference):
 	rise = load[-1] / np.interp(0.9 * settlement[-1], settlement, load) - 1
 	print(f'{name}: {len(O.bodies)} material points, {solver.dofs} unknowns, {options.steps} steps in {seconds:.1f} s')
 	print(f'{name}: N_c = {load.max():.3f}, published {reference} (difference {100 * (load.max() / reference - 1):+.1f} %), rising by {100 * rise:.2f} % in the last tenth')
+	compared(f'N_c of the {name}, {2 * options.cells + 1} cells over the diameter', load.max(), reference, 'Shield 1955, Cox et al. 1961')
 
 
 def picture(curves, radius, stress):

@@ -26,7 +26,7 @@ def write(folder, results):
 	pages.replace(os.path.join(folder, 'results', 'bench.json'), json.dumps(results, indent='\t') + '\n')
 	parts = [INTRODUCTION.format(**results['machine']), *pages.texts(os.path.join(folder, 'findings.md'))]
 	parts += [section(results[name]) for name, section in sections.items() if name in results]
-	pages.write(folder, parts)
+	pages.write(folder, [*parts, CHANGE])
 
 
 def machine():
@@ -270,9 +270,26 @@ INTRODUCTION = """# Where time and memory go
 
 `scripts/bench` measures this page (see `--help`), from the parts of a load step to whole scenes; its numbers are in `results/bench.json`. Machine:
 {processor}, {processors} processors. Revision: {revision}.
+
+## Run it
+
+    scripts/bench                # five minutes; nothing else should run meanwhile
+    scripts/bench sizes --quick  # one part, in short
+
+## Picture
+
+![Iterations of the solvers over the cut, with the stabilisation and without: a beam that cuts the cells in all ways](solvers.png)
+
+## Numbers
 """
 
-KERNELS = """## Parts of a load step
+CHANGE = """
+## What to change
+
+`scripts/bench --help` names the parts. `scripts/bench --compare REVISION` times another revision in turn with this one, `scripts/bench --bits REVISION` asks whether the results are the same to the last bit. For a scene of your own: `mpm.advise()` beforehand, `solver.report()['times']` afterwards.
+"""
+
+KERNELS = """### Parts of a load step
 
 On the slope of the paper half way through its failure, where points yield and cross cells: 17,440 points in 2D (4 x 4 a cell), 7,128 in 3D (2 x 2 x 2).
 `residual` and `stiffness` are passes over the points without and with stiffness; `linearSolve` is factorisation and triangular solves, `unsymmetricSolve`
@@ -280,7 +297,7 @@ the same by LU for a matrix of the same pattern that is not symmetric. Memory is
 
 """
 
-SCENES = """## Whole scenes
+SCENES = """### Whole scenes
 
 The slope at h = 0.25 m with 4 x 4 points a cell, all 160 steps; a slice of it in 3D, 4 cells of 0.5 m deep with 2 x 2 x 2 points a cell, its first 20 steps.
 Seconds by phase, those of `solver.report()`. `check` is a look at all points before the first step; `rest` is YADE's loop and Python. All that is YADE: these, and
@@ -289,14 +306,14 @@ stiffness. Newton `full`: from zero, with a factorisation for each solve; `defau
 
 """
 
-SIZES = """## Size
+SIZES = """### Size
 
 The first two steps of the slope with 4 x 4 points a cell, one thread, on finer and finer grids. Memory of the scene is what filling it has added to the process;
 that of the run is the peak on top of it.
 
 """
 
-FEATURES = """## What each feature costs
+FEATURES = """### What each feature costs
 
 The first {steps} steps of the slope at h = 0.5 m ({points} points, {unknowns} unknowns), one thread; each row differs from the first in one thing. Times are per step.
 
@@ -304,13 +321,13 @@ The first {steps} steps of the slope at h = 0.5 m ({points} points, {unknowns} u
 
 STARTS = dict(without='without the plugin', plugin='with it', imported='with `from yade import mpm`')
 
-START = """## YADE's start
+START = """### YADE's start
 
 A script that does nothing, the quickest of several starts taken in turn.
 
 """
 
-SOLVERS = """## One solve in 3D
+SOLVERS = """### One solve in 3D
 
 By a program without YADE, with two threads: iterations, and seconds to set up (a factor, or multigrid) and to solve. `iterative` are conjugate gradients with the
 diagonal as preconditioner, `amg` with algebraic multigrid, `auto` with the diagonal for 300 iterations and then with multigrid. Where multigrid breaks down the diagonal goes on. Matrices are of the first iteration of a step.
@@ -328,9 +345,7 @@ CASES = dict(
         cut="""How far it reaches into the next cells, 6 x 6 x 48 cells, to 1e-8; the factor of the ghost stabilisation comes first (0: none), then the part of a cell:
 
 """,
-        tilted="""The same inclined by 0.7 rad, so that cells are cut in all ways. Here multigrid needs the stabilisation:
-
-![Iterations over the cut](solvers.png)
+        tilted="""The same inclined by 0.7 rad, so that cells are cut in all ways. Here multigrid needs the stabilisation (the picture):
 
 """,
         poisson="""Poisson's ratio, 6 x 6 x 48 cells, to 1e-8:
@@ -341,7 +356,7 @@ CASES = dict(
 """
 )
 
-PROCESSES = """## Several processes
+PROCESSES = """### Several processes
 
 `scripts/run -n`: each process holds all points, assembles the rows of its nodes, and solves together with the others; one thread each. Scenes of `shared.py` with
 `newton.tolerance` 1e-10: von Mises' slope in the plane and in 3D, the slope with friction that does not dilate (not symmetric: GMRES, with multigrid of the symmetric
@@ -359,7 +374,7 @@ all points.
 
 """
 
-SHARING = """## Two processes
+SHARING = """### Two processes
 
 The first steps of the slope with a weak layer in 3D, 262,200 points and 101,197 unknowns, by conjugate gradients (`scripts/bench sharing`, at revision {revision}): one process with one thread and with two, and two processes
 with one thread each, with all points in both and with points divided by `mpm.add`, in turn; of each the quickest of five runs, with the parts of each process. What a process waits for another is in the parts where they meet. `agree`: checksum of the points before a step; the
@@ -369,14 +384,14 @@ one after it is part of the update. Measured with precedence over other programs
 
 WAYS = dict(undivided='in all processes', appended='appended as a list, then divided', added='divided, by `mpm.add`', tall='the same, cut across its longest side')
 
-PIECES = """## Scenes of which processes divide the points
+PIECES = """### Scenes of which processes divide the points
 
 Small scenes of `shared.py` with `distributed`, each of one feature or two, `newton.tolerance` 1e-10: the largest difference of positions from those of one process, and of forces on boundaries, bodies and loaded surfaces as a part of the largest one
 (`scripts/bench pieces`, at revision {revision}). Where K is not symmetric, one process and several have different preconditioners, and numbers of solves may differ.
 
 """
 
-DIVISION = """## Points divided among processes
+DIVISION = """### Points divided among processes
 
 Peak of memory (VmHWM) of the process that has most, at the stages of a run: before there are points, when the block of {points} points in 3D is filled, after each of two elastic steps by conjugate
 gradients (`scripts/bench division`, at revision {revision}); one thread each. With `MpmImplicitEngine.distributed` and `O.bodies.append(mpm.fill(...))` each process makes all points and erases the others' at the first
@@ -385,14 +400,14 @@ the same block turned. Measured beside other programs, on which memory does not 
 
 """
 
-LARGE = """## A million points in 3D
+LARGE = """### A million points in 3D
 
 The slope at h = 0.5 m with 2 x 2 x 2 points a cell and 115 cells deep, two threads: the step from load factor .5 to .6, the third after .25 and .5 (`scripts/bench --large`).
 Memory is the peak beside YADE's own: the bodies and all that a step takes.
 
 """
 
-BODIES = """## Filling
+BODIES = """### Filling
 
 A scene filled with material points (`mpm.fill`), and one with spheres (`utils.sphere` in a list), in processes of their own.
 

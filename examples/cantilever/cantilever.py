@@ -23,7 +23,7 @@ matplotlib.use('Agg')
 import matplotlib.pyplot as plt
 import numpy as np
 sys.path.insert(0, os.path.join(os.path.dirname(sys.argv[0]), '..'))
-from options import readOptions
+from options import compared, readOptions
 
 options = readOptions('Elastic cantilever with large rotations.',
         cells=(4, 'cells over the thickness, an even number'),
@@ -74,6 +74,8 @@ for k, (w, u) in published.items():
 	found = [np.interp(k, load, values) for values in (down, back)]
 	print(f'P L^2 / (E I) = {k:2}: tip down {found[0]:.5f} L, elastica {w:.5f} L ({100 * (found[0] / w - 1):+.2f} %); '
 	      f'back {found[1]:.5f} L, elastica {u:.5f} L ({100 * (found[1] / u - 1):+.2f} %)')
+	compared(f'tip of the beam, down, {options.cells} cells, P L^2 / (E I) = {k}', found[0], w, 'Mattiasson 1981', 'L')
+	compared(f'tip of the beam, back, {options.cells} cells, P L^2 / (E I) = {k}', found[1], u, 'Mattiasson 1981', 'L')
 
 figure, (shape, curve) = plt.subplots(1, 2, figsize=(9.5, 4.6), width_ratios=[1, 1.3], layout='constrained')
 mpm.plot('stress_xx', grid=False, ghost=False, ax=shape)

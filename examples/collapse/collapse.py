@@ -25,7 +25,7 @@ matplotlib.use('Agg')
 import matplotlib.pyplot as plt
 import numpy as np
 sys.path.insert(0, os.path.join(os.path.dirname(sys.argv[0]), '..'))
-from options import readOptions
+from options import compared, readOptions
 
 options = readOptions('Vertical cut in undrained clay under growing gravity.',
         cellSize=(0.25, 'h [m], a part of 5 m'),
@@ -82,6 +82,7 @@ points = mpm.arrays()
 print(f'h = {options.cellSize:g} m, {options.pointsPerCell} x {options.pointsPerCell} points per cell: {len(points["pos"])} material points, {solver.dofs} unknowns')
 print(f'load steps completed: {O.iter} of {steps} in {seconds:.1f} s, iterations per step: {iterations[1:].mean():.1f}')
 print(f'the cut fails at N = {failed:.3f}, limit analysis: {lower} to {upper} (difference {100 * (failed / upper - 1):+.1f} %)')
+compared(f'stability number of the vertical cut, {5 / options.cellSize:g} cells over the height', failed, (lower + upper) / 2, 'Kammoun et al. 2010, limit analysis')
 print(f'at N = {factor[-1]:.2f}: crest settles by {settlement[-1]:.4f} m, front moves by {front[-1]:.4f} m')
 
 figure, (curve, shape) = plt.subplots(1, 2, figsize=(12.5, 4.4), width_ratios=[1, 1.9], layout='constrained')

@@ -21,7 +21,7 @@ matplotlib.use('Agg')
 import matplotlib.pyplot as plt
 import numpy as np
 sys.path.insert(0, os.path.join(os.path.dirname(sys.argv[0]), '..'))
-from options import readOptions
+from options import compared, readOptions
 
 options = readOptions('Elastic column under its own weight (Coombs 2023, section 4.1).',
         cells=(16, 'cells over the height'),
@@ -79,6 +79,8 @@ kind = 0 if options.ghostFactor == 0 else 1 if options.scaling == 'paper' else 2
 known = options.cells in reference and options.pointsPerCell == 2 and options.ghostFactor in (0, 1e-2)
 print(f', reference: {reference[options.cells][kind]:.8e}' if known else '')
 print(f'height: {top:.4f} m, exact: {height:.4f} m')
+if known: compared(f'stress error of the column, {options.cells} cells', error, reference[options.cells][kind], 'independent implementations')
+compared(f'height of the column, {options.cells} cells', top, height, 'closed form, large strains', 'm')
 
 figure, axes = plt.subplots(figsize=(4.5, 5.5))
 order = np.argsort(depth)

@@ -120,8 +120,14 @@ def counts(cases, found):
 	return text
 
 
+CHANGE = """## What to change
+
+`--scenes` and `--largest`, the most cells, say what is run. For a scene of your own: `mpm.stressError()` behind any run, and `mpm.discretisationError(run, cellSize)` where `run` makes the scene with the cells that it is given ([recipe](../README.md#recipes)).
+"""
+
+
 def write(folder):
 	cases, found = judged(folder), rows(folder, 'stresses')
 	if cases or found: picture(cases, found, os.path.join(folder, 'discretisation.png'))
 	findings = pages.texts(os.path.join(here, 'findings.md'))
-	pages.write(folder, [*findings, '## How many', '', counts(cases, found), '## Quantities', '', quantityTable(cases), '', '## Stresses', '', stressTable(found), ''])
+	pages.write(folder, [*findings, '### How many', '', counts(cases, found), '### Quantities', '', quantityTable(cases), '', '### Stresses', '', stressTable(found), '', CHANGE])

@@ -28,7 +28,7 @@ matplotlib.use('Agg')
 import matplotlib.pyplot as plt
 import numpy as np
 sys.path.insert(0, os.path.join(os.path.dirname(sys.argv[0]), '..'))
-from options import readOptions
+from options import compared, readOptions
 
 options = readOptions('Active and passive earth pressure.',
         cells=(20, 'over the height of the wall'),
@@ -123,10 +123,12 @@ for row, (direction, name, side) in enumerate([(-1, 'active', 'away from the san
 		curve, solves = move(direction, psi)
 		K, theory, bounds = curve[-1, 1], exact(psi, direction), roughWall(direction)
 		rise = 100 * (curve[-1, 1] / np.interp(0.75 * curve[-1, 0], *curve.T[:2]) - 1)
-		compared = f'theory {theory:.4f} ({100 * (K / theory - 1):+.2f} %)' if smooth else 'theory from {:.4f} to {:.4f}'.format(*sorted(bounds))
-		print(f'{name}, psi = {psi:g}: K = {K:.4f}, {compared}, over the last quarter {rise:+.2f} %, {solves:.1f} iterations a step, {time.time() - begin:.1f} s')
+		beside = f'theory {theory:.4f} ({100 * (K / theory - 1):+.2f} %)' if smooth else 'theory from {:.4f} to {:.4f}'.format(*sorted(bounds))
+		print(f'{name}, psi = {psi:g}: K = {K:.4f}, {beside}, over the last quarter {rise:+.2f} %, {solves:.1f} iterations a step, {time.time() - begin:.1f} s')
 		grown = curve[-1, 2] * theory
 		if not options.rough: print(f'    with the height and the weight over the width of now: theory {grown:.4f} ({100 * (K / grown - 1):+.2f} %)')
+		if smooth and not options.rough: compared(f'K, {name}, psi = {psi:g}, {"as the sand is then, " if options.contact else ""}{options.cells} cells over the height', K, grown if options.contact else theory, 'Rankine 1857')
+		if not smooth: compared(f'K, {name}, rough wall, {options.cells} cells over the height', K, bounds[1], 'Coulomb 1776')
 		axis.plot(1000 * curve[:, 0], curve[:, 1], label=f'$\\psi$ = {psi:g}°')
 		for limit in [theory] if smooth else bounds:
 			axis.plot(1000 * curve[:, 0], limit * (np.ones(len(curve)) if options.rough else curve[:, 2]), color=f'C{number}', linestyle='--', linewidth=0.8)

@@ -23,7 +23,7 @@ matplotlib.use('Agg')
 import matplotlib.pyplot as plt
 import numpy as np
 sys.path.insert(0, os.path.join(os.path.dirname(sys.argv[0]), '..'))
-from options import readOptions
+from options import compared, readOptions
 
 options = readOptions('An embankment on soft ground.',
         cellSize=(0.5, 'size of the cells [m], at most 1'),
@@ -70,6 +70,7 @@ def column():
 		O.run(options.steps, wait=True)
 		found, hand = -moved(surface)[1], n * density * g * thickness * height / M
 		print(f'column, {n} layers: settlement {1e3 * found:.2f} mm, by hand {1e3 * hand:.2f} mm ({100 * (found / hand - 1):+.2f} %)')
+		compared(f'settlement of a column under {n} layers', 1e3 * found, 1e3 * hand, 'sum by hand, q H / M', 'mm')
 
 
 def embankment():
@@ -96,6 +97,7 @@ def embankment():
 	weight = sum(b.state.mass for b in O.bodies) * g
 	squeezed = sum(b.state.volume0 - b.state.volume for b in O.bodies if b.material.label != 'sand') * 1e4
 	print(f'embankment: load on the base over the weight, less that of the water squeezed out: {solver.reactions[2][1] / (weight - squeezed):.5f}')
+	compared('load on the base of the embankment over the weight', solver.reactions[2][1] / (weight - squeezed), 1, 'sum by hand')
 	n, settlement, outwards = np.array(history).T
 	last = axes.flat[7]
 	last.plot(thickness * n, 1e3 * settlement, 'o-', label='settlement in the middle')

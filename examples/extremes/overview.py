@@ -90,6 +90,18 @@ def compared(rows):
 	return len(names), safe, {ghost: sum(some) / len(some) for ghost, some in failed.items()}
 
 
+def introduction(rows):
+	return f'''# Stability at the extremes
+
+{len(listed())} parameters, driven until the method breaks down: {len(rows):,} cases by `scripts/extremes`, in 2D and 3D, without ghost stabilisation, with it (mesh-independent, h¹) and in the paper's scaling (h³). All cases: [details](details.md). Safe: it runs without a cut step, with an error of at most 5 % or three times the smallest.
+
+## Run it
+
+    scripts/extremes points turns --quick        # some parameters, few values
+    scripts/extremes                             # all of them
+'''
+
+
 def text(rows):
 	at = lambda name, value, dim=2, ghost=default: rows[name, dim, ghost, value]
 	error = lambda *case, **more: percent(at(*case, **more)['error'])
@@ -99,11 +111,7 @@ def text(rows):
 	solves = [row['meanIterations'] for factor, row in columns.items() if float(factor) >= 1e-4]
 	kept = [f"{at('softeningGrid', f'{cells}/same')['measured']:.2f}" for cells in (8, 16, 32)]
 	scaled = [f"{at('softeningGrid', f'{cells}/scaled')['measured']:.2f}" for cells in (8, 16, 32)]
-	return f'''# Stability at the extremes
-
-{len(listed())} parameters, driven until the method breaks down: {len(rows):,} cases by `scripts/extremes`, in 2D and 3D, without ghost stabilisation, with it (mesh-independent, h¹) and in the paper's scaling (h³). All cases: [details](details.md). Safe: it runs without a cut step, with an error of at most 5 % or three times the smallest.
-
-**Three settings worth knowing**
+	return f'''**Three settings worth knowing**
 
 1. **`MpmGhost()`, as it is** (`factor=1e-2`): of {count} parameters {safe[default]} are safe throughout; without it {safe['none']}, in the paper's scaling {safe['paper']}. Cases that do not run: {percent(failed[default])}, {percent(failed['none'])} and {percent(failed['paper'])}. Overlaps of 1e-15 of a cell, cells of 1e-7 to 1e7 m, any modulus and rotations of 90° in a step are no matter.
 2. **2 x 2 points a cell, not one**: one has an error of {error('points', '1')} instead of {error('points', '2')} in the elastic column (without stabilisation it is {at('points', '1', ghost='none')['failure']}), and fails ({at('contactClamped', '1')['failure']}) where soil that is pressed grows aside (2 x 2: {error('contactClamped', '2')} off).
@@ -130,7 +138,7 @@ TABLE = """**Where the default ends** (the ranges hold in 2D and in 3D; paramete
 def write(folder):
 	rows = page.read(folder)
 	picture(rows, os.path.join(folder, 'ranges.png'))
-	pages.write(folder, [text(rows), '![How far each parameter can go](ranges.png)\n', TABLE, limits(rows), ''])
+	pages.write(folder, [introduction(rows), '## Picture\n\n![How far each parameter can go](ranges.png)\n\n## Numbers\n', TABLE, limits(rows), '\n## What to change\n', text(rows)])
 	page.write(folder, 'details.md')
 
 

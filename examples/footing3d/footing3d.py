@@ -27,7 +27,7 @@ matplotlib.use('Agg')
 import matplotlib.pyplot as plt
 import numpy as np
 sys.path.insert(0, os.path.join(os.path.dirname(sys.argv[0]), '..'))
-from options import readOptions
+from options import compared, readOptions
 
 options = readOptions('Rough rigid footing on undrained clay, strip and square.',
         cells=(3, 'cells over half the width of the footing, without the half cell at its edge'),
@@ -81,7 +81,9 @@ for dim in 2, 3:
 	curves[dim] = np.array(history).T
 	print(f'{name}: {len(O.bodies)} material points, {solver.dofs} unknowns, {O.iter} of {options.steps} load steps in {seconds:.1f} s')
 	print(f'{name}: N_c = {curves[dim][1].max():.3f}, published {reference:.3f} (difference {100 * (curves[dim][1].max() / reference - 1):+.1f} %)')
+	compared(f'N_c of the {name}, {B / h:g} cells over the width', curves[dim][1].max(), reference, {2: 'Prandtl 1921', 3: 'Gourvenec et al. 2006'}[dim])
 print(f'h = B / {B / h:g}: square over strip {curves[3][1].max() / curves[2][1].max():.3f}, published 1.14')
+compared(f'square over strip, {B / h:g} cells over the width', curves[3][1].max() / curves[2][1].max(), 1.14, 'Gourvenec et al. 2006')
 np.savetxt(os.path.join(options.out, 'footing3d.csv'), np.column_stack([*curves[2], curves[3][1]]), '%.6g', ',', header='settlement/B,strip,square', comments='')
 
 figure, (curve, shape) = plt.subplots(1, 2, figsize=(12.5, 4.2), width_ratios=[1, 1.5], layout='constrained')

@@ -17,7 +17,7 @@ matplotlib.use('Agg')
 import matplotlib.pyplot as plt
 import numpy as np
 sys.path.insert(0, os.path.join(os.path.dirname(sys.argv[0]), '..'))
-from options import readOptions
+from options import compared, readOptions
 
 options = readOptions('Grains poured onto soil.',
         grains=(200, 'number of grains, of 10 cm'),
@@ -120,6 +120,7 @@ def drive():
 
 onPlough = -fromGrains()[2]
 print(f'reaction of the base over weight: {solver.reactions[0][2] / weight:.5f}, with what the plough bears: {(solver.reactions[0][2] + onPlough) / weight:.5f}; {time.time() - began:.0f} s')
+compared('weight of the grains on the base', (solver.reactions[0][2] + onPlough) / weight, 1, 'balance', 'weight')
 picture('grains_on_soil', 'stress_zz')
 if options.travel:
 	began = time.time()

@@ -20,7 +20,7 @@ matplotlib.use('Agg')
 import matplotlib.pyplot as plt
 import numpy as np
 sys.path.insert(0, os.path.join(os.path.dirname(sys.argv[0]), '..'))
-from options import readOptions
+from options import compared, readOptions
 
 options = readOptions('Laboratory tests on one material point of each law, against closed forms.', steps=(200, 'steps of a test'))
 
@@ -37,6 +37,7 @@ def compare(name, found, exact, unit='Pa'):
 	worst = max(worst, abs(found / exact - 1))
 	form = '.0f' if unit == 'Pa' else '.5f'
 	print(f'{name:54} {found:12{form}} {unit:2}  closed form {exact:12{form}}  ({100 * (found / exact - 1):+.4f} %)')
+	compared(' '.join(name.split()), found, exact, 'closed form', unit)
 
 
 def test(material, kind, strain, **how):

@@ -75,8 +75,14 @@ def verdict(found):
 	return pages.table(['scene', 'tolerances', 'at most 1.6 times the solves', 'ratios'], lines)
 
 
+CHANGE = """## What to change
+
+`--scenes` and `--most`, the most steps. In a scene of your own: `O.dt` as long as the whole load, and `newton=MpmNewton(stepTolerance=...)` of half a percent of the displacement that counts; halve it once to see what it does to the result.
+"""
+
+
 def write(folder):
 	found = runs(folder)
 	picture(found, os.path.join(folder, 'load_steps.png'))
-	pages.write(folder, [*pages.texts(os.path.join(here, 'findings.md')), '## How many', '', verdict(found), '', '## Tolerances', '', comparison(found), '', '## Fixed numbers of steps', '',
-	                     'Error, solves:', '', fixedTable(found), ''])
+	pages.write(folder, [*pages.texts(os.path.join(here, 'findings.md')), '### How many', '', verdict(found), '', '### Tolerances', '', comparison(found), '', '### Fixed numbers of steps', '',
+	                     'Error, solves:', '', fixedTable(found), '', CHANGE])

@@ -17,7 +17,7 @@ import time
 from yade import mpm
 import numpy as np
 sys.path.insert(0, os.path.join(os.path.dirname(sys.argv[0]), '..'))
-from options import readOptions
+from options import compared, readOptions
 
 options = readOptions('What locks, with F-bar and without.',
         scene=('strip', "'strip', 'square', 'cut' or 'beam'"),
@@ -73,6 +73,7 @@ def judgeFooting(dim, settlement, load):
 	reference = (2 + np.pi) * (1.14 if dim == 3 else 1)
 	rise = load[-1] / np.interp(settlement[-1] - 0.005, settlement, load) - 1
 	print(f'N_c = {load.max():.3f}, {100 * (load.max() / reference - 1):+.1f} % of {reference:.3f}, to {settlement[-1]:.4f} B; rising by {100 * rise:.2f} % in the last .005 B')
+	compared(f"N_c of the {options.scene}{'' if options.rough else ', smooth'}, {2 * options.cells + 1} cells over the width, F-bar {options.fBar}", load.max(), reference, 'Prandtl 1921' if dim == 2 else 'Gourvenec et al. 2006')
 	return load.max() / reference - 1
 
 
@@ -96,6 +97,7 @@ def front():
 def judgeCut(movement, number):
 	failure = np.interp(0.01, movement, number) if movement[-1] > 0.01 else np.nan
 	print(f'N = {failure:.3f} where the front has moved by H / 100: {100 * (failure / 3.776 - 1):+.1f} % of 3.776')
+	compared(f'stability number of the vertical cut, {options.cells} cells over the height, F-bar {options.fBar}', failure, 3.776, 'Kammoun et al. 2010, limit analysis')
 	return failure / 3.776 - 1
 
 
@@ -121,6 +123,7 @@ def beam():
 
 def judgeBeam(_, tip):
 	print(f"deflection of the tip: {tip[-1]:.3f} of Timoshenko's")
+	compared(f"deflection of a beam, Poisson's ratio {options.poisson:g}, {options.cells} cells, F-bar {options.fBar}", tip[-1], 1, 'Timoshenko')
 	return tip[-1] - 1
 
 

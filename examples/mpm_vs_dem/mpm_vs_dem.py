@@ -25,7 +25,7 @@ from matplotlib.patches import Circle
 import numpy as np
 sys.path[:0] = [os.path.dirname(sys.argv[0]), os.path.join(os.path.dirname(sys.argv[0]), '..')]
 from grains import Layer, cutScene, grainArrays
-from options import readOptions
+from options import compared, readOptions
 
 options = readOptions('Collapse of a cohesive cut, by DEM and by MPM.',
         grains=(24, 'mean diameters over the height'),
@@ -161,13 +161,17 @@ mpmSeconds = clock() - begin
 final = options.end
 print(f'DEM: {grainCount} grains, {demSteps} time steps, {demSeconds:.0f} s of CPU; root mean square velocity up to {fastest[0]:.3f} m/s')
 print(f'MPM: {len(O.bodies)} material points, {O.iter} of {steps} load steps, {mpmSeconds:.0f} s of CPU')
+failures = {}
 for name, history in ('DEM', dem), ('MPM', continuum):
 	N, front, crest = history.columns
 	at = np.interp(0.02 * H, np.maximum.accumulate(crest), N)
 	np.savetxt(os.path.join(options.out, name.lower() + '.csv'), np.transpose([N, front, crest]), '%.6g', ',', header='N,front,crest', comments='')
 	print(f'{name}: crest sinks by H / 50 at N = {at:.2f}; at N = {N[-1]:.2f} the front has moved by {front[-1]:.3f} m and the crest has sunk by {crest[-1]:.3f} m')
+	failures[name] = at
 	pressure = [-verticalStress(state)[1].mean() / 1e3 for state in history.states.values()]
 	print(f'{name}: mean vertical pressure over 0 < x < H: ' + ', '.join(f'{p:.1f} kPa at N = {N:g} (weight: {N * cu / 2e3:.1f})' for N, p in zip(history.states, pressure)))
+compared('stability number at which the crest of a cut sinks by H / 50', failures['MPM'], failures['DEM'], 'the same cut in grains')
+
 
 def dataSet(part, N, name):
 	"""Entry of a .pvd file; grains and continuum get the same 20 times, for ParaView shows together what has the same time to the last digit."""

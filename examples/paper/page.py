@@ -52,9 +52,7 @@ def figure2():
 	distances = list(dict.fromkeys(row['distance'] for row in edges))
 	beyond = {name: max(row[name] for row in edges) for name in columns}
 	smallest = 1.5e-8 * 0.25
-	return f'''## Figure 2: condition number of the stiffness matrix
-
-![Condition number against offset](fig2.png)
+	return f'''### Figure 2: condition number of the stiffness matrix
 
 {len(rows)} offsets a from 0 to 2 h, condition number of the reduced K (+ K_g with 0.01 E). The paper prints a graph; numbers come from an independent
 implementation of the method ([tests/data/fig2.csv](../../tests/data/fig2.csv), 10 digits).
@@ -114,7 +112,7 @@ def figure4():
 	allRefined = [order for series in refined.values() for order in orders(series)]
 	without, stabilised = ([order for tables in fixed.values() for g in names for order in orders(tables[ghosts[g]])] for names in (['none'], ['paper', 'mesh-independent']))
 	coarse = [order for tables in fixed.values() for series in tables.values() for order in orders([p for p in series if p[0] <= 32])]
-	parts = [f'''## Figure 4: stress error of the column
+	parts = [f'''### Figure 4: stress error of the column
 
 ![Stress error against cells](fig4.png)
 
@@ -206,7 +204,7 @@ def table1():
 	rows.sort(key=lambda row: (row['factor'], -row['cellSize'], row['pointsPerCell']))
 	stabilised = [row for row in rows if row['factor'] > 0]
 	good = [row for row in stabilised if completed(row) and row['maxIterations'] <= 20]
-	return f'''## Table 1: iterations of the slope
+	return f'''### Table 1: iterations of the slope
 
 Mean and largest number of Newton-Raphson iterations of a load step, counted as in the paper: linear solves, and one first pass without solve. As in the
 paper no step is cut, there is no line search, and 20 solves are allowed. With ghost stabilisation {len(good)} of {len(stabilised)} runs complete within 20 iterations a step.
@@ -248,7 +246,7 @@ def table2():
 		other = withLineSearch.get(tuple(row[k] for k in slopeKey))
 		return {'ours with line search': outcome(other) if other else ''}
 
-	return f'''## Table 2: strength of the ghost stabilisation
+	return f'''### Table 2: strength of the ghost stabilisation
 
 h = 1 m, 3 x 3 points per cell; notes as for table 1. Beside it the same with the plugin's line search, which is on by default (`MpmNewton.lineSearchTrials=5`).
 
@@ -271,7 +269,7 @@ def figures67():
 		at = f"load factor {runs[name]['completed'] / steps:g} (step {runs[name]['completed']:g} of {steps:g})"
 		pictures.deformedSlope(state, f'Shear stress {kind} ghost stabilisation at {at}\nh = {finest:g} m, 4 x 4 points per cell', inFolder(f'fig{number}.png'))
 	pictures.oscillation(history, steps, inFolder('oscillation.png'))
-	text = f'''## Figures 6 and 7: shear stress in the deformed slope
+	text = f'''### Figures 6 and 7: shear stress in the deformed slope
 
 h = {finest:g} m, 4 x 4 points per cell, without and with ghost stabilisation (factor 0.01), same colours for the same stress.
 '''
@@ -318,7 +316,7 @@ def scaling():
 	independent = [name for ghost, name in ghosts.items() if ghost != 'none' and spread[ghost, 'conditionNumber'] < 1.001 and spread[ghost, 'error'] < 1.001]
 	cell = {(row['cellSize'], row['ghost']): row for row in rows}
 	sizes = sorted({row['cellSize'] for row in rows})
-	return f'''## Beyond the paper: which scaling is independent of the grid
+	return f'''### Beyond the paper: which scaling is independent of the grid
 
 ![Condition number and column error against cell size](scaling.png)
 
@@ -340,8 +338,23 @@ introduction = '''# The paper, side by side
 Figures and tables of W.M. Coombs (2023): *A ghost-stabilised material point method for large deformation geotechnical analysis*, NUMGE 2023, run in YADE
 with this plugin by `scripts/reproduce all`, which writes this page, the pictures and the tables in `results/` to `out/paper` (a few minutes; see
 `scripts/reproduce --help`). Iterations in the tables are linear solves; on this page they are counted as in the paper, with one first pass without solve.
+
+## Run it
+
+    scripts/reproduce all                   # 4 minutes
+    scripts/reproduce fig2                  # the picture below: fig4, table1, table2, fig6, fig7, scaling are the others
 '''
 
-sections = [introduction, figure2(), figure4(), table1(), table2(), figures67(), scaling()]
+picture = '''## Picture
+
+![Condition number of the stiffness matrix against the offset of a block in the grid](fig2.png)
+'''
+
+change = '''## What to change
+
+The scripts of this folder take `--quick` for a coarse run and `--out` for another folder. The slope of the paper with cells, points and stabilisation of your own is [slope](../slope/README.md), the column [column](../column/README.md).
+'''
+
+sections = [introduction, figure2() and picture, '## Numbers\n', figure2(), figure4(), table1(), table2(), figures67(), scaling(), change]
 pages.write(folder, [section for section in sections if section])
 print(f'written: {inFolder("README.md")}')

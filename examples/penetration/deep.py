@@ -20,7 +20,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 from yade import mpm, utils
 sys.path.insert(0, os.path.join(os.path.dirname(sys.argv[0]), '..'))
-from options import readOptions
+from options import compared, readOptions
 
 options = readOptions('Rigid bodies deep in clay.',
         scene=('cone', "'cone', 'pile' or 'tbar'"),
@@ -103,8 +103,12 @@ def push(way, steps, until=lambda: False):
 	return True
 
 
+sources = {'Skempton': 'Skempton 1951', 'adhesion': 'what was set', 'Randolph and Wroth': 'Randolph and Wroth 1978', 'full flow': 'Randolph and Houlsby 1984', 'Lu et al.': 'Lu et al. 2004, finite elements'}
+
+
 def compare(what, value, exact):
 	print(f'{what} = {value:.3f}, {exact:.3f} ({100 * (value / exact - 1):+.1f} %)')
+	compared(f'{options.scene}{", rough" if rough == 1 else ""}, {options.cells} cells over the radius: {what.rpartition(", ")[0]}', value, exact, sources[what.rpartition(', ')[2]])
 	return value / exact - 1
 
 

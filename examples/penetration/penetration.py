@@ -17,7 +17,7 @@ import time
 from yade import mpm, utils
 import numpy as np
 sys.path.insert(0, os.path.join(os.path.dirname(sys.argv[0]), '..'))
-from options import readOptions
+from options import compared, readOptions
 
 options = readOptions('Rigid bodies pressed into soil.',
         scene=('footing', "'plate', 'footing', 'sphere', 'free' or 'cylinder'"),
@@ -59,6 +59,7 @@ def plate():
 	run(options.steps or 25, lambda: None)
 	F, exact = contact.forces[0][1], -E * np.log(0.75) / 0.75 * size
 	print(f'F = {F:.1f} N/m, exact {exact:.1f} N/m ({100 * (F / exact - 1):+.2f} %)')
+	compared('force of a plate', F, exact, 'closed form, large strains', 'N/m')
 	return F / exact - 1, 'stress_yy', lambda ax: None
 
 
@@ -87,6 +88,7 @@ def footing():
 		print(f'beyond .1 B: from its moving mean over a cell N differs by {100 * off.mean():.1f} % on average, in {100 * (off > 0.02).mean():.0f} % of the steps by more than 2 %, at most by {100 * off.max():.0f} %')
 	shallow = np.interp(0.02 * B, s, N)
 	print(f'at s = .02 B: N = {shallow:.3f}, Prandtl {2 + np.pi:.3f} ({100 * (shallow / (2 + np.pi) - 1):+.1f} %)')
+	compared(f'footing by contact, N_c at .02 B, {2 * options.cells} cells over the width', shallow, 2 + np.pi, 'Prandtl 1921')
 	return shallow / (2 + np.pi) - 1, 'plasticStrain', lambda ax: ax.set(xlim=(0, 1.5 * B), ylim=(-1.2 * B, 0.6 * B))
 
 
@@ -125,6 +127,7 @@ def free():
 		if len(solves) % 5 == 0: print(f'{O.time:.3f}  {sunk:.6f}  {F / weight:.4f}')
 	hertz = (3 * F / (4 * stiffness * np.sqrt(R)))**(2 / 3) - sinking(F, size)
 	print(f'force over weight {F / weight:.4f}, sunk by {sunk:.5f} m; Hertz for that force, less what a half-space gives way at the base, {hertz:.5f} m ({100 * (sunk / hertz - 1):+.1f} %)')
+	compared(f'way of a free sphere, {options.cells} cells over the contact', 1e3 * sunk, 1e3 * hertz, 'Hertz 1882', 'mm')
 	return sunk / hertz - 1, 'stress_zz', lambda ax: ax.set(xlim=(0, 3 * a), ylim=(-3 * a, 1.5 * a)), ('y', h / 4)
 
 
@@ -149,6 +152,7 @@ def halfSpace(axisymmetric):
 		hertz = 4 / 3 * stiffness * np.sqrt(R) * (sunk + base)**1.5
 		error = F / hertz - 1
 		print(f'sunk by {sunk:.5f} m, and by {base:.5f} m more on a half-space: F = {F:.1f} N, Hertz {hertz:.1f} N ({100 * error:+.1f} %)')
+		compared(f'force on a sphere, {options.cells} cells over the contact', F, hertz, 'Hertz 1882', 'N')
 	else: error = compareLine(F, R, stiffness, h)
 	return error, 'stress_yy', lambda ax: ax.set(xlim=(0, 3 * a), ylim=(-3 * a, 1.5 * a))
 
@@ -163,7 +167,9 @@ def compareLine(F, R, stiffness, h):
 	pressure = np.diff(np.interp(np.arange(0, x[-1] + h, h), between, np.concatenate([[0], np.cumsum(down)]))) / h
 	width = np.sqrt(4 * (2 * down * x**2).sum() / F)  # of the half ellipse with the same second moment
 	print(f'F = {F:.0f} N/m: half width {width / h:.2f} h, Hertz {half / h:.2f} h ({100 * (width / half - 1):+.1f} %)')
+	compared(f'half width of the contact of a cylinder, {options.cells} cells', width / h, half / h, 'Hertz 1882', 'h')
 	print(f'largest mean pressure in a cell {pressure.max():.0f} Pa, Hertz {largest:.0f} Pa ({100 * (pressure.max() / largest - 1):+.1f} %)')
+	compared(f'largest pressure below a cylinder, {options.cells} cells', pressure.max(), largest, 'Hertz 1882', 'Pa')
 	return width / half - 1
 
 

@@ -15,7 +15,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 from yade import mpm, utils
 sys.path.insert(0, os.path.join(os.path.dirname(sys.argv[0]), '..'))
-from options import readOptions
+from options import compared, readOptions
 
 options = readOptions('A driven wheel on clay.',
         slip=(0.4, '1 - speed of the middle over that of the rim'),
@@ -75,6 +75,7 @@ print(f'second half of the way: pull over weight {pull[late].mean() / weight[lat
 print('of the energy of the drive: ' + ', '.join(f'{name} {100 * share / energy:.1f} %' for name, share in shares.items()))
 off = sum(shares.values()) / energy - 1
 print(f'in sum = {1 + off:.3f}, 1.000 ({100 * off:+.1f} %)')
+compared(f'energy of a driven wheel found again, slip {options.slip:g}', 1 + off, 1, 'balance', 'given')
 print(f'{len(mpm.arrays()["id"])} material points, {sum(solves)} iterations in {len(solves)} steps, {time.time() - began:.0f} s')
 
 figure, (picture, curve) = plt.subplots(2, 1, figsize=(9, 7), layout='constrained')

@@ -24,7 +24,7 @@ import matplotlib.pyplot as plt
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(sys.argv[0])), '..'))
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(sys.argv[0])), '..', '..', 'scripts', 'lib'))
 from deposits import front
-from options import readOptions
+from options import compared, readOptions
 
 options = readOptions('Run-out of columns of sand.',
         aspects=('0.5 1 1.5 2 3', 'height over width of the columns, between blanks'),
@@ -210,6 +210,8 @@ for a in map(float, options.aspects.split()):
 		found[kind].append((aspect, out, top, x, depth))
 		print(f'{kind:7}{aspect:4.2f}  {out:.3f}  {law[0]:.3f} ({100 * (out / law[0] - 1):+.1f} %)  {top:.3f}  {law[1]:.3f} ({100 * (top / law[1] - 1):+.1f} %)  {history[-1, 0]:.2f}, kinetic energy {history[-1, 2] / history[-1, 3]:.1e}; '
 		      f'{said}; {time.time() - began:.0f} s', flush=True)
+		compared(f'run-out of {kind}, a = {aspect:.3g}', out, law[0], 'Lube et al. 2005, experiments', 'L')
+		compared(f'height at rest of {kind}, a = {aspect:.3g}', top, law[1], 'Lube et al. 2005, experiments', 'L')
 		if a == options.film:
 			energies[kind] = history
 			drawFilm(f'{kind}.png', film, 2.5, aspect)

@@ -22,7 +22,7 @@ matplotlib.use('Agg')
 import matplotlib.pyplot as plt
 import numpy as np
 sys.path.insert(0, os.path.join(os.path.dirname(sys.argv[0]), '..'))
-from options import readOptions
+from options import compared, readOptions
 
 options = readOptions('Factors of safety.',
         scene=('slope', "'slope', 'cut', 'gradient', 'long' or 'infinite'"),
@@ -87,6 +87,9 @@ O.run(10, wait=True)
 found = mpm.strengthReduction(tolerance=options.tolerance)
 print(f'{options.scene}, {options.cells} cells over the height, F-bar {options.fBar}, psi = {options.psi:g}: {len(O.bodies)} points; F = {found["lower"]:.4f} to {found["upper"]:.4f}', end='')
 if published: print(f', published {published[0]:.4g} to {published[1]:.4g} ({100 * (found["lower"] / published[1] - 1):+.1f} % to {100 * (found["upper"] / published[0] - 1):+.1f} %)', end='')
+if published:
+	source = dict(slope='Griffiths and Lane 1999', cut='Kammoun et al. 2010, limit analysis').get(options.scene, 'infinite slope, closed form')
+	compared(f'factor of safety, {options.scene}, {options.cells} cells over the height', (found['lower'] + found['upper']) / 2, sum(published) / 2, source)
 print(f'; {len(found["trials"])} trials, {sum(trial["iterations"] for trial in found["trials"])} iterations, {time.time() - begin:.1f} s')
 for trial in sorted(found['trials'], key=lambda trial: trial['F']):
 	print(f"  F = {trial['F']:.4f}: {'carries' if trial['carries'] else 'fails'}, moves by {1000 * trial['displacement']:.2f} mm, {trial['parts']} parts, {trial['iterations']} iterations; {trial['cause'][:90]}")

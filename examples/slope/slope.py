@@ -26,7 +26,7 @@ matplotlib.use('Agg')
 import matplotlib.pyplot as plt
 import numpy as np
 sys.path.insert(0, os.path.join(os.path.dirname(sys.argv[0]), '..'))
-from options import readOptions
+from options import compared, readOptions
 
 options = readOptions('Slope failure with a weak layer (Coombs 2023, section 4.2).',
         cellSize=(1., 'h [m]; the load comes in 40/h steps'),
@@ -74,6 +74,8 @@ print(f'h = {h:g} m, {options.pointsPerCell} x {options.pointsPerCell} points pe
 print(f'load steps completed: {O.iter} of {steps} in {seconds:.1f} s')
 print(f'iterations per step, mean (max): {np.mean(solves) + 1:.2f} ({max(solves) + 1})', end='')
 print(f', paper: {published[h, options.pointsPerCell]}' if options.ghostFactor == 1e-2 and (h, options.pointsPerCell) in published else '')
+if options.ghostFactor == 1e-2 and (h, options.pointsPerCell) in published:
+	compared(f'iterations a step of the slope, h = {h:g} m, {options.pointsPerCell} x {options.pointsPerCell} points', np.mean(solves) + 1, published[h, options.pointsPerCell].split()[0], 'Coombs 2023, table 1')
 print(f'largest displacement: {displacement.max():.6f} m')
 print(f'crest (0, 12) settles by {-(points["pos"] - points["pos0"])[np.lexsort((points["pos0"][:, 0], -points["pos0"][:, 1]))[0], 1]:.4f} m')
 

@@ -27,7 +27,7 @@ matplotlib.use('Agg')
 import matplotlib.pyplot as plt
 import numpy as np
 sys.path.insert(0, os.path.join(os.path.dirname(sys.argv[0]), '..'))
-from options import readOptions
+from options import compared, readOptions
 
 options = readOptions('Strip load on an elastic block.',
         cells=(4, 'cells over half the width of the strip'),
@@ -66,6 +66,7 @@ def stress(x, z):
 
 def compare(what, found, exact, unit):
 	print(f'{what}: {found / unit:.4f}, half space {exact / unit:.4f} ({100 * (found / exact - 1):+.2f} %)')
+	compared(f'strip load, {what}, {options.cells} cells', found / unit, exact / unit, 'half space, Boussinesq')
 
 
 begin = time.time()

@@ -12,7 +12,7 @@ import sys
 from yade import mpm
 import numpy as np
 sys.path.insert(0, os.path.join(os.path.dirname(sys.argv[0]), '..'))
-from options import readOptions
+from options import compared, readOptions
 
 options = readOptions('Thick tube under inner pressure.', cells=(16, 'cells over the inner radius'), pointsPerCell=(2, 'material points per cell and axis'))
 
@@ -42,5 +42,6 @@ surface = solver.loads[0].surface
 moved = np.linalg.norm(surface.vertices, axis=1) - np.linalg.norm(surface.initialVertices, axis=1)
 print(f'h = a / {options.cells}: {len(O.bodies)} material points, {solver.iterations} iterations')
 print(f'u(a) / a: {moved.mean() / a:.6e}, Lame {published:.6e} ({100 * (moved.mean() / a / published - 1):+.2f} %), along the side +- {100 * moved.std() / moved.mean():.2f} %')
+compared(f'widening of a thick tube cut by the grid, {options.cells} cells', moved.mean() / a, published, 'Lame', 'a')
 mpm.plot('displacement', fileName=os.path.join(options.out, 'tube.png'))
 print(f'written: {options.out}/tube.png')

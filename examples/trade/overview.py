@@ -15,7 +15,7 @@ import page
 import pages
 from panels import cost, panels, said
 from plans import plans
-from verdict import text
+from verdict import introduction, text
 
 targets = .2, .1, .05, .02, .01, .003
 
@@ -98,7 +98,7 @@ b   width of the bracket
 def write(folder):
 	found = panels()
 	picture(found, os.path.join(folder, 'fronts.png'))
-	pages.write(folder, [text(found), '![Error against cost, by scene](fronts.png)\n', TABLE, answers(found), ''])
+	pages.write(folder, [introduction(), '## Picture\n\n![Error against cost, by scene](fronts.png)\n\n## Numbers\n', TABLE, answers(found), '\n## What to change\n', text(found)])
 	page.write(folder, plans, 'details.md')
 
 

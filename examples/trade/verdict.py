@@ -76,6 +76,18 @@ def solving():
 	return {run['method']: run['setUp'] + run['solve'] for run in runs}, runs[0]['unknowns']
 
 
+def introduction():
+	return f'''# What accuracy costs
+
+What to set, and what not, from {sum(map(len, Kept().runs.values()))} runs by `scripts/trade` and the tables of other examples. All runs, and how they were measured: [details](details.md).
+
+## Run it
+
+    scripts/trade cantilever                                                              # one of the scenes; all: none named
+    scripts/trade my.py --vary h=1,0.5 --quantity settlement --reference h=0.125          # a scene of yours
+'''
+
+
 def text(found):
 	kept = Kept()
 	halved = [kept.halving(name) for name in plans if not found[name].luck and name != 'beam'] # whose theory is no better than the beam
@@ -94,13 +106,9 @@ def text(found):
 	split, coarse = found['runout'].points[0], found['runout'].beside[1][0]
 	lumped = min((point for point in found['pulse'].points if 'explicit, lumped' in point.setting), key=lambda point: point.error)
 	better = found['pulse'].cheapest(.2)
-	return f'''# What accuracy costs
+	return f'''**Three settings worth knowing**
 
-What to set, and what not, from {sum(map(len, kept.runs.values()))} runs by `scripts/trade` and the tables of other examples. All runs, and how they were measured: [details](details.md). `scripts/trade my.py` does it for a scene of yours.
-
-**Three settings worth knowing**
-
-1. **`MpmGrid(cellSize=...)`, with 2 x 2 points a cell.** Cells of half the size take the error to {span([e for e, _ in halved])} times for {span([t for _, t in halved])} times the time (scenes without * below). In {sum(map(kept.buysMost, plans))} of {len(plans)} scenes no other number buys as much.
+1. **`MpmGrid(cellSize=...)`, with 2 x 2 points a cell.** Cells of half the size take the error to {span([e for e, _ in halved])} times for {span([t for _, t in halved])} times the time (scenes without * above). In {sum(map(kept.buysMost, plans))} of {len(plans)} scenes no other number buys as much.
 2. **`MpmGrid(dim=2, axisymmetric=True)`, and a small body.** A circular footing takes {section.cpu:.2f} s as a section, {quarter.cpu:.1f} s as a quarter in 3D, with the same cells. A block no larger than what fails gives the same load (within {percent(max(d for _, d in small))}) with {span([part for part, _ in small])} of the unknowns ([two_sizes](../two_sizes/README.md)).
 3. **`fBar=True` where matter keeps its volume** (clay, Poisson's ratio near .5): {fBar[0]} times the error for {fBar[1]} times the time. A strip footing with 9 cells over its width is off by {percent(with9.error)} in {with9.cpu:.2f} s; without F-bar by {percent(without49.error)} with 49 cells in {without49.cpu:.1f} s ([locking](../locking/README.md)).
 

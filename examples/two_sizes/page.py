@@ -140,6 +140,12 @@ def limitLoads(measured):
 	return [pages.table(heads, lines), '', note, '']
 
 
+CHANGE = """## What to change
+
+`--scenes` and `--largest`, the most cells; `examples/two_sizes/footing.py` is the scene with the plugin, with `--cells` and `--reach` of the small ones. In a scene of your own make the block smaller first, then `MpmGrid(refinements=mpm.refinementsAt(...))`.
+"""
+
+
 def write(folder):
 	footings = os.path.join(folder, 'results', 'footing.csv')
 	if os.path.exists(footings): pages.write(folder, [*pages.texts(os.path.join(here, 'footing_findings.md')), *limitLoads(rows(footings))], 'footing.md')
@@ -148,6 +154,6 @@ def write(folder):
 	found, growth = judged(runs), exponents(runs)
 	exponent = np.mean(list(growth.values())) if growth else None
 	picture(runs, found, os.path.join(folder, 'two_sizes.png'))
-	parts = [*pages.texts(os.path.join(here, 'findings.md')), '## Saving at equal error', '', savings(found, exponent), '']
+	parts = [*pages.texts(os.path.join(here, 'findings.md')), '### Saving at equal error', '', savings(found, exponent), '']
 	if growth: parts += ['Time of a solve of the plugin with equal cells: unknowns to the power ' + ', '.join(f'{power:.2f} ({name})' for name, power in growth.items()) + f'; the table takes {exponent:.2f}.', '']
-	pages.write(folder, [*parts, '## Equal cells, here and in the plugin', '', check(measured), ''])
+	pages.write(folder, [*parts, '### Equal cells, here and in the plugin', '', check(measured), '', CHANGE])

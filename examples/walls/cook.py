@@ -22,7 +22,7 @@ import matplotlib
 matplotlib.use('Agg')
 import matplotlib.pyplot as plt
 sys.path.insert(0, os.path.join(os.path.dirname(sys.argv[0]), '..'))
-from options import readOptions
+from options import compared, readOptions
 
 options = readOptions("Cook's membrane.",
         cells=(24, 'cells over the clamped edge'),
@@ -53,6 +53,7 @@ lift = (middle[1] - middle[0])[1] * E / F
 exact = reference.get(options.poisson)
 print(f'h = 44 m / {options.cells}: {len(O.bodies)} material points, {solver.dofs} unknowns, {solver.iterations} iterations, condition number about {solver.conditionEstimate():.2g}')
 print(f'lift of the middle over F / E: {lift:.3f}' + (f', reference {exact} ({100 * (lift / exact - 1):+.2f} %)' if exact else ''))
+if exact: compared(f"lift of Cook's membrane, Poisson's ratio {options.poisson:g}, {options.cells} cells", lift, exact, 'Cook 1974, by finite elements of nine nodes', 'F / E')
 print(f'reaction of the clamp over load: {-solver.reactions[0][1] / F:.8f}')
 figure, picture = plt.subplots(figsize=(6, 5.5), layout='constrained')
 mpm.plot('meanStress', ax=picture, ghost=False, range=(-300, 300))

@@ -23,7 +23,7 @@ matplotlib.use('Agg')
 import matplotlib.pyplot as plt
 import numpy as np
 sys.path.insert(0, os.path.join(os.path.dirname(sys.argv[0]), '..'))
-from options import readOptions
+from options import compared, readOptions
 
 options = readOptions('A confined column askew on the grid.',
         load=('weight', "'weight' or 'lid'"),
@@ -81,9 +81,11 @@ exact = np.full(len(along), E * np.log(stretch) / stretch) if isLid else -weight
 forces = [np.array([-np.dot(force, [*axis, 0]), np.dot(force, [*across, 0])]) for force in solver.reactions]
 print(f'{len(O.bodies)} material points, {solver.dofs} unknowns, {solver.iterations} iterations in the last step, condition number about {solver.conditionEstimate():.2g}')
 print(f'stress along: mean error over the largest {np.abs(along - exact).mean() / np.abs(exact).max():.5f}, mean {along.mean() / exact.mean():.5f} of the aligned one')
+compared(f'mean stress of a column askew, {options.load}', along.mean() / exact.mean(), 1, 'closed form', 'aligned')
 if nu: print(f'stress across over stress along: {sideways.mean() / along.mean():.4f}, exact {nu / (1 - nu):.4f}')
 if isLid:
 	print(f'force on lid over exact: {forces[3][0] / (width * -exact[0]):.5f}, lid and foot together: {(forces[3][0] + forces[0][0]) / forces[3][0]:.1e}')
+	compared('force on the lid of a column askew', forces[3][0] / (width * -exact[0]), 1, 'closed form', 'aligned')
 else:
 	total = weight * sum(body.state.volume0 for body in O.bodies)
 	print(f'reactions over weight: {-sum(forces)[0] / total:.8f} along, {sum(forces)[1] / total:.1e} across; of the foot alone {-forces[0][0] / total:.5f}')

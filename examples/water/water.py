@@ -24,7 +24,7 @@ matplotlib.use('Agg')
 import matplotlib.pyplot as plt
 import numpy as np
 sys.path.insert(0, os.path.join(os.path.dirname(sys.argv[0]), '..'))
-from options import readOptions
+from options import compared, readOptions
 
 options = readOptions('Water in soil.',
         scene=('all', "'all', or one of 'wall', 'seepage' and 'bank'"),
@@ -47,6 +47,7 @@ def scene(region, grid, material, boundaries, water, **settings):
 
 def compare(what, found, exact, unit=''):
 	print(f'{what}: {found:.4f}{unit}, by hand {exact:.4f}{unit} ({100 * (found / exact - 1):+.2f} %)')
+	compared(what, found, exact, 'sum by hand', unit.strip())
 
 
 def wall():
@@ -74,6 +75,7 @@ def seepage():
 	O.run(10, wait=True)
 	found = mpm.strengthReduction(tolerance=options.tolerance)
 	print(f"seepage: F between {found['lower']:.3f} and {found['upper']:.3f}, closed form {exact:.3f}")
+	compared(f'factor of safety with seepage, {options.cells} cells over the depth', (found['lower'] + found['upper']) / 2, exact, 'infinite slope, closed form')
 	print(f"seepage: F without water would be {c / (2000 * g * z * np.sin(beta) * np.cos(beta)) + np.tan(phi) / np.tan(beta):.3f}")
 	return (found['lower'] + found['upper']) / 2 / exact - 1
 

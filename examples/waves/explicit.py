@@ -21,7 +21,7 @@ matplotlib.use('Agg')
 import matplotlib.pyplot as plt
 import numpy as np
 sys.path[:0] = [os.path.join(os.path.dirname(sys.argv[0]), '..', *folder) for folder in ((), ('..', 'scripts', 'lib'))]
-from options import readOptions
+from options import compared, readOptions
 from results import Results
 
 options = readOptions('Explicit and implicit steps.', scene=('trade', "'bar', 'impact', 'trade', 'conditions', 'inertia' or 'cost'"), short=(0, '1: fewer and smaller cases, for a quick look'))
@@ -82,6 +82,7 @@ def bar():
 		found = [period(kind, 20, courant) for courant in steps]
 		order = np.log2((found[2] - found[0]) / (found[1] - found[0]) / (0.1575 / 0.0375) * 4)
 		print(f'{kind}: ' + '  '.join(f'{courant:g}: {error:+.2e}' for courant, error in zip(steps, found)) + f'; order in time {order:.2f}')
+		compared(f'first period of a bar, {kind}, dt c / h = {steps[-1]:g}', 1 + found[-1], 1, 'closed form', '4 L / c')
 	inSpace = [period('explicit, consistent', cells, 0.1) for cells in (5, 10, 20)]
 	print('5, 10, 20 cells, steps of h / c / 10: ' + '  '.join(f'{error:+.2e}' for error in inSpace) + f'; order in space {np.log2(inSpace[1] / inSpace[2]):.2f}')
 	figure, ax = plt.subplots(figsize=(7, 4), layout='constrained')

@@ -23,7 +23,7 @@ matplotlib.use('Agg')
 import matplotlib.pyplot as plt
 import numpy as np
 sys.path.insert(0, os.path.join(os.path.dirname(sys.argv[0]), '..'))
-from options import readOptions
+from options import compared, readOptions
 
 options = readOptions('Waves, mass and sliding against closed forms.',
         scene=('bar', "'bar', 'pulse', 'steps', 'mass', 'block' or 'sphere', or several between blanks"),
@@ -84,6 +84,7 @@ def bar():
 		w, half = firstMode(20, courant), exact * courant / 20 / c / 2
 		inTime.append((courant, exact / w - 1, half / np.arctan(half) - 1))
 		print(f'{courant:5g}  {exact / w:.5f}  {half / np.arctan(half):.5f}')
+		compared(f'period of a bar, 20 cells, dt c / h = {courant:g}', exact / w, half / np.arctan(half), 'trapezoidal rule, closed form', '4 L / c')
 	inSpace = []
 	print('steps of h / c / 10; cells, first period over 4 L / c - 1')
 	for cells in (5, 10, 20) if options.short else (5, 10, 20, 40):
@@ -97,6 +98,7 @@ def bar():
 	print(f'order in time {orders[0]:.2f}, in space {orders[1]:.2f}')
 	for points, closed in (0, 1.033), (0.125, 1.004):
 		print(f'waves of eight cells, points shifted by {points} h: speed over c {speed(points):.4f}, of two points a cell {closed}')
+		compared(f'speed of waves eight cells long, points shifted by {points} h', speed(points), closed, 'two points a cell, closed form', 'c')
 	figure, (left, right) = plt.subplots(1, 2, figsize=(10, 4), layout='constrained')
 	left.loglog(inTime[:, 0], inTime[:, 1], 'o', label='20 cells')
 	left.loglog(inTime[:, 0], inTime[:, 2], 'k-', linewidth=0.8, label='closed form of the trapezoidal rule')
@@ -263,6 +265,7 @@ def block():
 	late = times > 0.2
 	found, exact = 2 * np.polyfit(times[late], way[late], 2)[0], g * (np.sin(slope) - np.tan(friction) * np.cos(slope))
 	print(f'block, slope 30, friction 15 degrees: a = {found:.4f} m/s2, exact {exact:.4f} ({100 * (found / exact - 1):+.2f} %)')
+	compared('acceleration of a block on a slope', found, exact, 'g (sin b - tan(phi) cos b)', 'm/s2')
 	figure, ax = plt.subplots(figsize=(8, 6), layout='constrained')
 	mpm.plot('velocity_x', ax=ax)
 	return figure
@@ -293,6 +296,7 @@ def sphere():
 	found, exact = way[-1], 5 / 14 * g * times[-1]**2 * np.sin(slope)
 	spin = ball.state.angVel[1] * R / ball.state.vel[0]
 	print(f'sphere, slope 20 degrees: {found:.4f} m in {times[-1]:.2f} s, exact {exact:.4f} ({100 * (found / exact - 1):+.2f} %); rim over middle {spin:.3f}')
+	compared('way of a sphere that rolls', found, exact, '5/14 g t^2 sin b', 'm')
 	figure, ax = plt.subplots(figsize=(7, 4), layout='constrained')
 	ax.plot(times, way, label='sphere')
 	ax.plot(times, 5 / 14 * g * times**2 * np.sin(slope), 'k--', linewidth=0.8, label='5/14 g t^2 sin b')

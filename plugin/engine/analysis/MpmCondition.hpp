@@ -26,8 +26,9 @@ public:
 	YADE_API_NAME(MpmCondition)
 	static const char* doc()
 	{
-		return "What acts on the material points of an MpmImplicitEngine. Base class of MpmBoundary, MpmTraction, MpmWater, MpmContact and MpmAbsorbingBoundary; it does "
-		       "nothing itself.";
+		return "What acts on the material points of an MpmImplicitEngine. Base class of MpmBoundary, MpmTraction, MpmWater, MpmContact and "
+		       "MpmAbsorbingBoundary; it does nothing itself.\n\n"
+		       "Not to be made itself: begin with MpmBoundary. Page: plugin/docs/classes/MpmImplicitEngine.md.";
 	}
 	template <class V> static void attributes(V&&) { }
 	template <class C> static void python(C& c)

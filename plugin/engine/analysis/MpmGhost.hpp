@@ -21,7 +21,9 @@ public:
 	static const char* doc()
 	{
 		return "Ghost stabilisation of the cells at the edge of the body (Coombs 2023, section 3): penalises jumps of the displacement gradient across "
-		       "their faces, so that the linear system is well conditioned however little of a cell is filled.";
+		       "their faces, so that the linear system is well conditioned however little of a cell is filled.\n\n"
+		       "Leave it as it is: *factor* = 0.01 suits cells of any size; with 0, plain GIMPM, runs fail at any step. Page: "
+		       "plugin/docs/classes/MpmGhost.md.";
 	}
 	template <class V> static void attributes(V&& v)
 	{

@@ -17,7 +17,12 @@ public:
 	Real   stepTolerance     = 0;
 
 	YADE_API_NAME(MpmNewton)
-	static const char*             doc() { return "Settings of the Newton-Raphson solution of a load step (Coombs 2023, section 2.1)."; }
+	static const char* doc()
+	{
+		return "Settings of the Newton-Raphson solution of a load step (Coombs 2023, section 2.1).\n\n"
+		       "Leave *tolerance* at 1e-6. Set first: *stepTolerance* [m], if O.dt is the whole load; *minStep* = 1/64 where steps that fail are not worth "
+		       "more cuts. Page: plugin/docs/classes/MpmNewton.md.";
+	}
 	template <class V> static void attributes(V&& v)
 	{
 		v("tolerance", &MpmNewton::tolerance, 0,

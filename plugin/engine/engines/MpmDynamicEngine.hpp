@@ -25,9 +25,11 @@ public:
 	YADE_API_NAME(MpmDynamicEngine)
 	static const char* doc()
 	{
-		return "Dynamic analysis, implicit or explicit: MpmImplicitEngine with inertia. Each run advances the material points in time, from the last converged time to O.time + "
-		       "O.dt [s], with velocities that their states keep (*vel*; mpm.assign(velocity=...)). Consistent mass, stabilised at the edge of the body as the "
-		       "stiffness is (MpmGhost.massFactor).";
+		return "Dynamic analysis, implicit or explicit: MpmImplicitEngine with inertia. Each run advances the material points in time, from the last "
+		       "converged time to O.time + O.dt [s], with velocities that their states keep (*vel*; mpm.assign(velocity=...)). Consistent mass, stabilised "
+		       "at the edge of the body as the stiffness is (MpmGhost.massFactor).\n\n"
+		       "Set first: O.dt [s], in which waves go half a cell to one, O.dt = cellSize / solver.waveSpeed() at most; more where all is slow; *scheme* "
+		       "= 'explicit' has a limit, criticalTimeStep(). Page: plugin/docs/classes/MpmDynamicEngine.md.";
 	}
 	template <class V> static void attributes(V&& v)
 	{

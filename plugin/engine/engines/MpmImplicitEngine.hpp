@@ -35,11 +35,11 @@ public:
 	static const char* doc()
 	{
 		return "Implicit quasi-static analysis by the ghost-stabilised generalised interpolation material point method (Coombs 2023). Each run advances "
-		       "the material points of the scene by one load step, from the last converged load time to O.time + O.dt: YADE's time is the load clock. A step "
-		       "that does not converge is cut (see MpmNewton); at last it raises RuntimeError, and the scene stays at the last converged state.\n\n"
-		       "Bodies of other kinds are left alone. Bodies, materials and settings may be changed between steps. Several engines, each with its own grid, may "
-		       "share a scene if their *mask* gives every material point to one of them at most; none inside a ParallelEngine. Ctrl-C stops a step within an "
-		       "iteration.";
+		       "the material points of the scene by one load step, from the last converged load time to O.time + O.dt: YADE's time is the load clock. A "
+		       "step that does not converge is cut; at last it raises RuntimeError, and the scene stays at the last converged state.\n\n"
+		       "Set first: *grid*, *boundaries*, *gravity*, and O.dt = 1/40, that the load acts in 40 steps; *fBar* = True for clay and sand that yields. "
+		       "mpm.advise() says what is missing.\n\n"
+		       "Settings may be changed between steps. Several engines share a scene by *mask*. Page: plugin/docs/classes/MpmImplicitEngine.md.";
 	}
 	template <class V> static void attributes(V&& v)
 	{

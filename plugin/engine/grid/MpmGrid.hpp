@@ -18,8 +18,10 @@ public:
 	YADE_API_NAME(MpmGrid)
 	static const char* doc()
 	{
-		return "Background grid of square (dim=2) or cubic (dim=3) cells. It is unbounded: there are no extents to declare, and only cells that "
-		       "material points touch take memory.";
+		return "Background grid of square (dim=2) or cubic (dim=3) cells. It is unbounded: there are no extents to declare, and only cells that material "
+		       "points touch take memory.\n\n"
+		       "Set first: *cellSize*, a tenth of what decides, as the width of a footing or the height of a slope, and 2 points a cell; then half of it, "
+		       "to see what changes. *dim* = 2 and *axisymmetric* wherever they do. Page: plugin/docs/classes/MpmGrid.md.";
 	}
 	template <class V> static void attributes(V&& v)
 	{

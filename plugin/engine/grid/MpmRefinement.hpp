@@ -15,8 +15,9 @@ public:
 	YADE_API_NAME(MpmRefinement)
 	static const char* doc()
 	{
-		return "A box in which the cells of an MpmGrid are halved, once or more. Cells that overlap the box are halved as a whole, and cells around them as often "
-		       "as it takes for neighbours to differ by one halving at most. Of several boxes the most halvings count.";
+		return "A box in which the cells of an MpmGrid are halved, once or more. Cells that overlap the box are halved as a whole, and cells around them "
+		       "as often as it takes for neighbours to differ by one halving at most. Of several boxes the most halvings count.\n\n"
+		       "Set first: a box as wide as what yields, and *halvings* = 2; mpm.refinementsAt makes boxes. Page: plugin/docs/classes/MpmRefinement.md.";
 	}
 	template <class V> static void attributes(V&& v)
 	{

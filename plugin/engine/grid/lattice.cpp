@@ -26,7 +26,10 @@ namespace {
 
 template <int Dim> string warningOfLattice(const vector<MaterialPoint>& points, const gimpm::Grid<Dim>& grid)
 {
-	if (std::any_of(points.begin(), points.end(), [&](const MaterialPoint& point) { return InCells<Dim>(point, grid).isOnLattice(); })) return "";
+	// Points that have been deformed may count displacements from where they were then (mpm.stages.resetDisplacements).
+	const bool areDeformed = !points.front().state->defGrad.isIdentity(1e-12);
+	if (areDeformed || std::any_of(points.begin(), points.end(), [&](const MaterialPoint& point) { return InCells<Dim>(point, grid).isOnLattice(); }))
+		return "";
 	const MaterialPoint&  first = points.front();
 	const InCells<Dim>    inCells(first, grid);
 	const gimpm::Vec<Dim> size = 2 * first.shape->halfSize0.head<Dim>(), x = first.state->refPos.head<Dim>();

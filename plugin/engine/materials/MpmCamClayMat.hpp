@@ -17,9 +17,11 @@ public:
 	YADE_API_NAME(MpmCamClayMat)
 	static const char* doc()
 	{
-		return "Modified Cam clay in Kirchhoff stress: bulk modulus proportional to the pressure, shear modulus constant, associated flow, critical state. A "
-		       "point's preconsolidation pressure is a column of mpm.arrays and mpm.assign. Points need a pressure to begin with: "
-		       "mpm.geostatic() or mpm.assign(stress=...).";
+		return "Modified Cam clay in Kirchhoff stress: bulk modulus proportional to the pressure, shear modulus constant, associated flow, critical state. "
+		       "A point's preconsolidation pressure is a column of mpm.arrays and mpm.assign. Points need a pressure to begin with: mpm.geostatic() or "
+		       "mpm.assign(stress=...).\n\n"
+		       "Set first: *compressionIndex* of some 0.1 and *swellingIndex* of a fifth to a tenth of it, slopes of ln v over ln p; "
+		       "mpm.geostatic(OCR=...) gives each point its preconsolidation. Page: plugin/docs/classes/MpmCamClayMat.md.";
 	}
 	template <class V> static void attributes(V&& v)
 	{

@@ -11,8 +11,10 @@ public:
 	YADE_API_NAME(MpmDruckerPragerMat)
 	static const char* doc()
 	{
-		return "Hencky elasticity with Drucker and Prager's perfect plasticity, a smooth cone matched to Mohr-Coulomb's law, with a dilation angle of its own. "
-		       "*tensileStrength* bounds the mean stress. *young*, *poisson*, *cohesion* and *frictionAngle* must be given; strength is in Kirchhoff stress.";
+		return "Hencky elasticity with Drucker and Prager's perfect plasticity, a smooth cone matched to Mohr-Coulomb's law, with a dilation angle of its "
+		       "own. *tensileStrength* bounds the mean stress. *young*, *poisson*, *cohesion* and *frictionAngle* must be given; strength is in Kirchhoff "
+		       "stress.\n\n"
+		       "Set first: *match* = 'plane-strain' in plane strain; *dilationAngle* 0 for loose sand. Page: plugin/docs/classes/MpmDruckerPragerMat.md.";
 	}
 	template <class V> static void attributes(V&& v)
 	{

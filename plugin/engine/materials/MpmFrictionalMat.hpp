@@ -14,7 +14,11 @@ public:
 	Real tensileStrength = std::numeric_limits<Real>::infinity();
 
 	YADE_API_NAME(MpmFrictionalMat)
-	static const char* doc() { return "Base of the materials with cohesion and friction. It has no constitutive law itself and is refused when used."; }
+	static const char* doc()
+	{
+		return "Base of the materials with cohesion and friction. It has no constitutive law itself and is refused when used.\n\n"
+		       "Set first: a *cohesion* of 1e-3 density g H for sand, that its surface has a strength. Page: plugin/docs/classes/MpmFrictionalMat.md.";
+	}
 	template <class V> static void attributes(V&& v)
 	{
 		v("cohesion", &MpmFrictionalMat::cohesion, 0, "Cohesion c [Pa] >= 0 in Kirchhoff stress: of a change of volume J it is c/J in Cauchy stress.",

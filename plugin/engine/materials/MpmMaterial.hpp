@@ -10,7 +10,11 @@ public:
 	        = 1; // of what acts on its points in a stage of construction, whose density is as small; the stage gives it anew after a scene has been loaded
 
 	YADE_API_NAME(MpmMaterial)
-	static const char*             doc() { return "Base of the materials of material points. It has no constitutive law itself and is refused when used."; }
+	static const char* doc()
+	{
+		return "Base of the materials of material points. It has no constitutive law itself and is refused when used.\n\n"
+		       "Begin with MpmElasticMat. Page: plugin/docs/theory.md.";
+	}
 	template <class V> static void attributes(V&& v)
 	{
 		// saved by YADE's Material, which admits every number

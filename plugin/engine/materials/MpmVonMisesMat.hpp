@@ -14,7 +14,9 @@ public:
 	static const char* doc()
 	{
 		return "Hencky elasticity with associated von Mises yield (Coombs 2023, eqs. 8 and 9), perfectly plastic unless *hardening* is given. *young*, "
-		       "*poisson* and *yieldStress* must be given.";
+		       "*poisson* and *yieldStress* must be given.\n\n"
+		       "Set first: *yieldStress* = sqrt(2) c_u for clay of undrained strength c_u, and MpmImplicitEngine(fBar=True). Page: "
+		       "plugin/docs/classes/MpmVonMisesMat.md.";
 	}
 	template <class V> static void attributes(V&& v)
 	{

@@ -21,6 +21,18 @@ namespace {
 		return text;
 	}
 
+	// Two digits, and no power of ten: 0.034, 3.4, 34, 3400
+	std::string perSecond(double rate)
+	{
+		const double       unit = std::pow(10, std::floor(std::log10(rate)) - 1);
+		std::ostringstream text;
+		text.precision(2);
+		if (rate < 10) text << rate;
+		else
+			text << std::lround(std::lround(rate / unit) * unit);
+		return text.str();
+	}
+
 	// YADE's prompt waits for keys, one by one: redrawing would wipe out what has been typed.
 	bool somebodyTypes()
 	{
@@ -41,10 +53,10 @@ void ProgressLine::start(long iter)
 {
 	if (!isRunning || iter < latest) {
 		begin = shown = Clock::now();
-		first         = iter;
-		isRunning     = true;
+		first = iter, begun = 0;
+		isRunning = true;
 	}
-	latest = iter;
+	latest = iter, ++begun;
 }
 
 void ProgressLine::show(const Progress& now, int level)
@@ -89,6 +101,7 @@ std::string ProgressLine::text(const Progress& now) const
 	if (now.lastStep >= now.step) line << "/" << now.lastStep;
 	line << ", " << clockTime(elapsed) << " elapsed, ";
 	if (now.lastStep > now.step) line << clockTime(elapsed / done * (now.lastStep - now.step)) << " left, ";
+	if (now.inTime && elapsed > 0) line << perSecond(begun / elapsed) << " steps/s, ";
 	if (!std::isnan(now.residual)) {
 		line << now.iterations << " iterations, " << now.cuts << " cuts, residual ";
 		line.precision(2);

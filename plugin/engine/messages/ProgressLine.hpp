@@ -13,6 +13,7 @@ struct Progress {
 	int         iterations, cuts;
 	double      residual; ///< NaN: nothing was solved
 	std::size_t points;
+	bool        inTime;       ///< a step in time: how many are made in a second is told, too
 	bool        inBackground; ///< by O.run(), so that nothing but the script's output can come between two steps
 	bool        ends;         ///< with this step the run comes to its end
 };
@@ -42,7 +43,7 @@ private:
 	std::string text(const Progress&) const;
 
 	bool              isRunning = false, isOpen = false; // isOpen: the cursor stands behind the text
-	long              first = 0, latest = 0;             // iterations where the run and its latest step began
+	long              first = 0, latest = 0, begun = 0;  // iterations where the run and its latest step began; steps begun in it
 	Clock::time_point begin, shown;
 };
 

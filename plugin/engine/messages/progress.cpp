@@ -31,8 +31,8 @@ Progress progressOf(const Analysis& engine, bool isIterationDone)
 	const long   step      = scene.iter + 1;
 	const bool   runEnds   = scene.stopAtIter > scene.iter && step + engine.period() > scene.stopAtIter;
 	const bool   isRunning = Singleton<Omega>::instance().isRunning();
-	return { placeOf(engine),    step,      lastIteration(engine),     engine.iterations, engine.cuts, engine.residual,
-		 engine.pointsOfRun, isRunning, isIterationDone && runEnds };
+	return { placeOf(engine),    step,      lastIteration(engine),     engine.iterations, engine.cuts, engine.residual, engine.pointsOfRun,
+		 engine.isDynamic(), isRunning, isIterationDone && runEnds };
 }
 
 } // namespace yade

@@ -22,12 +22,12 @@ public:
 	YADE_API_NAME(MpmVtkRecorder)
 	static const char* doc()
 	{
-		return "Writes the states of an implicit material point analysis for ParaView: files <fileName><kind>.<O.iter at the end of the "
-		       "iteration>.vtu, and <fileName><kind>.pvd, to be opened there, which lists them with their times.\n\n"
-		       "*iterPeriod* (1 by default) and the other attributes of PeriodicEngine count completed steps. The initial state is written too (unless *initRun* "
-		       "is False), and so is the last one of a run. After O.pause() or O.step(), and before O.reset() or O.load(), call the recorder, as in recorder(), to "
-		       "have the state written that has been reached.\n\n"
-		       "RuntimeError names a file that cannot be written. YADE's own VTKRecorder ends YADE by a segmentation fault with recorders=['all']: use this one.";
+		return "Writes the states of an implicit material point analysis for ParaView: files <fileName><kind>.<O.iter at the end of the iteration>.vtu, "
+		       "and <fileName><kind>.pvd, to be opened there, which lists them with their times.\n\n"
+		       "Completed steps count. The initial state is written too (unless *initRun* is False), and so is the last one of a run. After O.pause() or "
+		       "O.step(), and before O.reset() or O.load(), call recorder() to have the state written that has been reached.\n\n"
+		       "Set first: *fileName* = 'out/slope-' and *iterPeriod* = 10. YADE's own VTKRecorder ends YADE by a segmentation fault with "
+		       "recorders=['all']: use this one. Page: plugin/docs/classes/MpmVtkRecorder.md.";
 	}
 	template <class V> static void attributes(V&& v)
 	{

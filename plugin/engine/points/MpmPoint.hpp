@@ -12,9 +12,9 @@ public:
 	YADE_API_NAME(MpmPoint)
 	static const char* doc()
 	{
-		return "Shape of a material point: the box of matter that it stands for in the generalised interpolation material point method (Bardenhagen "
-		       "and "
-		       "Kober 2004, used in Coombs 2023). Made by mpm.fill. For display it is a Sphere: *radius* [m] has no influence on results.";
+		return "Shape of a material point: the box of matter that it stands for in the generalised interpolation material point method (Bardenhagen and "
+		       "Kober 2004, used in Coombs 2023). Made by mpm.fill. For display it is a Sphere: *radius* [m] has no influence on results.\n\n"
+		       "Page: plugin/docs/classes/MpmPoint.md.";
 	}
 	template <class V> static void attributes(V&& v)
 	{

@@ -26,8 +26,10 @@ public:
 	YADE_API_NAME(MpmState)
 	static const char* doc()
 	{
-		return "State of a material point. *pos* and *refPos* (inherited) are its current and initial position [m], *mass* [kg] is constant, *vel* [m/s] belongs to MpmDynamicEngine. "
-		       "Tensors are 3x3 in plane strain too, with the normal component out of the plane; in axisymmetry zz is the hoop component.";
+		return "State of a material point. *pos* and *refPos* (inherited) are its current and initial position [m], *mass* [kg] is constant, *vel* [m/s] "
+		       "belongs to MpmDynamicEngine. Tensors are 3x3 in plane strain too, with the normal component out of the plane; in axisymmetry zz is the "
+		       "hoop component.\n\n"
+		       "Set by mpm.assign, read by mpm.arrays. Page: plugin/docs/classes/MpmState.md.";
 	}
 	template <class V> static void attributes(V&& v)
 	{

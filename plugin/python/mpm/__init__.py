@@ -47,6 +47,7 @@ While it runs, one line tells how far it is (``verbosity`` of the engine); ``plo
 :func:`elementTest`          the curve of a laboratory test on a material; :func:`respond` is one call of its law
 ``stages``                   layers that are placed, soil that is dug out, supports that are taken away
 :func:`strengthReduction`    factor of safety, as a bracket
+:func:`examples`             scripts to begin from, by a word: mpm.examples('footing')
 ===========================  ==========================================================================================
 
 Units are SI; stress is positive in tension; strains are logarithmic; plane strain is per metre of thickness.
@@ -60,6 +61,7 @@ from .discretisation import discretisationError, stressError
 from .files import load, save
 from . import ending, stages
 from .filling import add, fill
+from .finding import examples
 from .geostatics import geostatic
 from .histories import histories, readHistory
 from .laboratory import elementTest, respond
@@ -74,7 +76,7 @@ from .surfaces import surface
 from .tables import export
 
 __version__ = _engine.version
-__all__ = ['polygon', 'fill', 'add', 'refinementsAt', 'arrays', 'assign', 'geostatic', 'plot', 'colour', 'export', 'save', 'load', 'advise', 'discretisationError', 'stressError', 'elementTest', 'respond', 'strengthReduction', 'surface', 'contactForces', 'histories', 'readHistory', 'solid', 'terrain', 'movie']
+__all__ = ['polygon', 'fill', 'add', 'refinementsAt', 'arrays', 'assign', 'geostatic', 'plot', 'colour', 'export', 'save', 'load', 'advise', 'discretisationError', 'stressError', 'elementTest', 'respond', 'strengthReduction', 'surface', 'contactForces', 'histories', 'readHistory', 'solid', 'terrain', 'movie', 'examples']
 
 for _name in __all__:
 	_thing = globals()[_name] = _telling(globals()[_name])

@@ -239,7 +239,8 @@ class _Rows:
 		if unequal.size:
 			raise ValueError(
 			        f'geostatic: the ground is not level: the points at the height {level[0]} m cover {area[0]} m2, those at '
-			        f'{level[unequal[0]]} m cover {area[unequal[0]]} m2 (in plane strain per metre of thickness). Let gravity grow first, and then the loads: '
+			        f'{level[unequal[0]]} m cover {area[unequal[0]]} m2 (in plane strain per metre of thickness). Fill level ground, call geostatic, and dig out '
+			        'what is missing (mpm.stages.excavate), or place what is on top (mpm.stages.place). Or let gravity grow first, and then the loads: '
 			        'gravityCurve = [(0, 0), (1, 1)], loadCurve = [(1, 0), (2, 1)]'
 			)
 

@@ -33,6 +33,28 @@ def test_inALog(yade):
 	assert {(found[2], found[4]) for found in all_} == {('10', '32')}
 
 
+def test_steps_in_time(yade):
+	"""Time instead of a load factor, how many steps are made in a second, and no residual where nothing is solved; a failure is said once."""
+	run = yade('''
+import sys
+from scenes import *
+for scheme in 'newmark', 'explicit':
+	O.reset()
+	static = column(8)
+	O.engines = [MpmDynamicEngine(grid=static.grid, gravity=static.gravity, boundaries=static.boundaries, scheme=scheme, verbosity=2)]
+	O.dt = 1e-3
+	O.run(50, wait=True)
+sys.stderr.write('failure\\n')
+O.dt = 10
+O.run(5, wait=True)
+''', fails=True)
+	said, failed = run.stderr.split('failure\n')
+	found = re.findall(r'^time (\S+) s, step (\d+)/50, \d+:\d\d elapsed, (?:\d+:\d\d left, )?(\S+) steps/s, (\d+ iterations, \d+ cuts, residual \S+, )?32 points$', said, re.MULTILINE)
+	assert [int(step) for _, step, *_ in found] == 2 * [*range(1, 51)] and [bool(solved) for *_, solved in found] == 50 * [True] + 50 * [False]
+	assert all(abs(float(time) - 1e-3 * int(step)) < 1e-9 and 0 < float(rate) < 1e6 for time, step, rate, _ in found)
+	assert 'nan' not in said and failed.count('above the critical one') == 1, failed
+
+
 def test_onATerminal(tmp_path):
 	"""Redrawn in place, no longer than the terminal is wide, and ended before anything else is said."""
 	terminal, side = os.openpty()

@@ -70,6 +70,41 @@ def test_every_example_has_a_page_in_the_course():
 		assert 'MpmVtkRecorder' not in script.read_text() or f'pvbatch scripts/paraview-picture.py out/{script.stem}/' in page, script
 
 
+@pytest.mark.parametrize('page', sorted((root / 'examples').glob('*/README.md')), ids=lambda page: page.parent.name)
+def test_pages_of_examples_have_one_order(page):
+	"""What it shows, the command, a picture, numbers, and what to change, whose options the scripts of that folder have."""
+	text = re.sub(r'```.*?```', '', page.read_text(), flags=re.DOTALL)
+	assert re.findall(r'^#{1,2} (.*)$', text, re.MULTILINE)[1:] == ['Run it', 'Picture', 'Numbers', 'What to change']
+	shows, run, picture, numbers, change = re.split(r'^#{1,2} .*$', text, flags=re.MULTILINE)[1:]
+	assert len(shows.split()) > 10 and re.search(r'^ {4}scripts/', run, re.MULTILINE) and picture.strip().startswith('![')
+	assert re.search(r'^\|.*\|$', numbers, re.MULTILINE) and len(change.split()) > 15
+	scripts = ''.join(script.read_text() for folder in (page.parent, root / 'scripts') for script in folder.iterdir() if script.suffix in ('', '.py') and script.is_file())
+	missing = [name for name in re.findall(r'`--(\w+)', change) if not re.search(rf'\b{name}=\(|--{name}\b', scripts)]
+	assert not missing
+
+
+def test_the_first_page_is_short_and_leads_on():
+	"""At most 1,200 words; each task of its table has a script or a page, says how sure its numbers are and how long it runs, or that it is not there yet."""
+	readme = (root / 'README.md').read_text()
+	assert len(readme.split()) <= 1200
+	rows = [line.strip('|').split('|') for line in re.findall(r'^\|.*\|$', sectionOf(readme, 'Can it do my problem?'), re.MULTILINE)[2:]]
+	assert len(rows) >= 14
+	for task, first, more, sure, runsFor in rows:
+		assert 'not there yet' in sure or '](examples/' in first + more and runsFor.strip(), task
+	tasks = {path.stem for path in (root / 'examples/tasks').glob('*.py')}
+	course = sectionOf((root / 'examples/README.md').read_text(), 'Tasks')
+	assert set(re.findall(r'\(tasks/(\w+)\.py\)', course)) == tasks and set(re.findall(r'\(examples/tasks/(\w+)\.py\)', readme)) == tasks
+
+
+def test_the_course_is_numbered_through():
+	course = (root / 'examples/README.md').read_text()
+	numbered = [int(number) for number in re.findall(r'^\| (\d+)(?:\.|) ', course.partition('\n[Recipes]')[0], re.MULTILINE)]
+	folders = {path.parent.name for path in (root / 'examples').glob('*/README.md')}
+	assert numbered == [*range(1, len(numbered) + 1)] and len(numbered) == len(folders) + len(list((root / 'examples/tasks').glob('*.py')))
+	sections = [int(number) for number in re.findall(r'^## (\d+)\. ', course, re.MULTILINE)]
+	assert sections == [*range(sections[0], sections[0] + len(sections))]
+
+
 def sectionOf(page, title):
 	return page.partition(f'\n## {title}\n')[2].partition('\n## ')[0]
 
@@ -124,7 +159,7 @@ def test_the_program_of_the_developers_page(tmp_path):
 # Run in YADE: what is not documented, or at too great length for the prompt (the rest is on a page of the class), one
 # line for each. A real number needs a unit, [-] if it has none.
 check = '''
-import inspect, re, sys
+import inspect, os, re, sys
 from yade import mpm, wrapper
 sys.argv = ['reference.py', 'reference.rst']
 exec(open(REFERENCE).read())
@@ -135,6 +170,8 @@ for name in classes():
 	cls = getattr(wrapper, name)
 	if len(cls.__doc__ or '') < 20: print('no description:', name)
 	if len(cls.__doc__.split()) > 120: print('too long:', name, len(cls.__doc__.split()))
+	page = re.search(r'Page: (plugin/docs/\\S+\\.md)\\.', cls.__doc__)
+	if not page or not os.path.exists(os.path.join(os.path.dirname(REFERENCE), '..', '..', page[1])): print('no page:', name)
 	values = cls().dict()
 	for entry, value in entries(cls):
 		found += 1
@@ -190,6 +227,12 @@ for recipe in json.load(open('recipes.json')):
 ''')
 	assert run.stdout.count('ran: ') == len(recipes), run
 	assert (run.folder / 'plastic.png').exists() and (run.folder / 'points.csv').exists() and '"solver"' in run.stdout  # the table of times
+
+
+@pytest.mark.parametrize('page', ['mpm-with-dem', 'implicit-mpm-in-python'])
+def test_scripts_of_the_pages_for_those_who_come_from_elsewhere(yade, page):
+	run = yade(re.search(r'```python\n(.*?)```', (root / f'plugin/docs/{page}.md').read_text(), re.DOTALL)[1] + 'print(O.iter)')
+	assert int(run.stdout.splitlines()[-1]) in (10, 5000)
 
 
 def test_readme(yade):

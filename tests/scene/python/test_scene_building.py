@@ -1,7 +1,10 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Filling regions with material points, reading them as arrays, saving and copying them."""
+import sys
+
 import numpy as np
 import pytest
+from conftest import root
 
 # the slope of Coombs 2023, section 4.2
 setting = '''
@@ -365,3 +368,25 @@ print(json.dumps([O.iter, O.engines[0].converged, len(O.bodies)]))
 '''
 	).result
 	assert result == [1, True, 9825]
+
+
+def test_scripts_are_found_by_words(yade):
+	"""The list in the package is that of the scripts that there are; it is there without them."""
+	sys.path.insert(0, str(root / 'scripts' / 'lib'))
+	import examplelist
+	assert (root / 'plugin/python/mpm/scripts.py').read_text() == examplelist.listed(), 'write it by /usr/bin/python3 scripts/lib/examplelist.py'
+	run = yade('''
+import json
+from yade import mpm
+found = {words: mpm.examples(words) for words in ('footing', 'MpmTraction', 'slope water', 'CPT', 'dams', 'fooling', '')}
+try: mpm.examples(3)
+except TypeError as error: found['error'] = str(error)
+print(json.dumps(found))
+''')
+	found = run.result
+	assert found['footing'][:3] == ['examples/tasks/deep_footing.py', 'examples/tasks/round_footing.py', 'examples/tasks/square_footing.py'] and 'examples/footing3d/footing3d.py' in found['footing']
+	assert 'examples/tasks/tunnel.py' in found['MpmTraction'] and 'examples/water/water.py' in found['slope water'] and 'examples/tasks/earthquake.py' not in found['slope water']
+	assert 'examples/penetration/deep.py' in found['CPT'] and 'examples/tasks/drawdown.py' in found['dams']
+	assert not found['fooling'] and "No script is about 'fooling'" in run.stdout and 'footing' in run.stdout.partition('fooling')[2].splitlines()[0]
+	assert len(found['']) > 40 and all((root / path).exists() for path in found['']) and "words = 3 must be a text" in found['error']
+	assert 'scripts/run examples/tasks/tunnel.py' in run.stdout

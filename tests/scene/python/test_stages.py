@@ -82,3 +82,30 @@ print(json.dumps([side, [refused(mpm.stages.release, 5), refused(mpm.stages.rele
 	assert 'boundary = 5' in number and 'none of the 2' in base
 	assert 'TypeError' in empty and 'bodies' in empty and 'steps = 0' in none and 'steps = 2.5' in real and 'already' in twice
 	assert 'no material point' in beside and 'all material points' in all_ and 'region = 3' in three and 'solver = 7' in solver and 'inertia' in dynamic
+
+
+def test_an_engine_that_takes_over_deformed_ground_does_not_doubt_its_grid(yade):
+	"""Displacements are counted from where points were then, which is no place where mpm.fill would have put them; of undeformed points that are not, it is told."""
+	run = yade('''
+import sys
+from yade import mpm
+O.materials.append(MpmElasticMat(young=1e5, poisson=0, density=2000, label='soil'))
+grid = MpmGrid(cellSize=0.5)
+O.bodies.append(mpm.fill(mpm.polygon([(0, 0), (2, 0), (2, 2), (0, 2)]), grid, 2, 'soil'))
+sides = [MpmBoundary(max=(0, inf, inf), fix='x'), MpmBoundary(min=(2, -inf, -inf), fix='x'), MpmBoundary(max=(inf, 0, inf), fix='xy')]
+engine = lambda grid: MpmImplicitEngine(grid=grid, gravity=(0, -10, 0), boundaries=sides, gravityCurve=[(0, 1)], verbosity=0)
+O.engines, O.dt = [engine(grid)], 1
+O.step()
+mpm.stages.resetDisplacements()
+sys.stderr.write('taken over\\n')
+O.engines = [engine(grid)]
+O.step()
+sys.stderr.write('another grid\\n')
+O.reset()
+O.materials.append(MpmElasticMat(young=1e5, poisson=0, density=2000, label='soil'))
+O.bodies.append(mpm.fill(mpm.polygon([(0.1, 0), (2.1, 0), (2.1, 2), (0.1, 2)]), MpmGrid(cellSize=0.5, origin=(0.1, 0, 0)), 2, 'soil'))
+O.engines, O.dt = [engine(grid)], 1
+O.step()
+''')
+	takenOver, another = run.stderr.split('taken over\n')[1].split('another grid\n')
+	assert 'would have put it' not in takenOver and 'would have put it' in another, run.stderr

@@ -26,11 +26,10 @@ public:
 	{
 		return "Essential boundary condition: every grid node inside a box that is fixed in space is held, or moved, in the directions *fix*; or, with "
 		       "*surface*, the material at a wall that need not be on the lines of the grid.\n\n"
-		       "Faces of "
-		       "the box belong to it, with a tolerance of 1e-9 cells. A box that holds no node is an error; one whose nodes carry no soil yet is named in a warning, "
-		       "once. A face of a cell whose nodes are all held "
-		       "along its normal is a wall, inside of a body too: points do not reach through it. To move a body by nodes inside of it, hold nodes that "
-		       "do not make up a face.";
+		       "A box that holds no node is an error. A face of a cell whose nodes are all held along its normal is a wall, inside of a body too: points "
+		       "do not reach through it.\n\n"
+		       "Set first: *fix*, and *min* or *max* on a line of the grid, as max=(0, inf, inf), fix='x': rollers at x = 0. Nodes push soil by half a "
+		       "cell; farther goes an MpmContact. Page: plugin/docs/classes/MpmBoundary.md.";
 	}
 	template <class V> static void attributes(V&& v)
 	{

@@ -16,7 +16,8 @@ public:
 		return "A surface: segments in the plane, triangles in space. Where one is wanted, a sequence of points stands for the line that joins them, a "
 		       "sequence of triangles (three points each) or a gts.Surface for its triangles; mpm.surface finds that of a region.\n\n"
 		       "It has an outer side: on the right of a segment from its first to its second vertex, and where a triangle's vertices are seen to run "
-		       "counterclockwise. So the body is on the left of a line from point to point.";
+		       "counterclockwise. So the body is on the left of a line from point to point.\n\n"
+		       "Begin with mpm.surface(region, min=..., max=...). Page: plugin/docs/classes/MpmTraction.md.";
 	}
 	template <class V> static void attributes(V&& v)
 	{

@@ -17,8 +17,11 @@ public:
 	YADE_API_NAME(MpmTraction)
 	static const char* doc()
 	{
-		return "Load on a surface of the body that moves with it: *pressure* follows the surface, *traction* keeps its direction. Vertices move with "
-		       "the background grid, and pieces are divided until their sides are at most a quarter of a cell; each vertex must lie on material, to a quarter of a cell.";
+		return "Load on a surface of the body that moves with it: *pressure* follows the surface, *traction* keeps its direction. Vertices move with the "
+		       "background grid, and pieces are divided until their sides are at most a quarter of a cell; each vertex must lie on material, to a quarter "
+		       "of a cell.\n\n"
+		       "Set first: *surface* = mpm.surface(region, min=..., max=...) and *pressure* [Pa], which is positive if it presses. Page: "
+		       "plugin/docs/classes/MpmTraction.md.";
 	}
 	template <class V> static void attributes(V&& v)
 	{

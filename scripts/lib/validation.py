@@ -1,0 +1,233 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""What the plugin is compared with: the runs that say it, the tables that are kept of them, and the page of all of them. For scripts/validate; needs nothing of YADE."""
+import csv
+import math
+import os
+import re
+import shlex
+
+import pages
+
+root = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+examples = os.path.join(root, 'examples')
+columns = ['command', 'quantity', 'ours', 'theirs', 'unit', 'source']
+
+# Of each folder of examples, the runs whose comparisons are kept in its compared.csv.
+runs = {
+        'column': ['column.py', 'column.py --cells 64'],
+        'cantilever': ['cantilever.py --cells 8'],
+        'slope': ['slope.py', 'slope.py --cellSize 0.5 --pointsPerCell 3'],
+        'laboratory': ['laboratory.py'],
+        'collapse': ['collapse.py', 'collapse.py --cellSize 0.125'],
+        'safety': ['safety.py --scene cut --cells 20', 'safety.py', 'safety.py --scene infinite --cells 20 --tolerance 0.004'],
+        'earth_pressure': ['earth_pressure.py', 'earth_pressure.py --contact 1 --cells 10 --movement 4 --steps 40', 'earth_pressure.py --contact 1 --rough 1 --wall 15'],
+        'footing3d': ['footing3d.py'],
+        'axisymmetric': ['axisymmetric.py'],
+        'locking': ['locking.py', 'locking.py --scene square --cells 6 --law tresca', 'locking.py --scene cut --cells 20', 'locking.py --scene beam --cells 4 --poisson 0.499'],
+        'surface_loads': ['surface_loads.py', 'tube.py'],
+        'walls': ['walls.py', 'walls.py --load lid', 'cook.py', 'cook.py --poisson 0.4999 --fBar 1'],
+        'water': ['water.py'],
+        'embankment': ['embankment.py'],
+        'penetration': [
+                'penetration.py --cells 16 --depth 0.03', 'penetration.py --scene sphere --cells 10', 'penetration.py --scene plate', 'deep.py --scene tbar', 'deep.py --scene tbar --rough 1', 'deep.py --cells 3',
+                'deep.py --scene pile --cells 4', 'wheel.py', 'penetration.py --scene cylinder --cells 10', 'penetration.py --scene free --cells 2 --stiffness 20'
+        ],
+        'grains_on_soil': ['grains_on_soil.py'],
+        'mpm_vs_dem': ['mpm_vs_dem.py'],
+        'waves': ['waves.py --scene "bar block sphere"', 'explicit.py --scene bar'],
+        'runout': ['runout.py'],
+        'tasks': sorted(name for name in os.listdir(os.path.join(examples, 'tasks')) if name.endswith('.py')),
+}
+
+groups = {
+        'Tasks in thirty lines': ['tasks'],
+        'Laws': ['laboratory'],
+        'Elasticity, large strains and rotations': ['column', 'cantilever', 'surface_loads', 'walls'],
+        'Limit loads': ['collapse', 'footing3d', 'axisymmetric', 'locking'],
+        'Slopes': ['slope', 'safety', 'paper'],
+        'Earth pressure': ['earth_pressure'],
+        'Water and stages': ['water', 'embankment'],
+        'Contact and penetration': ['penetration', 'grains_on_soil'],
+        'Waves and run-out': ['waves', 'runout', 'splitting'],
+        'Grains': ['mpm_vs_dem'],
+}
+
+
+def kept(folder, of=examples):
+	path = os.path.join(of, folder, 'compared.csv')
+	if not os.path.exists(path): return []
+	with open(path, newline='') as file:
+		return list(csv.DictReader(file))
+
+
+def write(folder, rows, of=examples):
+	os.makedirs(os.path.join(of, folder), exist_ok=True)
+	with open(os.path.join(of, folder, 'compared.csv'), 'w', newline='') as file:
+		table = csv.DictWriter(file, columns, lineterminator='\n')
+		table.writeheader()
+		table.writerows(rows)
+
+
+_found = re.compile(r'(?P<what>[^:]*): .*?(?:= |: |settlement |stress |height )(?P<ours>-?\d\S*)(?: (?P<unit>\S+))?(?: on the base)?, (?:by hand|published|by experiments|without a stop) (?P<theirs>[-\d.e+]+)')
+
+
+def ofTask(script, printed):
+	"""The row of a task, whose last line has its number beside that by hand; whose that is says the sentence at its head."""
+	found = _found.match(re.sub(r'^([^:]*): ', r'\1: : ', printed.strip().splitlines()[-1]))
+	with open(os.path.join(examples, 'tasks', script)) as file:
+		source = re.search(r'(?:By hand|Published): (.*?)\.?"""', file.read())[1]
+	return dict(quantity=found['what'], ours=found['ours'], theirs=found['theirs'], unit=found['unit'] or '', source=source)
+
+
+def ofPaper():
+	"""Iterations of the slope beside the paper's, of runs that have come to their end there and here."""
+	with open(os.path.join(examples, 'paper', 'published.csv'), newline='') as file:
+		published = [row for row in csv.DictReader(file) if 'fails' not in row['result']]
+	with open(os.path.join(examples, 'paper', 'results', 'slope.csv'), newline='') as file:
+		ours = {(float(row['cellSize']), int(row['pointsPerCell']), float(row['factor'])): row for row in csv.DictReader(file) if row['lineSearchTrials'] == '0' and not row['failure']}
+	for row in published:
+		run = ours.get((float(row['cellSize']), int(row['pointsPerCell']), float(row['factor'])))
+		if not run or float(row['factor']) == 0: continue
+		what = f"iterations a step of the slope, h = {row['cellSize']} m, {row['pointsPerCell']} x {row['pointsPerCell']} points, ghost factor {row['factor']}"
+		yield dict(command=f"scripts/reproduce table{row['table']}", quantity=what, ours=f"{float(run['meanIterations']) + 1:.4g}", theirs=row['result'].split()[0], unit='', source=f"Coombs 2023, table {row['table']}")
+
+
+def ofSplitting():
+	with open(os.path.join(examples, 'splitting', 'results', 'splitting.csv'), newline='') as file:
+		for row in csv.DictReader(file):
+			if row['failure'] or not row['exact'] or float(row['exact']) in (0, 1) and row['scene'] != 'press' or math.isnan(float(row['exact'])): continue
+			source = 'Lube et al. 2005, experiments' if row['scene'].startswith('runout') else 'closed form, large strains'
+			yield dict(command=f"scripts/run splitting --scenes {row['scene']} --cases {row['points']}/{row['maxSplits']}", quantity=f"{row['scene']}, {row['points']} x {row['points']} points a cell, maxSplits {row['maxSplits']}",
+			           ours=f"{float(row['measured']):.4g}", theirs=f"{float(row['exact']):.4g}", unit='', source=source)
+
+
+def everything(of=examples):
+	"""By folder its rows."""
+	found = {folder: kept(folder, of) for folder in runs}
+	return found | dict(paper=list(ofPaper()), splitting=list(ofSplitting()))
+
+
+def difference(row):
+	ours, theirs = float(row['ours']), float(row['theirs'])
+	return ours / theirs - 1 if theirs else ours
+
+
+def closedForms():
+	"""What the tests are held against: rows of test, against."""
+	with open(os.path.join(root, 'tests', 'data', 'closed_forms.csv'), newline='') as file:
+		return list(csv.DictReader(file))
+
+
+words = re.compile(r"closed form|by hand|published|Rankine|Prandtl|Hertz|Boussinesq|Lame|Coulomb's law|Skempton|Griffiths|limit analysis|Timoshenko|elastica\b|Archimedes|Terzaghi|Davis|Clapeyron|independent implementation")
+
+
+def ofTests():
+	"""(file, name of the test, docstring or comments) of all tests but those of the project itself."""
+	for folder, ending in ('scene', '.py'), ('core', '.cpp'):
+		for place, _, files in sorted(os.walk(os.path.join(root, 'tests', folder))):
+			if os.path.basename(place) == 'project': continue
+			for name in sorted(files):
+				if not name.startswith('test_') or not name.endswith(ending): continue
+				path = os.path.join(place, name)
+				with open(path) as file:
+					text = file.read()
+				for test, said in _documented(text) if ending == '.py' else _commented(text): yield os.path.relpath(path, root), test, ' '.join(said.split())
+
+
+def _documented(text):
+	"""Tests in Python: name, docstring with comments."""
+	for match in re.finditer(r'^def (test_\w+)\((.*?)(?=^\S|\Z)', text, re.MULTILINE | re.DOTALL):
+		docstring = re.match(r'[^\n]*\n\t"""(.*?)"""', match[2], re.DOTALL)
+		comments = re.findall(r'(?:^|\s)# (.*)$', match[2], re.MULTILINE)
+		yield match[1], '. '.join(([docstring[1].rstrip('.')] if docstring else []) + comments)
+
+
+def _commented(text):
+	"""Tests of the core: name, comment before them with those in them."""
+	for match in re.finditer(r'((?:^[ \t]*//[^\n]*\n)*)^[ \t]*(?:TYPED_)?TEST(?:_[FP])?\((\w+), (\w+)\)(.*?)(?=^\t?\}|^[ \t]*(?:TYPED_)?TEST|\Z)', text, re.MULTILINE | re.DOTALL):
+		before = ' '.join(re.findall(r'//+[!<]? ?(.*)', match[1]))
+		yield f'{match[2]}.{match[3]}', '. '.join([before.rstrip('.')] * bool(before) + re.findall(r'//+[!<]? ?(.*)', match[4]))
+
+
+def commandOf(folder, command):
+	return f'scripts/run examples/{folder}/{command}'
+
+
+def escaped(text):
+	return text.replace('|', '\\|')
+
+
+def percentOf(difference):
+	return f'{100 * difference:+.2g} %' if difference else '0'
+
+
+def table(rows):
+	lines = []
+	for row in rows:
+		unit = f" {row['unit']}" if row['unit'] not in ('', '-') else ''
+		lines.append([escaped(row['quantity']), row['ours'] + unit, row['theirs'] + unit, percentOf(difference(row)), escaped(row['source']), f"`{row['command']}`"])
+	return pages.table(['what', 'ours', 'theirs', 'difference', 'theirs is of', 'command'], lines)
+
+
+INTRODUCTION = '''# Validation
+
+Every closed form, experiment and published number that the examples are held against, {count} of them: ours, theirs, the difference, whose it is, and the command that gives it again. Half of the differences are below {median}, nine of ten below {most}. Grids are those of the pages of
+the examples, often coarse: what finer ones give is there. Large differences are not left out: see *Contact and penetration*, and *Waves and run-out*.
+
+`scripts/validate` writes this page from the tables that the examples keep, `compared.csv` in their folders, and from those of [the paper](../../examples/paper/README.md) and of [splitting](../../examples/splitting/README.md); `scripts/validate --run` makes those tables anew, in a quarter of an hour.
+
+![Differences by group](validation.png)
+'''
+
+STUDIES = '''## In studies of their own
+
+The same answers on many grids: [discretisation](../../examples/discretisation/README.md) (errors and their estimates), [trade](../../examples/trade/README.md) (errors and what they cost), [extremes](../../examples/extremes/README.md) (2,347 cases), [load_steps](../../examples/load_steps/README.md),
+[two_sizes](../../examples/two_sizes/README.md), and [contact, case by case](contacts.md) by `scripts/contacts`.
+'''
+
+TESTS = '''## In the tests
+
+{count} tests that run on every change are held against closed forms and numbers of others, to tolerances that they name. Those of the core by `build/tests/core_tests --gtest_filter=NAME`, those in YADE by `/usr/bin/python3 -m pytest FILE -k NAME`, all by `scripts/test`.
+'''
+
+
+def page(found):
+	rows = [row for of in found.values() for row in of]
+	sizes = sorted(abs(difference(row)) for row in rows)
+	parts = [INTRODUCTION.format(count=len(rows), median=pages.percent(sizes[len(sizes) // 2]), most=pages.percent(sizes[int(0.9 * len(sizes))]))]
+	for group, folders in groups.items():
+		links = ', '.join(f'[{folder}](../../examples/{folder}/README.md)' for folder in folders if folder != 'tasks') or '[the course](../../examples/README.md#tasks)'
+		parts += [f'## {group}\n', f'From {links}.\n', table(row for folder in folders for row in found[folder]), '']
+	forms, files = closedForms(), {test: file for file, test, _ in ofTests()}
+	listed = pages.table(['test', 'held against', 'file'], [(f"`{row['test']}`", escaped(row['against']), f"`{files[row['test']]}`") for row in forms])
+	return '\n'.join([*parts, STUDIES, TESTS.format(count=len(forms)), listed, ''])
+
+
+def kindOf(source):
+	if 'experiment' in source or 'grains' in source: return 'experiments, grains'
+	return 'published' if re.search(r'\b(19|20)\d\d\b', source) and not re.search('Prandtl|Rankine|Coulomb|Hertz|Boussinesq', source) else 'closed forms, sums by hand'
+
+
+def picture(found, path):
+	"""Differences of each group, by kind of what they are held against; what is smaller than 1e-3 % stands at the left edge."""
+	import matplotlib
+	matplotlib.use('Agg')
+	import matplotlib.pyplot as plt
+	figure, ax = plt.subplots(figsize=(9.5, 5.2), layout='constrained')
+	kinds = {'closed forms, sums by hand': 'o', 'published': 's', 'experiments, grains': '^'}
+	for kind, marker in kinds.items():
+		x, y = [], []
+		for number, folders in enumerate(groups.values()):
+			rows = [row for folder in folders for row in found[folder] if kindOf(row['source']) == kind]
+			x += [max(100 * abs(difference(row)), 1e-3) for row in rows]
+			y += [number + 0.5 * ((3 * i) % 7 - 3) / 7 for i in range(len(rows))]  # beside each other, that none hides another
+		ax.plot(x, y, marker, label=kind, alpha=0.6, markersize=5, markeredgewidth=0)
+	for edge in 1, 10: ax.axvline(edge, color='0.7', linewidth=0.8, zorder=0)
+	ax.set(xscale='log', xlim=(7e-4, 200), ylim=(len(groups) - 0.5, -0.5), yticks=range(len(groups)), yticklabels=list(groups), xlabel='difference [%]')
+	ax.set_xticks([1e-3, 1e-2, 0.1, 1, 10, 100], ['below .001', '.01', '.1', '1', '10', '100'])
+	ax.legend(frameon=False, loc='upper center', bbox_to_anchor=(0.5, 1.1), ncols=3)
+	figure.savefig(path, dpi=120)
+
+
+def split(command):
+	return shlex.split(command)
