@@ -91,7 +91,7 @@ curve.axhline(upper, color='k', linestyle='--', linewidth=0.8, label='limit anal
 curve.plot(0.01 * H, failed, 'o', color='tab:blue', markersize=5, label=f'front at H / 100: N = {failed:.2f}')
 curve.set(xlabel='movement [m]', ylabel='stability number $N = \\gamma H / c_u$', ylim=(0, None), xlim=(0, None))
 curve.legend(frameon=False, fontsize=8, loc='lower right')
-mpm.plot('plasticStrain', grid=False, ghost=False, ax=shape, range=(0, 1))
+mpm.plot('plasticStrain', ax=shape, range=(0, 1))
 shape.plot([0, L, L], [H, H, 0], 'k--', linewidth=0.8, label='initial outline')
 curve.set_title('How far the cut has moved', fontsize='medium')
 shape.set(xlim=(-0.2, L + 2.8), ylim=(-0.2, H + 0.6))

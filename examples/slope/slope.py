@@ -79,8 +79,8 @@ print(f'crest (0, 12) settles by {-(points["pos"] - points["pos0"])[np.lexsort((
 
 ## the deformed domains, coloured by shear stress and, beside it, by the plastic strain, which shows where it slips
 figure, (stress, slip) = plt.subplots(2, 1, figsize=(8.4, 7.2), sharex=True, layout='constrained')
-mpm.plot('stress_xy', grid=False, ghost=False, ax=stress, range=(-12e3, 12e3))
-mpm.plot('plasticStrain', grid=False, ghost=False, ax=slip, range=(0, 0.8), colormap='YlOrRd')
+mpm.plot('stress_xy', ax=stress, range=(-12e3, 12e3))
+mpm.plot('plasticStrain', ax=slip, range=(0, 0.8))
 stress.set(title=f'Shear stress in the slope at load factor {solver.loadFactor:g} (gravity 9.81 m/s²)', xlabel='')
 slip.set(title='Plastic strain at the same load: where it has slipped')
 

@@ -55,7 +55,7 @@ print(f'h = 44 m / {options.cells}: {len(O.bodies)} material points, {solver.dof
 print(f'lift of the middle over F / E: {lift:.3f}' + (f', reference {exact} ({100 * (lift / exact - 1):+.2f} %)' if exact else ''))
 print(f'reaction of the clamp over load: {-solver.reactions[0][1] / F:.8f}')
 figure, picture = plt.subplots(figsize=(6, 5.5), layout='constrained')
-mpm.plot('meanStress', ax=picture, ghost=False, range=(-300, 300))
+mpm.plot('meanStress', ax=picture, grid=True, range=(-300, 300))
 picture.set_title(f"Poisson's ratio {options.poisson:g}", pad=36, fontsize='medium')
 figure.savefig(os.path.join(options.out, 'cook.png'), dpi=130)
 print(f'written: {options.out}/cook.png, and for ParaView {options.out}/cook-walls.pvd')
