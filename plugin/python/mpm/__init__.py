@@ -38,6 +38,7 @@ While it runs, one line tells how far it is (``verbosity`` of the engine); ``plo
 :func:`contactForces`        where rigid bodies are touched, and the forces there
 :func:`plot`                 picture by matplotlib, of plane strain or of a slice
 :class:`movie`               film of a run
+:class:`view`                a run in one HTML file, which any browser turns, cuts, colours and plays
 :func:`colour`               colours of the points in YADE's 3D view
 :func:`export`               table of the points, CSV or NPZ
 :class:`histories`           values at chosen points over time; :func:`readHistory` reads one from a file
@@ -72,9 +73,10 @@ from .solids import solid, terrain
 from .naming import didYouMean as _didYouMean, telling as _telling
 from .surfaces import surface
 from .tables import export
+from .viewing import view
 
 __version__ = _engine.version
-__all__ = ['polygon', 'fill', 'add', 'refinementsAt', 'arrays', 'assign', 'geostatic', 'plot', 'colour', 'export', 'save', 'load', 'advise', 'discretisationError', 'stressError', 'elementTest', 'respond', 'strengthReduction', 'surface', 'contactForces', 'histories', 'readHistory', 'solid', 'terrain', 'movie']
+__all__ = ['polygon', 'fill', 'add', 'refinementsAt', 'arrays', 'assign', 'geostatic', 'plot', 'colour', 'export', 'save', 'load', 'advise', 'discretisationError', 'stressError', 'elementTest', 'respond', 'strengthReduction', 'surface', 'contactForces', 'histories', 'readHistory', 'solid', 'terrain', 'movie', 'view']
 
 for _name in __all__:
 	_thing = globals()[_name] = _telling(globals()[_name])
