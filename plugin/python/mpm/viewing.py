@@ -38,7 +38,7 @@ class view:
 
 	:param fileName: path that ends in .html; folders that are missing are made
 	:param fields: name of a field, as for :func:`plot`, or a sequence of names, the first of which is shown at first
-	:param every: iterations from one state to the next, an integer >= 1, by a PyRunner at the end of ``O.engines``, beginning with the present one; 0: only the present one
+	:param every: steps of the engine from one state to the next, an integer >= 1, by a PyRunner at the end of ``O.engines``, beginning with the present one; 0: only the present one
 	:param range: {name: (low, high)} of colours, in SI units; by default the smallest and largest values of all states, symmetric to zero for values of both signs
 	:param fps: states a second as it is played, > 0
 	:param solver: the engine; may be left out when ``O.engines`` holds one
@@ -68,8 +68,9 @@ class view:
 	def _begin(self, every):
 		self._label = next(label for label in (f'view_{i}' for i in range(len(_running) + 1)) if label not in _running)
 		_running[self._label] = self
+		self._first, self._every = self.solver.nDone, every
 		command = f"__import__('sys').modules['yade.mpm.viewing'].add({self._label!r})"
-		wrapper.Omega().engines = list(wrapper.Omega().engines) + [wrapper.PyRunner(command=command, iterPeriod=every, initRun=True, label=self._label)]
+		wrapper.Omega().engines = list(wrapper.Omega().engines) + [wrapper.PyRunner(command=command, iterPeriod=1, initRun=True, label=self._label)]
 
 	def add(self):
 		"""Take the present state, unless the last one is it."""
@@ -181,7 +182,7 @@ def _near(bodies, low, high, dim):
 	corners = [spheres[:, :3] + sign * spheres[:, 3:4] for sign in (-1, 1)]
 	corners += [boxes[:, :3] + sign * np.abs(boxes[:, 3:12].reshape(-1, 3, 3)).sum(axis=1) for sign in (-1, 1)] + [triangles[:, :3]]
 	corners = np.concatenate(corners)
-	return np.clip(corners, _inSpace(low) - 0.3 * size, _inSpace(high) + 0.3 * size)
+	return np.clip(corners, _inSpace(low) - size, _inSpace(high) + size)
 
 
 def _bodies(dim, low, high):
@@ -235,4 +236,4 @@ def _ranges(given, fields):
 def add(label):
 	"""For the PyRunner; of a scene that was loaded there is no view."""
 	film = _running.get(label)
-	if film and film.solver in wrapper.Omega().engines: film.add()
+	if film and film.solver in wrapper.Omega().engines and (film.solver.nDone - film._first) % film._every == 0: film.add()

@@ -206,6 +206,7 @@ function pointOf(frame, row) {
 	const centre = [0, 0, 0], edges = [[0, 0, 0], [0, 0, 0], [0, 0, 0]];
 	for (let i = 0; i < dim; ++i) centre[i] = stretched(column(i), [low[i], high[i]]);
 	for (let i = 0; i < dim; ++i) for (let j = 0; j < dim; ++j) edges[j][i] = stretched(column(dim + i * dim + j), [-data.reach, data.reach]);
+	if (flat) edges[2][2] = 1e-4 * size; // seen from in front
 	return { centre, edges, radius: stretched(column(dim + dim * dim), [0, data.reach]), isDot: column(dim + dim * dim) > 0 };
 }
 
@@ -388,8 +389,9 @@ async function begin() {
 	listen();
 	fromAddress();
 	showField();
-	const { clientWidth, clientHeight } = gl.canvas;
+	const { clientWidth, clientHeight } = gl.canvas, hint = byId('point').textContent;
 	document.body.dataset.ready = JSON.stringify({ frames: data.frames.length, points: rows(data.frames[state.frame]), drawn: countDrawn(), middle: pick({ offsetX: clientWidth / 2, offsetY: clientHeight / 2 }), said: byId('point').textContent });
+	byId('point').textContent = hint;
 }
 
 begin().catch(error => { document.body.innerHTML = '<div id="failure"></div>'; byId('failure').textContent = `This view cannot be shown: ${error.message}`; });
