@@ -29,7 +29,7 @@ While it runs, one line tells how far it is (``verbosity`` of the engine); ``plo
 ===========================  ==========================================================================================
 :func:`polygon`              region of the x-y plane
 :func:`solid`                region in a closed surface of an STL or GTS file
-:class:`terrain`             region below the surface of an elevation grid (.asc)
+:class:`terrain`             region below a surface: an elevation grid (.asc), an array or a function; :func:`facets` makes it rock that does not yield
 :func:`fill`                 material points in a region; :func:`add` puts them into the scene, of several processes each its own
 :func:`refinementsAt`        boxes in which cells are halved, where something asks for it
 :func:`arrays`               data of all material points as NumPy arrays; :func:`assign` is the way back
@@ -69,14 +69,15 @@ from .movies import movie
 from .outline import polygon
 from .plotting import plot
 from .safety import strengthReduction
-from .solids import solid, terrain
+from .solids import solid
 from .naming import didYouMean as _didYouMean, telling as _telling
 from .surfaces import surface
 from .tables import export
+from .terrains import facets, terrain
 from .viewing import view
 
 __version__ = _engine.version
-__all__ = ['polygon', 'fill', 'add', 'refinementsAt', 'arrays', 'assign', 'geostatic', 'plot', 'colour', 'export', 'save', 'load', 'advise', 'discretisationError', 'stressError', 'elementTest', 'respond', 'strengthReduction', 'surface', 'contactForces', 'histories', 'readHistory', 'solid', 'terrain', 'movie', 'view']
+__all__ = ['polygon', 'fill', 'add', 'refinementsAt', 'arrays', 'assign', 'geostatic', 'plot', 'colour', 'export', 'save', 'load', 'advise', 'discretisationError', 'stressError', 'elementTest', 'respond', 'strengthReduction', 'surface', 'contactForces', 'histories', 'readHistory', 'solid', 'terrain', 'movie', 'view', 'facets']
 
 for _name in __all__:
 	_thing = globals()[_name] = _telling(globals()[_name])

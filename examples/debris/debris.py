@@ -1,0 +1,106 @@
+#!/usr/bin/env yade
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Debris runs down a channel of rock, over level ground and against a wall, and carries boulders along.
+
+	  o\\                      a channel of facets, 30 degrees steep, which levels out; its sides rise as a parabola
+	 ooo\\                     debris: Mohr-Coulomb, 28 degrees, from rest
+	  \\  \\             _      boulders: clumps of two spheres, on top of it
+	    \\__\\__________| |     wall: a Box, on which the force is recorded, of debris and of boulders
+
+Inertia in explicit steps with lumped mass; bed, wall and boulders touch the debris by MpmContact, and each other by YADE's laws.
+
+Run it with `scripts/run examples/debris/debris.py [options]`, or by yade-batch with the options as columns of a parameter table.
+"""
+import os
+import sys
+import time
+
+from yade import mpm, utils
+import matplotlib
+matplotlib.use('Agg')
+import matplotlib.pyplot as plt
+import numpy as np
+sys.path.insert(0, os.path.join(os.path.dirname(sys.argv[0]), '..'))
+from options import readOptions
+
+options = readOptions('Debris on terrain, against a wall.',
+        cellSize=(0.5, 'h [m]'),
+        pointsPerCell=(2, 'material points per cell and axis'),
+        boulders=(2, 'clumps on top of the debris'),
+        end=(5., 'time of the last state [s]'),
+        states=(25, 'states in the view for the browser'))
+began = time.time()
+density, g, slope, foot, wallAt = 1800., 9.81, np.radians(30), 9., 14.
+length, width, depth = 4., 2.5, 1.  # of the debris along x, across, and above the bed [m]
+h = options.cellSize
+
+
+def bed(x, y):
+	"""Height of the rock [m]: a slope that levels out around the foot, within 2 m, and sides that rise."""
+	down = 2 * np.logaddexp(0, (foot - x) / 2 / 0.5) * 0.5  # 0 beyond the foot
+	return np.tan(slope) * down + 0.06 * y**2
+
+
+O.materials.append(MpmMohrCoulombMat(young=2e6, poisson=0.3, density=density, cohesion=100, frictionAngle=radians(28), label='debris'))
+O.materials.append(FrictMat(young=3e6, poisson=0.3, density=2600, frictionAngle=radians(20), label='rock'))
+grid = MpmGrid(cellSize=h, dim=3)
+ends = dict(min=(1, -0.9 * width), max=(1 + length, 0.9 * width), spacing=h / 2)
+O.bodies.append(mpm.fill(mpm.terrain(lambda x, y: bed(x, y) + depth * (1 - (y / width)**2) + 0.1 * h, lambda x, y: bed(x, y) + 0.1 * h, **ends), grid, options.pointsPerCell, 'debris'))
+for body in O.bodies: body.groupMask = 8  # the contacts mean rock and boulders: 1, bed; 2, boulders; 4, wall
+points = mpm.arrays()
+mass = points['volume'].sum() * density
+
+O.bodies.append(mpm.facets(bed, spacing=1, min=(-1, -4), max=(wallAt + 2, 4), material='rock', mask=1 | 16))
+wall = O.bodies.append(utils.box((wallAt + 0.5, 0, 1.5), (0.5, 4, 1.7), material='rock', fixed=True, mask=4 | 16, color=(0.45, 0.5, 0.55)))
+clumps = []
+for i in range(options.boulders):
+	x, y = 1.8 + 1.6 * i, 0.8 * (-1)**i
+	top = bed(x, y) + depth * (1 - (y / width)**2) + 0.45
+	clumps.append(O.bodies.appendClumped([utils.sphere((x + 0.35 * k, y, top - 0.2 * k), 0.4 - 0.08 * k, material='rock', mask=2 | 16, color=(0.35, 0.3, 0.28)) for k in (0, 1)])[0])
+
+onBed, onWall, onBoulders = (MpmContact(mask=mask, friction=radians(angle), stiffness=stiffness) for mask, angle, stiffness in ((1, 20, 5), (4, 20, 10), (2, 25, 5)))
+solver = MpmDynamicEngine(grid=grid, gravity=(0, 0, -g), contacts=[onBed, onWall] + [onBoulders] * bool(clumps), scheme='explicit', ghost=MpmGhost(factor=0, massFactor=0), verbosity=0, label='solver')
+O.engines = [
+        ForceResetter(),
+        InsertionSortCollider([Bo1_Sphere_Aabb(), Bo1_Box_Aabb(), Bo1_Facet_Aabb()]),
+        InteractionLoop([Ig2_Sphere_Sphere_ScGeom(), Ig2_Box_Sphere_ScGeom(), Ig2_Facet_Sphere_ScGeom()], [Ip2_FrictMat_FrictMat_FrictPhys()], [Law2_ScGeom_FrictPhys_CundallStrack()]),
+        solver,
+        NewtonIntegrator(gravity=(0, 0, -g), damping=0.1, mask=16),
+        PyRunner(iterPeriod=5, initRun=True, command='record()'),
+]
+O.dt = min(0.5 * solver.criticalTimeStep(), 0.3 * utils.PWaveTimeStep() if clumps else np.inf)
+steps = int(np.ceil(options.end / O.dt))
+history = []
+
+
+def record():
+	debris = onWall.forces[0][0] if len(onWall.forces) else 0
+	boulders = sum(abs(contact.phys.normalForce[0]) for contact in O.bodies[wall].intrs() if contact.isReal)
+	history.append((O.time, debris, boulders))
+
+
+print(f'{len(points["id"])} points of {mass / 1000:.1f} t, {len(clumps)} boulders; {steps} steps of {1000 * O.dt:.2f} ms')
+film = mpm.view(os.path.join(options.out, 'debris.html'), ['velocity_x', 'displacement'], every=max(1, steps // options.states), solver=solver)
+O.timingEnabled = True
+O.run(steps, wait=True)
+from yade import timing; timing.stats(); print(solver.report())
+film.finish()
+
+t, debris, boulders = np.array(history).T
+points = mpm.arrays()
+x, z = points['pos'][:, 0], points['pos'][:, 2]
+smooth = np.convolve(debris, np.ones(9) / 9, 'same')
+below = z < np.array([bed(*place) for place in points['pos'][:, :2]]) - h / 4
+work = solver.plotData()
+print(f'front reaches {x.max():.2f} m, wall at {wallAt:g} m; {100 * (x > wallAt + 1).mean():.1f} % of the points beyond the wall, {below.sum()} below the bed')
+print(f'force of the debris on the wall: at most {smooth.max() / 1000:.1f} kN at {t[smooth.argmax()]:.2f} s, at the end {smooth[-20:-5].mean() / 1000:.1f} kN; of boulders at most {boulders.max() / 1000:.1f} kN')
+print(f'energy not accounted for: {work["energyImbalance"] / work["loadWork"]:+.1e} of the work of gravity; {time.time() - began:.0f} s')
+
+figure, (section, force) = plt.subplots(2, 1, figsize=(9, 6.4), height_ratios=[1.25, 1], layout='constrained')
+mpm.plot('velocity_x', ax=section, plane=('y', 0.11 * h))
+force.plot(t, smooth / 1000, label='debris, mean over nine records')
+if clumps: force.plot(t, boulders / 1000, label='boulders', linewidth=0.9)
+force.set(xlabel='time [s]', ylabel='force on the wall [kN]', xlim=(0, t[-1]))
+force.legend(frameon=False)
+figure.savefig(os.path.join(options.out, 'debris.png'), dpi=110)
+print(f'written: {options.out}/debris.png, debris.html for the browser')
