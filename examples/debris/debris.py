@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Debris runs down a channel of rock, over level ground and against a wall, and carries boulders along.
 
-	  o\\                      a channel of facets, 30 degrees steep, which levels out; its sides rise as a parabola
-	 ooo\\                     debris: Mohr-Coulomb, 28 degrees, from rest
+	  o\\                      a channel of facets, 40 degrees steep, which levels out; its sides rise as a parabola
+	 ooo\\                     debris: Mohr-Coulomb, 25 degrees, from rest
 	  \\  \\             _      boulders: clumps of two spheres, on top of it
 	    \\__\\__________| |     wall: a Box, on which the force is recorded, of debris and of boulders
 
@@ -27,11 +27,11 @@ options = readOptions('Debris on terrain, against a wall.',
         cellSize=(0.5, 'h [m]'),
         pointsPerCell=(2, 'material points per cell and axis'),
         boulders=(2, 'clumps on top of the debris'),
-        end=(5., 'time of the last state [s]'),
+        end=(4., 'time of the last state [s]'),
         states=(25, 'states in the view for the browser'))
 began = time.time()
-density, g, slope, foot, wallAt = 1800., 9.81, np.radians(30), 9., 14.
-length, width, depth = 4., 2.5, 1.  # of the debris along x, across, and above the bed [m]
+density, g, slope, foot, wallAt = 1800., 9.81, np.radians(40), 4.5, 7.
+length, width, depth = 3., 2., 1.2  # of the debris along x, across, and above the bed [m]
 h = options.cellSize
 
 
@@ -41,24 +41,24 @@ def bed(x, y):
 	return np.tan(slope) * down + 0.06 * y**2
 
 
-O.materials.append(MpmMohrCoulombMat(young=2e6, poisson=0.3, density=density, cohesion=100, frictionAngle=radians(28), label='debris'))
+O.materials.append(MpmMohrCoulombMat(young=2e6, poisson=0.3, density=density, cohesion=100, frictionAngle=radians(25), label='debris'))
 O.materials.append(FrictMat(young=3e6, poisson=0.3, density=2600, frictionAngle=radians(20), label='rock'))
 grid = MpmGrid(cellSize=h, dim=3)
-ends = dict(min=(1, -0.9 * width), max=(1 + length, 0.9 * width), spacing=h / 2)
+ends = dict(min=(0.5, -0.9 * width), max=(0.5 + length, 0.9 * width), spacing=h / 2)
 O.bodies.append(mpm.fill(mpm.terrain(lambda x, y: bed(x, y) + depth * (1 - (y / width)**2) + 0.1 * h, lambda x, y: bed(x, y) + 0.1 * h, **ends), grid, options.pointsPerCell, 'debris'))
 for body in O.bodies: body.groupMask = 8  # the contacts mean rock and boulders: 1, bed; 2, boulders; 4, wall
 points = mpm.arrays()
 mass = points['volume'].sum() * density
 
-O.bodies.append(mpm.facets(bed, spacing=1, min=(-1, -4), max=(wallAt + 2, 4), material='rock', mask=1 | 16))
-wall = O.bodies.append(utils.box((wallAt + 0.5, 0, 1.5), (0.5, 4, 1.7), material='rock', fixed=True, mask=4 | 16, color=(0.45, 0.5, 0.55)))
+O.bodies.append(mpm.facets(bed, spacing=1, min=(-0.5, -3), max=(wallAt + 1, 3), material='rock', mask=1 | 16))
+wall = O.bodies.append(utils.box((wallAt + 0.5, 0, 1.2), (0.5, 3, 1.4), material='rock', fixed=True, mask=4 | 16, color=(0.45, 0.5, 0.55)))
 clumps = []
 for i in range(options.boulders):
-	x, y = 1.8 + 1.6 * i, 0.8 * (-1)**i
+	x, y = 1.2 + 1.5 * i, 0.3 * (-1)**i
 	top = bed(x, y) + depth * (1 - (y / width)**2) + 0.45
-	clumps.append(O.bodies.appendClumped([utils.sphere((x + 0.35 * k, y, top - 0.2 * k), 0.4 - 0.08 * k, material='rock', mask=2 | 16, color=(0.35, 0.3, 0.28)) for k in (0, 1)])[0])
+	clumps.append(O.bodies.appendClumped([utils.sphere((x + 0.35 * k, y, top - 0.2 * k), 0.45 - 0.1 * k, material='rock', mask=2 | 16, color=(0.35, 0.3, 0.28)) for k in (0, 1)])[0])
 
-onBed, onWall, onBoulders = (MpmContact(mask=mask, friction=radians(angle), stiffness=stiffness) for mask, angle, stiffness in ((1, 20, 5), (4, 20, 10), (2, 25, 5)))
+onBed, onWall, onBoulders = (MpmContact(mask=mask, friction=radians(angle), stiffness=stiffness) for mask, angle, stiffness in ((1, 15, 5), (4, 20, 10), (2, 25, 5)))
 solver = MpmDynamicEngine(grid=grid, gravity=(0, 0, -g), contacts=[onBed, onWall] + [onBoulders] * bool(clumps), scheme='explicit', ghost=MpmGhost(factor=0, massFactor=0), verbosity=0, label='solver')
 O.engines = [
         ForceResetter(),
@@ -68,7 +68,7 @@ O.engines = [
         NewtonIntegrator(gravity=(0, 0, -g), damping=0.1, mask=16),
         PyRunner(iterPeriod=5, initRun=True, command='record()'),
 ]
-O.dt = min(0.5 * solver.criticalTimeStep(), 0.3 * utils.PWaveTimeStep() if clumps else np.inf)
+O.dt = min(0.5 * solver.criticalTimeStep(), 0.5 * utils.PWaveTimeStep() if clumps else np.inf)
 steps = int(np.ceil(options.end / O.dt))
 history = []
 
@@ -81,9 +81,7 @@ def record():
 
 print(f'{len(points["id"])} points of {mass / 1000:.1f} t, {len(clumps)} boulders; {steps} steps of {1000 * O.dt:.2f} ms')
 film = mpm.view(os.path.join(options.out, 'debris.html'), ['velocity_x', 'displacement'], every=max(1, steps // options.states), solver=solver)
-O.timingEnabled = True
 O.run(steps, wait=True)
-from yade import timing; timing.stats(); print(solver.report())
 film.finish()
 
 t, debris, boulders = np.array(history).T

@@ -40,7 +40,8 @@ While it runs, one line tells how far it is (``verbosity`` of the engine); ``plo
 :class:`movie`               film of a run
 :class:`view`                a run in one HTML file, which any browser turns, cuts, colours and plays
 :func:`colour`               colours of the points in YADE's 3D view
-:func:`export`               table of the points, CSV or NPZ
+:func:`export`               table of the points, CSV or NPZ; :func:`frame` for pandas
+:func:`collect`              the runs of a yade-batch in one table and picture, from what each writes by :func:`note`
 :class:`histories`           values at chosen points over time; :func:`readHistory` reads one from a file
 :func:`save`                 the scene, whole or not at all; :func:`load` reads it, from several processes, too
 :func:`advise`               what an analysis will cost, and what it could do without
@@ -55,6 +56,7 @@ Units are SI; stress is positive in tension; strains are logarithmic; plane stra
 from . import processes
 from .advice import advise
 from .cells import refinementsAt
+from .collecting import collect, note
 from .colouring import colour
 from .data import arrays, assign, contactForces
 from .discretisation import discretisationError, stressError
@@ -72,12 +74,12 @@ from .safety import strengthReduction
 from .solids import solid
 from .naming import didYouMean as _didYouMean, telling as _telling
 from .surfaces import surface
-from .tables import export
+from .tables import export, frame
 from .terrains import facets, terrain
 from .viewing import view
 
 __version__ = _engine.version
-__all__ = ['polygon', 'fill', 'add', 'refinementsAt', 'arrays', 'assign', 'geostatic', 'plot', 'colour', 'export', 'save', 'load', 'advise', 'discretisationError', 'stressError', 'elementTest', 'respond', 'strengthReduction', 'surface', 'contactForces', 'histories', 'readHistory', 'solid', 'terrain', 'movie', 'view', 'facets']
+__all__ = ['polygon', 'fill', 'add', 'refinementsAt', 'arrays', 'assign', 'geostatic', 'plot', 'colour', 'export', 'save', 'load', 'advise', 'discretisationError', 'stressError', 'elementTest', 'respond', 'strengthReduction', 'surface', 'contactForces', 'histories', 'readHistory', 'solid', 'terrain', 'movie', 'view', 'facets', 'frame', 'note', 'collect']
 
 for _name in __all__:
 	_thing = globals()[_name] = _telling(globals()[_name])
