@@ -41,11 +41,16 @@ def bed(x, y):
 	return np.tan(slope) * down + 0.06 * y**2
 
 
+def surface(x, y):
+	"""Height of the debris at first [m]."""
+	return bed(x, y) + depth * (1 - (y / width)**2) + 0.1 * h
+
+
 O.materials.append(MpmMohrCoulombMat(young=2e6, poisson=0.3, density=density, cohesion=100, frictionAngle=radians(25), label='debris'))
 O.materials.append(FrictMat(young=3e6, poisson=0.3, density=2600, frictionAngle=radians(20), label='rock'))
 grid = MpmGrid(cellSize=h, dim=3)
 ends = dict(min=(0.5, -0.9 * width), max=(0.5 + length, 0.9 * width), spacing=h / 2)
-O.bodies.append(mpm.fill(mpm.terrain(lambda x, y: bed(x, y) + depth * (1 - (y / width)**2) + 0.1 * h, lambda x, y: bed(x, y) + 0.1 * h, **ends), grid, options.pointsPerCell, 'debris'))
+O.bodies.append(mpm.fill(mpm.terrain(surface, lambda x, y: bed(x, y) + 0.1 * h, **ends), grid, options.pointsPerCell, 'debris'))
 for body in O.bodies: body.groupMask = 8  # the contacts mean rock and boulders: 1, bed; 2, boulders; 4, wall
 points = mpm.arrays()
 mass = points['volume'].sum() * density
@@ -54,9 +59,13 @@ O.bodies.append(mpm.facets(bed, spacing=1, min=(-0.5, -3), max=(wallAt + 1, 3), 
 wall = O.bodies.append(utils.box((wallAt + 0.5, 0, 1.2), (0.5, 3, 1.4), material='rock', fixed=True, mask=4 | 16, color=(0.45, 0.5, 0.55)))
 clumps = []
 for i in range(options.boulders):
-	x, y = 1.2 + 1.5 * i, 0.3 * (-1)**i
-	top = bed(x, y) + depth * (1 - (y / width)**2) + 0.45
-	clumps.append(O.bodies.appendClumped([utils.sphere((x + 0.35 * k, y, top - 0.2 * k), 0.45 - 0.1 * k, material='rock', mask=2 | 16, color=(0.35, 0.3, 0.28)) for k in (0, 1)])[0])
+	members = []
+	for k in 0, 1:
+		x, y, radius = 1.2 + 1.5 * i + 0.35 * k, 0.3 * (-1)**i, 0.45 - 0.1 * k
+		above = (radius + h / 4) / np.cos(slope)  # beside the points
+		members.append(utils.sphere((x, y, surface(x, y) + above), radius, material='rock', mask=2 | 16, color=(0.35, 0.3, 0.28)))
+	clumps.append(O.bodies.appendClumped(members)[0])
+	O.bodies[clumps[-1]].groupMask = 2 | 16
 
 onBed, onWall, onBoulders = (MpmContact(mask=mask, friction=radians(angle), stiffness=stiffness) for mask, angle, stiffness in ((1, 15, 5), (4, 20, 10), (2, 25, 5)))
 solver = MpmDynamicEngine(grid=grid, gravity=(0, 0, -g), contacts=[onBed, onWall] + [onBoulders] * bool(clumps), scheme='explicit', ghost=MpmGhost(factor=0, massFactor=0), verbosity=0, label='solver')

@@ -132,7 +132,7 @@ for row, (direction, name, side) in enumerate([(-1, 'active', 'away from the san
 			axis.plot(1000 * curve[:, 0], limit * (np.ones(len(curve)) if options.rough else curve[:, 2]), color=f'C{number}', linestyle='--', linewidth=0.8)
 		if number == 0:
 			points = mpm.arrays()
-			mpm.plot('plasticStrain', ax=picture, range=(0, np.quantile(points['plasticStrain'], 0.98)))
+			mpm.plot('plasticStrain', ax=picture, range=(0, max(np.quantile(points['plasticStrain'], 0.98), 1.5 * np.median(points['plasticStrain']))))
 			picture.set_title(f'{name}: plastic strain, psi = {psi:g}°', fontsize='medium')
 			if options.contact: picture.get_legend().remove()
 			picture.set_ylim(-0.1 * H, 1.6 * H)

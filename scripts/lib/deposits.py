@@ -20,8 +20,8 @@ def front(x, area, side, face):
 
 
 def profile(x, area, side):
-	"""Smooth depth of matter beside a plane of symmetry at x = 0, a mean with weights that fall to none a fifth of the shorter side away: places (M,) and depths (M,) [m]."""
-	width = 0.2 * side
+	"""Smooth depth of matter beside a plane of symmetry at x = 0, a mean with weights that fall to none three tenths of the shorter side away: places (M,) and depths (M,) [m]."""
+	width = 0.3 * side
 	places = np.arange(0, np.max(x) + 2 * width, 0.1 * width)
 	both, areas = np.concatenate([x, -np.asarray(x)]), np.tile(np.broadcast_to(area, np.shape(x)), 2)
 	return places, _depth(both, areas, places, width)
