@@ -40,6 +40,7 @@ While it runs, one line tells how far it is (``verbosity`` of the engine); ``plo
 :class:`movie`               film of a run
 :class:`view`                a run in one HTML file, which any browser turns, cuts, colours and plays
 :func:`colour`               colours of the points in YADE's 3D view
+:func:`state`                state of ParaView that opens what MpmVtkRecorder has written
 :func:`export`               table of the points, CSV or NPZ; :func:`frame` for pandas
 :func:`collect`              the runs of a yade-batch in one table and picture, from what each writes by :func:`note`
 :class:`histories`           values at chosen points over time; :func:`readHistory` reads one from a file
@@ -69,6 +70,7 @@ from .laboratory import elementTest, respond
 from .library import engine as _engine
 from .movies import movie
 from .outline import polygon
+from .paraview import state
 from .plotting import plot
 from .safety import strengthReduction
 from .solids import solid
@@ -79,7 +81,7 @@ from .terrains import facets, terrain
 from .viewing import view
 
 __version__ = _engine.version
-__all__ = ['polygon', 'fill', 'add', 'refinementsAt', 'arrays', 'assign', 'geostatic', 'plot', 'colour', 'export', 'save', 'load', 'advise', 'discretisationError', 'stressError', 'elementTest', 'respond', 'strengthReduction', 'surface', 'contactForces', 'histories', 'readHistory', 'solid', 'terrain', 'movie', 'view', 'facets', 'frame', 'note', 'collect']
+__all__ = ['polygon', 'fill', 'add', 'refinementsAt', 'arrays', 'assign', 'geostatic', 'plot', 'colour', 'export', 'save', 'load', 'advise', 'discretisationError', 'stressError', 'elementTest', 'respond', 'strengthReduction', 'surface', 'contactForces', 'histories', 'readHistory', 'solid', 'terrain', 'movie', 'view', 'facets', 'frame', 'note', 'collect', 'state']
 
 for _name in __all__:
 	_thing = globals()[_name] = _telling(globals()[_name])
