@@ -67,12 +67,14 @@ def record():
 	history.append((solver.loadFactor, (points['pos0'] - points['pos'])[crest, 1], front, solver.iterations))
 
 
+film = mpm.view(os.path.join(options.out, 'collapse.html'), 'plasticStrain', every=max(1, steps // 12), range={'plasticStrain': (0, 1)})
 begin = time.time()
 try:
 	O.run(steps, wait=True)
 except RuntimeError as error: # the quasi-static path may end: say where, and show what there is
 	print(error)
 seconds = time.time() - begin
+film.finish()
 factor, settlement, front, iterations = np.array(history).T
 np.savetxt(os.path.join(options.out, 'collapse.csv'), np.transpose([factor, settlement, front]), '%.8g', ',', header='N,settlement,front', comments='')
 
@@ -98,4 +100,4 @@ shape.set(xlim=(-0.2, L + 2.8), ylim=(-0.2, H + 0.6))
 shape.set_title(f'Plastic strain at load factor N = {factor[-1]:.2f}', fontsize='medium')
 shape.legend(frameon=False, fontsize=8, loc='upper right')
 figure.savefig(os.path.join(options.out, 'collapse.png'), dpi=130)
-print(f'written: {options.out}/collapse.png, collapse.csv, and for ParaView {options.out}/collapse-points.pvd')
+print(f'written: {options.out}/collapse.png, collapse.csv, for the browser collapse.html, and for ParaView {options.out}/collapse-points.pvd')
