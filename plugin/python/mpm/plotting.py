@@ -10,6 +10,7 @@ from . import needles, stages
 from .analysis import solverOf
 from .colouring import coloursOf, hasSign, limits, scalarOrArray
 from .data import contactFaces, fields
+from .divided import isDivided
 from .fields import labelled
 from .files import replacing
 from .library import engine
@@ -59,6 +60,7 @@ def plot(field='displacement', deformed=True, grid=False, ghost=False, fileName=
 	"""
 	if not deformed and (grid or ghost or loads):
 		raise ValueError('plot: the grid and loads belong to the current configuration, so grid, ghost and loads need deformed=True')
+	if (grid or ghost) and isDivided(): raise ValueError('plot: no process has all cells where processes have divided the points, so grid and ghost cannot be drawn')
 	if loads is None: loads = deformed
 	solver = solverOf('plot', solver)
 	points = fields()

@@ -124,7 +124,7 @@ class view:
 		size, label = labelled(name, np.array(bounds))
 		text, _, unit = label.rpartition(' [')
 		colours = coloursOf('view', name, None, values, bounds)(np.linspace(0, 1, 256))[:, :3]
-		stored = limits('view', None, values)
+		stored = values.min(), values.max()
 		return dict(
 		        name=name, label=_plain(text), unit=unit[:-1], size=size, low=float(bounds[0]), high=float(bounds[1]), stored=[float(end) for end in stored], colours=base64.b64encode((255 * colours).round().astype(np.uint8).tobytes()).decode()
 		)

@@ -139,34 +139,11 @@ print(json.dumps([frames, film.frames, [e.label for e in O.engines], sorted(os.l
 	assert files == ['arrows.png', 'column.gif', 'history.png'] and off == 0 and arrows > 10 and times == 6 and drawn
 
 
-# In front of scripts: which texts of a figure lie over each other, by their boxes.
-overlaps = """
-def overlaps(figure):
-	from matplotlib.text import Text
-	from matplotlib.backends.backend_agg import FigureCanvasAgg
-	canvas = FigureCanvasAgg(figure)
-	canvas.draw()
-	shown = lambda text: text.get_visible() and text.get_text().strip() and all(ax.get_visible() for ax in [text.axes] if ax)
-	texts = []
-	def walk(artist):
-		if isinstance(artist, Text) and shown(artist): texts.append(artist)
-		ticks = set()
-		if hasattr(artist, 'get_ticklabels'):
-			low, high = sorted(artist.get_view_interval())
-			ticks = {tick for tick in artist.get_major_ticks() + artist.get_minor_ticks() if not low - 1e-9 <= tick.get_loc() <= high + 1e-9}
-		for child in artist.get_children():
-			if child not in ticks: walk(child)
-	walk(figure)
-	boxes = [text.get_window_extent(canvas.get_renderer()) for text in texts]
-	deep = lambda a, b: min(a.x1, b.x1) - max(a.x0, b.x0) > 1 and min(a.y1, b.y1) - max(a.y0, b.y0) > 1
-	return [[texts[i].get_text(), texts[j].get_text()] for i in range(len(texts)) for j in range(i) if deep(boxes[i], boxes[j])], len(texts)
-"""
-
-
 def test_labelsDoNotOverlap(yade):
 	"""Of wide, narrow and small pictures, slices with the small view beside them, and all that can be on top; the check finds texts that do."""
-	found = yade(overlaps + '''
+	found = yade('''
 import json
+from labels import overlaps
 from scenes import *
 from matplotlib.figure import Figure
 found = {}

@@ -80,7 +80,7 @@ print(json.dumps([film.frames, [e.label for e in O.engines], points['pos'].tolis
 	assert np.abs(field['stored'][0] + last[-1] * np.diff(field['stored']) - stress).max() < 2e-5 * np.abs(stress).max()
 	assert [f['name'] for f in data['fields']] == ['plasticStrain', 'stress_xy'] and [data['fields'][0][end] for end in ('low', 'high')] == [0, 0.1]
 	assert field['low'] == -field['high'] and (field['unit'], field['size'], field['label']) == ('kPa', 1000, 'stress σ_xy')
-	assert all(frame['sinceLast'] for frame in data['frames'][1:]) and len(page) < 150e3
+	assert data['fields'][0]['stored'][0] == 0 and all(frame['sinceLast'] for frame in data['frames'][1:]) and len(page) < 150e3
 
 
 @pytest.fixture(scope='module')
