@@ -8,7 +8,7 @@ install(TARGETS mpm_guard mpm_engine LIBRARY DESTINATION ${yade_folder}/mpm)
 if(TARGET mpm_petsc)
 	install(TARGETS mpm_petsc LIBRARY DESTINATION ${yade_folder}/mpm COMPONENT petsc)
 endif()
-install(DIRECTORY python/mpm DESTINATION ${yade_folder}/py/yade FILES_MATCHING PATTERN *.py)
+install(DIRECTORY python/mpm DESTINATION ${yade_folder}/py/yade FILES_MATCHING PATTERN *.py PATTERN page.*)
 configure_file(docs/yade-mpm.7 yade-mpm.7 @ONLY)
 add_custom_command(
 	OUTPUT yade-mpm.7.gz COMMAND gzip -9n --keep --force yade-mpm.7 DEPENDS ${CMAKE_CURRENT_BINARY_DIR}/yade-mpm.7 VERBATIM

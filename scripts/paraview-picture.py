@@ -56,6 +56,20 @@ def formula(name):
 	return f'"{field}_{component.upper() if field == "displacement" else admitted.index(component)}"' * bool(component) + field * (not component) + ' / 1000' * (field in kilopascals)
 
 
+def hasSign(name):
+	return 'tress' in name or name.startswith('displacement_')
+
+
+def shades(name, low, high):
+	"""Values and colours as those of mpm.plot: zero is white where a quantity has a sign."""
+	from matplotlib import colormaps
+	shares = [i / 32 for i in range(33)]
+	ends = [x / max(abs(low), abs(high)) for x in (low, high)] if hasSign(name) else [-1, 1]
+	if ends[0] * ends[1] > 0: ends = [math.copysign(min(abs(x), 0.25), x) if abs(x) < 1 else x for x in ends]
+	chosen = colormaps['RdBu_r' if hasSign(name) else 'YlOrRd' if name == 'plasticStrain' else 'viridis']
+	return [x for s in shares for x in (low + s * (high - low), *chosen((1 + ends[0] + s * (ends[1] - ends[0])) / 2)[:3])]
+
+
 def colour(points, name, limits, view):
 	"""Shows the points with their colours and a bar that explains them."""
 	shown = Calculator(registrationName=name, Input=points, AttributeType='Cell Data', ResultArrayName='shown', Function=formula(name))
@@ -65,11 +79,10 @@ def colour(points, name, limits, view):
 	display.Ambient, display.Diffuse = 0.6, 0.4
 	ColorBy(display, ('CELLS', 'shown'))
 	low, high = limits or shown.CellData['shown'].GetRange()
-	bothSigns = low < 0 < high
-	if bothSigns and not limits: low, high = -max(-low, high), max(-low, high)
+	isSigned = hasSign(name)
+	if low < 0 < high and isSigned and not limits: low, high = -max(-low, high), max(-low, high)
 	colours = GetColorTransferFunction('shown')
-	colours.ApplyPreset('Cool to Warm' if bothSigns else 'Viridis (matplotlib)', True)
-	colours.RescaleTransferFunction(low, high if high > low else low + 1)
+	colours.ColorSpace, colours.RGBPoints = 'RGB', shades(name, low, high if high > low else low + 1)
 	bar = GetScalarBar(colours, view)
 	bar.Title, bar.ComponentTitle = f'{name} ({units[name.partition("_")[0]]})', ''
 	bar.TitleColor = bar.LabelColor = black

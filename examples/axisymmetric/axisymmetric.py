@@ -153,7 +153,7 @@ def picture(curves, radius, stress):
 	loads.set(xlabel='settlement / diameter [%]', ylabel='load / (area $c_u$)', xlim=(0, None), ylim=(0, None), title='circular footing')
 	for axes in ring, loads:
 		axes.legend(frameon=False, fontsize=8)
-	mpm.plot('displacement', grid=False, ghost=False, ax=section)
+	mpm.plot('displacement', ax=section)
 	section.plot([0, R], [0.03 - options.settlement * 2 * R] * 2, 'k-', linewidth=5, solid_capstyle='butt')
 	section.set(title='rough footing: section, the axis on the left')
 	figure.savefig(os.path.join(options.out, 'axisymmetric.png'), dpi=130)

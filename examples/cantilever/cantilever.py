@@ -78,7 +78,7 @@ for k, (w, u) in published.items():
 	compared(f'tip of the beam, back, {options.cells} cells, P L^2 / (E I) = {k}', found[1], u, 'Mattiasson 1981', 'L')
 
 figure, (shape, curve) = plt.subplots(1, 2, figsize=(9.5, 4.6), width_ratios=[1, 1.3], layout='constrained')
-mpm.plot('stress_xx', grid=False, ghost=False, ax=shape)
+mpm.plot('stress_xx', ax=shape)
 shape.set(title=f'$P L^2 / (E I) = {end:g}$')
 for values, row, label, colour in (down, 0, 'down', 'tab:blue'), (back, 1, 'back', 'tab:orange'):
 	curve.plot(values, load, color=colour, label=f'tip {label}')

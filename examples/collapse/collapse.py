@@ -67,12 +67,14 @@ def record():
 	history.append((solver.loadFactor, (points['pos0'] - points['pos'])[crest, 1], front, solver.iterations))
 
 
+film = mpm.view(os.path.join(options.out, 'collapse.html'), 'plasticStrain', every=max(1, steps // 12), range={'plasticStrain': (0, 1)})
 begin = time.time()
 try:
 	O.run(steps, wait=True)
 except RuntimeError as error: # the quasi-static path may end: say where, and show what there is
 	print(error)
 seconds = time.time() - begin
+film.finish()
 factor, settlement, front, iterations = np.array(history).T
 np.savetxt(os.path.join(options.out, 'collapse.csv'), np.transpose([factor, settlement, front]), '%.8g', ',', header='N,settlement,front', comments='')
 
@@ -92,11 +94,11 @@ curve.axhline(upper, color='k', linestyle='--', linewidth=0.8, label='limit anal
 curve.plot(0.01 * H, failed, 'o', color='tab:blue', markersize=5, label=f'front at H / 100: N = {failed:.2f}')
 curve.set(xlabel='movement [m]', ylabel='stability number $N = \\gamma H / c_u$', ylim=(0, None), xlim=(0, None))
 curve.legend(frameon=False, fontsize=8, loc='lower right')
-mpm.plot('plasticStrain', grid=False, ghost=False, ax=shape, range=(0, 1))
+mpm.plot('plasticStrain', ax=shape, range=(0, 1))
 shape.plot([0, L, L], [H, H, 0], 'k--', linewidth=0.8, label='initial outline')
 curve.set_title('How far the cut has moved', fontsize='medium')
 shape.set(xlim=(-0.2, L + 2.8), ylim=(-0.2, H + 0.6))
 shape.set_title(f'Plastic strain at load factor N = {factor[-1]:.2f}', fontsize='medium')
 shape.legend(frameon=False, fontsize=8, loc='upper right')
 figure.savefig(os.path.join(options.out, 'collapse.png'), dpi=130)
-print(f'written: {options.out}/collapse.png, collapse.csv, and for ParaView {options.out}/collapse-points.pvd')
+print(f'written: {options.out}/collapse.png, collapse.csv, for the browser collapse.html, and for ParaView {options.out}/collapse-points.pvd')

@@ -73,6 +73,12 @@ def column():
 		compared(f'settlement of a column under {n} layers', 1e3 * found, 1e3 * hand, 'sum by hand, q H / M', 'mm')
 
 
+def drawStage(ax, n):
+	mpm.plot('displacement', ax=ax, range=(0, 0.5)).set_title(f'{n} layer{"s" if n > 1 else ""}')
+	ax.set(xlim=(-0.5, options.width + 0.5), ylim=(-depth - 0.3, thickness * options.layers + 0.3))  # the same in all
+	if n < options.layers - 1: ax.set_xlabel('')
+
+
 def embankment():
 	clay = MpmCamClayMat(density=1700, shearModulus=1.5e6, criticalStateRatio=1.0, compressionIndex=0.08, swellingIndex=0.012, preconsolidation=1e5, referencePressure=1e4, label='clay')
 	crust = MpmMohrCoulombMat(young=8e6, poisson=0.3, density=1700, cohesion=15e3, frictionAngle=np.radians(28), label='crust')
@@ -83,7 +89,7 @@ def embankment():
 	toeAt = crest + slope * thickness * options.layers
 	middle, toe = pointAt(0, 0), pointAt(toeAt, 0)
 	history, states = [(0, 0., 0.)], []
-	figure, axes = plt.subplots(4, 2, figsize=(12, 9))
+	figure, axes = plt.subplots(4, 2, figsize=(12, 9), layout='constrained')
 	begin = time.time()
 	for n in range(1, options.layers + 1):
 		low, high = thickness * (n - 1), thickness * n
@@ -92,7 +98,7 @@ def embankment():
 		O.run(options.steps, wait=True)
 		history.append((n, -moved(middle)[1], moved(toe)[0]))
 		print(f'embankment, {n} layers: settlement in the middle {1e3 * history[-1][1]:.0f} mm, toe outwards {1e3 * history[-1][2]:.1f} mm')
-		if n <= 7: mpm.plot('displacement', ax=axes.flat[n - 1], grid=False, ghost=False, range=(0, 0.5)).set_title(f'{n} layer{"s" if n > 1 else ""}')
+		if n <= 7: drawStage(axes.flat[n - 1], n)
 	print(f'embankment: {len(mpm.arrays()["id"])} points, {time.time() - begin:.1f} s')
 	weight = sum(b.state.mass for b in O.bodies) * g
 	squeezed = sum(b.state.volume0 - b.state.volume for b in O.bodies if b.material.label != 'sand') * 1e4
@@ -102,9 +108,8 @@ def embankment():
 	last = axes.flat[7]
 	last.plot(thickness * n, 1e3 * settlement, 'o-', label='settlement in the middle')
 	last.plot(thickness * n, 1e3 * outwards, 's-', label='toe, outwards')
-	last.set(xlabel='height [m]', ylabel='[mm]')
+	last.set(xlabel='height [m]', ylabel='moved by [mm]', title='middle and toe')
 	last.legend(loc='upper left')
-	figure.tight_layout()
 	figure.savefig(os.path.join(options.out, 'embankment.png'), dpi=100)
 
 

@@ -93,7 +93,7 @@ for dim, colour in (2, 'tab:blue'), (3, 'tab:orange'):
 	curve.axhline(reference, color=colour, linestyle='--', linewidth=0.9, label=f'{name}, published: {reference:.2f}')
 curve.set(xlabel='settlement / B [%]', ylabel='load / (area $c_u$) [-]', xlim=(0, None), ylim=(0, None))
 curve.legend(frameon=False, fontsize=8, loc='lower right')
-mpm.plot('displacement', grid=False, ghost=False, ax=shape, plane=('z', h / (2 * options.pointsPerCell)))
+mpm.plot('displacement', ax=shape, plane=('z', h / (2 * options.pointsPerCell)))
 shape.plot([0, B / 2], [0.03 - options.settlement * B] * 2, 'k-', linewidth=5, solid_capstyle='butt', label='footing')
 shape.set(xlim=(-0.05, width + 0.05), ylim=(-depth - 0.05, 0.25), title='square footing, section near its middle')
 figure.savefig(os.path.join(options.out, 'footing3d.png'), dpi=130)

@@ -89,7 +89,7 @@ for part in range(parts):
 
 def picture(name, shown):
 	"""Section near the middle, of the ground and what stands on it."""
-	ax = mpm.plot(shown, ghost=False, plane=('y', width / 2 + 0.02))  # not between two rows of points
+	ax = mpm.plot(shown, plane=('y', width / 2 + 0.02))  # not between two rows of points
 	ax.figure.savefig(os.path.join(options.out, name + '.png'), dpi=110, bbox_inches='tight')
 	print(f'written: {options.out}/{name}.png')
 

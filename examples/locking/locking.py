@@ -162,6 +162,6 @@ if options.picture:
 	import matplotlib.pyplot as plt
 	np.savetxt(os.path.join(options.out, 'locking.csv'), history.T, '%.6g', ',', header='movement,load', comments='')
 	figure, axes = plt.subplots(figsize=(7, 4.4), layout='constrained')
-	mpm.plot('meanStress', grid=False, ghost=False, ax=axes, range=None if options.scene == 'beam' else (-6 * cu, cu), plane=('z', 1e-3) if options.scene == 'square' else None)
+	mpm.plot('meanStress', ax=axes, range=None if options.scene == 'beam' else (-6 * cu, cu), plane=('z', 1e-3) if options.scene == 'square' else None)
 	axes.set_title(f'Mean stress, {name}', fontsize='medium')
 	figure.savefig(os.path.join(options.out, 'locking.png'), dpi=130)

@@ -212,7 +212,7 @@ state = dem.states[final]
 moved = np.linalg.norm(state['pos'] - state['pos0'], axis=1)
 discs = grainView.add_collection(PatchCollection([Circle(p[:2], r[0]) for p, r in zip(state['pos'], state['halfSize'])], array=moved, cmap='viridis', clim=(0, limit), edgecolors='none'))
 figure.colorbar(discs, cax=grainView.inset_axes([1.02, 0, 0.025, 1]), label='displacement [m]')
-mpm.plot('displacement', grid=False, ghost=False, ax=pointView, range=(0, limit))
+mpm.plot('displacement', ax=pointView, range=(0, limit))
 for view, title in (grainView, f'DEM: {grainCount} grains, {demSeconds:.0f} s of CPU'), (pointView, f'MPM: {len(O.bodies)} points, {mpmSeconds:.0f} s of CPU'):
 	view.plot([0, L, L], [H, H, 0], 'k--', linewidth=0.8)
 	view.set(aspect='equal', xlim=(-0.2, 1.45 * L), ylim=(-0.3, 1.1 * H), xlabel='x [m]', ylabel='y [m]', title=f'{title}, N = {final:g}')

@@ -153,7 +153,7 @@ def penetrate():
 def draw():
 	"""The clay around the body, and the curves."""
 	figure, (picture, curve) = plt.subplots(1, 2, figsize=(10, 6), layout='constrained')
-	mpm.plot('plasticStrain', ax=picture, grid=False, ghost=False, loads=False, range=(0, 0.5 if isPile else 2))
+	mpm.plot('plasticStrain', ax=picture, loads=False, range=(0, 0.5 if isPile else 2))
 	picture.fill(*np.transpose(outline - np.array([0, found[-1][0]])), facecolor='0.8', edgecolor='0.3', zorder=3)
 	picture.set(title=' ', xlim=(0, 5 * R), ylim=(low - 2 * R, max(y for _, y in line) + (-3.5 if isBar else 0.5) * R))
 	for name, values in curves.items(): curve.plot(values, s, label=name)

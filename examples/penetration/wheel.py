@@ -79,7 +79,7 @@ compared(f'energy of a driven wheel found again, slip {options.slip:g}', 1 + off
 print(f'{len(mpm.arrays()["id"])} material points, {sum(solves)} iterations in {len(solves)} steps, {time.time() - began:.0f} s')
 
 figure, (picture, curve) = plt.subplots(2, 1, figsize=(9, 7), layout='constrained')
-mpm.plot('plasticStrain', ax=picture, grid=False, ghost=False, loads=False, range=(0, 1))
+mpm.plot('plasticStrain', ax=picture, loads=False, range=(0, 1))
 picture.add_patch(plt.Circle(tuple(wheel.state.pos)[:2], R, facecolor='0.8', edgecolor='0.3', zorder=3))
 picture.set(title=' ', ylim=(-1.5 * R, 2 * R - sink + 0.1 * R))
 for name, values, unit in ('weight', weight, cu * R), ('pull', pull, cu * R), ('torque', torque, cu * R * R): curve.plot(x / R, values / unit, label=name)

@@ -23,7 +23,7 @@ matplotlib.use('Agg')
 import matplotlib.pyplot as plt
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(sys.argv[0])), '..'))
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(sys.argv[0])), '..', '..', 'scripts', 'lib'))
-from deposits import front
+from deposits import front, profile
 from options import compared, readOptions
 
 options = readOptions('Run-out of columns of sand.',
@@ -163,6 +163,7 @@ def exponent(a, values):
 def drawFilm(name, film, size, aspect):
 	far = np.quantile(film[-1][1][:, 0], 0.999) + 0.1
 	figure, axes = plt.subplots(3, 2, figsize=(12, 1 + 3 * (0.3 + 5 * aspect / far)), sharex=True, sharey=True, layout='constrained')
+	figure.supxlabel('x / L', fontsize=10), figure.supylabel('y / L', fontsize=10)
 	for ax, (t, pos, speed) in zip(axes.flat, film):
 		dots = ax.scatter(pos[:, 0], pos[:, 1], s=size, c=speed / np.sqrt(g * aspect * L), cmap='viridis', vmin=0, vmax=1, linewidths=0)
 		ax.set(aspect='equal', ylim=(0, 1.03 * aspect), xlim=(0, far))
@@ -181,7 +182,7 @@ def drawResults(found, energies):
 		table = np.array([row[:3] for row in rows])
 		for ax, column in (far, 1), (high, 2): ax.plot(table[:, 0], table[:, column], {'sand': 'o', 'grains': 's'}[kind], label=kind)
 		for aspect, _, _, x, depth in rows:
-			shapes.plot(x, depth, '-' if kind == 'sand' else ':', color=plt.cm.viridis(np.log2(aspect / 0.5) / 4), label=f'{kind}, a = {aspect:.2g}')
+			shapes.plot(x / L, depth / L, '-' if kind == 'sand' else ':', color=plt.cm.viridis(np.log2(aspect / 0.5) / 4), label=f'{kind}, a = {aspect:.2g}')
 	for kind, h in energies.items():
 		for column, name, colour in (2, 'kinetic', 'tab:blue'), (3, 'work of gravity', 'k'), (4, 'plastic flow', 'tab:red'), (6, 'ghost', 'tab:green'), (7, 'blows of held nodes', 'tab:orange'), (8, 'new grids', 'tab:purple'):
 			if column < h.shape[1]: history.plot(h[:, 0], h[:, column], '-' if kind == 'sand' else ':', color=colour, label=f'{kind}: {name}')
@@ -207,7 +208,7 @@ for a in map(float, options.aspects.split()):
 		x, depth = outline(film[-1][1], L * L * aspect / len(film[0][1]), 0.1 * L)
 		out, top = history[-1, 1] - 1, depth[0] / L
 		law = published(np.array(aspect))
-		found[kind].append((aspect, out, top, x, depth))
+		found[kind].append((aspect, out, top, *profile(film[-1][1][:, 0], L * L * aspect / len(film[0][1]), min(L, a * L))))
 		print(f'{kind:7}{aspect:4.2f}  {out:.3f}  {law[0]:.3f} ({100 * (out / law[0] - 1):+.1f} %)  {top:.3f}  {law[1]:.3f} ({100 * (top / law[1] - 1):+.1f} %)  {history[-1, 0]:.2f}, kinetic energy {history[-1, 2] / history[-1, 3]:.1e}; '
 		      f'{said}; {time.time() - began:.0f} s', flush=True)
 		compared(f'run-out of {kind}, a = {aspect:.3g}', out, law[0], 'Lube et al. 2005, experiments', 'L')

@@ -102,7 +102,8 @@ if published: curve.axvspan(*published, color='0.85', label='published') if publ
 curve.set(xlabel='F', ylabel='largest displacement [mm]', yscale='log')
 curve.legend(frameon=False)
 slip = found['plasticStrain']
-mpm.plot(slip / slip.max(), grid=False, ghost=False, ax=shape, range=(0, 0.6), colormap='YlOrRd')
-shape.set_title(f'Plastic strain at failure, over its largest value; F = {found["lower"]:.3f} to {found["upper"]:.3f}, h = {found["cellSize"]:g} m', fontsize='medium')
+mpm.plot(slip / slip.max(), ax=shape, range=(0, 0.6), colormap='YlOrRd')
+shape.child_axes[0].set_ylabel('plastic strain / largest')
+shape.set_title(f'Plastic strain at failure; F = {found["lower"]:.3f} to {found["upper"]:.3f}, h = {found["cellSize"]:g} m', fontsize='medium')
 figure.savefig(os.path.join(options.out, 'safety.png'), dpi=130)
 print(f'written: {options.out}/safety.png')

@@ -61,9 +61,11 @@ O.engines = [
 O.dt = 1 / steps
 solves = []
 
+film = mpm.view(os.path.join(options.out, 'slope.html'), ['plasticStrain', 'stress_xy'], every=max(1, steps // 10), range={'stress_xy': (-12e3, 12e3), 'plasticStrain': (0, 0.8)})
 begin = time.time()
 O.run(steps, wait=True)
 seconds = time.time() - begin
+film.finish()
 
 ## numbers beside the paper's (which counts a first pass without solve as an iteration)
 published = {(1, 2): '5.50 (7)', (1, 3): '5.48 (6)', (1, 4): '5.53 (7)', (.5, 2): '5.55 (7)', (.5, 3): '5.49 (7)', (.5, 4): '5.48 (7)',
@@ -81,8 +83,8 @@ print(f'crest (0, 12) settles by {-(points["pos"] - points["pos0"])[np.lexsort((
 
 ## the deformed domains, coloured by shear stress and, beside it, by the plastic strain, which shows where it slips
 figure, (stress, slip) = plt.subplots(2, 1, figsize=(8.4, 7.2), sharex=True, layout='constrained')
-mpm.plot('stress_xy', grid=False, ghost=False, ax=stress, range=(-12e3, 12e3))
-mpm.plot('plasticStrain', grid=False, ghost=False, ax=slip, range=(0, 0.8), colormap='YlOrRd')
+mpm.plot('stress_xy', ax=stress, range=(-12e3, 12e3))
+mpm.plot('plasticStrain', ax=slip, range=(0, 0.8))
 stress.set(title=f'Shear stress in the slope at load factor {solver.loadFactor:g} (gravity 9.81 m/s²)', xlabel='')
 slip.set(title='Plastic strain at the same load: where it has slipped')
 
@@ -97,4 +99,4 @@ for axes in stress, slip:
 		axes.plot(*along[edge, :2].T, 'k', linewidth=1.2, label='weak layer' if side == 1 else None)
 	axes.legend(frameon=False)
 figure.savefig(os.path.join(options.out, 'slope.png'), dpi=150, bbox_inches='tight')
-print(f'written: {options.out}/slope.png, and for ParaView {options.out}/slope-points.pvd')
+print(f'written: {options.out}/slope.png, for the browser {options.out}/slope.html, and for ParaView {options.out}/slope-points.pvd')

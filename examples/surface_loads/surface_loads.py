@@ -91,7 +91,7 @@ settlement = np.interp([0, 3 * b], *np.transpose(line))
 compare('settlement of the middle less that at x = 3 b, over q b / E', settlement[0] - settlement[1], 12 * np.log(2) * (1 - nu**2) * q * b / (np.pi * E), q * b / E)
 
 figure, (picture, curve) = plt.subplots(1, 2, figsize=(9.5, 4.2), layout='constrained')
-mpm.plot('stress_yy', ax=picture, grid=False, ghost=False, range=(-q, 0), colormap='viridis_r')
+mpm.plot('stress_yy', ax=picture, range=(-q, 0))
 picture.set(xlim=(0, 4 * b), ylim=(-4 * b, 0.6 * b), title='vertical stress')
 curve.plot(found[column] / q, z[column], '.', label='under the middle')
 edge = np.flatnonzero(np.abs(x - 2 * b + h / (2 * options.pointsPerCell)) < 1e-6 * h)

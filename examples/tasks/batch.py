@@ -1,6 +1,6 @@
 #!/usr/bin/env yade
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Settlement of a layer for the moduli of a table, with a curve and a picture each: yade-batch examples/tasks/batch.table examples/tasks/batch.py. By hand: gamma H^2 / 2 M."""
+"""Settlement of a layer for the moduli of a table, with a curve and a picture each: yade-batch examples/tasks/batch.table examples/tasks/batch.py. By hand: gamma H^2 / 2 M. Then mpm.collect('out/tasks/batch') gathers them."""
 import os
 from yade import mpm, plot, utils
 utils.readParamsFromTable(M=1e7, noTableOk=True)
@@ -18,4 +18,5 @@ name = f'out/tasks/batch-{M:g}'
 mpm.plot('displacement_y', fileName=name + '.png')
 plot.saveDataTxt(name + '.txt', vars=('loadFactor', 'settlement'))
 found, hand = solver.plotData()['settlement'], gamma * H**2 / 2 / M
+mpm.note('out/tasks/batch', **{'settlement [mm]': 1e3 * found, 'by hand [mm]': 1e3 * hand})
 print(f'batch: M = {M / 1e6:g} MPa, settlement {1e3 * found:.2f} mm, by hand {1e3 * hand:.2f} mm ({100 * (found / hand - 1):+.2f} %)')

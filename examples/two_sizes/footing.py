@@ -81,5 +81,5 @@ if options.picture:
 	matplotlib.use('Agg')
 	import matplotlib.pyplot as plt
 	figure, axes = plt.subplots(figsize=(7.5, 5.4), layout='constrained')
-	mpm.plot('meanStress', ghost=False, ax=axes, range=(-6 * cu, cu), plane=('z', 1e-3) if options.dim == 3 else None)
+	mpm.plot('meanStress', ax=axes, grid=True, range=(-6 * cu, cu), plane=('z', 1e-3) if options.dim == 3 else None)
 	figure.savefig(os.path.join(options.out, 'footing.png'), dpi=130)

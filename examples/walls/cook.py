@@ -56,7 +56,7 @@ print(f'lift of the middle over F / E: {lift:.3f}' + (f', reference {exact} ({10
 if exact: compared(f"lift of Cook's membrane, Poisson's ratio {options.poisson:g}, {options.cells} cells", lift, exact, 'Cook 1974, by finite elements of nine nodes', 'F / E')
 print(f'reaction of the clamp over load: {-solver.reactions[0][1] / F:.8f}')
 figure, picture = plt.subplots(figsize=(6, 5.5), layout='constrained')
-mpm.plot('meanStress', ax=picture, ghost=False, range=(-300, 300))
+mpm.plot('meanStress', ax=picture, grid=True, range=(-300, 300))
 picture.set_title(f"Poisson's ratio {options.poisson:g}", pad=36, fontsize='medium')
 figure.savefig(os.path.join(options.out, 'cook.png'), dpi=130)
 print(f'written: {options.out}/cook.png, and for ParaView {options.out}/cook-walls.pvd')

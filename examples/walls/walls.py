@@ -91,8 +91,8 @@ else:
 	print(f'reactions over weight: {-sum(forces)[0] / total:.8f} along, {sum(forces)[1] / total:.1e} across; of the foot alone {-forces[0][0] / total:.5f}')
 
 figure, (picture, curve) = plt.subplots(1, 2, figsize=(9, 4.8), layout='constrained')
-mpm.plot(along, ax=picture, ghost=False)
-picture.set_title('stress along the column [Pa]', pad=24, fontsize='medium')
+mpm.plot(along / 1e3, ax=picture, grid=True, range=(along.min() / 1e3, -along.min() / 1e3), colormap='RdBu_r')
+picture.set_title('stress along the column [kPa]', pad=24, fontsize='medium')
 curve.plot(along / 1e3, above, '.', markersize=2, label='points')
 order = np.argsort(above)
 curve.plot(exact[order] / 1e3, above[order], 'k-', linewidth=0.8, label='aligned column')

@@ -118,7 +118,7 @@ def picture(submerged, levels, slow, low, rapid):
 	axes[0].set(xlabel='level over height of the bank', ylabel='factor of safety')
 	axes[0].invert_xaxis()
 	axes[0].legend()
-	mpm.plot('porePressure', ax=axes[1], grid=False, ghost=False)
+	mpm.plot('porePressure', ax=axes[1])
 	axes[1].set_title(f'pressure in the pores, drawn down at once to {low[-1] / H:.2g} H')
 	figure.tight_layout()
 	figure.savefig(os.path.join(options.out, 'water.png'), dpi=110)

@@ -1,5 +1,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Settings of Sphinx for scripts/docs, whose source folder is the whole project: pages stand where their links are right on any viewer of Markdown."""
+import pathlib
+import shutil
+
 project = 'Implicit material point method for YADE'
 root_doc = 'plugin/docs/index'
 include_patterns = ['README.md', 'examples/README.md', 'examples/*/README.md', 'examples/*/details.md', 'examples/two_sizes/footing.md', 'examples/extremes/pairs.md', 'plugin/docs/*.md', 'plugin/docs/classes/*.md', 'build/docs/reference.rst']
@@ -13,3 +16,14 @@ html_theme = 'alabaster'
 html_theme_options = {'page_width': '1100px', 'fixed_sidebar': True, 'description': 'Reference and course'}
 html_sidebars = {'**': ['about.html', 'navigation.html', 'searchbox.html']}
 html_copy_source = False
+
+
+def copyViews(app, failure):
+	"""Files of mpm.view, which pages embed, beside those pages."""
+	if failure or app.builder.name != 'html': return
+	for view in pathlib.Path(app.srcdir).glob('examples/*/*.html'):
+		shutil.copy(view, pathlib.Path(app.outdir) / 'examples' / view.parent.name)
+
+
+def setup(app):
+	app.connect('build-finished', copyViews)

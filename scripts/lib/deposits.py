@@ -12,10 +12,23 @@ def front(x, area, side, face):
 	:param side: the shorter one of the column [m]
 	:param face: of the column; it is looked for from half of that on [m]
 	"""
-	order, width = np.argsort(x), 0.1 * side
-	x, area = x[order], np.broadcast_to(area, x.shape)[order]
-	places = np.arange(0.5 * face, x[-1] + 2 * width, 0.1 * width)
-	near = [(place, slice(*np.searchsorted(x, (place - width, place + width)))) for place in places]
-	depth = np.array([(area[these] * (1 - np.abs(x[these] - place) / width)).sum() / width for place, these in near])
+	width = 0.1 * side
+	places = np.arange(0.5 * face, np.max(x) + 2 * width, 0.1 * width)
+	depth = _depth(x, area, places, width)
 	i = max(1, np.argmax(depth < 0.05 * side))
 	return np.interp(-0.05 * side, -depth[i - 1:i + 1], places[i - 1:i + 1])
+
+
+def profile(x, area, side):
+	"""Smooth depth of matter beside a plane of symmetry at x = 0, a mean with weights that fall to none three tenths of the shorter side away: places (M,) and depths (M,) [m]."""
+	width = 0.3 * side
+	places = np.arange(0, np.max(x) + 2 * width, 0.1 * width)
+	both, areas = np.concatenate([x, -np.asarray(x)]), np.tile(np.broadcast_to(area, np.shape(x)), 2)
+	return places, _depth(both, areas, places, width)
+
+
+def _depth(x, area, places, width):
+	order = np.argsort(x)
+	x, area = x[order], np.broadcast_to(area, x.shape)[order]
+	near = [(place, slice(*np.searchsorted(x, (place - width, place + width)))) for place in places]
+	return np.array([(area[these] * (1 - np.abs(x[these] - place) / width)).sum() / width for place, these in near])

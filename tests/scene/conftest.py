@@ -135,6 +135,7 @@ class Yade:
 		if self.command == theCommand() and not self.environment and (processes, threads, environment, options, stderr) == (1, 1, {}, (), subprocess.PIPE):
 			run = started().run([str(script), *map(str, arguments)], self.folder, self.ownSettings(), timeout)
 			assert (run.exitCode != 0) == fails, str(run)
+			assert 'labels overlap in' not in run.stderr, run.stderr  # of the pictures of examples (labels.py)
 			return run
 		ended = subprocess.run(
 		        [*byMpi(processes), self.command, '-n', '-x', f'-j{threads}', *options, str(script), *map(str, arguments)],

@@ -23,6 +23,9 @@ def nextScript():
 	arguments, folder, environment = json.loads(message)
 	os.chdir(folder)
 	os.environ.update(environment)
+	if '/examples/' in arguments[0]:
+		import labels
+		labels.watch()
 	sys.argv[:] = arguments
 	with open(arguments[0]) as file:
 		return compile(file.read(), arguments[0], 'exec')

@@ -29,7 +29,7 @@ While it runs, one line tells how far it is (``verbosity`` of the engine); ``plo
 ===========================  ==========================================================================================
 :func:`polygon`              region of the x-y plane
 :func:`solid`                region in a closed surface of an STL or GTS file
-:class:`terrain`             region below the surface of an elevation grid (.asc)
+:class:`terrain`             region below a surface: an elevation grid (.asc), an array or a function; :func:`facets` makes it rock that does not yield
 :func:`fill`                 material points in a region; :func:`add` puts them into the scene, of several processes each its own
 :func:`refinementsAt`        boxes in which cells are halved, where something asks for it
 :func:`arrays`               data of all material points as NumPy arrays; :func:`assign` is the way back
@@ -38,8 +38,11 @@ While it runs, one line tells how far it is (``verbosity`` of the engine); ``plo
 :func:`contactForces`        where rigid bodies are touched, and the forces there
 :func:`plot`                 picture by matplotlib, of plane strain or of a slice
 :class:`movie`               film of a run
+:class:`view`                a run in one HTML file, which any browser turns, cuts, colours and plays
 :func:`colour`               colours of the points in YADE's 3D view
-:func:`export`               table of the points, CSV or NPZ
+:func:`state`                state of ParaView that opens what MpmVtkRecorder has written
+:func:`export`               table of the points, CSV or NPZ; :func:`frame` for pandas
+:func:`collect`              the runs of a yade-batch in one table and picture, from what each writes by :func:`note`
 :class:`histories`           values at chosen points over time; :func:`readHistory` reads one from a file
 :func:`save`                 the scene, whole or not at all; :func:`load` reads it, from several processes, too
 :func:`advise`               what an analysis will cost, and what it could do without
@@ -55,6 +58,7 @@ Units are SI; stress is positive in tension; strains are logarithmic; plane stra
 from . import processes
 from .advice import advise
 from .cells import refinementsAt
+from .collecting import collect, note
 from .colouring import colour
 from .data import arrays, assign, contactForces
 from .discretisation import discretisationError, stressError
@@ -68,15 +72,18 @@ from .laboratory import elementTest, respond
 from .library import engine as _engine
 from .movies import movie
 from .outline import polygon
+from .paraview import state
 from .plotting import plot
 from .safety import strengthReduction
-from .solids import solid, terrain
+from .solids import solid
 from .naming import didYouMean as _didYouMean, telling as _telling
 from .surfaces import surface
-from .tables import export
+from .tables import export, frame
+from .terrains import facets, terrain
+from .viewing import view
 
 __version__ = _engine.version
-__all__ = ['polygon', 'fill', 'add', 'refinementsAt', 'arrays', 'assign', 'geostatic', 'plot', 'colour', 'export', 'save', 'load', 'advise', 'discretisationError', 'stressError', 'elementTest', 'respond', 'strengthReduction', 'surface', 'contactForces', 'histories', 'readHistory', 'solid', 'terrain', 'movie', 'examples']
+__all__ = ['polygon', 'fill', 'add', 'refinementsAt', 'arrays', 'assign', 'geostatic', 'plot', 'colour', 'export', 'save', 'load', 'advise', 'discretisationError', 'stressError', 'elementTest', 'respond', 'strengthReduction', 'surface', 'contactForces', 'histories', 'readHistory', 'solid', 'terrain', 'movie', 'view', 'facets', 'frame', 'note', 'collect', 'state', 'examples']
 
 for _name in __all__:
 	_thing = globals()[_name] = _telling(globals()[_name])

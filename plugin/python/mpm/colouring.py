@@ -8,7 +8,7 @@ from .library import engine
 from .messages import brief
 
 
-def colour(field, range=None, colormap='viridis'):
+def colour(field, range=None, colormap=None):
 	"""Colour the material points in YADE's 3D view by a scalar field.
 
 	To keep the colours up to date behind the solver: ``PyRunner(iterPeriod=1, command="mpm.colour('plasticStrain')")``.
@@ -16,7 +16,7 @@ def colour(field, range=None, colormap='viridis'):
 	:param field: name as in :func:`plot`, or an (N,) array in order of body id
 	:param range: (low, high): values with the first and last colour, beyond which colours do not change; by default the smallest and
 		largest value at this moment, a little beyond if they are equal
-	:param colormap: name of a colour map of matplotlib
+	:param colormap: name of a colour map of matplotlib; by default that of the quantity, as for :func:`plot`
 	:return: the range used
 	:raises TypeError: *range* is no pair of numbers.
 	:raises ValueError: a field or colour map that does not exist, an array of another length or with values that are not finite, or a range that
@@ -26,7 +26,7 @@ def colour(field, range=None, colormap='viridis'):
 	values = scalarOrArray('colour', field, points)
 	low, high = limits('colour', range, values)
 	share = np.clip((values - low) / (high - low), 0, 1)
-	rgb = np.ascontiguousarray(colourMap('colour', colormap)(share)[:, :3], dtype=float)
+	rgb = np.ascontiguousarray(coloursOf('colour', field, colormap, values, (low, high))(share)[:, :3], dtype=float)
 	engine.assignColumns(points['id'], {'color': rgb})
 	return low, high
 
@@ -38,6 +38,33 @@ def colourMap(who, name):
 		return matplotlib.colormaps[name]
 	except (KeyError, TypeError):
 		raise ValueError(f"{who}: colormap = {brief(name)} is not a colour map of matplotlib, such as 'viridis' or 'RdBu_r'") from None
+
+
+def coloursOf(who, field, name, values, bounds):
+	"""The colour map for a field from the low to the high one of its bounds: by name if one is given, else that of the quantity, of which those with a sign have zero at the same colour everywhere."""
+	if name is not None: return colourMap(who, name)
+	own = mapOf(field, values)
+	if own not in ('RdBu_r', 'RdBu'): return colourMap(who, own)
+	from matplotlib.colors import LinearSegmentedColormap
+	ends = np.array(bounds) / max(abs(bounds[0]), abs(bounds[1]))
+	if ends[0] * ends[1] > 0: ends[np.argmin(np.abs(ends))] = np.sign(ends[0]) * min(np.abs(ends).min(), 0.25)  # far from zero there would be one colour
+	part = np.linspace(*ends, 256)
+	return LinearSegmentedColormap.from_list(own, colourMap(who, own)((part + 1) / 2))
+
+
+def mapOf(field, values=()):
+	"""Name of the colour map of a quantity."""
+	if not isinstance(field, str): return 'RdBu_r' if len(values) and values.min() < 0 < values.max() else 'viridis'
+	base, _, component = field.partition('_')
+	if base == 'porePressure': return 'RdBu'  # suction is as tension
+	if base == 'plasticStrain': return 'YlOrRd'
+	if base in ('meanStress', 'stress', 'totalStress', 'strain', 'elasticStrain') or component and base in ('displacement', 'velocity', 'acceleration', 'force'): return 'RdBu_r'
+	return 'viridis'
+
+
+def hasSign(field, values):
+	"""Whether its colours are about zero."""
+	return mapOf(field, values) in ('RdBu_r', 'RdBu')
 
 
 def scalarOrArray(who, field, points):

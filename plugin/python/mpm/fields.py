@@ -35,11 +35,12 @@ def _scalars(columns):
 
 
 def labelled(name, values):
-	"""Size of a readable multiple of a field's unit, and the label that says so: ('stress_xx', [-2e4]) -> 1e3, 'stress ... [kPa]'."""
+	"""Size of a readable multiple of a field's unit, and the label that says so: ('stress_xx', [-2e4]) -> 1e3, 'stress ... [kPa]'; displacements below 10 cm are in mm."""
 	base, _, component = name.partition('_')
 	unit, label = table[base]['unit'], table[base]['label']
 	if component: label = label[:-1] + f'_{{{component}}}$' if label.endswith('$') else f'{label} {component}'
 	largest = np.abs(values).max(initial=0)
 	for prefix, size in ('M', 1e6), ('k', 1e3):
 		if unit in ('Pa', 'N') and largest >= 2 * size: return size, f'{label} [{prefix}{unit}]'
+	if base == 'displacement' and 0 < largest < 0.1: return 1e-3, f'{label} [mm]'
 	return 1., f'{label} [{unit}]'

@@ -29,7 +29,7 @@ def drawVectors(ax, vectors, places, shown, label):
 	longest = np.linalg.norm(arrows, axis=1).max(initial=0)
 	if longest == 0: return
 	ax.quiver(*places[cells].T, *arrows.T, color=_ink, angles='xy', scale_units='xy', scale=longest / (size / 15), width=0.0025, zorder=6)
-	ax.annotate(f'arrows: {label} {longest:.3g}', (0, 0), xycoords='axes fraction', xytext=(0, -42), textcoords='offset points', fontsize='small')
+	ax.annotate(f'arrows: {label} {longest:.3g}', (0, 0), xycoords='axes fraction', xytext=(0, -48), textcoords='offset points', fontsize='small')
 
 
 def labelOf(name):
@@ -62,15 +62,17 @@ def drawContours(ax, places, values, levels, spacing):
 
 def drawTrace(ax, normal, at, points):
 	"""A small view along the picture's horizontal axis: the body, and the line of the slice."""
-	from mpl_toolkits.axes_grid1.inset_locator import inset_axes
+	from matplotlib.transforms import ScaledTranslation
 	across = next(axis for axis in (1, 2, 0) if axis != normal)
-	frame = inset_axes(ax, width=0.9, height=0.9, loc='upper left', bbox_to_anchor=(1.05, 1), bbox_transform=ax.transAxes, borderpad=8)
+	inches = ax.figure.dpi_scale_trans + ScaledTranslation(1.045, 1, ax.transAxes)  # from the upper right corner of the colour bar
+	frame = ax.inset_axes([1.55, -1.1, 0.9, 0.9], transform=inches)
 	x, y = points['pos'][:, normal], points['pos'][:, across]
 	half = points['halfSize']
 	low, high = (x - half[:, normal]).min(), (x + half[:, normal]).max()
-	frame.plot(x, y, ',', color='#868e96')
+	frame.plot(x, y, '.', color='#adb5bd', markersize=1, markeredgewidth=0)
 	frame.axvline(at, color='#d9480f', linewidth=1.2)
 	frame.set(xlim=(low - 0.1 * (high - low), high + 0.1 * (high - low)), xlabel=f'{"xyz"[normal]} [m]', ylabel=f'{"xyz"[across]} [m]', title='slice')
 	frame.tick_params(labelsize='x-small')
+	frame.locator_params(nbins=2)
 	for text in (frame.xaxis.label, frame.yaxis.label, frame.title):
 		text.set_size('x-small')

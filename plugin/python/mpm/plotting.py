@@ -4,8 +4,11 @@ import os
 
 import numpy as np
 
+from yade import wrapper
+
+from . import needles, stages
 from .analysis import solverOf
-from .colouring import colourMap, limits, scalarOrArray
+from .colouring import coloursOf, hasSign, limits, scalarOrArray
 from .data import contactFaces, fields
 from .divided import isDivided
 from .fields import labelled
@@ -23,49 +26,52 @@ _faceColour, _cellColour, _boundaryColour, _loadColour, _wallColour = '#d9480f',
 _rigidColour = '#212529'
 
 
-def plot(field='displacement', deformed=True, grid=None, ghost=None, fileName=None, ax=None, range=None, colormap=None, plane=None, solver=None, loads=None, vectors=None, contours=None):
-	"""Draw the material points, coloured by a scalar field, and the background grid around them.
+def plot(field='displacement', deformed=True, grid=False, ghost=False, fileName=None, ax=None, range=None, colormap=None, plane=None, solver=None, loads=None, vectors=None, contours=None):
+	"""Draw the material points, coloured by a scalar field.
 
-	Each point is drawn as the box of matter that it stands for, deformed by its deformation gradient; where that is drawn out to five times the box, as beside bodies that are pushed deep into soil, as its domain. In 3D the picture is a slice; a small one beside it, unless *ax* is given, shows where. Its title is
-	the load factor, unless the axes have a title.
+	Each point is drawn as the box of matter that it stands for, deformed by its deformation gradient; one whose longest side has become more than five times the shortest one, as in run-outs, as a dot of as much matter,
+	and the legend says how many these are. In 3D the picture is a slice; a small one beside it, unless *ax* is given, shows where. Its title is the time of a :class:`MpmDynamicEngine`, the load factor of other
+	engines, and with ``stages`` the stage and its step; axes that have a title keep it.
 
 	:param field: ``displacement`` (its length), ``strain_xy``, ``meanStress``, ``sqrt2J2``, ``totalStress_yy``, or a column of :func:`arrays`, of which a vector or tensor
 		needs its component: ``displacement_y``, ``stress_xy``, ``plasticStrain``, ``elasticStrain_yy``, ``defGrad_xx``, ``material``, ...; or an
-		(N,) array in order of body id
+		(N,) array in order of body id. Displacements below 10 cm are shown in mm, stresses in kPa or MPa.
 	:param deformed: draw the current configuration, otherwise the initial one
-	:param grid: draw the cells that hold material, with a tint those at the boundary of the body; by default if *deformed*, as the
-		grid belongs to the current configuration, and if the points are not divided among processes, as no process has all cells then
-	:param ghost: draw the faces on which the ghost stabilisation acts; default as for *grid*
+	:param grid: draw the cells that hold material, with a tint those at the boundary of the body; by default not
+	:param ghost: draw the faces on which the ghost stabilisation acts; by default not
 	:param fileName: write the picture to this file, whole or not at all; its ending chooses the format (png, pdf, svg, ...). Folders that
 		are missing are made.
 	:param ax: matplotlib axes to draw into; by default a new figure
 	:param range: (low, high) of the colours, in the field's SI unit; by default the smallest and largest value drawn, or symmetric to zero
 		if there are values of both signs. Where values are beyond, the colour bar ends in an arrow.
-	:param colormap: name of a colour map of matplotlib; by default viridis, or RdBu_r for values of both signs
-	:param plane: in 3D, axis and coordinate [m] of the slice, as in ``('z', 0.5)``; by default across z, through the point nearest to the middle
+	:param colormap: name of a colour map of matplotlib; by default that of the quantity, the same in all pictures: plastic strain YlOrRd; stress, strain and components of vectors RdBu_r, of which
+		zero is the white and compression blue; others viridis, also arrays, if their values have one sign
+	:param plane: in 3D, axis and coordinate [m] of the slice, as in ``('z', 0.5)``; by default upright along gravity, through the point nearest to the middle, and along the longer side of the body
 	:param solver: ``MpmImplicitEngine`` whose grid is drawn; needed if there are several
-	:param loads: draw the loaded surfaces and the walls that are surfaces, with arrows in the direction of the force on the body, and the rigid bodies that may touch it, in the plane with lines as long as the traction of contact is large; default as for *grid*
+	:param loads: draw the loaded surfaces and the walls that are surfaces, with arrows in the direction of the force on the body, and the rigid bodies that may touch it, in the plane with lines as long as the traction of
+		contact is large; by default if *deformed*
 	:param vectors: arrows on top: name of a vector (``displacement``, ``velocity``, ``force``, ...), or an (N, 3) array in order of body id
 	:param contours: lines of equal value of *field* on top: their number, or their values in the field's SI unit, increasing
 	:return: the axes
 	:raises TypeError: *range* is no pair of numbers, or *plane* no pair of an axis and a number.
-	:raises ValueError: a field or colour map that does not exist, *grid* or *ghost* without *deformed*, *plane* in plane strain or beside the
+	:raises ValueError: a field or colour map that does not exist, *grid* or *ghost* without *deformed* or where processes have divided the points, *plane* in plane strain or beside the
 		body, *vectors* that are none or *contours* that are no levels, a scene without material points, or what the engine refuses about the scene.
 	:raises OSError: the file cannot be written.
 	"""
 	if not deformed and (grid or ghost or loads):
 		raise ValueError('plot: the grid and loads belong to the current configuration, so grid, ghost and loads need deformed=True')
-	cells = deformed and not isDivided()
-	grid, ghost, loads = (default if wanted is None else wanted for wanted, default in ((grid, cells), (ghost, cells), (loads, deformed)))
+	if (grid or ghost) and isDivided(): raise ValueError('plot: no process has all cells where processes have divided the points, so grid and ghost cannot be drawn')
+	if loads is None: loads = deformed
 	solver = solverOf('plot', solver)
 	points = fields()
 	if not len(points['id']): raise ValueError('plot: the scene has no material points')
 	values, arrows, levels = scalarOrArray('plot', field, points), vectorsOf(vectors, points), levelsOf(contours)
 	section = _Section(solver, points, plane)
-	matter, kept = section.through(_corners(points, deformed, solver.grid.dim))
-	isOwn, ax = ax is None, ax or _newAxes(fileName, np.concatenate(matter))
+	matter, kept, dots = section.matter(points, deformed)
+	isOwn, ax = ax is None, ax or _newAxes(fileName, np.concatenate(matter), section.normal is not None)
 	if grid: _drawGrid(ax, section, solver)
 	_drawMatter(ax, matter, values[kept], field, range, colormap)
+	if dots: ax.plot([], [], 'o', color=_cellColour, label=f'dots: {dots} points drawn out, more than {needles.longest} : 1')
 	if ghost: _drawFaces(ax, section, solver)
 	places = points['pos' if deformed else 'pos0'][kept][:, section.shown]
 	if levels is not None: drawContours(ax, places, values[kept], levels, 2 * points['halfSize0'].max() if solver.grid.dim == 3 else 2 * points['halfSize0'][:, :2].max())
@@ -75,7 +81,7 @@ def plot(field='displacement', deformed=True, grid=None, ghost=None, fileName=No
 	if loads and any(boundary.surface for boundary in solver.boundaries): _drawSurfaces(ax, section, solver, 'walls', _wallColour)
 	if loads and len(solver.contacts): _drawRigid(ax, section, solver)
 	if loads and len(solver.contacts) and section.normal is None: _drawPressure(ax, section, solver)
-	_finish(ax, section, f'load factor {solver.loadFactor:.4g}' + ('' if deformed else ', at the initial positions'))
+	_finish(ax, section, momentOf(solver) + ('' if deformed else ', at the initial positions'), isOwn)
 	if fileName is not None: write('plot', ax.figure, fileName)
 	return ax
 
@@ -85,7 +91,7 @@ class _Section:
 
 	def __init__(self, solver, points, plane):
 		self.normal, self.at = None, None
-		if solver.grid.dim == 3: self.normal, self.at = _slicePlane(plane, points)
+		if solver.grid.dim == 3: self.normal, self.at = _slicePlane(plane, points, solver.gravity)
 		elif plane is not None: raise ValueError(f'plot: plane = {brief(plane)}: with dim=2 (plane strain) the picture is in the plane x-y')
 		self.shown = [i for i in (0, 1, 2) if i != (2 if self.normal is None else self.normal)]
 
@@ -94,6 +100,18 @@ class _Section:
 		if self.normal is None: kept = np.arange(len(low))
 		else: kept = np.flatnonzero((low[:, self.normal] <= self.at) & (self.at < high[:, self.normal]))
 		return low[kept][:, self.shown], high[kept][:, self.shown], kept
+
+	def matter(self, points, deformed):
+		"""Outlines in the picture, each (K, 2), of what points stand for, the indices of those that the section meets, and how many of them are dots."""
+		dim = 2 if self.normal is None else 3
+		middles, box = points['pos' if deformed else 'pos0'], signs * points['halfSize0'][:, None, :]
+		radii = needles.radiiOfNeedles(points['defGrad'], points['halfSize0'], dim) if deformed else np.full(len(middles), np.nan)
+		boxes = np.flatnonzero(np.isnan(radii))
+		deformedBox = np.einsum('pij,pcj->pci', points['defGrad'][boxes], box[boxes]) if deformed else box
+		outlines, kept = self.through(middles[boxes][:, None, :] + deformedBox)
+		if self.normal is not None: radii = needles.cutSpheres(middles, radii, self.normal, self.at)
+		dots = np.flatnonzero(~np.isnan(radii))
+		return [*outlines, *needles.discs(middles[dots][:, self.shown], radii[dots])], np.concatenate([boxes[kept], dots]), len(dots)
 
 	def through(self, corners):
 		"""Outlines in the picture, each (K, 2), of the deformed boxes (N, 8, 3) that the section meets, and their indices."""
@@ -110,11 +128,12 @@ class _Section:
 		return np.array([cut(corners[i], above[i], triangleSides, self.normal, self.at) for i in kept]).reshape(-1, 2, 2), kept
 
 
-def _slicePlane(plane, points):
+def _slicePlane(plane, points, gravity):
 	low, high = (points['pos'] - points['halfSize']).min(axis=0), (points['pos'] + points['halfSize']).max(axis=0)
 	if plane is None:
-		z = points['pos'][:, 2]
-		return 2, z[np.argmin(np.abs(z - (low[2] + high[2]) / 2))]
+		axis = _across(gravity, high - low)
+		x = points['pos'][:, axis]
+		return axis, x[np.argmin(np.abs(x - (low[axis] + high[axis]) / 2))]
 	try:
 		axis, at = _axes.index(plane[0]), float(plane[1])
 	except (TypeError, ValueError, IndexError):
@@ -124,19 +143,18 @@ def _slicePlane(plane, points):
 	return axis, at + 1e-6 * points['halfSize'][:, axis].min()  # not where boxes meet, but for round-off
 
 
-def _corners(points, deformed, dim):
-	"""(N, 8, 3) corners of the matter of each point; where that has become a needle, of its domain, which is all that the grid knows of it."""
-	box = signs * points['halfSize0'][:, None, :]
-	if not deformed: return points['pos0'][:, None, :] + box
-	matter = np.einsum('pij,pcj->pci', points['defGrad'], box)
-	isNeedle = np.abs(matter[:, :, :dim]).max(axis=(1, 2)) > 5 * points['halfSize0'][:, :dim].max(axis=1)
-	return points['pos'][:, None, :] + np.where(isNeedle[:, None, None], signs * points['halfSize'][:, None, :], matter)
+def _across(gravity, size):
+	"""The axis that a slice is normal to: of those that gravity is not along the one along which the body is shorter, z if they are equal; z without gravity."""
+	gravity = np.abs(np.array(gravity))
+	if not gravity.any(): return 2
+	level = [axis for axis in (2, 1, 0) if axis != np.argmax(gravity)]
+	return level[int(size[level[1]] < (1 - 1e-6) * size[level[0]])]
 
 
-def _newAxes(fileName, outlines):
+def _newAxes(fileName, outlines, withTrace):
 	width, height = np.ptp(outlines.reshape(-1, 2), axis=0)
 	scale = min(8 / width, 7 / height)
-	size = max(2.5, scale * width) + 1.6, max(1.5, scale * height) + 0.9  # with room for labels and colour bar
+	size = max(2.5, scale * width) + (4.2 if withTrace else 1.6), max(1.5, scale * height) + 0.9  # with room for labels, colour bar and the small picture
 	if fileName is None:
 		import matplotlib.pyplot as pyplot
 		return pyplot.figure(figsize=size).add_subplot()
@@ -164,7 +182,7 @@ def _drawGrid(ax, section, solver):
 	low, high, boundary = _gridBoxes('grid', section, solver)
 	cells = _rectangles(low, high)
 	isBoundary = boundary == 1
-	ax.add_collection(PolyCollection(cells[isBoundary], facecolors=_boundaryColour, edgecolors='none', zorder=0, label='boundary cells'))
+	if isBoundary.any(): ax.add_collection(PolyCollection(cells[isBoundary], facecolors=_boundaryColour, edgecolors='none', zorder=0, label='boundary cells'))
 	ax.add_collection(PolyCollection(cells, facecolors='none', edgecolors=_cellColour, linewidths=0.4, zorder=3))
 	ax.update_datalim(cells.reshape(-1, 2))
 
@@ -172,7 +190,7 @@ def _drawGrid(ax, section, solver):
 def _drawFaces(ax, section, solver):
 	from matplotlib.collections import LineCollection
 	low, high, _ = _gridBoxes('ghostFaces', section, solver)
-	ax.add_collection(LineCollection(np.stack([low, high], 1), colors=_faceColour, linewidths=1.1, zorder=4, label='ghost faces'))
+	if len(low): ax.add_collection(LineCollection(np.stack([low, high], 1), colors=_faceColour, linewidths=1.1, zorder=4, label='ghost faces'))
 
 
 def _drawSurfaces(ax, section, solver, kind, colour):
@@ -225,14 +243,13 @@ def _drawPressure(ax, section, solver):
 
 def _drawMatter(ax, matter, values, field, range, colormap):
 	from matplotlib.collections import PolyCollection
-	bothSigns = values.min() < 0 < values.max()
 	bounds = limits('plot', range, values)
-	if range is None and bothSigns: bounds = -np.abs(values).max(), np.abs(values).max()
-	unit, label = labelled(field, values) if isinstance(field, str) else (1, None)
+	if range is None and values.min() < 0 < values.max() and hasSign(field, values): bounds = -np.abs(values).max(), np.abs(values).max()
+	unit, label = labelled(field, values if range is None else np.array(bounds)) if isinstance(field, str) else (1, None)
 	drawn = PolyCollection(
 	        matter,
 	        array=values / unit,
-	        cmap=colourMap('plot', colormap or ('RdBu_r' if bothSigns else 'viridis')),
+	        cmap=coloursOf('plot', field, colormap, values, bounds),
 	        clim=(bounds[0] / unit, bounds[1] / unit),
 	        edgecolors='face',
 	        linewidths=0.2,
@@ -245,14 +262,35 @@ def _drawMatter(ax, matter, values, field, range, colormap):
 	ax.figure.colorbar(drawn, cax=ax.inset_axes([1.02, 0, 0.025, 1]), label=label, extend=extend)
 
 
-def _finish(ax, section, title):
+def momentOf(solver):
+	"""What a picture is titled with: the time, the load factor, or the stage that is or was the last one."""
+	if isinstance(solver, wrapper.MpmDynamicEngine): return f'time {solver.loadTime:.4g} s'
+	stage = stages.now(solver)
+	if stage: return stage
+	factor = f'load factor {solver.loadFactor:.4g}'
+	if abs(solver.loadTime - solver.loadFactor) <= 1e-9 * max(1, abs(solver.loadTime)): return factor
+	return f'load time {solver.loadTime:.4g}' + ('' if solver.loadFactor == 1 else ', ' + factor)
+
+
+def _finish(ax, section, title, isOwn):
 	ax.margins(0.02)
 	ax.autoscale_view()
 	place = '' if section.normal is None else f'  (at {_axes[section.normal]} = {section.at:.4g} m)'
 	ax.set(aspect='equal', xlabel=f'{_axes[section.shown[0]]} [m]{place}', ylabel=f'{_axes[section.shown[1]]} [m]')
 	handles, names = ax.get_legend_handles_labels()
-	if handles: ax.legend(handles, names, loc='lower right', bbox_to_anchor=(1, 1), ncols=2, frameon=False, fontsize='small', borderaxespad=0.2)
-	if not ax.get_title(): ax.set_title(title, fontsize='medium', pad=8 + 14 * ((len(handles) + 1) // 2) if handles else None)  # above the legend
+	rows = 0 if not handles else (len(handles) + 1) // 2
+	if isOwn: rows = _spread(ax, rows, len(handles))
+	if handles: ax.legend(handles, names, loc='lower right', bbox_to_anchor=(1, 1), ncols=1 if rows == len(handles) else 2, frameon=False, fontsize='small', borderaxespad=0.2)
+	if not ax.get_title(): ax.set_title(title, fontsize='medium', pad=8 + 14 * rows if handles else None)  # above the legend
+
+
+def _spread(ax, rows, entries):
+	"""As many ticks as fit into narrow axes; returns the rows of the legend, one for each entry there."""
+	ax.apply_aspect()
+	box, dpi = ax.get_window_extent(), ax.figure.dpi
+	for axis, length, each in (ax.xaxis, box.width, 0.6), (ax.yaxis, box.height, 0.3):
+		axis.get_major_locator().set_params(nbins=int(np.clip(length / dpi / each, 1, 9)), min_n_ticks=1)
+	return entries if box.width < 4.5 * dpi else rows
 
 
 @byFirst

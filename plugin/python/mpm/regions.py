@@ -7,7 +7,7 @@ from yade import pack
 from yade.minieigenHP import Vector3
 
 from .outline import polygon
-from .solids import terrain
+from .terrains import terrain
 
 
 def inside(predicate, points):

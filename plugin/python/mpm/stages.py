@@ -152,6 +152,24 @@ def advance(kind, label, first, steps, twins):
 	if step == steps: engines[at].dead = True
 
 
+def now(solver):
+	"""What the solver's last stage is and how far it has come, for titles; empty if there has been none."""
+	found = [engine for engine in wrapper.Omega().engines if engine.label.startswith('stage_')]
+	for engine in reversed(found):
+		kind, label, first, steps, _ = ast.literal_eval('(' + engine.command.partition('.advance(')[2])
+		if not _isBefore(engine, solver): continue
+		done = min(solver.nDone - first, steps)
+		what = {'placed': 'placing', 'excavated': 'excavating'}[kind]
+		return f'{what}, step {done} of {steps}' + (f'; load time {solver.loadTime:.4g}' if solver.nDone - first > steps else '')
+	return ''
+
+
+def _isBefore(runner, solver):
+	"""Whether it is this solver's: the next one behind it."""
+	engines = list(wrapper.Omega().engines)
+	return next((engine for engine in engines[engines.index(runner):] if isinstance(engine, wrapper.MpmImplicitEngine)), None) == solver
+
+
 def resume():
 	"""For a scene that has been loaded in mid-stage: water and point loads act on its layers as in the step before, which files do not say."""
 	scene = wrapper.Omega()

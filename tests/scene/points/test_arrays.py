@@ -297,19 +297,49 @@ print(json.dumps(results))
 
 
 def test_export(yade):
-	names, same, kinds, left = yade(scene + '''
+	"""Columns with units, of those components that the plane and space have; arrays as they are."""
+	names, same, kinds, left, refused, chosen, inSpace = yade(scene + '''
+def refusedBy(function, *arguments, **more):
+	try: return repr(function(*arguments, **more))
+	except Exception as error: return f'{type(error).__name__}: {error}'
 solver = ground()
 O.step()
 mpm.export('out/points.csv')
 mpm.export('out/points.npz')
+mpm.export('out/few.csv', ['pos', 'stress_yy', 'id'])
+mpm.export('out/few.npz', ['pos'])
 points = mpm.arrays()
-table, archive = np.genfromtxt('out/points.csv', delimiter=',', names=True), np.load('out/points.npz')
-same = [(archive[name] == points[name]).all() for name in points] + [(table['stress_xy'] == points['stress'][:, 0, 1]).all(), (table['pos_y'] == points['pos'][:, 1]).all(),
-        (table['displacement_y'] == (points['pos'] - points['pos0'])[:, 1]).all(), (table['id'] == points['id']).all(), float(archive['time']) == O.time == 1]
-print(json.dumps([table.dtype.names, [bool(s) for s in same], len(table) == len(points['id']), os.listdir('out')]))
+heads = open('out/points.csv', encoding='utf-8').readline().strip().split(',')
+table, archive = dict(zip(heads, np.genfromtxt('out/points.csv', delimiter=',', skip_header=1).T)), np.load('out/points.npz')
+same = [(archive[name] == points[name]).all() for name in points] + [(table['stress_xy [Pa]'] == points['stress'][:, 0, 1]).all(), (table['pos_y [m]'] == points['pos'][:, 1]).all(),
+        (table['displacement_y [m]'] == (points['pos'] - points['pos0'])[:, 1]).all(), (table['id'] == points['id']).all(), float(archive['time']) == O.time == 1, dict(archive['units'])['stress'] == 'Pa',
+        set(np.load('out/few.npz')) == {'pos', 'time', 'iter', 'units'}]
+kinds = len(table['id']) == len(points['id'])
+refused = [refusedBy(mpm.export, 'x.csv', ['sress']), refusedBy(mpm.export, 'x.npz', ['stress_yy']), refusedBy(mpm.export, 'x.csv', 'pos'), refusedBy(mpm.frame, [])]
+left, few = os.listdir('out'), open('out/few.csv').readline().strip()
+O.engines = []
+mpm.export('space.csv')
+print(json.dumps([heads, [bool(s) for s in same], kinds, left, refused, few, open('space.csv', encoding='utf-8').readline().strip().split(',')]))
 ''').result
-	assert {'id', 'pos_x', 'stress_xx', 'stress_zz', 'plasticStrain', 'meanStress', 'sqrt2J2', 'volume', 'material'} <= set(names)
-	assert all(same) and kinds and sorted(left) == ['points.csv', 'points.npz']
+	assert {'id', 'pos_x [m]', 'stress_xx [Pa]', 'stress_zz [Pa]', 'plasticStrain [-]', 'meanStress [Pa]', 'sqrt2J2 [Pa]', 'volume [m³]', 'material', 'defGrad_yx [-]'} <= set(names)
+	assert not {name for name in names if name.partition(' ')[0] in ('pos_z', 'stress_yx', 'stress_xz', 'force_z', 'defGrad_zx', 'halfSize_z')}
+	assert {'pos_z [m]', 'stress_xz [Pa]', 'stress_yz [Pa]', 'defGrad_zx [-]'} <= set(inSpace) and 'stress_zx [Pa]' not in inSpace
+	assert all(same) and kinds and sorted(left) == ['few.csv', 'few.npz', 'points.csv', 'points.npz']
+	assert chosen == 'pos_x [m],pos_y [m],stress_yy [Pa],id'
+	assert "'sress'" in refused[0] and 'did you mean' in refused[0].lower() and "'stress_yy'" in refused[1] and refused[2].startswith('TypeError') and refused[3].startswith(('ImportError: frame: pandas', 'TypeError'))
+
+
+def test_pandas(yade):
+	"""The same columns as in a file, where pandas is installed; units beside them."""
+	pytest.importorskip('pandas')
+	shape, columns, unit, same = yade(scene + '''
+ground()
+O.step()
+table = mpm.frame()
+few = mpm.frame(['stress_yy', 'pos'])
+print(json.dumps([table.shape, list(few.columns), table.attrs['units']['stress_yy'], bool((table['stress_yy'] == mpm.arrays()['stress'][:, 1, 1]).all())]))
+''').result
+	assert shape[1] > 20 and columns == ['stress_yy', 'pos_x', 'pos_y'] and unit == 'Pa' and same
 
 
 def test_whatAPointHasIsAColumn(yade):

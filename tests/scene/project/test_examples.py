@@ -407,6 +407,17 @@ def test_embankment(yade):
 	assert (run.folder / 'out/embankment/embankment.png').stat().st_size > 20000
 
 
+def test_debris(yade):
+	"""A rough one, to after the first blow: it reaches the wall and stays on the bed, boulders come along, and the energy is accounted for."""
+	run = yade(root / 'examples/debris/debris.py', '--cellSize', 1, '--end', 1.5, '--states', 4)
+	front, beyond, beside, below = numbers(r'front reaches (\S+) m, wall at 7 m; (\S+) % of the points beyond the wall, (\S+) beside the bed, (\S+) below it', run.stdout)
+	assert 6 < front < 7.3 and beyond == beside == below == 0
+	force, time = numbers(r'force of the debris on the wall: at most (\S+) kN at (\S+) s', run.stdout)
+	assert 20 < force < 1000 and 0.9 < time < 1.5
+	assert abs(numbers(r'energy not accounted for: (\S+) of the work', run.stdout)[0]) < 0.05
+	assert (run.folder / 'out/debris/debris.png').stat().st_size > 20000 and (run.folder / 'out/debris/debris.html').stat().st_size > 30000
+
+
 # Of each task, how far it may be from its number by hand [%]: what its grid leaves, as told in examples/README.md.
 tasks = dict(layers=2, strip=3, deep_footing=6, sand_slope=3, runout=25, sphere=15, round_footing=7, square_footing=6, mesh_file=0.01, batch=2, restart=0, wall=2, tunnel=5, drawdown=4, earthquake=1, grains=4, triaxial=0.1)
 

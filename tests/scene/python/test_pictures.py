@@ -52,7 +52,7 @@ from scenes import *
 solver = slope()
 O.run(20, wait=True)
 points = mpm.arrays()
-ax = mpm.plot('stress_xy', fileName='out/slope.png')
+ax = mpm.plot('stress_xy', grid=True, ghost=True, fileName='out/slope.png')
 boundary, cells, matter, faces = ax.collections
 area = lambda q: abs(0.5 * sum(a[0] * b[1] - a[1] * b[0] for a, b in zip(q, np.roll(q, -1, axis=0))))
 areas = [area(path.vertices[:4]) for path in matter.get_paths()]
@@ -92,18 +92,18 @@ from scenes import *
 solver = column(8, dim=3, width=2)
 O.run(10, wait=True)
 def area(q): return abs(0.5 * sum(a[0] * b[1] - a[1] * b[0] for a, b in zip(q, np.roll(q, -1, axis=0))))
-def drawn(plane): return [c for c in mpm.plot('stress_yy', plane=plane, fileName='out.png').collections]
+def drawn(plane): return {c.get_zorder(): c for c in mpm.plot('stress_yy', grid=True, ghost=True, plane=plane, fileName='out.png').collections}  # 2: matter, 3: cells
 h, points = solver.grid.cellSize, mpm.arrays()
 side = points['volume'].sum() / (2 * h)
 areas = [sum(area(path.vertices[:-1]) for path in drawn(plane)[2].get_paths()) / expected for plane, expected in
          ((('z', h), side), (None, side), (('x', 1.3 * h), side), (('y', 3 * h), 4 * h * h))]
 rows = np.ceil((points['pos'] + points['halfSize'])[:, 1].max() / h)
-cells = [len(drawn(plane)[1].get_paths()) / expected for plane, expected in ((('z', h), 2 * rows), (('y', 3 * h), 4))]
+cells = [len(drawn(plane)[3].get_paths()) / expected for plane, expected in ((('z', h), 2 * rows), (('y', 3 * h), 4))]
 low, high = mpm.colour('pos0_y')
 import matplotlib
 share = (points['pos0'][:, 1] - low) / (high - low)
 colours = max((O.bodies[int(i)].shape.color - Vector3(*matplotlib.colormaps['viridis'](s)[:3])).norm() for i, s in zip(points['id'], share))
-limits = mpm.colour('stress_yy', range=(-1e3, 0), colormap='RdBu_r')
+limits = mpm.colour('stress_yy', range=(-1e3, 0))
 print(json.dumps([areas, cells, colours, limits, mpm.colour('material')]))
 ''').result
 	assert all(abs(a - 1) < 1e-6 for a in areas), areas
@@ -137,3 +137,92 @@ print(json.dumps([frames, film.frames, [e.label for e in O.engines], sorted(os.l
 	frames, counted, labels, files, off, arrows, times, drawn = run.result
 	assert frames == counted == 4 and not [label for label in labels if label.startswith('movie')]
 	assert files == ['arrows.png', 'column.gif', 'history.png'] and off == 0 and arrows > 10 and times == 6 and drawn
+
+
+def test_labelsDoNotOverlap(yade):
+	"""Of wide, narrow and small pictures, slices with the small view beside them, and all that can be on top; the check finds texts that do."""
+	found = yade('''
+import json
+from labels import overlaps
+from scenes import *
+from matplotlib.figure import Figure
+found = {}
+def look(name, *arguments, **options): found[name] = overlaps(mpm.plot(*arguments, fileName='out.png', **options).figure)
+slope()
+O.run(10, wait=True)
+look('slope', 'stress_xy')
+look('all', 'displacement_y', grid=True, ghost=True, vectors='displacement', contours=3)
+O.reset(), column(40), O.run(2, wait=True)
+look('narrow', 'stress_yy', grid=True, ghost=True, vectors='displacement')
+O.reset(), column(8, dim=3, width=2), O.run(2, wait=True)
+look('slice', 'stress_yy')
+look('level', 'displacement', plane=('y', 3.), grid=True)
+figure = Figure()
+figure.add_subplot(111).set_title('one'), figure.add_subplot(111).set_title('two')
+found['wrong'] = overlaps(figure)
+print(json.dumps(found))
+''').result
+	wrong, _ = found.pop('wrong')
+	assert ['two', 'one'] in wrong
+	assert all(number > 8 for _, number in found.values()) and not {name: pairs for name, (pairs, _) in found.items() if pairs}
+
+
+def test_needlesAreDots(yade):
+	"""A point that is drawn out six to one is a disc as large as its box was; the legend says so, and one of four to one is drawn as it is."""
+	names, sides, areas, kept = yade('''
+import json
+from scenes import *
+solver = column(8, dim=2, width=2)
+O.run(1, wait=True)
+ids = mpm.arrays()['id'][:2]
+mpm.assign(ids=ids, defGrad=[np.diag([np.sqrt(r), 1 / np.sqrt(r), 1]) for r in (6, 4)])
+ax = mpm.plot('plasticStrain', loads=False, fileName='out.png')
+matter = ax.collections[0]
+area = lambda q: abs(0.5 * sum(a[0] * b[1] - a[1] * b[0] for a, b in zip(q, np.roll(q, -1, axis=0))))
+paths = [path.vertices[:-1] for path in matter.get_paths()]
+whole = 4 * np.prod(mpm.arrays()['halfSize0'][0, :2])
+print(json.dumps([[t.get_text() for t in ax.get_legend().get_texts()], [len(path) for path in paths], [area(paths[0]) / whole, area(paths[-1]) / whole], len(paths) == len(mpm.arrays()['id'])]))
+''').result
+	assert names == ['dots: 1 points drawn out, more than 5 : 1'] and sides.count(12) == 1 and sides[-1] == 12 and kept
+	assert abs(areas[0] - 1) < 1e-9 and abs(areas[1] - 12 / 3.141592653589793 * 0.25) < 0.01  # of twelve corners on the circle
+
+
+def test_coloursTitlesAndUnits(yade):
+	"""One map for each quantity whatever its values, with zero in the middle of its colours; titles say the time, the load factor or the stage; small displacements are in mm."""
+	result = yade('''
+import json
+from scenes import *
+from matplotlib import colormaps
+result = {}
+solver = column(8, dim=2, width=2)
+O.run(4, wait=True)
+def drawn(field, **options):
+	ax = mpm.plot(field, fileName='out.png', **options)
+	return ax, ax.collections[0]
+ax, matter = drawn('plasticStrain')
+result['plastic'] = matter.get_cmap().name, ax.get_title()
+ax, matter = drawn('stress_yy', range=(-1e4, 0))
+result['zero'] = float(abs(np.array(matter.get_cmap()(1.)) - colormaps['RdBu_r'](0.5)).max()), float(abs(np.array(matter.get_cmap()(0.)) - colormaps['RdBu_r'](0.)).max())
+ax, matter = drawn('stress_yy', range=(-1e4, 1e4))
+result['both'] = float(abs(np.array(matter.get_cmap()(0.5)) - colormaps['RdBu_r'](0.5)).max())
+O.reset(); solver = column(8, dim=2, width=2); O.materials[0].young *= 1e4; O.run(1, wait=True)
+ax, matter = drawn('displacement')
+moved = mpm.arrays()
+result['mm'] = ax.child_axes[0].get_ylabel(), float(matter.get_array().max() / np.linalg.norm(moved['pos'] - moved['pos0'], axis=1).max())
+mpm.stages.excavate(mpm.polygon([(-1, 40), (99, 40), (99, 60), (-1, 60)]), steps=4)
+O.run(3, wait=True)
+result['stage'] = drawn('displacement')[0].get_title()
+O.reset(); solver = column(8, dim=2, width=2)
+O.engines = [MpmDynamicEngine(grid=solver.grid, gravity=solver.gravity, boundaries=solver.boundaries, verbosity=0)]
+O.dt = 1e-3
+O.run(5, wait=True)
+result['time'] = drawn('velocity_y')[0].get_title()
+from yade.mpm.plotting import _across
+result['across'] = [int(_across(*case)) for case in (((0, 0, -10), (3, 2, 5)), ((0, 0, -10), (2, 3, 5)), ((1, 0, -10), (2, 2, 5)), ((0, -10, 0), (2, 9, 2)), ((0, 0, 0), (1, 2, 3)))]
+print(json.dumps(result))
+''').result
+	assert result['across'] == [1, 0, 1, 2, 2]
+	assert result['plastic'] == ['YlOrRd', 'load factor 0.1']
+	assert result['zero'] == pytest.approx([0, 0], abs=0.01) and result['both'] == pytest.approx(0, abs=0.01)
+	assert result['mm'][0] == 'displacement [mm]' and result['mm'][1] == pytest.approx(1000)
+	assert result['stage'] == 'excavating, step 3 of 4' and result['time'] == 'time 0.005 s'

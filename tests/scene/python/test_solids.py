@@ -109,3 +109,76 @@ print(json.dumps([refused(mpm.terrain, holed, 0), refused(mpm.terrain, holed, 0,
 	assert 'bottom, at 5 m, is not below the surface, at 1 m, at (600000.5, 200000.5)' in bottom
 	assert '7 rows of 3' in rows and 'cellsize is not in its header' in cell and "'cellsize x'" in word and 'must be > 0' in negative
 	assert 'FileNotFoundError' in missing and 'bottom = nan' in nan and 'is between min' in beside and 'min = 3' in pair and 'bottom = None' in none
+
+
+def test_facets_of_rock(yade):
+	"""Of a function, an array, a file and a terrain: a plane keeps its area and normal, corners lie on the surface, and soil rests on them with its weight."""
+	result = yade('''
+import json
+import numpy as np
+from yade import mpm, utils
+O.materials.append(FrictMat(label='rock', frictionAngle=0.3))
+plane = lambda x, y: 0.5 * x + 0.25 * y
+corners = lambda bodies: np.array([[b.state.pos + b.state.ori * v for v in b.shape.vertices] for b in bodies])
+def told(bodies):
+	c = corners(bodies)
+	n = np.cross(c[:, 1] - c[:, 0], c[:, 2] - c[:, 0]) / 2
+	return [len(c), float(np.linalg.norm(n, axis=1).sum()), n.sum(axis=0).tolist(), float(abs(c[..., 2] - plane(c[..., 0], c[..., 1])).max()), c.reshape(-1, 3).min(axis=0)[:2].tolist()]
+array = np.array([[plane(x, y) for y in range(3)] for x in range(5)])
+open('plane.asc', 'w').write('ncols 5\\nnrows 3\\nxllcenter 700000\\nyllcenter 200000\\ncellsize 1\\n' + '\\n'.join(' '.join(map(str, row)) for row in array.T[::-1]))
+kinds = dict(function=mpm.facets(plane, 1, (0, 0), (4, 2), material='rock', mask=6), array=mpm.facets(array, 1, (0, 0)), file=mpm.facets('plane.asc', origin=(700000, 200000)),
+	terrain=mpm.facets(mpm.terrain('plane.asc', -1, origin=(700000, 200000))), coarse=mpm.facets(plane, 3, (0, 0), (4, 2)))
+result = {kind: told(bodies) for kind, bodies in kinds.items()}
+one = kinds['function'][0]
+result['body'] = [one.material.label, one.groupMask, one.dynamic]
+O.bodies.append(mpm.facets(lambda x, y: 0, 1.5, (-3, -3), (3, 3), material='rock'))
+O.materials.append(MpmElasticMat(young=1e6, poisson=0.2, density=1000, label='soil'))
+grid = MpmGrid(cellSize=0.5, dim=3)
+O.bodies.append(mpm.fill(mpm.terrain(lambda x, y: 1 + 0 * x, 0, (-1, -1), (1, 1), spacing=1), grid, 2, 'soil'))
+contact = MpmContact(friction=0.3)
+sides = [MpmBoundary(min=(-inf, 0, -inf), max=(inf, 0, inf), fix='y'), MpmBoundary(min=(0, -inf, -inf), max=(0, inf, inf), fix='x')]
+O.engines = [MpmImplicitEngine(grid=grid, gravity=(0, 0, -10), contacts=[contact], boundaries=sides, verbosity=0)]
+O.dt = 0.5
+O.run(2, wait=True)
+result['weight'] = -sum(f[2] for f in contact.forces) / (mpm.arrays()['volume'].sum() * 1000 * 10)
+print(json.dumps(result))
+''').result
+	assert result.pop('body') == ['rock', 6, False]
+	assert 0.98 < result.pop('weight') < 1.02
+	for kind, (number, area, normal, off, low) in result.items():
+		assert number == (4 if kind == 'coarse' else 16) and abs(area / (8 * (1 + 0.25 + 0.0625)**0.5) - 1) < 1e-6 and off < 1e-6 and low == pytest.approx([0, 0], abs=1e-6), kind
+		assert normal == pytest.approx([-4, -2, 8], abs=1e-5), kind
+
+
+wrongRock = [
+        ('mpm.facets(lambda x, y: 0)', 'ValueError', ['spacing', 'function']),
+        ('mpm.facets(lambda x, y: 0, 1)', 'ValueError', ['min and max']),
+        ('mpm.facets(lambda x, y: 0, 1, (0, 0), (0, 1))', 'ValueError', ['min and max']),
+        ('mpm.facets(lambda x, y: nan, 1, (0, 0), (1, 1))', 'ValueError', ['nan', '(0.0, 0.0)', 'finite']),
+        ('mpm.facets(lambda x: 0, 1, (0, 0), (1, 1))', 'TypeError', ['function of x and y']),
+        ('mpm.facets(lambda x, y: 0, -1, (0, 0), (1, 1))', 'ValueError', ['spacing = -1']),
+        ('mpm.facets(lambda x, y: 0, "1", (0, 0), (1, 1))', 'TypeError', ["spacing = '1'"]),
+        ('mpm.facets([1, 2, 3], 1, (0, 0))', 'TypeError', ['at least 2 by 2']),
+        ('mpm.facets([[1, 2], [3, nan]], 1, (0, 0))', 'ValueError', ['no height', '(1.0, 1.0)']),
+        ('mpm.facets([[1, 2], [3, 4]], 1)', 'ValueError', ['min']),
+        ('mpm.facets([[1, 2], [3, 4]], 1, (0, 0), material="rok")', 'ValueError', ["'rok'", 'rock']),
+        ('mpm.facets([[100, 200], [300, 400]], 0.001, (7.5, 46.5))', 'ValueError', ['degrees', 'EPSG:32632', '76.54 km']),
+        ('mpm.terrain([[100, 200], [300, 400]], 0, (7.5, 46.5), spacing=0.001)', 'ValueError', ['degrees', 'terrain']),
+        ('mpm.facets("none.asc")', 'FileNotFoundError', ['none.asc']),
+        ('mpm.facets(3)', 'TypeError', ['surface = 3']),
+]
+
+
+@pytest.fixture(scope='module')
+def rockOutcomes(tmp_path_factory):
+	from conftest import outcomesOf
+	before = "O.reset(), O.materials.append(FrictMat(label='rock'))"
+	return outcomesOf(tmp_path_factory.mktemp('rock'), 'from math import nan\nfrom yade import mpm\n', [statement for statement, _, _ in wrongRock], before=before)
+
+
+@pytest.mark.parametrize('statement, exception, words', wrongRock, ids=[statement for statement, _, _ in wrongRock])
+def test_rock_is_refused(rockOutcomes, statement, exception, words):
+	kind, sentence = rockOutcomes[statement]
+	assert kind == exception, sentence
+	for word in words:
+		assert word in sentence
