@@ -2,20 +2,12 @@
 // mpm_petsc.so: several processes, which talk by MPI and solve together by PETSc.
 #include "core/solvers/distributed_module.hpp"
 #include "petsc/begin.hpp"
-#include "petsc/matrix.hpp"
+#include "petsc/fields.hpp"
 #include "petsc/talk.hpp"
 #include <algorithm>
 #include <petscksp.h>
 
 namespace {
-
-/// f() of PETSc's, after which there are no errors.
-template <class F> void check(F&& f)
-{
-	char         reason[512] = "PETSc fails";
-	const Errors errors(reason, sizeof reason);
-	if (f()) stop(reason);
-}
 
 bool beginProcesses(int* rank, int* size, char* reason, int length)
 {
@@ -27,12 +19,15 @@ bool beginProcesses(int* rank, int* size, char* reason, int length)
 }
 
 struct Solver {
-	Mat K = nullptr, symmetric = nullptr; ///< of the last matrix; the same where it is symmetric
-	PC  multigrid = nullptr;
-	KSP factor    = nullptr;
-	Vec b = nullptr, x = nullptr;
+	const bool                isShared;
+	bool                      hasFailed = false;                ///< what is not shared, since it was given its matrix
+	Mat                       K = nullptr, symmetric = nullptr; ///< of the last matrix; the same where it is symmetric
+	PC                        multigrid = nullptr;
+	KSP                       factor    = nullptr;
+	Vec                       b = nullptr, x = nullptr;
+	std::vector<BlockOfField> fields; ///< of several
 
-	Solver()                         = default;
+	explicit Solver(bool isShared) : isShared(isShared) { }
 	Solver(const Solver&)            = delete;
 	Solver& operator=(const Solver&) = delete;
 	~Solver()
@@ -43,20 +38,33 @@ struct Solver {
 	/// All but multigrid, which keeps the matrix that it is of.
 	void clear() { MatDestroy(&K), MatDestroy(&symmetric), KSPDestroy(&factor), VecDestroy(&b), VecDestroy(&x); }
 
-	bool isSymmetric() const { return K == symmetric; }
+	MPI_Comm comm() const { return isShared ? ::comm : PETSC_COMM_SELF; }
 };
+
+/// f() of PETSc's. Several processes have no errors after it.
+template <class F> void check(Solver& s, F&& f)
+{
+	char         reason[512] = "PETSc fails";
+	const Errors errors(reason, sizeof reason);
+	if (!f()) return;
+	if (s.isShared) stop(reason);
+	s.hasFailed = true;
+}
 
 PetscErrorCode takeMatrix(Solver& s, const gimpm::DistributedRows& rows)
 {
 	s.clear();
-	CompressedRows own { comm, rows.dim, rows.rows, rows.all, rows.start, rows.column, rows.value };
-	PetscCall(makeMatrix(own, !rows.symmetricPart, &s.K));
+	s.fields.clear();
+	CompressedRows own { s.comm(), rows.dim, rows.rows, rows.all, rows.start, rows.column, rows.value, true };
+	PetscCall(makeMatrix(own, rows.isSymmetric, &s.K));
 	s.symmetric = s.K;
 	own.value   = rows.symmetricPart;
-	if (rows.symmetricPart) PetscCall(makeMatrix(own, true, &s.symmetric));
+	if (rows.symmetricPart) PetscCall(makeMatrix(own, rows.isSymmetric || rows.fields == 1, &s.symmetric));
 	else
 		PetscCall(PetscObjectReference(reinterpret_cast<PetscObject>(s.K)));
-	PetscCall(addRigidMotions(s.symmetric, own, rows.position));
+	if (rows.fields == 1) PetscCall(addRigidMotions(s.symmetric, own, rows.position));
+	else
+		PetscCall(findBlocks(own, rows.fields, rows.widths, rows.position, s.fields));
 	return MatCreateVecs(s.K, &s.x, &s.b);
 }
 
@@ -64,13 +72,11 @@ PetscErrorCode takeMatrix(Solver& s, const gimpm::DistributedRows& rows)
 PetscErrorCode makeMultigrid(Solver& s)
 {
 	PetscCall(PCDestroy(&s.multigrid));
-	PetscCall(PCCreate(comm, &s.multigrid));
+	PetscCall(PCCreate(s.comm(), &s.multigrid));
 	PetscCall(PCSetOptionsPrefix(s.multigrid, "mpm_"));
-	PetscCall(PCSetType(s.multigrid, PCGAMG));
-	PetscCall(PCGAMGSetAggressiveLevels(s.multigrid, 1));
 	PetscCall(PCSetOperators(s.multigrid, s.symmetric, s.symmetric));
 	PetscCall(PetscOptionsSetValue(nullptr, "-mat_no_inode", "1")); // of matrices that GAMG makes
-	PetscCall(PCSetUp(s.multigrid));
+	PetscCall(s.fields.empty() ? useMultigrid(s.multigrid) : useMultigridByField(s.multigrid, s.fields));
 	return PetscOptionsClearValue(nullptr, "-mat_no_inode");
 }
 
@@ -96,7 +102,7 @@ PetscErrorCode copy(double* to, Vec from)
 
 PetscErrorCode makeIteration(Solver& s, const gimpm::DistributedIteration& wanted, KSP* ksp)
 {
-	PetscCall(KSPCreate(comm, ksp));
+	PetscCall(KSPCreate(s.comm(), ksp));
 	PetscCall(KSPSetOptionsPrefix(*ksp, "mpm_"));
 	PetscCall(KSPSetPC(*ksp, s.multigrid));
 	PetscCall(KSPSetReusePreconditioner(*ksp, PETSC_TRUE));
@@ -107,6 +113,8 @@ PetscErrorCode makeIteration(Solver& s, const gimpm::DistributedIteration& wante
 	PetscCall(MatDestroy(&before));
 	PetscCall(KSPSetType(*ksp, KSPGMRES));
 	PetscCall(KSPGMRESSetRestart(*ksp, 100));
+	// Else what it takes for the residual may be less than what there is.
+	if (!s.fields.empty()) PetscCall(KSPGMRESSetCGSRefinementType(*ksp, KSP_GMRES_CGS_REFINE_IFNEEDED));
 	PetscCall(KSPSetPCSide(*ksp, PC_RIGHT));
 	PetscCall(KSPSetNormType(*ksp, KSP_NORM_UNPRECONDITIONED));
 	PetscCall(KSPSetTolerances(*ksp, wanted.tolerance, 1e-300, 1e30, wanted.atMost));
@@ -135,12 +143,15 @@ PetscErrorCode makeFactor(Solver& s, double smallestPivot, int moreMemory, PCFai
 	PC  pc;
 	Mat F;
 	PetscCall(KSPDestroy(&s.factor));
-	PetscCall(KSPCreate(comm, &s.factor));
+	PetscCall(KSPCreate(s.comm(), &s.factor));
 	PetscCall(KSPSetOptionsPrefix(s.factor, "mpm_"));
 	PetscCall(KSPSetOperators(s.factor, s.K, s.K));
 	PetscCall(KSPSetType(s.factor, KSPPREONLY));
 	PetscCall(KSPGetPC(s.factor, &pc));
-	PetscCall(PCSetType(pc, s.isSymmetric() ? PCCHOLESKY : PCLU)); // of a matrix that is not positive definite, too
+	PetscBool isKnown, isSymmetric;
+	PetscCall(MatIsSymmetricKnown(s.K, &isKnown, &isSymmetric));
+	isSymmetric = PetscBool(isKnown && isSymmetric);
+	PetscCall(PCSetType(pc, isSymmetric ? PCCHOLESKY : PCLU)); // of a matrix that is not positive definite, too
 	PetscCall(PCFactorSetMatSolverType(pc, MATSOLVERMUMPS));
 	PetscCall(PCFactorSetUpMatSolverType(pc));
 	PetscCall(PCFactorGetMatrix(pc, &F));
@@ -155,7 +166,7 @@ PetscErrorCode makeFactor(Solver& s, double smallestPivot, int moreMemory, PCFai
 	PetscCall(MatMumpsGetInfog(F, 28, &nullPivots));
 	if (nullPivots > 0 && *failure == PC_NOERROR) *failure = PC_FACTOR_NUMERIC_ZEROPIVOT;
 	*negative = 0;
-	if (s.isSymmetric()) PetscCall(MatMumpsGetInfog(F, 12, negative));
+	if (isSymmetric) PetscCall(MatMumpsGetInfog(F, 12, negative));
 	return 0;
 }
 
@@ -169,29 +180,38 @@ PetscErrorCode substituteIn(Solver& s, const double* b, double* x, bool* hasSolv
 	return copy(x, s.x);
 }
 
-void* create() { return new Solver; }
+void* create(bool isShared)
+{
+	auto* const s = new Solver(isShared);
+	check(*s, [] { return begin(); });
+	return s;
+}
 
 void destroy(void* solver)
 {
-	check([&] {
-		delete static_cast<Solver*>(solver);
-		return PetscErrorCode(0);
-	});
+	char         ignored[256];
+	const Errors errors(ignored, sizeof ignored); // nothing can be done about them
+	delete static_cast<Solver*>(solver);
 }
 
 void setMatrix(void* solver, const gimpm::DistributedRows* rows)
 {
-	check([&] { return takeMatrix(*static_cast<Solver*>(solver), *rows); });
+	auto& s     = *static_cast<Solver*>(solver);
+	s.hasFailed = false;
+	check(s, [&] { return takeMatrix(s, *rows); });
 }
 
 void setUp(void* solver)
 {
-	check([&] { return makeMultigrid(*static_cast<Solver*>(solver)); });
+	auto& s = *static_cast<Solver*>(solver);
+	if (!s.hasFailed) check(s, [&] { return makeMultigrid(s); });
 }
 
 void iterate(void* solver, gimpm::DistributedIteration* iteration, const double* b, double* x)
 {
-	check([&] { return run(*static_cast<Solver*>(solver), *iteration, b, x); });
+	auto& s = *static_cast<Solver*>(solver);
+	if (!s.hasFailed) check(s, [&] { return run(s, *iteration, b, x); });
+	if (s.hasFailed) iteration->hasConverged = false, iteration->hasBrokenDown = true;
 }
 
 bool factorise(void* solver, double smallestPivot, int* negativePivots)
@@ -199,7 +219,9 @@ bool factorise(void* solver, double smallestPivot, int* negativePivots)
 	PCFailedReason failure = PC_NOERROR;
 	// Pivots off the diagonal take more memory than the analysis can foresee.
 	for (const int percent : { 20, 100, 400 }) {
-		check([&] { return makeFactor(*static_cast<Solver*>(solver), smallestPivot, percent, &failure, negativePivots); });
+		auto& s = *static_cast<Solver*>(solver);
+		check(s, [&] { return makeFactor(s, smallestPivot, percent, &failure, negativePivots); });
+		if (s.hasFailed) return false;
 		if (failure != PC_FACTOR_OUTMEMORY) break;
 	}
 	return failure == PC_NOERROR;
@@ -207,8 +229,9 @@ bool factorise(void* solver, double smallestPivot, int* negativePivots)
 
 bool substitute(void* solver, const double* b, double* x)
 {
-	bool hasSolved = false;
-	check([&] { return substituteIn(*static_cast<Solver*>(solver), b, x, &hasSolved); });
+	bool  hasSolved = false;
+	auto& s         = *static_cast<Solver*>(solver);
+	check(s, [&] { return substituteIn(s, b, x, &hasSolved); });
 	return hasSolved;
 }
 

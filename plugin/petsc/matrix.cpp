@@ -3,14 +3,15 @@
 
 PetscErrorCode makeMatrix(const CompressedRows& rows, bool isSymmetric, Mat* K)
 {
-	if (rows.comm == PETSC_COMM_SELF) // PETSc only reads them
+	if (rows.comm == PETSC_COMM_SELF && !rows.areCopied) // PETSc only reads them
 		PetscCall(MatCreateSeqAIJWithArrays(
 		        rows.comm, rows.rows, rows.rows, const_cast<int*>(rows.start), const_cast<int*>(rows.column), const_cast<double*>(rows.value), K));
 	else {
 		PetscCall(MatCreate(rows.comm, K));
 		PetscCall(MatSetSizes(*K, rows.rows, rows.rows, rows.all, rows.all));
 		PetscCall(MatSetBlockSize(*K, rows.dim));
-		PetscCall(MatSetType(*K, MATMPIAIJ));
+		PetscCall(MatSetType(*K, MATAIJ)); // of which the one or the other follows
+		PetscCall(MatSeqAIJSetPreallocationCSR(*K, rows.start, rows.column, rows.value));
 		PetscCall(MatMPIAIJSetPreallocationCSR(*K, rows.start, rows.column, rows.value));
 	}
 	PetscCall(MatSetBlockSize(*K, rows.dim));
@@ -21,16 +22,21 @@ PetscErrorCode makeMatrix(const CompressedRows& rows, bool isSymmetric, Mat* K)
 	return 0;
 }
 
+PetscErrorCode makeRigidMotions(MPI_Comm comm, int dim, int nodes, const double* position, MatNullSpace* motions)
+{
+	Vec places;
+	if (comm == PETSC_COMM_SELF) PetscCall(VecCreateSeqWithArray(comm, dim, dim * nodes, position, &places));
+	else
+		PetscCall(VecCreateMPIWithArray(comm, dim, dim * nodes, PETSC_DETERMINE, position, &places));
+	PetscCall(MatNullSpaceCreateRigidBody(places, motions));
+	return VecDestroy(&places);
+}
+
 PetscErrorCode addRigidMotions(Mat K, const CompressedRows& rows, const double* position)
 {
 	if (!position) return 0;
-	Vec          places;
 	MatNullSpace motions;
-	if (rows.comm == PETSC_COMM_SELF) PetscCall(VecCreateSeqWithArray(rows.comm, rows.dim, rows.rows, position, &places));
-	else
-		PetscCall(VecCreateMPIWithArray(rows.comm, rows.dim, rows.rows, rows.all, position, &places));
-	PetscCall(MatNullSpaceCreateRigidBody(places, &motions));
+	PetscCall(makeRigidMotions(rows.comm, rows.dim, rows.rows / rows.dim, position, &motions));
 	PetscCall(MatSetNearNullSpace(K, motions));
-	PetscCall(MatNullSpaceDestroy(&motions));
-	return VecDestroy(&places);
+	return MatNullSpaceDestroy(&motions);
 }

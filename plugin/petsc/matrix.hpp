@@ -6,14 +6,17 @@
 /// Rows of a process, compressed, as the core gives them.
 struct CompressedRows {
 	MPI_Comm      comm; ///< of those that share the matrix
-	int           dim;  ///< components a node
+	int           dim;  ///< unknowns a node
 	int           rows, all;
 	const int *   start, *column;
 	const double* value;
+	bool          areCopied = false; ///< else they must outlive the matrix, where there is one process
 };
 
-/// A copy, but where there is one process: there `rows` must outlive it.
 PetscErrorCode makeMatrix(const CompressedRows& rows, bool isSymmetric, Mat* K);
+
+/// The rigid motions of so many nodes, by dim numbers for each.
+PetscErrorCode makeRigidMotions(MPI_Comm, int dim, int nodes, const double* position, MatNullSpace*);
 
 /// The rigid motions, of which coarse levels are made, by dim numbers a node; null: none. Without rotations, bending
 /// takes many more iterations.

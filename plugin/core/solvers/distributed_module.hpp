@@ -8,17 +8,21 @@ namespace gimpm {
 
 /// The rows of a process of a matrix over nodes, compressed. They are copied.
 struct DistributedRows {
-	int           dim;    ///< components a node
+	int           fields;
+	const int*    widths; ///< unknowns a node of each field; the first is that of the displacements
+	int           dim;    ///< unknowns a node, of all fields
 	int           rows;   ///< of this process: dim times its nodes
 	int           all;    ///< of all processes
 	const int*    start;  ///< of each row, and the end of the last one
 	const int*    column; ///< rising, among all
 	const double* value;
-	const double* symmetricPart; ///< values of (K + K^T) / 2; null: K is symmetric
-	const double* position;      ///< dim numbers a node, for the rigid motions of the body; null: only translations leave it without stress
+	bool          isSymmetric;
+	const double* symmetricPart; ///< values that multigrid is made of, (K + K^T) / 2 within each field; null: K
+	const double* position;      ///< a place for each node, for the rigid motions of the body; null: only translations leave it without stress
 };
 
-/// GMRES with multigrid of the symmetric part.
+/// GMRES with multigrid of the symmetric part; of several fields each is done in its turn, with what those before it
+/// leave.
 struct DistributedIteration {
 	bool   goesOn;    ///< from x, instead of from zero
 	double tolerance; ///< |b - K x| <= tolerance |b|
@@ -37,8 +41,8 @@ struct DistributedModule {
 	void (*gather)(double* all, const int* start);
 	void (*exchange)(const Message* messages, int count);
 	void (*tell)(char* text, int length, int from);
-	double (*sent)(); ///< by this process [bytes]
-	void* (*create)();
+	double (*sent)();               ///< by this process [bytes]
+	void* (*create)(bool isShared); ///< false: for this process alone, in which nothing ends what fails
 	void (*destroy)(void* solver);
 	void (*setMatrix)(void* solver, const DistributedRows*);
 	void (*setUp)(void* solver); ///< multigrid of the symmetric part, for this matrix and those that follow
@@ -48,7 +52,7 @@ struct DistributedModule {
 	bool (*substitute)(void* solver, const double* b, double* x);
 };
 
-constexpr int         distributedVersion = 2;
+constexpr int         distributedVersion = 3;
 constexpr const char* distributedSymbol  = "mpm_distributed"; ///< const DistributedModule* mpm_distributed(), in C
 
 } // namespace gimpm

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "core/solvers/distributed_solver.hpp"
 #include "core/base/stopwatch.hpp"
+#include "core/fields/shared_fields.hpp"
 #include "core/solvers/blas_threads.hpp"
 #include "core/solvers/petsc_library.hpp"
 #include "core/solvers/solver_limits.hpp"
@@ -12,16 +13,11 @@ namespace {
 
 const DistributedModule& library() { return *PetscLibrary::get().distributed; }
 
-DistributedRows viewOf(const NodeRows& rows, const std::vector<double>& value, bool isSymmetric, bool hasPositions)
+/// Without what multigrid needs.
+DistributedRows viewOf(const NodeRows& rows, const std::vector<double>& value, bool isSymmetric)
 {
-	return { rows.dim,
-		 rows.rows(),
-		 rows.all,
-		 rows.start.data(),
-		 rows.column.data(),
-		 value.data(),
-		 numbersOf(rows.symmetricPart, !isSymmetric),
-		 numbersOf(rows.position, hasPositions) };
+	return { int(rows.widths.size()), rows.widths.data(), rows.dim,    rows.rows(), rows.all, rows.start.data(),
+		 rows.column.data(),      value.data(),       isSymmetric, nullptr,     nullptr };
 }
 
 /// Powers of two, with which the diagonal is about one; where it has nothing the largest entry of the row.
@@ -43,7 +39,8 @@ Eigen::VectorXd scaleOf(const NodeRows& rows)
 /// Which part of a vector is whose.
 struct DistributedSolver::Spread {
 	NodeShare         share;
-	std::vector<int>  dof; ///< of the rows of this process
+	std::vector<int>  dof;    ///< of the rows of this process
+	std::vector<int>  widths; ///< unknowns a node of each field
 	std::vector<bool> isFree;
 
 	/// From a vector by free degrees of freedom.
@@ -63,18 +60,8 @@ struct DistributedSolver::Spread {
 		Eigen::VectorXd all = Eigen::VectorXd::Zero(Eigen::Index(isFree.size()));
 		for (std::size_t r = 0; r < dof.size(); ++r)
 			all[dof[r]] = own[Eigen::Index(r)];
-		share.complete(all);
+		complete(share, widths, all);
 		return all;
-	}
-	/// By the rows of all processes, which nodes have that are not held altogether.
-	std::vector<double> ofAllRows(const Eigen::VectorXd& own, const NodeRows& rows) const
-	{
-		const Eigen::VectorXd byDof = all(own);
-		std::vector<double>   byRow;
-		for (Eigen::Index i = 0; i < byDof.size(); i += rows.dim)
-			if (std::any_of(isFree.begin() + i, isFree.begin() + i + rows.dim, [](bool is) { return is; }))
-				byRow.insert(byRow.end(), byDof.data() + i, byDof.data() + i + rows.dim);
-		return byRow;
 	}
 	/// The way back.
 	Eigen::VectorXd whole(const Eigen::VectorXd& own) const
@@ -110,7 +97,7 @@ struct DistributedSolver::Task {
 		const std::string obstacle = obstacleTo(rows, problem.share(), hasPositions);
 		if (!obstacle.empty()) rows.reset();
 		else
-			spread.reset(new Spread { problem.share(), rows->dof, problem.unknowns().isFree });
+			spread.reset(new Spread { problem.share(), rows->dof, rows->widths, problem.unknowns().isFree });
 		return obstacle;
 	}
 };
@@ -131,7 +118,7 @@ struct DistributedSolver::Factor {
 	}
 };
 
-DistributedSolver::DistributedSolver() : solver_(library().create()) { }
+DistributedSolver::DistributedSolver(bool isShared) : isShared_(isShared), solver_(library().create(isShared)) { }
 DistributedSolver::~DistributedSolver() { library().destroy(solver_); }
 
 SolverStatus DistributedSolver::solve(
@@ -154,17 +141,32 @@ SolverStatus DistributedSolver::solve(
 	return status != SolverStatus::singular && factor_->solve(solver_, b, x) ? status : SolverStatus::singular;
 }
 
+std::string DistributedSolver::solveWithMultigrid(
+        const NodeProblem& problem, bool isSymmetric, const Eigen::VectorXd& b, Eigen::VectorXd& x, double tolerance, SolverTimes& times,
+        IterativeEffort& effort)
+{
+	const OneBlasThread guard;
+	const double        size = b.stableNorm();
+	x                        = b;
+	factor_.reset();
+	if (size == 0) return "";
+	Task task { problem, isSymmetric, b / size, tolerance, times, effort };
+	if (!iterateWithMultigrid(task)) return task.failure;
+	x = size * task.x;
+	return x.allFinite() ? "" : "numbers are not finite";
+}
+
 bool DistributedSolver::solveAgain(const Eigen::VectorXd& b, Eigen::VectorXd& x)
 {
 	const OneBlasThread guard;
 	return factor_->solve(solver_, b, x);
 }
 
-/// As one process does it where K is symmetric; where it is not, an incomplete factor would depend on how the nodes are
-/// cut.
+/// As one process does it where K is symmetric and of one field; else an incomplete factor would depend on how the
+/// nodes are cut.
 bool DistributedSolver::iterate(Task& task, LinearMethod method)
 {
-	if (!task.isSymmetric) return iterateWithMultigrid(task);
+	if (!task.isSymmetric || !task.problem.isOfOneField()) return iterateWithMultigrid(task);
 	task.failure = overNodes_.solve(task.problem, task.b, task.tolerance, method, task.x, task.times, task.effort);
 	return task.failure.empty();
 }
@@ -194,7 +196,10 @@ bool DistributedSolver::giveMatrix(Task& task)
 {
 	const Stopwatch watch(task.times.solve);
 	if (std::string obstacle = task.readRows(); !obstacle.empty()) return task.failure = obstacle, false;
-	const auto view = viewOf(*task.rows, task.rows->value, task.isSymmetric, task.hasPositions);
+	const NodeRows& rows = *task.rows;
+	DistributedRows view = viewOf(rows, rows.value, task.isSymmetric);
+	view.symmetricPart   = numbersOf(rows.symmetricPart, !task.isSymmetric || !task.problem.isOfOneField());
+	view.position        = numbersOf(rows.position, task.hasPositions);
 	library().setMatrix(solver_, &view);
 	return true;
 }
@@ -212,7 +217,7 @@ bool DistributedSolver::run(Task& task, int atMost)
 	task.error  = iteration.error;
 	task.goesOn = !iteration.hasBrokenDown && std::isfinite(iteration.error);
 	if (!iteration.hasConverged)
-		task.failure = iteration.hasBrokenDown ? "multigrid: the matrix is not positive definite"
+		task.failure = iteration.hasBrokenDown ? "multigrid: GMRES breaks down, or a level cannot be solved"
 		                                       : "multigrid: no convergence in " + std::to_string(iteration.made) + " iterations";
 	return iteration.hasConverged;
 }
@@ -232,13 +237,12 @@ SolverStatus DistributedSolver::factorise(Task& task)
 	const Stopwatch watch(task.times.factorise);
 	if (std::string obstacle = task.readRows(); !obstacle.empty()) return task.effort.reason = obstacle, SolverStatus::singular;
 	const NodeRows&       rows  = *task.rows;
-	const Eigen::VectorXd scale = scaleOf(rows);
-	const auto            ofAll = task.spread->ofAllRows(scale, rows);
+	const Eigen::VectorXd scale = scaleOf(rows), ofAll = task.spread->all(scale);
 	std::vector<double>   scaled(rows.value);
 	for (int r = 0; r < rows.rows(); ++r)
 		for (int e = rows.start[r]; e < rows.start[r + 1]; ++e)
-			scaled[e] *= scale[r] * ofAll[rows.column[e]];
-	const auto view = viewOf(rows, scaled, task.isSymmetric, task.hasPositions);
+			scaled[e] *= scale[r] * ofAll[rows.columnDof[rows.column[e]]];
+	const auto view = viewOf(rows, scaled, task.isSymmetric);
 	library().setMatrix(solver_, &view);
 	int negative = 0;
 	if (!library().factorise(solver_, smallestPivot, &negative)) return SolverStatus::singular;

@@ -7,19 +7,27 @@
 namespace gimpm {
 
 /// Each process has the rows of its nodes and comes to know the whole x. `direct`: MUMPS. `iterative`, `multigrid` and
-/// `automatic`: conjugate gradients as in one process. Where K is not symmetric all of these are GMRES with multigrid
-/// of its symmetric part, which is kept for the solves that follow. What cannot be solved so is solved directly.
+/// `automatic`: conjugate gradients as in one process. Where K is not symmetric, or of several fields, all of these are
+/// GMRES with multigrid of its symmetric part, field by field, which is kept for the solves that follow. What cannot be
+/// solved so is solved directly.
 class DistributedSolver {
 public:
-	DistributedSolver();
+	/// The library must be open.
+	explicit DistributedSolver(bool isShared);
 	~DistributedSolver();
 	DistributedSolver(const DistributedSolver&)            = delete;
 	DistributedSolver& operator=(const DistributedSolver&) = delete;
+
+	bool isShared() const { return isShared_; } ///< by several processes
 
 	/// K x = b on the free degrees of freedom; iteratively to |b - K x| <= tolerance |b|.
 	SolverStatus solve(
 	        const NodeProblem&, bool isSymmetric, const Eigen::VectorXd& b, Eigen::VectorXd& x, LinearMethod, double tolerance, SolverTimes&,
 	        IterativeEffort&);
+
+	/// By GMRES with multigrid, also in one process. Empty, or why it fails.
+	std::string solveWithMultigrid(
+	        const NodeProblem&, bool isSymmetric, const Eigen::VectorXd& b, Eigen::VectorXd& x, double tolerance, SolverTimes&, IterativeEffort&);
 
 	/// Whether the last solve has left a factor, and another right side for it.
 	bool hasFactor() const { return factor_ != nullptr; }
@@ -37,7 +45,8 @@ private:
 	void         setUp(Task&);
 	SolverStatus factorise(Task&);
 
-	void*                   solver_;        ///< of the library, where K is not, and for factors
+	bool                    isShared_;
+	void*                   solver_;        ///< of the library, where K is not symmetric or of several fields, and for factors
 	Unknowns                unknowns_;      ///< of its multigrid; none: there is none
 	std::vector<int>        start_;         ///< of the nodes of the processes, of multigrid
 	double                  perDecade_ = 0; ///< iterations of the first solve with multigrid

@@ -29,8 +29,10 @@ public:
 	bool                isSymmetric() const { return isSymmetric_; }
 	const SymmetricCsc& symmetric() const { return std::get<SymmetricCsc>(compressed()); }
 	const GeneralCsc&   general() const { return std::get<GeneralCsc>(compressed()); }
-	/// Null: only compressed.
+	/// Null: only compressed, or of several fields.
 	const NodeProblem* overNodes() const { return isOfOneField() ? overNodes_.get() : nullptr; }
+	/// Null: only compressed.
+	const NodeProblem* ofAllFields() const { return overNodes_.get(); }
 	bool               isShared() const { return overNodes_ && !overNodes_->share().isWhole(); }
 	bool               isOfOneField() const { return !overNodes_ || overNodes_->isOfOneField(); }
 

@@ -7,6 +7,7 @@
 #include "core/solvers/distributed_solver.hpp"
 #include "core/solvers/gmres.hpp"
 #include "core/solvers/lu.hpp"
+#include "core/solvers/multigrid.hpp"
 #include "core/solvers/node_solver.hpp"
 #include "core/solvers/reversed.hpp"
 #include "core/solvers/solver_limits.hpp"
@@ -24,7 +25,7 @@ constexpr double worthwhileFlops = 1e4;
 /// which takes longer than the decision is worth.
 constexpr double safetyFactor = 2;
 
-bool isTooLarge(const LinearProblem& K) { return K.overNodes() && K.overNodes()->needsMoreFlopsPerEntry(safetyFactor * worthwhileFlops); }
+bool isTooLarge(const LinearProblem& K) { return K.ofAllFields() && K.ofAllFields()->needsMoreFlopsPerEntry(safetyFactor * worthwhileFlops); }
 
 /// Unknowns from which their order is sought by dissection of the grid: there CHOLMOD's own order takes longer to find,
 /// and is no better.
@@ -52,6 +53,12 @@ public:
 private:
 	const SymmetricCsc& K_;
 };
+
+/// Empty, or why it fails.
+std::string byGmres(const GeneralCsc& K, const Eigen::VectorXd& b, double tolerance, Eigen::VectorXd& x, int& iterations)
+{
+	return gmres(K, b, tolerance, x, iterations) ? "" : "GMRES does not converge";
+}
 
 /// Empty, or why it fails.
 std::string inColumns(const SymmetricCsc& compressed, const Eigen::VectorXd& b, double tolerance, Eigen::VectorXd& x, int& iterations)
@@ -142,22 +149,45 @@ bool LinearSolver::prefersIterative(const LinearProblem& K)
 bool LinearSolver::solveIteratively(const LinearProblem& K, const Eigen::VectorXd& b, Eigen::VectorXd& x, double tolerance, LinearMethod method)
 {
 	std::string failure;
-	if (method == LinearMethod::multigrid && !K.isOfOneField()) failure = "multigrid is for displacements alone";
+	if (!K.isOfOneField()) failure = solveFields(K, b, x, tolerance, method);
 	else if (K.isSymmetric() && K.overNodes())
 		failure = overNodes_->solve(*K.overNodes(), b, tolerance, method, x, times_, effort_);
 	else {
 		const Stopwatch watch(times_.solve);
-		failure = K.isSymmetric()                                         ? inColumns(K.symmetric(), b, tolerance, x, effort_.iterations)
-		        : gmres(K.general(), b, tolerance, x, effort_.iterations) ? ""
-		                                                                  : "GMRES does not converge";
+		failure = K.isSymmetric() ? inColumns(K.symmetric(), b, tolerance, x, effort_.iterations)
+		                          : byGmres(K.general(), b, tolerance, x, effort_.iterations);
 	}
 	if (!failure.empty()) effort_.reason = failure;
 	return failure.empty();
 }
 
+void LinearSolver::openTogether(const NodeShare& share)
+{
+	if (!together_ || together_->isShared() == share.isWhole()) together_.reset(new DistributedSolver(!share.isWhole()));
+}
+
+/// Empty, or why it fails. Symmetric matrices of several fields often are not positive definite: what leaves a body of
+/// saturated soil is pushed by a pressure that pushes it apart.
+std::string LinearSolver::solveFields(const LinearProblem& K, const Eigen::VectorXd& b, Eigen::VectorXd& x, double tolerance, LinearMethod method)
+{
+	if (method != LinearMethod::iterative) {
+		const std::string absence = Multigrid::absence();
+		if (absence.empty()) {
+			openTogether(K.ofAllFields()->share());
+			return together_->solveWithMultigrid(*K.ofAllFields(), K.isSymmetric(), b, x, tolerance, times_, effort_);
+		}
+		if (method == LinearMethod::multigrid) return "multigrid: " + absence;
+	}
+	const Stopwatch watch(times_.solve);
+	if (!K.isSymmetric()) return byGmres(K.general(), b, tolerance, x, effort_.iterations);
+	if (inColumns(K.symmetric(), b, tolerance, x, effort_.iterations).empty()) return "";
+	return byGmres(bothTriangles(K.symmetric()), b, tolerance, x, effort_.iterations);
+}
+
 bool LinearSolver::staysOverNodes(LinearMethod method, const LinearProblem& K)
 {
 	if (K.isShared()) return true;
+	if (!K.isOfOneField()) return method == LinearMethod::multigrid || (method == LinearMethod::automatic && isTooLarge(K));
 	return K.overNodes() && K.isSymmetric() && (isAlwaysIterative(method) || (method == LinearMethod::automatic && isTooLarge(K)));
 }
 
@@ -175,14 +205,14 @@ LinearSolver::Status LinearSolver::solve(const LinearProblem& K, const Eigen::Ve
 /// process.
 LinearSolver::Status LinearSolver::solveTogether(const LinearProblem& K, const Eigen::VectorXd& b, Eigen::VectorXd& x, LinearMethod method, double tolerance)
 {
-	if (!together_) together_.reset(new DistributedSolver);
+	openTogether(K.ofAllFields()->share());
 	if (method == LinearMethod::automatic) {
 		// By the blocks that each of them knows.
-		std::int64_t isLarge = K.overNodes()->needsMoreFlopsPerEntry(worthwhileFlops);
-		K.overNodes()->share().processes.smallest(&isLarge, 1);
+		std::int64_t isLarge = K.ofAllFields()->needsMoreFlopsPerEntry(worthwhileFlops);
+		K.ofAllFields()->share().processes.smallest(&isLarge, 1);
 		if (!isLarge) method = LinearMethod::direct;
 	}
-	return together_->solve(*K.overNodes(), K.isSymmetric(), b, x, method, tolerance, times_, effort_);
+	return together_->solve(*K.ofAllFields(), K.isSymmetric(), b, x, method, tolerance, times_, effort_);
 }
 
 bool LinearSolver::solveAgain(const Eigen::VectorXd& b, Eigen::VectorXd& x, bool transposed)

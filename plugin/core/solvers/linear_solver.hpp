@@ -13,7 +13,8 @@ class NodeSolver;
 /// Direct solver: supernodal Cholesky (CHOLMOD), and LU with pivoting for a matrix that is not symmetric (MUMPS;
 /// UMFPACK judges what MUMPS refuses) or not positive definite (UMFPACK). The symbolic analysis is repeated only when
 /// the pattern changes. On demand conjugate gradients (alone or with multigrid) or, for a matrix that is not symmetric,
-/// GMRES. One object serves one thread.
+/// GMRES. Of several fields GMRES where conjugate gradients are not for it, and with multigrid GMRES. One object serves
+/// one thread.
 class LinearSolver {
 public:
 	using Status = SolverStatus;
@@ -32,7 +33,7 @@ public:
 	Status solve(const LinearProblem& K, const Eigen::VectorXd& b, Eigen::VectorXd& x, LinearMethod, double tolerance);
 
 	/// Iteratively, whatever it takes; false, with x meaningless, if it fails. Multigrid is for symmetric matrices
-	/// over nodes.
+	/// over nodes, and for those of several fields.
 	bool solveIteratively(const LinearProblem& K, const Eigen::VectorXd& b, Eigen::VectorXd& x, double tolerance, LinearMethod = LinearMethod::iterative);
 
 	/// Whether `automatic` stands for `iterative`.
@@ -65,12 +66,15 @@ private:
 
 	static bool isAlwaysIterative(LinearMethod method) { return method == LinearMethod::iterative || method == LinearMethod::multigrid; }
 	Status      factorise(const LinearProblem& K);
+	void        openTogether(const NodeShare&);
+	std::string solveFields(const LinearProblem& K, const Eigen::VectorXd& b, Eigen::VectorXd& x, double tolerance, LinearMethod method);
 	Status      solveTogether(const LinearProblem& K, const Eigen::VectorXd& b, Eigen::VectorXd& x, LinearMethod, double tolerance);
 
 	std::unique_ptr<Direct>     direct_;
 	std::unique_ptr<NodeSolver> overNodes_;
 
-	std::unique_ptr<DistributedSolver> together_; // null before the first solve of several processes
+	/// Null before the first solve of several processes, or of several fields with multigrid.
+	std::unique_ptr<DistributedSolver> together_;
 	SolverTimes                        times_;
 	IterativeEffort                    effort_;
 };

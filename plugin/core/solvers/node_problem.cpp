@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "core/solvers/node_problem.hpp"
+#include "core/solvers/field_rows.hpp"
 #include "core/solvers/shared_blocks.hpp"
 #include <algorithm>
 #include <cmath>
@@ -67,9 +68,12 @@ public:
 		forFree([&](int dof, int number) { x[number] = all[dof]; });
 		return x;
 	}
-	std::optional<NodeRows> rows() const override { return nodeRows(K_, dofs_, share_, couplings_); }
-	const NodeShare&        share() const override { return share_; }
-	Unknowns                unknowns() const override
+	std::optional<NodeRows> rows() const override
+	{
+		return isOfOneField() ? nodeRows(K_, dofs_, share_, couplings_) : fieldRows(K_, dofs_, share_, *couplings_);
+	}
+	const NodeShare& share() const override { return share_; }
+	Unknowns         unknowns() const override
 	{
 		Unknowns all { K_.keys(), {} };
 		for (const int number : dofs_.number)

@@ -25,7 +25,7 @@ struct NodeProblem {
 
 	virtual std::variant<SymmetricCsc, GeneralCsc> compressed() const = 0;
 
-	/// Of several fields there are no blocks, rows and unknowns, and it is not known how large it is.
+	/// Of several fields there are no blocks.
 	virtual bool isOfOneField() const = 0;
 
 	/// Of a symmetric matrix, for vectors over all degrees of freedom, with zeros for the held ones; where
@@ -36,7 +36,7 @@ struct NodeProblem {
 	/// The way back; all processes call it.
 	virtual Eigen::VectorXd ofFreeDofs(Eigen::VectorXd x) const = 0;
 
-	/// For multigrid; where processes share the matrix, the rows of this one.
+	/// For multigrid; where processes share the matrix, the rows of this one, and all call it.
 	virtual std::optional<NodeRows> rows() const     = 0;
 	virtual Unknowns                unknowns() const = 0;
 	virtual const NodeShare&        share() const    = 0; ///< of the rows

@@ -28,7 +28,10 @@ public:
 
 	NodeRows make()
 	{
-		NodeRows out { Dim, Dim * int(nodes_.size()), Dim * begin_, {}, {}, {}, {}, {}, {}, {} };
+		NodeRows out { Dim, Dim * int(nodes_.size()), Dim * begin_, {}, {}, {}, {}, {}, {}, {}, {}, { Dim } };
+		for (const int node : nodes_)
+			for (int i = 0; i < Dim; ++i)
+				out.columnDof.push_back(Dim * node + i);
 		for (int n = begin_; n < end_; ++n)
 			for (int i = 0; i < Dim; ++i) {
 				if (isHeld(nodes_[n], i)) out.held.push_back({ out.rows(), diagonalOf(nodes_[n], i) });

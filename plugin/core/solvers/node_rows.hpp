@@ -11,19 +11,22 @@ namespace gimpm {
 /// Rows of the nodes that are not held altogether, both triangles, by whole blocks. A held component has only its
 /// diagonal.
 struct NodeRows {
-	int                 dim;
+	int                 dim;   ///< unknowns a node
 	int                 all;   ///< rows, of all processes
 	int                 first; ///< number of the first one here among them
-	std::vector<int>    dof;   ///< of each row, among Dim a node
+	std::vector<int>    dof;   ///< of each row, among all unknowns
 	std::vector<int>    start, column;
 	std::vector<double> value;
-	std::vector<double> symmetricPart; ///< of (K + K^T) / 2, in the same places; empty where K is symmetric
+	/// Of (K + K^T) / 2, in the same places; empty where K is symmetric. Of several fields see fieldRows().
+	std::vector<double> symmetricPart;
 	struct Held {
 		int    row;
 		double diagonal;
 	};
-	std::vector<Held>   held;     ///< components
-	std::vector<double> position; ///< of the nodes, in cells from their mean; empty on a periodic grid, where a body cannot rotate
+	std::vector<Held>   held;      ///< components
+	std::vector<double> position;  ///< of the nodes, in cells from their mean; empty on a periodic grid, where a body cannot rotate
+	std::vector<int>    columnDof; ///< of each column, among all unknowns
+	std::vector<int>    widths;    ///< unknowns a node of each field
 
 	int rows() const { return int(dof.size()); }
 };

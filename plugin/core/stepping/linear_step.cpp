@@ -30,7 +30,7 @@ bool LinearStep<Dim>::solve(const NodeMatrix<Dim>& K, const Couplings& beside, E
 		K.multiplyAdd(prescribed_, held);
 		if (couplings) couplings->multiplyAdd(prescribed_, held);
 		system_.constraints.template fold<Dim>(system_.map, held);
-		system_.share().complete(held);
+		system_.completeForces(held);
 		forFree([&](int i, int number, double scale) { residual[number] -= scale * held[i]; });
 		step = prescribed_;
 		if (!system_.map.isAlone()) caused_ = held;

@@ -75,7 +75,7 @@ StepSystem<Dim>::StepSystem(const PointCloud<Dim>& cloud, const Model<Dim>& m, c
 	faces = stabilise(stiffnessOf_, model, basis, report);
 	const Stopwatch watch(report.times.basis);
 	share_ = std::make_unique<Share<Dim>>(*model.processes, basis, faces, *model.division);
-	complete(external);
+	gimpm::complete(share_->knownNodes(), map, external);
 	holdNodes(load);
 	makeTerms(load);
 	report.nodes              = int(basis.nodes.size());
@@ -118,6 +118,7 @@ template <int Dim> void StepSystem<Dim>::holdField(int field, const FieldStart& 
 {
 	Eigen::VectorXd before = Eigen::VectorXd::Zero(map.size());
 	map.of(field, before)  = start.before;
+	gimpm::complete(share_->knownNodes(), map, before); // what may be a sum over points
 	constraints.template spread<Dim>(map, before);
 	before_[field] = map.of(field, before);
 	for (int n = 0; n < map.nodes(); ++n)
@@ -170,8 +171,6 @@ template <int Dim> void StepSystem<Dim>::makeTerms(const Load<Dim>& load)
 template <int Dim> std::string StepSystem<Dim>::obstacle() const
 {
 	if (!map.isAlone() && coupled_.empty()) return "no term is for the field '" + map[1].name + "'";
-	if (!map.isAlone() && model.processes->size() > 1)
-		return "several processes can share displacements only, and there is the field '" + map[1].name + "'";
 	return "";
 }
 
@@ -246,8 +245,8 @@ std::optional<PointFailure> StepSystem<Dim>::evaluate(
 	constraints.template fold<Dim>(map, force);
 	if (sizes) constraints.template fold<Dim>(map, *sizes);
 	failure = share_->firstOf(failure);
-	share().complete(force); // those of a failure are reported, by all alike
-	if (sizes && !failure) share().complete(*sizes);
+	completeForces(force); // those of a failure are reported, by all alike
+	if (sizes && !failure) completeForces(*sizes);
 	return failure;
 }
 
@@ -277,6 +276,7 @@ template <int Dim> Eigen::VectorXd StepSystem<Dim>::roundOff(const Eigen::Vector
 		sizes = map.joined(blocks);
 	}
 	constraints.template fold<Dim>(map, sizes);
+	if (isCoupled()) completeForces(sizes);
 	return sizes;
 }
 

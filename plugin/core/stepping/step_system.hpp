@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The discrete equilibrium of one load step: everything that stays the same while Newton's method iterates.
 #pragma once
+#include "core/fields/shared_fields.hpp"
 #include "core/solvers/reduce.hpp"
 #include "core/stepping/model.hpp"
 #include "core/stepping/report.hpp"
@@ -67,6 +68,9 @@ template <int Dim> struct StepSystem {
 
 	/// The sums of the points around nodes, which each process knows of the nodes around which it has all points.
 	void complete(Eigen::VectorXd& nodal) const { share_->knownNodes().complete(nodal); }
+
+	/// Of forces at all unknowns each process knows the rows that it assembles, and then all.
+	void completeForces(Eigen::VectorXd& all) const { gimpm::complete(share(), map, all); }
 
 	/// Whether this process is the one that counts the points of the patch, of those that have them.
 	bool counts(const Patch<Dim>& patch) const { return model.division->owns(patch.cell); }

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Blocks between any nodes and fields: products, reduction, order of elimination and solvers against dense matrices;
 // and a body whose ends a spring joins.
+#include "core/solvers/field_rows.hpp"
 #include "core/solvers/multigrid.hpp"
 #include "core/solvers/shared_blocks.hpp"
 #include "core/stepping/step_system.hpp"
 #include "derivatives.hpp"
 #include "springs.hpp"
+#include "tendon.hpp"
 #include "threads_as_processes.hpp"
 #include <numeric>
 
@@ -21,9 +23,10 @@ namespace {
 		Random       random { 5 };
 		static Field displacement() { return { "displacement", "m", Dim }; }
 
-		Coupled(const Index<Dim>& size, std::vector<Field> fields, bool isSymmetric = true) : springs(size, 1), map(int(springs.nodes.size()), fields)
+		Coupled(const Index<Dim>& size, std::vector<Field> fields, bool isSymmetric = true, double skew = 0.1)
+		        : springs(size, 1), map(int(springs.nodes.size()), fields)
 		{
-			if (!isSymmetric) makeUnsymmetric();
+			if (!isSymmetric) makeUnsymmetric(skew);
 			dofs.number = springs.dofs.number;
 			dofs.count  = springs.dofs.count;
 			while (int(dofs.number.size()) < map.size())
@@ -31,7 +34,7 @@ namespace {
 			beside.reset(map, isSymmetric);
 		}
 		int  nodes() const { return map.nodes(); }
-		void makeUnsymmetric()
+		void makeUnsymmetric(double skew)
 		{
 			NodeMatrix<Dim> other;
 			other.reset(springs.nodes, false, springs.grid);
@@ -41,8 +44,9 @@ namespace {
 					other.markUsed(a, c);
 					std::copy_n(springs.K.at(a, c), other.block, other.at(a, c));
 					if (c > 0)
-						std::transform(
-						        other.at(a, c), other.at(a, c) + other.block, other.skewAt(a, c), [](double k) { return 0.1 * k; });
+						std::transform(other.at(a, c), other.at(a, c) + other.block, other.skewAt(a, c), [skew](double k) {
+							return skew * k;
+						});
 				}
 			springs.K = other;
 		}
@@ -209,92 +213,45 @@ namespace {
 		}
 	}
 
-	TYPED_TEST(CouplingsOf, OfSeveralFieldsAreSolvedDirectlyWhereTheyAreIndefinite)
+	/// Displacements and a pressure, as of a step in which water leaves a body: symmetric and indefinite, or with
+	/// the signs that make it neither.
+	template <int Dim> Coupled<Dim> saturated(int size, bool isSymmetric)
 	{
-		constexpr int Dim = TypeParam::value;
-		Coupled<Dim>  c(Index<Dim>::Constant(Dim == 2 ? 50 : 12), { Coupled<Dim>::displacement(), { "pressure", "Pa", 1, 10 } });
+		Coupled<Dim> c(Index<Dim>::Constant(size), { Coupled<Dim>::displacement(), { "pressure", "Pa", 1, 10 } }, isSymmetric, 0.01);
 		for (int n = 0; n < c.nodes(); ++n)
-			c.beside.mark({ 1, n }, { 1, n }), c.beside.mark({ 0, n }, { 1, n });
+			for (const int other : { n, std::max(n - 1, 0) })
+				c.beside.mark({ 1, n }, { 1, other }), c.beside.mark({ 0, n }, { 1, other });
 		c.beside.setZero();
+		const double sign = isSymmetric ? -1 : 1;
 		for (int n = 0; n < c.nodes(); ++n) {
+			const int before = std::max(n - 1, 0);
+			c.beside.add({ 1, n }, { 1, n }, sign * 0.01);
+			for (const auto& [row, column, k] :
+			     { std::tuple(n, n, 1), std::tuple(n, before, -1), std::tuple(before, n, -1), std::tuple(before, before, 1) })
+				c.beside.add({ 1, row }, { 1, column }, sign * k * 0.002);
 			const Vec<Dim> gradient = c.random.template matrix<Dim>(0.03);
-			c.beside.add({ 1, n }, { 1, n }, -0.01);
 			c.beside.add({ 0, n }, { 1, n }, gradient);
+			c.beside.add({ 1, n }, { 0, n }, (-sign * gradient).transpose());
 		}
-		for (const auto method : { LinearMethod::direct, LinearMethod::automatic, LinearMethod::iterative, LinearMethod::multigrid })
-			expectSolved(c, method, LinearSolver::Status::lu);
-		LinearSolver    solver;
-		Eigen::VectorXd x;
-		solver.solve(c.problem(), Random(4).vector(c.dofs.count), x, LinearMethod::multigrid, 1e-9);
-		EXPECT_EQ(solver.iterativeEffort().reason, "multigrid is for displacements alone");
+		return c;
 	}
 
-	/// A spring along x between two nodes of the grid, which is shorter than their distance by so much.
-	struct Tendon {
-		Key    ends[2];
-		double stiffness, shortening, force = 0;
-	};
-
-	template <int Dim> class TendonForce : public CoupledTerm<Dim> {
-	public:
-		TendonForce(Tendon& tendon, const CloudBasis<Dim>& basis)
-		        : tendon_(tendon), node_ { position(basis.nodes, tendon.ends[0]), position(basis.nodes, tendon.ends[1]) }
-		{
-		}
-		void markCouplings(Couplings& K) const override
-		{
-			for (const int a : node_)
-				for (const int b : node_)
-					K.mark({ 0, a }, { 0, b });
-		}
-		std::optional<PointFailure> addCoupled(const State& state, const FieldSum<Dim>& sum) const override
-		{
-			for (int i = 0; i < 2; ++i) {
-				const double force = sign(i) * forceAt(state);
-				sum.force[0][Dim * node_[i]] += force;
-				sum.sizes[0][Dim * node_[i]] += std::abs(force);
-				for (int j = 0; j < 2 && sum.couplings; ++j) {
-					Mat<Dim> k = Mat<Dim>::Zero();
-					k(0, 0)    = sign(i) * sign(j) * tendon_.stiffness;
-					sum.couplings->add({ 0, node_[i] }, { 0, node_[j] }, k);
-				}
+	TYPED_TEST(CouplingsOf, OfSeveralFieldsAreSolvedWithByAllMethods)
+	{
+		constexpr int Dim = TypeParam::value;
+		using Status      = LinearSolver::Status;
+		for (const bool isSymmetric : { true, false })
+			for (const int size : { 8, Dim == 2 ? 50 : 12 }) {
+				const auto c = saturated<Dim>(size, isSymmetric);
+				EXPECT_EQ(
+				        dense(saturated<Dim>(3, isSymmetric).problem()).isApprox(dense(saturated<Dim>(3, isSymmetric).problem()).transpose()),
+				        isSymmetric);
+				for (const auto method : { LinearMethod::direct, LinearMethod::automatic })
+					expectSolved(c, method, Status::lu);
+				if (size == 8) expectSolved(c, LinearMethod::iterative, Status::iterative);
+				if (hasMultigrid()) expectSolved(c, LinearMethod::multigrid, Status::iterative);
 			}
-			return std::nullopt;
-		}
-		void commitCoupled(const State& state) override { tendon_.force = forceAt(state); }
-
-	private:
-		static double sign(int end) { return end == 0 ? -1 : 1; }
-		double        forceAt(const State& state) const
-		{
-			const auto& d = state.displacements();
-			return tendon_.stiffness * (d[Dim * node_[1]] - d[Dim * node_[0]] + tendon_.shortening);
-		}
-		Tendon& tendon_;
-		int     node_[2];
-	};
-
-	/// A block that stands on its base, with a tendon between the ends of its upper edge.
-	template <int Dim> struct Braced {
-		Model<Dim>      model;
-		PointCloud<Dim> cloud;
-		Tendon          tendon;
-
-		Braced(int length, LinearMethod method)
-		{
-			model.grid.cellSize       = 0.5;
-			model.materials           = { { Hencky(1e6, 0.3), 0 } };
-			model.newton.tolerance    = 1e-10;
-			model.newton.linearSolver = method;
-			Vec<Dim> top              = Vec<Dim>::Constant(infinity);
-			top[1]                    = 0;
-			model.boundary = Boundary<Dim>({ held<Dim>(model.grid, Vec<Dim>::Constant(-infinity), top, std::string("xyz").substr(0, Dim)) });
-			cloud          = block<Dim>(model.grid, cellsOf<Dim>(length, 3, 1), 2);
-			tendon         = { { Grid<Dim>::key(cellsOf<Dim>(0, 3, 0)), Grid<Dim>::key(cellsOf<Dim>(length, 3, 0)) }, 2e4, 0.1 };
-			model.coupledTerms
-			        = { [this](const Beginning<Dim>& step, const State&) { return std::make_unique<TendonForce<Dim>>(tendon, step.basis); } };
-		}
-	};
+	}
 
 	TYPED_TEST(CouplingsOf, JoinNodesFarApartInALoadStep)
 	{
@@ -415,6 +372,46 @@ namespace {
 				for (int j = 0; j < full.cols(); ++j)
 					if (isFree(i) && isFree(j)) expected += std::abs(full(i, j));
 			EXPECT_NEAR(sum / expected, 1, 1e-12) << "none is missing";
+		}
+	}
+
+	/// Node after node, scaled, and complete; multigrid is made of each field by itself.
+	TYPED_TEST(CouplingsOf, OfSeveralFieldsAreInTheRowsOfProcesses)
+	{
+		constexpr int Dim   = TypeParam::value;
+		const Field   other = { "pressure", "Pa", 1, 1e3 }, third = { "rotation", "", 2, 0.1 };
+		for (const bool isSymmetric : { true, false }) {
+			Coupled<Dim> c(Index<Dim>::Constant(4), { Coupled<Dim>::displacement(), other, third }, isSymmetric);
+			c.fill(300);
+			Eigen::VectorXd scale(c.map.size());
+			for (int i = 0; i < c.map.size(); ++i)
+				scale[i] = c.map[c.map.fieldOf(i)].scale;
+			const auto            isFree   = [&](int i) { return c.dofs.number[i] >= 0; };
+			const Eigen::MatrixXd expected = scale.asDiagonal() * c.full() * scale.asDiagonal();
+			Eigen::MatrixXd       found = Eigen::MatrixXd::Zero(c.map.size(), c.map.size()), forMultigrid = found;
+			inThreads(2, [&](const std::shared_ptr<const Processes>& process) {
+				const NodeShare share { *process, { 0, c.nodes() / 3, c.nodes() } };
+				const NodeRows  rows = *fieldRows(c.springs.K, c.dofs, share, c.beside);
+				EXPECT_EQ(rows.dim, Dim + 3);
+				for (int r = 0; r < rows.rows(); ++r)
+					for (int e = rows.start[r]; e < rows.start[r + 1]; ++e) {
+						const int i = rows.dof[r], j = rows.columnDof[rows.column[e]];
+						EXPECT_TRUE(e == rows.start[r] || rows.column[e] > rows.column[e - 1]);
+						EXPECT_EQ(rows.columnDof[rows.first + r], i);
+						EXPECT_TRUE(isFree(i) == isFree(j) || rows.value[e] == 0);
+						if (isFree(i)) found(i, j) = rows.value[e], forMultigrid(i, j) = rows.symmetricPart[e];
+					}
+			});
+			for (int i = 0; i < c.map.size(); ++i)
+				for (int j = 0; j < c.map.size(); ++j) {
+					if (!isFree(i) || !isFree(j)) continue;
+					const int f      = c.map.fieldOf(i);
+					double    wanted = f == c.map.fieldOf(j) ? (expected(i, j) + expected(j, i)) / 2 : expected(i, j);
+					for (int u = 0; u < c.map.end(0) && i == j && f > 0; ++u)
+						if (isFree(u)) wanted -= 2 * expected(i, u) * expected(u, i) / expected(u, u);
+					ASSERT_NEAR(found(i, j), expected(i, j), 1e-12 * scale[i] * scale[j]);
+					ASSERT_NEAR(forMultigrid(i, j), wanted, 1e-12 * std::max(scale[i] * scale[j], std::abs(wanted)));
+				}
 		}
 	}
 

@@ -5,7 +5,7 @@
 #include "core/stepping/step_system.hpp"
 #include "core/terms/inertia.hpp"
 #include "core/terms/rayleigh.hpp"
-#include "scenes.hpp"
+#include "divided_points.hpp"
 #include "threads_as_processes.hpp"
 #include <atomic>
 
@@ -38,31 +38,6 @@ namespace {
 			return m;
 		}
 
-		/// The points of one process, and which of all these are.
-		static PointCloud<Dim> part(const PointCloud<Dim>& all, const Model<Dim>& model, Division& division)
-		{
-			for (int p = 0; p < int(all.size()); ++p)
-				if (division.owns(lowestCell(all.position[p], all.halfSize[p], model.grid, model.basis))) division.id.push_back(p);
-			PointCloud<Dim> own = all;
-			forColumns(own, [&](auto& column, Presence) {
-				const auto ofAll = column;
-				column.clear();
-				for (const std::int64_t p : division.id)
-					if (!ofAll.empty()) column.push_back(ofAll[p]);
-			});
-			return own;
-		}
-		static std::vector<CellLoad> loads(const PointCloud<Dim>& all, const Model<Dim>& model)
-		{
-			std::map<Key, double> points;
-			for (std::size_t p = 0; p < all.size(); ++p)
-				++points[lowestCell(all.position[p], all.halfSize[p], model.grid, model.basis)];
-			std::vector<CellLoad> found;
-			for (const auto& [cell, count] : points)
-				found.push_back({ cell, count });
-			return found;
-		}
-
 		/// Calls f(its points, its model) in each of two processes, and of three.
 		template <class F> static void inProcesses(const PointCloud<Dim>& all, const Model<Dim>& model, F&& f)
 		{
@@ -70,8 +45,8 @@ namespace {
 				inThreads(processes, [&](const std::shared_ptr<const Processes>& process) {
 					auto mine      = model;
 					mine.processes = process;
-					mine.division  = std::make_shared<Division>(Division { process, cutByWork(loads(all, model), processes) });
-					auto cloud     = part(all, model, *mine.division);
+					mine.division  = std::make_shared<Division>(Division { process, cutByWork(loadsOf(all, model), processes) });
+					auto cloud     = partOf(all, model, *mine.division);
 					f(cloud, mine);
 				});
 		}
@@ -225,7 +200,7 @@ namespace {
 	{
 		constexpr int Dim   = TypeParam::value;
 		const auto    model = TestFixture::model(false, 0);
-		const auto    loads = TestFixture::loads(TestFixture::cloud(model.grid), model);
+		const auto    loads = loadsOf<Dim>(TestFixture::cloud(model.grid), model);
 		for (const int processes : { 2, 3, 4 }) {
 			const auto first = cutByWork(loads, processes);
 			ASSERT_EQ(int(first.size()), processes - 1);

@@ -20,7 +20,7 @@ below = {
         'parallel': ['base'],
         'grid': ['base', 'parallel'],
         'materials': ['base'],
-        'fields': ['base', 'grid'],
+        'fields': ['base', 'grid', 'parallel'],
         'solvers': ['base', 'fields', 'grid', 'materials', 'parallel'],
         'terms': ['base', 'fields', 'grid', 'materials', 'parallel', 'solvers'],
         'stepping': ['base', 'fields', 'grid', 'materials', 'parallel', 'solvers', 'terms'],

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// A matrix of several fields in compressed rows, as processes share it and as multigrid is given it.
+#pragma once
+#include "core/solvers/node_rows.hpp"
+
+namespace gimpm {
+
+/// As nodeRows(): node after node with the unknowns of all fields, which are scaled. Processes that share the matrix
+/// all call it.
+///
+/// Multigrid is made of each field by itself, from `symmetricPart`: within a field (K + K^T) / 2, and between fields K.
+/// To the diagonal of fields besides the displacements it adds what these leave of a field that they are eliminated
+/// from: of C - B K^-1 A, where A and B lie between a field and the displacements, the part B K^-1 A, as a diagonal.
+template <int Dim> std::optional<NodeRows> fieldRows(const NodeMatrix<Dim>&, const FreeDofs&, const NodeShare&, const Couplings&);
+
+} // namespace gimpm
