@@ -168,8 +168,8 @@ class _Outlet:
 		way = end - start
 		length = np.linalg.norm(way)
 		if not length > 0: return
-		lines = [(body.origin[a] + body.h * i - start[a]) / way[a] for a in (0, 1) if abs(way[a]) > 1e-12 * length
-		         for i in range(*sorted(int(np.floor((x[a] - body.origin[a]) / body.h)) + up for x, up in ((start, 0), (end, 1))))]
+		first, last = (np.floor((f(start, end) - body.origin) / body.h).astype(int) for f in (np.minimum, np.maximum))
+		lines = [(body.origin[a] + body.h * i - start[a]) / way[a] for a in (0, 1) if abs(way[a]) > 1e-12 * length for i in range(first[a], last[a] + 1)]
 		cuts = np.unique(np.clip([0, 1, *lines], 0, 1))
 		inwards = 1e-4 * body.h * np.array([-way[1], way[0]]) / length
 		for first, last in zip(cuts, cuts[1:]):
@@ -229,7 +229,7 @@ class _Linear:
 		"""Conjugate gradients."""
 		r = self.right - self.times(p)
 		z = self.scale * r
-		direction, size, enough = z.copy(), r @ z, 1e-16 * (self.right @ (self.scale * self.right))
+		direction, size, enough = z.copy(), r @ z, 1e-20 * (self.right @ (self.scale * self.right))
 		for _ in range(20 * len(p)):
 			if size <= enough: break
 			across = self.times(direction)
