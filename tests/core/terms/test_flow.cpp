@@ -238,6 +238,33 @@ namespace {
 		EXPECT_NEAR(out / -stored, 1, 1e-12);
 	}
 
+	/// The column is the same in the plane, in space and as a cylinder, with Poisson's ratio zero.
+	TEST(Flow, SpaceAndBodiesOfRevolutionAgreeWithThePlane)
+	{
+		constexpr int    cells = 6;
+		constexpr double load  = 1e5;
+		Column           plane(cells, 0, load);
+		Soil<2>          ring(plane.h, { plane.h, 1 }, true);
+		Soil<3>          space(plane.h, { plane.h, 1, plane.h });
+		ring.hold({ wallAbove<2>(ring.model.grid, 0, ring.h) });
+		space.hold({ wallAbove<3>(space.model.grid, 0, space.h), wallAbove<3>(space.model.grid, 2, space.h) });
+		const auto top = line({ ring.h, 1 }, { 0, 1 });
+		ring.drain(top, Kind::pressure, 0);
+		ring.push(top, { 0, -load });
+		const double     h = space.h;
+		const Surface<3> lid { { { 0, 1, 0 }, { 0, 1, h }, { h, 1, h }, { h, 1, 0 } },
+			               { { 0, 1, 0 }, { 0, 1, h }, { h, 1, h }, { h, 1, 0 } },
+			               { { 0, 1, 2 }, { 0, 2, 3 } } };
+		space.drain(lid, Drain<3>::Kind::pressure, 0);
+		space.push(lid, { 0, -load, 0 });
+		for (int step = 1; step <= 5; ++step) {
+			const double duration = 0.02 * step / plane.coefficient();
+			ASSERT_TRUE(plane.step(duration).converged() && ring.step(duration).converged() && space.step(duration).converged());
+			EXPECT_NEAR(space.out() / (plane.out() * h), 1, 1e-4);
+			EXPECT_NEAR(ring.out() / (plane.out() * M_PI * h), 1, 1e-3);
+		}
+	}
+
 	TEST(Flow, FirstStepsAreFreeOfOscillation)
 	{
 		for (const double part : { 1e-6, 1e-2, 0.1, 1. })

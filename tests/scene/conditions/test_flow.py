@@ -143,6 +143,66 @@ print(json.dumps([errors, forces, max(peak)]))
 	assert max(abs(force - 1) for force in forces) < 0.02
 
 
+def test_cryers_sphere_with_a_curved_surface_off_the_grid(yade):
+	"""In its middle the pressure rises above that on its surface, by which water leaves."""
+	found = yade(
+	        setting + '''
+nu, h, q = .25, .1, 1e3
+O.materials.append(MpmElasticMat(young=E, poisson=nu, density=2000, conductivity=k, porosity=.5, label='soil'))
+grid = MpmGrid(cellSize=h, axisymmetric=True)
+arc = [(math.cos(a), math.sin(a)) for a in np.linspace(0, math.pi / 2, 41)]
+O.bodies.append(mpm.fill(mpm.polygon([(0, 0)] + arc), grid, 2, 'soil'))
+O.engines = [MpmImplicitEngine(grid=grid, boundaries=[MpmBoundary(max=(inf, 0, inf), fix='y')], loads=[MpmTraction(surface=arc, pressure=q)], loadCurve=[(0, 1), (1, 1)],
+        flow=MpmFlow(drains=[MpmDrain(surface=arc)]), verbosity=0)]
+M, eta = E * (1 - nu) / (1 + nu) / (1 - 2 * nu), (1 - nu) / (1 - 2 * nu)
+def root(i):
+	f = lambda r: (1 - eta * r * r / 2) * math.sin(r) - r * math.cos(r)
+	low, high = i * math.pi + 1e-2, (i + 1) * math.pi
+	for _ in range(100):
+		middle = (low + high) / 2
+		low, high = (middle, high) if f(low) * f(middle) > 0 else (low, middle)
+	return low
+roots = [root(i) for i in range(100)]
+def series(T): return eta * sum((math.sin(r) - r) / ((eta - 1) * math.sin(r) + eta * r * math.cos(r) / 2) * math.exp(-r * r * T) for r in roots)
+now, found = 0, []
+for n in range(1, 33):
+	T = .2 * (n / 32)**2
+	O.dt = T / (k / 9810 * M) - now
+	now += O.dt
+	O.step()
+	points = mpm.arrays()
+	middle = np.linalg.norm(points['pos'][:, :2], axis=1) < .8 * h
+	found.append([T, float(points['excessPressure'][middle].mean() / q), series(T)])
+print(json.dumps(found))
+'''
+	).result
+	assert max(p for T, p, series in found) == pytest.approx(max(series for T, p, series in found if T > 0.01), rel=0.03)
+	for T, p, series in found:
+		if T > 0.01: assert p == pytest.approx(series, abs=0.03)
+
+
+def test_soil_that_lets_nothing_through_is_that_of_total_stress(yade):
+	"""A strip load: u-p without flow, without F-bar, and total stress with F-bar and Poisson's ratio near a half."""
+	wet, total = yade(
+	        setting + '''
+def strip(**material):
+	O.reset()
+	O.materials.append(MpmElasticMat(density=1, label='soil', **material))
+	grid = MpmGrid(cellSize=.25)
+	O.bodies.append(mpm.fill(mpm.polygon([(0, 0), (4, 0), (4, 2), (0, 2)]), grid, 2, 'soil'))
+	sides = [MpmBoundary(max=(0, inf, inf), fix='x'), MpmBoundary(min=(4, -inf, -inf), fix='x'), MpmBoundary(max=(inf, 0, inf), fix='xy')]
+	load = MpmTraction(surface=[(1, 2), (0, 2)], traction=(0, -1e3, 0))
+	O.engines = [MpmImplicitEngine(grid=grid, boundaries=sides, loads=[load], fBar='porosity' not in material, flow=MpmFlow() if 'porosity' in material else None, verbosity=0)]
+	O.dt = 1
+	O.step()
+	return (2 - load.surface.vertices[-1][1]) * E / 1e3
+G = E / 2 / 1.3
+print(json.dumps([strip(young=E, poisson=.3, conductivity=0, porosity=.4), strip(young=2 * G * 1.4999, poisson=.4999)]))
+'''
+	).result
+	assert wet == pytest.approx(total, rel=0.01) and wet == pytest.approx(0.6215, rel=0.01)
+
+
 def test_what_does_not_go_is_refused_by_name(yade):
 	said = yade(
 	        setting + '''
@@ -178,6 +238,20 @@ print(json.dumps(said))
 	assert set(said) == set(expected)
 	for name, part in expected.items():
 		assert part in said[name], (name, said[name])
+
+
+def test_conductivities_in_other_units_are_doubted(yade):
+	run = yade(
+	        setting + '''
+for k in 1e-15, 5.:
+	solver = column()
+	O.materials[0].conductivity = k
+	O.dt = 10
+	O.step()
+'''
+	)
+	assert 'Is it a permeability [m2]? It would be 9.81e-09 m/s' in run.stderr
+	assert 'Is it in m/day, which would be 5.7' in run.stderr
 
 
 def test_the_drained_limit_and_a_step_that_is_cut(yade):

@@ -42,6 +42,28 @@ Real MpmFlow::end(const Analysis&) const
 	return last;
 }
 
+std::map<string, string> MpmFlow::warnings(const Analysis&, const vector<MaterialPoint>& points, const string&) const
+{
+	constexpr Real           least = 1e-13, most = 1; // of soils: fat clay, and coarse gravel
+	std::map<string, string> found;
+	const MpmMaterial*       last = nullptr;
+	for (const MaterialPoint& point : points) {
+		if (point.material.get() == last) continue;
+		last                 = point.material.get();
+		const Real         k = last->conductivity;
+		std::ostringstream text;
+		if (k > 0 && k < least)
+			text << "material '" << last->label << "': conductivity = " << k
+			     << " m/s is less than that of any soil. Is it a permeability [m2]? It would be " << k * unitWeight / 1e-3
+			     << " m/s for water of a viscosity of 1e-3 Pa s.";
+		if (k > most)
+			text << "material '" << last->label << "': conductivity = " << k
+			     << " m/s is more than that of any soil. Is it in m/day, which would be " << k / 86400 << " m/s?";
+		if (!text.str().empty()) found["conductivity of " + last->label] = text.str();
+	}
+	return found;
+}
+
 void MpmFlow::tell(Rows& rows, const Analysis&, const Listed&) const
 {
 	rows.set("waterIn", waterIn);
