@@ -24,19 +24,20 @@ template <class Cloud, class Values> struct CloudColumn {
 /// All columns that are there have the same length. A new one is a member and its entry in columns(), without which
 /// nothing compiles: so it goes wherever points go, from process to process too.
 template <int Dim> struct PointCloud {
-	std::vector<Vec<Dim>>       position;      ///< [m]
-	std::vector<Vec<Dim>>       position0;     ///< where the points were at first [m]; empty: they are there still, or no boundary moves nodes
-	std::vector<Vec<Dim>>       halfSize;      ///< current half lengths of the domains [m], at most half a cell
-	std::vector<Vec<Dim>>       halfSize0;     ///< initial half lengths [m]
-	std::vector<double>         volume0;       ///< initial volume [m3], per metre of thickness in plane strain, of the whole ring around an axis
-	std::vector<Mat<Dim>>       defGrad;       ///< deformation gradient
-	std::vector<double>         hoopStretch;   ///< around an axis of symmetry, beside the deformation gradient; else empty
-	std::vector<SymTensor<Dim>> elasticStrain; ///< logarithmic
-	std::vector<SymTensor<Dim>> stress;        ///< Cauchy stress [Pa], a result
-	InternalColumns             internals;     ///< internal variables of the laws
-	ParameterColumns            parameters;    ///< of the laws of points that have their own
-	std::vector<Vec<Dim>>       force;         ///< point load at load factor 1 [N]; empty: no point loads
-	std::vector<int>            material;      ///< position in the list of materials
+	std::vector<Vec<Dim>>       position;       ///< [m]
+	std::vector<Vec<Dim>>       position0;      ///< where the points were at first [m]; empty: they are there still, or no boundary moves nodes
+	std::vector<Vec<Dim>>       halfSize;       ///< current half lengths of the domains [m], at most half a cell
+	std::vector<Vec<Dim>>       halfSize0;      ///< initial half lengths [m]
+	std::vector<double>         volume0;        ///< initial volume [m3], per metre of thickness in plane strain, of the whole ring around an axis
+	std::vector<Mat<Dim>>       defGrad;        ///< deformation gradient
+	std::vector<double>         hoopStretch;    ///< around an axis of symmetry, beside the deformation gradient; else empty
+	std::vector<SymTensor<Dim>> elasticStrain;  ///< logarithmic
+	std::vector<SymTensor<Dim>> stress;         ///< Cauchy stress [Pa], a result
+	InternalColumns             internals;      ///< internal variables of the laws
+	ParameterColumns            parameters;     ///< of the laws of points that have their own
+	std::vector<double>         excessPressure; ///< of water that cannot leave its pores, over that of given water [Pa]; empty: there is none
+	std::vector<Vec<Dim>>       force;          ///< point load at load factor 1 [N]; empty: no point loads
+	std::vector<int>            material;       ///< position in the list of materials
 
 	static constexpr auto columns()
 	{
@@ -46,7 +47,7 @@ template <int Dim> struct PointCloud {
 		return std::make_tuple(
 		        all(&C::position), sometimes(&C::position0), all(&C::halfSize), all(&C::halfSize0), all(&C::volume0), all(&C::defGrad),
 		        sometimes(&C::hoopStretch), all(&C::elasticStrain), all(&C::stress), sometimes(&C::internals), sometimes(&C::parameters),
-		        sometimes(&C::force), all(&C::material));
+		        sometimes(&C::excessPressure), sometimes(&C::force), all(&C::material));
 	}
 
 	std::size_t size() const { return position.size(); }

@@ -31,6 +31,9 @@ struct Material {
 	Law    law;
 	double density;        ///< initial density [kg/m3]
 	bool   varies = false; ///< points have parameters of their own
+	/// Bulk modulus of water that cannot leave the pores, over the porosity [Pa]; 0: it leaves at once. The law is
+	/// then that of the effective stress, and the water adds its modulus times the volumetric strain.
+	double waterModulus = 0;
 
 	/// Young's modulus [Pa] of a point with these parameters and internal variables; volumetricStrain() gives its
 	/// elastic volumetric strain to the laws that ask for it.

@@ -26,6 +26,7 @@ template <int Dim> void updatePoints(PointCloud<Dim>& cloud, const StepSystem<Di
 		storeInternals(u.law, u.internals, cloud.internals, p);
 		if (!cloud.hoopStretch.empty()) cloud.hoopStretch[p] *= 1 + u.hoop;
 		cloud.stress[p].c = u.kirchhoffStress.c / cloud.volumeRatio(p);
+		if (!cloud.excessPressure.empty()) cloud.excessPressure[p] = u.water == 0 ? 0 : -u.water / cloud.volumeRatio(p);
 		if (system.model.basis == Basis::gimp) {
 			const double   limit = largestHalf(system.model.grid, cloud.position[p]);
 			const Vec<Dim> size  = cloud.halfSize0[p].cwiseProduct(stretchAlongAxes(cloud.defGrad[p]));

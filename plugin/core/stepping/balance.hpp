@@ -67,7 +67,8 @@ private:
 		const auto&  points     = system_.points;
 		const auto   dilatation = [&] { return volumetricStrain(points.leftCauchyGreen[i]); };
 		const double young      = system_.model.materials[points.material[i]].young(points.parameters, points.internals, i, dilatation);
-		return points.volume0[i] * young * strain / system_.model.grid.cellSize;
+		const double water      = system_.model.materials[points.material[i]].waterModulus;
+		return points.volume0[i] * (young + water) * strain / system_.model.grid.cellSize;
 	}
 	const StepSystem<Dim>& system_;
 };

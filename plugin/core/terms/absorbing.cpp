@@ -41,7 +41,9 @@ template <int Dim> WaveModuli waveModuli(const std::vector<Material>& materials,
 	constexpr double little   = -1e-6; // off the apex of laws that carry no tension
 	const Material&  material = materials[cloud.material[p]];
 	const auto       strain   = [&] { return std::min(cloud.elasticStrain[p].full().trace(), little); };
-	return material.law->waveModuli({ material.ofPoints(cloud.parameters), cloud.internals, std::size_t(p) }, VolumetricStrain(strain));
+	WaveModuli       moduli = material.law->waveModuli({ material.ofPoints(cloud.parameters), cloud.internals, std::size_t(p) }, VolumetricStrain(strain));
+	moduli.pressure += material.waterModulus;
+	return moduli;
 }
 
 template <int Dim>

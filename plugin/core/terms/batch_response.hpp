@@ -12,7 +12,8 @@ template <int Dim> struct BatchResponse {
 
 	Principal<Dim, Lanes>  trial; ///< of b - 1
 	PrincipalValues<Lanes> strain;
-	OfLaw                  law; ///< in each lane that of the law of the point
+	OfLaw                  law;          ///< in each lane that of the law of the point, with that of water which cannot leave its pores
+	Lanes                  water { 0. }; ///< part of the principal stresses that is the water's
 
 	template <int Axes>
 	GIMPM_INLINE BatchResponse(
@@ -30,9 +31,30 @@ template <int Dim> struct BatchResponse {
 				if constexpr (LawTraits<PrincipalLaws>::mayFail) law.failed.v[l] = other.failed[l];
 			}
 		}
+		if (points.hasWater()) addWater(batch, points, materials);
+	}
+
+	/// Principal stresses without the water's part.
+	GIMPM_INLINE PrincipalValues<Lanes> effectiveStress(const StepPoints<Dim>& points) const
+	{
+		PrincipalValues<Lanes> stress = law.stress;
+		for (int i = 0; i < 3 && points.hasWater(); ++i)
+			stress[i] = stress[i] - water;
+		return stress;
 	}
 
 private:
+	/// As if the pores were filled with an elastic fluid of Hencky's law.
+	GIMPM_INLINE void addWater(const Batch& batch, const StepPoints<Dim>& points, const std::vector<Material>& materials)
+	{
+		const Lanes modulus = batch.load([&](int p) GIMPM_INLINE_LAMBDA { return materials[points.material[p]].waterModulus; });
+		water               = batch.load([&](int p) GIMPM_INLINE_LAMBDA { return points.water[p]; }) + modulus * (strain[0] + strain[1] + strain[2]);
+		for (int i = 0; i < 3; ++i) {
+			law.stress[i] += water;
+			for (int j = 0; j < 3; ++j)
+				law.tangent(i, j) += modulus;
+		}
+	}
 	GIMPM_INLINE static SymTensor<Dim, Lanes> leftCauchyGreen(const Batch& batch, const StepPoints<Dim>& points)
 	{
 		SymTensor<Dim, Lanes> b1;

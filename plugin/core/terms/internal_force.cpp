@@ -6,6 +6,22 @@
 #include <algorithm>
 
 namespace gimpm {
+namespace {
+
+/// The water's part of the stress grows with the volumetric strain from what it is as the step begins.
+template <int Dim> void keepWater(StepPoints<Dim>& s, const PointCloud<Dim>& cloud, const std::vector<Material>& materials, const CloudBasis<Dim>& basis)
+{
+	s.water.assign(cloud.size(), 0);
+	for (std::size_t i = 0; i < cloud.size(); ++i) {
+		const double modulus = materials[s.material[i]].waterModulus;
+		if (modulus == 0) continue;
+		const int    p      = basis.order[i];
+		const double before = cloud.excessPressure.empty() ? 0 : -cloud.excessPressure[p] * cloud.volumeRatio(p);
+		s.water[i]          = before - modulus * volumetricStrain(s.leftCauchyGreen[i]);
+	}
+}
+
+} // namespace
 
 template <int Dim> StepPoints<Dim> stepPoints(const PointCloud<Dim>& cloud, const std::vector<Material>& materials, const CloudBasis<Dim>& basis, bool fBar)
 {
@@ -29,6 +45,7 @@ template <int Dim> StepPoints<Dim> stepPoints(const PointCloud<Dim>& cloud, cons
 	}
 	s.isSymmetric   = areSymmetric(materials, s.material, s.parameters);
 	s.hasTensorLaws = std::any_of(materials.begin(), materials.end(), [](const Material& m) { return m.law->isTensorLaw; });
+	if (std::any_of(materials.begin(), materials.end(), [](const Material& m) { return m.waterModulus > 0; })) keepWater(s, cloud, materials, basis);
 	if (fBar) s.centres = basisAtCentres(cloud, basis);
 	if (fBar && basis.isAxisymmetric()) s.hoopCentres = hoopAtCentres(cloud, basis);
 	return s;

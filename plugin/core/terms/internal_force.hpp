@@ -19,8 +19,12 @@ template <int Dim> struct StepPoints {
 	double                       duration      = 0;     ///< of the step, for laws that depend on it
 	std::vector<PointBasis<Dim>> centres;     ///< only with F-bar (core/terms/fbar.hpp): basis functions with the gradients at the centres of the cells
 	std::vector<AxisValues>      hoopCentres; ///< and those of the hoop strain, around an axis of symmetry
+	/// Mean Kirchhoff stress of water that cannot leave, at no elastic strain [Pa], zero where it can; empty: it
+	/// can everywhere.
+	std::vector<double> water;
 
 	bool hasFBar() const { return !centres.empty(); }
+	bool hasWater() const { return !water.empty(); }
 
 	/// Another point, as point i of these.
 	void append(const StepPoints& from, int i)
@@ -30,6 +34,7 @@ template <int Dim> struct StepPoints {
 		material.push_back(from.material[i]);
 		if (from.hasFBar()) centres.push_back(from.centres[i]);
 		if (!from.hoopCentres.empty()) hoopCentres.push_back(from.hoopCentres[i]);
+		if (from.hasWater()) water.push_back(from.water[i]);
 		internals.resize(from.internals.size());
 		for (std::size_t c = 0; c < internals.size(); ++c)
 			if (!from.internals[c].empty()) internals[c].push_back(from.internals[c][i]);

@@ -79,7 +79,7 @@ GIMPM_INLINE void visitBatch(
 	const auto&              seen = seenByLaws(chunk, b, increment);
 	const BatchResponse<Dim> response(batch, points, materials, seen);
 	const auto               elasticStrain = assemble<Lanes, Dim>(response.law.elasticStrain, response.trial.axes);
-	const auto               stress        = assemble<Lanes, Dim>(response.law.stress, response.trial.axes);
+	const auto               stress        = assemble<Lanes, Dim>(response.effectiveStress(points), response.trial.axes);
 	for (int lane = 0, q = b * Lanes::count; lane < Lanes::count && q < chunk.count; ++lane, ++q) {
 		const auto                                                  one = [lane](const Lanes& x) { return x[lane]; };
 		const Law&                                                  law = materials[points.material[chunk.first + q]].law;
@@ -89,6 +89,7 @@ GIMPM_INLINE void visitBatch(
 		PointUpdate<Dim> u { displacement[q], gradient.unaryExpr(one), { elasticStrain.c.unaryExpr(one) }, { stress.c.unaryExpr(one) }, law,
 			             internals.data() };
 		if constexpr (Axes > Dim) u.hoop = hoop[lane];
+		u.water = response.water[lane];
 		if (points.hasTensorLaws && law->isTensorLaw) {
 			visitWithTensors<Dim>(points, materials, chunk.first + q, gradientOf(seen, lane), u, basis.order, visitor);
 			continue;

@@ -81,6 +81,16 @@ struct TensorSplit {
 
 template <int Dim> SymTensor<3> inSpace(const SymTensor<Dim>& b1) { return SymTensor<3>::from(b1.full()); }
 
+/// The part of water that cannot leave the pores, as BatchResponse adds it to that of principal laws.
+void addWater(TensorPoint& r, double before, double modulus, const SymTensor<3>& b1, const Mat3& gradient)
+{
+	const double volumetric = volumetricStrain(b1) + std::log((gradient + Mat3::Identity()).determinant());
+	r.stress += (before + modulus * volumetric) * Mat3::Identity();
+	for (int a = 0; a < 9; a += 4)
+		for (int b = 0; b < 9; b += 4)
+			r.rates(a, b) += modulus;
+}
+
 /// Calls f(lane, index of the point, its response to the gradient that it sees) for those of the batch that have a
 /// tensor law. Returns a point that fails.
 template <int Dim, int Axes, class F> FailureCode forTensorPoints(const Pass<Dim>& pass, const Batch& batch, const Increment<Dim, Axes>& seen, F&& f)
@@ -91,8 +101,10 @@ template <int Dim, int Axes, class F> FailureCode forTensorPoints(const Pass<Dim
 		const Material& material = pass.materials[pass.points.material[i]];
 		if (!material.law->isTensorLaw) continue;
 		const PointOfLaw at { material.ofPoints(pass.points.parameters), pass.points.internals, std::size_t(i) };
-		const auto       r = respondInSpace(
-		              material.law, at, { inSpace(pass.points.leftCauchyGreen[i]), gradientOf(seen, lane), pass.duration, pass.sum.K != nullptr, Dim, Axes });
+		const auto       b1       = inSpace(pass.points.leftCauchyGreen[i]);
+		const Mat3       gradient = gradientOf(seen, lane);
+		TensorPoint      r        = respondInSpace(material.law, at, { b1, gradient, pass.duration, pass.sum.K != nullptr, Dim, Axes });
+		if (material.waterModulus > 0 && !r.failed) addWater(r, pass.points.water[i], material.waterModulus, b1, gradient);
 		if (r.failed) first = std::min(first, codeOf({ pass.basis.order[i], PointFailure::Reason::noResponse }));
 		else
 			f(lane, i, r);

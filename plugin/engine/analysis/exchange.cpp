@@ -207,6 +207,9 @@ namespace {
 		        exchanged(
 		                &C::stress, [](Point p, Model) { return Tensor::from(p.state->stress); },
 		                [](Point p, const Tensor& s) { setFull(p.state->stress, s); }),
+		        exchanged(
+		                &C::excessPressure, [](Point p, Model) { return p.state->excessPressure; },
+		                [](Point p, Real pressure) { p.state->excessPressure = pressure; }),
 		        pointLoad<Dim>(), byMaterial(&C::material), byMaterial(&C::internals), byMaterial(&C::parameters));
 	}
 
@@ -308,6 +311,8 @@ template <int Dim> gimpm::PointCloud<Dim> gather(const vector<MaterialPoint>& po
 		cloud.material[p] = materials.of(points[p]);
 	gimpm::provideInternals(cloud.internals, model.materials, points.size());
 	provideParameters(points, model, cloud);
+	if (std::any_of(model.materials.begin(), model.materials.end(), [](const auto& m) { return m.waterModulus > 0; }))
+		cloud.excessPressure.resize(points.size());
 	std::atomic_bool hasForce { false };
 	inRanges(points.size(), [&](size_t begin, size_t end) {
 		OwnMaterial ownMaterial;
@@ -336,8 +341,11 @@ template <int Dim> void scatter(gimpm::PointCloud<Dim>& cloud, const gimpm::Grid
 		for (size_t p = begin; p < end; ++p) {
 			MpmState& state = *points[p].state;
 			forExchanged(cloud, [&](const auto& column, const auto& row) { row.give(points[p], column[p]); });
-			state.volume       = cloud.volume0[p] * cloud.volumeRatio(p);
-			state.porePressure = std::numeric_limits<Real>::quiet_NaN(); // conditions give it
+			state.volume = cloud.volume0[p] * cloud.volumeRatio(p);
+			if (cloud.excessPressure.empty()) state.excessPressure = 0; // it has drained
+			state.porePressure
+			        = points[p].material->undrained ? state.excessPressure : std::numeric_limits<Real>::quiet_NaN(); // conditions add theirs
+			state.waterFlux.setConstant(std::numeric_limits<Real>::quiet_NaN());
 			if (p == begin || points[p].material.get() != points[p - 1].material.get()) internals = internalsFor(*points[p].material, cloud);
 			for (const auto& [name, column] : internals)
 				state.setInternal(name, column[p]);

@@ -3,6 +3,7 @@
 #include "core/parallel/together.hpp"
 #include "engine/conditions/boundary/MpmBoundary.hpp"
 #include "engine/conditions/contact/MpmContact.hpp"
+#include "engine/conditions/flow/MpmFlow.hpp"
 #include "engine/conditions/shaking/MpmAbsorbingBoundary.hpp"
 #include "engine/conditions/water/MpmWater.hpp"
 #include "engine/engines/moving.hpp"

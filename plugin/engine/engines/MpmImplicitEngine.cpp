@@ -7,6 +7,7 @@
 #include "engine/analysis/movers.hpp"
 #include "engine/conditions/boundary/MpmBoundary.hpp"
 #include "engine/conditions/contact/MpmContact.hpp"
+#include "engine/conditions/flow/MpmFlow.hpp"
 #include "engine/conditions/water/MpmWater.hpp"
 #include "engine/engines/Threads.hpp"
 #include "engine/engines/build_model.hpp"
@@ -46,6 +47,7 @@ vector<Listed> MpmImplicitEngine::conditions() const
 	add("loads", loads);
 	add("water", water);
 	add("contacts", contacts);
+	if (flow) all.push_back({ flow, "flow", 0, 1 });
 	return all;
 }
 

@@ -19,6 +19,7 @@ namespace yade {
 class Agreement;
 class MpmBoundary;
 class MpmContact;
+class MpmFlow;
 class MpmWater;
 
 class MpmImplicitEngine : public Exposed<MpmImplicitEngine, PeriodicEngine>, public Analysis {
@@ -27,6 +28,7 @@ public:
 	vector<shared_ptr<MpmWater>>     water;
 	vector<shared_ptr<MpmBoundary>>  boundaries;
 	vector<shared_ptr<MpmContact>>   contacts;
+	shared_ptr<MpmFlow>              flow; // none: water does not flow
 	int                              verbosity = 1;
 
 	MpmImplicitEngine();
@@ -69,6 +71,8 @@ public:
 		  "Water in the pores and around the body (MpmWater); several add up. Read as a tuple, so assign a new one to change it.");
 		v("boundaries", &E::boundaries, 0, "Essential boundary conditions (MpmBoundary); read as a tuple, so assign a new one to change it.");
 		v("contacts", &E::contacts, 0, "Contact with rigid bodies (MpmContact); read as a tuple, so assign a new one to change it.");
+		v("flow", &E::flow, 0,
+		  "Water that flows while the soil deforms (MpmFlow), consolidation; None, the default: it has the pressure of *water*, if any.");
 		v("ghost", &E::ghost, 0, "Ghost stabilisation (MpmGhost).", notNull);
 		v("newton", &E::newton, 0, "Solution of a load step (MpmNewton).", notNull);
 		v("mask", &E::mask, 0,

@@ -119,6 +119,10 @@ namespace {
 	{
 		if (!(factor > 0 && std::isfinite(factor)))
 			throw std::invalid_argument("factor = " + std::to_string(factor) + " is not admitted: expected a finite number > 0.");
+		if (engine.flow)
+			throw std::invalid_argument(
+			        engine.getClassName()
+			        + ": the strength cannot be reduced while water flows (flow) yet; set flow = None: water then has the pressure of water alone.");
 		requireStrength(materialPoints(*engine.ownScene(), engine.mask));
 		gimpm::WeakBody<3> found; // of either dimension
 		onCurrentState(engine, [&](const auto& cloud, const auto& model, const auto& load) {

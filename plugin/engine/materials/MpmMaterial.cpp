@@ -22,6 +22,15 @@ void MpmMaterial::requireAdmissible() const
 		throw std::invalid_argument(
 		        "Material '" + label + "' is an MpmMaterial, which has no constitutive law: use a class derived from it, such as MpmElasticMat.");
 	ExposedIndexed<MpmMaterial, Material>::requireAdmissible();
+	if (undrained && std::isnan(waterModulus))
+		throw std::invalid_argument(
+		        "Material '" + label
+		        + "': undrained = True needs waterModulus [Pa], the bulk modulus of the water over the porosity: 2.2e9 Pa over the porosity, or, which suffices and "
+		          "converges better, 50 to 500 times the bulk modulus of the soil.");
+	if (conductivityLaw == "log" && std::isnan(conductivityIndex))
+		throw std::invalid_argument(
+		        "Material '" + label
+		        + "': conductivityLaw = 'log' needs conductivityIndex, the change of the void ratio by which the conductivity grows tenfold.");
 }
 
 } // namespace yade

@@ -9,6 +9,13 @@ public:
 	Real share
 	        = 1; // of what acts on its points in a stage of construction, whose density is as small; the stage gives it anew after a scene has been loaded
 
+	bool   undrained         = false;
+	Real   waterModulus      = std::numeric_limits<Real>::quiet_NaN(); // without default
+	Real   conductivity      = std::numeric_limits<Real>::quiet_NaN();
+	Real   porosity          = std::numeric_limits<Real>::quiet_NaN();
+	string conductivityLaw   = "constant";
+	Real   conductivityIndex = std::numeric_limits<Real>::quiet_NaN();
+
 	YADE_API_NAME(MpmMaterial)
 	static const char* doc()
 	{
@@ -19,6 +26,31 @@ public:
 	{
 		// saved by YADE's Material, which admits every number
 		v("density", &MpmMaterial::density, noSave, "Density [kg/m³] > 0 of the initial configuration.", positive);
+		v("undrained", &MpmMaterial::undrained, 0,
+		  "Whether water cannot leave the pores: the law is that of effective stress, the water takes a pressure in excess (*MpmState.excessPressure*). Needs *waterModulus*.");
+		v("waterModulus", &MpmMaterial::waterModulus, 0,
+		  "Bulk modulus of the water over the porosity [Pa] > 0, with *undrained*: what the water adds to the soil's. 50 to 500 times that suffices; no default.",
+		  admitting("a finite number > 0 [Pa], or NaN, the default: not given", [](Real value) {
+			  return std::isnan(value) || (std::isfinite(value) && value > 0);
+		  }));
+		v("conductivity", &MpmMaterial::conductivity, 0,
+		  "Hydraulic conductivity [m/s] >= 0 at the initial porosity, for *MpmImplicitEngine.flow*; 0: impervious. Permeability [m²] times the weight of water [N/m³] over its viscosity [Pa s].",
+		  admitting("a finite number >= 0 [m/s], or NaN, the default: not given", [](Real value) {
+			  return std::isnan(value) || (std::isfinite(value) && value >= 0);
+		  }));
+		v("porosity", &MpmMaterial::porosity, 0,
+		  "Part of the initial volume [-] that is pores, between 0 and 1, both excluded, for *MpmImplicitEngine.flow*; no default.",
+		  admitting("a number between 0 and 1, both excluded (percent over 100), or NaN, the default: not given", [](Real value) {
+			  return std::isnan(value) || (value > 0 && value < 1);
+		  }));
+		v("conductivityLaw", &MpmMaterial::conductivityLaw, 0,
+		  "How the conductivity changes with the porosity: 'constant'; 'kozeny-carman'; 'log': its decimal logarithm goes with the void ratio, over *conductivityIndex*.",
+		  oneOf("constant", "kozeny-carman", "log"));
+		v("conductivityIndex", &MpmMaterial::conductivityIndex, 0,
+		  "Change of the void ratio [-] > 0 by which the conductivity grows tenfold, with conductivityLaw='log'; no default.",
+		  admitting("a finite number > 0, or NaN, the default: not given", [](Real value) {
+			  return std::isnan(value) || (std::isfinite(value) && value > 0);
+		  }));
 	}
 	shared_ptr<State> newAssocState() const override;
 	bool              stateTypeOk(State*) const override;

@@ -30,7 +30,9 @@ gimpm::Material coreMaterial(const MpmMaterial& material)
 	material.requireAdmissible();
 	const LawOfClass* law = lawOf(material);
 	if (!law) throw std::invalid_argument("Material class " + material.getClassName() + " has no constitutive law.");
-	return { law->make(material), material.density };
+	gimpm::Material core { law->make(material), material.density };
+	if (material.undrained) core.waterModulus = material.waterModulus;
+	return core;
 }
 
 const vector<ParameterOfClass>& parametersOf(const MpmMaterial& material)

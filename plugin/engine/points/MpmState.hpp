@@ -9,14 +9,16 @@ namespace yade {
 
 class MpmState : public ExposedIndexed<MpmState, State> {
 public:
-	Matrix3r                        stress        = Matrix3r::Zero();
-	Matrix3r                        defGrad       = Matrix3r::Identity();
-	Matrix3r                        elasticStrain = Matrix3r::Zero();
-	Vector3r                        force         = Vector3r::Zero();
-	Real                            volume        = std::numeric_limits<Real>::quiet_NaN(); // must be given
-	Real                            volume0       = std::numeric_limits<Real>::quiet_NaN(); // must be given
-	Real                            porePressure  = std::numeric_limits<Real>::quiet_NaN(); // there is no water
-	Real                            plasticStrain = 0;
+	Matrix3r                        stress         = Matrix3r::Zero();
+	Matrix3r                        defGrad        = Matrix3r::Identity();
+	Matrix3r                        elasticStrain  = Matrix3r::Zero();
+	Vector3r                        force          = Vector3r::Zero();
+	Real                            volume         = std::numeric_limits<Real>::quiet_NaN(); // must be given
+	Real                            volume0        = std::numeric_limits<Real>::quiet_NaN(); // must be given
+	Real                            porePressure   = std::numeric_limits<Real>::quiet_NaN(); // there is no water
+	Real                            excessPressure = 0;
+	Vector3r                        waterFlux      = Vector3r::Constant(std::numeric_limits<Real>::quiet_NaN()); // no water flows
+	Real                            plasticStrain  = 0;
 	vector<std::pair<string, Real>> internals; // of the law's variables those that are no attribute here
 	OwnParameters                   parameters;
 	Vector3r                        acceleration = Vector3r::Zero();
@@ -63,7 +65,12 @@ public:
 		v("acceleration", &MpmState::acceleration, readonly, "Acceleration [m/s²] at the end of the last step of a MpmDynamicEngine: a result.",
 		  finite);
 		v("porePressure", &MpmState::porePressure, readonly,
-		  "Pressure of water in the pores [Pa] (MpmWater) at the end of the last step: a result, less which *stress* is total stress; NaN without water.");
+		  "Pressure of water in the pores [Pa] at the end of the last step (MpmWater, and *excessPressure*): a result, less which *stress* is total stress; NaN without water.");
+		v("excessPressure", &MpmState::excessPressure, 0,
+		  "Pressure [Pa] in the pores over that of still water (MpmWater): of water that cannot leave (*MpmMaterial.undrained*), or that flows (*MpmImplicitEngine.flow*); *porePressure* has it, too.",
+		  finite);
+		v("waterFlux", &MpmState::waterFlux, readonly,
+		  "Volume of water that flows through the soil, by area and time [m/s], at the end of the last step with *MpmImplicitEngine.flow*: a result; NaN without.");
 		v("splits", &MpmState::splits, readonly,
 		  "How many times what was one point at first has been split in two to give this one: a result (MpmImplicitEngine.maxSplits).", atLeast(0));
 		v("parent", &MpmState::parent, readonly,

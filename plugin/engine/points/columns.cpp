@@ -13,7 +13,7 @@ namespace {
 	using RowByRow = Eigen::Matrix<Real, 3, 3, Eigen::RowMajor>;
 
 	constexpr auto arrays = PointColumn::inArrays, vtk = PointColumn::inVtk, derived = PointColumn::derived, ofMotion = PointColumn::ofMotion,
-	               ofWater = PointColumn::ofWater, ofSplits = PointColumn::ofSplits;
+	               ofWater = PointColumn::ofWater, ofSplits = PointColumn::ofSplits, ofPores = PointColumn::ofPores, ofFlow = PointColumn::ofFlow;
 
 	// of(point, scene) is the number; a column of integers
 	template <class Of> PointColumn integer(const char* name, unsigned uses, Of of)
@@ -61,6 +61,14 @@ namespace {
                         p.state->vel = Eigen::Map<const Vector3r>(from);
                         p.state->acceleration.setZero();
 		};
+		return column;
+	}
+
+	PointColumn excessPressure()
+	{
+		PointColumn column
+		        = result("excessPressure", "Pa", "excess pore pressure", arrays | vtk | ofPores, [](Point p) { return p.state->excessPressure; });
+		column.set = [](Point p, const Real* from) { p.state->excessPressure = *from; };
 		return column;
 	}
 
@@ -130,6 +138,8 @@ namespace {
 			result("volume", "m³", "volume", arrays | vtk, [](Point p) { return p.state->volume; }),
 		};
 		columns.push_back(result("porePressure", "Pa", "pore pressure", arrays | vtk | ofWater, [](Point p) { return p.state->porePressure; }));
+		columns.push_back(excessPressure());
+		columns.push_back(result("waterFlux", "m/s", "flux of water", arrays | vtk | ofFlow, [](Point p) { return p.state->waterFlux; }));
 		for (const gimpm::InternalVariable& variable : gimpm::internalVariables)
 			columns.push_back(internal(variable));
 		for (const Parameter& of : allParameters())
@@ -153,10 +163,12 @@ vector<const PointColumn*> columnsOf(const vector<MaterialPoint>& points)
 {
 	std::set<string>   names { gimpm::equivalentPlasticStrain.name };
 	const MpmMaterial* last     = nullptr; // points of one material follow each other
-	bool               hasWater = false, hasSplits = false;
+	bool               hasWater = false, hasSplits = false, hasPores = false, hasFlow = false;
 	for (const MaterialPoint& point : points) {
 		hasWater  = hasWater || !std::isnan(point.state->porePressure);
 		hasSplits = hasSplits || point.state->splits > 0;
+		hasFlow   = hasFlow || !std::isnan(point.state->waterFlux[0]);
+		hasPores  = hasPores || hasFlow || point.state->excessPressure != 0 || point.material->undrained;
 		for (const auto& own : point.state->parameters)
 			names.insert(own.first);
 		if (point.material.get() == last) continue;
@@ -167,7 +179,8 @@ vector<const PointColumn*> columnsOf(const vector<MaterialPoint>& points)
 	vector<const PointColumn*> columns;
 	const auto                 isThere = [&](const PointColumn& column) {
                 if (column.variable || column.isParameter) return names.count(column.name) > 0;
-                return (hasWater || !column.is(ofWater)) && (hasSplits || !column.is(ofSplits));
+                return (hasWater || !column.is(ofWater)) && (hasSplits || !column.is(ofSplits)) && (hasPores || !column.is(ofPores))
+                        && (hasFlow || !column.is(ofFlow));
 	};
 	for (const PointColumn& column : pointColumns())
 		if (isThere(column)) columns.push_back(&column);

@@ -9,12 +9,14 @@ namespace yade {
 
 struct PointColumn {
 	enum Use : unsigned {
-		inArrays = 1,  // of mpm.arrays
-		inVtk    = 2,  // field of the domains that MpmVtkRecorder writes
-		ofMotion = 8,  // only where a point moves is it a field
-		ofWater  = 16, // only where there is water
-		ofSplits = 32, // only where a point has been split
-		derived  = 4,  // follows from others: in pictures and tables beside those of mpm.arrays
+		inArrays = 1,   // of mpm.arrays
+		inVtk    = 2,   // field of the domains that MpmVtkRecorder writes
+		ofMotion = 8,   // only where a point moves is it a field
+		ofWater  = 16,  // only where there is water
+		ofSplits = 32,  // only where a point has been split
+		ofPores  = 64,  // only where water has a pressure in excess
+		ofFlow   = 128, // only where it flows
+		derived  = 4,   // follows from others: in pictures and tables beside those of mpm.arrays
 	};
 
 	string   name, unit, label; // the label names it in pictures

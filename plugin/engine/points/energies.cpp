@@ -13,7 +13,7 @@ Energies energiesOf(const vector<MaterialPoint>& points)
 		sum.momentum += p;
 		sum.angularMomentum += state.pos.cross(p);
 		sum.kinetic += p.dot(state.vel) / 2;
-		sum.elastic += elasticEnergy(state);
+		sum.elastic += elasticEnergy(point);
 	}
 	return sum;
 }

@@ -20,6 +20,13 @@ Energies energiesOf(const vector<MaterialPoint>&);
 Energies ofAll(const Energies&, const gimpm::Processes&);
 
 // Half Kirchhoff stress times elastic strain over the initial volume: the energy of linear (Hencky) elasticity [J].
-inline Real elasticEnergy(const MpmState& state) { return 0.5 * state.volume * state.stress.cwiseProduct(state.elasticStrain).sum(); }
+// Water that cannot leave the pores has its own.
+inline Real elasticEnergy(const MaterialPoint& point)
+{
+	const MpmState& state  = *point.state;
+	const Real      ofSoil = 0.5 * state.volume * state.stress.cwiseProduct(state.elasticStrain).sum();
+	if (!point.material->undrained) return ofSoil;
+	return ofSoil + std::pow(state.volume * state.excessPressure, 2) / (2 * state.volume0 * point.material->waterModulus);
+}
 
 } // namespace yade

@@ -34,6 +34,7 @@ While it runs, one line tells how far it is (``verbosity`` of the engine); ``plo
 :func:`refinementsAt`        boxes in which cells are halved, where something asks for it
 :func:`arrays`               data of all material points as NumPy arrays; :func:`assign` is the way back
 :func:`geostatic`            initial stress of level ground
+:func:`seepage`              steady flow of water with a free surface, whose pressures an ``MpmWater`` takes
 :func:`surface`              surface of a region, for loads on it
 :func:`contactForces`        where rigid bodies are touched, and the forces there
 :func:`plot`                 picture by matplotlib, of plane strain or of a slice
@@ -75,6 +76,7 @@ from .outline import polygon
 from .paraview import state
 from .plotting import plot
 from .safety import strengthReduction
+from .darcy import seepage
 from .solids import solid
 from .naming import didYouMean as _didYouMean, telling as _telling
 from .surfaces import surface
@@ -83,7 +85,7 @@ from .terrains import facets, terrain
 from .viewing import view
 
 __version__ = _engine.version
-__all__ = ['polygon', 'fill', 'add', 'refinementsAt', 'arrays', 'assign', 'geostatic', 'plot', 'colour', 'export', 'save', 'load', 'advise', 'discretisationError', 'stressError', 'elementTest', 'respond', 'strengthReduction', 'surface', 'contactForces', 'histories', 'readHistory', 'solid', 'terrain', 'movie', 'view', 'facets', 'frame', 'note', 'collect', 'state', 'examples']
+__all__ = ['polygon', 'fill', 'add', 'refinementsAt', 'arrays', 'assign', 'geostatic', 'seepage', 'plot', 'colour', 'export', 'save', 'load', 'advise', 'discretisationError', 'stressError', 'elementTest', 'respond', 'strengthReduction', 'surface', 'contactForces', 'histories', 'readHistory', 'solid', 'terrain', 'movie', 'view', 'facets', 'frame', 'note', 'collect', 'state', 'examples']
 
 for _name in __all__:
 	_thing = globals()[_name] = _telling(globals()[_name])

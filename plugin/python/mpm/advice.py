@@ -105,7 +105,7 @@ class _Scene:
 		"""Labels of materials that keep their volume, nearly, as a whole or in plastic flow."""
 
 		def keeps(material):
-			if hasattr(material, 'yieldStress') or hasattr(material, 'undrainedStrength') or getattr(material, 'poisson', 0) > 0.45: return True
+			if material.undrained or hasattr(material, 'yieldStress') or hasattr(material, 'undrainedStrength') or getattr(material, 'poisson', 0) > 0.45: return True
 			if not hasattr(material, 'frictionAngle'): return False
 			return np.any(self.own('dilationAngle', material) <= _littleDilation * self.own('frictionAngle', material))
 

@@ -14,6 +14,12 @@ from conftest import Yade
 # attribute has.
 outOfRange = {
         'MpmMaterial.density': ['0.', '-1.'],
+        'MpmMaterial.undrained': None,
+        'MpmMaterial.waterModulus': ['0.', '-1.'],
+        'MpmMaterial.conductivity': ['-1e-9'],
+        'MpmMaterial.porosity': ['0.', '1.', '40.'],
+        'MpmMaterial.conductivityLaw': ['"Kozeny-Carman"'],
+        'MpmMaterial.conductivityIndex': ['0.', '-1.'],
         'MpmElasticMat.young': ['0.', '-1.'],
         'MpmElasticMat.poisson': ['-1.', '0.5', '7.'],
         'MpmVonMisesMat.yieldStress': ['0.', '-1.'],
@@ -36,6 +42,7 @@ outOfRange = {
         'MpmState.force': None,
         'MpmState.volume': ['0.', '-1.'],
         'MpmState.volume0': ['0.', '-1.'],
+        'MpmState.excessPressure': None,
         'MpmState.plasticStrain': ['-1e-3'],
         'MpmState.internals': ['[("none", 1.)]', '[("plasticStrain", 1.)]'],
         'MpmState.parameters': ['[("poisson", 0.2)]', '[("young", 1.), ("young", 2.)]', '[("young", nan)]'],
@@ -101,6 +108,19 @@ outOfRange = {
         'MpmWater.weight': ['0.', '-1.'],
         'MpmWater.curve': ['[(0, 0), (0, 1)]', '[(1, 0), (0, 1)]'],
         'MpmWater.where': ['"inside"'],
+        'MpmImplicitEngine.flow': None,
+        'MpmFlow.unitWeight': ['0.', '-1.'],
+        'MpmFlow.bulkModulus': ['0.', '-1.'],
+        'MpmFlow.stabilisation': ['-1.'],
+        'MpmFlow.ghost': ['-1e-2'],
+        'MpmFlow.drains': None,
+        'MpmDrain.surface': ['None'],
+        'MpmDrain.pressure': None,
+        'MpmDrain.level': None,
+        'MpmDrain.flux': None,
+        'MpmDrain.seepage': None,
+        'MpmDrain.curve': ['[(0, 0), (0, 1)]', '[(1, 0), (0, 1)]'],
+        'MpmDrain.conductance': ['0.', '-1.'],
         'MpmTraction.surface': ['None'],
         'MpmTraction.pressure': None,
         'MpmTraction.traction': None,
@@ -158,6 +178,13 @@ admitted = {
         ('MpmWater.level', 'nan'): 'levels or pressure',
         ('MpmWater.levels', '()'): 'level or pressure',
         ('MpmWater.curve', '()'): 'that of gravity',
+        **{(f'MpmMaterial.{name}', 'nan'): 'not given' for name in ('waterModulus', 'conductivity', 'porosity', 'conductivityIndex')},
+        ('MpmImplicitEngine.flow', 'None'): 'no water flows',
+        ('MpmFlow.bulkModulus', 'inf'): 'it keeps its volume',
+        ('MpmFlow.drains', '()'): 'none leaves',
+        ('MpmDrain.level', 'nan'): 'pressure or flux',
+        ('MpmDrain.flux', 'nan'): 'pressure or level',
+        ('MpmDrain.curve', '()'): 'one',
         ('MpmImplicitEngine.contacts', '()'): 'nothing touches',
         ('MpmContact.friction', 'nan'): 'that of the bodies',
         ('MpmContact.adhesion', 'inf'): 'no cap',
@@ -175,6 +202,7 @@ from yade import mpm, pack, utils, wrapper
 nan = float('nan')
 
 dynamic = 'MpmDynamicEngine', 'MpmAbsorbingBoundary', 'MpmBaseMotion'
+flowing = 'MpmFlow', 'MpmDrain'
 
 def scene(engine='MpmImplicitEngine'):
 	"""A sound scene with this engine, where it names one; {class: the object of it that takes part}."""
@@ -199,18 +227,22 @@ def scene(engine='MpmImplicitEngine'):
 	wave = MpmBaseMotion(history=[(0, 0), (2, 1e-3)])
 	edge = MpmAbsorbingBoundary(min=(2, -inf, -inf), motion=wave)
 	if engine in dynamic[1:]: solver.absorbing = [edge]
+	drain = MpmDrain(surface=[(2, 3), (0, 3)])
+	if engine in flowing:
+		solver.flow = MpmFlow(drains=[drain])
+		for material in list(O.materials)[:6]: material.conductivity, material.porosity = 1e-4, .4
 	small = MpmRefinement()
 	if engine == 'MpmRefinement': grid.refinements, solver.water = [small], []
 	O.engines = [solver, MpmVtkRecorder(fileName='out-', recorders=['all'])]
 	O.dt = 1
 	objects = [*O.engines, *O.materials, O.bodies[5].state, O.bodies[5].shape, grid, base, load, load.surface, water, touch, ghost, newton]
-	return {type(o).__name__: o for o in objects + [edge, wave] * (engine in dynamic[1:]) + [small] * (engine == 'MpmRefinement')}
+	return {type(o).__name__: o for o in objects + [edge, wave] * (engine in dynamic[1:]) + [small] * (engine == 'MpmRefinement') + [solver.flow, drain] * (engine in flowing)}
 
 def attributes():
 	"""(class, attribute, class of the object to set it on, kind, whether it can only be read) from the classes themselves."""
 	classes = [c for name, c in vars(wrapper).items() if isinstance(c, type) and name.startswith('Mpm')]
 	for c in classes:
-		users = [name for name in [*scene(), *dynamic, 'MpmRefinement'] if issubclass(getattr(wrapper, name), c)]
+		users = [name for name in [*scene(), *dynamic, *flowing, 'MpmRefinement'] if issubclass(getattr(wrapper, name), c)]
 		for name, value in vars(c).items():
 			if not isinstance(value, property): continue
 			default = getattr(c(), name)

@@ -396,6 +396,18 @@ def test_water(yade):
 	assert 0.99 * exact < low < high < 1.04 * exact < dry
 
 
+def test_consolidation(yade):
+	"""Columns and slab against what is known; all water that leaves is counted."""
+	run = yade(root / 'examples' / 'consolidation' / 'consolidation.py', '--cells', 10, '--steps', 30)
+	assert numbers(r'degree of consolidation within (\S+) of the series', run.stdout)[0] < 0.015
+	left, lost = numbers(r'terzaghi: (\S+) cm3 of water have left, the soil has lost (\S+)', run.stdout)
+	assert left > 0 and abs(left / lost - 1) < 1e-5
+	assert all(abs(float(error)) < 3 for error in re.findall(r'^large: .* (\S+) %$', run.stdout, re.MULTILINE))
+	off, peak, series = numbers(r'within (\S+) F/a of the series, its peak (\S+), series (\S+)', run.stdout)
+	assert off < 0.012 and peak > 0.54 and abs(series - 0.5534) < 1e-3
+	assert (run.folder / 'out/consolidation/consolidation.png').stat().st_size > 20000
+
+
 def test_embankment(yade):
 	"""Layers on an elastic column against the sum by hand; on clay the base bears all there is, and settlement goes on growing."""
 	run = yade(root / 'examples' / 'embankment' / 'embankment.py', '--cellSize', 1, '--steps', 2, '--layers', 4)

@@ -37,7 +37,8 @@ public:
 	{
 		return "Water of given pressure in the pores and around the body: laws then know effective stress, *density* is that of the saturated soil where "
 		       "there is water. One of *level*, *levels*, *pressure* says how high it is. Waters of one engine add up.\n\n"
-		       "The pressure does not depend on the deformation: flow that takes time and undrained loading are not computed.\n\n"
+		       "The pressure does not depend on the deformation: water that flows in time is MpmFlow, water that cannot leave "
+		       "*MpmMaterial.undrained*.\n\n"
 		       "Set first: *level* [m]; *where* = 'outside' and 'pores' take the two apart. Page: plugin/docs/classes/MpmWater.md.";
 	}
 	template <class V> static void attributes(V&& v)

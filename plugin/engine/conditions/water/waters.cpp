@@ -109,7 +109,7 @@ template <int Dim> void Waters<Dim>::reach(const StepOutcome<Dim>& step)
 	inRanges(points.size(), [&](size_t begin, size_t end) {
 		for (size_t p = begin; p < end; ++p) {
 			Real& sum = points[p].state->porePressure;
-			sum       = 0;
+			if (std::isnan(sum)) sum = 0; // else there is water that cannot leave
 			for (const auto& water : waters)
 				sum += water.porePressure[p];
 		}

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// How the pores of a soil let water through.
+#pragma once
+#include <limits>
+
+namespace gimpm {
+
+struct Pores {
+	enum class Law { constant, kozenyCarman, logarithmic };
+
+	/// At the initial porosity, over the weight of water [m2/(Pa s)].
+	double conductivity = std::numeric_limits<double>::quiet_NaN();
+	double porosity     = std::numeric_limits<double>::quiet_NaN(); ///< part of the initial volume [-]
+	Law    law          = Law::constant;
+	double index        = std::numeric_limits<
+                double>::quiet_NaN(); ///< of the logarithmic law: change of the void ratio that makes the conductivity ten times as large [-]
+
+	/// Of the water in a volume that was 1 at first, which now is J.
+	struct Conductivity {
+		double value; ///< [m2/(Pa s)]
+		double slope; ///< d ln value / d ln J
+	};
+	Conductivity at(double J) const;
+
+	/// Whether grains, which keep their volume, leave room for water.
+	bool areOpen(double J) const { return J > 1 - porosity; }
+};
+
+} // namespace gimpm

@@ -1,0 +1,305 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "core/terms/flow.hpp"
+#include "core/terms/flow_point.hpp"
+#include "core/terms/overlap.hpp"
+#include <atomic>
+
+namespace gimpm {
+namespace {
+
+/// Calls f(patch) for all patches from several threads, so that no two work on the same node at a time.
+template <int Dim, class F> void forPatches(const CloudBasis<Dim>& basis, F&& f)
+{
+	for (const auto& colour : basis.colours) {
+#pragma omp parallel for schedule(dynamic)
+		for (std::size_t range = 0; range < colour.size(); ++range)
+			for (int i = colour[range].first; i < colour[range].second; ++i)
+				f(basis.patches[i]);
+	}
+}
+
+/// Calls f(local node, local node, code of the offset between them) for the nodes that there are.
+template <int Dim, class F> void forPatchPairs(const Patch<Dim>& patch, F&& f)
+{
+	int count = 1;
+	for (int a = 0; a < Dim; ++a)
+		count *= patch.nodesAlong(a);
+	for (int m = 0; m < count; ++m)
+		for (int n = 0; n < count; ++n) {
+			Index<Dim> offset;
+			for (int a = 0, i = m, j = n; a < Dim; i /= patch.nodesAlong(a), j /= patch.nodesAlong(a), ++a)
+				offset[a] = j % patch.nodesAlong(a) - i % patch.nodesAlong(a);
+			if (patch.node[m] >= 0 && patch.node[n] >= 0) f(m, n, NodeMatrix<Dim>::code(offset));
+		}
+}
+
+/// What the points of a patch add to the matrix.
+template <int Dim> struct PatchMatrices {
+	Eigen::MatrixXd uu, up, pu, pp;
+
+	explicit PatchMatrices(int n)
+	        : uu(Eigen::MatrixXd::Zero(Dim * n, Dim * n))
+	        , up(Eigen::MatrixXd::Zero(Dim * n, n))
+	        , pu(Eigen::MatrixXd::Zero(n, Dim * n))
+	        , pp(Eigen::MatrixXd::Zero(n, n))
+	{
+	}
+
+	/// With w = grad p and g the present gradients: see the page on theory.
+	void add(const PorePoint& point, const FlowPoint<Dim>& s, const PointFunctions<Dim>& f, double duration, double modulus)
+	{
+		const double V = point.volume * s.J, E = s.density, flow = duration * V * E * s.kappa.value, l = s.kappa.slope;
+		const double stored = point.volume / point.ratio * (point.content + s.content) / modulus;
+		for (int a = 0; a < f.count; ++a) {
+			const Vec<Dim> ga = s.now(f.gradient[a]), Ba = s.dilation(f, a);
+			const double   wa = s.slope.dot(ga);
+			for (int b = 0; b < f.count; ++b) {
+				const Vec<Dim> gb = s.now(f.gradient[b]), Bb = s.dilation(f, b);
+				Mat<Dim>       push = Ba * Bb.transpose() - gb * ga.transpose();
+				push(0, 0) -= f.hoop[a] * f.hoop[b] / (s.around * s.around);
+				uu.template block<Dim, Dim>(Dim * a, Dim * b) -= V * s.pressure * push;
+				up.template block<Dim, 1>(Dim * a, b) -= V * f.value[b] * Ba;
+				pu.template block<1, Dim>(a, Dim * b)
+				        += (V * E * f.value[a] * Bb + flow * ((1 + l) * wa * Bb - gb.dot(ga) * s.slope - s.slope.dot(gb) * ga)).transpose();
+				pp(a, b) += stored * f.value[a] * f.value[b] + flow * (ga.dot(gb) + wa * f.value[b] / modulus);
+			}
+		}
+	}
+	void scatterAdd(const Patch<Dim>& patch, const FieldSum<Dim>& sum) const
+	{
+		constexpr int field = Flow<Dim>::field;
+		forPatchPairs(patch, [&](int m, int n, int code) {
+			const int a = patch.node[m], b = patch.node[n];
+			sum.K->add(a, b, code, uu.template block<Dim, Dim>(Dim * m, Dim * n));
+			sum.couplings->add({ 0, a }, { field, b }, up.template block<Dim, 1>(Dim * m, n).eval());
+			sum.couplings->add({ field, a }, { 0, b }, pu.template block<1, Dim>(m, Dim * n).eval());
+			sum.couplings->add({ field, a }, { field, b }, pp(m, n));
+		});
+	}
+};
+
+/// The integral of products of the functions of a cell less the product of their means, over its volume.
+template <int Dim> double unevenness(int s, int t)
+{
+	double product = 1, means = 1;
+	for (int a = 0; a < Dim; ++a)
+		product *= (s >> a & 1) == (t >> a & 1) ? 1. / 3 : 1. / 6, means /= 4;
+	return product - means;
+}
+
+} // namespace
+
+template <int Dim> NodalField<Dim> pressureField(SoilWater<Dim>& water, double scale)
+{
+	const auto begin = [&water](const PointCloud<Dim>& cloud, const CloudBasis<Dim>& basis, const Grid<Dim>&) {
+		const auto      nodes = Eigen::Index(basis.nodes.size());
+		Eigen::VectorXd sum = Eigen::VectorXd::Zero(nodes), volume = sum;
+		for (const auto& patch : basis.patches)
+			for (int i = patch.first; i < patch.first + patch.count; ++i) {
+				const PointFunctions<Dim> f(basis, i, patch);
+				const int                 p = basis.order[i];
+				for (int n = 0; n < f.count; ++n)
+					if (patch.node[n] >= 0) {
+						const double weight = f.value[n] * cloud.volume0[p] * cloud.volumeRatio(p);
+						volume[patch.node[n]] += weight, sum[patch.node[n]] += weight * water.pressure[p];
+					}
+			}
+		for (Eigen::Index n = 0; n < nodes; ++n) {
+			const auto known = water.atNodes.find(basis.nodes[n]);
+			sum[n]           = known != water.atNodes.end() ? known->second : volume[n] > 0 ? sum[n] / volume[n] : 0;
+		}
+		return FieldStart { sum, {} };
+	};
+	const auto commit = [&water](const CloudBasis<Dim>& basis, const Eigen::VectorXd& value, const Eigen::VectorXd&) {
+		water.atNodes.clear();
+		for (std::size_t n = 0; n < basis.nodes.size(); ++n)
+			water.atNodes.emplace_hint(water.atNodes.end(), basis.nodes[n], value[n]);
+	};
+	return { { "pore pressure", "Pa", 1, scale }, begin, commit };
+}
+
+template <int Dim>
+Flow<Dim>::Flow(SoilWater<Dim>& water, const ConstrainedModulus& modulusOf, const Beginning<Dim>& step)
+        : water_(water), basis_(step.basis), h_(step.grid.cellSize), faces_(step.faces)
+{
+	const auto& cloud = step.cloud;
+	points_.reserve(cloud.size());
+	for (std::size_t p = 0; p < cloud.size(); ++p) {
+		const double J    = cloud.volumeRatio(p);
+		const Pores& soil = water.pores[cloud.material[p]];
+		points_.push_back({ cloud.volume0[p] * J, J, std::exp(water.pressure[p] / water.modulus) * (J - 1 + soil.porosity), water.pressure[p], &soil });
+	}
+	weighCells(modulusOf, step);
+	attachDrains(step);
+	if (obstacle_.empty()) obstacle_ = enclosure(step);
+}
+
+/// Volumes of the cells that are filled, over the moduli of what fills them, and how much they conduct. A face has what
+/// the less permeable of its two cells has: the pressure may bend where soils meet.
+template <int Dim> void Flow<Dim>::weighCells(const ConstrainedModulus& modulusOf, const Beginning<Dim>& step)
+{
+	const auto&             cells = step.basis.cells;
+	std::vector<double>     volume(cells.size(), 0), softness(cells.size(), 0);
+	const std::vector<char> all(step.basis.populatedLeaves().size(), 1);
+	cellConductivity_.assign(cells.size(), 0);
+	std::vector<double> compliance(points_.size());
+	for (std::size_t p = 0; p < points_.size(); ++p)
+		compliance[p] = 1 / modulusOf(int(p));
+	forOverlaps(all, step.basis, step.grid, [&](int cell, int p, auto within) {
+		const double part = within(points_[p].volume);
+		volume[cell] += part, softness[cell] += part * compliance[p];
+		cellConductivity_[cell] += part * points_[p].pores->at(points_[p].ratio).value;
+	});
+	for (std::size_t c = 0; c < cells.size(); ++c) {
+		Cell       cell { {}, water_.stabilisation * softness[c] };
+		const auto lowest = Grid<Dim>::index(cells[c]);
+		for (int s = 0; s < corners; ++s) {
+			Index<Dim> node = lowest;
+			for (int a = 0; a < Dim; ++a)
+				node[a] += s >> a & 1;
+			cell.node[s] = position(step.basis.nodes, Grid<Dim>::key(step.grid.first(node)));
+		}
+		if (*std::min_element(cell.node.begin(), cell.node.end()) >= 0) cells_.push_back(cell);
+		softness[c] /= volume[c], cellConductivity_[c] /= volume[c];
+	}
+	for (auto& face : faces_) {
+		const auto [lower, upper] = cellsAt(face, step.basis, step.grid);
+		const double ofFlow       = water_.duration * std::min(cellConductivity_[lower], cellConductivity_[upper]);
+		face.stiffness            = water_.ghost / 3 * (std::pow(h_, 3) * std::min(softness[lower], softness[upper]) + h_ * ofFlow);
+	}
+}
+
+template <int Dim> void Flow<Dim>::mark(NodeMatrix<Dim>& K) const
+{
+	for (const auto& patch : basis_.patches)
+		forPatchPairs(patch, [&](int m, int, int code) {
+			if (code >= 0) K.markUsed(patch.node[m], code);
+		});
+}
+
+template <int Dim> void Flow<Dim>::markCouplings(Couplings& K) const
+{
+	for (const auto& patch : basis_.patches)
+		forPatchPairs(patch, [&](int m, int n, int) {
+			K.mark({ field, patch.node[m] }, { field, patch.node[n] });
+			K.mark({ 0, patch.node[m] }, { field, patch.node[n] });
+		});
+	for (const Cell& cell : cells_)
+		for (const int a : cell.node)
+			for (const int b : cell.node)
+				K.mark({ field, a }, { field, b });
+	forGhostPairs<Dim>(faces_, h_, [&](int a, int b, int, double) { K.mark({ field, a }, { field, b }); });
+	for (const Outlet& outlet : outlets_)
+		for (const int a : outlet.at.node)
+			for (const int b : outlet.at.node)
+				K.mark({ field, a }, { field, b });
+}
+
+template <int Dim> std::optional<PointFailure> Flow<Dim>::addCoupled(const State& state, const FieldSum<Dim>& sum) const
+{
+	constexpr int         none = std::numeric_limits<int>::max();
+	std::atomic<int>      failed { none };
+	const Eigen::VectorXd P = state.value(field);
+	const auto&           d = state.displacements();
+	forPatches(basis_, [&](const Patch<Dim>& patch) {
+		PatchMatrices<Dim> matrices(sum.couplings ? PointFunctions<Dim>(basis_, patch.first, patch).count : 0);
+		for (int i = patch.first; i < patch.first + patch.count; ++i) {
+			const int                 p = basis_.order[i];
+			const PointFunctions<Dim> f(basis_, i, patch);
+			const FlowPoint<Dim>      s(points_[p], patch, f, d, P, water_.modulus);
+			if (!s.isPossible(points_[p])) {
+				for (int seen = failed; p < seen && !failed.compare_exchange_weak(seen, p);) { }
+				continue;
+			}
+			addForces(points_[p], s, patch, f, sum);
+			if (sum.couplings) matrices.add(points_[p], s, f, water_.duration, water_.modulus);
+		}
+		if (sum.couplings) matrices.scatterAdd(patch, sum);
+	});
+	if (failed != none) return PointFailure { failed };
+	addPenalties(state.growth(field), sum);
+	addDrains(P, sum);
+	return std::nullopt;
+}
+
+template <int Dim>
+void Flow<Dim>::addForces(
+        const PorePoint& point, const FlowPoint<Dim>& s, const Patch<Dim>& patch, const PointFunctions<Dim>& f, const FieldSum<Dim>& sum) const
+{
+	const double V = point.volume * s.J, flow = water_.duration * V * s.density * s.kappa.value;
+	for (int n = 0; n < f.count; ++n) {
+		const int a = patch.node[n];
+		if (a < 0) continue;
+		const Vec<Dim> push   = -V * s.pressure * s.dilation(f, n);
+		const double   passes = flow * s.slope.dot(s.now(f.gradient[n])), stored = point.volume / point.ratio * s.content * f.value[n];
+		sum.force[0].template segment<Dim>(Dim * a) += push;
+		sum.sizes[0].template segment<Dim>(Dim * a) += push.cwiseAbs();
+		sum.force[field][a] += passes + stored;
+		sum.sizes[field][a] += std::abs(passes) + std::abs(stored);
+	}
+}
+
+template <int Dim> void Flow<Dim>::addPenalties(const Eigen::VectorXd& growth, const FieldSum<Dim>& sum) const
+{
+	const auto add = [&](int row, int column, double k) {
+		sum.force[field][row] += k * growth[column];
+		sum.sizes[field][row] += std::abs(k * growth[column]);
+		if (sum.couplings) sum.couplings->add({ field, row }, { field, column }, k);
+	};
+	for (const Cell& cell : cells_)
+		for (int s = 0; s < corners; ++s)
+			for (int t = 0; t < corners; ++t)
+				add(cell.node[s], cell.node[t], cell.weight * unevenness<Dim>(s, t));
+	forGhostPairs<Dim>(faces_, h_, [&](int a, int b, int code, double k) {
+		add(a, b, k);
+		if (code > 0) add(b, a, k);
+	});
+}
+
+/// What large pressures of little slope leave, and what is left of volumes.
+template <int Dim> void Flow<Dim>::addCoupledRoundOff(const State& state, std::vector<Eigen::VectorXd>& sizes) const
+{
+	constexpr double      roundOff = 10 * std::numeric_limits<double>::epsilon();
+	const Eigen::VectorXd P        = state.value(field);
+	for (const auto& patch : basis_.patches)
+		for (int i = patch.first; i < patch.first + patch.count; ++i) {
+			const PointFunctions<Dim> f(basis_, i, patch);
+			const PorePoint&          point = points_[basis_.order[i]];
+			const double              flow  = water_.duration * point.volume * point.pores->at(point.ratio).value;
+			double                    slope = 0;
+			for (int n = 0; n < f.count; ++n)
+				if (patch.node[n] >= 0) slope += f.gradient[n].norm() * std::abs(P[patch.node[n]]);
+			for (int n = 0; n < f.count; ++n)
+				if (patch.node[n] >= 0)
+					sizes[field][patch.node[n]] += roundOff * (flow * slope * f.gradient[n].norm() + point.volume * f.value[n]);
+		}
+	for (const Outlet& outlet : outlets_)
+		for (int n = 0; n < outlet.at.nodes; ++n)
+			sizes[field][outlet.at.node[n]] += roundOff * outlet.conductance * std::abs(outlet.at.weight[n] * P[outlet.at.node[n]]);
+}
+
+template <int Dim> void Flow<Dim>::commitCoupled(const State& state)
+{
+	const Eigen::VectorXd P = state.value(field);
+	const auto&           d = state.displacements();
+	water_.flux.resize(points_.size());
+	water_.pressure.resize(points_.size());
+	double stored = 0;
+	for (const auto& patch : basis_.patches)
+		for (int i = patch.first; i < patch.first + patch.count; ++i) {
+			const int            p = basis_.order[i];
+			const FlowPoint<Dim> s(points_[p], patch, PointFunctions<Dim>(basis_, i, patch), d, P, water_.modulus);
+			water_.pressure[p] = s.pressure;
+			water_.flux[p]     = -s.kappa.value * s.slope;
+			stored += points_[p].volume / points_[p].ratio * s.content;
+		}
+	water_.stored = stored;
+	moveDrains(d, P);
+}
+
+template NodalField<2> pressureField(SoilWater<2>&, double);
+template NodalField<3> pressureField(SoilWater<3>&, double);
+template class Flow<2>;
+template class Flow<3>;
+
+} // namespace gimpm

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Where water leaves a body.
+#include "core/grid/nearness.hpp"
+#include "core/terms/flow.hpp"
+#include <algorithm>
+#include <sstream>
+
+namespace gimpm {
+namespace {
+
+/// A place of a drain, and the area that it stands for.
+template <int Dim> struct DrainPlace {
+	Vec<Dim> at;
+	double   area;
+};
+
+double aroundAxis(double radius, bool isRing) { return isRing ? 2 * M_PI * radius : 1; }
+
+/// Where a segment enters another cell, as parts of its length, with its ends.
+std::vector<double> crossings(const Vec<2>& from, const Vec<2>& to, const Grid<2>& grid)
+{
+	std::vector<double> parts { 0, 1 };
+	for (int a = 0; a < 2; ++a) {
+		const double first = (from[a] - grid.origin[a]) / grid.cellSize, last = (to[a] - grid.origin[a]) / grid.cellSize;
+		for (double i = std::ceil(std::min(first, last)); i <= std::max(first, last); ++i)
+			if (const double part = (i - first) / (last - first); part > 0 && part < 1) parts.push_back(part);
+	}
+	std::sort(parts.begin(), parts.end());
+	return parts;
+}
+
+/// Of a segment: exact for products of two functions of the grid, wherever it cuts the cells.
+void addPlaces(const Surface<2>& surface, const Surface<2>::Piece& piece, const Grid<2>& grid, std::vector<DrainPlace<2>>& places)
+{
+	constexpr double gauss[3][2] = { { -0.7745966692414834, 5. / 18 }, { 0, 8. / 18 }, { 0.7745966692414834, 5. / 18 } };
+	const Vec<2>&    from        = surface.vertices[piece[0]];
+	const Vec<2>     way         = surface.vertices[piece[1]] - from;
+	const auto       parts       = crossings(from, from + way, grid);
+	for (std::size_t i = 0; i + 1 < parts.size(); ++i)
+		for (const auto& [place, weight] : gauss) {
+			const double part = parts[i] + (parts[i + 1] - parts[i]) * (1 + place) / 2;
+			const Vec<2> x    = from + part * way;
+			places.push_back({ x, weight * (parts[i + 1] - parts[i]) * way.norm() * aroundAxis(x[0], grid.axisymmetric) });
+		}
+}
+
+/// Of a triangle, no larger than a quarter of a cell: its corners.
+void addPlaces(const Surface<3>& surface, const Surface<3>::Piece& piece, const Grid<3>&, std::vector<DrainPlace<3>>& places)
+{
+	for (const int v : piece)
+		places.push_back({ surface.vertices[v], surface.normal(piece, surface.vertices).norm() / 3 });
+}
+
+/// As for surfaces under loads: more than half of a domain with two points a cell [cells].
+constexpr double nearDomains = 0.375;
+
+template <int Dim> std::string dryAt(const Vec<Dim>& vertex, const std::string& name)
+{
+	std::ostringstream text;
+	text << name << " has a vertex at (" << vertex.transpose() << "), where there is no soil: end its surface where the soil ends";
+	return text.str();
+}
+
+} // namespace
+
+template <int Dim> void Flow<Dim>::attachDrains(const Beginning<Dim>& step)
+{
+	for (int number = 0; number < int(water_.drains.size()) && obstacle_.empty(); ++number)
+		obstacle_ = attachDrain(number, step);
+}
+
+/// Water passes as through a thin skin: nodes of cut cells are not held at the pressure outside, which would close
+/// cells that are nearly empty.
+template <int Dim> std::string Flow<Dim>::attachDrain(int number, const Beginning<Dim>& step)
+{
+	const Drain<Dim>& drain   = water_.drains[number];
+	const auto&       surface = drain.surface;
+	for (const auto& vertex : surface.vertices) {
+		const auto at = attach(vertex, step.basis, step.grid);
+		if (!at) return dryAt<Dim>(vertex, drain.name);
+		vertices_.push_back(*at);
+	}
+	const auto isFar = areFarFromMaterial<Dim>(
+	        surface.vertices, std::vector<double>(surface.vertices.size(), nearDomains * step.grid.cellSize), step.cloud, step.grid);
+	if (const auto far = std::find(isFar.begin(), isFar.end(), 1); far != isFar.end()) return dryAt<Dim>(surface.vertices[far - isFar.begin()], drain.name);
+	std::vector<DrainPlace<Dim>> places;
+	for (const auto& piece : surface.pieces)
+		addPlaces(surface, piece, step.grid, places);
+	for (const auto& [x, area] : places) {
+		const auto at = attach(x, step.basis, step.grid);
+		if (!at) return dryAt<Dim>(x, drain.name);
+		const int    cell  = gimpm::find(step.basis.cells, Grid<Dim>::key(step.grid.first(at->cell)));
+		const double kappa = cell < 0 ? 0 : cellConductivity_[cell], passes = water_.duration * area;
+		if (drain.kind == Drain<Dim>::Kind::flux) outlets_.push_back({ number, *at, 0, passes * drain.given });
+		else
+			outlets_.push_back({ number, *at, passes * drain.conductance * kappa / h_, drain.given });
+	}
+	return "";
+}
+
+/// A pressure that is the same everywhere moves nothing where all sides are held: it is unknown unless there is a way
+/// out.
+template <int Dim> std::string Flow<Dim>::enclosure(const Beginning<Dim>& step) const
+{
+	const bool hasWayOut = std::any_of(outlets_.begin(), outlets_.end(), [](const Outlet& o) { return o.conductance > 0; });
+	if (hasWayOut || std::isfinite(water_.modulus)) return "";
+	Eigen::VectorXd push = Eigen::VectorXd::Zero(Dim * Eigen::Index(basis_.nodes.size())), size = push;
+	for (const auto& patch : basis_.patches)
+		for (int i = patch.first; i < patch.first + patch.count; ++i) {
+			const PointFunctions<Dim> f(basis_, i, patch);
+			for (int n = 0; n < f.count; ++n)
+				for (int a = 0; a < Dim && patch.node[n] >= 0; ++a) {
+					const double b = points_[basis_.order[i]].volume * (f.gradient[n][a] + (a == 0 ? f.hoop[n] : 0));
+					push[Dim * patch.node[n] + a] += b, size[Dim * patch.node[n] + a] += std::abs(b);
+				}
+		}
+	for (Eigen::Index i = 0; i < push.size(); ++i)
+		if (step.dofs.number[i] >= 0 && std::abs(push[i]) > 1e-9 * size[i]) return "";
+	return "water that keeps its volume fills soil all sides of which are held, and there is no drain through which it could leave";
+}
+
+/// Zero of a seepage face where the pressure would draw water in.
+template <int Dim> double Flow<Dim>::conductanceNow(const Outlet& outlet, double pressure) const
+{
+	const bool isShut = water_.drains[outlet.drain].kind == Drain<Dim>::Kind::seepage && pressure <= outlet.given;
+	return isShut ? 0 : outlet.conductance;
+}
+
+template <int Dim> void Flow<Dim>::addDrains(const Eigen::VectorXd& P, const FieldSum<Dim>& sum) const
+{
+	for (const Outlet& o : outlets_) {
+		const bool   isFlux   = water_.drains[o.drain].kind == Drain<Dim>::Kind::flux;
+		const double pressure = o.pressure(P), conductance = conductanceNow(o, pressure);
+		const double out  = isFlux ? o.given : conductance * (pressure - o.given),
+		             size = isFlux ? std::abs(o.given) : conductance * (std::abs(pressure) + std::abs(o.given));
+		for (int m = 0; m < o.at.nodes; ++m) {
+			sum.force[field][o.at.node[m]] += o.at.weight[m] * out;
+			sum.sizes[field][o.at.node[m]] += std::abs(o.at.weight[m]) * size;
+			for (int n = 0; n < o.at.nodes && sum.couplings; ++n)
+				sum.couplings->add({ field, o.at.node[m] }, { field, o.at.node[n] }, conductance * o.at.weight[m] * o.at.weight[n]);
+		}
+	}
+}
+
+template <int Dim> void Flow<Dim>::moveDrains(const Eigen::VectorXd& d, const Eigen::VectorXd& P)
+{
+	auto at = vertices_.begin();
+	for (auto& drain : water_.drains) {
+		drain.out = 0;
+		for (auto& vertex : drain.surface.vertices)
+			vertex += (at++)->displacement(d);
+	}
+	for (const Outlet& o : outlets_) {
+		Drain<Dim>& drain = water_.drains[o.drain];
+		drain.out += drain.kind == Drain<Dim>::Kind::flux ? o.given : conductanceNow(o, o.pressure(P)) * (o.pressure(P) - o.given);
+	}
+}
+
+#define GIMPM_INSTANTIATE(Dim)                                                                                                                                 \
+	template void        Flow<Dim>::attachDrains(const Beginning<Dim>&);                                                                                   \
+	template std::string Flow<Dim>::enclosure(const Beginning<Dim>&) const;                                                                                \
+	template void        Flow<Dim>::addDrains(const Eigen::VectorXd&, const FieldSum<Dim>&) const;                                                         \
+	template void        Flow<Dim>::moveDrains(const Eigen::VectorXd&, const Eigen::VectorXd&);
+GIMPM_INSTANTIATE(2)
+GIMPM_INSTANTIATE(3)
+#undef GIMPM_INSTANTIATE
+
+} // namespace gimpm

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Water in the pores of one point: what it pushes, what flows and what is stored there, and the derivatives.
+#pragma once
+#include "core/grid/cloud_basis.hpp"
+#include "core/materials/pores.hpp"
+#include <Eigen/LU>
+
+namespace gimpm {
+
+/// Functions of a point at the nodes of its patch; gradients along the axes as the step begins. The hoop functions give
+/// u_x / x, zero without an axis of symmetry.
+template <int Dim> struct PointFunctions {
+	int      count = 1;
+	double   value[windowNodes<Dim>], hoop[windowNodes<Dim>];
+	Vec<Dim> gradient[windowNodes<Dim>];
+
+	PointFunctions(const CloudBasis<Dim>& basis, int p, const Patch<Dim>& patch)
+	{
+		for (int a = 0; a < Dim; ++a)
+			count *= patch.nodesAlong(a);
+		for (int n = 0; n < count; ++n) {
+			value[n] = 1, hoop[n] = 1, gradient[n] = Vec<Dim>::Ones();
+			for (int a = 0, rest = n; a < Dim; rest /= patch.nodesAlong(a), ++a) {
+				const auto& axis = basis.axes[p][a];
+				const int   i    = rest % patch.nodesAlong(a);
+				value[n] *= axis.value[i];
+				hoop[n] *= a > 0 ? axis.value[i] : basis.isAxisymmetric() ? basis.hoop[p][i] : 0;
+				for (int b = 0; b < Dim; ++b)
+					gradient[n][b] *= a == b ? axis.slope[i] : axis.value[i];
+			}
+		}
+	}
+};
+
+/// A point as the step begins.
+struct PorePoint {
+	double       volume;   ///< [m3]
+	double       ratio;    ///< over the initial volume [-]
+	double       content;  ///< of water, over the initial volume [-]
+	double       pressure; ///< [Pa]
+	const Pores* pores;
+};
+
+/// At an iterate: F is that of the step.
+template <int Dim> struct FlowPoint {
+	double              pressure = 0, J = 1, around = 1; ///< around: stretch along the circle around an axis of symmetry
+	Vec<Dim>            slope   = Vec<Dim>::Zero();      ///< of the pressure, in the present configuration
+	Mat<Dim>            F       = Mat<Dim>::Identity(), inverse;
+	double              density = 1, content = 0; ///< of the water over that without pressure, and how much of it has been stored
+	Pores::Conductivity kappa {};
+
+	template <class Displacements, class Pressures>
+	FlowPoint(const PorePoint& point, const Patch<Dim>& patch, const PointFunctions<Dim>& f, const Displacements& d, const Pressures& P, double modulus)
+	{
+		Vec<Dim> first = Vec<Dim>::Zero();
+		for (int n = 0; n < f.count; ++n) {
+			const int a = patch.node[n];
+			if (a < 0) continue;
+			F += d.template segment<Dim>(Dim * a) * f.gradient[n].transpose();
+			around += d[Dim * a] * f.hoop[n];
+			pressure += f.value[n] * P[a], first += P[a] * f.gradient[n];
+		}
+		J = F.determinant() * around, inverse = F.inverse();
+		slope   = inverse.transpose() * first;
+		density = std::exp(pressure / modulus);
+		content = density * point.ratio * (J - 1) + point.content * std::expm1((pressure - point.pressure) / modulus);
+		if (isPossible(point)) kappa = point.pores->at(point.ratio * J);
+	}
+	bool     isPossible(const PorePoint& point) const { return J > 0 && around > 0 && point.pores->areOpen(point.ratio * J); }
+	Vec<Dim> now(const Vec<Dim>& gradient) const { return inverse.transpose() * gradient; }
+	/// d ln J by the displacement of a node.
+	Vec<Dim> dilation(const PointFunctions<Dim>& f, int n) const
+	{
+		Vec<Dim> b = now(f.gradient[n]);
+		b[0] += f.hoop[n] / around;
+		return b;
+	}
+};
+
+} // namespace gimpm

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Water that flows through the pores of a saturated soil, as it is kept from step to step. Its pressure is the excess
+// over that of water which stands still.
+#pragma once
+#include "core/grid/surface.hpp"
+#include "core/materials/pores.hpp"
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace gimpm {
+
+/// A surface of the body by which water leaves or enters; it moves with the body.
+template <int Dim> struct Drain {
+	enum class Kind {
+		pressure, ///< there is a given pressure
+		seepage,  ///< that pressure, but water cannot enter
+		flux      ///< so much leaves, whatever the pressure
+	};
+	Surface<Dim> surface; ///< at the start of the step, with sides of at most `pieceLimit`
+	Kind         kind  = Kind::pressure;
+	double       given = 0; ///< at the end of the step: excess pressure [Pa], or volume that leaves by area and time [m/s]
+	/// Water passes its skin as it passes so many parts of a cell: conductance over conductivity and cell size.
+	double      conductance = 30;
+	std::string name        = "a drain";
+	double      out         = 0; ///< volume that has left by it in the last step that was accepted [m3]
+};
+
+template <int Dim> struct SoilWater {
+	std::vector<Pores>      pores;                                                   ///< by material
+	double                  modulus       = std::numeric_limits<double>::infinity(); ///< bulk modulus of the water [Pa]
+	double                  duration      = 0;                                       ///< of the step [s]
+	double                  stabilisation = 1;    ///< against pressures that change from node to node: over 1 / constrained modulus
+	double                  ghost         = 0.01; ///< penalty on jumps of the gradient in nearly empty cells [-]
+	std::vector<Drain<Dim>> drains {};
+
+	std::vector<double>                        pressure {}; ///< of each point [Pa], as the last accepted step has left it
+	std::vector<Eigen::Matrix<double, Dim, 1>> flux {};     ///< volume by area and time [m/s]
+	std::map<std::uint64_t, double>            atNodes {};  ///< pressure by key of the node [Pa]
+	double                                     stored = 0;  ///< volume taken up by the body in the last accepted step [m3]
+};
+
+} // namespace gimpm

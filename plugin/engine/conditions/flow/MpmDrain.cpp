@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "engine/conditions/flow/MpmDrain.hpp"
+#include "yade_api/registration.hpp"
+
+namespace yade {
+
+void MpmDrain::requireAdmissible() const
+{
+	Exposed<MpmDrain, Serializable>::requireAdmissible();
+	surface->requireAdmissible();
+	vector<string> given;
+	if (pressure != 0) given.push_back("pressure = " + textOf(pressure));
+	if (!std::isnan(level)) given.push_back("level = " + textOf(level));
+	if (!std::isnan(flux)) given.push_back("flux = " + textOf(flux));
+	if (given.size() > 1)
+		throw std::invalid_argument("MpmDrain: " + given[0] + " and " + given[1] + " are given; one of pressure, level and flux is admitted.");
+	if (seepage && !std::isnan(flux))
+		throw std::invalid_argument(
+		        "MpmDrain: seepage = True says that water can leave only, and flux = " + textOf(flux) + " how much leaves; leave one of the two out.");
+	if (!std::isnan(level) && !curve.empty())
+		throw std::invalid_argument("MpmDrain: curve is of pressure or flux, and level = " + textOf(level) + " is given; leave one of the two out.");
+}
+
+} // namespace yade
+
+BOOST_CLASS_EXPORT_IMPLEMENT(yade::MpmDrain)
+static const yade::PluginClasses<yade::MpmDrain> registeredMpmDrain(__FILE__);

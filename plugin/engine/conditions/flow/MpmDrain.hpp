@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+#include "engine/conditions/load_curves.hpp"
+#include "engine/conditions/surface/MpmSurface.hpp"
+
+namespace yade {
+
+class MpmDrain : public Exposed<MpmDrain, Serializable> {
+public:
+	shared_ptr<MpmSurface>  surface; // must be given
+	Real                    pressure = 0;
+	Real                    level    = std::numeric_limits<Real>::quiet_NaN();
+	Real                    flux     = std::numeric_limits<Real>::quiet_NaN();
+	bool                    seepage  = false;
+	gimpm::LoadCurve::Knees curve; // empty: one
+	Real                    conductance = 30;
+	Real                    discharge   = std::numeric_limits<Real>::quiet_NaN();
+
+	YADE_API_NAME(MpmDrain)
+	static const char* doc()
+	{
+		return "Part of the surface of the body by which water of an MpmFlow leaves or enters; it moves with the body. One of *pressure*, *level*, *flux* says how. "
+		       "Where there is no drain nothing passes.\n\n"
+		       "Water passes as through a thin skin (*conductance*), so that the surface may cut cells anywhere.";
+	}
+	template <class V> static void attributes(V&& v)
+	{
+		v("surface", &MpmDrain::surface, 0, "Surface (MpmSurface, points, triangles or gts.Surface) with the body on its inner side; without default.",
+		  admitting("an MpmSurface, points or triangles; there is no default", notNull));
+		v("pressure", &MpmDrain::pressure, 0, "Pressure outside [Pa] over that of still water (MpmWater), finite; 0: the drain leads to that water.",
+		  finite);
+		v("level", &MpmDrain::level, 0,
+		  "Height [m] up to which water stands outside, above all of *surface*, where still water (MpmWater) has a level; NaN, the default: see *pressure*.",
+		  admitting("a finite height [m], or NaN, the default", [](Real height) { return !std::isinf(height); }));
+		v("flux", &MpmDrain::flux, 0, "Volume that leaves by area and time [m/s], whatever the pressure; < 0 enters. NaN, the default: see *pressure*.",
+		  admitting("a finite number [m/s], or NaN, the default", [](Real value) { return !std::isinf(value); }));
+		v("seepage", &MpmDrain::seepage, 0, "Whether water can leave only: where its pressure is below that outside nothing passes.");
+		v("curve", &MpmDrain::curve, 0, "Factor [-] of *pressure* or *flux* as a sequence of (time [s], factor); empty, the default: 1.",
+		  curveOrNothing);
+		v("conductance", &MpmDrain::conductance, 0,
+		  "Of the skin, over the conductivity of the soil and the size of its cells [-] > 0: the pressure differs from that outside by what drops in 1/conductance cells.",
+		  positive);
+		v("discharge", &MpmDrain::discharge, readonly,
+		  "Volume of water that leaves by time [m³/s] in the last converged step; per metre of thickness in plane strain, NaN before the first.");
+	}
+
+	// The attributes must go together, too.
+	void requireAdmissible() const override;
+};
+
+} // namespace yade
+
+BOOST_CLASS_EXPORT_KEY(yade::MpmDrain)

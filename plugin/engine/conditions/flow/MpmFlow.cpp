@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "engine/conditions/flow/MpmFlow.hpp"
+#include "engine/analysis/analysis.hpp"
+#include "engine/conditions/flow/flows.hpp"
+#include "yade_api/registration.hpp"
+
+namespace yade {
+
+void MpmFlow::requireAdmissible() const
+{
+	Exposed<MpmFlow, MpmCondition>::requireAdmissible();
+	for (size_t i = 0; i < drains.size(); ++i) {
+		if (!drains[i]) throw std::invalid_argument("MpmFlow.drains[" + std::to_string(i) + "] is None: expected an MpmDrain.");
+		drains[i]->requireAdmissible();
+		for (size_t j = 0; j < i; ++j)
+			if (drains[i] == drains[j])
+				throw std::invalid_argument(
+				        "MpmFlow.drains[" + std::to_string(j) + "] and [" + std::to_string(i)
+				        + "] are the same MpmDrain, which would act twice: list it once.");
+	}
+}
+
+void MpmFlow::requireFitting(const Analysis& analysis, const string&) const
+{
+	string what;
+	if (analysis.isDynamic()) what = analysis.className() + ", steps with inertia";
+	else if (analysis.newton->stepTolerance > 0)
+		what = "MpmNewton.stepTolerance, which sees displacements only";
+	else if (analysis.maxSplits > 0)
+		what = "maxSplits > 0, points that are split";
+	if (!what.empty()) throw std::invalid_argument("MpmFlow cannot yet go with " + what + "; leave one of the two out.");
+}
+
+std::shared_ptr<Condition<2>> MpmFlow::make(InPlane, const Group& group, const Analysis&) const { return std::make_shared<Flows<2>>(group); }
+std::shared_ptr<Condition<3>> MpmFlow::make(InSpace, const Group& group, const Analysis&) const { return std::make_shared<Flows<3>>(group); }
+
+Real MpmFlow::end(const Analysis&) const
+{
+	Real last = -std::numeric_limits<Real>::infinity();
+	for (const auto& drain : drains)
+		if (!drain->curve.empty()) last = std::max(last, gimpm::LoadCurve(drain->curve).end());
+	return last;
+}
+
+std::map<string, string> MpmFlow::warnings(const Analysis&, const vector<MaterialPoint>& points, const string&) const
+{
+	constexpr Real           least = 1e-13, most = 1; // of soils: fat clay, and coarse gravel
+	std::map<string, string> found;
+	const MpmMaterial*       last = nullptr;
+	for (const MaterialPoint& point : points) {
+		if (point.material.get() == last) continue;
+		last                 = point.material.get();
+		const Real         k = last->conductivity;
+		std::ostringstream text;
+		if (k > 0 && k < least)
+			text << "material '" << last->label << "': conductivity = " << k
+			     << " m/s is less than that of any soil. Is it a permeability [m2]? It would be " << k * unitWeight / 1e-3
+			     << " m/s for water of a viscosity of 1e-3 Pa s.";
+		if (k > most)
+			text << "material '" << last->label << "': conductivity = " << k
+			     << " m/s is more than that of any soil. Is it in m/day, which would be " << k / 86400 << " m/s?";
+		if (!text.str().empty()) found["conductivity of " + last->label] = text.str();
+	}
+	return found;
+}
+
+void MpmFlow::tell(Rows& rows, const Analysis&, const Listed&) const
+{
+	rows.set("waterIn", waterIn);
+	rows.set("waterOut", waterOut);
+	rows.set("waterStored", waterStored);
+	for (size_t i = 0; i < drains.size(); ++i)
+		rows.set("drain" + std::to_string(i), drains[i]->discharge);
+}
+
+} // namespace yade
+
+BOOST_CLASS_EXPORT_IMPLEMENT(yade::MpmFlow)
+static const yade::PluginClasses<yade::MpmFlow> registeredMpmFlow(__FILE__);

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+#include "engine/analysis/MpmCondition.hpp"
+#include "engine/conditions/flow/MpmDrain.hpp"
+
+namespace yade {
+
+class MpmFlow : public Exposed<MpmFlow, MpmCondition> {
+public:
+	Real                         unitWeight    = 9810;
+	Real                         bulkModulus   = std::numeric_limits<Real>::infinity();
+	Real                         stabilisation = 1;
+	Real                         ghost         = 0.01;
+	vector<shared_ptr<MpmDrain>> drains;
+	Real                         waterIn = 0, waterOut = 0, waterStored = 0;
+	// Hidden: of each node three grid coordinates and the pressure, as the last step has left it
+	vector<Real> nodes;
+
+	YADE_API_NAME(MpmFlow)
+	static const char* doc()
+	{
+		return "Water that flows through the soil while it deforms: consolidation. Its pressure over that of still water (MpmWater), *MpmState.excessPressure*, is solved for "
+		       "together with the displacements, step by step in time: O.dt and O.time are seconds. All materials need *conductivity* and *porosity*.\n\n"
+		       "The soil is saturated everywhere. *drains* say where water leaves; elsewhere nothing passes.";
+	}
+	template <class V> static void attributes(V&& v)
+	{
+		v("unitWeight", &MpmFlow::unitWeight, 0, "Weight of water by volume [N/m³] > 0.", positive);
+		v("bulkModulus", &MpmFlow::bulkModulus, 0, "Bulk modulus of the water [Pa] > 0; inf, the default: it keeps its volume.",
+		  admitting("a number > 0 [Pa], or inf", [](Real value) { return value > 0; }));
+		v("stabilisation", &MpmFlow::stabilisation, 0,
+		  "Penalty [-] >= 0 on pressures that change from node to node where water cannot flow, over the inverse of the constrained modulus; 0: none.",
+		  nonNegative);
+		v("ghost", &MpmFlow::ghost, 0, "Penalty [-] >= 0 on jumps of the pressure's gradient at nearly empty cells, as *MpmGhost.factor*.",
+		  nonNegative);
+		v("drains", &MpmFlow::drains, 0, "Where water leaves or enters (MpmDrain); read as a tuple, so assign a new one to change it.");
+		v("waterIn", &MpmFlow::waterIn, readonly,
+		  "Volume of water [m³] that has entered by drains since the first step; per metre of thickness in plane strain.");
+		v("waterOut", &MpmFlow::waterOut, readonly, "Volume of water [m³] that has left by drains since the first step.");
+		v("waterStored", &MpmFlow::waterStored, readonly,
+		  "Volume of water [m³] that the soil has taken up since the first step: *waterIn* less *waterOut*.");
+		v("nodes", &MpmFlow::nodes, hidden, "", AnyValue());
+	}
+
+	// The attributes must go together, too.
+	void requireAdmissible() const override;
+
+	const char*                   list() const override { return "flow"; }
+	std::shared_ptr<Condition<2>> make(InPlane, const Group&, const Analysis&) const override;
+	std::shared_ptr<Condition<3>> make(InSpace, const Group&, const Analysis&) const override;
+
+	Real   end(const Analysis&) const override;
+	bool   goesOn() const override { return true; }
+	void   requireFitting(const Analysis&, const string& name) const override;
+	string needsEqualCells(const string&) const override { return "flow"; }
+	void   tell(Rows&, const Analysis&, const Listed&) const override;
+
+	std::map<string, string> warnings(const Analysis&, const vector<MaterialPoint>&, const string& name) const override;
+};
+
+} // namespace yade
+
+BOOST_CLASS_EXPORT_KEY(yade::MpmFlow)

@@ -1,0 +1,329 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Water that flows through a soil which deforms: tangent, balance, exact fields, and columns that consolidate.
+#include "core/solvers/condition.hpp"
+#include "core/stepping/load_step.hpp"
+#include "core/terms/flow.hpp"
+#include "core/terms/traction.hpp"
+#include "derivatives.hpp"
+#include "scenes.hpp"
+
+namespace gimpm::testFlow {
+namespace {
+
+	/// A box of soil of any length, whose last layer of points along `axis` may end anywhere in its cell.
+	template <int Dim> struct Soil {
+		static constexpr double young = 1e6;
+		double                  h;
+		Model<Dim>              model;
+		PointCloud<Dim>         cloud;
+		SoilWater<Dim>          water;
+		SurfaceLoad<Dim>        load;
+		LinearSolver            solver;
+
+		Soil(double h, Vec<Dim> size, bool axisymmetric = false, double modulus = young) : h(h)
+		{
+			model.grid.cellSize     = h;
+			model.grid.axisymmetric = axisymmetric;
+			model.materials         = { { Hencky(modulus, 0), 0 } };
+			model.newton.tolerance  = 1e-10;
+			std::vector<HeldBox<Dim>> walls;
+			for (int a = 0; a < Dim; ++a)
+				walls.push_back(wallBelow<Dim>(model.grid, a, 0));
+			if (axisymmetric) walls.push_back(HeldBox<Dim>::ofAxis(model.grid));
+			model.boundary         = Boundary<Dim>(walls);
+			const Index<Dim> count = (2 * size / h).array().ceil().template cast<int>();
+			const Vec<Dim>   half  = 0.5 * size.cwiseQuotient(count.template cast<double>());
+			forIndices<Dim>(Index<Dim>::Zero(), count, [&](const Index<Dim>& i) {
+				addPoint<Dim>(cloud, Vec<Dim>((2 * i.template cast<double>() + Vec<Dim>::Ones()).cwiseProduct(half)), half);
+			});
+			if (axisymmetric) cloud.hoopStretch.assign(cloud.size(), 1);
+			for (std::size_t p = 0; axisymmetric && p < cloud.size(); ++p)
+				cloud.volume0[p] *= 2 * M_PI * cloud.position[p][0];
+			water.pores = { { 1e-8, 0.5 } };
+			water.pressure.assign(cloud.size(), 0);
+			model.fields       = { pressureField(water, modulus / h) };
+			model.coupledTerms = { [this](const Beginning<Dim>& step, const State&) {
+				return std::make_unique<Flow<Dim>>(
+				        water, [this](int) { return model.materials[0].young({}, 0); }, step);
+			} };
+		}
+		void hold(const std::vector<HeldBox<Dim>>& more)
+		{
+			auto walls = model.boundary.boxes();
+			walls.insert(walls.end(), more.begin(), more.end());
+			model.boundary = Boundary<Dim>(walls);
+		}
+		Drain<Dim>& drain(const Surface<Dim>& surface, typename Drain<Dim>::Kind kind, double given)
+		{
+			Drain<Dim> made;
+			made.surface = surface, made.kind = kind, made.given = given;
+			made.surface.refine(h / 4);
+			water.drains.push_back(made);
+			return water.drains.back();
+		}
+		void push(const Surface<Dim>& surface, const Vec<Dim>& traction)
+		{
+			load.surface = surface, load.traction = traction;
+			load.surface.refine(h / 4);
+			model.terms = { [this](const Beginning<Dim>& step) { return std::make_unique<Traction<Dim>>(load, step); } };
+		}
+		StepReport step(double duration)
+		{
+			water.duration = duration;
+			return loadStep<Dim>(cloud, model, { Vec<Dim>::Zero(), { 1, 0 } }, solver);
+		}
+		double out() const
+		{
+			double sum = 0;
+			for (const auto& drain : water.drains)
+				sum += drain.out;
+			return sum;
+		}
+	};
+
+	Surface<2> line(const Vec<2>& from, const Vec<2>& to) { return { { from, to }, { from, to }, { { 0, 1 } } }; }
+	using Kind = Drain<2>::Kind;
+
+	/// One cell wide, on a base, under a load on its top, through which water leaves.
+	struct Column : Soil<2> {
+		double height, load;
+		Column(int cells, double cut, double load, double skin = 30) : Soil(1 / (cells + cut), { 1 / (cells + cut), 1 }), height(1), load(load)
+		{
+			hold({ wallAbove<2>(model.grid, 0, h) });
+			const auto top                            = line({ h, height }, { 0, height });
+			drain(top, Kind::pressure, 0).conductance = skin;
+			push(top, { 0, -load });
+		}
+		double settlement() const { return height - water.drains[0].surface.vertices[0][1]; }
+		double coefficient() const { return water.pores[0].conductivity * young; } // of consolidation
+	};
+
+	double terzaghi(double T)
+	{
+		double degree = 1;
+		for (int k = 0; k < 200; ++k) {
+			const double m = M_PI * (2 * k + 1) / 2;
+			degree -= 2 / (m * m) * std::exp(-m * m * T);
+		}
+		return degree;
+	}
+
+	template <int Dim> void expectTangent(Soil<Dim>& body)
+	{
+		body.water.modulus  = 2e6;
+		body.water.duration = 3;
+		body.water.pores    = { { 1e-7, 0.4, Pores::Law::kozenyCarman } };
+		Random random(3);
+		for (auto& pressure : body.water.pressure)
+			pressure = random.in(-1e4, 1e4);
+		StepReport            report;
+		const StepSystem<Dim> system(body.cloud, body.model, Load<Dim>(), report);
+		const double          sizes[] = { 0.02 * body.h, 3e4 };
+		const auto            in      = [&](int field, double part) {
+                        Eigen::VectorXd x       = Eigen::VectorXd::Zero(system.map.size());
+                        system.map.of(field, x) = random.vector(system.map.end(field) - system.map.begin(field), part * sizes[field]);
+                        return x;
+		};
+		const Eigen::VectorXd x = in(0, 1) + in(1, 1);
+		NodeMatrix<Dim>       K;
+		Couplings             beside;
+		Eigen::VectorXd       force;
+		system.prepare(K, &beside);
+		ASSERT_FALSE(system.evaluate(x, force, &K, nullptr, &beside));
+		const auto at = [&](const Eigen::VectorXd& place) -> Eigen::VectorXd {
+			EXPECT_FALSE(system.evaluate(place, force, nullptr));
+			return force;
+		};
+		for (const int column : { 0, 1 }) {
+			const Eigen::VectorXd step    = in(column, 1e-2);
+			Eigen::VectorXd       tangent = Eigen::VectorXd::Zero(x.size());
+			K.multiplyAdd(step, tangent);
+			beside.multiplyAdd(step, tangent);
+			const Eigen::VectorXd slope = (8 * (at(x + step) - at(x - step)) - (at(x + 2 * step) - at(x - 2 * step))) / 12;
+			for (const int row : { 0, 1 })
+				EXPECT_LE((system.map.of(row, tangent) - system.map.of(row, slope)).norm(), 1e-7 * system.map.of(row, slope).norm())
+				        << row << column;
+		}
+	}
+
+	TEST(Flow, TheTangentIsThatOfTheForces)
+	{
+		Soil<2> plane(0.5, { 1.7, 1.2 });
+		plane.drain(line({ 1.7, 1.2 }, { 0, 1.2 }), Kind::pressure, 1e3);
+		expectTangent(plane);
+		Soil<3> space(0.5, { 1.2, 1.7, 1 });
+		expectTangent(space);
+		Soil<2> ring(0.5, { 1.7, 1.2 }, true);
+		ring.drain(line({ 1.7, 0 }, { 1.7, 1.2 }), Kind::pressure, 1e3);
+		expectTangent(ring);
+	}
+
+	/// Water flows from end to end: the pressure is linear but for the skins, at any cut of the cells. The soil is
+	/// so stiff that it hardly moves.
+	TEST(Flow, LinearPressuresAreExactAtAnyCutOfTheCells)
+	{
+		for (const double cut : { 0., 1e-1, 0.5, 1e-3, 1e-6 }) {
+			constexpr double h = 0.5, stiff = 1e16, first = 3e3, rate = 2e-5;
+			const double     length = (4 + cut) * h, width = (2 + cut) * h;
+			Soil<2>          body(h, { length, width }, false, stiff);
+			body.drain(line({ 0, width }, { 0, 0 }), Kind::pressure, first);
+			body.drain(line({ length, 0 }, { length, width }), Kind::flux, -rate);
+			const double slope = rate / 1e-8, duration = 1e9;
+			ASSERT_TRUE(body.step(duration).converged());
+			const double skin = h / 30 * slope;
+			for (std::size_t p = 0; p < body.cloud.size(); ++p) {
+				const Vec<2> x = body.cloud.position[p];
+				ASSERT_NEAR(body.water.pressure[p] / (first + skin + slope * x[0]), 1, 1e-10) << cut;
+				ASSERT_NEAR(body.water.flux[p][0] / -rate, 1, 1e-10) << cut;
+				ASSERT_NEAR(body.water.flux[p][1] / rate, 0, 1e-10) << cut;
+			}
+			EXPECT_NEAR(body.water.drains[0].out / (rate * width * duration), 1, 1e-10);
+			// Another step leaves all as it is: penalties are on what grows.
+			const auto before = body.water.pressure;
+			ASSERT_TRUE(body.step(duration / 1e6).converged());
+			for (std::size_t p = 0; p < before.size(); ++p)
+				ASSERT_NEAR(body.water.pressure[p] / before[p], 1, 1e-10);
+		}
+	}
+
+	TEST(Flow, ColumnsConsolidateAsInTheSeriesAtAnyCut)
+	{
+		constexpr int cells = 20, steps = 40;
+		for (const double cut : { 0., 0.1, 0.3, 0.5, 0.9 }) {
+			constexpr double q = 1e-3 * Column::young;
+			Column           column(cells, cut, q);
+			double           T = 0;
+			for (int k = 1; k <= steps; ++k) {
+				const double next   = 0.5 * k * k / double(steps * steps);
+				const auto   report = column.step((next - T) / column.coefficient());
+				ASSERT_TRUE(report.converged()) << report.cause;
+				T = next;
+				EXPECT_NEAR(column.out() / -column.water.stored, 1, 1e-9);
+				const double error = column.settlement() / (q / Column::young) - terzaghi(T);
+				EXPECT_LT(std::abs(error), T > 0.02 ? 0.01 : 0.05) << cut << " T = " << T;
+			}
+		}
+	}
+
+	/// q / M = 0.2, Kozeny and Carman's law with n = 0.6: values of a finer method for the equation in one
+	/// dimension.
+	TEST(Flow, ColumnsThatLoseASeventhOfTheirHeightConsolidateAsTheyMust)
+	{
+		constexpr int                   cells = 20, steps = 80;
+		const std::pair<double, double> expected[] = { { 0.2, 0.077177 }, { 0.5, 0.117142 }, { 1, 0.143536 } };
+		Column                          column(cells, 0.3, 0.2 * Column::young, 100);
+		column.water.pores            = { { 1e-8, 0.6, Pores::Law::kozenyCarman } };
+		column.model.newton.tolerance = 1e-12;
+		double T = 0, out = 0, stored = 0, before = 0;
+		for (int k = 1; k <= steps; ++k) {
+			const double next   = k * k / double(steps * steps);
+			const auto   report = column.step((next - T) / column.coefficient());
+			ASSERT_TRUE(report.converged()) << report.cause;
+			EXPECT_LE(report.iterations, 6);
+			for (const auto& [time, settlement] : expected)
+				if (T < time && next >= time - 1e-9) {
+					const double part  = (time - T) / (next - T); // of this step
+					const double found = column.settlement() - (1 - part) * (column.settlement() - before);
+					EXPECT_NEAR(found / settlement, 1, 0.01) << time;
+				}
+			before = column.settlement();
+			EXPECT_NEAR(column.out() + column.water.stored, 0, 1e-12 * column.h);
+			out += column.out(), stored += column.water.stored;
+			T = next;
+		}
+		double volume = 0;
+		for (std::size_t p = 0; p < column.cloud.size(); ++p)
+			volume += column.cloud.volume0[p] * column.cloud.volumeRatio(p);
+		EXPECT_NEAR(out / (column.h - volume), 1, 1e-10) << "what has left is what the column has lost";
+		EXPECT_NEAR(out / -stored, 1, 1e-12);
+	}
+
+	/// The column is the same in the plane, in space and as a cylinder, with Poisson's ratio zero.
+	TEST(Flow, SpaceAndBodiesOfRevolutionAgreeWithThePlane)
+	{
+		constexpr int    cells = 6;
+		constexpr double load  = 1e5;
+		Column           plane(cells, 0, load);
+		Soil<2>          ring(plane.h, { plane.h, 1 }, true);
+		Soil<3>          space(plane.h, { plane.h, 1, plane.h });
+		ring.hold({ wallAbove<2>(ring.model.grid, 0, ring.h) });
+		space.hold({ wallAbove<3>(space.model.grid, 0, space.h), wallAbove<3>(space.model.grid, 2, space.h) });
+		const auto top = line({ ring.h, 1 }, { 0, 1 });
+		ring.drain(top, Kind::pressure, 0);
+		ring.push(top, { 0, -load });
+		const double     h = space.h;
+		const Surface<3> lid { { { 0, 1, 0 }, { 0, 1, h }, { h, 1, h }, { h, 1, 0 } },
+			               { { 0, 1, 0 }, { 0, 1, h }, { h, 1, h }, { h, 1, 0 } },
+			               { { 0, 1, 2 }, { 0, 2, 3 } } };
+		space.drain(lid, Drain<3>::Kind::pressure, 0);
+		space.push(lid, { 0, -load, 0 });
+		for (int step = 1; step <= 5; ++step) {
+			const double duration = 0.02 * step / plane.coefficient();
+			ASSERT_TRUE(plane.step(duration).converged() && ring.step(duration).converged() && space.step(duration).converged());
+			EXPECT_NEAR(space.out() / (plane.out() * h), 1, 1e-4);
+			EXPECT_NEAR(ring.out() / (plane.out() * M_PI * h), 1, 1e-3);
+		}
+	}
+
+	TEST(Flow, FirstStepsAreFreeOfOscillation)
+	{
+		for (const double part : { 1e-6, 1e-2, 0.1, 1. })
+			for (const double stabilisation : { 0., 1. }) {
+				Column column(20, 0, 1e-3 * Column::young, 1e7); // as if it had no skin
+				column.water.stabilisation = stabilisation;
+				ASSERT_TRUE(column.step(part * column.h * column.h / column.coefficient()).converged());
+				double most = 0;
+				for (const double pressure : column.water.pressure)
+					most = std::max(most, pressure / column.load);
+				if (stabilisation > 0 || part == 1) {
+					EXPECT_LT(most, 1.3) << part;
+				} else if (part < 1e-5) {
+					EXPECT_GT(most, 1.3) << "without it there are some";
+				}
+			}
+	}
+
+	TEST(Flow, TheConditionNumberIsBoundedAtAnyCut)
+	{
+		const auto condition = [](double cut, double conductivity, double ghost) {
+			Soil<2> body(0.5, { 2, (2 + cut) * 0.5 });
+			body.drain(line({ 0, (2 + cut) * 0.5 }, { 0, 0 }), Kind::pressure, 0);
+			body.hold({ held<2>(body.model.grid, Vec<2>::Constant(-infinity), Vec<2>(0, infinity), "xy") });
+			body.water.pores[0].conductivity = conductivity;
+			body.water.duration              = 1;
+			body.water.ghost                 = ghost;
+			return conditionEstimate(tangentStiffness(body.cloud, body.model));
+		};
+		for (const double conductivity : { 1e-14, 1e-7, 1e-5 })
+			EXPECT_LT(condition(1e-8, conductivity, 0.01), 1.5 * condition(1e-3, conductivity, 0.01)) << conductivity;
+		EXPECT_GT(condition(1e-8, 1e-14, 0), 1e3 * condition(1e-3, 1e-14, 0));
+	}
+
+	TEST(Flow, WaterThatCannotLeaveIsRefused)
+	{
+		Soil<2> body(0.5, { 1.5, 1 });
+		body.hold({ wallAbove<2>(body.model.grid, 0, 1.5), wallAbove<2>(body.model.grid, 1, 1) });
+		const auto report = body.step(1);
+		EXPECT_EQ(report.failure, Failure::misplaced);
+		EXPECT_NE(report.cause.find("there is no drain"), std::string::npos) << report.cause;
+		body.water.modulus = 2e9;
+		EXPECT_TRUE(body.step(1).converged());
+		Soil<2> dry(0.5, { 1.5, 1 });
+		dry.drain(line({ 3, 0 }, { 3, 1 }), Kind::pressure, 0).name = "a way out";
+		EXPECT_EQ(dry.step(1).cause.find("a way out has a vertex at (3"), 0u) << dry.step(1).cause;
+	}
+
+	TEST(Flow, AFaceThatLetsWaterOutOnlyClosesAndOpens)
+	{
+		for (const double inside : { -2e3, 2e3 }) {
+			Soil<2> body(0.5, { 2, 1 });
+			body.drain(line({ 0, 1 }, { 0, 0 }), Kind::pressure, inside);
+			body.drain(line({ 2, 0 }, { 2, 1 }), Kind::seepage, 0);
+			ASSERT_TRUE(body.step(1e6).converged());
+			EXPECT_EQ(body.water.drains[1].out > 0, inside > 0);
+			EXPECT_EQ(body.water.drains[1].out == 0, inside < 0);
+		}
+	}
+
+} // namespace
+} // namespace gimpm::testFlow

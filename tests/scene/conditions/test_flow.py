@@ -1,0 +1,281 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Water that flows while the soil deforms, through the classes of YADE."""
+import pytest
+
+setting = '''
+import json
+import math
+
+import numpy as np
+from yade import mpm
+
+E, k, q = 1e6, 1e-7, 1e3
+cv = k / 9810 * E
+
+def column(cells=8, level=None, base=0, drains=True, poisson=0, gravity=0, **flow):
+	"""One cell wide, 1 m high, under a load on its top, through which water leaves."""
+	O.reset()
+	O.materials.append(MpmElasticMat(young=E, poisson=poisson, density=2000, conductivity=k, porosity=.4, label='soil'))
+	h = 1 / cells
+	grid = MpmGrid(cellSize=h, origin=(0, base, 0))
+	O.bodies.append(mpm.fill(mpm.polygon([(0, 0), (h, 0), (h, 1), (0, 1)]), grid, pointsPerCell=2, material='soil'))
+	sides = [MpmBoundary(max=(0, inf, inf), fix='x'), MpmBoundary(min=(h, -inf, -inf), fix='x'), MpmBoundary(max=(inf, .03, inf), fix='xy')]
+	load = MpmTraction(surface=[(h, 1), (0, 1)], traction=(0, -q, 0), curve=[(0, 1), (1, 1)])
+	out = [MpmDrain(surface=[(h, 1), (0, 1)])] if drains else []
+	O.engines = [MpmImplicitEngine(grid=grid, boundaries=sides, loads=[load], flow=MpmFlow(drains=out, **flow), verbosity=0, loadCurve=[(0, 1), (1, 1)])]
+	solver = O.engines[0]
+	if level is not None: solver.water = [MpmWater(level=level)]
+	if gravity: solver.gravity = (0, -gravity, 0)
+	return solver
+
+def refusal(change):
+	"""What is said of a scene that this makes different."""
+	solver = column()
+	O.dt = 10
+	try:
+		change(solver)
+		O.step()
+	except Exception as error: return f'{type(error).__name__}: {error}'
+	return ''
+'''
+
+
+def test_a_column_consolidates_and_its_water_is_counted(yade):
+	degrees, counted, fluxes, names, same = yade(
+	        setting + '''
+solver = column(10)
+T, degrees = 0, []
+for n in range(1, 31):
+	O.dt = (.5 * (n / 30)**2 - T) / cv
+	T += O.dt * cv
+	if n == 21: O.save('later.yade.gz')
+	O.step()
+	degrees.append([T, (1 - solver.flow.drains[0].surface.vertices[0][1]) / (q / E)])
+data, points = solver.plotData(), mpm.arrays()
+dts = [(.5 * (n / 30)**2 - .5 * ((n - 1) / 30)**2) / cv for n in range(22, 31)]
+O.load('later.yade.gz')
+O.step()
+for dt in dts:
+	O.dt = dt
+	O.step()
+again = mpm.arrays()
+print(json.dumps([degrees, [data[name] for name in ('waterIn', 'waterOut', 'waterStored', 'drain0')],
+        [float(points['waterFlux'][:, 1].min()), float(points['waterFlux'][:, 1].max())], sorted(points), all((points[name] == values).all() for name, values in again.items() if name != 'id')]))
+'''
+	).result
+	import math
+	for T, degree in degrees:
+		series = 1 - sum(2 / m**2 * math.exp(-m**2 * T) for m in (math.pi * (2 * i + 1) / 2 for i in range(100)))
+		if T > 0.02: assert degree == pytest.approx(series, abs=0.012)
+	came, left, stored, rate = counted
+	assert came == 0 and left == pytest.approx(-stored, rel=1e-6) and rate > 0
+	assert fluxes[0] > -1e-12 and fluxes[1] > 0
+	assert {'excessPressure', 'porePressure', 'waterFlux'} <= set(names)
+	assert same, 'a scene that was saved goes on with the same bits'
+
+
+def test_still_water_gives_nothing(yade):
+	for moved, pressure, excess in yade(
+	        setting + '''
+found = []
+for level, base in (1, 0), (3, -.03), (1.7, -.1):
+	solver = column(8, level=level, base=base, gravity=10)
+	O.materials[0].density = 981  # as heavy as water
+	solver.loads = []
+	O.dt = 1e3
+	O.step()
+	points = mpm.arrays()
+	found.append([float(abs(points['pos'] - points['pos0']).max()), float(points['porePressure'].max()), float(abs(points['excessPressure']).max())])
+print(json.dumps(found))
+'''
+	).result:
+		assert excess < 1e-9 * pressure and pressure > 4e3 and moved < 1e-10
+
+
+def test_mandel_cryer_effect_of_a_slab_between_plates(yade):
+	"""The pressure in the middle rises at first, though water leaves at the sides; the plate is moved as in the closed form, and the force on it stays."""
+	errors, forces, peak = yade(
+	        setting + '''
+from math import sin, cos, tan, exp, pi
+nu, F = .2, 1.
+G = E / 2 / (1 + nu)
+M = 2 * G * (1 - nu) / (1 - 2 * nu)
+cv = k / 9810 * M
+def root(i):
+	low, high = i * pi + 1e-6, (i + .5) * pi - 1e-9
+	f = lambda r: sin(r) * (.5 - nu) - r * cos(r) * (1 - nu)
+	if i == 0: low = .1
+	for _ in range(200):
+		middle = (low + high) / 2
+		low, high = (middle, high) if f(low) * f(middle) > 0 else (low, middle)
+	return low
+roots = [root(i) for i in range(200)]
+def plate(T, b): return -F * b * ((1 - nu) / (2 * G) - .5 / G * sum(sin(r) * cos(r) / (r - sin(r) * cos(r)) * exp(-r * r * T) for r in roots))
+def middle(T): return F * sum(sin(r) / (r - sin(r) * cos(r)) * (1 - cos(r)) * exp(-r * r * T) for r in roots)
+errors, forces, peak = [], [], []
+for cut in 0, .3:
+	O.reset()
+	n = 10
+	h, high = 1 / (n + cut), 3
+	O.materials.append(MpmElasticMat(young=E, poisson=nu, density=2000, conductivity=k, porosity=.4, label='soil'))
+	grid = MpmGrid(cellSize=h)
+	O.bodies.append(mpm.fill(mpm.polygon([(0, 0), (1, 0), (1, high * h), (0, high * h)]), grid, pointsPerCell=2, material='soil'))
+	times = [.3 * (i / 40)**2 for i in range(41)]
+	scale = plate(1, high * h)
+	curve = [(0, 0)] + [(T / cv, plate(T, high * h) / scale) for T in times[1:]]
+	top = MpmBoundary(min=(-inf, high * h, -inf), fix='y', displacement=(0, scale, 0), curve=curve)
+	O.engines = [MpmImplicitEngine(grid=grid, boundaries=[MpmBoundary(max=(0, inf, inf), fix='x'), MpmBoundary(max=(inf, 0, inf), fix='y'), top],
+	        flow=MpmFlow(drains=[MpmDrain(surface=[(1, 0), (1, high * h)])]), label='solver', verbosity=0)]
+	for T, before in zip(times[1:], times):
+		O.dt = (T - before) / cv
+		O.step()
+		points = mpm.arrays()
+		p = float(points['excessPressure'][points['pos'][:, 0] < .6 * h].mean()) / F
+		peak.append(p)
+		if T >= .01:
+			errors.append(p - middle(T))
+			forces.append(-solver.reactions[2][1] / F)
+print(json.dumps([errors, forces, max(peak)]))
+'''
+	).result
+	assert max(map(abs, errors)) < 0.01
+	assert peak == pytest.approx(0.5534, abs=0.01)
+	assert max(abs(force - 1) for force in forces) < 0.02
+
+
+def test_cryers_sphere_with_a_curved_surface_off_the_grid(yade):
+	"""In its middle the pressure rises above that on its surface, by which water leaves."""
+	found = yade(
+	        setting + '''
+nu, h, q = .25, .1, 1e3
+O.materials.append(MpmElasticMat(young=E, poisson=nu, density=2000, conductivity=k, porosity=.5, label='soil'))
+grid = MpmGrid(cellSize=h, axisymmetric=True)
+arc = [(math.cos(a), math.sin(a)) for a in np.linspace(0, math.pi / 2, 41)]
+O.bodies.append(mpm.fill(mpm.polygon([(0, 0)] + arc), grid, 2, 'soil'))
+O.engines = [MpmImplicitEngine(grid=grid, boundaries=[MpmBoundary(max=(inf, 0, inf), fix='y')], loads=[MpmTraction(surface=arc, pressure=q)], loadCurve=[(0, 1), (1, 1)],
+        flow=MpmFlow(drains=[MpmDrain(surface=arc)]), verbosity=0)]
+M, eta = E * (1 - nu) / (1 + nu) / (1 - 2 * nu), (1 - nu) / (1 - 2 * nu)
+def root(i):
+	f = lambda r: (1 - eta * r * r / 2) * math.sin(r) - r * math.cos(r)
+	low, high = i * math.pi + 1e-2, (i + 1) * math.pi
+	for _ in range(100):
+		middle = (low + high) / 2
+		low, high = (middle, high) if f(low) * f(middle) > 0 else (low, middle)
+	return low
+roots = [root(i) for i in range(100)]
+def series(T): return eta * sum((math.sin(r) - r) / ((eta - 1) * math.sin(r) + eta * r * math.cos(r) / 2) * math.exp(-r * r * T) for r in roots)
+now, found = 0, []
+for n in range(1, 33):
+	T = .2 * (n / 32)**2
+	O.dt = T / (k / 9810 * M) - now
+	now += O.dt
+	O.step()
+	points = mpm.arrays()
+	middle = np.linalg.norm(points['pos'][:, :2], axis=1) < .8 * h
+	found.append([T, float(points['excessPressure'][middle].mean() / q), series(T)])
+print(json.dumps(found))
+'''
+	).result
+	assert max(p for T, p, series in found) == pytest.approx(max(series for T, p, series in found if T > 0.01), rel=0.03)
+	for T, p, series in found:
+		if T > 0.01: assert p == pytest.approx(series, abs=0.03)
+
+
+def test_soil_that_lets_nothing_through_is_that_of_total_stress(yade):
+	"""A strip load: u-p without flow, without F-bar, and total stress with F-bar and Poisson's ratio near a half."""
+	wet, total = yade(
+	        setting + '''
+def strip(**material):
+	O.reset()
+	O.materials.append(MpmElasticMat(density=1, label='soil', **material))
+	grid = MpmGrid(cellSize=.25)
+	O.bodies.append(mpm.fill(mpm.polygon([(0, 0), (4, 0), (4, 2), (0, 2)]), grid, 2, 'soil'))
+	sides = [MpmBoundary(max=(0, inf, inf), fix='x'), MpmBoundary(min=(4, -inf, -inf), fix='x'), MpmBoundary(max=(inf, 0, inf), fix='xy')]
+	load = MpmTraction(surface=[(1, 2), (0, 2)], traction=(0, -1e3, 0))
+	O.engines = [MpmImplicitEngine(grid=grid, boundaries=sides, loads=[load], fBar='porosity' not in material, flow=MpmFlow() if 'porosity' in material else None, verbosity=0)]
+	O.dt = 1
+	O.step()
+	return (2 - load.surface.vertices[-1][1]) * E / 1e3
+G = E / 2 / 1.3
+print(json.dumps([strip(young=E, poisson=.3, conductivity=0, porosity=.4), strip(young=2 * G * 1.4999, poisson=.4999)]))
+'''
+	).result
+	assert wet == pytest.approx(total, rel=0.01) and wet == pytest.approx(0.6215, rel=0.01)
+
+
+def test_what_does_not_go_is_refused_by_name(yade):
+	said = yade(
+	        setting + '''
+def undrained(solver): O.materials[0].undrained, O.materials[0].waterModulus = True, 1e8
+def dry(solver): solver.flow.drains = []; solver.boundaries = list(solver.boundaries) + [MpmBoundary(min=(-inf, 1, -inf), fix='y')]
+def away(solver): solver.flow.drains = [MpmDrain(surface=[(2, 1), (1, 1)])]
+def level(solver): solver.flow.drains = [MpmDrain(surface=[(.125, 1), (0, 1)], level=2)]
+def both(solver): solver.flow.drains = [MpmDrain(surface=[(.125, 1), (0, 1)], level=2, flux=1)]
+def refined(solver): solver.grid.refinements = [MpmRefinement(max=(1, .5, 0))]
+def rising(solver): solver.water = [MpmWater(levels=[(0, 0), (1, 1)])]
+said = dict(
+	conductivity=refusal(lambda solver: setattr(O.materials[0], 'conductivity', nan)),
+	porosity=refusal(lambda solver: setattr(O.materials[0], 'porosity', nan)),
+	percent=refusal(lambda solver: setattr(O.materials[0], 'porosity', 40)),
+	undrained=refusal(undrained), dry=refusal(dry), away=refusal(away), level=refusal(level), both=refusal(both), refined=refusal(refined), rising=refusal(rising),
+	splits=refusal(lambda solver: setattr(solver, 'maxSplits', 2)),
+	error=refusal(lambda solver: setattr(solver.newton, 'stepTolerance', 1e-3)),
+	index=refusal(lambda solver: setattr(O.materials[0], 'conductivityLaw', 'log')),
+	dynamic='')
+solver = column()
+O.engines = [MpmDynamicEngine(grid=solver.grid, flow=solver.flow, boundaries=solver.boundaries)]
+O.dt = 1e-3
+try: O.step()
+except Exception as error: said['dynamic'] = f'{type(error).__name__}: {error}'
+print(json.dumps(said))
+'''
+	).result
+	expected = {
+	        'conductivity': 'has no conductivity [m/s]', 'porosity': 'has no porosity', 'percent': 'percent over 100', 'undrained': 'is undrained = True', 'dry': 'there is no drain through which',
+	        'away': 'flow.drains[0] has a vertex at', 'level': 'needs one MpmWater(level=...)', 'both': 'one of pressure, level and flux', 'refined': 'cannot go with flow', 'rising': 'its level must stay',
+	        'splits': 'maxSplits > 0', 'error': 'MpmNewton.stepTolerance', 'index': 'needs conductivityIndex', 'dynamic': 'steps with inertia'
+	}
+	assert set(said) == set(expected)
+	for name, part in expected.items():
+		assert part in said[name], (name, said[name])
+
+
+def test_conductivities_in_other_units_are_doubted(yade):
+	run = yade(
+	        setting + '''
+for k in 1e-15, 5.:
+	solver = column()
+	O.materials[0].conductivity = k
+	O.dt = 10
+	O.step()
+'''
+	)
+	assert 'Is it a permeability [m2]? It would be 9.81e-09 m/s' in run.stderr
+	assert 'Is it in m/day, which would be 5.7' in run.stderr
+
+
+def test_the_drained_limit_and_a_step_that_is_cut(yade):
+	settled, drained, parts = yade(
+	        setting + '''
+solver = column(8, gravity=10)
+solver.gravityCurve = [(0, 1), (1, 1)]
+O.dt = 1e6 / cv
+O.step()
+slow = mpm.arrays()['pos'][:, 1]
+solver = column(8, gravity=10)
+solver.gravityCurve = [(0, 1), (1, 1)]
+solver.flow = None
+O.dt = .5
+O.step()
+dry = mpm.arrays()['pos'][:, 1]
+solver = column(8)
+flow = solver.flow
+solver.loads[0].traction = (0, -6e5, 0)
+solver.newton.maxIterations = 3
+O.dt = .02 / cv
+O.step()
+print(json.dumps([slow.tolist(), dry.tolist(), [solver.substeps, solver.cuts, flow.waterOut + flow.waterStored]]))
+'''
+	).result
+	assert max(abs(a - b) for a, b in zip(settled, drained)) < 1e-7
+	assert parts[0] > 1 and abs(parts[2]) < 1e-7

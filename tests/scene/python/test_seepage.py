@@ -1,0 +1,84 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""mpm.seepage: discharge and free surface of dams, pressures for an MpmWater, and what it refuses."""
+import pytest
+
+setting = '''
+import json
+
+import numpy as np
+from yade import mpm
+
+def dam(length, high, h, origin=0.):
+	O.reset()
+	O.materials.append(MpmElasticMat(young=1e7, poisson=.3, density=2000, conductivity=1e-5, porosity=.4, label='soil'))
+	grid = MpmGrid(cellSize=h, origin=(origin, origin, 0))
+	O.bodies.append(mpm.fill(mpm.polygon([(0, 0), (length, 0), (length, high), (0, high)]), grid, 2, 'soil'))
+	O.engines = [MpmImplicitEngine(grid=grid, gravity=(0, -9.81, 0), boundaries=[MpmBoundary(max=(inf, 0, inf), fix='xy')], verbosity=0)]
+	return [(0, high), (0, 0)], [(length, 0), (length, high)]
+'''
+
+
+def test_rectangular_dams_have_the_discharge_of_dupuit(yade):
+	"""k (h1^2 - h2^2) / 2 L is exact, with the seepage face above the lower level; what comes in goes out."""
+	for found, into, exit, level in yade(
+	        setting + '''
+found = []
+for length, high, low, h in (5, 4, 1, .5), (5, 4, 1, .25), (3, 4, 0, .25):
+	left, right = dam(length, high, h)
+	flow = mpm.seepage([(left, high), (right, low)])
+	exact = 1e-5 * (high**2 - low**2) / 2 / length
+	found.append([flow.discharge[1] / exact, flow.discharge[0] / exact, flow.surface[-1][1], low])
+print(json.dumps(found))
+'''
+	).result:
+		assert found == pytest.approx(1, abs=0.02) and into == pytest.approx(-found, abs=1e-4)
+		assert exit > level + 0.2, 'water comes out above the lower level'
+
+
+def test_uniform_flow_is_exact_at_any_cut_and_water_takes_the_pressures(yade):
+	errors, slopes, pressure = yade(
+	        setting + '''
+errors = []
+for origin in 0, .1:  # a body that is under water altogether, in cells of .3
+	left, right = dam(3, 1.2, .3, origin)
+	x = [b.state.pos[0] for b in O.bodies]
+	low = min(b.state.pos[1] - b.shape.halfSize[1] for b in O.bodies)
+	a, b = min(x) - .075, max(x) + .075
+	tall = len({round(b.state.pos[1], 6) for b in O.bodies}) * .15
+	left, right = [(a, low + tall), (a, low)], [(b, low), (b, low + tall)]
+	flow = mpm.seepage([(left, 5), (right, 4)])
+	errors.append(flow.discharge[1] / (1e-5 * tall / (b - a + 2 * .3e-3)) - 1)
+	slopes = (flow.pressure((1., .6, 0)) - flow.pressure((2., .6, 0))) * (b - a) / 9810
+solver = O.engines[0]
+solver.water = [MpmWater(pressure=flow.pressure)]
+O.dt = .25
+O.step()
+middle = O.bodies[len(O.bodies) // 2].state
+print(json.dumps([errors, slopes, middle.porePressure / (.25 * flow.pressure(middle.pos))]))
+'''
+	).result
+	assert max(map(abs, errors)) < 1e-6
+	assert slopes == pytest.approx(1, abs=1e-3)
+	assert pressure == pytest.approx(1, abs=0.05)
+
+
+def test_what_does_not_go_is_refused_by_name(yade):
+	said = yade(
+	        setting + '''
+left, right = dam(3, 2, .5)
+said = []
+def tried(*arguments, **keywords):
+	try: mpm.seepage(*arguments, **keywords)
+	except Exception as error: said.append(f'{type(error).__name__}: {error}')
+tried([])
+tried([left])
+tried([(left, nan)])
+tried([(right[::-1], 1)])
+tried([(left, 1)], unitWeight=0)
+O.materials[0].conductivity = nan
+tried([(left, 1)])
+print(json.dumps(said))
+'''
+	).result
+	for sentence, part in zip(said, ('levels = () has no surface', 'must be a pair', 'must be a pair', 'is not on the body', 'unitWeight = 0', 'has conductivity = nan'), strict=True):
+		assert part in sentence, sentence
