@@ -26,7 +26,8 @@ namespace {
 
 template <int Dim> string warningOfLattice(const vector<MaterialPoint>& points, const gimpm::Grid<Dim>& grid)
 {
-	// Points that have been deformed may count displacements from where they were then (mpm.stages.resetDisplacements).
+	// Points that have been deformed may count displacements from where they were then, as after
+	// mpm.stages.resetDisplacements.
 	const bool areDeformed = !points.front().state->defGrad.isIdentity(1e-12);
 	if (areDeformed || std::any_of(points.begin(), points.end(), [&](const MaterialPoint& point) { return InCells<Dim>(point, grid).isOnLattice(); }))
 		return "";
