@@ -33,7 +33,7 @@ class view:
 		film.finish()
 
 	Without *every* the file has the present state, and is there at once. Points are drawn as their deformed boxes, needles as balls of as much matter, as by :func:`plot`; a click says what is where. Of YADE's bodies spheres, boxes, facets, walls and clumps of these are
-	drawn in their colours; others are left out. ``slope.html#frame=3&field=stress_xy&cut=y:0.5`` opens a state, cut at half of its height; ``&play`` plays it. The file has 12 to 30 bytes a point and state; for large results
+	drawn in their colours; others are left out. ``slope.html#frame=3&field=stress_xy&cut=y:0.5`` opens a state, cut at half of its height; ``&turn=30:-10`` turns it by degrees, ``&play`` plays it. The file has 12 to 30 bytes a point and state; for large results
 	there are :class:`MpmVtkRecorder` and :func:`state`.
 
 	:param fileName: path that ends in .html; folders that are missing are made

@@ -226,3 +226,13 @@ print(json.dumps(result))
 	assert result['zero'] == pytest.approx([0, 0], abs=0.01) and result['both'] == pytest.approx(0, abs=0.01)
 	assert result['mm'][0] == 'displacement [mm]' and result['mm'][1] == pytest.approx(1000)
 	assert result['stage'] == 'excavating, step 3 of 4' and result['time'] == 'time 0.005 s'
+
+
+def test_picturesOfExamplesAreLookedAt(yade):
+	"""A script in a folder of examples that saves texts over each other does not pass."""
+	script = yade.folder / 'examples' / 'wrong.py'
+	script.parent.mkdir()
+	script.write_text("from matplotlib.figure import Figure\nfigure = Figure()\nfor word in 'one', 'two': figure.add_subplot(111).set_title(word)\nfigure.savefig('wrong.png')\n")
+	with pytest.raises(AssertionError, match='labels overlap in wrong.png'):
+		yade(script)
+	assert (yade.folder / 'wrong.png').exists()

@@ -126,7 +126,7 @@ browser = shutil.which('chromium') or shutil.which('chromium-browser') or shutil
 
 @pytest.mark.skipif(not browser, reason='there is no Chromium: apt install chromium')
 def test_the_browser_draws_it(space, tmp_path):
-	"""Of a whole and a cut body: it draws something, less of it when cut, and says what is in the middle."""
+	"""Of a whole, a cut and a turned body: it draws something, less of it when cut, another face when turned, says what is in the middle, and plays."""
 	(pos, number), path = space
 
 	def shown(address):
@@ -136,7 +136,8 @@ def test_the_browser_draws_it(space, tmp_path):
 		assert found, page[-2000:]
 		return json.loads(found[1].replace('&quot;', '"'))
 
-	whole, cut = shown(''), shown('#frame=0&cut=y:0.4')
+	whole, cut, turned = shown(''), shown('#frame=0&cut=y:0.4'), shown('#turn=180:0&frame=0&play')
+	assert turned['frame'] == whole['frame'] == 2 and cut['frame'] == 0 and turned['middle'] != whole['middle']
 	assert whole['frames'] == 3 and whole['points'] == number and cut['points'] == number + 1
 	assert 0.02 < cut['drawn'] < 0.9 * whole['drawn'] < 0.5
 	x = pos[whole['middle']]

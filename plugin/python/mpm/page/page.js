@@ -357,7 +357,7 @@ function resize() {
 	if (shapes) draw();
 }
 
-// What stands behind the # of the address: frame=3&field=stress_xy&cut=y:0.5
+// What stands behind the # of the address: frame=3&field=stress_xy&cut=y:0.5&turn=30:-10&play
 function fromAddress() {
 	const given = new URLSearchParams(location.hash.slice(1));
 	state.frame = Math.min(data.frames.length - 1, Math.max(0, +(given.get('frame') ?? data.frames.length - 1)));
@@ -365,6 +365,7 @@ function fromAddress() {
 	byId('field').selectedIndex = state.field;
 	const [axis, at] = (given.get('cut') ?? ':').split(':');
 	if ('xyz'.includes(axis) && axis) [byId('axis').value, byId('at').value] = ['xyz'.indexOf(axis), at];
+	if (given.has('turn')) turn(...given.get('turn').split(':').map(degrees => degrees * 150 * Math.PI / 180));
 	if (given.has('play')) play();
 }
 
@@ -389,8 +390,9 @@ async function begin() {
 	listen();
 	fromAddress();
 	showField();
+	if (state.playing) await new Promise(done => setTimeout(done, 1500 / data.fps)); // so that what is told is of a run that plays
 	const { clientWidth, clientHeight } = gl.canvas, hint = byId('point').textContent;
-	document.body.dataset.ready = JSON.stringify({ frames: data.frames.length, points: rows(data.frames[state.frame]), drawn: countDrawn(), middle: pick({ offsetX: clientWidth / 2, offsetY: clientHeight / 2 }), said: byId('point').textContent });
+	document.body.dataset.ready = JSON.stringify({ frames: data.frames.length, frame: state.frame, points: rows(data.frames[state.frame]), drawn: countDrawn(), middle: pick({ offsetX: clientWidth / 2, offsetY: clientHeight / 2 }), said: byId('point').textContent });
 	byId('point').textContent = hint;
 }
 
