@@ -249,7 +249,7 @@ namespace {
 				for (const auto method : { LinearMethod::direct, LinearMethod::automatic })
 					expectSolved(c, method, Status::lu);
 				if (size == 8) expectSolved(c, LinearMethod::iterative, Status::iterative);
-				if (hasMultigrid()) expectSolved(c, LinearMethod::multigrid, Status::iterative);
+				expectSolved(c, LinearMethod::multigrid, hasMultigrid() ? Status::iterative : Status::lu);
 			}
 	}
 
