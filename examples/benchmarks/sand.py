@@ -22,6 +22,7 @@ options = readOptions('Sand that yields: iterations, cuts and loads.',
         scene=('strip', "'strip', 'square' or 'slope'"),
         phi=(20., 'angle of friction of the sand [degrees]'),
         psi=(20., 'of dilation [degrees]; of the slope: 0, or more for psi = phi'),
+        refine=(0, 'how often cells are halved around the edge of the strip; cells is of these, over half its width'),
         cells=(8, 'cells over half the width of the footing, without the half cell at its edge; per metre of the slope, times 8'),
         cut=(0., 'part of a cell [-] by which the surface lies above a line of the grid; the footing is then a wall'),
         rough=(0, '1: the footing holds the sand sideways'),
@@ -49,10 +50,14 @@ def solverOf(grid, boundaries, **settings):
 def footing(dim):
 	"""Half of the strip, a quarter of the square; the load by step, as N_gamma (of the plane problem)."""
 	h = B / 2 / (options.cells + .5)  # the footing ends in the middle between two nodes, so that each held node stands for a whole cell
-	width, depth = round(2.5 * B / h) * h, round(1.2 * B / h) * h
+	size = h * 2**options.refine
+	width, depth = round(2.5 * B / size) * size, round(1.2 * B / size) * size
 	if dim == 3: width = round(1.5 * B / h) * h
 	material('sand', density * gravity * B / 1000, options.phi, options.psi, options.young, density)
-	grid = MpmGrid(cellSize=h, dim=dim, axisymmetric=bool(options.axisymmetric))
+	edge = options.cells * h
+	near = lambda k: 1.5 * size / 2**k  # half the size of the cells that are halved so often
+	boxes = [MpmRefinement(min=(edge - near(k), -near(k), -inf), max=(edge + near(k), inf, inf), halvings=k) for k in range(1, options.refine + 1)]
+	grid = MpmGrid(cellSize=size, dim=dim, axisymmetric=bool(options.axisymmetric), refinements=boxes)
 	O.bodies.append(mpm.fill(pack.inAlignedBox((0, -depth, 0 if dim == 3 else -1), (width, 0, width if dim == 3 else 1)), grid, 2, 'sand'))
 	grid.origin = (0, -options.cut * h, 0)
 	sides = [MpmBoundary(max=(0, inf, inf), fix='x'), MpmBoundary(min=(width, -inf, -inf), fix='x'), MpmBoundary(max=(inf, -depth, inf), fix='xyz'[:dim])]
@@ -62,7 +67,10 @@ def footing(dim):
 		directions = 'xyz'[:dim] if options.rough else 'y'
 		foot = MpmBoundary(min=(-inf, 0, -inf), max=(B / 2, 0, B / 2), fix=directions, displacement=(0, -options.settlement * B, 0))
 	solverOf(grid, [foot, *sides], fBar=True, gravity=(0, -gravity, 0), gravityCurve=[(0, 1)])
-	mpm.geostatic()
+	if options.refine:  # the points of cells of several sizes do not have their tops in one row
+		K0 = 1 - np.sin(np.radians(options.phi))
+		mpm.assign(stress=density * gravity * mpm.arrays()['pos'][:, 1, None, None] * np.diag([K0, 1, K0]))
+	else: mpm.geostatic()
 	area = np.pi * B**2 / 4 if options.axisymmetric else (B / 2)**(dim - 1)
 	return lambda: abs(solver.reactions[0][1]) / area * 2 / (density * gravity * B), ('N_gamma', '.3f')
 

@@ -23,6 +23,7 @@ template <int Dim> struct Moving {
 		model.newton.tolerance = 1e-9;
 		model.atMiddle         = scheme.atMiddle;
 		motion->scheme         = scheme;
+		motion->isElastic      = { law->isElastic };
 		if (!scheme.isExplicit) model.inertia = [motion = motion](const Beginning<Dim>& step) { return std::make_unique<Inertia<Dim>>(*motion, step); };
 	}
 	/// Points with the velocity(position).

@@ -7,12 +7,14 @@
 namespace gimpm {
 namespace {
 
-template <int Dim> NodalMass<Dim> massOf(const Motion<Dim>& motion, const Beginning<Dim>& step, double& seconds)
+template <int Dim> NodalMass<Dim> massOf(Motion<Dim>& motion, const Beginning<Dim>& step, double& seconds)
 {
 	const Stopwatch watch(seconds);
 	// What is lumped wholly loses angular momentum: only bodies of which no cell is filled.
-	const int anyWay = int(step.faces.size());
-	return NodalMass<Dim>(step.basis, motion.mass, massFaces(motion, step), step.grid.cellSize, looseOf(motion, step, anyWay), step.share);
+	const int  anyWay  = int(step.faces.size());
+	const auto loose   = looseOf(motion, step, anyWay);
+	motion.loosePoints = countOfPoints(loose, step);
+	return NodalMass<Dim>(step.basis, motion.mass, massFaces(motion, step), step.grid.cellSize, loose, step.share);
 }
 
 } // namespace

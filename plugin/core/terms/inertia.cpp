@@ -17,7 +17,8 @@ Inertia<Dim>::Inertia(Motion<Dim>& motion, const Beginning<Dim>& step)
         , prescribed_(step.prescribed)
         , faces_(step.faces)
         , h_(step.grid.cellSize)
-        , mass_(massMatrix(motion, step))
+        , loose_(looseOf(motion, step))
+        , mass_(massMatrix(motion, step, loose_))
         , nodal_(mass_)
         , iterates_(motion.ghostMass > 0)
 {
@@ -26,7 +27,23 @@ Inertia<Dim>::Inertia(Motion<Dim>& motion, const Beginning<Dim>& step)
 	if (motion.scheme.dependsOnStart()) expected_ = ofHeld<Dim>(acceleration_, &MovingBase<Dim>::acceleration, motion.bases, step);
 	for (const auto& make : motion.damping)
 		damping_.push_back(make(step));
+	findExtent(step);
 	findStart(step);
+}
+
+template <int Dim> void Inertia<Dim>::findExtent(const Beginning<Dim>& step)
+{
+	motion_.loosePoints = countOfPoints(loose_, step);
+	if (motion_.loosePoints == 0) return;
+	extent_ = std::make_unique<MassMatrix<Dim>>(step.basis.nodes.size(), extentOf(loose_, motion_, step), 1);
+	extent_->complete(share_, step.basis.nodes);
+}
+
+/// It takes part at the end of a step, as long as cells are loose.
+template <int Dim> Eigen::VectorXd Inertia<Dim>::ofExtent(const Eigen::VectorXd& acceleration) const
+{
+	const double ofEnd = (1 - motion_.scheme.alphaM) / (1 - motion_.scheme.alphaF);
+	return *extent_ * (ofEnd * acceleration);
 }
 
 /// Velocities and accelerations at the nodes, those of the points, or where they are at the beginning the accelerations
@@ -154,6 +171,7 @@ template <int Dim> Eigen::VectorXd Inertia<Dim>::velocityAt(const Eigen::VectorX
 template <int Dim> void Inertia<Dim>::mark(NodeMatrix<Dim>& K) const
 {
 	mass_.mark(K);
+	if (extent_) extent_->mark(K);
 	for (const auto& each : damping_)
 		each->mark(K);
 }
@@ -182,9 +200,12 @@ template <int Dim> std::optional<PointFailure> Inertia<Dim>::add(const Eigen::Ve
 			if (!isHeld(i)) force[i] = weighted[i]; // those at held nodes are reactions at the end of the step
 	}
 	force += blow_ / motion_.duration;
+	if (extent_) force += ofExtent(a);
 	sum.force += force;
 	if (sum.sizes) *sum.sizes += force.cwiseAbs();
-	if (sum.K) mass_.addTo(*sum.K, ofEnd / (scheme.beta * motion_.duration * motion_.duration));
+	const double slope = ofEnd / (scheme.beta * motion_.duration * motion_.duration);
+	if (sum.K) mass_.addTo(*sum.K, slope);
+	if (sum.K && extent_) extent_->addTo(*sum.K, slope);
 	if (damping_.empty()) return std::nullopt;
 	const Eigen::VectorXd v = velocityAt(d);
 	for (const auto& each : damping_)
@@ -207,7 +228,10 @@ template <int Dim> void Inertia<Dim>::addRoundOff(const Eigen::VectorXd& d, Eige
 {
 	constexpr double roundOff = 10 * std::numeric_limits<double>::epsilon();
 	const double     T        = motion_.duration;
-	sizes += roundOff / (motion_.scheme.beta * T * T) * mass_.sizesTimes(d.cwiseAbs() + T * velocity_.cwiseAbs());
+	const double     factor   = roundOff / (motion_.scheme.beta * T * T);
+	const auto       moved    = (d.cwiseAbs() + T * velocity_.cwiseAbs()).eval();
+	sizes += factor * mass_.sizesTimes(moved);
+	if (extent_) sizes += factor * extent_->sizesTimes(moved);
 }
 
 template <int Dim> Eigen::VectorXd Inertia<Dim>::ownMotion() const
@@ -271,6 +295,7 @@ template <int Dim> void Inertia<Dim>::commit(const Eigen::VectorXd& d)
 	// the force of the ghost stiffness begins at zero in each step; points do not take over what the nodes change
 	// in the ghost mass
 	motion_.ghostWork = gamma * d.dot(ghost) + (growth.dot(nodal_ * growth) - division_.sum(gained)) / 2;
+	if (extent_) motion_.ghostWork += gamma * d.dot(ofExtent(accelerationAt(d)));
 }
 
 template class Inertia<2>;

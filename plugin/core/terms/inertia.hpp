@@ -10,7 +10,9 @@ namespace gimpm {
 /// (M + M_g) v = sum of S m v_p, held ones those that the step prescribes, by a blow where points have brought others
 /// along; points take back what changes of them (FLIP). Every other force is that at the end of the step. Where the
 /// scheme weighs it with that of the beginning the whole balance is divided by its weight: so other terms are as in a
-/// step without inertia.
+/// step without inertia. Cells whose points are too few also resist accelerations by the inertia of their extent: else
+/// what the points do not see of their nodes' motion has neither mass nor, where soil is torn, any stiffness, and
+/// Newton's method goes round. A body in free fall does not feel it.
 template <int Dim> class Inertia : public Term<Dim> {
 public:
 	/// To be made after all other terms. Velocities and accelerations are written in commit().
@@ -41,6 +43,7 @@ public:
 private:
 	using Side = typename NodalMass<Dim>::Side;
 
+	void            findExtent(const Beginning<Dim>&);
 	void            findStart(const Beginning<Dim>&);
 	void            findVelocity(bool withAcceleration);
 	Eigen::VectorXd imbalanceOf(const Beginning<Dim>&) const;
@@ -50,6 +53,7 @@ private:
 	Eigen::VectorXd velocityAt(const Eigen::VectorXd& d) const;
 	Eigen::VectorXd ofContact(const Eigen::VectorXd* d) const; // on the nodes; null: as the step begins
 	Eigen::VectorXd accelerationAt(const Eigen::VectorXd& d) const;
+	Eigen::VectorXd ofExtent(const Eigen::VectorXd& acceleration) const;
 	bool            isHeld(Eigen::Index dof) const { return dofs_.number[dof] < 0; }
 
 	Motion<Dim>&                               motion_;
@@ -61,8 +65,10 @@ private:
 	const Eigen::VectorXd&                     prescribed_;
 	const std::vector<GhostFace<Dim>>&         faces_;
 	double                                     h_; // size of the cells
+	const std::vector<LooseCell<Dim>>          loose_;
 	MassMatrix<Dim>                            mass_;
 	NodalMass<Dim>                             nodal_;    // the same, for products and conjugate gradients
+	std::unique_ptr<MassMatrix<Dim>>           extent_;   // of points in loose cells; null: there are none
 	bool                                       iterates_; // its condition number is bounded, and conjugate gradients have got there
 	std::vector<std::unique_ptr<Damping<Dim>>> damping_;
 	bool                                       isSingular_ = false;

@@ -82,6 +82,7 @@ void addTo(std::vector<Filling<Dim>>& fillings, const std::vector<int>& slot, co
 		filling.cell.node[corner] = patch.node[node];
 	}
 	filling.cell.mass += mass;
+	++filling.cell.points;
 	filling.moments += mass * field * field.transpose();
 }
 
@@ -110,7 +111,7 @@ std::vector<LooseCell<Dim>> looseCells(
 	spread(isKnown, pairs, reach);
 	std::vector<LooseCell<Dim>> loose;
 	for (std::size_t c = 0; c < slot.size(); ++c)
-		if (!isKnown[c] && fillings[slot[c]].cell.mass > 0) loose.push_back(fillings[slot[c]].cell);
+		if (!isKnown[c] && fillings[slot[c]].cell.mass > 0) loose.push_back(fillings[slot[c]].cell), loose.back().cell = int(c);
 	return loose;
 }
 

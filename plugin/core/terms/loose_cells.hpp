@@ -6,11 +6,13 @@
 
 namespace gimpm {
 
-/// A populated cell: its nodes, the first axis fastest, and the mass of the points whose middle is in it [kg].
+/// A populated cell: its nodes, the first axis fastest, and the points whose middle is in it with their mass [kg].
 template <int Dim> struct LooseCell {
 	static constexpr int     corners = 1 << Dim;
 	std::array<int, corners> node {};
-	double                   mass = 0;
+	double                   mass   = 0;
+	int                      points = 0;
+	int                      cell   = -1; ///< of the basis
 };
 
 /// Share of the mass of loose cells that MassMatrix lumps. Its angular momentum is lost in each step, its inverse

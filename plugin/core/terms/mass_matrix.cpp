@@ -33,7 +33,7 @@ template <int Dim>
 MassMatrix<Dim>::MassMatrix(
         const CloudBasis<Dim>& basis, const std::vector<double>& masses, const std::vector<GhostFace<Dim>>& faces, double h,
         const std::vector<LooseCell<Dim>>& loose, double share)
-        : value_(basis.nodes.size() * codes, 0), neighbour_(value_.size(), -1)
+        : MassMatrix(basis.nodes.size(), loose, share)
 {
 	forPointNodes(basis, [&](int p, const Patch<Dim>& patch, const double* value, int count) {
 		const double m = masses[basis.order[p]];
@@ -45,6 +45,11 @@ MassMatrix<Dim>::MassMatrix(
 				if (patch.node[b] >= 0) add(patch.node[a], patch.node[b], code[b] - code[a], m * value[a] * value[b]);
 	});
 	forGhostPairs<Dim>(faces, h, [&](int a, int b, int code, double m) { add(a, b, code, m); });
+}
+
+template <int Dim>
+MassMatrix<Dim>::MassMatrix(std::size_t nodes, const std::vector<LooseCell<Dim>>& loose, double share) : value_(nodes * codes, 0), neighbour_(value_.size(), -1)
+{
 	for (const auto& cell : loose)
 		addLoose(cell, share);
 }

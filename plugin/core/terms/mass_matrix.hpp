@@ -21,6 +21,9 @@ public:
 	        const CloudBasis<Dim>&, const std::vector<double>& masses, const std::vector<GhostFace<Dim>>&, double h,
 	        const std::vector<LooseCell<Dim>>& loose = {}, double share = usualLooseShare);
 
+	/// Of loose cells alone, that of a body without mass.
+	MassMatrix(std::size_t nodes, const std::vector<LooseCell<Dim>>& loose, double share);
+
 	/// Where points are divided each process has the rows of its own nodes, and then all rows of all.
 	void complete(const NodeShare&, const std::vector<Key>& nodes);
 

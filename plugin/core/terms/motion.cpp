@@ -40,9 +40,41 @@ template <int Dim> std::vector<LooseCell<Dim>> looseOf(const Motion<Dim>& motion
 	return looseCells(step.basis, motion.mass, step.faces, step.grid, reach, step.division);
 }
 
-template <int Dim> MassMatrix<Dim> massMatrix(const Motion<Dim>& motion, const Beginning<Dim>& step)
+template <int Dim> int countOfPoints(const std::vector<LooseCell<Dim>>& cells, const Beginning<Dim>& step)
 {
-	MassMatrix<Dim> M(step.basis, motion.mass, massFaces(motion, step), step.grid.cellSize, looseOf(motion, step));
+	double count = 0;
+	for (const auto& cell : cells)
+		if (step.division.owns(step.basis.cells[cell.cell])) count += cell.points;
+	return int(step.division.sum(count));
+}
+
+/// At most what points have which fill half a cell, (h/4)^2 / 3 for each axis; and less in short
+/// steps, in which inertia would keep the stiffness of the points from telling at once what they do not see.
+template <int Dim> std::vector<LooseCell<Dim>> extentOf(const std::vector<LooseCell<Dim>>& loose, const Motion<Dim>& motion, const Beginning<Dim>& step)
+{
+	constexpr double ofHalfACell = 1. / 12, ofStiffness = 1e-2;
+	const auto       squareOfSpeed = [&](int p) { // of waves; none where nothing tears
+                const auto [volume, modulus] = step.stiffnessOf(p);
+                const bool isElastic         = !motion.isElastic.empty() && motion.isElastic[step.cloud.material[p]];
+                return VolumeAndModulus { volume, isElastic ? 0 : modulus * volume / motion.mass[p] };
+	};
+	const auto&       leaves = step.basis.populatedLeaves();
+	std::vector<char> isLoose(leaves.size(), 0);
+	for (const auto& cell : loose)
+		isLoose[step.basis.leaf(cell.cell)] = 1;
+	const auto square = cellModuli<Dim>(isLoose, step.basis, squareOfSpeed, step.grid);
+	auto       extent = loose;
+	for (auto& cell : extent) {
+		const int    leaf = step.basis.leaf(cell.cell);
+		const double way  = motion.duration / step.grid.size(Grid<Dim>::level(leaves[leaf]));
+		cell.mass *= std::min(ofHalfACell, ofStiffness * motion.scheme.beta * way * way * square[leaf]);
+	}
+	return extent;
+}
+
+template <int Dim> MassMatrix<Dim> massMatrix(const Motion<Dim>& motion, const Beginning<Dim>& step, const std::vector<LooseCell<Dim>>& loose)
+{
+	MassMatrix<Dim> M(step.basis, motion.mass, massFaces(motion, step), step.grid.cellSize, loose);
 	M.complete(step.share, step.basis.nodes);
 	return M;
 }
@@ -74,7 +106,9 @@ Eigen::VectorXd ofHeld(const Eigen::VectorXd& otherwise, OfBase<Dim> value, cons
 #define GIMPM_INSTANTIATE(Dim)                                                                                                                                 \
 	template std::vector<LooseCell<Dim>> looseOf(const Motion<Dim>&, const Beginning<Dim>&, int);                                                          \
 	template std::vector<GhostFace<Dim>> massFaces(const Motion<Dim>&, const Beginning<Dim>&);                                                             \
-	template MassMatrix<Dim>             massMatrix(const Motion<Dim>&, const Beginning<Dim>&);                                                            \
+	template std::vector<LooseCell<Dim>> extentOf(const std::vector<LooseCell<Dim>>&, const Motion<Dim>&, const Beginning<Dim>&);                          \
+	template int                         countOfPoints(const std::vector<LooseCell<Dim>>&, const Beginning<Dim>&);                                         \
+	template MassMatrix<Dim>             massMatrix(const Motion<Dim>&, const Beginning<Dim>&, const std::vector<LooseCell<Dim>>&);                        \
 	template bool                        begins(const Motion<Dim>&, const Division&);                                                                      \
 	template class MotionOfCopies<Dim>;                                                                                                                    \
 	template Eigen::VectorXd weighedAtNodes(const CloudBasis<Dim>&, const std::vector<double>&, const std::vector<Vec<Dim>>&, const NodeShare&);           \

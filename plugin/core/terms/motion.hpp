@@ -25,16 +25,18 @@ template <int Dim> struct Motion {
 	std::vector<double>       mass {};              ///< of each point [kg]
 	std::vector<Vec<Dim>>     velocity {};          ///< [m/s]
 	std::vector<Vec<Dim>>     acceleration {};      ///< [m/s2], a result; all zero: the motion begins
-	double                    ghostWork  = 0;       ///< that ghost stabilisation has taken in the last step that was accepted [J]
-	double                    impactWork = 0;       ///< that held nodes have taken in it by their blow, beyond what they have worked with it [J]
-	double                    gridWork   = 0;     ///< of the forces that are out of balance with the accelerations of the points as the last step began [J]
-	double                    exactness  = 1e-13; ///< of velocities and accelerations of the nodes, of the momenta of those of the points
-	Eigen::VectorXd           growth {};          ///< of velocities of the nodes in the last step that was accepted [m/s]
+	double                    ghostWork   = 0;      ///< that ghost stabilisation has taken in the last step that was accepted [J]
+	double                    impactWork  = 0;      ///< that held nodes have taken in it by their blow, beyond what they have worked with it [J]
+	int                       loosePoints = 0;      ///< in cells whose points do not tell the velocities of their nodes, as that step began
+	double                    gridWork    = 0; ///< of the forces that are out of balance with the accelerations of the points as the last step began [J]
+	double                    exactness   = 1e-13;        ///< of velocities and accelerations of the nodes, of the momenta of those of the points
+	Eigen::VectorXd           growth {};                  ///< of velocities of the nodes in the last step that was accepted [m/s]
 	const ContactSystem<Dim>* contacts         = nullptr; ///< if there are some, of TimeScheme::weightOfContact()
 	LinearSolver              solvers[Dim + 1] = {};      ///< by axis, and of all nodes; keep their symbolic analyses
 
-	std::vector<DampingOfStep<Dim>> damping {}; ///< in each step
-	std::vector<MovingBase<Dim>>    bases {};   ///< of nodes in several boxes the last one counts
+	std::vector<char>               isElastic {}; ///< of each material: nothing flows; empty: of none
+	std::vector<DampingOfStep<Dim>> damping {};   ///< in each step
+	std::vector<MovingBase<Dim>>    bases {};     ///< of nodes in several boxes the last one counts
 
 	static constexpr double infinite = std::numeric_limits<double>::infinity();
 };
@@ -61,8 +63,15 @@ template <int Dim> std::vector<GhostFace<Dim>> massFaces(const Motion<Dim>&, con
 /// None without ghost mass: then nothing is connected, and mass is that of the points alone.
 template <int Dim> std::vector<LooseCell<Dim>> looseOf(const Motion<Dim>&, const Beginning<Dim>&, int reach = Dim);
 
-/// (M + M_g) of all points.
-template <int Dim> MassMatrix<Dim> massMatrix(const Motion<Dim>&, const Beginning<Dim>&);
+/// The points in them, of all processes.
+template <int Dim> int countOfPoints(const std::vector<LooseCell<Dim>>&, const Beginning<Dim>&);
+
+/// What the extent of points in loose cells adds to the inertia of their middles, as the mass of these cells that
+/// resists accelerations, while it is not remembered: of laws that flow.
+template <int Dim> std::vector<LooseCell<Dim>> extentOf(const std::vector<LooseCell<Dim>>&, const Motion<Dim>&, const Beginning<Dim>&);
+
+/// (M + M_g) of all points, with those of loose cells.
+template <int Dim> MassMatrix<Dim> massMatrix(const Motion<Dim>&, const Beginning<Dim>&, const std::vector<LooseCell<Dim>>&);
 
 /// Sum of S m x_p at the nodes; `share`: those around which this process knows all points.
 template <int Dim>

@@ -72,6 +72,7 @@ void MpmDynamicEngine::tellMotion(py::dict& data) const
 	data["gridWork"]      = gridWork;
 	data["plasticWork"]   = plasticWork;
 	data["dampingWork"]   = dampingWork;
+	data["loosePoints"]   = loosePoints;
 	data["energyImbalance"]
 	        = now.total() - firstEnergy - loadWork - boundaryWork - contactWork + impactWork + ghostWork + gridWork + plasticWork + dampingWork;
 }

@@ -11,6 +11,7 @@ class MpmDynamicEngine : public Exposed<MpmDynamicEngine, MpmImplicitEngine> {
 public:
 	string scheme = "newmark";
 	Real   beta = 0.25, gamma = 0.5, rhoInfinity = 0.8, timeTolerance = 0;
+	int    loosePoints = 0;
 	Real   loadWork = 0, boundaryWork = 0, contactWork = 0, impactWork = 0, ghostWork = 0, gridWork = 0, plasticWork = 0, dampingWork = 0;
 	// When the first step began; NaN: there was none.
 	Real             firstEnergy = std::numeric_limits<Real>::quiet_NaN();
@@ -66,6 +67,8 @@ public:
 		  finite);
 		v("plasticWork", &E::plasticWork, readonly, "Energy dissipated by plastic flow so far [J].", finite);
 		v("dampingWork", &E::dampingWork, readonly, "Energy that Rayleigh damping has taken so far [J].", finite);
+		v("loosePoints", &E::loosePoints, noSave | readonly,
+		  "Points of the last step in cells that hold too few to tell the velocities of their nodes, as those that fly alone.", AnyValue());
 		v("firstEnergy", &E::firstEnergy, hidden, "", AnyValue());
 		v("reactionsBefore", &E::reactionsBefore, hidden, "",
 		  admitting("forces of finite numbers [N]", [](const auto& forces) { return std::all_of(forces.begin(), forces.end(), finite); }));

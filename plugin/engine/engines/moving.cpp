@@ -40,6 +40,8 @@ Moving<Dim>::Moving(MpmDynamicEngine& e, Job<Dim>& job, const vector<MaterialPoi
 		motion->velocity.push_back(finiteInDimension<Dim>(points[p], "vel", points[p].state->vel));
 		motion->acceleration.push_back(finiteInDimension<Dim>(points[p], "acceleration", points[p].state->acceleration));
 	}
+	for (const auto& material : job.model.materials)
+		motion->isElastic.push_back(material.law->isElastic);
 	joinRayleigh(job);
 	for (const auto& condition : job.conditions)
 		condition->joinMotion(*motion, job.model, job.begin);
@@ -123,6 +125,7 @@ template <int Dim> void Moving<Dim>::addWork(const Job<Dim>& job, const StepOutc
 	engine.impactWork += motion->impactWork;
 	engine.ghostWork += motion->ghostWork;
 	engine.gridWork += motion->gridWork;
+	engine.loosePoints = motion->loosePoints;
 	engine.plasticWork += ofAll(plasticWork(job.cloud, job.model.materials, points), job);
 	engine.reactionsBefore = engine.reactions;
 }

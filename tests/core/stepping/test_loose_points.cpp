@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+#include "core/materials/mohr_coulomb.hpp"
 #include "core/solvers/condition.hpp"
 #include "moving.hpp"
 
@@ -102,14 +103,61 @@ namespace {
 			}
 	}
 
-	/// A row that turns by 1 rad/s as it flies: 3.4e-6 of the angular momentum of four points in two cells are lost
-	/// in a step with Newmark's rule.
-	TYPED_TEST(LoosePoints, ARowSpins)
+	/// One that flies, and one whose neighbours tell the velocities of their nodes.
+	TYPED_TEST(LoosePoints, AreCounted)
 	{
 		constexpr int Dim = TypeParam::value;
-		for (const auto& scheme : { TimeScheme(), TimeScheme::midpoint() }) {
-			Moving<Dim>    body(1, Hencky(1e6, 0.3), 1000, scheme);
-			const auto     cloud  = row<Dim>(4, along<Dim>());
+		for (const int count : { 0, 1, 2 }) {
+			Moving<Dim> body(1, Hencky(1e6, 0.3), 2000);
+			auto        cloud = block<Dim>(body.model.grid, Index<Dim>::Constant(2), 2);
+			for (int i = 0; i < count; ++i)
+				addPoint<Dim>(cloud, Vec<Dim>::Constant(10.3 + 5 * i), Vec<Dim>::Constant(0.25));
+			body.put(std::move(cloud), [](const Vec<Dim>&) { return Vec<Dim>(Vec<Dim>::Zero()); });
+			ASSERT_TRUE(body.steps(1, 0.01));
+			EXPECT_EQ(body.motion->loosePoints, count);
+		}
+	}
+
+	/// Sand that hardly sticks falls on held nodes, bounces along them and lies there: without the inertia of its
+	/// extent Newton's method goes round, as nothing tells what the point does not see of its nodes.
+	TYPED_TEST(LoosePoints, SandComesToRestAlone)
+	{
+		constexpr int    Dim     = TypeParam::value;
+		constexpr double density = 1600, young = 8e6, cohesion = 16;
+		Moving<Dim>      body(0.1, MohrCoulomb(young, 0.3, cohesion, 0.644, 0), density);
+		auto             ground = wallBelow<Dim>(body.model.grid, 1, 0);
+		for (int axis = 0; axis < Dim; ++axis)
+			ground.fixed[axis] = true;
+		body.model.boundary         = Boundary<Dim>({ ground });
+		body.model.newton.tolerance = 1e-6;
+		body.gravity[1]             = -10;
+		PointCloud<Dim> cloud;
+		addPoint<Dim>(cloud, 0.1 * (2 * Vec<Dim>::Unit(0) + Vec<Dim>::Constant(0.35)), Vec<Dim>::Constant(0.025));
+		body.put(std::move(cloud), [](const Vec<Dim>&) { return Vec<Dim>(0.4 * Vec<Dim>::Unit(0)); });
+		int    most = 0;
+		double last = 1;
+		for (int i = 0; i < 60; ++i) {
+			const auto report = body.step(0.0067);
+			ASSERT_TRUE(report.converged()) << "step " << i << ": " << report.cause;
+			most = std::max(most, report.iterations);
+			last = body.motion->velocity[0].norm();
+		}
+		EXPECT_LE(most, 12);
+		EXPECT_LT(last, 0.4);
+		EXPECT_GT(body.cloud.position[0][1], 0);
+	}
+
+	/// A row that turns by 1 rad/s as it flies: 3.4e-6 of the angular momentum of four points in two cells are lost
+	/// in a step with Newmark's rule. Where soil may flow, the inertia of its extent takes more.
+	TYPED_TEST(LoosePoints, ARowSpins)
+	{
+		constexpr int Dim  = TypeParam::value;
+		const Law     clay = MohrCoulomb::tresca(1e6, 0.3, 1e5);
+		for (const auto& [scheme, law] :
+		     { std::pair(TimeScheme(), Law(Hencky(1e6, 0.3))), { TimeScheme::midpoint(), Law(Hencky(1e6, 0.3)) }, { TimeScheme(), clay } }) {
+			Moving<Dim>    body(1, law, 1000, scheme);
+			const bool     isElastic = law->isElastic;
+			const auto     cloud     = row<Dim>(4, along<Dim>());
 			const Vec<Dim> centre = middle(cloud), drift = 3 * Vec<Dim>::Unit(0);
 			body.put(cloud, [&](const Vec<Dim>& x) {
 				return Vec<Dim>(drift - (x - centre)[1] * Vec<Dim>::Unit(0) + (x - centre)[0] * Vec<Dim>::Unit(1));
@@ -117,8 +165,8 @@ namespace {
 			const double spin = body.angularMomentum() + centre[1] * 3 * body.mass(), energy = body.energy();
 			ASSERT_TRUE(body.steps(60, 0.003));
 			EXPECT_LT((body.momentum() / body.mass() - drift).norm(), 1e-12);
-			EXPECT_NEAR((body.angularMomentum() + middle(body.cloud)[1] * 3 * body.mass()) / spin, 1, 4e-4);
-			EXPECT_NEAR(body.energy() / energy, 1, 1e-4);
+			EXPECT_NEAR((body.angularMomentum() + middle(body.cloud)[1] * 3 * body.mass()) / spin, 1, isElastic ? 4e-4 : 1e-2);
+			EXPECT_NEAR(body.energy() / energy, 1, isElastic ? 1e-4 : 2e-3);
 			EXPECT_NEAR((body.cloud.position[3] - body.cloud.position[0]).norm(), 1.5, 2e-3);
 			EXPECT_NEAR(std::asin((body.cloud.position[3] - body.cloud.position[0])[1] / 1.5), 0.18, 1e-3);
 		}

@@ -1,0 +1,64 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Runs scenes, and judges them: each gets to its end, or fails where a run in finer steps fails too and equilibrium is not known to exist; forces balance; and what limit analysis bounds is within its bounds."""
+import time
+
+import numpy as np
+from contacts.course import Course, reason, reasons, said
+from yade.wrapper import Omega
+
+from .scenes import sceneOf
+from .soils import weight
+
+O = Omega()
+same = .05  # of the load at which two runs fail
+exact = 1e-5  # of the sizes of all forces, that may be out of balance in statics
+
+
+def balanceOf(scene, solver):
+	"""Forces from outside that are left over in statics, over the sum of their sizes. Not known where water presses on the ground."""
+	if scene.isDynamic or solver.water: return 0.
+	mass = weight * sum(b.state.volume0 for b in O.bodies if b)
+	factor = 1. if solver.gravityCurve else solver.loadFactor
+	forces = [np.array(F) for F in solver.reactions] + [factor * mass * np.array([-(axis == scene.up) for axis in range(3)], float)]
+	return float(np.abs(sum(forces)[:scene.dim]).max() / sum(np.linalg.norm(F) for F in forces))
+
+
+class Outcome:
+	"""part: of the way that was made; why: it went no farther, empty if it got to its end."""
+
+	def __init__(self, scene, finer, seconds):
+		solver = scene.add(finer)
+		self.part, self.off, self.why, self.solves, self.cuts = 0., 0., '', 0, 0
+		steps, ends = scene.steps * finer, time.process_time() + seconds
+		for step in range(steps):
+			try:
+				scene.before(step, solver)
+				O.step()
+			except (RuntimeError, ValueError) as failure:
+				self.why = reason(failure)
+				self.part = max(self.part, solver.loadTime / (O.dt * steps))
+			if time.process_time() > ends and not self.why: self.why = 'time is up'
+			self.solves, self.cuts = self.solves + solver.iterations, self.cuts + solver.cuts
+			if self.why: break
+			self.part = (step + 1) / steps
+			self.off = max(self.off, balanceOf(scene, solver))
+		self.numbers = scene.isRight(solver) if not self.why else {}
+
+
+def judged(seed, seconds):
+	"""A row of the table: how a scene ended ('ends', 'fails' as it may, or 'stops'), and what is wrong with it."""
+	began, scene = time.process_time(), sceneOf(seed)
+	with said():
+		found = Outcome(scene, 1, seconds)
+		how = 'ends' if not found.why else 'stops'
+		if found.why and found.why != 'time is up' and scene.mayFail():
+			again = Outcome(scene, 2, 2 * seconds)
+			if again.why and abs(again.part - found.part) <= same * max(again.part, found.part) or found.part == again.part: how = 'fails'
+			else: found.why += f' (at {found.part:.3f}, in finer steps at {again.part:.3f})'
+	wrong = [f'{name} {value:.3g}' for name, (value, isRight) in found.numbers.items() if not isRight]
+	if found.off > exact: wrong.append(f'balance {found.off:.1e}')
+	return dict(seed=seed, scene=str(scene), how=how, part=found.part, why=found.why, wrong=', '.join(wrong), solves=found.solves, cuts=found.cuts, seconds=round(time.process_time() - began, 2))
+
+
+def drawn(seeds, seconds=10):
+	return [judged(seed, seconds) for seed in range(*seeds)]
