@@ -40,7 +40,9 @@ While it runs, one line tells how far it is (``verbosity`` of the engine); ``plo
 :class:`movie`               film of a run
 :func:`colour`               colours of the points in YADE's 3D view
 :func:`export`               table of the points, CSV or NPZ
-:class:`histories`           values at chosen points over time; :func:`readHistory` reads one from a file
+:class:`histories`           values at chosen points over time and frequency; :func:`readHistory` reads one from a file
+:class:`record`              a record of an earthquake, corrected and integrated, as motion of a base
+:func:`rayleigh`             damping by mass and stiffness that has given ratios; :func:`schemeDamping` is what steps in time damp by themselves
 :func:`save`                 the scene, whole or not at all; :func:`load` reads it, from several processes, too
 :func:`advise`               what an analysis will cost, and what it could do without
 :func:`discretisationError`  how wrong a result is because of the size of the cells; :func:`stressError` tells of stresses, from one run
@@ -55,6 +57,7 @@ from . import processes
 from .advice import advise
 from .cells import refinementsAt
 from .colouring import colour
+from .damping import rayleigh, schemeDamping
 from .data import arrays, assign, contactForces
 from .discretisation import discretisationError, stressError
 from .files import load, save
@@ -67,6 +70,7 @@ from .library import engine as _engine
 from .movies import movie
 from .outline import polygon
 from .plotting import plot
+from .records import record
 from .safety import strengthReduction
 from .solids import solid, terrain
 from .naming import didYouMean as _didYouMean, telling as _telling
@@ -74,7 +78,7 @@ from .surfaces import surface
 from .tables import export
 
 __version__ = _engine.version
-__all__ = ['polygon', 'fill', 'add', 'refinementsAt', 'arrays', 'assign', 'geostatic', 'plot', 'colour', 'export', 'save', 'load', 'advise', 'discretisationError', 'stressError', 'elementTest', 'respond', 'strengthReduction', 'surface', 'contactForces', 'histories', 'readHistory', 'solid', 'terrain', 'movie']
+__all__ = ['polygon', 'fill', 'add', 'refinementsAt', 'arrays', 'assign', 'geostatic', 'plot', 'colour', 'export', 'save', 'load', 'advise', 'discretisationError', 'stressError', 'elementTest', 'respond', 'strengthReduction', 'surface', 'contactForces', 'histories', 'readHistory', 'record', 'rayleigh', 'schemeDamping', 'solid', 'terrain', 'movie']
 
 for _name in __all__:
 	_thing = globals()[_name] = _telling(globals()[_name])
