@@ -27,7 +27,7 @@ class record:
 	:param unit: ``'g'`` (9.80665 m/s2), ``'m/s2'`` or ``'cm/s2'`` (gal), of velocities ``'m/s'`` or ``'cm/s'``; only PEER files tell it themselves
 	:param quantity: ``'acceleration'``, or ``'velocity'``, which is differentiated first
 	:param baseline: polynomial that is taken off the acceleration: ``'constant'``, ``'linear'`` (default), ``'quadratic'`` or None. Of those after which the ground is at rest at the end, the one that leaves the least velocity
-	:param filter: (low, high) corner frequencies [Hz], 0 <= low < high, at most half of the samples' rate; None: no filter. Butterworth's, of 2nd order below and of 4th above, forwards and backwards, without shift of phase. A *low* > 0 takes permanent displacement away, and makes the motion longer at both ends, until its velocity is below a thousandth of the largest one: the first sample of the file is then ``r.before`` [s] behind the beginning
+	:param filter: (low, high) corner frequencies [Hz], 0 <= low < high, at most half of the samples' rate; None: no filter. Butterworth's, of 2nd order below and of 4th above, forwards and backwards, without shift of phase. A *low* > 0 takes permanent displacement away, and makes the motion longer at both ends, until velocity and displacement are below 0.01 and 0.5 % of their largest values: the first sample of the file is then ``r.before`` [s] behind the beginning
 	:param step: step of the result [s]; None: that of the file. Longer than that of the file it needs a filter with high <= 0.4 / step
 	:param scale: factor on all values [-], finite and not 0
 	:param isSure: take values that look like another quantity or unit
@@ -132,10 +132,11 @@ class record:
 		else:
 			from matplotlib.figure import Figure
 			figure = Figure(figsize=(9, 6), layout='constrained')
-		places = figure.add_gridspec(6, 2, width_ratios=(1.5, 1))
-		self._drawHistories([figure.add_subplot(places[2 * i:2 * i + 2, 0]) for i in range(3)])
-		self._drawIntensity(figure.add_subplot(places[:3, 1]))
-		self._drawResponse(figure.add_subplot(places[3:, 1]), damping)
+		left, right = figure.add_gridspec(1, 2, width_ratios=(1.5, 1))
+		left, right = left.subgridspec(3, 1), right.subgridspec(2, 1)
+		self._drawHistories([figure.add_subplot(place) for place in left])
+		self._drawIntensity(figure.add_subplot(right[0]))
+		self._drawResponse(figure.add_subplot(right[1]), damping)
 		if fileName is not None: write('record.plot', figure, fileName)
 		return figure
 

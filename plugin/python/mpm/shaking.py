@@ -3,7 +3,7 @@
 import numpy as np
 
 orderBelow, orderAbove = 2, 4  # of Butterworth's filters, whose gain is applied forwards and backwards
-_quiet = 1e-3  # of the largest velocity: what is cut off before and after
+_quietVelocity, _quietDisplacement = 1e-4, 5e-3  # of the largest ones: what is cut off before and after
 degrees = {'constant': 0, 'linear': 1, 'quadratic': 2}
 
 
@@ -38,8 +38,9 @@ def filtered(acceleration, step, low, high):
 	if low: gain = gain * np.concatenate([[0.], 1 / (1 + (low / frequency[1:])**(2 * orderBelow))])
 	found = np.fft.irfft(np.fft.rfft(padded, size) * gain, size)[:len(padded)]
 	if not rest: return found, 0
-	velocity = np.abs(integral(found, step))
-	moving = np.flatnonzero(velocity > _quiet * velocity.max())
+	velocity = integral(found, step)
+	displacement = np.abs(integral(velocity, step))
+	moving = np.flatnonzero((np.abs(velocity) > _quietVelocity * np.abs(velocity).max()) | (displacement > _quietDisplacement * displacement.max()))
 	begin, end = min(rest, moving[0]), max(rest + len(acceleration), moving[-1] + 2)
 	return found[begin:end], rest - begin
 
