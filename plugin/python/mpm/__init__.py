@@ -44,7 +44,9 @@ While it runs, one line tells how far it is (``verbosity`` of the engine); ``plo
 :func:`state`                state of ParaView that opens what MpmVtkRecorder has written
 :func:`export`               table of the points, CSV or NPZ; :func:`frame` for pandas
 :func:`collect`              the runs of a yade-batch in one table and picture, from what each writes by :func:`note`
-:class:`histories`           values at chosen points over time; :func:`readHistory` reads one from a file
+:class:`histories`           values at chosen points over time and frequency; :func:`readHistory` reads one from a file
+:class:`record`              a record of an earthquake, corrected and integrated, as motion of a base
+:func:`rayleigh`             damping by mass and stiffness that has given ratios; :func:`schemeDamping` is what steps in time damp by themselves
 :func:`save`                 the scene, whole or not at all; :func:`load` reads it, from several processes, too
 :func:`advise`               what an analysis will cost, and what it could do without
 :func:`discretisationError`  how wrong a result is because of the size of the cells; :func:`stressError` tells of stresses, from one run
@@ -61,6 +63,7 @@ from .advice import advise
 from .cells import refinementsAt
 from .collecting import collect, note
 from .colouring import colour
+from .damping import rayleigh, schemeDamping
 from .data import arrays, assign, contactForces
 from .discretisation import discretisationError, stressError
 from .files import load, save
@@ -75,6 +78,7 @@ from .movies import movie
 from .outline import polygon
 from .paraview import state
 from .plotting import plot
+from .records import record
 from .safety import strengthReduction
 from .darcy import seepage
 from .solids import solid
@@ -85,7 +89,7 @@ from .terrains import facets, terrain
 from .viewing import view
 
 __version__ = _engine.version
-__all__ = ['polygon', 'fill', 'add', 'refinementsAt', 'arrays', 'assign', 'geostatic', 'seepage', 'plot', 'colour', 'export', 'save', 'load', 'advise', 'discretisationError', 'stressError', 'elementTest', 'respond', 'strengthReduction', 'surface', 'contactForces', 'histories', 'readHistory', 'solid', 'terrain', 'movie', 'view', 'facets', 'frame', 'note', 'collect', 'state', 'examples']
+__all__ = ['polygon', 'fill', 'add', 'refinementsAt', 'arrays', 'assign', 'geostatic', 'seepage', 'plot', 'colour', 'export', 'save', 'load', 'advise', 'discretisationError', 'stressError', 'elementTest', 'respond', 'strengthReduction', 'surface', 'contactForces', 'histories', 'readHistory', 'solid', 'terrain', 'movie', 'view', 'facets', 'frame', 'note', 'collect', 'state', 'examples', 'record', 'rayleigh', 'schemeDamping']
 
 for _name in __all__:
 	_thing = globals()[_name] = _telling(globals()[_name])

@@ -6,6 +6,7 @@ import numpy as np
 from yade import wrapper
 
 from .analysis import noPoints, solverOf
+from .damping import adviceOnMotion
 from .data import parameter, pointsOf
 from .library import engine as _engine
 
@@ -129,7 +130,7 @@ def _notNeeded(scene):
 		found.append('dim: both ends are held along z, where gravity has no part. If the section is the same all along, dim=2 (plane strain) will do.')
 	if solver.iterPeriod == 1 and scene.steps > 1e6:
 		found.append(f'O.dt: {scene.steps:.3g} steps are more than an analysis may have (1e6); was O.dt forgotten? It is the load time of one step.')
-	if isinstance(solver, wrapper.MpmDynamicEngine): found.append(_stepInTime(scene))
+	if isinstance(solver, wrapper.MpmDynamicEngine): found += [_stepInTime(scene)] + adviceOnMotion(solver)
 	strong = scene.neverYield()
 	if strong: found.append(f'plasticity: the weight cannot bring {strong} to yield; unless other loads do, MpmElasticMat does the same.')
 	locking = scene.keepVolume()

@@ -11,6 +11,7 @@ from .files import replacing
 from .messages import brief, isNumber, pathOf
 from .naming import didYouMean
 from .processes import byFirst
+from .spectra import frequenciesOf, transform, warnOfMotionLeft
 
 _kept = {}  # by label: what the PyRunners of this process write to
 
@@ -88,6 +89,68 @@ class histories:
 				columns |= {f'{scalar}_{body}': values[:, i] for i, body in enumerate(self.ids)}
 		with replacing(pathOf('histories.save', 'fileName', fileName)) as temporary:
 			np.savetxt(temporary, np.column_stack(list(columns.values())), fmt='%.17g', delimiter=',', header=','.join(columns), comments='')
+
+	def spectrum(self, field='velocity_x', frequencies=None):
+		"""Fourier's integral of a scalar over time, by the trapezoidal rule; steps may differ.
+
+		:param field: scalar that is recorded, as ``velocity_x``
+		:param frequencies: [Hz] > 0, an array; None: all that the times tell of
+		:return: frequencies (M,) [Hz], and complex values (M, points) in the unit of the field times s
+		:raises ValueError: no such scalar, or frequencies beyond what the steps resolve.
+		"""
+		values, time = self._scalar('spectrum', field), np.array(self.time)
+		frequencies = frequenciesOf('histories.spectrum', frequencies, time)
+		warnOfMotionLeft('histories.spectrum', time, values)
+		return frequencies, transform(time, values, frequencies)
+
+	def amplification(self, point, base, field='velocity_x', frequencies=None, floor=1e-3):
+		"""How many times the motion of one point is that of another, over frequency.
+
+		:param point: place in ``h.ids`` of the point, as in ``h['velocity'][:, 0]``
+		:param base: place in ``h.ids`` of the point that it is compared with
+		:param field: scalar that is recorded
+		:param frequencies: [Hz] > 0, an array; None: all that the times tell of
+		:param floor: where the base has less than this part of its largest value there is nothing to compare with: nan [-]
+		:return: frequencies (M,) [Hz], and ratios (M,) [-], complex: their abs() is the amplification
+		:raises ValueError: as spectrum(); a point that there is not; a base that does not move.
+		"""
+		for name, place in ('point', point), ('base', base):
+			if not isinstance(place, (int, np.integer)) or isinstance(place, bool) or not 0 <= place < len(self.ids): raise ValueError(f'histories.amplification: {name} = {brief(place)} must be a place in h.ids, 0 to {len(self.ids) - 1}')
+		frequencies, found = self.spectrum(field, frequencies)
+		below = found[:, base]
+		largest = np.abs(below).max()
+		if largest == 0: raise ValueError(f'histories.amplification: {field} of the base, body {self.ids[base]}, is 0 at all times')
+		return frequencies, found[:, point] / np.where(np.abs(below) >= floor * largest, below, np.nan)
+
+	def permanent(self, last=1.):
+		"""Displacements (points, 3) [m] that are left: the mean over the last seconds. ``displacement`` must be recorded.
+
+		:param last: over how much time the mean is taken [s] > 0
+		:raises ValueError: *last* is not admitted, or longer than what is recorded.
+		"""
+		time = np.array(self.time)
+		if not isNumber(last) or not 0 < last <= time[-1] - time[0]: raise ValueError(f'histories.permanent: last = {brief(last)} is not admitted: expected more than 0 and at most the {time[-1] - time[0]:g} s that are recorded')
+		chosen = time >= time[-1] - last * (1 + 1e-9)
+		return np.trapz(self['displacement'][chosen], time[chosen], axis=0) / np.ptp(time[chosen])
+
+	def largest(self, name='acceleration'):
+		"""Largest length over time of a vector, or magnitude of a scalar, of each point (points,). Histories of all points make a field of it::
+
+			h = mpm.histories(mpm.arrays()['id'], record=['acceleration'])     # 24 bytes a point and step
+			O.run(1000, wait=True)
+			mpm.plot(h.largest('acceleration'))
+
+		:param name: column or scalar that is recorded, no tensor
+		:raises ValueError: it is not recorded, or a tensor.
+		"""
+		values = self[name]
+		if values.ndim > 3: raise ValueError(f'histories.largest: name = {brief(name)}: one component must be chosen, as in {name}_xy')
+		return (np.linalg.norm(values, axis=2) if values.ndim == 3 else np.abs(values)).max(axis=0)
+
+	def _scalar(self, who, field):
+		values = self[field]
+		if values.ndim != 2: raise ValueError(f"histories.{who}: field = {brief(field)}: one component must be chosen, as in {field}_x or {field}_xy")
+		return values
 
 	def plot(self, field='velocity_x', fileName=None, ax=None, live=False):
 		"""Draw one scalar of all points over time; to a file, whole or not at all, if one is named. With *live* the window follows the run, twice a second. Returns the axes."""
