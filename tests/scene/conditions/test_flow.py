@@ -74,6 +74,26 @@ print(json.dumps([degrees, [data[name] for name in ('waterIn', 'waterOut', 'wate
 	assert same, 'a scene that was saved goes on with the same bits'
 
 
+def test_pressures_and_flow_are_in_files_and_pictures(yade):
+	run = yade(
+	        setting + '''
+import matplotlib
+matplotlib.use('Agg')
+solver = column(6)
+O.engines = list(O.engines) + [MpmVtkRecorder(fileName='out-', recorders=['points'], ascii=True, iterPeriod=1)]
+O.dt = .02 / cv
+O.run(2, wait=True)
+mpm.plot('excessPressure', fileName='pressure.png')
+mpm.plot('waterFlux_y', fileName='flux.png')
+print(json.dumps(sorted(path for path in __import__('os').listdir('.') if path.endswith(('.vtu', '.png')))))
+'''
+	)
+	files = run.result
+	assert {'pressure.png', 'flux.png'} <= set(files)
+	text = (run.folder / [name for name in files if name.endswith('.vtu')][-1]).read_text()
+	assert 'Name="excessPressure' in text and 'Name="waterFlux' in text and 'Name="porePressure' in text
+
+
 def test_still_water_gives_nothing(yade):
 	for moved, pressure, excess in yade(
 	        setting + '''
