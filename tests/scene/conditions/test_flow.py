@@ -201,6 +201,34 @@ print(json.dumps(found))
 		if T > 0.01: assert p == pytest.approx(series, abs=0.03)
 
 
+def test_water_that_could_not_leave_begins_to_flow(yade):
+	"""An undrained step, and then consolidation from its excess pressures: at first nothing moves, at last all has drained."""
+	undrained, first, last = yade(
+	        setting + '''
+solver = column(8)
+flow, solver.flow = solver.flow, None
+O.materials[0].undrained, O.materials[0].waterModulus = True, 1e9
+def look():
+	points = mpm.arrays()
+	return [float(points['excessPressure'].mean() / q), float((points['pos'] - points['pos0'])[:, 1].min() * E / q)]
+O.dt = 1
+O.step()
+found = [look()]
+O.materials[0].undrained, solver.flow = False, flow
+O.dt = 1e-6 / cv
+O.step()
+found.append(look())
+O.dt = 1e3 / cv
+O.step()
+found.append(look())
+print(json.dumps(found))
+'''
+	).result
+	assert undrained[0] == pytest.approx(1, abs=0.02) and abs(undrained[1]) < 0.01
+	assert first[0] == pytest.approx(undrained[0], abs=0.02) and abs(first[1]) < 0.02
+	assert abs(last[0]) < 1e-3 and last[1] == pytest.approx(-1, abs=0.08)
+
+
 def test_soil_that_lets_nothing_through_is_that_of_total_stress(yade):
 	"""A strip load: u-p without flow, without F-bar, and total stress with F-bar and Poisson's ratio near a half."""
 	wet, total = yade(
