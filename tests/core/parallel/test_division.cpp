@@ -333,7 +333,7 @@ namespace {
 			EXPECT_EQ(checksumOf(cloud), whole) << count;
 			++count;
 		});
-		EXPECT_EQ(count, 13);
+		EXPECT_EQ(count, 14);
 	}
 
 } // namespace

@@ -251,6 +251,30 @@ print(json.dumps([strip(young=E, poisson=.3, conductivity=0, porosity=.4), strip
 	assert wet == pytest.approx(total, rel=0.01) and wet == pytest.approx(0.6215, rel=0.01)
 
 
+def test_a_level_before_a_face_is_compared_with_that_of_still_water(yade):
+	"""A slab between two levels: what flows from the one to the other, and pressures above still water by half of the difference in its middle."""
+	rate, middle, said = yade(
+	        setting + '''
+O.materials.append(MpmElasticMat(young=1e9, poisson=0, density=981, conductivity=k, porosity=.4, label='soil'))
+grid = MpmGrid(cellSize=.25)
+O.bodies.append(mpm.fill(mpm.polygon([(0, 0), (2, 0), (2, 1), (0, 1)]), grid, 2, 'soil'))
+drains = [MpmDrain(surface=[(0, 1), (0, 0)], level=5), MpmDrain(surface=[(2, 0), (2, 1)], level=3)]
+solver = MpmImplicitEngine(grid=grid, gravity=(0, -10, 0), boundaries=[MpmBoundary(max=(inf, 0, inf), fix='xy')], water=[MpmWater(level=3)], flow=MpmFlow(drains=drains), verbosity=0)
+O.engines, O.dt = [solver], 1e8
+O.step()
+points = mpm.arrays()
+half = abs(points['pos'][:, 0] - 1) < .1
+found = [drains[1].discharge / (k * 2 / (2 + 2 * .25 / 30)), float(points['excessPressure'][half].mean() / 9810)]
+drains[1].level = .5
+try: O.step()
+except ValueError as error: found.append(str(error))
+print(json.dumps(found))
+'''
+	).result
+	assert rate == pytest.approx(1, abs=1e-3) and middle == pytest.approx(1, abs=1e-3)
+	assert 'flow.drains[1].level = 0.5 is below a vertex' in said
+
+
 def test_what_does_not_go_is_refused_by_name(yade):
 	said = yade(
 	        setting + '''
