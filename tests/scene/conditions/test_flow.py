@@ -74,6 +74,26 @@ print(json.dumps([degrees, [data[name] for name in ('waterIn', 'waterOut', 'wate
 	assert same, 'a scene that was saved goes on with the same bits'
 
 
+def test_pressures_and_flow_are_in_files_and_pictures(yade):
+	run = yade(
+	        setting + '''
+import matplotlib
+matplotlib.use('Agg')
+solver = column(6)
+O.engines = list(O.engines) + [MpmVtkRecorder(fileName='out-', recorders=['points'], ascii=True, iterPeriod=1)]
+O.dt = .02 / cv
+O.run(2, wait=True)
+mpm.plot('excessPressure', fileName='pressure.png')
+mpm.plot('waterFlux_y', fileName='flux.png')
+print(json.dumps(sorted(path for path in __import__('os').listdir('.') if path.endswith(('.vtu', '.png')))))
+'''
+	)
+	files = run.result
+	assert {'pressure.png', 'flux.png'} <= set(files)
+	text = (run.folder / [name for name in files if name.endswith('.vtu')][-1]).read_text()
+	assert 'Name="excessPressure' in text and 'Name="waterFlux' in text and 'Name="porePressure' in text
+
+
 def test_still_water_gives_nothing(yade):
 	for moved, pressure, excess in yade(
 	        setting + '''
@@ -181,6 +201,34 @@ print(json.dumps(found))
 		if T > 0.01: assert p == pytest.approx(series, abs=0.03)
 
 
+def test_water_that_could_not_leave_begins_to_flow(yade):
+	"""An undrained step, and then consolidation from its excess pressures: at first nothing moves, at last all has drained."""
+	undrained, first, last = yade(
+	        setting + '''
+solver = column(8)
+flow, solver.flow = solver.flow, None
+O.materials[0].undrained, O.materials[0].waterModulus = True, 1e9
+def look():
+	points = mpm.arrays()
+	return [float(points['excessPressure'].mean() / q), float((points['pos'] - points['pos0'])[:, 1].min() * E / q)]
+O.dt = 1
+O.step()
+found = [look()]
+O.materials[0].undrained, solver.flow = False, flow
+O.dt = 1e-6 / cv
+O.step()
+found.append(look())
+O.dt = 1e3 / cv
+O.step()
+found.append(look())
+print(json.dumps(found))
+'''
+	).result
+	assert undrained[0] == pytest.approx(1, abs=0.02) and abs(undrained[1]) < 0.01
+	assert first[0] == pytest.approx(undrained[0], abs=0.02) and abs(first[1]) < 0.02
+	assert abs(last[0]) < 1e-3 and last[1] == pytest.approx(-1, abs=0.08)
+
+
 def test_soil_that_lets_nothing_through_is_that_of_total_stress(yade):
 	"""A strip load: u-p without flow, without F-bar, and total stress with F-bar and Poisson's ratio near a half."""
 	wet, total = yade(
@@ -201,6 +249,30 @@ print(json.dumps([strip(young=E, poisson=.3, conductivity=0, porosity=.4), strip
 '''
 	).result
 	assert wet == pytest.approx(total, rel=0.01) and wet == pytest.approx(0.6215, rel=0.01)
+
+
+def test_a_level_before_a_face_is_compared_with_that_of_still_water(yade):
+	"""A slab between two levels: what flows from the one to the other, and pressures above still water by half of the difference in its middle."""
+	rate, middle, said = yade(
+	        setting + '''
+O.materials.append(MpmElasticMat(young=1e9, poisson=0, density=981, conductivity=k, porosity=.4, label='soil'))
+grid = MpmGrid(cellSize=.25)
+O.bodies.append(mpm.fill(mpm.polygon([(0, 0), (2, 0), (2, 1), (0, 1)]), grid, 2, 'soil'))
+drains = [MpmDrain(surface=[(0, 1), (0, 0)], level=5), MpmDrain(surface=[(2, 0), (2, 1)], level=3)]
+solver = MpmImplicitEngine(grid=grid, gravity=(0, -10, 0), boundaries=[MpmBoundary(max=(inf, 0, inf), fix='xy')], water=[MpmWater(level=3)], flow=MpmFlow(drains=drains), verbosity=0)
+O.engines, O.dt = [solver], 1e8
+O.step()
+points = mpm.arrays()
+half = abs(points['pos'][:, 0] - 1) < .1
+found = [drains[1].discharge / (k * 2 / (2 + 2 * .25 / 30)), float(points['excessPressure'][half].mean() / 9810)]
+drains[1].level = .5
+try: O.step()
+except ValueError as error: found.append(str(error))
+print(json.dumps(found))
+'''
+	).result
+	assert rate == pytest.approx(1, abs=1e-3) and middle == pytest.approx(1, abs=1e-3)
+	assert 'flow.drains[1].level = 0.5 is below a vertex' in said
 
 
 def test_what_does_not_go_is_refused_by_name(yade):

@@ -40,6 +40,10 @@ def scene(term, grid, young=None, sides=(0, width), distributed=False, weight=10
 	if term == 'pressure': solver.loads = [MpmTraction(surface=surface, pressure=2e4)]
 	if term == 'traction' or isPressed: solver.loads = [MpmTraction(surface=surface, traction=(0, -2e4, 0))]
 	if term == 'water': solver.water = [MpmWater(level=1.7)]
+	if term == 'undrained': O.materials[0].undrained, O.materials[0].waterModulus = True, 5e6
+	if term == 'flow':
+		O.materials[0].conductivity, O.materials[0].porosity = 1e-2, .4
+		solver.flow = MpmFlow(drains=[MpmDrain(surface=surface)])
 	if term == 'absorbing': solver.absorbing = [MpmAbsorbingBoundary(max=(inf, 0, inf), motion=shaking)]
 	if term == 'Rayleigh damping': solver.rayleigh = (2, 2e-3)
 	if term == 'explicit': solver.scheme = 'explicit'
@@ -77,7 +81,7 @@ def apart(one, other, names=('moved', 'stress'), axes=slice(0, 2)):
 soft = lambda x: 1e6 * (1 - .4 * np.cos(2 * np.pi * (x[0] - .7) / width))
 '''
 
-terms = 'internal force', 'F-bar', 'ghost', 'traction', 'pressure', 'water', 'wall', 'contact', 'inertia', 'explicit', 'Rayleigh damping', 'absorbing', 'base motion'
+terms = 'internal force', 'F-bar', 'ghost', 'traction', 'pressure', 'water', 'wall', 'contact', 'undrained', 'flow', 'inertia', 'explicit', 'Rayleigh damping', 'absorbing', 'base motion'
 alone = setting + '''
 def onPeriod(term):
 	"""What is soft lies across the seam, or two cells away from there."""
@@ -89,7 +93,7 @@ def onPeriod(term):
 def onSizes(term):
 	"""Fine cells everywhere are a fine grid; where their sizes meet, what is alike everywhere stays so."""
 	halved = apart(scene(term, MpmGrid(cellSize=1, refinements=[MpmRefinement()]), soft), scene(term, MpmGrid(cellSize=.5), soft))
-	loads = dict(top=-.05) if term in ('internal force', 'F-bar') else dict(isPressed=term == 'ghost')
+	loads = dict(top=-.05) if term in ('internal force', 'F-bar', 'undrained') else dict(isPressed=term == 'ghost')
 	patch = scene(term, MpmGrid(cellSize=1, refinements=[MpmRefinement(max=(3, inf, inf))]), weight=0, steps=1, **loads)
 	return halved, float(np.ptp(patch['stress'][:, 1, 1]) / abs(patch['stress'][:, 1, 1]).max())
 
@@ -133,6 +137,10 @@ equal = 'cells of several sizes, cannot go with '
 others = {
         ('pressure', 'refinements'): 'a surface under pressure goes from cells of one size to cells of another',
         ('water', 'refinements'): equal + 'water',
+        ('flow', 'refinements'): equal + 'flow',
+        ('flow', 'divided'): 'MpmFlow cannot go with several processes',
+        # The functions of a ring are those of the middle of its volume, and water that flows differs by as much of a cell.
+        ('flow', 'axisymmetric'): 4e-3,
         ('wall', 'refinements'): equal + 'boundaries[2].surface',
         **{(term, 'refinements'): equal + 'MpmDynamicEngine, as inertia' for term in ('inertia', 'explicit', 'Rayleigh damping', 'absorbing', 'base motion')},
         ('wall', 'axisymmetric'): onRings,

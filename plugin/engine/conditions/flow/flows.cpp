@@ -62,7 +62,7 @@ template <int Dim> void Flows<Dim>::join(gimpm::Model<Dim>& model, const Surroun
 	water.ghost         = from->ghost;
 	takePoints(around);
 	takeNodes();
-	takeDrains(model);
+	takeDrains(model, around.analysis.gravity);
 	Real sum = 0; // of constrained moduli
 	for (size_t p = 0; p < around.cloud.size(); ++p)
 		sum += gimpm::waveModuli(model.materials, around.cloud, int(p)).pressure / Real(around.cloud.size());
@@ -100,8 +100,10 @@ template <int Dim> void Flows<Dim>::takeNodes()
 	}
 }
 
-template <int Dim> void Flows<Dim>::takeDrains(const gimpm::Model<Dim>& model)
+template <int Dim> void Flows<Dim>::takeDrains(const gimpm::Model<Dim>& model, const Vector3r& gravity)
 {
+	// Against gravity, which MpmWater.level has checked to be along an axis.
+	const Vector3r up = gravity.isZero(0) ? Vector3r(Vector3r::Unit(Dim - 1)) : Vector3r(-gravity.normalized());
 	for (size_t i = 0; i < from->drains.size(); ++i) {
 		const MpmDrain& drain = *from->drains[i];
 		const string    name  = "flow.drains[" + std::to_string(i) + "]";
@@ -112,7 +114,7 @@ template <int Dim> void Flows<Dim>::takeDrains(const gimpm::Model<Dim>& model)
 			        + " is compared with the level of still water: it needs one MpmWater(level=...) in water, or give pressure.");
 		if (!std::isnan(drain.level))
 			for (const auto& x : drain.surface->vertices)
-				if (const int up = Dim - 1; x[up] > drain.level + 1e-9 * model.grid.cellSize)
+				if (up.dot(x) > drain.level + 1e-9 * model.grid.cellSize)
 					throw std::invalid_argument(
 					        name + ".level = " + textOf(drain.level) + " is below a vertex of its surface, at (" + textOf(x)
 					        + "): end the surface there; what is above it may be a drain of its own with seepage=True.");

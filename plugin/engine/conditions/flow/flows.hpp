@@ -18,7 +18,7 @@ public:
 private:
 	void takePoints(const Surroundings<Dim>&);
 	void takeNodes();
-	void takeDrains(const gimpm::Model<Dim>&);
+	void takeDrains(const gimpm::Model<Dim>&, const Vector3r& gravity);
 
 	shared_ptr<MpmFlow>   from;
 	gimpm::SoilWater<Dim> water;
