@@ -19,7 +19,7 @@ matplotlib.use('Agg')
 import matplotlib.pyplot as plt
 import numpy as np
 sys.path.insert(0, os.path.join(os.path.dirname(sys.argv[0]), '..'))
-from options import readOptions
+from options import compared, readOptions
 
 options = readOptions('Consolidation.',
         scene=('all', "'all', or one of 'terzaghi', 'large', 'mandel' and 'strip'"),
@@ -80,6 +80,9 @@ def terzaghi():
 	run(growing(1 / (kappa * E)), look)
 	worst = max(abs(found - exact) for T, found, exact in degrees if T > 0.02)
 	print(f'terzaghi: degree of consolidation within {worst:.4f} of the series from T = .02 on')
+	for time in .05, .2, .5:
+		T, found, exact = min(degrees, key=lambda degree: abs(degree[0] - time))
+		compared(f'degree of consolidation at T = {T:.3g}', found, exact, 'Terzaghi 1923')
 	data = solver.plotData()
 	print(f"terzaghi: {data['waterOut'] * 1e6:.6f} cm3 of water have left, the soil has lost {-data['waterStored'] * 1e6:.6f}")
 	return profiles
@@ -94,6 +97,7 @@ def large():
 	for time, exact in known.items():
 		there = np.interp(time, T, found)
 		print(f'large: settlement {there:.5f} of the height at T = {time}, {100 * (there / exact - 1):+.2f} %')
+		compared(f'settlement over height at large strain, T = {time:g}', there, exact, 'finer method in one dimension')
 	return T, found, known
 
 
@@ -135,6 +139,7 @@ def mandel():
 	curve = np.array(curve)
 	late = curve[:, 0] > .01
 	print(f'mandel: pressure in the middle within {abs(curve[late, 1] - curve[late, 2]).max():.4f} F/a of the series, its peak {curve[:, 1].max():.4f}, series {curve[:, 2].max():.4f}')
+	compared("peak of the pressure in the middle of Mandel's slab", curve[:, 1].max(), curve[:, 2].max(), 'Mandel 1953', 'F/a')
 	print(f'mandel: force on the plate within {100 * abs(curve[late, 3] - 1).max():.2f} % of F')
 	return curve
 

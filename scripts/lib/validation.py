@@ -27,6 +27,7 @@ runs = {
         'surface_loads': ['surface_loads.py', 'tube.py'],
         'walls': ['walls.py', 'walls.py --load lid', 'cook.py', 'cook.py --poisson 0.4999 --fBar 1'],
         'water': ['water.py'],
+        'consolidation': ['consolidation.py'],
         'embankment': ['embankment.py'],
         'penetration': [
                 'penetration.py --cells 16 --depth 0.03', 'penetration.py --scene sphere --cells 10', 'penetration.py --scene plate', 'deep.py --scene tbar', 'deep.py --scene tbar --rough 1', 'deep.py --cells 3',
@@ -46,7 +47,7 @@ groups = {
         'Limit loads': ['collapse', 'footing3d', 'axisymmetric', 'locking'],
         'Slopes': ['slope', 'safety', 'paper'],
         'Earth pressure': ['earth_pressure'],
-        'Water and stages': ['water', 'embankment'],
+        'Water and stages': ['water', 'consolidation', 'embankment'],
         'Contact and penetration': ['penetration', 'grains_on_soil'],
         'Waves and run-out': ['waves', 'runout', 'splitting'],
         'Grains': ['mpm_vs_dem'],

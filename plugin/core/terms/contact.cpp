@@ -167,8 +167,9 @@ template <int Dim> bool Contact<Dim>::isHidden(int number, const Vec<Dim>& place
 	return false;
 }
 
-/// Whether another sheet is between the two. At the edge that it shares with the one of the place, as below a pile that
-/// is made of sheets, soil outside is beside the places inside. Soil that is a little behind the sheet counts as before.
+/// Whether another sheet is between the two. At the edge that it shares with the one of the place, as below a pile
+/// that is made of sheets, soil outside is beside the places inside. Soil that is a little behind the sheet counts as
+/// before it.
 template <int Dim> bool Contact<Dim>::isBehindSheet(const Vec<Dim>& place, const Vec<Dim>& soil, const std::vector<int>& around) const
 {
 	return std::any_of(around.begin(), around.end(), [&](int b) {

@@ -232,8 +232,8 @@ namespace {
 		EXPECT_EQ(block.step().failure, Failure::penetrated);
 	}
 
-	/// A pile made of two sheets, whose inside nothing may press: soil below it is beside its side only as seen through
-	/// its bottom.
+	/// A pile made of two sheets, whose inside nothing may press: soil below it is beside its side only as seen
+	/// through its bottom.
 	TEST(Contact, SoilBehindAnotherSheetIsNotSeen)
 	{
 		Block<2> block;

@@ -21,7 +21,8 @@ public:
 	{
 		return "Part of the surface of the body by which water of an MpmFlow leaves or enters; it moves with the body. One of *pressure*, *level*, *flux* says how. "
 		       "Where there is no drain nothing passes.\n\n"
-		       "Water passes as through a thin skin (*conductance*), so that the surface may cut cells anywhere.";
+		       "Water passes as through a thin skin (*conductance*), so that the surface may cut cells anywhere.\n\n"
+		       "Set first: *surface* = mpm.surface(region, min=..., max=...). Page: plugin/docs/classes/MpmDrain.md.";
 	}
 	template <class V> static void attributes(V&& v)
 	{

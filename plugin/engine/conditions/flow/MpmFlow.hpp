@@ -21,7 +21,8 @@ public:
 	{
 		return "Water that flows through the soil while it deforms: consolidation. Its pressure over that of still water (MpmWater), *MpmState.excessPressure*, is solved for "
 		       "together with the displacements, step by step in time: O.dt and O.time are seconds. All materials need *conductivity* and *porosity*.\n\n"
-		       "The soil is saturated everywhere. *drains* say where water leaves; elsewhere nothing passes.";
+		       "The soil is saturated everywhere. *drains* say where water leaves; elsewhere nothing passes.\n\n"
+		       "Set first: *drains*, and time steps that grow as what happens slows down. Page: plugin/docs/classes/MpmFlow.md.";
 	}
 	template <class V> static void attributes(V&& v)
 	{
