@@ -27,6 +27,7 @@ options = readOptions('Earthquakes against closed forms.',
         step=(0.01, 'of the column [s]'),
         seconds=(8., 'of the record that shakes the column'),
         lengths=('5 10 20', 'of the records that shake the block [s]'),
+        lowest=(0.5, 'frequency of the records that shake the block [Hz]'),
         blockStep=(0.005, 'of the block [s]'))
 
 # thickness [m], speed of shear waves [m/s], density [kg/m3], from the surface downwards; the last one is of the rock below
@@ -196,10 +197,10 @@ def block():
 	figure, ax = plt.subplots(figsize=(8, 4.5), layout='constrained')
 	for i, seconds in enumerate(map(float, options.lengths.split())):
 		t, a = artificial(seconds, 5, seed=10 + i, frequency=1)
-		quake = mpm.record(list(zip(t, a)), unit='m/s2', filter=(0, 5))
+		quake = mpm.record(list(zip(t, a)), unit='m/s2', filter=(options.lowest, 5))
 		times, way, left = slid(quake, slope, g, atYield)
 		exact = newmarks(quake.acceleration, quake.step, atYield)
-		print(f'block, {seconds:g} s: {left:.4f} m, Newmark {exact[-1]:.4f} m ({100 * (left / exact[-1] - 1):+.2f} %)')
+		print(f'block, {seconds:g} s: {left:.4f} m, Newmark {exact[-1]:.4f} m ({100 * (left / exact[-1] - 1):+.2f} %); the plane moves by up to {np.abs(quake.displacement).max():.2f} m')
 		ax.plot(quake.time, exact, 'k-', linewidth=0.8, label=None if i else "Newmark's integration")
 		ax.plot(times, way, '--', label=f'found, record of {seconds:g} s')
 	ax.set(xlabel='time [s]', ylabel='way down the plane [m]', title=f'slips from {atYield:.2f} m/s2 on, records of 5 m/s2')
