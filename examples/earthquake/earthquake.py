@@ -49,7 +49,7 @@ def record():
 	t, a = artificial(20, 2, seed=1)
 	raw = list(zip(t, a + 0.03 + 0.002 * t))
 	found = mpm.record(raw, unit='m/s2', filter=(0.1, 25))
-	print(f'record: {np.abs(found.acceleration).max():.3f} m/s2, {np.abs(found.velocity).max():.3f} m/s, {np.abs(found.displacement).max():.3f} m, Arias {found.arias:.3f} m/s, at the end {found.velocity[-1]:.1e} m/s and {found.displacement[-1]:.1e} m')
+	print(f'record: {np.abs(found.acceleration).max():.3f} m/s2, {np.abs(found.velocity).max():.3f} m/s, {np.abs(found.displacement).max():.3f} m, Arias {found.arias:.3f} m/s, at the end {found.velocity[-1]:.1e} m/s and {found.displacement[-1]:.1e} m, {found.before:.1f} s longer before')
 	asIs = mpm.record(raw, unit='m/s2', baseline=None, isSure=True)
 	print(f'record: without baseline and filter it would end at {asIs.displacement[-1]:.1f} m, with {asIs.velocity[-1]:.2f} m/s')
 	try:
@@ -148,11 +148,11 @@ def column():
 			print(f'column, {run.__name__}: {one:g} Hz  {ratio:.4f}  closed form {closed:.4f} ({100 * (ratio / closed - 1):+.2f} %)')
 		below = f[three:] <= 8
 		print(f'column, {run.__name__}: up to 8 Hz off by {100 * np.abs(found / exact - 1)[three:][below].max():.2f} % at most')
-		ax.plot(f[three:], exact[three:], 'k-', linewidth=0.8, label='Thomson and Haskell, with the scheme in time')
+		ax.plot(f[three:], exact[three:], 'k-', linewidth=0.8, label='closed form')
 		ax.plot(f[three:], found[three:], '.', color='#1864ab', label='found')
 		ax.plot(f[:three], found[:three], 'o', fillstyle='none', color='#d9480f')
 		ax.set(xlabel='frequency [Hz]', ylabel='surface over ' + ('base' if run is rigid else 'outcrop of the rock'), title=f'{run.__name__} base')
-		ax.legend(loc='center right')
+		ax.legend(loc='upper right')
 	scheme = mpm.schemeDamping(frequencies)
 	print(f'column: {options.scheme}, steps of {O.dt:g} s: damping of its own {scheme["damping"]}, periods {scheme["period"]}')
 	return figure
