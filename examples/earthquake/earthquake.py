@@ -6,6 +6,7 @@
 	column     two layers over rock, sides that are the same nodes, shaken by the record: amplification against Thomson and Haskell's propagators, with the scheme in
 	           time and Rayleigh's damping in the closed form; on a rigid base, and on a compliant one, over the motion of an outcrop of the rock
 	block      a stiff block on a weak joint in an inclined plane that moves by records of several lengths, against N. M. Newmark's integration (1965)
+	contact    the same of a block that rubs on a Box
 
 Run it with `scripts/run examples/earthquake/earthquake.py [options]`, or by yade-batch with the options as columns of a parameter table.
 """
@@ -21,7 +22,7 @@ sys.path.insert(0, os.path.join(os.path.dirname(sys.argv[0]), '..'))
 from options import readOptions
 
 options = readOptions('Earthquakes against closed forms.',
-        scene=('record column block', "'record', 'column' or 'block', or several between blanks"),
+        scene=('record column block contact', "'record', 'column', 'block' or 'contact', or several between blanks"),
         scheme=('newmark', "of the column: 'newmark' or 'generalised-alpha'"),
         cellSize=(1., 'of the column [m]'),
         step=(0.01, 'of the column [s]'),
@@ -192,7 +193,35 @@ def slid(quake, slope, g, atYield, rest=0.5, after=1.):
 	return time, way, h.permanent(after / 2)[0, 0] - begin - quake.displacement[-1]
 
 
-def block():
+def slidOnBox(quake, slope, g, atYield, rest=0.5):
+	"""The same of a stiff block on a Box with friction, which moves by the mean velocity of each step."""
+	O.reset()
+	h, friction = 0.25, np.arctan((atYield / g + np.sin(slope)) / np.cos(slope))
+	O.materials.append(MpmElasticMat(young=1e9, poisson=0.2, density=2000, label='block'))
+	O.materials.append(FrictMat(young=1e9, frictionAngle=friction, label='rock'))
+	O.bodies.append(mpm.fill(pack.inAlignedBox((0, 0, 0), (2, 0.5, 1)), MpmGrid(cellSize=h), 2, 'block'))
+	plane = O.bodies[O.bodies.append(utils.box((1, -0.5, 0), (12, 0.5, 1), fixed=True, material='rock'))]
+	O.engines = [MpmDynamicEngine(
+	        grid=MpmGrid(cellSize=h), contacts=[MpmContact(stiffness=50)], gravity=(g * np.sin(slope), -g * np.cos(slope), 0),
+	        gravityCurve=[(0, 0), (0.8 * rest, 1)], verbosity=0)]
+	O.dt = options.blockStep
+	O.run(round(rest / O.dt), wait=True)
+	at = lambda: mpm.arrays()['pos'][:, 0].mean() - plane.state.pos[0]
+	times, start, way = O.dt * np.arange(round(quake.time[-1] / O.dt) + 1), at(), [0.]
+	fine = np.linspace(0, times[-1], 10 * (len(times) - 1) + 1)  # velocities are linear between samples, displacements are not
+	moved = np.concatenate([[0.], np.cumsum(np.convolve(np.interp(fine, quake.time, quake.velocity), (0.5, 0.5), 'valid') * fine[1])])[::10]
+	for after, before in zip(moved[1:], moved):
+		plane.state.vel = ((after - before) / O.dt, 0, 0)
+		O.step()
+		way.append(at() - start)
+	return times, np.array(way), way[-1]
+
+
+def contact():
+	return block(slidOnBox)
+
+
+def block(slid=slid):
 	slope, g, atYield = np.radians(15), 9.81, 2.
 	figure, ax = plt.subplots(figsize=(8, 4.5), layout='constrained')
 	for i, seconds in enumerate(map(float, options.lengths.split())):
@@ -200,7 +229,7 @@ def block():
 		quake = mpm.record(list(zip(t, a)), unit='m/s2', filter=(options.lowest, 5))
 		times, way, left = slid(quake, slope, g, atYield)
 		exact = newmarks(quake.acceleration, quake.step, atYield)
-		print(f'block, {seconds:g} s: {left:.4f} m, Newmark {exact[-1]:.4f} m ({100 * (left / exact[-1] - 1):+.2f} %); the plane moves by up to {np.abs(quake.displacement).max():.2f} m')
+		print(f'{"block" if slid is not slidOnBox else "contact"}, {seconds:g} s: {left:.4f} m, Newmark {exact[-1]:.4f} m ({100 * (left / exact[-1] - 1):+.2f} %); the plane moves by up to {np.abs(quake.displacement).max():.2f} m')
 		ax.plot(quake.time, exact, 'k-', linewidth=0.8, label=None if i else "Newmark's integration")
 		ax.plot(times, way, '--', label=f'found, record of {seconds:g} s')
 	ax.set(xlabel='time [s]', ylabel='way down the plane [m]', title=f'slips from {atYield:.2f} m/s2 on, records of 5 m/s2')
@@ -209,7 +238,7 @@ def block():
 
 
 for name in options.scene.split():
-	if name not in ('record', 'column', 'block'): raise SystemExit(f"earthquake.py: --scene {name!r} is not known; there are 'record', 'column' and 'block'")
+	if name not in ('record', 'column', 'block', 'contact'): raise SystemExit(f"earthquake.py: --scene {name!r} is not known; there are 'record', 'column', 'block' and 'contact'")
 	figure = globals()[name]()
 	picture = os.path.join(options.out, f"{'earthquake' if name == 'column' else name}.png")
 	figure.savefig(picture, dpi=130)
