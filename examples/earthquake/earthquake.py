@@ -6,6 +6,7 @@
 	column     two layers over rock, sides that are the same nodes, shaken by the record: amplification against Thomson and Haskell's propagators, with the scheme in
 	           time and Rayleigh's damping in the closed form; on a rigid base, and on a compliant one, over the motion of an outcrop of the rock
 	block      a stiff block on a weak joint in an inclined plane that moves by records of several lengths, against N. M. Newmark's integration (1965)
+	contact    the same of a block that rubs on a Box
 
 Run it with `scripts/run examples/earthquake/earthquake.py [options]`, or by yade-batch with the options as columns of a parameter table.
 """
@@ -21,12 +22,13 @@ sys.path.insert(0, os.path.join(os.path.dirname(sys.argv[0]), '..'))
 from options import readOptions
 
 options = readOptions('Earthquakes against closed forms.',
-        scene=('record column block', "'record', 'column' or 'block', or several between blanks"),
+        scene=('record column block contact', "'record', 'column', 'block' or 'contact', or several between blanks"),
         scheme=('newmark', "of the column: 'newmark' or 'generalised-alpha'"),
         cellSize=(1., 'of the column [m]'),
         step=(0.01, 'of the column [s]'),
         seconds=(8., 'of the record that shakes the column'),
         lengths=('5 10 20', 'of the records that shake the block [s]'),
+        lowest=(0.5, 'frequency of the records that shake the block [Hz]'),
         blockStep=(0.005, 'of the block [s]'))
 
 # thickness [m], speed of shear waves [m/s], density [kg/m3], from the surface downwards; the last one is of the rock below
@@ -48,7 +50,7 @@ def record():
 	t, a = artificial(20, 2, seed=1)
 	raw = list(zip(t, a + 0.03 + 0.002 * t))
 	found = mpm.record(raw, unit='m/s2', filter=(0.1, 25))
-	print(f'record: {np.abs(found.acceleration).max():.3f} m/s2, {np.abs(found.velocity).max():.3f} m/s, {np.abs(found.displacement).max():.3f} m, Arias {found.arias:.3f} m/s, at the end {found.velocity[-1]:.1e} m/s and {found.displacement[-1]:.1e} m')
+	print(f'record: {np.abs(found.acceleration).max():.3f} m/s2, {np.abs(found.velocity).max():.3f} m/s, {np.abs(found.displacement).max():.3f} m, Arias {found.arias:.3f} m/s, at the end {found.velocity[-1]:.1e} m/s and {found.displacement[-1]:.1e} m, {found.before:.1f} s longer before')
 	asIs = mpm.record(raw, unit='m/s2', baseline=None, isSure=True)
 	print(f'record: without baseline and filter it would end at {asIs.displacement[-1]:.1f} m, with {asIs.velocity[-1]:.2f} m/s')
 	try:
@@ -147,11 +149,11 @@ def column():
 			print(f'column, {run.__name__}: {one:g} Hz  {ratio:.4f}  closed form {closed:.4f} ({100 * (ratio / closed - 1):+.2f} %)')
 		below = f[three:] <= 8
 		print(f'column, {run.__name__}: up to 8 Hz off by {100 * np.abs(found / exact - 1)[three:][below].max():.2f} % at most')
-		ax.plot(f[three:], exact[three:], 'k-', linewidth=0.8, label='Thomson and Haskell, with the scheme in time')
+		ax.plot(f[three:], exact[three:], 'k-', linewidth=0.8, label='closed form')
 		ax.plot(f[three:], found[three:], '.', color='#1864ab', label='found')
 		ax.plot(f[:three], found[:three], 'o', fillstyle='none', color='#d9480f')
 		ax.set(xlabel='frequency [Hz]', ylabel='surface over ' + ('base' if run is rigid else 'outcrop of the rock'), title=f'{run.__name__} base')
-		ax.legend(loc='center right')
+		ax.legend(loc='upper right')
 	scheme = mpm.schemeDamping(frequencies)
 	print(f'column: {options.scheme}, steps of {O.dt:g} s: damping of its own {scheme["damping"]}, periods {scheme["period"]}')
 	return figure
@@ -191,15 +193,43 @@ def slid(quake, slope, g, atYield, rest=0.5, after=1.):
 	return time, way, h.permanent(after / 2)[0, 0] - begin - quake.displacement[-1]
 
 
-def block():
+def slidOnBox(quake, slope, g, atYield, rest=0.5):
+	"""The same of a stiff block on a Box with friction, which moves by the mean velocity of each step."""
+	O.reset()
+	h, friction = 0.25, np.arctan((atYield / g + np.sin(slope)) / np.cos(slope))
+	O.materials.append(MpmElasticMat(young=1e9, poisson=0.2, density=2000, label='block'))
+	O.materials.append(FrictMat(young=1e9, frictionAngle=friction, label='rock'))
+	O.bodies.append(mpm.fill(pack.inAlignedBox((0, 0, 0), (2, 0.5, 1)), MpmGrid(cellSize=h), 2, 'block'))
+	plane = O.bodies[O.bodies.append(utils.box((1, -0.5, 0), (12, 0.5, 1), fixed=True, material='rock'))]
+	O.engines = [MpmDynamicEngine(
+	        grid=MpmGrid(cellSize=h), contacts=[MpmContact(stiffness=50)], gravity=(g * np.sin(slope), -g * np.cos(slope), 0),
+	        gravityCurve=[(0, 0), (0.8 * rest, 1)], verbosity=0)]
+	O.dt = options.blockStep
+	O.run(round(rest / O.dt), wait=True)
+	at = lambda: mpm.arrays()['pos'][:, 0].mean() - plane.state.pos[0]
+	times, start, way = O.dt * np.arange(round(quake.time[-1] / O.dt) + 1), at(), [0.]
+	fine = np.linspace(0, times[-1], 10 * (len(times) - 1) + 1)  # velocities are linear between samples, displacements are not
+	moved = np.concatenate([[0.], np.cumsum(np.convolve(np.interp(fine, quake.time, quake.velocity), (0.5, 0.5), 'valid') * fine[1])])[::10]
+	for after, before in zip(moved[1:], moved):
+		plane.state.vel = ((after - before) / O.dt, 0, 0)
+		O.step()
+		way.append(at() - start)
+	return times, np.array(way), way[-1]
+
+
+def contact():
+	return block(slidOnBox)
+
+
+def block(slid=slid):
 	slope, g, atYield = np.radians(15), 9.81, 2.
 	figure, ax = plt.subplots(figsize=(8, 4.5), layout='constrained')
 	for i, seconds in enumerate(map(float, options.lengths.split())):
 		t, a = artificial(seconds, 5, seed=10 + i, frequency=1)
-		quake = mpm.record(list(zip(t, a)), unit='m/s2', filter=(0, 5))
+		quake = mpm.record(list(zip(t, a)), unit='m/s2', filter=(options.lowest, 5))
 		times, way, left = slid(quake, slope, g, atYield)
 		exact = newmarks(quake.acceleration, quake.step, atYield)
-		print(f'block, {seconds:g} s: {left:.4f} m, Newmark {exact[-1]:.4f} m ({100 * (left / exact[-1] - 1):+.2f} %)')
+		print(f'{"block" if slid is not slidOnBox else "contact"}, {seconds:g} s: {left:.4f} m, Newmark {exact[-1]:.4f} m ({100 * (left / exact[-1] - 1):+.2f} %); the plane moves by up to {np.abs(quake.displacement).max():.2f} m')
 		ax.plot(quake.time, exact, 'k-', linewidth=0.8, label=None if i else "Newmark's integration")
 		ax.plot(times, way, '--', label=f'found, record of {seconds:g} s')
 	ax.set(xlabel='time [s]', ylabel='way down the plane [m]', title=f'slips from {atYield:.2f} m/s2 on, records of 5 m/s2')
@@ -208,7 +238,7 @@ def block():
 
 
 for name in options.scene.split():
-	if name not in ('record', 'column', 'block'): raise SystemExit(f"earthquake.py: --scene {name!r} is not known; there are 'record', 'column' and 'block'")
+	if name not in ('record', 'column', 'block', 'contact'): raise SystemExit(f"earthquake.py: --scene {name!r} is not known; there are 'record', 'column', 'block' and 'contact'")
 	figure = globals()[name]()
 	picture = os.path.join(options.out, f"{'earthquake' if name == 'column' else name}.png")
 	figure.savefig(picture, dpi=130)

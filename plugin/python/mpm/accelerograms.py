@@ -57,8 +57,7 @@ def _unitOfHeading(lines):
 	text = ' '.join(lines).upper()
 	found = re.search(r'UNITS?\s+OF\s+(CM/S\S*|M/S\S*|G)\b', text) or re.search(r'UNITS?\s+(?:IS|ARE|:|=)\s*(CM/S\S*|M/S\S*|G)\b', text)
 	if not found: return None
-	told = found[1].lower().rstrip('.,;').replace('/s/s', '/s2').replace('/s^2', '/s2').replace('/sec2', '/s2').replace('/sec/sec', '/s2').replace('/sec', '/s')
-	return told
+	return found[1].lower().rstrip('.,;').replace('sec', 's').replace('/s/s', '/s2').replace('/s^2', '/s2').replace('/s**2', '/s2')
 
 
 def _readPeer(name, lines):
@@ -94,9 +93,10 @@ def _columns(name, lines):
 
 def _isNumber(word):
 	try:
-		return bool(np.isfinite(float(word))) or True
+		float(word)
 	except ValueError:
 		return False
+	return True
 
 
 def _numbersOf(name, number, line, words):

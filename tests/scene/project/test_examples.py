@@ -377,6 +377,15 @@ def test_waves(yade):
 	assert (yade.folder / 'out/waves/waves.png').stat().st_size > 10000
 
 
+def test_earthquake(yade):
+	"""A short record, fewer steps: layered ground by Thomson and Haskell's propagators on both bases, and a block by Newmark's integration."""
+	run = yade(root / 'examples' / 'earthquake' / 'earthquake.py', '--scene', 'column block contact', '--seconds', 4, '--lengths', 5, '--blockStep', 0.01)
+	off = re.findall(r'^column, (\w+): \S+ Hz .* \((\S+) %\)$', run.stdout, re.MULTILINE)
+	assert [base for base, _ in off] == 3 * ['rigid'] + 3 * ['compliant'] and all(abs(float(error)) < 3 for _, error in off), run.stdout
+	for kind in 'block', 'contact': assert abs(numbers(rf'\n{kind}, 5 s: .* \((\S+) %\)', run.stdout)[0]) < 5, run.stdout
+	assert (run.folder / 'out/earthquake/earthquake.png').stat().st_size > 20000
+
+
 def test_runout(yade):
 	"""One broad column on a coarse grid, against channel experiments."""
 	run = yade(root / 'examples' / 'runout' / 'runout.py', '--aspects', 1, '--cells', 5, '--film', 1)
