@@ -45,6 +45,7 @@ While it runs, one line tells how far it is (``verbosity`` of the engine); ``plo
 :func:`advise`               what an analysis will cost, and what it could do without
 :func:`discretisationError`  how wrong a result is because of the size of the cells; :func:`stressError` tells of stresses, from one run
 :func:`elementTest`          the curve of a laboratory test on a material; :func:`respond` is one call of its law
+:func:`calibrate`            parameters of a law from the curves of laboratory tests; :func:`typicalSand` has them where there are none
 ``stages``                   layers that are placed, soil that is dug out, supports that are taken away
 :func:`strengthReduction`    factor of safety, as a bracket
 ===========================  ==========================================================================================
@@ -53,6 +54,7 @@ Units are SI; stress is positive in tension; strains are logarithmic; plane stra
 """
 from . import processes
 from .advice import advise
+from .calibration import calibrate
 from .cells import refinementsAt
 from .colouring import colour
 from .data import arrays, assign, contactForces
@@ -72,9 +74,10 @@ from .solids import solid, terrain
 from .naming import didYouMean as _didYouMean, telling as _telling
 from .surfaces import surface
 from .tables import export
+from .typical import typicalSand
 
 __version__ = _engine.version
-__all__ = ['polygon', 'fill', 'add', 'refinementsAt', 'arrays', 'assign', 'geostatic', 'plot', 'colour', 'export', 'save', 'load', 'advise', 'discretisationError', 'stressError', 'elementTest', 'respond', 'strengthReduction', 'surface', 'contactForces', 'histories', 'readHistory', 'solid', 'terrain', 'movie']
+__all__ = ['polygon', 'fill', 'add', 'refinementsAt', 'arrays', 'assign', 'geostatic', 'plot', 'colour', 'export', 'save', 'load', 'advise', 'discretisationError', 'stressError', 'elementTest', 'respond', 'calibrate', 'typicalSand', 'strengthReduction', 'surface', 'contactForces', 'histories', 'readHistory', 'solid', 'terrain', 'movie']
 
 for _name in __all__:
 	_thing = globals()[_name] = _telling(globals()[_name])
