@@ -31,6 +31,7 @@ set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_DEBIAN_PLUGIN_PACKAGE_NAME yade-mpm)
 set(CPACK_DEBIAN_PLUGIN_PACKAGE_DEPENDS "yade (>= ${YADE_VERSION}), python3-numpy, python3-matplotlib, libopenblas0")
+set(CPACK_DEBIAN_PLUGIN_PACKAGE_RECOMMENDS python3-scipy) # for mpm.calibrate
 set(CPACK_DEBIAN_PETSC_PACKAGE_NAME yade-mpm-petsc)
 set(CPACK_COMPONENT_PLUGIN_DESCRIPTION "${CPACK_PACKAGE_DESCRIPTION}")
 set(CPACK_COMPONENT_PETSC_DESCRIPTION "Of the material point plugin of YADE what needs PETSc and MPI: algebraic multigrid, and load steps that several processes share.")

@@ -19,7 +19,7 @@ matplotlib.use('Agg')
 import matplotlib.pyplot as plt
 import numpy as np
 sys.path.insert(0, os.path.join(os.path.dirname(sys.argv[0]), '..'))
-from options import readOptions
+from options import compared, readOptions
 
 options = readOptions('Earthquakes against closed forms.',
         scene=('record column block contact', "'record', 'column', 'block' or 'contact', or several between blanks"),
@@ -147,6 +147,7 @@ def column():
 		three = len(frequencies)
 		for one, ratio, closed in zip(f[:three], found, exact):
 			print(f'column, {run.__name__}: {one:g} Hz  {ratio:.4f}  closed form {closed:.4f} ({100 * (ratio / closed - 1):+.2f} %)')
+			compared(f'amplification at {one:g} Hz, {run.__name__} base', ratio, closed, 'Thomson 1950, Haskell 1953')
 		below = f[three:] <= 8
 		print(f'column, {run.__name__}: up to 8 Hz off by {100 * np.abs(found / exact - 1)[three:][below].max():.2f} % at most')
 		ax.plot(f[three:], exact[three:], 'k-', linewidth=0.8, label='closed form')
@@ -230,6 +231,7 @@ def block(slid=slid):
 		times, way, left = slid(quake, slope, g, atYield)
 		exact = newmarks(quake.acceleration, quake.step, atYield)
 		print(f'{"block" if slid is not slidOnBox else "contact"}, {seconds:g} s: {left:.4f} m, Newmark {exact[-1]:.4f} m ({100 * (left / exact[-1] - 1):+.2f} %); the plane moves by up to {np.abs(quake.displacement).max():.2f} m')
+		compared(f'way of a block {"on a joint of clay" if slid is not slidOnBox else "on a Box"}, record of {seconds:g} s', left, exact[-1], 'Newmark 1965', 'm')
 		ax.plot(quake.time, exact, 'k-', linewidth=0.8, label=None if i else "Newmark's integration")
 		ax.plot(times, way, '--', label=f'found, record of {seconds:g} s')
 	ax.set(xlabel='time [s]', ylabel='way down the plane [m]', title=f'slips from {atYield:.2f} m/s2 on, records of 5 m/s2')

@@ -36,6 +36,7 @@ runs = {
         'grains_on_soil': ['grains_on_soil.py'],
         'mpm_vs_dem': ['mpm_vs_dem.py'],
         'waves': ['waves.py --scene "bar block sphere"', 'explicit.py --scene bar'],
+        'earthquake': ['earthquake.py'],
         'runout': ['runout.py'],
         'tasks': sorted(name for name in os.listdir(os.path.join(examples, 'tasks')) if name.endswith('.py')),
 }
@@ -49,7 +50,7 @@ groups = {
         'Earth pressure': ['earth_pressure'],
         'Water and stages': ['water', 'consolidation', 'embankment'],
         'Contact and penetration': ['penetration', 'grains_on_soil'],
-        'Waves and run-out': ['waves', 'runout', 'splitting'],
+        'Waves and run-out': ['waves', 'earthquake', 'runout', 'splitting'],
         'Grains': ['mpm_vs_dem'],
 }
 

@@ -51,6 +51,7 @@ While it runs, one line tells how far it is (``verbosity`` of the engine); ``plo
 :func:`advise`               what an analysis will cost, and what it could do without
 :func:`discretisationError`  how wrong a result is because of the size of the cells; :func:`stressError` tells of stresses, from one run
 :func:`elementTest`          the curve of a laboratory test on a material; :func:`respond` is one call of its law
+:func:`calibrate`            parameters of a law from the curves of laboratory tests; :func:`typicalSand` has them where there are none
 ``stages``                   layers that are placed, soil that is dug out, supports that are taken away
 :func:`strengthReduction`    factor of safety, as a bracket
 :func:`examples`             scripts to begin from, by a word: mpm.examples('footing')
@@ -60,6 +61,7 @@ Units are SI; stress is positive in tension; strains are logarithmic; plane stra
 """
 from . import processes
 from .advice import advise
+from .calibration import calibrate
 from .cells import refinementsAt
 from .collecting import collect, note
 from .colouring import colour
@@ -86,10 +88,11 @@ from .naming import didYouMean as _didYouMean, telling as _telling
 from .surfaces import surface
 from .tables import export, frame
 from .terrains import facets, terrain
+from .typical import typicalSand
 from .viewing import view
 
 __version__ = _engine.version
-__all__ = ['polygon', 'fill', 'add', 'refinementsAt', 'arrays', 'assign', 'geostatic', 'seepage', 'plot', 'colour', 'export', 'save', 'load', 'advise', 'discretisationError', 'stressError', 'elementTest', 'respond', 'strengthReduction', 'surface', 'contactForces', 'histories', 'readHistory', 'solid', 'terrain', 'movie', 'view', 'facets', 'frame', 'note', 'collect', 'state', 'examples', 'record', 'rayleigh', 'schemeDamping']
+__all__ = ['polygon', 'fill', 'add', 'refinementsAt', 'arrays', 'assign', 'geostatic', 'seepage', 'plot', 'colour', 'export', 'save', 'load', 'advise', 'discretisationError', 'stressError', 'elementTest', 'respond', 'strengthReduction', 'surface', 'contactForces', 'histories', 'readHistory', 'solid', 'terrain', 'movie', 'view', 'facets', 'frame', 'note', 'collect', 'state', 'examples', 'record', 'rayleigh', 'schemeDamping', 'calibrate', 'typicalSand']
 
 for _name in __all__:
 	_thing = globals()[_name] = _telling(globals()[_name])

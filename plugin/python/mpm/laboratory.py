@@ -8,7 +8,7 @@ from yade import wrapper
 
 from .data import table
 from .library import engine
-from .messages import brief, isNumber
+from .messages import brief, numberOf as _number
 from .naming import didYouMean, materialOf
 from .plotting import write
 
@@ -34,9 +34,9 @@ def respond(material, strain, duration=0, **internals):
 		a strain that is not finite, or to which the law has no answer; an internal variable that the law does not have, or that is not admitted.
 	"""
 	who = 'respond'
-	material = _material(who, material)
+	material = materialFor(who, material)
 	strain = _strain(who, strain)
-	internals = _internals(who, internals)
+	internals = internalsOf(who, internals)
 	duration = _number(who, 'duration', duration, 'a finite number >= 0', lambda value: value >= 0)
 	if _named(who, engine.hasTensorLaw, material):
 		answer = _named(who, engine.respondInSpace, material, _rows(np.diag(strain) if strain.ndim == 1 else strain), internals, duration)
@@ -88,27 +88,39 @@ def elementTest(material, kind, strain, steps=100, confiningPressure=0, initialS
 	:raises OSError: the file cannot be written.
 	"""
 	who = 'elementTest'
-	material = _material(who, material)
-	test = _testOf(kind)
+	material = materialFor(who, material)
+	drivenStrain(who, kind)
 	end = _number(who, 'strain', strain, 'a number from -10 to 10, not 0', lambda value: 0 < abs(value) <= 10)
 	if isinstance(steps, bool) or not isinstance(steps, (int, np.integer)): raise TypeError(f'{who}: steps = {brief(steps)} must be an integer')
 	if steps < 1: raise ValueError(f'{who}: steps = {steps} must be > 0')
-	state = _firstState(who, material, _firstStress(who, confiningPressure, initialStress), _internals(who, internals))
-	kept = np.diag(state.stress).copy()
-	if state.hasTensors or kept[0] != kept[2]: test.free = test.each
-	states = [state]
-	for at in end * np.arange(1, steps + 1) / steps:
-		try:
-			state = _advance(test, material, state, at, kept)
-		except _NoSolution as reason:
-			raise RuntimeError(f'{who}: {brief(kind)} has no solution beyond {test.strain} = {reason.reached:.6g} of {end:g}: {reason}') from None
-		states.append(state)
-	curve = _curve(test, states)
+	curve = curveAt(who, material, kind, end * np.arange(1, steps + 1) / steps, confiningPressure, initialStress, internalsOf(who, internals))
 	if fileName is not None: _draw(kind, curve, fileName)
 	return curve
 
 
-def _material(who, material):
+def curveAt(who, material, kind, strains, confiningPressure=0, initialStress=None, internals={}, patience=math.inf):
+	"""The curve of a test in steps to each of these strains, which may turn back; it is given up after so many solves for one step in the mean."""
+	test = _testOf(who, kind)
+	test.solves = patience * len(strains)
+	state = _firstState(who, material, firstStress(who, confiningPressure, initialStress), internals)
+	kept = np.diag(state.stress).copy()
+	if state.hasTensors or kept[0] != kept[2]: test.free = test.each
+	states = [state]
+	for at in strains:
+		try:
+			state = _advance(test, material, state, at, kept)
+		except _NoSolution as reason:
+			raise RuntimeError(f'{who}: {brief(kind)} has no solution beyond {test.strain} = {reason.reached:.6g} of {strains[-1]:g}: {reason}') from None
+		states.append(state)
+	return _curve(test, states)
+
+
+def drivenStrain(who, kind):
+	"""The name of the strain that a kind of test drives."""
+	return _testOf(who, kind).strain
+
+
+def materialFor(who, material):
 	if isinstance(material, str):
 		try:
 			material = materialOf(who, material)
@@ -117,12 +129,6 @@ def _material(who, material):
 	if not isinstance(material, wrapper.MpmMaterial):
 		raise TypeError(f'{who}: material = {brief(material)} must be a material of the plugin, as MpmMohrCoulombMat(...), or the label of one')
 	return material
-
-
-def _number(who, name, value, expected, admits=lambda value: True):
-	if not isNumber(value): raise TypeError(f'{who}: {name} = {brief(value)} must be {expected}')
-	if not (math.isfinite(value) and admits(value)): raise ValueError(f'{who}: {name} = {brief(value)} must be {expected}')
-	return float(value)
 
 
 def _array(who, name, values, shapes, expected):
@@ -142,7 +148,7 @@ def _strain(who, strain):
 	return array
 
 
-def _internals(who, internals):
+def internalsOf(who, internals):
 	known = [name for name, column in table.items() if column['isInternal']]
 	for name in internals:
 		if name not in known: raise ValueError(f"{who}: {name} is no internal variable of a law{didYouMean(name, known) or ';'} there are {', '.join(known)}")
@@ -170,7 +176,7 @@ def _assemble(values, axes):
 	return (axes * values) @ axes.T
 
 
-def _testOf(kind):
+def _testOf(who, kind):
 	"""What of a test is free, whether its sides are free of shear stress, and the increment of F of a strain that is driven from one value to another.
 
 	A row of `free` is one unknown strain along the axes that it marks, by which the mean stress along them is kept. Where isotropic soil is pressed alike along x and z
@@ -192,13 +198,13 @@ def _testOf(kind):
 	        'undrainedTriaxial': ('axialStrain', [0, 0, 0], False, stretch(-0.5)),
 	        'simpleShear': ('shearStrain', [0, 1, 0], False, shear),
 	}
-	if kind not in list(tests): raise ValueError(f"elementTest: kind = {brief(kind)} must be one of {', '.join(map(repr, tests))}")
+	if kind not in list(tests): raise ValueError(f"{who}: kind = {brief(kind)} must be one of {', '.join(map(repr, tests))}")
 	strain, axes, isSmooth, increment = tests[kind]
 	each = np.diag(axes)[np.flatnonzero(axes)].astype(float)
 	return SimpleNamespace(strain=strain, free=each.sum(axis=0)[None, :] if any(axes) else each, each=each, isSmooth=isSmooth, increment=increment)
 
 
-def _firstStress(who, confiningPressure, initialStress):
+def firstStress(who, confiningPressure, initialStress):
 	pressure = _number(who, 'confiningPressure', confiningPressure, 'a finite number >= 0 [Pa], positive in compression', lambda value: value >= 0)
 	if initialStress is None: return np.full(3, -pressure)
 	if pressure: raise ValueError(f'{who}: confiningPressure and initialStress are two ways to say the same; give one of them')
@@ -219,10 +225,12 @@ def _advance(test, material, state, to, kept):
 	"""The state at the strain *to*, by steps that are halved where Newton's method fails."""
 	most, target, halvings = 10, to, 0
 	while state.strain != to:
+		test.solves -= 1
 		try:
+			if test.solves < 0: raise _NoSolution('too many steps had to be halved')
 			state, target, halvings = _solve(test, material, state, target, kept), to, max(0, halvings - 1)
 		except _NoSolution as reason:
-			if halvings == most:
+			if halvings == most or test.solves < 0:
 				reason.reached = state.strain
 				raise
 			halvings, target = halvings + 1, (state.strain + target) / 2

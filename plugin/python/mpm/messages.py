@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """What the functions say about the values that they were given."""
+import math
 import os
 
 import numpy as np
@@ -15,6 +16,13 @@ def brief(value):
 def isNumber(value):
 	"""Whether it is a number of Python or NumPy; a bool is none."""
 	return isinstance(value, (int, float, np.floating, np.integer)) and not isinstance(value, bool)
+
+
+def numberOf(who, name, value, expected, admits=lambda value: True):
+	"""A finite number that is admitted; TypeError and ValueError name the function, the argument and what is expected."""
+	if not isNumber(value): raise TypeError(f'{who}: {name} = {brief(value)} must be {expected}')
+	if not (math.isfinite(value) and admits(value)): raise ValueError(f'{who}: {name} = {brief(value)} must be {expected}')
+	return float(value)
 
 
 def place(vector):
