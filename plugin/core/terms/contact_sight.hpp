@@ -30,8 +30,8 @@ public:
 	SoilNear(std::vector<SoilDomain<Dim>>, double cellSize);
 
 	/// Looks from a place along the normal, no farther than the reach. Soil whose closest side of the body looks
-	/// elsewhere, as beyond an edge or behind a thin body, does not count, nor what is hidden: a test of the middles
-	/// of domains, empty where nothing hides any.
+	/// elsewhere, as beyond an edge or behind a thin body, does not count, nor what is hidden: a test of the
+	/// middles of domains, empty where nothing hides any.
 	using Hides = std::function<bool(const Vec<Dim>& centre)>;
 	std::optional<Sight> from(const Vec<Dim>& place, const Vec<Dim>& normal, double reach, const Hides& = {}) const;
 
