@@ -51,5 +51,6 @@ def compared(quantity, ours, theirs, source, unit=''):
 	:param source: whose it is, as 'Prandtl 1921'
 	:param unit: of both
 	"""
+	if not _file or not os.path.isdir(os.path.dirname(_file)): return  # by another script, which has run the scenes of this one
 	with open(_file, 'a', newline='') as file:
 		csv.writer(file).writerow([quantity, f'{float(ours):.6g}', f'{float(theirs):.6g}', unit, source])

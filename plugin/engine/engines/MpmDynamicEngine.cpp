@@ -41,6 +41,11 @@ void MpmDynamicEngine::requireAdmissible() const
 		throw std::invalid_argument(
 		        "MpmDynamicEngine.timeTolerance = " + std::to_string(timeTolerance)
 		        + " needs accelerations at both ends of a step, which scheme='midpoint' does without: take 'newmark' or 'generalised-alpha'.");
+	if (scheme == "generalised-alpha" && rayleigh.second > 0 && !contacts.empty())
+		throw std::invalid_argument(
+		        "MpmDynamicEngine.rayleigh = (" + std::to_string(rayleigh.first) + ", " + std::to_string(rayleigh.second)
+		        + "): damping by stiffness and contact of rigid bodies make energy together with scheme='generalised-alpha': take "
+		          "scheme='newmark', or rayleigh=(alpha, 0).");
 }
 
 vector<Listed> MpmDynamicEngine::conditions() const

@@ -245,6 +245,7 @@ except ValueError as error:
                 ('solver.rhoInfinity = 1.5', ['MpmDynamicEngine.rhoInfinity', '0 to 1']),
                 ('solver.timeTolerance = -1.', ['MpmDynamicEngine.timeTolerance', '>= 0']),
                 ('solver.ghost.massFactor = -1.', ['MpmGhost.massFactor', '>= 0']),
+                ('solver.scheme, solver.rayleigh, solver.contacts = "generalised-alpha", (0, 1e-3), [MpmContact()]', ['MpmDynamicEngine.rayleigh', 'newmark']),
                 ('solver.scheme, solver.timeTolerance = "midpoint", 1e-3', ['timeTolerance', 'midpoint']),
                 ('velocities(0, 0, 1)', ['vel', 'dim=2']),
                 ('O.bodies[3].state.vel = (float("nan"), 0, 0)', ['Body #3', 'vel', 'finite']),
