@@ -18,17 +18,29 @@ void Couplings::mark(const FieldNode& row, const FieldNode& column)
 	markKept(numberOf(column), numberOf(row));
 }
 
-/// Places among the values are given in the order of the marks.
+/// It has no place among the values yet, nor do the others keep theirs.
 void Couplings::markKept(int row, int column)
 {
 	if (!keeps(row, column)) return;
 	const auto at = std::lower_bound(rows_[row].begin(), rows_[row].end(), column);
 	if (at != rows_[row].end() && at->column == column) return;
-	rows_[row].insert(at, { column, values_.size() });
-	values_.resize(values_.size() + std::size_t((*map_)[placeOf(row).field].width) * (*map_)[placeOf(column).field].width);
+	rows_[row].insert(at, { column, 0 });
+	values_.clear();
 }
 
-void Couplings::setZero() { std::fill(values_.begin(), values_.end(), 0.); }
+/// Places are given row by row, as who takes the matrix reads them.
+void Couplings::setZero()
+{
+	std::fill(values_.begin(), values_.end(), 0.);
+	if (!values_.empty()) return;
+	std::size_t next = 0;
+	for (int r = 0; r < int(rows_.size()); ++r)
+		for (Entry& entry : rows_[r]) {
+			entry.first = next;
+			next += std::size_t((*map_)[placeOf(r).field].width) * (*map_)[placeOf(entry.column).field].width;
+		}
+	values_.assign(next, 0);
+}
 
 /// Of the values of a block that is kept.
 std::size_t Couplings::firstOf(int row, int column) const { return std::lower_bound(rows_[row].begin(), rows_[row].end(), column)->first; }

@@ -35,33 +35,40 @@ template <int Dim, class F> void forPatchPairs(const Patch<Dim>& patch, F&& f)
 
 /// What the points of a patch add to the matrix.
 template <int Dim> struct PatchMatrices {
-	Eigen::MatrixXd uu, up, pu, pp;
+	static constexpr int most                   = windowNodes<Dim>;
+	template <int Rows, int Columns> using Part = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, Rows * most, Columns * most>;
+
+	Part<Dim, Dim> uu;
+	Part<Dim, 1>   up;
+	Part<1, Dim>   pu;
+	Part<1, 1>     pp;
 
 	explicit PatchMatrices(int n)
-	        : uu(Eigen::MatrixXd::Zero(Dim * n, Dim * n))
-	        , up(Eigen::MatrixXd::Zero(Dim * n, n))
-	        , pu(Eigen::MatrixXd::Zero(n, Dim * n))
-	        , pp(Eigen::MatrixXd::Zero(n, n))
+	        : uu(Part<Dim, Dim>::Zero(Dim * n, Dim * n)), up(Part<Dim, 1>::Zero(Dim * n, n)), pu(Part<1, Dim>::Zero(n, Dim * n)), pp(Part<1, 1>::Zero(n, n))
 	{
 	}
 
-	/// With w = grad p and g the present gradients: see the page on theory.
-	void add(const PorePoint& point, const FlowPoint<Dim>& s, const PointFunctions<Dim>& f, double duration, double modulus)
+	/// With w = grad p and g the present gradients: see the page on theory. Of what a pair of nodes adds only
+	/// products are left to the inner loop.
+	void add(
+	        const PorePoint& point, const FlowPoint<Dim>& s, const PointFunctions<Dim>& f, const PresentFunctions<Dim>& now, double duration,
+	        double modulus)
 	{
-		const double V = point.volume * s.J, E = s.density, flow = duration * V * E * s.kappa.value, l = s.kappa.slope;
-		const double stored = point.volume / point.ratio * (point.content + s.content) / modulus;
-		for (int a = 0; a < f.count; ++a) {
-			const Vec<Dim> ga = s.now(f.gradient[a]), Ba = s.dilation(f, a);
-			const double   wa = s.slope.dot(ga);
-			for (int b = 0; b < f.count; ++b) {
-				const Vec<Dim> gb = s.now(f.gradient[b]), Bb = s.dilation(f, b);
+		const double   V = point.volume * s.J, E = s.density, flow = duration * V * E * s.kappa.value, led = flow * (1 + s.kappa.slope);
+		const double   pushes = V * s.pressure, stored = point.volume / point.ratio * (point.content + s.content) / modulus;
+		const Vec<Dim> turned = flow * s.slope;
+		for (int b = 0; b < f.count; ++b) {
+			const Vec<Dim> gb = now.gradient[b], Bb = now.dilation[b];
+			const double   along = flow * now.along[b], ofStored = stored * f.value[b], carried = flow / modulus * f.value[b];
+			for (int a = 0; a < f.count; ++a) {
+				const Vec<Dim> ga = now.gradient[a], Ba = now.dilation[a];
+				const double   wa = now.along[a], both = ga.dot(gb);
 				Mat<Dim>       push = Ba * Bb.transpose() - gb * ga.transpose();
-				push(0, 0) -= f.hoop[a] * f.hoop[b] / (s.around * s.around);
-				uu.template block<Dim, Dim>(Dim * a, Dim * b) -= V * s.pressure * push;
+				push(0, 0) -= now.hoop[a] * now.hoop[b];
+				uu.template block<Dim, Dim>(Dim * a, Dim * b) -= pushes * push;
 				up.template block<Dim, 1>(Dim * a, b) -= V * f.value[b] * Ba;
-				pu.template block<1, Dim>(a, Dim * b)
-				        += (V * E * f.value[a] * Bb + flow * ((1 + l) * wa * Bb - gb.dot(ga) * s.slope - s.slope.dot(gb) * ga)).transpose();
-				pp(a, b) += stored * f.value[a] * f.value[b] + flow * (ga.dot(gb) + wa * f.value[b] / modulus);
+				pu.template block<1, Dim>(a, Dim * b) += ((V * E * f.value[a] + led * wa) * Bb - both * turned - along * ga).transpose();
+				pp(a, b) += ofStored * f.value[a] + flow * both + carried * wa;
 			}
 		}
 	}
@@ -181,13 +188,13 @@ template <int Dim> void Flow<Dim>::markCouplings(Couplings& K) const
 {
 	for (const auto& patch : basis_.patches)
 		forPatchPairs(patch, [&](int m, int n, int) {
-			K.mark({ field, patch.node[m] }, { field, patch.node[n] });
+			if (m <= n) K.mark({ field, patch.node[m] }, { field, patch.node[n] });
 			K.mark({ 0, patch.node[m] }, { field, patch.node[n] });
 		});
 	for (const Cell& cell : cells_)
-		for (const int a : cell.node)
-			for (const int b : cell.node)
-				K.mark({ field, a }, { field, b });
+		for (int s = 0; s < corners; ++s)
+			for (int t = s; t < corners; ++t)
+				K.mark({ field, cell.node[s] }, { field, cell.node[t] });
 	forGhostPairs<Dim>(faces_, h_, [&](int a, int b, int, double) { K.mark({ field, a }, { field, b }); });
 	for (const Outlet& outlet : outlets_)
 		for (const int a : outlet.at.node)
@@ -211,8 +218,9 @@ template <int Dim> std::optional<PointFailure> Flow<Dim>::addCoupled(const State
 				for (int seen = failed; p < seen && !failed.compare_exchange_weak(seen, p);) { }
 				continue;
 			}
-			addForces(points_[p], s, patch, f, sum);
-			if (sum.couplings) matrices.add(points_[p], s, f, water_.duration, water_.modulus);
+			const PresentFunctions<Dim> now(s, f);
+			addForces(points_[p], s, patch, f, now, sum);
+			if (sum.couplings) matrices.add(points_[p], s, f, now, water_.duration, water_.modulus);
 		}
 		if (sum.couplings) matrices.scatterAdd(patch, sum);
 	});
@@ -224,14 +232,15 @@ template <int Dim> std::optional<PointFailure> Flow<Dim>::addCoupled(const State
 
 template <int Dim>
 void Flow<Dim>::addForces(
-        const PorePoint& point, const FlowPoint<Dim>& s, const Patch<Dim>& patch, const PointFunctions<Dim>& f, const FieldSum<Dim>& sum) const
+        const PorePoint& point, const FlowPoint<Dim>& s, const Patch<Dim>& patch, const PointFunctions<Dim>& f, const PresentFunctions<Dim>& now,
+        const FieldSum<Dim>& sum) const
 {
 	const double V = point.volume * s.J, flow = water_.duration * V * s.density * s.kappa.value;
 	for (int n = 0; n < f.count; ++n) {
 		const int a = patch.node[n];
 		if (a < 0) continue;
-		const Vec<Dim> push   = -V * s.pressure * s.dilation(f, n);
-		const double   passes = flow * s.slope.dot(s.now(f.gradient[n])), stored = point.volume / point.ratio * s.content * f.value[n];
+		const Vec<Dim> push   = -V * s.pressure * now.dilation[n];
+		const double   passes = flow * now.along[n], stored = point.volume / point.ratio * s.content * f.value[n];
 		sum.force[0].template segment<Dim>(Dim * a) += push;
 		sum.sizes[0].template segment<Dim>(Dim * a) += push.cwiseAbs();
 		sum.force[field][a] += passes + stored;

@@ -63,7 +63,9 @@ private:
 	std::string attachDrain(int number, const Beginning<Dim>&);
 	std::string enclosure(const Beginning<Dim>&) const;
 
-	void   addForces(const PorePoint&, const FlowPoint<Dim>&, const Patch<Dim>&, const PointFunctions<Dim>&, const FieldSum<Dim>&) const;
+	void addForces(
+	        const PorePoint&, const FlowPoint<Dim>&, const Patch<Dim>&, const PointFunctions<Dim>&, const PresentFunctions<Dim>&,
+	        const FieldSum<Dim>&) const;
 	void   addPenalties(const Eigen::VectorXd& growth, const FieldSum<Dim>&) const;
 	void   addDrains(const Eigen::VectorXd& P, const FieldSum<Dim>&) const;
 	double conductanceNow(const Outlet&, double pressure) const;

@@ -66,14 +66,25 @@ template <int Dim> struct FlowPoint {
 		content = density * point.ratio * (J - 1) + point.content * std::expm1((pressure - point.pressure) / modulus);
 		if (isPossible(point)) kappa = point.pores->at(point.ratio * J);
 	}
-	bool     isPossible(const PorePoint& point) const { return J > 0 && around > 0 && point.pores->areOpen(point.ratio * J); }
-	Vec<Dim> now(const Vec<Dim>& gradient) const { return inverse.transpose() * gradient; }
-	/// d ln J by the displacement of a node.
-	Vec<Dim> dilation(const PointFunctions<Dim>& f, int n) const
+	bool isPossible(const PorePoint& point) const { return J > 0 && around > 0 && point.pores->areOpen(point.ratio * J); }
+};
+
+/// Functions of a point at an iterate: all that forces and derivatives need of them.
+template <int Dim> struct PresentFunctions {
+	Vec<Dim> gradient[windowNodes<Dim>]; ///< along the axes, in the present configuration
+	Vec<Dim> dilation[windowNodes<Dim>]; ///< d ln J by the displacement of a node
+	double   hoop[windowNodes<Dim>];     ///< over the stretch around the axis
+	double   along[windowNodes<Dim>];    ///< gradient along the slope of the pressure
+
+	PresentFunctions(const FlowPoint<Dim>& s, const PointFunctions<Dim>& f)
 	{
-		Vec<Dim> b = now(f.gradient[n]);
-		b[0] += f.hoop[n] / around;
-		return b;
+		const Mat<Dim> toPresent = s.inverse.transpose();
+		for (int n = 0; n < f.count; ++n) {
+			gradient[n] = dilation[n] = toPresent * f.gradient[n];
+			hoop[n]                   = f.hoop[n] / s.around;
+			dilation[n][0] += hoop[n];
+			along[n] = s.slope.dot(gradient[n]);
+		}
 	}
 };
 

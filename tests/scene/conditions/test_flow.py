@@ -351,3 +351,26 @@ print(json.dumps([slow.tolist(), dry.tolist(), [solver.substeps, solver.cuts, fl
 	).result
 	assert max(abs(a - b) for a, b in zip(settled, drained)) < 1e-7
 	assert parts[0] > 1 and abs(parts[2]) < 1e-7
+
+
+def test_all_solvers_find_the_same(yade):
+	found = yade(
+	        setting + '''
+from yade.mpm.library import engine
+found = {}
+for method in ['direct', 'iterative', 'amg'][:2 if engine.multigridAbsence() else 3]:
+	solver = column(8, gravity=10)
+	solver.newton.linearSolver = method
+	O.dt = .1 / cv
+	O.step()
+	points, report = mpm.arrays(), solver.report()
+	found[method] = [[points[name].ravel().tolist() for name in ('pos', 'porePressure')], [report[name] for name in ('luSolves', 'cgIterations', 'cgFallbacks')]]
+print(json.dumps(found))
+'''
+	).result
+	exact, (solves, none, _) = found.pop('direct')
+	assert solves > 0 and none == 0
+	for values, (solves, iterations, fallbacks) in found.values():
+		assert solves == 0 and iterations > 0 and fallbacks == 0
+		for some, of in zip(values, exact):
+			assert max(abs(a - b) for a, b in zip(some, of)) < 1e-5 * max(map(abs, of))
