@@ -167,16 +167,29 @@ template <int Dim> bool Contact<Dim>::isHidden(int number, const Vec<Dim>& place
 	return false;
 }
 
-/// Whether another sheet is between the two. At the edge that it shares with the one of the place, as below a pile
-/// that is made of sheets, soil outside is beside the places inside. Soil that is a little behind the sheet counts as
-/// before it.
-template <int Dim> bool Contact<Dim>::isBehindSheet(const Vec<Dim>& place, const Vec<Dim>& soil, const std::vector<int>& around) const
+/// Sheets around that may be between a place and soil, and how far the place is from their planes.
+template <int Dim> std::vector<std::pair<int, double>> Contact<Dim>::screensBefore(const Vec<Dim>& place, const std::vector<int>& around) const
 {
-	return std::any_of(around.begin(), around.end(), [&](int b) {
+	std::vector<std::pair<int, double>> found;
+	for (const int b : around) {
 		const auto& sheet = system_.bodies[b];
-		if (sheet.shape.kind != RigidKind::sheet) return false;
-		const double here = sheet.proximity(sheet.begin, place, 1).gap, there = sheet.proximity(sheet.begin, soil, 1).gap;
-		if (std::abs(here) <= tolerance_ || here * sheet.sideOf(sheet.begin, soil) > 0) return false;
+		if (sheet.shape.kind != RigidKind::sheet) continue;
+		const double away = sheet.proximity(sheet.begin, place, 1).gap;
+		if (std::abs(away) > tolerance_) found.emplace_back(b, away);
+	}
+	return found;
+}
+
+/// Whether a screen is between the two. At the edge that it shares with the sheet of the place, as below a pile that is
+/// made of sheets, soil outside is beside the places inside. Soil that is a little behind the screen counts as before
+/// it.
+template <int Dim> bool Contact<Dim>::isBehind(const std::vector<std::pair<int, double>>& screens, const Vec<Dim>& place, const Vec<Dim>& soil) const
+{
+	return std::any_of(screens.begin(), screens.end(), [&](const auto& screen) {
+		const auto&  sheet = system_.bodies[screen.first];
+		const double here  = screen.second;
+		if (here * sheet.sideOf(sheet.begin, soil) > 0) return false;
+		const double   there    = sheet.proximity(sheet.begin, soil, 1).gap;
 		const Vec<Dim> crossing = here * there < 0 ? Vec<Dim>(place + here / (here - there) * (soil - place)) : soil;
 		return sheet.proximity(sheet.begin, crossing, 1).beside < 0;
 	});
@@ -194,9 +207,9 @@ template <int Dim> void Contact<Dim>::addPlace(int number, const SurfacePoint<Di
 	const auto&    body   = system_.bodies[number];
 	const Vec<Dim> onBody = body.begin.inSpace(point.place), normal = body.begin.rotation * point.normal;
 	if ((isRing_ && onBody[0] <= 0) || !isInPeriod(onBody, grid_)) return;
-	const bool isScreened = std::any_of(around.begin(), around.end(), [&](int b) { return system_.bodies[b].shape.kind == RigidKind::sheet; });
-	const auto hides      = [&](const Vec<Dim>& soil) { return isBehindSheet(onBody, soil, around); };
-	const auto sight      = soil.from(onBody, normal, searchReach(body, grid_), isScreened ? hides : typename SoilNear<Dim>::Hides());
+	const auto screens = screensBefore(onBody, around);
+	const auto hides   = [&](const Vec<Dim>& centre) { return isBehind(screens, onBody, centre); };
+	const auto sight   = soil.from(onBody, normal, searchReach(body, grid_), screens.empty() ? typename SoilNear<Dim>::Hides() : hides);
 	if (!sight || isHidden(number, onBody, normal, around)) return;
 	Place place;
 	place.body = number, place.number = point.number;

@@ -100,22 +100,23 @@ private:
 		Attachment<Dim> attached;
 	};
 
-	void                      takeSides();
-	void                      find(const Beginning<Dim>&);
-	void                      addPlaces(int body);
-	void                      addPlace(int body, const SurfacePoint<Dim>&, const SoilNear<Dim>&, const std::vector<int>& around);
-	void                      recall(Place&, const ContactRecord<Dim>&, double seen) const;
-	std::vector<int>          bodiesAround(int body) const;
-	bool                      isHidden(int body, const Vec<Dim>& place, const Vec<Dim>& normal, const std::vector<int>& around) const;
-	bool                      isBehindSheet(const Vec<Dim>& place, const Vec<Dim>& soil, const std::vector<int>& around) const;
-	void                      look(int body);
-	auto                      nearTo(int body) const; // first and last in near_
-	const ContactRecord<Dim>* recordOf(const Place&) const;
-	Approach<Dim>             approach(const Place&, const Eigen::VectorXd& d) const;
-	template <class F> void   forTouching(const Eigen::VectorXd& d, F&& f) const; // f(place, approach, touch)
-	std::string               entered(const Eigen::VectorXd& d) const;
-	double                    given(const Eigen::VectorXd& d) const;
-	ContactLoad               loadOn(const Vec<Dim>& owner, const Place&, const Vec<Dim>& place, const Touch<Dim>&) const;
+	void                                takeSides();
+	void                                find(const Beginning<Dim>&);
+	void                                addPlaces(int body);
+	void                                addPlace(int body, const SurfacePoint<Dim>&, const SoilNear<Dim>&, const std::vector<int>& around);
+	void                                recall(Place&, const ContactRecord<Dim>&, double seen) const;
+	std::vector<int>                    bodiesAround(int body) const;
+	bool                                isHidden(int body, const Vec<Dim>& place, const Vec<Dim>& normal, const std::vector<int>& around) const;
+	std::vector<std::pair<int, double>> screensBefore(const Vec<Dim>& place, const std::vector<int>& around) const;
+	bool                                isBehind(const std::vector<std::pair<int, double>>& screens, const Vec<Dim>& place, const Vec<Dim>& soil) const;
+	void                                look(int body);
+	auto                                nearTo(int body) const; // first and last in near_
+	const ContactRecord<Dim>*           recordOf(const Place&) const;
+	Approach<Dim>                       approach(const Place&, const Eigen::VectorXd& d) const;
+	template <class F> void             forTouching(const Eigen::VectorXd& d, F&& f) const; // f(place, approach, touch)
+	std::string                         entered(const Eigen::VectorXd& d) const;
+	double                              given(const Eigen::VectorXd& d) const;
+	ContactLoad                         loadOn(const Vec<Dim>& owner, const Place&, const Vec<Dim>& place, const Touch<Dim>&) const;
 
 	ContactSystem<Dim>&    system_;
 	double                 tolerance_; // of a gap that counts as touching [m]

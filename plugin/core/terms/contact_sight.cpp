@@ -66,18 +66,21 @@ template <int Dim> template <class F> void SoilNear<Dim>::forIn(const Vec<Dim>& 
 
 /// The line along the normal may pass between domains, which do not tile the soil where it is sheared or stretched:
 /// then those count which it misses by a quarter of a cell.
-template <int Dim> template <class F> double SoilNear<Dim>::gapFrom(const Vec<Dim>& place, const Vec<Dim>& normal, double reach, const F& isInFront) const
+template <int Dim>
+template <class F>
+double SoilNear<Dim>::gapFrom(const Vec<Dim>& place, const Vec<Dim>& normal, double reach, const F& isInFront, const Hides& hides) const
 {
 	const double   beside = 0.25 * cellSize_;
 	double         hit = infinite, near = infinite;
 	const Vec<Dim> margin = Vec<Dim>::Constant(largest_ + beside), end = place + reach * normal;
 	forIn(place.cwiseMin(end) - margin, place.cwiseMax(end) + margin, [&](const SoilDomain<Dim>& d) {
 		if (!isInFront(d)) return;
-		hit                   = std::min(hit, entry(place, normal, d));
 		const Vec<Dim> away   = d.centre - place;
-		const double   across = away.dot(normal);
+		const double   across = away.dot(normal), straight = entry(place, normal, d);
 		const bool     passes = ((away - across * normal).array().abs() > d.half.array() + beside).any();
-		if (!passes) near = std::min(near, across - normal.cwiseAbs().dot(d.half));
+		const double   here   = passes ? infinite : across - normal.cwiseAbs().dot(d.half);
+		if ((straight >= hit && here >= near) || (hides && hides(d.centre))) return;
+		hit = std::min(hit, straight), near = std::min(near, here);
 	});
 	return hit < infinite && hit < near + 2 * beside ? hit : near;
 }
@@ -88,8 +91,8 @@ template <int Dim> template <class F> double SoilNear<Dim>::gapFrom(const Vec<Di
 /// of the soil in it; what is missing besides are gaps.
 template <int Dim> std::optional<Sight> SoilNear<Dim>::from(const Vec<Dim>& place, const Vec<Dim>& normal, double reach, const Hides& hides) const
 {
-	const auto   isInFront = [&](const SoilDomain<Dim>& d) { return d.outward.dot(normal) > 0.7 && !(hides && hides(d.centre)); };
-	const double half = 0.25 * cellSize_, gap = gapFrom(place, normal, reach, isInFront);
+	const auto   isInFront = [&](const SoilDomain<Dim>& d) { return d.outward.dot(normal) > 0.7; };
+	const double half = 0.25 * cellSize_, gap = gapFrom(place, normal, reach, isInFront, hides);
 	if (!(gap <= reach)) return std::nullopt;
 	const Vec<Dim> size = Vec<Dim>::Constant(half), middle = place + (std::max(0., gap) + half) * normal, margin = Vec<Dim>::Constant(largest_);
 	double         volume = 0, stiff = 0;
@@ -98,6 +101,7 @@ template <int Dim> std::optional<Sight> SoilNear<Dim>::from(const Vec<Dim>& plac
 		if (!isInFront(d)) return;
 		const Vec<Dim> low = (middle - size).cwiseMax(d.centre - d.half), high = (middle + size).cwiseMin(d.centre + d.half);
 		const double   part = (high - low).cwiseMax(0).prod();
+		if (part == 0 || (hides && hides(d.centre))) return;
 		volume += part, stiff += part * d.young, moment += part * ((low + high) / 2 - middle);
 	});
 	if (volume == 0) return std::nullopt;

@@ -38,7 +38,7 @@ public:
 	std::pair<Vec<Dim>, Vec<Dim>> bounds() const { return { low_, high_ }; }
 
 private:
-	template <class F> double gapFrom(const Vec<Dim>& place, const Vec<Dim>& normal, double reach, const F& isInFront) const;
+	template <class F> double gapFrom(const Vec<Dim>& place, const Vec<Dim>& normal, double reach, const F& isInFront, const Hides&) const;
 	template <class F> void   forIn(const Vec<Dim>& low, const Vec<Dim>& high, F&& f) const;
 	Index<Dim>                bin(const Vec<Dim>& x) const { return ((x - low_) / cellSize_).array().floor().template cast<int>(); }
 
