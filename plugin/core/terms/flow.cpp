@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "core/terms/flow.hpp"
 #include "core/terms/flow_point.hpp"
+#include "core/terms/internal_force.hpp"
 #include "core/terms/overlap.hpp"
 #include <atomic>
 
@@ -176,13 +177,7 @@ template <int Dim> void Flow<Dim>::weighCells(const ConstrainedModulus& modulusO
 	}
 }
 
-template <int Dim> void Flow<Dim>::mark(NodeMatrix<Dim>& K) const
-{
-	for (const auto& patch : basis_.patches)
-		forPatchPairs(patch, [&](int m, int, int code) {
-			if (code >= 0) K.markUsed(patch.node[m], code);
-		});
-}
+template <int Dim> void Flow<Dim>::mark(NodeMatrix<Dim>& K) const { markPointPattern(basis_, K); }
 
 template <int Dim> void Flow<Dim>::markCouplings(Couplings& K) const
 {
