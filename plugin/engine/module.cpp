@@ -18,6 +18,10 @@
 #include "yade_api/python_lock.hpp"
 #include "yade_api/verification.hpp"
 
+#pragma GCC visibility push(default)
+#include <boost/python/module.hpp>
+#pragma GCC visibility pop
+
 namespace {
 // What single functions of Python are for.
 void defineHelpers()

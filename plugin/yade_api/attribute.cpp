@@ -71,6 +71,8 @@ void AttributeTable::requireAdmitted(const Serializable& object) const
 		attribute->requireAdmitted(object);
 }
 
+void AttributeTable::keep(const Attribute* attribute) { attributes_.emplace_back(attribute); }
+
 string AttributeTable::names(bool areReadonly) const
 {
 	string names = base ? base->names(areReadonly) : "";

@@ -5,7 +5,6 @@
 #include "yade_api/exposed.hpp"
 #include "yade_api/naming.hpp"
 #include "yade_api/serialization.hpp"
-#include <functional>
 #include <memory>
 
 namespace yade {
@@ -43,14 +42,12 @@ protected:
 	[[noreturn]] void refuseValue(const string& value, const string& expected) const;
 };
 
+// A member of any class derived from Serializable: what follows from its type is compiled once for all of them.
 template <class T> class AttributeOf : public Attribute {
 public:
-	using Admits = std::function<bool(const T&)>;
+	using Member = T Serializable::*;
 
-	AttributeOf(const ListedAttribute& listed, Admits admits, std::function<string()> admitted)
-	        : Attribute(listed), admits_(std::move(admits)), admitted_(std::move(admitted))
-	{
-	}
+	AttributeOf(const ListedAttribute& listed, Member member) : Attribute(listed), member_(member) { }
 	void assign(Serializable& object, const py::object& value) const override
 	{
 		const std::optional<T> converted = Conversion<T>::fromPython(value);
@@ -85,40 +82,43 @@ public:
 		return Attribute::getter();
 	}
 
-protected:
-	virtual T& in(Serializable&) const = 0;
-
 private:
-	T copy(const Serializable& object) const
+	virtual bool   admits(const T&) const = 0;
+	virtual string admitted() const       = 0;
+
+	T& in(Serializable& object) const { return object.*member_; }
+	T  copy(const Serializable& object) const
 	{
 		const ValueLock lock;
 		return in(const_cast<Serializable&>(object));
 	}
 	void requireAdmitted(const T& value) const
 	{
-		if (admits_(value)) return;
+		if (admits(value)) return;
 		// An engine in the background must not wait for Python's lock, which O.reset() keeps while it waits for
 		// the engine.
-		refuseValue(PyGILState_Check() ? repr(Conversion<T>::toPython(value)) : textOf(value), admitted_());
+		refuseValue(PyGILState_Check() ? repr(Conversion<T>::toPython(value)) : textOf(value), admitted());
 	}
 	template <class Archive> void serializeBy(Archive& archive, Serializable& object) const
 	{
 		if (!is(noSave)) archive& boost::serialization::make_nvp(name, in(object));
 	}
 
-	Admits                  admits_;
-	std::function<string()> admitted_;
+	Member member_;
 };
 
-// A member of D, or of a base of it.
-template <class D, class T> class MemberAttribute final : public AttributeOf<T> {
+template <class T, class Validator> class ValidatedAttribute final : public AttributeOf<T> {
 public:
-	template <class... Said> MemberAttribute(T D::*member, Said&&... said) : AttributeOf<T>(std::forward<Said>(said)...), member_(member) { }
+	ValidatedAttribute(const ListedAttribute& listed, typename AttributeOf<T>::Member member, const Validator& validator)
+	        : AttributeOf<T>(listed, member), validator_(validator)
+	{
+	}
 
 private:
-	T& in(Serializable& object) const override { return static_cast<D&>(object).*member_; }
+	bool   admits(const T& value) const override { return validator_(value); }
+	string admitted() const override { return validator_.description(); }
 
-	T D::*member_;
+	Validator validator_;
 };
 
 class AttributeTable {
@@ -127,11 +127,9 @@ public:
 
 	explicit AttributeTable(const char* ofClass) : className_(ofClass) { }
 
-	template <class D, class T, class Owner, class Validator = AnyValue>
-	void add(const char* name, T Owner::*member, unsigned flags, const char* doc, Validator validator = {})
+	template <class T, class Validator> void add(const char* name, T Serializable::*member, unsigned flags, const char* doc, const Validator& validator)
 	{
-		attributes_.push_back(std::make_unique<MemberAttribute<D, T>>(
-		        member, ListedAttribute { className_, name, flags, doc }, validator, [validator] { return string(validator.description()); }));
+		keep(new ValidatedAttribute<T, Validator>({ className_, name, flags, doc }, member, validator));
 	}
 
 	// Whether there is one of this name.
@@ -153,6 +151,7 @@ private:
 	// Of the plugin's classes that it derives from, too: settings, or results that can only be read.
 	string            names(bool areReadonly) const;
 	const Attribute*  find(const string& name) const;
+	void              keep(const Attribute*);
 	static void       addProperty(py::object c, const Attribute&);
 	void              requireSettable(const string& name) const;
 	[[noreturn]] void raiseUnknown(const string& name) const;
@@ -162,6 +161,17 @@ private:
 	const char*                                   className_;
 	PyTypeObject*                                 type_ = nullptr; // once there is a class of Python
 	std::vector<std::unique_ptr<const Attribute>> attributes_;
+};
+
+// Adds what D lists: members of its own or of a base, which need not be derived from Serializable itself.
+template <class D> struct Listing {
+	AttributeTable& table;
+
+	template <class T, class Owner, class Validator = AnyValue>
+	void operator()(const char* name, T Owner::*member, unsigned flags, const char* doc, const Validator& validator = {}) const
+	{
+		table.add(name, static_cast<T Serializable::*>(static_cast<T D::*>(member)), flags, doc, validator);
+	}
 };
 
 } // namespace yade

@@ -25,7 +25,7 @@ template <class D, class B> AttributeTable& Exposed<D, B>::table()
 	static AttributeTable table = [] {
 		AttributeTable made(D::staticName());
 		if constexpr (isExposed(static_cast<B*>(nullptr))) made.base = &B::table();
-		D::attributes([&](auto... listed) { made.add<D>(listed...); });
+		D::attributes(Listing<D> { made });
 		return made;
 	}();
 	return table;

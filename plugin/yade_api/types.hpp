@@ -10,7 +10,23 @@
 // What is shared with libyade.so must have default visibility: type information, singletons, vtables.
 #pragma GCC visibility push(default)
 #include <boost/enable_shared_from_this.hpp>
-#include <boost/python.hpp>
+#include <boost/python/class.hpp>
+#include <boost/python/def.hpp>
+#include <boost/python/dict.hpp>
+#include <boost/python/docstring_options.hpp>
+#include <boost/python/errors.hpp>
+#include <boost/python/extract.hpp>
+#include <boost/python/handle.hpp>
+#include <boost/python/import.hpp>
+#include <boost/python/list.hpp>
+#include <boost/python/make_constructor.hpp>
+#include <boost/python/make_function.hpp>
+#include <boost/python/object.hpp>
+#include <boost/python/return_internal_reference.hpp>
+#include <boost/python/scope.hpp>
+#include <boost/python/slice.hpp>
+#include <boost/python/str.hpp>
+#include <boost/python/tuple.hpp>
 #include <boost/shared_ptr.hpp>
 #include <string>
 #include <vector>

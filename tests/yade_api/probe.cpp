@@ -6,6 +6,10 @@
 #include "yade_api/registration.hpp"
 #include "yade_api/verification.hpp"
 
+#pragma GCC visibility push(default)
+#include <boost/python/module.hpp>
+#pragma GCC visibility pop
+
 namespace yade {
 
 class ProbeItem : public Exposed<ProbeItem, Serializable> {
