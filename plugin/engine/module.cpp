@@ -67,8 +67,11 @@ BOOST_PYTHON_MODULE(mpm_engine)
 	py::scope().attr("version") = MPM_VERSION;
 	py::def("verify", &verifyPlugin, "ImportError if YADE does not fit the plugin, or has not registered all of its classes.");
 	py::def("newBodies", &newBodies,
-	        "For mpm.fill: bodies from a grid, positions, half sizes, materials, the index of each body's material, and a dict of columns of parameters.");
+	        (py::arg("grid"), py::arg("positions"), py::arg("half"), py::arg("materials"), py::arg("index"), py::arg("parameters"), py::arg("body") = -1),
+	        "For mpm.fill: bodies from a grid, positions, half sizes, materials, the index of each body's material, and a dict of columns of parameters; "
+	        "*body*: the place of their body of points in MpmGrid.bodies.");
 	py::def("addPoints", &addPoints,
+	        (py::arg("engine"), py::arg("positions"), py::arg("half"), py::arg("materials"), py::arg("index"), py::arg("parameters"), py::arg("body") = -1),
 	        "For mpm.add: puts such bodies into the scene of an engine, or where processes divide them each its own; the id of the first.");
 	py::def("cellSizes", &cellSizesForPython, "For mpm.fill: bytearray of the sizes of a grid's cells at positions.");
 	py::def("multigridAbsence", &gimpm::Multigrid::absence, "For mpm.advise: why there is no algebraic multigrid; empty if there is.");

@@ -15,7 +15,7 @@ template <int Dim> Vec<Dim> outside(const Vec<Dim>& xi, const Index<Dim>& cell)
 /// The populated cell of a level that is nearest to a place in coordinates of such cells, as the crow flies: by the
 /// worst axis alone the cells beside the nearest one would be as near as that, and the order of cells or round-off
 /// would choose. Of equally near ones the first.
-template <int Dim> std::optional<Index<Dim>> nearestCell(const Vec<Dim>& xi, const std::vector<Key>& populated, const Grid<Dim>& grid, int level)
+template <int Dim> std::optional<Index<Dim>> nearestCell(const Vec<Dim>& xi, const std::vector<Key>& populated, const Grid<Dim>& grid, int level, int layer)
 {
 	std::optional<Index<Dim>> nearest;
 	double                    least = std::numeric_limits<double>::infinity();
@@ -26,14 +26,14 @@ template <int Dim> std::optional<Index<Dim>> nearestCell(const Vec<Dim>& xi, con
 			cell[a] += rest % 3 - 1;
 		const Vec<Dim> away = outside<Dim>(xi, cell);
 		if (away.maxCoeff() > attachmentTolerance || away.squaredNorm() >= least) continue;
-		if (find(populated, Grid<Dim>::key(grid.first(cell * (1 << level)), level)) >= 0) nearest = cell, least = away.squaredNorm();
+		if (find(populated, Grid<Dim>::key(grid.first(cell * (1 << level)), level, layer)) >= 0) nearest = cell, least = away.squaredNorm();
 	}
 	return nearest;
 }
 
 } // namespace
 
-template <int Dim> std::optional<Attachment<Dim>> attach(const Vec<Dim>& place, const CloudBasis<Dim>& basis, const Grid<Dim>& grid)
+template <int Dim> std::optional<Attachment<Dim>> attach(const Vec<Dim>& place, const CloudBasis<Dim>& basis, const Grid<Dim>& grid, int layer)
 {
 	std::optional<Attachment<Dim>> attached;
 	Vec<Dim>                       local = Vec<Dim>::Zero();
@@ -41,7 +41,7 @@ template <int Dim> std::optional<Attachment<Dim>> attach(const Vec<Dim>& place, 
 	for (int level = grid.refinement ? grid.refinement->largest() : 0; level >= 0; --level) {
 		const Vec<Dim> xi = (place - grid.origin) / grid.size(level);
 		if (!(xi.array().abs() < Grid<Dim>::indexLimit >> level).all()) return std::nullopt;
-		const auto cell = nearestCell<Dim>(xi, basis.populatedLeaves(), grid, level);
+		const auto cell = nearestCell<Dim>(xi, basis.populatedLeaves(), grid, level, layer);
 		if (!cell) continue;
 		const double away = outside<Dim>(xi, *cell).norm() * (1 << level);
 		if (away >= least) continue;
@@ -50,7 +50,7 @@ template <int Dim> std::optional<Attachment<Dim>> attach(const Vec<Dim>& place, 
 		attached = Attachment<Dim> { *cell, level, {}, {} };
 	}
 	for (int n = 0; attached && n < attached->nodes; ++n) {
-		attached->node[n]   = position(basis.nodes, Grid<Dim>::key(grid.first(attached->index(n) * (1 << attached->level)), attached->level));
+		attached->node[n]   = position(basis.nodes, Grid<Dim>::key(grid.first(attached->index(n) * (1 << attached->level)), attached->level, layer));
 		attached->weight[n] = 1;
 		for (int a = 0; a < Dim; ++a)
 			attached->weight[n] *= n >> a & 1 ? local[a] : 1 - local[a];
@@ -58,7 +58,7 @@ template <int Dim> std::optional<Attachment<Dim>> attach(const Vec<Dim>& place, 
 	return attached;
 }
 
-template std::optional<Attachment<2>> attach(const Vec<2>&, const CloudBasis<2>&, const Grid<2>&);
-template std::optional<Attachment<3>> attach(const Vec<3>&, const CloudBasis<3>&, const Grid<3>&);
+template std::optional<Attachment<2>> attach(const Vec<2>&, const CloudBasis<2>&, const Grid<2>&, int);
+template std::optional<Attachment<3>> attach(const Vec<3>&, const CloudBasis<3>&, const Grid<3>&, int);
 
 } // namespace gimpm

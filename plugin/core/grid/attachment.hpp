@@ -49,7 +49,7 @@ template <int Dim> struct Attachment {
 /// the points to the last digit; the functions of the nearest populated cell are then continued.
 constexpr double attachmentTolerance = 0.25;
 
-/// None where no populated cell is near.
-template <int Dim> std::optional<Attachment<Dim>> attach(const Vec<Dim>& place, const CloudBasis<Dim>&, const Grid<Dim>&);
+/// To the body in a layer. None where no populated cell is near.
+template <int Dim> std::optional<Attachment<Dim>> attach(const Vec<Dim>& place, const CloudBasis<Dim>&, const Grid<Dim>&, int layer = 0);
 
 } // namespace gimpm

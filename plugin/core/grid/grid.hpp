@@ -39,13 +39,17 @@ template <int Dim> struct Grid {
 	/// A domain and a ghost face reach three nodes along an axis, which must not be the same.
 	static constexpr int smallestPeriod = 3;
 
-	static constexpr int keyBits   = Dim == 2 ? 31 : 20;
-	static constexpr int mostLevel = 3;
+	/// A key has the coordinates of a node or cell, its level, and above these the layer: bodies that meet have nodes and
+	/// cells of their own, each in a layer. Neighbours by steps between keys are in the same one.
+	static constexpr int keyBits   = Dim == 2 ? 28 : 19;
+	static constexpr int mostLevel = 3, levelBits = 2;
+	static constexpr int mostLayer = (1 << (64 - keyBits * Dim - levelBits)) - 1;
 	/// Integer coordinates must stay below this limit in magnitude; two cells of it, of the largest, are kept free
 	/// for neighbours.
 	static constexpr int endOfKeys = 1 << (keyBits - 1), indexLimit = endOfKeys - (2 << mostLevel);
 
-	static constexpr int level(Key k) { return int(k >> (keyBits * Dim)); }
+	static constexpr int level(Key k) { return int(k >> (keyBits * Dim)) & mostLevel; }
+	static constexpr int layer(Key k) { return int(k >> (keyBits * Dim + levelBits)); }
 	double               size(int level) const { return cellSize * (1 << level); } ///< edge length of a cell [m]
 
 	static constexpr Key keyStep(int axis, int level = 0) { return Key(1) << (keyBits * axis + level); }
@@ -57,9 +61,9 @@ template <int Dim> struct Grid {
 			if (bits >> a & 1) k += keyStep(a, level);
 		return k;
 	}
-	static Key key(const Index<Dim>& i, int level = 0)
+	static Key key(const Index<Dim>& i, int level = 0, int layer = 0)
 	{
-		Key k = Key(level) << (keyBits * Dim);
+		Key k = Key(layer << levelBits | level) << (keyBits * Dim);
 		for (int a = 0; a < Dim; ++a)
 			k += Key(std::int64_t(i[a]) + (std::int64_t(1) << (keyBits - 1))) << (keyBits * a);
 		return k;
@@ -80,7 +84,7 @@ template <int Dim> struct Grid {
 			if (period[a] != 0) i[a] -= period[a] * (i[a] / period[a] - (i[a] % period[a] < 0));
 		return i;
 	}
-	Key first(Key k) const { return isPeriodic() ? key(first(index(k))) : k; }
+	Key first(Key k) const { return isPeriodic() ? key(first(index(k)), level(k), layer(k)) : k; }
 
 	/// The image of a position whose coordinate is the nearest one to that of a node.
 	double imageNear(double x, int node, int axis) const

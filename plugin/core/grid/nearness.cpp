@@ -55,11 +55,12 @@ private:
 
 template <int Dim>
 std::vector<std::int64_t> areFarFromMaterial(
-        const std::vector<Vec<Dim>>& places, const std::vector<double>& reach, const PointCloud<Dim>& cloud, const Grid<Dim>& grid)
+        const std::vector<Vec<Dim>>& places, const std::vector<double>& reach, const PointCloud<Dim>& cloud, const Grid<Dim>& grid, int layer)
 {
 	const PlacesByCell<Dim>   byCell(places, grid);
 	std::vector<std::int64_t> isFar(places.size(), 1);
-	for (std::size_t p = 0; p < cloud.size(); ++p)
+	for (std::size_t p = 0; p < cloud.size(); ++p) {
+		if (layer >= 0 && cloud.layerOf(int(p)) != layer) continue;
 		byCell.forNear(cloud.position[p], [&](int i) {
 			bool isNear = true;
 			for (int a = 0; a < Dim; ++a) {
@@ -69,10 +70,11 @@ std::vector<std::int64_t> areFarFromMaterial(
 			}
 			if (isNear) isFar[i] = 0;
 		});
+	}
 	return isFar;
 }
 
-template std::vector<std::int64_t> areFarFromMaterial(const std::vector<Vec<2>>&, const std::vector<double>&, const PointCloud<2>&, const Grid<2>&);
-template std::vector<std::int64_t> areFarFromMaterial(const std::vector<Vec<3>>&, const std::vector<double>&, const PointCloud<3>&, const Grid<3>&);
+template std::vector<std::int64_t> areFarFromMaterial(const std::vector<Vec<2>>&, const std::vector<double>&, const PointCloud<2>&, const Grid<2>&, int);
+template std::vector<std::int64_t> areFarFromMaterial(const std::vector<Vec<3>>&, const std::vector<double>&, const PointCloud<3>&, const Grid<3>&, int);
 
 } // namespace gimpm

@@ -6,9 +6,10 @@
 
 namespace gimpm {
 
-/// Of each place 1 if no domain is as near along each axis, else 0. No reach may be more than half of the largest
-/// cells.
+/// Of each place 1 if no domain of a layer (-1: of any) is as near along each axis, else 0. No reach may be more than
+/// half of the largest cells.
 template <int Dim>
-std::vector<std::int64_t> areFarFromMaterial(const std::vector<Vec<Dim>>& places, const std::vector<double>& reach, const PointCloud<Dim>&, const Grid<Dim>&);
+std::vector<std::int64_t> areFarFromMaterial(
+        const std::vector<Vec<Dim>>& places, const std::vector<double>& reach, const PointCloud<Dim>&, const Grid<Dim>&, int layer = -1);
 
 } // namespace gimpm

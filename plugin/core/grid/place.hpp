@@ -111,7 +111,7 @@ template <int Dim> Place<Dim> place(const PointCloud<Dim>& cloud, int point, con
 		span |= 1 << a;
 		if (centre[a] > lowest[a]) centreBits |= 1 << a;
 	}
-	const Key        cell = Grid<Dim>::key(grid.first(lowest * (1 << level)), level);
+	const Key        cell = Grid<Dim>::key(grid.first(lowest * (1 << level)), level, cloud.layerOf(point));
 	const Place<Dim> p(cell, span, reachableCells<Dim>(lowest, span, centreBits, boundary, level), point);
 	hidden = std::max(hidden, hiddenLength<Dim>(p, x, halfSize, h, lowest, centreBits));
 	return p;

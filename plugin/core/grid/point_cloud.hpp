@@ -38,6 +38,7 @@ template <int Dim> struct PointCloud {
 	std::vector<double>         excessPressure; ///< of water that cannot leave its pores, over that of given water [Pa]; empty: there is none
 	std::vector<Vec<Dim>>       force;          ///< point load at load factor 1 [N]; empty: no point loads
 	std::vector<int>            material;       ///< position in the list of materials
+	std::vector<int>            layer;          ///< of the body that the point is part of (Grid::layer); empty: all are of one
 
 	static constexpr auto columns()
 	{
@@ -47,10 +48,11 @@ template <int Dim> struct PointCloud {
 		return std::make_tuple(
 		        all(&C::position), sometimes(&C::position0), all(&C::halfSize), all(&C::halfSize0), all(&C::volume0), all(&C::defGrad),
 		        sometimes(&C::hoopStretch), all(&C::elasticStrain), all(&C::stress), sometimes(&C::internals), sometimes(&C::parameters),
-		        sometimes(&C::excessPressure), sometimes(&C::force), all(&C::material));
+		        sometimes(&C::excessPressure), sometimes(&C::force), all(&C::material), sometimes(&C::layer));
 	}
 
 	std::size_t size() const { return position.size(); }
+	int         layerOf(int p) const { return layer.empty() ? 0 : layer[p]; }
 
 	/// Current volume over the initial one.
 	double volumeRatio(std::size_t p) const

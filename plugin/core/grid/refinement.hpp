@@ -43,7 +43,7 @@ public:
 		int level = largest_;
 		while (level > 0 && isHalved(ancestor(cell, level), level))
 			--level;
-		return Grid<Dim>::key(ancestor(cell, level), level);
+		return Grid<Dim>::key(ancestor(cell, level), level, Grid<Dim>::layer(cell));
 	}
 
 	/// The lowest level among the leaves that a box in space touches: it is given from the grid's origin on, in
@@ -61,7 +61,8 @@ public:
 		if (level == 0 || !isHalved(Grid<Dim>::index(beyond), level)) return f(leafOf(beyond), level);
 		for (int child = 0; child < 1 << Dim; ++child)
 			if ((child >> axis & 1) != isAbove)
-				f(Grid<Dim>::key(Grid<Dim>::index(beyond), level - 1) + Grid<Dim>::keyOffset(child, level - 1), level - 1);
+				f(Grid<Dim>::key(Grid<Dim>::index(beyond), level - 1, Grid<Dim>::layer(leaf)) + Grid<Dim>::keyOffset(child, level - 1),
+				  level - 1);
 	}
 
 	/// The cell of this level that contains another.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 
 namespace gimpm {
 namespace {
@@ -99,15 +100,21 @@ template <int Dim> bool Surface<Dim>::isBetween(const Vec<Dim>& a, const Vec<Dim
 	});
 }
 
-template <int Dim> void Surface<Dim>::refine(double limit)
+template <int Dim> std::vector<int> Surface<Dim>::refine(double limit)
 {
+	std::vector<int> partOf(pieces.size());
+	std::iota(partOf.begin(), partOf.end(), 0);
 	for (;;) {
 		const Middles middles = divideSides(*this, limit);
-		if (middles.empty()) return;
+		if (middles.empty()) return partOf;
 		std::vector<Piece> parts;
-		for (const Piece& piece : pieces)
-			divide(piece, middles, parts);
+		std::vector<int>   wholes;
+		for (std::size_t i = 0; i < pieces.size(); ++i) {
+			divide(pieces[i], middles, parts);
+			wholes.resize(parts.size(), partOf[i]);
+		}
 		pieces = std::move(parts);
+		partOf = std::move(wholes);
 	}
 }
 

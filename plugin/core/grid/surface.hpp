@@ -34,8 +34,9 @@ template <int Dim> struct Surface {
 	/// Whether it cuts the way from a to b.
 	bool isBetween(const Vec<Dim>& a, const Vec<Dim>& b) const;
 
-	/// Divides the sides that are longer than `limit`, until none is left.
-	void refine(double limit);
+	/// Divides the sides that are longer than `limit`, until none is left. Returns for each piece the number of that which
+	/// it is part of.
+	std::vector<int> refine(double limit);
 };
 
 } // namespace gimpm

@@ -9,7 +9,7 @@ using Masters = std::map<Key, double>;
 
 template <int Dim> class Resolver {
 public:
-	explicit Resolver(const Refinement<Dim>& refinement) : refinement_(refinement) { }
+	Resolver(const Refinement<Dim>& refinement, int layer) : refinement_(refinement), layer_(layer) { }
 
 	/// Adds `share` of what the place of a node depends on.
 	void add(const Index<Dim>& node, double share, Masters& masters) const
@@ -18,7 +18,7 @@ public:
 		const Index<Dim> low   = node.unaryExpr([&](int i) { return floorTo(i, level); });
 		const Vec<Dim>   xi    = (node - low).template cast<double>() / (1 << level);
 		if (xi.isZero(0)) {
-			masters[Grid<Dim>::key(node, level)] += share;
+			masters[Grid<Dim>::key(node, level, layer_)] += share;
 			return;
 		}
 		for (int c = 0; c < 1 << Dim; ++c) {
@@ -34,18 +34,18 @@ public:
 
 private:
 	const Refinement<Dim>& refinement_;
+	const int              layer_;
 };
 
 } // namespace
 
 template <int Dim> Ties tieNodes(std::vector<Key>& nodes, const Refinement<Dim>& refinement)
 {
-	const Resolver<Dim>                  resolver(refinement);
 	std::vector<std::pair<Key, Masters>> tied;
 	std::vector<Key>                     masters;
 	for (const Key node : nodes) {
 		Masters found;
-		resolver.add(Grid<Dim>::index(node), 1, found);
+		Resolver<Dim>(refinement, Grid<Dim>::layer(node)).add(Grid<Dim>::index(node), 1, found);
 		if (found.count(node)) continue;
 		for (const auto& [master, weight] : found)
 			masters.push_back(master);

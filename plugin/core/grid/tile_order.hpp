@@ -7,8 +7,8 @@ namespace gimpm {
 
 /// Where a cell stands in the order of colours, of the tiles of a colour and of the cells of a tile. Domains with the
 /// lowest cell in a tile reach the first nodes beyond it, and no others as long as a tile is at least two cells wide:
-/// between two tiles of a colour lies another. Each level of cells has tiles of its own, which share no node with those
-/// of others.
+/// between two tiles of a colour lies another. Each level of cells and each layer has tiles of its own, which share no
+/// node with those of others.
 template <int Dim> struct TileOrder {
 	static constexpr int widthBits = 2; ///< a tile is 2^widthBits cells wide
 	static constexpr int bits = Grid<Dim>::keyBits, highBits = bits - widthBits - 1;
@@ -16,6 +16,7 @@ template <int Dim> struct TileOrder {
 	static Key of(Key cell)
 	{
 		const int level  = Grid<Dim>::level(cell);
+		const Key above  = cell >> Dim * bits;
 		Key       colour = 0, tile = 0, inside = 0;
 		for (int a = Dim - 1; a >= 0; --a, cell <<= bits) {
 			const Key along = low(cell >> bits * (Dim - 1), bits) >> level;
@@ -23,12 +24,12 @@ template <int Dim> struct TileOrder {
 			colour          = colour << 1 | low(along >> widthBits, 1);
 			tile            = tile << highBits | along >> (widthBits + 1);
 		}
-		return Key(level) << Dim * bits | (colour << Dim * highBits | tile) << Dim * widthBits | inside;
+		return above << Dim * bits | (colour << Dim * highBits | tile) << Dim * widthBits | inside;
 	}
 	static Key cell(Key place)
 	{
 		const int level   = Grid<Dim>::level(place);
-		Key       cell    = Key(level) << Dim * bits;
+		Key       cell    = place >> Dim * bits << Dim * bits;
 		const Key colours = place >> Dim * (bits - 1), tiles = tile(place);
 		for (int a = 0; a < Dim; ++a) {
 			const Key along = low(tiles >> a * highBits, highBits) << 1 | low(colours >> a, 1);
@@ -36,7 +37,7 @@ template <int Dim> struct TileOrder {
 		}
 		return cell;
 	}
-	static Key tile(Key place) { return place >> Dim * widthBits; } ///< with its colour and level
+	static Key tile(Key place) { return place >> Dim * widthBits; } ///< with its colour, level and layer
 
 private:
 	static constexpr Key low(Key k, int bits) { return k & ((Key(1) << bits) - 1); }

@@ -67,7 +67,10 @@ template <int Dim> struct Model {
 	/// By material, of what acts of point loads and water in a stage of construction, as it does of the density;
 	/// empty: all.
 	std::vector<double> shares {};
-	Boundary<Dim>       boundary; ///< the last box is that of the axis of symmetry, if there is one
+	/// By the number of a body, from -1 on, of those of no name, the layer of its nodes (Grid::layer); empty: all are in
+	/// one.
+	std::vector<int> layers {};
+	Boundary<Dim>    boundary; ///< the last box is that of the axis of symmetry, if there is one
 	/// Off the lines of the grid, by the box of the boundary that their reaction is reported with, which holds
 	/// nothing; moved in each step that is accepted.
 	std::map<int, std::shared_ptr<Wall<Dim>>> walls {};

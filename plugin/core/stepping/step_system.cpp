@@ -230,7 +230,7 @@ template <int Dim> void StepSystem<Dim>::addCoupledBefore(Eigen::VectorXd& resis
 {
 	auto forces = map.zeros(), sizes = forces;
 	for (const auto* term : coupled_)
-		term->addCoupled(state(Eigen::VectorXd::Zero(map.size())), { forces, sizes });
+		term->addCoupledBefore(state(Eigen::VectorXd::Zero(map.size())), { forces, sizes });
 	resistance += forces[0];
 }
 

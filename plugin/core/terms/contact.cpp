@@ -91,7 +91,7 @@ template <int Dim> void Contact<Dim>::find(const Beginning<Dim>& step)
 {
 	for (const auto& [body, point, side] : nearPoints(system_.bodies, cloud_, basis_, grid_)) {
 		if (point >= division_.ownOf(cloud_.size())) continue; // the process that has it tells of it
-		Near near { body, side, {}, {}, step.stiffnessOf(point).modulus };
+		Near near { body, side, cloud_.layerOf(point), {}, {}, step.stiffnessOf(point).modulus };
 		std::copy_n(cloud_.position[point].data(), Dim, near.position.data());
 		std::copy_n(cloud_.halfSize[point].data(), Dim, near.halfSize.data());
 		near_.push_back(near);
@@ -124,20 +124,35 @@ template <int Dim> void Contact<Dim>::look(int number)
 			        + ": let it begin beside the soil, or leave its place out of the region that is filled, as pack.inAlignedBox(...) - pack.inSphere(...)";
 }
 
+/// Each body of points for itself.
 template <int Dim> void Contact<Dim>::addPlaces(int number)
+{
+	const auto [first, last] = nearTo(number);
+	std::vector<int> layers;
+	for (auto near = first; near != last; ++near)
+		if (std::find(layers.begin(), layers.end(), near->layer) == layers.end()) layers.push_back(near->layer);
+	for (const int layer : layers)
+		if (layer < layersOfPlaces) addPlaces(number, layer);
+		else
+			obstacle_ = system_.bodies[number].name
+			        + " is near a body of points that is one of more than four of which each meets each other; it can touch four of them";
+}
+
+template <int Dim> void Contact<Dim>::addPlaces(int number, int layer)
 {
 	const auto& body         = system_.bodies[number];
 	const auto [first, last] = nearTo(number);
-	if (first == last) return;
 	std::vector<SoilDomain<Dim>> domains;
-	for (auto near = first; near != last; ++near)
+	for (auto near = first; near != last; ++near) {
+		if (near->layer != layer) continue;
 		domains.push_back({ near->centre(), near->half(), near->young, body.proximity(body.begin, near->centre(), near->side).normal });
+	}
 	const SoilNear<Dim> soil(std::move(domains), grid_.cellSize);
 	const auto [low, high]        = soil.bounds();
 	const Vec<Dim>         margin = Vec<Dim>::Constant(grid_.cellSize + searchReach(body, grid_));
 	const std::vector<int> around = bodiesAround(number);
 	for (const auto& point : surfacePointsAt<Dim>(body.shape, body.begin, grid_.cellSize, low - margin, high + margin))
-		addPlace(number, point, soil, around);
+		addPlace(number, layer, point, soil, around);
 }
 
 /// Those in or on which a place of the body may be.
@@ -202,7 +217,7 @@ template <int Dim> const ContactRecord<Dim>* Contact<Dim>::recordOf(const Place&
 	return found != system_.records.end() && found->body == place.body && found->number == place.number ? &*found : nullptr;
 }
 
-template <int Dim> void Contact<Dim>::addPlace(int number, const SurfacePoint<Dim>& point, const SoilNear<Dim>& soil, const std::vector<int>& around)
+template <int Dim> void Contact<Dim>::addPlace(int number, int layer, const SurfacePoint<Dim>& point, const SoilNear<Dim>& soil, const std::vector<int>& around)
 {
 	const auto&    body   = system_.bodies[number];
 	const Vec<Dim> onBody = body.begin.inSpace(point.place), normal = body.begin.rotation * point.normal;
@@ -212,7 +227,7 @@ template <int Dim> void Contact<Dim>::addPlace(int number, const SurfacePoint<Di
 	const auto sight   = soil.from(onBody, normal, searchReach(body, grid_), screens.empty() ? typename SoilNear<Dim>::Hides() : hides);
 	if (!sight || isHidden(number, onBody, normal, around)) return;
 	Place place;
-	place.body = number, place.number = point.number;
+	place.body = number, place.number = point.number | std::int64_t(layer) << placeBits;
 	place.away = place.gap = std::max(0., sight->gap);
 	place.soil             = onBody + place.away * normal;
 	place.normal           = body.end.rotation * point.normal;
@@ -226,11 +241,11 @@ template <int Dim> void Contact<Dim>::addPlace(int number, const SurfacePoint<Di
 	// stress.
 	if (record && record->touches && record->gap < 0) place.soil = onBody + record->gap * normal;
 	const Vec<Dim> beside   = place.soil + body.begin.rotation * point.aside;
-	auto           attached = attach(beside, basis_, grid_);
+	auto           attached = attach(beside, basis_, grid_, layer);
 	if (attached) place.soil = beside;
 	else
-		attached = attach(place.soil, basis_, grid_); // at an end of the soil
-	if (!attached) return;                                // behind a wall
+		attached = attach(place.soil, basis_, grid_, layer); // at an end of the soil
+	if (!attached) return;                                       // behind a wall
 	place.attached       = *attached;
 	place.away           = body.proximity(body.begin, place.soil, 1).gap; // found as at the end: no gap by round-off
 	place.carried        = body.end.inSpace(body.begin.inBody(place.soil)) - place.soil;
@@ -346,7 +361,7 @@ template <int Dim> std::string Contact<Dim>::entered(const Eigen::VectorXd& d) c
 		if (near.point >= division_.ownOf(cloud_.size())) continue;
 		const auto&    body     = system_.bodies[near.body];
 		const Vec<Dim> centre   = cloud_.position[near.point];
-		const auto     attached = attach(centre, basis_, grid_);
+		const auto     attached = attach(centre, basis_, grid_, cloud_.layerOf(near.point));
 		if (!attached) continue;
 		const Vec<Dim>       u = attached->displacement(d), x = centre + u;
 		const Proximity<Dim> before = body.proximity(body.begin, centre, near.side), after = body.proximity(body.end, x, near.side);

@@ -13,7 +13,7 @@ namespace gimpm {
 /// A place on the surface of a body that had soil in front of it at the end of a step that was accepted.
 template <int Dim> struct ContactRecord {
 	int          body;
-	std::int64_t number;      ///< of the place on the body
+	std::int64_t number;      ///< of the place on the body, and above placeBits the layer of the soil
 	double       gap     = 0; ///< to the soil, < 0 by the penalty [m]
 	bool         touches = false, slips = false;
 	double       pressure = 0;                                           ///< normal force [N]
@@ -22,6 +22,9 @@ template <int Dim> struct ContactRecord {
 	Vec<Dim>     friction = Vec<Dim>::Zero(), normal = Vec<Dim>::Zero(); ///< on the soil [N]; of the body
 	Vec<Dim>     place = Vec<Dim>::Zero();                               ///< of the soil at the end of the step [m]
 };
+
+/// So a number stays one that doubles have.
+constexpr int placeBits = 51, layersOfPlaces = 4;
 
 /// What the soil does to whoever owns bodies.
 struct ContactLoad {
@@ -77,7 +80,7 @@ public:
 private:
 	/// A material point near a body, whichever process has it. Numbers only.
 	struct Near {
-		int                     body, side;
+		int                     body, side, layer;
 		std::array<double, Dim> position, halfSize; ///< at the start of the step
 		double                  young;
 
@@ -103,7 +106,8 @@ private:
 	void                                takeSides();
 	void                                find(const Beginning<Dim>&);
 	void                                addPlaces(int body);
-	void                                addPlace(int body, const SurfacePoint<Dim>&, const SoilNear<Dim>&, const std::vector<int>& around);
+	void                                addPlaces(int body, int layer);
+	void                                addPlace(int body, int layer, const SurfacePoint<Dim>&, const SoilNear<Dim>&, const std::vector<int>& around);
 	void                                recall(Place&, const ContactRecord<Dim>&, double seen) const;
 	std::vector<int>                    bodiesAround(int body) const;
 	bool                                isHidden(int body, const Vec<Dim>& place, const Vec<Dim>& normal, const std::vector<int>& around) const;

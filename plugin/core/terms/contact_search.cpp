@@ -21,7 +21,7 @@ public:
 		constexpr double limit = Grid<Dim>::indexLimit;
 		const auto     cell = [&](const Vec<Dim>& x) { return Vec<Dim>(((x - grid_.origin) / grid_.cellSize).array().floor().min(limit).max(-limit)); };
 		const Vec<Dim> first = cell(low) - Vec<Dim>::Ones(), last = cell(high);
-		if (((last - first).array() + 1).prod() > double(places_.size()) || grid_.isPeriodic() || grid_.refinement) {
+		if (((last - first).array() + 1).prod() > double(places_.size()) || grid_.isPeriodic() || grid_.refinement || hasLayers()) {
 			for (const auto& [cell, patch] : places_)
 				f(patch);
 			return;
@@ -40,6 +40,8 @@ public:
 	}
 
 private:
+	bool hasLayers() const { return !places_.empty() && Grid<Dim>::layer(places_.back().first) > 0; }
+
 	const Grid<Dim>&                 grid_;
 	std::vector<std::pair<Key, int>> places_;
 };

@@ -27,6 +27,9 @@ public:
 	/// Adds forces, sizes and their derivatives at an iterate.
 	virtual std::optional<PointFailure> addCoupled(const State&, const FieldSum<Dim>&) const = 0;
 
+	/// Adds its forces as they were when the step began.
+	virtual void addCoupledBefore(const State& begin, const FieldSum<Dim>& sum) const { addCoupled(begin, sum); }
+
 	/// Adds what round-off of the unknowns leaves of its forces, where round-off of strains leaves less: of a flow
 	/// by gradients, what large values of little slope leave.
 	virtual void addCoupledRoundOff(const State&, std::vector<Eigen::VectorXd>& /*sizes*/) const { }

@@ -103,11 +103,15 @@ template <int Dim> void Inertia<Dim>::findVelocity(bool withAcceleration)
 template <int Dim> Eigen::VectorXd Inertia<Dim>::ofContact(const Eigen::VectorXd* d) const
 {
 	Eigen::VectorXd resistance = Eigen::VectorXd::Zero(prescribed_.size());
-	if (!motion_.contacts || !motion_.contacts->acting) return resistance;
-	if (!d) motion_.contacts->acting->addBefore(resistance);
-	else
-		motion_.contacts->acting->add(*d, { resistance });
-	return -resistance / (d ? motion_.contacts->weight : 1);
+	if (!motion_.contacts && !motion_.bodies) return resistance;
+	if (motion_.contacts && motion_.contacts->acting) {
+		if (!d) motion_.contacts->acting->addBefore(resistance);
+		else
+			motion_.contacts->acting->add(*d, { resistance });
+		resistance /= d ? motion_.contacts->weight : 1;
+	}
+	if (motion_.bodies && motion_.bodies->acting) motion_.bodies->acting->addUnweighted(d, resistance);
+	return -resistance;
 }
 
 /// (M + M_g) x = right at the free degrees of freedom, with the values that the held ones have. Conjugate gradients

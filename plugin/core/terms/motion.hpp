@@ -2,6 +2,7 @@
 // How points move, and what the schemes in time have in common: masses, momenta, and blows of held nodes.
 #pragma once
 #include "core/solvers/linear_solver.hpp"
+#include "core/terms/body_contact.hpp"
 #include "core/terms/contact.hpp"
 #include "core/terms/damping.hpp"
 #include "core/terms/mass_matrix.hpp"
@@ -32,6 +33,7 @@ template <int Dim> struct Motion {
 	double                    exactness   = 1e-13;        ///< of velocities and accelerations of the nodes, of the momenta of those of the points
 	Eigen::VectorXd           growth {};                  ///< of velocities of the nodes in the last step that was accepted [m/s]
 	const ContactSystem<Dim>* contacts         = nullptr; ///< if there are some, of TimeScheme::weightOfContact()
+	const BodyContacts<Dim>*  bodies           = nullptr; ///< contacts of bodies of points with each other, the same
 	LinearSolver              solvers[Dim + 1] = {};      ///< by axis, and of all nodes; keep their symbolic analyses
 
 	std::vector<char>               isElastic {}; ///< of each material: nothing flows; empty: of none

@@ -57,11 +57,11 @@ template <int Dim> std::string emptyAt(const Vec<Dim>& vertex, const std::string
 }
 
 /// Whether material is mostly on the outer side, half a cell away.
-template <int Dim> bool isInsideOut(const Surface<Dim>& surface, const std::vector<Key>& populated, const Grid<Dim>& grid)
+template <int Dim> bool isInsideOut(const Surface<Dim>& surface, const std::vector<Key>& populated, const Grid<Dim>& grid, int layer)
 {
 	const auto holdsMaterial = [&](const Vec<Dim>& x) {
 		const Index<Dim> cell = ((x - grid.origin) / grid.cellSize).array().floor().template cast<int>();
-		const Key        key  = Grid<Dim>::key(grid.first(cell));
+		const Key        key  = Grid<Dim>::key(grid.first(cell), 0, layer);
 		return find(populated, grid.refinement ? grid.refinement->leafOf(key) : key) >= 0;
 	};
 	double outside = 0; // area with material outside only, less that with material inside only
@@ -84,25 +84,45 @@ Traction<Dim>::Traction(SurfaceLoad<Dim>& load, const Beginning<Dim>& step)
 	obstacle_ = attachAll(step);
 	if (obstacle_.empty() && load.pressure != 0) obstacle_ = betweenLevels();
 	if (!obstacle_.empty()) return;
-	if (load.isNew && load.pressure != 0 && isInsideOut(load.surface, step.basis.populatedLeaves(), step.grid))
+	if (load.isNew && load.pressure != 0 && isInsideOut(load.surface, step.basis.populatedLeaves(), step.grid, layer_))
 		obstacle_ = load.name + " is under pressure and has the body on its outer side: reverse the order of its points";
 }
 
 /// A cell counts as populated by the least of a domain that reaches into it, so vertices must be near a domain, too:
 /// what acts in a cell whose soil is gone would hang on what is beside it, by round-off or not. Returns the obstacle.
-template <int Dim> std::string Traction<Dim>::attachAll(const Beginning<Dim>& step)
+template <int Dim> std::string Traction<Dim>::attachTo(int layer, const Beginning<Dim>& step)
 {
 	std::vector<double> reach;
+	attached_.clear();
 	for (const Vec<Dim>& vertex : load_.surface.vertices) {
-		const auto attached = attach(vertex, step.basis, step.grid);
+		const auto attached = attach(vertex, step.basis, step.grid, layer);
 		reach.push_back(domainTolerance * step.grid.size(attached ? attached->level : 0));
 		attached_.push_back(attached.value_or(Attachment<Dim>()));
 		if (!attached) return emptyAt(vertex, load_.name, attachmentTolerance);
 	}
-	auto isFar = areFarFromMaterial<Dim>(load_.surface.vertices, reach, step.cloud, step.grid);
+	auto isFar = areFarFromMaterial<Dim>(load_.surface.vertices, reach, step.cloud, step.grid, layer);
 	step.division.smallest(isFar.data(), isFar.size());
 	const auto far = std::find(isFar.begin(), isFar.end(), 1);
 	return far == isFar.end() ? "" : emptyAt(load_.surface.vertices[far - isFar.begin()], load_.name, domainTolerance);
+}
+
+/// Of several bodies that which is near all vertices.
+template <int Dim> std::string Traction<Dim>::attachAll(const Beginning<Dim>& step)
+{
+	const auto& layers = step.cloud.layer;
+	const int   last   = layers.empty() ? 0 : *std::max_element(layers.begin(), layers.end());
+	std::string obstacle;
+	int         found = -1;
+	for (int layer = 0; layer <= last; ++layer) {
+		const std::string own = attachTo(layer, step);
+		if (!own.empty() && obstacle.empty()) obstacle = own;
+		if (!own.empty()) continue;
+		if (found >= 0) return load_.name + " is on two bodies of points that meet: it must be near one of them only";
+		found = layer;
+	}
+	if (found < 0) return obstacle;
+	layer_ = found;
+	return found == last ? "" : attachTo(found, step);
 }
 
 /// The derivative of a pressure couples the vertices of a piece, which a matrix over nodes has no place for where their

@@ -53,6 +53,7 @@ private:
 	void   addStiffness(const Places&, NodeMatrix<Dim>& K) const;
 
 	std::string attachAll(const Beginning<Dim>&);
+	std::string attachTo(int layer, const Beginning<Dim>&);
 	std::string betweenLevels() const;
 
 	SurfaceLoad<Dim>&            load_;
@@ -60,6 +61,7 @@ private:
 	std::vector<Attachment<Dim>> attached_; // of the vertices
 	bool                         isSymmetric_;
 	std::string                  obstacle_;
+	int                          layer_ = 0; // of the body that it is on
 };
 
 } // namespace gimpm

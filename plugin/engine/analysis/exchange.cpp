@@ -210,7 +210,10 @@ namespace {
 		        exchanged(
 		                &C::excessPressure, [](Point p, Model) { return p.state->excessPressure; },
 		                [](Point p, Real pressure) { p.state->excessPressure = pressure; }),
-		        pointLoad<Dim>(), byMaterial(&C::material), byMaterial(&C::internals), byMaterial(&C::parameters));
+		        pointLoad<Dim>(),
+		        exchanged(
+		                &C::layer, [](Point p, Model model) { return model.layers[p.state->body + 1]; }, stays),
+		        byMaterial(&C::material), byMaterial(&C::internals), byMaterial(&C::parameters));
 	}
 
 	template <class... Cloud, class... Values, class... Take, class... Give>
@@ -230,6 +233,17 @@ namespace {
                                 if (!(cloud.*row.of).empty()) f(cloud.*row.of, row);
 		};
 		std::apply([&](const auto&... row) { (visit(row), ...); }, rows);
+	}
+
+	// Of as many as the grid has.
+	void requireBodies(const vector<MaterialPoint>& points, int count)
+	{
+		for (const MaterialPoint& point : points)
+			if (point.state->body >= count)
+				throw std::invalid_argument(
+				        "Body #" + std::to_string(point.id) + ": MpmState.body = " + std::to_string(point.state->body)
+				        + ", and MpmGrid.bodies has " + std::to_string(count)
+				        + " bodies of points: the engine needs the grid that mpm.fill was given.");
 	}
 
 	template <int Dim> bool hasMovingBox(const gimpm::Boundary<Dim>& boundary)
@@ -306,6 +320,10 @@ template <int Dim> gimpm::PointCloud<Dim> gather(const vector<MaterialPoint>& po
 	cloud.resize(points.size());
 	if (model.grid.axisymmetric) cloud.hoopStretch.resize(points.size());
 	if (hasMovingBox(model.boundary)) cloud.position0.resize(points.size());
+	if (!model.layers.empty()) {
+		requireBodies(points, int(model.layers.size()) - 1);
+		cloud.layer.resize(points.size());
+	}
 	MaterialIndex materials(model.materials, model.shares, known);
 	for (size_t p = 0; p < points.size(); ++p)
 		cloud.material[p] = materials.of(points[p]);

@@ -6,11 +6,22 @@
 
 namespace yade {
 
+namespace {
+	// The first coordinate of a node is counted from so much times its layer, farther than coordinates go.
+	constexpr Real layerStep = 4294967296;
+	Real           layerOf(Real first) { return std::round(first / layerStep); }
+	Real           coordinate(const Real* place, int axis) { return axis == 0 ? place[0] - layerStep * layerOf(place[0]) : place[axis]; }
+}
+
 bool isIncrement(const vector<Real>& numbers)
 {
-	for (size_t i = 0; i < numbers.size(); ++i)
-		if (!std::isfinite(numbers[i]) || (i % 6 < 3 && std::abs(numbers[i]) > gimpm::Grid<2>::indexLimit)) return false;
-	return numbers.size() % 6 == 0;
+	if (numbers.size() % 6 != 0) return false;
+	for (size_t i = 0; i < numbers.size(); ++i) {
+		if (!std::isfinite(numbers[i])) return false;
+		if (i % 6 == 0 && (layerOf(numbers[i]) < 0 || layerOf(numbers[i]) > gimpm::Grid<2>::mostLayer)) return false;
+		if (i % 6 < 3 && std::abs(coordinate(&numbers[i - i % 6], i % 6)) > gimpm::Grid<2>::indexLimit) return false;
+	}
+	return true;
 }
 
 namespace {
@@ -20,15 +31,17 @@ namespace {
 		const int         most = grid.refinement ? grid.refinement->largest() : 0;
 		gimpm::Index<Dim> node;
 		for (int a = 0; a < Dim; ++a) {
-			const Real smallest = std::ldexp(place[a], most);
+			const Real smallest = std::ldexp(coordinate(place, a), most);
 			if (std::abs(smallest) > gimpm::Grid<Dim>::indexLimit || smallest != std::round(smallest)) return std::nullopt;
 			node[a] = int(smallest);
 		}
-		if (!grid.refinement) return gimpm::Grid<Dim>::key(node);
+		const int layer = int(layerOf(place[0]));
+		if (layer > gimpm::Grid<Dim>::mostLayer) return std::nullopt;
+		if (!grid.refinement) return gimpm::Grid<Dim>::key(node, 0, layer);
 		const int level = grid.refinement->largestAt(node);
 		for (int a = 0; a < Dim; ++a)
 			if (gimpm::floorTo(node[a], level) != node[a]) return std::nullopt;
-		return gimpm::Grid<Dim>::key(node, level);
+		return gimpm::Grid<Dim>::key(node, level, layer);
 	}
 }
 
@@ -55,6 +68,7 @@ template <int Dim> vector<Real> toNumbers(const gimpm::LastIncrement<Dim>& last,
 			numbers[6 * n + a]     = std::ldexp(place[a], grid.refinement ? -grid.refinement->largest() : 0);
 			numbers[6 * n + 3 + a] = last.displacement[Dim * n + a];
 		}
+		numbers[6 * n] += layerStep * gimpm::Grid<Dim>::layer(last.nodes[n]);
 	}
 	return numbers;
 }

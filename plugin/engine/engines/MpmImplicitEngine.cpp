@@ -6,7 +6,6 @@
 #include "engine/analysis/exchange.hpp"
 #include "engine/analysis/movers.hpp"
 #include "engine/conditions/boundary/MpmBoundary.hpp"
-#include "engine/conditions/contact/MpmContact.hpp"
 #include "engine/conditions/flow/MpmFlow.hpp"
 #include "engine/conditions/water/MpmWater.hpp"
 #include "engine/engines/Threads.hpp"
@@ -49,6 +48,11 @@ vector<Listed> MpmImplicitEngine::conditions() const
 	add("contacts", contacts);
 	if (flow) all.push_back({ flow, "flow", 0, 1 });
 	return all;
+}
+
+bool MpmImplicitEngine::areContacts(const vector<shared_ptr<MpmCondition>>& conditions)
+{
+	return std::all_of(conditions.begin(), conditions.end(), [](const auto& one) { return one && string(one->list()) == "contacts"; });
 }
 
 bool MpmImplicitEngine::areLoads(const vector<shared_ptr<MpmCondition>>& conditions)
@@ -379,10 +383,10 @@ template <int Dim> void MpmImplicitEngine::reach(Job<Dim>& job, const Attempt<Di
 
 Body::id_t addPoints(
         const shared_ptr<MpmImplicitEngine>& engine, const py::object& positions, const py::object& half, const py::list& materials, const py::object& index,
-        const py::dict& parameters)
+        const py::dict& parameters, int body)
 {
 	if (AtWork::isAny()) throw std::runtime_error("add: a load step is at work in the background; call O.pause() or O.wait() first.");
-	NewPoints points(*engine->grid, positions, half, materials, index, parameters);
+	NewPoints points(*engine->grid, positions, half, materials, index, parameters, body);
 	engine->scene = Singleton<Omega>::instance().getScene().get(); // which it may not have seen yet
 	return engine->add(points);
 }

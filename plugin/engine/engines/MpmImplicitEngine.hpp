@@ -18,7 +18,6 @@ namespace yade {
 
 class Agreement;
 class MpmBoundary;
-class MpmContact;
 class MpmFlow;
 class MpmWater;
 
@@ -27,7 +26,7 @@ public:
 	vector<shared_ptr<MpmCondition>> loads;
 	vector<shared_ptr<MpmWater>>     water;
 	vector<shared_ptr<MpmBoundary>>  boundaries;
-	vector<shared_ptr<MpmContact>>   contacts;
+	vector<shared_ptr<MpmCondition>> contacts;
 	shared_ptr<MpmFlow>              flow; // none: water does not flow
 	int                              verbosity = 1;
 
@@ -70,7 +69,9 @@ public:
 		v("water", &E::water, 0,
 		  "Water in the pores and around the body (MpmWater); several add up. Read as a tuple, so assign a new one to change it.");
 		v("boundaries", &E::boundaries, 0, "Essential boundary conditions (MpmBoundary); read as a tuple, so assign a new one to change it.");
-		v("contacts", &E::contacts, 0, "Contact with rigid bodies (MpmContact); read as a tuple, so assign a new one to change it.");
+		v("contacts", &E::contacts, 0,
+		  "Contact with rigid bodies (MpmContact) and of bodies of points with each other (MpmBodyContact); read as a tuple, so assign a new one to change it.",
+		  admitting("MpmContacts and MpmBodyContacts", areContacts));
 		v("flow", &E::flow, 0,
 		  "Water that flows while the soil deforms (MpmFlow), consolidation; None, the default: it has the pressure of *water*, if any.");
 		v("ghost", &E::ghost, 0, "Ghost stabilisation (MpmGhost).", notNull);
@@ -109,6 +110,7 @@ public:
 	long              period() const override { return iterPeriod; }
 	long              runs() const override { return nDone; }
 
+	static bool areContacts(const vector<shared_ptr<MpmCondition>>&);
 	static bool areLoads(const vector<shared_ptr<MpmCondition>>&);
 
 	// Puts new points into the scene, of several processes that divide them each its own. The id of the first one,
@@ -159,7 +161,7 @@ private:
 // one.
 Body::id_t addPoints(
         const shared_ptr<MpmImplicitEngine>&, const py::object& positions, const py::object& half, const py::list& materials, const py::object& index,
-        const py::dict& parameters);
+        const py::dict& parameters, int body);
 
 } // namespace yade
 

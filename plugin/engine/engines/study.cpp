@@ -123,6 +123,11 @@ namespace {
 			throw std::invalid_argument(
 			        engine.getClassName()
 			        + ": the strength cannot be reduced while water flows (flow) yet; set flow = None: water then has the pressure of water alone.");
+		for (const Listed& listed : engine.conditions())
+			if (listed.condition->partsBodies())
+				throw std::invalid_argument(
+				        engine.getClassName() + ": the strength cannot be reduced where bodies of points meet (" + listed.name()
+				        + ") yet: what presses them together would go with the modulus.");
 		requireStrength(materialPoints(*engine.ownScene(), engine.mask));
 		gimpm::WeakBody<3> found; // of either dimension
 		onCurrentState(engine, [&](const auto& cloud, const auto& model, const auto& load) {

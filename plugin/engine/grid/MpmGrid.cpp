@@ -58,10 +58,22 @@ void MpmGrid::requireAdmissible() const
 		if (!refinements[r]) throw std::invalid_argument("MpmGrid.refinements[" + std::to_string(r) + "] = None: expected an MpmRefinement.");
 		refinements[r]->requireAdmissible();
 	}
+	for (size_t b = 0; b < bodies.size(); ++b) {
+		if (!bodies[b]) throw std::invalid_argument("MpmGrid.bodies[" + std::to_string(b) + "] = None: expected an MpmBody.");
+		bodies[b]->requireAdmissible();
+		if (bodyNamed(bodies[b]->name) != int(b)) throw std::invalid_argument("MpmGrid.bodies: two of them are called '" + bodies[b]->name + "'.");
+	}
 	if (refinements.empty() || period.isZero(0)) return;
 	std::ostringstream text;
 	text << "MpmGrid.refinements: a grid with period = (" << period.transpose() << ") cannot have cells of several sizes; leave one of the two out.";
 	throw std::invalid_argument(text.str());
+}
+
+int MpmGrid::bodyNamed(const string& name) const
+{
+	for (size_t b = 0; b < bodies.size(); ++b)
+		if (bodies[b]->name == name) return int(b);
+	return -1;
 }
 
 template <int Dim> void MpmGrid::refine(gimpm::Grid<Dim>& grid) const

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 #include "core/grid/refinement.hpp"
+#include "engine/grid/MpmBody.hpp"
 #include "engine/grid/MpmRefinement.hpp"
 
 namespace yade {
@@ -14,6 +15,7 @@ public:
 	bool     axisymmetric = false;
 
 	vector<shared_ptr<MpmRefinement>> refinements;
+	vector<shared_ptr<MpmBody>>       bodies;
 
 	YADE_API_NAME(MpmGrid)
 	static const char* doc()
@@ -37,7 +39,12 @@ public:
 		  "With dim=2: bodies of revolution about the grid line x = 0. x is the radius, y goes along the axis; volumes and forces are of the whole circle.");
 		v("refinements", &MpmGrid::refinements, 0,
 		  "Boxes (MpmRefinement) in which cells are halved; empty, the default: all are equal. Read as a tuple, so assign a new one to change it, also between steps.");
+		v("bodies", &MpmGrid::bodies, 0,
+		  "Bodies of points with a name (MpmBody), in the order in which mpm.fill(..., body=...) has named them; empty, the default: none has one.");
 	}
+
+	// The place of a body of this name among the bodies, or -1.
+	int bodyNamed(const string& name) const;
 
 	// As the core understands it. std::invalid_argument unless periods are whole numbers of cells, as many as basis
 	// functions need, and the axis of symmetry is on nodes.

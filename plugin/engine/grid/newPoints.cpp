@@ -54,8 +54,8 @@ namespace {
 
 NewPoints::NewPoints(
         const MpmGrid& grid, const py::object& positions, const py::object& half, const py::list& materials, const py::object& index,
-        const py::dict& parameters)
-        : isSolid(grid.dim == 3), areRings(grid.axisymmetric), positions(positions, "positions"), half(half, "half"), index(index, "index")
+        const py::dict& parameters, int body)
+        : isSolid(grid.dim == 3), areRings(grid.axisymmetric), ofBody(body), positions(positions, "positions"), half(half, "half"), index(index, "index")
 {
 	requireLength("positions", this->positions.size(), 3 * size());
 	requireLength("half", this->half.size(), size());
@@ -85,6 +85,7 @@ shared_ptr<Body> NewPoints::body(size_t point)
 	const auto& material = materials.at(index.data()[point]);
 	const auto  body     = newBody(position(point), halfSize(point), material);
 	giveParameters(*body, *material, point);
+	static_cast<MpmState&>(*body->state).body = ofBody;
 	return body;
 }
 
@@ -105,7 +106,7 @@ void NewPoints::giveParameters(const Body& body, const MpmMaterial& material, si
 std::uint64_t NewPoints::checksum() const
 {
 	gimpm::Checksum sum;
-	sum.mix(copyOf(positions)), sum.mix(copyOf(half)), sum.mix(copyOf(index));
+	sum.mix(vector<int> { ofBody }), sum.mix(copyOf(positions)), sum.mix(copyOf(half)), sum.mix(copyOf(index));
 	for (const auto& [name, column] : parameters)
 		sum.mix(copyOf(*column));
 	return sum.take();
@@ -113,9 +114,9 @@ std::uint64_t NewPoints::checksum() const
 
 py::list newBodies(
         const MpmGrid& grid, const py::object& positions, const py::object& half, const py::list& materials, const py::object& index,
-        const py::dict& parameters)
+        const py::dict& parameters, int body)
 {
-	NewPoints points(grid, positions, half, materials, index, parameters);
+	NewPoints points(grid, positions, half, materials, index, parameters, body);
 	py::list  bodies;
 	for (size_t i = 0; i < points.size(); ++i)
 		bodies.append(points.body(i));

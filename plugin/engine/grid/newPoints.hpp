@@ -13,10 +13,10 @@ class NewPoints {
 public:
 	// Positions (N x 3 double), half of the side of each point's box (N double), which is its initial volume, the
 	// material of each by its number (N int64) in a list, and columns (N double) of those parameters that differ
-	// from point to point, by their names. std::invalid_argument if a material is not admissible.
+	// from point to point, by their names; the place of their body of points in MpmGrid.bodies, or -1. std::invalid_argument if a material is not admissible.
 	NewPoints(
 	        const MpmGrid&, const py::object& positions, const py::object& half, const py::list& materials, const py::object& index,
-	        const py::dict& parameters);
+	        const py::dict& parameters, int body);
 
 	size_t   size() const { return index.size(); }
 	Vector3r position(size_t point) const { return Eigen::Map<const Vector3r>(positions.data() + 3 * point); }
@@ -32,6 +32,7 @@ private:
 	void giveParameters(const Body&, const MpmMaterial&, size_t point);
 
 	const bool                                               isSolid, areRings;
+	const int                                                ofBody;
 	const Column<Real>                                       positions, half;
 	const Column<int64_t>                                    index;
 	vector<shared_ptr<MpmMaterial>>                          materials;
@@ -41,6 +42,7 @@ private:
 
 // For mpm.fill: a body for each.
 py::list newBodies(
-        const MpmGrid&, const py::object& positions, const py::object& half, const py::list& materials, const py::object& index, const py::dict& parameters);
+        const MpmGrid&, const py::object& positions, const py::object& half, const py::list& materials, const py::object& index, const py::dict& parameters,
+        int body);
 
 } // namespace yade

@@ -116,6 +116,21 @@ static void requireEqualCells(const Analysis& engine)
 		throw std::invalid_argument("MpmGrid.refinements, cells of several sizes, cannot go with " + what + " yet; leave one of the two out.");
 }
 
+// What has not been shown to be right with bodies of points that meet.
+static void requireOneBody(const Analysis& engine)
+{
+	string what, meets;
+	for (const Listed& listed : engine.conditions())
+		if (listed.condition->partsBodies()) meets = listed.name() + ", an " + listed.condition->getClassName() + ",";
+	if (meets.empty()) return;
+	if (processes()->size() > 1) what = "several processes";
+	else if (engine.grid && !engine.grid->period.isZero(0))
+		what = "MpmGrid.period, a grid that repeats itself";
+	for (const Listed& listed : engine.conditions())
+		if (const string own = listed.condition->needsOneBody(listed.name()); !own.empty()) what = own;
+	if (!what.empty()) throw std::invalid_argument(meets + " cannot go with " + what + " yet; leave one of the two out.");
+}
+
 static void requireGhost(const Analysis& engine)
 {
 	if (engine.ghost->memory > 0 && (engine.isDynamic() || !engine.newton->predictor))
@@ -132,6 +147,7 @@ void requireSettings(const Analysis& engine)
 	engine.requireAttributes();
 	requireGhost(engine);
 	requireEqualCells(engine);
+	requireOneBody(engine);
 	if (engine.newton->linearSolver == "amg") requireMultigrid();
 	if (engine.maxSplits > 0 && engine.basis != "gimp")
 		throw std::invalid_argument(

@@ -132,8 +132,12 @@ namespace {
 		}
 	}
 
-	// Nodes of all levels in one place are one.
-	template <int Dim> gimpm::Key placeOf(gimpm::Key node) { return gimpm::Grid<Dim>::key(gimpm::Grid<Dim>::index(node)); }
+	// Nodes of all levels of a layer in one place are one.
+	template <int Dim> gimpm::Key placeOf(gimpm::Key node)
+	{
+		using Lattice = gimpm::Grid<Dim>;
+		return Lattice::key(Lattice::index(node), 0, Lattice::layer(node));
+	}
 
 	// A cell is named after its lowest node.
 	template <int Dim> gimpm::Key cornerOf(gimpm::Key cell, int corner)

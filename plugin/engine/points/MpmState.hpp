@@ -24,6 +24,7 @@ public:
 	Vector3r                        acceleration = Vector3r::Zero();
 	int                             splits       = 0;
 	int                             parent       = -1; // the body is none of another one
+	int                             body         = -1; // the body of points has no name
 
 	YADE_API_NAME(MpmState)
 	static const char* doc()
@@ -75,6 +76,9 @@ public:
 		  "How many times what was one point at first has been split in two to give this one: a result (MpmImplicitEngine.maxSplits).", atLeast(0));
 		v("parent", &MpmState::parent, readonly,
 		  "Id of the body that this one was split off from, which keeps the other half; -1 of points that were there at first.", atLeast(-1));
+		v("body", &MpmState::body, readonly,
+		  "Place in *MpmGrid.bodies* of the body of points that it belongs to, given by mpm.fill(..., body=...); -1, the default: one without a name.",
+		  atLeast(-1));
 	}
 
 	// Calls v(member) for what there is once only, of which each half of a point has its part; the rest both have.

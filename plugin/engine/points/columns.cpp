@@ -13,7 +13,8 @@ namespace {
 	using RowByRow = Eigen::Matrix<Real, 3, 3, Eigen::RowMajor>;
 
 	constexpr auto arrays = PointColumn::inArrays, vtk = PointColumn::inVtk, derived = PointColumn::derived, ofMotion = PointColumn::ofMotion,
-	               ofWater = PointColumn::ofWater, ofSplits = PointColumn::ofSplits, ofPores = PointColumn::ofPores, ofFlow = PointColumn::ofFlow;
+	               ofWater = PointColumn::ofWater, ofSplits = PointColumn::ofSplits, ofPores = PointColumn::ofPores, ofFlow = PointColumn::ofFlow,
+	               ofBodies = PointColumn::ofBodies;
 
 	// of(point, scene) is the number; a column of integers
 	template <class Of> PointColumn integer(const char* name, unsigned uses, Of of)
@@ -145,6 +146,7 @@ namespace {
 		for (const Parameter& of : allParameters())
 			columns.push_back(parameter(of));
 		columns.push_back(integer("material", arrays | vtk, [](Point p, const Scene& scene) { return p.materialIndex(scene); }));
+		columns.push_back(integer("body", arrays | vtk | ofBodies, [](Point p, const Scene&) { return p.state->body; }));
 		columns.push_back(integer("splits", arrays | vtk | ofSplits, [](Point p, const Scene&) { return p.state->splits; }));
 		columns.push_back(integer("parent", arrays | vtk | ofSplits, [](Point p, const Scene&) { return p.state->parent; }));
 		columns.push_back(result("displacement", "m", "displacement", derived | vtk, [](Point p) { return Vector3r(p.state->pos - p.state->refPos); }));
@@ -163,10 +165,11 @@ vector<const PointColumn*> columnsOf(const vector<MaterialPoint>& points)
 {
 	std::set<string>   names { gimpm::equivalentPlasticStrain.name };
 	const MpmMaterial* last     = nullptr; // points of one material follow each other
-	bool               hasWater = false, hasSplits = false, hasPores = false, hasFlow = false;
+	bool               hasWater = false, hasSplits = false, hasPores = false, hasFlow = false, hasBodies = false;
 	for (const MaterialPoint& point : points) {
 		hasWater  = hasWater || !std::isnan(point.state->porePressure);
 		hasSplits = hasSplits || point.state->splits > 0;
+		hasBodies = hasBodies || point.state->body >= 0;
 		hasFlow   = hasFlow || !std::isnan(point.state->waterFlux[0]);
 		hasPores  = hasPores || hasFlow || point.state->excessPressure != 0 || point.material->undrained;
 		for (const auto& own : point.state->parameters)
@@ -180,7 +183,7 @@ vector<const PointColumn*> columnsOf(const vector<MaterialPoint>& points)
 	const auto                 isThere = [&](const PointColumn& column) {
                 if (column.variable || column.isParameter) return names.count(column.name) > 0;
                 return (hasWater || !column.is(ofWater)) && (hasSplits || !column.is(ofSplits)) && (hasPores || !column.is(ofPores))
-                        && (hasFlow || !column.is(ofFlow));
+                        && (hasFlow || !column.is(ofFlow)) && (hasBodies || !column.is(ofBodies));
 	};
 	for (const PointColumn& column : pointColumns())
 		if (isThere(column)) columns.push_back(&column);

@@ -16,6 +16,7 @@ struct PointColumn {
 		ofSplits = 32,  // only where a point has been split
 		ofPores  = 64,  // only where water has a pressure in excess
 		ofFlow   = 128, // only where it flows
+		ofBodies = 256, // only where bodies of points have names
 		derived  = 4,   // follows from others: in pictures and tables beside those of mpm.arrays
 	};
 

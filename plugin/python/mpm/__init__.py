@@ -37,6 +37,7 @@ While it runs, one line tells how far it is (``verbosity`` of the engine); ``plo
 :func:`seepage`              steady flow of water with a free surface, whose pressures an ``MpmWater`` takes
 :func:`surface`              surface of a region, for loads on it
 :func:`contactForces`        where rigid bodies are touched, and the forces there
+:func:`sectionForces`        normal force, shear force and bending moment where a plane cuts a body of points
 :func:`plot`                 picture by matplotlib, of plane strain or of a slice
 :class:`movie`               film of a run
 :class:`view`                a run in one HTML file, which any browser turns, cuts, colours and plays
@@ -61,6 +62,7 @@ Units are SI; stress is positive in tension; strains are logarithmic; plane stra
 """
 from . import processes
 from .advice import advise
+from .bending import sectionForces
 from .calibration import calibrate
 from .cells import refinementsAt
 from .collecting import collect, note
@@ -92,7 +94,7 @@ from .typical import typicalSand
 from .viewing import view
 
 __version__ = _engine.version
-__all__ = ['polygon', 'fill', 'add', 'refinementsAt', 'arrays', 'assign', 'geostatic', 'seepage', 'plot', 'colour', 'export', 'save', 'load', 'advise', 'discretisationError', 'stressError', 'elementTest', 'respond', 'strengthReduction', 'surface', 'contactForces', 'histories', 'readHistory', 'solid', 'terrain', 'movie', 'view', 'facets', 'frame', 'note', 'collect', 'state', 'examples', 'record', 'rayleigh', 'schemeDamping', 'calibrate', 'typicalSand']
+__all__ = ['polygon', 'fill', 'add', 'refinementsAt', 'arrays', 'assign', 'geostatic', 'seepage', 'plot', 'colour', 'export', 'save', 'load', 'advise', 'discretisationError', 'stressError', 'elementTest', 'respond', 'strengthReduction', 'surface', 'contactForces', 'histories', 'readHistory', 'solid', 'terrain', 'movie', 'view', 'facets', 'frame', 'note', 'collect', 'state', 'examples', 'record', 'rayleigh', 'schemeDamping', 'calibrate', 'typicalSand', 'sectionForces']
 
 for _name in __all__:
 	_thing = globals()[_name] = _telling(globals()[_name])

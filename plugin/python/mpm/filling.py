@@ -7,6 +7,7 @@ import numpy as np
 from yade import wrapper
 from yade.minieigenHP import Vector3
 
+from .bodies import bodyNumber
 from .data import isParameter, ofPositions, table
 from .library import engine
 from .messages import brief, place
@@ -15,7 +16,7 @@ from .processes import together
 from .regions import bounds, each, inside, requireRightWay, volumeInBoxes
 
 
-def fill(predicate, grid, pointsPerCell, material, **parameters):
+def fill(predicate, grid, pointsPerCell, material, body=None, **parameters):
 	"""Fill a region with material points, equally spaced in the cells of a grid.
 
 	Cells are counted from ``grid.origin``; the points are returned cell by cell, with ``grid.refinements`` first those of the largest cells. In two dimensions they lie in the plane
@@ -30,6 +31,8 @@ def fill(predicate, grid, pointsPerCell, material, **parameters):
 	:param pointsPerCell: points per cell and axis, at least 1; points whose centre is inside the region are kept
 	:param material: label of a material in ``O.materials``; or a list of (predicate, label), of which the first that
 		contains the point applies; or a function that takes the position and returns a label
+	:param body: name of the body of points that they belong to, which may meet others (``MpmBodyContact``), as 'slab'; None: one without a name. It is put into ``grid.bodies``, with the surface of the
+		region; regions that are filled with the same name are one body, whose surface has no part where they have faces in common
 	:param parameters: strengths and moduli of the materials that differ from point to point, by the names of their attributes, as
 		``cohesion=lambda x: 2e3 + 500 * (10 - x[1])``: each a function of the position that returns a number, or an array (N,) in the order in which the points
 		are returned; see :func:`assign`
@@ -42,12 +45,12 @@ def fill(predicate, grid, pointsPerCell, material, **parameters):
 	A label that several materials have, an empty one, a closed surface of triangles that is inside out, and points that the grid cannot number are refused, too (ValueError).
 	"""
 	try:
-		return engine.newBodies(grid, *_points(predicate, grid, pointsPerCell, material, parameters))
+		return engine.newBodies(grid, *_points(predicate, grid, pointsPerCell, material, parameters), bodyNumber('fill', body, predicate, grid))
 	except ValueError as error:
 		raise ValueError(f'fill: {str(error).removeprefix("fill: ")}') from None
 
 
-def add(predicate, solver, pointsPerCell, material, **parameters):
+def add(predicate, solver, pointsPerCell, material, body=None, **parameters):
 	"""Fill a region with material points and put them into the scene, as ``O.bodies.append(fill(predicate, solver.grid, ...))`` does, without what that leaves behind in memory.
 
 	Where several processes divide the points (``MpmImplicitEngine.distributed``) each makes its own only, under the ids that they have in one process; ``O.bodies`` has gaps for those of the others. So
@@ -63,6 +66,7 @@ def add(predicate, solver, pointsPerCell, material, **parameters):
 	:param solver: the ``MpmImplicitEngine``, which is in ``O.engines``; the points are those of its *grid*
 	:param pointsPerCell: as of :func:`fill`
 	:param material: as of :func:`fill`
+	:param body: as of :func:`fill`
 	:param parameters: as of :func:`fill`
 	:return: range of the ids of all new bodies, which :func:`assign` takes
 	:raises TypeError, KeyError: as of :func:`fill`.
@@ -74,7 +78,7 @@ def add(predicate, solver, pointsPerCell, material, **parameters):
 		raise ValueError('add: the solver is not in O.engines, which must tell who has which points from the first one on; put it there before: O.engines = [solver]')
 	try:
 		points = together(lambda: _points(predicate, solver.grid, pointsPerCell, material, parameters))
-		first = engine.addPoints(solver, *points)
+		first = engine.addPoints(solver, *points, bodyNumber('add', body, predicate, solver.grid))
 	except (KeyError, TypeError, ValueError) as error:
 		raise type(error)('add: ' + str(error.args[0]).removeprefix('fill: ')) from None
 	return range(first, len(wrapper.Omega().bodies))

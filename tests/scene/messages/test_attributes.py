@@ -130,6 +130,14 @@ outOfRange = {
         'MpmContact.friction': ['-0.1', '30.', '1.5708'],
         'MpmContact.adhesion': ['-1.'],
         'MpmContact.stiffness': ['0.', '-1.'],
+        'MpmBodyContact.between': ['["low"]', '["low", "low"]', '["low", ""]', '["low", "up", "low"]'],
+        'MpmBodyContact.friction': ['-0.1', '30.', '1.5708'],
+        'MpmBodyContact.adhesion': ['-1.'],
+        'MpmBodyContact.stiffness': ['0.', '-1.'],
+        'MpmBody.name': None,
+        'MpmBody.vertices': None,
+        'MpmBody.pieces': ['[(0,)]', '[(0, -1)]', '[(0, 1), (0, 1, 2)]'],
+        'MpmGrid.bodies': None,
         'MpmSurface.vertices': ['[(0, 0, 0)]'],
         'MpmSurface.pieces': None,
         'MpmImplicitEngine.boundaries': None,
@@ -188,6 +196,10 @@ admitted = {
         ('MpmImplicitEngine.contacts', '()'): 'nothing touches',
         ('MpmContact.friction', 'nan'): 'that of the bodies',
         ('MpmContact.adhesion', 'inf'): 'no cap',
+        ('MpmBodyContact.adhesion', 'inf'): 'no cap',
+        ('MpmBody.vertices', '()'): 'no surface',
+        ('MpmBody.pieces', '()'): 'no surface',
+        ('MpmGrid.bodies', '()'): 'none has a name',
         ('MpmGhost.massFactor', 'nan'): 'the default',
         ('MpmImplicitEngine.gravityCurve', '()'): 'loadCurve',
         ('MpmVtkRecorder.solver', '""'): 'the only one',
@@ -203,6 +215,7 @@ nan = float('nan')
 
 dynamic = 'MpmDynamicEngine', 'MpmAbsorbingBoundary', 'MpmBaseMotion'
 flowing = 'MpmFlow', 'MpmDrain'
+meeting = 'MpmBodyContact', 'MpmBody'
 
 def scene(engine='MpmImplicitEngine'):
 	"""A sound scene with this engine, where it names one; {class: the object of it that takes part}."""
@@ -216,7 +229,8 @@ def scene(engine='MpmImplicitEngine'):
 	                    MpmDruckerPragerMat(label='cone', **friction)])
 	labels = [material.label for material in O.materials]
 	grid, base, ghost, newton = MpmGrid(cellSize=1), MpmBoundary(max=(inf, 0, inf), fix='xy'), MpmGhost(), MpmNewton()
-	O.bodies.append(mpm.fill(mpm.polygon([(0, 0), (2, 0), (2, 3), (0, 3)]), grid, 2, lambda x: labels[int(x[0] / 0.5) % 2 + 2 * int(x[1])]))
+	for low, high, body in [(0, 2, 'low'), (2, 3, 'up')] if engine in meeting else [(0, 3, None)]:
+		O.bodies.append(mpm.fill(mpm.polygon([(0, low), (2, low), (2, high), (0, high)]), grid, 2, lambda x: labels[int(x[0] / 0.5) % 2 + 2 * int(x[1])], body=body))
 	clay = [b.id for b in O.bodies if b.material.label == 'clay']
 	mpm.assign(clay, stress=[-5e3 * np.identity(3)] * len(clay))
 	load = MpmTraction(surface=[(2, 3), (0, 3)], pressure=10)
@@ -232,17 +246,19 @@ def scene(engine='MpmImplicitEngine'):
 		solver.flow = MpmFlow(drains=[drain])
 		for material in list(O.materials)[:6]: material.conductivity, material.porosity = 1e-4, .4
 	small = MpmRefinement()
+	bodies = MpmBodyContact(between=('low', 'up'), friction=0.1)
+	if engine in meeting: solver.contacts, solver.water = [touch, bodies], []
 	if engine == 'MpmRefinement': grid.refinements, solver.water = [small], []
 	O.engines = [solver, MpmVtkRecorder(fileName='out-', recorders=['all'])]
 	O.dt = 1
 	objects = [*O.engines, *O.materials, O.bodies[5].state, O.bodies[5].shape, grid, base, load, load.surface, water, touch, ghost, newton]
-	return {type(o).__name__: o for o in objects + [edge, wave] * (engine in dynamic[1:]) + [small] * (engine == 'MpmRefinement') + [solver.flow, drain] * (engine in flowing)}
+	return {type(o).__name__: o for o in objects + [edge, wave] * (engine in dynamic[1:]) + [small] * (engine == 'MpmRefinement') + [solver.flow, drain] * (engine in flowing) + ([bodies, *grid.bodies] if engine in meeting else [])}
 
 def attributes():
 	"""(class, attribute, class of the object to set it on, kind, whether it can only be read) from the classes themselves."""
 	classes = [c for name, c in vars(wrapper).items() if isinstance(c, type) and name.startswith('Mpm')]
 	for c in classes:
-		users = [name for name in [*scene(), *dynamic, *flowing, 'MpmRefinement'] if issubclass(getattr(wrapper, name), c)]
+		users = [name for name in [*scene(), *dynamic, *flowing, *meeting, 'MpmRefinement'] if issubclass(getattr(wrapper, name), c)]
 		for name, value in vars(c).items():
 			if not isinstance(value, property): continue
 			default = getattr(c(), name)

@@ -31,7 +31,7 @@ below = {
 engineFolders = ['materials', 'points', 'grid', 'analysis', 'conditions', 'parallel', 'messages', 'output', 'engines']
 # kinds of conditions: whatever else is in the engine knows none of them, but for the engines, which have lists of them,
 # and what Python asks for by name
-kindsOfConditions = {'boundary', 'contact', 'flow', 'shaking', 'surface', 'traction', 'water'}
+kindsOfConditions = {'bodies', 'boundary', 'contact', 'flow', 'shaking', 'surface', 'traction', 'water'}
 knowKinds = {'MpmImplicitEngine.cpp', 'MpmDynamicEngine.cpp', 'module.cpp'}
 
 

@@ -79,6 +79,7 @@ public:
 	bool                goesOn() const override { return !velocity.isZero(0); }
 	void                requireFitting(const Analysis&, const string& name) const override;
 	string              needsEqualCells(const string& name) const override { return surface ? name + ".surface" : ""; }
+	string              needsOneBody(const string& name) const override { return needsEqualCells(name); }
 	const Serializable* ownSurface() const override { return surface.get(); }
 	bool                mayHold(int axis, Real place, Real near) const override;
 	string              idleness(const string& name, bool reaches) const override;

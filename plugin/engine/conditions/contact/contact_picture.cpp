@@ -18,7 +18,7 @@ namespace {
 	std::map<int, RecordsOfBody> byBody(const vector<Real>& records)
 	{
 		std::map<int, RecordsOfBody> found;
-		forRecords(records, [&](const ContactRecordOfPlace& r) { found[r.body].emplace(r.number, r); });
+		forRecords(records, [&](const ContactRecordOfPlace& r) { found[r.body].emplace(r.number & ((std::int64_t(1) << gimpm::placeBits) - 1), r); });
 		return found;
 	}
 

@@ -54,6 +54,7 @@ public:
 	bool   goesOn() const override { return true; }
 	void   requireFitting(const Analysis&, const string& name) const override;
 	string needsEqualCells(const string&) const override { return "flow"; }
+	string needsOneBody(const string&) const override { return "flow"; }
 	void   tell(Rows&, const Analysis&, const Listed&) const override;
 
 	std::map<string, string> warnings(const Analysis&, const vector<MaterialPoint>&, const string& name) const override;

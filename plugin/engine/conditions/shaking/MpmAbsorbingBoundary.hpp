@@ -51,7 +51,8 @@ public:
 	std::shared_ptr<Condition<2>> make(InPlane, const Group&, const Analysis&) const override;
 	std::shared_ptr<Condition<3>> make(InSpace, const Group&, const Analysis&) const override;
 
-	void tell(Rows&, const Analysis&, const Listed&) const override;
+	void   tell(Rows&, const Analysis&, const Listed&) const override;
+	string needsOneBody(const string&) const override { return "an absorbing boundary"; }
 };
 
 } // namespace yade

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Contact of bodies of points with each other.
+#pragma once
+#include "core/terms/body_pair.hpp"
+#include "core/terms/coupled_term.hpp"
+#include "core/terms/facets.hpp"
+
+namespace gimpm {
+
+/// A body of points that others may meet.
+template <int Dim> struct MeetingBody {
+	std::string  name;
+	int          layer = 0; ///< of its nodes
+	Surface<Dim> surface;   ///< moved with it in each step that is accepted
+
+	/// Parts of the surface are no longer than pieceLimit. Returns for each which it has been part of.
+	std::vector<int> refine(double cellSize) { return surface.refine(pieceLimit * cellSize); }
+};
+
+/// Two bodies that may meet, by their numbers: places on the one bear on pieces of the surface of the other.
+template <int Dim> struct BodyMeeting {
+	int    slave = 0, master = 0;
+	double friction  = 0;                                       ///< coefficient [-]
+	double adhesion  = std::numeric_limits<double>::infinity(); ///< cap of the shear stress [Pa]
+	double stiffness = 50;
+
+	/// Of the last step that was accepted, by the pieces of the slave's surface: stress on it [Pa]; empty: none.
+	std::vector<Vec<Dim>> shear {};
+	std::vector<double>   pressure {};
+	/// Of all of it: force on the slave [N], moment of that about the origin [N m], and how many of the places touch.
+	Vec<Dim> force    = Vec<Dim>::Zero();
+	Vec3     moment   = Vec3::Zero();
+	int      touching = 0, slipping = 0;
+};
+
+template <int Dim> class BodyContact;
+
+template <int Dim> struct BodyContacts {
+	std::vector<MeetingBody<Dim>> bodies;
+	std::vector<BodyMeeting<Dim>> meetings;
+	double                        work   = 0;  ///< on the bodies in the last step that was accepted, with the forces at its end [J]
+	double                        weight = 1;  ///< with which forces enter the balance of a step in time (core/terms/time_scheme.hpp)
+	const BodyContact<Dim>*       acting = {}; ///< the term of the step that is being made
+};
+
+/// Places on the surface of a slave against the nearest piece of the master's surface that faces them, wherever the step
+/// takes both. The penalty on the gap g is a pressure of stiffness * E g / h, with the smaller one of the moduli of both
+/// there and h of the smallest cells. Without friction it has a potential, the sum of penalty g^2 / 2.
+template <int Dim> class BodyContact : public CoupledTerm<Dim> {
+public:
+	/// The bodies and meetings are written in commit().
+	BodyContact(BodyContacts<Dim>&, const Beginning<Dim>&);
+
+	void                        markCouplings(Couplings&) const override;
+	std::optional<PointFailure> addCoupled(const State&, const FieldSum<Dim>&) const override;
+	void                        addCoupledBefore(const State&, const FieldSum<Dim>&) const override;
+	bool                        isSymmetric() const override;
+	std::string                 obstacle() const override { return obstacle_; }
+	void                        restrain(const typename Term<Dim>::Hold&) const override;
+	void                        restrainAt(const Eigen::VectorXd& d, const typename Term<Dim>::Hold&) const override;
+	Refusal                     refusal(const Eigen::VectorXd& d) const override;
+	void                        commit(const Eigen::VectorXd& d) override;
+
+	/// Adds the forces that resist at d, or, where that is null, as the step begins, without their weight in the balance.
+	void addUnweighted(const Eigen::VectorXd* d, Eigen::VectorXd& resistance) const;
+
+private:
+	/// A piece of the master near a place. The foot of the place as the step begins moves with the functions of the
+	/// grid, and between the vertices of its piece by a little less or more than these: so what presses evenly is in
+	/// balance with an even stress wherever pieces lie in the cells.
+	struct Near {
+		int                     piece;  ///< of the master's facets
+		std::array<double, Dim> weight; ///< of the vertices, at the foot
+		Attachment<Dim>         foot;
+	};
+	/// On the surface of the slave of a meeting.
+	struct Place {
+		int               meeting, piece; ///< of its facets
+		Vec<Dim>          start, normal;
+		double            area; ///< [m2]
+		double            young = 0;
+		Vec<Dim>          shear = Vec<Dim>::Zero(); ///< as the step begins [N]
+		Attachment<Dim>   at;
+		std::vector<Near> near {};
+	};
+	using Places = std::vector<std::vector<Vec<Dim>>>; ///< of the facets of each body
+	struct Touching {
+		const Place&    place;
+		const Near&     near;
+		PairForce<Dim>  force;
+		PairPlaces<Dim> now;
+	};
+	/// A node that moves some of the places of a pair, by these weights.
+	struct PairNode {
+		int                         node;
+		std::array<double, Dim + 1> weight;
+	};
+
+	void                    addPlaces(int meeting, const Beginning<Dim>&);
+	void                    findNear(Place&, const std::vector<int>& pieces, const Beginning<Dim>&) const;
+	void                    takeModuli(const Beginning<Dim>&);
+	void                    requireApart();
+	Places                  placesAt(const Eigen::VectorXd& d) const;
+	PairPlaces<Dim>         pair(const Vec<Dim>& place, int body, int piece, const Places&) const;
+	PairPlaces<Dim>         pairNow(const Place&, const Near&, const Eigen::VectorXd& d, const Places&) const;
+	const Near*             nearestOf(const Place&, const Eigen::VectorXd* d, const Places&) const;
+	template <class F> void forTouching(const Eigen::VectorXd& d, bool withSlope, F&& f) const; ///< f(Touching)
+	std::vector<PairNode>   nodesOf(const Place&, const Near&) const;
+	void                    add(const Eigen::VectorXd& d, double weight, Eigen::VectorXd& force, Eigen::VectorXd* sizes, Couplings*) const;
+	void                    holdAt(const Touching&, bool sticks, const typename Term<Dim>::Hold&) const;
+	double                  approach(const BodyMeeting<Dim>&, const Places& now) const;
+	const BodyMeeting<Dim>& meetingOf(const Place& place) const { return system_.meetings[place.meeting]; }
+
+	BodyContacts<Dim>&       system_;
+	const double             cellSize_, tolerance_, reach_; // tolerance: of a gap that counts as touching; reach: of the search [m]
+	const bool               isRing_;
+	const Eigen::Index       unknowns_;
+	std::vector<Facets<Dim>> facets_; // of the bodies
+	Places                   start_;
+	std::vector<Place>       places_;
+	std::string              obstacle_;
+};
+
+} // namespace gimpm

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "engine/conditions/bodies/MpmBodyContact.hpp"
+#include "core/base/sentence.hpp"
+#include "core/grid/surface.hpp"
+#include "engine/analysis/analysis.hpp"
+#include "engine/conditions/bodies/body_contacts.hpp"
+#include "yade_api/registration.hpp"
+#include <set>
+
+namespace yade {
+
+void MpmBodyContact::requireAdmissible() const
+{
+	Exposed<MpmBodyContact, MpmCondition>::requireAdmissible();
+	if (pressures.size() != shears.size() || slave < -1 || slave > 1)
+		throw std::invalid_argument("MpmBodyContact: what is kept of its pieces does not go together; is the saved file damaged?");
+}
+
+std::shared_ptr<Condition<2>> MpmBodyContact::make(InPlane, const Group& group, const Analysis& analysis) const
+{
+	return std::make_shared<MeetingBodies<2>>(group, analysis);
+}
+std::shared_ptr<Condition<3>> MpmBodyContact::make(InSpace, const Group& group, const Analysis& analysis) const
+{
+	return std::make_shared<MeetingBodies<3>>(group, analysis);
+}
+
+void MpmBodyContact::requireFitting(const Analysis& analysis, const string& name) const
+{
+	for (const string& body : between) {
+		const int number = analysis.grid->bodyNamed(body);
+		if (number < 0) {
+			string known;
+			for (const auto& other : analysis.grid->bodies)
+				known += (known.empty() ? "" : ", ") + other->name;
+			throw std::invalid_argument(gimpm::sentence(
+			        name, ".between: no body is called '", body, "'; ",
+			        known.empty()
+			                ? string("MpmGrid.bodies is empty: fill it with mpm.fill(..., body='" + body + "') and the MpmGrid of the engine.")
+			                : "there are " + known + "."));
+		}
+		const auto& pieces = analysis.grid->bodies[number]->pieces;
+		if (pieces.empty() || int(pieces[0].size()) != analysis.grid->dim)
+			throw std::invalid_argument(gimpm::sentence(
+			        name, ".between: body '", body, "' has no surface of ", analysis.grid->dim == 2 ? "segments" : "triangles",
+			        ", by which others could meet it (MpmGrid.bodies[", number, "].pieces)."));
+	}
+	for (const Listed& other : analysis.conditions()) {
+		const auto* contact = dynamic_cast<const MpmBodyContact*>(other.condition.get());
+		if (!contact || contact == this) continue;
+		if (std::set<string>(contact->between.begin(), contact->between.end()) == std::set<string>(between.begin(), between.end()))
+			throw std::invalid_argument(
+			        name + " and " + other.name() + " are both between '" + between[0] + "' and '" + between[1] + "': one is admitted.");
+	}
+}
+
+void MpmBodyContact::tell(Rows& rows, const Analysis& analysis, const Listed& listed) const
+{
+	const string name = "contact" + std::to_string(listed.number);
+	rows.setVector(name, force, analysis.grid->dim);
+	rows.set(name + "_touching", touching);
+}
+
+// Stresses on the slave.
+void MpmBodyContact::draw(Picture& picture, const Analysis& analysis, const Listed& listed) const
+{
+	const int number = slave < 0 ? -1 : analysis.grid->bodyNamed(between[slave]);
+	if (number < 0) return;
+	const MpmBody& body  = *analysis.grid->bodies[number];
+	const int      first = int(picture.corners.size());
+	if (pressures.size() != body.pieces.size()) return;
+	picture.corners.insert(picture.corners.end(), body.vertices.begin(), body.vertices.end());
+	for (size_t i = 0; i < body.pieces.size(); ++i) {
+		vector<int> piece = body.pieces[i];
+		for (int& corner : piece)
+			corner += first;
+		picture.add(piece);
+		picture.set("pressure", pressures[i]);
+		picture.set("shear", shears[i].norm());
+		picture.set("touches", int(pressures[i] > 0));
+		picture.set("contact", int(listed.number));
+	}
+}
+
+} // namespace yade
+
+BOOST_CLASS_EXPORT_IMPLEMENT(yade::MpmBodyContact)
+static const yade::PluginClasses<yade::MpmBodyContact> registeredMpmBodyContact(__FILE__);

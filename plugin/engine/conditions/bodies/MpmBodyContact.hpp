@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+#include "engine/analysis/MpmCondition.hpp"
+#include "engine/materials/angles.hpp"
+#include "yade_api/exposed.hpp"
+
+namespace yade {
+
+class MpmBodyContact : public Exposed<MpmBodyContact, MpmCondition> {
+public:
+	vector<string> between;
+	Real           friction  = std::numeric_limits<Real>::quiet_NaN(); // must be given
+	Real           adhesion  = std::numeric_limits<Real>::infinity();
+	Real           stiffness = 50;
+	Vector3r       force     = Vector3r::Constant(std::numeric_limits<Real>::quiet_NaN());
+	Vector3r       moment    = Vector3r::Constant(std::numeric_limits<Real>::quiet_NaN());
+	int            touching = 0, slipping = 0;
+	// Hidden: which of the two has the places, 0 or 1, -1 before the first step; and of the pieces of its surface, in
+	// their order, pressure and shear stress on it at the end of the last step.
+	int              slave = -1;
+	vector<Real>     pressures;
+	vector<Vector3r> shears;
+
+	YADE_API_NAME(MpmBodyContact)
+	static const char* doc()
+	{
+		return "Contact of two bodies of points, filled with mpm.fill(..., body=...): where they meet they press, rub and part, while bodies without one "
+		       "between them stick where they share cells. Each body has nodes of its own.\n\n"
+		       "Places on the surface of the softer body bear on the surface of the other one; both move with their bodies. A body does not meet itself: it "
+		       "sticks.\n\n"
+		       "Set first: *between* = ('slab', 'ground') and *friction* [rad], then a step in which bodies move by a quarter of a cell. Page: "
+		       "plugin/docs/classes/MpmBodyContact.md.";
+	}
+	template <class V> static void attributes(V&& v)
+	{
+		v("between", &MpmBodyContact::between, 0, "Names of the two bodies, as given to mpm.fill(..., body=...); without default.",
+		  admitting("the names of two different bodies, as ('slab', 'ground'); there is no default", areTwo));
+		v("friction", &MpmBodyContact::friction, 0, "Angle of friction [rad], from 0 to below pi/2: radians(30) of 30 degrees; without default.",
+		  admitting("an angle [rad] from 0 to below pi/2, as radians(30); there is no default", isFrictionAngle));
+		v("adhesion", &MpmBodyContact::adhesion, 0, "Cap of the shear stress [Pa] >= 0, as of undrained clay; inf, the default: none.",
+		  admitting("a number >= 0, or inf", [](Real cap) { return cap >= 0; }));
+		v("stiffness", &MpmBodyContact::stiffness, 0,
+		  "Penalty [-] > 0: a pressure p presses p h / (stiffness E) deep, with cell size h and the smaller one of Young's moduli E of the two.",
+		  positive);
+		v("force", &MpmBodyContact::force, readonly,
+		  "Force on the first body [N] at the end of the last converged step; per metre of thickness in plane strain, NaN before the first.");
+		v("moment", &MpmBodyContact::moment, readonly, "Moment of these forces about the origin [N m], NaN before the first step.");
+		v("touching", &MpmBodyContact::touching, readonly, "Number of places that touch, two on each piece of a surface, three in space.");
+		v("slipping", &MpmBodyContact::slipping, readonly, "Number of those at the limit of friction.");
+		v("slave", &MpmBodyContact::slave, hidden, "");
+		v("pressures", &MpmBodyContact::pressures, hidden, "");
+		v("shears", &MpmBodyContact::shears, hidden, "");
+	}
+
+	// What is kept of pieces must go together, too.
+	void requireAdmissible() const override;
+
+	const char*                   list() const override { return "contacts"; }
+	std::shared_ptr<Condition<2>> make(InPlane, const Group&, const Analysis&) const override;
+	std::shared_ptr<Condition<3>> make(InSpace, const Group&, const Analysis&) const override;
+
+	// There must be bodies of these names, with a surface, and one contact between two of them.
+	void requireFitting(const Analysis&, const string& name) const override;
+	bool partsBodies() const override { return true; }
+
+	bool        goesOn() const override { return true; }
+	bool        mayHold(int, Real, Real) const override { return true; }
+	void        tell(Rows&, const Analysis&, const Listed&) const override;
+	const char* picture() const override { return "contacts"; }
+	void        draw(Picture&, const Analysis&, const Listed&) const override;
+
+private:
+	static bool areTwo(const vector<string>& names) { return names.size() == 2 && !names[0].empty() && !names[1].empty() && names[0] != names[1]; }
+};
+
+} // namespace yade
+
+BOOST_CLASS_EXPORT_KEY(yade::MpmBodyContact)

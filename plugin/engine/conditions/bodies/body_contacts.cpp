@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "engine/conditions/bodies/body_contacts.hpp"
+#include "core/base/sentence.hpp"
+#include "core/terms/motion.hpp"
+#include <algorithm>
+#include <set>
+#include <unordered_map>
+
+namespace yade {
+
+template <int Dim>
+MeetingBodies<Dim>::MeetingBodies(const MpmCondition::Group& group, const Analysis& analysis) : grid(*analysis.grid), system(new gimpm::BodyContacts<Dim>)
+{
+	for (const Listed& listed : group)
+		given.push_back(boost::static_pointer_cast<MpmBodyContact>(listed.condition));
+}
+
+template <int Dim> bool MeetingBodies<Dim>::meet(int one, int other) const
+{
+	if (one < 0 || other < 0) return false;
+	const std::set<string> names { grid.bodies[one]->name, grid.bodies[other]->name };
+	return std::any_of(
+	        given.begin(), given.end(), [&](const auto& contact) { return std::set<string>(contact->between.begin(), contact->between.end()) == names; });
+}
+
+// Each body is in the lowest layer in which it meets none. So those without a contact stick as far as that goes together.
+template <int Dim> void MeetingBodies<Dim>::hold(gimpm::Model<Dim>& model)
+{
+	layers = { 0 };
+	for (int body = 0; body < int(grid.bodies.size()); ++body) {
+		std::set<int> taken;
+		for (int other = 0; other < body; ++other)
+			if (meet(body, other)) taken.insert(layers[other + 1]);
+		int layer = 0;
+		while (taken.count(layer))
+			++layer;
+		if (layer > gimpm::Grid<Dim>::mostLayer)
+			throw std::invalid_argument(gimpm::sentence(
+			        "contacts: more than ", gimpm::Grid<Dim>::mostLayer + 1, " bodies of points, each of which meets each other, as body '",
+			        grid.bodies[body]->name, "' does, cannot be numbered."));
+		layers.push_back(layer);
+	}
+	model.layers = layers;
+}
+
+// The softer one of both, which is asked once; of equal ones the first.
+template <int Dim> int MeetingBodies<Dim>::slaveOf(const MpmBodyContact& contact, const Surroundings<Dim>& around, const gimpm::Model<Dim>& model) const
+{
+	if (contact.slave >= 0) return contact.slave;
+	Real        modulus[2] {}, volume[2] {};
+	const auto& cloud = around.cloud;
+	for (size_t p = 0; p < around.points.size(); ++p)
+		for (int side = 0; side < 2; ++side) {
+			if (around.points[p].state->body != grid.bodyNamed(contact.between[side])) continue;
+			const auto strain = [&] { return cloud.elasticStrain[p].full().trace(); };
+			modulus[side] += cloud.volume0[p] * model.materials[cloud.material[p]].young(cloud.parameters, cloud.internals, int(p), strain);
+			volume[side] += cloud.volume0[p];
+		}
+	for (int side = 0; side < 2; ++side)
+		if (volume[side] == 0)
+			throw std::invalid_argument(
+			        "MpmBodyContact.between: body '" + contact.between[side] + "' has no points in the scene: append what mpm.fill(..., body='"
+			        + contact.between[side] + "') returns to O.bodies.");
+	return modulus[1] / volume[1] < (1 - 1e-9) * (modulus[0] / volume[0]) ? 1 : 0;
+}
+
+// Bodies that would go through each other: in different layers, as both meet a third one, and without a contact.
+template <int Dim> void MeetingBodies<Dim>::requireNoneBetween(const vector<MaterialPoint>& points, const gimpm::Grid<Dim>& lattice) const
+{
+	std::set<std::pair<int, int>> apart;
+	for (int one = -1; one < int(grid.bodies.size()); ++one)
+		for (int other = one + 1; other < int(grid.bodies.size()); ++other)
+			if (layers[one + 1] != layers[other + 1] && !meet(one, other)) apart.insert({ one, other });
+	if (apart.empty()) return;
+	std::unordered_map<gimpm::Key, std::set<int>> bodiesIn;
+	const auto                                    cellOf = [&](const MaterialPoint& point) {
+                return gimpm::Index<Dim>(((point.state->pos.template head<Dim>() - lattice.origin) / lattice.cellSize).array().floor().template cast<int>());
+	};
+	for (const MaterialPoint& point : points)
+		bodiesIn[gimpm::Grid<Dim>::key(cellOf(point))].insert(point.state->body);
+	for (const auto& [key, bodies] : bodiesIn)
+		for (int n = 0; n < (Dim == 2 ? 9 : 27); ++n) {
+			gimpm::Index<Dim> cell = gimpm::Grid<Dim>::index(key);
+			for (int a = 0, rest = n; a < Dim; ++a, rest /= 3)
+				cell[a] += rest % 3 - 1;
+			const auto near = bodiesIn.find(gimpm::Grid<Dim>::key(cell));
+			if (near == bodiesIn.end()) continue;
+			for (const int one : bodies)
+				for (const int other : near->second)
+					if (apart.count({ one, other }))
+						throw std::invalid_argument(gimpm::sentence(
+						        "contacts: bodies of points ", nameOf(one), " and ", nameOf(other), " are in neighbouring cells at (",
+						        lattice.nodePosition(cell).transpose(),
+						        ") and have no MpmBodyContact between them; they cannot stick, as a contact of one of them parts it from what the other one sticks to. Give them one, with friction."));
+		}
+}
+
+template <int Dim> void MeetingBodies<Dim>::join(gimpm::Model<Dim>& model, const Surroundings<Dim>& around)
+{
+	requireNoneBetween(around.points, model.grid);
+	for (size_t b = 0; b < grid.bodies.size(); ++b) {
+		const MpmBody&          from = *grid.bodies[b];
+		gimpm::MeetingBody<Dim> body { from.name, layers[b + 1], {} };
+		const auto              inDimension = [](const vector<Vector3r>& points) {
+                        std::vector<gimpm::Vec<Dim>> result;
+                        for (const Vector3r& x : points)
+                                result.push_back(x.head<Dim>());
+                        return result;
+		};
+		body.surface.vertices  = inDimension(from.vertices);
+		body.surface.vertices0 = from.initialVertices.empty() ? body.surface.vertices : inDimension(from.initialVertices);
+		const bool isMet       = std::any_of(given.begin(), given.end(), [&](const auto& contact) {
+                        return std::find(contact->between.begin(), contact->between.end(), from.name) != contact->between.end();
+                });
+		for (const auto& piece : from.pieces) {
+			if (!isMet) break;
+			body.surface.pieces.emplace_back();
+			std::copy(piece.begin(), piece.end(), body.surface.pieces.back().begin());
+		}
+		body.refine(model.grid.cellSize);
+		system->bodies.push_back(std::move(body));
+	}
+	for (const auto& contact : given) {
+		contact->slave = slaveOf(*contact, around, model);
+		gimpm::BodyMeeting<Dim> meeting;
+		meeting.slave     = grid.bodyNamed(contact->between[contact->slave]);
+		meeting.master    = grid.bodyNamed(contact->between[1 - contact->slave]);
+		meeting.friction  = std::tan(contact->friction);
+		meeting.adhesion  = contact->adhesion;
+		meeting.stiffness = contact->stiffness;
+		if (contact->shears.size() == system->bodies[meeting.slave].surface.pieces.size())
+			for (size_t i = 0; i < contact->shears.size(); ++i) {
+				meeting.shear.push_back(contact->shears[i].template head<Dim>());
+				meeting.pressure.push_back(contact->pressures[i]);
+			}
+		system->meetings.push_back(std::move(meeting));
+	}
+	model.coupledTerms.push_back(
+	        [known = system](const gimpm::Beginning<Dim>& step, const gimpm::State&) { return std::make_unique<gimpm::BodyContact<Dim>>(*known, step); });
+}
+
+template <int Dim> void MeetingBodies<Dim>::joinMotion(gimpm::Motion<Dim>& motion, const gimpm::Model<Dim>&, Real)
+{
+	system->weight = motion.scheme.weightOfContact();
+	motion.bodies  = system.get();
+}
+
+template <int Dim> Work MeetingBodies<Dim>::work(const StepOutcome<Dim>&) const
+{
+	Work sum;
+	sum.ofContacts = system->work;
+	return sum;
+}
+
+template <int Dim> Penalty MeetingBodies<Dim>::penalty() const
+{
+	Penalty largest { 0, "smaller MpmBodyContact.stiffness" };
+	for (const auto& contact : given)
+		largest.size = std::max(largest.size, contact->stiffness);
+	return largest;
+}
+
+template <int Dim> void MeetingBodies<Dim>::reach(const StepOutcome<Dim>&)
+{
+	for (size_t b = 0; b < grid.bodies.size(); ++b) {
+		const auto& surface = system->bodies[b].surface;
+		MpmBody&    to      = *grid.bodies[b];
+		if (surface.pieces.empty()) continue;
+		const auto inSpace = [z = to.vertices.front()[2]](const std::vector<gimpm::Vec<Dim>>& points) {
+			vector<Vector3r> result;
+			for (const auto& x : points) {
+				result.emplace_back(0, 0, z);
+				result.back().template head<Dim>() = x;
+			}
+			return result;
+		};
+		to.vertices        = inSpace(surface.vertices);
+		to.initialVertices = inSpace(surface.vertices0);
+		to.pieces.clear();
+		for (const auto& piece : surface.pieces)
+			to.pieces.emplace_back(piece.begin(), piece.end());
+	}
+	for (size_t i = 0; i < given.size(); ++i) {
+		const auto&     meeting = system->meetings[i];
+		MpmBodyContact& to      = *given[i];
+		const Real      sign    = to.slave == 0 ? 1 : -1;
+		to.force.setZero();
+		to.force.template head<Dim>() = sign * meeting.force;
+		to.moment                     = sign * meeting.moment;
+		to.touching = meeting.touching, to.slipping = meeting.slipping;
+		to.pressures = meeting.pressure;
+		to.shears.clear();
+		for (const auto& shear : meeting.shear) {
+			to.shears.push_back(Vector3r::Zero());
+			to.shears.back().template head<Dim>() = shear;
+		}
+	}
+}
+
+template class MeetingBodies<2>;
+template class MeetingBodies<3>;
+
+} // namespace yade

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+// Bodies of points that meet, between the conditions of a scene and the term of a step.
+#include "core/terms/body_contact.hpp"
+#include "engine/analysis/analysis.hpp"
+#include "engine/conditions/bodies/MpmBodyContact.hpp"
+
+namespace yade {
+
+template <int Dim> class MeetingBodies : public Condition<Dim> {
+public:
+	MeetingBodies(const MpmCondition::Group&, const Analysis&);
+
+	// Layers of the bodies.
+	void hold(gimpm::Model<Dim>&) override;
+	void join(gimpm::Model<Dim>&, const Surroundings<Dim>&) override;
+	// Their forces enter the balance with a weight.
+	void    joinMotion(gimpm::Motion<Dim>&, const gimpm::Model<Dim>&, Real begin) override;
+	Work    work(const StepOutcome<Dim>&) const override;
+	void    reach(const StepOutcome<Dim>&) override;
+	Penalty penalty() const override;
+
+private:
+	int    slaveOf(const MpmBodyContact&, const Surroundings<Dim>&, const gimpm::Model<Dim>&) const;
+	bool   meet(int one, int other) const; // whether there is a contact between two, -1: points of no body
+	void   requireNoneBetween(const vector<MaterialPoint>&, const gimpm::Grid<Dim>&) const;
+	string nameOf(int body) const { return body < 0 ? "one without a name" : "'" + grid.bodies[body]->name + "'"; }
+
+	const MpmGrid&                            grid;
+	vector<shared_ptr<MpmBodyContact>>        given;
+	vector<int>                               layers; // by the number of the body, from -1 on
+	std::shared_ptr<gimpm::BodyContacts<Dim>> system; // its terms refer to it
+};
+
+} // namespace yade

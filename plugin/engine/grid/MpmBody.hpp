@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+#include "yade_api/exposed.hpp"
+
+namespace yade {
+
+class MpmBody : public Exposed<MpmBody, Serializable> {
+public:
+	string              name;
+	vector<Vector3r>    vertices, initialVertices;
+	vector<vector<int>> pieces;
+
+	YADE_API_NAME(MpmBody)
+	static const char* doc()
+	{
+		return "A body of points with a name, which may meet others (MpmBodyContact): its surface, which moves with it. mpm.fill(..., body='slab') makes it, "
+		       "and puts it into MpmGrid.bodies; its points have its place there as *MpmState.body*.\n\n"
+		       "Not to be made itself: begin with mpm.fill(..., body=...). Page: plugin/docs/classes/MpmBodyContact.md.";
+	}
+	template <class V> static void attributes(V&& v)
+	{
+		v("name", &MpmBody::name, 0, "What it is called in MpmBodyContact.between; not empty.",
+		  admitting("a name that is not empty", [](const string& s) { return !s.empty(); }));
+		v("vertices", &MpmBody::vertices, 0,
+		  "Current positions of the vertices of its surface [m], finite; z is not used in the plane. Read as a tuple.",
+		  admitting("points, all finite", areFinite));
+		v("pieces", &MpmBody::pieces, 0,
+		  "Of each segment or triangle of the surface, the two or three numbers of its vertices, with the body on the inner side as of an MpmSurface. Read as a tuple.",
+		  admitting("pieces of two numbers >= 0 each (segments), or of three each (triangles)", arePieces));
+		v("initialVertices", &MpmBody::initialVertices, readonly,
+		  "Where the vertices were at the first step [m], empty before it. The engine adds vertices until the sides of all pieces are at most a quarter of a cell.");
+	}
+
+	// The pieces must be those of the vertices, too.
+	void requireAdmissible() const override;
+
+private:
+	static bool areFinite(const vector<Vector3r>&);
+	static bool arePieces(const vector<vector<int>>&);
+};
+
+} // namespace yade
+
+BOOST_CLASS_EXPORT_KEY(yade::MpmBody)

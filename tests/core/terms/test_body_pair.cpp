@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// What a place on one body and a piece of the surface of another do to each other.
+#include "core/terms/body_pair.hpp"
+#include <Eigen/Geometry>
+#include <gtest/gtest.h>
+#include <random>
+
+namespace gimpm::testBodyPair {
+namespace {
+
+	template <class T> struct BodyPairTest : testing::Test {
+		static constexpr int Dim = T::value;
+		using Places             = PairPlaces<Dim>;
+		using Force              = PairForce<Dim>;
+
+		static Places places()
+		{
+			if constexpr (Dim == 2) return { Vec<2>(.4, -.03), Vec<2>(1.1, .2), Vec<2>(0, 0) };
+			else
+				return { Vec3(.4, .3, .02), Vec3(0, 0, .1), Vec3(1.1, 0, .2), Vec3(.1, 1.2, 0) };
+		}
+		static Places moved(Places x, double size, unsigned seed)
+		{
+			std::mt19937                     random(seed);
+			std::normal_distribution<double> normal(0, size);
+			for (auto& place : x)
+				for (int a = 0; a < Dim; ++a)
+					place[a] += normal(random);
+			return x;
+		}
+		static Eigen::VectorXd forces(const Force& f)
+		{
+			Eigen::VectorXd all(Force::size);
+			for (int i = 0; i <= Dim; ++i)
+				all.segment<Dim>(Dim * i) = f.force[i];
+			return all;
+		}
+		static Vec3 inSpace(const Vec<Dim>& x)
+		{
+			Vec3 all                 = Vec3::Zero();
+			all.template head<Dim>() = x;
+			return all;
+		}
+
+		const Places   start  = places();
+		const Places   now    = moved(start, .02, 1);
+		const Vec<Dim> before = Vec<Dim>::Constant(.05);
+
+		Force at(const Places& x, double friction, double cap = 1e9) const
+		{
+			const auto found = pairForce<Dim>({ 7, 3, friction, cap }, start, before, x, 1e-9, true);
+			EXPECT_TRUE(found) << "the place is behind the piece";
+			return found.value_or(Force());
+		}
+		void compareSlope(double friction, double cap = 1e9) const
+		{
+			const Force     f = at(now, friction, cap);
+			Eigen::MatrixXd slope(Force::size, Force::size);
+			for (int i = 0; i < Force::size; ++i) {
+				Places plus = now, minus = now;
+				plus[i / Dim][i % Dim] += 1e-6, minus[i / Dim][i % Dim] -= 1e-6;
+				slope.col(i) = (forces(at(plus, friction, cap)) - forces(at(minus, friction, cap))) / 2e-6;
+			}
+			EXPECT_LT((slope - f.slope).cwiseAbs().maxCoeff(), 1e-8 * slope.cwiseAbs().maxCoeff());
+		}
+	};
+	using Dimensions = testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
+	TYPED_TEST_SUITE(BodyPairTest, Dimensions);
+
+	TYPED_TEST(BodyPairTest, DerivativesAreThoseOfTheForces)
+	{
+		this->compareSlope(0);
+		this->compareSlope(10);
+		EXPECT_FALSE(this->at(this->now, 10).slips);
+		this->compareSlope(.02);
+		EXPECT_TRUE(this->at(this->now, .02).slips);
+		this->compareSlope(10, .01);
+		EXPECT_TRUE(this->at(this->now, 10, .01).slips) << "at the cap";
+	}
+
+	TYPED_TEST(BodyPairTest, WithoutFrictionTheDerivativeIsSymmetric)
+	{
+		const auto K = this->at(this->now, 0).slope;
+		EXPECT_LT((K - K.transpose()).cwiseAbs().maxCoeff(), 1e-14 * K.cwiseAbs().maxCoeff());
+	}
+
+	TYPED_TEST(BodyPairTest, ForcesHaveNeitherResultantNorMoment)
+	{
+		constexpr int Dim = TypeParam::value;
+		for (const double friction : { 0., .02, 10. }) {
+			const auto f      = this->at(this->now, friction);
+			Vec<Dim>   sum    = Vec<Dim>::Zero();
+			Vec3       moment = Vec3::Zero();
+			for (int i = 0; i <= Dim; ++i) {
+				sum += f.force[i];
+				moment += this->inSpace(this->now[i]).cross(this->inSpace(f.force[i]));
+			}
+			EXPECT_GT(f.force[0].norm(), .01);
+			EXPECT_LT(sum.norm(), 1e-15);
+			EXPECT_LT(moment.norm(), 1e-15);
+		}
+	}
+
+	TYPED_TEST(BodyPairTest, FrictionTurnsWithThePiece)
+	{
+		constexpr int Dim  = TypeParam::value;
+		Mat<Dim>      turn = Mat<Dim>::Identity();
+		turn.template topLeftCorner<2, 2>() << std::cos(2.), -std::sin(2.), std::sin(2.), std::cos(2.);
+		auto turned = this->start;
+		for (auto& x : turned)
+			x = turn * x;
+		const auto still = this->at(this->start, 10), after = this->at(turned, 10);
+		EXPECT_LT((after.shear - turn * still.shear).norm(), 1e-14);
+		EXPECT_LT(after.slip.norm(), 1e-14);
+		EXPECT_GT(still.shear.norm(), .03);
+	}
+
+	TYPED_TEST(BodyPairTest, NothingPullsTogether)
+	{
+		constexpr int Dim = TypeParam::value;
+		auto          x   = this->start;
+		x[0] += 2 * std::abs(Facing<Dim>(x).gap) * Facing<Dim>(x).normal;
+		EXPECT_FALSE(pairForce<Dim>({ 7, 3, 10, 1e9 }, this->start, this->before, x, 1e-9, true));
+	}
+
+} // namespace
+} // namespace gimpm::testBodyPair

@@ -1,0 +1,252 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Bodies of points that meet: what they bear, how they slide, bounce and part, against closed forms; what is kept, and what is refused."""
+import json
+import math
+
+import numpy as np
+import pytest
+
+scene = '''
+import json
+import numpy as np
+from yade import mpm, pack
+
+def material(label, young=1e6, poisson=0.3, density=2000):
+	O.materials.append(MpmElasticMat(young=young, poisson=poisson, density=density, label=label))
+
+def box(low, high):
+	return pack.inAlignedBox((*low, -1), (*high, 1))
+
+def shift(name, grid, way):
+	"""Moves a body off the lattice."""
+	number = [body.name for body in grid.bodies].index(name)
+	points, body = mpm.arrays(), grid.bodies[number]
+	mpm.assign(pos=points['pos'] + np.outer(points['body'] == number, way))
+	body.vertices = [np.array(x) + way for x in body.vertices]
+
+def means(number):
+	"""Velocity of a body."""
+	points = mpm.arrays()
+	own = points['body'] == number
+	return points['volume'][own] @ points['velocity'][own] / points['volume'][own].sum()
+'''
+
+
+def test_each_interface_of_a_stack_bears_the_weight_above(yade):
+	"""Of three blocks, with faces anywhere in the cells and moduli of 1 to 1000, on smooth walls; stresses are those of a column."""
+	for moduli in (1, 1000, 10), (100, 1, 1):
+		found = yade(scene + f'''
+grid = MpmGrid(cellSize=0.25)
+for (label, low, high), young in zip((('a', 0, 1), ('b', 1, 1.625), ('c', 1.625, 2.5)), {moduli}):
+	material(label, young=1e6 * young)
+	O.bodies.append(mpm.fill(box((0, low), (1, high)), grid, 2, label, body=label))
+walls = [MpmBoundary(max=(inf, 0, inf), fix='xy'), MpmBoundary(max=(0, inf, inf), fix='x'), MpmBoundary(min=(1, -inf, -inf), fix='x')]
+contacts = [MpmBodyContact(between=('a', 'b'), friction=0), MpmBodyContact(between=('b', 'c'), friction=0.2)]
+solver = MpmImplicitEngine(grid=grid, gravity=(0, -10, 0), boundaries=walls, contacts=contacts, newton=MpmNewton(tolerance=1e-9), verbosity=0)
+O.engines, O.dt = [solver], 1 / 4
+O.run(4, wait=True)
+print(json.dumps([[contact.force[1] for contact in contacts], [solver.plotData()[f'contact{{i}}_y'] for i in (0, 1)], solver.reactions[0][1]]))
+''').result
+		weights = np.array([-2e4 * 1.5, -2e4 * 0.875])
+		assert np.allclose(found[0], weights, rtol=1e-5)
+		assert np.allclose(found[1], weights, rtol=1e-5)
+		assert abs(found[2] / 5e4 - 1) < 1e-5
+
+
+sliding = '''
+def slide(angle, coefficient, scheme='newmark', steps=16, duration=0.4):
+	"""A block on another one that is held, under gravity at an angle: mean acceleration in the second half of the time, what of the places slips, and work."""
+	O.reset()
+	material('soil', young=1e7)
+	grid = MpmGrid(cellSize=0.25)
+	O.bodies.append(mpm.fill(box((0, 0), (4, 0.5)), grid, 2, 'soil', body='low'))
+	O.bodies.append(mpm.fill(box((0.5, 0.5), (1.5, 1)), grid, 2, 'soil', body='up'))
+	contact = MpmBodyContact(between=('up', 'low'), friction=atan(coefficient))
+	solver = MpmDynamicEngine(grid=grid, scheme=scheme, gravity=(10 * sin(angle), -10 * cos(angle), 0), gravityCurve=[(0, 1)], boundaries=[MpmBoundary(max=(inf, 0, inf), fix='xy')],
+		contacts=[contact], newton=MpmNewton(tolerance=1e-8), verbosity=0)
+	O.engines, O.dt = [solver], duration / steps
+	if scheme == 'explicit':
+		O.dt = 0.9 * solver.criticalTimeStep()
+		steps = int(duration / O.dt)
+	times, speeds = [], []
+	for step in range(steps):
+		O.run(1, wait=True)
+		times.append(O.time)
+		speeds.append(means(1)[0])
+	half = steps // 2
+	return dict(acceleration=np.polyfit(times[half:], speeds[half:], 1)[0], speed=speeds[-1], slips=contact.slipping / max(1, contact.touching))
+'''
+
+
+@pytest.mark.parametrize('scheme', ['newmark', 'generalised-alpha', 'explicit'])
+def test_a_block_slides_on_an_incline(yade, scheme):
+	"""With g (sin b - mu cos b) where tan b > mu, else not at all."""
+	moves, stays = yade(scene + sliding + f'''
+print(json.dumps([slide(0.5, 0.3, {scheme!r}), slide(0.5, 0.7, {scheme!r}, 6, 0.1)]))
+''').result
+	assert abs(moves['acceleration'] / (10 * (math.sin(0.5) - 0.3 * math.cos(0.5))) - 1) < 0.01 and moves['slips'] == 1
+	assert abs(stays['speed']) < 0.02 * 10 * math.sin(0.5) * 0.1 and stays['slips'] < 1
+
+
+def test_equal_bars_exchange_their_velocities(yade):
+	"""After a contact of twice the time of a wave through one of them, which begins when the gap has closed, not before; momentum is kept, and no energy is won."""
+	found = yade(scene + '''
+material('steel', young=1e6, poisson=0, density=1000)
+h, gap, speed, wave = 0.05, 0.02, 0.1, 1000**0.5
+grid = MpmGrid(cellSize=h)
+O.bodies.append(mpm.fill(box((0, 0), (1, h)), grid, 2, 'steel', body='left'))
+O.bodies.append(mpm.fill(box((1, 0), (2, h)), grid, 2, 'steel', body='right'))
+shift('right', grid, np.array([gap, 0, 0]))
+points = mpm.arrays()
+mpm.assign(velocity=speed * np.outer(points['body'] == 0, [1, 0, 0]))
+contact = MpmBodyContact(between=('left', 'right'), friction=0)
+solver = MpmDynamicEngine(grid=grid, contacts=[contact], newton=MpmNewton(tolerance=1e-12), verbosity=0)
+O.engines, O.dt = [solver], (gap / speed + 2.6 / wave) / 450
+mass, touched, drift, most = 1000 * points['volume'], [], 0, 0
+def energy():
+	data = mpm.arrays()
+	return ((mass * (data['velocity']**2).sum(1)).sum() + (np.einsum('pij,pij->p', data['stress'], data['elasticStrain']) * data['volume']).sum()) / 2
+first = energy()
+for step in range(450):
+	O.run(1, wait=True)
+	momentum = mass @ mpm.arrays()['velocity']
+	drift, most = max(drift, abs(momentum - [mass.sum() / 2 * speed, 0, 0]).max()), max(most, energy())
+	if contact.force[0]: touched.append(O.time)
+print(json.dumps(dict(begins=touched[0] * speed / gap, lasts=(touched[-1] - touched[0] + O.dt) * wave / 2, speeds=[means(0)[0] / speed, means(1)[0] / speed], drift=drift / (mass.sum() / 2 * speed), most=most / first, left=contact.force[0])))
+''').result
+	assert abs(found['begins'] - 1) < 0.01
+	assert abs(found['lasts'] - 1) < 0.02
+	assert abs(found['speeds'][0]) < 0.02 and abs(found['speeds'][1] - 1) < 0.02
+	assert found['drift'] < 1e-12
+	assert found['most'] < 1 + 1e-6
+	assert found['left'] == 0
+
+
+def test_a_body_falls_freely_until_its_gap_has_closed(yade):
+	"""By half a cell, over which nodes of one grid would have held it; and comes to rest where the other one is."""
+	found = yade(scene + '''
+material('soil', young=1e6)
+grid = MpmGrid(cellSize=0.25)
+O.bodies.append(mpm.fill(box((0, 0), (1, 0.5)), grid, 2, 'soil', body='low'))
+O.bodies.append(mpm.fill(box((0, 0.625), (1, 1.125)), grid, 2, 'soil', body='up'))
+contact = MpmBodyContact(between=('up', 'low'), friction=0)
+solver = MpmDynamicEngine(grid=grid, gravity=(0, -10, 0), gravityCurve=[(0, 1)], boundaries=[MpmBoundary(max=(inf, 0, inf), fix='xy')], contacts=[contact], newton=MpmNewton(tolerance=1e-9), verbosity=0)
+O.engines, O.dt = [solver], 0.005
+before, speed, first = 0, [], None
+while O.time < 0.2:
+	O.run(1, wait=True)
+	speed.append(means(1)[1])
+	if first is None and contact.touching: first = len(speed)
+free = 10 * O.dt * np.arange(1, first)
+print(json.dumps([first * O.dt, (0.025)**0.5, float(abs(np.array(speed[:first - 1]) + free).max()), contact.force.norm()]))
+''').result
+	assert abs(found[0] - found[1]) < 0.006
+	assert found[2] < 1e-6
+
+
+def test_master_and_slave_exchanged_and_both_ways_of_a_sum(yade):
+	"""A block on a wider one, off its middle: forces within 2 % whichever comes first, and what acts on the one acts on the other."""
+	forces = yade(scene + '''
+def press(between):
+	O.reset()
+	material('soil')
+	grid = MpmGrid(cellSize=0.25)
+	O.bodies.append(mpm.fill(box((0, 0), (3, 1)), grid, 2, 'soil', body='low'))
+	O.bodies.append(mpm.fill(box((0.9375, 1), (1.8125, 1.75)), grid, 2, 'soil', body='up'))
+	contact = MpmBodyContact(between=between, friction=0.3)
+	held = [MpmBoundary(max=(inf, 0, inf), fix='xy'), MpmBoundary(min=(-inf, 1.75, -inf), fix='xy', displacement=(0.01, -0.05, 0))]
+	solver = MpmImplicitEngine(grid=grid, boundaries=held, contacts=[contact], newton=MpmNewton(tolerance=1e-8), verbosity=0)
+	O.engines, O.dt = [solver], 1 / 4
+	O.run(4, wait=True)
+	return [*contact.force[:2], *solver.reactions[0][:2]]
+
+print(json.dumps([press(('up', 'low')), press(('low', 'up'))]))
+''').result
+	(x, y, heldX, heldY), (otherX, otherY, *_) = forces
+	assert y > 1e4 and abs(x + heldX * -1) < 1e-5 * y and abs(y - heldY) < 1e-5 * y
+	assert abs(y + otherY) < 0.02 * y and abs(x + otherX) < 0.02 * y
+
+
+def test_a_scene_goes_on_after_a_restart_to_the_last_bit(yade):
+	same, bodies, numbers = yade(scene + '''
+material('soil'), material('rock', young=1e8)
+grid = MpmGrid(cellSize=0.25)
+O.bodies.append(mpm.fill(box((0, 0), (2, 0.5)), grid, 2, 'rock', body='ground'))
+O.bodies.append(mpm.fill(box((0.5, 0.5), (1, 1)), grid, 2, 'soil', body='slab'))
+O.bodies.append(mpm.fill(box((1, 0.5), (1.5, 1)), grid, 2, 'soil', body='slab'))
+solver = MpmDynamicEngine(grid=grid, gravity=(4, -10, 0), gravityCurve=[(0, 1)], boundaries=[MpmBoundary(max=(inf, 0, inf), fix='xy')], contacts=[MpmBodyContact(between=('ground', 'slab'), friction=0.2)], verbosity=0, label='solver')
+O.engines, O.dt = [solver], 0.01
+O.run(5, wait=True)
+mpm.save('half.yade.gz')
+O.run(5, wait=True)
+ends, force = mpm.arrays(), list(solver.contacts[0].force)
+mpm.load('half.yade.gz')
+O.run(5, wait=True)
+again = mpm.arrays()
+print(json.dumps([all(np.array_equal(ends[name], again[name]) for name in ends) and force == list(O.engines[0].contacts[0].force), [body.name for body in O.engines[0].grid.bodies], sorted(set(again['body'].tolist()))]))
+''').result
+	assert same and bodies == ['ground', 'slab'] and numbers == [0, 1]
+
+
+def test_regions_of_one_name_are_one_body(yade):
+	"""Without a surface where they have a face in common; in the plane also parts of one."""
+	inPlane, inSpace = yade(scene + '''
+found = []
+for dim in 2, 3:
+	O.reset()
+	material('soil')
+	grid = MpmGrid(cellSize=0.5, dim=dim)
+	part = lambda low, high: pack.inAlignedBox((*low, 0), (*high, 1))
+	mpm.fill(part((0, 0), (2, 1)), grid, 2, 'soil', body='wall')
+	mpm.fill(part((0, 1), (2 if dim == 3 else 1, 2)), grid, 2, 'soil', body='wall')
+	body = grid.bodies[0]
+	x = np.array(body.vertices)
+	size = sum(np.linalg.norm(x[b] - x[a]) for a, b in body.pieces) if dim == 2 else sum(np.linalg.norm(np.cross(x[b] - x[a], x[c] - x[a])) / 2 for a, b, c in body.pieces)
+	found.append([len(grid.bodies), size])
+print(json.dumps(found))
+''').result
+	assert inPlane[0] == inSpace[0] == 1
+	assert abs(inPlane[1] - 8) < 1e-9 and abs(inSpace[1] - 16) < 1e-9
+
+
+refusing = scene + '''
+def two(names=('low', 'up'), between=('low', 'up'), **settings):
+	O.reset()
+	material('soil')
+	grid = MpmGrid(**dict(dict(cellSize=0.5), **settings.pop('grid', {})))
+	for i, name in enumerate(names):
+		O.bodies.append(mpm.fill(box((0, i), (2, i + 1)), grid, 2, 'soil', body=name))
+	held = MpmBoundary(max=(inf, 0, inf), fix='xy')
+	O.engines = [MpmImplicitEngine(**dict(dict(grid=grid, gravity=(0, -1, 0), boundaries=[held], contacts=[MpmBodyContact(between=between, friction=0)], verbosity=0), **settings))]
+	O.dt = 1
+'''
+refusals = {
+        "two(between=('low', 'top')); O.step()": ['contacts[0].between', "'top'", 'low, up'],
+        "two(names=(None, None)); O.step()": ['MpmGrid.bodies is empty'],
+        "two(names=('low', 'up', 'top'), between=('low', 'up')); O.step()": ["'up'", "'top'", 'no MpmBodyContact between'],
+        "two(water=[MpmWater(level=1)]); O.step()": ['MpmBodyContact', 'water'],
+        "two(grid=dict(period=(2, 0, 0))); O.step()": ['MpmBodyContact', 'period'],
+        "two(boundaries=[MpmBoundary(surface=[(0, 0), (2, 0)], fix='n')]); O.step()": ['MpmBodyContact', 'boundaries[0].surface'],
+        "two(); O.engines[0].contacts = [MpmBodyContact(between=('low', 'up'), friction=0), MpmBodyContact(between=('up', 'low'), friction=0)]; O.step()": ['contacts[0]', 'contacts[1]', 'one is admitted'],
+        "two(); O.bodies.erase(0); [O.bodies.erase(b.id) for b in list(O.bodies) if b.state.body == 1]; O.step()": ["'up'", 'no points'],
+        "two(); O.engines[0].grid.bodies = ()": [],
+        "two(); mpm.strengthReduction(O.engines[0])": ['bodies of points meet'],
+        "two(); O.step(); mpm.fill(box((0, 2), (2, 3)), O.engines[0].grid, 2, 'soil', body='up')": ['has made steps already'],
+        "two(); mpm.fill(box((0, 2), (2, 3)), O.engines[0].grid, 2, 'soil', body='')": ['a name that is not empty'],
+        "two(); shift('up', O.engines[0].grid, np.array([0, -0.3, 0])); O.step()": ['inside of body', 'must not overlap'],
+}
+
+
+def test_what_cannot_be_is_refused_by_name(yade):
+	outcomes = yade(refusing + f'''
+found = []
+for statement in {list(refusals)}:
+	try:
+		exec(statement)
+		found.append('')
+	except Exception as error:
+		found.append(str(error))
+print(json.dumps(found))
+''').result
+	for (statement, words), said in zip(refusals.items(), outcomes):
+		assert all(word in said for word in words) and bool(said) == bool(words), (statement, said)
