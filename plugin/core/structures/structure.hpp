@@ -68,6 +68,7 @@ struct Beam {
 	BeamSection         section;
 	double              plasticMoment = inf;            ///< [N m]
 	Vec<2>              weight        = Vec<2>::Zero(); ///< at the end of the step, over initial length [N/m]
+	bool isClosed = false; ///< the last vertex is the first one
 	std::vector<char>   isHinge;                        ///< by vertex: no moment there
 	std::array<bool, 3> fixedHead {}, fixedFoot {};     ///< x, y and turn of the first and of the last vertex
 	Vec<2>              headForce  = Vec<2>::Zero();    ///< at the end of the step [N]
@@ -108,15 +109,18 @@ struct Beam {
 	/// Half of the pieces at a vertex [m].
 	double lengthAt(int vertex) const
 	{
-		double sum = 0;
+		const int last = int(length0.size());
+		double    sum  = 0;
 		if (vertex > 0) sum += length0[vertex - 1] / 2;
-		if (vertex < int(length0.size())) sum += length0[vertex] / 2;
+		if (vertex < last) sum += length0[vertex] / 2;
+		if (isClosed && vertex % last == 0) sum = (length0.front() + length0.back()) / 2;
 		return sum;
 	}
 	/// Along the beam at a vertex, from its first to its last one.
 	Vec<2> tangentAt(int vertex) const
 	{
 		const int last = int(places.size()) - 1;
+		if (isClosed && vertex % last == 0) return (places[1] - places[last - 1]).normalized();
 		return (places[std::min(vertex + 1, last)] - places[std::max(vertex - 1, 0)]).normalized();
 	}
 };
@@ -125,6 +129,8 @@ struct Beam {
 template <int Dim> struct Structure {
 	std::vector<Bar<Dim>> bars;
 	std::optional<Beam>   beam {}; ///< in the plane
+
+	double work = 0; ///< on the soil in the last step that was accepted [J]
 
 	/// Number of vertices, those of the beam first.
 	int vertices() const
@@ -135,6 +141,13 @@ template <int Dim> struct Structure {
 		return int(sum);
 	}
 	std::string name() const { return beam ? beam->name : bars.front().name; }
+
+	/// All of it as much stiffer as the soil around it is made, with what has given way elastically as much less.
+	void stiffen(double scale);
+
+	/// Of the bars, and of the beam behind them.
+	std::vector<std::vector<Vec<Dim>>> places() const;
+	void                               putBack(const std::vector<std::vector<Vec<Dim>>>&);
 };
 
 /// Divides a line until its pieces are at most so long.

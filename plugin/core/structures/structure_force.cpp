@@ -207,7 +207,14 @@ template <int Dim> std::optional<PointFailure> StructureForce<Dim>::addCoupled(c
 	return std::nullopt;
 }
 
-template <int Dim> void StructureForce<Dim>::commitCoupled(const State& state) { system_->commit(equilibrium(state.displacements())); }
+template <int Dim> void StructureForce<Dim>::commitCoupled(const State& state)
+{
+	const Eigen::VectorXd soil = soilAt(state.displacements()), x = equilibrium(state.displacements());
+	const int             count = system_->soilUnknowns();
+	const Eigen::VectorXd first = system_->energyAt(system_->solve(Eigen::VectorXd::Zero(count), {}).x).gradient.head(count);
+	structure_.work             = -soil.dot(first + system_->energyAt(x).gradient.head(count)) / 2;
+	system_->commit(x);
+}
 
 /// Of loads on the structure, and of what holds its ends.
 template <int Dim> double StructureForce<Dim>::fromOutside(const Eigen::VectorXd& d) const

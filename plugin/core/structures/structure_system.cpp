@@ -66,7 +66,7 @@ template <int Dim> void StructureSystem<Dim>::number(const std::vector<SoilAtVer
 		if (bar.head == Head::pulled) stations_[first].moves = false;
 	});
 	for (int v = 0; v < int(stations_.size()); ++v)
-		if (soil[v].exists && stations_[v].moves) {
+		if (soil[v].exists && stations_[v].moves && !isSecondOfRing(v)) {
 			stations_[v].soil = unknowns_;
 			unknowns_ += Dim;
 		}
@@ -93,13 +93,14 @@ template <int Dim> void StructureSystem<Dim>::numberBeam()
 	if (!structure_.beam) return;
 	const Beam& beam = *structure_.beam;
 	const int   last = int(beam.places.size()) - 1;
-	for (int v = 0; v <= last; ++v)
+	for (int v = 0; v <= last - beam.isClosed; ++v)
 		for (int i = 0; i < 3; ++i) {
 			const bool isHeld = (v == 0 && beam.fixedHead[i]) || (v == last && beam.fixedFoot[i]);
 			// A hinge at an end leaves the turn of that end without meaning.
-			const bool isIdle = i == 2 && (v == 0 || v == last) && beam.isHinge[v];
+			const bool isIdle = i == 2 && (v == 0 || v == last) && !beam.isClosed && beam.isHinge[v];
 			if (!isHeld && !isIdle) stations_[v].own[i] = unknowns_++;
 		}
+	if (beam.isClosed) stations_[last].own = stations_[0].own;
 }
 
 template <int Dim> void StructureSystem<Dim>::addSprings(const std::vector<SoilAtVertex>& soil)
@@ -128,6 +129,7 @@ template <int Dim> void StructureSystem<Dim>::addBeamSprings(int v, const SoilAt
 {
 	Beam&          beam    = *structure_.beam;
 	const Station& station = stations_[v];
+	if (isSecondOfRing(v)) return;
 	if (station.soil < 0) {
 		beam.normalForce[v] = beam.shearForce[v] = 0;
 		return;
@@ -198,7 +200,7 @@ template <int Dim> BeamPiece StructureSystem<Dim>::beamPiece(std::size_t i) cons
 	const auto  strength = [&](std::size_t v) { return beam.isHinge[v] ? 0 : beam.plasticMoment; };
 	BeamPiece   made { beam.places[i + 1] - beam.places[i], beam.elongation[i], beam.length0[i], beam.bend[i] };
 	made.strength[0] = strength(i);
-	if (i + 1 == beam.length0.size()) made.strength[1] = strength(i + 1);
+	if (i + 1 == beam.length0.size() && !beam.isClosed) made.strength[1] = strength(i + 1);
 	return made;
 }
 
@@ -226,7 +228,7 @@ template <int Dim> void StructureSystem<Dim>::addLoads(const Eigen::VectorXd& x,
 	});
 	if (!structure_.beam) return;
 	const Beam& beam = *structure_.beam;
-	for (int v = 0; v < int(beam.places.size()); ++v)
+	for (int v = 0; v < int(beam.places.size()) - beam.isClosed; ++v)
 		for (int i = 0; i < 3; ++i) {
 			LinearForm own;
 			own.add(stations_[v].own[i], 1);
@@ -388,6 +390,9 @@ template <int Dim> void StructureSystem<Dim>::commitBeam(const Eigen::VectorXd& 
 		beam.places[v] += Vec<2>(valueAt(stations_[v].own[0]), valueAt(stations_[v].own[1]));
 		beam.turns[v] += valueAt(stations_[v].own[2]);
 	}
+	if (!beam.isClosed) return;
+	beam.normalForce.back() = beam.normalForce.front(), beam.shearForce.back() = beam.shearForce.front();
+	beam.gap.back() = beam.gap.front();
 }
 
 template <int Dim> void StructureSystem<Dim>::commit(const Eigen::VectorXd& x)
@@ -401,6 +406,12 @@ template <int Dim> void StructureSystem<Dim>::commit(const Eigen::VectorXd& x)
 	forBars([&](Bar<Dim>& bar, int first) { commitBar(bar, first, x); });
 	if constexpr (Dim == 2)
 		if (structure_.beam) commitBeam(x);
+}
+
+/// The last vertex of a closed beam, which is its first one.
+template <int Dim> bool StructureSystem<Dim>::isSecondOfRing(int v) const
+{
+	return structure_.beam && structure_.beam->isClosed && v + 1 == int(structure_.beam->places.size());
 }
 
 template class StructureSystem<2>;

@@ -64,6 +64,7 @@ private:
 	};
 
 	void                            number(const std::vector<SoilAtVertex>&);
+	bool isSecondOfRing(int vertex) const;
 	void                            numberBeam();
 	void                            addSprings(const std::vector<SoilAtVertex>&);
 	void                            addBeamSprings(int vertex, const SoilAtVertex&);
