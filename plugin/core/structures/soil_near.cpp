@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "core/structures/soil_near.hpp"
+#include "core/grid/refinement.hpp"
+
+namespace gimpm {
+
+template <int Dim> std::vector<SoilNear<Dim>> soilNear(const std::vector<Vec<Dim>>& places, const Beginning<Dim>& step)
+{
+	const double reach = step.grid.size(step.grid.refinement ? step.grid.refinement->largest() : 0);
+	const auto&  cloud = step.cloud;
+	Vec<Dim>     low = places.front(), high = low;
+	for (const Vec<Dim>& place : places)
+		low = low.cwiseMin(place), high = high.cwiseMax(place);
+	low.array() -= reach, high.array() += reach;
+
+	std::vector<SoilNear<Dim>> near(places.size());
+	std::vector<double>        weight(places.size(), 0);
+	for (std::size_t p = 0; p < cloud.size(); ++p) {
+		const Vec<Dim>& x = cloud.position[p];
+		if (!step.grid.isPeriodic() && ((x - low).minCoeff() < 0 || (high - x).minCoeff() < 0)) continue;
+		std::optional<VolumeAndModulus> soil;
+		for (std::size_t i = 0; i < places.size(); ++i) {
+			double nearness = 1;
+			for (int a = 0; a < Dim && nearness > 0; ++a) {
+				const double length = step.grid.cellSize * step.grid.period[a], apart = places[i][a] - x[a];
+				const double nearest = length > 0 ? apart - length * std::round(apart / length) : apart;
+				nearness *= std::max(0., 1 - std::abs(nearest) / reach);
+			}
+			if (nearness == 0) continue;
+			if (!soil) soil = step.stiffnessOf(int(p));
+			nearness *= soil->volume;
+			weight[i] += nearness;
+			near[i].young += nearness * soil->modulus;
+			near[i].stress.c += nearness * cloud.stress[p].c;
+		}
+	}
+	for (std::size_t i = 0; i < places.size(); ++i)
+		if (weight[i] > 0) near[i].young /= weight[i], near[i].stress.c /= weight[i];
+	return near;
+}
+
+template std::vector<SoilNear<2>> soilNear(const std::vector<Vec<2>>&, const Beginning<2>&);
+template std::vector<SoilNear<3>> soilNear(const std::vector<Vec<3>>&, const Beginning<3>&);
+
+} // namespace gimpm

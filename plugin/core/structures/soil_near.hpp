@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// What the soil is like around places of a line.
+#pragma once
+#include "core/terms/term.hpp"
+
+namespace gimpm {
+
+/// The mean of the points within a cell of a place, which count the more the nearer they are.
+template <int Dim> struct SoilNear {
+	SymTensor<Dim> stress {}; ///< Cauchy stress in the plane or in space [Pa]
+	double         young = 0; ///< [Pa]; 0: there are no points
+};
+
+template <int Dim> std::vector<SoilNear<Dim>> soilNear(const std::vector<Vec<Dim>>& places, const Beginning<Dim>&);
+
+} // namespace gimpm

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "core/structures/structure.hpp"
+
+namespace gimpm {
+namespace {
+
+void scaleAll(std::vector<double>& values, double scale)
+{
+	for (double& value : values)
+		value *= scale;
+}
+
+void stiffenBeam(Beam& beam, double scale)
+{
+	beam.section.axialStiffness /= scale, beam.section.bendingStiffness /= scale;
+	scaleAll(beam.elongation, scale);
+	scaleAll(beam.gap, scale);
+	for (Vec<2>& bend : beam.bend)
+		bend *= scale;
+}
+
+} // namespace
+
+template <int Dim> void Structure<Dim>::stiffen(double scale)
+{
+	for (auto& bar : bars) {
+		bar.section.stiffness /= scale, bar.bondStiffness /= scale;
+		scaleAll(bar.strain, scale);
+	}
+	if (beam) stiffenBeam(*beam, scale);
+}
+
+template <int Dim> std::vector<std::vector<Vec<Dim>>> Structure<Dim>::places() const
+{
+	std::vector<std::vector<Vec<Dim>>> all;
+	for (const auto& bar : bars)
+		all.push_back(bar.places);
+	if constexpr (Dim == 2)
+		if (beam) all.push_back(beam->places);
+	return all;
+}
+
+template <int Dim> void Structure<Dim>::putBack(const std::vector<std::vector<Vec<Dim>>>& places)
+{
+	for (std::size_t b = 0; b < bars.size(); ++b)
+		bars[b].places = places[b];
+	if constexpr (Dim == 2)
+		if (beam) beam->places = places.back();
+}
+
+template struct Structure<2>;
+template struct Structure<3>;
+
+} // namespace gimpm

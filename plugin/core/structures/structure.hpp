@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Bars and beams in the soil: what they are made of, and how they are as a step begins.
+#pragma once
+#include "core/structures/bar_element.hpp"
+#include "core/structures/beam_element.hpp"
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace gimpm {
+
+/// Lines are divided until their pieces are at most so long, in cells.
+constexpr double lengthOfPieces = 0.5;
+
+/// A line of vertices in the soil that carries forces along itself only. Vertices move with the soil, and along the bar
+/// against it where the bond yields.
+template <int Dim> struct Bar {
+	static constexpr double inf = std::numeric_limits<double>::infinity();
+
+	enum class Head {
+		bonded, ///< the first vertex is as the others
+		plate,  ///< it is fixed to the soil there
+		pulled, ///< there is no soil around it: a force pulls it along the bar
+		joined  ///< it is fixed to a vertex of the beam
+	};
+	std::string name = "a bar"; ///< what a message calls it
+	BarSection  section;
+	Head        head          = Head::bonded;
+	int         joint         = -1;    ///< vertex of the beam that the head is joined to
+	bool        hasFreeLength = false; ///< the first piece has no bond between its ends
+	/// Of the bond, per length of the bar.
+	double bondStiffness = inf; ///< force over slip [N/m2]; infinite: there is no slip
+	double bond          = inf; ///< strength without normal stress [N/m]
+	double friction      = 0;   ///< and for each Pa of normal stress on the bar: perimeter times tan(delta) [m]
+
+	double                pull = 0; ///< on the head at the end of the step, outwards along the bar [N]
+	std::optional<double> jack {};  ///< force of a jack at the end of the step: in the free length, or if there is none everywhere [N]
+
+	/// As the step begins.
+	std::vector<Vec<Dim>> places;    ///< of the vertices [m]
+	std::vector<double>   length0;   ///< of the pieces without stress [m]
+	std::vector<double>   strain;    ///< of the pieces: logarithmic, elastic, < 0 where they are slack
+	std::vector<double>   bondForce; ///< of each vertex: along the bar, on the bar against its slip [N]
+	std::vector<double>   slip;      ///< of each vertex: on along the bar against the soil [m]
+
+	std::vector<double> force; ///< of the pieces, in the last step that was accepted, tension positive [N]
+
+	/// A new one along these vertices.
+	void begin(std::vector<Vec<Dim>> vertices)
+	{
+		places = std::move(vertices);
+		for (std::size_t i = 0; i + 1 < places.size(); ++i)
+			length0.push_back((places[i + 1] - places[i]).norm());
+		strain.assign(length0.size(), 0);
+		force = strain;
+		bondForce.assign(places.size(), 0);
+		slip = bondForce;
+	}
+	bool slips() const { return std::isfinite(bondStiffness); }
+};
+
+/// A line of vertices in the plane, each with a place and a turn of its own, that the soil acts on by springs.
+struct Beam {
+	static constexpr double inf = std::numeric_limits<double>::infinity();
+
+	std::string         name = "a beam";
+	BeamSection         section;
+	double              plasticMoment = inf;            ///< [N m]
+	Vec<2>              weight        = Vec<2>::Zero(); ///< at the end of the step, over initial length [N/m]
+	bool isClosed = false; ///< the last vertex is the first one
+	std::vector<char>   isHinge;                        ///< by vertex: no moment there
+	std::array<bool, 3> fixedHead {}, fixedFoot {};     ///< x, y and turn of the first and of the last vertex
+	Vec<2>              headForce  = Vec<2>::Zero();    ///< at the end of the step [N]
+	double              headMoment = 0;                 ///< [N m]
+
+	/// Of the springs: stiffness over Young's modulus of the soil per cell [-]; strength of each side along the beam.
+	double stiffness = 10;
+	double adhesion  = inf; ///< [Pa]
+	double friction  = 0;   ///< tan(delta)
+
+	/// As the step begins.
+	std::vector<Vec<2>> places;
+	std::vector<double> turns;       ///< of the vertices in all [rad]
+	std::vector<double> length0;     ///< of the pieces [m]
+	std::vector<double> elongation;  ///< of the pieces [m]
+	std::vector<Vec<2>> bend;        ///< of the pieces: elastic turns of their ends [rad]
+	std::vector<double> normalForce; ///< of each vertex: on the soil, to the left of the beam [N]
+	std::vector<double> gap;         ///< of each vertex that has lost the soil on its only side [m]
+	std::vector<double> shearForce;  ///< of each vertex: on the soil, along the beam [N]
+
+	/// In the last step that was accepted.
+	std::vector<double> axialForce; ///< of the pieces [N]
+	std::vector<Vec<2>> moments;    ///< at the ends of the pieces, counterclockwise [N m]
+
+	void begin(std::vector<Vec<2>> vertices)
+	{
+		places = std::move(vertices);
+		for (std::size_t i = 0; i + 1 < places.size(); ++i)
+			length0.push_back((places[i + 1] - places[i]).norm());
+		elongation.assign(length0.size(), 0);
+		axialForce = elongation;
+		bend.assign(length0.size(), Vec<2>::Zero());
+		moments = bend;
+		turns.assign(places.size(), 0);
+		normalForce = gap = shearForce = turns;
+		if (isHinge.empty()) isHinge.assign(places.size(), 0);
+	}
+	/// Half of the pieces at a vertex [m].
+	double lengthAt(int vertex) const
+	{
+		const int last = int(length0.size());
+		double    sum  = 0;
+		if (vertex > 0) sum += length0[vertex - 1] / 2;
+		if (vertex < last) sum += length0[vertex] / 2;
+		if (isClosed && vertex % last == 0) sum = (length0.front() + length0.back()) / 2;
+		return sum;
+	}
+	/// Along the beam at a vertex, from its first to its last one.
+	Vec<2> tangentAt(int vertex) const
+	{
+		const int last = int(places.size()) - 1;
+		if (isClosed && vertex % last == 0) return (places[1] - places[last - 1]).normalized();
+		return (places[std::min(vertex + 1, last)] - places[std::max(vertex - 1, 0)]).normalized();
+	}
+};
+
+/// What is joined: bars, and a beam that some of them may be anchors of.
+template <int Dim> struct Structure {
+	std::vector<Bar<Dim>> bars;
+	std::optional<Beam>   beam {}; ///< in the plane
+
+	double work = 0; ///< on the soil in the last step that was accepted [J]
+
+	/// Number of vertices, those of the beam first.
+	int vertices() const
+	{
+		std::size_t sum = beam ? beam->places.size() : 0;
+		for (const auto& bar : bars)
+			sum += bar.places.size();
+		return int(sum);
+	}
+	std::string name() const { return beam ? beam->name : bars.front().name; }
+
+	/// All of it as much stiffer as the soil around it is made, with what has given way elastically as much less.
+	void stiffen(double scale);
+
+	/// Of the bars, and of the beam behind them.
+	std::vector<std::vector<Vec<Dim>>> places() const;
+	void                               putBack(const std::vector<std::vector<Vec<Dim>>>&);
+};
+
+/// Divides a line until its pieces are at most so long.
+template <int Dim> std::vector<Vec<Dim>> divided(const std::vector<Vec<Dim>>& line, double longest)
+{
+	std::vector<Vec<Dim>> fine { line.front() };
+	for (std::size_t i = 0; i + 1 < line.size(); ++i) {
+		const int pieces = std::max(1, int(std::ceil((line[i + 1] - line[i]).norm() / longest - 1e-9)));
+		for (int p = 1; p <= pieces; ++p)
+			fine.push_back(line[i] + double(p) / pieces * (line[i + 1] - line[i]));
+	}
+	return fine;
+}
+
+} // namespace gimpm

@@ -1,0 +1,249 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "core/structures/structure_force.hpp"
+#include "core/base/sentence.hpp"
+#include "core/grid/nearness.hpp"
+#include "core/structures/soil_near.hpp"
+
+namespace gimpm {
+namespace {
+
+/// How far a vertex of a bar may be from the domain of a point [cells]: as of a loaded surface.
+constexpr double nearDomain = 0.375;
+
+/// Where the soil beside a beam is looked for [cells]: material within the second of the first, to its left or right.
+constexpr double besideBeam = 0.5, besideReach = 0.25;
+
+/// On a line along t, pressure positive: in the plane on its sides, in space the mean around it.
+double normalStress(const SymTensor<2>& stress, const Vec<2>& t)
+{
+	const Vec<2> n(-t[1], t[0]);
+	return -n.dot(stress.inPlane() * n);
+}
+double normalStress(const SymTensor<3>& stress, const Vec<3>& t) { return -(stress.inPlane().trace() - t.dot(stress.inPlane() * t)) / 2; }
+
+template <int Dim> Vec<Dim> tangent(const std::vector<Vec<Dim>>& places, std::size_t v)
+{
+	return (places[std::min(v + 1, places.size() - 1)] - places[v > 0 ? v - 1 : 0]).normalized();
+}
+
+template <int Dim> double cellSizeAt(const std::optional<Attachment<Dim>>& at, const Grid<Dim>& grid) { return grid.size(at ? at->level : 0); }
+
+} // namespace
+
+template <int Dim> StructureForce<Dim>::StructureForce(Structure<Dim>& structure, const Beginning<Dim>& step) : structure_(structure)
+{
+	const auto soil = soilAround(step);
+	obstacle_       = missingSoil(step, soil);
+	if (obstacle_.empty()) obstacle_ = pulledOut(soil);
+	if (obstacle_.empty()) system_.emplace(structure, soil);
+}
+
+template <int Dim> std::vector<Vec<Dim>> StructureForce<Dim>::places() const
+{
+	std::vector<Vec<Dim>> all;
+	if constexpr (Dim == 2)
+		if (structure_.beam) all = structure_.beam->places;
+	for (const auto& bar : structure_.bars)
+		all.insert(all.end(), bar.places.begin(), bar.places.end());
+	return all;
+}
+
+/// Calls f(bar, vertex of the bar, vertex of all).
+template <int Dim> template <class F> void StructureForce<Dim>::forVertices(F&& f) const
+{
+	int all = structure_.beam ? int(structure_.beam->places.size()) : 0;
+	for (const auto& bar : structure_.bars)
+		for (int v = 0; v < int(bar.places.size()); ++v, ++all)
+			f(bar, v, all);
+}
+
+template <int Dim> std::vector<SoilAtVertex> StructureForce<Dim>::soilAround(const Beginning<Dim>& step)
+{
+	const auto                all  = places();
+	const auto                near = soilNear<Dim>(all, step);
+	std::vector<double>       reach;
+	std::vector<SoilAtVertex> soil(all.size());
+	for (std::size_t v = 0; v < all.size(); ++v) {
+		attached_.push_back(attach(all[v], step.basis, step.grid));
+		soil[v].cellSize = cellSizeAt(attached_[v], step.grid);
+		reach.push_back(nearDomain * soil[v].cellSize);
+		soil[v].young = near[v].young;
+	}
+	const auto isFar = areFarFromMaterial<Dim>(all, reach, step.cloud, step.grid);
+	forVertices([&](const Bar<Dim>& bar, int v, int i) {
+		using Head           = typename Bar<Dim>::Head;
+		const bool hasNone   = v == 0 && (bar.head == Head::pulled || bar.head == Head::joined);
+		soil[i].exists       = !hasNone && attached_[i] && !isFar[i];
+		soil[i].normalStress = normalStress(near[i].stress, tangent(bar.places, v));
+	});
+	if constexpr (Dim == 2)
+		if (structure_.beam) {
+			lookBesideBeam(step, soil);
+			for (std::size_t v = 0; v < structure_.beam->places.size(); ++v)
+				soil[v].normalStress = normalStress(near[v].stress, structure_.beam->tangentAt(int(v)));
+		}
+	return soil;
+}
+
+template <int Dim> void StructureForce<Dim>::lookBesideBeam(const Beginning<Dim>& step, std::vector<SoilAtVertex>& soil) const
+{
+	if constexpr (Dim == 2) {
+		const Beam&         beam = *structure_.beam;
+		std::vector<Vec<2>> beside;
+		std::vector<double> reach;
+		for (int v = 0; v < int(beam.places.size()); ++v) {
+			const Vec<2> t = beam.tangentAt(v), n(-t[1], t[0]);
+			for (const double side : { 1., -1. }) {
+				beside.push_back(beam.places[v] + side * besideBeam * soil[v].cellSize * n);
+				reach.push_back(besideReach * soil[v].cellSize);
+			}
+		}
+		const auto isFar = areFarFromMaterial<2>(beside, reach, step.cloud, step.grid);
+		for (std::size_t v = 0; v < beam.places.size(); ++v) {
+			soil[v].sides  = int(!isFar[2 * v]) | int(!isFar[2 * v + 1]) << 1;
+			soil[v].exists = attached_[v] && soil[v].sides != 0 && soil[v].young > 0;
+		}
+	}
+}
+
+template <int Dim> std::string StructureForce<Dim>::missingSoil(const Beginning<Dim>&, const std::vector<SoilAtVertex>& soil) const
+{
+	std::string missing;
+	forVertices([&](const Bar<Dim>& bar, int v, int i) {
+		using Head         = typename Bar<Dim>::Head;
+		const bool hasNone = v == 0 && (bar.head == Head::pulled || bar.head == Head::joined);
+		if (!missing.empty() || soil[i].exists || hasNone) return;
+		missing = sentence(
+		        bar.name, " has a vertex at (", bar.places[v].transpose(), "), where there is no material within ", nearDomain,
+		        " cells: let its line begin and end in the soil, and take it away where soil is dug out from around it");
+	});
+	return missing;
+}
+
+/// A force at the head that the bond can never take.
+template <int Dim> std::string StructureForce<Dim>::pulledOut(const std::vector<SoilAtVertex>& soil) const
+{
+	std::string         text;
+	std::vector<double> strength(structure_.bars.size(), 0);
+	forVertices([&](const Bar<Dim>& bar, int v, int i) {
+		double length = 0;
+		if (v > 0 && !(v == 1 && bar.hasFreeLength)) length += bar.length0[v - 1] / 2;
+		if (v < int(bar.length0.size()) && !(v == 0 && bar.hasFreeLength)) length += bar.length0[v] / 2;
+		strength[&bar - structure_.bars.data()]
+		        += length * bar.bond + (bar.friction > 0 ? length * bar.friction * std::max(0., soil[i].normalStress) : 0);
+	});
+	for (std::size_t b = 0; b < strength.size(); ++b) {
+		const auto& bar = structure_.bars[b];
+		if (!text.empty() || bar.pull <= strength[b] || !bar.slips() || bar.head == Bar<Dim>::Head::plate) continue;
+		text = sentence(
+		        bar.name, " is pulled out: the pull of ", bar.pull, " N is more than its bond can take, ", strength[b],
+		        " N by its strength and the normal stresses on it as they are");
+	}
+	return text;
+}
+
+template <int Dim> Eigen::VectorXd StructureForce<Dim>::soilAt(const Eigen::VectorXd& d) const
+{
+	Eigen::VectorXd soil(system_->soilUnknowns());
+	for (std::size_t v = 0; v < attached_.size(); ++v)
+		if (const int at = system_->soilUnknown(int(v)); at >= 0) soil.template segment<Dim>(at) = attached_[v]->displacement(d);
+	return soil;
+}
+
+template <int Dim> Eigen::VectorXd StructureForce<Dim>::equilibrium(const Eigen::VectorXd& d) const { return last_ = system_->solve(soilAt(d), last_).x; }
+
+/// Calls f(vertex, vertex, node of the first, node of the second, product of weights) for what the matrix joins.
+template <int Dim> template <class F> void StructureForce<Dim>::forJoined(F&& f) const
+{
+	const auto join = [&](int v, int w) {
+		if (system_->soilUnknown(v) < 0 || system_->soilUnknown(w) < 0) return;
+		const auto &from = *attached_[v], &to = *attached_[w];
+		for (int a = 0; a < from.nodes; ++a)
+			for (int b = 0; b < to.nodes; ++b)
+				f(v, w, from.node[a], to.node[b], from.weight[a] * to.weight[b]);
+	};
+	if (system_->hasOwnUnknowns()) {
+		for (int v = 0; v < int(attached_.size()); ++v)
+			for (int w = 0; w < int(attached_.size()); ++w)
+				join(v, w);
+	} else
+		for (const auto& [v, w] : system_->joinedVertices()) {
+			join(v, w);
+			if (v != w) join(w, v);
+		}
+}
+
+template <int Dim> void StructureForce<Dim>::markCouplings(Couplings& K) const
+{
+	if (!system_) return;
+	std::vector<std::pair<int, int>> pairs;
+	forJoined([&](int, int, int a, int b, double) { pairs.emplace_back(std::min(a, b), std::max(a, b)); });
+	std::sort(pairs.begin(), pairs.end());
+	pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+	for (const auto& [a, b] : pairs)
+		K.mark({ 0, a }, { 0, b });
+}
+
+template <int Dim> std::optional<PointFailure> StructureForce<Dim>::addCoupled(const State& state, const FieldSum<Dim>& sum) const
+{
+	if (!system_) return std::nullopt;
+	const EnergySum at = system_->energyAt(equilibrium(state.displacements()));
+	for (std::size_t v = 0; v < attached_.size(); ++v) {
+		const int first = system_->soilUnknown(int(v));
+		if (first < 0) continue;
+		for (int n = 0; n < attached_[v]->nodes; ++n) {
+			const int    node   = attached_[v]->node[n];
+			const double weight = attached_[v]->weight[n];
+			sum.force[0].template segment<Dim>(Dim * node) += weight * at.gradient.template segment<Dim>(first);
+			sum.sizes[0].template segment<Dim>(Dim * node) += std::abs(weight) * at.sizes.template segment<Dim>(first);
+		}
+	}
+	if (!sum.couplings) return std::nullopt;
+	const Eigen::MatrixXd K = system_->condensed(at);
+	forJoined([&](int v, int w, int a, int b, double weight) {
+		const Mat<Dim> block = weight * K.template block<Dim, Dim>(system_->soilUnknown(v), system_->soilUnknown(w));
+		sum.couplings->add({ 0, a }, { 0, b }, block);
+	});
+	return std::nullopt;
+}
+
+template <int Dim> void StructureForce<Dim>::commitCoupled(const State& state)
+{
+	const Eigen::VectorXd soil = soilAt(state.displacements()), x = equilibrium(state.displacements());
+	const int             count = system_->soilUnknowns();
+	const Eigen::VectorXd first = system_->energyAt(system_->solve(Eigen::VectorXd::Zero(count), {}).x).gradient.head(count);
+	structure_.work             = -soil.dot(first + system_->energyAt(x).gradient.head(count)) / 2;
+	system_->commit(x);
+}
+
+/// Of loads on the structure, and of what holds its ends.
+template <int Dim> double StructureForce<Dim>::fromOutside(const Eigen::VectorXd& d) const
+{
+	if (!system_) return 0;
+	bool isLoaded = structure_.beam.has_value();
+	for (const auto& bar : structure_.bars)
+		isLoaded = isLoaded || bar.pull != 0;
+	return isLoaded ? system_->energyAt(equilibrium(d)).gradient.head(system_->soilUnknowns()).norm() : 0;
+}
+
+/// A beam that is held at an end holds the soil around it.
+template <int Dim> void StructureForce<Dim>::restrain(const typename Term<Dim>::Hold& hold) const
+{
+	if (!structure_.beam || !system_) return;
+	const Beam& beam = *structure_.beam;
+	for (int v = 0; v < int(beam.places.size()); ++v)
+		for (int a = 0; a < Dim && system_->soilUnknown(v) >= 0; ++a)
+			if (beam.fixedHead[a] || beam.fixedFoot[a]) hold(attached_[v]->node[0], Vec<Dim>::Unit(a), attached_[v]->inCell());
+}
+
+template <int Dim> Refusal StructureForce<Dim>::refusal(const Eigen::VectorXd& d) const
+{
+	if (!system_ || system_->solve(soilAt(d), last_).isFound) return {};
+	return { Failure::refused, structure_.name() + " finds no equilibrium with the soil around it",
+		 "It may have been pulled out, have buckled, or have become a mechanism by hinges that yield: shorter steps show how it gets there." };
+}
+
+template class StructureForce<2>;
+template class StructureForce<3>;
+
+} // namespace gimpm

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// What bars and beams do to the soil that they are in.
+#pragma once
+#include "core/grid/attachment.hpp"
+#include "core/structures/structure_system.hpp"
+#include "core/terms/coupled_term.hpp"
+
+namespace gimpm {
+
+/// At each iterate the structure's own unknowns are those of its equilibrium with the soil as it is there. What is left
+/// is a force on the nodes around it and its derivative, which is symmetric, dense among these nodes, and exact.
+template <int Dim> class StructureForce : public CoupledTerm<Dim> {
+public:
+	/// The structure is moved in commitCoupled().
+	StructureForce(Structure<Dim>&, const Beginning<Dim>&);
+
+	void                        markCouplings(Couplings&) const override;
+	std::optional<PointFailure> addCoupled(const State&, const FieldSum<Dim>&) const override;
+	void                        commitCoupled(const State&) override;
+	std::string                 obstacle() const override { return obstacle_; }
+	double                      fromOutside(const Eigen::VectorXd& d) const override;
+	void                        restrain(const typename Term<Dim>::Hold&) const override;
+	Refusal                     refusal(const Eigen::VectorXd& d) const override;
+
+private:
+	std::vector<Vec<Dim>>     places() const;
+	std::vector<SoilAtVertex> soilAround(const Beginning<Dim>&);
+	void                      lookBesideBeam(const Beginning<Dim>&, std::vector<SoilAtVertex>&) const;
+	std::string               missingSoil(const Beginning<Dim>&, const std::vector<SoilAtVertex>&) const;
+	std::string               pulledOut(const std::vector<SoilAtVertex>&) const;
+	Eigen::VectorXd           soilAt(const Eigen::VectorXd& d) const;
+	Eigen::VectorXd           equilibrium(const Eigen::VectorXd& d) const;
+	template <class F> void   forVertices(F&& f) const;
+	template <class F> void   forJoined(F&& f) const;
+
+	Structure<Dim>&                             structure_;
+	std::vector<std::optional<Attachment<Dim>>> attached_; ///< by vertex
+	std::optional<StructureSystem<Dim>>         system_;
+	std::string                                 obstacle_;
+	mutable Eigen::VectorXd                     last_; ///< solution at the last iterate, from which the next one is looked for
+};
+
+} // namespace gimpm

@@ -1,0 +1,420 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "core/structures/structure_system.hpp"
+#include <Eigen/SparseCholesky>
+
+namespace gimpm {
+namespace {
+
+using Sparse = Eigen::SparseMatrix<double>;
+
+/// Of a spring that yields at a force, or that only presses: its force and slope are the derivatives; with a secant, that
+/// of a parabola which touches the energy here and is above it elsewhere.
+Energy<1> springEnergy(double trial, double stiffness, double limit, bool oneSided, bool secant = false)
+{
+	Energy<1> energy;
+	if (oneSided && trial < 0) return energy;
+	if (std::abs(trial) <= limit) {
+		energy.value         = trial * trial / (2 * stiffness);
+		energy.gradient[0]   = trial;
+		energy.hessian(0, 0) = stiffness;
+	} else {
+		energy.value       = limit * (std::abs(trial) - limit / 2) / stiffness;
+		energy.gradient[0] = trial < 0 ? -limit : limit;
+		if (secant) energy.hessian(0, 0) = stiffness * limit / std::abs(trial);
+	}
+	return energy;
+}
+
+/// Solves with a symmetric matrix, made definite where nothing resists, as where all springs have yielded.
+class Factor {
+public:
+	explicit Factor(const Sparse& matrix)
+	{
+		factor_.compute(matrix);
+		if (isUsable()) return;
+		const double largest = matrix.nonZeros() > 0 ? matrix.diagonal().cwiseAbs().maxCoeff() : 0;
+		Sparse       shift(matrix.rows(), matrix.cols());
+		shift.setIdentity();
+		factor_.compute(matrix + (largest > 0 ? 1e-9 * largest : 1.) * shift);
+	}
+	template <class B> auto solve(const B& b) const { return factor_.solve(b); }
+	bool                    isDefinite() const { return factor_.info() == Eigen::Success && factor_.vectorD().minCoeff() > 0; }
+
+private:
+	bool isUsable() const { return factor_.info() == Eigen::Success && factor_.vectorD().cwiseAbs().minCoeff() > 0; }
+
+	Eigen::SimplicialLDLT<Sparse> factor_;
+};
+
+} // namespace
+
+template <int Dim> StructureSystem<Dim>::StructureSystem(Structure<Dim>& structure, const std::vector<SoilAtVertex>& soil) : structure_(structure)
+{
+	number(soil);
+	addSprings(soil);
+}
+
+/// The beam's vertices come first, of which the heads of bars may be copies.
+template <int Dim> void StructureSystem<Dim>::number(const std::vector<SoilAtVertex>& soil)
+{
+	using Head = typename Bar<Dim>::Head;
+	stations_.resize(structure_.vertices());
+	const int ofBeam = structure_.beam ? int(structure_.beam->places.size()) : 0;
+	for (int v = 0; v < ofBeam; ++v)
+		stations_[v].isFree = true;
+	forBars([&](const Bar<Dim>& bar, int first) {
+		if (bar.head == Head::pulled) stations_[first].moves = false;
+	});
+	for (int v = 0; v < int(stations_.size()); ++v)
+		if (soil[v].exists && stations_[v].moves && !isSecondOfRing(v)) {
+			stations_[v].soil = unknowns_;
+			unknowns_ += Dim;
+		}
+	soilUnknowns_ = unknowns_;
+	if constexpr (Dim == 2) numberBeam();
+	forBars([&](const Bar<Dim>& bar, int first) {
+		const int last = int(bar.places.size()) - 1;
+		for (int v = 0; v <= last; ++v) {
+			Station& station = stations_[first + v];
+			if (v == 0 && bar.head == Head::joined) {
+				station      = stations_[bar.joint];
+				station.soil = -1;
+				continue;
+			}
+			station.direction = (bar.places[std::min(v + 1, last)] - bar.places[std::max(v - 1, 0)]).normalized();
+			const bool isHead = v == 0 && bar.head != Head::bonded;
+			if (isHead ? bar.head == Head::pulled : bar.slips()) station.slip = unknowns_++;
+		}
+	});
+}
+
+template <int Dim> void StructureSystem<Dim>::numberBeam()
+{
+	if (!structure_.beam) return;
+	const Beam& beam = *structure_.beam;
+	const int   last = int(beam.places.size()) - 1;
+	for (int v = 0; v <= last - beam.isClosed; ++v)
+		for (int i = 0; i < 3; ++i) {
+			const bool isHeld = (v == 0 && beam.fixedHead[i]) || (v == last && beam.fixedFoot[i]);
+			// A hinge at an end leaves the turn of that end without meaning.
+			const bool isIdle = i == 2 && (v == 0 || v == last) && !beam.isClosed && beam.isHinge[v];
+			if (!isHeld && !isIdle) stations_[v].own[i] = unknowns_++;
+		}
+	if (beam.isClosed) stations_[last].own = stations_[0].own;
+}
+
+template <int Dim> void StructureSystem<Dim>::addSprings(const std::vector<SoilAtVertex>& soil)
+{
+	if constexpr (Dim == 2)
+		for (int v = 0; structure_.beam && v < int(structure_.beam->places.size()); ++v)
+			addBeamSprings(v, soil[v]);
+	forBars([&](Bar<Dim>& bar, int first) {
+		for (std::size_t v = 0; v < bar.places.size() && bar.slips(); ++v) {
+			const Station& station = stations_[first + v];
+			if (station.slip < 0 || !station.moves) continue;
+			double length = 0; // of the bar that is bonded here
+			if (v > 0 && !(v == 1 && bar.hasFreeLength)) length += bar.length0[v - 1] / 2;
+			if (v < bar.length0.size()) length += bar.length0[v] / 2;
+			Spring spring { {}, length * bar.bondStiffness, bar.bondForce[v], length * bar.bond, false, &bar.bondForce[v] };
+			if (bar.friction > 0) spring.limit += length * bar.friction * std::max(0., soil[first + v].normalStress);
+			spring.form.add(station.slip, 1);
+			springs_.push_back(spring);
+		}
+	});
+}
+
+/// One that presses, and one along the beam. Where there is soil on both sides it is one body, which is pressed to either
+/// side; where there is some on one side, the beam may leave it.
+template <int Dim> void StructureSystem<Dim>::addBeamSprings(int v, const SoilAtVertex& soil)
+{
+	Beam&          beam    = *structure_.beam;
+	const Station& station = stations_[v];
+	if (isSecondOfRing(v)) return;
+	if (station.soil < 0) {
+		beam.normalForce[v] = beam.shearForce[v] = 0;
+		return;
+	}
+	const bool   onBoth = soil.sides == 3;
+	const Vec<2> t = beam.tangentAt(v), n = (soil.sides == 2 ? -1 : 1) * Vec<2>(-t[1], t[0]);
+	const double length = beam.lengthAt(v), stiffness = beam.stiffness * soil.young / soil.cellSize * length;
+	const double sign  = soil.sides == 2 ? -1 : 1;
+	const auto   along = [&](const Vec<2>& e) {
+                LinearForm form;
+                for (int a = 0; a < 2; ++a) {
+                        form.add(station.own[a], e[a]);
+                        form.add(station.soil + a, -e[a]);
+                }
+                return form;
+	};
+	const double pressed = sign * beam.normalForce[v];
+	Spring       normal { along(n), stiffness, onBoth ? pressed : pressed - stiffness * beam.gap[v], Beam::inf, !onBoth, &beam.normalForce[v] };
+	normal.gap = &beam.gap[v];
+	if (sign < 0) normal.isReversed = true;
+	springs_.push_back(normal);
+	const double pressure = onBoth ? 2 * std::max(0., soil.normalStress) * length : std::max(0., pressed);
+	const double adhesion = onBoth ? 2 * length * beam.adhesion : beam.gap[v] > 0 ? 0 : length * beam.adhesion;
+	springs_.push_back({ along(t), stiffness, beam.shearForce[v], adhesion + beam.friction * pressure, false, &beam.shearForce[v] });
+}
+
+template <int Dim> LinearForm StructureSystem<Dim>::component(const Station& station, int axis) const
+{
+	LinearForm form;
+	if (station.isFree) form.add(station.own[axis], 1);
+	else if (station.moves)
+		form.add(station.soil + axis, 1);
+	form.add(station.slip, station.direction[axis]);
+	return form;
+}
+
+template <int Dim> std::array<LinearForm, 2 * Dim> StructureSystem<Dim>::ends(int first, int second) const
+{
+	std::array<LinearForm, 2 * Dim> forms;
+	for (int a = 0; a < Dim; ++a) {
+		forms[a]       = component(stations_[first], a);
+		forms[Dim + a] = component(stations_[second], a);
+	}
+	return forms;
+}
+
+template <int Dim> std::array<LinearForm, 6> StructureSystem<Dim>::beamEnds(int first) const
+{
+	std::array<LinearForm, 6> forms;
+	for (int end = 0; end < 2; ++end)
+		for (int i = 0; i < 3; ++i)
+			forms[3 * end + i].add(stations_[first + end].own[i], 1);
+	return forms;
+}
+
+template <int Dim> BarPiece<Dim> StructureSystem<Dim>::piece(const Bar<Dim>& bar, std::size_t i) const
+{
+	BarPiece<Dim> made { bar.places[i + 1] - bar.places[i], bar.strain[i], bar.length0[i] };
+	if (i == 0 || !bar.hasFreeLength) made.given = bar.jack;
+	return made;
+}
+
+/// Of two pieces that meet, one has the strength of the section between them: where both had it and yielded, nothing
+/// would say how much either turns.
+template <int Dim> BeamPiece StructureSystem<Dim>::beamPiece(std::size_t i) const
+{
+	const Beam& beam     = *structure_.beam;
+	const auto  strength = [&](std::size_t v) { return beam.isHinge[v] ? 0 : beam.plasticMoment; };
+	BeamPiece   made { beam.places[i + 1] - beam.places[i], beam.elongation[i], beam.length0[i], beam.bend[i] };
+	made.strength[0] = strength(i);
+	if (i + 1 == beam.length0.size() && !beam.isClosed) made.strength[1] = strength(i + 1);
+	return made;
+}
+
+template <int N> Eigen::Matrix<double, N, 1> valuesOf(const std::array<LinearForm, N>& forms, const Eigen::VectorXd& x)
+{
+	Eigen::Matrix<double, N, 1> values;
+	for (int i = 0; i < N; ++i)
+		values[i] = forms[i].at(x);
+	return values;
+}
+
+template <int Dim> void StructureSystem<Dim>::addLoads(const Eigen::VectorXd& x, EnergySum& sum) const
+{
+	const auto add = [&](const LinearForm& along, double force) {
+		if (force == 0) return;
+		Energy<1> energy;
+		energy.value       = -force * along.at(x);
+		energy.gradient[0] = -force;
+		sum.add<1>({ along }, energy);
+	};
+	forBars([&](const Bar<Dim>& bar, int first) {
+		const Vec<Dim> outwards = (bar.places[0] - bar.places[1]).normalized();
+		for (int a = 0; a < Dim; ++a)
+			add(component(stations_[first], a), bar.pull * outwards[a]);
+	});
+	if (!structure_.beam) return;
+	const Beam& beam = *structure_.beam;
+	for (int v = 0; v < int(beam.places.size()) - beam.isClosed; ++v)
+		for (int i = 0; i < 3; ++i) {
+			LinearForm own;
+			own.add(stations_[v].own[i], 1);
+			double force = i < 2 ? beam.weight[i] * beam.lengthAt(v) : 0;
+			if (v == 0) force += i < 2 ? beam.headForce[i] : beam.headMoment;
+			add(own, force);
+		}
+}
+
+template <int Dim> EnergySum StructureSystem<Dim>::energyAt(const Eigen::VectorXd& x, bool secants) const
+{
+	EnergySum sum(unknowns_);
+	forBars([&](const Bar<Dim>& bar, int first) {
+		for (std::size_t i = 0; i < bar.length0.size(); ++i) {
+			const auto forms = ends(first + int(i), first + int(i) + 1);
+			sum.add<2 * Dim>(forms, energyOf<Dim>(piece(bar, i), bar.section, valuesOf<2 * Dim>(forms, x)));
+		}
+	});
+	if constexpr (Dim == 2)
+		for (std::size_t i = 0; structure_.beam && i < structure_.beam->length0.size(); ++i) {
+			const auto forms = beamEnds(int(i));
+			sum.add<6>(forms, energyOf(beamPiece(i), structure_.beam->section, valuesOf<6>(forms, x)));
+		}
+	for (const Spring& spring : springs_) {
+		const double trial = spring.force + spring.stiffness * spring.form.at(x);
+		sum.add<1>({ spring.form }, springEnergy(trial, spring.stiffness, spring.limit, spring.oneSided, secants));
+	}
+	addLoads(x, sum);
+	return sum;
+}
+
+namespace {
+
+/// The part of a second derivative in these rows and columns.
+Sparse part(const EnergySum& sum, int row, int rows, int column, int columns)
+{
+	std::vector<Eigen::Triplet<double>> entries;
+	for (const auto& entry : sum.hessian)
+		if (entry.row() >= row && entry.row() < row + rows && entry.col() >= column && entry.col() < column + columns)
+			entries.emplace_back(entry.row() - row, entry.col() - column, entry.value());
+	Sparse matrix(rows, columns);
+	matrix.setFromTriplets(entries.begin(), entries.end());
+	return matrix;
+}
+
+} // namespace
+
+/// Downhill: where the second derivative says otherwise, by the diagonal.
+template <int Dim> Eigen::VectorXd StructureSystem<Dim>::direction(const EnergySum& sum) const
+{
+	const int             own      = unknowns_ - soilUnknowns_;
+	const Eigen::VectorXd gradient = sum.gradient.tail(own);
+	const Sparse          H        = part(sum, soilUnknowns_, own, soilUnknowns_, own);
+	Eigen::VectorXd       step     = -Factor(H).solve(gradient);
+	if (!step.allFinite() || step.dot(gradient) > 0) step = -gradient.cwiseQuotient(Eigen::VectorXd(H.diagonal()).cwiseAbs().cwiseMax(1e-300));
+	return step;
+}
+
+/// By Newton's method first, in whole steps: where a slender beam turns, these take the energy up once and then far down,
+/// while shorter ones that only go down hardly get on. Where most springs yield nothing holds the structure for it; by
+/// secants of the springs the energy then only goes down, and Newton's method ends what they begin.
+template <int Dim> typename StructureSystem<Dim>::Solution StructureSystem<Dim>::solve(const Eigen::VectorXd& soil, const Eigen::VectorXd& guess) const
+{
+	constexpr int newtonSteps = 25, secantSteps = 40, rounds = 5;
+	Solution      start { Eigen::VectorXd::Zero(unknowns_) };
+	start.x.head(soilUnknowns_) = soil;
+	if (!hasOwnUnknowns()) return start;
+	if (guess.size() > 0) start.x.tail(unknowns_ - soilUnknowns_) = guess.tail(unknowns_ - soilUnknowns_);
+	Solution found = iterate(start.x, newtonSteps, false);
+	for (int round = 0; round < rounds && !found.isFound; ++round) {
+		start = iterate(start.x, secantSteps, true);
+		found = iterate(start.x, newtonSteps, false);
+	}
+	return found;
+}
+
+template <int Dim> typename StructureSystem<Dim>::Solution StructureSystem<Dim>::iterate(Eigen::VectorXd from, int mostSteps, bool secants) const
+{
+	constexpr double tolerance = 1e-11, roundOffOfForces = 1e-8, leastDescent = 1e-4;
+	constexpr int    mostHalves = 30;
+	const int        own        = unknowns_ - soilUnknowns_;
+	Solution         at { std::move(from) };
+	EnergySum        sum = energyAt(at.x, secants);
+	for (int step = 0; step < mostSteps; ++step) {
+		const Eigen::VectorXd gradient = sum.gradient.tail(own);
+		if (!(gradient.norm() > tolerance * sum.sizes.tail(own).norm())) break;
+		const Eigen::VectorXd direction = this->direction(sum);
+		const double          slope = gradient.dot(direction), roundOff = 1e-13 * std::abs(sum.value);
+		Eigen::VectorXd       x = at.x;
+		EnergySum             next(0);
+		double                length = 1;
+		for (int half = 0; half < mostHalves; ++half, length /= 2) {
+			x.tail(own) = at.x.tail(own) + length * direction;
+			next        = energyAt(x, secants);
+			if (!secants || next.value <= sum.value + leastDescent * length * slope + roundOff) break;
+		}
+		at.x = x, sum = std::move(next);
+	}
+	at.isFound = sum.gradient.tail(own).norm() <= roundOffOfForces * sum.sizes.tail(own).norm();
+	return at;
+}
+
+template <int Dim> Eigen::MatrixXd StructureSystem<Dim>::condensed(const EnergySum& sum) const
+{
+	const int       own = unknowns_ - soilUnknowns_;
+	Eigen::MatrixXd K   = part(sum, 0, soilUnknowns_, 0, soilUnknowns_);
+	if (own == 0) return K;
+	const Sparse across = part(sum, soilUnknowns_, own, 0, soilUnknowns_);
+	const Factor factor(part(sum, soilUnknowns_, own, soilUnknowns_, own));
+	K -= across.transpose() * Eigen::MatrixXd(factor.solve(Eigen::MatrixXd(across)));
+	return K;
+}
+
+template <int Dim> std::vector<std::pair<int, int>> StructureSystem<Dim>::joinedVertices() const
+{
+	std::vector<std::pair<int, int>> joined;
+	forBars([&](const Bar<Dim>& bar, int first) {
+		for (int i = 0; i < int(bar.places.size()); ++i) {
+			joined.emplace_back(first + i, first + i);
+			if (i > 0) joined.emplace_back(first + i - 1, first + i);
+		}
+	});
+	return joined;
+}
+
+template <int Dim> void StructureSystem<Dim>::commitBar(Bar<Dim>& bar, int first, const Eigen::VectorXd& x)
+{
+	std::vector<Vec<Dim>> moved = bar.places;
+	for (std::size_t v = 0; v < moved.size(); ++v)
+		for (int a = 0; a < Dim; ++a)
+			moved[v][a] += component(stations_[first + v], a).at(x);
+	for (std::size_t i = 0; i < bar.length0.size(); ++i) {
+		const BarPiece<Dim> before = piece(bar, i);
+		const auto          u      = valuesOf<2 * Dim>(ends(first + int(i), first + int(i) + 1), x);
+		const double        over   = bar.length0[i] / (moved[i + 1] - moved[i]).norm();
+		const double        strain = before.strainAfter(u.template tail<Dim>() - u.template head<Dim>());
+		bar.force[i]               = before.given ? *before.given : over * bar.section.at(strain).gradient[0];
+		bar.strain[i]              = before.given ? *before.given / over / bar.section.stiffness : bar.section.elastic(strain);
+	}
+	for (std::size_t v = 0; v < moved.size(); ++v)
+		if (const int slip = stations_[first + v].slip; slip >= 0 && stations_[first + v].moves) bar.slip[v] += x[slip];
+	bar.places = std::move(moved);
+}
+
+template <int Dim> void StructureSystem<Dim>::commitBeam(const Eigen::VectorXd& x)
+{
+	Beam& beam = *structure_.beam;
+	for (std::size_t i = 0; i < beam.length0.size(); ++i) {
+		const BeamPiece  before = beamPiece(i);
+		const BeamShape  shape(before, valuesOf<6>(beamEnds(int(i)), x));
+		const EndMoments ends = endMoments(before, beam.section, shape.turns);
+		beam.elongation[i]    = shape.elongation;
+		beam.bend[i]          = shape.turns - ends.yielded;
+		beam.axialForce[i]    = beam.section.axialStiffness / beam.length0[i] * shape.elongation;
+		beam.moments[i]       = ends.moment;
+	}
+	const auto valueAt = [&](int unknown) { return unknown < 0 ? 0 : x[unknown]; };
+	for (std::size_t v = 0; v < beam.places.size(); ++v) {
+		beam.places[v] += Vec<2>(valueAt(stations_[v].own[0]), valueAt(stations_[v].own[1]));
+		beam.turns[v] += valueAt(stations_[v].own[2]);
+	}
+	if (!beam.isClosed) return;
+	beam.normalForce.back() = beam.normalForce.front(), beam.shearForce.back() = beam.shearForce.front();
+	beam.gap.back() = beam.gap.front();
+}
+
+template <int Dim> void StructureSystem<Dim>::commit(const Eigen::VectorXd& x)
+{
+	for (const Spring& spring : springs_) {
+		const double trial = spring.force + spring.stiffness * spring.form.at(x);
+		const double force = springEnergy(trial, spring.stiffness, spring.limit, spring.oneSided).gradient[0];
+		*spring.memory     = spring.isReversed ? -force : force;
+		if (spring.gap) *spring.gap = spring.oneSided && trial < 0 ? -trial / spring.stiffness : 0;
+	}
+	forBars([&](Bar<Dim>& bar, int first) { commitBar(bar, first, x); });
+	if constexpr (Dim == 2)
+		if (structure_.beam) commitBeam(x);
+}
+
+/// The last vertex of a closed beam, which is its first one.
+template <int Dim> bool StructureSystem<Dim>::isSecondOfRing(int v) const
+{
+	return structure_.beam && structure_.beam->isClosed && v + 1 == int(structure_.beam->places.size());
+}
+
+template class StructureSystem<2>;
+template class StructureSystem<3>;
+
+} // namespace gimpm

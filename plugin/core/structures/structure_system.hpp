@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Bars and a beam in equilibrium with given displacements of the soil around them.
+#pragma once
+#include "core/structures/structure.hpp"
+
+namespace gimpm {
+
+/// The soil at a vertex as a step begins.
+struct SoilAtVertex {
+	bool   exists       = false;
+	int    sides        = 0; ///< of a beam: bit 0 to its left, bit 1 to its right
+	double normalStress = 0; ///< on the line, pressure positive [Pa]
+	double young        = 0; ///< [Pa]
+	double cellSize     = 1; ///< [m]
+};
+
+/// Unknowns are the displacements of the soil at the vertices that have some, Dim each, and then those of the structure
+/// itself: of a beam's vertices, and slips. All are those of the step. They minimise an energy of the step, with respect
+/// to the structure's own unknowns here, so that these never reach the unknowns of the grid.
+template <int Dim> class StructureSystem {
+public:
+	/// The structure must outlive it; the soil by vertex, those of the beam first.
+	StructureSystem(Structure<Dim>&, const std::vector<SoilAtVertex>&);
+
+	int  soilUnknowns() const { return soilUnknowns_; }
+	bool hasOwnUnknowns() const { return unknowns_ > soilUnknowns_; }
+	/// First unknown of the soil at a vertex; -1: it has none.
+	int soilUnknown(int vertex) const { return stations_[vertex].soil; }
+	/// Pairs of vertices that a piece without unknowns of its own joins, each once, with the vertex itself.
+	std::vector<std::pair<int, int>> joinedVertices() const;
+
+	struct Solution {
+		Eigen::VectorXd x;
+		bool            isFound = true;
+	};
+	/// Of the structure's equilibrium, from a first guess of its own unknowns; all zero if that is empty.
+	Solution solve(const Eigen::VectorXd& soil, const Eigen::VectorXd& guess) const;
+
+	/// On the soil at equilibrium: the force by which the structure resists its displacements, and the derivative.
+	EnergySum       energyAt(const Eigen::VectorXd& x, bool secants = false) const;
+	Eigen::MatrixXd condensed(const EnergySum&) const;
+
+	/// Takes over the state at x.
+	void commit(const Eigen::VectorXd& x);
+
+private:
+	/// A vertex: what its displacement is made of.
+	struct Station {
+		int                soil      = -1;   ///< first unknown of the soil around it
+		bool               moves     = true; ///< with the soil
+		int                slip      = -1;   ///< unknown along `direction`
+		Vec<Dim>           direction = Vec<Dim>::Zero();
+		std::array<int, 3> own { -1, -1, -1 }; ///< of a beam: x, y, turn
+		bool               isFree = false;     ///< of a beam
+	};
+	/// A spring with a limited force.
+	struct Spring {
+		LinearForm form;
+		double     stiffness, force, limit; ///< force: as the step begins
+		bool       oneSided;                ///< a force that cannot be negative, without memory of what it would have been
+		double*    memory;
+		double*    gap        = nullptr;
+		bool       isReversed = false; ///< what is remembered has the other sign
+	};
+
+	void                            number(const std::vector<SoilAtVertex>&);
+	bool isSecondOfRing(int vertex) const;
+	void                            numberBeam();
+	void                            addSprings(const std::vector<SoilAtVertex>&);
+	void                            addBeamSprings(int vertex, const SoilAtVertex&);
+	std::array<LinearForm, 2 * Dim> ends(int first, int second) const;
+	LinearForm                      component(const Station&, int axis) const;
+	BarPiece<Dim>                   piece(const Bar<Dim>&, std::size_t number) const;
+	std::array<LinearForm, 6>       beamEnds(int first) const;
+	BeamPiece                       beamPiece(std::size_t number) const;
+	void                            addLoads(const Eigen::VectorXd& x, EnergySum&) const;
+	void                            commitBar(Bar<Dim>&, int first, const Eigen::VectorXd& x);
+	void                            commitBeam(const Eigen::VectorXd& x);
+	Eigen::VectorXd                 direction(const EnergySum&) const;
+	Solution                        iterate(Eigen::VectorXd from, int mostSteps, bool secants) const;
+
+	template <class F> void forBars(F&& f) const
+	{
+		int first = structure_.beam ? int(structure_.beam->places.size()) : 0;
+		for (auto& bar : structure_.bars) {
+			f(bar, first);
+			first += int(bar.places.size());
+		}
+	}
+
+	Structure<Dim>&      structure_;
+	std::vector<Station> stations_;
+	std::vector<Spring>  springs_;
+	int                  soilUnknowns_ = 0, unknowns_ = 0;
+};
+
+} // namespace gimpm

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "engine/conditions/structures/MpmBeam.hpp"
+#include "engine/analysis/analysis.hpp"
+#include "engine/conditions/structures/beams.hpp"
+#include "engine/conditions/structures/reinforcements.hpp"
+#include "yade_api/registration.hpp"
+
+namespace yade {
+
+namespace {
+	Real largest(const vector<Real>& values)
+	{
+		const auto at = std::max_element(values.begin(), values.end(), [](Real a, Real b) { return std::abs(a) < std::abs(b); });
+		return at == values.end() ? 0 : *at;
+	}
+}
+
+std::array<bool, 3> MpmBeam::fixed(const string& letters)
+{
+	const auto has = [&](char letter) { return letters.find(letter) != string::npos; };
+	return { has('x'), has('y'), has('r') };
+}
+
+void MpmBeam::requireAdmissible() const
+{
+	Exposed<MpmBeam, MpmCondition>::requireAdmissible();
+	for (size_t i = 0; i < anchors.size(); ++i) {
+		const string name = "MpmBeam.anchors[" + std::to_string(i) + "]";
+		if (!anchors[i]) throw std::invalid_argument(name + " is None: expected an MpmReinforcement.");
+		anchors[i]->requireAdmissible();
+		if (anchors[i]->pull > 0 || anchors[i]->headPlate)
+			throw std::invalid_argument(name + " has a pull or a headPlate: its head is fixed to the beam; stress it by pretension.");
+		if (std::count(anchors.begin(), anchors.end(), anchors[i]) > 1) throw std::invalid_argument(name + " is listed twice.");
+	}
+}
+
+void MpmBeam::requireFitting(const Analysis& analysis, const string& name) const
+{
+	requireStructuresFit(analysis, "MpmBeam", name);
+	if (analysis.grid->dim == 3) throw std::invalid_argument(name + ": an MpmBeam lies in the plane, and the grid has dim=3; there are no plates yet.");
+	if (weight > 0 && analysis.gravity.isZero(0))
+		throw std::invalid_argument(name + ".weight = " + textOf(weight) + " acts along MpmImplicitEngine.gravity, which is zero.");
+}
+
+std::shared_ptr<Condition<2>> MpmBeam::make(InPlane, const Group& group, const Analysis&) const { return std::make_shared<Beams>(group); }
+
+Real MpmBeam::end(const Analysis& analysis) const
+{
+	Real last = headForce.isZero(0) && headMoment == 0 ? -std::numeric_limits<Real>::infinity() : analysis.curveOfLoad(curve).end();
+	for (const auto& anchor : anchors)
+		last = std::max(last, anchor->end(analysis));
+	return last;
+}
+
+void MpmBeam::tell(Rows& rows, const Analysis&, const Listed& listed) const
+{
+	const string name = "load" + std::to_string(listed.number);
+	rows.set(name + "_axialForce", largest(axialForces));
+	rows.set(name + "_shearForce", largest(shearForces));
+	rows.set(name + "_moment", largest(moments));
+	for (size_t i = 0; i < anchors.size(); ++i)
+		rows.set(name + "_anchor" + std::to_string(i), largest(anchors[i]->axialForces));
+}
+
+void MpmBeam::draw(Picture& picture, const Analysis& analysis, const Listed& listed) const
+{
+	const auto& x     = vertices.empty() ? line : vertices;
+	const int   first = int(picture.corners.size());
+	picture.corners.insert(picture.corners.end(), x.begin(), x.end());
+	for (int i = 0; i + 1 < int(x.size()); ++i) {
+		picture.add({ first + i, first + i + 1 });
+		picture.set("axialForce", axialForces.empty() ? 0 : axialForces[i]);
+		picture.set("shearForce", shearForces.empty() ? 0 : shearForces[i]);
+		picture.set("moment", moments.empty() ? 0 : (moments[i] + moments[i + 1]) / 2);
+		picture.set("load", int(listed.number));
+	}
+	for (const auto& anchor : anchors)
+		anchor->draw(picture, analysis, listed);
+}
+
+} // namespace yade
+
+BOOST_CLASS_EXPORT_IMPLEMENT(yade::MpmBeam)
+static const yade::PluginClasses<yade::MpmBeam> registeredMpmBeam(__FILE__);

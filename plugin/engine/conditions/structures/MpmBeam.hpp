@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+#include "engine/conditions/structures/MpmReinforcement.hpp"
+
+namespace yade {
+
+class MpmBeam : public Exposed<MpmBeam, MpmCondition> {
+	static constexpr Real nan = std::numeric_limits<Real>::quiet_NaN(), inf = std::numeric_limits<Real>::infinity();
+
+public:
+	vector<Vector3r>                     line;
+	Real                                 axialStiffness = nan, bendingStiffness = nan; // must be given
+	Real                                 plasticMoment = inf;
+	Real                                 weight        = 0;
+	vector<Vector3r>                     hinges;
+	string                               fixHead, fixFoot;
+	Vector3r                             headForce  = Vector3r::Zero();
+	Real                                 headMoment = 0;
+	Real                                 adhesion   = inf;
+	Real                                 friction   = 0;
+	Real                                 stiffness  = 10;
+	vector<shared_ptr<MpmReinforcement>> anchors;
+	gimpm::LoadCurve::Knees              curve; // empty: that of the engine
+	// Results, which are also the state from which the next step goes on
+	vector<Vector3r> vertices;
+	vector<Real>     rotations, axialForces, shearForces, moments, pressures;
+	vector<Real>     lengths, elongations, bends, gaps, normals, shears;
+
+	YADE_API_NAME(MpmBeam)
+	static const char* doc()
+	{
+		return "A beam in the plane, by metre of thickness: sheet pile or slurry wall, footing, tunnel lining. A line of vertices that move and turn by "
+		       "themselves, pressed against the soil on one or both of its sides.\n\n"
+		       "Set first: *line*, *axialStiffness* [N], *bendingStiffness* [N m²]. Read *moments*, *shearForces*, *axialForces*. Page: "
+		       "plugin/docs/classes/MpmBeam.md.";
+	}
+	template <class V> static void attributes(V&& v)
+	{
+		using B = MpmBeam;
+		v("line", &B::line, 0,
+		  "Points [m] of the beam as it is put in, from head to foot: two or more; without default. The last may be the first: a ring.",
+		  admitting("two or more points, each apart from the one before", isLine));
+		v("axialStiffness", &B::axialStiffness, 0, "EA [N] > 0, by metre of thickness; without default.", positive);
+		v("bendingStiffness", &B::bendingStiffness, 0, "EI [N m²] > 0, by metre of thickness; without default.", positive);
+		v("plasticMoment", &B::plasticMoment, 0, "Largest moment [N m] > 0; inf, the default: it does not yield.",
+		  admitting("a number > 0 [N m], or inf", isPositiveOrInfinite));
+		v("weight", &B::weight, 0, "Weight by length [N/m] >= 0, along and with the factor of *MpmImplicitEngine.gravity*.", nonNegative);
+		v("hinges", &B::hinges, 0, "Hinges are at the vertices that are nearest to these places [m].",
+		  admitting("places, all finite", [](const vector<Vector3r>& x) {
+			  return std::all_of(x.begin(), x.end(), [](const Vector3r& p) { return p.allFinite(); });
+		  }));
+		v("fixHead", &B::fixHead, 0, "What of its first vertex is held: letters out of 'xyr', r for its rotation.",
+		  admitting("letters out of 'xyr'", areFixed));
+		v("fixFoot", &B::fixFoot, 0, "The same of its last vertex.", admitting("letters out of 'xyr'", areFixed));
+		v("headForce", &B::headForce, 0, "Force [N] on the first vertex at load factor 1.", finite);
+		v("headMoment", &B::headMoment, 0, "Moment [N m] on the first vertex at load factor 1, counterclockwise.", finite);
+		v("adhesion", &B::adhesion, 0, "Strength [Pa] >= 0 of each side along the beam; inf, the default: rough, 0 with friction=0: smooth.",
+		  admitting("a number >= 0 [Pa], or inf", isNonNegativeOrInfinite));
+		v("friction", &B::friction, 0,
+		  "Angle of friction [rad] of beam and soil, from 0 to below pi/2, which adds to *adhesion* where they press on each other.",
+		  admitting("an angle from 0 to below pi/2 [rad], as radians(30)", isFrictionAngle));
+		v("stiffness", &B::stiffness, 0,
+		  "Of the springs between beam and soil [-] > 0: pressure over displacement, over Young's modulus of the soil by cell.", positive);
+		v("anchors", &B::anchors, 0,
+		  "Bars (MpmReinforcement) whose heads are fixed to it, at the vertices nearest to them; not listed in *loads*. Read as a tuple, so assign a new one.");
+		v("curve", &B::curve, 0, "Factor [-] of *headForce* and *headMoment*, as *MpmImplicitEngine.loadCurve*; empty, the default: that one.",
+		  curveOrNothing);
+		v("vertices", &B::vertices, readonly, "Where its vertices are now [m]; empty before the first step.", AnyValue());
+		v("rotations", &B::rotations, readonly, "How far each vertex has turned [rad], counterclockwise.", AnyValue());
+		v("axialForces", &B::axialForces, readonly, "N [N] between each vertex and the next one, tension positive.", AnyValue());
+		v("shearForces", &B::shearForces, readonly, "Q [N] between each vertex and the next one: the slope of *moments* along the line.", AnyValue());
+		v("moments", &B::moments, readonly, "M [N m] at each vertex, positive where the line is bent to its left: its right side is stretched.",
+		  AnyValue());
+		v("pressures", &B::pressures, readonly, "What it presses on the soil [Pa] at each vertex, positive to the left of the line.", AnyValue());
+		v("lengths", &B::lengths, hidden, "", AnyValue());
+		v("elongations", &B::elongations, hidden, "", AnyValue());
+		v("bends", &B::bends, hidden, "", AnyValue());
+		v("gaps", &B::gaps, hidden, "", AnyValue());
+		v("normals", &B::normals, hidden, "", AnyValue());
+		v("shears", &B::shears, hidden, "", AnyValue());
+	}
+
+	// The attributes must go together, too.
+	void requireAdmissible() const override;
+
+	std::shared_ptr<Condition<2>> make(InPlane, const Group&, const Analysis&) const override;
+
+	Real        end(const Analysis&) const override;
+	void        requireFitting(const Analysis&, const string& name) const override;
+	void        tell(Rows&, const Analysis&, const Listed&) const override;
+	const char* picture() const override { return "loads"; }
+	void        draw(Picture&, const Analysis&, const Listed&) const override;
+
+	// x, y and rotation.
+	static std::array<bool, 3> fixed(const string& letters);
+	static bool                areFixed(const string& letters) { return letters.find_first_not_of("xyr") == string::npos; }
+};
+
+} // namespace yade
+
+BOOST_CLASS_EXPORT_KEY(yade::MpmBeam)

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "engine/conditions/structures/beams.hpp"
+#include "engine/conditions/structures/reinforcements.hpp"
+
+namespace yade {
+
+namespace {
+	using gimpm::Beam;
+	using Vec2 = gimpm::Vec<2>;
+
+	int nearestVertex(const Beam& beam, const Vec2& place)
+	{
+		int nearest = 0;
+		for (int v = 1; v < int(beam.places.size()); ++v)
+			if ((beam.places[v] - place).norm() < (beam.places[nearest] - place).norm()) nearest = v;
+		return nearest;
+	}
+
+	void goOn(Beam& beam, const MpmBeam& from)
+	{
+		for (const Vector3r& x : from.vertices)
+			beam.places.push_back(x.head<2>());
+		beam.turns       = from.rotations;
+		beam.length0     = from.lengths;
+		beam.elongation  = from.elongations;
+		beam.gap         = from.gaps;
+		beam.normalForce = from.normals;
+		beam.shearForce  = from.shears;
+		beam.axialForce  = from.axialForces;
+		for (size_t i = 0; i < beam.length0.size(); ++i)
+			beam.bend.emplace_back(from.bends[2 * i], from.bends[2 * i + 1]);
+		beam.moments.assign(beam.length0.size(), Vec2::Zero());
+		beam.isHinge.assign(beam.places.size(), 0);
+	}
+
+	Beam coreBeam(const MpmBeam& from, const string& name, const gimpm::Grid<2>& grid)
+	{
+		Beam beam;
+		beam.name          = name;
+		beam.section       = { from.axialStiffness, from.bendingStiffness };
+		beam.plasticMoment = from.plasticMoment;
+		beam.fixedHead     = MpmBeam::fixed(from.fixHead);
+		beam.fixedFoot     = MpmBeam::fixed(from.fixFoot);
+		beam.stiffness     = from.stiffness;
+		beam.adhesion      = from.adhesion;
+		beam.friction      = std::tan(from.friction);
+		beam.isClosed      = from.line.front() == from.line.back();
+		if (from.vertices.empty()) {
+			std::vector<Vec2> line;
+			for (const Vector3r& x : from.line)
+				line.push_back(x.head<2>());
+			beam.begin(gimpm::divided<2>(line, gimpm::lengthOfPieces * grid.cellSize));
+		} else
+			goOn(beam, from);
+		for (const Vector3r& hinge : from.hinges)
+			beam.isHinge[nearestVertex(beam, hinge.head<2>())] = 1;
+		return beam;
+	}
+
+	void scatter(const Beam& beam, MpmBeam& to)
+	{
+		const size_t pieces = beam.length0.size();
+		to.vertices.assign(beam.places.size(), Vector3r(0, 0, to.line.front()[2]));
+		for (size_t v = 0; v <= pieces; ++v)
+			to.vertices[v].head<2>() = beam.places[v];
+		to.rotations   = beam.turns;
+		to.lengths     = beam.length0;
+		to.elongations = beam.elongation;
+		to.gaps        = beam.gap;
+		to.normals     = beam.normalForce;
+		to.shears      = beam.shearForce;
+		to.axialForces = beam.axialForce;
+		to.bends.clear(), to.shearForces.clear(), to.moments.clear(), to.pressures.clear();
+		for (size_t i = 0; i < pieces; ++i) {
+			to.bends.push_back(beam.bend[i][0]), to.bends.push_back(beam.bend[i][1]);
+			to.shearForces.push_back(beam.moments[i].sum() / (beam.length0[i] + beam.elongation[i]));
+			to.moments.push_back(-beam.moments[i][0]);
+		}
+		to.moments.push_back(beam.moments.back()[1]);
+		for (size_t v = 0; v <= pieces; ++v)
+			to.pressures.push_back(beam.normalForce[v] / beam.lengthAt(int(v)));
+	}
+
+	// The anchor's head is where the vertex of the beam is that it is fixed to.
+	gimpm::Bar<2> coreAnchor(const MpmReinforcement& from, const string& name, const Beam& beam, const gimpm::Grid<2>& grid)
+	{
+		gimpm::Bar<2> bar = coreBar<2>(from, name, grid);
+		bar.head          = gimpm::Bar<2>::Head::joined;
+		bar.joint         = nearestVertex(beam, bar.places.front());
+		const Real away = (bar.places.front() - beam.places[bar.joint]).norm(), most = gimpm::lengthOfPieces * grid.cellSize;
+		if (from.vertices.empty() && away > most)
+			throw std::invalid_argument(
+			        name + ".line begins at (" + textOf(from.line.front()) + "), " + textOf(away)
+			        + " m away from the nearest vertex of the beam: at most " + textOf(most) + " m, half a cell, are admitted.");
+		if (!from.vertices.empty()) return bar;
+		bar.places.front()  = beam.places[bar.joint];
+		bar.length0.front() = (bar.places[1] - bar.places[0]).norm();
+		return bar;
+	}
+}
+
+void Beams::join(gimpm::Model<2>& model, const Surroundings<2>& around)
+{
+	for (const Listed& listed : group) {
+		const auto  from = boost::static_pointer_cast<MpmBeam>(listed.condition);
+		const auto& down = around.analysis.gravity;
+		sources.push_back({ from,
+		                    around.analysis.curveOfLoad(from->curve),
+		                    around.analysis.curveOfGravity(),
+		                    down.isZero(0) ? Vec2(0, 0) : Vec2(down.normalized().head<2>()),
+		                    {} });
+		structures.emplace_back();
+		structures.back().beam = coreBeam(*from, listed.name(), model.grid);
+		for (size_t i = 0; i < from->anchors.size(); ++i) {
+			const string name = listed.name() + ".anchors[" + std::to_string(i) + "]";
+			structures.back().bars.push_back(coreAnchor(*from->anchors[i], name, *structures.back().beam, model.grid));
+			sources.back().ofAnchors.push_back(around.analysis.curveOfLoad(from->anchors[i]->curve));
+		}
+	}
+	for (auto& structure : structures)
+		joinStructure<2>(structure, model);
+}
+
+void Beams::advance(const StepTime& step, gimpm::Model<2>&, gimpm::Load<2>&)
+{
+	for (size_t i = 0; i < sources.size(); ++i) {
+		const MpmBeam& from   = *sources[i].from;
+		const Real     factor = sources[i].curve.valueAt(step.to);
+		Beam&          beam   = *structures[i].beam;
+		beam.headForce        = factor * from.headForce.head<2>();
+		beam.headMoment       = factor * from.headMoment;
+		beam.weight           = from.weight * sources[i].ofGravity.valueAt(step.to) * sources[i].down;
+		for (size_t a = 0; a < from.anchors.size(); ++a)
+			loadBar<2>(structures[i].bars[a], *from.anchors[a], sources[i].ofAnchors[a], step);
+	}
+}
+
+Work Beams::work(const StepOutcome<2>&) const
+{
+	Work sum;
+	for (const auto& structure : structures)
+		sum.ofLoads += structure.work;
+	return sum;
+}
+
+void Beams::reach(const StepOutcome<2>&)
+{
+	for (size_t i = 0; i < sources.size(); ++i) {
+		scatter(*structures[i].beam, *sources[i].from);
+		for (size_t a = 0; a < structures[i].bars.size(); ++a)
+			scatterBar<2>(structures[i].bars[a], *sources[i].from->anchors[a]);
+	}
+}
+
+} // namespace yade

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+// Beams and their anchors, between the conditions of a scene and the terms of a step.
+#include "core/structures/structure.hpp"
+#include "engine/analysis/analysis.hpp"
+#include "engine/conditions/structures/MpmBeam.hpp"
+
+namespace yade {
+
+class Beams : public Condition<2> {
+public:
+	explicit Beams(const MpmCondition::Group& group) : group(group) { }
+
+	void join(gimpm::Model<2>&, const Surroundings<2>&) override;
+	void advance(const StepTime&, gimpm::Model<2>&, gimpm::Load<2>&) override;
+	Work work(const StepOutcome<2>&) const override;
+	void reach(const StepOutcome<2>&) override;
+
+private:
+	struct Source {
+		shared_ptr<MpmBeam>      from;
+		gimpm::LoadCurve         curve, ofGravity;
+		gimpm::Vec<2>            down;
+		vector<gimpm::LoadCurve> ofAnchors;
+	};
+	MpmCondition::Group         group;
+	vector<Source>              sources;
+	vector<gimpm::Structure<2>> structures;
+};
+
+} // namespace yade

@@ -1,0 +1,336 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Bars and beams: their energies against differences, closed forms, and the force on the soil with its tangent.
+#include "core/stepping/step_system.hpp"
+#include "core/structures/structure_force.hpp"
+#include "derivatives.hpp"
+#include "scenes.hpp"
+
+namespace gimpm::testStructures {
+namespace {
+
+	/// Errors of the first and second derivative of an energy at u, relative to their largest entries.
+	template <int N, class F> std::pair<double, double> derivativeErrors(const F& energyAt, const Eigen::Matrix<double, N, 1>& u, double step)
+	{
+		const Energy<N>             at = energyAt(u);
+		Eigen::Matrix<double, N, 1> gradient;
+		Eigen::Matrix<double, N, N> hessian;
+		for (int i = 0; i < N; ++i) {
+			const auto move = [&](double s) { return energyAt(u + s * step * Eigen::Matrix<double, N, 1>::Unit(i)); };
+			const auto up = move(1), down = move(-1), up2 = move(2), down2 = move(-2);
+			gradient[i]    = (8 * (up.value - down.value) - (up2.value - down2.value)) / (12 * step);
+			hessian.col(i) = (8 * (up.gradient - down.gradient) - (up2.gradient - down2.gradient)) / (12 * step);
+		}
+		return { (at.gradient - gradient).cwiseAbs().maxCoeff() / gradient.cwiseAbs().maxCoeff(),
+			 (at.hessian - hessian).cwiseAbs().maxCoeff() / hessian.cwiseAbs().maxCoeff() };
+	}
+
+	template <class Dimension> using BarPieces = InBothDimensions<Dimension>;
+	TYPED_TEST_SUITE(BarPieces, BothDimensions, DimensionName);
+
+	TYPED_TEST(BarPieces, ForceAndTangentAreDerivatives)
+	{
+		constexpr int Dim = TypeParam::value;
+		using Ends        = Eigen::Matrix<double, 2 * Dim, 1>;
+		Random random(2);
+		for (const bool yields : { false, true }) {
+			const BarSection section { 5e3, yields ? 100. : infinity, true };
+			BarPiece<Dim>    piece { random.matrix<Dim>(), 0.1 };
+			piece.length0              = piece.along.norm() * std::exp(-0.1);
+			const Ends u               = random.matrix<2 * Dim>(0.02);
+			const auto energyAt        = [&](const Ends& at) { return energyOf<Dim>(piece, section, at); };
+			const auto [first, second] = derivativeErrors<2 * Dim>(energyAt, u, 1e-4);
+			EXPECT_LT(first, 1e-9);
+			EXPECT_LT(second, 1e-9);
+			EXPECT_LT((energyAt(u).hessian - energyAt(u).hessian.transpose()).norm(), 1e-14 * energyAt(u).hessian.norm());
+		}
+	}
+
+	TYPED_TEST(BarPieces, TakesNoCompressionIfItIsSlack)
+	{
+		constexpr int                     Dim = TypeParam::value;
+		BarPiece<Dim>                     piece { Vec<Dim>::Unit(0) };
+		Eigen::Matrix<double, 2 * Dim, 1> u = Eigen::Matrix<double, 2 * Dim, 1>::Zero();
+		u[Dim]                              = -0.1;
+		EXPECT_EQ(energyOf<Dim>(piece, { 5e3, infinity, true }, u).gradient.norm(), 0);
+		const double force = -5e3 * std::log(0.9) / 0.9;
+		EXPECT_NEAR(energyOf<Dim>(piece, { 5e3, infinity, false }, u).gradient[0], force, 1e-12 * force);
+	}
+
+	TEST(BeamPieces, ForcesAndTangentAreDerivatives)
+	{
+		Random            random(3);
+		const BeamSection section { 5e3, 70 };
+		for (const double strength : { infinity, 20., 0. })
+			for (int draw = 0; draw < 5; ++draw) {
+				BeamPiece piece { random.matrix<2>(), 0.02 };
+				piece.length0     = piece.along.norm() - piece.elongation;
+				piece.turns       = random.matrix<2>(0.2);
+				piece.strength[0] = strength;
+				if (draw > 2) piece.strength[1] = strength;
+				const Eigen::Matrix<double, 6, 1> u = random.matrix<6>(0.3);
+				const auto [first, second]
+				        = derivativeErrors<6>([&](const Eigen::Matrix<double, 6, 1>& at) { return energyOf(piece, section, at); }, u, 1e-4);
+				EXPECT_LT(first, 1e-8) << strength;
+				EXPECT_LT(second, 1e-8) << strength;
+			}
+	}
+
+	/// From (0, 0) to (length, 0), without soil.
+	Structure<2> beamAlone(double length, int pieces, BeamSection section)
+	{
+		Structure<2> structure;
+		structure.beam.emplace();
+		structure.beam->section = section;
+		structure.beam->begin(divided<2>({ { 0, 0 }, { length, 0 } }, length / pieces));
+		return structure;
+	}
+
+	/// One step with the loads that it has.
+	void settle(Structure<2>& structure)
+	{
+		StructureSystem<2> system(structure, std::vector<SoilAtVertex>(structure.vertices()));
+		const auto         found = system.solve(Eigen::VectorXd(0), {});
+		EXPECT_TRUE(found.isFound);
+		system.commit(found.x);
+	}
+
+	/// The elastica of a cantilever with a force P across its end, P L^2 / EI = 10 (Mattiasson 1981).
+	TEST(Beams, CantileverBendsAsTheElastica)
+	{
+		constexpr double EI = 3, force = 10 * EI;
+		double           error[2];
+		for (const int pieces : { 10, 20 }) {
+			Structure<2> structure    = beamAlone(1, pieces, { 1e7, EI });
+			structure.beam->fixedFoot = { true, true, true };
+			for (int step = 1; step <= 10; ++step) {
+				structure.beam->headForce = { 0, -force * step / 10 };
+				settle(structure);
+			}
+			const Vec<2> end       = structure.beam->places.front();
+			error[pieces / 10 - 1] = std::hypot(end[0] - 0.55500, end[1] + 0.81061);
+			EXPECT_NEAR(structure.beam->turns.front(), 1.43029, 5e-3);
+		}
+		EXPECT_LT(error[1], 5e-4);
+		EXPECT_NEAR(error[0] / error[1], 4, 1);
+	}
+
+	TEST(Beams, SimplySupportedBeamSagsAsInTheBooks)
+	{
+		constexpr double L = 4, EI = 2e6, weight = 100;
+		Structure<2>     structure = beamAlone(L, 16, { 1e9, EI });
+		auto&            beam      = *structure.beam;
+		beam.fixedHead = { true, true, false }, beam.fixedFoot = { false, true, false };
+		beam.weight = { 0, -weight };
+		settle(structure);
+		EXPECT_NEAR(beam.places[8][1], -5 * weight * std::pow(L, 4) / (384 * EI), 4e-3 * 5 * weight * std::pow(L, 4) / (384 * EI));
+		EXPECT_NEAR(std::abs(beam.moments[8][0]), weight * L * L / 8, 5e-3 * weight * L * L / 8);
+	}
+
+	/// With a hinge in the middle of a beam clamped at both ends: two cantilevers, each with w L^4 / 8 EI.
+	TEST(Beams, HingesTakeNoMoment)
+	{
+		constexpr double L = 2, EI = 2e6, weight = 100;
+		Structure<2>     structure = beamAlone(2 * L, 16, { 1e9, EI });
+		auto&            beam      = *structure.beam;
+		beam.fixedHead = beam.fixedFoot = { true, true, true };
+		beam.isHinge[8]                 = 1;
+		beam.weight                     = { 0, -weight };
+		settle(structure);
+		const double sag = weight * std::pow(L, 4) / (8 * EI);
+		EXPECT_NEAR(beam.places[8][1], -sag, 1e-2 * sag);
+		EXPECT_NEAR(beam.moments[8][0], 0, 1e-9 * weight * L * L);
+		EXPECT_NEAR(std::abs(beam.moments[0][0]), weight * L * L / 2, 1e-2 * weight * L * L / 2);
+	}
+
+	/// Clamped beam under a uniform load: w L^2 = 16 Mp at collapse. Below it sags little; beyond it goes down until it
+	/// hangs.
+	TEST(Beams, YieldAtThePlasticMoment)
+	{
+		constexpr double L = 4, EI = 2e6, Mp = 100;
+		for (const double part : { 0.98, 1.02 }) {
+			Structure<2> structure = beamAlone(L, 16, { 1e9, EI });
+			auto&        beam      = *structure.beam;
+			beam.fixedHead         = { true, true, true };
+			beam.fixedFoot         = { false, true, true };
+			beam.plasticMoment     = Mp;
+			for (int step = 1; step <= 20; ++step) {
+				beam.weight = { 0, -part * 16 * Mp / (L * L) * step / 20 };
+				settle(structure);
+			}
+			double largest = 0;
+			for (const auto& m : beam.moments)
+				largest = std::max(largest, m.cwiseAbs().maxCoeff());
+			EXPECT_NEAR(largest, Mp, 1e-9 * Mp);
+			EXPECT_EQ(-beam.places[8][1] > L / 20, part > 1) << beam.places[8][1];
+		}
+	}
+
+	/// Pull-out of an elastic strip from soil that does not move: u = P coth(a L) / (EA a) at its front, a^2 = k / EA.
+	TEST(Bars, AreDrawnFromRigidSoilAsByTheClosedForm)
+	{
+		constexpr double EA = 1e6, k = 4e5, L = 2, P = 100, bond = 2000;
+		Structure<2>     structure;
+		structure.bars.resize(1);
+		auto& bar         = structure.bars[0];
+		bar.section       = { EA };
+		bar.bondStiffness = k, bar.bond = bond, bar.pull = P;
+		bar.begin(divided<2>({ { 0, 0 }, { 1.2, 1.6 } }, L / 40));
+		const auto step = [&] {
+			std::vector<SoilAtVertex> soil(bar.places.size());
+			for (auto& at : soil)
+				at.exists = true;
+			StructureSystem<2> system(structure, soil);
+			const auto         found = system.solve(Eigen::VectorXd::Zero(system.soilUnknowns()), {});
+			EXPECT_TRUE(found.isFound);
+			system.commit(found.x);
+		};
+		step();
+		const double a = std::sqrt(k / EA), expected = P / (EA * a * std::tanh(a * L));
+		EXPECT_NEAR(bar.slip.front(), -expected, 1e-3 * expected); // against the direction of the bar
+		bar.pull = 0.99 * bond * L;                                // the strength of the bond is bond * L
+		step();
+		EXPECT_NEAR(bar.bondForce.front(), -bond * L / 80, 1e-9);
+		bar.pull = 0;
+		step();
+		EXPECT_LT(bar.slip.front(), 0); // it does not come back all the way
+	}
+
+	/// A block of soil with a structure in it.
+	template <int Dim> struct Ground {
+		Model<Dim>      model;
+		PointCloud<Dim> cloud;
+		Structure<Dim>  structure;
+		StepReport      report;
+		LinearSolver    solver;
+
+		Ground()
+		{
+			model.grid.cellSize    = 0.5;
+			model.materials        = { { Hencky(1e6, 0.3), 0 } };
+			model.newton.tolerance = 1e-10;
+			Vec<Dim> top           = Vec<Dim>::Constant(infinity);
+			top[1]                 = 0;
+			model.boundary = Boundary<Dim>({ held<Dim>(model.grid, Vec<Dim>::Constant(-infinity), top, std::string("xyz").substr(0, Dim)) });
+			cloud          = block<Dim>(model.grid, cellsOf<Dim>(6, 4, 2), 2);
+			model.coupledTerms
+			        = { [this](const Beginning<Dim>& step, const State&) { return std::make_unique<StructureForce<Dim>>(structure, step); } };
+		}
+		Bar<Dim>& nail()
+		{
+			structure.bars.resize(1);
+			Bar<Dim>& bar = structure.bars[0];
+			bar.section   = { 1e6, infinity, false };
+			Vec<Dim> from = Vec<Dim>::Constant(0.3), to = from;
+			from[1] = 1.7, to[0] = 2.6, to[1] = 1.1;
+			bar.begin(divided<Dim>({ from, to }, lengthOfPieces * model.grid.cellSize));
+			return bar;
+		}
+		/// Of the whole tangent along a direction.
+		double tangentError()
+		{
+			const StepSystem<Dim> system(cloud, model, {}, report);
+			const Eigen::VectorXd d = Random(3).vector(system.nodalSize(), 0.003), direction = Random(4).vector(system.nodalSize(), 1);
+			NodeMatrix<Dim>       K;
+			Couplings             beside;
+			Eigen::VectorXd       force, slope = Eigen::VectorXd::Zero(d.size());
+			const auto            forceAt = [&](double s) {
+                                EXPECT_FALSE(system.evaluate(d + s * direction, force, nullptr));
+                                return force;
+			};
+			system.prepare(K, &beside);
+			EXPECT_FALSE(system.evaluate(d, force, &K, nullptr, &beside));
+			K.multiplyAdd(direction, slope);
+			beside.multiplyAdd(direction, slope);
+			const double          h        = 1e-6;
+			const Eigen::VectorXd expected = (forceAt(h) - forceAt(-h)) / (2 * h);
+			return (slope - expected).norm() / expected.norm();
+		}
+	};
+
+	template <class Dimension> using Structures = InBothDimensions<Dimension>;
+	TYPED_TEST_SUITE(Structures, BothDimensions, DimensionName);
+
+	TYPED_TEST(Structures, BarsWithAndWithoutSlipHaveTheTangentOfTheirForce)
+	{
+		constexpr int Dim = TypeParam::value;
+		for (const bool slips : { false, true }) {
+			Ground<Dim> ground;
+			auto&       bar = ground.nail();
+			if (slips) bar.bondStiffness = 1e5, bar.bond = 3e3, bar.pull = 500;
+			EXPECT_LT(ground.tangentError(), 1e-7);
+		}
+	}
+
+	TYPED_TEST(Structures, FreeLengthsHaveTheTangentOfTheirForce)
+	{
+		constexpr int Dim = TypeParam::value;
+		using Head        = typename Bar<Dim>::Head;
+		for (const Head head : { Head::plate, Head::pulled }) {
+			Ground<Dim> ground;
+			auto&       bar   = ground.nail();
+			bar.hasFreeLength = true, bar.head = head, bar.bondStiffness = 1e5, bar.bond = 3e4;
+			if (head == Head::pulled) bar.pull = 500;
+			else
+				bar.jack = 500;
+			EXPECT_LT(ground.tangentError(), 1e-7);
+		}
+	}
+
+	TEST(Structures, BeamsOnAndInTheSoilHaveTheTangentOfTheirForce)
+	{
+		for (const double height : { 2., 1.3 }) {
+			Ground<2> ground;
+			ground.structure.beam.emplace();
+			auto& beam     = *ground.structure.beam;
+			beam.section   = { 1e7, 1e5 };
+			beam.weight    = { 0, -2000 };
+			beam.headForce = { 100, -200 };
+			beam.adhesion  = 300;
+			beam.begin(divided<2>({ { 0.3, height }, { 2.7, height } }, 0.25));
+			ground.structure.bars.resize(1);
+			auto& anchor   = ground.structure.bars[0];
+			anchor.section = { 1e6 };
+			anchor.head = Bar<2>::Head::joined, anchor.joint = 3, anchor.hasFreeLength = true;
+			anchor.begin({ beam.places[3], { 1.6, 0.9 }, { 1.8, 0.7 } });
+			EXPECT_LT(ground.tangentError(), 1e-7);
+		}
+	}
+
+	/// In a block that is stretched, a bar without slip has the strain of the soil; what it carries goes back to the soil.
+	TYPED_TEST(Structures, ABarIsStretchedAsTheSoilIs)
+	{
+		constexpr int Dim = TypeParam::value;
+		Ground<Dim>   ground;
+		ground.nail().section.stiffness = 1e-3; // so that it does not matter to the soil
+		HeldBox<Dim> all
+		        = held<Dim>(ground.model.grid, Vec<Dim>::Constant(-infinity), Vec<Dim>::Constant(infinity), std::string("xyz").substr(1, Dim - 1));
+		HeldBox<Dim> far      = wallAbove<Dim>(ground.model.grid, 0, 3);
+		far.displacement[0]   = 0.03;
+		ground.model.boundary = Boundary<Dim>({ all, wallBelow<Dim>(ground.model.grid, 0, 0), far });
+		Load<Dim> load;
+		load.factor = { 1, 1 };
+		ASSERT_TRUE(loadStep(ground.cloud, ground.model, load, ground.solver).converged());
+		const auto&  bar = ground.structure.bars[0];
+		const double dx = 2.3, dy = 0.6, strain = std::log(std::hypot(1.01 * dx, dy) / std::hypot(dx, dy));
+		for (std::size_t i = 0; i < bar.strain.size(); ++i)
+			EXPECT_NEAR(bar.strain[i], strain, 1e-4 * strain);
+	}
+
+	/// A loaded beam on soil hands all of its load to it.
+	TEST(Structures, ABeamStandsOnTheSoil)
+	{
+		Ground<2> ground;
+		ground.structure.beam.emplace();
+		auto& beam   = *ground.structure.beam;
+		beam.section = { 1e7, 1e5 };
+		beam.weight  = { 0, -1000 };
+		beam.begin(divided<2>({ { 0.5, 2 }, { 2.5, 2 } }, 0.25));
+		ASSERT_TRUE(loadStep(ground.cloud, ground.model, {}, ground.solver).converged());
+		double sum = 0;
+		for (const double force : beam.normalForce)
+			sum += force;
+		EXPECT_NEAR(sum, -2000, 1e-6 * 2000); // to the right of the beam, which is below
+	}
+
+} // namespace
+} // namespace gimpm::testStructures
