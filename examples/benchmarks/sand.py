@@ -32,6 +32,7 @@ options = readOptions('Sand that yields: iterations, cuts and loads.',
         factor=(1e-2, 'of the ghost stabilisation'),
         memory=(0., "of the ghost stabilisation, 0 to 1"),
         where=('boundary', "'boundary' or 'aggregates'"),
+        work=(1., 'part of the work of a step that the stabilisation may take up, above 0 to 1'),
         axisymmetric=(0, '1: the footing is circular, of diameter B'))
 
 B, density, gravity = 1., 2000, 10.
@@ -43,7 +44,7 @@ def material(label, cohesion, phi, psi, young, density):
 
 
 def solverOf(grid, boundaries, **settings):
-	O.engines = [MpmImplicitEngine(grid=grid, boundaries=boundaries, ghost=MpmGhost(factor=options.factor, where=options.where, memory=options.memory), verbosity=0, label='solver', **settings)]
+	O.engines = [MpmImplicitEngine(grid=grid, boundaries=boundaries, ghost=MpmGhost(factor=options.factor, where=options.where, memory=options.memory, workTolerance=options.work), verbosity=0, label='solver', **settings)]
 	O.dt = 1 / options.steps
 
 
@@ -94,7 +95,7 @@ def slope():
 measure, (name, form) = dict(strip=lambda: footing(2), square=lambda: footing(3), slope=slope)[options.scene]()
 curve, outcome, begin = [], 'complete', time.process_time()
 count = dict.fromkeys(('iterations', 'cuts', 'lineSearchTrials', 'luSolves', 'reusedFactors'), 0)
-worst = 0
+worst, share = 0, 0.
 for _ in range(options.steps):
 	try:
 		O.run(1, wait=True)
@@ -103,13 +104,13 @@ for _ in range(options.steps):
 		reason = str(error)
 	for key in count:
 		count[key] += getattr(solver, key) if hasattr(solver, key) else solver.report()[key]
-	worst = max(worst, solver.iterations)
+	worst, share = max(worst, solver.iterations), max(share, solver.ghostShare)
 	if outcome != 'complete': break
 	curve.append((solver.loadFactor, measure()))
 times, values = np.array(curve).T if curve else (np.zeros(1), np.zeros(1))
 parts = [part for part in (.25, .5, .75, 1) if part <= times[-1] + 1e-9]
-print(f"{options.scene} psi {options.psi:g} cells {options.cells} cut {options.cut:g} settlement {options.settlement:g} steps {options.steps} factor {options.factor:g} {options.where} memory {options.memory:g}: {outcome}; {name} "
+print(f"{options.scene} psi {options.psi:g} cells {options.cells} cut {options.cut:g} settlement {options.settlement:g} steps {options.steps} factor {options.factor:g} {options.where} memory {options.memory:g} work {options.work:g}: {outcome}; {name} "
       f"{' '.join(format(np.interp(part, times, values), form) for part in parts)}; {count['iterations']} iterations (at most {worst}), {count['cuts']} cuts, "
-      f"{count['lineSearchTrials']} trials, {count['luSolves']} LU, {count['reusedFactors']} factors again; {time.process_time() - begin:.1f} s")
+      f"{count['lineSearchTrials']} trials, {count['luSolves']} LU, {count['reusedFactors']} factors again; share of the stabilisation {solver.ghostShare:.3f}, at most {share:.3f}; {time.process_time() - begin:.1f} s")
 if outcome != 'complete': print(reason)
 np.savetxt(os.path.join(options.out, f'{options.scene}-{options.psi:g}-{options.cells}-{options.cut:g}-{options.settlement:g}-{options.steps}.txt'), np.column_stack([times, values]))

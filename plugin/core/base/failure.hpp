@@ -14,6 +14,7 @@ enum class Failure {
 	refused, ///< by a term, which has no kind of its own for it
 	inaccurate,
 	gainsEnergy,
+	stabilised, ///< only the stabilisation holds the body
 	singular,
 	inverted,
 	noResponse,

@@ -15,13 +15,20 @@
 namespace gimpm {
 namespace {
 
-/// Whether the body can neither move freely nor has lost the boundaries that push it. The report says so if not.
-template <int Dim> bool isHeld(const StepSystem<Dim>& system, const PointCloud<Dim>& cloud, const Load<Dim>& load, StepReport& report)
+/// Whether the body can neither move freely nor has lost the boundaries that push it. The report says so if not. Points
+/// that are loose stay where they are: no equilibrium determines where they go.
+template <int Dim> bool isHeld(StepSystem<Dim>& system, const PointCloud<Dim>& cloud, const Load<Dim>& load, StepReport& report)
 {
 	const Stopwatch   watch(report.times.basis);
 	const std::string lost = system.hasInertia() ? "" : lostHold(cloud, system.basis, system.model, load);
 	const Restraint   held = restraint(system.basis, system.model.grid, system.model.boundary, system.terms, *system.model.division);
 	report.parts           = held.parts;
+	report.loosePoints     = held.loose.points;
+	report.loosePlace      = held.loose.place;
+	if (held.loose.points > 0) {
+		system.holdStill(held.loose.nodes, load);
+		report.dofs = system.dofs.count;
+	}
 	if (const std::string between = boxBetweenNodes(system.basis, system.model.boundary); !between.empty())
 		return !fail(report, Failure::misplaced, between);
 	if (!lost.empty()) return !fail(report, Failure::detached, lost);
@@ -45,6 +52,29 @@ template <int Dim> Eigen::VectorXd predictionFor(const StepSystem<Dim>& system, 
 	Eigen::VectorXd d = predict(last, system.basis.nodes, growth, system.model.grid);
 	if (d.size() > 0) system.constraints.template spread<Dim>(system.map, d);
 	return d;
+}
+
+/// Goes on from d as long as the stabilisation takes up more of the work than it may, by the proximal point method. Where
+/// no stress can bear the load the body moves on by the same in each pass, and so does what the stabilisation takes up.
+template <int Dim> Eigen::VectorXd relieved(StepSystem<Dim>& system, LinearSolver& solver, StepReport& report, Eigen::VectorXd growth)
+{
+	constexpr int    few       = 10;
+	constexpr double falling   = 0.8; // in so many passes
+	const bool       predicted = report.predicted;
+	for (double before = std::numeric_limits<double>::infinity(); report.converged() && report.ghostShare > system.model.ghost.workTolerance;
+	     ++report.passes) {
+		if (report.passes % few == 0) {
+			if (report.ghostShare > falling * before) {
+				fail(report, Failure::stabilised, causeOfStabilised(report, system.model.ghost.workTolerance));
+				break;
+			}
+			before = report.ghostShare;
+		}
+		system.ghostFrom = growth;
+		growth           = equilibrium(system, solver, report, growth);
+		report.predicted = predicted;
+	}
+	return growth;
 }
 
 /// Of the nodes that are tied to none.
@@ -75,7 +105,7 @@ template <int Dim> StepReport loadStep(PointCloud<Dim>& cloud, const Model<Dim>&
 	const bool            predicts   = last && !system.hasInertia() && system.map.isAlone();
 	const Eigen::VectorXd prediction = predicts ? predictionFor(system, *last, load.growth()) : Eigen::VectorXd();
 	if (model.ghost.memory > 0) system.ghostFrom = model.ghost.memory * prediction;
-	const Eigen::VectorXd growth = equilibrium(system, solver, report, prediction);
+	const Eigen::VectorXd growth = relieved(system, solver, report, equilibrium(system, solver, report, prediction));
 	const Eigen::VectorXd d      = system.map.displacements(growth);
 	if (!model.terms.empty() || system.hasInertia() || system.isCoupled()) explain(system, d, report);
 	if (report.converged() && prediction.size() > 0 && std::isfinite(model.newton.stepTolerance)) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "core/stepping/newton.hpp"
+#include "core/stepping/ghost_share.hpp"
 #include "core/stepping/judge.hpp"
 #include "core/stepping/line_search.hpp"
 #include "core/stepping/linear_step.hpp"
@@ -20,6 +21,7 @@ public:
 			++solves_;
 		report_.iterations += solves_;
 		report_.reactions = reactions(system_, iterate_.force);
+		if (report_.converged()) report_.ghostShare = ghostShare(system_, d_, iterate_.force);
 		return { std::move(d_), predicted_ };
 	}
 

@@ -39,6 +39,13 @@ std::string causeOfTooMany(const StepReport& report, double tolerance, bool isWh
 	        " of the forces there, more than ", localTolerance, " times the tolerance ", tolerance, ",", after);
 }
 
+std::string causeOfStabilised(const StepReport& report, double allowed)
+{
+	return sentence(
+	        "the ghost stabilisation still takes up ", report.ghostShare, " of the work of the step, more than the tolerance ", allowed,
+	        ", after it was relieved ", report.passes, " times: no stress in the points bears that load");
+}
+
 std::string causeOfDivergence(double correction)
 {
 	return sentence("it diverges: a correction of ", correction, " m, more than a cell, does not reduce the residual");

@@ -19,6 +19,7 @@ template <int Dim> bool tangent(const StepSystem<Dim>&, NodeMatrix<Dim>&, Coupli
 std::string causeOfStall(const Convergence&, double tolerance);
 std::string causeOfTooMany(const StepReport&, double tolerance, bool isWholeInBalance, int iterations);
 std::string causeOfDivergence(double correction);
+std::string causeOfStabilised(const StepReport&, double allowed);
 
 /// Where the largest out-of-balance force is.
 template <int Dim> void reportWorst(const StepSystem<Dim>&, const Balance&, StepReport&);

@@ -40,6 +40,10 @@ struct StepReport {
 	int nodes = 0, dofs = 0, populatedCells = 0, boundaryCells = 0, ghostFaces = 0;
 	int mixedCells = 0; ///< populated by points of several materials
 	int parts      = 0; ///< of the body that share no node
+	/// In parts of a few points that nothing keeps from moving freely (restraint.hpp), which are held where they are, and
+	/// the place of the first part.
+	int         loosePoints = 0;
+	std::string loosePlace {};
 
 	/// Free degree of freedom with the largest out-of-balance force.
 	struct {
@@ -58,6 +62,9 @@ struct StepReport {
 
 	int    clampedDomains     = 0; ///< points whose domain would have outgrown half a cell in this step
 	double largestWallOverlap = 0; ///< largest length by which a domain reached behind a wall [m]
+
+	double ghostShare = std::numeric_limits<double>::quiet_NaN(); ///< of the work of the step (ghost_share.hpp), NaN if it is not known
+	int    passes     = 0;                                        ///< in which the stabilisation was relieved (GhostSettings::workTolerance)
 
 	StepTimes times;
 

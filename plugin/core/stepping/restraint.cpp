@@ -2,6 +2,7 @@
 #include "core/stepping/restraint.hpp"
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <map>
 #include <numeric>
 #include <sstream>
@@ -108,7 +109,7 @@ template <int Dim> struct Part {
 	using Gram                 = Eigen::Matrix<double, modes, modes>;
 
 	Vec<Dim> sum   = Vec<Dim>::Zero(); // of node positions, in cells
-	int      nodes = 0;
+	int      nodes = 0, points = 0;
 	double   reach = 1;            // largest distance of a node from the centre, in cells
 	Gram     gram  = Gram::Zero(); // of the rigid modes' values at the held degrees of freedom
 
@@ -155,6 +156,16 @@ private:
 	}
 };
 
+template <int Dim> std::string placeOf(const Part<Dim>& part, const Grid<Dim>& grid)
+{
+	const Vec<Dim>     place = grid.origin + grid.cellSize * part.centre();
+	std::ostringstream text;
+	text << "(" << place[0] << ", " << place[1];
+	if (Dim == 3) text << ", " << place[Dim - 1];
+	text << ")";
+	return text.str();
+}
+
 template <int Dim> std::string describe(const Part<Dim>& part, const Grid<Dim>& grid)
 {
 	const Eigen::SelfAdjointEigenSolver<typename Part<Dim>::Gram> eigen(part.gram);
@@ -170,11 +181,29 @@ template <int Dim> std::string describe(const Part<Dim>& part, const Grid<Dim>& 
 		     << "xyz"[axis];
 	else
 		text << "rotation";
-	const Vec<Dim> place = grid.origin + grid.cellSize * part.centre();
-	text << " of the material around (" << place[0] << ", " << place[1];
-	if (Dim == 3) text << ", " << place[Dim - 1];
-	text << ")";
+	text << " of the material around " << placeOf(part, grid);
 	return text.str();
+}
+
+/// Sorts those that can move freely.
+template <int Dim> Restraint judged(const std::map<int, Part<Dim>>& found, const Parts<Dim>& parts, const Grid<Dim>& grid, int nodes)
+{
+	Restraint  result { int(found.size()), "" };
+	const int  few  = 1 << Dim;
+	const bool rest = std::any_of(found.begin(), found.end(), [&](const auto& part) { return part.second.points >= few; });
+	for (const auto& [root, part] : found) {
+		const std::string motion = describe(part, grid);
+		if (motion.empty()) continue;
+		if (!rest || part.points == 0 || part.points >= few) {
+			if (result.freeMotion.empty()) result.freeMotion = motion;
+			continue;
+		}
+		if (result.loose.place.empty()) result.loose.place = placeOf(part, grid);
+		result.loose.points += part.points;
+		for (int n = 0; n < nodes; ++n)
+			if (parts.root(n) == root) result.loose.nodes.push_back(n);
+	}
+	return result;
 }
 
 /// `holds(term, hold)` tells what a term holds.
@@ -193,6 +222,9 @@ Restraint restraintBy(
 		Part<Dim>& part = found[parts.root(n)];
 		part.reach      = std::max(part.reach, (parts.place(n) - part.centre()).norm());
 	}
+	if (division.isWhole())
+		for (const auto& patch : basis.patches)
+			found[parts.root(*std::find_if(patch.node.begin(), patch.node.end(), [](int n) { return n >= 0; }))].points += patch.count;
 	const auto hold
 	        = [&](std::size_t n, const Vec<Dim>& direction, const Vec<Dim>& place) { found[parts.root(n)].hold(parts.place(n) + place, direction); };
 	for (std::size_t n = 0; n < basis.nodes.size(); ++n)
@@ -204,10 +236,7 @@ Restraint restraintBy(
 		if (grid.axisymmetric) part.encircle();
 	for (const auto& turn : parts.turns())
 		found[turn.root].repeat(turn.length);
-	Restraint result { int(found.size()), "" };
-	for (auto part = found.begin(); part != found.end() && result.freeMotion.empty(); ++part)
-		result.freeMotion = describe(part->second, grid);
-	return result;
+	return judged(found, parts, grid, int(basis.nodes.size()));
 }
 
 } // namespace

@@ -9,7 +9,7 @@ bool canBeCut(Failure failure)
 {
 	return failure == Failure::singular || failure == Failure::inverted || failure == Failure::noResponse || failure == Failure::notFinite
 	        || failure == Failure::diverging || failure == Failure::tooManyIterations || failure == Failure::slides || failure == Failure::penetrated
-	        || failure == Failure::refused || failure == Failure::inaccurate || failure == Failure::gainsEnergy;
+	        || failure == Failure::refused || failure == Failure::inaccurate || failure == Failure::gainsEnergy || failure == Failure::stabilised;
 }
 
 double StepControl::part() const { return std::min(part_, 1 - done_); }

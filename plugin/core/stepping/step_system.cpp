@@ -100,7 +100,8 @@ template <int Dim> void StepSystem<Dim>::holdNodes(const Load<Dim>& load)
 	for (std::size_t n = 0; n < basis.nodes.size(); ++n)
 		for (int a = 0; a < Dim; ++a) {
 			if (basis.ties.contains(int(n))) continue;
-			if (const auto* box = model.boundary.holder(Grid<Dim>::index(basis.nodes[n]), a)) {
+			if (!isStill_.empty() && isStill_[n]) constraints.hold(int(Dim * n + a), 0);
+			else if (const auto* box = model.boundary.holder(Grid<Dim>::index(basis.nodes[n]), a)) {
 				const int    number = int(box - model.boundary.boxes().data());
 				const auto   moves  = load.boxMotion.find(number);
 				const double motion = moves == load.boxMotion.end() ? 0 : moves->second[a];
@@ -112,6 +113,15 @@ template <int Dim> void StepSystem<Dim>::holdNodes(const Load<Dim>& load)
 		holdField(f, model.fields[f - 1].begin(cloud_, basis, model.grid));
 	constraints.template spread<Dim>(map, constraints.prescribed);
 	if (!map.isAlone()) ofDisplacements_ = constraints.ofDisplacements(map);
+}
+
+template <int Dim> void StepSystem<Dim>::holdStill(const std::vector<int>& nodes, const Load<Dim>& load)
+{
+	isStill_.assign(basis.nodes.size(), false);
+	for (const int node : nodes)
+		isStill_[node] = true;
+	constraints.reset(map, basis.ties);
+	holdNodes(load);
 }
 
 template <int Dim> void StepSystem<Dim>::holdField(int field, const FieldStart& start)
@@ -136,7 +146,8 @@ template <int Dim> void StepSystem<Dim>::resistPoints()
 	if (model.atMiddle) terms.push_back(std::make_unique<InternalForceAtMiddle<Dim>>(basis, colours, points, model.materials));
 	else
 		terms.push_back(std::make_unique<InternalForce<Dim>>(basis, colours, points, model.materials));
-	if (!faces.empty()) terms.push_back(std::make_unique<GhostForce<Dim>>(share_->faces(), model.grid.cellSize, ghostFrom));
+	isStabilised_ = !faces.empty();
+	if (isStabilised_) terms.push_back(std::make_unique<GhostForce<Dim>>(share_->faces(), model.grid.cellSize, ghostFrom));
 }
 
 template <int Dim> void StepSystem<Dim>::makeTerms(const Load<Dim>& load)
@@ -248,6 +259,16 @@ std::optional<PointFailure> StepSystem<Dim>::evaluate(
 	completeForces(force); // those of a failure are reported, by all alike
 	if (sizes && !failure) completeForces(*sizes);
 	return failure;
+}
+
+template <int Dim> Eigen::VectorXd StepSystem<Dim>::sumOf(std::size_t first, std::size_t count, const Eigen::VectorXd& d) const
+{
+	Eigen::VectorXd force = Eigen::VectorXd::Zero(nodalSize());
+	for (std::size_t i = first; i < first + count; ++i)
+		terms[i]->add(d, { force });
+	constraints.template fold<Dim>(map, force);
+	completeForces(force);
+	return force;
 }
 
 template <int Dim> bool StepSystem<Dim>::isSymmetric() const

@@ -34,6 +34,9 @@ template <int Dim> struct StepSystem {
 	Eigen::VectorXd        ghostFrom;                           ///< displacements of which kinks cost nothing, by GhostSettings::memory; empty: none [m]
 	Eigen::VectorXd        ownMotion; ///< displacements by which the body goes on by itself, with the prescribed ones; empty without inertia [m]
 
+	/// None of them moves, whatever holds them or not; before Newton's method.
+	void holdStill(const std::vector<int>& nodes, const Load<Dim>&);
+
 	int nodalSize() const { return Dim * int(basis.nodes.size()); } ///< of the displacements
 
 	/// The fields after they have grown so much in the step.
@@ -59,6 +62,10 @@ template <int Dim> struct StepSystem {
 	/// whoever reduces it. `beside` goes with K.
 	std::optional<PointFailure> evaluate(
 	        const Eigen::VectorXd& d, Eigen::VectorXd& force, NodeMatrix<Dim>* K, Eigen::VectorXd* sizes = nullptr, Couplings* beside = nullptr) const;
+
+	/// Of the ghost stabilisation at d, and of all terms but that and the points' resistance [N].
+	Eigen::VectorXd ghostForce(const Eigen::VectorXd& d) const { return sumOf(1, isStabilised_, d); }
+	Eigen::VectorXd otherForces(const Eigen::VectorXd& d) const { return sumOf(1 + isStabilised_, terms.size() - 1 - isStabilised_, d); }
 
 	/// Forces from outside among the terms at these displacements [N].
 	double fromOutside(const Eigen::VectorXd& d) const;
@@ -96,8 +103,12 @@ private:
 	std::unique_ptr<Share<Dim>>      share_;
 	/// The fields as the step begins; displacements are those of the step.
 	std::vector<Eigen::VectorXd>   before_;
-	Constraints                    ofDisplacements_; ///< where there are other fields
-	std::vector<CoupledTerm<Dim>*> coupled_;         ///< of the terms
+	Constraints                    ofDisplacements_;      ///< where there are other fields
+	std::vector<CoupledTerm<Dim>*> coupled_;              ///< of the terms
+	bool                           isStabilised_ = false; ///< the second of the terms is the ghost's
+	std::vector<char>              isStill_;              ///< by node; empty: none is
+
+	Eigen::VectorXd sumOf(std::size_t first, std::size_t count, const Eigen::VectorXd& d) const;
 
 	void                        mapFields();
 	void                        makeTerms(const Load<Dim>&);

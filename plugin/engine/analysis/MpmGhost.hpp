@@ -10,12 +10,13 @@ public:
 	// three cells can carry (docs/theory.md).
 	static constexpr Real usualMassFactor = 1e-3, usualExplicitMassFactor = 0.25;
 
-	Real   factor     = 1e-2;
-	string scaling    = "mesh-independent";
-	string where      = "boundary";
-	Real   threshold  = 0.25;
-	Real   memory     = 0;
-	Real   massFactor = std::numeric_limits<Real>::quiet_NaN();
+	Real   factor        = 1e-2;
+	string scaling       = "mesh-independent";
+	string where         = "boundary";
+	Real   threshold     = 0.25;
+	Real   memory        = 0;
+	Real   massFactor    = std::numeric_limits<Real>::quiet_NaN();
+	Real   workTolerance = 1;
 
 	YADE_API_NAME(MpmGhost)
 	static const char* doc()
@@ -45,6 +46,9 @@ public:
 		v("massFactor", &MpmGhost::massFactor, 0,
 		  "Of MpmDynamicEngine, ghost mass [-] >= 0: gamma_M is this times the density, the lower of a face's two cells. NaN, the default: 1e-3, with scheme='explicit' 1/4. 0: none.",
 		  admitting("a finite number >= 0, or NaN for the default", [](Real value) { return std::isnan(value) || nonNegative(value); }));
+		v("workTolerance", &MpmGhost::workTolerance, 0,
+		  "Part [-] of the work of a static step that it may take up (*ghostShare*): beyond, the step goes on until stress bears the load, or fails. 1, the default: no limit.",
+		  admitting("a number from above 0 to 1", [](Real part) { return part > 0 && part <= 1; }));
 	}
 };
 

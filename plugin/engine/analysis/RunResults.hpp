@@ -60,6 +60,7 @@ struct RunResults {
 	Real             stepPart          = 1;
 	vector<Vector3r> reactions;
 	Real             wallOverlap = 0;
+	Real             ghostShare  = std::numeric_limits<Real>::quiet_NaN();
 
 	// Who tells a number besides the attribute of its name.
 	enum Told { byAttribute, byReport, byReportAndPlot };
@@ -131,6 +132,9 @@ template <class V> void RunResults::results(V&& v)
 	  "How often algebraic multigrid was set up in the last run (see MpmNewton.linearSolver).", count);
 	v("wallOverlap", &R::wallOverlap, latest(&StepReport::largestWallOverlap), byReport, readonly,
 	  "Largest length [m] by which a domain reached behind a wall in the last step; nodes there count as held.", nonNegative);
+	v("ghostShare", &R::ghostShare, reached(&StepReport::ghostShare), byReportAndPlot, readonly,
+	  "Part [-] of the work at the edge of the body in the last static step that the ghost stabilisation took up, 0 where its forces are small; NaN in steps in time and with *flow*.",
+	  any);
 }
 
 } // namespace yade

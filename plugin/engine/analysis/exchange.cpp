@@ -289,6 +289,7 @@ template <int Dim> gimpm::Model<Dim> emptyModel(const Analysis& analysis, const 
 	model.fBar                    = analysis.fBar;
 	model.ghost                   = { ghost.factor, ghost.scaling == "paper" ? gimpm::GhostScaling::paper : gimpm::GhostScaling::meshIndependent };
 	model.ghost.memory            = ghost.memory;
+	model.ghost.workTolerance     = ghost.workTolerance;
 	model.ghost.threshold         = ghost.where == "aggregates" ? ghost.threshold : 0;
 	model.newton.tolerance        = newton.tolerance;
 	model.newton.maxIterations    = newton.maxIterations;

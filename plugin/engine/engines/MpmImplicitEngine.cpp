@@ -161,6 +161,10 @@ template <int Dim> void MpmImplicitEngine::step(Agreement& agreement)
 		for (const auto& [about, warning] : condition->warnings())
 			warn(plausibility.once(about, warning));
 	if (job.moving) warn(plausibility.once("gift", job.moving->warningOfContact()));
+	else {
+		warn(plausibility.once("ghostShare", warningOfShare(*this)));
+		warn(plausibility.once("loosePoints", warningOfLoosePoints(*this)));
+	}
 	if ((maxSplits > 0 || job.model.grid.refinement) && clampedDomains > 0) splitOutgrown(job);
 	const auto warnings = plausibility.warningsOfResult(*this, points, job.cloud);
 	warnOfPoints(warnings.empty() ? "" : warnings.front());

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "engine/messages/failures.hpp"
+#include "core/parallel/together.hpp"
 #include "engine/analysis/analysis.hpp"
 #include "engine/messages/idle.hpp"
 #include "engine/parallel/distribution.hpp"
 #include "engine/parallel/processes.hpp"
+#include <iomanip>
 
 namespace yade {
 
@@ -50,19 +52,40 @@ namespace {
 		return text.str();
 	}
 
+	// Whether displacements have begun to run away from loads that grow: a sentence, or nothing.
+	string nearnessOfLimit(const Analysis& engine, const vector<MaterialPoint>& points)
+	{
+		constexpr Real fast      = 3;
+		Real           largest[] = { 0, 0 }; // of the last increment and of all
+		for (size_t i = 0; i < engine.lastDisplacements.size(); i += 6)
+			largest[0] = std::max(largest[0], Eigen::Map<const Vector3r>(&engine.lastDisplacements[i + 3]).norm());
+		for (const MaterialPoint& point : points)
+			largest[1] = std::max(largest[1], (point.state->pos - point.state->refPos).norm());
+		const auto ofAll = gimpm::ofEach(*holdersOf(engine), largest, 2);
+		for (size_t i = 0; i < ofAll.size(); ++i)
+			largest[i % 2] = std::max(largest[i % 2], ofAll[i]);
+		const Real growth = engine.lastLoadIncrement / engine.loadFactor;
+		if (!(growth > 0 && largest[1] > 0 && largest[0] > fast * growth * largest[1])) return "";
+		std::ostringstream text;
+		text << std::setprecision(3) << " In the last step that converged, to load factor " << engine.loadFactor
+		     << ", displacements grew with the load " << largest[0] / (growth * largest[1])
+		     << " times as fast as on average until then, as they do near a limit load.";
+		return text.str();
+	}
+
 	// Steps that are shorter may find what longer ones did not; of loads that grow the rest may be too much.
-	string adviceOnConvergence(const Analysis& engine, Real time, Real part)
+	string adviceOnConvergence(const Analysis& engine, const vector<MaterialPoint>& points, Real time, Real part)
 	{
 		const bool grows = engine.curveOfLoads().valueAt(time) != engine.loadFactor;
 		if (part == 1) return " Smaller steps (O.dt), or newton.minStep < 1, may help.";
 		if (engine.isDynamic())
 			return " Smaller steps (O.dt) or a smaller newton.minStep may help; where the motion is right until then, what strikes, pushes or pulls so hard is "
 			       "near the place that is named.";
-		if (grows) return " The load may be more than the body can carry in equilibrium.";
+		if (grows) return " The load may be more than the body can carry in equilibrium." + nearnessOfLimit(engine, points);
 		return " What has changed since the step before (soil, water, strength, boundaries or bodies that move) may be more than the body can carry in equilibrium.";
 	}
 
-	string adviceOn(const gimpm::StepReport& report, const Analysis& engine, Real time, Real part)
+	string adviceOn(const gimpm::StepReport& report, const Analysis& engine, const vector<MaterialPoint>& points, Real time, Real part)
 	{
 		using gimpm::Failure;
 		string advice;
@@ -87,7 +110,7 @@ namespace {
 			       "move a block of stiff material points by nodes inside of it (examples/README.md, recipes).";
 		if (engine.ghost->factor == 0)
 			advice += " The ghost stabilisation is off (factor=0): small overlaps of material and cells make the system ill conditioned.";
-		advice += adviceOnConvergence(engine, time, part);
+		advice += adviceOnConvergence(engine, points, time, part);
 		if (report.clampedDomains > 0) advice += " " + std::to_string(report.clampedDomains) + " domains had outgrown half a cell.";
 		return advice;
 	}
@@ -138,6 +161,7 @@ const char* nameOf(gimpm::Failure failure)
 		case Failure::refused: return "refused";
 		case Failure::inaccurate: return "inaccurate";
 		case Failure::gainsEnergy: return "gainsEnergy";
+		case Failure::stabilised: return "stabilised";
 		case Failure::singular: return "singular";
 		case Failure::inverted: return "inverted";
 		case Failure::noResponse: return "noResponse";
@@ -173,7 +197,8 @@ string reasonOf(const gimpm::StepReport& report, const Analysis& engine, const v
 	}
 	if (part < 1) text << " (" << part << " of O.dt, after " << engine.cuts << " cuts)";
 	text << " failed: " << report.cause;
-	text << placeOfFailed(report.failedPoint, engine, points) << "." << placeOfImbalance(report, engine, points) << adviceOn(report, engine, time, part);
+	text << placeOfFailed(report.failedPoint, engine, points) << "." << placeOfImbalance(report, engine, points)
+	     << adviceOn(report, engine, points, time, part);
 	if (report.failure == gimpm::Failure::unrestrained)
 		text << (engine.countOf("boundaries") == 0 ? " The engine has no boundaries." : "")
 		     << idleConditions(engine, points, [](const auto&) { return true; });
@@ -183,6 +208,29 @@ string reasonOf(const gimpm::StepReport& report, const Analysis& engine, const v
 string warningOfAccepted(const gimpm::StepReport& report, const Analysis& engine, Real time)
 {
 	return stepOf(engine, time) + " has not converged and is accepted (newton.acceptUnconverged): " + report.cause + ".";
+}
+
+string warningOfShare(const Analysis& engine)
+{
+	constexpr Real much = 0.05;
+	if (!(engine.ghostShare > much)) return "";
+	std::ostringstream text;
+	text << std::setprecision(2) << "in the step to O.time = " << engine.loadTime << ", load factor " << engine.loadFactor
+	     << ", the ghost stabilisation took up " << 100 * engine.ghostShare
+	     << " % of the work at the edge of the body (ghostShare), which no stress in the points bears: limit loads are too high by more than that, and what stands "
+	        "may not stand. ghost=MpmGhost(workTolerance=0.03) goes on until stress bears the load, and fails where none does. This is said once; plotData() tells of "
+	        "later steps.";
+	return text.str();
+}
+
+string warningOfLoosePoints(const Analysis& engine)
+{
+	const auto& report = engine.last;
+	if (report.loosePoints == 0) return "";
+	std::ostringstream text;
+	text << "in the step to O.time = " << engine.loadTime << " nothing restrains " << report.loosePoints << " points apart from the rest, the first around "
+	     << report.loosePlace << ": no equilibrium tells where they go, so they are held where they are (report()['loosePoints']).";
+	return text.str();
 }
 
 } // namespace yade

@@ -137,6 +137,10 @@ static void requireGhost(const Analysis& engine)
 		throw std::invalid_argument(
 		        "MpmGhost.memory = " + std::to_string(engine.ghost->memory) + " is of steps that are predicted from the last one: with "
 		        + (engine.isDynamic() ? engine.className() : "MpmNewton.predictor = False") + " 0 is admitted.");
+	if (engine.ghost->workTolerance < 1 && engine.isDynamic())
+		throw std::invalid_argument(
+		        "MpmGhost.workTolerance = " + std::to_string(engine.ghost->workTolerance) + " is of static steps: with " + engine.className()
+		        + ", where inertia bears what is out of balance, 1 is admitted.");
 	if (engine.ghost->where == "aggregates" && processes()->size() > 1)
 		throw std::invalid_argument(
 		        "MpmGhost.where = 'aggregates' cannot go with several processes yet, none of which knows how all cells are filled: 'boundary', or one process, is admitted.");

@@ -91,7 +91,7 @@ void addPlotData(py::object pythonClass, const py::object& function)
 	        "plotData() -> dict\n\nNumbers of the current state for YADE's plot: plot.addData(**solver.plotData()). They are worked out in the call, NaN "
 	        "where there is no such number.\n\n"
 	        "step: load steps made; loadFactor [-], iterations, cuts, residual [-]: of the last step; points: their number; settlement: largest displacement "
-	        "along gravity [m]; displacement: the largest in any direction [m]; plasticShare: part of the initial volume with plasticStrain > 0 [-]; "
+	        "along gravity [m]; displacement: the largest in any direction [m]; plasticShare: part of the initial volume with plasticStrain > 0 [-]; ghostShare: the attribute; "
 	        "elasticEnergy: strain energy of linear (Hencky) elasticity [J]; gravityPotential: minus weight (times its load factor) times displacement, summed "
 	        "over the points [J], zero at the initial positions; reaction_x, reaction_y and, in 3D, reaction_z: sum of the attribute *reactions* [N]; "
 	        "reaction0_y: that of boundaries[0], for all directions that a boundary fixes; load0_y: resultant of loads[0], for all directions [N]; contact0_y: force of the soil on all bodies of contacts[0] [N], contact0_touching: corners that touch them; body7_y, body7_torque_z: force [N] and torque [N m] on body 7, if it does not move freely. With *flow* waterIn, waterOut, waterStored: volumes of water since the first step [m³]; drain0: discharge of flow.drains[0] [m³/s].\n\n"

@@ -32,7 +32,7 @@ namespace {
 		{ "failure",
 		  "'none', 'detached' (a boundary that is to move has no hold of the soil), 'misplaced' (a load, wall or rigid body), 'unrestrained', 'slides' "
 		  "(friction at its limit does not hold it), 'penetrated' (by a rigid body), 'refused' (by a condition that does not admit the equilibrium), "
-		  "'inaccurate' (MpmDynamicEngine.timeTolerance; beyond newton.stepTolerance steps are cut), 'gainsEnergy' (a step in time makes energy of nothing), "
+		  "'inaccurate' (MpmDynamicEngine.timeTolerance; beyond newton.stepTolerance steps are cut), 'gainsEnergy' (a step in time makes energy of nothing), 'stabilised' (MpmGhost.workTolerance), "
 		  "'singular', 'inverted', 'notFinite', 'diverging', 'tooManyIterations', 'stalled' (at round-off), 'apart' (processes in different states) or "
 		  "'interrupted'.",
 		  [](E e) { return py::object(nameOf(e.last.failure)); } },
@@ -71,6 +71,10 @@ namespace {
 		  "long as every part is held against rigid motion; a part that is not ends the run as 'unrestrained', with its place, since no equilibrium determines "
 		  "where it goes.",
 		  [](E e) { return py::object(e.last.parts); } },
+		{ "loosePoints",
+		  "Points in parts of the body that a static step has held where they are: fewer than a cell has nodes, apart from the rest, and nothing restrains them. "
+		  "Of MpmDynamicEngine see there.",
+		  [](E e) { return py::object(e.last.loosePoints); } },
 		{ "clampedDomains",
 		  "Points whose domain would outgrow half a cell in the last step: it is kept at half a cell, the rest of the point's volume acts within it (see "
 		  "maxSplits).",

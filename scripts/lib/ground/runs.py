@@ -11,6 +11,7 @@ from .soils import weight
 
 O = Omega()
 same = .05  # of the load at which two runs fail
+told = .1  # of the work of a step, that the stabilisation takes up: more is warned of
 exact = 1e-5  # of the sizes of all forces, that may be out of balance in statics
 
 
@@ -28,7 +29,7 @@ class Outcome:
 
 	def __init__(self, scene, finer, seconds):
 		solver = scene.add(finer)
-		self.part, self.off, self.why, self.solves, self.cuts = 0., 0., '', 0, 0
+		self.part, self.off, self.share, self.why, self.solves, self.cuts = 0., 0., 0., '', 0, 0
 		steps, ends = scene.steps * finer, time.process_time() + seconds
 		for step in range(steps):
 			try:
@@ -42,11 +43,12 @@ class Outcome:
 			if self.why: break
 			self.part = (step + 1) / steps
 			self.off = max(self.off, balanceOf(scene, solver))
+			if not scene.isDynamic: self.share = max(self.share, solver.ghostShare)
 		self.numbers = scene.isRight(solver) if not self.why else {}
 
 
 def judged(seed, seconds):
-	"""A row of the table: how a scene ended ('ends', 'fails' as it may, or 'stops'), and what is wrong with it."""
+	"""A row of the table: how a scene ended ('ends', 'held' if it is said that only the stabilisation holds it, 'fails' as it may, or 'stops'), and what is wrong with it."""
 	began, scene = time.process_time(), sceneOf(seed)
 	with said():
 		found = Outcome(scene, 1, seconds)
@@ -55,9 +57,10 @@ def judged(seed, seconds):
 			again = Outcome(scene, 2, 2 * seconds)
 			if again.why and abs(again.part - found.part) <= same * max(again.part, found.part) or found.part == again.part: how = 'fails'
 			else: found.why += f' (at {found.part:.3f}, in finer steps at {again.part:.3f})'
-	wrong = [f'{name} {value:.3g}' for name, (value, isRight) in found.numbers.items() if not isRight]
+		elif not found.why and found.share > told: how = 'held'
+	wrong = [f'{name} {value:.3g}' for name, (value, isRight) in found.numbers.items() if not isRight and not (how == 'held' and name == 'moved')]
 	if found.off > exact: wrong.append(f'balance {found.off:.1e}')
-	return dict(seed=seed, scene=str(scene), how=how, part=found.part, why=found.why, wrong=', '.join(wrong), solves=found.solves, cuts=found.cuts, seconds=round(time.process_time() - began, 2))
+	return dict(seed=seed, scene=str(scene), how=how, part=found.part, why=found.why, wrong=', '.join(wrong), share=round(found.share, 3), solves=found.solves, cuts=found.cuts, seconds=round(time.process_time() - began, 2))
 
 
 def drawn(seeds, seconds=10):

@@ -77,6 +77,7 @@ outOfRange = {
         'MpmGhost.threshold': ['0.', '-0.1', '1.1'],
         'MpmGhost.memory': ['-0.1', '1.1'],
         'MpmGhost.massFactor': ['-1e-3'],
+        'MpmGhost.workTolerance': ['0.', '-0.1', '1.1'],
         'MpmDynamicEngine.loadCurve': ['[(0, 0), (0, 1)]', '[(1, 0), (0, 1)]'],
         'MpmDynamicEngine.scheme': ['"Newmark"'],
         'MpmDynamicEngine.beta': ['0.', '-0.25', '1.1'],

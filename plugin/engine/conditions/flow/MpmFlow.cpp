@@ -26,6 +26,8 @@ void MpmFlow::requireFitting(const Analysis& analysis, const string&) const
 	if (analysis.isDynamic()) what = analysis.className() + ", steps with inertia";
 	else if (analysis.newton->stepTolerance > 0)
 		what = "MpmNewton.stepTolerance, which sees displacements only";
+	else if (analysis.ghost->workTolerance < 1)
+		what = "MpmGhost.workTolerance < 1, which knows of no work of water";
 	else if (analysis.maxSplits > 0)
 		what = "maxSplits > 0, points that are split";
 	if (!what.empty()) throw std::invalid_argument("MpmFlow cannot yet go with " + what + "; leave one of the two out.");
