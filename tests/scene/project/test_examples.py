@@ -417,6 +417,17 @@ def test_consolidation(yade):
 	assert (run.folder / 'out/consolidation/consolidation.png').stat().st_size > 20000
 
 
+def test_layers_with_time_between_them(yade):
+	"""Pressures fall and safety grows while one waits, and in the end all has drained."""
+	run = yade(root / 'examples' / 'embankment' / 'waiting.py', '--cellSize', 1, '--layers', 2)
+	found = [list(map(float, line)) for line in re.findall(r'layer \d: after \d+ days (\S+) mm, pressures up to (\S+) kPa, factor of safety (\S+), later (\S+)', run.stdout)]
+	assert len(found) == 2 and found[0][0] < found[1][0], run.stdout
+	assert all(later > placed > 1 for _, _, placed, later in found)
+	last, pressure = numbers(r'in the end (\S+) mm, pressures up to (\S+) kPa', run.stdout)
+	assert last > found[1][0] and pressure < 0.1
+	assert (run.folder / 'out/waiting/waiting.png').stat().st_size > 20000
+
+
 def test_embankment(yade):
 	"""Layers on an elastic column against the sum by hand; on clay the base bears all there is, and settlement goes on growing."""
 	run = yade(root / 'examples' / 'embankment' / 'embankment.py', '--cellSize', 1, '--steps', 2, '--layers', 4)
