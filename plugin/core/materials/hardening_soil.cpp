@@ -330,7 +330,7 @@ HardeningSoil::Slopes HardeningSoil::slopes(const Trial& trial, const Flow& flow
 	return s;
 }
 
-Response HardeningSoil::respond(const Vec3& strain, TensorState& state, double volumeOfStep) const
+Response HardeningSoil::respond(const Vec3& strain, TensorState& state, double growth, bool flows) const
 {
 	const double factor = state.scalar(stiffness), mean = strain.mean(), length = (strain.array() - mean).matrix().norm();
 	// From the most to the least pressed axis.
@@ -344,7 +344,7 @@ Response HardeningSoil::respond(const Vec3& strain, TensorState& state, double v
 		trial.direction[i] = -root * n[length > 0 ? order[i] : i];
 	trial.cap       = std::max(state.scalar(capPressure) + shift_, leastPressure * unit_);
 	trial.sine      = state.scalar(dilated) >= given_.mostDilation ? 0 : dilatancy(std::sin(state.scalar(mobilisedFriction)));
-	const Flow flow = returned(trial);
+	const Flow flow = flows ? returned(trial) : Flow { trial.pressure(shift_), trial.difference() };
 	Response   r;
 	r.failed = flow.isFailed || !std::isfinite(flow.pressure + flow.difference);
 	if (r.failed != 0) return r;
@@ -373,9 +373,9 @@ Response HardeningSoil::respond(const Vec3& strain, TensorState& state, double v
 	if (flow.mode == Flow::Shear::hardens) state.scalar(shearHardening) = grown;
 	if (flow.mode == Flow::Shear::fails) state.scalar(shearHardening) = std::max(trial.hardening, std::min(grown, mostHardening(smallest)));
 	if (flow.isOnCap) state.scalar(capPressure) = std::max(state.scalar(capPressure), capAt(trial.cap, flow.compaction) - shift_);
-	state.scalar(mobilisedFriction) = largest + smallest > 0 ? std::asin(std::clamp((largest - smallest) / (largest + smallest), 0., sine_)) : 0;
+	setMobilised(state, smallest, largest);
 	state.scalar(plasticStrain) += std::max(0., (1 - part) * trial.sheared);
-	state.scalar(dilated) += volumeOfStep;
+	state.scalar(dilated) += growth;
 	state.scalar(stiffness) = next;
 	const double volumetric = mean_ / (3 * next * bulk_), shared = part * factor / next;
 	for (int i = 0; i < 3; ++i)
@@ -383,19 +383,31 @@ Response HardeningSoil::respond(const Vec3& strain, TensorState& state, double v
 	return r;
 }
 
+void HardeningSoil::setMobilised(TensorState& state, double smallest, double largest) const
+{
+	const double sine               = largest + smallest > 0 ? (largest - smallest) / (largest + smallest) : 0;
+	state.scalar(mobilisedFriction) = std::asin(std::clamp(sine, 0., sine_));
+}
+
 TensorAnswer HardeningSoil::respond(const TensorStep& step) const
 {
-	const double volume = std::log(step.stretch.determinant());
-	return answerInPrincipalAxes(step, [&](const Vec3& strain, TensorState& state) { return respond(strain, state, volume); });
+	const double growth = std::log(step.stretch.determinant());
+	return answerInPrincipalAxes(step, [&](const Vec3& strain, TensorState& state) { return respond(strain, state, growth, true); });
+}
+
+TensorAnswer HardeningSoil::elastic(const TensorStep& step) const
+{
+	const double growth = std::log(step.stretch.determinant());
+	return answerInPrincipalAxes(step, [&](const Vec3& strain, TensorState& state) { return respond(strain, state, growth, false); });
 }
 
 TensorState HardeningSoil::bearing(const Mat3& stress, TensorState state) const
 {
 	const Vec3   pressure = shift_ - principal(SymTensor<3>::from(stress)).value.array();
 	const double smallest = pressure.minCoeff(), largest = pressure.maxCoeff(), mean = pressure.mean();
-	const double mobilised          = smallest > 0 ? (largest - smallest) / (slope_ * smallest) : 0;
-	state.scalar(stiffness)         = factorAt(smallest);
-	state.scalar(mobilisedFriction) = largest + smallest > 0 ? std::asin(std::clamp((largest - smallest) / (largest + smallest), 0., sine_)) : 0;
+	const double mobilised  = smallest > 0 ? (largest - smallest) / (slope_ * smallest) : 0;
+	state.scalar(stiffness) = factorAt(smallest);
+	setMobilised(state, smallest, largest);
 	// What is beyond the strength no hardening bears.
 	const double reached         = slope_ * std::max(smallest, 0.) / factorAt(smallest) * hyperbola(std::min(mobilised, 1.));
 	state.scalar(shearHardening) = std::max(state.scalar(shearHardening), reached);

@@ -61,6 +61,8 @@ public:
 	Mat3 strainOf(const Mat3& stress, const TensorState&) const;
 
 	TensorAnswer respond(const TensorStep&) const;
+	/// As if nothing flowed.
+	TensorAnswer elastic(const TensorStep&) const;
 
 	const Given& given() const { return given_; }
 	double       shear() const { return shear_; } ///< modulus of unloading at the reference pressure
@@ -91,7 +93,8 @@ private:
 	Flow                                returned(const Trial&) const;
 	bool                                polish(const Trial&, Flow&) const;
 	Slopes                              slopes(const Trial&, const Flow&) const;
-	Response                            respond(const Vec3& trialStrain, TensorState&, double dilation) const;
+	Response                            respond(const Vec3& trialStrain, TensorState&, double growth, bool flows) const;
+	void                                setMobilised(TensorState&, double smallest, double largest) const;
 	template <class T> std::array<T, 4> residual(const Trial&, const Flow&, const std::array<T, 4>& unknown, const std::array<T, 5>& trial) const;
 
 	Given  given_;

@@ -66,7 +66,7 @@ std::pair<double, double> HardeningSoilSmall::modulus(double from, double to) co
 	return { middle.tangent, middle.bend / 2 };
 }
 
-TensorAnswer HardeningSoilSmall::respond(const TensorStep& step) const
+TensorAnswer HardeningSoilSmall::answer(const TensorStep& step, bool flows) const
 {
 	const Mat3   increment = logarithm(step.stretch), shearing = deviatorOf(increment), past = step.state.tensor(strainHistory);
 	const bool   turns  = past.cwiseProduct(shearing).sum() <= 0;
@@ -81,7 +81,7 @@ TensorAnswer HardeningSoilSmall::respond(const TensorStep& step) const
                 changed.trialStrain             = increment + factor / stiffer * elastic;
                 changed.state.scalar(stiffness) = stiffer;
                 changed.wantsTangent            = wantsTangent;
-                return HardeningSoil::respond(changed);
+                return flows ? HardeningSoil::respond(changed) : HardeningSoil::elastic(changed);
 	};
 	TensorAnswer answer = with(stiffer, step.wantsTangent);
 	if (shearing.norm() > 0) answer.state.setTensor(strainHistory, after);

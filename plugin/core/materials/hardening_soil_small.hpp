@@ -31,7 +31,8 @@ public:
 	HardeningSoilSmall with(const Parameters&) const;
 	Parameters         weakened(const Weakening&) const { return parameters(); }
 
-	TensorAnswer respond(const TensorStep&) const;
+	TensorAnswer respond(const TensorStep& step) const { return answer(step, true); }
+	TensorAnswer elastic(const TensorStep& step) const { return answer(step, false); }
 
 private:
 	static constexpr double decay = .385; ///< the secant modulus at g07 is G0 / (1 + decay)
@@ -40,6 +41,7 @@ private:
 	struct Curve {
 		double stress, tangent, bend; ///< secant modulus times strain, and its derivatives by it
 	};
+	TensorAnswer              answer(const TensorStep&, bool flows) const;
 	Curve                     at(double strain) const;
 	std::pair<double, double> modulus(double from, double to) const;
 

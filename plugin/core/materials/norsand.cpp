@@ -170,14 +170,14 @@ NorSand::Flow NorSand::returned(const Trial& trial) const
 	return flow;
 }
 
-Response NorSand::respond(const Vec3& strain, TensorState& state, double growth) const
+Response NorSand::respond(const Vec3& strain, TensorState& state, double growth, bool flows) const
 {
 	const double mean = strain.mean(), length = (strain.array() - mean).matrix().norm(), root = std::sqrt(2. / 3);
 	const Trial  trial { 3 * mean, root * length, -state.scalar(imagePressure), state.scalar(specificVolume) * growth };
 	Response     r;
 	r.failed = std::abs(trial.volumetric) > mostExponent * given_.swelling || !(trial.volume >= 1);
 	if (r.failed != 0) return r;
-	const Flow flow = returned(trial);
+	const Flow flow = flows ? returned(trial) : Flow { trial.volumetric, trial.shear, trial.image };
 	r.failed        = flow.isFailed;
 	if (r.failed != 0) return r;
 	const double G = given_.shear, p = pressureAt(flow.volumetric), part = length > 0 ? flow.shear / trial.shear : 1;
@@ -199,7 +199,13 @@ Response NorSand::respond(const Vec3& strain, TensorState& state, double growth)
 TensorAnswer NorSand::respond(const TensorStep& step) const
 {
 	const double growth = step.stretch.determinant();
-	return answerInPrincipalAxes(step, [&](const Vec3& strain, TensorState& state) { return respond(strain, state, growth); });
+	return answerInPrincipalAxes(step, [&](const Vec3& strain, TensorState& state) { return respond(strain, state, growth, true); });
+}
+
+TensorAnswer NorSand::elastic(const TensorStep& step) const
+{
+	const double growth = step.stretch.determinant();
+	return answerInPrincipalAxes(step, [&](const Vec3& strain, TensorState& state) { return respond(strain, state, growth, false); });
 }
 
 TensorState NorSand::bearing(const Mat3& stress, TensorState state) const

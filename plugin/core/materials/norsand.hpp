@@ -46,6 +46,8 @@ public:
 	Mat3        strainOf(const Mat3& stress, const TensorState&) const;
 
 	TensorAnswer respond(const TensorStep&) const;
+	/// As if nothing flowed.
+	TensorAnswer elastic(const TensorStep&) const;
 
 private:
 	/// As of Cam clay. By less than the tolerance, relative to the pressure, nothing yields. Of the elastic stiffness
@@ -65,7 +67,7 @@ private:
 	bool                  solve(const Trial&, Vec4& unknown) const;
 	Flow                  returned(const Trial&) const;
 	Flow                  atTip(const Trial&) const;
-	Response              respond(const Vec3& strain, TensorState&, double growth) const;
+	Response              respond(const Vec3& strain, TensorState&, double growth, bool flows) const;
 
 	Given  given_;
 	double nonAssociated_; ///< (1 - N) / (1 - N of the potential)

@@ -58,6 +58,9 @@ public:
 	// What about it does not go with cells of several sizes; empty if it does.
 	virtual string needsEqualCells(const string& /*name*/) const { return ""; }
 
+	// Whether it acts by rates, so that O.time counts seconds.
+	virtual bool countsSeconds(const Scene&) const { return false; }
+
 	// A surface that it moves, which no other one may move.
 	virtual const Serializable* ownSurface() const { return nullptr; }
 

@@ -2,6 +2,7 @@
 #include "engine/materials/MpmHardeningSoilMat.hpp"
 #include "core/materials/hardening_soil_small.hpp"
 #include "engine/materials/law_of_class.hpp"
+#include "engine/materials/over_time.hpp"
 #include "yade_api/registration.hpp"
 
 namespace yade {
@@ -55,8 +56,8 @@ void MpmHardeningSoilMat::requireAdmissible() const
 namespace {
 	gimpm::Law lawOfSoil(const MpmHardeningSoilMat& m)
 	{
-		if (std::isnan(m.G0ref)) return gimpm::HardeningSoil(m.given());
-		return gimpm::HardeningSoilSmall(m.given(), m.G0ref, m.gamma07);
+		if (std::isnan(m.G0ref)) return overTime(m, gimpm::HardeningSoil(m.given()));
+		return overTime(m, gimpm::HardeningSoilSmall(m.given(), m.G0ref, m.gamma07));
 	}
 }
 

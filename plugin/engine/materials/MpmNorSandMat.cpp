@@ -2,6 +2,7 @@
 #include "engine/materials/MpmNorSandMat.hpp"
 #include "core/materials/norsand.hpp"
 #include "engine/materials/law_of_class.hpp"
+#include "engine/materials/over_time.hpp"
 #include "yade_api/registration.hpp"
 
 namespace yade {
@@ -31,9 +32,10 @@ void MpmNorSandMat::requireStart(const Matrix3r& stress) const
 
 static const RegisteredLaw<MpmNorSandMat> lawOfMpmNorSandMat(
         [](const MpmNorSandMat& m) {
-	        return gimpm::NorSand({ m.shearModulus, m.swellingIndex, m.referencePressure, m.criticalStateRatio, m.compressionIndex, m.criticalVolume,
-	                                m.criticalPressure, m.curvature, std::isnan(m.flowCurvature) ? m.curvature : m.flowCurvature, m.hardening,
-	                                m.specificVolume, -m.dilatancyRatio });
+	        const gimpm::NorSand law({ m.shearModulus, m.swellingIndex, m.referencePressure, m.criticalStateRatio, m.compressionIndex, m.criticalVolume,
+	                                   m.criticalPressure, m.curvature, std::isnan(m.flowCurvature) ? m.curvature : m.flowCurvature, m.hardening,
+	                                   m.specificVolume, -m.dilatancyRatio });
+	        return overTime(m, law);
         },
         std::pair("shearModulus", &MpmNorSandMat::shearModulus), std::pair("criticalStateRatio", &MpmNorSandMat::criticalStateRatio));
 } // namespace yade

@@ -213,7 +213,7 @@ def firstStress(who, confiningPressure, initialStress):
 
 def _firstState(who, material, stress, internals):
 	"""Of a point with this stress, which it bears without yielding."""
-	if hasattr(material, 'referencePressure') and not stress.any():
+	if hasattr(material, 'swellingIndex') and not stress.any():
 		raise ValueError(f'{who}: confiningPressure = 0 is not admitted for an {type(material).__name__}, which has no stiffness without pressure')
 	internals = _named(who, engine.bearing, material, _numbers(stress), internals)
 	elasticStrain = np.array(_named(who, engine.elasticStrainOf, material, _numbers(stress), internals))
