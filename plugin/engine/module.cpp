@@ -38,6 +38,7 @@ void defineHelpers()
 	py::def("respondInSpace", &respondInSpaceForPython,
 	        "For mpm.respond: one call of a tensor law, from a trial strain, internal variables and a step of time.");
 	py::def("stepInSpace", &stepInSpaceForPython, "For mpm.elementTest: a point of a tensor law after an increment of its deformation gradient.");
+	py::def("bearing", &bearingForPython, "For mpm.elementTest: the internal variables of a point that bears principal Kirchhoff stresses.");
 	py::def("elasticStrainOf", &elasticStrainForPython, "For mpm.elementTest: principal elastic strains of principal Kirchhoff stresses.");
 	py::def(
 	        "touchableBodies", +[](const MpmImplicitEngine& engine) { return touchableBodiesForPython(engine); },

@@ -155,15 +155,50 @@ template <class L> std::vector<int> columnsOfTensorLaw()
 	return columns;
 }
 
+/// What handles of laws are whose history follows from a stress [Pa], as hardening that the soil must have had to bear
+/// it. Such a law has `TensorState bearing(const Mat3& stress, TensorState) const`, the state that bears it at least, and
+/// `Mat3 strainOf(const Mat3& stress, const TensorState&) const`, the elastic strain that has it then.
+struct BearsStress {
+	virtual ~BearsStress()                                                                               = default;
+	virtual std::vector<double> bearing(const Mat3& stress, const std::vector<double>& internals) const  = 0;
+	virtual Mat3                strainOf(const Mat3& stress, const std::vector<double>& internals) const = 0;
+};
+template <class L> constexpr auto bears(int) -> decltype(&L::bearing, &L::strainOf, true) { return true; }
+template <class L> constexpr bool bears(long) { return false; }
+
+/// The part of a handle for such laws; of the others it is empty.
+template <class L, bool = bears<L>(0)> struct BearingOf {
+	explicit BearingOf(const L&) { }
+};
+template <class L> struct BearingOf<L, true> : BearsStress {
+	explicit BearingOf(const L& law) : law_(law) { }
+	std::vector<double> bearing(const Mat3& stress, const std::vector<double>& internals) const override
+	{
+		const TensorState state = law_.bearing(stress, stateOf(internals));
+		return { state.numbers(), state.numbers() + state.size() };
+	}
+	Mat3 strainOf(const Mat3& stress, const std::vector<double>& internals) const override { return law_.strainOf(stress, stateOf(internals)); }
+
+private:
+	const L law_;
+
+	TensorState stateOf(const std::vector<double>& internals) const
+	{
+		TensorState state = law_.initialInternals();
+		std::copy(internals.begin(), internals.end(), state.numbers());
+		return state;
+	}
+};
+
 /// In kernels a law without meaning stands for a tensor law.
 const PrincipalLaw& placeholder();
 
-template <class L> class HandleOfTensorLaw : public LawOf<L> {
+template <class L> class HandleOfTensorLaw : public LawOf<L>, public BearingOf<L> {
 	static_assert(hasTensorMembers<L>(), "the law remembers more numbers than TensorState::most");
 	static const std::vector<int> knownColumns;
 
 public:
-	explicit HandleOfTensorLaw(const L& law) : LawOf<L>(law)
+	explicit HandleOfTensorLaw(const L& law) : LawOf<L>(law), BearingOf<L>(law)
 	{
 		this->isTensorLaw       = true;
 		this->principal         = &placeholder();

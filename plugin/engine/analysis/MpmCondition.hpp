@@ -62,6 +62,8 @@ public:
 	// that, empty if it does.
 	virtual bool   partsBodies() const { return false; }
 	virtual string needsOneBody(const string& /*name*/) const { return ""; }
+	// Whether it acts by rates, so that O.time counts seconds.
+	virtual bool countsSeconds(const Scene&) const { return false; }
 
 	// A surface that it moves, which no other one may move.
 	virtual const Serializable* ownSurface() const { return nullptr; }

@@ -23,10 +23,11 @@ public:
 	gimpm::LoadCurve::Knees gravityCurve; // empty: loadCurve
 	shared_ptr<MpmGhost>    ghost { new MpmGhost };
 	shared_ptr<MpmNewton>   newton { new MpmNewton };
-	int                     mask        = -1;
-	Real                    loadTime    = 0;
-	int                     maxSplits   = 0;
-	bool                    distributed = false;
+	int                     mask           = -1;
+	Real                    loadTime       = 0;
+	int                     maxSplits      = 0;
+	bool                    distributed    = false;
+	Real                    nonlocalLength = 0; // none
 
 	virtual ~Analysis() = default;
 

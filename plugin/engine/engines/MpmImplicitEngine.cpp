@@ -2,6 +2,7 @@
 #include "engine/engines/MpmImplicitEngine.hpp"
 #include "core/base/stopwatch.hpp"
 #include "core/stepping/load_step.hpp"
+#include "core/stepping/nonlocal.hpp"
 #include "engine/analysis/LoadStepObserver.hpp"
 #include "engine/analysis/exchange.hpp"
 #include "engine/analysis/movers.hpp"
@@ -244,6 +245,7 @@ template <int Dim> void MpmImplicitEngine::takePoints(Setup<Dim>& to, Agreement&
 		model.division = distribution.divide<Dim>(*this, points);
 		known          = materialsOfAll(*scene, points, *model.processes);
 	}
+	requireSeconds(*this, points);
 	to.cloud = gather(points, model, known);
 	if (areKnown) plausibility.know(to.cloud); // some have come from another process
 	if (!model.division->isWhole() && hasQuestions()) agreement.meet(*this);
@@ -333,7 +335,8 @@ template <int Dim> void MpmImplicitEngine::advance(Job<Dim>& job)
 	StepErrors   errors(*this);
 	job.model.newton.interrupted = [&] { return isRequested(interruption.isRequested(), *job.model.processes); };
 	while (!job.control.isDone()) {
-		Attempt<Dim>    tried  = errors.next(job, [&] { return attempt(job); });
+		Attempt<Dim> tried = errors.next(job, [&] { return attempt(job); });
+		if (nonlocalLength > 0) gimpm::averageSoftening(job.cloud, job.model, nonlocalLength);
 		const auto      report = isExplicit() ? job.moving->step(job, tried)
 		                                      : gimpm::loadStep(job.cloud, job.model, tried.load, solver, tried.predicts ? &tried.last : nullptr);
 		const ValueLock lock;

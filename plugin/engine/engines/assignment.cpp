@@ -86,12 +86,15 @@ namespace {
 
 	// Of a material point, what follows from columns.
 	struct Values {
-		Matrix3r defGrad, elasticStrain, stress;
-		Vector3r halfSize;
-		Real     volume;
+		Matrix3r                                                defGrad, elasticStrain, stress;
+		Vector3r                                                halfSize;
+		Real                                                    volume;
+		vector<std::pair<const gimpm::InternalVariable*, Real>> internals; // that follow from a stress
 
 		void assignTo(const MaterialPoint& p) const
 		{
+			for (const auto& [variable, value] : internals)
+				p.state->setInternal(variable->name, value);
 			p.state->elasticStrain = elasticStrain;
 			p.state->stress        = stress;
 			p.state->volume        = volume;
@@ -120,12 +123,25 @@ namespace {
 		return values;
 	}
 
+	// The variables of laws whose history follows from a stress, but for those that are given.
+	void followHistory(Values& v, const Columns& columns, size_t row, vector<Real>& internals, const gimpm::Material& material)
+	{
+		const vector<Real> bearing = internalsBearing(material.law, v.defGrad.determinant() * v.stress, internals);
+		for (size_t k = 0; k < internals.size(); ++k) {
+			const auto& variable = gimpm::internalVariables[material.law->columns[k]];
+			if (bearing[k] == internals[k] || columns.find(variable.name, row)) continue;
+			internals[k] = bearing[k];
+			v.internals.emplace_back(&variable, bearing[k]);
+		}
+	}
+
 	// Stress and elastic strain depend on each other.
-	void followStress(Values& v, const Columns& columns, const vector<Real>& internals, const gimpm::Material& material)
+	void followStress(Values& v, const Columns& columns, size_t row, vector<Real> internals, const gimpm::Material& material)
 	{
 		const Real J = v.defGrad.determinant();
 		if (columns.has("stress")) {
 			requireSymmetric("stress", v.stress);
+			followHistory(v, columns, row, internals, material);
 			v.elasticStrain = elasticStrainOf(material, J * v.stress, internals);
 		} else if (columns.has("elasticStrain") || columns.has("defGrad") || columns.haveInternals()) {
 			requireSymmetric("elasticStrain", v.elasticStrain);
@@ -136,12 +152,16 @@ namespace {
 	Values changed(const MaterialPoint& point, const Columns& columns, size_t row, const gimpm::Material& material)
 	{
 		const MpmState& state = *point.state;
-		Values          v { tensorOr(state.defGrad, columns.find("defGrad", row)), tensorOr(state.elasticStrain, columns.find("elasticStrain", row)),
-                           tensorOr(state.stress, columns.find("stress", row)), point.shape->halfSize, state.volume };
+		Values          v { tensorOr(state.defGrad, columns.find("defGrad", row)),
+                           tensorOr(state.elasticStrain, columns.find("elasticStrain", row)),
+                           tensorOr(state.stress, columns.find("stress", row)),
+                           point.shape->halfSize,
+                           state.volume,
+                           {} };
 		if (!MpmState::preservesOrientation(v.defGrad)) throw std::invalid_argument("defGrad has no determinant > 0: matter cannot turn inside out.");
 		columns.requireAdmitted(row);
 		if (columns.has("defGrad")) followDeformation(v, point);
-		followStress(v, columns, internalsOf(point, columns, row, material), material);
+		followStress(v, columns, row, internalsOf(point, columns, row, material), material);
 		return v;
 	}
 

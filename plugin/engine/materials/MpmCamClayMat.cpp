@@ -2,6 +2,7 @@
 #include "engine/materials/MpmCamClayMat.hpp"
 #include "core/materials/law.hpp"
 #include "engine/materials/law_of_class.hpp"
+#include "engine/materials/over_time.hpp"
 #include "yade_api/registration.hpp"
 
 namespace yade {
@@ -28,7 +29,9 @@ void MpmCamClayMat::requireStart(const Matrix3r& stress) const
 namespace yade {
 static const RegisteredLaw<MpmCamClayMat> lawOfMpmCamClayMat(
         [](const MpmCamClayMat& m) {
-	        return gimpm::CamClay(m.shearModulus, m.criticalStateRatio, m.compressionIndex, m.swellingIndex, m.preconsolidation, m.referencePressure);
+	        return overTime(
+	                m, gimpm::CamClay(m.shearModulus, m.criticalStateRatio, m.compressionIndex, m.swellingIndex, m.preconsolidation, m.referencePressure),
+	                0);
         },
         std::pair("shearModulus", &MpmCamClayMat::shearModulus), std::pair("criticalStateRatio", &MpmCamClayMat::criticalStateRatio));
 } // namespace yade

@@ -2,14 +2,24 @@
 #include "engine/materials/MpmDruckerPragerMat.hpp"
 #include "core/materials/law.hpp"
 #include "engine/materials/law_of_class.hpp"
+#include "engine/materials/over_time.hpp"
 #include "yade_api/registration.hpp"
 
 namespace yade {
+
+void MpmDruckerPragerMat::requireAdmissible() const
+{
+	ExposedIndexed<MpmDruckerPragerMat, MpmFrictionalMat>::requireAdmissible();
+	requireOneOfTimes(*this, viscosity);
+}
+
 static const RegisteredLaw<MpmDruckerPragerMat> lawOfMpmDruckerPragerMat(
         [](const MpmDruckerPragerMat& m) {
 	        using Cone       = gimpm::DruckerPragerCone;
 	        const auto match = m.match == "compression" ? Cone::compression : m.match == "extension" ? Cone::extension : Cone::planeStrain;
-	        return gimpm::DruckerPrager(m.young, m.poisson, match(m.cohesion, m.frictionAngle, m.dilationAngle), m.tensileStrength);
+	        return overTime(
+	                m, gimpm::DruckerPrager(m.young, m.poisson, match(m.cohesion, m.frictionAngle, m.dilationAngle), m.tensileStrength), m.poisson,
+	                m.viscosity);
         },
         std::pair("young", &MpmElasticMat::young), std::pair("cohesion", &MpmFrictionalMat::cohesion),
         std::pair("frictionAngle", &MpmFrictionalMat::frictionAngle), std::pair("dilationAngle", &MpmFrictionalMat::dilationAngle),

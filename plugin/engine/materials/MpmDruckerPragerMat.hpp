@@ -6,7 +6,8 @@ namespace yade {
 
 class MpmDruckerPragerMat : public ExposedIndexed<MpmDruckerPragerMat, MpmFrictionalMat> {
 public:
-	string match = "plane-strain";
+	string match     = "plane-strain";
+	Real   viscosity = 0;
 
 	YADE_API_NAME(MpmDruckerPragerMat)
 	static const char* doc()
@@ -21,7 +22,12 @@ public:
 		v("match", &MpmDruckerPragerMat::match, 0,
 		  "Where it is as strong as Mohr-Coulomb's law: 'plane-strain' with any dilation, triaxial 'compression' or 'extension'.",
 		  oneOf("plane-strain", "compression", "extension"));
+		v("viscosity", &MpmDruckerPragerMat::viscosity, 0,
+		  "Plastic viscosity [Pa s] >= 0: in simple shear the stress is the strength and this times the rate of shear (Bingham). Needs seconds, as *relaxationTime*.",
+		  nonNegative);
 	}
+	void        requireAdmissible() const override;
+	const char* timeAttribute() const override { return viscosity > 0 ? "viscosity" : MpmFrictionalMat::timeAttribute(); }
 };
 
 } // namespace yade

@@ -24,6 +24,7 @@ public:
 		v("poisson", &MpmElasticMat::poisson, 0, "Poisson's ratio [-] between -1 and 0.5, both excluded, without default.",
 		  admitting("a number between -1 and 0.5, both excluded; there is no default", strictlyBetween(-1, 0.5)));
 	}
+	void       requireAdmissible() const override;
 	Quantities moduli() const override { return { { "young", young } }; }
 };
 

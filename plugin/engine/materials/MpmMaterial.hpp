@@ -15,6 +15,7 @@ public:
 	Real   porosity          = std::numeric_limits<Real>::quiet_NaN();
 	string conductivityLaw   = "constant";
 	Real   conductivityIndex = std::numeric_limits<Real>::quiet_NaN();
+	Real   relaxationTime    = std::numeric_limits<Real>::quiet_NaN();
 
 	YADE_API_NAME(MpmMaterial)
 	static const char* doc()
@@ -51,6 +52,11 @@ public:
 		  admitting("a finite number > 0, or NaN, the default: not given", [](Real value) {
 			  return std::isnan(value) || (std::isfinite(value) && value > 0);
 		  }));
+		v("relaxationTime", &MpmMaterial::relaxationTime, 0,
+		  "Time [s] > 0 in which stress beyond yield goes to what the law bears (Duvaut and Lions); NaN, the default: at once. Needs seconds: see the page of the class.",
+		  admitting("a finite number > 0 [s], or NaN, the default: at once", [](Real value) {
+			  return std::isnan(value) || (std::isfinite(value) && value > 0);
+		  }));
 	}
 	shared_ptr<State> newAssocState() const override;
 	bool              stateTypeOk(State*) const override;
@@ -58,6 +64,9 @@ public:
 
 	// std::invalid_argument if no step can begin from this state of a point.
 	virtual void requireStart(const Matrix3r& /*stress*/) const { }
+
+	// The attribute by which its law depends on time in seconds; null: it does not.
+	virtual const char* timeAttribute() const { return std::isnan(relaxationTime) ? nullptr : "relaxationTime"; }
 
 	// Attributes [Pa] of which a number in another unit is doubted: its moduli; and its strengths, unless they grow
 	// with the pressure: next to friction a cohesion may be next to nothing.

@@ -2,6 +2,7 @@
 #include "engine/materials/MpmVonMisesMat.hpp"
 #include "core/materials/law.hpp"
 #include "engine/materials/law_of_class.hpp"
+#include "engine/materials/over_time.hpp"
 #include "yade_api/registration.hpp"
 
 namespace yade {
@@ -9,6 +10,7 @@ namespace yade {
 void MpmVonMisesMat::requireAdmissible() const
 {
 	ExposedIndexed<MpmVonMisesMat, MpmElasticMat>::requireAdmissible();
+	requireOneOfTimes(*this, viscosity);
 	std::ostringstream text;
 	const Real         steepest = -std::sqrt(6.) * young / (2 * (1 + poisson));
 	if (!(hardening > steepest))
@@ -26,7 +28,9 @@ void MpmVonMisesMat::requireAdmissible() const
 
 namespace yade {
 static const RegisteredLaw<MpmVonMisesMat> lawOfMpmVonMisesMat(
-        [](const MpmVonMisesMat& m) { return gimpm::VonMises(m.young, m.poisson, m.yieldStress, m.hardening, m.residualYieldStress); },
+        [](const MpmVonMisesMat& m) {
+	        return overTime(m, gimpm::VonMises(m.young, m.poisson, m.yieldStress, m.hardening, m.residualYieldStress), m.poisson, m.viscosity);
+        },
         std::pair("young", &MpmElasticMat::young), std::pair("yieldStress", &MpmVonMisesMat::yieldStress), std::pair("hardening", &MpmVonMisesMat::hardening),
         std::pair("residualYieldStress", &MpmVonMisesMat::residualYieldStress));
 } // namespace yade

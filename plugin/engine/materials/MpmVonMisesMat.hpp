@@ -9,6 +9,7 @@ public:
 	Real yieldStress         = std::numeric_limits<Real>::quiet_NaN(); // must be given, as the moduli
 	Real hardening           = 0;
 	Real residualYieldStress = 0;
+	Real viscosity           = 0;
 
 	YADE_API_NAME(MpmVonMisesMat)
 	static const char* doc()
@@ -29,9 +30,13 @@ public:
 		  finite);
 		v("residualYieldStress", &MpmVonMisesMat::residualYieldStress, 0, "Below this [Pa], from 0 to *yieldStress*, softening does not bring rho_y.",
 		  nonNegative);
+		v("viscosity", &MpmVonMisesMat::viscosity, 0,
+		  "Plastic viscosity [Pa s] >= 0: in simple shear the stress is the strength and this times the rate of shear (Bingham). Needs seconds, as *relaxationTime*.",
+		  nonNegative);
 	}
-	void       requireAdmissible() const override;
-	Quantities strengths() const override { return { { "yieldStress", yieldStress } }; }
+	void        requireAdmissible() const override;
+	const char* timeAttribute() const override { return viscosity > 0 ? "viscosity" : MpmElasticMat::timeAttribute(); }
+	Quantities  strengths() const override { return { { "yieldStress", yieldStress } }; }
 };
 
 } // namespace yade

@@ -47,13 +47,13 @@ shared_ptr<MpmMaterial> copyOf(const MpmMaterial& material) { return laws().at(t
 bool isElastic(const MpmMaterial& material)
 {
 	const LawOfClass* law = lawOf(material);
-	return law && law->isElastic;
+	return law && law->make(material)->isElastic;
 }
 
 bool canBeWeakened(const MpmMaterial& material)
 {
 	const LawOfClass* law = lawOf(material);
-	return law && law->canBeWeakened;
+	return law && law->make(material)->canBeWeakened;
 }
 
 vector<std::pair<const gimpm::InternalVariable*, Real>> initialInternalsOf(const MpmMaterial& material)
@@ -144,9 +144,10 @@ namespace {
 	Matrix3r strainInSpace(const gimpm::Material& material, const Matrix3r& stress, const vector<Real>& internals)
 	{
 		constexpr int mostSolves = 30, fewestSolves = 3; // enough where stress is linear in the strain
-		Matrix3r      strain = Matrix3r::Zero();
+		const auto*   bears  = dynamic_cast<const gimpm::BearsStress*>(material.law.operator->());
+		Matrix3r      strain = bears ? bears->strainOf(stress, internals) : Matrix3r(Matrix3r::Zero());
 		for (int solves = 0; solves < mostSolves; ++solves) {
-			const auto     answer     = answerOf(material.law, strain, solves == 0 ? material.law->initialInternals : internals);
+			const auto     answer     = answerOf(material.law, strain, solves == 0 && !bears ? material.law->initialInternals : internals);
 			const Matrix3r difference = stress - answer.stress;
 			if (solves >= fewestSolves) respondInSpace(material, strain, internals); // which refuses what yields
 			if (solves >= fewestSolves && difference.norm() <= 1e-9 * stress.norm()) return strain;
@@ -173,6 +174,12 @@ Matrix3r elasticStrainOf(const gimpm::Material& material, const Matrix3r& kirchh
 		respond(material, strain, internals);
 		return strain;
 	});
+}
+
+vector<Real> internalsBearing(const gimpm::Law& law, const Matrix3r& kirchhoffStress, const vector<Real>& internals)
+{
+	const auto* bears = dynamic_cast<const gimpm::BearsStress*>(law.operator->());
+	return bears ? bears->bearing(kirchhoffStress, internals) : internals;
 }
 
 namespace {
@@ -272,6 +279,16 @@ py::dict stepInSpaceForPython(
 	answer["rates"]         = rowsOf(r.rates);
 	answer["internals"]     = named(law, r.state.numbers());
 	return answer;
+}
+
+py::dict bearingForPython(const shared_ptr<MpmMaterial>& material, const Vector3r& kirchhoffStress, const py::dict& internals)
+{
+	const gimpm::Law   law    = coreMaterial(*material).law;
+	const Matrix3r     stress = kirchhoffStress.asDiagonal();
+	const vector<Real> values = internalsBearing(law, stress, internalsOf(law, *material, internals));
+	py::dict           all    = named(law, values.data());
+	all.update(internals);
+	return all;
 }
 
 py::tuple elasticStrainForPython(const shared_ptr<MpmMaterial>& material, const Vector3r& kirchhoffStress, const py::dict& internals)

@@ -29,6 +29,10 @@ vector<std::pair<const gimpm::InternalVariable*, Real>> initialInternalsOf(const
 Matrix3r kirchhoffStressOf(const gimpm::Material&, const Matrix3r& elasticStrain, const vector<Real>& internals);
 Matrix3r elasticStrainOf(const gimpm::Material&, const Matrix3r& kirchhoffStress, const vector<Real>& internals);
 
+// Of laws whose history follows from a stress [Pa]: the internal variables that bear it at least, in the order of the
+// law; of others as they are.
+vector<Real> internalsBearing(const gimpm::Law&, const Matrix3r& kirchhoffStress, const vector<Real>& internals);
+
 // For mpm.respond: one call of the law in principal axes, with a dict of internal variables by name where they are not
 // those at first. Returns a dict of tuples with what the law answers, and the internal variables. std::invalid_argument
 // where it has no answer, or for a variable that it does not have.
@@ -41,6 +45,10 @@ bool     hasTensorLaw(const shared_ptr<MpmMaterial>&);
 py::dict respondInSpaceForPython(const shared_ptr<MpmMaterial>&, const vector<Real>& trialStrain, const py::dict& internals, Real duration);
 py::dict stepInSpaceForPython(
         const shared_ptr<MpmMaterial>&, const vector<Real>& elasticStrain, const vector<Real>& increment, const py::dict& internals, Real duration);
+
+// The internal variables of a point that bears principal Kirchhoff stresses [Pa], by name: those given, and of laws whose
+// history follows from a stress what is needed of the others.
+py::dict bearingForPython(const shared_ptr<MpmMaterial>&, const Vector3r& kirchhoffStress, const py::dict& internals);
 
 // For mpm.elementTest: principal elastic strains of principal Kirchhoff stresses [Pa]; std::invalid_argument beyond
 // yield.

@@ -10,6 +10,9 @@ const vector<Parameter>& allParameters()
 	static const vector<Parameter> all {
 		{ "young", "Pa", "Young's modulus" },
 		{ "shearModulus", "Pa", "shear modulus" },
+		{ "E50ref", "Pa", "secant modulus" },
+		{ "Eoedref", "Pa", "oedometer modulus" },
+		{ "Eurref", "Pa", "modulus of unloading" },
 		{ "yieldStress", "Pa", "yield stress" },
 		{ "hardening", "Pa", "hardening" },
 		{ "residualYieldStress", "Pa", "residual yield stress" },

@@ -3,6 +3,7 @@
 #include "core/solvers/multigrid.hpp"
 #include "engine/analysis/analysis.hpp"
 #include "engine/parallel/processes.hpp"
+#include <algorithm>
 #include <omp.h>
 #include <set>
 
@@ -146,10 +147,30 @@ static void requireGhost(const Analysis& engine)
 		        "MpmGhost.where = 'aggregates' cannot go with several processes yet, none of which knows how all cells are filled: 'boundary', or one process, is admitted.");
 }
 
+static void requireNonlocal(const Analysis& engine)
+{
+	if (engine.nonlocalLength == 0) return;
+	string what;
+	if (engine.isExplicit()) what = "scheme = 'explicit'";
+	else if (processes()->size() > 1)
+		what = "several processes";
+	else if (engine.grid && !engine.grid->refinements.empty())
+		what = "MpmGrid.refinements, cells of several sizes";
+	else if (engine.grid && engine.grid->axisymmetric)
+		what = "MpmGrid.axisymmetric";
+	const string length = engine.className() + ".nonlocalLength = " + std::to_string(engine.nonlocalLength);
+	if (!what.empty()) throw std::invalid_argument(length + " cannot go with " + what + " yet; leave one of the two out.");
+	if (engine.grid && engine.nonlocalLength < engine.grid->cellSize)
+		throw std::invalid_argument(
+		        length + " is not admitted: expected 0, or at least the cellSize = " + std::to_string(engine.grid->cellSize)
+		        + " m, as cells cannot carry a narrower band. It is a length of the soil, not of the grid.");
+}
+
 void requireSettings(const Analysis& engine)
 {
 	engine.requireAttributes();
 	requireGhost(engine);
+	requireNonlocal(engine);
 	requireEqualCells(engine);
 	requireOneBody(engine);
 	if (engine.newton->linearSolver == "amg") requireMultigrid();
@@ -186,6 +207,20 @@ void requireRunnable(const Analysis& engine)
 	else
 		return;
 	throw std::invalid_argument(engine.className() + ": " + text.str());
+}
+
+void requireSeconds(const Analysis& engine, const vector<MaterialPoint>& points)
+{
+	const auto found = std::find_if(points.begin(), points.end(), [](const MaterialPoint& point) { return point.material->timeAttribute(); });
+	if (found == points.end() || engine.isDynamic()) return;
+	const auto conditions = engine.conditions();
+	if (std::any_of(conditions.begin(), conditions.end(), [&](const Listed& listed) { return listed.condition->countsSeconds(engine.sceneOfRun()); }))
+		return;
+	const MpmMaterial& material = *found->material;
+	throw std::invalid_argument(
+	        engine.className() + ": Material '" + material.label + "' has a " + material.timeAttribute()
+	        + ", by which it flows in seconds, but O.time is a load factor here. It counts seconds in an MpmDynamicEngine, with flow (MpmFlow), and where a wall or a "
+	          "body that touches the soil moves by its velocity.");
 }
 
 void requireAny(const vector<MaterialPoint>& points, const Analysis& engine)

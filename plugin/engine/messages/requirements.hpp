@@ -15,6 +15,9 @@ void requireSettings(const Analysis&);
 // The clock and the other engines.
 void requireRunnable(const Analysis&);
 
+// O.time that counts seconds, where the law of a material depends on it.
+void requireSeconds(const Analysis&, const vector<MaterialPoint>&);
+
 // Material points that the engine is to move.
 void requireAny(const vector<MaterialPoint>&, const Analysis&);
 

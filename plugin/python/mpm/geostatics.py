@@ -7,12 +7,13 @@ import numpy as np
 from yade import wrapper
 
 from .analysis import noPoints, solverOf
-from .data import assign, parameter, pointsOf
+from .data import assign, parameter, pointsOf, table
 from .library import engine as _library
 from .messages import brief, isNumber, place
 from .water import pressuresOfEach
 
 _mostPressed = 6  # K0: the coefficient of passive earth pressure for a friction angle of 45 degrees
+_grown = (wrapper.MpmHardeningSoilMat, wrapper.MpmNorSandMat)  # whose hardening follows from the stresses they have borne
 
 
 def geostatic(K0=None, surface=None, solver=None, OCR=1):
@@ -24,11 +25,13 @@ def geostatic(K0=None, surface=None, solver=None, OCR=1):
 	=============================  ======================================================================================
 	elastic, von Mises, Tresca     nu / (1 - nu): loaded elastically without horizontal strain
 	Mohr-Coulomb, Drucker-Prager   (1 - sin(phi)) OCR^sin(phi) (Jaky 1944; Mayne and Kulhawy 1982)
-	Cam clay                       the same with sin(phi) = 3 M / (6 + M), the angle of friction in triaxial compression
+	Cam clay, NorSand              the same with sin(phi) = 3 M / (6 + M), the angle of friction in triaxial compression
+	hardening soil                 K0nc OCR^sin(phi)
 	=============================  ======================================================================================
 
 	The preconsolidation pressure of the points of Cam clay becomes that of the state in which the vertical stress was *OCR* times the present one, with the ratio
-	K0 / OCR^sin(phi) of the stresses; it is no less than that of the present state. The material's own ``preconsolidation`` is then without effect on them.
+	K0 / OCR^sin(phi) of the stresses; it is no less than that of the present state. The material's own ``preconsolidation`` is then without effect on them. Points of
+	hardening soil and NorSand are first given the stress of that past, and remember the hardening that it needs.
 
 	The first step then finds nothing to move, if the sides are held in their normal direction and gravity
 	acts in full from the beginning. Point loads and prescribed displacements may grow meanwhile, with ``loadCurve``::
@@ -74,11 +77,15 @@ def geostatic(K0=None, surface=None, solver=None, OCR=1):
 	lifted = np.flatnonzero(pressure <= 0)
 	if lifted.size: raise ValueError(f'geostatic: at the height {height[lifted[0]]} m the water bears all of the ground: is its density that of saturated soil?')
 	depth = surface - height
-	horizontal, past = _history(K0, OCR, points, materials, number, pressure, depth)
-	stress = np.zeros((len(height), 3, 3))
+	horizontal, past, before = _history(K0, OCR, points, materials, number, pressure, depth)
+	_assign(points, _stress(pressure, horizontal, axis), past, _stress(*before.T, axis), depth, horizontal / pressure)
+
+
+def _stress(vertical, horizontal, axis):
+	stress = np.zeros((len(vertical), 3, 3))
 	for i in range(3):
-		stress[:, i, i] = -(pressure if i == axis else horizontal)
-	_assign(points, stress, past, depth, horizontal / pressure)
+		stress[:, i, i] = -(vertical if i == axis else horizontal)
+	return stress
 
 
 def _ofWater(solver, points, rows, axis, up, cover):
@@ -103,35 +110,45 @@ def _ofWater(solver, points, rows, axis, up, cover):
 
 
 def _history(K0, OCR, points, materials, number, pressure, depth):
-	"""Horizontal pressure (N,) of the points, and their preconsolidation pressure (N,), NaN where it is not to be given."""
-	horizontal, past = np.empty(len(depth)), np.full(len(depth), math.nan)
+	"""Horizontal pressure (N,) of the points, their preconsolidation pressure (N,), and vertical and horizontal pressure of the past (N, 2); NaN where that is not to be given."""
+	horizontal, past, before = np.empty(len(depth)), np.full(len(depth), math.nan), np.full((len(depth), 2), math.nan)
 	for i, material in enumerate(materials):
 		rows = number == i
 		history = _overconsolidation(OCR, material, depth[rows])
 		sine = _sineOfFriction(material, points, rows)
 		ratio = _ratio(K0, material, sine, history)
 		horizontal[rows] = ratio * pressure[rows]
-		if OCR is not None and hasattr(material, 'criticalStateRatio'): past[rows] = _preconsolidation(parameter('criticalStateRatio', material, points, rows), sine, pressure[rows], ratio, history)
-	return horizontal, past
+		if OCR is None: continue
+		if hasattr(material, 'preconsolidation'): past[rows] = _preconsolidation(parameter('criticalStateRatio', material, points, rows), sine, pressure[rows], ratio, history)
+		if isinstance(material, _grown): before[rows] = np.transpose([history * pressure[rows], ratio * history**(1 - sine) * pressure[rows]])
+	return horizontal, past, before
 
 
-def _assign(points, stress, past, depth, ratio):
-	"""Stress to all points, and the preconsolidation pressure where there is one; to all of them, or after an error to none."""
+def _assign(points, stress, past, before, depth, ratio):
+	"""Stress to all points, after that of the past and with the preconsolidation pressure where there is one; to all of them, or after an error to none."""
 	ids, order = points['id'], np.argsort(depth, kind='stable')  # the first point to be refused is the highest one
-	clay, others = order[np.isfinite(past[order])], order[np.isnan(past[order])]
+	ofClay, ofPast = np.isfinite(past[order]), np.isfinite(before[order, 0, 0])
+	clay, others, grown = order[ofClay], order[~ofClay], order[ofPast]
 	try:
+		if grown.size: assign(ids=ids[grown], stress=before[grown])
 		if others.size: assign(ids=ids[others], stress=stress[others])
-		try:
-			if clay.size: assign(ids=ids[clay], stress=stress[clay], preconsolidation=past[clay])
-		except ValueError:
-			if others.size: assign(ids=ids[others], elasticStrain=points['elasticStrain'][others])
-			raise
+		if clay.size: assign(ids=ids[clay], stress=stress[clay], preconsolidation=past[clay])
 	except ValueError as error:
+		_restore(points)
 		body = np.flatnonzero(ids == int(re.search(r'Body #(\d+)', str(error))[1]))[0]
 		raise ValueError(
 		        f'geostatic: with K0 = {ratio[body]:.6g} the ground would not be at rest at a depth of {depth[body]:.6g} m. '
 		        f'{str(error).removeprefix("assign: ")}'
 		) from None
+
+
+def _restore(points):
+	"""The state that the points had."""
+	internals = {name: points[name] for name, column in table.items() if column['isInternal'] and name in points}
+	known = np.array([np.isfinite(values) for values in internals.values()]).reshape(len(internals), len(points['id'])).T
+	for kind in np.unique(known, axis=0):
+		rows = np.flatnonzero((known == kind).all(axis=1))
+		assign(ids=points['id'][rows], elasticStrain=points['elasticStrain'][rows], **{name: values[rows] for (name, values), has in zip(internals.items(), kind) if has})
 
 
 def _upwards(solver):
@@ -185,7 +202,7 @@ def _ratio(K0, material, sine, history):
 	value = _ofMaterial('K0', K0, material)
 	if value is None:
 		_requireKnownRatio(material, sine)
-		return np.full(len(history), material.poisson / (1 - material.poisson)) if sine is None else (1 - sine) * history**sine
+		return np.full(len(history), material.poisson / (1 - material.poisson)) if sine is None else getattr(material, 'K0nc', 1 - sine) * history**sine
 	if not isNumber(value): raise TypeError(f'geostatic: K0 = {brief(value)} must be a number, the ratio of horizontal to vertical stress, or a dict of them')
 	if not (math.isfinite(value) and value >= 0): raise ValueError(f'geostatic: K0 = {brief(value)} must be finite and >= 0')
 	if value > _mostPressed: _library.warn(f'geostatic: K0 = {brief(value)}: the horizontal stress would be that many times the vertical one, more than sand bears when it is pushed; is it in percent?')
@@ -194,7 +211,7 @@ def _ratio(K0, material, sine, history):
 
 def _requireKnownRatio(material, sine):
 	"""A law with tensors need not be isotropic, whatever its class has of Young's modulus and Poisson's ratio."""
-	if not _library.hasTensorLaw(material) and (sine is not None or hasattr(material, 'poisson')): return
+	if isinstance(material, _grown) or not _library.hasTensorLaw(material) and (sine is not None or hasattr(material, 'poisson')): return
 	raise ValueError(
 	        f"geostatic: K0 = None, but that of the material {material.label!r} is not known: {type(material).__name__} is no class of the table of K0, whose laws are isotropic; give "
 	        f"its ratio of horizontal to vertical stress, as K0=0.5 or K0={{{material.label or 'soil'!r}: 0.5}}"

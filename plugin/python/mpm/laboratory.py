@@ -213,8 +213,9 @@ def firstStress(who, confiningPressure, initialStress):
 
 def _firstState(who, material, stress, internals):
 	"""Of a point with this stress, which it bears without yielding."""
-	if hasattr(material, 'referencePressure') and not stress.any():
+	if hasattr(material, 'swellingIndex') and not stress.any():
 		raise ValueError(f'{who}: confiningPressure = 0 is not admitted for an {type(material).__name__}, which has no stiffness without pressure')
+	internals = _named(who, engine.bearing, material, _numbers(stress), internals)
 	elasticStrain = np.array(_named(who, engine.elasticStrainOf, material, _numbers(stress), internals))
 	hasTensors = _named(who, engine.hasTensorLaw, material)
 	answer = _named(who, engine.respondInSpace, material, _rows(np.diag(elasticStrain)), internals, 0.) if hasTensors else _named(who, engine.respond, material, _numbers(elasticStrain), internals)

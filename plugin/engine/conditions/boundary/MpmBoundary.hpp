@@ -77,6 +77,7 @@ public:
 
 	Real                end(const Analysis&) const override;
 	bool                goesOn() const override { return !velocity.isZero(0); }
+	bool                countsSeconds(const Scene&) const override { return !velocity.isZero(0) || motion; }
 	void                requireFitting(const Analysis&, const string& name) const override;
 	string              needsEqualCells(const string& name) const override { return surface ? name + ".surface" : ""; }
 	string              needsOneBody(const string& name) const override { return needsEqualCells(name); }

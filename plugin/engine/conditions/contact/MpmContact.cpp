@@ -41,6 +41,12 @@ void MpmContact::requireAdmissible() const
 		throw std::invalid_argument("MpmContact: what is kept of the places that touch is incomplete; is the saved file damaged?");
 }
 
+bool MpmContact::countsSeconds(const Scene& scene) const
+{
+	const auto all = rigidBodies(scene);
+	return std::any_of(all.begin(), all.end(), [](const auto& body) { return !body->state->vel.isZero(0) || !body->state->angVel.isZero(0); });
+}
+
 void MpmContact::forget()
 {
 	for (auto* list : { &bodies, &touching, &slipping, &areFree })

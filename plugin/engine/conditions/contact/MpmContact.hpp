@@ -93,6 +93,7 @@ public:
 	void actOnBodies(Scene&, bool isBetween) override;
 
 	bool        goesOn() const override { return true; }
+	bool        countsSeconds(const Scene&) const override; // where a body moves
 	bool        mayHold(int, Real, Real) const override { return true; }
 	string      idleness(const string& name, bool reaches) const override;
 	void        tell(Rows&, const Analysis&, const Listed&) const override;

@@ -52,6 +52,7 @@ public:
 
 	Real   end(const Analysis&) const override;
 	bool   goesOn() const override { return true; }
+	bool   countsSeconds(const Scene&) const override { return true; }
 	void   requireFitting(const Analysis&, const string& name) const override;
 	string needsEqualCells(const string&) const override { return "flow"; }
 	string needsOneBody(const string&) const override { return "flow"; }

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// A principal law as a tensor law: for what only tensor laws can, as to depend on the step of time.
+#pragma once
+#include "core/materials/isotropic_answer.hpp"
+#include "core/materials/von_mises.hpp"
+
+namespace gimpm {
+
+template <class L> class InSpace : public TensorLaw {
+	template <std::size_t... k> static constexpr std::array<TensorVariable, sizeof...(k)> asTensorVariables(std::index_sequence<k...>)
+	{
+		return { TensorVariable(L::variables[k])... };
+	}
+
+public:
+	/// Poisson's ratio is that of laws whose stress is linear in the elastic strain.
+	explicit InSpace(const L& law, double poisson = 0) : law_(law), poisson_(poisson) { }
+
+	static constexpr auto variables = asTensorVariables(std::make_index_sequence<L::variables.size()>());
+	static constexpr bool mayFail = L::mayFail, isElastic = L::isElastic, isLinear = L::isLinear, canBeWeakened = L::canBeWeakened;
+
+	TensorState initialInternals() const { return stateOf(law_.initialInternals(), TensorState(variables)); }
+
+	using Parameters = typename L::Parameters;
+	Parameters parameters() const { return law_.parameters(); }
+	InSpace    with(const Parameters& p) const { return InSpace(law_.with(p), poisson_); }
+	Parameters weakened(const Weakening& w) const { return law_.weakened(w); }
+	bool       isSymmetric() const { return law_.isSymmetric(); }
+
+	double young(const TensorState& state) const
+	{
+		if constexpr (L::isLinear) return law_.young(numbersOf(state));
+		else
+			return law_.young(numbersOf(state), 0); // the largest that the law says of these variables
+	}
+	TensorAnswer respond(const TensorStep& step) const
+	{
+		return answerInPrincipalAxes(step, [&](const Vec3& strain, TensorState& state) -> Response {
+			const auto r = law_.respond(strain, numbersOf(state));
+			state        = stateOf(r.internals, state);
+			return r;
+		});
+	}
+	/// As if nothing flowed.
+	TensorAnswer elastic(const TensorStep& step) const
+	{
+		return answerInPrincipalAxes(step, [&](const Vec3& strain, TensorState& state) -> Response {
+			if constexpr (L::isLinear) return elasticity().respond(strain, {});
+			else {
+				auto numbers = numbersOf(state);
+				numbers[1]   = std::numeric_limits<double>::max(); // preconsolidation out of reach
+				return law_.respond(strain, numbers);
+			}
+		});
+	}
+	/// The elastic strain of a stress.
+	Mat3 strainOf(const Mat3& stress, const TensorState&) const
+	{
+		const auto p = principal(SymTensor<3>::from(stress));
+		Vec3       strain;
+		if constexpr (L::isLinear) strain = elasticity().template strainOf<double>(p.value);
+		else
+			strain = law_.strainOf(p.value);
+		return p.axes * strain.asDiagonal() * p.axes.transpose();
+	}
+
+	/// Of the stress that flow leaves beyond yield, half of what it loses for each plastic strain: the shear modulus, and
+	/// what hardening adds to it [Pa].
+	template <class Linear = L, class = std::enable_if_t<Linear::isLinear>> double resistance() const
+	{
+		if constexpr (std::is_same_v<L, VonMises>) return elasticity().shear() + std::sqrt(2. / 3) / 2 * law_.parameters()[2];
+		else
+			return elasticity().shear();
+	}
+
+private:
+	using Numbers = decltype(std::declval<const L&>().initialInternals());
+
+	const L law_;
+	double  poisson_;
+
+	Hencky      elasticity() const { return { law_.parameters()[0], poisson_ }; }
+	static auto numbersOf(const TensorState& state)
+	{
+		Numbers numbers;
+		std::copy_n(state.numbers(), numbers.size(), numbers.begin());
+		return numbers;
+	}
+	static TensorState stateOf(const Numbers& numbers, TensorState state)
+	{
+		std::copy(numbers.begin(), numbers.end(), state.numbers());
+		return state;
+	}
+};
+
+} // namespace gimpm

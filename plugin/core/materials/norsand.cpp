@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Inside the law pressures are negative, as in the paper, so that p = -P and pi = -Pi.
+#include "core/materials/norsand.hpp"
+#include "core/materials/isotropic_answer.hpp"
+#include <Eigen/LU>
+
+namespace gimpm {
+
+/// Of a step: elastic volumetric and shear strain, image pressure before, specific volume after.
+struct NorSand::Trial {
+	double volumetric, shear, image, volume;
+};
+
+/// The end of a return, and its derivatives by the volumetric and the shear strain of the trial.
+struct NorSand::Flow {
+	double                      volumetric, shear, image;
+	bool                        isFailed = false;
+	Eigen::Matrix<double, 2, 2> slopes   = Eigen::Matrix2d::Identity(); ///< of the first two by the trial
+};
+
+NorSand::NorSand(const Given& given) : given_(given), nonAssociated_((1 - given.curvature) / (1 - given.flowCurvature)) { }
+
+TensorState NorSand::initialInternals() const
+{
+	TensorState state(variables);
+	state.scalar(imagePressure)  = leastImage * given_.reference;
+	state.scalar(specificVolume) = given_.volume;
+	return state;
+}
+
+NorSand NorSand::with(const Parameters& p) const
+{
+	Given given = given_;
+	given.shear = p[0], given.ratio = p[1];
+	return NorSand(given);
+}
+
+double NorSand::young(const TensorState& state) const
+{
+	const double bulk = state.scalar(imagePressure) / given_.swelling;
+	return 9 * bulk * given_.shear / (3 * bulk + given_.shear);
+}
+
+double NorSand::pressureAt(double volumetric) const { return -given_.reference * std::exp(-volumetric / given_.swelling); }
+
+/// eta of the yield function.
+double NorSand::obliquity(double p, double pi) const
+{
+	const double N = given_.curvature, M = given_.ratio;
+	return N == 0 ? M * (1 + std::log(pi / p)) : M / N * (1 - (1 - N) * std::pow(p / pi, N / (1 - N)));
+}
+
+/// The image pressure of a yield surface through p and Q = -eta p.
+double NorSand::imageAt(double p, double eta) const
+{
+	const double N = given_.curvature, M = given_.ratio;
+	if (N == 0) return p * std::exp(eta / M - 1);
+	return p * std::pow(std::max(0., 1 - eta * N / M) / (1 - N), (N - 1) / N);
+}
+
+/// Of elastic volumetric and shear strain, flow and image pressure: flow along the potential, the yield function, and
+/// pi - pi_before = -h flow (pi - pi_most), where pi_most is that of the largest dilatancy at this state parameter.
+std::pair<NorSand::Vec4, NorSand::Mat4> NorSand::residual(const Trial& trial, const Vec4& x) const
+{
+	const double N = given_.curvature, M = given_.ratio, h = given_.hardening, G = given_.shear, flow = x[2], pi = x[3];
+	const double p = pressureAt(x[0]), byVolume = -p / given_.swelling, q = 3 * G * x[1], eta = obliquity(p, pi);
+	const double part = N == 0 ? 0 : std::pow(p / pi, (2 * N - 1) / (1 - N));
+	const double byP = N == 0 ? -M / p : -M * part / pi, byPi = N == 0 ? M / pi : M * part * p / (pi * pi);
+	const double psi = trial.volume - given_.criticalVolume + given_.compression * std::log(-pi / given_.criticalPressure);
+	const double a = given_.dilatancy / nonAssociated_, base = 1 - a * psi * N / M;
+	if (!(base > 0)) return { Vec4::Constant(std::numeric_limits<double>::quiet_NaN()), Mat4::Zero() };
+	const double most = N == 0 ? std::exp(a * psi / M) : std::pow(base, (N - 1) / N), byPsi = p * most * a / M * (N == 0 ? 1 : (1 - N) / base);
+	const double slope = (eta - M) / (1 - N);
+	Vec4         r(x[0] - trial.volumetric + flow * nonAssociated_ * slope, x[1] - trial.shear + flow, (q + eta * p) / given_.reference,
+	               (pi - trial.image + h * (pi - p * most) * flow) / given_.reference);
+	Mat4         J;
+	J << 1 + flow * nonAssociated_ * byP / (1 - N) * byVolume, 0, nonAssociated_ * slope, flow * nonAssociated_ * byPi / (1 - N), //
+	        0, 1, 1, 0,                                                                                                           //
+	        (byP * p + eta) * byVolume, 3 * G, 0, p * byPi,                                                                       //
+	        -h * flow * most * byVolume, 0, h * (pi - p * most), 1 + h * flow * (1 - byPsi * given_.compression / pi);
+	J.bottomRows<2>() /= given_.reference;
+	return { r, J };
+}
+
+/// Newton's method, by shorter steps where the residual grows.
+bool NorSand::solve(const Trial& trial, Vec4& x) const
+{
+	const auto sizeOf = [](const Vec4& r) { return std::hypot(1e3 * std::hypot(r[0], r[1]), std::hypot(r[2], r[3])); };
+	auto [r, J]       = residual(trial, x);
+	double size       = sizeOf(r);
+	for (int iteration = 0; iteration < 60 && std::isfinite(size); ++iteration) {
+		const Vec4 step = J.partialPivLu().solve(r);
+		if (!step.allFinite()) return false;
+		double part = 1;
+		Vec4   next;
+		for (int halving = 0;; ++halving, part /= 2) {
+			if (halving == 25) return size < 1e-12; // round-off
+			next = x - part * step;
+			if (!(next[3] < 0) || std::abs(next[0]) > mostExponent * given_.swelling) continue;
+			std::tie(r, J)    = residual(trial, next);
+			const double then = sizeOf(r);
+			if (!(then < size * (1 - .1 * part)) && !(then < 1e-11)) continue;
+			size = then;
+			break;
+		}
+		x = next;
+		if (part == 1 && std::abs(step[0]) + std::abs(step[1]) + std::abs(step[2]) <= 1e-12 * (std::abs(trial.volumetric) + trial.shear)
+		    && std::abs(step[3]) <= -1e-12 * x[3])
+			return true;
+		if (size < 1e-15) return true;
+	}
+	return false;
+}
+
+NorSand::Flow NorSand::atTip(const Trial& trial) const
+{
+	// The whole deviator flows, and the image pressure with it; P follows from eta = 0.
+	const double N = given_.curvature, tip = N == 0 ? std::exp(1.) : std::pow(1 - N, (N - 1) / N);
+	double       pi = trial.image;
+	for (int iteration = 0; iteration < 100; ++iteration) {
+		const Vec4 x(-given_.swelling * std::log(-tip * pi / given_.reference), 0, trial.shear, pi);
+		const auto [r, J] = residual(trial, x);
+		// By pi, and by the pressure that goes with it.
+		const double slope = J(3, 3) - J(3, 0) * given_.swelling / pi, step = r[3] / slope, next = pi - step;
+		pi = next < 0 ? next : pi / 2;
+		if (std::abs(step) <= -1e-13 * pi) break;
+		if (!std::isfinite(pi)) break;
+	}
+	Flow flow { -given_.swelling * std::log(-tip * pi / given_.reference), 0, pi };
+	flow.isFailed = !std::isfinite(pi);
+	flow.slopes *= floorAtTip;
+	return flow;
+}
+
+NorSand::Flow NorSand::returned(const Trial& trial) const
+{
+	const double p = pressureAt(trial.volumetric), q = 3 * given_.shear * trial.shear, eta = obliquity(p, trial.image);
+	if (q + eta * p <= -tolerance * p) return { trial.volumetric, trial.shear, trial.image };
+	const Vec4 first(trial.volumetric, trial.shear, 0, trial.image);
+	Vec4       x        = first;
+	bool       isSolved = solve(trial, x) && x[1] >= 0 && x[2] >= 0;
+	if (!isSolved && eta < 0) {
+		if (const Flow tip = atTip(trial); !tip.isFailed) return tip;
+	}
+	// From the yield surface to the trial in parts, each of which starts where the one before ended.
+	const double onSurface = std::min(trial.shear, std::max(0., -eta * p / (3 * given_.shear)));
+	for (int parts = 8; !isSolved && parts <= 512; parts *= 8) {
+		x        = Vec4(trial.volumetric, onSurface, 0, trial.image);
+		isSolved = true;
+		for (int part = 1; isSolved && part <= parts; ++part) {
+			Trial        less  = trial;
+			const double share = double(part) / parts;
+			less.shear         = onSurface + share * (trial.shear - onSurface);
+			isSolved           = solve(less, x) && x[1] >= 0 && x[2] >= 0;
+		}
+	}
+	Flow flow { x[0], x[1], x[3] };
+	flow.isFailed = !isSolved;
+	if (!isSolved) return flow;
+	// The state parameter changes with the volume of the whole step.
+	const Mat4                  J   = residual(trial, x).second;
+	const double                psi = trial.volume - given_.criticalVolume + given_.compression * std::log(-x[3] / given_.criticalPressure);
+	const double                N = given_.curvature, M = given_.ratio, a = given_.dilatancy / nonAssociated_, base = 1 - a * psi * N / M;
+	const double                most  = N == 0 ? std::exp(a * psi / M) : std::pow(base, (N - 1) / N);
+	const double                byPsi = pressureAt(x[0]) * most * a / M * (N == 0 ? 1 : (1 - N) / base);
+	Eigen::Matrix<double, 4, 2> by    = Eigen::Matrix<double, 4, 2>::Zero();
+	by(0, 0) = by(1, 1) = 1;
+	by(3, 0)            = given_.hardening * x[2] * byPsi * trial.volume / given_.reference;
+	flow.slopes         = Eigen::Matrix<double, 4, 2>(J.partialPivLu().solve(by)).topRows<2>();
+	return flow;
+}
+
+Response NorSand::respond(const Vec3& strain, TensorState& state, double growth, bool flows) const
+{
+	const double mean = strain.mean(), length = (strain.array() - mean).matrix().norm(), root = std::sqrt(2. / 3);
+	const Trial  trial { 3 * mean, root * length, -state.scalar(imagePressure), state.scalar(specificVolume) * growth };
+	Response     r;
+	r.failed = std::abs(trial.volumetric) > mostExponent * given_.swelling || !(trial.volume >= 1);
+	if (r.failed != 0) return r;
+	const Flow flow = flows ? returned(trial) : Flow { trial.volumetric, trial.shear, trial.image };
+	r.failed        = flow.isFailed;
+	if (r.failed != 0) return r;
+	const double G = given_.shear, p = pressureAt(flow.volumetric), part = length > 0 ? flow.shear / trial.shear : 1;
+	const Vec3   n = length > 0 ? Vec3((strain.array() - mean) / length) : Vec3(Vec3::Zero()), deviator = (strain.array() - mean).matrix();
+	r.elasticStrain = part * deviator.array() + flow.volumetric / 3;
+	r.stress        = 2 * G * part * deviator.array() + p;
+	r.shear.fill(std::max(part, floorAtTip) * G);
+	const Eigen::Matrix2d d   = Eigen::Vector2d(-p / given_.swelling, 3 * G).asDiagonal() * flow.slopes;
+	const Mat3            one = Mat3::Constant(1. / 3);
+	const Vec3            I   = Vec3::Ones();
+	r.tangent                 = I * (d(0, 0) * I + root * d(0, 1) * n).transpose() + root * n * (d(1, 0) * I + root * d(1, 1) * n).transpose()
+	        + 2 * G * std::max(part, floorAtTip) * (Mat3::Identity() - one - n * n.transpose());
+	state.scalar(plasticStrain) += std::max(0., trial.shear - flow.shear);
+	state.scalar(imagePressure)  = -flow.image;
+	state.scalar(specificVolume) = trial.volume;
+	return r;
+}
+
+TensorAnswer NorSand::respond(const TensorStep& step) const
+{
+	const double growth = step.stretch.determinant();
+	return answerInPrincipalAxes(step, [&](const Vec3& strain, TensorState& state) { return respond(strain, state, growth, true); });
+}
+
+TensorAnswer NorSand::elastic(const TensorStep& step) const
+{
+	const double growth = step.stretch.determinant();
+	return answerInPrincipalAxes(step, [&](const Vec3& strain, TensorState& state) { return respond(strain, state, growth, false); });
+}
+
+TensorState NorSand::bearing(const Mat3& stress, TensorState state) const
+{
+	const double p = stress.trace() / 3, q = std::sqrt(1.5) * (stress - p * Mat3::Identity()).norm();
+	if (!(p < 0)) return state;
+	const double image = -imageAt(p, -q / p);
+	if (std::isfinite(image)) state.scalar(imagePressure) = std::max(state.scalar(imagePressure), image);
+	return state;
+}
+
+Mat3 NorSand::strainOf(const Mat3& stress, const TensorState&) const
+{
+	const double p = stress.trace() / 3;
+	return (stress - p * Mat3::Identity()) / (2 * given_.shear) - given_.swelling / 3 * std::log(-p / given_.reference) * Mat3::Identity();
+}
+
+} // namespace gimpm

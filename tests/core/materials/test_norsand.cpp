@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// NorSand against another implementation's numbers, its critical state, its tangent, and steps of any size.
+#include "core/materials/norsand.hpp"
+#include "element.hpp"
+#include <Eigen/LU>
+#include <algorithm>
+
+namespace gimpm::testNorSand {
+namespace {
+
+	constexpr double p0 = 390e3, M = 1.27, lambda = .02, criticalVolume = 1.8911, v0 = 1.75;
+
+	/// beta = (1 - N) / (1 - N of the potential).
+	NorSand sand(double N, double beta = 1, double volume = v0)
+	{
+		return NorSand({ 45e6, .0015, p0, M, lambda, criticalVolume, 1e3, N, 1 - (1 - N) / beta, 70, volume, -3.5 });
+	}
+
+	TEST(NorSand, StressByNumbers)
+	{
+		struct Case {
+			double N, beta;
+			Vec3   stress;
+			double image;
+		};
+		for (const Case& c : { Case { .4, 1, { -466248.1324, -535500.2055, -783653.4674 }, 354816.2215 },
+		                       Case { 0, 1, { -522655.3329, -577248.7315, -772875.0766 }, 306127.5499 },
+		                       Case { .4, .7, { -525717.0536, -587246.1713, -807725.5098 }, 364380.6590 } }) {
+			Element<NorSand> point(sand(c.N, c.beta));
+			point.state.scalar(NorSand::imagePressure) = 715e3 * (c.N > 0 ? std::pow(1 - c.N, (1 - c.N) / c.N) : std::exp(-1.));
+			point.apply(Vec3(1.5e-3, .3e-3, -4e-3));
+			EXPECT_LT((Vec3(point.stress.diagonal()) - c.stress).cwiseAbs().maxCoeff(), 1e-3);
+			EXPECT_NEAR(point.state.scalar(NorSand::imagePressure), c.image, 1e-3);
+			EXPECT_NEAR(point.state.scalar(NorSand::specificVolume), v0 * std::exp(-2.2e-3), 1e-12);
+		}
+	}
+
+	// Q / P is that of the critical state long before P is.
+	TEST(NorSand, UndrainedShearLeadsToTheCriticalState)
+	{
+		for (const double N : { 0., .4 }) {
+			Element<NorSand> point(sand(N));
+			point.press(Vec3::Constant(p0));
+			for (int step = 0; step < 2000; ++step)
+				point.apply(Vec3(Vec3(.5, -1, .5) * 4. / 2000));
+			EXPECT_NEAR(point.difference() / point.pressure(), M, 2e-3 * M) << N;
+			// On its way to exp((vc - v) / lambda) = 1159 kPa
+			EXPECT_GT(point.pressure(), 1.2 * p0);
+			EXPECT_LT(point.pressure(), 1e3 * std::exp((criticalVolume - v0) / lambda));
+		}
+	}
+
+	TEST(NorSand, DenseSandPeaksAndDilatesAndLooseSandDoesNot)
+	{
+		const auto sheared = [](double volume) {
+			Element<NorSand>    point(sand(.3, 1, volume));
+			std::vector<double> q;
+			point.press(Vec3::Constant(100e3));
+			for (int step = 0; step < 300; ++step) {
+				point.compress(1e-3, 100e3);
+				q.push_back(point.difference());
+			}
+			return std::make_pair(q, point.volume);
+		};
+		const auto [dense, swollen] = sheared(1.65);
+		const auto [loose, shrunk]  = sheared(1.85);
+		EXPECT_GT(*std::max_element(dense.begin(), dense.end()), 1.1 * dense.back());
+		EXPECT_GT(swollen, .02);
+		EXPECT_LT(*std::max_element(loose.begin(), loose.end()), 1.01 * loose.back());
+		EXPECT_LT(shrunk, 0);
+	}
+
+	TEST(NorSand, BearsTheStressThatItIsMadeFor)
+	{
+		Random random(8);
+		for (int k = 0; k < 50; ++k) {
+			Element<NorSand> point(sand(k % 2 ? 0 : .4));
+			point.press(random.in(10e3, 300e3) * Vec3(random.in(.5, .9), 1, random.in(.5, .9)));
+			const Mat3 stress = point.stress;
+			point.apply(Mat3(Mat3::Zero()));
+			EXPECT_LT((point.stress - stress).norm(), 1e-8 * stress.norm());
+		}
+	}
+
+	// All parts of the yield function, and its tip. Where a corner lies between the points of a difference it says
+	// nothing.
+	TEST(NorSand, AnswersToStepsOfAnySizeWithItsTangent)
+	{
+		Random              random(9);
+		std::vector<double> errors;
+		for (int k = 0; k < 100; ++k) {
+			const double     N = k % 4 ? random.in(0, .6) : 0, ofPotential = k % 3 ? N : random.in(0, N);
+			Element<NorSand> point(
+			        NorSand({ random.in(20e6, 80e6), random.in(.001, .005), random.in(50e3, 350e3), random.in(1, 1.5), random.in(.01, .04),
+			                  criticalVolume, 1e3, N, ofPotential, random.in(20, 170), random.in(1.6, 1.9), -3.5 }));
+			point.press(Vec3::Constant(random.in(20e3, 320e3)));
+			for (int i = 0; i < 30; ++i) {
+				const double size = std::pow(10, random.in(-6, -3));
+				Mat3         m = random.matrix<3, 3>(size), strain = (m + m.transpose()) / 2;
+				strain -= (strain.trace() / 4 + .05 * size) * Mat3::Identity();
+				errors.push_back(point.tangentError(strain, 1e-3, 1e5));
+				point.apply(strain);
+			}
+		}
+		EXPECT_GT(partBelow(errors, 1e-8), .9);
+		EXPECT_GT(partBelow(errors, 1e-6), .99);
+	}
+
+	TEST(NorSand, HasNoAnswerWithoutPores)
+	{
+		Element<NorSand> point(sand(.4, 1, 1.001));
+		point.press(Vec3::Constant(p0));
+		EXPECT_TRUE(point.ask(-.001 * Mat3::Identity()).failed);
+	}
+
+} // namespace
+} // namespace gimpm::testNorSand
