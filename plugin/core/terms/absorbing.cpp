@@ -193,6 +193,12 @@ template <int Dim> bool Absorption<Dim>::addDiagonal(Eigen::VectorXd& drag) cons
 	return true;
 }
 
+template <int Dim> void Absorption<Dim>::addBorne(Eigen::VectorXd& force) const
+{
+	for (const auto& [node, dashpot] : dashpots_)
+		force.template segment<Dim>(Dim * node) -= dashpot.borne;
+}
+
 template <int Dim> double Absorption<Dim>::fromOutside(const Eigen::VectorXd& v) const
 {
 	Eigen::VectorXd force = Eigen::VectorXd::Zero(v.size());

@@ -34,6 +34,7 @@ public:
 	void        add(const Eigen::VectorXd& v, double slope, const TermSum<Dim>&) const override;
 	void        addBefore(const Eigen::VectorXd& v, Eigen::VectorXd& force) const override;
 	bool        addDiagonal(Eigen::VectorXd& drag) const override;
+	void        addBorne(Eigen::VectorXd& force) const override;
 	std::string obstacle() const override { return obstacle_; }
 	double      fromOutside(const Eigen::VectorXd& v) const override;
 	void        commit(const Eigen::VectorXd& d, const Eigen::VectorXd& before, const Eigen::VectorXd& now) override;

@@ -24,6 +24,9 @@ public:
 	/// Adds C where it is diagonal, by degree of freedom [N s/m]. False: it is not.
 	virtual bool addDiagonal(Eigen::VectorXd&) const { return false; }
 
+	/// Adds the part of its force that it has taken over from what held the body, which acts whatever moves.
+	virtual void addBorne(Eigen::VectorXd&) const { }
+
 	virtual bool isSymmetric() const { return true; }
 
 	/// Why the step cannot be made with it, a clause; empty if it can.
@@ -51,5 +54,9 @@ protected:
 
 /// Makes damping for a step.
 template <int Dim> using DampingOfStep = std::function<std::unique_ptr<Damping<Dim>>(const Beginning<Dim>&)>;
+
+/// One after the other: to each of them, forces that those before it have taken over belong to the balance, so that of
+/// two edges with the same nodes one alone bears what has held these.
+template <int Dim> std::vector<std::unique_ptr<Damping<Dim>>> dampingOf(const std::vector<DampingOfStep<Dim>>&, const Beginning<Dim>&);
 
 } // namespace gimpm

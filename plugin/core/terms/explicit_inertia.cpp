@@ -32,8 +32,7 @@ ExplicitInertia<Dim>::ExplicitInertia(Motion<Dim>& motion, const Beginning<Dim>&
 {
 	const Stopwatch watch(seconds_);
 	blow_ = jump_ = Eigen::VectorXd::Zero(step.prescribed.size());
-	for (const auto& make : motion.damping)
-		damping_.push_back(make(step));
+	damping_ = dampingOf(motion.damping, step);
 	begin(step);
 	findMiddle(step);
 	findJump();

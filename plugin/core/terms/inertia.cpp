@@ -25,8 +25,7 @@ Inertia<Dim>::Inertia(Motion<Dim>& motion, const Beginning<Dim>& step)
 	imbalance_ = neglected_ = acceleration_ = expected_ = blow_ = jump_ = Eigen::VectorXd::Zero(prescribed_.size());
 	velocity_ = ofHeld<Dim>(prescribed_ / motion.duration, &MovingBase<Dim>::velocity, motion.bases, step);
 	if (motion.scheme.dependsOnStart()) expected_ = ofHeld<Dim>(acceleration_, &MovingBase<Dim>::acceleration, motion.bases, step);
-	for (const auto& make : motion.damping)
-		damping_.push_back(make(step));
+	damping_ = dampingOf(motion.damping, step);
 	findExtent(step);
 	findStart(step);
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "core/terms/traction.hpp"
-#include "core/grid/nearness.hpp"
+#include "core/terms/attach_surface.hpp"
 #include "core/terms/attached.hpp"
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -44,18 +44,6 @@ template <int Dim> std::array<double, Dim> shares(const std::array<int, Dim>& pi
 /// The derivative of the share of vertex i of a ring by the radius of its vertex j.
 double shareSlope(int i, int j) { return circle / 6 * (i == j ? 2 : 1); }
 
-/// As attachmentTolerance, from the nearest domain [cells]: more than half of a domain with two points a cell, by which
-/// a fill may fall short of its region, and less than a whole one.
-constexpr double domainTolerance = 0.375;
-
-template <int Dim> std::string emptyAt(const Vec<Dim>& vertex, const std::string& name, double tolerance)
-{
-	std::ostringstream text;
-	text << name << " has a vertex at (" << vertex.transpose() << "), where there is no material within " << tolerance
-	     << " cells; where soil has been dug out or has gone from below it, end its surface where the ground ends, or take the load away";
-	return text.str();
-}
-
 /// Whether material is mostly on the outer side, half a cell away.
 template <int Dim> bool isInsideOut(const Surface<Dim>& surface, const std::vector<Key>& populated, const Grid<Dim>& grid, int layer)
 {
@@ -81,48 +69,14 @@ template <int Dim>
 Traction<Dim>::Traction(SurfaceLoad<Dim>& load, const Beginning<Dim>& step)
         : load_(load), isRing_(step.grid.axisymmetric), isSymmetric_(load.pressure == 0 || load.surface.isClosed())
 {
-	obstacle_ = attachAll(step);
+	auto attached = attachPlaces(load_.surface.vertices, step, load_.name);
+	attached_     = std::move(attached.places);
+	obstacle_     = std::move(attached.obstacle);
+	layer_        = attached.layer;
 	if (obstacle_.empty() && load.pressure != 0) obstacle_ = betweenLevels();
 	if (!obstacle_.empty()) return;
 	if (load.isNew && load.pressure != 0 && isInsideOut(load.surface, step.basis.populatedLeaves(), step.grid, layer_))
 		obstacle_ = load.name + " is under pressure and has the body on its outer side: reverse the order of its points";
-}
-
-/// A cell counts as populated by the least of a domain that reaches into it, so vertices must be near a domain, too:
-/// what acts in a cell whose soil is gone would hang on what is beside it, by round-off or not. Returns the obstacle.
-template <int Dim> std::string Traction<Dim>::attachTo(int layer, const Beginning<Dim>& step)
-{
-	std::vector<double> reach;
-	attached_.clear();
-	for (const Vec<Dim>& vertex : load_.surface.vertices) {
-		const auto attached = attach(vertex, step.basis, step.grid, layer);
-		reach.push_back(domainTolerance * step.grid.size(attached ? attached->level : 0));
-		attached_.push_back(attached.value_or(Attachment<Dim>()));
-		if (!attached) return emptyAt(vertex, load_.name, attachmentTolerance);
-	}
-	auto isFar = areFarFromMaterial<Dim>(load_.surface.vertices, reach, step.cloud, step.grid, layer);
-	step.division.smallest(isFar.data(), isFar.size());
-	const auto far = std::find(isFar.begin(), isFar.end(), 1);
-	return far == isFar.end() ? "" : emptyAt(load_.surface.vertices[far - isFar.begin()], load_.name, domainTolerance);
-}
-
-/// Of several bodies that which is near all vertices.
-template <int Dim> std::string Traction<Dim>::attachAll(const Beginning<Dim>& step)
-{
-	const auto& layers = step.cloud.layer;
-	const int   last   = layers.empty() ? 0 : *std::max_element(layers.begin(), layers.end());
-	std::string obstacle;
-	int         found = -1;
-	for (int layer = 0; layer <= last; ++layer) {
-		const std::string own = attachTo(layer, step);
-		if (!own.empty() && obstacle.empty()) obstacle = own;
-		if (!own.empty()) continue;
-		if (found >= 0) return load_.name + " is on two bodies of points that meet: it must be near one of them only";
-		found = layer;
-	}
-	if (found < 0) return obstacle;
-	layer_ = found;
-	return found == last ? "" : attachTo(found, step);
 }
 
 /// The derivative of a pressure couples the vertices of a piece, which a matrix over nodes has no place for where their

@@ -52,8 +52,6 @@ private:
 	Places forcesAt(const Places& places) const { return forcesAt(places, load_.pressure, load_.traction); }
 	void   addStiffness(const Places&, NodeMatrix<Dim>& K) const;
 
-	std::string attachAll(const Beginning<Dim>&);
-	std::string attachTo(int layer, const Beginning<Dim>&);
 	std::string betweenLevels() const;
 
 	SurfaceLoad<Dim>&            load_;

@@ -46,7 +46,9 @@ While it runs, one line tells how far it is (``verbosity`` of the engine); ``plo
 :func:`export`               table of the points, CSV or NPZ; :func:`frame` for pandas
 :func:`collect`              the runs of a yade-batch in one table and picture, from what each writes by :func:`note`
 :class:`histories`           values at chosen points over time and frequency; :func:`readHistory` reads one from a file
+:class:`peaks`               largest values of a run at all points, as a field
 :class:`record`              a record of an earthquake, corrected and integrated, as motion of a base
+:func:`freeField`            edges of a body that is shaken, beyond which free ground moves by itself
 :func:`rayleigh`             damping by mass and stiffness that has given ratios; :func:`schemeDamping` is what steps in time damp by themselves
 :func:`save`                 the scene, whole or not at all; :func:`load` reads it, from several processes, too
 :func:`advise`               what an analysis will cost, and what it could do without
@@ -74,6 +76,7 @@ from .files import load, save
 from . import ending, stages
 from .filling import add, fill
 from .finding import examples
+from .freefields import freeField
 from .geostatics import geostatic
 from .histories import histories, readHistory
 from .laboratory import elementTest, respond
@@ -81,6 +84,7 @@ from .library import engine as _engine
 from .movies import movie
 from .outline import polygon
 from .paraview import state
+from .peaks import peaks
 from .plotting import plot
 from .records import record
 from .safety import strengthReduction
@@ -94,7 +98,7 @@ from .typical import typicalSand
 from .viewing import view
 
 __version__ = _engine.version
-__all__ = ['polygon', 'fill', 'add', 'refinementsAt', 'arrays', 'assign', 'geostatic', 'seepage', 'plot', 'colour', 'export', 'save', 'load', 'advise', 'discretisationError', 'stressError', 'elementTest', 'respond', 'strengthReduction', 'surface', 'contactForces', 'histories', 'readHistory', 'solid', 'terrain', 'movie', 'view', 'facets', 'frame', 'note', 'collect', 'state', 'examples', 'record', 'rayleigh', 'schemeDamping', 'calibrate', 'typicalSand', 'sectionForces']
+__all__ = ['polygon', 'fill', 'add', 'refinementsAt', 'arrays', 'assign', 'geostatic', 'seepage', 'plot', 'colour', 'export', 'save', 'load', 'advise', 'discretisationError', 'stressError', 'elementTest', 'respond', 'strengthReduction', 'surface', 'contactForces', 'histories', 'readHistory', 'solid', 'terrain', 'movie', 'view', 'facets', 'frame', 'note', 'collect', 'state', 'examples', 'record', 'peaks', 'freeField', 'rayleigh', 'schemeDamping', 'calibrate', 'typicalSand', 'sectionForces']
 
 for _name in __all__:
 	_thing = globals()[_name] = _telling(globals()[_name])

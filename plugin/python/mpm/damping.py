@@ -117,7 +117,7 @@ def adviceOnMotion(solver):
 
 
 def _motions(solver):
-	for kind in 'boundaries', 'absorbing':
+	for kind in 'boundaries', 'absorbing', 'loads':
 		for i, one in enumerate(getattr(solver, kind)):
 			if getattr(one, 'motion', None) is not None: yield f'{kind}[{i}].motion', one.motion
 

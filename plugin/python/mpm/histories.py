@@ -50,6 +50,7 @@ class histories:
 
 	def _begin(self, columns):
 		self.time, self._values = [], {name: [] for name in self.record}
+		self.places = columns['pos'][np.minimum(np.searchsorted(columns['id'], self.ids), len(columns['id']) - 1)]
 		_kept[self.label] = self
 		self._add(columns)
 
@@ -146,6 +147,19 @@ class histories:
 		values = self[name]
 		if values.ndim > 3: raise ValueError(f'histories.largest: name = {brief(name)}: one component must be chosen, as in {name}_xy')
 		return (np.linalg.norm(values, axis=2) if values.ndim == 3 else np.abs(values)).max(axis=0)
+
+	def overHeight(self, name='acceleration', axis=1):
+		"""Amplification over a height: largest length or magnitude over time at each point, over that of the lowest point.
+
+		:param name: vector or scalar that is recorded, no tensor
+		:param axis: 0, 1 or 2: along which heights are taken
+		:return: heights (points,) [m], of the points at the beginning, increasing, and the ratios (points,) [-]
+		:raises ValueError: as largest(); the lowest point does not move.
+		"""
+		if axis not in (0, 1, 2): raise ValueError(f'histories.overHeight: axis = {brief(axis)} is not admitted: expected 0, 1 or 2')
+		largest, order = self.largest(name), np.argsort(self.places[:, axis], kind='stable')
+		if largest[order[0]] == 0: raise ValueError(f'histories.overHeight: {name} of the lowest point, body {self.ids[order[0]]}, is 0 at all times')
+		return self.places[order, axis], largest[order] / largest[order[0]]
 
 	def _scalar(self, who, field):
 		values = self[field]

@@ -63,6 +63,14 @@ outOfRange = {
         'MpmAbsorbingBoundary.min': None,
         'MpmAbsorbingBoundary.max': None,
         'MpmAbsorbingBoundary.motion': None,
+        'MpmFreeField.surface': ['None'],
+        'MpmFreeField.motion': None,
+        'MpmFreeField.times': ['[0., 0.]', '[1., 0.]', '[nan]'],
+        'MpmFreeField.velocities': ['[(nan, 0, 0)]'],
+        'MpmFreeField.displacements': ['[(nan, 0, 0)]'],
+        'MpmFreeField.forces': ['[(inf, 0, 0)]'],
+        'MpmFreeField.distance': ['0.', '-1.'],
+        'MpmFreeField.acts': None,
         'MpmBaseMotion.history': ['[(0, 0), (0, 1)]', '[(1, 0), (0, 1)]'],
         'MpmBaseMotion.direction': ['(0, 0, 0)'],
         'MpmBoundary.velocity': None,
@@ -179,6 +187,8 @@ admitted = {
         ('MpmFrictionalMat.tensileStrength', 'inf'): 'no cut',
         ('MpmImplicitEngine.boundaries', '()'): 'nothing is held',
         ('MpmDynamicEngine.absorbing', '()'): 'nothing absorbs',
+        **{(f'MpmFreeField.{name}', '()'): 'nothing moves beyond' for name in ('times', 'velocities', 'displacements', 'forces')},
+        ('MpmFreeField.distance', 'inf'): 'no springs',
         ('MpmGrid.refinements', '()'): 'equal cells',
         ('MpmImplicitEngine.loads', '()'): 'nothing is loaded',
         ('MpmTraction.curve', '()'): 'loadCurve',
@@ -214,7 +224,7 @@ import json, sys
 from yade import mpm, pack, utils, wrapper
 nan = float('nan')
 
-dynamic = 'MpmDynamicEngine', 'MpmAbsorbingBoundary', 'MpmBaseMotion'
+dynamic = 'MpmDynamicEngine', 'MpmAbsorbingBoundary', 'MpmBaseMotion', 'MpmFreeField'
 flowing = 'MpmFlow', 'MpmDrain'
 meeting = 'MpmBodyContact', 'MpmBody'
 
@@ -242,6 +252,8 @@ def scene(engine='MpmImplicitEngine'):
 	wave = MpmBaseMotion(history=[(0, 0), (2, 1e-3)])
 	edge = MpmAbsorbingBoundary(min=(2, -inf, -inf), motion=wave)
 	if engine in dynamic[1:]: solver.absorbing = [edge]
+	free = MpmFreeField(surface=[(0, 3), (0, 0)])
+	if engine == 'MpmFreeField': solver.loads = [load, free]
 	drain = MpmDrain(surface=[(2, 3), (0, 3)])
 	if engine in flowing:
 		solver.flow = MpmFlow(drains=[drain])
@@ -253,7 +265,7 @@ def scene(engine='MpmImplicitEngine'):
 	O.engines = [solver, MpmVtkRecorder(fileName='out-', recorders=['all'])]
 	O.dt = 1
 	objects = [*O.engines, *O.materials, O.bodies[5].state, O.bodies[5].shape, grid, base, load, load.surface, water, touch, ghost, newton]
-	return {type(o).__name__: o for o in objects + [edge, wave] * (engine in dynamic[1:]) + [small] * (engine == 'MpmRefinement') + [solver.flow, drain] * (engine in flowing) + ([bodies, *grid.bodies] if engine in meeting else [])}
+	return {type(o).__name__: o for o in objects + [edge, wave] * (engine in dynamic[1:]) + [free] * (engine == 'MpmFreeField') + [small] * (engine == 'MpmRefinement') + [solver.flow, drain] * (engine in flowing) + ([bodies, *grid.bodies] if engine in meeting else [])}
 
 def attributes():
 	"""(class, attribute, class of the object to set it on, kind, whether it can only be read) from the classes themselves."""

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "core/terms/attach_surface.hpp"
+#include "core/grid/nearness.hpp"
+#include <algorithm>
+#include <sstream>
+
+namespace gimpm {
+namespace {
+
+/// As attachmentTolerance, from the nearest domain [cells]: more than half of a domain with two points a cell, by which
+/// a fill may fall short of its region, and less than a whole one.
+constexpr double domainTolerance = 0.375;
+
+template <int Dim> std::string emptyAt(const Vec<Dim>& vertex, const std::string& name, double tolerance)
+{
+	std::ostringstream text;
+	text << name << " has a vertex at (" << vertex.transpose() << "), where there is no material within " << tolerance
+	     << " cells; where soil has been dug out or has gone from below it, end its surface where the ground ends, or take the load away";
+	return text.str();
+}
+
+template <int Dim> AttachedPlaces<Dim> attachTo(int layer, const std::vector<Vec<Dim>>& places, const Beginning<Dim>& step, const std::string& name)
+{
+	AttachedPlaces<Dim> found;
+	std::vector<double> reach;
+	found.layer = layer;
+	for (const Vec<Dim>& place : places) {
+		const auto attached = attach(place, step.basis, step.grid, layer);
+		reach.push_back(domainTolerance * step.grid.size(attached ? attached->level : 0));
+		found.places.push_back(attached.value_or(Attachment<Dim>()));
+		if (attached) continue;
+		found.obstacle = emptyAt(place, name, attachmentTolerance);
+		return found;
+	}
+	auto isFar = areFarFromMaterial<Dim>(places, reach, step.cloud, step.grid, layer);
+	step.division.smallest(isFar.data(), isFar.size());
+	const auto far = std::find(isFar.begin(), isFar.end(), 1);
+	if (far != isFar.end()) found.obstacle = emptyAt(places[far - isFar.begin()], name, domainTolerance);
+	return found;
+}
+
+} // namespace
+
+template <int Dim> AttachedPlaces<Dim> attachPlaces(const std::vector<Vec<Dim>>& places, const Beginning<Dim>& step, const std::string& name)
+{
+	const auto&         layers = step.cloud.layer;
+	const int           last   = layers.empty() ? 0 : *std::max_element(layers.begin(), layers.end());
+	AttachedPlaces<Dim> found  = attachTo(0, places, step, name);
+	for (int layer = 1; layer <= last; ++layer) {
+		auto other = attachTo(layer, places, step, name);
+		if (!other.obstacle.empty()) continue;
+		if (found.obstacle.empty()) {
+			found.obstacle = name + " is on two bodies of points that meet: it must be near one of them only";
+			return found;
+		}
+		found = std::move(other);
+	}
+	return found;
+}
+
+template AttachedPlaces<2> attachPlaces(const std::vector<Vec<2>>&, const Beginning<2>&, const std::string&);
+template AttachedPlaces<3> attachPlaces(const std::vector<Vec<3>>&, const Beginning<3>&, const std::string&);
+
+} // namespace gimpm
