@@ -54,8 +54,8 @@ template <int Dim> Eigen::VectorXd predictionFor(const StepSystem<Dim>& system, 
 	return d;
 }
 
-/// Goes on from d as long as the stabilisation takes up more of the work than it may, by the proximal point method. Where
-/// no stress can bear the load the body moves on by the same in each pass, and so does what the stabilisation takes up.
+/// Goes on from d as long as the stabilisation takes up more of the work than it may, by the proximal point method.
+/// Where no stress can bear the load the body moves on by the same in each pass, and the share does not fall.
 template <int Dim> Eigen::VectorXd relieved(StepSystem<Dim>& system, LinearSolver& solver, StepReport& report, Eigen::VectorXd growth)
 {
 	constexpr int    few       = 10;

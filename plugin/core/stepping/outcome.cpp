@@ -42,7 +42,7 @@ std::string causeOfTooMany(const StepReport& report, double tolerance, bool isWh
 std::string causeOfStabilised(const StepReport& report, double allowed)
 {
 	return sentence(
-	        "the ghost stabilisation still takes up ", report.ghostShare, " of the work of the step, more than the tolerance ", allowed,
+	        "the ghost stabilisation still takes up ", report.ghostShare, " of the work at the edge of the body, more than ghost.workTolerance = ", allowed,
 	        ", after it was relieved ", report.passes, " times: no stress in the points bears that load");
 }
 

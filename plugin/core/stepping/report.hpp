@@ -40,8 +40,8 @@ struct StepReport {
 	int nodes = 0, dofs = 0, populatedCells = 0, boundaryCells = 0, ghostFaces = 0;
 	int mixedCells = 0; ///< populated by points of several materials
 	int parts      = 0; ///< of the body that share no node
-	/// In parts of a few points that nothing keeps from moving freely (restraint.hpp), which are held where they are, and
-	/// the place of the first part.
+	/// In parts of a few points that nothing keeps from moving freely (restraint.hpp), which are held where they
+	/// are, and the place of the first part.
 	int         loosePoints = 0;
 	std::string loosePlace {};
 

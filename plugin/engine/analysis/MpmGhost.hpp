@@ -47,7 +47,7 @@ public:
 		  "Of MpmDynamicEngine, ghost mass [-] >= 0: gamma_M is this times the density, the lower of a face's two cells. NaN, the default: 1e-3, with scheme='explicit' 1/4. 0: none.",
 		  admitting("a finite number >= 0, or NaN for the default", [](Real value) { return std::isnan(value) || nonNegative(value); }));
 		v("workTolerance", &MpmGhost::workTolerance, 0,
-		  "Part [-] of the work of a static step that it may take up (*ghostShare*): beyond, the step goes on until stress bears the load, or fails. 1, the default: no limit.",
+		  "Of static steps, part of the work [-] that it may take up (*ghostShare*): beyond, the step goes on until stress bears the load, or fails. 1: no limit.",
 		  admitting("a number from above 0 to 1", [](Real part) { return part > 0 && part <= 1; }));
 	}
 };

@@ -215,8 +215,8 @@ string warningOfShare(const Analysis& engine)
 	constexpr Real much = 0.05;
 	if (!(engine.ghostShare > much)) return "";
 	std::ostringstream text;
-	text << std::setprecision(2) << "in the step to O.time = " << engine.loadTime << ", load factor " << engine.loadFactor
-	     << ", the ghost stabilisation took up " << 100 * engine.ghostShare
+	text << "in the step to O.time = " << engine.loadTime << ", load factor " << engine.loadFactor << ", the ghost stabilisation took up "
+	     << std::lround(100 * engine.ghostShare)
 	     << " % of the work at the edge of the body (ghostShare), which no stress in the points bears: limit loads are too high by more than that, and what stands "
 	        "may not stand. ghost=MpmGhost(workTolerance=0.03) goes on until stress bears the load, and fails where none does. This is said once; plotData() tells of "
 	        "later steps.";
@@ -228,8 +228,9 @@ string warningOfLoosePoints(const Analysis& engine)
 	const auto& report = engine.last;
 	if (report.loosePoints == 0) return "";
 	std::ostringstream text;
-	text << "in the step to O.time = " << engine.loadTime << " nothing restrains " << report.loosePoints << " points apart from the rest, the first around "
-	     << report.loosePlace << ": no equilibrium tells where they go, so they are held where they are (report()['loosePoints']).";
+	text << "in the step to O.time = " << engine.loadTime << " nothing restrains points apart from the rest (" << report.loosePoints
+	     << ", the first around " << report.loosePlace
+	     << "): no equilibrium tells where they go, so they are held where they are (report()['loosePoints']).";
 	return text.str();
 }
 

@@ -15,8 +15,8 @@ string reasonOf(const gimpm::StepReport&, const Analysis&, const vector<Material
 
 string warningOfAccepted(const gimpm::StepReport&, const Analysis&, Real time);
 
-// Of static steps of the last run: that the stabilisation carries much, and that points are held where they are. Empty if
-// it is not so.
+// Of static steps of the last run: that the stabilisation carries much, and that points are held where they are.
+// Empty if it is not so.
 string warningOfShare(const Analysis&);
 string warningOfLoosePoints(const Analysis&);
 

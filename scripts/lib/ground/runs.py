@@ -11,7 +11,7 @@ from .soils import weight
 
 O = Omega()
 same = .05  # of the load at which two runs fail
-told = .1  # of the work of a step, that the stabilisation takes up: more is warned of
+told = .05  # of the work of a step, that the stabilisation takes up: more is warned of
 exact = 1e-5  # of the sizes of all forces, that may be out of balance in statics
 
 
@@ -27,8 +27,8 @@ def balanceOf(scene, solver):
 class Outcome:
 	"""part: of the way that was made; why: it went no farther, empty if it got to its end."""
 
-	def __init__(self, scene, finer, seconds):
-		solver = scene.add(finer)
+	def __init__(self, scene, finer, seconds, divide, strict):
+		solver = scene.add(finer, divide, strict)
 		self.part, self.off, self.share, self.why, self.solves, self.cuts = 0., 0., 0., '', 0, 0
 		steps, ends = scene.steps * finer, time.process_time() + seconds
 		for step in range(steps):
@@ -47,14 +47,14 @@ class Outcome:
 		self.numbers = scene.isRight(solver) if not self.why else {}
 
 
-def judged(seed, seconds):
+def judged(seed, seconds, divide=1, strict=False):
 	"""A row of the table: how a scene ended ('ends', 'held' if it is said that only the stabilisation holds it, 'fails' as it may, or 'stops'), and what is wrong with it."""
 	began, scene = time.process_time(), sceneOf(seed)
 	with said():
-		found = Outcome(scene, 1, seconds)
+		found = Outcome(scene, 1, seconds, divide, strict)
 		how = 'ends' if not found.why else 'stops'
 		if found.why and found.why != 'time is up' and scene.mayFail():
-			again = Outcome(scene, 2, 2 * seconds)
+			again = Outcome(scene, 2, 2 * seconds, divide, strict)
 			if again.why and abs(again.part - found.part) <= same * max(again.part, found.part) or found.part == again.part: how = 'fails'
 			else: found.why += f' (at {found.part:.3f}, in finer steps at {again.part:.3f})'
 		elif not found.why and found.share > told: how = 'held'

@@ -35,14 +35,15 @@ class Scene:
 	def plan(self):
 		"""Draws what is its own, and self.soil, for the height of its ground."""
 
-	def add(self, finer=1):
-		"""The scene; its solver. finer: its steps are so much shorter."""
+	def add(self, finer=1, divide=1, strict=False):
+		"""The scene; its solver. finer, divide: its steps are so much shorter, its cells so much smaller. strict: F-bar, and a stabilisation that may not carry much."""
 		O.reset()
 		O.materials.append(self.soil.material())
-		self.grid = MpmGrid(cellSize=self.h, dim=self.dim)
+		self.grid = MpmGrid(cellSize=self.h / divide, dim=self.dim)
 		self.finer, pull = finer, tuple(-gravity * (axis == self.up) for axis in range(3))
 		self.fill()
 		solver = (MpmDynamicEngine if self.isDynamic else MpmImplicitEngine)(grid=self.grid, gravity=pull, boundaries=self.boundaries(), verbosity=0, **self.settings())
+		if strict and not self.isDynamic: solver.fBar, solver.ghost.workTolerance = True, .03
 		O.engines, O.dt = [solver], self.duration() / (self.steps * finer)
 		self.begin()
 		return solver
