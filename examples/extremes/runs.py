@@ -13,7 +13,7 @@ from math import cos, inf, nan, sin, tau
 
 import numpy as np
 from yade import mpm, pack
-from yade.wrapper import MpmBoundary, MpmElasticMat, MpmGrid, MpmImplicitEngine, MpmNewton, MpmWater, Omega
+from yade.wrapper import MpmBoundary, MpmDrain, MpmElasticMat, MpmFlow, MpmGrid, MpmImplicitEngine, MpmNewton, MpmWater, Omega
 
 here = os.path.dirname(os.path.abspath(sys.argv[0]))
 sys.path[:0] = [here, os.path.join(here, '..', '..', 'scripts', 'lib')]
@@ -71,6 +71,26 @@ class Column:
 
 	def beforeStep(self, step):
 		pass
+
+
+class Consolidating(Column):
+	"""A column between walls that drains at its top while its weight grows: what soil and water bear together.
+
+	:param part: length of a step over that in which pressures spread over a cell
+	"""
+
+	def __init__(self, dim, ghost, part, porosity=.4, conductivityLaw='constant', **more):
+		super().__init__(dim, ghost, confined=True, **more)
+		for material in O.materials:
+			material.conductivity, material.porosity, material.conductivityLaw = part * cellSize**2 / young * self.steps * 9810, porosity, conductivityLaw
+		w, high = 2 * cellSize, self.height
+		corners = [(w, high, 0), (0, high, 0)] if dim == 2 else [[(0, high, 0), (0, high, w), (w, high, w)], [(0, high, 0), (w, high, w), (w, high, 0)]]
+		self.engine.flow = MpmFlow(drains=[MpmDrain(surface=corners)], ghost=0 if ghost == 'none' else .01)
+
+	def error(self):
+		points = mpm.arrays()
+		exact = -self.unit * (self.height - points['pos0'][:, 1])
+		return np.average(np.abs(points['stress'][:, 1, 1] - points['porePressure'] - exact), weights=[b.state.volume0 for b in O.bodies]) / (self.unit * self.height)
 
 
 class Wet(Column):
@@ -221,6 +241,9 @@ def scene(axis, dim, ghost, value):
 	if axis == 'length': return Column(dim, ghost, h=value)
 	if axis == 'waterWeight': return Wet(dim, ghost, value, 10)
 	if axis == 'waterLevel': return Wet(dim, ghost, .5, value, weight=1e-3)
+	if axis == 'flowStep': return Consolidating(dim, ghost, value, weight=1e-2)
+	if axis == 'flowCut': return Consolidating(dim, ghost, 1e-2, weight=1e-2, overlap=(0, value))
+	if axis == 'flowPorosity': return Consolidating(dim, ghost, 1, porosity=value, conductivityLaw='kozeny-carman', weight=2e-2)
 	if axis == 'young': return Column(dim, ghost, E=value)
 	if axis == 'strain': return Column(dim, ghost, weight=value)
 	if axis == 'steps': return Column(dim, ghost, confined=True, weight=4, steps=value)
