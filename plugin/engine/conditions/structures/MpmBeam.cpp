@@ -24,6 +24,9 @@ std::array<bool, 3> MpmBeam::fixed(const string& letters)
 void MpmBeam::requireAdmissible() const
 {
 	Exposed<MpmBeam, MpmCondition>::requireAdmissible();
+	if (line.front() == line.back() && line.size() < 4)
+		throw std::invalid_argument(
+		        "MpmBeam.line = " + textOf(line) + ": a ring, whose last point is its first, needs three different points or more.");
 	for (size_t i = 0; i < anchors.size(); ++i) {
 		const string name = "MpmBeam.anchors[" + std::to_string(i) + "]";
 		if (!anchors[i]) throw std::invalid_argument(name + " is None: expected an MpmReinforcement.");
@@ -64,8 +67,8 @@ void MpmBeam::tell(Rows& rows, const Analysis&, const Listed& listed) const
 
 void MpmBeam::draw(Picture& picture, const Analysis& analysis, const Listed& listed) const
 {
-	const auto& x     = vertices.empty() ? line : vertices;
-	const int   first = int(picture.corners.size());
+	const auto x     = vertices.empty() ? inSpace(line) : vertices;
+	const int  first = int(picture.corners.size());
 	picture.corners.insert(picture.corners.end(), x.begin(), x.end());
 	for (int i = 0; i + 1 < int(x.size()); ++i) {
 		picture.add({ first + i, first + i + 1 });

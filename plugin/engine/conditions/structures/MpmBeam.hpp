@@ -8,11 +8,11 @@ class MpmBeam : public Exposed<MpmBeam, MpmCondition> {
 	static constexpr Real nan = std::numeric_limits<Real>::quiet_NaN(), inf = std::numeric_limits<Real>::infinity();
 
 public:
-	vector<Vector3r>                     line;
+	Points                               line;
 	Real                                 axialStiffness = nan, bendingStiffness = nan; // must be given
 	Real                                 plasticMoment = inf;
 	Real                                 weight        = 0;
-	vector<Vector3r>                     hinges;
+	Points                               hinges;
 	string                               fixHead, fixFoot;
 	Vector3r                             headForce  = Vector3r::Zero();
 	Real                                 headMoment = 0;
@@ -46,9 +46,7 @@ public:
 		  admitting("a number > 0 [N m], or inf", isPositiveOrInfinite));
 		v("weight", &B::weight, 0, "Weight by length [N/m] >= 0, along and with the factor of *MpmImplicitEngine.gravity*.", nonNegative);
 		v("hinges", &B::hinges, 0, "Hinges are at the vertices that are nearest to these places [m].",
-		  admitting("places, all finite", [](const vector<Vector3r>& x) {
-			  return std::all_of(x.begin(), x.end(), [](const Vector3r& p) { return p.allFinite(); });
-		  }));
+		  admitting("places of two or three numbers, all finite", arePoints));
 		v("fixHead", &B::fixHead, 0, "What of its first vertex is held: letters out of 'xyr', r for its rotation.",
 		  admitting("letters out of 'xyr'", areFixed));
 		v("fixFoot", &B::fixFoot, 0, "The same of its last vertex.", admitting("letters out of 'xyr'", areFixed));

@@ -16,10 +16,12 @@ void MpmReinforcement::requireAdmissible() const
 		        + ": a bar that may slip needs a finite bondStiffness [N/m2] and a bond [N/m] or friction, and one that does not has none of them.");
 	if (friction > 0 && !std::isfinite(bond))
 		throw std::invalid_argument("MpmReinforcement.friction = " + textOf(friction) + " adds to bond, which is inf: give bond=0 for friction alone.");
-	if (freeLength > 0 && !(freeLength < (line[1] - line[0]).norm() * (1 - 1e-9)))
+	const auto points = inSpace(line);
+	const Real first  = (points[1] - points[0]).norm();
+	if (freeLength > 0 && !(freeLength < first * (1 - 1e-9)))
 		throw std::invalid_argument(
-		        "MpmReinforcement.freeLength = " + textOf(freeLength) + " must be less than the length of the first segment of line, "
-		        + textOf((line[1] - line[0]).norm()) + " m: the grouted body begins within it.");
+		        "MpmReinforcement.freeLength = " + textOf(freeLength) + " must be less than the length of the first segment of line, " + textOf(first)
+		        + " m: the grouted body begins within it.");
 	if (pull > 0 && headPlate)
 		throw std::invalid_argument(
 		        "MpmReinforcement.pull = " + textOf(pull) + ": a head with headPlate=True is fixed to the soil, and cannot be pulled.");

@@ -2,25 +2,16 @@
 #pragma once
 #include "engine/analysis/MpmCondition.hpp"
 #include "engine/conditions/load_curves.hpp"
+#include "engine/conditions/structures/lines.hpp"
 #include "engine/materials/angles.hpp"
 
 namespace yade {
-
-// Of lines in the soil, as attributes.
-inline bool isLine(const vector<Vector3r>& points)
-{
-	for (size_t i = 0; i < points.size(); ++i)
-		if (!points[i].allFinite() || (i > 0 && points[i] == points[i - 1])) return false;
-	return points.size() >= 2;
-}
-inline bool isPositiveOrInfinite(Real value) { return value > 0; }
-inline bool isNonNegativeOrInfinite(Real value) { return value >= 0; }
 
 class MpmReinforcement : public Exposed<MpmReinforcement, MpmCondition> {
 	static constexpr Real nan = std::numeric_limits<Real>::quiet_NaN(), inf = std::numeric_limits<Real>::infinity();
 
 public:
-	vector<Vector3r>        line;
+	Points                  line;
 	Real                    axialStiffness = nan; // must be given
 	bool                    tensionOnly    = true;
 	Real                    strength       = inf;
@@ -91,7 +82,7 @@ public:
 
 	Real             end(const Analysis&) const override;
 	void             requireFitting(const Analysis&, const string& name) const override;
-	vector<Vector3r> places() const override { return vertices.empty() ? line : vertices; }
+	vector<Vector3r> places() const override { return vertices.empty() ? inSpace(line) : vertices; }
 	void             tell(Rows&, const Analysis&, const Listed&) const override;
 	const char*      picture() const override { return "loads"; }
 	void             draw(Picture&, const Analysis&, const Listed&) const override;

@@ -47,12 +47,12 @@ namespace {
 		beam.isClosed      = from.line.front() == from.line.back();
 		if (from.vertices.empty()) {
 			std::vector<Vec2> line;
-			for (const Vector3r& x : from.line)
+			for (const Vector3r& x : inSpace(from.line))
 				line.push_back(x.head<2>());
 			beam.begin(gimpm::divided<2>(line, gimpm::lengthOfPieces * grid.cellSize));
 		} else
 			goOn(beam, from);
-		for (const Vector3r& hinge : from.hinges)
+		for (const Vector3r& hinge : inSpace(from.hinges))
 			beam.isHinge[nearestVertex(beam, hinge.head<2>())] = 1;
 		return beam;
 	}
@@ -60,7 +60,7 @@ namespace {
 	void scatter(const Beam& beam, MpmBeam& to)
 	{
 		const size_t pieces = beam.length0.size();
-		to.vertices.assign(beam.places.size(), Vector3r(0, 0, to.line.front()[2]));
+		to.vertices.assign(beam.places.size(), Vector3r(0, 0, inSpace(to.line).front()[2]));
 		for (size_t v = 0; v <= pieces; ++v)
 			to.vertices[v].head<2>() = beam.places[v];
 		to.rotations   = beam.turns;
@@ -90,7 +90,7 @@ namespace {
 		const Real away = (bar.places.front() - beam.places[bar.joint]).norm(), most = gimpm::lengthOfPieces * grid.cellSize;
 		if (from.vertices.empty() && away > most)
 			throw std::invalid_argument(
-			        name + ".line begins at (" + textOf(from.line.front()) + "), " + textOf(away)
+			        name + ".line begins at (" + textOf(inSpace(from.line).front()) + "), " + textOf(away)
 			        + " m away from the nearest vertex of the beam: at most " + textOf(most) + " m, half a cell, are admitted.");
 		if (!from.vertices.empty()) return bar;
 		bar.places.front()  = beam.places[bar.joint];

@@ -27,7 +27,7 @@ namespace {
 	// The free length is one piece, the rest is divided.
 	template <int Dim> std::vector<gimpm::Vec<Dim>> verticesOf(const MpmReinforcement& from, const gimpm::Grid<Dim>& grid)
 	{
-		auto line = inDimension<Dim>(from.line);
+		auto line = inDimension<Dim>(inSpace(from.line));
 		if (from.freeLength == 0) return gimpm::divided<Dim>(line, gimpm::lengthOfPieces * grid.cellSize);
 		const gimpm::Vec<Dim> head = line[0];
 		line[0] += from.freeLength * (line[1] - line[0]).normalized();
@@ -63,7 +63,7 @@ template <int Dim> gimpm::Bar<Dim> coreBar(const MpmReinforcement& from, const s
 
 template <int Dim> void scatterBar(const gimpm::Bar<Dim>& bar, MpmReinforcement& to)
 {
-	to.vertices.assign(bar.places.size(), Vector3r(0, 0, to.line.front()[2]));
+	to.vertices.assign(bar.places.size(), Vector3r(0, 0, inSpace(to.line).front()[2]));
 	for (size_t v = 0; v < bar.places.size(); ++v)
 		to.vertices[v].template head<Dim>() = bar.places[v];
 	to.lengths     = bar.length0;
