@@ -49,7 +49,7 @@ def respond(material, strain, duration=0, **internals):
 	return result | answer['internals']
 
 
-def elementTest(material, kind, strain, steps=100, confiningPressure=0, initialStress=None, fileName=None, **internals):
+def elementTest(material, kind, strain, steps=100, confiningPressure=0, initialStress=None, fileName=None, duration=0, **internals):
 	"""The curve of a laboratory test on one material point, as a body of one homogeneous cell would give it. ::
 
 		sand = MpmMohrCoulombMat(young=50e6, poisson=0.3, density=2000, cohesion=0, frictionAngle=radians(30))
@@ -66,7 +66,7 @@ def elementTest(material, kind, strain, steps=100, confiningPressure=0, initialS
 
 	Strains are finite; the stress that is kept and that of the result are Cauchy's, with the state at first as reference (F = 1). The laws have their strength in
 	Kirchhoff stress, which is det F times Cauchy's. A step finds the strains across by Newton's method with the law's tangent, to 1e-10 of the stress, or to the round-off of strain times stiffness where that is more; where that fails, it is
-	halved up to ten times. No time goes by, for laws that depend on it.
+	halved up to ten times.
 
 	:param material: material of the plugin, or the label of one in O.materials
 	:param kind: one of the above
@@ -76,6 +76,7 @@ def elementTest(material, kind, strain, steps=100, confiningPressure=0, initialS
 	:param confiningPressure: pressure [Pa] >= 0 at first, equal in all directions; > 0 for Cam clay
 	:param initialStress: instead of *confiningPressure*: Cauchy stress [Pa] along x, y and z at first, positive in tension
 	:param fileName: draw the curve to this file, as :func:`plot` does
+	:param duration: time [s] >= 0 that the test takes, at an even rate of strain, for laws that depend on it
 	:param internals: internal variables of the law at first by name, as in :func:`respond`
 	:return: dict of arrays with the state at first and after each step, N = steps + 1: ``axialStrain`` (N,) logarithmic strain along y [-] or for simpleShear
 		``shearStrain`` (N,) movement over the height at first [-]; ``volumetricStrain`` (N,) ln det F [-]; ``p`` (N,) pressure [Pa], the mean stress with a
@@ -93,15 +94,16 @@ def elementTest(material, kind, strain, steps=100, confiningPressure=0, initialS
 	end = _number(who, 'strain', strain, 'a number from -10 to 10, not 0', lambda value: 0 < abs(value) <= 10)
 	if isinstance(steps, bool) or not isinstance(steps, (int, np.integer)): raise TypeError(f'{who}: steps = {brief(steps)} must be an integer')
 	if steps < 1: raise ValueError(f'{who}: steps = {steps} must be > 0')
-	curve = curveAt(who, material, kind, end * np.arange(1, steps + 1) / steps, confiningPressure, initialStress, internalsOf(who, internals))
+	duration = _number(who, 'duration', duration, 'a finite number >= 0 [s]', lambda value: value >= 0)
+	curve = curveAt(who, material, kind, end * np.arange(1, steps + 1) / steps, confiningPressure, initialStress, internalsOf(who, internals), secondsPerStrain=duration / abs(end))
 	if fileName is not None: _draw(kind, curve, fileName)
 	return curve
 
 
-def curveAt(who, material, kind, strains, confiningPressure=0, initialStress=None, internals={}, patience=math.inf):
+def curveAt(who, material, kind, strains, confiningPressure=0, initialStress=None, internals={}, patience=math.inf, secondsPerStrain=0):
 	"""The curve of a test in steps to each of these strains, which may turn back; it is given up after so many solves for one step in the mean."""
 	test = _testOf(who, kind)
-	test.solves = patience * len(strains)
+	test.solves, test.secondsPerStrain = patience * len(strains), secondsPerStrain
 	state = _firstState(who, material, firstStress(who, confiningPressure, initialStress), internals)
 	kept = np.diag(state.stress).copy()
 	if state.hasTensors or kept[0] != kept[2]: test.free = test.each
@@ -248,7 +250,7 @@ def _solve(test, material, state, to, kept):
 	free, most, tolerance = test.free, 50, 1e-10
 	u, lowest = np.zeros(len(free)), math.inf
 	for _ in range(most):
-		trial = _trial(material, state, np.diag(np.exp(u @ free)) @ increment, to)
+		trial = _trial(material, state, np.diag(np.exp(u @ free)) @ increment, to, test.secondsPerStrain * abs(to - state.strain))
 		if not free.any(): return trial
 		J, directions = np.linalg.det(trial.defGrad), free / free.sum(axis=1, keepdims=True)
 		residual = directions @ (np.diag(trial.kirchhoff) - J * kept)
@@ -278,9 +280,9 @@ def _roundOff(trial):
 	return 8 * np.finfo(float).eps * np.abs(trial.trial.answer['tangent']).sum(axis=1).max()
 
 
-def _trial(material, state, increment, to):
+def _trial(material, state, increment, to, duration):
 	"""The state after an increment F <- increment F: the elastic left Cauchy-Green tensor is pushed forward, then the law answers."""
-	if state.hasTensors: return _tensorTrial(material, state, increment, to)
+	if state.hasTensors: return _tensorTrial(material, state, increment, to, duration)
 	values, axes = np.linalg.eigh(state.elasticStrain)
 	pushed = increment @ _assemble(np.exp(2 * values), axes) @ increment.T
 	squares, axes = np.linalg.eigh(pushed)
@@ -303,10 +305,10 @@ def _trial(material, state, increment, to):
 	)
 
 
-def _tensorTrial(material, state, increment, to):
+def _tensorTrial(material, state, increment, to, duration):
 	"""The same by a law with tensors, which turn with the material."""
 	try:
-		answer = engine.stepInSpace(material, _rows(state.elasticStrain), _rows(increment), state.internals, 0.)
+		answer = engine.stepInSpace(material, _rows(state.elasticStrain), _rows(increment), state.internals, float(duration))
 	except ValueError as error:
 		raise _NoSolution(error) from None
 	defGrad = increment @ state.defGrad

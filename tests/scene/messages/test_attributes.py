@@ -20,17 +20,50 @@ outOfRange = {
         'MpmMaterial.porosity': ['0.', '1.', '40.'],
         'MpmMaterial.conductivityLaw': ['"Kozeny-Carman"'],
         'MpmMaterial.conductivityIndex': ['0.', '-1.'],
+        'MpmMaterial.relaxationTime': ['0.', '-1.'],
         'MpmElasticMat.young': ['0.', '-1.'],
         'MpmElasticMat.poisson': ['-1.', '0.5', '7.'],
         'MpmVonMisesMat.yieldStress': ['0.', '-1.'],
         'MpmVonMisesMat.hardening': None,
         'MpmVonMisesMat.residualYieldStress': ['-1.'],
+        'MpmVonMisesMat.viscosity': ['-1.'],
         'MpmTrescaMat.undrainedStrength': ['0.', '-1.'],
         'MpmFrictionalMat.cohesion': ['-1.'],
         'MpmFrictionalMat.frictionAngle': ['-0.1', '30.', '1.5708'],
         'MpmFrictionalMat.dilationAngle': ['-0.1', '10.', '1.5708'],
         'MpmFrictionalMat.tensileStrength': ['-1.'],
         'MpmDruckerPragerMat.match': ['"plane strain"', '"tension"'],
+        'MpmDruckerPragerMat.viscosity': ['-1.'],
+        'MpmMohrCoulombMat.residualCohesion': ['-1.'],
+        'MpmMohrCoulombMat.residualFrictionAngle': ['-0.1', '30.', '1.5708'],
+        'MpmMohrCoulombMat.residualDilationAngle': ['-0.1', '10.', '1.5708'],
+        'MpmMohrCoulombMat.softeningStrain': ['0.', '-1.'],
+        'MpmHardeningSoilMat.E50ref': ['0.', '-1.'],
+        'MpmHardeningSoilMat.Eoedref': ['0.', '-1.'],
+        'MpmHardeningSoilMat.Eurref': ['0.', '-1.'],
+        'MpmHardeningSoilMat.poisson': ['-0.1', '0.5'],
+        'MpmHardeningSoilMat.power': ['-0.1', '1.1'],
+        'MpmHardeningSoilMat.failureRatio': ['-0.1', '1.'],
+        'MpmHardeningSoilMat.K0nc': ['0.', '1.'],
+        'MpmHardeningSoilMat.referencePressure': ['0.', '-1.'],
+        'MpmHardeningSoilMat.cohesion': ['-1.'],
+        'MpmHardeningSoilMat.frictionAngle': ['0.', '30.', '1.5708'],
+        'MpmHardeningSoilMat.dilationAngle': ['-0.1', '10.', '1.5708'],
+        'MpmHardeningSoilMat.mostDilation': ['0.', '-1.'],
+        'MpmHardeningSoilMat.G0ref': ['0.', '-1.'],
+        'MpmHardeningSoilMat.gamma07': ['0.', '-1.'],
+        'MpmNorSandMat.shearModulus': ['0.', '-1.'],
+        'MpmNorSandMat.swellingIndex': ['0.', '-1.'],
+        'MpmNorSandMat.referencePressure': ['0.', '-1.'],
+        'MpmNorSandMat.criticalStateRatio': ['0.', '-1.'],
+        'MpmNorSandMat.compressionIndex': ['0.', '-1.'],
+        'MpmNorSandMat.criticalVolume': ['1.', '0.9'],
+        'MpmNorSandMat.criticalPressure': ['0.', '-1.'],
+        'MpmNorSandMat.curvature': ['-0.1', '1.'],
+        'MpmNorSandMat.flowCurvature': ['-0.1', '1.'],
+        'MpmNorSandMat.hardening': ['0.', '-1.'],
+        'MpmNorSandMat.specificVolume': ['1.', '0.9'],
+        'MpmNorSandMat.dilatancyRatio': ['0.', '-1.'],
         'MpmCamClayMat.shearModulus': ['0.', '-1.'],
         'MpmCamClayMat.criticalStateRatio': ['0.', '-1.'],
         'MpmCamClayMat.compressionIndex': ['0.', '-1.'],
@@ -106,6 +139,7 @@ outOfRange = {
         'MpmImplicitEngine.grid': ['None'],
         'MpmImplicitEngine.basis': ['"cubic"'],
         'MpmImplicitEngine.fBar': None,
+        'MpmImplicitEngine.nonlocalLength': ['-1.'],
         'MpmImplicitEngine.gravity': None,
         'MpmImplicitEngine.loadCurve': ['[(0, 0), (0, 1)]', '[(1, 0), (0, 1)]'],
         'MpmImplicitEngine.gravityCurve': ['[(0, 0), (0, 1)]', '[(1, 0), (0, 1)]'],
@@ -197,7 +231,11 @@ admitted = {
         ('MpmWater.level', 'nan'): 'levels or pressure',
         ('MpmWater.levels', '()'): 'level or pressure',
         ('MpmWater.curve', '()'): 'that of gravity',
-        **{(f'MpmMaterial.{name}', 'nan'): 'not given' for name in ('waterModulus', 'conductivity', 'porosity', 'conductivityIndex')},
+        **{(f'MpmMaterial.{name}', 'nan'): 'not given' for name in ('waterModulus', 'conductivity', 'porosity', 'conductivityIndex', 'relaxationTime')},
+        **{(f'MpmMohrCoulombMat.{name}', 'nan'): 'as before softening' for name in ('residualCohesion', 'residualFrictionAngle', 'residualDilationAngle', 'softeningStrain')},
+        **{(f'MpmHardeningSoilMat.{name}', 'nan'): 'no small-strain stiffness' for name in ('G0ref', 'gamma07')},
+        ('MpmHardeningSoilMat.mostDilation', 'inf'): 'no cut-off',
+        ('MpmNorSandMat.flowCurvature', 'nan'): 'that of the yield function',
         ('MpmImplicitEngine.flow', 'None'): 'no water flows',
         ('MpmFlow.bulkModulus', 'inf'): 'it keeps its volume',
         ('MpmFlow.drains', '()'): 'none leaves',
@@ -237,14 +275,17 @@ def scene(engine='MpmImplicitEngine'):
 	                    MpmCamClayMat(density=2400, shearModulus=5e5, criticalStateRatio=1.2, compressionIndex=0.05, swellingIndex=0.01, preconsolidation=1e4,
 	                                  referencePressure=5e3, label='clay'),
 	                    MpmTrescaMat(undrainedStrength=15e3, label='tresca', **materials), MpmMohrCoulombMat(label='friction', **friction),
-	                    MpmDruckerPragerMat(label='cone', **friction)])
+	                    MpmDruckerPragerMat(label='cone', **friction),
+	                    MpmHardeningSoilMat(density=2400, E50ref=1e6, Eoedref=1e6, Eurref=3e6, power=0.5, K0nc=0.5, cohesion=5e3, frictionAngle=radians(30), label='hardening'),
+	                    MpmNorSandMat(density=2400, shearModulus=5e5, swellingIndex=0.01, referencePressure=5e3, criticalStateRatio=1.2, compressionIndex=0.05,
+	                                  criticalVolume=1.9, hardening=100, specificVolume=1.7, label='sand')])
 	labels = [material.label for material in O.materials]
 	grid, base, ghost, newton = MpmGrid(cellSize=1), MpmBoundary(max=(inf, 0, inf), fix='xy'), MpmGhost(), MpmNewton()
-	for low, high, body in [(0, 2, 'low'), (2, 3, 'up')] if engine in meeting else [(0, 3, None)]:
+	for low, high, body in [(0, 2, 'low'), (2, 4, 'up')] if engine in meeting else [(0, 4, None)]:
 		O.bodies.append(mpm.fill(mpm.polygon([(0, low), (2, low), (2, high), (0, high)]), grid, 2, lambda x: labels[int(x[0] / 0.5) % 2 + 2 * int(x[1])], body=body))
-	clay = [b.id for b in O.bodies if b.material.label == 'clay']
+	clay = [b.id for b in O.bodies if b.material.label in ('clay', 'sand')]
 	mpm.assign(clay, stress=[-5e3 * np.identity(3)] * len(clay))
-	load = MpmTraction(surface=[(2, 3), (0, 3)], pressure=10)
+	load = MpmTraction(surface=[(2, 4), (0, 4)], pressure=10)
 	O.materials.append(FrictMat(label='rigid'))
 	O.bodies.append(utils.wall(5, axis=1, sense=-1, material='rigid'))
 	touch, water = MpmContact(), MpmWater(level=1, weight=10)
@@ -252,12 +293,12 @@ def scene(engine='MpmImplicitEngine'):
 	wave = MpmBaseMotion(history=[(0, 0), (2, 1e-3)])
 	edge = MpmAbsorbingBoundary(min=(2, -inf, -inf), motion=wave)
 	if engine in dynamic[1:]: solver.absorbing = [edge]
-	free = MpmFreeField(surface=[(0, 3), (0, 0)])
+	free = MpmFreeField(surface=[(0, 4), (0, 0)])
 	if engine == 'MpmFreeField': solver.loads = [load, free]
-	drain = MpmDrain(surface=[(2, 3), (0, 3)])
+	drain = MpmDrain(surface=[(2, 4), (0, 4)])
 	if engine in flowing:
 		solver.flow = MpmFlow(drains=[drain])
-		for material in list(O.materials)[:6]: material.conductivity, material.porosity = 1e-4, .4
+		for material in list(O.materials)[:8]: material.conductivity, material.porosity = 1e-4, .4
 	small = MpmRefinement()
 	bodies = MpmBodyContact(between=('low', 'up'), friction=0.1)
 	if engine in meeting: solver.contacts, solver.water = [touch, bodies], []

@@ -1,0 +1,157 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Hardening soil, NorSand, flow in time and softening on their way from a script to a run: laboratory tests, geostatic stress, restart, what contradicts."""
+setting = '''
+import json
+from scenes import *
+from yade.wrapper import *
+
+degree = np.pi / 180
+moduli = dict(density=2000, E50ref=30e6, Eoedref=30e6, Eurref=90e6, power=.5, cohesion=0, frictionAngle=35 * degree, dilationAngle=5 * degree)
+soil = dict(K0nc=1 - np.sin(35 * degree), **moduli)
+sand = dict(density=2000, shearModulus=45e6, swellingIndex=.0015, referencePressure=100e3, criticalStateRatio=1.27, compressionIndex=.02, criticalVolume=1.8911, hardening=70,
+            specificVolume=1.75)
+friction = dict(young=20e6, poisson=.3, density=2000, cohesion=5e3, frictionAngle=30 * degree)
+
+def ground(material, OCR=1, engine=MpmImplicitEngine, **settings):
+	"""Two columns of ground, 4 m deep, at rest."""
+	O.reset()
+	O.materials.append(material)
+	material.label = 'soil'
+	grid = MpmGrid(cellSize=1)
+	O.bodies.append(mpm.fill(pack.inAlignedBox((0, 0, -1), (2, 4, 1)), grid, 2, 'soil'))
+	walls = [MpmBoundary(max=(0, inf, inf), fix='x'), MpmBoundary(min=(2, -inf, -inf), fix='x'), MpmBoundary(max=(inf, 0, inf), fix='y')]
+	solver = engine(grid=grid, gravity=(0, -9.81, 0), gravityCurve=[(0, 1)], boundaries=walls, verbosity=0, **settings)
+	O.engines = [solver]
+	O.dt = .1
+	if OCR: mpm.geostatic(OCR=OCR)
+	return solver
+'''
+
+
+def test_laboratory_tests_of_hardening_soil(yade):
+	"""Its hyperbola, its oedometer and its unloading."""
+	assert yade(
+	        setting + '''
+law = MpmHardeningSoilMat(**soil)
+curve = mpm.elementTest(law, 'triaxial', -.02, confiningPressure=100e3, capPressure=1e7)
+strain, strength = -curve['axialStrain'], 2 * np.sin(35 * degree) / (1 - np.sin(35 * degree)) * 100e3
+first = 2 * 30e6 / 1.1
+assert np.allclose(curve['q'], strain * first / (1 + strain * first * .9 / strength), rtol=1e-6, atol=1)
+curve = mpm.elementTest(law, 'oedometer', -.02, steps=2000, initialStress=-20e3 * np.array([soil['K0nc'], 1, soil['K0nc']]))
+stress = -curve['stress'][:, 1, 1] * np.exp(curve['volumetricStrain'])
+slope = np.diff(stress) / 1e-5
+assert abs(np.interp(100e3, stress[1:], slope) / 30e6 - 1) < .01
+assert abs(curve['stress'][-1, 0, 0] / curve['stress'][-1, 1, 1] - soil['K0nc']) < .01
+small = MpmHardeningSoilMat(G0ref=150e6, gamma07=1e-4, **soil)
+stiff, soft = (mpm.elementTest(m, 'triaxial', -1e-5, steps=1, confiningPressure=100e3, capPressure=1e7)['q'][-1] for m in (small, law))
+assert stiff > 1.5 * soft
+'''
+	).exitCode == 0
+
+
+def test_ground_at_rest_remembers_its_past(yade):
+	"""Nothing moves in the first step; overconsolidated ground is stiffer; the default K0 is K0nc OCR^sin(phi)."""
+	assert yade(
+	        setting + '''
+for law, ratio, friction in (MpmHardeningSoilMat(**soil), soil['K0nc'], np.sin(35 * degree)), (MpmNorSandMat(**sand), 1 - 3 * 1.27 / 7.27, 3 * 1.27 / 7.27):
+	pressed = []
+	for OCR in 1, 3:
+		solver = ground(law, OCR)
+		data = mpm.arrays()
+		assert np.allclose(data['stress'][:, 0, 0], ratio * OCR**friction * data['stress'][:, 1, 1])
+		O.step()
+		assert np.abs(mpm.arrays()['pos'] - data['pos']).max() < 1e-9
+		solver.loads = [MpmTraction(surface=[(2, 4), (0, 4)], pressure=10e3)]
+		solver.loadCurve = [(.1, 0), (1.1, 1)]
+		O.run(10, wait=True)
+		pressed.append(4 - mpm.arrays()['pos'][:, 1].max())
+	assert pressed[0] > 1.2 * pressed[1], pressed
+'''
+	).exitCode == 0
+
+
+def test_saved_runs_go_on_with_the_same_bits(yade):
+	assert yade(
+	        setting + '''
+soft = MpmMohrCoulombMat(residualCohesion=1e3, softeningStrain=.02, relaxationTime=.5, **friction)
+cases = [(MpmHardeningSoilMat(G0ref=150e6, gamma07=1e-4, **soil), MpmImplicitEngine, {}), (MpmNorSandMat(**sand), MpmImplicitEngine, {}), (soft, MpmDynamicEngine, dict(nonlocalLength=1.))]
+for law, engine, settings in cases:
+	solver = ground(law, 1, engine, **settings)
+	solver.loads = [MpmTraction(surface=[(2, 4), (0, 4)], pressure=20e3)]
+	O.engines += [MpmVtkRecorder(fileName='soil-', iterPeriod=4)]
+	O.run(4, wait=True)
+	O.save('middle.yade.gz')
+	O.run(4, wait=True)
+	straight = mpm.arrays()
+	O.load('middle.yade.gz')
+	O.run(4, wait=True)
+	assert all(values.tobytes() == straight[name].tobytes() for name, values in mpm.arrays().items())
+	mpm.plot(next(name for name in ('shearHardening', 'imagePressure', 'softening') if name in straight), fileName='soil.png')
+'''
+	).exitCode == 0
+
+
+def test_bingham_in_the_laboratory_and_in_seconds(yade):
+	"""Fast shear bears the strength and viscosity times the rate of shear; where O.time is a load factor it is refused."""
+	assert yade(
+	        setting + '''
+mud = MpmVonMisesMat(young=1e6, poisson=.3, density=2000, yieldStress=np.sqrt(2) * 100, viscosity=40)
+curve = mpm.elementTest(mud, 'simpleShear', .01, steps=200, duration=.01 / 2.5)
+assert abs(curve['stress'][-1, 0, 1] - 200) < .5, curve['stress'][-1]
+fluid = MpmDruckerPragerMat(viscosity=1e5, **friction)
+for law, name in (mud, 'viscosity'), (fluid, 'viscosity'), (MpmCamClayMat(density=2000, shearModulus=5e6, criticalStateRatio=1.2, compressionIndex=.1, swellingIndex=.02,
+                  preconsolidation=1e5, referencePressure=1e3, relaxationTime=3), 'relaxationTime'):
+	ground(law, None if law is mud else 1)
+	try: O.step()
+	except Exception as error: assert name in str(error) and 'seconds' in str(error) and 'soil' in str(error), error
+	else: assert False
+	ground(law, None if law is mud else 1, MpmDynamicEngine)
+	O.dt = 1e-3
+	O.step()
+'''
+	).exitCode == 0
+
+
+def test_what_contradicts_itself_is_named(yade):
+	outcomes = yade(
+	        setting + '''
+def tried(make, **settings):
+	try:
+		ground(make(), **settings)
+		O.step()
+	except Exception as error: return str(error)
+	return 'no error'
+hs = lambda **change: lambda: MpmHardeningSoilMat(**{**soil, **change})
+print(json.dumps([
+	tried(hs(Eoedref=60e6)), tried(hs(E50ref=15e6)), tried(hs(Eurref=50e6)), tried(hs(K0nc=.2)), tried(hs(dilationAngle=36 * degree)), tried(hs(G0ref=150e6)),
+	tried(hs(G0ref=30e6, gamma07=1e-4)), tried(lambda: MpmNorSandMat(**{**sand, 'swellingIndex': .03})), tried(lambda: MpmNorSandMat(flowCurvature=.5, **sand)),
+	tried(lambda: MpmNorSandMat(**sand), OCR=None), tried(lambda: MpmMohrCoulombMat(residualCohesion=6e3, softeningStrain=.1, **friction)),
+	tried(lambda: MpmMohrCoulombMat(residualCohesion=1e3, **friction)), tried(lambda: MpmMohrCoulombMat(softeningStrain=.1, **friction)),
+	tried(lambda: MpmMohrCoulombMat(residualCohesion=0, residualFrictionAngle=0, softeningStrain=.1, **friction)),
+	tried(lambda: MpmVonMisesMat(young=1e6, poisson=.3, density=2000, yieldStress=1e3, viscosity=1, relaxationTime=1)), tried(lambda: MpmElasticMat(young=1e6, poisson=.3, density=2000, relaxationTime=1)),
+	tried(lambda: MpmMohrCoulombMat(**friction), nonlocalLength=.3)]))
+'''
+	).result
+	expected = [('Eoedref', 'E50ref'), ('Eoedref', 'E50ref'), ('Eurref', '2 E50ref'), ('K0nc', 'active'), ('dilationAngle', 'frictionAngle'), ('G0ref', 'gamma07'), ('G0ref', 'Eurref'),
+	            ('swellingIndex', 'compressionIndex'), ('flowCurvature', 'curvature'), ('stress', 'geostatic'), ('residualCohesion', 'cohesion'), ('softeningStrain', 'residual'),
+	            ('softeningStrain', 'residualCohesion'), ('residualCohesion', 'residual friction'), ('viscosity', 'relaxationTime'), ('relaxationTime', 'elastic'), ('nonlocalLength', 'cellSize')]
+	assert len(outcomes) == len(expected)
+	for said, words in zip(outcomes, expected):
+		assert all(word in said for word in words), (said, words)
+
+
+def test_the_band_of_softening_soil_is_that_of_the_soil(yade):
+	"""Strength goes with twice the mean less the own plastic strain, and the mean keeps its integral."""
+	assert yade(
+	        setting + '''
+solver = ground(MpmMohrCoulombMat(residualCohesion=1e3, softeningStrain=.5, **friction), nonlocalLength=1.)
+data = mpm.arrays()
+strain = np.where(data['pos'][:, 1] > 2, .1, 0)
+mpm.assign(plasticStrain=strain)
+O.step()
+data = mpm.arrays()
+mean = (data['softening'] + strain) / 2
+assert abs(np.average(mean, weights=data['volume']) - .05) < 1e-6
+assert .02 < mean.min() < .045 and .055 < mean.max() < .08, (mean.min(), mean.max())
+'''
+	).exitCode == 0
