@@ -45,7 +45,7 @@ def freeField(solver, until, motion=None, sides='both', distance=None):
 		column = _Column(body, side)
 		edges.append(wrapper.MpmFreeField(surface=column.line, distance=distance, **column.run(until)))
 	if motion is not None:
-		edges.append(wrapper.MpmFreeField(surface=[(body.left, body.bottom, body.z), (body.right, body.bottom, body.z)], motion=motion))
+		edges.append(wrapper.MpmFreeField(surface=body.base(body.left, body.right), motion=motion))
 	return edges
 
 
@@ -76,6 +76,10 @@ class _Body:
 		self.bottom = self._line('lower', (pos - half)[:, 1].min(), 1)
 		self.width, self.z = self.right - self.left, self.grid.origin[2]
 		self.boundaries, self.absorbing, self.water = ([one for i, one in enumerate(getattr(solver, kind)) if self._isAcross(f'{kind}[{i}]', one)] for kind in ('boundaries', 'absorbing', 'water'))
+
+	def base(self, first, last):
+		"""Vertices of the base, whose pieces are so short that they are not divided."""
+		return [(x, self.bottom, self.z) for x in np.linspace(first, last, (_pieces + 1) * round((last - first) / self.h) + 1)]
 
 	def _line(self, name, at, axis):
 		"""The line of the grid at an edge of the body, which static steps may have moved by a little."""
@@ -176,7 +180,7 @@ class _Column:
 		probe = wrapper.MpmFreeField(surface=self.line, acts=False)
 		edges = [probe]
 		if body.motion is not None:
-			edges.append(wrapper.MpmFreeField(surface=[(self.first, body.bottom, body.z), (self.first + _width * body.h, body.bottom, body.z)], motion=body.motion))
+			edges.append(wrapper.MpmFreeField(surface=body.base(self.first, self.first + _width * body.h), motion=body.motion))
 		settings = {name: getattr(solver, name) for name in ('scheme', 'beta', 'gamma', 'rhoInfinity', 'rayleigh', 'loadCurve', 'gravityCurve', 'timeTolerance')}
 		engine = wrapper.MpmDynamicEngine(
 		        loads=edges, boundaries=[_copy(one) for one in body.boundaries], absorbing=[_copy(one) for one in body.absorbing], loadTime=scene.time, **settings, **self._settings())
@@ -187,7 +191,7 @@ class _Column:
 			told.append((np.array(probe.velocity), np.array(probe.surface.vertices), self._stresses()))
 		velocities, places, stresses = (np.array(values) for values in zip(*told))
 		forces = self._forces(places, stresses)
-		flat = lambda values: [tuple(row) for row in values.reshape(-1, 3).tolist()]
+		flat = lambda values: values[..., :2].ravel().tolist()
 		return dict(times=(start + dt * np.arange(steps + 1)).tolist(), velocities=flat(velocities), displacements=flat(places - places[0]), forces=flat(forces - forces[0]))
 
 	def _stresses(self):

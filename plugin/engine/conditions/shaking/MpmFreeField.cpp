@@ -8,13 +8,6 @@
 
 namespace yade {
 
-bool MpmFreeField::increases(const vector<Real>& times)
-{
-	for (size_t i = 0; i < times.size(); ++i)
-		if (!std::isfinite(times[i]) || (i > 0 && times[i] <= times[i - 1])) return false;
-	return true;
-}
-
 void MpmFreeField::requireAdmissible() const
 {
 	Exposed<MpmFreeField, MpmCondition>::requireAdmissible();
@@ -23,13 +16,13 @@ void MpmFreeField::requireAdmissible() const
 	if (motion) motion->requireAdmissible();
 	if (motion && !times.empty())
 		throw std::invalid_argument("MpmFreeField: a wave from beyond is given by motion, and a field that moves by times: give one of them.");
-	const std::pair<const char*, const vector<Vector3r>*> tables[]
+	const std::pair<const char*, const vector<Real>*> tables[]
 	        = { { "velocities", &velocities }, { "displacements", &displacements }, { "forces", &forces } };
 	for (const auto& [name, table] : tables)
-		if (table->size() != times.size() * surface->vertices.size())
+		if (table->size() != 2 * times.size() * surface->vertices.size())
 			throw std::invalid_argument(gimpm::sentence(
-			        "MpmFreeField.", name, " has ", table->size(), " vectors, but there are ", times.size(), " times and ",
-			        surface->vertices.size(), " vertices: expected one for each vertex at each time."));
+			        "MpmFreeField.", name, " has ", table->size(), " numbers, but there are ", times.size(), " times and ",
+			        surface->vertices.size(), " vertices: expected x and y of each vertex at each time."));
 }
 
 std::shared_ptr<Condition<2>> MpmFreeField::make(InPlane, const Group& group, const Analysis& analysis) const

@@ -11,8 +11,7 @@ public:
 	shared_ptr<MpmSurface>    surface; // must be given
 	shared_ptr<MpmBaseMotion> motion;  // none: no wave comes from beyond
 	// What moves and presses beyond, at the vertices, one time after the other; empty: nothing moves.
-	vector<Real>     times;
-	vector<Vector3r> velocities, displacements, forces;
+	vector<Real>     times, velocities, displacements, forces;
 	Real             distance = std::numeric_limits<Real>::infinity();
 	bool             acts     = true;
 	vector<Vector3r> velocity;
@@ -38,13 +37,15 @@ public:
 		  admitting("an MpmSurface or points; there is no default", notNull));
 		v("motion", &F::motion, 0,
 		  "Velocity of the wave that comes from beyond (MpmBaseMotion), half of that at a free surface; None, the default: no wave. Not with *times*.");
+		const auto finiteNumbers = admitting("finite numbers", areFinite);
 		v("times", &F::times, 0,
 		  "Times [s], increasing, of *velocities*, *displacements* and *forces*; linear between. Empty, the default: nothing moves beyond.",
-		  admitting("finite numbers that increase", increases));
-		v("velocities", &F::velocities, 0, "Velocities of the free ground [m/s] at all vertices, for each of *times* in turn.", finiteVectors);
-		v("displacements", &F::displacements, 0, "Its displacements [m] since the first of *times*, in the order of *velocities*.", finiteVectors);
+		  admitting("finite numbers that increase", increase));
+		v("velocities", &F::velocities, 0,
+		  "Velocities of the free ground [m/s]: x and y of each vertex, at each of *times*, one number after the other.", finiteNumbers);
+		v("displacements", &F::displacements, 0, "Its displacements [m] since the first of *times*, in the order of *velocities*.", finiteNumbers);
 		v("forces", &F::forces, 0, "What its stress, less that at the first of *times*, gives to the vertices [N], in the order of *velocities*.",
-		  finiteVectors);
+		  finiteNumbers);
 		v("distance", &F::distance, 0,
 		  "Of the middle of what moves [m] > 0: springs of G / distance along the normal and half of that across it [Pa/m]; inf, the default: none.",
 		  admitting("a number > 0, or inf: no springs", [](Real value) { return value > 0; }));
@@ -69,7 +70,9 @@ public:
 	void                tell(Rows&, const Analysis&, const Listed&) const override;
 
 private:
-	static bool increases(const vector<Real>&);
+	// In free_fields.cpp, which is compiled for speed: they are asked in each step.
+	static bool areFinite(const vector<Real>&);
+	static bool increase(const vector<Real>&);
 };
 
 } // namespace yade

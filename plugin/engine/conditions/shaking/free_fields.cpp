@@ -64,16 +64,17 @@ namespace {
 		}
 	}
 
-	std::vector<Vec<2>> between(const MpmFreeField& field, const vector<Vector3r>& table, Real time)
+	std::vector<Vec<2>> between(const MpmFreeField& field, const vector<Real>& table, Real time)
 	{
-		const size_t n     = field.surface->vertices.size();
-		const auto   upper = std::upper_bound(field.times.begin(), field.times.end(), time);
-		const size_t last = field.times.size() - 1, after = std::min(size_t(upper - field.times.begin()), last), before = after > 0 ? after - 1 : 0;
-		const Real   span  = field.times[after] - field.times[before];
-		const Real   share = span > 0 ? std::clamp((time - field.times[before]) / span, Real(0), Real(1)) : 0;
+		const size_t        n = field.surface->vertices.size(), last = field.times.size() - 1;
+		const auto          upper = std::upper_bound(field.times.begin(), field.times.end(), time);
+		const size_t        after = std::min(size_t(upper - field.times.begin()), last), before = after > 0 ? after - 1 : 0;
+		const Real          span  = field.times[after] - field.times[before];
+		const Real          share = span > 0 ? std::clamp((time - field.times[before]) / span, Real(0), Real(1)) : 0;
+		const auto          at    = [&](size_t row, size_t v) { return Vec<2>(table[2 * (row * n + v)], table[2 * (row * n + v) + 1]); };
 		std::vector<Vec<2>> found;
 		for (size_t v = 0; v < n; ++v)
-			found.push_back(((1 - share) * table[before * n + v] + share * table[after * n + v]).template head<2>());
+			found.push_back((1 - share) * at(before, v) + share * at(after, v));
 		return found;
 	}
 
@@ -102,6 +103,16 @@ namespace {
 	}
 }
 
+bool MpmFreeField::areFinite(const vector<Real>& numbers)
+{
+	return std::all_of(numbers.begin(), numbers.end(), [](Real number) { return std::isfinite(number); });
+}
+
+bool MpmFreeField::increase(const vector<Real>& numbers)
+{
+	return areFinite(numbers) && std::is_sorted(numbers.begin(), numbers.end(), std::less_equal<Real>());
+}
+
 std::shared_ptr<FreeFields::Edge> FreeFields::edgeOf(const Listed& listed, const gimpm::Model<2>& model, const gimpm::PointCloud<2>& cloud) const
 {
 	const auto edge = std::make_shared<Edge>();
@@ -112,7 +123,7 @@ std::shared_ptr<FreeFields::Edge> FreeFields::edgeOf(const Listed& listed, const
 	requireDimension<2>(*edge->from->surface, edge->name);
 	if (edge->from->motion) edge->from->motion->requireInDimension(2, edge->name);
 	edge->surface = coreSurface<2>(*edge->from->surface);
-	if (edge->from->times.empty() && edge->acts) edge->surface.refine(gimpm::pieceLimit * model.grid.cellSize);
+	if (edge->from->times.empty() && edge->acts && !edge->hasBegun) edge->surface.refine(gimpm::pieceLimit * model.grid.cellSize);
 	edge->impedances = edge->from->impedances;
 	if (edge->impedances.empty()) edge->impedances = impedancesBeside(edge->surface, model, cloud, edge->name);
 	edge->borne = inDimension<2>(edge->from->borne);
