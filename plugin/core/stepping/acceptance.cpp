@@ -5,6 +5,7 @@
 #include "core/stepping/energy_gain.hpp"
 #include "core/stepping/outcome.hpp"
 #include "core/terms/point_update.hpp"
+#include "core/terms/within_cells.hpp"
 #include <algorithm>
 #include <sstream>
 
@@ -107,6 +108,8 @@ template <int Dim> bool accept(const StepSystem<Dim>& system, PointCloud<Dim>& c
 	if (system.model.grid.axisymmetric) report.reactions.pop_back(); // of the axis, which nobody has asked for
 	PointCloud<Dim> updated = cloud;
 	updatePoints(updated, system, displacements, report);
+	keepBeforeWalls(updated, cloud, system, displacements);
+	if (system.model.fBar) relaxPressures(updated, cloud, system.model.materials, system.basis, system.model.grid, *system.model.division);
 	if (!requireState(updated, system.model, report) || !requireSamePoints(updated, system.model, report)) return false;
 	if (!report.accepted && !requireEnergy(system, cloud, updated, report)) return false;
 	cloud = std::move(updated);

@@ -1,10 +1,20 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "core/stepping/beyond_walls.hpp"
+#include "core/grid/attachment.hpp"
 #include "core/grid/point_nodes.hpp"
 #include <algorithm>
 
 namespace gimpm {
 namespace {
+
+/// Of its window.
+template <int Dim> int allCells(const Patch<Dim>& patch)
+{
+	int cells = 0;
+	for (int c = 0; c < 1 << Dim; ++c)
+		cells |= int((c & ~patch.span) == 0) << c;
+	return cells;
+}
 
 /// The patches that walls cut off, with their points; their nodes behind walls follow the others, each patch with its
 /// own.
@@ -32,13 +42,6 @@ template <int Dim> struct CutPatches {
 	int size() const { return Dim * (front + int(nodes.size())); }
 
 private:
-	static int allCells(const Patch<Dim>& patch)
-	{
-		int cells = 0;
-		for (int c = 0; c < 1 << Dim; ++c)
-			cells |= int((c & ~patch.span) == 0) << c;
-		return cells;
-	}
 	static Index<Dim> along(const Patch<Dim>& patch, int local)
 	{
 		Index<Dim> n;
@@ -119,6 +122,31 @@ template <int Dim> void addForces(const CutPatches<Dim>& cut, const StepSystem<D
 
 } // namespace
 
+template <int Dim> void keepBeforeWalls(PointCloud<Dim>& cloud, const PointCloud<Dim>& before, const StepSystem<Dim>& system, const Eigen::VectorXd& d)
+{
+	const Grid<Dim>& grid = system.model.grid;
+	for (const auto& patch : system.basis.patches) {
+		if (patch.cells == allCells(patch)) continue;
+		const int      level = Grid<Dim>::level(patch.cell);
+		const Vec<Dim> faces = grid.nodePosition(Grid<Dim>::index(patch.cell) + Index<Dim>::Constant(1 << level));
+		for (int i = patch.first; i < patch.first + patch.count; ++i) {
+			const int      p    = system.basis.order[i];
+			const Vec<Dim> from = before.position[p] - faces, to = cloud.position[p] - faces;
+			int            centre = 0; // cell of the window that the middle is in
+			for (int a = 0; a < Dim; ++a)
+				centre |= int((patch.span >> a & 1) && from[a] >= 0) << a;
+			for (int a = 0; a < Dim; ++a) {
+				const bool isWall = (patch.span >> a & 1) && grid.period[a] == 0 && !(patch.cells >> (centre ^ 1 << a) & 1);
+				if (!isWall || (to[a] >= 0) == (from[a] >= 0)) continue;
+				const auto attached = attach(before.position[p], system.basis, grid);
+				if (!attached) continue;
+				const double there = from[a] + attached->displacement(d)[a];
+				if ((there >= 0) == (from[a] >= 0)) cloud.position[p][a] = faces[a] + there;
+			}
+		}
+	}
+}
+
 template <int Dim>
 void addReactionsBeyondWalls(const StepSystem<Dim>& system, const PointCloud<Dim>& cloud, const Load<Dim>& load, const Eigen::VectorXd& d, StepReport& report)
 {
@@ -146,6 +174,8 @@ template <int Dim> void addInertiaBeyondWalls(const StepSystem<Dim>& system, con
 	addForces(cut, system, force, report);
 }
 
+template void keepBeforeWalls(PointCloud<2>&, const PointCloud<2>&, const StepSystem<2>&, const Eigen::VectorXd&);
+template void keepBeforeWalls(PointCloud<3>&, const PointCloud<3>&, const StepSystem<3>&, const Eigen::VectorXd&);
 template void addInertiaBeyondWalls(const StepSystem<2>&, const Motion<2>&, StepReport&);
 template void addInertiaBeyondWalls(const StepSystem<3>&, const Motion<3>&, StepReport&);
 template void addReactionsBeyondWalls(const StepSystem<2>&, const PointCloud<2>&, const Load<2>&, const Eigen::VectorXd&, StepReport&);

@@ -12,7 +12,12 @@ namespace gimpm {
 /// the wall, or to the open box.
 template <int Dim> void addReactionsBeyondWalls(const StepSystem<Dim>&, const PointCloud<Dim>&, const Load<Dim>&, const Eigen::VectorXd& d, StepReport&);
 
-/// The same for their inertia in a step in time, when the motion has taken it over.
+/// A domain moves by averages over all of it, of which the part behind a wall counts as still: a middle that is carried
+/// to the wall could pass it, and would be alone behind it. One that has moved so since `before` moves by the functions
+/// of its place instead, which at the wall are those of held nodes.
+template <int Dim> void keepBeforeWalls(PointCloud<Dim>&, const PointCloud<Dim>& before, const StepSystem<Dim>&, const Eigen::VectorXd& d);
+
+/// Adds the forces of their inertia in a step in time to the reactions, when the motion has taken it over.
 template <int Dim> void addInertiaBeyondWalls(const StepSystem<Dim>&, const Motion<Dim>&, StepReport&);
 
 } // namespace gimpm

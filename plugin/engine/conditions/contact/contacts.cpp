@@ -304,6 +304,29 @@ template <int Dim> void Contacts<Dim>::requireKept() const
 			owners[i].contact->requireStable(*owners[i].body, system->loads[i].stiffness, dt, isBetween());
 }
 
+// In steps in time soil may come to a body by itself.
+template <int Dim> string Contacts<Dim>::warningOfPlace(const gimpm::PointCloud<Dim>& cloud, const gimpm::Grid<Dim>&) const
+{
+	constexpr Real far = 10; // cells
+	if (inTime || cloud.size() == 0) return "";
+	gimpm::Vec<Dim> low = cloud.position[0], high = low;
+	for (size_t p = 0; p < cloud.size(); ++p)
+		low = low.cwiseMin(cloud.position[p] - cloud.halfSize[p]), high = high.cwiseMax(cloud.position[p] + cloud.halfSize[p]);
+	Real                         least   = std::numeric_limits<Real>::infinity();
+	const gimpm::RigidBody<Dim>* nearest = nullptr;
+	for (const auto& body : system->bodies) {
+		const Owner& owner = owners[body.owner];
+		if (owner.byYade || owner.byScript || angleBetween(owner.begin, owner.target) > 0 || owner.begin.position != owner.target.position) return "";
+		const auto [from, to] = body.bounds(body.begin);
+		const Real away       = (from - high).cwiseMax(low - to).cwiseMax(0).norm();
+		if (away < least) least = away, nearest = &body;
+	}
+	if (!nearest || !(least > far * cellSize)) return "";
+	return gimpm::sentence(
+	        nearest->name, " is ", least, " m away from the soil, more than ", far,
+	        " cells, and is the nearest one that MpmContact has; none of them moves. Is it where it is meant to be, and does MpmContact.mask name the bodies that are meant?");
+}
+
 // The soil is one field: on both sides of what is thinner than a cell the same nodes move it, and before its narrow
 // faces they are farther apart than these are wide.
 template <int Dim> string Contacts<Dim>::warningOfThinness() const

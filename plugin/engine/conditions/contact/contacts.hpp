@@ -35,6 +35,9 @@ public:
 	// The largest of their stiffnesses.
 	Penalty penalty() const override;
 
+	// About bodies that are far from the soil and do not come.
+	string warningOfPlace(const gimpm::PointCloud<Dim>&, const gimpm::Grid<Dim>&) const override;
+
 	// What the soil cannot feel of bodies near it, and others.
 	std::map<string, string> warnings() const override;
 
