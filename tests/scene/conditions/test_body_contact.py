@@ -54,15 +54,15 @@ print(json.dumps([[contact.force[1] for contact in contacts], [solver.plotData()
 
 
 sliding = '''
-def slide(angle, coefficient, scheme='newmark', steps=16, duration=0.4):
+def slide(angle, coefficient, scheme='newmark', steps=25, duration=0.5, young=1e9):
 	"""A block on another one that is held, under gravity at an angle: mean acceleration in the second half of the time, what of the places slips, and work."""
 	O.reset()
-	material('soil', young=1e7)
+	material('rock', young=young)
 	grid = MpmGrid(cellSize=0.25)
-	O.bodies.append(mpm.fill(box((0, 0), (4, 0.5)), grid, 2, 'soil', body='low'))
-	O.bodies.append(mpm.fill(box((0.5, 0.5), (1.5, 1)), grid, 2, 'soil', body='up'))
+	O.bodies.append(mpm.fill(box((0, 0), (4, 0.5)), grid, 2, 'rock', body='low'))
+	O.bodies.append(mpm.fill(box((0.5, 0.5), (1.5, 1)), grid, 2, 'rock', body='up'))
 	contact = MpmBodyContact(between=('up', 'low'), friction=atan(coefficient))
-	solver = MpmDynamicEngine(grid=grid, scheme=scheme, gravity=(10 * sin(angle), -10 * cos(angle), 0), gravityCurve=[(0, 1)], boundaries=[MpmBoundary(max=(inf, 0, inf), fix='xy')],
+	solver = MpmDynamicEngine(grid=grid, scheme=scheme, gravity=(10 * sin(angle), -10 * cos(angle), 0), gravityCurve=[(0, 0), (0.1, 1)], boundaries=[MpmBoundary(max=(inf, 0, inf), fix='xy')],
 		contacts=[contact], newton=MpmNewton(tolerance=1e-8), verbosity=0)
 	O.engines, O.dt = [solver], duration / steps
 	if scheme == 'explicit':
