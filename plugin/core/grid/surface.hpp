@@ -38,8 +38,8 @@ template <int Dim> struct Surface {
 	/// nodes as an even stress does.
 	void cut(const Grid<Dim>&);
 
-	/// Divides the sides that are longer than `limit`, until none is left. Returns for each piece the number of that
-	/// which it is part of.
+	/// Divides the sides that are longer than `limit`, until none is left. Returns for each piece the number of
+	/// that which it is part of.
 	std::vector<int> refine(double limit);
 };
 

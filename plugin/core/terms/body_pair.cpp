@@ -30,8 +30,8 @@ template <int Dim> struct FacingSlope {
 	std::array<Rows, Dim - 1> along;
 
 	/// With n = normal, w = weight, b = slope: dn = -sum of b_j (n . dx_j), dg = n . (dx_0 - sum of w_j dx_j),
-	/// dw_i = b_i . (dx_0 - sum of w_j dx_j - g dn), and as the b are dual to the sides of the piece, db_i = -sum of b_j
-	/// (b_i . dx_j) - n (b_i . dn).
+	/// dw_i = b_i . (dx_0 - sum of w_j dx_j - g dn), and as the b are dual to the sides of the piece, db_i = - sum
+	/// of b_j (b_i . dx_j) - n (b_i . dn).
 	FacingSlope(const Facing<Dim>& at, const PairPlaces<Dim>& x)
 	{
 		Rows foot = Rows::Zero(); // dx_0 - sum of w_j dx_j
