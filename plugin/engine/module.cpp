@@ -60,13 +60,10 @@ void defineHelpers()
 	        "gridCells", +[](const string& kind, const MpmImplicitEngine& engine) { return gridCellsForPython(kind, engine); },
 	        "For mpm.plot: corners and first field of the cells of 'grid', 'ghostFaces', 'loads', 'walls' or 'contacts' around the material points.");
 }
-}
 
-BOOST_PYTHON_MODULE(mpm_engine)
+void defineFilling()
 {
 	using namespace yade;
-	py::scope().attr("version") = MPM_VERSION;
-	py::def("verify", &verifyPlugin, "ImportError if YADE does not fit the plugin, or has not registered all of its classes.");
 	py::def("newBodies", &newBodies,
 	        (py::arg("grid"), py::arg("positions"), py::arg("half"), py::arg("materials"), py::arg("index"), py::arg("parameters"), py::arg("body") = -1),
 	        "For mpm.fill: bodies from a grid, positions, half sizes, materials, the index of each body's material, and a dict of columns of parameters; "
@@ -74,6 +71,15 @@ BOOST_PYTHON_MODULE(mpm_engine)
 	py::def("addPoints", &addPoints,
 	        (py::arg("engine"), py::arg("positions"), py::arg("half"), py::arg("materials"), py::arg("index"), py::arg("parameters"), py::arg("body") = -1),
 	        "For mpm.add: puts such bodies into the scene of an engine, or where processes divide them each its own; the id of the first.");
+}
+}
+
+BOOST_PYTHON_MODULE(mpm_engine)
+{
+	using namespace yade;
+	py::scope().attr("version") = MPM_VERSION;
+	py::def("verify", &verifyPlugin, "ImportError if YADE does not fit the plugin, or has not registered all of its classes.");
+	defineFilling();
 	py::def("cellSizes", &cellSizesForPython, "For mpm.fill: bytearray of the sizes of a grid's cells at positions.");
 	py::def("multigridAbsence", &gimpm::Multigrid::absence, "For mpm.advise: why there is no algebraic multigrid; empty if there is.");
 	py::def(

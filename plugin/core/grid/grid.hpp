@@ -39,8 +39,8 @@ template <int Dim> struct Grid {
 	/// A domain and a ghost face reach three nodes along an axis, which must not be the same.
 	static constexpr int smallestPeriod = 3;
 
-	/// A key has the coordinates of a node or cell, its level, and above these the layer: bodies that meet have nodes and
-	/// cells of their own, each in a layer. Neighbours by steps between keys are in the same one.
+	/// A key has the coordinates of a node or cell, its level, and above these the layer: bodies that meet have
+	/// nodes and cells of their own, each in a layer. Neighbours by steps between keys are in the same one.
 	static constexpr int keyBits   = Dim == 2 ? 28 : 19;
 	static constexpr int mostLevel = 3, levelBits = 2;
 	static constexpr int mostLayer = (1 << (64 - keyBits * Dim - levelBits)) - 1;

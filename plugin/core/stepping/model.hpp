@@ -71,8 +71,8 @@ template <int Dim> struct Model {
 	/// By material, of what acts of point loads and water in a stage of construction, as it does of the density;
 	/// empty: all.
 	std::vector<double> shares {};
-	/// By the number of a body, from -1 on, of those of no name, the layer of its nodes (Grid::layer); empty: all are in
-	/// one.
+	/// By the number of a body, from -1 on, which is that of those without a name, the layer of its nodes
+	/// (Grid::layer); empty: all are in one.
 	std::vector<int> layers {};
 	Boundary<Dim>    boundary; ///< the last box is that of the axis of symmetry, if there is one
 	/// Off the lines of the grid, by the box of the boundary that their reaction is reported with, which holds

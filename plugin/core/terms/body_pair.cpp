@@ -29,8 +29,9 @@ template <int Dim> struct FacingSlope {
 	std::array<Rows, Dim>     slope;
 	std::array<Rows, Dim - 1> along;
 
-	/// With n = normal, w = weight, b = slope: dn = -sum of b_j (n . dx_j), dg = n . (dx_0 - sum of w_j dx_j), dw_i = b_i . (dx_0 -
-	/// sum of w_j dx_j - g dn), and as the b are dual to the sides of the piece, db_i = -sum of b_j (b_i . dx_j) - n (b_i . dn).
+	/// With n = normal, w = weight, b = slope: dn = -sum of b_j (n . dx_j), dg = n . (dx_0 - sum of w_j dx_j),
+	/// dw_i = b_i . (dx_0 - sum of w_j dx_j - g dn), and as the b are dual to the sides of the piece, db_i = - sum
+	/// of b_j (b_i . dx_j) - n (b_i . dn).
 	FacingSlope(const Facing<Dim>& at, const PairPlaces<Dim>& x)
 	{
 		Rows foot = Rows::Zero(); // dx_0 - sum of w_j dx_j
@@ -128,8 +129,8 @@ template <int Dim> Facing<Dim>::Facing(const PairPlaces<Dim>& x) : normal(normal
 	if constexpr (Dim == 3) along[1] = normal.cross(along[0]);
 }
 
-/// The frictional force T enters the forces on the vertices with -w_i T + g (T . b_i) n: so it is conjugate to the slip,
-/// and no moment g T is left.
+/// The frictional force T enters the forces on the vertices with -w_i T + g (T . b_i) n: so it is conjugate to the
+/// slip, and no moment g T is left.
 template <int Dim>
 std::optional<PairForce<Dim>> pairForce(
         const ContactLaw<Dim>& law, const PairPlaces<Dim>& start, const Vec<Dim>& before, const PairPlaces<Dim>& now, double tolerance, bool withSlope)

@@ -58,8 +58,8 @@ public:
 	// What about it does not go with cells of several sizes; empty if it does.
 	virtual string needsEqualCells(const string& /*name*/) const { return ""; }
 
-	// Whether bodies of points meet by it, which have nodes of their own; and what about a condition does not go with
-	// that, empty if it does.
+	// Whether bodies of points meet by it, which have nodes of their own; and what about a condition does not go
+	// with that, empty if it does.
 	virtual bool   partsBodies() const { return false; }
 	virtual string needsOneBody(const string& /*name*/) const { return ""; }
 	// Whether it acts by rates, so that O.time counts seconds.

@@ -13,7 +13,8 @@ class NewPoints {
 public:
 	// Positions (N x 3 double), half of the side of each point's box (N double), which is its initial volume, the
 	// material of each by its number (N int64) in a list, and columns (N double) of those parameters that differ
-	// from point to point, by their names; the place of their body of points in MpmGrid.bodies, or -1. std::invalid_argument if a material is not admissible.
+	// from point to point, by their names; the place of their body of points in MpmGrid.bodies, or -1.
+	// std::invalid_argument if a material is not admissible.
 	NewPoints(
 	        const MpmGrid&, const py::object& positions, const py::object& half, const py::list& materials, const py::object& index,
 	        const py::dict& parameters, int body);

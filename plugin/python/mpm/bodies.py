@@ -31,9 +31,7 @@ def _addSurface(body, added, dim):
 	old, new = ([np.array([part.vertices[v] for v in piece]) for piece in part.pieces] for part in (body, added))
 	if dim == 2: old, new = _withoutCommon(old, new)
 	else:
-		keys = lambda pieces: [frozenset(tuple(np.round(x / 1e-9).astype(np.int64)) for x in piece) for piece in pieces]
-		ofOld, ofNew = keys(old), keys(new)
-		old, new = [p for p, k in zip(old, ofOld) if k not in ofNew], [p for p, k in zip(new, ofNew) if k not in ofOld]
+		old, new = _withoutCommonFaces(old, new)
 	pieces = old + new
 	extent = max((np.ptp(np.concatenate(pieces), axis=0).max(), 1e-300)) if pieces else 1
 	numbers, vertices = {}, []
@@ -46,6 +44,41 @@ def _addSurface(body, added, dim):
 	body.pieces = []
 	named = [[number(x) for x in piece] for piece in pieces]
 	body.vertices, body.pieces = vertices, [piece for piece in named if len(set(piece)) == len(piece)]
+
+
+def _faces(pieces):
+	"""Numbers of the triangles in each plane, by its normal and distance in whole parts of the extent; and a function that names vertices alike."""
+	extent = np.ptp(np.concatenate(pieces), axis=0).max()
+	rounded = lambda x: tuple(np.round(np.asarray(x) / (1e-7 * extent)).astype(np.int64).tolist())
+	faces = {}
+	for i, (a, b, c) in enumerate(pieces):
+		normal = np.cross(b - a, c - a)
+		normal = normal / np.linalg.norm(normal)
+		faces.setdefault((tuple(np.round(normal, 6).tolist()), rounded([normal @ a])[0]), []).append(i)
+	return faces, rounded
+
+
+def _outline(pieces, rounded):
+	"""The sides that only one of the triangles in a plane has, as sets of their ends."""
+	sides = [frozenset((rounded(piece[i]), rounded(piece[i - 1]))) for piece in pieces for i in range(3)]
+	return {side for side in sides if sides.count(side) == 1}
+
+
+def _withoutCommonFaces(old, new):
+	"""Triangles of two lists, less the plane faces that both have."""
+	if not old: return old, new
+	faces, rounded = _faces(old + new)
+	gone = set()
+	for (normal, distance), members in faces.items():
+		first, second = [i for i in members if i < len(old)], [i for i in faces.get((tuple(-x + 0. for x in normal), -distance), []) if i >= len(old)]
+		if not first or not second: continue
+		all_ = old + new
+		if _outline([all_[i] for i in first], rounded) == _outline([all_[i] for i in second], rounded): gone.update(first + second)
+		else:
+			low, high = (np.array([function(np.concatenate([all_[i] for i in face]), axis=0) for face in (first, second)]) for function in (np.min, np.max))
+			if ((high.min(axis=0) - low.max(axis=0)) > 1e-6 * np.ptp(np.concatenate(all_), axis=0).max()).sum() >= 2:
+				raise ValueError('surface: in space, regions that are filled with one name must have whole plane faces in common, or none')
+	return [p for i, p in enumerate(old) if i not in gone], [p for i, p in enumerate(new, len(old)) if i not in gone]
 
 
 def _withoutCommon(old, new):

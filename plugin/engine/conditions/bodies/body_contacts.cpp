@@ -23,7 +23,7 @@ template <int Dim> bool MeetingBodies<Dim>::meet(int one, int other) const
 	        given.begin(), given.end(), [&](const auto& contact) { return std::set<string>(contact->between.begin(), contact->between.end()) == names; });
 }
 
-// Each body is in the lowest layer in which it meets none. So those without a contact stick as far as that goes together.
+// Each body is in the lowest layer in which it meets none: those without a contact stick as far as that goes together.
 template <int Dim> void MeetingBodies<Dim>::hold(gimpm::Model<Dim>& model)
 {
 	layers = { 0 };
@@ -95,45 +95,49 @@ template <int Dim> void MeetingBodies<Dim>::requireNoneBetween(const vector<Mate
 		}
 }
 
+// Without a surface where no other meets it.
+template <int Dim> gimpm::MeetingBody<Dim> MeetingBodies<Dim>::coreBody(int number, const gimpm::Grid<Dim>& lattice) const
+{
+	const MpmBody&          from = *grid.bodies[number];
+	gimpm::MeetingBody<Dim> body { from.name, layers[number + 1], {} };
+	for (const Vector3r& x : from.vertices)
+		body.surface.vertices.push_back(x.head<Dim>());
+	for (const Vector3r& x : from.initialVertices.empty() ? from.vertices : from.initialVertices)
+		body.surface.vertices0.push_back(x.head<Dim>());
+	const bool isMet = std::any_of(given.begin(), given.end(), [&](const auto& contact) {
+		return std::find(contact->between.begin(), contact->between.end(), from.name) != contact->between.end();
+	});
+	for (size_t i = 0; isMet && i < from.pieces.size(); ++i) {
+		body.surface.pieces.emplace_back();
+		std::copy(from.pieces[i].begin(), from.pieces[i].end(), body.surface.pieces.back().begin());
+	}
+	body.refine(lattice, from.initialVertices.empty());
+	return body;
+}
+
+template <int Dim> gimpm::BodyMeeting<Dim> MeetingBodies<Dim>::coreMeeting(const MpmBodyContact& contact) const
+{
+	gimpm::BodyMeeting<Dim> meeting;
+	meeting.slave     = grid.bodyNamed(contact.between[contact.slave]);
+	meeting.master    = grid.bodyNamed(contact.between[1 - contact.slave]);
+	meeting.friction  = std::tan(contact.friction);
+	meeting.adhesion  = contact.adhesion;
+	meeting.stiffness = contact.stiffness;
+	if (contact.shears.size() != Dim * system->bodies[meeting.slave].surface.pieces.size()) return meeting;
+	meeting.pressure = contact.pressures;
+	for (const Vector3r& shear : contact.shears)
+		meeting.shear.push_back(shear.head<Dim>());
+	return meeting;
+}
+
 template <int Dim> void MeetingBodies<Dim>::join(gimpm::Model<Dim>& model, const Surroundings<Dim>& around)
 {
 	requireNoneBetween(around.points, model.grid);
-	for (size_t b = 0; b < grid.bodies.size(); ++b) {
-		const MpmBody&          from = *grid.bodies[b];
-		gimpm::MeetingBody<Dim> body { from.name, layers[b + 1], {} };
-		const auto              inDimension = [](const vector<Vector3r>& points) {
-                        std::vector<gimpm::Vec<Dim>> result;
-                        for (const Vector3r& x : points)
-                                result.push_back(x.head<Dim>());
-                        return result;
-		};
-		body.surface.vertices  = inDimension(from.vertices);
-		body.surface.vertices0 = from.initialVertices.empty() ? body.surface.vertices : inDimension(from.initialVertices);
-		const bool isMet       = std::any_of(given.begin(), given.end(), [&](const auto& contact) {
-                        return std::find(contact->between.begin(), contact->between.end(), from.name) != contact->between.end();
-                });
-		for (const auto& piece : from.pieces) {
-			if (!isMet) break;
-			body.surface.pieces.emplace_back();
-			std::copy(piece.begin(), piece.end(), body.surface.pieces.back().begin());
-		}
-		body.refine(model.grid.cellSize);
-		system->bodies.push_back(std::move(body));
-	}
+	for (size_t b = 0; b < grid.bodies.size(); ++b)
+		system->bodies.push_back(coreBody(int(b), model.grid));
 	for (const auto& contact : given) {
 		contact->slave = slaveOf(*contact, around, model);
-		gimpm::BodyMeeting<Dim> meeting;
-		meeting.slave     = grid.bodyNamed(contact->between[contact->slave]);
-		meeting.master    = grid.bodyNamed(contact->between[1 - contact->slave]);
-		meeting.friction  = std::tan(contact->friction);
-		meeting.adhesion  = contact->adhesion;
-		meeting.stiffness = contact->stiffness;
-		if (contact->shears.size() == system->bodies[meeting.slave].surface.pieces.size())
-			for (size_t i = 0; i < contact->shears.size(); ++i) {
-				meeting.shear.push_back(contact->shears[i].template head<Dim>());
-				meeting.pressure.push_back(contact->pressures[i]);
-			}
-		system->meetings.push_back(std::move(meeting));
+		system->meetings.push_back(coreMeeting(*contact));
 	}
 	model.coupledTerms.push_back(
 	        [known = system](const gimpm::Beginning<Dim>& step, const gimpm::State&) { return std::make_unique<gimpm::BodyContact<Dim>>(*known, step); });

@@ -21,10 +21,12 @@ public:
 	Penalty penalty() const override;
 
 private:
-	int    slaveOf(const MpmBodyContact&, const Surroundings<Dim>&, const gimpm::Model<Dim>&) const;
-	bool   meet(int one, int other) const; // whether there is a contact between two, -1: points of no body
-	void   requireNoneBetween(const vector<MaterialPoint>&, const gimpm::Grid<Dim>&) const;
-	string nameOf(int body) const { return body < 0 ? "one without a name" : "'" + grid.bodies[body]->name + "'"; }
+	gimpm::MeetingBody<Dim> coreBody(int number, const gimpm::Grid<Dim>&) const;
+	gimpm::BodyMeeting<Dim> coreMeeting(const MpmBodyContact&) const;
+	int                     slaveOf(const MpmBodyContact&, const Surroundings<Dim>&, const gimpm::Model<Dim>&) const;
+	bool                    meet(int one, int other) const; // whether there is a contact between two, -1: points of no body
+	void                    requireNoneBetween(const vector<MaterialPoint>&, const gimpm::Grid<Dim>&) const;
+	string                  nameOf(int body) const { return body < 0 ? "one without a name" : "'" + grid.bodies[body]->name + "'"; }
 
 	const MpmGrid&                            grid;
 	vector<shared_ptr<MpmBodyContact>>        given;
