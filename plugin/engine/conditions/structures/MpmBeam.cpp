@@ -8,7 +8,7 @@
 namespace yade {
 
 namespace {
-	Real largest(const vector<Real>& values)
+	Real ofLargestSize(const vector<Real>& values)
 	{
 		const auto at = std::max_element(values.begin(), values.end(), [](Real a, Real b) { return std::abs(a) < std::abs(b); });
 		return at == values.end() ? 0 : *at;
@@ -58,16 +58,16 @@ Real MpmBeam::end(const Analysis& analysis) const
 void MpmBeam::tell(Rows& rows, const Analysis&, const Listed& listed) const
 {
 	const string name = "load" + std::to_string(listed.number);
-	rows.set(name + "_axialForce", largest(axialForces));
-	rows.set(name + "_shearForce", largest(shearForces));
-	rows.set(name + "_moment", largest(moments));
+	rows.set(name + "_axialForce", ofLargestSize(axialForces));
+	rows.set(name + "_shearForce", ofLargestSize(shearForces));
+	rows.set(name + "_moment", ofLargestSize(moments));
 	for (size_t i = 0; i < anchors.size(); ++i)
-		rows.set(name + "_anchor" + std::to_string(i), largest(anchors[i]->axialForces));
+		rows.set(name + "_anchor" + std::to_string(i), ofLargestSize(anchors[i]->axialForces));
 }
 
 void MpmBeam::draw(Picture& picture, const Analysis& analysis, const Listed& listed) const
 {
-	const auto x     = vertices.empty() ? inSpace(line) : vertices;
+	const auto x     = vertices.empty() ? placesOf(line) : vertices;
 	const int  first = int(picture.corners.size());
 	picture.corners.insert(picture.corners.end(), x.begin(), x.end());
 	for (int i = 0; i + 1 < int(x.size()); ++i) {

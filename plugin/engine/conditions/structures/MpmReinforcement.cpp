@@ -16,7 +16,7 @@ void MpmReinforcement::requireAdmissible() const
 		        + ": a bar that may slip needs a finite bondStiffness [N/m2] and a bond [N/m] or friction, and one that does not has none of them.");
 	if (friction > 0 && !std::isfinite(bond))
 		throw std::invalid_argument("MpmReinforcement.friction = " + textOf(friction) + " adds to bond, which is inf: give bond=0 for friction alone.");
-	const auto points = inSpace(line);
+	const auto points = placesOf(line);
 	const Real first  = (points[1] - points[0]).norm();
 	if (freeLength > 0 && !(freeLength < first * (1 - 1e-9)))
 		throw std::invalid_argument(

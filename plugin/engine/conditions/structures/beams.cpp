@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "engine/conditions/structures/beams.hpp"
 #include "engine/conditions/structures/reinforcements.hpp"
+#include "engine/conditions/surface/surfaces.hpp"
 
 namespace yade {
 
@@ -18,8 +19,7 @@ namespace {
 
 	void goOn(Beam& beam, const MpmBeam& from)
 	{
-		for (const Vector3r& x : from.vertices)
-			beam.places.push_back(x.head<2>());
+		beam.places      = inDimension<2>(from.vertices);
 		beam.turns       = from.rotations;
 		beam.length0     = from.lengths;
 		beam.elongation  = from.elongations;
@@ -45,31 +45,25 @@ namespace {
 		beam.adhesion      = from.adhesion;
 		beam.friction      = std::tan(from.friction);
 		beam.isClosed      = from.line.front() == from.line.back();
-		if (from.vertices.empty()) {
-			std::vector<Vec2> line;
-			for (const Vector3r& x : inSpace(from.line))
-				line.push_back(x.head<2>());
-			beam.begin(gimpm::divided<2>(line, gimpm::lengthOfPieces * grid.cellSize));
-		} else
+		if (from.vertices.empty()) beam.begin(gimpm::divided<2>(inDimension<2>(placesOf(from.line)), gimpm::lengthOfPieces * grid.cellSize));
+		else
 			goOn(beam, from);
-		for (const Vector3r& hinge : inSpace(from.hinges))
+		for (const Vector3r& hinge : placesOf(from.hinges))
 			beam.isHinge[nearestVertex(beam, hinge.head<2>())] = 1;
 		return beam;
 	}
 
-	void scatter(const Beam& beam, MpmBeam& to)
+	void scatterBeam(const Beam& beam, MpmBeam& to)
 	{
 		const size_t pieces = beam.length0.size();
-		to.vertices.assign(beam.places.size(), Vector3r(0, 0, inSpace(to.line).front()[2]));
-		for (size_t v = 0; v <= pieces; ++v)
-			to.vertices[v].head<2>() = beam.places[v];
-		to.rotations   = beam.turns;
-		to.lengths     = beam.length0;
-		to.elongations = beam.elongation;
-		to.gaps        = beam.gap;
-		to.normals     = beam.normalForce;
-		to.shears      = beam.shearForce;
-		to.axialForces = beam.axialForce;
+		to.vertices         = inSpace<2>(beam.places, placesOf(to.line).front()[2]);
+		to.rotations        = beam.turns;
+		to.lengths          = beam.length0;
+		to.elongations      = beam.elongation;
+		to.gaps             = beam.gap;
+		to.normals          = beam.normalForce;
+		to.shears           = beam.shearForce;
+		to.axialForces      = beam.axialForce;
 		to.bends.clear(), to.shearForces.clear(), to.moments.clear(), to.pressures.clear();
 		for (size_t i = 0; i < pieces; ++i) {
 			to.bends.push_back(beam.bend[i][0]), to.bends.push_back(beam.bend[i][1]);
@@ -90,7 +84,7 @@ namespace {
 		const Real away = (bar.places.front() - beam.places[bar.joint]).norm(), most = gimpm::lengthOfPieces * grid.cellSize;
 		if (from.vertices.empty() && away > most)
 			throw std::invalid_argument(
-			        name + ".line begins at (" + textOf(inSpace(from.line).front()) + "), " + textOf(away)
+			        name + ".line begins at (" + textOf(placesOf(from.line).front()) + "), " + textOf(away)
 			        + " m away from the nearest vertex of the beam: at most " + textOf(most) + " m, half a cell, are admitted.");
 		if (!from.vertices.empty()) return bar;
 		bar.places.front()  = beam.places[bar.joint];
@@ -146,7 +140,7 @@ Work Beams::work(const StepOutcome<2>&) const
 void Beams::reach(const StepOutcome<2>&)
 {
 	for (size_t i = 0; i < sources.size(); ++i) {
-		scatter(*structures[i].beam, *sources[i].from);
+		scatterBeam(*structures[i].beam, *sources[i].from);
 		for (size_t a = 0; a < structures[i].bars.size(); ++a)
 			scatterBar<2>(structures[i].bars[a], *sources[i].from->anchors[a]);
 	}

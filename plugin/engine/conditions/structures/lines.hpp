@@ -9,7 +9,7 @@ namespace yade {
 // As a script gives them: each of two or three numbers.
 using Points = vector<vector<Real>>;
 
-inline vector<Vector3r> inSpace(const Points& points)
+inline vector<Vector3r> placesOf(const Points& points)
 {
 	vector<Vector3r> places;
 	for (const auto& x : points)
@@ -28,7 +28,7 @@ inline bool arePoints(const Points& points)
 inline bool isLine(const Points& points)
 {
 	if (points.size() < 2 || !arePoints(points)) return false;
-	const auto places = inSpace(points);
+	const auto places = placesOf(points);
 	for (size_t i = 1; i < places.size(); ++i)
 		if (places[i] == places[i - 1]) return false;
 	return true;

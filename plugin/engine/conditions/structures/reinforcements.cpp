@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "engine/conditions/structures/reinforcements.hpp"
 #include "core/structures/structure_force.hpp"
+#include "engine/conditions/surface/surfaces.hpp"
 
 namespace yade {
 
@@ -16,18 +17,10 @@ void requireStructuresFit(const Analysis& analysis, const string& kind, const st
 }
 
 namespace {
-	template <int Dim> std::vector<gimpm::Vec<Dim>> inDimension(const vector<Vector3r>& points)
-	{
-		std::vector<gimpm::Vec<Dim>> result;
-		for (const Vector3r& x : points)
-			result.push_back(x.head<Dim>());
-		return result;
-	}
-
 	// The free length is one piece, the rest is divided.
 	template <int Dim> std::vector<gimpm::Vec<Dim>> verticesOf(const MpmReinforcement& from, const gimpm::Grid<Dim>& grid)
 	{
-		auto line = inDimension<Dim>(inSpace(from.line));
+		auto line = inDimension<Dim>(placesOf(from.line));
 		if (from.freeLength == 0) return gimpm::divided<Dim>(line, gimpm::lengthOfPieces * grid.cellSize);
 		const gimpm::Vec<Dim> head = line[0];
 		line[0] += from.freeLength * (line[1] - line[0]).normalized();
@@ -63,9 +56,7 @@ template <int Dim> gimpm::Bar<Dim> coreBar(const MpmReinforcement& from, const s
 
 template <int Dim> void scatterBar(const gimpm::Bar<Dim>& bar, MpmReinforcement& to)
 {
-	to.vertices.assign(bar.places.size(), Vector3r(0, 0, inSpace(to.line).front()[2]));
-	for (size_t v = 0; v < bar.places.size(); ++v)
-		to.vertices[v].template head<Dim>() = bar.places[v];
+	to.vertices    = inSpace<Dim>(bar.places, placesOf(to.line).front()[2]);
 	to.lengths     = bar.length0;
 	to.strains     = bar.strain;
 	to.axialForces = bar.force;
