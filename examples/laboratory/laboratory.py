@@ -120,12 +120,51 @@ def undrainedStrength(axes):
 	axes.set(title='undrained strength', xlabel='axial compression [%]', ylabel='q [kPa]', ylim=(0, 36))
 
 
-figure, axes = plt.subplots(2, 3, figsize=(12, 7.2), layout='constrained')
+def hardeningSoil(drained, pressed):
+	"""q of the axial strain e: e Ei / (1 + e Ei Rf / qf), Ei = 2 E50 / (2 - Rf), up to qf. In the oedometer Eoed and K0nc."""
+	angle, E, Rf = radians(35), 30e6, 0.9
+	soil = MpmHardeningSoilMat(density=2000, E50ref=E, Eoedref=E, Eurref=3 * E, power=0.5, cohesion=0, frictionAngle=angle, dilationAngle=radians(5), K0nc=1 - sin(angle))
+	for p in 50e3, 100e3, 200e3:
+		curve = test(soil, 'triaxial', -0.02, confiningPressure=p, capPressure=1e8)
+		strain, strength, first = -curve['axialStrain'], 2 * sin(angle) / (1 - sin(angle)) * p, 2 * E * sqrt(p / 100e3) / (2 - Rf)
+		exact = np.minimum(strain * first / (1 + strain * first * Rf / strength), strength)
+		drained.plot(100 * strain, curve['q'] / 1e3, label=f'{p / 1e3:g} kPa')
+		drained.plot(100 * strain[::options.steps // 10], exact[::options.steps // 10] / 1e3, 'k.')
+		compare(f'triaxial drained, HardeningSoil, {p / 1e3:g} kPa: q', curve['q'][-1], exact[-1])
+	drained.set(title='hardening soil, drained', xlabel='axial compression [%]', ylabel='q [kPa]')
+	curve = test(soil, 'oedometer', -0.006, initialStress=-20e3 * np.array([soil.K0nc, 1, soil.K0nc]))
+	stress, strain = -curve['stress'][:, 1, 1] * np.exp(curve['volumetricStrain']), -curve['axialStrain']
+	pressed.plot(100 * strain, stress / 1e3, label=r'$\sigma_y$')
+	pressed.plot(100 * strain, -curve['stress'][:, 0, 0] / 1e3, label=r'$\sigma_x$')
+	modulus = np.interp(100e3, (stress[1:] + stress[:-1]) / 2, np.diff(stress) / np.diff(strain))
+	compare('oedometer, HardeningSoil, at 100 kPa: tangent modulus', modulus, E)
+	compare('oedometer, HardeningSoil: sigma_x / sigma_y', curve['stress'][-1, 0, 0] / curve['stress'][-1, 1, 1], soil.K0nc, '-')
+	pressed.set(title='hardening soil, oedometer', xlabel='axial compression [%]', ylabel='pressure [kPa]')
+
+
+def norSand():
+	"""The critical state, Q = M P: of undrained shear long before the pressure is that of the critical state."""
+	sand = MpmNorSandMat(density=2000, shearModulus=45e6, swellingIndex=0.0015, referencePressure=100e3, criticalStateRatio=1.27, compressionIndex=0.02, criticalVolume=1.8911, hardening=70, specificVolume=1.75)
+	curve = test(sand, 'undrainedTriaxial', -4, confiningPressure=390e3)
+	compare('triaxial undrained, NorSand: q / p', curve['q'][-1] / curve['p'][-1], 1.27, '-')
+
+
+def bingham():
+	"""In steady shear the strength, and viscosity times the rate of shear."""
+	mud = MpmVonMisesMat(young=1e6, poisson=0.3, density=2000, yieldStress=sqrt(2) * 100, viscosity=40)
+	curve = test(mud, 'simpleShear', 0.01, duration=0.004)
+	compare('simple shear, Bingham, 2.5 / s: tau', curve['stress'][-1, 0, 1], 100 + 40 * 2.5)
+
+
+figure, axes = plt.subplots(2, 4, figsize=(16, 7.2), layout='constrained')
 biaxial(axes[0, 0])
 simpleShear(axes[0, 1])
 undrainedStrength(axes[0, 2])
 camClay(axes[1, 0], axes[1, 1])
 oedometer(axes[1, 2])
+hardeningSoil(axes[0, 3], axes[1, 3])
+norSand()
+bingham()
 for one in axes.flat:
 	one.legend(frameon=False, fontsize='small')
 print(f'largest difference from a closed form: {100 * worst:.4f} %')

@@ -13,6 +13,7 @@ from .messages import brief, isNumber, place
 from .water import pressuresOfEach
 
 _mostPressed = 6  # K0: the coefficient of passive earth pressure for a friction angle of 45 degrees
+_isotropic = [getattr(wrapper, f'Mpm{name}Mat') for name in ('Elastic', 'VonMises', 'Tresca', 'MohrCoulomb', 'DruckerPrager', 'CamClay', 'HardeningSoil', 'NorSand')]
 _grown = (wrapper.MpmHardeningSoilMat, wrapper.MpmNorSandMat)  # whose hardening follows from the stresses they have borne
 
 
@@ -201,7 +202,7 @@ def _ratio(K0, material, sine, history):
 	"""K0 of a material with these overconsolidation ratios."""
 	value = _ofMaterial('K0', K0, material)
 	if value is None:
-		_requireKnownRatio(material, sine)
+		_requireKnownRatio(material)
 		return np.full(len(history), material.poisson / (1 - material.poisson)) if sine is None else getattr(material, 'K0nc', 1 - sine) * history**sine
 	if not isNumber(value): raise TypeError(f'geostatic: K0 = {brief(value)} must be a number, the ratio of horizontal to vertical stress, or a dict of them')
 	if not (math.isfinite(value) and value >= 0): raise ValueError(f'geostatic: K0 = {brief(value)} must be finite and >= 0')
@@ -209,9 +210,9 @@ def _ratio(K0, material, sine, history):
 	return np.full(len(history), float(value))
 
 
-def _requireKnownRatio(material, sine):
-	"""A law with tensors need not be isotropic, whatever its class has of Young's modulus and Poisson's ratio."""
-	if isinstance(material, _grown) or not _library.hasTensorLaw(material) and (sine is not None or hasattr(material, 'poisson')): return
+def _requireKnownRatio(material):
+	"""Laws of other classes need not be isotropic, whatever these have of Young's modulus and Poisson's ratio."""
+	if type(material) in _isotropic: return
 	raise ValueError(
 	        f"geostatic: K0 = None, but that of the material {material.label!r} is not known: {type(material).__name__} is no class of the table of K0, whose laws are isotropic; give "
 	        f"its ratio of horizontal to vertical stress, as K0=0.5 or K0={{{material.label or 'soil'!r}: 0.5}}"

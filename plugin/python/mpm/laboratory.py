@@ -104,7 +104,7 @@ def curveAt(who, material, kind, strains, confiningPressure=0, initialStress=Non
 	"""The curve of a test in steps to each of these strains, which may turn back; it is given up after so many solves for one step in the mean."""
 	test = _testOf(who, kind)
 	test.solves, test.secondsPerStrain = patience * len(strains), secondsPerStrain
-	state = _firstState(who, material, firstStress(who, confiningPressure, initialStress), internals)
+	state = stateUnder(who, material, firstStress(who, confiningPressure, initialStress), internals)
 	kept = np.diag(state.stress).copy()
 	if state.hasTensors or kept[0] != kept[2]: test.free = test.each
 	states = [state]
@@ -213,7 +213,7 @@ def firstStress(who, confiningPressure, initialStress):
 	return _array(who, 'initialStress', initialStress, [(3, )], 'three numbers, the stress [Pa] along x, y and z')
 
 
-def _firstState(who, material, stress, internals):
+def stateUnder(who, material, stress, internals):
 	"""Of a point with this stress, which it bears without yielding."""
 	if hasattr(material, 'swellingIndex') and not stress.any():
 		raise ValueError(f'{who}: confiningPressure = 0 is not admitted for an {type(material).__name__}, which has no stiffness without pressure')

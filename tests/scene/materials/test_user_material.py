@@ -1,0 +1,106 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""A user material that is compiled here, against the same law of the plugin."""
+import subprocess
+
+import pytest
+from conftest import Yade, root
+
+setting = '''
+import json, os
+from scenes import *
+from yade.wrapper import *
+
+elastic = dict(young=20e6, poisson=.3, density=2000)
+own = MpmVonMisesMat(yieldStress=30e3, **elastic)
+theirs = lambda part=1., **more: MpmUserMat(library=os.environ['UMAT'], parameters=[20e6, .3, 30e3, part], stateVariables=[0], **{**elastic, **more})
+
+def pressed(law, steps=5, **settings):
+	"""Two cells between rollers, pressed and sheared by a plate."""
+	O.reset()
+	O.materials.append(law)
+	law.label = 'soil'
+	grid = MpmGrid(cellSize=1)
+	O.bodies.append(mpm.fill(pack.inAlignedBox((0, 0, -1), (1, 2, 1)), grid, 2, 'soil'))
+	held = [MpmBoundary(max=(inf, 0, inf), fix='xy'), MpmBoundary(min=(-inf, 2, -inf), fix='xy', displacement=(.1, -.02, 0))]
+	O.engines = [MpmImplicitEngine(grid=grid, boundaries=held, verbosity=0, **settings)]
+	O.dt = 1 / steps
+	return O.engines[0]
+'''
+
+
+@pytest.fixture(scope='module')
+def door(tmp_path_factory):
+	folder = tmp_path_factory.mktemp('umat')
+	subprocess.run(['g++', '-O1', '-shared', '-fPIC', '-o', folder / 'law.so', root / 'tests/umat/von_mises.cpp'], check=True)
+	yade = Yade(folder)
+	yade.environment['UMAT'] = str(folder / 'law.so')
+	return yade
+
+
+def test_it_answers_as_the_law_of_the_plugin(door):
+	"""To the differences of increments and logarithmic strain where the axes turn; without turns to round-off."""
+	door(
+	        setting + '''
+a, b = (mpm.elementTest(law, 'oedometer', -.02, steps=10, confiningPressure=10e3) for law in (own, theirs()))
+assert np.allclose(a['stress'], b['stress'], rtol=1e-9, atol=1e-6), (a['stress'][-1], b['stress'][-1])
+assert np.allclose(a['plasticStrain'], b['state1'], rtol=1e-9)
+results = []
+for law in own, theirs(), theirs(reentrant=True):
+	solver = pressed(law)
+	O.run(5, wait=True)
+	results.append((solver.iterations, mpm.arrays()))
+for iterations, data in results[1:]:
+	assert np.abs(data['stress'] - results[0][1]['stress']).max() < 1e-2 * 30e3
+	assert iterations <= results[0][0] + 2, (iterations, results[0][0])
+assert 'state1' in results[1][1] and (results[1][1]['state1'] > 0).any()
+'''
+	)
+
+
+def test_its_tangent_is_checked(door):
+	door(
+	        setting + '''
+right, wrong = (mpm.checkLaw(theirs(part), strain=5e-3, confiningPressure=10e3) for part in (1., 1.1))
+assert right['tangentError'] < 1e-6 and right['stress'] < 1e-9, right
+assert .05 < wrong['tangentError'] < .15, wrong
+for law in own, MpmMohrCoulombMat(cohesion=5e3, frictionAngle=.5, **elastic), MpmNorSandMat(density=2000, shearModulus=45e6, swellingIndex=.0015, referencePressure=1e5,
+		criticalStateRatio=1.27, compressionIndex=.02, criticalVolume=1.8911, hardening=70, specificVolume=1.75):
+	assert mpm.checkLaw(law, strain=1e-3, confiningPressure=50e3)['tangentError'] < 1e-6, type(law)
+'''
+	)
+
+
+def test_it_goes_on_after_a_restart_and_a_step_that_it_refuses(door):
+	door(
+	        setting + '''
+pressed(theirs())
+O.run(2, wait=True)
+O.save('middle.yade.gz')
+O.run(3, wait=True)
+straight = mpm.arrays()
+O.load('middle.yade.gz')
+O.run(3, wait=True)
+assert all(values.tobytes() == straight[name].tobytes() for name, values in mpm.arrays().items())
+solver = pressed(theirs(), steps=1)
+solver.boundaries = [solver.boundaries[0], MpmBoundary(min=(-inf, 2, -inf), fix='xy', displacement=(0, -1.2, 0))] # a thousand times the strength, elastically
+before = mpm.arrays()['pos']
+try: O.step()
+except RuntimeError: assert (mpm.arrays()['pos'] == before).all()
+'''
+	)
+
+
+def test_what_cannot_be_opened_is_named(door):
+	said = door(
+	        setting + '''
+def tried(**attributes):
+	try:
+		pressed(MpmUserMat(**{**elastic, 'library': os.environ['UMAT'], **attributes}))
+		O.step()
+	except Exception as error: return str(error)
+	return 'no error'
+print(json.dumps([tried(library='./none.so'), tried(function='vumat'), tried(relaxationTime=1.), tried(stateVariables=[0.] * 21), tried(library='')]))
+'''
+	).result
+	for text, words in zip(said, [('none.so', 'opened'), ('vumat', 'nm -D'), ('relaxationTime', ), ('stateVariables', '20'), ('library', 'path')]):
+		assert all(word in text for word in words), (text, words)
