@@ -55,7 +55,8 @@ def judged(seed, seconds, divide=1, strict=False):
 		how = 'ends' if not found.why else 'stops'
 		if found.why and found.why != 'time is up' and scene.mayFail():
 			again = Outcome(scene, 2, 2 * seconds, divide, strict)
-			if again.why and abs(again.part - found.part) <= same * max(again.part, found.part) or found.part == again.part: how = 'fails'
+			one, other = scene.load(found.part), scene.load(again.part)
+			if again.why and abs(other - one) <= same * max(other, one): how = 'fails'
 			else: found.why += f' (at {found.part:.3f}, in finer steps at {again.part:.3f})'
 		elif not found.why and found.share > told: how = 'held'
 	wrong = [f'{name} {value:.3g}' for name, (value, isRight) in found.numbers.items() if not isRight and not (how == 'held' and name == 'moved')]

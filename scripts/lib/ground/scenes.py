@@ -5,7 +5,7 @@ from math import inf, radians, sqrt, tan
 
 import numpy as np
 from yade import mpm, pack
-from yade.wrapper import MpmBoundary, MpmDynamicEngine, MpmGrid, MpmImplicitEngine, MpmWater, Omega
+from yade.wrapper import MpmBoundary, MpmDynamicEngine, MpmGhost, MpmGrid, MpmImplicitEngine, MpmWater, Omega
 
 from .soils import Soil, gravity, weight
 
@@ -43,7 +43,7 @@ class Scene:
 		self.finer, pull = finer, tuple(-gravity * (axis == self.up) for axis in range(3))
 		self.fill()
 		solver = (MpmDynamicEngine if self.isDynamic else MpmImplicitEngine)(grid=self.grid, gravity=pull, boundaries=self.boundaries(), verbosity=0, **self.settings())
-		if strict and not self.isDynamic: solver.fBar, solver.ghost.workTolerance = True, .03
+		if strict and not self.isDynamic: solver.fBar, solver.ghost = True, MpmGhost(where='aggregates', memory=1, workTolerance=.03)
 		O.engines, O.dt = [solver], self.duration() / (self.steps * finer)
 		self.begin()
 		return solver
@@ -87,6 +87,10 @@ class Scene:
 	def isRight(self, solver):
 		"""Numbers and whether they are within their bounds, as pairs by name."""
 		return {}
+
+	def load(self, part):
+		"""What has been borne after this part of the way, by which runs in other steps are compared."""
+		return part
 
 	def mayFail(self):
 		"""Whether equilibrium may be impossible, for all that is known."""
@@ -178,6 +182,10 @@ class Cutting(Ground):
 		row = step // each
 		if step % each or row >= self.rows: return
 		for body in [b for b in O.bodies if b and b.state.pos[0] > 6 * self.h and b.state.pos[1] > -(row + 1) * self.h]: O.bodies.erase(body.id)
+
+	def load(self, part):
+		"""Rows: what is done at once, and the steps of rest after it."""
+		return int(part * self.rows + 1e-6)
 
 	def farthest(self):
 		"""Of all points [cells]."""
