@@ -405,6 +405,18 @@ def test_water(yade):
 	assert 0.99 * exact < low < high < 1.04 * exact < dry
 
 
+def test_dam(yade):
+	"""Discharges beside Dupuit and Kozeny, and what a drain does."""
+	run = yade(root / 'examples' / 'water' / 'dam.py', '--cellSize', 1, '--tolerance', 1)
+	found, known = numbers(r'rectangular: discharge (\S+) k m, Dupuit (\S+);', run.stdout)
+	assert abs(found / known - 1) < 0.02
+	found, known, off = numbers(r'with a drain: discharge (\S+) k m, Kozeny (\S+); the line is within (\S+) m', run.stdout)
+	assert abs(found / known - 1) < 0.05 and off < 0.15
+	without, drained = map(float, re.findall(r'drain: discharge (\S+) k m, F', run.stdout))
+	assert without < drained
+	assert (run.folder / 'out/dam/dam.png').stat().st_size > 20000
+
+
 def test_consolidation(yade):
 	"""Columns and slab against what is known; all water that leaves is counted."""
 	run = yade(root / 'examples' / 'consolidation' / 'consolidation.py', '--cells', 10, '--steps', 30)
