@@ -58,29 +58,6 @@ template <int Dim> std::optional<Attachment<Dim>> attach(const Vec<Dim>& place, 
 	return attached;
 }
 
-template <int Dim> std::optional<Attachment<Dim>> attachNear(const Vec<Dim>& place, const CloudBasis<Dim>& basis, const Grid<Dim>& grid, int layer)
-{
-	if (auto attached = attach(place, basis, grid, layer)) return attached;
-	std::optional<Vec<Dim>> nearest;
-	double                  least = std::numeric_limits<double>::infinity();
-	const Vec<Dim>          xi    = (place - grid.origin) / grid.cellSize;
-	if (!(xi.array().abs() < Grid<Dim>::indexLimit).all()) return std::nullopt;
-	const Index<Dim> own = xi.array().floor().template cast<int>();
-	for (int i = 0; i < (Dim == 2 ? 9 : 27); ++i) {
-		Index<Dim> cell = own;
-		for (int a = 0, rest = i; a < Dim; ++a, rest /= 3)
-			cell[a] += rest % 3 - 1;
-		const Vec<Dim> low = cell.template cast<double>(), inside = xi.cwiseMax(low).cwiseMin(low + Vec<Dim>::Ones());
-		const double   away = (xi - inside).squaredNorm();
-		const Key      key  = Grid<Dim>::key(grid.first(cell), 0, layer);
-		if (away < least && find(basis.populatedLeaves(), grid.refinement ? grid.refinement->leafOf(key) : key) >= 0)
-			least = away, nearest = grid.origin + grid.cellSize * inside;
-	}
-	return nearest ? attach(*nearest, basis, grid, layer) : std::nullopt;
-}
-
-template std::optional<Attachment<2>> attachNear(const Vec<2>&, const CloudBasis<2>&, const Grid<2>&, int);
-template std::optional<Attachment<3>> attachNear(const Vec<3>&, const CloudBasis<3>&, const Grid<3>&, int);
 template std::optional<Attachment<2>> attach(const Vec<2>&, const CloudBasis<2>&, const Grid<2>&, int);
 template std::optional<Attachment<3>> attach(const Vec<3>&, const CloudBasis<3>&, const Grid<3>&, int);
 

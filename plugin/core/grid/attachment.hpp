@@ -52,8 +52,4 @@ constexpr double attachmentTolerance = 0.25;
 /// To the body in a layer. None where no populated cell is near.
 template <int Dim> std::optional<Attachment<Dim>> attach(const Vec<Dim>& place, const CloudBasis<Dim>&, const Grid<Dim>&, int layer = 0);
 
-/// As attach(), and farther away the nearest place in the populated cells around: what soil leaves behind of its
-/// surface goes with it.
-template <int Dim> std::optional<Attachment<Dim>> attachNear(const Vec<Dim>& place, const CloudBasis<Dim>&, const Grid<Dim>&, int layer);
-
 } // namespace gimpm

@@ -60,22 +60,6 @@ void divide(const Surface<3>::Piece& piece, const Middles& middles, std::vector<
 	parts.push_back(piece);
 }
 
-/// Where a segment crosses lines of the grid, as parts of its length, rising.
-std::vector<double> crossings(const Vec<2>& a, const Vec<2>& b, const Grid<2>& grid)
-{
-	constexpr double    end = 1e-6; // of a cell, and of the length: nothing so short is cut off
-	std::vector<double> parts;
-	for (int axis = 0; axis < 2; ++axis) {
-		const double from = (a[axis] - grid.origin[axis]) / grid.cellSize, to = (b[axis] - grid.origin[axis]) / grid.cellSize;
-		for (double line = std::ceil(std::min(from, to) + end); line < std::max(from, to) - end; ++line)
-			parts.push_back((line - from) / (to - from));
-	}
-	std::sort(parts.begin(), parts.end());
-	const auto last = std::unique(parts.begin(), parts.end(), [](double s, double t) { return t - s < end; });
-	parts.erase(last, parts.end());
-	return parts;
-}
-
 } // namespace
 
 Vec<2> pieceNormal(const Vec<2>& a, const Vec<2>& b)
@@ -114,24 +98,6 @@ template <int Dim> bool Surface<Dim>::isBetween(const Vec<Dim>& a, const Vec<Dim
 		const Vec<Dim> part = sides.inverse() * (a - vertices[piece[0]]);
 		return part.minCoeff() >= -onEdge && part[0] <= 1 + onEdge && part.template tail<Dim - 1>().sum() <= 1 + onEdge;
 	});
-}
-
-template <int Dim> void Surface<Dim>::cut([[maybe_unused]] const Grid<Dim>& grid)
-{
-	if constexpr (Dim == 2) {
-		std::vector<Piece> parts;
-		for (const Piece& piece : pieces) {
-			int first = piece[0];
-			for (const double s : crossings(vertices[piece[0]], vertices[piece[1]], grid)) {
-				for (auto* x : { &vertices, &vertices0 })
-					x->push_back(((1 - s) * (*x)[piece[0]] + s * (*x)[piece[1]]).eval());
-				parts.push_back({ first, int(vertices.size()) - 1 });
-				first = int(vertices.size()) - 1;
-			}
-			parts.push_back({ first, piece[1] });
-		}
-		pieces = std::move(parts);
-	}
 }
 
 template <int Dim> std::vector<int> Surface<Dim>::refine(double limit)

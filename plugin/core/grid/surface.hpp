@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // A surface of segments in the plane, of triangles in space.
 #pragma once
-#include "core/grid/grid.hpp"
+#include "core/base/types.hpp"
 #include <array>
 
 namespace gimpm {
@@ -33,10 +33,6 @@ template <int Dim> struct Surface {
 
 	/// Whether it cuts the way from a to b.
 	bool isBetween(const Vec<Dim>& a, const Vec<Dim>& b) const;
-
-	/// In the plane, divides pieces where they cross the lines of a grid: so what acts on them evenly acts on the
-	/// nodes as an even stress does.
-	void cut(const Grid<Dim>&);
 
 	/// Divides the sides that are longer than `limit`, until none is left. Returns for each piece the number of
 	/// that which it is part of.

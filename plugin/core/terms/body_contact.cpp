@@ -54,6 +54,29 @@ double squaredDistance(const PairPlaces<3>& x)
 	return std::min({ squaredDistance<3>(x[0], x[1], x[2]), squaredDistance<3>(x[0], x[2], x[3]), squaredDistance<3>(x[0], x[3], x[1]) });
 }
 
+/// As attach(), and farther away the nearest place in the populated cells around: what soil leaves behind of its
+/// surface goes with it.
+template <int Dim> std::optional<Attachment<Dim>> attachNear(const Vec<Dim>& place, const CloudBasis<Dim>& basis, const Grid<Dim>& grid, int layer)
+{
+	if (auto attached = attach(place, basis, grid, layer)) return attached;
+	std::optional<Vec<Dim>> nearest;
+	double                  least = std::numeric_limits<double>::infinity();
+	const Vec<Dim>          xi    = (place - grid.origin) / grid.cellSize;
+	if (!(xi.array().abs() < Grid<Dim>::indexLimit).all()) return std::nullopt;
+	const Index<Dim> own = xi.array().floor().template cast<int>();
+	for (int i = 0; i < (Dim == 2 ? 9 : 27); ++i) {
+		Index<Dim> cell = own;
+		for (int a = 0, rest = i; a < Dim; ++a, rest /= 3)
+			cell[a] += rest % 3 - 1;
+		const Vec<Dim> low = cell.template cast<double>(), inside = xi.cwiseMax(low).cwiseMin(low + Vec<Dim>::Ones());
+		const double   away = (xi - inside).squaredNorm();
+		const Key      key  = Grid<Dim>::key(grid.first(cell), 0, layer);
+		if (away < least && find(basis.populatedLeaves(), grid.refinement ? grid.refinement->leafOf(key) : key) >= 0)
+			least = away, nearest = grid.origin + grid.cellSize * inside;
+	}
+	return nearest ? attach(*nearest, basis, grid, layer) : std::nullopt;
+}
+
 /// Pieces by the cells within reach of them.
 template <int Dim> class PiecesByCell {
 public:

@@ -2,7 +2,7 @@
 // Contact of bodies of points with each other.
 #pragma once
 #include "core/grid/attachment.hpp"
-#include "core/grid/surface.hpp"
+#include "core/grid/surface_lines.hpp"
 #include "core/terms/body_pair.hpp"
 #include "core/terms/coupled_term.hpp"
 
@@ -18,7 +18,7 @@ template <int Dim> struct MeetingBody {
 	/// which it has been part of.
 	std::vector<int> refine(const Grid<Dim>& grid, bool isFirst)
 	{
-		if (isFirst) surface.cut(grid);
+		if (isFirst) cutAtLines(surface, grid);
 		return surface.refine(pieceLimit * grid.cellSize);
 	}
 };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "core/terms/inertia.hpp"
 #include "core/grid/point_nodes.hpp"
+#include "core/terms/body_contact.hpp"
 #include <algorithm>
 #include <numeric>
 

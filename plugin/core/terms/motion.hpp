@@ -2,13 +2,14 @@
 // How points move, and what the schemes in time have in common: masses, momenta, and blows of held nodes.
 #pragma once
 #include "core/solvers/linear_solver.hpp"
-#include "core/terms/body_contact.hpp"
 #include "core/terms/contact.hpp"
 #include "core/terms/damping.hpp"
 #include "core/terms/mass_matrix.hpp"
 #include "core/terms/time_scheme.hpp"
 
 namespace gimpm {
+
+template <int Dim> struct BodyContacts;
 
 /// Held nodes that move by a history.
 template <int Dim> struct MovingBase {

@@ -13,7 +13,7 @@ from .messages import brief
 def sectionForces(body, cut):
 	"""Normal force, shear force and bending moment where a plane cuts a body of points.
 
-	Stresses are those of the points, weighed by what of their domains the plane cuts, smoothed over one row of points on either side; across the section they are taken as linear within a point, with the
+	Stresses are those of the points, weighed by what of their domains the plane cuts, as a mean over a cell along the normal; across the section they are taken as linear within a point, with the
 	mean slope, so that few points across do for a beam. All act on the side from which the normal points away, and are about the middle of the section.
 
 	:param body: name of the body, as given to :func:`fill`; or a predicate of ``yade.pack`` or an ``mpm.polygon``, of which the points belong to it that are inside now; None: all points
@@ -30,7 +30,7 @@ def sectionForces(body, cut):
 	isPlane = grid.dim == 2 if grid is not None else not normal[2] and np.ptp(data['pos'][:, 2]) == 0
 	chosen = _pointsOf(body, data, grid)
 	edges = 2 * np.einsum('pij,pj->pij', data['defGrad'], data['halfSize0'])[chosen][:, :, :2 if isPlane else 3]  # columns are the edges of a domain
-	area = data['volume'][chosen] * _density((data['pos'][chosen] - place) @ normal, np.abs(np.einsum('pik,i->pk', edges, normal)))
+	area = data['volume'][chosen] * _density((data['pos'][chosen] - place) @ normal, np.abs(np.einsum('pik,i->pk', edges, normal)), grid.cellSize if grid is not None else 0)
 	if not area.sum() > 0: raise ValueError(f'sectionForces: the plane through {brief(tuple(place))} cuts no point of body = {brief(body)}')
 	positions, traction = data['pos'][chosen], data['stress'][chosen] @ normal
 	foot = positions - ((positions - place) @ normal)[:, None] * normal
@@ -69,9 +69,9 @@ def _pointsOf(body, data, grid):
 	return inside(body, data['pos'])
 
 
-def _density(distance, widths):
-	"""What of each point's volume is in a plane so far from its middle [1/m]: boxes as wide as its edges seen along the normal, one after the other, and that of the widest once more, which smooths."""
-	widths = np.column_stack([widths, widths.max(axis=1)])
+def _density(distance, widths, cellSize):
+	"""What of each point's volume is in a plane so far from its middle [1/m]: boxes as wide as its edges seen along the normal, one after the other, and one of a cell, over which stresses are right on average."""
+	widths = np.column_stack([widths, np.maximum(widths.max(axis=1), cellSize)])
 	density = np.zeros(len(distance))
 	for kept in itertools.product((False, True), repeat=widths.shape[1] - 1):  # edges along the plane have no width
 		mask = (widths[:, :-1] > 1e-6 * widths[:, -1:]) == np.array(kept)

@@ -100,7 +100,7 @@ shift('right', grid, np.array([gap, 0, 0]))
 points = mpm.arrays()
 mpm.assign(velocity=speed * np.outer(points['body'] == 0, [1, 0, 0]))
 contact = MpmBodyContact(between=('left', 'right'), friction=0)
-solver = MpmDynamicEngine(grid=grid, contacts=[contact], newton=MpmNewton(tolerance=1e-12), verbosity=0)
+solver = MpmDynamicEngine(grid=grid, contacts=[contact], newton=MpmNewton(tolerance=1e-10), verbosity=0)
 O.engines, O.dt = [solver], (gap / speed + 2.6 / wave) / 450
 mass, touched, drift, most = 1000 * points['volume'], [], 0, 0
 def energy():
