@@ -38,11 +38,12 @@ vector<Real> internalsBearing(const gimpm::Law&, const Matrix3r& kirchhoffStress
 // where it has no answer, or for a variable that it does not have.
 py::dict respondForPython(const shared_ptr<MpmMaterial>&, const Vector3r& trialStrain, const py::dict& internals);
 
-// The same of a tensor law, for a strain and a step of time: tensors by their rows, and the tangent by Mandel's six
+// The same of a tensor law, for a strain, the increment of strain in the step, and its time: tensors by their rows, and the tangent by Mandel's six
 // numbers. And for mpm.elementTest the state after an increment of the deformation gradient, with the rates of the
 // stress by the nine velocity gradients.
 bool     hasTensorLaw(const shared_ptr<MpmMaterial>&);
-py::dict respondInSpaceForPython(const shared_ptr<MpmMaterial>&, const vector<Real>& trialStrain, const py::dict& internals, Real duration);
+py::dict respondInSpaceForPython(
+        const shared_ptr<MpmMaterial>&, const vector<Real>& trialStrain, const vector<Real>& increment, const py::dict& internals, Real duration);
 py::dict stepInSpaceForPython(
         const shared_ptr<MpmMaterial>&, const vector<Real>& elasticStrain, const vector<Real>& increment, const py::dict& internals, Real duration);
 
