@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Mohr and Coulomb's law, of which cohesion, friction and dilation fall with a softening strain to residual values.
 //
-// In a step the softening strain falls by the plastic strain of the step, so that strength grows and the stiffness stays
-// positive; from step to step it grows. Over-nonlocal softening (core/stepping/nonlocal.hpp) is so: with m = 2 it goes
-// with twice the mean, which is that of the beginning, less the own plastic strain. Without means it is a return that is
-// exact in the limit of short steps.
+// In a step the softening strain falls by the plastic strain of the step, so that strength grows and the stiffness
+// stays positive; from step to step it grows. Over-nonlocal softening (core/stepping/nonlocal.hpp) is so: with m = 2 it
+// goes with twice the mean, which is that of the beginning, less the own plastic strain. Without means it is a return
+// that is exact in the limit of short steps.
 #pragma once
 #include "core/materials/isotropic_answer.hpp"
 #include "core/materials/mohr_coulomb.hpp"
@@ -91,8 +91,8 @@ private:
 	/// Plastic strain of a step with this strength: the more, the more it has softened.
 	double plasticAt(const Vec3& strain, double softening) const { return softened(softening).respond(strain, { 0 }).internals[0]; }
 
-	/// The plastic strain a of a step: a = plasticAt(before - a), which falls as a grows. By the rule of false position,
-	/// as the return is linear in the cohesion, and by bisection where it is slow.
+	/// The plastic strain a of a step: a = plasticAt(before - a), which falls as a grows. By the rule of false
+	/// position, as the return is linear in the cohesion, and by bisection where it is slow.
 	double flow(const Vec3& strain, double before) const
 	{
 		double low = 0, high = plasticAt(strain, before), atLow = high;
@@ -109,8 +109,9 @@ private:
 		return high;
 	}
 
-	/// To the tangent of perfect plasticity what follows from the strength that goes with the plastic strain: dt = D de +
-	/// t_s ds, ds = -da, da = a_e de + a_s ds; t_s and a_s from differences, as the return is nearly linear in s.
+	/// To the tangent of perfect plasticity what follows from the strength that goes with the plastic strain: dt =
+	/// D de + t_s ds, ds = -da, da = a_e de + a_s ds; t_s and a_s from differences, as the return is nearly linear
+	/// in s.
 	void addHardening(const Vec3& strain, double softening, Response& r) const
 	{
 		const double   d     = 1e-4 * residual_.strain;

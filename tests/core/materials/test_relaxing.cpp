@@ -35,8 +35,8 @@ namespace {
 		EXPECT_NEAR(mud.stress(0, 0), strength + viscosity * rate, 1e-6 * strength);
 	}
 
-	// Perzyna's return for linear hardening: dg = (rho_tr - rho_y) / (2 G + sqrt(2/3) H + 2 eta / dt), by numbers of
-	// another implementation.
+	// Perzyna's return for linear hardening: dg = (rho_tr - rho_y) / (2 G + sqrt(2/3) H + 2 eta / dt), by numbers
+	// of another implementation.
 	TEST(Relaxing, ViscousVonMisesByNumbers)
 	{
 		constexpr double G = 8e6, K = 17e6, young = 9 * K * G / (3 * K + G), poisson = (3 * K - 2 * G) / (6 * K + 2 * G), H = 1e6, eta = 5e4, dt = .02;
