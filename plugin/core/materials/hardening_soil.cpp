@@ -40,11 +40,14 @@ template <class F> double root(double low, double high, double atLow, double atH
 
 /// Of a step, with the state as it begins. Directions are sorted from the most to the least pressed axis.
 struct HardeningSoil::Trial {
+	std::array<int, 3>    axes;                ///< of the principal values
 	double                bulk, shear;         ///< moduli of unloading in the step
 	double                volumetric, sheared; ///< strains, the former of compression
 	std::array<double, 3> direction;           ///< nu
 	double                hardening, cap;      ///< as the step begins; of the cap with the shift
 	double                sine;                ///< of the dilation angle in the step
+
+	Trial(const HardeningSoil&, const Vec3& strain, const TensorState&);
 
 	/// Plastic shear over its part that counts, sqrt(2/3) of the deviator: the shear strain of Mohr-Coulomb's
 	/// potential in triaxial compression, extension and plane strain.
@@ -330,57 +333,67 @@ HardeningSoil::Slopes HardeningSoil::slopes(const Trial& trial, const Flow& flow
 	return s;
 }
 
+HardeningSoil::Trial::Trial(const HardeningSoil& law, const Vec3& strain, const TensorState& state)
+        : axes { 0, 1, 2 }, bulk(state.scalar(stiffness) * law.bulk_), shear(state.scalar(stiffness) * law.shear_), volumetric(-strain.sum())
+{
+	const double mean = strain.mean(), length = (strain.array() - mean).matrix().norm();
+	std::sort(axes.begin(), axes.end(), [&](int i, int j) { return strain[i] < strain[j]; });
+	sheared = std::sqrt(2. / 3) * length;
+	// Without a deviator any direction will do.
+	for (int i = 0; i < 3; ++i)
+		direction[i] = length > 0 ? -std::sqrt(2. / 3) * (strain[axes[i]] - mean) / length : i == 0 ? 2. / 3 : -1. / 3;
+	hardening = state.scalar(shearHardening);
+	cap       = std::max(state.scalar(capPressure) + law.shift_, leastPressure * law.unit_);
+	sine      = state.scalar(dilated) >= law.given_.mostDilation ? 0 : law.dilatancy(std::sin(state.scalar(mobilisedFriction)));
+}
+
 Response HardeningSoil::respond(const Vec3& strain, TensorState& state, double growth, bool flows) const
 {
-	const double factor = state.scalar(stiffness), mean = strain.mean(), length = (strain.array() - mean).matrix().norm();
-	// From the most to the least pressed axis.
-	std::array<int, 3> order { 0, 1, 2 };
-	std::sort(order.begin(), order.end(), [&](int i, int j) { return strain[i] < strain[j]; });
-	// Without a deviator any direction will do.
-	const Vec3   n = length > 0 ? Vec3((strain.array() - mean) / length) : Vec3(Vec3(-2, 1, 1) / std::sqrt(6.));
-	Trial        trial { factor * bulk_, factor * shear_, -3 * mean, std::sqrt(2. / 3) * length, {}, state.scalar(shearHardening), 0, 0 };
-	const double root = std::sqrt(2. / 3);
-	for (int i = 0; i < 3; ++i)
-		trial.direction[i] = -root * n[length > 0 ? order[i] : i];
-	trial.cap       = std::max(state.scalar(capPressure) + shift_, leastPressure * unit_);
-	trial.sine      = state.scalar(dilated) >= given_.mostDilation ? 0 : dilatancy(std::sin(state.scalar(mobilisedFriction)));
-	const Flow flow = flows ? returned(trial) : Flow { trial.pressure(shift_), trial.difference() };
-	Response   r;
+	const Trial trial(*this, strain, state);
+	const Flow  flow = flows ? returned(trial) : Flow { trial.pressure(shift_), trial.difference() };
+	Response    r;
 	r.failed = flow.isFailed || !std::isfinite(flow.pressure + flow.difference);
 	if (r.failed != 0) return r;
 	// Of the trial deviator.
-	const double part  = length > 0 ? flow.difference / trial.difference()
-	                                : 1 / (1 + 3 * trial.shear * shape_ * flow.compaction / std::max(flow.pressure, leastPressure * unit_));
-	const double mean_ = shift_ - flow.pressure;
-	for (int i = 0; i < 3; ++i)
-		r.stress[i] = mean_ + 2 * part * trial.shear * (strain[i] - mean);
+	const double part     = trial.sheared > 0 ? flow.difference / trial.difference()
+	                                          : 1 / (1 + 3 * trial.shear * shape_ * flow.compaction / std::max(flow.pressure, leastPressure * unit_));
+	const Vec3   deviator = strain.array() - strain.mean();
+	r.stress              = shift_ - flow.pressure + (2 * part * trial.shear * deviator).array();
 	r.shear.fill(std::max(part, floorAtApex) * trial.shear);
-	// d nu_i / d e_j = -root / length (delta_ij - 1/3 - n_i n_j)
-	const Slopes s  = slopes(trial, flow);
-	Vec3         nu = -root * n, byPressure = Vec3::Zero(), byDifference = Vec3::Zero();
+	setTangent(trial, slopes(trial, flow), deviator, r);
+	setState(trial, flow, state);
+	state.scalar(plasticStrain) += std::max(0., (1 - part) * trial.sheared);
+	state.scalar(dilated) += growth;
+	// The elastic strain that has this stress with the moduli of the next step.
+	const double next = state.scalar(stiffness);
+	r.elasticStrain   = (shift_ - flow.pressure) / (3 * next * bulk_) + (part * trial.shear / (next * shear_) * deviator).array();
+	return r;
+}
+
+/// With d nu_i / d e_j = -sqrt(2/3) / |dev e| (delta_ij - 1/3 - n_i n_j).
+void HardeningSoil::setTangent(const Trial& trial, const Slopes& s, const Vec3& deviator, Response& r) const
+{
+	const double length = deviator.norm(), root = std::sqrt(2. / 3), perLength = length > 0 ? root / length : 0;
+	const Vec3   n = length > 0 ? Vec3(deviator / length) : Vec3(Vec3::Zero()), nu = -root * n;
+	Vec3         byPressure, byDifference;
 	for (int i = 0; i < 3; ++i)
-		byPressure[order[i]] = s.pressure[2 + i], byDifference[order[i]] = s.difference[2 + i];
-	const Mat3   turning   = Mat3::Identity() - Mat3::Constant(1. / 3) - (length > 0 ? Mat3(n * n.transpose()) : Mat3(Mat3::Zero()));
-	const double perLength = length > 0 ? root / length : 0;
-	const Vec3   P         = -s.pressure[0] * Vec3::Ones() - s.pressure[1] * nu - perLength * (turning * byPressure);
-	const Vec3   Q         = -s.difference[0] * Vec3::Ones() - s.difference[1] * nu - perLength * (turning * byDifference);
-	r.tangent              = -Vec3::Ones() * P.transpose() + 2 * std::max(part, floorAtApex) * trial.shear * turning;
-	if (length > 0) r.tangent -= nu * Q.transpose();
-	// The state at the end, and the elastic strain that has this stress with the moduli of the next step.
+		byPressure[trial.axes[i]] = s.pressure[2 + i], byDifference[trial.axes[i]] = s.difference[2 + i];
+	const Mat3 turning = Mat3::Identity() - Mat3::Constant(1. / 3) - n * n.transpose();
+	const Vec3 P       = -s.pressure[0] * Vec3::Ones() - s.pressure[1] * nu - perLength * (turning * byPressure);
+	const Vec3 Q       = -s.difference[0] * Vec3::Ones() - s.difference[1] * nu - perLength * (turning * byDifference);
+	r.tangent          = -Vec3::Ones() * P.transpose() - nu * Q.transpose() + 2 * r.shear[0] * turning;
+}
+
+/// What is remembered at the end.
+void HardeningSoil::setState(const Trial& trial, const Flow& flow, TensorState& state) const
+{
 	const double smallest = flow.pressure + flow.difference * trial.direction[2], largest = flow.pressure + flow.difference * trial.direction[0];
-	const double next  = factorAt(smallest);
 	const double grown = trial.hardening + (1 - trial.sine) * trial.perShear(trial.direction) * std::max(flow.shear, 0.);
 	if (flow.mode == Flow::Shear::hardens) state.scalar(shearHardening) = grown;
 	if (flow.mode == Flow::Shear::fails) state.scalar(shearHardening) = std::max(trial.hardening, std::min(grown, mostHardening(smallest)));
 	if (flow.isOnCap) state.scalar(capPressure) = std::max(state.scalar(capPressure), capAt(trial.cap, flow.compaction) - shift_);
 	setMobilised(state, smallest, largest);
-	state.scalar(plasticStrain) += std::max(0., (1 - part) * trial.sheared);
-	state.scalar(dilated) += growth;
-	state.scalar(stiffness) = next;
-	const double volumetric = mean_ / (3 * next * bulk_), shared = part * factor / next;
-	for (int i = 0; i < 3; ++i)
-		r.elasticStrain[i] = volumetric + shared * (strain[i] - mean);
-	return r;
+	state.scalar(stiffness) = factorAt(smallest);
 }
 
 void HardeningSoil::setMobilised(TensorState& state, double smallest, double largest) const

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Hardening soil (Schanz, Vermeer and Bonnier 1999, The hardening soil model: formulation and verification): moduli that
-// go with a power of the smallest pressure, shear hardening along a hyperbola up to Mohr and Coulomb's strength, and a
-// cap, of which the shape and hardening follow from K0nc and Eoed. In Kirchhoff stress and logarithmic strain.
+// Hardening soil (Schanz, Vermeer and Bonnier 1999, The hardening soil model: formulation and verification): moduli
+// that go with a power of the smallest pressure, shear hardening along a hyperbola up to Mohr and Coulomb's strength,
+// and a cap, of which the shape and hardening follow from K0nc and Eoed. In Kirchhoff stress and logarithmic strain.
 //
 // Three things differ from that paper. Flow is radial in the deviatoric plane, so that the direction of the deviator is
 // that of the trial and a return has two unknowns, whatever is active. The shear hardening is that part of the plastic
@@ -14,8 +14,8 @@ namespace gimpm {
 
 class HardeningSoil : public TensorLaw {
 public:
-	/// Moduli [Pa] are those at the smallest pressure `reference` [Pa], of the oedometer those at the vertical pressure
-	/// `reference`. Angles in radians.
+	/// Moduli [Pa] are those at the smallest pressure `reference` [Pa], of the oedometer those at the vertical
+	/// pressure `reference`. Angles in radians.
 	struct Given {
 		double secant, oedometric, unloading, poisson; ///< E50, Eoed, Eur, nu of unloading
 		double power, failureRatio, restRatio;         ///< m from 0 to 1, Rf from 0 to below 1, K0 of first loading
@@ -54,8 +54,8 @@ public:
 
 	double young(const TensorState& state) const { return state.scalar(stiffness) * given_.unloading; }
 
-	/// The state that bears a stress at least: shear hardening and cap are no smaller than what the stress needs, and
-	/// the modulus is that of its smallest pressure.
+	/// The state that bears a stress at least: shear hardening and cap are no smaller than what the stress needs,
+	/// and the modulus is that of its smallest pressure.
 	TensorState bearing(const Mat3& stress, TensorState) const;
 	/// Of a stress in that state.
 	Mat3 strainOf(const Mat3& stress, const TensorState&) const;
@@ -68,8 +68,9 @@ public:
 	double       shear() const { return shear_; } ///< modulus of unloading at the reference pressure
 
 private:
-	/// Moduli do not fall further below that part of the unit of pressure. By less than the tolerance, relative to the
-	/// stress, nothing yields. Of the stiffness some is left at the apex (see tangentFloor of perfect plasticity).
+	/// Moduli do not fall further below that part of the unit of pressure. By less than the tolerance, relative to
+	/// the stress, nothing yields. Of the stiffness some is left at the apex (see tangentFloor of perfect
+	/// plasticity).
 	static constexpr double leastPressure = .01, tolerance = 1e-9, floorAtApex = 1e-8;
 
 	/// Along K0 at the vertical pressure `reference`.
@@ -95,6 +96,8 @@ private:
 	Slopes                              slopes(const Trial&, const Flow&) const;
 	Response                            respond(const Vec3& trialStrain, TensorState&, double growth, bool flows) const;
 	void                                setMobilised(TensorState&, double smallest, double largest) const;
+	void                                setTangent(const Trial&, const Slopes&, const Vec3& deviator, Response&) const;
+	void                                setState(const Trial&, const Flow&, TensorState&) const;
 	template <class T> std::array<T, 4> residual(const Trial&, const Flow&, const std::array<T, 4>& unknown, const std::array<T, 5>& trial) const;
 
 	Given  given_;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Hardening soil with small-strain stiffness (Benz 2007, Small-strain stiffness of soils and its numerical consequences):
-// where strain has turned back the shear modulus is G0, and falls with the shear strain g since then, as G0 / (1 + .385
-// g / g07)^2 (Hardin and Drnevich 1972), to that of unloading. Poisson's ratio stays.
+// Hardening soil with small-strain stiffness (Benz 2007, Small-strain stiffness of soils and its numerical
+// consequences): where strain has turned back the shear modulus is G0, and falls with the shear strain g since then, as
+// G0 / (1 + .385 g / g07)^2 (Hardin and Drnevich 1972), to that of unloading. Poisson's ratio stays.
 //
 // Strain has turned back where the step leads against the strain since the last turn: what is across is no turn.
 #pragma once
@@ -11,8 +11,8 @@ namespace gimpm {
 
 class HardeningSoilSmall : public HardeningSoil {
 public:
-	/// Of shear: modulus G0 [Pa] at the reference pressure, no less than that of unloading, and the shear strain > 0 at
-	/// which the secant modulus is .722 of it.
+	/// Of shear: modulus G0 [Pa] at the reference pressure, no less than that of unloading, and the shear strain >
+	/// 0 at which the secant modulus is .722 of it.
 	HardeningSoilSmall(const Given& given, double smallest, double strain);
 
 	enum { strainHistory = 6 };

@@ -64,8 +64,8 @@ public:
 		return p.axes * strain.asDiagonal() * p.axes.transpose();
 	}
 
-	/// Of the stress that flow leaves beyond yield, half of what it loses for each plastic strain: the shear modulus, and
-	/// what hardening adds to it [Pa].
+	/// Of the stress that flow leaves beyond yield, half of what it loses for each plastic strain: the shear
+	/// modulus, and what hardening adds to it [Pa].
 	template <class Linear = L, class = std::enable_if_t<Linear::isLinear>> double resistance() const
 	{
 		if constexpr (std::is_same_v<L, VonMises>) return elasticity().shear() + std::sqrt(2. / 3) / 2 * law_.parameters()[2];

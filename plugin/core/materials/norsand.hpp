@@ -9,9 +9,9 @@ namespace gimpm {
 
 class NorSand : public TensorLaw {
 public:
-	/// With P and Q of the Kirchhoff stress, P positive in compression, and the specific volume v, the yield function is
-	/// Q - eta P, eta = M / N (1 - (1 - N) (P / Pi)^(N / (1 - N))), or M (1 + ln(Pi / P)) for N = 0. Critical states are
-	/// v = criticalVolume - compression ln(P / criticalPressure).
+	/// With P and Q of the Kirchhoff stress, P positive in compression, and the specific volume v, the yield
+	/// function is Q - eta P, eta = M / N (1 - (1 - N) (P / Pi)^(N / (1 - N))), or M (1 + ln(Pi / P)) for N = 0.
+	/// Critical states are v = criticalVolume - compression ln(P / criticalPressure).
 	struct Given {
 		double shear, swelling, reference;                           ///< G [Pa]; slope of elastic strain over ln P; P without elastic strain [Pa]
 		double ratio, compression, criticalVolume, criticalPressure; ///< M; slope of v; v at criticalPressure [Pa]
@@ -50,9 +50,9 @@ public:
 	TensorAnswer elastic(const TensorStep&) const;
 
 private:
-	/// As of Cam clay. By less than the tolerance, relative to the pressure, nothing yields. Of the elastic stiffness
-	/// some is left at the tip (see tangentFloor of perfect plasticity). Of a point that has borne nothing yet the image
-	/// pressure is that part of the reference pressure.
+	/// As of Cam clay. By less than the tolerance, relative to the pressure, nothing yields. Of the elastic
+	/// stiffness some is left at the tip (see tangentFloor of perfect plasticity). Of a point that has borne
+	/// nothing yet the image pressure is that part of the reference pressure.
 	static constexpr double mostExponent = 100, tolerance = 1e-9, floorAtTip = 1e-8, leastImage = 1e-6;
 
 	struct Trial;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Viscoplasticity over any law that flows (Duvaut and Lions 1972; Simo and Hughes 1998, Computational inelasticity, section
-// 2.7): with the elastic trial t_tr and the answer t_inf of the law itself, the stress after a step is (t_tr + r t_inf)
-// / (1 + r), where r is the duration of the step over the relaxation time; so are what the law remembers, and the
-// tangent.
+// Viscoplasticity over any law that flows (Duvaut and Lions 1972; Simo and Hughes 1998, Computational inelasticity,
+// section 2.7): with the elastic trial t_tr and the answer t_inf of the law itself, the stress after a step is (t_tr +
+// r t_inf) / (1 + r), where r is the duration of the step over the relaxation time; so are what the law remembers, and
+// the tangent.
 #pragma once
 #include "core/materials/tensor_law.hpp"
 

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Mohr and Coulomb's law, of which cohesion, friction and dilation fall with plastic strain to residual values. In a step
-// strength is that of its beginning: the return is that of perfect plasticity, with its tangent, and softening follows
-// from step to step.
+// Mohr and Coulomb's law, of which cohesion, friction and dilation fall with a softening strain to residual values.
+//
+// In a step the softening strain falls by the plastic strain of the step, so that strength grows and the stiffness
+// stays positive; from step to step it grows. Over-nonlocal softening (core/stepping/nonlocal.hpp) is so: with m = 2 it
+// goes with twice the mean, which is that of the beginning, less the own plastic strain. Without means it is a return
+// that is exact in the limit of short steps.
 #pragma once
 #include "core/materials/isotropic_answer.hpp"
 #include "core/materials/mohr_coulomb.hpp"
@@ -45,14 +48,14 @@ public:
 		const double angle                                        = w.reducedAngle(residual_.frictionAngle);
 		return { young, cohesion, friction, dilation, tension, residual_.cohesion / w.strength, angle, std::min(residual_.dilationAngle, angle) };
 	}
-	bool   isSymmetric() const { return first_.isSymmetric() && residual_.frictionAngle == residual_.dilationAngle; }
+	bool   isSymmetric() const { return false; }
 	double young(const TensorState&) const { return first_.parameters()[0]; }
 
-	/// Where it has softened by a plastic strain.
+	/// Where it has softened by a strain; where that is negative it is stronger than at first.
 	MohrCoulomb softened(double strain) const
 	{
 		const auto [young, cohesion, friction, dilation, tension] = first_.parameters();
-		const double part = std::clamp(strain / residual_.strain, 0., 1.), angle = between(std::tan(friction), std::tan(residual_.frictionAngle), part);
+		const double part = std::min(strain / residual_.strain, 1.), angle = between(std::tan(friction), std::tan(residual_.frictionAngle), part);
 		const double phi = part == 0 ? friction : std::atan(angle);
 		return first_.with(
 		        { young, between(cohesion, residual_.cohesion, part), phi, std::min(between(dilation, residual_.dilationAngle, part), phi), tension });
@@ -60,11 +63,11 @@ public:
 
 	TensorAnswer respond(const TensorStep& step) const
 	{
-		const MohrCoulomb law = softened(step.state.scalar(softening));
 		return answerInPrincipalAxes(step, [&](const Vec3& strain, TensorState& state) -> Response {
-			const auto   r              = law.respond(strain, { state.scalar(plasticStrain) });
-			const double grown          = r.internals[0] - state.scalar(plasticStrain);
-			state.scalar(plasticStrain) = r.internals[0];
+			const double before = state.scalar(softening), grown = flow(strain, before);
+			Response     r = at(strain, before - grown);
+			if (grown > 0) addHardening(strain, before - grown, r);
+			state.scalar(plasticStrain) += grown;
 			state.scalar(softening) += grown;
 			return r;
 		});
@@ -82,6 +85,45 @@ public:
 private:
 	static double between(double from, double to, double part) { return from + part * (to - from); }
 	Hencky        elasticity() const { return { first_.parameters()[0], poisson_ }; }
+
+	Response at(const Vec3& strain, double softening) const { return softened(softening).respond(strain, { 0 }); }
+
+	/// Plastic strain of a step with this strength: the more, the more it has softened.
+	double plasticAt(const Vec3& strain, double softening) const { return softened(softening).respond(strain, { 0 }).internals[0]; }
+
+	/// The plastic strain a of a step: a = plasticAt(before - a), which falls as a grows. By the rule of false
+	/// position, as the return is linear in the cohesion, and by bisection where it is slow.
+	double flow(const Vec3& strain, double before) const
+	{
+		double low = 0, high = plasticAt(strain, before), atLow = high;
+		if (!(high > 0)) return 0;
+		double       atHigh = plasticAt(strain, before - high) - high;
+		const double exact  = 1e-14 * high;
+		for (int iteration = 0; iteration < 200 && high - low > exact && atHigh < 0; ++iteration) {
+			const bool   bisects = iteration % 3 == 2;
+			const double a = bisects ? (low + high) / 2 : low + (high - low) * atLow / (atLow - atHigh), f = plasticAt(strain, before - a) - a;
+			if (std::abs(f) <= exact) return a;
+			(f > 0 ? low : high)     = a;
+			(f > 0 ? atLow : atHigh) = f;
+		}
+		return high;
+	}
+
+	/// To the tangent of perfect plasticity what follows from the strength that goes with the plastic strain: dt =
+	/// D de + t_s ds, ds = -da, da = a_e de + a_s ds; t_s and a_s from differences, as the return is nearly linear
+	/// in s.
+	void addHardening(const Vec3& strain, double softening, Response& r) const
+	{
+		const double   d     = 1e-4 * residual_.strain;
+		const Response above = at(strain, softening + d), below = at(strain, softening - d);
+		const Vec3     byStrength = (above.stress - below.stress) / (2 * d), flown = strain - r.elasticStrain, deviator = flown.array() - flown.mean();
+		const double   ofStrength = (plasticAt(strain, softening + d) - plasticAt(strain, softening - d)) / (2 * d);
+		Mat3           flows      = Mat3::Identity(); // d flown / d strain
+		for (int j = 0; j < 3; ++j)
+			flows.col(j) -= elasticity().strainOf<double>(Vec3(r.tangent.col(j)));
+		const Vec3 direction = deviator / deviator.norm(), byStrain = std::sqrt(2. / 3) * (flows.transpose() * direction);
+		r.tangent -= byStrength * byStrain.transpose() / (1 + ofStrength);
+	}
 
 	MohrCoulomb first_;
 	double      poisson_;

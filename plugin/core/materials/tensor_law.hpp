@@ -156,8 +156,8 @@ template <class L> std::vector<int> columnsOfTensorLaw()
 }
 
 /// What handles of laws are whose history follows from a stress [Pa], as hardening that the soil must have had to bear
-/// it. Such a law has `TensorState bearing(const Mat3& stress, TensorState) const`, the state that bears it at least, and
-/// `Mat3 strainOf(const Mat3& stress, const TensorState&) const`, the elastic strain that has it then.
+/// it. Such a law has `TensorState bearing(const Mat3& stress, TensorState) const`, the state that bears it at least,
+/// and `Mat3 strainOf(const Mat3& stress, const TensorState&) const`, the elastic strain that has it then.
 struct BearsStress {
 	virtual ~BearsStress()                                                                               = default;
 	virtual std::vector<double> bearing(const Mat3& stress, const std::vector<double>& internals) const  = 0;

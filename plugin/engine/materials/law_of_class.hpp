@@ -28,7 +28,7 @@ template <class M> struct RegisteredLaw {
 			static_assert(gimpm::hasRequiredMembers<Law>());
 			static_assert(sizeof...(Members) <= typename Law::Parameters().size());
 		}
-		const auto of = [](const auto& parameter) {
+		[[maybe_unused]] const auto of = [](const auto& parameter) {
 			return ParameterOfClass { parameter.first,
 				                  [member = parameter.second](MpmMaterial& m) -> Real& { return static_cast<M&>(m).*member; } };
 		};

@@ -91,12 +91,13 @@ namespace {
 	}
 
 	// One answer of a tensor law, to a point that does not turn.
-	gimpm::TensorAnswer answerOf(const gimpm::Law& law, const Matrix3r& strain, const vector<Real>& internals, Real duration = 0)
+	gimpm::TensorAnswer answerOf(
+	        const gimpm::Law& law, const Matrix3r& strain, const vector<Real>& internals, Real duration = 0, const Matrix3r& stretch = Matrix3r::Identity())
 	{
 		gimpm::InternalColumns columns(gimpm::internalVariables.size());
 		gimpm::provideInternals(columns, { { law, 1 } }, 1);
 		gimpm::storeInternals(law, internals.data(), columns, 0);
-		const auto answer = law->respond({ {}, columns, 0 }, { strain, Matrix3r::Identity(), duration });
+		const auto answer = law->respond({ {}, columns, 0 }, { strain, stretch, duration });
 		requireAnswer(answer.failed);
 		return answer;
 	}
@@ -250,10 +251,13 @@ namespace {
 	}
 }
 
-py::dict respondInSpaceForPython(const shared_ptr<MpmMaterial>& material, const vector<Real>& trialStrain, const py::dict& internals, Real duration)
+py::dict respondInSpaceForPython(
+        const shared_ptr<MpmMaterial>& material, const vector<Real>& trialStrain, const vector<Real>& increment, const py::dict& internals, Real duration)
 {
 	const gimpm::Law law = coreMaterial(*material).law;
-	const auto       r   = answerOf(law, fromRows(trialStrain), internalsOf(law, *material, internals), duration);
+	const auto       p   = gimpm::principal(gimpm::SymTensor<3>::from(fromRows(increment)));
+	const Matrix3r   U   = p.axes * Vector3r(p.value.array().exp()).asDiagonal() * p.axes.transpose();
+	const auto       r   = answerOf(law, fromRows(trialStrain), internalsOf(law, *material, internals), duration, U);
 	py::dict         answer;
 	answer["stress"]        = rowsOf(r.stress);
 	answer["elasticStrain"] = rowsOf(r.elasticStrain);

@@ -38,16 +38,17 @@ vector<Real> internalsBearing(const gimpm::Law&, const Matrix3r& kirchhoffStress
 // where it has no answer, or for a variable that it does not have.
 py::dict respondForPython(const shared_ptr<MpmMaterial>&, const Vector3r& trialStrain, const py::dict& internals);
 
-// The same of a tensor law, for a strain and a step of time: tensors by their rows, and the tangent by Mandel's six
-// numbers. And for mpm.elementTest the state after an increment of the deformation gradient, with the rates of the
-// stress by the nine velocity gradients.
+// The same of a tensor law, for a strain, the increment of strain in the step, and its time: tensors by their rows, and
+// the tangent by Mandel's six numbers. And for mpm.elementTest the state after an increment of the deformation
+// gradient, with the rates of the stress by the nine velocity gradients.
 bool     hasTensorLaw(const shared_ptr<MpmMaterial>&);
-py::dict respondInSpaceForPython(const shared_ptr<MpmMaterial>&, const vector<Real>& trialStrain, const py::dict& internals, Real duration);
+py::dict respondInSpaceForPython(
+        const shared_ptr<MpmMaterial>&, const vector<Real>& trialStrain, const vector<Real>& increment, const py::dict& internals, Real duration);
 py::dict stepInSpaceForPython(
         const shared_ptr<MpmMaterial>&, const vector<Real>& elasticStrain, const vector<Real>& increment, const py::dict& internals, Real duration);
 
-// The internal variables of a point that bears principal Kirchhoff stresses [Pa], by name: those given, and of laws whose
-// history follows from a stress what is needed of the others.
+// The internal variables of a point that bears principal Kirchhoff stresses [Pa], by name: those given, and of laws
+// whose history follows from a stress what is needed of the others.
 py::dict bearingForPython(const shared_ptr<MpmMaterial>&, const Vector3r& kirchhoffStress, const py::dict& internals);
 
 // For mpm.elementTest: principal elastic strains of principal Kirchhoff stresses [Pa]; std::invalid_argument beyond

@@ -54,6 +54,7 @@ While it runs, one line tells how far it is (``verbosity`` of the engine); ``plo
 :func:`advise`               what an analysis will cost, and what it could do without
 :func:`discretisationError`  how wrong a result is because of the size of the cells; :func:`stressError` tells of stresses, from one run
 :func:`elementTest`          the curve of a laboratory test on a material; :func:`respond` is one call of its law
+:func:`checkLaw`             whether the tangent of a law, as of a user material, is that of its stress
 :func:`calibrate`            parameters of a law from the curves of laboratory tests; :func:`typicalSand` has them where there are none
 ``stages``                   layers that are placed, soil that is dug out, supports that are taken away
 :func:`strengthReduction`    factor of safety, as a bracket
@@ -80,6 +81,7 @@ from .freefields import freeField
 from .geostatics import geostatic
 from .histories import histories, readHistory
 from .laboratory import elementTest, respond
+from .lawchecks import checkLaw
 from .library import engine as _engine
 from .movies import movie
 from .outline import polygon
@@ -98,7 +100,7 @@ from .typical import typicalSand
 from .viewing import view
 
 __version__ = _engine.version
-__all__ = ['polygon', 'fill', 'add', 'refinementsAt', 'arrays', 'assign', 'geostatic', 'seepage', 'plot', 'colour', 'export', 'save', 'load', 'advise', 'discretisationError', 'stressError', 'elementTest', 'respond', 'strengthReduction', 'surface', 'contactForces', 'histories', 'readHistory', 'solid', 'terrain', 'movie', 'view', 'facets', 'frame', 'note', 'collect', 'state', 'examples', 'record', 'peaks', 'freeField', 'rayleigh', 'schemeDamping', 'calibrate', 'typicalSand', 'sectionForces']
+__all__ = ['polygon', 'fill', 'add', 'refinementsAt', 'arrays', 'assign', 'geostatic', 'seepage', 'plot', 'colour', 'export', 'save', 'load', 'advise', 'discretisationError', 'stressError', 'elementTest', 'respond', 'checkLaw', 'strengthReduction', 'surface', 'contactForces', 'histories', 'readHistory', 'solid', 'terrain', 'movie', 'view', 'facets', 'frame', 'note', 'collect', 'state', 'examples', 'record', 'peaks', 'freeField', 'rayleigh', 'schemeDamping', 'calibrate', 'typicalSand', 'sectionForces']
 
 for _name in __all__:
 	_thing = globals()[_name] = _telling(globals()[_name])

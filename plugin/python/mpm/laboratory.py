@@ -39,7 +39,7 @@ def respond(material, strain, duration=0, **internals):
 	internals = internalsOf(who, internals)
 	duration = _number(who, 'duration', duration, 'a finite number >= 0', lambda value: value >= 0)
 	if _named(who, engine.hasTensorLaw, material):
-		answer = _named(who, engine.respondInSpace, material, _rows(np.diag(strain) if strain.ndim == 1 else strain), internals, duration)
+		answer = _named(who, engine.respondInSpace, material, _rows(np.diag(strain) if strain.ndim == 1 else strain), _rows(np.zeros((3, 3))), internals, duration)
 		return {name: np.array(answer[name]) for name in ('stress', 'elasticStrain', 'tangent')} | answer['internals']
 	values, axes = (strain, np.eye(3)) if strain.ndim == 1 else np.linalg.eigh(strain)
 	answer = _named(who, engine.respond, material, _numbers(values), internals)
@@ -220,7 +220,7 @@ def stateUnder(who, material, stress, internals):
 	internals = _named(who, engine.bearing, material, _numbers(stress), internals)
 	elasticStrain = np.array(_named(who, engine.elasticStrainOf, material, _numbers(stress), internals))
 	hasTensors = _named(who, engine.hasTensorLaw, material)
-	answer = _named(who, engine.respondInSpace, material, _rows(np.diag(elasticStrain)), internals, 0.) if hasTensors else _named(who, engine.respond, material, _numbers(elasticStrain), internals)
+	answer = _named(who, engine.respondInSpace, material, _rows(np.diag(elasticStrain)), _rows(np.zeros((3, 3))), internals, 0.) if hasTensors else _named(who, engine.respond, material, _numbers(elasticStrain), internals)
 	return SimpleNamespace(hasTensors=hasTensors, strain=0., defGrad=np.eye(3), elasticStrain=np.diag(elasticStrain), stress=np.diag(stress), internals=internals | answer['internals'])
 
 

@@ -3,6 +3,7 @@
 import numpy as np
 
 from .laboratory import firstStress, internalsOf, materialFor, respond, stateUnder
+from .library import engine
 from .messages import numberOf
 
 _root = 2**0.5
@@ -36,8 +37,10 @@ def checkLaw(material, strain=1e-4, confiningPressure=0, initialStress=None, sam
 	state = stateUnder(who, material, firstStress(who, confiningPressure, initialStress), internalsOf(who, internals))
 
 	def stress(increment):
-		answer = respond(material, state.elasticStrain + increment, duration, **state.internals)
-		return np.asarray(answer['stress']), answer
+		strain = state.elasticStrain + increment
+		if not state.hasTensors: answer = respond(material, strain, **state.internals)
+		else: answer = engine.respondInSpace(material, list(strain.ravel()), list(increment.ravel()), state.internals, float(duration))
+		return np.array(answer['stress']), answer
 
 	random = np.random.default_rng(1)
 	errors, asymmetries = [], []

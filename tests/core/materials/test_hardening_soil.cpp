@@ -89,8 +89,8 @@ namespace {
 		EXPECT_NEAR(before - soil.difference(), 1e-4 * Eur, 1e-6 * before);
 	}
 
-	// Loose soil, which the cap contracts: its pressure falls until it fails, in compression along y, at the strength of
-	// that pressure.
+	// Loose soil, which the cap contracts: its pressure falls until it fails, in compression along y, at the
+	// strength of that pressure.
 	TEST(HardeningSoil, UndrainedPathEndsAtTheStrengthOfItsPressure)
 	{
 		Element<Soil> soil { Soil(sand(0)) };
@@ -155,7 +155,8 @@ namespace {
 		return (m + m.transpose()) / 2 - random.in(0, .3) * size * Mat3::Identity();
 	}
 
-	// All surfaces, their corners and the apex. Where a corner lies between the points of a difference it says nothing.
+	// All surfaces, their corners and the apex. Where a corner lies between the points of a difference it says
+	// nothing.
 	TEST(HardeningSoil, TangentAgainstDifferencesOnRandomPaths)
 	{
 		Random              random(3);
