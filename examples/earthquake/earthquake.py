@@ -26,6 +26,7 @@ options = readOptions('Earthquakes against closed forms.',
         scheme=('newmark', "of the column: 'newmark' or 'generalised-alpha'"),
         cellSize=(1., 'of the column [m]'),
         step=(0.01, 'of the column [s]'),
+        exactInTime=(0, '1: closed form of the column without the scheme in time: what its steps cost, too'),
         seconds=(8., 'of the record that shakes the column'),
         lengths=('5 10 20', 'of the records that shake the block [s]'),
         lowest=(0.5, 'frequency of the records that shake the block [Hz]'),
@@ -62,6 +63,7 @@ def record():
 
 def inTime(frequency, solver):
 	"""What a step of the scheme makes of iw: velocity over displacement, and acceleration over displacement, in the balance of forces [1/s, 1/s2]."""
+	if options.exactInTime: return 2j * np.pi * frequency, (2j * np.pi * frequency)**2
 	beta, gamma, m, f = schemeOf(solver)
 	z = np.exp(2j * np.pi * frequency * O.dt)
 	way = O.dt**2 * (((1 - gamma) + gamma * z) / (z - 1)**2 + ((0.5 - beta) + beta * z) / (z - 1))  # displacement over acceleration

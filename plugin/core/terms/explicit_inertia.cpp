@@ -32,7 +32,7 @@ ExplicitInertia<Dim>::ExplicitInertia(Motion<Dim>& motion, const Beginning<Dim>&
 {
 	const Stopwatch watch(seconds_);
 	blow_ = jump_ = Eigen::VectorXd::Zero(step.prescribed.size());
-	damping_ = dampingOf(motion.damping, step);
+	damping_      = dampingOf(motion.damping, step);
 	begin(step);
 	findMiddle(step);
 	findJump();

@@ -24,15 +24,15 @@ def freeField(solver, until, motion=None, sides='both', distance=None):
 		solver.loads = mpm.freeField(solver, until=quake.time[-1] + 2, motion=quake.incoming())
 
 	Of the material points beside each side, as they are now, a column of level ground is made, with the engine's settings and what holds or moves its whole base. It is run by itself in steps
-	of O.dt, in another scene of YADE that must be empty, before the body is. Dashpots, and springs if there is a *distance*, resist what the sides do otherwise than their column, and what its stress grows by acts
-	on them. Edges move with the soil. What has held them until now goes on acting: a static stage hands its reactions over.
+	of O.dt, in another scene of YADE that must be empty, before the body is. Dashpots, and springs if there is a *distance*, resist what the edges do otherwise than their column, and what its stress grows by acts
+	on the sides. Edges move with the soil. What has held them until now goes on acting: a static stage hands its reactions over.
 
 	:param solver: the ``MpmDynamicEngine``, ``scheme`` 'newmark' or 'generalised-alpha', in plane strain; it is at rest. Boundaries may hold the whole base, not the sides
 	:param until: O.time [s] until which the ground beyond is known; steps after it are refused
 	:param motion: wave that comes up through the base (``MpmBaseMotion``), as ``record.incoming()``: the base is then an edge, too, a compliant one. None: the base is what the engine's
 		boundaries and absorbing edges say, as a rigid one that a ``MpmBoundary`` moves
 	:param sides: ``'both'``, ``'left'`` or ``'right'``; upright, on lines of the grid, and without holes
-	:param distance: from the sides to the middle of what moves [m] > 0, for springs of the shear modulus over it along the normal, of half of that across; None: half of the body's width; inf: no springs
+	:param distance: from the edges to the middle of what moves [m] > 0, for springs of the shear modulus over it along the normal, of half of that across; None: half of the body's width; inf: no springs
 	:raises TypeError: an argument of the wrong kind.
 	:raises ValueError: a value that is not admitted, sides that are not as above, or something of the scene that columns of level ground cannot have; the message names it.
 	:raises RuntimeError: a step of a column does not converge, for which the message tells why.
@@ -40,13 +40,22 @@ def freeField(solver, until, motion=None, sides='both', distance=None):
 	_requireArguments(solver, until, motion, sides, distance)
 	body = _Body(solver, motion)
 	distance = body.width / 2 if distance is None else distance
-	edges = []
-	for side in ('left', 'right') if sides == 'both' else (sides, ):
-		column = _Column(body, side)
-		edges.append(wrapper.MpmFreeField(surface=column.line, distance=distance, **column.run(until)))
-	if motion is not None:
-		edges.append(wrapper.MpmFreeField(surface=body.base(body.left, body.right), motion=motion))
+	columns = {side: _Column(body, side) for side in (('left', 'right') if sides == 'both' else (sides, ))}
+	edges = [wrapper.MpmFreeField(surface=column.line, distance=distance, **column.run(until)) for column in columns.values()]
+	if motion is not None: edges.append(_base(body, [columns[min(columns)], columns[max(columns)]], distance))
 	return edges
+
+
+def _base(body, columns, distance):
+	"""The edge through which the wave comes. Springs hold it to the bases of the columns at both sides, and between them to what lies between."""
+	line = body.base(body.left, body.right)
+	if math.isinf(distance): return wrapper.MpmFreeField(surface=line, motion=body.motion)
+	times = columns[0].times
+	share = (np.array(line)[:, 0] - body.left) / body.width
+	displacements = (1 - share)[:, None] * columns[0].ofBase[:, None] + share[:, None] * columns[1].ofBase[:, None]
+	speed = np.interp(times, *np.transpose(body.motion.history), left=0, right=0)
+	velocities = np.broadcast_to(2 * speed[:, None, None] * np.array(body.motion.direction)[:2], displacements.shape)
+	return wrapper.MpmFreeField(surface=line, distance=distance, times=times.tolist(), velocities=velocities.ravel().tolist(), displacements=displacements.ravel().tolist(), forces=[0.] * displacements.size)
 
 
 def _requireArguments(solver, until, motion, sides, distance):
@@ -78,8 +87,8 @@ class _Body:
 		self.boundaries, self.absorbing, self.water = ([one for i, one in enumerate(getattr(solver, kind)) if self._isAcross(f'{kind}[{i}]', one)] for kind in ('boundaries', 'absorbing', 'water'))
 
 	def base(self, first, last):
-		"""Vertices of the base, whose pieces are so short that they are not divided."""
-		return [(x, self.bottom, self.z) for x in np.linspace(first, last, (_pieces + 1) * round((last - first) / self.h) + 1)]
+		"""Vertices of the base."""
+		return [(x, self.bottom, self.z) for x in np.linspace(first, last, _pieces * round((last - first) / self.h) + 1)]
 
 	def _line(self, name, at, axis):
 		"""The line of the grid at an edge of the body, which static steps may have moved by a little."""
@@ -192,7 +201,8 @@ class _Column:
 		velocities, places, stresses = (np.array(values) for values in zip(*told))
 		forces = self._forces(places, stresses)
 		flat = lambda values: values[..., :2].ravel().tolist()
-		return dict(times=(start + dt * np.arange(steps + 1)).tolist(), velocities=flat(velocities), displacements=flat(places - places[0]), forces=flat(forces - forces[0]))
+		self.times, self.ofBase = start + dt * np.arange(steps + 1), (places - places[0])[:, 0 if self.side == 'right' else -1, :2]
+		return dict(times=self.times.tolist(), velocities=flat(velocities), displacements=flat(places - places[0]), forces=flat(forces - forces[0]))
 
 	def _stresses(self):
 		"""Total stress (rows, 2, 2) [Pa] of the points beside the line, mean of each row."""

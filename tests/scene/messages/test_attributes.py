@@ -222,6 +222,7 @@ admitted = {
         ('MpmImplicitEngine.boundaries', '()'): 'nothing is held',
         ('MpmDynamicEngine.absorbing', '()'): 'nothing absorbs',
         **{(f'MpmFreeField.{name}', '()'): 'nothing moves beyond' for name in ('times', 'velocities', 'displacements', 'forces')},
+        **{(f'MpmFreeField.{name}', '[1]'): 'numbers' for name in ('times', 'velocities', 'displacements', 'forces')},
         ('MpmFreeField.distance', 'inf'): 'no springs',
         ('MpmGrid.refinements', '()'): 'equal cells',
         ('MpmImplicitEngine.loads', '()'): 'nothing is loaded',

@@ -386,6 +386,16 @@ def test_earthquake(yade):
 	assert (run.folder / 'out/earthquake/earthquake.png').stat().st_size > 20000
 
 
+def test_slope_that_is_shaken(yade):
+	"""A record of two seconds, cells of 5 m; at most 40 lines."""
+	script = root / 'examples' / 'earthquake' / 'slope.py'
+	assert len(script.read_text().splitlines()) <= 40
+	run = yade(script, 2, 5)
+	crest, toe, base, drift = map(float, re.search(r'crest (\S+) m, toe (\S+) m, base (\S+) m; edges from free ground (\S+) m', run.stdout).groups())
+	assert crest > 3 * toe and crest > 10 * base and 0 < drift < 0.05 * crest, run.stdout
+	assert (run.folder / 'out/earthquake/slope.png').stat().st_size > 20000
+
+
 def test_runout(yade):
 	"""One broad column on a coarse grid, against channel experiments."""
 	run = yade(root / 'examples' / 'runout' / 'runout.py', '--aspects', 1, '--cells', 5, '--film', 1)

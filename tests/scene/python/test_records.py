@@ -171,6 +171,10 @@ quake = mpm.record(list(zip(t[:401] / 4, 0.01 * pulse(t[:401]))), unit='m/s2')
 O.engines = [MpmDynamicEngine(grid=grid, verbosity=0, rayleigh=(0, 3e-2), boundaries=[MpmBoundary(max=(inf, 0, inf), fix='xy', motion=quake.motion(start=0.1))])]
 h = mpm.histories(mpm.arrays()['id'], record=['displacement', 'velocity', 'acceleration', 'stress'])
 refused(lambda: h.spectrum(), 'too few')
+for call, expected in {"mpm.peaks('velocity')": 'sequence', "mpm.peaks(['speed'])": 'not known', "mpm.peaks(['stress'])": 'stress_xy', "mpm.peaks(every=0)": '>= 1', "mpm.peaks(label='a b')": 'letters', "mpm.peaks.loaded('none')": 'nothing'}.items():
+	refused(lambda: eval(call), expected)
+mpm.peaks(['acceleration', 'stress_xy'])
+refused(lambda: mpm.peaks(), 'is taken')
 O.dt = 0.01
 O.run(500, wait=True)
 points = mpm.arrays()
@@ -192,9 +196,14 @@ largest = h.largest('acceleration')
 assert largest.shape == (len(h.ids),) and largest[top] > largest[base] > 0
 assert (largest == np.linalg.norm(h['acceleration'], axis=2).max(axis=0)).all() and (h.largest('stress_xy') >= 0).all()
 mpm.plot(largest, fileName='largest.png')
+kept = mpm.peaks.loaded()
+assert (kept.ids == h.ids).all() and (kept['acceleration'] == largest).all() and (kept['stress_xy'] == h.largest('stress_xy')).all()
+assert (kept.time['acceleration'] == np.array(h.time)[np.linalg.norm(h['acceleration'], axis=2).argmax(axis=0)]).all()
+height, ratio = h.overHeight()
+assert (np.diff(height) >= 0).all() and ratio[0] == 1 and ratio[-1] == largest[np.argsort(points['pos0'][:, 1], kind='stable')][-1] / largest[np.argsort(points['pos0'][:, 1], kind='stable')][0] > 1
 for call, expected in {
 		"h.spectrum('velocity')": 'one component', "h.spectrum(frequencies=[-1])": '> 0', "h.spectrum(frequencies=[60])": '50 Hz', "h.amplification(-1, 0)": 'place in h.ids',
-		"h.amplification(0, 1.5)": 'place in h.ids', "h.permanent(100)": '5 s that are recorded', "h.permanent(0)": 'more than 0', "h.largest('stress')": 'one component',
+		"h.amplification(0, 1.5)": 'place in h.ids', "h.permanent(100)": '5 s that are recorded', "h.permanent(0)": 'more than 0', "h.largest('stress')": 'one component', "h.overHeight(axis=3)": '0, 1 or 2',
 		"h.amplification(top, base, 'velocity_z')": 'is 0 at all times', "h.spectrum('speed')": 'not recorded'}.items():
 	refused(lambda: eval(call), expected)
 ''')

@@ -3,7 +3,6 @@
 #include "core/base/sentence.hpp"
 #include "engine/analysis/analysis.hpp"
 #include "engine/conditions/shaking/free_fields.hpp"
-#include "engine/parallel/processes.hpp"
 #include "yade_api/registration.hpp"
 
 namespace yade {
@@ -44,14 +43,13 @@ void MpmFreeField::requireFitting(const Analysis& analysis, const string& name) 
 		what = "scheme='explicit', as its dashpots join several nodes: take 'newmark' or 'generalised-alpha'";
 	else if (analysis.grid->axisymmetric)
 		what = "an axis of symmetry: take MpmAbsorbingBoundary";
-	else if (processes()->size() > 1)
-		what = "several processes yet: take one";
 	if (!what.empty()) throw std::invalid_argument(name + ", an MpmFreeField, cannot go with " + what + ".");
 }
 
 void MpmFreeField::tell(Rows& rows, const Analysis& analysis, const Listed& listed) const
 {
 	rows.setVector("load" + std::to_string(listed.number), reaction, analysis.grid->dim);
+	rows.set("load" + std::to_string(listed.number) + "_drift", drift);
 }
 
 } // namespace yade

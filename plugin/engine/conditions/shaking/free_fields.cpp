@@ -11,8 +11,8 @@ namespace {
 	using gimpm::Mat;
 	using gimpm::Vec;
 
-	// The point whose domain is nearest to a place, as seen from its middle by its extent, and how far away that is: 1
-	// at the edge of the domain.
+	// The point whose domain is nearest to a place, as seen from its middle by its extent, and how far away that
+	// is: 1 at the edge of the domain.
 	std::pair<int, Real> nearestPoint(const gimpm::PointCloud<2>& cloud, const Vec<2>& place)
 	{
 		std::pair<int, Real> nearest { -1, std::numeric_limits<Real>::infinity() };
@@ -135,6 +135,7 @@ std::shared_ptr<FreeFields::Edge> FreeFields::edgeOf(const Listed& listed, const
 
 void FreeFields::join(gimpm::Model<2>& model, const Surroundings<2>& around)
 {
+	if (model.processes->size() > 1) throw std::invalid_argument("MpmFreeField cannot go with several processes yet: start the script with one.");
 	for (const Listed& listed : group)
 		edges.push_back(edgeOf(listed, model, around.cloud));
 	for (const auto& edge : edges)
@@ -170,6 +171,10 @@ void FreeFields::reach(const StepOutcome<2>&)
 		to.velocity           = inSpace<2>(edge->velocity, 0);
 		to.reaction           = Vector3r::Zero();
 		to.reaction.head<2>() = edge->force + edge->springForce;
+		if (to.times.empty()) continue;
+		to.drift = 0;
+		for (size_t v = 0; v < edge->surface.vertices.size(); ++v)
+			to.drift = std::max(to.drift, (edge->surface.vertices[v] - edge->surface.vertices0[v] - edge->now.displacement[v]).norm());
 	}
 }
 
