@@ -137,7 +137,8 @@ namespace {
 		EXPECT_EQ(basis.largestWallOverlap, 0);
 	}
 
-	/// Averaged over its domain, half of which lies behind the wall, it would move through it; another one stays as it is.
+	/// Averaged over its domain, half of which lies behind the wall, it would move through it; another one stays as
+	/// it is.
 	TEST(Wall, AMiddleThatIsCarriedToItStaysBefore)
 	{
 		PointCloud<2> before;
