@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Nothing lies behind a wall: a face whose nodes are all held along its normal.
+#include "core/stepping/beyond_walls.hpp"
 #include "scenes.hpp"
 #include <set>
 
@@ -134,6 +135,29 @@ namespace {
 		EXPECT_EQ(basis.cells.size(), 9u);
 		EXPECT_EQ(basis.nodes.size(), 16u);
 		EXPECT_EQ(basis.largestWallOverlap, 0);
+	}
+
+	/// Averaged over its domain, half of which lies behind the wall, it would move through it; another one stays as
+	/// it is.
+	TEST(Wall, AMiddleThatIsCarriedToItStaysBefore)
+	{
+		PointCloud<2> before;
+		addPoint<2>(before, { 0.02, 0.5 }, { 0.5, 0.3 });
+		addPoint<2>(before, { 0.45, 0.5 }, { 0.5, 0.3 });
+		Model<2> model;
+		model.materials = { { Hencky(1, 0), 1 } };
+		model.boundary  = Boundary<2>({ wallBelow<2>(model.grid, 0, 0) });
+		StepReport          report;
+		const StepSystem<2> system(before, model, {}, report);
+		const auto          d      = nodal<2>(system.basis, model.grid, [](const Vec<2>& x) { return Vec<2>(-0.5 * x[0], 0.1); });
+		const Vec<2>        passed = { 0.02 - 0.5 * 0.52 * 0.52 / 2, 0.6 }, beside = { 0.2, 0.6 };
+		ASSERT_LT(passed[0], 0);
+		PointCloud<2> after = before;
+		after.position      = { passed, beside };
+		keepBeforeWalls(after, before, system, d);
+		EXPECT_NEAR(after.position[0][0], 0.01, 1e-15);
+		EXPECT_EQ(after.position[0][1], passed[1]);
+		EXPECT_EQ(after.position[1], beside);
 	}
 
 	TEST(Wall, TheLargestOverlapOfAllPointsAndAxesIsReported)

@@ -7,8 +7,7 @@
 namespace gimpm::testWithinCells {
 namespace {
 
-	/// Random overlapping domains of three materials with mean stresses of their own, each point moved by more than a
-	/// quarter of a cell.
+	/// Random overlapping domains of three materials with mean stresses of their own.
 	template <int Dim> struct Scene {
 		Random          random { 5 };
 		Model<Dim>      model;

@@ -223,6 +223,19 @@ print(json.dumps([]))
 	assert words.count('is 0.04 m thick, less than a cell (0.25 m)') == 2 and words.count('Cells of at most 0.04 m resolve it') == 2 and words.count('Soil on its two sides') == 1
 
 
+def test_bodies_that_stand_far_from_the_soil_are_warned_of(yade):
+	"""Not those that come, nor where another one is near."""
+	run = yade(scene + '''
+for ends in ([((0.5, 30, 0), (0.2, 0.5, 1), {})], [((0.5, 30, 0), (0.2, 0.5, 1), dict(velocity=(0, -0.01, 0)))], [((0.5, 30, 0), (0.2, 0.5, 1), {}), ((0.5, 1.6, 0), (0.2, 0.5, 1), {})]):
+	solver = soil(contacts=[MpmContact(friction=0.3, mask=1)])
+	for middle, size, more in ends: box(middle, size, **more)
+	O.run(2, wait=True)
+print(json.dumps([]))
+''')
+	words = run.stdout + run.stderr
+	assert words.count('m away from the soil, more than 10 cells, and is the nearest one that MpmContact has') == 1
+
+
 def test_an_impact_keeps_momentum_with_any_period_that_is_admitted(yade):
 	"""A sphere meets a slab that nothing holds: what it loses the slab has got. Where the period is too long for a light sphere, which would come off faster than it came, it is refused."""
 	results, light = yade(scene + '''

@@ -207,6 +207,7 @@ template <int Dim> void Contacts<Dim>::join(gimpm::Model<Dim>& model, const Surr
 		return std::tie(a.body, a.number) < std::tie(b.body, b.number);
 	});
 	advanceTo(begin);
+	if (!inTime && model.division->isWhole()) distance = warningOfDistance(around.cloud); // in time soil may come by itself
 	model.terms.push_back([known = system](const gimpm::Beginning<Dim>& step) { return std::make_unique<gimpm::Contact<Dim>>(*known, step); });
 	const auto shrink = [known = system](const gimpm::PointCloud<Dim>&, Real scale) {
 		for (auto& record : known->records)
@@ -304,19 +305,19 @@ template <int Dim> void Contacts<Dim>::requireKept() const
 			owners[i].contact->requireStable(*owners[i].body, system->loads[i].stiffness, dt, isBetween());
 }
 
-// In steps in time soil may come to a body by itself.
-template <int Dim> string Contacts<Dim>::warningOfPlace(const gimpm::PointCloud<Dim>& cloud, const gimpm::Grid<Dim>&) const
+template <int Dim> string Contacts<Dim>::warningOfDistance(const gimpm::PointCloud<Dim>& cloud) const
 {
-	constexpr Real far = 10; // cells
-	if (inTime || cloud.size() == 0) return "";
+	constexpr Real far   = 10; // cells
+	const auto     stays = [](const Owner& owner) {
+                return owner.isNew && !owner.byYade && angleBetween(owner.begin, owner.target) < 1e-7 && owner.begin.position == owner.target.position;
+	};
+	if (cloud.size() == 0 || !std::all_of(owners.begin(), owners.end(), stays)) return "";
 	gimpm::Vec<Dim> low = cloud.position[0], high = low;
 	for (size_t p = 0; p < cloud.size(); ++p)
 		low = low.cwiseMin(cloud.position[p] - cloud.halfSize[p]), high = high.cwiseMax(cloud.position[p] + cloud.halfSize[p]);
 	Real                         least   = std::numeric_limits<Real>::infinity();
 	const gimpm::RigidBody<Dim>* nearest = nullptr;
 	for (const auto& body : system->bodies) {
-		const Owner& owner = owners[body.owner];
-		if (owner.byYade || owner.byScript || angleBetween(owner.begin, owner.target) > 0 || owner.begin.position != owner.target.position) return "";
 		const auto [from, to] = body.bounds(body.begin);
 		const Real away       = (from - high).cwiseMax(low - to).cwiseMax(0).norm();
 		if (away < least) least = away, nearest = &body;
@@ -356,6 +357,7 @@ template <int Dim> std::map<string, string> Contacts<Dim>::warnings() const
 {
 	std::map<string, string> found;
 	found["coefficient"] = coefficient;
+	found["distance"]    = distance;
 	found["thin"]        = warningOfThinness();
 	return found;
 }

@@ -35,9 +35,6 @@ public:
 	// The largest of their stiffnesses.
 	Penalty penalty() const override;
 
-	// About bodies that are far from the soil and do not come.
-	string warningOfPlace(const gimpm::PointCloud<Dim>&, const gimpm::Grid<Dim>&) const override;
-
 	// What the soil cannot feel of bodies near it, and others.
 	std::map<string, string> warnings() const override;
 
@@ -75,6 +72,9 @@ private:
 	void keep(MpmContact&);
 	void keepRecords() const;
 
+	// In the first run, about bodies that are far from the soil and do not come.
+	string warningOfDistance(const gimpm::PointCloud<Dim>&) const;
+
 	// About a body that does not part the soil on its two sides.
 	string warningOfThinness() const;
 
@@ -90,6 +90,7 @@ private:
 	bool                                  inTime   = false;
 	SoilAtBody                            soil;
 	string                                coefficient; // doubt about an angle of friction
+	string                                distance;    // and about where the bodies are
 	std::optional<Movers>                 movers;
 };
 
