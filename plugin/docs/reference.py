@@ -11,7 +11,7 @@ folder = os.path.dirname(os.path.abspath(__file__))
 flags = re.compile(r'\s*:yattrflags:`\d+`')
 groups = {
         'Analysis': ['MpmImplicitEngine', 'MpmDynamicEngine', 'MpmGrid', 'MpmRefinement', 'MpmGhost', 'MpmNewton'],
-        'Conditions': ['MpmBoundary', 'MpmAbsorbingBoundary', 'MpmBaseMotion', 'MpmTraction', 'MpmWater', 'MpmFlow', 'MpmDrain', 'MpmSurface', 'MpmContact', 'MpmCondition'],
+        'Conditions': ['MpmBoundary', 'MpmAbsorbingBoundary', 'MpmBaseMotion', 'MpmTraction', 'MpmReinforcement', 'MpmBeam', 'MpmWater', 'MpmFlow', 'MpmDrain', 'MpmSurface', 'MpmContact', 'MpmCondition'],
         'Materials': ['MpmElasticMat', 'MpmVonMisesMat', 'MpmTrescaMat', 'MpmMohrCoulombMat', 'MpmDruckerPragerMat', 'MpmCamClayMat', 'MpmFrictionalMat', 'MpmMaterial'],
         'Material points': ['MpmPoint', 'MpmState'],
         'Output': ['MpmVtkRecorder'],

@@ -67,6 +67,7 @@ from .collecting import collect, note
 from .colouring import colour
 from .damping import rayleigh, schemeDamping
 from .data import arrays, assign, contactForces
+from .diagrams import diagram
 from .discretisation import discretisationError, stressError
 from .files import load, save
 from . import ending, stages
@@ -92,7 +93,7 @@ from .typical import typicalSand
 from .viewing import view
 
 __version__ = _engine.version
-__all__ = ['polygon', 'fill', 'add', 'refinementsAt', 'arrays', 'assign', 'geostatic', 'seepage', 'plot', 'colour', 'export', 'save', 'load', 'advise', 'discretisationError', 'stressError', 'elementTest', 'respond', 'strengthReduction', 'surface', 'contactForces', 'histories', 'readHistory', 'solid', 'terrain', 'movie', 'view', 'facets', 'frame', 'note', 'collect', 'state', 'examples', 'record', 'rayleigh', 'schemeDamping', 'calibrate', 'typicalSand']
+__all__ = ['polygon', 'fill', 'add', 'refinementsAt', 'arrays', 'assign', 'geostatic', 'seepage', 'plot', 'diagram', 'colour', 'export', 'save', 'load', 'advise', 'discretisationError', 'stressError', 'elementTest', 'respond', 'strengthReduction', 'surface', 'contactForces', 'histories', 'readHistory', 'solid', 'terrain', 'movie', 'view', 'facets', 'frame', 'note', 'collect', 'state', 'examples', 'record', 'rayleigh', 'schemeDamping', 'calibrate', 'typicalSand']
 
 for _name in __all__:
 	_thing = globals()[_name] = _telling(globals()[_name])
