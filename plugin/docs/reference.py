@@ -11,7 +11,7 @@ folder = os.path.dirname(os.path.abspath(__file__))
 flags = re.compile(r'\s*:yattrflags:`\d+`')
 groups = {
         'Analysis': ['MpmImplicitEngine', 'MpmDynamicEngine', 'MpmGrid', 'MpmRefinement', 'MpmGhost', 'MpmNewton'],
-        'Conditions': ['MpmBoundary', 'MpmAbsorbingBoundary', 'MpmFreeField', 'MpmBaseMotion', 'MpmTraction', 'MpmWater', 'MpmFlow', 'MpmDrain', 'MpmSurface', 'MpmContact', 'MpmBodyContact', 'MpmBody', 'MpmCondition'],
+        'Conditions': ['MpmBoundary', 'MpmAbsorbingBoundary', 'MpmFreeField', 'MpmBaseMotion', 'MpmTraction', 'MpmReinforcement', 'MpmBeam', 'MpmWater', 'MpmFlow', 'MpmDrain', 'MpmSurface', 'MpmContact', 'MpmBodyContact', 'MpmBody', 'MpmCondition'],
         'Materials': ['MpmElasticMat', 'MpmVonMisesMat', 'MpmTrescaMat', 'MpmMohrCoulombMat', 'MpmDruckerPragerMat', 'MpmCamClayMat', 'MpmHardeningSoilMat', 'MpmNorSandMat', 'MpmUserMat', 'MpmFrictionalMat', 'MpmMaterial'],
         'Material points': ['MpmPoint', 'MpmState'],
         'Output': ['MpmVtkRecorder'],

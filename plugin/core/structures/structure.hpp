@@ -15,7 +15,7 @@ constexpr double lengthOfPieces = 0.5;
 
 /// A line of vertices in the soil that carries forces along itself only. Vertices move with the soil, and along the bar
 /// against it where the bond yields.
-template <int Dim> struct Bar {
+template <int Dim> struct Reinforcement {
 	static constexpr double inf = std::numeric_limits<double>::infinity();
 
 	enum class Head {
@@ -68,7 +68,7 @@ struct Beam {
 	BeamSection         section;
 	double              plasticMoment = inf;            ///< [N m]
 	Vec<2>              weight        = Vec<2>::Zero(); ///< at the end of the step, over initial length [N/m]
-	bool isClosed = false; ///< the last vertex is the first one
+	bool                isClosed      = false;          ///< the last vertex is the first one
 	std::vector<char>   isHinge;                        ///< by vertex: no moment there
 	std::array<bool, 3> fixedHead {}, fixedFoot {};     ///< x, y and turn of the first and of the last vertex
 	Vec<2>              headForce  = Vec<2>::Zero();    ///< at the end of the step [N]
@@ -127,8 +127,8 @@ struct Beam {
 
 /// What is joined: bars, and a beam that some of them may be anchors of.
 template <int Dim> struct Structure {
-	std::vector<Bar<Dim>> bars;
-	std::optional<Beam>   beam {}; ///< in the plane
+	std::vector<Reinforcement<Dim>> bars;
+	std::optional<Beam>             beam {}; ///< in the plane
 
 	double work = 0; ///< on the soil in the last step that was accepted [J]
 

@@ -70,8 +70,8 @@ template <int Dim> std::vector<SoilAtVertex> StructureForce<Dim>::soilAround(con
 		soil[v].young = near[v].young;
 	}
 	const auto isFar = areFarFromMaterial<Dim>(all, reach, step.cloud, step.grid);
-	forVertices([&](const Bar<Dim>& bar, int v, int i) {
-		using Head           = typename Bar<Dim>::Head;
+	forVertices([&](const Reinforcement<Dim>& bar, int v, int i) {
+		using Head           = typename Reinforcement<Dim>::Head;
 		const bool hasNone   = v == 0 && (bar.head == Head::pulled || bar.head == Head::joined);
 		soil[i].exists       = !hasNone && attached_[i] && !isFar[i];
 		soil[i].normalStress = normalStress(near[i].stress, tangent(bar.places, v));
@@ -109,8 +109,8 @@ template <int Dim> void StructureForce<Dim>::lookBesideBeam(const Beginning<Dim>
 template <int Dim> std::string StructureForce<Dim>::missingSoil(const Beginning<Dim>&, const std::vector<SoilAtVertex>& soil) const
 {
 	std::string missing;
-	forVertices([&](const Bar<Dim>& bar, int v, int i) {
-		using Head         = typename Bar<Dim>::Head;
+	forVertices([&](const Reinforcement<Dim>& bar, int v, int i) {
+		using Head         = typename Reinforcement<Dim>::Head;
 		const bool hasNone = v == 0 && (bar.head == Head::pulled || bar.head == Head::joined);
 		if (!missing.empty() || soil[i].exists || hasNone) return;
 		missing = sentence(
@@ -125,7 +125,7 @@ template <int Dim> std::string StructureForce<Dim>::pulledOut(const std::vector<
 {
 	std::string         text;
 	std::vector<double> strength(structure_.bars.size(), 0);
-	forVertices([&](const Bar<Dim>& bar, int v, int i) {
+	forVertices([&](const Reinforcement<Dim>& bar, int v, int i) {
 		double length = 0;
 		if (v > 0 && !(v == 1 && bar.hasFreeLength)) length += bar.length0[v - 1] / 2;
 		if (v < int(bar.length0.size()) && !(v == 0 && bar.hasFreeLength)) length += bar.length0[v] / 2;
@@ -134,7 +134,7 @@ template <int Dim> std::string StructureForce<Dim>::pulledOut(const std::vector<
 	});
 	for (std::size_t b = 0; b < strength.size(); ++b) {
 		const auto& bar = structure_.bars[b];
-		if (!text.empty() || bar.pull <= strength[b] || !bar.slips() || bar.head == Bar<Dim>::Head::plate) continue;
+		if (!text.empty() || bar.pull <= strength[b] || !bar.slips() || bar.head == Reinforcement<Dim>::Head::plate) continue;
 		text = sentence(
 		        bar.name, " is pulled out: the pull of ", bar.pull, " N is more than its bond can take, ", strength[b],
 		        " N by its strength and the normal stresses on it as they are");

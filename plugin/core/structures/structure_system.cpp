@@ -57,12 +57,12 @@ template <int Dim> StructureSystem<Dim>::StructureSystem(Structure<Dim>& structu
 /// The beam's vertices come first, of which the heads of bars may be copies.
 template <int Dim> void StructureSystem<Dim>::number(const std::vector<SoilAtVertex>& soil)
 {
-	using Head = typename Bar<Dim>::Head;
+	using Head = typename Reinforcement<Dim>::Head;
 	stations_.resize(structure_.vertices());
 	const int ofBeam = structure_.beam ? int(structure_.beam->places.size()) : 0;
 	for (int v = 0; v < ofBeam; ++v)
 		stations_[v].isFree = true;
-	forBars([&](const Bar<Dim>& bar, int first) {
+	forBars([&](const Reinforcement<Dim>& bar, int first) {
 		if (bar.head == Head::pulled) stations_[first].moves = false;
 	});
 	for (int v = 0; v < int(stations_.size()); ++v)
@@ -72,7 +72,7 @@ template <int Dim> void StructureSystem<Dim>::number(const std::vector<SoilAtVer
 		}
 	soilUnknowns_ = unknowns_;
 	if constexpr (Dim == 2) numberBeam();
-	forBars([&](const Bar<Dim>& bar, int first) {
+	forBars([&](const Reinforcement<Dim>& bar, int first) {
 		const int last = int(bar.places.size()) - 1;
 		for (int v = 0; v <= last; ++v) {
 			Station& station = stations_[first + v];
@@ -108,7 +108,7 @@ template <int Dim> void StructureSystem<Dim>::addSprings(const std::vector<SoilA
 	if constexpr (Dim == 2)
 		for (int v = 0; structure_.beam && v < int(structure_.beam->places.size()); ++v)
 			addBeamSprings(v, soil[v]);
-	forBars([&](Bar<Dim>& bar, int first) {
+	forBars([&](Reinforcement<Dim>& bar, int first) {
 		for (std::size_t v = 0; v < bar.places.size() && bar.slips(); ++v) {
 			const Station& station = stations_[first + v];
 			if (station.slip < 0 || !station.moves) continue;
@@ -185,7 +185,7 @@ template <int Dim> std::array<LinearForm, 6> StructureSystem<Dim>::beamEnds(int 
 	return forms;
 }
 
-template <int Dim> BarPiece<Dim> StructureSystem<Dim>::piece(const Bar<Dim>& bar, std::size_t i) const
+template <int Dim> BarPiece<Dim> StructureSystem<Dim>::piece(const Reinforcement<Dim>& bar, std::size_t i) const
 {
 	BarPiece<Dim> made { bar.places[i + 1] - bar.places[i], bar.strain[i], bar.length0[i] };
 	if (i == 0 || !bar.hasFreeLength) made.given = bar.jack;
@@ -221,7 +221,7 @@ template <int Dim> void StructureSystem<Dim>::addLoads(const Eigen::VectorXd& x,
 		energy.gradient[0] = -force;
 		sum.add<1>({ along }, energy);
 	};
-	forBars([&](const Bar<Dim>& bar, int first) {
+	forBars([&](const Reinforcement<Dim>& bar, int first) {
 		const Vec<Dim> outwards = (bar.places[0] - bar.places[1]).normalized();
 		for (int a = 0; a < Dim; ++a)
 			add(component(stations_[first], a), bar.pull * outwards[a]);
@@ -241,7 +241,7 @@ template <int Dim> void StructureSystem<Dim>::addLoads(const Eigen::VectorXd& x,
 template <int Dim> EnergySum StructureSystem<Dim>::energyAt(const Eigen::VectorXd& x, bool secants) const
 {
 	EnergySum sum(unknowns_);
-	forBars([&](const Bar<Dim>& bar, int first) {
+	forBars([&](const Reinforcement<Dim>& bar, int first) {
 		for (std::size_t i = 0; i < bar.length0.size(); ++i) {
 			const auto forms = ends(first + int(i), first + int(i) + 1);
 			sum.add<2 * Dim>(forms, energyOf<Dim>(piece(bar, i), bar.section, valuesOf<2 * Dim>(forms, x)));
@@ -345,7 +345,7 @@ template <int Dim> Eigen::MatrixXd StructureSystem<Dim>::condensed(const EnergyS
 template <int Dim> std::vector<std::pair<int, int>> StructureSystem<Dim>::joinedVertices() const
 {
 	std::vector<std::pair<int, int>> joined;
-	forBars([&](const Bar<Dim>& bar, int first) {
+	forBars([&](const Reinforcement<Dim>& bar, int first) {
 		for (int i = 0; i < int(bar.places.size()); ++i) {
 			joined.emplace_back(first + i, first + i);
 			if (i > 0) joined.emplace_back(first + i - 1, first + i);
@@ -354,7 +354,7 @@ template <int Dim> std::vector<std::pair<int, int>> StructureSystem<Dim>::joined
 	return joined;
 }
 
-template <int Dim> void StructureSystem<Dim>::commitBar(Bar<Dim>& bar, int first, const Eigen::VectorXd& x)
+template <int Dim> void StructureSystem<Dim>::commitBar(Reinforcement<Dim>& bar, int first, const Eigen::VectorXd& x)
 {
 	std::vector<Vec<Dim>> moved = bar.places;
 	for (std::size_t v = 0; v < moved.size(); ++v)
@@ -403,7 +403,7 @@ template <int Dim> void StructureSystem<Dim>::commit(const Eigen::VectorXd& x)
 		*spring.memory     = spring.isReversed ? -force : force;
 		if (spring.gap) *spring.gap = spring.oneSided && trial < 0 ? -trial / spring.stiffness : 0;
 	}
-	forBars([&](Bar<Dim>& bar, int first) { commitBar(bar, first, x); });
+	forBars([&](Reinforcement<Dim>& bar, int first) { commitBar(bar, first, x); });
 	if constexpr (Dim == 2)
 		if (structure_.beam) commitBeam(x);
 }

@@ -64,17 +64,17 @@ private:
 	};
 
 	void                            number(const std::vector<SoilAtVertex>&);
-	bool isSecondOfRing(int vertex) const;
+	bool                            isSecondOfRing(int vertex) const;
 	void                            numberBeam();
 	void                            addSprings(const std::vector<SoilAtVertex>&);
 	void                            addBeamSprings(int vertex, const SoilAtVertex&);
 	std::array<LinearForm, 2 * Dim> ends(int first, int second) const;
 	LinearForm                      component(const Station&, int axis) const;
-	BarPiece<Dim>                   piece(const Bar<Dim>&, std::size_t number) const;
+	BarPiece<Dim>                   piece(const Reinforcement<Dim>&, std::size_t number) const;
 	std::array<LinearForm, 6>       beamEnds(int first) const;
 	BeamPiece                       beamPiece(std::size_t number) const;
 	void                            addLoads(const Eigen::VectorXd& x, EnergySum&) const;
-	void                            commitBar(Bar<Dim>&, int first, const Eigen::VectorXd& x);
+	void                            commitBar(Reinforcement<Dim>&, int first, const Eigen::VectorXd& x);
 	void                            commitBeam(const Eigen::VectorXd& x);
 	Eigen::VectorXd                 direction(const EnergySum&) const;
 	Solution                        iterate(Eigen::VectorXd from, int mostSteps, bool secants) const;

@@ -72,6 +72,7 @@ from .collecting import collect, note
 from .colouring import colour
 from .damping import rayleigh, schemeDamping
 from .data import arrays, assign, contactForces
+from .diagrams import diagram
 from .discretisation import discretisationError, stressError
 from .files import load, save
 from . import ending, stages
@@ -100,7 +101,7 @@ from .typical import typicalSand
 from .viewing import view
 
 __version__ = _engine.version
-__all__ = ['polygon', 'fill', 'add', 'refinementsAt', 'arrays', 'assign', 'geostatic', 'seepage', 'plot', 'colour', 'export', 'save', 'load', 'advise', 'discretisationError', 'stressError', 'elementTest', 'respond', 'checkLaw', 'strengthReduction', 'surface', 'contactForces', 'histories', 'readHistory', 'solid', 'terrain', 'movie', 'view', 'facets', 'frame', 'note', 'collect', 'state', 'examples', 'record', 'peaks', 'freeField', 'rayleigh', 'schemeDamping', 'calibrate', 'typicalSand', 'sectionForces']
+__all__ = ['polygon', 'fill', 'add', 'refinementsAt', 'arrays', 'assign', 'geostatic', 'seepage', 'plot', 'diagram', 'colour', 'export', 'save', 'load', 'advise', 'discretisationError', 'stressError', 'elementTest', 'respond', 'checkLaw', 'strengthReduction', 'surface', 'contactForces', 'histories', 'readHistory', 'solid', 'terrain', 'movie', 'view', 'facets', 'frame', 'note', 'collect', 'state', 'examples', 'record', 'peaks', 'freeField', 'rayleigh', 'schemeDamping', 'calibrate', 'typicalSand', 'sectionForces']
 
 for _name in __all__:
 	_thing = globals()[_name] = _telling(globals()[_name])

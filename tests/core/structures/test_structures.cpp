@@ -215,11 +215,11 @@ namespace {
 			model.coupledTerms
 			        = { [this](const Beginning<Dim>& step, const State&) { return std::make_unique<StructureForce<Dim>>(structure, step); } };
 		}
-		Bar<Dim>& nail()
+		Reinforcement<Dim>& nail()
 		{
 			structure.bars.resize(1);
-			Bar<Dim>& bar = structure.bars[0];
-			bar.section   = { 1e6, infinity, false };
+			Reinforcement<Dim>& bar = structure.bars[0];
+			bar.section             = { 1e6, infinity, false };
 			Vec<Dim> from = Vec<Dim>::Constant(0.3), to = from;
 			from[1] = 1.7, to[0] = 2.6, to[1] = 1.1;
 			bar.begin(divided<Dim>({ from, to }, lengthOfPieces * model.grid.cellSize));
@@ -264,7 +264,7 @@ namespace {
 	TYPED_TEST(Structures, FreeLengthsHaveTheTangentOfTheirForce)
 	{
 		constexpr int Dim = TypeParam::value;
-		using Head        = typename Bar<Dim>::Head;
+		using Head        = typename Reinforcement<Dim>::Head;
 		for (const Head head : { Head::plate, Head::pulled }) {
 			Ground<Dim> ground;
 			auto&       bar   = ground.nail();
@@ -290,7 +290,7 @@ namespace {
 			ground.structure.bars.resize(1);
 			auto& anchor   = ground.structure.bars[0];
 			anchor.section = { 1e6 };
-			anchor.head = Bar<2>::Head::joined, anchor.joint = 3, anchor.hasFreeLength = true;
+			anchor.head = Reinforcement<2>::Head::joined, anchor.joint = 3, anchor.hasFreeLength = true;
 			anchor.begin({ beam.places[3], { 1.6, 0.9 }, { 1.8, 0.7 } });
 			EXPECT_LT(ground.tangentError(), 1e-7);
 		}

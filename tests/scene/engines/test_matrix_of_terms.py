@@ -39,6 +39,8 @@ def scene(term, grid, young=None, sides=(0, width), distributed=False, weight=10
 	surface = [(width, high), (0, high)]
 	if term == 'pressure': solver.loads = [MpmTraction(surface=surface, pressure=2e4)]
 	if term == 'traction' or isPressed: solver.loads = [MpmTraction(surface=surface, traction=(0, -2e4, 0))]
+	if term == 'bar': solver.loads = [MpmReinforcement(line=[(shift + 1, 1.3), (shift + 4, 2.2)], axialStiffness=1e6, tensionOnly=False), *solver.loads]
+	if term == 'beam': solver.loads = [MpmBeam(line=[(shift + 1, 3), (shift + 4, 3)], axialStiffness=1e8, bendingStiffness=1e5, weight=1e4), *solver.loads]
 	if term == 'water': solver.water = [MpmWater(level=1.7)]
 	if term == 'undrained': O.materials[0].undrained, O.materials[0].waterModulus = True, 5e6
 	if term == 'flow':
@@ -81,7 +83,7 @@ def apart(one, other, names=('moved', 'stress'), axes=slice(0, 2)):
 soft = lambda x: 1e6 * (1 - .4 * np.cos(2 * np.pi * (x[0] - .7) / width))
 '''
 
-terms = 'internal force', 'F-bar', 'ghost', 'traction', 'pressure', 'water', 'wall', 'contact', 'undrained', 'flow', 'inertia', 'explicit', 'Rayleigh damping', 'absorbing', 'base motion'
+terms = 'internal force', 'F-bar', 'ghost', 'traction', 'pressure', 'bar', 'beam', 'water', 'wall', 'contact', 'undrained', 'flow', 'inertia', 'explicit', 'Rayleigh damping', 'absorbing', 'base motion'
 alone = setting + '''
 def onPeriod(term):
 	"""What is soft lies across the seam, or two cells away from there."""
@@ -136,6 +138,8 @@ equal = 'cells of several sizes, cannot go with '
 # What differs from right in a cell: a larger bound, or the words of the refusal.
 others = {
         ('pressure', 'refinements'): 'a surface under pressure goes from cells of one size to cells of another',
+        **{(term, 'divided'): f'{name} cannot go with distributed=True' for term, name in (('bar', 'MpmReinforcement'), ('beam', 'MpmBeam'))},
+        **{(term, 'axisymmetric'): f'{name} cannot go with MpmGrid.axisymmetric' for term, name in (('bar', 'MpmReinforcement'), ('beam', 'MpmBeam'))},
         ('water', 'refinements'): equal + 'water',
         ('flow', 'refinements'): equal + 'flow',
         ('flow', 'divided'): 'MpmFlow cannot go with several processes',

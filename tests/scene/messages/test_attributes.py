@@ -168,6 +168,34 @@ outOfRange = {
         'MpmTraction.pressure': None,
         'MpmTraction.traction': None,
         'MpmTraction.curve': ['[(0, 0), (0, 1)]', '[(1, 0), (0, 1)]'],
+        'MpmReinforcement.line': ['[(1, 1)]', '[(1, 1), (1, 1)]', '[(1, 1), (2, nan)]'],
+        'MpmReinforcement.axialStiffness': ['0.', '-1.'],
+        'MpmReinforcement.tensionOnly': None,
+        'MpmReinforcement.strength': ['0.', '-1.'],
+        'MpmReinforcement.bond': ['-1.'],
+        'MpmReinforcement.friction': ['-0.1', '30.', '1.5708'],
+        'MpmReinforcement.perimeter': ['0.', '-1.'],
+        'MpmReinforcement.bondStiffness': ['0.', '-1.'],
+        'MpmReinforcement.freeLength': ['-1.', '5.'],
+        'MpmReinforcement.headPlate': None,
+        'MpmReinforcement.pull': ['-1.'],
+        'MpmReinforcement.pretension': ['-1.'],
+        'MpmReinforcement.curve': ['[(0, 0), (0, 1)]', '[(1, 0), (0, 1)]'],
+        'MpmBeam.line': ['[(1, 1)]', '[(1, 1), (1, 1)]', '[(1, 1), (2, 1), (1, 1)]'],
+        'MpmBeam.axialStiffness': ['0.', '-1.'],
+        'MpmBeam.bendingStiffness': ['0.', '-1.'],
+        'MpmBeam.plasticMoment': ['0.', '-1.'],
+        'MpmBeam.weight': ['-1.'],
+        'MpmBeam.hinges': ['[(1,)]'],
+        'MpmBeam.fixHead': ['"z"'],
+        'MpmBeam.fixFoot': ['"xyz"'],
+        'MpmBeam.headForce': None,
+        'MpmBeam.headMoment': None,
+        'MpmBeam.adhesion': ['-1.'],
+        'MpmBeam.friction': ['-0.1', '30.', '1.5708'],
+        'MpmBeam.stiffness': ['0.', '-1.'],
+        'MpmBeam.anchors': None,
+        'MpmBeam.curve': ['[(0, 0), (0, 1)]', '[(1, 0), (0, 1)]'],
         'MpmImplicitEngine.contacts': None,
         'MpmContact.mask': None,
         'MpmContact.friction': ['-0.1', '30.', '1.5708'],
@@ -244,6 +272,12 @@ admitted = {
         ('MpmDrain.flux', 'nan'): 'pressure or level',
         ('MpmDrain.curve', '()'): 'one',
         ('MpmImplicitEngine.contacts', '()'): 'nothing touches',
+        **{(f'MpmReinforcement.{name}', 'inf'): 'no limit' for name in ('strength', 'bond', 'bondStiffness')},
+        ('MpmReinforcement.perimeter', 'nan'): 'both faces of a sheet',
+        **{(f'{class_}.curve', '()'): 'loadCurve' for class_ in ('MpmReinforcement', 'MpmBeam')},
+        **{(f'MpmBeam.{name}', 'inf'): 'no limit' for name in ('plasticMoment', 'adhesion')},
+        **{(f'MpmBeam.{name}', '()'): 'none' for name in ('hinges', 'anchors')},
+        **{(f'MpmBeam.{name}', '""'): 'it is free' for name in ('fixHead', 'fixFoot')},
         ('MpmContact.friction', 'nan'): 'that of the bodies',
         ('MpmContact.adhesion', 'inf'): 'no cap',
         ('MpmBodyContact.adhesion', 'inf'): 'no cap',
@@ -266,6 +300,7 @@ nan = float('nan')
 dynamic = 'MpmDynamicEngine', 'MpmAbsorbingBoundary', 'MpmBaseMotion', 'MpmFreeField'
 flowing = 'MpmFlow', 'MpmDrain'
 meeting = 'MpmBodyContact', 'MpmBody'
+structures = 'MpmReinforcement', 'MpmBeam'
 
 def scene(engine='MpmImplicitEngine'):
 	"""A sound scene with this engine, where it names one; {class: the object of it that takes part}."""
@@ -300,6 +335,9 @@ def scene(engine='MpmImplicitEngine'):
 	if engine in flowing:
 		solver.flow = MpmFlow(drains=[drain])
 		for material in list(O.materials)[:8]: material.conductivity, material.porosity = 1e-4, .4
+	nail = MpmReinforcement(line=[(.3, 2.5), (1.7, 2.2)], axialStiffness=1e4)
+	beam = MpmBeam(line=[(.2, 3), (1.8, 3)], axialStiffness=1e5, bendingStiffness=1e3, weight=10)
+	if engine in structures: solver.loads = [load, nail, beam]
 	small = MpmRefinement()
 	bodies = MpmBodyContact(between=('low', 'up'), friction=0.1)
 	if engine in meeting: solver.contacts, solver.water = [touch, bodies], []
@@ -307,13 +345,13 @@ def scene(engine='MpmImplicitEngine'):
 	O.engines = [solver, MpmVtkRecorder(fileName='out-', recorders=['all'])]
 	O.dt = 1
 	objects = [*O.engines, *O.materials, O.bodies[5].state, O.bodies[5].shape, grid, base, load, load.surface, water, touch, ghost, newton]
-	return {type(o).__name__: o for o in objects + [edge, wave] * (engine in dynamic[1:]) + [free] * (engine == 'MpmFreeField') + [small] * (engine == 'MpmRefinement') + [solver.flow, drain] * (engine in flowing) + ([bodies, *grid.bodies] if engine in meeting else [])}
+	return {type(o).__name__: o for o in objects + [edge, wave] * (engine in dynamic[1:]) + [free] * (engine == 'MpmFreeField') + [small] * (engine == 'MpmRefinement') + [solver.flow, drain] * (engine in flowing) + ([bodies, *grid.bodies] if engine in meeting else []) + [nail, beam] * (engine in structures)}
 
 def attributes():
 	"""(class, attribute, class of the object to set it on, kind, whether it can only be read) from the classes themselves."""
 	classes = [c for name, c in vars(wrapper).items() if isinstance(c, type) and name.startswith('Mpm')]
 	for c in classes:
-		users = [name for name in [*scene(), *dynamic, *flowing, *meeting, 'MpmRefinement'] if issubclass(getattr(wrapper, name), c)]
+		users = [name for name in [*scene(), *dynamic, *flowing, *meeting, *structures, 'MpmRefinement'] if issubclass(getattr(wrapper, name), c)]
 		for name, value in vars(c).items():
 			if not isinstance(value, property): continue
 			default = getattr(c(), name)

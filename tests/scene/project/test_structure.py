@@ -23,6 +23,7 @@ below = {
         'fields': ['base', 'grid', 'parallel'],
         'solvers': ['base', 'fields', 'grid', 'materials', 'parallel'],
         'terms': ['base', 'fields', 'grid', 'materials', 'parallel', 'solvers'],
+        'structures': ['base', 'fields', 'grid', 'materials', 'parallel', 'solvers', 'terms'],
         'stepping': ['base', 'fields', 'grid', 'materials', 'parallel', 'solvers', 'terms'],
 }
 
@@ -31,7 +32,7 @@ below = {
 engineFolders = ['materials', 'points', 'grid', 'analysis', 'conditions', 'parallel', 'messages', 'output', 'engines']
 # kinds of conditions: whatever else is in the engine knows none of them, but for the engines, which have lists of them,
 # and what Python asks for by name
-kindsOfConditions = {'bodies', 'boundary', 'contact', 'flow', 'shaking', 'surface', 'traction', 'water'}
+kindsOfConditions = {'bodies', 'boundary', 'contact', 'flow', 'shaking', 'structures', 'surface', 'traction', 'water'}
 knowKinds = {'MpmImplicitEngine.cpp', 'MpmDynamicEngine.cpp', 'module.cpp'}
 
 

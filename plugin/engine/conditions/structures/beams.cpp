@@ -76,15 +76,15 @@ namespace {
 	}
 
 	// The anchor's head is where the vertex of the beam is that it is fixed to.
-	gimpm::Bar<2> coreAnchor(const MpmReinforcement& from, const string& name, const Beam& beam, const gimpm::Grid<2>& grid)
+	gimpm::Reinforcement<2> coreAnchor(const MpmReinforcement& from, const string& name, const Beam& beam, const gimpm::Grid<2>& grid)
 	{
-		gimpm::Bar<2> bar = coreBar<2>(from, name, grid);
-		bar.head          = gimpm::Bar<2>::Head::joined;
-		bar.joint         = nearestVertex(beam, bar.places.front());
+		gimpm::Reinforcement<2> bar = coreBar<2>(from, name, grid);
+		bar.head                    = gimpm::Reinforcement<2>::Head::joined;
+		bar.joint                   = nearestVertex(beam, bar.places.front());
 		const Real away = (bar.places.front() - beam.places[bar.joint]).norm(), most = gimpm::lengthOfPieces * grid.cellSize;
 		if (from.vertices.empty() && away > most)
 			throw std::invalid_argument(
-			        name + ".line begins at (" + textOf(placesOf(from.line).front()) + "), " + textOf(away)
+			        name + ".line begins at " + textOf(placesOf(from.line).front()) + ", " + textOf(away)
 			        + " m away from the nearest vertex of the beam: at most " + textOf(most) + " m, half a cell, are admitted.");
 		if (!from.vertices.empty()) return bar;
 		bar.places.front()  = beam.places[bar.joint];

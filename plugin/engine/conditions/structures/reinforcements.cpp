@@ -30,10 +30,10 @@ namespace {
 	}
 }
 
-template <int Dim> gimpm::Bar<Dim> coreBar(const MpmReinforcement& from, const string& name, const gimpm::Grid<Dim>& grid)
+template <int Dim> gimpm::Reinforcement<Dim> coreBar(const MpmReinforcement& from, const string& name, const gimpm::Grid<Dim>& grid)
 {
-	using Head = typename gimpm::Bar<Dim>::Head;
-	gimpm::Bar<Dim> bar;
+	using Head = typename gimpm::Reinforcement<Dim>::Head;
+	gimpm::Reinforcement<Dim> bar;
 	bar.name          = name;
 	bar.section       = { from.axialStiffness, from.strength, from.tensionOnly };
 	bar.head          = from.headPlate ? Head::plate : from.freeLength > 0 ? Head::pulled : Head::bonded;
@@ -54,7 +54,7 @@ template <int Dim> gimpm::Bar<Dim> coreBar(const MpmReinforcement& from, const s
 	return bar;
 }
 
-template <int Dim> void scatterBar(const gimpm::Bar<Dim>& bar, MpmReinforcement& to)
+template <int Dim> void scatterBar(const gimpm::Reinforcement<Dim>& bar, MpmReinforcement& to)
 {
 	to.vertices    = inSpace<Dim>(bar.places, placesOf(to.line).front()[2]);
 	to.lengths     = bar.length0;
@@ -65,7 +65,7 @@ template <int Dim> void scatterBar(const gimpm::Bar<Dim>& bar, MpmReinforcement&
 	to.isStressed  = to.isStressed || bar.jack.has_value();
 }
 
-template <int Dim> void loadBar(gimpm::Bar<Dim>& bar, const MpmReinforcement& from, const gimpm::LoadCurve& curve, const StepTime& step)
+template <int Dim> void loadBar(gimpm::Reinforcement<Dim>& bar, const MpmReinforcement& from, const gimpm::LoadCurve& curve, const StepTime& step)
 {
 	const Real before = curve.valueAt(step.from), now = curve.valueAt(step.to);
 	bar.pull = now * from.pull;
@@ -119,10 +119,10 @@ template <int Dim> void Reinforcements<Dim>::reach(const StepOutcome<Dim>&)
 }
 
 #define MPM_INSTANTIATE(Dim)                                                                                                                                   \
-	template gimpm::Bar<Dim> coreBar<Dim>(const MpmReinforcement&, const string&, const gimpm::Grid<Dim>&);                                                \
-	template void            scatterBar<Dim>(const gimpm::Bar<Dim>&, MpmReinforcement&);                                                                   \
-	template void            loadBar<Dim>(gimpm::Bar<Dim>&, const MpmReinforcement&, const gimpm::LoadCurve&, const StepTime&);                            \
-	template void            joinStructure<Dim>(gimpm::Structure<Dim>&, gimpm::Model<Dim>&);                                                               \
+	template gimpm::Reinforcement<Dim> coreBar<Dim>(const MpmReinforcement&, const string&, const gimpm::Grid<Dim>&);                                      \
+	template void                      scatterBar<Dim>(const gimpm::Reinforcement<Dim>&, MpmReinforcement&);                                               \
+	template void                      loadBar<Dim>(gimpm::Reinforcement<Dim>&, const MpmReinforcement&, const gimpm::LoadCurve&, const StepTime&);        \
+	template void                      joinStructure<Dim>(gimpm::Structure<Dim>&, gimpm::Model<Dim>&);                                                     \
 	template class Reinforcements<Dim>;
 MPM_INSTANTIATE(2)
 MPM_INSTANTIATE(3)

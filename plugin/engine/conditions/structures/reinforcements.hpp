@@ -11,10 +11,10 @@ namespace yade {
 void requireStructuresFit(const Analysis&, const string& kind, const string& name);
 
 // A bar as the core knows it, new or as the last step has left it, and the way back.
-template <int Dim> gimpm::Bar<Dim> coreBar(const MpmReinforcement&, const string& name, const gimpm::Grid<Dim>&);
-template <int Dim> void            scatterBar(const gimpm::Bar<Dim>&, MpmReinforcement&);
+template <int Dim> gimpm::Reinforcement<Dim> coreBar(const MpmReinforcement&, const string& name, const gimpm::Grid<Dim>&);
+template <int Dim> void                      scatterBar(const gimpm::Reinforcement<Dim>&, MpmReinforcement&);
 // What acts on it at the end of a step.
-template <int Dim> void loadBar(gimpm::Bar<Dim>&, const MpmReinforcement&, const gimpm::LoadCurve&, const StepTime&);
+template <int Dim> void loadBar(gimpm::Reinforcement<Dim>&, const MpmReinforcement&, const gimpm::LoadCurve&, const StepTime&);
 
 // Makes a structure act, which must stay where it is in memory.
 template <int Dim> void joinStructure(gimpm::Structure<Dim>&, gimpm::Model<Dim>&);

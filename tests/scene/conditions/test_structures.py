@@ -1,0 +1,234 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Bars and beams in the soil: MpmReinforcement, MpmBeam, their closed forms, and what is refused about them."""
+import numpy as np
+import pytest
+from conftest import outcomesOf
+
+block = '''
+import json
+import numpy as np
+from yade import mpm
+
+def ground(*loads, size=(4, 2), cellSize=.25, young=1e7, poisson=0, gravity=(0, 0, 0), fix='y', sides=True, engine=MpmImplicitEngine, grid=None, **settings):
+	"""A rectangle of elastic soil without weight worth speaking of, on a base that is held."""
+	O.reset()
+	O.materials.append(MpmElasticMat(young=young, poisson=poisson, density=1e-6, label='soil'))
+	width, height = size
+	grid = grid or MpmGrid(cellSize=cellSize)
+	corner = [(0, 0), (width, 0), (width, height), (0, height)]
+	if grid.dim == 2: O.bodies.append(mpm.fill(mpm.polygon(corner), grid, 2, 'soil'))
+	else: O.bodies.append(mpm.fill(pack.inAlignedBox((0, 0, 0), (width, height, 1)), grid, 2, 'soil'))
+	held = [MpmBoundary(max=(inf, 0, inf), fix=fix)]
+	if sides: held += [MpmBoundary(max=(0, inf, inf), fix='x'), MpmBoundary(min=(width, -inf, -inf), fix='x')]
+	O.engines, O.dt = [engine(grid=grid, gravity=gravity, boundaries=held, loads=loads, verbosity=0, label='solver', **settings)], .5
+'''
+
+
+def test_a_strip_is_drawn_out_as_by_the_closed_form(yade):
+	"""From soil that hardly moves: u = P coth(a L) / (EA a) at its front, a^2 = k / EA; in the plane and in space. More than the bond takes is refused."""
+	plane, space, data, more = yade(block + '''
+EA, k, L, P = 1e6, 4e5, 2, 1e4
+def strip(**settings): return MpmReinforcement(line=[(3, .6, .5), (1, .6, .5)], axialStiffness=EA, bond=8e3, bondStiffness=k, **settings)
+found = []
+for grid in MpmGrid(cellSize=.25), MpmGrid(cellSize=.25, dim=3):
+	bar = strip(pull=P)
+	ground(bar, size=(4, 1), young=1e12, grid=grid, fix='xyz'[:grid.dim])
+	O.run(2, wait=True)
+	a = np.sqrt(k / EA)
+	found.append([-bar.slips[0], P / (EA * a * np.tanh(a * L)), sum(bar.bondForces)])
+found.append(solver.plotData()['load0_axialForce'] / bar.axialForces[0])
+solver.loads = [strip(pull=2e4)]
+solver.loadCurve = [(0, 0), (4, 1)]
+try: O.run(6, wait=True)
+except RuntimeError as error: found.append(str(error))
+print(json.dumps(found))
+''').result
+	for found, exact, bond in plane, space:
+		assert abs(found / exact - 1) < 0.01
+		assert abs(bond / -1e4 - 1) < 1e-6
+	assert data == 1
+	assert 'loads[0] is pulled out: the pull of ' in more and 'more than its bond can take, 16000 N' in more
+
+
+def test_a_geotextile_has_the_strain_of_the_ground(yade):
+	"""Of a block that is stretched, and of one that is pressed only if it takes compression; what it takes the ground does not."""
+	found = yade(block + '''
+found = []
+for pulled in 1, -1:
+	for tensionOnly in True, False:
+		sheet = MpmReinforcement(line=[(0, .6), (4, .6)], axialStiffness=1e6, tensionOnly=tensionOnly)
+		ground(sheet, size=(4, 1), fix='y')
+		solver.boundaries[2].displacement = (pulled * .04, 0, 0)
+		solver.newton.tolerance, O.dt = 1e-10, 1
+		O.run(1, wait=True)
+		data = solver.plotData()
+		found.append([min(sheet.axialForces), max(sheet.axialForces), data['reaction2_x']])
+print(json.dumps(found))
+''').result
+	for (low, high, reaction), pulled in zip(found, (1, 1, -1, -1)):
+		strain = np.log(1 + 0.01 * pulled)
+		carries = pulled > 0 or (low, high) != (0, 0)
+		force = 1e6 * strain / (1 + 0.01 * pulled)
+		assert not carries or (abs(low / force - 1) < 1e-6 and abs(high / force - 1) < 1e-6)
+	assert found[2][:2] == [0, 0] and found[3][0] < -9e3
+	assert abs(found[0][2] - found[2][2] * -1) > 5e3  # the sheet's share
+
+
+def test_a_tendon_is_stressed_and_then_locked(yade):
+	"""While its curve changes it has the force of the jack; afterwards that goes with the ground, which is pressed by a load."""
+	jacked, released, plates = yade(block + '''
+anchor = MpmReinforcement(line=[(0, .6), (2.9, .6)], axialStiffness=1e6, freeLength=1.5, headPlate=True, pretension=2e4, bond=1e5, bondStiffness=1e7, curve=[(0, 0), (1, 1)])
+press = MpmTraction(surface=[(0, 1), (0, 0)], pressure=2e4, curve=[(0, 0), (1, 0), (2, 1)])
+ground(anchor, press, size=(4, 1), fix='y', sides=False)
+solver.boundaries = [*solver.boundaries, MpmBoundary(min=(4, -inf, -inf), fix='x')]
+O.run(2, wait=True)
+jacked = anchor.axialForces[0]
+O.run(2, wait=True)
+moved = anchor.vertices[1][0] - anchor.vertices[0][0]
+print(json.dumps([jacked, anchor.axialForces[0], 1e6 * (np.log(moved / 1.5))]))
+''').result
+	assert abs(jacked - 2e4) < 1e-6
+	assert 1.3e4 < released < 1.99e4  # the ground is 2 m of E = 10 MPa to the front of the free length
+
+
+def test_beam_on_a_layer_is_that_of_winkler(yade):
+	"""A thin smooth layer has k = E / H: a point load sinks an endless beam by P l / 2 k, with the moment P / 4 l (l = (k / 4 EI)^(1/4))."""
+	sinks, moment, pressed, drawn = yade(block + '''
+H, EI, P, w = .5, 2e6, 1e4, 1e3
+k = 1e7 / H
+l = (k / 4 / EI) ** .25
+beam = MpmBeam(line=[(0, H), (5, H)], axialStiffness=1e9, bendingStiffness=EI, adhesion=0, fixHead='xr', headForce=(0, -P / 2, 0), weight=w)
+ground(beam, size=(5, H), cellSize=.125, gravity=(0, -10, 0))
+O.run(2, wait=True)
+weights = np.array(beam.pressures) * np.gradient([x[0] for x in beam.vertices])
+weights[[0, -1]] /= 2
+print(json.dumps([(H - beam.vertices[0][1] - w / k) / (P * l / 2 / k), beam.moments[0] / (P / 4 / l), weights.sum() / (w * 5 + P / 2), solver.plotData()['load0_moment'] / beam.moments[0]]))
+''').result
+	assert abs(sinks - 1) < 0.03 and abs(moment - 1) < 0.01
+	assert abs(pressed + 1) < 1e-4 and drawn == 1
+
+
+def test_stiff_plate_on_the_half_space(yade):
+	"""The pressure in its middle is 2 / pi of the mean one (Boussinesq's problem of the plane), and that of a plate without stiffness the mean one."""
+	stiff, soft = yade(block + '''
+found = []
+for EI in 1e9, 1:
+	plate = MpmBeam(line=[(0, 8), (1, 8)], axialStiffness=1e9, bendingStiffness=EI, adhesion=0, fixHead='xr', weight=1e4)
+	ground(plate, size=(8, 8), poisson=.3, gravity=(0, -10, 0))
+	O.run(2, wait=True)
+	found.append(-plate.pressures[0] / 1e4)
+print(json.dumps(found))
+''').result
+	assert abs(stiff / (2 / np.pi) - 1) < 0.03
+	assert abs(soft - 1) < 0.01
+
+
+@pytest.mark.parametrize('rough', [False, True])
+def test_lined_tunnel(yade, rough):
+	"""Axial forces within 3 % of the closed form for a lining in elastic ground that is in place before the ground is dug out (Einstein and Schwartz 1979), the moment's part with cos(2 angle) within 5 % on these cells."""
+	N, M = yade(
+	        block + '''
+R, E, nu, P, K, size = 3., 1e8, .3, 5e5, .5, 30
+EA, EI = 1.5e9, 1.125e7
+arc = [(R * np.sin(a), R * np.cos(a)) for a in np.linspace(0, np.pi / 2, 33)]
+O.materials.append(MpmElasticMat(young=E, poisson=nu, density=2000, label='ground'))
+grid = MpmGrid(cellSize=.5)
+O.bodies.append(mpm.fill(mpm.polygon(arc + [(size, 0), (size, size), (0, size)]), grid, 2, 'ground'))
+mpm.assign(stress=[np.diag([-K * P, -P, -nu * (1 + K) * P])] * len(O.bodies))
+lining = MpmBeam(line=arc, axialStiffness=EA, bendingStiffness=EI, adhesion=inf if ROUGH else 0, fixHead='xr', fixFoot='yr')
+sides = [MpmBoundary(max=(0, inf, inf), fix='x'), MpmBoundary(max=(inf, 0, inf), fix='y'), MpmBoundary(min=(size, -inf, -inf), fix='x'), MpmBoundary(min=(-inf, size, -inf), fix='y')]
+O.engines, O.dt = [MpmImplicitEngine(grid=grid, boundaries=sides, loads=[lining], verbosity=0)], 1
+O.run(1, wait=True)
+C, F = E * R / EA / (1 - nu**2), E * R**3 / EI / (1 - nu**2)
+a0 = C * F * (1 - nu) / (C + F + C * F * (1 - nu))
+if ROUGH:
+	beta = ((6 + F) * C * (1 - nu) + 2 * F * nu) / (3 * F + 3 * C + 2 * C * F * (1 - nu))
+	b2 = C * (1 - nu) / (2 * (C * (1 - nu) + 4 * nu - 6 * beta - 3 * beta * C * (1 - nu)))
+	T, M = (1 - K) / 2 * (1 + 2 * beta * b2), (1 - K) / 4 * (1 - 2 * beta * b2 + 2 * b2)
+else:
+	a2 = (F + 6) * (1 - nu) / (2 * F * (1 - nu) + 6 * (5 - 6 * nu))
+	T = M = (1 - K) / 2 * (1 - 2 * a2)
+mean = (1 + K) / 2 * (1 - a0)
+force = [-lining.axialForces[0] / (P * R * (mean - T)), -lining.axialForces[-1] / (P * R * (mean + T))]
+x, y = np.array(lining.vertices)[:, :2].T
+twice = np.cos(2 * np.arctan2(y, x))
+print(json.dumps([force, -np.linalg.lstsq(np.c_[np.ones(len(x)), twice], lining.moments, rcond=None)[0][1] / (M * P * R**2)]))
+'''.replace('ROUGH', str(rough))
+	).result
+	assert np.abs(np.array(N) - 1).max() < 0.03
+	assert abs(M - 1) < 0.05
+
+
+wall = block + '''
+def excavated(steps=4):
+	"""An anchored wall in elastic ground: soil to its left, and to its right below the middle."""
+	O.reset()
+	O.materials.append(MpmElasticMat(young=2e7, poisson=.3, density=2000, label='soil'))
+	grid = MpmGrid(cellSize=.5)
+	O.bodies.append(mpm.fill(mpm.polygon([(0, 0), (10, 0), (10, 3), (6, 3), (6, 6), (0, 6)]), grid, 2, 'soil'))
+	anchor = MpmReinforcement(line=[(6, 5), (3, 4), (1.5, 3.5)], axialStiffness=2e7, freeLength=3, bond=1e5, bondStiffness=1e7, pretension=1e4)
+	sheet = MpmBeam(line=[(6, 6), (6, 1)], axialStiffness=1e9, bendingStiffness=2e7, adhesion=0, friction=radians(20), anchors=[anchor], weight=1e3)
+	held = [MpmBoundary(max=(0, inf, inf), fix='x'), MpmBoundary(min=(10, -inf, -inf), fix='x'), MpmBoundary(max=(inf, 0, inf), fix='xy')]
+	O.engines, O.dt = [MpmImplicitEngine(grid=grid, gravity=(0, -10, 0), boundaries=held, loads=[sheet], verbosity=0, label='solver'), MpmVtkRecorder(fileName='wall-', recorders=['loads'])], .25
+	O.run(steps, wait=True)
+	return sheet, anchor
+'''
+
+
+def test_anchored_wall_goes_on_from_a_file_bit_for_bit(yade):
+	same, sum_, free, told, cells = yade(wall + '''
+excavated(2)
+mpm.save('wall.xml.gz')
+O.run(2, wait=True)
+sheet = solver.loads[0]
+once = sheet.dict() | sheet.anchors[0].dict() | dict(points=mpm.arrays()['pos'].tolist())
+O.load('wall.xml.gz')
+O.run(2, wait=True)
+sheet = solver.loads[0]
+again = sheet.dict() | sheet.anchors[0].dict() | dict(points=mpm.arrays()['pos'].tolist())
+same = all(repr(once[name]) == repr(again[name]) for name in once if name != 'anchors')
+length = .25
+left = sum(q * length for q in sheet.pressures[:-1]) + sheet.pressures[-1] * length / 2 - sheet.pressures[0] * length / 2
+pull = sheet.anchors[0].axialForces[0]
+head, first = sheet.anchors[0].vertices[:2]
+direction = np.subtract(first, head) / np.linalg.norm(np.subtract(first, head))
+print(json.dumps([same, [left, pull * direction[0]], [sheet.moments[0], sheet.moments[-1]], sorted(n for n in solver.plotData() if n.startswith('load0')), open('wall-loads.4.vtu', 'rb').read().count(b'moment')]))
+''').result
+	assert same
+	# The line goes down, so that its left side is on the right: soil there presses it to the left and the anchor draws it there.
+	assert abs(sum_[0] + sum_[1]) < 0.05 * abs(sum_[1]) or abs(sum_[0] - sum_[1]) < 0.05 * abs(sum_[1])
+	assert max(map(abs, free)) < 1e-6
+	assert told == ['load0_anchor0', 'load0_axialForce', 'load0_moment', 'load0_shearForce']
+	assert cells > 0
+
+
+refusals = {
+        "MpmReinforcement(line=[(1, 1), (1, 1)], axialStiffness=1e6)": "MpmReinforcement.line",
+        "MpmReinforcement(line=[(1, 1)], axialStiffness=1e6)": "two or more points",
+        "MpmReinforcement(line=[(1, 1), (2, 1)], axialStiffness=1e6, friction=30)": "as radians(30)",
+        "add(MpmReinforcement(line=[(1, 1), (2, 1)]))": "MpmReinforcement.axialStiffness = nan",
+        "add(MpmReinforcement(line=[(1, 1), (2, 1)], axialStiffness=1e6, bond=1e3))": "needs a finite bondStiffness",
+        "add(MpmReinforcement(line=[(1, 1), (2, 1)], axialStiffness=1e6, freeLength=2))": "must be less than the length of the first segment of line, 1 m",
+        "add(MpmReinforcement(line=[(1, 1), (2, 1)], axialStiffness=1e6, freeLength=.5))": "loads[0].freeLength = 0.5: nothing holds its head",
+        "add(MpmReinforcement(line=[(1, 1), (2, 1)], axialStiffness=1e6, pull=1, headPlate=True))": "cannot be pulled",
+        "add(MpmReinforcement(line=[(1, 1), (5, 1)], axialStiffness=1e6))": "loads[0] has a vertex at (",
+        "add(MpmReinforcement(line=[(1, 1), (2, 1)], axialStiffness=1e6), grid=MpmGrid(cellSize=.25, axisymmetric=True))": "MpmReinforcement cannot go with MpmGrid.axisymmetric",
+        "add(MpmReinforcement(line=[(1, 1), (2, 1)], axialStiffness=1e6), engine=MpmDynamicEngine, scheme='explicit')": "MpmReinforcement cannot go with explicit steps",
+        "add(MpmReinforcement(line=[(1, 1, .5), (2, 1, .5)], axialStiffness=1e6, bond=0, bondStiffness=1e6, friction=.5), grid=MpmGrid(cellSize=.5, dim=3))": "loads[0].perimeter",
+        "add(MpmBeam(line=[(1, 1), (2, 1)], axialStiffness=1e6))": "MpmBeam.bendingStiffness = nan",
+        "add(MpmBeam(line=[(1, 1), (2, 1)], axialStiffness=1e6, bendingStiffness=1e3, fixHead='z'))": "letters out of 'xyr'",
+        "add(MpmBeam(line=[(1, 1), (2, 1)], axialStiffness=1e6, bendingStiffness=1e3, weight=1))": "loads[0].weight = 1 acts along MpmImplicitEngine.gravity, which is zero",
+        "add(MpmBeam(line=[(1, 1), (2, 1)], axialStiffness=1e6, bendingStiffness=1e3), grid=MpmGrid(cellSize=.5, dim=3))": "the grid has dim=3",
+        "add(MpmBeam(line=[(1, 1), (2, 1), (1, 1)], axialStiffness=1e6, bendingStiffness=1e3))": "needs three different points or more",
+        "add(MpmBeam(line=[(1, 2), (2, 2)], axialStiffness=1e6, bendingStiffness=1e3, anchors=[MpmReinforcement(line=[(1, 1), (2, 1)], axialStiffness=1e6)]))": "loads[0].anchors[0].line begins at Vector3(1,1,0), 1 m away",
+}
+
+
+def test_refusals(yade):
+	found = outcomesOf(yade.folder, block + '''
+def add(load, **settings):
+	ground(load, **settings)
+	O.run(1, wait=True)
+''', list(refusals))
+	for text, (kind, sentence) in found.items():
+		assert kind in ('ValueError', 'RuntimeError') and refusals[text] in sentence, (text, kind, sentence)
