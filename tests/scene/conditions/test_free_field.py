@@ -45,9 +45,9 @@ def refused(call, expected):
 
 
 def test_level_ground_stays_one_dimensional(yade):
-	"""Two layers with weight, carried .2 cells through the grid for 20 s: rows of points move alike, as in the column beside it, and the surface with twice the wave."""
+	"""Ground with weight, carried .2 cells through the grid for 20 s: rows of points move alike, as in the column beside it, and the surface with twice the wave."""
 	run = yade(scene + '''
-settings = level(gravity=9.81)
+settings = level(6, 4, gravity=9.81)
 history = [(t, float(v)) for t, v in zip(np.arange(0, 18, 0.02), pulse(np.arange(0, 18, 0.02) % 3 - 0.5) * np.where(np.arange(0, 18, 0.02) % 6 < 3, 1, -1) / 2)]
 solver = MpmDynamicEngine(scheme='generalised-alpha', **settings)
 O.engines = [solver]
@@ -60,12 +60,12 @@ rows = np.unique(np.round(points['pos'][:, 1], 3), return_inverse=True)[1]
 v = held['velocity']
 mean = np.array([v[:, rows == r].mean(axis=1) for r in range(rows.max() + 1)])
 time = np.array(held.time)
-wave = np.interp(time - 12 / cs, *np.transpose(history), 0, 0)
+wave = np.interp(time - 8 / cs, *np.transpose(history), 0, 0)
 free = np.reshape(solver.loads[0].velocities, (1001, -1, 2))[:, 0, 0]
 print(json.dumps([float(np.abs(v).max()), float(np.abs(v - mean[rows].transpose(1, 0, 2)).max()), float(np.abs(held['displacement'][:, :, 0]).max() / h), float(np.abs(mean[-1, :, 0] - 2 * wave).max() / np.abs(2 * wave).max()),
-	float(np.abs(mean[-1, :, 0] - free).max()), float(np.abs(held['displacement'][-1]).max()), max(abs(edge.reaction[1] + edge.reaction[0]) for edge in solver.loads[:2]), solver.loads[2].reaction[1] / (16 * 12 * density * 9.81)]))
+	float(np.abs(mean[-1, :, 0] - free).max()), float(np.abs(held['displacement'][-1]).max()), solver.loads[2].reaction[1] / (12 * 8 * density * 9.81)]))
 ''')
-	peak, spread, way, ofOutcrop, ofColumn, left, _, carried = run.result
+	peak, spread, way, ofOutcrop, ofColumn, left, carried = run.result
 	assert way > 0.15, 'cells that soil has crossed'
 	assert spread < 0.01 * peak and ofColumn < 0.01 * peak
 	assert ofOutcrop < 0.02, 'of the largest velocity; some of it is dispersion'

@@ -49,7 +49,6 @@ void MpmFreeField::requireFitting(const Analysis& analysis, const string& name) 
 void MpmFreeField::tell(Rows& rows, const Analysis& analysis, const Listed& listed) const
 {
 	rows.setVector("load" + std::to_string(listed.number), reaction, analysis.grid->dim);
-	rows.set("load" + std::to_string(listed.number) + "_drift", drift);
 }
 
 } // namespace yade

@@ -16,7 +16,6 @@ public:
 	bool             acts     = true;
 	vector<Vector3r> velocity;
 	Vector3r         reaction = Vector3r::Constant(std::numeric_limits<Real>::quiet_NaN());
-	Real             drift    = std::numeric_limits<Real>::quiet_NaN();
 	bool             hasBegun = false;
 	vector<Vector3r> borne;      // at the vertices, what goes on acting [N]
 	vector<Vector3r> impedances; // of the pieces: rho c_p, rho c_s [N s/m3] and the shear modulus [Pa]
@@ -53,8 +52,6 @@ public:
 		v("acts", &F::acts, 0, "False: it does nothing, and tells velocities.", AnyValue());
 		v("velocity", &F::velocity, readonly, "Of the vertices in the last converged step [m/s]; empty before the first.");
 		v("reaction", &F::reaction, readonly, "Force [N] on the body in the last converged step, per metre of thickness, NaN before the first.");
-		v("drift", &F::drift, readonly,
-		  "Largest way [m] between a vertex and where free ground would have carried it, in the last converged step; NaN before the first, and without *times*.");
 		v("hasBegun", &F::hasBegun, hidden, "", AnyValue());
 		v("borne", &F::borne, hidden, "", finiteVectors);
 		v("impedances", &F::impedances, hidden, "", finiteVectors);

@@ -171,10 +171,6 @@ void FreeFields::reach(const StepOutcome<2>&)
 		to.velocity           = inSpace<2>(edge->velocity, 0);
 		to.reaction           = Vector3r::Zero();
 		to.reaction.head<2>() = edge->force + edge->springForce;
-		if (to.times.empty()) continue;
-		to.drift = 0;
-		for (size_t v = 0; v < edge->surface.vertices.size(); ++v)
-			to.drift = std::max(to.drift, (edge->surface.vertices[v] - edge->surface.vertices0[v] - edge->now.displacement[v]).norm());
 	}
 }
 
