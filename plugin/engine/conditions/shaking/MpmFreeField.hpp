@@ -64,6 +64,7 @@ public:
 	std::shared_ptr<Condition<3>> make(InSpace, const Group&, const Analysis&) const override;
 
 	void                requireFitting(const Analysis&, const string& name) const override;
+	string              needsOneBody(const string&) const override { return "an edge of free ground"; }
 	string              needsEqualCells(const string& name) const override { return name; }
 	const Serializable* ownSurface() const override { return surface.get(); }
 	vector<Vector3r>    places() const override { return surface->vertices; }

@@ -85,6 +85,7 @@ public:
 
 	Real        end(const Analysis&) const override;
 	void        requireFitting(const Analysis&, const string& name) const override;
+	string      needsOneBody(const string&) const override { return "a beam"; }
 	void        tell(Rows&, const Analysis&, const Listed&) const override;
 	const char* picture() const override { return "loads"; }
 	void        draw(Picture&, const Analysis&, const Listed&) const override;

@@ -82,6 +82,7 @@ public:
 
 	Real             end(const Analysis&) const override;
 	void             requireFitting(const Analysis&, const string& name) const override;
+	string           needsOneBody(const string&) const override { return "reinforcement"; }
 	vector<Vector3r> places() const override { return vertices.empty() ? placesOf(line) : vertices; }
 	void             tell(Rows&, const Analysis&, const Listed&) const override;
 	const char*      picture() const override { return "loads"; }
