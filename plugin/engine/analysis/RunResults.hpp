@@ -133,8 +133,7 @@ template <class V> void RunResults::results(V&& v)
 	v("wallOverlap", &R::wallOverlap, latest(&StepReport::largestWallOverlap), byReport, readonly,
 	  "Largest length [m] by which a domain reached behind a wall in the last step; nodes there count as held.", nonNegative);
 	v("ghostShare", &R::ghostShare, reached(&StepReport::ghostShare), byReportAndPlot, readonly,
-	  "Part [-] of the work at the edge of the body in the last static step that the ghost stabilisation took up, 0 where its forces are small; NaN in steps in time and with *flow*.",
-	  any);
+	  "Part [-] of the work at the edge of the body in the last static step that the ghost stabilisation took up; NaN with inertia or *flow*.", any);
 }
 
 } // namespace yade

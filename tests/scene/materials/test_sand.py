@@ -138,3 +138,23 @@ assert solver.report()['loosePoints'] == 1 and solver.report()['islands'] == 2
 ''')
 	output = said.stdout + said.stderr
 	assert output.count('nothing restrains points apart from the rest (1, the first around (4') == 1, output
+
+
+def test_a_limit_load_is_told(yade):
+	"""The weight of a block grows until it cannot be borne: the failure says where that was, and that displacements had begun to run away."""
+	yade('''
+from yade import mpm, pack
+O.materials.append(MpmMohrCoulombMat(young=1e7, poisson=0.3, density=2000, cohesion=4e3, frictionAngle=radians(20), dilationAngle=radians(20), label='soil'))
+grid = MpmGrid(cellSize=0.5)
+O.bodies.append(mpm.fill(pack.inAlignedBox((0, 0, -1), (3, 3, 1)), grid, 2, 'soil'))
+sides = [MpmBoundary(max=(0, inf, inf), fix='x'), MpmBoundary(max=(inf, 0, inf), fix='xy')]
+ghost = MpmGhost(where='aggregates', memory=1, workTolerance=0.03)
+O.engines = [MpmImplicitEngine(grid=grid, gravity=(0, -10, 0), boundaries=sides, ghost=ghost, newton=MpmNewton(minStep=1 / 4), verbosity=0, label='solver')]
+O.dt = 1 / 50
+try:
+	for _ in range(50): O.step()
+except RuntimeError as error: message = str(error)
+else: raise AssertionError
+assert 0.3 < solver.loadFactor < 1 and f'In the last step that converged, to load factor {solver.loadFactor:.3g}, displacements grew with the load ' in message, message
+assert float(message.split('grew with the load ')[1].split()[0]) > 3 and 'as they do near a limit load' in message
+''')
