@@ -14,12 +14,12 @@ template <int Dim> struct MeetingBody {
 	int          layer = 0; ///< of its nodes
 	Surface<Dim> surface;   ///< moved with it in each step that is accepted
 
-	/// At first it is cut at the lines of the grid; its pieces are never longer than pieceLimit. Returns for each
-	/// which it has been part of.
+	/// At first it is cut at the lines of the grid; sides of its pieces are never longer than a quarter of a cell, in
+	/// space than half of one. Returns for each piece which it has been part of.
 	std::vector<int> refine(const Grid<Dim>& grid, bool isFirst)
 	{
 		if (isFirst) cutAtLines(surface, grid);
-		return surface.refine(pieceLimit * grid.cellSize);
+		return surface.refine((Dim == 2 ? pieceLimit : 2 * pieceLimit) * grid.cellSize);
 	}
 };
 

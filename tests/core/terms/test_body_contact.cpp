@@ -93,7 +93,7 @@ namespace {
 	TYPED_TEST(BodyContactTest, StressIsEvenWhereverTheFaceLies)
 	{
 		constexpr int Dim = TypeParam::value;
-		for (const double cut : { 0., 0.5, 0.1, 1e-2 })
+		for (const double cut : Dim == 2 ? std::vector<double> { 0., 0.5, 0.1, 1e-2 } : std::vector<double> { 0.1 })
 			for (const double ratio : { 1., 1000. }) {
 				Pressed<Dim> pressed(0.5 + cut * Pressed<Dim>::h, ratio, 50);
 				const auto   report = pressed.step();
@@ -114,20 +114,20 @@ namespace {
 			NodeMatrix<Dim>       K;
 			Couplings             beside;
 			Random                random(2);
-			const Eigen::VectorXd d = random.vector(system.map.size(), 1e-4);
+			const Eigen::VectorXd d = random.vector(system.map.size(), 1e-5);
 			Eigen::VectorXd       force, plus, minus, way = random.vector(system.map.size());
 			for (int i = 0; i < d.size(); ++i)
 				if (system.dofs.number[i] < 0) way[i] = 0;
 			system.prepare(K, &beside);
 			ASSERT_FALSE(system.evaluate(d, force, &K, nullptr, &beside));
-			ASSERT_FALSE(system.evaluate(d + 1e-7 * way, plus, nullptr));
-			ASSERT_FALSE(system.evaluate(d - 1e-7 * way, minus, nullptr));
+			ASSERT_FALSE(system.evaluate(d + 1e-8 * way, plus, nullptr));
+			ASSERT_FALSE(system.evaluate(d - 1e-8 * way, minus, nullptr));
 			Eigen::VectorXd product = Eigen::VectorXd::Zero(d.size());
 			beside.multiplyAdd(way, product);
 			const auto      whole = reduced(K, system.dofs, &beside);
 			Eigen::VectorXd free(system.dofs.count), slope(system.dofs.count);
 			for (int i = 0; i < d.size(); ++i)
-				if (const int n = system.dofs.number[i]; n >= 0) free[n] = way[i], slope[n] = (plus[i] - minus[i]) / 2e-7;
+				if (const int n = system.dofs.number[i]; n >= 0) free[n] = way[i], slope[n] = (plus[i] - minus[i]) / 2e-8;
 			EXPECT_GT(product.norm(), 0.01 * slope.norm()) << "contact is part of it";
 			EXPECT_LT((whole * free - slope).norm(), 1e-6 * slope.norm()) << "friction " << friction;
 			EXPECT_EQ(system.isSymmetric(), friction == 0);
