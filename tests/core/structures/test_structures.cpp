@@ -142,8 +142,8 @@ namespace {
 		EXPECT_NEAR(std::abs(beam.moments[0][0]), weight * L * L / 2, 1e-2 * weight * L * L / 2);
 	}
 
-	/// Clamped beam under a uniform load: w L^2 = 16 Mp at collapse. Below it sags little; beyond it goes down until
-	/// it hangs.
+	/// Clamped beam under a uniform load: w L^2 = 16 Mp at collapse. Below it sags little; beyond it goes down
+	/// until it hangs.
 	TEST(Beams, YieldAtThePlasticMoment)
 	{
 		constexpr double L = 4, EI = 2e6, Mp = 100;
