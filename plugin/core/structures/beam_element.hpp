@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// A straight piece of a beam in the plane, between two of its sections, by Euler and Bernoulli in axes that turn with it.
+// A straight piece of a beam in the plane between two of its sections, by Euler and Bernoulli, in axes that turn with
+// it.
 #pragma once
 #include "core/base/types.hpp"
 #include "core/structures/linear_form.hpp"

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "core/structures/soil_near.hpp"
-#include "core/grid/refinement.hpp"
+#include <algorithm>
 
 namespace gimpm {
 
-template <int Dim> std::vector<SoilNear<Dim>> soilNear(const std::vector<Vec<Dim>>& places, const Beginning<Dim>& step)
+template <int Dim> std::vector<SoilNear<Dim>> soilNear(const std::vector<Vec<Dim>>& places, const std::vector<double>& reach, const Beginning<Dim>& step)
 {
-	const double reach = step.grid.size(step.grid.refinement ? step.grid.refinement->largest() : 0);
-	const auto&  cloud = step.cloud;
+	const double farthest = *std::max_element(reach.begin(), reach.end());
+	const auto&  cloud    = step.cloud;
 	Vec<Dim>     low = places.front(), high = low;
 	for (const Vec<Dim>& place : places)
 		low = low.cwiseMin(place), high = high.cwiseMax(place);
-	low.array() -= reach, high.array() += reach;
+	low.array() -= farthest, high.array() += farthest;
 
 	std::vector<SoilNear<Dim>> near(places.size());
 	std::vector<double>        weight(places.size(), 0);
@@ -24,7 +24,7 @@ template <int Dim> std::vector<SoilNear<Dim>> soilNear(const std::vector<Vec<Dim
 			for (int a = 0; a < Dim && nearness > 0; ++a) {
 				const double length = step.grid.cellSize * step.grid.period[a], apart = places[i][a] - x[a];
 				const double nearest = length > 0 ? apart - length * std::round(apart / length) : apart;
-				nearness *= std::max(0., 1 - std::abs(nearest) / reach);
+				nearness *= std::max(0., 1 - std::abs(nearest) / reach[i]);
 			}
 			if (nearness == 0) continue;
 			if (!soil) soil = step.stiffnessOf(int(p));
@@ -39,7 +39,7 @@ template <int Dim> std::vector<SoilNear<Dim>> soilNear(const std::vector<Vec<Dim
 	return near;
 }
 
-template std::vector<SoilNear<2>> soilNear(const std::vector<Vec<2>>&, const Beginning<2>&);
-template std::vector<SoilNear<3>> soilNear(const std::vector<Vec<3>>&, const Beginning<3>&);
+template std::vector<SoilNear<2>> soilNear(const std::vector<Vec<2>>&, const std::vector<double>&, const Beginning<2>&);
+template std::vector<SoilNear<3>> soilNear(const std::vector<Vec<3>>&, const std::vector<double>&, const Beginning<3>&);
 
 } // namespace gimpm

@@ -74,7 +74,7 @@ struct Beam {
 	Vec<2>              headForce  = Vec<2>::Zero();    ///< at the end of the step [N]
 	double              headMoment = 0;                 ///< [N m]
 
-	/// Of the springs: stiffness over Young's modulus of the soil per cell [-]; strength of each side along the beam.
+	/// Of the springs: stiffness over Young's modulus of the soil per cell [-]; strength of each side along it.
 	double stiffness = 10;
 	double adhesion  = inf; ///< [Pa]
 	double friction  = 0;   ///< tan(delta)

@@ -59,16 +59,18 @@ template <int Dim> template <class F> void StructureForce<Dim>::forVertices(F&& 
 
 template <int Dim> std::vector<SoilAtVertex> StructureForce<Dim>::soilAround(const Beginning<Dim>& step)
 {
-	const auto                all  = places();
-	const auto                near = soilNear<Dim>(all, step);
-	std::vector<double>       reach;
+	const auto                all = places();
+	std::vector<double>       reach, cells;
 	std::vector<SoilAtVertex> soil(all.size());
 	for (std::size_t v = 0; v < all.size(); ++v) {
 		attached_.push_back(attach(all[v], step.basis, step.grid));
 		soil[v].cellSize = cellSizeAt(attached_[v], step.grid);
+		cells.push_back(soil[v].cellSize);
 		reach.push_back(nearDomain * soil[v].cellSize);
-		soil[v].young = near[v].young;
 	}
+	const auto near = soilNear<Dim>(all, cells, step);
+	for (std::size_t v = 0; v < all.size(); ++v)
+		soil[v].young = near[v].young;
 	const auto isFar = areFarFromMaterial<Dim>(all, reach, step.cloud, step.grid);
 	forVertices([&](const Reinforcement<Dim>& bar, int v, int i) {
 		using Head           = typename Reinforcement<Dim>::Head;

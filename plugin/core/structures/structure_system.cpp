@@ -7,8 +7,8 @@ namespace {
 
 using Sparse = Eigen::SparseMatrix<double>;
 
-/// Of a spring that yields at a force, or that only presses: its force and slope are the derivatives; with a secant, that
-/// of a parabola which touches the energy here and is above it elsewhere.
+/// Of a spring that yields at a force, or that only presses: its force and slope are the derivatives; with a secant,
+/// the slope is that of a parabola which touches the energy here and is above it elsewhere.
 Energy<1> springEnergy(double trial, double stiffness, double limit, bool oneSided, bool secant = false)
 {
 	Energy<1> energy;
@@ -123,8 +123,8 @@ template <int Dim> void StructureSystem<Dim>::addSprings(const std::vector<SoilA
 	});
 }
 
-/// One that presses, and one along the beam. Where there is soil on both sides it is one body, which is pressed to either
-/// side; where there is some on one side, the beam may leave it.
+/// One that presses, and one along the beam. Where there is soil on both sides it is one body, which is pressed to
+/// either side; where there is some on one side, the beam may leave it.
 template <int Dim> void StructureSystem<Dim>::addBeamSprings(int v, const SoilAtVertex& soil)
 {
 	Beam&          beam    = *structure_.beam;
@@ -287,9 +287,9 @@ template <int Dim> Eigen::VectorXd StructureSystem<Dim>::direction(const EnergyS
 	return step;
 }
 
-/// By Newton's method first, in whole steps: where a slender beam turns, these take the energy up once and then far down,
-/// while shorter ones that only go down hardly get on. Where most springs yield nothing holds the structure for it; by
-/// secants of the springs the energy then only goes down, and Newton's method ends what they begin.
+/// By Newton's method first, in whole steps: where a slender beam turns, these take the energy up once and then far
+/// down, while shorter ones that only go down hardly get on. Where most springs yield nothing holds the structure for
+/// it; by secants of the springs the energy then only goes down, and Newton's method ends what they begin.
 template <int Dim> typename StructureSystem<Dim>::Solution StructureSystem<Dim>::solve(const Eigen::VectorXd& soil, const Eigen::VectorXd& guess) const
 {
 	constexpr int newtonSteps = 25, secantSteps = 40, rounds = 5;

@@ -15,8 +15,8 @@ struct SoilAtVertex {
 };
 
 /// Unknowns are the displacements of the soil at the vertices that have some, Dim each, and then those of the structure
-/// itself: of a beam's vertices, and slips. All are those of the step. They minimise an energy of the step, with respect
-/// to the structure's own unknowns here, so that these never reach the unknowns of the grid.
+/// itself: of a beam's vertices, and slips. All are those of the step. They minimise an energy of the step, here with
+/// respect to the structure's own unknowns, so that these never reach the unknowns of the grid.
 template <int Dim> class StructureSystem {
 public:
 	/// The structure must outlive it; the soil by vertex, those of the beam first.

@@ -6,6 +6,7 @@ from yade import wrapper
 from .messages import brief
 
 _quantities = dict(axialForce='axialForces', shearForce='shearForces', moment='moments')
+_colours = dict(axialForce='tab:blue', shearForce='tab:green', moment='tab:red')
 
 
 def diagram(line, quantity='moment', axes=None, size=None):
@@ -34,8 +35,10 @@ def diagram(line, quantity='moment', axes=None, size=None):
 	import matplotlib.pyplot as plt
 	axes = axes or plt.gca()
 	for (first, last), (a, b), normal in zip(zip(x, x[1:]), offsets, aside):
-		axes.fill(*np.array([first, last, last + b * normal, first + a * normal]).T, color='tab:red', alpha=0.35, linewidth=0)
-	axes.plot(*x.T, color='black', linewidth=2)
+		axes.fill(*np.array([first, last, last + b * normal, first + a * normal]).T, color=_colours[quantity], alpha=0.5, linewidth=0, zorder=4)
+	axes.plot(*x.T, color='black', linewidth=2, zorder=5)
 	largest = np.abs(values).argmax()
-	axes.annotate(f'{values[largest]:.3g} N{" m" if quantity == "moment" else ""}', x[largest] + offsets[min(largest, len(aside) - 1), 0] * aside[min(largest, len(aside) - 1)])
+	piece = min(largest, len(aside) - 1)
+	text = f'{values[largest] / 1e3:.4g} kN{" m" if quantity == "moment" else ""}'
+	axes.annotate(text, x[largest] + offsets[piece, 0] * aside[piece], color=_colours[quantity], zorder=6)
 	return axes

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """What examples there are: path, what it is, words. Written by scripts/lib/examplelist.py, from the scripts."""
 scripts = [
+        ('examples/tasks/anchored_wall.py', 'A sheet pile wall with one anchor, 6 m dug out in stages, 3 m left below',
+         "anchor anchored and below coulomb's dug earth free hand has left one out pile png pressures sheet stages support the wall with MpmBeam MpmBoundary MpmGrid MpmImplicitEngine MpmMohrCoulombMat MpmReinforcement mpm.diagram mpm.fill mpm.geostatic mpm.plot mpm.polygon mpm.stages.excavate"),
         ('examples/tasks/batch.py', 'Settlement of a layer for the moduli of a table, with a curve and a picture each',
          'and batch collect curve each examples for gamma gathers hand layer moduli mpm out picture settlement table tasks the them then with yade-batch MpmBoundary MpmElasticMat MpmGrid MpmImplicitEngine mpm.collect mpm.fill mpm.note mpm.plot mpm.polygon'),
         ('examples/tasks/deep_footing.py', 'A strip footing at a depth of 1 m in clay',

@@ -142,8 +142,8 @@ namespace {
 		EXPECT_NEAR(std::abs(beam.moments[0][0]), weight * L * L / 2, 1e-2 * weight * L * L / 2);
 	}
 
-	/// Clamped beam under a uniform load: w L^2 = 16 Mp at collapse. Below it sags little; beyond it goes down until it
-	/// hangs.
+	/// Clamped beam under a uniform load: w L^2 = 16 Mp at collapse. Below it sags little; beyond it goes down
+	/// until it hangs.
 	TEST(Beams, YieldAtThePlasticMoment)
 	{
 		constexpr double L = 4, EI = 2e6, Mp = 100;
@@ -165,7 +165,8 @@ namespace {
 		}
 	}
 
-	/// Pull-out of an elastic strip from soil that does not move: u = P coth(a L) / (EA a) at its front, a^2 = k / EA.
+	/// Pull-out of an elastic strip from soil that does not move: u = P coth(a L) / (EA a) at its front,
+	/// a^2 = k / EA.
 	TEST(Bars, AreDrawnFromRigidSoilAsByTheClosedForm)
 	{
 		constexpr double EA = 1e6, k = 4e5, L = 2, P = 100, bond = 2000;
@@ -296,7 +297,7 @@ namespace {
 		}
 	}
 
-	/// In a block that is stretched, a bar without slip has the strain of the soil; what it carries goes back to the soil.
+	/// In a block that is stretched, a bar without slip has the strain of the soil.
 	TYPED_TEST(Structures, ABarIsStretchedAsTheSoilIs)
 	{
 		constexpr int Dim = TypeParam::value;

@@ -95,6 +95,7 @@ def onPeriod(term):
 def onSizes(term):
 	"""Fine cells everywhere are a fine grid; where their sizes meet, what is alike everywhere stays so."""
 	halved = apart(scene(term, MpmGrid(cellSize=1, refinements=[MpmRefinement()]), soft), scene(term, MpmGrid(cellSize=.5), soft))
+	if term in ('bar', 'beam'): return halved  # their forces are nowhere alike
 	loads = dict(top=-.05) if term in ('internal force', 'F-bar', 'undrained') else dict(isPressed=term == 'ghost')
 	patch = scene(term, MpmGrid(cellSize=1, refinements=[MpmRefinement(max=(3, inf, inf))]), weight=0, steps=1, **loads)
 	return halved, float(np.ptp(patch['stress'][:, 1, 1]) / abs(patch['stress'][:, 1, 1]).max())
