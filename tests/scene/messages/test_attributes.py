@@ -305,8 +305,8 @@ def outcome(user, name, text):
 	except Exception as error:
 		return type(error).__name__, str(error), False
 	after = mpm.arrays()
-	hasOwn = np.isfinite(after.pop('preconsolidation')) # of the points of one law
-	assert hasOwn.any() and not hasOwn.all() and all(np.isfinite(values).all() for values in after.values()), (user, name, text)
+	ofOneLaw = [np.isfinite(after.pop(name)) for name in ('preconsolidation', 'shearHardening', 'capPressure', 'stiffness', 'mobilisedFriction', 'volumetricStrain', 'imagePressure', 'specificVolume')]
+	assert all(has.any() and not has.all() for has in ofOneLaw) and all(np.isfinite(values).all() for values in after.values()), (user, name, text)
 	return None, '', False
 
 import numpy as np
