@@ -2,7 +2,6 @@
 // A principal law as a tensor law: for what only tensor laws can, as to depend on the step of time.
 #pragma once
 #include "core/materials/isotropic_answer.hpp"
-#include "core/materials/von_mises.hpp"
 
 namespace gimpm {
 
@@ -64,13 +63,19 @@ public:
 		return p.axes * strain.asDiagonal() * p.axes.transpose();
 	}
 
-	/// Of the stress that flow leaves beyond yield, half of what it loses for each plastic strain: the shear
-	/// modulus, and what hardening adds to it [Pa].
+	/// Of the stress beyond yield, half of what is lost for each plastic strain, the length of its deviator [Pa]: of the
+	/// tangent D along the deviator, 4 G^2 / (2 G - D) / 2. It is that of shear far beyond yield, under the largest
+	/// pressure at which the law flows then.
 	template <class Linear = L, class = std::enable_if_t<Linear::isLinear>> double resistance() const
 	{
-		if constexpr (std::is_same_v<L, VonMises>) return elasticity().shear() + std::sqrt(2. / 3) / 2 * law_.parameters()[2];
-		else
-			return elasticity().shear();
+		const Vec3   direction = Vec3(1, 0, -1) / std::sqrt(2.);
+		const double G = elasticity().shear(), largest = 1e3, smallest = 1e-3;
+		for (double compression = largest; compression > smallest; compression *= .9) {
+			const auto   r     = law_.respond(Vec3(largest * direction - compression * Vec3::Ones()), law_.initialInternals());
+			const double along = direction.dot(r.tangent * direction);
+			if (along < 2 * G * (1 - 1e-9)) return 2 * G * G / (2 * G - along);
+		}
+		return G;
 	}
 
 private:

@@ -13,7 +13,7 @@ bool callUmat(
 	constexpr int    direct = 3, shears = 3, components = 6, one = 1;
 	char             name[80];
 	std::memset(name, ' ', sizeof name);
-	const int countOfProperties = int(given.properties.size());
+	const int countOfProperties = int(given.properties.size() - UserLawGiven::beyond);
 	double    energy[3] = {}, heat = 0, byTemperature[6] = {}, heatByStrain[6] = {}, heatByTemperature = 0, shorter = 1;
 
 	std::unique_lock<std::mutex> lock;

@@ -13,8 +13,17 @@ namespace gimpm {
 
 /// What all points of a material have in common.
 struct UserLawGiven {
+	/// A law that takes more parameters or state variables than there are has no finite answer then, and harms nothing.
+	static constexpr std::size_t beyond = 64;
+
+	static std::vector<double> padded(std::vector<double> numbers)
+	{
+		numbers.resize(numbers.size() + beyond, std::numeric_limits<double>::quiet_NaN());
+		return numbers;
+	}
+
 	Umat                        call = nullptr;
-	std::vector<double>         properties;
+	std::vector<double>         properties;       ///< and behind them `beyond` numbers that are none, for a law that reads more
 	std::vector<double>         first;            ///< values of its state variables
 	Hencky                      elastic { 1, 0 }; ///< of reference
 	std::shared_ptr<std::mutex> oneAtATime;       ///< null: several threads may call it at a time
@@ -67,14 +76,15 @@ public:
 	{
 		const Mat3 before = step.state.tensor(stressBefore), past = step.state.tensor(strain),
 		           increment = step.trialStrain - strainOf(before, step.state);
-		double       t[6], e[6], d[6], tangent[36] = {}, states[Count > 0 ? Count : 1];
+		double       t[6], e[6], d[6], tangent[36] = {}, states[Count + UserLawGiven::beyond];
 		TensorAnswer answer(step.state);
 		toUmat(before, 1, t), toUmat(past, 2, e), toUmat(increment, 2, d);
 		for (int k = 0; k < Count; ++k)
 			states[k] = step.state.scalar(state1 + k);
+		std::fill(states + given_->first.size(), std::end(states), std::numeric_limits<double>::quiet_NaN());
 		answer.failed = !callUmat(*given_, t, states, int(given_->first.size()), tangent, e, d, step.duration);
-		for (int k = 0; k < Count; ++k)
-			answer.state.scalar(state1 + k) = states[k];
+		for (std::size_t k = 0; k < given_->first.size(); ++k)
+			answer.state.scalar(state1 + int(k)) = states[k];
 		for (int i = 0; i < 6; ++i) {
 			answer.stress(row(i), column(i)) = answer.stress(column(i), row(i)) = t[i];
 			for (int j = 0; j < 6; ++j) // of Mandel's numbers by each other

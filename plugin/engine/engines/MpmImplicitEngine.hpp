@@ -53,7 +53,7 @@ public:
 		  oneOf("gimp", "mpm"));
 		v("fBar", &E::fBar, 0, "Cure for volumetric locking of materials that keep their volume: one dilation in a cell. Needs ghost stabilisation.");
 		v("nonlocalLength", &E::nonlocalLength, 0,
-		  "Length l [m] of the soil over which softening is averaged, so that it does not depend on *cellSize*: at least that, 0.5 to 1 of the bands' width. 0: it is not.",
+		  "Length [m] of the soil over which softening is averaged, at least *cellSize*; bands become some five times as wide. 0: it is not.",
 		  nonNegative);
 		v("gravity", &E::gravity, 0, "Acceleration [m/s²] of all material points at load factor 1, finite.", finite);
 		v("loadCurve", &E::loadCurve, 0,

@@ -53,7 +53,7 @@ public:
 			  return std::isnan(value) || (std::isfinite(value) && value > 0);
 		  }));
 		v("relaxationTime", &MpmMaterial::relaxationTime, 0,
-		  "Time [s] > 0 in which stress beyond yield goes to what the law bears (Duvaut and Lions); NaN, the default: at once. Needs seconds: see the page of the class.",
+		  "Time [s] > 0 in which stress beyond yield goes to what the law bears (Duvaut and Lions); NaN, the default: at once. O.time must count seconds.",
 		  admitting("a finite number > 0 [s], or NaN, the default: at once", [](Real value) {
 			  return std::isnan(value) || (std::isfinite(value) && value > 0);
 		  }));

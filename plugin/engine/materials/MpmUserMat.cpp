@@ -45,7 +45,7 @@ namespace {
 	gimpm::Law lawOfUser(const MpmUserMat& m)
 	{
 		const Opened&       door = opened(m.library, m.function);
-		gimpm::UserLawGiven given { door.call, m.parameters, m.stateVariables, gimpm::Hencky(m.young, m.poisson),
+		gimpm::UserLawGiven given { door.call, gimpm::UserLawGiven::padded(m.parameters), m.stateVariables, gimpm::Hencky(m.young, m.poisson),
 			                    m.reentrant ? nullptr : door.oneAtATime };
 		const auto          shared = std::make_shared<const gimpm::UserLawGiven>(std::move(given));
 		if (m.stateVariables.empty()) return gimpm::UserLaw<0>(shared);

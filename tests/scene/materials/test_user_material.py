@@ -99,6 +99,8 @@ def tried(**attributes):
 		O.step()
 	except Exception as error: return str(error)
 	return 'no error'
+few = tried(parameters=[20e6])
+assert 'no stress' in few, few
 print(json.dumps([tried(library='./none.so'), tried(function='vumat'), tried(relaxationTime=1.), tried(stateVariables=[0.] * 21), tried(library='')]))
 '''
 	).result

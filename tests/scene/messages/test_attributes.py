@@ -6,9 +6,10 @@ The environment variable BAD_INPUT_TABLE names a file for the outcomes, as a tab
 """
 import json
 import os
+import subprocess
 
 import pytest
-from conftest import Yade
+from conftest import Yade, root
 
 # Values beyond the limits, as Python text. None: there are no limits beside being finite, or of the kind that the
 # attribute has.
@@ -70,6 +71,11 @@ outOfRange = {
         'MpmCamClayMat.swellingIndex': ['0.', '-1.'],
         'MpmCamClayMat.preconsolidation': ['0.', '-1.'],
         'MpmCamClayMat.referencePressure': ['0.', '-1.'],
+        'MpmUserMat.library': ['""'],
+        'MpmUserMat.function': ['""'],
+        'MpmUserMat.parameters': None,
+        'MpmUserMat.stateVariables': ['[0.] * 21'],
+        'MpmUserMat.reentrant': None,
         'MpmState.defGrad': ['Matrix3(-1,0,0, 0,1,0, 0,0,1)', 'Matrix3.Zero'],
         'MpmState.elasticStrain': ['Matrix3(0,1,0, 2,0,0, 0,0,0)'],
         'MpmState.force': None,
@@ -247,6 +253,7 @@ categories = ['wrong type', 'NaN', 'infinite', 'empty', 'huge', 'out of range']
 admitted = {
         **{(f'{class_}.{side}', text): 'no limit on that side' for side in ('min', 'max') for class_ in ('MpmBoundary', 'MpmAbsorbingBoundary', 'MpmRefinement') for text in ('(inf, 0, 0)', '(0, -inf, 0)')},
         ('MpmFrictionalMat.tensileStrength', 'inf'): 'no cut',
+        **{(f'MpmUserMat.{name}', text): 'as the law has it' for name in ('parameters', 'stateVariables') for text in ('[1]', '()')},
         ('MpmImplicitEngine.boundaries', '()'): 'nothing is held',
         ('MpmDynamicEngine.absorbing', '()'): 'nothing absorbs',
         **{(f'MpmFreeField.{name}', '()'): 'nothing moves beyond' for name in ('times', 'velocities', 'displacements', 'forces')},
@@ -293,8 +300,9 @@ admitted = {
 }
 
 setting = '''
-import json, sys
+import json, os, sys
 from yade import mpm, pack, utils, wrapper
+from yade.mpm.data import table
 nan = float('nan')
 
 dynamic = 'MpmDynamicEngine', 'MpmAbsorbingBoundary', 'MpmBaseMotion', 'MpmFreeField'
@@ -314,27 +322,28 @@ def scene(engine='MpmImplicitEngine'):
 	                    MpmDruckerPragerMat(label='cone', **friction),
 	                    MpmHardeningSoilMat(density=2400, E50ref=1e6, Eoedref=1e6, Eurref=3e6, power=0.5, K0nc=0.5, cohesion=5e3, frictionAngle=radians(30), label='hardening'),
 	                    MpmNorSandMat(density=2400, shearModulus=5e5, swellingIndex=0.01, referencePressure=5e3, criticalStateRatio=1.2, compressionIndex=0.05,
-	                                  criticalVolume=1.9, hardening=100, specificVolume=1.7, label='sand')])
-	labels = [material.label for material in O.materials]
+	                                  criticalVolume=1.9, hardening=100, specificVolume=1.7, label='sand'),
+	                    MpmUserMat(library=os.environ['UMAT'], parameters=[1e6, 0.3, 15e3, 1], stateVariables=[0], label='user', **materials)])
+	labels = [material.label for material in O.materials] + ['elastic']
 	grid, base, ghost, newton = MpmGrid(cellSize=1), MpmBoundary(max=(inf, 0, inf), fix='xy'), MpmGhost(), MpmNewton()
-	for low, high, body in [(0, 2, 'low'), (2, 4, 'up')] if engine in meeting else [(0, 4, None)]:
+	for low, high, body in [(0, 2, 'low'), (2, 5, 'up')] if engine in meeting else [(0, 5, None)]:
 		O.bodies.append(mpm.fill(mpm.polygon([(0, low), (2, low), (2, high), (0, high)]), grid, 2, lambda x: labels[int(x[0] / 0.5) % 2 + 2 * int(x[1])], body=body))
 	clay = [b.id for b in O.bodies if b.material.label in ('clay', 'sand')]
 	mpm.assign(clay, stress=[-5e3 * np.identity(3)] * len(clay))
-	load = MpmTraction(surface=[(2, 4), (0, 4)], pressure=10)
+	load = MpmTraction(surface=[(2, 5), (0, 5)], pressure=10)
 	O.materials.append(FrictMat(label='rigid'))
-	O.bodies.append(utils.wall(5, axis=1, sense=-1, material='rigid'))
+	O.bodies.append(utils.wall(7, axis=1, sense=-1, material='rigid'))
 	touch, water = MpmContact(), MpmWater(level=1, weight=10)
 	solver = (MpmDynamicEngine if engine in dynamic else MpmImplicitEngine)(grid=grid, gravity=(0, -1, 0), boundaries=[base], loads=[load], water=[water], contacts=[touch], ghost=ghost, newton=newton)
 	wave = MpmBaseMotion(history=[(0, 0), (2, 1e-3)])
 	edge = MpmAbsorbingBoundary(min=(2, -inf, -inf), motion=wave)
 	if engine in dynamic[1:]: solver.absorbing = [edge]
-	free = MpmFreeField(surface=[(0, 4), (0, 0)])
+	free = MpmFreeField(surface=[(0, 5), (0, 0)])
 	if engine == 'MpmFreeField': solver.loads = [load, free]
-	drain = MpmDrain(surface=[(2, 4), (0, 4)])
+	drain = MpmDrain(surface=[(2, 5), (0, 5)])
 	if engine in flowing:
 		solver.flow = MpmFlow(drains=[drain])
-		for material in list(O.materials)[:8]: material.conductivity, material.porosity = 1e-4, .4
+		for material in list(O.materials)[:9]: material.conductivity, material.porosity = 1e-4, .4
 	nail = MpmReinforcement(line=[(.3, 2.5), (1.7, 2.2)], axialStiffness=1e4)
 	beam = MpmBeam(line=[(.2, 3), (1.8, 3)], axialStiffness=1e5, bendingStiffness=1e3, weight=10)
 	if engine in structures: solver.loads = [load, nail, beam]
@@ -373,8 +382,8 @@ def outcome(user, name, text):
 	except Exception as error:
 		return type(error).__name__, str(error), False
 	after = mpm.arrays()
-	hasOwn = np.isfinite(after.pop('preconsolidation')) # of the points of one law
-	assert hasOwn.any() and not hasOwn.all() and all(np.isfinite(values).all() for values in after.values()), (user, name, text)
+	ofOneLaw = [np.isfinite(after.pop(name)) for name in list(after) if table[name]['isInternal'] and name != 'plasticStrain']
+	assert all(has.any() and not has.all() for has in ofOneLaw) and all(np.isfinite(values).all() for values in after.values()), (user, name, text)
 	return None, '', False
 
 import numpy as np
@@ -401,6 +410,8 @@ print(json.dumps(results))
 @pytest.fixture(scope='module')
 def outcomes(tmp_path_factory):
 	yade = Yade(tmp_path_factory.mktemp('attributes'))
+	yade.environment['UMAT'] = str(yade.folder / 'law.so')
+	subprocess.run(['g++', '-shared', '-fPIC', '-o', yade.environment['UMAT'], root / 'tests/umat/von_mises.cpp'], check=True)
 	texts = {kind: [[category, text] for category, list_ in zip(categories, lists) for text in list_] for kind, lists in kinds.items()}
 	(yade.folder / 'values.json').write_text(json.dumps(dict(kinds=texts, outOfRange=outOfRange)))
 	results = yade(setting).result
