@@ -155,7 +155,7 @@ namespace {
 		PointCloud<2> after = before;
 		after.position      = { passed, beside };
 		keepBeforeWalls(after, before, system, d);
-		EXPECT_NEAR(after.position[0][0], 0.01, 1e-15);
+		EXPECT_NEAR(after.position[0][0], 0.01, 1e-12);
 		EXPECT_EQ(after.position[0][1], passed[1]);
 		EXPECT_EQ(after.position[1], beside);
 	}
