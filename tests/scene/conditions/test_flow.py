@@ -326,6 +326,67 @@ for k in 1e-15, 5.:
 	assert 'Is it in m/day, which would be 5.7' in run.stderr
 
 
+def test_layers_bring_their_water_and_what_is_dug_out_takes_it(yade):
+	"""What is placed at once is borne by the water, and what is dug out leaves suction; neither counts as water that flows."""
+	placed, dug, balance = yade(
+	        setting + '''
+solver = column(8, gravity=10)
+solver.gravityCurve, solver.loads, h = [(0, 1)], [], 1 / 8
+O.dt = 1e4 / cv
+O.step()
+mpm.stages.place(mpm.fill(mpm.polygon([(0, 1), (h, 1), (h, 1.25), (0, 1.25)]), solver.grid, 2, 'soil'))
+solver.flow.drains = [MpmDrain(surface=[(h, 1.25), (0, 1.25)])]
+O.dt = 1e-4 / cv
+O.step()
+found = [float(mpm.arrays()['excessPressure'].max() / 5e3)]
+O.dt = 1e4 / cv
+O.step()
+flow = solver.flow
+before = mpm.arrays()['volume'].sum() - flow.waterStored
+mpm.stages.excavate(mpm.polygon([(-1, .98), (2, .98), (2, 2), (-1, 2)]))
+flow.drains = [MpmDrain(surface=[(h, .98), (0, .98)])]
+O.dt = 1e-4 / cv
+O.step()
+found.append(float(np.median(mpm.arrays()['excessPressure']) / 5e3))
+found.append(flow.waterStored + flow.waterOut - flow.waterIn)
+print(json.dumps(found))
+'''
+	).result
+	assert placed == pytest.approx(1, abs=0.05) and dug == pytest.approx(-1, abs=0.08)
+	assert abs(balance) < 1e-9
+
+
+def test_undrained_sand_bears_what_clay_of_its_strength_does(yade):
+	"""A rough strip on Mohr-Coulomb soil that lets no water through, psi = 0, s_u = c cos phi + p' sin phi, against the same in total stress (Tresca), both with F-bar; Prandtl: 5.14 s_u."""
+	sand, clay = yade(
+	        setting + '''
+p0, c, phi = 20e3, 5e3, math.radians(20)
+su = c * math.cos(phi) + p0 * math.sin(phi)
+found = []
+for isSand in True, False:
+	O.reset()
+	G = 200 * su / 2.6
+	if isSand: O.materials.append(MpmMohrCoulombMat(young=2.6 * G, poisson=.3, density=1, cohesion=c, frictionAngle=phi, conductivity=0, porosity=.4, label='soil'))
+	else: O.materials.append(MpmTrescaMat(young=2.998 * G, poisson=.499, density=1, undrainedStrength=su, label='soil'))
+	grid = MpmGrid(cellSize=.125)
+	O.bodies.append(mpm.fill(mpm.polygon([(0, 0), (2.5, 0), (2.5, 1.25), (0, 1.25)]), grid, 2, 'soil'))
+	sides = [MpmBoundary(max=(0, inf, inf), fix='x'), MpmBoundary(min=(2.5, -inf, -inf), fix='x'), MpmBoundary(max=(inf, 0, inf), fix='xy'),
+	        MpmBoundary(min=(-inf, 1.25, -inf), max=(.5, inf, inf), fix='xy', displacement=(0, -.06, 0), curve=[(0, 0), (1, 1)])]
+	solver = MpmImplicitEngine(grid=grid, boundaries=sides, fBar=True, loadCurve=[(0, 1)], verbosity=0)
+	O.engines, O.dt = [solver], 1 / 15
+	if isSand:
+		solver.flow, solver.loads = MpmFlow(), [MpmTraction(surface=[(2.5, 1.25), (0, 1.25)], traction=(0, -p0, 0))]
+		mpm.assign(stress=[-p0 * np.eye(3)] * len(O.bodies))
+	O.run(15, wait=True)
+	found.append(-solver.reactions[3][1] / su)
+print(json.dumps(found))
+'''
+	).result
+	assert sand == pytest.approx(clay, rel=0.04)
+	half = .125 / 2  # the strip ends within half a cell beyond its last node
+	assert clay / (.5 + half) < 5.142 * 1.03 and sand / .5 > 5.142 * .97
+
+
 def test_the_drained_limit_and_a_step_that_is_cut(yade):
 	settled, drained, parts = yade(
 	        setting + '''

@@ -35,6 +35,23 @@ print(json.dumps(found))
 		assert exit > level + 0.2, 'water comes out above the lower level'
 
 
+def test_a_drain_below_a_dam_draws_the_parabola_of_kozeny(yade):
+	"""Flow from a steep face to a horizontal drain: discharge k (sqrt(d^2 + h^2) - d), and the free surface y^2 = 2 a (d - x) + a^2. Kozeny's own face bulges a little towards the water."""
+	for found, surface in yade(
+	        setting + '''
+found = []
+for d in 12, 20:
+	dam(d + 4, 6, .5)
+	flow = mpm.seepage([([(0, 6), (0, 0)], 5)], faces=[[(d, 0), (d + 3.5, 0)]])
+	a = np.sqrt(d**2 + 25) - d
+	x, y = np.transpose([place for place in flow.surface if place[0] < d - .5])
+	found.append([flow.discharge[1] / (1e-5 * a), float(abs(y - np.sqrt(2 * a * (d - x) + a * a)).max())])
+print(json.dumps(found))
+'''
+	).result:
+		assert found == pytest.approx(1, abs=0.05) and surface < 0.06
+
+
 def test_uniform_flow_is_exact_at_any_cut_and_water_takes_the_pressures(yade):
 	errors, slopes, pressure = yade(
 	        setting + '''
