@@ -88,7 +88,8 @@ namespace {
 	};
 
 	template <class Dimension> using BodyContactTest = InBothDimensions<Dimension>;
-	TYPED_TEST_SUITE(BodyContactTest, ::testing::Types<std::integral_constant<int, 2>>, DimensionName);
+	using InPlane                                    = ::testing::Types<std::integral_constant<int, 2>>;
+	TYPED_TEST_SUITE(BodyContactTest, InPlane, DimensionName);
 	template <class Dimension> using LayersTest = InBothDimensions<Dimension>;
 	TYPED_TEST_SUITE(LayersTest, BothDimensions, DimensionName);
 
