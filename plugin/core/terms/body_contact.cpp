@@ -23,20 +23,20 @@ constexpr double facing = 0.2;
 /// How far pieces are looked for, over the size of a cell.
 constexpr double reachOfBodies = 0.5;
 
-/// Of the vertices of a piece, for each of the places on it, which stand for equal parts: Gauss in the plane, exact for
-/// cubic functions; in space for squares.
-template <int Dim> const std::array<std::array<double, Dim>, Dim>& weightsOfPlaces()
-{
-	static const auto all = [] {
-		const double                             near = Dim == 2 ? (1 + 1 / std::sqrt(3.)) / 2 : 2. / 3, far = (1 - near) / (Dim - 1);
-		std::array<std::array<double, Dim>, Dim> weights;
+/// Of places on a piece: weights of its vertices, and the part of the size that each stands for.
+template <int Dim> struct Quadrature {
+	static constexpr int                     count = Dim;
+	std::array<std::array<double, Dim>, Dim> weight;
+	static constexpr double                  part = 1. / Dim;
+	/// Gauss in the plane, exact for cubic functions; in space for squares.
+	Quadrature()
+	{
+		const double near = Dim == 2 ? (1 + 1 / std::sqrt(3.)) / 2 : 2. / 3, far = (1 - near) / (Dim - 1);
 		for (int q = 0; q < Dim; ++q)
-			for (int v = 0; v < Dim; ++v)
-				weights[q][v] = q == v ? near : far;
-		return weights;
-	}();
-	return all;
-}
+			for (int i = 0; i < Dim; ++i)
+				weight[q][i] = q == i ? near : far;
+	}
+};
 
 template <int Dim> double squaredDistance(const Vec<Dim>& x, const Vec<Dim>& a, const Vec<Dim>& b)
 {
@@ -54,38 +54,16 @@ double squaredDistance(const PairPlaces<3>& x)
 	return std::min({ squaredDistance<3>(x[0], x[1], x[2]), squaredDistance<3>(x[0], x[2], x[3]), squaredDistance<3>(x[0], x[3], x[1]) });
 }
 
-/// As attach(), and farther away the nearest place in the populated cells around: what soil leaves behind of its
-/// surface goes with it.
-template <int Dim> std::optional<Attachment<Dim>> attachNear(const Vec<Dim>& place, const CloudBasis<Dim>& basis, const Grid<Dim>& grid, int layer)
-{
-	if (auto attached = attach(place, basis, grid, layer)) return attached;
-	std::optional<Vec<Dim>> nearest;
-	double                  least = std::numeric_limits<double>::infinity();
-	const Vec<Dim>          xi    = (place - grid.origin) / grid.cellSize;
-	if (!(xi.array().abs() < Grid<Dim>::indexLimit).all()) return std::nullopt;
-	const Index<Dim> own = xi.array().floor().template cast<int>();
-	for (int i = 0; i < (Dim == 2 ? 9 : 27); ++i) {
-		Index<Dim> cell = own;
-		for (int a = 0, rest = i; a < Dim; ++a, rest /= 3)
-			cell[a] += rest % 3 - 1;
-		const Vec<Dim> low = cell.template cast<double>(), inside = xi.cwiseMax(low).cwiseMin(low + Vec<Dim>::Ones());
-		const double   away = (xi - inside).squaredNorm();
-		const Key      key  = Grid<Dim>::key(grid.first(cell), 0, layer);
-		if (away < least && find(basis.populatedLeaves(), grid.refinement ? grid.refinement->leafOf(key) : key) >= 0)
-			least = away, nearest = grid.origin + grid.cellSize * inside;
-	}
-	return nearest ? attach(*nearest, basis, grid, layer) : std::nullopt;
-}
-
 /// Pieces by the cells within reach of them.
 template <int Dim> class PiecesByCell {
 public:
-	PiecesByCell(const Surface<Dim>& surface, const Grid<Dim>& grid, double reach) : grid_(grid)
+	PiecesByCell(const Facets<Dim>& facets, const Grid<Dim>& grid, double reach) : grid_(grid)
 	{
-		for (std::size_t i = 0; i < surface.pieces.size(); ++i) {
-			Vec<Dim> low = surface.vertices[surface.pieces[i][0]], high = low;
-			for (const int v : surface.pieces[i])
-				low = low.cwiseMin(surface.vertices[v]), high = high.cwiseMax(surface.vertices[v]);
+		for (std::size_t i = 0; i < facets.pieces.size(); ++i) {
+			if (!facets.isThere(facets.pieces[i])) continue;
+			Vec<Dim> low = facets.start[facets.pieces[i][0]], high = low;
+			for (const int v : facets.pieces[i])
+				low = low.cwiseMin(facets.start[v]), high = high.cwiseMax(facets.start[v]);
 			const Index<Dim> first = cell(low - Vec<Dim>::Constant(reach)), last = cell(high + Vec<Dim>::Constant(reach));
 			Index<Dim>       c = first;
 			for (int a = 0; a < Dim;) {
@@ -109,6 +87,12 @@ private:
 	std::unordered_map<Key, std::vector<int>> pieces_;
 };
 
+/// The number of the leaf that a place is attached to.
+template <int Dim> int leafAt(const Attachment<Dim>& at, const CloudBasis<Dim>& basis, const Grid<Dim>& grid, int layer)
+{
+	return find(basis.populatedLeaves(), Grid<Dim>::key(grid.first(at.cell * (1 << at.level)), at.level, layer));
+}
+
 } // namespace
 
 template <int Dim>
@@ -119,73 +103,84 @@ BodyContact<Dim>::BodyContact(BodyContacts<Dim>& system, const Beginning<Dim>& s
         , reach_(reachOfBodies * cellSize_)
         , isRing_(step.grid.axisymmetric)
         , unknowns_(Dim * Eigen::Index(step.basis.nodes.size()))
-        , grid_(step.grid)
 {
 	system.acting = this;
-	attachAll(step);
+	for (const auto& body : system.bodies) {
+		facets_.emplace_back(body.surface, step.basis, step.grid, body.layer);
+		start_.push_back(facets_.back().start);
+	}
 	for (int m = 0; m < int(system.meetings.size()); ++m)
-		addPlaces(m);
+		addPlaces(m, step);
 	takeModuli(step);
 	requireApart();
 }
 
-template <int Dim> void BodyContact<Dim>::attachAll(const Beginning<Dim>& step)
-{
-	for (const auto& body : system_.bodies) {
-		start_.push_back(body.surface.vertices);
-		at_.emplace_back();
-		for (const Vec<Dim>& x : body.surface.vertices)
-			at_.back().push_back(attachNear(x, step.basis, step.grid, body.layer));
-	}
-}
-
-template <int Dim> bool BodyContact<Dim>::isThere(int body, int piece) const
-{
-	const auto& vertices = surfaceOf(body).pieces[piece];
-	return std::all_of(vertices.begin(), vertices.end(), [&](int v) { return at_[body][v].has_value(); });
-}
-
-template <int Dim> void BodyContact<Dim>::addPlaces(int number)
+template <int Dim> void BodyContact<Dim>::addPlaces(int number, const Beginning<Dim>& step)
 {
 	const auto&             meeting = system_.meetings[number];
-	const auto&             slave   = surfaceOf(meeting.slave);
-	const PiecesByCell<Dim> byCell(surfaceOf(meeting.master), grid_, reach_);
+	const auto&             slave   = facets_[meeting.slave];
+	const PiecesByCell<Dim> byCell(facets_[meeting.master], step.grid, reach_);
+	const Quadrature<Dim>   rule;
 	for (int i = 0; i < int(slave.pieces.size()); ++i) {
-		if (!isThere(meeting.slave, i)) continue;
-		const Vec<Dim> normal = slave.normal(slave.pieces[i], slave.vertices), first = slave.normal(slave.pieces[i], slave.vertices0);
-		for (int q = 0; q < Dim; ++q) {
-			Place          place { number, i, q, normal.normalized(), first.norm() / Dim, normal.norm() / Dim };
-			const Vec<Dim> x = placeAt(place, slave.vertices), x0 = placeAt(place, slave.vertices0);
-			if (isRing_ && x[0] <= 0) continue;
-			for (const int piece : byCell.near(x))
-				if (isThere(meeting.master, piece) && squaredDistance(pair(place, piece, start_)) <= reach_ * reach_)
-					place.near.push_back(piece);
+		if (!slave.isThere(slave.pieces[i])) continue;
+		const Vec<Dim> normal = system_.bodies[meeting.slave].surface.normal(slave.pieces[i], slave.start);
+		for (const auto& weight : rule.weight) {
+			Vec<Dim> x = Vec<Dim>::Zero();
+			for (int v = 0; v < Dim; ++v)
+				x += weight[v] * slave.start[slave.pieces[i][v]];
+			const auto& near = byCell.near(x);
+			if (near.empty() || (isRing_ && x[0] <= 0)) continue;
+			const auto at = attachNear(x, step.basis, step.grid, system_.bodies[meeting.slave].layer);
+			if (!at) continue;
+			const double area = rule.part * normal.norm() * (isRing_ ? 2 * M_PI * x[0] : 1);
+			Place        place { number, i, x, normal.normalized(), area, 0, Vec<Dim>::Zero(), *at };
+			findNear(place, near, step);
 			if (place.near.empty()) continue;
-			if (isRing_) place.area *= 2 * M_PI * x0[0], place.areaNow *= 2 * M_PI * x[0];
-			if (!meeting.shear.empty()) place.shear = meeting.shear[Dim * i + q];
+			if (!meeting.shear.empty()) place.shear = area * meeting.shear[slave.whole[i]];
 			places_.push_back(std::move(place));
 		}
 	}
 }
 
-/// The smaller one of both, by the cells at the first vertices of the pieces.
+template <int Dim> void BodyContact<Dim>::findNear(Place& place, const std::vector<int>& pieces, const Beginning<Dim>& step) const
+{
+	const int   body   = meetingOf(place).master;
+	const auto& facets = facets_[body];
+	for (const int piece : pieces) {
+		const auto x = pair(place.start, body, piece, start_);
+		if (squaredDistance(x) > reach_ * reach_) continue;
+		Near near { piece, Facing<Dim>(x).weight, {} };
+		for (double& weight : near.weight)
+			weight = std::max(0., weight);
+		const double sum  = std::accumulate(near.weight.begin(), near.weight.end(), 0.);
+		Vec<Dim>     foot = Vec<Dim>::Zero();
+		for (int v = 0; v < Dim; ++v)
+			near.weight[v] /= sum, foot += near.weight[v] * facets.start[facets.pieces[piece][v]];
+		const auto at = attachNear(foot, step.basis, step.grid, system_.bodies[body].layer);
+		if (!at) continue;
+		near.foot = *at;
+		place.near.push_back(near);
+	}
+}
+
+/// The smaller one of both, by the master's cell at the nearest piece.
 template <int Dim> void BodyContact<Dim>::takeModuli(const Beginning<Dim>& step)
 {
-	if (places_.empty()) return;
 	std::vector<char>               isAskedFor(step.basis.populatedLeaves().size(), 0);
 	std::vector<std::array<int, 2>> leaves;
-	const auto                      leafOf = [&](int body, int piece) {
-                const auto& at = *at_[body][surfaceOf(body).pieces[piece][0]];
-                return find(step.basis.populatedLeaves(), Grid<Dim>::key(grid_.first(at.cell * (1 << at.level)), at.level, system_.bodies[body].layer));
-	};
 	for (const Place& place : places_) {
 		const auto& meeting = meetingOf(place);
-		const auto  nearer  = [&](int a, int b) { return squaredDistance(pair(place, a, start_)) < squaredDistance(pair(place, b, start_)); };
-		leaves.push_back(
-		        { leafOf(meeting.slave, place.piece), leafOf(meeting.master, *std::min_element(place.near.begin(), place.near.end(), nearer)) });
+		const Near* nearest = &place.near[0];
+		double      least   = std::numeric_limits<double>::infinity();
+		for (const Near& near : place.near)
+			if (const double away = squaredDistance(pair(place.start, meeting.master, near.piece, start_)); away < least)
+				least = away, nearest = &near;
+		leaves.push_back({ leafAt(place.at, step.basis, step.grid, system_.bodies[meeting.slave].layer),
+		                   leafAt(nearest->foot, step.basis, step.grid, system_.bodies[meeting.master].layer) });
 		for (const int leaf : leaves.back())
 			isAskedFor[leaf] = 1;
 	}
+	if (places_.empty()) return;
 	const auto moduli = cellModuli(isAskedFor, step.basis, step.stiffnessOf, step.grid);
 	for (std::size_t i = 0; i < places_.size(); ++i)
 		places_[i].young = std::min(moduli[leaves[i][0]], moduli[leaves[i][1]]);
@@ -196,62 +191,63 @@ template <int Dim> void BodyContact<Dim>::requireApart()
 {
 	for (const Place& place : places_) {
 		const auto& meeting = meetingOf(place);
-		const int   piece   = nearestOf(place, start_);
-		if (piece < 0 || !obstacle_.empty()) continue;
-		const Facing<Dim> at(pair(place, piece, start_));
+		const Near* near    = nearestOf(place, nullptr, start_);
+		if (!near || !obstacle_.empty()) continue;
+		const Facing<Dim> at(pair(place.start, meeting.master, near->piece, start_));
 		if (at.gap < -deepestInBodies * cellSize_)
 			obstacle_ = sentence(
 			        "the surface of body '", system_.bodies[meeting.slave].name, "' is ", -at.gap, " m inside of body '",
-			        system_.bodies[meeting.master].name, "', at (", placeAt(place, start_[meeting.slave]).transpose(),
+			        system_.bodies[meeting.master].name, "', at (", place.start.transpose(),
 			        "): bodies must not overlap, and larger steps than they can bear get them into each other");
 	}
 }
 
 template <int Dim> auto BodyContact<Dim>::placesAt(const Eigen::VectorXd& d) const -> Places
 {
-	Places places = start_;
-	for (std::size_t b = 0; b < places.size(); ++b)
-		for (std::size_t v = 0; v < places[b].size(); ++v)
-			if (at_[b][v]) places[b][v] += at_[b][v]->displacement(d);
+	Places places;
+	for (const auto& facets : facets_)
+		places.push_back(facets.placesAt(d));
 	return places;
 }
 
-template <int Dim> Vec<Dim> BodyContact<Dim>::placeAt(const Place& place, const std::vector<Vec<Dim>>& vertices) const
+template <int Dim> PairPlaces<Dim> BodyContact<Dim>::pair(const Vec<Dim>& place, int body, int piece, const Places& places) const
 {
-	const auto& piece = surfaceOf(meetingOf(place).slave).pieces[place.piece];
-	Vec<Dim>    x     = Vec<Dim>::Zero();
+	PairPlaces<Dim> x;
+	x[0] = place;
 	for (int v = 0; v < Dim; ++v)
-		x += weightsOfPlaces<Dim>()[place.number][v] * vertices[piece[v]];
+		x[v + 1] = places[body][facets_[body].pieces[piece][v]];
 	return x;
 }
 
-template <int Dim> PairPlaces<Dim> BodyContact<Dim>::pair(const Place& place, int piece, const Places& places) const
+/// The place goes on with what the foot moves less than the vertices.
+template <int Dim> PairPlaces<Dim> BodyContact<Dim>::pairNow(const Place& place, const Near& near, const Eigen::VectorXd& d, const Places& now) const
 {
 	const int       master = meetingOf(place).master;
-	PairPlaces<Dim> x;
-	x[0] = placeAt(place, places[meetingOf(place).slave]);
+	PairPlaces<Dim> x = pair(place.start, master, near.piece, now), start = pair(place.start, master, near.piece, start_);
+	x[0] += place.at.displacement(d) - near.foot.displacement(d);
 	for (int v = 0; v < Dim; ++v)
-		x[v + 1] = places[master][surfaceOf(master).pieces[piece][v]];
+		x[0] += near.weight[v] * (x[v + 1] - start[v + 1]);
 	return x;
 }
 
-/// The piece that is nearest to where the place is, -1 if that does not face it. At an edge the one behind which the
-/// place is least.
-template <int Dim> int BodyContact<Dim>::nearestOf(const Place& place, const Places& places) const
+/// The piece that is nearest to where the place is, null if that does not face it. At an edge the one behind which the
+/// place is least. Without displacements as the step begins.
+template <int Dim> auto BodyContact<Dim>::nearestOf(const Place& place, const Eigen::VectorXd* d, const Places& places) const -> const Near*
 {
-	const double same  = 1e-12 * cellSize_ * cellSize_;
+	const int    master = meetingOf(place).master;
+	const double same   = 1e-12 * cellSize_ * cellSize_;
 	double       least = std::numeric_limits<double>::infinity(), gap = 0;
-	int          nearest = -1;
+	const Near*  nearest = nullptr;
 	Vec<Dim>     normal  = Vec<Dim>::Zero();
-	for (const int piece : place.near) {
-		const auto   x    = pair(place, piece, places);
+	for (const Near& near : place.near) {
+		const auto   x    = d ? pairNow(place, near, *d, places) : pair(place.start, master, near.piece, places);
 		const double away = squaredDistance(x);
 		if (away > least + same) continue;
 		const Facing<Dim> at(x);
 		if (away > least - same && at.gap < gap) continue;
-		least = std::min(least, away), gap = at.gap, nearest = piece, normal = at.normal;
+		least = std::min(least, away), gap = at.gap, nearest = &near, normal = at.normal;
 	}
-	return nearest >= 0 && normal.dot(place.normal) < facing ? nearest : -1;
+	return nearest && normal.dot(place.normal) < facing ? nearest : nullptr;
 }
 
 template <int Dim> template <class F> void BodyContact<Dim>::forTouching(const Eigen::VectorXd& d, bool withSlope, F&& f) const
@@ -260,21 +256,19 @@ template <int Dim> template <class F> void BodyContact<Dim>::forTouching(const E
 	const Places now = placesAt(d);
 	for (const Place& place : places_) {
 		const auto& meeting = meetingOf(place);
-		const int   piece   = nearestOf(place, now);
-		if (piece < 0) continue;
+		const Near* near    = nearestOf(place, &d, now);
+		if (!near) continue;
 		const double          penalty = meeting.stiffness * place.young * place.area / cellSize_;
-		const ContactLaw<Dim> law { penalty, penalty / slipSoftnessOfBodies, meeting.friction, meeting.adhesion * place.areaNow };
-		const auto            end = pair(place, piece, now);
-		if (const auto force = pairForce<Dim>(law, pair(place, piece, start_), place.shear, end, tolerance_, withSlope))
-			f(Touching { place, piece, *force, end });
+		const ContactLaw<Dim> law { penalty, penalty / slipSoftnessOfBodies, meeting.friction, meeting.adhesion * place.area };
+		const auto            start = pair(place.start, meeting.master, near->piece, start_), end = pairNow(place, *near, d, now);
+		if (const auto force = pairForce<Dim>(law, start, place.shear, end, tolerance_, withSlope)) f(Touching { place, *near, *force, end });
 	}
 }
 
-template <int Dim> auto BodyContact<Dim>::nodesOf(const Place& place, int piece) const -> std::vector<PairNode>
+template <int Dim> auto BodyContact<Dim>::nodesOf(const Place& place, const Near& near) const -> std::vector<PairNode>
 {
 	std::vector<PairNode> nodes;
-	const auto            add = [&](int body, int vertex, int i, double part) {
-                const auto& at = *at_[body][vertex];
+	const auto            add = [&](const Attachment<Dim>& at, int i, double part) {
                 for (int n = 0; n < at.nodes; ++n) {
                         if (at.weight[n] == 0) continue;
                         auto known = std::find_if(nodes.begin(), nodes.end(), [&](const PairNode& other) { return other.node == at.node[n]; });
@@ -282,10 +276,13 @@ template <int Dim> auto BodyContact<Dim>::nodesOf(const Place& place, int piece)
                         known->weight[i] += part * at.weight[n];
                 }
 	};
-	const auto& meeting = meetingOf(place);
+	const auto& master = facets_[meetingOf(place).master];
+	add(place.at, 0, 1);
+	add(near.foot, 0, -1);
 	for (int v = 0; v < Dim; ++v) {
-		add(meeting.slave, surfaceOf(meeting.slave).pieces[place.piece][v], 0, weightsOfPlaces<Dim>()[place.number][v]);
-		add(meeting.master, surfaceOf(meeting.master).pieces[piece][v], v + 1, 1);
+		const auto& at = *master.at[master.pieces[near.piece][v]];
+		add(at, 0, near.weight[v]);
+		add(at, v + 1, 1);
 	}
 	return nodes;
 }
@@ -300,8 +297,8 @@ template <int Dim> void BodyContact<Dim>::markCouplings(Couplings& K) const
 {
 	for (const Place& place : places_) {
 		std::vector<int> nodes;
-		for (const int piece : place.near)
-			for (const PairNode& one : nodesOf(place, piece))
+		for (const Near& near : place.near)
+			for (const PairNode& one : nodesOf(place, near))
 				nodes.push_back(one.node);
 		std::sort(nodes.begin(), nodes.end());
 		nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
@@ -314,7 +311,7 @@ template <int Dim> void BodyContact<Dim>::markCouplings(Couplings& K) const
 template <int Dim> void BodyContact<Dim>::add(const Eigen::VectorXd& d, double factor, Eigen::VectorXd& force, Eigen::VectorXd* sizes, Couplings* K) const
 {
 	forTouching(d, K != nullptr, [&](const Touching& touching) {
-		const auto nodes = nodesOf(touching.place, touching.piece);
+		const auto nodes = nodesOf(touching.place, touching.near);
 		for (const PairNode& one : nodes) {
 			Vec<Dim>                                         f   = Vec<Dim>::Zero();
 			Eigen::Matrix<double, Dim, PairForce<Dim>::size> row = Eigen::Matrix<double, Dim, PairForce<Dim>::size>::Zero();
@@ -350,18 +347,16 @@ template <int Dim> void BodyContact<Dim>::addUnweighted(const Eigen::VectorXd* d
 
 template <int Dim> void BodyContact<Dim>::holdAt(const Touching& touching, bool sticks, const typename Term<Dim>::Hold& hold) const
 {
-	const Vec<Dim> normal  = Facing<Dim>(touching.now).normal;
-	const auto&    meeting = meetingOf(touching.place);
-	const auto     holds   = [&](int body, int piece) {
-                for (const int v : surfaceOf(body).pieces[piece]) {
-                        const auto& at = *at_[body][v];
-                        hold(at.node[0], normal, at.inCell());
-                        for (int a = 0; sticks && a < Dim; ++a)
-                                hold(at.node[0], Vec<Dim>::Unit(a), at.inCell());
-                }
+	const Vec<Dim>& normal = Facing<Dim>(touching.now).normal;
+	const auto&     master = facets_[meetingOf(touching.place).master];
+	const auto      holds  = [&](const Attachment<Dim>& at) {
+                hold(at.node[0], normal, at.inCell());
+                for (int a = 0; sticks && a < Dim; ++a)
+                        hold(at.node[0], Vec<Dim>::Unit(a), at.inCell());
 	};
-	holds(meeting.slave, touching.place.piece);
-	holds(meeting.master, touching.piece);
+	holds(touching.place.at);
+	for (const int v : master.pieces[touching.near.piece])
+		holds(*master.at[v]);
 }
 
 /// Each as if the other one stood still.
@@ -425,20 +420,27 @@ template <int Dim> Refusal BodyContact<Dim>::refusal(const Eigen::VectorXd& d) c
 	return refusal;
 }
 
+/// Stresses of a piece are the means over its places.
 template <int Dim> void BodyContact<Dim>::commit(const Eigen::VectorXd& d)
 {
+	const Places                     now = placesAt(d);
+	std::vector<std::vector<double>> area;
 	for (auto& meeting : system_.meetings) {
-		const std::size_t places = Dim * surfaceOf(meeting.slave).pieces.size();
-		meeting.shear.assign(places, Vec<Dim>::Zero()), meeting.pressure.assign(places, 0);
+		const std::size_t pieces = system_.bodies[meeting.slave].surface.pieces.size();
+		meeting.shear.assign(pieces, Vec<Dim>::Zero()), meeting.pressure.assign(pieces, 0);
 		meeting.force.setZero(), meeting.moment.setZero(), meeting.touching = meeting.slipping = 0;
+		area.emplace_back(pieces, 0.);
 	}
+	for (const Place& place : places_)
+		area[place.meeting][facets_[meetingOf(place).slave].whole[place.piece]] += place.area;
 	system_.work = 0;
 	forTouching(d, false, [&](const Touching& touching) {
-		const auto& [place, piece, force, at] = touching;
-		auto&      meeting                    = system_.meetings[place.meeting];
-		const int  number                     = Dim * place.piece + place.number;
-		const auto start                      = pair(place, piece, start_);
-		meeting.shear[number] = force.shear, meeting.pressure[number] = force.pressure;
+		const auto& [place, near, force, at] = touching;
+		auto&      meeting                   = system_.meetings[place.meeting];
+		const int  whole                     = facets_[meeting.slave].whole[place.piece];
+		const auto start                     = pair(place.start, meeting.master, near.piece, start_);
+		meeting.shear[whole] += force.shear / area[place.meeting][whole];
+		meeting.pressure[whole] += force.pressure / area[place.meeting][whole];
 		meeting.force += force.force[0];
 		Vec3 arm = Vec3::Zero(), f = Vec3::Zero();
 		arm.template head<Dim>() = at[0], f.template head<Dim>() = force.force[0];
@@ -447,30 +449,17 @@ template <int Dim> void BodyContact<Dim>::commit(const Eigen::VectorXd& d)
 		for (int i = 0; i <= Dim; ++i)
 			system_.work += force.force[i].dot(at[i] - start[i]);
 	});
-	moveSurfaces(placesAt(d));
-}
-
-/// Where a piece is divided its places have their parts of the forces.
-template <int Dim> void BodyContact<Dim>::moveSurfaces(const Places& now)
-{
 	for (std::size_t b = 0; b < system_.bodies.size(); ++b) {
-		auto&             body   = system_.bodies[b];
-		const std::size_t before = body.surface.pieces.size();
-		body.surface.vertices    = now[b];
-		const auto wholes        = body.refine(grid_, false);
-		if (wholes.size() == before) continue;
-		std::vector<int> parts(before, 0);
-		for (const int whole : wholes)
-			++parts[whole];
+		auto& surface = system_.bodies[b].surface;
+		surface.vertices.assign(now[b].begin(), now[b].begin() + surface.vertices.size());
+		const auto wholes = system_.bodies[b].refine(cellSize_);
 		for (auto& meeting : system_.meetings) {
 			if (meeting.slave != int(b)) continue;
-			const auto shear    = std::move(meeting.shear);
-			const auto pressure = std::move(meeting.pressure);
+			const auto shear    = meeting.shear;
+			const auto pressure = meeting.pressure;
 			meeting.shear.clear(), meeting.pressure.clear();
 			for (const int whole : wholes)
-				for (int q = 0; q < Dim; ++q)
-					meeting.shear.push_back(shear[Dim * whole + q] / parts[whole]),
-					        meeting.pressure.push_back(pressure[Dim * whole + q] / parts[whole]);
+				meeting.shear.push_back(shear[whole]), meeting.pressure.push_back(pressure[whole]);
 		}
 	}
 }

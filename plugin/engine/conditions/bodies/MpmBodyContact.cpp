@@ -27,6 +27,9 @@ std::shared_ptr<Condition<3>> MpmBodyContact::make(InSpace, const Group& group, 
 
 void MpmBodyContact::requireFitting(const Analysis& analysis, const string& name) const
 {
+	if (analysis.grid->dim != 2)
+		throw std::invalid_argument(
+		        name + ": an MpmBodyContact is for dim=2, in plane strain or around an axis, yet; in space the pieces of surfaces are too many.");
 	for (const string& body : between) {
 		const int number = analysis.grid->bodyNamed(body);
 		if (number < 0) {
@@ -61,15 +64,6 @@ void MpmBodyContact::tell(Rows& rows, const Analysis& analysis, const Listed& li
 	rows.set(name + "_touching", touching);
 }
 
-// Around an axis of the whole ring.
-static Real areaOf(const MpmBody& body, size_t piece, const MpmGrid& grid)
-{
-	const auto&             p = body.pieces[piece];
-	const vector<Vector3r>& x = body.vertices;
-	if (p.size() == 3) return gimpm::pieceNormal(gimpm::Vec3(x[p[0]]), gimpm::Vec3(x[p[1]]), gimpm::Vec3(x[p[2]])).norm();
-	return (x[p[1]] - x[p[0]]).head<2>().norm() * (grid.axisymmetric ? M_PI * (x[p[0]][0] + x[p[1]][0]) : 1);
-}
-
 // Stresses on the slave.
 void MpmBodyContact::draw(Picture& picture, const Analysis& analysis, const Listed& listed) const
 {
@@ -77,22 +71,16 @@ void MpmBodyContact::draw(Picture& picture, const Analysis& analysis, const List
 	if (number < 0) return;
 	const MpmBody& body  = *analysis.grid->bodies[number];
 	const int      first = int(picture.corners.size());
-	const size_t   dim   = analysis.grid->dim;
-	if (pressures.size() != dim * body.pieces.size()) return;
+	if (pressures.size() != body.pieces.size()) return;
 	picture.corners.insert(picture.corners.end(), body.vertices.begin(), body.vertices.end());
 	for (size_t i = 0; i < body.pieces.size(); ++i) {
 		vector<int> piece = body.pieces[i];
 		for (int& corner : piece)
 			corner += first;
 		picture.add(piece);
-		Real     normal = 0;
-		Vector3r along  = Vector3r::Zero();
-		for (size_t q = dim * i; q < dim * (i + 1); ++q)
-			normal += pressures[q], along += shears[q];
-		const Real area = areaOf(body, i, *analysis.grid);
-		picture.set("pressure", normal / area);
-		picture.set("shear", along.norm() / area);
-		picture.set("touches", int(normal > 0));
+		picture.set("pressure", pressures[i]);
+		picture.set("shear", shears[i].norm());
+		picture.set("touches", int(pressures[i] > 0));
 		picture.set("contact", int(listed.number));
 	}
 }

@@ -111,7 +111,7 @@ template <int Dim> gimpm::MeetingBody<Dim> MeetingBodies<Dim>::coreBody(int numb
 		body.surface.pieces.emplace_back();
 		std::copy(from.pieces[i].begin(), from.pieces[i].end(), body.surface.pieces.back().begin());
 	}
-	body.refine(lattice, from.initialVertices.empty());
+	body.refine(lattice.cellSize);
 	return body;
 }
 
@@ -123,7 +123,7 @@ template <int Dim> gimpm::BodyMeeting<Dim> MeetingBodies<Dim>::coreMeeting(const
 	meeting.friction  = std::tan(contact.friction);
 	meeting.adhesion  = contact.adhesion;
 	meeting.stiffness = contact.stiffness;
-	if (contact.shears.size() != Dim * system->bodies[meeting.slave].surface.pieces.size()) return meeting;
+	if (contact.shears.size() != system->bodies[meeting.slave].surface.pieces.size()) return meeting;
 	meeting.pressure = contact.pressures;
 	for (const Vector3r& shear : contact.shears)
 		meeting.shear.push_back(shear.head<Dim>());

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "core/terms/facets.hpp"
+#include <algorithm>
+#include <cmath>
+
+namespace gimpm {
+namespace {
+
+/// Where a segment crosses lines of the grid, as parts of its length, rising.
+std::vector<double> crossings(const Vec<2>& a, const Vec<2>& b, const Grid<2>& grid)
+{
+	constexpr double    end = 1e-6; // of a cell, and of the length: nothing so short is cut off
+	std::vector<double> parts;
+	for (int axis = 0; axis < 2; ++axis) {
+		const double from = (a[axis] - grid.origin[axis]) / grid.cellSize, to = (b[axis] - grid.origin[axis]) / grid.cellSize;
+		for (double line = std::ceil(std::min(from, to) + end); line < std::max(from, to) - end; ++line)
+			parts.push_back((line - from) / (to - from));
+	}
+	std::sort(parts.begin(), parts.end());
+	const auto last = std::unique(parts.begin(), parts.end(), [](double s, double t) { return t - s < end; });
+	parts.erase(last, parts.end());
+	return parts;
+}
+
+void addPiece(Facets<2>& to, const Surface<2>::Piece& piece, int number, const Grid<2>& grid)
+{
+	int first = piece[0];
+	for (const double s : crossings(to.start[piece[0]], to.start[piece[1]], grid)) {
+		to.start.push_back((1 - s) * to.start[piece[0]] + s * to.start[piece[1]]);
+		to.pieces.push_back({ first, int(to.start.size()) - 1 });
+		to.whole.push_back(number);
+		first = int(to.start.size()) - 1;
+	}
+	to.pieces.push_back({ first, piece[1] });
+	to.whole.push_back(number);
+}
+
+void addPiece(Facets<3>& to, const Surface<3>::Piece& piece, int number, const Grid<3>&)
+{
+	to.pieces.push_back(piece);
+	to.whole.push_back(number);
+}
+
+} // namespace
+
+template <int Dim> Facets<Dim>::Facets(const Surface<Dim>& surface, const CloudBasis<Dim>& basis, const Grid<Dim>& grid, int layer) : start(surface.vertices)
+{
+	for (std::size_t i = 0; i < surface.pieces.size(); ++i)
+		addPiece(*this, surface.pieces[i], int(i), grid);
+	for (const Vec<Dim>& x : start)
+		at.push_back(attachNear(x, basis, grid, layer));
+}
+
+template <int Dim> bool Facets<Dim>::isThere(const Piece& piece) const
+{
+	return std::all_of(piece.begin(), piece.end(), [&](int v) { return at[v].has_value(); });
+}
+
+template <int Dim> std::vector<Vec<Dim>> Facets<Dim>::placesAt(const Eigen::VectorXd& d) const
+{
+	Places places = start;
+	for (std::size_t v = 0; v < places.size(); ++v)
+		if (at[v]) places[v] += at[v]->displacement(d);
+	return places;
+}
+
+template <int Dim> std::optional<Attachment<Dim>> attachNear(const Vec<Dim>& place, const CloudBasis<Dim>& basis, const Grid<Dim>& grid, int layer)
+{
+	if (auto attached = attach(place, basis, grid, layer)) return attached;
+	std::optional<Vec<Dim>> nearest;
+	double                  least = std::numeric_limits<double>::infinity();
+	const Vec<Dim>          xi    = (place - grid.origin) / grid.cellSize;
+	if (!(xi.array().abs() < Grid<Dim>::indexLimit).all()) return std::nullopt;
+	const Index<Dim> own = xi.array().floor().template cast<int>();
+	for (int i = 0; i < (Dim == 2 ? 9 : 27); ++i) {
+		Index<Dim> cell = own;
+		for (int a = 0, rest = i; a < Dim; ++a, rest /= 3)
+			cell[a] += rest % 3 - 1;
+		const Vec<Dim> low = cell.template cast<double>(), inside = xi.cwiseMax(low).cwiseMin(low + Vec<Dim>::Ones());
+		const double   away = (xi - inside).squaredNorm();
+		const Key      key  = Grid<Dim>::key(grid.first(cell), 0, layer);
+		if (away < least && find(basis.populatedLeaves(), grid.refinement ? grid.refinement->leafOf(key) : key) >= 0)
+			least = away, nearest = grid.origin + grid.cellSize * inside;
+	}
+	return nearest ? attach(*nearest, basis, grid, layer) : std::nullopt;
+}
+
+template struct Facets<2>;
+template struct Facets<3>;
+template std::optional<Attachment<2>> attachNear(const Vec<2>&, const CloudBasis<2>&, const Grid<2>&, int);
+template std::optional<Attachment<3>> attachNear(const Vec<3>&, const CloudBasis<3>&, const Grid<3>&, int);
+
+} // namespace gimpm

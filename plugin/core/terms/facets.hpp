@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The surface of a body of points in one step: places that move with the linear functions of the grid.
+#pragma once
+#include "core/grid/attachment.hpp"
+#include "core/grid/surface.hpp"
+
+namespace gimpm {
+
+/// Pieces of a surface; in the plane they are cut where they cross the lines of the grid, so that what acts on them evenly
+/// acts on the nodes as an even stress does. Vertices of the surface come first, in its order.
+template <int Dim> struct Facets {
+	using Piece  = typename Surface<Dim>::Piece;
+	using Places = std::vector<Vec<Dim>>;
+
+	Places                                      start; ///< of the vertices [m]
+	std::vector<std::optional<Attachment<Dim>>> at;    ///< none: there is no material near
+	std::vector<Piece>                          pieces;
+	std::vector<int>                            whole; ///< of each piece, the piece of the surface that it is part of
+
+	/// Of the body whose nodes are in a layer.
+	Facets(const Surface<Dim>&, const CloudBasis<Dim>&, const Grid<Dim>&, int layer);
+
+	bool   isThere(const Piece&) const; ///< all of its vertices
+	Places placesAt(const Eigen::VectorXd& d) const;
+};
+
+/// As attach(), and farther away the place in the nearest cell of its neighbours that is populated: what soil leaves
+/// behind of its surface goes with it.
+template <int Dim> std::optional<Attachment<Dim>> attachNear(const Vec<Dim>& place, const CloudBasis<Dim>&, const Grid<Dim>&, int layer);
+
+} // namespace gimpm
