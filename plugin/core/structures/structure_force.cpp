@@ -238,9 +238,12 @@ template <int Dim> void StructureForce<Dim>::restrain(const typename Term<Dim>::
 			if (beam.fixedHead[a] || beam.fixedFoot[a]) hold(attached_[v]->node[0], Vec<Dim>::Unit(a), attached_[v]->inCell());
 }
 
+/// Forces beyond what numbers can hold would make any residual look small.
 template <int Dim> Refusal StructureForce<Dim>::refusal(const Eigen::VectorXd& d) const
 {
-	if (!system_ || system_->solve(soilAt(d), last_).isFound) return {};
+	if (!system_) return {};
+	if (!std::isfinite(fromOutside(d))) return { Failure::refused, structure_.name() + " has forces that are not finite numbers any more", "" };
+	if (system_->solve(soilAt(d), last_).isFound) return {};
 	return { Failure::refused, structure_.name() + " finds no equilibrium with the soil around it",
 		 "It may have been pulled out, have buckled, or have become a mechanism by hinges that yield: shorter steps show how it gets there." };
 }

@@ -414,7 +414,7 @@ def outcomes(tmp_path_factory):
 	subprocess.run(['g++', '-shared', '-fPIC', '-o', yade.environment['UMAT'], root / 'tests/umat/von_mises.cpp'], check=True)
 	texts = {kind: [[category, text] for category, list_ in zip(categories, lists) for text in list_] for kind, lists in kinds.items()}
 	(yade.folder / 'values.json').write_text(json.dumps(dict(kinds=texts, outOfRange=outOfRange)))
-	results = yade(setting).result
+	results = yade(setting, timeout=240).result
 	if 'BAD_INPUT_TABLE' in os.environ: writeTable(results, os.environ['BAD_INPUT_TABLE'])
 	return results
 

@@ -45,7 +45,7 @@ namespace {
 		beam.adhesion      = from.adhesion;
 		beam.friction      = std::tan(from.friction);
 		beam.isClosed      = from.line.front() == from.line.back();
-		if (from.vertices.empty()) beam.begin(gimpm::divided<2>(inDimension<2>(placesOf(from.line)), gimpm::lengthOfPieces * grid.cellSize));
+		if (from.vertices.empty()) beam.begin(fineLine<2>(inDimension<2>(placesOf(from.line)), name, grid));
 		else
 			goOn(beam, from);
 		for (const Vector3r& hinge : placesOf(from.hinges))

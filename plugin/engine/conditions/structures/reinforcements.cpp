@@ -16,15 +16,29 @@ void requireStructuresFit(const Analysis& analysis, const string& kind, const st
 	if (!what.empty()) throw std::invalid_argument(name + ": " + kind + " cannot go with " + what + ".");
 }
 
+template <int Dim> std::vector<gimpm::Vec<Dim>> fineLine(const std::vector<gimpm::Vec<Dim>>& line, const string& name, const gimpm::Grid<Dim>& grid)
+{
+	constexpr Real most    = 5000;
+	const Real     longest = gimpm::lengthOfPieces * grid.cellSize;
+	Real           pieces  = 0;
+	for (size_t i = 1; i < line.size(); ++i)
+		pieces += std::max<Real>(1, (line[i] - line[i - 1]).norm() / longest);
+	if (!(pieces <= most))
+		throw std::invalid_argument(
+		        name + ".line would have " + textOf(std::round(pieces)) + " pieces of half a cell, " + textOf(longest) + " m: at most " + textOf(most)
+		        + " are admitted. Are its points in metres?");
+	return gimpm::divided<Dim>(line, longest);
+}
+
 namespace {
 	// The free length is one piece, the rest is divided.
-	template <int Dim> std::vector<gimpm::Vec<Dim>> verticesOf(const MpmReinforcement& from, const gimpm::Grid<Dim>& grid)
+	template <int Dim> std::vector<gimpm::Vec<Dim>> verticesOf(const MpmReinforcement& from, const string& name, const gimpm::Grid<Dim>& grid)
 	{
 		auto line = inDimension<Dim>(placesOf(from.line));
-		if (from.freeLength == 0) return gimpm::divided<Dim>(line, gimpm::lengthOfPieces * grid.cellSize);
+		if (from.freeLength == 0) return fineLine<Dim>(line, name, grid);
 		const gimpm::Vec<Dim> head = line[0];
 		line[0] += from.freeLength * (line[1] - line[0]).normalized();
-		auto vertices = gimpm::divided<Dim>(line, gimpm::lengthOfPieces * grid.cellSize);
+		auto vertices = fineLine<Dim>(line, name, grid);
 		vertices.insert(vertices.begin(), head);
 		return vertices;
 	}
@@ -42,7 +56,7 @@ template <int Dim> gimpm::Reinforcement<Dim> coreBar(const MpmReinforcement& fro
 	bar.bond          = from.bond;
 	if (from.friction > 0) bar.friction = (std::isnan(from.perimeter) ? 2 : from.perimeter) * std::tan(from.friction);
 	if (from.vertices.empty()) {
-		bar.begin(verticesOf<Dim>(from, grid));
+		bar.begin(verticesOf<Dim>(from, name, grid));
 		return bar;
 	}
 	bar.places    = inDimension<Dim>(from.vertices);
@@ -119,10 +133,11 @@ template <int Dim> void Reinforcements<Dim>::reach(const StepOutcome<Dim>&)
 }
 
 #define MPM_INSTANTIATE(Dim)                                                                                                                                   \
-	template gimpm::Reinforcement<Dim> coreBar<Dim>(const MpmReinforcement&, const string&, const gimpm::Grid<Dim>&);                                      \
-	template void                      scatterBar<Dim>(const gimpm::Reinforcement<Dim>&, MpmReinforcement&);                                               \
-	template void                      loadBar<Dim>(gimpm::Reinforcement<Dim>&, const MpmReinforcement&, const gimpm::LoadCurve&, const StepTime&);        \
-	template void                      joinStructure<Dim>(gimpm::Structure<Dim>&, gimpm::Model<Dim>&);                                                     \
+	template std::vector<gimpm::Vec<Dim>> fineLine<Dim>(const std::vector<gimpm::Vec<Dim>>&, const string&, const gimpm::Grid<Dim>&);                      \
+	template gimpm::Reinforcement<Dim>    coreBar<Dim>(const MpmReinforcement&, const string&, const gimpm::Grid<Dim>&);                                   \
+	template void                         scatterBar<Dim>(const gimpm::Reinforcement<Dim>&, MpmReinforcement&);                                            \
+	template void                         loadBar<Dim>(gimpm::Reinforcement<Dim>&, const MpmReinforcement&, const gimpm::LoadCurve&, const StepTime&);     \
+	template void                         joinStructure<Dim>(gimpm::Structure<Dim>&, gimpm::Model<Dim>&);                                                  \
 	template class Reinforcements<Dim>;
 MPM_INSTANTIATE(2)
 MPM_INSTANTIATE(3)

@@ -10,6 +10,9 @@ namespace yade {
 // std::invalid_argument for settings that structures do not go with.
 void requireStructuresFit(const Analysis&, const string& kind, const string& name);
 
+// A line with vertices half a cell apart; std::invalid_argument if there would be too many of them.
+template <int Dim> std::vector<gimpm::Vec<Dim>> fineLine(const std::vector<gimpm::Vec<Dim>>&, const string& name, const gimpm::Grid<Dim>&);
+
 // A bar as the core knows it, new or as the last step has left it, and the way back.
 template <int Dim> gimpm::Reinforcement<Dim> coreBar(const MpmReinforcement&, const string& name, const gimpm::Grid<Dim>&);
 template <int Dim> void                      scatterBar(const gimpm::Reinforcement<Dim>&, MpmReinforcement&);
