@@ -13,7 +13,8 @@ namespace gimpm {
 
 /// What all points of a material have in common.
 struct UserLawGiven {
-	/// A law that takes more parameters or state variables than there are has no finite answer then, and harms nothing.
+	/// A law that takes more parameters or state variables than there are has no finite answer then, and harms
+	/// nothing.
 	static constexpr std::size_t beyond = 64;
 
 	static std::vector<double> padded(std::vector<double> numbers)
