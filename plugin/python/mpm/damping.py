@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Damping that is asked for, and damping that a scheme in time has of its own."""
+from types import SimpleNamespace
+
 import numpy as np
 from yade import wrapper
 
@@ -120,6 +122,10 @@ def _motions(solver):
 	for kind in 'boundaries', 'absorbing', 'loads':
 		for i, one in enumerate(getattr(solver, kind)):
 			if getattr(one, 'motion', None) is not None: yield f'{kind}[{i}].motion', one.motion
+	moving = [(i, one) for i, one in enumerate(solver.loads) if isinstance(one, wrapper.MpmFreeField) and len(one.times)]
+	for i, one in moving[-1:]:  # that of the base, or a side whose first vertex is at the bottom
+		speed = np.reshape(one.velocities, (len(one.times), -1, 2))[:, 0, 0]
+		yield f'loads[{i}].velocities', SimpleNamespace(history=list(zip(one.times, speed)))
 
 
 def _onFrequencies(solver, name, frequencies):

@@ -138,6 +138,7 @@ solver = MpmDynamicEngine(boundaries=[MpmBoundary(max=(inf, 0, inf), fix='xy', m
 O.engines = [solver]
 solver.loads = mpm.freeField(solver, until=1.2)
 assert len(solver.loads) == 2
+assert any(text.startswith('loads[1].velocities: 5, 50 and 95 %') and 'damps by itself' in text for text in mpm.advise()['advice'])
 O.run(30, wait=True)
 O.save('free.xml.gz')
 ''' + go % 'whole' + '''
