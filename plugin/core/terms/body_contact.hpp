@@ -66,8 +66,8 @@ public:
 
 private:
 	/// A piece of the master near a place. The foot of the place as the step begins moves with the functions of the
-	/// grid, and between the vertices of its piece by a little less or more than these: so what presses evenly is in
-	/// balance with an even stress wherever pieces lie in the cells.
+	/// grid, and between the vertices of its piece by a little less or more than these: so what presses evenly is
+	/// in balance with an even stress wherever pieces lie in the cells.
 	struct Near {
 		int                     piece;  ///< of the master's facets
 		std::array<double, Dim> weight; ///< of the vertices, at the foot
