@@ -449,6 +449,12 @@ template <int Dim> void BodyContact<Dim>::commit(const Eigen::VectorXd& d)
 		for (int i = 0; i <= Dim; ++i)
 			system_.work += force.force[i].dot(at[i] - start[i]);
 	});
+	moveSurfaces(now);
+}
+
+/// Parts of a piece that is divided have its stresses.
+template <int Dim> void BodyContact<Dim>::moveSurfaces(const Places& now)
+{
 	for (std::size_t b = 0; b < system_.bodies.size(); ++b) {
 		auto& surface = system_.bodies[b].surface;
 		surface.vertices.assign(now[b].begin(), now[b].begin() + surface.vertices.size());

@@ -27,7 +27,7 @@ template <int Dim> struct BodyMeeting {
 	/// Of the last step that was accepted, by the pieces of the slave's surface: stress on it [Pa]; empty: none.
 	std::vector<Vec<Dim>> shear {};
 	std::vector<double>   pressure {};
-	/// Of all of it: force on the slave [N], moment of that about the origin [N m], and how many of the places touch.
+	/// Of all of it: force on the slave [N], its moment about the origin [N m], and how many of the places touch.
 	Vec<Dim> force    = Vec<Dim>::Zero();
 	Vec3     moment   = Vec3::Zero();
 	int      touching = 0, slipping = 0;
@@ -43,9 +43,9 @@ template <int Dim> struct BodyContacts {
 	const BodyContact<Dim>*       acting = {}; ///< the term of the step that is being made
 };
 
-/// Places on the surface of a slave against the nearest piece of the master's surface that faces them, wherever the step
-/// takes both. The penalty on the gap g is a pressure of stiffness * E g / h, with the smaller one of the moduli of both
-/// there and h of the smallest cells. Without friction it has a potential, the sum of penalty g^2 / 2.
+/// Places on the surface of a slave against the nearest piece of the master's surface that faces them, wherever the
+/// step takes both. The penalty on the gap g is a pressure of stiffness * E g / h, with the smaller one of the moduli
+/// of both there and h of the smallest cells. Without friction it has a potential, the sum of penalty g^2 / 2.
 template <int Dim> class BodyContact : public CoupledTerm<Dim> {
 public:
 	/// The bodies and meetings are written in commit().
@@ -61,13 +61,13 @@ public:
 	Refusal                     refusal(const Eigen::VectorXd& d) const override;
 	void                        commit(const Eigen::VectorXd& d) override;
 
-	/// Adds the forces that resist at d, or, where that is null, as the step begins, without their weight in the balance.
+	/// Adds the forces that resist at d, or, where that is null, as the step begins, without their weight.
 	void addUnweighted(const Eigen::VectorXd* d, Eigen::VectorXd& resistance) const;
 
 private:
 	/// A piece of the master near a place. The foot of the place as the step begins moves with the functions of the
-	/// grid, and between the vertices of its piece by a little less or more than these: so what presses evenly is in
-	/// balance with an even stress wherever pieces lie in the cells.
+	/// grid, and between the vertices of its piece by a little less or more than these: so what presses evenly is
+	/// in balance with an even stress wherever pieces lie in the cells.
 	struct Near {
 		int                     piece;  ///< of the master's facets
 		std::array<double, Dim> weight; ///< of the vertices, at the foot
@@ -108,6 +108,7 @@ private:
 	std::vector<PairNode>   nodesOf(const Place&, const Near&) const;
 	void                    add(const Eigen::VectorXd& d, double weight, Eigen::VectorXd& force, Eigen::VectorXd* sizes, Couplings*) const;
 	void                    holdAt(const Touching&, bool sticks, const typename Term<Dim>::Hold&) const;
+	void                    moveSurfaces(const Places& now);
 	double                  approach(const BodyMeeting<Dim>&, const Places& now) const;
 	const BodyMeeting<Dim>& meetingOf(const Place& place) const { return system_.meetings[place.meeting]; }
 

@@ -15,8 +15,8 @@ public:
 	Vector3r       force     = Vector3r::Constant(std::numeric_limits<Real>::quiet_NaN());
 	Vector3r       moment    = Vector3r::Constant(std::numeric_limits<Real>::quiet_NaN());
 	int            touching = 0, slipping = 0;
-	// Hidden: which of the two has the places, 0 or 1, -1 before the first step; and of the pieces of its surface, in
-	// their order, pressure and shear stress on it at the end of the last step.
+	// Hidden: which of the two has the places, 0 or 1, -1 before the first step; and of the pieces of its surface,
+	// in their order, pressure and shear stress on it at the end of the last step.
 	int              slave = -1;
 	vector<Real>     pressures;
 	vector<Vector3r> shears;
