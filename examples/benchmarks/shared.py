@@ -123,6 +123,17 @@ def wet():
 	return block(engine(gravity=(0, -9.81, 0), boundaries=sides(), water=water), profile, 6e4, 3, .75)
 
 
+def seeping():
+	"""A block under a load on a half of its top, through which the water leaves that the load presses out."""
+	O.materials.append(MpmVonMisesMat(yieldStress=3e4, conductivity=1e-6, porosity=.4, conductivityLaw='kozeny-carman', label='wet', **law))
+	load = MpmTraction(surface=[(8, 8), (0, 8)], pressure=4e4, curve=[(0, 1), (1, 1)])
+	held = [MpmBoundary(max=(0, inf, inf), fix='x'), MpmBoundary(min=(20, -inf, -inf), fix='x'), MpmBoundary(max=(inf, 0, inf), fix='xy')]
+	solver = engine(boundaries=held, loads=[load], loadCurve=[(0, 1), (1, 1)], flow=MpmFlow(drains=[MpmDrain(surface=[(20, 8), (0, 8)])]))
+	O.bodies.append(mpm.fill(pack.inAlignedBox((0, 0, -1), (20, 8, 1)), solver.grid, 2, 'wet'))
+	O.engines, O.dt = [solver], 2e3
+	return 3
+
+
 def contact(strength=3e4, speed=.3):
 	"""A heavy plate presses into soil that is pushed from the side."""
 	O.materials.append(MpmVonMisesMat(yieldStress=strength, label='soil', **law))

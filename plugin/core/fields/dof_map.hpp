@@ -15,6 +15,9 @@ struct Field {
 	/// size of a cell. Where fields meet, in a norm and in the matrix, unknowns are divided by it and residuals
 	/// multiplied.
 	double scale = 1;
+	/// With which its rows are multiplied where that makes the matrix symmetric: -1 of what pushes the soil apart
+	/// and is filled by what it pushes.
+	int sign = 1;
 };
 
 /// Unknowns of several fields: block after block, and in a block node after node.

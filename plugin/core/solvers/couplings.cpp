@@ -57,7 +57,9 @@ void Couplings::multiplyAdd(const Eigen::VectorXd& x, Eigen::VectorXd& y) const
 		const int                        i = map_->at(row.field, row.node), j = map_->at(column.field, column.node);
 		const Eigen::Map<const RowMajor> K(values, rows, columns);
 		y.segment(i, rows) += K * x.segment(j, columns);
-		if (isSymmetric_ && i != j) y.segment(j, columns) += K.transpose() * x.segment(i, rows);
+		if (!isSymmetric_ || i == j) return;
+		const int sign = signOf(row.field) * signOf(column.field);
+		y.segment(j, columns) += sign * (K.transpose() * x.segment(i, rows));
 	});
 }
 

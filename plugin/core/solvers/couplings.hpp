@@ -2,6 +2,8 @@
 // Blocks of a matrix between any two nodes of any two fields.
 #pragma once
 #include "core/fields/constraints.hpp"
+#include <algorithm>
+#include <utility>
 
 namespace gimpm {
 
@@ -12,7 +14,8 @@ struct FieldNode {
 
 /// What a matrix has beside the blocks of NodeMatrix, which are for displacements of neighbours on the grid: blocks for
 /// pairs of fields, and for nodes that are apart. There is memory for those only that have been marked. Of a symmetric
-/// matrix the blocks above the diagonal are kept: who adds K_ab and K_ba need not know of it.
+/// matrix, which it is when the rows of each field have its sign, the blocks above the diagonal are kept: who adds K_ab
+/// and K_ba need not know of it.
 class Couplings {
 public:
 	/// Sets up a matrix without blocks. The map must outlive it.
@@ -29,7 +32,27 @@ public:
 	}
 	void add(const FieldNode& row, const FieldNode& column, double value) { add(row, column, Eigen::Matrix<double, 1, 1>(value)); }
 
-	bool          isSymmetric() const { return isSymmetric_; }
+	/// The same of blocks in one row, for `count` nodes in one field: block(i) is that of the i-th. Nodes < 0 are
+	/// left out. Fast where nodes rise.
+	template <class F> void addRow(const FieldNode& row, int field, const int* nodes, int count, F&& block)
+	{
+		const int   r       = numberOf(row);
+		const auto& entries = rows_[r];
+		const int   rows = (*map_)[row.field].width, columns = (*map_)[field].width;
+		auto        at = entries.begin();
+		for (int i = 0, c = -1; i < count; ++i) {
+			if (nodes[i] < 0) continue;
+			const int before = std::exchange(c, numberOf({ field, nodes[i] }));
+			if (!keeps(r, c)) continue;
+			if (c < before) at = entries.begin();
+			at = std::lower_bound(at, entries.end(), c);
+			Eigen::Map<RowMajor>(values_.data() + at->first, rows, columns) += block(i);
+		}
+	}
+
+	bool isSymmetric() const { return isSymmetric_; }
+	/// With which a row of the field is multiplied so that the matrix is symmetric; one of a matrix that is not.
+	int           signOf(int field) const { return isSymmetric_ ? (*map_)[field].sign : 1; }
 	const DofMap& map() const { return *map_; }
 
 	/// Values of the block that is opposite to one that is kept; null: the matrix is symmetric.

@@ -98,7 +98,7 @@ private:
 			const int a = row_[row.node], b = row_[column.node];
 			if (a < 0 || b < 0) return;
 			const int     rows = map_[row.field].width, columns = map_[column.field].width;
-			const double  scale    = map_[row.field].scale * map_[column.field].scale;
+			const double  scale    = couplings_.signOf(row.field) * map_[row.field].scale * map_[column.field].scale;
 			const double* mirror   = couplings_.opposite(row, column);
 			const bool    isItself = row.field == column.field && row.node == column.node;
 			const auto    value    = [=](int i, int j) { return scale * values[columns * i + j]; };

@@ -79,14 +79,28 @@ struct LinearSolver::Direct {
 	Cholesky        cholesky;
 	Lu              lu;
 	GeneralCsc      full;           // of a symmetric matrix that Cholesky refused, for LU
-	const Csc*      ofLu = nullptr; // scaled or full; null: the factor is Cholesky's
+	const Csc*      ofLu = nullptr; // scaled or full; null: the factor is another one
+
+	std::unique_ptr<Multifrontal> indefinite; // of a symmetric matrix of several fields; null: Cholesky's factor
 
 	bool solve(const Eigen::VectorXd& b, Eigen::VectorXd& x, bool transposed)
 	{
-		const Eigen::VectorXd right = reversed(scale.cwiseProduct(b));
-		if (!(ofLu ? lu.solve(*ofLu, right, x, transposed) : cholesky.solve(right, x))) return false;
+		const Eigen::VectorXd right    = reversed(scale.cwiseProduct(b));
+		const bool            isSolved = ofLu ? lu.solve(*ofLu, right, x, transposed)
+		                   : indefinite       ? indefinite->solve(scaled, right, x, false)
+		                                      : cholesky.solve(right, x);
+		if (!isSolved) return false;
 		x = reversed(x).cwiseProduct(scale);
 		return true;
+	}
+	/// Symmetric and scaled; in the order that is good for Cholesky.
+	bool factoriseIndefinite()
+	{
+		if (!cholesky.isAnalysed()) return false;
+		if (!indefinite) indefinite = std::make_unique<Multifrontal>(scaled, Multifrontal::Form::triangle, cholesky.ordering());
+		if (indefinite->factorise(scaled, smallestPivot / Lu::pivotOfRow)) return true;
+		indefinite.reset();
+		return false;
 	}
 };
 
@@ -98,13 +112,14 @@ LinearSolver& LinearSolver::operator=(LinearSolver&&) noexcept = default;
 LinearSolver::FactorSize LinearSolver::analyse(const LinearProblem& problem)
 {
 	const FewerThreads guard(0);
-	const Csc&         K                            = problem.stored();
-	auto& [scaled, scale, cholesky, lu, full, ofLu] = *direct_;
+	const Csc&         K                                        = problem.stored();
+	auto& [scaled, scale, cholesky, lu, full, ofLu, indefinite] = *direct_;
 	if (!cholesky.isAnalysed() || !isReverse(K, scaled)) {
 		const Stopwatch watch(times_.analyse);
 		reverse(K, scaled);
 		scaled.value.resize(K.value.size());
 		lu.forget();
+		indefinite.reset();
 		cholesky.analyse(scaled, ordering(problem));
 	}
 	const double factors = problem.isSymmetric() ? 1 : 2;
@@ -114,13 +129,16 @@ LinearSolver::FactorSize LinearSolver::analyse(const LinearProblem& problem)
 LinearSolver::Status LinearSolver::factorise(const LinearProblem& problem)
 {
 	const Stopwatch watch(times_.factorise);
-	auto& [scaled, values, cholesky, lu, full, ofLu] = *direct_;
+	auto& [scaled, values, cholesky, lu, full, ofLu, indefinite] = *direct_;
 	lu.forgetFactor();
 	full   = {};
 	ofLu   = nullptr;
 	values = scale(problem.stored(), scaled.value);
 	if (problem.isSymmetric()) {
-		if (cholesky.factorise(scaled)) return cholesky.rcond() < smallestPivot ? Status::singular : Status::cholesky;
+		if (!problem.isOfOneField()) {
+			if (direct_->factoriseIndefinite()) return Status::lu;
+		} else if (indefinite.reset(); cholesky.factorise(scaled))
+			return cholesky.rcond() < smallestPivot ? Status::singular : Status::cholesky;
 		full = bothTriangles(scaled);
 		ofLu = &full;
 		// its diagonal may be anything, so that UMFPACK judges how to order it

@@ -3,16 +3,9 @@
 #include <umfpack.h>
 
 namespace gimpm {
-namespace {
-
-/// How much less than a row that is left for it MUMPS' threshold lets a pivot be.
-constexpr double pivotOfRow = 0.01;
-
-} // namespace
-
 bool Lu::factorise(const Csc& K, const int* ordering, double smallestPivot)
 {
-	if (ordering && !multifrontal_) multifrontal_ = std::make_unique<MultifrontalLu>(K, ordering);
+	if (ordering && !multifrontal_) multifrontal_ = std::make_unique<Multifrontal>(K, Multifrontal::Form::general, ordering);
 	isMultifrontal_ = ordering && multifrontal_->factorise(K, smallestPivot / pivotOfRow);
 	if (!isMultifrontal_) multifrontal_.reset(); // two factors need not be held
 	umfpack_di_free_numeric(&numeric_);

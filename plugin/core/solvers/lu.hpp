@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // LU factorisation with pivoting (MUMPS, UMFPACK).
 #pragma once
-#include "core/solvers/multifrontal_lu.hpp"
+#include "core/solvers/multifrontal.hpp"
 
 namespace gimpm {
 
 class Lu {
 public:
+	/// How much less than a row that is left for it MUMPS' threshold lets a pivot be.
+	static constexpr double pivotOfRow = 0.01;
+
 	Lu() = default;
 	~Lu() { forget(); }
 	Lu(const Lu&)            = delete;
@@ -28,8 +31,8 @@ public:
 private:
 	bool factorisePivoting(const Csc& K, const int* ordering, double smallestPivot);
 
-	std::unique_ptr<MultifrontalLu> multifrontal_; // if K came with an ordering
-	bool                            isMultifrontal_ = false;
+	std::unique_ptr<Multifrontal> multifrontal_; // if K came with an ordering
+	bool                          isMultifrontal_ = false;
 
 	void *symbolic_ = nullptr, *numeric_ = nullptr; // of UMFPACK
 };

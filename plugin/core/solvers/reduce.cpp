@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "core/solvers/reduce.hpp"
-#include <algorithm>
+#include <numeric>
+#include <utility>
 
 namespace gimpm {
 namespace {
@@ -69,7 +70,7 @@ template <int Dim, class F> void forTiedEntries(const NodeMatrix<Dim>& K, const 
 		}
 }
 
-/// The same of the couplings, scaled.
+/// The same of the couplings, scaled, with the signs of the rows.
 template <class F> void forCoupledEntries(const Couplings& K, const FreeDofs& dofs, F&& f)
 {
 	const DofMap&   map = K.map();
@@ -79,7 +80,7 @@ template <class F> void forCoupledEntries(const Couplings& K, const FreeDofs& do
 		const bool   isMirrored = K.isSymmetric() && (row.field != column.field || row.node != column.node);
 		masters.each(row.node, [&](int m, double ofM) {
 			masters.each(column.node, [&](int n, double ofN) {
-				const double weight = ofM * ofN * ofRow.scale * ofColumn.scale;
+				const double weight = ofM * ofN * K.signOf(row.field) * ofRow.scale * ofColumn.scale;
 				for (int i = 0, k = 0; i < ofRow.width; ++i)
 					for (int j = 0; j < ofColumn.width; ++j, ++k) {
 						const int p = dofs.number[map.at(row.field, m) + i], q = dofs.number[map.at(column.field, n) + j];
@@ -118,21 +119,37 @@ template <class Entries> void fill(Csc& out, int size, Entries&& forEntries)
 	});
 }
 
-/// Sorts the rows of each column, and adds up entries in the same place.
-void sortColumns(Csc& K)
+/// Rows become columns. Rows of a column rise, and entries in the same place keep their order.
+Csc transposed(const Csc& K)
 {
-	std::vector<std::pair<int, double>> column;
-	int                                 end = 0;
+	Csc       out;
+	const int entries = int(K.row.size());
+	out.start.assign(K.size() + 1, 0);
+	for (const int row : K.row)
+		++out.start[row + 1];
+	std::partial_sum(out.start.begin(), out.start.end(), out.start.begin());
+	out.row.resize(entries);
+	out.value.resize(entries);
+	std::vector<int> next(out.start.begin(), out.start.end() - 1);
+	for (int c = 0; c < K.size(); ++c)
+		for (int e = K.start[c]; e < K.start[c + 1]; ++e) {
+			const int at  = next[K.row[e]]++;
+			out.row[at]   = c;
+			out.value[at] = K.value[e];
+		}
+	return out;
+}
+
+/// Adds up entries in the same place, which are neighbours in their column.
+void addUpEqual(Csc& K)
+{
+	int end = 0;
 	for (int c = 0; c < K.size(); ++c) {
-		column.clear();
-		for (int e = K.start[c]; e < K.start[c + 1]; ++e)
-			column.emplace_back(K.row[e], K.value[e]);
-		std::stable_sort(column.begin(), column.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
-		K.start[c] = end;
-		for (const auto& [row, value] : column)
-			if (end > K.start[c] && K.row[end - 1] == row) K.value[end - 1] += value;
+		const int first = std::exchange(K.start[c], end);
+		for (int e = first; e < K.start[c + 1]; ++e)
+			if (end > K.start[c] && K.row[end - 1] == K.row[e]) K.value[end - 1] += K.value[e];
 			else
-				K.row[end] = row, K.value[end++] = value;
+				K.row[end] = K.row[e], K.value[end++] = K.value[e];
 	}
 	K.start.back() = end;
 	K.row.resize(end);
@@ -141,21 +158,23 @@ void sortColumns(Csc& K)
 
 /// In any order, and several entries in one place: nodes beyond the sides of a periodic grid have lower numbers,
 /// masters and nodes that are coupled may have any.
-template <int Dim> void reduceUnordered(const NodeMatrix<Dim>& K, const FreeDofs& dofs, const Couplings* couplings, SymmetricCsc& out)
+template <int Dim> void reduceUnordered(const NodeMatrix<Dim>& K, const FreeDofs& dofs, const Couplings* couplings, bool isTriangle, Csc& out)
 {
-	fill(out, dofs.count, [&](auto&& f) {
+	Csc rows;
+	fill(rows, dofs.count, [&](auto&& f) {
 		forEntries(K, dofs, couplings, [&](int row, int column, double value) {
-			if (row >= column) f(row, column, value);
+			if (row >= column || !isTriangle) f(column, row, value);
 		});
 	});
-	sortColumns(out);
+	out = transposed(rows);
+	addUpEqual(out);
 }
 
 } // namespace
 
 template <int Dim> void reduce(const NodeMatrix<Dim>& K, const FreeDofs& dofs, SymmetricCsc& out, const Couplings* couplings)
 {
-	if (K.isPeriodic() || dofs.ties || couplings) return reduceUnordered(K, dofs, couplings, out);
+	if (K.isPeriodic() || dofs.ties || couplings) return reduceUnordered(K, dofs, couplings, true, out);
 	out.start.assign(1, 0);
 	out.row.clear();
 	out.value.clear();
@@ -179,8 +198,8 @@ template <int Dim> void reduce(const NodeMatrix<Dim>& K, const FreeDofs& dofs, S
 
 template <int Dim> void reduce(const NodeMatrix<Dim>& K, const FreeDofs& dofs, GeneralCsc& out, const Couplings* couplings)
 {
+	if (K.isPeriodic() || dofs.ties || couplings) return reduceUnordered(K, dofs, couplings, false, out);
 	fill(out, dofs.count, [&](auto&& f) { forEntries(K, dofs, couplings, f); });
-	if (K.isPeriodic() || dofs.ties || couplings) sortColumns(out);
 }
 
 #define GIMPM_INSTANTIATE(Dim)                                                                                                                                 \

@@ -10,10 +10,14 @@ namespace gimpm {
 /// Forces, balance and, on demand, stiffness at the last displacements that were looked at.
 template <int Dim> class Iterate {
 public:
-	Iterate(const StepSystem<Dim>& system, StepReport& report) : whole(system), system_(system), report_(report), local_(system, K)
+	Iterate(const StepSystem<Dim>& system, StepReport& report) : whole(system), system_(system), report_(report), local_(system, K) { prepare(); }
+
+	/// For what is evaluated from now on.
+	void prepare()
 	{
-		const Stopwatch watch(report.times.assembly);
-		system.prepare(K, &beside);
+		const Stopwatch watch(report_.times.assembly);
+		system_.prepare(K, &beside);
+		hasStiffness = false;
 	}
 
 	/// A failure of a point or a residual that is not a number leaves balance.size infinite.

@@ -44,11 +44,13 @@ bool LinearStep<Dim>::solve(const NodeMatrix<Dim>& K, const Couplings& beside, E
 	}
 	using Status = LinearSolver::Status;
 	Eigen::VectorXd correction;
-	const Status    status = solver_.solve(problem, residual, correction, method_, forcing);
-	keepsFactor_           = status == (problem.isSymmetric() ? Status::cholesky : Status::lu);
+	hasSigns_               = couplings && problem.isSymmetric();
+	const bool   isDefinite = problem.isSymmetric() && system_.map.isAlone();
+	const Status status     = solver_.solve(problem, withSigns(std::move(residual)), correction, method_, forcing);
+	keepsFactor_            = status == (isDefinite ? Status::cholesky : Status::lu);
 	if (status != Status::iterative) {
 		method_ = LinearMethod::direct; // what could not be solved iteratively once stays difficult
-		if (problem.isSymmetric()) report_.definiteness = keepsFactor_ ? Definiteness::positive : Definiteness::indefinite;
+		if (isDefinite) report_.definiteness = keepsFactor_ ? Definiteness::positive : Definiteness::indefinite;
 	}
 	if (status == Status::singular) return false;
 	report_.luSolves += status == Status::lu;
@@ -60,9 +62,19 @@ template <int Dim> bool LinearStep<Dim>::solveAgain(const Eigen::VectorXd& resid
 {
 	Eigen::VectorXd correction;
 	step = Eigen::VectorXd::Zero(system_.map.size());
-	if (!solver_.solveAgain(residual, correction)) return false;
+	if (!solver_.solveAgain(withSigns(residual), correction)) return false;
 	addTo(step, correction);
 	return true;
+}
+
+/// As the rows of the matrix have them.
+template <int Dim> Eigen::VectorXd LinearStep<Dim>::withSigns(Eigen::VectorXd residual) const
+{
+	const DofMap& map = system_.map;
+	for (int field = 0; hasSigns_ && field < map.fields(); ++field)
+		for (int i = map.begin(field); map[field].sign < 0 && i < map.end(field); ++i)
+			if (const int number = system_.dofs.number[i]; number >= 0) residual[number] *= -1;
+	return residual;
 }
 
 template <int Dim> double LinearStep<Dim>::product(const Eigen::VectorXd& step, const Eigen::VectorXd& force) const

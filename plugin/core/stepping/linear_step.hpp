@@ -34,6 +34,8 @@ public:
 private:
 	template <class F> void forFree(F&& f) const; // f(unknown, number, scale)
 
+	Eigen::VectorXd withSigns(Eigen::VectorXd residual) const;
+
 	void addTo(Eigen::VectorXd& step, const Eigen::VectorXd& correction) const;
 
 	const StepSystem<Dim>& system_;
@@ -43,6 +45,7 @@ private:
 	Eigen::VectorXd        prescribed_; // empty once it is part of the iterate
 	Eigen::VectorXd        caused_;
 	bool                   keepsFactor_ = false;
+	bool                   hasSigns_    = false; // the last matrix: Field::sign
 };
 
 } // namespace gimpm

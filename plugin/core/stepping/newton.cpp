@@ -30,6 +30,7 @@ private:
 	bool correct()
 	{
 		if (linear_.keepsFactor() && !watchdog_.isOpen() && judge_.convergence.isLastFactorEnough() && reuse()) return true;
+		if (judge_.convergence.isSlow() && system_.makeExact()) iterate_.prepare();
 		if (!iterate_.hasStiffness) iterate_.evaluate(d_, true);
 		// Prescribed displacements enter in full: the residual before says nothing of them, and a shorter step
 		// would lose a part.

@@ -276,6 +276,14 @@ template <int Dim> bool StepSystem<Dim>::isSymmetric() const
 	return std::all_of(terms.begin(), terms.end(), [](const auto& term) { return term->isSymmetric(); });
 }
 
+template <int Dim> bool StepSystem<Dim>::makeExact() const
+{
+	bool hasChanged = false;
+	for (auto* term : coupled_)
+		hasChanged |= term->makeExact();
+	return hasChanged;
+}
+
 template <int Dim> double StepSystem<Dim>::fromOutside(const Eigen::VectorXd& d) const
 {
 	double squares = 0;

@@ -44,6 +44,9 @@ template <int Dim> struct StepSystem {
 
 	bool isSymmetric() const;
 
+	/// CoupledTerm::makeExact() of all terms, whether one has changed; the matrix is to be prepared anew.
+	bool makeExact() const;
+
 	/// Rows of the nodes that this process assembles.
 	const NodeShare& share() const { return share_->nodes(); }
 

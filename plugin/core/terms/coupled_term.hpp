@@ -34,6 +34,10 @@ public:
 	/// by gradients, what large values of little slope leave.
 	virtual void addCoupledRoundOff(const State&, std::vector<Eigen::VectorXd>& /*sizes*/) const { }
 
+	/// From now on all derivatives are those of the forces. False if they are so already: small ones may be left
+	/// out, where that makes the matrix symmetric.
+	virtual bool makeExact() { return false; }
+
 	/// The step has been accepted at this state.
 	virtual void commitCoupled(const State&) { }
 

@@ -41,48 +41,76 @@ template <int Dim> struct PatchMatrices {
 
 	Part<Dim, Dim> uu;
 	Part<Dim, 1>   up;
-	Part<1, Dim>   pu;
 	Part<1, 1>     pp;
+	Part<1, Dim>   pu;   ///< where the matrix is not symmetric
+	Part<1, 1>     rest; ///< of pp; there, too
 
-	explicit PatchMatrices(int n)
-	        : uu(Part<Dim, Dim>::Zero(Dim * n, Dim * n)), up(Part<Dim, 1>::Zero(Dim * n, n)), pu(Part<1, Dim>::Zero(n, Dim * n)), pp(Part<1, 1>::Zero(n, n))
+	PatchMatrices(int n, bool isSymmetric) : uu(Part<Dim, Dim>::Zero(Dim * n, Dim * n)), up(Part<Dim, 1>::Zero(Dim * n, n)), pp(Part<1, 1>::Zero(n, n))
 	{
+		if (isSymmetric) return;
+		pu   = Part<1, Dim>::Zero(n, Dim * n);
+		rest = pp;
 	}
 
 	/// With w = grad p and g the present gradients: see the page on theory. Of what a pair of nodes adds only
-	/// products are left to the inner loop.
-	void add(
+	/// products are left to the inner loop. The symmetric part has pairs of a <= b, and all of up.
+	void addSymmetric(
+	        const PorePoint& point, const FlowPoint<Dim>& s, const PointFunctions<Dim>& f, const PresentFunctions<Dim>& now, double duration,
+	        double modulus)
+	{
+		const double V = point.volume * s.J, flow = duration * V * s.density * s.kappa.value, pushes = V * s.pressure;
+		const double stored = point.volume / point.ratio * (point.content + s.content) / modulus;
+		for (int b = 0; b < f.count; ++b) {
+			const Vec<Dim> gb = now.gradient[b], pushed = pushes * now.dilation[b], turned = pushes * gb, driven = flow * gb;
+			const double   around = pushes * now.hoop[b], ofStored = stored * f.value[b], fills = V * f.value[b];
+			for (int a = 0; a < f.count; ++a)
+				up.template block<Dim, 1>(Dim * a, b) -= fills * now.dilation[a];
+			for (int a = 0; a <= b; ++a) {
+				auto push = uu.template block<Dim, Dim>(Dim * a, Dim * b);
+				push += turned * now.gradient[a].transpose() - now.dilation[a] * pushed.transpose();
+				push(0, 0) += now.hoop[a] * around;
+				pp(a, b) += ofStored * f.value[a] + driven.dot(now.gradient[a]);
+			}
+		}
+	}
+	/// What has no transpose, and the other half of what has one.
+	void addRest(
 	        const PorePoint& point, const FlowPoint<Dim>& s, const PointFunctions<Dim>& f, const PresentFunctions<Dim>& now, double duration,
 	        double modulus)
 	{
 		const double   V = point.volume * s.J, E = s.density, flow = duration * V * E * s.kappa.value, led = flow * (1 + s.kappa.slope);
-		const double   pushes = V * s.pressure, stored = point.volume / point.ratio * (point.content + s.content) / modulus;
 		const Vec<Dim> turned = flow * s.slope;
 		for (int b = 0; b < f.count; ++b) {
 			const Vec<Dim> gb = now.gradient[b], Bb = now.dilation[b];
-			const double   along = flow * now.along[b], ofStored = stored * f.value[b], carried = flow / modulus * f.value[b];
+			const double   along = flow * now.along[b], carried = flow / modulus * f.value[b];
 			for (int a = 0; a < f.count; ++a) {
-				const Vec<Dim> ga = now.gradient[a], Ba = now.dilation[a];
-				const double   wa = now.along[a], both = ga.dot(gb);
-				Mat<Dim>       push = Ba * Bb.transpose() - gb * ga.transpose();
-				push(0, 0) -= now.hoop[a] * now.hoop[b];
-				uu.template block<Dim, Dim>(Dim * a, Dim * b) -= pushes * push;
-				up.template block<Dim, 1>(Dim * a, b) -= V * f.value[b] * Ba;
-				pu.template block<1, Dim>(a, Dim * b) += ((V * E * f.value[a] + led * wa) * Bb - both * turned - along * ga).transpose();
-				pp(a, b) += ofStored * f.value[a] + flow * both + carried * wa;
+				const Vec<Dim> ga = now.gradient[a];
+				const double   wa = now.along[a];
+				pu.template block<1, Dim>(a, Dim * b) += ((V * E * f.value[a] + led * wa) * Bb - ga.dot(gb) * turned - along * ga).transpose();
+				rest(a, b) += carried * wa;
 			}
 		}
 	}
 	void scatterAdd(const Patch<Dim>& patch, const FieldSum<Dim>& sum) const
 	{
 		constexpr int field = Flow<Dim>::field;
+		const int     count = int(pp.rows()), *nodes = patch.node.data();
+		const bool    isSymmetric = sum.couplings->isSymmetric();
 		forPatchPairs(patch, [&](int m, int n, int code) {
-			const int a = patch.node[m], b = patch.node[n];
-			sum.K->add(a, b, code, uu.template block<Dim, Dim>(Dim * m, Dim * n));
-			sum.couplings->add({ 0, a }, { field, b }, up.template block<Dim, 1>(Dim * m, n).eval());
-			sum.couplings->add({ field, a }, { 0, b }, pu.template block<1, Dim>(m, Dim * n).eval());
-			sum.couplings->add({ field, a }, { field, b }, pp(m, n));
+			const int a = nodes[m], b = nodes[n];
+			if (m <= n) sum.K->add(a, b, code, uu.template block<Dim, Dim>(Dim * m, Dim * n));
+			else if (!isSymmetric)
+				sum.K->add(a, b, code, uu.template block<Dim, Dim>(Dim * n, Dim * m).transpose());
 		});
+		for (int m = 0; m < count; ++m) {
+			if (nodes[m] < 0) continue;
+			sum.couplings->addRow({ 0, nodes[m] }, field, nodes, count, [&](int n) { return up.template block<Dim, 1>(Dim * m, n); });
+			const auto stored = [&](int n) { return pp.template block<1, 1>(std::min(m, n), std::max(m, n)); };
+			sum.couplings->addRow({ field, nodes[m] }, field, nodes, count, stored);
+			if (isSymmetric) continue;
+			sum.couplings->addRow({ field, nodes[m] }, 0, nodes, count, [&](int n) { return pu.template block<1, Dim>(m, Dim * n); });
+			sum.couplings->addRow({ field, nodes[m] }, field, nodes, count, [&](int n) { return rest.template block<1, 1>(m, n); });
+		}
 	}
 };
 
@@ -123,7 +151,7 @@ template <int Dim> NodalField<Dim> pressureField(SoilWater<Dim>& water, double s
 		for (std::size_t n = 0; n < basis.nodes.size(); ++n)
 			water.atNodes.emplace_hint(water.atNodes.end(), basis.nodes[n], value[n]);
 	};
-	return { { "pore pressure", "Pa", 1, scale }, begin, commit };
+	return { { "pore pressure", "Pa", 1, scale, -1 }, begin, commit };
 }
 
 template <int Dim>
@@ -134,7 +162,7 @@ Flow<Dim>::Flow(SoilWater<Dim>& water, const ConstrainedModulus& modulusOf, cons
 	points_.reserve(cloud.size());
 	for (std::size_t p = 0; p < cloud.size(); ++p) {
 		const double J    = cloud.volumeRatio(p);
-		const Pores& soil = water.pores[cloud.material[p]];
+		const Pores& soil = water.ownPores.empty() ? water.pores[cloud.material[p]] : water.ownPores[p];
 		points_.push_back({ cloud.volume0[p] * J, J, std::exp(water.pressure[p] / water.modulus) * (J - 1 + soil.porosity), water.pressure[p], &soil });
 	}
 	weighCells(modulusOf, step);
@@ -201,10 +229,11 @@ template <int Dim> std::optional<PointFailure> Flow<Dim>::addCoupled(const State
 {
 	constexpr int         none = std::numeric_limits<int>::max();
 	std::atomic<int>      failed { none };
-	const Eigen::VectorXd P = state.value(field);
-	const auto&           d = state.displacements();
+	const Eigen::VectorXd P           = state.value(field);
+	const auto&           d           = state.displacements();
+	const bool            isSymmetric = !sum.couplings || sum.couplings->isSymmetric();
 	forPatches(basis_, [&](const Patch<Dim>& patch) {
-		PatchMatrices<Dim> matrices(sum.couplings ? PointFunctions<Dim>(basis_, patch.first, patch).count : 0);
+		PatchMatrices<Dim> matrices(sum.couplings ? PointFunctions<Dim>(basis_, patch.first, patch).count : 0, isSymmetric);
 		for (int i = patch.first; i < patch.first + patch.count; ++i) {
 			const int                 p = basis_.order[i];
 			const PointFunctions<Dim> f(basis_, i, patch);
@@ -215,7 +244,8 @@ template <int Dim> std::optional<PointFailure> Flow<Dim>::addCoupled(const State
 			}
 			const PresentFunctions<Dim> now(s, f);
 			addForces(points_[p], s, patch, f, now, sum);
-			if (sum.couplings) matrices.add(points_[p], s, f, now, water_.duration, water_.modulus);
+			if (sum.couplings) matrices.addSymmetric(points_[p], s, f, now, water_.duration, water_.modulus);
+			if (!isSymmetric) matrices.addRest(points_[p], s, f, now, water_.duration, water_.modulus);
 		}
 		if (sum.couplings) matrices.scatterAdd(patch, sum);
 	});
@@ -251,9 +281,14 @@ template <int Dim> void Flow<Dim>::addPenalties(const Eigen::VectorXd& growth, c
 		if (sum.couplings) sum.couplings->add({ field, row }, { field, column }, k);
 	};
 	for (const Cell& cell : cells_)
-		for (int s = 0; s < corners; ++s)
+		for (int s = 0; s < corners; ++s) {
+			const auto weight = [&](int t) { return cell.weight * unevenness<Dim>(s, t); };
 			for (int t = 0; t < corners; ++t)
-				add(cell.node[s], cell.node[t], cell.weight * unevenness<Dim>(s, t));
+				sum.force[field][cell.node[s]] += weight(t) * growth[cell.node[t]],
+				        sum.sizes[field][cell.node[s]] += std::abs(weight(t) * growth[cell.node[t]]);
+			const auto block = [&](int t) { return Eigen::Matrix<double, 1, 1>(weight(t)); };
+			if (sum.couplings) sum.couplings->addRow({ field, cell.node[s] }, field, cell.node.data(), corners, block);
+		}
 	forGhostPairs<Dim>(faces_, h_, [&](int a, int b, int code, double k) {
 		add(a, b, k);
 		if (code > 0) add(b, a, k);
@@ -265,7 +300,7 @@ template <int Dim> void Flow<Dim>::addCoupledRoundOff(const State& state, std::v
 {
 	constexpr double      roundOff = 10 * std::numeric_limits<double>::epsilon();
 	const Eigen::VectorXd P        = state.value(field);
-	for (const auto& patch : basis_.patches)
+	forPatches(basis_, [&](const Patch<Dim>& patch) {
 		for (int i = patch.first; i < patch.first + patch.count; ++i) {
 			const PointFunctions<Dim> f(basis_, i, patch);
 			const PorePoint&          point = points_[basis_.order[i]];
@@ -277,6 +312,7 @@ template <int Dim> void Flow<Dim>::addCoupledRoundOff(const State& state, std::v
 				if (patch.node[n] >= 0)
 					sizes[field][patch.node[n]] += roundOff * (flow * slope * f.gradient[n].norm() + point.volume * f.value[n]);
 		}
+	});
 	for (const Outlet& outlet : outlets_)
 		for (int n = 0; n < outlet.at.nodes; ++n)
 			sizes[field][outlet.at.node[n]] += roundOff * outlet.conductance * std::abs(outlet.at.weight[n] * P[outlet.at.node[n]]);
@@ -298,7 +334,19 @@ template <int Dim> void Flow<Dim>::commitCoupled(const State& state)
 			stored += points_[p].volume / points_[p].ratio * s.content;
 		}
 	water_.stored = stored;
+	if (water_.wantsWork) water_.work = workOn(state);
 	moveDrains(d, P);
+}
+
+/// With the mean of the forces as the step begins and as it ends.
+template <int Dim> double Flow<Dim>::workOn(const State& end) const
+{
+	const std::vector<Eigen::VectorXd> before { Eigen::VectorXd::Zero(end.displacements().size()), end.before(field) };
+	const State                        start(end.map(), before, Eigen::VectorXd::Zero(end.map().size()));
+	auto                               twice = end.map().zeros(), sizes = twice;
+	for (const State* state : { &start, &end })
+		addCoupled(*state, { twice, sizes });
+	return -twice[0].dot(end.displacements()) / 2;
 }
 
 template NodalField<2> pressureField(SoilWater<2>&, double);

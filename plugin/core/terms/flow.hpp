@@ -6,6 +6,7 @@
 #include "core/terms/flow_point.hpp"
 #include "core/terms/ghost.hpp"
 #include "core/terms/soil_water.hpp"
+#include <utility>
 
 namespace gimpm {
 
@@ -28,7 +29,10 @@ public:
 	/// The water is kept by reference, and written in commitCoupled().
 	Flow(SoilWater<Dim>&, const ConstrainedModulus&, const Beginning<Dim>&);
 
-	bool                        isSymmetric() const override { return false; }
+	/// With the sign of the field. What flow in the pores adds by the displacements has no transpose; it is added
+	/// where the matrix is not symmetric anyway, or where Newton's method asks for it.
+	bool                        isSymmetric() const override { return !isExact_; }
+	bool                        makeExact() override { return !std::exchange(isExact_, true); }
 	std::string                 obstacle() const override { return obstacle_; }
 	void                        mark(NodeMatrix<Dim>&) const override;
 	void                        markCouplings(Couplings&) const override;
@@ -49,6 +53,7 @@ private:
 		int             drain;
 		Attachment<Dim> at;
 		double          conductance = 0, given = 0;
+		bool            isOneWay = false; ///< water can leave only
 
 		double pressure(const Eigen::VectorXd& P) const
 		{
@@ -70,6 +75,7 @@ private:
 	void   addDrains(const Eigen::VectorXd& P, const FieldSum<Dim>&) const;
 	double conductanceNow(const Outlet&, double pressure) const;
 	void   moveDrains(const Eigen::VectorXd& d, const Eigen::VectorXd& P);
+	double workOn(const State&) const;
 
 	SoilWater<Dim>&              water_;
 	const CloudBasis<Dim>&       basis_;
@@ -81,6 +87,7 @@ private:
 	std::vector<Outlet>          outlets_;
 	std::vector<Attachment<Dim>> vertices_; ///< of the drains, one after the other
 	std::string                  obstacle_;
+	bool                         isExact_ = false;
 };
 
 } // namespace gimpm

@@ -91,9 +91,12 @@ template <int Dim> std::string Flow<Dim>::attachDrain(int number, const Beginnin
 		if (!at) return dryAt<Dim>(x, drain.name);
 		const int    cell  = gimpm::find(step.basis.cells, Grid<Dim>::key(step.grid.first(at->cell)));
 		const double kappa = cell < 0 ? 0 : cellConductivity_[cell], passes = water_.duration * area;
+		const double conductance = passes * drain.conductance * kappa / h_;
 		if (drain.kind == Drain<Dim>::Kind::flux) outlets_.push_back({ number, *at, 0, passes * drain.given });
+		else if (drain.level)
+			outlets_.push_back({ number, *at, conductance, drain.level->pressureAt(x), drain.level->isInAir(x) });
 		else
-			outlets_.push_back({ number, *at, passes * drain.conductance * kappa / h_, drain.given });
+			outlets_.push_back({ number, *at, conductance, drain.given, drain.kind == Drain<Dim>::Kind::seepage });
 	}
 	return "";
 }
@@ -122,8 +125,7 @@ template <int Dim> std::string Flow<Dim>::enclosure(const Beginning<Dim>& step) 
 /// Zero of a seepage face where the pressure would draw water in.
 template <int Dim> double Flow<Dim>::conductanceNow(const Outlet& outlet, double pressure) const
 {
-	const bool isShut = water_.drains[outlet.drain].kind == Drain<Dim>::Kind::seepage && pressure <= outlet.given;
-	return isShut ? 0 : outlet.conductance;
+	return outlet.isOneWay && pressure <= outlet.given ? 0 : outlet.conductance;
 }
 
 template <int Dim> void Flow<Dim>::addDrains(const Eigen::VectorXd& P, const FieldSum<Dim>& sum) const

@@ -4,9 +4,11 @@
 #pragma once
 #include "core/grid/surface.hpp"
 #include "core/materials/pores.hpp"
+#include <algorithm>
 #include <cstdint>
 #include <limits>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,9 +21,26 @@ template <int Dim> struct Drain {
 		seepage,  ///< that pressure, but water cannot enter
 		flux      ///< so much leaves, whatever the pressure
 	};
-	Surface<Dim> surface; ///< at the start of the step, with sides of at most `pieceLimit`
-	Kind         kind  = Kind::pressure;
-	double       given = 0; ///< at the end of the step: excess pressure [Pa], or volume that leaves by area and time [m/s]
+	/// Water stands outside up to a height, other than that of the still water over which pressures are in excess.
+	/// Above it water can only leave, into the air.
+	struct Level {
+		double height, still, weight; ///< of water, by volume
+		int    axis;
+		double up; ///< 1 or -1: heights are up * x[axis]
+
+		/// In excess [Pa].
+		double pressureAt(const Eigen::Matrix<double, Dim, 1>& x) const
+		{
+			const double z = up * x[axis];
+			return weight * (std::max(height - z, 0.) - (still - z));
+		}
+		bool isInAir(const Eigen::Matrix<double, Dim, 1>& x) const { return up * x[axis] > height; }
+	};
+
+	Surface<Dim>         surface; ///< at the start of the step, with sides of at most `pieceLimit`
+	Kind                 kind  = Kind::pressure;
+	double               given = 0; ///< at the end of the step: excess pressure [Pa], or volume that leaves by area and time [m/s]
+	std::optional<Level> level {};  ///< in place of a pressure that is the same everywhere
 	/// Water passes its skin as it passes so many parts of a cell: conductance over conductivity and cell size.
 	double      conductance = 30;
 	std::string name        = "a drain";
@@ -30,16 +49,19 @@ template <int Dim> struct Drain {
 
 template <int Dim> struct SoilWater {
 	std::vector<Pores>      pores;                                                   ///< by material
+	std::vector<Pores>      ownPores {};                                             ///< of each point, where some have their own; else empty
 	double                  modulus       = std::numeric_limits<double>::infinity(); ///< bulk modulus of the water [Pa]
 	double                  duration      = 0;                                       ///< of the step [s]
 	double                  stabilisation = 1;    ///< against pressures that change from node to node: over 1 / constrained modulus
 	double                  ghost         = 0.01; ///< penalty on jumps of the gradient in nearly empty cells [-]
 	std::vector<Drain<Dim>> drains {};
 
-	std::vector<double>                        pressure {}; ///< of each point [Pa], as the last accepted step has left it
-	std::vector<Eigen::Matrix<double, Dim, 1>> flux {};     ///< volume by area and time [m/s]
-	std::map<std::uint64_t, double>            atNodes {};  ///< pressure by key of the node [Pa]
-	double                                     stored = 0;  ///< volume taken up by the body in the last accepted step [m3]
+	std::vector<double>                        pressure {};       ///< of each point [Pa], as the last accepted step has left it
+	std::vector<Eigen::Matrix<double, Dim, 1>> flux {};           ///< volume by area and time [m/s]
+	std::map<std::uint64_t, double>            atNodes {};        ///< pressure by key of the node [Pa]
+	double                                     stored    = 0;     ///< volume taken up by the body in the last accepted step [m3]
+	bool                                       wantsWork = false; ///< in steps in time
+	double                                     work      = 0;     ///< of the excess pressures on the soil in the last accepted step [J]
 };
 
 } // namespace gimpm

@@ -77,10 +77,9 @@ namespace {
 		vector<int64_t> isAlike(model.materials.size(), 1), isUnused(allParameters().size(), 1);
 		for (size_t p = 0; p < points.size(); ++p) {
 			if (points[p].state->parameters.empty()) continue;
-			isAlike[cloud.material[p]] = 0;
-			const auto& known          = parametersOf(*points[p].material);
+			const auto& known = parametersOf(*points[p].material);
 			for (size_t k = 0; k < known.size(); ++k)
-				if (points[p].state->parameter(known[k].name)) isUnused[k] = 0;
+				if (points[p].state->parameter(known[k].name)) isUnused[k] = isAlike[cloud.material[p]] = 0;
 		}
 		for (auto* flags : { &isAlike, &isUnused })
 			model.division->smallest(flags->data(), flags->size());

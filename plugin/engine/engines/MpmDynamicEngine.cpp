@@ -41,6 +41,14 @@ void MpmDynamicEngine::requireAdmissible() const
 		throw std::invalid_argument(
 		        "MpmDynamicEngine.timeTolerance = " + std::to_string(timeTolerance)
 		        + " needs accelerations at both ends of a step, which scheme='midpoint' does without: take 'newmark' or 'generalised-alpha'.");
+	if (flow && scheme == "midpoint")
+		throw std::invalid_argument(
+		        "MpmDynamicEngine.scheme = 'midpoint' looks at forces in the middle of a step, and flow at the water at its end: take 'newmark' or "
+		        "'generalised-alpha'.");
+	if (flow && timeTolerance > 0)
+		throw std::invalid_argument(
+		        "MpmDynamicEngine.timeTolerance = " + std::to_string(timeTolerance)
+		        + " sees displacements only, and not the water of flow; leave one of the two out.");
 	if (scheme == "generalised-alpha" && rayleigh.second > 0 && !contacts.empty())
 		throw std::invalid_argument(
 		        "MpmDynamicEngine.rayleigh = (" + std::to_string(rayleigh.first) + ", " + std::to_string(rayleigh.second)

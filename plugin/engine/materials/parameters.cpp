@@ -22,8 +22,27 @@ const vector<Parameter>& allParameters()
 		{ "dilationAngle", "rad", "dilation angle" },
 		{ "tensileStrength", "Pa", "tensile strength" },
 		{ "criticalStateRatio", "-", "critical state ratio" },
+		{ "conductivity", "m/s", "hydraulic conductivity" },
+		{ "porosity", "-", "porosity" },
 	};
 	return all;
+}
+
+const vector<ParameterOfClass>& parametersOfPores()
+{
+	static const vector<ParameterOfClass> all {
+		{ "conductivity", [](MpmMaterial& m) -> Real& { return m.conductivity; } },
+		{ "porosity", [](MpmMaterial& m) -> Real& { return m.porosity; } },
+	};
+	return all;
+}
+
+const ParameterOfClass* findParameter(const MpmMaterial& material, std::string_view name)
+{
+	for (const auto* known : { &parametersOf(material), &parametersOfPores() })
+		for (const ParameterOfClass& p : *known)
+			if (p.name == name) return &p;
+	return nullptr;
 }
 
 bool isParameter(std::string_view name)
@@ -36,11 +55,12 @@ namespace {
 	[[noreturn]] void refuseName(const string& name, const MpmMaterial& material)
 	{
 		string names;
-		for (const ParameterOfClass& p : parametersOf(material))
-			names += (names.empty() ? "" : ", ") + string(p.name);
+		for (const auto* known : { &parametersOf(material), &parametersOfPores() })
+			for (const ParameterOfClass& p : *known)
+				names += (names.empty() ? "" : ", ") + string(p.name);
 		throw std::invalid_argument(
-		        "the material '" + material.label + "' (" + material.getClassName() + ") has no parameter " + name + " that a point could have: "
-		        + (names.empty() ? "it has none" : "there are " + names) + ". Give the ids of the points that are meant.");
+		        "the material '" + material.label + "' (" + material.getClassName() + ") has no parameter " + name
+		        + " that a point could have: there are " + names + ". Give the ids of the points that are meant.");
 	}
 }
 
@@ -48,13 +68,13 @@ const MpmMaterial& OwnMaterial::of(const MpmMaterial& material, const OwnParamet
 {
 	if (parameters.empty()) return material;
 	if (original != &material) own = copyOf(material);
-	original          = &material;
-	const auto& known = parametersOf(material);
-	for (const ParameterOfClass& p : known)
-		p.in(*own) = p.valueIn(material);
+	original = &material;
+	for (const auto* known : { &parametersOf(material), &parametersOfPores() })
+		for (const ParameterOfClass& p : *known)
+			p.in(*own) = p.valueIn(material);
 	for (const auto& [name, value] : parameters) {
-		const auto found = std::find_if(known.begin(), known.end(), [&name = name](const auto& p) { return p.name == name; });
-		if (found == known.end()) refuseName(name, material);
+		const ParameterOfClass* found = findParameter(material, name);
+		if (!found) refuseName(name, material);
 		found->in(*own) = value;
 	}
 	own->requireAdmissible();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-// Strengths and moduli of the material classes that may differ from point to point.
+// Strengths and moduli of the material classes, and properties of their pores, that may differ from point to point.
 #include "engine/materials/MpmMaterial.hpp"
 #include <functional>
 #include <string_view>
@@ -22,6 +22,12 @@ struct ParameterOfClass {
 
 	Real valueIn(const MpmMaterial& material) const { return in(const_cast<MpmMaterial&>(material)); }
 };
+
+// How water goes through the pores, which materials of all classes may say.
+const vector<ParameterOfClass>& parametersOfPores();
+
+// Of the material's class, or of its pores; null: there is none of this name.
+const ParameterOfClass* findParameter(const MpmMaterial&, std::string_view name);
 
 using OwnParameters = vector<std::pair<string, Real>>; // of a point: name and value, each name once
 

@@ -96,9 +96,8 @@ namespace {
 	Real parameterOf(Point p, const char* name)
 	{
 		if (const Real* own = p.state->parameter(name)) return *own;
-		for (const ParameterOfClass& parameter : parametersOf(*p.material))
-			if (parameter.name == string(name)) return parameter.valueIn(*p.material);
-		return std::numeric_limits<Real>::quiet_NaN();
+		const ParameterOfClass* found = findParameter(*p.material, name);
+		return found ? found->valueIn(*p.material) : std::numeric_limits<Real>::quiet_NaN();
 	}
 	PointColumn parameter(const Parameter& of)
 	{

@@ -23,7 +23,7 @@ def seepage(levels, faces=(), solver=None, unitWeight=9810.):
 		solver.water = [MpmWater(pressure=flow.pressure)]
 		print(flow.discharge)
 
-	Darcy's law with the *conductivity* of the materials, on the grid of the engine, whose cells the body may cut. Above the free surface the soil conducts a thousandth of
+	Darcy's law with the *conductivity* of the materials, or that of points' own, on the grid of the engine, whose cells the body may cut. Above the free surface the soil conducts a thousandth of
 	that, with a transition of half a cell; pressures below zero are none. Nothing moves: consolidation is ``MpmImplicitEngine.flow``.
 
 	:param levels: pairs of a surface of the body (``MpmSurface``, or points) and the height [m] up to which water stands before it; above that height water may come out
@@ -40,7 +40,7 @@ def seepage(levels, faces=(), solver=None, unitWeight=9810.):
 	points, materials, number = pointsOf(solver)
 	if not len(points['id']): raise ValueError(noPoints('seepage', solver))
 	_requirePlane(solver, unitWeight)
-	conductivity = np.array([_conductivity(material) for material in materials])[number]
+	conductivity = _conductivities(points, materials, number)
 	body = _Body(solver.grid, points, conductivity / unitWeight, unitWeight)
 	outlets = [_Outlet(body, f'levels[{i}]', *_pair(i, pair)) for i, pair in enumerate(levels)]
 	outlets += [_Outlet(body, f'faces[{i}]', _surface(f'faces[{i}]', face), -math.inf) for i, face in enumerate(faces)]
@@ -83,9 +83,13 @@ def _requirePlane(solver, unitWeight):
 	if not isNumber(unitWeight) or not 0 < unitWeight < math.inf: raise ValueError(f'seepage: unitWeight = {brief(unitWeight)} must be a number > 0 [N/m3]')
 
 
-def _conductivity(material):
-	if material.conductivity > 0: return material.conductivity
-	raise ValueError(f'seepage: the material {material.label!r} has conductivity = {material.conductivity}; expected is a number > 0 [m/s], 1e-2 (gravel) to 1e-11 (clay)')
+def _conductivities(points, materials, number):
+	"""Of each point, its own or that of its material."""
+	found = points['conductivity'] if 'conductivity' in points else np.array([material.conductivity for material in materials])[number]
+	wrong = np.flatnonzero(~(found > 0))
+	if not len(wrong): return found
+	label = materials[number[wrong[0]]].label
+	raise ValueError(f'seepage: the material {label!r} has conductivity = {found[wrong[0]]}; expected is a number > 0 [m/s], 1e-2 (gravel) to 1e-11 (clay)')
 
 
 def _pair(i, pair):

@@ -8,7 +8,7 @@ import pytest
 from conftest import Yade, root
 
 scenes = root / 'examples' / 'benchmarks' / 'shared.py'
-names = 'slope2', 'slope3', 'friction', 'contact', 'dynamics', 'collapse', 'splitting'
+names = 'slope2', 'slope3', 'friction', 'contact', 'dynamics', 'collapse', 'splitting', 'seeping'
 
 setting = '''
 import json
@@ -34,10 +34,10 @@ def found(run):
 
 
 def test_two_processes_come_to_the_states_of_one(yade):
-	"""Von Mises' slope in the plane and in 3D, friction (K not symmetric), contact with pushed sides, a thrown block, a column in time, and points that are split; by each method."""
+	"""Von Mises' slope in the plane and in 3D, friction (K not symmetric), contact with pushed sides, a thrown block, a column in time, points that are split, and water that flows; by each method."""
 	results, alone = found(yade(scenes, 'out.npz', *names))
 	together = lambda method, *these, **how: found(yade(scenes, 'out.npz', 'linearSolver=' + method, *these, processes=2, **how))
-	methods = dict(iterative=together('iterative', *names), amg=together('amg', 'slope3', 'friction', threads=2), direct=together('direct', 'slope2', 'friction', 'contact', 'dynamics'))
+	methods = dict(iterative=together('iterative', *names), amg=together('amg', 'slope3', 'friction', threads=2), direct=together('direct', 'slope2', 'friction', 'contact', 'dynamics', 'seeping'))
 	for method, (together, positions) in methods.items():
 		for name in positions:
 			difference = np.abs(positions[name] - alone[name]).max()
@@ -130,6 +130,44 @@ if rank == 0: np.save('pos.npy', pos)
 	for processes in 3, 1, 2:
 		yade(goesOn, processes=processes)
 		assert np.abs(np.load(run.folder / 'pos.npy') - pos).max() < 1e-8, processes
+
+
+def test_water_goes_on_in_other_numbers_of_processes(yade):
+	"""Two processes that share a body from which water is pressed save it; one, two and three go on."""
+	begin = '''
+import json
+import os
+from yade import mpm
+rank = int(os.environ.get('OMPI_COMM_WORLD_RANK', 0))
+'''
+	goesOn = '''
+solver = O.engines[0]
+O.run(2, wait=True)
+points = mpm.arrays()
+if rank == 0:
+	with open('reached.json', 'w') as file:
+		json.dump([points['pos'].tolist(), points['excessPressure'].tolist(), solver.flow.waterOut, solver.flow.drains[0].discharge], file)
+'''
+	scene = '''
+O.materials.append(MpmElasticMat(young=1e6, poisson=.3, density=2000, conductivity=1e-6, porosity=.4, label='soil'))
+grid = MpmGrid(cellSize=1)
+O.bodies.append(mpm.fill(mpm.polygon([(0, 0), (10, 0), (10, 4), (0, 4)]), grid, 2, 'soil'))
+held = [MpmBoundary(max=(0, inf, inf), fix='x'), MpmBoundary(max=(inf, 0, inf), fix='xy')]
+load = MpmTraction(surface=[(4, 4), (0, 4)], pressure=2e4, curve=[(0, 1), (1, 1)])
+O.engines = [MpmImplicitEngine(grid=grid, boundaries=held, loads=[load], loadCurve=[(0, 1), (1, 1)], flow=MpmFlow(drains=[MpmDrain(surface=[(10, 4), (0, 4)])]),
+        newton=MpmNewton(tolerance=1e-11), verbosity=0)]
+O.dt = 1e3
+O.run(2, wait=True)
+mpm.save('between.yade.gz')
+'''
+	run = yade(begin + scene + goesOn, processes=2)
+	read = lambda: json.loads((run.folder / 'reached.json').read_text())
+	positions, pressures, out, discharge = read()
+	for processes in 1, 2, 3:
+		yade(begin + "mpm.load('between.yade.gz')\n" + goesOn, processes=processes)
+		found = read()
+		assert np.abs(np.subtract(found[0], positions)).max() < 1e-8
+		assert np.abs(np.subtract(found[1], pressures)).max() < 1e-8 * 2e4 and abs(found[2] / out - 1) < 1e-8 and abs(found[3] / discharge - 1) < 1e-7
 
 
 def test_motion_and_halves_are_saved_in_pieces(yade):

@@ -52,6 +52,22 @@ print(json.dumps(found))
 		assert found == pytest.approx(1, abs=0.05) and surface < 0.06
 
 
+def test_points_own_conductivities_are_taken(yade):
+	"""A dam in two halves, one ten times as tight, under water: the one drops ten times as much."""
+	parts, said = yade(
+	        setting + '''
+left, right = dam(4, 1, .5)
+points = mpm.arrays()
+tight = points['id'][points['pos'][:, 0] > 2]
+mpm.assign(ids=tight, conductivity=[1e-6] * len(tight))
+flow = mpm.seepage([(left, 5), (right, 3)])
+parts = (flow.pressure((.1, .5, 0)) - flow.pressure((1.9, .5, 0))) / (flow.pressure((2.1, .5, 0)) - flow.pressure((3.9, .5, 0)))
+print(json.dumps([parts, flow.discharge[1] / (1e-5 * 2 / 22)]))
+'''
+	).result
+	assert parts == pytest.approx(0.1, rel=0.1) and said == pytest.approx(1, abs=0.05)
+
+
 def test_uniform_flow_is_exact_at_any_cut_and_water_takes_the_pressures(yade):
 	errors, slopes, pressure = yade(
 	        setting + '''

@@ -10,8 +10,9 @@ public:
 	shared_ptr<MpmSurface>  surface; // must be given
 	Real                    pressure = 0;
 	Real                    level    = std::numeric_limits<Real>::quiet_NaN();
-	Real                    flux     = std::numeric_limits<Real>::quiet_NaN();
-	bool                    seepage  = false;
+	gimpm::LoadCurve::Knees levels; // empty: level
+	Real                    flux    = std::numeric_limits<Real>::quiet_NaN();
+	bool                    seepage = false;
 	gimpm::LoadCurve::Knees curve; // empty: one
 	Real                    conductance = 30;
 	Real                    discharge   = std::numeric_limits<Real>::quiet_NaN();
@@ -31,8 +32,10 @@ public:
 		v("pressure", &MpmDrain::pressure, 0, "Pressure outside [Pa] over that of still water (MpmWater), finite; 0: the drain leads to that water.",
 		  finite);
 		v("level", &MpmDrain::level, 0,
-		  "Height [m] up to which water stands outside, above all of *surface*, where still water (MpmWater) has a level; NaN, the default: see *pressure*.",
+		  "Height [m] up to which water stands outside; above it water can leave only. Still water (MpmWater) needs a level, too. NaN, the default: see *pressure*.",
 		  admitting("a finite height [m], or NaN, the default", [](Real height) { return !std::isinf(height); }));
+		v("levels", &MpmDrain::levels, 0,
+		  "A level that changes, in place of *level*: a sequence of (time [s], height [m]); empty, the default: it stays.", curveOrNothing);
 		v("flux", &MpmDrain::flux, 0, "Volume that leaves by area and time [m/s], whatever the pressure; < 0 enters. NaN, the default: see *pressure*.",
 		  admitting("a finite number [m/s], or NaN, the default", [](Real value) { return !std::isinf(value); }));
 		v("seepage", &MpmDrain::seepage, 0, "Whether water can leave only: where its pressure is below that outside nothing passes.");
@@ -47,6 +50,9 @@ public:
 
 	// The attributes must go together, too.
 	void requireAdmissible() const override;
+
+	bool hasLevel() const { return !std::isnan(level) || !levels.empty(); }
+	Real levelAt(Real time) const { return levels.empty() ? level : gimpm::LoadCurve(levels).valueAt(time); }
 };
 
 } // namespace yade

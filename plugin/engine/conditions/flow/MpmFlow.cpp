@@ -23,7 +23,7 @@ void MpmFlow::requireAdmissible() const
 void MpmFlow::requireFitting(const Analysis& analysis, const string&) const
 {
 	string what;
-	if (analysis.isDynamic()) what = analysis.className() + ", steps with inertia";
+	if (analysis.isExplicit()) what = analysis.className() + ".scheme = 'explicit'";
 	else if (analysis.newton->stepTolerance > 0)
 		what = "MpmNewton.stepTolerance, which sees displacements only";
 	else if (analysis.ghost->workTolerance < 1)
@@ -40,7 +40,8 @@ Real MpmFlow::end(const Analysis&) const
 {
 	Real last = -std::numeric_limits<Real>::infinity();
 	for (const auto& drain : drains)
-		if (!drain->curve.empty()) last = std::max(last, gimpm::LoadCurve(drain->curve).end());
+		for (const auto* curve : { &drain->curve, &drain->levels })
+			if (!curve->empty()) last = std::max(last, gimpm::LoadCurve(*curve).end());
 	return last;
 }
 
@@ -66,8 +67,9 @@ std::map<string, string> MpmFlow::warnings(const Analysis&, const vector<Materia
 	return found;
 }
 
-void MpmFlow::tell(Rows& rows, const Analysis&, const Listed&) const
+void MpmFlow::tell(Rows& rows, const Analysis& analysis, const Listed&) const
 {
+	if (analysis.isDynamic()) rows.set("waterWork", work);
 	rows.set("waterIn", waterIn);
 	rows.set("waterOut", waterOut);
 	rows.set("waterStored", waterStored);

@@ -9,10 +9,10 @@ class MpmFlow : public Exposed<MpmFlow, MpmCondition> {
 public:
 	Real                         unitWeight    = 9810;
 	Real                         bulkModulus   = std::numeric_limits<Real>::infinity();
-	Real                         stabilisation = 1;
+	Real                         stabilisation = std::numeric_limits<Real>::quiet_NaN();
 	Real                         ghost         = 0.01;
 	vector<shared_ptr<MpmDrain>> drains;
-	Real                         waterIn = 0, waterOut = 0, waterStored = 0;
+	Real                         waterIn = 0, waterOut = 0, waterStored = 0, work = 0;
 	// Hidden: of each node three grid coordinates and the pressure, as the last step has left it
 	vector<Real> nodes;
 
@@ -30,8 +30,8 @@ public:
 		v("bulkModulus", &MpmFlow::bulkModulus, 0, "Bulk modulus of the water [Pa] > 0; inf, the default: it keeps its volume.",
 		  admitting("a number > 0 [Pa], or inf", [](Real value) { return value > 0; }));
 		v("stabilisation", &MpmFlow::stabilisation, 0,
-		  "Penalty [-] >= 0 on pressures that change from node to node where water cannot flow, over the inverse of the constrained modulus; 0: none.",
-		  nonNegative);
+		  "Penalty [-] >= 0 on pressures that change from node to node, over the inverse of the constrained modulus; 0: none. NaN, the default: 1, and 0.1 in steps in time.",
+		  admitting("a finite number >= 0, or NaN, the default", [](Real value) { return std::isnan(value) || nonNegative(value); }));
 		v("ghost", &MpmFlow::ghost, 0, "Penalty [-] >= 0 on jumps of the pressure's gradient at nearly empty cells, as *MpmGhost.factor*.",
 		  nonNegative);
 		v("drains", &MpmFlow::drains, 0, "Where water leaves or enters (MpmDrain); read as a tuple, so assign a new one to change it.");
@@ -40,6 +40,7 @@ public:
 		v("waterOut", &MpmFlow::waterOut, readonly, "Volume of water [m³] that has left by drains since the first step.");
 		v("waterStored", &MpmFlow::waterStored, readonly,
 		  "Volume of water [m³] that the soil has taken up since the first step: *waterIn* less *waterOut*.");
+		v("work", &MpmFlow::work, readonly, "Work of the pressures in excess on the soil so far [J], of MpmDynamicEngine.", finite);
 		v("nodes", &MpmFlow::nodes, hidden, "", AnyValue());
 	}
 

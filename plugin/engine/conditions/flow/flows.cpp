@@ -13,9 +13,9 @@ namespace {
 		throw std::invalid_argument("Body #" + std::to_string(point.id) + ": its material '" + point.material->label + "' " + what);
 	}
 
-	gimpm::Pores poresOf(const MaterialPoint& point, Real unitWeight)
+	// Of a material as the point has it.
+	gimpm::Pores poresOf(const MaterialPoint& point, const MpmMaterial& m, Real unitWeight)
 	{
-		const MpmMaterial& m = *point.material;
 		if (m.undrained)
 			refuseMaterial(
 			        point,
@@ -29,43 +29,47 @@ namespace {
 		return pores;
 	}
 
-	// Of all waters, if they are one that stands still.
-	Real stillLevel(const Analysis& analysis, Real time)
+	// The water in the pores that has a level, if it is the only one there; null: there is none.
+	shared_ptr<MpmWater> stillWater(const Analysis& analysis)
 	{
-		Real   level = std::numeric_limits<Real>::quiet_NaN();
-		size_t count = 0;
-		for (const Listed& listed : analysis.conditions())
-			if (const auto still = boost::dynamic_pointer_cast<MpmWater>(listed.condition); still && ++count)
-				level = still->hasFunction()    ? std::numeric_limits<Real>::quiet_NaN()
-				        : still->levels.empty() ? still->level
-				                                : gimpm::LoadCurve(still->levels).valueAt(time);
-		return count == 1 ? level : std::numeric_limits<Real>::quiet_NaN();
-	}
-
-	void requireStill(const Analysis& analysis)
-	{
-		for (const Listed& listed : analysis.conditions())
-			if (const auto still = boost::dynamic_pointer_cast<MpmWater>(listed.condition); still && still->levels.size() > 1)
+		vector<shared_ptr<MpmWater>> all;
+		for (const Listed& listed : analysis.conditions()) {
+			const auto water = boost::dynamic_pointer_cast<MpmWater>(listed.condition);
+			if (!water || water->where == "outside") continue;
+			if (water->levels.size() > 1)
 				throw std::invalid_argument(
 				        listed.name()
-				        + ".levels: MpmFlow computes the pressure over that of water which stands still, so that its level must stay; give level, and to a drain the pressure that changes.");
+				        + ".levels: MpmFlow computes the pressure over that of water which stands still, so that its level must stay: give level, and to a "
+				          "drain the levels. Water that loads the surface may change: where = 'outside'.");
+			all.push_back(water);
+		}
+		return all.size() == 1 && !all[0]->hasFunction() ? all[0] : nullptr;
 	}
+
+	Real heightOf(const MpmWater& still) { return still.levels.empty() ? still.level : still.levels[0].second; }
 }
 
 template <int Dim> void Flows<Dim>::join(gimpm::Model<Dim>& model, const Surroundings<Dim>& around)
 {
-	if (model.processes->size() > 1) throw std::invalid_argument("MpmFlow cannot go with several processes yet: start the script with one.");
-	requireStill(around.analysis);
-	levelOfStillWater   = stillLevel(around.analysis, around.begin);
+	if (!model.division->isWhole())
+		throw std::invalid_argument(
+		        "MpmFlow cannot go with points that are divided among processes yet: leave distributed = False, so that they share them.");
+	constexpr Real ofSteadySoil = 1, ofSoilThatMoves = 0.1;
+	still               = stillWater(around.analysis);
 	water.modulus       = from->bulkModulus;
-	water.stabilisation = from->stabilisation;
+	water.stabilisation = !std::isnan(from->stabilisation) ? from->stabilisation : around.analysis.isDynamic() ? ofSoilThatMoves : ofSteadySoil;
 	water.ghost         = from->ghost;
 	takePoints(around);
 	takeNodes();
-	takeDrains(model, around.analysis.gravity);
-	Real sum = 0; // of constrained moduli
-	for (size_t p = 0; p < around.cloud.size(); ++p)
-		sum += gimpm::waveModuli(model.materials, around.cloud, int(p)).pressure / Real(around.cloud.size());
+	takeDrains(model, around.analysis, around.begin);
+	Real sum = 0, fastest = 0; // of constrained moduli; coefficient of consolidation
+	for (size_t p = 0; p < around.cloud.size(); ++p) {
+		const Real modulus = gimpm::waveModuli(model.materials, around.cloud, int(p)).pressure;
+		sum += modulus / Real(around.cloud.size());
+		fastest = std::max(fastest, modulus * (water.ownPores.empty() ? water.pores[around.cloud.material[p]] : water.ownPores[p]).conductivity);
+	}
+	acrossCell = std::pow(model.grid.cellSize, 2) / fastest;
+	isRamp     = !around.analysis.isDynamic() && around.analysis.loadCurve == gimpm::LoadCurve::Knees { { 0, 0 }, { 1, 1 } };
 	model.fields.push_back(gimpm::pressureField(water, sum / model.grid.cellSize));
 	model.coupledTerms.push_back([this, materials = model.materials](const gimpm::Beginning<Dim>& step, const gimpm::State&) {
 		const auto constrained = [&](int p) { return gimpm::waveModuli(materials, step.cloud, p).pressure; };
@@ -75,16 +79,24 @@ template <int Dim> void Flows<Dim>::join(gimpm::Model<Dim>& model, const Surroun
 
 template <int Dim> void Flows<Dim>::takePoints(const Surroundings<Dim>& around)
 {
-	for (size_t p = 0; p < around.points.size(); ++p) {
+	const auto& points = around.points;
+	const bool  differ = std::any_of(points.begin(), points.end(), [&](const MaterialPoint& point) {
+                return point.state->parameter("conductivity") || point.state->parameter("porosity");
+        });
+	OwnMaterial own;
+	for (size_t p = 0; p < points.size(); ++p) {
 		const size_t material = around.cloud.material[p];
 		if (water.pores.size() <= material) water.pores.resize(material + 1);
-		auto& pores = water.pores[material];
-		if (std::isnan(pores.porosity)) pores = poresOf(around.points[p], from->unitWeight);
-		water.pressure.push_back(around.points[p].state->excessPressure);
+		gimpm::Pores& ofMaterial = water.pores[material];
+		if (differ) water.ownPores.push_back(poresOf(points[p], own.of(*points[p].material, points[p].state->parameters), from->unitWeight));
+		else if (std::isnan(ofMaterial.porosity))
+			ofMaterial = poresOf(points[p], *points[p].material, from->unitWeight);
+		const gimpm::Pores& pores = differ ? water.ownPores.back() : ofMaterial;
+		water.pressure.push_back(points[p].state->excessPressure);
 		const Real J = around.cloud.volumeRatio(p);
 		if (!pores.areOpen(J))
 			refuseMaterial(
-			        around.points[p],
+			        points[p],
 			        "has porosity = " + textOf(pores.porosity) + ", and the point has now " + textOf(J)
 			                + " of its initial volume: there is no room left for water.");
 	}
@@ -100,24 +112,20 @@ template <int Dim> void Flows<Dim>::takeNodes()
 	}
 }
 
-template <int Dim> void Flows<Dim>::takeDrains(const gimpm::Model<Dim>& model, const Vector3r& gravity)
+template <int Dim> void Flows<Dim>::takeDrains(const gimpm::Model<Dim>& model, const Analysis& analysis, Real time)
 {
 	// Against gravity, which MpmWater.level has checked to be along an axis.
-	const Vector3r up = gravity.isZero(0) ? Vector3r(Vector3r::Unit(Dim - 1)) : Vector3r(-gravity.normalized());
+	const Vector3r up   = analysis.gravity.isZero(0) ? Vector3r(Vector3r::Unit(Dim - 1)) : Vector3r(-analysis.gravity.normalized());
+	int            axis = 0;
+	up.cwiseAbs().maxCoeff(&axis);
 	for (size_t i = 0; i < from->drains.size(); ++i) {
 		const MpmDrain& drain = *from->drains[i];
 		const string    name  = "flow.drains[" + std::to_string(i) + "]";
 		requireDimension<Dim>(*drain.surface, name);
-		if (!std::isnan(drain.level) && std::isnan(levelOfStillWater))
+		if (drain.hasLevel() && !still)
 			throw std::invalid_argument(
-			        name + ".level = " + textOf(drain.level)
+			        name + (drain.levels.empty() ? ".level = " + textOf(drain.level) : string(".levels"))
 			        + " is compared with the level of still water: it needs one MpmWater(level=...) in water, or give pressure.");
-		if (!std::isnan(drain.level))
-			for (const auto& x : drain.surface->vertices)
-				if (up.dot(x) > drain.level + 1e-9 * model.grid.cellSize)
-					throw std::invalid_argument(
-					        name + ".level = " + textOf(drain.level) + " is below a vertex of its surface, at (" + textOf(x)
-					        + "): end the surface there; what is above it may be a drain of its own with seepage=True.");
 		gimpm::Drain<Dim> made;
 		made.surface = coreSurface<Dim>(*drain.surface);
 		made.surface.refine(gimpm::pieceLimit * model.grid.cellSize);
@@ -126,19 +134,45 @@ template <int Dim> void Flows<Dim>::takeDrains(const gimpm::Model<Dim>& model, c
 		                                           : gimpm::Drain<Dim>::Kind::pressure;
 		made.conductance = drain.conductance;
 		made.name        = name;
+		if (drain.hasLevel()) made.level = { drain.levelAt(time), heightOf(*still), from->unitWeight, axis, up[axis] };
 		water.drains.push_back(std::move(made));
 	}
+}
+
+template <int Dim> std::map<string, string> Flows<Dim>::warnings() const
+{
+	constexpr Real           oscillates = 0.25, hardlyFlows = 1e-3;
+	std::map<string, string> found;
+	if (water.stabilisation == 0 && shortest < oscillates * acrossCell && !std::isfinite(water.modulus))
+		found["flow.stabilisation"] = "flow.stabilisation = 0 with steps of " + textOf(shortest)
+		        + " s: below cellSize^2 / (4 c_v) = " + textOf(oscillates * acrossCell)
+		        + " s, with the coefficient of consolidation c_v, pressures change from node to node. Leave stabilisation at its default, or take longer steps.";
+	if (isRamp && shortest < 1 && shortest < hardlyFlows * acrossCell)
+		found["steps of flow"] = "O.dt = " + textOf(shortest)
+		        + ": is it a part of the load? With flow it is a time [s], in which pressures would spread over "
+		        + textOf(std::sqrt(shortest / acrossCell))
+		        + " of a cell, and the default loadCurve lets the loads grow within one second: give a loadCurve in seconds.";
+	return found;
+}
+
+template <int Dim> void Flows<Dim>::joinMotion(gimpm::Motion<Dim>&, const gimpm::Model<Dim>&, Real) { water.wantsWork = true; }
+
+template <int Dim> Work Flows<Dim>::work(const StepOutcome<Dim>&) const
+{
+	Work sum;
+	sum.ofLoads = water.work;
+	return sum;
 }
 
 template <int Dim> void Flows<Dim>::advance(const StepTime& step, gimpm::Model<Dim>&, gimpm::Load<Dim>&)
 {
 	water.duration = step.to - step.from;
+	shortest       = std::min(shortest, water.duration);
 	for (size_t i = 0; i < from->drains.size(); ++i) {
 		const MpmDrain& drain  = *from->drains[i];
 		const Real      factor = drain.curve.empty() ? 1 : gimpm::LoadCurve(drain.curve).valueAt(step.looked);
-		water.drains[i].given  = !std::isnan(drain.flux) ? factor * drain.flux
-		         : !std::isnan(drain.level)              ? from->unitWeight * (drain.level - levelOfStillWater)
-		                                                 : factor * drain.pressure;
+		water.drains[i].given  = factor * (std::isnan(drain.flux) ? drain.pressure : drain.flux);
+		if (auto& level = water.drains[i].level) level->height = drain.levelAt(step.looked);
 	}
 }
 
@@ -158,6 +192,7 @@ template <int Dim> void Flows<Dim>::reach(const StepOutcome<Dim>& step)
 			from->nodes.push_back(a < Dim ? place[a] : 0);
 		from->nodes.push_back(pressure);
 	}
+	from->work += water.work;
 	from->waterStored += water.stored;
 	for (size_t i = 0; i < from->drains.size(); ++i) {
 		const Real out = water.drains[i].out;

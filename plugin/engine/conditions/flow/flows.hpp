@@ -4,6 +4,7 @@
 #include "core/terms/soil_water.hpp"
 #include "engine/analysis/analysis.hpp"
 #include "engine/conditions/flow/MpmFlow.hpp"
+#include "engine/conditions/water/MpmWater.hpp"
 
 namespace yade {
 
@@ -11,18 +12,24 @@ template <int Dim> class Flows : public Condition<Dim> {
 public:
 	explicit Flows(const MpmCondition::Group& group) : from(boost::static_pointer_cast<MpmFlow>(group.front().condition)) { }
 
-	void join(gimpm::Model<Dim>&, const Surroundings<Dim>&) override;
-	void advance(const StepTime&, gimpm::Model<Dim>&, gimpm::Load<Dim>&) override;
-	void reach(const StepOutcome<Dim>&) override;
+	void                     join(gimpm::Model<Dim>&, const Surroundings<Dim>&) override;
+	void                     advance(const StepTime&, gimpm::Model<Dim>&, gimpm::Load<Dim>&) override;
+	void                     reach(const StepOutcome<Dim>&) override;
+	void                     joinMotion(gimpm::Motion<Dim>&, const gimpm::Model<Dim>&, Real begin) override;
+	Work                     work(const StepOutcome<Dim>&) const override;
+	std::map<string, string> warnings() const override;
 
 private:
 	void takePoints(const Surroundings<Dim>&);
 	void takeNodes();
-	void takeDrains(const gimpm::Model<Dim>&, const Vector3r& gravity);
+	void takeDrains(const gimpm::Model<Dim>&, const Analysis&, Real time);
 
 	shared_ptr<MpmFlow>   from;
 	gimpm::SoilWater<Dim> water;
-	Real                  levelOfStillWater = std::numeric_limits<Real>::quiet_NaN();
+	shared_ptr<MpmWater>  still;                                              // null: there is none with a level
+	Real                  acrossCell = std::numeric_limits<Real>::infinity(); // time in which pressures spread over a cell where they do fastest [s]
+	Real                  shortest   = acrossCell;                            // step [s]
+	bool                  isRamp     = false;                                 // the loads grow within the first second, as nobody has said otherwise
 };
 
 } // namespace yade

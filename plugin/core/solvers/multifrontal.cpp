@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "core/solvers/multifrontal_lu.hpp"
+#include "core/solvers/multifrontal.hpp"
 #include <algorithm>
 #include <cmath>
 #include <dmumps_c.h>
@@ -26,7 +26,7 @@ enum Control {
 enum RealControl { pivotThreshold, refinedEnough, nullPivot };
 enum Result { status, nullPivotsFound = 27 };
 
-constexpr int givenOrdering = 1, worldOfOne = -987654; // the communicator of a MUMPS without MPI
+constexpr int givenOrdering = 1, anySigns = 2, worldOfOne = -987654; // the communicator of a MUMPS without MPI
 
 /// MUMPS shares variables between all of its instances.
 std::mutex& oneAtATime()
@@ -37,14 +37,15 @@ std::mutex& oneAtATime()
 
 } // namespace
 
-struct MultifrontalLu::Instance : DMUMPS_STRUC_C {
+struct Multifrontal::Instance : DMUMPS_STRUC_C {
 	bool isReady = false; // analysed
 };
 
-MultifrontalLu::MultifrontalLu(const Csc& K, const int* ordering) : mumps_(new Instance()), row_(K.row), column_(K.row.size())
+Multifrontal::Multifrontal(const Csc& K, Form form, const int* ordering) : mumps_(new Instance()), row_(K.row), column_(K.row.size())
 {
 	auto& m        = *mumps_;
 	m.par          = 1;
+	m.sym          = form == Form::triangle ? anySigns : 0;
 	m.comm_fortran = worldOfOne;
 	run(begin);
 	m.icntl[errors] = m.icntl[diagnostics] = m.icntl[statistics] = m.icntl[verbosity] = 0;
@@ -70,9 +71,9 @@ MultifrontalLu::MultifrontalLu(const Csc& K, const int* ordering) : mumps_(new I
 	m.perm_in = nullptr;
 }
 
-MultifrontalLu::~MultifrontalLu() { run(end); }
+Multifrontal::~Multifrontal() { run(end); }
 
-bool MultifrontalLu::run(int job)
+bool Multifrontal::run(int job)
 {
 	const std::lock_guard<std::mutex> guard(oneAtATime());
 	mumps_->job = job;
@@ -80,7 +81,7 @@ bool MultifrontalLu::run(int job)
 	return mumps_->infog[status] >= 0;
 }
 
-bool MultifrontalLu::factorise(const Csc& K, double smallestRow)
+bool Multifrontal::factorise(const Csc& K, double smallestRow)
 {
 	auto& m = *mumps_;
 	if (!m.isReady || !std::all_of(K.value.begin(), K.value.end(), [](double v) { return std::isfinite(v); })) return false;
@@ -96,7 +97,7 @@ bool MultifrontalLu::factorise(const Csc& K, double smallestRow)
 	return false;
 }
 
-bool MultifrontalLu::solve(const Csc& K, const Eigen::VectorXd& b, Eigen::VectorXd& x, bool transposed)
+bool Multifrontal::solve(const Csc& K, const Eigen::VectorXd& b, Eigen::VectorXd& x, bool transposed)
 {
 	x                            = b;
 	mumps_->a                    = const_cast<double*>(K.value.data());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Multifrontal LU factorisation with threshold pivoting (MUMPS).
+// Multifrontal factorisation with threshold pivoting (MUMPS).
 #pragma once
 #include "core/solvers/csc.hpp"
 #include <memory>
@@ -7,15 +7,17 @@
 
 namespace gimpm {
 
-/// Of matrices with a symmetric pattern and a diagonal of about one. The pattern is analysed once, for all matrices
-/// that have it.
-class MultifrontalLu {
+/// Of matrices with a symmetric pattern and a diagonal of about one: L U or, of a symmetric one that is given by one of
+/// its triangles, L D L^T with D of any signs. The pattern is analysed once, for all matrices that have it.
+class Multifrontal {
 public:
+	enum class Form { general, triangle };
+
 	/// With an ordering of rows and columns: the number of each in K.
-	MultifrontalLu(const Csc& K, const int* ordering);
-	~MultifrontalLu();
-	MultifrontalLu(const MultifrontalLu&)            = delete;
-	MultifrontalLu& operator=(const MultifrontalLu&) = delete;
+	Multifrontal(const Csc& K, Form, const int* ordering);
+	~Multifrontal();
+	Multifrontal(const Multifrontal&)            = delete;
+	Multifrontal& operator=(const Multifrontal&) = delete;
 
 	/// Of a matrix with the pattern that was analysed. False if a row that is left for a pivot is below
 	/// `smallestRow` of the largest of K, or if the memory does not suffice.
