@@ -7,7 +7,7 @@ namespace gimpm {
 namespace {
 
 /// Where a segment crosses lines of the grid, as parts of its length, rising.
-std::vector<double> crossings(const Vec<2>& a, const Vec<2>& b, const Grid<2>& grid)
+std::vector<double> linesCrossed(const Vec<2>& a, const Vec<2>& b, const Grid<2>& grid)
 {
 	constexpr double    end = 1e-6; // of a cell, and of the length: nothing so short is cut off
 	std::vector<double> parts;
@@ -25,7 +25,7 @@ std::vector<double> crossings(const Vec<2>& a, const Vec<2>& b, const Grid<2>& g
 void addPiece(Facets<2>& to, const Surface<2>::Piece& piece, int number, const Grid<2>& grid)
 {
 	int first = piece[0];
-	for (const double s : crossings(to.start[piece[0]], to.start[piece[1]], grid)) {
+	for (const double s : linesCrossed(to.start[piece[0]], to.start[piece[1]], grid)) {
 		to.start.push_back((1 - s) * to.start[piece[0]] + s * to.start[piece[1]]);
 		to.pieces.push_back({ first, int(to.start.size()) - 1 });
 		to.whole.push_back(number);
