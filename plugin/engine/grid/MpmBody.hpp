@@ -25,7 +25,7 @@ public:
 		  "Current positions of the vertices of its surface [m], finite; z is not used in the plane. Read as a tuple.",
 		  admitting("points, all finite", areFinite));
 		v("pieces", &MpmBody::pieces, 0,
-		  "Of each segment or triangle of the surface, the two or three numbers of its vertices, with the body on the inner side as of an MpmSurface. Read as a tuple.",
+		  "Of each segment or triangle of the surface, the two or three numbers of its vertices, as of an MpmSurface. Read as a tuple.",
 		  admitting("pieces of two numbers >= 0 each (segments), or of three each (triangles)", arePieces));
 		v("initialVertices", &MpmBody::initialVertices, readonly,
 		  "Where the vertices were at the first step [m], empty before it. The engine adds vertices until the sides of all pieces are at most a quarter of a cell.");
