@@ -168,7 +168,7 @@ O.materials.append(FrictMat(label='rigid'))
 bodies, line, low, outline = dict(cone=cone, pile=pile, tbar=tbar)[options.scene]()
 grid, sides, load = clay(line, low)
 contact = MpmContact(stiffness=options.stiffness, friction=np.arctan(5) if rough else 0, adhesion=rough * cu if rough else inf)
-O.engines = [MpmImplicitEngine(grid=grid, fBar=True, boundaries=sides, loads=[load], loadCurve=[(0, 1)], contacts=[contact], newton=MpmNewton(minStep=1 / 64), label='solver')]
+O.engines = [MpmImplicitEngine(grid=grid, fBar=True, pressureRelaxation=isBar, boundaries=sides, loads=[load], loadCurve=[(0, 1)], contacts=[contact], newton=MpmNewton(minStep=1 / 64), label='solver')]
 if options.picture: O.engines += [MpmVtkRecorder(fileName=os.path.join(options.out, options.scene + '-'), recorders=['points', 'loads'], iterPeriod=20)]
 O.dt = 1
 area = R if isBar else np.pi * R**2

@@ -35,6 +35,7 @@ public:
 	const NodeProblem* ofAllFields() const { return overNodes_.get(); }
 	bool               isShared() const { return overNodes_ && !overNodes_->share().isWhole(); }
 	bool               isOfOneField() const { return !overNodes_ || overNodes_->isOfOneField(); }
+	bool               hasSigns() const { return overNodes_ && overNodes_->hasSigns(); }
 
 	/// NodeProblem::ordering; empty where nodes are not known.
 	Order ordering() const { return overNodes_ ? overNodes_->ordering() : Order(); }

@@ -135,7 +135,7 @@ LinearSolver::Status LinearSolver::factorise(const LinearProblem& problem)
 	ofLu   = nullptr;
 	values = scale(problem.stored(), scaled.value);
 	if (problem.isSymmetric()) {
-		if (!problem.isOfOneField()) {
+		if (problem.hasSigns()) {
 			if (direct_->factoriseIndefinite()) return Status::lu;
 		} else if (indefinite.reset(); cholesky.factorise(scaled))
 			return cholesky.rcond() < smallestPivot ? Status::singular : Status::cholesky;

@@ -54,6 +54,12 @@ public:
 		return std::make_unique<BlockMatrix<Dim>>(K_, dofs_);
 	}
 	bool isOfOneField() const override { return !couplings_ || couplings_->map().isAlone(); }
+	bool hasSigns() const override
+	{
+		for (int field = 0; couplings_ && field < couplings_->map().fields(); ++field)
+			if (couplings_->map()[field].sign < 0) return true;
+		return false;
+	}
 
 	Eigen::VectorXd expanded(const Eigen::VectorXd& x) const override
 	{

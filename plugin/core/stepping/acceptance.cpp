@@ -109,7 +109,7 @@ template <int Dim> bool accept(const StepSystem<Dim>& system, PointCloud<Dim>& c
 	PointCloud<Dim> updated = cloud;
 	updatePoints(updated, system, displacements, report);
 	keepBeforeWalls(updated, cloud, system, displacements);
-	if (system.model.fBar) relaxPressures(updated, cloud, system.model.materials, system.basis, system.model.grid, *system.model.division);
+	if (system.model.pressureRelaxation) relaxPressures(updated, cloud, system.model.materials, system.basis, system.model.grid, *system.model.division);
 	if (!requireState(updated, system.model, report) || !requireSamePoints(updated, system.model, report)) return false;
 	if (!report.accepted && !requireEnergy(system, cloud, updated, report)) return false;
 	cloud = std::move(updated);

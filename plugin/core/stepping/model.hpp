@@ -66,7 +66,9 @@ template <int Dim> struct Model {
 	Grid<Dim> grid;
 	Basis     basis = Basis::gimp;
 	/// Against volumetric locking; needs the ghost stabilisation, which holds the nodes of nearly empty cells.
-	bool                  fBar = false;
+	bool fBar = false;
+	/// With it: what pressures of points in a cell differ by without any effect is taken out as the points move.
+	bool                  pressureRelaxation = false;
 	std::vector<Material> materials;
 	/// By material, of what acts of point loads and water in a stage of construction, as it does of the density;
 	/// empty: all.

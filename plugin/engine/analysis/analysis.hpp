@@ -16,9 +16,10 @@ namespace yade {
 class Analysis : public RunResults {
 public:
 	shared_ptr<MpmGrid>     grid;
-	string                  basis   = "gimp";
-	bool                    fBar    = false;
-	Vector3r                gravity = Vector3r::Zero();
+	string                  basis              = "gimp";
+	bool                    fBar               = false;
+	bool                    pressureRelaxation = false;
+	Vector3r                gravity            = Vector3r::Zero();
 	gimpm::LoadCurve::Knees loadCurve { { 0, 0 }, { 1, 1 } };
 	gimpm::LoadCurve::Knees gravityCurve; // empty: loadCurve
 	shared_ptr<MpmGhost>    ghost { new MpmGhost };

@@ -286,6 +286,7 @@ template <int Dim> gimpm::Model<Dim> emptyModel(const Analysis& analysis, const 
 	model.grid                    = analysis.grid->lattice<Dim>();
 	model.basis                   = analysis.basis == "mpm" ? gimpm::Basis::linear : gimpm::Basis::gimp;
 	model.fBar                    = analysis.fBar;
+	model.pressureRelaxation      = analysis.pressureRelaxation;
 	model.ghost                   = { ghost.factor, ghost.scaling == "paper" ? gimpm::GhostScaling::paper : gimpm::GhostScaling::meshIndependent };
 	model.ghost.memory            = ghost.memory;
 	model.ghost.workTolerance     = ghost.workTolerance;

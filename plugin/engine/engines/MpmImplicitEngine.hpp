@@ -52,6 +52,8 @@ public:
 		  "the solution).",
 		  oneOf("gimp", "mpm"));
 		v("fBar", &E::fBar, 0, "Cure for volumetric locking of materials that keep their volume: one dilation in a cell. Needs ghost stabilisation.");
+		v("pressureRelaxation", &E::pressureRelaxation, 0,
+		  "With *fBar*: takes out what pressures in a cell differ by without acting, as points move; for soil that flows far around a body.");
 		v("nonlocalLength", &E::nonlocalLength, 0,
 		  "Length [m] of the soil over which softening is averaged, at least *cellSize*; bands become some five times as wide. 0: it is not.",
 		  nonNegative);

@@ -125,8 +125,14 @@ static void requireOneBody(const Analysis& engine)
 		if (listed.condition->partsBodies()) meets = listed.name() + ", an " + listed.condition->getClassName() + ",";
 	if (meets.empty()) return;
 	if (processes()->size() > 1) what = "several processes";
+	else if (engine.isExplicit())
+		what = "scheme = 'explicit'";
 	else if (engine.grid && !engine.grid->period.isZero(0))
 		what = "MpmGrid.period, a grid that repeats itself";
+	else if (engine.grid && !engine.grid->refinements.empty())
+		what = "MpmGrid.refinements, cells of several sizes";
+	else if (engine.grid && engine.grid->axisymmetric)
+		what = "MpmGrid.axisymmetric";
 	for (const Listed& listed : engine.conditions())
 		if (const string own = listed.condition->needsOneBody(listed.name()); !own.empty()) what = own;
 	if (!what.empty()) throw std::invalid_argument(meets + " cannot go with " + what + " yet; leave one of the two out.");
@@ -166,9 +172,18 @@ static void requireNonlocal(const Analysis& engine)
 		        + " m, as cells cannot carry a narrower band. It is a length of the soil, not of the grid.");
 }
 
+static void requireRelaxation(const Analysis& engine)
+{
+	if (engine.pressureRelaxation && !engine.fBar)
+		throw std::invalid_argument(
+		        engine.className()
+		        + ".pressureRelaxation = True is of fBar=True, which leaves pressures of points in a cell apart: set fBar = True, or pressureRelaxation = False.");
+}
+
 void requireSettings(const Analysis& engine)
 {
 	engine.requireAttributes();
+	requireRelaxation(engine);
 	requireGhost(engine);
 	requireNonlocal(engine);
 	requireEqualCells(engine);

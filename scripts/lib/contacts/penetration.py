@@ -89,7 +89,7 @@ def _told(course, h, depth, radius, travel, N, inside, late, **more):
 	return way | means | dict(scatter=mean, largest=largest, inside=inside, **more, **course.told(), curve=curve)
 
 
-def onAxis(kind, law='tresca', rough=0., cells=3, depth=10., wished=True, pressure=5., points=3, stiffness=10., seconds=300):
+def onAxis(kind, law='tresca', rough=0., cells=3, depth=10., wished=True, pressure=5., points=3, stiffness=10., relaxation=False, seconds=300):
 	"""A cone of 60 degrees or a pile with a flat end, as closed lines of Facets, or a Box, in clay around an axis.
 
 	:param kind: 'cone', 'pile' or 'box'
@@ -109,7 +109,7 @@ def onAxis(kind, law='tresca', rough=0., cells=3, depth=10., wished=True, pressu
 	body = One(utils.box((0, start + length / 2, 0), (R, length / 2, R), material='rigid', fixed=True)) if kind == 'box' else Outline([p for k, p in enumerate(line) if k == 0 or p != line[k - 1]])
 	contact = MpmContact(stiffness=stiffness, **adhesion(rough))
 	loads = [ground.overburden(pressure * strength, R)] if wished else []
-	solver = _engine(ground, contact, loads, True)
+	solver = _engine(ground, contact, loads, True, pressureRelaxation=relaxation)
 	course = Course(solver, seconds)
 	above, area = pressure if wished else 0., pi * R * R * strength
 	if loads: course.run(1)
@@ -155,7 +155,7 @@ def fullFlow(kind, law='tresca', rough=0., cells=4, depth=3., pressure=15., poin
 	ground.fill(points)
 	body = One(utils.sphere((0, centre, 0), R, material='rigid', fixed=True))
 	contact = MpmContact(stiffness=stiffness, **adhesion(rough))
-	solver = _engine(ground, contact, [ground.overburden(pressure * strength, 0.)], isBall)
+	solver = _engine(ground, contact, [ground.overburden(pressure * strength, 0.)], isBall, pressureRelaxation=True)
 	course = Course(solver, seconds)
 	course.run(1)
 	area = (pi * R * R if isBall else R) * strength

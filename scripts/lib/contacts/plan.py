@@ -44,7 +44,7 @@ add('cone-rough', 'penetration.onAxis', smooth | lu(1), dict(depth=3.), kind='co
 add('cone-mises', 'penetration.onAxis', smooth, dict(depth=3.), kind='cone', law='vonMises')
 add('cone-mises-rough', 'penetration.onAxis', smooth, dict(depth=3.), kind='cone', law='vonMises', rough=1.)
 add('cone-surface', 'penetration.onAxis', smooth, dict(depth=3.), kind='cone', wished=False)
-add('punch', 'penetration.onAxis', smooth, dict(depth=3.), kind='box', wished=False)
+add('punch', 'penetration.onAxis', smooth, dict(depth=3.), kind='box', wished=False, relaxation=True)
 add('punch-mises', 'penetration.onAxis', smooth, dict(depth=3.), kind='box', wished=False, law='vonMises')
 add('pile', 'penetration.onAxis', smooth, dict(depth=3.), kind='pile')
 add('pile-box', 'penetration.onAxis', smooth, dict(depth=3.), kind='box')

@@ -250,7 +250,7 @@ namespace {
 			};
 			std::apply([&](const auto&... column) { (look(column.of), ...); }, PointCloud<Dim>::columns());
 		});
-		EXPECT_EQ(compared, (2 + 3) * 15) << "columns in each of two processes, and of three";
+		EXPECT_EQ(compared, (2 + 3) * 16) << "columns in each of two processes, and of three";
 	}
 
 	/// One alone is asked as several are, and answers without a word to others.
@@ -308,7 +308,7 @@ namespace {
 			EXPECT_EQ(checksumOf(cloud), whole) << count;
 			++count;
 		});
-		EXPECT_EQ(count, 14);
+		EXPECT_EQ(count, 15);
 	}
 
 } // namespace

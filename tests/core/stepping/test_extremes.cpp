@@ -119,7 +119,7 @@ namespace {
 	{
 		constexpr int Dim = TypeParam::value;
 		for (const double h : { 1., 0.3 })
-			for (const int shift : { 100000, Dim == 2 ? 10000000 : 500000 }) {
+			for (const int shift : { 100000, Dim == 2 ? 10000000 : 250000 }) {
 				this->model.grid.cellSize = h;
 				this->cloud               = block<Dim>(this->model.grid, Index<Dim>::Constant(3), 3);
 				for (auto& x : this->cloud.position)

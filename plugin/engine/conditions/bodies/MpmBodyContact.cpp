@@ -28,8 +28,7 @@ std::shared_ptr<Condition<3>> MpmBodyContact::make(InSpace, const Group& group, 
 void MpmBodyContact::requireFitting(const Analysis& analysis, const string& name) const
 {
 	if (analysis.grid->dim != 2)
-		throw std::invalid_argument(
-		        name + ": an MpmBodyContact is for dim=2, in plane strain or around an axis, yet; in space the pieces of surfaces are too many.");
+		throw std::invalid_argument(name + ": an MpmBodyContact is for dim=2, in plane strain, yet; in space the pieces of surfaces are too many.");
 	for (const string& body : between) {
 		const int number = analysis.grid->bodyNamed(body);
 		if (number < 0) {
