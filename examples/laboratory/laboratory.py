@@ -168,5 +168,5 @@ bingham()
 for one in axes.flat:
 	one.legend(frameon=False, fontsize='small')
 print(f'largest difference from a closed form: {100 * worst:.4f} %')
-figure.savefig(os.path.join(options.out, 'laboratory.png'), dpi=130)
+figure.savefig(os.path.join(options.out, 'laboratory.png'), dpi=110)
 print(f'written: {options.out}/laboratory.png')
