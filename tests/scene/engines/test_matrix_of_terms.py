@@ -143,7 +143,7 @@ others = {
         **{(term, 'axisymmetric'): f'{name} cannot go with MpmGrid.axisymmetric' for term, name in (('bar', 'MpmReinforcement'), ('beam', 'MpmBeam'))},
         ('water', 'refinements'): equal + 'water',
         ('flow', 'refinements'): equal + 'flow',
-        ('flow', 'divided'): 'MpmFlow cannot go with several processes',
+        ('flow', 'divided'): 'MpmFlow cannot go with points that are divided among processes',
         # The functions of a ring are those of the middle of its volume, and water that flows differs by as much of a cell.
         ('flow', 'axisymmetric'): 4e-3,
         ('wall', 'refinements'): equal + 'boundaries[2].surface',
