@@ -27,7 +27,8 @@ struct NodeProblem {
 
 	/// Of several fields there are no blocks.
 	virtual bool isOfOneField() const = 0;
-	/// Whether rows of a field are those of its negative (Field::sign), so that the matrix cannot be positive definite.
+	/// Whether rows of a field are those of its negative (Field::sign), so that the matrix cannot be positive
+	/// definite.
 	virtual bool hasSigns() const = 0;
 
 	/// Of a symmetric matrix, for vectors over all degrees of freedom, with zeros for the held ones; where

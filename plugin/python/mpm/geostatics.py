@@ -130,12 +130,14 @@ def _assign(points, stress, past, before, depth, ratio):
 	ids, order = points['id'], np.argsort(depth, kind='stable')  # the first point to be refused is the highest one
 	ofClay, ofPast = np.isfinite(past[order]), np.isfinite(before[order, 0, 0])
 	clay, others, grown = order[ofClay], order[~ofClay], order[ofPast]
+	changed = []
 	try:
-		if grown.size: assign(ids=ids[grown], stress=before[grown])
-		if others.size: assign(ids=ids[others], stress=stress[others])
-		if clay.size: assign(ids=ids[clay], stress=stress[clay], preconsolidation=past[clay])
+		for rows, values in (grown, dict(stress=before[grown])), (others, dict(stress=stress[others])), (clay, dict(stress=stress[clay], preconsolidation=past[clay])):
+			if rows.size: assign(ids=ids[rows], **values)
+			changed.append(rows)
 	except ValueError as error:
-		_restore(points)
+		for rows in reversed(changed):  # those of the past are among the others
+			_restore(points, rows, rows is grown)
 		body = np.flatnonzero(ids == int(re.search(r'Body #(\d+)', str(error))[1]))[0]
 		raise ValueError(
 		        f'geostatic: with K0 = {ratio[body]:.6g} the ground would not be at rest at a depth of {depth[body]:.6g} m. '
@@ -143,13 +145,17 @@ def _assign(points, stress, past, before, depth, ratio):
 		) from None
 
 
-def _restore(points):
-	"""The state that the points had."""
+def _restore(points, rows, isGrown):
+	"""The state that points had; only of those whose hardening follows from their stress is this more than the elastic strain."""
+	ids, strain = points['id'], points['elasticStrain']
+	if not isGrown:
+		if rows.size: assign(ids=ids[rows], elasticStrain=strain[rows])
+		return
 	internals = {name: points[name] for name, column in table.items() if column['isInternal'] and name in points}
-	known = np.array([np.isfinite(values) for values in internals.values()]).reshape(len(internals), len(points['id'])).T
+	known = np.array([np.isfinite(values[rows]) for values in internals.values()]).reshape(len(internals), rows.size).T
 	for kind in np.unique(known, axis=0):
-		rows = np.flatnonzero((known == kind).all(axis=1))
-		assign(ids=points['id'][rows], elasticStrain=points['elasticStrain'][rows], **{name: values[rows] for (name, values), has in zip(internals.items(), kind) if has})
+		own = rows[(known == kind).all(axis=1)]
+		assign(ids=ids[own], elasticStrain=strain[own], **{name: values[own] for (name, values), has in zip(internals.items(), kind) if has})
 
 
 def _upwards(solver):

@@ -158,7 +158,7 @@ print(json.dumps(matplotlib.pyplot.imread('fit.png').shape))
 
 
 refused = [
-        ('fit(unknown=(0, 1))', 'ValueError', "'unknown' is no parameter of MpmMohrCoulombMat; there are cohesion, "),
+        ('fit(unknown=(0, 1))', 'ValueError', "'unknown' is no parameter of MpmMohrCoulombMat; there are residualCohesion, "),
         ('fit(frictonAngle=(0, 1))', 'ValueError', "did you mean 'frictionAngle'"),
         ('fit(density=(1, 2))', 'ValueError', 'density has no effect'),
         ('fit(young=(2e6, 1e6))', 'ValueError', "bounds['young'] = (2000000.0, 1000000.0) must be the least value and then the largest"),
@@ -183,7 +183,7 @@ refused = [
         ("tested(volumetricStrian=[1, 1])", 'ValueError', "did you mean 'volumetricStrain'?"),
         ("tested(confiningPressure=-5)", 'ValueError', 'tests[0]: confiningPressure = -5 must be'),
         ("tested(initialStress=(0, 0, 0))", 'ValueError', 'give one of them'),
-        ("tested(internals=dict(plasticStran=1))", 'ValueError', "did you mean 'plasticStrain'?"),
+        ("tested(internals=dict(plasticStran=1))", 'ValueError', "did you mean 'plasticStrain'"),
         ("tested(weight=0)", 'ValueError', 'must be > 0'),
         ("tested(weight=dict(p=1))", 'ValueError', "weight has 'p', which is none of its curves q"),
         ("mpm.calibrate(sand, [dict(kind='triaxial', q=[1])], angle)", 'ValueError', 'axialStrain is missing'),

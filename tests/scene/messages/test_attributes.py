@@ -145,6 +145,7 @@ outOfRange = {
         'MpmImplicitEngine.grid': ['None'],
         'MpmImplicitEngine.basis': ['"cubic"'],
         'MpmImplicitEngine.fBar': None,
+        'MpmImplicitEngine.pressureRelaxation': None,
         'MpmImplicitEngine.nonlocalLength': ['-1.'],
         'MpmImplicitEngine.gravity': None,
         'MpmImplicitEngine.loadCurve': ['[(0, 0), (0, 1)]', '[(1, 0), (0, 1)]'],

@@ -60,7 +60,7 @@ refused = [
         ('MpmDynamicEngine(time_tolerance=1)', 'AttributeError', ["did you mean 'timeTolerance'"]),
         ('MpmImplicitEngine(iterperiod=2)', 'AttributeError', ["did you mean 'iterPeriod'"]),
         ('MpmMohrCoulombMat(friction=.5)', 'AttributeError', ["'frictionAngle'"]),
-        ('MpmElasticMat(xyz=.5)', 'AttributeError', ["no attribute 'xyz'. Its settings: density, undrained, waterModulus, conductivity, porosity, conductivityLaw, conductivityIndex, young, poisson."]),
+        ('MpmElasticMat(xyz=.5)', 'AttributeError', ["no attribute 'xyz'. Its settings: density, undrained, waterModulus, conductivity, porosity, conductivityLaw, conductivityIndex, relaxationTime, young, poisson."]),
         # of functions of yade.mpm
         ("mpm.plot(filename='x.png')", 'TypeError', ["plot: there is no argument 'filename'; did you mean 'fileName'?"]),
         ("mpm.fill(pack.inSphere((0, 0, 0), 1), MpmGrid(cellSize=1), pointPerCell=2, material='soil')", 'TypeError', ["fill: there is no argument 'pointPerCell'; did you mean 'pointsPerCell'"]),

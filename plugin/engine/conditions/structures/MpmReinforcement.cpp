@@ -20,8 +20,8 @@ void MpmReinforcement::requireAdmissible() const
 	const Real first  = (points[1] - points[0]).norm();
 	if (freeLength > 0 && !(freeLength < first * (1 - 1e-9)))
 		throw std::invalid_argument(
-		        "MpmReinforcement.freeLength = " + textOf(freeLength) + " must be less than the length of the first segment of line, " + textOf(first)
-		        + " m: the grouted body begins within it.");
+		        "MpmReinforcement.freeLength = " + textOf(freeLength) + " is not admitted: expected less than the length of the first segment of line, "
+		        + textOf(first) + " m: the grouted body begins within it.");
 	if (pull > 0 && headPlate)
 		throw std::invalid_argument(
 		        "MpmReinforcement.pull = " + textOf(pull) + ": a head with headPlate=True is fixed to the soil, and cannot be pulled.");
