@@ -67,7 +67,7 @@ public:
 		  "beginning, as after mpm.geostatic.",
 		  curveOrNothing);
 		v("loads", &E::loads, 0,
-		  "Loads on surfaces of the body (MpmTraction), bars and beams (MpmReinforcement, MpmBeam), and other conditions without a list of their own. Read as a tuple, so assign a new one to change it.",
+		  "Loads on surfaces (MpmTraction), bars and beams (MpmReinforcement, MpmBeam), and other conditions without a list of their own. Read as a tuple: assign a new one to change it.",
 		  admitting(
 		          "MpmTractions; an MpmWater belongs into water, an MpmBoundary into boundaries, an MpmContact into contacts, an MpmAbsorbingBoundary into absorbing",
 		          areLoads));

@@ -184,7 +184,7 @@ outOfRange = {
         'MpmReinforcement.friction': ['-0.1', '30.', '1.5708'],
         'MpmReinforcement.perimeter': ['0.', '-1.'],
         'MpmReinforcement.bondStiffness': ['0.', '-1.'],
-        'MpmReinforcement.freeLength': ['-1.', '5.'],
+        'MpmReinforcement.freeLength': ['-1.'],
         'MpmReinforcement.headPlate': None,
         'MpmReinforcement.pull': ['-1.'],
         'MpmReinforcement.pretension': ['-1.'],
