@@ -208,7 +208,7 @@ refusals = {
         "MpmReinforcement(line=[(1, 1), (2, 1)], axialStiffness=1e6, friction=30)": "as radians(30)",
         "add(MpmReinforcement(line=[(1, 1), (2, 1)]))": "MpmReinforcement.axialStiffness = nan",
         "add(MpmReinforcement(line=[(1, 1), (2, 1)], axialStiffness=1e6, bond=1e3))": "needs a finite bondStiffness",
-        "add(MpmReinforcement(line=[(1, 1), (2, 1)], axialStiffness=1e6, freeLength=2))": "must be less than the length of the first segment of line, 1 m",
+        "add(MpmReinforcement(line=[(1, 1), (2, 1)], axialStiffness=1e6, freeLength=2))": "expected less than the length of the first segment of line, 1 m",
         "add(MpmReinforcement(line=[(1, 1), (2, 1)], axialStiffness=1e6, freeLength=.5))": "loads[0].freeLength = 0.5: nothing holds its head",
         "add(MpmReinforcement(line=[(1, 1), (2, 1)], axialStiffness=1e6, pull=1, headPlate=True))": "cannot be pulled",
         "add(MpmReinforcement(line=[(1, 1), (5, 1)], axialStiffness=1e6))": "loads[0] has a vertex at (",
