@@ -216,6 +216,7 @@ refusals = {
         "add(MpmReinforcement(line=[(1, 1), (2, 1)], axialStiffness=1e6), engine=MpmDynamicEngine, scheme='explicit')": "MpmReinforcement cannot go with explicit steps",
         "add(MpmReinforcement(line=[(1, 1, .5), (2, 1, .5)], axialStiffness=1e6, bond=0, bondStiffness=1e6, friction=.5), grid=MpmGrid(cellSize=.5, dim=3))": "loads[0].perimeter",
         "add(MpmReinforcement(line=[(1, 1), (2000, 1)], axialStiffness=1e6))": "loads[0].line would have 15992 pieces of half a cell",
+        "add(MpmBeam(line=[(1, 1), (2, 1), (1, 1)], axialStiffness=1e6, bendingStiffness=1e4))": "needs three different points or more",
         "add(MpmBeam(line=[(1, 1), (2, 1)], axialStiffness=1e6))": "MpmBeam.bendingStiffness = nan",
         "add(MpmBeam(line=[(1, 1), (2, 1)], axialStiffness=1e6, bendingStiffness=1e3, fixHead='z'))": "letters out of 'xyr'",
         "add(MpmBeam(line=[(1, 1), (2, 1)], axialStiffness=1e6, bendingStiffness=1e3, weight=1))": "loads[0].weight = 1 acts along MpmImplicitEngine.gravity, which is zero",
