@@ -139,5 +139,5 @@ right.margins(y=.2)
 right.set(xscale='log', xlabel='time + 1 [days]', title='largest excess pressure [kPa]')
 if options.safety:
 	for n, (at, later) in enumerate(factors):
-		right.annotate(f'F {at:.2f}\nthen {later:.2f}', (n * (5 + options.waiting) + 6, curve[5 + 13 * n, 2] / 1e3), fontsize=8, ha='right')
+		right.annotate(f'F {at:.2f}, then {later:.2f}', (n * (5 + options.waiting) + 6, curve[5 + 13 * n, 2] / 1e3), fontsize=8, ha='right')
 figure.savefig(os.path.join(options.out, 'waiting.png'), dpi=100)
