@@ -81,7 +81,7 @@ struct LinearSolver::Direct {
 	GeneralCsc      full;           // of a symmetric matrix that Cholesky refused, for LU
 	const Csc*      ofLu = nullptr; // scaled or full; null: the factor is another one
 
-	std::unique_ptr<Multifrontal> indefinite; // of a symmetric matrix of several fields; null: Cholesky's factor
+	std::unique_ptr<Multifrontal> indefinite; // of a matrix that is symmetric by signs of its rows; null: Cholesky's factor
 
 	bool solve(const Eigen::VectorXd& b, Eigen::VectorXd& x, bool transposed)
 	{

@@ -138,7 +138,7 @@ template <int Dim> void keepBeforeWalls(PointCloud<Dim>& cloud, const PointCloud
 			for (int a = 0; a < Dim; ++a) {
 				const bool isWall = (patch.span >> a & 1) && grid.period[a] == 0 && !(patch.cells >> (centre ^ 1 << a) & 1);
 				if (!isWall || (to[a] >= 0) == (from[a] >= 0)) continue;
-				const auto attached = attach(before.position[p], system.basis, grid);
+				const auto attached = attach(before.position[p], system.basis, grid, before.layerOf(p));
 				if (!attached) continue;
 				const double there = from[a] + attached->displacement(d)[a];
 				if ((there >= 0) == (from[a] >= 0)) cloud.position[p][a] = faces[a] + there;

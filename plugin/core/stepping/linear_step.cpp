@@ -45,7 +45,7 @@ bool LinearStep<Dim>::solve(const NodeMatrix<Dim>& K, const Couplings& beside, E
 	using Status = LinearSolver::Status;
 	Eigen::VectorXd correction;
 	hasSigns_               = couplings && problem.isSymmetric();
-	const bool   isDefinite = problem.isSymmetric() && system_.map.isAlone();
+	const bool   isDefinite = problem.isSymmetric() && !problem.hasSigns();
 	const Status status     = solver_.solve(problem, withSigns(std::move(residual)), correction, method_, forcing);
 	keepsFactor_            = status == (isDefinite ? Status::cholesky : Status::lu);
 	if (status != Status::iterative) {
