@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "core/terms/ground_edge.hpp"
+#include "core/solvers/least_squares.hpp"
 #include "core/terms/attach_surface.hpp"
 #include "core/terms/attached.hpp"
-#include <Eigen/QR>
 #include <sstream>
 
 namespace gimpm {
@@ -51,9 +51,9 @@ template <int Dim> std::string EdgeDrag<Dim>::takeOver(const Beginning<Dim>& ste
 			}
 		for (std::size_t n = 0; n < nodes.size(); ++n)
 			held[n] = -imbalance[Dim * nodes[n] + axis];
-		const Eigen::VectorXd found = weights.completeOrthogonalDecomposition().solve(held);
+		const Eigen::VectorXd found = leastSquares(weights, held);
 		const double          left = (weights * found - held).norm(), most = tolerance * std::max(held.norm(), imbalance.norm());
-		if (left > most) {
+		if (!(left <= most)) {
 			std::ostringstream text;
 			text << edge_.name << " cannot take over what has held the body there: " << left << " N of " << held.norm() << " N along "
 			     << "xyz"[axis] << " act on nodes beside its surface, which has to lie on the nodes that were held";
