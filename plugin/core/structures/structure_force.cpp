@@ -261,7 +261,8 @@ template <int Dim> double StructureForce<Dim>::fromOutside(const Eigen::VectorXd
 	return isLoaded ? system_->energyAt(equilibrium(d)).gradient.head(system_->soilUnknowns()).norm() : 0;
 }
 
-/// A beam that is held at an end holds the soil around it.
+/// A beam that is held at an end holds the soil around it, and one that parts the soil holds each side as if the other
+/// stood still.
 template <int Dim> void StructureForce<Dim>::restrain(const typename Term<Dim>::Hold& hold) const
 {
 	if (!structure_.beam || !system_) return;
@@ -271,6 +272,15 @@ template <int Dim> void StructureForce<Dim>::restrain(const typename Term<Dim>::
 		for (int a = 0; a < Dim && system_->soilUnknown(place) >= 0; ++a)
 			if (beam.fixedHead[a] || beam.fixedFoot[a]) hold(attached_[place]->node[0], Vec<Dim>::Unit(a), attached_[place]->inCell());
 	}
+	if constexpr (Dim == 2)
+		for (int v = 0; v < int(beam.places.size()); ++v)
+			for (const int side : { 0, 1 }) {
+				const int other = structure_.vertices() + v, place = side == 0 ? v : other;
+				if (other >= int(attached_.size()) || system_->soilUnknown(other) < 0 || beam.sides[side].gap[v] > 0) continue;
+				const Vec<2> t = beam.tangentAt(v);
+				hold(attached_[place]->node[0], Vec<2>(-t[1], t[0]), attached_[place]->inCell());
+				if (beam.adhesion > 0 || beam.friction > 0) hold(attached_[place]->node[0], t, attached_[place]->inCell());
+			}
 }
 
 /// Forces beyond what numbers can hold would make any residual look small.
