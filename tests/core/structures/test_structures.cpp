@@ -348,7 +348,7 @@ namespace {
 		}
 	};
 
-	/// It begins at the line of the grid that is nearest to its foot, and only points beside it are in another layer.
+	/// Down to the line of the grid that is nearest to its foot, and only points beside it, to its right, are in another layer.
 	TEST(PartedSoil, IsPartedDownToTheTip)
 	{
 		for (const double foot : { 0.8, 1., 1.2 }) {
@@ -359,7 +359,7 @@ namespace {
 			EXPECT_FALSE(isOwn(3, 2) || isOwn(2, 3) || isOwn(4, 3));
 			for (std::size_t p = 0; p < ground.cloud.size(); ++p) {
 				const Vec<2>& x = ground.cloud.position[p];
-				EXPECT_EQ(ground.cloud.layer[p], x[0] > 1.5 && x[0] < 2.25 && x[1] > 0.75) << x.transpose();
+				EXPECT_EQ(ground.cloud.layer[p], x[0] < 1.5 && x[0] > 0.75 && x[1] > 0.75) << x.transpose();
 			}
 		}
 		EXPECT_FALSE(PartedGround({ 0.5, 2 }, { 2.5, 2 }).model.grid.parting) << "there is soil on one side only";

@@ -251,7 +251,7 @@ def test_anchored_wall_has_free_earth_support(yade):
 L, z, H, low, high, depth = 8, 1.5, 5.75, -18, 14, 12
 sand()
 anchor = MpmReinforcement(line=[(0, -z), (-9, -z), (-14, -z)], axialStiffness=2.5e7, freeLength=8, bond=1e5, bondStiffness=1e8)
-wall = MpmBeam(line=[(0, 0), (0, -L)], axialStiffness=1e10, bendingStiffness=1e8, adhesion=0, fixFoot='y', anchors=[anchor])
+wall = MpmBeam(line=[(0, 0), (0, -L)], axialStiffness=1e10, bendingStiffness=1e9, adhesion=0, fixFoot="y", anchors=[anchor])
 solver.loads = [wall]
 O.run(1, wait=True)
 for level in 2, 3, 4, 4.75, 5.25, 5.5, H: dig(wall, level, 6 if level == 2 else 4)
