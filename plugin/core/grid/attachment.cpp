@@ -14,11 +14,12 @@ template <int Dim> Vec<Dim> outside(const Vec<Dim>& xi, const Index<Dim>& cell)
 
 /// The populated cell of a level that is nearest to a place in coordinates of such cells, as the crow flies: by the
 /// worst axis alone the cells beside the nearest one would be as near as that, and the order of cells or round-off
-/// would choose. Of equally near ones the first.
-template <int Dim> std::optional<Index<Dim>> nearestCell(const Vec<Dim>& xi, const std::vector<Key>& populated, const Grid<Dim>& grid, int level, int layer)
+/// would choose. Of equally near ones the first. With the layer of its nodes.
+template <int Dim>
+std::optional<std::pair<Index<Dim>, int>> nearestCell(const Vec<Dim>& xi, const std::vector<Key>& populated, const Grid<Dim>& grid, int level, int layer)
 {
-	std::optional<Index<Dim>> nearest;
-	double                    least = std::numeric_limits<double>::infinity();
+	std::optional<std::pair<Index<Dim>, int>> nearest;
+	double least = std::numeric_limits<double>::infinity();
 	const Index<Dim>          own   = xi.array().floor().template cast<int>();
 	for (int i = 0; i < (Dim == 2 ? 9 : 27); ++i) {
 		Index<Dim> cell = own;
@@ -26,7 +27,9 @@ template <int Dim> std::optional<Index<Dim>> nearestCell(const Vec<Dim>& xi, con
 			cell[a] += rest % 3 - 1;
 		const Vec<Dim> away = outside<Dim>(xi, cell);
 		if (away.maxCoeff() > attachmentTolerance || away.squaredNorm() >= least) continue;
-		if (find(populated, Grid<Dim>::key(grid.first(cell * (1 << level)), level, layer)) >= 0) nearest = cell, least = away.squaredNorm();
+		Key key = Grid<Dim>::key(grid.first(cell * (1 << level)), level, layer);
+		if (grid.parting) key = grid.parting->cellFor(key);
+		if (find(populated, key) >= 0) nearest = { cell, Grid<Dim>::layer(key) }, least = away.squaredNorm();
 	}
 	return nearest;
 }
@@ -38,19 +41,22 @@ template <int Dim> std::optional<Attachment<Dim>> attach(const Vec<Dim>& place, 
 	std::optional<Attachment<Dim>> attached;
 	Vec<Dim>                       local = Vec<Dim>::Zero();
 	double                         least = std::numeric_limits<double>::infinity();
+	if (layer == layerOfPlace) layer = grid.parting ? grid.parting->layerAt(place) : 0;
+	int ofNodes = layer;
 	for (int level = grid.refinement ? grid.refinement->largest() : 0; level >= 0; --level) {
 		const Vec<Dim> xi = (place - grid.origin) / grid.size(level);
 		if (!(xi.array().abs() < Grid<Dim>::indexLimit >> level).all()) return std::nullopt;
 		const auto cell = nearestCell<Dim>(xi, basis.populatedLeaves(), grid, level, layer);
 		if (!cell) continue;
-		const double away = outside<Dim>(xi, *cell).norm() * (1 << level);
+		const double away = outside<Dim>(xi, cell->first).norm() * (1 << level);
 		if (away >= least) continue;
 		least    = away;
-		local    = xi - cell->template cast<double>();
-		attached = Attachment<Dim> { *cell, level, {}, {} };
+		local    = xi - cell->first.template cast<double>();
+		attached = Attachment<Dim> { cell->first, level, {}, {} };
+		ofNodes  = cell->second;
 	}
 	for (int n = 0; attached && n < attached->nodes; ++n) {
-		attached->node[n]   = position(basis.nodes, Grid<Dim>::key(grid.first(attached->index(n) * (1 << attached->level)), attached->level, layer));
+		attached->node[n]   = position(basis.nodes, Grid<Dim>::key(grid.first(attached->index(n) * (1 << attached->level)), attached->level, ofNodes));
 		attached->weight[n] = 1;
 		for (int a = 0; a < Dim; ++a)
 			attached->weight[n] *= n >> a & 1 ? local[a] : 1 - local[a];

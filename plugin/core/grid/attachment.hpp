@@ -49,7 +49,10 @@ template <int Dim> struct Attachment {
 /// the points to the last digit; the functions of the nearest populated cell are then continued.
 constexpr double attachmentTolerance = 0.25;
 
+/// The layer that points have at a place: that of its side, where a line parts the body.
+constexpr int layerOfPlace = -1;
+
 /// To the body in a layer. None where no populated cell is near.
-template <int Dim> std::optional<Attachment<Dim>> attach(const Vec<Dim>& place, const CloudBasis<Dim>&, const Grid<Dim>&, int layer = 0);
+template <int Dim> std::optional<Attachment<Dim>> attach(const Vec<Dim>& place, const CloudBasis<Dim>&, const Grid<Dim>&, int layer = layerOfPlace);
 
 } // namespace gimpm

@@ -160,21 +160,44 @@ template <int Dim> void refine(CloudBasis<Dim>& b, const Refinement<Dim>& refine
 	b.ties  = tieNodes(b.nodes, refinement);
 }
 
+/// The cells that stand for those of the layers, and the ties of the nodes.
+template <int Dim> void part(CloudBasis<Dim>& b, const Parting<Dim>& parting)
+{
+	std::vector<Key> cells = b.cells;
+	std::transform(b.cells.begin(), b.cells.end(), b.cells.begin(), [&](Key cell) { return parting.cellFor(cell); });
+	sortOut(b.cells);
+	cells.insert(cells.end(), b.cells.begin(), b.cells.end());
+	for (const Key cell : b.cells)
+		for (int a = 0; a < Dim; ++a)
+			parting.forCellsBeyond(cell, a, true, [&](Key above, int layer) {
+				if (find(b.cells, above) < 0) return;
+				cells.push_back(Parting<Dim>::in(layer, cell));
+				cells.push_back(Parting<Dim>::in(layer, above));
+			});
+	sortOut(cells);
+	b.nodes = cornersOf<Dim>(cells);
+	b.ties  = tieNodes(b.nodes, parting);
+}
+
 /// The active nodes are the corners of the populated cells; in a refined grid also those of their leaves and those
-/// beside the faces between leaves of two sizes, with the masters of all.
+/// beside the faces between leaves of two sizes, beside a line that parts the body those in its layer, with the masters
+/// of all.
 template <int Dim> void numberNodes(CloudBasis<Dim>& b, const Grid<Dim>& grid, const Division& division)
 {
 	b.cells = division.united(populatedCells(b.patches, grid));
 	if (grid.refinement) refine(b, *grid.refinement);
+	else if (grid.parting)
+		part(b, *grid.parting);
 	else
 		b.nodes = cornersOf<Dim>(b.cells);
 	keepFirst(b.nodes, grid);
-	int lastCell[windowCells<Dim>] = {}, lastNode[27] = {};
+	int        lastCell[windowCells<Dim>] = {}, lastNode[27] = {};
+	const auto cellFor = [&](Key cell) { return grid.parting ? grid.parting->cellFor(cell) : grid.first(cell); };
 	for (auto& patch : b.patches) {
 		for (int c = 0; c < windowCells<Dim>; ++c)
 			if (patch.cells >> c & 1)
 				patch.reached[c]
-				        = positionNear(lastCell[c], b.cells, grid.first(patch.cell + Grid<Dim>::keyOffset(c, Grid<Dim>::level(patch.cell))));
+				        = positionNear(lastCell[c], b.cells, cellFor(patch.cell + Grid<Dim>::keyOffset(c, Grid<Dim>::level(patch.cell))));
 		forPatchNodes(patch, [&](int local, Key key, int place) { patch.node[local] = positionNear(lastNode[place], b.nodes, grid.first(key)); });
 	}
 }

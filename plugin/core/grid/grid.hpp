@@ -20,6 +20,7 @@ inline int find(const std::vector<Key>& sorted, Key key)
 }
 
 template <int Dim> class Refinement;
+template <int Dim> class Parting;
 
 template <int Dim> struct Grid {
 	/// Edge length h of a cell, of the smallest ones where there are several sizes [m].
@@ -35,6 +36,9 @@ template <int Dim> struct Grid {
 
 	/// Where cells are smaller and where larger; null: they are equal.
 	std::shared_ptr<const Refinement<Dim>> refinement {};
+
+	/// Lines that part the body, in a grid of equal cells; null: there are none.
+	std::shared_ptr<const Parting<Dim>> parting {};
 
 	/// A domain and a ghost face reach three nodes along an axis, which must not be the same.
 	static constexpr int smallestPeriod = 3;

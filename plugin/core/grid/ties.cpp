@@ -37,6 +37,13 @@ private:
 	const int              layer_;
 };
 
+void addKeys(std::vector<Key>& sorted, const std::vector<Key>& others)
+{
+	sorted.insert(sorted.end(), others.begin(), others.end());
+	std::sort(sorted.begin(), sorted.end());
+	sorted.erase(std::unique(sorted.begin(), sorted.end()), sorted.end());
+}
+
 } // namespace
 
 template <int Dim> Ties tieNodes(std::vector<Key>& nodes, const Refinement<Dim>& refinement)
@@ -51,9 +58,7 @@ template <int Dim> Ties tieNodes(std::vector<Key>& nodes, const Refinement<Dim>&
 			masters.push_back(master);
 		tied.emplace_back(node, std::move(found));
 	}
-	nodes.insert(nodes.end(), masters.begin(), masters.end());
-	std::sort(nodes.begin(), nodes.end());
-	nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+	addKeys(nodes, masters);
 	Ties ties;
 	for (const auto& [node, found] : tied) {
 		ties.node.push_back(position(nodes, node));
@@ -66,7 +71,28 @@ template <int Dim> Ties tieNodes(std::vector<Key>& nodes, const Refinement<Dim>&
 	return ties;
 }
 
+template <int Dim> Ties tieNodes(std::vector<Key>& nodes, const Parting<Dim>& parting)
+{
+	std::vector<Key> tied, masters;
+	for (const Key node : nodes)
+		if (const Key master = parting.nodeFor(node); master != node) {
+			tied.push_back(node);
+			masters.push_back(master);
+		}
+	addKeys(nodes, masters);
+	Ties ties;
+	for (std::size_t t = 0; t < tied.size(); ++t) {
+		ties.node.push_back(position(nodes, tied[t]));
+		ties.master.push_back(position(nodes, masters[t]));
+		ties.weight.push_back(1);
+		ties.start.push_back(int(t) + 1);
+	}
+	return ties;
+}
+
 template Ties tieNodes(std::vector<Key>&, const Refinement<2>&);
 template Ties tieNodes(std::vector<Key>&, const Refinement<3>&);
+template Ties tieNodes(std::vector<Key>&, const Parting<2>&);
+template Ties tieNodes(std::vector<Key>&, const Parting<3>&);
 
 } // namespace gimpm

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Nodes that move as others prescribe: hanging nodes between cells of two sizes, and nodes of small cells within large
-// ones.
+// Nodes that move as others prescribe: hanging nodes between cells of two sizes, nodes of small cells within large
+// ones, and those beside a line that parts a body which it leaves whole.
 #pragma once
+#include "core/grid/parting.hpp"
 #include "core/grid/refinement.hpp"
 
 namespace gimpm {
 
-/// u = sum of weight times u of masters, which are tied to none. Empty in a grid of equal cells.
+/// u = sum of weight times u of masters, which are tied to none. Empty in a grid of equal cells without parting lines.
 struct Ties {
 	std::vector<int>    node;          ///< that are tied, rising
 	std::vector<int>    start = { 0 }; ///< of their masters
@@ -44,5 +45,8 @@ struct Ties {
 /// leaf's level there, unless it is that node. So the functions of all levels together are continuous, and in a leaf
 /// they are linear along each axis.
 template <int Dim> Ties tieNodes(std::vector<Key>& nodes, const Refinement<Dim>&);
+
+/// Ties nodes of layers above 0 that are not nodes of their own to those of layer 0 in their places, which are added.
+template <int Dim> Ties tieNodes(std::vector<Key>& nodes, const Parting<Dim>&);
 
 } // namespace gimpm

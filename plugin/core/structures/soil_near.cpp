@@ -4,7 +4,7 @@
 
 namespace gimpm {
 
-template <int Dim> std::vector<SoilNear<Dim>> soilNear(const std::vector<Vec<Dim>>& places, const std::vector<double>& reach, const Beginning<Dim>& step)
+template <int Dim> std::vector<SoilNear<Dim>> soilNear(const std::vector<Vec<Dim>>& places, const std::vector<double>& reach, const Beginning<Dim>& step, int layer)
 {
 	const double farthest = *std::max_element(reach.begin(), reach.end());
 	const auto&  cloud    = step.cloud;
@@ -16,6 +16,7 @@ template <int Dim> std::vector<SoilNear<Dim>> soilNear(const std::vector<Vec<Dim
 	std::vector<SoilNear<Dim>> near(places.size());
 	std::vector<double>        weight(places.size(), 0);
 	for (std::size_t p = 0; p < cloud.size(); ++p) {
+		if (layer >= 0 && cloud.layerOf(int(p)) != layer) continue;
 		const Vec<Dim>& x = cloud.position[p];
 		if (!step.grid.isPeriodic() && ((x - low).minCoeff() < 0 || (high - x).minCoeff() < 0)) continue;
 		std::optional<VolumeAndModulus> soil;
@@ -39,7 +40,7 @@ template <int Dim> std::vector<SoilNear<Dim>> soilNear(const std::vector<Vec<Dim
 	return near;
 }
 
-template std::vector<SoilNear<2>> soilNear(const std::vector<Vec<2>>&, const std::vector<double>&, const Beginning<2>&);
-template std::vector<SoilNear<3>> soilNear(const std::vector<Vec<3>>&, const std::vector<double>&, const Beginning<3>&);
+template std::vector<SoilNear<2>> soilNear(const std::vector<Vec<2>>&, const std::vector<double>&, const Beginning<2>&, int);
+template std::vector<SoilNear<3>> soilNear(const std::vector<Vec<3>>&, const std::vector<double>&, const Beginning<3>&, int);
 
 } // namespace gimpm

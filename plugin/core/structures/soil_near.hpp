@@ -5,12 +5,14 @@
 
 namespace gimpm {
 
-/// The mean of the points within a reach of a place along each axis, which count the more the nearer they are.
+/// The mean of the points of a layer (-1: of any) within a reach of a place along each axis, which count the more the
+/// nearer they are.
 template <int Dim> struct SoilNear {
 	SymTensor<Dim> stress {}; ///< Cauchy stress in the plane or in space [Pa]
 	double         young = 0; ///< [Pa]; 0: there are no points
 };
 
-template <int Dim> std::vector<SoilNear<Dim>> soilNear(const std::vector<Vec<Dim>>& places, const std::vector<double>& reach, const Beginning<Dim>&);
+template <int Dim>
+std::vector<SoilNear<Dim>> soilNear(const std::vector<Vec<Dim>>& places, const std::vector<double>& reach, const Beginning<Dim>&, int layer = -1);
 
 } // namespace gimpm

@@ -14,7 +14,8 @@ void stiffenBeam(Beam& beam, double scale)
 {
 	beam.section.axialStiffness /= scale, beam.section.bendingStiffness /= scale;
 	scaleAll(beam.elongation, scale);
-	scaleAll(beam.gap, scale);
+	for (BeamSide& side : beam.sides)
+		scaleAll(side.gap, scale);
 	for (Vec<2>& bend : beam.bend)
 		bend *= scale;
 }

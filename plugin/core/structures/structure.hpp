@@ -60,6 +60,13 @@ template <int Dim> struct Reinforcement {
 	bool slips() const { return std::isfinite(bondStiffness); }
 };
 
+/// Of the soil on one side of a beam, by vertex.
+struct BeamSide {
+	std::vector<double> normalForce; ///< by which the beam presses on it [N]
+	std::vector<double> gap;         ///< where the beam has left it [m]
+	std::vector<double> shearForce;  ///< on it, along the beam [N]
+};
+
 /// A line of vertices in the plane, each with a place and a turn of its own, that the soil acts on by springs.
 struct Beam {
 	static constexpr double inf = std::numeric_limits<double>::infinity();
@@ -73,21 +80,26 @@ struct Beam {
 	std::array<bool, 3> fixedHead {}, fixedFoot {};     ///< x, y and turn of the first and of the last vertex
 	Vec<2>              headForce  = Vec<2>::Zero();    ///< at the end of the step [N]
 	double              headMoment = 0;                 ///< [N m]
+	double              shrinkage  = 1;                 ///< in this step: lengths without stress after it over those before
 
 	/// Of the springs: stiffness over Young's modulus of the soil per cell [-]; strength of each side along it.
 	double stiffness = 10;
 	double adhesion  = inf; ///< [Pa]
 	double friction  = 0;   ///< tan(delta)
 
+	/// In this step: of the points to its right, where it parts the soil (parting_lines.hpp); 0: it does not.
+	int layer = 0;
+
 	/// As the step begins.
-	std::vector<Vec<2>> places;
-	std::vector<double> turns;       ///< of the vertices in all [rad]
-	std::vector<double> length0;     ///< of the pieces [m]
-	std::vector<double> elongation;  ///< of the pieces [m]
-	std::vector<Vec<2>> bend;        ///< of the pieces: elastic turns of their ends [rad]
-	std::vector<double> normalForce; ///< of each vertex: on the soil, to the left of the beam [N]
-	std::vector<double> gap;         ///< of each vertex that has lost the soil on its only side [m]
-	std::vector<double> shearForce;  ///< of each vertex: on the soil, along the beam [N]
+	std::vector<Vec<2>>     places;
+	std::vector<double>     turns;      ///< of the vertices in all [rad]
+	std::vector<double>     length0;    ///< of the pieces [m]
+	std::vector<double>     elongation; ///< of the pieces [m]
+	std::vector<Vec<2>>     bend;       ///< of the pieces: elastic turns of their ends [rad]
+	std::array<BeamSide, 2> sides;      ///< left and right
+	/// By vertex: whether it has had soil on both sides only as one body, or none yet. When that is parted the beam
+	/// bears the stress that was in it.
+	std::vector<char> isStuck;
 
 	/// In the last step that was accepted.
 	std::vector<double> axialForce; ///< of the pieces [N]
@@ -103,7 +115,9 @@ struct Beam {
 		bend.assign(length0.size(), Vec<2>::Zero());
 		moments = bend;
 		turns.assign(places.size(), 0);
-		normalForce = gap = shearForce = turns;
+		for (BeamSide& side : sides)
+			side = { turns, turns, turns };
+		isStuck.assign(places.size(), 1);
 		if (isHinge.empty()) isHinge.assign(places.size(), 0);
 	}
 	/// Half of the pieces at a vertex [m].

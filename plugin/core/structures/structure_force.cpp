@@ -13,6 +13,9 @@ constexpr double nearDomain = 0.375;
 /// Where the soil beside a beam is looked for [cells]: material within the second of the first, to its left or right.
 constexpr double besideBeam = 0.5, besideReach = 0.25;
 
+/// In the plane, along t on what is to its left from what is to its right.
+double shearStress(const SymTensor<2>& stress, const Vec<2>& t) { return -t.dot(stress.inPlane() * Vec<2>(-t[1], t[0])); }
+
 /// On a line along t, pressure positive: in the plane on its sides, in space the mean around it.
 double normalStress(const SymTensor<2>& stress, const Vec<2>& t)
 {
@@ -83,6 +86,7 @@ template <int Dim> std::vector<SoilAtVertex> StructureForce<Dim>::soilAround(con
 			lookBesideBeam(step, soil);
 			for (std::size_t v = 0; v < structure_.beam->places.size(); ++v)
 				soil[v].normalStress = normalStress(near[v].stress, structure_.beam->tangentAt(int(v)));
+			if (structure_.beam->layer > 0) partAlongBeam(step, soil);
 		}
 	return soil;
 }
@@ -104,6 +108,35 @@ template <int Dim> void StructureForce<Dim>::lookBesideBeam(const Beginning<Dim>
 		for (std::size_t v = 0; v < beam.places.size(); ++v) {
 			soil[v].sides  = int(!isFar[2 * v]) | int(!isFar[2 * v + 1]) << 1;
 			soil[v].exists = attached_[v] && soil[v].sides != 0 && soil[v].young > 0;
+		}
+	}
+}
+
+/// Of the soil to the left, and the soil to the right where it has other nodes.
+template <int Dim> void StructureForce<Dim>::partAlongBeam(const Beginning<Dim>& step, std::vector<SoilAtVertex>& soil)
+{
+	if constexpr (Dim == 2) {
+		const Beam&               beam  = *structure_.beam;
+		const std::size_t         count = beam.places.size(), right = soil.size();
+		const std::vector<double> cells(count, step.grid.cellSize);
+		const std::array          near { soilNear<2>(beam.places, cells, step, 0), soilNear<2>(beam.places, cells, step, beam.layer) };
+		soil.resize(right + count), attached_.resize(right + count);
+		for (std::size_t v = 0; v < count; ++v) {
+			const std::array at { attach(beam.places[v], step.basis, step.grid, 0), attach(beam.places[v], step.basis, step.grid, beam.layer) };
+			for (const int side : { 0, 1 })
+				if (!at[side]) soil[v].sides &= ~(1 << side);
+			attached_[v]   = at[soil[v].sides == 2];
+			soil[v].exists = soil[v].sides != 0 && soil[v].young > 0;
+			if (soil[v].sides != 3 || at[0]->node == at[1]->node || near[0][v].young == 0 || near[1][v].young == 0) continue;
+			attached_[right + v] = at[1];
+			soil[right + v]      = soil[v];
+			const Vec<2> t       = beam.tangentAt(int(v));
+			for (const int side : { 0, 1 }) {
+				SoilAtVertex& beside = soil[side * right + v];
+				beside.young         = near[side][v].young;
+				beside.normalStress  = normalStress(near[side][v].stress, t);
+				beside.shearStress   = shearStress(near[side][v].stress, t);
+			}
 		}
 	}
 }
@@ -228,14 +261,26 @@ template <int Dim> double StructureForce<Dim>::fromOutside(const Eigen::VectorXd
 	return isLoaded ? system_->energyAt(equilibrium(d)).gradient.head(system_->soilUnknowns()).norm() : 0;
 }
 
-/// A beam that is held at an end holds the soil around it.
+/// A beam that is held at an end holds the soil around it, and one that parts the soil holds each side as if the other
+/// stood still.
 template <int Dim> void StructureForce<Dim>::restrain(const typename Term<Dim>::Hold& hold) const
 {
 	if (!structure_.beam || !system_) return;
 	const Beam& beam = *structure_.beam;
-	for (int v = 0; v < int(beam.places.size()); ++v)
-		for (int a = 0; a < Dim && system_->soilUnknown(v) >= 0; ++a)
-			if (beam.fixedHead[a] || beam.fixedFoot[a]) hold(attached_[v]->node[0], Vec<Dim>::Unit(a), attached_[v]->inCell());
+	for (int place = 0; place < int(attached_.size()); ++place) {
+		if (place >= int(beam.places.size()) && place < structure_.vertices()) continue; // of a bar
+		for (int a = 0; a < Dim && system_->soilUnknown(place) >= 0; ++a)
+			if (beam.fixedHead[a] || beam.fixedFoot[a]) hold(attached_[place]->node[0], Vec<Dim>::Unit(a), attached_[place]->inCell());
+	}
+	if constexpr (Dim == 2)
+		for (int v = 0; v < int(beam.places.size()); ++v)
+			for (const int side : { 0, 1 }) {
+				const int other = structure_.vertices() + v, place = side == 0 ? v : other;
+				if (other >= int(attached_.size()) || system_->soilUnknown(other) < 0 || beam.sides[side].gap[v] > 0) continue;
+				const Vec<2> t = beam.tangentAt(v);
+				hold(attached_[place]->node[0], Vec<2>(-t[1], t[0]), attached_[place]->inCell());
+				if (beam.adhesion > 0 || beam.friction > 0) hold(attached_[place]->node[0], t, attached_[place]->inCell());
+			}
 }
 
 /// Forces beyond what numbers can hold would make any residual look small.

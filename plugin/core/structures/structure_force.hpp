@@ -26,6 +26,7 @@ private:
 	std::vector<Vec<Dim>>     places() const;
 	std::vector<SoilAtVertex> soilAround(const Beginning<Dim>&);
 	void                      lookBesideBeam(const Beginning<Dim>&, std::vector<SoilAtVertex>&) const;
+	void                      partAlongBeam(const Beginning<Dim>&, std::vector<SoilAtVertex>&);
 	std::string               missingSoil(const Beginning<Dim>&, const std::vector<SoilAtVertex>&) const;
 	std::string               pulledOut(const std::vector<SoilAtVertex>&) const;
 	Eigen::VectorXd           soilAt(const Eigen::VectorXd& d) const;
@@ -34,7 +35,7 @@ private:
 	template <class F> void   forJoined(F&& f) const;
 
 	Structure<Dim>&                             structure_;
-	std::vector<std::optional<Attachment<Dim>>> attached_; ///< by vertex
+	std::vector<std::optional<Attachment<Dim>>> attached_; ///< by vertex, and behind them to the right of those of the beam
 	std::optional<StructureSystem<Dim>>         system_;
 	std::string                                 obstacle_;
 	mutable Eigen::VectorXd                     last_; ///< solution at the last iterate, from which the next one is looked for

@@ -70,6 +70,11 @@ template <int Dim> void StructureSystem<Dim>::number(const std::vector<SoilAtVer
 			stations_[v].soil = unknowns_;
 			unknowns_ += Dim;
 		}
+	for (int v = 0; v < ofBeam && stations_.size() + v < soil.size(); ++v)
+		if (soil[stations_.size() + v].exists && stations_[v].soil >= 0 && !isSecondOfRing(v)) {
+			stations_[v].toTheRight = unknowns_;
+			unknowns_ += Dim;
+		}
 	soilUnknowns_ = unknowns_;
 	if constexpr (Dim == 2) numberBeam();
 	forBars([&](const Reinforcement<Dim>& bar, int first) {
@@ -107,7 +112,7 @@ template <int Dim> void StructureSystem<Dim>::addSprings(const std::vector<SoilA
 {
 	if constexpr (Dim == 2)
 		for (int v = 0; structure_.beam && v < int(structure_.beam->places.size()); ++v)
-			addBeamSprings(v, soil[v]);
+			addBeamSprings(v, soil);
 	forBars([&](Reinforcement<Dim>& bar, int first) {
 		for (std::size_t v = 0; v < bar.places.size() && bar.slips(); ++v) {
 			const Station& station = stations_[first + v];
@@ -123,37 +128,53 @@ template <int Dim> void StructureSystem<Dim>::addSprings(const std::vector<SoilA
 	});
 }
 
-/// One that presses, and one along the beam. Where there is soil on both sides it is one body, which is pressed to
-/// either side; where there is some on one side, the beam may leave it.
-template <int Dim> void StructureSystem<Dim>::addBeamSprings(int v, const SoilAtVertex& soil)
+/// Where soil that has been one body, or a part of one in which the beam is put, is parted, the beam takes over the
+/// stress that was in it.
+template <int Dim> void StructureSystem<Dim>::addBeamSprings(int v, const std::vector<SoilAtVertex>& soil)
+{
+	Beam& beam = *structure_.beam;
+	if (isSecondOfRing(v)) return;
+	const bool isParted = stations_[v].toTheRight >= 0;
+	for (const int side : { 0, 1 }) {
+		const SoilAtVertex& beside = soil[isParted && side == 1 ? stations_.size() + v : v];
+		BeamSide&           memory = beam.sides[side];
+		if (!(soil[v].sides >> side & 1) || stations_[v].soil < 0) {
+			memory.normalForce[v] = memory.shearForce[v] = memory.gap[v] = 0;
+			continue;
+		}
+		if (isParted && beam.isStuck[v]) {
+			memory.normalForce[v] = beam.lengthAt(v) * std::max(0., beside.normalStress);
+			memory.shearForce[v]  = beam.lengthAt(v) * (side == 0 ? 1 : -1) * beside.shearStress;
+		}
+		addSpringsOfSide(v, side, beside, isParted);
+	}
+	beam.isStuck[v] = soil[v].sides == 3 && !isParted;
+}
+
+/// One that presses, and one along the beam. Those of both sides of soil that is one body are stressed against each
+/// other by what nobody knows: what such soil bears along the beam is told by its stress.
+template <int Dim> void StructureSystem<Dim>::addSpringsOfSide(int v, int side, const SoilAtVertex& soil, bool isParted)
 {
 	Beam&          beam    = *structure_.beam;
+	BeamSide&      memory  = beam.sides[side];
 	const Station& station = stations_[v];
-	if (isSecondOfRing(v)) return;
-	if (station.soil < 0) {
-		beam.normalForce[v] = beam.shearForce[v] = 0;
-		return;
-	}
-	const bool   onBoth = soil.sides == 3;
-	const Vec<2> t = beam.tangentAt(v), n = (soil.sides == 2 ? -1 : 1) * Vec<2>(-t[1], t[0]);
-	const double length = beam.lengthAt(v), stiffness = beam.stiffness * soil.young / soil.cellSize * length;
-	const double sign  = soil.sides == 2 ? -1 : 1;
-	const auto   along = [&](const Vec<2>& e) {
+	const int      first   = isParted && side == 1 ? station.toTheRight : station.soil;
+	const Vec<2>   t = beam.tangentAt(v), n = (side == 1 ? -1 : 1) * Vec<2>(-t[1], t[0]);
+	const double   length = beam.lengthAt(v), stiffness = beam.stiffness * soil.young / soil.cellSize * length;
+	const auto     along = [&](const Vec<2>& e) {
                 LinearForm form;
                 for (int a = 0; a < 2; ++a) {
                         form.add(station.own[a], e[a]);
-                        form.add(station.soil + a, -e[a]);
+                        form.add(first + a, -e[a]);
                 }
                 return form;
 	};
-	const double pressed = sign * beam.normalForce[v];
-	Spring       normal { along(n), stiffness, onBoth ? pressed : pressed - stiffness * beam.gap[v], Beam::inf, !onBoth, &beam.normalForce[v] };
-	normal.gap = &beam.gap[v];
-	if (sign < 0) normal.isReversed = true;
-	springs_.push_back(normal);
-	const double pressure = onBoth ? 2 * std::max(0., soil.normalStress) * length : std::max(0., pressed);
-	const double adhesion = onBoth ? 2 * length * beam.adhesion : beam.gap[v] > 0 ? 0 : length * beam.adhesion;
-	springs_.push_back({ along(t), stiffness, beam.shearForce[v], adhesion + beam.friction * pressure, false, &beam.shearForce[v] });
+	const double pressed = memory.normalForce[v];
+	springs_.push_back({ along(n), stiffness, pressed - stiffness * memory.gap[v], Beam::inf, true, &memory.normalForce[v], &memory.gap[v] });
+	const bool   isOne    = soil.sides == 3 && !isParted;
+	const double pressure = isOne ? length * std::max(0., soil.normalStress) : std::max(0., pressed);
+	const double adhesion = memory.gap[v] > 0 && !isOne ? 0 : length * beam.adhesion;
+	springs_.push_back({ along(t), stiffness, memory.shearForce[v], adhesion + beam.friction * pressure, false, &memory.shearForce[v] });
 }
 
 template <int Dim> LinearForm StructureSystem<Dim>::component(const Station& station, int axis) const
@@ -198,7 +219,8 @@ template <int Dim> BeamPiece StructureSystem<Dim>::beamPiece(std::size_t i) cons
 {
 	const Beam& beam     = *structure_.beam;
 	const auto  strength = [&](std::size_t v) { return beam.isHinge[v] ? 0 : beam.plasticMoment; };
-	BeamPiece   made { beam.places[i + 1] - beam.places[i], beam.elongation[i], beam.length0[i], beam.bend[i] };
+	const double length = beam.shrinkage * beam.length0[i];
+	BeamPiece    made { beam.places[i + 1] - beam.places[i], beam.elongation[i] + (beam.length0[i] - length), length, beam.bend[i] };
 	made.strength[0] = strength(i);
 	if (i + 1 == beam.length0.size() && !beam.isClosed) made.strength[1] = strength(i + 1);
 	return made;
@@ -380,6 +402,7 @@ template <int Dim> void StructureSystem<Dim>::commitBeam(const Eigen::VectorXd& 
 		const BeamPiece  before = beamPiece(i);
 		const BeamShape  shape(before, valuesOf<6>(beamEnds(int(i)), x));
 		const EndMoments ends = endMoments(before, beam.section, shape.turns);
+		beam.length0[i]       = before.length0;
 		beam.elongation[i]    = shape.elongation;
 		beam.bend[i]          = shape.turns - ends.yielded;
 		beam.axialForce[i]    = beam.section.axialStiffness / beam.length0[i] * shape.elongation;
@@ -391,8 +414,10 @@ template <int Dim> void StructureSystem<Dim>::commitBeam(const Eigen::VectorXd& 
 		beam.turns[v] += valueAt(stations_[v].own[2]);
 	}
 	if (!beam.isClosed) return;
-	beam.normalForce.back() = beam.normalForce.front(), beam.shearForce.back() = beam.shearForce.front();
-	beam.gap.back() = beam.gap.front();
+	for (BeamSide& side : beam.sides)
+		for (auto* values : { &side.normalForce, &side.gap, &side.shearForce })
+			values->back() = values->front();
+	beam.isStuck.back() = beam.isStuck.front();
 }
 
 template <int Dim> void StructureSystem<Dim>::commit(const Eigen::VectorXd& x)
@@ -400,7 +425,7 @@ template <int Dim> void StructureSystem<Dim>::commit(const Eigen::VectorXd& x)
 	for (const Spring& spring : springs_) {
 		const double trial = spring.force + spring.stiffness * spring.form.at(x);
 		const double force = springEnergy(trial, spring.stiffness, spring.limit, spring.oneSided).gradient[0];
-		*spring.memory     = spring.isReversed ? -force : force;
+		*spring.memory     = force;
 		if (spring.gap) *spring.gap = spring.oneSided && trial < 0 ? -trial / spring.stiffness : 0;
 	}
 	forBars([&](Reinforcement<Dim>& bar, int first) { commitBar(bar, first, x); });

@@ -10,6 +10,7 @@ struct SoilAtVertex {
 	bool   exists       = false;
 	int    sides        = 0; ///< of a beam: bit 0 to its left, bit 1 to its right
 	double normalStress = 0; ///< on the line, pressure positive [Pa]
+	double shearStress  = 0; ///< on what is to the left of the line, from what is to its right, along it [Pa]
 	double young        = 0; ///< [Pa]
 	double cellSize     = 1; ///< [m]
 };
@@ -19,13 +20,18 @@ struct SoilAtVertex {
 /// respect to the structure's own unknowns, so that these never reach the unknowns of the grid.
 template <int Dim> class StructureSystem {
 public:
-	/// The structure must outlive it; the soil by vertex, those of the beam first.
+	/// The structure must outlive it; the soil by vertex, those of the beam first, and behind them all, by vertex of the
+	/// beam, the soil to its right where that is another body than the soil to its left. May be missing where there is none.
 	StructureSystem(Structure<Dim>&, const std::vector<SoilAtVertex>&);
 
 	int  soilUnknowns() const { return soilUnknowns_; }
 	bool hasOwnUnknowns() const { return unknowns_ > soilUnknowns_; }
-	/// First unknown of the soil at a vertex; -1: it has none.
-	int soilUnknown(int vertex) const { return stations_[vertex].soil; }
+	/// First unknown of the soil, numbered as it is given; -1: it has none.
+	int soilUnknown(int place) const
+	{
+		const int right = place - int(stations_.size());
+		return right < 0 ? stations_[place].soil : stations_[right].toTheRight;
+	}
 	/// Pairs of vertices that a piece without unknowns of its own joins, each once, with the vertex itself.
 	std::vector<std::pair<int, int>> joinedVertices() const;
 
@@ -46,7 +52,8 @@ public:
 private:
 	/// A vertex: what its displacement is made of.
 	struct Station {
-		int                soil      = -1;   ///< first unknown of the soil around it
+		int                soil       = -1;   ///< first unknown of the soil around it
+		int                toTheRight = -1;   ///< of a beam: of the soil to its right, where that is another body
 		bool               moves     = true; ///< with the soil
 		int                slip      = -1;   ///< unknown along `direction`
 		Vec<Dim>           direction = Vec<Dim>::Zero();
@@ -59,15 +66,15 @@ private:
 		double     stiffness, force, limit; ///< force: as the step begins
 		bool       oneSided;                ///< a force that cannot be negative, without memory of what it would have been
 		double*    memory;
-		double*    gap        = nullptr;
-		bool       isReversed = false; ///< what is remembered has the other sign
+		double*    gap = nullptr;
 	};
 
 	void                            number(const std::vector<SoilAtVertex>&);
 	bool                            isSecondOfRing(int vertex) const;
 	void                            numberBeam();
 	void                            addSprings(const std::vector<SoilAtVertex>&);
-	void                            addBeamSprings(int vertex, const SoilAtVertex&);
+	void                            addBeamSprings(int vertex, const std::vector<SoilAtVertex>&);
+	void                            addSpringsOfSide(int vertex, int side, const SoilAtVertex&, bool isParted);
 	std::array<LinearForm, 2 * Dim> ends(int first, int second) const;
 	LinearForm                      component(const Station&, int axis) const;
 	BarPiece<Dim>                   piece(const Reinforcement<Dim>&, std::size_t number) const;

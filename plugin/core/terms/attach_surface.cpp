@@ -43,6 +43,7 @@ template <int Dim> AttachedPlaces<Dim> attachTo(int layer, const std::vector<Vec
 
 template <int Dim> AttachedPlaces<Dim> attachPlaces(const std::vector<Vec<Dim>>& places, const Beginning<Dim>& step, const std::string& name)
 {
+	if (step.grid.parting) return attachTo(layerOfPlace, places, step, name);
 	const auto&         layers = step.cloud.layer;
 	const int           last   = layers.empty() ? 0 : *std::max_element(layers.begin(), layers.end());
 	AttachedPlaces<Dim> found  = attachTo(0, places, step, name);

@@ -10,7 +10,7 @@ namespace gimpm {
 template <int Dim> struct AttachedPlaces {
 	std::vector<Attachment<Dim>> places;
 	std::string                  obstacle {};
-	int                          layer = 0; ///< of the body that they are on
+	int                          layer = 0; ///< of the body that they are on; layerOfPlace: of each place
 };
 
 /// A cell counts as populated by the least of a domain that reaches into it, so places must be near a domain, too: what

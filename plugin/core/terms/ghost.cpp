@@ -54,12 +54,29 @@ template <int Dim, class F> void forNodePairs(const GhostFace<Dim>& face, double
 				}
 }
 
-/// Calls f(neighbour, level of the common face) for the cells beyond a face of a cell.
+/// Calls f(neighbour, level of the common face) for the cells beyond a face of a cell, where no line parts the body.
 template <int Dim, class F> void forNeighbours(Key cell, int axis, bool isAbove, const Grid<Dim>& grid, F&& f)
 {
 	if (grid.refinement) return grid.refinement->forLeavesBeyond(cell, axis, isAbove, f);
 	const Key step = Grid<Dim>::keyStep(axis);
 	f(grid.first(isAbove ? cell + step : cell - step), 0);
+}
+
+/// Whether there is no cell beyond a face, on either side of a line that parts the body there.
+template <int Dim> bool isParted(Key cell, int axis, bool isAbove, const std::vector<Key>& populated, const Grid<Dim>& grid)
+{
+	bool isThere = false;
+	grid.parting->forCellsBeyond(cell, axis, isAbove, [&](Key beyond, int) { isThere |= contains(populated, beyond); });
+	return !isThere;
+}
+
+/// Calls f(cell above a face of a cell, cell below the face in the layer and of the level of its nodes).
+template <int Dim, class F> void forCellsAbove(Key cell, int axis, const Grid<Dim>& grid, F&& f)
+{
+	if (grid.parting) return grid.parting->forCellsBeyond(cell, axis, true, [&](Key above, int layer) { f(above, Parting<Dim>::in(layer, cell)); });
+	forNeighbours(cell, axis, true, grid, [&](Key above, int level) {
+		f(above, level < Grid<Dim>::level(cell) ? above - Grid<Dim>::keyStep(axis, level) : cell);
+	});
 }
 
 /// The circumference 2 pi r of a face around the axis of symmetry: over a cell from r_0 on, the mean of r weighted by
@@ -76,7 +93,8 @@ template <int Dim> void revolve(GhostFace<Dim>& face, const Grid<Dim>& grid)
 
 template <int Dim> std::array<int, 2> cellsAt(const GhostFace<Dim>& face, const CloudBasis<Dim>& basis, const Grid<Dim>& grid)
 {
-	const auto number = [&](Key cell) { return position(basis.populatedLeaves(), grid.refinement ? grid.refinement->leafOf(cell) : cell); };
+	const auto leafOf = [&](Key cell) { return grid.refinement ? grid.refinement->leafOf(cell) : grid.parting ? grid.parting->cellFor(cell) : cell; };
+	const auto number = [&](Key cell) { return position(basis.populatedLeaves(), leafOf(cell)); };
 	return { number(face.lower), number(grid.first(face.lower + Grid<Dim>::keyStep(face.axis, face.level()))) };
 }
 
@@ -87,7 +105,8 @@ template <int Dim> std::vector<Key> boundaryCells(const std::vector<Key>& popula
 		const Index<Dim> i  = Grid<Dim>::index(cell);
 		bool             is = false;
 		for (int a = 0; a < Dim && !is; ++a)
-			for (const bool isAbove : { false, true })
+			for (const bool isAbove : { false, true }) {
+				if (grid.parting && !isParted(cell, a, isAbove, populated, grid)) continue;
 				forNeighbours(cell, a, isAbove, grid, [&](Key neighbour, int level) {
 					if (is || contains(populated, neighbour)) return;
 					Index<Dim> face
@@ -95,6 +114,7 @@ template <int Dim> std::vector<Key> boundaryCells(const std::vector<Key>& popula
 					face[a] = isAbove ? i[a] + (1 << Grid<Dim>::level(cell)) : i[a];
 					is      = !boundary.lowerFaceIsWall(face, a, level);
 				});
+			}
 		if (is) cells.push_back(cell);
 	}
 	return cells;
@@ -107,9 +127,9 @@ std::vector<GhostFace<Dim>> ghostFaces(
 	std::vector<GhostFace<Dim>> faces;
 	for (const Key cell : populated)
 		for (int a = 0; a < Dim; ++a)
-			forNeighbours(cell, a, true, grid, [&](Key above, int level) {
+			forCellsAbove(cell, a, grid, [&](Key above, Key lower) {
 				if (!contains(populated, above) || (!contains(boundaryCells, cell) && !contains(boundaryCells, above))) return;
-				const Key  lower = level < Grid<Dim>::level(cell) ? above - Grid<Dim>::keyStep(a, level) : cell;
+				const int  level = Grid<Dim>::level(lower);
 				Index<Dim> face  = Grid<Dim>::index(lower);
 				face[a] += 1 << level;
 				if (!boundary.lowerFaceIsWall(grid.first(face), a, level)) faces.push_back({ a, lower });

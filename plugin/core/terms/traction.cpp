@@ -49,7 +49,8 @@ template <int Dim> bool isInsideOut(const Surface<Dim>& surface, const std::vect
 {
 	const auto holdsMaterial = [&](const Vec<Dim>& x) {
 		const Index<Dim> cell = ((x - grid.origin) / grid.cellSize).array().floor().template cast<int>();
-		const Key        key  = Grid<Dim>::key(grid.first(cell), 0, layer);
+		if (grid.parting) return find(populated, grid.parting->cellFor(Grid<Dim>::key(cell, 0, grid.parting->layerAt(x)))) >= 0;
+		const Key key = Grid<Dim>::key(grid.first(cell), 0, layer);
 		return find(populated, grid.refinement ? grid.refinement->leafOf(key) : key) >= 0;
 	};
 	double outside = 0; // area with material outside only, less that with material inside only
@@ -73,6 +74,11 @@ Traction<Dim>::Traction(SurfaceLoad<Dim>& load, const Beginning<Dim>& step)
 	attached_     = std::move(attached.places);
 	obstacle_     = std::move(attached.obstacle);
 	layer_        = attached.layer;
+	for (const Piece& piece : load_.surface.pieces) {
+		const auto layerOf = [&](int v) { return Grid<Dim>::layer(step.basis.nodes[attached_[v].node[0]]); };
+		isAcross_.push_back(
+		        obstacle_.empty() && step.grid.parting && std::any_of(piece.begin(), piece.end(), [&](int v) { return layerOf(v) != layerOf(piece[0]); }));
+	}
 	if (obstacle_.empty() && load.pressure != 0) obstacle_ = betweenLevels();
 	if (!obstacle_.empty()) return;
 	if (load.isNew && load.pressure != 0 && isInsideOut(load.surface, step.basis.populatedLeaves(), step.grid, layer_))
@@ -118,16 +124,18 @@ template <int Dim> std::vector<Vec<Dim>> Traction<Dim>::forcesAt(const Places& p
 template <int Dim> void Traction<Dim>::mark(NodeMatrix<Dim>& K) const
 {
 	if (load_.pressure == 0) return;
-	for (const Piece& piece : load_.surface.pieces)
-		for (const int i : piece)
-			for (const int j : piece)
-				markAttached(attached_[i], attached_[j], K);
+	for (std::size_t p = 0; p < load_.surface.pieces.size(); ++p)
+		for (const int i : load_.surface.pieces[p])
+			for (const int j : load_.surface.pieces[p])
+				if (!isAcross_[p]) markAttached(attached_[i], attached_[j], K);
 }
 
 template <int Dim> void Traction<Dim>::addStiffness(const Places& places, NodeMatrix<Dim>& K) const
 {
 	if (load_.pressure == 0) return;
-	for (const Piece& piece : load_.surface.pieces) {
+	for (std::size_t p = 0; p < load_.surface.pieces.size(); ++p) {
+		if (isAcross_[p]) continue;
+		const Piece&   piece  = load_.surface.pieces[p];
 		const auto     slopes = normalSlopes(piece, places);
 		const auto     share  = shares<Dim>(piece, places, isRing_);
 		const Vec<Dim> normal = load_.surface.normal(piece, places);

@@ -60,6 +60,9 @@ private:
 	bool                         isSymmetric_;
 	std::string                  obstacle_;
 	int                          layer_ = 0; // of the body that it is on
+	/// Of the pieces from beside a line that parts the body to where that is whole: nodes of two layers, which the
+	/// matrix over nodes does not couple. Their part of the derivative is left out, which costs iterations only.
+	std::vector<char> isAcross_;
 };
 
 } // namespace gimpm

@@ -58,6 +58,9 @@ public:
 	// What about it does not go with cells of several sizes; empty if it does.
 	virtual string needsEqualCells(const string& /*name*/) const { return ""; }
 
+	// The same of nodes that are tied to others, as those beside a beam that parts the soil; then it does not.
+	virtual string needsUntiedNodes(const string& name) const { return needsEqualCells(name); }
+
 	// Whether bodies of points meet by it, which have nodes of their own; and what about a condition does not go
 	// with that, empty if it does.
 	virtual bool   partsBodies() const { return false; }

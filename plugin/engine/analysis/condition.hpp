@@ -91,6 +91,9 @@ public:
 	// The steps are those in time: `motion` lives as long as the model. The first one begins at a load time.
 	virtual void joinMotion(gimpm::Motion<Dim>&, const gimpm::Model<Dim>&, Real /*begin*/) { }
 
+	// As a step begins, once the points are where they are then: gives points layers, and the grid what parts them.
+	virtual void part(gimpm::PointCloud<Dim>&, gimpm::Model<Dim>&) { }
+
 	// Sets what acts in the next step, and of its load what the condition prescribes.
 	virtual void advance(const StepTime&, gimpm::Model<Dim>&, gimpm::Load<Dim>&) { }
 

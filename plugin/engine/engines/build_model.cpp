@@ -23,6 +23,8 @@ template <int Dim> gimpm::Load<Dim> advance(Setup<Dim>& setup, const Analysis& a
 {
 	auto load = analysis.loadBetween<Dim>(step.from, step.to);
 	for (const auto& condition : setup.conditions)
+		condition->part(setup.cloud, setup.model);
+	for (const auto& condition : setup.conditions)
 		condition->advance(step, setup.model, load);
 	return load;
 }

@@ -17,7 +17,7 @@ _isotropic = [getattr(wrapper, f'Mpm{name}Mat') for name in ('Elastic', 'VonMise
 _grown = (wrapper.MpmHardeningSoilMat, wrapper.MpmNorSandMat)  # whose hardening follows from the stresses they have borne
 
 
-def geostatic(K0=None, surface=None, solver=None, OCR=1):
+def geostatic(K0=None, surface=None, solver=None, OCR=1, bodies=()):
 	"""Give the material points of an engine the stress of level ground under its own weight, in equilibrium with gravity at load factor 1.
 
 	The vertical stress is the weight of the soil above, of whatever density its horizontal layers have, and with ``MpmImplicitEngine.water`` that of the water on the
@@ -40,6 +40,11 @@ def geostatic(K0=None, surface=None, solver=None, OCR=1):
 		solver.gravityCurve = [(0, 1)]
 		mpm.geostatic()
 
+	A wall, a pile or a culvert in the ground is of one of the materials *bodies*, of any modulus and density: its points are given the stress of the ground at their height, so that the ground
+	around is at rest. What they are heavier by acts in the first step; ::
+
+		heavier = mpm.geostatic(bodies=['concrete'])  # {'concrete': 58860.0}
+
 	To be called when ``O.engines`` and ``O.bodies`` are complete, before the first step. Other shapes than level ground have no such stress: let
 	gravity grow first, and then the loads, by ``gravityCurve=[(0, 0), (1, 1)]`` and ``loadCurve=[(1, 0), (2, 1)]``.
 
@@ -52,7 +57,10 @@ def geostatic(K0=None, surface=None, solver=None, OCR=1):
 	:param OCR: overconsolidation ratio [-], the largest vertical stress that has ever been over the present one: a number >= 1, a dict of one for each label of
 		the materials, or a function of the depth below the surface [m], as ``lambda depth: 1 + 5 / depth`` of ground that has lost 5 m of the same
 		weight. None: as 1, and Cam clay keeps the preconsolidation pressure that its material or :func:`assign` has given.
-	:raises TypeError: *K0*, *OCR* or *surface* is no number.
+	:param bodies: labels of the materials of bodies in the ground; rows of points without any ground are layers of their own, or, above the ground, bear their weight by nothing
+	:return: for each of *bodies* the weight [N] (in plane strain per metre of thickness) that is not in balance with the stress: that of its points less that of ground in
+		their place. It acts in the first step, so an analysis may begin with ``mpm.stages.replace`` in several steps instead where that is much.
+	:raises TypeError: *K0*, *OCR* or *surface* is no number, *bodies* no list of labels.
 	:raises ValueError: a value that is not admitted; gravity that is zero or not along an axis; a load factor other than 1 at O.time;
 		points that have been deformed; ground that is not level, with layers of one density and one extent; or a stress that a
 		material cannot carry without yielding, with the depth of the highest point where it is so.
@@ -67,19 +75,35 @@ def geostatic(K0=None, surface=None, solver=None, OCR=1):
 	height = up * points['pos'][:, axis]
 	half = points['halfSize'][:, axis]
 	density = np.array([material.density for material in materials])[number]
-	top = height.max() + half[np.argmax(height)]
+	areBodies = _areBodies(bodies, materials)
+	isBody = areBodies[number]
+	rows = _Rows(points, height, half, density, isBody)
+	top = (height + half)[~rows.areAbove()].max()
 	if surface is None: surface = top
 	elif not isNumber(surface): raise TypeError(f'geostatic: surface = {brief(surface)} must be a height [m]')
 	elif not (math.isfinite(surface) and surface >= top - 1e-9 * abs(top)):
 		raise ValueError(f'geostatic: surface = {surface} is below the top of the highest points, at {top} m; at what height does the ground end?')
-	rows = _Rows(points, height, half, density)
 	pressure = rows.weightAbove(surface - top) * np.linalg.norm(solver.gravity)
 	if solver.water: pressure = pressure + _ofWater(solver, points, rows, axis, up, surface - top)
-	lifted = np.flatnonzero(pressure <= 0)
+	lifted = np.flatnonzero((pressure <= 0) & ~rows.areAbove())
 	if lifted.size: raise ValueError(f'geostatic: at the height {height[lifted[0]]} m the water bears all of the ground: is its density that of saturated soil?')
 	depth = surface - height
-	horizontal, past, before = _history(K0, OCR, points, materials, number, pressure, depth)
-	_assign(points, _stress(pressure, horizontal, axis), past, _stress(*before.T, axis), depth, horizontal / pressure)
+	horizontal, past, before = _history(K0, OCR, points, materials, number, pressure, depth, areBodies)
+	horizontal = np.where(isBody, rows.ofGround(horizontal), horizontal)
+	past[isBody], before[isBody] = math.nan, math.nan
+	_assign(points, _stress(pressure, horizontal, axis), past, _stress(*before.T, axis), depth, horizontal / np.where(pressure > 0, pressure, 1))
+	unbalanced = (density - rows.toPoints(rows.density)) * points['volume'] * np.linalg.norm(solver.gravity)
+	return {material.label: float(unbalanced[isBody & (number == i)].sum()) for i, material in enumerate(materials) if material.label in bodies}
+
+
+def _areBodies(bodies, materials):
+	"""Of each material whether it is of bodies in the ground."""
+	labels = [material.label for material in materials]
+	if isinstance(bodies, str) or not all(isinstance(label, str) for label in bodies): raise TypeError(f"geostatic: bodies = {brief(bodies)} must be a list of labels of materials, as ['concrete']")
+	missing = [label for label in bodies if label not in labels]
+	if missing: raise ValueError(f'geostatic: bodies = {brief(bodies)}: no material of the points has the label {missing[0]!r}; they have {labels}')
+	if len(set(bodies)) == len(set(labels)): raise ValueError(f'geostatic: bodies = {brief(bodies)} are all materials of the points: nothing is ground')
+	return np.isin(labels, list(bodies))
 
 
 def _stress(vertical, horizontal, axis):
@@ -110,14 +134,14 @@ def _ofWater(solver, points, rows, axis, up, cover):
 	return result
 
 
-def _history(K0, OCR, points, materials, number, pressure, depth):
+def _history(K0, OCR, points, materials, number, pressure, depth, areBodies):
 	"""Horizontal pressure (N,) of the points, their preconsolidation pressure (N,), and vertical and horizontal pressure of the past (N, 2); NaN where that is not to be given."""
 	horizontal, past, before = np.empty(len(depth)), np.full(len(depth), math.nan), np.full((len(depth), 2), math.nan)
 	for i, material in enumerate(materials):
 		rows = number == i
-		history = _overconsolidation(OCR, material, depth[rows])
+		history = _overconsolidation(1 if areBodies[i] else OCR, material, depth[rows])
 		sine = _sineOfFriction(material, points, rows)
-		ratio = _ratio(K0, material, sine, history)
+		ratio = _ratio(None if areBodies[i] and isinstance(K0, dict) and material.label not in K0 else K0, material, sine, history)
 		horizontal[rows] = ratio * pressure[rows]
 		if OCR is None: continue
 		if hasattr(material, 'preconsolidation'): past[rows] = _preconsolidation(parameter('criticalStateRatio', material, points, rows), sine, pressure[rows], ratio, history)
@@ -236,15 +260,21 @@ def _preconsolidation(criticalStateRatio, sine, pressure, ratio, history):
 
 
 class _Rows:
-	"""The horizontal rows of points, from the top; refuses ground that is not level."""
+	"""The horizontal rows of points, from the top; refuses ground that is not level. Bodies have no part in it: those that stand out of it weigh nothing here."""
 
-	def __init__(self, points, height, half, density):
+	def __init__(self, points, height, half, density, isBody):
 		self.order = np.argsort(-height, kind='stable')
 		step = 2 * half.min()
 		self.row = np.concatenate([[0], np.cumsum(-np.diff(height[self.order]) > 1e-6 * step)])  # of each point, in this order
+		self.isGround = ~isBody[self.order]
 		first = np.flatnonzero(np.diff(self.row, prepend=-1))
-		self.level, self.thickness, self.density = height[self.order][first], 2 * half[self.order][first], density[self.order][first]
-		self._requireEqual(density[self.order], half[self.order], np.bincount(self.row, (points['volume'] / (2 * half))[self.order]))
+		self.level, self.thickness = height[self.order][first], 2 * half[self.order][first]
+		self.density = self._ofFirst(density[self.order], first)
+		area = np.bincount(self.row, (points['volume'] / (2 * half))[self.order])
+		hasGround = np.bincount(self.row, self.isGround) > 0
+		self.isAbove = np.cumsum(hasGround | (np.abs(area / area.max() - 1) < 1e-9)) == 0
+		self.density[self.isAbove] = 0
+		self._requireEqual(density[self.order], half[self.order], area)
 		gaps = np.flatnonzero(np.abs(self.level[:-1] - self.level[1:] - (self.thickness[:-1] + self.thickness[1:]) / 2) > 1e-6 * step)
 		if gaps.size: raise ValueError(f'geostatic: the ground has a gap or an overlap between the heights {self.level[gaps[0] + 1]} and {self.level[gaps[0]]} m')
 
@@ -252,21 +282,43 @@ class _Rows:
 		level, row = self.level, self.row
 		mixed = np.flatnonzero(np.abs(half * 2 / self.thickness[row] - 1) > 1e-9)
 		if mixed.size: raise ValueError(f'geostatic: the points at the height {level[row[mixed[0]]]} m differ in size; only horizontal layers are at rest')
-		heavier = np.flatnonzero(density != self.density[row])
+		heavier = np.flatnonzero((density != self.density[row]) & self.isGround)
 		if heavier.size:
 			raise ValueError(
 			        f'geostatic: the points at the height {level[row[heavier[0]]]} m differ in density ({self.density[row[heavier[0]]]} and {density[heavier[0]]} kg/m3); only horizontal '
-			        'layers are at rest. A wall or pile that is wished in place: fill it with a material of the density of the ground beside it, call geostatic, then give its bodies the heavier '
-			        'material (body.material = O.materials["wall"]), the weight of which acts from the first step on. Or let gravity grow first: gravityCurve = [(0, 0), (1, 1)], loadCurve = [(1, 0), (2, 1)]'
+			        'layers are at rest. A wall or pile that is wished in place is of a material of its own, in bodies=["wall"]; or is poured afterwards, by mpm.stages.replace. Or let gravity grow first: gravityCurve = [(0, 0), (1, 1)], loadCurve = [(1, 0), (2, 1)]'
 			)
-		unequal = np.flatnonzero(np.abs(area / area[0] - 1) > 1e-9)
+		first = np.argmin(self.isAbove)
+		unequal = np.flatnonzero((np.abs(area / area[first] - 1) > 1e-9) & ~self.isAbove)
 		if unequal.size:
 			raise ValueError(
-			        f'geostatic: the ground is not level: the points at the height {level[0]} m cover {area[0]} m2, those at '
+			        f'geostatic: the ground is not level: the points at the height {level[first]} m cover {area[first]} m2, those at '
 			        f'{level[unequal[0]]} m cover {area[unequal[0]]} m2 (in plane strain per metre of thickness). Fill level ground, call geostatic, and dig out '
 			        'what is missing (mpm.stages.excavate), or place what is on top (mpm.stages.place). Or let gravity grow first, and then the loads: '
 			        'gravityCurve = [(0, 0), (1, 1)], loadCurve = [(1, 0), (2, 1)]'
 			)
+
+	def _ofFirst(self, values, first):
+		"""Of the first point of ground in each row, or where there is none of the first point."""
+		found = values[first].copy()
+		rows, at = np.unique(self.row[self.isGround], return_index=True)
+		found[rows] = values[self.isGround][at]
+		return found
+
+	def ofGround(self, values):
+		"""Values (N,) of the points in the place of bodies: those of the ground in their row, or where there is none their own."""
+		ordered = values[self.order]
+		own = ordered.copy()
+		ground = self._ofFirst(ordered, np.flatnonzero(np.diff(self.row, prepend=-1)))[self.row]
+		hasGround = np.bincount(self.row, self.isGround)[self.row] > 0
+		own[hasGround] = ground[hasGround]
+		result = np.empty(len(own))
+		result[self.order] = own
+		return result
+
+	def areAbove(self):
+		"""Of each point whether it stands out of the ground."""
+		return self.toPoints(self.isAbove) > 0
 
 	def areAlike(self, values):
 		"""Whether values (N,) of the points are the same all along each row."""

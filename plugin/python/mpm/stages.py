@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Stages of construction: layers that are placed, soil that is dug out, supports that are taken away.
+"""Stages of construction: layers that are placed, soil that is dug out or becomes concrete, supports that are taken away.
 
 Each function changes the scene between two load steps; what it begins goes on while ``O.run`` makes the next steps, by a PyRunner before the engine, which ``O.save`` keeps::
 
@@ -24,7 +24,7 @@ from .messages import brief
 from .naming import materialOf
 from .regions import inside
 
-__all__ = ['place', 'excavate', 'release', 'resetDisplacements']
+__all__ = ['place', 'excavate', 'replace', 'release', 'resetDisplacements']
 _softness = 0.05  # of what is dug out: the part of its stiffness that is left
 
 
@@ -82,11 +82,7 @@ def excavate(region, steps=1, solver=None):
 	:raises ValueError: no point is in the region, all are, a load of the engine would be left in the air, *steps* < 1, or a material that cannot be found by its label.
 	"""
 	solver, steps = _static('excavate', solver), _number('excavate', steps)
-	if not callable(region): raise TypeError(f'excavate: region = {brief(region)} must be a predicate, as for mpm.fill')
-	points, materials, number = pointsOf(solver)
-	if not len(points['id']): raise ValueError(noPoints('excavate', solver))
-	inRegion = inside(region, points['pos'])
-	if not inRegion.any(): raise ValueError(f'excavate: no material point is in the region {brief(region)}')
+	points, materials, number, inRegion = _pointsIn('excavate', region, solver)
 	if inRegion.all(): raise ValueError(f'excavate: all material points are in the region {brief(region)}')
 	_requireNoLoad(solver, points, inRegion)
 	ids, stress = points['id'][inRegion].tolist(), points['stress'][inRegion]
@@ -98,6 +94,66 @@ def excavate(region, steps=1, solver=None):
 	assign(ids=ids, stress=stress)
 	_begin('excavated', solver, steps, twins)
 	return len(ids)
+
+
+def _pointsIn(who, region, solver):
+	"""Points of the solver, their materials with the number of each point's, and which points are in the region."""
+	if not callable(region): raise TypeError(f'{who}: region = {brief(region)} must be a predicate, as for mpm.fill')
+	points, materials, number = pointsOf(solver)
+	if not len(points['id']): raise ValueError(noPoints(who, solver))
+	inRegion = inside(region, points['pos'])
+	if not inRegion.any(): raise ValueError(f'{who}: no material point is in the region {brief(region)}')
+	return points, materials, number, inRegion
+
+
+def replace(region, material, steps=1, solver=None):
+	"""Make the material points in a region points of another material: a slurry wall that is poured, ground that is grouted. Their stress stays as it is, so that nothing moves at
+	once; what they are heavier or lighter by comes in the next *steps* load steps, in equal parts.
+
+	Of the new material they are as it is new: without plastic strain, strengths and moduli of their own. The density is that of their initial volume, as of all points.
+
+	:param region: predicate of the current positions, as for :func:`fill`
+	:param material: label of a material in ``O.materials``
+	:param steps: load steps, an integer >= 1
+	:param solver: the ``MpmImplicitEngine`` whose points are meant (those of its ``mask``); may be left out when ``O.engines`` holds one
+	:return: number of the points
+	:raises TypeError: an argument of the wrong kind, or a material that is none of points.
+	:raises KeyError: no material has this label.
+	:raises ValueError: no point is in the region, *steps* < 1, or a stress that the new material cannot carry without yielding; all points are then as before.
+	"""
+	solver, steps = _static('replace', solver), _number('replace', steps)
+	points, materials, number, inRegion = _pointsIn('replace', region, solver)
+	new = materialOf('replace', material)
+	if not isinstance(new, wrapper.MpmMaterial): raise TypeError(f'replace: material = {brief(material)} is a {type(new).__name__}, which is no material of material points')
+	ids, stress = points['id'][inRegion].tolist(), points['stress'][inRegion]
+	before = np.array([m.density for m in materials])[number[inRegion]]
+	_renew(ids, new, stress)
+	if steps == 1: return len(ids)
+	twins = {}
+	for density in np.unique(before[before != new.density]).tolist():
+		own = np.array(ids)[before == density].tolist()
+		twin = _twin(new, f'{material}/replaced', own, density=density + (new.density - density) / steps)
+		twins[twin.label] = (material, (density, new.density))
+	if twins: _run('replaced', solver, steps, twins)
+	return len(ids)
+
+
+def _renew(ids, material, stress):
+	"""Make them points of a material, with the stress they have; or after an error leave all as they are."""
+	here = _here(ids)
+	names = 'internals', 'parameters', 'plasticStrain', 'elasticStrain'
+	known = [(body.material, [getattr(body.state, name) for name in names]) for body in here]
+	for body in here:
+		body.material = material
+		body.state.internals, body.state.parameters, body.state.plasticStrain = [], [], 0
+	try:
+		assign(ids=ids, stress=stress)
+	except ValueError as error:
+		for body, (own, values) in zip(here, known):
+			body.material = own
+			for name, value in zip(names, values):
+				setattr(body.state, name, value)
+		raise ValueError(f"replace: {material.label!r} cannot carry the stress that the points have: {str(error).removeprefix('assign: ')}") from None
 
 
 def _requireNoLoad(solver, points, inRegion):
@@ -141,8 +197,9 @@ def advance(kind, label, first, steps, twins):
 	solver = next(engine for engine in engines[at:] if isinstance(engine, wrapper.MpmImplicitEngine))
 	step = solver.nDone - first + 1
 	if step > steps: return
+	if kind == 'replaced': _weigh(scene, twins, step / steps)
 	share = step / steps if kind == 'placed' else 1 - step / steps
-	for own, (twin, density) in twins.items():
+	for own, (twin, density) in twins.items() if kind != 'replaced' else ():
 		ids = _idsOf(twin)
 		if step == steps and kind == 'placed':
 			for body in _here(ids):
@@ -152,6 +209,14 @@ def advance(kind, label, first, steps, twins):
 	if step == steps: engines[at].dead = True
 
 
+def _weigh(scene, twins, share):
+	"""Densities of what has been replaced; at the end it is of the material itself."""
+	for twin, (label, (before, after)) in twins.items():
+		scene.materials[twin].density = before + share * (after - before)
+		for body in _here(_idsOf(twin)) if share == 1 else ():
+			body.material = scene.materials[label]
+
+
 def now(solver):
 	"""What the solver's last stage is and how far it has come, for titles; empty if there has been none."""
 	found = [engine for engine in wrapper.Omega().engines if engine.label.startswith('stage_')]
@@ -159,7 +224,7 @@ def now(solver):
 		kind, label, first, steps, _ = ast.literal_eval('(' + engine.command.partition('.advance(')[2])
 		if not _isBefore(engine, solver): continue
 		done = min(solver.nDone - first, steps)
-		what = {'placed': 'placing', 'excavated': 'excavating'}[kind]
+		what = {'placed': 'placing', 'excavated': 'excavating', 'replaced': 'replacing'}[kind]
 		return f'{what}, step {done} of {steps}' + (f'; load time {solver.loadTime:.4g}' if solver.nDone - first > steps else '')
 	return ''
 
@@ -175,8 +240,8 @@ def resume():
 	scene = wrapper.Omega()
 	for engine in scene.engines:
 		if engine.dead or not engine.label.startswith('stage_'): continue
-		twins = ast.literal_eval('(' + engine.command.partition('.advance(')[2])[-1]
-		for twin, density in twins.values():
+		kind, *_, twins = ast.literal_eval('(' + engine.command.partition('.advance(')[2])
+		for twin, density in twins.values() if kind != 'replaced' else ():
 			_library.actInPart(scene.materials[twin], scene.materials[twin].density / density)
 
 
@@ -192,11 +257,16 @@ def _scale(material, share, ofAll, ids, kind):
 
 
 def _begin(kind, solver, steps, twins):
-	"""A PyRunner before the engine. *twins*: by the label of a material, its twin that changes."""
+	"""*twins*: by the label of a material, its twin that changes."""
+	names = {own: (twin.label, wrapper.Omega().materials[own].density) for own, twin in twins.items()}
+	for twin in twins.values(): _library.actInPart(twin, 1 / steps if kind == 'placed' else 1)
+	_run(kind, solver, steps, names)
+
+
+def _run(kind, solver, steps, names):
+	"""A PyRunner before the engine."""
 	scene = wrapper.Omega()
 	engines = [engine for engine in scene.engines if not (engine.dead and engine.label.startswith('stage_'))]
-	names = {own: (twin.label, scene.materials[own].density) for own, twin in twins.items()}
-	for twin in twins.values(): _library.actInPart(twin, 1 / steps if kind == 'placed' else 1)
 	label = next(name for name in (f'stage_{i}' for i in range(len(engines) + 1)) if all(engine.label != name for engine in engines))
 	command = f"__import__('sys').modules['yade.mpm.stages'].advance({kind!r}, {label!r}, {solver.nDone}, {steps}, {names!r})"
 	at = engines.index(solver)

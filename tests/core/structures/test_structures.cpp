@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Bars and beams: their energies against differences, closed forms, and the force on the soil with its tangent.
 #include "core/stepping/step_system.hpp"
+#include "core/structures/parting_lines.hpp"
 #include "core/structures/structure_force.hpp"
 #include "derivatives.hpp"
 #include "scenes.hpp"
@@ -230,7 +231,9 @@ namespace {
 		double tangentError()
 		{
 			const StepSystem<Dim> system(cloud, model, {}, report);
-			const Eigen::VectorXd d = Random(3).vector(system.nodalSize(), 0.003), direction = Random(4).vector(system.nodalSize(), 1);
+			Eigen::VectorXd       d = Random(3).vector(system.nodalSize(), 0.003), direction = Random(4).vector(system.nodalSize(), 1);
+			system.basis.ties.template spread<Dim>(d);
+			system.basis.ties.template spread<Dim>(direction);
 			NodeMatrix<Dim>       K;
 			Couplings             beside;
 			Eigen::VectorXd       force, slope = Eigen::VectorXd::Zero(d.size());
@@ -242,6 +245,7 @@ namespace {
 			EXPECT_FALSE(system.evaluate(d, force, &K, nullptr, &beside));
 			K.multiplyAdd(direction, slope);
 			beside.multiplyAdd(direction, slope);
+			system.basis.ties.template fold<Dim>(slope);
 			const double          h        = 1e-6;
 			const Eigen::VectorXd expected = (forceAt(h) - forceAt(-h)) / (2 * h);
 			return (slope - expected).norm() / expected.norm();
@@ -328,9 +332,91 @@ namespace {
 		beam.begin(divided<2>({ { 0.5, 2 }, { 2.5, 2 } }, 0.25));
 		ASSERT_TRUE(loadStep(ground.cloud, ground.model, {}, ground.solver).converged());
 		double sum = 0;
-		for (const double force : beam.normalForce)
+		for (const double force : beam.sides[1].normalForce) // to the right of the beam, which is below
 			sum += force;
-		EXPECT_NEAR(sum, -2000, 1e-6 * 2000); // to the right of the beam, which is below
+		EXPECT_NEAR(sum, 2000, 1e-6 * 2000);
+	}
+
+	/// A block with a beam from its top down into it, which parts the soil beside it.
+	struct PartedGround : Ground<2> {
+		PartedGround(const Vec<2>& head, const Vec<2>& foot, BeamSection section = { 1e7, 1e5 })
+		{
+			structure.beam.emplace();
+			structure.beam->section = section;
+			structure.beam->begin(divided<2>({ head, foot }, 0.25));
+			partSoil({ &*structure.beam }, cloud, model.grid);
+		}
+	};
+
+	/// Down to the line of the grid that is nearest to its foot, and only points beside it, to its right, are in another layer.
+	TEST(PartedSoil, IsPartedDownToTheTip)
+	{
+		for (const double foot : { 0.8, 1., 1.2 }) {
+			const PartedGround ground({ 1.5, 2 }, { 1.5, foot });
+			ASSERT_TRUE(ground.model.grid.parting);
+			const auto isOwn = [&](int x, int y) { return ground.model.grid.parting->isOwn(Grid<2>::key({ x, y }, 0, 1)); };
+			EXPECT_TRUE(isOwn(3, 3) && isOwn(3, 4));
+			EXPECT_FALSE(isOwn(3, 2) || isOwn(2, 3) || isOwn(4, 3));
+			for (std::size_t p = 0; p < ground.cloud.size(); ++p) {
+				const Vec<2>& x = ground.cloud.position[p];
+				EXPECT_EQ(ground.cloud.layer[p], x[0] < 1.5 && x[0] > 0.75 && x[1] > 0.75) << x.transpose();
+			}
+		}
+		EXPECT_FALSE(PartedGround({ 0.5, 2 }, { 2.5, 2 }).model.grid.parting) << "there is soil on one side only";
+	}
+
+	TEST(PartedSoil, HasTheTangentOfItsForce)
+	{
+		for (const auto& [head, foot] : { std::pair(Vec<2>(1.5, 2), Vec<2>(1.5, 0.9)), std::pair(Vec<2>(1.2, 2.1), Vec<2>(1.9, 0.6)) }) {
+			PartedGround ground(head, foot);
+			auto&        beam = *ground.structure.beam;
+			beam.headForce    = { 100, -200 };
+			beam.friction     = 0.3;
+			EXPECT_LT(ground.tangentError(), 1e-7);
+		}
+	}
+
+	/// Lines of force go along the cut, wherever it is, and do not end at it: displacements stay linear, also across the
+	/// faces of the stabilisation, which are there for all cells that the cut leaves half empty.
+	TEST(PartedSoil, TakesNoNoticeOfAPullAlongTheCut)
+	{
+		for (const auto& [head, foot] : { std::pair(Vec<2>(1.5, 2), Vec<2>(1.5, 1)), std::pair(Vec<2>(1.63, 2.1), Vec<2>(1.63, 0.77)) }) {
+			PartedGround ground(head, foot);
+			ground.model.coupledTerms.clear(); // the cut alone
+			ground.model.materials     = { { Hencky(1e6, 0), 0 } };
+			auto base                  = held<2>(ground.model.grid, { -infinity, -infinity }, { infinity, 0 }, "xy");
+			auto top                   = held<2>(ground.model.grid, { -infinity, 2 }, { infinity, infinity }, "xy");
+			top.displacement           = { 0, 0.02 };
+			ground.model.boundary      = Boundary<2>({ base, top });
+			ground.cloud.position0     = ground.cloud.position;
+			const auto          before = ground.cloud.position;
+			ASSERT_TRUE(loadStep(ground.cloud, ground.model, { {}, 1, 1 }, ground.solver).converged());
+			for (std::size_t p = 0; p < before.size(); ++p) {
+				const Vec<2> u = ground.cloud.position[p] - before[p];
+				EXPECT_NEAR(u[1], 0.01 * before[p][1], 1e-10);
+				EXPECT_NEAR(u[0], 0, 1e-10);
+			}
+		}
+	}
+
+	/// Two columns on a smooth base, of which one is heavier, slide on a smooth beam between them.
+	TEST(PartedSoil, SlidesOnASmoothBeam)
+	{
+		PartedGround ground({ 1.5, 2 }, { 1.5, 0 });
+		auto&        beam      = *ground.structure.beam;
+		beam.adhesion          = 0;
+		ground.model.materials = { { Hencky(1e6, 0), 1000 }, { Hencky(1e6, 0), 3000 } };
+		for (std::size_t p = 0; p < ground.cloud.size(); ++p)
+			ground.cloud.material[p] = ground.cloud.position[p][0] > 1.5;
+		ground.model.boundary = Boundary<2>({ held<2>(ground.model.grid, { -infinity, -infinity }, { 0, infinity }, "x"),
+		                                      held<2>(ground.model.grid, { 3, -infinity }, { infinity, infinity }, "x"),
+		                                      held<2>(ground.model.grid, { -infinity, -infinity }, { infinity, 0 }, "y") });
+		const auto before     = ground.cloud.position;
+		ASSERT_TRUE(loadStep(ground.cloud, ground.model, { { 0, -1 }, 1, 1 }, ground.solver).converged());
+		for (std::size_t p = 0; p < before.size(); ++p) {
+			const double rho = before[p][0] > 1.5 ? 3000 : 1000, y = before[p][1], exact = rho * (2 * y - y * y / 2) / 1e6;
+			EXPECT_NEAR(before[p][1] - ground.cloud.position[p][1], exact, 0.02 * rho * 2 / 1e6) << before[p].transpose();
+		}
 	}
 
 } // namespace

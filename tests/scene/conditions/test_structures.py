@@ -125,14 +125,14 @@ print(json.dumps(found))
 
 @pytest.mark.parametrize('rough', [False, True])
 def test_lined_tunnel(yade, rough):
-	"""Axial forces within 3 % of the closed form for a lining in elastic ground that is in place before the ground is dug out (Einstein and Schwartz 1979), the moment's part with cos(2 angle) within 5 % on these cells."""
+	"""Within 3 % of the closed form for a lining in elastic ground that is in place before the ground is dug out (Einstein and Schwartz 1979): axial forces, and the moment's part with cos(2 angle)."""
 	N, M = yade(
 	        block + '''
-R, E, nu, P, K, size = 3., 1e8, .3, 5e5, .5, 30
+R, E, nu, P, K, size = 3., 1e8, .3, 5e5, .5, 60  # 20 radii: at 10 the moments are 2 % less
 EA, EI = 1.5e9, 1.125e7
 arc = [(R * np.sin(a), R * np.cos(a)) for a in np.linspace(0, np.pi / 2, 33)]
 O.materials.append(MpmElasticMat(young=E, poisson=nu, density=2000, label='ground'))
-grid = MpmGrid(cellSize=.5)
+grid = MpmGrid(cellSize=1, refinements=[MpmRefinement(max=(9, 9, inf))])
 O.bodies.append(mpm.fill(mpm.polygon(arc + [(size, 0), (size, size), (0, size)]), grid, 2, 'ground'))
 mpm.assign(stress=[np.diag([-K * P, -P, -nu * (1 + K) * P])] * len(O.bodies))
 lining = MpmBeam(line=arc, axialStiffness=EA, bendingStiffness=EI, adhesion=inf if ROUGH else 0, fixHead='xr', fixFoot='yr')
@@ -156,7 +156,7 @@ print(json.dumps([force, -np.linalg.lstsq(np.c_[np.ones(len(x)), twice], lining.
 '''.replace('ROUGH', str(rough))
 	).result
 	assert np.abs(np.array(N) - 1).max() < 0.03
-	assert abs(M - 1) < 0.05
+	assert abs(M - 1) < 0.03
 
 
 wall = block + '''
@@ -200,6 +200,86 @@ print(json.dumps([same, [left, pull * direction[0]], [sheet.moments[0], sheet.mo
 	assert max(map(abs, free)) < 1e-6
 	assert told == ['load0_anchor0', 'load0_axialForce', 'load0_moment', 'load0_shearForce']
 	assert cells > 0
+
+
+sheetPile = block + '''
+def sand(cohesion=100):
+	O.reset()
+	O.materials.append(MpmMohrCoulombMat(young=4e7, poisson=.3, density=1800, cohesion=cohesion, frictionAngle=phi, dilationAngle=phi, label='sand'))
+	grid = MpmGrid(cellSize=h)
+	O.bodies.append(mpm.fill(mpm.polygon([(low, -depth), (high, -depth), (high, 0), (low, 0)]), grid, 2, 'sand'))
+	held = [MpmBoundary(max=(low, inf, inf), fix='x'), MpmBoundary(min=(high, -inf, -inf), fix='x'), MpmBoundary(max=(inf, -depth, inf), fix='xy')]
+	O.engines, O.dt = [MpmImplicitEngine(grid=grid, gravity=(0, -10, 0), boundaries=held, gravityCurve=[(0, 1)], verbosity=0, fBar=True, label='solver')], 1
+	mpm.geostatic(.5)
+
+def dig(wall, level, steps=2):
+	"""To the right of the wall, wherever that is now."""
+	x, y = np.array(wall.vertices)[::-1, :2].T
+	mpm.stages.excavate(lambda at, pad=0: at[0] > -.15 and at[1] > -level and at[0] > np.interp(at[1], y, x), steps)
+	O.run(steps, wait=True)
+h, phi, gamma = .5, radians(30), 18e3
+Ka = np.tan(pi / 4 - phi / 2)**2
+'''
+
+
+def test_cantilever_wall_fails_where_blum_says(yade):
+	"""A smooth stiff wall of 6 m in sand, dug out on one side: it does not move while it is put in, stands at .9 of Blum's depth (without his addition of 20 %), with his moment, and is thrown over at 1.05 of it."""
+	putIn, moment, stands, thrown, blum = yade(sheetPile + '''
+L, low, high, depth = 6, -12, 14, 9
+sand()
+wall = MpmBeam(line=[(0, 0), (0, -L)], axialStiffness=1e10, bendingStiffness=1e9, adhesion=0, fixFoot='y')
+solver.loads = [wall]
+O.run(1, wait=True)
+points = mpm.arrays()
+putIn = [abs(points['pos'] - points['pos0']).max(), wall.leftPressures[12] / (gamma * 1.5), wall.rightPressures[12] / (gamma * 1.5)]
+dig(wall, 1.5, 6)
+for level in np.arange(1.75, 2.76, .25): dig(wall, level)
+H, x = 2.75, 2.75 / (1 / Ka - 1)
+moment, stands = max(wall.moments) / (gamma * (Ka * (H + x)**3 - x**3 / Ka) / 6), wall.vertices[0][0]
+for level in 3, 3.25: dig(wall, level)
+print(json.dumps([putIn, moment, stands, wall.vertices[0][0], L * (1 - Ka**(2 / 3))]))
+''').result
+	assert putIn[0] < 1e-6 and abs(putIn[1] - 1) < 0.01 and abs(putIn[2] - 1) < 0.01
+	assert abs(moment - 1) < 0.1
+	assert stands < 6 / 300 and thrown > 6 / 60
+	assert 2.75 > 0.85 * blum and 3.25 < 1.15 * blum
+
+
+def test_anchored_wall_has_free_earth_support(yade):
+	"""Dug out to where the earth before its foot is used up: anchor force and moment within 10 % of those by hand."""
+	force, moment, used = yade(sheetPile + '''
+L, z, H, low, high, depth = 8, 1.5, 5.75, -18, 14, 12
+sand()
+anchor = MpmReinforcement(line=[(0, -z), (-9, -z), (-14, -z)], axialStiffness=2.5e7, freeLength=8, bond=1e5, bondStiffness=1e8)
+wall = MpmBeam(line=[(0, 0), (0, -L)], axialStiffness=1e10, bendingStiffness=1e9, adhesion=0, fixFoot="y", anchors=[anchor])
+solver.loads = [wall]
+O.run(1, wait=True)
+for level in 2, 3, 4, 4.75, 5.25, 5.5, H: dig(wall, level, 6 if level == 2 else 4)
+d, active = L - H, Ka * gamma * L**2 / 2
+passive = active * (2 * L / 3 - z) / (L - d / 3 - z)  # which turns the wall about its anchor as much as the active earth
+y = np.linspace(0, L, 4001)
+shear = Ka * gamma * y**2 / 2 - np.where(y > H, passive * ((y - H) / d)**2, 0) - np.where(y > z, active - passive, 0)
+print(json.dumps([anchor.axialForces[0] / (active - passive), min(wall.moments) / (np.cumsum(shear) * y[1]).min(), passive / (gamma * d**2 / 2 / Ka)]))
+''').result
+	assert 0.9 < used < 1
+	assert abs(force - 1) < 0.1 and abs(moment - 1) < 0.1
+
+
+def test_geotextile_bears_the_thrust_of_an_embankment(yade):
+	"""On a smooth base nothing else holds the active earth pressure in its middle."""
+	force, moves = yade(block + '''
+O.reset()
+H, phi = 4, radians(30)
+O.materials.append(MpmMohrCoulombMat(young=2e7, poisson=.3, density=1800, cohesion=100, frictionAngle=phi, dilationAngle=phi, label='fill'))
+grid = MpmGrid(cellSize=.5)
+O.bodies.append(mpm.fill(mpm.polygon([(0, 0), (12, 0), (6, H), (0, H)]), grid, 2, 'fill'))
+sheet = MpmReinforcement(line=[(0, .05), (11.5, .05)], axialStiffness=2e6)
+held = [MpmBoundary(max=(0, inf, inf), fix='x'), MpmBoundary(max=(inf, 0, inf), fix='y')]
+O.engines, O.dt = [MpmImplicitEngine(grid=grid, gravity=(0, -10, 0), boundaries=held, loads=[sheet], verbosity=0, fBar=True)], .05
+O.run(20, wait=True)
+print(json.dumps([max(sheet.axialForces) / (np.tan(pi / 4 - phi / 2)**2 * 18e3 * H**2 / 2), sheet.vertices[-1][0] - 11.5]))
+''').result
+	assert abs(force - 1) < 0.08 and moves > 0
 
 
 refusals = {

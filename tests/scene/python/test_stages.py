@@ -109,3 +109,68 @@ O.step()
 ''')
 	takenOver, another = run.stderr.split('taken over\n')[1].split('another grid\n')
 	assert 'would have put it' not in takenOver and 'would have put it' in another, run.stderr
+
+
+def test_ground_becomes_concrete_with_its_stress_and_its_weight_comes_in_steps(yade):
+	"""A quarter of the difference of weight in each of four steps, in a saved and loaded scene, too; a material that cannot carry the stress is refused, and all is as before."""
+	result = yade(column + '''
+O.materials.append(MpmElasticMat(young=1000 * E, poisson=0, density=2500, label='concrete'))
+O.materials.append(MpmVonMisesMat(young=E, poisson=.3, density=2000, yieldStress=1, label='butter'))
+O.materials.append(FrictMat(label='steel'))
+before = repr([(b.material.label, b.state.dict()) for b in O.bodies])
+messages = [refused(mpm.stages.replace, part(2, 4), label) for label in ('butter', 'steel', 'timber')] + [refused(mpm.stages.replace, part(5, 6), 'concrete'), refused(mpm.stages.replace, 3, 'concrete')]
+out = dict(messages=messages, same=before == repr([(b.material.label, b.state.dict()) for b in O.bodies]), points=mpm.stages.replace(part(3, 4), 'concrete', steps=4), poured=[])
+for step in range(4):
+	if step == 2:
+		mpm.save('poured.yade.gz')
+		O.load('poured.yade.gz')
+		solver = O.engines[-1]
+	O.run(1, wait=True)
+	out['poured'].append([settlement(), load()])
+out['materials'] = sorted({b.material.label for b in O.bodies})
+mpm.stages.replace(part(0, 1), 'concrete')
+O.run(1, wait=True)
+out['atOnce'] = load()
+print(json.dumps(out))
+''').result
+	weak, steel, timber, nowhere, three = result['messages']
+	assert 'ValueError' in weak and "'butter' cannot carry the stress that the points have" in weak and result['same']
+	assert 'TypeError' in steel and 'FrictMat' in steel and 'KeyError' in timber and 'no material point' in nowhere and 'region = 3' in three
+	assert result['points'] == 8 and result['materials'] == ['concrete', 'ground']
+	for i, (down, force) in enumerate(result['poured'], 1):
+		assert force == pytest.approx(4 + i / 4 / 4, rel=1e-6)
+		assert down == pytest.approx(i / 4 * 5000 * 3 / 2e7, rel=.02)  # 3 m of ground below 1 m of concrete
+	assert result['atOnce'] == pytest.approx(4.5, rel=1e-6)
+
+
+def test_ground_is_at_rest_around_a_wall_that_is_wished_in_place(yade):
+	"""A stiff wall of the density of the ground moves nothing; what a heavier one and what stands out of the ground weigh more is told, and is what the base bears more."""
+	result = yade('''
+import json
+from yade import mpm
+def wished(density, top, **settings):
+	O.reset()
+	O.materials.append([MpmMohrCoulombMat(young=4e7, poisson=.3, density=1800, cohesion=1e3, frictionAngle=radians(35), label='sand'), MpmElasticMat(young=3e10, poisson=.2, density=density, label='wall')])
+	grid = MpmGrid(cellSize=.5)
+	soil = mpm.polygon([(-3, -4), (4, -4), (4, 0), (-3, 0)])
+	O.bodies.append(mpm.fill(soil | mpm.polygon([(0, -1), (1, -1), (1, top), (0, top)]) if top else soil, grid, 2, lambda x: 'wall' if 0 <= x[0] <= 1 and x[1] >= -2 else 'sand'))
+	base = MpmBoundary(max=(inf, -4, inf), fix='xy')
+	solver = MpmImplicitEngine(grid=grid, gravity=(0, -10, 0), gravityCurve=[(0, 1)], boundaries=[base, MpmBoundary(max=(-3, inf, inf), fix='x'), MpmBoundary(min=(4, -inf, -inf), fix='x')], verbosity=0)
+	O.engines, O.dt = [solver], 1
+	told = mpm.geostatic(**settings)
+	O.run(1, wait=True)
+	points = mpm.arrays()
+	return told, abs(points['pos'] - points['pos0']).max(), solver.reactions[0][1]
+found = [wished(1800, 0, bodies=['wall']), wished(2400, 0, bodies=['wall']), wished(2400, 1, bodies=['wall'], K0=dict(sand=.5))]
+messages = []
+for bodies in ['wal'], 'wall', ['sand', 'wall'], []:
+	try: wished(2400, 0, bodies=bodies)
+	except Exception as error: messages.append(f'{type(error).__name__}: {error}')
+print(json.dumps([found, messages]))
+''').result
+	(alike, heavier, outstanding), messages = result
+	assert alike[0] == {'wall': 0} and alike[1] < 1e-9
+	assert heavier[0]['wall'] == pytest.approx(12e3) and heavier[2] == pytest.approx(28 * 18e3 + 12e3, rel=1e-6)
+	assert outstanding[0]['wall'] == pytest.approx(36e3) and outstanding[2] == pytest.approx(28 * 18e3 + 36e3, rel=1e-6)
+	unknown, text, all_, none = messages
+	assert "no material of the points has the label 'wal'" in unknown and 'TypeError' in text and 'nothing is ground' in all_ and 'differ in density' in none and 'bodies=' in none

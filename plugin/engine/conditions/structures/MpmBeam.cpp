@@ -49,7 +49,7 @@ std::shared_ptr<Condition<2>> MpmBeam::make(InPlane, const Group& group, const A
 
 Real MpmBeam::end(const Analysis& analysis) const
 {
-	Real last = headForce.isZero(0) && headMoment == 0 ? -std::numeric_limits<Real>::infinity() : analysis.curveOfLoad(curve).end();
+	Real last = headForce.isZero(0) && headMoment == 0 && contraction == 0 ? -std::numeric_limits<Real>::infinity() : analysis.curveOfLoad(curve).end();
 	for (const auto& anchor : anchors)
 		last = std::max(last, anchor->end(analysis));
 	return last;

@@ -16,6 +16,7 @@ public:
 	string                               fixHead, fixFoot;
 	Vector3r                             headForce  = Vector3r::Zero();
 	Real                                 headMoment = 0;
+	Real                                 contraction = 0;
 	Real                                 adhesion   = inf;
 	Real                                 friction   = 0;
 	Real                                 stiffness  = 10;
@@ -23,8 +24,8 @@ public:
 	gimpm::LoadCurve::Knees              curve; // empty: that of the engine
 	// Results, which are also the state from which the next step goes on
 	vector<Vector3r> vertices;
-	vector<Real>     rotations, axialForces, shearForces, moments, pressures;
-	vector<Real>     lengths, elongations, bends, gaps, normals, shears;
+	vector<Real>     rotations, axialForces, shearForces, moments, pressures, leftPressures, rightPressures;
+	vector<Real>     lengths, elongations, bends, gaps, normals, shears, stuck;
 
 	YADE_API_NAME(MpmBeam)
 	static const char* doc()
@@ -52,6 +53,9 @@ public:
 		v("fixFoot", &B::fixFoot, 0, "The same of its last vertex.", admitting("letters out of 'xyr'", areFixed));
 		v("headForce", &B::headForce, 0, "Force [N] on the first vertex at load factor 1.", finite);
 		v("headMoment", &B::headMoment, 0, "Moment [N m] on the first vertex at load factor 1, counterclockwise.", finite);
+		v("contraction", &B::contraction, 0,
+		  "Part [-] of the area in a ring by which it contracts at load factor 1, from 0 to below 1: the volume loss of a tunnel. Its length goes with the root.",
+		  admitting("a number from 0 to below 1, as 0.02 for 2 %", [](Real value) { return value >= 0 && value < 1; }));
 		v("adhesion", &B::adhesion, 0, "Strength [Pa] >= 0 of each side along the beam; inf, the default: rough, 0 with friction=0: smooth.",
 		  admitting("a number >= 0 [Pa], or inf", isNonNegativeOrInfinite));
 		v("friction", &B::friction, 0,
@@ -61,7 +65,7 @@ public:
 		  "Of the springs between beam and soil [-] > 0: pressure over displacement, over Young's modulus of the soil by cell.", positive);
 		v("anchors", &B::anchors, 0,
 		  "Bars (MpmReinforcement) whose heads are fixed to it, at the vertices nearest to them; not listed in *loads*. Read as a tuple, so assign a new one.");
-		v("curve", &B::curve, 0, "Factor [-] of *headForce* and *headMoment*, as *MpmImplicitEngine.loadCurve*; empty, the default: that one.",
+		v("curve", &B::curve, 0, "Factor [-] of *headForce*, *headMoment*, *contraction*, as *MpmImplicitEngine.loadCurve*; empty, the default: that one.",
 		  curveOrNothing);
 		v("vertices", &B::vertices, readonly, "Where its vertices are now [m]; empty before the first step.", AnyValue());
 		v("rotations", &B::rotations, readonly, "How far each vertex has turned [rad], counterclockwise.", AnyValue());
@@ -69,13 +73,17 @@ public:
 		v("shearForces", &B::shearForces, readonly, "Q [N] between each vertex and the next one: the slope of *moments* along the line.", AnyValue());
 		v("moments", &B::moments, readonly, "M [N m] at each vertex, positive where the line is bent to its left: its right side is stretched.",
 		  AnyValue());
-		v("pressures", &B::pressures, readonly, "What it presses on the soil [Pa] at each vertex, positive to the left of the line.", AnyValue());
+		v("pressures", &B::pressures, readonly,
+		  "What it presses on the soil [Pa] at each vertex, positive to the left of the line: *leftPressures* less *rightPressures*.", AnyValue());
+		v("leftPressures", &B::leftPressures, readonly, "What it presses on the soil to the left of the line [Pa], at each vertex.", AnyValue());
+		v("rightPressures", &B::rightPressures, readonly, "What it presses on the soil to the right of the line [Pa], at each vertex.", AnyValue());
 		v("lengths", &B::lengths, hidden, "", AnyValue());
 		v("elongations", &B::elongations, hidden, "", AnyValue());
 		v("bends", &B::bends, hidden, "", AnyValue());
 		v("gaps", &B::gaps, hidden, "", AnyValue());
 		v("normals", &B::normals, hidden, "", AnyValue());
 		v("shears", &B::shears, hidden, "", AnyValue());
+		v("stuck", &B::stuck, hidden, "", AnyValue());
 	}
 
 	// The attributes must go together, too.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "engine/conditions/structures/beams.hpp"
+#include "core/structures/parting_lines.hpp"
 #include "engine/conditions/structures/reinforcements.hpp"
 #include "engine/conditions/surface/surfaces.hpp"
 
@@ -23,9 +24,12 @@ namespace {
 		beam.turns       = from.rotations;
 		beam.length0     = from.lengths;
 		beam.elongation  = from.elongations;
-		beam.gap         = from.gaps;
-		beam.normalForce = from.normals;
-		beam.shearForce  = from.shears;
+		const size_t count = beam.places.size();
+		for (const size_t side : { 0, 1 }) {
+			const auto part  = [&](const vector<Real>& all) { return vector<Real>(all.begin() + side * count, all.begin() + (side + 1) * count); };
+			beam.sides[side] = { part(from.normals), part(from.gaps), part(from.shears) };
+		}
+		beam.isStuck.assign(from.stuck.begin(), from.stuck.end());
 		beam.axialForce  = from.axialForces;
 		for (size_t i = 0; i < beam.length0.size(); ++i)
 			beam.bend.emplace_back(from.bends[2 * i], from.bends[2 * i + 1]);
@@ -46,11 +50,25 @@ namespace {
 		beam.friction      = std::tan(from.friction);
 		beam.isClosed      = from.line.front() == from.line.back();
 		if (from.vertices.empty()) beam.begin(fineLine<2>(inDimension<2>(placesOf(from.line)), name, grid));
+		else if (from.stuck.size() != from.vertices.size())
+			throw std::invalid_argument(name + " has been saved by an older revision, which knew nothing of the two sides of its soil: run its script again.");
 		else
 			goOn(beam, from);
 		for (const Vector3r& hinge : placesOf(from.hinges))
 			beam.isHinge[nearestVertex(beam, hinge.head<2>())] = 1;
 		return beam;
+	}
+
+	// What nodes that are tied have not been shown to go with; empty: nothing.
+	string cannotPart(const Analysis& analysis)
+	{
+		if (analysis.isDynamic()) return "steps in time";
+		if (!analysis.grid->period.isZero(0)) return "MpmGrid.period";
+		if (!analysis.grid->refinements.empty()) return "cells of several sizes";
+		if (analysis.newton->linearSolver == "amg") return "MpmNewton.linearSolver = 'amg'";
+		for (const Listed& listed : analysis.conditions())
+			if (const string own = listed.condition->needsUntiedNodes(listed.name()); !own.empty()) return own;
+		return "";
 	}
 
 	void scatterBeam(const Beam& beam, MpmBeam& to)
@@ -60,19 +78,27 @@ namespace {
 		to.rotations        = beam.turns;
 		to.lengths          = beam.length0;
 		to.elongations      = beam.elongation;
-		to.gaps             = beam.gap;
-		to.normals          = beam.normalForce;
-		to.shears           = beam.shearForce;
+		to.stuck.assign(beam.isStuck.begin(), beam.isStuck.end());
+		to.gaps.clear(), to.normals.clear(), to.shears.clear();
+		for (const auto& side : beam.sides) {
+			to.normals.insert(to.normals.end(), side.normalForce.begin(), side.normalForce.end());
+			to.gaps.insert(to.gaps.end(), side.gap.begin(), side.gap.end());
+			to.shears.insert(to.shears.end(), side.shearForce.begin(), side.shearForce.end());
+		}
 		to.axialForces      = beam.axialForce;
-		to.bends.clear(), to.shearForces.clear(), to.moments.clear(), to.pressures.clear();
+		to.bends.clear(), to.shearForces.clear(), to.moments.clear();
+		to.pressures.clear(), to.leftPressures.clear(), to.rightPressures.clear();
 		for (size_t i = 0; i < pieces; ++i) {
 			to.bends.push_back(beam.bend[i][0]), to.bends.push_back(beam.bend[i][1]);
 			to.shearForces.push_back(beam.moments[i].sum() / (beam.length0[i] + beam.elongation[i]));
 			to.moments.push_back(-beam.moments[i][0]);
 		}
 		to.moments.push_back(beam.moments.back()[1]);
-		for (size_t v = 0; v <= pieces; ++v)
-			to.pressures.push_back(beam.normalForce[v] / beam.lengthAt(int(v)));
+		for (size_t v = 0; v <= pieces; ++v) {
+			to.leftPressures.push_back(beam.sides[0].normalForce[v] / beam.lengthAt(int(v)));
+			to.rightPressures.push_back(beam.sides[1].normalForce[v] / beam.lengthAt(int(v)));
+			to.pressures.push_back(to.leftPressures.back() - to.rightPressures.back());
+		}
 	}
 
 	// The anchor's head is where the vertex of the beam is that it is fixed to.
@@ -95,6 +121,7 @@ namespace {
 
 void Beams::join(gimpm::Model<2>& model, const Surroundings<2>& around)
 {
+	mayPart = model.processes->size() == 1 && cannotPart(around.analysis).empty();
 	for (const Listed& listed : group) {
 		const auto  from = boost::static_pointer_cast<MpmBeam>(listed.condition);
 		const auto& down = around.analysis.gravity;
@@ -115,6 +142,15 @@ void Beams::join(gimpm::Model<2>& model, const Surroundings<2>& around)
 		joinStructure<2>(structure, model);
 }
 
+void Beams::part(gimpm::PointCloud<2>& cloud, gimpm::Model<2>& model)
+{
+	if (!mayPart) return;
+	vector<Beam*> beams;
+	for (auto& structure : structures)
+		beams.push_back(&*structure.beam);
+	gimpm::partSoil(beams, cloud, model.grid);
+}
+
 void Beams::advance(const StepTime& step, gimpm::Model<2>&, gimpm::Load<2>&)
 {
 	for (size_t i = 0; i < sources.size(); ++i) {
@@ -123,6 +159,7 @@ void Beams::advance(const StepTime& step, gimpm::Model<2>&, gimpm::Load<2>&)
 		Beam&          beam   = *structures[i].beam;
 		beam.headForce        = factor * from.headForce.head<2>();
 		beam.headMoment       = factor * from.headMoment;
+		beam.shrinkage        = std::sqrt((1 - from.contraction * factor) / (1 - from.contraction * sources[i].curve.valueAt(step.from)));
 		beam.weight           = from.weight * sources[i].ofGravity.valueAt(step.to) * sources[i].down;
 		for (size_t a = 0; a < from.anchors.size(); ++a)
 			loadBar<2>(structures[i].bars[a], *from.anchors[a], sources[i].ofAnchors[a], step);

@@ -12,6 +12,7 @@ public:
 	explicit Beams(const MpmCondition::Group& group) : group(group) { }
 
 	void join(gimpm::Model<2>&, const Surroundings<2>&) override;
+	void part(gimpm::PointCloud<2>&, gimpm::Model<2>&) override;
 	void advance(const StepTime&, gimpm::Model<2>&, gimpm::Load<2>&) override;
 	Work work(const StepOutcome<2>&) const override;
 	void reach(const StepOutcome<2>&) override;
@@ -26,6 +27,7 @@ private:
 	MpmCondition::Group         group;
 	vector<Source>              sources;
 	vector<gimpm::Structure<2>> structures;
+	bool                        mayPart = true; // what there is besides goes with nodes that are tied
 };
 
 } // namespace yade

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Nodes that are there twice, because a line parts the points on its two sides.
+#pragma once
+#include "core/grid/grid.hpp"
+#include <functional>
+
+namespace gimpm {
+
+/// Points near a line and on its one side have nodes in a layer of their own (Grid::layer). Those the cells of which the
+/// line cuts through are nodes of their own: displacements jump there (Hansbo and Hansbo 2004). The others are tied to
+/// the nodes of layer 0 in their places, and a cell that has only such corners is the one of layer 0: so soil is one
+/// body around the ends of the line.
+template <int Dim> class Parting {
+public:
+	/// Keys of the nodes of their own, sorted, all in layers above 0; and the layer of a point by its place.
+	Parting(std::vector<Key> own, std::function<int(const Vec<Dim>&)> layerAt) : own_(std::move(own)), layerAt_(std::move(layerAt))
+	{
+		for (const Key node : own_)
+			if (layers_.empty() || layers_.back() != Grid<Dim>::layer(node)) layers_.push_back(Grid<Dim>::layer(node));
+	}
+
+	int layerAt(const Vec<Dim>& place) const { return layerAt_(place); }
+
+	static Key in(int layer, Key key) { return Grid<Dim>::key(Grid<Dim>::index(key), Grid<Dim>::level(key), layer); }
+
+	bool isOwn(Key node) const { return find(own_, node) >= 0; }
+	/// The node or cell that stands for one of a layer.
+	Key nodeFor(Key node) const { return isOwn(node) ? node : in(0, node); }
+	Key cellFor(Key cell) const { return hasOwnCorner(cell) ? cell : in(0, cell); }
+
+	/// Calls f(cell beyond a face of a cell, layer of the face) for the one of its own layer, or where it has no own
+	/// corner the ones of all layers: they stand for themselves.
+	template <class F> void forCellsBeyond(Key cell, int axis, bool isAbove, F&& f) const
+	{
+		const Key step = Grid<Dim>::keyStep(axis), beyond = isAbove ? cell + step : cell - step;
+		f(cellFor(beyond), Grid<Dim>::layer(cell));
+		if (Grid<Dim>::layer(cell) > 0) return;
+		for (const int layer : layers_)
+			if (!hasOwnCorner(in(layer, cell)) && hasOwnCorner(in(layer, beyond))) f(in(layer, beyond), layer);
+	}
+
+private:
+	bool hasOwnCorner(Key cell) const
+	{
+		for (int corner = 0; corner < 1 << Dim; ++corner)
+			if (isOwn(cell + Grid<Dim>::keyOffset(corner))) return true;
+		return false;
+	}
+
+	std::vector<Key>                     own_;
+	std::function<int(const Vec<Dim>&)> layerAt_;
+	std::vector<int>                     layers_;
+};
+
+} // namespace gimpm

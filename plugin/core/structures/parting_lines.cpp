@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "core/structures/parting_lines.hpp"
+#include "core/grid/nearness.hpp"
+
+namespace gimpm {
+namespace {
+
+/// A beam with what it is made longer by [m].
+struct PartingLine {
+	std::vector<Vec<2>> places;
+	bool                isClosed = false;
+	std::vector<Vec<2>> tips;
+	int                 layer = 0;
+};
+
+/// Beyond a vertex, where soil would make it a tip; to the sides, where there is soil to be parted [cells].
+constexpr double aside = 0.5, reachOfSoil = 0.25;
+
+bool hasSoil(const Vec<2>& place, const PointCloud<2>& cloud, const Grid<2>& grid)
+{
+	return !areFarFromMaterial<2>({ place }, { reachOfSoil * grid.cellSize }, cloud, grid)[0];
+}
+
+/// A tip by half a cell, so that it ends at the nearest line of the grid; another end out of the cells around it.
+PartingLine longer(const Beam& beam, const PointCloud<2>& cloud, const Grid<2>& grid)
+{
+	constexpr double ofTip = 0.5, ofEnd = 1.5;
+	PartingLine      line { beam.places, beam.isClosed, {}, 0 };
+	if (beam.isClosed) return line;
+	const int last = int(beam.places.size()) - 1;
+	for (const int end : { last, 0 }) {
+		const Vec<2> outwards = (end == 0 ? -1 : 1) * beam.tangentAt(end);
+		const bool   isTip    = hasSoil(beam.places[end] + aside * grid.cellSize * outwards, cloud, grid);
+		const Vec<2> beyond   = beam.places[end] + (isTip ? ofTip : ofEnd) * grid.cellSize * outwards;
+		line.places.insert(end == 0 ? line.places.begin() : line.places.end(), beyond);
+		if (isTip) line.tips.push_back(beyond);
+	}
+	return line;
+}
+
+/// Whether there is soil on both sides of any vertex.
+bool isBetween(const Beam& beam, const PointCloud<2>& cloud, const Grid<2>& grid)
+{
+	std::vector<Vec<2>> places;
+	for (int v = 0; v < int(beam.places.size()); ++v) {
+		const Vec<2> t = beam.tangentAt(v), n(-t[1], t[0]);
+		places.push_back(beam.places[v] + aside * grid.cellSize * n);
+		places.push_back(beam.places[v] - aside * grid.cellSize * n);
+	}
+	const auto isFar = areFarFromMaterial<2>(places, std::vector<double>(places.size(), reachOfSoil * grid.cellSize), cloud, grid);
+	for (std::size_t i = 0; i < places.size(); i += 2)
+		if (!isFar[i] && !isFar[i + 1]) return true;
+	return false;
+}
+
+/// Whether a piece of a line goes through the square around a place.
+bool crosses(const Vec<2>& from, const Vec<2>& to, const Vec<2>& middle, double half)
+{
+	double       begin = 0, end = 1;
+	const Vec<2> along = to - from;
+	for (int a = 0; a < 2; ++a) {
+		const double low = middle[a] - half - from[a], high = middle[a] + half - from[a];
+		if (along[a] == 0) {
+			if (low > 0 || high < 0) return false;
+			continue;
+		}
+		begin = std::max(begin, std::min(low / along[a], high / along[a]));
+		end   = std::min(end, std::max(low / along[a], high / along[a]));
+	}
+	return begin < end;
+}
+
+bool isWithin(const Vec<2>& place, const Vec<2>& middle, double half) { return (place - middle).cwiseAbs().maxCoeff() < half; }
+
+/// The nodes whose four cells a line cuts in two.
+std::vector<Index<2>> nodesCut(const PartingLine& line, const Grid<2>& grid)
+{
+	const double          around = (1 - 1e-6) * grid.cellSize;
+	std::vector<Index<2>> nodes;
+	for (std::size_t i = 0; i + 1 < line.places.size(); ++i) {
+		const Vec<2>  &from = line.places[i], &to = line.places[i + 1];
+		const Index<2> low  = ((from.cwiseMin(to) - grid.origin) / grid.cellSize).array().floor().cast<int>() - 1;
+		const Index<2> high = ((from.cwiseMax(to) - grid.origin) / grid.cellSize).array().ceil().cast<int>() + 1;
+		for (int x = low[0]; x <= high[0]; ++x)
+			for (int y = low[1]; y <= high[1]; ++y) {
+				const Index<2> node(x, y);
+				const Vec<2>   middle = grid.nodePosition(node);
+				const auto     ends   = [&](const Vec<2>& tip) { return isWithin(tip, middle, around); };
+				if (!crosses(from, to, middle, around) || std::any_of(line.tips.begin(), line.tips.end(), ends)) continue;
+				if (std::find(nodes.begin(), nodes.end(), node) == nodes.end()) nodes.push_back(node);
+			}
+	}
+	return nodes;
+}
+
+/// Whether a place is to the right of a line, by its nearest piece; of two that are as near, which meet in a corner, by
+/// both.
+bool isRightOf(const PartingLine& line, const Vec<2>& place)
+{
+	const int    pieces = int(line.places.size()) - 1;
+	double       least  = std::numeric_limits<double>::infinity();
+	double       side   = 0;
+	for (int i = 0; i < pieces; ++i) {
+		const Vec<2> along = line.places[i + 1] - line.places[i], from = place - line.places[i];
+		const double part  = std::clamp(from.dot(along) / along.squaredNorm(), 0., 1.);
+		const double away  = (from - part * along).norm();
+		const double left  = (along[0] * from[1] - along[1] * from[0]) / along.norm();
+		const double same  = 1e-9 * along.norm();
+		if (away > least + same) continue;
+		side  = away < least - same ? left : side + left;
+		least = std::min(least, away);
+	}
+	return side < 0;
+}
+
+/// The layer of a place near nodes of their own.
+class LayerAt {
+public:
+	LayerAt(std::vector<PartingLine> lines, std::vector<Key> own, const Grid<2>& grid)
+	        : lines_(std::move(lines)), own_(std::move(own)), origin_(grid.origin), cellSize_(grid.cellSize)
+	{
+		low_ = Vec<2>::Constant(std::numeric_limits<double>::infinity()), high_ = -low_;
+		for (const auto& line : lines_)
+			for (const Vec<2>& place : line.places)
+				low_ = low_.cwiseMin(place), high_ = high_.cwiseMax(place);
+		low_.array() -= 4 * cellSize_, high_.array() += 4 * cellSize_;
+	}
+	int operator()(const Vec<2>& place) const
+	{
+		if ((place - low_).minCoeff() < 0 || (high_ - place).minCoeff() < 0) return 0;
+		for (const auto& line : lines_)
+			if (isNearOwn(place, line.layer) && isRightOf(line, place)) return line.layer;
+		return 0;
+	}
+
+private:
+	/// As far as domains reach: one cell and half of one.
+	bool isNearOwn(const Vec<2>& place, int layer) const
+	{
+		const Vec<2>   x   = (place - origin_) / cellSize_;
+		const Index<2> low = (x.array() - 1.5).ceil().cast<int>(), high = (x.array() + 1.5).floor().cast<int>();
+		for (int i = low[0]; i <= high[0]; ++i)
+			for (int j = low[1]; j <= high[1]; ++j)
+				if (find(own_, Grid<2>::key({ i, j }, 0, layer)) >= 0) return true;
+		return false;
+	}
+
+	std::vector<PartingLine> lines_;
+	std::vector<Key>         own_;
+	Vec<2>                   origin_, low_, high_;
+	double                   cellSize_;
+};
+
+bool areApart(const std::vector<Index<2>>& nodes, const std::vector<Index<2>>& others)
+{
+	constexpr int near = 3;
+	for (const auto& node : nodes)
+		for (const auto& other : others)
+			if ((node - other).cwiseAbs().maxCoeff() <= near) return false;
+	return true;
+}
+
+} // namespace
+
+void partSoil(const std::vector<Beam*>& beams, PointCloud<2>& cloud, Grid<2>& grid)
+{
+	std::vector<PartingLine> lines;
+	std::vector<Index<2>>    taken;
+	std::vector<Key>         own;
+	for (Beam* beam : beams) {
+		beam->layer = 0;
+		if (int(lines.size()) == Grid<2>::mostLayer || !isBetween(*beam, cloud, grid)) continue;
+		PartingLine line  = longer(*beam, cloud, grid);
+		const auto  nodes = nodesCut(line, grid);
+		if (nodes.empty() || !areApart(nodes, taken)) continue;
+		beam->layer = line.layer = int(lines.size()) + 1;
+		for (const Index<2>& node : nodes)
+			own.push_back(Grid<2>::key(node, 0, line.layer));
+		taken.insert(taken.end(), nodes.begin(), nodes.end());
+		lines.push_back(std::move(line));
+	}
+	grid.parting.reset();
+	cloud.layer.clear();
+	if (lines.empty()) return;
+	std::sort(own.begin(), own.end());
+	grid.parting = std::make_shared<Parting<2>>(own, LayerAt(std::move(lines), own, grid));
+	cloud.layer.resize(cloud.size());
+	for (std::size_t p = 0; p < cloud.size(); ++p)
+		cloud.layer[p] = grid.parting->layerAt(cloud.position[p]);
+}
+
+} // namespace gimpm

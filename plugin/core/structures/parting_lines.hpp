@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Beams that part the soil on their two sides.
+#pragma once
+#include "core/grid/point_cloud.hpp"
+#include "core/grid/parting.hpp"
+#include "core/structures/structure.hpp"
+
+namespace gimpm {
+
+/// Gives points to the right of beams, near these, layers of their own, the grid the nodes there that are there twice,
+/// and beams the layer of the soil to their right; 0 where there is soil on one side only, or another beam within three
+/// cells that parts it. An end that has soil beyond it is a tip, around which soil is whole: as of the line of the grid
+/// that is nearest to it.
+void partSoil(const std::vector<Beam*>&, PointCloud<2>&, Grid<2>&);
+
+} // namespace gimpm
