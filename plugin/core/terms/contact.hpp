@@ -32,6 +32,13 @@ struct ContactLoad {
 	Vec3      force = Vec3::Zero(), torque = Vec3::Zero(); ///< about the owner's position [N], [N m]
 	Stiffness stiffness = Stiffness::Zero();               ///< in 3D, an upper bound: of the penalties alone, for a translation and a rotation of the owner
 	double    area = 0, young = 0;                         ///< of the places that touch [m2], and that by Young's modulus of the soil there [N]
+
+	ContactLoad& operator+=(const ContactLoad& other)
+	{
+		force += other.force, torque += other.torque, stiffness += other.stiffness;
+		area += other.area, young += other.young;
+		return *this;
+	}
 };
 
 /// The rigid bodies beside the soil, and what is between them.
@@ -120,6 +127,8 @@ private:
 	template <class F> void             forTouching(const Eigen::VectorXd& d, F&& f) const; // f(place, approach, touch)
 	std::string                         entered(const Eigen::VectorXd& d) const;
 	double                              given(const Eigen::VectorXd& d) const;
+	void                                addLoads(const Place&, const Vec<Dim>& place, const Touch<Dim>&);
+	Mat<Dim>                            resistanceOf(const Place&, const Touch<Dim>&) const;
 	ContactLoad                         loadOn(const Vec<Dim>& owner, const Place&, const Vec<Dim>& place, const Touch<Dim>&) const;
 
 	ContactSystem<Dim>&    system_;

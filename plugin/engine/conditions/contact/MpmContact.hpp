@@ -85,7 +85,11 @@ public:
 	std::shared_ptr<Condition<2>> make(InPlane, const Group&, const Analysis&) const override;
 	std::shared_ptr<Condition<3>> make(InSpace, const Group&, const Analysis&) const override;
 
-	// Those that its mask means: neither material points nor clumps, but members of these.
+	// Those that its mask means: neither material points nor clumps, but members of these; and of nets what is between
+	// their nodes.
+	vector<shared_ptr<Body>> touchingBodies(const Scene&) const;
+
+	// And the nodes of these.
 	vector<shared_ptr<Body>> rigidBodies(const Scene&) const override;
 
 	// For the bodies that are free: the force of the last load step, less stiffness times the movement since, for

@@ -96,10 +96,14 @@ template <int Dim> void Contacts<Dim>::add(const shared_ptr<MpmContact>& contact
 	Places       known; // of its bodies in the last run
 	for (size_t i = 0; i < contact->bodies.size(); ++i)
 		known[contact->bodies[i]] = int(i);
-	for (const auto& body : contact->rigidBodies(scene)) {
+	for (const auto& body : contact->touchingBodies(scene)) {
 		if (!body->material)
 			throw std::invalid_argument(
 			        "Body #" + std::to_string(body->id) + " has no material; MpmContact needs one of bodies that touch the soil.");
+		if (!nodesOf(*body, scene).empty()) {
+			addDeforming(contact, known, body, scene, grid);
+			continue;
+		}
 		const bool isMember = body->isClumpMember() && scene.bodies->exists(body->clumpId);
 		addMember(*contact, body, ownerOf(contact, known, isMember ? *(*scene.bodies)[body->clumpId] : *body, scene), grid);
 	}
@@ -159,11 +163,6 @@ template <int Dim> void Contacts<Dim>::addMember(const MpmContact& contact, cons
 	requireTogether(contact, *body, owner, own);
 	auto rigid = rigidBody<Dim>(*body, first, grid);
 	if (!rigid) return;
-	rigid->owner         = number;
-	rigid->isNew         = owner.isNew;
-	rigid->friction      = frictionOf(contact, *body, coefficient);
-	rigid->adhesion      = contact.adhesion;
-	rigid->stiffness     = contact.stiffness;
 	rigid->turn          = std::max(angleBetween(owner.begin, owner.target), owner.byYade ? owner.body->state->angVel.norm() * (target - begin) : 0);
 	const Vector3r shift = owner.target.position - owner.begin.position;
 	if ((Dim == 2 && shift[2] != 0) || (grid.axisymmetric && (shift[0] != 0 || !owner.target.orientation.isApprox(owner.begin.orientation, 1e-12))))
@@ -172,8 +171,41 @@ template <int Dim> void Contacts<Dim>::addMember(const MpmContact& contact, cons
 		        + std::to_string(shift[2]) + ") m, or turns: "
 		        + (grid.axisymmetric ? "around the axis of symmetry only movement along it is admitted."
 		                             : "with dim=2 it can only move in the plane."));
-	members.push_back({ body, own, first });
-	system->bodies.push_back(*rigid);
+	add(contact, *rigid, { body, own, first }, number);
+}
+
+template <int Dim> void Contacts<Dim>::add(const MpmContact& contact, gimpm::RigidBody<Dim> rigid, const Member& member, int number)
+{
+	rigid.owner     = number;
+	rigid.isNew     = owners[number].isNew;
+	rigid.friction  = frictionOf(contact, *member.body, coefficient);
+	rigid.adhesion  = contact.adhesion;
+	rigid.stiffness = contact.stiffness;
+	members.push_back(member);
+	system->bodies.push_back(rigid);
+}
+
+// A body that deforms with its nodes, which are the owners.
+template <int Dim>
+void Contacts<Dim>::addDeforming(
+        const shared_ptr<MpmContact>& contact, const Places& known, const shared_ptr<Body>& body, const Scene& scene, const gimpm::Grid<Dim>& grid)
+{
+	Member member { body, {}, {} };
+	for (const auto& node : nodesOf(*body, scene))
+		member.nodes.push_back(ownerOf(contact, known, *node, scene));
+	auto deforming = deformingBody<Dim>(*body, grid, nodePoses(member));
+	for (size_t i = 0; i < member.nodes.size(); ++i)
+		deforming.nodeOwners[i] = member.nodes[i];
+	add(*contact, deforming, member, member.nodes[0]);
+}
+
+// At the begin and the end of the step.
+template <int Dim> vector<NodePose> Contacts<Dim>::nodePoses(const Member& member) const
+{
+	vector<NodePose> poses;
+	for (const int i : member.nodes)
+		poses.push_back({ owners[i].body.get(), between(owners[i].begin, owners[i].target, partAt(end)), owners[i].reached });
+	return poses;
 }
 
 // What a contact keeps, in numbers of this run.
@@ -238,9 +270,13 @@ template <int Dim> void Contacts<Dim>::advanceTo(Real time)
 	for (size_t i = 0; i < members.size(); ++i) {
 		auto&        rigid = system->bodies[i];
 		const Owner& owner = owners[rigid.owner];
-		const auto   at    = [&](const Se3r& pose) { return yade::poseOf<Dim>(*members[i].body, members[i].first, pose * members[i].own); };
-		rigid.begin        = at(between(owner.begin, owner.target, partAt(end)));
-		rigid.end          = at(owner.reached);
+		if (!members[i].nodes.empty()) {
+			deform(rigid, nodePoses(members[i]));
+			continue;
+		}
+		const auto at = [&](const Se3r& pose) { return yade::poseOf<Dim>(*members[i].body, members[i].first, pose * members[i].own); };
+		rigid.begin   = at(between(owner.begin, owner.target, partAt(end)));
+		rigid.end     = at(owner.reached);
 	}
 }
 
@@ -284,6 +320,7 @@ template <int Dim> void Contacts<Dim>::reach(const StepOutcome<Dim>& step)
 		owner.body->state->se3 = isLate ? between(owner.given, owner.target, partAt(time)) : owner.reached;
 	}
 	for (size_t i = 0; i < members.size(); ++i) {
+		if (!members[i].nodes.empty()) continue;
 		const Owner& owner                           = owners[system->bodies[i].owner];
 		owner.contact->ownPoses[members[i].body->id] = members[i].own;
 		if (!owner.byYade && owner.body != members[i].body) members[i].body->state->se3 = owner.body->state->se3 * members[i].own;
@@ -397,9 +434,18 @@ template <int Dim> void Contacts<Dim>::keepRecords() const
 			               inSpace<Dim>(r.normal),
 			               inSpace<Dim>(r.place) }
 		        .appendTo(to.records);
-		to.touching[owner.place] += r.touches;
-		to.slipping[owner.place] += r.slips;
+		to.touching[placeOf(r)] += r.touches;
+		to.slipping[placeOf(r)] += r.slips;
 	}
+}
+
+// In the contact's list of bodies, of who owns the body; of its nodes the one that is closest.
+template <int Dim> size_t Contacts<Dim>::placeOf(const gimpm::ContactRecord<Dim>& r) const
+{
+	int closest = system->bodies[r.body].owner;
+	for (const int node : members[r.body].nodes)
+		if ((system->owners[node] - r.place).squaredNorm() < (system->owners[closest] - r.place).squaredNorm()) closest = node;
+	return owners[closest].place;
 }
 
 template class Contacts<2>;

@@ -5,6 +5,7 @@
 #include "core/terms/contact.hpp"
 #include "engine/analysis/movers.hpp"
 #include "engine/conditions/contact/MpmContact.hpp"
+#include "engine/conditions/contact/deforming_bodies.hpp"
 #include "engine/conditions/contact/free_bodies.hpp"
 #include "engine/points/MaterialPoints.hpp"
 #include "yade_api/scene.hpp"
@@ -58,19 +59,24 @@ private:
 	struct Member {
 		shared_ptr<Body> body;
 		Se3r             own, first; // as seen from the owner; in space when the run begins
+		vector<int>      nodes {};   // owners that it deforms with, if it does
 	};
 
-	void advanceTo(Real time);
-	void addToMeans(Real part);
-	bool isBetween() const { return target - begin > 1.5 * dt; } // whether YADE makes iterations between load steps
-	void add(const shared_ptr<MpmContact>&, const Scene&, const gimpm::Grid<Dim>&);
-	int  ownerOf(const shared_ptr<MpmContact>&, const Places& known, const Body&, const Scene&);
-	void requireTogether(const MpmContact&, const Body&, const Owner&, const Se3r& own) const;
-	Real partAt(Real time) const { return target > begin ? std::min(1., (time - begin) / (target - begin)) : 1; }
-	void addMember(const MpmContact&, const shared_ptr<Body>&, int owner, const gimpm::Grid<Dim>&);
-	void recall(const MpmContact&);
-	void keep(MpmContact&);
-	void keepRecords() const;
+	void             advanceTo(Real time);
+	void             addToMeans(Real part);
+	bool             isBetween() const { return target - begin > 1.5 * dt; } // whether YADE makes iterations between load steps
+	void             add(const shared_ptr<MpmContact>&, const Scene&, const gimpm::Grid<Dim>&);
+	int              ownerOf(const shared_ptr<MpmContact>&, const Places& known, const Body&, const Scene&);
+	void             requireTogether(const MpmContact&, const Body&, const Owner&, const Se3r& own) const;
+	Real             partAt(Real time) const { return target > begin ? std::min(1., (time - begin) / (target - begin)) : 1; }
+	void             addMember(const MpmContact&, const shared_ptr<Body>&, int owner, const gimpm::Grid<Dim>&);
+	void             addDeforming(const shared_ptr<MpmContact>&, const Places& known, const shared_ptr<Body>&, const Scene&, const gimpm::Grid<Dim>&);
+	void             add(const MpmContact&, gimpm::RigidBody<Dim>, const Member&, int owner);
+	vector<NodePose> nodePoses(const Member&) const;
+	size_t           placeOf(const gimpm::ContactRecord<Dim>&) const;
+	void             recall(const MpmContact&);
+	void             keep(MpmContact&);
+	void             keepRecords() const;
 
 	// In the first run, about bodies that are far from the soil and do not come.
 	string warningOfDistance(const gimpm::PointCloud<Dim>&) const;
