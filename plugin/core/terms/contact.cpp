@@ -232,7 +232,7 @@ template <int Dim> void Contact<Dim>::addPlace(int number, int layer, const Surf
 	place.body = number, place.number = point.number | std::int64_t(layer) << placeBits;
 	place.away = place.gap = std::max(0., sight->gap);
 	place.soil             = onBody + place.away * normal;
-	place.normal           = body.end.rotation * point.normal;
+	place.normal           = (body.free < 0 ? body.end : body.begin).rotation * point.normal;
 	place.presence         = sight->presence;
 	const auto* record     = recordOf(place);
 	// Domains turn and stretch; but soil that presses goes no faster than it slides, a quarter of a cell from being
@@ -264,7 +264,7 @@ template <int Dim> void Contact<Dim>::addPlace(int number, int layer, const Surf
 template <int Dim> void Contact<Dim>::recall(Place& place, const ContactRecord<Dim>& record, double seen) const
 {
 	const auto& body = system_.bodies[place.body];
-	place.friction   = body.end.rotation * body.begin.rotation.transpose() * record.friction;
+	place.friction   = body.free < 0 ? Vec<Dim>(body.end.rotation * body.begin.rotation.transpose() * record.friction) : record.friction;
 	if (!record.touches || record.gap >= 0) return;
 	// A stiffer spring has the force that the softer one had: it has been given no energy.
 	place.gap           = std::max(record.gap, -record.pressure / place.law.normal);
@@ -277,19 +277,21 @@ template <int Dim> Approach<Dim> Contact<Dim>::approach(const Place& place, cons
 {
 	const auto&    body = system_.bodies[place.body];
 	const Vec<Dim> u    = place.attached.displacement(d);
-	Approach<Dim>  a { {}, u - place.carried, Mat<Dim>::Identity(), place.friction };
+	const Moved    now  = moved(place);
+	Approach<Dim>  a { {}, u - now.carried, Mat<Dim>::Identity(), now.friction };
 	if (body.shape.kind == RigidKind::ball && !std::isfinite(system_.energy)) {
 		a.at = body.proximity(body.end, place.soil + u, 1);
 		a.at.gap += place.gap - place.away;
 	} else {
-		a.at.gap    = place.gap + place.normal.dot(a.slip);
-		a.at.normal = place.normal;
+		a.at.gap    = place.gap + now.normal.dot(a.slip);
+		a.at.normal = now.normal;
 	}
 	return a;
 }
 
 template <int Dim> template <class F> void Contact<Dim>::forTouching(const Eigen::VectorXd& d, F&& f) const
 {
+	settle(d);
 	for (const Place& place : places_) {
 		const Approach<Dim> near = approach(place, d);
 		if (const auto touched = touch(place.law, near, tolerance_)) f(place, near, *touched);
@@ -322,6 +324,7 @@ template <int Dim> void Contact<Dim>::addBefore(Eigen::VectorXd& force) const
 template <int Dim> void Contact<Dim>::restrain(const typename Term<Dim>::Hold& hold) const
 {
 	const auto holds = [&](const Place& place) {
+		if (system_.bodies[place.body].free >= 0) return; // it yields
 		const bool     sticks = place.law.friction > 0 && place.law.cap > 0;
 		const Vec<Dim> inCell = place.attached.inCell();
 		hold(place.attached.node[0], place.normal, inCell);
@@ -337,6 +340,7 @@ template <int Dim> void Contact<Dim>::restrain(const typename Term<Dim>::Hold& h
 template <int Dim> void Contact<Dim>::restrainAt(const Eigen::VectorXd& d, const typename Term<Dim>::Hold& hold) const
 {
 	forTouching(d, [&](const Place& place, const Approach<Dim>&, const Touch<Dim>& touched) {
+		if (system_.bodies[place.body].free >= 0) return;
 		const bool     sticks = place.law.friction > 0 && place.law.cap > 0 && !touched.slips;
 		const Vec<Dim> inCell = place.attached.inCell();
 		hold(place.attached.node[0], place.normal, inCell);
@@ -348,6 +352,12 @@ template <int Dim> void Contact<Dim>::restrainAt(const Eigen::VectorXd& d, const
 /// The middle of a point that ends inside of a body, or on another side of it.
 template <int Dim> Refusal Contact<Dim>::refusal(const Eigen::VectorXd& d) const
 {
+	settle(d);
+	if (const std::string falls = unbalanced(); !falls.empty())
+		return {
+			Failure::refused, falls,
+			"What nothing holds has no equilibrium: let it touch the soil as it begins, hold it by blockedDOFs or friction, or take MpmDynamicEngine, where its inertia does."
+		};
 	const std::string found = division_.firstSaid(entered(d));
 	if (found.empty()) return {};
 	return { Failure::penetrated, found, "Smaller load steps (O.dt), or a larger stiffness of MpmContact, may help." };
@@ -438,6 +448,7 @@ template <int Dim> void Contact<Dim>::addLoads(const Place& at, const Vec<Dim>& 
 template <int Dim> void Contact<Dim>::commit(const Eigen::VectorXd& d)
 {
 	std::vector<ContactRecord<Dim>> records;
+	settle(d);
 	for (const Place& place : places_) {
 		const Approach<Dim> near  = approach(place, d);
 		const Vec<Dim>      along = near.slip - near.slip.dot(near.at.normal) * near.at.normal;

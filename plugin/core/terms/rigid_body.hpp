@@ -61,10 +61,11 @@ template <int Dim> struct RigidBody {
 	double          adhesion  = std::numeric_limits<double>::infinity(); ///< cap of the shear stress [Pa]
 	double          stiffness = 0;                                       ///< of the contact, over Young's modulus per cell [-]
 	Pose<Dim>       begin {}, end {};                                    ///< of the step
-	double          turn     = 0; ///< by which it turns from one load step to the next, also where its poses do not tell [rad]
-	int             soilSide = 0; ///< of a two-sided surface that has had soil in sight on one side alone: that side
-	double          slack    = 0; ///< how far behind the surface soil still counts as on that side [m]
-	int             nodes    = 0; ///< at the corners, of a body that deforms with these (core/terms/contact_nodes.hpp); 0: it is rigid
+	double          turn     = 0;  ///< by which it turns from one load step to the next, also where its poses do not tell [rad]
+	int             soilSide = 0;  ///< of a two-sided surface that has had soil in sight on one side alone: that side
+	double          slack    = 0;  ///< how far behind the surface soil still counts as on that side [m]
+	int             free     = -1; ///< among the free bodies of the system (core/terms/contact_free.hpp), if its owner moves freely
+	int             nodes    = 0;  ///< at the corners, of a body that deforms with these (core/terms/contact_nodes.hpp); 0: it is rigid
 	/// Who moves those, and by how much they turn the body about its axis in the step, of a capsule [rad].
 	std::array<int, 3>    nodeOwners { 0, 0, 0 };
 	std::array<double, 3> twists { 0, 0, 0 };

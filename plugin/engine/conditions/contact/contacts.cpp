@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "engine/conditions/contact/contacts.hpp"
 #include "core/base/sentence.hpp"
+#include "core/terms/contact_coupling.hpp"
 #include "core/terms/motion.hpp"
 #include "engine/analysis/analysis.hpp"
 #include "engine/conditions/contact/contact_records.hpp"
@@ -105,7 +106,7 @@ template <int Dim> void Contacts<Dim>::add(const shared_ptr<MpmContact>& contact
 			continue;
 		}
 		const bool isMember = body->isClumpMember() && scene.bodies->exists(body->clumpId);
-		addMember(*contact, body, ownerOf(contact, known, isMember ? *(*scene.bodies)[body->clumpId] : *body, scene), grid);
+		addMember(*contact, body, ownerOf(contact, known, isMember ? *(*scene.bodies)[body->clumpId] : *body, scene, grid), grid);
 	}
 	if (members.size() == count)
 		throw std::invalid_argument(
@@ -113,7 +114,8 @@ template <int Dim> void Contacts<Dim>::add(const shared_ptr<MpmContact>& contact
 		        + (Dim == 2 ? ", or none of them has a section at z = 0." : "."));
 }
 
-template <int Dim> int Contacts<Dim>::ownerOf(const shared_ptr<MpmContact>& contact, const Places& known, const Body& body, const Scene& scene)
+template <int Dim>
+int Contacts<Dim>::ownerOf(const shared_ptr<MpmContact>& contact, const Places& known, const Body& body, const Scene& scene, const gimpm::Grid<Dim>& grid)
 {
 	const auto [found, isFirst] = ownersById.try_emplace(body.id, int(owners.size()));
 	if (!isFirst) {
@@ -123,18 +125,20 @@ template <int Dim> int Contacts<Dim>::ownerOf(const shared_ptr<MpmContact>& cont
 	}
 	const Se3r now = poseOf(*body.state);
 	Owner      owner { contact, (*scene.bodies)[body.id], now, now, now, {}, {} };
-	owner.byYade = movers->move(body);
-	owner.isFree = owner.byYade && (body.state->blockedDOFs & State::DOF_ALL) != State::DOF_ALL;
+	owner.byYade      = movers->move(body);
+	const bool isHeld = (body.state->blockedDOFs & State::DOF_ALL) == State::DOF_ALL;
+	if (contact->implicit && !isHeld) free(owner, scene, grid);
+	owner.isFree = owner.free < 0 && owner.byYade && (body.state->blockedDOFs & State::DOF_ALL) != State::DOF_ALL;
 	if (owner.isFree && Dim == 2)
 		throw std::invalid_argument(
 		        "Body #" + std::to_string(body.id)
-		        + " is free to move, but on a grid with dim=2 a body is its section, without a mass: prescribe its motion (dynamic=False), or take dim=3.");
+		        + " is free to move, but on a grid with dim=2 a body is its section, which YADE has no mass of: let the engine move it (MpmContact.implicit=True), prescribe its motion (dynamic=False), or take dim=3.");
 	if (owner.isFree) requireExchange(body, scene);
 	const auto former = known.find(body.id);
 	owner.isNew       = former == known.end();
-	if (!owner.byYade) owner.target = moved(body, owner.given, target - begin);
+	if (owner.free < 0 && !owner.byYade) owner.target = moved(body, owner.given, target - begin);
 	if (owner.isFree && inTime) owner.target = ahead(*body.state, now, target - begin - dt);
-	owner.byScript = !owner.isNew && !owner.byYade && !areSame(contact->poseOf(former->second), *body.state);
+	owner.byScript = owner.free < 0 && !owner.isNew && !owner.byYade && !areSame(contact->poseOf(former->second), *body.state);
 	if (owner.byScript || (!owner.isNew && owner.byYade)) owner.begin = contact->poseOf(former->second);
 	if (owner.byScript) requireSmallTurn(body, owner.begin, owner.target);
 	owner.reached = owner.begin;
@@ -177,6 +181,7 @@ template <int Dim> void Contacts<Dim>::addMember(const MpmContact& contact, cons
 template <int Dim> void Contacts<Dim>::add(const MpmContact& contact, gimpm::RigidBody<Dim> rigid, const Member& member, int number)
 {
 	rigid.owner     = number;
+	rigid.free      = owners[number].free;
 	rigid.isNew     = owners[number].isNew;
 	rigid.friction  = frictionOf(contact, *member.body, coefficient);
 	rigid.adhesion  = contact.adhesion;
@@ -192,11 +197,57 @@ void Contacts<Dim>::addDeforming(
 {
 	Member member { body, {}, {} };
 	for (const auto& node : nodesOf(*body, scene))
-		member.nodes.push_back(ownerOf(contact, known, *node, scene));
+		member.nodes.push_back(ownerOf(contact, known, *node, scene, grid));
+	for (const int node : member.nodes)
+		if (owners[node].free >= 0)
+			throw std::invalid_argument(gimpm::sentence(
+			        "MpmContact.implicit: body #", owners[node].body->id, " is a node of body #", body->id, ", a ", body->shape->getClassName(),
+			        ", and free: nets are moved by YADE, which knows what holds them together. Give them an MpmContact of their own, with implicit=False."));
 	auto deforming = deformingBody<Dim>(*body, grid, nodePoses(member));
 	for (size_t i = 0; i < member.nodes.size(); ++i)
 		deforming.nodeOwners[i] = member.nodes[i];
 	add(*contact, deforming, member, member.nodes[0]);
+}
+
+// Makes it one that moves with the soil.
+template <int Dim> void Contacts<Dim>::free(Owner& owner, const Scene& scene, const gimpm::Grid<Dim>& grid)
+{
+	const Body& body = *owner.body;
+	FreeMotion  motion { owner.given, body.state->vel, body.state->angVel, massOf<Dim>(body, scene, grid), {}, {}, body.state->blockedDOFs, inTime };
+	requireSolvable(body, motion.mass, owner.byYade, inTime);
+	if (isExplicit)
+		throw std::invalid_argument(
+		        "MpmContact.implicit: explicit steps solve nothing, into which a body could go; let YADE move it in 3D, or take an implicit scheme.");
+	auto& forces = const_cast<ForceContainer&>(scene.forces);
+	forces.sync();
+	motion.force = forces.getForce(body.id), motion.torque = forces.getTorque(body.id);
+	owner.free   = int(system->free.size());
+	owner.motion = motion;
+	system->free.push_back(freeBody<Dim>(int(owners.size()), motion, target - begin, Vector3r::Zero(), grid.axisymmetric));
+}
+
+// Where they would be without the soil, to begin with.
+template <int Dim> void Contacts<Dim>::advanceFree(const StepTime& step, bool isRing)
+{
+	const Vector3r weight = ofGravity->valueAt(step.looked) * gravity;
+	for (size_t i = 0; i < owners.size(); ++i)
+		if (owners[i].free >= 0) system->free[owners[i].free] = freeBody<Dim>(int(i), owners[i].motion, step.to - step.from, weight, isRing);
+	for (size_t i = 0; i < members.size(); ++i) {
+		auto&        rigid = system->bodies[i];
+		const Owner& owner = owners[rigid.owner];
+		if (owner.free < 0) continue;
+		const auto at = [&](const Se3r& pose) { return yade::poseOf<Dim>(*members[i].body, members[i].first, pose * members[i].own); };
+		rigid.begin   = at(owner.motion.at);
+		rigid.end     = at(owner.motion.ahead(step.to - step.from, weight));
+		rigid.turn    = angleBetween(owner.motion.at, owner.motion.ahead(step.to - step.from, weight));
+	}
+}
+
+template <int Dim> void Contacts<Dim>::requireAlone(const gimpm::Model<Dim>& model) const
+{
+	if (model.processes->size() == 1 && model.division->isWhole()) return;
+	throw std::invalid_argument(
+	        "MpmContact.implicit: several processes do not know a free body that joins nodes of all of them; run in one, or let YADE move it (implicit=False).");
 }
 
 // At the begin and the end of the step.
@@ -225,6 +276,7 @@ template <int Dim> void Contacts<Dim>::recall(const MpmContact& contact)
 template <int Dim> void Contacts<Dim>::join(gimpm::Model<Dim>& model, const Surroundings<Dim>& around)
 {
 	begin = end = around.begin, target = around.target, dt = around.scene.dt;
+	ofGravity = around.analysis.curveOfGravity(), gravity = around.analysis.gravity, isExplicit = around.analysis.isExplicit();
 	cellSize = model.grid.cellSize;
 	inTime   = around.analysis.isDynamic();
 	for (const auto& material : model.materials)
@@ -239,6 +291,11 @@ template <int Dim> void Contacts<Dim>::join(gimpm::Model<Dim>& model, const Surr
 		return std::tie(a.body, a.number) < std::tie(b.body, b.number);
 	});
 	advanceTo(begin);
+	if (!system->free.empty()) {
+		requireAlone(model);
+		model.coupledTerms.push_back(
+		        [known = system](const gimpm::Beginning<Dim>&, const gimpm::State&) { return std::make_unique<gimpm::ContactCoupling<Dim>>(*known); });
+	}
 	if (!inTime && model.division->isWhole()) distance = warningOfDistance(around.cloud); // in time soil may come by itself
 	model.terms.push_back([known = system](const gimpm::Beginning<Dim>& step) { return std::make_unique<gimpm::Contact<Dim>>(*known, step); });
 	const auto shrink = [known = system](const gimpm::PointCloud<Dim>&, Real scale) {
@@ -254,9 +311,10 @@ template <int Dim> void Contacts<Dim>::joinMotion(gimpm::Motion<Dim>& motion, co
 	motion.contacts = system.get();
 }
 
-template <int Dim> void Contacts<Dim>::advance(const StepTime& step, gimpm::Model<Dim>&, gimpm::Load<Dim>& load)
+template <int Dim> void Contacts<Dim>::advance(const StepTime& step, gimpm::Model<Dim>& model, gimpm::Load<Dim>& load)
 {
 	advanceTo(step.to);
+	advanceFree(step, model.grid.axisymmetric);
 	system->energy = step.energy;
 	load.motion    = step.to - step.from;
 }
@@ -264,12 +322,14 @@ template <int Dim> void Contacts<Dim>::advance(const StepTime& step, gimpm::Mode
 template <int Dim> void Contacts<Dim>::advanceTo(Real time)
 {
 	for (size_t i = 0; i < owners.size(); ++i) {
+		if (owners[i].free >= 0) continue;
 		owners[i].reached = between(owners[i].begin, owners[i].target, partAt(time));
 		system->owners[i] = headOf<Dim>(owners[i].reached.position);
 	}
 	for (size_t i = 0; i < members.size(); ++i) {
 		auto&        rigid = system->bodies[i];
 		const Owner& owner = owners[rigid.owner];
+		if (owner.free >= 0) continue;
 		if (!members[i].nodes.empty()) {
 			deform(rigid, nodePoses(members[i]));
 			continue;
@@ -308,6 +368,11 @@ template <int Dim> void Contacts<Dim>::reach(const StepOutcome<Dim>& step)
 {
 	const Real time = step.time;
 	end             = time;
+	for (Owner& owner : owners) {
+		if (owner.free < 0) continue;
+		follow<Dim>(owner.motion, system->free[owner.free], time - step.from);
+		owner.reached = owner.motion.at;
+	}
 	addToMeans((time - step.from) / (target - begin));
 	for (const auto& contact : given)
 		keep(*contact);
@@ -316,7 +381,8 @@ template <int Dim> void Contacts<Dim>::reach(const StepOutcome<Dim>& step)
 	// Where a script has put it, it stays: the rest of that way is made by the next step.
 	for (const Owner& owner : owners) {
 		if (owner.byYade) continue;
-		const bool isLate      = owner.byScript && partAt(time) < 1;
+		const bool isLate = owner.byScript && partAt(time) < 1;
+		if (owner.free >= 0 && inTime) owner.body->state->vel = owner.motion.velocity, owner.body->state->angVel = owner.motion.spin;
 		owner.body->state->se3 = isLate ? between(owner.given, owner.target, partAt(time)) : owner.reached;
 	}
 	for (size_t i = 0; i < members.size(); ++i) {
