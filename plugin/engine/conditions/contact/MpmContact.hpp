@@ -100,6 +100,8 @@ public:
 	void actOnBodies(Scene&, bool isBetween) override;
 
 	bool        goesOn() const override { return true; }
+	string      needsEqualCells(const string& name) const override { return implicit ? name + ".implicit=True" : ""; }
+	string      needsOneBody(const string& name) const override { return implicit ? name + ".implicit=True" : ""; }
 	bool        countsSeconds(const Scene&) const override; // where a body moves
 	bool        mayHold(int, Real, Real) const override { return true; }
 	string      idleness(const string& name, bool reaches) const override;

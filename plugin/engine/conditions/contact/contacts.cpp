@@ -218,6 +218,13 @@ template <int Dim> void Contacts<Dim>::free(Owner& owner, const Scene& scene, co
 	if (isExplicit)
 		throw std::invalid_argument(
 		        "MpmContact.implicit: explicit steps solve nothing, into which a body could go; let YADE move it in 3D, or take an implicit scheme.");
+	const State& state = *body.state;
+	if (Dim == 2
+	    && (state.vel[2] != 0 || state.angVel[0] != 0 || state.angVel[1] != 0 || (grid.axisymmetric && (state.vel[0] != 0 || state.angVel[2] != 0))))
+		throw std::invalid_argument(gimpm::sentence(
+		        "MpmContact.implicit: body #", body.id, " has the velocity (", state.vel.transpose(), ") and turns by (", state.angVel.transpose(),
+		        "): ",
+		        grid.axisymmetric ? "around the axis of symmetry only movement along it is admitted." : "with dim=2 it can only move in the plane."));
 	auto& forces = const_cast<ForceContainer&>(scene.forces);
 	forces.sync();
 	motion.force = forces.getForce(body.id), motion.torque = forces.getTorque(body.id);
@@ -307,7 +314,9 @@ template <int Dim> void Contacts<Dim>::join(gimpm::Model<Dim>& model, const Surr
 
 template <int Dim> void Contacts<Dim>::joinMotion(gimpm::Motion<Dim>& motion, const gimpm::Model<Dim>&, Real)
 {
-	system->weight  = motion.scheme.weightOfContact();
+	system->weight = motion.scheme.weightOfContact();
+	for (Owner& owner : owners)
+		owner.motion.part = motion.scheme.atMiddle ? 0.5 : motion.scheme.isAlpha() ? 1 - motion.scheme.alphaF : motion.scheme.gamma;
 	motion.contacts = system.get();
 }
 

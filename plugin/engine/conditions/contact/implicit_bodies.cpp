@@ -110,7 +110,7 @@ void requireSolvable(const Body& body, const MassOfBody& of, bool isMoved, bool 
 Se3r FreeMotion::ahead(Real time, const Vector3r& gravity) const
 {
 	Vector3r shift = time * velocity, turn = time * spin;
-	if (inTime && mass.mass > 0) shift += time * time / 2 * (gravity + force / mass.mass);
+	if (inTime && mass.mass > 0) shift += time * time * part * (gravity + force / mass.mass);
 	for (int i = 0; i < 3; ++i) {
 		if (given >> i & 1 || !inTime) shift[i] = given >> i & 1 ? time * velocity[i] : 0;
 		if (given >> (3 + i) & 1 || !inTime) turn[i] = given >> (3 + i) & 1 ? time * spin[i] : 0;
@@ -132,12 +132,12 @@ template <int Dim> gimpm::FreeBody<Dim> freeBody(int owner, const FreeMotion& bo
 	// The inertia of the middle of the step, where it would be without the soil.
 	const Matrix3r before = alongAxes(body.at, body.mass.inertia);
 	const Matrix3r within = alongAxes({ body.at.position, turned(duration / 2 * body.spin) * body.at.orientation }, body.mass.inertia);
-	free.push += 2 / duration * unknownsOf<Dim>(body.mass.mass * body.velocity, before * body.spin);
+	free.push += 1 / (body.part * duration) * unknownsOf<Dim>(body.mass.mass * body.velocity, before * body.spin);
 	for (int i = 0; i < Free::unknowns; ++i)
 		for (int j = 0; j < Free::unknowns; ++j) {
 			const int a = Unknowns<Dim>::dofs[i], b = Unknowns<Dim>::dofs[j];
-			if (a < 3 && a == b) free.inertia(i, j) = 2 * body.mass.mass / (duration * duration);
-			if (a >= 3 && b >= 3) free.inertia(i, j) = 2 * within(a - 3, b - 3) / (duration * duration);
+			if (a < 3 && a == b) free.inertia(i, j) = body.mass.mass / (body.part * duration * duration);
+			if (a >= 3 && b >= 3) free.inertia(i, j) = within(a - 3, b - 3) / (body.part * duration * duration);
 		}
 	return free;
 }
@@ -151,10 +151,10 @@ template <int Dim> void follow(FreeMotion& body, const gimpm::FreeBody<Dim>& fre
 	body.at           = { before.position + shift, (turned(turn) * before.orientation).normalized() };
 	if (!body.inTime) return;
 	const Matrix3r within   = alongAxes({ before.position, turned(duration / 2 * body.spin) * before.orientation }, body.mass.inertia);
-	const Vector3r momentum = 2 / duration * (within * turn) - alongAxes(before, body.mass.inertia) * body.spin;
+	const Vector3r momentum = (within * turn / duration - (1 - body.part) * (alongAxes(before, body.mass.inertia) * body.spin)) / body.part;
 	const Matrix3r now      = alongAxes(body.at, body.mass.inertia);
 	for (int i = 0; i < 3; ++i)
-		if (!(body.given >> i & 1)) body.velocity[i] = 2 / duration * shift[i] - body.velocity[i];
+		if (!(body.given >> i & 1)) body.velocity[i] = (shift[i] / duration - (1 - body.part) * body.velocity[i]) / body.part;
 	const Vector3r spin = Dim == 2 ? Vector3r(0, 0, now(2, 2) > 0 ? momentum[2] / now(2, 2) : 0) : Vector3r(now.inverse() * momentum);
 	for (int i = 0; i < 3; ++i)
 		if (!(body.given >> (3 + i) & 1)) body.spin[i] = spin[i];

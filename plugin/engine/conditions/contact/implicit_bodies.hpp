@@ -25,6 +25,8 @@ struct FreeMotion {
 	Vector3r   force, torque;  // of others than the soil, and of weight [N], [N m]
 	unsigned   given  = 0;     // bits of State.blockedDOFs: along these it goes by its velocity
 	bool       inTime = false; // in seconds, with its inertia
+	// In a step q = T ((1 - part) v_0 + part v_1): half, or more where the scheme takes out high frequencies.
+	Real part = 0.5;
 
 	// Where it would be after a time without the soil.
 	Se3r ahead(Real time, const Vector3r& gravity) const;
