@@ -8,7 +8,7 @@ namespace gimpm {
 namespace {
 
 constexpr double balanced = 1e-12; ///< what may be left of forces, over their sizes
-constexpr int    most     = 60;    ///< iterations
+constexpr int    most     = 200;   ///< iterations
 
 template <int Dim> struct Balance {
 	using Free = FreeBody<Dim>;
@@ -91,32 +91,101 @@ template <int Dim> typename FreeBody<Dim>::Matrix compliance(const FreeBody<Dim>
 	return scale.asDiagonal() * inverse.pseudoInverse() * scale.asDiagonal();
 }
 
+namespace {
+
+/// How a free body is brought into balance, step by step.
+template <int Dim> class Search {
+public:
+	using Vector = typename FreeBody<Dim>::Vector;
+	using Look   = std::function<std::vector<PlaceOfFree<Dim>>(const Vector&)>;
+
+	Search(FreeBody<Dim>& body, double size, const Look& look) : body_(body), size_(size), look_(look), at_(seenAt(body.motion)) { }
+
+	bool   isDone() const { return at_.balance.left(size_) <= balanced * at_.balance.whole(size_); }
+	double imbalance() const { return at_.balance.whole(size_) > 0 ? at_.balance.left(size_) / at_.balance.whole(size_) : 0; }
+
+	/// False: there is nowhere to go.
+	bool next()
+	{
+		if (!at_.balance.touches && body_.inertia.isZero(0)) return falls();
+		if (!newton()) creep();
+		return true;
+	}
+
+private:
+	struct Seen {
+		Vector                        motion;
+		std::vector<PlaceOfFree<Dim>> places;
+		Balance<Dim>                  balance;
+	};
+	Seen seenAt(const Vector& motion) const
+	{
+		auto         places = look_(motion);
+		Balance<Dim> balance(body_, motion, places);
+		return { motion, std::move(places), balance };
+	}
+	bool falls()
+	{
+		const double way = wayToSoil(body_, at_.places);
+		if (!(way > 0)) return false;
+		Vector step               = Vector::Zero();
+		step.template head<Dim>() = (way + 1e-6 * size_) * body_.push.template head<Dim>().normalized();
+		for (int a = 0; a < Dim; ++a)
+			if (body_.isGiven[a]) step[a] = 0;
+		at_ = seenAt(at_.motion + step);
+		return true;
+	}
+	/// Newton's step, or a part of it, where that lessens what is out of balance.
+	bool newton()
+	{
+		const Vector step = -(compliance(body_, size_, at_.places) * at_.balance.residual);
+		double       part = 1;
+		for (int halving = 0; halving < 8; ++halving, part /= 2) {
+			Seen there = seenAt(at_.motion + part * step);
+			if (!(there.balance.left(size_) < (1 - 0.1 * part) * at_.balance.left(size_))) continue;
+			at_ = std::move(there), drag_ = std::max(drag_ / 4, 1e-4);
+			return true;
+		}
+		return false;
+	}
+	/// As in a thick liquid: a body that tips over has to get to the next place that holds it.
+	void creep()
+	{
+		Vector resists = body_.inertia.diagonal();
+		for (const auto& place : at_.places) {
+			resists.template head<Dim>().array() += place.slope.norm();
+			resists.template tail<Turn<Dim>::RowsAtCompileTime>().array() += place.slope.norm() * size_ * size_;
+		}
+		auto thick = body_;
+		thick.inertia += drag_ * Vector(resists).asDiagonal();
+		Vector       step = -(compliance(thick, size_, at_.places) * at_.balance.residual);
+		const double way  = step.template head<Dim>().norm() + size_ * step.template tail<Turn<Dim>::RowsAtCompileTime>().norm();
+		const double most = 0.02 * size_;
+		if (way > most) step *= most / way;
+		Seen       there    = seenAt(at_.motion + step);
+		const bool isBetter = there.balance.left(size_) < at_.balance.left(size_);
+		drag_               = std::clamp(isBetter ? drag_ / 2 : 2 * drag_, 1e-4, 1.);
+		at_                 = std::move(there);
+	}
+
+	FreeBody<Dim>& body_;
+	double         size_, drag_ = 0.01;
+	const Look&    look_;
+	Seen           at_;
+
+public:
+	const Vector& motion() const { return at_.motion; }
+};
+
+} // namespace
+
 template <int Dim>
 bool settle(FreeBody<Dim>& body, double size, const std::function<std::vector<PlaceOfFree<Dim>>(const typename FreeBody<Dim>::Vector&)>& look)
 {
-	auto         places = look(body.motion);
-	Balance<Dim> now(body, body.motion, places);
-	for (int iteration = 0; iteration < most && now.left(size) > balanced * now.whole(size); ++iteration) {
-		typename FreeBody<Dim>::Vector step = -(compliance(body, size, places) * now.residual);
-		if (!now.touches && body.inertia.isZero(0)) {
-			const double way = wayToSoil(body, places);
-			if (way <= 0) break;
-			step.setZero();
-			step.template head<Dim>() = (way + 1e-6 * size) * body.push.template head<Dim>().normalized();
-			for (int a = 0; a < Dim; ++a)
-				if (body.isGiven[a]) step[a] = 0;
-		}
-		double part = 1;
-		for (int halving = 0; halving < 20; ++halving, part /= 2) {
-			auto         there = look(body.motion + part * step);
-			Balance<Dim> then(body, body.motion + part * step, there);
-			const bool   falls = !now.touches && body.inertia.isZero(0);
-			if (!falls && !(then.left(size) < now.left(size)) && halving < 19) continue;
-			body.motion += part * step, places = std::move(there), now = then;
-			break;
-		}
-	}
-	body.imbalance = now.whole(size) > 0 ? now.left(size) / now.whole(size) : 0;
+	Search<Dim> search(body, size, look);
+	for (int iteration = 0; iteration < most && !search.isDone() && search.next(); ++iteration) { }
+	body.motion    = search.motion();
+	body.imbalance = search.imbalance();
 	body.isAtRest  = body.imbalance <= 1e3 * balanced;
 	look(body.motion);
 	return body.isAtRest;

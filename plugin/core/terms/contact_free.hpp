@@ -16,7 +16,8 @@ template <int Dim> using Turn = Eigen::Matrix<double, Dim == 2 ? 1 : 3, 1>;
 
 /// Who owns bodies and moves freely in a step. Its unknowns are a displacement and a turn q about its position, for
 /// which  J q + (forces and moments on the soil) - push = 0.  With a force F that is constant in the step
-/// and q = T ((1 - a) v_0 + a v_1), v_1 = v_0 + T F / m: so J = M / (a T^2), push = weight and loads + M v_0 / (a T), and
+/// and q = T ((1 - a) v_0 + a v_1), v_1 = v_0 + T F / m: so J = M / (a T^2), push = weight and loads + M v_0 / (a T),
+/// and
 /// what the soil gets as its momentum the body loses. Of the highest frequencies (1 - a) / a are left in each step. In
 /// statics J = 0.
 template <int Dim> struct FreeBody {

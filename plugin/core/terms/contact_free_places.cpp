@@ -99,7 +99,8 @@ template <int Dim> void Contact<Dim>::markFree(Couplings& K) const
 	}
 }
 
-/// A product of three small matrices for any two nodes: those of the motion by the soil at one, and of the forces at the
+/// A product of three small matrices for any two nodes: those of the motion by the soil at one, and of the forces at
+/// the
 /// other by the motion, with the compliance of the body between them.
 template <int Dim> void Contact<Dim>::addFree(const Eigen::VectorXd& d, Couplings& K) const
 {

@@ -88,7 +88,8 @@ public:
 	std::shared_ptr<Condition<2>> make(InPlane, const Group&, const Analysis&) const override;
 	std::shared_ptr<Condition<3>> make(InSpace, const Group&, const Analysis&) const override;
 
-	// Those that its mask means: neither material points nor clumps, but members of these; and of nets what is between
+	// Those that its mask means: neither material points nor clumps, but members of these; and of nets what is
+	// between
 	// their nodes.
 	vector<shared_ptr<Body>> touchingBodies(const Scene&) const;
 

@@ -209,54 +209,6 @@ void Contacts<Dim>::addDeforming(
 	add(*contact, deforming, member, member.nodes[0]);
 }
 
-// Makes it one that moves with the soil.
-template <int Dim> void Contacts<Dim>::free(Owner& owner, const Scene& scene, const gimpm::Grid<Dim>& grid)
-{
-	const Body& body = *owner.body;
-	FreeMotion  motion { owner.given, body.state->vel, body.state->angVel, massOf<Dim>(body, scene, grid), {}, {}, body.state->blockedDOFs, inTime };
-	requireSolvable(body, motion.mass, owner.byYade, inTime);
-	if (isExplicit)
-		throw std::invalid_argument(
-		        "MpmContact.implicit: explicit steps solve nothing, into which a body could go; let YADE move it in 3D, or take an implicit scheme.");
-	const State& state = *body.state;
-	if (Dim == 2
-	    && (state.vel[2] != 0 || state.angVel[0] != 0 || state.angVel[1] != 0 || (grid.axisymmetric && (state.vel[0] != 0 || state.angVel[2] != 0))))
-		throw std::invalid_argument(gimpm::sentence(
-		        "MpmContact.implicit: body #", body.id, " has the velocity (", state.vel.transpose(), ") and turns by (", state.angVel.transpose(),
-		        "): ",
-		        grid.axisymmetric ? "around the axis of symmetry only movement along it is admitted." : "with dim=2 it can only move in the plane."));
-	auto& forces = const_cast<ForceContainer&>(scene.forces);
-	forces.sync();
-	motion.force = forces.getForce(body.id), motion.torque = forces.getTorque(body.id);
-	owner.free   = int(system->free.size());
-	owner.motion = motion;
-	system->free.push_back(freeBody<Dim>(int(owners.size()), motion, target - begin, Vector3r::Zero(), grid.axisymmetric));
-}
-
-// Where they would be without the soil, to begin with.
-template <int Dim> void Contacts<Dim>::advanceFree(const StepTime& step, bool isRing)
-{
-	const Vector3r weight = ofGravity->valueAt(step.looked) * gravity;
-	for (size_t i = 0; i < owners.size(); ++i)
-		if (owners[i].free >= 0) system->free[owners[i].free] = freeBody<Dim>(int(i), owners[i].motion, step.to - step.from, weight, isRing);
-	for (size_t i = 0; i < members.size(); ++i) {
-		auto&        rigid = system->bodies[i];
-		const Owner& owner = owners[rigid.owner];
-		if (owner.free < 0) continue;
-		const auto at = [&](const Se3r& pose) { return yade::poseOf<Dim>(*members[i].body, members[i].first, pose * members[i].own); };
-		rigid.begin   = at(owner.motion.at);
-		rigid.end     = at(owner.motion.ahead(step.to - step.from, weight));
-		rigid.turn    = angleBetween(owner.motion.at, owner.motion.ahead(step.to - step.from, weight));
-	}
-}
-
-template <int Dim> void Contacts<Dim>::requireAlone(const gimpm::Model<Dim>& model) const
-{
-	if (model.processes->size() == 1 && model.division->isWhole()) return;
-	throw std::invalid_argument(
-	        "MpmContact.implicit: several processes do not know a free body that joins nodes of all of them; run in one, or let YADE move it (implicit=False).");
-}
-
 // At the begin and the end of the step.
 template <int Dim> vector<NodePose> Contacts<Dim>::nodePoses(const Member& member) const
 {

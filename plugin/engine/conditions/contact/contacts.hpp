@@ -55,7 +55,8 @@ private:
 		// Has been moved since the last run, or its way was not finished then.
 		bool   byScript = false;
 		size_t place    = 0; // in the contact's list of bodies, once that is written
-		// Where it is moved with the soil: its number among the free bodies of the system, and how it moves as the
+		// Where it is moved with the soil: its number among the free bodies of the system, and how it moves as
+		// the
 		// step begins.
 		int        free = -1;
 		FreeMotion motion {};

@@ -19,7 +19,8 @@ namespace {
 		return dynamic_cast<const ChainedCylinder*>(body.shape.get()) ? dynamic_cast<const ChainedState*>(body.state.get()) : nullptr;
 	}
 
-	// That which comes next in its chain. The chains that YADE remembers besides are not right in a scene that was loaded.
+	// That which comes next in its chain. The chains that YADE remembers besides are not right in a scene that was
+	// loaded.
 	shared_ptr<Body> nextInChain(const Body& body, const ChainedState& state, const Scene& scene)
 	{
 		const size_t count = scene.bodies->size();

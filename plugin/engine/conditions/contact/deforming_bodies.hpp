@@ -13,7 +13,8 @@ struct NodePose {
 	Se3r        begin, end;
 };
 
-// Its nodes; none if it is rigid. std::invalid_argument where one is missing. The last cylinder of a chain, which ends at
+// Its nodes; none if it is rigid. std::invalid_argument where one is missing. The last cylinder of a chain, which ends
+// at
 // no other, has none.
 vector<shared_ptr<Body>> nodesOf(const Body&, const Scene&);
 
@@ -26,7 +27,8 @@ bool isNodeOfNet(const Body&);
 // Takes those out of a list that are the sides of PFacets in it.
 void dropSidesOfMembranes(vector<shared_ptr<Body>>&);
 
-// As the core understands it; std::invalid_argument where it cannot touch. Its friction, and who its nodes are, are left
+// As the core understands it; std::invalid_argument where it cannot touch. Its friction, and who its nodes are, are
+// left
 // open.
 template <int Dim> gimpm::RigidBody<Dim> deformingBody(const Body&, const gimpm::Grid<Dim>&, const vector<NodePose>&);
 

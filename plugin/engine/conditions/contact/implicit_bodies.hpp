@@ -13,7 +13,8 @@ struct MassOfBody {
 	Vector3r inertia = Vector3r::Zero(); // about its position along its own axes; in the plane the last counts [kg m2]
 };
 
-// From State.mass, which is that of bodies in space: a section has the mean density that they have. std::invalid_argument
+// From State.mass, which is that of bodies in space: a section has the mean density that they have.
+// std::invalid_argument
 // where that is not known.
 template <int Dim> MassOfBody massOf(const Body&, const Scene&, const gimpm::Grid<Dim>&);
 
