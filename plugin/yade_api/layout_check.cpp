@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "yade_api/layout_check.hpp"
+#include "yade_api/grids.hpp"
 #include "yade_api/scene.hpp"
 
 namespace yade {
@@ -26,6 +27,31 @@ static void checkMembersOfBody(LayoutCheck& check)
 	check.require(*box, "extents", box->extents, Vector3r(2, 4, 8));
 	const auto facet = check.make<Facet>();
 	check.require(*facet, "vertices", facet->vertices, vector<Vector3r> { { 0, 0, 0 }, { 3, 0, 0 }, { 0, 4, 0 } });
+}
+
+static void checkMembersOfGrids(LayoutCheck& check)
+{
+	const auto node = check.make<Body>();
+	const auto grid = check.make<GridConnection>();
+	check.make<GridNode>();
+	check.require(*grid, "node1", grid->node1, node);
+	check.require(*grid, "node2", grid->node2, check.make<Body>());
+	check.require(*grid, "periodic", grid->periodic, true);
+	check.require(*grid, "cellDist", grid->cellDist, Vector3i(1, 2, 3));
+
+	const auto facet = check.make<PFacet>();
+	check.require(*facet, "node1", facet->node1, node);
+	check.require(*facet, "node3", facet->node3, check.make<Body>());
+	check.require(*facet, "conn1", facet->conn1, node);
+	check.require(*facet, "conn3", facet->conn3, check.make<Body>());
+	check.require(*facet, "radius", facet->radius, 0.0625);
+	check.require(*facet, "cellDist", facet->cellDist, Vector3i(3, 2, 1));
+
+	const auto cylinder = check.make<ChainedCylinder>();
+	check.require(*static_cast<Cylinder*>(cylinder.get()), "length", cylinder->length, 0.75);
+	const auto state = check.make<ChainedState>();
+	check.require(*state, "rank", state->rank, 7u);
+	check.require(*state, "chainNumber", state->chainNumber, 9u);
 }
 
 static void checkForces(LayoutCheck& check, ForceContainer& forces)
@@ -77,6 +103,7 @@ vector<string> findLayoutErrors()
 	LayoutCheck check([](const string& className) { return Singleton<ClassFactory>::instance().createShared(className); });
 	check.checkSizesAndScalars();
 	checkMembersOfBody(check);
+	checkMembersOfGrids(check);
 	checkMembersOfScene(check);
 	checkThreadRunner(check);
 	return check.errors();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "core/terms/contact.hpp"
 #include "core/terms/attached.hpp"
+#include "core/terms/contact_nodes.hpp"
 #include <algorithm>
 #include <cmath>
 #include <sstream>
@@ -111,6 +112,7 @@ template <int Dim> void Contact<Dim>::look(int number)
 {
 	const auto& body         = system_.bodies[number];
 	const auto [first, last] = nearTo(number);
+	const bool isThin        = body.nodes > 0 && body.thickness() < grid_.cellSize / 2;
 	const bool isPlain       = body.shape.kind == RigidKind::ball && (body.friction == 0 || body.adhesion == 0);
 	if (first != last && body.turn > 1 && !isPlain) {
 		std::ostringstream text;
@@ -119,7 +121,7 @@ template <int Dim> void Contact<Dim>::look(int number)
 		obstacle_ = text.str();
 	}
 	for (auto near = first; body.isNew && near != last; ++near) // Of a two-sided surface it never is.
-		if (body.proximity(body.begin, near->centre(), near->side).gap < 0)
+		if (body.proximity(body.begin, near->centre(), near->side).gap < 0 && !isThin)
 			obstacle_ = textAt(body, " has the middle of a material point inside of it", near->centre())
 			        + ": let it begin beside the soil, or leave its place out of the region that is filled, as pack.inAlignedBox(...) - pack.inSphere(...)";
 }
@@ -189,7 +191,7 @@ template <int Dim> std::vector<std::pair<int, double>> Contact<Dim>::screensBefo
 	for (const int b : around) {
 		const auto& sheet = system_.bodies[b];
 		if (sheet.shape.kind != RigidKind::sheet) continue;
-		const double away = sheet.proximity(sheet.begin, place, 1).gap;
+		const double away = sheet.proximity(sheet.begin, place, 1).gap + sheet.halfThickness();
 		if (std::abs(away) > tolerance_) found.emplace_back(b, away);
 	}
 	return found;
@@ -204,7 +206,7 @@ template <int Dim> bool Contact<Dim>::isBehind(const std::vector<std::pair<int, 
 		const auto&  sheet = system_.bodies[screen.first];
 		const double here  = screen.second;
 		if (here * sheet.sideOf(sheet.begin, soil) > 0) return false;
-		const double   there    = sheet.proximity(sheet.begin, soil, 1).gap;
+		const double   there    = sheet.proximity(sheet.begin, soil, 1).gap + sheet.halfThickness();
 		const Vec<Dim> crossing = here * there < 0 ? Vec<Dim>(place + here / (here - there) * (soil - place)) : soil;
 		return sheet.proximity(sheet.begin, crossing, 1).beside < 0;
 	});
@@ -230,7 +232,7 @@ template <int Dim> void Contact<Dim>::addPlace(int number, int layer, const Surf
 	place.body = number, place.number = point.number | std::int64_t(layer) << placeBits;
 	place.away = place.gap = std::max(0., sight->gap);
 	place.soil             = onBody + place.away * normal;
-	place.normal           = body.end.rotation * point.normal;
+	place.normal           = (body.free < 0 ? body.end : body.begin).rotation * point.normal;
 	place.presence         = sight->presence;
 	const auto* record     = recordOf(place);
 	// Domains turn and stretch; but soil that presses goes no faster than it slides, a quarter of a cell from being
@@ -248,7 +250,7 @@ template <int Dim> void Contact<Dim>::addPlace(int number, int layer, const Surf
 	if (!attached) return;                                       // behind a wall
 	place.attached       = *attached;
 	place.away           = body.proximity(body.begin, place.soil, 1).gap; // found as at the end: no gap by round-off
-	place.carried        = body.end.inSpace(body.begin.inBody(place.soil)) - place.soil;
+	place.carried        = body.carried(place.soil);
 	place.area           = place.presence * point.area * (isRing_ ? 2 * M_PI * onBody[0] : 1);
 	place.young          = sight->young;
 	const double penalty = body.stiffness * place.young * place.area / grid_.cellSize;
@@ -262,7 +264,7 @@ template <int Dim> void Contact<Dim>::addPlace(int number, int layer, const Surf
 template <int Dim> void Contact<Dim>::recall(Place& place, const ContactRecord<Dim>& record, double seen) const
 {
 	const auto& body = system_.bodies[place.body];
-	place.friction   = body.end.rotation * body.begin.rotation.transpose() * record.friction;
+	place.friction   = body.free < 0 ? Vec<Dim>(body.end.rotation * body.begin.rotation.transpose() * record.friction) : record.friction;
 	if (!record.touches || record.gap >= 0) return;
 	// A stiffer spring has the force that the softer one had: it has been given no energy.
 	place.gap           = std::max(record.gap, -record.pressure / place.law.normal);
@@ -275,19 +277,21 @@ template <int Dim> Approach<Dim> Contact<Dim>::approach(const Place& place, cons
 {
 	const auto&    body = system_.bodies[place.body];
 	const Vec<Dim> u    = place.attached.displacement(d);
-	Approach<Dim>  a { {}, u - place.carried, Mat<Dim>::Identity(), place.friction };
+	const Moved    now  = moved(place);
+	Approach<Dim>  a { {}, u - now.carried, Mat<Dim>::Identity(), now.friction };
 	if (body.shape.kind == RigidKind::ball && !std::isfinite(system_.energy)) {
 		a.at = body.proximity(body.end, place.soil + u, 1);
 		a.at.gap += place.gap - place.away;
 	} else {
-		a.at.gap    = place.gap + place.normal.dot(a.slip);
-		a.at.normal = place.normal;
+		a.at.gap    = place.gap + now.normal.dot(a.slip);
+		a.at.normal = now.normal;
 	}
 	return a;
 }
 
 template <int Dim> template <class F> void Contact<Dim>::forTouching(const Eigen::VectorXd& d, F&& f) const
 {
+	settle(d);
 	for (const Place& place : places_) {
 		const Approach<Dim> near = approach(place, d);
 		if (const auto touched = touch(place.law, near, tolerance_)) f(place, near, *touched);
@@ -320,6 +324,7 @@ template <int Dim> void Contact<Dim>::addBefore(Eigen::VectorXd& force) const
 template <int Dim> void Contact<Dim>::restrain(const typename Term<Dim>::Hold& hold) const
 {
 	const auto holds = [&](const Place& place) {
+		if (system_.bodies[place.body].free >= 0) return; // it yields
 		const bool     sticks = place.law.friction > 0 && place.law.cap > 0;
 		const Vec<Dim> inCell = place.attached.inCell();
 		hold(place.attached.node[0], place.normal, inCell);
@@ -335,6 +340,7 @@ template <int Dim> void Contact<Dim>::restrain(const typename Term<Dim>::Hold& h
 template <int Dim> void Contact<Dim>::restrainAt(const Eigen::VectorXd& d, const typename Term<Dim>::Hold& hold) const
 {
 	forTouching(d, [&](const Place& place, const Approach<Dim>&, const Touch<Dim>& touched) {
+		if (system_.bodies[place.body].free >= 0) return;
 		const bool     sticks = place.law.friction > 0 && place.law.cap > 0 && !touched.slips;
 		const Vec<Dim> inCell = place.attached.inCell();
 		hold(place.attached.node[0], place.normal, inCell);
@@ -346,6 +352,12 @@ template <int Dim> void Contact<Dim>::restrainAt(const Eigen::VectorXd& d, const
 /// The middle of a point that ends inside of a body, or on another side of it.
 template <int Dim> Refusal Contact<Dim>::refusal(const Eigen::VectorXd& d) const
 {
+	settle(d);
+	if (const std::string falls = unbalanced(); !falls.empty())
+		return {
+			Failure::refused, falls,
+			"What nothing holds has no equilibrium: let it touch the soil as it begins, hold it by blockedDOFs or friction, or take MpmDynamicEngine, where its inertia does."
+		};
 	const std::string found = division_.firstSaid(entered(d));
 	if (found.empty()) return {};
 	return { Failure::penetrated, found, "Smaller load steps (O.dt), or a larger stiffness of MpmContact, may help." };
@@ -367,10 +379,11 @@ template <int Dim> std::string Contact<Dim>::entered(const Eigen::VectorXd& d) c
 		const Proximity<Dim> before = body.proximity(body.begin, centre, near.side), after = body.proximity(body.end, x, near.side);
 		const double         deeper = before.gap - after.gap, behind = near.side == body.soilSide ? body.slack : 0;
 		// Soil may get to a sheet from where it has not been looked for, and would be on both sides of it then.
-		const double side      = after.gap - after.normal.cwiseAbs().dot(cloud_.halfSize[near.point]);
-		const bool   isUnseen  = side < -depth && deeper > searchReach(body, grid_) && before.gap >= 0;
-		const bool   isThrough = body.shape.isTwoSided ? (after.gap < -behind || isUnseen) && after.beside < 0 : body.isCrossed(centre, x);
-		const bool   isInside  = !body.shape.isTwoSided && -depth > after.gap && deeper > (-5 * depth > after.gap ? 0 : depth / 2);
+		const double side     = after.gap - after.normal.cwiseAbs().dot(cloud_.halfSize[near.point]);
+		const bool   isUnseen = side < -depth && deeper > searchReach(body, grid_) && before.gap >= 0;
+		const bool   isThrough
+		        = body.shape.isTwoSided ? (after.gap + body.halfThickness() < -behind || isUnseen) && after.beside < 0 : body.isCrossed(centre, x);
+		const bool isInside = !body.shape.isTwoSided && -depth > after.gap && deeper > (-5 * depth > after.gap ? 0 : depth / 2);
 		if (!isThrough && !isInside) continue;
 		std::ostringstream text;
 		text << (isThrough ? " would let soil through" : " would get soil inside of it") << ", which moves " << u.norm()
@@ -394,6 +407,12 @@ template <int Dim> double Contact<Dim>::given(const Eigen::VectorXd& d) const
 	return sum;
 }
 
+template <int Dim> Mat<Dim> Contact<Dim>::resistanceOf(const Place& at, const Touch<Dim>& touched) const
+{
+	const double along = touched.slips || at.law.friction == 0 || at.law.cap == 0 ? 0 : at.law.tangential;
+	return at.law.normal * touched.normal * touched.normal.transpose() + along * (Mat<Dim>::Identity() - touched.normal * touched.normal.transpose());
+}
+
 template <int Dim> ContactLoad Contact<Dim>::loadOn(const Vec<Dim>& owner, const Place& at, const Vec<Dim>& place, const Touch<Dim>& touched) const
 {
 	ContactLoad load;
@@ -403,9 +422,7 @@ template <int Dim> ContactLoad Contact<Dim>::loadOn(const Vec<Dim>& owner, const
 	load.torque                     = arm.cross(load.force);
 	if (isRing_) load.force[0] = 0, load.torque.setZero(); // all around the axis they add up to nothing
 	if constexpr (Dim == 3) {
-		const Mat3 resists = at.law.normal * touched.normal * touched.normal.transpose()
-		        + (touched.slips || at.law.friction == 0 || at.law.cap == 0 ? 0 : at.law.tangential)
-		                * (Mat3::Identity() - touched.normal * touched.normal.transpose());
+		const Mat3                  resists = resistanceOf(at, touched);
 		Eigen::Matrix<double, 3, 6> moves;
 		moves << Mat3::Identity(), (Mat3() << 0, arm[2], -arm[1], -arm[2], 0, arm[0], arm[1], -arm[0], 0).finished();
 		load.stiffness = moves.transpose() * resists * moves;
@@ -413,9 +430,25 @@ template <int Dim> ContactLoad Contact<Dim>::loadOn(const Vec<Dim>& owner, const
 	return load;
 }
 
+template <int Dim> void Contact<Dim>::addLoads(const Place& at, const Vec<Dim>& place, const Touch<Dim>& touched)
+{
+	const auto& body = system_.bodies[at.body];
+	if constexpr (Dim == 3)
+		if (body.nodes > 0) {
+			const auto loads = loadsOnNodes(body, at.soil, { -touched.force(), place, resistanceOf(at, touched), at.area, at.young });
+			for (int i = 0; i < body.nodes; ++i)
+				system_.loads[body.nodeOwners[i]] += loads[i];
+			return;
+		}
+	ContactLoad load = loadOn(system_.owners[body.owner], at, place, touched);
+	load.area = at.area, load.young = at.area * at.young;
+	system_.loads[body.owner] += load;
+}
+
 template <int Dim> void Contact<Dim>::commit(const Eigen::VectorXd& d)
 {
 	std::vector<ContactRecord<Dim>> records;
+	settle(d);
 	for (const Place& place : places_) {
 		const Approach<Dim> near  = approach(place, d);
 		const Vec<Dim>      along = near.slip - near.slip.dot(near.at.normal) * near.at.normal;
@@ -429,11 +462,7 @@ template <int Dim> void Contact<Dim>::commit(const Eigen::VectorXd& d)
 		auto& r   = records[&place - places_.data()];
 		r.touches = true, r.slips = touched.slips, r.pressure = touched.pressure, r.friction = touched.friction;
 		system_.work += touched.force().dot(place.attached.displacement(d));
-		const int    owner = system_.bodies[place.body].owner;
-		const auto   load  = loadOn(system_.owners[owner], place, r.place, touched);
-		ContactLoad& sum   = system_.loads[owner];
-		sum.force += load.force, sum.torque += load.torque, sum.stiffness += load.stiffness;
-		sum.area += place.area, sum.young += place.area * place.young;
+		addLoads(place, r.place, touched);
 	});
 	system_.records = std::move(records);
 	std::stable_sort(system_.records.begin(), system_.records.end(), [](const auto& a, const auto& b) {

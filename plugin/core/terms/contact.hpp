@@ -2,11 +2,12 @@
 // Contact of the body with rigid bodies: penalty, friction, and what is remembered of both.
 #pragma once
 #include "core/grid/attachment.hpp"
+#include "core/terms/contact_free.hpp"
 #include "core/terms/contact_law.hpp"
 #include "core/terms/contact_search.hpp"
 #include "core/terms/contact_sight.hpp"
 #include "core/terms/contact_surface.hpp"
-#include "core/terms/term.hpp"
+#include "core/terms/coupled_term.hpp"
 
 namespace gimpm {
 
@@ -32,7 +33,16 @@ struct ContactLoad {
 	Vec3      force = Vec3::Zero(), torque = Vec3::Zero(); ///< about the owner's position [N], [N m]
 	Stiffness stiffness = Stiffness::Zero();               ///< in 3D, an upper bound: of the penalties alone, for a translation and a rotation of the owner
 	double    area = 0, young = 0;                         ///< of the places that touch [m2], and that by Young's modulus of the soil there [N]
+
+	ContactLoad& operator+=(const ContactLoad& other)
+	{
+		force += other.force, torque += other.torque, stiffness += other.stiffness;
+		area += other.area, young += other.young;
+		return *this;
+	}
 };
+
+template <int Dim> class Contact;
 
 /// The rigid bodies beside the soil, and what is between them.
 template <int Dim> struct ContactSystem {
@@ -46,8 +56,11 @@ template <int Dim> struct ContactSystem {
 	/// contact gives.
 	double energy = std::numeric_limits<double>::infinity();
 	/// Work of contact in that step beyond what it had stored, which is that of no body [J].
-	double           given = 0;
-	const Term<Dim>* acting {}; ///< the term of the step that is being made
+	double              given = 0;
+	const Contact<Dim>* acting {}; ///< the term of the step that is being made
+	/// Those of the owners that move within the step as soil and loads make them; of the bodies that they own the
+	/// end of the step is a result.
+	std::vector<FreeBody<Dim>> free {};
 };
 
 /// The penalty on the gap over that on the slip. With 20 a place slides after mu p h / (stiffness / 20 E). Blocks that
@@ -76,6 +89,11 @@ public:
 	void                        restrainAt(const Eigen::VectorXd& d, const typename Term<Dim>::Hold&) const override;
 	Refusal                     refusal(const Eigen::VectorXd& d) const override;
 	void                        commit(const Eigen::VectorXd& d) override;
+
+	/// What free bodies make of the derivative beside what add() adds: their motion follows that of the soil at all
+	/// places that they touch.
+	void markFree(Couplings&) const;
+	void addFree(const Eigen::VectorXd& d, Couplings&) const;
 
 private:
 	/// A material point near a body, whichever process has it. Numbers only.
@@ -120,18 +138,32 @@ private:
 	template <class F> void             forTouching(const Eigen::VectorXd& d, F&& f) const; // f(place, approach, touch)
 	std::string                         entered(const Eigen::VectorXd& d) const;
 	double                              given(const Eigen::VectorXd& d) const;
+	void                                addLoads(const Place&, const Vec<Dim>& place, const Touch<Dim>&);
+	Mat<Dim>                            resistanceOf(const Place&, const Touch<Dim>&) const;
 	ContactLoad                         loadOn(const Vec<Dim>& owner, const Place&, const Vec<Dim>& place, const Touch<Dim>&) const;
 
-	ContactSystem<Dim>&    system_;
-	double                 tolerance_; // of a gap that counts as touching [m]
-	bool                   isRing_, isSymmetric_ = true;
-	std::vector<Near>      near_;   // by body
-	std::vector<Place>     places_; // by body and number
-	std::string            obstacle_;
-	const PointCloud<Dim>& cloud_;
-	const CloudBasis<Dim>& basis_;
-	const Grid<Dim>&       grid_;
-	const Division&        division_;
+	struct Moved {
+		Vec<Dim> carried, normal, friction;
+	};
+	Moved                     moved(const Place&) const;
+	void                      settle(const Eigen::VectorXd& d) const;
+	void                      put(int free, const typename FreeBody<Dim>::Vector& motion) const;
+	std::vector<const Place*> placesOfFree(int free) const;
+	PlaceOfFree<Dim>          seen(const Place&, const Vec<Dim>& owner, const Eigen::VectorXd& d) const;
+	double                    sizeOfFree(int free) const;
+	std::string               unbalanced() const;
+
+	ContactSystem<Dim>&     system_;
+	mutable Eigen::VectorXd settledAt_; ///< where free bodies are in balance, if there are some
+	double                  tolerance_; // of a gap that counts as touching [m]
+	bool                    isRing_, isSymmetric_ = true;
+	std::vector<Near>       near_;   // by body
+	std::vector<Place>      places_; // by body and number
+	std::string             obstacle_;
+	const PointCloud<Dim>&  cloud_;
+	const CloudBasis<Dim>&  basis_;
+	const Grid<Dim>&        grid_;
+	const Division&         division_;
 };
 
 } // namespace gimpm

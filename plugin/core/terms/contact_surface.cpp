@@ -140,13 +140,21 @@ template <int Dim> SurfacePoints<Dim> onBlock(const Vec<Dim>& half, double spaci
 	return points;
 }
 
-template <int Dim> void addSides(SurfacePoints<Dim>& points, SurfacePoint<Dim> point, bool isTwoSided, const Box<Dim>& box)
+/// A sheet that has a thickness has its sides apart from each other.
+template <int Dim> void addSides(SurfacePoints<Dim>& points, SurfacePoint<Dim> point, bool isTwoSided, const Box<Dim>& box, double halfThickness = 0)
 {
 	if (!box.has(point.place)) return;
+	const auto move = [&](const Vec<Dim>& way) {
+		point.place += way;
+		for (auto& corner : point.corners)
+			corner += way;
+	};
+	if (halfThickness > 0) move(halfThickness * point.normal);
 	point.number *= 2;
 	points.push_back(point);
 	++point.number;
 	point.normal *= -1;
+	if (halfThickness > 0) move(2 * halfThickness * point.normal);
 	if (isTwoSided) points.push_back(point);
 }
 
@@ -162,12 +170,20 @@ SurfacePoints<2> onSheet(const std::array<Vec<2>, 2>& corner, double spacing, bo
 	return points;
 }
 
-/// The middles of the triangles into which lines parallel to the edges cut it.
-SurfacePoints<3> onSheet(const std::array<Vec3, 3>& corner, double spacing, bool isTwoSided, const Box<3>& box)
+int partsOfSheet(double longest, double spacing) { return std::max(2, int(std::ceil(longest / (std::sqrt(2.) * spacing) - 1e-9))); }
+
+SurfacePoints<2> onSheet(const RigidShape<2>& shape, double, double spacing, const Box<2>& box)
 {
+	return onSheet(shape.corners, spacing, shape.isTwoSided, box);
+}
+
+/// The middles of the triangles into which lines parallel to the edges cut it.
+SurfacePoints<3> onSheet(const RigidShape<3>& shape, double halfThickness, double spacing, const Box<3>& box)
+{
+	const auto&      corner = shape.corners;
 	const Vec3       u = corner[1] - corner[0], v = corner[2] - corner[0], normal = normalOf(corner);
 	const double     longest = std::max({ u.norm(), v.norm(), (v - u).norm() });
-	const int        parts   = std::max(2, int(std::ceil(longest / (std::sqrt(2.) * spacing) - 1e-9)));
+	const int        parts   = shape.parts > 0 ? shape.parts : partsOfSheet(longest, spacing);
 	SurfacePoints<3> points;
 	std::int64_t     number = 0;
 	const auto       at     = [&](double i, double j) { return Vec3(corner[0] + i / parts * u + j / parts * v); };
@@ -184,8 +200,40 @@ SurfacePoints<3> onSheet(const std::array<Vec3, 3>& corner, double spacing, bool
 				          area,
 				          Vec3::Zero(),
 				          { turned ? at(i + 1, j + 1) : at(i, j), at(i + 1, j), last, last } },
-				        isTwoSided, box);
+				        shape.isTwoSided, box, halfThickness);
 			}
+	return points;
+}
+
+SurfacePoints<2> onCapsule(const RigidShape<2>&, double, const Box<2>&) { return {}; }
+
+/// Strips along its axis, at least eight, so that of whatever direction soil comes some face it; and what of balls at
+/// its ends is beyond these.
+SurfacePoints<3> onCapsule(const RigidShape<3>& shape, double spacing, const Box<3>& box)
+{
+	const Vec3       along = shape.corners[1] - shape.corners[0], axis = along.normalized(), first = axis.unitOrthogonal(), second = axis.cross(first);
+	const int        parts  = shape.parts > 0 ? shape.parts : evenParts(along.norm(), spacing);
+	const int        strips = std::max(8, 4 * int(std::ceil(M_PI / 2 * shape.radius / spacing - 1e-9)));
+	const double     angle = 2 * M_PI / strips, area = angle * shape.radius * along.norm() / parts, half = std::tan(angle / 2);
+	SurfacePoints<3> points;
+	std::int64_t     number = 0;
+	for (int i = 0; i < parts; ++i)
+		for (int j = 0; j < strips; ++j, ++number) {
+			const Vec3 normal = std::cos((j + 0.5) * angle) * first + std::sin((j + 0.5) * angle) * second;
+			const Vec3 place  = shape.corners[0] + (i + 0.5) / parts * along + shape.radius * normal;
+			if (!box.has(place)) continue;
+			points.push_back({ number, place, normal, area, Vec3::Zero(),
+			                   cornersAround(place, along / (2 * parts), half * shape.radius * axis.cross(normal)) });
+		}
+	for (int end = 0; end < 2; ++end)
+		for (SurfacePoint<3> point : onBall(shape.radius, spacing, Box<3> { box.low - shape.corners[end], box.high - shape.corners[end] })) {
+			if (point.normal.dot(end == 0 ? Vec3(-axis) : axis) <= 0) continue;
+			point.number = number + 2 * point.number + end;
+			point.place += shape.corners[end];
+			for (Vec3& corner : point.corners)
+				corner += shape.corners[end];
+			points.push_back(point);
+		}
 	return points;
 }
 
@@ -220,12 +268,15 @@ template <int Dim> SurfacePoints<Dim> onPlane(const RigidShape<Dim>& shape, doub
 
 } // namespace
 
+int partsOfEdge(RigidKind kind, double length, double spacing) { return kind == RigidKind::sheet ? partsOfSheet(length, spacing) : evenParts(length, spacing); }
+
 template <int Dim> std::vector<SurfacePoint<Dim>> surfacePoints(const RigidShape<Dim>& shape, double spacing, const Vec<Dim>& low, const Vec<Dim>& high)
 {
 	const Box<Dim> box { low, high };
 	if (shape.kind == RigidKind::ball) return onBall(shape.radius, spacing, box);
 	if (shape.kind == RigidKind::block) return onBlock<Dim>(shape.halfSize, spacing, box);
-	if (shape.kind == RigidKind::sheet) return onSheet(shape.corners, spacing, shape.isTwoSided, box);
+	if (shape.kind == RigidKind::sheet) return onSheet(shape, shape.parts > 0 ? shape.radius : 0, spacing, box);
+	if (shape.kind == RigidKind::capsule) return onCapsule(shape, spacing, box);
 	return onPlane<Dim>(shape, spacing, box);
 }
 

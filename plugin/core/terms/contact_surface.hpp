@@ -19,6 +19,10 @@ template <int Dim> struct SurfacePoint {
 	std::array<Vec<Dim>, 2 * (Dim - 1)> corners;
 };
 
+/// The number of parts into which the longest edge of a sheet or a capsule is divided, for points no farther apart than
+/// the spacing.
+int partsOfEdge(RigidKind, double length, double spacing);
+
 /// Points no farther apart than the spacing, at least two along each edge, in mirror symmetry to the middle of a ball
 /// or a block: those within a box in the body's axes. A two-sided surface has points on both sides. A block's face that
 /// is narrower than a cell, four spacings, acts on the soil over the width of one: a single node of the grid gives way

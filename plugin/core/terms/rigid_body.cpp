@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "core/terms/rigid_body.hpp"
 #include "core/grid/surface.hpp"
+#include "core/terms/contact_nodes.hpp"
 #include <Eigen/Geometry>
 #include <algorithm>
 
@@ -46,10 +47,39 @@ double besideOf(const std::array<Vec3, 3>& corner, const Vec3& normal, const Vec
 	return beside;
 }
 
-template <int Dim> Proximity<Dim> fromSheet(const RigidShape<Dim>& shape, const Vec<Dim>& own, int side)
+template <int Dim> Proximity<Dim> fromSheet(const std::array<Vec<Dim>, Dim>& corners, double radius, const Vec<Dim>& own, int side)
 {
-	const Vec<Dim> normal = normalOf(shape.corners);
-	return { side * normal.dot(own - shape.corners[0]), Vec<Dim>(side * normal), Mat<Dim>::Zero(), besideOf(shape.corners, normal, own) };
+	const Vec<Dim> normal = normalOf(corners);
+	return { side * normal.dot(own - corners[0]) - radius, Vec<Dim>(side * normal), Mat<Dim>::Zero(), besideOf(corners, normal, own) };
+}
+
+template <int Dim> Proximity<Dim> fromCapsule(const std::array<Vec<Dim>, Dim>& corners, double radius, const Vec<Dim>& own)
+{
+	const Vec<Dim> along = corners[1] - corners[0];
+	const double   part  = std::clamp((own - corners[0]).dot(along) / along.squaredNorm(), 0., 1.);
+	Proximity<Dim> near  = fromBall<Dim>(radius, own - corners[0] - part * along);
+	// Along its axis the normal does not turn.
+	const Vec<Dim> axis = along.normalized();
+	if (part > 0 && part < 1) near.slope -= near.slope * axis * axis.transpose();
+	return near;
+}
+
+template <int Dim> std::array<Vec<Dim>, Dim> cornersAt(const RigidShape<Dim>& shape, const Pose<Dim>& pose)
+{
+	std::array<Vec<Dim>, Dim> corners;
+	for (int i = 0; i < Dim; ++i)
+		corners[i] = shape.corners[i] + pose.shift[i];
+	return corners;
+}
+
+/// How far from the begin of a way to its end something passes the line through a capsule at its closest.
+template <int Dim> double leastDistance(const std::array<Vec<Dim>, Dim>& corners, const Vec<Dim>& from, const Vec<Dim>& way)
+{
+	constexpr int parts = 16; // of a way that is no longer than a cell
+	double        least = std::numeric_limits<double>::infinity();
+	for (int i = 0; i <= parts; ++i)
+		least = std::min(least, fromCapsule<Dim>(corners, 0, from + double(i) / parts * way).gap);
+	return least;
 }
 
 } // namespace
@@ -65,17 +95,22 @@ template <int Dim> Proximity<Dim> RigidBody<Dim>::proximity(const Pose<Dim>& pos
 {
 	if (shape.kind == RigidKind::ball) return fromBall<Dim>(shape.radius, x - pose.position);
 	if (shape.kind == RigidKind::plane) return { side * shape.normal.dot(x - pose.position), Vec<Dim>(side * shape.normal) };
-	const Vec<Dim> own  = pose.inBody(x);
-	Proximity<Dim> near = shape.kind == RigidKind::block ? fromBlock<Dim>(shape, own) : fromSheet<Dim>(shape, own, side);
-	near.normal         = pose.rotation * near.normal;
-	near.slope          = pose.rotation * near.slope * pose.rotation.transpose();
+	const Vec<Dim> own = pose.inBody(x);
+	Proximity<Dim> near;
+	if (shape.kind == RigidKind::block) near = fromBlock<Dim>(shape, own);
+	else if (shape.kind == RigidKind::capsule)
+		near = fromCapsule<Dim>(cornersAt(shape, pose), shape.radius, own);
+	else
+		near = fromSheet<Dim>(cornersAt(shape, pose), halfThickness(), own, side);
+	near.normal = pose.rotation * near.normal;
+	near.slope  = pose.rotation * near.slope * pose.rotation.transpose();
 	return near;
 }
 
 template <int Dim> int RigidBody<Dim>::sideOf(const Pose<Dim>& pose, const Vec<Dim>& x) const
 {
 	if (!shape.isTwoSided) return 1;
-	const double gap = proximity(pose, x, 1).gap;
+	const double gap = proximity(pose, x, 1).gap + halfThickness();
 	if (soilSide != 0 && std::abs(gap) <= slack) return soilSide;
 	return gap < 0 ? -1 : 1;
 }
@@ -86,6 +121,7 @@ template <int Dim> bool RigidBody<Dim>::isCrossed(const Vec<Dim>& beginsAt, cons
 	const Vec<Dim>  from = begin.inBody(beginsAt), way = end.inBody(endsAt) - from;
 	const Pose<Dim> own;
 	if (proximity(own, from, 1).normal.dot(proximity(own, from + way, 1).normal) >= 0) return false;
+	if (shape.kind == RigidKind::capsule) return leastDistance<Dim>(shape.corners, from, way) < shape.radius;
 	if (shape.kind == RigidKind::ball) return (from + std::clamp(-from.dot(way) / way.squaredNorm(), 0., 1.) * way).norm() < shape.radius;
 	double first = 0, last = 1; // the part of the way that is within the block
 	for (int a = 0; a < Dim; ++a) {
@@ -99,11 +135,14 @@ template <int Dim> bool RigidBody<Dim>::isCrossed(const Vec<Dim>& beginsAt, cons
 
 template <int Dim> std::pair<Vec<Dim>, Vec<Dim>> RigidBody<Dim>::bounds(const Pose<Dim>& pose) const
 {
-	if (shape.kind == RigidKind::sheet) {
-		Vec<Dim> low = pose.inSpace(shape.corners[0]), high = low;
-		for (const Vec<Dim>& corner : shape.corners)
-			low = low.cwiseMin(pose.inSpace(corner)), high = high.cwiseMax(pose.inSpace(corner));
-		return { low, high };
+	if (shape.kind == RigidKind::sheet || shape.kind == RigidKind::capsule) {
+		const auto     corners = cornersAt(shape, pose);
+		const int      count   = shape.kind == RigidKind::sheet ? Dim : 2;
+		const Vec<Dim> margin  = Vec<Dim>::Constant(nodes > 0 ? shape.radius : 0);
+		Vec<Dim>       low = pose.inSpace(corners[0]), high = low;
+		for (int i = 1; i < count; ++i)
+			low = low.cwiseMin(pose.inSpace(corners[i])), high = high.cwiseMax(pose.inSpace(corners[i]));
+		return { low - margin, high + margin };
 	}
 	Vec<Dim> reach = Vec<Dim>::Constant(shape.kind == RigidKind::plane ? std::numeric_limits<double>::infinity() : shape.radius);
 	if (shape.kind == RigidKind::block) reach = pose.rotation.cwiseAbs() * shape.halfSize;
@@ -112,13 +151,13 @@ template <int Dim> std::pair<Vec<Dim>, Vec<Dim>> RigidBody<Dim>::bounds(const Po
 
 template <int Dim> double RigidBody<Dim>::thickness() const
 {
-	if (shape.kind == RigidKind::plane || shape.kind == RigidKind::sheet) return 0;
-	return 2 * (shape.kind == RigidKind::ball ? shape.radius : shape.halfSize.minCoeff());
+	if (shape.kind == RigidKind::plane || shape.kind == RigidKind::sheet) return 2 * halfThickness();
+	return 2 * (shape.kind == RigidKind::block ? shape.halfSize.minCoeff() : shape.radius);
 }
 
 template <int Dim> bool RigidBody<Dim>::isNarrow(const Vec<Dim>& normal) const
 {
-	if (shape.kind != RigidKind::block) return shape.kind == RigidKind::ball;
+	if (shape.kind != RigidKind::block) return shape.kind == RigidKind::ball || shape.kind == RigidKind::capsule;
 	int thinnest;
 	shape.halfSize.minCoeff(&thinnest);
 	return std::abs(normal[thinnest]) < 0.7;
@@ -136,10 +175,28 @@ template <int Dim> double RigidBody<Dim>::motion() const
 {
 	const double shift = (end.position - begin.position).norm();
 	if (shape.kind == RigidKind::plane) return shift;
-	double reach = shape.kind == RigidKind::block ? shape.halfSize.norm() : shape.radius;
-	for (int i = 0; shape.kind == RigidKind::sheet && i < Dim; ++i)
-		reach = std::max(reach, shape.corners[i].norm());
-	return shift + (end.rotation - begin.rotation).norm() * reach;
+	const int corners = shape.kind == RigidKind::sheet ? Dim : shape.kind == RigidKind::capsule ? 2 : 0;
+	double    reach = shape.kind == RigidKind::block ? shape.halfSize.norm() : shape.radius, stretch = 0;
+	for (int i = 0; i < corners; ++i)
+		reach = std::max(reach, shape.corners[i].norm()), stretch = std::max(stretch, end.shift[i].norm());
+	return shift + (end.rotation - begin.rotation).norm() * reach + stretch;
+}
+
+template <int Dim> Vec<Dim> RigidBody<Dim>::carried(const Vec<Dim>& x) const
+{
+	if (nodes == 0) return end.inSpace(begin.inBody(x)) - x;
+	const Vec<Dim> own    = begin.inBody(x);
+	const auto     weight = nodeWeights(*this, own);
+	Vec<Dim>       foot = Vec<Dim>::Zero(), moved = Vec<Dim>::Zero();
+	double         twist = 0;
+	for (int i = 0; i < nodes; ++i) {
+		foot += weight[i] * shape.corners[i], moved += weight[i] * (shape.corners[i] + end.shift[i]);
+		twist += weight[i] * twists[i];
+	}
+	Vec<Dim> offset = own - foot;
+	if constexpr (Dim == 3)
+		if (twist != 0) offset = Eigen::AngleAxisd(twist, (shape.corners[1] - shape.corners[0]).normalized()) * offset;
+	return end.inSpace(moved + offset) - x;
 }
 
 template struct RigidBody<2>;

@@ -206,6 +206,7 @@ outOfRange = {
         'MpmBeam.curve': ['[(0, 0), (0, 1)]', '[(1, 0), (0, 1)]'],
         'MpmImplicitEngine.contacts': None,
         'MpmContact.mask': None,
+        'MpmContact.implicit': None,
         'MpmContact.friction': ['-0.1', '30.', '1.5708'],
         'MpmContact.adhesion': ['-1.'],
         'MpmContact.stiffness': ['0.', '-1.'],

@@ -5,10 +5,12 @@
 #include "engine/conditions/contact/contact_picture.hpp"
 #include "engine/conditions/contact/contact_records.hpp"
 #include "engine/conditions/contact/contacts.hpp"
+#include "engine/conditions/contact/deforming_bodies.hpp"
 #include "engine/conditions/contact/free_bodies.hpp"
 #include "engine/points/MpmPoint.hpp"
 #include "yade_api/registration.hpp"
 #include "yade_api/scene.hpp"
+#include <set>
 
 namespace yade {
 
@@ -108,15 +110,28 @@ void MpmContact::actOnBodies(Scene& scene, bool isBetween)
 std::shared_ptr<Condition<2>> MpmContact::make(InPlane, const Group& group, const Analysis&) const { return std::make_shared<Contacts<2>>(group); }
 std::shared_ptr<Condition<3>> MpmContact::make(InSpace, const Group& group, const Analysis&) const { return std::make_shared<Contacts<3>>(group); }
 
-vector<shared_ptr<Body>> MpmContact::rigidBodies(const Scene& scene) const
+vector<shared_ptr<Body>> MpmContact::touchingBodies(const Scene& scene) const
 {
 	vector<shared_ptr<Body>> found;
 	const BodyContainer&     all = *scene.bodies;
 	for (unsigned id = 0; id < all.size(); ++id) {
 		const auto& body = all[id];
 		if (!body || !body->shape || !maskMatches(*body, mask) || body->isClump() || dynamic_cast<const MpmPoint*>(body->shape.get())) continue;
-		found.push_back(body);
+		if (!isPartOfNet(*body, scene)) found.push_back(body);
 	}
+	dropSidesOfMembranes(found);
+	return found;
+}
+
+vector<shared_ptr<Body>> MpmContact::rigidBodies(const Scene& scene) const
+{
+	vector<shared_ptr<Body>> found = touchingBodies(scene);
+	std::set<Body::id_t>     known;
+	for (const auto& body : found)
+		known.insert(body->id);
+	for (size_t i = 0, count = found.size(); i < count; ++i)
+		for (const auto& node : nodesOf(*found[i], scene))
+			if (known.insert(node->id).second) found.push_back(node);
 	return found;
 }
 
@@ -126,18 +141,20 @@ string MpmContact::idleness(const string& name, bool) const
 	return " " + name + " touches nothing yet: a body holds what it touches, and by friction (MpmContact.friction) also along itself.";
 }
 
-// Sums, and of bodies that do not move freely also one by one.
+// Sums, and of bodies that do not move freely also one by one, but of nodes, of which there are many.
 void MpmContact::tell(Rows& rows, const Analysis& analysis, const Listed& listed) const
 {
-	const int    dim    = analysis.grid->dim;
-	const string name   = "contact" + std::to_string(listed.number);
-	Vector3r     total  = Vector3r::Constant(bodies.empty() ? std::numeric_limits<Real>::quiet_NaN() : 0);
-	int          places = 0;
+	const int            dim    = analysis.grid->dim;
+	const string         name   = "contact" + std::to_string(listed.number);
+	Vector3r             total  = Vector3r::Constant(bodies.empty() ? std::numeric_limits<Real>::quiet_NaN() : 0);
+	int                  places = 0;
+	const BodyContainer& all    = *analysis.ownScene()->bodies;
 	for (size_t b = 0; b < bodies.size(); ++b) {
 		total += forces[b];
 		places += touching[b];
-		const string body = "body" + std::to_string(bodies[b]);
-		for (int axis = 0; axis < 3 && !areFree[b]; ++axis) {
+		const string body   = "body" + std::to_string(bodies[b]);
+		const bool   isNode = all.exists(bodies[b]) && isNodeOfNet(*all[bodies[b]]);
+		for (int axis = 0; axis < 3 && !areFree[b] && !isNode; ++axis) {
 			if (axis < dim) rows.set(body + "_" + "xyz"[axis], forces[b][axis]);
 			if (axis == 2 || dim == 3) rows.set(body + "_torque_" + "xyz"[axis], torques[b][axis]);
 		}

@@ -16,6 +16,7 @@ public:
 	Real             friction  = std::numeric_limits<Real>::quiet_NaN(); // that of the bodies' materials
 	Real             adhesion  = std::numeric_limits<Real>::infinity();
 	Real             stiffness = 100;
+	bool             implicit  = false;
 	vector<int>      bodies;
 	vector<Vector3r> forces, torques, impulses;
 	vector<int>      touching, slipping;
@@ -32,10 +33,10 @@ public:
 	YADE_API_NAME(MpmContact)
 	static const char* doc()
 	{
-		return "Contact with rigid bodies of YADE (Sphere, Box, Facet, Wall, and clumps of them), which soil cannot enter. Without a NewtonIntegrator in "
+		return "Contact with rigid bodies of YADE (Sphere, Box, Facet, Wall, and clumps of them), and in 3D with what deforms with nodes (GridConnection, PFacet, ChainedCylinder), which soil cannot enter. Without a NewtonIntegrator in "
 		       "O.engines the MpmImplicitEngine moves the bodies by their velocities; with one YADE does, and bodies that are free to move get the forces "
 		       "of the soil: the engine then stands before the NewtonIntegrator.\n\n"
-		       "In plane strain a body acts by its section at z = 0, per metre, around an axis of symmetry by that revolved; neither moves freely.\n\n"
+		       "In plane strain a body acts by its section at z = 0, per metre, around an axis of symmetry by that revolved; with *implicit* it moves freely there, too.\n\n"
 		       "Set first: *friction* [rad]; *stiffness*, 100 for flat bodies, 10 to 20 for round ones and free grains; a body that moves by an eighth of "
 		       "a cell in a step. Page: plugin/docs/classes/MpmContact.md.";
 	}
@@ -52,6 +53,8 @@ public:
 		  admitting("a number >= 0, or inf", [](Real cap) { return cap >= 0; }));
 		v("stiffness", &MpmContact::stiffness, 0,
 		  "Penalty [-] > 0: a pressure p presses p h / (stiffness E) deep, with cell size h and Young's modulus E of the soil.", positive);
+		v("implicit", &MpmContact::implicit, 0,
+		  "Whether bodies that are free to move (blockedDOFs not all set) are moved by the engine within the equilibrium of its step, with the soil, whatever O.dt is, and in the plane and around an axis, too; False, the default: by a NewtonIntegrator, in 3D.");
 		v("bodies", &MpmContact::bodies, readonly, "Ids of the bodies (of clumps, those of the clumps) in the last step.");
 		v("forces", &MpmContact::forces, readonly,
 		  "Of each of *bodies*, force of the soil [N] at the end of the last converged step; per metre of thickness in plane strain.");
@@ -85,7 +88,12 @@ public:
 	std::shared_ptr<Condition<2>> make(InPlane, const Group&, const Analysis&) const override;
 	std::shared_ptr<Condition<3>> make(InSpace, const Group&, const Analysis&) const override;
 
-	// Those that its mask means: neither material points nor clumps, but members of these.
+	// Those that its mask means: neither material points nor clumps, but members of these; and of nets what is
+	// between
+	// their nodes.
+	vector<shared_ptr<Body>> touchingBodies(const Scene&) const;
+
+	// And the nodes of these.
 	vector<shared_ptr<Body>> rigidBodies(const Scene&) const override;
 
 	// For the bodies that are free: the force of the last load step, less stiffness times the movement since, for
@@ -93,6 +101,8 @@ public:
 	void actOnBodies(Scene&, bool isBetween) override;
 
 	bool        goesOn() const override { return true; }
+	string      needsEqualCells(const string& name) const override { return implicit ? name + ".implicit=True" : ""; }
+	string      needsOneBody(const string& name) const override { return implicit ? name + ".implicit=True" : ""; }
 	bool        countsSeconds(const Scene&) const override; // where a body moves
 	bool        mayHold(int, Real, Real) const override { return true; }
 	string      idleness(const string& name, bool reaches) const override;

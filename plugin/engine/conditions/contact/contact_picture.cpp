@@ -4,6 +4,7 @@
 #include "engine/analysis/analysis.hpp"
 #include "engine/conditions/contact/MpmContact.hpp"
 #include "engine/conditions/contact/contact_records.hpp"
+#include "engine/conditions/contact/deforming_bodies.hpp"
 #include "engine/conditions/contact/rigid_bodies.hpp"
 #include "engine/grid/MpmGrid.hpp"
 #include <Eigen/Geometry>
@@ -45,6 +46,14 @@ namespace {
 		picture.add(cell);
 	}
 
+	template <int Dim> std::optional<gimpm::RigidBody<Dim>> currentBody(const Body& body, const Scene& scene, const gimpm::Grid<Dim>& grid)
+	{
+		vector<NodePose> nodes;
+		for (const auto& node : nodesOf(body, scene))
+			nodes.push_back({ node.get(), node->state->se3, node->state->se3 });
+		return nodes.empty() ? rigidBody<Dim>(body, body.state->se3, grid) : deformingBody<Dim>(body, grid, nodes);
+	}
+
 	// Stresses are those on the part of the surface that has soil in front of it.
 	void addFields(Picture& picture, const ContactRecordOfPlace* r, Real area)
 	{
@@ -66,7 +75,7 @@ template <int Dim> void drawFaces(Picture& picture, const MpmContact& contact, c
 	for (const auto& [id, records] : byBody(contact.records)) {
 		if (!scene->bodies->exists(id)) continue;
 		const Body& body  = *(*scene->bodies)[id];
-		const auto  rigid = rigidBody<Dim>(body, body.state->se3, grid);
+		const auto  rigid = currentBody<Dim>(body, *scene, grid);
 		if (!rigid) continue;
 		const auto box = extent<Dim>(records, grid.cellSize);
 		for (const auto& point : gimpm::surfacePointsAt<Dim>(rigid->shape, rigid->begin, grid.cellSize, box.min(), box.max())) {

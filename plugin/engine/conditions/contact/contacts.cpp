@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "engine/conditions/contact/contacts.hpp"
 #include "core/base/sentence.hpp"
+#include "core/terms/contact_coupling.hpp"
 #include "core/terms/motion.hpp"
 #include "engine/analysis/analysis.hpp"
 #include "engine/conditions/contact/contact_records.hpp"
@@ -96,12 +97,16 @@ template <int Dim> void Contacts<Dim>::add(const shared_ptr<MpmContact>& contact
 	Places       known; // of its bodies in the last run
 	for (size_t i = 0; i < contact->bodies.size(); ++i)
 		known[contact->bodies[i]] = int(i);
-	for (const auto& body : contact->rigidBodies(scene)) {
+	for (const auto& body : contact->touchingBodies(scene)) {
 		if (!body->material)
 			throw std::invalid_argument(
 			        "Body #" + std::to_string(body->id) + " has no material; MpmContact needs one of bodies that touch the soil.");
+		if (!nodesOf(*body, scene).empty()) {
+			addDeforming(contact, known, body, scene, grid);
+			continue;
+		}
 		const bool isMember = body->isClumpMember() && scene.bodies->exists(body->clumpId);
-		addMember(*contact, body, ownerOf(contact, known, isMember ? *(*scene.bodies)[body->clumpId] : *body, scene), grid);
+		addMember(*contact, body, ownerOf(contact, known, isMember ? *(*scene.bodies)[body->clumpId] : *body, scene, grid), grid);
 	}
 	if (members.size() == count)
 		throw std::invalid_argument(
@@ -109,7 +114,8 @@ template <int Dim> void Contacts<Dim>::add(const shared_ptr<MpmContact>& contact
 		        + (Dim == 2 ? ", or none of them has a section at z = 0." : "."));
 }
 
-template <int Dim> int Contacts<Dim>::ownerOf(const shared_ptr<MpmContact>& contact, const Places& known, const Body& body, const Scene& scene)
+template <int Dim>
+int Contacts<Dim>::ownerOf(const shared_ptr<MpmContact>& contact, const Places& known, const Body& body, const Scene& scene, const gimpm::Grid<Dim>& grid)
 {
 	const auto [found, isFirst] = ownersById.try_emplace(body.id, int(owners.size()));
 	if (!isFirst) {
@@ -119,18 +125,20 @@ template <int Dim> int Contacts<Dim>::ownerOf(const shared_ptr<MpmContact>& cont
 	}
 	const Se3r now = poseOf(*body.state);
 	Owner      owner { contact, (*scene.bodies)[body.id], now, now, now, {}, {} };
-	owner.byYade = movers->move(body);
-	owner.isFree = owner.byYade && (body.state->blockedDOFs & State::DOF_ALL) != State::DOF_ALL;
+	owner.byYade      = movers->move(body);
+	const bool isHeld = (body.state->blockedDOFs & State::DOF_ALL) == State::DOF_ALL;
+	if (contact->implicit && !isHeld) free(owner, scene, grid);
+	owner.isFree = owner.free < 0 && owner.byYade && (body.state->blockedDOFs & State::DOF_ALL) != State::DOF_ALL;
 	if (owner.isFree && Dim == 2)
 		throw std::invalid_argument(
 		        "Body #" + std::to_string(body.id)
-		        + " is free to move, but on a grid with dim=2 a body is its section, without a mass: prescribe its motion (dynamic=False), or take dim=3.");
+		        + " is free to move, but on a grid with dim=2 a body is its section, which YADE has no mass of: let the engine move it (MpmContact.implicit=True), prescribe its motion (dynamic=False), or take dim=3.");
 	if (owner.isFree) requireExchange(body, scene);
 	const auto former = known.find(body.id);
 	owner.isNew       = former == known.end();
-	if (!owner.byYade) owner.target = moved(body, owner.given, target - begin);
+	if (owner.free < 0 && !owner.byYade) owner.target = moved(body, owner.given, target - begin);
 	if (owner.isFree && inTime) owner.target = ahead(*body.state, now, target - begin - dt);
-	owner.byScript = !owner.isNew && !owner.byYade && !areSame(contact->poseOf(former->second), *body.state);
+	owner.byScript = owner.free < 0 && !owner.isNew && !owner.byYade && !areSame(contact->poseOf(former->second), *body.state);
 	if (owner.byScript || (!owner.isNew && owner.byYade)) owner.begin = contact->poseOf(former->second);
 	if (owner.byScript) requireSmallTurn(body, owner.begin, owner.target);
 	owner.reached = owner.begin;
@@ -159,11 +167,6 @@ template <int Dim> void Contacts<Dim>::addMember(const MpmContact& contact, cons
 	requireTogether(contact, *body, owner, own);
 	auto rigid = rigidBody<Dim>(*body, first, grid);
 	if (!rigid) return;
-	rigid->owner         = number;
-	rigid->isNew         = owner.isNew;
-	rigid->friction      = frictionOf(contact, *body, coefficient);
-	rigid->adhesion      = contact.adhesion;
-	rigid->stiffness     = contact.stiffness;
 	rigid->turn          = std::max(angleBetween(owner.begin, owner.target), owner.byYade ? owner.body->state->angVel.norm() * (target - begin) : 0);
 	const Vector3r shift = owner.target.position - owner.begin.position;
 	if ((Dim == 2 && shift[2] != 0) || (grid.axisymmetric && (shift[0] != 0 || !owner.target.orientation.isApprox(owner.begin.orientation, 1e-12))))
@@ -172,8 +175,47 @@ template <int Dim> void Contacts<Dim>::addMember(const MpmContact& contact, cons
 		        + std::to_string(shift[2]) + ") m, or turns: "
 		        + (grid.axisymmetric ? "around the axis of symmetry only movement along it is admitted."
 		                             : "with dim=2 it can only move in the plane."));
-	members.push_back({ body, own, first });
-	system->bodies.push_back(*rigid);
+	add(contact, *rigid, { body, own, first }, number);
+}
+
+template <int Dim> void Contacts<Dim>::add(const MpmContact& contact, gimpm::RigidBody<Dim> rigid, const Member& member, int number)
+{
+	rigid.owner     = number;
+	rigid.free      = owners[number].free;
+	rigid.isNew     = owners[number].isNew;
+	rigid.friction  = frictionOf(contact, *member.body, coefficient);
+	rigid.adhesion  = contact.adhesion;
+	rigid.stiffness = contact.stiffness;
+	members.push_back(member);
+	system->bodies.push_back(rigid);
+}
+
+// A body that deforms with its nodes, which are the owners.
+template <int Dim>
+void Contacts<Dim>::addDeforming(
+        const shared_ptr<MpmContact>& contact, const Places& known, const shared_ptr<Body>& body, const Scene& scene, const gimpm::Grid<Dim>& grid)
+{
+	Member member { body, {}, {} };
+	for (const auto& node : nodesOf(*body, scene))
+		member.nodes.push_back(ownerOf(contact, known, *node, scene, grid));
+	for (const int node : member.nodes)
+		if (owners[node].free >= 0)
+			throw std::invalid_argument(gimpm::sentence(
+			        "MpmContact.implicit: body #", owners[node].body->id, " is a node of body #", body->id, ", a ", body->shape->getClassName(),
+			        ", and free: nets are moved by YADE, which knows what holds them together. Give them an MpmContact of their own, with implicit=False."));
+	auto deforming = deformingBody<Dim>(*body, grid, nodePoses(member));
+	for (size_t i = 0; i < member.nodes.size(); ++i)
+		deforming.nodeOwners[i] = member.nodes[i];
+	add(*contact, deforming, member, member.nodes[0]);
+}
+
+// At the begin and the end of the step.
+template <int Dim> vector<NodePose> Contacts<Dim>::nodePoses(const Member& member) const
+{
+	vector<NodePose> poses;
+	for (const int i : member.nodes)
+		poses.push_back({ owners[i].body.get(), between(owners[i].begin, owners[i].target, partAt(end)), owners[i].reached });
+	return poses;
 }
 
 // What a contact keeps, in numbers of this run.
@@ -193,6 +235,7 @@ template <int Dim> void Contacts<Dim>::recall(const MpmContact& contact)
 template <int Dim> void Contacts<Dim>::join(gimpm::Model<Dim>& model, const Surroundings<Dim>& around)
 {
 	begin = end = around.begin, target = around.target, dt = around.scene.dt;
+	ofGravity = around.analysis.curveOfGravity(), gravity = around.analysis.gravity, isExplicit = around.analysis.isExplicit();
 	cellSize = model.grid.cellSize;
 	inTime   = around.analysis.isDynamic();
 	for (const auto& material : model.materials)
@@ -207,6 +250,11 @@ template <int Dim> void Contacts<Dim>::join(gimpm::Model<Dim>& model, const Surr
 		return std::tie(a.body, a.number) < std::tie(b.body, b.number);
 	});
 	advanceTo(begin);
+	if (!system->free.empty()) {
+		requireAlone(model);
+		model.coupledTerms.push_back(
+		        [known = system](const gimpm::Beginning<Dim>&, const gimpm::State&) { return std::make_unique<gimpm::ContactCoupling<Dim>>(*known); });
+	}
 	if (!inTime && model.division->isWhole()) distance = warningOfDistance(around.cloud); // in time soil may come by itself
 	model.terms.push_back([known = system](const gimpm::Beginning<Dim>& step) { return std::make_unique<gimpm::Contact<Dim>>(*known, step); });
 	const auto shrink = [known = system](const gimpm::PointCloud<Dim>&, Real scale) {
@@ -218,13 +266,16 @@ template <int Dim> void Contacts<Dim>::join(gimpm::Model<Dim>& model, const Surr
 
 template <int Dim> void Contacts<Dim>::joinMotion(gimpm::Motion<Dim>& motion, const gimpm::Model<Dim>&, Real)
 {
-	system->weight  = motion.scheme.weightOfContact();
+	system->weight = motion.scheme.weightOfContact();
+	for (Owner& owner : owners)
+		owner.motion.part = motion.scheme.atMiddle ? 0.5 : motion.scheme.isAlpha() ? 1 - motion.scheme.alphaF : motion.scheme.gamma;
 	motion.contacts = system.get();
 }
 
-template <int Dim> void Contacts<Dim>::advance(const StepTime& step, gimpm::Model<Dim>&, gimpm::Load<Dim>& load)
+template <int Dim> void Contacts<Dim>::advance(const StepTime& step, gimpm::Model<Dim>& model, gimpm::Load<Dim>& load)
 {
 	advanceTo(step.to);
+	advanceFree(step, model.grid.axisymmetric);
 	system->energy = step.energy;
 	load.motion    = step.to - step.from;
 }
@@ -232,15 +283,21 @@ template <int Dim> void Contacts<Dim>::advance(const StepTime& step, gimpm::Mode
 template <int Dim> void Contacts<Dim>::advanceTo(Real time)
 {
 	for (size_t i = 0; i < owners.size(); ++i) {
+		if (owners[i].free >= 0) continue;
 		owners[i].reached = between(owners[i].begin, owners[i].target, partAt(time));
 		system->owners[i] = headOf<Dim>(owners[i].reached.position);
 	}
 	for (size_t i = 0; i < members.size(); ++i) {
 		auto&        rigid = system->bodies[i];
 		const Owner& owner = owners[rigid.owner];
-		const auto   at    = [&](const Se3r& pose) { return yade::poseOf<Dim>(*members[i].body, members[i].first, pose * members[i].own); };
-		rigid.begin        = at(between(owner.begin, owner.target, partAt(end)));
-		rigid.end          = at(owner.reached);
+		if (owner.free >= 0) continue;
+		if (!members[i].nodes.empty()) {
+			deform(rigid, nodePoses(members[i]));
+			continue;
+		}
+		const auto at = [&](const Se3r& pose) { return yade::poseOf<Dim>(*members[i].body, members[i].first, pose * members[i].own); };
+		rigid.begin   = at(between(owner.begin, owner.target, partAt(end)));
+		rigid.end     = at(owner.reached);
 	}
 }
 
@@ -272,6 +329,11 @@ template <int Dim> void Contacts<Dim>::reach(const StepOutcome<Dim>& step)
 {
 	const Real time = step.time;
 	end             = time;
+	for (Owner& owner : owners) {
+		if (owner.free < 0) continue;
+		follow<Dim>(owner.motion, system->free[owner.free], time - step.from);
+		owner.reached = owner.motion.at;
+	}
 	addToMeans((time - step.from) / (target - begin));
 	for (const auto& contact : given)
 		keep(*contact);
@@ -280,10 +342,12 @@ template <int Dim> void Contacts<Dim>::reach(const StepOutcome<Dim>& step)
 	// Where a script has put it, it stays: the rest of that way is made by the next step.
 	for (const Owner& owner : owners) {
 		if (owner.byYade) continue;
-		const bool isLate      = owner.byScript && partAt(time) < 1;
+		const bool isLate = owner.byScript && partAt(time) < 1;
+		if (owner.free >= 0 && inTime) owner.body->state->vel = owner.motion.velocity, owner.body->state->angVel = owner.motion.spin;
 		owner.body->state->se3 = isLate ? between(owner.given, owner.target, partAt(time)) : owner.reached;
 	}
 	for (size_t i = 0; i < members.size(); ++i) {
+		if (!members[i].nodes.empty()) continue;
 		const Owner& owner                           = owners[system->bodies[i].owner];
 		owner.contact->ownPoses[members[i].body->id] = members[i].own;
 		if (!owner.byYade && owner.body != members[i].body) members[i].body->state->se3 = owner.body->state->se3 * members[i].own;
@@ -397,9 +461,18 @@ template <int Dim> void Contacts<Dim>::keepRecords() const
 			               inSpace<Dim>(r.normal),
 			               inSpace<Dim>(r.place) }
 		        .appendTo(to.records);
-		to.touching[owner.place] += r.touches;
-		to.slipping[owner.place] += r.slips;
+		to.touching[placeOf(r)] += r.touches;
+		to.slipping[placeOf(r)] += r.slips;
 	}
+}
+
+// In the contact's list of bodies, of who owns the body; of its nodes the one that is closest.
+template <int Dim> size_t Contacts<Dim>::placeOf(const gimpm::ContactRecord<Dim>& r) const
+{
+	int closest = system->bodies[r.body].owner;
+	for (const int node : members[r.body].nodes)
+		if ((system->owners[node] - r.place).squaredNorm() < (system->owners[closest] - r.place).squaredNorm()) closest = node;
+	return owners[closest].place;
 }
 
 template class Contacts<2>;

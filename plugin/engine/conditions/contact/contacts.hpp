@@ -5,7 +5,9 @@
 #include "core/terms/contact.hpp"
 #include "engine/analysis/movers.hpp"
 #include "engine/conditions/contact/MpmContact.hpp"
+#include "engine/conditions/contact/deforming_bodies.hpp"
 #include "engine/conditions/contact/free_bodies.hpp"
+#include "engine/conditions/contact/implicit_bodies.hpp"
 #include "engine/points/MaterialPoints.hpp"
 #include "yade_api/scene.hpp"
 #include <algorithm>
@@ -53,24 +55,37 @@ private:
 		// Has been moved since the last run, or its way was not finished then.
 		bool   byScript = false;
 		size_t place    = 0; // in the contact's list of bodies, once that is written
+		// Where it is moved with the soil: its number among the free bodies of the system, and how it moves as
+		// the
+		// step begins.
+		int        free = -1;
+		FreeMotion motion {};
 	};
 	using Places = std::map<Body::id_t, int>; // of bodies in a list
 	struct Member {
 		shared_ptr<Body> body;
 		Se3r             own, first; // as seen from the owner; in space when the run begins
+		vector<int>      nodes {};   // owners that it deforms with, if it does
 	};
 
-	void advanceTo(Real time);
-	void addToMeans(Real part);
-	bool isBetween() const { return target - begin > 1.5 * dt; } // whether YADE makes iterations between load steps
-	void add(const shared_ptr<MpmContact>&, const Scene&, const gimpm::Grid<Dim>&);
-	int  ownerOf(const shared_ptr<MpmContact>&, const Places& known, const Body&, const Scene&);
-	void requireTogether(const MpmContact&, const Body&, const Owner&, const Se3r& own) const;
-	Real partAt(Real time) const { return target > begin ? std::min(1., (time - begin) / (target - begin)) : 1; }
-	void addMember(const MpmContact&, const shared_ptr<Body>&, int owner, const gimpm::Grid<Dim>&);
-	void recall(const MpmContact&);
-	void keep(MpmContact&);
-	void keepRecords() const;
+	void             advanceTo(Real time);
+	void             addToMeans(Real part);
+	bool             isBetween() const { return target - begin > 1.5 * dt; } // whether YADE makes iterations between load steps
+	void             add(const shared_ptr<MpmContact>&, const Scene&, const gimpm::Grid<Dim>&);
+	int              ownerOf(const shared_ptr<MpmContact>&, const Places& known, const Body&, const Scene&, const gimpm::Grid<Dim>&);
+	void             requireTogether(const MpmContact&, const Body&, const Owner&, const Se3r& own) const;
+	Real             partAt(Real time) const { return target > begin ? std::min(1., (time - begin) / (target - begin)) : 1; }
+	void             addMember(const MpmContact&, const shared_ptr<Body>&, int owner, const gimpm::Grid<Dim>&);
+	void             addDeforming(const shared_ptr<MpmContact>&, const Places& known, const shared_ptr<Body>&, const Scene&, const gimpm::Grid<Dim>&);
+	void             add(const MpmContact&, gimpm::RigidBody<Dim>, const Member&, int owner);
+	void             free(Owner&, const Scene&, const gimpm::Grid<Dim>&);
+	void             advanceFree(const StepTime&, bool isRing);
+	void             requireAlone(const gimpm::Model<Dim>&) const;
+	vector<NodePose> nodePoses(const Member&) const;
+	size_t           placeOf(const gimpm::ContactRecord<Dim>&) const;
+	void             recall(const MpmContact&);
+	void             keep(MpmContact&);
+	void             keepRecords() const;
 
 	// In the first run, about bodies that are far from the soil and do not come.
 	string warningOfDistance(const gimpm::PointCloud<Dim>&) const;
@@ -92,6 +107,9 @@ private:
 	string                                coefficient; // doubt about an angle of friction
 	string                                distance;    // and about where the bodies are
 	std::optional<Movers>                 movers;
+	std::optional<gimpm::LoadCurve>       ofGravity;
+	Vector3r                              gravity    = Vector3r::Zero(); // at factor 1
+	bool                                  isExplicit = false;
 };
 
 } // namespace yade

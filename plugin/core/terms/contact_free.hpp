@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Rigid bodies that move as the soil and their loads make them, within the equilibrium of a step.
+#pragma once
+#include "core/base/types.hpp"
+#include <array>
+#include <functional>
+#include <vector>
+
+namespace gimpm {
+
+/// The matrix that a small turn is multiplied with to give what it moves at the end of an arm; transposed, the moment
+/// that a force has about its begin. In the plane a turn is a number.
+Vec<2> turnsArm(const Vec<2>& arm);
+Mat3   turnsArm(const Vec3& arm);
+template <int Dim> using Turn = Eigen::Matrix<double, Dim == 2 ? 1 : 3, 1>;
+
+/// Who owns bodies and moves freely in a step. Its unknowns are a displacement and a turn q about its position, for
+/// which  J q + (forces and moments on the soil) - push = 0.  With a force F that is constant in the step
+/// and q = T ((1 - a) v_0 + a v_1), v_1 = v_0 + T F / m: so J = M / (a T^2), push = weight and loads + M v_0 / (a T),
+/// and
+/// what the soil gets as its momentum the body loses. Of the highest frequencies (1 - a) / a are left in each step. In
+/// statics J = 0.
+template <int Dim> struct FreeBody {
+	static constexpr int unknowns = Dim + Turn<Dim>::RowsAtCompileTime;
+	using Vector                  = Eigen::Matrix<double, unknowns, 1>;
+	using Matrix                  = Eigen::Matrix<double, unknowns, unknowns>;
+
+	int                        owner;    ///< in the system
+	Vec<Dim>                   position; ///< at the beginning of the step [m]
+	std::array<bool, unknowns> isGiven {};
+	Matrix                     inertia = Matrix::Zero(); ///< J [N/m], [N m]
+	Vector                     push    = Vector::Zero(); ///< [N], [N m]
+	/// A first guess, with the values of what is given; then a result [m], [rad].
+	Vector motion    = Vector::Zero();
+	bool   isAtRest  = true; ///< in balance with the soil at the last iterate
+	double imbalance = 0;    ///< what is left of the forces there, over their sizes
+};
+
+/// A turn as a rotation.
+Mat<2> rotationOf(const Turn<2>&);
+Mat3   rotationOf(const Turn<3>&);
+
+/// The force at one place, and how it depends on soil and body there.
+template <int Dim> struct PlaceOfFree {
+	Vec<Dim> arm;   ///< from the owner to the place, at the iterate [m]
+	Vec<Dim> force; ///< on the soil [N]
+	Mat<Dim> slope; ///< its derivative by the place [N/m]
+	double   gap;   ///< > 0: it does not touch [m]
+	Vec<Dim> normal;
+};
+
+/// What a force at a place has to do with the unknowns of its body: with B the displacement of the place by the
+/// body's, df = slope (du - B dq) + turned dq, and of the force on the body d(B^T f) = B^T df + byPlace du + byBody dq.
+template <int Dim> struct Lever {
+	using Free = FreeBody<Dim>;
+	Eigen::Matrix<double, Dim, Free::unknowns> moves, turned;
+	Eigen::Matrix<double, Free::unknowns, Dim> byPlace;
+	typename Free::Matrix                      byBody;
+
+	explicit Lever(const PlaceOfFree<Dim>&);
+
+	/// Derivative of the force on the soil by q, and of that on the body by the place.
+	Eigen::Matrix<double, Dim, Free::unknowns> forceByBody(const Mat<Dim>& slope) const { return turned - slope * moves; }
+	Eigen::Matrix<double, Free::unknowns, Dim> bodyByPlace(const Mat<Dim>& slope) const { return moves.transpose() * slope + byPlace; }
+	typename Free::Matrix                      bodyByBody(const Mat<Dim>& slope) const { return moves.transpose() * forceByBody(slope) + byBody; }
+};
+
+/// Finds the motion of the body; `look` puts the bodies at a motion and tells the places, all of them. False: there is
+/// no equilibrium that could be found, and the motion is the best one that was.
+template <int Dim> bool settle(FreeBody<Dim>&, double size, const std::function<std::vector<PlaceOfFree<Dim>>(const typename FreeBody<Dim>::Vector&)>& look);
+
+/// The inverse of the derivative of what is out of balance by the motion, zero for what is given; `size` of the body
+/// makes turns comparable with displacements [m]. What nothing resists does not move.
+template <int Dim> typename FreeBody<Dim>::Matrix compliance(const FreeBody<Dim>&, double size, const std::vector<PlaceOfFree<Dim>>&);
+
+} // namespace gimpm
