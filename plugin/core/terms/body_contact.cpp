@@ -133,10 +133,10 @@ template <int Dim> void BodyContact<Dim>::addPlaces(int number, const Beginning<
 			const auto at = attachNear(x, step.basis, step.grid, system_.bodies[meeting.slave].layer);
 			if (!at) continue;
 			const double area = rule.part * normal.norm() * (isRing_ ? 2 * M_PI * x[0] : 1);
-			Place        place { number, i, x, normal.normalized(), area, 0, Vec<Dim>::Zero(), *at };
+			Place        place { number, i, x, normal.normalized(), area, 0, 0, Vec<Dim>::Zero(), *at };
 			findNear(place, near, step);
 			if (place.near.empty()) continue;
-			if (!meeting.shear.empty()) place.shear = area * meeting.shear[slave.whole[i]];
+			if (!meeting.shear.empty()) place.shear = area * meeting.shear[slave.whole[i]], place.pressure = area * meeting.pressure[slave.whole[i]];
 			places_.push_back(std::move(place));
 		}
 	}
@@ -342,7 +342,23 @@ template <int Dim> void BodyContact<Dim>::addCoupledBefore(const State&, const F
 
 template <int Dim> void BodyContact<Dim>::addUnweighted(const Eigen::VectorXd* d, Eigen::VectorXd& resistance) const
 {
-	add(d ? *d : Eigen::VectorXd::Zero(unknowns_), 1, resistance, nullptr, nullptr);
+	if (d) add(*d, 1, resistance, nullptr, nullptr);
+	else
+		addKept(resistance);
+}
+
+template <int Dim> void BodyContact<Dim>::addKept(Eigen::VectorXd& resistance) const
+{
+	for (const Place& place : places_) {
+		if (place.pressure == 0) continue;
+		const Near* near = nearestOf(place, nullptr, start_);
+		if (!near) continue;
+		const Facing<Dim> at(pair(place.start, meetingOf(place).master, near->piece, start_));
+		const auto        f = pairForceOf<Dim>(at, place.pressure, place.shear).force;
+		for (const PairNode& one : nodesOf(place, *near))
+			for (int i = 0; i <= Dim; ++i)
+				resistance.template segment<Dim>(Dim * one.node) -= one.weight[i] * f[i];
+	}
 }
 
 template <int Dim> void BodyContact<Dim>::holdAt(const Touching& touching, bool sticks, const typename Term<Dim>::Hold& hold) const

@@ -61,7 +61,8 @@ public:
 	Refusal                     refusal(const Eigen::VectorXd& d) const override;
 	void                        commit(const Eigen::VectorXd& d) override;
 
-	/// Adds the forces that resist at d, or, where that is null, as the step begins, without their weight.
+	/// Adds the forces that resist at d, or, where that is null, as the step begins, without their weight. The latter
+	/// are those that were kept, not of gaps found anew: momenta of accelerations with and without them are exact.
 	void addUnweighted(const Eigen::VectorXd* d, Eigen::VectorXd& resistance) const;
 
 private:
@@ -79,7 +80,8 @@ private:
 		Vec<Dim>          start, normal;
 		double            area; ///< [m2]
 		double            young = 0;
-		Vec<Dim>          shear = Vec<Dim>::Zero(); ///< as the step begins [N]
+		double            pressure = 0;                ///< as the step begins [N]
+		Vec<Dim>          shear    = Vec<Dim>::Zero(); ///< the same
 		Attachment<Dim>   at;
 		std::vector<Near> near {};
 	};
@@ -105,6 +107,7 @@ private:
 	PairPlaces<Dim>         pairNow(const Place&, const Near&, const Eigen::VectorXd& d, const Places&) const;
 	const Near*             nearestOf(const Place&, const Eigen::VectorXd* d, const Places&) const;
 	template <class F> void forTouching(const Eigen::VectorXd& d, bool withSlope, F&& f) const; ///< f(Touching)
+	void                    addKept(Eigen::VectorXd& resistance) const;
 	std::vector<PairNode>   nodesOf(const Place&, const Near&) const;
 	void                    add(const Eigen::VectorXd& d, double weight, Eigen::VectorXd& force, Eigen::VectorXd* sizes, Couplings*) const;
 	void                    holdAt(const Touching&, bool sticks, const typename Term<Dim>::Hold&) const;

@@ -44,4 +44,7 @@ template <int Dim>
 std::optional<PairForce<Dim>> pairForce(
         const ContactLaw<Dim>&, const PairPlaces<Dim>& start, const Vec<Dim>& shear, const PairPlaces<Dim>& now, double tolerance, bool withSlope);
 
+/// Forces of a pressure and a frictional force on the place that are known.
+template <int Dim> PairForce<Dim> pairForceOf(const Facing<Dim>&, double pressure, const Vec<Dim>& shear);
+
 } // namespace gimpm
