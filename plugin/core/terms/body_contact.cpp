@@ -11,8 +11,9 @@
 namespace gimpm {
 namespace {
 
-/// The penalty on the gap over that on the slip, as of rigid bodies (core/terms/contact.hpp).
-constexpr double slipSoftnessOfBodies = 20;
+/// The penalty on the gap over that on the slip. What sticks then slides as if a layer of some tenths of a cell lay
+/// between the bodies.
+constexpr double slipSoftnessOfBodies = 4;
 
 /// What a place may get behind the surface of another body, over the size of a cell.
 constexpr double deepestInBodies = 0.1;

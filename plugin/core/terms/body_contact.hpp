@@ -22,7 +22,7 @@ template <int Dim> struct BodyMeeting {
 	int    slave = 0, master = 0;
 	double friction  = 0;                                       ///< coefficient [-]
 	double adhesion  = std::numeric_limits<double>::infinity(); ///< cap of the shear stress [Pa]
-	double stiffness = 50;
+	double stiffness = 10;
 
 	/// Of the last step that was accepted, by the pieces of the slave's surface: stress on it [Pa]; empty: none.
 	std::vector<Vec<Dim>> shear {};
