@@ -16,7 +16,10 @@ namespace {
 constexpr double slipSoftnessOfBodies = 4;
 
 /// What a place may get behind the surface of another body, over the size of a cell.
-constexpr double deepestInBodies = 0.1;
+constexpr double deepestInBodies = 0.25;
+
+/// As a step begins, where the foot is found anew, it may be this much deeper.
+constexpr double deepestAtStart = 1.2 * deepestInBodies;
 
 /// Pieces are seen by places with a normal at more than some 80 degrees from theirs.
 constexpr double facing = 0.2;
@@ -113,7 +116,8 @@ BodyContact<Dim>::BodyContact(BodyContacts<Dim>& system, const Beginning<Dim>& s
 	for (int m = 0; m < int(system.meetings.size()); ++m)
 		addPlaces(m, step);
 	takeModuli(step);
-	requireApart();
+	for (Place& place : places_)
+		begin(place);
 }
 
 template <int Dim> void BodyContact<Dim>::addPlaces(int number, const Beginning<Dim>& step)
@@ -134,7 +138,7 @@ template <int Dim> void BodyContact<Dim>::addPlaces(int number, const Beginning<
 			const auto at = attachNear(x, step.basis, step.grid, system_.bodies[meeting.slave].layer);
 			if (!at) continue;
 			const double area = rule.part * normal.norm() * (isRing_ ? 2 * M_PI * x[0] : 1);
-			Place        place { number, i, x, normal.normalized(), area, 0, 0, Vec<Dim>::Zero(), *at };
+			Place        place { number, i, x, normal.normalized(), area, 0, 0, Vec<Dim>::Zero(), 0, *at };
 			findNear(place, near, step);
 			if (place.near.empty()) continue;
 			if (!meeting.shear.empty()) place.shear = area * meeting.shear[slave.whole[i]], place.pressure = area * meeting.pressure[slave.whole[i]];
@@ -187,20 +191,19 @@ template <int Dim> void BodyContact<Dim>::takeModuli(const Beginning<Dim>& step)
 		places_[i].young = std::min(moduli[leaves[i][0]], moduli[leaves[i][1]]);
 }
 
-/// Bodies that begin within each other would be thrown apart.
-template <int Dim> void BodyContact<Dim>::requireApart()
+/// Gaps are found anew in each step, as surfaces are cut anew; the pressure is kept, and not the gap. So contact gives
+/// back no more energy than it has stored. Bodies that are deep within each other are not as they should be.
+template <int Dim> void BodyContact<Dim>::begin(Place& place)
 {
-	for (const Place& place : places_) {
-		const auto& meeting = meetingOf(place);
-		const Near* near    = nearestOf(place, nullptr, start_);
-		if (!near || !obstacle_.empty()) continue;
-		const Facing<Dim> at(pair(place.start, meeting.master, near->piece, start_));
-		if (at.gap < -deepestInBodies * cellSize_)
-			obstacle_ = sentence(
-			        "the surface of body '", system_.bodies[meeting.slave].name, "' is ", -at.gap, " m inside of body '",
-			        system_.bodies[meeting.master].name, "', at (", place.start.transpose(),
-			        "): bodies must not overlap, and larger steps than they can bear get them into each other");
-	}
+	const auto& meeting = meetingOf(place);
+	const Near* near    = nearestOf(place, nullptr, start_);
+	if (!near) return;
+	const double gap = Facing<Dim>(pair(place.start, meeting.master, near->piece, start_)).gap;
+	place.closed     = place.pressure > 0 ? gap + place.pressure / penaltyOf(place) : std::min(0., gap);
+	if (gap > -deepestAtStart * cellSize_ || !obstacle_.empty()) return;
+	obstacle_ = sentence(
+	        "the surface of body '", system_.bodies[meeting.slave].name, "' is ", -gap, " m inside of body '", system_.bodies[meeting.master].name, "', at (",
+	        place.start.transpose(), "): bodies must not overlap, and larger steps than they can bear get them into each other");
 }
 
 template <int Dim> auto BodyContact<Dim>::placesAt(const Eigen::VectorXd& d) const -> Places
@@ -259,10 +262,10 @@ template <int Dim> template <class F> void BodyContact<Dim>::forTouching(const E
 		const auto& meeting = meetingOf(place);
 		const Near* near    = nearestOf(place, &d, now);
 		if (!near) continue;
-		const double          penalty = meeting.stiffness * place.young * place.area / cellSize_;
+		const double          penalty = penaltyOf(place);
 		const ContactLaw<Dim> law { penalty, penalty / slipSoftnessOfBodies, meeting.friction, meeting.adhesion * place.area };
 		const auto            start = pair(place.start, meeting.master, near->piece, start_), end = pairNow(place, *near, d, now);
-		if (const auto force = pairForce<Dim>(law, start, place.shear, end, tolerance_, withSlope)) f(Touching { place, *near, *force, end });
+		if (const auto force = pairForce<Dim>(law, start, place.shear, end, place.closed, tolerance_, withSlope)) f(Touching { place, *near, *force, end });
 	}
 }
 
@@ -343,23 +346,7 @@ template <int Dim> void BodyContact<Dim>::addCoupledBefore(const State&, const F
 
 template <int Dim> void BodyContact<Dim>::addUnweighted(const Eigen::VectorXd* d, Eigen::VectorXd& resistance) const
 {
-	if (d) add(*d, 1, resistance, nullptr, nullptr);
-	else
-		addKept(resistance);
-}
-
-template <int Dim> void BodyContact<Dim>::addKept(Eigen::VectorXd& resistance) const
-{
-	for (const Place& place : places_) {
-		if (place.pressure == 0) continue;
-		const Near* near = nearestOf(place, nullptr, start_);
-		if (!near) continue;
-		const Facing<Dim> at(pair(place.start, meetingOf(place).master, near->piece, start_));
-		const auto        f = pairForceOf<Dim>(at, place.pressure, place.shear).force;
-		for (const PairNode& one : nodesOf(place, *near))
-			for (int i = 0; i <= Dim; ++i)
-				resistance.template segment<Dim>(Dim * one.node) -= one.weight[i] * f[i];
-	}
+	add(d ? *d : Eigen::VectorXd::Zero(unknowns_), 1, resistance, nullptr, nullptr);
 }
 
 template <int Dim> void BodyContact<Dim>::holdAt(const Touching& touching, bool sticks, const typename Term<Dim>::Hold& hold) const

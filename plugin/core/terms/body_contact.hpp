@@ -62,7 +62,7 @@ public:
 	void                        commit(const Eigen::VectorXd& d) override;
 
 	/// Adds the forces that resist at d, or, where that is null, as the step begins, without their weight. The latter
-	/// are those that were kept, not of gaps found anew: momenta of accelerations with and without them are exact.
+	/// are those at the end of the last step, whatever gaps are found anew: so no momentum is lost between steps.
 	void addUnweighted(const Eigen::VectorXd* d, Eigen::VectorXd& resistance) const;
 
 private:
@@ -82,6 +82,7 @@ private:
 		double            young = 0;
 		double            pressure = 0;                ///< as the step begins [N]
 		Vec<Dim>          shear    = Vec<Dim>::Zero(); ///< the same
+		double            closed   = 0;                ///< gap at which it begins to be pressed [m]
 		Attachment<Dim>   at;
 		std::vector<Near> near {};
 	};
@@ -101,19 +102,19 @@ private:
 	void                    addPlaces(int meeting, const Beginning<Dim>&);
 	void                    findNear(Place&, const std::vector<int>& pieces, const Beginning<Dim>&) const;
 	void                    takeModuli(const Beginning<Dim>&);
-	void                    requireApart();
+	void                    begin(Place&);
 	Places                  placesAt(const Eigen::VectorXd& d) const;
 	PairPlaces<Dim>         pair(const Vec<Dim>& place, int body, int piece, const Places&) const;
 	PairPlaces<Dim>         pairNow(const Place&, const Near&, const Eigen::VectorXd& d, const Places&) const;
 	const Near*             nearestOf(const Place&, const Eigen::VectorXd* d, const Places&) const;
 	template <class F> void forTouching(const Eigen::VectorXd& d, bool withSlope, F&& f) const; ///< f(Touching)
-	void                    addKept(Eigen::VectorXd& resistance) const;
 	std::vector<PairNode>   nodesOf(const Place&, const Near&) const;
 	void                    add(const Eigen::VectorXd& d, double weight, Eigen::VectorXd& force, Eigen::VectorXd* sizes, Couplings*) const;
 	void                    holdAt(const Touching&, bool sticks, const typename Term<Dim>::Hold&) const;
 	void                    moveSurfaces(const Places& now);
 	double                  approach(const BodyMeeting<Dim>&, const Places& now) const;
 	const BodyMeeting<Dim>& meetingOf(const Place& place) const { return system_.meetings[place.meeting]; }
+	double                  penaltyOf(const Place& place) const { return meetingOf(place).stiffness * place.young * place.area / cellSize_; } ///< [N/m]
 
 	BodyContacts<Dim>&       system_;
 	const double             cellSize_, tolerance_, reach_; // tolerance: of a gap that counts as touching; reach: of the search [m]

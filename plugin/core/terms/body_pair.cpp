@@ -131,32 +131,31 @@ template <int Dim> Facing<Dim>::Facing(const PairPlaces<Dim>& x) : normal(normal
 
 /// The frictional force T enters the forces on the vertices with -w_i T + g (T . b_i) n: so it is conjugate to the
 /// slip, and no moment g T is left.
-template <int Dim> PairForce<Dim> pairForceOf(const Facing<Dim>& at, double pressure, const Vec<Dim>& shear)
-{
-	PairForce<Dim> f;
-	f.pressure = pressure, f.shear = shear;
-	f.force[0] = pressure * at.normal + shear;
-	for (int i = 0; i < Dim; ++i)
-		f.force[i + 1] = -at.weight[i] * f.force[0] + at.gap * shear.dot(at.slope[i]) * at.normal;
-	return f;
-}
-
 template <int Dim>
 std::optional<PairForce<Dim>> pairForce(
-        const ContactLaw<Dim>& law, const PairPlaces<Dim>& start, const Vec<Dim>& before, const PairPlaces<Dim>& now, double tolerance, bool withSlope)
+        const ContactLaw<Dim>& law,
+        const PairPlaces<Dim>& start,
+        const Vec<Dim>&        before,
+        const PairPlaces<Dim>& now,
+        double                 closed,
+        double                 tolerance,
+        bool                   withSlope)
 {
 	const Facing<Dim> at(now);
-	if (!(at.gap <= tolerance)) return std::nullopt;
+	if (!(at.gap - closed <= tolerance)) return std::nullopt;
 	std::optional<FacingSlope<Dim>> d;
 	if (withSlope) d.emplace(at, now);
 	const Facing<Dim> first(start);
 	const Slip<Dim>   slip(first, at, now, d ? &*d : nullptr);
-	const double      pressure = std::max(0., -law.normal * at.gap);
-	const auto        rubbing  = rub<Dim>(law, first, before, pressure, at, slip, d ? &*d : nullptr);
-	PairForce<Dim>    f        = pairForceOf<Dim>(at, pressure, rubbing.shear);
-	f.slips = rubbing.slips, f.slip = slip.value;
+	PairForce<Dim>    f;
+	f.pressure         = std::max(0., -law.normal * (at.gap - closed));
+	const auto rubbing = rub<Dim>(law, first, before, f.pressure, at, slip, d ? &*d : nullptr);
+	f.shear = rubbing.shear, f.slips = rubbing.slips, f.slip = slip.value;
+	const Vec<Dim> whole = f.pressure * at.normal + f.shear;
+	f.force[0]           = whole;
+	for (int i = 0; i < Dim; ++i)
+		f.force[i + 1] = -at.weight[i] * whole + at.gap * f.shear.dot(at.slope[i]) * at.normal;
 	if (!d) return f;
-	const Vec<Dim>                        whole  = f.force[0];
 	const typename FacingSlope<Dim>::Rows dWhole = -law.normal * at.normal * d->gap + f.pressure * d->normal + rubbing.slope;
 	f.slope.template topRows<Dim>()              = dWhole;
 	for (int i = 0; i < Dim; ++i) {
@@ -170,9 +169,7 @@ std::optional<PairForce<Dim>> pairForce(
 
 template struct Facing<2>;
 template struct Facing<3>;
-template PairForce<2>                pairForceOf(const Facing<2>&, double, const Vec<2>&);
-template PairForce<3>                pairForceOf(const Facing<3>&, double, const Vec<3>&);
-template std::optional<PairForce<2>> pairForce(const ContactLaw<2>&, const PairPlaces<2>&, const Vec<2>&, const PairPlaces<2>&, double, bool);
-template std::optional<PairForce<3>> pairForce(const ContactLaw<3>&, const PairPlaces<3>&, const Vec<3>&, const PairPlaces<3>&, double, bool);
+template std::optional<PairForce<2>> pairForce(const ContactLaw<2>&, const PairPlaces<2>&, const Vec<2>&, const PairPlaces<2>&, double, double, bool);
+template std::optional<PairForce<3>> pairForce(const ContactLaw<3>&, const PairPlaces<3>&, const Vec<3>&, const PairPlaces<3>&, double, double, bool);
 
 } // namespace gimpm
