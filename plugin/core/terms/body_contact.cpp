@@ -2,11 +2,11 @@
 #include "core/terms/body_contact.hpp"
 #include "core/base/sentence.hpp"
 #include "core/terms/cell_moduli.hpp"
+#include "core/terms/pieces_by_cell.hpp"
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <unordered_map>
 
 namespace gimpm {
 namespace {
@@ -58,39 +58,6 @@ double squaredDistance(const PairPlaces<3>& x)
 	return std::min({ squaredDistance<3>(x[0], x[1], x[2]), squaredDistance<3>(x[0], x[2], x[3]), squaredDistance<3>(x[0], x[3], x[1]) });
 }
 
-/// Pieces by the cells within reach of them.
-template <int Dim> class PiecesByCell {
-public:
-	PiecesByCell(const Facets<Dim>& facets, const Grid<Dim>& grid, double reach) : grid_(grid)
-	{
-		for (std::size_t i = 0; i < facets.pieces.size(); ++i) {
-			if (!facets.isThere(facets.pieces[i])) continue;
-			Vec<Dim> low = facets.start[facets.pieces[i][0]], high = low;
-			for (const int v : facets.pieces[i])
-				low = low.cwiseMin(facets.start[v]), high = high.cwiseMax(facets.start[v]);
-			const Index<Dim> first = cell(low - Vec<Dim>::Constant(reach)), last = cell(high + Vec<Dim>::Constant(reach));
-			Index<Dim>       c = first;
-			for (int a = 0; a < Dim;) {
-				pieces_[Grid<Dim>::key(c)].push_back(int(i));
-				for (a = 0; a < Dim && ++c[a] > last[a]; ++a)
-					c[a] = first[a];
-			}
-		}
-	}
-	const std::vector<int>& near(const Vec<Dim>& x) const
-	{
-		static const std::vector<int> none;
-		const auto                    found = pieces_.find(Grid<Dim>::key(cell(x)));
-		return found == pieces_.end() ? none : found->second;
-	}
-
-private:
-	Index<Dim> cell(const Vec<Dim>& x) const { return ((x - grid_.origin) / grid_.cellSize).array().floor().template cast<int>(); }
-
-	const Grid<Dim>&                          grid_;
-	std::unordered_map<Key, std::vector<int>> pieces_;
-};
-
 /// The number of the leaf that a place is attached to.
 template <int Dim> int leafAt(const Attachment<Dim>& at, const CloudBasis<Dim>& basis, const Grid<Dim>& grid, int layer)
 {
@@ -141,7 +108,8 @@ template <int Dim> void BodyContact<Dim>::addPlaces(int number, const Beginning<
 			Place        place { number, i, x, normal.normalized(), area, 0, 0, Vec<Dim>::Zero(), 0, *at };
 			findNear(place, near, step);
 			if (place.near.empty()) continue;
-			if (!meeting.shear.empty()) place.shear = area * meeting.shear[slave.whole[i]], place.pressure = area * meeting.pressure[slave.whole[i]];
+			if (!meeting.shear.empty())
+				place.shear = area * meeting.shear[slave.whole[i]], place.pressure = area * meeting.pressure[slave.whole[i]];
 			places_.push_back(std::move(place));
 		}
 	}
@@ -202,8 +170,8 @@ template <int Dim> void BodyContact<Dim>::begin(Place& place)
 	place.closed     = place.pressure > 0 ? gap + place.pressure / penaltyOf(place) : std::min(0., gap);
 	if (gap > -deepestAtStart * cellSize_ || !obstacle_.empty()) return;
 	obstacle_ = sentence(
-	        "the surface of body '", system_.bodies[meeting.slave].name, "' is ", -gap, " m inside of body '", system_.bodies[meeting.master].name, "', at (",
-	        place.start.transpose(), "): bodies must not overlap, and larger steps than they can bear get them into each other");
+	        "the surface of body '", system_.bodies[meeting.slave].name, "' is ", -gap, " m inside of body '", system_.bodies[meeting.master].name,
+	        "', at (", place.start.transpose(), "): bodies must not overlap, and larger steps than they can bear get them into each other");
 }
 
 template <int Dim> auto BodyContact<Dim>::placesAt(const Eigen::VectorXd& d) const -> Places
@@ -265,7 +233,8 @@ template <int Dim> template <class F> void BodyContact<Dim>::forTouching(const E
 		const double          penalty = penaltyOf(place);
 		const ContactLaw<Dim> law { penalty, penalty / slipSoftnessOfBodies, meeting.friction, meeting.adhesion * place.area };
 		const auto            start = pair(place.start, meeting.master, near->piece, start_), end = pairNow(place, *near, d, now);
-		if (const auto force = pairForce<Dim>(law, start, place.shear, end, place.closed, tolerance_, withSlope)) f(Touching { place, *near, *force, end });
+		if (const auto force = pairForce<Dim>(law, start, place.shear, end, place.closed, tolerance_, withSlope))
+			f(Touching { place, *near, *force, end });
 	}
 }
 

@@ -79,7 +79,7 @@ private:
 		int               meeting, piece; ///< of its facets
 		Vec<Dim>          start, normal;
 		double            area; ///< [m2]
-		double            young = 0;
+		double            young    = 0;
 		double            pressure = 0;                ///< as the step begins [N]
 		Vec<Dim>          shear    = Vec<Dim>::Zero(); ///< the same
 		double            closed   = 0;                ///< gap at which it begins to be pressed [m]

@@ -133,13 +133,8 @@ template <int Dim> Facing<Dim>::Facing(const PairPlaces<Dim>& x) : normal(normal
 /// slip, and no moment g T is left.
 template <int Dim>
 std::optional<PairForce<Dim>> pairForce(
-        const ContactLaw<Dim>& law,
-        const PairPlaces<Dim>& start,
-        const Vec<Dim>&        before,
-        const PairPlaces<Dim>& now,
-        double                 closed,
-        double                 tolerance,
-        bool                   withSlope)
+        const ContactLaw<Dim>& law, const PairPlaces<Dim>& start, const Vec<Dim>& before, const PairPlaces<Dim>& now, double closed, double tolerance,
+        bool withSlope)
 {
 	const Facing<Dim> at(now);
 	if (!(at.gap - closed <= tolerance)) return std::nullopt;

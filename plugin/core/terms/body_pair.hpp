@@ -42,12 +42,7 @@ template <int Dim> struct PairForce {
 /// body that only touches is held.
 template <int Dim>
 std::optional<PairForce<Dim>> pairForce(
-        const ContactLaw<Dim>&,
-        const PairPlaces<Dim>& start,
-        const Vec<Dim>&        shear,
-        const PairPlaces<Dim>& now,
-        double                 closed,
-        double                 tolerance,
-        bool                   withSlope);
+        const ContactLaw<Dim>&, const PairPlaces<Dim>& start, const Vec<Dim>& shear, const PairPlaces<Dim>& now, double closed, double tolerance,
+        bool withSlope);
 
 } // namespace gimpm
