@@ -2,20 +2,24 @@
 #include "core/terms/body_contact.hpp"
 #include "core/base/sentence.hpp"
 #include "core/terms/cell_moduli.hpp"
+#include "core/terms/pieces_by_cell.hpp"
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <unordered_map>
 
 namespace gimpm {
 namespace {
 
-/// The penalty on the gap over that on the slip, as of rigid bodies (core/terms/contact.hpp).
-constexpr double slipSoftnessOfBodies = 20;
+/// The penalty on the gap over that on the slip. What sticks then slides as if a layer of some tenths of a cell lay
+/// between the bodies.
+constexpr double slipSoftnessOfBodies = 4;
 
 /// What a place may get behind the surface of another body, over the size of a cell.
-constexpr double deepestInBodies = 0.1;
+constexpr double deepestInBodies = 0.25;
+
+/// As a step begins, where the foot is found anew, it may be this much deeper.
+constexpr double deepestAtStart = 1.2 * deepestInBodies;
 
 /// Pieces are seen by places with a normal at more than some 80 degrees from theirs.
 constexpr double facing = 0.2;
@@ -54,39 +58,6 @@ double squaredDistance(const PairPlaces<3>& x)
 	return std::min({ squaredDistance<3>(x[0], x[1], x[2]), squaredDistance<3>(x[0], x[2], x[3]), squaredDistance<3>(x[0], x[3], x[1]) });
 }
 
-/// Pieces by the cells within reach of them.
-template <int Dim> class PiecesByCell {
-public:
-	PiecesByCell(const Facets<Dim>& facets, const Grid<Dim>& grid, double reach) : grid_(grid)
-	{
-		for (std::size_t i = 0; i < facets.pieces.size(); ++i) {
-			if (!facets.isThere(facets.pieces[i])) continue;
-			Vec<Dim> low = facets.start[facets.pieces[i][0]], high = low;
-			for (const int v : facets.pieces[i])
-				low = low.cwiseMin(facets.start[v]), high = high.cwiseMax(facets.start[v]);
-			const Index<Dim> first = cell(low - Vec<Dim>::Constant(reach)), last = cell(high + Vec<Dim>::Constant(reach));
-			Index<Dim>       c = first;
-			for (int a = 0; a < Dim;) {
-				pieces_[Grid<Dim>::key(c)].push_back(int(i));
-				for (a = 0; a < Dim && ++c[a] > last[a]; ++a)
-					c[a] = first[a];
-			}
-		}
-	}
-	const std::vector<int>& near(const Vec<Dim>& x) const
-	{
-		static const std::vector<int> none;
-		const auto                    found = pieces_.find(Grid<Dim>::key(cell(x)));
-		return found == pieces_.end() ? none : found->second;
-	}
-
-private:
-	Index<Dim> cell(const Vec<Dim>& x) const { return ((x - grid_.origin) / grid_.cellSize).array().floor().template cast<int>(); }
-
-	const Grid<Dim>&                          grid_;
-	std::unordered_map<Key, std::vector<int>> pieces_;
-};
-
 /// The number of the leaf that a place is attached to.
 template <int Dim> int leafAt(const Attachment<Dim>& at, const CloudBasis<Dim>& basis, const Grid<Dim>& grid, int layer)
 {
@@ -112,7 +83,8 @@ BodyContact<Dim>::BodyContact(BodyContacts<Dim>& system, const Beginning<Dim>& s
 	for (int m = 0; m < int(system.meetings.size()); ++m)
 		addPlaces(m, step);
 	takeModuli(step);
-	requireApart();
+	for (Place& place : places_)
+		begin(place);
 }
 
 template <int Dim> void BodyContact<Dim>::addPlaces(int number, const Beginning<Dim>& step)
@@ -133,10 +105,11 @@ template <int Dim> void BodyContact<Dim>::addPlaces(int number, const Beginning<
 			const auto at = attachNear(x, step.basis, step.grid, system_.bodies[meeting.slave].layer);
 			if (!at) continue;
 			const double area = rule.part * normal.norm() * (isRing_ ? 2 * M_PI * x[0] : 1);
-			Place        place { number, i, x, normal.normalized(), area, 0, Vec<Dim>::Zero(), *at };
+			Place        place { number, i, x, normal.normalized(), area, 0, 0, Vec<Dim>::Zero(), 0, *at };
 			findNear(place, near, step);
 			if (place.near.empty()) continue;
-			if (!meeting.shear.empty()) place.shear = area * meeting.shear[slave.whole[i]];
+			if (!meeting.shear.empty())
+				place.shear = area * meeting.shear[slave.whole[i]], place.pressure = area * meeting.pressure[slave.whole[i]];
 			places_.push_back(std::move(place));
 		}
 	}
@@ -186,20 +159,19 @@ template <int Dim> void BodyContact<Dim>::takeModuli(const Beginning<Dim>& step)
 		places_[i].young = std::min(moduli[leaves[i][0]], moduli[leaves[i][1]]);
 }
 
-/// Bodies that begin within each other would be thrown apart.
-template <int Dim> void BodyContact<Dim>::requireApart()
+/// Gaps are found anew in each step, as surfaces are cut anew; the pressure is kept, and not the gap. So contact gives
+/// back no more energy than it has stored. Bodies that are deep within each other are not as they should be.
+template <int Dim> void BodyContact<Dim>::begin(Place& place)
 {
-	for (const Place& place : places_) {
-		const auto& meeting = meetingOf(place);
-		const Near* near    = nearestOf(place, nullptr, start_);
-		if (!near || !obstacle_.empty()) continue;
-		const Facing<Dim> at(pair(place.start, meeting.master, near->piece, start_));
-		if (at.gap < -deepestInBodies * cellSize_)
-			obstacle_ = sentence(
-			        "the surface of body '", system_.bodies[meeting.slave].name, "' is ", -at.gap, " m inside of body '",
-			        system_.bodies[meeting.master].name, "', at (", place.start.transpose(),
-			        "): bodies must not overlap, and larger steps than they can bear get them into each other");
-	}
+	const auto& meeting = meetingOf(place);
+	const Near* near    = nearestOf(place, nullptr, start_);
+	if (!near) return;
+	const double gap = Facing<Dim>(pair(place.start, meeting.master, near->piece, start_)).gap;
+	place.closed     = place.pressure > 0 ? gap + place.pressure / penaltyOf(place) : std::min(0., gap);
+	if (gap > -deepestAtStart * cellSize_ || !obstacle_.empty()) return;
+	obstacle_ = sentence(
+	        "the surface of body '", system_.bodies[meeting.slave].name, "' is ", -gap, " m inside of body '", system_.bodies[meeting.master].name,
+	        "', at (", place.start.transpose(), "): bodies must not overlap, and larger steps than they can bear get them into each other");
 }
 
 template <int Dim> auto BodyContact<Dim>::placesAt(const Eigen::VectorXd& d) const -> Places
@@ -258,10 +230,11 @@ template <int Dim> template <class F> void BodyContact<Dim>::forTouching(const E
 		const auto& meeting = meetingOf(place);
 		const Near* near    = nearestOf(place, &d, now);
 		if (!near) continue;
-		const double          penalty = meeting.stiffness * place.young * place.area / cellSize_;
+		const double          penalty = penaltyOf(place);
 		const ContactLaw<Dim> law { penalty, penalty / slipSoftnessOfBodies, meeting.friction, meeting.adhesion * place.area };
 		const auto            start = pair(place.start, meeting.master, near->piece, start_), end = pairNow(place, *near, d, now);
-		if (const auto force = pairForce<Dim>(law, start, place.shear, end, tolerance_, withSlope)) f(Touching { place, *near, *force, end });
+		if (const auto force = pairForce<Dim>(law, start, place.shear, end, place.closed, tolerance_, withSlope))
+			f(Touching { place, *near, *force, end });
 	}
 }
 

@@ -22,7 +22,7 @@ template <int Dim> struct BodyMeeting {
 	int    slave = 0, master = 0;
 	double friction  = 0;                                       ///< coefficient [-]
 	double adhesion  = std::numeric_limits<double>::infinity(); ///< cap of the shear stress [Pa]
-	double stiffness = 50;
+	double stiffness = 10;
 
 	/// Of the last step that was accepted, by the pieces of the slave's surface: stress on it [Pa]; empty: none.
 	std::vector<Vec<Dim>> shear {};
@@ -61,7 +61,8 @@ public:
 	Refusal                     refusal(const Eigen::VectorXd& d) const override;
 	void                        commit(const Eigen::VectorXd& d) override;
 
-	/// Adds the forces that resist at d, or, where that is null, as the step begins, without their weight.
+	/// Adds the forces that resist at d, or, where that is null, as the step begins, without their weight. The latter
+	/// are those at the end of the last step, whatever gaps are found anew: so no momentum is lost between steps.
 	void addUnweighted(const Eigen::VectorXd* d, Eigen::VectorXd& resistance) const;
 
 private:
@@ -78,8 +79,10 @@ private:
 		int               meeting, piece; ///< of its facets
 		Vec<Dim>          start, normal;
 		double            area; ///< [m2]
-		double            young = 0;
-		Vec<Dim>          shear = Vec<Dim>::Zero(); ///< as the step begins [N]
+		double            young    = 0;
+		double            pressure = 0;                ///< as the step begins [N]
+		Vec<Dim>          shear    = Vec<Dim>::Zero(); ///< the same
+		double            closed   = 0;                ///< gap at which it begins to be pressed [m]
 		Attachment<Dim>   at;
 		std::vector<Near> near {};
 	};
@@ -99,7 +102,7 @@ private:
 	void                    addPlaces(int meeting, const Beginning<Dim>&);
 	void                    findNear(Place&, const std::vector<int>& pieces, const Beginning<Dim>&) const;
 	void                    takeModuli(const Beginning<Dim>&);
-	void                    requireApart();
+	void                    begin(Place&);
 	Places                  placesAt(const Eigen::VectorXd& d) const;
 	PairPlaces<Dim>         pair(const Vec<Dim>& place, int body, int piece, const Places&) const;
 	PairPlaces<Dim>         pairNow(const Place&, const Near&, const Eigen::VectorXd& d, const Places&) const;
@@ -111,6 +114,7 @@ private:
 	void                    moveSurfaces(const Places& now);
 	double                  approach(const BodyMeeting<Dim>&, const Places& now) const;
 	const BodyMeeting<Dim>& meetingOf(const Place& place) const { return system_.meetings[place.meeting]; }
+	double                  penaltyOf(const Place& place) const { return meetingOf(place).stiffness * place.young * place.area / cellSize_; } ///< [N/m]
 
 	BodyContacts<Dim>&       system_;
 	const double             cellSize_, tolerance_, reach_; // tolerance: of a gap that counts as touching; reach: of the search [m]

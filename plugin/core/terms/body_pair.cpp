@@ -133,16 +133,17 @@ template <int Dim> Facing<Dim>::Facing(const PairPlaces<Dim>& x) : normal(normal
 /// slip, and no moment g T is left.
 template <int Dim>
 std::optional<PairForce<Dim>> pairForce(
-        const ContactLaw<Dim>& law, const PairPlaces<Dim>& start, const Vec<Dim>& before, const PairPlaces<Dim>& now, double tolerance, bool withSlope)
+        const ContactLaw<Dim>& law, const PairPlaces<Dim>& start, const Vec<Dim>& before, const PairPlaces<Dim>& now, double closed, double tolerance,
+        bool withSlope)
 {
 	const Facing<Dim> at(now);
-	if (!(at.gap <= tolerance)) return std::nullopt;
+	if (!(at.gap - closed <= tolerance)) return std::nullopt;
 	std::optional<FacingSlope<Dim>> d;
 	if (withSlope) d.emplace(at, now);
 	const Facing<Dim> first(start);
 	const Slip<Dim>   slip(first, at, now, d ? &*d : nullptr);
 	PairForce<Dim>    f;
-	f.pressure         = std::max(0., -law.normal * at.gap);
+	f.pressure         = std::max(0., -law.normal * (at.gap - closed));
 	const auto rubbing = rub<Dim>(law, first, before, f.pressure, at, slip, d ? &*d : nullptr);
 	f.shear = rubbing.shear, f.slips = rubbing.slips, f.slip = slip.value;
 	const Vec<Dim> whole = f.pressure * at.normal + f.shear;
@@ -163,7 +164,7 @@ std::optional<PairForce<Dim>> pairForce(
 
 template struct Facing<2>;
 template struct Facing<3>;
-template std::optional<PairForce<2>> pairForce(const ContactLaw<2>&, const PairPlaces<2>&, const Vec<2>&, const PairPlaces<2>&, double, bool);
-template std::optional<PairForce<3>> pairForce(const ContactLaw<3>&, const PairPlaces<3>&, const Vec<3>&, const PairPlaces<3>&, double, bool);
+template std::optional<PairForce<2>> pairForce(const ContactLaw<2>&, const PairPlaces<2>&, const Vec<2>&, const PairPlaces<2>&, double, double, bool);
+template std::optional<PairForce<3>> pairForce(const ContactLaw<3>&, const PairPlaces<3>&, const Vec<3>&, const PairPlaces<3>&, double, double, bool);
 
 } // namespace gimpm

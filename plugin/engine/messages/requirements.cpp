@@ -131,8 +131,6 @@ static void requireOneBody(const Analysis& engine)
 		what = "MpmGrid.period, a grid that repeats itself";
 	else if (engine.grid && !engine.grid->refinements.empty())
 		what = "MpmGrid.refinements, cells of several sizes";
-	else if (engine.grid && engine.grid->axisymmetric)
-		what = "MpmGrid.axisymmetric";
 	for (const Listed& listed : engine.conditions())
 		if (const string own = listed.condition->needsOneBody(listed.name()); !own.empty()) what = own;
 	if (!what.empty()) throw std::invalid_argument(meets + " cannot go with " + what + " yet; leave one of the two out.");

@@ -48,7 +48,7 @@ namespace {
 
 		Force at(const Places& x, double friction, double cap = 1e9) const
 		{
-			const auto found = pairForce<Dim>({ 7, 3, friction, cap }, start, before, x, 1e-9, true);
+			const auto found = pairForce<Dim>({ 7, 3, friction, cap }, start, before, x, 0, 1e-9, true);
 			EXPECT_TRUE(found) << "the place is behind the piece";
 			return found.value_or(Force());
 		}
@@ -120,7 +120,7 @@ namespace {
 		constexpr int Dim = TypeParam::value;
 		auto          x   = this->start;
 		x[0] += 2 * std::abs(Facing<Dim>(x).gap) * Facing<Dim>(x).normal;
-		EXPECT_FALSE(pairForce<Dim>({ 7, 3, 10, 1e9 }, this->start, this->before, x, 1e-9, true));
+		EXPECT_FALSE(pairForce<Dim>({ 7, 3, 10, 1e9 }, this->start, this->before, x, 0, 1e-9, true));
 	}
 
 } // namespace

@@ -231,7 +231,7 @@ refusals = {
         "two(); mpm.strengthReduction(O.engines[0])": ['bodies of points meet'],
         "two(); O.step(); mpm.fill(box((0, 2), (2, 3)), O.engines[0].grid, 2, 'soil', body='up')": ['has made steps already'],
         "two(); mpm.fill(box((0, 2), (2, 3)), O.engines[0].grid, 2, 'soil', body='')": ['a name that is not empty'],
-        "two(); shift('up', O.engines[0].grid, np.array([0, -0.12, 0])); O.step()": ['inside of body', 'must not overlap'],
+        "two(); shift('up', O.engines[0].grid, np.array([0, -0.2, 0])); O.step()": ['inside of body', 'must not overlap'],
 }
 
 

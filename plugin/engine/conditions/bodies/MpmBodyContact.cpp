@@ -63,7 +63,16 @@ void MpmBodyContact::tell(Rows& rows, const Analysis& analysis, const Listed& li
 	rows.set(name + "_touching", touching);
 }
 
-// Stresses on the slave.
+// On a segment of a surface [N], of a ring where the scene is axisymmetric.
+static Vector3r forceOn(const Vector3r& a, const Vector3r& b, Real pressure, const Vector3r& shear, bool isRing)
+{
+	const gimpm::Vec<2> normal = gimpm::pieceNormal(gimpm::Vec<2>(a.head<2>()), gimpm::Vec<2>(b.head<2>()));
+	Vector3r            force  = (b - a).norm() * shear;
+	force.head<2>() -= pressure * normal;
+	return (isRing ? M_PI * (a[0] + b[0]) : 1) * force;
+}
+
+// Forces and stresses on the slave.
 void MpmBodyContact::draw(Picture& picture, const Analysis& analysis, const Listed& listed) const
 {
 	const int number = slave < 0 ? -1 : analysis.grid->bodyNamed(between[slave]);
@@ -77,6 +86,8 @@ void MpmBodyContact::draw(Picture& picture, const Analysis& analysis, const List
 		for (int& corner : piece)
 			corner += first;
 		picture.add(piece);
+		const Vector3r &a = body.vertices[body.pieces[i][0]], &b = body.vertices[body.pieces[i][1]];
+		picture.set("force", forceOn(a, b, pressures[i], shears[i], analysis.grid->axisymmetric));
 		picture.set("pressure", pressures[i]);
 		picture.set("shear", shears[i].norm());
 		picture.set("touches", int(pressures[i] > 0));

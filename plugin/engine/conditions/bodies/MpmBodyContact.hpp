@@ -8,15 +8,13 @@ namespace yade {
 
 class MpmBodyContact : public Exposed<MpmBodyContact, MpmCondition> {
 public:
-	vector<string> between;
-	Real           friction  = std::numeric_limits<Real>::quiet_NaN(); // must be given
-	Real           adhesion  = std::numeric_limits<Real>::infinity();
-	Real           stiffness = 50;
-	Vector3r       force     = Vector3r::Constant(std::numeric_limits<Real>::quiet_NaN());
-	Vector3r       moment    = Vector3r::Constant(std::numeric_limits<Real>::quiet_NaN());
-	int            touching = 0, slipping = 0;
-	// Hidden: which of the two has the places, 0 or 1, -1 before the first step; and of the pieces of its surface,
-	// in their order, pressure and shear stress on it at the end of the last step.
+	vector<string>   between;
+	Real             friction  = std::numeric_limits<Real>::quiet_NaN(); // must be given
+	Real             adhesion  = std::numeric_limits<Real>::infinity();
+	Real             stiffness = 10;
+	Vector3r         force     = Vector3r::Constant(std::numeric_limits<Real>::quiet_NaN());
+	Vector3r         moment    = Vector3r::Constant(std::numeric_limits<Real>::quiet_NaN());
+	int              touching = 0, slipping = 0;
 	int              slave = -1;
 	vector<Real>     pressures;
 	vector<Vector3r> shears;
@@ -43,13 +41,16 @@ public:
 		  "Penalty [-] > 0: a pressure p presses p h / (stiffness E) deep, with cell size h and the smaller one of Young's moduli E of the two.",
 		  positive);
 		v("force", &MpmBodyContact::force, readonly,
-		  "Force on the first body [N] at the end of the last converged step; per metre of thickness in plane strain, NaN before the first.");
+		  "Force on the first body [N] at the end of the last converged step; per metre of thickness in plane strain, around an axis along y, and the sum of "
+		  "radial ones as x; NaN before the first.");
 		v("moment", &MpmBodyContact::moment, readonly, "Moment of these forces about the origin [N m], NaN before the first step.");
 		v("touching", &MpmBodyContact::touching, readonly, "Number of places that touch, two on each piece of a surface, three in space.");
 		v("slipping", &MpmBodyContact::slipping, readonly, "Number of those at the limit of friction.");
-		v("slave", &MpmBodyContact::slave, hidden, "");
-		v("pressures", &MpmBodyContact::pressures, hidden, "");
-		v("shears", &MpmBodyContact::shears, hidden, "");
+		v("slave", &MpmBodyContact::slave, readonly,
+		  "Which of *between* has the places, 0 or 1: the softer one, of equal ones the first; -1 before the first step.");
+		v("pressures", &MpmBodyContact::pressures, readonly,
+		  "Pressure >= 0 [Pa] on each of the *pieces* of that body (MpmBody), in their order, at the end of the last converged step; empty before the first.");
+		v("shears", &MpmBodyContact::shears, readonly, "Shear stress [Pa] on each of them.");
 	}
 
 	// What is kept of pieces must go together, too.
