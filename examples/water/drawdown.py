@@ -7,7 +7,7 @@
 	o|      bank     \\
 	 //////////////////
 
-The bank is that of water.py (2:1, H = 10 m, c = 10 kPa, phi = 20 degrees, psi = 0), where pressures are given: those of a level that falls ever so slowly, or those of the full reservoir kept. Here they are
+The bank is that of water.py (2:1, H = 10 m, phi = 20 degrees, psi = 0) with c = 20 kPa, so that it stands. There pressures are given: those of a level that falls ever so slowly, or those of the full reservoir kept. Here they are
 computed with the displacements (MpmFlow): soil that is unloaded expands and draws the water along, and what is left flows out of the slope. How long the drawdown takes is compared with H2 / c_v, in which
 the bank consolidates.
 
@@ -27,7 +27,7 @@ from options import compared, readOptions
 
 options = readOptions('A reservoir that is drawn down in time.',
         cells=(10, 'over the height of the slope'),
-        durations=('0.001,0.1,1000', 'of the drawdown, over H2 / c_v'),
+        durations=('0.01,1,100', 'of the drawdown, over H2 / c_v'),
         levels=(4, 'parts of the drawdown, after each of which the factor is looked for'),
         steps=(5, 'time steps of each part'),
         tolerance=(0.02, 'width of the bracket of the factor of safety'))
@@ -39,7 +39,7 @@ cv = k / gammaW * E * (1 - nu) / ((1 + nu) * (1 - 2 * nu))
 def full():
 	"""The bank under water up to its crest, in equilibrium; nothing flows yet."""
 	O.reset()
-	O.materials.append(MpmMohrCoulombMat(young=E, poisson=nu, density=2000, cohesion=10e3, frictionAngle=np.radians(20), conductivity=k, porosity=.4, label='soil'))
+	O.materials.append(MpmMohrCoulombMat(young=E, poisson=nu, density=2000, cohesion=20e3, frictionAngle=np.radians(20), conductivity=k, porosity=.4, label='soil'))
 	grid = MpmGrid(cellSize=H / options.cells)
 	O.bodies.append(mpm.fill(mpm.polygon([(0, 0), (crest + run, 0), (crest, H), (0, H)]), grid, 2, 'soil'))
 	sides = [MpmBoundary(max=(0, inf, inf), fix='x'), MpmBoundary(max=(inf, 0, inf), fix='xy')]
@@ -61,11 +61,11 @@ def factor(suction):
 def drawn(duration):
 	"""Rows of level, mean of the pressures in the soil over those of the full reservoir, and the factor of safety without and with suction."""
 	full()
-	before = mpm.arrays()['porePressure'].mean()
+	before, h = mpm.arrays()['porePressure'].mean(), H / options.cells  # a toe so thin is not filled to its end
 	begin, whole = O.time, duration * H**2 / cv
 	levels = [(begin, H), (begin + whole, 0)]
 	solver.water = [MpmWater(level=H, weight=gammaW, where='pores'), MpmWater(levels=levels, weight=gammaW, where='outside')]
-	solver.flow = MpmFlow(unitWeight=gammaW, drains=[MpmDrain(surface=[(crest + run, 0), (crest, H)], levels=levels)])
+	solver.flow = MpmFlow(unitWeight=gammaW, drains=[MpmDrain(surface=[(crest + run - h, h * H / run), (crest, H)], levels=levels)])
 	rows = []
 	for part in range(options.levels):
 		O.dt = whole / options.levels / options.steps
