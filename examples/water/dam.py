@@ -6,7 +6,7 @@
 	 ~~~~/  dam \\___
 	    /_______======\\                ====: horizontal drain
 
-Against Dupuit's discharge of a rectangular dam, and Kozeny's parabola of one with a drain below it.
+Against Dupuit's discharge of a rectangular dam, Kozeny's parabola of one with a drain below it, and for the sloping face the solution of potential_plane.py.
 
 Run it with `scripts/run examples/water/dam.py [options]`, or by yade-batch with the options as columns of a parameter table.
 """
@@ -20,7 +20,9 @@ matplotlib.use('Agg')
 import matplotlib.pyplot as plt
 import numpy as np
 sys.path.insert(0, os.path.join(os.path.dirname(sys.argv[0]), '..'))
+sys.path.insert(0, os.path.dirname(sys.argv[0]))
 from options import compared, readOptions
+from potential_plane import discharge
 
 options = readOptions('Seepage through a dam.',
         cellSize=(0.5, 'size of the cells [m]'),
@@ -74,5 +76,8 @@ for ax, name, faces in (axes[0], 'without a drain', [downstream]), (axes[1], 'wi
 	ax.plot(*np.transpose(flow.surface), color='crimson', linewidth=1.8)
 	ax.set_title(f'{name}: {86.4e6 * sum(flow.discharge[1:]):.0f} l a day and metre, factor of safety {F:.2f}')
 	print(f'{name}: discharge {sum(flow.discharge[1:]) / k:.3f} k m, F = {F:.3f}')
+exact = discharge(drain[0][0], level, 2)
+print(f'with a drain: in the plane of potential and stream function {exact:.3f} k m')
+compared('discharge of a dam with a sloping face and a drain', sum(flow.discharge[1:]) / k, exact, 'potential_plane.py', 'm')
 figure.savefig(os.path.join(options.out, 'dam.png'), dpi=100)
 print(f'{time.time() - begin:.0f} s')

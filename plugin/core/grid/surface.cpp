@@ -70,6 +70,21 @@ Vec<2> pieceNormal(const Vec<2>& a, const Vec<2>& b)
 
 Vec<3> pieceNormal(const Vec<3>& a, const Vec<3>& b, const Vec<3>& c) { return 0.5 * (b - a).cross(c - a); }
 
+std::vector<double> linesCrossed(const Vec<2>& a, const Vec<2>& b, const Grid<2>& grid)
+{
+	constexpr double    end = 1e-6;
+	std::vector<double> parts;
+	for (int axis = 0; axis < 2; ++axis) {
+		const double from = (a[axis] - grid.origin[axis]) / grid.cellSize, to = (b[axis] - grid.origin[axis]) / grid.cellSize;
+		for (double line = std::ceil(std::min(from, to) + end); line < std::max(from, to) - end; ++line)
+			parts.push_back((line - from) / (to - from));
+	}
+	std::sort(parts.begin(), parts.end());
+	const auto last = std::unique(parts.begin(), parts.end(), [](double s, double t) { return t - s < end; });
+	parts.erase(last, parts.end());
+	return parts;
+}
+
 template <int Dim> Vec<Dim> Surface<Dim>::normal(const Piece& piece, const std::vector<Vec<Dim>>& x) const
 {
 	if constexpr (Dim == 2) return pieceNormal(x[piece[0]], x[piece[1]]);

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // A surface of segments in the plane, of triangles in space.
 #pragma once
-#include "core/base/types.hpp"
+#include "core/grid/grid.hpp"
 #include <array>
+#include <cmath>
 
 namespace gimpm {
 
@@ -10,6 +11,13 @@ namespace gimpm {
 /// corners run counterclockwise.
 Vec<2> pieceNormal(const Vec<2>& a, const Vec<2>& b);
 Vec<3> pieceNormal(const Vec<3>& a, const Vec<3>& b, const Vec<3>& c);
+
+/// Where a segment crosses lines of the grid, as parts of its length, rising; nothing is cut off that is shorter than a
+/// millionth of a cell, or of the segment.
+std::vector<double> linesCrossed(const Vec<2>& a, const Vec<2>& b, const Grid<2>& grid);
+
+/// Circumference of the ring on which a place lies, or one metre where there is no axis of symmetry.
+template <int Dim> double aroundAxis(double radius, const Grid<Dim>& grid) { return grid.axisymmetric ? 2 * M_PI * radius : 1; }
 
 /// Length of the sides of a surface's pieces where they act on the grid, in cells. Nodes are then given their shares of
 /// a uniform load to a per cent or better (exactly where segments fit into the cells); the error falls with the square

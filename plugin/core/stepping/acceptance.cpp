@@ -85,7 +85,8 @@ void judge(const LocalError& error, StepReport& report)
 	if (found > report.localError) report.localError = found, report.errorOrder = error.order;
 	if (error.size <= error.tolerance) return;
 	std::ostringstream text;
-	text << "the local error of the displacements, " << error.size << " m, is above the tolerance, " << error.tolerance << " m";
+	text << "the local error of the " << error.of << ", " << error.size << ' ' << error.unit << ", is above the tolerance, " << error.tolerance << ' '
+	     << error.unit;
 	fail(report, Failure::inaccurate, text.str());
 }
 
@@ -98,6 +99,14 @@ template <int Dim> void askForRefusals(const StepSystem<Dim>& system, const Eige
 		}
 		judge(term->localError(d), report);
 	}
+}
+
+template <int Dim> void judgeFields(const StepSystem<Dim>& system, const Eigen::VectorXd& growth, StepReport& report)
+{
+	const State state = system.state(growth);
+	for (const auto* term : system.coupled())
+		for (const LocalError& error : term->fieldErrors(state))
+			judge(error, report);
 }
 
 template <int Dim> bool accept(const StepSystem<Dim>& system, PointCloud<Dim>& cloud, const Load<Dim>& load, const Eigen::VectorXd& d, StepReport& report)
@@ -121,6 +130,7 @@ template <int Dim> bool accept(const StepSystem<Dim>& system, PointCloud<Dim>& c
 
 #define GIMPM_INSTANTIATE(Dim)                                                                                                                                 \
 	template void askForRefusals(const StepSystem<Dim>&, const Eigen::VectorXd&, StepReport&);                                                             \
+	template void judgeFields(const StepSystem<Dim>&, const Eigen::VectorXd&, StepReport&);                                                                \
 	template bool accept(const StepSystem<Dim>&, PointCloud<Dim>&, const Load<Dim>&, const Eigen::VectorXd&, StepReport&);
 GIMPM_INSTANTIATE(2)
 GIMPM_INSTANTIATE(3)

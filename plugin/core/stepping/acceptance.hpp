@@ -11,6 +11,9 @@ template <int Dim> void askForRefusals(const StepSystem<Dim>&, const Eigen::Vect
 /// An error above its tolerance makes the step fail. The report says so.
 void judge(const LocalError&, StepReport&);
 
+/// The same of what terms of several fields tell, after these have grown so much.
+template <int Dim> void judgeFields(const StepSystem<Dim>&, const Eigen::VectorXd& growth, StepReport&);
+
 /// Steps 5 and 6 of the method: the points take the displacements over, and the terms and walls what they remember;
 /// reactions of what lies behind walls and of walls are added. If a point cannot be where it would be the report says
 /// so, and nothing has changed.

@@ -112,6 +112,7 @@ template <int Dim> StepReport loadStep(PointCloud<Dim>& cloud, const Model<Dim>&
 		const Stopwatch watch(report.times.update);
 		judge(rateChange(system, *last, load.growth(), prediction, d), report);
 	}
+	if (report.converged() && std::isfinite(model.newton.stepTolerance)) judgeFields(system, growth, report);
 	report.times.linear       = solver.times();
 	report.conjugateGradients = solver.iterativeEffort();
 	// 5. nodes to points; 6. the grid is reset by not being kept

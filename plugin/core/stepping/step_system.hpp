@@ -89,6 +89,9 @@ template <int Dim> struct StepSystem {
 	/// Nodes that are apart, or several fields.
 	bool isCoupled() const { return !coupled_.empty() || !map.isAlone(); }
 
+	/// Those of the terms that know several fields, or nodes that are apart.
+	const std::vector<CoupledTerm<Dim>*>& coupled() const { return coupled_; }
+
 	/// The step has been accepted.
 	void commit(const Eigen::VectorXd& d) const;
 

@@ -119,6 +119,7 @@ WeakBody<Dim> reduceStrength(
 	for (const auto& condition : model.inPlace)
 		condition.begin(start, 1 / scale);
 	weakModel.ghost.factor *= ghostShare;
+	if (model.freeze) model.freeze(weakModel); // nothing flows while the strength falls
 	body.displacement.assign(cloud.size(), Vec<Dim>::Zero());
 	while (!control.isDone()) {
 		const double    goal = 1 / (1 + control.goal() * (1 / factor - 1));

@@ -9,9 +9,6 @@
 namespace gimpm {
 namespace {
 
-/// Circumference at a place, or one metre in plane strain.
-template <int Dim> double ring(double radius, const Grid<Dim>& grid) { return grid.axisymmetric ? 2 * M_PI * radius : 1; }
-
 /// Node n of a face of a cell, as if the grid were not periodic.
 template <int Dim> Index<Dim> nodeOfFace(Index<Dim> cell, int axis, bool isUpper, int n)
 {
@@ -95,7 +92,7 @@ template <int Dim> std::string Absorption<Dim>::textOfBothSides(const std::vecto
 	const double h      = step.grid.cellSize;
 	const auto centreOf = [&](int cell) { return Vec<Dim>(step.grid.nodePosition(Grid<Dim>::index(step.basis.cells[cell])) + Vec<Dim>::Constant(h / 2)); };
 	forOverlaps(isAskedFor, step.basis, step.grid, [&](int cell, int p, auto within) {
-		filled[cell] += within(step.stiffnessOf(p).volume) / (std::pow(h, Dim) * ring(centreOf(cell)[0], step.grid));
+		filled[cell] += within(step.stiffnessOf(p).volume) / (std::pow(h, Dim) * aroundAxis(centreOf(cell)[0], step.grid));
 	});
 	const int          most = int(std::max_element(filled.begin(), filled.end()) - filled.begin());
 	std::ostringstream text;
@@ -125,12 +122,12 @@ void Absorption<Dim>::addDrag(
 	for (const Face& face : faces) {
 		const FilledCell& cell   = cells[face.cell];
 		const double      inside = step.grid.origin[0] + h * (Grid<Dim>::index(step.basis.cells[face.cell])[0] + 0.5);
-		const double      filled = std::min(cell.volume / (std::pow(h, Dim) * ring(inside, step.grid)), 1.);
+		const double      filled = std::min(cell.volume / (std::pow(h, Dim) * aroundAxis(inside, step.grid)), 1.);
 		for (const int node : face.node) {
 			// the integral of the node's shape function over the face, in axisymmetry over a part of a ring
 			const double at        = step.grid.origin[0] + h * Grid<Dim>::index(step.basis.nodes[node])[0];
 			const double radius    = face.axis == 0 ? at : (at + 2 * inside) / 3;
-			const double area      = filled * std::pow(h, Dim - 1) * ring(radius, step.grid) / (1 << (Dim - 1));
+			const double area      = filled * std::pow(h, Dim - 1) * aroundAxis(radius, step.grid) / (1 << (Dim - 1));
 			Vec<Dim>     impedance = Vec<Dim>::Constant(cell.shear / cell.volume);
 			impedance[face.axis]   = cell.pressure / cell.volume;
 			dashpots_[node].drag += area * impedance;

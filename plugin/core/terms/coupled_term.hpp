@@ -5,6 +5,7 @@
 #include "core/solvers/couplings.hpp"
 #include "core/terms/term.hpp"
 #include <map>
+#include <vector>
 
 namespace gimpm {
 
@@ -37,6 +38,9 @@ public:
 	/// From now on all derivatives are those of the forces. False if they are so already: small ones may be left
 	/// out, where that makes the matrix symmetric.
 	virtual bool makeExact() { return false; }
+
+	/// What the length of the step has left out, where it is asked for (NewtonSettings::stepTolerance).
+	virtual std::vector<LocalError> fieldErrors(const State&) const { return {}; }
 
 	/// The step has been accepted at this state.
 	virtual void commitCoupled(const State&) { }

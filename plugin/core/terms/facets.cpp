@@ -6,22 +6,6 @@
 namespace gimpm {
 namespace {
 
-/// Where a segment crosses lines of the grid, as parts of its length, rising.
-std::vector<double> linesCrossed(const Vec<2>& a, const Vec<2>& b, const Grid<2>& grid)
-{
-	constexpr double    end = 1e-6; // of a cell, and of the length: nothing so short is cut off
-	std::vector<double> parts;
-	for (int axis = 0; axis < 2; ++axis) {
-		const double from = (a[axis] - grid.origin[axis]) / grid.cellSize, to = (b[axis] - grid.origin[axis]) / grid.cellSize;
-		for (double line = std::ceil(std::min(from, to) + end); line < std::max(from, to) - end; ++line)
-			parts.push_back((line - from) / (to - from));
-	}
-	std::sort(parts.begin(), parts.end());
-	const auto last = std::unique(parts.begin(), parts.end(), [](double s, double t) { return t - s < end; });
-	parts.erase(last, parts.end());
-	return parts;
-}
-
 void addPiece(Facets<2>& to, const Surface<2>::Piece& piece, int number, const Grid<2>& grid)
 {
 	int first = piece[0];

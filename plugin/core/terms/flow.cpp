@@ -334,6 +334,7 @@ template <int Dim> void Flow<Dim>::commitCoupled(const State& state)
 			stored += points_[p].volume / points_[p].ratio * s.content;
 		}
 	water_.stored = stored;
+	if (std::isfinite(water_.displacementTolerance) || std::isfinite(water_.pressureTolerance)) keepGrowth(state);
 	if (water_.wantsWork) water_.work = workOn(state);
 	moveDrains(d, P);
 }

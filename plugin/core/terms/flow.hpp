@@ -38,6 +38,7 @@ public:
 	void                        markCouplings(Couplings&) const override;
 	std::optional<PointFailure> addCoupled(const State&, const FieldSum<Dim>&) const override;
 	void                        addCoupledRoundOff(const State&, std::vector<Eigen::VectorXd>& sizes) const override;
+	std::vector<LocalError>     fieldErrors(const State&) const override;
 	void                        commitCoupled(const State&) override;
 
 private:
@@ -76,6 +77,7 @@ private:
 	double conductanceNow(const Outlet&, double pressure) const;
 	void   moveDrains(const Eigen::VectorXd& d, const Eigen::VectorXd& P);
 	double workOn(const State&) const;
+	void   keepGrowth(const State&) const;
 
 	SoilWater<Dim>&              water_;
 	const CloudBasis<Dim>&       basis_;

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Where water leaves a body.
-#include "core/grid/nearness.hpp"
+#include "core/terms/attach_surface.hpp"
 #include "core/terms/flow.hpp"
 #include <algorithm>
-#include <sstream>
 
 namespace gimpm {
 namespace {
@@ -14,33 +13,19 @@ template <int Dim> struct DrainPlace {
 	double   area;
 };
 
-double aroundAxis(double radius, bool isRing) { return isRing ? 2 * M_PI * radius : 1; }
-
-/// Where a segment enters another cell, as parts of its length, with its ends.
-std::vector<double> crossings(const Vec<2>& from, const Vec<2>& to, const Grid<2>& grid)
-{
-	std::vector<double> parts { 0, 1 };
-	for (int a = 0; a < 2; ++a) {
-		const double first = (from[a] - grid.origin[a]) / grid.cellSize, last = (to[a] - grid.origin[a]) / grid.cellSize;
-		for (double i = std::ceil(std::min(first, last)); i <= std::max(first, last); ++i)
-			if (const double part = (i - first) / (last - first); part > 0 && part < 1) parts.push_back(part);
-	}
-	std::sort(parts.begin(), parts.end());
-	return parts;
-}
-
 /// Of a segment: exact for products of two functions of the grid, wherever it cuts the cells.
 void addPlaces(const Surface<2>& surface, const Surface<2>::Piece& piece, const Grid<2>& grid, std::vector<DrainPlace<2>>& places)
 {
 	constexpr double gauss[3][2] = { { -0.7745966692414834, 5. / 18 }, { 0, 8. / 18 }, { 0.7745966692414834, 5. / 18 } };
 	const Vec<2>&    from        = surface.vertices[piece[0]];
 	const Vec<2>     way         = surface.vertices[piece[1]] - from;
-	const auto       parts       = crossings(from, from + way, grid);
+	auto             parts       = linesCrossed(from, from + way, grid);
+	parts.insert(parts.begin(), 0), parts.push_back(1);
 	for (std::size_t i = 0; i + 1 < parts.size(); ++i)
 		for (const auto& [place, weight] : gauss) {
 			const double part = parts[i] + (parts[i + 1] - parts[i]) * (1 + place) / 2;
 			const Vec<2> x    = from + part * way;
-			places.push_back({ x, weight * (parts[i + 1] - parts[i]) * way.norm() * aroundAxis(x[0], grid.axisymmetric) });
+			places.push_back({ x, weight * (parts[i + 1] - parts[i]) * way.norm() * aroundAxis(x[0], grid) });
 		}
 }
 
@@ -49,16 +34,6 @@ void addPlaces(const Surface<3>& surface, const Surface<3>::Piece& piece, const 
 {
 	for (const int v : piece)
 		places.push_back({ surface.vertices[v], surface.normal(piece, surface.vertices).norm() / 3 });
-}
-
-/// As for surfaces under loads: more than half of a domain with two points a cell [cells].
-constexpr double nearDomains = 0.375;
-
-template <int Dim> std::string dryAt(const Vec<Dim>& vertex, const std::string& name)
-{
-	std::ostringstream text;
-	text << name << " has a vertex at (" << vertex.transpose() << "), where there is no soil: end its surface where the soil ends";
-	return text.str();
 }
 
 } // namespace
@@ -75,28 +50,28 @@ template <int Dim> std::string Flow<Dim>::attachDrain(int number, const Beginnin
 {
 	const Drain<Dim>& drain   = water_.drains[number];
 	const auto&       surface = drain.surface;
-	for (const auto& vertex : surface.vertices) {
-		const auto at = attach(vertex, step.basis, step.grid);
-		if (!at) return dryAt<Dim>(vertex, drain.name);
-		vertices_.push_back(*at);
-	}
-	const auto isFar = areFarFromMaterial<Dim>(
-	        surface.vertices, std::vector<double>(surface.vertices.size(), nearDomains * step.grid.cellSize), step.cloud, step.grid);
-	if (const auto far = std::find(isFar.begin(), isFar.end(), 1); far != isFar.end()) return dryAt<Dim>(surface.vertices[far - isFar.begin()], drain.name);
+	const auto        corners = attachPlaces(surface.vertices, step, drain.name);
+	if (!corners.obstacle.empty()) return corners.obstacle;
+	vertices_.insert(vertices_.end(), corners.places.begin(), corners.places.end());
 	std::vector<DrainPlace<Dim>> places;
 	for (const auto& piece : surface.pieces)
 		addPlaces(surface, piece, step.grid, places);
-	for (const auto& [x, area] : places) {
-		const auto at = attach(x, step.basis, step.grid);
-		if (!at) return dryAt<Dim>(x, drain.name);
-		const int    cell  = gimpm::find(step.basis.cells, Grid<Dim>::key(step.grid.first(at->cell)));
+	std::vector<Vec<Dim>> middles;
+	for (const auto& place : places)
+		middles.push_back(place.at);
+	const auto within = attachPlaces(middles, step, drain.name);
+	if (!within.obstacle.empty()) return within.obstacle;
+	for (std::size_t i = 0; i < places.size(); ++i) {
+		const auto& [x, area] = places[i];
+		const auto&  at       = within.places[i];
+		const int    cell     = gimpm::find(step.basis.cells, Grid<Dim>::key(step.grid.first(at.cell)));
 		const double kappa = cell < 0 ? 0 : cellConductivity_[cell], passes = water_.duration * area;
 		const double conductance = passes * drain.conductance * kappa / h_;
-		if (drain.kind == Drain<Dim>::Kind::flux) outlets_.push_back({ number, *at, 0, passes * drain.given });
+		if (drain.kind == Drain<Dim>::Kind::flux) outlets_.push_back({ number, at, 0, passes * drain.given });
 		else if (drain.level)
-			outlets_.push_back({ number, *at, conductance, drain.level->pressureAt(x), drain.level->isInAir(x) });
+			outlets_.push_back({ number, at, conductance, drain.level->pressureAt(x), drain.level->isInAir(x) });
 		else
-			outlets_.push_back({ number, *at, conductance, drain.given, drain.kind == Drain<Dim>::Kind::seepage });
+			outlets_.push_back({ number, at, conductance, drain.given, drain.kind == Drain<Dim>::Kind::seepage });
 	}
 	return "";
 }

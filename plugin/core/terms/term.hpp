@@ -33,10 +33,12 @@ struct Refusal {
 	std::string advice; ///< what may help, in sentences
 };
 
-/// Of the displacements of a step, and what it may be [m].
+/// Of what is found in a step, and what it may be.
 struct LocalError {
-	double size = 0, tolerance = std::numeric_limits<double>::infinity();
-	int    order = 3; ///< it goes with this power of the length of the step
+	double      size = 0, tolerance = std::numeric_limits<double>::infinity();
+	int         order = 3; ///< it goes with this power of the length of the step
+	const char* of    = "displacements";
+	const char* unit  = "m";
 };
 
 /// Where a term adds its part. Vectors have Dim components a node.

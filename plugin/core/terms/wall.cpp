@@ -42,8 +42,7 @@ WallForce<Dim>::WallForce(Wall<Dim>& wall, const CloudBasis<Dim>& basis, const P
 		               normal = wall.surface.normal(wall.surface.pieces[i], wall.surface.vertices);
 		const auto at         = attach(centre, basis, grid);
 		if (!at || (grid.axisymmetric && centre[0] <= 0)) continue;
-		const double ring = grid.axisymmetric ? 2 * M_PI * centre[0] : 1;
-		heldPieces_.push_back({ i, *at, ring * normal.norm(), heldBy<Dim>(wall, normal.normalized()), 0 });
+		heldPieces_.push_back({ i, *at, aroundAxis(centre[0], grid) * normal.norm(), heldBy<Dim>(wall, normal.normalized()), 0 });
 		cells.push_back(position(basis.cells, Grid<Dim>::key(grid.first(at->cell))));
 		isHeld[cells.back()] = 1;
 	}

@@ -119,10 +119,6 @@ namespace {
 	{
 		if (!(factor > 0 && std::isfinite(factor)))
 			throw std::invalid_argument("factor = " + std::to_string(factor) + " is not admitted: expected a finite number > 0.");
-		if (engine.flow)
-			throw std::invalid_argument(
-			        engine.getClassName()
-			        + ": the strength cannot be reduced while water flows (flow) yet; set flow = None: water then has the pressure of water alone.");
 		for (const Listed& listed : engine.conditions())
 			if (listed.condition->partsBodies())
 				throw std::invalid_argument(

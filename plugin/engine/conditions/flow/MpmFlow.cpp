@@ -24,13 +24,13 @@ void MpmFlow::requireFitting(const Analysis& analysis, const string&) const
 {
 	string what;
 	if (analysis.isExplicit()) what = analysis.className() + ".scheme = 'explicit'";
-	else if (analysis.newton->stepTolerance > 0)
-		what = "MpmNewton.stepTolerance, which sees displacements only";
 	else if (analysis.ghost->workTolerance < 1)
 		what = "MpmGhost.workTolerance < 1, which knows of no work of water";
-	else if (analysis.maxSplits > 0)
-		what = "maxSplits > 0, points that are split";
 	if (!what.empty()) throw std::invalid_argument("MpmFlow cannot yet go with " + what + "; leave one of the two out.");
+	if (std::isfinite(pressureTolerance) && analysis.newton->stepTolerance == 0)
+		throw std::invalid_argument(
+		        "MpmFlow.pressureTolerance = " + textOf(pressureTolerance)
+		        + " goes with the error of displacements, and MpmNewton.stepTolerance = 0: give that, too, or leave pressureTolerance = inf.");
 }
 
 std::shared_ptr<Condition<2>> MpmFlow::make(InPlane, const Group& group, const Analysis&) const { return std::make_shared<Flows<2>>(group); }

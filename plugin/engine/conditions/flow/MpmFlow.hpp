@@ -7,14 +7,19 @@ namespace yade {
 
 class MpmFlow : public Exposed<MpmFlow, MpmCondition> {
 public:
-	Real                         unitWeight    = 9810;
-	Real                         bulkModulus   = std::numeric_limits<Real>::infinity();
-	Real                         stabilisation = std::numeric_limits<Real>::quiet_NaN();
-	Real                         ghost         = 0.01;
+	Real                         unitWeight        = 9810;
+	Real                         bulkModulus       = std::numeric_limits<Real>::infinity();
+	Real                         stabilisation     = std::numeric_limits<Real>::quiet_NaN();
+	Real                         ghost             = 0.01;
+	Real                         pressureTolerance = std::numeric_limits<Real>::infinity();
 	vector<shared_ptr<MpmDrain>> drains;
 	Real                         waterIn = 0, waterOut = 0, waterStored = 0, work = 0;
 	// Hidden: of each node three grid coordinates and the pressure, as the last step has left it
 	vector<Real> nodes;
+	// Hidden: of the same nodes the growth of the three displacements and the pressure in the last step, and how long
+	// that was; empty where no tolerance asks for it
+	vector<Real> growth;
+	Real         lastDuration = 0;
 
 	YADE_API_NAME(MpmFlow)
 	static const char* doc()
@@ -34,6 +39,9 @@ public:
 		  admitting("a finite number >= 0, or NaN, the default", [](Real value) { return std::isnan(value) || nonNegative(value); }));
 		v("ghost", &MpmFlow::ghost, 0, "Penalty [-] >= 0 on jumps of the pressure's gradient at nearly empty cells, as *MpmGhost.factor*.",
 		  nonNegative);
+		v("pressureTolerance", &MpmFlow::pressureTolerance, 0,
+		  "With *MpmNewton.stepTolerance*: largest estimated error of pressures in a step [Pa] > 0; steps beyond it are cut, and grow again, up to O.dt. inf: not looked at.",
+		  admitting("a number > 0 [Pa], or inf", [](Real value) { return value > 0; }));
 		v("drains", &MpmFlow::drains, 0, "Where water leaves or enters (MpmDrain); read as a tuple, so assign a new one to change it.");
 		v("waterIn", &MpmFlow::waterIn, readonly,
 		  "Volume of water [m³] that has entered by drains since the first step; per metre of thickness in plane strain.");
@@ -42,6 +50,8 @@ public:
 		  "Volume of water [m³] that the soil has taken up since the first step: *waterIn* less *waterOut*.");
 		v("work", &MpmFlow::work, readonly, "Work of the pressures in excess on the soil so far [J], of MpmDynamicEngine.", finite);
 		v("nodes", &MpmFlow::nodes, hidden, "", AnyValue());
+		v("growth", &MpmFlow::growth, hidden, "", AnyValue());
+		v("lastDuration", &MpmFlow::lastDuration, hidden, "", AnyValue());
 	}
 
 	// The attributes must go together, too.

@@ -2,6 +2,7 @@
 #include "engine/conditions/flow/flows.hpp"
 #include "core/terms/absorbing.hpp"
 #include "core/terms/flow.hpp"
+#include "core/terms/frozen_pressures.hpp"
 #include "engine/conditions/surface/surfaces.hpp"
 #include "engine/conditions/water/MpmWater.hpp"
 
@@ -59,9 +60,11 @@ template <int Dim> void Flows<Dim>::join(gimpm::Model<Dim>& model, const Surroun
 	water.modulus       = from->bulkModulus;
 	water.stabilisation = !std::isnan(from->stabilisation) ? from->stabilisation : around.analysis.isDynamic() ? ofSoilThatMoves : ofSteadySoil;
 	water.ghost         = from->ghost;
+	if (const Real tolerance = around.analysis.newton->stepTolerance; tolerance > 0)
+		water.displacementTolerance = tolerance, water.pressureTolerance = from->pressureTolerance;
 	takePoints(around);
 	takeNodes();
-	takeDrains(model, around.analysis, around.begin);
+	takeDrains(model, around);
 	Real sum = 0, fastest = 0; // of constrained moduli; coefficient of consolidation
 	for (size_t p = 0; p < around.cloud.size(); ++p) {
 		const Real modulus = gimpm::waveModuli(model.materials, around.cloud, int(p)).pressure;
@@ -75,6 +78,11 @@ template <int Dim> void Flows<Dim>::join(gimpm::Model<Dim>& model, const Surroun
 		const auto constrained = [&](int p) { return gimpm::waveModuli(materials, step.cloud, p).pressure; };
 		return std::make_unique<gimpm::Flow<Dim>>(water, constrained, step);
 	});
+	model.freeze = [this, field = model.fields.size() - 1, term = model.coupledTerms.size() - 1](gimpm::Model<Dim>& at) {
+		at.fields.erase(at.fields.begin() + field);
+		at.coupledTerms.erase(at.coupledTerms.begin() + term);
+		at.terms.push_back([this](const gimpm::Beginning<Dim>& step) { return std::make_unique<gimpm::FrozenPressures<Dim>>(water.pressure, step); });
+	};
 }
 
 template <int Dim> void Flows<Dim>::takePoints(const Surroundings<Dim>& around)
@@ -108,16 +116,34 @@ template <int Dim> void Flows<Dim>::takeNodes()
 		gimpm::Index<Dim> node;
 		for (int a = 0; a < Dim; ++a)
 			node[a] = int(from->nodes[i + a]);
-		water.atNodes[gimpm::Grid<Dim>::key(node)] = from->nodes[i + 3];
+		const gimpm::Key key = gimpm::Grid<Dim>::key(node);
+		water.atNodes[key]   = from->nodes[i + 3];
+		if (from->growth.size() == from->nodes.size()) water.growth[key] << Eigen::Map<const gimpm::Vec<Dim>>(&from->growth[i]), from->growth[i + 3];
 	}
+	if (!water.growth.empty()) water.lastDuration = from->lastDuration;
 }
 
-template <int Dim> void Flows<Dim>::takeDrains(const gimpm::Model<Dim>& model, const Analysis& analysis, Real time)
+template <int Dim> void Flows<Dim>::takeDrains(const gimpm::Model<Dim>& model, const Surroundings<Dim>& around)
 {
 	// Against gravity, which MpmWater.level has checked to be along an axis.
-	const Vector3r up   = analysis.gravity.isZero(0) ? Vector3r(Vector3r::Unit(Dim - 1)) : Vector3r(-analysis.gravity.normalized());
-	int            axis = 0;
+	const Vector3r& gravity = around.analysis.gravity;
+	const Vector3r  up      = gravity.isZero(0) ? Vector3r(Vector3r::Unit(Dim - 1)) : Vector3r(-gravity.normalized());
+	int             axis    = 0;
 	up.cwiseAbs().maxCoeff(&axis);
+	Real highest = -std::numeric_limits<Real>::infinity();
+	for (const auto& x : around.cloud.position)
+		highest = std::max(highest, up[axis] * x[axis]);
+	// Above still water pores are taken for full without a pressure of their own.
+	const auto requireBelow = [&](const MpmDrain& drain, const string& name) {
+		Real most = drain.levels.empty() ? drain.level : drain.levels[0].second;
+		for (const auto& [time, level] : drain.levels)
+			most = std::max(most, level);
+		if (most <= heightOf(*still) || highest <= heightOf(*still)) return;
+		throw std::invalid_argument(
+		        name + (drain.levels.empty() ? ".level is " : ".levels reach ") + textOf(most)
+		        + " m, above the still water in the pores, whose level is " + textOf(heightOf(*still)) + " m, and there is soil up to "
+		        + textOf(highest) + " m: give that MpmWater the highest level that there will be.");
+	};
 	for (size_t i = 0; i < from->drains.size(); ++i) {
 		const MpmDrain& drain = *from->drains[i];
 		const string    name  = "flow.drains[" + std::to_string(i) + "]";
@@ -126,6 +152,7 @@ template <int Dim> void Flows<Dim>::takeDrains(const gimpm::Model<Dim>& model, c
 			throw std::invalid_argument(
 			        name + (drain.levels.empty() ? ".level = " + textOf(drain.level) : string(".levels"))
 			        + " is compared with the level of still water: it needs one MpmWater(level=...) in water, or give pressure.");
+		if (drain.hasLevel()) requireBelow(drain, name);
 		gimpm::Drain<Dim> made;
 		made.surface = coreSurface<Dim>(*drain.surface);
 		made.surface.refine(gimpm::pieceLimit * model.grid.cellSize);
@@ -134,7 +161,7 @@ template <int Dim> void Flows<Dim>::takeDrains(const gimpm::Model<Dim>& model, c
 		                                           : gimpm::Drain<Dim>::Kind::pressure;
 		made.conductance = drain.conductance;
 		made.name        = name;
-		if (drain.hasLevel()) made.level = { drain.levelAt(time), heightOf(*still), from->unitWeight, axis, up[axis] };
+		if (drain.hasLevel()) made.level = { drain.levelAt(around.begin), heightOf(*still), from->unitWeight, axis, up[axis] };
 		water.drains.push_back(std::move(made));
 	}
 }
@@ -176,6 +203,25 @@ template <int Dim> void Flows<Dim>::advance(const StepTime& step, gimpm::Model<D
 	}
 }
 
+// Growth is that of the same nodes.
+template <int Dim> void Flows<Dim>::keepNodes()
+{
+	from->nodes.clear();
+	for (const auto& [key, pressure] : water.atNodes) {
+		const auto place = gimpm::Grid<Dim>::index(key);
+		for (int a = 0; a < 3; ++a)
+			from->nodes.push_back(a < Dim ? place[a] : 0);
+		from->nodes.push_back(pressure);
+	}
+	from->growth.clear();
+	for (const auto& [key, grown] : water.growth) {
+		for (int a = 0; a < 3; ++a)
+			from->growth.push_back(a < Dim ? grown[a] : 0);
+		from->growth.push_back(grown[Dim]);
+	}
+	from->lastDuration = water.lastDuration;
+}
+
 template <int Dim> void Flows<Dim>::reach(const StepOutcome<Dim>& step)
 {
 	for (size_t p = 0; p < step.points.size(); ++p) {
@@ -185,13 +231,7 @@ template <int Dim> void Flows<Dim>::reach(const StepOutcome<Dim>& step)
 		state.waterFlux.setZero();
 		state.waterFlux.template head<Dim>() = water.flux[p];
 	}
-	from->nodes.clear();
-	for (const auto& [key, pressure] : water.atNodes) {
-		const auto place = gimpm::Grid<Dim>::index(key);
-		for (int a = 0; a < 3; ++a)
-			from->nodes.push_back(a < Dim ? place[a] : 0);
-		from->nodes.push_back(pressure);
-	}
+	keepNodes();
 	from->work += water.work;
 	from->waterStored += water.stored;
 	for (size_t i = 0; i < from->drains.size(); ++i) {

@@ -22,7 +22,8 @@ public:
 private:
 	void takePoints(const Surroundings<Dim>&);
 	void takeNodes();
-	void takeDrains(const gimpm::Model<Dim>&, const Analysis&, Real time);
+	void takeDrains(const gimpm::Model<Dim>&, const Surroundings<Dim>&);
+	void keepNodes();
 
 	shared_ptr<MpmFlow>   from;
 	gimpm::SoilWater<Dim> water;

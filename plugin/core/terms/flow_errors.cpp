@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// What the length of a step leaves out of water that flows.
+#include "core/terms/flow.hpp"
+
+namespace gimpm {
+
+template <int Dim> void Flow<Dim>::keepGrowth(const State& state) const
+{
+	water_.growth.clear();
+	for (std::size_t n = 0; n < basis_.nodes.size(); ++n) {
+		Eigen::Matrix<double, Dim + 1, 1> grown;
+		grown << state.displacements().template segment<Dim>(Dim * n), state.growth(field)[n];
+		water_.growth.emplace_hint(water_.growth.end(), basis_.nodes[n], grown);
+	}
+	water_.lastDuration = water_.duration;
+}
+
+/// Rates change from step to step as in rateChange(): T / (T_0 + T) of what differs from the last rates gone on. What
+/// is elastic depends on how it got there, too, as water takes its time. Before the first step all was at rest, and
+/// nodes that were not there have the rates of now.
+template <int Dim> std::vector<LocalError> Flow<Dim>::fieldErrors(const State& state) const
+{
+	const bool      isFirst = water_.lastDuration == 0;
+	const double    times   = isFirst ? 0 : water_.duration / water_.lastDuration;
+	Eigen::VectorXd d = state.displacements(), p = state.growth(field);
+	for (std::size_t n = 0; n < basis_.nodes.size() && !isFirst; ++n) {
+		const auto last  = water_.growth.find(basis_.nodes[n]);
+		const bool isNew = last == water_.growth.end();
+		for (int a = 0; a < Dim; ++a)
+			d[Dim * n + a] = isNew ? 0 : d[Dim * n + a] - times * last->second[a];
+		p[n] = isNew ? 0 : p[n] - times * last->second[Dim];
+	}
+	double ofMotion = 0, ofPressure = 0, volume = 0;
+	for (const auto& patch : basis_.patches)
+		for (int i = patch.first; i < patch.first + patch.count; ++i) {
+			const PointFunctions<Dim> f(basis_, i, patch);
+			Vec<Dim>                  moved   = Vec<Dim>::Zero();
+			double                    pressed = 0;
+			for (int n = 0; n < f.count; ++n)
+				if (const int a = patch.node[n]; a >= 0) moved += f.value[n] * d.template segment<Dim>(Dim * a), pressed += f.value[n] * p[a];
+			const double V = points_[basis_.order[i]].volume;
+			ofMotion += V * moved.squaredNorm(), ofPressure += V * pressed * pressed, volume += V;
+		}
+	constexpr int order = 2;
+	const double  part  = isFirst ? 0.5 : water_.duration / (water_.lastDuration + water_.duration);
+	return { { part * std::sqrt(ofMotion / volume), water_.displacementTolerance, order },
+		 { part * std::sqrt(ofPressure / volume), water_.pressureTolerance, order, "pressures", "Pa" } };
+}
+
+#define GIMPM_INSTANTIATE(Dim)                                                                                                                                 \
+	template void                    Flow<Dim>::keepGrowth(const State&) const;                                                                            \
+	template std::vector<LocalError> Flow<Dim>::fieldErrors(const State&) const;
+GIMPM_INSTANTIATE(2)
+GIMPM_INSTANTIATE(3)
+#undef GIMPM_INSTANTIATE
+
+} // namespace gimpm

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Water that flows, as it is at one moment.
+#pragma once
+#include "core/terms/term.hpp"
+
+namespace gimpm {
+
+/// The pressures of all points as forces on the soil that stay as they are: what is left of the flow at one moment.
+template <int Dim> class FrozenPressures : public Term<Dim> {
+public:
+	FrozenPressures(const std::vector<double>& pressures, const Beginning<Dim>&);
+
+	void                        mark(NodeMatrix<Dim>&) const override { }
+	std::optional<PointFailure> add(const Eigen::VectorXd& d, const TermSum<Dim>&) const override;
+
+private:
+	Eigen::VectorXd force_, sizes_;
+};
+
+} // namespace gimpm
