@@ -1,0 +1,61 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""What scripts/sand runs: groups of cases, each a function of this package, the words that name the case, and its arguments."""
+
+grids = 4, 8, 16
+problems = {
+        'N_gamma smooth, 20': dict(phi=20),
+        'N_gamma rough, 20': dict(phi=20, isRough=True),
+        'N_gamma smooth, 30': dict(phi=30),
+        'N_gamma rough, 30': dict(phi=30, isRough=True),
+        'N_q, 20': dict(phi=20, surcharge=True),
+        'N_q, 30': dict(phi=30, surcharge=True)}
+
+
+def factors():
+	"""Limit loads over grids, with one and with two by two points per cell, and with the ghost on all faces."""
+	for how, settings in {'1 x 1': dict(points=1), '1 x 1, all faces': dict(points=1, where='boundary'), '2 x 2': dict(points=2)}.items():
+		for name, arguments in problems.items():
+			for cells in grids:
+				yield 'strip.strip', (name, how, f'B/{2 * cells + 1}'), arguments | settings | dict(cells=cells)
+
+
+def parts():
+	"""What the load of the smooth strip, 20 degrees, B/17, is made of: one thing changed at a time."""
+	changes = {
+	        '2 x 2 points': {},
+	        '1 point': dict(points=1),
+	        '3 x 3 points': dict(points=3),
+	        'no F-bar': dict(fBar=False),
+	        '1 point, no F-bar': dict(points=1, fBar=False),
+	        'ghost on all faces': dict(where='boundary', memory=0),
+	        'ghost on all faces, memory 1': dict(where='boundary'),
+	        'aggregates without memory': dict(memory=0),
+	        'ghost times .1': dict(factor=1e-3),
+	        'ghost times .01': dict(factor=1e-4),
+	        '10 steps': dict(steps=10),
+	        '160 steps': dict(steps=160),
+	        'tolerance 1e-9': dict(tolerance=1e-9),
+	        'E times 10': dict(stiff=1e5),
+	        'settlement .01 B': dict(settlement=1e-2)}
+	for name, change in changes.items():
+		yield 'strip.strip', (name, '', 'B/17'), dict(phi=20) | change
+
+
+def steps():
+	"""The same load in more and fewer steps."""
+	for name, ghost in dict([('ghost as for sand', {}), ('ghost times .1', dict(factor=1e-3)), ('ghost times .01', dict(factor=1e-4))]).items():
+		for number in 10, 40, 160, 640:
+			yield 'strip.strip', (name, f'{number} steps', 'B/17'), dict(phi=20, steps=number) | ghost
+
+
+def walls():
+	"""A smooth wall, away from the sand and into it."""
+	for points in 1, 2:
+		for phi in 20, 30:
+			for isPassive in False, True:
+				for cells in 5, 10, 20:
+					name = f"K {'passive' if isPassive else 'active'}, {phi}"
+					yield 'wall.wall', (name, f'{points} x {points}', f'H/{cells}'), dict(phi=phi, isPassive=isPassive, cells=cells, points=points)
+
+
+groups = dict(factors=factors, parts=parts, steps=steps, walls=walls)
