@@ -172,7 +172,7 @@ template <int Dim> void Contacts<Dim>::addMember(const MpmContact& contact, cons
 		        + std::to_string(shift[2]) + ") m, or turns: "
 		        + (grid.axisymmetric ? "around the axis of symmetry only movement along it is admitted."
 		                             : "with dim=2 it can only move in the plane."));
-	members.push_back({ body, own, first });
+	members.push_back({ body, own, unturned(*body, first, grid) });
 	system->bodies.push_back(*rigid);
 }
 

@@ -57,7 +57,7 @@ private:
 	using Places = std::map<Body::id_t, int>; // of bodies in a list
 	struct Member {
 		shared_ptr<Body> body;
-		Se3r             own, first; // as seen from the owner; in space when the run begins
+		Se3r             own, first; // as seen from the owner; in space, that from which its turn counts
 	};
 
 	void advanceTo(Real time);
