@@ -22,11 +22,12 @@ enum class RigidKind { ball, block, plane, sheet };
 /// In the plane a ball is a cylinder, a block and a plane have no end out of the plane, and a sheet is a segment.
 template <int Dim> struct RigidShape {
 	RigidKind                 kind     = RigidKind::ball;
-	double                    radius   = 0;                ///< of a ball, or of the rounded edges of a block [m]
-	Vec<Dim>                  halfSize = Vec<Dim>::Zero(); ///< of a block [m]
-	Vec<Dim>                  normal   = Vec<Dim>::Zero(); ///< of a plane through the body's position, unit, out of the body
-	std::array<Vec<Dim>, Dim> corners;                     ///< of a sheet, in the body's axes [m]; of others not set
-	bool                      isTwoSided = false;          ///< a plane, or a sheet, that soil may touch from either side
+	double                    radius   = 0;                      ///< of a ball, or of the rounded edges of a block [m]
+	Vec<Dim>                  halfSize = Vec<Dim>::Zero();       ///< of a block [m]
+	Vec<Dim>                  normal   = Vec<Dim>::Zero();       ///< of a plane through the body's position, unit, out of the body
+	std::array<Vec<Dim>, Dim> corners;                           ///< of a sheet, in the body's axes [m]; of others not set
+	bool                      isTwoSided = false;                ///< a plane, or a sheet, that soil may touch from either side
+	Mat<Dim>                  axes       = Mat<Dim>::Identity(); ///< of the places on a ball, which may have turned on it
 };
 
 /// Of a sheet, unit; in the plane that on the right of the way from the first corner to the second.

@@ -75,9 +75,6 @@ private:
 	// In the first run, about bodies that are far from the soil and do not come.
 	string warningOfDistance(const gimpm::PointCloud<Dim>&) const;
 
-	// About a body that does not part the soil on its two sides.
-	string warningOfThinness() const;
-
 	vector<shared_ptr<MpmContact>>        given;
 	shared_ptr<gimpm::ContactSystem<Dim>> system; // its terms refer to it
 	vector<Owner>                         owners;
