@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """A driven wheel on clay, in plane strain, in steps in time: as in a soil bin it is pressed in, and turned faster than it goes on, by a slip that is given.
 
-The drawbar pull, the weight that it bears and the torque that it takes come out, and where the energy of the drive goes: pull, plastic flow of the clay, rubbing under the rim.
+The drawbar pull, the weight that it bears and the torque that it takes come out, and where the energy of the drive goes: pull, plastic flow of the clay, rubbing under the rim; and that the soil is in
+equilibrium: what base and sides bear is its weight, that of the wheel and the pull.
 Run it with `scripts/run examples/penetration/wheel.py [options]`.
 """
 import os
@@ -28,7 +29,7 @@ R, cu, rim = 0.4, 20e3, 1.  # [m], [Pa], speed of the rim [m/s]
 h = R / options.cells
 speed, spin = rim * (1 - options.slip), rim / R
 sink, way = options.sinkage * R, options.way * R
-began, solves, found, balance = time.time(), [], [], []
+began, solves, found, balance, forces = time.time(), [], [], [], []
 
 O.materials.append(MpmTrescaMat(young=200 * cu, poisson=0.4, density=1800, undrainedStrength=cu, label='clay'))
 O.materials.append(FrictMat(label='rigid'))
@@ -42,10 +43,12 @@ O.engines = [
         MpmDynamicEngine(grid=grid, gravity=(0, -9.81, 0), gravityCurve=[(0, 1)], boundaries=sides, contacts=[contact], scheme='generalised-alpha', rhoInfinity=0.5, label='solver'),
         MpmVtkRecorder(fileName=os.path.join(options.out, 'wheel-'), recorders=['points'], iterPeriod=20),
 ]
+soil = 1800 * mpm.arrays()['volume'].sum()  # its mass
 mpm.geostatic()
 
 
 energies = 'contactWork', 'plasticWork', 'elasticEnergy', 'kineticEnergy', 'ghostWork', 'gridWork', 'energyImbalance'
+borne = 'reaction_x', 'reaction_y', 'momentum_x', 'momentum_y'
 
 
 def run(duration, velocity, turns):
@@ -59,6 +62,7 @@ def run(duration, velocity, turns):
 		force, torque, data = contact.forces[0], contact.torques[0][2], solver.plotData()
 		found.append([wheel.state.pos[0], force[0], force[1], torque, torque * turns * O.dt, force[0] * velocity[0] * O.dt])
 		balance.append([data[name] for name in energies])
+		forces.append([data[name] for name in borne])
 	return steps
 
 
@@ -76,6 +80,9 @@ print('of the energy of the drive: ' + ', '.join(f'{name} {100 * share / energy:
 off = sum(shares.values()) / energy - 1
 print(f'in sum = {1 + off:.3f}, 1.000 ({100 * off:+.1f} %)')
 compared(f'energy of a driven wheel found again, slip {options.slip:g}', 1 + off, 1, 'balance', 'given')
+reactions, momentum = np.mean(forces[pressed:], axis=0)[:2], (np.array(forces[-1]) - forces[pressed - 1])[2:] / (len(pull) * O.dt)
+missing = (reactions - momentum - [pull.mean(), weight.mean() + 9.81 * soil]) / weight.mean()
+print(f'equilibrium, of the weight of the wheel: along the way {100 * missing[0]:+.2f} %, upwards {100 * missing[1]:+.2f} %')
 print(f'{len(mpm.arrays()["id"])} material points, {sum(solves)} iterations in {len(solves)} steps, {time.time() - began:.0f} s')
 
 figure, (picture, curve) = plt.subplots(2, 1, figsize=(9, 7), layout='constrained')

@@ -413,6 +413,15 @@ template <int Dim> Mat<Dim> Contact<Dim>::resistanceOf(const Place& at, const To
 	return at.law.normal * touched.normal * touched.normal.transpose() + along * (Mat<Dim>::Identity() - touched.normal * touched.normal.transpose());
 }
 
+/// On a ball: where the normal of its face goes through its middle, around which pressure does not turn it. The soil has
+/// slipped from there in a step in time.
+template <int Dim> Vec<Dim> Contact<Dim>::placeOfForce(const Place& at, const Vec<Dim>& soil, const Vec<Dim>& normal) const
+{
+	const auto& body = system_.bodies[at.body];
+	if (body.shape.kind != RigidKind::ball || !std::isfinite(system_.energy)) return soil;
+	return body.end.position + (soil - body.end.position).dot(normal) * normal;
+}
+
 template <int Dim> ContactLoad Contact<Dim>::loadOn(const Vec<Dim>& owner, const Place& at, const Vec<Dim>& place, const Touch<Dim>& touched) const
 {
 	ContactLoad load;
@@ -440,9 +449,29 @@ template <int Dim> void Contact<Dim>::addLoads(const Place& at, const Vec<Dim>& 
 				system_.loads[body.nodeOwners[i]] += loads[i];
 			return;
 		}
-	ContactLoad load = loadOn(system_.owners[body.owner], at, place, touched);
+	ContactLoad load = loadOn(system_.owners[body.owner], at, placeOfForce(at, place, touched.normal), touched);
 	load.area = at.area, load.young = at.area * at.young;
 	system_.loads[body.owner] += load;
+}
+
+/// By the mean slip of what is pressed.
+template <int Dim> void Contact<Dim>::turnPlaces(const Eigen::VectorXd& d)
+{
+	std::vector<Mat<Dim>> turns(system_.bodies.size(), Mat<Dim>::Zero());
+	std::vector<double>   pressed(system_.bodies.size(), 0);
+	forTouching(d, [&](const Place& place, const Approach<Dim>& near, const Touch<Dim>& touched) {
+		const Vec<Dim>& n = touched.normal;
+		turns[place.body] += touched.pressure * (near.slip * n.transpose() - n * near.slip.transpose());
+		pressed[place.body] += touched.pressure;
+	});
+	for (std::size_t i = 0; i < turns.size(); ++i) {
+		auto& body = system_.bodies[i];
+		if (body.shape.kind != RigidKind::ball || !(pressed[i] > 0)) continue;
+		const Mat<Dim>& rotation = body.end.rotation;
+		const Mat<Dim>  half     = rotation.transpose() * turns[i] * rotation / (2 * body.shape.radius * pressed[i]);
+		// Cayley's formula has a rotation of a skew matrix.
+		body.shape.axes = (Mat<Dim>::Identity() - half).inverse() * (Mat<Dim>::Identity() + half) * body.shape.axes;
+	}
 }
 
 template <int Dim> void Contact<Dim>::commit(const Eigen::VectorXd& d)
@@ -464,6 +493,7 @@ template <int Dim> void Contact<Dim>::commit(const Eigen::VectorXd& d)
 		system_.work += touched.force().dot(place.attached.displacement(d));
 		addLoads(place, r.place, touched);
 	});
+	if (std::isfinite(system_.energy) && !isRing_) turnPlaces(d);
 	system_.records = std::move(records);
 	std::stable_sort(system_.records.begin(), system_.records.end(), [](const auto& a, const auto& b) {
 		return std::tie(a.body, a.number) < std::tie(b.body, b.number);

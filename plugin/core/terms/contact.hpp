@@ -71,7 +71,9 @@ constexpr double slipSoftness = 20;
 /// grid. The penalty on the gap g is a pressure of stiffness * E g / h, with Young's modulus E of the soil there and h
 /// of the smallest cells, over the place's part of the surface. The gap is that which there was when soil came into
 /// sight, and since then what soil and body have moved towards each other, along the normal of the place's own face:
-/// which neither edges nor domains that come and go let jump. Only prescribed motion of the bodies is known here. What
+/// which neither edges nor domains that come and go let jump. In steps in time the places on a ball go around it with
+/// the soil, as a ball that turns in its place is the same ball: else those before its lowest one would be pressed deeper
+/// with all of its way, and lift it. Only prescribed motion of the bodies is known here. What
 /// of a surface lies in another body, or on one that came first, does not count. Where points are divided among
 /// processes, all know those that are near.
 template <int Dim> class Contact : public Term<Dim> {
@@ -140,6 +142,8 @@ private:
 	double                              given(const Eigen::VectorXd& d) const;
 	void                                addLoads(const Place&, const Vec<Dim>& place, const Touch<Dim>&);
 	Mat<Dim>                            resistanceOf(const Place&, const Touch<Dim>&) const;
+	void                                turnPlaces(const Eigen::VectorXd& d);
+	Vec<Dim>                            placeOfForce(const Place&, const Vec<Dim>& soil, const Vec<Dim>& normal) const;
 	ContactLoad                         loadOn(const Vec<Dim>& owner, const Place&, const Vec<Dim>& place, const Touch<Dim>&) const;
 
 	struct Moved {

@@ -25,13 +25,13 @@ std::array<Vec3, 4>   cornersAround(const Vec3& x, const Vec3& half, const Vec3&
 	return { x - half - other, x + half - other, x + half + other, x - half + other };
 }
 
-SurfacePoints<2> onBall(double radius, double spacing, const Box<2>& box)
+SurfacePoints<2> onBall(double radius, const Mat<2>& axes, double spacing, const Box<2>& box)
 {
 	const int        parts = 4 * std::max(2, int(std::ceil(M_PI / 2 * radius / spacing - 1e-9)));
 	SurfacePoints<2> points;
 	for (int i = 0; i < parts; ++i) {
-		const double angle = 2 * M_PI * (i + 0.5) / parts, half      = std::tan(M_PI / parts);
-		const Vec<2> normal(std::cos(angle), std::sin(angle)), place = radius * normal;
+		const double angle = 2 * M_PI * (i + 0.5) / parts, half = std::tan(M_PI / parts);
+		const Vec<2> normal = axes * Vec<2>(std::cos(angle), std::sin(angle)), place = radius * normal;
 		if (box.has(place))
 			points.push_back(
 			        { i, place, normal, 2 * M_PI * radius / parts, Vec<2>::Zero(), cornersAround(place, half * Vec<2>(-place[1], place[0])) });
@@ -41,7 +41,7 @@ SurfacePoints<2> onBall(double radius, double spacing, const Box<2>& box)
 
 /// Each face of a cube around the ball is divided in equal angles; the area goes with the element of that map, and in
 /// sum is that of the ball.
-SurfacePoints<3> onBall(double radius, double spacing, const Box<3>& box)
+SurfacePoints<3> onBall(double radius, const Mat3& axes, double spacing, const Box<3>& box)
 {
 	const int           parts = evenParts(M_PI / 2 * radius, spacing);
 	std::vector<double> tangents; // at the ends of the parts and, between these, in their middles
@@ -60,7 +60,7 @@ SurfacePoints<3> onBall(double radius, double spacing, const Box<3>& box)
 		const auto at = [&](int k, int l) { // in halves of parts
 			Vec3 x;
 			x[face / 2] = face % 2 ? 1 : -1, x[(face / 2 + 1) % 3] = tangents[k], x[(face / 2 + 2) % 3] = tangents[l];
-			return Vec3(x.normalized());
+			return Vec3(axes * x.normalized());
 		};
 		const Vec3 normal = at(2 * i + 1, 2 * j + 1), place = radius * normal;
 		if (!box.has(place)) continue;
@@ -226,7 +226,7 @@ SurfacePoints<3> onCapsule(const RigidShape<3>& shape, double spacing, const Box
 			                   cornersAround(place, along / (2 * parts), half * shape.radius * axis.cross(normal)) });
 		}
 	for (int end = 0; end < 2; ++end)
-		for (SurfacePoint<3> point : onBall(shape.radius, spacing, Box<3> { box.low - shape.corners[end], box.high - shape.corners[end] })) {
+		for (SurfacePoint<3> point : onBall(shape.radius, shape.axes, spacing, Box<3> { box.low - shape.corners[end], box.high - shape.corners[end] })) {
 			if (point.normal.dot(end == 0 ? Vec3(-axis) : axis) <= 0) continue;
 			point.number = number + 2 * point.number + end;
 			point.place += shape.corners[end];
@@ -273,7 +273,7 @@ int partsOfEdge(RigidKind kind, double length, double spacing) { return kind == 
 template <int Dim> std::vector<SurfacePoint<Dim>> surfacePoints(const RigidShape<Dim>& shape, double spacing, const Vec<Dim>& low, const Vec<Dim>& high)
 {
 	const Box<Dim> box { low, high };
-	if (shape.kind == RigidKind::ball) return onBall(shape.radius, spacing, box);
+	if (shape.kind == RigidKind::ball) return onBall(shape.radius, shape.axes, spacing, box);
 	if (shape.kind == RigidKind::block) return onBlock<Dim>(shape.halfSize, spacing, box);
 	if (shape.kind == RigidKind::sheet) return onSheet(shape, shape.parts > 0 ? shape.radius : 0, spacing, box);
 	if (shape.kind == RigidKind::capsule) return onCapsule(shape, spacing, box);

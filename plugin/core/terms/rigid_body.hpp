@@ -38,6 +38,7 @@ template <int Dim> struct RigidShape {
 	std::array<Vec<Dim>, Dim> corners;                     ///< of a sheet, or the ends of a capsule, in the body's axes [m]; of others not set
 	bool                      isTwoSided = false;          ///< a plane, or a sheet, that soil may touch from either side
 	int                       parts      = 0;              ///< into which the longest edge of a body that deforms is divided; 0: by its length
+	Mat<Dim>                  axes       = Mat<Dim>::Identity(); ///< of the places on a ball, which may have turned on it
 };
 
 /// Of a sheet, unit; in the plane that on the right of the way from the first corner to the second.

@@ -34,6 +34,8 @@ void MpmContact::requireAdmissible() const
 	for (const size_t size : { forces.size(), torques.size(), impulses.size(), touching.size(), slipping.size(), areFree.size(), impulsesSince.size(),
 	                           poses.size() / 7, stiffnesses.size() / 36 })
 		if (size != n) throw std::invalid_argument("MpmContact: what is kept of the bodies does not go together; is the saved file damaged?");
+	if (turns.size() % turnWidth != 0)
+		throw std::invalid_argument("MpmContact: what is kept of the turns of places is incomplete; is the saved file damaged?");
 	if (records.empty()) return;
 	if (!ContactRecordOfPlace::areIn(records))
 		throw std::invalid_argument(
@@ -55,7 +57,7 @@ void MpmContact::forget()
 		list->clear();
 	for (auto* list : { &forces, &torques, &impulses, &impulsesSince })
 		list->clear();
-	for (auto* list : { &poses, &stiffnesses, &records })
+	for (auto* list : { &poses, &stiffnesses, &records, &turns })
 		list->clear();
 }
 
@@ -72,6 +74,20 @@ void MpmContact::keep(int id, const gimpm::ContactLoad& load, const Se3r& pose, 
 	poses.insert(poses.end(), pose.position.data(), pose.position.data() + 3);
 	poses.insert(poses.end(), pose.orientation.coeffs().data(), pose.orientation.coeffs().data() + 4);
 	stiffnesses.insert(stiffnesses.end(), load.stiffness.data(), load.stiffness.data() + load.stiffness.size());
+}
+
+Matrix3r MpmContact::turnOf(int id) const
+{
+	for (size_t i = 0; i + turnWidth <= turns.size(); i += turnWidth)
+		if (turns[i] == id) return Matrix3r::Map(&turns[i + 1]);
+	return Matrix3r::Identity();
+}
+
+void MpmContact::keepTurn(int id, const Matrix3r& turn)
+{
+	if (turn == Matrix3r::Identity()) return;
+	turns.push_back(id);
+	turns.insert(turns.end(), turn.data(), turn.data() + turn.size());
 }
 
 Se3r MpmContact::poseOf(size_t i) const

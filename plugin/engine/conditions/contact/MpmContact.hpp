@@ -21,9 +21,9 @@ public:
 	vector<Vector3r> forces, torques, impulses;
 	vector<int>      touching, slipping;
 	// Hidden: of each of the bodies position and orientation of its last exchange (7 numbers), whether YADE moves
-	// it freely, the stiffness that is handed over to those (36), and the impulse of that since; and what is
-	// remembered of places on them (contact_records.hpp)
-	vector<Real>     poses, stiffnesses, records;
+	// it freely, the stiffness that is handed over to those (36), and the impulse of that since; what is remembered
+	// of places on them (contact_records.hpp); and of Spheres on which these have turned, id and turn (3 x 3)
+	vector<Real>     poses, stiffnesses, records, turns;
 	vector<int>      areFree;
 	vector<Vector3r> impulsesSince;
 	// Not saved. Of members of clumps, where they were in these; and the O.dt that has been looked at
@@ -66,6 +66,7 @@ public:
 		v("poses", &MpmContact::poses, hidden, "");
 		v("stiffnesses", &MpmContact::stiffnesses, hidden, "");
 		v("records", &MpmContact::records, hidden, "");
+		v("turns", &MpmContact::turns, hidden, "");
 		v("areFree", &MpmContact::areFree, hidden, "");
 		v("impulsesSince", &MpmContact::impulsesSince, hidden, "");
 	}
@@ -76,6 +77,11 @@ public:
 	// What there is of the last load step, body by body.
 	void forget();
 	void keep(int id, const gimpm::ContactLoad&, const Se3r& pose, bool isFree, const Vector3r& impulse);
+
+	// Of the places on a body, and as such; it is kept if it is one.
+	static constexpr int turnWidth = 10;
+	Matrix3r             turnOf(int id) const;
+	void                 keepTurn(int id, const Matrix3r&);
 
 	// Of the last exchange, number i of the bodies.
 	Se3r poseOf(size_t i) const;

@@ -75,9 +75,10 @@ template <int Dim> void drawFaces(Picture& picture, const MpmContact& contact, c
 	for (const auto& [id, records] : byBody(contact.records)) {
 		if (!scene->bodies->exists(id)) continue;
 		const Body& body  = *(*scene->bodies)[id];
-		const auto  rigid = currentBody<Dim>(body, *scene, grid);
+		auto        rigid = currentBody<Dim>(body, *scene, grid);
 		if (!rigid) continue;
-		const auto box = extent<Dim>(records, grid.cellSize);
+		rigid->shape.axes = contact.turnOf(id).template topLeftCorner<Dim, Dim>();
+		const auto box    = extent<Dim>(records, grid.cellSize);
 		for (const auto& point : gimpm::surfacePointsAt<Dim>(rigid->shape, rigid->begin, grid.cellSize, box.min(), box.max())) {
 			const auto found        = records.find(point.number);
 			const Real around       = grid.axisymmetric ? 2 * M_PI * rigid->begin.inSpace(point.place)[0] : 1;

@@ -6,6 +6,7 @@
 #include "engine/analysis/analysis.hpp"
 #include "engine/conditions/contact/contact_records.hpp"
 #include "engine/conditions/contact/rigid_bodies.hpp"
+#include "engine/conditions/contact/small_features.hpp"
 #include <algorithm>
 #include <map>
 
@@ -167,6 +168,7 @@ template <int Dim> void Contacts<Dim>::addMember(const MpmContact& contact, cons
 	requireTogether(contact, *body, owner, own);
 	auto rigid = rigidBody<Dim>(*body, first, grid);
 	if (!rigid) return;
+	rigid->shape.axes    = contact.turnOf(body->id).topLeftCorner<Dim, Dim>();
 	rigid->turn          = std::max(angleBetween(owner.begin, owner.target), owner.byYade ? owner.body->state->angVel.norm() * (target - begin) : 0);
 	const Vector3r shift = owner.target.position - owner.begin.position;
 	if ((Dim == 2 && shift[2] != 0) || (grid.axisymmetric && (shift[0] != 0 || !owner.target.orientation.isApprox(owner.begin.orientation, 1e-12))))
@@ -175,7 +177,7 @@ template <int Dim> void Contacts<Dim>::addMember(const MpmContact& contact, cons
 		        + std::to_string(shift[2]) + ") m, or turns: "
 		        + (grid.axisymmetric ? "around the axis of symmetry only movement along it is admitted."
 		                             : "with dim=2 it can only move in the plane."));
-	add(contact, *rigid, { body, own, first }, number);
+	add(contact, *rigid, { body, own, unturned(*body, first, grid) }, number);
 }
 
 template <int Dim> void Contacts<Dim>::add(const MpmContact& contact, gimpm::RigidBody<Dim> rigid, const Member& member, int number)
@@ -392,37 +394,12 @@ template <int Dim> string Contacts<Dim>::warningOfDistance(const gimpm::PointClo
 	        " cells, and is the nearest one that MpmContact has; none of them moves. Is it where it is meant to be, and does MpmContact.mask name the bodies that are meant?");
 }
 
-// The soil is one field: on both sides of what is thinner than a cell the same nodes move it, and before its narrow
-// faces they are farther apart than these are wide.
-template <int Dim> string Contacts<Dim>::warningOfThinness() const
-{
-	for (size_t i = 0; i < members.size(); ++i) {
-		const auto& body = system->bodies[i];
-		if (body.thickness() >= cellSize * (1 - 1e-9)) continue;
-		std::optional<gimpm::Vec<Dim>> first;
-		bool                           isBetween = false, isNarrow = false;
-		for (const auto& r : system->records) {
-			if (r.body != int(i) || !r.touches) continue;
-			if (!first) first = r.normal;
-			isBetween = isBetween || first->dot(r.normal) < -0.5;
-			isNarrow  = isNarrow || body.isNarrow(body.end.rotation.transpose() * r.normal);
-		}
-		if (!isNarrow && !isBetween) continue;
-		return gimpm::sentence(
-		        body.name, " is ", body.thickness(), " m thick, less than a cell (", cellSize, " m). ",
-		        isNarrow ? "Before it the soil resists about as to a body of that width. " : "",
-		        isBetween ? "Soil on its two sides moves as one, which neither slides along the body nor comes off it on one side alone. " : "",
-		        body.thickness() > 0 ? gimpm::sentence("Cells of at most ", body.thickness(), " m resolve it.") : "");
-	}
-	return "";
-}
-
 template <int Dim> std::map<string, string> Contacts<Dim>::warnings() const
 {
 	std::map<string, string> found;
 	found["coefficient"] = coefficient;
 	found["distance"]    = distance;
-	found["thin"]        = warningOfThinness();
+	found["thin"]        = warningOfSmallFeatures(*system, cellSize);
 	return found;
 }
 
@@ -446,6 +423,11 @@ template <int Dim> void Contacts<Dim>::keep(MpmContact& contact)
 
 template <int Dim> void Contacts<Dim>::keepRecords() const
 {
+	for (size_t i = 0; i < members.size(); ++i) {
+		Matrix3r turn                  = Matrix3r::Identity();
+		turn.topLeftCorner<Dim, Dim>() = system->bodies[i].shape.axes;
+		owners[system->bodies[i].owner].contact->keepTurn(members[i].body->id, turn);
+	}
 	for (const auto& r : system->records) {
 		const Owner& owner = owners[system->bodies[r.body].owner];
 		MpmContact&  to    = *owner.contact;

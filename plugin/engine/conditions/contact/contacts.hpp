@@ -64,7 +64,7 @@ private:
 	using Places = std::map<Body::id_t, int>; // of bodies in a list
 	struct Member {
 		shared_ptr<Body> body;
-		Se3r             own, first; // as seen from the owner; in space when the run begins
+		Se3r             own, first; // as seen from the owner; in space, that from which its turn counts
 		vector<int>      nodes {};   // owners that it deforms with, if it does
 	};
 
@@ -89,9 +89,6 @@ private:
 
 	// In the first run, about bodies that are far from the soil and do not come.
 	string warningOfDistance(const gimpm::PointCloud<Dim>&) const;
-
-	// About a body that does not part the soil on its two sides.
-	string warningOfThinness() const;
 
 	vector<shared_ptr<MpmContact>>        given;
 	shared_ptr<gimpm::ContactSystem<Dim>> system; // its terms refer to it

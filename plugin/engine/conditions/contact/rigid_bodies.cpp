@@ -25,8 +25,17 @@ namespace {
 
 	constexpr Real roundOff = 1e-9; // of what a body touches the plane z = 0 with
 
-	// The others keep the axes of the scene as their own until they turn.
+	// Facets and Walls keep the axes of the scene as their own until they turn.
 	bool hasOwnAxes(const Body& body) { return dynamic_cast<const Box*>(body.shape.get()); }
+
+	// What is left of an orientation without its turn in the plane: the half of that turns the pair (w, z), and (x, y)
+	// the same way.
+	Quaternionr withoutTurnInPlane(const Quaternionr& q)
+	{
+		const bool isUpright = q.w() * q.w() + q.z() * q.z() >= 0.5;
+		const Real half      = isUpright ? std::atan2(q.z(), q.w()) : std::atan2(q.y(), q.x());
+		return Quaternionr(Eigen::AngleAxis<Real>(-2 * half, Vector3r::UnitZ())) * q;
+	}
 
 	template <int Dim> bool makeShape(const Body& body, const Sphere& sphere, const Se3r& at, gimpm::RigidShape<Dim>& shape)
 	{
@@ -116,6 +125,12 @@ namespace {
 	}
 }
 
+template <int Dim> Se3r unturned(const Body& body, const Se3r& at, const gimpm::Grid<Dim>& grid)
+{
+	if (!dynamic_cast<const Sphere*>(body.shape.get()) || grid.axisymmetric) return at;
+	return { at.position, Dim == 3 ? Quaternionr(Quaternionr::Identity()) : withoutTurnInPlane(at.orientation) };
+}
+
 template <int Dim> gimpm::Pose<Dim> poseOf(const Body& body, const Se3r& first, const Se3r& now)
 {
 	const Quaternionr turn = hasOwnAxes(body) ? now.orientation : now.orientation * first.orientation.conjugate();
@@ -142,7 +157,7 @@ template <int Dim> std::optional<gimpm::RigidBody<Dim>> rigidBody(const Body& bo
 	} else
 		refuseBody(body, "cannot touch the soil: Sphere, Box, Facet and Wall can, and clumps of them. Give MpmContact a mask that leaves it out.");
 	if (!acts) return std::nullopt;
-	rigid.begin = rigid.end = poseOf<Dim>(body, at, at);
+	rigid.begin = rigid.end = poseOf<Dim>(body, unturned(body, at, grid), at);
 	if (grid.axisymmetric) requireOnAxis(body, rigid);
 	if (grid.isPeriodic() && rigid.shape.kind != RigidKind::plane)
 		refuseBody(body, "cannot touch the soil on a periodic grid (MpmGrid.period), where only Walls can.");
@@ -151,6 +166,8 @@ template <int Dim> std::optional<gimpm::RigidBody<Dim>> rigidBody(const Body& bo
 
 template std::optional<gimpm::RigidBody<2>> rigidBody(const Body&, const Se3r&, const gimpm::Grid<2>&);
 template std::optional<gimpm::RigidBody<3>> rigidBody(const Body&, const Se3r&, const gimpm::Grid<3>&);
+template Se3r                               unturned(const Body&, const Se3r&, const gimpm::Grid<2>&);
+template Se3r                               unturned(const Body&, const Se3r&, const gimpm::Grid<3>&);
 template gimpm::Pose<2>                     poseOf(const Body&, const Se3r&, const Se3r&);
 template gimpm::Pose<3>                     poseOf(const Body&, const Se3r&, const Se3r&);
 

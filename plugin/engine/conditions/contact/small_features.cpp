@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "engine/conditions/contact/small_features.hpp"
+#include "core/base/sentence.hpp"
+#include <algorithm>
+
+namespace yade {
+
+namespace {
+	template <int Dim> using Touched = vector<const gimpm::ContactRecord<Dim>*>;
+
+	template <int Dim> Touched<Dim> touchedOf(const gimpm::ContactSystem<Dim>& system, int body)
+	{
+		Touched<Dim> found;
+		for (const auto& r : system.records)
+			if (r.body == body && r.touches) found.push_back(&r);
+		return found;
+	}
+
+	// The soil is one field: on both sides of what is thinner than a cell the same nodes move it, and before its
+	// narrow faces they are farther apart than these are wide.
+	template <int Dim> string ofThinness(const gimpm::RigidBody<Dim>& body, const Touched<Dim>& touched, Real cellSize)
+	{
+		bool isBetween = false, isNarrow = false;
+		for (const auto* r : touched) {
+			isBetween = isBetween || touched[0]->normal.dot(r->normal) < -0.5;
+			isNarrow  = isNarrow || body.isNarrow(body.end.rotation.transpose() * r->normal);
+		}
+		if (!isNarrow && !isBetween) return "";
+		return gimpm::sentence(
+		        body.name, " is ", body.thickness(), " m thick, less than a cell (", cellSize, " m). ",
+		        isNarrow ? "Before it the soil resists about as to a body of that width. " : "",
+		        isBetween ? "Soil on its two sides moves as one, which neither slides along the body nor comes off it on one side alone. " : "",
+		        body.thickness() > 0 ? gimpm::sentence("Cells of at most ", body.thickness(), " m resolve it.") : "");
+	}
+
+	template <int Dim> string ofSmallBall(const gimpm::RigidBody<Dim>& body, Real cellSize)
+	{
+		return gimpm::sentence(
+		        body.name, " is ", body.thickness(), " m thick, less than a cell (", cellSize,
+		        " m). What it meets depends on where in a cell it is, by a fifth, and a ball of less than half a cell may meet nothing or be pulled. "
+		        "Cells of at most ",
+		        body.thickness() / 2, " m resolve it.");
+	}
+
+	// How far from the edge between faces that touch places of these do, in the axes of the block; infinite if they
+	// do not meet in one.
+	template <int Dim> Real reachFromEdge(const gimpm::RigidBody<Dim>& block, const Touched<Dim>& touched)
+	{
+		constexpr Real     none = std::numeric_limits<Real>::infinity();
+		gimpm::Index<Dim>  side = gimpm::Index<Dim>::Zero();
+		std::array<int, 3> faces {};
+		for (const auto* r : touched) {
+			const gimpm::Vec<Dim> normal = block.end.rotation.transpose() * r->normal;
+			int                   across;
+			const Real            size = normal.cwiseAbs().maxCoeff(&across);
+			const int             now  = normal[across] < 0 ? -1 : 1;
+			if (size < 0.999 || side[across] == -now) return none;
+			side[across] = now, ++faces[across];
+		}
+		if (std::count(faces.begin(), faces.end(), 0) > 1) return none;
+		Real most = 0;
+		for (const auto* r : touched) {
+			const gimpm::Vec<Dim> normal = block.end.rotation.transpose() * r->normal, own = block.end.inBody(r->place);
+			for (int a = 0; a < Dim; ++a)
+				if (side[a] != 0 && std::abs(normal[a]) < 0.5) most = std::max(most, block.shape.halfSize[a] - side[a] * own[a]);
+		}
+		return most;
+	}
+
+	// The same of the border of a sheet that soil touches on one side, where that is the only one.
+	template <int Dim> Real reachFromBorder(const gimpm::RigidBody<Dim>& sheet, const Touched<Dim>& touched)
+	{
+		Real most = 0;
+		for (const auto* r : touched)
+			most = std::max(most, -sheet.proximity(sheet.end, r->place, 1).beside);
+		return most;
+	}
+
+	template <int Dim> string ofEdge(const gimpm::RigidBody<Dim>& body, Real reach, Real cellSize)
+	{
+		if (!(reach > 0 && reach < cellSize)) return "";
+		return gimpm::sentence(
+		        body.name, " presses by an edge or a tip of which ", reach, " m are in the soil, less than a cell (", cellSize,
+		        " m). What it meets there depends on where in a cell it is, by a third with half a cell and by a tenth with one and a half. Cells of at most ",
+		        reach / 1.5, " m see as much; when it goes deeper, two thirds of that will do.");
+	}
+}
+
+template <int Dim> string warningOfSmallFeatures(const gimpm::ContactSystem<Dim>& system, Real cellSize)
+{
+	using gimpm::RigidKind;
+	const auto isSheet = [&](const auto& body) { return body.shape.kind == RigidKind::sheet; };
+	const bool isMesh  = std::count_if(system.bodies.begin(), system.bodies.end(), isSheet) > 1;
+	for (int i = 0; i < int(system.bodies.size()); ++i) {
+		const auto& body    = system.bodies[i];
+		const auto  touched = touchedOf(system, i);
+		if (touched.empty()) continue;
+		const bool isThin = body.thickness() < cellSize * (1 - 1e-9);
+		string     text;
+		if (isThin && body.shape.kind == RigidKind::ball) text = ofSmallBall(body, cellSize);
+		else if (isThin)
+			text = ofThinness(body, touched, cellSize);
+		if (body.shape.kind == RigidKind::block && text.empty()) text = ofEdge(body, reachFromEdge(body, touched), cellSize);
+		if (isSheet(body) && !isMesh && text.empty()) text = ofEdge(body, reachFromBorder(body, touched), cellSize);
+		if (!text.empty()) return text;
+	}
+	return "";
+}
+
+template string warningOfSmallFeatures(const gimpm::ContactSystem<2>&, Real);
+template string warningOfSmallFeatures(const gimpm::ContactSystem<3>&, Real);
+
+} // namespace yade

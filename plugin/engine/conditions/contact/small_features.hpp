@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+// What of rigid bodies is too small for the cells of the grid.
+#include "core/terms/contact.hpp"
+#include "yade_api/types.hpp"
+
+namespace yade {
+
+// About the first body that touches the soil by what is smaller than a cell: a thin one, a small ball, an edge or a tip
+// of which less is in the soil. Names the body and the cells that would do; empty if there is none.
+template <int Dim> string warningOfSmallFeatures(const gimpm::ContactSystem<Dim>&, Real cellSize);
+
+} // namespace yade
