@@ -3,8 +3,11 @@
 """A shallow tunnel in soft ground: the lining is put in, the ground in it dug out in stages, the lining contracts by the volume loss, and the surface settles. In ground without change of volume the trough has the volume that is lost."""
 import os
 import sys
-import numpy as np
 from yade import mpm
+import matplotlib
+matplotlib.use('Agg')
+import matplotlib.pyplot as plt
+import numpy as np
 sys.path.insert(0, os.path.join(os.path.dirname(sys.argv[0]), '..'))
 from options import compared, readOptions
 options = readOptions('Lined tunnel.', cellSize=(0.5, '[m]'), volumeLoss=(0.01, 'part of the area of the tunnel'), poisson=(0.495, "Poisson's ratio of the ground"))
@@ -28,9 +31,10 @@ O.run(4, wait=True)  # contracts
 points = mpm.arrays()
 row = lambda y: np.flatnonzero(np.abs(points['pos0'][:, 1] + y) < h / 4)
 upper, lower = ((points['pos0'] - points['pos'])[row(k * h)][np.argsort(points['pos0'][row(k * h), 0]), 1] for k in (.25, .75))
-trough, lost = (1.5 * upper - 0.5 * lower).sum() * h, options.volumeLoss * np.pi * R**2  # of both halves, at the surface itself
+trough, lost = (1.5 * upper - 0.5 * lower).sum() * h, options.volumeLoss * np.pi * R**2  # of both halves, at the surface
 print(f'trough {trough:.4f} m2, volume loss {lost:.4f} m2 ({100 * (trough / lost - 1):+.2f} %); it is {1e3 * upper[0]:.1f} mm deep')
 compared(f'volume of the trough, cells of {h:g} m, nu = {options.poisson:g}', trough, lost, 'volume loss', 'm2')
-axes = mpm.plot('displacement')
-for quantity, size in dict(axialForce=1, moment=2).items(): mpm.diagram(lining, quantity, axes, size)
-axes.figure.savefig(f'{options.out}/lined_tunnel.png')
+figure, axes = plt.subplots(1, 3, figsize=(12, 4.5), layout='constrained')
+for ax, quantity in zip(axes, ('axialForce', 'shearForce', 'moment')):
+	mpm.diagram(lining, quantity, mpm.plot('displacement', ax=ax), 1.5).set(xlim=(0, 9), ylim=(-12, 0.2), title=quantity)
+figure.savefig(f'{options.out}/lined_tunnel.png')

@@ -3,8 +3,11 @@
 """A cantilever sheet pile wall in sand, dug out on one side until it is thrown over: its moment, and the depth at which it fails, by Blum (without his addition of a fifth)."""
 import os
 import sys
-import numpy as np
 from yade import mpm
+import matplotlib
+matplotlib.use('Agg')
+import matplotlib.pyplot as plt
+import numpy as np
 sys.path.insert(0, os.path.join(os.path.dirname(sys.argv[0]), '..'))
 from options import compared, readOptions
 options = readOptions('Sheet pile wall.', cellSize=(0.5, '[m]; its half is dug out at a time'), depth=(3.25, 'that is dug out in the end [m]'), seen=(3., 'depth of the picture [m]'))
@@ -29,8 +32,9 @@ for level in np.arange(1.5, options.depth + 1e-9, h / 2):
 	byHand = gamma * (Ka * (level + below)**3 - below**3 / Ka) / 6
 	print(f'dug out {level:.3f} m: head moves {1e3 * wall.vertices[0][0]:.1f} mm, moment {max(wall.moments) / 1e3:.1f} kN m, by Blum {byHand / 1e3:.1f} kN m')
 	if abs(level - options.seen) < 1e-9:
-		compared(f'largest moment, dug out {level:g} m', max(wall.moments) / 1e3, byHand / 1e3, 'Blum 1931', 'kN m')
-		axes = mpm.plot('displacement')
-		for quantity, size in dict(shearForce=1, moment=2).items(): mpm.diagram(wall, quantity, axes, size)
-		axes.figure.savefig(f'{options.out}/sheet_pile.png')
+		compared(f'largest moment, dug out {level:g} m, cells of {h:g} m', max(wall.moments) / 1e3, byHand / 1e3, 'Blum 1931', 'kN m')
+		figure, axes = plt.subplots(1, 3, figsize=(12, 4.5), layout='constrained')
+		for ax, quantity in zip(axes, ('axialForce', 'shearForce', 'moment')):
+			mpm.diagram(wall, quantity, mpm.plot('displacement', ax=ax), 1.5).set(xlim=(-4, 4), ylim=(-8, 0.5), title=quantity)
+		figure.savefig(f'{options.out}/sheet_pile.png')
 print(f'by Blum it fails at {blum:.3f} m')

@@ -29,6 +29,8 @@ runs = {
         'water': ['water.py', 'dam.py'],
         'consolidation': ['consolidation.py'],
         'embankment': ['embankment.py'],
+        'sheet_pile': ['sheet_pile.py', 'sheet_pile.py --cellSize 0.25 --depth 3'],
+        'lined_tunnel': ['lined_tunnel.py'],
         'penetration': [
                 'penetration.py --cells 16 --depth 0.03', 'penetration.py --scene sphere --cells 10', 'penetration.py --scene plate', 'deep.py --scene tbar', 'deep.py --scene tbar --rough 1', 'deep.py --cells 3',
                 'deep.py --scene pile --cells 4', 'wheel.py', 'penetration.py --scene cylinder --cells 10', 'penetration.py --scene free --cells 2 --stiffness 20'
@@ -48,6 +50,7 @@ groups = {
         'Limit loads': ['collapse', 'footing3d', 'axisymmetric', 'locking'],
         'Slopes': ['slope', 'safety', 'paper'],
         'Earth pressure': ['earth_pressure'],
+        'Walls and tunnels in the ground': ['sheet_pile', 'lined_tunnel'],
         'Water and stages': ['water', 'consolidation', 'embankment'],
         'Contact and penetration': ['penetration', 'grains_on_soil'],
         'Waves and run-out': ['waves', 'earthquake', 'runout', 'splitting'],

@@ -19,8 +19,8 @@ template <int Dim>
 std::optional<std::pair<Index<Dim>, int>> nearestCell(const Vec<Dim>& xi, const std::vector<Key>& populated, const Grid<Dim>& grid, int level, int layer)
 {
 	std::optional<std::pair<Index<Dim>, int>> nearest;
-	double least = std::numeric_limits<double>::infinity();
-	const Index<Dim>          own   = xi.array().floor().template cast<int>();
+	double                                    least = std::numeric_limits<double>::infinity();
+	const Index<Dim>                          own   = xi.array().floor().template cast<int>();
 	for (int i = 0; i < (Dim == 2 ? 9 : 27); ++i) {
 		Index<Dim> cell = own;
 		for (int a = 0, rest = i; a < Dim; ++a, rest /= 3)

@@ -6,10 +6,10 @@
 
 namespace gimpm {
 
-/// Points near a line and on its one side have nodes in a layer of their own (Grid::layer). Those the cells of which the
-/// line cuts through are nodes of their own: displacements jump there (Hansbo and Hansbo 2004). The others are tied to
-/// the nodes of layer 0 in their places, and a cell that has only such corners is the one of layer 0: so soil is one
-/// body around the ends of the line.
+/// Points near a line and on its one side have nodes in a layer of their own (Grid::layer). Those whose cells the line
+/// cuts through are nodes of their own: displacements jump there (Hansbo and Hansbo 2004). The others are tied to the
+/// nodes of layer 0 in their places, and a cell that has only such corners is the one of layer 0: so soil is one body
+/// around the ends of the line.
 template <int Dim> class Parting {
 public:
 	/// Keys of the nodes of their own, sorted, all in layers above 0; and the layer of a point by its place.
@@ -28,8 +28,8 @@ public:
 	Key nodeFor(Key node) const { return isOwn(node) ? node : in(0, node); }
 	Key cellFor(Key cell) const { return hasOwnCorner(cell) ? cell : in(0, cell); }
 
-	/// Calls f(cell beyond a face of a cell, layer of the face) for the one of its own layer, or where it has no own
-	/// corner the ones of all layers: they stand for themselves.
+	/// Calls f(cell beyond a face of a cell, layer of the face): the one of its own layer, and from a cell of layer
+	/// 0 without corners of their own those of all layers.
 	template <class F> void forCellsBeyond(Key cell, int axis, bool isAbove, F&& f) const
 	{
 		const Key step = Grid<Dim>::keyStep(axis), beyond = isAbove ? cell + step : cell - step;
@@ -47,9 +47,9 @@ private:
 		return false;
 	}
 
-	std::vector<Key>                     own_;
+	std::vector<Key>                    own_;
 	std::function<int(const Vec<Dim>&)> layerAt_;
-	std::vector<int>                     layers_;
+	std::vector<int>                    layers_;
 };
 
 } // namespace gimpm

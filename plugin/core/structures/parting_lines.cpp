@@ -78,7 +78,7 @@ std::vector<Index<2>> nodesCut(const PartingLine& line, const Grid<2>& grid)
 	const double          around = (1 - 1e-6) * grid.cellSize;
 	std::vector<Index<2>> nodes;
 	for (std::size_t i = 0; i + 1 < line.places.size(); ++i) {
-		const Vec<2>  &from = line.places[i], &to = line.places[i + 1];
+		const Vec<2>&  from = line.places[i], &to = line.places[i + 1];
 		const Index<2> low  = ((from.cwiseMin(to) - grid.origin) / grid.cellSize).array().floor().cast<int>() - 1;
 		const Index<2> high = ((from.cwiseMax(to) - grid.origin) / grid.cellSize).array().ceil().cast<int>() + 1;
 		for (int x = low[0]; x <= high[0]; ++x)
@@ -97,15 +97,15 @@ std::vector<Index<2>> nodesCut(const PartingLine& line, const Grid<2>& grid)
 /// both.
 bool isRightOf(const PartingLine& line, const Vec<2>& place)
 {
-	const int    pieces = int(line.places.size()) - 1;
-	double       least  = std::numeric_limits<double>::infinity();
-	double       side   = 0;
+	const int pieces = int(line.places.size()) - 1;
+	double    least  = std::numeric_limits<double>::infinity();
+	double    side   = 0;
 	for (int i = 0; i < pieces; ++i) {
 		const Vec<2> along = line.places[i + 1] - line.places[i], from = place - line.places[i];
-		const double part  = std::clamp(from.dot(along) / along.squaredNorm(), 0., 1.);
-		const double away  = (from - part * along).norm();
-		const double left  = (along[0] * from[1] - along[1] * from[0]) / along.norm();
-		const double same  = 1e-9 * along.norm();
+		const double part = std::clamp(from.dot(along) / along.squaredNorm(), 0., 1.);
+		const double away = (from - part * along).norm();
+		const double left = (along[0] * from[1] - along[1] * from[0]) / along.norm();
+		const double same = 1e-9 * along.norm();
 		if (away > least + same) continue;
 		side  = away < least - same ? left : side + left;
 		least = std::min(least, away);

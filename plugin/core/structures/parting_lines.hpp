@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Beams that part the soil on their two sides.
 #pragma once
-#include "core/grid/point_cloud.hpp"
 #include "core/grid/parting.hpp"
+#include "core/grid/point_cloud.hpp"
 #include "core/structures/structure.hpp"
 
 namespace gimpm {

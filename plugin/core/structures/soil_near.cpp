@@ -4,7 +4,8 @@
 
 namespace gimpm {
 
-template <int Dim> std::vector<SoilNear<Dim>> soilNear(const std::vector<Vec<Dim>>& places, const std::vector<double>& reach, const Beginning<Dim>& step, int layer)
+template <int Dim>
+std::vector<SoilNear<Dim>> soilNear(const std::vector<Vec<Dim>>& places, const std::vector<double>& reach, const Beginning<Dim>& step, int layer)
 {
 	const double farthest = *std::max_element(reach.begin(), reach.end());
 	const auto&  cloud    = step.cloud;

@@ -29,6 +29,29 @@ template <int Dim> Vec<Dim> tangent(const std::vector<Vec<Dim>>& places, std::si
 	return (places[std::min(v + 1, places.size() - 1)] - places[v > 0 ? v - 1 : 0]).normalized();
 }
 
+/// How much of an interval around a middle lies in another one.
+double overlap(double middle, double half, double low, double high) { return std::max(0., std::min(middle + half, high) - std::max(middle - half, low)); }
+
+/// How far along n from a place the points of a layer begin, which fill what lies there: in the cell beyond, of the size
+/// h, from what they fill up to its middle over what they fill of each length behind. Points are on the side that their
+/// middles are on, so that a beam may go through the domains of some.
+double edgeOfSoil(const Vec<2>& place, const Vec<2>& n, double h, int layer, const PointCloud<2>& cloud)
+{
+	const double window = h / 2;
+	const Vec<2> t(-n[1], n[0]);
+	double       before = 0, behind = 0;
+	for (std::size_t p = 0; p < cloud.size(); ++p) {
+		const Vec<2> apart = cloud.position[p] - place;
+		if (cloud.layerOf(int(p)) != layer || apart.cwiseAbs().maxCoeff() > 2 * h) continue;
+		const auto   halfAlong = [&](const Vec<2>& e) { return e.cwiseProduct(cloud.halfSize[p]).norm(); };
+		const double along     = overlap(apart.dot(t), halfAlong(t), -window, window);
+		before += along * overlap(apart.dot(n), halfAlong(n), -h, h / 2);
+		behind += along * overlap(apart.dot(n), halfAlong(n), h / 2, h);
+	}
+	if (behind == 0) return 0;
+	return std::clamp(h / 2 * (1 - before / behind), -h / 2, h / 2);
+}
+
 template <int Dim> double cellSizeAt(const std::optional<Attachment<Dim>>& at, const Grid<Dim>& grid) { return grid.size(at ? at->level : 0); }
 
 } // namespace
@@ -122,15 +145,25 @@ template <int Dim> void StructureForce<Dim>::partAlongBeam(const Beginning<Dim>&
 		const std::array          near { soilNear<2>(beam.places, cells, step, 0), soilNear<2>(beam.places, cells, step, beam.layer) };
 		soil.resize(right + count), attached_.resize(right + count);
 		for (std::size_t v = 0; v < count; ++v) {
-			const std::array at { attach(beam.places[v], step.basis, step.grid, 0), attach(beam.places[v], step.basis, step.grid, beam.layer) };
-			for (const int side : { 0, 1 })
+			const Vec<2> t        = beam.tangentAt(int(v)), n(-t[1], t[0]);
+			const auto   attachAt = [&](int side, double away) {
+                                const Vec<2> place = beam.places[v] + (side == 0 ? away : -away) * n;
+                                return attach<2>(place, step.basis, step.grid, side == 0 ? 0 : beam.layer);
+			};
+			std::array at { attachAt(0, 0), attachAt(1, 0) };
+			const bool isOne = at[0] && at[1] && at[0]->node == at[1]->node;
+			for (const int side : { 0, 1 }) {
+				const Vec<2> inwards = (side == 0 ? 1 : -1) * n;
+				if (!isOne)
+					at[side] = attachAt(
+					        side, edgeOfSoil(beam.places[v], inwards, step.grid.cellSize, side == 0 ? 0 : beam.layer, step.cloud));
 				if (!at[side]) soil[v].sides &= ~(1 << side);
+			}
 			attached_[v]   = at[soil[v].sides == 2];
 			soil[v].exists = soil[v].sides != 0 && soil[v].young > 0;
-			if (soil[v].sides != 3 || at[0]->node == at[1]->node || near[0][v].young == 0 || near[1][v].young == 0) continue;
+			if (soil[v].sides != 3 || isOne || near[0][v].young == 0 || near[1][v].young == 0) continue;
 			attached_[right + v] = at[1];
 			soil[right + v]      = soil[v];
-			const Vec<2> t       = beam.tangentAt(int(v));
 			for (const int side : { 0, 1 }) {
 				SoilAtVertex& beside = soil[side * right + v];
 				beside.young         = near[side][v].young;

@@ -217,9 +217,9 @@ template <int Dim> BarPiece<Dim> StructureSystem<Dim>::piece(const Reinforcement
 /// would say how much either turns.
 template <int Dim> BeamPiece StructureSystem<Dim>::beamPiece(std::size_t i) const
 {
-	const Beam& beam     = *structure_.beam;
-	const auto  strength = [&](std::size_t v) { return beam.isHinge[v] ? 0 : beam.plasticMoment; };
-	const double length = beam.shrinkage * beam.length0[i];
+	const Beam&  beam     = *structure_.beam;
+	const auto   strength = [&](std::size_t v) { return beam.isHinge[v] ? 0 : beam.plasticMoment; };
+	const double length   = beam.shrinkage * beam.length0[i];
 	BeamPiece    made { beam.places[i + 1] - beam.places[i], beam.elongation[i] + (beam.length0[i] - length), length, beam.bend[i] };
 	made.strength[0] = strength(i);
 	if (i + 1 == beam.length0.size() && !beam.isClosed) made.strength[1] = strength(i + 1);

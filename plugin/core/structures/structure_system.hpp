@@ -20,8 +20,8 @@ struct SoilAtVertex {
 /// respect to the structure's own unknowns, so that these never reach the unknowns of the grid.
 template <int Dim> class StructureSystem {
 public:
-	/// The structure must outlive it; the soil by vertex, those of the beam first, and behind them all, by vertex of the
-	/// beam, the soil to its right where that is another body than the soil to its left. May be missing where there is none.
+	/// The structure must outlive it; the soil by vertex, those of the beam first. Behind them all, by vertex of
+	/// the beam, is the soil to its right where that is another body than that to its left; it may be missing.
 	StructureSystem(Structure<Dim>&, const std::vector<SoilAtVertex>&);
 
 	int  soilUnknowns() const { return soilUnknowns_; }
@@ -54,9 +54,9 @@ private:
 	struct Station {
 		int                soil       = -1;   ///< first unknown of the soil around it
 		int                toTheRight = -1;   ///< of a beam: of the soil to its right, where that is another body
-		bool               moves     = true; ///< with the soil
-		int                slip      = -1;   ///< unknown along `direction`
-		Vec<Dim>           direction = Vec<Dim>::Zero();
+		bool               moves      = true; ///< with the soil
+		int                slip       = -1;   ///< unknown along `direction`
+		Vec<Dim>           direction  = Vec<Dim>::Zero();
 		std::array<int, 3> own { -1, -1, -1 }; ///< of a beam: x, y, turn
 		bool               isFree = false;     ///< of a beam
 	};

@@ -76,8 +76,9 @@ Traction<Dim>::Traction(SurfaceLoad<Dim>& load, const Beginning<Dim>& step)
 	layer_        = attached.layer;
 	for (const Piece& piece : load_.surface.pieces) {
 		const auto layerOf = [&](int v) { return Grid<Dim>::layer(step.basis.nodes[attached_[v].node[0]]); };
-		isAcross_.push_back(
-		        obstacle_.empty() && step.grid.parting && std::any_of(piece.begin(), piece.end(), [&](int v) { return layerOf(v) != layerOf(piece[0]); }));
+		isAcross_.push_back(obstacle_.empty() && step.grid.parting && std::any_of(piece.begin(), piece.end(), [&](int v) {
+			                    return layerOf(v) != layerOf(piece[0]);
+		                    }));
 	}
 	if (obstacle_.empty() && load.pressure != 0) obstacle_ = betweenLevels();
 	if (!obstacle_.empty()) return;

@@ -234,10 +234,10 @@ namespace {
 			Eigen::VectorXd       d = Random(3).vector(system.nodalSize(), 0.003), direction = Random(4).vector(system.nodalSize(), 1);
 			system.basis.ties.template spread<Dim>(d);
 			system.basis.ties.template spread<Dim>(direction);
-			NodeMatrix<Dim>       K;
-			Couplings             beside;
-			Eigen::VectorXd       force, slope = Eigen::VectorXd::Zero(d.size());
-			const auto            forceAt = [&](double s) {
+			NodeMatrix<Dim> K;
+			Couplings       beside;
+			Eigen::VectorXd force, slope = Eigen::VectorXd::Zero(d.size());
+			const auto      forceAt = [&](double s) {
                                 EXPECT_FALSE(system.evaluate(d + s * direction, force, nullptr));
                                 return force;
 			};
@@ -348,7 +348,8 @@ namespace {
 		}
 	};
 
-	/// Down to the line of the grid that is nearest to its foot, and only points beside it, to its right, are in another layer.
+	/// Down to the line of the grid that is nearest to its foot, and only points beside it, to its right, are in
+	/// another layer.
 	TEST(PartedSoil, IsPartedDownToTheTip)
 	{
 		for (const double foot : { 0.8, 1., 1.2 }) {
@@ -376,20 +377,20 @@ namespace {
 		}
 	}
 
-	/// Lines of force go along the cut, wherever it is, and do not end at it: displacements stay linear, also across the
-	/// faces of the stabilisation, which are there for all cells that the cut leaves half empty.
+	/// Lines of force go along the cut, wherever it is, and do not end at it: displacements stay linear, also
+	/// across the faces of the stabilisation, which are there for all cells that the cut leaves half empty.
 	TEST(PartedSoil, TakesNoNoticeOfAPullAlongTheCut)
 	{
 		for (const auto& [head, foot] : { std::pair(Vec<2>(1.5, 2), Vec<2>(1.5, 1)), std::pair(Vec<2>(1.63, 2.1), Vec<2>(1.63, 0.77)) }) {
 			PartedGround ground(head, foot);
 			ground.model.coupledTerms.clear(); // the cut alone
-			ground.model.materials     = { { Hencky(1e6, 0), 0 } };
-			auto base                  = held<2>(ground.model.grid, { -infinity, -infinity }, { infinity, 0 }, "xy");
-			auto top                   = held<2>(ground.model.grid, { -infinity, 2 }, { infinity, infinity }, "xy");
-			top.displacement           = { 0, 0.02 };
-			ground.model.boundary      = Boundary<2>({ base, top });
-			ground.cloud.position0     = ground.cloud.position;
-			const auto          before = ground.cloud.position;
+			ground.model.materials = { { Hencky(1e6, 0), 0 } };
+			auto base              = held<2>(ground.model.grid, { -infinity, -infinity }, { infinity, 0 }, "xy");
+			auto top               = held<2>(ground.model.grid, { -infinity, 2 }, { infinity, infinity }, "xy");
+			top.displacement       = { 0, 0.02 };
+			ground.model.boundary  = Boundary<2>({ base, top });
+			ground.cloud.position0 = ground.cloud.position;
+			const auto before      = ground.cloud.position;
 			ASSERT_TRUE(loadStep(ground.cloud, ground.model, { {}, 1, 1 }, ground.solver).converged());
 			for (std::size_t p = 0; p < before.size(); ++p) {
 				const Vec<2> u = ground.cloud.position[p] - before[p];

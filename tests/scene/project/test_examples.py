@@ -429,6 +429,21 @@ def test_dam(yade):
 	assert (run.folder / 'out/dam/dam.png').stat().st_size > 20000
 
 
+def test_sheet_pile(yade):
+	"""Before it fails, by the figures of its page."""
+	run = yade(root / 'examples' / 'sheet_pile' / 'sheet_pile.py', '--depth', 2.5, '--seen', 2.5)
+	assert numbers(r'dug out 2.500 m: head moves (\S+) mm, moment (\S+) kN m, by Blum (\S+) kN m', run.stdout) == [8.4, 32.9, 35.2]
+	assert (run.folder / 'out/sheet_pile/sheet_pile.png').stat().st_size > 20000
+
+
+def test_lined_tunnel(yade):
+	"""Ground that hardly changes its volume hands on to the surface what the lining contracts by."""
+	run = yade(root / 'examples' / 'lined_tunnel' / 'lined_tunnel.py')
+	trough, lost = numbers(r'trough (\S+) m2, volume loss (\S+) m2', run.stdout)
+	assert abs(trough / lost - 1) < 0.02 and lost == 0.1963
+	assert (run.folder / 'out/lined_tunnel/lined_tunnel.png').stat().st_size > 20000
+
+
 def test_consolidation(yade):
 	"""Columns and slab against what is known; all water that leaves is counted."""
 	run = yade(root / 'examples' / 'consolidation' / 'consolidation.py', '--cells', 10, '--steps', 30)

@@ -14,12 +14,12 @@ public:
 	Real                                 weight        = 0;
 	Points                               hinges;
 	string                               fixHead, fixFoot;
-	Vector3r                             headForce  = Vector3r::Zero();
-	Real                                 headMoment = 0;
+	Vector3r                             headForce   = Vector3r::Zero();
+	Real                                 headMoment  = 0;
 	Real                                 contraction = 0;
-	Real                                 adhesion   = inf;
-	Real                                 friction   = 0;
-	Real                                 stiffness  = 10;
+	Real                                 adhesion    = inf;
+	Real                                 friction    = 0;
+	Real                                 stiffness   = 10;
 	vector<shared_ptr<MpmReinforcement>> anchors;
 	gimpm::LoadCurve::Knees              curve; // empty: that of the engine
 	// Results, which are also the state from which the next step goes on
@@ -54,7 +54,7 @@ public:
 		v("headForce", &B::headForce, 0, "Force [N] on the first vertex at load factor 1.", finite);
 		v("headMoment", &B::headMoment, 0, "Moment [N m] on the first vertex at load factor 1, counterclockwise.", finite);
 		v("contraction", &B::contraction, 0,
-		  "Part [-] of the area in a ring by which it contracts at load factor 1, from 0 to below 1: the volume loss of a tunnel. Its length goes with the root.",
+		  "Part [-] of the area in a ring that it loses at load factor 1, from 0 to below 1: the volume loss of a tunnel.",
 		  admitting("a number from 0 to below 1, as 0.02 for 2 %", [](Real value) { return value >= 0 && value < 1; }));
 		v("adhesion", &B::adhesion, 0, "Strength [Pa] >= 0 of each side along the beam; inf, the default: rough, 0 with friction=0: smooth.",
 		  admitting("a number >= 0 [Pa], or inf", isNonNegativeOrInfinite));
@@ -65,8 +65,8 @@ public:
 		  "Of the springs between beam and soil [-] > 0: pressure over displacement, over Young's modulus of the soil by cell.", positive);
 		v("anchors", &B::anchors, 0,
 		  "Bars (MpmReinforcement) whose heads are fixed to it, at the vertices nearest to them; not listed in *loads*. Read as a tuple, so assign a new one.");
-		v("curve", &B::curve, 0, "Factor [-] of *headForce*, *headMoment*, *contraction*, as *MpmImplicitEngine.loadCurve*; empty, the default: that one.",
-		  curveOrNothing);
+		v("curve", &B::curve, 0,
+		  "Factor [-] of *headForce*, *headMoment*, *contraction*, as *MpmImplicitEngine.loadCurve*; empty, the default: that one.", curveOrNothing);
 		v("vertices", &B::vertices, readonly, "Where its vertices are now [m]; empty before the first step.", AnyValue());
 		v("rotations", &B::rotations, readonly, "How far each vertex has turned [rad], counterclockwise.", AnyValue());
 		v("axialForces", &B::axialForces, readonly, "N [N] between each vertex and the next one, tension positive.", AnyValue());

@@ -20,17 +20,17 @@ namespace {
 
 	void goOn(Beam& beam, const MpmBeam& from)
 	{
-		beam.places      = inDimension<2>(from.vertices);
-		beam.turns       = from.rotations;
-		beam.length0     = from.lengths;
-		beam.elongation  = from.elongations;
+		beam.places        = inDimension<2>(from.vertices);
+		beam.turns         = from.rotations;
+		beam.length0       = from.lengths;
+		beam.elongation    = from.elongations;
 		const size_t count = beam.places.size();
 		for (const size_t side : { 0, 1 }) {
 			const auto part  = [&](const vector<Real>& all) { return vector<Real>(all.begin() + side * count, all.begin() + (side + 1) * count); };
 			beam.sides[side] = { part(from.normals), part(from.gaps), part(from.shears) };
 		}
 		beam.isStuck.assign(from.stuck.begin(), from.stuck.end());
-		beam.axialForce  = from.axialForces;
+		beam.axialForce = from.axialForces;
 		for (size_t i = 0; i < beam.length0.size(); ++i)
 			beam.bend.emplace_back(from.bends[2 * i], from.bends[2 * i + 1]);
 		beam.moments.assign(beam.length0.size(), Vec2::Zero());
@@ -51,7 +51,8 @@ namespace {
 		beam.isClosed      = from.line.front() == from.line.back();
 		if (from.vertices.empty()) beam.begin(fineLine<2>(inDimension<2>(placesOf(from.line)), name, grid));
 		else if (from.stuck.size() != from.vertices.size())
-			throw std::invalid_argument(name + " has been saved by an older revision, which knew nothing of the two sides of its soil: run its script again.");
+			throw std::invalid_argument(
+			        name + " has been saved by an older revision, which knew nothing of the two sides of its soil: run its script again.");
 		else
 			goOn(beam, from);
 		for (const Vector3r& hinge : placesOf(from.hinges))
@@ -67,7 +68,9 @@ namespace {
 		if (!analysis.grid->refinements.empty()) return "cells of several sizes";
 		if (analysis.newton->linearSolver == "amg") return "MpmNewton.linearSolver = 'amg'";
 		for (const Listed& listed : analysis.conditions())
-			if (const string own = listed.condition->needsUntiedNodes(listed.name()); !own.empty()) return own;
+			if (string(listed.list) == "contacts") return listed.name();
+			else if (const string own = listed.condition->needsUntiedNodes(listed.name()); !own.empty())
+				return own;
 		return "";
 	}
 
@@ -85,7 +88,7 @@ namespace {
 			to.gaps.insert(to.gaps.end(), side.gap.begin(), side.gap.end());
 			to.shears.insert(to.shears.end(), side.shearForce.begin(), side.shearForce.end());
 		}
-		to.axialForces      = beam.axialForce;
+		to.axialForces = beam.axialForce;
 		to.bends.clear(), to.shearForces.clear(), to.moments.clear();
 		to.pressures.clear(), to.leftPressures.clear(), to.rightPressures.clear();
 		for (size_t i = 0; i < pieces; ++i) {
