@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "core/terms/contact_free.hpp"
+#include "core/terms/contact_turn.hpp"
 #include <Eigen/Geometry>
 #include <Eigen/QR>
 #include <algorithm>
@@ -64,6 +65,20 @@ Mat3   rotationOf(const Turn<3>& turn)
 	return angle > 0 ? Eigen::AngleAxisd(angle, turn / angle).toRotationMatrix() : Mat3(Mat3::Identity());
 }
 
+template <> FreeBody<2>::Matrix incrementsOf<2>(const FreeBody<2>::Vector&) { return FreeBody<2>::Matrix::Identity(); }
+template <> FreeBody<3>::Matrix incrementsOf<3>(const FreeBody<3>::Vector& motion)
+{
+	FreeBody<3>::Matrix result = FreeBody<3>::Matrix::Identity();
+	const Vec3          turn   = motion.tail<3>();
+	const double        angle  = turn.norm();
+	const Mat3          across = -turnsArm(turn); // its product with a vector is the cross product
+	// The coefficients (1 - cos a) / a^2 and (a - sin a) / a^3, of small angles by their series.
+	const double first  = angle < 1e-3 ? 0.5 - angle * angle / 24 : (1 - std::cos(angle)) / (angle * angle);
+	const double second = angle < 1e-3 ? 1. / 6 - angle * angle / 120 : (angle - std::sin(angle)) / (angle * angle * angle);
+	result.bottomRightCorner<3, 3>() += first * across + second * across * across;
+	return result;
+}
+
 template <int Dim> Lever<Dim>::Lever(const PlaceOfFree<Dim>& place)
 {
 	constexpr int turns = Turn<Dim>::RowsAtCompileTime;
@@ -76,10 +91,11 @@ template <int Dim> Lever<Dim>::Lever(const PlaceOfFree<Dim>& place)
 
 template <int Dim> typename FreeBody<Dim>::Matrix compliance(const FreeBody<Dim>& body, double size, const std::vector<PlaceOfFree<Dim>>& places)
 {
-	using Free              = FreeBody<Dim>;
-	typename Free::Matrix K = body.inertia;
+	using Free                       = FreeBody<Dim>;
+	typename Free::Matrix K          = body.inertia;
+	const auto            increments = incrementsOf<Dim>(body.motion);
 	for (const auto& place : places)
-		K += Lever<Dim>(place).bodyByBody(place.slope);
+		K += Lever<Dim>(place).bodyByBody(place.slope) * increments;
 	typename Free::Vector scale = Free::Vector::Ones();
 	scale.template tail<Turn<Dim>::RowsAtCompileTime>() /= size;
 	for (int i = 0; i < Free::unknowns; ++i)
@@ -124,6 +140,12 @@ private:
 		Balance<Dim> balance(body_, motion, places);
 		return { motion, std::move(places), balance };
 	}
+	FreeBody<Dim> here() const
+	{
+		FreeBody<Dim> body = body_;
+		body.motion        = at_.motion;
+		return body;
+	}
 	bool falls()
 	{
 		const double way = wayToSoil(body_, at_.places);
@@ -138,7 +160,7 @@ private:
 	/// Newton's step, or a part of it, where that lessens what is out of balance.
 	bool newton()
 	{
-		const Vector step = -(compliance(body_, size_, at_.places) * at_.balance.residual);
+		const Vector step = -(compliance(here(), size_, at_.places) * at_.balance.residual);
 		double       part = 1;
 		for (int halving = 0; halving < 8; ++halving, part /= 2) {
 			Seen there = seenAt(at_.motion + part * step);
@@ -156,7 +178,7 @@ private:
 			resists.template head<Dim>().array() += place.slope.norm();
 			resists.template tail<Turn<Dim>::RowsAtCompileTime>().array() += place.slope.norm() * size_ * size_;
 		}
-		auto thick = body_;
+		auto thick = here();
 		thick.inertia += drag_ * Vector(resists).asDiagonal();
 		Vector       step = -(compliance(thick, size_, at_.places) * at_.balance.residual);
 		const double way  = step.template head<Dim>().norm() + size_ * step.template tail<Turn<Dim>::RowsAtCompileTime>().norm();

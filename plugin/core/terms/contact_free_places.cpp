@@ -2,6 +2,7 @@
 // Contact with bodies that move freely in the step.
 #include "core/base/sentence.hpp"
 #include "core/terms/contact.hpp"
+#include "core/terms/contact_turn.hpp"
 #include <algorithm>
 #include <map>
 
@@ -120,7 +121,7 @@ template <int Dim> void Contact<Dim>::addFree(const Eigen::VectorXd& d, Coupling
 				node.moves += place->attached.weight[n] * lever.bodyByPlace(all.back().slope);
 			}
 		}
-		const auto yields = compliance(free, sizeOfFree(number), all);
+		const typename FreeBody<Dim>::Matrix yields = incrementsOf<Dim>(free.motion) * compliance(free, sizeOfFree(number), all);
 		for (const auto& [a, from] : nodes) {
 			const Eigen::Matrix<double, Dim, unknowns> left = system_.weight * from.forces * yields;
 			for (const auto& [b, to] : nodes)

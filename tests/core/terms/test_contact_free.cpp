@@ -4,6 +4,7 @@
 #include "core/terms/contact_nodes.hpp"
 #include "derivatives.hpp"
 #include "touched_soil.hpp"
+#include <Eigen/Geometry>
 #include <set>
 
 namespace gimpm::testContactFree {
@@ -19,7 +20,7 @@ namespace {
 			body.free      = 0;
 			FreeBody<Dim> free { 0, place };
 			free.push[1] = -2e4;
-			if (!isRing) free.push[0] = 3e3;
+			if (!isRing) free.push[0] = 1e3;
 			for (int i = 0; i < FreeBody<Dim>::unknowns; ++i)
 				free.isGiven[i] = isRing && i != 1;
 			this->contacts.free = { free };
@@ -39,11 +40,12 @@ namespace {
 			Couplings             beside;
 			system.prepare(K, &beside);
 			Random                random(5);
-			const Eigen::VectorXd d = random.vector(system.nodalSize(), 0.02), way = random.vector(system.nodalSize(), 1);
+			const Eigen::VectorXd d = random.vector(system.nodalSize(), 2e-5), way = random.vector(system.nodalSize(), 1);
 			Eigen::VectorXd       force, above, below, slope = Eigen::VectorXd::Zero(d.size());
 			EXPECT_FALSE(system.evaluate(d, force, &K, nullptr, &beside));
 			K.multiplyAdd(way, slope);
 			beside.multiplyAdd(way, slope);
+			EXPECT_TRUE(this->contacts.free[0].isAtRest) << this->contacts.free[0].imbalance;
 			const double step = 1e-7;
 			EXPECT_FALSE(system.evaluate(d + step * way, above, nullptr) || system.evaluate(d - step * way, below, nullptr));
 			return ((above - below) / (2 * step) - slope).norm() / slope.norm();
@@ -76,7 +78,7 @@ namespace {
 		EXPECT_LE(block.report.iterations, 8);
 		Vec<Dim> reaction = Vec<Dim>::Zero();
 		for (const auto& box : block.report.reactions)
-			reaction += box;
+			reaction += box.template head<Dim>();
 		EXPECT_LT((reaction + block.contacts.free[0].push.template head<Dim>()).norm(), 1e-9 * 2e4);
 		EXPECT_LT((block.contacts.loads[0].force.template head<Dim>() + block.contacts.free[0].push.template head<Dim>()).norm(), 1e-9 * 2e4);
 	}
@@ -95,7 +97,8 @@ namespace {
 			block.model.newton.tolerance = 1e-9;
 			block.step();
 			EXPECT_EQ(block.report.converged(), inertia > 0) << block.report.cause;
-			if (inertia > 0) EXPECT_NEAR(block.contacts.bodies[0].end.position[1], 7.5 - 0.5, 1e-12);
+			if (inertia == 0) continue;
+			EXPECT_NEAR(block.contacts.bodies[0].end.position[1], 7.5 - 0.5, 1e-12);
 		}
 	}
 

@@ -86,7 +86,8 @@ solver.contacts[0].mask = 1
 O.dt = 2.5e-4
 impulse, off = np.zeros(3), 0
 mass = 1500 * 0.4 * 0.4 * 0.2
-for step in range(250):
+O.run(4, wait=True)  # of which the first load step has one iteration only
+for step in range(200):
 	before = mass * mpm.arrays()['velocity'].mean(axis=0)
 	O.run(4, wait=True)
 	change = mass * mpm.arrays()['velocity'].mean(axis=0) - before
