@@ -144,6 +144,14 @@ plans = {
                         together=dict(cells=['5', '10', '20', '40'], pointsPerCell=['2', '3'], tolerance=['0.05', '0.02', '0.005']),
                         quick=dict(cells=['5'], pointsPerCell=['2'], tolerance=['0.05']),
                         words=dict(cells='cells over the height', pointsPerCell='points per cell and axis', tolerance='width of the bracket', error='factor of safety')),
+        'consolidation':
+                Plan(
+                        script=os.path.join(here, '..', 'consolidation', 'consolidation.py'), errors=['error'],
+                        parameters=dict(scene="'terzaghi'", cells='20', cut='0.5', steps='40', stabilisation='1', skin='30', out="'out'"),
+                        together=dict(cells=['5', '10', '20', '40'], steps=['10', '20', '40', '80']),
+                        alone=dict(cut=['0.1', '0.9'], stabilisation=['0', '0.1', '3'], skin=['3', '10', '100', '1000']), around=[dict(cells='10', steps='80'), dict(cells='20', steps='40')],
+                        quick=dict(cells=['5'], steps=['10']),
+                        words=dict(cells='cells over the height', steps='steps to T = 1', error='degree of consolidation from T = .02 on')),
         'circle':
                 Plan(
                         script=os.path.join(here, '..', 'axisymmetric', 'axisymmetric.py'), errors=['error'], parameters=dict(scene="'rough'", cells='4', steps='16', out="'out'"),

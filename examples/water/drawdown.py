@@ -27,7 +27,7 @@ from options import compared, readOptions
 
 options = readOptions('A reservoir that is drawn down in time.',
         cells=(10, 'over the height of the slope'),
-        durations=('0.01,1,100', 'of the drawdown, over H2 / c_v'),
+        durations=('0.01,1,1000', 'of the drawdown, over H2 / c_v'),
         levels=(4, 'parts of the drawdown, after each of which the factor is looked for'),
         steps=(5, 'time steps of each part'),
         tolerance=(0.02, 'width of the bracket of the factor of safety'))
@@ -50,11 +50,12 @@ def full():
 
 def factor(suction):
 	"""Of safety with the pressures of now; without suction where that is not counted on. The scene is as before after it."""
-	O.save('drawn.yade.gz')
+	kept = os.path.join(options.out, 'drawn.yade.gz')
+	O.save(kept)
 	points = mpm.arrays()
 	if not suction: mpm.assign(excessPressure=points['excessPressure'] - np.minimum(points['porePressure'], 0))
 	found = mpm.strengthReduction(tolerance=options.tolerance)
-	O.load('drawn.yade.gz')
+	O.load(kept)
 	return (found['lower'] + found['upper']) / 2
 
 
@@ -80,6 +81,7 @@ def slow(level):
 	"""The factor where pores always have the pressure of the level."""
 	full()
 	solver.water = [MpmWater(level=level, weight=gammaW)]
+	solver.loadCurve = [(0, 0), (1, 1), (2, 1)]
 	O.step()
 	found = mpm.strengthReduction(tolerance=options.tolerance)
 	return (found['lower'] + found['upper']) / 2
@@ -102,6 +104,6 @@ for (level, F), (_, _, ours, _) in zip(given, rows):
 axes[0].plot(given[:, 0] / H, given[:, 1], 'k--', label='pressure of the level')
 axes[0].set(xlabel='level over height of the bank', ylabel='factor of safety (dotted: with suction)')
 axes[0].invert_xaxis()
-axes[0].legend()
+axes[0].legend(loc=(.53, .33))
 figure.savefig(os.path.join(options.out, 'drawdown.png'), dpi=110)
 print(f'{time.time() - begin:.0f} s')

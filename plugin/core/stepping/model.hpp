@@ -89,7 +89,7 @@ template <int Dim> struct Model {
 	std::vector<NodalField<Dim>> fields {};
 	/// Of all fields, and of nodes that are apart.
 	std::vector<CoupledTermOfStep<Dim>> coupledTerms {};
-	/// Makes fields stay as they are at the moment, for a study of it; empty: there are none besides the displacements.
+	/// Makes fields stay as they are at the moment, for a study of it; empty: there are none but the displacements.
 	std::function<void(Model&)> freeze {};
 	/// Of those of the terms that need it.
 	std::vector<InPlace<Dim>> inPlace {};

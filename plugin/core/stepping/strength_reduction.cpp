@@ -92,6 +92,15 @@ std::string beyondSmall(double largest, double limit)
 	return text.str();
 }
 
+/// Nothing flows while the strength falls, and little of the stabilisation is left.
+template <int Dim> Model<Dim> studied(const Model<Dim>& model)
+{
+	Model<Dim> quiet = model;
+	quiet.ghost.factor *= ghostShare;
+	if (model.freeze) model.freeze(quiet);
+	return quiet;
+}
+
 /// What has come out, from the points at the end.
 template <int Dim> void scaleBack(WeakBody<Dim>& body, PointCloud<Dim>& end, const PointCloud<Dim>& before, double scale)
 {
@@ -112,14 +121,12 @@ WeakBody<Dim> reduceStrength(
 {
 	const double    strain = largestStrain(cloud), scale = std::max(1., strain / smallStrain);
 	const double    limit     = flowsBeyond * strain / scale * smallestExtent(cloud, model.grid);
-	Model<Dim>      weakModel = model;
+	Model<Dim>      weakModel = studied(model);
 	PointCloud<Dim> start     = cloud;
 	WeakBody<Dim>   body;
 	scaleStrains(start, 1 / scale);
 	for (const auto& condition : model.inPlace)
 		condition.begin(start, 1 / scale);
-	weakModel.ghost.factor *= ghostShare;
-	if (model.freeze) model.freeze(weakModel); // nothing flows while the strength falls
 	body.displacement.assign(cloud.size(), Vec<Dim>::Zero());
 	while (!control.isDone()) {
 		const double    goal = 1 / (1 + control.goal() * (1 / factor - 1));

@@ -21,6 +21,8 @@ def strengthReduction(solver=None, tolerance=0.01, first=1.0, factor=1.25):
 	reduction that does not converge is cut down to ``newton.minStep``; or when the body flows: displacements since F = 1 of more than three times the largest elastic strain times the smallest
 	extent of the body. Ghost stabilisation, which would hold what flows, acts with a hundredth of its factor. F first grows or falls from *first* by *factor*, then the bracket is halved.
 
+	Water that flows (``solver.flow``) keeps the pressures which it has at the moment.
+
 	The result depends on the mesh: it falls with the cells, without a limit where psi is less than phi. So the cell size is part of it. ``fBar=True`` of the engine takes
 	away what locking adds.
 

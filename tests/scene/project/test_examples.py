@@ -425,7 +425,8 @@ def test_dam(yade):
 	found, known, off = numbers(r'with a drain: discharge (\S+) k m, Kozeny (\S+); the line is within (\S+) m', run.stdout)
 	assert abs(found / known - 1) < 0.05 and off < 0.15
 	without, drained = map(float, re.findall(r'drain: discharge (\S+) k m, F', run.stdout))
-	assert without < drained
+	exact = numbers(r'in the plane of potential and stream function (\S+) k m', run.stdout)[0]
+	assert without < drained and abs(drained / exact - 1) < 0.03 and abs(exact - 1.625) < 0.005
 	assert (run.folder / 'out/dam/dam.png').stat().st_size > 20000
 
 
@@ -442,6 +443,19 @@ def test_lined_tunnel(yade):
 	trough, lost = numbers(r'trough (\S+) m2, volume loss (\S+) m2', run.stdout)
 	assert abs(trough / lost - 1) < 0.02 and lost == 0.1963
 	assert (run.folder / 'out/lined_tunnel/lined_tunnel.png').stat().st_size > 20000
+
+
+def test_drawdown_in_time(yade):
+	"""Slowly it has the factors of given pressures, and quickly smaller ones; coarse cells and brackets."""
+	options = '--cells', 5, '--levels', 2, '--steps', 3, '--tolerance', .1, '--durations', '.01,1000'
+	run = yade(root / 'examples' / 'water' / 'drawdown.py', *options)
+	rows = [list(map(float, row)) for row in re.findall(r'^in (\S+) H2/cv, level (\S+) m: pressures (\S+) of the full ones, F = (\S+), with suction (\S+);', run.stdout, re.MULTILINE)]
+	given = dict(re.findall(r'^level (\S+) m: F = (\S+) where', run.stdout, re.MULTILINE))
+	quick, slow = rows[:2], rows[2:]
+	for (_, level, _, F, withSuction), (*_, fast, _) in zip(slow, quick):
+		assert abs(F / float(given[f'{level:.2f}']) - 1) < 0.1 and fast < 0.9 * F < withSuction
+	assert slow[1][2] < 0 < 0.5 < quick[1][2] < 0.9
+	assert (run.folder / 'out/drawdown/drawdown.png').stat().st_size > 20000
 
 
 def test_consolidation(yade):

@@ -16,8 +16,8 @@ public:
 	Real                         waterIn = 0, waterOut = 0, waterStored = 0, work = 0;
 	// Hidden: of each node three grid coordinates and the pressure, as the last step has left it
 	vector<Real> nodes;
-	// Hidden: of the same nodes the growth of the three displacements and the pressure in the last step, and how long
-	// that was; empty where no tolerance asks for it
+	// Hidden: of the same nodes the growth of the three displacements and the pressure in the last step, and how
+	// long that was; empty where no tolerance asks for it
 	vector<Real> growth;
 	Real         lastDuration = 0;
 

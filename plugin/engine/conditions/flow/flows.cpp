@@ -48,6 +48,19 @@ namespace {
 	}
 
 	Real heightOf(const MpmWater& still) { return still.levels.empty() ? still.level : still.levels[0].second; }
+
+	// Above still water pores are taken for full without a pressure of their own.
+	void requireBelow(const MpmDrain& drain, const string& name, Real still, Real soil)
+	{
+		Real most = drain.levels.empty() ? drain.level : drain.levels[0].second;
+		for (const auto& [time, level] : drain.levels)
+			most = std::max(most, level);
+		if (most <= still || soil <= still) return;
+		throw std::invalid_argument(
+		        name + (drain.levels.empty() ? ".level is " : ".levels reach ") + textOf(most)
+		        + " m, above the still water in the pores, whose level is " + textOf(still) + " m, and there is soil up to " + textOf(soil)
+		        + " m: give that MpmWater the highest level that there will be.");
+	}
 }
 
 template <int Dim> void Flows<Dim>::join(gimpm::Model<Dim>& model, const Surroundings<Dim>& around)
@@ -133,17 +146,6 @@ template <int Dim> void Flows<Dim>::takeDrains(const gimpm::Model<Dim>& model, c
 	Real highest = -std::numeric_limits<Real>::infinity();
 	for (const auto& x : around.cloud.position)
 		highest = std::max(highest, up[axis] * x[axis]);
-	// Above still water pores are taken for full without a pressure of their own.
-	const auto requireBelow = [&](const MpmDrain& drain, const string& name) {
-		Real most = drain.levels.empty() ? drain.level : drain.levels[0].second;
-		for (const auto& [time, level] : drain.levels)
-			most = std::max(most, level);
-		if (most <= heightOf(*still) || highest <= heightOf(*still)) return;
-		throw std::invalid_argument(
-		        name + (drain.levels.empty() ? ".level is " : ".levels reach ") + textOf(most)
-		        + " m, above the still water in the pores, whose level is " + textOf(heightOf(*still)) + " m, and there is soil up to "
-		        + textOf(highest) + " m: give that MpmWater the highest level that there will be.");
-	};
 	for (size_t i = 0; i < from->drains.size(); ++i) {
 		const MpmDrain& drain = *from->drains[i];
 		const string    name  = "flow.drains[" + std::to_string(i) + "]";
@@ -152,7 +154,7 @@ template <int Dim> void Flows<Dim>::takeDrains(const gimpm::Model<Dim>& model, c
 			throw std::invalid_argument(
 			        name + (drain.levels.empty() ? ".level = " + textOf(drain.level) : string(".levels"))
 			        + " is compared with the level of still water: it needs one MpmWater(level=...) in water, or give pressure.");
-		if (drain.hasLevel()) requireBelow(drain, name);
+		if (drain.hasLevel()) requireBelow(drain, name, heightOf(*still), highest);
 		gimpm::Drain<Dim> made;
 		made.surface = coreSurface<Dim>(*drain.surface);
 		made.surface.refine(gimpm::pieceLimit * model.grid.cellSize);
