@@ -122,20 +122,23 @@ private:
 	template <class F> void             forTouching(const Eigen::VectorXd& d, F&& f) const; // f(place, approach, touch)
 	std::string                         entered(const Eigen::VectorXd& d) const;
 	double                              given(const Eigen::VectorXd& d) const;
+	void                                findLost();
 	void                                turnPlaces(const Eigen::VectorXd& d);
 	Vec<Dim>                            placeOfForce(const Place&, const Vec<Dim>& soil, const Vec<Dim>& normal) const;
 	ContactLoad                         loadOn(const Vec<Dim>& owner, const Place&, const Vec<Dim>& place, const Touch<Dim>&) const;
 
-	ContactSystem<Dim>&    system_;
-	double                 tolerance_; // of a gap that counts as touching [m]
-	bool                   isRing_, isSymmetric_ = true;
-	std::vector<Near>      near_;   // by body
-	std::vector<Place>     places_; // by body and number
-	std::string            obstacle_;
-	const PointCloud<Dim>& cloud_;
-	const CloudBasis<Dim>& basis_;
-	const Grid<Dim>&       grid_;
-	const Division&        division_;
+	ContactSystem<Dim>& system_;
+	double              tolerance_; // of a gap that counts as touching [m]
+	bool                isRing_, isSymmetric_ = true;
+	std::vector<Near>   near_;   // by body
+	std::vector<Place>  places_; // by body and number
+	std::string         obstacle_;
+
+	std::vector<std::pair<Attachment<Dim>, std::size_t>> lost_; // with the number of its record
+	const PointCloud<Dim>&                               cloud_;
+	const CloudBasis<Dim>&                               basis_;
+	const Grid<Dim>&                                     grid_;
+	const Division&                                      division_;
 };
 
 } // namespace gimpm
