@@ -68,6 +68,7 @@ Contact<Dim>::Contact(ContactSystem<Dim>& system, const Beginning<Dim>& step)
 		look(body);
 		addPlaces(body);
 	}
+	if (std::isfinite(system_.energy)) findLost();
 	for (const Place& place : places_)
 		isSymmetric_ = isSymmetric_ && (place.law.friction == 0 || place.law.cap == 0);
 }
@@ -315,8 +316,27 @@ template <int Dim> std::optional<PointFailure> Contact<Dim>::add(const Eigen::Ve
 
 template <int Dim> void Contact<Dim>::addBefore(Eigen::VectorXd& force) const
 {
+	const auto add
+	        = [&](const Attachment<Dim>& at, const ContactRecord<Dim>& r) { addAttachedForce<Dim>(at, r.pressure * r.normal + r.friction, { force }); };
 	for (const Place& place : places_)
-		if (const auto* r = recordOf(place); r && r->touches) addAttachedForce<Dim>(place.attached, r->pressure * r->normal + r->friction, { force });
+		if (const auto* r = recordOf(place); r && r->touches) add(place.attached, *r);
+	for (const auto& [attached, record] : lost_)
+		add(attached, system_.records[record]);
+}
+
+/// Places that touched and have no soil in front of them any more, as where it leaps off: in a step in time their forces
+/// have to be known to begin with, or the soil keeps half of them for another step, and what a body has got is not what
+/// the soil has lost.
+template <int Dim> void Contact<Dim>::findLost()
+{
+	std::vector<bool> isMet(system_.records.size(), false);
+	for (const Place& place : places_)
+		if (const auto* r = recordOf(place)) isMet[r - system_.records.data()] = true;
+	for (std::size_t i = 0; i < isMet.size(); ++i) {
+		const auto& r = system_.records[i];
+		if (isMet[i] || !r.touches || r.body >= int(system_.bodies.size())) continue;
+		if (const auto attached = attach(r.place, basis_, grid_, int(r.number >> placeBits))) lost_.emplace_back(*attached, i);
+	}
 }
 
 /// Where soil touches as the step begins, and where it would touch bodies that have moved if it stayed. Whether it then

@@ -142,6 +142,7 @@ private:
 	double                              given(const Eigen::VectorXd& d) const;
 	void                                addLoads(const Place&, const Vec<Dim>& place, const Touch<Dim>&);
 	Mat<Dim>                            resistanceOf(const Place&, const Touch<Dim>&) const;
+	void                                findLost();
 	void                                turnPlaces(const Eigen::VectorXd& d);
 	Vec<Dim>                            placeOfForce(const Place&, const Vec<Dim>& soil, const Vec<Dim>& normal) const;
 	ContactLoad                         loadOn(const Vec<Dim>& owner, const Place&, const Vec<Dim>& place, const Touch<Dim>&) const;
@@ -164,10 +165,12 @@ private:
 	std::vector<Near>       near_;   // by body
 	std::vector<Place>      places_; // by body and number
 	std::string             obstacle_;
-	const PointCloud<Dim>&  cloud_;
-	const CloudBasis<Dim>&  basis_;
-	const Grid<Dim>&        grid_;
-	const Division&         division_;
+
+	std::vector<std::pair<Attachment<Dim>, std::size_t>> lost_; // with the number of its record
+	const PointCloud<Dim>&                               cloud_;
+	const CloudBasis<Dim>&                               basis_;
+	const Grid<Dim>&                                     grid_;
+	const Division&                                      division_;
 };
 
 } // namespace gimpm

@@ -14,7 +14,7 @@ g, R, h = 10., .5, .125
 
 
 def _ground(young, friction, gravity, every, isDynamic, stiffness, long=12, wide=4, deep=2, off=.5):
-	"""A sphere at rest on stiff ground two cells thick, whose base is held."""
+	"""A sphere that has sunk into stiff ground two cells thick, whose base is held, by its weight on level ground, and is at rest there."""
 	O.reset()
 	O.materials.append(MpmElasticMat(young=young, poisson=.2, density=2000, label='soil'))
 	O.materials.append(FrictMat(young=1e9, density=2600, frictionAngle=np.arctan(friction), label='rigid'))
@@ -25,8 +25,12 @@ def _ground(young, friction, gravity, every, isDynamic, stiffness, long=12, wide
 	contact = MpmContact(mask=1, stiffness=stiffness)
 	sides = [MpmBoundary(max=(inf, inf, -deep * h), fix='xyz')]
 	solver = MpmDynamicEngine(grid=grid, boundaries=sides, contacts=[contact], scheme='generalised-alpha', rhoInfinity=.5, iterPeriod=every, verbosity=0) if isDynamic else MpmImplicitEngine(grid=grid, boundaries=sides, contacts=[contact], iterPeriod=every, verbosity=0)
-	O.engines = [ForceResetter(), solver, NewtonIntegrator(gravity=gravity, damping=0, mask=1)]
+	mover = NewtonIntegrator(gravity=(0, 0, gravity[2]), damping=.7, mask=1)
+	O.engines = [ForceResetter(), solver, mover]
 	O.dt = 1e-3 / every
+	O.run(int(round(.1 / O.dt)), wait=True)
+	mover.gravity, mover.damping = gravity, 0
+	ball.state.vel = ball.state.angVel = (0, 0, 0)
 	return ball, contact, solver
 
 
@@ -36,7 +40,7 @@ def exactOf(friction, slope):
 	return g * (sin(slope) - friction * cos(slope)), 5 / 2 * friction * g * cos(slope)
 
 
-def rolling(friction, degrees=30., heading=0., isDynamic=True, every=1, end=.5, starts=(0., .5), young=5e7, stiffness=20., seconds=200):
+def rolling(friction, degrees=30., heading=0., isDynamic=True, every=1, end=.5, starts=(0., .5), young=5e7, stiffness=100., seconds=200):
 	"""Down a slope, by gravity that is turned; way and speeds of middle and rim over those on rigid ground, and how far way and speed are off at most.
 
 	:param heading: direction on the ground, from the x axis [degrees]
@@ -47,9 +51,9 @@ def rolling(friction, degrees=30., heading=0., isDynamic=True, every=1, end=.5, 
 	ways, speeds, rims, courses = [], [], [], []
 	for off in starts:
 		ball, contact, solver = _ground(young, friction, tuple(g * sin(slope) * down - (0, 0, g * cos(slope))), every, isDynamic, stiffness, wide=10 if heading else 4, long=11 if heading else 13, off=off)
-		start, course = np.array(ball.state.pos), Course(solver, seconds / len(starts))
+		start, course, began = np.array(ball.state.pos), Course(solver, seconds / len(starts)), O.time
 		course.run(int(round(end / O.dt)))
-		t, (a, spin) = O.time, exactOf(friction, slope)
+		t, (a, spin) = O.time - began, exactOf(friction, slope)
 		ways.append(float((np.array(ball.state.pos) - start) @ down / (a * t * t / 2)))
 		speeds.append(float(np.array(ball.state.vel) @ down / (a * t)))
 		if friction: rims.append(float(np.linalg.norm(ball.state.angVel) * R / (spin * t)))
@@ -58,13 +62,13 @@ def rolling(friction, degrees=30., heading=0., isDynamic=True, every=1, end=.5, 
 	return told | dict(iterations=sum(c.iterations for c in courses), cuts=sum(c.cuts for c in courses), seconds=sum(c.told()['seconds'] for c in courses), why='; '.join(c.why for c in courses if c.why))
 
 
-def driven(friction=.4, speed=1.5, end=.6, every=1, young=5e7, stiffness=20., seconds=200):
+def driven(friction=.4, speed=1.5, end=.6, every=1, young=5e7, stiffness=100., seconds=200):
 	"""A sphere that is kept spinning on level ground: its middle accelerates by friction g until the rim's speed is its own."""
 	ball, contact, solver = _ground(young, friction, (0, 0, -g), every, True, stiffness, long=14)
 	ball.state.blockedDOFs = 'yXYZ'
 	ball.state.angVel = (0, speed / R, 0)
-	start, course, ways = ball.state.pos[0], Course(solver, seconds), []
-	course.run(int(round(end / O.dt)), lambda: ways.append((O.time, ball.state.pos[0] - start, ball.state.vel[0])))
+	start, course, ways, began = ball.state.pos[0], Course(solver, seconds), [], O.time
+	course.run(int(round(end / O.dt)), lambda: ways.append((O.time - began, ball.state.pos[0] - start, ball.state.vel[0])))
 	t, gone, v = ways[-1]
 	until = speed / (friction * g)
 	exact = speed * t - speed * until / 2 if t > until else friction * g * t * t / 2

@@ -57,6 +57,21 @@ namespace {
 		EXPECT_LT((second - Mat<Dim>::Identity()).norm(), 1e-3);
 	}
 
+	TYPED_TEST(ContactSurfaceOf, PlacesOfABallTurnWithItsAxes)
+	{
+		constexpr int Dim   = TypeParam::value;
+		auto          shape = shapeOf<Dim>(RigidKind::ball);
+		const auto    first = pointsOf(shape);
+		shape.axes.template topLeftCorner<2, 2>() << 0.8, -0.6, 0.6, 0.8;
+		const auto turned = pointsOf(shape);
+		ASSERT_EQ(turned.size(), first.size());
+		for (std::size_t i = 0; i < first.size(); ++i) {
+			EXPECT_EQ(turned[i].number, first[i].number);
+			EXPECT_LT((turned[i].place - shape.axes * first[i].place).norm() + (turned[i].normal - shape.axes * first[i].normal).norm(), 1e-14);
+			EXPECT_EQ(turned[i].area, first[i].area);
+		}
+	}
+
 	TYPED_TEST(ContactSurfaceOf, ABlockHasThatOfItsFacesAndNoneOnItsEdges)
 	{
 		constexpr int   Dim    = TypeParam::value;

@@ -323,6 +323,55 @@ print(json.dumps([turned(100), turned(20)]))
 		assert abs(last[0] / first[0] - 1) < 0.15 and abs(last[2] / first[2] - 1) < 0.04  # which points lose that turn through the cells
 
 
+def test_a_ball_that_slides_or_rolls_is_neither_lifted_nor_held(yade):
+	"""Places on it turn with it, and go around it with the soil where it slides: those before its lowest one were pressed deeper with all of its way, to 1.9 times the force. A run that is saved between is the same."""
+	results = yade(scene + '''
+def dragged(mu, spin, isSaved=False):
+	solver = soil(h=0.125, high=(1.5, 0.25), density=1000, poisson=0.2, engine=MpmDynamicEngine, scheme='generalised-alpha', rhoInfinity=0.5, contacts=[MpmContact(friction=atan(mu), stiffness=20, mask=1)])
+	ball = add(utils.sphere((0.55, 0.75, 0), 0.5, material='rigid', fixed=True), (0, -0.1, 0))
+	ball.state.ori = Quaternion((0, 0, 1), 0.3) * Quaternion((1, 0, 0), 0.2)
+	O.dt = 0.01
+	O.run(10, wait=True)
+	ball.state.vel, ball.state.angVel = (0.5, 0, 0), (0, 0, -spin)
+	found = []
+	for step in range(100):
+		if isSaved and step == 50:
+			mpm.save('between.xml')
+			O.load('between.xml')
+		O.step()
+		found.append(list(O.engines[0].contacts[0].forces[0])[:2])
+	return found
+print(json.dumps([dragged(0, 0), dragged(0.5, 1), dragged(0.1, 0), dragged(0.1, 0, True)]))
+''').result
+	for run in results:
+		x, y = np.array(run).T
+		assert 0.95 < y[-30:].mean() / y[:30].mean() < 1.12
+	slides, rolls, rubs, saved = (np.array(run) for run in results)
+	assert abs(slides[:, 0].mean() / slides[:, 1].mean()) < 0.01 and abs(rolls[:, 0].mean() / rolls[:, 1].mean()) < 0.05
+	assert abs(rubs[-30:, 0].mean() / rubs[-30:, 1].mean() + 0.1) < 0.01
+	assert rubs.tolist() == saved.tolist()
+
+
+def test_edges_and_small_balls_are_warned_of(yade):
+	"""By name, with the cells that see them: a turned Box as long as less than a cell of its edge is in the soil, a ball of less than a cell, the border of a Facet that leans; not a Box that lies flat, nor a ball of many cells."""
+	run = yade(scene + '''
+def pushed(body):
+	solver = soil(contacts=[MpmContact(friction=0.3, mask=1, stiffness=10)])
+	add(body, (0, -0.1, 0))
+	O.run(5, wait=True)
+pushed(utils.box((0.45, 1 + 0.5 * 2**0.5, 0), (0.5, 0.5, 1), orientation=Quaternion((0, 0, 1), pi / 4), material='rigid', fixed=True))
+pushed(utils.sphere((0.45, 1.1, 0), 0.1, material='rigid', fixed=True))
+pushed(utils.facet([(0.4, 1, 0), (1.4, 2, 0), (0.9, 1.5, 2)], material='rigid', fixed=True))
+pushed(utils.box((0.5, 1.5, 0), (0.3, 0.5, 1), material='rigid', fixed=True))
+pushed(utils.sphere((0.45, 2, 0), 1, material='rigid', fixed=True))
+print(json.dumps([]))
+''')
+	words = run.stdout + run.stderr
+	assert words.count('(Box) presses by an edge or a tip of which') == 1 and words.count('less than a cell (0.25 m)') == 3 and words.count('Cells of at most') == 3
+	assert words.count('(Sphere) is 0.2 m thick, less than a cell (0.25 m)') == 1 and words.count('Cells of at most 0.1 m resolve it') == 1
+	assert words.count('(Facet) presses by an edge or a tip of which') == 1
+
+
 def test_edges_give_soil_no_energy(yade):
 	"""A block falls on the edge of a fixed smooth box in steps of .05 to .3 cells; it was thrown off with up to 435 times its energy."""
 	run = yade(scene + '''
