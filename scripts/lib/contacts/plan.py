@@ -56,7 +56,7 @@ for rough in 0, 1:
 	end = '-rough' if rough else ''
 	add('tbar' + end, 'penetration.fullFlow', smooth | dict(late=near(11.94 if rough else 9.14, .05)), dict(depth=1.), kind='tbar', rough=rough)
 	add('tbar-mises' + end, 'penetration.fullFlow', smooth | dict(late=near(11.94 if rough else 9.14, .05)), dict(depth=1.), kind='tbar', rough=rough, law='vonMises')
-	add('ball' + end, 'penetration.fullFlow', smooth | dict(late=(.95 * 15.1, 1.05 * 15.12) if rough else (.95 * 10.97, 1.05 * 11.04)), dict(depth=1.), kind='ball', rough=rough, stiffness=3.)
+	add('ball' + end, 'penetration.fullFlow', smooth | dict(late=(.95 * 15.1, 1.05 * 15.12) if rough else (.95 * 10.97, 1.05 * 11.04)), dict(depth=1.), kind='ball', rough=rough, stiffness=2. + rough)
 	add('ball-mises' + end, 'penetration.fullFlow', smooth, dict(depth=1.), kind='ball', rough=rough, stiffness=3., law='vonMises')
 add('tbar-fine', 'penetration.fullFlow', smooth | dict(late=near(9.14, .05)), dict(depth=.5), kind='tbar', cells=8, depth=1., seconds=600)
 add('pile-3d', 'penetration.inSpace', dict(part=atLeast(.999), inside=atMost(.05)), dict(depth=1.5), kind='box')
