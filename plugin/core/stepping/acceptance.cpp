@@ -4,6 +4,7 @@
 #include "core/stepping/beyond_walls.hpp"
 #include "core/stepping/energy_gain.hpp"
 #include "core/stepping/outcome.hpp"
+#include "core/terms/even_dilation.hpp"
 #include "core/terms/point_update.hpp"
 #include "core/terms/within_cells.hpp"
 #include <algorithm>
@@ -15,17 +16,36 @@ namespace {
 /// A domain ends at the axis of symmetry at the latest.
 template <int Dim> void keepOffAxis(PointCloud<Dim>& cloud, int p) { cloud.halfSize[p][0] = std::min(cloud.halfSize[p][0], cloud.position[p][0]); }
 
+/// The gradient that a point takes over has the dilation of F-bar.
+template <int Dim> void makeEven(const EvenDilation<Dim>& even, bool isRing, Mat<Dim>& gradient, double& hoop)
+{
+	gradient += even.growth.asDiagonal();
+	hoop += even.hoop;
+	const Mat<Dim> F     = Mat<Dim>::Identity() + gradient;
+	const double   scale = std::pow(even.ratio / (F.determinant() * (1 + hoop)), 1. / (isRing ? 3 : Dim));
+	gradient             = scale * F - Mat<Dim>::Identity();
+	if (isRing) hoop = scale * (1 + hoop) - 1;
+}
+
 /// Step 5: the points take over the converged displacements, and their domains follow the stretch along the grid axes.
 template <int Dim> void updatePoints(PointCloud<Dim>& cloud, const StepSystem<Dim>& system, const Eigen::VectorXd& d, StepReport& report)
 {
 	std::vector<char> clamped(cloud.size(), 0);
 	provideInternals(cloud.internals, system.model.materials, cloud.size());
+	const auto even
+	        = system.model.pressureRelaxation ? evenDilations(cloud, system.basis, system.points, system.model.grid, d) : std::vector<EvenDilation<Dim>>();
 	forUpdatedPoints(system.basis, system.points, system.model.materials, d, [&](int p, const PointUpdate<Dim>& u) {
 		cloud.position[p] += u.displacement;
-		cloud.defGrad[p]       = (cloud.defGrad[p] + u.gradient * cloud.defGrad[p]).eval();
+		Mat<Dim> gradient = u.gradient;
+		double   hoop     = u.hoop;
+		if (!even.empty()) {
+			cloud.position[p] += even[p].shift;
+			makeEven(even[p], !cloud.hoopStretch.empty(), gradient, hoop);
+		}
+		cloud.defGrad[p]       = (cloud.defGrad[p] + gradient * cloud.defGrad[p]).eval();
 		cloud.elasticStrain[p] = u.elasticStrain;
 		storeInternals(u.law, u.internals, cloud.internals, p);
-		if (!cloud.hoopStretch.empty()) cloud.hoopStretch[p] *= 1 + u.hoop;
+		if (!cloud.hoopStretch.empty()) cloud.hoopStretch[p] *= 1 + hoop;
 		cloud.stress[p].c = u.kirchhoffStress.c / cloud.volumeRatio(p);
 		if (!cloud.excessPressure.empty()) cloud.excessPressure[p] = u.water == 0 ? 0 : -u.water / cloud.volumeRatio(p);
 		if (system.model.basis == Basis::gimp) {
