@@ -32,8 +32,8 @@ template <int Dim> Vec<Dim> tangent(const std::vector<Vec<Dim>>& places, std::si
 /// How much of an interval around a middle lies in another one.
 double overlap(double middle, double half, double low, double high) { return std::max(0., std::min(middle + half, high) - std::max(middle - half, low)); }
 
-/// How far along n from a place the points of a layer begin, which fill what lies there: in the cell beyond, of the size
-/// h, from what they fill up to its middle over what they fill of each length behind. Points are on the side that their
+/// How far along n from a place the points of a layer begin that fill the cell beyond, of the size h: what lies before
+/// its middle reaches as far as it would if it were as wide as what lies behind. Points are on the side that their
 /// middles are on, so that a beam may go through the domains of some.
 double edgeOfSoil(const Vec<2>& place, const Vec<2>& n, double h, int layer, const PointCloud<2>& cloud)
 {

@@ -265,6 +265,30 @@ print(json.dumps([anchor.axialForces[0] / (active - passive), min(wall.moments) 
 	assert abs(force - 1) < 0.1 and abs(moment - 1) < 0.1
 
 
+def test_a_wall_that_is_put_into_stressed_ground_moves_nothing(yade):
+	"""On a line of the grid, through the domains of points, and inclined, where it bears shear stress, too: it takes over the stress of both sides. Water is no matter."""
+	moves = yade(block + '''
+found = []
+for line, water in ([(0, 0), (0, -3)], []), ([(.1, 0), (.1, -3)], [MpmWater(level=-1, curve=[(0, 1)])]), ([(.1, 0), (.9, -3)], []):
+	O.reset()
+	O.materials.append(MpmElasticMat(young=2e7, poisson=.3, density=2000, label='soil'))
+	grid = MpmGrid(cellSize=.5)
+	O.bodies.append(mpm.fill(mpm.polygon([(-4, -5), (4, -5), (4, 0), (-4, 0)]), grid, 2, 'soil'))
+	held = [MpmBoundary(max=(-4, inf, inf), fix='x'), MpmBoundary(min=(4, -inf, -inf), fix='x'), MpmBoundary(max=(inf, -5, inf), fix='y')]
+	solver = MpmImplicitEngine(grid=grid, gravity=(0, -10, 0), gravityCurve=[(0, 1)], boundaries=held, water=water, verbosity=0)
+	O.engines, O.dt = [solver], 1
+	mpm.geostatic()
+	wall = MpmBeam(line=line, axialStiffness=1e9, bendingStiffness=1e7)
+	solver.loads = [wall]
+	O.run(1, wait=True)
+	points = mpm.arrays()
+	found.append([abs(points['pos'] - points['pos0']).max(), min(wall.leftPressures[4:8]), max(map(abs, wall.moments))])
+print(json.dumps(found))
+''').result
+	for (moved, pressure, moment), most in zip(moves, (1e-5, 1e-5, 1e-4)):  # a layer of 5 m of this ground settles by 9 mm under its own weight
+		assert moved < most and pressure > 5e3 and moment < 1e3
+
+
 def test_geotextile_bears_the_thrust_of_an_embankment(yade):
 	"""On a smooth base nothing else holds the active earth pressure in its middle."""
 	force, moves = yade(block + '''

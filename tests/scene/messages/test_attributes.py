@@ -199,6 +199,7 @@ outOfRange = {
         'MpmBeam.fixFoot': ['"xyz"'],
         'MpmBeam.headForce': None,
         'MpmBeam.headMoment': None,
+        'MpmBeam.contraction': ['-0.1', '1.'],
         'MpmBeam.adhesion': ['-1.'],
         'MpmBeam.friction': ['-0.1', '30.', '1.5708'],
         'MpmBeam.stiffness': ['0.', '-1.'],
