@@ -47,6 +47,13 @@ def slope2():
 	return weakLayer(engine(gravity=(0, -9.81, 0), boundaries=sides()), profile, materials, 6)
 
 
+def lone():
+	"""The slope, and a point by itself above it, which statics leaves where it is."""
+	steps = slope2()
+	O.bodies.append(mpm.fill(pack.inAlignedBox((24, 10, -1), (25, 11, 1)), O.engines[-1].grid, 2, 'soil'))
+	return steps
+
+
 def slope3():
 	materials = [MpmVonMisesMat(yieldStress=k, label=label, **law) for label, k in (('soil', 15e3), ('weak', 7.5e3))]
 	ends = [MpmBoundary(max=(inf, inf, 0), fix='z'), MpmBoundary(min=(-inf, -inf, depth), fix='z')]

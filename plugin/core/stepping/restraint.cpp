@@ -7,6 +7,7 @@
 #include <numeric>
 #include <sstream>
 #include <tuple>
+#include <utility>
 
 namespace gimpm {
 namespace {
@@ -206,6 +207,26 @@ template <int Dim> Restraint judged(const std::map<int, Part<Dim>>& found, const
 	return result;
 }
 
+/// Of each part. Where points are divided among processes each counts its own ones; all of them know the same parts.
+template <int Dim> void countPoints(const CloudBasis<Dim>& basis, const Parts<Dim>& parts, const Division& division, std::map<int, Part<Dim>>& found)
+{
+	const int own = division.ownOf(basis.order.size());
+	for (const auto& patch : basis.patches) {
+		const int  node  = *std::find_if(patch.node.begin(), patch.node.end(), [](int n) { return n >= 0; });
+		const auto first = basis.order.begin() + patch.first;
+		found[parts.root(node)].points += int(std::count_if(first, first + patch.count, [own](int p) { return p < own; }));
+	}
+	if (division.isWhole() || found.size() == 1) return; // which is enough to say that nothing is apart from it
+	std::vector<double> counts;
+	for (auto& [root, part] : found)
+		counts.push_back(std::exchange(part.points, 0));
+	counts        = division.joined(std::move(counts));
+	std::size_t i = 0;
+	while (i < counts.size())
+		for (auto& [root, part] : found)
+			part.points += int(counts[i++]);
+}
+
 /// `holds(term, hold)` tells what a term holds.
 template <int Dim, class F>
 Restraint restraintBy(
@@ -222,9 +243,7 @@ Restraint restraintBy(
 		Part<Dim>& part = found[parts.root(n)];
 		part.reach      = std::max(part.reach, (parts.place(n) - part.centre()).norm());
 	}
-	if (division.isWhole())
-		for (const auto& patch : basis.patches)
-			found[parts.root(*std::find_if(patch.node.begin(), patch.node.end(), [](int n) { return n >= 0; }))].points += patch.count;
+	countPoints(basis, parts, division, found);
 	const auto hold
 	        = [&](std::size_t n, const Vec<Dim>& direction, const Vec<Dim>& place) { found[parts.root(n)].hold(parts.place(n) + place, direction); };
 	for (std::size_t n = 0; n < basis.nodes.size(); ++n)
