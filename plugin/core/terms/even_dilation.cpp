@@ -78,7 +78,7 @@ EvenDilation<2> evenInRing(const CellCorners<2>& corners, const PartInCell<2>& p
 	return even;
 }
 
-/// In a cell of point i of the basis; `halfSize`: of that along x, which `isInTwo` cells. `isUpper`: it is the upper one.
+/// In a cell of point i of the basis; `halfSize`: along x, where it `isInTwo` cells and this `isUpper` or not.
 template <int Dim>
 EvenDilation<Dim> evenAround(
         const CloudBasis<Dim>& basis, int i, const CellCorners<Dim>& corners, const PartInCell<Dim>& part, double halfSize, bool isInTwo, bool isUpper)
