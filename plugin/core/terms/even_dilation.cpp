@@ -58,9 +58,9 @@ template <int Dim> EvenDilation<Dim> evenIn(const CellCorners<Dim>& corners, con
 	return even;
 }
 
-/// In a ring whose cell begins at the radius `inner`. With u_x = alpha + beta r the dilation is 2 beta + alpha / r + du_y
-/// / dy. What differs with the height goes into the shift along the axis; of the rest, at half the height, r times the
-/// radial shift is the integral over r dr, which vanishes at both faces as the mean over the ring is taken off.
+/// In a ring whose cell begins at the radius `inner`. With u_x = alpha + beta r the dilation is 2 beta + alpha / r +
+/// du_y / dy. What differs with the height goes into the shift along the axis; of the rest, at half the height, r times
+/// the radial shift is the integral over r dr, which vanishes at both faces as the mean over the ring is taken off.
 EvenDilation<2> evenInRing(const CellCorners<2>& corners, const PartInCell<2>& part, double inner)
 {
 	EvenDilation<2> even;
@@ -78,7 +78,7 @@ EvenDilation<2> evenInRing(const CellCorners<2>& corners, const PartInCell<2>& p
 	return even;
 }
 
-/// In a cell of point i of the basis; `halfSize`: of that along x, `isInTwo` cells of which this is the upper one, or not.
+/// In a cell of point i of the basis; `halfSize`: along x, where it `isInTwo` cells and this `isUpper` or not.
 template <int Dim>
 EvenDilation<Dim> evenAround(
         const CloudBasis<Dim>& basis, int i, const CellCorners<Dim>& corners, const PartInCell<Dim>& part, double halfSize, bool isInTwo, bool isUpper)

@@ -52,7 +52,7 @@ namespace {
 			        system.basis, system.points, model.materials, d, [&](int p, const PointUpdate<Dim>& u) { by[p] = u.displacement; });
 			even = evenDilations(cloud, system.basis, system.points, model.grid, d);
 		}
-		/// Of the whole field in point p, by what those do that are a step beside it on both sides, which follow it.
+		/// Of the whole field in point p, by those a step beside it on both sides, which follow it.
 		double dilation(int p) const
 		{
 			double sum = isRing() ? (by[p] + even[p].shift)[0] / cloud.position[p][0] : 0;
