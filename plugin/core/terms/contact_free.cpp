@@ -8,7 +8,7 @@
 namespace gimpm {
 namespace {
 
-constexpr double balanced = 1e-12; ///< what may be left of forces, over their sizes
+constexpr double balanced = 1e-11; ///< what may be left of forces, over their sizes
 constexpr int    most     = 200;   ///< iterations
 
 template <int Dim> struct Balance {
@@ -170,6 +170,23 @@ private:
 		}
 		return false;
 	}
+	/// Where a place slips, friction as a spring that gives it by the slip there is: a body that has been moved too far
+	/// along itself comes back.
+	static std::vector<PlaceOfFree<Dim>> withSecants(std::vector<PlaceOfFree<Dim>> places)
+	{
+		for (auto& place : places) {
+			const Vec<Dim> n = place.normal, T = place.force - place.force.dot(n) * n;
+			if (T.isZero(0) || place.slope.isZero(0)) continue;
+			const double across = -n.dot(place.slope * n);
+			double       along  = across / 20;
+			if constexpr (Dim == 3) {
+				const Vec3 beside = n.cross(T).normalized();
+				along             = std::max(0., -beside.dot(place.slope * beside));
+			}
+			place.slope = -across * n * n.transpose() - along * (Mat<Dim>::Identity() - n * n.transpose());
+		}
+		return places;
+	}
 	/// As in a thick liquid: a body that tips over has to get to the next place that holds it.
 	void creep()
 	{
@@ -180,7 +197,7 @@ private:
 		}
 		auto thick = here();
 		thick.inertia += drag_ * Vector(resists).asDiagonal();
-		Vector       step = -(compliance(thick, size_, at_.places) * at_.balance.residual);
+		Vector       step = -(compliance(thick, size_, withSecants(at_.places)) * at_.balance.residual);
 		const double way  = step.template head<Dim>().norm() + size_ * step.template tail<Turn<Dim>::RowsAtCompileTime>().norm();
 		const double most = 0.02 * size_;
 		if (way > most) step *= most / way;

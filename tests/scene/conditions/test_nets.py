@@ -77,7 +77,7 @@ print(json.dumps([chain, forces(solver)[0]]))
 def test_a_membrane_catches_soil_and_a_grain(yade):
 	"""Soil and grain fall on a net of PFacets, which sags and bears both; and what the soil has lost of its momentum its nodes have got, load step by load step."""
 	results = yade(scene + '''
-solver = soil((0.2, 0.2, 0.02), (0.6, 0.6, 0.22), h=0.2, young=2e5, engine=MpmDynamicEngine, held=False, gravity=(0, 0, -9.81), iterPeriod=4, contacts=[MpmContact(friction=0.3, mask=1, stiffness=10)])
+solver = soil((0.2, 0.2, 0.02), (0.6, 0.6, 0.22), h=0.2, young=2e5, engine=MpmDynamicEngine, held=False, gravity=(0, 0, -9.81), iterPeriod=4, contacts=[MpmContact(friction=0.3, mask=1, stiffness=10)], newton=MpmNewton(tolerance=1e-9))
 ids = membrane(5, 0.2, 0.01)
 grain = O.bodies[O.bodies.append(utils.sphere((0.12, 0.06, 0.08), 0.05, material='outer'))]
 grain.groupMask = 5
