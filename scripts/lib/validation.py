@@ -35,6 +35,7 @@ runs = {
         ],
         'grains_on_soil': ['grains_on_soil.py'],
         'mpm_vs_dem': ['mpm_vs_dem.py'],
+        'meeting': ['sheet_pile.py', 'dam.py'],
         'waves': ['waves.py --scene "bar block sphere"', 'explicit.py --scene bar'],
         'earthquake': ['earthquake.py'],
         'runout': ['runout.py'],
@@ -49,7 +50,7 @@ groups = {
         'Slopes': ['slope', 'safety', 'paper'],
         'Earth pressure': ['earth_pressure'],
         'Water and stages': ['water', 'consolidation', 'embankment'],
-        'Contact and penetration': ['penetration', 'grains_on_soil'],
+        'Contact and penetration': ['penetration', 'grains_on_soil', 'meeting'],
         'Waves and run-out': ['waves', 'earthquake', 'runout', 'splitting'],
         'Grains': ['mpm_vs_dem'],
 }
