@@ -161,16 +161,18 @@ namespace {
 	{
 		constexpr int Dim = TypeParam::value;
 		Pressed<Dim>  pressed(0.6, 1, 10, 0.5);
-		const auto    go = [&](auto&& displacementOf) {
-                        StepReport            report;
-                        const StepSystem<Dim> system(pressed.cloud, pressed.model, {}, report);
-                        Eigen::VectorXd       d(system.nodalSize());
-                        for (std::size_t n = 0; n < system.basis.nodes.size(); ++n) {
-                                const Key key                = system.basis.nodes[n];
-                                d.segment<Dim>(Dim * int(n)) = displacementOf(pressed.model.grid.nodePosition(Grid<Dim>::index(key)), Grid<Dim>::layer(key));
-                        }
-                        system.commit(d);
-                        return pressed.contacts.meetings[0].force;
+		for (auto& half : pressed.cloud.halfSize)
+			half.setConstant(pressed.h / 2); // so that there are nodes around the surfaces however these are turned
+		const auto go = [&](auto&& displacementOf) {
+			StepReport            report;
+			const StepSystem<Dim> system(pressed.cloud, pressed.model, {}, report);
+			Eigen::VectorXd       d(system.nodalSize());
+			for (std::size_t n = 0; n < system.basis.nodes.size(); ++n) {
+				const Key key                = system.basis.nodes[n];
+				d.segment<Dim>(Dim * int(n)) = displacementOf(pressed.model.grid.nodePosition(Grid<Dim>::index(key)), Grid<Dim>::layer(key));
+			}
+			system.commit(d);
+			return pressed.contacts.meetings[0].force;
 		};
 		const Vec<Dim> first = go([](const Vec<Dim>&, int layer) {
 			Vec<Dim> moved = Vec<Dim>::Zero();
@@ -186,8 +188,7 @@ namespace {
 			for (auto& x : pressed.cloud.position)
 				x = turn * x;
 			all = turn * all;
-			const Vec<Dim> back = all.transpose() * force;
-			EXPECT_LT((back - first).cwiseAbs().maxCoeff(), 1e-6 * first.norm()) << "step " << step << ": " << back.transpose() << ", " << first.transpose();
+			ASSERT_LT((force - all * first).norm(), 1e-6 * first.norm()) << "step " << step;
 		}
 	}
 
