@@ -156,42 +156,6 @@ namespace {
 		EXPECT_LT(sum.norm(), 1e-12 * force.norm());
 	}
 
-	/// Both pressed and sheared, and then turned as they are, once around: the surfaces go along exactly.
-	TYPED_TEST(BodyContactTest, FrictionTurnsWithTheBodies)
-	{
-		constexpr int Dim = TypeParam::value;
-		Pressed<Dim>  pressed(0.6, 1, 10, 0.5);
-		for (auto& half : pressed.cloud.halfSize)
-			half.setConstant(pressed.h / 2); // so that there are nodes around the surfaces however these are turned
-		const auto go = [&](auto&& displacementOf) {
-			StepReport            report;
-			const StepSystem<Dim> system(pressed.cloud, pressed.model, {}, report);
-			Eigen::VectorXd       d(system.nodalSize());
-			for (std::size_t n = 0; n < system.basis.nodes.size(); ++n) {
-				const Key key                = system.basis.nodes[n];
-				d.segment<Dim>(Dim * int(n)) = displacementOf(pressed.model.grid.nodePosition(Grid<Dim>::index(key)), Grid<Dim>::layer(key));
-			}
-			system.commit(d);
-			return pressed.contacts.meetings[0].force;
-		};
-		const Vec<Dim> first = go([](const Vec<Dim>&, int layer) {
-			Vec<Dim> moved = Vec<Dim>::Zero();
-			if (layer == 1) moved[0] = 1e-4, moved[1] = -1e-3;
-			return moved;
-		});
-		EXPECT_GT(std::abs(first[0]), 0.01 * std::abs(first[1]));
-		const int steps = 90;
-		Mat<Dim>  turn = Mat<Dim>::Identity(), all = turn;
-		turn.template topLeftCorner<2, 2>() = Eigen::Rotation2Dd(2 * M_PI / steps).toRotationMatrix();
-		for (int step = 0; step < steps; ++step) {
-			const Vec<Dim> force = go([&](const Vec<Dim>& x, int) { return Vec<Dim>(turn * x - x); });
-			for (auto& x : pressed.cloud.position)
-				x = turn * x;
-			all = turn * all;
-			ASSERT_LT((force - all * first).norm(), 1e-6 * first.norm()) << "step " << step;
-		}
-	}
-
 	TYPED_TEST(LayersTest, TheyAloneChangeNothing)
 	{
 		constexpr int Dim  = TypeParam::value;
