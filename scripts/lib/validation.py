@@ -37,6 +37,7 @@ runs = {
         ],
         'grains_on_soil': ['grains_on_soil.py'],
         'mpm_vs_dem': ['mpm_vs_dem.py'],
+        'meeting': ['sheet_pile.py', 'dam.py'],
         'waves': ['waves.py --scene "bar block sphere"', 'explicit.py --scene bar'],
         'earthquake': ['earthquake.py'],
         'runout': ['runout.py'],
@@ -52,7 +53,7 @@ groups = {
         'Earth pressure': ['earth_pressure'],
         'Walls and tunnels in the ground': ['sheet_pile', 'lined_tunnel'],
         'Water and stages': ['water', 'consolidation', 'embankment'],
-        'Contact and penetration': ['penetration', 'grains_on_soil'],
+        'Contact and penetration': ['penetration', 'grains_on_soil', 'meeting'],
         'Waves and run-out': ['waves', 'earthquake', 'runout', 'splitting'],
         'Grains': ['mpm_vs_dem'],
 }

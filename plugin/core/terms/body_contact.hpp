@@ -61,8 +61,8 @@ public:
 	Refusal                     refusal(const Eigen::VectorXd& d) const override;
 	void                        commit(const Eigen::VectorXd& d) override;
 
-	/// Adds the forces that resist at d, or, where that is null, as the step begins, without their weight. The latter
-	/// are those at the end of the last step, whatever gaps are found anew: so no momentum is lost between steps.
+	/// Adds the forces that resist at d, or, where that is null, as the step begins, without their weight. The
+	/// latter are those at the end of the last step, whatever gaps are found anew: so no momentum is lost.
 	void addUnweighted(const Eigen::VectorXd* d, Eigen::VectorXd& resistance) const;
 
 private:

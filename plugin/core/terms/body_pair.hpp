@@ -38,8 +38,8 @@ template <int Dim> struct PairForce {
 
 /// Of a penalty on the gap, and Coulomb's friction with a cap, returned from a penalty on the slip. `start`: the places
 /// as the step begins, when the frictional force on the place is `shear`; it turns with the piece. `closed`: the gap at
-/// which the pressure begins. None where it is wider than that by more than the tolerance. A place within it that is not pressed counts in the derivative as one that sticks: a
-/// body that only touches is held.
+/// which the pressure begins. None where it is wider than that by more than the tolerance. A place within it that is
+/// not pressed counts in the derivative as one that sticks: a body that only touches is held.
 template <int Dim>
 std::optional<PairForce<Dim>> pairForce(
         const ContactLaw<Dim>&, const PairPlaces<Dim>& start, const Vec<Dim>& shear, const PairPlaces<Dim>& now, double closed, double tolerance,

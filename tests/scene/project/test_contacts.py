@@ -57,6 +57,16 @@ def test_cases_that_are_right(yade):
 	assert run.returncode == int(any(misses(cases[name], result) for name, result in found.items()))
 
 
+def test_bodies_of_points_that_meet_at_random(yade):
+	"""The first eight of those that scripts/contacts draws."""
+	out = yade.folder / 'out'
+	command = [root / 'scripts/contacts', 'meeting', '--seeds', '0:8', '--out', out]
+	run = subprocess.run(command, env=os.environ | yade.ownSettings() | {'YADE': Yade(yade.folder).command}, capture_output=True, text=True, timeout=300)
+	found = json.loads((out / 'contacts.json').read_text())['meeting']
+	assert found['scenes'] == found['touched'] == 8 and not misses(cases['meeting'], found), found
+	assert run.returncode == 0
+
+
 def test_random_scenes_end_in_balance(yade):
 	"""The first thirty of those that scripts/contacts draws."""
 	out = yade.folder / 'out'

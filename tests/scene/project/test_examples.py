@@ -290,6 +290,23 @@ def test_splitting(yade):
 	assert 'no scene' in yade(example, '--scenes', 'none', fails=True).stderr
 
 
+def test_sheet_pile_of_points(yade):
+	"""Its moments, and the force of its prop, are those of free earth support within a tenth."""
+	run = yade(root / 'examples' / 'meeting' / 'sheet_pile.py')
+	for what in r'prop: (\S+) kN/m, free earth support (\S+) ', r'largest moment: (\S+) kN m/m, free earth support (\S+) ':
+		ours, byHand = numbers(what, run.stdout)
+		assert abs(ours / byHand - 1) < 0.1, run.stdout
+	assert (run.folder / 'out/sheet_pile/sheet_pile.png').stat().st_size > 20000
+
+
+def test_slide_and_dam_of_points(yade):
+	"""The slide meets the dam when a block would, to a step."""
+	run = yade(root / 'examples' / 'meeting' / 'dam.py', '--stepSize', 0.02, '--end', 2)
+	touched, block = numbers(r'touches the dam after (\S+) s, a block (\S+) s', run.stdout)
+	assert 0 <= touched - block < 0.03
+	assert (run.folder / 'out/dam/dam.png').stat().st_size > 20000
+
+
 def test_walls(yade):
 	"""A column askew on the grid has the stress of the aligned one, under its weight and under a lid that is pushed in."""
 	for load in 'weight', 'lid':
