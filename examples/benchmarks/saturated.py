@@ -3,7 +3,7 @@
 """What a step of soil with water that flows costs, beside one without water, and how many iterations the block preconditioner takes as the grid is refined; the tables are on the page of measurements.
 
 	scripts/run -j 1 examples/benchmarks/saturated.py                                    plane, 4096 and 16384 points, with and without water
-	scripts/run -j 1 examples/benchmarks/saturated.py --dim 3 --cells 6,12,24 --steps 1   cubes, up to 110592 points, by multigrid
+	scripts/run -j 1 examples/benchmarks/saturated.py --dim 3 --cells 6,12,18 --steps 1   cubes, up to 46656 points, by multigrid
 
 A load on a quarter of the top of an elastic layer that is drained there; one step is not counted, the next ones are of equal length, and the load grows in all of them.
 """

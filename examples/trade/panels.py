@@ -90,7 +90,6 @@ titles = { # scene of plans.py: title, measure, what n counts, choice that is sh
         'clay': ('footing, contact, von Mises', 'limit load, exact', 'in half the width', ('3 x 3 points', dict(pointsPerCell='3'))),
         'tbar': ('T-bar, contact, Tresca', 'resistance, exact', 'over the radius', ('3 x 3 points', dict(pointsPerCell='3'))),
         'seepage': ('slope, water, Mohr-Coulomb', 'factor of safety, exact', 'over the height', ('3 x 3 points', dict(pointsPerCell='3'))),
-        'consolidation': ('column, water that flows, elastic', 'settlement over time, series', 'over the height', ('conductance 3', dict(skin='3'))),
 }
 
 

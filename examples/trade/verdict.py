@@ -90,7 +90,7 @@ What to set, and what not, from {sum(map(len, Kept().runs.values()))} runs by `s
 
 def text(found):
 	kept = Kept()
-	halved = [kept.halving(name) for name in plans if not found[name].luck and name != 'beam'] # whose theory is no better than the beam
+	halved = [kept.halving(name) for name in plans if name in found and not found[name].luck and name != 'beam'] # whose theory is no better than the beam
 	section, quarter = kept.run('circle', cells='4'), kept.run('circle', cells='4', scene="'circle'")
 	with9, without49 = kept.run('footing', cells='4', fBar='1'), kept.run('footing', cells='24', fBar='0')
 	fBar, fine, mpm, stiff = kept.factors('fBar', 'footing', 'cut', 'beam'), kept.spans('tolerance', '1e-9'), kept.spans('basis', "'mpm'"), kept.spans('ghostFactor', '100')
