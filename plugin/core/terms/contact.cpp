@@ -329,9 +329,11 @@ template <int Dim> void Contact<Dim>::findLost()
 	for (const Place& place : places_)
 		if (const auto* r = recordOf(place)) isMet[r - system_.records.data()] = true;
 	for (std::size_t i = 0; i < isMet.size(); ++i) {
-		const auto& r = system_.records[i];
-		if (isMet[i] || !r.touches || r.body >= int(system_.bodies.size())) continue;
-		if (const auto attached = attach(r.place, basis_, grid_, int(r.number >> placeBits))) lost_.emplace_back(*attached, i);
+		const auto&                    r = system_.records[i];
+		std::optional<Attachment<Dim>> attached;
+		for (int quarter = 0; quarter <= 4 && !attached && !isMet[i] && r.touches; ++quarter) // deeper in the soil, where its face has no nodes
+			attached = attach(Vec<Dim>(r.place + 0.25 * quarter * grid_.cellSize * r.normal), basis_, grid_, int(r.number >> placeBits));
+		if (attached) lost_.emplace_back(*attached, i);
 	}
 }
 

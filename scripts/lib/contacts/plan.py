@@ -90,12 +90,12 @@ turned = dict(turned=atLeast(359.9), angle=atMost(1), size=atMost(.02))
 for cells, points in (1, 2), (2, 2), (2, 3), (4, 2), (4, 3):
 	judged = ['turned'] if (cells, points) == (1, 2) else turned if (cells, points) == (4, 3) else ['turned', 'angle']
 	add(f'turn-plane-{cells}-{points}', 'turning.block', {name: turned[name] for name in judged}, dim=2, cells=cells, points=points)
-add('turn-normal', 'turning.block', turned, dict(steps=60), dim=3, points=3)
+add('turn-normal', 'turning.block', turned, dict(steps=40), dim=3, points=3)
 add('turn-across', 'turning.block', turned, dict(steps=60), dim=3, axis=1, points=3)
 add('cylinder', 'turning.cylinder', dict(turned=atLeast(57), torque=near(1, .05), largest=atMost(.08)), angle=1.)
 for cells in 4, 6, 10:
 	add(f'vane-R{cells}', 'turning.vane', dict(turned=atLeast(57), band=near(1, .05), largest=atMost(.08)), dict(angle=1.), cells=cells, angle=1.5)
-add('ring-shear', 'turning.ring', dict(turned=atLeast(359.9), torque=near(1, .02), largest=atMost(.02)), dict(steps=30))
+add('ring-shear', 'turning.ring', dict(turned=atLeast(359.9), torque=near(1, .02), largest=atMost(.02)))
 
 # 6. Overlap: largest difference of the force from that of one body
 add('layers', 'overlap.layers', dict(off=atMost(.01), rubs=atMost(.02)))
