@@ -320,9 +320,9 @@ template <int Dim> void Contact<Dim>::addBefore(Eigen::VectorXd& force) const
 		add(attached, system_.records[record]);
 }
 
-/// Places that touched and have no soil in front of them any more, as where it leaps off: in a step in time their forces
-/// have to be known to begin with, or the soil keeps half of them for another step, and what a body has got is not what
-/// the soil has lost.
+/// Places that touched and have no soil in front of them any more, as where it leaps off: in a step in time their
+/// forces have to be known to begin with, or the soil keeps half of them for another step, and what a body has got is
+/// not what the soil has lost.
 template <int Dim> void Contact<Dim>::findLost()
 {
 	std::vector<bool> isMet(system_.records.size(), false);
@@ -416,8 +416,8 @@ template <int Dim> double Contact<Dim>::given(const Eigen::VectorXd& d) const
 	return sum;
 }
 
-/// On a ball: where the normal of its face goes through its middle, around which pressure does not turn it. The soil has
-/// slipped from there in a step in time.
+/// On a ball: where the normal of its face goes through its middle, around which pressure does not turn it. The soil
+/// has slipped from there in a step in time.
 template <int Dim> Vec<Dim> Contact<Dim>::placeOfForce(const Place& at, const Vec<Dim>& soil, const Vec<Dim>& normal) const
 {
 	const auto& body = system_.bodies[at.body];
