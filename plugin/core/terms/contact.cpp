@@ -324,18 +324,20 @@ template <int Dim> void Contact<Dim>::addBefore(Eigen::VectorXd& force) const
 		add(attached, system_.records[record]);
 }
 
-/// Places that touched and have no soil in front of them any more, as where it leaps off: in a step in time their forces
-/// have to be known to begin with, or the soil keeps half of them for another step, and what a body has got is not what
-/// the soil has lost.
+/// Places that touched and have no soil in front of them any more, as where it leaps off: in a step in time their
+/// forces have to be known to begin with, or the soil keeps half of them for another step, and what a body has got is
+/// not what the soil has lost.
 template <int Dim> void Contact<Dim>::findLost()
 {
 	std::vector<bool> isMet(system_.records.size(), false);
 	for (const Place& place : places_)
 		if (const auto* r = recordOf(place)) isMet[r - system_.records.data()] = true;
 	for (std::size_t i = 0; i < isMet.size(); ++i) {
-		const auto& r = system_.records[i];
-		if (isMet[i] || !r.touches || r.body >= int(system_.bodies.size())) continue;
-		if (const auto attached = attach(r.place, basis_, grid_, int(r.number >> placeBits))) lost_.emplace_back(*attached, i);
+		const auto&                    r = system_.records[i];
+		std::optional<Attachment<Dim>> attached;
+		for (int quarter = 0; quarter <= 4 && !attached && !isMet[i] && r.touches; ++quarter) // deeper in the soil, where its face has no nodes
+			attached = attach(Vec<Dim>(r.place + 0.25 * quarter * grid_.cellSize * r.normal), basis_, grid_, int(r.number >> placeBits));
+		if (attached) lost_.emplace_back(*attached, i);
 	}
 }
 
@@ -433,8 +435,8 @@ template <int Dim> Mat<Dim> Contact<Dim>::resistanceOf(const Place& at, const To
 	return at.law.normal * touched.normal * touched.normal.transpose() + along * (Mat<Dim>::Identity() - touched.normal * touched.normal.transpose());
 }
 
-/// On a ball: where the normal of its face goes through its middle, around which pressure does not turn it. The soil has
-/// slipped from there in a step in time.
+/// On a ball: where the normal of its face goes through its middle, around which pressure does not turn it. The soil
+/// has slipped from there in a step in time.
 template <int Dim> Vec<Dim> Contact<Dim>::placeOfForce(const Place& at, const Vec<Dim>& soil, const Vec<Dim>& normal) const
 {
 	const auto& body = system_.bodies[at.body];

@@ -72,10 +72,10 @@ constexpr double slipSoftness = 20;
 /// of the smallest cells, over the place's part of the surface. The gap is that which there was when soil came into
 /// sight, and since then what soil and body have moved towards each other, along the normal of the place's own face:
 /// which neither edges nor domains that come and go let jump. In steps in time the places on a ball go around it with
-/// the soil, as a ball that turns in its place is the same ball: else those before its lowest one would be pressed deeper
-/// with all of its way, and lift it. Only prescribed motion of the bodies is known here. What
-/// of a surface lies in another body, or on one that came first, does not count. Where points are divided among
-/// processes, all know those that are near.
+/// the soil, as a ball that turns in its place is the same ball: else those before its lowest one would be pressed
+/// deeper with all of its way, and lift it. Only prescribed motion of the bodies is known here. What of a surface lies
+/// in another body, or on one that came first, does not count. Where points are divided among processes, all know those
+/// that are near.
 template <int Dim> class Contact : public Term<Dim> {
 public:
 	/// The records and loads of the system are written in commit(). What add() adds has the weight of the system.

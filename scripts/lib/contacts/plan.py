@@ -91,12 +91,12 @@ turned = dict(turned=atLeast(359.9), angle=atMost(1), size=atMost(.02))
 for cells, points in (1, 2), (2, 2), (2, 3), (4, 2), (4, 3):
 	judged = ['turned'] if (cells, points) == (1, 2) else turned if (cells, points) == (4, 3) else ['turned', 'angle']
 	add(f'turn-plane-{cells}-{points}', 'turning.block', {name: turned[name] for name in judged}, dim=2, cells=cells, points=points)
-add('turn-normal', 'turning.block', turned, dict(steps=60), dim=3, points=3)
+add('turn-normal', 'turning.block', turned, dict(steps=40), dim=3, points=3)
 add('turn-across', 'turning.block', turned, dict(steps=60), dim=3, axis=1, points=3)
 add('cylinder', 'turning.cylinder', dict(turned=atLeast(57), torque=near(1, .05), largest=atMost(.08)), angle=1.)
 for cells in 4, 6, 10:
 	add(f'vane-R{cells}', 'turning.vane', dict(turned=atLeast(57), band=near(1, .05), largest=atMost(.08)), dict(angle=1.), cells=cells, angle=1.5)
-add('ring-shear', 'turning.ring', dict(turned=atLeast(359.9), torque=near(1, .02), largest=atMost(.02)), dict(steps=30))
+add('ring-shear', 'turning.ring', dict(turned=atLeast(359.9), torque=near(1, .02), largest=atMost(.02)))
 
 # 6. Overlap: largest difference of the force from that of one body
 add('layers', 'overlap.layers', dict(off=atMost(.01), rubs=atMost(.02)))
@@ -109,7 +109,7 @@ add('floors-explicit', 'overlap.explicitFloors', dict(imbalance=atMost(.01)))
 # 7. Free bodies: by how much way and speed are off those of closed forms, from two places in a cell, and the change of momentum in an impact over that of the sphere
 rolls = dict(off=atMost(.01), speedOff=atMost(.01))
 for friction in 0., .1, .2, .4:
-	add(f'rolling-{friction:g}', 'free.rolling', rolls, dict(end=.3), friction=friction)
+	add(f'rolling-{friction:g}', 'free.rolling', rolls, dict(end=.3), friction=friction, stiffness=100. if friction else 20.)
 add('rolling-askew', 'free.rolling', rolls, dict(end=.3), friction=.4, heading=30.)
 add('rolling-flat', 'free.rolling', rolls, dict(end=.6), friction=.1, degrees=10., end=.8)
 add('rolling-static', 'free.rolling', rolls, dict(end=.3), friction=.4, isDynamic=False)

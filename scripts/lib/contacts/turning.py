@@ -123,7 +123,7 @@ def vane(cells=6, width=1., angle=1., stiffness=10., pressure=5., points=2, seco
 	return told | dict(band=told['torque'] / (1 + R / cells / sqrt(R**2 + w**2))**2)
 
 
-def ring(turns=1., steps=60, cells=4, stiffness=20., seconds=300):
+def ring(turns=1., steps=120, cells=4, stiffness=20., seconds=300):
 	"""In 3D a plate turns on a square block about its normal, with an adhesion that slips everywhere: torque of that, s^3 (sqrt 2 + ln(1 + sqrt 2)) / 6 of it."""
 	O.reset()
 	E, cap, side = 1e7, 1e4, 1.

@@ -28,8 +28,8 @@ namespace {
 	// Facets and Walls keep the axes of the scene as their own until they turn.
 	bool hasOwnAxes(const Body& body) { return dynamic_cast<const Box*>(body.shape.get()); }
 
-	// What is left of an orientation without its turn in the plane: the half of that turns the pair (w, z), and (x, y)
-	// the same way.
+	// What is left of an orientation without its turn in the plane: the half of that turns the pair (w, z), and
+	// (x, y) the same way.
 	Quaternionr withoutTurnInPlane(const Quaternionr& q)
 	{
 		const bool isUpright = q.w() * q.w() + q.z() * q.z() >= 0.5;
