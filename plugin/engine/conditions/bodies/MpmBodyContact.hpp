@@ -41,8 +41,7 @@ public:
 		  "Penalty [-] > 0: a pressure p presses p h / (stiffness E) deep, with cell size h and the smaller one of Young's moduli E of the two.",
 		  positive);
 		v("force", &MpmBodyContact::force, readonly,
-		  "Force on the first body [N] at the end of the last converged step; per metre of thickness in plane strain, around an axis of all of the ring; NaN "
-		  "before the first.");
+		  "Force on the first body [N] at the end of the last converged step; per metre of thickness in plane strain, of a ring around an axis; NaN before it.");
 		v("moment", &MpmBodyContact::moment, readonly, "Moment of these forces about the origin [N m], NaN before the first step.");
 		v("touching", &MpmBodyContact::touching, readonly, "Number of places that touch, two on each piece of a surface, three in space.");
 		v("slipping", &MpmBodyContact::slipping, readonly, "Number of those at the limit of friction.");
