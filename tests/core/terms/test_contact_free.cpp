@@ -32,7 +32,8 @@ namespace {
 			if (isRing) base.push_back(wallBelow<Dim>(this->model.grid, 0, 0));
 			this->model.boundary = Boundary<Dim>(base);
 		}
-		/// Of the whole tangent along a direction, from differences. What has no inertia rests on all of the soil's surface.
+		/// Of the whole tangent along a direction, from differences. What has no inertia rests on all of the
+		/// soil's surface.
 		double tangentError()
 		{
 			const StepSystem<Dim> system(this->cloud, this->model, Load<Dim>(), this->report);
