@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "core/terms/contact.hpp"
 #include "core/terms/attached.hpp"
-#include "core/terms/contact_nodes.hpp"
 #include <algorithm>
 #include <cmath>
 #include <sstream>
@@ -156,61 +155,6 @@ template <int Dim> void Contact<Dim>::addPlaces(int number, int layer)
 	const std::vector<int> around = bodiesAround(number);
 	for (const auto& point : surfacePointsAt<Dim>(body.shape, body.begin, grid_.cellSize, low - margin, high + margin))
 		addPlace(number, layer, point, soil, around);
-}
-
-/// Those in or on which a place of the body may be.
-template <int Dim> std::vector<int> Contact<Dim>::bodiesAround(int number) const
-{
-	const auto [low, high] = system_.bodies[number].bounds(system_.bodies[number].begin);
-	std::vector<int> found;
-	for (int b = 0; b < int(system_.bodies.size()); ++b) {
-		const auto [otherLow, otherHigh] = system_.bodies[b].bounds(system_.bodies[b].begin);
-		const bool isApart               = (otherLow.array() > high.array() + tolerance_).any() || (otherHigh.array() < low.array() - tolerance_).any();
-		if (b != number && !isApart) found.push_back(b);
-	}
-	return found;
-}
-
-/// Whether the place is in another body, in a joint with it, or on the surface of one that came first and faces alike.
-template <int Dim> bool Contact<Dim>::isHidden(int number, const Vec<Dim>& place, const Vec<Dim>& normal, const std::vector<int>& around) const
-{
-	for (const int b : around) {
-		const auto& other    = system_.bodies[b];
-		const auto  at       = other.proximity(other.begin, place, other.sideOf(other.begin, place + grid_.cellSize * normal));
-		const bool  isAlike  = at.normal.dot(normal) > 1 - 1e-6 && std::abs(at.gap) <= tolerance_ && at.beside < 0;
-		const bool  isInside = !other.shape.isTwoSided && at.gap < -tolerance_;
-		const bool  isJoint  = !other.shape.isTwoSided && at.normal.dot(normal) < -1 + 1e-6 && at.gap <= tolerance_;
-		if (isInside || isJoint || (isAlike && b < number)) return true;
-	}
-	return false;
-}
-
-/// Sheets around that may be between a place and soil, and how far the place is from their planes.
-template <int Dim> std::vector<std::pair<int, double>> Contact<Dim>::screensBefore(const Vec<Dim>& place, const std::vector<int>& around) const
-{
-	std::vector<std::pair<int, double>> found;
-	for (const int b : around) {
-		const auto& sheet = system_.bodies[b];
-		if (sheet.shape.kind != RigidKind::sheet) continue;
-		const double away = sheet.proximity(sheet.begin, place, 1).gap + sheet.halfThickness();
-		if (std::abs(away) > tolerance_) found.emplace_back(b, away);
-	}
-	return found;
-}
-
-/// Whether a screen is between the two. At the edge that it shares with the sheet of the place, as below a pile that is
-/// made of sheets, soil outside is beside the places inside. Soil that is a little behind the screen counts as before
-/// it.
-template <int Dim> bool Contact<Dim>::isBehind(const std::vector<std::pair<int, double>>& screens, const Vec<Dim>& place, const Vec<Dim>& soil) const
-{
-	return std::any_of(screens.begin(), screens.end(), [&](const auto& screen) {
-		const auto&  sheet = system_.bodies[screen.first];
-		const double here  = screen.second;
-		if (here * sheet.sideOf(sheet.begin, soil) > 0) return false;
-		const double   there    = sheet.proximity(sheet.begin, soil, 1).gap + sheet.halfThickness();
-		const Vec<Dim> crossing = here * there < 0 ? Vec<Dim>(place + here / (here - there) * (soil - place)) : soil;
-		return sheet.proximity(sheet.begin, crossing, 1).beside < 0;
-	});
 }
 
 template <int Dim> const ContactRecord<Dim>* Contact<Dim>::recordOf(const Place& place) const
@@ -427,53 +371,6 @@ template <int Dim> double Contact<Dim>::given(const Eigen::VectorXd& d) const
 		sum += touched.force().dot(near.slip) + stored(touched.pressure, near.at.gap, touched.friction.norm());
 	});
 	return sum;
-}
-
-template <int Dim> Mat<Dim> Contact<Dim>::resistanceOf(const Place& at, const Touch<Dim>& touched) const
-{
-	const double along = touched.slips || at.law.friction == 0 || at.law.cap == 0 ? 0 : at.law.tangential;
-	return at.law.normal * touched.normal * touched.normal.transpose() + along * (Mat<Dim>::Identity() - touched.normal * touched.normal.transpose());
-}
-
-/// On a ball: where the normal of its face goes through its middle, around which pressure does not turn it. The soil
-/// has slipped from there in a step in time.
-template <int Dim> Vec<Dim> Contact<Dim>::placeOfForce(const Place& at, const Vec<Dim>& soil, const Vec<Dim>& normal) const
-{
-	const auto& body = system_.bodies[at.body];
-	if (body.shape.kind != RigidKind::ball || !std::isfinite(system_.energy)) return soil;
-	return body.end.position + (soil - body.end.position).dot(normal) * normal;
-}
-
-template <int Dim> ContactLoad Contact<Dim>::loadOn(const Vec<Dim>& owner, const Place& at, const Vec<Dim>& place, const Touch<Dim>& touched) const
-{
-	ContactLoad load;
-	Vec3        arm                 = Vec3::Zero();
-	load.force.template head<Dim>() = -touched.force();
-	arm.template head<Dim>()        = place - owner;
-	load.torque                     = arm.cross(load.force);
-	if (isRing_) load.force[0] = 0, load.torque.setZero(); // all around the axis they add up to nothing
-	if constexpr (Dim == 3) {
-		const Mat3                  resists = resistanceOf(at, touched);
-		Eigen::Matrix<double, 3, 6> moves;
-		moves << Mat3::Identity(), (Mat3() << 0, arm[2], -arm[1], -arm[2], 0, arm[0], arm[1], -arm[0], 0).finished();
-		load.stiffness = moves.transpose() * resists * moves;
-	}
-	return load;
-}
-
-template <int Dim> void Contact<Dim>::addLoads(const Place& at, const Vec<Dim>& place, const Touch<Dim>& touched)
-{
-	const auto& body = system_.bodies[at.body];
-	if constexpr (Dim == 3)
-		if (body.nodes > 0) {
-			const auto loads = loadsOnNodes(body, at.soil, { -touched.force(), place, resistanceOf(at, touched), at.area, at.young });
-			for (int i = 0; i < body.nodes; ++i)
-				system_.loads[body.nodeOwners[i]] += loads[i];
-			return;
-		}
-	ContactLoad load = loadOn(system_.owners[body.owner], at, placeOfForce(at, place, touched.normal), touched);
-	load.area = at.area, load.young = at.area * at.young;
-	system_.loads[body.owner] += load;
 }
 
 /// By the mean slip of what is pressed.

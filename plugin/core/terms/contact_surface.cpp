@@ -226,7 +226,8 @@ SurfacePoints<3> onCapsule(const RigidShape<3>& shape, double spacing, const Box
 			                   cornersAround(place, along / (2 * parts), half * shape.radius * axis.cross(normal)) });
 		}
 	for (int end = 0; end < 2; ++end)
-		for (SurfacePoint<3> point : onBall(shape.radius, shape.axes, spacing, Box<3> { box.low - shape.corners[end], box.high - shape.corners[end] })) {
+		for (SurfacePoint<3> point :
+		     onBall(shape.radius, shape.axes, spacing, Box<3> { box.low - shape.corners[end], box.high - shape.corners[end] })) {
 			if (point.normal.dot(end == 0 ? Vec3(-axis) : axis) <= 0) continue;
 			point.number = number + 2 * point.number + end;
 			point.place += shape.corners[end];
