@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "core/terms/contact_free.hpp"
+#include "core/solvers/least_squares.hpp"
 #include "core/terms/contact_turn.hpp"
 #include <Eigen/Geometry>
-#include <Eigen/QR>
 #include <algorithm>
 
 namespace gimpm {
@@ -100,11 +100,9 @@ template <int Dim> typename FreeBody<Dim>::Matrix compliance(const FreeBody<Dim>
 	scale.template tail<Turn<Dim>::RowsAtCompileTime>() /= size;
 	for (int i = 0; i < Free::unknowns; ++i)
 		if (body.isGiven[i]) scale[i] = 0;
-	const typename Free::Matrix                                   scaled = scale.asDiagonal() * K * scale.asDiagonal();
-	Eigen::CompleteOrthogonalDecomposition<typename Free::Matrix> inverse;
-	inverse.setThreshold(1e-11);
-	inverse.compute(scaled);
-	return scale.asDiagonal() * inverse.pseudoInverse() * scale.asDiagonal();
+	const typename Free::Matrix scaled  = scale.asDiagonal() * K * scale.asDiagonal();
+	const typename Free::Matrix inverse = leastSquares(scaled, Free::Matrix::Identity());
+	return scale.asDiagonal() * inverse * scale.asDiagonal();
 }
 
 namespace {

@@ -22,5 +22,11 @@ namespace {
 		EXPECT_NEAR((x - Eigen::Vector3d(.5, .5, 0)).norm(), 0, 1e-14);
 	}
 
+	TEST(LeastSquares, OfTheUnitMatrixThePseudoinverse)
+	{
+		const Eigen::MatrixXd A = Eigen::Vector3d(2, 0, 4).asDiagonal();
+		EXPECT_NEAR((leastSquares(A, Eigen::Matrix3d::Identity()) - Eigen::MatrixXd(Eigen::Vector3d(.5, 0, .25).asDiagonal())).norm(), 0, 1e-15);
+	}
+
 } // namespace
 } // namespace gimpm
