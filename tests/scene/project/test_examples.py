@@ -292,19 +292,19 @@ def test_splitting(yade):
 
 def test_sheet_pile_of_points(yade):
 	"""Its moments, and the force of its prop, are those of free earth support within a tenth."""
-	run = yade(root / 'examples' / 'meeting' / 'sheet_pile.py')
+	run = yade(root / 'examples' / 'meeting' / 'propped_wall.py')
 	for what in r'prop: (\S+) kN/m, free earth support (\S+) ', r'largest moment: (\S+) kN m/m, free earth support (\S+) ':
 		ours, byHand = numbers(what, run.stdout)
 		assert abs(ours / byHand - 1) < 0.1, run.stdout
-	assert (run.folder / 'out/sheet_pile/sheet_pile.png').stat().st_size > 20000
+	assert (run.folder / 'out/propped_wall/propped_wall.png').stat().st_size > 20000
 
 
 def test_slide_and_dam_of_points(yade):
 	"""The slide meets the dam when a block would, to a step."""
-	run = yade(root / 'examples' / 'meeting' / 'dam.py', '--stepSize', 0.02, '--end', 2)
+	run = yade(root / 'examples' / 'meeting' / 'slide.py', '--stepSize', 0.02, '--end', 2)
 	touched, block = numbers(r'touches the dam after (\S+) s, a block (\S+) s', run.stdout)
 	assert 0 <= touched - block < 0.03
-	assert (run.folder / 'out/dam/dam.png').stat().st_size > 20000
+	assert (run.folder / 'out/slide/slide.png').stat().st_size > 20000
 
 
 def test_walls(yade):
@@ -450,7 +450,8 @@ def test_dam(yade):
 def test_sheet_pile(yade):
 	"""Before it fails, by the figures of its page."""
 	run = yade(root / 'examples' / 'sheet_pile' / 'sheet_pile.py', '--depth', 2.5, '--seen', 2.5)
-	assert numbers(r'dug out 2.500 m: head moves (\S+) mm, moment (\S+) kN m, by Blum (\S+) kN m', run.stdout) == [8.4, 32.9, 35.2]
+	moved, moment, blum = numbers(r'dug out 2.500 m: head moves (\S+) mm, moment (\S+) kN m, by Blum (\S+) kN m', run.stdout)
+	assert abs(moved - 8.4) < 0.3 and abs(moment / blum - 1) < 0.1
 	assert (run.folder / 'out/sheet_pile/sheet_pile.png').stat().st_size > 20000
 
 
@@ -470,7 +471,7 @@ def test_drawdown_in_time(yade):
 	given = dict(re.findall(r'^level (\S+) m: F = (\S+) where', run.stdout, re.MULTILINE))
 	quick, slow = rows[:2], rows[2:]
 	for (_, level, _, F, withSuction), (*_, fast, _) in zip(slow, quick):
-		assert abs(F / float(given[f'{level:.2f}']) - 1) < 0.1 and fast < 0.9 * F < withSuction
+		assert abs(F / float(given[f'{level:.2f}']) - 1) < 0.1 and fast < 0.9 * F and F <= withSuction
 	assert slow[1][2] < 0 < 0.5 < quick[1][2] < 0.9
 	assert (run.folder / 'out/drawdown/drawdown.png').stat().st_size > 20000
 

@@ -15,7 +15,7 @@
 Behind the wall the sand is in its active state, K_a; before it so much of the passive one is mobilised, K_m, as moments about the prop ask for. Then the moment at the depth z is
 T (p + z) - K_a w z^3 / 6 + K_m w (z - H)^3 / 6 with the prop's force T at the height p.
 
-Run it with `scripts/run examples/meeting/sheet_pile.py [options]`, or by yade-batch with the options as columns of a parameter table.
+Run it with `scripts/run examples/meeting/propped_wall.py [options]`, or by yade-batch with the options as columns of a parameter table.
 """
 import os
 import sys
@@ -49,7 +49,7 @@ prop = MpmBoundary(min=(-h, p - h / 4, -inf), max=(thick + h, inf, inf), fix='x'
 contact = MpmBodyContact(between=('wall', 'sand'), friction=radians(options.friction))
 O.engines = [
         MpmImplicitEngine(grid=grid, gravity=(0, -10, 0), boundaries=[*held, prop], contacts=[contact], newton=MpmNewton(tolerance=1e-6), verbosity=1, label='solver'),
-        MpmVtkRecorder(fileName=os.path.join(options.out, 'sheet_pile-'), recorders=['points', 'contacts'], iterPeriod=options.steps),
+        MpmVtkRecorder(fileName=os.path.join(options.out, 'propped_wall-'), recorders=['points', 'contacts'], iterPeriod=options.steps),
 ]
 O.dt = 1 / options.steps
 O.run(options.steps, wait=True)
@@ -73,5 +73,5 @@ diagram.plot(moment / 1e3, -depth, 'k-', label='free earth support')
 diagram.plot(ours * np.sign(largest(ours)) / 1e3, -cuts, 'o', ms=3, label='points')
 diagram.set(xlabel='bending moment [kN m/m]', ylabel='height [m]')
 diagram.legend()
-figure.savefig(os.path.join(options.out, 'sheet_pile.png'), dpi=130)
-print(f'written: {options.out}/sheet_pile.png, and for ParaView {options.out}/sheet_pile-points.pvd')
+figure.savefig(os.path.join(options.out, 'propped_wall.png'), dpi=130)
+print(f'written: {options.out}/propped_wall.png, and for ParaView {options.out}/propped_wall-points.pvd')

@@ -11,7 +11,7 @@
 The slide rubs on the ground and on the dam; the dam has no contact with the ground, so that it stands in it as one piece. Until it arrives the slide goes as a block would,
 g (sin b - tan d cos b) t^2 / 2. What the dam bears is the force of the contact, and its moment in a section above the foot; in the end ground and dam bear the slide's weight.
 
-Run it with `scripts/run examples/meeting/dam.py [options]`, or by yade-batch with the options as columns of a parameter table.
+Run it with `scripts/run examples/meeting/slide.py [options]`, or by yade-batch with the options as columns of a parameter table.
 """
 import os
 import sys
@@ -43,7 +43,7 @@ onGround, onDam = (MpmBodyContact(between=('slide', other), friction=friction) f
 O.engines = [
         MpmDynamicEngine(grid=grid, scheme='generalised-alpha', rhoInfinity=0.5, gravity=(9.81 * sin(slope), -9.81 * cos(slope), 0), gravityCurve=[(0, 1)], boundaries=[MpmBoundary(max=(inf, 0, inf), fix='xy')],
                 contacts=[onGround, onDam], newton=MpmNewton(tolerance=1e-6), verbosity=0, label='solver'),
-        MpmVtkRecorder(fileName=os.path.join(options.out, 'dam-'), recorders=['points', 'contacts'], iterPeriod=20),
+        MpmVtkRecorder(fileName=os.path.join(options.out, 'slide-'), recorders=['points', 'contacts'], iterPeriod=20),
 ]
 O.dt = options.stepSize
 acceleration = 9.81 * (sin(slope) - tan(friction) * cos(slope))
@@ -74,5 +74,5 @@ pictures[3].plot(times, np.abs(moments) / 1e3, label='moment a cell above its fo
 pictures[3].axvline(arrival, color='k', lw=0.8, ls='--', label='arrival of a block')
 pictures[3].set(xlabel='time [s]')
 pictures[3].legend()
-figure.savefig(os.path.join(options.out, 'dam.png'), dpi=110)
-print(f'written: {options.out}/dam.png, and for ParaView {options.out}/dam-points.pvd')
+figure.savefig(os.path.join(options.out, 'slide.png'), dpi=110)
+print(f'written: {options.out}/slide.png, and for ParaView {options.out}/slide-points.pvd')
