@@ -16,6 +16,6 @@ O.engines = [
         InteractionLoop([Ig2_Sphere_Sphere_ScGeom()], [Ip2_FrictMat_FrictMat_FrictPhys()], [Law2_ScGeom_FrictPhys_CundallStrack()]),
         solver, NewtonIntegrator(gravity=(0, 0, -10), damping=0.5)]
 O.dt = 2e-4
-O.run(5000, wait=True)
+O.run(10000, wait=True)
 found, hand = solver.reactions[0][2], 10 * sum(grain.state.mass for grain in grains)
 print(f'grains: load = {found:.2f} N, by hand {hand:.2f} N ({100 * (found / hand - 1):+.2f} %)')

@@ -4,8 +4,8 @@
 
 namespace gimpm {
 
-/// The shortest of all X for which |A X - B| is least, column by column, also where columns of A [rows x columns] depend
-/// on each other: of the unit matrix the pseudoinverse of A. Numbers that are not finite where LAPACK refuses.
+/// The shortest of all X for which |A X - B| is least, column by column, also where columns of A depend on each other:
+/// of the unit matrix the pseudoinverse of A. Numbers that are not finite where LAPACK refuses.
 Eigen::MatrixXd leastSquares(Eigen::MatrixXd A, const Eigen::MatrixXd& B);
 
 } // namespace gimpm

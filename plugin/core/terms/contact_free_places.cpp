@@ -50,7 +50,7 @@ template <int Dim> PlaceOfFree<Dim> Contact<Dim>::seen(const Place& place, const
 {
 	const Approach<Dim> near    = approach(place, d);
 	const auto          touched = touch(place.law, near, tolerance_);
-	const Vec<Dim>      arm     = place.soil + place.attached.displacement(d) - owner;
+	const Vec<Dim>      arm     = placeOfForce(place, place.soil + place.attached.displacement(d), near.at.normal) - owner;
 	if (!touched) return { arm, Vec<Dim>::Zero(), Mat<Dim>::Zero(), near.at.gap, near.at.normal };
 	return { arm, touched->force(), touched->slope, near.at.gap, near.at.normal };
 }

@@ -53,7 +53,9 @@ template <int Dim> void Contact<Dim>::addLoads(const Place& at, const Vec<Dim>& 
 	system_.loads[body.owner] += load;
 }
 
-template void Contact<2>::addLoads(const Place&, const Vec<2>&, const Touch<2>&);
-template void Contact<3>::addLoads(const Place&, const Vec<3>&, const Touch<3>&);
+template void   Contact<2>::addLoads(const Place&, const Vec<2>&, const Touch<2>&);
+template void   Contact<3>::addLoads(const Place&, const Vec<3>&, const Touch<3>&);
+template Vec<2> Contact<2>::placeOfForce(const Place&, const Vec<2>&, const Vec<2>&) const;
+template Vec<3> Contact<3>::placeOfForce(const Place&, const Vec<3>&, const Vec<3>&) const;
 
 } // namespace gimpm

@@ -200,7 +200,7 @@ print(json.dumps(refused(mpm.geostatic)))
 	assert 'water[0] has weight = 9.81' in first and 'kN/m3' in first
 	assert 'both of its sides along x' in dam and 'pressure=lambda' in dam
 	assert 'both of its sides' not in rest and 'K0 = 50' in rest and 'percent' in rest
-	assert 'differ in density' in run.result and '2500' in run.result and 'body.material' in run.result
+	assert 'differ in density' in run.result and '2500' in run.result and 'bodies=["wall"]' in run.result
 
 
 def test_a_scene_saved_in_mid_stage_has_its_share_of_water_at_once(yade):

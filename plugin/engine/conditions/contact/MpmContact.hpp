@@ -33,7 +33,7 @@ public:
 	YADE_API_NAME(MpmContact)
 	static const char* doc()
 	{
-		return "Contact with rigid bodies of YADE (Sphere, Box, Facet, Wall, and clumps of them), and in 3D with what deforms with nodes (GridConnection, PFacet, ChainedCylinder), which soil cannot enter. Without a NewtonIntegrator in "
+		return "Contact with bodies of YADE, which soil cannot enter: Sphere, Box, Facet, Wall, clumps of them, and in 3D GridConnection, PFacet, ChainedCylinder. Without a NewtonIntegrator in "
 		       "O.engines the MpmImplicitEngine moves the bodies by their velocities; with one YADE does, and bodies that are free to move get the forces "
 		       "of the soil: the engine then stands before the NewtonIntegrator.\n\n"
 		       "In plane strain a body acts by its section at z = 0, per metre, around an axis of symmetry by that revolved; with *implicit* it moves freely there, too.\n\n"
@@ -54,7 +54,7 @@ public:
 		v("stiffness", &MpmContact::stiffness, 0,
 		  "Penalty [-] > 0: a pressure p presses p h / (stiffness E) deep, with cell size h and Young's modulus E of the soil.", positive);
 		v("implicit", &MpmContact::implicit, 0,
-		  "Whether bodies that are free to move (blockedDOFs not all set) are moved by the engine within the equilibrium of its step, with the soil, whatever O.dt is, and in the plane and around an axis, too; False, the default: by a NewtonIntegrator, in 3D.");
+		  "Whether the engine moves free bodies (blockedDOFs not all set) within the equilibrium of its step, whatever O.dt is; False, the default: a NewtonIntegrator does, in 3D.");
 		v("bodies", &MpmContact::bodies, readonly, "Ids of the bodies (of clumps, those of the clumps) in the last step.");
 		v("forces", &MpmContact::forces, readonly,
 		  "Of each of *bodies*, force of the soil [N] at the end of the last converged step; per metre of thickness in plane strain.");

@@ -49,6 +49,10 @@ template <int Dim> void Contacts<Dim>::advanceFree(const StepTime& step, bool is
 
 template <int Dim> void Contacts<Dim>::requireAlone(const gimpm::Model<Dim>& model) const
 {
+	if (model.ghost.workTolerance < 1)
+		throw std::invalid_argument(gimpm::sentence(
+		        "MpmGhost.workTolerance = ", model.ghost.workTolerance,
+		        " cannot go with MpmContact.implicit=True, whose work is not known to it: give 1, or implicit=False."));
 	if (model.processes->size() == 1 && model.division->isWhole()) return;
 	throw std::invalid_argument(
 	        "MpmContact.implicit: several processes do not know a free body that joins nodes of all of them; run in one, or let YADE move it (implicit=False).");

@@ -128,7 +128,7 @@ template <int Dim> gimpm::FreeBody<Dim> freeBody(int owner, const FreeMotion& bo
 	free.push   = unknownsOf<Dim>(body.force + body.mass.mass * gravity, body.torque);
 	for (int i = 0; i < Free::unknowns; ++i)
 		free.isGiven[i] = (body.given >> Unknowns<Dim>::dofs[i] & 1) || (isRing && Unknowns<Dim>::dofs[i] != 1);
-	if (!body.inTime) return free;
+	if (!body.inTime || duration == 0) return free; // a study knows no inertia
 	// The inertia of the middle of the step, where it would be without the soil.
 	const Matrix3r before = alongAxes(body.at, body.mass.inertia);
 	const Matrix3r within = alongAxes({ body.at.position, turned(duration / 2 * body.spin) * body.at.orientation }, body.mass.inertia);

@@ -131,7 +131,8 @@ template <int Dim> void Flows<Dim>::takeNodes()
 			node[a] = int(from->nodes[i + a]);
 		const gimpm::Key key = gimpm::Grid<Dim>::key(node);
 		water.atNodes[key]   = from->nodes[i + 3];
-		if (from->growth.size() == from->nodes.size()) water.growth[key] << Eigen::Map<const gimpm::Vec<Dim>>(&from->growth[i]), from->growth[i + 3];
+		if (std::isfinite(water.displacementTolerance) && from->growth.size() == from->nodes.size())
+			water.growth[key] << Eigen::Map<const gimpm::Vec<Dim>>(&from->growth[i]), from->growth[i + 3];
 	}
 	if (!water.growth.empty()) water.lastDuration = from->lastDuration;
 }

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "engine/conditions/structures/beams.hpp"
+#include "core/base/sentence.hpp"
+#include "core/grid/surface.hpp"
 #include "core/structures/parting_lines.hpp"
 #include "engine/conditions/structures/reinforcements.hpp"
 #include "engine/conditions/surface/surfaces.hpp"
@@ -66,6 +68,8 @@ namespace {
 		if (analysis.isDynamic()) return "steps in time";
 		if (!analysis.grid->period.isZero(0)) return "MpmGrid.period";
 		if (!analysis.grid->refinements.empty()) return "cells of several sizes";
+		if (analysis.nonlocalLength > 0) return "nonlocalLength";
+		if (analysis.pressureRelaxation) return "pressureRelaxation";
 		if (analysis.newton->linearSolver == "amg") return "MpmNewton.linearSolver = 'amg'";
 		for (const Listed& listed : analysis.conditions())
 			if (string(listed.list) == "contacts") return listed.name();
@@ -133,6 +137,10 @@ void Beams::join(gimpm::Model<2>& model, const Surroundings<2>& around)
 		                    around.analysis.curveOfGravity(),
 		                    down.isZero(0) ? Vec2(0, 0) : Vec2(down.normalized().head<2>()),
 		                    {} });
+		if (from->vertices.empty() && from->contraction > 0 && sources.back().curve.valueAt(around.begin) != 0)
+			throw std::invalid_argument(gimpm::sentence(
+			        listed.name(), ".contraction = ", from->contraction, ": the load factor is ", sources.back().curve.valueAt(around.begin),
+			        " as the beam comes in, which has its lengths without stress then and would not contract. Give it a curve that begins at 0 then."));
 		structures.emplace_back();
 		structures.back().beam = coreBeam(*from, listed.name(), model.grid);
 		for (size_t i = 0; i < from->anchors.size(); ++i) {
@@ -162,11 +170,28 @@ void Beams::advance(const StepTime& step, gimpm::Model<2>&, gimpm::Load<2>&)
 		Beam&          beam   = *structures[i].beam;
 		beam.headForce        = factor * from.headForce.head<2>();
 		beam.headMoment       = factor * from.headMoment;
-		beam.shrinkage        = std::sqrt((1 - from.contraction * factor) / (1 - from.contraction * sources[i].curve.valueAt(step.from)));
-		beam.weight           = from.weight * sources[i].ofGravity.valueAt(step.to) * sources[i].down;
+		if (!(from.contraction * factor < 1))
+			throw std::invalid_argument(gimpm::sentence(
+			        "MpmBeam.contraction = ", from.contraction, " times the load factor ", factor,
+			        " is not below 1: nothing of the ring would be left."));
+		beam.shrinkage = std::sqrt((1 - from.contraction * factor) / (1 - from.contraction * sources[i].curve.valueAt(step.from)));
+		beam.weight    = from.weight * sources[i].ofGravity.valueAt(step.to) * sources[i].down;
 		for (size_t a = 0; a < from.anchors.size(); ++a)
 			loadBar<2>(structures[i].bars[a], *from.anchors[a], sources[i].ofAnchors[a], step);
 	}
+}
+
+// Halves of a point stay on its side of a beam that parts the soil.
+bool Beams::areBeside(const gimpm::Vec<2>& point, const gimpm::Vec<2>& half) const
+{
+	return std::none_of(structures.begin(), structures.end(), [&](const auto& structure) {
+		const Beam&       beam = *structure.beam;
+		gimpm::Surface<2> line;
+		line.vertices = beam.places;
+		for (int i = 0; i + 1 < int(beam.places.size()); ++i)
+			line.pieces.push_back({ i, i + 1 });
+		return beam.layer > 0 && line.isBetween(point, half);
+	});
 }
 
 Work Beams::work(const StepOutcome<2>&) const

@@ -14,6 +14,7 @@ public:
 	void join(gimpm::Model<2>&, const Surroundings<2>&) override;
 	void part(gimpm::PointCloud<2>&, gimpm::Model<2>&) override;
 	void advance(const StepTime&, gimpm::Model<2>&, gimpm::Load<2>&) override;
+	bool areBeside(const gimpm::Vec<2>& point, const gimpm::Vec<2>& half) const override;
 	Work work(const StepOutcome<2>&) const override;
 	void reach(const StepOutcome<2>&) override;
 
