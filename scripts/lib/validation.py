@@ -37,7 +37,7 @@ runs = {
         ],
         'grains_on_soil': ['grains_on_soil.py'],
         'mpm_vs_dem': ['mpm_vs_dem.py'],
-        'meeting': ['sheet_pile.py', 'dam.py'],
+        'meeting': ['propped_wall.py', 'slide.py'],
         'waves': ['waves.py --scene "bar block sphere"', 'explicit.py --scene bar'],
         'earthquake': ['earthquake.py'],
         'runout': ['runout.py'],
