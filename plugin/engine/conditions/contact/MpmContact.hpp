@@ -33,7 +33,7 @@ public:
 	YADE_API_NAME(MpmContact)
 	static const char* doc()
 	{
-		return "Contact with bodies of YADE, which soil cannot enter: Sphere, Box, Facet, Wall, clumps of them, and in 3D GridConnection, PFacet, ChainedCylinder. Without a NewtonIntegrator in "
+		return "Contact with bodies of YADE, which soil cannot enter: Sphere, Box, Facet, Wall, their clumps, in 3D GridConnection, PFacet, ChainedCylinder. Without a NewtonIntegrator in "
 		       "O.engines the MpmImplicitEngine moves the bodies by their velocities; with one YADE does, and bodies that are free to move get the forces "
 		       "of the soil: the engine then stands before the NewtonIntegrator.\n\n"
 		       "In plane strain a body acts by its section at z = 0, per metre, around an axis of symmetry by that revolved; with *implicit* it moves freely there, too.\n\n"
