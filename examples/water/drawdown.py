@@ -104,6 +104,6 @@ for (level, F), (_, _, ours, _) in zip(given, rows):
 axes[0].plot(given[:, 0] / H, given[:, 1], 'k--', label='pressure of the level')
 axes[0].set(xlabel='level over height of the bank', ylabel='factor of safety (dotted: with suction)')
 axes[0].invert_xaxis()
-axes[0].legend(loc=(.53, .33))
+axes[0].legend(loc='lower center', bbox_to_anchor=(.5, 1), ncol=2, fontsize='small')
 figure.savefig(os.path.join(options.out, 'drawdown.png'), dpi=110)
 print(f'{time.time() - begin:.0f} s')
