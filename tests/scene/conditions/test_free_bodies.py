@@ -192,3 +192,19 @@ def test_what_cannot_be_solved_is_refused_by_name(yade):
 	for statement, parts in refused.items():
 		for part in parts:
 			assert part in outcomes[statement][1], (statement, outcomes[statement])
+
+
+def test_pressure_does_not_turn_a_ball(yade):
+	"""A smooth one that slides keeps its spin, and a rough one gets one."""
+	smooth, rough = yade(scene + '''
+found = []
+for friction in 0, 0.3:
+	solver = soil(size=(2, 0.5), engine=MpmDynamicEngine, dt=5e-3, contacts=[MpmContact(friction=friction, mask=1, implicit=True)])
+	b = ball((0.8, 0.7, 0), 0.2)
+	b.state.vel = (1, 0, 0)
+	O.run(20, wait=True)
+	found.append([b.state.angVel[2], b.state.pos[0]])
+print(json.dumps(found))
+''').result
+	assert abs(smooth[0]) < 1e-10 and smooth[1] > 0.82
+	assert rough[0] < -0.1
