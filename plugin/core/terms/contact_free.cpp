@@ -168,8 +168,7 @@ private:
 		}
 		return false;
 	}
-	/// Where a place slips, friction as a spring that gives it by the slip there is: a body that has been moved
-	/// too far
+	/// Where a place slips, friction as a spring that gives it by the slip there is: a body that has been moved too far
 	/// along itself comes back.
 	static std::vector<PlaceOfFree<Dim>> withSecants(std::vector<PlaceOfFree<Dim>> places)
 	{

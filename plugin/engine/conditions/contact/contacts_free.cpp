@@ -40,10 +40,11 @@ template <int Dim> void Contacts<Dim>::advanceFree(const StepTime& step, bool is
 		auto&        rigid = system->bodies[i];
 		const Owner& owner = owners[rigid.owner];
 		if (owner.free < 0) continue;
-		const auto at = [&](const Se3r& pose) { return yade::poseOf<Dim>(*members[i].body, members[i].first, pose * members[i].own); };
-		rigid.begin   = at(owner.motion.at);
-		rigid.end     = at(owner.motion.ahead(step.to - step.from, weight));
-		rigid.turn    = owner.motion.at.orientation.angularDistance(owner.motion.ahead(step.to - step.from, weight).orientation);
+		const auto at    = [&](const Se3r& pose) { return yade::poseOf<Dim>(*members[i].body, members[i].first, pose * members[i].own); };
+		const Se3r ahead = owner.motion.ahead(step.to - step.from, weight);
+		rigid.begin      = at(owner.motion.at);
+		rigid.end        = at(ahead);
+		rigid.turn       = owner.motion.at.orientation.angularDistance(ahead.orientation);
 	}
 }
 
