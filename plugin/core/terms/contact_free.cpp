@@ -168,8 +168,8 @@ private:
 		}
 		return false;
 	}
-	/// Where a place slips, friction as a spring that gives it by the slip there is: a body that has been moved too far
-	/// along itself comes back.
+	/// Where a place slips, friction as a spring that gives it by the slip there is: a body that has been moved
+	/// too far along itself comes back.
 	static std::vector<PlaceOfFree<Dim>> withSecants(std::vector<PlaceOfFree<Dim>> places)
 	{
 		for (auto& place : places) {
