@@ -3,8 +3,8 @@
 // direction nu of the deviator, which flow leaves as it is, principal pressures are P + Q nu_i, and all surfaces are
 // curves in the plane of P and Q.
 #include "core/materials/hardening_soil.hpp"
+#include "core/base/small_matrices.hpp"
 #include "core/materials/isotropic_answer.hpp"
-#include <Eigen/LU>
 #include <unsupported/Eigen/AutoDiff>
 
 namespace gimpm {
@@ -302,7 +302,7 @@ bool HardeningSoil::polish(const Trial& trial, Flow& flow) const
 		Eigen::Matrix4d J;
 		for (int i = 0; i < 4; ++i)
 			value[i] = r[i].value(), J.row(i) = r[i].derivatives().head<4>();
-		const Eigen::Vector4d step = J.partialPivLu().solve(value);
+		const Eigen::Vector4d step = solutionOf(J, value);
 		if (!step.allFinite()) return false;
 		x -= step;
 		const double size = std::abs(trial.pressure(shift_)) + trial.difference() + shift_;
@@ -326,7 +326,7 @@ HardeningSoil::Slopes HardeningSoil::slopes(const Trial& trial, const Flow& flow
 	Eigen::Matrix<double, 4, 5> by;
 	for (int i = 0; i < 4; ++i)
 		J.row(i) = r[i].derivatives().head<4>(), by.row(i) = r[i].derivatives().tail<5>();
-	const Eigen::Matrix<double, 4, 5> d = -J.partialPivLu().solve(by);
+	const Eigen::Matrix<double, 4, 5> d = -solutionOf(J, by);
 	Slopes                            s;
 	for (int i = 0; i < 5; ++i)
 		s.pressure[i] = d(0, i), s.difference[i] = d(1, i);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Inside the law pressures are negative, as in the paper, so that p = -P and pi = -Pi.
 #include "core/materials/norsand.hpp"
+#include "core/base/small_matrices.hpp"
 #include "core/materials/isotropic_answer.hpp"
-#include <Eigen/LU>
 
 namespace gimpm {
 
@@ -89,7 +89,7 @@ bool NorSand::solve(const Trial& trial, Vec4& x) const
 	auto [r, J]       = residual(trial, x);
 	double size       = sizeOf(r);
 	for (int iteration = 0; iteration < 60 && std::isfinite(size); ++iteration) {
-		const Vec4 step = J.partialPivLu().solve(r);
+		const Vec4 step = solutionOf(J, r);
 		if (!step.allFinite()) return false;
 		double part = 1;
 		Vec4   next;
@@ -166,7 +166,7 @@ NorSand::Flow NorSand::returned(const Trial& trial) const
 	Eigen::Matrix<double, 4, 2> by    = Eigen::Matrix<double, 4, 2>::Zero();
 	by(0, 0) = by(1, 1) = 1;
 	by(3, 0)            = given_.hardening * x[2] * byPsi * trial.volume / given_.reference;
-	flow.slopes         = Eigen::Matrix<double, 4, 2>(J.partialPivLu().solve(by)).topRows<2>();
+	flow.slopes         = solutionOf(J, by).topRows<2>();
 	return flow;
 }
 

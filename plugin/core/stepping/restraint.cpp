@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "core/stepping/restraint.hpp"
-#include <Eigen/Eigenvalues>
+#include "core/base/small_matrices.hpp"
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <map>
@@ -169,10 +169,10 @@ template <int Dim> std::string placeOf(const Part<Dim>& part, const Grid<Dim>& g
 
 template <int Dim> std::string describe(const Part<Dim>& part, const Grid<Dim>& grid)
 {
-	const Eigen::SelfAdjointEigenSolver<typename Part<Dim>::Gram> eigen(part.gram);
-	if (eigen.eigenvalues()[0] > 1e-10) return "";
+	const SymmetricEigen eigen = symmetricEigen(part.gram);
+	if (eigen.values[0] > 1e-10) return "";
 	// Of the free motions (all modes with a zero eigenvalue), name a translation if there is one.
-	const auto         free = eigen.eigenvectors().leftCols((eigen.eigenvalues().array() <= 1e-10).count()).eval();
+	const auto         free = eigen.vectors.leftCols((eigen.values.array() <= 1e-10).count()).eval();
 	std::ostringstream text;
 	int                axis = -1;
 	for (int a = Dim - 1; a >= 0; --a)

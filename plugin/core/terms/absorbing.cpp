@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "core/terms/absorbing.hpp"
+#include "core/grid/surface.hpp"
 #include "core/terms/overlap.hpp"
 #include <algorithm>
 #include <cmath>

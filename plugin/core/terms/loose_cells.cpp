@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "core/terms/loose_cells.hpp"
-#include <Eigen/Cholesky>
+#include "core/base/small_matrices.hpp"
 #include <algorithm>
 
 namespace gimpm {
@@ -17,7 +17,7 @@ template <int Dim> struct Filling {
 	Moments        moments       = Moments::Zero();
 	LooseCell<Dim> cell;
 
-	bool determines() const { return cell.mass > 0 && (moments / cell.mass - leastMoment<Dim> * Moments::Identity()).llt().info() == Eigen::Success; }
+	bool determines() const { return cell.mass > 0 && isPositiveDefinite(moments / cell.mass - leastMoment<Dim> * Moments::Identity()); }
 };
 
 using CellPairs = std::vector<std::array<int, 2>>;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "engine/materials/laws.hpp"
 #include "core/materials/tensor_law.hpp"
+#include "core/solvers/least_squares.hpp"
 #include "engine/materials/law_of_class.hpp"
 #include "engine/materials/refusals.hpp"
-#include <Eigen/LU>
 #include <unordered_map>
 
 namespace yade {
@@ -152,7 +152,7 @@ namespace {
 			const Matrix3r difference = stress - answer.stress;
 			if (solves >= fewestSolves) respondInSpace(material, strain, internals); // which refuses what yields
 			if (solves >= fewestSolves && difference.norm() <= 1e-9 * stress.norm()) return strain;
-			strain += gimpm::fromMandel(answer.tangent.fullPivLu().solve(gimpm::toMandel(difference)));
+			strain += gimpm::fromMandel(gimpm::leastSquares(answer.tangent, gimpm::toMandel(difference)));
 			if (!strain.allFinite()) break;
 		}
 		std::ostringstream text;
@@ -170,7 +170,7 @@ Matrix3r elasticStrainOf(const gimpm::Material& material, const Matrix3r& kirchh
 		Vector3r strain = firstStrain(material.law, stress);
 		for (int solve = 0; solve < 2; ++solve) {
 			const auto response = respond(material, strain, internals);
-			strain += response.tangent.fullPivLu().solve(stress - response.stress);
+			strain += gimpm::leastSquares(response.tangent, stress - response.stress);
 		}
 		respond(material, strain, internals);
 		return strain;

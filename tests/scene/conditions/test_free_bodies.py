@@ -62,11 +62,12 @@ print(json.dumps(found))
 
 
 def test_momentum_is_kept_to_round_off(yade):
-	"""A ball meets soil that nothing holds, in the plane, around an axis and in space: what it loses the soil has got; and nothing is faster than the ball was. Around an axis soil drifts by itself, also where nothing touches it: there until it has spread, the first 20 steps, and less strictly after them."""
+	"""A ball meets soil that nothing holds, in the plane, around an axis and in space: what it loses the soil has got; and nothing is faster than the ball was. There are no walls, which hold what of a domain reaches behind them in all directions."""
 	results = yade(scene + '''
 found = []
 for dim, axis, scheme in (2, False, 'newmark'), (2, False, 'midpoint'), (2, True, 'newmark'), (3, False, 'newmark'):
 	solver = soil(dim, size=(1, 0.5) if dim == 2 else (1, 1, 0.5), axis=axis, g=0, held=False, engine=MpmDynamicEngine, scheme=scheme, dt=2e-3)
+	solver.boundaries = []
 	up, sideways = dim - 1, 0 if axis else 0.3
 	b = ball((0 if axis else 0.45, 0.72 if dim == 2 else 0.55, 0.72 if dim == 3 else 0), 0.2)
 	b.state.vel = [(sideways, -1, 0), (sideways, 0, -1)][dim - 2]
@@ -76,13 +77,12 @@ for dim, axis, scheme in (2, False, 'newmark'), (2, False, 'midpoint'), (2, True
 		O.run(2, wait=True)
 		now = (mass * np.array(b.state.vel) + momentum()) - before
 		off = max(off, np.abs(now if not axis else now[1]).max() / np.linalg.norm(before))
-		if step == 9: first = off
-	found.append([first if axis else off, off, b.state.vel[up], mass * b.state.vel.squaredNorm() / energy, b.state.angVel.norm()])
+	found.append([off, b.state.vel[up], mass * b.state.vel.squaredNorm() / energy, b.state.angVel.norm()])
 print(json.dumps(found))
 ''').result
-	for off, later, velocity, energy, spin in results:
-		assert off < 1e-9 and later < 2e-5 and -1 < velocity < 1 and energy < 1
-	assert results[0][4] > 0.1 and results[3][4] > 0.1 and results[2][4] == 0
+	for off, velocity, energy, spin in results:
+		assert off < 1e-9 and -1 < velocity < 1 and energy < 1
+	assert results[0][3] > 0.1 and results[3][3] > 0.1 and results[2][3] == 0
 
 
 def test_a_block_rests_with_steps_far_beyond_those_of_an_integrator(yade):

@@ -32,6 +32,18 @@ namespace {
 		return {};
 	}
 
+	// That by the least angle which takes one direction to another. Eigen's own has a singular value decomposition, which the
+	// compiler would spend seconds on.
+	Matrix3r leastTurn(const Vector3r& from, const Vector3r& to)
+	{
+		const Vector3r a = from.normalized(), b = to.normalized(), middle = a + b;
+		if (middle.norm() < 1e-12) { // back, about any axis across
+			const Vector3r across = a.unitOrthogonal();
+			return 2 * across * across.transpose() - Matrix3r::Identity();
+		}
+		return Matrix3r::Identity() + 2 * b * a.transpose() - 2 * middle * middle.transpose() / middle.squaredNorm();
+	}
+
 	// In axes of its own: of a capsule the first is along it, of a sheet the third is its normal.
 	Matrix3r axesOf(const vector<Vector3r>& at, const vector<NodePose>& nodes)
 	{
@@ -47,7 +59,7 @@ namespace {
 		was                   = was.norm() > 0 ? Vector3r(was.normalized()) : first;
 		const Vector3r across = was.unitOrthogonal();
 		axes << was, across, was.cross(across);
-		return Quaternionr::FromTwoVectors(was, first).toRotationMatrix() * axes;
+		return leastTurn(was, first) * axes;
 	}
 
 	Vector3r middleOf(const vector<Vector3r>& at)
@@ -177,8 +189,7 @@ template <> void deform(gimpm::RigidBody<3>& body, const vector<NodePose>& nodes
 	const Vector3r axis = (before[1] - before[0]).normalized();
 	body.begin          = { middleOf(before), axesOf(before, nodes) };
 	// Of a line without a turn about itself, which is that of its nodes.
-	const Matrix3r turn = nodes.size() == 3 ? Matrix3r(axesOf(after, nodes) * body.begin.rotation.transpose())
-	                                        : Quaternionr::FromTwoVectors(axis, after[1] - after[0]).toRotationMatrix();
+	const Matrix3r turn = nodes.size() == 3 ? Matrix3r(axesOf(after, nodes) * body.begin.rotation.transpose()) : leastTurn(axis, after[1] - after[0]);
 	body.end            = { middleOf(after), turn * body.begin.rotation };
 	Real twist          = 0;
 	for (size_t i = 0; i < nodes.size(); ++i) {

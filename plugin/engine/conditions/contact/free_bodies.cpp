@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "engine/conditions/contact/free_bodies.hpp"
 #include "core/base/sentence.hpp"
-#include <Eigen/Eigenvalues>
+#include "core/base/small_matrices.hpp"
 
 namespace yade {
 
@@ -27,13 +27,13 @@ Real frequency2(const State& state, const Stiffness& K)
 		if (isFree(3 + i)) moves(3 + i, 3 + i) = 1 / std::sqrt(state.inertia[i]);
 	}
 	if (spins) moves.bottomRightCorner<3, 3>() = (axes * moves.bottomRightCorner<3, 3>() * axes.transpose()).eval();
-	return Eigen::SelfAdjointEigenSolver<Stiffness>(moves * K * moves, Eigen::EigenvaluesOnly).eigenvalues()[5];
+	return gimpm::symmetricEigen(moves * K * moves).values[5];
 }
 
 void requirePeriod(const Body& body, const gimpm::ContactLoad& load, const SoilAtBody& soil, Real dt, Real period)
 {
 	if (load.area == 0) return;
-	const Real penalty    = Eigen::SelfAdjointEigenSolver<Matrix3r>(load.stiffness.topLeftCorner<3, 3>(), Eigen::EigenvaluesOnly).eigenvalues()[2];
+	const Real penalty    = gimpm::symmetricEigen(load.stiffness.topLeftCorner<3, 3>()).values[2];
 	const Real fastest    = frequency2(*body.state, load.stiffness);
 	const auto isAdmitted = [&](Real time) {
 		const Real yields = soil.answers ? 1 + penalty / stiffnessOf(soil, load, time) : 1;
