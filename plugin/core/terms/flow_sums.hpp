@@ -121,7 +121,7 @@ public:
 	}
 
 private:
-	static constexpr int               field = 1; // of the pressure
+	static constexpr int field = 1; // of the pressure
 	template <class Array> static void clear(Array& array) { std::memset(array, 0, sizeof array); }
 
 	/// The functions of a point, zero at nodes that it does not have.
@@ -241,7 +241,7 @@ private:
 			K.addRow({ 0, node_[m] }, field, node_.data(), N, [&](int n) { return column(up_, m, n); });
 			K.addRow({ field, node_[m] }, field, node_.data(), N, [&](int n) { return Number(pp_[m][n]); });
 			if (isSymmetric_) continue;
-			K.addRow({ field, node_[m] }, 0, node_.data(), N, [&](int n) { return column(pu_, m, n).transpose(); });
+			K.addRow({ field, node_[m] }, 0, node_.data(), N, [&](int n) { return Eigen::Matrix<double, 1, Dim>(column(pu_, m, n).transpose()); });
 			K.addRow({ field, node_[m] }, field, node_.data(), N, [&](int n) { return Number(rest_[m][n]); });
 		}
 	}
