@@ -28,8 +28,8 @@ constexpr double safetyFactor = 2;
 bool isTooLarge(const LinearProblem& K) { return K.ofAllFields() && K.ofAllFields()->needsMoreFlopsPerEntry(safetyFactor * worthwhileFlops); }
 
 /// Unknowns from which their order is sought by dissection of the grid: there CHOLMOD's own order takes longer to find,
-/// and is no better. Without pivoting a pressure shall come after the displacements of its node, to which no other order
-/// sees.
+/// and is no better. Without pivoting a pressure shall come after the displacements of its node: no other order sees
+/// to that.
 constexpr int worthDissecting = 4000;
 
 Order ordering(const LinearProblem& K)

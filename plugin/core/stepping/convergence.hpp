@@ -37,8 +37,8 @@ public:
 	/// solve is expected to be the last one.
 	double forcing() const;
 
-	/// Whether small derivatives which are left out may be the cause that the last iteration has gained so little, or
-	/// hardly more than the one before while many would have to follow.
+	/// Whether small derivatives which are left out may be the cause that the last iteration has gained so little,
+	/// or hardly more than the one before while many would have to follow.
 	bool isSlow() const;
 
 	/// Whether several iterations have not halved what was left.

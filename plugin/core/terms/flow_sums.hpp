@@ -121,7 +121,7 @@ public:
 	}
 
 private:
-	static constexpr int field = 1; // of the pressure
+	static constexpr int               field = 1; // of the pressure
 	template <class Array> static void clear(Array& array) { std::memset(array, 0, sizeof array); }
 
 	/// The functions of a point, zero at nodes that it does not have.
