@@ -10,8 +10,8 @@ namespace gimpm {
 class DistributedSolver;
 class NodeSolver;
 
-/// Direct solver: supernodal Cholesky (CHOLMOD), L S L^T with signs S for a symmetric matrix of several fields, which is
-/// not positive definite (with pivoting by MUMPS, if it has to be), and LU for a matrix that is not symmetric (MUMPS;
+/// Direct solver: supernodal Cholesky (CHOLMOD), L S L^T with signs S for a symmetric matrix of several fields, which
+/// is not positive definite (with pivoting by MUMPS, if need be), and LU for a matrix that is not symmetric (MUMPS;
 /// UMFPACK judges what it refuses) or not positive definite (UMFPACK). The symbolic analysis is repeated only when
 /// the pattern changes. On demand conjugate gradients (alone or with multigrid) or, for a matrix that is not symmetric,
 /// GMRES. Of several fields GMRES where conjugate gradients are not for it, and with multigrid GMRES. One object serves
