@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "core/terms/flow.hpp"
 #include "core/terms/flow_sums.hpp"
-#include "core/terms/internal_force.hpp"
 #include "core/terms/overlap.hpp"
 #include <atomic>
 
