@@ -38,7 +38,7 @@ template <int Dim> Middles divideSides(Surface<Dim>& surface, double limit)
 	return middles;
 }
 
-void divide(const Surface<2>::Piece& piece, const Middles& middles, std::vector<Surface<2>::Piece>& parts)
+void divide(const Surface<2>&, const Surface<2>::Piece& piece, const Middles& middles, std::vector<Surface<2>::Piece>& parts)
 {
 	const auto middle = middles.find(side<2>(piece, 0));
 	if (middle == middles.end()) return parts.push_back(piece);
@@ -46,18 +46,22 @@ void divide(const Surface<2>::Piece& piece, const Middles& middles, std::vector<
 	parts.push_back({ middle->second, piece[1] });
 }
 
-/// In two at one side, whose ends each keep a part; the parts are divided in turn.
-void divide(const Surface<3>::Piece& piece, const Middles& middles, std::vector<Surface<3>::Piece>& parts)
+/// In two at one side, whose ends each keep a part; the parts are divided in turn. At the longest one: parts of others
+/// get ever more slender, and ever more of them.
+void divide(const Surface<3>& surface, const Surface<3>::Piece& piece, const Middles& middles, std::vector<Surface<3>::Piece>& parts)
 {
+	int    longest = -1, m = -1;
+	double length = 0;
 	for (int i = 0; i < 3; ++i) {
 		const auto middle = middles.find(side<3>(piece, i));
 		if (middle == middles.end()) continue;
-		const int a = piece[i], b = piece[(i + 1) % 3], c = piece[(i + 2) % 3], m = middle->second;
-		divide(Surface<3>::Piece { a, m, c }, middles, parts);
-		divide(Surface<3>::Piece { m, b, c }, middles, parts);
-		return;
+		const double squared = (surface.vertices[piece[i]] - surface.vertices[piece[(i + 1) % 3]]).squaredNorm();
+		if (squared > length) longest = i, m = middle->second, length = squared;
 	}
-	parts.push_back(piece);
+	if (longest < 0) return parts.push_back(piece);
+	const int a = piece[longest], b = piece[(longest + 1) % 3], c = piece[(longest + 2) % 3];
+	divide(surface, Surface<3>::Piece { a, m, c }, middles, parts);
+	divide(surface, Surface<3>::Piece { m, b, c }, middles, parts);
 }
 
 } // namespace
@@ -125,7 +129,7 @@ template <int Dim> std::vector<int> Surface<Dim>::refine(double limit)
 		std::vector<Piece> parts;
 		std::vector<int>   wholes;
 		for (std::size_t i = 0; i < pieces.size(); ++i) {
-			divide(pieces[i], middles, parts);
+			divide(*this, pieces[i], middles, parts);
 			wholes.resize(parts.size(), partOf[i]);
 		}
 		pieces = std::move(parts);

@@ -40,14 +40,14 @@ template <class F> bool Cholesky::forHalves(F&& f)
 	return halves_[0].hasDone && halves_[1].hasDone;
 }
 
-void Cholesky::analyse(const Csc& K, Order order)
+void Cholesky::analyse(const Csc& K, Order order, bool isDefinite)
 {
-	if (!isWorthHalving(order)) order.first = order.second = 0;
+	if (!isDefinite || !isWorthHalving(order)) order.first = order.second = 0;
 	order_ = std::move(order);
 	whole_.forget();
 	for (Half& half : halves_)
 		half.factor.forget();
-	if (!isHalved()) return whole_.analyse(K, order_.numbers);
+	if (!isHalved()) return whole_.analyse(K, order_.numbers, 0, isDefinite);
 	forHalves([&](Half& half, int h) {
 		analyseHalf(half, K, h == 0 ? 0 : order_.first, h == 0 ? order_.first : order_.second);
 		return true;

@@ -15,8 +15,9 @@ namespace gimpm {
 /// threads.
 class Cholesky {
 public:
-	/// Finds the pattern of the factor, in this order; of an empty one, in an order that CHOLMOD looks for.
-	void   analyse(const Csc& K, Order);
+	/// Finds the pattern of the factor, in this order; of an empty one, in an order that CHOLMOD looks for. If K is
+	/// not definite, for factoriseSigned().
+	void   analyse(const Csc& K, Order, bool isDefinite = true);
 	bool   isAnalysed() const; ///< not before analyse(), nor if the factor would be too large for CHOLMOD
 	double entries() const { return sum(&SupernodalFactor::entries); }
 	double flops() const { return sum(&SupernodalFactor::flops); }
@@ -29,6 +30,10 @@ public:
 	/// entry.
 	double rcond();
 	bool   solve(const Eigen::VectorXd& b, Eigen::VectorXd& x);
+
+	/// As of SupernodalFactor, in one part.
+	bool factoriseSigned(const Csc& K, double smallest) { return !isHalved() && whole_.factoriseSigned(K, smallest); }
+	bool solveSigned(const Eigen::VectorXd& b, Eigen::VectorXd& x) { return whole_.solveSigned(b, x); }
 
 private:
 	struct Half {

@@ -18,6 +18,8 @@ Eigen::VectorXd GeneralCsc::operator*(const Eigen::VectorXd& x) const { return a
 
 Eigen::VectorXd GeneralCsc::transposedTimes(const Eigen::VectorXd& x) const { return asEigen(*this).transpose() * x; }
 
+Eigen::VectorXd timesSymmetric(const Csc& upper, const Eigen::VectorXd& x) { return asEigen(upper).selfadjointView<Eigen::Upper>() * x; }
+
 GeneralCsc bothTriangles(const Csc& K)
 {
 	const int n = K.size();

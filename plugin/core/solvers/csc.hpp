@@ -25,6 +25,9 @@ struct GeneralCsc : Csc {
 	Eigen::VectorXd transposedTimes(const Eigen::VectorXd&) const;
 };
 
+/// K x of a symmetric matrix given by its upper triangle.
+Eigen::VectorXd timesSymmetric(const Csc& upper, const Eigen::VectorXd& x);
+
 /// Of a symmetric matrix given by one of its triangles.
 GeneralCsc bothTriangles(const Csc&);
 

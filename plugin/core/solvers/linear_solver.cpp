@@ -28,12 +28,13 @@ constexpr double safetyFactor = 2;
 bool isTooLarge(const LinearProblem& K) { return K.ofAllFields() && K.ofAllFields()->needsMoreFlopsPerEntry(safetyFactor * worthwhileFlops); }
 
 /// Unknowns from which their order is sought by dissection of the grid: there CHOLMOD's own order takes longer to find,
-/// and is no better.
+/// and is no better. Without pivoting a pressure shall come after the displacements of its node: no other order sees
+/// to that.
 constexpr int worthDissecting = 4000;
 
 Order ordering(const LinearProblem& K)
 {
-	if (K.size() < worthDissecting) return {};
+	if (K.size() < worthDissecting && !(K.isSymmetric() && K.hasSigns())) return {};
 	Order order = K.ordering();
 	for (int& number : order.numbers)
 		number = K.size() - 1 - number; // of the matrix in reverse
@@ -81,21 +82,47 @@ struct LinearSolver::Direct {
 	GeneralCsc      full;           // of a symmetric matrix that Cholesky refused, for LU
 	const Csc*      ofLu = nullptr; // scaled or full; null: the factor is another one
 
-	std::unique_ptr<Multifrontal> indefinite; // of a matrix that is symmetric by signs of its rows; null: Cholesky's factor
+	// Of a matrix that is symmetric by signs of its rows; null: it needs no pivoting, or Cholesky's factor.
+	std::unique_ptr<Multifrontal> indefinite;
+	bool                          hasSigns      = false; // the factor is L S L^T of such a matrix
+	bool                          isForDefinite = true;  // the symbolic analysis
 
 	bool solve(const Eigen::VectorXd& b, Eigen::VectorXd& x, bool transposed)
 	{
 		const Eigen::VectorXd right    = reversed(scale.cwiseProduct(b));
 		const bool            isSolved = ofLu ? lu.solve(*ofLu, right, x, transposed)
 		                   : indefinite       ? indefinite->solve(scaled, right, x, false)
+		                   : hasSigns         ? solveSigned(right, x)
 		                                      : cholesky.solve(right, x);
 		if (!isSolved) return false;
 		x = reversed(x).cwiseProduct(scale);
 		return true;
 	}
+	/// The residual tells whether pivots should have been looked for; they are if it stays large.
+	bool solveSigned(const Eigen::VectorXd& b, Eigen::VectorXd& x)
+	{
+		constexpr double enough = 1e-12; // on the diagonal of the matrix there is about one
+		constexpr int    most   = 2;
+		Eigen::VectorXd  more;
+		bool             isSolved = cholesky.solveSigned(b, x);
+		for (int refined = 0; isSolved; ++refined) {
+			const Eigen::VectorXd residual = b - timesSymmetric(scaled, x);
+			if (residual.norm() <= enough * (b.norm() + x.norm())) return true;
+			isSolved = refined < most && cholesky.solveSigned(residual, more);
+			x += more;
+		}
+		return factorisePivoting() && indefinite->solve(scaled, b, x, false);
+	}
 	/// Symmetric and scaled; in the order that is good for Cholesky.
 	bool factoriseIndefinite()
 	{
+		indefinite.reset();
+		hasSigns = cholesky.isAnalysed() && cholesky.factoriseSigned(scaled, smallestPivot);
+		return hasSigns || factorisePivoting();
+	}
+	bool factorisePivoting()
+	{
+		hasSigns = false;
 		if (!cholesky.isAnalysed()) return false;
 		if (!indefinite) indefinite = std::make_unique<Multifrontal>(scaled, Multifrontal::Form::triangle, cholesky.ordering());
 		if (indefinite->factorise(scaled, smallestPivot / Lu::pivotOfRow)) return true;
@@ -112,15 +139,17 @@ LinearSolver& LinearSolver::operator=(LinearSolver&&) noexcept = default;
 LinearSolver::FactorSize LinearSolver::analyse(const LinearProblem& problem)
 {
 	const FewerThreads guard(0);
-	const Csc&         K                                        = problem.stored();
-	auto& [scaled, scale, cholesky, lu, full, ofLu, indefinite] = *direct_;
-	if (!cholesky.isAnalysed() || !isReverse(K, scaled)) {
+	const Csc&         K                                                                 = problem.stored();
+	auto& [scaled, scale, cholesky, lu, full, ofLu, indefinite, hasSigns, isForDefinite] = *direct_;
+	const bool isDefinite                                                                = !problem.isSymmetric() || !problem.hasSigns();
+	if (!cholesky.isAnalysed() || isDefinite != isForDefinite || !isReverse(K, scaled)) {
 		const Stopwatch watch(times_.analyse);
 		reverse(K, scaled);
 		scaled.value.resize(K.value.size());
 		lu.forget();
 		indefinite.reset();
-		cholesky.analyse(scaled, ordering(problem));
+		isForDefinite = isDefinite;
+		cholesky.analyse(scaled, ordering(problem), isDefinite);
 	}
 	const double factors = problem.isSymmetric() ? 1 : 2;
 	return { factors * cholesky.entries(), factors * cholesky.flops() };
@@ -129,7 +158,7 @@ LinearSolver::FactorSize LinearSolver::analyse(const LinearProblem& problem)
 LinearSolver::Status LinearSolver::factorise(const LinearProblem& problem)
 {
 	const Stopwatch watch(times_.factorise);
-	auto& [scaled, values, cholesky, lu, full, ofLu, indefinite] = *direct_;
+	auto& [scaled, values, cholesky, lu, full, ofLu, indefinite, hasSigns, isForDefinite] = *direct_;
 	lu.forgetFactor();
 	full   = {};
 	ofLu   = nullptr;
@@ -137,7 +166,7 @@ LinearSolver::Status LinearSolver::factorise(const LinearProblem& problem)
 	if (problem.isSymmetric()) {
 		if (problem.hasSigns()) {
 			if (direct_->factoriseIndefinite()) return Status::lu;
-		} else if (indefinite.reset(); cholesky.factorise(scaled))
+		} else if (indefinite.reset(), hasSigns = false; cholesky.factorise(scaled))
 			return cholesky.rcond() < smallestPivot ? Status::singular : Status::cholesky;
 		full = bothTriangles(scaled);
 		ofLu = &full;

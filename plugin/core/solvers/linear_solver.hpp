@@ -10,9 +10,9 @@ namespace gimpm {
 class DistributedSolver;
 class NodeSolver;
 
-/// Direct solver: supernodal Cholesky (CHOLMOD), L D L^T with pivoting for a symmetric matrix of several fields, which
-/// is not positive definite (MUMPS), and LU with pivoting for a matrix that is not symmetric (MUMPS; UMFPACK judges
-/// what MUMPS refuses) or not positive definite (UMFPACK). The symbolic analysis is repeated only when
+/// Direct solver: supernodal Cholesky (CHOLMOD), L S L^T with signs S for a symmetric matrix of several fields, which
+/// is not positive definite (with pivoting by MUMPS, if need be), and LU for a matrix that is not symmetric (MUMPS;
+/// UMFPACK judges what it refuses) or not positive definite (UMFPACK). The symbolic analysis is repeated only when
 /// the pattern changes. On demand conjugate gradients (alone or with multigrid) or, for a matrix that is not symmetric,
 /// GMRES. Of several fields GMRES where conjugate gradients are not for it, and with multigrid GMRES. One object serves
 /// one thread.

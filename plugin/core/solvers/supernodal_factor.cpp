@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "core/solvers/supernodal_factor.hpp"
+#include "core/solvers/signed_factor.hpp"
 #include <algorithm>
 
 namespace gimpm {
@@ -37,13 +38,13 @@ SupernodalFactor::~SupernodalFactor()
 	cholmod_finish(&common_);
 }
 
-void SupernodalFactor::analyse(const Csc& K, std::vector<int> order, int last)
+void SupernodalFactor::analyse(const Csc& K, std::vector<int> order, int last, bool isDefinite)
 {
 	cholmod_sparse A = upper(K);
 	forget();
 	// Its default is AMD, and METIS if that is not good; its first method is the given order.
 	common_.nmethods   = order.empty() ? 0 : 1;
-	common_.supernodal = last == 0 ? CHOLMOD_AUTO : CHOLMOD_SUPERNODAL;
+	common_.supernodal = last == 0 && isDefinite ? CHOLMOD_AUTO : CHOLMOD_SUPERNODAL;
 	for (const bool postorder : { true, false }) { // which the last ones survive if all before them are connected
 		common_.postorder = postorder;
 		factor_           = cholmod_analyze_p(&A, order.empty() ? nullptr : order.data(), nullptr, 0, &common_);
@@ -56,6 +57,23 @@ bool SupernodalFactor::factorise(const Csc& K)
 {
 	cholmod_sparse A = upper(K);
 	return factor_ && cholmod_factorize(&A, factor_, &common_) && common_.status == CHOLMOD_OK;
+}
+
+bool SupernodalFactor::factoriseSigned(const Csc& K, double smallest)
+{
+	if (!factor_ || !factor_->is_super) return false;
+	if (places_.empty()) {
+		if (!cholmod_change_factor(CHOLMOD_REAL, 1, 1, 1, 1, factor_, &common_)) return false;
+		places_ = placesIn(*factor_, K);
+	}
+	return gimpm::factoriseSigned(*factor_, places_, K.value, smallest, signs_);
+}
+
+bool SupernodalFactor::solveSigned(const Eigen::VectorXd& b, Eigen::VectorXd& x)
+{
+	Eigen::VectorXd y;
+	if (!solve(CHOLMOD_P, b, x) || !solve(CHOLMOD_L, x, y)) return false;
+	return solve(CHOLMOD_Lt, y.cwiseProduct(signs_), x) && solve(CHOLMOD_Pt, Eigen::VectorXd(x), x);
 }
 
 bool SupernodalFactor::solve(int system, const Eigen::VectorXd& b, Eigen::VectorXd& x)

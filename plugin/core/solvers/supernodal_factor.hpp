@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Supernodal Cholesky factorisation (CHOLMOD).
+// Supernodal factorisation: Cholesky's (CHOLMOD), and in its pattern that of a matrix which is not definite.
 #pragma once
 #include "core/solvers/csc.hpp"
 #include <cholmod.h>
+#include <cstddef>
 
 namespace gimpm {
 
@@ -15,9 +16,10 @@ public:
 	SupernodalFactor& operator=(const SupernodalFactor&) = delete;
 
 	/// Finds the pattern of the factor, with rows and columns in the given order; of none, in one that CHOLMOD
-	/// looks for. The last ones, so many as lastBlock() will be asked for, stay where they are.
-	void analyse(const Csc& K, std::vector<int> order = {}, int last = 0);
-	void forget() { cholmod_free_factor(&factor_, &common_); }
+	/// looks for. The last ones, so many as lastBlock() will be asked for, stay where they are. `isDefinite`: for
+	/// factorise(), else for factoriseSigned().
+	void analyse(const Csc& K, std::vector<int> order = {}, int last = 0, bool isDefinite = true);
+	void forget() { cholmod_free_factor(&factor_, &common_), places_.clear(); }
 	/// Not before analyse(), nor if the factor would be too large for CHOLMOD.
 	bool   isAnalysed() const { return factor_; }
 	double entries() const { return common_.lnz; }
@@ -27,10 +29,15 @@ public:
 
 	/// Of a matrix with the pattern that was analysed; false if it is not positive definite.
 	bool factorise(const Csc& K);
+	/// L S L^T with a sign for each row; false if a pivot is smaller than a part `smallest` of the largest one.
+	bool factoriseSigned(const Csc& K, double smallest);
 	/// A rough inverse of the factor's condition number: the square of its smallest over its largest diagonal
 	/// entry.
 	double rcond() { return cholmod_rcond(factor_, &common_); }
 	bool   solve(const Eigen::VectorXd& b, Eigen::VectorXd& x) { return solve(CHOLMOD_A, b, x); }
+
+	/// With the factor of factoriseSigned().
+	bool solveSigned(const Eigen::VectorXd& b, Eigen::VectorXd& x);
 
 	/// L x = b and L^T x = b, in the order of the factor.
 	bool solveLower(const Eigen::VectorXd& b, Eigen::VectorXd& x) { return solve(CHOLMOD_L, b, x); }
@@ -42,8 +49,10 @@ public:
 private:
 	bool solve(int system, const Eigen::VectorXd& b, Eigen::VectorXd& x);
 
-	cholmod_common  common_;
-	cholmod_factor* factor_ = nullptr;
+	cholmod_common              common_;
+	cholmod_factor*             factor_ = nullptr;
+	std::vector<std::ptrdiff_t> places_; ///< of the entries of K among the values of a factor with signs
+	Eigen::VectorXd             signs_;  ///< in the order of the factor
 };
 
 } // namespace gimpm

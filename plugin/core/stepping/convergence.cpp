@@ -25,6 +25,15 @@ double Convergence::forcing() const
 	return std::max(attainable, std::min(first, wanted));
 }
 
+bool Convergence::isSlow() const
+{
+	constexpr double slow = 0.1, alike = 0.3, many = 3; // by which it goes on: those of Newton's method are few
+	const auto&      r = residuals_;
+	if (r.size() < 3) return false;
+	const double before = r[r.size() - 2] / r[r.size() - 3];
+	return reduction() > slow || (reduction() > alike * before && std::log(excess()) > -many * std::log(reduction()));
+}
+
 bool Convergence::hasStopped() const
 {
 	constexpr int several = 4;

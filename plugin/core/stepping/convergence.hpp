@@ -37,8 +37,9 @@ public:
 	/// solve is expected to be the last one.
 	double forcing() const;
 
-	/// Whether the last iteration has gained so little that small derivatives which are left out may be the cause.
-	bool isSlow() const { return residuals_.size() > 2 && reduction() > slow; }
+	/// Whether small derivatives which are left out may be the cause that the last iteration has gained so little,
+	/// or hardly more than the one before while many would have to follow.
+	bool isSlow() const;
 
 	/// Whether several iterations have not halved what was left.
 	bool hasStopped() const;
@@ -47,8 +48,6 @@ public:
 	double attained() const;
 
 private:
-	static constexpr double slow = 0.1;
-
 	double reduction() const;
 	double expected() const;
 	bool   suffices(double excess, double reduction) const { return reuseFactor_ && excess * reduction <= 1; }

@@ -26,11 +26,7 @@ bool LinearStep<Dim>::solve(const NodeMatrix<Dim>& K, const Couplings& beside, E
 	const Couplings* couplings = system_.isCoupled() ? &beside : nullptr;
 	step                       = Eigen::VectorXd::Zero(system_.map.size());
 	if (prescribes()) {
-		Eigen::VectorXd held = step;
-		K.multiplyAdd(prescribed_, held);
-		if (couplings) couplings->multiplyAdd(prescribed_, held);
-		system_.constraints.template fold<Dim>(system_.map, held);
-		system_.completeForces(held);
+		const Eigen::VectorXd held = forcesOf(prescribed_, K, beside);
 		forFree([&](int i, int number, double scale) { residual[number] -= scale * held[i]; });
 		step = prescribed_;
 		if (!system_.map.isAlone()) caused_ = held;
@@ -56,6 +52,16 @@ bool LinearStep<Dim>::solve(const NodeMatrix<Dim>& K, const Couplings& beside, E
 	report_.luSolves += status == Status::lu;
 	addTo(step, correction);
 	return true;
+}
+
+template <int Dim> Eigen::VectorXd LinearStep<Dim>::forcesOf(const Eigen::VectorXd& growth, const NodeMatrix<Dim>& K, const Couplings& beside) const
+{
+	Eigen::VectorXd forces = Eigen::VectorXd::Zero(growth.size());
+	K.multiplyAdd(growth, forces);
+	if (system_.isCoupled()) beside.multiplyAdd(growth, forces);
+	system_.constraints.template fold<Dim>(system_.map, forces);
+	system_.completeForces(forces);
+	return forces;
 }
 
 template <int Dim> bool LinearStep<Dim>::solveAgain(const Eigen::VectorXd& residual, Eigen::VectorXd& step)

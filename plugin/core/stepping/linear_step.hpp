@@ -16,6 +16,10 @@ public:
 
 	/// Forces on the free nodes if nothing but what is prescribed grew; of several fields only.
 	const Eigen::VectorXd& causedByPrescribed() const { return caused_; }
+	Eigen::VectorXd        causedBy(const Eigen::VectorXd& prescribed, const NodeMatrix<Dim>& K, const Couplings& beside) const
+	{
+		return system_.map.isAlone() ? Eigen::VectorXd() : forcesOf(prescribed, K, beside);
+	}
 
 	/// step = K^-1 (residual - K_fc prescribed), with the prescribed displacements themselves; an iterative solver
 	/// may leave the part `forcing` of the right side. False where K is singular.
@@ -34,6 +38,7 @@ public:
 private:
 	template <class F> void forFree(F&& f) const; // f(unknown, number, scale)
 
+	Eigen::VectorXd forcesOf(const Eigen::VectorXd& growth, const NodeMatrix<Dim>& K, const Couplings& beside) const;
 	Eigen::VectorXd withSigns(Eigen::VectorXd residual) const;
 
 	void addTo(Eigen::VectorXd& step, const Eigen::VectorXd& correction) const;

@@ -47,9 +47,20 @@ template <int Dim> void explain(const StepSystem<Dim>& system, const Eigen::Vect
 		fail(report, Failure::slides, "only contact, which slips or comes off there, would hold the " + held.freeMotion + " (" + report.cause + ")");
 }
 
+/// Of several fields by their rates: what flows goes on where no load grows.
+template <int Dim> Eigen::VectorXd expectedOfFields(const StepSystem<Dim>& system)
+{
+	const auto expected = system.expected();
+	if (!expected) return {};
+	auto d = system.map.zeros();
+	for (int f = 0; f < system.map.fields(); ++f)
+		d[f] = continued(expected->nodes, expected->values[f], 1, system.map[f].width, system.basis.nodes, system.model.grid);
+	return system.map.joined(d);
+}
+
 template <int Dim> Eigen::VectorXd predictionFor(const StepSystem<Dim>& system, const LastIncrement<Dim>& last, double growth)
 {
-	Eigen::VectorXd d = predict(last, system.basis.nodes, growth, system.model.grid);
+	Eigen::VectorXd d = system.map.isAlone() ? predict(last, system.basis.nodes, growth, system.model.grid) : expectedOfFields(system);
 	if (d.size() > 0) system.constraints.template spread<Dim>(system.map, d);
 	return d;
 }
@@ -102,13 +113,13 @@ template <int Dim> StepReport loadStep(PointCloud<Dim>& cloud, const Model<Dim>&
 	StepSystem<Dim> system(cloud, model, load, report);
 	if (!isHeld(system, cloud, load, report)) return report;
 	// 2. to 4. points to nodes, assembly and Newton's method on the nodes
-	const bool            predicts   = last && !system.hasInertia() && system.map.isAlone();
+	const bool            predicts   = last && !system.hasInertia();
 	const Eigen::VectorXd prediction = predicts ? predictionFor(system, *last, load.growth()) : Eigen::VectorXd();
-	if (model.ghost.memory > 0) system.ghostFrom = model.ghost.memory * prediction;
+	if (model.ghost.memory > 0 && prediction.size() > 0) system.ghostFrom = model.ghost.memory * system.map.displacements(prediction);
 	const Eigen::VectorXd growth = relieved(system, solver, report, equilibrium(system, solver, report, prediction));
 	const Eigen::VectorXd d      = system.map.displacements(growth);
 	if (!model.terms.empty() || system.hasInertia() || system.isCoupled()) explain(system, d, report);
-	if (report.converged() && prediction.size() > 0 && std::isfinite(model.newton.stepTolerance)) {
+	if (report.converged() && prediction.size() > 0 && system.map.isAlone() && std::isfinite(model.newton.stepTolerance)) {
 		const Stopwatch watch(report.times.update);
 		judge(rateChange(system, *last, load.growth(), prediction, d), report);
 	}

@@ -13,9 +13,14 @@ template <int Dim> struct LastIncrement {
 	double           load = 0;     ///< growth of the load factor in that step
 };
 
+/// Nodal values of `width` components times a factor, at other nodes. A node at which none are known takes the mean of
+/// its neighbours that have some, layer by layer.
+template <int Dim>
+Eigen::VectorXd continued(
+        const std::vector<Key>& nodesBefore, const Eigen::VectorXd& before, double times, int width, const std::vector<Key>& nodes, const Grid<Dim>&);
+
 /// Start for a step in which the load factor grows by `load`; empty where the last step says nothing of it: there was
-/// none, or its load did not grow in the same direction. A node that was not active takes the mean of its neighbours
-/// that were, layer by layer.
+/// none, or its load did not grow in the same direction. As continued().
 template <int Dim> Eigen::VectorXd predict(const LastIncrement<Dim>&, const std::vector<Key>& nodes, double load, const Grid<Dim>& = {});
 
 } // namespace gimpm

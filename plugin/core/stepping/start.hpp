@@ -55,7 +55,7 @@ private:
 			return false;
 		}
 		d = std::move(prediction);
-		if (linear_.prescribes()) iterate_.enter({});
+		if (linear_.prescribes()) iterate_.enter(linear_.causedBy(held, iterate_.K, iterate_.beside));
 		linear_.hasPrescribed();
 		return true;
 	}

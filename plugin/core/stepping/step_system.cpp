@@ -284,6 +284,13 @@ template <int Dim> bool StepSystem<Dim>::makeExact() const
 	return hasChanged;
 }
 
+template <int Dim> std::optional<FieldGrowth> StepSystem<Dim>::expected() const
+{
+	for (const auto* term : coupled_)
+		if (auto growth = term->expected()) return growth;
+	return std::nullopt;
+}
+
 template <int Dim> double StepSystem<Dim>::fromOutside(const Eigen::VectorXd& d) const
 {
 	double squares = 0;

@@ -47,6 +47,9 @@ template <int Dim> struct StepSystem {
 	/// CoupledTerm::makeExact() of all terms, whether one has changed; the matrix is to be prepared anew.
 	bool makeExact() const;
 
+	/// CoupledTerm::expected() of the first term that knows.
+	std::optional<FieldGrowth> expected() const;
+
 	/// Rows of the nodes that this process assembles.
 	const NodeShare& share() const { return share_->nodes(); }
 

@@ -5,6 +5,7 @@
 #include "core/solvers/couplings.hpp"
 #include "core/terms/term.hpp"
 #include <map>
+#include <optional>
 #include <vector>
 
 namespace gimpm {
@@ -17,6 +18,13 @@ template <int Dim> struct FieldSum {
 	/// Derivative of the first block by displacements of neighbours, when it is asked for; reset and marked.
 	NodeMatrix<Dim>* K         = nullptr;
 	Couplings*       couplings = nullptr; ///< all other derivatives; with K
+};
+
+/// How much all fields grow in a step if their rates stay those of the last one, at the nodes that there were then: one
+/// block a field.
+struct FieldGrowth {
+	std::vector<Key>             nodes; ///< sorted
+	std::vector<Eigen::VectorXd> values;
 };
 
 /// A term of Term's kind in all else: what it tells of displacements alone counts as what other terms tell of them.
@@ -38,6 +46,9 @@ public:
 	/// From now on all derivatives are those of the forces. False if they are so already: small ones may be left
 	/// out, where that makes the matrix symmetric.
 	virtual bool makeExact() { return false; }
+
+	/// Where Newton's method may start; none if it knows nothing of a last step.
+	virtual std::optional<FieldGrowth> expected() const { return std::nullopt; }
 
 	/// What the length of the step has left out, where it is asked for (NewtonSettings::stepTolerance).
 	virtual std::vector<LocalError> fieldErrors(const State&) const { return {}; }

@@ -1,118 +1,21 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "core/terms/flow.hpp"
-#include "core/terms/flow_point.hpp"
-#include "core/terms/internal_force.hpp"
+#include "core/terms/flow_sums.hpp"
 #include "core/terms/overlap.hpp"
 #include <atomic>
 
 namespace gimpm {
 namespace {
 
-/// Calls f(patch) for all patches from several threads, so that no two work on the same node at a time.
-template <int Dim, class F> void forPatches(const CloudBasis<Dim>& basis, F&& f)
+/// Calls f(first, last) for ranges of patches from several threads, so that no two work on the same node at a time.
+template <int Dim, class F> void forRanges(const CloudBasis<Dim>& basis, F&& f)
 {
 	for (const auto& colour : basis.colours) {
 #pragma omp parallel for schedule(dynamic)
 		for (std::size_t range = 0; range < colour.size(); ++range)
-			for (int i = colour[range].first; i < colour[range].second; ++i)
-				f(basis.patches[i]);
+			f(colour[range].first, colour[range].second);
 	}
 }
-
-/// Calls f(local node, local node, code of the offset between them) for the nodes that there are.
-template <int Dim, class F> void forPatchPairs(const Patch<Dim>& patch, F&& f)
-{
-	int count = 1;
-	for (int a = 0; a < Dim; ++a)
-		count *= patch.nodesAlong(a);
-	for (int m = 0; m < count; ++m)
-		for (int n = 0; n < count; ++n) {
-			Index<Dim> offset;
-			for (int a = 0, i = m, j = n; a < Dim; i /= patch.nodesAlong(a), j /= patch.nodesAlong(a), ++a)
-				offset[a] = j % patch.nodesAlong(a) - i % patch.nodesAlong(a);
-			if (patch.node[m] >= 0 && patch.node[n] >= 0) f(m, n, NodeMatrix<Dim>::code(offset));
-		}
-}
-
-/// What the points of a patch add to the matrix.
-template <int Dim> struct PatchMatrices {
-	static constexpr int most                   = windowNodes<Dim>;
-	template <int Rows, int Columns> using Part = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, Rows * most, Columns * most>;
-
-	Part<Dim, Dim> uu;
-	Part<Dim, 1>   up;
-	Part<1, 1>     pp;
-	Part<1, Dim>   pu;   ///< where the matrix is not symmetric
-	Part<1, 1>     rest; ///< of pp; there, too
-
-	PatchMatrices(int n, bool isSymmetric) : uu(Part<Dim, Dim>::Zero(Dim * n, Dim * n)), up(Part<Dim, 1>::Zero(Dim * n, n)), pp(Part<1, 1>::Zero(n, n))
-	{
-		if (isSymmetric) return;
-		pu   = Part<1, Dim>::Zero(n, Dim * n);
-		rest = pp;
-	}
-
-	/// With w = grad p and g the present gradients: see the page on theory. Of what a pair of nodes adds only
-	/// products are left to the inner loop. The symmetric part has pairs of a <= b, and all of up.
-	void addSymmetric(
-	        const PorePoint& point, const FlowPoint<Dim>& s, const PointFunctions<Dim>& f, const PresentFunctions<Dim>& now, double duration,
-	        double modulus)
-	{
-		const double V = point.volume * s.J, flow = duration * V * s.density * s.kappa.value, pushes = V * s.pressure;
-		const double stored = point.volume / point.ratio * (point.content + s.content) / modulus;
-		for (int b = 0; b < f.count; ++b) {
-			const Vec<Dim> gb = now.gradient[b], pushed = pushes * now.dilation[b], turned = pushes * gb, driven = flow * gb;
-			const double   around = pushes * now.hoop[b], ofStored = stored * f.value[b], fills = V * f.value[b];
-			for (int a = 0; a < f.count; ++a)
-				up.template block<Dim, 1>(Dim * a, b) -= fills * now.dilation[a];
-			for (int a = 0; a <= b; ++a) {
-				auto push = uu.template block<Dim, Dim>(Dim * a, Dim * b);
-				push += turned * now.gradient[a].transpose() - now.dilation[a] * pushed.transpose();
-				push(0, 0) += now.hoop[a] * around;
-				pp(a, b) += ofStored * f.value[a] + driven.dot(now.gradient[a]);
-			}
-		}
-	}
-	/// What has no transpose, and the other half of what has one.
-	void addRest(
-	        const PorePoint& point, const FlowPoint<Dim>& s, const PointFunctions<Dim>& f, const PresentFunctions<Dim>& now, double duration,
-	        double modulus)
-	{
-		const double   V = point.volume * s.J, E = s.density, flow = duration * V * E * s.kappa.value, led = flow * (1 + s.kappa.slope);
-		const Vec<Dim> turned = flow * s.slope;
-		for (int b = 0; b < f.count; ++b) {
-			const Vec<Dim> gb = now.gradient[b], Bb = now.dilation[b];
-			const double   along = flow * now.along[b], carried = flow / modulus * f.value[b];
-			for (int a = 0; a < f.count; ++a) {
-				const Vec<Dim> ga = now.gradient[a];
-				const double   wa = now.along[a];
-				pu.template block<1, Dim>(a, Dim * b) += ((V * E * f.value[a] + led * wa) * Bb - ga.dot(gb) * turned - along * ga).transpose();
-				rest(a, b) += carried * wa;
-			}
-		}
-	}
-	void scatterAdd(const Patch<Dim>& patch, const FieldSum<Dim>& sum) const
-	{
-		constexpr int field = Flow<Dim>::field;
-		const int     count = int(pp.rows()), *nodes = patch.node.data();
-		const bool    isSymmetric = sum.couplings->isSymmetric();
-		forPatchPairs(patch, [&](int m, int n, int code) {
-			const int a = nodes[m], b = nodes[n];
-			if (m <= n) sum.K->add(a, b, code, uu.template block<Dim, Dim>(Dim * m, Dim * n));
-			else if (!isSymmetric)
-				sum.K->add(a, b, code, uu.template block<Dim, Dim>(Dim * n, Dim * m).transpose());
-		});
-		for (int m = 0; m < count; ++m) {
-			if (nodes[m] < 0) continue;
-			sum.couplings->addRow({ 0, nodes[m] }, field, nodes, count, [&](int n) { return up.template block<Dim, 1>(Dim * m, n); });
-			const auto stored = [&](int n) { return pp.template block<1, 1>(std::min(m, n), std::max(m, n)); };
-			sum.couplings->addRow({ field, nodes[m] }, field, nodes, count, stored);
-			if (isSymmetric) continue;
-			sum.couplings->addRow({ field, nodes[m] }, 0, nodes, count, [&](int n) { return pu.template block<1, Dim>(m, Dim * n); });
-			sum.couplings->addRow({ field, nodes[m] }, field, nodes, count, [&](int n) { return rest.template block<1, 1>(m, n); });
-		}
-	}
-};
 
 /// The integral of products of the functions of a cell less the product of their means, over its volume.
 template <int Dim> double unevenness(int s, int t)
@@ -205,15 +108,23 @@ template <int Dim> void Flow<Dim>::weighCells(const ConstrainedModulus& modulusO
 	}
 }
 
-template <int Dim> void Flow<Dim>::mark(NodeMatrix<Dim>& K) const { markPointPattern(basis_, K); }
+template <int Dim> void Flow<Dim>::mark(NodeMatrix<Dim>& K) const
+{
+	forCellsOfPatches(basis_, 0, int(basis_.patches.size()), [&](const PatchesOfCell<Dim>& cell) {
+		cell.forPairs([&](int m, int n) {
+			if (m <= n) K.markUsed(cell.node[m], Window<Dim>::get().code[m][n]);
+		});
+	});
+}
 
 template <int Dim> void Flow<Dim>::markCouplings(Couplings& K) const
 {
-	for (const auto& patch : basis_.patches)
-		forPatchPairs(patch, [&](int m, int n, int) {
-			if (m <= n) K.mark({ field, patch.node[m] }, { field, patch.node[n] });
-			K.mark({ 0, patch.node[m] }, { field, patch.node[n] });
+	forCellsOfPatches(basis_, 0, int(basis_.patches.size()), [&](const PatchesOfCell<Dim>& cell) {
+		cell.forPairs([&](int m, int n) {
+			if (m <= n) K.mark({ field, cell.node[m] }, { field, cell.node[n] });
+			K.mark({ 0, cell.node[m] }, { field, cell.node[n] });
 		});
+	});
 	for (const Cell& cell : cells_)
 		for (int s = 0; s < corners; ++s)
 			for (int t = s; t < corners; ++t)
@@ -229,48 +140,28 @@ template <int Dim> std::optional<PointFailure> Flow<Dim>::addCoupled(const State
 {
 	constexpr int         none = std::numeric_limits<int>::max();
 	std::atomic<int>      failed { none };
-	const Eigen::VectorXd P           = state.value(field);
-	const auto&           d           = state.displacements();
-	const bool            isSymmetric = !sum.couplings || sum.couplings->isSymmetric();
-	forPatches(basis_, [&](const Patch<Dim>& patch) {
-		PatchMatrices<Dim> matrices(sum.couplings ? PointFunctions<Dim>(basis_, patch.first, patch).count : 0, isSymmetric);
-		for (int i = patch.first; i < patch.first + patch.count; ++i) {
-			const int                 p = basis_.order[i];
-			const PointFunctions<Dim> f(basis_, i, patch);
-			const FlowPoint<Dim>      s(points_[p], patch, f, d, P, water_.modulus);
-			if (!s.isPossible(points_[p])) {
-				for (int seen = failed; p < seen && !failed.compare_exchange_weak(seen, p);) { }
-				continue;
-			}
-			const PresentFunctions<Dim> now(s, f);
-			addForces(points_[p], s, patch, f, now, sum);
-			if (sum.couplings) matrices.addSymmetric(points_[p], s, f, now, water_.duration, water_.modulus);
-			if (!isSymmetric) matrices.addRest(points_[p], s, f, now, water_.duration, water_.modulus);
-		}
-		if (sum.couplings) matrices.scatterAdd(patch, sum);
+	const Eigen::VectorXd P = state.value(field);
+	const auto&           d = state.displacements();
+	forRanges(basis_, [&](int first, int last) {
+		FlowSums<Dim> sums(sum, water_.duration, water_.modulus);
+		forCellsOfPatches(basis_, first, last, [&](const PatchesOfCell<Dim>& cell) {
+			sums.begin(cell.node);
+			for (const auto* patch = cell.first; patch < cell.end; ++patch)
+				for (int i = patch->first; i < patch->first + patch->count; ++i) {
+					const int                 p = basis_.order[i];
+					const PointFunctions<Dim> f(basis_, i, *patch);
+					const FlowPoint<Dim>      s(points_[p], *patch, f, d, P, water_.modulus);
+					if (s.isPossible(points_[p])) sums.add(points_[p], s, *patch, f, PresentFunctions<Dim>(s, f));
+					else
+						for (int seen = failed; p < seen && !failed.compare_exchange_weak(seen, p);) { }
+				}
+			sums.scatterAdd();
+		});
 	});
 	if (failed != none) return PointFailure { failed };
 	addPenalties(state.growth(field), sum);
 	addDrains(P, sum);
 	return std::nullopt;
-}
-
-template <int Dim>
-void Flow<Dim>::addForces(
-        const PorePoint& point, const FlowPoint<Dim>& s, const Patch<Dim>& patch, const PointFunctions<Dim>& f, const PresentFunctions<Dim>& now,
-        const FieldSum<Dim>& sum) const
-{
-	const double V = point.volume * s.J, flow = water_.duration * V * s.density * s.kappa.value;
-	for (int n = 0; n < f.count; ++n) {
-		const int a = patch.node[n];
-		if (a < 0) continue;
-		const Vec<Dim> push   = -V * s.pressure * now.dilation[n];
-		const double   passes = flow * now.along[n], stored = point.volume / point.ratio * s.content * f.value[n];
-		sum.force[0].template segment<Dim>(Dim * a) += push;
-		sum.sizes[0].template segment<Dim>(Dim * a) += push.cwiseAbs();
-		sum.force[field][a] += passes + stored;
-		sum.sizes[field][a] += std::abs(passes) + std::abs(stored);
-	}
 }
 
 template <int Dim> void Flow<Dim>::addPenalties(const Eigen::VectorXd& growth, const FieldSum<Dim>& sum) const
@@ -300,7 +191,7 @@ template <int Dim> void Flow<Dim>::addCoupledRoundOff(const State& state, std::v
 {
 	constexpr double      roundOff = 10 * std::numeric_limits<double>::epsilon();
 	const Eigen::VectorXd P        = state.value(field);
-	forPatches(basis_, [&](const Patch<Dim>& patch) {
+	for (const auto& patch : basis_.patches)
 		for (int i = patch.first; i < patch.first + patch.count; ++i) {
 			const PointFunctions<Dim> f(basis_, i, patch);
 			const PorePoint&          point = points_[basis_.order[i]];
@@ -312,7 +203,6 @@ template <int Dim> void Flow<Dim>::addCoupledRoundOff(const State& state, std::v
 				if (patch.node[n] >= 0)
 					sizes[field][patch.node[n]] += roundOff * (flow * slope * f.gradient[n].norm() + point.volume * f.value[n]);
 		}
-	});
 	for (const Outlet& outlet : outlets_)
 		for (int n = 0; n < outlet.at.nodes; ++n)
 			sizes[field][outlet.at.node[n]] += roundOff * outlet.conductance * std::abs(outlet.at.weight[n] * P[outlet.at.node[n]]);
@@ -334,7 +224,7 @@ template <int Dim> void Flow<Dim>::commitCoupled(const State& state)
 			stored += points_[p].volume / points_[p].ratio * s.content;
 		}
 	water_.stored = stored;
-	if (std::isfinite(water_.displacementTolerance) || std::isfinite(water_.pressureTolerance)) keepGrowth(state);
+	if (water_.keepsGrowth) keepGrowth(state);
 	if (water_.wantsWork) water_.work = workOn(state);
 	moveDrains(d, P);
 }

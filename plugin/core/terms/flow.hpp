@@ -38,6 +38,7 @@ public:
 	void                        markCouplings(Couplings&) const override;
 	std::optional<PointFailure> addCoupled(const State&, const FieldSum<Dim>&) const override;
 	void                        addCoupledRoundOff(const State&, std::vector<Eigen::VectorXd>& sizes) const override;
+	std::optional<FieldGrowth>  expected() const override;
 	std::vector<LocalError>     fieldErrors(const State&) const override;
 	void                        commitCoupled(const State&) override;
 
@@ -69,9 +70,6 @@ private:
 	std::string attachDrain(int number, const Beginning<Dim>&);
 	std::string enclosure(const Beginning<Dim>&) const;
 
-	void addForces(
-	        const PorePoint&, const FlowPoint<Dim>&, const Patch<Dim>&, const PointFunctions<Dim>&, const PresentFunctions<Dim>&,
-	        const FieldSum<Dim>&) const;
 	void   addPenalties(const Eigen::VectorXd& growth, const FieldSum<Dim>&) const;
 	void   addDrains(const Eigen::VectorXd& P, const FieldSum<Dim>&) const;
 	double conductanceNow(const Outlet&, double pressure) const;

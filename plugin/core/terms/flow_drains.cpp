@@ -13,27 +13,36 @@ template <int Dim> struct DrainPlace {
 	double   area;
 };
 
-/// Of a segment: exact for products of two functions of the grid, wherever it cuts the cells.
-void addPlaces(const Surface<2>& surface, const Surface<2>::Piece& piece, const Grid<2>& grid, std::vector<DrainPlace<2>>& places)
+/// Of segments: exact for products of two functions of the grid, wherever they cut the cells.
+std::vector<DrainPlace<2>> placesOf(const Surface<2>& surface, const Grid<2>& grid)
 {
-	constexpr double gauss[3][2] = { { -0.7745966692414834, 5. / 18 }, { 0, 8. / 18 }, { 0.7745966692414834, 5. / 18 } };
-	const Vec<2>&    from        = surface.vertices[piece[0]];
-	const Vec<2>     way         = surface.vertices[piece[1]] - from;
-	auto             parts       = linesCrossed(from, from + way, grid);
-	parts.insert(parts.begin(), 0), parts.push_back(1);
-	for (std::size_t i = 0; i + 1 < parts.size(); ++i)
-		for (const auto& [place, weight] : gauss) {
-			const double part = parts[i] + (parts[i + 1] - parts[i]) * (1 + place) / 2;
-			const Vec<2> x    = from + part * way;
-			places.push_back({ x, weight * (parts[i + 1] - parts[i]) * way.norm() * aroundAxis(x[0], grid) });
-		}
+	constexpr double           gauss[3][2] = { { -0.7745966692414834, 5. / 18 }, { 0, 8. / 18 }, { 0.7745966692414834, 5. / 18 } };
+	std::vector<DrainPlace<2>> places;
+	for (const auto& piece : surface.pieces) {
+		const Vec<2>& from  = surface.vertices[piece[0]];
+		const Vec<2>  way   = surface.vertices[piece[1]] - from;
+		auto          parts = linesCrossed(from, from + way, grid);
+		parts.insert(parts.begin(), 0), parts.push_back(1);
+		for (std::size_t i = 0; i + 1 < parts.size(); ++i)
+			for (const auto& [place, weight] : gauss) {
+				const double part = parts[i] + (parts[i + 1] - parts[i]) * (1 + place) / 2;
+				const Vec<2> x    = from + part * way;
+				places.push_back({ x, weight * (parts[i + 1] - parts[i]) * way.norm() * aroundAxis(x[0], grid) });
+			}
+	}
+	return places;
 }
 
-/// Of a triangle, no larger than a quarter of a cell: its corners.
-void addPlaces(const Surface<3>& surface, const Surface<3>::Piece& piece, const Grid<3>&, std::vector<DrainPlace<3>>& places)
+/// Of triangles, no larger than a quarter of a cell: their corners, each once.
+std::vector<DrainPlace<3>> placesOf(const Surface<3>& surface, const Grid<3>&)
 {
-	for (const int v : piece)
-		places.push_back({ surface.vertices[v], surface.normal(piece, surface.vertices).norm() / 3 });
+	std::vector<DrainPlace<3>> places;
+	for (const Vec<3>& corner : surface.vertices)
+		places.push_back({ corner, 0 });
+	for (const auto& piece : surface.pieces)
+		for (const int v : piece)
+			places[v].area += surface.normal(piece, surface.vertices).norm() / 3;
+	return places;
 }
 
 } // namespace
@@ -53,13 +62,11 @@ template <int Dim> std::string Flow<Dim>::attachDrain(int number, const Beginnin
 	const auto        corners = attachPlaces(surface.vertices, step, drain.name);
 	if (!corners.obstacle.empty()) return corners.obstacle;
 	vertices_.insert(vertices_.end(), corners.places.begin(), corners.places.end());
-	std::vector<DrainPlace<Dim>> places;
-	for (const auto& piece : surface.pieces)
-		addPlaces(surface, piece, step.grid, places);
+	const auto            places = placesOf(surface, step.grid);
 	std::vector<Vec<Dim>> middles;
 	for (const auto& place : places)
 		middles.push_back(place.at);
-	const auto within = attachPlaces(middles, step, drain.name);
+	const auto within = Dim == 3 ? corners : attachPlaces(middles, step, drain.name);
 	if (!within.obstacle.empty()) return within.obstacle;
 	for (std::size_t i = 0; i < places.size(); ++i) {
 		const auto& [x, area] = places[i];

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What the length of a step leaves out of water that flows.
+// Water that flows from step to step: where the next one may begin, and what its length leaves out.
 #include "core/terms/flow.hpp"
 
 namespace gimpm {
@@ -13,6 +13,21 @@ template <int Dim> void Flow<Dim>::keepGrowth(const State& state) const
 		water_.growth.emplace_hint(water_.growth.end(), basis_.nodes[n], grown);
 	}
 	water_.lastDuration = water_.duration;
+}
+
+template <int Dim> std::optional<FieldGrowth> Flow<Dim>::expected() const
+{
+	if (water_.lastDuration == 0) return std::nullopt;
+	const auto   nodes = Eigen::Index(water_.growth.size());
+	const double times = water_.duration / water_.lastDuration;
+	FieldGrowth  all { {}, { Eigen::VectorXd(Dim * nodes), Eigen::VectorXd(nodes) } };
+	for (const auto& [key, grown] : water_.growth) {
+		const auto n                                 = Eigen::Index(all.nodes.size());
+		all.values[0].template segment<Dim>(Dim * n) = times * grown.template head<Dim>();
+		all.values[field][n]                         = times * grown[Dim];
+		all.nodes.push_back(key);
+	}
+	return all;
 }
 
 /// Rates change from step to step as in rateChange(): T / (T_0 + T) of what differs from the last rates gone on. What
@@ -48,8 +63,9 @@ template <int Dim> std::vector<LocalError> Flow<Dim>::fieldErrors(const State& s
 }
 
 #define GIMPM_INSTANTIATE(Dim)                                                                                                                                 \
-	template void                    Flow<Dim>::keepGrowth(const State&) const;                                                                            \
-	template std::vector<LocalError> Flow<Dim>::fieldErrors(const State&) const;
+	template std::optional<FieldGrowth> Flow<Dim>::expected() const;                                                                                       \
+	template void                       Flow<Dim>::keepGrowth(const State&) const;                                                                         \
+	template std::vector<LocalError>    Flow<Dim>::fieldErrors(const State&) const;
 GIMPM_INSTANTIATE(2)
 GIMPM_INSTANTIATE(3)
 #undef GIMPM_INSTANTIATE

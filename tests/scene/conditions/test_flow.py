@@ -511,6 +511,28 @@ print(json.dumps([slow.tolist(), dry.tolist(), [solver.substeps, solver.cuts, fl
 	assert parts[0] > 1 and abs(parts[2]) < 1e-7
 
 
+def test_a_step_begins_by_the_rates_of_the_last_one(yade):
+	"""Under a load that grows, and as its water leaves: no more solves in any step, fewer in all, and the same result."""
+	predicted, plain = yade(
+	        setting + '''
+def run(predictor):
+	solver = column(8)
+	solver.loads[0].curve = [(0, 0), (4000, 1)]
+	solver.newton.predictor = predictor
+	O.dt, found = 400, []
+	for _ in range(20):
+		O.step()
+		found.append(solver.iterations)
+	return [found, mpm.arrays()['excessPressure'].tolist(), mpm.arrays()['pos'][:, 1].tolist()]
+print(json.dumps([run(True), run(False)]))
+'''
+	).result
+	assert predicted[0][0] == plain[0][0] and all(n <= m for n, m in zip(predicted[0], plain[0])), (predicted[0], plain[0])
+	assert sum(predicted[0][1:]) < sum(plain[0][1:])
+	assert predicted[1] == pytest.approx(plain[1], abs=1e-3 * max(plain[1]))
+	assert predicted[2] == pytest.approx(plain[2], abs=1e-8)
+
+
 def test_all_solvers_find_the_same(yade):
 	found = yade(
 	        setting + '''

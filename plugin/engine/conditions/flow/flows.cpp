@@ -75,6 +75,7 @@ template <int Dim> void Flows<Dim>::join(gimpm::Model<Dim>& model, const Surroun
 	water.ghost         = from->ghost;
 	if (const Real tolerance = around.analysis.newton->stepTolerance; tolerance > 0)
 		water.displacementTolerance = tolerance, water.pressureTolerance = from->pressureTolerance;
+	water.keepsGrowth = !around.analysis.isDynamic() || std::isfinite(water.displacementTolerance);
 	takePoints(around);
 	takeNodes();
 	takeDrains(model, around);
@@ -131,7 +132,7 @@ template <int Dim> void Flows<Dim>::takeNodes()
 			node[a] = int(from->nodes[i + a]);
 		const gimpm::Key key = gimpm::Grid<Dim>::key(node);
 		water.atNodes[key]   = from->nodes[i + 3];
-		if (std::isfinite(water.displacementTolerance) && from->growth.size() == from->nodes.size())
+		if (water.keepsGrowth && from->growth.size() == from->nodes.size())
 			water.growth[key] << Eigen::Map<const gimpm::Vec<Dim>>(&from->growth[i]), from->growth[i + 3];
 	}
 	if (!water.growth.empty()) water.lastDuration = from->lastDuration;

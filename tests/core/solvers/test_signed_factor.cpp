@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Factors of symmetric matrices that are not definite.
+#include "core/solvers/supernodal_factor.hpp"
+#include "matrices.hpp"
+#include <numeric>
+
+namespace gimpm {
+namespace {
+
+	/// [K, -Q^T; -Q, -C] with K and C positive definite, rows and columns of both mixed.
+	Eigen::MatrixXd ofTwoFields(int nodes, double stored, unsigned seed)
+	{
+		Random          random(seed);
+		const int       size = 3 * nodes;
+		Eigen::MatrixXd m    = Eigen::MatrixXd::Zero(size, size);
+		for (int c = 0; c < size; ++c)
+			for (int r = 0; r < c; ++r)
+				if (std::abs(r / 3 - c / 3) < 5 && random.in(0, 1) < 0.7) m(r, c) = m(c, r) = random.in(-0.1, 0.1);
+		for (int i = 0; i < size; ++i)
+			for (int j = 0; j < size; ++j)
+				if (i % 3 == 2 && j % 3 == 2) m(i, j) *= i == j ? 0 : stored;
+		for (int i = 0; i < size; ++i)
+			m(i, i) = i % 3 == 2 ? -2 * stored : 2;
+		return m;
+	}
+
+	/// Upper triangle.
+	Csc upper(const Eigen::MatrixXd& full)
+	{
+		return gimpm::sparse<Csc>(full, [&](int r, int c) { return r < c && full(r, c) != 0; });
+	}
+
+	/// A pressure after the displacements of its node.
+	std::vector<int> inTheirOrder(const Csc& K)
+	{
+		std::vector<int> order(K.size());
+		std::iota(order.begin(), order.end(), 0);
+		return order;
+	}
+
+	TEST(SignedFactor, SolvesWhatHasPivotsOfBothSigns)
+	{
+		for (const int nodes : { 1, 7, 40, 200 })
+			for (const double stored : { 1., 1e-3, 1e-6 }) {
+				const Eigen::MatrixXd m = ofTwoFields(nodes, stored, nodes);
+				const Csc             K = upper(m);
+				SupernodalFactor      factor;
+				factor.analyse(K, inTheirOrder(K), 0, false);
+				ASSERT_TRUE(factor.factoriseSigned(K, 1e-12));
+				const Eigen::VectorXd b = Random(5).vector(3 * nodes);
+				Eigen::VectorXd       x;
+				ASSERT_TRUE(factor.solveSigned(b, x));
+				EXPECT_LT((m * x - b).norm(), 1e-12 * (b.norm() + x.norm())) << nodes << " nodes, " << stored;
+				EXPECT_LT((timesSymmetric(K, x) - m * x).norm(), 1e-14 * (b.norm() + x.norm()));
+				auto twice = K;
+				for (double& value : twice.value)
+					value *= 2;
+				Eigen::VectorXd half;
+				ASSERT_TRUE(factor.factoriseSigned(twice, 1e-12) && factor.solveSigned(b, half)) << "the pattern is kept";
+				EXPECT_LT((2 * half - x).norm(), 1e-12 * x.norm());
+			}
+	}
+
+	TEST(SignedFactor, RefusesWhatNeedsPivoting)
+	{
+		Eigen::MatrixXd m(2, 2);
+		m << 0, 1, 1, 0;
+		SupernodalFactor factor;
+		Csc              K = upper(m);
+		factor.analyse(K, {}, 0, false);
+		EXPECT_FALSE(factor.factoriseSigned(K, 1e-12));
+		m << 1, 2, 2, 4; // singular
+		K = upper(m);
+		EXPECT_FALSE(factor.factoriseSigned(K, 1e-12));
+		m(0, 0) = std::numeric_limits<double>::quiet_NaN();
+		K       = upper(m);
+		EXPECT_FALSE(factor.factoriseSigned(K, 1e-12));
+	}
+
+} // namespace
+} // namespace gimpm
