@@ -75,6 +75,7 @@ tips = -excess / (overturning(1) - resisting(1) - excess)
 print(f'the load is {q / 1e3:.2f} kPa as the wall gives way; by hand it slides at {slides / 1e3:.2f} kPa, and tips at {tips / 1e3:.2f} kPa')
 way, ratio = ('slides', thrust(q) / thrust(slides)) if slides < tips else ('tips', overturning(q) / resisting(q))
 what = {'slides': 'thrust over what the base can bear', 'tips': 'overturning over resisting moment'}[way]
+if way == 'slides': print(f'thrust as it slides {path[-1][2] / (thrust(slides) * cos(delta)):.4f} of what its base bears by hand')
 print(f'it {way}: {what} by hand {ratio:.3f}')
 compared(f'{way}, cells of {options.cellSize:g} m: {what}', ratio, 1, 'Coulomb')
 figure, (picture, diagram) = plt.subplots(1, 2, figsize=(11, 4.6), width_ratios=[1.5, 1], layout='constrained')
