@@ -38,6 +38,7 @@ runs = {
         'grains_on_soil': ['grains_on_soil.py'],
         'mpm_vs_dem': ['mpm_vs_dem.py'],
         'meeting': ['propped_wall.py', 'slide.py'],
+        'free_bodies': ['driven_pile.py', 'gravity_wall.py', 'gravity_wall.py --cellSize 0.125', 'gravity_wall.py --width 1.2 --friction 30', 'net.py'],
         'waves': ['waves.py --scene "bar block sphere"', 'explicit.py --scene bar'],
         'earthquake': ['earthquake.py'],
         'runout': ['runout.py'],
@@ -53,7 +54,7 @@ groups = {
         'Earth pressure': ['earth_pressure'],
         'Walls and tunnels in the ground': ['sheet_pile', 'lined_tunnel'],
         'Water and stages': ['water', 'consolidation', 'embankment'],
-        'Contact and penetration': ['penetration', 'grains_on_soil', 'meeting'],
+        'Contact and penetration': ['penetration', 'grains_on_soil', 'meeting', 'free_bodies'],
         'Waves and run-out': ['waves', 'earthquake', 'runout', 'splitting'],
         'Grains': ['mpm_vs_dem'],
 }

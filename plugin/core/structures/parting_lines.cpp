@@ -151,6 +151,25 @@ private:
 	double                   cellSize_;
 };
 
+/// The side of a line of vertices that a place within a reach of it is on: 1 left, -1 right; 0: it is not, or beyond an
+/// end.
+int sideOf(const Beam& beam, const Vec<2>& place, double reach)
+{
+	const int last  = int(beam.places.size()) - 2;
+	double    least = reach;
+	int       side  = 0;
+	for (int i = 0; i <= last; ++i) {
+		const Vec<2> along = beam.places[i + 1] - beam.places[i], from = place - beam.places[i];
+		const double part = from.dot(along) / along.squaredNorm(), within = std::clamp(part, 0., 1.);
+		const double away = (from - within * along).norm();
+		if (away > least) continue;
+		const bool isBeyond = !beam.isClosed && ((i == 0 && part < 0) || (i == last && part > 1));
+		least               = away;
+		side                = isBeyond ? 0 : along[0] * from[1] > along[1] * from[0] ? 1 : -1;
+	}
+	return side;
+}
+
 bool areApart(const std::vector<Index<2>>& nodes, const std::vector<Index<2>>& others)
 {
 	constexpr int near = 3;
@@ -162,14 +181,36 @@ bool areApart(const std::vector<Index<2>>& nodes, const std::vector<Index<2>>& o
 
 } // namespace
 
+void lookBetween(const std::vector<Beam*>& beams, const PointCloud<2>& cloud, const Grid<2>& grid)
+{
+	for (Beam* beam : beams)
+		beam->layer = 0, beam->isBetween = isBetween(*beam, cloud, grid);
+}
+
+std::vector<int> sidesOf(const std::vector<Beam*>& beams, const std::vector<Vec<2>>& places, double cellSize)
+{
+	std::vector<int> sides(places.size(), 0);
+	for (const Beam* beam : beams) {
+		if (beam->layer == 0) continue;
+		Vec<2> low = beam->places.front(), high = low;
+		for (const Vec<2>& place : beam->places)
+			low = low.cwiseMin(place), high = high.cwiseMax(place);
+		low.array() -= cellSize, high.array() += cellSize;
+		for (std::size_t p = 0; p < places.size(); ++p)
+			if ((places[p] - low).minCoeff() >= 0 && (high - places[p]).minCoeff() >= 0)
+				if (const int side = sideOf(*beam, places[p], cellSize); side != 0) sides[p] = -side * beam->layer;
+	}
+	return sides;
+}
+
 void partSoil(const std::vector<Beam*>& beams, PointCloud<2>& cloud, Grid<2>& grid)
 {
 	std::vector<PartingLine> lines;
 	std::vector<Index<2>>    taken;
 	std::vector<Key>         own;
+	lookBetween(beams, cloud, grid);
 	for (Beam* beam : beams) {
-		beam->layer = 0;
-		if (int(lines.size()) == Grid<2>::mostLayer || !isBetween(*beam, cloud, grid)) continue;
+		if (int(lines.size()) == Grid<2>::mostLayer || !beam->isBetween) continue;
 		PartingLine line  = longer(*beam, cloud, grid);
 		const auto  nodes = nodesCut(line, grid);
 		if (nodes.empty() || !areApart(nodes, taken)) continue;

@@ -89,6 +89,8 @@ struct Beam {
 
 	/// In this step: of the points to its right, where it parts the soil (parting_lines.hpp); 0: it does not.
 	int layer = 0;
+	/// In this step: it has soil on both of its sides, and parts it or does not.
+	bool isBetween = false;
 
 	/// As the step begins.
 	std::vector<Vec<2>>     places;

@@ -2,6 +2,7 @@
 #include "core/structures/structure_force.hpp"
 #include "core/base/sentence.hpp"
 #include "core/grid/nearness.hpp"
+#include "core/structures/edge_of_soil.hpp"
 #include "core/structures/soil_near.hpp"
 
 namespace gimpm {
@@ -27,29 +28,6 @@ double normalStress(const SymTensor<3>& stress, const Vec<3>& t) { return -(stre
 template <int Dim> Vec<Dim> tangent(const std::vector<Vec<Dim>>& places, std::size_t v)
 {
 	return (places[std::min(v + 1, places.size() - 1)] - places[v > 0 ? v - 1 : 0]).normalized();
-}
-
-/// How much of an interval around a middle lies in another one.
-double overlap(double middle, double half, double low, double high) { return std::max(0., std::min(middle + half, high) - std::max(middle - half, low)); }
-
-/// How far along n from a place the points of a layer begin that fill the cell beyond, of the size h: what lies before
-/// its middle reaches as far as it would if it were as wide as what lies behind. Points are on the side that their
-/// middles are on, so that a beam may go through the domains of some.
-double edgeOfSoil(const Vec<2>& place, const Vec<2>& n, double h, int layer, const PointCloud<2>& cloud)
-{
-	const double window = h / 2;
-	const Vec<2> t(-n[1], n[0]);
-	double       before = 0, behind = 0;
-	for (std::size_t p = 0; p < cloud.size(); ++p) {
-		const Vec<2> apart = cloud.position[p] - place;
-		if (cloud.layerOf(int(p)) != layer || apart.cwiseAbs().maxCoeff() > 2 * h) continue;
-		const auto   halfAlong = [&](const Vec<2>& e) { return e.cwiseProduct(cloud.halfSize[p]).norm(); };
-		const double along     = overlap(apart.dot(t), halfAlong(t), -window, window);
-		before += along * overlap(apart.dot(n), halfAlong(n), -h, h / 2);
-		behind += along * overlap(apart.dot(n), halfAlong(n), h / 2, h);
-	}
-	if (behind == 0) return 0;
-	return std::clamp(h / 2 * (1 - before / behind), -h / 2, h / 2);
 }
 
 template <int Dim> double cellSizeAt(const std::optional<Attachment<Dim>>& at, const Grid<Dim>& grid) { return grid.size(at ? at->level : 0); }
@@ -143,6 +121,7 @@ template <int Dim> void StructureForce<Dim>::partAlongBeam(const Beginning<Dim>&
 		const std::size_t         count = beam.places.size(), right = soil.size();
 		const std::vector<double> cells(count, step.grid.cellSize);
 		const std::array          near { soilNear<2>(beam.places, cells, step, 0), soilNear<2>(beam.places, cells, step, beam.layer) };
+		const EdgeOfSoil          edges(beam.places, step.grid.cellSize, step.cloud);
 		soil.resize(right + count), attached_.resize(right + count);
 		for (std::size_t v = 0; v < count; ++v) {
 			const Vec<2> t        = beam.tangentAt(int(v)), n(-t[1], t[0]);
@@ -154,9 +133,7 @@ template <int Dim> void StructureForce<Dim>::partAlongBeam(const Beginning<Dim>&
 			const bool isOne = at[0] && at[1] && at[0]->node == at[1]->node;
 			for (const int side : { 0, 1 }) {
 				const Vec<2> inwards = (side == 0 ? 1 : -1) * n;
-				if (!isOne)
-					at[side] = attachAt(
-					        side, edgeOfSoil(beam.places[v], inwards, step.grid.cellSize, side == 0 ? 0 : beam.layer, step.cloud));
+				if (!isOne) at[side] = attachAt(side, edges.from(beam.places[v], inwards, side == 0 ? 0 : beam.layer));
 				if (!at[side]) soil[v].sides &= ~(1 << side);
 			}
 			attached_[v]   = at[soil[v].sides == 2];

@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Bars and beams in the soil: MpmReinforcement, MpmBeam, their closed forms, and what is refused about them."""
+import re
+
 import numpy as np
 import pytest
 from conftest import outcomesOf
@@ -302,6 +304,62 @@ O.run(20, wait=True)
 print(json.dumps([max(sheet.axialForces) / (np.tan(pi / 4 - phi / 2)**2 * 18e3 * H**2 / 2), sheet.vertices[-1][0] - 11.5]))
 ''').result
 	assert abs(force - 1) < 0.08 and moves > 0
+
+
+def test_what_leaves_the_soil_one_body_is_said(yade):
+	"""Where a beam with soil on both of its sides does not part it; not where it does, nor of one on the ground. And points that go through a soft beam are counted."""
+	run = yade(block + '''
+import sys
+def said(about, engine=MpmImplicitEngine, line=((2, 2), (2, 1)), other=(), **settings):
+	print('case:', about, file=sys.stderr, flush=True)
+	beams = [MpmBeam(line=list(a), axialStiffness=1e9, bendingStiffness=1e6, adhesion=0, fixFoot='xyr') for a in (line, *other)]
+	ground(*beams, engine=engine, poisson=.3, **settings)
+	if 'contacts' in settings: O.bodies.append(utils.wall(0, axis=1, sense=1, material=FrictMat()))
+	O.dt = .01
+	O.run(1, wait=True)
+said('parted')
+said('on the ground', line=((1, 2), (3, 2)))
+said('in time', engine=MpmDynamicEngine)
+said('nonlocal', nonlocalLength=.5)
+said('relaxed', pressureRelaxation=True, fBar=True)
+said('two', other=[((2.5, 2), (2.5, 1))])
+said('contact', contacts=[MpmContact(friction=0)])
+
+print('case: soft', file=sys.stderr, flush=True)
+soft = MpmBeam(line=[(2, 2), (2, .5)], axialStiffness=1e9, bendingStiffness=1e9, adhesion=0, fixHead='xyr', fixFoot='xyr', stiffness=1e-3)
+press = MpmTraction(surface=[(0, 2), (0, 0)], pressure=3e6)
+ground(soft, press, sides=False)
+solver.boundaries = [*solver.boundaries, MpmBoundary(min=(4, -inf, -inf), fix='x')]
+O.dt = .1
+O.run(5, wait=True)
+''')
+	told = dict(part.split('\n', 1) for part in run.stderr.split('case: ')[1:])
+	one = lambda case: 'loads[0] has soil on both of its sides, which stays one body' in told[case]
+	assert not one('parted') and not one('on the ground') and not one('soft')
+	for case, reason in {'in time': 'beside steps in time', 'nonlocal': 'beside nonlocalLength', 'relaxed': 'beside pressureRelaxation', 'contact': 'beside contacts[0]'}.items():
+		assert one(case) and reason in told[case], told[case]
+	assert not one('two') and 'loads[1] has soil on both of its sides' in told['two'] and 'another one within three cells' in told['two']
+	assert re.search(r'\d+ material points? ha(s|ve) gone through loads\[0\]', told['soft']) and 'gone through' not in told['parted']
+
+
+def test_stiff_round_plate_on_the_half_space(yade):
+	"""A rigid disk, smooth: the force of its settlement, 2 E R w / (1 - nu^2), and the share of its inner half, 1 - sqrt(3 / 4)."""
+	force, share = yade(block + '''
+E, nu, R, w, far = 1e7, .3, 1, 1e-3, 64
+O.materials.append(MpmElasticMat(young=E, poisson=nu, density=1, label='soil'))
+O.materials.append(FrictMat(frictionAngle=0, label='rigid'))
+grid = MpmGrid(cellSize=.5, axisymmetric=True, refinements=[MpmRefinement(min=(-inf, -2**(k + 1), -inf), max=(2**(k + 1), inf, inf), halvings=3 - k) for k in range(3)])
+O.bodies.append(mpm.fill(mpm.polygon([(0, -far), (far, -far), (far, 0), (0, 0)]), grid, 1, 'soil'))
+disk = O.bodies[O.bodies.append(utils.box((0, .5, 0), (R, .5, R), material='rigid', fixed=True))]
+disk.state.vel = (0, -w, 0)
+solver = MpmImplicitEngine(grid=grid, boundaries=[MpmBoundary(min=(far, -inf, -inf), fix='x'), MpmBoundary(max=(inf, -far, inf), fix='xy')], contacts=[MpmContact(stiffness=100)], verbosity=0)
+O.engines, O.dt = [solver], 1
+O.step()
+at, forces = mpm.contactForces()
+print(json.dumps([solver.contacts[0].forces[0][1] / (2 * E * R * w / (1 - nu**2)), forces[at[:, 0] < R / 2, 1].sum() / forces[:, 1].sum()]))
+''').result
+	assert abs(force - 1) < 0.03
+	assert abs(share / (1 - np.sqrt(0.75)) - 1) < 0.02
 
 
 refusals = {

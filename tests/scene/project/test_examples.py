@@ -307,6 +307,33 @@ def test_slide_and_dam_of_points(yade):
 	assert (run.folder / 'out/slide/slide.png').stat().st_size > 20000
 
 
+def test_driven_pile(yade):
+	"""A blow takes it as far as its energy does by the static test, within 2 %; pile and clay lose and get the same momentum in each step but for what held nodes take."""
+	run = yade(root / 'examples' / 'free_bodies' / 'driven_pile.py', '--blows', 2)
+	sets = re.findall(r'set (\S+) mm, by hand (\S+) mm .* off by (\S+) of the blow', run.stdout)
+	assert len(sets) == 2
+	for ours, byHand, off in sets:
+		assert abs(float(ours) / float(byHand) - 1) < 0.02 and 0 < float(off) < 1e-6
+	assert (run.folder / 'out/driven_pile/driven_pile.png').stat().st_size > 20000
+
+
+def test_gravity_wall(yade):
+	"""It slides at the load that its page gives for a coarse grid, 11 % above Coulomb's thrust; and while it slides the thrust is what its base bears."""
+	run = yade(root / 'examples' / 'free_bodies' / 'gravity_wall.py')
+	assert 1.08 < numbers(r'it slides: thrust .* by hand (\S+)', run.stdout)[0] < 1.13
+	assert abs(numbers(r'thrust as it slides (\S+) of what', run.stdout)[0] - 1) < 0.01
+	assert (run.folder / 'out/gravity_wall/gravity_wall.png').stat().st_size > 20000
+
+
+def test_net(yade):
+	"""At rest its edges bear the weight of soil, grains and net, but for grains that still roll, and the soil's force on it is its weight."""
+	run = yade(root / 'examples' / 'free_bodies' / 'net.py')
+	found, weight = numbers(r'edges hold (\S+) N, .* is (\S+) N', run.stdout)
+	pressed, ofSoil = numbers(r'soil presses with (\S+) N, its weight is (\S+) N', run.stdout)
+	assert abs(found / weight - 1) < 0.02 and abs(pressed / ofSoil - 1) < 1e-7
+	assert (run.folder / 'out/net/net.png').stat().st_size > 20000
+
+
 def test_walls(yade):
 	"""A column askew on the grid has the stress of the aligned one, under its weight and under a lid that is pushed in."""
 	for load in 'weight', 'lid':

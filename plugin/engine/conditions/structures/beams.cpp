@@ -128,7 +128,7 @@ namespace {
 
 void Beams::join(gimpm::Model<2>& model, const Surroundings<2>& around)
 {
-	mayPart = model.processes->size() == 1 && cannotPart(around.analysis).empty();
+	inItsWay = model.processes->size() > 1 ? "several processes" : cannotPart(around.analysis);
 	for (const Listed& listed : group) {
 		const auto  from = boost::static_pointer_cast<MpmBeam>(listed.condition);
 		const auto& down = around.analysis.gravity;
@@ -153,13 +153,19 @@ void Beams::join(gimpm::Model<2>& model, const Surroundings<2>& around)
 		joinStructure<2>(structure, model);
 }
 
+vector<Beam*> Beams::beams()
+{
+	vector<Beam*> all;
+	for (auto& structure : structures)
+		all.push_back(&*structure.beam);
+	return all;
+}
+
 void Beams::part(gimpm::PointCloud<2>& cloud, gimpm::Model<2>& model)
 {
-	if (!mayPart) return;
-	vector<Beam*> beams;
-	for (auto& structure : structures)
-		beams.push_back(&*structure.beam);
-	gimpm::partSoil(beams, cloud, model.grid);
+	if (!inItsWay.empty()) return gimpm::lookBetween(beams(), cloud, model.grid);
+	gimpm::partSoil(beams(), cloud, model.grid);
+	sides = gimpm::sidesOf(beams(), cloud.position, model.grid.cellSize);
 }
 
 void Beams::advance(const StepTime& step, gimpm::Model<2>&, gimpm::Load<2>&)
@@ -202,13 +208,52 @@ Work Beams::work(const StepOutcome<2>&) const
 	return sum;
 }
 
-void Beams::reach(const StepOutcome<2>&)
+namespace {
+	// Points that are on the other side of a beam than as the step began.
+	vector<size_t> crossedIn(const StepOutcome<2>& step, const vector<Beam*>& beams, const vector<int>& before)
+	{
+		vector<gimpm::Vec<2>> places;
+		for (const MaterialPoint& point : step.points)
+			places.push_back(point.state->pos.head<2>());
+		const auto     after = gimpm::sidesOf(beams, places, step.model.grid.cellSize);
+		vector<size_t> crossed(beams.size(), 0);
+		for (size_t p = 0; p < before.size(); ++p)
+			for (size_t b = 0; b < beams.size() && before[p] != 0; ++b)
+				crossed[b] += std::abs(before[p]) == beams[b]->layer && after[p] == -before[p];
+		return crossed;
+	}
+}
+
+void Beams::reach(const StepOutcome<2>& step)
 {
+	if (inItsWay.empty()) {
+		const auto now = crossedIn(step, beams(), sides);
+		crossed.resize(now.size(), 0);
+		std::transform(now.begin(), now.end(), crossed.begin(), crossed.begin(), std::plus<>());
+	}
 	for (size_t i = 0; i < sources.size(); ++i) {
 		scatterBeam(*structures[i].beam, *sources[i].from);
 		for (size_t a = 0; a < structures[i].bars.size(); ++a)
 			scatterBar<2>(structures[i].bars[a], *sources[i].from->anchors[a]);
 	}
+}
+
+std::map<string, string> Beams::warnings() const
+{
+	std::map<string, string> found;
+	for (size_t i = 0; i < structures.size(); ++i) {
+		const Beam& beam = *structures[i].beam;
+		if (beam.isBetween && beam.layer == 0)
+			found["beside " + beam.name] = gimpm::sentence(
+			        beam.name,
+			        " has soil on both of its sides, which stays one body, as rough along the beam as it is itself: beams do not part it beside ",
+			        inItsWay.empty() ? "another one within three cells" : inItsWay, ". Pressures and moments of a wall are too small then.");
+		if (i < crossed.size() && crossed[i] > 0)
+			found["through " + beam.name] = gimpm::sentence(
+			        crossed[i], crossed[i] == 1 ? " material point has" : " material points have", " gone through ", beam.name,
+			        " in a step and count for the soil on its other side now. Shorter steps, or a larger MpmBeam.stiffness, keep soil on its side.");
+	}
+	return found;
 }
 
 } // namespace yade

@@ -11,12 +11,13 @@ class Beams : public Condition<2> {
 public:
 	explicit Beams(const MpmCondition::Group& group) : group(group) { }
 
-	void join(gimpm::Model<2>&, const Surroundings<2>&) override;
-	void part(gimpm::PointCloud<2>&, gimpm::Model<2>&) override;
-	void advance(const StepTime&, gimpm::Model<2>&, gimpm::Load<2>&) override;
-	bool areBeside(const gimpm::Vec<2>& point, const gimpm::Vec<2>& half) const override;
-	Work work(const StepOutcome<2>&) const override;
-	void reach(const StepOutcome<2>&) override;
+	void                     join(gimpm::Model<2>&, const Surroundings<2>&) override;
+	void                     part(gimpm::PointCloud<2>&, gimpm::Model<2>&) override;
+	void                     advance(const StepTime&, gimpm::Model<2>&, gimpm::Load<2>&) override;
+	bool                     areBeside(const gimpm::Vec<2>& point, const gimpm::Vec<2>& half) const override;
+	Work                     work(const StepOutcome<2>&) const override;
+	void                     reach(const StepOutcome<2>&) override;
+	std::map<string, string> warnings() const override;
 
 private:
 	struct Source {
@@ -28,7 +29,11 @@ private:
 	MpmCondition::Group         group;
 	vector<Source>              sources;
 	vector<gimpm::Structure<2>> structures;
-	bool                        mayPart = true; // what there is besides goes with nodes that are tied
+	string                      inItsWay; // what there is besides that does not go with nodes that are tied; empty: nothing
+	vector<int>                 sides;    // of points, as the step begins
+	vector<size_t>              crossed;  // by structure: points that have gone through it
+
+	vector<gimpm::Beam*> beams();
 };
 
 } // namespace yade

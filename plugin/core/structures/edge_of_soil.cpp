@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "core/structures/edge_of_soil.hpp"
+#include <algorithm>
+
+namespace gimpm {
+namespace {
+
+/// How far the middles of points that may fill the cell beyond a place are from it [cells].
+constexpr double reachOfPoints = 2;
+
+/// How much of an interval around a middle lies in another one.
+double overlap(double middle, double half, double low, double high) { return std::max(0., std::min(middle + half, high) - std::max(middle - half, low)); }
+
+} // namespace
+
+EdgeOfSoil::EdgeOfSoil(const std::vector<Vec<2>>& line, double cellSize, const PointCloud<2>& cloud)
+        : cloud_(cloud), cellSize_(cellSize), reach_(reachOfPoints * cellSize)
+{
+	Vec<2> low = line.front(), high = low;
+	for (const Vec<2>& place : line)
+		low = low.cwiseMin(place), high = high.cwiseMax(place);
+	(high - low).maxCoeff(&axis_);
+	low.array() -= reach_, high.array() += reach_;
+	for (int p = 0; p < int(cloud.size()); ++p)
+		if ((cloud.position[p] - low).minCoeff() >= 0 && (high - cloud.position[p]).minCoeff() >= 0) points_.push_back(p);
+	std::sort(points_.begin(), points_.end(), [&](int p, int q) { return cloud.position[p][axis_] < cloud.position[q][axis_]; });
+}
+
+std::vector<int> EdgeOfSoil::around(const Vec<2>& place, int layer) const
+{
+	const auto       along = [&](int p) { return cloud_.position[p][axis_]; };
+	const auto       first = std::lower_bound(points_.begin(), points_.end(), place[axis_] - reach_, [&](int p, double x) { return along(p) < x; });
+	std::vector<int> near;
+	for (auto p = first; p != points_.end() && along(*p) <= place[axis_] + reach_; ++p)
+		if (cloud_.layerOf(*p) == layer && (cloud_.position[*p] - place).cwiseAbs().maxCoeff() <= reach_) near.push_back(*p);
+	std::sort(near.begin(), near.end());
+	return near;
+}
+
+double EdgeOfSoil::from(const Vec<2>& place, const Vec<2>& n, int layer) const
+{
+	const double h = cellSize_, window = h / 2;
+	const Vec<2> t(-n[1], n[0]);
+	double       before = 0, behind = 0;
+	for (const int p : around(place, layer)) {
+		const Vec<2> apart     = cloud_.position[p] - place;
+		const auto   halfAlong = [&](const Vec<2>& e) { return e.cwiseProduct(cloud_.halfSize[p]).norm(); };
+		const double along     = overlap(apart.dot(t), halfAlong(t), -window, window);
+		before += along * overlap(apart.dot(n), halfAlong(n), -h, h / 2);
+		behind += along * overlap(apart.dot(n), halfAlong(n), h / 2, h);
+	}
+	if (behind == 0) return 0;
+	return std::clamp(h / 2 * (1 - before / behind), -h / 2, h / 2);
+}
+
+} // namespace gimpm
