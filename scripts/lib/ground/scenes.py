@@ -265,7 +265,7 @@ class Sheetpile(Cutting):
 
 	def isRight(self, solver):
 		"""In sand without cohesion a stiff wall is thrown over at the depth of Blum (1931), which flow with less dilation does not raise; a tenth is for the grid."""
-		moved, thrown = self.farthest(), self.soil.cohesion == 0 and self.rows > 1.1 * self.soil.depthOfBlum(self.long)
+		moved, thrown = self.farthest(), self.soil.cohesion == 0 and self.soil.phi > 0 and self.rows > 1.1 * self.soil.depthOfBlum(self.long)
 		return dict(moved=(moved, moved > .1 or not thrown))
 
 	def told(self):

@@ -56,8 +56,8 @@ class Soil:
 		return (Nq - 1) / tan(self.phi) * self.cohesion + Nq * cover + 1.5 * .75 * (Nq - 1) * tan(self.phi) * weight * width
 
 	def depthOfBlum(self, length):
-		"""To which a smooth and stiff cantilever wall of this length can be dug free in soil without cohesion; nothing where there is no friction."""
-		return 0 if self.phi == 0 or self.law == 'camClay' else length * (1 - (1 / self.passive)**(2 / 3))
+		"""To which a smooth and stiff cantilever wall of this length can be dug free in soil without cohesion."""
+		return length * (1 - (1 / self.passive)**(2 / 3))
 
 	def thrusts(self, height):
 		"""Rankine's active and passive thrust of a smooth wall [N/m]."""
