@@ -16,7 +16,7 @@ constexpr int kept = 100;
 /// of one point a cell in the middle of it, make the incomplete factor useless.
 constexpr int maxIterations = 200;
 
-/// With the diagonal, which takes a third of the time for each.
+/// With the diagonal, each of which takes less time.
 constexpr int mostWithDiagonal = 300;
 
 struct NoPivot { };
