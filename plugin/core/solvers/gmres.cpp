@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "core/solvers/gmres.hpp"
+#include "core/solvers/reversed.hpp"
 #include <algorithm>
+#include <cmath>
 #include <unsupported/Eigen/IterativeSolvers>
 
 namespace gimpm {
@@ -13,6 +15,9 @@ constexpr int kept = 100;
 /// Where they do not suffice they have taken as long as a factorisation, and more would hardly: zero-energy modes, as
 /// of one point a cell in the middle of it, make the incomplete factor useless.
 constexpr int maxIterations = 200;
+
+/// With the diagonal, each of which takes less time.
+constexpr int mostWithDiagonal = 300;
 
 struct NoPivot { };
 
@@ -62,33 +67,94 @@ private:
 	std::vector<int>    diagonal_; // where they are among the values
 };
 
+/// Division by the diagonal, of which all entries must be there.
+class Diagonal {
+public:
+	explicit Diagonal(const GeneralCsc& K) : value_(K.size())
+	{
+		for (int c = 0; c < K.size(); ++c)
+			value_[c] = diagonalOf(K, c);
+		if (!value_.allFinite() || (value_.array() == 0).any()) throw NoPivot();
+	}
+	Eigen::VectorXd solve(const Eigen::VectorXd& x) const { return x.cwiseQuotient(value_); }
+
+private:
+	Eigen::VectorXd value_;
+};
+
 /// K times the preconditioner, whose residuals are those of K.
-struct Preconditioned {
-	const GeneralCsc&   K;
-	const IncompleteLu& lu;
+template <class M> struct Preconditioned {
+	const GeneralCsc& K;
+	const M&          preconditioner;
 
 	Eigen::Index    rows() const { return K.size(); }
-	Eigen::VectorXd operator*(const Eigen::VectorXd& x) const { return K * lu.solve(x); }
+	Eigen::VectorXd operator*(const Eigen::VectorXd& x) const { return K * preconditioner.solve(x); }
 };
+
+/// K x = b with b of size 1, from x on, which has reached |b - K x| = error.
+struct Iteration {
+	const GeneralCsc&      K;
+	const Eigen::VectorXd& b;
+	double                 tolerance;
+	Eigen::VectorXd        x     = Eigen::VectorXd::Zero(b.size());
+	double                 error = 1;
+	int                    made  = 0;
+
+	/// As many iterations as there are directions, at most. Whether it has converged.
+	template <class M> bool cycle(const M& preconditioner)
+	{
+		const Eigen::VectorXd residual   = b - K * x;
+		Eigen::VectorXd       y          = Eigen::VectorXd::Zero(b.size());
+		Eigen::Index          iterations = kept;
+		double                left       = tolerance / error;
+		// the function behind Eigen::GMRES, which takes an operator of our own without the traits that the
+		// class asks for
+		Eigen::internal::gmres(
+		        Preconditioned<M> { K, preconditioner }, residual, y, Eigen::IdentityPreconditioner(), iterations, Eigen::Index(kept), left);
+		made += int(iterations);
+		x += preconditioner.solve(y);
+		error = (b - K * x).stableNorm();
+		return error <= tolerance;
+	}
+};
+
+/// With the diagonal, as long as it gains enough to get there.
+bool byDiagonal(Iteration& iteration)
+{
+	const Diagonal diagonal(iteration.K);
+	for (int cycles = mostWithDiagonal / kept; cycles > 0; --cycles) {
+		const double before = iteration.error;
+		if (iteration.cycle(diagonal)) return true;
+		if (!(iteration.error * std::pow(iteration.error / before, cycles - 1) <= iteration.tolerance)) return false;
+	}
+	return false;
+}
+
+bool byIncompleteLu(Iteration& iteration)
+{
+	const IncompleteLu lu(iteration.K);
+	for (int cycles = maxIterations / kept; cycles > 0; --cycles)
+		if (iteration.cycle(lu)) return true;
+	return false;
+}
 
 } // namespace
 
 bool gmres(const GeneralCsc& K, const Eigen::VectorXd& b, double tolerance, Eigen::VectorXd& x, int& iterations)
-try {
+{
 	x.setZero(b.size());
 	const double size = b.stableNorm(); // whose square may vanish or overflow
 	if (size == 0) return true;
-	const IncompleteLu lu(K);
-	Eigen::Index       made  = maxIterations;
-	double             error = tolerance;
-	// the function behind Eigen::GMRES, which takes an operator of our own without the traits that the class asks
-	// for
-	Eigen::internal::gmres(Preconditioned { K, lu }, Eigen::VectorXd(b / size), x, Eigen::IdentityPreconditioner(), made, Eigen::Index(kept), error);
-	iterations += int(made);
-	x = size * lu.solve(x);
-	return error <= tolerance && x.allFinite();
-} catch (const NoPivot&) {
-	return false;
+	const Eigen::VectorXd unit = b / size;
+	Iteration             iteration { K, unit, tolerance };
+	bool                  hasConverged = false;
+	try {
+		hasConverged = byDiagonal(iteration) || byIncompleteLu(iteration);
+	} catch (const NoPivot&) {
+	}
+	iterations += iteration.made;
+	x = size * iteration.x;
+	return hasConverged && x.allFinite();
 }
 
 } // namespace gimpm

@@ -55,6 +55,10 @@ class Soil:
 		Nq = exp(pi * tan(self.phi)) * self.passive
 		return (Nq - 1) / tan(self.phi) * self.cohesion + Nq * cover + 1.5 * .75 * (Nq - 1) * tan(self.phi) * weight * width
 
+	def depthOfBlum(self, length):
+		"""To which a smooth and stiff cantilever wall of this length can be dug free in soil without cohesion."""
+		return length * (1 - (1 / self.passive)**(2 / 3))
+
 	def thrusts(self, height):
 		"""Rankine's active and passive thrust of a smooth wall [N/m]."""
 		K, w = self.passive, weight * height**2 / 2

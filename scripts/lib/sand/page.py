@@ -3,7 +3,7 @@
 from math import isnan, log2
 
 titles = dict(
-        factors='Strips over grids', parts='What the load of a strip is made of (smooth, 20 degrees)', steps='Dependence on the number of steps (smooth, 20 degrees, 2 x 2 points)', walls='Smooth walls (Rankine)')
+        factors='Strips over grids', early='Strips of one point per cell at a settlement of .00025 B', parts='What the load of a strip is made of (smooth, 20 degrees)', steps='Dependence on the number of steps (smooth, 20 degrees, 2 x 2 points)', walls='Smooth walls (Rankine)')
 
 
 def percent(value, exact):

@@ -19,6 +19,16 @@ def factors():
 				yield 'strip.strip', (name, how, f'B/{2 * cells + 1}'), arguments | settings | dict(cells=cells)
 
 
+def early():
+	"""N_gamma with one point per cell after a quarter of the settlement, where the strip has its limit load and points have not yet been squeezed out beside its edge; in more and fewer steps on one of the grids."""
+	for name, arguments in list(problems.items())[:4]:
+		for cells in grids:
+			yield 'strip.strip', (name, '10 steps', f'B/{2 * cells + 1}'), arguments | dict(points=1, settlement=2.5e-4, steps=10, cells=cells)
+	for name in 'N_gamma smooth, 20', 'N_gamma smooth, 30':
+		for number in 40, 160, 640:
+			yield 'strip.strip', (name, f'{number} steps', 'B/17'), problems[name] | dict(points=1, settlement=2.5e-4, steps=number)
+
+
 def parts():
 	"""What the load of the smooth strip, 20 degrees, B/17, is made of: one thing changed at a time."""
 	changes = {
@@ -58,4 +68,4 @@ def walls():
 					yield 'wall.wall', (name, f'{points} x {points}', f'H/{cells}'), dict(phi=phi, isPassive=isPassive, cells=cells, points=points)
 
 
-groups = dict(factors=factors, parts=parts, steps=steps, walls=walls)
+groups = dict(factors=factors, early=early, parts=parts, steps=steps, walls=walls)

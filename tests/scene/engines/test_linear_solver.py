@@ -33,6 +33,28 @@ print(json.dumps([run(method) for method in ('direct', 'iterative', 'auto')]))
 	assert difference < 1e-4, difference
 
 
+def test_sand_in_space_that_keeps_its_volume_needs_no_factor(yade):
+	"""A square footing, psi = 0, 19,775 unknowns: division by the diagonal gets GMRES there, where the incomplete factor does not."""
+	solves, iterations, fallbacks, factors = yade('''
+import json
+from scenes import *
+h = .5 / 6.5
+width, depth = 20 * h, 16 * h
+O.materials.append(MpmMohrCoulombMat(young=2e8, poisson=.3, density=2000, cohesion=20, frictionAngle=radians(20), dilationAngle=0, label='sand'))
+grid = MpmGrid(cellSize=h, dim=3)
+O.bodies.append(mpm.fill(pack.inAlignedBox((0, -depth, 0), (width, 0, width)), grid, 2, 'sand'))
+foot = MpmBoundary(min=(-inf, 0, -inf), max=(.5, 0, .5), fix='y', displacement=(0, -1e-4, 0))
+sides = [MpmBoundary(**{side: corner}, fix=fix) for fix, side, corner in (('x', 'max', (0, inf, inf)), ('x', 'min', (width, -inf, -inf)), ('z', 'max', (inf, inf, 0)), ('z', 'min', (-inf, -inf, width)), ('xyz', 'max', (inf, -depth, inf)))]
+solver = MpmImplicitEngine(grid=grid, boundaries=[foot, *sides], fBar=True, gravity=(0, -10, 0), gravityCurve=[(0, 1)], verbosity=0)
+O.engines, O.dt = [solver], 1
+mpm.geostatic()
+O.step()
+print(json.dumps([solver.iterations, solver.cgIterations, solver.cgFallbacks, solver.report()['luSolves']]))
+''').result
+	assert solves > 5 and iterations > 20 * solves
+	assert (fallbacks, factors) == (0, 0)
+
+
 beam = '''
 import json
 from scenes import *
