@@ -5,11 +5,11 @@
 
 namespace gimpm {
 
-/// A ball of more than a cell touches with a few places; a quarter of a cell apart they take it along as the edges of a
-/// polygon do.
+/// A ball of two cells and more may touch with few places; a quarter of a cell apart they take it along as the edges of
+/// a polygon do. Soil that smaller ones meet is not resolved.
 template <int Dim> bool mayHaveFinePlaces(const RigidShape<Dim>& shape, double cellSize)
 {
-	return shape.kind == RigidKind::ball && shape.radius >= cellSize * (1 - 1e-9);
+	return shape.kind == RigidKind::ball && shape.radius >= cellSize * (2 - 1e-9);
 }
 
 /// Where numbers of such places begin: they are told from those of the usual ones by that.

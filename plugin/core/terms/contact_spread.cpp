@@ -19,8 +19,8 @@ constexpr double offChord = 1. / 8;
 } // namespace
 
 /// Soil that is pressed all over a ball touches it in some places of a cell and lies off it by a part of the chord in
-/// others. The grid knows what presses on all of them together, so that is what adhesion goes by: that of the last step,
-/// over the area. Where friction has no other bound than pressure, all of it is the same with or without.
+/// others. The grid knows what presses on all of them together, so that is what adhesion goes by: that of the last
+/// step, over the area. Where friction has no other bound than pressure, all of it is the same with or without.
 template <int Dim> void Contact<Dim>::spreadPressure()
 {
 	const auto cellOf = [&](const Place& place) {
