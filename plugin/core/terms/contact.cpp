@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "core/terms/contact.hpp"
 #include "core/terms/attached.hpp"
+#include "core/terms/contact_fine.hpp"
 #include <algorithm>
 #include <cmath>
 #include <sstream>
@@ -21,6 +22,15 @@ constexpr double deepest = 0.1;
 
 /// Of a place's springs on gap and slip [J].
 double stored(double pressure, double gap, double friction) { return pressure > 0 ? -gap / 2 * (pressure + slipSoftness * friction * friction / pressure) : 0; }
+
+/// A body keeps the places with which it has touched.
+template <int Dim> bool isFineOn(const ContactSystem<Dim>& system, int body, double cellSize)
+{
+	if (!mayHaveFinePlaces(system.bodies[body].shape, cellSize)) return false;
+	const auto record = std::find_if(system.records.begin(), system.records.end(), [&](const auto& r) { return r.body == body; });
+	if (record == system.records.end()) return std::isfinite(system.energy);
+	return record->number % (std::int64_t(1) << placeBits) >= firstFineNumber;
+}
 
 /// Soil on a periodic grid is in the first period, and beside each end of that, where the other end goes on.
 template <int Dim> void addImages(std::vector<SoilDomain<Dim>>& domains, const Grid<Dim>& grid)
@@ -68,6 +78,8 @@ Contact<Dim>::Contact(ContactSystem<Dim>& system, const Beginning<Dim>& step)
 		addPlaces(body);
 	}
 	if (std::isfinite(system_.energy)) findLost();
+	else
+		spreadPressure();
 	for (const Place& place : places_)
 		isSymmetric_ = isSymmetric_ && (place.law.friction == 0 || place.law.cap == 0);
 }
@@ -153,7 +165,8 @@ template <int Dim> void Contact<Dim>::addPlaces(int number, int layer)
 	const auto [low, high]        = soil.bounds();
 	const Vec<Dim>         margin = Vec<Dim>::Constant(grid_.cellSize + searchReach(body, grid_));
 	const std::vector<int> around = bodiesAround(number);
-	for (const auto& point : surfacePointsAt<Dim>(body.shape, body.begin, grid_.cellSize, low - margin, high + margin))
+	const bool             isFine = isFineOn(system_, number, grid_.cellSize);
+	for (const auto& point : (isFine ? finePointsAt<Dim> : surfacePointsAt<Dim>)(body.shape, body.begin, grid_.cellSize, low - margin, high + margin))
 		addPlace(number, layer, point, soil, around);
 }
 

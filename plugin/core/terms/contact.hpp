@@ -143,6 +143,7 @@ private:
 	void                                addLoads(const Place&, const Vec<Dim>& place, const Touch<Dim>&);
 	Mat<Dim>                            resistanceOf(const Place&, const Touch<Dim>&) const;
 	void                                findLost();
+	void                                spreadPressure();
 	void                                turnPlaces(const Eigen::VectorXd& d);
 	Vec<Dim>                            placeOfForce(const Place&, const Vec<Dim>& soil, const Vec<Dim>& normal) const;
 	ContactLoad                         loadOn(const Vec<Dim>& owner, const Place&, const Vec<Dim>& place, const Touch<Dim>&) const;

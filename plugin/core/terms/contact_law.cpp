@@ -7,15 +7,16 @@ namespace gimpm {
 template <int Dim> std::optional<Touch<Dim>> touch(const ContactLaw<Dim>& law, const Approach<Dim>& approach, double tolerance)
 {
 	const auto& [gap, n, dn, beside] = approach.at;
-	if (!(gap <= tolerance)) return std::nullopt;
+	const bool isPressed             = gap <= tolerance;
+	if (!isPressed && !(law.around > 0 && gap <= law.reach)) return std::nullopt;
 	const Mat<Dim> P = Mat<Dim>::Identity() - n * n.transpose();
 	Touch<Dim>     t;
-	t.normal           = n;
-	t.pressure         = std::max(0., -law.normal * gap);
-	t.slope            = -law.normal * n * n.transpose() + t.pressure * dn;
-	const double limit = std::min(law.friction * t.pressure, law.cap);
+	t.normal   = n;
+	t.pressure = std::max(0., -law.normal * gap);
+	if (isPressed) t.slope = -law.normal * n * n.transpose() + t.pressure * dn;
+	const double limit = std::min(law.friction * std::max(t.pressure, law.around), law.cap);
 	if (law.friction == 0 || law.cap == 0) return t;
-	if (t.pressure == 0) {
+	if (limit == 0) {
 		t.slope -= law.tangential * P * approach.slipSlope;
 		return t;
 	}
@@ -31,7 +32,7 @@ template <int Dim> std::optional<Touch<Dim>> touch(const ContactLaw<Dim>& law, c
 	const Vec<Dim> along = trial / size;
 	t.friction           = limit * along;
 	t.slope += limit / size * (dtrial - along * (along.transpose() * dtrial));
-	if (law.friction * t.pressure < law.cap) t.slope -= law.friction * law.normal * along * n.transpose();
+	if (t.pressure >= law.around && law.friction * t.pressure < law.cap) t.slope -= law.friction * law.normal * along * n.transpose();
 	return t;
 }
 

@@ -10,6 +10,8 @@ template <int Dim> struct ContactLaw {
 	double normal, tangential; ///< stiffness of the penalty [N/m]
 	double friction;           ///< coefficient [-]
 	double cap;                ///< of the frictional force [N]
+	/// What presses on places around as well as on this one, by which it rubs at least [N]; up to which gap [m].
+	double around = 0, reach = 0;
 };
 
 /// Where the place is by the body, and how it has moved along it in the step.

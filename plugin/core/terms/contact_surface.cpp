@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "core/terms/contact_surface.hpp"
+#include "core/terms/contact_fine.hpp"
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -288,9 +289,20 @@ std::vector<SurfacePoint<Dim>> surfacePointsAt(const RigidShape<Dim>& shape, con
 	return surfacePoints<Dim>(shape, cellSize / 4, middle - half, middle + half);
 }
 
+template <int Dim>
+std::vector<SurfacePoint<Dim>> finePointsAt(const RigidShape<Dim>& shape, const Pose<Dim>& pose, double cellSize, const Vec<Dim>& low, const Vec<Dim>& high)
+{
+	auto points = surfacePointsAt(shape, pose, cellSize / 2, low, high);
+	for (auto& point : points)
+		point.number += firstFineNumber;
+	return points;
+}
+
 template std::vector<SurfacePoint<2>> surfacePoints(const RigidShape<2>&, double, const Vec<2>&, const Vec<2>&);
 template std::vector<SurfacePoint<3>> surfacePoints(const RigidShape<3>&, double, const Vec<3>&, const Vec<3>&);
 template std::vector<SurfacePoint<2>> surfacePointsAt(const RigidShape<2>&, const Pose<2>&, double, const Vec<2>&, const Vec<2>&);
 template std::vector<SurfacePoint<3>> surfacePointsAt(const RigidShape<3>&, const Pose<3>&, double, const Vec<3>&, const Vec<3>&);
+template std::vector<SurfacePoint<2>> finePointsAt(const RigidShape<2>&, const Pose<2>&, double, const Vec<2>&, const Vec<2>&);
+template std::vector<SurfacePoint<3>> finePointsAt(const RigidShape<3>&, const Pose<3>&, double, const Vec<3>&, const Vec<3>&);
 
 } // namespace gimpm

@@ -35,7 +35,7 @@ def _places(body, area, deep, places, soil, contact, seconds, push=None):
 			found.append(float(rigid.force(touch) @ _upwards(grid)) / area if course.run(steps) else float('nan'))
 			for name in total: total[name] += course.told()[name]
 			if course.why: why.append(course.why)
-		warned += 'less than a cell' in text.text and 'WARN' in text.text
+		warned += ('less than a cell' in text.text or 'less than three cells' in text.text) and 'WARN' in text.text
 	whole = [F for F in found if F == F]
 	of = dict(mean=float(np.mean(whole)) if whole else float('nan'), least=min(whole, default=float('nan')), spread=spread(whole) if len(whole) == len(found) else float('nan'))
 	return dict(forces=found, **of, warned=warned, **total, seconds=round(time.process_time() - began, 1), why='; '.join(dict.fromkeys(why)))

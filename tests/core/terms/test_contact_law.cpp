@@ -98,6 +98,32 @@ namespace {
 		}
 	}
 
+	/// By as much as its surroundings are pressed with; not farther off than it reaches.
+	template <int Dim> void testAround()
+	{
+		const auto body = bodyOf<Dim>(RigidKind::ball);
+		Vec<Dim>   x    = body.end.position + 0.75 * turned<Dim>(0.42) * Vec<Dim>::Unit(1);
+		for (int i = 0; i < 5; ++i) // 0.01 off
+			x -= (body.proximity(body.end, x, 1).gap - 0.01) * body.proximity(body.end, x, 1).normal;
+		const Vec<Dim>        from = body.before(x) + 0.3 * Vec<Dim>::LinSpaced(1, 2);
+		const ContactLaw<Dim> law { 100, 50, 0.5, 2, 3, 0.02 }, capped { 100, 50, 0.5, 0.2, 3, 0.02 }, near { 100, 50, 0.5, 2, 3, 0.005 };
+		const auto            rubs = touchAt(body, law, from, x), rubsLess = touchAt(body, capped, from, x);
+		ASSERT_TRUE(rubs && rubsLess);
+		EXPECT_EQ(rubs->pressure, 0);
+		EXPECT_TRUE(rubs->slips);
+		EXPECT_NEAR(rubs->friction.norm(), 1.5, 1e-12);
+		EXPECT_NEAR(rubsLess->friction.norm(), 0.2, 1e-12);
+		const Mat<Dim> slope = slopeOf<Dim>([&](const Vec<Dim>& y) { return touchAt(body, law, from, y)->force(); }, x);
+		EXPECT_LT((slope - rubs->slope).norm(), 1e-7 * slope.norm());
+		EXPECT_FALSE(touchAt(body, near, from, x));
+	}
+
+	TEST(ContactLaw, WhatIsPressedAroundAPlaceLetsItRub)
+	{
+		testAround<2>();
+		testAround<3>();
+	}
+
 	TEST(ContactLaw, GapNormalAndItsSlopeInThePlane) { testGradients<2>(); }
 	TEST(ContactLaw, GapNormalAndItsSlopeInSpace) { testGradients<3>(); }
 	TEST(ContactLaw, ForceAndItsSlopeInThePlane) { testForces<2>(); }

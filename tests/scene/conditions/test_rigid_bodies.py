@@ -354,7 +354,7 @@ print(json.dumps([dragged(0, 0), dragged(0.5, 1), dragged(0.1, 0), dragged(0.1, 
 
 
 def test_edges_and_small_balls_are_warned_of(yade):
-	"""By name, with the cells that see them: a turned Box as long as less than a cell of its edge is in the soil, a ball of less than a cell, the border of a Facet that leans; not a Box that lies flat, nor a ball of many cells."""
+	"""By name, with the cells that see them: a turned Box as long as less than three cells of its edge are in the soil, a ball of less than a cell; and the border of a Facet that leans, which no cells resolve; not a Box that lies flat, nor a ball of many cells."""
 	run = yade(scene + '''
 def pushed(body):
 	solver = soil(contacts=[MpmContact(friction=0.3, mask=1, stiffness=10)])
@@ -368,9 +368,9 @@ pushed(lambda: utils.sphere((0.45, 2, 0), 1, material='rigid', fixed=True))
 print(json.dumps([]))
 ''')
 	words = run.stdout + run.stderr
-	assert words.count('(Box) presses by an edge or a tip of which') == 1 and words.count('less than a cell (0.25 m)') == 3 and words.count('Cells of at most') == 3
+	assert words.count('(Box) presses by an edge or a tip of which') == 1 and words.count('less than three cells (of 0.25 m)') == 2 and words.count('Cells of at most') == 2
 	assert words.count('(Sphere) is 0.2 m thick, less than a cell (0.25 m)') == 1 and words.count('Cells of at most 0.1 m resolve it') == 1
-	assert words.count('(Facet) presses by an edge or a tip of which') == 1
+	assert words.count('(Facet) presses by a border of which') == 1 and words.count('smaller cells do not change that') == 1
 
 
 def test_edges_give_soil_no_energy(yade):

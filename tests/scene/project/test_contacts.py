@@ -45,6 +45,13 @@ def test_the_limit_of_the_cone():
 	assert derived['cone-limit'].function(results | {'cone-R3': dict(part=.5, reached=5, late=11)}) is None
 
 
+def test_the_limit_of_the_vane():
+	"""Of a torque of (1 + 1 / cells)^2, if all three grids have turned."""
+	results = {f'vane-R{cells}': dict(turned=86, torque=(1 + 1 / cells)**2) for cells in (4, 6, 10)}
+	assert abs(derived['vane-limit'].function(results)['torque'] - 1) < 1e-12
+	assert derived['vane-limit'].function(results | {'vane-R6': dict(turned=10, torque=1.3)}) is None
+
+
 def test_cases_that_are_right(yade):
 	"""By the command; what is not right is told by how it ends."""
 	out = yade.folder / 'out'

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "engine/conditions/contact/contact_picture.hpp"
-#include "core/terms/contact_surface.hpp"
+#include "core/terms/contact_fine.hpp"
 #include "engine/analysis/analysis.hpp"
 #include "engine/conditions/contact/MpmContact.hpp"
 #include "engine/conditions/contact/contact_records.hpp"
@@ -79,7 +79,10 @@ template <int Dim> void drawFaces(Picture& picture, const MpmContact& contact, c
 		if (!rigid) continue;
 		rigid->shape.axes = contact.turnOf(id).template topLeftCorner<Dim, Dim>();
 		const auto box    = extent<Dim>(records, grid.cellSize);
-		for (const auto& point : gimpm::surfacePointsAt<Dim>(rigid->shape, rigid->begin, grid.cellSize, box.min(), box.max())) {
+		const bool isFine = records.rbegin()->first >= gimpm::firstFineNumber && gimpm::mayHaveFinePlaces(rigid->shape, grid.cellSize);
+		const auto places
+		        = (isFine ? gimpm::finePointsAt<Dim> : gimpm::surfacePointsAt<Dim>)(rigid->shape, rigid->begin, grid.cellSize, box.min(), box.max());
+		for (const auto& point : places) {
 			const auto found        = records.find(point.number);
 			const Real around       = grid.axisymmetric ? 2 * M_PI * rigid->begin.inSpace(point.place)[0] : 1;
 			const bool isBeyondAxis = around <= 0, isOtherSide = rigid->shape.isTwoSided && found == records.end();

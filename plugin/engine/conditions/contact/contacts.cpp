@@ -4,7 +4,6 @@
 #include "core/terms/contact_coupling.hpp"
 #include "core/terms/motion.hpp"
 #include "engine/analysis/analysis.hpp"
-#include "engine/conditions/contact/contact_records.hpp"
 #include "engine/conditions/contact/rigid_bodies.hpp"
 #include "engine/conditions/contact/small_features.hpp"
 #include <algorithm>
@@ -77,13 +76,6 @@ namespace {
 	Real angleBetween(const Se3r& a, const Se3r& b) { return a.orientation.angularDistance(b.orientation); }
 
 	template <int Dim> gimpm::Vec<Dim> headOf(const Vector3r& x) { return x.head<Dim>(); }
-
-	template <int Dim> Vector3r inSpace(const gimpm::Vec<Dim>& x)
-	{
-		Vector3r result    = Vector3r::Zero();
-		result.head<Dim>() = x;
-		return result;
-	}
 }
 
 template <int Dim> Contacts<Dim>::Contacts(const MpmCondition::Group& group) : system(new gimpm::ContactSystem<Dim>)
@@ -218,20 +210,6 @@ template <int Dim> vector<NodePose> Contacts<Dim>::nodePoses(const Member& membe
 	for (const int i : member.nodes)
 		poses.push_back({ owners[i].body.get(), between(owners[i].begin, owners[i].target, partAt(end)), owners[i].reached });
 	return poses;
-}
-
-// What a contact keeps, in numbers of this run.
-template <int Dim> void Contacts<Dim>::recall(const MpmContact& contact)
-{
-	Places numbers;
-	for (size_t i = 0; i < members.size(); ++i)
-		numbers[members[i].body->id] = int(i);
-	forRecords(contact.records, [&](const ContactRecordOfPlace& r) {
-		const auto body = numbers.find(r.body);
-		if (body == numbers.end()) return; // erased
-		const auto friction = headOf<Dim>(r.friction), normal = headOf<Dim>(r.normal), place = headOf<Dim>(r.place);
-		system->records.push_back({ body->second, r.number, r.gap, r.touches, r.slips, r.pressure, r.presence, r.travel, friction, normal, place });
-	});
 }
 
 template <int Dim> void Contacts<Dim>::join(gimpm::Model<Dim>& model, const Surroundings<Dim>& around)
@@ -401,60 +379,6 @@ template <int Dim> std::map<string, string> Contacts<Dim>::warnings() const
 	found["distance"]    = distance;
 	found["thin"]        = warningOfSmallFeatures(*system, cellSize);
 	return found;
-}
-
-// The impulses are those since the last run.
-template <int Dim> void Contacts<Dim>::keep(MpmContact& contact)
-{
-	std::map<Body::id_t, Vector3r> impulses;
-	for (size_t i = 0; i < contact.bodies.size(); ++i)
-		impulses[contact.bodies[i]] = hasKept ? contact.impulses[i] : contact.impulsesSince[i];
-	contact.forget();
-	contact.ownPoses.clear();
-	for (size_t i = 0; i < owners.size(); ++i)
-		if (owners[i].contact.get() == &contact) {
-			const auto since = impulses.find(owners[i].body->id);
-			owners[i].place  = contact.bodies.size();
-			contact.keep(
-			        owners[i].body->id, owners[i].isFree && inTime ? owners[i].mean : system->loads[i], owners[i].reached, owners[i].isFree,
-			        since == impulses.end() ? Vector3r(Vector3r::Zero()) : since->second);
-		}
-}
-
-template <int Dim> void Contacts<Dim>::keepRecords() const
-{
-	for (size_t i = 0; i < members.size(); ++i) {
-		Matrix3r turn                  = Matrix3r::Identity();
-		turn.topLeftCorner<Dim, Dim>() = system->bodies[i].shape.axes;
-		owners[system->bodies[i].owner].contact->keepTurn(members[i].body->id, turn);
-	}
-	for (const auto& r : system->records) {
-		const Owner& owner = owners[system->bodies[r.body].owner];
-		MpmContact&  to    = *owner.contact;
-		ContactRecordOfPlace { r.number,
-			               members[r.body].body->id,
-			               r.gap,
-			               r.pressure,
-			               r.presence,
-			               r.travel,
-			               r.touches,
-			               r.slips,
-			               inSpace<Dim>(r.friction),
-			               inSpace<Dim>(r.normal),
-			               inSpace<Dim>(r.place) }
-		        .appendTo(to.records);
-		to.touching[placeOf(r)] += r.touches;
-		to.slipping[placeOf(r)] += r.slips;
-	}
-}
-
-// In the contact's list of bodies, of who owns the body; of its nodes the one that is closest.
-template <int Dim> size_t Contacts<Dim>::placeOf(const gimpm::ContactRecord<Dim>& r) const
-{
-	int closest = system->bodies[r.body].owner;
-	for (const int node : members[r.body].nodes)
-		if ((system->owners[node] - r.place).squaredNorm() < (system->owners[closest] - r.place).squaredNorm()) closest = node;
-	return owners[closest].place;
 }
 
 template class Contacts<2>;

@@ -78,11 +78,21 @@ namespace {
 
 	template <int Dim> string ofEdge(const gimpm::RigidBody<Dim>& body, Real reach, Real cellSize)
 	{
-		if (!(reach > 0 && reach < cellSize)) return "";
+		if (!(reach > 0 && reach < 3 * cellSize)) return "";
 		return gimpm::sentence(
-		        body.name, " presses by an edge or a tip of which ", reach, " m are in the soil, less than a cell (", cellSize,
-		        " m). What it meets there depends on where in a cell it is, by a third with half a cell and by a tenth with one and a half. Cells of at most ",
-		        reach / 1.5, " m see as much; when it goes deeper, two thirds of that will do.");
+		        body.name, " presses by an edge or a tip of which ", reach, " m are in the soil, less than three cells (of ", cellSize,
+		        " m). What it meets there depends on where in a cell it is, by ", reach < cellSize ? "a third or more" : "a tenth",
+		        ". Cells of at most ", reach / 5, " m, or five times that depth, make it a twentieth.");
+	}
+
+	// The same of the border of a sheet, which no cells resolve.
+	template <int Dim> string ofBorder(const gimpm::RigidBody<Dim>& body, Real reach, Real cellSize)
+	{
+		if (!(reach > 0 && reach < 3 * cellSize)) return "";
+		return gimpm::sentence(
+		        body.name, " presses by a border of which ", reach, " m are in the soil, less than three cells (of ", cellSize,
+		        " m). What it meets there depends on where in a cell it is, by a fifth to a third, and smaller cells do not change that, as soil on both of "
+		        "its sides moves as one. A Box, or a closed mesh of Facets, that has its thickness can be resolved.");
 	}
 }
 
@@ -101,7 +111,7 @@ template <int Dim> string warningOfSmallFeatures(const gimpm::ContactSystem<Dim>
 		else if (isThin)
 			text = ofThinness(body, touched, cellSize);
 		if (body.shape.kind == RigidKind::block && text.empty()) text = ofEdge(body, reachFromEdge(body, touched), cellSize);
-		if (isSheet(body) && !isMesh && text.empty()) text = ofEdge(body, reachFromBorder(body, touched), cellSize);
+		if (isSheet(body) && !isMesh && text.empty()) text = ofBorder(body, reachFromBorder(body, touched), cellSize);
 		if (!text.empty()) return text;
 	}
 	return "";
