@@ -21,19 +21,15 @@ std::optional<std::pair<Index<Dim>, int>> nearestCell(const Vec<Dim>& xi, const 
 	std::optional<std::pair<Index<Dim>, int>> nearest;
 	double                                    least = std::numeric_limits<double>::infinity();
 	const Index<Dim>                          own   = xi.array().floor().template cast<int>();
-	const auto                                look  = [&](const Index<Dim>& cell) {
-                const Vec<Dim> away = outside<Dim>(xi, cell);
-                if (away.maxCoeff() > attachmentTolerance || away.squaredNorm() >= least) return;
-                Key key = Grid<Dim>::key(grid.first(cell * (1 << level)), level, layer);
-                if (grid.parting) key = grid.parting->cellFor(key);
-                if (find(populated, key) >= 0) nearest = { cell, Grid<Dim>::layer(key) }, least = away.squaredNorm();
-	};
-	if ((xi.array() > own.array().template cast<double>()).all()) look(own); // inside of a cell there is no nearer one
-	for (int i = 0; least > 0 && i < (Dim == 2 ? 9 : 27); ++i) {
+	for (int i = 0; i < (Dim == 2 ? 9 : 27); ++i) {
 		Index<Dim> cell = own;
 		for (int a = 0, rest = i; a < Dim; ++a, rest /= 3)
 			cell[a] += rest % 3 - 1;
-		look(cell);
+		const Vec<Dim> away = outside<Dim>(xi, cell);
+		if (away.maxCoeff() > attachmentTolerance || away.squaredNorm() >= least) continue;
+		Key key = Grid<Dim>::key(grid.first(cell * (1 << level)), level, layer);
+		if (grid.parting) key = grid.parting->cellFor(key);
+		if (find(populated, key) >= 0) nearest = { cell, Grid<Dim>::layer(key) }, least = away.squaredNorm();
 	}
 	return nearest;
 }
