@@ -21,8 +21,7 @@ void addPiece(Facets<2>& to, const Surface<2>::Piece& piece, int number, const G
 
 using Triangle = Surface<3>::Piece;
 
-/// The lowest plane of the grid across an axis that a triangle crosses, in cells; none where it lies between two, but
-/// for a millionth of a cell.
+/// The lowest plane of the grid across an axis that a triangle crosses, in cells. None where it lies between two.
 std::optional<double> planeCrossed(const Facets<3>& of, const Triangle& piece, int axis, const Grid<3>& grid)
 {
 	constexpr double    same = 1e-6;
