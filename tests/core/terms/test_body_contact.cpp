@@ -73,8 +73,8 @@ namespace {
 			model.coupledTerms
 			        = { [this](const Beginning<Dim>& step, const State&) { return std::make_unique<BodyContact<Dim>>(contacts, step); } };
 		}
-		/// Without equilibrium: nodes go where they are told to, by their place and their layer. The force on the
-		/// lower one.
+		/// Without equilibrium: nodes go where they are told to, by their place and layer. The force on the lower
+		/// body.
 		template <class F> Vec<Dim> go(F&& displacementOf)
 		{
 			StepReport            report;
@@ -169,9 +169,9 @@ namespace {
 		EXPECT_LT(sum.norm(), 1e-12 * force.norm());
 	}
 
-	/// Both are pressed and sheared, and then turned as they are, once around. Without walls, behind which points do
-	/// not reach, all surfaces go along. Where faces of the two end at the same place, small parts of them see an
-	/// edge in some steps.
+	/// Both are pressed and sheared, and then turned as they are, once around. Without walls, behind which points
+	/// do not reach, all surfaces go along. Where faces of the two end at the same place, small parts of them see
+	/// an edge in some steps.
 	TYPED_TEST(BodyContactTest, ForcesTurnWithTheBodies)
 	{
 		constexpr int Dim = TypeParam::value;

@@ -78,8 +78,8 @@ namespace {
 		EXPECT_TRUE(this->at(this->now, 10, .01).slips) << "at the cap";
 	}
 
-	/// Of a pressure that is kept from the last step, with surfaces cut anew: it acts at any gap below the one at which
-	/// it began, on either side of the piece, until that gap is reached.
+	/// Of a pressure that is kept from the last step, with surfaces cut anew: it acts at any gap below the one at
+	/// which it began, on either side of the piece, until that gap is reached.
 	TYPED_TEST(BodyPairTest, AKeptPressureActsFromTheGapAtWhichItBegan)
 	{
 		constexpr int Dim = TypeParam::value;
