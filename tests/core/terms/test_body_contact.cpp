@@ -73,7 +73,7 @@ namespace {
 			model.coupledTerms
 			        = { [this](const Beginning<Dim>& step, const State&) { return std::make_unique<BodyContact<Dim>>(contacts, step); } };
 		}
-		/// Without equilibrium: nodes go where they are told to, by place and layer. The force on the lower body.
+		/// Without equilibrium: nodes go where they are told to. The force on the lower body.
 		template <class F> Vec<Dim> go(F&& displacementOf)
 		{
 			StepReport            report;
