@@ -24,6 +24,9 @@ constexpr double deepestAtStart = 1.2 * deepestInBodies;
 /// Pieces are seen by places with a normal at more than some 80 degrees from theirs.
 constexpr double facing = 0.2;
 
+/// How far a place may get beyond a side of the piece that it began the step with, over the size of a cell.
+constexpr double beyondPiece = 0.125;
+
 /// How far pieces are looked for, over the size of a cell.
 constexpr double reachOfBodies = 0.5;
 
@@ -166,6 +169,7 @@ template <int Dim> void BodyContact<Dim>::begin(Place& place)
 	const auto& meeting = meetingOf(place);
 	const Near* near    = nearestOf(place, nullptr, start_);
 	if (!near) return;
+	place.first      = near;
 	const double gap = Facing<Dim>(pair(place.start, meeting.master, near->piece, start_)).gap;
 	place.closed     = place.pressure > 0 ? gap + place.pressure / penaltyOf(place) : std::min(0., gap);
 	if (gap > -deepestAtStart * cellSize_ || !obstacle_.empty()) return;
@@ -219,7 +223,19 @@ template <int Dim> auto BodyContact<Dim>::nearestOf(const Place& place, const Ei
 		if (away > least - same && at.gap < gap) continue;
 		least = std::min(least, away), gap = at.gap, nearest = &near, normal = at.normal;
 	}
-	return nearest && normal.dot(place.normal) < facing ? nearest : nullptr;
+	if (!nearest || normal.dot(place.normal) >= facing) return nullptr;
+	return d && place.first && goesOn(place, *d, places) ? place.first : nearest;
+}
+
+/// With the piece that was nearest as the step began, and with the plane of it a little beyond its sides: pressures
+/// would jump to and fro between pieces beside each other, whose normals differ, and what has entered by one side of a
+/// corner and is pushed out by the other one would win energy.
+template <int Dim> bool BodyContact<Dim>::goesOn(const Place& place, const Eigen::VectorXd& d, const Places& now) const
+{
+	const Facing<Dim> at(pairNow(place, *place.first, d, now));
+	for (int i = 0; i < Dim; ++i)
+		if (at.weight[i] < -beyondPiece * cellSize_ * at.slope[i].norm()) return false;
+	return true;
 }
 
 template <int Dim> template <class F> void BodyContact<Dim>::forTouching(const Eigen::VectorXd& d, bool withSlope, F&& f) const

@@ -7,14 +7,17 @@
 
 namespace gimpm {
 
+/// How long sides of pieces may be, over the size of a cell: in space legs of half a cell, as there are many.
+template <int Dim> constexpr double pieceLimitOfBodies = Dim == 2 ? pieceLimit : 0.75;
+
 /// A body of points that others may meet.
 template <int Dim> struct MeetingBody {
 	std::string  name;
 	int          layer = 0; ///< of its nodes
 	Surface<Dim> surface;   ///< moved with it in each step that is accepted
 
-	/// Parts of the surface are no longer than pieceLimit. Returns for each which it has been part of.
-	std::vector<int> refine(double cellSize) { return surface.refine(pieceLimit * cellSize); }
+	/// Parts of the surface are no longer than pieceLimitOfBodies. Returns for each which it has been part of.
+	std::vector<int> refine(double cellSize) { return surface.refine(pieceLimitOfBodies<Dim> * cellSize); }
 };
 
 /// Two bodies that may meet, by their numbers: places on the one bear on pieces of the surface of the other.
@@ -85,6 +88,7 @@ private:
 		double            closed   = 0;                ///< gap at which it begins to be pressed [m]
 		Attachment<Dim>   at;
 		std::vector<Near> near {};
+		const Near*       first = nullptr; ///< the nearest as the step begins
 	};
 	using Places = std::vector<std::vector<Vec<Dim>>>; ///< of the facets of each body
 	struct Touching {
@@ -107,6 +111,7 @@ private:
 	PairPlaces<Dim>         pair(const Vec<Dim>& place, int body, int piece, const Places&) const;
 	PairPlaces<Dim>         pairNow(const Place&, const Near&, const Eigen::VectorXd& d, const Places&) const;
 	const Near*             nearestOf(const Place&, const Eigen::VectorXd* d, const Places&) const;
+	bool                    goesOn(const Place&, const Eigen::VectorXd& d, const Places&) const;
 	template <class F> void forTouching(const Eigen::VectorXd& d, bool withSlope, F&& f) const; ///< f(Touching)
 	std::vector<PairNode>   nodesOf(const Place&, const Near&) const;
 	void                    add(const Eigen::VectorXd& d, double weight, Eigen::VectorXd& force, Eigen::VectorXd* sizes, Couplings*) const;

@@ -19,10 +19,61 @@ void addPiece(Facets<2>& to, const Surface<2>::Piece& piece, int number, const G
 	to.whole.push_back(number);
 }
 
-void addPiece(Facets<3>& to, const Surface<3>::Piece& piece, int number, const Grid<3>&)
+using Triangle = Surface<3>::Piece;
+
+/// The lowest plane of the grid across an axis that a triangle crosses, in cells. None where it lies between two.
+std::optional<double> planeCrossed(const Facets<3>& of, const Triangle& piece, int axis, const Grid<3>& grid)
 {
-	to.pieces.push_back(piece);
-	to.whole.push_back(number);
+	constexpr double    same = 1e-6;
+	std::vector<double> x;
+	for (const int v : piece)
+		x.push_back((of.start[v][axis] - grid.origin[axis]) / grid.cellSize);
+	const auto [low, high] = std::minmax_element(x.begin(), x.end());
+	const double plane     = std::floor(*low + same) + 1;
+	if (plane < *high - same) return plane;
+	return std::nullopt;
+}
+
+/// The parts of a triangle on the two sides of a plane, as triangles.
+std::vector<Triangle> split(Facets<3>& of, const Triangle& piece, int axis, double plane, const Grid<3>& grid)
+{
+	constexpr double same     = 1e-6;
+	const auto       distance = [&](int v) {
+                const double away = (of.start[v][axis] - grid.origin[axis]) / grid.cellSize - plane;
+                return std::abs(away) < same ? 0. : away;
+	};
+	std::array<std::vector<int>, 2> sides; // corners below and above
+	for (int i = 0; i < 3; ++i) {
+		const int    v = piece[i], next = piece[(i + 1) % 3];
+		const double own = distance(v), other = distance(next);
+		if (own <= 0) sides[0].push_back(v);
+		if (own >= 0) sides[1].push_back(v);
+		if (own * other >= 0) continue;
+		of.start.push_back((other * of.start[v] - own * of.start[next]) / (other - own));
+		for (auto& side : sides)
+			side.push_back(int(of.start.size()) - 1);
+	}
+	std::vector<Triangle> parts;
+	for (const auto& side : sides)
+		for (std::size_t i = 2; i < side.size(); ++i)
+			parts.push_back({ side[0], side[i - 1], side[i] });
+	return parts;
+}
+
+void addPiece(Facets<3>& to, const Triangle& piece, int number, const Grid<3>& grid)
+{
+	std::vector<Triangle> open { piece };
+	while (!open.empty()) {
+		const Triangle own = open.back();
+		open.pop_back();
+		std::vector<Triangle> parts;
+		for (int a = 0; parts.empty() && a < 3; ++a)
+			if (const auto plane = planeCrossed(to, own, a, grid)) parts = split(to, own, a, *plane, grid);
+		open.insert(open.end(), parts.begin(), parts.end());
+		if (!parts.empty()) continue;
+		to.pieces.push_back(own);
+		to.whole.push_back(number);
+	}
 }
 
 } // namespace

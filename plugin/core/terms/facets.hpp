@@ -6,8 +6,8 @@
 
 namespace gimpm {
 
-/// Pieces of a surface; in the plane they are cut where they cross the lines of the grid, so that what acts on them
-/// evenly acts on the nodes as an even stress does. Vertices of the surface come first, in its order.
+/// Pieces of a surface; they are cut where they cross the lines or planes of the grid, so that what acts on them evenly
+/// acts on the nodes as an even stress does. Vertices of the surface come first, in its order.
 template <int Dim> struct Facets {
 	using Piece  = typename Surface<Dim>::Piece;
 	using Places = std::vector<Vec<Dim>>;

@@ -46,20 +46,20 @@ namespace {
 		const Places   now    = moved(start, .02, 1);
 		const Vec<Dim> before = Vec<Dim>::Constant(.05);
 
-		Force at(const Places& x, double friction, double cap = 1e9) const
+		Force at(const Places& x, double friction, double cap = 1e9, double closed = 0) const
 		{
-			const auto found = pairForce<Dim>({ 7, 3, friction, cap }, start, before, x, 0, 1e-9, true);
+			const auto found = pairForce<Dim>({ 7, 3, friction, cap }, start, before, x, closed, 1e-9, true);
 			EXPECT_TRUE(found) << "the place is behind the piece";
 			return found.value_or(Force());
 		}
-		void compareSlope(double friction, double cap = 1e9) const
+		void compareSlope(double friction, double cap = 1e9, double closed = 0) const
 		{
-			const Force     f = at(now, friction, cap);
+			const Force     f = at(now, friction, cap, closed);
 			Eigen::MatrixXd slope(Force::size, Force::size);
 			for (int i = 0; i < Force::size; ++i) {
 				Places plus = now, minus = now;
 				plus[i / Dim][i % Dim] += 1e-6, minus[i / Dim][i % Dim] -= 1e-6;
-				slope.col(i) = (forces(at(plus, friction, cap)) - forces(at(minus, friction, cap))) / 2e-6;
+				slope.col(i) = (forces(at(plus, friction, cap, closed)) - forces(at(minus, friction, cap, closed))) / 2e-6;
 			}
 			EXPECT_LT((slope - f.slope).cwiseAbs().maxCoeff(), 1e-8 * slope.cwiseAbs().maxCoeff());
 		}
@@ -76,6 +76,31 @@ namespace {
 		EXPECT_TRUE(this->at(this->now, .02).slips);
 		this->compareSlope(10, .01);
 		EXPECT_TRUE(this->at(this->now, 10, .01).slips) << "at the cap";
+	}
+
+	/// Of a pressure that is kept from the last step, with surfaces cut anew: it acts at any gap below the one at
+	/// which it began, on either side of the piece, until that gap is reached.
+	TYPED_TEST(BodyPairTest, AKeptPressureActsFromTheGapAtWhichItBegan)
+	{
+		constexpr int Dim = TypeParam::value;
+		auto          x   = this->now;
+		for (const double gap : { -.05, .04 }) {
+			x[0] += (gap - Facing<Dim>(x).gap) * Facing<Dim>(x).normal;
+			for (const double kept : { .2, 1. }) {
+				const double closed = gap + kept / 7;
+				EXPECT_NEAR(this->at(x, 0, 1e9, closed).pressure, kept, 1e-14) << "as the step began";
+				const auto   f   = this->at(x, .1, 1e9, closed);
+				const double cap = .1 * kept;
+				EXPECT_NEAR(f.shear.norm(), f.slips ? cap : f.shear.norm(), 1e-14);
+				EXPECT_LE(f.shear.norm(), cap * (1 + 1e-12)) << "the limit of friction is that of the kept pressure";
+				auto apart = x;
+				apart[0] += (closed - gap + 1e-3) * Facing<Dim>(x).normal;
+				EXPECT_FALSE(pairForce<Dim>({ 7, 3, .1, 1e9 }, this->start, this->before, apart, closed, 1e-9, true)) << "nothing pulls";
+			}
+		}
+		const double behind = Facing<Dim>(this->now).gap;
+		for (const double friction : { 0., .02, 10. })
+			this->compareSlope(friction, 1e9, std::abs(behind) + .1);
 	}
 
 	TYPED_TEST(BodyPairTest, WithoutFrictionTheDerivativeIsSymmetric)

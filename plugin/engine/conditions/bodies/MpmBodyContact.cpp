@@ -27,8 +27,6 @@ std::shared_ptr<Condition<3>> MpmBodyContact::make(InSpace, const Group& group, 
 
 void MpmBodyContact::requireFitting(const Analysis& analysis, const string& name) const
 {
-	if (analysis.grid->dim != 2)
-		throw std::invalid_argument(name + ": an MpmBodyContact is for dim=2, in plane strain, yet; in space the pieces of surfaces are too many.");
 	for (const string& body : between) {
 		const int number = analysis.grid->bodyNamed(body);
 		if (number < 0) {
@@ -63,13 +61,14 @@ void MpmBodyContact::tell(Rows& rows, const Analysis& analysis, const Listed& li
 	rows.set(name + "_touching", touching);
 }
 
-// On a segment of a surface [N], of a ring where the scene is axisymmetric.
-static Vector3r forceOn(const Vector3r& a, const Vector3r& b, Real pressure, const Vector3r& shear, bool isRing)
+// On a piece of a surface [N]: a segment, of a ring where the scene is axisymmetric, or a triangle.
+static Vector3r forceOn(const vector<Vector3r>& at, Real pressure, const Vector3r& shear, bool isRing)
 {
-	const gimpm::Vec<2> normal = gimpm::pieceNormal(gimpm::Vec<2>(a.head<2>()), gimpm::Vec<2>(b.head<2>()));
-	Vector3r            force  = (b - a).norm() * shear;
-	force.head<2>() -= pressure * normal;
-	return (isRing ? M_PI * (a[0] + b[0]) : 1) * force;
+	Vector3r normal = Vector3r::Zero(); // times the size
+	if (at.size() == 2) normal.head<2>() = gimpm::pieceNormal(gimpm::Vec<2>(at[0].head<2>()), gimpm::Vec<2>(at[1].head<2>()));
+	else
+		normal = gimpm::pieceNormal(gimpm::Vec<3>(at[0]), gimpm::Vec<3>(at[1]), gimpm::Vec<3>(at[2]));
+	return (isRing ? M_PI * (at[0][0] + at[1][0]) : 1) * (normal.norm() * shear - pressure * normal);
 }
 
 // Forces and stresses on the slave.
@@ -82,12 +81,14 @@ void MpmBodyContact::draw(Picture& picture, const Analysis& analysis, const List
 	if (pressures.size() != body.pieces.size()) return;
 	picture.corners.insert(picture.corners.end(), body.vertices.begin(), body.vertices.end());
 	for (size_t i = 0; i < body.pieces.size(); ++i) {
-		vector<int> piece = body.pieces[i];
-		for (int& corner : piece)
+		vector<int>      piece = body.pieces[i];
+		vector<Vector3r> at;
+		for (int& corner : piece) {
+			at.push_back(body.vertices[corner]);
 			corner += first;
+		}
 		picture.add(piece);
-		const Vector3r &a = body.vertices[body.pieces[i][0]], &b = body.vertices[body.pieces[i][1]];
-		picture.set("force", forceOn(a, b, pressures[i], shears[i], analysis.grid->axisymmetric));
+		picture.set("force", forceOn(at, pressures[i], shears[i], analysis.grid->axisymmetric));
 		picture.set("pressure", pressures[i]);
 		picture.set("shear", shears[i].norm());
 		picture.set("touches", int(pressures[i] > 0));
