@@ -8,10 +8,12 @@ namespace yade {
 // What the laws with cohesion and friction have in common.
 class MpmFrictionalMat : public ExposedIndexed<MpmFrictionalMat, MpmElasticMat> {
 public:
-	Real cohesion        = std::numeric_limits<Real>::quiet_NaN(); // must be given, as the moduli
-	Real frictionAngle   = std::numeric_limits<Real>::quiet_NaN();
-	Real dilationAngle   = 0;
-	Real tensileStrength = std::numeric_limits<Real>::infinity();
+	Real cohesion          = std::numeric_limits<Real>::quiet_NaN(); // must be given, as the moduli
+	Real frictionAngle     = std::numeric_limits<Real>::quiet_NaN();
+	Real dilationAngle     = 0;
+	Real tensileStrength   = std::numeric_limits<Real>::infinity();
+	Real power             = 0; // linear
+	Real referencePressure = 100e3;
 
 	YADE_API_NAME(MpmFrictionalMat)
 	static const char* doc()
@@ -30,6 +32,12 @@ public:
 		  admitting("an angle [rad] from 0 to frictionAngle, as radians(30)", isFrictionAngle));
 		v("tensileStrength", &MpmFrictionalMat::tensileStrength, 0, "Cut of tension [Pa] >= 0, of use below the apex c cot(phi); infinite: none.",
 		  admitting("a number >= 0 [Pa], finite or infinite", [](Real value) { return value >= 0; }));
+		v("power", &MpmFrictionalMat::power, 0,
+		  "Power [-] of the pressure with which moduli go, from 0, the default: they stay, to below 1; 0.5 of sand. *young* and *poisson* are then those under *referencePressure*.",
+		  admitting("a number from 0 to 1, 1 excluded", [](Real value) { return value >= 0 && value < 1; }));
+		v("referencePressure", &MpmFrictionalMat::referencePressure, 0,
+		  "Pressure [Pa] > 0, all around, to which *young* and *poisson* belong; of use with *power*.",
+		  admitting("a finite number > 0 [Pa], positive in compression", positive));
 	}
 	void       requireAdmissible() const override;
 	Quantities strengths() const override { return frictionAngle == 0 ? Quantities { { "cohesion", cohesion } } : Quantities(); }
