@@ -8,7 +8,7 @@
 namespace gimpm::testPowerElastic {
 namespace {
 
-	constexpr double young = 30e6, poisson = .2, reference = 100e3, strong = 1e9;
+	constexpr double young = 30e6, poisson = .3, reference = 100e3, strong = 1e9;
 
 	PowerElastic withMohrCoulomb(double power, double c, double phi, double psi, double tension = std::numeric_limits<double>::infinity())
 	{
@@ -61,7 +61,8 @@ namespace {
 		}
 	}
 
-	// A loop through strains of all six numbers, in many steps: the work of the trapezium falls with their square.
+	// A loop through strains of all six numbers: of an energy the sum of the trapezium over a smooth closed path vanishes
+	// faster than any power of the steps.
 	TEST(PowerElastic, AClosedCycleGivesNoEnergy)
 	{
 		const auto workOf = [](int steps) {
@@ -81,9 +82,8 @@ namespace {
 			EXPECT_LT((point.stress - first).norm(), 1e-9 * first.norm());
 			return work / inPlay;
 		};
-		const double coarse = std::abs(workOf(100)), fine = std::abs(workOf(1000));
-		EXPECT_LT(fine, 1e-6);
-		EXPECT_LT(fine, coarse / 50);
+		for (const int steps : { 100, 1000 })
+			EXPECT_LT(std::abs(workOf(steps)), 1e-11);
 	}
 
 	template <class Make> void expectTangents(Make make)
@@ -93,7 +93,7 @@ namespace {
 		int                 flows = 0, asks = 0;
 		for (int k = 0; k < 60; ++k) {
 			Element<PowerElastic> point(make(random, k));
-			point.press(Vec3::Constant(random.in(5e3, 200e3)));
+			point.press(Vec3::Constant(random.in(2e3, 40e3)));
 			for (int i = 0; i < 10; ++i) {
 				const double size   = std::pow(10, random.in(-5, -2.5));
 				Mat3         strain = symmetric(random, size);
