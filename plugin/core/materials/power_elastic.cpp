@@ -132,8 +132,8 @@ TensorAnswer PowerElastic::elastic(const TensorStep& step) const
 	});
 }
 
-/// s = f'(W_1 / s^2), where W_1 is the energy of Hencky's strain of that stress: by Newton's method for the logarithm, of
-/// which the equation is convex, from below.
+/// s = f'(W_1 / s^2), where W_1 is the energy of Hencky's strain of that stress: by Newton's method for the logarithm,
+/// of which the equation is convex, from below.
 double PowerElastic::stiffnessAt(const Mat3& stress) const
 {
 	const double mean = stress.trace() / 3, deviator = (stress - mean * Mat3::Identity()).squaredNorm();

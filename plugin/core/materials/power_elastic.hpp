@@ -26,8 +26,8 @@ public:
 	struct Moduli {
 		double young, poisson, power, reference;
 	};
-	/// The law with Hencky's elasticity is made for such a Young's modulus and Poisson's ratio: the bulk modulus K is
-	/// the secant one from no strain to `reference`.
+	/// The law with Hencky's elasticity is made for such a Young's modulus and Poisson's ratio: the bulk modulus K
+	/// is the secant one from no strain to `reference`.
 	static Hencky secant(const Moduli&);
 
 	/// `strength` has the moduli secant(moduli).

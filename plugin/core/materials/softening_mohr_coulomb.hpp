@@ -89,17 +89,17 @@ private:
 
 	Response at(const Vec3& strain, double softening) const { return softened(softening).respond(strain, { 0 }); }
 
-	/// By which strength goes in a step that begins with a softening strain `before`, with the plastic strain a > 0 of the
-	/// step. Fully softened soil would be perfectly plastic; a layer of it has no stiffness at all where there is no
-	/// friction, so that its strength too grows in the step, by a part of the rate with which it has fallen.
+	/// By which strength goes in a step that begins with a softening strain `before`, with the plastic strain a > 0
+	/// of the step. Fully softened soil would be perfectly plastic, and a layer of it has no stiffness at all where
+	/// there is no friction: so its strength, too, grows in a step, by a part of the rate with which it has fallen.
 	double strengthStrain(double before, double a) const { return std::min(before - a, residual_.strain - restored * a); }
 	double restoredBy(double before, double a) const { return before - a < residual_.strain - restored * a ? 1 : restored; }
 
 	/// Plastic strain of a step with this strength: the more, the more it has softened.
 	double plasticAt(const Vec3& strain, double softening) const { return softened(softening).respond(strain, { 0 }).internals[0]; }
 
-	/// The plastic strain a of a step: a = plasticAt(strengthStrain(before, a)), which falls as a grows. By the rule of false
-	/// position, as the return is linear in the cohesion, and by bisection where it is slow.
+	/// The plastic strain a of a step: a = plasticAt(strengthStrain(before, a)), which falls as a grows. By the rule
+	/// of false position, as the return is linear in the cohesion, and by bisection where it is slow.
 	double flow(const Vec3& strain, double before) const
 	{
 		double low = 0, high = plasticAt(strain, strengthStrain(before, 0)), atLow = high;
@@ -118,8 +118,8 @@ private:
 	}
 
 	/// To the tangent of perfect plasticity what follows from the strength that goes with the plastic strain: dt =
-	/// D de + t_s ds, ds = -r da, da = a_e de + a_s ds; t_s and a_s from differences, as the return is nearly linear
-	/// in s.
+	/// D de + t_s ds, ds = -r da, da = a_e de + a_s ds; t_s and a_s from differences, as the return is nearly
+	/// linear in s.
 	void addHardening(const Vec3& strain, double before, double grown, Response& r) const
 	{
 		const double   softening = strengthStrain(before, grown), rate = restoredBy(before, grown);

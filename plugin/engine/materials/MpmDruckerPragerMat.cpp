@@ -2,7 +2,7 @@
 #include "engine/materials/MpmDruckerPragerMat.hpp"
 #include "core/materials/law.hpp"
 #include "engine/materials/law_of_class.hpp"
-#include "engine/materials/power_law.hpp"
+#include "engine/materials/over_time.hpp"
 #include "yade_api/registration.hpp"
 
 namespace yade {
@@ -11,14 +11,14 @@ void MpmDruckerPragerMat::requireAdmissible() const
 {
 	ExposedIndexed<MpmDruckerPragerMat, MpmFrictionalMat>::requireAdmissible();
 	requireOneOfTimes(*this, viscosity);
-	if (viscosity > 0) requireWithoutPower(*this, "viscosity", viscosity, "give relaxationTime = viscosity / modulus instead, or moduli that stay.");
+	if (viscosity > 0) requireWithoutPower("viscosity", viscosity, "give relaxationTime = viscosity / modulus instead, or moduli that stay.");
 }
 
 static const RegisteredLaw<MpmDruckerPragerMat> lawOfMpmDruckerPragerMat(
         [](const MpmDruckerPragerMat& m) -> gimpm::Law {
 	        using Cone       = gimpm::DruckerPragerCone;
 	        const auto match = m.match == "compression" ? Cone::compression : m.match == "extension" ? Cone::extension : Cone::planeStrain;
-	        return frictionalLaw(m, m.viscosity, [&](Real young, Real poisson) {
+	        return m.law(m.viscosity, [&](Real young, Real poisson) {
 		        return gimpm::DruckerPrager(young, poisson, match(m.cohesion, m.frictionAngle, m.dilationAngle), m.tensileStrength);
 	        });
         },

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
+#include "core/materials/power_elastic.hpp"
 #include "engine/materials/MpmElasticMat.hpp"
 #include "engine/materials/angles.hpp"
+#include <functional>
 
 namespace yade {
 
@@ -39,7 +41,12 @@ public:
 		  "Pressure [Pa] > 0, all around, to which *young* and *poisson* belong; of use with *power*.",
 		  admitting("a finite number > 0 [Pa], positive in compression", positive));
 	}
-	void       requireAdmissible() const override;
+	void requireAdmissible() const override;
+
+	// Its law, by the one with Hencky's elasticity of a Young's modulus and a Poisson's ratio.
+	gimpm::Law law(Real viscosity, const std::function<gimpm::PowerElastic::Strength(Real, Real)>& make) const;
+	// std::invalid_argument with a power, for another attribute that does not go with it, and what to do instead.
+	void       requireWithoutPower(const char* other, Real value, const char* instead) const;
 	Quantities strengths() const override { return frictionAngle == 0 ? Quantities { { "cohesion", cohesion } } : Quantities(); }
 };
 

@@ -3,7 +3,7 @@
 #include "core/materials/law.hpp"
 #include "core/materials/softening_mohr_coulomb.hpp"
 #include "engine/materials/law_of_class.hpp"
-#include "engine/materials/power_law.hpp"
+#include "engine/materials/over_time.hpp"
 #include "yade_api/registration.hpp"
 
 namespace yade {
@@ -33,7 +33,7 @@ void MpmMohrCoulombMat::requireAdmissible() const
 		text << "MpmMohrCoulombMat.residualCohesion = 0 is not admitted: expected a number > 0 [Pa] without residual friction. Nothing would be left.";
 	if (!text.str().empty()) throw std::invalid_argument(text.str());
 	if (!std::isnan(softeningStrain))
-		requireWithoutPower(*this, "softeningStrain", softeningStrain, "soil that softens has moduli that stay; leave one of the two out.");
+		requireWithoutPower("softeningStrain", softeningStrain, "soil that softens has moduli that stay; leave one of the two out.");
 }
 
 namespace {
@@ -42,7 +42,7 @@ namespace {
 		const auto make = [&](Real young, Real poisson) {
 			return gimpm::MohrCoulomb(young, poisson, m.cohesion, m.frictionAngle, m.dilationAngle, m.tensileStrength);
 		};
-		if (std::isnan(m.softeningStrain)) return frictionalLaw(m, 0, make);
+		if (std::isnan(m.softeningStrain)) return m.law(0, make);
 		const gimpm::SofteningMohrCoulomb::Residual residual { orElse(m.residualCohesion, m.cohesion), orElse(m.residualFrictionAngle, m.frictionAngle),
 			                                               orElse(m.residualDilationAngle, m.dilationAngle), m.softeningStrain };
 		return overTime(m, gimpm::SofteningMohrCoulomb(make(m.young, m.poisson), m.poisson, residual));

@@ -47,7 +47,8 @@ namespace {
 			}
 	}
 
-	// Along an axis e the stress is s (K_s + 4/3 G) e, s = (kappa sqrt(e^2 (1 + 4 G / (3 K_s)) + a^2))^(n / (1 - n)).
+	// Along an axis e the stress is s (K_s + 4/3 G) e, with s = (kappa sqrt(e^2 (1 + 4 G / (3 K_s)) + a^2))^m and
+	// m = n / (1 - n).
 	TEST(PowerElastic, OedometerByItsClosedForm)
 	{
 		const double          n = .5, G = young / (2 * (1 + poisson)), Ks = (1 - n) * young / (3 * (1 - 2 * poisson));
@@ -61,8 +62,8 @@ namespace {
 		}
 	}
 
-	// A loop through strains of all six numbers: of an energy the sum of the trapezium over a smooth closed path vanishes
-	// faster than any power of the steps.
+	// A loop through strains of all six numbers: of an energy the sum of the trapezium over a smooth closed path
+	// vanishes faster than any power of the steps.
 	TEST(PowerElastic, AClosedCycleGivesNoEnergy)
 	{
 		const auto workOf = [](int steps) {
@@ -89,25 +90,24 @@ namespace {
 	template <class Make> void expectTangents(Make make)
 	{
 		Random              random(5);
-		std::vector<double> errors;
-		int                 flows = 0, asks = 0;
+		std::vector<double> ofElastic, ofFlow;
 		for (int k = 0; k < 60; ++k) {
 			Element<PowerElastic> point(make(random, k));
-			point.press(Vec3::Constant(random.in(2e3, 40e3)));
+			point.press(Vec3::Constant(random.in(1e3, 20e3)));
 			for (int i = 0; i < 10; ++i) {
-				const double size   = std::pow(10, random.in(-5, -2.5));
+				const double size = std::pow(10, random.in(-4, -2)), before = point.state.scalar(PowerElastic::plasticStrain);
 				Mat3         strain = symmetric(random, size);
 				strain -= .1 * size * Mat3::Identity();
-				errors.push_back(point.tangentError(strain, 1e-3, 1e5));
-				const double before = point.state.scalar(PowerElastic::plasticStrain);
+				const double error = point.tangentError(strain, 1e-3, 1e5);
 				point.apply(strain);
-				flows += point.state.scalar(PowerElastic::plasticStrain) > before, ++asks;
+				(point.state.scalar(PowerElastic::plasticStrain) > before ? ofFlow : ofElastic).push_back(error);
 			}
 		}
-		EXPECT_GT(partBelow(errors, 1e-8), .9);
-		EXPECT_GT(partBelow(errors, 1e-6), .95); // the others have a corner of the law between the points of a difference
-		EXPECT_GT(flows, asks / 4);
-		EXPECT_LT(flows, asks);
+		for (const auto& errors : { ofElastic, ofFlow }) {
+			EXPECT_GT(errors.size(), 100u);
+			EXPECT_GT(partBelow(errors, 1e-8), .9);
+			EXPECT_GT(partBelow(errors, 1e-6), .95); // the others have a corner of the law between the points of a difference
+		}
 	}
 	TEST(PowerElastic, AnswersWithItsTangentOnThePyramid)
 	{

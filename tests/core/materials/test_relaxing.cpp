@@ -146,7 +146,7 @@ namespace {
 			most  = std::max(most, point.difference());
 		}
 		EXPECT_NEAR(most, strength(5e3, 30 * degree), .01 * most);
-		// The residual strength, and what it grows by in a step: a tenth of what it would have fallen by before.
+		// The residual strength, and what it grows by in a step: a tenth of what it would have fallen by.
 		const auto last = law.softened(.02 - .1 * grown).parameters();
 		EXPECT_NEAR(point.difference(), strength(last[1], last[2]), 1e-6 * most);
 		EXPECT_NEAR(point.difference(), strength(1e3, 20 * degree), 1e-3 * most);
