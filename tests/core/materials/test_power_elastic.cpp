@@ -87,6 +87,7 @@ namespace {
 			EXPECT_LT(std::abs(workOf(steps)), 1e-11);
 	}
 
+	// Errors are those relative to the elastic stiffness.
 	template <class Make> void expectTangents(Make make)
 	{
 		Random              random(5);
@@ -98,15 +99,15 @@ namespace {
 				const double size = std::pow(10, random.in(-4, -2)), before = point.state.scalar(PowerElastic::plasticStrain);
 				Mat3         strain = symmetric(random, size);
 				strain -= .1 * size * Mat3::Identity();
-				const double error = point.tangentError(strain, 1e-3, 1e5);
+				const double error = point.tangentError(strain, 1e-3, young);
 				point.apply(strain);
 				(point.state.scalar(PowerElastic::plasticStrain) > before ? ofFlow : ofElastic).push_back(error);
 			}
 		}
 		for (const auto& errors : { ofElastic, ofFlow }) {
 			EXPECT_GT(errors.size(), 100u);
-			EXPECT_GT(partBelow(errors, 1e-8), .9);
-			EXPECT_GT(partBelow(errors, 1e-6), .95); // the others have a corner of the law between the points of a difference
+			EXPECT_GT(partBelow(errors, 3 * tangentFloor), .9); // that part of the elastic stiffness is left on edges
+			EXPECT_GT(partBelow(errors, 1e-6), .95);            // the others have a corner of the law between the points of a difference
 		}
 	}
 	TEST(PowerElastic, AnswersWithItsTangentOnThePyramid)
