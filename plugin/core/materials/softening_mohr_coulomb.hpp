@@ -105,7 +105,7 @@ private:
 		double low = 0, high = plasticAt(strain, strengthStrain(before, 0)), atLow = high;
 		if (!(high > 0)) return 0;
 		double       atHigh = plasticAt(strain, strengthStrain(before, high)) - high;
-		const double exact  = 1e-14 * high;
+		const double exact  = 1e-14 * high + 4e-16 * strain.norm(); // below that there is round-off of the return
 		for (int iteration = 0; iteration < 200 && high - low > exact && atHigh < 0; ++iteration) {
 			const bool   bisects = iteration % 3 == 2;
 			const double a       = bisects ? (low + high) / 2 : low + (high - low) * atLow / (atLow - atHigh),

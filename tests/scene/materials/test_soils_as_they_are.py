@@ -167,12 +167,12 @@ def test_a_layer_without_friction_softens_to_its_end(yade):
 	yade(
 	        setting + '''
 O.materials.append(MpmMohrCoulombMat(young=20e6, poisson=.3, density=2000, cohesion=5e3, frictionAngle=0, residualCohesion=1e3, softeningStrain=.02, label='soil'))
-grid = MpmGrid(cellSize=.125, period=(.375, 0, 0))
-O.bodies.append(mpm.fill(pack.inAlignedBox((0, 0, -1), (.375, 1, 1)), grid, 2, 'soil'))
-plates = [MpmBoundary(max=(inf, 0, inf), fix='xy'), MpmBoundary(min=(-inf, 1, -inf), fix='xy', displacement=(.06, 0, 0))]
+grid = MpmGrid(cellSize=.25, period=(.75, 0, 0))
+O.bodies.append(mpm.fill(pack.inAlignedBox((0, 0, -1), (.75, 1, 1)), grid, 2, 'soil'))
+plates = [MpmBoundary(max=(inf, 0, inf), fix='xy'), MpmBoundary(min=(-inf, 1, -inf), fix='xy', displacement=(.05, 0, 0))]
 solver = MpmImplicitEngine(grid=grid, boundaries=plates, nonlocalLength=.25, verbosity=0)
-O.engines, O.dt = [solver], 1 / 60
-O.run(60, wait=True)
+O.engines, O.dt = [solver], 1 / 50
+O.run(50, wait=True)
 data = mpm.arrays()
 shear = np.average(data['stress'][:, 0, 1], weights=data['volume'])
 assert data['softening'].min() > .02 and solver.cuts == 0, (data['softening'].min(), solver.cuts)
@@ -186,7 +186,8 @@ def test_moduli_that_go_with_the_pressure(yade):
 	yade(
 	        setting + '''
 factors = []
-for law in MpmMohrCoulombMat(power=.5, **friction), MpmMohrCoulombMat(**friction):
+firm = {**friction, 'cohesion': 40e3} # a bank of 4 m that stands
+for law in MpmMohrCoulombMat(power=.5, **firm), MpmMohrCoulombMat(**firm):
 	solver = ground(law)
 	before = mpm.arrays()
 	O.step()
@@ -197,10 +198,11 @@ for law in MpmMohrCoulombMat(power=.5, **friction), MpmMohrCoulombMat(**friction
 		K, G = 20e6 / 1.2, 20e6 / 2.6
 		equivalent = np.sqrt(pressure**2 + .5 * K / (2 * G) * (deviator**2).sum((1, 2))) # of Houlsby, Amorosi and Rojas
 		assert np.abs(data['stiffness'] / np.sqrt(equivalent / 100e3) - 1).max() < .1 and np.ptp(data['stiffness']) > .3 # no less than that of 1 kPa
-	solver.loads = [MpmTraction(surface=[(1, 4), (0, 4)], pressure=30e3, curve=[(0, 0), (.2, 1)])]
-	O.run(3, wait=True)
+	solver.boundaries = [solver.boundaries[0], solver.boundaries[2]]
+	O.run(2, wait=True)
 	factors.append(mpm.strengthReduction(tolerance=.02))
 one, other = factors
-assert one['lower'] < other['upper'] and other['lower'] < one['upper'], factors # the brackets have a part in common
+middle = [(f['lower'] + f['upper']) / 2 for f in factors]
+assert abs(middle[0] / middle[1] - 1) < .03, middle # brackets are 1.5 % wide
 '''
 	)
