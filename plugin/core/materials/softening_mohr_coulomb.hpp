@@ -98,7 +98,7 @@ private:
 	/// Plastic strain of a step with this strength: the more, the more it has softened.
 	double plasticAt(const Vec3& strain, double softening) const { return softened(softening).respond(strain, { 0 }).internals[0]; }
 
-	/// The plastic strain a of a step: a = plasticAt(strengthStrain(before, a)), which falls as a grows. By the rule
+	/// The plastic strain a of a step, a = plasticAt(strengthStrain(before, a)), which falls as a grows. By the rule
 	/// of false position, as the return is linear in the cohesion, and by bisection where it is slow.
 	double flow(const Vec3& strain, double before) const
 	{
