@@ -61,17 +61,7 @@ public:
 		        { young, between(cohesion, residual_.cohesion, part), phi, std::min(between(dilation, residual_.dilationAngle, part), phi), tension });
 	}
 
-	TensorAnswer respond(const TensorStep& step) const
-	{
-		return answerInPrincipalAxes(step, [&](const Vec3& strain, TensorState& state) -> Response {
-			const double before = state.scalar(softening), grown = flow(strain, before);
-			Response     r = at(strain, before - grown);
-			if (grown > 0) addHardening(strain, before - grown, r);
-			state.scalar(plasticStrain) += grown;
-			state.scalar(softening) += grown;
-			return r;
-		});
-	}
+	TensorAnswer respond(const TensorStep& step) const;
 	TensorAnswer elastic(const TensorStep& step) const
 	{
 		return answerInPrincipalAxes(step, [&](const Vec3& strain, TensorState&) -> Response { return elasticity().respond(strain, {}); });
@@ -83,47 +73,29 @@ public:
 	}
 
 private:
-	static double between(double from, double to, double part) { return from + part * (to - from); }
-	Hencky        elasticity() const { return { first_.parameters()[0], poisson_ }; }
+	static constexpr double restored = .1; ///< of the rate of softening
+	static double           between(double from, double to, double part) { return from + part * (to - from); }
+	Hencky                  elasticity() const { return { first_.parameters()[0], poisson_ }; }
 
 	Response at(const Vec3& strain, double softening) const { return softened(softening).respond(strain, { 0 }); }
+
+	/// By which strength goes in a step that begins with a softening strain `before`, with the plastic strain a > 0
+	/// of the step. Fully softened soil would be perfectly plastic, and a layer of it has no stiffness at all where
+	/// there is no friction: so its strength, too, grows in a step, by a part of the rate with which it has fallen.
+	double strengthStrain(double before, double a) const { return std::min(before - a, residual_.strain - restored * a); }
+	double restoredBy(double before, double a) const { return before - a < residual_.strain - restored * a ? 1 : restored; }
 
 	/// Plastic strain of a step with this strength: the more, the more it has softened.
 	double plasticAt(const Vec3& strain, double softening) const { return softened(softening).respond(strain, { 0 }).internals[0]; }
 
-	/// The plastic strain a of a step: a = plasticAt(before - a), which falls as a grows. By the rule of false
-	/// position, as the return is linear in the cohesion, and by bisection where it is slow.
-	double flow(const Vec3& strain, double before) const
-	{
-		double low = 0, high = plasticAt(strain, before), atLow = high;
-		if (!(high > 0)) return 0;
-		double       atHigh = plasticAt(strain, before - high) - high;
-		const double exact  = 1e-14 * high;
-		for (int iteration = 0; iteration < 200 && high - low > exact && atHigh < 0; ++iteration) {
-			const bool   bisects = iteration % 3 == 2;
-			const double a = bisects ? (low + high) / 2 : low + (high - low) * atLow / (atLow - atHigh), f = plasticAt(strain, before - a) - a;
-			if (std::abs(f) <= exact) return a;
-			(f > 0 ? low : high)     = a;
-			(f > 0 ? atLow : atHigh) = f;
-		}
-		return high;
-	}
+	/// The plastic strain a of a step, a = plasticAt(strengthStrain(before, a)), which falls as a grows. By the
+	/// rule of false position, as the return is linear in the cohesion, and by bisection where it is slow.
+	double flow(const Vec3& strain, double before) const;
 
 	/// To the tangent of perfect plasticity what follows from the strength that goes with the plastic strain: dt =
-	/// D de + t_s ds, ds = -da, da = a_e de + a_s ds; t_s and a_s from differences, as the return is nearly linear
-	/// in s.
-	void addHardening(const Vec3& strain, double softening, Response& r) const
-	{
-		const double   d     = 1e-4 * residual_.strain;
-		const Response above = at(strain, softening + d), below = at(strain, softening - d);
-		const Vec3     byStrength = (above.stress - below.stress) / (2 * d), flown = strain - r.elasticStrain, deviator = flown.array() - flown.mean();
-		const double   ofStrength = (plasticAt(strain, softening + d) - plasticAt(strain, softening - d)) / (2 * d);
-		Mat3           flows      = Mat3::Identity(); // d flown / d strain
-		for (int j = 0; j < 3; ++j)
-			flows.col(j) -= elasticity().strainOf<double>(Vec3(r.tangent.col(j)));
-		const Vec3 direction = deviator / deviator.norm(), byStrain = std::sqrt(2. / 3) * (flows.transpose() * direction);
-		r.tangent -= byStrength * byStrain.transpose() / (1 + ofStrength);
-	}
+	/// D de + t_s ds, ds = -r da, da = a_e de + a_s ds; t_s and a_s from differences, as the return is nearly
+	/// linear in s.
+	void addHardening(const Vec3& strain, double before, double grown, Response& r) const;
 
 	MohrCoulomb first_;
 	double      poisson_;

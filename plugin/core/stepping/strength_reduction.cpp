@@ -33,9 +33,10 @@ template <int Dim> void scaleStrains(PointCloud<Dim>& cloud, double by)
 {
 	for (auto& strain : cloud.elasticStrain)
 		strain.c *= by;
-	for (auto& column : cloud.internals) // plastic strains: laws with others have no single strength
-		for (double& value : column)
-			value *= by;
+	for (std::size_t k = 0; k < cloud.internals.size(); ++k)
+		if (internalVariables[int(k)].least <= 0) // what must not be zero is no strain, but a ratio that stays
+			for (double& value : cloud.internals[k])
+				value *= by;
 }
 
 template <int Dim> ParameterColumns weakParameters(const Model<Dim>& model, const PointCloud<Dim>& cloud, const Weakening& w)

@@ -11,15 +11,16 @@ void MpmDruckerPragerMat::requireAdmissible() const
 {
 	ExposedIndexed<MpmDruckerPragerMat, MpmFrictionalMat>::requireAdmissible();
 	requireOneOfTimes(*this, viscosity);
+	if (viscosity > 0) requireWithoutPower("viscosity", viscosity, "give relaxationTime = viscosity / modulus instead, or moduli that stay.");
 }
 
 static const RegisteredLaw<MpmDruckerPragerMat> lawOfMpmDruckerPragerMat(
-        [](const MpmDruckerPragerMat& m) {
+        [](const MpmDruckerPragerMat& m) -> gimpm::Law {
 	        using Cone       = gimpm::DruckerPragerCone;
 	        const auto match = m.match == "compression" ? Cone::compression : m.match == "extension" ? Cone::extension : Cone::planeStrain;
-	        return overTime(
-	                m, gimpm::DruckerPrager(m.young, m.poisson, match(m.cohesion, m.frictionAngle, m.dilationAngle), m.tensileStrength), m.poisson,
-	                m.viscosity);
+	        return m.law(m.viscosity, [&](Real young, Real poisson) {
+		        return gimpm::DruckerPrager(young, poisson, match(m.cohesion, m.frictionAngle, m.dilationAngle), m.tensileStrength);
+	        });
         },
         std::pair("young", &MpmElasticMat::young), std::pair("cohesion", &MpmFrictionalMat::cohesion),
         std::pair("frictionAngle", &MpmFrictionalMat::frictionAngle), std::pair("dilationAngle", &MpmFrictionalMat::dilationAngle),

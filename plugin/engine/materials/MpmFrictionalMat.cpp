@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "engine/materials/MpmFrictionalMat.hpp"
+#include "engine/materials/over_time.hpp"
 #include "yade_api/registration.hpp"
 
 namespace yade {
@@ -19,6 +20,22 @@ void MpmFrictionalMat::requireAdmissible() const
 		text << getClassName() << ".cohesion = 0 is not admitted: expected a number > 0 [Pa] without friction. Nothing would give it strength.";
 	else
 		return;
+	throw std::invalid_argument(text.str());
+}
+
+gimpm::Law MpmFrictionalMat::law(Real viscosity, const std::function<gimpm::PowerElastic::Strength(Real, Real)>& make) const
+{
+	if (power == 0) return std::visit([&](const auto& own) { return overTime(*this, own, poisson, viscosity); }, make(young, poisson));
+	const gimpm::PowerElastic::Moduli moduli { young, poisson, power, referencePressure };
+	const gimpm::Hencky               secant = gimpm::PowerElastic::secant(moduli);
+	return overTime(*this, gimpm::PowerElastic(moduli, make(secant.young(), secant.poisson())));
+}
+
+void MpmFrictionalMat::requireWithoutPower(const char* other, Real value, const char* instead) const
+{
+	if (power == 0) return;
+	std::ostringstream text;
+	text << getClassName() << ".power = " << power << " is not admitted with " << other << " = " << value << ": " << instead;
 	throw std::invalid_argument(text.str());
 }
 

@@ -1,17 +1,21 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
+#include "core/materials/power_elastic.hpp"
 #include "engine/materials/MpmElasticMat.hpp"
 #include "engine/materials/angles.hpp"
+#include <functional>
 
 namespace yade {
 
 // What the laws with cohesion and friction have in common.
 class MpmFrictionalMat : public ExposedIndexed<MpmFrictionalMat, MpmElasticMat> {
 public:
-	Real cohesion        = std::numeric_limits<Real>::quiet_NaN(); // must be given, as the moduli
-	Real frictionAngle   = std::numeric_limits<Real>::quiet_NaN();
-	Real dilationAngle   = 0;
-	Real tensileStrength = std::numeric_limits<Real>::infinity();
+	Real cohesion          = std::numeric_limits<Real>::quiet_NaN(); // must be given, as the moduli
+	Real frictionAngle     = std::numeric_limits<Real>::quiet_NaN();
+	Real dilationAngle     = 0;
+	Real tensileStrength   = std::numeric_limits<Real>::infinity();
+	Real power             = 0; // linear
+	Real referencePressure = 100e3;
 
 	YADE_API_NAME(MpmFrictionalMat)
 	static const char* doc()
@@ -30,8 +34,19 @@ public:
 		  admitting("an angle [rad] from 0 to frictionAngle, as radians(30)", isFrictionAngle));
 		v("tensileStrength", &MpmFrictionalMat::tensileStrength, 0, "Cut of tension [Pa] >= 0, of use below the apex c cot(phi); infinite: none.",
 		  admitting("a number >= 0 [Pa], finite or infinite", [](Real value) { return value >= 0; }));
+		v("power", &MpmFrictionalMat::power, 0,
+		  "Power [-] of the pressure with which moduli go, from 0, the default: they stay, to below 1; 0.5 of sand. *young* and *poisson* are then those under *referencePressure*.",
+		  admitting("a number from 0 to 1, 1 excluded", [](Real value) { return value >= 0 && value < 1; }));
+		v("referencePressure", &MpmFrictionalMat::referencePressure, 0,
+		  "Pressure [Pa] > 0, all around, to which *young* and *poisson* belong; of use with *power*.",
+		  admitting("a finite number > 0 [Pa], positive in compression", positive));
 	}
-	void       requireAdmissible() const override;
+	void requireAdmissible() const override;
+
+	// Its law, by the one with Hencky's elasticity of a Young's modulus and a Poisson's ratio.
+	gimpm::Law law(Real viscosity, const std::function<gimpm::PowerElastic::Strength(Real, Real)>& make) const;
+	// std::invalid_argument with a power, for another attribute that does not go with it, and what to do instead.
+	void       requireWithoutPower(const char* other, Real value, const char* instead) const;
 	Quantities strengths() const override { return frictionAngle == 0 ? Quantities { { "cohesion", cohesion } } : Quantities(); }
 };
 

@@ -32,16 +32,20 @@ void MpmMohrCoulombMat::requireAdmissible() const
 	else if (text.str().empty() && hasResidual && orElse(residualCohesion, cohesion) == 0 && orElse(residualFrictionAngle, frictionAngle) == 0)
 		text << "MpmMohrCoulombMat.residualCohesion = 0 is not admitted: expected a number > 0 [Pa] without residual friction. Nothing would be left.";
 	if (!text.str().empty()) throw std::invalid_argument(text.str());
+	if (!std::isnan(softeningStrain))
+		requireWithoutPower("softeningStrain", softeningStrain, "soil that softens has moduli that stay; leave one of the two out.");
 }
 
 namespace {
 	gimpm::Law lawOfMohrCoulomb(const MpmMohrCoulombMat& m)
 	{
-		const gimpm::MohrCoulomb first(m.young, m.poisson, m.cohesion, m.frictionAngle, m.dilationAngle, m.tensileStrength);
-		if (std::isnan(m.softeningStrain)) return overTime(m, first, m.poisson);
+		const auto make = [&](Real young, Real poisson) {
+			return gimpm::MohrCoulomb(young, poisson, m.cohesion, m.frictionAngle, m.dilationAngle, m.tensileStrength);
+		};
+		if (std::isnan(m.softeningStrain)) return m.law(0, make);
 		const gimpm::SofteningMohrCoulomb::Residual residual { orElse(m.residualCohesion, m.cohesion), orElse(m.residualFrictionAngle, m.frictionAngle),
 			                                               orElse(m.residualDilationAngle, m.dilationAngle), m.softeningStrain };
-		return overTime(m, gimpm::SofteningMohrCoulomb(first, m.poisson, residual));
+		return overTime(m, gimpm::SofteningMohrCoulomb(make(m.young, m.poisson), m.poisson, residual));
 	}
 }
 

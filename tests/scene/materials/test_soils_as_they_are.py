@@ -75,7 +75,7 @@ def test_saved_runs_go_on_with_the_same_bits(yade):
 	assert yade(
 	        setting + '''
 soft = MpmMohrCoulombMat(residualCohesion=1e3, softeningStrain=.02, relaxationTime=.5, **friction)
-cases = [(MpmHardeningSoilMat(G0ref=150e6, gamma07=1e-4, **soil), MpmImplicitEngine, {}), (MpmNorSandMat(**sand), MpmImplicitEngine, {}), (soft, MpmDynamicEngine, dict(nonlocalLength=1.))]
+cases = [(MpmHardeningSoilMat(G0ref=150e6, gamma07=1e-4, **soil), MpmImplicitEngine, {}), (MpmNorSandMat(**sand), MpmImplicitEngine, {}), (soft, MpmDynamicEngine, dict(nonlocalLength=1.)), (MpmDruckerPragerMat(power=.5, **friction), MpmImplicitEngine, {})]
 for law, engine, settings in cases:
 	solver = ground(law, 1, engine, **settings)
 	solver.loads = [MpmTraction(surface=[(2, 4), (0, 4)], pressure=20e3)]
@@ -87,7 +87,7 @@ for law, engine, settings in cases:
 	O.load('middle.yade.gz')
 	O.run(4, wait=True)
 	assert all(values.tobytes() == straight[name].tobytes() for name, values in mpm.arrays().items())
-	mpm.plot(next(name for name in ('shearHardening', 'imagePressure', 'softening') if name in straight), fileName='soil.png')
+	mpm.plot(next(name for name in ('shearHardening', 'imagePressure', 'softening', 'stiffness') if name in straight), fileName='soil.png')
 '''
 	).exitCode == 0
 
@@ -130,12 +130,14 @@ print(json.dumps([
 	tried(lambda: MpmMohrCoulombMat(residualCohesion=1e3, **friction)), tried(lambda: MpmMohrCoulombMat(softeningStrain=.1, **friction)),
 	tried(lambda: MpmMohrCoulombMat(residualCohesion=0, residualFrictionAngle=0, softeningStrain=.1, **friction)),
 	tried(lambda: MpmVonMisesMat(young=1e6, poisson=.3, density=2000, yieldStress=1e3, viscosity=1, relaxationTime=1)), tried(lambda: MpmElasticMat(young=1e6, poisson=.3, density=2000, relaxationTime=1)),
-	tried(lambda: MpmMohrCoulombMat(**friction), nonlocalLength=.3)]))
+	tried(lambda: MpmMohrCoulombMat(**friction), nonlocalLength=.3), tried(lambda: MpmMohrCoulombMat(power=.5, residualCohesion=1e3, softeningStrain=.1, **friction)),
+	tried(lambda: MpmDruckerPragerMat(power=.5, viscosity=1., **friction))]))
 '''
 	).result
 	expected = [('Eoedref', 'E50ref'), ('Eoedref', 'E50ref'), ('Eurref', '2 E50ref'), ('K0nc', 'active'), ('dilationAngle', 'frictionAngle'), ('G0ref', 'gamma07'), ('G0ref', 'Eurref'),
 	            ('swellingIndex', 'compressionIndex'), ('flowCurvature', 'curvature'), ('stress', 'geostatic'), ('residualCohesion', 'cohesion'), ('softeningStrain', 'residual'),
-	            ('softeningStrain', 'residualCohesion'), ('residualCohesion', 'residual friction'), ('viscosity', 'relaxationTime'), ('relaxationTime', 'elastic'), ('nonlocalLength', 'cellSize')]
+	            ('softeningStrain', 'residualCohesion'), ('residualCohesion', 'residual friction'), ('viscosity', 'relaxationTime'), ('relaxationTime', 'elastic'), ('nonlocalLength', 'cellSize'),
+	            ('power', 'softeningStrain'), ('power', 'viscosity')]
 	assert len(outcomes) == len(expected)
 	for said, words in zip(outcomes, expected):
 		assert all(word in said for word in words), (said, words)
@@ -156,5 +158,51 @@ O.step()
 data = mpm.arrays()
 mean = (data['softening'] + data['plasticStrain']) / 2
 assert np.abs(mean - .05 * (1 + np.cos(k * y) / (1 + k**2))).max() < 2e-4
+'''
+	)
+
+
+def test_a_layer_without_friction_softens_to_its_end(yade):
+	"""Simple shear between two plates: no step fails, and what is left is the residual strength, to what it grows by in a step."""
+	yade(
+	        setting + '''
+O.materials.append(MpmMohrCoulombMat(young=20e6, poisson=.3, density=2000, cohesion=5e3, frictionAngle=0, residualCohesion=1e3, softeningStrain=.02, label='soil'))
+grid = MpmGrid(cellSize=.25, period=(.75, 0, 0))
+O.bodies.append(mpm.fill(pack.inAlignedBox((0, 0, -1), (.75, 1, 1)), grid, 2, 'soil'))
+plates = [MpmBoundary(max=(inf, 0, inf), fix='xy'), MpmBoundary(min=(-inf, 1, -inf), fix='xy', displacement=(.05, 0, 0))]
+solver = MpmImplicitEngine(grid=grid, boundaries=plates, nonlocalLength=.25, verbosity=0)
+O.engines, O.dt = [solver], 1 / 50
+O.run(50, wait=True)
+data = mpm.arrays()
+shear = np.average(data['stress'][:, 0, 1], weights=data['volume'])
+assert data['softening'].min() > .02 and solver.cuts == 0, (data['softening'].min(), solver.cuts)
+assert 1e3 < shear < 1.03e3, shear
+'''
+	)
+
+
+def test_moduli_that_go_with_the_pressure(yade):
+	"""Ground at rest does not move, is stiffer where it is deeper, and has the factor of safety of the law with moduli that stay."""
+	yade(
+	        setting + '''
+factors = []
+firm = {**friction, 'cohesion': 40e3} # a bank of 4 m that stands
+for law in MpmMohrCoulombMat(power=.5, **firm), MpmMohrCoulombMat(**firm):
+	solver = ground(law)
+	before = mpm.arrays()
+	O.step()
+	data = mpm.arrays()
+	assert np.abs(data['pos'] - before['pos']).max() < 1e-9
+	if law.power:
+		pressure, deviator = -np.trace(data['stress'], axis1=1, axis2=2) / 3, data['stress'] - np.trace(data['stress'], axis1=1, axis2=2)[:, None, None] / 3 * np.eye(3)
+		K, G = 20e6 / 1.2, 20e6 / 2.6
+		equivalent = np.sqrt(pressure**2 + .5 * K / (2 * G) * (deviator**2).sum((1, 2))) # of Houlsby, Amorosi and Rojas
+		assert np.abs(data['stiffness'] / np.sqrt(equivalent / 100e3) - 1).max() < .1 and np.ptp(data['stiffness']) > .3 # no less than that of 1 kPa
+	solver.boundaries = [solver.boundaries[0], solver.boundaries[2]]
+	O.run(2, wait=True)
+	factors.append(mpm.strengthReduction(tolerance=.02))
+one, other = factors
+middle = [(f['lower'] + f['upper']) / 2 for f in factors]
+assert abs(middle[0] / middle[1] - 1) < .03, middle # brackets are 1.5 % wide
 '''
 	)

@@ -106,3 +106,37 @@ print(json.dumps([tried(library='./none.so'), tried(function='vumat'), tried(rel
 	).result
 	for text, words in zip(said, [('none.so', 'opened'), ('vumat', 'nm -D'), ('relaxationTime', ), ('stateVariables', '20'), ('library', 'path')]):
 		assert all(word in text for word in words), (text, words)
+
+
+def test_hypoplastic_sand_of_the_example(tmp_path):
+	"""Its tangent; isotropic compression in the loosest state, which stays the loosest (Bauer); its critical state."""
+	library = tmp_path / 'sand.so'
+	subprocess.run(['g++', '-O1', '-shared', '-fPIC', '-I', '/usr/include/eigen3', '-o', library, root / 'examples/laboratory/hypoplasticity.cpp'], check=True)
+	yade = Yade(tmp_path)
+	yade.environment['UMAT'] = str(library)
+	yade(
+	        setting + '''
+import ctypes
+phi, hardness, exponent = np.pi * 33 / 180, 1.5e9, .28
+constants = [phi, hardness, exponent, .55, .95, 1.05, .25, 1, 0]
+voidRatio = lambda first, p: first * np.exp(-(3 * p / hardness)**exponent)
+array = lambda values: (ctypes.c_double * len(values))(*values)
+stress, state, none, shorter = array([-10e3] * 3 + [0] * 3), array([voidRatio(1.05, 10e3)]), array([0] * 36), array([1])
+tangent = array([0] * 36)
+umat = ctypes.CDLL(os.environ['UMAT']).umat_
+for step in range(200):
+	increment = array([-1e-4] * 3 + [0] * 3)
+	umat(stress, state, tangent, *[none] * 8, increment, *[none] * 6, *[None] * 5, array(constants), None, none, none, shorter, *[none] * 3, *[None] * 6, 0)
+p = -stress[0]
+assert p > 100e3 and shorter[0] == 1
+assert abs(state[0] / voidRatio(1.05, p) - 1) < 1e-5, (state[0], voidRatio(1.05, p))
+sand = lambda e: MpmUserMat(library=os.environ['UMAT'], parameters=constants[:-1] + [1.], stateVariables=[e], reentrant=True, density=1600, young=50e6, poisson=.2)
+assert mpm.checkLaw(sand(.7), confiningPressure=100e3)['tangentError'] < 1e-8
+for e, most in (.9, 1.01), (.65, 1.6):
+	curve = mpm.elementTest(sand(e), 'triaxial', -.3, steps=300, confiningPressure=100e3)
+	ratio, critical = curve['q'] / -np.trace(curve['stress'], axis1=1, axis2=2) * 3, 6 * np.sin(phi) / (3 - np.sin(phi))
+	assert .99 < ratio.max() / critical < most and ratio[-1] <= ratio.max(), (e, ratio.max() / critical)
+	if e == .9: assert abs(ratio[-1] / critical - 1) < .01 and abs(curve['state1'][-1] / voidRatio(.95, 175e3) - 1) < .02
+	else: assert ratio.max() > 1.2 * critical and ratio[-1] < .9 * ratio.max() # dense sand has a peak
+'''
+	)
