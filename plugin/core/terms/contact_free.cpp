@@ -21,7 +21,7 @@ template <int Dim> struct Balance {
 		residual = body.inertia * motion - body.push;
 		sizes    = (body.inertia * motion).cwiseAbs() + body.push.cwiseAbs();
 		for (const auto& place : places) {
-			const auto force = Lever<Dim>(place).moves.transpose() * place.force;
+			const typename Free::Vector force = Lever<Dim>(place).moves.transpose() * place.force;
 			residual += force, sizes += force.cwiseAbs();
 			touches = touches || place.gap <= 0;
 		}
