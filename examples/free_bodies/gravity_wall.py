@@ -76,6 +76,7 @@ print(f'the load is {q / 1e3:.2f} kPa as the wall gives way; by hand it slides a
 way, ratio = ('slides', thrust(q) / thrust(slides)) if slides < tips else ('tips', overturning(q) / resisting(q))
 what = {'slides': 'thrust over what the base can bear', 'tips': 'overturning over resisting moment'}[way]
 if way == 'slides': print(f'thrust as it slides {path[-1][2] / (thrust(slides) * cos(delta)):.4f} of what its base bears by hand')
+else: print(f'thrust as it tips {path[-1][2] / (thrust(q) * cos(delta)):.3f} of that by Coulomb')
 print(f'it {way}: {what} by hand {ratio:.3f}')
 compared(f'{way}, cells of {options.cellSize:g} m: {what}', ratio, 1, 'Coulomb')
 figure, (picture, diagram) = plt.subplots(1, 2, figsize=(11, 4.6), width_ratios=[1.5, 1], layout='constrained')

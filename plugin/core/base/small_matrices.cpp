@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "core/base/small_matrices.hpp"
+#include <cstddef>
 #include <limits>
 #include <vector>
 
+// With the lengths of the texts last.
 extern "C" {
 void dsyev_(
-        const char* job, const char* triangle, const int* size, double* matrix, const int* stride, double* values, double* work, const int* workSize,
-        int* info);
+        const char* job, const char* triangle, const int* size, double* matrix, const int* stride, double* values, double* work, const int* workSize, int* info,
+        std::size_t, std::size_t);
 void dgesv_(const int* size, const int* sides, double* matrix, const int* stride, int* pivots, double* b, const int* bStride, int* info);
-void dpotrf_(const char* triangle, const int* size, double* matrix, const int* stride, int* info);
+void dpotrf_(const char* triangle, const int* size, double* matrix, const int* stride, int* info, std::size_t);
 }
 
 namespace gimpm {
@@ -23,7 +25,7 @@ SymmetricEigen symmetricEigen(Eigen::MatrixXd symmetric)
 	const int       size = int(symmetric.rows()), workSize = 3 * size;
 	Eigen::VectorXd values(size), work(workSize);
 	int             info = 0;
-	dsyev_("V", "L", &size, symmetric.data(), &size, values.data(), work.data(), &workSize, &info);
+	dsyev_("V", "L", &size, symmetric.data(), &size, values.data(), work.data(), &workSize, &info, 1, 1);
 	if (info != 0) values.setConstant(none), symmetric.setConstant(none);
 	return { std::move(values), std::move(symmetric) };
 }
@@ -42,7 +44,7 @@ bool isPositiveDefinite(Eigen::MatrixXd symmetric)
 {
 	const int size = int(symmetric.rows());
 	int       info = 0;
-	dpotrf_("L", &size, symmetric.data(), &size, &info);
+	dpotrf_("L", &size, symmetric.data(), &size, &info, 1);
 	return info == 0 && symmetric.diagonal().allFinite();
 }
 

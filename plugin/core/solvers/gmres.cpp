@@ -140,7 +140,7 @@ bool byIncompleteLu(Iteration& iteration)
 
 } // namespace
 
-bool gmres(const GeneralCsc& K, const Eigen::VectorXd& b, double tolerance, Eigen::VectorXd& x, int& iterations)
+bool gmres(const GeneralCsc& K, const Eigen::VectorXd& b, double tolerance, Eigen::VectorXd& x, int& iterations, bool diagonalFirst)
 {
 	x.setZero(b.size());
 	const double size = b.stableNorm(); // whose square may vanish or overflow
@@ -149,7 +149,7 @@ bool gmres(const GeneralCsc& K, const Eigen::VectorXd& b, double tolerance, Eige
 	Iteration             iteration { K, unit, tolerance };
 	bool                  hasConverged = false;
 	try {
-		hasConverged = byDiagonal(iteration) || byIncompleteLu(iteration);
+		hasConverged = (diagonalFirst && byDiagonal(iteration)) || byIncompleteLu(iteration);
 	} catch (const NoPivot&) {
 	}
 	iterations += iteration.made;

@@ -55,10 +55,14 @@ private:
 	const SymmetricCsc& K_;
 };
 
-/// Empty, or why it fails.
-std::string byGmres(const GeneralCsc& K, const Eigen::VectorXd& b, double tolerance, Eigen::VectorXd& x, int& iterations)
+/// Empty, or why it fails. Of displacements in space an incomplete factor gets less far than the diagonal; in the plane,
+/// and with pressures beside displacements, it is the other way round.
+std::string byGmres(const LinearProblem& K, const Eigen::VectorXd& b, double tolerance, Eigen::VectorXd& x, int& iterations)
 {
-	return gmres(K, b, tolerance, x, iterations) ? "" : "GMRES does not converge";
+	const bool diagonalFirst = K.overNodes() && K.overNodes()->isInSpace();
+	const bool hasConverged  = K.isSymmetric() ? gmres(bothTriangles(K.symmetric()), b, tolerance, x, iterations, diagonalFirst)
+	                                           : gmres(K.general(), b, tolerance, x, iterations, diagonalFirst);
+	return hasConverged ? "" : "GMRES does not converge";
 }
 
 /// Empty, or why it fails.
@@ -86,6 +90,7 @@ struct LinearSolver::Direct {
 	std::unique_ptr<Multifrontal> indefinite;
 	bool                          hasSigns      = false; // the factor is L S L^T of such a matrix
 	bool                          isForDefinite = true;  // the symbolic analysis
+	bool                          needsPivots   = false; // of that pattern no factor without them would do
 
 	bool solve(const Eigen::VectorXd& b, Eigen::VectorXd& x, bool transposed)
 	{
@@ -109,16 +114,25 @@ struct LinearSolver::Direct {
 			const Eigen::VectorXd residual = b - timesSymmetric(scaled, x);
 			if (residual.norm() <= enough * (b.norm() + x.norm())) return true;
 			isSolved = refined < most && cholesky.solveSigned(residual, more);
-			x += more;
+			if (isSolved) x += more;
 		}
-		return factorisePivoting() && indefinite->solve(scaled, b, x, false);
+		needsPivots = true;
+		if (factorisePivoting()) return indefinite->solve(scaled, b, x, false);
+		return factoriseFull() && lu.solve(full, b, x, false);
 	}
 	/// Symmetric and scaled; in the order that is good for Cholesky.
 	bool factoriseIndefinite()
 	{
-		indefinite.reset();
-		hasSigns = cholesky.isAnalysed() && cholesky.factoriseSigned(scaled, smallestPivot);
-		return hasSigns || factorisePivoting();
+		hasSigns = !needsPivots && cholesky.isAnalysed() && cholesky.factoriseSigned(scaled, smallestPivot);
+		if (hasSigns) return true;
+		needsPivots = true;
+		return factorisePivoting();
+	}
+	/// Its diagonal may be anything, so that UMFPACK judges how to order it.
+	bool factoriseFull()
+	{
+		full = bothTriangles(scaled), ofLu = &full;
+		return lu.factorise(full, nullptr, smallestPivot);
 	}
 	bool factorisePivoting()
 	{
@@ -139,15 +153,16 @@ LinearSolver& LinearSolver::operator=(LinearSolver&&) noexcept = default;
 LinearSolver::FactorSize LinearSolver::analyse(const LinearProblem& problem)
 {
 	const FewerThreads guard(0);
-	const Csc&         K                                                                 = problem.stored();
-	auto& [scaled, scale, cholesky, lu, full, ofLu, indefinite, hasSigns, isForDefinite] = *direct_;
-	const bool isDefinite                                                                = !problem.isSymmetric() || !problem.hasSigns();
+	const Csc&         K                                                                              = problem.stored();
+	auto& [scaled, scale, cholesky, lu, full, ofLu, indefinite, hasSigns, isForDefinite, needsPivots] = *direct_;
+	const bool isDefinite                                                                             = !problem.isSymmetric() || !problem.hasSigns();
 	if (!cholesky.isAnalysed() || isDefinite != isForDefinite || !isReverse(K, scaled)) {
 		const Stopwatch watch(times_.analyse);
 		reverse(K, scaled);
 		scaled.value.resize(K.value.size());
 		lu.forget();
 		indefinite.reset();
+		needsPivots   = false;
 		isForDefinite = isDefinite;
 		cholesky.analyse(scaled, ordering(problem), isDefinite);
 	}
@@ -158,7 +173,7 @@ LinearSolver::FactorSize LinearSolver::analyse(const LinearProblem& problem)
 LinearSolver::Status LinearSolver::factorise(const LinearProblem& problem)
 {
 	const Stopwatch watch(times_.factorise);
-	auto& [scaled, values, cholesky, lu, full, ofLu, indefinite, hasSigns, isForDefinite] = *direct_;
+	auto& [scaled, values, cholesky, lu, full, ofLu, indefinite, hasSigns, isForDefinite, needsPivots] = *direct_;
 	lu.forgetFactor();
 	full   = {};
 	ofLu   = nullptr;
@@ -168,10 +183,7 @@ LinearSolver::Status LinearSolver::factorise(const LinearProblem& problem)
 			if (direct_->factoriseIndefinite()) return Status::lu;
 		} else if (indefinite.reset(), hasSigns = false; cholesky.factorise(scaled))
 			return cholesky.rcond() < smallestPivot ? Status::singular : Status::cholesky;
-		full = bothTriangles(scaled);
-		ofLu = &full;
-		// its diagonal may be anything, so that UMFPACK judges how to order it
-		return lu.factorise(full, nullptr, smallestPivot) ? Status::lu : Status::singular;
+		return direct_->factoriseFull() ? Status::lu : Status::singular;
 	}
 	ofLu = &scaled;
 	return lu.factorise(scaled, cholesky.isAnalysed() ? cholesky.ordering() : nullptr, smallestPivot) ? Status::lu : Status::singular;
@@ -201,8 +213,7 @@ bool LinearSolver::solveIteratively(const LinearProblem& K, const Eigen::VectorX
 		failure = overNodes_->solve(*K.overNodes(), b, tolerance, method, x, times_, effort_);
 	else {
 		const Stopwatch watch(times_.solve);
-		failure = K.isSymmetric() ? inColumns(K.symmetric(), b, tolerance, x, effort_.iterations)
-		                          : byGmres(K.general(), b, tolerance, x, effort_.iterations);
+		failure = K.isSymmetric() ? inColumns(K.symmetric(), b, tolerance, x, effort_.iterations) : byGmres(K, b, tolerance, x, effort_.iterations);
 	}
 	if (!failure.empty()) effort_.reason = failure;
 	return failure.empty();
@@ -226,9 +237,8 @@ std::string LinearSolver::solveFields(const LinearProblem& K, const Eigen::Vecto
 		if (method == LinearMethod::multigrid) return "multigrid: " + absence;
 	}
 	const Stopwatch watch(times_.solve);
-	if (!K.isSymmetric()) return byGmres(K.general(), b, tolerance, x, effort_.iterations);
-	if (inColumns(K.symmetric(), b, tolerance, x, effort_.iterations).empty()) return "";
-	return byGmres(bothTriangles(K.symmetric()), b, tolerance, x, effort_.iterations);
+	if (K.isSymmetric() && inColumns(K.symmetric(), b, tolerance, x, effort_.iterations).empty()) return "";
+	return byGmres(K, b, tolerance, x, effort_.iterations);
 }
 
 bool LinearSolver::staysOverNodes(LinearMethod method, const LinearProblem& K)

@@ -53,6 +53,7 @@ public:
 		if (couplings_) return std::make_unique<CoupledBlocks<Dim>>(K_, dofs_, *couplings_);
 		return std::make_unique<BlockMatrix<Dim>>(K_, dofs_);
 	}
+	bool isInSpace() const override { return Dim == 3; }
 	bool isOfOneField() const override { return !couplings_ || couplings_->map().isAlone(); }
 	bool hasSigns() const override
 	{

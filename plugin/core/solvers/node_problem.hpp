@@ -25,6 +25,8 @@ struct NodeProblem {
 
 	virtual std::variant<SymmetricCsc, GeneralCsc> compressed() const = 0;
 
+	virtual bool isInSpace() const = 0;
+
 	/// Of several fields there are no blocks.
 	virtual bool isOfOneField() const = 0;
 	/// Whether rows of a field are those of its negative (Field::sign), so that the matrix cannot be positive

@@ -51,7 +51,7 @@ template <int Dim> void explain(const StepSystem<Dim>& system, const Eigen::Vect
 template <int Dim> Eigen::VectorXd expectedOfFields(const StepSystem<Dim>& system)
 {
 	const auto expected = system.expected();
-	if (!expected) return {};
+	if (!expected || int(expected->values.size()) != system.map.fields()) return {};
 	auto d = system.map.zeros();
 	for (int f = 0; f < system.map.fields(); ++f)
 		d[f] = continued(expected->nodes, expected->values[f], 1, system.map[f].width, system.basis.nodes, system.model.grid);
@@ -115,7 +115,7 @@ template <int Dim> StepReport loadStep(PointCloud<Dim>& cloud, const Model<Dim>&
 	// 2. to 4. points to nodes, assembly and Newton's method on the nodes
 	const bool            predicts   = last && !system.hasInertia();
 	const Eigen::VectorXd prediction = predicts ? predictionFor(system, *last, load.growth()) : Eigen::VectorXd();
-	if (model.ghost.memory > 0 && prediction.size() > 0) system.ghostFrom = model.ghost.memory * system.map.displacements(prediction);
+	if (model.ghost.memory > 0 && prediction.size() > 0) system.ghostFrom = model.ghost.memory * prediction;
 	const Eigen::VectorXd growth = relieved(system, solver, report, equilibrium(system, solver, report, prediction));
 	const Eigen::VectorXd d      = system.map.displacements(growth);
 	if (!model.terms.empty() || system.hasInertia() || system.isCoupled()) explain(system, d, report);

@@ -156,18 +156,19 @@ private:
 int sideOf(const Beam& beam, const Vec<2>& place, double reach)
 {
 	const int last  = int(beam.places.size()) - 2;
-	double    least = reach;
-	int       side  = 0;
+	double    least = reach, left = 0;
+	bool      isBeyond = false;
 	for (int i = 0; i <= last; ++i) {
 		const Vec<2> along = beam.places[i + 1] - beam.places[i], from = place - beam.places[i];
 		const double part = from.dot(along) / along.squaredNorm(), within = std::clamp(part, 0., 1.);
-		const double away = (from - within * along).norm();
-		if (away > least) continue;
-		const bool isBeyond = !beam.isClosed && ((i == 0 && part < 0) || (i == last && part > 1));
-		least               = away;
-		side                = isBeyond ? 0 : along[0] * from[1] > along[1] * from[0] ? 1 : -1;
+		const double away = (from - within * along).norm(), same = 1e-9 * along.norm();
+		if (away > least + same) continue;
+		const double to = (along[0] * from[1] - along[1] * from[0]) / along.norm();
+		isBeyond        = !beam.isClosed && ((i == 0 && part < 0) || (i == last && part > 1));
+		left            = away < least - same ? to : left + to; // both of two that meet in a corner
+		least           = std::min(least, away);
 	}
-	return side;
+	return isBeyond || left == 0 ? 0 : left > 0 ? 1 : -1;
 }
 
 bool areApart(const std::vector<Index<2>>& nodes, const std::vector<Index<2>>& others)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "core/terms/contact_nodes.hpp"
-#include "core/base/small_matrices.hpp"
+#include "core/solvers/least_squares.hpp"
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>
@@ -25,7 +25,7 @@ Vec3 turnOf(const std::array<Vec3, 3>& arms, int nodes, const Vec3& moment)
 	Mat3 inertia = Mat3::Zero();
 	for (int i = 0; i < nodes; ++i)
 		inertia += arms[i].squaredNorm() * Mat3::Identity() - arms[i] * arms[i].transpose();
-	return solutionOf(inertia, moment);
+	return leastSquares(inertia, moment);
 }
 
 } // namespace

@@ -34,7 +34,7 @@ print(json.dumps([run(method) for method in ('direct', 'iterative', 'auto')]))
 
 
 def test_sand_in_space_that_keeps_its_volume_needs_no_factor(yade):
-	"""A square footing, psi = 0, 19,775 unknowns: division by the diagonal gets GMRES there, where the incomplete factor does not."""
+	"""A square footing, psi = 0, 19,775 unknowns: GMRES gets there without a factorisation by the direct solver."""
 	solves, iterations, fallbacks, factors = yade('''
 import json
 from scenes import *

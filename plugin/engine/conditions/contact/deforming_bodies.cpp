@@ -37,7 +37,8 @@ namespace {
 	Matrix3r leastTurn(const Vector3r& from, const Vector3r& to)
 	{
 		const Vector3r a = from.normalized(), b = to.normalized(), middle = a + b;
-		if (middle.norm() < 1e-12) { // back, about any axis across
+		if (b.isZero()) return Matrix3r::Identity(); // nodes that have come into one place
+		if (middle.norm() < 1e-12) {                 // back, about any axis across
 			const Vector3r across = a.unitOrthogonal();
 			return 2 * across * across.transpose() - Matrix3r::Identity();
 		}

@@ -26,6 +26,8 @@ void MpmFlow::requireFitting(const Analysis& analysis, const string&) const
 	if (analysis.isExplicit()) what = analysis.className() + ".scheme = 'explicit'";
 	else if (analysis.ghost->workTolerance < 1)
 		what = "MpmGhost.workTolerance < 1, which knows of no work of water";
+	else if (analysis.ghost->memory > 0)
+		what = "MpmGhost.memory > 0, as soil through which water flows does not go on by the growth of the load";
 	if (!what.empty()) throw std::invalid_argument("MpmFlow cannot yet go with " + what + "; leave one of the two out.");
 	if (std::isfinite(pressureTolerance) && analysis.newton->stepTolerance == 0)
 		throw std::invalid_argument(

@@ -17,7 +17,7 @@ public:
 	// Hidden: of each node three grid coordinates and the pressure, as the last step has left it
 	vector<Real> nodes;
 	// Hidden: of the same nodes the growth of the three displacements and the pressure in the last step, and how
-	// long that was; empty where no tolerance asks for it
+	// long that was; empty in steps in time that no tolerance judges
 	vector<Real> growth;
 	Real         lastDuration = 0;
 

@@ -247,7 +247,8 @@ std::map<string, string> Beams::warnings() const
 			found["beside " + beam.name] = gimpm::sentence(
 			        beam.name,
 			        " has soil on both of its sides, which stays one body, as rough along the beam as it is itself: beams do not part it beside ",
-			        inItsWay.empty() ? "another one within three cells" : inItsWay, ". Pressures and moments of a wall are too small then.");
+			        inItsWay.empty() ? "another one within three cells, nor where they are hardly longer than a cell" : inItsWay,
+			        ". Pressures and moments of a wall are too small then.");
 		if (i < crossed.size() && crossed[i] > 0)
 			found["through " + beam.name] = gimpm::sentence(
 			        crossed[i], crossed[i] == 1 ? " material point has" : " material points have", " gone through ", beam.name,
