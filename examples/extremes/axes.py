@@ -89,7 +89,7 @@ axes = {
         'power': Axis('power of the pressure in moduli of Mohr-Coulomb, weight tripled [-]', [0., 1e-12, 1e-6, 1e-3, .1, .3, .5, .7, .9, .99, .999, .999999], dims=(2, ), quick=[.5]),
         'powerFooting': Axis('the same, under a footing [-]', [0., 1e-12, 1e-6, 1e-3, .1, .3, .5, .7, .9, .99, .999, .999999], dims=(2, ), quick=[.5]),
         'viscosity': Axis("viscosity over Young's modulus and the length of a step, von Mises, weight tripled [-]", [0., *powers(-9, 9, 3)], dims=(2, ), quick=[1.]),
-        'relaxationTime': Axis('relaxation time over the length of a step, von Mises, weight tripled [-]', [0., *powers(-9, 9, 3)], dims=(2, ), quick=[1.]),
+        'relaxationTime': Axis('relaxation time over the length of a step, von Mises, weight tripled [-]', powers(-9, 9, 3), dims=(2, ), quick=[1.]),
         'waterWeight': Axis('weight of water over that of the soil, by volume, far above the column [-]', [0., .1, .3, .5, .7, .9, .99, 1., 1.01, 1.5, 2.], quick=[.5]),
         'waterLevel': Axis('level of water of half the weight over the height of the column, strain 1e-3 [-]', [1e-12, 1e-6, 1e-3, .1, .25, .5, .501, 1., 10., 1e3, 1e6, 1e9], quick=[.501]),
         'flowStep': Axis('time step over that in which pressures spread over a cell: conductivity [-]', powers(-8, 4), quick=[1e-6]),

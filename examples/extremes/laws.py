@@ -78,7 +78,7 @@ def lawScene(axis, dim, ghost, value):
 	if axis == 'camClayFooting': return ground(clay(), OCR=value, footing=True)
 	if axis == 'hardeningPower': return ground(hardeningSoil(power=value))
 	if axis == 'hardeningUnloading': return ground(hardeningSoil(unloading=value))
-	if axis == 'hardeningFriction': return ground(hardeningSoil(phi=value), footing=True)
+	if axis == 'hardeningFriction': return ground(hardeningSoil(phi=value, Eoedref=2e5), footing=True)
 	if axis == 'smallStrain': return ground(hardeningSoil(G0ref=1e7, gamma07=value), footing=True)
 	if axis == 'norSandState': return ground(norSand(state=value), footing=True)
 	if axis == 'norSandHardening': return ground(norSand(hardening=value), footing=True)

@@ -280,11 +280,12 @@ kinds = [ # of failures, by what the exception says
         ('would let soil through', 'penetrated'),
         ('above the tolerance', 'not converging'),
         ('times the tolerance', 'not converging'), # around a node
+        ('has no stress for its strain', 'law without an answer'),
 ]
 
 
 def kindOf(error):
-	return next((kind for text, kind in kinds if text in str(error)), 'refused: ' + re.sub(r'[0-9.e+-]+', '#', str(error))[:80])
+	return next((kind for text, kind in kinds if text in str(error)), 'refused: ' + re.sub(r'[-+]?\b\d[\d.]*(e[-+]?\d+)?', '#', str(error))[:80])
 
 
 def run(axis, dim, ghost, value):

@@ -477,7 +477,7 @@ def tried(call):
 	try:
 		call()
 		said.append('')
-	except ValueError as error:
+	except (ValueError, RuntimeError) as error:
 		said.append(str(error))
 tried(lambda: mpm.freeField(solver, until=1))
 solver.loads = [MpmFreeField(surface=[(0, 4), (0, 0)])]
