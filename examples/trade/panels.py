@@ -135,7 +135,7 @@ def shaken():
 	points = {scheme: [] for scheme in ('newmark', 'generalised-alpha')}
 	for row in rows('earthquake', 'results', 'trade.csv'):
 		points[row['scheme']].append(Point(row['seconds'], row['error'], {'n': f"{22 / row['cellSize']:g}", 'dt': f"{row['step']:g}"}))
-	return Panel('layers that are shaken, dynamic', 'amplification, exact', points['newmark'], 'in a wave', ('generalised-alpha', points['generalised-alpha']), luck=True)
+	return Panel('layers that are shaken: cells, dt [s]', 'amplification, exact', points['newmark'], 'in a wave', ('generalised-alpha', points['generalised-alpha']), luck=True)
 
 
 def loadSteps():
