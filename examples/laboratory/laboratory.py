@@ -175,7 +175,7 @@ def bingham():
 	compare('simple shear, Bingham, 2.5 / s: tau', curve['stress'][-1, 0, 1], 100 + 40 * 2.5)
 
 
-figure, axes = plt.subplots(2, 5, figsize=(20, 7.2), layout='constrained')
+figure, axes = plt.subplots(2, 5, figsize=(17, 7.2), layout='constrained')
 biaxial(axes[0, 0])
 simpleShear(axes[0, 1])
 undrainedStrength(axes[0, 2])
