@@ -21,6 +21,7 @@ failures = { # kinds, by how they begin: letter and colour
         'timeout': ('T', 'tab:pink'),
         'crash': ('X', 'black'),
         'not finite': ('f', 'tab:olive'),
+        'law': ('l', 'gold'),
 }
 
 

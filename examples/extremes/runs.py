@@ -20,8 +20,9 @@ sys.path[:0] = [here, os.path.join(here, '..', '..', 'scripts', 'lib')]
 import pivots
 from common import cellSize, fullNewton, stabilisation, young
 from contacts import contactScene
+from laws import lawScene
 from slopes import weakLayerSlope
-from soils import Band, Clay, SandSlope, friction, frictional, tresca, vonMises
+from soils import Band, SandSlope, friction, frictional, tresca, vonMises
 from vibrating import vibratingBar
 
 O = Omega()
@@ -219,6 +220,7 @@ def thinnedAtRandom(column, part):
 def scene(axis, dim, ghost, value):
 	"""The scene of a case."""
 	if (touched := contactScene(axis, dim, ghost, value)) is not None: return touched
+	if (bearing := lawScene(axis, dim, ghost, value)) is not None: return bearing
 	if (moving := vibratingBar(axis, dim, ghost, value)) is not None: return moving
 	if axis == 'overlap': return Column(dim, ghost, overlap=(value, value))
 	if axis == 'factor': return Column(dim, ghost, overlap=(1e-4, 1e-4), factor=value)
@@ -228,7 +230,6 @@ def scene(axis, dim, ghost, value):
 	if axis == 'yield': return Column(dim, ghost, confined=True, poisson=.3, law=vonMises(value))
 	if axis == 'softening': return Column(dim, ghost, confined=True, poisson=.3, law=vonMises(1e-2, value))
 	if axis == 'tresca': return Column(dim, ghost, confined=True, poisson=.3, law=tresca(value))
-	if axis in ('camClay', 'camClayFooting'): return Clay(dim, ghost, value, axis == 'camClayFooting')
 	if axis == 'sandSlope': return SandSlope(ghost, *map(float, value.split('/')))
 	if axis == 'softeningGrid':
 		cells, softening = value.split('/')
@@ -279,11 +280,12 @@ kinds = [ # of failures, by what the exception says
         ('would let soil through', 'penetrated'),
         ('above the tolerance', 'not converging'),
         ('times the tolerance', 'not converging'), # around a node
+        ('has no stress for its strain', 'law without an answer'),
 ]
 
 
 def kindOf(error):
-	return next((kind for text, kind in kinds if text in str(error)), 'refused: ' + re.sub(r'[0-9.e+-]+', '#', str(error))[:80])
+	return next((kind for text, kind in kinds if text in str(error)), 'refused: ' + re.sub(r'[-+]?\b\d[\d.]*(e[-+]?\d+)?', '#', str(error))[:80])
 
 
 def run(axis, dim, ghost, value):

@@ -1,45 +1,13 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Soils of the stability atlas: laws of columns, and scenes for what columns do not show."""
+"""Soils of the stability atlas: laws of columns, and scenes for what columns do not show; laws.py has ground with a stress of its own."""
 from math import inf, nan, radians
 
 import numpy as np
 from common import cellSize, fullNewton, stabilisation, young
 from yade import mpm, pack
-from yade.wrapper import (MpmBoundary, MpmCamClayMat, MpmDruckerPragerMat, MpmGrid, MpmImplicitEngine, MpmMohrCoulombMat, MpmNewton, MpmTrescaMat, MpmVonMisesMat,
-                          Omega)
+from yade.wrapper import MpmBoundary, MpmDruckerPragerMat, MpmGrid, MpmImplicitEngine, MpmMohrCoulombMat, MpmNewton, MpmTrescaMat, MpmVonMisesMat, Omega
 
 O = Omega()
-
-
-class Clay:
-	"""Ground of Cam clay between walls, 6 x 6 [x 2] cells, with the stress that its weight and its past leave it, in 10 steps.
-
-	:param footing: a rigid rough footing on a half of the surface goes down by half a cell; else the weight grows to three times itself, whose vertical
-		stress is known
-	"""
-
-	def __init__(self, dim, ghost, OCR, footing):
-		self.steps, self.density, self.footing, h = 10, 2000., footing, cellSize
-		soil = dict(shearModulus=5e5, criticalStateRatio=1.2, compressionIndex=.1, swellingIndex=.02, referencePressure=1e3, preconsolidation=1e4)
-		O.materials.append(MpmCamClayMat(density=self.density, label='clay', **soil))
-		grid, size = MpmGrid(cellSize=h, dim=dim), np.array([6, 6, 2]) * h
-		O.bodies.append(mpm.fill(pack.inAlignedBox((0, 0, -h if dim == 2 else 0), tuple(size)), grid, 2, 'clay'))
-		sides = [MpmBoundary(max=(0, inf, inf), fix='x'), MpmBoundary(min=(size[0], -inf, -inf), fix='x'), MpmBoundary(max=(inf, 0, inf), fix='y')]
-		if dim == 3: sides += [MpmBoundary(max=(inf, inf, 0), fix='z'), MpmBoundary(min=(-inf, -inf, size[2]), fix='z')]
-		if footing: sides.append(MpmBoundary(min=(-inf, size[1], -inf), max=(size[0] / 2, inf, inf), fix='xyz'[:dim], displacement=(0, -h / 2, 0)))
-		self.engine = MpmImplicitEngine(grid=grid, gravity=(0, -10, 0), boundaries=sides, ghost=stabilisation(ghost), newton=MpmNewton(**fullNewton), gravityCurve=[(0, 1)])
-		O.engines = [self.engine]
-		mpm.geostatic(OCR=OCR)
-		if not footing: self.engine.gravityCurve = [(0, 1), (1, 3)]
-		self.height = size[1]
-
-	def beforeStep(self, step):
-		pass
-
-	def error(self):
-		if self.footing: return nan
-		points, weight = mpm.arrays(), 3 * 10 * self.density
-		return np.abs(points['stress'][:, 1, 1] + weight * (self.height - points['pos0'][:, 1])).mean() / (weight * self.height)
 
 
 class SandSlope:

@@ -1,6 +1,6 @@
 #!/usr/bin/env yade
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Hypoplastic sand of one's own, by the door for user materials: compiled here, checked, and in triaxial tests from loose to dense."""
+"""Hypoplastic sand of one's own, by the door for user materials: compiled here, checked, and in triaxial tests from loose to dense: hypoplasticity.py [steps]."""
 import os
 import subprocess
 import sys
@@ -11,7 +11,7 @@ matplotlib.use('Agg')
 import matplotlib.pyplot as plt
 import numpy as np
 
-out = 'out/laboratory'
+out, steps = 'out/laboratory', int((sys.argv[1:] or [800])[0])
 os.makedirs(out, exist_ok=True)
 source, library = os.path.join(os.path.dirname(os.path.abspath(sys.argv[0])), 'hypoplasticity.cpp'), os.path.join(out, 'hypoplasticity.so')
 subprocess.run(['g++', '-O2', '-shared', '-fPIC', '-I', '/usr/include/eigen3', '-o', library, source], check=True)
@@ -24,12 +24,12 @@ p = 100e3
 check = mpm.checkLaw(sand(0.7), confiningPressure=p)
 print(f"hypoplasticity: the tangent differs from the slope by {check['tangentError']:.1e}")
 
-first = mpm.elementTest(sand(ei0 * fall(10e3)), 'oedometer', -0.01, steps=400, initialStress=(-10e3, -10e3, -10e3))
+first = mpm.elementTest(sand(ei0 * fall(10e3)), 'oedometer', -0.01, steps=steps // 2, initialStress=(-10e3, -10e3, -10e3))
 loosest = np.array([[10e3, ei0 * fall(10e3)]])
 figure, axes = plt.subplots(1, 2, figsize=(11, 4.2))
 print(f'hypoplasticity: void ratio after an oedometer from the loosest state {first["state1"][-1]:.4f}, that of the strain {(1 + loosest[0, 1]) * np.exp(-0.01) - 1:.4f}')
 for e in 0.6, 0.7, 0.8, 0.9:
-	curve = mpm.elementTest(sand(e), 'triaxial', -0.4, steps=800, confiningPressure=p)
+	curve = mpm.elementTest(sand(e), 'triaxial', -0.4, steps=steps, confiningPressure=p)
 	mean = -np.trace(curve['stress'], axis1=1, axis2=2) / 3
 	ratio, voids = curve['q'] / mean, curve['state1']
 	axes[0].plot(-100 * curve['axialStrain'], ratio, label=f'e = {e}')

@@ -142,10 +142,29 @@ def hardeningSoil(drained, pressed):
 	pressed.set(title='hardening soil, oedometer', xlabel='axial compression [%]', ylabel='pressure [kPa]')
 
 
-def norSand():
+def powerModuli(axes):
+	"""s (K_s + 4 G / 3) e of the strain e, s = (K_s / p sqrt(e^2 (1 + 4 G / (3 K_s)) + a^2))^(n / (1 - n)), K_s = (1 - n) K (Houlsby, Amorosi and Rojas 2005)."""
+	E, nu, p = 30e6, 0.2, 100e3
+	K, G = E / (3 * (1 - 2 * nu)), E / (2 * (1 + nu))
+	for n in 0.3, 0.5, 0.8:
+		soil = MpmMohrCoulombMat(young=E, poisson=nu, power=n, referencePressure=p, cohesion=1e8, frictionAngle=phi, density=2000)
+		curve, Ks = test(soil, 'oedometer', -0.01), (1 - n) * K
+		strain, a = curve['axialStrain'], 0.01**(1 - n) * p / Ks
+		stiffness = (Ks / p * np.sqrt(strain**2 * (1 + 4 * G / (3 * Ks)) + a**2))**(n / (1 - n))
+		exact = stiffness * (Ks + 4 * G / 3) * strain / np.exp(strain)
+		axes.plot(-100 * strain, -curve['stress'][:, 1, 1] / 1e3, label=f'n = {n}')
+		axes.plot(-100 * strain[::options.steps // 10], -exact[::options.steps // 10] / 1e3, 'k.')
+		compare(f'oedometer, MohrCoulomb, power = {n}: sigma_y', curve['stress'][-1, 1, 1], exact[-1])
+	axes.set(title='moduli by power, oedometer', xlabel='axial compression [%]', ylabel='$-\\sigma_y$ [kPa]')
+
+
+def norSand(axes):
 	"""The critical state, Q = M P: of undrained shear long before the pressure is that of the critical state."""
 	sand = MpmNorSandMat(density=2000, shearModulus=45e6, swellingIndex=0.0015, referencePressure=100e3, criticalStateRatio=1.27, compressionIndex=0.02, criticalVolume=1.8911, hardening=70, specificVolume=1.75)
 	curve = test(sand, 'undrainedTriaxial', -4, confiningPressure=390e3)
+	axes.plot(curve['p'] / 1e3, curve['q'] / 1e3, label='v = 1.75, 390 kPa')
+	axes.plot(np.array([0, curve['p'].max()]) / 1e3, 1.27 * np.array([0, curve['p'].max()]) / 1e3, 'k:', linewidth=0.8)
+	axes.set(title='NorSand, undrained', xlabel='p [kPa]', ylabel='q [kPa]')
 	compare('triaxial undrained, NorSand: q / p', curve['q'][-1] / curve['p'][-1], 1.27, '-')
 
 
@@ -156,14 +175,15 @@ def bingham():
 	compare('simple shear, Bingham, 2.5 / s: tau', curve['stress'][-1, 0, 1], 100 + 40 * 2.5)
 
 
-figure, axes = plt.subplots(2, 4, figsize=(16, 7.2), layout='constrained')
+figure, axes = plt.subplots(2, 5, figsize=(17, 7.2), layout='constrained')
 biaxial(axes[0, 0])
 simpleShear(axes[0, 1])
 undrainedStrength(axes[0, 2])
 camClay(axes[1, 0], axes[1, 1])
 oedometer(axes[1, 2])
 hardeningSoil(axes[0, 3], axes[1, 3])
-norSand()
+powerModuli(axes[0, 4])
+norSand(axes[1, 4])
 bingham()
 for one in axes.flat:
 	one.legend(frameon=False, fontsize='small')

@@ -130,6 +130,14 @@ def waves():
 	return Panel('pulse, dynamic: scheme, dt c / h', 'velocities, exact', points[False], '', ('explicit, consistent mass', points[True]))
 
 
+def shaken():
+	"""Layered ground that is shaken, on a rigid and a compliant base; n counts cells in a wave of 6.8 Hz in the upper layer, 22 m."""
+	points = {scheme: [] for scheme in ('newmark', 'generalised-alpha')}
+	for row in rows('earthquake', 'results', 'trade.csv'):
+		points[row['scheme']].append(Point(row['seconds'], row['error'], {'n': f"{22 / row['cellSize']:g}", 'dt': f"{row['step']:g}"}))
+	return Panel('layers that are shaken: cells, dt [s]', 'amplification, exact', points['newmark'], 'in a wave', ('generalised-alpha', points['generalised-alpha']), luck=True)
+
+
 def loadSteps():
 	"""The slope in frictional soil at its limit: load steps of one length, and by stepTolerance."""
 	found = {chosen: [Point(row['solves'], row['error'], {} if chosen else dict(s=f"{row['steps']:.0f}")) for row in rows('load_steps', 'results', 'runs.csv')
@@ -150,4 +158,4 @@ def runouts():
 
 
 def panels():
-	return {name: ofPlan(name) for name in titles} | dict(friction=loadSteps(), runout=runouts(), pulse=waves())
+	return {name: ofPlan(name) for name in titles} | dict(friction=loadSteps(), runout=runouts(), pulse=waves(), shaken=shaken())

@@ -10,6 +10,7 @@ from .damping import stepOf
 from .data import arrays, assign, table, withMaterials
 from .library import engine as _engine
 from .messages import brief, isNumber
+from .processes import count as _processes
 
 _width = 3  # of a column [cells], the least that a grid may repeat itself after
 _pieces = 4  # of an edge in a cell
@@ -61,6 +62,7 @@ def _base(body, columns, distance):
 def _requireArguments(solver, until, motion, sides, distance):
 	if not isinstance(solver, wrapper.MpmDynamicEngine): raise TypeError(f'freeField: solver = {brief(solver)} must be an MpmDynamicEngine')
 	if solver.scheme not in ('newmark', 'generalised-alpha'): raise ValueError(f"freeField: MpmDynamicEngine.scheme = {solver.scheme!r} is not admitted: expected 'newmark' or 'generalised-alpha'")
+	if _processes > 1: raise ValueError('freeField: edges of free ground cannot go with several processes yet: start the script with one')
 	if not isNumber(until): raise TypeError(f'freeField: until = {brief(until)} must be a time [s]')
 	if not (math.isfinite(until) and until > solver.loadTime): raise ValueError(f'freeField: until = {until:g} must be a finite time after now, {solver.loadTime:g} s')
 	if motion is not None and not isinstance(motion, wrapper.MpmBaseMotion): raise TypeError(f'freeField: motion = {brief(motion)} must be an MpmBaseMotion, as record.incoming() makes it')

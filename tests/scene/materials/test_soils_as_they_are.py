@@ -206,3 +206,26 @@ middle = [(f['lower'] + f['upper']) / 2 for f in factors]
 assert abs(middle[0] / middle[1] - 1) < .03, middle # brackets are 1.5 % wide
 '''
 	)
+
+
+def test_strength_that_comes_with_hardening_has_no_factor_of_safety(yade):
+	"""Strength reduction is refused with the reason, and the scene goes on."""
+	said = yade(
+	        setting + '''
+said = []
+def refused(law):
+	ground(law)
+	try:
+		mpm.strengthReduction()
+		said.append('not refused')
+	except ValueError as error: said.append(str(error))
+	O.step()
+refused(MpmHardeningSoilMat(**soil))
+refused(MpmHardeningSoilMat(G0ref=150e6, gamma07=1e-4, **soil))
+refused(MpmNorSandMat(**sand))
+print(json.dumps(said))
+'''
+	).result
+	assert len(said) == 3
+	for message, law in zip(said, ('MpmHardeningSoilMat', 'MpmHardeningSoilMat', 'MpmNorSandMat')):
+		assert message.startswith('strengthReduction: Body #0 is of ' + law) and 'what its points remember' in message, message

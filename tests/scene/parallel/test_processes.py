@@ -464,6 +464,36 @@ with open(f'process{rank}.json', 'w') as file:
 		assert 'the stiffness matrix is singular to working precision' in said[4]
 
 
+def test_edges_of_free_ground_are_refused_by_name(yade):
+	"""Also those that are not made by the call; without them the scene goes on."""
+	run = yade(
+	        setting + '''
+O.materials.append(MpmElasticMat(young=1e7, poisson=.25, density=2000, label='soil'))
+grid = MpmGrid(cellSize=1)
+O.bodies.append(mpm.fill(pack.inAlignedBox((0, 0, -1), (6, 4, 1)), grid, 2, 'soil'))
+solver = MpmDynamicEngine(grid=grid, boundaries=[MpmBoundary(max=(inf, 0, inf), fix='xy')], verbosity=0)
+O.engines, O.dt, said = [solver], .01, []
+def tried(call):
+	try:
+		call()
+		said.append('')
+	except (ValueError, RuntimeError) as error:
+		said.append(str(error))
+tried(lambda: mpm.freeField(solver, until=1))
+solver.loads = [MpmFreeField(surface=[(0, 4), (0, 0)])]
+tried(lambda: O.run(1, wait=True))
+solver.loads = []
+O.run(1, wait=True)
+with open(f'process{rank}.json', 'w') as file:
+	json.dump([said, O.iter], file)
+''', processes=2
+	)
+	for rank in 0, 1:
+		(ofCall, ofStep), steps = json.loads((run.folder / f'process{rank}.json').read_text())
+		assert ofCall.startswith('freeField: ') and 'MpmFreeField' in ofStep and steps == 1
+		assert all('several processes' in said for said in (ofCall, ofStep))
+
+
 def test_an_error_of_the_script_and_a_kill_end_all_with_a_reason(yade):
 	"""A script that fails in one process; one that ends before the other; one that is killed, after which the last save can be gone on with; YADE's own decomposition."""
 	alone = yade(setting + '''

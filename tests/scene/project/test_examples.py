@@ -180,11 +180,23 @@ def test_laboratory(yade):
 	run = yade(root / 'examples' / 'laboratory' / 'laboratory.py', '--steps', 50)
 	lines = re.findall(r'(\w+), (\w+).*closed form +(\S+) +\((\S+) %\)', run.stdout)
 	laws = {'Elastic', 'VonMises', 'Tresca', 'MohrCoulomb', 'DruckerPrager', 'CamClay', 'HardeningSoil', 'NorSand', 'Bingham'}
-	assert {law for _, law, _, _ in lines} == laws and len(lines) == 34
+	assert {law for _, law, _, _ in lines} == laws and len(lines) == 37
 	for test, law, _, percent in lines:  # hardening soil's modulus in the oedometer is a difference between two of the steps
 		assert abs(float(percent)) < (1 if (test, law) == ('oedometer', 'HardeningSoil') else 0.05), run.stdout
 	assert {'0.57735', '0.55475', '0.50000', '-375482', '57435', '166667', '200000'} <= {exact for _, _, exact, _ in lines}
 	assert (run.folder / 'out/laboratory/laboratory.png').stat().st_size > 50000
+
+
+def test_hypoplasticity(yade):
+	"""Compiled, its tangent that of its stress, and sand from loose to dense near one critical state; dense sand has a peak."""
+	run = yade(root / 'examples' / 'laboratory' / 'hypoplasticity.py', 200)
+	assert numbers(r'the tangent differs from the slope by (\S+)', run.stdout)[0] < 1e-9
+	rows = [tuple(map(float, row)) for row in re.findall(r'largest q/p (\S+), last (\S+) \(critical (\S+)\), void ratio (\S+) \(critical (\S+)\)', run.stdout)]
+	assert len(rows) == 4 and [row[0] for row in rows] == sorted((row[0] for row in rows), reverse=True)
+	for _, last, critical, voids, criticalVoids in rows:
+		assert abs(last / critical - 1) < 0.07 and abs(voids / criticalVoids - 1) < 0.06
+	assert rows[0][0] > 1.4 * rows[0][1]
+	assert (run.folder / 'out/laboratory/hypoplasticity.png').stat().st_size > 20000
 
 
 def test_lines_of_a_batch(yade):
@@ -580,3 +592,15 @@ def test_explicit_waves(yade):
 	run = yade(script, '--scene', 'conditions', '--short', 1)
 	found = re.findall(r'^(\S+), explicit, \w+: \d+ steps, (\S+) % .* for (\S+) of', run.stdout, re.MULTILINE)
 	assert len(found) == 8 and all(float(off) < 5 and abs(float(imbalance)) < (2e-2 if condition == 'wall' else 2e-3) for condition, off, imbalance in found), found
+
+
+def test_liquefaction(yade):
+	"""Half a second of a shallow layer: pressure of the water grows, faster in loose sand, and energy is found again."""
+	run = yade(root / 'examples' / 'earthquake' / 'liquefaction.py', 0.5, 3)
+	ratios = re.findall(r'over weight (\S+) at the base, (\S+) half way up', run.stdout)
+	(base, middle), (ofDense, _) = [tuple(map(float, row)) for row in ratios]
+	assert base > ofDense > 0 and middle > 0, run.stdout
+	for given, weight, elastic, sand, flow, ghost, moving in re.findall(r'gave (\S+) J, weight (\S+) J, sand (\S+) J .* sand (\S+) J, in flow (\S+) J, in the ghost (\S+) J; in motion (\S+) J', run.stdout):
+		lost = float(sand) + float(flow) + float(ghost) + float(moving)
+		assert abs(float(given) + float(weight) + float(elastic) - lost) < 0.05 * lost, run.stdout
+	assert (run.folder / 'out/earthquake/liquefaction.png').stat().st_size > 20000
