@@ -20,6 +20,7 @@ sys.path[:0] = [here, os.path.join(here, '..', '..', 'scripts', 'lib')]
 import pivots
 from common import cellSize, fullNewton, stabilisation, young
 from contacts import contactScene
+from meeting import meetingScene
 from slopes import weakLayerSlope
 from soils import Band, Clay, SandSlope, friction, frictional, tresca, vonMises
 from vibrating import vibratingBar
@@ -219,6 +220,7 @@ def thinnedAtRandom(column, part):
 def scene(axis, dim, ghost, value):
 	"""The scene of a case."""
 	if (touched := contactScene(axis, dim, ghost, value)) is not None: return touched
+	if (meeting := meetingScene(axis, ghost, value)) is not None: return meeting
 	if (moving := vibratingBar(axis, dim, ghost, value)) is not None: return moving
 	if axis == 'overlap': return Column(dim, ghost, overlap=(value, value))
 	if axis == 'factor': return Column(dim, ghost, overlap=(1e-4, 1e-4), factor=value)
@@ -277,6 +279,9 @@ kinds = [ # of failures, by what the exception says
         ('diverges', 'diverging'),
         ('would get soil inside of it', 'penetrated'),
         ('would let soil through', 'penetrated'),
+        ('m into body', 'penetrated'),
+        ('against each other in the step', 'penetrated'),
+        ('bodies must not overlap', 'penetrated'),
         ('above the tolerance', 'not converging'),
         ('times the tolerance', 'not converging'), # around a node
 ]
