@@ -21,6 +21,7 @@ import pivots
 from common import cellSize, fullNewton, stabilisation, young
 from contacts import contactScene
 from laws import lawScene
+from meeting import meetingScene
 from slopes import weakLayerSlope
 from soils import Band, SandSlope, friction, frictional, tresca, vonMises
 from vibrating import vibratingBar
@@ -221,6 +222,7 @@ def scene(axis, dim, ghost, value):
 	"""The scene of a case."""
 	if (touched := contactScene(axis, dim, ghost, value)) is not None: return touched
 	if (bearing := lawScene(axis, dim, ghost, value)) is not None: return bearing
+	if (meeting := meetingScene(axis, ghost, value)) is not None: return meeting
 	if (moving := vibratingBar(axis, dim, ghost, value)) is not None: return moving
 	if axis == 'overlap': return Column(dim, ghost, overlap=(value, value))
 	if axis == 'factor': return Column(dim, ghost, overlap=(1e-4, 1e-4), factor=value)
@@ -278,6 +280,9 @@ kinds = [ # of failures, by what the exception says
         ('diverges', 'diverging'),
         ('would get soil inside of it', 'penetrated'),
         ('would let soil through', 'penetrated'),
+        ('m into body', 'penetrated'),
+        ('against each other in the step', 'penetrated'),
+        ('bodies must not overlap', 'penetrated'),
         ('above the tolerance', 'not converging'),
         ('times the tolerance', 'not converging'), # around a node
         ('has no stress for its strain', 'law without an answer'),

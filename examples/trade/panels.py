@@ -89,6 +89,7 @@ titles = { # scene of plans.py: title, measure, what n counts, choice that is sh
         'sphere': ('sphere, contact, axisymmetric', 'force, Hertz', 'over the contact', ('3 x 3 points', dict(pointsPerCell='3'))),
         'clay': ('footing, contact, von Mises', 'limit load, exact', 'in half the width', ('3 x 3 points', dict(pointsPerCell='3'))),
         'tbar': ('T-bar, contact, Tresca', 'resistance, exact', 'over the radius', ('3 x 3 points', dict(pointsPerCell='3'))),
+        'meeting': ('two cylinders, bodies that meet', 'half width and pressure, Hertz', 'over half the contact', ('3 x 3 points', dict(pointsPerCell='3'))),
         'seepage': ('slope, water, Mohr-Coulomb', 'factor of safety, exact', 'over the height', ('3 x 3 points', dict(pointsPerCell='3'))),
 }
 

@@ -137,6 +137,12 @@ plans = {
                         together=dict(cells=['2', '4'], stiffness=['5', '10', '20'], pointsPerCell=['2', '3']), alone=dict(stepsPerCell=['4', '16']),
                         quick=dict(cells=['2'], stiffness=['10'], pointsPerCell=['2']),
                         words=dict(cells='cells over the radius', pointsPerCell='points per cell and axis', stepsPerCell='steps while the bar moves by a cell', error='resistance')),
+        'meeting':
+                Plan(
+                        script=os.path.join(here, 'meeting.py'), errors=['error'], parameters=dict(cells='4', pointsPerCell='2', stiffness='10', steps='3'),
+                        together=dict(cells=['2', '4', '8'], stiffness=['5', '10', '20', '100'], steps=['3', '10'], pointsPerCell=['2', '3']),
+                        quick=dict(cells=['2'], stiffness=['10'], steps=['3'], pointsPerCell=['2']),
+                        words=dict(cells='cells over half the contact', pointsPerCell='points per cell and axis', error='half width and pressure, the larger one')),
         'seepage':
                 Plan(
                         script=os.path.join(here, '..', 'water', 'water.py'), errors=['error'],

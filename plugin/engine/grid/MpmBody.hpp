@@ -28,8 +28,8 @@ public:
 		  "Of each segment or triangle of the surface, the two or three numbers of its vertices, as of an MpmSurface. Read as a tuple.",
 		  admitting("pieces of two numbers >= 0 each (segments), or of three each (triangles)", arePieces));
 		v("initialVertices", &MpmBody::initialVertices, readonly,
-		  "Where the vertices were at the first step [m], empty before it. The engine adds vertices until the sides of all pieces are at most a quarter of "
-		  "a cell, in 3D three quarters.");
+		  "Where the vertices were at the first step [m], empty before it. Pieces are divided until their sides are at most a quarter of a cell, "
+		  "in 3D three quarters.");
 	}
 
 	// The pieces must be those of the vertices, too.

@@ -319,6 +319,16 @@ def test_slide_and_dam_of_points(yade):
 	assert (run.folder / 'out/slide/slide.png').stat().st_size > 20000
 
 
+def test_tyre_of_points_on_clay(yade):
+	"""Clay bears its weight and the torque of its hub, and under the weight what it bears of a rigid wheel as deep."""
+	run = yade(root / 'examples' / 'meeting' / 'tyre.py', '--cells', 4)
+	weight, borne, wheel = numbers(r'under the weight, (\S+) kN/m: the contact bears (\S+) kN/m, a rigid wheel as deep (\S+) kN/m', run.stdout)
+	assert abs(borne / weight - 1) < 0.01 and abs(wheel / weight - 1) < 0.1
+	torque, given = numbers(r'torque of the contact (\S+) N m/m, of what turns the hub (\S+) N m/m', run.stdout)
+	assert given > 1500 and abs(torque / given - 1) < 0.05
+	assert (run.folder / 'out/tyre/tyre.png').stat().st_size > 20000
+
+
 def test_driven_pile(yade):
 	"""A blow takes it as far as its energy does by our own static test (a balance of energy, no closed form), within 2 %; pile and clay lose and get the same momentum in each step but for what held nodes take."""
 	run = yade(root / 'examples' / 'free_bodies' / 'driven_pile.py', '--blows', 2)
