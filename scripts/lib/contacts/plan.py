@@ -149,6 +149,8 @@ add('footing-rough', 'known.example', dict(error=(-.04, .04)), scene='footing', 
 for dim, wide in (2, 80), (3, 10):
 	for friction in 0., .1:
 		add(f'cost-{dim}d-{friction:g}', 'cost.share', dict(share=atMost(.25)), dim=dim, wide=wide, friction=friction)
+for dim, wide in (2, 40), (3, 12):
+	add(f'cost-ball-{dim}d', 'cost.ball', dict(more=atMost(.2)), dict(runs=1), dim=dim, wide=wide)
 add('cost-search', 'cost.search', dict(growth=atMost(2)))
 
 # 9. Random scenes: the part of them that ends, and the largest of what is left over of the forces in statics

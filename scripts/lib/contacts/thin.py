@@ -54,19 +54,19 @@ def _claySoil(law, wide=8, points=2):
 	return grid, [MpmBoundary(max=(0, inf, inf), fix='x'), MpmBoundary(min=(wide * h, -inf, -inf), fix='x'), MpmBoundary(max=(inf, -wide * h, inf), fix='xy')]
 
 
-def _spread(places):
-	return [4 * h + (k / places + .03) * h for k in range(places)]
+def _spread(places, wide=8):
+	return [wide / 2 * h + (k / places + .03) * h for k in range(places)]
 
 
-def strip(width, deep=.5, places=5, law='vonMises', stiffness=10., points=2, seconds=120):
-	"""A smooth Box of this width pushed into clay, in cells; force over c_u h. As *resolved*, what a body would feel that the cells could resolve: 5.14 (1 + .27 sqrt(s / w)) w (Salgado et al. 2004)."""
+def strip(width, deep=.5, places=5, law='vonMises', stiffness=10., points=2, wide=8, seconds=120):
+	"""A smooth Box of this width pushed into clay that is *wide* wide and deep, in cells; force over c_u h. As *resolved*, what a body would feel that the cells could resolve: 5.14 (1 + .27 sqrt(s / w)) w (Salgado et al. 2004)."""
 	body = lambda x: One(utils.box((x, 5 * h, 0), (width / 2 * h, 5 * h, 1), material='rigid', fixed=True))
-	result = _places(body, strength * h, deep * h, _spread(places), lambda: _claySoil(law, points=points), dict(friction=0, stiffness=stiffness), seconds)
+	result = _places(body, strength * h, deep * h, _spread(places, wide), lambda: _claySoil(law, wide, points), dict(friction=0, stiffness=stiffness), seconds)
 	return result | dict(resolved=5.14 * (1 + .27 * sqrt(deep / width)) * width)
 
 
-def tip(degrees=45., deep=.5, places=5, law='vonMises', stiffness=10., points=2, seconds=120):
-	"""A Box of three cells that is turned, its lowest edge pushed into clay; force over c_u h."""
+def tip(degrees=45., deep=.5, places=5, law='vonMises', stiffness=10., points=2, wide=8, seconds=120):
+	"""A Box of three cells that is turned, its lowest edge pushed into clay that is *wide* wide and deep, in cells; force over c_u h."""
 	a = radians(degrees)
 	low = 1.5 * h * (abs(cos(a)) + abs(sin(a)))
 
@@ -74,7 +74,7 @@ def tip(degrees=45., deep=.5, places=5, law='vonMises', stiffness=10., points=2,
 		at = x + 1.5 * h * (cos(a) - sin(a)), low  # its corner (-1, -1) is the lowest, and at x
 		return One(utils.box((*at, 0), (1.5 * h, 1.5 * h, 1), orientation=Quaternion((0, 0, 1), a), material='rigid', fixed=True))
 
-	return _places(body, strength * h, deep * h, _spread(places), lambda: _claySoil(law, points=points), dict(friction=0, stiffness=stiffness), seconds)
+	return _places(body, strength * h, deep * h, _spread(places, wide), lambda: _claySoil(law, wide, points), dict(friction=0, stiffness=stiffness), seconds)
 
 
 def edge(degrees=90., rough=1., deep=.5, places=5, law='vonMises', stiffness=10., points=2, seconds=120):

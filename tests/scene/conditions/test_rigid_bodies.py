@@ -2,6 +2,10 @@
 """Rigid bodies in scenes as users build them: moved by scripts, in sections, over each other, spun, light, thin, hit by soil; and who else moves what."""
 import math
 
+import numpy as np
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
+
 from conftest import outcomesOf
 
 scene = '''
@@ -351,6 +355,45 @@ print(json.dumps([dragged(0, 0), dragged(0.5, 1), dragged(0.1, 0), dragged(0.1, 
 	assert abs(drag(slides)) < 0.01 and abs(drag(rolls)) < 0.05
 	assert abs(drag(rubs[-30:]) + 0.1) < 0.01
 	assert rubs == saved
+
+
+def test_fine_places_on_a_ball_are_kept_and_drawn(yade):
+	"""An eighth of a cell apart, in steps in time on balls of two cells of radius and more: a run that is saved while they touch goes on by the same bits and has the same picture, in which all of them are; those of a smaller ball are a quarter apart."""
+	run = yade(scene + '''
+def rolled(name, radius, isSaved=False):
+	solver = soil(dim=3, high=(1, 1, 0.5), density=1000, poisson=0.2, engine=MpmDynamicEngine, contacts=[MpmContact(friction=0.3, stiffness=20, mask=1)])
+	ball((0.45, 0.5, 0.5 + radius), radius, (0.3, 0, -0.3))
+	O.engines, O.dt = [ForceResetter(), solver, NewtonIntegrator(gravity=(0, 0, -10), damping=0, mask=1)], 1e-3
+	O.run(15, wait=True)
+	before = O.engines[1].contacts[0].touching[0]
+	if isSaved:
+		O.save('half.yade.gz')
+		O.load('half.yade.gz')
+	O.engines = list(O.engines) + [MpmVtkRecorder(fileName=name, recorders=['contacts'], iterPeriod=15)]
+	O.run(15, wait=True)
+	contact = O.engines[1].contacts[0]
+	state = O.bodies[contact.bodies[0]].state
+	return [before, contact.touching[0], *(list(x) for x in (contact.forces[0], contact.torques[0], state.pos, state.vel, state.angVel))]
+print(json.dumps([rolled('through-', 0.5), rolled('saved-', 0.5, True), rolled('small-', 0.49)]))
+''')
+	through, saved, small = run.result
+	assert through == saved
+	drawn = [pictureOf(run.folder / f'{name}-contacts.30.vtu') for name in ('through', 'saved', 'small')]
+	for (before, touching, force, *_), (fields, side) in zip(run.result, drawn):
+		assert before > 0 and fields['touches'].sum() == touching > 0 and np.allclose(-fields['force'].sum(axis=0), force, rtol=1e-12)
+	assert all(np.array_equal(drawn[0][0][name], drawn[1][0][name], equal_nan=True) for name in drawn[0][0])
+	assert 0.8 < drawn[0][1] / 0.25 * 8 < 1.1 and 0.8 < drawn[2][1] / 0.25 * 4 < 1.1
+
+
+def pictureOf(path):
+	"""Fields of the places of bodies, and how far apart those are that touch [m]."""
+	reader = vtkXMLUnstructuredGridReader()
+	reader.SetFileName(str(path))
+	reader.Update()
+	cells = reader.GetOutput()
+	fields = {name: vtk_to_numpy(cells.GetCellData().GetArray(name)) for name in ('force', 'pressure', 'gap', 'slip', 'touches')}
+	diagonals = [cells.GetCell(int(i)).GetLength2() for i in np.flatnonzero(fields['touches'])]
+	return fields, np.sqrt(np.mean(diagonals) / 2)
 
 
 def test_edges_and_small_balls_are_warned_of(yade):

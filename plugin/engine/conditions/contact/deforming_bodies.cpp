@@ -32,8 +32,8 @@ namespace {
 		return {};
 	}
 
-	// That by the least angle which takes one direction to another. Eigen's own has a singular value decomposition, which the
-	// compiler would spend seconds on.
+	// That by the least angle which takes one direction to another. Eigen's own has a singular value decomposition,
+	// which the compiler would spend seconds on.
 	Matrix3r leastTurn(const Vector3r& from, const Vector3r& to)
 	{
 		const Vector3r a = from.normalized(), b = to.normalized(), middle = a + b;
