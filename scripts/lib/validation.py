@@ -38,7 +38,7 @@ runs = {
         'grains_on_soil': ['grains_on_soil.py'],
         'mpm_vs_dem': ['mpm_vs_dem.py'],
         'meeting': ['propped_wall.py', 'slide.py', 'tyre.py'],
-        'free_bodies': ['driven_pile.py', 'gravity_wall.py', 'gravity_wall.py --cellSize 0.125', 'gravity_wall.py --width 1.2 --friction 30', 'net.py'],
+        'free_bodies': ['gravity_wall.py', 'gravity_wall.py --cellSize 0.125', 'gravity_wall.py --width 1.2 --friction 30', 'net.py'],
         'waves': ['waves.py --scene "bar block sphere"', 'explicit.py --scene bar'],
         'earthquake': ['earthquake.py'],
         'runout': ['runout.py'],
