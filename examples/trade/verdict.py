@@ -108,7 +108,7 @@ def text(found):
 	better = found['pulse'].cheapest(.2)
 	return f'''**Three settings worth knowing**
 
-1. **`MpmGrid(cellSize=...)`, with 2 x 2 points a cell.** Cells of half the size take the error to {span([e for e, _ in halved])} times for {span([t for _, t in halved])} times the time (scenes without * above). In {sum(map(kept.buysMost, plans))} of {len(plans)} scenes no other number buys as much.
+1. **`MpmGrid(cellSize=...)`, with 2 x 2 points a cell.** Half the size takes the error to {span([e for e, _ in halved])} times for {span([t for _, t in halved])} times the time (scenes without *). In {sum(map(kept.buysMost, plans))} of {len(plans)} scenes nothing buys as much.
 2. **`MpmGrid(dim=2, axisymmetric=True)`, and a small body.** A circular footing takes {section.cpu:.2f} s as a section, {quarter.cpu:.1f} s as a quarter in 3D, with the same cells. A block no larger than what fails gives the same load (within {percent(max(d for _, d in small))}) with {span([part for part, _ in small])} of the unknowns ([two_sizes](../two_sizes/README.md)).
 3. **`fBar=True` where matter keeps its volume** (clay, Poisson's ratio near .5): {fBar[0]} times the error for {fBar[1]} times the time. A strip footing with 9 cells over its width is off by {percent(with9.error)} in {with9.cpu:.2f} s; without F-bar by {percent(without49.error)} with 49 cells in {without49.cpu:.1f} s ([locking](../locking/README.md)).
 
