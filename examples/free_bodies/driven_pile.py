@@ -107,7 +107,7 @@ for number in range(options.blows):
 	mpm.assign(velocity=np.zeros((len(mpm.arrays()['id']), 3)))
 	solver, rests = letGo(contact.forces[0][1] - weight)
 	byHand = energy / (np.interp((at + rests) / 2, *down) - weight) - quake / 2 if number else first
-	print(f'blow {number + 1}: set {1e3 * (rests - at):.2f} mm, by hand {1e3 * byHand:.2f} mm ({100 * ((rests - at) / byHand - 1):+.1f} %); momentum of pile and clay is off by {off / mass / options.speed:.1e} of the blow in a step')
+	print(f'blow {number + 1}: set {1e3 * (rests - at):.2f} mm, by its energy {1e3 * byHand:.2f} mm ({100 * ((rests - at) / byHand - 1):+.1f} %); momentum of pile and clay is off by {off / mass / options.speed:.1e} of the blow in a step')
 	diagram.plot(*(np.array([(at, weight / 1e3), *((s, F / 1e3) for s, F in path), (rests, weight / 1e3)]).T * [[1e3], [1]]), '.-', ms=3, lw=0.8, label=f'blow {number + 1}')
 	at = rests
 diagram.plot(1e3 * down[0], down[1] / 1e3, 'k-', label='static test')

@@ -6,7 +6,7 @@
 namespace gimpm {
 
 /// K x = b to |b - K x| <= tolerance |b|, by restarted GMRES preconditioned with an incomplete LU factor of K's own
-/// pattern; of displacements in space with the diagonal first, as long as that gains enough; `iterations` grows by those made. False, with x
+/// pattern, or with the diagonal first, as long as that gains enough; `iterations` grows by those made. False, with x
 /// meaningless, if there is no such factor or if it takes too long. A singular K is not told from a regular one if b
 /// lies in its range.
 bool gmres(const GeneralCsc& K, const Eigen::VectorXd& b, double tolerance, Eigen::VectorXd& x, int& iterations, bool diagonalFirst);

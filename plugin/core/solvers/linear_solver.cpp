@@ -55,8 +55,8 @@ private:
 	const SymmetricCsc& K_;
 };
 
-/// Empty, or why it fails. Of displacements in space an incomplete factor gets less far than the diagonal; in the plane,
-/// and with pressures beside displacements, it is the other way round.
+/// Empty, or why it fails. Of displacements in space an incomplete factor gets less far than the diagonal; in the
+/// plane, and with pressures beside displacements, it is the other way round.
 std::string byGmres(const LinearProblem& K, const Eigen::VectorXd& b, double tolerance, Eigen::VectorXd& x, int& iterations)
 {
 	const bool diagonalFirst = K.overNodes() && K.overNodes()->isInSpace();
