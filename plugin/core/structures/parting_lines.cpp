@@ -93,24 +93,29 @@ std::vector<Index<2>> nodesCut(const PartingLine& line, const Grid<2>& grid)
 	return nodes;
 }
 
-/// Whether a place is to the right of a line, by its nearest piece; of two that are as near, which meet in a corner, by
-/// both.
-bool isRightOf(const PartingLine& line, const Vec<2>& place)
+/// A place seen from a line.
+struct FromLine {
+	double away     = std::numeric_limits<double>::infinity();
+	double left     = 0;     ///< to the left of the nearest piece; of two that are as near, which meet in a corner, of both
+	bool   isBeyond = false; ///< one of the ends
+};
+
+FromLine fromLine(const std::vector<Vec<2>>& line, const Vec<2>& place)
 {
-	const int pieces = int(line.places.size()) - 1;
-	double    least  = std::numeric_limits<double>::infinity();
-	double    side   = 0;
-	for (int i = 0; i < pieces; ++i) {
-		const Vec<2> along = line.places[i + 1] - line.places[i], from = place - line.places[i];
-		const double part = std::clamp(from.dot(along) / along.squaredNorm(), 0., 1.);
-		const double away = (from - part * along).norm();
+	const int last = int(line.size()) - 2;
+	FromLine  at;
+	for (int i = 0; i <= last; ++i) {
+		const Vec<2> along = line[i + 1] - line[i], from = place - line[i];
+		const double part = from.dot(along) / along.squaredNorm();
+		const double away = (from - std::clamp(part, 0., 1.) * along).norm();
 		const double left = (along[0] * from[1] - along[1] * from[0]) / along.norm();
 		const double same = 1e-9 * along.norm();
-		if (away > least + same) continue;
-		side  = away < least - same ? left : side + left;
-		least = std::min(least, away);
+		if (away > at.away + same) continue;
+		at.left     = away < at.away - same ? left : at.left + left;
+		at.isBeyond = (i == 0 && part < 0) || (i == last && part > 1);
+		at.away     = std::min(at.away, away);
 	}
-	return side < 0;
+	return at;
 }
 
 /// The layer of a place near nodes of their own.
@@ -129,7 +134,7 @@ public:
 	{
 		if ((place - low_).minCoeff() < 0 || (high_ - place).minCoeff() < 0) return 0;
 		for (const auto& line : lines_)
-			if (isNearOwn(place, line.layer) && isRightOf(line, place)) return line.layer;
+			if (isNearOwn(place, line.layer) && fromLine(line.places, place).left < 0) return line.layer;
 		return 0;
 	}
 
@@ -155,20 +160,9 @@ private:
 /// end.
 int sideOf(const Beam& beam, const Vec<2>& place, double reach)
 {
-	const int last  = int(beam.places.size()) - 2;
-	double    least = reach, left = 0;
-	bool      isBeyond = false;
-	for (int i = 0; i <= last; ++i) {
-		const Vec<2> along = beam.places[i + 1] - beam.places[i], from = place - beam.places[i];
-		const double part = from.dot(along) / along.squaredNorm(), within = std::clamp(part, 0., 1.);
-		const double away = (from - within * along).norm(), same = 1e-9 * along.norm();
-		if (away > least + same) continue;
-		const double to = (along[0] * from[1] - along[1] * from[0]) / along.norm();
-		isBeyond        = !beam.isClosed && ((i == 0 && part < 0) || (i == last && part > 1));
-		left            = away < least - same ? to : left + to; // both of two that meet in a corner
-		least           = std::min(least, away);
-	}
-	return isBeyond || left == 0 ? 0 : left > 0 ? 1 : -1;
+	const FromLine at = fromLine(beam.places, place);
+	if (at.away > reach || (at.isBeyond && !beam.isClosed) || at.left == 0) return 0;
+	return at.left > 0 ? 1 : -1;
 }
 
 bool areApart(const std::vector<Index<2>>& nodes, const std::vector<Index<2>>& others)

@@ -29,6 +29,16 @@ def means(number):
 	points = mpm.arrays()
 	own = points['body'] == number
 	return points['volume'][own] @ points['velocity'][own] / points['volume'][own].sum()
+
+def slides(contact, steps):
+	"""Of the upper body: along x, over the second half of the steps."""
+	times, speeds = [], []
+	for step in range(steps):
+		O.run(1, wait=True)
+		times.append(O.time)
+		speeds.append(means(1)[0])
+	half = steps // 2
+	return dict(acceleration=np.polyfit(times[half:], speeds[half:], 1)[0], speed=speeds[-1], slips=contact.slipping / max(1, contact.touching))
 '''
 
 
@@ -65,13 +75,7 @@ def slide(angle, coefficient, scheme='newmark', steps=25, duration=0.5, young=1e
 	solver = MpmDynamicEngine(grid=grid, scheme=scheme, gravity=(10 * sin(angle), -10 * cos(angle), 0), gravityCurve=[(0, 0), (0.1, 1)], boundaries=[MpmBoundary(max=(inf, 0, inf), fix='xy')],
 		contacts=[contact], newton=MpmNewton(tolerance=1e-8), rhoInfinity=0.5, verbosity=0)
 	O.engines, O.dt = [solver], duration / steps
-	times, speeds = [], []
-	for step in range(steps):
-		O.run(1, wait=True)
-		times.append(O.time)
-		speeds.append(means(1)[0])
-	half = steps // 2
-	return dict(acceleration=np.polyfit(times[half:], speeds[half:], 1)[0], speed=speeds[-1], slips=contact.slipping / max(1, contact.touching))
+	return slides(contact, steps)
 '''
 
 
@@ -274,13 +278,7 @@ def slide(angle, coefficient, steps, duration):
 	contact = MpmBodyContact(between=('up', 'low'), friction=atan(coefficient))
 	solver = MpmDynamicEngine(grid=grid, scheme='newmark', gravity=(10 * sin(angle), 0, -10 * cos(angle)), gravityCurve=[(0, 0), (0.1, 1)], boundaries=[MpmBoundary(max=(inf, inf, 0), fix='xyz')], contacts=[contact], newton=MpmNewton(tolerance=1e-8), verbosity=0)
 	O.engines, O.dt = [solver], duration / steps
-	times, speeds = [], []
-	for step in range(steps):
-		O.run(1, wait=True)
-		times.append(O.time)
-		speeds.append(means(1)[0])
-	half = steps // 2
-	return [np.polyfit(times[half:], speeds[half:], 1)[0], speeds[-1], contact.slipping / max(1, contact.touching)]
+	return list(slides(contact, steps).values())
 
 print(json.dumps([stacked(), slide(0.5, 0.3, 8, 0.2), slide(0.5, 0.7, 3, 0.1)]))
 ''').result
