@@ -179,6 +179,19 @@ template <int Dim> void part(CloudBasis<Dim>& b, const Parting<Dim>& parting)
 	b.ties  = tieNodes(b.nodes, parting);
 }
 
+/// The numbers of the cells and nodes of each patch; by what cell another one stands for is given.
+template <int Dim, class CellFor> void numberPatches(CloudBasis<Dim>& b, const Grid<Dim>& grid, const CellFor& cellFor)
+{
+	int lastCell[windowCells<Dim>] = {}, lastNode[27] = {};
+	for (auto& patch : b.patches) {
+		for (int c = 0; c < windowCells<Dim>; ++c)
+			if (patch.cells >> c & 1)
+				patch.reached[c]
+				        = positionNear(lastCell[c], b.cells, cellFor(patch.cell + Grid<Dim>::keyOffset(c, Grid<Dim>::level(patch.cell))));
+		forPatchNodes(patch, [&](int local, Key key, int place) { patch.node[local] = positionNear(lastNode[place], b.nodes, grid.first(key)); });
+	}
+}
+
 /// The active nodes are the corners of the populated cells; in a refined grid also those of their leaves and those
 /// beside the faces between leaves of two sizes, beside a line that parts the body those in its layer, with the masters
 /// of all.
@@ -191,15 +204,9 @@ template <int Dim> void numberNodes(CloudBasis<Dim>& b, const Grid<Dim>& grid, c
 	else
 		b.nodes = cornersOf<Dim>(b.cells);
 	keepFirst(b.nodes, grid);
-	int        lastCell[windowCells<Dim>] = {}, lastNode[27] = {};
-	const auto cellFor = [&](Key cell) { return grid.parting ? grid.parting->cellFor(cell) : grid.first(cell); };
-	for (auto& patch : b.patches) {
-		for (int c = 0; c < windowCells<Dim>; ++c)
-			if (patch.cells >> c & 1)
-				patch.reached[c]
-				        = positionNear(lastCell[c], b.cells, cellFor(patch.cell + Grid<Dim>::keyOffset(c, Grid<Dim>::level(patch.cell))));
-		forPatchNodes(patch, [&](int local, Key key, int place) { patch.node[local] = positionNear(lastNode[place], b.nodes, grid.first(key)); });
-	}
+	if (grid.parting) numberPatches(b, grid, [&](Key cell) { return grid.parting->cellFor(cell); });
+	else
+		numberPatches(b, grid, [&](Key cell) { return grid.first(cell); });
 }
 
 template <int Dim> void colourPatches(CloudBasis<Dim>& b, const Grid<Dim>& grid)
