@@ -56,7 +56,6 @@ public:
 	bool   has(int strip) const { return 0 <= strip && strip < count_; }
 	double width() const { return width_; }
 	double across() const { return Dim == 3 ? rows_ * width_ : 1; } ///< of the body along the face [m]
-	double middle(int strip) const { return lower_[axis_] + (strip + 0.5) * width_; }
 	double begin(int strip) const { return lower_[axis_] + strip * width_; }
 	double height(std::size_t p) const { return -down_.dot(cloud_.position[p]); }
 
@@ -95,8 +94,8 @@ private:
 struct Block {
 	int    first, inwards, strips = 0; ///< inwards: 1 or -1
 	double foot, slope;                ///< height of the foot [m]; tangent of the plane's angle
-	double volume = 0;
-	bool   isFree = false; ///< the plane comes out at the surface
+	double volume = 0, run = 0;        ///< [m3]; of the plane within the body, horizontally [m]
+	bool   isFree = false;             ///< the plane comes out at the surface
 };
 
 template <int Dim> class SlipSearch {
@@ -138,7 +137,7 @@ private:
 	{
 		const Block block = above({ first, inwards, 0, foot, std::tan(angle) });
 		if (!block.isFree || block.strips == 0) return;
-		const double length = block.strips * outline_.width() / std::cos(angle) * outline_.across();
+		const double length = block.run / std::cos(angle) * outline_.across();
 		const double work   = block.volume * unitWeight_ * std::sin(angle - strength_.frictionAngle);
 		const double bound = strength_.cohesion * std::cos(strength_.frictionAngle) * length, excess = work / bound;
 		if ((worst && excess <= worst->excess) || isHeld(block) || !isFilled(block)) return;
@@ -147,17 +146,22 @@ private:
 		worst            = slip;
 	}
 
-	double planeAt(const Block& block, int i) const { return block.foot + block.slope * (i + 0.5) * outline_.width(); }
-
+	/// The tops of strips are level.
 	Block above(Block block) const
 	{
-		for (int strip = block.first;; strip += block.inwards, ++block.strips) {
-			const double plane = planeAt(block, block.strips), top = outline_.topAt(strip);
-			if (outline_.has(strip) && outline_.foreign[strip] > plane) return block;
-			if (top <= plane) break;
-			block.volume += (top - plane) * outline_.width() * outline_.across();
+		const double width = outline_.width();
+		for (int strip = block.first; !block.isFree; strip += block.inwards) {
+			const double plane = block.foot + block.slope * block.strips * width, over = outline_.topAt(strip) - plane;
+			if (outline_.has(strip) && outline_.foreign[strip] > plane + 1e-6 * width) return block;
+			if (over > 0) {
+				const double reached = std::min(width, over / block.slope);
+				block.volume += reached * (over - block.slope * reached / 2) * outline_.across();
+				block.run += reached;
+				++block.strips;
+				block.isFree = reached < width;
+			} else
+				block.isFree = true;
 		}
-		block.isFree = true;
 		return block;
 	}
 
