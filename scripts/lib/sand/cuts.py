@@ -9,11 +9,12 @@ from yade.wrapper import MpmBoundary, MpmGhost, MpmGrid, MpmImplicitEngine, MpmM
 O = Omega()
 
 
-def condition(cut, flows=False, dim=2, fBar=True, phi=20, **ghost):
+def condition(cut, flows=False, dim=2, fBar=True, phi=20, seconds=None, **ghost):
 	"""The condition number of the stiffness of 3 cells along each axis, moved along all of them by a part *cut* of a cell, between rollers.
 
 	:param flows: all points yield: their stress is that of sand with more friction, which is then taken away
 	:param phi: = psi [degrees]
+	:param seconds: not limited
 	"""
 	O.reset()
 	strong = radians(phi) + .1
