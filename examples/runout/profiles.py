@@ -48,7 +48,7 @@ def measured(aspect, cells, courant):
 
 
 aspects = [float(a) for a in options.aspects.split()]
-figure, axes = plt.subplots(len(aspects), 1, figsize=(9, 2.6 * len(aspects)), squeeze=False, layout='constrained')
+figure, axes = plt.subplots(len(aspects), 1, figsize=(9, 3.4 * len(aspects)), squeeze=False, layout='constrained')
 with open(os.path.join(options.out, 'profiles.csv'), 'w', newline='') as file:
 	table = csv.DictWriter(file, columns)
 	table.writeheader()

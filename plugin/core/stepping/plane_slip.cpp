@@ -59,7 +59,7 @@ public:
 	double begin(int strip) const { return lower_[axis_] + strip * width_; }
 	double height(std::size_t p) const { return -down_.dot(cloud_.position[p]); }
 
-	/// Of the soil in a strip, also where a stretched body has a gap of one strip; of a place beyond the body nothing.
+	/// Of the soil in a strip, also where a stretched body has a gap of one strip; beyond the body nothing.
 	double topAt(int strip) const
 	{
 		if (!has(strip) || top[strip] != nothing || !has(strip - 1) || !has(strip + 1)) return has(strip) ? top[strip] : nothing;

@@ -3,7 +3,6 @@
 #include "core/base/sentence.hpp"
 #include "core/stepping/plane_slip.hpp"
 #include "engine/analysis/analysis.hpp"
-#include "engine/conditions/boundary/MpmBoundary.hpp"
 #include "engine/materials/MpmDruckerPragerMat.hpp"
 #include "engine/materials/MpmMohrCoulombMat.hpp"
 
@@ -37,12 +36,9 @@ namespace {
 	template <int Dim> bool actsAlone(const Analysis& engine, const gimpm::PointCloud<Dim>& cloud, const gimpm::Model<Dim>& model)
 	{
 		const auto& grid = model.grid;
-		const auto  all  = engine.conditions();
 		return !engine.isDynamic() && !engine.gravity.isZero(0) && (engine.gravity.array() != 0).count() == 1 && cloud.force.empty()
 		        && cloud.layer.empty() && model.division->isWhole() && model.walls.empty() && model.fields.empty() && !grid.isPeriodic()
-		        && !grid.axisymmetric && !grid.refinement && !grid.parting && std::all_of(all.begin(), all.end(), [](const Listed& listed) {
-			           return dynamic_cast<const MpmBoundary*>(listed.condition.get()) != nullptr;
-		           });
+		        && !grid.axisymmetric && !grid.refinement && !grid.parting && engine.conditions().size() == engine.countOf("boundaries");
 	}
 }
 

@@ -8,8 +8,8 @@ namespace {
 
 	constexpr double unitWeight = 2e4;
 
-	/// Ground of 12 x 6 cells, in space 3 wide, between rollers on a rough base, dug away to a depth on the right of
-	/// x = 6, where `isDug` says so.
+	/// Ground of 6 x 3 m, in space 1.5 m wide, between rollers on a rough base, dug away to a depth where `isDug`
+	/// says so.
 	template <int Dim> struct Cut {
 		Grid<Dim>                 grid;
 		PointCloud<Dim>           cloud;
@@ -32,6 +32,7 @@ namespace {
 				boxes.push_back(held<Dim>(grid, a, b, along));
 			};
 			hold(0, -infinity, 0, "x"), hold(0, 6, infinity, "x"), hold(Dim - 1, -infinity, 0, Dim == 2 ? "xy" : "xyz");
+			if (Dim == 3) hold(1, -infinity, 0, "y"), hold(1, 1.5, infinity, "y");
 		}
 		std::optional<PlaneSlip<Dim>> worst(const std::vector<std::optional<Strength>>& strength) const
 		{
