@@ -22,8 +22,9 @@ import matplotlib
 matplotlib.use('Agg')
 import matplotlib.pyplot as plt
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(sys.argv[0])), '..'))
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(sys.argv[0])), '..', '..', 'scripts', 'lib'))
-from deposits import front, profile
+sys.path.insert(0, os.path.dirname(os.path.abspath(sys.argv[0])))
+from columns import L, density, frames, g, outline, run, runSand
+from deposits import profile
 from options import compared, readOptions
 
 options = readOptions('Run-out of columns of sand.',
@@ -35,66 +36,8 @@ options = readOptions('Run-out of columns of sand.',
         end=(6., 'latest time, over sqrt(height / g)'),
         grains=(0, 'grains over L, of the same columns in grains; 0: none'),
         rolling=(0.1, 'resistance of grains against rolling, over the friction of a grain on a radius'),
+        maxSplits=(0, 'how often a point that outgrows half a cell is split in two'),
         film=(2., 'aspect ratio of the pictures of the motion, one of aspects'))
-
-L, g, density = 1., 10., 1600.
-frames = 0, 0.8, 1.4, 2, 3  # times of the pictures over sqrt(height / g); and one at rest
-atRest = 2e-3  # kinetic energy over the work of gravity so far
-
-
-def makeSand(height):
-	"""The column, a scene of its own; returns the engine."""
-	O.reset()
-	O.materials.append(MpmMohrCoulombMat(young=500 * density * g * L, poisson=0.3, density=density, cohesion=1e-3 * density * g * L,
-	                                     frictionAngle=np.arcsin(np.tan(radians(options.repose))), dilationAngle=0, label='sand'))
-	grid = MpmGrid(cellSize=min(L, height) / options.cells)
-	O.bodies.append(mpm.fill(pack.inAlignedBox((0, 0, 0), (L, height, 1)), grid, options.pointsPerCell, 'sand'))
-	sides = [MpmBoundary(max=(0, inf, inf), fix='x'), MpmBoundary(max=(inf, 0, inf), fix='xy')]
-	O.engines = [MpmDynamicEngine(grid=grid, gravity=(0, -g, 0), boundaries=sides, newton=MpmNewton(minStep=1 / 256), verbosity=0)]
-	O.dt = options.courant * grid.cellSize / np.sqrt(2 * g * height)
-	return O.engines[0]
-
-
-def outline(pos, area, width):
-	"""Depth of matter at pos (N, 2), of an area each [m2], by strips of a width [m]: middles of the strips, depths (S,)."""
-	strips = np.floor(pos[:, 0] / width).astype(int)
-	return (np.arange(strips.max() + 2) + 0.5) * width, np.bincount(strips, minlength=strips.max() + 2) * area / width
-
-
-def run(height, advance, state, area):
-	"""Motion to rest. advance() goes on a little, state() gives positions (N, 2), speeds (N,) and energies [J]: kinetic, work of gravity, and others.
-
-	:return: rows of time, front and energies, over sqrt(height / g), L and the first potential energy; list of (time, positions, speeds)
-	"""
-	begin, duration, history, film = O.time, np.sqrt(height / g), [], []
-	while True:
-		t = (O.time - begin) / duration
-		pos, speed, *energies = state()
-		kinetic, work = energies[:2]
-		history.append((t, front(pos[:, 0], area, min(L, height), L) / L, *energies))
-		resting = t > 2 and kinetic < atRest * work or t >= options.end
-		if len(film) < len(frames) and t >= frames[len(film)] or resting: film.append((t, pos, speed))
-		if resting: return np.array(history) / (1, 1, *[density * g * area * film[0][1][:, 1].sum()] * len(energies)), film
-		advance()
-
-
-def runSand(height):
-	"""See run; and counts of what it took."""
-	solver = makeSand(height)
-	h = solver.grid.cellSize
-	area = (h / options.pointsPerCell)**2
-	counts = dict(points=len(mpm.arrays()['id']), steps=0, iterations=0)
-	def advance():
-		O.step()
-		counts['steps'] += 1
-		counts['iterations'] += solver.iterations
-
-	def state():
-		points, data = mpm.arrays(), solver.plotData()
-		energies = [data[name] for name in ('kineticEnergy', 'loadWork', 'plasticWork', 'elasticEnergy', 'ghostWork', 'impactWork', 'gridWork', 'energyImbalance')]
-		return points['pos'][:, :2], np.linalg.norm(points['velocity'], axis=1), *energies
-
-	return *run(height, advance, state, area), counts
 
 
 def makeGrains(height):
@@ -145,9 +88,9 @@ def runGrains(height):
 
 	def state():
 		pos, vel = (np.array([getattr(O.bodies[i].state, name) for i in ids]) for name in ('pos', 'vel'))
-		return pos[:, :2], np.linalg.norm(vel, axis=1), bulk * utils.kineticEnergy(), bulk * g * (potential - mass @ pos[:, 1])
+		return pos[:, :2], np.linalg.norm(vel, axis=1), np.full(len(ids), L * height / len(ids)), bulk * utils.kineticEnergy(), bulk * g * (potential - mass @ pos[:, 1])
 
-	return *run(height, advance, state, L * height / len(ids)), height
+	return *run(height, advance, state, options.end), height
 
 
 def published(a):
@@ -164,7 +107,7 @@ def drawFilm(name, film, size, aspect):
 	far = np.quantile(film[-1][1][:, 0], 0.999) + 0.1
 	figure, axes = plt.subplots(3, 2, figsize=(12, 1 + 3 * (0.3 + 5 * aspect / far)), sharex=True, sharey=True, layout='constrained')
 	figure.supxlabel('x / L', fontsize=10), figure.supylabel('y / L', fontsize=10)
-	for ax, (t, pos, speed) in zip(axes.flat, film):
+	for ax, (t, pos, speed, _) in zip(axes.flat, film):
 		dots = ax.scatter(pos[:, 0], pos[:, 1], s=size, c=speed / np.sqrt(g * aspect * L), cmap='viridis', vmin=0, vmax=1, linewidths=0)
 		ax.set(aspect='equal', ylim=(0, 1.03 * aspect), xlim=(0, far))
 		ax.set_title(f't = {t:.2f} sqrt(H / g)', fontsize=9)
@@ -199,16 +142,17 @@ print('        a  run-out  published           height  published           rest 
 for a in map(float, options.aspects.split()):
 	for kind in ['sand'] * (options.cells > 0) + ['grains'] * (options.grains > 0):
 		began = time.time()
-		try: history, film, counts = runSand(a * L) if kind == 'sand' else runGrains(a * L)
+		try: history, film, counts = runSand(a * L, options) if kind == 'sand' else runGrains(a * L)
 		except RuntimeError as failure:
 			print(f'{kind:7}{a:4.2f}  left out, at t = {O.time / np.sqrt(a * L / g):.2f} sqrt(H / g): {failure}', flush=True)
 			continue
 		if kind == 'grains': aspect, said = counts / L, f'{len(film[0][1])} grains'
 		else: aspect, said = a, ', '.join(f'{number} {what}' for what, number in counts.items()) + f'; energy not accounted for {history[-1, 9] / history[-1, 3]:+.1e} of the work'
-		x, depth = outline(film[-1][1], L * L * aspect / len(film[0][1]), 0.1 * L)
+		_, rest, _, area = film[-1]
+		x, depth = outline(rest, area, 0.1 * L)
 		out, top = history[-1, 1] - 1, depth[0] / L
 		law = published(np.array(aspect))
-		found[kind].append((aspect, out, top, *profile(film[-1][1][:, 0], L * L * aspect / len(film[0][1]), min(L, a * L))))
+		found[kind].append((aspect, out, top, *profile(rest[:, 0], area, min(L, a * L))))
 		print(f'{kind:7}{aspect:4.2f}  {out:.3f}  {law[0]:.3f} ({100 * (out / law[0] - 1):+.1f} %)  {top:.3f}  {law[1]:.3f} ({100 * (top / law[1] - 1):+.1f} %)  {history[-1, 0]:.2f}, kinetic energy {history[-1, 2] / history[-1, 3]:.1e}; '
 		      f'{said}; {time.time() - began:.0f} s', flush=True)
 		compared(f'run-out of {kind}, a = {aspect:.3g}', out, law[0], 'Lube et al. 2005, experiments', 'L')

@@ -16,6 +16,7 @@
 #include "engine/messages/failures.hpp"
 #include "engine/messages/progress.hpp"
 #include "engine/messages/requirements.hpp"
+#include "engine/messages/slips.hpp"
 #include "engine/parallel/common_state.hpp"
 #include "engine/parallel/pieces.hpp"
 #include "engine/parallel/processes.hpp"
@@ -165,6 +166,7 @@ template <int Dim> void MpmImplicitEngine::step(Agreement& agreement)
 	else {
 		warn(plausibility.once("ghostShare", warningOfShare(*this)));
 		warn(plausibility.once("loosePoints", warningOfLoosePoints(*this)));
+		if (!plausibility.hasSaid("planeSlip")) warn(plausibility.once("planeSlip", warningOfSlip(*this, points, job.cloud, job.model)));
 	}
 	if ((maxSplits > 0 || job.model.grid.refinement) && clampedDomains > 0) splitOutgrown(job);
 	const auto warnings = plausibility.warningsOfResult(*this, points, job.cloud);

@@ -39,6 +39,7 @@ public:
 
 	// The first of all sentences about the same.
 	string once(const string& about, const string& sentence);
+	bool   hasSaid(const string& about) const { return saidAbout.count(about) > 0; }
 
 private:
 	template <int Dim> bool isNew(const gimpm::PointCloud<Dim>&) const; // not those of the last call of know()

@@ -48,9 +48,9 @@ class Outcome:
 
 
 def judged(seed, seconds, divide=1, strict=False):
-	"""A row of the table: how a scene ended ('ends', 'held' if it is said that only the stabilisation holds it, 'fails' as it may, or 'stops'), and what is wrong with it."""
+	"""A row of the table: how a scene ended ('ends', 'held' if it is said that only the stabilisation holds it, 'told' if it is said that a face stands that its strength cannot hold, 'fails' as it may, or 'stops'), and what is wrong with it."""
 	began, scene = time.process_time(), sceneOf(seed)
-	with said():
+	with said() as it:
 		found = Outcome(scene, 1, seconds, divide, strict)
 		how = 'ends' if not found.why else 'stops'
 		if found.why and found.why != 'time is up' and scene.mayFail():
@@ -59,7 +59,8 @@ def judged(seed, seconds, divide=1, strict=False):
 			if again.why and abs(other - one) <= same * max(other, one): how = 'fails'
 			else: found.why += f' (at {found.part:.3f}, in finer steps at {again.part:.3f})'
 		elif not found.why and found.share > told: how = 'held'
-	wrong = [f'{name} {value:.3g}' for name, (value, isRight) in found.numbers.items() if not isRight and not (how == 'held' and name == 'moved')]
+	if how == 'ends' and 'Coulomb 1776' in it.text: how = 'told'
+	wrong = [f'{name} {value:.3g}' for name, (value, isRight) in found.numbers.items() if not isRight and not (how in ('held', 'told') and name == 'moved')]
 	if found.off > exact: wrong.append(f'balance {found.off:.1e}')
 	return dict(seed=seed, scene=str(scene), how=how, part=found.part, why=found.why, wrong=', '.join(wrong), share=round(found.share, 3), solves=found.solves, cuts=found.cuts, seconds=round(time.process_time() - began, 2))
 

@@ -3,7 +3,7 @@
 from math import isnan, log2
 
 titles = dict(
-        factors='Strips over grids', early='Strips of one point per cell at a settlement of .00025 B', parts='What the load of a strip is made of (smooth, 20 degrees)', steps='Dependence on the number of steps (smooth, 20 degrees, 2 x 2 points)', walls='Smooth walls (Rankine)')
+        factors='Strips over grids', early='Strips of one point per cell at a settlement of .00025 B', rigid='The same in stiffer soil, at a settlement as much smaller', parts='What the load of a strip is made of (smooth, 20 degrees)', steps='Dependence on the number of steps (smooth, 20 degrees, 2 x 2 points)', walls='Smooth walls (Rankine)', cuts='Condition numbers by the part of a cell that is filled')
 
 
 def percent(value, exact):
@@ -29,6 +29,20 @@ def table(rows):
 	return '\n'.join(lines) + '\n'
 
 
+def conditions(rows):
+	"""By state and stabilisation, over the part of a cell that is filled."""
+	lines = []
+	for state in dict.fromkeys(row['case'] for row in rows):
+		of = [row for row in rows if row['case'] == state]
+		parts = list(dict.fromkeys(row['grid'] for row in of))
+		lines += [f"| {state} | {' | '.join(parts)} |", '|---' * (len(parts) + 1) + '|']
+		for name in dict.fromkeys(row['with'] for row in of):
+			found = {row['grid']: row['why'] or f"{float(row['condition']):.1e}" for row in of if row['with'] == name}
+			lines.append(f"| {name} | {' | '.join(found.get(part, '-') for part in parts)} |")
+		lines.append('')
+	return '\n'.join(lines)
+
+
 def extrapolations(rows):
 	"""Of strips that were run on three grids, in Markdown; empty if there are none."""
 	lines = []
@@ -45,5 +59,5 @@ def page(rows, command, revision, day):
 	lines = [f'`{command}`, {day}, revision {revision}.', '']
 	for group, title in titles.items():
 		if of := [row for row in rows if row['group'] == group]:
-			lines += [f'### {title}', '', table(of) + (extrapolations(of) if group in ('factors', 'walls') else '')]
+			lines += [f'### {title}', '', conditions(of) if group == 'cuts' else table(of) + (extrapolations(of) if group in ('factors', 'walls') else '')]
 	return '\n'.join(lines)

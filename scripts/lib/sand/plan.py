@@ -29,6 +29,22 @@ def early():
 			yield 'strip.strip', (name, f'{number} steps', 'B/17'), problems[name] | dict(points=1, settlement=2.5e-4, steps=number)
 
 
+def rigid():
+	"""The same with soil ten and a hundred times as stiff, which moves by as much less until it fails: what is left then is the limit load of ground that has not moved."""
+	for times, runs in (10, (10, 40)), (100, (10, )):
+		still = dict(points=1, settlement=2.5e-4 / times, stiff=1e4 * times)
+		for name, arguments in list(problems.items())[:4]:
+			for number in runs:
+				for cells in grids:
+					yield 'strip.strip', (name, f'E x {times}, {number} steps', f'B/{2 * cells + 1}'), arguments | still | dict(steps=number, cells=cells)
+		for name in 'N_gamma smooth, 20', 'N_gamma smooth, 30':
+			for number in (160, 640) if 40 in runs else (40, 160, 640):
+				yield 'strip.strip', (name, f'E x {times}, {number} steps', 'B/17'), problems[name] | still | dict(steps=number)
+	for name in 'N_gamma smooth, 20', 'N_gamma smooth, 30':
+		for number in 10, 40, 160, 640:
+			yield 'strip.strip', (name, f'E x 10, {number} steps, factor 1e-4', 'B/17'), problems[name] | dict(points=1, settlement=2.5e-5, stiff=1e5, steps=number, factor=1e-4)
+
+
 def parts():
 	"""What the load of the smooth strip, 20 degrees, B/17, is made of: one thing changed at a time."""
 	changes = {
@@ -68,4 +84,18 @@ def walls():
 					yield 'wall.wall', (name, f'{points} x {points}', f'H/{cells}'), dict(phi=phi, isPassive=isPassive, cells=cells, points=points)
 
 
-groups = dict(factors=factors, early=early, parts=parts, steps=steps, walls=walls)
+def cuts():
+	"""Condition numbers, elastic and where all points yield, in cells that are filled by less and less."""
+	ghosts = {
+	        'no stabilisation': dict(factor=0, fBar=False),
+	        'all faces (default)': {},
+	        'aggregates, memory 1': dict(where='aggregates', memory=1),
+	        'aggregates, memory 1, factor 1e-4': dict(where='aggregates', memory=1, factor=1e-4)}
+	for dim, parts in (2, (.5, .3, .1, 1e-2, 1e-3, 1e-4, 1e-6, 1e-8)), (3, (.5, .1, 1e-4, 1e-8)):
+		for flows in False, True:
+			for name, ghost in ghosts.items():
+				for cut in parts:
+					yield 'cuts.condition', (f"{'flowing' if flows else 'elastic'}, {dim}D", name, f'{cut:g}'), dict(cut=cut, flows=flows, dim=dim) | ghost
+
+
+groups = dict(factors=factors, early=early, rigid=rigid, parts=parts, steps=steps, walls=walls, cuts=cuts)

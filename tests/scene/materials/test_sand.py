@@ -2,6 +2,7 @@
 """Sand almost without cohesion that yields below a footing: it takes few iterations and no cuts, whether it dilates or not."""
 import re
 
+import numpy as np
 import pytest
 from conftest import root
 
@@ -102,6 +103,28 @@ assert O.engines[0].ghostShare == share
 ''')
 	output = said.stdout + said.stderr
 	assert output.count('the ghost stabilisation took up') == 1 and output.count('% of the work at the edge of the body (ghostShare)') == 1
+
+
+def test_a_face_that_limit_analysis_does_not_let_stand_is_told(yade):
+	"""Where the grid holds a cut without moving. A plane slip lets a vertical face stand to 4 c / (density g) tan(45 + phi / 2), here with c = 2.7 kPa; what is held, or has a load, is not judged."""
+	said = yade(CUT + '''
+def told(loads=(), **arguments):
+	cut(**arguments)
+	O.engines[0].loads = list(loads)
+	O.step()
+	print('next')
+	O.step()
+told(cohesion=2.3e3)
+told(cohesion=2.7e3)
+told(cohesion=2.3e3, loads=[MpmTraction(surface=mpm.surface(pack.inAlignedBox((0, -2.5, -1), (2.5, 0, 1)), min=(0, 0), max=(2.5, 0)), pressure=1)])
+cut(cohesion=2.3e3)
+solver.boundaries = [*solver.boundaries, MpmBoundary(min=(2.5, -1, -inf), max=(2.5, inf, inf), fix='x')]
+O.step()
+''')
+	output = said.stdout + said.stderr
+	assert output.count('Coulomb 1776') == 1
+	height, angle, excess = map(float, re.search(r'the face of (\S+) m .* on a plane of (\d+) degrees through its foot the weight does (\S+) times the work', output).groups())
+	assert abs(height - 1) < 1e-3 and abs(angle - 62) <= 2 and abs(excess - 2e4 / (4 * 2.3e3 * np.tan(np.radians(45 + 17)))) < 5e-3, output
 
 
 def test_a_cut_that_only_the_stabilisation_holds_fails_where_that_is_limited(yade):

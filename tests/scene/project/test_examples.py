@@ -473,6 +473,13 @@ def test_runout(yade):
 	assert (run.folder / 'out/runout/runout.png').stat().st_size > 30000 and (run.folder / 'out/runout/sand.png').stat().st_size > 20000
 
 
+def test_deposits_over_grids(yade):
+	run = yade(root / 'examples' / 'runout' / 'profiles.py', '--aspects', 1, '--runs', '4/0.3 5/0.3')
+	places = numbers(r'cells 4, .* holds 95 % (\S+), middle (\S+),', run.stdout), numbers(r'cells 5, .* holds 95 % (\S+), middle (\S+),', run.stdout)
+	assert np.allclose(*places, rtol=0.1) and 1.4 < places[0][0] < 1.8, run.stdout
+	assert (run.folder / 'out/profiles/profiles.png').stat().st_size > 15000
+
+
 def test_water(yade):
 	"""What walls bear is exact; the factor of a slope with seepage, on six cells, is some two percent above its closed form."""
 	run = yade(root / 'examples' / 'water' / 'water.py', '--scene', 'wall')
