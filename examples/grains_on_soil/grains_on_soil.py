@@ -5,7 +5,7 @@ by its laws and the ground by MpmContact; the ground is in equilibrium with them
 
 When all has come to rest, the ground carries the weight of the grains. Then the plough, a clump of two spheres, sinks into the clay on its first decimetre and goes on level.
 
-Run it with `scripts/run examples/grains_on_soil/grains_on_soil.py [options]`; --travel 0 is the grains alone.
+Run it with `scripts/run examples/grains_on_soil/grains_on_soil.py [options]`; --travel 0 is the grains alone, --grains 0 the plough alone.
 """
 import os
 import sys
@@ -20,14 +20,15 @@ sys.path.insert(0, os.path.join(os.path.dirname(sys.argv[0]), '..'))
 from options import compared, readOptions
 
 options = readOptions('Grains poured onto soil.',
-        grains=(200, 'number of grains, of 10 cm'),
+        grains=(200, 'number of grains, of 10 cm; 0: the plough alone'),
+        cell=(0.1, 'size of the cells of the ground [m]'),
         every=(25, 'iterations of YADE from one equilibrium of the ground to the next'),
         seconds=(3., 'that the grains have to come to rest'),
         travel=(0.5, 'of the plough [m]; 0: there is none'),
         sink=(0.03, 'of the plough into the ground [m]'),
         stiffness=(20., 'of the contact, over E / h'))
 began = time.time()
-length, width, depth, h, radius = 1.4, 0.6, 0.2, 0.1, 0.05
+length, width, depth, h, radius = 1.4, 0.6, 0.2, options.cell, 0.05
 speed, share, above = 0.25, 0.12, 0.02  # of the plough [m/s], radius of its spheres [m], height at which it waits
 
 O.materials.append(MpmVonMisesMat(young=2e6, poisson=0.3, density=1600, yieldStress=np.sqrt(2) * 1e4, label='ground'))  # clay, c_u = 10 kPa
@@ -54,7 +55,7 @@ while len(grains) < options.grains:
 	free = not members or min(np.linalg.norm(O.bodies[i].state.pos - Vector3(x, y, z)) for i in members) > share + radius
 	if free: grains.append(O.bodies.append(utils.sphere((x, y, z), radius, material='grain', mask=3)))
 for axis, end in enumerate((length, width)):
-	for at, sense in (0.5 * h, 1), (end - 0.5 * h, -1):
+	for at, sense in (radius, 1), (end - radius, -1):
 		O.bodies.append(utils.wall(at, axis=axis, sense=sense, material='glass', mask=2))
 
 sides = [MpmBoundary(max=(inf, inf, -depth), fix='xyz')]
@@ -80,8 +81,8 @@ O.dt = 2e-4
 
 weight = 10 * sum(O.bodies[i].state.mass for i in grains)
 print(f'{len(grains)} grains that weigh {weight:.1f} N, {len(mpm.arrays()["id"])} material points; O.dt of the grains alone could be {utils.PWaveTimeStep():.1e} s')
-print('time [s]  force on the ground over the weight  reaction of its base over the weight  fastest grain [m/s]  iterations')
-parts = 12
+if grains: print('time [s]  force on the ground over the weight  reaction of its base over the weight  fastest grain [m/s]  iterations')
+parts = 12 if grains else 0
 for part in range(parts):
 	O.run(int(options.seconds / O.dt / parts), wait=True)
 	onGround = -solver.plotData()['contact0_z']
@@ -118,16 +119,17 @@ def drive():
 	return np.array(found)
 
 
-onPlough = -fromGrains()[2]
-print(f'reaction of the base over weight: {solver.reactions[0][2] / weight:.5f}, with what the plough bears: {(solver.reactions[0][2] + onPlough) / weight:.5f}; {time.time() - began:.0f} s')
-compared('weight of the grains on the base', (solver.reactions[0][2] + onPlough) / weight, 1, 'balance', 'weight')
-picture('grains_on_soil', 'stress_zz')
+if grains:
+	onPlough = -fromGrains()[2]
+	print(f'reaction of the base over weight: {solver.reactions[0][2] / weight:.5f}, with what the plough bears: {(solver.reactions[0][2] + onPlough) / weight:.5f}; {time.time() - began:.0f} s')
+	compared('weight of the grains on the base', (solver.reactions[0][2] + onPlough) / weight, 1, 'balance', 'weight')
+	picture('grains_on_soil', 'stress_zz')
 if options.travel:
 	began = time.time()
 	found = drive()
 	print('travel [m]  against it [N]: of the grains  of the ground  upwards [N]: of the grains  of the ground')
 	for part in np.array_split(found, min(len(found), 12)):  # means
-		print('{:.3f}  {:.1f}  {:.1f}  {:.1f}  {:.1f}'.format(part[-1, 0], *(part[:, [1, 4, 3, 6]].mean(axis=0) * (-1, -1, 1, 1))))
+		print('{:.3f}  {:.1f}  {:.1f}  {:.1f}  {:.1f}'.format(part[-1, 0], *(part[:, [1, 4, 3, 6]].mean(axis=0) * (-1, -1, 1, 1) + 0.)))
 	print(f'{len(found)} equilibria, {time.time() - began:.0f} s')
 	picture('plough', 'plasticStrain')
 	figure, axis = plt.subplots(figsize=(7, 3.2), layout='constrained')

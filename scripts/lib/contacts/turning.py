@@ -82,7 +82,7 @@ def _around(hole, bodies, h, contact, pressure, points, fBar, wide=5 * R):
 
 
 def _torques(rigid, contact, course, perStep, angle, exact):
-	"""About the origin, over the exact one, of each step."""
+	"""About the origin, over the exact one: *torque* in the second half of the turn, *first* over its first twentieth of a radian."""
 	found, aside = [], []
 
 	def look():
@@ -92,9 +92,10 @@ def _torques(rigid, contact, course, perStep, angle, exact):
 	course.run(1)
 	for body in rigid: body.state.angVel = (0, 0, perStep)
 	course.run(round(angle / perStep), look)
+	first = np.abs(found[:max(1, round(.05 / perStep))] or [float('nan')])
 	late = found[len(found) // 2:] or [float('nan')]
 	T = float(np.mean(np.abs(late)))
-	return dict(turned=degrees(len(found) * perStep), torque=T, scatter=float(np.mean(np.abs(np.abs(late) / T - 1))), largest=float(np.max(np.abs(np.abs(late) / T - 1))), aside=float(np.mean(aside[len(aside) // 2:] or [float('nan')])), **course.told())
+	return dict(turned=degrees(len(found) * perStep), torque=T, first=float(np.mean(first)), scatter=float(np.mean(np.abs(np.abs(late) / T - 1))), largest=float(np.max(np.abs(np.abs(late) / T - 1))), aside=float(np.mean(aside[len(aside) // 2:] or [float('nan')])), **course.told())
 
 
 def cylinder(cells=4, angle=1., stiffness=10., points=3, seconds=200):
