@@ -107,15 +107,15 @@ for cells in 4, 6, 10:
 
 
 def ofVane(results):
-	"""Torque on cells of no size, by a straight line through its roots on the three grids: what turns is wider by a part of a cell, and a torque goes with the square of that. At first all four blades
-	lie along the grid's lines, as on each of the grids; later by how much wider a blade acts changes with its angle to them, and not alike on the three: that is told."""
+	"""Torque on cells of no size, by a straight line through its roots on the three grids: what turns is wider by a part of a cell, and a torque goes with the square of that. At first,
+	which is told, all four blades lie along the lines of each grid; later by how much wider a blade acts changes with its angle to them, and not alike on the three."""
 	found = {cells: result for cells in (4, 6, 10) if (result := results.get(f'vane-R{cells}', {})).get('turned', 0) > 57}
 	if len(found) < 3: return None
 	limits = {name: atNoSize({cells: result[name]**.5 for cells, result in found.items()}) for name in ('first', 'torque')}
-	return dict(first=limits['first'][0]**2, slope=limits['first'][1], late=limits['torque'][0]**2)
+	return dict(torque=limits['torque'][0]**2, slope=limits['torque'][1], first=limits['first'][0]**2)
 
 
-derived['vane-limit'] = Case('vane-limit', ofVane, {}, {}, dict(first=near(1, .05)))
+derived['vane-limit'] = Case('vane-limit', ofVane, {}, {}, dict(torque=near(1, .05)))
 add('ring-shear', 'turning.ring', dict(turned=atLeast(359.9), torque=near(1, .02), largest=atMost(.02)))
 
 # 6. Overlap: largest difference of the force from that of one body
