@@ -115,17 +115,21 @@ struct Beam {
 	std::vector<double> hoopForce;  ///< of a shell: of the pieces [N]
 	std::vector<Vec<2>> hoopMoment; ///< of a shell: at the ends of the pieces, positive where it is bent to its left [N m]
 
-	void begin(std::vector<Vec<2>> vertices)
+	/// A new one along these vertices, with an axial force [N].
+	void begin(std::vector<Vec<2>> vertices, double prestress = 0)
 	{
-		places = std::move(vertices);
+		places               = std::move(vertices);
+		const double stretch = prestress == 0 ? 1 : 1 + prestress / section.axialStiffness;
 		for (std::size_t i = 0; i + 1 < places.size(); ++i)
-			length0.push_back((places[i + 1] - places[i]).norm());
+			length0.push_back((places[i + 1] - places[i]).norm() / stretch);
 		for (std::size_t i = 0; i < length0.size() && isShell; ++i)
 			slope0.push_back((places[i + 1][1] - places[i][1]) / length0[i]);
 		for (std::size_t v = 0; v < places.size() && isShell; ++v)
 			radius0.push_back(places[v][0]);
-		elongation.assign(length0.size(), 0);
-		axialForce = shearForce = elongation;
+		for (const double length : length0)
+			elongation.push_back((stretch - 1) * length);
+		shearForce.assign(length0.size(), 0);
+		axialForce.assign(length0.size(), prestress);
 		bend.assign(length0.size(), Vec<2>::Zero());
 		moments = bend;
 		turns.assign(places.size(), 0);

@@ -4,6 +4,7 @@
 #include "core/structures/parting_lines.hpp"
 #include "core/structures/structure_force.hpp"
 #include "derivatives.hpp"
+#include "moving.hpp"
 #include "scenes.hpp"
 
 namespace gimpm::testStructures {
@@ -125,6 +126,24 @@ namespace {
 		settle(structure);
 		EXPECT_NEAR(beam.places[8][1], -5 * weight * std::pow(L, 4) / (384 * EI), 4e-3 * 5 * weight * std::pow(L, 4) / (384 * EI));
 		EXPECT_NEAR(std::abs(beam.moments[8][0]), weight * L * L / 8, 5e-3 * weight * L * L / 8);
+	}
+
+	/// Between ends that are held it keeps its force; let go it has its length without stress.
+	TEST(Beams, KeepTheirPrestress)
+	{
+		constexpr double EA = 1e6, N = -2e4;
+		Structure<2>     structure = beamAlone(4, 16, { EA, 2e6 });
+		auto&            beam      = *structure.beam;
+		beam                       = Beam { beam.name, beam.section };
+		beam.begin(divided<2>({ { 0, 0 }, { 4, 0 } }, 0.25), N);
+		beam.fixedHead = beam.fixedFoot = { true, true, true };
+		settle(structure);
+		for (const double force : beam.axialForce)
+			EXPECT_NEAR(force, N, 1e-9 * std::abs(N));
+		beam.fixedFoot = {};
+		settle(structure);
+		EXPECT_NEAR(beam.axialForce[7], 0, 1e-9 * std::abs(N));
+		EXPECT_NEAR(beam.places.back()[0], 4 / (1 + N / EA), 1e-12);
 	}
 
 	/// With a hinge in the middle of a beam clamped at both ends: two cantilevers, each with w L^4 / 8 EI.
@@ -526,6 +545,35 @@ namespace {
 			beam.headForce    = { 100, -200 };
 			beam.friction     = 0.3;
 			EXPECT_LT(ground.tangentError(), 1e-7);
+		}
+	}
+
+	/// In time: a block that flies and whose two halves run into a beam between them. It needs no more of Newton's
+	/// method than a whole one, loses no momentum, and its halves bounce back.
+	TEST(PartedSoil, KeepsItsMomentumInTime)
+	{
+		for (const TimeScheme& scheme : { TimeScheme {}, TimeScheme::midpoint() }) {
+			Moving<2>    moving(0.5, Hencky(1e6, 0.3), 2000, scheme);
+			Structure<2> structure;
+			moving.model.newton.tolerance = 1e-11;
+			moving.put(block<2>(moving.model.grid, { 6, 4 }, 2), [](const Vec<2>& x) { return Vec<2>(x[0] < 1.5 ? 1.2 : 0.8, 2); });
+			structure.beam.emplace();
+			structure.beam->section = { 1e7, 1e5 };
+			structure.beam->begin(divided<2>({ { 1.5, 2 }, { 1.5, 0.5 } }, 0.25));
+			moving.model.coupledTerms
+			        = { [&structure](const Beginning<2>& step, const State&) { return std::make_unique<StructureForce<2>>(structure, step); } };
+			const Vec<2> before  = moving.momentum();
+			double       pressed = 0;
+			for (int step = 0; step < 10; ++step) {
+				partSoil({ &*structure.beam }, moving.cloud, moving.model.grid);
+				ASSERT_EQ(structure.beam->layer, 1);
+				const StepReport report = moving.step(2e-3);
+				ASSERT_TRUE(report.converged()) << report.cause;
+				EXPECT_LE(report.iterations, 6);
+				pressed = std::max(pressed, structure.beam->sides[0].normalForce[2]);
+			}
+			EXPECT_LT((moving.momentum() - before).norm(), 1e-10 * before.norm());
+			EXPECT_GT(pressed, 100);
 		}
 	}
 

@@ -27,6 +27,10 @@ void MpmBeam::requireAdmissible() const
 	if (line.front() == line.back() && line.size() < 4)
 		throw std::invalid_argument(
 		        "MpmBeam.line = " + textOf(line) + ": a ring, whose last point is its first, needs three different points or more.");
+	if (!(prestress > -axialStiffness))
+		throw std::invalid_argument(
+		        "MpmBeam.prestress = " + textOf(prestress) + " would press it to nothing: expected more than -axialStiffness, which is "
+		        + textOf(axialStiffness) + ".");
 	for (size_t i = 0; i < anchors.size(); ++i) {
 		const string name = "MpmBeam.anchors[" + std::to_string(i) + "]";
 		if (!anchors[i]) throw std::invalid_argument(name + " is None: expected an MpmReinforcement.");
@@ -65,6 +69,8 @@ void MpmBeam::requireShell(const string& name) const
 		what = ".line goes through the axis: let it begin or end there";
 	else if (std::isfinite(plasticMoment))
 		what = ".plasticMoment = " + textOf(plasticMoment) + ": a shell of revolution does not yield; leave it inf. Hinges are admitted";
+	else if (prestress != 0)
+		what = ".prestress = " + textOf(prestress) + " is that of a beam in the plane: a shell of revolution comes in without stress";
 	else if (contraction > 0)
 		what = ".contraction = " + textOf(contraction) + " is that of a ring in the plane: a shell of revolution does not contract";
 	else if (!anchors.empty())

@@ -13,6 +13,7 @@ public:
 	Real                                 poisson       = 0;
 	Real                                 plasticMoment = inf;
 	Real                                 weight        = 0;
+	Real                                 prestress     = 0;
 	Points                               hinges;
 	string                               fixHead, fixFoot;
 	Vector3r                             headForce   = Vector3r::Zero();
@@ -53,6 +54,8 @@ public:
 		  admitting("a number > 0 [N m], or inf", isPositiveOrInfinite));
 		v("weight", &B::weight, 0, "Weight by length [N/m], of a shell by area [N/m²], >= 0: along and with the factor of *MpmImplicitEngine.gravity*.",
 		  nonNegative);
+		v("prestress", &B::prestress, 0,
+		  "Axial force [N] that it has as it is put in, tension positive: of a tendon along it, or of a jack. Not of a shell.", finite);
 		v("hinges", &B::hinges, 0, "Hinges are at the vertices that are nearest to these places [m].",
 		  admitting("places of two or three numbers, all finite", arePoints));
 		v("fixHead", &B::fixHead, 0, "What of its first vertex is held: letters out of 'xyr', r for its rotation.",

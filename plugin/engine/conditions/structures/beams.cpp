@@ -55,7 +55,7 @@ namespace {
 		beam.adhesion      = from.adhesion;
 		beam.friction      = std::tan(from.friction);
 		beam.isClosed      = from.line.front() == from.line.back();
-		if (from.vertices.empty()) beam.begin(fineLine<2>(inDimension<2>(placesOf(from.line)), name, grid));
+		if (from.vertices.empty()) beam.begin(fineLine<2>(inDimension<2>(placesOf(from.line)), name, grid), from.prestress);
 		else if (from.stuck.size() != from.vertices.size())
 			throw std::invalid_argument(
 			        name + " has been saved by an older revision, which knew nothing of the two sides of its soil: run its script again.");
@@ -71,7 +71,6 @@ namespace {
 	// What nodes that are tied have not been shown to go with; empty: nothing.
 	string cannotPart(const Analysis& analysis)
 	{
-		if (analysis.isDynamic()) return "steps in time";
 		if (!analysis.grid->period.isZero(0)) return "MpmGrid.period";
 		if (!analysis.grid->refinements.empty()) return "cells of several sizes";
 		if (analysis.nonlocalLength > 0) return "nonlocalLength";
