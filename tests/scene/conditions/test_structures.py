@@ -465,7 +465,7 @@ def test_what_leaves_the_soil_one_body_is_said(yade):
 	"""For each reason why a beam with soil on both of its sides does not part it; not where it does, nor of one on the ground. And points that go through a soft beam are counted."""
 	run = yade(block + '''
 import sys
-from yade.mpm import engine
+from yade.mpm.library import engine as library
 def said(line=((2, 2), (2, 1)), other=(), more=(), conductivity=None, porosity=None, **settings):
 	beam = MpmBeam(line=list(line), axialStiffness=1e9, bendingStiffness=1e6, adhesion=0, fixFoot='xyr')
 	ground(beam, *other, **{**dict(poisson=.3), **settings})
@@ -476,7 +476,7 @@ def said(line=((2, 2), (2, 1)), other=(), more=(), conductivity=None, porosity=N
 	O.run(1, wait=True)
 for case in CASES:
 	print('case:', case, file=sys.stderr, flush=True)
-	if 'amg' in case and engine.multigridAbsence(): print('no amg', file=sys.stderr, flush=True)
+	if 'amg' in case and library.multigridAbsence(): print('no amg', file=sys.stderr, flush=True)
 	else: said(**eval(case))
 
 print('case: soft', file=sys.stderr, flush=True)
