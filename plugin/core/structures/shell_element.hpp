@@ -16,9 +16,10 @@ struct ShellPiece {
 	double area0() const { return M_PI * radius0.sum() * meridian.length0; }
 };
 
-/// Strains and curvatures are those of Reissner (1950): of the meridian as of a beam, of the parallels (r - R) / R and
-/// (sin phi - sin phi0) / R, where phi is the angle of the meridian to the radius, r the radius now, of the chord, and R
-/// that without stress. So forces around the axis turn no end of a piece, as loads at the vertices do not. Forces are E t / (1 - nu^2) times (e + nu e'), moments E t^3 / 12 (1 - nu^2) times (k + nu k'), by length of
+/// Strains and curvatures are those of Reissner (1950): of the meridian as of a beam, of the parallels (r - R) / R
+/// and (sin phi - sin phi0) / R, where phi is the angle of the meridian to the radius, r the radius now, of the
+/// chord, and R that without stress. So forces around the axis turn no end of a piece, as loads at the vertices do
+/// not. Forces are E t / (1 - nu^2) times (e + nu e'), moments E t^3 / 12 (1 - nu^2) times (k + nu k'), by length of
 /// the section without stress. The energy is that of the whole ring, of (u1, turn1, u2, turn2).
 Energy<6> energyOf(const ShellPiece&, const BeamSection&, const Eigen::Matrix<double, 6, 1>& u);
 

@@ -138,8 +138,8 @@ struct Beam {
 		isStuck.assign(places.size(), 1);
 		if (isHinge.empty()) isHinge.assign(places.size(), 0);
 	}
-	/// A vertex's part of the pieces beside it [m]: half of each; of a shell by area [m2], so that what is even along
-	/// a piece turns neither of its ends.
+	/// A vertex's part of the pieces beside it [m]: half of each; of a shell by area [m2], so that what is even
+	/// along a piece turns neither of its ends.
 	double sizeAt(int vertex) const
 	{
 		const int last = int(length0.size());

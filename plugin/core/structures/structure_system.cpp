@@ -103,7 +103,8 @@ template <int Dim> void StructureSystem<Dim>::numberBeam()
 		for (int i = 0; i < 3; ++i) {
 			const bool isHinge = i == 2 && beam.isHinge[v];
 			const bool isHeld  = (v == 0 && beam.fixedHead[i]) || (v == last && beam.fixedFoot[i]);
-			// A hinge at an end of a beam leaves the turn of that end without meaning; one of a shell lets it go.
+			// A hinge at an end of a beam leaves the turn of that end without meaning; one of a shell
+			// lets it go.
 			const bool isIdle = isEnd && isHinge && !beam.isShell;
 			if ((!isHeld || (isHinge && beam.isShell)) && !isIdle && !(beam.isOnAxis(v) && i != 1)) stations_[v].own[i] = unknowns_++;
 		}

@@ -28,7 +28,8 @@ public:
 	NodalMass(
 	        const CloudBasis<Dim>&, const std::vector<double>& masses, const std::vector<GhostFace<Dim>>&, double h,
 	        const std::vector<LooseCell<Dim>>& loose = {}, const NodeShare& share = NodeShare::whole());
-	/// With ties it is P^T M P, where P gives all nodes from those that are not tied: the rows of tied nodes are zero.
+	/// With ties it is P^T M P, where P gives all nodes from those that are not tied: the rows of tied nodes are
+	/// zero.
 	explicit NodalMass(const MassMatrix<Dim>&, const Ties& = {});
 
 	Eigen::VectorXd operator*(const Eigen::VectorXd& x) const; ///< for nodal vectors of Dim components a node

@@ -128,7 +128,8 @@ namespace {
 		EXPECT_NEAR(std::abs(beam.moments[8][0]), weight * L * L / 8, 5e-3 * weight * L * L / 8);
 	}
 
-	/// Between ends that are held it keeps its force; drawn at an end it is as much longer as the difference asks for.
+	/// Between ends that are held it keeps its force; drawn at an end it is as much longer as the difference asks
+	/// for.
 	TEST(Beams, KeepTheirPrestress)
 	{
 		constexpr double EA = 1e6, N = -2e4, pull = 1e4;
@@ -246,9 +247,9 @@ namespace {
 		}
 	}
 
-	/// A long cylinder under a pressure, held at its foot: with b^4 = 3 (1 - nu^2) / (R t)^2 the moment is p / 2 b^2 at
-	/// a clamped edge and falls as exp(-b x) (cos b x - sin b x); far away N = p R around and the radius grows by
-	/// p R^2 / E t.
+	/// A long cylinder under a pressure, held at its foot: with b^4 = 3 (1 - nu^2) / (R t)^2 the moment is p / 2
+	/// b^2 at a clamped edge and falls as exp(-b x) (cos b x - sin b x); far away N = p R around and the radius
+	/// grows by p R^2 / E t.
 	TEST(Shells, ACylinderBendsAtItsEdge)
 	{
 		constexpr double R = 3, t = 0.05, p = 1000, nu = 0.25;
@@ -271,8 +272,8 @@ namespace {
 		}
 	}
 
-	/// A half of a sphere under its own weight, on rollers: without bending N = -q a / (1 + cos phi) along the meridian
-	/// and q a (1 / (1 + cos phi) - cos phi) around, phi from the top; away from the foot.
+	/// A half of a sphere under its own weight, on rollers: without bending N = -q a / (1 + cos phi) along the
+	/// meridian and q a (1 / (1 + cos phi) - cos phi) around, phi from the top; away from the foot.
 	TEST(Shells, ADomeBearsItsWeightWithoutBending)
 	{
 		constexpr double    a = 5, q = 1000;
@@ -291,7 +292,8 @@ namespace {
 		}
 	}
 
-	/// A ball pressed from all sides by springs of soil that comes to it: N = p R / 2 both ways, p that of the springs.
+	/// A ball pressed from all sides by springs of soil that comes to it: N = p R / 2 both ways, p that of the
+	/// springs.
 	TEST(Shells, ASphereIsPressedFromAllSides)
 	{
 		constexpr double    R = 2, nu = 0.2;
@@ -321,7 +323,8 @@ namespace {
 		}
 	}
 
-	/// With a hinge on a circle the parts of a plate turn by themselves: its middle is simply supported on the ring.
+	/// With a hinge on a circle the parts of a plate turn by themselves: its middle is simply supported on the
+	/// ring.
 	TEST(Shells, HingesTakeNoMoment)
 	{
 		constexpr double a = 2, p = 100;
