@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "core/solvers/reduce.hpp"
+#include "core/grid/masters.hpp"
 #include <numeric>
 #include <utility>
 
@@ -24,27 +25,6 @@ template <int Dim, class F> void forFreeEntries(const NodeMatrix<Dim>& K, const 
 				}
 		}
 }
-
-/// What a node stands for among the nodes that are not tied.
-class MastersOf {
-public:
-	MastersOf(int nodes, const Ties* ties) : ties_(ties), tie_(nodes, -1)
-	{
-		for (std::size_t t = 0; ties && t < ties->node.size(); ++t)
-			tie_[ties->node[t]] = int(t);
-	}
-	/// Calls f(node, weight).
-	template <class F> void each(int node, F&& f) const
-	{
-		if (tie_[node] < 0) return f(node, 1.);
-		for (int m = ties_->start[tie_[node]]; m < ties_->start[tie_[node] + 1]; ++m)
-			f(ties_->master[m], ties_->weight[m]);
-	}
-
-private:
-	const Ties*      ties_;
-	std::vector<int> tie_;
-};
 
 /// The same with ties.
 template <int Dim, class F> void forTiedEntries(const NodeMatrix<Dim>& K, const FreeDofs& dofs, F&& f)

@@ -8,10 +8,11 @@
 
 namespace gimpm {
 
-/// What a beam is made of, per metre of thickness.
+/// What a beam is made of, per metre of thickness; of a shell of revolution, per metre of its parallels.
 struct BeamSection {
 	double axialStiffness   = 0; ///< [N]
 	double bendingStiffness = 0; ///< [N m2]
+	double poisson          = 0; ///< of a shell of revolution
 };
 
 /// A piece as a step begins. Its axes are those of the chord between its ends.

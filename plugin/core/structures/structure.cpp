@@ -18,6 +18,12 @@ void stiffenBeam(Beam& beam, double scale)
 		scaleAll(side.gap, scale);
 	for (Vec<2>& bend : beam.bend)
 		bend *= scale;
+	for (std::size_t v = 0; v < beam.radius0.size(); ++v)
+		beam.radius0[v] += (1 - scale) * (beam.places[v][0] - beam.radius0[v]);
+	for (std::size_t i = 0; i < beam.slope0.size(); ++i) {
+		const Vec<2> along = beam.places[i + 1] - beam.places[i];
+		beam.slope0[i] += (1 - scale) * (along[1] / along.norm() - beam.slope0[i]);
+	}
 }
 
 } // namespace

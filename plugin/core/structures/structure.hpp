@@ -3,6 +3,7 @@
 #pragma once
 #include "core/structures/bar_element.hpp"
 #include "core/structures/beam_element.hpp"
+#include "core/structures/shell_element.hpp"
 #include <limits>
 #include <optional>
 #include <string>
@@ -67,15 +68,17 @@ struct BeamSide {
 	std::vector<double> shearForce;  ///< on it, along the beam [N]
 };
 
-/// A line of vertices in the plane, each with a place and a turn of its own, that the soil acts on by springs.
+/// A line of vertices in the plane, each with a place and a turn of its own, that the soil acts on by springs. Around
+/// an axis it is the meridian of a shell of revolution: forces are those on the whole ring then.
 struct Beam {
 	static constexpr double inf = std::numeric_limits<double>::infinity();
 
 	std::string         name = "a beam";
 	BeamSection         section;
 	double              plasticMoment = inf;            ///< [N m]
-	Vec<2>              weight        = Vec<2>::Zero(); ///< at the end of the step, over initial length [N/m]
+	Vec<2>              weight        = Vec<2>::Zero(); ///< at the end of the step, over initial length [N/m]; of a shell over area
 	bool                isClosed      = false;          ///< the last vertex is the first one
+	bool                isShell       = false;          ///< around the axis x = 0
 	std::vector<char>   isHinge;                        ///< by vertex: no moment there
 	std::array<bool, 3> fixedHead {}, fixedFoot {};     ///< x, y and turn of the first and of the last vertex
 	Vec<2>              headForce  = Vec<2>::Zero();    ///< at the end of the step [N]
@@ -96,6 +99,8 @@ struct Beam {
 	std::vector<Vec<2>>     places;
 	std::vector<double>     turns;      ///< of the vertices in all [rad]
 	std::vector<double>     length0;    ///< of the pieces [m]
+	std::vector<double>     radius0;    ///< of a shell: of the vertices without stress [m]
+	std::vector<double>     slope0;     ///< of a shell: of the pieces, sine of the angle to the radius without stress
 	std::vector<double>     elongation; ///< of the pieces [m]
 	std::vector<Vec<2>>     bend;       ///< of the pieces: elastic turns of their ends [rad]
 	std::array<BeamSide, 2> sides;      ///< left and right
@@ -103,17 +108,28 @@ struct Beam {
 	/// bears the stress that was in it.
 	std::vector<char> isStuck;
 
-	/// In the last step that was accepted.
+	/// In the last step that was accepted; of a shell by metre of its sections.
 	std::vector<double> axialForce; ///< of the pieces [N]
+	std::vector<double> shearForce; ///< of the pieces [N]
 	std::vector<Vec<2>> moments;    ///< at the ends of the pieces, counterclockwise [N m]
+	std::vector<double> hoopForce;  ///< of a shell: of the pieces [N]
+	std::vector<Vec<2>> hoopMoment; ///< of a shell: at the ends of the pieces, positive where it is bent to its left [N m]
 
-	void begin(std::vector<Vec<2>> vertices)
+	/// A new one along these vertices, with an axial force [N].
+	void begin(std::vector<Vec<2>> vertices, double prestress = 0)
 	{
-		places = std::move(vertices);
+		places               = std::move(vertices);
+		const double stretch = prestress == 0 ? 1 : 1 + prestress / section.axialStiffness;
 		for (std::size_t i = 0; i + 1 < places.size(); ++i)
-			length0.push_back((places[i + 1] - places[i]).norm());
-		elongation.assign(length0.size(), 0);
-		axialForce = elongation;
+			length0.push_back((places[i + 1] - places[i]).norm() / stretch);
+		for (std::size_t i = 0; i < length0.size() && isShell; ++i)
+			slope0.push_back((places[i + 1][1] - places[i][1]) / length0[i]);
+		for (std::size_t v = 0; v < places.size() && isShell; ++v)
+			radius0.push_back(places[v][0]);
+		for (const double length : length0)
+			elongation.push_back((stretch - 1) * length);
+		shearForce.assign(length0.size(), 0);
+		axialForce.assign(length0.size(), prestress);
 		bend.assign(length0.size(), Vec<2>::Zero());
 		moments = bend;
 		turns.assign(places.size(), 0);
@@ -122,16 +138,23 @@ struct Beam {
 		isStuck.assign(places.size(), 1);
 		if (isHinge.empty()) isHinge.assign(places.size(), 0);
 	}
-	/// Half of the pieces at a vertex [m].
-	double lengthAt(int vertex) const
+	/// A vertex's part of the pieces beside it [m]: half of each; of a shell by area [m2], so that what is even
+	/// along a piece turns neither of its ends.
+	double sizeAt(int vertex) const
 	{
 		const int last = int(length0.size());
 		double    sum  = 0;
-		if (vertex > 0) sum += length0[vertex - 1] / 2;
-		if (vertex < last) sum += length0[vertex] / 2;
-		if (isClosed && vertex % last == 0) sum = (length0.front() + length0.back()) / 2;
+		if (vertex > 0 || isClosed) sum += partOfPiece(vertex > 0 ? vertex - 1 : last - 1, 1);
+		if (vertex < last || isClosed) sum += partOfPiece(vertex % last, 0);
 		return sum;
 	}
+	double partOfPiece(int piece, int end) const
+	{
+		if (!isShell) return length0[piece] / 2;
+		const double own = radius0[piece + end], other = radius0[piece + 1 - end];
+		return M_PI * (2 * own + other) / 3 * length0[piece];
+	}
+	bool isOnAxis(int vertex) const { return isShell && radius0[vertex] == 0; }
 	/// Along the beam at a vertex, from its first to its last one.
 	Vec<2> tangentAt(int vertex) const
 	{

@@ -98,13 +98,18 @@ template <int Dim> void StructureSystem<Dim>::numberBeam()
 	if (!structure_.beam) return;
 	const Beam& beam = *structure_.beam;
 	const int   last = int(beam.places.size()) - 1;
-	for (int v = 0; v <= last - beam.isClosed; ++v)
+	for (int v = 0; v <= last - beam.isClosed; ++v) {
+		const bool isEnd = (v == 0 || v == last) && !beam.isClosed;
 		for (int i = 0; i < 3; ++i) {
-			const bool isHeld = (v == 0 && beam.fixedHead[i]) || (v == last && beam.fixedFoot[i]);
-			// A hinge at an end leaves the turn of that end without meaning.
-			const bool isIdle = i == 2 && (v == 0 || v == last) && !beam.isClosed && beam.isHinge[v];
-			if (!isHeld && !isIdle) stations_[v].own[i] = unknowns_++;
+			const bool isHinge = i == 2 && beam.isHinge[v];
+			const bool isHeld  = (v == 0 && beam.fixedHead[i]) || (v == last && beam.fixedFoot[i]);
+			// A hinge at an end of a beam leaves the turn of that end without meaning; one of a shell
+			// lets it go.
+			const bool isIdle = isEnd && isHinge && !beam.isShell;
+			if ((!isHeld || (isHinge && beam.isShell)) && !isIdle && !(beam.isOnAxis(v) && i != 1)) stations_[v].own[i] = unknowns_++;
 		}
+		if (beam.isShell && beam.isHinge[v] && !isEnd) stations_[v].turnBehind = unknowns_++;
+	}
 	if (beam.isClosed) stations_[last].own = stations_[0].own;
 }
 
@@ -143,8 +148,8 @@ template <int Dim> void StructureSystem<Dim>::addBeamSprings(int v, const std::v
 			continue;
 		}
 		if (isParted && beam.isStuck[v]) {
-			memory.normalForce[v] = beam.lengthAt(v) * std::max(0., beside.normalStress);
-			memory.shearForce[v]  = beam.lengthAt(v) * (side == 0 ? 1 : -1) * beside.shearStress;
+			memory.normalForce[v] = beam.sizeAt(v) * std::max(0., beside.normalStress);
+			memory.shearForce[v]  = beam.sizeAt(v) * (side == 0 ? 1 : -1) * beside.shearStress;
 		}
 		addSpringsOfSide(v, side, beside, isParted);
 	}
@@ -160,7 +165,7 @@ template <int Dim> void StructureSystem<Dim>::addSpringsOfSide(int v, int side, 
 	const Station& station = stations_[v];
 	const int      first   = isParted && side == 1 ? station.toTheRight : station.soil;
 	const Vec<2>   t = beam.tangentAt(v), n = (side == 1 ? -1 : 1) * Vec<2>(-t[1], t[0]);
-	const double   length = beam.lengthAt(v), stiffness = beam.stiffness * soil.young / soil.cellSize * length;
+	const double   length = beam.sizeAt(v), stiffness = beam.stiffness * soil.young / soil.cellSize * length;
 	const auto     along = [&](const Vec<2>& e) {
                 LinearForm form;
                 for (int a = 0; a < 2; ++a) {
@@ -201,8 +206,11 @@ template <int Dim> std::array<LinearForm, 6> StructureSystem<Dim>::beamEnds(int 
 {
 	std::array<LinearForm, 6> forms;
 	for (int end = 0; end < 2; ++end)
-		for (int i = 0; i < 3; ++i)
-			forms[3 * end + i].add(stations_[first + end].own[i], 1);
+		for (int i = 0; i < 3; ++i) {
+			const Station& station = stations_[first + end];
+			const bool     isPast  = end == 0 && i == 2 && station.turnBehind >= 0;
+			forms[3 * end + i].add(isPast ? station.turnBehind : station.own[i], 1);
+		}
 	return forms;
 }
 
@@ -224,6 +232,21 @@ template <int Dim> BeamPiece StructureSystem<Dim>::beamPiece(std::size_t i) cons
 	made.strength[0] = strength(i);
 	if (i + 1 == beam.length0.size() && !beam.isClosed) made.strength[1] = strength(i + 1);
 	return made;
+}
+
+template <int Dim> ShellPiece StructureSystem<Dim>::shellPiece(std::size_t i) const
+{
+	const Beam& beam = *structure_.beam;
+	ShellPiece  made { beamPiece(i), { beam.radius0[i], beam.radius0[i + 1] }, Vec<2>::Zero(), beam.slope0[i] };
+	for (int end = 0; end < 2; ++end)
+		made.outwards[end] = beam.places[i + end][0] - made.radius0[end];
+	return made;
+}
+
+template <int Dim> Energy<6> StructureSystem<Dim>::energyOfPiece(std::size_t i, const Eigen::Matrix<double, 6, 1>& u) const
+{
+	const BeamSection& section = structure_.beam->section;
+	return structure_.beam->isShell ? energyOf(shellPiece(i), section, u) : energyOf(beamPiece(i), section, u);
 }
 
 template <int N> Eigen::Matrix<double, N, 1> valuesOf(const std::array<LinearForm, N>& forms, const Eigen::VectorXd& x)
@@ -254,7 +277,7 @@ template <int Dim> void StructureSystem<Dim>::addLoads(const Eigen::VectorXd& x,
 		for (int i = 0; i < 3; ++i) {
 			LinearForm own;
 			own.add(stations_[v].own[i], 1);
-			double force = i < 2 ? beam.weight[i] * beam.lengthAt(v) : 0;
+			double force = i < 2 ? beam.weight[i] * beam.sizeAt(v) : 0;
 			if (v == 0) force += i < 2 ? beam.headForce[i] : beam.headMoment;
 			add(own, force);
 		}
@@ -272,7 +295,7 @@ template <int Dim> EnergySum StructureSystem<Dim>::energyAt(const Eigen::VectorX
 	if constexpr (Dim == 2)
 		for (std::size_t i = 0; structure_.beam && i < structure_.beam->length0.size(); ++i) {
 			const auto forms = beamEnds(int(i));
-			sum.add<6>(forms, energyOf(beamPiece(i), structure_.beam->section, valuesOf<6>(forms, x)));
+			sum.add<6>(forms, energyOfPiece(i, valuesOf<6>(forms, x)));
 		}
 	for (const Spring& spring : springs_) {
 		const double trial = spring.force + spring.stiffness * spring.form.at(x);
@@ -395,19 +418,32 @@ template <int Dim> void StructureSystem<Dim>::commitBar(Reinforcement<Dim>& bar,
 	bar.places = std::move(moved);
 }
 
+template <int Dim> void StructureSystem<Dim>::commitPiece(std::size_t i, const Eigen::Matrix<double, 6, 1>& u)
+{
+	Beam&            beam   = *structure_.beam;
+	const BeamPiece  before = beamPiece(i);
+	const BeamShape  shape(before, u);
+	const EndMoments ends = endMoments(before, beam.section, shape.turns);
+	if (beam.isShell) {
+		const ShellForces of = forcesIn(shellPiece(i), beam.section, u);
+		beam.hoopForce.resize(beam.length0.size()), beam.hoopMoment.resize(beam.length0.size());
+		beam.axialForce[i] = of.axial, beam.shearForce[i] = of.shear, beam.hoopForce[i] = of.hoop;
+		beam.moments[i] = of.moments, beam.hoopMoment[i] = of.hoopMoments;
+	} else {
+		beam.axialForce[i] = beam.section.axialStiffness / before.length0 * shape.elongation;
+		beam.shearForce[i] = ends.moment.sum() / (before.length0 + shape.elongation);
+		beam.moments[i]    = ends.moment;
+	}
+	beam.length0[i]    = before.length0;
+	beam.elongation[i] = shape.elongation;
+	beam.bend[i]       = beam.isShell ? shape.turns : Vec<2>(shape.turns - ends.yielded);
+}
+
 template <int Dim> void StructureSystem<Dim>::commitBeam(const Eigen::VectorXd& x)
 {
 	Beam& beam = *structure_.beam;
-	for (std::size_t i = 0; i < beam.length0.size(); ++i) {
-		const BeamPiece  before = beamPiece(i);
-		const BeamShape  shape(before, valuesOf<6>(beamEnds(int(i)), x));
-		const EndMoments ends = endMoments(before, beam.section, shape.turns);
-		beam.length0[i]       = before.length0;
-		beam.elongation[i]    = shape.elongation;
-		beam.bend[i]          = shape.turns - ends.yielded;
-		beam.axialForce[i]    = beam.section.axialStiffness / beam.length0[i] * shape.elongation;
-		beam.moments[i]       = ends.moment;
-	}
+	for (std::size_t i = 0; i < beam.length0.size(); ++i)
+		commitPiece(i, valuesOf<6>(beamEnds(int(i)), x));
 	const auto valueAt = [&](int unknown) { return unknown < 0 ? 0 : x[unknown]; };
 	for (std::size_t v = 0; v < beam.places.size(); ++v) {
 		beam.places[v] += Vec<2>(valueAt(stations_[v].own[0]), valueAt(stations_[v].own[1]));

@@ -58,7 +58,8 @@ private:
 		int                slip       = -1;   ///< unknown along `direction`
 		Vec<Dim>           direction  = Vec<Dim>::Zero();
 		std::array<int, 3> own { -1, -1, -1 }; ///< of a beam: x, y, turn
-		bool               isFree = false;     ///< of a beam
+		int                turnBehind = -1;    ///< of a hinge in a shell: of the piece behind it
+		bool               isFree     = false; ///< of a beam
 	};
 	/// A spring with a limited force.
 	struct Spring {
@@ -80,8 +81,11 @@ private:
 	BarPiece<Dim>                   piece(const Reinforcement<Dim>&, std::size_t number) const;
 	std::array<LinearForm, 6>       beamEnds(int first) const;
 	BeamPiece                       beamPiece(std::size_t number) const;
+	ShellPiece                      shellPiece(std::size_t number) const;
+	Energy<6>                       energyOfPiece(std::size_t number, const Eigen::Matrix<double, 6, 1>& u) const;
 	void                            addLoads(const Eigen::VectorXd& x, EnergySum&) const;
 	void                            commitBar(Reinforcement<Dim>&, int first, const Eigen::VectorXd& x);
+	void                            commitPiece(std::size_t number, const Eigen::Matrix<double, 6, 1>& u);
 	void                            commitBeam(const Eigen::VectorXd& x);
 	Eigen::VectorXd                 direction(const EnergySum&) const;
 	Solution                        iterate(Eigen::VectorXd from, int mostSteps, bool secants) const;

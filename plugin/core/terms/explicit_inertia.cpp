@@ -73,7 +73,7 @@ template <int Dim> void ExplicitInertia<Dim>::findMiddle(const Beginning<Dim>& s
 
 template <int Dim> void ExplicitInertia<Dim>::findJump()
 {
-	if (!blow_.isZero(0)) solve(blow_, allFree(blow_.size()), jump_);
+	if (!blow_.isZero(0)) solve(blow_, allFree<Dim>(blow_.size(), basis_.ties), jump_);
 }
 
 template <int Dim> void ExplicitInertia<Dim>::solve(const Eigen::VectorXd& right, const FreeDofs& dofs, Eigen::VectorXd& x, const Eigen::VectorXd* C)

@@ -20,7 +20,7 @@ Inertia<Dim>::Inertia(Motion<Dim>& motion, const Beginning<Dim>& step)
         , h_(step.grid.cellSize)
         , loose_(looseOf(motion, step))
         , mass_(massMatrix(motion, step, loose_))
-        , nodal_(mass_)
+        , nodal_(mass_, basis_.ties)
         , iterates_(motion.ghostMass > 0)
 {
 	imbalance_ = neglected_ = acceleration_ = expected_ = blow_ = jump_ = Eigen::VectorXd::Zero(prescribed_.size());
@@ -70,13 +70,16 @@ template <int Dim> void Inertia<Dim>::findStart(const Beginning<Dim>& step)
 /// Of all forces as the step begins, also at held nodes.
 template <int Dim> Eigen::VectorXd Inertia<Dim>::imbalanceOf(const Beginning<Dim>& step) const
 {
-	const Eigen::VectorXd others = step.imbalance();
-	if (damping_.empty()) return others;
-	Eigen::VectorXd damping = Eigen::VectorXd::Zero(others.size());
-	for (const auto& each : damping_)
-		each->addBefore(velocity_, damping);
-	share_.complete(damping);
-	return others - damping;
+	Eigen::VectorXd all = step.imbalance();
+	if (!damping_.empty()) {
+		Eigen::VectorXd damping = Eigen::VectorXd::Zero(all.size());
+		for (const auto& each : damping_)
+			each->addBefore(velocity_, damping);
+		share_.complete(damping);
+		all -= damping;
+	}
+	basis_.ties.template fold<Dim>(all);
+	return all;
 }
 
 /// Where nodes are held, also what the velocities would be if they were not: the blow of what holds them has changed
@@ -86,7 +89,7 @@ template <int Dim> void Inertia<Dim>::findVelocity(bool withAcceleration)
 	const double          roundOff = motion_.exactness;
 	const Eigen::VectorXd momentum = weighedAtNodes(basis_, motion_.mass, motion_.velocity, share_);
 	const Eigen::VectorXd carried  = withAcceleration ? weighedAtNodes(basis_, motion_.mass, motion_.acceleration, share_) : Eigen::VectorXd();
-	const FreeDofs        all      = allFree(momentum.size());
+	const FreeDofs        all      = allFree<Dim>(momentum.size(), basis_.ties);
 	const bool            together = iterates_ && dofs_.count < all.count;
 	Eigen::VectorXd       before   = Eigen::VectorXd::Zero(momentum.size());
 	std::vector<Side>     sides    = { { momentum, dofs_, velocity_ } };
@@ -119,8 +122,14 @@ template <int Dim> Eigen::VectorXd Inertia<Dim>::ofContact(const Eigen::VectorXd
 template <int Dim> void Inertia<Dim>::solve(const std::vector<Side>& sides)
 {
 	constexpr int worthwhile = 300;
-	if (iterates_ && nodal_.solve(sides, { motion_.exactness, worthwhile })) return;
-	iterates_ = false; // in this step, whose factor there is now
+	iterates_                = iterates_ && nodal_.solve(sides, { motion_.exactness, worthwhile }); // else there is a factor in this step
+	if (!iterates_) solveByFactor(sides);
+	for (const Side& side : sides)
+		basis_.ties.template spread<Dim>(side.x);
+}
+
+template <int Dim> void Inertia<Dim>::solveByFactor(const std::vector<Side>& sides)
+{
 	for (const Side& side : sides) {
 		for (Eigen::Index i = 0; i < side.x.size(); ++i)
 			if (side.dofs.number[i] >= 0) side.x[i] = 0;
@@ -236,6 +245,7 @@ template <int Dim> void Inertia<Dim>::addRoundOff(const Eigen::VectorXd& d, Eige
 	const auto       moved    = (d.cwiseAbs() + T * velocity_.cwiseAbs()).eval();
 	sizes += factor * mass_.sizesTimes(moved);
 	if (extent_) sizes += factor * extent_->sizesTimes(moved);
+	basis_.ties.template fold<Dim>(sizes);
 }
 
 template <int Dim> Eigen::VectorXd Inertia<Dim>::ownMotion() const
@@ -244,6 +254,7 @@ template <int Dim> Eigen::VectorXd Inertia<Dim>::ownMotion() const
 	Eigen::VectorXd d = T * velocity_ + T * T / 2 * expected_;
 	for (Eigen::Index i = 0; i < d.size(); ++i)
 		if (isHeld(i)) d[i] = prescribed_[i];
+	basis_.ties.template spread<Dim>(d);
 	return d;
 }
 

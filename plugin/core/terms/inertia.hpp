@@ -48,6 +48,7 @@ private:
 	void            findVelocity(bool withAcceleration);
 	Eigen::VectorXd imbalanceOf(const Beginning<Dim>&) const;
 	void            solve(const std::vector<Side>&);
+	void            solveByFactor(const std::vector<Side>&);
 	void            solveAlong(int axis, const Side&, const Eigen::VectorXd& rest);
 	Eigen::VectorXd solved(const Eigen::VectorXd& right); // where what is held stays at zero
 	Eigen::VectorXd velocityAt(const Eigen::VectorXd& d) const;

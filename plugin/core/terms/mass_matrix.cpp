@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "core/terms/mass_matrix.hpp"
+#include "core/grid/masters.hpp"
 #include "core/grid/point_nodes.hpp"
 #include <algorithm>
 #include <cstring>
@@ -130,8 +131,13 @@ template <int Dim> SymmetricCsc MassMatrix<Dim>::reduced(const FreeDofs& dofs, i
 	for (int n = 0; n < nodes(); ++n)
 		if (dofs.number[Dim * n + axis] >= 0) number[n] = count++;
 	std::vector<std::vector<std::pair<int, double>>> columns(count);
+	const MastersOf                                  masters(nodes(), dofs.ties);
 	forEntries([&](int a, int b, int, double m) {
-		if (number[a] >= 0 && number[b] >= 0) columns[std::min(number[a], number[b])].emplace_back(std::max(number[a], number[b]), m);
+		masters.eachPair(a, b, [&](int p, int q, double part) {
+			if (number[p] < 0 || number[q] < 0 || (a == b && p < q)) return;
+			const double both = a != b && p == q ? 2 : 1; // what is on both sides of the diagonal
+			columns[std::min(number[p], number[q])].emplace_back(std::max(number[p], number[q]), both * part * m);
+		});
 	});
 	SymmetricCsc out;
 	out.start = { 0 };

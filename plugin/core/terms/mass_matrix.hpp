@@ -43,7 +43,7 @@ public:
 					f(a, neighbour_[place], code, value_[place]);
 	}
 
-	/// Rows and columns of the degrees of freedom that are free along an axis.
+	/// Rows and columns of the degrees of freedom that are free along an axis, with what is tied to them.
 	SymmetricCsc reduced(const FreeDofs&, int axis) const;
 
 private:

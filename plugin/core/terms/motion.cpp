@@ -88,6 +88,7 @@ Eigen::VectorXd weighedAtNodes(const CloudBasis<Dim>& basis, const std::vector<d
 	Eigen::VectorXd sum = Eigen::VectorXd::Zero(Dim * Eigen::Index(basis.nodes.size()));
 	addPointForces(basis, weighted, sum);
 	share.complete(sum);
+	basis.ties.template fold<Dim>(sum);
 	return sum;
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "core/terms/nodal_mass.hpp"
+#include "core/grid/masters.hpp"
 #include "core/grid/point_nodes.hpp"
 #include "core/solvers/node_blocks.hpp"
 #include <algorithm>
@@ -46,15 +47,18 @@ NodalMass<Dim>::NodalMass(
 	*this = NodalMass(mass);
 }
 
-template <int Dim> NodalMass<Dim>::NodalMass(const MassMatrix<Dim>& mass) : lumped_(mass.nodes(), 0)
+template <int Dim> NodalMass<Dim>::NodalMass(const MassMatrix<Dim>& mass, const Ties& ties) : lumped_(mass.nodes(), 0)
 {
+	const MastersOf masters(mass.nodes(), &ties);
 	auto& [value, first, neighbour, upper] = rows_;
 	first.assign(mass.nodes() + 1, 0);
 	const auto forBoth = [&](auto&& f) {
 		mass.forEntries([&](int a, int b, int, double m) {
-			f(a, b, m);
-			if (b != a) f(b, a, m);
+			masters.eachPair(a, b, [&](int p, int q, double part) { f(p, q, part * m); });
+			if (b != a) masters.eachPair(b, a, [&](int p, int q, double part) { f(p, q, part * m); });
 		});
+		for (const int node : ties.node)
+			f(node, node, 0);
 	};
 	forBoth([&counts = first](int a, int, double) { ++counts[a + 1]; });
 	std::partial_sum(first.begin(), first.end(), first.begin());
@@ -126,7 +130,8 @@ template <int Dim> typename NodalMass<Dim>::Start NodalMass<Dim>::start(const Si
 /// Each momentum weighed by its node's mass, m^-1/2: a small one of a light node counts too.
 template <int Dim> double NodalMass<Dim>::sizeOf(const Eigen::VectorXd& momenta) const
 {
-	return Eigen::VectorXd::NullaryExpr(momenta.size(), [&](Eigen::Index i) { return momenta[i] / std::sqrt(rows_.diagonal(int(i) / Dim)); }).stableNorm();
+	const auto weighed = [&](Eigen::Index i) { return momenta[i] == 0 ? 0 : momenta[i] / std::sqrt(rows_.diagonal(int(i) / Dim)); };
+	return Eigen::VectorXd::NullaryExpr(momenta.size(), weighed).stableNorm();
 }
 
 /// Along axes on which nothing is held momentum is right to round-off, whatever the tolerance: a rigid motion takes
@@ -134,7 +139,10 @@ template <int Dim> double NodalMass<Dim>::sizeOf(const Eigen::VectorXd& momenta)
 template <int Dim> void NodalMass<Dim>::keepMomentum(const Side& side, const Eigen::VectorXd* C) const
 {
 	Eigen::Map<const Eigen::Array<int, Dim, Eigen::Dynamic>> numbers(side.dofs.number.data(), Dim, rows_.nodes());
-	const Eigen::Array<bool, Dim, 1>                         isFree = (numbers >= 0).rowwise().all();
+	Eigen::Array<bool, Dim, Eigen::Dynamic>                  areFree = numbers >= 0;
+	for (std::size_t t = 0; side.dofs.ties && t < side.dofs.ties->node.size(); ++t)
+		areFree.col(side.dofs.ties->node[t]) = true;
+	const Eigen::Array<bool, Dim, 1> isFree = areFree.rowwise().all();
 	if (!isFree.any()) return;
 	const Eigen::VectorXd        left = rest(side, C);
 	Eigen::Array<double, Dim, 1> mass = Eigen::Array<double, Dim, 1>::Constant(std::accumulate(lumped_.begin(), lumped_.end(), 0.));

@@ -8,8 +8,15 @@
 
 namespace gimpm {
 
-/// All degrees of freedom, as of a body that nothing holds.
-inline FreeDofs allFree(Eigen::Index size) { return { std::vector<int>(size, 0), int(size) }; }
+/// All degrees of freedom, as of a body that nothing holds, but those of tied nodes.
+template <int Dim> FreeDofs allFree(Eigen::Index size, const Ties& ties)
+{
+	FreeDofs all { std::vector<int>(size, 0), int(size), ties.empty() ? nullptr : &ties };
+	for (const int node : ties.node)
+		for (int a = 0; a < Dim; ++a, --all.count)
+			all.number[Dim * node + a] = -1;
+	return all;
+}
 
 /// Consistent mass with ghost mass, for conjugate gradients: its condition number is bounded however little of a cell
 /// is filled (150 in 2D, 400 in 3D at a quarter of the density). Without ghost mass it has no bound, and the mass is
@@ -21,7 +28,9 @@ public:
 	NodalMass(
 	        const CloudBasis<Dim>&, const std::vector<double>& masses, const std::vector<GhostFace<Dim>>&, double h,
 	        const std::vector<LooseCell<Dim>>& loose = {}, const NodeShare& share = NodeShare::whole());
-	explicit NodalMass(const MassMatrix<Dim>&);
+	/// With ties it is P^T M P, where P gives all nodes from those that are not tied: the rows of tied nodes are
+	/// zero.
+	explicit NodalMass(const MassMatrix<Dim>&, const Ties& = {});
 
 	Eigen::VectorXd operator*(const Eigen::VectorXd& x) const; ///< for nodal vectors of Dim components a node
 

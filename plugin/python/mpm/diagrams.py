@@ -5,15 +5,15 @@ from yade import wrapper
 
 from .messages import brief
 
-_quantities = dict(axialForce='axialForces', shearForce='shearForces', moment='moments')
-_colours = dict(axialForce='tab:blue', shearForce='tab:green', moment='tab:red')
+_quantities = dict(axialForce='axialForces', shearForce='shearForces', moment='moments', hoopForce='hoopForces', hoopMoment='hoopMoments')
+_colours = dict(axialForce='tab:blue', shearForce='tab:green', moment='tab:red', hoopForce='tab:purple', hoopMoment='tab:orange')
 
 
 def diagram(line, quantity='moment', axes=None, size=None):
 	"""Draw a force or moment of a bar or beam in the plane across its deformed line, positive values to its left.
 
 	:param line: an ``MpmBeam`` or ``MpmReinforcement`` that has made a step
-	:param quantity: 'moment' [N m], 'shearForce' or 'axialForce' [N]; of a reinforcement there is 'axialForce' only
+	:param quantity: 'moment' [N m], 'shearForce' or 'axialForce' [N], and of a shell of revolution 'hoopForce' [N/m] and 'hoopMoment' [N m/m]; of a reinforcement there is 'axialForce' only
 	:param axes: those of matplotlib to draw in, as ``mpm.plot(...)`` returns them; may be left out for the current ones
 	:param size: length [m] of the largest value, > 0; may be left out: a sixth of the length of the line
 	:return: the axes
@@ -25,6 +25,7 @@ def diagram(line, quantity='moment', axes=None, size=None):
 	if quantity not in known: raise ValueError(f'diagram: quantity = {quantity!r} must be one of {known}')
 	if not len(line.vertices): raise ValueError('diagram: the line has made no step yet; run the scene first')
 	x, values = np.array(line.vertices)[:, :2], np.array(getattr(line, _quantities[quantity]))
+	if not len(values): raise ValueError(f'diagram: quantity = {quantity!r} is that of a shell of revolution, and the line is in the plane')
 	along = np.diff(x, axis=0)
 	length = np.linalg.norm(along, axis=1)
 	size = length.sum() / 6 if size is None else size
@@ -39,6 +40,6 @@ def diagram(line, quantity='moment', axes=None, size=None):
 	axes.plot(*x.T, color='black', linewidth=2, zorder=5)
 	largest = np.abs(values).argmax()
 	piece = min(largest, len(aside) - 1)
-	text = f'{values[largest] / 1e3:.4g} kN{" m" if quantity == "moment" else ""}'
+	text = f'{values[largest] / 1e3:.4g} kN{" m" if "oment" in quantity else ""}'
 	axes.annotate(text, x[largest] + offsets[piece, 0] * aside[piece], color=_colours[quantity], zorder=6)
 	return axes

@@ -10,8 +10,10 @@ class MpmBeam : public Exposed<MpmBeam, MpmCondition> {
 public:
 	Points                               line;
 	Real                                 axialStiffness = nan, bendingStiffness = nan; // must be given
+	Real                                 poisson       = 0;
 	Real                                 plasticMoment = inf;
 	Real                                 weight        = 0;
+	Real                                 prestress     = 0;
 	Points                               hinges;
 	string                               fixHead, fixFoot;
 	Vector3r                             headForce   = Vector3r::Zero();
@@ -24,14 +26,15 @@ public:
 	gimpm::LoadCurve::Knees              curve; // empty: that of the engine
 	// Results, which are also the state from which the next step goes on
 	vector<Vector3r> vertices;
-	vector<Real>     rotations, axialForces, shearForces, moments, pressures, leftPressures, rightPressures;
-	vector<Real>     lengths, elongations, bends, gaps, normals, shears, stuck;
+	vector<Real>     rotations, axialForces, shearForces, moments, hoopForces, hoopMoments, pressures, leftPressures, rightPressures;
+	vector<Real>     lengths, radii, slopes, elongations, bends, gaps, normals, shears, stuck;
 
 	YADE_API_NAME(MpmBeam)
 	static const char* doc()
 	{
-		return "A beam in the plane, by metre of thickness: sheet pile or slurry wall, footing, tunnel lining. A line of vertices that move and turn by "
-		       "themselves, pressed against the soil on one or both of its sides.\n\n"
+		return "A beam in the plane, by metre of thickness: sheet pile or slurry wall, footing, tunnel lining. With MpmGrid.axisymmetric a shell of "
+		       "revolution: round plate, shaft, silo, dome. A line of vertices that move and turn by themselves, pressed against the soil on one or "
+		       "both of its sides.\n\n"
 		       "Set first: *line*, *axialStiffness* [N], *bendingStiffness* [N m²]. Read *moments*, *shearForces*, *axialForces*. Page: "
 		       "plugin/docs/classes/MpmBeam.md.";
 	}
@@ -41,18 +44,25 @@ public:
 		v("line", &B::line, 0,
 		  "Points [m] of the beam as it is put in, from head to foot: two or more; without default. The last may be the first: a ring.",
 		  admitting("two or more points, each apart from the one before", isLine));
-		v("axialStiffness", &B::axialStiffness, 0, "EA [N] > 0, by metre of thickness; without default.", positive);
-		v("bendingStiffness", &B::bendingStiffness, 0, "EI [N m²] > 0, by metre of thickness; without default.", positive);
-		v("plasticMoment", &B::plasticMoment, 0, "Largest moment [N m] > 0; inf, the default: it does not yield.",
+		v("axialStiffness", &B::axialStiffness, 0,
+		  "EA [N] > 0, by metre of thickness; of a shell E t / (1 - *poisson* ²), t its thickness. Without default.", positive);
+		v("bendingStiffness", &B::bendingStiffness, 0, "EI [N m²] > 0, by metre of thickness; of a shell E t³ / 12 (1 - *poisson* ²). Without default.",
+		  positive);
+		v("poisson", &B::poisson, 0, "Of a shell of revolution: Poisson's ratio [-], from 0 to .5. A beam in the plane has none.",
+		  admitting("a number from 0 to 0.5", [](Real value) { return value >= 0 && value <= 0.5; }));
+		v("plasticMoment", &B::plasticMoment, 0, "Largest moment [N m] > 0; inf, the default: it does not yield. Not of a shell.",
 		  admitting("a number > 0 [N m], or inf", isPositiveOrInfinite));
-		v("weight", &B::weight, 0, "Weight by length [N/m] >= 0, along and with the factor of *MpmImplicitEngine.gravity*.", nonNegative);
+		v("weight", &B::weight, 0, "Weight by length [N/m], of a shell by area [N/m²], >= 0: along and with the factor of *MpmImplicitEngine.gravity*.",
+		  nonNegative);
+		v("prestress", &B::prestress, 0,
+		  "Axial force [N] that it has as it is put in, tension positive: of a tendon along it, or of a jack. Not of a shell.", finite);
 		v("hinges", &B::hinges, 0, "Hinges are at the vertices that are nearest to these places [m].",
 		  admitting("places of two or three numbers, all finite", arePoints));
 		v("fixHead", &B::fixHead, 0, "What of its first vertex is held: letters out of 'xyr', r for its rotation.",
 		  admitting("letters out of 'xyr'", areFixed));
 		v("fixFoot", &B::fixFoot, 0, "The same of its last vertex.", admitting("letters out of 'xyr'", areFixed));
-		v("headForce", &B::headForce, 0, "Force [N] on the first vertex at load factor 1.", finite);
-		v("headMoment", &B::headMoment, 0, "Moment [N m] on the first vertex at load factor 1, counterclockwise.", finite);
+		v("headForce", &B::headForce, 0, "Force [N] on the first vertex at load factor 1; on that of a shell the sum around its circle.", finite);
+		v("headMoment", &B::headMoment, 0, "Moment [N m] on the first vertex at load factor 1, counterclockwise; of a shell as *headForce*.", finite);
 		v("contraction", &B::contraction, 0,
 		  "Part [-] of the area in a ring that it loses at load factor 1, from 0 to below 1: the volume loss of a tunnel.",
 		  admitting("a number from 0 to below 1, as 0.02 for 2 %", [](Real value) { return value >= 0 && value < 1; }));
@@ -69,15 +79,22 @@ public:
 		  "Factor [-] of *headForce*, *headMoment*, *contraction*, as *MpmImplicitEngine.loadCurve*; empty, the default: that one.", curveOrNothing);
 		v("vertices", &B::vertices, readonly, "Where its vertices are now [m]; empty before the first step.", AnyValue());
 		v("rotations", &B::rotations, readonly, "How far each vertex has turned [rad], counterclockwise.", AnyValue());
-		v("axialForces", &B::axialForces, readonly, "N [N] between each vertex and the next one, tension positive.", AnyValue());
+		v("axialForces", &B::axialForces, readonly,
+		  "N [N] between each vertex and the next one, tension positive; of a shell these are by metre of its circles.", AnyValue());
 		v("shearForces", &B::shearForces, readonly, "Q [N] between each vertex and the next one: the slope of *moments* along the line.", AnyValue());
 		v("moments", &B::moments, readonly, "M [N m] at each vertex, positive where the line is bent to its left: its right side is stretched.",
 		  AnyValue());
+		v("hoopForces", &B::hoopForces, readonly,
+		  "Of a shell: N around its circles [N/m] in the middle between each vertex and the next one, tension positive.", AnyValue());
+		v("hoopMoments", &B::hoopMoments, readonly,
+		  "Of a shell: M [N m/m] that bends its circles, at each vertex, positive where these are bent to the left of the line.", AnyValue());
 		v("pressures", &B::pressures, readonly,
 		  "What it presses on the soil [Pa] at each vertex, positive to the left of the line: *leftPressures* less *rightPressures*.", AnyValue());
 		v("leftPressures", &B::leftPressures, readonly, "What it presses on the soil to the left of the line [Pa], at each vertex.", AnyValue());
 		v("rightPressures", &B::rightPressures, readonly, "What it presses on the soil to the right of the line [Pa], at each vertex.", AnyValue());
 		v("lengths", &B::lengths, hidden, "", AnyValue());
+		v("radii", &B::radii, hidden, "", AnyValue());
+		v("slopes", &B::slopes, hidden, "", AnyValue());
 		v("elongations", &B::elongations, hidden, "", AnyValue());
 		v("bends", &B::bends, hidden, "", AnyValue());
 		v("gaps", &B::gaps, hidden, "", AnyValue());
@@ -94,6 +111,7 @@ public:
 	Real        end(const Analysis&) const override;
 	void        requireFitting(const Analysis&, const string& name) const override;
 	string      needsOneBody(const string&) const override { return "a beam"; }
+	void        requireShell(const string& name) const;
 	void        tell(Rows&, const Analysis&, const Listed&) const override;
 	const char* picture() const override { return "loads"; }
 	void        draw(Picture&, const Analysis&, const Listed&) const override;

@@ -30,6 +30,9 @@ void MpmReinforcement::requireAdmissible() const
 void MpmReinforcement::requireFitting(const Analysis& analysis, const string& name) const
 {
 	requireStructuresFit(analysis, "MpmReinforcement", name);
+	if (analysis.grid->axisymmetric)
+		throw std::invalid_argument(
+		        name + ": MpmReinforcement cannot go with MpmGrid.axisymmetric, where a bar would be a cone. MpmBeam makes a shell there.");
 	if (friction > 0 && std::isnan(perimeter) && analysis.grid->dim == 3)
 		throw std::invalid_argument(name + ".perimeter [m] must be given with friction where the grid has dim=3.");
 	if (freeLength > 0 && !headPlate && pull == 0)

@@ -25,6 +25,8 @@ namespace {
 		beam.places        = inDimension<2>(from.vertices);
 		beam.turns         = from.rotations;
 		beam.length0       = from.lengths;
+		beam.radius0       = from.radii;
+		beam.slope0        = from.slopes;
 		beam.elongation    = from.elongations;
 		const size_t count = beam.places.size();
 		for (const size_t side : { 0, 1 }) {
@@ -33,6 +35,7 @@ namespace {
 		}
 		beam.isStuck.assign(from.stuck.begin(), from.stuck.end());
 		beam.axialForce = from.axialForces;
+		beam.shearForce = from.shearForces;
 		for (size_t i = 0; i < beam.length0.size(); ++i)
 			beam.bend.emplace_back(from.bends[2 * i], from.bends[2 * i + 1]);
 		beam.moments.assign(beam.length0.size(), Vec2::Zero());
@@ -43,7 +46,8 @@ namespace {
 	{
 		Beam beam;
 		beam.name          = name;
-		beam.section       = { from.axialStiffness, from.bendingStiffness };
+		beam.isShell       = grid.axisymmetric;
+		beam.section       = { from.axialStiffness, from.bendingStiffness, from.poisson };
 		beam.plasticMoment = from.plasticMoment;
 		beam.fixedHead     = MpmBeam::fixed(from.fixHead);
 		beam.fixedFoot     = MpmBeam::fixed(from.fixFoot);
@@ -51,10 +55,12 @@ namespace {
 		beam.adhesion      = from.adhesion;
 		beam.friction      = std::tan(from.friction);
 		beam.isClosed      = from.line.front() == from.line.back();
-		if (from.vertices.empty()) beam.begin(fineLine<2>(inDimension<2>(placesOf(from.line)), name, grid));
+		if (from.vertices.empty()) beam.begin(fineLine<2>(inDimension<2>(placesOf(from.line)), name, grid), from.prestress);
 		else if (from.stuck.size() != from.vertices.size())
 			throw std::invalid_argument(
 			        name + " has been saved by an older revision, which knew nothing of the two sides of its soil: run its script again.");
+		else if (grid.axisymmetric && from.radii.size() != from.vertices.size())
+			throw std::invalid_argument(name + " has made steps in the plane, and MpmGrid.axisymmetric is True now: make a new MpmBeam.");
 		else
 			goOn(beam, from);
 		for (const Vector3r& hinge : placesOf(from.hinges))
@@ -65,7 +71,6 @@ namespace {
 	// What nodes that are tied have not been shown to go with; empty: nothing.
 	string cannotPart(const Analysis& analysis)
 	{
-		if (analysis.isDynamic()) return "steps in time";
 		if (!analysis.grid->period.isZero(0)) return "MpmGrid.period";
 		if (!analysis.grid->refinements.empty()) return "cells of several sizes";
 		if (analysis.nonlocalLength > 0) return "nonlocalLength";
@@ -84,6 +89,8 @@ namespace {
 		to.vertices         = inSpace<2>(beam.places, placesOf(to.line).front()[2]);
 		to.rotations        = beam.turns;
 		to.lengths          = beam.length0;
+		to.radii            = beam.radius0;
+		to.slopes           = beam.slope0;
 		to.elongations      = beam.elongation;
 		to.stuck.assign(beam.isStuck.begin(), beam.isStuck.end());
 		to.gaps.clear(), to.normals.clear(), to.shears.clear();
@@ -93,17 +100,21 @@ namespace {
 			to.shears.insert(to.shears.end(), side.shearForce.begin(), side.shearForce.end());
 		}
 		to.axialForces = beam.axialForce;
-		to.bends.clear(), to.shearForces.clear(), to.moments.clear();
+		to.shearForces = beam.shearForce;
+		to.hoopForces  = beam.hoopForce;
+		to.bends.clear(), to.moments.clear(), to.hoopMoments.clear();
 		to.pressures.clear(), to.leftPressures.clear(), to.rightPressures.clear();
 		for (size_t i = 0; i < pieces; ++i) {
 			to.bends.push_back(beam.bend[i][0]), to.bends.push_back(beam.bend[i][1]);
-			to.shearForces.push_back(beam.moments[i].sum() / (beam.length0[i] + beam.elongation[i]));
 			to.moments.push_back(-beam.moments[i][0]);
 		}
 		to.moments.push_back(beam.moments.back()[1]);
+		for (const Vec2& hoop : beam.hoopMoment)
+			to.hoopMoments.push_back(hoop[0]);
+		if (beam.isShell) to.hoopMoments.push_back(beam.hoopMoment.back()[1]);
 		for (size_t v = 0; v <= pieces; ++v) {
-			to.leftPressures.push_back(beam.sides[0].normalForce[v] / beam.lengthAt(int(v)));
-			to.rightPressures.push_back(beam.sides[1].normalForce[v] / beam.lengthAt(int(v)));
+			to.leftPressures.push_back(beam.sides[0].normalForce[v] / beam.sizeAt(int(v)));
+			to.rightPressures.push_back(beam.sides[1].normalForce[v] / beam.sizeAt(int(v)));
 			to.pressures.push_back(to.leftPressures.back() - to.rightPressures.back());
 		}
 	}

@@ -8,9 +8,7 @@ namespace yade {
 void requireStructuresFit(const Analysis& analysis, const string& kind, const string& name)
 {
 	string what;
-	if (analysis.grid->axisymmetric) what = "MpmGrid.axisymmetric: a line around an axis would be a shell";
-	else if (analysis.isExplicit())
-		what = "explicit steps, which its stiffness would limit; use an implicit scheme";
+	if (analysis.isExplicit()) what = "explicit steps, which its stiffness would limit; use an implicit scheme";
 	else if (analysis.distributed)
 		what = "distributed=True: the soil around it is in several processes";
 	if (!what.empty()) throw std::invalid_argument(name + ": " + kind + " cannot go with " + what + ".");
