@@ -112,6 +112,30 @@ bool NorSand::solve(const Trial& trial, Vec4& x) const
 	return false;
 }
 
+/// The solution, wherever it is, by halving. Each ratio eta = Q / P from 0 to that of the trial is that of one flow: Q
+/// falls with the flow, to zero, and eta P is a convex function of it, so that they are equal once. With this flow the
+/// image pressure that eta and P have is more than it becomes at the trial's ratio, and less near 0.
+NorSand::Vec4 NorSand::between(const Trial& trial) const
+{
+	constexpr int halvings = 60;
+	const double  N = given_.curvature, M = given_.ratio, trialRatio = -3 * given_.shear * trial.shear / pressureAt(trial.volumetric);
+	double        low = 0, high = trialRatio;
+	Vec4          x;
+	for (int k = 0; k < halvings; ++k) {
+		const double eta   = (low + high) / 2;
+		double       least = 0, most = trial.shear;
+		for (int i = 0; i < halvings; ++i) {
+			x[2]                                                               = (least + most) / 2;
+			x[0]                                                               = trial.volumetric - x[2] * nonAssociated_ * (eta - M) / (1 - N);
+			x[1]                                                               = trial.shear - x[2];
+			(3 * given_.shear * x[1] > -eta * pressureAt(x[0]) ? least : most) = x[2];
+		}
+		x[3]                                           = imageAt(pressureAt(x[0]), eta);
+		(residual(trial, x).first[3] < 0 ? high : low) = eta; // as pressures are negative
+	}
+	return x;
+}
+
 NorSand::Flow NorSand::atTip(const Trial& trial) const
 {
 	// The whole deviator flows, and the image pressure with it; P follows from eta = 0.
@@ -142,6 +166,7 @@ NorSand::Flow NorSand::returned(const Trial& trial) const
 	if (!isSolved && eta < 0) {
 		if (const Flow tip = atTip(trial); !tip.isFailed) return tip;
 	}
+	if (!isSolved) x = between(trial), isSolved = solve(trial, x) && x[1] >= 0 && x[2] >= 0;
 	// From the yield surface to the trial in parts, each of which starts where the one before ended.
 	const double onSurface = std::min(trial.shear, std::max(0., -eta * p / (3 * given_.shear)));
 	for (int parts = 8; !isSolved && parts <= 512; parts *= 8) {

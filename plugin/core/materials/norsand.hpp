@@ -65,6 +65,7 @@ private:
 	double                imageAt(double pressure, double obliquity) const;
 	std::pair<Vec4, Mat4> residual(const Trial&, const Vec4& unknown) const;
 	bool                  solve(const Trial&, Vec4& unknown) const;
+	Vec4                  between(const Trial&) const;
 	Flow                  returned(const Trial&) const;
 	Flow                  atTip(const Trial&) const;
 	Response              respond(const Vec3& strain, TensorState&, double growth, bool flows) const;

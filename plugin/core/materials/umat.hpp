@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The interface of Abaqus' user materials (UMAT), for which many laws have been written.
 #pragma once
+#include "core/materials/user_law.hpp"
+#include <mutex>
 
 namespace gimpm {
 
@@ -13,5 +15,21 @@ using Umat = void (*)(
         const int* shears, const int* components, const int* states, const double* properties, const int* countOfProperties, const double* place,
         const double* turn, double* shorter, const double* size, const double* gradientBefore, const double* gradient, const int* element, const int* point,
         const int* layer, const int* section, const int* step, const int* increments, int lengthOfName);
+
+class UmatDoor : public UserDoor {
+public:
+	/// `first`: values of its state variables. `oneAtATime`, if any, lets only one thread call it at a time.
+	UmatDoor(Umat call, const std::vector<double>& parameters, const std::vector<double>& first, std::shared_ptr<std::mutex> oneAtATime);
+
+	UserState first() const override { return first_; }
+	bool      answer(const UserStep&, UserState&, Mat3& stress, Mandel& tangent) const override;
+
+private:
+	Umat                        call_;
+	std::vector<double>         parameters_; ///< and behind them numbers that are none, for a law that reads more
+	int                         count_;      ///< of parameters
+	UserState                   first_;
+	std::shared_ptr<std::mutex> oneAtATime_;
+};
 
 } // namespace gimpm

@@ -35,8 +35,10 @@ public:
 		v("tensileStrength", &MpmFrictionalMat::tensileStrength, 0, "Cut of tension [Pa] >= 0, of use below the apex c cot(phi); infinite: none.",
 		  admitting("a number >= 0 [Pa], finite or infinite", [](Real value) { return value >= 0; }));
 		v("power", &MpmFrictionalMat::power, 0,
-		  "Power [-] of the pressure with which moduli go, from 0, the default: they stay, to below 1; 0.5 of sand. *young* and *poisson* are then those under *referencePressure*.",
-		  admitting("a number from 0 to 1, 1 excluded", [](Real value) { return value >= 0 && value < 1; }));
+		  "Power [-] of the pressure with which moduli go, from 0, the default: they stay, to 0.99; 0.5 of sand. *young* and *poisson* are then those under *referencePressure*.",
+		  admitting("a number from 0 to 0.99: above that the strain from no stress on has no bound, and its digits are lost", [](Real value) {
+			  return value >= 0 && value <= 0.99;
+		  }));
 		v("referencePressure", &MpmFrictionalMat::referencePressure, 0,
 		  "Pressure [Pa] > 0, all around, to which *young* and *poisson* belong; of use with *power*.",
 		  admitting("a finite number > 0 [Pa], positive in compression", positive));

@@ -1,20 +1,39 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "engine/materials/MpmUserMat.hpp"
-#include "core/materials/user_law.hpp"
+#include "core/materials/umat.hpp"
 #include "engine/materials/law_of_class.hpp"
+#include "engine/materials/mfront_library.hpp"
 #include "yade_api/registration.hpp"
 #include <dlfcn.h>
 #include <map>
+#include <optional>
 
 namespace yade {
 
 namespace {
 	// One of each function, whoever calls it.
 	struct Opened {
-		gimpm::Umat                 call = nullptr;
-		std::shared_ptr<std::mutex> oneAtATime { new std::mutex };
-		string                      reason; // why there is none
+		gimpm::Umat                      umat = nullptr;
+		std::optional<MfrontDescription> mfront;
+		std::shared_ptr<std::mutex>      oneAtATime { new std::mutex };
+		string                           reason; // why there is none
+
+		bool isThere() const { return umat || mfront; }
 	};
+
+	// MFront's own names of interfaces.
+	constexpr const char *generic = "Generic", *asUmat = "Abaqus";
+
+	// Why a library that is open does not have the function as a UMAT.
+	string reasonOfNone(void* library, const string& path, const string& function)
+	{
+		const string behaviour = function.substr(0, function.rfind('_')); // MFront's functions end with the hypothesis
+		if (mfrontInterface(library, behaviour) == generic) return "of a law of MFront the name is asked, function = '" + behaviour + "'";
+		if (dlsym(library, function.c_str())) return "";
+		return "the library has no function of this name; `nm -D " + path
+		        + "` lists those that it has. Fortran writes small letters and an underscore behind them; a law of MFront, with its generic interface, "
+		          "has the name of its @Behaviour";
+	}
 
 	Opened open(const string& library, const string& function)
 	{
@@ -24,10 +43,16 @@ namespace {
 			opened.reason = string("the library cannot be opened (") + dlerror() + ")";
 			return opened;
 		}
-		opened.call = reinterpret_cast<gimpm::Umat>(dlsym(handle, function.c_str()));
-		if (!opened.call)
-			opened.reason = "the library has no function of this name; `nm -D " + library
-			        + "` lists those that it has. Fortran writes small letters and an underscore behind them";
+		const string interface = mfrontInterface(handle, function);
+		if (interface == generic) opened.mfront = describeMfront(handle, function);
+		else if (!interface.empty() && interface != asUmat)
+			opened.reason = "MFront has written it for the interface '"
+			        + interface + "': expected 'Generic' or 'Abaqus', as of mfront --interface=generic";
+		else {
+			opened.reason = reasonOfNone(handle, library, function);
+			if (opened.reason.empty()) opened.umat = reinterpret_cast<gimpm::Umat>(dlsym(handle, function.c_str()));
+		}
+		if (opened.mfront) opened.reason = opened.mfront->reason;
 		return opened;
 	}
 
@@ -38,19 +63,62 @@ namespace {
 		static std::map<std::pair<string, string>, Opened> all;
 		const std::scoped_lock                             lock(atWork);
 		Opened&                                            known = all[{ library, function }];
-		if (!known.call) known = open(library, function);
+		if (!known.isThere()) known = open(library, function);
 		return known;
+	}
+
+	std::shared_ptr<const gimpm::UserDoor> doorTo(const MpmUserMat& m)
+	{
+		const Opened& library    = opened(m.library, m.function);
+		const auto    oneAtATime = m.reentrant ? nullptr : library.oneAtATime;
+		if (!library.mfront || !library.reason.empty())
+			return std::make_shared<const gimpm::UmatDoor>(library.umat, m.parameters, m.stateVariables, oneAtATime);
+		const MfrontDescription& law = *library.mfront;
+		gimpm::MfrontGiven       given { law.call, m.parameters, law.variables, m.stateVariables, -1, law.external, m.density, oneAtATime };
+		given.first.resize(law.numbers(), 0);
+		for (size_t k = 0; k < law.variables.size(); ++k)
+			if (law.variableNames[k] == "ElasticStrain" && law.variables[k] == gimpm::MfrontGiven::Variable::tensor) given.elasticStrain = int(k);
+		return std::make_shared<const gimpm::MfrontDoor>(std::move(given));
 	}
 
 	gimpm::Law lawOfUser(const MpmUserMat& m)
 	{
-		const Opened&       door = opened(m.library, m.function);
-		gimpm::UserLawGiven given { door.call, gimpm::UserLawGiven::padded(m.parameters), m.stateVariables, gimpm::Hencky(m.young, m.poisson),
-			                    m.reentrant ? nullptr : door.oneAtATime };
-		const auto          shared = std::make_shared<const gimpm::UserLawGiven>(std::move(given));
-		if (m.stateVariables.empty()) return gimpm::UserLaw<0>(shared);
-		if (m.stateVariables.size() <= 6) return gimpm::UserLaw<6>(shared);
-		return gimpm::UserLaw<int(MpmUserMat::mostStates)>(shared);
+		const auto door   = std::const_pointer_cast<gimpm::UserDoor>(doorTo(m));
+		door->elastic     = gimpm::Hencky(m.young, m.poisson);
+		const int scalars = door->scalars(), fewest = 6;
+		switch (door->tensors()) { // room for as many numbers as a law may remember
+			case 0:
+				return scalars == 0         ? gimpm::Law(gimpm::UserLaw<0, 0>(door))
+				        : scalars <= fewest ? gimpm::Law(gimpm::UserLaw<0, 6>(door))
+				                            : gimpm::Law(gimpm::UserLaw<0, 20>(door));
+			case 1: return scalars <= fewest ? gimpm::Law(gimpm::UserLaw<1, 6>(door)) : gimpm::Law(gimpm::UserLaw<1, 14>(door));
+			case 2: return gimpm::UserLaw<2, 8>(door);
+			default: return gimpm::UserLaw<3, 2>(door);
+		}
+	}
+
+	string listOf(const vector<string>& names)
+	{
+		string list;
+		for (const string& name : names)
+			list += (list.empty() ? "" : ", ") + name;
+		return list;
+	}
+
+	void requireNumbers(const MpmUserMat& m, const MfrontDescription& law)
+	{
+		const string of = "of the law '" + m.function + "'";
+		if (m.parameters.size() != law.parameters.size())
+			throw std::invalid_argument(
+			        "MpmUserMat.parameters has " + std::to_string(m.parameters.size()) + " numbers: expected "
+			        + std::to_string(law.parameters.size()) + ", " + of + (law.parameters.empty() ? "." : ": " + listOf(law.parameters) + "."));
+		if (m.stateVariables.empty() || int(m.stateVariables.size()) == law.numbers()) return;
+		vector<string> names = law.variableNames;
+		for (size_t k = 0; k < names.size(); ++k)
+			if (law.variables[k] == gimpm::MfrontGiven::Variable::tensor) names[k] += " (xx, yy, zz, sqrt2 xy, sqrt2 xz, sqrt2 yz)";
+		throw std::invalid_argument(
+		        "MpmUserMat.stateVariables has " + std::to_string(m.stateVariables.size()) + " numbers: expected none, for zeros, or "
+		        + std::to_string(law.numbers()) + ", " + of + (names.empty() ? "." : ": " + listOf(names) + "."));
 	}
 }
 
@@ -61,8 +129,9 @@ void MpmUserMat::requireAdmissible() const
 		throw std::invalid_argument(
 		        "MpmUserMat.relaxationTime is not admitted: flow in time is a matter of the law itself, which is told the duration of a step.");
 	const Opened& door = opened(library, function);
-	if (!door.call)
+	if (!door.reason.empty())
 		throw std::invalid_argument("MpmUserMat: library = '" + library + "', function = '" + function + "' is not admitted: " + door.reason + ".");
+	if (door.mfront) requireNumbers(*this, *door.mfront);
 }
 
 static const RegisteredLaw<MpmUserMat> lawOfMpmUserMat(lawOfUser);

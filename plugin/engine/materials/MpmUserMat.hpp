@@ -17,8 +17,8 @@ public:
 	YADE_API_NAME(MpmUserMat)
 	static const char* doc()
 	{
-		return "A law of somebody else's, out of a library that is opened when it is needed: a user material by Abaqus' interface (UMAT), in Kirchhoff stress and logarithmic "
-		       "strain, by axes that turn with the material. *young* and *poisson* are of reference, for the stabilisation.\n\n"
+		return "A law of somebody else's, out of a library that is opened when it is needed: by MFront's generic interface, or a user material of Abaqus (UMAT), in Kirchhoff "
+		       "stress and logarithmic strain, by axes that turn with the material. *young* and *poisson* are of reference, for the stabilisation.\n\n"
 		       "Set first: *library*, *function*, *parameters*; then mpm.checkLaw, which compares its tangent with differences. Page: plugin/docs/classes/MpmUserMat.md.";
 	}
 	template <class V> static void attributes(V&& v)
@@ -26,14 +26,15 @@ public:
 		using M = MpmUserMat;
 		v("library", &M::library, 0, "Path of the shared library, as g++ -shared -fPIC or gfortran -shared -fPIC makes it; no default.",
 		  admitting("the path of a shared library; there is no default", [](const string& path) { return !path.empty(); }));
-		v("function", &M::function, 0, "Name of its function, as the library has it: in Fortran small letters and an underscore.",
+		v("function", &M::function, 0,
+		  "Name of its function, as the library has it: in Fortran small letters and an underscore; of MFront the name of the behaviour.",
 		  admitting("the name of a function of the library, as 'umat_'", [](const string& name) { return !name.empty(); }));
-		v("parameters", &M::parameters, 0, "Its material constants (PROPS), in its own units and order, finite.",
+		v("parameters", &M::parameters, 0, "Its material constants (PROPS, of MFront material properties), in its own units and order, finite.",
 		  admitting("finite numbers", [](const vector<Real>& all) {
 			  return std::all_of(all.begin(), all.end(), [](Real x) { return std::isfinite(x); });
 		  }));
 		v("stateVariables", &M::stateVariables, 0,
-		  "Values at first of its state variables (STATEV), as many as it has, at most 20: columns state1, state2 ... of mpm.arrays.",
+		  "Values at first of its state variables (STATEV), as many as it has, at most 20: columns state1, state2 ... of mpm.arrays. MFront's: none for zeros.",
 		  admitting("at most 20 finite numbers", [](const vector<Real>& all) {
 			  return all.size() <= mostStates && std::all_of(all.begin(), all.end(), [](Real x) { return std::isfinite(x); });
 		  }));

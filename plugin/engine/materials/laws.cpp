@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "engine/materials/laws.hpp"
 #include "core/materials/tensor_law.hpp"
+#include "core/materials/user_law.hpp"
 #include "core/solvers/least_squares.hpp"
 #include "engine/materials/law_of_class.hpp"
 #include "engine/materials/refusals.hpp"
@@ -67,9 +68,10 @@ vector<std::pair<const gimpm::InternalVariable*, Real>> initialInternalsOf(const
 }
 
 namespace {
-	void requireAnswer(bool failed)
+	void requireAnswer(bool failed, const string& words = "")
 	{
-		if (failed) throw std::invalid_argument("the law of the material has no stress for these strains.");
+		if (!failed) return;
+		throw std::invalid_argument("the law of the material has no stress for these strains" + (words.empty() ? "." : ". It says: " + words));
 	}
 
 	// Whether the law leaves the strain as it is: also of states on the yield surface, which it may return to it.
@@ -97,8 +99,9 @@ namespace {
 		gimpm::InternalColumns columns(gimpm::internalVariables.size());
 		gimpm::provideInternals(columns, { { law, 1 } }, 1);
 		gimpm::storeInternals(law, internals.data(), columns, 0);
+		gimpm::wordsOfUserLaw().clear();
 		const auto answer = law->respond({ {}, columns, 0 }, { strain, stretch, duration });
-		requireAnswer(answer.failed);
+		requireAnswer(answer.failed, gimpm::wordsOfUserLaw());
 		return answer;
 	}
 	gimpm::TensorAnswer respondInSpace(const gimpm::Material& material, const Matrix3r& strain, const vector<Real>& internals)

@@ -140,3 +140,100 @@ for e, most in (.9, 1.01), (.65, 1.6):
 	else: assert ratio.max() > 1.2 * critical and ratio[-1] < .9 * ratio.max() # dense sand has a peak
 '''
 	)
+
+
+ofMfront = setting + '''
+mfront = lambda **more: MpmUserMat(**{**elastic, 'library': os.environ['MFRONT'], 'function': 'VonMises', 'parameters': [20e6, .3, 30e3 * 1.5**.5], **more})
+'''
+
+
+@pytest.fixture(scope='module')
+def mfront(tmp_path_factory):
+	folder = tmp_path_factory.mktemp('mfront')
+	subprocess.run(['g++', '-O1', '-shared', '-fPIC', '-o', folder / 'laws.so', root / 'tests/mfront/laws.cpp'], check=True)
+	yade = Yade(folder)
+	yade.environment['UMAT'] = yade.environment['MFRONT'] = str(folder / 'laws.so')
+	return yade
+
+
+def test_a_law_by_the_generic_interface_of_mfront_answers_as_that_of_the_plugin(mfront):
+	"""It goes by its elastic strain, a tensor that turns, which follows from the stress at first. To the differences of increments and logarithmic strain where the axes turn."""
+	mfront(
+	        ofMfront + '''
+a, b = (mpm.elementTest(law, 'oedometer', -.02, steps=10, confiningPressure=10e3) for law in (own, mfront()))
+assert np.allclose(a['stress'], b['stress'], rtol=1e-9, atol=1e-6), (a['stress'][-1], b['stress'][-1])
+assert np.allclose(a['plasticStrain'], b['state1'], rtol=1e-9)
+found = mpm.checkLaw(mfront(), strain=5e-3, initialStress=(-10e3, -20e3, -15e3))
+assert found['tangentError'] < 1e-6 and found['stress'] < 1e-9, found
+results = []
+for law in own, mfront(), mfront(reentrant=True):
+	solver = pressed(law)
+	O.run(5, wait=True)
+	results.append((solver.iterations, mpm.arrays()))
+for iterations, data in results[1:]:
+	assert np.abs(data['stress'] - results[0][1]['stress']).max() < 1e-2 * 30e3
+	assert iterations <= results[0][0] + 2, (iterations, results[0][0])
+data = results[1][1]
+assert (data['state1'] > 0).any() and np.abs(data['stateTensor1XY']).max() > 1e-4
+'''
+	)
+
+
+def test_components_and_rows_are_those_of_mfront(mfront):
+	"""The dilation makes a shear stress along x and z, and no shear makes a pressure."""
+	mfront(
+	        ofMfront + '''
+law = mfront(function='Elastic', parameters=[20e6, .3, 5e6])
+assert mpm.checkLaw(law)['tangentError'] < 1e-6
+O.materials.append(law)
+law.label = 'soil'
+grid = MpmGrid(cellSize=1, dim=3)
+O.bodies.append(mpm.fill(pack.inAlignedBox((0, 0, 0), (1, 1, 1)), grid, 2, 'soil'))
+O.engines = [MpmImplicitEngine(grid=grid, boundaries=[MpmBoundary(max=(inf, 0, inf), fix='xyz'), MpmBoundary(min=(-inf, 1, -inf), fix='xyz', displacement=(0, -.01, 0))], verbosity=0)]
+O.dt = 1
+O.step()
+for F, stress, volume in zip(*(mpm.arrays()[name] for name in ('defGrad', 'stress', 'volume'))):
+	J = np.linalg.det(F)
+	assert abs(J * stress[0, 2] / (5e6 / 2**.5 * np.log(J)) - 1) < 1e-9 and abs(stress[1, 2]) < 1e-9 * abs(stress[0, 2]), (stress, J)
+'''
+	)
+
+
+def test_a_law_of_mfront_goes_on_after_a_restart_and_a_step_that_it_refuses(mfront):
+	said = mfront(
+	        ofMfront + '''
+pressed(mfront())
+O.run(2, wait=True)
+O.save('middle.yade.gz')
+O.run(3, wait=True)
+straight = mpm.arrays()
+O.load('middle.yade.gz')
+O.run(3, wait=True)
+assert all(values.tobytes() == straight[name].tobytes() for name, values in mpm.arrays().items())
+solver = pressed(mfront(), steps=1)
+solver.boundaries = [solver.boundaries[0], MpmBoundary(min=(-inf, 2, -inf), fix='xy', displacement=(0, -1.2, 0))] # a thousand times the strength, elastically
+before = mpm.arrays()['pos']
+try: O.step()
+except RuntimeError: assert (mpm.arrays()['pos'] == before).all()
+try: mpm.checkLaw(mfront(function='Elastic', parameters=[20e6, .3, 0]), strain=10)
+except ValueError as error: print(json.dumps(str(error)))
+'''
+	).result
+	assert said.endswith('It says: the strain is too large'), said
+
+
+def test_what_of_mfront_is_not_admitted_is_named(mfront):
+	names = dict(Old='3.4.3', Finite='small strain', Layered='orthotropic', Plane='Tridimensional', Wet='Humidity', Directed='Axis', Elsewhere='Castem')
+	names |= dict(VonMises_Tridimensional="function = 'VonMises'", VonMises3D='@Behaviour')
+	said = mfront(
+	        ofMfront + f'''
+def tried(**attributes):
+	try: mpm.checkLaw(mfront(**attributes))
+	except Exception as error: return str(error)
+	return 'no error'
+print(json.dumps([tried(function=name) for name in {list(names)}] + [tried(parameters=[1.]), tried(stateVariables=[1.])]))
+'''
+	).result
+	expected = [(word, ) for word in names.values()] + [('parameters', '3', 'YoungModulus, PoissonRatio, YieldStress'), ('stateVariables', '7', 'EquivalentPlasticStrain, ElasticStrain (xx')]
+	for text, words in zip(said, expected):
+		assert all(word in text for word in words), (text, words)

@@ -33,7 +33,7 @@ outOfRange = {
         'MpmFrictionalMat.frictionAngle': ['-0.1', '30.', '1.5708'],
         'MpmFrictionalMat.dilationAngle': ['-0.1', '10.', '1.5708'],
         'MpmFrictionalMat.tensileStrength': ['-1.'],
-        'MpmFrictionalMat.power': ['-0.1', '1.'],
+        'MpmFrictionalMat.power': ['-0.1', '.999'],
         'MpmFrictionalMat.referencePressure': ['0.', '-1.'],
         'MpmDruckerPragerMat.match': ['"plane strain"', '"tension"'],
         'MpmDruckerPragerMat.viscosity': ['-1.'],

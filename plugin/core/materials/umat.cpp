@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "core/materials/umat.hpp"
+#include <cstring>
+
+namespace gimpm {
+namespace {
+
+constexpr int rowOf(int i) { return i < 3 ? i : i == 5 ? 1 : 0; }
+constexpr int columnOf(int i) { return i < 3 ? i : i == 3 ? 1 : 2; }
+constexpr int mandelOf(int i) { return i < 4 ? i : 9 - i; }
+
+void toUmat(const Mat3& tensor, double ofShear, double (&numbers)[6])
+{
+	for (int i = 0; i < 6; ++i)
+		numbers[i] = (i < 3 ? 1 : ofShear) * tensor(rowOf(i), columnOf(i));
+}
+
+} // namespace
+
+UmatDoor::UmatDoor(Umat call, const std::vector<double>& parameters, const std::vector<double>& first, std::shared_ptr<std::mutex> oneAtATime)
+        : UserDoor(0, int(first.size())), call_(call), parameters_(parameters), count_(int(parameters.size())), oneAtATime_(std::move(oneAtATime))
+{
+	parameters_.resize(parameters.size() + UserState::beyond, std::numeric_limits<double>::quiet_NaN());
+	std::copy(first.begin(), first.end(), first_.scalars.begin());
+}
+
+bool UmatDoor::answer(const UserStep& step, UserState& state, Mat3& stress, Mandel& tangent) const
+{
+	// What is no part of this interface here: temperatures, fields, places, and the names of elements and steps.
+	constexpr double still[9] = { 1, 0, 0, 0, 1, 0, 0, 0, 1 }, place[3] = {}, none = 0, time[2] = {}, size = 1;
+	constexpr int    direct = 3, shears = 3, components = 6, one = 1;
+	char             name[80];
+	std::memset(name, ' ', sizeof name);
+	const int states    = scalars();
+	double    energy[3] = {}, heat = 0, byTemperature[6] = {}, heatByStrain[6] = {}, heatByTemperature = 0, shorter = 1;
+	double    t[6], strain[6], increment[6], stiffness[36] = {};
+	toUmat(step.stress, 1, t), toUmat(step.strain, 2, strain), toUmat(step.increment, 2, increment);
+	{
+		std::unique_lock<std::mutex> lock;
+		if (oneAtATime_) lock = std::unique_lock(*oneAtATime_);
+		call_(t, state.scalars.data(), stiffness, energy, energy + 1, energy + 2, &heat, byTemperature, heatByStrain, &heatByTemperature, strain,
+		      increment, time, &step.duration, &none, &none, &none, &none, name, &direct, &shears, &components, &states, parameters_.data(), &count_,
+		      place, still, &shorter, &size, still, still, &one, &one, &one, &one, &one, &one, int(sizeof name));
+	}
+	for (int i = 0; i < 6; ++i) {
+		stress(rowOf(i), columnOf(i)) = stress(columnOf(i), rowOf(i)) = t[i];
+		for (int j = 0; j < 6; ++j) // of Mandel's numbers by each other
+			tangent(mandelOf(i), mandelOf(j)) = (i < 3 ? 1 : std::sqrt(2.)) * (j < 3 ? 1 : std::sqrt(2.)) * stiffness[i + 6 * j];
+	}
+	return shorter >= 1;
+}
+
+} // namespace gimpm
