@@ -10,6 +10,12 @@ namespace gimpm {
 /// How long sides of pieces may be, over the size of a cell: in space legs of half a cell, as there are many.
 template <int Dim> constexpr double pieceLimitOfBodies = Dim == 2 ? pieceLimit : 0.75;
 
+/// What a place may get behind the surface of another body, over the size of a cell.
+constexpr double deepestInBodies = 0.25;
+
+/// How far pieces are looked for, over the size of a cell.
+constexpr double reachOfBodies = 0.5;
+
 /// A body of points that others may meet.
 template <int Dim> struct MeetingBody {
 	std::string  name;
@@ -57,7 +63,8 @@ public:
 	void                        markCouplings(Couplings&) const override;
 	std::optional<PointFailure> addCoupled(const State&, const FieldSum<Dim>&) const override;
 	void                        addCoupledBefore(const State&, const FieldSum<Dim>&) const override;
-	bool                        isSymmetric() const override;
+	bool                        isSymmetric() const override { return !isExact_; }
+	bool                        makeExact() override;
 	std::string                 obstacle() const override { return obstacle_; }
 	void                        restrain(const typename Term<Dim>::Hold&) const override;
 	void                        restrainAt(const Eigen::VectorXd& d, const typename Term<Dim>::Hold&) const override;
@@ -111,8 +118,9 @@ private:
 	PairPlaces<Dim>         pair(const Vec<Dim>& place, int body, int piece, const Places&) const;
 	PairPlaces<Dim>         pairNow(const Place&, const Near&, const Eigen::VectorXd& d, const Places&) const;
 	const Near*             nearestOf(const Place&, const Eigen::VectorXd* d, const Places&) const;
+	bool                    isRough() const;
 	bool                    goesOn(const Place&, const Eigen::VectorXd& d, const Places&) const;
-	template <class F> void forTouching(const Eigen::VectorXd& d, bool withSlope, F&& f) const; ///< f(Touching)
+	template <class F> void forTouching(const Eigen::VectorXd& d, PairSlope, F&& f) const; ///< f(Touching)
 	std::vector<PairNode>   nodesOf(const Place&, const Near&) const;
 	void                    add(const Eigen::VectorXd& d, double weight, Eigen::VectorXd& force, Eigen::VectorXd* sizes, Couplings*) const;
 	void                    holdAt(const Touching&, bool sticks, const typename Term<Dim>::Hold&) const;
@@ -124,6 +132,7 @@ private:
 	BodyContacts<Dim>&       system_;
 	const double             cellSize_, tolerance_, reach_; // tolerance: of a gap that counts as touching; reach: of the search [m]
 	const bool               isRing_;
+	bool                     isExact_ = false; // derivatives are those of the forces
 	const Eigen::Index       unknowns_;
 	std::vector<Facets<Dim>> facets_; // of the bodies
 	Places                   start_;

@@ -238,13 +238,20 @@ template <int Dim> void Inertia<Dim>::addRoundOff(const Eigen::VectorXd& d, Eige
 	if (extent_) sizes += factor * extent_->sizesTimes(moved);
 }
 
+/// Bodies that meet might move far into each other by themselves, and what touches as the step begins would not be what
+/// touches at its end. Where that would take larger forces than to stop all nodes they stay where they are.
 template <int Dim> Eigen::VectorXd Inertia<Dim>::ownMotion() const
 {
 	const double    T = motion_.duration;
 	Eigen::VectorXd d = T * velocity_ + T * T / 2 * expected_;
 	for (Eigen::Index i = 0; i < d.size(); ++i)
 		if (isHeld(i)) d[i] = prescribed_[i];
-	return d;
+	if (!motion_.bodies || !motion_.bodies->acting) return d;
+	Eigen::VectorXd contact = Eigen::VectorXd::Zero(d.size()), stopping = nodal_ * accelerationAt(prescribed_);
+	motion_.bodies->acting->addUnweighted(&d, contact);
+	for (Eigen::Index i = 0; i < d.size(); ++i)
+		if (isHeld(i)) contact[i] = stopping[i] = 0;
+	return contact.norm() > stopping.norm() ? prescribed_ : d;
 }
 
 template <int Dim> void Inertia<Dim>::restrain(const typename Term<Dim>::Hold& hold) const

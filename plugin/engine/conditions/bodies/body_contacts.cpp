@@ -123,6 +123,7 @@ template <int Dim> gimpm::BodyMeeting<Dim> MeetingBodies<Dim>::coreMeeting(const
 	meeting.friction  = std::tan(contact.friction);
 	meeting.adhesion  = contact.adhesion;
 	meeting.stiffness = contact.stiffness;
+	meeting.touching = contact.touching, meeting.slipping = contact.slipping;
 	if (contact.shears.size() != system->bodies[meeting.slave].surface.pieces.size()) return meeting;
 	meeting.pressure = contact.pressures;
 	for (const Vector3r& shear : contact.shears)
