@@ -9,10 +9,6 @@
 namespace gimpm {
 namespace {
 
-/// The penalty on the gap over that on the slip. What sticks then slides as if a layer of some tenths of a cell lay
-/// between the bodies.
-constexpr double slipSoftnessOfBodies = 4;
-
 /// Pieces are seen by places with a normal at more than some 80 degrees from theirs.
 constexpr double facing = 0.2;
 
@@ -53,7 +49,6 @@ template <int Dim> PairPlaces<Dim> BodyContact<Dim>::pairNow(const Place& place,
 /// place is least. Without displacements as the step begins.
 template <int Dim> auto BodyContact<Dim>::nearestOf(const Place& place, const Eigen::VectorXd* d, const Places& places) const -> const Near*
 {
-	if (d && place.first && goesOn(place, *d, places)) return place.first;
 	const int    master = meetingOf(place).master;
 	const double same   = 1e-12 * cellSize_ * cellSize_;
 	double       least = std::numeric_limits<double>::infinity(), gap = 0;
@@ -67,7 +62,8 @@ template <int Dim> auto BodyContact<Dim>::nearestOf(const Place& place, const Ei
 		if (away > least - same && at.gap < gap) continue;
 		least = std::min(least, away), gap = at.gap, nearest = &near, normal = at.normal;
 	}
-	return nearest && normal.dot(place.normal) < facing ? nearest : nullptr;
+	if (!nearest || normal.dot(place.normal) >= facing) return nullptr;
+	return d && place.first && goesOn(place, *d, places) ? place.first : nearest;
 }
 
 /// With the piece that was nearest as the step began, and with the plane of it a little beyond its sides: pressures
@@ -76,13 +72,12 @@ template <int Dim> auto BodyContact<Dim>::nearestOf(const Place& place, const Ei
 template <int Dim> bool BodyContact<Dim>::goesOn(const Place& place, const Eigen::VectorXd& d, const Places& now) const
 {
 	const Facing<Dim> at(pairNow(place, *place.first, d, now));
-	if (at.normal.dot(place.normal) >= facing) return false;
 	for (int i = 0; i < Dim; ++i)
 		if (at.weight[i] < -beyondPiece * cellSize_ * at.slope[i].norm()) return false;
 	return true;
 }
 
-template <int Dim> template <class F> void BodyContact<Dim>::forTouching(const Eigen::VectorXd& d, PairSlope slope, F&& f) const
+template <int Dim> void BodyContact<Dim>::forTouching(const Eigen::VectorXd& d, PairSlope slope, const std::function<void(const Touching&)>& f) const
 {
 	if (places_.empty()) return;
 	const Places now = placesAt(d);
@@ -93,21 +88,21 @@ template <int Dim> template <class F> void BodyContact<Dim>::forTouching(const E
 		const double          penalty = penaltyOf(place);
 		const ContactLaw<Dim> law { penalty, penalty / slipSoftnessOfBodies, meeting.friction, meeting.adhesion * place.area };
 		const auto            start = pair(place.start, meeting.master, near->piece, start_), end = pairNow(place, *near, d, now);
-		if (const auto force = pairForce<Dim>(law, start, place.shear, end, place.closed, tolerance_, slope))
-			f(Touching { place, *near, *force, end });
+		if (const auto force = pairForce<Dim>(law, start, place.shear, end, place.closed, tolerance_, slope)) f(Touching { place, *near, *force, end });
 	}
 }
 
 template <int Dim> auto BodyContact<Dim>::nodesOf(const Place& place, const Near& near) const -> std::vector<PairNode>
 {
 	std::vector<PairNode> nodes;
-	const auto            add = [&](const Attachment<Dim>& at, int i, double part) {
-                for (int n = 0; n < at.nodes; ++n) {
-                        if (at.weight[n] == 0) continue;
-                        auto known = std::find_if(nodes.begin(), nodes.end(), [&](const PairNode& other) { return other.node == at.node[n]; });
-                        if (known == nodes.end()) known = nodes.insert(nodes.end(), PairNode { at.node[n], {} });
-                        known->weight[i] += part * at.weight[n];
-                }
+	nodes.reserve(4 << Dim);
+	const auto add = [&](const Attachment<Dim>& at, int i, double part) {
+		for (int n = 0; n < at.nodes; ++n) {
+			if (at.weight[n] == 0) continue;
+			auto known = std::find_if(nodes.begin(), nodes.end(), [&](const PairNode& other) { return other.node == at.node[n]; });
+			if (known == nodes.end()) known = nodes.insert(nodes.end(), PairNode { at.node[n], {} });
+			known->weight[i] += part * at.weight[n];
+		}
 	};
 	const auto& master = facets_[meetingOf(place).master];
 	add(place.at, 0, 1);

@@ -4,6 +4,7 @@
 #include "core/terms/body_pair.hpp"
 #include "core/terms/coupled_term.hpp"
 #include "core/terms/facets.hpp"
+#include <functional>
 
 namespace gimpm {
 
@@ -12,6 +13,10 @@ template <int Dim> constexpr double pieceLimitOfBodies = Dim == 2 ? pieceLimit :
 
 /// What a place may get behind the surface of another body, over the size of a cell.
 constexpr double deepestInBodies = 0.25;
+
+/// The penalty on the gap over that on the slip. What sticks then slides as if a layer of some tenths of a cell lay
+/// between the bodies.
+constexpr double slipSoftnessOfBodies = 4;
 
 /// How far pieces are looked for, over the size of a cell.
 constexpr double reachOfBodies = 0.5;
@@ -47,9 +52,15 @@ template <int Dim> class BodyContact;
 template <int Dim> struct BodyContacts {
 	std::vector<MeetingBody<Dim>> bodies;
 	std::vector<BodyMeeting<Dim>> meetings;
-	double                        work   = 0;  ///< on the bodies in the last step that was accepted, with the forces at its end [J]
-	double                        weight = 1;  ///< with which forces enter the balance of a step in time (core/terms/time_scheme.hpp)
-	const BodyContact<Dim>*       acting = {}; ///< the term of the step that is being made
+	double                        work   = 0; ///< on the bodies in the last step that was accepted [J]
+	double                        weight = 1; ///< with which forces enter the balance of a step in time (core/terms/time_scheme.hpp)
+	/// In explicit steps the forces of both ends act, half of the step each; else those at its end.
+	bool actsAtBothEnds = false;
+	/// Of a step in time: energy that has come into the system before it [J]; infinite: nobody asks for what
+	/// contact gives.
+	double                  energy = std::numeric_limits<double>::infinity();
+	double                  given  = 0;  ///< work in that step beyond what contact had stored [J]
+	const BodyContact<Dim>* acting = {}; ///< the term of the step that is being made
 };
 
 /// Places on the surface of a slave against the nearest piece of the master's surface that faces them, wherever the
@@ -120,11 +131,14 @@ private:
 	const Near*             nearestOf(const Place&, const Eigen::VectorXd* d, const Places&) const;
 	bool                    isRough() const;
 	bool                    goesOn(const Place&, const Eigen::VectorXd& d, const Places&) const;
-	template <class F> void forTouching(const Eigen::VectorXd& d, PairSlope, F&& f) const; ///< f(Touching)
+	void                    forTouching(const Eigen::VectorXd& d, PairSlope, const std::function<void(const Touching&)>&) const;
 	std::vector<PairNode>   nodesOf(const Place&, const Near&) const;
 	void                    add(const Eigen::VectorXd& d, double weight, Eigen::VectorXd& force, Eigen::VectorXd* sizes, Couplings*) const;
 	void                    holdAt(const Touching&, bool sticks, const typename Term<Dim>::Hold&) const;
 	void                    moveSurfaces(const Places& now);
+	double                  work(const Eigen::VectorXd& d) const;
+	double                  given(const Eigen::VectorXd& d) const;
+	Refusal                 refusalOfEnergy(const Eigen::VectorXd& d) const;
 	double                  approach(const BodyMeeting<Dim>&, const Places& now) const;
 	const BodyMeeting<Dim>& meetingOf(const Place& place) const { return system_.meetings[place.meeting]; }
 	double                  penaltyOf(const Place& place) const { return meetingOf(place).stiffness * place.young * place.area / cellSize_; } ///< [N/m]

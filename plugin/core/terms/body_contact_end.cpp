@@ -4,8 +4,49 @@
 #include "core/terms/body_contact.hpp"
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 
 namespace gimpm {
+namespace {
+
+/// What contact may give in a step of nothing, over all energy that has come in.
+constexpr double mostGiven = 1e-3;
+
+} // namespace
+
+/// Of the places as the nodes move them.
+template <int Dim> double BodyContact<Dim>::work(const Eigen::VectorXd& d) const
+{
+	Eigen::VectorXd resistance = Eigen::VectorXd::Zero(d.size());
+	addUnweighted(&d, resistance);
+	if (!system_.actsAtBothEnds) return -resistance.dot(d);
+	addUnweighted(nullptr, resistance);
+	return -resistance.dot(d) / 2;
+}
+
+/// Work beyond what the springs had stored. As their energy is convex in the gap, it is not above zero where a place
+/// stays before one plane that does not turn.
+template <int Dim> double BodyContact<Dim>::given(const Eigen::VectorXd& d) const
+{
+	const auto stored = [this](const Place& place, double pressure, const Vec<Dim>& shear) {
+		return (pressure * pressure + slipSoftnessOfBodies * shear.squaredNorm()) / (2 * penaltyOf(place));
+	};
+	double sum = work(d);
+	for (const Place& place : places_)
+		if (place.first) sum -= stored(place, place.pressure, place.shear);
+	forTouching(d, PairSlope::none, [&](const Touching& now) { sum += stored(now.place, now.force.pressure, now.force.shear); });
+	return sum;
+}
+
+template <int Dim> Refusal BodyContact<Dim>::refusalOfEnergy(const Eigen::VectorXd& d) const
+{
+	if (!std::isfinite(system_.energy) || system_.actsAtBothEnds) return {};
+	const double found = given(d);
+	if (found <= mostGiven * system_.energy) return {};
+	return { Failure::gainsEnergy,
+		 sentence("contact of bodies of points would give ", found, " J that it had not stored, of ", system_.energy, " J that have come in"),
+		 "Smaller steps (O.dt) make it less." };
+}
 
 /// How far vertices of the two may have moved towards each other.
 template <int Dim> double BodyContact<Dim>::approach(const BodyMeeting<Dim>& meeting, const Places& now) const
@@ -48,7 +89,7 @@ template <int Dim> Refusal BodyContact<Dim>::refusal(const Eigen::VectorXd& d) c
 			                        "', at (", touching.now[0].transpose(), ")"),
 			                advice };
 	});
-	return refusal;
+	return refusal.cause.empty() ? refusalOfEnergy(d) : refusal;
 }
 
 /// Stresses of a piece are the means over its places.
@@ -64,12 +105,12 @@ template <int Dim> void BodyContact<Dim>::commit(const Eigen::VectorXd& d)
 	}
 	for (const Place& place : places_)
 		area[place.meeting][facets_[meetingOf(place).slave].whole[place.piece]] += place.area;
-	system_.work = 0;
+	system_.work  = work(d);
+	system_.given = std::isfinite(system_.energy) && !system_.actsAtBothEnds ? given(d) : 0;
 	forTouching(d, PairSlope::none, [&](const Touching& touching) {
 		const auto& [place, near, force, at] = touching;
-		auto&      meeting                   = system_.meetings[place.meeting];
-		const int  whole                     = facets_[meeting.slave].whole[place.piece];
-		const auto start                     = pair(place.start, meeting.master, near.piece, start_);
+		auto&     meeting                    = system_.meetings[place.meeting];
+		const int whole                      = facets_[meeting.slave].whole[place.piece];
 		meeting.shear[whole] += force.shear / area[place.meeting][whole];
 		meeting.pressure[whole] += force.pressure / area[place.meeting][whole];
 		meeting.force += force.force[0];
@@ -77,8 +118,6 @@ template <int Dim> void BodyContact<Dim>::commit(const Eigen::VectorXd& d)
 		arm.template head<Dim>() = at[0], f.template head<Dim>() = force.force[0];
 		meeting.moment += arm.cross(f);
 		meeting.touching += 1, meeting.slipping += force.slips;
-		for (int i = 0; i <= Dim; ++i)
-			system_.work += force.force[i].dot(at[i] - start[i]);
 	});
 	moveSurfaces(now);
 }

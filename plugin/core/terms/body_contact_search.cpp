@@ -51,7 +51,7 @@ BodyContact<Dim>::BodyContact(BodyContacts<Dim>& system, const Beginning<Dim>& s
         , unknowns_(Dim * Eigen::Index(step.basis.nodes.size()))
 {
 	system.acting = this;
-	isExact_      = isRough() && std::any_of(system.meetings.begin(), system.meetings.end(), [](const auto& m) { return m.slipping > manySlip * m.touching; });
+	isExact_ = isRough() && std::any_of(system.meetings.begin(), system.meetings.end(), [](const auto& m) { return m.slipping > manySlip * m.touching; });
 	for (const auto& body : system.bodies) {
 		facets_.emplace_back(body.surface, step.basis, step.grid, body.layer);
 		start_.push_back(facets_.back().start);

@@ -50,7 +50,6 @@ template <int Dim> struct PairForce {
 /// not pressed counts in the derivative as one that sticks: a body that only touches is held.
 template <int Dim>
 std::optional<PairForce<Dim>> pairForce(
-        const ContactLaw<Dim>&, const PairPlaces<Dim>& start, const Vec<Dim>& shear, const PairPlaces<Dim>& now, double closed, double tolerance,
-        PairSlope);
+        const ContactLaw<Dim>&, const PairPlaces<Dim>& start, const Vec<Dim>& shear, const PairPlaces<Dim>& now, double closed, double tolerance, PairSlope);
 
 } // namespace gimpm
