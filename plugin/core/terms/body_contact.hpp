@@ -4,11 +4,22 @@
 #include "core/terms/body_pair.hpp"
 #include "core/terms/coupled_term.hpp"
 #include "core/terms/facets.hpp"
+#include <functional>
 
 namespace gimpm {
 
 /// How long sides of pieces may be, over the size of a cell: in space legs of half a cell, as there are many.
 template <int Dim> constexpr double pieceLimitOfBodies = Dim == 2 ? pieceLimit : 0.75;
+
+/// What a place may get behind the surface of another body, over the size of a cell.
+constexpr double deepestInBodies = 0.25;
+
+/// The penalty on the gap over that on the slip. What sticks then slides as if a layer of some tenths of a cell lay
+/// between the bodies.
+constexpr double slipSoftnessOfBodies = 4;
+
+/// How far pieces are looked for, over the size of a cell.
+constexpr double reachOfBodies = 0.5;
 
 /// A body of points that others may meet.
 template <int Dim> struct MeetingBody {
@@ -41,9 +52,15 @@ template <int Dim> class BodyContact;
 template <int Dim> struct BodyContacts {
 	std::vector<MeetingBody<Dim>> bodies;
 	std::vector<BodyMeeting<Dim>> meetings;
-	double                        work   = 0;  ///< on the bodies in the last step that was accepted, with the forces at its end [J]
-	double                        weight = 1;  ///< with which forces enter the balance of a step in time (core/terms/time_scheme.hpp)
-	const BodyContact<Dim>*       acting = {}; ///< the term of the step that is being made
+	double                        work   = 0; ///< on the bodies in the last step that was accepted [J]
+	double                        weight = 1; ///< with which forces enter the balance of a step in time (core/terms/time_scheme.hpp)
+	/// In explicit steps the forces of both ends act, half of the step each; else those at its end.
+	bool actsAtBothEnds = false;
+	/// Of a step in time: energy that has come into the system before it [J]; infinite: nobody asks for what
+	/// contact gives.
+	double                  energy = std::numeric_limits<double>::infinity();
+	double                  given  = 0;  ///< work in that step beyond what contact had stored [J]
+	const BodyContact<Dim>* acting = {}; ///< the term of the step that is being made
 };
 
 /// Places on the surface of a slave against the nearest piece of the master's surface that faces them, wherever the
@@ -57,7 +74,8 @@ public:
 	void                        markCouplings(Couplings&) const override;
 	std::optional<PointFailure> addCoupled(const State&, const FieldSum<Dim>&) const override;
 	void                        addCoupledBefore(const State&, const FieldSum<Dim>&) const override;
-	bool                        isSymmetric() const override;
+	bool                        isSymmetric() const override { return !isExact_; }
+	bool                        makeExact() override;
 	std::string                 obstacle() const override { return obstacle_; }
 	void                        restrain(const typename Term<Dim>::Hold&) const override;
 	void                        restrainAt(const Eigen::VectorXd& d, const typename Term<Dim>::Hold&) const override;
@@ -111,12 +129,16 @@ private:
 	PairPlaces<Dim>         pair(const Vec<Dim>& place, int body, int piece, const Places&) const;
 	PairPlaces<Dim>         pairNow(const Place&, const Near&, const Eigen::VectorXd& d, const Places&) const;
 	const Near*             nearestOf(const Place&, const Eigen::VectorXd* d, const Places&) const;
+	bool                    isRough() const;
 	bool                    goesOn(const Place&, const Eigen::VectorXd& d, const Places&) const;
-	template <class F> void forTouching(const Eigen::VectorXd& d, bool withSlope, F&& f) const; ///< f(Touching)
+	void                    forTouching(const Eigen::VectorXd& d, PairSlope, const std::function<void(const Touching&)>&) const;
 	std::vector<PairNode>   nodesOf(const Place&, const Near&) const;
 	void                    add(const Eigen::VectorXd& d, double weight, Eigen::VectorXd& force, Eigen::VectorXd* sizes, Couplings*) const;
 	void                    holdAt(const Touching&, bool sticks, const typename Term<Dim>::Hold&) const;
 	void                    moveSurfaces(const Places& now);
+	double                  work(const Eigen::VectorXd& d) const;
+	double                  given(const Eigen::VectorXd& d) const;
+	Refusal                 refusalOfEnergy(const Eigen::VectorXd& d) const;
 	double                  approach(const BodyMeeting<Dim>&, const Places& now) const;
 	const BodyMeeting<Dim>& meetingOf(const Place& place) const { return system_.meetings[place.meeting]; }
 	double                  penaltyOf(const Place& place) const { return meetingOf(place).stiffness * place.young * place.area / cellSize_; } ///< [N/m]
@@ -124,6 +146,7 @@ private:
 	BodyContacts<Dim>&       system_;
 	const double             cellSize_, tolerance_, reach_; // tolerance: of a gap that counts as touching; reach: of the search [m]
 	const bool               isRing_;
+	bool                     isExact_ = false; // derivatives are those of the forces
 	const Eigen::Index       unknowns_;
 	std::vector<Facets<Dim>> facets_; // of the bodies
 	Places                   start_;

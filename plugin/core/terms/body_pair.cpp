@@ -15,6 +15,13 @@ template <int Dim> Vec<Dim> normalOf(const PairPlaces<Dim>& x)
 		return pieceNormal(x[1], x[2], x[3]).normalized();
 }
 
+template <int Dim> double squaredDistance(const Vec<Dim>& x, const Vec<Dim>& a, const Vec<Dim>& b)
+{
+	const Vec<Dim> side = b - a;
+	const double   s    = std::clamp(side.dot(x - a) / side.squaredNorm(), 0., 1.);
+	return (x - a - s * side).squaredNorm();
+}
+
 Mat3 crossing(const Vec3& v) { return (Mat3() << 0, -v[2], v[1], v[2], 0, -v[0], -v[1], v[0], 0).finished(); }
 
 /// Derivatives of what Facing has by the places, side by side, in the order of these.
@@ -82,7 +89,7 @@ template <int Dim> struct Slip {
 template <int Dim>
 Rubbing<Dim> rub(
         const ContactLaw<Dim>& law, const Facing<Dim>& start, const Vec<Dim>& before, double pressure, const Facing<Dim>& at, const Slip<Dim>& slip,
-        const FacingSlope<Dim>* d)
+        const FacingSlope<Dim>* d, bool exactly)
 {
 	Rubbing<Dim> r;
 	if (law.friction == 0 || law.cap == 0) return r;
@@ -103,11 +110,19 @@ Rubbing<Dim> rub(
 	if (!r.slips || !d) return r;
 	const Vec<Dim> way = trial / size;
 	r.slope            = (limit / size * (r.slope - way * (way.transpose() * r.slope))).eval();
-	if (law.friction * pressure < law.cap) r.slope -= law.friction * law.normal * way * d->gap;
+	if (exactly && law.friction * pressure < law.cap) r.slope -= law.friction * law.normal * way * d->gap;
 	return r;
 }
 
 } // namespace
+
+double squaredDistance(const PairPlaces<2>& x) { return squaredDistance<2>(x[0], x[1], x[2]); }
+double squaredDistance(const PairPlaces<3>& x)
+{
+	const Facing<3> at(x);
+	if (*std::min_element(at.weight.begin(), at.weight.end()) >= 0) return at.gap * at.gap;
+	return std::min({ squaredDistance<3>(x[0], x[1], x[2]), squaredDistance<3>(x[0], x[2], x[3]), squaredDistance<3>(x[0], x[3], x[1]) });
+}
 
 template <int Dim> Facing<Dim>::Facing(const PairPlaces<Dim>& x) : normal(normalOf<Dim>(x))
 {
@@ -134,17 +149,17 @@ template <int Dim> Facing<Dim>::Facing(const PairPlaces<Dim>& x) : normal(normal
 template <int Dim>
 std::optional<PairForce<Dim>> pairForce(
         const ContactLaw<Dim>& law, const PairPlaces<Dim>& start, const Vec<Dim>& before, const PairPlaces<Dim>& now, double closed, double tolerance,
-        bool withSlope)
+        PairSlope asked)
 {
 	const Facing<Dim> at(now);
 	if (!(at.gap - closed <= tolerance)) return std::nullopt;
 	std::optional<FacingSlope<Dim>> d;
-	if (withSlope) d.emplace(at, now);
+	if (asked != PairSlope::none) d.emplace(at, now);
 	const Facing<Dim> first(start);
 	const Slip<Dim>   slip(first, at, now, d ? &*d : nullptr);
 	PairForce<Dim>    f;
 	f.pressure         = std::max(0., -law.normal * (at.gap - closed));
-	const auto rubbing = rub<Dim>(law, first, before, f.pressure, at, slip, d ? &*d : nullptr);
+	const auto rubbing = rub<Dim>(law, first, before, f.pressure, at, slip, d ? &*d : nullptr, asked == PairSlope::exact);
 	f.shear = rubbing.shear, f.slips = rubbing.slips, f.slip = slip.value;
 	const Vec<Dim> whole = f.pressure * at.normal + f.shear;
 	f.force[0]           = whole;
@@ -159,12 +174,13 @@ std::optional<PairForce<Dim>> pairForce(
 		        + at.normal * (across * d->gap + at.gap * (at.slope[i].transpose() * rubbing.slope + f.shear.transpose() * d->slope[i]))
 		        + at.gap * across * d->normal;
 	}
+	if (asked == PairSlope::symmetric) f.slope = ((f.slope + f.slope.transpose()) / 2).eval();
 	return f;
 }
 
 template struct Facing<2>;
 template struct Facing<3>;
-template std::optional<PairForce<2>> pairForce(const ContactLaw<2>&, const PairPlaces<2>&, const Vec<2>&, const PairPlaces<2>&, double, double, bool);
-template std::optional<PairForce<3>> pairForce(const ContactLaw<3>&, const PairPlaces<3>&, const Vec<3>&, const PairPlaces<3>&, double, double, bool);
+template std::optional<PairForce<2>> pairForce(const ContactLaw<2>&, const PairPlaces<2>&, const Vec<2>&, const PairPlaces<2>&, double, double, PairSlope);
+template std::optional<PairForce<3>> pairForce(const ContactLaw<3>&, const PairPlaces<3>&, const Vec<3>&, const PairPlaces<3>&, double, double, PairSlope);
 
 } // namespace gimpm

@@ -21,6 +21,14 @@ template <int Dim> struct Facing {
 	std::array<Vec<Dim>, Dim - 1> along;
 };
 
+/// Of the place from the piece, which has an end.
+double squaredDistance(const PairPlaces<2>&);
+double squaredDistance(const PairPlaces<3>&);
+
+/// Which derivative of the forces is wanted. The symmetric one leaves out what is not: that the limit of friction grows
+/// with the pressure, and small parts by the turn of the piece.
+enum class PairSlope { none, symmetric, exact };
+
 /// What the place and the piece do to each other, whatever grids they move with. The forces have neither resultant nor
 /// moment.
 template <int Dim> struct PairForce {
@@ -42,7 +50,6 @@ template <int Dim> struct PairForce {
 /// not pressed counts in the derivative as one that sticks: a body that only touches is held.
 template <int Dim>
 std::optional<PairForce<Dim>> pairForce(
-        const ContactLaw<Dim>&, const PairPlaces<Dim>& start, const Vec<Dim>& shear, const PairPlaces<Dim>& now, double closed, double tolerance,
-        bool withSlope);
+        const ContactLaw<Dim>&, const PairPlaces<Dim>& start, const Vec<Dim>& shear, const PairPlaces<Dim>& now, double closed, double tolerance, PairSlope);
 
 } // namespace gimpm

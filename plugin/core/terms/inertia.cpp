@@ -248,6 +248,8 @@ template <int Dim> void Inertia<Dim>::addRoundOff(const Eigen::VectorXd& d, Eige
 	basis_.ties.template fold<Dim>(sizes);
 }
 
+/// Bodies that meet might move far into each other by themselves, and what touches as the step begins would not be what
+/// touches at its end. Where that would take larger forces than to stop all nodes they stay where they are.
 template <int Dim> Eigen::VectorXd Inertia<Dim>::ownMotion() const
 {
 	const double    T = motion_.duration;
@@ -255,7 +257,12 @@ template <int Dim> Eigen::VectorXd Inertia<Dim>::ownMotion() const
 	for (Eigen::Index i = 0; i < d.size(); ++i)
 		if (isHeld(i)) d[i] = prescribed_[i];
 	basis_.ties.template spread<Dim>(d);
-	return d;
+	if (!motion_.bodies || !motion_.bodies->acting) return d;
+	Eigen::VectorXd contact = Eigen::VectorXd::Zero(d.size()), stopping = nodal_ * accelerationAt(prescribed_);
+	motion_.bodies->acting->addUnweighted(&d, contact);
+	for (Eigen::Index i = 0; i < d.size(); ++i)
+		if (isHeld(i)) contact[i] = stopping[i] = 0;
+	return contact.norm() > stopping.norm() ? prescribed_ : d;
 }
 
 template <int Dim> void Inertia<Dim>::restrain(const typename Term<Dim>::Hold& hold) const

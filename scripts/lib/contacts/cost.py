@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What contact costs: a block under a plate, against the block under its weight alone; and a ball with places an eighth of a cell apart, against one with a quarter."""
+"""What contact costs: a block under a plate, against the block under its weight alone; a ball with places an eighth of a cell apart, against one with a quarter; and a block in two bodies of points, against one."""
 import time
-from math import inf
+from math import atan, inf
 
 from yade import mpm, pack, utils
-from yade.wrapper import MpmBoundary, MpmContact, MpmDynamicEngine, MpmElasticMat, MpmGrid, MpmImplicitEngine, Omega
+from yade.wrapper import MpmBodyContact, MpmBoundary, MpmContact, MpmDynamicEngine, MpmElasticMat, MpmGrid, MpmImplicitEngine, Omega
 
 from .bodies import One, steel
 from .course import Course
@@ -79,3 +79,27 @@ def ball(dim=3, wide=12, deep=4, steps=20, friction=.3, runs=3, seconds=200):
 	(quarter, *before), (eighth, *after) = (min(of) for of in zip(*found))
 	told = dict(more=eighth / quarter - 1, quarter=1e3 * quarter, milliseconds=1e3 * eighth)
 	return told | dict(iterations=[before[0], after[0]], places=[before[1], after[1]], why=before[2] or after[2])
+
+
+def _secondsOfBlock(isCut, wide, deep, steps, friction, inTime, seconds):
+	"""Processor time in which a block comes under its weight, which it falls into in time; in two pieces that lie on each other, or in one."""
+	O.reset()
+	O.materials.append(MpmElasticMat(young=1e7, poisson=.3, density=2000, label='soil'))
+	h = 4 / wide
+	grid = MpmGrid(cellSize=h)
+	for low, high, name in (0, deep / 2, 'low'), (deep / 2, deep, 'up' if isCut else 'low'):
+		O.bodies.append(mpm.fill(pack.inAlignedBox((0, low * h, -1), (4, high * h, 1)), grid, 2, 'soil', body=name))
+	held = [MpmBoundary(max=(inf, 0, inf), fix='xy'), MpmBoundary(max=(0, inf, inf), fix='x')]
+	common = dict(grid=grid, gravity=(0, -10, 0), boundaries=held, contacts=[MpmBodyContact(between=('low', 'up'), friction=atan(friction))] if isCut else [], verbosity=0)
+	solver = MpmDynamicEngine(gravityCurve=[(0, 1)], **common) if inTime else MpmImplicitEngine(**common)
+	O.engines, O.dt = [solver], .01 if inTime else 1 / steps
+	course, began = Course(solver, seconds), time.process_time()
+	course.run(steps)
+	return time.process_time() - began, course.iterations, course.why
+
+
+def bodies(wide=128, deep=48, steps=4, friction=0., inTime=False, runs=3, seconds=200):
+	"""Processor time of a block in two bodies over that of the same in one, least of *runs* of each in turn, and their iterations."""
+	found = [[_secondsOfBlock(isCut, wide, deep, steps, friction, inTime, seconds / 2 / runs) for isCut in (False, True)] for _ in range(runs)]
+	one, two = (min(run[i][0] for run in found) for i in (0, 1))
+	return dict(times=two / one, one=one, two=two, iterations=[run[1] for run in found[0]], why=' '.join({why for run in found for *_, why in run if why}))

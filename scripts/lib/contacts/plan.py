@@ -154,6 +154,10 @@ for dim, wide in (2, 40), (3, 12):
 	add(f'cost-ball-{dim}d', 'cost.ball', dict(more=atMost(.2)), dict(runs=1), dim=dim, wide=wide)
 add('cost-search', 'cost.search', dict(growth=atMost(2)))
 
+for inTime in False, True:
+	for friction in 0., .6:
+		add(f"cost-bodies-{'time' if inTime else 'static'}-{friction:g}", 'cost.bodies', dict(times=atMost(1.3)), dict(wide=64, deep=24), friction=friction, inTime=inTime)
+
 # 9. Random scenes: the part of them that ends, and the largest of what is left over of the forces in statics
 add('random', 'scenes.drawn', dict(ended=atLeast(.995), balance=atMost(1e-6)), dict(seeds=[0, 60], seconds=120), seeds=[0, 1000])
 

@@ -118,12 +118,14 @@ namespace {
 			}
 	}
 
+	/// That it is symmetric before it is exact, and close to it where places stick, is what makes it worth while.
 	TYPED_TEST(BodyContactTest, TheDerivativeIsThatOfTheForces)
 	{
 		constexpr int Dim = TypeParam::value;
 		for (const double friction : { 0., 0.1, 5. }) {
 			Pressed<Dim> pressed(0.6, 2, 50, friction);
 			ASSERT_TRUE(pressed.step(0.5).converged());
+			pressed.contacts.meetings[0].slipping = 0; // with many the first derivatives are exact
 			StepReport            report;
 			const StepSystem<Dim> system(pressed.cloud, pressed.model, {}, report);
 			NodeMatrix<Dim>       K;
@@ -134,19 +136,24 @@ namespace {
 			Eigen::VectorXd       force, plus, minus, way = random.vector(system.map.size());
 			for (int i = 0; i < d.size(); ++i)
 				if (system.dofs.number[i] < 0) way[i] = 0;
-			system.prepare(K, &beside);
-			ASSERT_FALSE(system.evaluate(d, force, &K, nullptr, &beside));
+			const auto error = [&] {
+				system.prepare(K, &beside);
+				EXPECT_FALSE(system.evaluate(d, force, &K, nullptr, &beside));
+				Eigen::VectorXd free(system.dofs.count), slope(system.dofs.count);
+				for (int i = 0; i < d.size(); ++i)
+					if (const int n = system.dofs.number[i]; n >= 0) free[n] = way[i], slope[n] = (plus[i] - minus[i]) / (2 * e);
+				return (reduced(K, system.dofs, &beside) * free - slope).norm() / slope.norm();
+			};
 			ASSERT_FALSE(system.evaluate(d + e * way, plus, nullptr));
 			ASSERT_FALSE(system.evaluate(d - e * way, minus, nullptr));
+			EXPECT_TRUE(system.isSymmetric());
+			EXPECT_LT(error(), friction == 0 ? 1e-6 : friction > 1 ? 1e-2 : 0.2) << "friction " << friction;
+			EXPECT_EQ(system.makeExact(), friction > 0);
+			EXPECT_EQ(system.isSymmetric(), friction == 0);
+			EXPECT_LT(error(), 1e-6) << "friction " << friction;
 			Eigen::VectorXd product = Eigen::VectorXd::Zero(d.size());
 			beside.multiplyAdd(way, product);
-			const auto      whole = reduced(K, system.dofs, &beside);
-			Eigen::VectorXd free(system.dofs.count), slope(system.dofs.count);
-			for (int i = 0; i < d.size(); ++i)
-				if (const int n = system.dofs.number[i]; n >= 0) free[n] = way[i], slope[n] = (plus[i] - minus[i]) / (2 * e);
-			EXPECT_GT(product.norm(), 0.01 * slope.norm()) << "contact is part of it";
-			EXPECT_LT((whole * free - slope).norm(), 1e-6 * slope.norm()) << "friction " << friction;
-			EXPECT_EQ(system.isSymmetric(), friction == 0);
+			EXPECT_GT(product.norm(), 0.01 * (plus - minus).norm() / (2 * e)) << "contact is part of it";
 		}
 	}
 

@@ -48,7 +48,7 @@ namespace {
 
 		Force at(const Places& x, double friction, double cap = 1e9, double closed = 0) const
 		{
-			const auto found = pairForce<Dim>({ 7, 3, friction, cap }, start, before, x, closed, 1e-9, true);
+			const auto found = pairForce<Dim>({ 7, 3, friction, cap }, start, before, x, closed, 1e-9, PairSlope::exact);
 			EXPECT_TRUE(found) << "the place is behind the piece";
 			return found.value_or(Force());
 		}
@@ -95,7 +95,8 @@ namespace {
 				EXPECT_LE(f.shear.norm(), cap * (1 + 1e-12)) << "the limit of friction is that of the kept pressure";
 				auto apart = x;
 				apart[0] += (closed - gap + 1e-3) * Facing<Dim>(x).normal;
-				EXPECT_FALSE(pairForce<Dim>({ 7, 3, .1, 1e9 }, this->start, this->before, apart, closed, 1e-9, true)) << "nothing pulls";
+				EXPECT_FALSE(pairForce<Dim>({ 7, 3, .1, 1e9 }, this->start, this->before, apart, closed, 1e-9, PairSlope::exact))
+				        << "nothing pulls";
 			}
 		}
 		const double behind = Facing<Dim>(this->now).gap;
@@ -145,7 +146,7 @@ namespace {
 		constexpr int Dim = TypeParam::value;
 		auto          x   = this->start;
 		x[0] += 2 * std::abs(Facing<Dim>(x).gap) * Facing<Dim>(x).normal;
-		EXPECT_FALSE(pairForce<Dim>({ 7, 3, 10, 1e9 }, this->start, this->before, x, 0, 1e-9, true));
+		EXPECT_FALSE(pairForce<Dim>({ 7, 3, 10, 1e9 }, this->start, this->before, x, 0, 1e-9, PairSlope::exact));
 	}
 
 } // namespace

@@ -67,8 +67,9 @@ template <int Dim> int MeetingBodies<Dim>::slaveOf(const MpmBodyContact& contact
 // Bodies that would go through each other: in different layers, as both meet a third one, and without a contact.
 template <int Dim> void MeetingBodies<Dim>::requireNoneBetween(const vector<MaterialPoint>& points, const gimpm::Grid<Dim>& lattice) const
 {
+	const bool areAllNamed = std::all_of(points.begin(), points.end(), [](const MaterialPoint& point) { return point.state->body >= 0; });
 	std::set<std::pair<int, int>> apart;
-	for (int one = -1; one < int(grid.bodies.size()); ++one)
+	for (int one = areAllNamed ? 0 : -1; one < int(grid.bodies.size()); ++one)
 		for (int other = one + 1; other < int(grid.bodies.size()); ++other)
 			if (layers[one + 1] != layers[other + 1] && !meet(one, other)) apart.insert({ one, other });
 	if (apart.empty()) return;
@@ -123,6 +124,7 @@ template <int Dim> gimpm::BodyMeeting<Dim> MeetingBodies<Dim>::coreMeeting(const
 	meeting.friction  = std::tan(contact.friction);
 	meeting.adhesion  = contact.adhesion;
 	meeting.stiffness = contact.stiffness;
+	meeting.touching = contact.touching, meeting.slipping = contact.slipping;
 	if (contact.shears.size() != system->bodies[meeting.slave].surface.pieces.size()) return meeting;
 	meeting.pressure = contact.pressures;
 	for (const Vector3r& shear : contact.shears)
@@ -145,14 +147,18 @@ template <int Dim> void MeetingBodies<Dim>::join(gimpm::Model<Dim>& model, const
 
 template <int Dim> void MeetingBodies<Dim>::joinMotion(gimpm::Motion<Dim>& motion, const gimpm::Model<Dim>&, Real)
 {
-	system->weight = motion.scheme.weightOfContact();
-	motion.bodies  = system.get();
+	system->weight         = motion.scheme.weightOfContact();
+	system->actsAtBothEnds = motion.scheme.isExplicit;
+	motion.bodies          = system.get();
 }
+
+template <int Dim> void MeetingBodies<Dim>::advance(const StepTime& step, gimpm::Model<Dim>&, gimpm::Load<Dim>&) { system->energy = step.energy; }
 
 template <int Dim> Work MeetingBodies<Dim>::work(const StepOutcome<Dim>&) const
 {
 	Work sum;
 	sum.ofContacts = system->work;
+	sum.given      = std::max(0., system->given);
 	return sum;
 }
 

@@ -16,6 +16,7 @@ public:
 	void join(gimpm::Model<Dim>&, const Surroundings<Dim>&) override;
 	// Their forces enter the balance with a weight.
 	void    joinMotion(gimpm::Motion<Dim>&, const gimpm::Model<Dim>&, Real begin) override;
+	void    advance(const StepTime&, gimpm::Model<Dim>&, gimpm::Load<Dim>&) override;
 	Work    work(const StepOutcome<Dim>&) const override;
 	void    reach(const StepOutcome<Dim>&) override;
 	Penalty penalty() const override;
