@@ -145,6 +145,14 @@ class _Body:
 		self.cells = dict(zip(map(tuple, cell.tolist()), self.kappa))
 		self.heights = self.origin[1] + self.h * self.nodes[:, 1]
 
+	def cellNear(self, place):
+		"""The cell with points at a place [cells], or the nearest one, as points may fall short of a slope; None if it is further than half a cell."""
+		at = np.floor(place).astype(int)
+		if tuple(at.tolist()) in self.cells: return tuple(at.tolist())
+		around = [c for c in map(tuple, (at + np.array(list(itertools.product((-1, 0, 1), repeat=2)))).tolist()) if c in self.cells]
+		distance = lambda c: np.linalg.norm(np.maximum(0, np.maximum(c - place, place - c - 1)))
+		return min((c for c in around if distance(c) <= .5), key=distance, default=None)
+
 	def wetness(self, p):
 		"""Conductivity of each part over that of wet soil."""
 		return np.clip(.5 + (self.values * p[self.node]).sum(axis=1) / (self.weight * _transition * self.h), _dry, 1)
@@ -156,9 +164,10 @@ class _Outlet:
 	def __init__(self, body, name, segments, level):
 		found = [place for segment in segments for place in self._places(body, *segment)]
 		self.x, self.length, inside = (np.array(column) for column in zip(*found))
-		cell = np.floor((inside - body.origin) / body.h).astype(int)
-		missing = [i for i, c in enumerate(map(tuple, cell.tolist())) if c not in body.cells]
+		cells = [body.cellNear(place) for place in (inside - body.origin) / body.h]
+		missing = [i for i, c in enumerate(cells) if c is None]
 		if missing: raise ValueError(f'seepage: the surface of {name} is not on the body at {place(self.x[missing[0]])}, which must be on the left of its points')
+		cell = np.array(cells)
 		self.values = _functions((self.x - body.origin) / body.h - cell)[0]
 		corners = cell[:, None, :] + np.array(list(itertools.product((0, 1), repeat=2)))
 		self.node = np.array([[body.numbers[tuple(node)] for node in four] for four in corners.tolist()])
