@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Water that flows through a soil which deforms: tangent, balance, exact fields, and columns that consolidate.
-#include "core/solvers/cholesky.hpp"
 #include "core/solvers/condition.hpp"
-#include "core/solvers/reversed.hpp"
-#include "core/solvers/solver_limits.hpp"
 #include "core/stepping/load_step.hpp"
 #include "core/terms/flow.hpp"
 #include "core/terms/traction.hpp"
@@ -361,39 +358,6 @@ namespace {
 		for (const double conductivity : { 1e-14, 1e-7, 1e-5 })
 			EXPECT_LT(condition(1e-8, conductivity, 0.01), 1.5 * condition(1e-3, conductivity, 0.01)) << conductivity;
 		EXPECT_GT(condition(1e-8, 1e-14, 0), 1e3 * condition(1e-3, 1e-14, 0));
-	}
-
-	/// Without stabilisation and flow a node has hardly anything on the diagonal of its pressure when its displacements
-	/// are gone: pivots without looking for them are poor, or there are none, and the solver has to find that out.
-	TEST(Flow, PivotsAreLookedForWhereTheResidualAsksForThem)
-	{
-		for (const double stabilisation : { 0., 1e-11, 1e-9 }) {
-			Soil<2> body(0.25, { 1, 1 });
-			body.drain(line({ 1, 1 }, { 0, 1 }), Kind::pressure, 0);
-			body.water.stabilisation = stabilisation, body.water.ghost = 0, body.water.duration = 1e-3;
-			StepReport          report;
-			const StepSystem<2> system(body.cloud, body.model, Load<2>(), report);
-			NodeMatrix<2>       K;
-			Couplings           beside;
-			ASSERT_FALSE(system.tangent(K, &beside));
-			const LinearProblem   problem(K, system.dofs, &beside);
-			const Eigen::VectorXd b = Random(4).vector(problem.size());
-			ASSERT_TRUE(problem.isSymmetric() && problem.hasSigns());
-			Csc scaled;
-			reverse(problem.stored(), scaled);
-			const Eigen::VectorXd scales = scale(problem.stored(), scaled.value);
-			Order                 order  = problem.ordering();
-			for (int& number : order.numbers)
-				number = problem.size() - 1 - number;
-			Cholesky factor;
-			factor.analyse(scaled, order, false);
-			Eigen::VectorXd x, y;
-			const bool      hasFactor = factor.factoriseSigned(scaled, smallestPivot) && factor.solveSigned(b, y);
-			const double    left      = hasFactor ? (b - timesSymmetric(scaled, y)).norm() / (b.norm() + y.norm()) : infinity;
-			EXPECT_GT(left, 1e-11) << stabilisation;
-			EXPECT_EQ(body.solver.solve(problem, b, x), LinearSolver::Status::lu);
-			EXPECT_LT((b - problem * x).norm(), 1e-11 * (b.norm() + (scales.cwiseInverse().asDiagonal() * x).norm())) << stabilisation;
-		}
 	}
 
 	TEST(Flow, WaterThatCannotLeaveIsRefused)
