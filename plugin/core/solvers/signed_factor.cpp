@@ -84,8 +84,8 @@ private:
 		return right_.data();
 	}
 
-	/// What an earlier supernode d has in the columns of s; of these a few at once, as what is above the diagonal is
-	/// not needed.
+	/// What an earlier supernode d has in the columns of s, of which a few are done at once: what is above the
+	/// diagonal is not needed.
 	void takeAway(int d, int s)
 	{
 		const int   height = L_.height(d), width = L_.width(d), begin = taken_[d];

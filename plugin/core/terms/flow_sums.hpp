@@ -174,7 +174,7 @@ private:
 	}
 
 	/// With w = grad p and g the present gradients: see the page on theory. Row by row, so that columns are side by
-	/// side. Of displacements by displacements pV (g_ak g_bi - g_ai g_bk) is of i < k, and that of i > k its opposite.
+	/// side. Displacements by displacements: pV (g_ak g_bi - g_ai g_bk) for i < k, and its opposite for i > k.
 	void addSymmetric(const PorePoint& point, const FlowPoint<Dim>& s)
 	{
 		const double V = point.volume * s.J, flow = duration_ * V * s.density * s.kappa.value, pushes = V * s.pressure;

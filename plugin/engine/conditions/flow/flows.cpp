@@ -5,7 +5,6 @@
 #include "core/terms/frozen_pressures.hpp"
 #include "engine/conditions/surface/surfaces.hpp"
 #include "engine/conditions/water/MpmWater.hpp"
-#include "engine/parallel/processes.hpp"
 
 namespace yade {
 
@@ -74,7 +73,14 @@ template <int Dim> void Flows<Dim>::join(gimpm::Model<Dim>& model, const Surroun
 	if (const Real tolerance = around.analysis.newton->stepTolerance; tolerance > 0)
 		water.displacementTolerance = tolerance, water.pressureTolerance = from->pressureTolerance;
 	water.keepsGrowth = !around.analysis.isDynamic() || std::isfinite(water.displacementTolerance);
-	together([&] { takePoints(around, *model.division); }, *model.division->processes);
+	string refusal; // of points that only one of several processes may have, and all have to hear of
+	try {
+		takePoints(around, *model.division);
+	} catch (const std::invalid_argument& refused) {
+		refusal = refused.what();
+	}
+	refusal = model.division->firstSaid(refusal);
+	if (!refusal.empty()) throw std::invalid_argument(refusal);
 	takeNodes();
 	takeDrains(model, around);
 	Real       sum = 0, fastest = 0; // of constrained moduli; coefficient of consolidation
