@@ -30,6 +30,19 @@ namespace {
 		return pores;
 	}
 
+	// What is wrong with points that only one process has, all have to hear of.
+	template <class F> void refusingTogether(const gimpm::Division& division, F&& take)
+	{
+		string refusal;
+		try {
+			take();
+		} catch (const std::invalid_argument& refused) {
+			refusal = refused.what();
+		}
+		refusal = division.firstSaid(refusal);
+		if (!refusal.empty()) throw std::invalid_argument(refusal);
+	}
+
 	// The water in the pores that has a level, if it is the only one there; null: there is none.
 	shared_ptr<MpmWater> stillWater(const Analysis& analysis)
 	{
@@ -73,14 +86,7 @@ template <int Dim> void Flows<Dim>::join(gimpm::Model<Dim>& model, const Surroun
 	if (const Real tolerance = around.analysis.newton->stepTolerance; tolerance > 0)
 		water.displacementTolerance = tolerance, water.pressureTolerance = from->pressureTolerance;
 	water.keepsGrowth = !around.analysis.isDynamic() || std::isfinite(water.displacementTolerance);
-	string refusal; // of points that only one of several processes may have, and all have to hear of
-	try {
-		takePoints(around, *model.division);
-	} catch (const std::invalid_argument& refused) {
-		refusal = refused.what();
-	}
-	refusal = model.division->firstSaid(refusal);
-	if (!refusal.empty()) throw std::invalid_argument(refusal);
+	refusingTogether(*model.division, [&] { takePoints(around, *model.division); });
 	takeNodes();
 	takeDrains(model, around);
 	Real       sum = 0, fastest = 0; // of constrained moduli; coefficient of consolidation
