@@ -104,7 +104,7 @@ def inStages():
 	middle = max((b for b in O.bodies if b.state.pos[0] < options.cellSize / 2), key=lambda b: b.state.pos[1]).id
 	solver.flow = MpmFlow(unitWeight=1e4, drains=[MpmDrain(surface=[(width, 0), (0, 0)])])
 	begin, curve, factors = O.time, [(0., 0., 0.)], []
-	figure, axes = plt.subplots(options.layers // 2 + 1, 2, figsize=(12, 2.2 * (options.layers // 2) + 3.4), layout='constrained')
+	figure, axes = plt.subplots((options.layers + 1) // 2 + 1, 2, figsize=(12, 2.2 * ((options.layers + 1) // 2) + 3.4), layout='constrained')
 
 	def go(lengths):
 		for days in lengths:

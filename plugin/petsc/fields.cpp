@@ -17,7 +17,23 @@ PetscErrorCode findBlock(const CompressedRows& rows, int before, int width, IS* 
 	return ISSetBlockSize(*block, width);
 }
 
-PetscErrorCode useMultigridIn(KSP field)
+/// Steps of the smoother. With two, its default, iterations of displacements beside pressures grow more as grids are
+/// refined, and all takes as long.
+constexpr int smoothing = 3;
+
+PetscErrorCode smoothMore(PC multigrid)
+{
+	int levels;
+	PetscCall(PCMGGetLevels(multigrid, &levels));
+	for (int level = 1; level < levels; ++level) {
+		KSP smoother;
+		PetscCall(PCMGGetSmoother(multigrid, level, &smoother));
+		PetscCall(KSPSetTolerances(smoother, PETSC_DEFAULT, PETSC_DEFAULT, PETSC_DEFAULT, smoothing));
+	}
+	return 0;
+}
+
+PetscErrorCode useMultigridIn(KSP field, bool hasDisplacements)
 {
 	Mat matrix;
 	PC  pc;
@@ -27,7 +43,8 @@ PetscErrorCode useMultigridIn(KSP field)
 	PetscCall(KSPGetPC(field, &pc));
 	PetscCall(PCSetType(pc, PCGAMG));
 	PetscCall(PCGAMGSetAggressiveLevels(pc, 1));
-	return KSPSetUp(field);
+	PetscCall(KSPSetUp(field));
+	return hasDisplacements ? smoothMore(pc) : PetscErrorCode(0);
 }
 
 }
@@ -64,6 +81,6 @@ PetscErrorCode useMultigridByField(PC pc, const std::vector<BlockOfField>& block
 	int  count;
 	PetscCall(PCFieldSplitGetSubKSP(pc, &count, &solvers));
 	for (int field = 0; field < count; ++field)
-		PetscCall(useMultigridIn(solvers[field]));
+		PetscCall(useMultigridIn(solvers[field], field == 0));
 	return PetscFree(solvers);
 }

@@ -18,6 +18,20 @@ void Couplings::mark(const FieldNode& row, const FieldNode& column)
 	markKept(numberOf(column), numberOf(row));
 }
 
+void Couplings::markRow(const FieldNode& row, int field, const std::vector<int>& nodes)
+{
+	const int  r       = numberOf(row);
+	auto&      entries = rows_[r];
+	const auto before  = std::ptrdiff_t(entries.size());
+	for (const int node : nodes)
+		if (const int c = numberOf({ field, node }); keeps(r, c)) entries.push_back({ c, 0 });
+	const auto middle = entries.begin() + before;
+	values_.clear();
+	if (before == 0 || middle == entries.end() || (middle - 1)->column < middle->column) return;
+	std::inplace_merge(entries.begin(), middle, entries.end(), [](const Entry& a, const Entry& b) { return a.column < b.column; });
+	entries.erase(std::unique(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) { return a.column == b.column; }), entries.end());
+}
+
 /// It has no place among the values yet, nor do the others keep theirs.
 void Couplings::markKept(int row, int column)
 {
@@ -44,6 +58,30 @@ void Couplings::setZero()
 
 /// Of the values of a block that is kept.
 std::size_t Couplings::firstOf(int row, int column) const { return std::lower_bound(rows_[row].begin(), rows_[row].end(), column)->first; }
+
+void Couplings::findPlaces(const FieldNode& row, int field, const int* nodes, int count, std::ptrdiff_t* places) const
+{
+	const int   r       = numberOf(row);
+	const auto& entries = rows_[r];
+	auto        at      = entries.begin();
+	for (int i = 0, c = -1; i < count; ++i) {
+		places[i] = -1;
+		if (nodes[i] < 0) continue;
+		const int before = std::exchange(c, numberOf({ field, nodes[i] }));
+		if (!keeps(r, c)) continue;
+		if (c < before) at = entries.begin();
+		while (at->column < c)
+			++at;
+		places[i] = std::ptrdiff_t(at->first);
+	}
+}
+
+bool Couplings::areWithinDisplacements() const
+{
+	for (int r = 0; r < map_->nodes(); ++r)
+		if (!rows_[r].empty() && rows_[r].front().column < map_->nodes()) return true;
+	return false;
+}
 
 const double* Couplings::opposite(const FieldNode& row, const FieldNode& column) const
 {

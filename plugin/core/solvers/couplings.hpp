@@ -22,6 +22,8 @@ public:
 	void reset(const DofMap&, bool isSymmetric);
 	/// And the transposed block: the pattern is symmetric.
 	void mark(const FieldNode& row, const FieldNode& column);
+	/// The same of blocks in one row, with nodes in one field, which rise; not the transposed ones.
+	void markRow(const FieldNode& row, int field, const std::vector<int>& nodes);
 	void setZero();
 
 	/// To a block that was marked, after setZero(). Threads may add at the same time in different rows.
@@ -32,23 +34,10 @@ public:
 	}
 	void add(const FieldNode& row, const FieldNode& column, double value) { add(row, column, Eigen::Matrix<double, 1, 1>(value)); }
 
-	/// The same of blocks in one row, for `count` nodes in one field: block(i) is that of the i-th. Nodes < 0 are
-	/// left out. Fast where nodes rise.
-	template <class F> void addRow(const FieldNode& row, int field, const int* nodes, int count, F&& block)
-	{
-		const int   r       = numberOf(row);
-		const auto& entries = rows_[r];
-		const int   rows = (*map_)[row.field].width, columns = (*map_)[field].width;
-		auto        at = entries.begin();
-		for (int i = 0, c = -1; i < count; ++i) {
-			if (nodes[i] < 0) continue;
-			const int before = std::exchange(c, numberOf({ field, nodes[i] }));
-			if (!keeps(r, c)) continue;
-			if (c < before) at = entries.begin();
-			at = std::lower_bound(at, entries.end(), c);
-			Eigen::Map<RowMajor>(values_.data() + at->first, rows, columns) += block(i);
-		}
-	}
+	/// Where the blocks of one row with `count` nodes in one field begin among the values, or -1 where they are not
+	/// kept; all are marked, those with nodes < 0 left out. Fast where nodes rise. Until another block is marked.
+	void    findPlaces(const FieldNode& row, int field, const int* nodes, int count, std::ptrdiff_t* places) const;
+	double* values() { return values_.data(); }
 
 	bool isSymmetric() const { return isSymmetric_; }
 	/// With which a row of the field is multiplied so that the matrix is symmetric; one of a matrix that is not.
@@ -68,6 +57,14 @@ public:
 			for (const Entry& entry : rows_[r])
 				f(placeOf(r), placeOf(entry.column), values_.data() + entry.first);
 	}
+	/// Calls f(column, values row by row) for those in one row.
+	template <class F> void forBlocksOf(const FieldNode& row, F&& f) const
+	{
+		for (const Entry& entry : rows_[numberOf(row)])
+			f(placeOf(entry.column), values_.data() + entry.first);
+	}
+	/// Whether there are any between displacements.
+	bool areWithinDisplacements() const;
 
 private:
 	using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;

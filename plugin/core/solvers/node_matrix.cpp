@@ -34,13 +34,12 @@ template <int Dim> void NodeMatrix<Dim>::reset(const std::vector<Key>& nodes, bo
 	values_.assign(std::size_t(kept_.second - kept_.first) * codes * block, 0.);
 	skew_.assign(isSymmetric ? 0 : values_.size(), 0.);
 	used_.assign(nodes.size(), 0);
-	findNeighbours(grid);
+	neighbour_ = neighboursOf(nodes, grid);
 }
 
-template <int Dim> void NodeMatrix<Dim>::findNeighbours(const Grid<Dim>& grid)
+template <int Dim> std::vector<int> NodeMatrix<Dim>::neighboursOf(const std::vector<Key>& nodes, const Grid<Dim>& grid)
 {
-	const auto& nodes = keys_;
-	neighbour_.assign(nodes.size() * codes, -1);
+	std::vector<int> neighbour(nodes.size() * codes, -1);
 	for (int c = 0; c < codes; ++c) {
 		const Key   offset = keyOffset<Dim>(c);
 		std::size_t b      = 0; // keys rise together with those of the neighbours: one sweep for each offset
@@ -48,11 +47,12 @@ template <int Dim> void NodeMatrix<Dim>::findNeighbours(const Grid<Dim>& grid)
 			const Key there = nodes[a] + (offset << Grid<Dim>::level(nodes[a]));
 			while (b < nodes.size() && nodes[b] < there)
 				++b;
-			if (b < nodes.size() && nodes[b] == there) neighbour_[a * codes + c] = int(b);
-			else if (isPeriodic_)
-				neighbour_[a * codes + c] = find(nodes, grid.first(there));
+			if (b < nodes.size() && nodes[b] == there) neighbour[a * codes + c] = int(b);
+			else if (grid.isPeriodic())
+				neighbour[a * codes + c] = find(nodes, grid.first(there));
 		}
 	}
+	return neighbour;
 }
 
 template <int Dim> void NodeMatrix<Dim>::setZero()

@@ -33,6 +33,9 @@ public:
 	void setZero();
 	void multiplyBy(double factor);
 
+	/// Of each node its number at each offset to nodes b >= a; -1: there is none.
+	static std::vector<int> neighboursOf(const std::vector<Key>& nodes, const Grid<Dim>&);
+
 	/// Whether there are blocks of this node, which rows or columns that are wanted may need. Others are neither
 	/// read nor written.
 	bool keeps(int node) const { return unsigned(node) - unsigned(kept_.first) < unsigned(kept_.second - kept_.first); }
@@ -62,7 +65,6 @@ public:
 private:
 	using RowMajor = Eigen::Matrix<double, Dim, Dim, Eigen::RowMajor>;
 
-	void        findNeighbours(const Grid<Dim>&);
 	std::size_t place(int node, int code) const { return (std::size_t(node - kept_.first) * codes + code) * block; }
 
 	std::vector<Key>           keys_;

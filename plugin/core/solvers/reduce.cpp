@@ -150,30 +150,62 @@ template <int Dim> void reduceUnordered(const NodeMatrix<Dim>& K, const FreeDofs
 	addUpEqual(out);
 }
 
+/// Of the displacements of a node, its rows and those of its neighbours, which rise.
+template <int Dim> void appendColumn(const NodeMatrix<Dim>& K, const FreeDofs& dofs, int node, int i, Csc& out)
+{
+	for (int c = 0; c < NodeMatrix<Dim>::codes; ++c) {
+		if (!K.used(node, c)) continue;
+		const int b = K.neighbour(node, c);
+		// Row i of K_ab is the part of this column in block (b, a).
+		const double* k = K.at(node, c) + i * Dim;
+		for (int j = b == node ? i : 0; j < Dim; ++j)
+			if (dofs.number[Dim * b + j] >= 0) {
+				out.row.push_back(dofs.number[Dim * b + j]);
+				out.value.push_back(k[j]);
+			}
+	}
+}
+
+/// Of a symmetric matrix that keeps the blocks of each row from the diagonal on: they are those of the column below it.
+void appendCouplings(const Couplings& K, const FreeDofs& dofs, const FieldNode& place, int i, Csc& out)
+{
+	const DofMap& map   = K.map();
+	const double  ofRow = K.signOf(place.field) * map[place.field].scale;
+	K.forBlocksOf(place, [&](const FieldNode& other, const double* values) {
+		const int    width = map[other.field].width, first = map.at(other.field, other.node);
+		const bool   isDiagonal = other.field == place.field && other.node == place.node;
+		const double weight     = ofRow * map[other.field].scale;
+		for (int j = isDiagonal ? i : 0; j < width; ++j)
+			if (dofs.number[first + j] >= 0) {
+				out.row.push_back(dofs.number[first + j]);
+				out.value.push_back(weight * values[i * width + j]);
+			}
+	});
+}
+
+/// Column by column, where nothing has to be sorted or added up.
+template <int Dim> void reduceInOrder(const NodeMatrix<Dim>& K, const FreeDofs& dofs, const Couplings* couplings, SymmetricCsc& out)
+{
+	out.start.assign(1, 0);
+	out.row.clear();
+	out.value.clear();
+	const int fields = couplings ? couplings->map().fields() : 1;
+	for (int field = 0, unknown = 0; field < fields; ++field)
+		for (int a = 0; a < K.nodes(); ++a)
+			for (int i = 0, width = field == 0 ? Dim : couplings->map()[field].width; i < width; ++i, ++unknown) {
+				if (dofs.number[unknown] < 0) continue;
+				if (field == 0) appendColumn(K, dofs, a, i, out);
+				if (couplings) appendCouplings(*couplings, dofs, { field, a }, i, out);
+				out.start.push_back(int(out.row.size()));
+			}
+}
+
 } // namespace
 
 template <int Dim> void reduce(const NodeMatrix<Dim>& K, const FreeDofs& dofs, SymmetricCsc& out, const Couplings* couplings)
 {
-	if (K.isPeriodic() || dofs.ties || couplings) return reduceUnordered(K, dofs, couplings, true, out);
-	out.start.assign(1, 0);
-	out.row.clear();
-	out.value.clear();
-	for (int a = 0; a < K.nodes(); ++a)
-		for (int i = 0; i < Dim; ++i) {
-			if (dofs.number[Dim * a + i] < 0) continue;
-			for (int c = 0; c < NodeMatrix<Dim>::codes; ++c) {
-				if (!K.used(a, c)) continue;
-				const int b = K.neighbour(a, c);
-				// Row i of K_ab is the part of this column in block (b, a).
-				const double* k = K.at(a, c) + i * Dim;
-				for (int j = b == a ? i : 0; j < Dim; ++j)
-					if (dofs.number[Dim * b + j] >= 0) {
-						out.row.push_back(dofs.number[Dim * b + j]);
-						out.value.push_back(k[j]);
-					}
-			}
-			out.start.push_back(int(out.row.size()));
-		}
+	if (K.isPeriodic() || dofs.ties || (couplings && couplings->areWithinDisplacements())) return reduceUnordered(K, dofs, couplings, true, out);
+	reduceInOrder(K, dofs, couplings, out);
 }
 
 template <int Dim> void reduce(const NodeMatrix<Dim>& K, const FreeDofs& dofs, GeneralCsc& out, const Couplings* couplings)

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "core/solvers/signed_factor.hpp"
+#include "core/base/instruction_set.hpp"
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -70,7 +71,7 @@ public:
 	}
 
 private:
-	static constexpr int atOnce = 24; ///< columns
+	static constexpr int atOnce = 24, ofUpdate = 64; ///< columns
 
 	/// S L^T of some rows and columns, as rows.
 	const double* withSigns(const double* block, int stride, int rows, int columns, const double* signs)
@@ -83,26 +84,42 @@ private:
 		return right_.data();
 	}
 
-	/// What an earlier supernode d has in the columns of s.
+	/// What an earlier supernode d has in the columns of s, of which a few are done at once: what is above the
+	/// diagonal is not needed.
 	void takeAway(int d, int s)
 	{
 		const int   height = L_.height(d), width = L_.width(d), begin = taken_[d];
 		const int*  rows  = L_.rowsOf(d) + begin;
 		const auto* end   = std::lower_bound(rows, L_.rowsOf(d) + height, L_.columns[s + 1]);
 		const int   below = height - begin, within = int(end - rows);
-		double *    block = L_.valuesOf(d) + begin, *into = L_.valuesOf(s);
-		update_.resize(std::max(update_.size(), std::size_t(below) * within));
+		double*     block = L_.valuesOf(d) + begin;
+		update_.resize(std::max(update_.size(), std::size_t(below) * std::min(within, ofUpdate)));
+		into_.resize(below);
+		std::transform(rows, rows + below, into_.begin(), [this](int row) { return place_[row]; });
 		const double* right = withSigns(block, height, within, width, signs_.data() + L_.columns[d]);
 		const double  one = 1, none = 0;
-		dgemm_("N", "T", &below, &within, &width, &one, block, &height, right, &within, &none, update_.data(), &below);
-		for (int j = 0; j < within; ++j) {
-			double*       column = into + std::ptrdiff_t(place_[rows[j]]) * L_.height(s);
-			const double* values = update_.data() + std::ptrdiff_t(j) * below;
-			for (int i = j; i < below; ++i)
-				column[place_[rows[i]]] -= values[i];
+		for (int first = 0; first < within; first += ofUpdate) {
+			const int count = std::min(ofUpdate, within - first), left = below - first;
+			dgemm_("N", "T", &left, &count, &width, &one, block + first, &height, right + first, &within, &none, update_.data(), &left);
+			subtract(first, count, left, s);
 		}
 		taken_[d] += within;
 		passOn(d);
+	}
+	void subtract(int first, int count, int left, int s)
+	{
+		const int* into         = into_.data() + first;
+		const bool isContiguous = into[left - 1] - into[0] == left - 1;
+		for (int j = 0; j < count; ++j) {
+			double*       column = L_.valuesOf(s) + std::ptrdiff_t(into[j]) * L_.height(s);
+			const double* values = update_.data() + std::ptrdiff_t(j) * left;
+			if (isContiguous)
+				for (int i = j; i < left; ++i)
+					column[into[0] + i] -= values[i];
+			else
+				for (int i = j; i < left; ++i)
+					column[into[i]] -= values[i];
+		}
 	}
 	/// To the supernode that needs it next.
 	void passOn(int d)
@@ -128,8 +145,12 @@ private:
 					*x = -*x;
 		if (later == 0) return;
 		const double* right = withSigns(block + count, height, later, count, signs);
-		dgemm_("N", "T", &below, &later, &count, &less, block + count, &height, right, &later, &one, block + count + std::ptrdiff_t(count) * height,
-		       &height);
+		for (int first = 0; first < later; first += ofUpdate) {
+			const int columns = std::min(ofUpdate, later - first), left = below - first;
+			double*   of = block + count + first; // the first of these rows in the first column of the block
+			dgemm_("N", "T", &left, &columns, &count, &less, of, &height, right + first, &later, &one, of + std::ptrdiff_t(count + first) * height,
+			       &height);
+		}
 	}
 	void factoriseDense(double* block, int stride, int count, double* signs)
 	{
@@ -156,6 +177,7 @@ private:
 	std::vector<int>    first_, next_;   // lists: of each supernode the earlier ones that have rows there
 	std::vector<int>    taken_;          // rows of each supernode that are done
 	std::vector<int>    place_;          // of each row in the supernode at hand
+	std::vector<int>    into_;           // of each row of an update, its place there
 	std::vector<double> update_, right_; // reused
 	double              least_ = std::numeric_limits<double>::infinity(), largest_ = 0;
 };
@@ -202,7 +224,9 @@ bool factoriseSigned(
 	for (std::size_t e = 0; e < places.size(); ++e)
 		if (places[e] >= 0) L.values[places[e]] += values[e];
 	signs.resize(Eigen::Index(factor.n));
-	return Factorisation(L, signs).run(smallest);
+	bool hasDone = false;
+	callForProcessor([&] { hasDone = Factorisation(L, signs).run(smallest); });
+	return hasDone;
 }
 
 } // namespace gimpm

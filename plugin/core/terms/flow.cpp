@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "core/terms/flow.hpp"
+#include "core/base/instruction_set.hpp"
 #include "core/terms/flow_sums.hpp"
 #include "core/terms/overlap.hpp"
 #include <atomic>
@@ -13,24 +14,40 @@ template <int Dim, class F> void forRanges(const CloudBasis<Dim>& basis, F&& f)
 	for (const auto& colour : basis.colours) {
 #pragma omp parallel for schedule(dynamic)
 		for (std::size_t range = 0; range < colour.size(); ++range)
-			f(colour[range].first, colour[range].second);
+			callForProcessor([&] { f(colour[range].first, colour[range].second); });
 	}
 }
 
-/// The integral of products of the functions of a cell less the product of their means, over its volume.
-template <int Dim> double unevenness(int s, int t)
-{
-	double product = 1, means = 1;
-	for (int a = 0; a < Dim; ++a)
-		product *= (s >> a & 1) == (t >> a & 1) ? 1. / 3 : 1. / 6, means /= 4;
-	return product - means;
-}
+/// Of the corners of a cell: the integral of products of their functions less the product of their means, over its
+/// volume, and the codes of the offsets between them.
+template <int Dim> struct Corners {
+	static constexpr int count = 1 << Dim;
+
+	double unevenness[count][count];
+	int    code[count][count];
+
+	Corners()
+	{
+		for (int s = 0; s < count; ++s)
+			for (int t = 0; t < count; ++t) {
+				double     product = 1, means = 1;
+				Index<Dim> offset;
+				for (int a = 0; a < Dim; ++a) {
+					product *= (s >> a & 1) == (t >> a & 1) ? 1. / 3 : 1. / 6, means /= 4;
+					offset[a] = (t >> a & 1) - (s >> a & 1);
+				}
+				unevenness[s][t] = product - means, code[s][t] = NodeMatrix<Dim>::code(offset);
+			}
+	}
+};
 
 } // namespace
 
-template <int Dim> NodalField<Dim> pressureField(SoilWater<Dim>& water, double scale)
+template <int Dim> NodalField<Dim> pressureField(SoilWater<Dim>& water, const Division& division, double scale)
 {
-	const auto begin = [&water](const PointCloud<Dim>& cloud, const CloudBasis<Dim>& basis, const Grid<Dim>&) {
+	const auto begin = [&water, &division](const PointCloud<Dim>& cloud, const CloudBasis<Dim>& basis, const Grid<Dim>&) {
+		auto pressure = water.pressure;
+		division.extend(pressure);
 		const auto      nodes = Eigen::Index(basis.nodes.size());
 		Eigen::VectorXd sum = Eigen::VectorXd::Zero(nodes), volume = sum;
 		for (const auto& patch : basis.patches)
@@ -40,7 +57,7 @@ template <int Dim> NodalField<Dim> pressureField(SoilWater<Dim>& water, double s
 				for (int n = 0; n < f.count; ++n)
 					if (patch.node[n] >= 0) {
 						const double weight = f.value[n] * cloud.volume0[p] * cloud.volumeRatio(p);
-						volume[patch.node[n]] += weight, sum[patch.node[n]] += weight * water.pressure[p];
+						volume[patch.node[n]] += weight, sum[patch.node[n]] += weight * pressure[p];
 					}
 			}
 		for (Eigen::Index n = 0; n < nodes; ++n) {
@@ -59,16 +76,26 @@ template <int Dim> NodalField<Dim> pressureField(SoilWater<Dim>& water, double s
 
 template <int Dim>
 Flow<Dim>::Flow(SoilWater<Dim>& water, const ConstrainedModulus& modulusOf, const Beginning<Dim>& step)
-        : water_(water), basis_(step.basis), h_(step.grid.cellSize), faces_(step.faces)
+        : water_(water)
+        , basis_(step.basis)
+        , h_(step.grid.cellSize)
+        , share_(step.share)
+        , division_(step.division)
+        , faces_(step.faces)
+        , near_(int(step.basis.nodes.size()))
+        , ownPores_(water.ownPores)
 {
-	const auto& cloud = step.cloud;
+	const auto& cloud    = step.cloud;
+	auto        pressure = water.pressure;
+	division_.extend(pressure), division_.extend(ownPores_);
 	points_.reserve(cloud.size());
 	for (std::size_t p = 0; p < cloud.size(); ++p) {
 		const double J    = cloud.volumeRatio(p);
-		const Pores& soil = water.ownPores.empty() ? water.pores[cloud.material[p]] : water.ownPores[p];
-		points_.push_back({ cloud.volume0[p] * J, J, std::exp(water.pressure[p] / water.modulus) * (J - 1 + soil.porosity), water.pressure[p], &soil });
+		const Pores& soil = ownPores_.empty() ? water.pores[cloud.material[p]] : ownPores_[p];
+		points_.push_back({ cloud.volume0[p] * J, J, std::exp(pressure[p] / water.modulus) * (J - 1 + soil.porosity), pressure[p], &soil });
 	}
 	weighCells(modulusOf, step);
+	findNear(step);
 	attachDrains(step);
 	if (obstacle_.empty()) obstacle_ = enclosure(step);
 }
@@ -89,6 +116,8 @@ template <int Dim> void Flow<Dim>::weighCells(const ConstrainedModulus& modulusO
 		volume[cell] += part, softness[cell] += part * compliance[p];
 		cellConductivity_[cell] += part * points_[p].pores->at(points_[p].ratio).value;
 	});
+	for (auto* ofCells : { &volume, &softness, &cellConductivity_ })
+		step.division.complete(cells, *ofCells);
 	for (std::size_t c = 0; c < cells.size(); ++c) {
 		Cell       cell { {}, water_.stabilisation * softness[c] };
 		const auto lowest = Grid<Dim>::index(cells[c]);
@@ -108,28 +137,32 @@ template <int Dim> void Flow<Dim>::weighCells(const ConstrainedModulus& modulusO
 	}
 }
 
-template <int Dim> void Flow<Dim>::mark(NodeMatrix<Dim>& K) const
+/// Nodes of points, of cells and of ghost faces. Where most points reach as far as they can, those that do not are
+/// taken to do so, too: the pattern of the matrix then stays as they move, and with it its symbolic analysis.
+template <int Dim> void Flow<Dim>::findNear(const Beginning<Dim>& step)
 {
+	const auto& code = Window<Dim>::get().code;
+	double      more = 0; // of the windows that are whole than of others
 	forCellsOfPatches(basis_, 0, int(basis_.patches.size()), [&](const PatchesOfCell<Dim>& cell) {
-		cell.forPairs([&](int m, int n) {
-			if (m <= n) K.markUsed(cell.node[m], Window<Dim>::get().code[m][n]);
-		});
+		cell.forPairs([&](int m, int n) { near_.add(cell.node[m], cell.node[n], code[m][n]); });
+		more += cell.isWhole() ? 1 : -1;
 	});
-}
-
-template <int Dim> void Flow<Dim>::markCouplings(Couplings& K) const
-{
-	forCellsOfPatches(basis_, 0, int(basis_.patches.size()), [&](const PatchesOfCell<Dim>& cell) {
-		cell.forPairs([&](int m, int n) {
-			if (m <= n) K.mark({ field, cell.node[m] }, { field, cell.node[n] });
-			K.mark({ 0, cell.node[m] }, { field, cell.node[n] });
-		});
-	});
+	if (step.division.sum(more) > 0) near_.addAll(basis_.nodes, step.grid);
+	const Corners<Dim> at;
 	for (const Cell& cell : cells_)
 		for (int s = 0; s < corners; ++s)
 			for (int t = s; t < corners; ++t)
-				K.mark({ field, cell.node[s] }, { field, cell.node[t] });
-	forGhostPairs<Dim>(faces_, h_, [&](int a, int b, int, double) { K.mark({ field, a }, { field, b }); });
+				near_.add(cell.node[s], cell.node[t], at.code[s][t]);
+	forGhostPairs<Dim>(faces_, h_, [&](int a, int b, int offset, double) { near_.add(a, b, offset); });
+}
+
+template <int Dim> void Flow<Dim>::mark(NodeMatrix<Dim>& K) const { near_.mark(K); }
+
+template <int Dim> void Flow<Dim>::markCouplings(Couplings& K) const
+{
+	near_.mark(K, 0, field);
+	if (!K.isSymmetric()) near_.mark(K, field, 0);
+	near_.mark(K, field, field);
 	for (const Outlet& outlet : outlets_)
 		for (const int a : outlet.at.node)
 			for (const int b : outlet.at.node)
@@ -140,10 +173,11 @@ template <int Dim> std::optional<PointFailure> Flow<Dim>::addCoupled(const State
 {
 	constexpr int         none = std::numeric_limits<int>::max();
 	std::atomic<int>      failed { none };
-	const Eigen::VectorXd P = state.value(field);
-	const auto&           d = state.displacements();
+	const Eigen::VectorXd P      = state.value(field);
+	const auto&           d      = state.displacements();
+	const auto            blocks = sum.couplings ? std::make_unique<FlowBlocks<Dim>>(near_, *sum.couplings, field) : nullptr;
 	forRanges(basis_, [&](int first, int last) {
-		FlowSums<Dim> sums(sum, water_.duration, water_.modulus);
+		FlowSums<Dim> sums(sum, blocks.get(), basis_.isAxisymmetric(), water_.duration, water_.modulus);
 		forCellsOfPatches(basis_, first, last, [&](const PatchesOfCell<Dim>& cell) {
 			sums.begin(cell.node);
 			for (const auto* patch = cell.first; patch < cell.end; ++patch)
@@ -159,30 +193,27 @@ template <int Dim> std::optional<PointFailure> Flow<Dim>::addCoupled(const State
 		});
 	});
 	if (failed != none) return PointFailure { failed };
-	addPenalties(state.growth(field), sum);
+	addPenalties(state.growth(field), sum, blocks.get());
 	addDrains(P, sum);
 	return std::nullopt;
 }
 
-template <int Dim> void Flow<Dim>::addPenalties(const Eigen::VectorXd& growth, const FieldSum<Dim>& sum) const
+template <int Dim> void Flow<Dim>::addPenalties(const Eigen::VectorXd& growth, const FieldSum<Dim>& sum, const FlowBlocks<Dim>* blocks) const
 {
-	const auto add = [&](int row, int column, double k) {
+	const auto add = [&](int row, int column, int code, double k) {
 		sum.force[field][row] += k * growth[column];
 		sum.sizes[field][row] += std::abs(k * growth[column]);
-		if (sum.couplings) sum.couplings->add({ field, row }, { field, column }, k);
+		if (!blocks) return;
+		if (double* to = blocks->pp.at(row, code)) *to += k;
 	};
+	const Corners<Dim> at;
 	for (const Cell& cell : cells_)
-		for (int s = 0; s < corners; ++s) {
-			const auto weight = [&](int t) { return cell.weight * unevenness<Dim>(s, t); };
+		for (int s = 0; s < corners; ++s)
 			for (int t = 0; t < corners; ++t)
-				sum.force[field][cell.node[s]] += weight(t) * growth[cell.node[t]],
-				        sum.sizes[field][cell.node[s]] += std::abs(weight(t) * growth[cell.node[t]]);
-			const auto block = [&](int t) { return Eigen::Matrix<double, 1, 1>(weight(t)); };
-			if (sum.couplings) sum.couplings->addRow({ field, cell.node[s] }, field, cell.node.data(), corners, block);
-		}
+				add(cell.node[s], cell.node[t], at.code[s][t], cell.weight * at.unevenness[s][t]);
 	forGhostPairs<Dim>(faces_, h_, [&](int a, int b, int code, double k) {
-		add(a, b, k);
-		if (code > 0) add(b, a, k);
+		add(a, b, code, k);
+		if (code > 0) add(b, a, -code, k);
 	});
 }
 
@@ -191,18 +222,22 @@ template <int Dim> void Flow<Dim>::addCoupledRoundOff(const State& state, std::v
 {
 	constexpr double      roundOff = 10 * std::numeric_limits<double>::epsilon();
 	const Eigen::VectorXd P        = state.value(field);
-	for (const auto& patch : basis_.patches)
-		for (int i = patch.first; i < patch.first + patch.count; ++i) {
-			const PointFunctions<Dim> f(basis_, i, patch);
-			const PorePoint&          point = points_[basis_.order[i]];
-			const double              flow  = water_.duration * point.volume * point.pores->at(point.ratio).value;
-			double                    slope = 0;
-			for (int n = 0; n < f.count; ++n)
-				if (patch.node[n] >= 0) slope += f.gradient[n].norm() * std::abs(P[patch.node[n]]);
-			for (int n = 0; n < f.count; ++n)
-				if (patch.node[n] >= 0)
-					sizes[field][patch.node[n]] += roundOff * (flow * slope * f.gradient[n].norm() + point.volume * f.value[n]);
-		}
+	forRanges(basis_, [&](int first, int last) {
+		for (auto patch = basis_.patches.begin() + first; patch != basis_.patches.begin() + last; ++patch)
+			for (int i = patch->first; i < patch->first + patch->count; ++i) {
+				const PointFunctions<Dim> f(basis_, i, *patch);
+				const PorePoint&          point = points_[basis_.order[i]];
+				const double              flow  = water_.duration * point.volume * point.pores->at(point.ratio).value;
+				double                    slope = 0, steepness[windowNodes<Dim>];
+				for (int n = 0; n < f.count; ++n) {
+					steepness[n] = f.gradient[n].norm();
+					if (patch->node[n] >= 0) slope += steepness[n] * std::abs(P[patch->node[n]]);
+				}
+				for (int n = 0; n < f.count; ++n)
+					if (patch->node[n] >= 0)
+						sizes[field][patch->node[n]] += roundOff * (flow * slope * steepness[n] + point.volume * f.value[n]);
+			}
+	});
 	for (const Outlet& outlet : outlets_)
 		for (int n = 0; n < outlet.at.nodes; ++n)
 			sizes[field][outlet.at.node[n]] += roundOff * outlet.conductance * std::abs(outlet.at.weight[n] * P[outlet.at.node[n]]);
@@ -210,20 +245,22 @@ template <int Dim> void Flow<Dim>::addCoupledRoundOff(const State& state, std::v
 
 template <int Dim> void Flow<Dim>::commitCoupled(const State& state)
 {
-	const Eigen::VectorXd P = state.value(field);
-	const auto&           d = state.displacements();
-	water_.flux.resize(points_.size());
-	water_.pressure.resize(points_.size());
+	const Eigen::VectorXd P   = state.value(field);
+	const auto&           d   = state.displacements();
+	const int             own = division_.ownOf(points_.size());
+	water_.flux.resize(own);
+	water_.pressure.resize(own);
 	double stored = 0;
 	for (const auto& patch : basis_.patches)
 		for (int i = patch.first; i < patch.first + patch.count; ++i) {
-			const int            p = basis_.order[i];
+			const int p = basis_.order[i];
+			if (p >= own) continue;
 			const FlowPoint<Dim> s(points_[p], patch, PointFunctions<Dim>(basis_, i, patch), d, P, water_.modulus);
 			water_.pressure[p] = s.pressure;
 			water_.flux[p]     = -s.kappa.value * s.slope;
 			stored += points_[p].volume / points_[p].ratio * s.content;
 		}
-	water_.stored = stored;
+	water_.stored = division_.sum(stored);
 	if (water_.keepsGrowth) keepGrowth(state);
 	if (water_.wantsWork) water_.work = workOn(state);
 	moveDrains(d, P);
@@ -237,11 +274,12 @@ template <int Dim> double Flow<Dim>::workOn(const State& end) const
 	auto                               twice = end.map().zeros(), sizes = twice;
 	for (const State* state : { &start, &end })
 		addCoupled(*state, { twice, sizes });
+	share_.complete(twice[0]);
 	return -twice[0].dot(end.displacements()) / 2;
 }
 
-template NodalField<2> pressureField(SoilWater<2>&, double);
-template NodalField<3> pressureField(SoilWater<3>&, double);
+template NodalField<2> pressureField(SoilWater<2>&, const Division&, double);
+template NodalField<3> pressureField(SoilWater<3>&, const Division&, double);
 template class Flow<2>;
 template class Flow<3>;
 

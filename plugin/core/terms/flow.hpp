@@ -5,17 +5,20 @@
 #include "core/terms/coupled_term.hpp"
 #include "core/terms/flow_point.hpp"
 #include "core/terms/ghost.hpp"
+#include "core/terms/near_nodes.hpp"
 #include "core/terms/soil_water.hpp"
 #include <utility>
 
 namespace gimpm {
 
+template <int Dim> struct FlowBlocks;
+
 /// Constrained moduli of points of the cloud [Pa].
 using ConstrainedModulus = std::function<double(int point)>;
 
 /// The field of the excess pressures. Of nodes where there was none before it begins with that of their points. `scale`
-/// as of Field.
-template <int Dim> NodalField<Dim> pressureField(SoilWater<Dim>&, double scale);
+/// as of Field. All are kept by reference.
+template <int Dim> NodalField<Dim> pressureField(SoilWater<Dim>&, const Division&, double scale);
 
 /// Implicit Euler: at the end of the step the volume that a point has gained is filled by what has flowed to it. The
 /// balance is that of volumes, so that the sum of all nodes is exact at any strain: functions add up to one, and their
@@ -66,11 +69,12 @@ private:
 		}
 	};
 	void        weighCells(const ConstrainedModulus&, const Beginning<Dim>&);
+	void        findNear(const Beginning<Dim>&);
 	void        attachDrains(const Beginning<Dim>&);
 	std::string attachDrain(int number, const Beginning<Dim>&);
 	std::string enclosure(const Beginning<Dim>&) const;
 
-	void   addPenalties(const Eigen::VectorXd& growth, const FieldSum<Dim>&) const;
+	void   addPenalties(const Eigen::VectorXd& growth, const FieldSum<Dim>&, const FlowBlocks<Dim>*) const;
 	void   addDrains(const Eigen::VectorXd& P, const FieldSum<Dim>&) const;
 	double conductanceNow(const Outlet&, double pressure) const;
 	void   moveDrains(const Eigen::VectorXd& d, const Eigen::VectorXd& P);
@@ -80,8 +84,12 @@ private:
 	SoilWater<Dim>&              water_;
 	const CloudBasis<Dim>&       basis_;
 	double                       h_;
+	const NodeShare&             share_;
+	const Division&              division_;
 	std::vector<GhostFace<Dim>>  faces_;
-	std::vector<PorePoint>       points_; ///< of the cloud
+	NearNodes<Dim>               near_;
+	std::vector<Pores>           ownPores_; ///< of each point of the cloud, where some have their own; else empty
+	std::vector<PorePoint>       points_;   ///< of the cloud
 	std::vector<double>          cellConductivity_;
 	std::vector<Cell>            cells_;
 	std::vector<Outlet>          outlets_;

@@ -45,7 +45,8 @@ template <int Dim> std::vector<LocalError> Flow<Dim>::fieldErrors(const State& s
 			d[Dim * n + a] = isNew ? 0 : d[Dim * n + a] - times * last->second[a];
 		p[n] = isNew ? 0 : p[n] - times * last->second[Dim];
 	}
-	double ofMotion = 0, ofPressure = 0, volume = 0;
+	const int own      = division_.ownOf(points_.size());
+	double    ofMotion = 0, ofPressure = 0, volume = 0;
 	for (const auto& patch : basis_.patches)
 		for (int i = patch.first; i < patch.first + patch.count; ++i) {
 			const PointFunctions<Dim> f(basis_, i, patch);
@@ -53,9 +54,11 @@ template <int Dim> std::vector<LocalError> Flow<Dim>::fieldErrors(const State& s
 			double                    pressed = 0;
 			for (int n = 0; n < f.count; ++n)
 				if (const int a = patch.node[n]; a >= 0) moved += f.value[n] * d.template segment<Dim>(Dim * a), pressed += f.value[n] * p[a];
+			if (basis_.order[i] >= own) continue;
 			const double V = points_[basis_.order[i]].volume;
 			ofMotion += V * moved.squaredNorm(), ofPressure += V * pressed * pressed, volume += V;
 		}
+	ofMotion = division_.sum(ofMotion), ofPressure = division_.sum(ofPressure), volume = division_.sum(volume);
 	constexpr int order = 2;
 	const double  part  = isFirst ? 0.5 : water_.duration / (water_.lastDuration + water_.duration);
 	return { { part * std::sqrt(ofMotion / volume), water_.displacementTolerance, order },

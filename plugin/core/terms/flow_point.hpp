@@ -7,22 +7,46 @@
 
 namespace gimpm {
 
+/// Of the nodes of a patch, where they are along each axis, and in the window of its lowest cell, x fastest.
+template <int Dim> struct PatchShape {
+	int count = 1;
+	int along[windowNodes<Dim>][Dim] {}, place[windowNodes<Dim>] {};
+
+	constexpr PatchShape(int span = 0)
+	{
+		for (int a = 0; a < Dim; ++a)
+			count *= 2 + (span >> a & 1);
+		for (int n = 0; n < count; ++n)
+			for (int a = 0, rest = n, stride = 1; a < Dim; rest /= 2 + (span >> a & 1), ++a, stride *= 3)
+				along[n][a] = rest % (2 + (span >> a & 1)), place[n] += stride * along[n][a];
+	}
+	static constexpr std::array<PatchShape, 1 << Dim> all()
+	{
+		std::array<PatchShape, 1 << Dim> shapes {};
+		for (int span = 0; span < 1 << Dim; ++span)
+			shapes[span] = PatchShape(span);
+		return shapes;
+	}
+};
+/// By the span of the patch.
+template <int Dim> inline constexpr auto patchShapes = PatchShape<Dim>::all();
+
 /// Functions of a point at the nodes of its patch; gradients along the axes as the step begins. The hoop functions give
 /// u_x / x, zero without an axis of symmetry.
 template <int Dim> struct PointFunctions {
-	int      count = 1;
+	int      count;
 	double   value[windowNodes<Dim>], hoop[windowNodes<Dim>];
 	Vec<Dim> gradient[windowNodes<Dim>];
 
 	PointFunctions(const CloudBasis<Dim>& basis, int p, const Patch<Dim>& patch)
 	{
-		for (int a = 0; a < Dim; ++a)
-			count *= patch.nodesAlong(a);
+		const PatchShape<Dim>& shape = patchShapes<Dim>[patch.span];
+		count                        = shape.count;
 		for (int n = 0; n < count; ++n) {
 			value[n] = 1, hoop[n] = 1, gradient[n] = Vec<Dim>::Ones();
-			for (int a = 0, rest = n; a < Dim; rest /= patch.nodesAlong(a), ++a) {
+			for (int a = 0; a < Dim; ++a) {
 				const auto& axis = basis.axes[p][a];
-				const int   i    = rest % patch.nodesAlong(a);
+				const int   i    = shape.along[n][a];
 				value[n] *= axis.value[i];
 				hoop[n] *= a > 0 ? axis.value[i] : basis.isAxisymmetric() ? basis.hoop[p][i] : 0;
 				for (int b = 0; b < Dim; ++b)

@@ -3,16 +3,15 @@
 #pragma once
 #include "core/terms/coupled_term.hpp"
 #include "core/terms/flow_point.hpp"
+#include "core/terms/near_nodes.hpp"
 #include <cstring>
 
 namespace gimpm {
 
-/// Where the nodes of a patch are in the window of its lowest cell, x fastest, and offsets between those of the window.
+/// Offsets between the nodes of the window of a lowest cell, by their code.
 template <int Dim> struct Window {
 	static constexpr int nodes = windowNodes<Dim>;
-
-	std::array<std::array<int, nodes>, 1 << Dim> place {}; ///< by the span of the patch
-	int                                          code[nodes][nodes];
+	int                  code[nodes][nodes];
 
 	static const Window& get()
 	{
@@ -23,10 +22,6 @@ template <int Dim> struct Window {
 private:
 	Window()
 	{
-		for (int span = 0; span < 1 << Dim; ++span)
-			for (int n = 0; n < nodes; ++n)
-				for (int a = 0, rest = n, stride = 1; a < Dim; rest /= 2 + (span >> a & 1), ++a, stride *= 3)
-					place[span][n] += stride * (rest % (2 + (span >> a & 1)));
 		for (int m = 0; m < nodes; ++m)
 			for (int n = 0; n < nodes; ++n) {
 				Index<Dim> offset;
@@ -48,22 +43,19 @@ template <int Dim> struct PatchesOfCell {
 	PatchesOfCell(const Patch<Dim>* patch, const Patch<Dim>* last) : first(patch), end(patch)
 	{
 		node.fill(-1);
-		for (; end < last && end->cell == first->cell; ++end)
-			for (int n = 0, count = nodesOf(*end); n < count; ++n)
-				if (end->node[n] >= 0) node[Window<Dim>::get().place[end->span][n]] = end->node[n];
+		for (; end < last && end->cell == first->cell; ++end) {
+			const PatchShape<Dim>& shape = patchShapes<Dim>[end->span];
+			for (int n = 0; n < shape.count; ++n)
+				if (end->node[n] >= 0) node[shape.place[n]] = end->node[n];
+		}
 	}
-	static int nodesOf(const Patch<Dim>& patch)
-	{
-		int count = 1;
-		for (int a = 0; a < Dim; ++a)
-			count *= patch.nodesAlong(a);
-		return count;
-	}
-	/// Calls f(number in the window, number in the window) for the nodes that there are.
+	bool isWhole() const { return *std::min_element(node.begin(), node.end()) >= 0; }
+
+	/// Calls f(number in the window, number in the window) for the nodes that there are, each pair once.
 	template <class F> void forPairs(F&& f) const
 	{
 		for (int m = 0; m < nodes; ++m)
-			for (int n = 0; n < nodes && node[m] >= 0; ++n)
+			for (int n = m; n < nodes && node[m] >= 0; ++n)
 				if (node[n] >= 0) f(m, n);
 	}
 };
@@ -79,14 +71,28 @@ template <int Dim, class F> void forCellsOfPatches(const CloudBasis<Dim>& basis,
 	}
 }
 
+/// Where the derivatives go beside those of displacements by displacements.
+template <int Dim> struct FlowBlocks {
+	NearBlocks<Dim> up, pp; ///< first the field of the row: u displacements, p pressures
+	NearBlocks<Dim> pu;     ///< of a symmetric matrix none are kept
+
+	FlowBlocks(const NearNodes<Dim>& near, Couplings& K, int field) : up(near, K, 0, field), pp(near, K, field, field), pu(near, K, field, 0) { }
+};
+
 /// What the points of a lowest cell add to forces and matrix, node by node of its window.
 template <int Dim> class FlowSums {
 	static constexpr int N = windowNodes<Dim>;
-	using Row              = double[N];
+	using Row              = double[(N + 3) / 4 * 4]; // whole registers; what is beyond the nodes is zero
 
 public:
-	FlowSums(const FieldSum<Dim>& sum, double duration, double modulus)
-	        : sum_(sum), isSymmetric_(!sum.couplings || sum.couplings->isSymmetric()), duration_(duration), modulus_(modulus)
+	/// Blocks: null if no derivatives are asked for.
+	FlowSums(const FieldSum<Dim>& sum, const FlowBlocks<Dim>* blocks, bool isAxisymmetric, double duration, double modulus)
+	        : sum_(sum)
+	        , blocks_(blocks)
+	        , isSymmetric_(!blocks || sum.couplings->isSymmetric())
+	        , isAxisymmetric_(isAxisymmetric)
+	        , duration_(duration)
+	        , modulus_(modulus)
 	{
 	}
 
@@ -94,17 +100,20 @@ public:
 	{
 		node_ = node;
 		clear(force_), clear(sizes_);
-		if (!sum_.couplings) return;
-		clear(uu_), clear(up_), clear(pp_);
-		if (!isSymmetric_) clear(pu_), clear(rest_);
+		if (!blocks_) return;
+		clear(turn_), clear(up_), clear(pp_);
+		if (isAxisymmetric_) clear(ring_);
+		if (!isSymmetric_) clear(pu_);
 	}
 
 	void add(const PorePoint& point, const FlowPoint<Dim>& s, const Patch<Dim>& patch, const PointFunctions<Dim>& f, const PresentFunctions<Dim>& now)
 	{
 		take(patch, f, now);
 		addForces(point, s);
-		if (sum_.couplings) addSymmetric(point, s);
-		if (sum_.couplings && !isSymmetric_) addRest(point, s);
+		if (!blocks_) return;
+		addSymmetric(point, s);
+		if (isAxisymmetric_) addRing(point, s);
+		if (!isSymmetric_) addRest(point, s);
 	}
 
 	void scatterAdd() const
@@ -115,19 +124,24 @@ public:
 				sum_.force[0][Dim * node_[n] + i] += force_[i][n], sum_.sizes[0][Dim * node_[n] + i] += sizes_[i][n];
 			sum_.force[field][node_[n]] += force_[Dim][n], sum_.sizes[field][node_[n]] += sizes_[Dim][n];
 		}
-		if (!sum_.couplings) return;
-		scatterStiffness();
-		scatterCouplings();
+		if (!blocks_) return;
+		const auto& code = Window<Dim>::get().code;
+		for (int m = 0; m < N; ++m)
+			for (int n = 0; n < N && node_[m] >= 0; ++n) {
+				if (node_[n] < 0) continue;
+				if (m <= n && sum_.K->keeps(node_[m])) addStiffness(m, n, sum_.K->at(node_[m], code[m][n]));
+				addCouplings(m, n, code[m][n]);
+			}
 	}
 
 private:
-	static constexpr int               field = 1; // of the pressure
+	static constexpr int               field = 1, turns = Dim * (Dim - 1) / 2; // of the pressure; pairs of axes
 	template <class Array> static void clear(Array& array) { std::memset(array, 0, sizeof array); }
 
 	/// The functions of a point, zero at nodes that it does not have.
 	void take(const Patch<Dim>& patch, const PointFunctions<Dim>& f, const PresentFunctions<Dim>& now)
 	{
-		const auto& place = Window<Dim>::get().place[patch.span];
+		const auto& place = patchShapes<Dim>[patch.span].place;
 		clear(value_), clear(hoop_), clear(along_), clear(gradient_), clear(dilation_);
 		count_ = 0;
 		for (int n = 0; n < f.count; ++n) {
@@ -155,30 +169,39 @@ private:
 	}
 	static void addTimes(Row& to, double factor, const Row& row)
 	{
-		for (int b = 0; b < N; ++b)
+		for (std::size_t b = 0; b < std::size(to); ++b)
 			to[b] += factor * row[b];
 	}
 
 	/// With w = grad p and g the present gradients: see the page on theory. Row by row, so that columns are side by
-	/// side.
+	/// side. Displacements by displacements: pV (g_ak g_bi - g_ai g_bk) for i < k, and its opposite for i > k.
 	void addSymmetric(const PorePoint& point, const FlowPoint<Dim>& s)
 	{
 		const double V = point.volume * s.J, flow = duration_ * V * s.density * s.kappa.value, pushes = V * s.pressure;
 		const double stored = point.volume / point.ratio * (point.content + s.content) / modulus_;
 		for (int m = 0; m < count_; ++m) {
 			const int a = own_[m];
-			for (int i = 0; i < Dim; ++i) {
+			for (int i = 0, pair = 0; i < Dim; ++i) {
 				addTimes(up_[i][a], -V * dilation_[i][a], value_);
 				addTimes(pp_[a], flow * gradient_[i][a], gradient_[i]);
-				for (int k = 0; k < Dim; ++k) {
-					Row&         to   = uu_[Dim * i + k][a];
-					const double turn = pushes * gradient_[k][a], push = pushes * dilation_[i][a];
-					for (int b = 0; b < N; ++b)
-						to[b] += turn * gradient_[i][b] - push * dilation_[k][b];
+				for (int k = i + 1; k < Dim; ++k, ++pair) {
+					addTimes(turn_[pair][a], pushes * gradient_[k][a], gradient_[i]);
+					addTimes(turn_[pair][a], -pushes * gradient_[i][a], gradient_[k]);
 				}
 			}
-			if (hoop_[a] != 0) addTimes(uu_[0][a], pushes * hoop_[a], hoop_);
 			if (stored != 0) addTimes(pp_[a], stored * value_[a], value_);
+		}
+	}
+	/// What the stretch along the circle adds: of xx, of xy and of yx.
+	void addRing(const PorePoint& point, const FlowPoint<Dim>& s)
+	{
+		const double pushes = point.volume * s.J * s.pressure;
+		for (int m = 0; m < count_; ++m) {
+			const int a = own_[m];
+			addTimes(ring_[0][a], -pushes * hoop_[a], gradient_[0]);
+			addTimes(ring_[0][a], -pushes * gradient_[0][a], hoop_);
+			addTimes(ring_[1][a], -pushes * hoop_[a], gradient_[1]);
+			addTimes(ring_[2][a], -pushes * gradient_[1][a], hoop_);
 		}
 	}
 	/// What has no transpose, and the other half of what has one.
@@ -195,66 +218,39 @@ private:
 				addTimes(pu_[i][a], -flow * s.slope[i], products);
 				addTimes(pu_[i][a], -flow * gradient_[i][a], along_);
 			}
-			addTimes(rest_[a], flow / modulus_ * along_[a], value_);
+			addTimes(pp_[a], flow / modulus_ * along_[a], value_);
 		}
 	}
 
-	Mat<Dim> stiffness(int m, int n) const
+	/// It is symmetric, so that it serves for both of the opposite blocks.
+	void addStiffness(int m, int n, double* block) const
 	{
-		Mat<Dim> block;
-		for (int i = 0; i < Dim; ++i)
-			for (int k = 0; k < Dim; ++k)
-				block(i, k) = uu_[Dim * i + k][m][n];
-		return block;
+		for (int i = 0, pair = 0; i < Dim; ++i)
+			for (int k = i + 1; k < Dim; ++k, ++pair)
+				block[Dim * i + k] += turn_[pair][m][n], block[Dim * k + i] -= turn_[pair][m][n];
+		if (isAxisymmetric_) block[0] += ring_[0][m][n], block[1] += ring_[1][m][n], block[Dim] += ring_[2][m][n];
 	}
-	void scatterStiffness() const
+	void addCouplings(int m, int n, int code) const
 	{
-		const auto& code = Window<Dim>::get().code;
-		for (int m = 0; m < N; ++m) {
-			if (node_[m] < 0) continue;
-			for (int n = m; n < N; ++n) {
-				if (node_[n] < 0) continue;
-				if (!isSymmetric_) {
-					sum_.K->add(node_[m], node_[n], code[m][n], stiffness(m, n));
-					if (m < n) sum_.K->add(node_[n], node_[m], code[n][m], stiffness(m, n).transpose());
-				} else if (sum_.K->keeps(node_[m])) {
-					double* out = sum_.K->at(node_[m], code[m][n]);
-					for (int i = 0; i < Dim * Dim; ++i)
-						out[i] += uu_[i][m][n];
-				}
-			}
-		}
-	}
-	void scatterCouplings() const
-	{
-		using Column      = Eigen::Matrix<double, Dim, 1>;
-		using Number      = Eigen::Matrix<double, 1, 1>;
-		const auto column = [](const auto& rows, int m, int n) {
-			Column x;
+		const auto addVector = [&](double* to, const auto& rows) {
 			for (int i = 0; i < Dim; ++i)
-				x[i] = rows[i][m][n];
-			return x;
+				to[i] += rows[i][m][n];
 		};
-		auto& K = *sum_.couplings;
-		for (int m = 0; m < N; ++m) {
-			if (node_[m] < 0) continue;
-			K.addRow({ 0, node_[m] }, field, node_.data(), N, [&](int n) { return column(up_, m, n); });
-			K.addRow({ field, node_[m] }, field, node_.data(), N, [&](int n) { return Number(pp_[m][n]); });
-			if (isSymmetric_) continue;
-			K.addRow({ field, node_[m] }, 0, node_.data(), N, [&](int n) { return Eigen::Matrix<double, 1, Dim>(column(pu_, m, n).transpose()); });
-			K.addRow({ field, node_[m] }, field, node_.data(), N, [&](int n) { return Number(rest_[m][n]); });
-		}
+		addVector(blocks_->up.at(node_[m], code), up_);
+		if (double* to = blocks_->pp.at(node_[m], code)) *to += pp_[m][n];
+		if (!isSymmetric_) addVector(blocks_->pu.at(node_[m], code), pu_);
 	}
 
-	const FieldSum<Dim>& sum_;
-	const bool           isSymmetric_;
-	const double         duration_, modulus_;
-	std::array<int, N>   node_;
-	Row                  force_[Dim + 1], sizes_[Dim + 1];                      // the last one: of the pressure
-	Row                  uu_[Dim * Dim][N], up_[Dim][N], pp_[N];                // by rows
-	Row                  pu_[Dim][N], rest_[N];                                 // where the matrix is not symmetric; rest: of pp
-	Row                  value_, hoop_, along_, gradient_[Dim], dilation_[Dim]; // of the point at hand
-	int                  own_[N], count_ = 0;                                   // its nodes
+	const FieldSum<Dim>&   sum_;
+	const FlowBlocks<Dim>* blocks_;
+	const bool             isSymmetric_, isAxisymmetric_;
+	const double           duration_, modulus_;
+	std::array<int, N>     node_;
+	Row                    force_[Dim + 1], sizes_[Dim + 1];                      // the last one: of the pressure
+	Row                    turn_[turns][N], ring_[3][N], up_[Dim][N], pp_[N];     // by rows
+	Row                    pu_[Dim][N];                                           // where the matrix is not symmetric
+	Row                    value_, hoop_, along_, gradient_[Dim], dilation_[Dim]; // of the point at hand
+	int                    own_[N], count_ = 0;                                   // its nodes
 };
 
 } // namespace gimpm

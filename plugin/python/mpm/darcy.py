@@ -145,6 +145,11 @@ class _Body:
 		self.cells = dict(zip(map(tuple, cell.tolist()), self.kappa))
 		self.heights = self.origin[1] + self.h * self.nodes[:, 1]
 
+	def cellBehind(self, place, inwards):
+		"""The first cell with points from a place [cells] inwards, as points may fall short of a slope; None if there is none within a whole one."""
+		ways = np.floor(place + np.outer((1e-4, .25, .5, .75, 1), inwards)).astype(int)
+		return next((cell for cell in map(tuple, ways.tolist()) if cell in self.cells), None)
+
 	def wetness(self, p):
 		"""Conductivity of each part over that of wet soil."""
 		return np.clip(.5 + (self.values * p[self.node]).sum(axis=1) / (self.weight * _transition * self.h), _dry, 1)
@@ -155,10 +160,11 @@ class _Outlet:
 
 	def __init__(self, body, name, segments, level):
 		found = [place for segment in segments for place in self._places(body, *segment)]
-		self.x, self.length, inside = (np.array(column) for column in zip(*found))
-		cell = np.floor((inside - body.origin) / body.h).astype(int)
-		missing = [i for i, c in enumerate(map(tuple, cell.tolist())) if c not in body.cells]
+		self.x, self.length, inwards = (np.array(column) for column in zip(*found))
+		cells = [body.cellBehind(*at) for at in zip((self.x - body.origin) / body.h, inwards)]
+		missing = [i for i, c in enumerate(cells) if c is None]
 		if missing: raise ValueError(f'seepage: the surface of {name} is not on the body at {place(self.x[missing[0]])}, which must be on the left of its points')
+		cell = np.array(cells)
 		self.values = _functions((self.x - body.origin) / body.h - cell)[0]
 		corners = cell[:, None, :] + np.array(list(itertools.product((0, 1), repeat=2)))
 		self.node = np.array([[body.numbers[tuple(node)] for node in four] for four in corners.tolist()])
@@ -168,18 +174,18 @@ class _Outlet:
 
 	@staticmethod
 	def _places(body, start, end):
-		"""(place, length that it stands for, a place beside it in the body) for two places in each cell."""
+		"""(place, length that it stands for, direction into the body) for two places in each cell."""
 		way = end - start
 		length = np.linalg.norm(way)
 		if not length > 0: return
 		first, last = (np.floor((f(start, end) - body.origin) / body.h).astype(int) for f in (np.minimum, np.maximum))
 		lines = [(body.origin[a] + body.h * i - start[a]) / way[a] for a in (0, 1) if abs(way[a]) > 1e-12 * length for i in range(first[a], last[a] + 1)]
 		cuts = np.unique(np.clip([0, 1, *lines], 0, 1))
-		inwards = 1e-4 * body.h * np.array([-way[1], way[0]]) / length
+		inwards = np.array([-way[1], way[0]]) / length
 		for first, last in zip(cuts, cuts[1:]):
 			for part in (.5 - .5 / math.sqrt(3), .5 + .5 / math.sqrt(3)):
 				x = start + (first + part * (last - first)) * way
-				yield x, (last - first) * length / 2, x + inwards
+				yield x, (last - first) * length / 2, inwards
 
 	def pressure(self, p):
 		return (self.values * p[self.node]).sum(axis=1)

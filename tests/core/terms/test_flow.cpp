@@ -41,7 +41,7 @@ namespace {
 				cloud.volume0[p] *= 2 * M_PI * cloud.position[p][0];
 			water.pores = { { 1e-8, 0.5 } };
 			water.pressure.assign(cloud.size(), 0);
-			model.fields       = { pressureField(water, modulus / h) };
+			model.fields       = { pressureField(water, *model.division, modulus / h) };
 			model.coupledTerms = { [this](const Beginning<Dim>& step, const State&) {
 				return std::make_unique<Flow<Dim>>(
 				        water, [this](int) { return model.materials[0].young({}, 0); }, step);

@@ -133,7 +133,7 @@ if rank == 0: np.save('pos.npy', pos)
 
 
 def test_water_goes_on_in_other_numbers_of_processes(yade):
-	"""Two processes that share a body from which water is pressed save it; one, two and three go on."""
+	"""Two processes that share a body from which water is pressed save it, or divide its points; one, two and three go on."""
 	begin = '''
 import json
 import os
@@ -163,8 +163,9 @@ mpm.save('between.yade.gz')
 	run = yade(begin + scene + goesOn, processes=2)
 	read = lambda: json.loads((run.folder / 'reached.json').read_text())
 	positions, pressures, out, discharge = read()
-	for processes in 1, 2, 3:
-		yade(begin + "mpm.load('between.yade.gz')\n" + goesOn, processes=processes)
+	divided = scene.replace('verbosity=0', 'verbosity=0, distributed=True')
+	for processes, script in (1, ''), (3, ''), (2, divided), (3, ''), (1, ''):
+		yade(begin + (script or "mpm.load('between.yade.gz')\n") + goesOn, processes=processes)
 		found = read()
 		assert np.abs(np.subtract(found[0], positions)).max() < 1e-8
 		assert np.abs(np.subtract(found[1], pressures)).max() < 1e-8 * 2e4 and abs(found[2] / out - 1) < 1e-8 and abs(found[3] / discharge - 1) < 1e-7

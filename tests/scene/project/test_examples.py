@@ -532,6 +532,28 @@ def test_drawdown_in_time(yade):
 	assert (run.folder / 'out/drawdown/drawdown.png').stat().st_size > 20000
 
 
+def test_life_of_a_reservoir(yade):
+	"""Each stage does to the dam what it must; in the end it is as safe as it was. Coarse cells and brackets."""
+	run = yade(root / 'examples' / 'water' / 'reservoir.py', '--cellSize', 2, '--tolerance', .2)
+	F = list(map(float, re.findall(r': F = (\S+), crest', run.stdout)))
+	built, filled, steady, half, empty, *later = F
+	assert len(later) == 3 and empty < later[0] < later[1] and abs(later[-1] / built - 1) < 0.1
+	assert filled >= built > steady > half >= empty
+	pressures = list(map(float, re.findall(r'pressures up to (\S+) kPa', run.stdout)))
+	assert pressures == sorted(pressures, reverse=True) and pressures[0] > 20 and pressures[-1] < 1
+	assert (run.folder / 'out/reservoir/reservoir.png').stat().st_size > 20000
+
+
+def test_embankment_with_waiting_times(yade):
+	"""A layer of an embankment: pressures go as it waits, and it settles as much as if all were drained."""
+	run = yade(root / 'examples' / 'embankment' / 'waiting.py', '--cellSize', 1, '--layers', 1, '--safety', 0)
+	settled, pressure = numbers(r'layer 1: after 95 days (\S+) mm, pressures up to (\S+) kPa', run.stdout)
+	last, left = numbers(r'in the end (\S+) mm, pressures up to (\S+) kPa', run.stdout)
+	drained = numbers(r'(\S+) mm if all is drained', run.stdout)[0]
+	assert 0 < settled < last and left < .1 < 3 < pressure and abs(last / drained - 1) < 0.1
+	assert (run.folder / 'out/waiting/waiting.png').stat().st_size > 20000
+
+
 def test_consolidation(yade):
 	"""Columns and slab against what is known; all water that leaves is counted."""
 	run = yade(root / 'examples' / 'consolidation' / 'consolidation.py', '--cells', 10, '--steps', 30)

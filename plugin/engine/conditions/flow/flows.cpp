@@ -30,6 +30,19 @@ namespace {
 		return pores;
 	}
 
+	// What is wrong with points that only one process has, all have to hear of.
+	template <class F> void refusingTogether(const gimpm::Division& division, F&& take)
+	{
+		string refusal;
+		try {
+			take();
+		} catch (const std::invalid_argument& refused) {
+			refusal = refused.what();
+		}
+		refusal = division.firstSaid(refusal);
+		if (!refusal.empty()) throw std::invalid_argument(refusal);
+	}
+
 	// The water in the pores that has a level, if it is the only one there; null: there is none.
 	shared_ptr<MpmWater> stillWater(const Analysis& analysis)
 	{
@@ -65,9 +78,6 @@ namespace {
 
 template <int Dim> void Flows<Dim>::join(gimpm::Model<Dim>& model, const Surroundings<Dim>& around)
 {
-	if (!model.division->isWhole())
-		throw std::invalid_argument(
-		        "MpmFlow cannot go with points that are divided among processes yet: leave distributed = False, so that they share them.");
 	constexpr Real ofSteadySoil = 1, ofSoilThatMoves = 0.1;
 	still               = stillWater(around.analysis);
 	water.modulus       = from->bulkModulus;
@@ -76,18 +86,20 @@ template <int Dim> void Flows<Dim>::join(gimpm::Model<Dim>& model, const Surroun
 	if (const Real tolerance = around.analysis.newton->stepTolerance; tolerance > 0)
 		water.displacementTolerance = tolerance, water.pressureTolerance = from->pressureTolerance;
 	water.keepsGrowth = !around.analysis.isDynamic() || std::isfinite(water.displacementTolerance);
-	takePoints(around);
+	refusingTogether(*model.division, [&] { takePoints(around, *model.division); });
 	takeNodes();
 	takeDrains(model, around);
-	Real sum = 0, fastest = 0; // of constrained moduli; coefficient of consolidation
+	Real       sum = 0, fastest = 0; // of constrained moduli; coefficient of consolidation
+	const Real count = model.division->sum(Real(around.cloud.size()));
 	for (size_t p = 0; p < around.cloud.size(); ++p) {
 		const Real modulus = gimpm::waveModuli(model.materials, around.cloud, int(p)).pressure;
-		sum += modulus / Real(around.cloud.size());
+		sum += modulus / count;
 		fastest = std::max(fastest, modulus * (water.ownPores.empty() ? water.pores[around.cloud.material[p]] : water.ownPores[p]).conductivity);
 	}
+	sum = model.division->sum(sum), fastest = model.division->largest(fastest);
 	acrossCell = std::pow(model.grid.cellSize, 2) / fastest;
 	isRamp     = !around.analysis.isDynamic() && around.analysis.loadCurve == gimpm::LoadCurve::Knees { { 0, 0 }, { 1, 1 } };
-	model.fields.push_back(gimpm::pressureField(water, sum / model.grid.cellSize));
+	model.fields.push_back(gimpm::pressureField(water, *model.division, sum / model.grid.cellSize));
 	model.coupledTerms.push_back([this, materials = model.materials](const gimpm::Beginning<Dim>& step, const gimpm::State&) {
 		const auto constrained = [&](int p) { return gimpm::waveModuli(materials, step.cloud, p).pressure; };
 		return std::make_unique<gimpm::Flow<Dim>>(water, constrained, step);
@@ -99,10 +111,11 @@ template <int Dim> void Flows<Dim>::join(gimpm::Model<Dim>& model, const Surroun
 	};
 }
 
-template <int Dim> void Flows<Dim>::takePoints(const Surroundings<Dim>& around)
+// Of points that are divided each has its own: the copies of others may be of materials that are not known here.
+template <int Dim> void Flows<Dim>::takePoints(const Surroundings<Dim>& around, const gimpm::Division& division)
 {
 	const auto& points = around.points;
-	const bool  differ = std::any_of(points.begin(), points.end(), [&](const MaterialPoint& point) {
+	const bool  differ = !division.isWhole() || std::any_of(points.begin(), points.end(), [&](const MaterialPoint& point) {
                 return point.state->parameter("conductivity") || point.state->parameter("porosity");
         });
 	OwnMaterial own;
@@ -148,6 +161,7 @@ template <int Dim> void Flows<Dim>::takeDrains(const gimpm::Model<Dim>& model, c
 	Real highest = -std::numeric_limits<Real>::infinity();
 	for (const auto& x : around.cloud.position)
 		highest = std::max(highest, up[axis] * x[axis]);
+	highest = model.division->largest(highest);
 	for (size_t i = 0; i < from->drains.size(); ++i) {
 		const MpmDrain& drain = *from->drains[i];
 		const string    name  = "flow.drains[" + std::to_string(i) + "]";

@@ -20,7 +20,7 @@ public:
 	std::map<string, string> warnings() const override;
 
 private:
-	void takePoints(const Surroundings<Dim>&);
+	void takePoints(const Surroundings<Dim>&, const gimpm::Division&);
 	void takeNodes();
 	void takeDrains(const gimpm::Model<Dim>&, const Surroundings<Dim>&);
 	void keepNodes();

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Neighbours on the grid whose fields are coupled, and where their blocks are in a matrix.
+#pragma once
+#include "core/solvers/couplings.hpp"
+#include "core/solvers/node_matrix.hpp"
+#include <array>
+
+namespace gimpm {
+
+/// For each node those that it is coupled with, by the code of their offset (NodeMatrix::code); symmetric.
+template <int Dim> class NearNodes {
+public:
+	static constexpr int middle = NodeMatrix<Dim>::codes - 1, count = 2 * middle + 1;
+
+	explicit NearNodes(int nodes) : near_(nodes)
+	{
+		for (auto& row : near_)
+			row.fill(-1);
+	}
+	/// The offset is that from a to b.
+	void add(int a, int b, int code) { near_[a][middle + code] = b, near_[b][middle - code] = a; }
+	/// All nodes of the grid at most two cells away along each axis.
+	void addAll(const std::vector<Key>& nodes, const Grid<Dim>& grid)
+	{
+		const auto neighbour = NodeMatrix<Dim>::neighboursOf(nodes, grid);
+		for (std::size_t i = 0; i < neighbour.size(); ++i)
+			if (neighbour[i] >= 0) add(int(i) / NodeMatrix<Dim>::codes, neighbour[i], int(i) % NodeMatrix<Dim>::codes);
+	}
+
+	int                           size() const { return int(near_.size()); }
+	const std::array<int, count>& operator[](int node) const { return near_[node]; } ///< -1: none
+
+	void mark(NodeMatrix<Dim>& K) const
+	{
+		for (int a = 0; a < size(); ++a)
+			for (int code = 0; code <= middle; ++code)
+				if (near_[a][middle + code] >= 0) K.markUsed(a, code);
+	}
+	void mark(Couplings& K, int field, int other) const
+	{
+		std::vector<int> rising;
+		for (int a = 0; a < size(); ++a) {
+			rising.clear();
+			std::copy_if(near_[a].begin(), near_[a].end(), std::back_inserter(rising), [](int b) { return b >= 0; });
+			if (!std::is_sorted(rising.begin(), rising.end())) std::sort(rising.begin(), rising.end()); // of a periodic grid
+			rising.erase(std::unique(rising.begin(), rising.end()), rising.end());
+			K.markRow({ field, a }, other, rising);
+		}
+	}
+
+private:
+	std::vector<std::array<int, count>> near_;
+};
+
+/// The blocks of near nodes in two fields, all of which are marked, until another one is.
+template <int Dim> class NearBlocks {
+public:
+	NearBlocks(const NearNodes<Dim>& near, Couplings& K, int field, int other) : values_(K.values()), places_(std::size_t(near.size()) * near.count)
+	{
+		for (int a = 0; a < near.size(); ++a)
+			K.findPlaces({ field, a }, other, near[a].data(), near.count, places_.data() + std::size_t(a) * near.count);
+	}
+	/// Of a node in the first field and its neighbour in the other one, row by row; null: it is not kept.
+	double* at(int node, int code) const
+	{
+		const std::ptrdiff_t place = places_[std::size_t(node) * NearNodes<Dim>::count + NearNodes<Dim>::middle + code];
+		return place < 0 ? nullptr : values_ + place;
+	}
+
+private:
+	double*                     values_;
+	std::vector<std::ptrdiff_t> places_;
+};
+
+} // namespace gimpm
