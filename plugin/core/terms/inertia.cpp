@@ -60,7 +60,7 @@ template <int Dim> void Inertia<Dim>::findStart(const Beginning<Dim>& step)
 	acceleration_ = expected_;
 	if (!contact.isZero(0)) acceleration_ -= solved(contact);
 	imbalance_ = all - contact;
-	if (!motion_.scheme.isAlpha()) neglected_ = imbalance_ - nodal_ * acceleration_;
+	neglected_ = imbalance_ - nodal_ * acceleration_;
 	for (Eigen::Index i = 0; i < imbalance_.size(); ++i) {
 		if (isHeld(i)) neglected_[i] = 0;
 		if (isHeld(i) || motion_.scheme.alphaF == 0) imbalance_[i] = 0;
@@ -289,6 +289,24 @@ template <int Dim> double Inertia<Dim>::kineticEnergy() const
 	return division_.sum(sum);
 }
 
+/// Work of the mean of the forces at both ends, those of equilibrium at nodes that are held, less what the kinetic
+/// energy of the nodes grows by: what a new grid takes and, where equilibrium is weighed, what the scheme damps.
+/// `others`: accelerations at the end but for `contact`; `growth`: of velocities, without that by a blow.
+template <int Dim>
+double Inertia<Dim>::lostInTime(const Eigen::VectorXd& d, const Eigen::VectorXd& others, const Eigen::VectorXd& contact, const Eigen::VectorXd& growth) const
+{
+	const auto& scheme = motion_.scheme;
+	if (!scheme.isAlpha()) return (1 - scheme.gamma) * d.dot(neglected_);
+	const double          weight = 1 - scheme.alphaF;
+	const Eigen::VectorXd first  = nodal_ * acceleration_ + neglected_;
+	Eigen::VectorXd       last   = nodal_ * others;
+	const Eigen::VectorXd weighed
+	        = nodal_ * ((1 - scheme.alphaM) / weight * others + scheme.alphaM / weight * acceleration_) - scheme.alphaF / weight * first;
+	for (Eigen::Index i = 0; i < last.size(); ++i)
+		if (!isHeld(i)) last[i] = weighed[i];
+	return d.dot((first + last) / 2 + contact) - (velocity_ + growth / 2).dot(nodal_ * growth);
+}
+
 template <int Dim> void Inertia<Dim>::commit(const Eigen::VectorXd& d)
 {
 	const double          beta = motion_.scheme.beta, gamma = motion_.scheme.gamma, T = motion_.duration;
@@ -299,7 +317,7 @@ template <int Dim> void Inertia<Dim>::commit(const Eigen::VectorXd& d)
 	addGhostForce(faces_, h_, d, ghost);
 	share_.complete(ghost);
 	motion_.impactWork           = energyOfBlow(nodal_, velocity_, blow_, jump_, prescribed_ / T);
-	motion_.gridWork             = (1 - gamma) * d.dot(neglected_);
+	motion_.gridWork             = lostInTime(d, others, force, growth - jump_);
 	const Eigen::VectorXd looked = velocityAt(d);
 	for (const auto& each : damping_)
 		each->commit(d, motion_.scheme.atMiddle ? looked : velocity_, looked);
@@ -316,8 +334,9 @@ template <int Dim> void Inertia<Dim>::commit(const Eigen::VectorXd& d)
 	motion_.growth      = growth;
 	// the force of the ghost stiffness begins at zero in each step; points do not take over what the nodes change
 	// in the ghost mass
-	motion_.ghostWork = gamma * d.dot(ghost) + (growth.dot(nodal_ * growth) - division_.sum(gained)) / 2;
-	if (extent_) motion_.ghostWork += gamma * d.dot(ofExtent(accelerationAt(d)));
+	const double ofEnd = motion_.scheme.isAlpha() ? 0.5 : gamma; // forces of its two ends, as in gridWork
+	motion_.ghostWork  = ofEnd * d.dot(ghost) + (growth.dot(nodal_ * growth) - division_.sum(gained)) / 2;
+	if (extent_) motion_.ghostWork += ofEnd * d.dot(ofExtent(accelerationAt(d)));
 }
 
 template class Inertia<2>;

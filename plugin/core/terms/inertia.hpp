@@ -53,6 +53,7 @@ private:
 	Eigen::VectorXd solved(const Eigen::VectorXd& right); // where what is held stays at zero
 	Eigen::VectorXd velocityAt(const Eigen::VectorXd& d) const;
 	Eigen::VectorXd ofContact(const Eigen::VectorXd* d) const; // on the nodes; null: as the step begins
+	double lostInTime(const Eigen::VectorXd& d, const Eigen::VectorXd& others, const Eigen::VectorXd& contact, const Eigen::VectorXd& growth) const;
 	Eigen::VectorXd accelerationAt(const Eigen::VectorXd& d) const;
 	Eigen::VectorXd ofExtent(const Eigen::VectorXd& acceleration) const;
 	bool            isHeld(Eigen::Index dof) const { return dofs_.number[dof] < 0; }

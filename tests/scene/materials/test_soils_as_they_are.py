@@ -29,7 +29,7 @@ def ground(material, OCR=1, engine=MpmImplicitEngine, **settings):
 
 
 def test_laboratory_tests_of_hardening_soil(yade):
-	"""Its hyperbola, its oedometer and its unloading."""
+	"""Its hyperbola, its oedometer and its unloading; and of small strains that turn to and fro the damping ratio and the secant modulus of the loop."""
 	assert yade(
 	        setting + '''
 law = MpmHardeningSoilMat(**soil)
@@ -46,6 +46,23 @@ assert abs(curve['stress'][-1, 0, 0] / curve['stress'][-1, 1, 1] - soil['K0nc'])
 small = MpmHardeningSoilMat(G0ref=150e6, gamma07=1e-4, **soil)
 stiff, soft = (mpm.elementTest(m, 'triaxial', -1e-5, steps=1, confiningPressure=100e3, capPressure=1e7)['q'][-1] for m in (small, law))
 assert stiff > 1.5 * soft
+
+def loop(amplitude, steps=40):
+	"""Closed, at constant volume; elastic, as hardening is out of reach."""
+	state, stress, found = dict(capPressure=1e8, shearHardening=1.), np.full(3, -100e3), []
+	for way in amplitude, -2 * amplitude, 2 * amplitude:
+		curve = mpm.elementTest(MpmHardeningSoilMat(G0ref=150e6, gamma07=1e-4, **{**soil, 'power': 0}), 'undrainedTriaxial', -2 * way / 3, steps=steps, initialStress=stress, **state)
+		stress = np.diag(curve['stress'][-1])
+		state = {name: curve[name][-1] for name in curve if name in ('capPressure', 'shearHardening', 'stiffness', 'mobilisedFriction') or name.startswith('strainHistory')}
+		found.append((curve['stress'][:, 0, 0] - curve['stress'][:, 1, 1]) / 2)
+	down, up = found[1:]
+	lost = (np.trapz(up - up[0]) - np.trapz(down - down[-1])) * 2 * amplitude / steps
+	return lost / (np.pi * np.ptp(up) * amplitude), np.ptp(up) / 2 / amplitude
+for amplitude in 1e-5, 1e-4: # branches of the hyperbola that begin anew at each turn
+	x = 2 * 0.385 * amplitude / 1e-4
+	damping, modulus = loop(amplitude)
+	assert abs(damping / (2 / np.pi * (2 * (1 + x) * (x - np.log1p(x)) / x**2 - 1)) - 1) < .003
+	assert abs(modulus / (150e6 / (1 + x)) - 1) < 1e-6
 '''
 	).exitCode == 0
 
