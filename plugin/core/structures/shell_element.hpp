@@ -12,8 +12,6 @@ struct ShellPiece {
 	Vec<2>    radius0  = Vec<2>::Ones(); ///< of its ends without stress [m]; not both 0
 	Vec<2>    outwards = Vec<2>::Zero(); ///< by how much the radii of its ends are larger than these [m]
 	double    slope0   = 0;              ///< sine of the angle of its meridian to the radius, without stress
-
-	double area0() const { return M_PI * radius0.sum() * meridian.length0; }
 };
 
 /// Strains and curvatures are those of Reissner (1950): of the meridian as of a beam, of the parallels (r - R) / R
