@@ -160,13 +160,23 @@ NorSand::Flow NorSand::returned(const Trial& trial) const
 {
 	const double p = pressureAt(trial.volumetric), q = 3 * given_.shear * trial.shear, eta = obliquity(p, trial.image);
 	if (q + eta * p <= -tolerance * p) return { trial.volumetric, trial.shear, trial.image };
-	const Vec4 first(trial.volumetric, trial.shear, 0, trial.image);
-	Vec4       x        = first;
-	bool       isSolved = solve(trial, x) && x[1] >= 0 && x[2] >= 0;
+	constexpr double roundOff = 1e-10;
+	const Vec4       first(trial.volumetric, trial.shear, 0, trial.image);
+	Vec4             x        = first;
+	bool             isSolved = solve(trial, x) && x[1] >= 0 && x[2] >= 0;
 	if (!isSolved && eta < 0) {
 		if (const Flow tip = atTip(trial); !tip.isFailed) return tip;
 	}
-	if (!isSolved) x = between(trial), isSolved = solve(trial, x) && x[1] >= 0 && x[2] >= 0;
+	if (!isSolved) {
+		const Vec4 halved = between(trial);
+		x                 = halved;
+		isSolved          = solve(trial, x) && x[1] >= 0 && x[2] >= 0;
+		// To round-off it may be there already, which in the last equation grows with the hardening.
+		const Vec4 rest = residual(trial, halved).first * given_.reference;
+		if (!isSolved && std::abs(rest[2]) < -roundOff * pressureAt(halved[0])
+		    && std::abs(rest[3]) < -roundOff * (1 + given_.hardening * halved[2]) * halved[3])
+			x = halved, isSolved = true;
+	}
 	// From the yield surface to the trial in parts, each of which starts where the one before ended.
 	const double onSurface = std::min(trial.shear, std::max(0., -eta * p / (3 * given_.shear)));
 	for (int parts = 8; !isSolved && parts <= 512; parts *= 8) {

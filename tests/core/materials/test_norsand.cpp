@@ -106,6 +106,21 @@ namespace {
 		EXPECT_GT(partBelow(errors, 1e-6), .99);
 	}
 
+	// Dense sand under a footing that hardens fast, and whose bulk modulus is 60 times its shear modulus: a small
+	// dilation takes much of the pressure, and Newton's method from the trial does not find what it leaves.
+	TEST(NorSand, AnswersToDilationOfSandThatHardensFast)
+	{
+		Random random(10);
+		for (const double hardening : { 70., 300., 1e3, 1e4 })
+			for (int k = 0; k < 100; ++k) {
+				Element<NorSand> point(NorSand({ 2e6, .005, 1e3, M, lambda, 1.9, 1e3, 0, 0, hardening, 1.754, -3.5 }));
+				point.press(603e3 * Vec3(1 - 1.268 / 3, 1 - 1.268 / 3, 1 + 2 * 1.268 / 3));
+				const double size = std::pow(10, random.in(-5, -2));
+				const Mat3   m    = random.matrix<3, 3>(size);
+				EXPECT_FALSE(point.ask(Mat3((m + m.transpose()) / 2 + size / 4 * Mat3::Identity())).failed) << hardening << ' ' << size;
+			}
+	}
+
 	TEST(NorSand, HasNoAnswerWithoutPores)
 	{
 		Element<NorSand> point(sand(.4, 1, 1.001));
