@@ -63,7 +63,8 @@ public:
 		  "Kinetic energy that held nodes have taken from points which came to them with other velocities, so far [J].", finite);
 		v("ghostWork", &E::ghostWork, readonly, "Energy that ghost stabilisation has taken so far [J].", finite);
 		v("gridWork", &E::gridWork, readonly,
-		  "Energy lost so far because steps begin with the accelerations of the points, not with those of the stress on the new grid [J] ('newmark').",
+		  "Energy lost so far because steps begin with the accelerations of the points, not with those of the stress on the new grid, and what "
+		  "'generalised-alpha' damps by itself [J].",
 		  finite);
 		v("plasticWork", &E::plasticWork, readonly, "Energy dissipated by plastic flow so far [J].", finite);
 		v("dampingWork", &E::dampingWork, readonly, "Energy that Rayleigh damping has taken so far [J].", finite);

@@ -65,6 +65,22 @@ print(json.dumps([v @ mode / (mode @ mode) / 1e-4, quarter['elasticEnergy'] / en
 	assert abs(imbalance) < 1e-3
 
 
+def test_what_generalised_alpha_damps_is_accounted_for(yade):
+	"""A third of the energy of a bar in its second mode and more, in a few periods."""
+	run = yade(scene + '''
+solver = block((0, 0, 0), (8, 1, 1), density=1000, scheme='generalised-alpha', rhoInfinity=0.3, newton=MpmNewton(tolerance=1e-10),
+	boundaries=[MpmBoundary(max=(0, inf, inf), fix='x'), MpmBoundary(max=(inf, 0, inf), fix='y'), MpmBoundary(min=(-inf, 1, -inf), fix='y')])
+mpm.assign(velocity=np.outer(1e-2 * np.sin(3 * np.pi * mpm.arrays()['pos'][:, 0] / 16), (1, 0, 0)))
+energy = solver.plotData()['kineticEnergy']
+O.dt = 1 / 1e3**0.5
+O.run(40, wait=True)
+data = solver.plotData()
+print(json.dumps([data[name] / energy for name in ('gridWork', 'energyImbalance')]))
+''')
+	damped, imbalance = run.result
+	assert 0.3 < damped < 0.6 and abs(imbalance) < 1e-4
+
+
 def test_energy_of_a_column_that_slumps_is_accounted_for(yade):
 	"""Clay too soft for its height: weight works, flow dissipates, and what moves comes to rest."""
 	run = yade(scene + '''
