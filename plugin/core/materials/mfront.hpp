@@ -6,8 +6,8 @@
 
 namespace gimpm {
 
-/// What the function of a law is given; the order of the members is that of the interface. Symmetric tensors are xx, yy,
-/// zz and sqrt(2) times xy, xz, yz; matrices are row by row.
+/// What the function of a law is given; the order of the members is that of the interface. Symmetric tensors are xx,
+/// yy, zz and sqrt(2) times xy, xz, yz; matrices are row by row.
 struct MfrontData {
 	/// `Number` is const in the state at the beginning.
 	template <class Number> struct State {

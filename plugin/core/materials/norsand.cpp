@@ -156,29 +156,24 @@ NorSand::Flow NorSand::atTip(const Trial& trial) const
 	return flow;
 }
 
-NorSand::Flow NorSand::returned(const Trial& trial) const
+bool NorSand::solveByHalving(const Trial& trial, Vec4& x) const
 {
-	const double p = pressureAt(trial.volumetric), q = 3 * given_.shear * trial.shear, eta = obliquity(p, trial.image);
-	if (q + eta * p <= -tolerance * p) return { trial.volumetric, trial.shear, trial.image };
 	constexpr double roundOff = 1e-10;
-	const Vec4       first(trial.volumetric, trial.shear, 0, trial.image);
-	Vec4             x        = first;
-	bool             isSolved = solve(trial, x) && x[1] >= 0 && x[2] >= 0;
-	if (!isSolved && eta < 0) {
-		if (const Flow tip = atTip(trial); !tip.isFailed) return tip;
-	}
-	if (!isSolved) {
-		const Vec4 halved = between(trial);
-		x                 = halved;
-		isSolved          = solve(trial, x) && x[1] >= 0 && x[2] >= 0;
-		// To round-off it may be there already, which in the last equation grows with the hardening.
-		const Vec4 rest = residual(trial, halved).first * given_.reference;
-		if (!isSolved && std::abs(rest[2]) < -roundOff * pressureAt(halved[0])
-		    && std::abs(rest[3]) < -roundOff * (1 + given_.hardening * halved[2]) * halved[3])
-			x = halved, isSolved = true;
-	}
-	// From the yield surface to the trial in parts, each of which starts where the one before ended.
+	const Vec4       halved   = between(trial);
+	x                         = halved;
+	if (solve(trial, x) && x[1] >= 0 && x[2] >= 0) return true;
+	// To round-off it may be there already, which in the last equation grows with the hardening.
+	x               = halved;
+	const Vec4 rest = residual(trial, x).first * given_.reference;
+	return std::abs(rest[2]) < -roundOff * pressureAt(x[0]) && std::abs(rest[3]) < -roundOff * (1 + given_.hardening * x[2]) * x[3];
+}
+
+/// From the yield surface to the trial, by parts each of which starts where the one before ended.
+bool NorSand::solveInParts(const Trial& trial, Vec4& x) const
+{
+	const double p = pressureAt(trial.volumetric), eta = obliquity(p, trial.image);
 	const double onSurface = std::min(trial.shear, std::max(0., -eta * p / (3 * given_.shear)));
+	bool         isSolved  = false;
 	for (int parts = 8; !isSolved && parts <= 512; parts *= 8) {
 		x        = Vec4(trial.volumetric, onSurface, 0, trial.image);
 		isSolved = true;
@@ -189,6 +184,20 @@ NorSand::Flow NorSand::returned(const Trial& trial) const
 			isSolved           = solve(less, x) && x[1] >= 0 && x[2] >= 0;
 		}
 	}
+	return isSolved;
+}
+
+NorSand::Flow NorSand::returned(const Trial& trial) const
+{
+	const double p = pressureAt(trial.volumetric), q = 3 * given_.shear * trial.shear, eta = obliquity(p, trial.image);
+	if (q + eta * p <= -tolerance * p) return { trial.volumetric, trial.shear, trial.image };
+	const Vec4 first(trial.volumetric, trial.shear, 0, trial.image);
+	Vec4       x        = first;
+	bool       isSolved = solve(trial, x) && x[1] >= 0 && x[2] >= 0;
+	if (!isSolved && eta < 0) {
+		if (const Flow tip = atTip(trial); !tip.isFailed) return tip;
+	}
+	isSolved = isSolved || solveByHalving(trial, x) || solveInParts(trial, x);
 	Flow flow { x[0], x[1], x[3] };
 	flow.isFailed = !isSolved;
 	if (!isSolved) return flow;

@@ -66,6 +66,8 @@ private:
 	std::pair<Vec4, Mat4> residual(const Trial&, const Vec4& unknown) const;
 	bool                  solve(const Trial&, Vec4& unknown) const;
 	Vec4                  between(const Trial&) const;
+	bool                  solveByHalving(const Trial&, Vec4& unknown) const;
+	bool                  solveInParts(const Trial&, Vec4& unknown) const;
 	Flow                  returned(const Trial&) const;
 	Flow                  atTip(const Trial&) const;
 	Response              respond(const Vec3& strain, TensorState&, double growth, bool flows) const;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "engine/materials/MpmUserMat.hpp"
+#include "engine/materials/user/MpmUserMat.hpp"
 #include "core/materials/umat.hpp"
 #include "engine/materials/law_of_class.hpp"
-#include "engine/materials/mfront_library.hpp"
+#include "engine/materials/user/mfront_library.hpp"
 #include "yade_api/registration.hpp"
 #include <dlfcn.h>
 #include <map>

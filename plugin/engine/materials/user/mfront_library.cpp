@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "engine/materials/mfront_library.hpp"
+#include "engine/materials/user/mfront_library.hpp"
 #include <dlfcn.h>
 
 namespace yade {
