@@ -54,8 +54,6 @@ template <int Dim> struct BodyContacts {
 	std::vector<BodyMeeting<Dim>> meetings;
 	double                        work   = 0; ///< on the bodies in the last step that was accepted [J]
 	double                        weight = 1; ///< with which forces enter the balance of a step in time (core/terms/time_scheme.hpp)
-	/// In explicit steps the forces of both ends act, half of the step each; else those at its end.
-	bool actsAtBothEnds = false;
 	/// Of a step in time: energy that has come into the system before it [J]; infinite: nobody asks for what
 	/// contact gives.
 	double                  energy = std::numeric_limits<double>::infinity();

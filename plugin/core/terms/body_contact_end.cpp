@@ -19,9 +19,7 @@ template <int Dim> double BodyContact<Dim>::work(const Eigen::VectorXd& d) const
 {
 	Eigen::VectorXd resistance = Eigen::VectorXd::Zero(d.size());
 	addUnweighted(&d, resistance);
-	if (!system_.actsAtBothEnds) return -resistance.dot(d);
-	addUnweighted(nullptr, resistance);
-	return -resistance.dot(d) / 2;
+	return -resistance.dot(d);
 }
 
 /// Work beyond what the springs had stored. As their energy is convex in the gap, it is not above zero where a place
@@ -40,7 +38,7 @@ template <int Dim> double BodyContact<Dim>::given(const Eigen::VectorXd& d) cons
 
 template <int Dim> Refusal BodyContact<Dim>::refusalOfEnergy(const Eigen::VectorXd& d) const
 {
-	if (!std::isfinite(system_.energy) || system_.actsAtBothEnds) return {};
+	if (!std::isfinite(system_.energy)) return {};
 	const double found = given(d);
 	if (found <= mostGiven * system_.energy) return {};
 	return { Failure::gainsEnergy,
@@ -106,7 +104,7 @@ template <int Dim> void BodyContact<Dim>::commit(const Eigen::VectorXd& d)
 	for (const Place& place : places_)
 		area[place.meeting][facets_[meetingOf(place).slave].whole[place.piece]] += place.area;
 	system_.work  = work(d);
-	system_.given = std::isfinite(system_.energy) && !system_.actsAtBothEnds ? given(d) : 0;
+	system_.given = std::isfinite(system_.energy) ? given(d) : 0;
 	forTouching(d, PairSlope::none, [&](const Touching& touching) {
 		const auto& [place, near, force, at] = touching;
 		auto&     meeting                    = system_.meetings[place.meeting];

@@ -125,8 +125,8 @@ static void requireOneBody(const Analysis& engine)
 		if (listed.condition->partsBodies()) meets = listed.name() + ", an " + listed.condition->getClassName() + ",";
 	if (meets.empty()) return;
 	if (processes()->size() > 1) what = "several processes";
-	else if (engine.isExplicit() && engine.grid && (engine.grid->dim == 3 || engine.grid->axisymmetric))
-		what = "scheme = 'explicit' in 3D or around an axis";
+	else if (engine.isExplicit())
+		what = "scheme = 'explicit'";
 	else if (engine.grid && !engine.grid->period.isZero(0))
 		what = "MpmGrid.period, a grid that repeats itself";
 	else if (engine.grid && !engine.grid->refinements.empty())

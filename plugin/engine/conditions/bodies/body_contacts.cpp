@@ -147,9 +147,8 @@ template <int Dim> void MeetingBodies<Dim>::join(gimpm::Model<Dim>& model, const
 
 template <int Dim> void MeetingBodies<Dim>::joinMotion(gimpm::Motion<Dim>& motion, const gimpm::Model<Dim>&, Real)
 {
-	system->weight         = motion.scheme.weightOfContact();
-	system->actsAtBothEnds = motion.scheme.isExplicit;
-	motion.bodies          = system.get();
+	system->weight = motion.scheme.weightOfContact();
+	motion.bodies  = system.get();
 }
 
 template <int Dim> void MeetingBodies<Dim>::advance(const StepTime& step, gimpm::Model<Dim>&, gimpm::Load<Dim>&) { system->energy = step.energy; }
