@@ -14,7 +14,6 @@ public:
 		for (std::size_t t = 0; ties && t < ties->node.size(); ++t)
 			tie_[ties->node[t]] = int(t);
 	}
-	bool isTied(int node) const { return tie_[node] >= 0; }
 
 	/// Calls f(node, weight).
 	template <class F> void each(int node, F&& f) const

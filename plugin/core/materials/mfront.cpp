@@ -1,25 +1,24 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "core/materials/mfront.hpp"
 #include "core/base/small_matrices.hpp"
+#include <algorithm>
 
 namespace gimpm {
 namespace {
 
 using Variable = MfrontGiven::Variable;
 
-constexpr int componentOf(int i) { return i < 4 ? i : 9 - i; } // the last two components are in another order
-
 void toMfront(const Mat3& tensor, double* numbers)
 {
 	const Vec6 v = toMandel(tensor);
 	for (int i = 0; i < 6; ++i)
-		numbers[i] = v[componentOf(i)];
+		numbers[i] = v[mandelOf(i)];
 }
 Mat3 fromMfront(const double* numbers)
 {
 	Vec6 v;
 	for (int i = 0; i < 6; ++i)
-		v[componentOf(i)] = numbers[i];
+		v[mandelOf(i)] = numbers[i];
 	return fromMandel(v);
 }
 
@@ -88,29 +87,30 @@ bool MfrontDoor::answer(const UserStep& step, UserState& state, Mat3& stress, Ma
 	stress = fromMfront(stresses[1]);
 	for (int i = 0; i < 6; ++i)
 		for (int j = 0; j < 6; ++j)
-			tangent(componentOf(i), componentOf(j)) = stiffness[6 * i + j];
+			tangent(mandelOf(i), mandelOf(j)) = stiffness[6 * i + j];
 	return true;
 }
 
-// By Newton's method; what a stress that the law cannot bear leads to is not taken.
+// By Newton's method, as near as round-off admits; what a stress that the law cannot bear leads to is not taken.
 void MfrontDoor::bear(const Mat3& stress, UserState& state) const
 {
 	constexpr int mostSolves = 30;
 	if (given_.elasticStrain < 0) return;
 	const int tensor  = int(std::count(given_.variables.begin(), given_.variables.begin() + given_.elasticStrain, Variable::tensor));
 	UserState bearing = state;
+	double    least   = 1e-9 * stress.norm();
 	for (int solve = 0; solve < mostSolves; ++solve) {
 		UserState after = bearing;
 		Mat3      found;
 		Mandel    tangent;
 		if (!answer({ stress, Mat3::Zero(), Mat3::Zero(), 0, true }, after, found, tangent)) return;
 		const Mat3 difference = stress - found;
-		if (difference.norm() <= 1e-14 * stress.norm()) break;
+		if (difference.norm() <= least) state = bearing, least = difference.norm();
+		if (difference.norm() <= 1e-14 * stress.norm()) return;
 		const Vec6 change = solutionOf(tangent, toMandel(difference));
 		if (!change.allFinite()) return;
 		bearing.tensors[tensor] += fromMandel(change);
 	}
-	state = bearing;
 }
 
 } // namespace gimpm

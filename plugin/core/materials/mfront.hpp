@@ -62,7 +62,6 @@ private:
 
 	static constexpr int mostNumbers = 6 * UserState::mostTensors + UserState::mostScalars;
 
-	int  count(MfrontGiven::Variable) const;
 	void store(const UserState&, double (&numbers)[mostNumbers]) const;
 	void load(const double* numbers, UserState&) const;
 };

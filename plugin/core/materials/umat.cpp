@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "core/materials/umat.hpp"
 #include <cstring>
+#include <limits>
 
 namespace gimpm {
 namespace {
 
 constexpr int rowOf(int i) { return i < 3 ? i : i == 5 ? 1 : 0; }
 constexpr int columnOf(int i) { return i < 3 ? i : i == 3 ? 1 : 2; }
-constexpr int mandelOf(int i) { return i < 4 ? i : 9 - i; }
 
 void toUmat(const Mat3& tensor, double ofShear, double (&numbers)[6])
 {

@@ -10,6 +10,9 @@
 
 namespace gimpm {
 
+/// The row of Mandel's notation that such a law's i-th component has: their last two are in another order.
+constexpr int mandelOf(int i) { return i < 4 ? i : 9 - i; }
+
 /// What such a law remembers of a point: tensors, which turn with the material, and scalars.
 struct UserState {
 	static constexpr int mostTensors = 3, mostScalars = 20;

@@ -140,7 +140,7 @@ private:
 		const double length = block.run / std::cos(angle) * outline_.across();
 		const double work   = block.volume * unitWeight_ * std::sin(angle - strength_.frictionAngle);
 		const double bound = strength_.cohesion * std::cos(strength_.frictionAngle) * length, excess = work / bound;
-		if ((worst && excess <= worst->excess) || isHeld(block) || !isFilled(block)) return;
+		if (!(excess > 1) || (worst && excess <= worst->excess) || isHeld(block) || !isFilled(block)) return;
 		PlaneSlip<Dim> slip { -foot * down_, axis_, outline_.topAt(first) - foot, angle, excess };
 		slip.foot[axis_] = outline_.begin(inwards > 0 ? first : first + 1);
 		worst            = slip;

@@ -40,7 +40,7 @@ template <int Dim> Refusal BodyContact<Dim>::refusalOfEnergy(const Eigen::Vector
 {
 	if (!std::isfinite(system_.energy)) return {};
 	const double found = given(d);
-	if (found <= mostGiven * system_.energy) return {};
+	if (found <= mostGiven * (system_.energy + std::abs(work(d)))) return {}; // as the first step begins nothing has come in
 	return { Failure::gainsEnergy,
 		 sentence("contact of bodies of points would give ", found, " J that it had not stored, of ", system_.energy, " J that have come in"),
 		 "Smaller steps (O.dt) make it less." };

@@ -4,6 +4,7 @@
 #include "core/terms/coupled_term.hpp"
 #include "core/terms/flow_point.hpp"
 #include "core/terms/near_nodes.hpp"
+#include <algorithm>
 #include <cstring>
 
 namespace gimpm {

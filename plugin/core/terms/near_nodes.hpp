@@ -3,7 +3,9 @@
 #pragma once
 #include "core/solvers/couplings.hpp"
 #include "core/solvers/node_matrix.hpp"
+#include <algorithm>
 #include <array>
+#include <iterator>
 
 namespace gimpm {
 

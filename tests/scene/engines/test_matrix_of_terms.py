@@ -140,10 +140,9 @@ equal = 'cells of several sizes, cannot go with '
 others = {
         ('pressure', 'refinements'): 'a surface under pressure goes from cells of one size to cells of another',
         **{(term, 'divided'): f'{name} cannot go with distributed=True' for term, name in (('bar', 'MpmReinforcement'), ('beam', 'MpmBeam'))},
-        **{(term, 'axisymmetric'): f'{name} cannot go with MpmGrid.axisymmetric' for term, name in (('bar', 'MpmReinforcement'), ('beam', 'MpmBeam'))},
+        ('bar', 'axisymmetric'): 'MpmReinforcement cannot go with MpmGrid.axisymmetric',
         ('water', 'refinements'): equal + 'water',
         ('flow', 'refinements'): equal + 'flow',
-        ('flow', 'divided'): 'MpmFlow cannot go with points that are divided among processes',
         # The functions of a ring are those of the middle of its volume, and water that flows differs by as much of a cell.
         ('flow', 'axisymmetric'): 4e-3,
         ('wall', 'refinements'): equal + 'boundaries[2].surface',

@@ -86,6 +86,7 @@ solver.boundaries = [solver.boundaries[0], MpmBoundary(min=(-inf, 2, -inf), fix=
 before = mpm.arrays()['pos']
 try: O.step()
 except RuntimeError: assert (mpm.arrays()['pos'] == before).all()
+else: raise AssertionError('the step has ended')
 '''
 	)
 
@@ -215,6 +216,7 @@ solver.boundaries = [solver.boundaries[0], MpmBoundary(min=(-inf, 2, -inf), fix=
 before = mpm.arrays()['pos']
 try: O.step()
 except RuntimeError: assert (mpm.arrays()['pos'] == before).all()
+else: raise AssertionError('the step has ended')
 try: mpm.checkLaw(mfront(function='Elastic', parameters=[20e6, .3, 0]), strain=10)
 except ValueError as error: print(json.dumps(str(error)))
 '''

@@ -133,7 +133,7 @@ if rank == 0: np.save('pos.npy', pos)
 
 
 def test_water_goes_on_in_other_numbers_of_processes(yade):
-	"""Two processes that share a body from which water is pressed save it, or divide its points; one, two and three go on."""
+	"""Two processes that share a body from which water is pressed save it, or divide its points; one and three go on."""
 	begin = '''
 import json
 import os

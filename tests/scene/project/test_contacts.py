@@ -49,7 +49,7 @@ def test_the_limit_of_the_vane():
 	"""Of a torque of (1 + 1 / cells)^2, if all three grids have turned."""
 	results = {f'vane-R{cells}': dict(turned=86, first=(1 + 1 / cells)**2, torque=(.9 + 2 / cells)**2) for cells in (4, 6, 10)}
 	found = derived['vane-limit'].function(results)
-	assert abs(found['first'] - 1) < 1e-12 and abs(found['late'] - .81) < 1e-12
+	assert abs(found['first'] - 1) < 1e-12 and abs(found['torque'] - .81) < 1e-12
 	assert derived['vane-limit'].function(results | {'vane-R6': dict(turned=10, first=1.2, torque=1.3)}) is None
 
 

@@ -36,7 +36,7 @@ namespace {
 		string refusal;
 		try {
 			take();
-		} catch (const std::invalid_argument& refused) {
+		} catch (const std::exception& refused) {
 			refusal = refused.what();
 		}
 		refusal = division.firstSaid(refusal);

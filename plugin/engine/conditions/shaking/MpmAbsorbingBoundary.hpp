@@ -53,6 +53,7 @@ public:
 
 	void   tell(Rows&, const Analysis&, const Listed&) const override;
 	string needsOneBody(const string&) const override { return "an absorbing boundary"; }
+	string needsUntiedNodes(const string& name) const override { return name; }
 };
 
 } // namespace yade

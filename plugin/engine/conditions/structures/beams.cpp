@@ -61,6 +61,8 @@ namespace {
 			        name + " has been saved by an older revision, which knew nothing of the two sides of its soil: run its script again.");
 		else if (grid.axisymmetric && from.radii.size() != from.vertices.size())
 			throw std::invalid_argument(name + " has made steps in the plane, and MpmGrid.axisymmetric is True now: make a new MpmBeam.");
+		else if (!grid.axisymmetric && !from.radii.empty())
+			throw std::invalid_argument(name + " has made steps around an axis, and MpmGrid.axisymmetric is False now: make a new MpmBeam.");
 		else
 			goOn(beam, from);
 		for (const Vector3r& hinge : placesOf(from.hinges))
