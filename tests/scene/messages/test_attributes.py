@@ -195,6 +195,8 @@ outOfRange = {
         'MpmBeam.line': ['[(1, 1)]', '[(1, 1), (1, 1)]'],
         'MpmBeam.axialStiffness': ['0.', '-1.'],
         'MpmBeam.bendingStiffness': ['0.', '-1.'],
+        'MpmBeam.poisson': ['-0.1', '0.6'],
+        'MpmBeam.prestress': None,
         'MpmBeam.plasticMoment': ['0.', '-1.'],
         'MpmBeam.weight': ['-1.'],
         'MpmBeam.hinges': ['[(1,)]'],
