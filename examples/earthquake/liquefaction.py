@@ -17,7 +17,7 @@ subprocess.run(['g++', '-O2', '-shared', '-fPIC', '-I', '/usr/include/eigen3', '
 t = np.arange(0, seconds, 0.01)
 shaking = np.sin(4 * np.pi * t) * np.minimum(t, 1) * (t <= 0.75 * seconds) / (4 * np.pi)  # 2 Hz, 1 m/s2
 
-energies = 'boundaryWork', 'loadWork', 'waterWork', 'elasticEnergy', 'plasticWork', 'ghostWork', 'kineticEnergy', 'energyImbalance'
+energies = 'boundaryWork', 'loadWork', 'waterWork', 'elasticEnergy', 'plasticWork', 'ghostWork', 'gridWork', 'kineticEnergy', 'energyImbalance'
 histories = {}
 for e in 0.85, 0.6:
 	O.reset()
@@ -38,10 +38,10 @@ for e in 0.85, 0.6:
 		ratio, told = mpm.arrays()['excessPressure'] / weight, solver.plotData()
 		rows.append([O.time, ratio[y < 1].mean(), ratio[abs(y - depth / 2) < 1].mean(), *(told[name] for name in energies)])
 	histories[e] = np.array(rows)
-	base, load, water, elastic, plastic, ghost, kinetic, imbalance = histories[e][-1, 3:] - histories[e][0, 3:]
+	base, load, water, elastic, plastic, ghost, scheme, kinetic, imbalance = histories[e][-1, 3:] - histories[e][0, 3:]
 	print(f'liquefaction: e = {e}: pressure of water over weight {rows[-1][1]:.3f} at the base, {rows[-1][2]:.3f} half way up')
 	print(f'liquefaction: e = {e}: the base gave {base:.1f} J, weight {load - water:.1f} J, sand {-elastic:.1f} J of its elastic energy; lost in sand {plastic:.1f} J, in flow {-water:.1f} J, '
-	      f'in the ghost {ghost:.1f} J; in motion {kinetic:.2f} J; balance {imbalance:.1f} J')
+	      f'in the ghost {ghost:.1f} J, by the scheme {scheme:.1f} J; in motion {kinetic:.2f} J; balance {imbalance:.1f} J')
 
 figure, (left, right) = plt.subplots(1, 2, figsize=(11, 4.2))
 for e, rows in histories.items():
