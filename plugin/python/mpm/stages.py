@@ -281,11 +281,18 @@ def _twin(material, label, ids, **changes):
 
 def _soft(material, label, ids):
 	"""The same of an elastic one with a part of the stiffness, without memory and strengths of its own."""
-	young, poisson = (material.young, material.poisson) if hasattr(material, 'young') else (3 * material.shearModulus, 0.3)
+	young, poisson = _elastic(material)
 	soft = wrapper.MpmElasticMat(young=_softness * young, poisson=poisson, density=material.density)
 	for body in _here(ids):
 		if body.material == material: body.state.internals, body.state.parameters, body.state.plasticStrain = [], [], 0
 	return _give(soft, material, label, ids)
+
+
+def _elastic(material):
+	"""Young's modulus and Poisson's ratio of about the stiffness of a law: of hardening soil those of unloading, which digging is."""
+	if hasattr(material, 'Eurref'): return material.Eurref, material.poisson
+	if hasattr(material, 'young'): return material.young, material.poisson
+	return 3 * material.shearModulus, 0.3
 
 
 def _give(twin, material, label, ids):

@@ -519,6 +519,16 @@ def test_lined_tunnel(yade):
 	assert (run.folder / 'out/lined_tunnel/lined_tunnel.png').stat().st_size > 20000
 
 
+def test_trough_by_law(yade):
+	"""Hardening soil, overconsolidated, takes about a third off the width of the trough above a tunnel, and keeps its volume."""
+	run = yade(root / 'examples' / 'lined_tunnel' / 'trough.py', '--laws', 'constant hardening', '--cellSize', 1.5)
+	figures = r': i = (\S+) m .* volume (\S+) of the loss'
+	(constant, kept), (hardening, handedOn) = numbers('Mohr-Coulomb' + figures, run.stdout), numbers('hardening soil' + figures, run.stdout)
+	assert 0.6 < hardening / constant < 0.8
+	assert 0.9 < kept < 1 and 0.9 < handedOn < 1
+	assert (run.folder / 'out/trough/trough.png').stat().st_size > 20000
+
+
 def test_drawdown_in_time(yade):
 	"""Slowly it has the factors of given pressures, and quickly smaller ones; coarse cells and brackets."""
 	options = '--cells', 5, '--levels', 2, '--steps', 3, '--tolerance', .1, '--durations', '.01,1000'
