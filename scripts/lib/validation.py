@@ -26,7 +26,7 @@ runs = {
         'locking': ['locking.py', 'locking.py --scene square --cells 6 --law tresca', 'locking.py --scene cut --cells 20', 'locking.py --scene beam --cells 4 --poisson 0.499'],
         'surface_loads': ['surface_loads.py', 'tube.py'],
         'walls': ['walls.py', 'walls.py --load lid', 'cook.py', 'cook.py --poisson 0.4999 --fBar 1'],
-        'water': ['water.py', 'dam.py', 'drawdown.py'],
+        'water': ['water.py', 'dam.py', 'drawdown.py', 'reservoir.py'],
         'consolidation': ['consolidation.py'],
         'embankment': ['embankment.py'],
         'sheet_pile': ['sheet_pile.py', 'sheet_pile.py --cellSize 0.25 --depth 3'],

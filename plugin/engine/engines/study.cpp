@@ -97,11 +97,14 @@ namespace {
 	{
 		bool hasStrength = false;
 		for (const MaterialPoint& p : points) {
-			const bool carriesAll = isElastic(*p.material);
+			const bool   carriesAll = isElastic(*p.material);
+			const string body       = "Body #" + std::to_string(p.id) + " is of " + p.material->getClassName();
+			if (const char* time = p.material->timeAttribute())
+				throw std::invalid_argument(
+				        body + " with " + time + ": its strength depends on the seconds a load takes, which a strengthReduction has none of.");
 			if (!carriesAll && !canBeWeakened(*p.material))
 				throw std::invalid_argument(
-				        "Body #" + std::to_string(p.id) + " is of " + p.material->getClassName()
-				        + ", the strength of which follows from what its points remember: there is no single one that could be divided.");
+				        body + ", the strength of which follows from what its points remember: there is no single one that could be divided.");
 			hasStrength = hasStrength || !carriesAll;
 		}
 		if (!hasStrength) throw std::invalid_argument("all materials are elastic (MpmElasticMat): they carry any load.");

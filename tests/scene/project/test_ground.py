@@ -12,7 +12,7 @@ from ground.page import page
 def test_the_page_tells_what_stops_or_is_wrong():
 	row = dict(seed='1', scene='cut 2D sand', how='ends', part='1', why='', wrong='', solves='20', cuts='0', seconds='.5')
 	text = page([row, row | dict(seed='2', how='stops', part='.5', why='it | stops'), row | dict(seed='3', wrong='thrust 3')], 'scripts/ground', 'r', 'today')
-	assert '1 of 3 scenes end' in text and '| cut | 3 | 2 | 0 | 0 | 1 | 1 |' in text
+	assert '1 of 3 scenes end' in text and '| cut | 3 | 2 | 0 | 0 | 0 | 1 | 1 |' in text
 	assert '| 2 | cut 2D sand | 0.50 | it / stops |' in text and '| 3 | cut 2D sand | 1.00 | wrong: thrust 3 |' in text
 
 
