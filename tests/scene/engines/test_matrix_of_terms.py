@@ -19,8 +19,8 @@ inertia = 'inertia', 'explicit', 'Rayleigh damping', 'absorbing', 'base motion'
 shaking = MpmBaseMotion(history=[(0, 0), (.02, .5), (.2, -.5), (1, 0)], direction=(0, 1, 0))
 
 
-def scene(term, grid, young=None, sides=(0, width), distributed=False, weight=10, top=None, shift=0, steps=4, isPressed=False):
-	"""A layer of soil on a smooth base, with one kind of force besides that of its strain: its steps, and the points at the end by their places at first. With *top* its surface is moved."""
+def scene(term, grid, young=None, sides=(0, width), distributed=False, weight=10, top=None, shift=0, steps=4, isPressed=False, isWide=False):
+	"""A layer of soil on a smooth base, with one kind of force besides that of its strain: its steps, and the points at the end by their places at first. With *top* its surface is moved, *isWide*: a beam goes all across."""
 	O.reset()
 	O.materials.append(MpmElasticMat(young=1e6, poisson=.45 if term == 'F-bar' else .3, density=2000, label='soil'))
 	low, high = .5 if term == 'wall' else 0, 2.5 if term == 'ghost' else 3
@@ -40,7 +40,7 @@ def scene(term, grid, young=None, sides=(0, width), distributed=False, weight=10
 	if term == 'pressure': solver.loads = [MpmTraction(surface=surface, pressure=2e4)]
 	if term == 'traction' or isPressed: solver.loads = [MpmTraction(surface=surface, traction=(0, -2e4, 0))]
 	if term == 'bar': solver.loads = [MpmReinforcement(line=[(shift + 1, 1.3), (shift + 4, 2.2)], axialStiffness=1e6, tensionOnly=False), *solver.loads]
-	if term == 'beam': solver.loads = [MpmBeam(line=[(shift + 1, 3), (shift + 4, 3)], axialStiffness=1e8, bendingStiffness=1e5, weight=1e4), *solver.loads]
+	if term == 'beam': solver.loads = [MpmBeam(line=[(0, 3), (width, 3)] if isWide else [(shift + 1, 3), (shift + 4, 3)], axialStiffness=1e8, bendingStiffness=1e5, weight=1e4), *solver.loads]
 	if term == 'water': solver.water = [MpmWater(level=1.7)]
 	if term == 'undrained': O.materials[0].undrained, O.materials[0].waterModulus = True, 5e6
 	if term == 'flow':
@@ -103,7 +103,7 @@ def onSizes(term):
 
 def aroundAxis(term):
 	"""A column that cannot widen does not know whether it is round."""
-	return apart(scene(term, MpmGrid(cellSize=1)), scene(term, MpmGrid(cellSize=1, axisymmetric=True), sides=(None, width)), axes=slice(1, 2))
+	return apart(scene(term, MpmGrid(cellSize=1), isWide=True), scene(term, MpmGrid(cellSize=1, axisymmetric=True), sides=(None, width), isWide=True), axes=slice(1, 2))
 
 
 def ofCylinder(term):
