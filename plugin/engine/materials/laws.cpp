@@ -150,7 +150,7 @@ namespace {
 		constexpr int mostSolves = 30, fewestSolves = 3; // enough where stress is linear in the strain
 		const auto*   bears  = dynamic_cast<const gimpm::BearsStress*>(material.law.operator->());
 		Matrix3r      strain = bears ? bears->strainOf(stress, internals) : Matrix3r(Matrix3r::Zero());
-		// Isotropic laws have shear with shear stress alone: in plane strain none by round-off out of the plane.
+		// Isotropic laws have shear with shear stress alone; in the plane none by round-off out of the plane.
 		const bool isInPlane = bears && stress(0, 2) == 0 && stress(1, 2) == 0;
 		for (int solves = 0; solves < mostSolves; ++solves) {
 			if (isInPlane) strain(0, 2) = strain(2, 0) = strain(1, 2) = strain(2, 1) = 0;
