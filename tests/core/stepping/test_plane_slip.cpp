@@ -53,7 +53,7 @@ namespace {
 	{
 		for (const double size : { 0.5, 0.25 })
 			for (const double height : { 0.5, 1., 2. })
-				for (const Strength strength : { Strength { 3e3, 0.5 }, Strength { 100, 0.7 } }) {
+				for (const Strength strength : { Strength { 1e3, 0.5 }, Strength { 100, 0.7 } }) {
 					const auto slip = Cut<2>(height, size).worst({ strength });
 					ASSERT_TRUE(slip);
 					EXPECT_NEAR(slip->excess / exact(height, strength), 1, 2e-3);
@@ -61,6 +61,15 @@ namespace {
 					EXPECT_NEAR(slip->angle, M_PI / 4 + strength.frictionAngle / 2, M_PI / 90);
 					EXPECT_LT((slip->foot - Vec<2>(3, 3 - height)).norm(), 1e-12);
 				}
+	}
+
+	TEST(PlaneSlip, IsNoneOfWhatStands)
+	{
+		for (const double cohesion : { 0.99, 1.01 }) {
+			Strength strength { 1e3, 0.5 };
+			strength.cohesion *= cohesion * exact(1, strength);
+			EXPECT_EQ(Cut<2>(1).worst({ strength }).has_value(), cohesion < 1);
+		}
 	}
 
 	TEST(PlaneSlip, IsTheSameInSpace)
