@@ -71,6 +71,20 @@ void AttributeTable::requireAdmitted(const Serializable& object) const
 		attribute->requireAdmitted(object);
 }
 
+void AttributeTable::mark(const char* text)
+{
+	do
+		format_ = (format_ ^ static_cast<unsigned char>(*text)) * 1099511628211u;
+	while (*text++);
+}
+
+void AttributeTable::refuseFormat() const
+{
+	throw std::runtime_error(
+	        string(className_)
+	        + " was saved by another version of yade-mpm, in which it had other attributes, or the file is damaged: load the scene by that version, or run its script again.");
+}
+
 void AttributeTable::keep(const Attribute* attribute) { attributes_.emplace_back(attribute); }
 
 string AttributeTable::names(bool areReadonly) const

@@ -5,7 +5,10 @@
 #include "yade_api/exposed.hpp"
 #include "yade_api/naming.hpp"
 #include "yade_api/serialization.hpp"
+#include <boost/archive/archive_exception.hpp>
+#include <cstdint>
 #include <memory>
+#include <typeinfo>
 
 namespace yade {
 
@@ -130,6 +133,7 @@ public:
 	template <class T, class Validator> void add(const char* name, T Serializable::*member, unsigned flags, const char* doc, const Validator& validator)
 	{
 		keep(new ValidatedAttribute<T, Validator>({ className_, name, flags, doc }, member, validator));
+		if (!(flags & noSave)) mark(name), mark(typeid(T).name());
 	}
 
 	// Whether there is one of this name.
@@ -141,13 +145,30 @@ public:
 	void addTo(const py::object& c, const py::object& construct);
 	void setKeywords(Serializable&, const py::tuple& positional, const py::dict& keywords) const;
 
+	// A scene is read by the table that it was saved by, or refused.
 	template <class Archive> void serialize(Archive& archive, Serializable& object) const
 	{
+		serializeFormat(archive);
 		for (const auto& attribute : attributes_)
 			attribute->serialize(archive, object);
 	}
 
 private:
+	template <class Archive> void serializeFormat(Archive& archive) const
+	{
+		std::uint64_t format = format_;
+		try {
+			archive& boost::serialization::make_nvp("format", format);
+		} catch (const boost::archive::archive_exception&) { // of XML that has something else in this place
+			if (!Archive::is_loading::value) throw;
+			format = 0;
+		}
+		if (format != format_) refuseFormat();
+	}
+	[[noreturn]] void refuseFormat() const;
+	// Names and types of what is saved, in their order, make the format (hash FNV-1a).
+	void mark(const char* text);
+
 	// Of the plugin's classes that it derives from, too: settings, or results that can only be read.
 	string            names(bool areReadonly) const;
 	const Attribute*  find(const string& name) const;
@@ -159,7 +180,8 @@ private:
 	void              setKnownAttribute(const py::object&, const string& name, const py::object& value) const;
 
 	const char*                                   className_;
-	PyTypeObject*                                 type_ = nullptr; // once there is a class of Python
+	PyTypeObject*                                 type_   = nullptr; // once there is a class of Python
+	std::uint64_t                                 format_ = 14695981039346656037u;
 	std::vector<std::unique_ptr<const Attribute>> attributes_;
 };
 

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """A saved scene, loaded in a new process, goes on as if nothing had happened: bit for bit."""
+import gzip
 import os
 import signal
 import subprocess
@@ -132,6 +133,7 @@ assert not [name for name in os.listdir('.') if 'state' in name], os.listdir('.'
 def test_missing_folders_are_made(yade):
 	"""By all that writes files, without leaving anything else in them."""
 	yade('''
+import gzip
 import os
 from scenes import *
 solver = slope()
@@ -172,3 +174,32 @@ np.save('%d.npy', mpm.arrays()['pos'])
 		yade(script % threads, threads=threads)
 	one, *others = (np.load(yade.folder / f'{threads}.npy') for threads in (1, 2, 8))
 	assert all(np.abs(one - other).max() < 1e-11 for other in others)
+
+
+def changedFormat(path, changed):
+	"""A saved scene in which a format is another one, by its kind: XML also without it, as before there were formats."""
+	xml = gzip.open(path.with_name(path.name.replace('.yade.gz', '.xml.gz'))).read()
+	grid = xml.index(b'<cellSize>')
+	begin, end = xml.rindex(b'<format>', 0, grid), xml.rindex(b'</format>', 0, grid)
+	number = int(xml[begin + len('<format>'):end])
+	if path.name.endswith('.yade.gz'): content = gzip.open(path).read().replace(number.to_bytes(8, 'little'), (number ^ 1).to_bytes(8, 'little'))
+	else: content = xml[:begin] + (b'' if changed == 'missing' else b'<format>1</format>') + xml[end + len('</format>'):]
+	with gzip.open(path.with_name(f'{changed}-{path.name}'), 'wb') as file:
+		file.write(content)
+	return path.with_name(f'{changed}-{path.name}')
+
+
+@pytest.mark.parametrize('kind, changed', [('xml.gz', 'other'), ('xml.gz', 'missing'), ('yade.gz', 'other')])
+def test_a_scene_of_another_version_is_refused_by_name(yade, saved, kind, changed):
+	path = changedFormat(saved / f'half-True.{kind}', changed)
+	yade(f"""
+from scenes import *
+try:
+	O.load('{path}')
+except RuntimeError as error:
+	assert str(error).startswith('MpmGrid was saved by another version of yade-mpm'), error
+else:
+	assert False, 'loaded'
+O.load('{saved}/half-True.{kind}')
+assert O.iter == 20
+""")
