@@ -36,9 +36,9 @@ def _seconds(dim, wide, deep, steps, friction, seconds, growth=0.):
 def share(dim=2, wide=80, deep=20, steps=6, friction=0., seconds=200):
 	"""Part of an iteration that contact takes, beyond one of the same block without it: *wide* by *deep* cells, of which the plate touches the uppermost.
 
-	A step takes as long as an iteration or two before and after Newton's method. With friction it has several iterations, so that each bears less of that: there the block without a plate is loaded so much that it has several, too.
+	A step takes as long as an iteration or two before and after Newton's method. With friction it has several iterations, so that each bears less of that: in the plane the block without a plate is loaded so much that it has several, too. In space an iteration takes much longer than the rest, and so much load would make its matrix indefinite.
 	"""
-	growth = 4e4 / deep if friction else 0.
+	growth = 4e4 / deep if friction and dim == 2 else 0.
 	alone, own, *_ = _seconds(dim, wide, deep, steps, None, seconds / 2, growth)
 	with_, iterations, places, why = _seconds(dim, wide, deep, steps, friction, seconds / 2)
 	return dict(share=1 - alone / with_, alone=1e3 * alone, milliseconds=1e3 * with_, iterations=iterations, iterationsAlone=own, places=places, why=why)
