@@ -121,8 +121,9 @@ namespace {
 			EXPECT_LT((alone.cloud.position[p] - beside.cloud.position[p]).norm(), 1e-9) << p;
 	}
 
-	/// What hangs on the rest by a corner of a cell turns about it as it likes, so that no equilibrium tells where it
-	/// goes. It is held, and that force, with the floor's, bears the weight of all. The rest feels it by that one node.
+	/// What hangs on the rest by a corner of a cell turns about it as it likes, so that no equilibrium tells where
+	/// it goes. It is held, and that force, with the floor's, bears the weight of all. The rest feels it by that one
+	/// node.
 	TEST(LoosePoints, HangByACorner)
 	{
 		Block alone(elastic), scene(elastic);
