@@ -122,8 +122,8 @@ namespace {
 	}
 
 	/// What hangs on the rest by a corner of a cell turns about it as it likes, so that no equilibrium tells where
-	/// it goes. It is held, and that force, with the floor's, bears the weight of all. The rest feels it by that one
-	/// node.
+	/// it goes. It is held, and that force, with the floor's, bears the weight of all. The rest feels it by that
+	/// one node.
 	TEST(LoosePoints, HangByACorner)
 	{
 		Block alone(elastic), scene(elastic);
