@@ -11,24 +11,29 @@
 #include "core/stepping/restraint.hpp"
 #include "core/stepping/step_control.hpp"
 #include "core/terms/inertia.hpp"
+#include <utility>
 
 namespace gimpm {
 namespace {
 
-/// Whether the body can neither move freely nor has lost the boundaries that push it. The report says so if not. Points
-/// that are loose stay where they are: no equilibrium determines where they go.
+/// Points that are loose stay where they are: no equilibrium determines where they go.
+template <int Dim> void keepStill(const LoosePoints& loose, StepSystem<Dim>& system, const Load<Dim>& load, StepReport& report)
+{
+	report.loosePoints = loose.points;
+	report.loosePlace  = loose.place;
+	if (loose.points == 0) return;
+	system.holdStill(loose.nodes, load);
+	report.dofs = system.dofs.count;
+}
+
+/// Whether the body can neither move freely nor has lost the boundaries that push it. The report says so if not.
 template <int Dim> bool isHeld(StepSystem<Dim>& system, const PointCloud<Dim>& cloud, const Load<Dim>& load, StepReport& report)
 {
 	const Stopwatch   watch(report.times.basis);
 	const std::string lost = system.hasInertia() ? "" : lostHold(cloud, system.basis, system.model, load);
 	const Restraint   held = restraint(system.basis, system.model.grid, system.model.boundary, system.terms, *system.model.division);
 	report.parts           = held.parts;
-	report.loosePoints     = held.loose.points;
-	report.loosePlace      = held.loose.place;
-	if (held.loose.points > 0) {
-		system.holdStill(held.loose.nodes, load);
-		report.dofs = system.dofs.count;
-	}
+	keepStill(held.loose, system, load, report);
 	if (const std::string between = boxBetweenNodes(system.basis, system.model.boundary); !between.empty())
 		return !fail(report, Failure::misplaced, between);
 	if (!lost.empty()) return !fail(report, Failure::detached, lost);
@@ -63,6 +68,23 @@ template <int Dim> Eigen::VectorXd predictionFor(const StepSystem<Dim>& system, 
 	Eigen::VectorXd d = system.map.isAlone() ? predict(last, system.basis.nodes, growth, system.model.grid) : expectedOfFields(system);
 	if (d.size() > 0) system.constraints.template spread<Dim>(system.map, d);
 	return d;
+}
+
+/// Points that are loose but for a corner or an edge by which they hang on the rest leave a matrix that is singular, or
+/// nearly so. They are looked for where a step fails by it, and stay where they are, as others that are loose do.
+template <int Dim>
+Eigen::VectorXd equilibriumOfHeld(StepSystem<Dim>& system, LinearSolver& solver, StepReport& report, const Eigen::VectorXd& prediction, const Load<Dim>& load)
+{
+	const StepReport before = report;
+	Eigen::VectorXd  growth = equilibrium(system, solver, report, prediction);
+	if (report.converged() || !canBeCut(report.failure) || system.hasInertia()) return growth;
+	const Model<Dim>& model = system.model;
+	const LoosePoints loose = hinged(system.basis, model.grid, model.boundary, system.terms, *model.division);
+	if (loose.points == before.loosePoints) return growth;
+	const StepReport attempt = std::exchange(report, before);
+	report.takeEffort(attempt);
+	keepStill(loose, system, load, report);
+	return equilibrium(system, solver, report, prediction);
 }
 
 /// Goes on from d as long as the stabilisation takes up more of the work than it may, by the proximal point method.
@@ -116,7 +138,7 @@ template <int Dim> StepReport loadStep(PointCloud<Dim>& cloud, const Model<Dim>&
 	const bool            predicts   = last && !system.hasInertia();
 	const Eigen::VectorXd prediction = predicts ? predictionFor(system, *last, load.growth()) : Eigen::VectorXd();
 	if (model.ghost.memory > 0 && prediction.size() > 0) system.ghostFrom = model.ghost.memory * prediction;
-	const Eigen::VectorXd growth = relieved(system, solver, report, equilibrium(system, solver, report, prediction));
+	const Eigen::VectorXd growth = relieved(system, solver, report, equilibriumOfHeld(system, solver, report, prediction, load));
 	const Eigen::VectorXd d      = system.map.displacements(growth);
 	if (!model.terms.empty() || system.hasInertia() || system.isCoupled()) explain(system, d, report);
 	if (report.converged() && prediction.size() > 0 && system.map.isAlone() && std::isfinite(model.newton.stepTolerance)) {

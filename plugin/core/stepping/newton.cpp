@@ -20,7 +20,8 @@ public:
 		while (!judge_.ends(d_, solves_, !linear_.prescribes()) && correct())
 			++solves_;
 		report_.iterations += solves_;
-		report_.reactions = reactions(system_, iterate_.force);
+		report_.reactions  = reactions(system_, iterate_.force);
+		report_.looseForce = looseForce(system_, iterate_.force);
 		if (report_.converged()) report_.ghostShare = ghostShare(system_, d_, iterate_.force);
 		return { std::move(d_), predicted_ };
 	}

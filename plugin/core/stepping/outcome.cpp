@@ -90,6 +90,15 @@ template <int Dim> std::vector<Vec3> reactions(const StepSystem<Dim>& system, co
 	return sums;
 }
 
+template <int Dim> Vec3 looseForce(const StepSystem<Dim>& system, const Eigen::VectorXd& force)
+{
+	Vec3 sum = Vec3::Zero();
+	for (int i = 0; i < system.nodalSize(); ++i)
+		if (system.isStill(i / Dim) && !system.model.boundary.holder(Grid<Dim>::index(system.basis.nodes[i / Dim]), i % Dim))
+			sum[i % Dim] += force[i] - system.external[i];
+	return sum;
+}
+
 template bool              isObstructed(const StepSystem<2>&, StepReport&);
 template bool              isObstructed(const StepSystem<3>&, StepReport&);
 template bool              tangent(const StepSystem<2>&, NodeMatrix<2>&, Couplings&, StepReport&);
@@ -98,5 +107,7 @@ template void              reportWorst(const StepSystem<2>&, const Balance&, Ste
 template void              reportWorst(const StepSystem<3>&, const Balance&, StepReport&);
 template std::vector<Vec3> reactions(const StepSystem<2>&, const Eigen::VectorXd&);
 template std::vector<Vec3> reactions(const StepSystem<3>&, const Eigen::VectorXd&);
+template Vec3              looseForce(const StepSystem<2>&, const Eigen::VectorXd&);
+template Vec3              looseForce(const StepSystem<3>&, const Eigen::VectorXd&);
 
 } // namespace gimpm

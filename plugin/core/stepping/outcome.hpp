@@ -27,4 +27,7 @@ template <int Dim> void reportWorst(const StepSystem<Dim>&, const Balance&, Step
 /// Of each of the boundary's boxes, from the sum of the terms [N].
 template <int Dim> std::vector<Vec3> reactions(const StepSystem<Dim>&, const Eigen::VectorXd& force);
 
+/// With which nodes are held that no box of the boundary holds, as their points are loose [N].
+template <int Dim> Vec3 looseForce(const StepSystem<Dim>&, const Eigen::VectorXd& force);
+
 } // namespace gimpm

@@ -3,8 +3,10 @@
 #include "core/base/small_matrices.hpp"
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <iterator>
 #include <map>
 #include <numeric>
+#include <set>
 #include <sstream>
 #include <tuple>
 #include <utility>
@@ -258,6 +260,87 @@ Restraint restraintBy(
 	return judged(found, parts, grid, int(basis.nodes.size()));
 }
 
+/// Groups of cells that are joined by faces or by a point in them. Of the stiffness of soil and of its stabilisation
+/// nothing goes from one to another; they share nodes where they meet at a corner or an edge.
+template <int Dim> class Hinges {
+public:
+	Hinges(const CloudBasis<Dim>& basis, const Grid<Dim>& grid) : basis_(basis), grid_(grid), parent_(basis.cells.size())
+	{
+		std::iota(parent_.begin(), parent_.end(), 0);
+		for (const auto& patch : basis.patches)
+			for (const int cell : patch.reached)
+				if (cell >= 0) join(firstOf(patch), cell);
+		for (std::size_t c = 0; c < parent_.size(); ++c)
+			for (int a = 0; a < Dim; ++a) {
+				const Key  beside = basis.cells[c] + Grid<Dim>::keyOffset(1 << a);
+				const auto found  = std::lower_bound(basis.cells.begin(), basis.cells.end(), beside);
+				if (found != basis.cells.end() && *found == beside) join(int(c), int(found - basis.cells.begin()));
+			}
+		for (const auto& patch : basis.patches)
+			points_[root(firstOf(patch))] += patch.count;
+		for (const auto& patch : basis.patches) {
+			const int group = root(firstOf(patch));
+			for (const int n : patch.node)
+				if (n >= 0) (isSmall(group) ? small_[group] : ofLarge_).insert(n);
+		}
+	}
+
+	LoosePoints loose(const Boundary<Dim>& boundary, const Terms<Dim>& terms) const
+	{
+		LoosePoints result;
+		if (ofLarge_.empty()) return result;
+		for (const auto& [group, nodes] : small_) {
+			const Part<Dim> part = heldPart(nodes, boundary, terms);
+			if (describe(part, grid_).empty()) continue;
+			if (result.points == 0) result.place = placeOf(part, grid_);
+			result.points += points_.at(group);
+			std::set_difference(nodes.begin(), nodes.end(), ofLarge_.begin(), ofLarge_.end(), std::back_inserter(result.nodes));
+		}
+		return result;
+	}
+
+private:
+	static int firstOf(const Patch<Dim>& patch)
+	{
+		return *std::find_if(patch.reached.begin(), patch.reached.end(), [](int cell) { return cell >= 0; });
+	}
+	bool isSmall(int group) const { return points_.at(group) < 1 << Dim; }
+	int  root(int cell)
+	{
+		for (; parent_[cell] != cell; cell = parent_[cell])
+			parent_[cell] = parent_[parent_[cell]];
+		return cell;
+	}
+	void     join(int a, int b) { parent_[std::max(root(a), root(b))] = std::min(root(a), root(b)); }
+	Vec<Dim> place(int node) const { return Grid<Dim>::index(basis_.nodes[node]).template cast<double>(); }
+
+	/// With what holds it, nodes of large groups among that.
+	Part<Dim> heldPart(const std::set<int>& nodes, const Boundary<Dim>& boundary, const Terms<Dim>& terms) const
+	{
+		Part<Dim> part;
+		for (const int n : nodes)
+			part.sum += place(n), ++part.nodes;
+		for (const int n : nodes)
+			part.reach = std::max(part.reach, (place(n) - part.centre()).norm());
+		for (const int n : nodes)
+			for (int a = 0; a < Dim; ++a)
+				if (ofLarge_.count(n) || boundary.holder(Grid<Dim>::index(basis_.nodes[n]), a)) part.hold(place(n), Vec<Dim>::Unit(a));
+		for (const auto& term : terms)
+			term->restrain([&](int n, const Vec<Dim>& direction, const Vec<Dim>& inCell) {
+				if (nodes.count(n)) part.hold(place(n) + inCell, direction.normalized());
+			});
+		if (grid_.axisymmetric) part.encircle();
+		return part;
+	}
+
+	const CloudBasis<Dim>&       basis_;
+	const Grid<Dim>&             grid_;
+	std::vector<int>             parent_; // of cells
+	std::map<int, int>           points_; // of groups
+	std::map<int, std::set<int>> small_;  // nodes of groups of few points
+	std::set<int>                ofLarge_;
+};
+
 } // namespace
 
 template <int Dim>
@@ -275,9 +358,18 @@ Restraint restraintAt(
 	        basis, grid, boundary, terms, division, [&](const Term<Dim>& term, const typename Term<Dim>::Hold& hold) { term.restrainAt(d, hold); });
 }
 
-template Restraint restraint(const CloudBasis<2>&, const Grid<2>&, const Boundary<2>&, const Terms<2>&, const Division&);
-template Restraint restraint(const CloudBasis<3>&, const Grid<3>&, const Boundary<3>&, const Terms<3>&, const Division&);
-template Restraint restraintAt(const Eigen::VectorXd&, const CloudBasis<2>&, const Grid<2>&, const Boundary<2>&, const Terms<2>&, const Division&);
-template Restraint restraintAt(const Eigen::VectorXd&, const CloudBasis<3>&, const Grid<3>&, const Boundary<3>&, const Terms<3>&, const Division&);
+template <int Dim>
+LoosePoints hinged(const CloudBasis<Dim>& basis, const Grid<Dim>& grid, const Boundary<Dim>& boundary, const Terms<Dim>& terms, const Division& division)
+{
+	if (!division.isWhole() || grid.isPeriodic() || !basis.leafOf.empty() || !basis.ties.empty()) return {};
+	return Hinges<Dim>(basis, grid).loose(boundary, terms);
+}
+
+template LoosePoints hinged(const CloudBasis<2>&, const Grid<2>&, const Boundary<2>&, const Terms<2>&, const Division&);
+template LoosePoints hinged(const CloudBasis<3>&, const Grid<3>&, const Boundary<3>&, const Terms<3>&, const Division&);
+template Restraint   restraint(const CloudBasis<2>&, const Grid<2>&, const Boundary<2>&, const Terms<2>&, const Division&);
+template Restraint   restraint(const CloudBasis<3>&, const Grid<3>&, const Boundary<3>&, const Terms<3>&, const Division&);
+template Restraint   restraintAt(const Eigen::VectorXd&, const CloudBasis<2>&, const Grid<2>&, const Boundary<2>&, const Terms<2>&, const Division&);
+template Restraint   restraintAt(const Eigen::VectorXd&, const CloudBasis<3>&, const Grid<3>&, const Boundary<3>&, const Terms<3>&, const Division&);
 
 } // namespace gimpm

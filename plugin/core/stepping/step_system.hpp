@@ -36,6 +36,7 @@ template <int Dim> struct StepSystem {
 
 	/// None of them moves, whatever holds them or not; before Newton's method.
 	void holdStill(const std::vector<int>& nodes, const Load<Dim>&);
+	bool isStill(int node) const { return !isStill_.empty() && isStill_[node]; }
 
 	int nodalSize() const { return Dim * int(basis.nodes.size()); } ///< of the displacements
 

@@ -72,9 +72,12 @@ namespace {
 		  "where it goes.",
 		  [](E e) { return py::object(e.last.parts); } },
 		{ "loosePoints",
-		  "Points in parts of the body that a static step has held where they are: fewer than a cell has nodes, apart from the rest, and nothing restrains them. "
+		  "Points in parts of the body that a static step has held where they are: fewer than a cell has nodes, apart from the rest or hanging on it by a corner or an edge of a cell, "
+		  "and nothing restrains them. "
 		  "Of MpmDynamicEngine see there.",
 		  [](E e) { return py::object(e.last.loosePoints); } },
+		{ "looseForce", "The force with which they are held, in all [N]; by a node that they share with the rest they may weigh on that, too.",
+		  [](E e) { return py::object(Vector3r(e.last.looseForce)); } },
 		{ "clampedDomains",
 		  "Points whose domain would outgrow half a cell in the last step: it is kept at half a cell, the rest of the point's volume acts within it (see "
 		  "maxSplits).",

@@ -142,10 +142,10 @@ class _Clump:
 
 
 def balanceOf(scene, solver, contact):
-	"""Forces from outside that are left over, over the sum of their sizes. Points apart from the rest, which a warning says are held where they are, weigh on nothing else."""
-	held = solver.report()['loosePoints'] / scene.number  # all points begin with one volume, around an axis one on average
-	weight = 1800 * 9.81 * sum(O.bodies[i].state.volume0 for i in range(scene.number)) * (1 - held)
-	forces = [np.array(F) for F in solver.reactions] + [-np.array(F) for F in contact.forces] + [weight * np.array([-(axis == scene.up) for axis in range(3)], float)]
+	"""Forces from outside that are left over, over the sum of their sizes. The force that holds points apart from the rest, which a warning tells, is one of them."""
+	weight = 1800 * 9.81 * sum(O.bodies[i].state.volume0 for i in range(scene.number))
+	held = [np.array(solver.report()['looseForce'])] if not scene.isDynamic else []
+	forces = [np.array(F) for F in solver.reactions] + [-np.array(F) for F in contact.forces] + held + [weight * np.array([-(axis == scene.up) for axis in range(3)], float)]
 	axes = [1] if scene.isRing else list(range(scene.dim))
 	return float(np.abs(sum(forces)[axes]).max() / sum(np.linalg.norm(F) for F in forces))
 

@@ -121,6 +121,36 @@ namespace {
 			EXPECT_LT((alone.cloud.position[p] - beside.cloud.position[p]).norm(), 1e-9) << p;
 	}
 
+	/// What hangs on the rest by a corner of a cell turns about it as it likes, so that no equilibrium tells where
+	/// it goes. It is held, and that force, with the floor's, bears the weight of all. The rest feels it by that
+	/// one node.
+	TEST(LoosePoints, HangByACorner)
+	{
+		Block alone(elastic), scene(elastic);
+		addPoint<2>(scene.cloud, { 3.5, 3.5 }, { 0.25, 0.25 });
+		const auto report = scene.step(0, 1);
+		ASSERT_TRUE(report.converged()) << report.cause;
+		EXPECT_EQ(report.parts, 1);
+		EXPECT_EQ(report.loosePoints, 1);
+		EXPECT_EQ(report.loosePlace, "(3.5, 3.5)");
+		const double weight = (9 + 0.25) * 2e3 * 10;
+		EXPECT_NEAR(report.reactions[0][1] + report.looseForce[1], weight, 1e-6 * weight);
+		EXPECT_GT(report.looseForce[1], 0.75 * 0.25 * 2e3 * 10) << "what of its weight is at nodes that only it moves";
+		ASSERT_TRUE(alone.step(0, 1).converged());
+		EXPECT_LT((alone.cloud.position[0] - scene.cloud.position[0]).norm(), 1e-4) << "far from the corner";
+	}
+
+	/// By a face of a cell the stabilisation holds it, as it always has.
+	TEST(LoosePoints, AreNotThoseBesideAFace)
+	{
+		Block scene(elastic);
+		addPoint<2>(scene.cloud, { 3.5, 2.5 }, { 0.25, 0.25 });
+		const auto report = scene.step(0, 1);
+		ASSERT_TRUE(report.converged()) << report.cause;
+		EXPECT_EQ(report.loosePoints, 0);
+		EXPECT_EQ(report.looseForce, Vec3(0, 0, 0));
+	}
+
 	TEST(LoosePoints, AreNoBodies)
 	{
 		Block beside(elastic);
