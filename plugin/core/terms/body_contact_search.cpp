@@ -65,8 +65,10 @@ BodyContact<Dim>::BodyContact(BodyContacts<Dim>& system, const Beginning<Dim>& s
 
 template <int Dim> void BodyContact<Dim>::addPlaces(int number, const Beginning<Dim>& step)
 {
-	const auto&             meeting = system_.meetings[number];
-	const auto&             slave   = facets_[meeting.slave];
+	const auto&   meeting = system_.meetings[number];
+	const auto&   slave   = facets_[meeting.slave];
+	Attacher<Dim> ofSlave(step.basis, step.grid, system_.bodies[meeting.slave].layer),
+	        ofMaster(step.basis, step.grid, system_.bodies[meeting.master].layer);
 	const PiecesByCell<Dim> byCell(facets_[meeting.master], step.grid, reach_);
 	const Quadrature<Dim>   rule;
 	for (int i = 0; i < int(slave.pieces.size()); ++i) {
@@ -78,11 +80,11 @@ template <int Dim> void BodyContact<Dim>::addPlaces(int number, const Beginning<
 				x += weight[v] * slave.start[slave.pieces[i][v]];
 			const auto& near = byCell.near(x);
 			if (near.empty() || (isRing_ && x[0] <= 0)) continue;
-			const auto at = attachNear(x, step.basis, step.grid, system_.bodies[meeting.slave].layer);
+			const auto at = ofSlave(x);
 			if (!at) continue;
 			const double area = rule.part * normal.norm() * (isRing_ ? 2 * M_PI * x[0] : 1);
 			Place        place { number, i, x, normal.normalized(), area, 0, 0, Vec<Dim>::Zero(), 0, *at };
-			findNear(place, near, step);
+			findNear(place, near, ofMaster);
 			if (place.near.empty()) continue;
 			if (!meeting.shear.empty())
 				place.shear = area * meeting.shear[slave.whole[i]], place.pressure = area * meeting.pressure[slave.whole[i]];
@@ -91,7 +93,7 @@ template <int Dim> void BodyContact<Dim>::addPlaces(int number, const Beginning<
 	}
 }
 
-template <int Dim> void BodyContact<Dim>::findNear(Place& place, const std::vector<int>& pieces, const Beginning<Dim>& step) const
+template <int Dim> void BodyContact<Dim>::findNear(Place& place, const std::vector<int>& pieces, Attacher<Dim>& ofMaster) const
 {
 	const int   body   = meetingOf(place).master;
 	const auto& facets = facets_[body];
@@ -105,7 +107,7 @@ template <int Dim> void BodyContact<Dim>::findNear(Place& place, const std::vect
 		Vec<Dim>     foot = Vec<Dim>::Zero();
 		for (int v = 0; v < Dim; ++v)
 			near.weight[v] /= sum, foot += near.weight[v] * facets.start[facets.pieces[piece][v]];
-		const auto at = attachNear(foot, step.basis, step.grid, system_.bodies[body].layer);
+		const auto at = ofMaster(foot);
 		if (!at) continue;
 		near.foot = *at;
 		place.near.push_back(near);

@@ -51,16 +51,21 @@ template <int Dim> Eigen::VectorXd Inertia<Dim>::ofExtent(const Eigen::VectorXd&
 /// would throw nodes of hardly any mass about, and in long steps change their sign from one to the next.
 template <int Dim> void Inertia<Dim>::findStart(const Beginning<Dim>& step)
 {
-	const bool isDriven = motion_.scheme.dependsOnStart();
-	const bool isFirst  = begins(motion_, division_);
-	findVelocity(isDriven && !isFirst);
+	const bool        isDriven = motion_.scheme.dependsOnStart();
+	const bool        isFirst  = begins(motion_, division_);
+	const bool        areMet   = isDriven && motion_.bodies && motion_.bodies->acting; // whose forces are solved for together with the momenta
+	Eigen::VectorXd   contact = areMet ? ofContact(nullptr) : Eigen::VectorXd(), byContact = Eigen::VectorXd::Zero(prescribed_.size());
+	std::vector<Side> besides;
+	if (areMet && !contact.isZero(0)) besides.push_back({ contact, dofs_, byContact });
+	findVelocity(isDriven && !isFirst, besides);
 	if (!isDriven) return;
-	const Eigen::VectorXd all = imbalanceOf(step), contact = ofContact(nullptr);
+	if (!areMet) contact = ofContact(nullptr);
+	const Eigen::VectorXd all = imbalanceOf(step);
 	if (isFirst) solve({ { all, dofs_, expected_ } });
-	acceleration_ = expected_;
-	if (!contact.isZero(0)) acceleration_ -= solved(contact);
-	imbalance_ = all - contact;
-	neglected_ = imbalance_ - nodal_ * acceleration_;
+	if (besides.empty() && !contact.isZero(0)) byContact = solved(contact);
+	acceleration_ = expected_ - byContact;
+	imbalance_    = all - contact;
+	neglected_    = imbalance_ - nodal_ * acceleration_;
 	for (Eigen::Index i = 0; i < imbalance_.size(); ++i) {
 		if (isHeld(i)) neglected_[i] = 0;
 		if (isHeld(i) || motion_.scheme.alphaF == 0) imbalance_[i] = 0;
@@ -82,9 +87,9 @@ template <int Dim> Eigen::VectorXd Inertia<Dim>::imbalanceOf(const Beginning<Dim
 	return all;
 }
 
-/// Where nodes are held, also what the velocities would be if they were not: the blow of what holds them has changed
+/// With other sides. Where nodes are held, also what the velocities would be if they were not: the blow of what holds them has changed
 /// them by the difference.
-template <int Dim> void Inertia<Dim>::findVelocity(bool withAcceleration)
+template <int Dim> void Inertia<Dim>::findVelocity(bool withAcceleration, const std::vector<Side>& besides)
 {
 	const double          roundOff = motion_.exactness;
 	const Eigen::VectorXd momentum = weighedAtNodes(basis_, motion_.mass, motion_.velocity, share_);
@@ -95,6 +100,8 @@ template <int Dim> void Inertia<Dim>::findVelocity(bool withAcceleration)
 	std::vector<Side>     sides    = { { momentum, dofs_, velocity_ } };
 	if (withAcceleration) sides.push_back({ carried, dofs_, expected_ });
 	if (together) sides.push_back({ momentum, all, before });
+	for (const Side& side : besides)
+		sides.push_back(side);
 	solve(sides);
 	blow_ = blowOf(nodal_, velocity_, momentum, roundOff, [&](Eigen::Index i) { return isHeld(i); });
 	if (blow_.isZero(0)) return;

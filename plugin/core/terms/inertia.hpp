@@ -45,7 +45,7 @@ private:
 
 	void            findExtent(const Beginning<Dim>&);
 	void            findStart(const Beginning<Dim>&);
-	void            findVelocity(bool withAcceleration);
+	void            findVelocity(bool withAcceleration, const std::vector<Side>& besides);
 	Eigen::VectorXd imbalanceOf(const Beginning<Dim>&) const;
 	void            solve(const std::vector<Side>&);
 	void            solveByFactor(const std::vector<Side>&);
