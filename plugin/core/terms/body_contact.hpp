@@ -11,6 +11,9 @@ namespace gimpm {
 /// How long sides of pieces may be, over the size of a cell: in space legs of half a cell, as there are many.
 template <int Dim> constexpr double pieceLimitOfBodies = Dim == 2 ? pieceLimit : 0.75;
 
+/// By which they may stretch before they are divided: else most of them would be in the first step.
+constexpr double stretchOfPieces = 1.2;
+
 /// What a place may get behind the surface of another body, over the size of a cell.
 constexpr double deepestInBodies = 0.25;
 
@@ -27,8 +30,13 @@ template <int Dim> struct MeetingBody {
 	int          layer = 0; ///< of its nodes
 	Surface<Dim> surface;   ///< moved with it in each step that is accepted
 
-	/// Parts of the surface are no longer than pieceLimitOfBodies. Returns for each which it has been part of.
-	std::vector<int> refine(double cellSize) { return surface.refine(pieceLimitOfBodies<Dim> * cellSize); }
+	/// Parts of the surface are no longer than pieceLimitOfBodies at first, and later than that with stretchOfPieces.
+	/// Returns for each which it has been part of.
+	std::vector<int> refine(double cellSize)
+	{
+		const double stretch = surface.vertices == surface.vertices0 ? 1 : stretchOfPieces;
+		return surface.refine(stretch * pieceLimitOfBodies<Dim> * cellSize);
+	}
 };
 
 /// Two bodies that may meet, by their numbers: places on the one bear on pieces of the surface of the other.
