@@ -137,7 +137,10 @@ private:
 	void                  addPlaces(int meeting, const Beginning<Dim>&);
 	void                  findNear(Place&, const std::vector<int>& pieces, Attacher<Dim>& ofMaster) const;
 	void                  takeModuli(const Beginning<Dim>&);
+	void                  findFirst(Place&);
+	void                  keepApart(Place* begin, Place* end);
 	void                  begin(Place&);
+	int                   wholeOf(const Place& place) const { return facets_[meetingOf(place).slave].whole[place.piece]; }
 	Places                placesAt(const Eigen::VectorXd& d) const;
 	PairPlaces<Dim>       pair(const Vec<Dim>& place, int body, int piece, const Places&) const;
 	PairPlaces<Dim>       pairNow(const Place&, const Near&, const Eigen::VectorXd& d, const Places&) const;

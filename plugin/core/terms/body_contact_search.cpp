@@ -60,6 +60,13 @@ BodyContact<Dim>::BodyContact(BodyContacts<Dim>& system, const Beginning<Dim>& s
 		addPlaces(m, step);
 	takeModuli(step);
 	for (Place& place : places_)
+		findFirst(place);
+	for (auto first = places_.begin(), last = first; first != places_.end(); first = last) {
+		last = std::find_if(
+		        first, places_.end(), [&](const Place& place) { return place.meeting != first->meeting || wholeOf(place) != wholeOf(*first); });
+		keepApart(&*first, &*first + (last - first));
+	}
+	for (Place& place : places_)
 		begin(place);
 }
 
@@ -137,20 +144,47 @@ template <int Dim> void BodyContact<Dim>::takeModuli(const Beginning<Dim>& step)
 		places_[i].young = std::min(moduli[leaves[i][0]], moduli[leaves[i][1]]);
 }
 
+/// With its gap.
+template <int Dim> void BodyContact<Dim>::findFirst(Place& place)
+{
+	const auto& meeting = meetingOf(place);
+	place.first         = nearestOf(place, nullptr, start_);
+	if (!place.first) return;
+	place.closed = Facing<Dim>(pair(place.start, meeting.master, place.first->piece, start_)).gap;
+	if (place.closed > -deepestAtStart * cellSize_ || !obstacle_.empty()) return;
+	obstacle_ = sentence(
+	        "the surface of body '", system_.bodies[meeting.slave].name, "' is ", -place.closed, " m inside of body '", system_.bodies[meeting.master].name,
+	        "', at (", place.start.transpose(), "): bodies must not overlap, and larger steps than they can bear get them into each other");
+}
+
+/// Of the places on one piece of a surface, which have its mean pressure, those that would not be pressed with it by the
+/// gaps between them were not as the last step ended: the others have their forces. Else they would have to open again
+/// in each step.
+template <int Dim> void BodyContact<Dim>::keepApart(Place* begin, Place* end)
+{
+	double pressure = 0, gap = 0, penalty = 0;
+	for (Place* place = begin; place != end; ++place) {
+		if (!place->first) return;
+		pressure += place->pressure, gap += penaltyOf(*place) * place->closed, penalty += penaltyOf(*place);
+	}
+	const double opens   = (gap + pressure) / penalty; // where the pressures that the gaps differ by are the whole of the mean one
+	const auto   isOpen  = [&](const Place& place) { return place.closed > opens; };
+	double       pressed = 0;
+	for (const Place* place = begin; place != end; ++place)
+		if (!isOpen(*place)) pressed += place->pressure;
+	if (pressed == 0 || pressed == pressure) return;
+	const double more = pressure / pressed;
+	for (Place* place = begin; place != end; ++place) {
+		const double part = isOpen(*place) ? 0 : more;
+		place->pressure *= part, place->shear *= part;
+	}
+}
+
 /// Gaps are found anew in each step, as surfaces are cut anew; the pressure is kept, and not the gap. So contact gives
 /// back no more energy than it has stored. Bodies that are deep within each other are not as they should be.
 template <int Dim> void BodyContact<Dim>::begin(Place& place)
 {
-	const auto& meeting = meetingOf(place);
-	const Near* near    = nearestOf(place, nullptr, start_);
-	if (!near) return;
-	place.first      = near;
-	const double gap = Facing<Dim>(pair(place.start, meeting.master, near->piece, start_)).gap;
-	place.closed     = place.pressure > 0 ? gap + place.pressure / penaltyOf(place) : std::min(0., gap);
-	if (gap > -deepestAtStart * cellSize_ || !obstacle_.empty()) return;
-	obstacle_ = sentence(
-	        "the surface of body '", system_.bodies[meeting.slave].name, "' is ", -gap, " m inside of body '", system_.bodies[meeting.master].name,
-	        "', at (", place.start.transpose(), "): bodies must not overlap, and larger steps than they can bear get them into each other");
+	if (place.first) place.closed = place.pressure > 0 ? place.closed + place.pressure / penaltyOf(place) : std::min(0., place.closed);
 }
 
 template BodyContact<2>::BodyContact(BodyContacts<2>&, const Beginning<2>&);
