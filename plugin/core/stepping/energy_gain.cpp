@@ -89,9 +89,9 @@ bool requireEnergy(const StepSystem<Dim>& system, const PointCloud<Dim>& before,
 		                "integration in time would make ", energy.gain, " J of energy out of nothing, more than ", EnergyGain::most, " of the ",
 		                energy.inPlay, " J that are in play"));
 	const auto* bodies = system.inertia->motion().bodies;
-	if (!bodies || !std::isfinite(bodies->energy)) return true;
+	if (!bodies || !std::isfinite(bodies->energy) || system.prescribed.any()) return true;
 	const double gain = energy.gain - system.inertia->gridWork(d), inPlay = energy.inPlay + bodies->energy;
-	if (!(gain > mostOfBodies * inPlay)) return true;
+	if (!(gain > mostOfBodies * inPlay + std::abs(d.dot(system.external)))) return true;
 	report.advice = "Smaller steps (O.dt) make it less; with scheme='midpoint' there is none.";
 	return !fail(
 	        report, Failure::gainsEnergy,
