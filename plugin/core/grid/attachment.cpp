@@ -55,12 +55,9 @@ template <int Dim> std::optional<Attachment<Dim>> attach(const Vec<Dim>& place, 
 		attached = Attachment<Dim> { cell->first, level, {}, {} };
 		ofNodes  = cell->second;
 	}
-	for (int n = 0; attached && n < attached->nodes; ++n) {
-		attached->node[n]   = position(basis.nodes, Grid<Dim>::key(grid.first(attached->index(n) * (1 << attached->level)), attached->level, ofNodes));
-		attached->weight[n] = 1;
-		for (int a = 0; a < Dim; ++a)
-			attached->weight[n] *= n >> a & 1 ? local[a] : 1 - local[a];
-	}
+	for (int n = 0; attached && n < attached->nodes; ++n)
+		attached->node[n] = position(basis.nodes, Grid<Dim>::key(grid.first(attached->index(n) * (1 << attached->level)), attached->level, ofNodes));
+	if (attached) attached->weigh(local);
 	return attached;
 }
 

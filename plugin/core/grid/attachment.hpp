@@ -17,6 +17,16 @@ template <int Dim> struct Attachment {
 	std::array<int, nodes>    node;   ///< numbers, x fastest
 	std::array<double, nodes> weight; ///< values of the functions [-]
 
+	/// The functions at a place, from the lowest node on [cells of its level].
+	void weigh(const Vec<Dim>& local)
+	{
+		for (int n = 0; n < nodes; ++n) {
+			weight[n] = 1;
+			for (int a = 0; a < Dim; ++a)
+				weight[n] *= n >> a & 1 ? local[a] : 1 - local[a];
+		}
+	}
+
 	/// Integer coordinates of a node, as if the grid were not periodic, in cells of its level.
 	Index<Dim> index(int n) const
 	{

@@ -167,11 +167,13 @@ template <int Dim> void appendColumn(const NodeMatrix<Dim>& K, const FreeDofs& d
 }
 
 /// Of a symmetric matrix that keeps the blocks of each row from the diagonal on: they are those of the column below it.
-void appendCouplings(const Couplings& K, const FreeDofs& dofs, const FieldNode& place, int i, Csc& out)
+/// With fields from one on.
+void appendCouplings(const Couplings& K, const FreeDofs& dofs, const FieldNode& place, int i, Csc& out, int firstField = 0)
 {
 	const DofMap& map   = K.map();
 	const double  ofRow = K.signOf(place.field) * map[place.field].scale;
 	K.forBlocksOf(place, [&](const FieldNode& other, const double* values) {
+		if (other.field < firstField) return;
 		const int    width = map[other.field].width, first = map.at(other.field, other.node);
 		const bool   isDiagonal = other.field == place.field && other.node == place.node;
 		const double weight     = ofRow * map[other.field].scale;
@@ -183,19 +185,56 @@ void appendCouplings(const Couplings& K, const FreeDofs& dofs, const FieldNode& 
 	});
 }
 
+/// Of the displacements of a node with couplings among them: rows of neighbours and of nodes that are coupled, both of
+/// which rise. Of the block on the diagonal the part below it is taken.
+template <int Dim> void appendMerged(const NodeMatrix<Dim>& K, const FreeDofs& dofs, const Couplings& couplings, int node, int i, Csc& out)
+{
+	const auto append = [&](int b, const double* k, const double* coupled) {
+		for (int j = b == node ? i : 0; j < Dim; ++j) {
+			const int row = dofs.number[Dim * b + j], at = b == node ? j * Dim + i : i * Dim + j;
+			if (row < 0) continue;
+			out.row.push_back(row);
+			out.value.push_back(k && coupled ? k[at] + coupled[at] : k ? k[at] : coupled[at]);
+		}
+	};
+	int        code        = 0;
+	const auto appendUntil = [&](int end) { // the node whose block comes next, unless that is at `end`
+		for (; code < NodeMatrix<Dim>::codes; ++code) {
+			if (!K.used(node, code)) continue;
+			const int b = K.neighbour(node, code);
+			if (b >= end) return b;
+			append(b, K.at(node, code), nullptr);
+		}
+		return -1;
+	};
+	bool areOthers = false; // the fields behind the displacements
+	couplings.forBlocksOf({ 0, node }, [&](const FieldNode& other, const double* values) {
+		areOthers = areOthers || other.field > 0;
+		if (areOthers) return;
+		const bool isShared = appendUntil(other.node) == other.node;
+		append(other.node, isShared ? K.at(node, code) : nullptr, values);
+		code += isShared;
+	});
+	appendUntil(K.nodes());
+	if (areOthers) appendCouplings(couplings, dofs, { 0, node }, i, out, 1);
+}
+
 /// Column by column, where nothing has to be sorted or added up.
 template <int Dim> void reduceInOrder(const NodeMatrix<Dim>& K, const FreeDofs& dofs, const Couplings* couplings, SymmetricCsc& out)
 {
 	out.start.assign(1, 0);
 	out.row.clear();
 	out.value.clear();
-	const int fields = couplings ? couplings->map().fields() : 1;
+	const int  fields  = couplings ? couplings->map().fields() : 1;
+	const bool isMixed = couplings && couplings->areWithinDisplacements();
 	for (int field = 0, unknown = 0; field < fields; ++field)
 		for (int a = 0; a < K.nodes(); ++a)
 			for (int i = 0, width = field == 0 ? Dim : couplings->map()[field].width; i < width; ++i, ++unknown) {
 				if (dofs.number[unknown] < 0) continue;
-				if (field == 0) appendColumn(K, dofs, a, i, out);
-				if (couplings) appendCouplings(*couplings, dofs, { field, a }, i, out);
+				if (field == 0 && !isMixed) appendColumn(K, dofs, a, i, out);
+				if (field == 0 && isMixed) appendMerged(K, dofs, *couplings, a, i, out);
+				else if (couplings)
+					appendCouplings(*couplings, dofs, { field, a }, i, out);
 				out.start.push_back(int(out.row.size()));
 			}
 }
@@ -204,7 +243,7 @@ template <int Dim> void reduceInOrder(const NodeMatrix<Dim>& K, const FreeDofs& 
 
 template <int Dim> void reduce(const NodeMatrix<Dim>& K, const FreeDofs& dofs, SymmetricCsc& out, const Couplings* couplings)
 {
-	if (K.isPeriodic() || dofs.ties || (couplings && couplings->areWithinDisplacements())) return reduceUnordered(K, dofs, couplings, true, out);
+	if (K.isPeriodic() || dofs.ties) return reduceUnordered(K, dofs, couplings, true, out);
 	reduceInOrder(K, dofs, couplings, out);
 }
 

@@ -140,7 +140,7 @@ template <int Dim> bool accept(const StepSystem<Dim>& system, PointCloud<Dim>& c
 	keepBeforeWalls(updated, cloud, system, displacements);
 	if (system.model.pressureRelaxation) relaxPressures(updated, cloud, system.model.materials, system.basis, system.model.grid, *system.model.division);
 	if (!requireState(updated, system.model, report) || !requireSamePoints(updated, system.model, report)) return false;
-	if (!report.accepted && !requireEnergy(system, cloud, updated, report)) return false;
+	if (!report.accepted && !requireEnergy(system, cloud, updated, displacements, report)) return false;
 	cloud = std::move(updated);
 	system.commit(d);
 	for (const auto& [box, wall] : system.model.walls)

@@ -24,7 +24,7 @@ template <int Dim> struct StepSystem {
 	StepPoints<Dim>             points;
 	std::vector<GhostFace<Dim>> faces;
 	Terms<Dim>                  terms;             ///< whose sum balances the external forces
-	const Inertia<Dim>*         inertia = nullptr; ///< the last of them, in a step in time
+	Inertia<Dim>*               inertia = nullptr; ///< the last of them, in a step in time
 	/// Vectors have a block for each field, and first that of the displacements: Dim components a node.
 	DofMap                 map;
 	Constraints            constraints;

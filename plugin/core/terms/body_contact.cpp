@@ -45,53 +45,69 @@ template <int Dim> PairPlaces<Dim> BodyContact<Dim>::pairNow(const Place& place,
 	return x;
 }
 
+/// Without displacements as the step begins.
+template <int Dim> PairPlaces<Dim> BodyContact<Dim>::pairThen(const Place& place, const Near& near, const Eigen::VectorXd* d, const Places& places) const
+{
+	return d ? pairNow(place, near, *d, places) : pair(place.start, meetingOf(place).master, near.piece, places);
+}
+
 /// The piece that is nearest to where the place is, null if that does not face it. At an edge the one behind which the
-/// place is least. Without displacements as the step begins.
+/// place is least.
 template <int Dim> auto BodyContact<Dim>::nearestOf(const Place& place, const Eigen::VectorXd* d, const Places& places) const -> const Near*
 {
-	const int    master = meetingOf(place).master;
-	const double same   = 1e-12 * cellSize_ * cellSize_;
+	const double same  = 1e-12 * cellSize_ * cellSize_;
 	double       least = std::numeric_limits<double>::infinity(), gap = 0;
 	const Near*  nearest = nullptr;
 	Vec<Dim>     normal  = Vec<Dim>::Zero();
 	for (const Near& near : place.near) {
-		const auto   x    = d ? pairNow(place, near, *d, places) : pair(place.start, master, near.piece, places);
+		const auto   x    = pairThen(place, near, d, places);
 		const double away = squaredDistance(x);
 		if (away > least + same) continue;
 		const Facing<Dim> at(x);
 		if (away > least - same && at.gap < gap) continue;
 		least = std::min(least, away), gap = at.gap, nearest = &near, normal = at.normal;
 	}
-	if (!nearest || normal.dot(place.normal) >= facing) return nullptr;
-	return d && place.first && goesOn(place, *d, places) ? place.first : nearest;
+	return nearest && normal.dot(place.normal) < facing ? nearest : nullptr;
 }
 
 /// With the piece that was nearest as the step began, and with the plane of it a little beyond its sides: pressures
 /// would jump to and fro between pieces beside each other, whose normals differ, and what has entered by one side of a
 /// corner and is pushed out by the other one would win energy.
-template <int Dim> bool BodyContact<Dim>::goesOn(const Place& place, const Eigen::VectorXd& d, const Places& now) const
+template <int Dim> bool BodyContact<Dim>::goesOn(const PairPlaces<Dim>& x) const
 {
-	const Facing<Dim> at(pairNow(place, *place.first, d, now));
+	const Facing<Dim> at(x);
 	for (int i = 0; i < Dim; ++i)
 		if (at.weight[i] < -beyondPiece * cellSize_ * at.slope[i].norm()) return false;
 	return true;
 }
 
-template <int Dim> void BodyContact<Dim>::forTouching(const Eigen::VectorXd& d, PairSlope slope, const std::function<void(const Touching&)>& f) const
+/// Calls f with the derivatives if they are wanted.
+template <int Dim>
+auto BodyContact<Dim>::look(const Eigen::VectorXd& d, PairSlope slope, const std::function<void(const Touching&, const Slope&)>& f) const -> const Looked&
 {
-	if (places_.empty()) return;
-	const Places now = placesAt(d);
+	if (!f && looked_.d.size() == d.size() && looked_.d == d) return looked_;
+	looked_.d = d, looked_.now = placesAt(d), looked_.touching.clear();
 	for (const Place& place : places_) {
 		const auto& meeting = meetingOf(place);
-		const Near* near    = nearestOf(place, &d, now);
-		if (!near) continue;
+		const Near* near    = place.first;
+		auto        end     = near ? pairNow(place, *near, d, looked_.now) : PairPlaces<Dim>();
+		if (!near || !goesOn(end)) {
+			near = nearestOf(place, &d, looked_.now);
+			if (!near) continue;
+			end = pairNow(place, *near, d, looked_.now);
+		}
 		const double          penalty = penaltyOf(place);
 		const ContactLaw<Dim> law { penalty, penalty / slipSoftnessOfBodies, meeting.friction, meeting.adhesion * place.area };
-		const auto            start = pair(place.start, meeting.master, near->piece, start_), end = pairNow(place, *near, d, now);
-		if (const auto force = pairForce<Dim>(law, start, place.shear, end, place.closed, tolerance_, slope)) f(Touching { place, *near, *force, end });
+		const auto            start = pair(place.start, meeting.master, near->piece, start_);
+		const auto            force = pairForce<Dim>(law, start, place.shear, end, place.closed, tolerance_, slope);
+		if (!force) continue;
+		looked_.touching.push_back({ place, *near, *force, end });
+		if (f) f(looked_.touching.back(), force->slope);
 	}
+	return looked_;
 }
 
+/// By rising numbers.
 template <int Dim> auto BodyContact<Dim>::nodesOf(const Place& place, const Near& near) const -> std::vector<PairNode>
 {
 	std::vector<PairNode> nodes;
@@ -99,8 +115,8 @@ template <int Dim> auto BodyContact<Dim>::nodesOf(const Place& place, const Near
 	const auto add = [&](const Attachment<Dim>& at, int i, double part) {
 		for (int n = 0; n < at.nodes; ++n) {
 			if (at.weight[n] == 0) continue;
-			auto known = std::find_if(nodes.begin(), nodes.end(), [&](const PairNode& other) { return other.node == at.node[n]; });
-			if (known == nodes.end()) known = nodes.insert(nodes.end(), PairNode { at.node[n], {} });
+			auto known = std::find_if(nodes.begin(), nodes.end(), [&](const PairNode& other) { return other.node >= at.node[n]; });
+			if (known == nodes.end() || known->node != at.node[n]) known = nodes.insert(known, PairNode { at.node[n], {} });
 			known->weight[i] += part * at.weight[n];
 		}
 	};
@@ -124,16 +140,29 @@ template <int Dim> bool BodyContact<Dim>::isRough() const
 template <int Dim> bool BodyContact<Dim>::makeExact() { return isRough() && !std::exchange(isExact_, true); }
 
 /// All nodes around a place and the pieces near it, as any of these may be the nearest one.
+template <int Dim> void BodyContact<Dim>::markNodes(const Place& place, std::vector<int>& nodes) const
+{
+	const auto add = [&](const Attachment<Dim>& at) {
+		for (int n = 0; n < at.nodes; ++n)
+			if (at.weight[n] != 0 && std::find(nodes.begin(), nodes.end(), at.node[n]) == nodes.end()) nodes.push_back(at.node[n]);
+	};
+	const auto& master = facets_[meetingOf(place).master];
+	add(place.at);
+	for (const Near& near : place.near) {
+		add(near.foot);
+		for (const int v : master.pieces[near.piece])
+			add(*master.at[v]);
+	}
+	std::sort(nodes.begin(), nodes.end());
+}
+
 template <int Dim> void BodyContact<Dim>::markCouplings(Couplings& K) const
 {
 	std::set<std::vector<int>> known; // places in one cell have the same nodes
+	std::vector<int>           nodes;
 	for (const Place& place : places_) {
-		std::vector<int> nodes;
-		for (const Near& near : place.near)
-			for (const PairNode& one : nodesOf(place, near))
-				nodes.push_back(one.node);
-		std::sort(nodes.begin(), nodes.end());
-		nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+		nodes.clear();
+		markNodes(place, nodes);
 		if (!known.insert(nodes).second) continue;
 		for (const int a : nodes)
 			for (const int b : nodes)
@@ -141,28 +170,52 @@ template <int Dim> void BodyContact<Dim>::markCouplings(Couplings& K) const
 	}
 }
 
+template <int Dim>
+void BodyContact<Dim>::addForces(
+        const std::vector<PairNode>& nodes, const PairAction<Dim>& action, double factor, Eigen::VectorXd& force, Eigen::VectorXd* sizes) const
+{
+	for (const PairNode& one : nodes) {
+		Vec<Dim> f = Vec<Dim>::Zero();
+		for (int i = 0; i <= Dim; ++i)
+			f += factor * one.weight[i] * action.force[i];
+		force.template segment<Dim>(Dim * one.node) -= f;
+		if (sizes) sizes->template segment<Dim>(Dim * one.node) += f.cwiseAbs();
+	}
+}
+
+template <int Dim> void BodyContact<Dim>::addSlope(const std::vector<PairNode>& nodes, const Slope& slope, double factor, Couplings& K) const
+{
+	using Block = Eigen::Map<Eigen::Matrix<double, Dim, Dim, Eigen::RowMajor>>;
+	std::vector<int>            numbers;
+	std::vector<std::ptrdiff_t> places(nodes.size());
+	for (const PairNode& one : nodes)
+		numbers.push_back(one.node);
+	for (const PairNode& one : nodes) {
+		Eigen::Matrix<double, Dim, Slope::ColsAtCompileTime> row = Eigen::Matrix<double, Dim, Slope::ColsAtCompileTime>::Zero();
+		for (int i = 0; i <= Dim; ++i)
+			row -= factor * one.weight[i] * slope.template middleRows<Dim>(Dim * i);
+		K.findPlaces({ 0, one.node }, 0, numbers.data(), int(numbers.size()), places.data());
+		for (std::size_t other = 0; other < nodes.size(); ++other) {
+			if (places[other] < 0) continue;
+			Block k(K.values() + places[other]);
+			for (int j = 0; j <= Dim; ++j)
+				k += nodes[other].weight[j] * row.template middleCols<Dim>(Dim * j);
+		}
+	}
+}
+
 template <int Dim> void BodyContact<Dim>::add(const Eigen::VectorXd& d, double factor, Eigen::VectorXd& force, Eigen::VectorXd* sizes, Couplings* K) const
 {
-	const PairSlope slope = !K ? PairSlope::none : isExact_ || !isRough() ? PairSlope::exact : PairSlope::symmetric;
-	forTouching(d, slope, [&](const Touching& touching) {
+	if (places_.empty()) return;
+	if (!K) {
+		for (const Touching& touching : look(d).touching)
+			addForces(nodesOf(touching.place, touching.near), touching.force, factor, force, sizes);
+		return;
+	}
+	look(d, isExact_ || !isRough() ? PairSlope::exact : PairSlope::symmetric, [&](const Touching& touching, const Slope& slope) {
 		const auto nodes = nodesOf(touching.place, touching.near);
-		for (const PairNode& one : nodes) {
-			Vec<Dim>                                         f   = Vec<Dim>::Zero();
-			Eigen::Matrix<double, Dim, PairForce<Dim>::size> row = Eigen::Matrix<double, Dim, PairForce<Dim>::size>::Zero();
-			for (int i = 0; i <= Dim; ++i) {
-				f += factor * one.weight[i] * touching.force.force[i];
-				if (K) row -= factor * one.weight[i] * touching.force.slope.template middleRows<Dim>(Dim * i);
-			}
-			force.template segment<Dim>(Dim * one.node) -= f;
-			if (sizes) sizes->template segment<Dim>(Dim * one.node) += f.cwiseAbs();
-			for (const PairNode& other : nodes) {
-				if (!K) break;
-				Mat<Dim> k = Mat<Dim>::Zero();
-				for (int j = 0; j <= Dim; ++j)
-					k += other.weight[j] * row.template middleCols<Dim>(Dim * j);
-				K->add({ 0, one.node }, { 0, other.node }, k);
-			}
-		}
+		addForces(nodes, touching.force, factor, force, sizes);
+		addSlope(nodes, slope, factor, *K);
 	});
 }
 
@@ -196,18 +249,18 @@ template <int Dim> void BodyContact<Dim>::holdAt(const Touching& touching, bool 
 /// Each as if the other one stood still.
 template <int Dim> void BodyContact<Dim>::restrain(const typename Term<Dim>::Hold& hold) const
 {
-	forTouching(Eigen::VectorXd::Zero(unknowns_), PairSlope::none, [&](const Touching& touching) {
+	for (const Touching& touching : look(Eigen::VectorXd::Zero(unknowns_)).touching) {
 		const auto& meeting = meetingOf(touching.place);
 		holdAt(touching, meeting.friction > 0 && meeting.adhesion > 0, hold);
-	});
+	}
 }
 
 template <int Dim> void BodyContact<Dim>::restrainAt(const Eigen::VectorXd& d, const typename Term<Dim>::Hold& hold) const
 {
-	forTouching(d, PairSlope::none, [&](const Touching& touching) {
+	for (const Touching& touching : look(d).touching) {
 		const auto& meeting = meetingOf(touching.place);
 		holdAt(touching, meeting.friction > 0 && meeting.adhesion > 0 && !touching.force.slips, hold);
-	});
+	}
 }
 
 template class BodyContact<2>;

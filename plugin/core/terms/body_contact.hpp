@@ -11,6 +11,9 @@ namespace gimpm {
 /// How long sides of pieces may be, over the size of a cell: in space legs of half a cell, as there are many.
 template <int Dim> constexpr double pieceLimitOfBodies = Dim == 2 ? pieceLimit : 0.75;
 
+/// By which they may stretch before they are divided: else most of them would be in the first step.
+constexpr double stretchOfPieces = 1.2;
+
 /// What a place may get behind the surface of another body, over the size of a cell.
 constexpr double deepestInBodies = 0.25;
 
@@ -27,8 +30,13 @@ template <int Dim> struct MeetingBody {
 	int          layer = 0; ///< of its nodes
 	Surface<Dim> surface;   ///< moved with it in each step that is accepted
 
-	/// Parts of the surface are no longer than pieceLimitOfBodies. Returns for each which it has been part of.
-	std::vector<int> refine(double cellSize) { return surface.refine(pieceLimitOfBodies<Dim> * cellSize); }
+	/// Parts of the surface are no longer than pieceLimitOfBodies at first, and later than that with stretchOfPieces.
+	/// Returns for each which it has been part of.
+	std::vector<int> refine(double cellSize)
+	{
+		const double stretch = surface.vertices == surface.vertices0 ? 1 : stretchOfPieces;
+		return surface.refine(stretch * pieceLimitOfBodies<Dim> * cellSize);
+	}
 };
 
 /// Two bodies that may meet, by their numbers: places on the one bear on pieces of the surface of the other.
@@ -110,34 +118,48 @@ private:
 	struct Touching {
 		const Place&    place;
 		const Near&     near;
-		PairForce<Dim>  force;
+		PairAction<Dim> force;
 		PairPlaces<Dim> now;
+	};
+	/// What touches at some displacements, which is asked for in turn by all that a step has to know of it.
+	struct Looked {
+		Eigen::VectorXd       d;
+		Places                now;
+		std::vector<Touching> touching {};
 	};
 	/// A node that moves some of the places of a pair, by these weights.
 	struct PairNode {
 		int                         node;
 		std::array<double, Dim + 1> weight;
 	};
+	using Slope = typename PairForce<Dim>::Slope;
 
-	void                    addPlaces(int meeting, const Beginning<Dim>&);
-	void                    findNear(Place&, const std::vector<int>& pieces, const Beginning<Dim>&) const;
-	void                    takeModuli(const Beginning<Dim>&);
-	void                    begin(Place&);
-	Places                  placesAt(const Eigen::VectorXd& d) const;
-	PairPlaces<Dim>         pair(const Vec<Dim>& place, int body, int piece, const Places&) const;
-	PairPlaces<Dim>         pairNow(const Place&, const Near&, const Eigen::VectorXd& d, const Places&) const;
-	const Near*             nearestOf(const Place&, const Eigen::VectorXd* d, const Places&) const;
-	bool                    isRough() const;
-	bool                    goesOn(const Place&, const Eigen::VectorXd& d, const Places&) const;
-	void                    forTouching(const Eigen::VectorXd& d, PairSlope, const std::function<void(const Touching&)>&) const;
-	std::vector<PairNode>   nodesOf(const Place&, const Near&) const;
-	void                    add(const Eigen::VectorXd& d, double weight, Eigen::VectorXd& force, Eigen::VectorXd* sizes, Couplings*) const;
-	void                    holdAt(const Touching&, bool sticks, const typename Term<Dim>::Hold&) const;
-	void                    moveSurfaces(const Places& now);
-	double                  work(const Eigen::VectorXd& d) const;
-	double                  given(const Eigen::VectorXd& d) const;
-	Refusal                 refusalOfEnergy(const Eigen::VectorXd& d) const;
-	double                  approach(const BodyMeeting<Dim>&, const Places& now) const;
+	void                  addPlaces(int meeting, const Beginning<Dim>&);
+	void                  findNear(Place&, const std::vector<int>& pieces, Attacher<Dim>& ofMaster) const;
+	void                  takeModuli(const Beginning<Dim>&);
+	void                  findFirst(Place&);
+	void                  keepApart(Place* begin, Place* end);
+	void                  begin(Place&);
+	int                   wholeOf(const Place& place) const { return facets_[meetingOf(place).slave].whole[place.piece]; }
+	Places                placesAt(const Eigen::VectorXd& d) const;
+	PairPlaces<Dim>       pair(const Vec<Dim>& place, int body, int piece, const Places&) const;
+	PairPlaces<Dim>       pairNow(const Place&, const Near&, const Eigen::VectorXd& d, const Places&) const;
+	PairPlaces<Dim>       pairThen(const Place&, const Near&, const Eigen::VectorXd* d, const Places&) const;
+	const Near*           nearestOf(const Place&, const Eigen::VectorXd* d, const Places&) const;
+	bool                  isRough() const;
+	bool                  goesOn(const PairPlaces<Dim>&) const;
+	const Looked&         look(const Eigen::VectorXd& d, PairSlope = PairSlope::none, const std::function<void(const Touching&, const Slope&)>& = {}) const;
+	std::vector<PairNode> nodesOf(const Place&, const Near&) const;
+	void                  markNodes(const Place&, std::vector<int>& nodes) const;
+	void                  add(const Eigen::VectorXd& d, double weight, Eigen::VectorXd& force, Eigen::VectorXd* sizes, Couplings*) const;
+	void    addForces(const std::vector<PairNode>&, const PairAction<Dim>&, double factor, Eigen::VectorXd& force, Eigen::VectorXd* sizes) const;
+	void    addSlope(const std::vector<PairNode>&, const Slope&, double factor, Couplings&) const;
+	void    holdAt(const Touching&, bool sticks, const typename Term<Dim>::Hold&) const;
+	void    moveSurfaces(const Places& now);
+	double  work(const Eigen::VectorXd& d) const;
+	double  given(const Eigen::VectorXd& d) const;
+	Refusal refusalOfEnergy(const Eigen::VectorXd& d) const;
+	double  approach(const BodyMeeting<Dim>&, const Places& now) const;
 	const BodyMeeting<Dim>& meetingOf(const Place& place) const { return system_.meetings[place.meeting]; }
 	double                  penaltyOf(const Place& place) const { return meetingOf(place).stiffness * place.young * place.area / cellSize_; } ///< [N/m]
 
@@ -150,6 +172,7 @@ private:
 	Places                   start_;
 	std::vector<Place>       places_;
 	std::string              obstacle_;
+	mutable Looked           looked_; // the last one
 };
 
 } // namespace gimpm

@@ -17,9 +17,13 @@ constexpr double mostGiven = 1e-3;
 /// Of the places as the nodes move them.
 template <int Dim> double BodyContact<Dim>::work(const Eigen::VectorXd& d) const
 {
-	Eigen::VectorXd resistance = Eigen::VectorXd::Zero(d.size());
-	addUnweighted(&d, resistance);
-	return -resistance.dot(d);
+	double sum = 0;
+	for (const Touching& touching : look(d).touching) {
+		const auto start = pair(touching.place.start, meetingOf(touching.place).master, touching.near.piece, start_);
+		for (int i = 0; i <= Dim; ++i)
+			sum += touching.force.force[i].dot(touching.now[i] - start[i]);
+	}
+	return sum;
 }
 
 /// Work beyond what the springs had stored. As their energy is convex in the gap, it is not above zero where a place
@@ -32,7 +36,8 @@ template <int Dim> double BodyContact<Dim>::given(const Eigen::VectorXd& d) cons
 	double sum = work(d);
 	for (const Place& place : places_)
 		if (place.first) sum -= stored(place, place.pressure, place.shear);
-	forTouching(d, PairSlope::none, [&](const Touching& now) { sum += stored(now.place, now.force.pressure, now.force.shear); });
+	for (const Touching& now : look(d).touching)
+		sum += stored(now.place, now.force.pressure, now.force.shear);
 	return sum;
 }
 
@@ -67,8 +72,8 @@ template <int Dim> double BodyContact<Dim>::approach(const BodyMeeting<Dim>& mee
 
 template <int Dim> Refusal BodyContact<Dim>::refusal(const Eigen::VectorXd& d) const
 {
-	const Places now    = placesAt(d);
-	const char*  advice = "Smaller load steps (O.dt), or a larger stiffness of MpmBodyContact, may help.";
+	const auto& [all, now, touchingNow] = look(d);
+	const char* advice                  = "Smaller load steps (O.dt), or a larger stiffness of MpmBodyContact, may help.";
 	for (const auto& meeting : system_.meetings)
 		if (const double moved = approach(meeting, now); moved > reach_)
 			return { Failure::penetrated,
@@ -76,24 +81,23 @@ template <int Dim> Refusal BodyContact<Dim>::refusal(const Eigen::VectorXd& d) c
 				         "bodies '", system_.bodies[meeting.slave].name, "' and '", system_.bodies[meeting.master].name, "' move by ", moved,
 				         " m against each other in the step, farther than half a cell, within which they are looked for"),
 				 advice };
-	Refusal refusal;
-	forTouching(d, PairSlope::none, [&](const Touching& touching) {
+	for (const Touching& touching : touchingNow) {
 		const double gap = Facing<Dim>(touching.now).gap;
-		if (gap > -deepestInBodies * cellSize_ || !refusal.cause.empty()) return;
+		if (gap > -deepestInBodies * cellSize_) continue;
 		const auto& meeting = meetingOf(touching.place);
-		refusal             = { Failure::penetrated,
-			                sentence(
-			                        "body '", system_.bodies[meeting.slave].name, "' would get ", -gap, " m into body '", system_.bodies[meeting.master].name,
-			                        "', at (", touching.now[0].transpose(), ")"),
-			                advice };
-	});
-	return refusal.cause.empty() ? refusalOfEnergy(d) : refusal;
+		return { Failure::penetrated,
+			 sentence(
+			         "body '", system_.bodies[meeting.slave].name, "' would get ", -gap, " m into body '", system_.bodies[meeting.master].name,
+			         "', at (", touching.now[0].transpose(), ")"),
+			 advice };
+	}
+	return refusalOfEnergy(d);
 }
 
 /// Stresses of a piece are the means over its places.
 template <int Dim> void BodyContact<Dim>::commit(const Eigen::VectorXd& d)
 {
-	const Places                     now = placesAt(d);
+	const Looked&                    looked = look(d);
 	std::vector<std::vector<double>> area;
 	for (auto& meeting : system_.meetings) {
 		const std::size_t pieces = system_.bodies[meeting.slave].surface.pieces.size();
@@ -105,10 +109,9 @@ template <int Dim> void BodyContact<Dim>::commit(const Eigen::VectorXd& d)
 		area[place.meeting][facets_[meetingOf(place).slave].whole[place.piece]] += place.area;
 	system_.work  = work(d);
 	system_.given = std::isfinite(system_.energy) ? given(d) : 0;
-	forTouching(d, PairSlope::none, [&](const Touching& touching) {
-		const auto& [place, near, force, at] = touching;
-		auto&     meeting                    = system_.meetings[place.meeting];
-		const int whole                      = facets_[meeting.slave].whole[place.piece];
+	for (const auto& [place, near, force, at] : looked.touching) {
+		auto&     meeting = system_.meetings[place.meeting];
+		const int whole   = facets_[meeting.slave].whole[place.piece];
 		meeting.shear[whole] += force.shear / area[place.meeting][whole];
 		meeting.pressure[whole] += force.pressure / area[place.meeting][whole];
 		meeting.force += force.force[0];
@@ -116,8 +119,8 @@ template <int Dim> void BodyContact<Dim>::commit(const Eigen::VectorXd& d)
 		arm.template head<Dim>() = at[0], f.template head<Dim>() = force.force[0];
 		meeting.moment += arm.cross(f);
 		meeting.touching += 1, meeting.slipping += force.slips;
-	});
-	moveSurfaces(now);
+	}
+	moveSurfaces(looked.now);
 }
 
 /// Parts of a piece that is divided have its stresses.

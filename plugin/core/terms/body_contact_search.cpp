@@ -60,13 +60,22 @@ BodyContact<Dim>::BodyContact(BodyContacts<Dim>& system, const Beginning<Dim>& s
 		addPlaces(m, step);
 	takeModuli(step);
 	for (Place& place : places_)
+		findFirst(place);
+	for (auto first = places_.begin(), last = first; first != places_.end(); first = last) {
+		last = std::find_if(
+		        first, places_.end(), [&](const Place& place) { return place.meeting != first->meeting || wholeOf(place) != wholeOf(*first); });
+		keepApart(&*first, &*first + (last - first));
+	}
+	for (Place& place : places_)
 		begin(place);
 }
 
 template <int Dim> void BodyContact<Dim>::addPlaces(int number, const Beginning<Dim>& step)
 {
-	const auto&             meeting = system_.meetings[number];
-	const auto&             slave   = facets_[meeting.slave];
+	const auto&   meeting = system_.meetings[number];
+	const auto&   slave   = facets_[meeting.slave];
+	Attacher<Dim> ofSlave(step.basis, step.grid, system_.bodies[meeting.slave].layer),
+	        ofMaster(step.basis, step.grid, system_.bodies[meeting.master].layer);
 	const PiecesByCell<Dim> byCell(facets_[meeting.master], step.grid, reach_);
 	const Quadrature<Dim>   rule;
 	for (int i = 0; i < int(slave.pieces.size()); ++i) {
@@ -78,11 +87,11 @@ template <int Dim> void BodyContact<Dim>::addPlaces(int number, const Beginning<
 				x += weight[v] * slave.start[slave.pieces[i][v]];
 			const auto& near = byCell.near(x);
 			if (near.empty() || (isRing_ && x[0] <= 0)) continue;
-			const auto at = attachNear(x, step.basis, step.grid, system_.bodies[meeting.slave].layer);
+			const auto at = ofSlave(x);
 			if (!at) continue;
 			const double area = rule.part * normal.norm() * (isRing_ ? 2 * M_PI * x[0] : 1);
 			Place        place { number, i, x, normal.normalized(), area, 0, 0, Vec<Dim>::Zero(), 0, *at };
-			findNear(place, near, step);
+			findNear(place, near, ofMaster);
 			if (place.near.empty()) continue;
 			if (!meeting.shear.empty())
 				place.shear = area * meeting.shear[slave.whole[i]], place.pressure = area * meeting.pressure[slave.whole[i]];
@@ -91,7 +100,7 @@ template <int Dim> void BodyContact<Dim>::addPlaces(int number, const Beginning<
 	}
 }
 
-template <int Dim> void BodyContact<Dim>::findNear(Place& place, const std::vector<int>& pieces, const Beginning<Dim>& step) const
+template <int Dim> void BodyContact<Dim>::findNear(Place& place, const std::vector<int>& pieces, Attacher<Dim>& ofMaster) const
 {
 	const int   body   = meetingOf(place).master;
 	const auto& facets = facets_[body];
@@ -105,7 +114,7 @@ template <int Dim> void BodyContact<Dim>::findNear(Place& place, const std::vect
 		Vec<Dim>     foot = Vec<Dim>::Zero();
 		for (int v = 0; v < Dim; ++v)
 			near.weight[v] /= sum, foot += near.weight[v] * facets.start[facets.pieces[piece][v]];
-		const auto at = attachNear(foot, step.basis, step.grid, system_.bodies[body].layer);
+		const auto at = ofMaster(foot);
 		if (!at) continue;
 		near.foot = *at;
 		place.near.push_back(near);
@@ -135,20 +144,47 @@ template <int Dim> void BodyContact<Dim>::takeModuli(const Beginning<Dim>& step)
 		places_[i].young = std::min(moduli[leaves[i][0]], moduli[leaves[i][1]]);
 }
 
+/// With its gap.
+template <int Dim> void BodyContact<Dim>::findFirst(Place& place)
+{
+	const auto& meeting = meetingOf(place);
+	place.first         = nearestOf(place, nullptr, start_);
+	if (!place.first) return;
+	place.closed = Facing<Dim>(pair(place.start, meeting.master, place.first->piece, start_)).gap;
+	if (place.closed > -deepestAtStart * cellSize_ || !obstacle_.empty()) return;
+	obstacle_ = sentence(
+	        "the surface of body '", system_.bodies[meeting.slave].name, "' is ", -place.closed, " m inside of body '", system_.bodies[meeting.master].name,
+	        "', at (", place.start.transpose(), "): bodies must not overlap, and larger steps than they can bear get them into each other");
+}
+
+/// Of the places on one piece of a surface, which have its mean pressure, those that would not be pressed with it by the
+/// gaps between them were not as the last step ended: the others have their forces. Else they would have to open again
+/// in each step.
+template <int Dim> void BodyContact<Dim>::keepApart(Place* begin, Place* end)
+{
+	double pressure = 0, gap = 0, penalty = 0;
+	for (Place* place = begin; place != end; ++place) {
+		if (!place->first) return;
+		pressure += place->pressure, gap += penaltyOf(*place) * place->closed, penalty += penaltyOf(*place);
+	}
+	const double opens   = (gap + pressure) / penalty; // where the pressures that the gaps differ by are the whole of the mean one
+	const auto   isOpen  = [&](const Place& place) { return place.closed > opens; };
+	double       pressed = 0;
+	for (const Place* place = begin; place != end; ++place)
+		if (!isOpen(*place)) pressed += place->pressure;
+	if (pressed == 0 || pressed == pressure) return;
+	const double more = pressure / pressed;
+	for (Place* place = begin; place != end; ++place) {
+		const double part = isOpen(*place) ? 0 : more;
+		place->pressure *= part, place->shear *= part;
+	}
+}
+
 /// Gaps are found anew in each step, as surfaces are cut anew; the pressure is kept, and not the gap. So contact gives
 /// back no more energy than it has stored. Bodies that are deep within each other are not as they should be.
 template <int Dim> void BodyContact<Dim>::begin(Place& place)
 {
-	const auto& meeting = meetingOf(place);
-	const Near* near    = nearestOf(place, nullptr, start_);
-	if (!near) return;
-	place.first      = near;
-	const double gap = Facing<Dim>(pair(place.start, meeting.master, near->piece, start_)).gap;
-	place.closed     = place.pressure > 0 ? gap + place.pressure / penaltyOf(place) : std::min(0., gap);
-	if (gap > -deepestAtStart * cellSize_ || !obstacle_.empty()) return;
-	obstacle_ = sentence(
-	        "the surface of body '", system_.bodies[meeting.slave].name, "' is ", -gap, " m inside of body '", system_.bodies[meeting.master].name,
-	        "', at (", place.start.transpose(), "): bodies must not overlap, and larger steps than they can bear get them into each other");
+	if (place.first) place.closed = place.pressure > 0 ? place.closed + place.pressure / penaltyOf(place) : std::min(0., place.closed);
 }
 
 template BodyContact<2>::BodyContact(BodyContacts<2>&, const Beginning<2>&);

@@ -31,17 +31,21 @@ enum class PairSlope { none, symmetric, exact };
 
 /// What the place and the piece do to each other, whatever grids they move with. The forces have neither resultant nor
 /// moment.
-template <int Dim> struct PairForce {
-	static constexpr int size = Dim * (Dim + 1);
-
-	using Slope = Eigen::Matrix<double, size, size>;
-
+template <int Dim> struct PairAction {
 	std::array<Vec<Dim>, Dim + 1> force;                       ///< on the place and on the vertices [N]
 	double                        pressure = 0;                ///< normal force [N]
 	Vec<Dim>                      shear    = Vec<Dim>::Zero(); ///< frictional force on the place [N]
 	Vec<Dim>                      slip     = Vec<Dim>::Zero(); ///< of the place along the matter of the piece, since the start of the step [m]
 	bool                          slips    = false;
-	Slope                         slope    = Slope::Zero(); ///< derivative of the forces by the places [N/m], if it was asked for
+};
+
+/// With its derivative.
+template <int Dim> struct PairForce : PairAction<Dim> {
+	static constexpr int size = Dim * (Dim + 1);
+
+	using Slope = Eigen::Matrix<double, size, size>;
+
+	Slope slope = Slope::Zero(); ///< of the forces by the places [N/m], if it was asked for
 };
 
 /// Of a penalty on the gap, and Coulomb's friction with a cap, returned from a penalty on the slip. `start`: the places

@@ -82,8 +82,9 @@ template <int Dim> Facets<Dim>::Facets(const Surface<Dim>& surface, const CloudB
 {
 	for (std::size_t i = 0; i < surface.pieces.size(); ++i)
 		addPiece(*this, surface.pieces[i], int(i), grid);
+	Attacher<Dim> attach(basis, grid, layer);
 	for (const Vec<Dim>& x : start)
-		at.push_back(attachNear(x, basis, grid, layer));
+		at.push_back(attach(x));
 }
 
 template <int Dim> bool Facets<Dim>::isThere(const Piece& piece) const
@@ -120,8 +121,26 @@ template <int Dim> std::optional<Attachment<Dim>> attachNear(const Vec<Dim>& pla
 	return nearest ? attach(*nearest, basis, grid, layer) : std::nullopt;
 }
 
+template <int Dim> std::optional<Attachment<Dim>> Attacher<Dim>::operator()(const Vec<Dim>& place)
+{
+	const Vec<Dim> xi       = (place - grid_.origin) / grid_.size(0);
+	const auto     isInside = [](const Vec<Dim>& local) { return (local.array() > 0).all() && (local.array() < 1).all(); };
+	if (last_) {
+		const Vec<Dim> local = xi - last_->cell.template cast<double>();
+		if (isInside(local)) {
+			last_->weigh(local);
+			return last_;
+		}
+	}
+	const auto found = attachNear(place, basis_, grid_, layer_);
+	if (found && !grid_.refinement && !grid_.parting && isInside(xi - found->cell.template cast<double>())) last_ = found;
+	return found;
+}
+
 template struct Facets<2>;
 template struct Facets<3>;
+template class Attacher<2>;
+template class Attacher<3>;
 template std::optional<Attachment<2>> attachNear(const Vec<2>&, const CloudBasis<2>&, const Grid<2>&, int);
 template std::optional<Attachment<3>> attachNear(const Vec<3>&, const CloudBasis<3>&, const Grid<3>&, int);
 

@@ -28,4 +28,19 @@ template <int Dim> struct Facets {
 /// behind of its surface goes with it.
 template <int Dim> std::optional<Attachment<Dim>> attachNear(const Vec<Dim>& place, const CloudBasis<Dim>&, const Grid<Dim>&, int layer);
 
+/// The same for one place after another of a body: those inside of the cell that the last one was inside of need not
+/// look for its nodes.
+template <int Dim> class Attacher {
+public:
+	/// The basis and the grid must outlive it.
+	Attacher(const CloudBasis<Dim>& basis, const Grid<Dim>& grid, int layer) : basis_(basis), grid_(grid), layer_(layer) { }
+	std::optional<Attachment<Dim>> operator()(const Vec<Dim>& place);
+
+private:
+	const CloudBasis<Dim>&         basis_;
+	const Grid<Dim>&               grid_;
+	const int                      layer_;
+	std::optional<Attachment<Dim>> last_; // inside of its cell
+};
+
 } // namespace gimpm

@@ -289,35 +289,50 @@ template <int Dim> double Inertia<Dim>::kineticEnergy() const
 	return division_.sum(sum);
 }
 
+template <int Dim> auto Inertia<Dim>::pushedAt(const Eigen::VectorXd& d) -> const Pushed&
+{
+	if (pushed_.d.size() == d.size() && pushed_.d == d) return pushed_;
+	const Eigen::VectorXd force = ofContact(&d);
+	pushed_                     = { d, force, force.isZero(0) ? force : solved(force) };
+	return pushed_;
+}
+
+template <int Dim> Eigen::VectorXd Inertia<Dim>::withoutContact(const Eigen::VectorXd& d)
+{
+	return accelerationAt(d) - pushedAt(d).acceleration / (2 * motion_.scheme.beta);
+}
+
+template <int Dim> Eigen::VectorXd Inertia<Dim>::growthAt(const Eigen::VectorXd& d)
+{
+	const double gamma = motion_.scheme.gamma;
+	return motion_.duration * ((1 - gamma) * acceleration_ + gamma * withoutContact(d) + pushedAt(d).acceleration);
+}
+
 /// Work of the mean of the forces at both ends, those of equilibrium at nodes that are held, less what the kinetic
 /// energy of the nodes grows by: what a new grid takes and, where equilibrium is weighed, what the scheme damps.
-/// `others`: accelerations at the end but for `contact`; `growth`: of velocities, without that by a blow.
-template <int Dim>
-double Inertia<Dim>::lostInTime(const Eigen::VectorXd& d, const Eigen::VectorXd& others, const Eigen::VectorXd& contact, const Eigen::VectorXd& growth) const
+template <int Dim> double Inertia<Dim>::gridWork(const Eigen::VectorXd& d)
 {
 	const auto& scheme = motion_.scheme;
 	if (!scheme.isAlpha()) return (1 - scheme.gamma) * d.dot(neglected_);
 	const double          weight = 1 - scheme.alphaF;
-	const Eigen::VectorXd first  = nodal_ * acceleration_ + neglected_;
-	Eigen::VectorXd       last   = nodal_ * others;
+	const Eigen::VectorXd others = withoutContact(d), growth = growthAt(d), first = nodal_ * acceleration_ + neglected_;
+	Eigen::VectorXd       last = nodal_ * others;
 	const Eigen::VectorXd weighed
 	        = nodal_ * ((1 - scheme.alphaM) / weight * others + scheme.alphaM / weight * acceleration_) - scheme.alphaF / weight * first;
 	for (Eigen::Index i = 0; i < last.size(); ++i)
 		if (!isHeld(i)) last[i] = weighed[i];
-	return d.dot((first + last) / 2 + contact) - (velocity_ + growth / 2).dot(nodal_ * growth);
+	return d.dot((first + last) / 2 + pushedAt(d).force) - (velocity_ + growth / 2).dot(nodal_ * growth);
 }
 
 template <int Dim> void Inertia<Dim>::commit(const Eigen::VectorXd& d)
 {
-	const double          beta = motion_.scheme.beta, gamma = motion_.scheme.gamma, T = motion_.duration;
-	const Eigen::VectorXd force   = ofContact(&d);
-	const Eigen::VectorXd contact = force.isZero(0) ? force : solved(force), others = accelerationAt(d) - contact / (2 * beta);
-	const Eigen::VectorXd end = others + contact, growth = jump_ + T * ((1 - gamma) * acceleration_ + gamma * others + contact);
+	const double          gamma = motion_.scheme.gamma, T = motion_.duration;
+	const Eigen::VectorXd end = withoutContact(d) + pushedAt(d).acceleration, growth = jump_ + growthAt(d);
 	Eigen::VectorXd       ghost = Eigen::VectorXd::Zero(d.size());
 	addGhostForce(faces_, h_, d, ghost);
 	share_.complete(ghost);
 	motion_.impactWork           = energyOfBlow(nodal_, velocity_, blow_, jump_, prescribed_ / T);
-	motion_.gridWork             = lostInTime(d, others, force, growth - jump_);
+	motion_.gridWork             = gridWork(d);
 	const Eigen::VectorXd looked = velocityAt(d);
 	for (const auto& each : damping_)
 		each->commit(d, motion_.scheme.atMiddle ? looked : velocity_, looked);

@@ -37,11 +37,19 @@ public:
 	/// Adds what round-off of d leaves of its force, which is more than round-off of strains does [N].
 	void addRoundOff(const Eigen::VectorXd& d, Eigen::VectorXd& sizes) const;
 
+	/// Of forces that are out of balance with the accelerations of the points as the step begins, and of what the
+	/// scheme damps; negative: energy that nobody has put in [J].
+	double gridWork(const Eigen::VectorXd& d);
+
 	const Motion<Dim>& motion() const { return motion_; }
 	double             kineticEnergy() const; ///< of the points as the step begins, of all processes [J]
 
 private:
 	using Side = typename NodalMass<Dim>::Side;
+	/// What contact does to the nodes at the end of the step: forces, and what accelerations these give.
+	struct Pushed {
+		Eigen::VectorXd d, force, acceleration;
+	};
 
 	void            findExtent(const Beginning<Dim>&);
 	void            findStart(const Beginning<Dim>&);
@@ -53,7 +61,9 @@ private:
 	Eigen::VectorXd solved(const Eigen::VectorXd& right); // where what is held stays at zero
 	Eigen::VectorXd velocityAt(const Eigen::VectorXd& d) const;
 	Eigen::VectorXd ofContact(const Eigen::VectorXd* d) const; // on the nodes; null: as the step begins
-	double lostInTime(const Eigen::VectorXd& d, const Eigen::VectorXd& others, const Eigen::VectorXd& contact, const Eigen::VectorXd& growth) const;
+	const Pushed&   pushedAt(const Eigen::VectorXd& d);
+	Eigen::VectorXd withoutContact(const Eigen::VectorXd& d); // acceleration at the end
+	Eigen::VectorXd growthAt(const Eigen::VectorXd& d);       // of velocities, without that by a blow
 	Eigen::VectorXd accelerationAt(const Eigen::VectorXd& d) const;
 	Eigen::VectorXd ofExtent(const Eigen::VectorXd& acceleration) const;
 	bool            isHeld(Eigen::Index dof) const { return dofs_.number[dof] < 0; }
@@ -83,6 +93,7 @@ private:
 	// At the start, without what contact does to the latter.
 	Eigen::VectorXd velocity_, acceleration_;
 	Eigen::VectorXd expected_;    // acceleration, with contact
+	Pushed          pushed_;      // where it was last asked for
 	Eigen::VectorXd blow_, jump_; // impulse of what holds nodes as the step begins, and the velocities that it changes
 };
 

@@ -119,6 +119,30 @@ print(json.dumps(dict(begins=touched[0] * speed / gap, lasts=(touched[-1] - touc
 	assert found['left'] == 0
 
 
+def test_no_energy_is_won_in_long_steps(yade):
+	"""A block flies at one that is held, by half a cell a step: what integration in time would make of nothing after the blow has its steps cut."""
+	runs = yade(scene + '''
+def fly(**scheme):
+	O.reset()
+	material('soil', poisson=0, density=1000)
+	grid = MpmGrid(cellSize=0.1)
+	O.bodies.append(mpm.fill(box((0, 0), (0.6, 0.25)), grid, 2, 'soil', body='low'))
+	O.bodies.append(mpm.fill(box((0.15, 0.35), (0.45, 0.65)), grid, 2, 'soil', body='up'))
+	mpm.assign(velocity=np.outer(mpm.arrays()['body'] == 1, (0, -1, 0)))
+	solver = MpmDynamicEngine(grid=grid, boundaries=[MpmBoundary(max=(inf, 0, inf), fix='xy')], contacts=[MpmBodyContact(between=('low', 'up'), friction=0.3)], verbosity=0, **scheme)
+	O.engines, O.dt, first, most, cuts = [solver], 0.05, 1000 * 0.09 / 2, 0, 0
+	for step in range(6):
+		O.run(1, wait=True)
+		data = solver.plotData()
+		most, cuts = max(most, (data['kineticEnergy'] + data['elasticEnergy']) / first), cuts + solver.cuts
+	return most, cuts
+
+print(json.dumps([fly(), fly(scheme='generalised-alpha', rhoInfinity=0.5)]))
+''').result
+	for most, cuts in runs:
+		assert most < 1 + 1e-3 and cuts > 0
+
+
 def test_a_body_falls_freely_until_its_gap_has_closed(yade):
 	"""By half a cell, over which nodes of one grid would have held it; and comes to rest where the other one is."""
 	found = yade(scene + '''
