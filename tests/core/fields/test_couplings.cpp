@@ -253,8 +253,8 @@ namespace {
 			}
 	}
 
-	/// Leaves a node next to nothing that resists its first displacement, but for the pressure there: the pivot is lost
-	/// where displacements come before pressures. Returns the number of that displacement.
+	/// Leaves a node next to nothing that resists its first displacement, but for the pressure there: the pivot is
+	/// lost where displacements come before pressures. Returns the number of that displacement.
 	template <int Dim> int soften(Coupled<Dim>& c, double left)
 	{
 		int node = c.nodes() / 2;
