@@ -108,17 +108,20 @@ private:
 	}
 	void subtract(int first, int count, int left, int s)
 	{
-		const int* into         = into_.data() + first;
-		const bool isContiguous = into[left - 1] - into[0] == left - 1;
+		const int* into = into_.data() + first;
+		runs_.clear(); // of rows that follow each other there, too
+		for (int i = 0; i < left; ++i)
+			if (i == 0 || into[i] != into[i - 1] + 1) runs_.push_back(i);
+		runs_.push_back(left);
 		for (int j = 0; j < count; ++j) {
 			double*       column = L_.valuesOf(s) + std::ptrdiff_t(into[j]) * L_.height(s);
 			const double* values = update_.data() + std::ptrdiff_t(j) * left;
-			if (isContiguous)
-				for (int i = j; i < left; ++i)
-					column[into[0] + i] -= values[i];
-			else
-				for (int i = j; i < left; ++i)
-					column[into[i]] -= values[i];
+			for (std::size_t run = 0; run + 1 < runs_.size(); ++run) {
+				const int begin = std::max(runs_[run], j), end = runs_[run + 1];
+				double*   to = column + into[runs_[run]] - runs_[run];
+				for (int i = begin; i < end; ++i)
+					to[i] -= values[i];
+			}
 		}
 	}
 	/// To the supernode that needs it next.
@@ -173,10 +176,11 @@ private:
 
 	const Supernodes&   L_;
 	Eigen::VectorXd&    signs_;
-	std::vector<int>    supernode_;      // of each column
-	std::vector<int>    first_, next_;   // lists: of each supernode the earlier ones that have rows there
-	std::vector<int>    taken_;          // rows of each supernode that are done
-	std::vector<int>    place_;          // of each row in the supernode at hand
+	std::vector<int>    supernode_;    // of each column
+	std::vector<int>    first_, next_; // lists: of each supernode the earlier ones that have rows there
+	std::vector<int>    taken_;        // rows of each supernode that are done
+	std::vector<int>    place_;        // of each row in the supernode at hand
+	std::vector<int>    runs_;
 	std::vector<int>    into_;           // of each row of an update, its place there
 	std::vector<double> update_, right_; // reused
 	double              least_ = std::numeric_limits<double>::infinity(), largest_ = 0;

@@ -45,7 +45,9 @@ private:
 		}
 		next.before = workOn(next.step);
 		next.length = system_.map.displacements(next.step).template lpNorm<Eigen::Infinity>();
-		iterate_.evaluate(d_ + next.step, !judge_.convergence.isLastStiffness(linear_.keepsFactor()));
+		// Of several fields a matrix costs so much more than a residual that it is first seen whether it is
+		// needed.
+		iterate_.evaluate(d_ + next.step, system_.map.isAlone() && !judge_.convergence.isLastStiffness(linear_.keepsFactor()));
 		next.after = workOn(next.step), next.size = iterate_.balance.size;
 		if (judge_.staysInBalance(solves_)) {
 			// the whole had converged before, and the step is for a part of it: what is left of the whole

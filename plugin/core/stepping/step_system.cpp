@@ -318,8 +318,10 @@ template <int Dim> Eigen::VectorXd StepSystem<Dim>::roundOff(const Eigen::Vector
 
 template <int Dim> void StepSystem<Dim>::commit(const Eigen::VectorXd& d) const
 {
-	Eigen::VectorXd force;
-	if (!map.isAlone()) evaluate(d, force, nullptr); // before terms go on
+	// Of another field the sum of the terms vanishes but where values are given.
+	Eigen::VectorXd force  = Eigen::VectorXd::Zero(map.size());
+	const auto      others = dofs.number.begin() + map.end(0);
+	if (std::any_of(others, others + (map.size() - map.end(0)), [](int number) { return number < 0; })) evaluate(d, force, nullptr); // before terms go on
 	const State at = state(d);
 	for (const auto& term : terms)
 		term->commit(at.displacements());

@@ -158,8 +158,11 @@ template <int Dim> void Flow<Dim>::findNear(const Beginning<Dim>& step)
 
 template <int Dim> void Flow<Dim>::mark(NodeMatrix<Dim>& K) const { near_.mark(K); }
 
+template <int Dim> Flow<Dim>::~Flow() = default;
+
 template <int Dim> void Flow<Dim>::markCouplings(Couplings& K) const
 {
+	blocks_.reset();
 	near_.mark(K, 0, field);
 	if (!K.isSymmetric()) near_.mark(K, field, 0);
 	near_.mark(K, field, field);
@@ -169,15 +172,23 @@ template <int Dim> void Flow<Dim>::markCouplings(Couplings& K) const
 				K.mark({ field, a }, { field, b });
 }
 
+/// Kept from iteration to iteration, until the matrix is marked anew.
+template <int Dim> const FlowBlocks<Dim>& Flow<Dim>::blocksIn(Couplings& K) const
+{
+	if (!blocks_ || blockValues_ != K.values()) blocks_ = std::make_unique<FlowBlocks<Dim>>(near_, K, field);
+	blockValues_ = K.values();
+	return *blocks_;
+}
+
 template <int Dim> std::optional<PointFailure> Flow<Dim>::addCoupled(const State& state, const FieldSum<Dim>& sum) const
 {
 	constexpr int         none = std::numeric_limits<int>::max();
 	std::atomic<int>      failed { none };
 	const Eigen::VectorXd P      = state.value(field);
 	const auto&           d      = state.displacements();
-	const auto            blocks = sum.couplings ? std::make_unique<FlowBlocks<Dim>>(near_, *sum.couplings, field) : nullptr;
+	const auto*           blocks = sum.couplings ? &blocksIn(*sum.couplings) : nullptr;
 	forRanges(basis_, [&](int first, int last) {
-		FlowSums<Dim> sums(sum, blocks.get(), basis_.isAxisymmetric(), water_.duration, water_.modulus);
+		FlowSums<Dim> sums(sum, blocks, basis_.isAxisymmetric(), water_.duration, water_.modulus);
 		forCellsOfPatches(basis_, first, last, [&](const PatchesOfCell<Dim>& cell) {
 			sums.begin(cell.node);
 			for (const auto* patch = cell.first; patch < cell.end; ++patch)
@@ -193,7 +204,7 @@ template <int Dim> std::optional<PointFailure> Flow<Dim>::addCoupled(const State
 		});
 	});
 	if (failed != none) return PointFailure { failed };
-	addPenalties(state.growth(field), sum, blocks.get());
+	addPenalties(state.growth(field), sum, blocks);
 	addDrains(P, sum);
 	return std::nullopt;
 }

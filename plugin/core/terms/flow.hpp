@@ -7,6 +7,7 @@
 #include "core/terms/ghost.hpp"
 #include "core/terms/near_nodes.hpp"
 #include "core/terms/soil_water.hpp"
+#include <memory>
 #include <utility>
 
 namespace gimpm {
@@ -31,6 +32,7 @@ public:
 
 	/// The water is kept by reference, and written in commitCoupled().
 	Flow(SoilWater<Dim>&, const ConstrainedModulus&, const Beginning<Dim>&);
+	~Flow() override;
 
 	/// With the sign of the field. What flow in the pores adds by the displacements has no transpose; it is added
 	/// where the matrix is not symmetric anyway, or where Newton's method asks for it.
@@ -74,6 +76,8 @@ private:
 	std::string attachDrain(int number, const Beginning<Dim>&);
 	std::string enclosure(const Beginning<Dim>&) const;
 
+	const FlowBlocks<Dim>& blocksIn(Couplings&) const;
+
 	void   addPenalties(const Eigen::VectorXd& growth, const FieldSum<Dim>&, const FlowBlocks<Dim>*) const;
 	void   addDrains(const Eigen::VectorXd& P, const FieldSum<Dim>&) const;
 	double conductanceNow(const Outlet&, double pressure) const;
@@ -96,6 +100,9 @@ private:
 	std::vector<Attachment<Dim>> vertices_; ///< of the drains, one after the other
 	std::string                  obstacle_;
 	bool                         isExact_ = false;
+
+	mutable std::unique_ptr<FlowBlocks<Dim>> blocks_;
+	mutable const double*                    blockValues_ = nullptr; ///< of the matrix that they are in
 };
 
 } // namespace gimpm

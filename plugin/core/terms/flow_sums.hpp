@@ -75,9 +75,12 @@ template <int Dim, class F> void forCellsOfPatches(const CloudBasis<Dim>& basis,
 /// Where the derivatives go beside those of displacements by displacements.
 template <int Dim> struct FlowBlocks {
 	NearBlocks<Dim> up, pp; ///< first the field of the row: u displacements, p pressures
-	NearBlocks<Dim> pu;     ///< of a symmetric matrix none are kept
+	NearBlocks<Dim> pu;     ///< none of a symmetric matrix
 
-	FlowBlocks(const NearNodes<Dim>& near, Couplings& K, int field) : up(near, K, 0, field), pp(near, K, field, field), pu(near, K, field, 0) { }
+	FlowBlocks(const NearNodes<Dim>& near, Couplings& K, int field)
+	        : up(near, K, 0, field), pp(near, K, field, field), pu(K.isSymmetric() ? NearBlocks<Dim>() : NearBlocks<Dim>(near, K, field, 0))
+	{
+	}
 };
 
 /// What the points of a lowest cell add to forces and matrix, node by node of its window.

@@ -4,8 +4,10 @@
 
 namespace gimpm {
 
-template <int Dim> FrozenPressures<Dim>::FrozenPressures(const std::vector<double>& pressures, const Beginning<Dim>& step)
+template <int Dim> FrozenPressures<Dim>::FrozenPressures(const std::vector<double>& ofOwnPoints, const Beginning<Dim>& step)
 {
+	auto pressures = ofOwnPoints;
+	step.division.extend(pressures);
 	force_ = sizes_ = Eigen::VectorXd::Zero(Dim * Eigen::Index(step.basis.nodes.size()));
 	for (const auto& patch : step.basis.patches)
 		for (int i = patch.first; i < patch.first + patch.count; ++i) {

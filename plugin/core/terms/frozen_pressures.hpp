@@ -5,10 +5,11 @@
 
 namespace gimpm {
 
-/// The pressures of all points as forces on the soil that stay as they are: what is left of the flow at one moment.
+/// The pressures of all points, of which each process gives those of its own, as forces on the soil that stay as they
+/// are: what is left of the flow at one moment.
 template <int Dim> class FrozenPressures : public Term<Dim> {
 public:
-	FrozenPressures(const std::vector<double>& pressures, const Beginning<Dim>&);
+	FrozenPressures(const std::vector<double>& ofOwnPoints, const Beginning<Dim>&);
 
 	void                        mark(NodeMatrix<Dim>&) const override { }
 	std::optional<PointFailure> add(const Eigen::VectorXd& d, const TermSum<Dim>&) const override;

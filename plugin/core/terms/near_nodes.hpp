@@ -57,21 +57,32 @@ private:
 /// The blocks of near nodes in two fields, all of which are marked, until another one is.
 template <int Dim> class NearBlocks {
 public:
-	NearBlocks(const NearNodes<Dim>& near, Couplings& K, int field, int other) : values_(K.values()), places_(std::size_t(near.size()) * near.count)
+	NearBlocks() = default; ///< none
+	NearBlocks(const NearNodes<Dim>& near, Couplings& K, int field, int other)
+	        : values_(K.values()), begin_(near.size()), places_(std::size_t(near.size()) * near.count)
 	{
-		for (int a = 0; a < near.size(); ++a)
-			K.findPlaces({ field, a }, other, near[a].data(), near.count, places_.data() + std::size_t(a) * near.count);
+		std::array<std::ptrdiff_t, NearNodes<Dim>::count> ofRow;
+		for (int a = 0; a < near.size(); ++a) {
+			K.findPlaces({ field, a }, other, near[a].data(), near.count, ofRow.data());
+			begin_[a] = *std::max_element(ofRow.begin(), ofRow.end());
+			for (const auto place : ofRow)
+				if (place >= 0) begin_[a] = std::min(begin_[a], place);
+			std::transform(ofRow.begin(), ofRow.end(), places_.begin() + std::ptrdiff_t(a) * near.count, [begin = begin_[a]](auto place) {
+				return place < 0 ? -1 : int(place - begin);
+			});
+		}
 	}
 	/// Of a node in the first field and its neighbour in the other one, row by row; null: it is not kept.
 	double* at(int node, int code) const
 	{
-		const std::ptrdiff_t place = places_[std::size_t(node) * NearNodes<Dim>::count + NearNodes<Dim>::middle + code];
-		return place < 0 ? nullptr : values_ + place;
+		const int place = places_[std::size_t(node) * NearNodes<Dim>::count + NearNodes<Dim>::middle + code];
+		return place < 0 ? nullptr : values_ + begin_[node] + place;
 	}
 
 private:
-	double*                     values_;
-	std::vector<std::ptrdiff_t> places_;
+	double*                     values_ = nullptr;
+	std::vector<std::ptrdiff_t> begin_;  // of each row
+	std::vector<int>            places_; // from there
 };
 
 } // namespace gimpm

@@ -398,6 +398,90 @@ print(json.dumps(found))
 		assert abs(imbalance) < 0.02
 
 
+def test_soil_that_is_pressed_by_a_body_keeps_its_water_or_loses_it(yade):
+	"""A plate presses a column: its force is what the grains bear and the pressure. Where nothing can leave, and in a short step, that is the pressure of water in its pores, after a long time by a drained plate nothing."""
+	for force, strain, pressure, scatter, expected, left in yade(
+	        setting + '''
+water, found = 20, []  # modulus of the water over its porosity, over that of the soil
+for drained, dt, part in (False, 1, 1), (True, 2, 1), (True, 1e9, 0):
+	solver = column(8, drains=drained, bulkModulus=water * .4 * E)
+	O.materials.append(FrictMat(young=1e9, frictionAngle=0, density=2000, label='steel'))
+	plate = utils.wall(1, axis=1, sense=-1, material='steel')
+	O.bodies.append(plate)
+	plate.state.vel = (0, -1e-4 / dt, 0)
+	O.materials[0].conductivity = 1e-11 if dt < 10 else k
+	solver.loads, solver.contacts = [], [MpmContact(friction=0, stiffness=100)]
+	O.dt = dt
+	O.step()
+	points = mpm.arrays()
+	strain = -np.polyfit(points['pos0'][:, 1], points['pos'][:, 1] - points['pos0'][:, 1], 1)[0]
+	p = points['excessPressure'] / E
+	found.append([solver.contacts[0].forces[0][1] * 8 / E, strain, float(p.mean()), float(np.ptp(p)), part * water * strain, solver.flow.waterOut + solver.flow.waterStored])
+print(json.dumps(found))
+'''
+	).result:
+		assert strain > 9e-5 and force == pytest.approx(strain + pressure, rel=2e-3)
+		assert pressure == pytest.approx(expected, abs=2e-3 * 20 * strain) and scatter < 2e-3 * 20 * strain
+		assert abs(left) < 1e-13
+
+
+def test_water_passes_the_sides_of_a_periodic_grid(yade):
+	"""A load in the middle of a period, and the same half a period further, across the seam."""
+	pressures, fluxes, out, largest, kept = yade(
+	        setting + '''
+def band(shift):
+	O.reset()
+	O.materials.append(MpmElasticMat(young=E, poisson=.2, density=2000, conductivity=k, porosity=.4, label='soil'))
+	h, L, top = .125, 1, .375
+	grid = MpmGrid(cellSize=h, period=(L, 0, 0))
+	O.bodies.append(mpm.fill(mpm.polygon([(0, 0), (L, 0), (L, top), (0, top)]), grid, 2, 'soil'))
+	parts = [(.25, .625)] if shift == 0 else [(.75, L), (0, .125)]
+	loads = [MpmTraction(surface=[(b, top), (a, top)], traction=(1e2, -q, 0), curve=[(0, 1), (1, 1)]) for a, b in parts]
+	solver = MpmImplicitEngine(grid=grid, boundaries=[MpmBoundary(max=(inf, 0, inf), fix='xy')], loads=loads, flow=MpmFlow(drains=[MpmDrain(surface=[(L, top), (0, top)])]),
+	        newton=MpmNewton(tolerance=1e-11), verbosity=0)
+	O.engines, O.dt = [solver], 200
+	O.run(3, wait=True)
+	points = mpm.arrays()
+	order = np.lexsort(((points['pos0'][:, 0] - shift) % L, points['pos0'][:, 1]))
+	return points['excessPressure'][order], points['waterFlux'][order], solver.flow.waterOut, solver.flow.waterStored
+one, other = band(0), band(.5)
+print(json.dumps([float(abs(one[i] - other[i]).max() / abs(one[i]).max()) for i in (0, 1)] + [one[2] / other[2] - 1, float(one[0].max() / q), (one[2] + one[3]) / one[2]]))
+'''
+	).result
+	assert max(pressures, fluxes) < 1e-9 and abs(out) < 1e-9 and abs(kept) < 1e-9
+	assert 0.4 < largest < 1
+
+
+def test_saturated_soil_that_hits_a_base(yade):
+	"""The wave that runs up has the pressure rho c v, of which water bears its part of the stiffness; what the column loses of its momentum is the impulse of the base."""
+	passed, momentum = yade(
+	        setting + '''
+n, rho, water, v = 40, 2000, 20, .05
+h, c = 1 / n, math.sqrt(E * (1 + water) / rho)
+O.materials.append(MpmElasticMat(young=E, poisson=0, density=rho, conductivity=1e-11, porosity=.4, label='soil'))
+grid = MpmGrid(cellSize=h)
+O.bodies.append(mpm.fill(mpm.polygon([(0, 0), (h, 0), (h, 1), (0, 1)]), grid, 2, 'soil'))
+sides = [MpmBoundary(max=(0, inf, inf), fix='x'), MpmBoundary(min=(h, -inf, -inf), fix='x'), MpmBoundary(max=(inf, 0, inf), fix='y')]
+solver = MpmDynamicEngine(grid=grid, boundaries=sides, flow=MpmFlow(bulkModulus=water * .4 * E), newton=MpmNewton(tolerance=1e-10), verbosity=0)
+O.engines, O.dt = [solver], .5 * h / c
+for body in O.bodies:
+	body.state.vel = (0, -v, 0)
+before, impulse, last, passed = -rho * h * v, 0, 0, []
+for step in range(70):  # the front is at 7/8 of the height
+	O.step()
+	force = solver.reactions[2][1]
+	impulse += O.dt * (last + force) / 2
+	last = force
+	points = mpm.arrays()
+	low = points['pos'][:, 1] < .25
+	if step >= 40: passed.append(float(points['excessPressure'][low].mean() / (rho * c * v) * (1 + water) / water))
+print(json.dumps([passed, (solver.plotData()['momentum_y'] - before) / impulse]))
+'''
+	).result
+	assert all(p == pytest.approx(1, abs=0.03) for p in passed)
+	assert momentum == pytest.approx(1, abs=1e-5)
+
+
 def test_fields_of_conductivity_are_those_of_materials(yade):
 	"""Two layers as two materials, and as one with a field; points that have none of their own have the material's."""
 	layers, field, said = yade(
