@@ -42,6 +42,7 @@ double NorSand::young(const TensorState& state) const
 }
 
 double NorSand::pressureAt(double volumetric) const { return -given_.reference * std::exp(-volumetric / given_.swelling); }
+double NorSand::volumetricAt(double pressure) const { return -given_.swelling * std::log(-pressure / given_.reference); }
 
 /// eta of the yield function.
 double NorSand::obliquity(double p, double pi) const
@@ -136,22 +137,47 @@ NorSand::Vec4 NorSand::between(const Trial& trial) const
 	return x;
 }
 
+/// The pressure on the axis over the image pressure.
+double NorSand::tip() const
+{
+	const double N = given_.curvature;
+	return N == 0 ? std::exp(1.) : std::pow(1 - N, (N - 1) / N);
+}
+
+/// Whether the pressure is beyond the tip even when the whole deviator has flowed, and all its contraction with it.
+bool NorSand::isBeyondTip(const Trial& trial) const
+{
+	const double volumetric = trial.volumetric + trial.shear * nonAssociated_ * given_.ratio / (1 - given_.curvature);
+	return residual(trial, { volumetric, 0, trial.shear, pressureAt(volumetric) / tip() }).first[3] < 0; // as pressures are negative
+}
+
+/// The whole deviator flows, and the image pressure with it; P follows from eta = 0. What remains of the image pressure
+/// over what there was is 1 + h flow (1 - tip most), which falls with the state parameter, so that there is one answer.
 NorSand::Flow NorSand::atTip(const Trial& trial) const
 {
-	// The whole deviator flows, and the image pressure with it; P follows from eta = 0.
-	const double N = given_.curvature, tip = N == 0 ? std::exp(1.) : std::pow(1 - N, (N - 1) / N);
-	double       pi = trial.image;
-	for (int iteration = 0; iteration < 100; ++iteration) {
-		const Vec4 x(-given_.swelling * std::log(-tip * pi / given_.reference), 0, trial.shear, pi);
-		const auto [r, J] = residual(trial, x);
-		// By pi, and by the pressure that goes with it.
-		const double slope = J(3, 3) - J(3, 0) * given_.swelling / pi, step = r[3] / slope, next = pi - step;
-		pi = next < 0 ? next : pi / 2;
-		if (std::abs(step) <= -1e-13 * pi) break;
-		if (!std::isfinite(pi)) break;
+	const auto rest = [&](double logarithm) { // of the image pressure, and its derivative
+		const double pi   = -std::exp(logarithm);
+		const auto [r, J] = residual(trial, { volumetricAt(tip() * pi), 0, trial.shear, pi });
+		return std::make_pair(-r[3], -pi * J(3, 3) + J(3, 0) * given_.swelling);
+	};
+	constexpr double most = 100; // e-folds
+	double           low = std::log(-trial.image), high = low, width = 1;
+	for (; rest(high).first <= 0 && width < most; width *= 2)
+		low = high, high += width;
+	for (width = 1; !(rest(low).first <= 0) && width < most; width *= 2)
+		high = low, low -= width;
+	double pi = (low + high) / 2;
+	for (int iteration = 0; iteration < 100 && high - low > 1e-15 * std::abs(pi); ++iteration) {
+		const auto [r, slope] = rest(pi);
+		(r > 0 ? high : low)  = pi;
+		const double next     = pi - r / slope;
+		const bool   isInside = next > low && next < high;
+		const double step     = (isInside ? next : (low + high) / 2) - pi;
+		pi += step;
+		if (std::abs(step) <= 1e-14) break;
 	}
-	Flow flow { -given_.swelling * std::log(-tip * pi / given_.reference), 0, pi };
-	flow.isFailed = !std::isfinite(pi);
+	Flow flow { volumetricAt(-tip() * std::exp(pi)), 0, -std::exp(pi) };
+	flow.isFailed = !std::isfinite(flow.image) || width >= most;
 	flow.slopes *= floorAtTip;
 	return flow;
 }
@@ -194,9 +220,7 @@ NorSand::Flow NorSand::returned(const Trial& trial) const
 	const Vec4 first(trial.volumetric, trial.shear, 0, trial.image);
 	Vec4       x        = first;
 	bool       isSolved = solve(trial, x) && x[1] >= 0 && x[2] >= 0;
-	if (!isSolved && eta < 0) {
-		if (const Flow tip = atTip(trial); !tip.isFailed) return tip;
-	}
+	if (!isSolved && eta < 0 && isBeyondTip(trial)) return atTip(trial);
 	isSolved = isSolved || solveByHalving(trial, x) || solveInParts(trial, x);
 	Flow flow { x[0], x[1], x[3] };
 	flow.isFailed = !isSolved;
@@ -214,6 +238,17 @@ NorSand::Flow NorSand::returned(const Trial& trial) const
 	return flow;
 }
 
+/// Sand that comes apart has no stress that matters, and no elastic strain beyond that of so little: it would have to
+/// be closed again before it bears anything.
+NorSand::Flow NorSand::opened(const Flow& flow) const
+{
+	const double least = -leastPressure * given_.reference;
+	if (flow.isFailed || pressureAt(flow.volumetric) <= least) return flow;
+	Flow open { volumetricAt(least), 0, std::min(flow.image, least / tip()) };
+	open.slopes *= floorAtTip;
+	return open;
+}
+
 Response NorSand::respond(const Vec3& strain, TensorState& state, double growth, bool flows) const
 {
 	const double mean = strain.mean(), length = (strain.array() - mean).matrix().norm(), root = std::sqrt(2. / 3);
@@ -221,7 +256,7 @@ Response NorSand::respond(const Vec3& strain, TensorState& state, double growth,
 	Response     r;
 	r.failed = std::abs(trial.volumetric) > mostExponent * given_.swelling || !(trial.volume >= 1);
 	if (r.failed != 0) return r;
-	const Flow flow = flows ? returned(trial) : Flow { trial.volumetric, trial.shear, trial.image };
+	const Flow flow = flows ? opened(returned(trial)) : Flow { trial.volumetric, trial.shear, trial.image };
 	r.failed        = flow.isFailed;
 	if (r.failed != 0) return r;
 	const double G = given_.shear, p = pressureAt(flow.volumetric), part = length > 0 ? flow.shear / trial.shear : 1;
