@@ -113,26 +113,27 @@ bool NorSand::solve(const Trial& trial, Vec4& x) const
 	return false;
 }
 
-/// The solution, wherever it is, by halving. Each ratio eta = Q / P from 0 to that of the trial is that of one flow: Q
-/// falls with the flow, to zero, and eta P is a convex function of it, so that they are equal once. With this flow the
-/// image pressure that eta and P have is more than it becomes at the trial's ratio, and less near 0.
+/// The solution, wherever it is, by halving. Of each flow from 0 to the whole deviator there is one ratio eta = Q / P:
+/// Q is what is left, and eta P grows with eta, as it dilates the more. The image pressure that eta and P have is more
+/// than it becomes where there is no flow, as the trial is outside, and less in the end, unless that is beyond the tip.
 NorSand::Vec4 NorSand::between(const Trial& trial) const
 {
 	constexpr int halvings = 60;
-	const double  N = given_.curvature, M = given_.ratio, trialRatio = -3 * given_.shear * trial.shear / pressureAt(trial.volumetric);
-	double        low = 0, high = trialRatio;
+	const double  N = given_.curvature, M = given_.ratio, p = pressureAt(trial.volumetric);
+	double        low = 0, high = trial.shear;
 	Vec4          x;
 	for (int k = 0; k < halvings; ++k) {
-		const double eta   = (low + high) / 2;
-		double       least = 0, most = trial.shear;
+		x[2]               = (low + high) / 2;
+		x[1]               = trial.shear - x[2];
+		const double q     = 3 * given_.shear * x[1];
+		double       least = 0, most = std::max(M, -q / p);
 		for (int i = 0; i < halvings; ++i) {
-			x[2]                                                               = (least + most) / 2;
-			x[0]                                                               = trial.volumetric - x[2] * nonAssociated_ * (eta - M) / (1 - N);
-			x[1]                                                               = trial.shear - x[2];
-			(3 * given_.shear * x[1] > -eta * pressureAt(x[0]) ? least : most) = x[2];
+			const double eta                             = (least + most) / 2;
+			x[0]                                         = trial.volumetric - x[2] * nonAssociated_ * (eta - M) / (1 - N);
+			(-eta * pressureAt(x[0]) > q ? most : least) = eta;
 		}
-		x[3]                                           = imageAt(pressureAt(x[0]), eta);
-		(residual(trial, x).first[3] < 0 ? high : low) = eta; // as pressures are negative
+		x[3]                                            = imageAt(pressureAt(x[0]), (least + most) / 2);
+		(residual(trial, x).first[3] >= 0 ? high : low) = x[2]; // as pressures are negative; it may be infinite first
 	}
 	return x;
 }
@@ -194,25 +195,6 @@ bool NorSand::solveByHalving(const Trial& trial, Vec4& x) const
 	return std::abs(rest[2]) < -roundOff * pressureAt(x[0]) && std::abs(rest[3]) < -roundOff * (1 + given_.hardening * x[2]) * x[3];
 }
 
-/// From the yield surface to the trial, by parts each of which starts where the one before ended.
-bool NorSand::solveInParts(const Trial& trial, Vec4& x) const
-{
-	const double p = pressureAt(trial.volumetric), eta = obliquity(p, trial.image);
-	const double onSurface = std::min(trial.shear, std::max(0., -eta * p / (3 * given_.shear)));
-	bool         isSolved  = false;
-	for (int parts = 8; !isSolved && parts <= 512; parts *= 8) {
-		x        = Vec4(trial.volumetric, onSurface, 0, trial.image);
-		isSolved = true;
-		for (int part = 1; isSolved && part <= parts; ++part) {
-			Trial        less  = trial;
-			const double share = double(part) / parts;
-			less.shear         = onSurface + share * (trial.shear - onSurface);
-			isSolved           = solve(less, x) && x[1] >= 0 && x[2] >= 0;
-		}
-	}
-	return isSolved;
-}
-
 NorSand::Flow NorSand::returned(const Trial& trial) const
 {
 	const double p = pressureAt(trial.volumetric), q = 3 * given_.shear * trial.shear, eta = obliquity(p, trial.image);
@@ -221,7 +203,7 @@ NorSand::Flow NorSand::returned(const Trial& trial) const
 	Vec4       x        = first;
 	bool       isSolved = solve(trial, x) && x[1] >= 0 && x[2] >= 0;
 	if (!isSolved && eta < 0 && isBeyondTip(trial)) return atTip(trial);
-	isSolved = isSolved || solveByHalving(trial, x) || solveInParts(trial, x);
+	isSolved = isSolved || solveByHalving(trial, x);
 	Flow flow { x[0], x[1], x[3] };
 	flow.isFailed = !isSolved;
 	if (!isSolved) return flow;
@@ -254,10 +236,11 @@ Response NorSand::respond(const Vec3& strain, TensorState& state, double growth,
 	const double mean = strain.mean(), length = (strain.array() - mean).matrix().norm(), root = std::sqrt(2. / 3);
 	const Trial  trial { 3 * mean, root * length, -state.scalar(imagePressure), state.scalar(specificVolume) * growth };
 	Response     r;
-	r.failed = std::abs(trial.volumetric) > mostExponent * given_.swelling || !(trial.volume >= 1);
+	r.failed = trial.volumetric < -mostExponent * given_.swelling || !(trial.volume >= 1);
 	if (r.failed != 0) return r;
-	const Flow flow = flows ? opened(returned(trial)) : Flow { trial.volumetric, trial.shear, trial.image };
-	r.failed        = flow.isFailed;
+	const bool isFarApart = trial.volumetric > mostExponent * given_.swelling; // no flow makes that up
+	const Flow elastic { trial.volumetric, trial.shear, trial.image }, flow = isFarApart ? opened(elastic) : flows ? opened(returned(trial)) : elastic;
+	r.failed = flow.isFailed;
 	if (r.failed != 0) return r;
 	const double G = given_.shear, p = pressureAt(flow.volumetric), part = length > 0 ? flow.shear / trial.shear : 1;
 	const Vec3   n = length > 0 ? Vec3((strain.array() - mean) / length) : Vec3(Vec3::Zero()), deviator = (strain.array() - mean).matrix();

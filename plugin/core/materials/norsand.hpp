@@ -70,7 +70,6 @@ private:
 	bool                  solve(const Trial&, Vec4& unknown) const;
 	Vec4                  between(const Trial&) const;
 	bool                  solveByHalving(const Trial&, Vec4& unknown) const;
-	bool                  solveInParts(const Trial&, Vec4& unknown) const;
 	Flow                  returned(const Trial&) const;
 	Flow                  atTip(const Trial&) const;
 	Flow                  opened(const Flow&) const;
