@@ -203,7 +203,7 @@ inSpace = MpmGrid(cellSize=h, dim=3)
 O.bodies.append(mpm.fill(pack.inAlignedBox((0, 0, 0), (h, h, h)), inSpace, 2, 'soil'))
 O.dt = .02
 refused(lambda: mpm.freeField(MpmDynamicEngine(grid=inSpace), 1), 'plane strain only')
-O.engines = [MpmDynamicEngine(grid=inSpace, loads=[MpmFreeField(surface=line(), label='side')])]
+O.engines = [MpmDynamicEngine(grid=inSpace, loads=[MpmFreeField(surface=line())])]
 refused(O.step, 'of plane strain: on a grid with dim=3 take MpmAbsorbingBoundary')
 ''')
 
