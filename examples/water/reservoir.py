@@ -95,7 +95,7 @@ def drawDown(flow):
 		for dt in np.full(4, days / 4):
 			O.dt = dt * day
 			O.step()
-		factors.append((f'{(O.time - begin) / day:.0f} days', factor(f'{(O.time - begin) / day:.0f} days later, pressures up to {mpm.arrays()["porePressure"].max() / 1e3:.1f} kPa')))
+		factors.append((f'{(O.time - begin) / day:.0f} days', factor(f'{(O.time - begin) / day:.0f} days after it began, pressures up to {mpm.arrays()["porePressure"].max() / 1e3:.1f} kPa')))
 
 
 begin = time.time()

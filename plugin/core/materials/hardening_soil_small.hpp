@@ -3,7 +3,8 @@
 // consequences): where strain has turned back the shear modulus is G0, and falls with the shear strain g since then, as
 // G0 / (1 + .385 g / g07)^2 (Hardin and Drnevich 1972), to that of unloading. Poisson's ratio stays.
 //
-// Strain has turned back where the step leads against the strain since the last turn: what is across is no turn.
+// Strain turns back where the step leads against the strain since the last turn: the more it does, the more of that
+// strain is forgotten, so that stress has no jump. A step across is no turn.
 #pragma once
 #include "core/materials/hardening_soil.hpp"
 
@@ -41,9 +42,19 @@ private:
 	struct Curve {
 		double stress, tangent, bend; ///< secant modulus times strain, and its derivatives by it
 	};
-	TensorAnswer              answer(const TensorStep&, bool flows) const;
-	Curve                     at(double strain) const;
-	std::pair<double, double> modulus(double from, double to) const;
+	struct Mean {
+		double modulus, byBegin, byEnd; ///< of shear, and its derivatives by both strains
+	};
+	/// Of the history by a step.
+	struct Turn {
+		Mat3   after;                                            ///< the strain that is remembered
+		double from = 0, to = 0;                                 ///< shear strains between which the modulus is taken
+		Mat3   fromByStep = Mat3::Zero(), byStep = Mat3::Zero(); ///< and their derivatives by the deviator of the step
+	};
+	TensorAnswer answer(const TensorStep&, bool flows) const;
+	Curve        at(double strain) const;
+	Mean         between(double from, double to) const;
+	Turn         turnOf(const Mat3& history, const Mat3& shearing) const;
 
 	double first_, strain_, most_ = 0; ///< G0; g07; strain from which on the modulus is that of unloading
 };

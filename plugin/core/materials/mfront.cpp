@@ -84,7 +84,10 @@ bool MfrontDoor::answer(const UserStep& step, UserState& state, Mat3& stress, Ma
 	wordsOfUserLaw() = status < 1 ? words : "";
 	if (status < 1) return false;
 	load(variables[1], state);
-	stress = fromMfront(stresses[1]);
+	stress              = fromMfront(stresses[1]);
+	const bool isAtRest = step.increment.norm() < 1e-14;
+	if (given_.elasticStrain < 0 && isAtRest && (stress - step.stress).norm() > 1e-6 * step.stress.norm())
+		wordsOfUserLaw() = "it has no variable ElasticStrain, and forgets the stress with which a step begins";
 	for (int i = 0; i < 6; ++i)
 		for (int j = 0; j < 6; ++j)
 			tangent(mandelOf(i), mandelOf(j)) = stiffness[6 * i + j];

@@ -42,6 +42,7 @@ double NorSand::young(const TensorState& state) const
 }
 
 double NorSand::pressureAt(double volumetric) const { return -given_.reference * std::exp(-volumetric / given_.swelling); }
+double NorSand::volumetricAt(double pressure) const { return -given_.swelling * std::log(-pressure / given_.reference); }
 
 /// eta of the yield function.
 double NorSand::obliquity(double p, double pi) const
@@ -112,46 +113,72 @@ bool NorSand::solve(const Trial& trial, Vec4& x) const
 	return false;
 }
 
-/// The solution, wherever it is, by halving. Each ratio eta = Q / P from 0 to that of the trial is that of one flow: Q
-/// falls with the flow, to zero, and eta P is a convex function of it, so that they are equal once. With this flow the
-/// image pressure that eta and P have is more than it becomes at the trial's ratio, and less near 0.
+/// The solution, wherever it is, by halving. Of each flow from 0 to the whole deviator there is one ratio eta = Q / P:
+/// Q is what is left, and eta P grows with eta, as it dilates the more. The image pressure that eta and P have is more
+/// than it becomes where there is no flow, as the trial is outside, and less in the end, unless that is beyond the tip.
 NorSand::Vec4 NorSand::between(const Trial& trial) const
 {
 	constexpr int halvings = 60;
-	const double  N = given_.curvature, M = given_.ratio, trialRatio = -3 * given_.shear * trial.shear / pressureAt(trial.volumetric);
-	double        low = 0, high = trialRatio;
+	const double  N = given_.curvature, M = given_.ratio, p = pressureAt(trial.volumetric);
+	double        low = 0, high = trial.shear;
 	Vec4          x;
 	for (int k = 0; k < halvings; ++k) {
-		const double eta   = (low + high) / 2;
-		double       least = 0, most = trial.shear;
+		x[2]               = (low + high) / 2;
+		x[1]               = trial.shear - x[2];
+		const double q     = 3 * given_.shear * x[1];
+		double       least = 0, most = std::max(M, -q / p);
 		for (int i = 0; i < halvings; ++i) {
-			x[2]                                                               = (least + most) / 2;
-			x[0]                                                               = trial.volumetric - x[2] * nonAssociated_ * (eta - M) / (1 - N);
-			x[1]                                                               = trial.shear - x[2];
-			(3 * given_.shear * x[1] > -eta * pressureAt(x[0]) ? least : most) = x[2];
+			const double eta                             = (least + most) / 2;
+			x[0]                                         = trial.volumetric - x[2] * nonAssociated_ * (eta - M) / (1 - N);
+			(-eta * pressureAt(x[0]) > q ? most : least) = eta;
 		}
-		x[3]                                           = imageAt(pressureAt(x[0]), eta);
-		(residual(trial, x).first[3] < 0 ? high : low) = eta; // as pressures are negative
+		x[3]                                            = imageAt(pressureAt(x[0]), (least + most) / 2);
+		(residual(trial, x).first[3] >= 0 ? high : low) = x[2]; // as pressures are negative; it may be infinite first
 	}
 	return x;
 }
 
+/// The pressure on the axis over the image pressure.
+double NorSand::tip() const
+{
+	const double N = given_.curvature;
+	return N == 0 ? std::exp(1.) : std::pow(1 - N, (N - 1) / N);
+}
+
+/// Whether the pressure is beyond the tip even when the whole deviator has flowed, and all its contraction with it.
+bool NorSand::isBeyondTip(const Trial& trial) const
+{
+	const double volumetric = trial.volumetric + trial.shear * nonAssociated_ * given_.ratio / (1 - given_.curvature);
+	return residual(trial, { volumetric, 0, trial.shear, pressureAt(volumetric) / tip() }).first[3] < 0; // as pressures are negative
+}
+
+/// The whole deviator flows, and the image pressure with it; P follows from eta = 0. What remains of the image pressure
+/// over what there was is 1 + h flow (1 - tip most), which falls with the state parameter, so that there is one answer.
 NorSand::Flow NorSand::atTip(const Trial& trial) const
 {
-	// The whole deviator flows, and the image pressure with it; P follows from eta = 0.
-	const double N = given_.curvature, tip = N == 0 ? std::exp(1.) : std::pow(1 - N, (N - 1) / N);
-	double       pi = trial.image;
-	for (int iteration = 0; iteration < 100; ++iteration) {
-		const Vec4 x(-given_.swelling * std::log(-tip * pi / given_.reference), 0, trial.shear, pi);
-		const auto [r, J] = residual(trial, x);
-		// By pi, and by the pressure that goes with it.
-		const double slope = J(3, 3) - J(3, 0) * given_.swelling / pi, step = r[3] / slope, next = pi - step;
-		pi = next < 0 ? next : pi / 2;
-		if (std::abs(step) <= -1e-13 * pi) break;
-		if (!std::isfinite(pi)) break;
+	const auto rest = [&](double logarithm) { // of the image pressure, and its derivative
+		const double pi   = -std::exp(logarithm);
+		const auto [r, J] = residual(trial, { volumetricAt(tip() * pi), 0, trial.shear, pi });
+		return std::make_pair(-r[3], -pi * J(3, 3) + J(3, 0) * given_.swelling);
+	};
+	constexpr double most = 100; // e-folds
+	double           low = std::log(-trial.image), high = low, width = 1;
+	for (; rest(high).first <= 0 && width < most; width *= 2)
+		low = high, high += width;
+	for (width = 1; !(rest(low).first <= 0) && width < most; width *= 2)
+		high = low, low -= width;
+	double pi = (low + high) / 2;
+	for (int iteration = 0; iteration < 100 && high - low > 1e-15 * std::abs(pi); ++iteration) {
+		const auto [r, slope] = rest(pi);
+		(r > 0 ? high : low)  = pi;
+		const double next     = pi - r / slope;
+		const bool   isInside = next > low && next < high;
+		const double step     = (isInside ? next : (low + high) / 2) - pi;
+		pi += step;
+		if (std::abs(step) <= 1e-14) break;
 	}
-	Flow flow { -given_.swelling * std::log(-tip * pi / given_.reference), 0, pi };
-	flow.isFailed = !std::isfinite(pi);
+	Flow flow { volumetricAt(-tip() * std::exp(pi)), 0, -std::exp(pi) };
+	flow.isFailed = !std::isfinite(flow.image) || width >= most;
 	flow.slopes *= floorAtTip;
 	return flow;
 }
@@ -168,25 +195,6 @@ bool NorSand::solveByHalving(const Trial& trial, Vec4& x) const
 	return std::abs(rest[2]) < -roundOff * pressureAt(x[0]) && std::abs(rest[3]) < -roundOff * (1 + given_.hardening * x[2]) * x[3];
 }
 
-/// From the yield surface to the trial, by parts each of which starts where the one before ended.
-bool NorSand::solveInParts(const Trial& trial, Vec4& x) const
-{
-	const double p = pressureAt(trial.volumetric), eta = obliquity(p, trial.image);
-	const double onSurface = std::min(trial.shear, std::max(0., -eta * p / (3 * given_.shear)));
-	bool         isSolved  = false;
-	for (int parts = 8; !isSolved && parts <= 512; parts *= 8) {
-		x        = Vec4(trial.volumetric, onSurface, 0, trial.image);
-		isSolved = true;
-		for (int part = 1; isSolved && part <= parts; ++part) {
-			Trial        less  = trial;
-			const double share = double(part) / parts;
-			less.shear         = onSurface + share * (trial.shear - onSurface);
-			isSolved           = solve(less, x) && x[1] >= 0 && x[2] >= 0;
-		}
-	}
-	return isSolved;
-}
-
 NorSand::Flow NorSand::returned(const Trial& trial) const
 {
 	const double p = pressureAt(trial.volumetric), q = 3 * given_.shear * trial.shear, eta = obliquity(p, trial.image);
@@ -194,10 +202,8 @@ NorSand::Flow NorSand::returned(const Trial& trial) const
 	const Vec4 first(trial.volumetric, trial.shear, 0, trial.image);
 	Vec4       x        = first;
 	bool       isSolved = solve(trial, x) && x[1] >= 0 && x[2] >= 0;
-	if (!isSolved && eta < 0) {
-		if (const Flow tip = atTip(trial); !tip.isFailed) return tip;
-	}
-	isSolved = isSolved || solveByHalving(trial, x) || solveInParts(trial, x);
+	if (!isSolved && eta < 0 && isBeyondTip(trial)) return atTip(trial);
+	isSolved = isSolved || solveByHalving(trial, x);
 	Flow flow { x[0], x[1], x[3] };
 	flow.isFailed = !isSolved;
 	if (!isSolved) return flow;
@@ -214,15 +220,27 @@ NorSand::Flow NorSand::returned(const Trial& trial) const
 	return flow;
 }
 
+/// Sand that comes apart has no stress that matters, and no elastic strain beyond that of so little: it would have to
+/// be closed again before it bears anything.
+NorSand::Flow NorSand::opened(const Flow& flow) const
+{
+	const double least = -leastPressure * given_.reference;
+	if (flow.isFailed || pressureAt(flow.volumetric) <= least) return flow;
+	Flow open { volumetricAt(least), 0, std::min(flow.image, least / tip()) };
+	open.slopes *= floorAtTip;
+	return open;
+}
+
 Response NorSand::respond(const Vec3& strain, TensorState& state, double growth, bool flows) const
 {
 	const double mean = strain.mean(), length = (strain.array() - mean).matrix().norm(), root = std::sqrt(2. / 3);
 	const Trial  trial { 3 * mean, root * length, -state.scalar(imagePressure), state.scalar(specificVolume) * growth };
 	Response     r;
-	r.failed = std::abs(trial.volumetric) > mostExponent * given_.swelling || !(trial.volume >= 1);
+	r.failed = trial.volumetric < -mostExponent * given_.swelling || !(trial.volume >= 1);
 	if (r.failed != 0) return r;
-	const Flow flow = flows ? returned(trial) : Flow { trial.volumetric, trial.shear, trial.image };
-	r.failed        = flow.isFailed;
+	const bool isFarApart = trial.volumetric > mostExponent * given_.swelling; // no flow makes that up
+	const Flow elastic { trial.volumetric, trial.shear, trial.image }, flow = isFarApart ? opened(elastic) : flows ? opened(returned(trial)) : elastic;
+	r.failed = flow.isFailed;
 	if (r.failed != 0) return r;
 	const double G = given_.shear, p = pressureAt(flow.volumetric), part = length > 0 ? flow.shear / trial.shear : 1;
 	const Vec3   n = length > 0 ? Vec3((strain.array() - mean) / length) : Vec3(Vec3::Zero()), deviator = (strain.array() - mean).matrix();

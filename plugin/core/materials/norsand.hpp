@@ -52,8 +52,8 @@ public:
 private:
 	/// As of Cam clay. By less than the tolerance, relative to the pressure, nothing yields. Of the elastic
 	/// stiffness some is left at the tip (see tangentFloor of perfect plasticity). Of a point that has borne
-	/// nothing yet the image pressure is that part of the reference pressure.
-	static constexpr double mostExponent = 100, tolerance = 1e-9, floorAtTip = 1e-8, leastImage = 1e-6;
+	/// nothing yet the image pressure is that part of the reference pressure, and at that of it sand comes apart.
+	static constexpr double mostExponent = 100, tolerance = 1e-9, floorAtTip = 1e-8, leastImage = 1e-6, leastPressure = 1e-6;
 
 	struct Trial;
 	struct Flow;
@@ -61,15 +61,18 @@ private:
 	using Mat4 = Eigen::Matrix4d;
 
 	double                pressureAt(double volumetric) const;
+	double                volumetricAt(double pressure) const;
+	double                tip() const;
+	bool                  isBeyondTip(const Trial&) const;
 	double                obliquity(double pressure, double image) const;
 	double                imageAt(double pressure, double obliquity) const;
 	std::pair<Vec4, Mat4> residual(const Trial&, const Vec4& unknown) const;
 	bool                  solve(const Trial&, Vec4& unknown) const;
 	Vec4                  between(const Trial&) const;
 	bool                  solveByHalving(const Trial&, Vec4& unknown) const;
-	bool                  solveInParts(const Trial&, Vec4& unknown) const;
 	Flow                  returned(const Trial&) const;
 	Flow                  atTip(const Trial&) const;
+	Flow                  opened(const Flow&) const;
 	Response              respond(const Vec3& strain, TensorState&, double growth, bool flows) const;
 
 	Given  given_;

@@ -154,7 +154,9 @@ namespace {
 		const bool isInPlane = bears && stress(0, 2) == 0 && stress(1, 2) == 0;
 		for (int solves = 0; solves < mostSolves; ++solves) {
 			if (isInPlane) strain(0, 2) = strain(2, 0) = strain(1, 2) = strain(2, 1) = 0;
-			const auto     answer     = answerOf(material.law, strain, solves == 0 && !bears ? material.law->initialInternals : internals);
+			const auto answer = answerOf(material.law, strain, solves == 0 && !bears ? material.law->initialInternals : internals);
+			if (solves == 0 && !gimpm::wordsOfUserLaw().empty())
+				throw std::invalid_argument("the law of the material cannot have a stress at first: " + gimpm::wordsOfUserLaw() + ".");
 			const Matrix3r difference = stress - answer.stress;
 			if (solves >= fewestSolves) respondInSpace(material, strain, internals); // which refuses what yields
 			if (solves >= fewestSolves && difference.norm() <= 1e-9 * stress.norm()) return strain;

@@ -223,10 +223,11 @@ namespace {
 	using SmallSoil = HardeningSoilSmall;
 
 	/// Sheared at constant volume; elastic, as its hardening is out of reach.
-	Element<SmallSoil> elasticSoil()
+	Element<SmallSoil> elasticSoil(double cohesion = 0)
 	{
-		auto given  = sand();
-		given.power = 0; // the smallest pressure changes
+		auto given     = sand();
+		given.power    = 0; // the smallest pressure changes
+		given.cohesion = cohesion;
 		Element<SmallSoil> soil { SmallSoil(given, G0, gamma07) };
 		soil.press(Vec3::Constant(pRef));
 		soil.state.scalar(Soil::capPressure)    = 1e8;
@@ -283,6 +284,63 @@ namespace {
 		}
 		EXPECT_GT(partBelow(errors, 1e-7), .9);
 		EXPECT_GT(partBelow(errors, 1e-5), .97);
+	}
+
+	/// A step at an angle to the strain so far, in the plane of the deviators.
+	Vec3 turned(double angle, double size)
+	{
+		const Vec3 along = Vec3(1, -2, 1) / std::sqrt(6), across = Vec3(1, 0, -1) / std::sqrt(2);
+		return size * (std::cos(angle) * along + std::sin(angle) * across);
+	}
+
+	// Newton's method asks for steps on both sides of a turn.
+	TEST(HardeningSoilSmall, StressHasNoJumpWhereStrainTurns)
+	{
+		constexpr double size = 1e-4, apart = 1e-3;
+		auto             soil = elasticSoil();
+		for (int step = 0; step < 5; ++step)
+			soil.apply(sheared(1e-4));
+		const double full = 2 * G0 * size;
+		double       last = 0;
+		for (double angle = 0; angle <= M_PI; angle += apart) {
+			const Mat3 stress   = soil.ask(Mat3(turned(angle, size).asDiagonal())).stress,
+			           near     = soil.ask(Mat3(turned(angle + apart, size).asDiagonal())).stress;
+			const double change = (near - stress).norm() / full;
+			ASSERT_LT(change, 3 * apart) << angle;
+			const double secant = (stress - soil.stress).norm() / full;
+			ASSERT_GE(secant, last - 1e-6) << angle; // the more it leads back, the stiffer
+			last = secant;
+		}
+		EXPECT_NEAR(last, 1 / (1 + .385 * std::sqrt(1.5) * size / gamma07), 1e-6);
+	}
+
+	// Beside a spring that is not isotropic, as the body around a point is: which way the strain of the point turns
+	// depends on the modulus that it has then, and with a jump of it there are forces that no strain bears.
+	TEST(HardeningSoilSmall, NewtonsMethodFindsTheStrainThatBearsAForceInFewIterations)
+	{
+		Random random(12);
+		int    most = 0;
+		for (int k = 0; k < 400; ++k) {
+			auto soil = elasticSoil(1e6); // which never fails
+			for (int i = 0; i < 3; ++i)
+				soil.apply(randomStrain(random, std::pow(10, random.in(-5, -3))));
+			const Mandel root = random.matrix<6, 6>(1), spring = G0 * root * root.transpose();
+			const auto   both = [&](const Vec6& strain) {
+                                const auto answer = soil.ask(fromMandel(strain));
+                                return std::make_pair(Vec6(toMandel(Mat3(answer.stress - soil.stress)) + spring * strain), Mandel(answer.tangent + spring));
+			};
+			const double length = std::pow(10, random.in(-6, -3));
+			const Vec6   wanted = both(toMandel(randomStrain(random, length))).first + both(toMandel(randomStrain(random, length))).first;
+			Vec6         strain = Vec6::Zero();
+			int          needed = 0;
+			for (double part = 1; part > 1e-9 && needed < 50; ++needed) {
+				const auto [stress, tangent] = both(strain);
+				part                         = (stress - wanted).norm() / wanted.norm();
+				strain -= tangent.partialPivLu().solve(stress - wanted);
+			}
+			most = std::max(most, needed);
+		}
+		EXPECT_LE(most, 12);
 	}
 
 } // namespace

@@ -121,6 +121,44 @@ namespace {
 			}
 	}
 
+	// Loose and dense, with hardly any pressure and with much, far outside of the yield surface and beyond its tip.
+	// Where loose sand softens fast, Q / P grows in the return, as P falls faster than Q.
+	TEST(NorSand, HasAnAnswerToAnyStep)
+	{
+		Random              random(3);
+		std::vector<double> errors;
+		for (const double hardening : { 70., 1e3, 1e6 })
+			for (const double size : { 1e-5, 1e-3, 1e-2 })
+				for (int k = 0; k < 30; ++k) {
+					Element<NorSand> point(NorSand({ 2e6, .005, 1e3, M, lambda, 1.9, 1e3, 0, 0, hardening, random.in(1.72, 1.95), -3.5 }));
+					const double     pressure = std::pow(10, random.in(-2, 6));
+					const Vec3       other = random.matrix<3>(1), deviator = other - Vec3::Constant(other.mean());
+					point.press(pressure * (Vec3::Ones() + random.in(0, 1.3) / deviator.norm() * deviator));
+					const Mat3 m      = random.matrix<3, 3>(size),
+					           strain = (m + m.transpose()) / 2 - (m.trace() / 3 + random.in(-.3, .3) * size) * Mat3::Identity();
+					ASSERT_FALSE(point.ask(strain).failed) << hardening << ' ' << size << ' ' << pressure;
+					errors.push_back(point.tangentError(strain, 1e-3, 1e3));
+				}
+		EXPECT_GT(partBelow(errors, 1e-6), .99);
+	}
+
+	// What it has opened by makes it looser, and needs not be closed before it bears again.
+	TEST(NorSand, HasNoStressWhereItComesApart)
+	{
+		Element<NorSand> point(sand(0));
+		point.press(Vec3::Constant(10e3));
+		for (int step = 0; step < 10; ++step)
+			point.apply(Mat3(.001 * Mat3::Identity()));
+		EXPECT_NEAR(point.pressure(), 1e-6 * p0, 1e-9);
+		EXPECT_LT(point.difference(), 1e-9);
+		Element<NorSand> gone = point;
+		gone.apply(Mat3(.5 * Mat3::Identity())); // farther in a step than its elasticity reaches
+		EXPECT_NEAR(gone.pressure(), 1e-6 * p0, 1e-9);
+		for (int step = 0; step < 100; ++step)
+			point.apply(Vec3(5e-4, -1.2e-3, 5e-4));
+		EXPECT_GT(point.pressure(), 1e3);
+	}
+
 	TEST(NorSand, HasNoAnswerWithoutPores)
 	{
 		Element<NorSand> point(sand(.4, 1, 1.001));

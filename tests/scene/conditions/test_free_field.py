@@ -196,6 +196,15 @@ O.switchScene()
 O.bodies.append(utils.sphere((0, 0, 0), 1))
 O.switchScene()
 refused(lambda: mpm.freeField(engine(), 1, wave), 'O.switchScene')
+
+O.reset()
+O.materials.append(MpmElasticMat(young=1e6, poisson=.25, density=density, label='soil'))
+inSpace = MpmGrid(cellSize=h, dim=3)
+O.bodies.append(mpm.fill(pack.inAlignedBox((0, 0, 0), (h, h, h)), inSpace, 2, 'soil'))
+O.dt = .02
+refused(lambda: mpm.freeField(MpmDynamicEngine(grid=inSpace), 1), 'plane strain only')
+O.engines = [MpmDynamicEngine(grid=inSpace, loads=[MpmFreeField(surface=line())])]
+refused(O.step, 'of plane strain: on a grid with dim=3 take MpmAbsorbingBoundary')
 ''')
 
 

@@ -209,11 +209,15 @@ def test_a_law_of_mfront_goes_on_after_a_restart_and_a_step_that_it_refuses(mfro
 	said = mfront(
 	        ofMfront + '''
 goesOn(mfront)
-try: mpm.checkLaw(mfront(function='Elastic', parameters=[20e6, .3, 0]), strain=10)
-except ValueError as error: print(json.dumps(str(error)))
+said = []
+for setting in dict(strain=10), dict(initialStress=(-10e3, -20e3, -15e3)):
+	try: mpm.checkLaw(mfront(function='Elastic', parameters=[20e6, .3, 0]), **setting)
+	except ValueError as error: said.append(str(error))
+print(json.dumps(said))
 '''
 	).result
-	assert said.endswith('It says: the strain is too large'), said
+	assert said[0].endswith('It says: the strain is too large'), said
+	assert said[1].endswith('has no variable ElasticStrain, and forgets the stress with which a step begins.'), said
 
 
 def test_what_of_mfront_is_not_admitted_is_named(mfront):

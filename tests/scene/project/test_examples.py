@@ -519,6 +519,14 @@ def test_lined_tunnel(yade):
 	assert (run.folder / 'out/lined_tunnel/lined_tunnel.png').stat().st_size > 20000
 
 
+def test_lined_shaft(yade):
+	"""The hoop force of its shell at half of the depth is that of a tube in a plane, but for what floor and surface take."""
+	run = yade(root / 'examples' / 'lined_tunnel' / 'shaft.py', '--cellSize', 1)
+	found, tube = numbers(r'half of the depth (\S+) kN/m, of a tube (\S+) kN/m', run.stdout)
+	assert abs(found / tube - 1) < 0.1 and found < 0
+	assert (run.folder / 'out/shaft/shaft.png').stat().st_size > 20000
+
+
 def test_trough_by_law(yade):
 	"""Hardening soil, overconsolidated, takes about a third off the width of the trough above a tunnel, and keeps its volume."""
 	run = yade(root / 'examples' / 'lined_tunnel' / 'trough.py', '--laws', 'constant hardening', '--cellSize', 1.5)
