@@ -143,8 +143,8 @@ void MpmImplicitEngine::action()
 	});
 }
 
-// The search goes over all points, and a face that stands goes on standing: it is looked at in every tenth step, when soil
-// has come or gone, and where the loads have come to rest, at which most runs end.
+// The search goes over all points, and a face that stands goes on standing: it is looked at in every tenth step, when
+// soil has come or gone, and where the loads have come to rest, at which most runs end.
 bool MpmImplicitEngine::isTimeForSlips()
 {
 	constexpr long every = 10;
