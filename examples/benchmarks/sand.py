@@ -33,6 +33,7 @@ options = readOptions('Sand that yields: iterations, cuts and loads.',
         memory=(0., "of the ghost stabilisation, 0 to 1"),
         where=('boundary', "'boundary' or 'aggregates'"),
         work=(1., 'part of the work of a step that the stabilisation may take up, above 0 to 1'),
+        iterations=(20, "of Newton's method in a step; where they do not suffice it is cut"),
         axisymmetric=(0, '1: the footing is circular, of diameter B'))
 
 B, density, gravity = 1., 2000, 10.
@@ -44,7 +45,7 @@ def material(label, cohesion, phi, psi, young, density):
 
 
 def solverOf(grid, boundaries, **settings):
-	O.engines = [MpmImplicitEngine(grid=grid, boundaries=boundaries, ghost=MpmGhost(factor=options.factor, where=options.where, memory=options.memory, workTolerance=options.work), verbosity=0, label='solver', **settings)]
+	O.engines = [MpmImplicitEngine(grid=grid, boundaries=boundaries, ghost=MpmGhost(factor=options.factor, where=options.where, memory=options.memory, workTolerance=options.work), newton=MpmNewton(maxIterations=options.iterations), verbosity=0, label='solver', **settings)]
 	O.dt = 1 / options.steps
 
 

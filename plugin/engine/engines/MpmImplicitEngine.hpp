@@ -137,6 +137,7 @@ private:
 	void                            join();
 	string                          warningOfAbsence();
 	bool                            isEndOfLoads() const;
+	bool                            isTimeForSlips();
 	template <int Dim> void         step(Agreement&);
 	template <int Dim> void         askFunctions(Agreement&);
 	template <int Dim> bool         ask(const gimpm::Grid<Dim>&, const vector<gimpm::Key>& cells) const;
@@ -153,7 +154,8 @@ private:
 
 	PeriodicCounters                    beforeActivation;
 	bool                                hasJoined = false, wasAway = false;
-	long                                seen = -1; // iteration of YADE in which it was asked to run; -1: in none
+	size_t                              pointsOfSlips = 0;  // at the last search
+	long                                seen          = -1; // iteration of YADE in which it was asked to run; -1: in none
 	ProgressLine                        progressLine;
 	Plausibility                        plausibility;
 	Splitting                           splitting;

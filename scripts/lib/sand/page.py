@@ -3,7 +3,7 @@
 from math import isnan, log2
 
 titles = dict(
-        factors='Strips over grids', early='Strips of one point per cell at a settlement of .00025 B', rigid='The same in stiffer soil, at a settlement as much smaller', parts='What the load of a strip is made of (smooth, 20 degrees)', steps='Dependence on the number of steps (smooth, 20 degrees, 2 x 2 points)', walls='Smooth walls (Rankine)', cuts='Condition numbers by the part of a cell that is filled')
+        factors='Strips over grids', early='Strips of one point per cell at a settlement of .00025 B', rigid='The same in stiffer soil, at a settlement as much smaller', limit='One setting for N_gamma and steps', causes='What the dependence on steps is made of (smooth, 20 degrees, one point per cell)', parts='What the load of a strip is made of (smooth, 20 degrees)', steps='Dependence on the number of steps (smooth, 20 degrees, 2 x 2 points)', walls='Smooth walls (Rankine)', cuts='Condition numbers by the part of a cell that is filled')
 
 
 def percent(value, exact):
@@ -59,5 +59,5 @@ def page(rows, command, revision, day):
 	lines = [f'`{command}`, {day}, revision {revision}.', '']
 	for group, title in titles.items():
 		if of := [row for row in rows if row['group'] == group]:
-			lines += [f'### {title}', '', conditions(of) if group == 'cuts' else table(of) + (extrapolations(of) if group in ('factors', 'walls') else '')]
+			lines += [f'### {title}', '', conditions(of) if group == 'cuts' else table(of) + (extrapolations(of) if group in ('factors', 'limit', 'walls') else '')]
 	return '\n'.join(lines)

@@ -45,6 +45,40 @@ def rigid():
 			yield 'strip.strip', (name, f'E x 10, {number} steps, factor 1e-4', 'B/17'), problems[name] | dict(points=1, settlement=2.5e-5, stiff=1e5, steps=number, factor=1e-4)
 
 
+def limit():
+	"""One setting for N_gamma and steps: soil so stiff that the ground does not move, a stabilisation a tenth as strong, and so little cohesion that it does not matter that its load and that of the weight are more together than their sum."""
+	setting = dict(points=1, settlement=2.5e-6, stiff=1e6, factor=1e-3, cohesion=1e-4)
+	for name, arguments in list(problems.items())[:4]:
+		for cells in grids:
+			yield 'strip.strip', (name, '40 steps', f'B/{2 * cells + 1}'), arguments | setting | dict(cells=cells)
+	for name, arguments in list(problems.items())[:4]:
+		for number in 10, 160, 640:
+			yield 'strip.strip', (name, f'{number} steps', 'B/17'), arguments | setting | dict(steps=number)
+	for name, arguments in list(problems.items())[:4]:
+		for cohesion in 3e-4, 1e-3:
+			for cells in grids:
+				yield 'strip.strip', (name, f'40 steps, c {cohesion:g}', f'B/{2 * cells + 1}'), arguments | setting | dict(cells=cells, cohesion=cohesion)
+
+
+def causes():
+	"""What makes the load of the smooth strip, 20 degrees, B/17, one point a cell, depend on the number of steps: one thing changed at a time."""
+	stiff, stiffer = dict(stiff=1e5, settlement=2.5e-5), dict(stiff=1e6, settlement=2.5e-6)
+	changes = {
+	        'E of 1e4': {},
+	        'tolerance 1e-9': dict(tolerance=1e-9),
+	        'no F-bar': dict(fBar=False),
+	        'no memory': dict(memory=0),
+	        'factor 1e-4': dict(factor=1e-4),
+	        'E x 10': stiff,
+	        'E x 100': stiffer,
+	        'E x 100, no memory': stiffer | dict(memory=0),
+	        'E x 100, all faces': stiffer | dict(where='boundary'),
+	        'E x 100, factor 1e-4': stiffer | dict(factor=1e-4)}
+	for name, change in changes.items():
+		for number in 10, 40, 160, 640:
+			yield 'strip.strip', (name, f'{number} steps', 'B/17'), dict(phi=20, points=1, settlement=2.5e-4, steps=number) | change
+
+
 def parts():
 	"""What the load of the smooth strip, 20 degrees, B/17, is made of: one thing changed at a time."""
 	changes = {
@@ -98,4 +132,4 @@ def cuts():
 					yield 'cuts.condition', (f"{'flowing' if flows else 'elastic'}, {dim}D", name, f'{cut:g}'), dict(cut=cut, flows=flows, dim=dim) | ghost
 
 
-groups = dict(factors=factors, early=early, rigid=rigid, parts=parts, steps=steps, walls=walls, cuts=cuts)
+groups = dict(factors=factors, early=early, rigid=rigid, limit=limit, causes=causes, parts=parts, steps=steps, walls=walls, cuts=cuts)

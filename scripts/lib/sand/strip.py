@@ -10,7 +10,7 @@ from yade.wrapper import MpmBoundary, MpmGhost, MpmGrid, MpmImplicitEngine, MpmM
 from .exact import cohesionFactor, surchargeFactor, weightFactor
 
 O = Omega()
-density, gravity, cohesion = 2000, 10., 1e-3  # cohesion over weight and width
+density, gravity = 2000, 10.
 weight = density * gravity
 early = .25  # of the way
 
@@ -20,12 +20,13 @@ def sizes(phi, isRough):
 	return {(20, False): (1.5, .6), (20, True): (2., .8), (30, False): (2.5, 1.), (30, True): (3.5, 1.3)}[phi, isRough]
 
 
-def strip(phi, isRough=False, surcharge=False, cells=8, points=2, steps=40, settlement=1e-3, stiff=1e4, fBar=True, tolerance=None, seconds=200, **ghost):
+def strip(phi, isRough=False, surcharge=False, cells=8, points=2, steps=40, settlement=1e-3, stiff=1e4, cohesion=1e-3, fBar=True, tolerance=None, seconds=200, **ghost):
 	"""The factor N_gamma, or N_q, after a quarter and all of the way, less what the cohesion and the settlement add.
 
 	:param cells: over half the width, without the half cell at the edge, which ends in the middle between two nodes
 	:param points: per cell and direction
 	:param stiff: Young's modulus over the bearing pressure that is exact
+	:param cohesion: over weight and width; without a surcharge
 	:param tolerance: of Newton's method, if not its own
 	:param ghost: MpmGhost's, instead of those for sand that yields
 	"""
