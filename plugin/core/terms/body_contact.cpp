@@ -91,11 +91,9 @@ auto BodyContact<Dim>::look(const Eigen::VectorXd& d, PairSlope slope, const std
 		const auto& meeting = meetingOf(place);
 		const Near* near    = place.first;
 		auto        end     = near ? pairNow(place, *near, d, looked_.now) : PairPlaces<Dim>();
-		if (!near || !goesOn(end)) {
-			near = nearestOf(place, &d, looked_.now);
-			if (!near) continue;
-			end = pairNow(place, *near, d, looked_.now);
-		}
+		const Near* nearest = nearestOf(place, &d, looked_.now);
+		if (!nearest) continue;
+		if (!near || !goesOn(end)) near = nearest, end = pairNow(place, *near, d, looked_.now);
 		const double          penalty = penaltyOf(place);
 		const ContactLaw<Dim> law { penalty, penalty / slipSoftnessOfBodies, meeting.friction, meeting.adhesion * place.area };
 		const auto            start = pair(place.start, meeting.master, near->piece, start_);
