@@ -141,10 +141,10 @@ template <int Dim> void BodyContact<Dim>::markCouplings(Couplings& K) const
 	}
 }
 
-template <int Dim> void BodyContact<Dim>::add(const Eigen::VectorXd& d, double factor, Eigen::VectorXd& force, Eigen::VectorXd* sizes, Couplings* K) const
+template <int Dim>
+void BodyContact<Dim>::add(const Eigen::VectorXd& d, double factor, Eigen::VectorXd& force, Eigen::VectorXd* sizes, Couplings* K, PairSlope slope) const
 {
-	const PairSlope slope = !K ? PairSlope::none : isExact_ || !isRough() ? PairSlope::exact : PairSlope::symmetric;
-	forTouching(d, slope, [&](const Touching& touching) {
+	forTouching(d, K ? slope : PairSlope::none, [&](const Touching& touching) {
 		const auto nodes = nodesOf(touching.place, touching.near);
 		for (const PairNode& one : nodes) {
 			Vec<Dim>                                         f   = Vec<Dim>::Zero();
@@ -168,7 +168,7 @@ template <int Dim> void BodyContact<Dim>::add(const Eigen::VectorXd& d, double f
 
 template <int Dim> std::optional<PointFailure> BodyContact<Dim>::addCoupled(const State& state, const FieldSum<Dim>& sum) const
 {
-	add(state.displacements(), system_.weight, sum.force[0], &sum.sizes[0], sum.couplings);
+	add(state.displacements(), system_.weight, sum.force[0], &sum.sizes[0], sum.couplings, slope());
 	return std::nullopt;
 }
 
@@ -176,7 +176,12 @@ template <int Dim> void BodyContact<Dim>::addCoupledBefore(const State&, const F
 
 template <int Dim> void BodyContact<Dim>::addUnweighted(const Eigen::VectorXd* d, Eigen::VectorXd& resistance) const
 {
-	add(d ? *d : Eigen::VectorXd::Zero(unknowns_), 1, resistance, nullptr, nullptr);
+	add(d ? *d : Eigen::VectorXd::Zero(unknowns_), 1, resistance, nullptr, nullptr, PairSlope::none);
+}
+
+template <int Dim> void BodyContact<Dim>::addWithSlopes(const Eigen::VectorXd& d, Eigen::VectorXd& resistance, Couplings* K) const
+{
+	add(d, 1, resistance, nullptr, K, isRough() ? PairSlope::symmetric : PairSlope::exact);
 }
 
 template <int Dim> void BodyContact<Dim>::holdAt(const Touching& touching, bool sticks, const typename Term<Dim>::Hold& hold) const
