@@ -5,8 +5,8 @@
 namespace gimpm {
 namespace {
 
-/// Of the impulse that contact gives.
-constexpr double impulseTolerance = 1e-9;
+/// Of the impulse of all contact forces, and of momenta.
+constexpr double impulseTolerance = 1e-9, roundOff = 1e-14;
 
 /// Symmetric derivatives of rough contact leave out what friction gains as pressure does, and so it takes more.
 constexpr int mostImpulses = 60;
@@ -70,8 +70,9 @@ template <int Dim> auto ContactImpulse<Dim>::at(Eigen::VectorXd velocity, const 
 {
 	Eigen::VectorXd resistance = -known_;
 	contact_.addWithSlopes(duration_ * velocity, resistance, K);
-	Iterate now { std::move(velocity), -duration_ * resistance, {} };
+	Iterate now { std::move(velocity), -duration_ * resistance, {}, 0 };
 	now.rest = mass_ * (now.velocity - free) - now.impulse;
+	now.size = impulseTolerance * duration_ * (resistance + known_).norm() + roundOff * (mass_ * free).norm();
 	keepFree(dofs_, now.rest);
 	return now;
 }
@@ -97,7 +98,7 @@ template <int Dim> std::optional<Eigen::VectorXd> ContactImpulse<Dim>::operator(
 	for (int i = 0; i < mostImpulses; ++i) {
 		K.setZero();
 		now = at(now.velocity, free, &K);
-		if (now.rest.norm() <= impulseTolerance * now.impulse.norm()) return now.impulse;
+		if (now.rest.norm() <= now.size) return now.impulse;
 		const auto found = change(now, K);
 		if (!found) return std::nullopt;
 		Iterate next = at(now.velocity - *found, free, nullptr);

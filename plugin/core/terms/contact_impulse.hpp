@@ -21,6 +21,7 @@ public:
 private:
 	struct Iterate {
 		Eigen::VectorXd velocity, impulse, rest; // rest: what is out of balance
+		double          size;                    // of what it is out of balance by round-off or for want of iterations
 	};
 	Iterate                        at(Eigen::VectorXd velocity, const Eigen::VectorXd& free, Couplings*) const;
 	std::optional<Eigen::VectorXd> change(const Iterate&, const Couplings&) const;
