@@ -53,8 +53,8 @@ template <int Dim> struct BodyContacts {
 	std::vector<MeetingBody<Dim>> bodies;
 	std::vector<BodyMeeting<Dim>> meetings;
 	double                        work = 0; ///< on the bodies in the last step that was accepted [J]
-	/// With which forces enter the balance of a step in time (core/terms/time_scheme.hpp); in explicit ones what the
-	/// end of the step adds to them is an impulse (core/terms/contact_impulse.hpp).
+	/// With which forces enter the balance of a step in time (core/terms/time_scheme.hpp); in explicit ones what
+	/// the end of the step adds to them is an impulse (core/terms/contact_impulse.hpp).
 	double weight = 1;
 	/// Of a step in time: energy that has come into the system before it [J]; infinite: nobody asks for what
 	/// contact gives.

@@ -2,8 +2,9 @@
 #include "engine/parallel/distribution.hpp"
 #include "core/base/sentence.hpp"
 #include "core/grid/neighbourhood.hpp"
+#include "engine/analysis/MpmCondition.hpp"
 #include "engine/analysis/analysis.hpp"
-#include "engine/conditions/bodies/layers.hpp"
+#include "engine/analysis/exchange.hpp"
 #include "engine/grid/newPoints.hpp"
 #include "engine/parallel/common_state.hpp"
 #include "engine/parallel/packed_bodies.hpp"
@@ -37,10 +38,18 @@ namespace {
 		}
 	}
 
+	// Of bodies of points that meet (Model::layers), before there is a model.
+	template <int Dim> vector<int> layersOf(const Analysis& engine)
+	{
+		const auto conditions = engine.conditions();
+		if (std::none_of(conditions.begin(), conditions.end(), [](const Listed& listed) { return listed.condition->partsBodies(); })) return {};
+		return emptyModel<Dim>(engine, conditionsOf<Dim>(engine)).layers;
+	}
+
 	// Of a position, half of a domain, which reaches no farther than half a cell, and a body of points.
 	template <int Dim> auto lowestCellIn(const Analysis& engine)
 	{
-		return [layers = bodyLayers(engine), lattice = engine.grid->lattice<Dim>(),
+		return [layers = layersOf<Dim>(engine), lattice = engine.grid->lattice<Dim>(),
 		        basis
 		        = engine.basis == "mpm" ? gimpm::Basis::linear : gimpm::Basis::gimp](const Vector3r& position, const Vector3r& halfSize, int body) {
 			const int layer = layers.empty() ? 0 : layers[body + 1];

@@ -52,35 +52,50 @@ template <int Dim> int MeetingBodies<Dim>::slaveOf(const MpmBodyContact& contact
 	return modulus[1] / volume[1] < (1 - 1e-9) * (modulus[0] / volume[0]) ? 1 : 0;
 }
 
-// Bodies that would go through each other: in different layers, as both meet a third one or a condition names one, and
-// without a contact.
-template <int Dim> void MeetingBodies<Dim>::requireNoneBetween(const vector<MaterialPoint>& points, const gimpm::Model<Dim>& model) const
+// Pairs of bodies in different layers, as both meet a third one or a condition names one, and without a contact.
+template <int Dim> std::set<std::pair<int, int>> MeetingBodies<Dim>::apart(const vector<MaterialPoint>& points, const gimpm::Division& division) const
 {
-	const auto&  lattice     = model.grid;
 	std::int64_t areAllNamed = std::all_of(points.begin(), points.end(), [](const MaterialPoint& point) { return point.state->body >= 0; });
-	model.division->smallest(&areAllNamed, 1);
-	std::set<std::pair<int, int>> apart;
+	division.smallest(&areAllNamed, 1);
+	std::set<std::pair<int, int>> pairs;
 	for (int one = areAllNamed ? 0 : -1; one < int(grid.bodies.size()); ++one)
 		for (int other = one + 1; other < int(grid.bodies.size()); ++other)
-			if (layers[one + 1] != layers[other + 1] && !meet(analysis, one, other)) apart.insert({ one, other });
-	if (apart.empty()) return;
-	std::unordered_map<gimpm::Key, std::set<int>> bodiesIn;
-	const auto                                    cellOf = [&](const MaterialPoint& point) {
-                return gimpm::Index<Dim>(((point.state->pos.template head<Dim>() - lattice.origin) / lattice.cellSize).array().floor().template cast<int>());
-	};
+			if (layers[one + 1] != layers[other + 1] && !meet(analysis, one, other)) pairs.insert({ one, other });
+	return pairs;
+}
+
+namespace {
 	struct BodyInCell {
 		gimpm::Key   cell;
 		std::int64_t body;
-		bool         operator<(const BodyInCell& other) const { return std::pair(cell, body) < std::pair(other.cell, other.body); }
-		bool         operator==(const BodyInCell& other) const { return cell == other.cell && body == other.body; }
+
+		bool operator<(const BodyInCell& other) const { return std::pair(cell, body) < std::pair(other.cell, other.body); }
+		bool operator==(const BodyInCell& other) const { return cell == other.cell && body == other.body; }
 	};
-	vector<BodyInCell> own;
-	for (const MaterialPoint& point : points)
-		own.push_back({ gimpm::Grid<Dim>::key(cellOf(point)), point.state->body });
-	std::sort(own.begin(), own.end());
-	own.erase(std::unique(own.begin(), own.end()), own.end());
-	for (const auto& [cell, body] : model.division->joined(std::move(own)))
-		bodiesIn[cell].insert(int(body));
+
+	// By cell, of the points of all processes.
+	template <int Dim> std::unordered_map<gimpm::Key, std::set<int>> bodiesByCell(const vector<MaterialPoint>& points, const gimpm::Model<Dim>& model)
+	{
+		vector<BodyInCell> own;
+		for (const MaterialPoint& point : points) {
+			const gimpm::Vec<Dim> x = (point.state->pos.template head<Dim>() - model.grid.origin) / model.grid.cellSize;
+			own.push_back({ gimpm::Grid<Dim>::key(x.array().floor().template cast<int>()), point.state->body });
+		}
+		std::sort(own.begin(), own.end());
+		own.erase(std::unique(own.begin(), own.end()), own.end());
+		std::unordered_map<gimpm::Key, std::set<int>> bodies;
+		for (const auto& [cell, body] : model.division->joined(std::move(own)))
+			bodies[cell].insert(int(body));
+		return bodies;
+	}
+}
+
+// Bodies that would go through each other.
+template <int Dim> void MeetingBodies<Dim>::requireNoneBetween(const vector<MaterialPoint>& points, const gimpm::Model<Dim>& model) const
+{
+	const auto pairs = apart(points, *model.division);
+	if (pairs.empty()) return;
+	const auto bodiesIn = bodiesByCell(points, model);
 	for (const auto& [key, bodies] : bodiesIn)
 		for (int n = 0; n < (Dim == 2 ? 9 : 27); ++n) {
 			gimpm::Index<Dim> cell = gimpm::Grid<Dim>::index(key);
@@ -90,10 +105,10 @@ template <int Dim> void MeetingBodies<Dim>::requireNoneBetween(const vector<Mate
 			if (near == bodiesIn.end()) continue;
 			for (const int one : bodies)
 				for (const int other : near->second)
-					if (apart.count({ one, other }))
+					if (pairs.count({ one, other }))
 						throw std::invalid_argument(gimpm::sentence(
 						        "contacts: bodies of points ", nameOf(one), " and ", nameOf(other), " are in neighbouring cells at (",
-						        lattice.nodePosition(cell).transpose(),
+						        model.grid.nodePosition(cell).transpose(),
 						        ") and have no MpmBodyContact between them; they cannot stick, as a contact of one of them, or a condition that names it (body), parts it from what the other one sticks to. Give them one, with friction."));
 		}
 }

@@ -4,6 +4,7 @@
 #include "core/terms/body_contact.hpp"
 #include "engine/analysis/analysis.hpp"
 #include "engine/conditions/bodies/MpmBodyContact.hpp"
+#include <set>
 
 namespace yade {
 
@@ -21,11 +22,12 @@ public:
 	void reach(const StepOutcome<Dim>&) override;
 
 private:
-	gimpm::MeetingBody<Dim> coreBody(int number, const gimpm::Grid<Dim>&) const;
-	gimpm::BodyMeeting<Dim> coreMeeting(const MpmBodyContact&) const;
-	int                     slaveOf(const MpmBodyContact&, const Surroundings<Dim>&, const gimpm::Model<Dim>&) const;
-	void                    requireNoneBetween(const vector<MaterialPoint>&, const gimpm::Model<Dim>&) const;
-	string                  nameOf(int body) const { return body < 0 ? "one without a name" : "'" + grid.bodies[body]->name + "'"; }
+	gimpm::MeetingBody<Dim>       coreBody(int number, const gimpm::Grid<Dim>&) const;
+	gimpm::BodyMeeting<Dim>       coreMeeting(const MpmBodyContact&) const;
+	int                           slaveOf(const MpmBodyContact&, const Surroundings<Dim>&, const gimpm::Model<Dim>&) const;
+	std::set<std::pair<int, int>> apart(const vector<MaterialPoint>&, const gimpm::Division&) const;
+	void                          requireNoneBetween(const vector<MaterialPoint>&, const gimpm::Model<Dim>&) const;
+	string                        nameOf(int body) const { return body < 0 ? "one without a name" : "'" + grid.bodies[body]->name + "'"; }
 
 	const Analysis&                           analysis;
 	const MpmGrid&                            grid;

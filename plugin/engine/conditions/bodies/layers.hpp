@@ -13,8 +13,8 @@ vector<int> bodyLayers(const Analysis&);
 // Of a body by its name; -1 for no name: of all.
 int layerOf(const Analysis&, const string& body);
 
-// std::invalid_argument for a name, in the settings of `name`, which is not that of a body with nodes of its own; an empty
-// one is admitted.
+// std::invalid_argument for a name, in the settings of `name`, which is not that of a body with nodes of its own; an
+// empty one is admitted.
 void requireOwnNodes(const Analysis&, const string& body, const string& name);
 
 // The names of bodies of points that there are, for messages.
