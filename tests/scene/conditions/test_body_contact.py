@@ -30,11 +30,11 @@ def means(number):
 	own = points['body'] == number
 	return points['volume'][own] @ points['velocity'][own] / points['volume'][own].sum()
 
-def slides(contact, steps):
-	"""Of the upper body: along x, over the second half of the steps."""
+def slides(contact, steps, each=1):
+	"""Of the upper body: along x, over the second half of the steps, of which each is so many."""
 	times, speeds = [], []
 	for step in range(steps):
-		O.run(1, wait=True)
+		O.run(each, wait=True)
 		times.append(O.time)
 		speeds.append(means(1)[0])
 	half = steps // 2
@@ -64,7 +64,7 @@ print(json.dumps([[contact.force[1] for contact in contacts], [solver.plotData()
 
 
 sliding = '''
-def slide(angle, coefficient, scheme='newmark', steps=25, duration=0.5, young=1e9):
+def slide(angle, coefficient, scheme='newmark', steps=25, duration=0.5, young=1e9, each=1):
 	"""A block on another one that is held, under gravity at an angle: mean acceleration in the second half of the time, what of the places slips, and work."""
 	O.reset()
 	material('rock', young=young)
@@ -74,19 +74,21 @@ def slide(angle, coefficient, scheme='newmark', steps=25, duration=0.5, young=1e
 	contact = MpmBodyContact(between=('up', 'low'), friction=atan(coefficient))
 	solver = MpmDynamicEngine(grid=grid, scheme=scheme, gravity=(10 * sin(angle), -10 * cos(angle), 0), gravityCurve=[(0, 0), (0.1, 1)], boundaries=[MpmBoundary(max=(inf, 0, inf), fix='xy')],
 		contacts=[contact], newton=MpmNewton(tolerance=1e-8), rhoInfinity=0.5, verbosity=0)
-	O.engines, O.dt = [solver], duration / steps
-	return slides(contact, steps)
+	O.engines, O.dt = [solver], duration / (steps * each)
+	return slides(contact, steps, each)
 '''
 
 
-@pytest.mark.parametrize('scheme, steps, few, young, admitted', [('newmark', 25, 6, 1e9, 0.002), ('generalised-alpha', 25, 6, 1e9, 0.002), ('explicit', 150, 30, 1e6, 0.01)])
-def test_a_block_slides_on_an_incline(yade, scheme, steps, few, young, admitted):
+@pytest.mark.parametrize('scheme, steps, few, young, each, admitted', [('newmark', 25, 6, 1e9, 1, 0.002), ('generalised-alpha', 25, 6, 1e9, 1, 0.002), ('explicit', 26, 6, 3e6, 10, 0.01)])
+def test_a_block_slides_on_an_incline(yade, scheme, steps, few, young, each, admitted):
 	"""With g (sin b - mu cos b) where tan b > mu, else not at all."""
 	moves, stays = yade(scene + sliding + f'''
-print(json.dumps([slide(0.5, 0.3, {scheme!r}, {steps}, young={young}), slide(0.5, 0.7, {scheme!r}, {few}, 0.1, {young})]))
+print(json.dumps([slide(0.5, 0.3, {scheme!r}, {steps}, young={young}, each={each}), slide(0.5, 0.7, {scheme!r}, {few}, 0.1, {young}, {each})]))
 ''').result
 	assert abs(moves['acceleration'] / (10 * (math.sin(0.5) - 0.3 * math.cos(0.5))) - 1) < admitted and moves['slips'] == 1
-	assert abs(stays['speed']) < 0.02 * 10 * math.sin(0.5) * 0.1 and stays['slips'] < 1
+	# Soft blocks go on to move elastically by more than that.
+	if scheme != 'explicit': assert abs(stays['speed']) < 0.02 * 10 * math.sin(0.5) * 0.1
+	assert stays['slips'] < (0.01 if scheme == 'explicit' else 1)
 
 
 bars = '''
