@@ -9,7 +9,7 @@ namespace gimpm {
 
 template <int Dim> Key lowestCellOf(const PointCloud<Dim>& all, int p, const Model<Dim>& model)
 {
-	return lowestCell(all.position[p], all.halfSize[p], model.grid, model.basis);
+	return lowestCell(all.position[p], all.halfSize[p], model.grid, model.basis, all.layerOf(p));
 }
 
 /// The points of one process, and which of all these are.

@@ -34,6 +34,7 @@ template <int Dim> HeldBox<Dim> HeldBox<Dim>::ofAxis(const Grid<Dim>& grid)
 
 template <int Dim> bool HeldBox<Dim>::meets(const HeldBox& other) const
 {
+	if (!isOf(other.layer) && !other.isOf(layer)) return false;
 	for (int a = 0; a < Dim; ++a) {
 		const int low = std::max(lower[a], other.lower[a]);
 		if (low <= std::min(upper[a], other.upper[a]) || (period[a] != 0 && covers(0, a) && other.covers(0, a))) continue;
@@ -42,10 +43,10 @@ template <int Dim> bool HeldBox<Dim>::meets(const HeldBox& other) const
 	return true;
 }
 
-template <int Dim> const HeldBox<Dim>* Boundary<Dim>::holder(const Index<Dim>& node, int axis) const
+template <int Dim> const HeldBox<Dim>* Boundary<Dim>::holder(const Index<Dim>& node, int axis, int layer) const
 {
 	for (auto b = boxes_.rbegin(); b != boxes_.rend(); ++b)
-		if (b->holds(node, axis)) return &*b;
+		if (b->holds(node, axis) && b->isOf(layer)) return &*b;
 	return nullptr;
 }
 
@@ -55,7 +56,7 @@ template <int Dim> const HeldBox<Dim>* Boundary<Dim>::opening(const Index<Dim>& 
 	return found == open_.rend() ? nullptr : &*found;
 }
 
-template <int Dim> bool Boundary<Dim>::lowerFaceIsWall(const Index<Dim>& cell, int axis, int level) const
+template <int Dim> bool Boundary<Dim>::lowerFaceIsWall(const Index<Dim>& cell, int axis, int level, int layer) const
 {
 	const auto covers         = [&](const HeldBox<Dim>& b) { return b.covers(cell[axis], axis); };
 	const bool planeIsTouched = std::any_of(boxes_.begin(), boxes_.end(), [&](const HeldBox<Dim>& b) { return b.fixed[axis] && covers(b); })
@@ -66,7 +67,7 @@ template <int Dim> bool Boundary<Dim>::lowerFaceIsWall(const Index<Dim>& cell, i
 		Index<Dim> node = cell;
 		for (int a = 0; a < Dim; ++a)
 			node[a] += (corner >> a & 1) << level;
-		if (!holder(node, axis) && !opening(node)) return false;
+		if (!holder(node, axis, layer) && !opening(node)) return false;
 	}
 	return true;
 }

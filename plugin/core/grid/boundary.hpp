@@ -13,6 +13,7 @@ template <int Dim> struct HeldBox {
 	std::array<bool, Dim> fixed {};
 	Vec<Dim>              displacement = Vec<Dim>::Zero();   ///< prescribed total at load factor 1 [m]
 	Index<Dim>            period       = Index<Dim>::Zero(); ///< of the grid; there the limits are between 0 and period, which is node 0 again
+	int                   layer        = -1;                 ///< of the nodes (Grid::layer); -1: of all bodies
 
 	/// The nodes of a box in space; a coordinate on a node within 1e-9 h holds it. Infinite limits are admitted.
 	/// Along a periodic axis the box is that between the two sides, both included.
@@ -36,9 +37,12 @@ template <int Dim> struct HeldBox {
 			if (!covers(node[a], a)) return false;
 		return true;
 	}
+	bool isOf(int other) const { return layer < 0 || layer == other; }
+	bool contains(Key node) const { return isOf(Grid<Dim>::layer(node)) && contains(Grid<Dim>::index(node)); }
 	bool holds(const Index<Dim>& node, int axis) const { return fixed[axis] && contains(node); }
+	bool holds(Key node, int axis) const { return fixed[axis] && contains(node); }
 
-	/// Whether a node lies in both boxes.
+	/// Whether a node may lie in both boxes.
 	bool meets(const HeldBox& other) const;
 };
 
@@ -48,7 +52,8 @@ public:
 	explicit Boundary(std::vector<HeldBox<Dim>> boxes = {}, std::vector<HeldBox<Dim>> open = {}) : boxes_(std::move(boxes)), open_(std::move(open)) { }
 
 	/// The box that holds the node in this direction (the last one given, where several do), or null.
-	const HeldBox<Dim>* holder(const Index<Dim>& node, int axis) const;
+	const HeldBox<Dim>* holder(const Index<Dim>& node, int axis, int layer = 0) const;
+	const HeldBox<Dim>* holder(Key node, int axis) const { return holder(Grid<Dim>::index(node), axis, Grid<Dim>::layer(node)); }
 
 	const std::vector<HeldBox<Dim>>& boxes() const { return boxes_; }
 	const std::vector<HeldBox<Dim>>& open() const { return open_; }
@@ -58,7 +63,7 @@ public:
 
 	/// Whether all nodes of the lower face of this cell in this direction are held in the face's normal direction,
 	/// or in open boxes.
-	bool lowerFaceIsWall(const Index<Dim>& cell, int axis, int level = 0) const;
+	bool lowerFaceIsWall(const Index<Dim>& cell, int axis, int level = 0, int layer = 0) const;
 
 private:
 	std::vector<HeldBox<Dim>> boxes_, open_;

@@ -5,14 +5,14 @@
 
 namespace gimpm {
 
-template <int Dim> Key lowestCell(const Vec<Dim>& position, const Vec<Dim>& halfSize, const Grid<Dim>& grid, Basis basis)
+template <int Dim> Key lowestCell(const Vec<Dim>& position, const Vec<Dim>& halfSize, const Grid<Dim>& grid, Basis basis, int layer)
 {
 	Index<Dim> lowest;
 	for (int a = 0; a < Dim; ++a) {
 		const double x = position[a] - grid.origin[a];
 		lowest[a]      = basis == Basis::gimp ? AxisCells::reached(x, halfSize[a], grid.cellSize).lowest : centreCell(x, grid.cellSize);
 	}
-	return Grid<Dim>::key(grid.first(lowest));
+	return Grid<Dim>::key(grid.first(lowest), 0, layer);
 }
 
 template <int Dim> std::vector<int> neededBy(const Division& division, Key lowest, const Grid<Dim>& grid, bool isWide)
@@ -37,7 +37,7 @@ std::vector<std::vector<int>> neededPoints(const PointCloud<Dim>& cloud, const D
 	std::vector<std::vector<int>>             points(division.processes->size());
 	std::unordered_map<Key, std::vector<int>> known;
 	for (int p = 0; p < division.ownOf(cloud.size()); ++p) {
-		const Key lowest          = lowestCell<Dim>(cloud.position[p], cloud.halfSize[p], grid, basis);
+		const Key lowest          = lowestCell<Dim>(cloud.position[p], cloud.halfSize[p], grid, basis, cloud.layerOf(p));
 		const auto [found, isNew] = known.try_emplace(lowest);
 		if (isNew) found->second = neededBy<Dim>(division, lowest, grid, isWide);
 		for (const int process : found->second)
@@ -47,7 +47,7 @@ std::vector<std::vector<int>> neededPoints(const PointCloud<Dim>& cloud, const D
 }
 
 #define GIMPM_INSTANTIATE(Dim)                                                                                                                                 \
-	template Key                           lowestCell(const Vec<Dim>&, const Vec<Dim>&, const Grid<Dim>&, Basis);                                          \
+	template Key                           lowestCell(const Vec<Dim>&, const Vec<Dim>&, const Grid<Dim>&, Basis, int);                                     \
 	template std::vector<int>              neededBy<Dim>(const Division&, Key, const Grid<Dim>&, bool);                                                    \
 	template std::vector<std::vector<int>> neededPoints(const PointCloud<Dim>&, const Division&, const Grid<Dim>&, Basis, bool);
 GIMPM_INSTANTIATE(2)

@@ -8,8 +8,8 @@
 
 namespace gimpm {
 
-/// The lowest cell that a domain reaches, in a periodic grid the one that stands for it.
-template <int Dim> Key lowestCell(const Vec<Dim>& position, const Vec<Dim>& halfSize, const Grid<Dim>&, Basis);
+/// The lowest cell of a layer that a domain reaches, in a periodic grid the one that stands for it.
+template <int Dim> Key lowestCell(const Vec<Dim>& position, const Vec<Dim>& halfSize, const Grid<Dim>&, Basis, int layer = 0);
 
 /// The processes that need a point with this lowest cell: those that have a node which it may reach, and, where others
 /// need to know all points of their cells (`isWide`), one that is a cell further. Rising.

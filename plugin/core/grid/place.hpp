@@ -14,17 +14,17 @@ template <int Dim> Index<Dim> corner(const Index<Dim>& cell, int bits)
 	return i;
 }
 
-/// In its own cells.
-template <int Dim> bool lowerFaceIsWall(const Boundary<Dim>& boundary, const Index<Dim>& cell, int axis, int level)
+/// In its own cells, of a body in a layer.
+template <int Dim> bool lowerFaceIsWall(const Boundary<Dim>& boundary, const Index<Dim>& cell, int axis, int level, int layer)
 {
-	return boundary.lowerFaceIsWall(cell * (1 << level), axis, level);
+	return boundary.lowerFaceIsWall(cell * (1 << level), axis, level, layer);
 }
 
 /// The cell that holds the point's centre. On a face it is the lower cell, unless that lies behind the wall of that
 /// face.
-template <int Dim> Index<Dim> containingCell(const Vec<Dim>& x, double h, const Boundary<Dim>& boundary, int level)
+template <int Dim> Index<Dim> containingCell(const Vec<Dim>& x, double h, const Boundary<Dim>& boundary, int level, int layer)
 {
-	const auto isWall = [&](const Index<Dim>& cell, int axis) { return lowerFaceIsWall(boundary, cell, axis, level); };
+	const auto isWall = [&](const Index<Dim>& cell, int axis) { return lowerFaceIsWall(boundary, cell, axis, level, layer); };
 	Index<Dim> cell;
 	for (int a = 0; a < Dim; ++a)
 		cell[a] = centreCell(x[a], h);
@@ -37,7 +37,7 @@ template <int Dim> Index<Dim> containingCell(const Vec<Dim>& x, double h, const 
 }
 
 /// The cells of a window that can be reached from the cell of the centre through faces which are no walls.
-template <int Dim> int reachableCells(const Index<Dim>& lowest, int span, int centre, const Boundary<Dim>& boundary, int level)
+template <int Dim> int reachableCells(const Index<Dim>& lowest, int span, int centre, const Boundary<Dim>& boundary, int level, int layer)
 {
 	int reached = 1 << centre;
 	for (int before = 0; before != reached;) {
@@ -47,7 +47,7 @@ template <int Dim> int reachableCells(const Index<Dim>& lowest, int span, int ce
 			for (int a = 0; a < Dim; ++a) {
 				const int neighbour = c ^ 1 << a;
 				if (!(span >> a & 1) || (reached >> neighbour & 1)) continue;
-				if (!lowerFaceIsWall(boundary, corner<Dim>(lowest, c | 1 << a), a, level)) reached |= 1 << neighbour;
+				if (!lowerFaceIsWall(boundary, corner<Dim>(lowest, c | 1 << a), a, level, layer)) reached |= 1 << neighbour;
 			}
 		}
 	}
@@ -98,10 +98,10 @@ template <int Dim> Vec<Dim> domainIn(const PointCloud<Dim>& cloud, int point, co
 
 template <int Dim> Place<Dim> place(const PointCloud<Dim>& cloud, int point, const Grid<Dim>& grid, Basis basis, const Boundary<Dim>& boundary, double& hidden)
 {
-	const int        level = levelOf(cloud, point, grid, basis);
-	const double     h     = grid.size(level);
+	const int        level = levelOf(cloud, point, grid, basis), layer = cloud.layerOf(point);
+	const double     h = grid.size(level);
 	const Vec<Dim>   x = cloud.position[point] - grid.origin, halfSize = domainIn(cloud, point, grid, level);
-	const Index<Dim> centre = containingCell<Dim>(x, h, boundary, level);
+	const Index<Dim> centre = containingCell<Dim>(x, h, boundary, level, layer);
 	Index<Dim>       lowest = centre;
 	int              span = 0, centreBits = 0; // which cell of the window holds the centre
 	for (int a = 0; basis == Basis::gimp && a < Dim; ++a) {
@@ -111,8 +111,8 @@ template <int Dim> Place<Dim> place(const PointCloud<Dim>& cloud, int point, con
 		span |= 1 << a;
 		if (centre[a] > lowest[a]) centreBits |= 1 << a;
 	}
-	const Key        cell = Grid<Dim>::key(grid.first(lowest * (1 << level)), level, cloud.layerOf(point));
-	const Place<Dim> p(cell, span, reachableCells<Dim>(lowest, span, centreBits, boundary, level), point);
+	const Key        cell = Grid<Dim>::key(grid.first(lowest * (1 << level)), level, layer);
+	const Place<Dim> p(cell, span, reachableCells<Dim>(lowest, span, centreBits, boundary, level, layer), point);
 	hidden = std::max(hidden, hiddenLength<Dim>(p, x, halfSize, h, lowest, centreBits));
 	return p;
 }

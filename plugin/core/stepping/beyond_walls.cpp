@@ -20,8 +20,8 @@ template <int Dim> int allCells(const Patch<Dim>& patch)
 /// own.
 template <int Dim> struct CutPatches {
 	struct Node {
-		Index<Dim> nearest; ///< node in front of the wall
-		int        axis;    ///< along which the node is behind it
+		Key nearest; ///< node in front of the wall
+		int axis;    ///< along which the node is behind it
 	};
 	CloudBasis<Dim>   basis;
 	StepPoints<Dim>   points;
@@ -80,7 +80,7 @@ private:
 		int axis = 0;
 		while (along(patch, nearest)[axis] == place[axis])
 			++axis;
-		return { Grid<Dim>::index(system.basis.nodes[patch.node[nearest]]), axis };
+		return { system.basis.nodes[patch.node[nearest]], axis };
 	}
 
 	int front; // number of nodes that are not behind walls
@@ -92,7 +92,7 @@ template <int Dim> int ownerOf(const typename CutPatches<Dim>::Node& node, int a
 	const auto* box = boundary.holder(node.nearest, axis);
 	if (!box) box = boundary.holder(node.nearest, node.axis);
 	if (box) return int(box - boundary.boxes().data());
-	const auto* open = boundary.opening(node.nearest);
+	const auto* open = boundary.opening(Grid<Dim>::index(node.nearest));
 	return open ? int(boundary.boxes().size() + (open - boundary.open().data())) : -1;
 }
 

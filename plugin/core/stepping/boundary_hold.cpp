@@ -29,7 +29,7 @@ public:
 	std::optional<Loss> loss(const PointCloud<Dim>& cloud, const Grid<Dim>& grid, const Division& division)
 	{
 		for (std::size_t p = 0; p < cloud.size(); ++p)
-			look(cloud, int(p), grid);
+			if (box.isOf(cloud.layerOf(int(p)))) look(cloud, int(p), grid);
 		takeFromOthers(division);
 		std::optional<Loss> widest;
 		for (const auto& [node, gap] : gaps)
@@ -117,14 +117,14 @@ private:
 
 template <int Dim> bool holdsSoil(const HeldBox<Dim>& box, const CloudBasis<Dim>& basis)
 {
-	return std::any_of(basis.nodes.begin(), basis.nodes.end(), [&](Key key) { return box.contains(Grid<Dim>::index(key)); });
+	return std::any_of(basis.nodes.begin(), basis.nodes.end(), [&](Key key) { return box.contains(key); });
 }
 
 /// A box that reaches a leaf and none of its corners, or only those that hang on others and follow these.
 template <int Dim> bool liesBetweenNodes(const HeldBox<Dim>& box, const CloudBasis<Dim>& basis)
 {
 	for (int node = 0; node < int(basis.nodes.size()); ++node)
-		if (box.contains(Grid<Dim>::index(basis.nodes[node])) && !basis.ties.contains(node)) return false;
+		if (box.contains(basis.nodes[node]) && !basis.ties.contains(node)) return false;
 	return std::any_of(basis.leaves.begin(), basis.leaves.end(), [&](Key leaf) {
 		const Index<Dim> low = Grid<Dim>::index(leaf), high = low + Index<Dim>::Constant(1 << Grid<Dim>::level(leaf));
 		return (low.cwiseMax(box.lower).array() <= high.cwiseMin(box.upper).array()).all();
@@ -143,6 +143,7 @@ template <int Dim> std::string withoutSoil(const HeldBox<Dim>& box, const PointC
 {
 	Vec<Dim> low = Vec<Dim>::Constant(std::numeric_limits<double>::infinity()), high = -low;
 	for (std::size_t p = 0; p < cloud.size(); ++p) {
+		if (!box.isOf(cloud.layerOf(int(p)))) continue;
 		low  = low.cwiseMin(cloud.position[p] - cloud.halfSize[p]);
 		high = high.cwiseMax(cloud.position[p] + cloud.halfSize[p]);
 	}

@@ -83,7 +83,7 @@ template <int Dim> std::vector<Vec3> reactions(const StepSystem<Dim>& system, co
 	std::vector<Vec3> sums(boundary.boxes().size(), Vec3::Zero());
 	for (int i = 0; i < system.nodalSize(); ++i) {
 		if (system.dofs.number[i] >= 0) continue;
-		const auto* box = boundary.holder(Grid<Dim>::index(system.basis.nodes[i / Dim]), i % Dim);
+		const auto* box = boundary.holder(system.basis.nodes[i / Dim], i % Dim);
 		if (!box) continue; // the node is tied to others, which have taken its force
 		sums[box - boundary.boxes().data()][i % Dim] += force[i] - system.external[i];
 	}

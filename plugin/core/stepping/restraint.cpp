@@ -250,7 +250,7 @@ Restraint restraintBy(
 	        = [&](std::size_t n, const Vec<Dim>& direction, const Vec<Dim>& place) { found[parts.root(n)].hold(parts.place(n) + place, direction); };
 	for (std::size_t n = 0; n < basis.nodes.size(); ++n)
 		for (int a = 0; a < Dim; ++a)
-			if (!basis.ties.contains(int(n)) && boundary.holder(Grid<Dim>::index(basis.nodes[n]), a)) hold(n, Vec<Dim>::Unit(a), Vec<Dim>::Zero());
+			if (!basis.ties.contains(int(n)) && boundary.holder(basis.nodes[n], a)) hold(n, Vec<Dim>::Unit(a), Vec<Dim>::Zero());
 	for (const auto& term : terms)
 		holds(*term, [&](int n, const Vec<Dim>& direction, const Vec<Dim>& place) { hold(n, direction.normalized(), place); });
 	for (auto& [root, part] : found)

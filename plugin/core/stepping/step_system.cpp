@@ -101,7 +101,7 @@ template <int Dim> void StepSystem<Dim>::holdNodes(const Load<Dim>& load)
 		for (int a = 0; a < Dim; ++a) {
 			if (basis.ties.contains(int(n))) continue;
 			if (!isStill_.empty() && isStill_[n]) constraints.hold(int(Dim * n + a), 0);
-			else if (const auto* box = model.boundary.holder(Grid<Dim>::index(basis.nodes[n]), a)) {
+			else if (const auto* box = model.boundary.holder(basis.nodes[n], a)) {
 				const int    number = int(box - model.boundary.boxes().data());
 				const auto   moves  = load.boxMotion.find(number);
 				const double motion = moves == load.boxMotion.end() ? 0 : moves->second[a];

@@ -41,17 +41,17 @@ template <int Dim> AttachedPlaces<Dim> attachTo(int layer, const std::vector<Vec
 
 } // namespace
 
-template <int Dim> AttachedPlaces<Dim> attachPlaces(const std::vector<Vec<Dim>>& places, const Beginning<Dim>& step, const std::string& name)
+template <int Dim> AttachedPlaces<Dim> attachPlaces(const std::vector<Vec<Dim>>& places, const Beginning<Dim>& step, const std::string& name, int layer)
 {
-	if (step.grid.parting) return attachTo(layerOfPlace, places, step, name);
+	if (step.grid.parting || layer != layerOfPlace) return attachTo(layer, places, step, name);
 	const auto&         layers = step.cloud.layer;
 	const int           last   = layers.empty() ? 0 : *std::max_element(layers.begin(), layers.end());
 	AttachedPlaces<Dim> found  = attachTo(0, places, step, name);
-	for (int layer = 1; layer <= last; ++layer) {
-		auto other = attachTo(layer, places, step, name);
+	for (int next = 1; next <= last; ++next) {
+		auto other = attachTo(next, places, step, name);
 		if (!other.obstacle.empty()) continue;
 		if (found.obstacle.empty()) {
-			found.obstacle = name + " is on two bodies of points that meet: it must be near one of them only";
+			found.obstacle = name + " is on two bodies of points that meet: name the one that is meant (body)";
 			return found;
 		}
 		found = std::move(other);
@@ -59,7 +59,7 @@ template <int Dim> AttachedPlaces<Dim> attachPlaces(const std::vector<Vec<Dim>>&
 	return found;
 }
 
-template AttachedPlaces<2> attachPlaces(const std::vector<Vec<2>>&, const Beginning<2>&, const std::string&);
-template AttachedPlaces<3> attachPlaces(const std::vector<Vec<3>>&, const Beginning<3>&, const std::string&);
+template AttachedPlaces<2> attachPlaces(const std::vector<Vec<2>>&, const Beginning<2>&, const std::string&, int);
+template AttachedPlaces<3> attachPlaces(const std::vector<Vec<3>>&, const Beginning<3>&, const std::string&, int);
 
 } // namespace gimpm

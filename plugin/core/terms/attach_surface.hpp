@@ -15,7 +15,8 @@ template <int Dim> struct AttachedPlaces {
 
 /// A cell counts as populated by the least of a domain that reaches into it, so places must be near a domain, too: what
 /// acts in a cell whose soil is gone would hang on what is beside it, by round-off or not. Of several bodies it is the
-/// one that is near all places. `name`: of what has them.
-template <int Dim> AttachedPlaces<Dim> attachPlaces(const std::vector<Vec<Dim>>& places, const Beginning<Dim>&, const std::string& name);
+/// one in the layer, or, where none is given, the one that is near all places. `name`: of what has them.
+template <int Dim>
+AttachedPlaces<Dim> attachPlaces(const std::vector<Vec<Dim>>& places, const Beginning<Dim>&, const std::string& name, int layer = layerOfPlace);
 
 } // namespace gimpm

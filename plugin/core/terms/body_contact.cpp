@@ -202,7 +202,8 @@ template <int Dim> void BodyContact<Dim>::addSlope(const std::vector<PairNode>& 
 	}
 }
 
-template <int Dim> void BodyContact<Dim>::add(const Eigen::VectorXd& d, double factor, Eigen::VectorXd& force, Eigen::VectorXd* sizes, Couplings* K) const
+template <int Dim>
+void BodyContact<Dim>::add(const Eigen::VectorXd& d, double factor, Eigen::VectorXd& force, Eigen::VectorXd* sizes, Couplings* K, PairSlope slopes) const
 {
 	if (places_.empty()) return;
 	if (!K) {
@@ -210,7 +211,7 @@ template <int Dim> void BodyContact<Dim>::add(const Eigen::VectorXd& d, double f
 			addForces(nodesOf(touching.place, touching.near), touching.force, factor, force, sizes);
 		return;
 	}
-	look(d, isExact_ || !isRough() ? PairSlope::exact : PairSlope::symmetric, [&](const Touching& touching, const Slope& slope) {
+	look(d, slopes, [&](const Touching& touching, const Slope& slope) {
 		const auto nodes = nodesOf(touching.place, touching.near);
 		addForces(nodes, touching.force, factor, force, sizes);
 		addSlope(nodes, slope, factor, *K);
@@ -219,7 +220,7 @@ template <int Dim> void BodyContact<Dim>::add(const Eigen::VectorXd& d, double f
 
 template <int Dim> std::optional<PointFailure> BodyContact<Dim>::addCoupled(const State& state, const FieldSum<Dim>& sum) const
 {
-	add(state.displacements(), system_.weight, sum.force[0], &sum.sizes[0], sum.couplings);
+	add(state.displacements(), system_.weight, sum.force[0], &sum.sizes[0], sum.couplings, slope());
 	return std::nullopt;
 }
 
@@ -227,7 +228,12 @@ template <int Dim> void BodyContact<Dim>::addCoupledBefore(const State&, const F
 
 template <int Dim> void BodyContact<Dim>::addUnweighted(const Eigen::VectorXd* d, Eigen::VectorXd& resistance) const
 {
-	add(d ? *d : Eigen::VectorXd::Zero(unknowns_), 1, resistance, nullptr, nullptr);
+	add(d ? *d : Eigen::VectorXd::Zero(unknowns_), 1, resistance, nullptr, nullptr, PairSlope::none);
+}
+
+template <int Dim> void BodyContact<Dim>::addWithSlopes(const Eigen::VectorXd& d, Eigen::VectorXd& resistance, Couplings* K) const
+{
+	add(d, 1, resistance, nullptr, K, isRough() ? PairSlope::symmetric : PairSlope::exact);
 }
 
 template <int Dim> void BodyContact<Dim>::holdAt(const Touching& touching, bool sticks, const typename Term<Dim>::Hold& hold) const

@@ -60,8 +60,10 @@ template <int Dim> class BodyContact;
 template <int Dim> struct BodyContacts {
 	std::vector<MeetingBody<Dim>> bodies;
 	std::vector<BodyMeeting<Dim>> meetings;
-	double                        work   = 0; ///< on the bodies in the last step that was accepted [J]
-	double                        weight = 1; ///< with which forces enter the balance of a step in time (core/terms/time_scheme.hpp)
+	double                        work = 0; ///< on the bodies in the last step that was accepted [J]
+	/// With which forces enter the balance of a step in time (core/terms/time_scheme.hpp); in explicit ones what
+	/// the end of the step adds to them is an impulse (core/terms/contact_impulse.hpp).
+	double weight = 1;
 	/// Of a step in time: energy that has come into the system before it [J]; infinite: nobody asks for what
 	/// contact gives.
 	double                  energy = std::numeric_limits<double>::infinity();
@@ -91,6 +93,9 @@ public:
 	/// Adds the forces that resist at d, or, where that is null, as the step begins, without their weight. The
 	/// latter are those at the end of the last step, whatever gaps are found anew: so no momentum is lost.
 	void addUnweighted(const Eigen::VectorXd* d, Eigen::VectorXd& resistance) const;
+
+	/// The same at d, with symmetric derivatives by displacements, if these are asked for.
+	void addWithSlopes(const Eigen::VectorXd& d, Eigen::VectorXd& resistance, Couplings*) const;
 
 private:
 	/// A piece of the master near a place. The foot of the place as the step begins moves with the functions of the
@@ -149,9 +154,10 @@ private:
 	bool                  isRough() const;
 	bool                  goesOn(const PairPlaces<Dim>&) const;
 	const Looked&         look(const Eigen::VectorXd& d, PairSlope = PairSlope::none, const std::function<void(const Touching&, const Slope&)>& = {}) const;
+	PairSlope             slope() const { return isExact_ || !isRough() ? PairSlope::exact : PairSlope::symmetric; }
 	std::vector<PairNode> nodesOf(const Place&, const Near&) const;
 	void                  markNodes(const Place&, std::vector<int>& nodes) const;
-	void                  add(const Eigen::VectorXd& d, double weight, Eigen::VectorXd& force, Eigen::VectorXd* sizes, Couplings*) const;
+	void                  add(const Eigen::VectorXd& d, double weight, Eigen::VectorXd& force, Eigen::VectorXd* sizes, Couplings*, PairSlope) const;
 	void    addForces(const std::vector<PairNode>&, const PairAction<Dim>&, double factor, Eigen::VectorXd& force, Eigen::VectorXd* sizes) const;
 	void    addSlope(const std::vector<PairNode>&, const Slope&, double factor, Couplings&) const;
 	void    holdAt(const Touching&, bool sticks, const typename Term<Dim>::Hold&) const;

@@ -138,8 +138,9 @@ template <int Dim> void BodyContact<Dim>::takeModuli(const Beginning<Dim>& step)
 		for (const int leaf : leaves.back())
 			isAskedFor[leaf] = 1;
 	}
-	if (places_.empty()) return;
-	const auto moduli = cellModuli(isAskedFor, step.basis, step.stiffnessOf, step.grid);
+	if (places_.empty()) return; // in all processes, which know the same places
+	auto moduli = cellModuli(isAskedFor, step.basis, step.stiffnessOf, step.grid);
+	step.division.complete(step.basis.populatedLeaves(), moduli);
 	for (std::size_t i = 0; i < places_.size(); ++i)
 		places_[i].young = std::min(moduli[leaves[i][0]], moduli[leaves[i][1]]);
 }

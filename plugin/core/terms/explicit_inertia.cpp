@@ -2,6 +2,7 @@
 #include "core/terms/explicit_inertia.hpp"
 #include "core/base/stopwatch.hpp"
 #include "core/grid/point_nodes.hpp"
+#include "core/terms/contact_impulse.hpp"
 #include <algorithm>
 
 namespace gimpm {
@@ -31,10 +32,12 @@ ExplicitInertia<Dim>::ExplicitInertia(Motion<Dim>& motion, const Beginning<Dim>&
         , mass_(massOf(motion, step, seconds_))
 {
 	const Stopwatch watch(seconds_);
-	blow_ = jump_ = Eigen::VectorXd::Zero(step.prescribed.size());
-	damping_      = dampingOf(motion.damping, step);
+	impulse_ = blow_ = jump_ = Eigen::VectorXd::Zero(step.prescribed.size());
+	damping_                 = dampingOf(motion.damping, step);
 	begin(step);
-	findMiddle(step);
+	middle_ = step.prescribed / motion_.duration;
+	findMiddle();
+	meet();
 	findJump();
 	acceleration_ = ofHeld<Dim>(Eigen::VectorXd::Zero(step.prescribed.size()), &MovingBase<Dim>::acceleration, motion.bases, step);
 }
@@ -62,18 +65,29 @@ template <int Dim> void ExplicitInertia<Dim>::begin(const Beginning<Dim>& step)
 	});
 }
 
-template <int Dim> void ExplicitInertia<Dim>::findMiddle(const Beginning<Dim>& step)
+template <int Dim> void ExplicitInertia<Dim>::findMiddle()
 {
 	constexpr double      roundOff = 1e-12;
-	const Eigen::VectorXd momentum = weighedAtNodes(basis_, motion_.mass, atMiddle_, share_);
-	middle_                        = step.prescribed / motion_.duration;
+	const Eigen::VectorXd momentum = weighedAtNodes(basis_, motion_.mass, atMiddle_, share_) + impulse_;
 	solve(momentum, dofs_, middle_);
 	blow_ = blowOf(mass_, middle_, momentum, roundOff, [&](Eigen::Index i) { return isHeld(i); });
 }
 
+template <int Dim> void ExplicitInertia<Dim>::meet()
+{
+	if (!motion_.bodies || !motion_.bodies->acting) return;
+	const ContactImpulse<Dim> contact(*motion_.bodies->acting, mass_, dofs_, motion_.duration);
+	const auto                found = contact(middle_);
+	meets_                          = found.has_value();
+	if (!meets_ || found->isZero(0)) return;
+	impulse_ = *found;
+	findMiddle();
+}
+
 template <int Dim> void ExplicitInertia<Dim>::findJump()
 {
-	if (!blow_.isZero(0)) solve(blow_, allFree<Dim>(blow_.size(), basis_.ties), jump_);
+	const Eigen::VectorXd all = blow_ + impulse_;
+	if (!all.isZero(0)) solve(all, allFree<Dim>(all.size(), basis_.ties), jump_);
 }
 
 template <int Dim> void ExplicitInertia<Dim>::solve(const Eigen::VectorXd& right, const FreeDofs& dofs, Eigen::VectorXd& x, const Eigen::VectorXd* C)
@@ -85,7 +99,7 @@ template <int Dim> std::string ExplicitInertia<Dim>::obstacle() const
 {
 	for (const auto& each : damping_)
 		if (std::string found = each->obstacle(); !found.empty()) return found;
-	return {};
+	return meets_ ? "" : "the forces with which bodies of points end the step come to no end";
 }
 
 /// Forces C v that are diagonal act with the velocity at the end, v_1/2 + T/2 a_1: they cost no stability.
@@ -116,7 +130,7 @@ template <int Dim> void ExplicitInertia<Dim>::commit()
 	Eigen::VectorXd       ghost = Eigen::VectorXd::Zero(d.size());
 	addGhostForce(faces_, h_, d, ghost);
 	share_.complete(ghost);
-	motion_.impactWork = energyOfBlow(mass_, middle_, blow_, jump_, middle_);
+	motion_.impactWork = energyOfBlow<NodalMass<Dim>>(mass_, middle_, blow_ + impulse_, jump_, middle_);
 	// It acts in the second half, on the velocities' way from the one to the other.
 	motion_.ghostWork = T / 4 * (middle_ + end_).dot(ghost);
 	for (const auto& each : damping_)

@@ -34,7 +34,8 @@ public:
 
 private:
 	void begin(const Beginning<Dim>&);
-	void findMiddle(const Beginning<Dim>&);
+	void findMiddle();
+	void meet();
 	void findJump();
 	void solve(const Eigen::VectorXd& right, const FreeDofs&, Eigen::VectorXd& x, const Eigen::VectorXd* C = nullptr);
 	bool isHeld(Eigen::Index dof) const { return dofs_.number[dof] < 0; }
@@ -49,8 +50,9 @@ private:
 	double                                     seconds_ = 0;
 	NodalMass<Dim>                             mass_;
 	std::vector<std::unique_ptr<Damping<Dim>>> damping_;
-	bool                                       isSingular_ = false;
-	std::vector<Vec<Dim>>                      atMiddle_;           // velocities of the points
+	bool                                       isSingular_ = false, meets_ = true; // meets: contact has come to an end
+	std::vector<Vec<Dim>>                      atMiddle_;                          // velocities of the points
+	Eigen::VectorXd                            impulse_;            // of contact of bodies with each other, beyond what acts as the step begins
 	Eigen::VectorXd                            start_, middle_;     // velocities of the nodes, the former where there is damping
 	Eigen::VectorXd                            acceleration_, end_; // at the end, and velocities there
 	Eigen::VectorXd                            blow_, jump_;        // impulse of what holds nodes as the step begins, and the velocities that it changes

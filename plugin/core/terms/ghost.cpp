@@ -112,7 +112,7 @@ template <int Dim> std::vector<Key> boundaryCells(const std::vector<Key>& popula
 					Index<Dim> face
 					        = level < Grid<Dim>::level(cell) ? Grid<Dim>::index(neighbour) : i; // of its cells, the one on the lower corner
 					face[a] = isAbove ? i[a] + (1 << Grid<Dim>::level(cell)) : i[a];
-					is      = !boundary.lowerFaceIsWall(face, a, level);
+					is      = !boundary.lowerFaceIsWall(face, a, level, Grid<Dim>::layer(cell));
 				});
 			}
 		if (is) cells.push_back(cell);
@@ -132,7 +132,7 @@ std::vector<GhostFace<Dim>> ghostFaces(
 				const int  level = Grid<Dim>::level(lower);
 				Index<Dim> face  = Grid<Dim>::index(lower);
 				face[a] += 1 << level;
-				if (!boundary.lowerFaceIsWall(grid.first(face), a, level)) faces.push_back({ a, lower });
+				if (!boundary.lowerFaceIsWall(grid.first(face), a, level, Grid<Dim>::layer(cell))) faces.push_back({ a, lower });
 			});
 	return faces;
 }

@@ -99,8 +99,7 @@ Eigen::VectorXd ofHeld(const Eigen::VectorXd& otherwise, OfBase<Dim> value, cons
 	for (const auto& base : bases)
 		for (std::size_t n = 0; n < step.basis.nodes.size(); ++n)
 			for (int a = 0; a < Dim; ++a)
-				if (step.dofs.number[Dim * n + a] < 0 && base.box.holds(Grid<Dim>::index(step.basis.nodes[n]), a))
-					x[Dim * n + a] = (base.*value)[a];
+				if (step.dofs.number[Dim * n + a] < 0 && base.box.holds(step.basis.nodes[n], a)) x[Dim * n + a] = (base.*value)[a];
 	return x;
 }
 

@@ -49,6 +49,8 @@ public:
 	/// The result does not depend on the number of threads.
 	bool solve(const std::vector<Side>&, Effort = {}, const Eigen::VectorXd* C = nullptr);
 
+	double diagonal(int node) const { return isLumped() ? lumped_[node] : rows_.diagonal(node); }
+
 	bool isLumped() const { return rows_.value.empty(); }
 	int  iterations() const { return iterations_; } ///< of all solves
 

@@ -70,7 +70,7 @@ template <int Dim>
 Traction<Dim>::Traction(SurfaceLoad<Dim>& load, const Beginning<Dim>& step)
         : load_(load), isRing_(step.grid.axisymmetric), isSymmetric_(load.pressure == 0 || load.surface.isClosed())
 {
-	auto attached = attachPlaces(load_.surface.vertices, step, load_.name);
+	auto attached = attachPlaces(load_.surface.vertices, step, load_.name, load_.layer);
 	attached_     = std::move(attached.places);
 	obstacle_     = std::move(attached.obstacle);
 	layer_        = attached.layer;

@@ -20,6 +20,8 @@ template <int Dim> struct SurfaceLoad {
 	Vec<Dim> tractionBefore = Vec<Dim>::Zero();
 	/// In that step, with the mean of the forces at its two ends [J].
 	double work = 0;
+	/// Of the body that it is on; layerOfPlace: that which is near.
+	int layer = layerOfPlace;
 	/// Its outer side is still to be compared with where material is.
 	bool        isNew     = false;
 	Vec<Dim>    resultant = Vec<Dim>::Zero();   ///< of both, in the last step that was accepted [N]

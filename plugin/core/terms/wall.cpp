@@ -40,10 +40,10 @@ WallForce<Dim>::WallForce(Wall<Dim>& wall, const CloudBasis<Dim>& basis, const P
 	for (int i = 0; i < int(wall.surface.pieces.size()); ++i) {
 		const Vec<Dim> centre = centreOf(wall.surface, wall.surface.pieces[i]),
 		               normal = wall.surface.normal(wall.surface.pieces[i], wall.surface.vertices);
-		const auto at         = attach(centre, basis, grid);
+		const auto at         = attach(centre, basis, grid, wall.layer);
 		if (!at || (grid.axisymmetric && centre[0] <= 0)) continue;
 		heldPieces_.push_back({ i, *at, aroundAxis(centre[0], grid) * normal.norm(), heldBy<Dim>(wall, normal.normalized()), 0 });
-		cells.push_back(position(basis.cells, Grid<Dim>::key(grid.first(at->cell))));
+		cells.push_back(position(basis.cells, Grid<Dim>::key(grid.first(at->cell), 0, std::max(0, wall.layer))));
 		isHeld[cells.back()] = 1;
 	}
 	auto moduli = cellModuli(isHeld, basis, stiffnessOf, grid);

@@ -17,6 +17,8 @@ template <int Dim> struct Wall {
 	Surface<Dim> surface;
 	/// Directions in which material is held; none: along the normal of each piece.
 	std::array<bool, Dim> fixed {};
+	/// Of the body that it holds.
+	int layer = layerOfPlace;
 	/// The wall gives way by pressure / (penalty * Young's modulus) cells [-].
 	double                penalty = 100;
 	Vec<Dim>              motion  = Vec<Dim>::Zero();  ///< in the step, rigid [m]

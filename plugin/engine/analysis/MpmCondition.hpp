@@ -65,6 +65,8 @@ public:
 	// with that, empty if it does.
 	virtual bool   partsBodies() const { return false; }
 	virtual string needsOneBody(const string& /*name*/) const { return ""; }
+	// The body of points that it acts on alone, which has nodes of its own then; empty: all.
+	virtual string onlyOn() const { return ""; }
 	// Whether it acts by rates, so that O.time counts seconds.
 	virtual bool countsSeconds(const Scene&) const { return false; }
 

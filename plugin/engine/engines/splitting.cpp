@@ -69,12 +69,14 @@ namespace {
 			// gradient is none of what lies more than a cell away, and halves there would be soil that has
 			// jumped.
 			if (offset.norm() > 2 * limitOf(point)) return false;
-			return isFree(middle, middle + offset) && isFree(middle, middle - offset);
+			const auto& layers = job.model.layers;
+			const int   layer  = layers.empty() ? 0 : layers[point.state->body + 1];
+			return isFree(middle, middle + offset, layer) && isFree(middle, middle - offset, layer);
 		}
 
 		// No wall on the grid's lines, axis of symmetry or condition comes between the middles of the whole and
 		// of a half.
-		bool isFree(const gimpm::Vec<Dim>& from, const gimpm::Vec<Dim>& to) const
+		bool isFree(const gimpm::Vec<Dim>& from, const gimpm::Vec<Dim>& to, int layer) const
 		{
 			using namespace gimpm;
 			const auto& grid   = job.model.grid;
@@ -86,7 +88,7 @@ namespace {
 				const auto [first, last] = std::minmax({ cell[a], cellAt(to, a) });
 				Index<Dim> face          = cell;
 				for (face[a] = first + 1; face[a] <= last; ++face[a])
-					if (job.model.boundary.lowerFaceIsWall(face, a)) return false;
+					if (job.model.boundary.lowerFaceIsWall(face, a, 0, layer)) return false;
 			}
 			return std::all_of(job.conditions.begin(), job.conditions.end(), [&](const auto& one) { return one->areBeside(from, to); });
 		}

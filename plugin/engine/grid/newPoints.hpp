@@ -19,6 +19,7 @@ public:
 	        const MpmGrid&, const py::object& positions, const py::object& half, const py::list& materials, const py::object& index,
 	        const py::dict& parameters, int body);
 
+	int      bodyOfPoints() const { return ofBody; } // or -1
 	size_t   size() const { return index.size(); }
 	Vector3r position(size_t point) const { return Eigen::Map<const Vector3r>(positions.data() + 3 * point); }
 	Vector3r halfSize(size_t point) const;

@@ -7,8 +7,9 @@
 namespace yade {
 
 namespace {
-	bool isNear(const MaterialPoint& p, const std::pair<Vector3r, Vector3r>& box, const MpmGrid& grid)
+	bool isNear(const MaterialPoint& p, const std::pair<Vector3r, Vector3r>& box, const string& body, const MpmGrid& grid)
 	{
+		if (!body.empty() && p.state->body != grid.bodyNamed(body)) return false;
 		// Nodes of the cells that it touches.
 		const Vector3r reach = p.shape->halfSize + Vector3r::Constant(grid.cellSize);
 		return ((p.state->pos + reach - box.first).head(grid.dim).array() > 0).all()
@@ -20,8 +21,10 @@ namespace {
 	{
 		vector<int64_t> isFar;
 		for (const Listed& listed : conditions) {
-			const auto box = listed.condition->extent();
-			isFar.push_back(box && std::none_of(points.begin(), points.end(), [&](const auto& p) { return isNear(p, *box, *analysis.grid); }));
+			const auto   box  = listed.condition->extent();
+			const string body = listed.condition->onlyOn();
+			isFar.push_back(
+			        box && std::none_of(points.begin(), points.end(), [&](const auto& p) { return isNear(p, *box, body, *analysis.grid); }));
 		}
 		holdersOf(analysis)->smallest(isFar.data(), int(isFar.size()));
 		return isFar;

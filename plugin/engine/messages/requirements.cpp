@@ -124,11 +124,7 @@ static void requireOneBody(const Analysis& engine)
 	for (const Listed& listed : engine.conditions())
 		if (listed.condition->partsBodies()) meets = listed.name() + ", an " + listed.condition->getClassName() + ",";
 	if (meets.empty()) return;
-	if (processes()->size() > 1) what = "several processes";
-	else if (engine.isExplicit())
-		what = "scheme = 'explicit'";
-	else if (engine.grid && !engine.grid->period.isZero(0))
-		what = "MpmGrid.period, a grid that repeats itself";
+	if (engine.grid && !engine.grid->period.isZero(0)) what = "MpmGrid.period, a grid that repeats itself";
 	else if (engine.grid && !engine.grid->refinements.empty())
 		what = "MpmGrid.refinements, cells of several sizes";
 	for (const Listed& listed : engine.conditions())

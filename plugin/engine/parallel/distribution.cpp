@@ -2,7 +2,9 @@
 #include "engine/parallel/distribution.hpp"
 #include "core/base/sentence.hpp"
 #include "core/grid/neighbourhood.hpp"
+#include "engine/analysis/MpmCondition.hpp"
 #include "engine/analysis/analysis.hpp"
+#include "engine/analysis/exchange.hpp"
 #include "engine/grid/newPoints.hpp"
 #include "engine/parallel/common_state.hpp"
 #include "engine/parallel/packed_bodies.hpp"
@@ -36,12 +38,22 @@ namespace {
 		}
 	}
 
-	// Of a position and half of a domain, which reaches no farther than half a cell.
+	// Of bodies of points that meet (Model::layers), before there is a model.
+	template <int Dim> vector<int> layersOf(const Analysis& engine)
+	{
+		const auto conditions = engine.conditions();
+		if (std::none_of(conditions.begin(), conditions.end(), [](const Listed& listed) { return listed.condition->partsBodies(); })) return {};
+		return emptyModel<Dim>(engine, conditionsOf<Dim>(engine)).layers;
+	}
+
+	// Of a position, half of a domain, which reaches no farther than half a cell, and a body of points.
 	template <int Dim> auto lowestCellIn(const Analysis& engine)
 	{
-		return [lattice = engine.grid->lattice<Dim>(),
-		        basis   = engine.basis == "mpm" ? gimpm::Basis::linear : gimpm::Basis::gimp](const Vector3r& position, const Vector3r& halfSize) {
-			return gimpm::lowestCell<Dim>(position.head<Dim>(), halfSize.head<Dim>().cwiseMin(0.5 * lattice.cellSize), lattice, basis);
+		return [layers = layersOf<Dim>(engine), lattice = engine.grid->lattice<Dim>(),
+		        basis
+		        = engine.basis == "mpm" ? gimpm::Basis::linear : gimpm::Basis::gimp](const Vector3r& position, const Vector3r& halfSize, int body) {
+			const int layer = layers.empty() ? 0 : layers[body + 1];
+			return gimpm::lowestCell<Dim>(position.head<Dim>(), halfSize.head<Dim>().cwiseMin(0.5 * lattice.cellSize), lattice, basis, layer);
 		};
 	}
 
@@ -82,7 +94,7 @@ template <int Dim> std::shared_ptr<gimpm::Division> Distribution::divide(Analysi
 	const auto         lowestCell = lowestCellIn<Dim>(engine);
 	vector<gimpm::Key> lowest;
 	for (const MaterialPoint& p : points)
-		lowest.push_back(lowestCell(p.state->pos, p.shape->halfSize));
+		lowest.push_back(lowestCell(p.state->pos, p.shape->halfSize, p.state->body));
 	lowest.insert(lowest.end(), added.begin(), added.end());
 	requireSame(*all, engine, points, own);
 	cut(all, lowest, own);
@@ -124,7 +136,7 @@ template <int Dim> vector<int> Distribution::ownOf(Analysis& engine, vector<Mate
 	const auto         lowestCell = lowestCellIn<Dim>(engine);
 	vector<gimpm::Key> lowest;
 	for (size_t i = 0; i < added.size(); ++i)
-		lowest.push_back(lowestCell(added.position(i), added.halfSize(i)));
+		lowest.push_back(lowestCell(added.position(i), added.halfSize(i), added.bodyOfPoints()));
 	const auto  division = divide<Dim>(engine, points, lowest);
 	vector<int> own;
 	for (size_t i = 0; i < lowest.size(); ++i)

@@ -30,11 +30,11 @@ def means(number):
 	own = points['body'] == number
 	return points['volume'][own] @ points['velocity'][own] / points['volume'][own].sum()
 
-def slides(contact, steps):
-	"""Of the upper body: along x, over the second half of the steps."""
+def slides(contact, steps, each=1):
+	"""Of the upper body: along x, over the second half of the steps, of which each is so many."""
 	times, speeds = [], []
 	for step in range(steps):
-		O.run(1, wait=True)
+		O.run(each, wait=True)
 		times.append(O.time)
 		speeds.append(means(1)[0])
 	half = steps // 2
@@ -64,7 +64,7 @@ print(json.dumps([[contact.force[1] for contact in contacts], [solver.plotData()
 
 
 sliding = '''
-def slide(angle, coefficient, scheme='newmark', steps=25, duration=0.5, young=1e9):
+def slide(angle, coefficient, scheme='newmark', steps=25, duration=0.5, young=1e9, each=1):
 	"""A block on another one that is held, under gravity at an angle: mean acceleration in the second half of the time, what of the places slips, and work."""
 	O.reset()
 	material('rock', young=young)
@@ -74,48 +74,56 @@ def slide(angle, coefficient, scheme='newmark', steps=25, duration=0.5, young=1e
 	contact = MpmBodyContact(between=('up', 'low'), friction=atan(coefficient))
 	solver = MpmDynamicEngine(grid=grid, scheme=scheme, gravity=(10 * sin(angle), -10 * cos(angle), 0), gravityCurve=[(0, 0), (0.1, 1)], boundaries=[MpmBoundary(max=(inf, 0, inf), fix='xy')],
 		contacts=[contact], newton=MpmNewton(tolerance=1e-8), rhoInfinity=0.5, verbosity=0)
-	O.engines, O.dt = [solver], duration / steps
-	return slides(contact, steps)
+	O.engines, O.dt = [solver], duration / (steps * each)
+	return slides(contact, steps, each)
 '''
 
 
-@pytest.mark.parametrize('scheme', ['newmark', 'generalised-alpha'])
-def test_a_block_slides_on_an_incline(yade, scheme):
+@pytest.mark.parametrize('scheme, steps, few, rests, young, each, admitted', [('newmark', 25, 6, 0.1, 1e9, 1, 0.002), ('generalised-alpha', 25, 6, 0.1, 1e9, 1, 0.002), ('explicit', 26, 26, 0.5, 3e6, 10, 0.01)])
+def test_a_block_slides_on_an_incline(yade, scheme, steps, few, rests, young, each, admitted):
 	"""With g (sin b - mu cos b) where tan b > mu, else not at all."""
 	moves, stays = yade(scene + sliding + f'''
-print(json.dumps([slide(0.5, 0.3, {scheme!r}), slide(0.5, 0.7, {scheme!r}, 6, 0.1)]))
+print(json.dumps([slide(0.5, 0.3, {scheme!r}, {steps}, young={young}, each={each}), slide(0.5, 0.7, {scheme!r}, {few}, {rests}, {young}, {each})]))
 ''').result
-	assert abs(moves['acceleration'] / (10 * (math.sin(0.5) - 0.3 * math.cos(0.5))) - 1) < 0.002 and moves['slips'] == 1
-	assert abs(stays['speed']) < 0.02 * 10 * math.sin(0.5) * 0.1 and stays['slips'] < 1
+	assert abs(moves['acceleration'] / (10 * (math.sin(0.5) - 0.3 * math.cos(0.5))) - 1) < admitted and moves['slips'] == 1
+	assert abs(stays['speed']) < 0.02 * 10 * math.sin(0.5) * rests and stays['slips'] < 1
 
 
-def test_equal_bars_exchange_their_velocities(yade):
+bars = '''
+def bars(gap=0.02, **scheme):
+	"""Two of 1 m by a cell, one of which flies at the other: when they touch first and for how long, over 2 L / c; their speeds at last; and the worst of momenta and energies."""
+	O.reset()
+	material('steel', young=1e6, poisson=0, density=1000)
+	h, speed, wave = 0.05, 0.1, 1000**0.5
+	grid = MpmGrid(cellSize=h)
+	O.bodies.append(mpm.fill(box((0, 0), (1, h)), grid, 2, 'steel', body='left'))
+	O.bodies.append(mpm.fill(box((1, 0), (2, h)), grid, 2, 'steel', body='right'))
+	shift('right', grid, np.array([gap, 0, 0]))
+	points = mpm.arrays()
+	mpm.assign(velocity=speed * np.outer(points['body'] == 0, [1, 0, 0]))
+	contact = MpmBodyContact(between=('left', 'right'), friction=0)
+	solver = MpmDynamicEngine(grid=grid, contacts=[contact], newton=MpmNewton(tolerance=1e-12), verbosity=0, **scheme)
+	duration = gap / speed + 2.6 / wave
+	O.engines, O.dt = [solver], 0.9 * solver.criticalTimeStep() if scheme else duration / 300
+	touched, drift, most, first = [], 0, 0, 1000 * h * speed**2 / 2
+	while O.time < duration:
+		O.run(1, wait=True)
+		data = solver.plotData()
+		drift, most = max(drift, abs(data['momentum_x'] / (1000 * h * speed) - 1), abs(data['momentum_y']) / (1000 * h * speed)), max(most, data['kineticEnergy'] + data['elasticEnergy'])
+		if contact.force[0]: touched.append(O.time)
+	return dict(begins=touched[0] * speed / gap, lasts=(touched[-1] - touched[0] + O.dt) * wave / 2, speeds=[means(0)[0] / speed, means(1)[0] / speed], drift=drift, most=most / first, left=contact.force[0])
+'''
+
+
+@pytest.mark.parametrize('scheme', ['', "0.004, scheme='explicit'"])
+def test_equal_bars_exchange_their_velocities(yade, scheme):
 	"""After a contact of twice the time of a wave through one of them, which begins when the gap has closed, not before; momentum is kept, and no energy is won."""
-	found = yade(scene + '''
-material('steel', young=1e6, poisson=0, density=1000)
-h, gap, speed, wave = 0.05, 0.02, 0.1, 1000**0.5
-grid = MpmGrid(cellSize=h)
-O.bodies.append(mpm.fill(box((0, 0), (1, h)), grid, 2, 'steel', body='left'))
-O.bodies.append(mpm.fill(box((1, 0), (2, h)), grid, 2, 'steel', body='right'))
-shift('right', grid, np.array([gap, 0, 0]))
-points = mpm.arrays()
-mpm.assign(velocity=speed * np.outer(points['body'] == 0, [1, 0, 0]))
-contact = MpmBodyContact(between=('left', 'right'), friction=0)
-solver = MpmDynamicEngine(grid=grid, contacts=[contact], newton=MpmNewton(tolerance=1e-12), verbosity=0)
-O.engines, O.dt = [solver], (gap / speed + 2.6 / wave) / 300
-touched, drift, most, first = [], 0, 0, 1000 * h * speed**2 / 2
-for step in range(300):
-	O.run(1, wait=True)
-	data = solver.plotData()
-	drift, most = max(drift, abs(data['momentum_x'] / (1000 * h * speed) - 1), abs(data['momentum_y']) / (1000 * h * speed)), max(most, data['kineticEnergy'] + data['elasticEnergy'])
-	if contact.force[0]: touched.append(O.time)
-print(json.dumps(dict(begins=touched[0] * speed / gap, lasts=(touched[-1] - touched[0] + O.dt) * wave / 2, speeds=[means(0)[0] / speed, means(1)[0] / speed], drift=drift, most=most / first, left=contact.force[0])))
-''').result
+	found = yade(scene + bars + f'print(json.dumps(bars({scheme})))').result
 	assert abs(found['begins'] - 1) < 0.01
 	assert abs(found['lasts'] - 1) < 0.02
 	assert abs(found['speeds'][0]) < 0.02 and abs(found['speeds'][1] - 1) < 0.02
 	assert found['drift'] < 1e-12
-	assert found['most'] < 1 + 1e-6
+	assert found['most'] < 1 + (1e-3 if scheme else 1e-6)
 	assert found['left'] == 0
 
 
@@ -334,6 +342,56 @@ print(json.dumps([all(np.array_equal(ends[name], again[name]) for name in ends) 
 	assert same and bodies == ['ground', 'slab'] and numbers == [0, 1]
 
 
+def test_undrained_bodies_keep_pressures_of_their_own(yade):
+	"""Two blocks of soil whose water cannot leave, the upper one without weight, under a load of 10 kPa between smooth sides: each bears the load with its own water and skeleton, and the contact all of it."""
+	force, pressures, stresses = yade(scene + '''
+for label, modulus in ('low', 4e6), ('up', 1e6):
+	O.materials.append(MpmElasticMat(young=1e6, poisson=0, density=1, undrained=True, waterModulus=modulus, label=label))
+grid = MpmGrid(cellSize=0.25)
+O.bodies.append(mpm.fill(box((0, 0), (1, 0.625)), grid, 2, 'low', body='low'))
+O.bodies.append(mpm.fill(box((0, 0.625), (1, 1.25)), grid, 2, 'up', body='up'))
+sides = [MpmBoundary(max=(inf, 0, inf), fix='y'), MpmBoundary(max=(0, inf, inf), fix='x'), MpmBoundary(min=(1, -inf, -inf), fix='x')]
+load, contact = MpmTraction(surface=[(1, 1.25), (0, 1.25)], traction=(0, -1e4, 0), body='up'), MpmBodyContact(between=('up', 'low'), friction=0)
+solver = MpmImplicitEngine(grid=grid, boundaries=sides, loads=[load], contacts=[contact], fBar=True, newton=MpmNewton(tolerance=1e-9), verbosity=0)
+O.engines, O.dt = [solver], 1 / 2
+O.run(2, wait=True)
+points = mpm.arrays()
+own = [points['body'] == b for b in (0, 1)]
+print(json.dumps([contact.force[1], [[f(points['excessPressure'][o]) for f in (min, max)] for o in own], [[f(points['stress'][o, 1, 1]) for f in (min, max)] for o in own]]))
+''').result
+	assert abs(force / 1e4 - 1) < 1e-6
+	for (least, most), (weakest, strongest), modulus in zip(pressures, stresses, (4e6, 1e6)):
+		share = modulus / (modulus + 1e6)  # of the water, in small strains
+		assert most - least < 1e-3 * most and abs(most / (share * 1e4) - 1) < 0.02
+		assert np.allclose([weakest - most, strongest - least], -1e4, rtol=1e-4)
+
+
+@pytest.mark.parametrize('engine, setting', [('MpmImplicitEngine', '{}'), ('MpmDynamicEngine', 'dict(distributed=True)')])
+def test_two_processes_come_to_the_states_of_one(yade, engine, setting):
+	"""A rough block on another one, whose surfaces cross from one process to the other; with all points in both, or with points that are divided."""
+	absence = yade("import json\nfrom yade.mpm.library import engine\nprint(json.dumps(engine.multigridAbsence()))").result
+	if absence: pytest.skip('without PETSc: ' + absence)
+	script = scene + f'''
+import os, sys
+O.materials.append(MpmElasticMat(young=1e6, poisson=0.3, density=2000, label='soil'))
+grid = MpmGrid(cellSize=0.25)
+O.bodies.append(mpm.fill(box((0, 0), (4, 0.625)), grid, 2, 'soil', body='low'))
+O.bodies.append(mpm.fill(box((0.5, 0.625), (2.5, 1.5)), grid, 2, 'soil', body='up'))
+contact, held = MpmBodyContact(between=('up', 'low'), friction=0.3), [MpmBoundary(max=(inf, 0, inf), fix='xy', body='low')]
+solver = {engine}(grid=grid, gravity=({2 if engine == 'MpmImplicitEngine' else 4}, -10, 0), gravityCurve=[(0, {0 if engine == 'MpmImplicitEngine' else 1}), (1, 1)], boundaries=held, contacts=[contact], newton=MpmNewton(tolerance=1e-10), verbosity=0, **eval(sys.argv[1]))
+O.engines, O.dt = [solver], {'1 / 8' if engine == 'MpmImplicitEngine' else '0.02'}
+O.run(3, wait=True)
+points = mpm.arrays()
+order = np.lexsort(points['pos0'].T)
+if int(os.environ.get('OMPI_COMM_WORLD_RANK', 0)) == 0:
+	json.dump([points['pos'][order].tolist(), list(contact.force), list(solver.reactions[0]), contact.touching], open('found.json', 'w'))
+'''
+	found = lambda setting='{}', **how: (yade(script, setting, **how), json.loads((yade.folder / 'found.json').read_text()))[1]
+	alone, together = found(), found(setting, processes=2)
+	assert np.abs(np.array(together[0]) - alone[0]).max() < 1e-9
+	assert np.allclose(together[1:3], alone[1:3], rtol=1e-7, atol=1e-4) and together[3] == alone[3] > 0
+
+
 def test_regions_of_one_name_are_one_body(yade):
 	"""Without a surface where they have a face in common; in the plane also parts of one."""
 	inPlane, inSpace = yade(scene + '''
@@ -372,8 +430,8 @@ refusals = {
         "two(names=('low', 'up', 'top'), between=('low', 'up')); O.step()": ["'up'", "'top'", 'no MpmBodyContact between'],
         "two(water=[MpmWater(level=1)]); O.step()": ['MpmBodyContact', 'water'],
         "two(grid=dict(period=(2, 0, 0))); O.step()": ['MpmBodyContact', 'period'],
-        "two(); O.engines = [MpmDynamicEngine(grid=O.engines[0].grid, scheme='explicit', contacts=O.engines[0].contacts, verbosity=0)]; O.dt = 1e-4; O.step()": ['MpmBodyContact', 'explicit'],
-        "two(boundaries=[MpmBoundary(surface=[(0, 0), (2, 0)], fix='n')]); O.step()": ['MpmBodyContact', 'boundaries[0].surface'],
+        "two(flow=MpmFlow()); O.step()": ['MpmBodyContact', 'flow'],
+        "two(boundaries=[MpmBoundary(surface=[(0, 0), (2, 0)], fix='n')]); O.step()": ['MpmBodyContact', 'boundaries[0].surface', 'MpmBoundary.body'],
         "two(); O.engines[0].contacts = [MpmBodyContact(between=('low', 'up'), friction=0), MpmBodyContact(between=('up', 'low'), friction=0)]; O.step()": ['contacts[0]', 'contacts[1]', 'one is admitted'],
         "two(); O.bodies.erase(0); [O.bodies.erase(b.id) for b in list(O.bodies) if b.state.body == 1]; O.step()": ["'up'", 'no points'],
         "two(); O.engines[0].grid.bodies = ()": [],

@@ -4,6 +4,7 @@
 #include "core/grid/surface.hpp"
 #include "engine/analysis/analysis.hpp"
 #include "engine/conditions/bodies/body_contacts.hpp"
+#include "engine/conditions/bodies/layers.hpp"
 #include "yade_api/registration.hpp"
 #include <set>
 
@@ -30,9 +31,7 @@ void MpmBodyContact::requireFitting(const Analysis& analysis, const string& name
 	for (const string& body : between) {
 		const int number = analysis.grid->bodyNamed(body);
 		if (number < 0) {
-			string known;
-			for (const auto& other : analysis.grid->bodies)
-				known += (known.empty() ? "" : ", ") + other->name;
+			const string known = bodiesThereAre(*analysis.grid);
 			throw std::invalid_argument(gimpm::sentence(
 			        name, ".between: no body is called '", body, "'; ",
 			        known.empty()

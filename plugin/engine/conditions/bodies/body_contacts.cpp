@@ -2,6 +2,7 @@
 #include "engine/conditions/bodies/body_contacts.hpp"
 #include "core/base/sentence.hpp"
 #include "core/terms/motion.hpp"
+#include "engine/conditions/bodies/layers.hpp"
 #include <algorithm>
 #include <set>
 #include <unordered_map>
@@ -9,37 +10,22 @@
 namespace yade {
 
 template <int Dim>
-MeetingBodies<Dim>::MeetingBodies(const MpmCondition::Group& group, const Analysis& analysis) : grid(*analysis.grid), system(new gimpm::BodyContacts<Dim>)
+MeetingBodies<Dim>::MeetingBodies(const MpmCondition::Group& group, const Analysis& analysis)
+        : analysis(analysis), grid(*analysis.grid), system(new gimpm::BodyContacts<Dim>)
 {
 	for (const Listed& listed : group)
 		given.push_back(boost::static_pointer_cast<MpmBodyContact>(listed.condition));
 }
 
-template <int Dim> bool MeetingBodies<Dim>::meet(int one, int other) const
-{
-	if (one < 0 || other < 0) return false;
-	const std::set<string> names { grid.bodies[one]->name, grid.bodies[other]->name };
-	return std::any_of(
-	        given.begin(), given.end(), [&](const auto& contact) { return std::set<string>(contact->between.begin(), contact->between.end()) == names; });
-}
-
-// Each body is in the lowest layer in which it meets none: those without a contact stick as far as that goes together.
 template <int Dim> void MeetingBodies<Dim>::hold(gimpm::Model<Dim>& model)
 {
-	layers = { 0 };
-	for (int body = 0; body < int(grid.bodies.size()); ++body) {
-		std::set<int> taken;
-		for (int other = 0; other < body; ++other)
-			if (meet(body, other)) taken.insert(layers[other + 1]);
-		int layer = 0;
-		while (taken.count(layer))
-			++layer;
-		if (layer > gimpm::Grid<Dim>::mostLayer)
+	layers = bodyLayers(analysis);
+	for (size_t body = 0; body < grid.bodies.size(); ++body)
+		if (layers[body + 1] > gimpm::Grid<Dim>::mostLayer)
 			throw std::invalid_argument(gimpm::sentence(
-			        "contacts: more than ", gimpm::Grid<Dim>::mostLayer + 1, " bodies of points, each of which meets each other, as body '",
-			        grid.bodies[body]->name, "' does, cannot be numbered."));
-		layers.push_back(layer);
-	}
+			        "contacts: more than ", gimpm::Grid<Dim>::mostLayer + 1,
+			        " bodies of points with nodes of their own, as those that meet each other or are named by a condition, as body '",
+			        grid.bodies[body]->name, "' is, cannot be numbered."));
 	model.layers = layers;
 }
 
@@ -57,6 +43,8 @@ template <int Dim> int MeetingBodies<Dim>::slaveOf(const MpmBodyContact& contact
 			volume[side] += cloud.volume0[p];
 		}
 	for (int side = 0; side < 2; ++side)
+		modulus[side] = model.division->sum(modulus[side]), volume[side] = model.division->sum(volume[side]);
+	for (int side = 0; side < 2; ++side)
 		if (volume[side] == 0)
 			throw std::invalid_argument(
 			        "MpmBodyContact.between: body '" + contact.between[side] + "' has no points in the scene: append what mpm.fill(..., body='"
@@ -64,21 +52,50 @@ template <int Dim> int MeetingBodies<Dim>::slaveOf(const MpmBodyContact& contact
 	return modulus[1] / volume[1] < (1 - 1e-9) * (modulus[0] / volume[0]) ? 1 : 0;
 }
 
-// Bodies that would go through each other: in different layers, as both meet a third one, and without a contact.
-template <int Dim> void MeetingBodies<Dim>::requireNoneBetween(const vector<MaterialPoint>& points, const gimpm::Grid<Dim>& lattice) const
+// Pairs of bodies in different layers, as both meet a third one or a condition names one, and without a contact.
+template <int Dim> std::set<std::pair<int, int>> MeetingBodies<Dim>::apart(const vector<MaterialPoint>& points, const gimpm::Division& division) const
 {
-	const bool areAllNamed = std::all_of(points.begin(), points.end(), [](const MaterialPoint& point) { return point.state->body >= 0; });
-	std::set<std::pair<int, int>> apart;
+	std::int64_t areAllNamed = std::all_of(points.begin(), points.end(), [](const MaterialPoint& point) { return point.state->body >= 0; });
+	division.smallest(&areAllNamed, 1);
+	std::set<std::pair<int, int>> pairs;
 	for (int one = areAllNamed ? 0 : -1; one < int(grid.bodies.size()); ++one)
 		for (int other = one + 1; other < int(grid.bodies.size()); ++other)
-			if (layers[one + 1] != layers[other + 1] && !meet(one, other)) apart.insert({ one, other });
-	if (apart.empty()) return;
-	std::unordered_map<gimpm::Key, std::set<int>> bodiesIn;
-	const auto                                    cellOf = [&](const MaterialPoint& point) {
-                return gimpm::Index<Dim>(((point.state->pos.template head<Dim>() - lattice.origin) / lattice.cellSize).array().floor().template cast<int>());
+			if (layers[one + 1] != layers[other + 1] && !meet(analysis, one, other)) pairs.insert({ one, other });
+	return pairs;
+}
+
+namespace {
+	struct BodyInCell {
+		gimpm::Key   cell;
+		std::int64_t body;
+
+		bool operator<(const BodyInCell& other) const { return std::pair(cell, body) < std::pair(other.cell, other.body); }
+		bool operator==(const BodyInCell& other) const { return cell == other.cell && body == other.body; }
 	};
-	for (const MaterialPoint& point : points)
-		bodiesIn[gimpm::Grid<Dim>::key(cellOf(point))].insert(point.state->body);
+
+	// By cell, of the points of all processes.
+	template <int Dim> std::unordered_map<gimpm::Key, std::set<int>> bodiesByCell(const vector<MaterialPoint>& points, const gimpm::Model<Dim>& model)
+	{
+		vector<BodyInCell> own;
+		for (const MaterialPoint& point : points) {
+			const gimpm::Vec<Dim> x = (point.state->pos.template head<Dim>() - model.grid.origin) / model.grid.cellSize;
+			own.push_back({ gimpm::Grid<Dim>::key(x.array().floor().template cast<int>()), point.state->body });
+		}
+		std::sort(own.begin(), own.end());
+		own.erase(std::unique(own.begin(), own.end()), own.end());
+		std::unordered_map<gimpm::Key, std::set<int>> bodies;
+		for (const auto& [cell, body] : model.division->joined(std::move(own)))
+			bodies[cell].insert(int(body));
+		return bodies;
+	}
+}
+
+// Bodies that would go through each other.
+template <int Dim> void MeetingBodies<Dim>::requireNoneBetween(const vector<MaterialPoint>& points, const gimpm::Model<Dim>& model) const
+{
+	const auto pairs = apart(points, *model.division);
+	if (pairs.empty()) return;
+	const auto bodiesIn = bodiesByCell(points, model);
 	for (const auto& [key, bodies] : bodiesIn)
 		for (int n = 0; n < (Dim == 2 ? 9 : 27); ++n) {
 			gimpm::Index<Dim> cell = gimpm::Grid<Dim>::index(key);
@@ -88,11 +105,11 @@ template <int Dim> void MeetingBodies<Dim>::requireNoneBetween(const vector<Mate
 			if (near == bodiesIn.end()) continue;
 			for (const int one : bodies)
 				for (const int other : near->second)
-					if (apart.count({ one, other }))
+					if (pairs.count({ one, other }))
 						throw std::invalid_argument(gimpm::sentence(
 						        "contacts: bodies of points ", nameOf(one), " and ", nameOf(other), " are in neighbouring cells at (",
-						        lattice.nodePosition(cell).transpose(),
-						        ") and have no MpmBodyContact between them; they cannot stick, as a contact of one of them parts it from what the other one sticks to. Give them one, with friction."));
+						        model.grid.nodePosition(cell).transpose(),
+						        ") and have no MpmBodyContact between them; they cannot stick, as a contact of one of them, or a condition that names it (body), parts it from what the other one sticks to. Give them one, with friction."));
 		}
 }
 
@@ -134,7 +151,7 @@ template <int Dim> gimpm::BodyMeeting<Dim> MeetingBodies<Dim>::coreMeeting(const
 
 template <int Dim> void MeetingBodies<Dim>::join(gimpm::Model<Dim>& model, const Surroundings<Dim>& around)
 {
-	requireNoneBetween(around.points, model.grid);
+	requireNoneBetween(around.points, model);
 	for (size_t b = 0; b < grid.bodies.size(); ++b)
 		system->bodies.push_back(coreBody(int(b), model.grid));
 	for (const auto& contact : given) {
@@ -159,14 +176,6 @@ template <int Dim> Work MeetingBodies<Dim>::work(const StepOutcome<Dim>&) const
 	sum.ofContacts = system->work;
 	sum.given      = std::max(0., system->given);
 	return sum;
-}
-
-template <int Dim> Penalty MeetingBodies<Dim>::penalty() const
-{
-	Penalty largest { 0, "smaller MpmBodyContact.stiffness" };
-	for (const auto& contact : given)
-		largest.size = std::max(largest.size, contact->stiffness);
-	return largest;
 }
 
 template <int Dim> void MeetingBodies<Dim>::reach(const StepOutcome<Dim>&)

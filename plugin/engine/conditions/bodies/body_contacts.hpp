@@ -4,6 +4,7 @@
 #include "core/terms/body_contact.hpp"
 #include "engine/analysis/analysis.hpp"
 #include "engine/conditions/bodies/MpmBodyContact.hpp"
+#include <set>
 
 namespace yade {
 
@@ -15,20 +16,20 @@ public:
 	void hold(gimpm::Model<Dim>&) override;
 	void join(gimpm::Model<Dim>&, const Surroundings<Dim>&) override;
 	// Their forces enter the balance with a weight.
-	void    joinMotion(gimpm::Motion<Dim>&, const gimpm::Model<Dim>&, Real begin) override;
-	void    advance(const StepTime&, gimpm::Model<Dim>&, gimpm::Load<Dim>&) override;
-	Work    work(const StepOutcome<Dim>&) const override;
-	void    reach(const StepOutcome<Dim>&) override;
-	Penalty penalty() const override;
+	void joinMotion(gimpm::Motion<Dim>&, const gimpm::Model<Dim>&, Real begin) override;
+	void advance(const StepTime&, gimpm::Model<Dim>&, gimpm::Load<Dim>&) override;
+	Work work(const StepOutcome<Dim>&) const override;
+	void reach(const StepOutcome<Dim>&) override;
 
 private:
-	gimpm::MeetingBody<Dim> coreBody(int number, const gimpm::Grid<Dim>&) const;
-	gimpm::BodyMeeting<Dim> coreMeeting(const MpmBodyContact&) const;
-	int                     slaveOf(const MpmBodyContact&, const Surroundings<Dim>&, const gimpm::Model<Dim>&) const;
-	bool                    meet(int one, int other) const; // whether there is a contact between two, -1: points of no body
-	void                    requireNoneBetween(const vector<MaterialPoint>&, const gimpm::Grid<Dim>&) const;
-	string                  nameOf(int body) const { return body < 0 ? "one without a name" : "'" + grid.bodies[body]->name + "'"; }
+	gimpm::MeetingBody<Dim>       coreBody(int number, const gimpm::Grid<Dim>&) const;
+	gimpm::BodyMeeting<Dim>       coreMeeting(const MpmBodyContact&) const;
+	int                           slaveOf(const MpmBodyContact&, const Surroundings<Dim>&, const gimpm::Model<Dim>&) const;
+	std::set<std::pair<int, int>> apart(const vector<MaterialPoint>&, const gimpm::Division&) const;
+	void                          requireNoneBetween(const vector<MaterialPoint>&, const gimpm::Model<Dim>&) const;
+	string                        nameOf(int body) const { return body < 0 ? "one without a name" : "'" + grid.bodies[body]->name + "'"; }
 
+	const Analysis&                           analysis;
 	const MpmGrid&                            grid;
 	vector<shared_ptr<MpmBodyContact>>        given;
 	vector<int>                               layers; // by the number of the body, from -1 on

@@ -2,6 +2,7 @@
 #include "engine/conditions/boundary/MpmBoundary.hpp"
 #include "core/base/sentence.hpp"
 #include "engine/analysis/analysis.hpp"
+#include "engine/conditions/bodies/layers.hpp"
 #include "engine/conditions/boundary/boundaries.hpp"
 #include "engine/conditions/surface/drawing.hpp"
 #include "engine/grid/box.hpp"
@@ -82,6 +83,7 @@ Real MpmBoundary::end(const Analysis& analysis) const { return analysis.curveOfL
 
 void MpmBoundary::requireFitting(const Analysis& analysis, const string& name) const
 {
+	requireOwnNodes(analysis, body, name);
 	if (motion && !analysis.isDynamic())
 		throw std::invalid_argument(
 		        name + ".motion is a history in time, which MpmImplicitEngine knows nothing of: take MpmDynamicEngine, or give displacement.");
@@ -98,7 +100,8 @@ string MpmBoundary::idleness(const string& name, bool reaches) const
 	if (reaches) return "";
 	const auto [lower, upper] = *extent();
 	return gimpm::sentence(
-	        " ", name, ", from (", lower.transpose(), ") to (", upper.transpose(), "), holds ", surface ? "no material." : "no node of any material.");
+	        " ", name, ", from (", lower.transpose(), ") to (", upper.transpose(), "), holds ", surface ? "no material" : "no node of any material",
+	        body.empty() ? "" : " of body '" + body + "'", ".");
 }
 
 void MpmBoundary::tell(Rows& rows, const Analysis& analysis, const Listed& listed) const

@@ -18,6 +18,7 @@ public:
 	shared_ptr<MpmSurface>    surface; // none: the box
 	Vector3r                  velocity = Vector3r::Zero();
 	Real                      penalty  = 100;
+	string                    body;      // empty: all
 	shared_ptr<MpmBaseMotion> motion;    // none: it does not move by a history
 	vector<Vector3r>          tractions; // of the surface's pieces on the body [Pa]; empty before the first step
 
@@ -47,6 +48,8 @@ public:
 		  curveOrNothing);
 		v("motion", &MpmBoundary::motion, 0,
 		  "History of the velocity of the held nodes (MpmBaseMotion), of MpmDynamicEngine; None, the default: they do not move by one.");
+		v("body", &MpmBoundary::body, 0,
+		  "Body of points that it holds alone, as given to mpm.fill(..., body=...), where bodies meet (MpmBodyContact); empty, the default: all.");
 		v("surface", &MpmBoundary::surface, 0,
 		  "Wall instead of a box: MpmSurface, points, triangles or gts.Surface; None, the default: the box. Each boundary has its own. It holds soil on both sides, and "
 		  "against pull too.");
@@ -75,12 +78,16 @@ public:
 	std::shared_ptr<Condition<2>> make(InPlane, const Group&, const Analysis&) const override;
 	std::shared_ptr<Condition<3>> make(InSpace, const Group&, const Analysis&) const override;
 
-	Real                end(const Analysis&) const override;
-	bool                goesOn() const override { return !velocity.isZero(0); }
-	bool                countsSeconds(const Scene&) const override { return !velocity.isZero(0) || motion; }
-	void                requireFitting(const Analysis&, const string& name) const override;
-	string              needsEqualCells(const string& name) const override { return surface ? name + ".surface" : ""; }
-	string              needsOneBody(const string& name) const override { return needsEqualCells(name); }
+	Real   end(const Analysis&) const override;
+	bool   goesOn() const override { return !velocity.isZero(0); }
+	bool   countsSeconds(const Scene&) const override { return !velocity.isZero(0) || motion; }
+	void   requireFitting(const Analysis&, const string& name) const override;
+	string needsEqualCells(const string& name) const override { return surface ? name + ".surface" : ""; }
+	string needsOneBody(const string& name) const override
+	{
+		return surface && body.empty() ? name + ".surface without the body that it holds (MpmBoundary.body)" : "";
+	}
+	string              onlyOn() const override { return body; }
 	const Serializable* ownSurface() const override { return surface.get(); }
 	bool                mayHold(int axis, Real place, Real near) const override;
 	string              idleness(const string& name, bool reaches) const override;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "engine/conditions/boundary/boundaries.hpp"
+#include "engine/conditions/bodies/layers.hpp"
 #include "engine/conditions/boundary/boxes.hpp"
 #include "engine/conditions/boundary/walls.hpp"
 #include "engine/conditions/surface/surfaces.hpp"
@@ -15,12 +16,18 @@ template <int Dim> Boundaries<Dim>::Boundaries(const MpmCondition::Group& group,
 // Before the box of the axis of symmetry, which is there.
 template <int Dim> void Boundaries<Dim>::hold(gimpm::Model<Dim>& model)
 {
-	boxes            = heldBoxes<Dim>(boundaries, *analysis.grid, model.grid);
+	boxes = heldBoxes<Dim>(boundaries, *analysis.grid, model.grid);
+	for (size_t b = 0; b < boundaries.size(); ++b)
+		boxes[b].layer = layerOf(analysis, boundaries[b]->body);
+	refuseConflicts(boxes, boundaries);
 	const auto& axis = model.boundary.boxes();
 	boxes.insert(boxes.end(), axis.begin(), axis.end());
 	model.boundary = gimpm::Boundary<Dim>(boxes);
 	for (size_t b = 0; b < boundaries.size(); ++b)
-		if (boundaries[b]->surface) walls[int(b)] = wallOf<Dim>(*boundaries[b], "boundaries[" + std::to_string(b) + "]", model);
+		if (boundaries[b]->surface) {
+			walls[int(b)]        = wallOf<Dim>(*boundaries[b], "boundaries[" + std::to_string(b) + "]", model);
+			walls[int(b)]->layer = boxes[b].layer;
+		}
 	model.walls = walls;
 }
 

@@ -37,22 +37,21 @@ namespace {
 		const Real one = boxes[i].displacement[axis];
 		return one == boxes[j].displacement[axis] && (one == 0 || boundaries[i]->curve == boundaries[j]->curve);
 	}
+}
 
-	template <int Dim> void refuseConflicts(const vector<gimpm::HeldBox<Dim>>& boxes, const vector<shared_ptr<MpmBoundary>>& boundaries)
-	{
-		for (size_t i = 0; i < boxes.size(); ++i)
-			for (size_t j = 0; j < i; ++j)
-				for (int axis = 0; axis < Dim; ++axis) {
-					if (!boxes[i].meets(boxes[j]) || !boxes[i].fixed[axis] || !boxes[j].fixed[axis]
-					    || moveAlike(boxes, boundaries, i, j, axis))
-						continue;
-					std::ostringstream text;
-					text << "boundaries[" << j << "] and boundaries[" << i << "] prescribe different displacements along "
-					     << "xyz"[axis] << " (" << boxes[j].displacement[axis] << " and " << boxes[i].displacement[axis]
-					     << " m, each by its curve) to the nodes that lie in both boxes.";
-					throw std::invalid_argument(text.str());
-				}
-	}
+template <int Dim> void refuseConflicts(const vector<gimpm::HeldBox<Dim>>& boxes, const vector<shared_ptr<MpmBoundary>>& boundaries)
+{
+	for (size_t i = 0; i < boxes.size(); ++i)
+		for (size_t j = 0; j < i; ++j)
+			for (int axis = 0; axis < Dim; ++axis) {
+				if (!boxes[i].meets(boxes[j]) || !boxes[i].fixed[axis] || !boxes[j].fixed[axis] || moveAlike(boxes, boundaries, i, j, axis))
+					continue;
+				std::ostringstream text;
+				text << "boundaries[" << j << "] and boundaries[" << i << "] prescribe different displacements along "
+				     << "xyz"[axis] << " (" << boxes[j].displacement[axis] << " and " << boxes[i].displacement[axis]
+				     << " m, each by its curve) to the nodes that lie in both boxes.";
+				throw std::invalid_argument(text.str());
+			}
 }
 
 template <int Dim>
@@ -61,10 +60,11 @@ vector<gimpm::HeldBox<Dim>> heldBoxes(const vector<shared_ptr<MpmBoundary>>& bou
 	vector<gimpm::HeldBox<Dim>> boxes;
 	for (const auto& boundary : boundaries)
 		boxes.push_back(heldBox<Dim>(*boundary, grid, lattice));
-	refuseConflicts(boxes, boundaries);
 	return boxes;
 }
 
+template void                      refuseConflicts(const vector<gimpm::HeldBox<2>>&, const vector<shared_ptr<MpmBoundary>>&);
+template void                      refuseConflicts(const vector<gimpm::HeldBox<3>>&, const vector<shared_ptr<MpmBoundary>>&);
 template vector<gimpm::HeldBox<2>> heldBoxes(const vector<shared_ptr<MpmBoundary>>&, const MpmGrid&, const gimpm::Grid<2>&);
 template vector<gimpm::HeldBox<3>> heldBoxes(const vector<shared_ptr<MpmBoundary>>&, const MpmGrid&, const gimpm::Grid<3>&);
 

@@ -6,7 +6,10 @@
 
 namespace yade {
 
-// The nodes that the boundaries hold. std::invalid_argument names boundaries that hold none, or contradict each other.
+// The nodes that the boundaries hold, of all bodies. std::invalid_argument names boundaries that hold none.
 template <int Dim> vector<gimpm::HeldBox<Dim>> heldBoxes(const vector<shared_ptr<MpmBoundary>>&, const MpmGrid&, const gimpm::Grid<Dim>&);
+
+// std::invalid_argument for boxes of boundaries that prescribe a node two displacements.
+template <int Dim> void refuseConflicts(const vector<gimpm::HeldBox<Dim>>&, const vector<shared_ptr<MpmBoundary>>&);
 
 } // namespace yade

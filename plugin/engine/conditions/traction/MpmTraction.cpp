@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "engine/conditions/traction/MpmTraction.hpp"
 #include "engine/analysis/analysis.hpp"
+#include "engine/conditions/bodies/layers.hpp"
 #include "engine/conditions/surface/drawing.hpp"
 #include "engine/conditions/traction/surface_loads.hpp"
 #include "yade_api/registration.hpp"
@@ -17,6 +18,8 @@ std::shared_ptr<Condition<2>> MpmTraction::make(InPlane, const Group& group, con
 std::shared_ptr<Condition<3>> MpmTraction::make(InSpace, const Group& group, const Analysis&) const { return std::make_shared<SurfaceLoads<3>>(group); }
 
 Real MpmTraction::end(const Analysis& analysis) const { return analysis.curveOfLoad(curve).end(); }
+
+void MpmTraction::requireFitting(const Analysis& analysis, const string& name) const { requireOwnNodes(analysis, body, name); }
 
 vector<Vector3r> MpmTraction::places() const
 {

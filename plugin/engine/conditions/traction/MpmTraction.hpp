@@ -11,6 +11,7 @@ public:
 	shared_ptr<MpmSurface>  surface; // must be given
 	Real                    pressure = 0;
 	Vector3r                traction = Vector3r::Zero();
+	string                  body;  // empty: the one that is near
 	gimpm::LoadCurve::Knees curve; // empty: that of the engine
 	Vector3r                resultant = Vector3r::Constant(std::numeric_limits<Real>::quiet_NaN());
 
@@ -33,6 +34,9 @@ public:
 		v("traction", &MpmTraction::traction, 0, "Force over initial area [Pa] at load factor 1, finite; its direction stays.", finite);
 		v("curve", &MpmTraction::curve, 0,
 		  "Load factor [-] as a sequence of (time [s], factor), as *MpmImplicitEngine.loadCurve*; empty, the default: that one.", curveOrNothing);
+		v("body", &MpmTraction::body, 0,
+		  "Body of points that it acts on, as given to mpm.fill(..., body=...), where bodies meet (MpmBodyContact); empty, the default: the one that all of the "
+		  "surface lies on.");
 		v("resultant", &MpmTraction::resultant, readonly,
 		  "Force [N] on the body at the end of the last converged step; per metre of thickness in plane strain, NaN before the first.");
 	}
@@ -44,6 +48,8 @@ public:
 	std::shared_ptr<Condition<3>> make(InSpace, const Group&, const Analysis&) const override;
 
 	Real                end(const Analysis&) const override;
+	void                requireFitting(const Analysis&, const string& name) const override;
+	string              onlyOn() const override { return body; }
 	const Serializable* ownSurface() const override { return surface.get(); }
 	vector<Vector3r>    places() const override; // vertices and middles of pieces
 	bool                actsAlong(int axis) const override { return traction[axis] != 0; }

@@ -2,6 +2,7 @@
 #include "engine/conditions/traction/surface_loads.hpp"
 #include "core/base/sentence.hpp"
 #include "core/grid/nearness.hpp"
+#include "engine/conditions/bodies/layers.hpp"
 #include "engine/conditions/surface/surfaces.hpp"
 
 namespace yade {
@@ -21,7 +22,7 @@ namespace {
 		Real            part = 0;
 		gimpm::Vec<Dim> place {};
 
-		Inside(const gimpm::Surface<Dim>& surface, const gimpm::PointCloud<Dim>& cloud, const gimpm::Grid<Dim>& grid)
+		Inside(const gimpm::Surface<Dim>& surface, int layer, const gimpm::PointCloud<Dim>& cloud, const gimpm::Grid<Dim>& grid)
 		{
 			std::vector<gimpm::Vec<Dim>> beside;
 			for (const auto& piece : surface.pieces) {
@@ -29,7 +30,7 @@ namespace {
 				beside.push_back(middle(piece, surface) + away);
 				beside.push_back(middle(piece, surface) - away);
 			}
-			const auto isFar = gimpm::areFarFromMaterial<Dim>(beside, std::vector<double>(beside.size(), 0), cloud, grid);
+			const auto isFar = gimpm::areFarFromMaterial<Dim>(beside, std::vector<double>(beside.size(), 0), cloud, grid, layer);
 			Real       all   = 0;
 			for (size_t i = 0; i < surface.pieces.size(); ++i) {
 				const Real size = surface.normal(surface.pieces[i], surface.vertices).norm();
@@ -60,7 +61,8 @@ template <int Dim> void SurfaceLoads<Dim>::join(gimpm::Model<Dim>& model, const 
 		sources.push_back({ load, around.analysis.curveOfLoad(load->curve) });
 		loads.push_back({ coreSurface<Dim>(*load->surface) });
 		loads.back().isNew = load->surface->initialVertices.empty();
-		loads.back().name  = listed.name();
+		loads.back().name  = listed.name() + (load->body.empty() ? "" : " on body '" + load->body + "'");
+		loads.back().layer = layerOf(around.analysis, load->body);
 		loads.back().surface.refine(gimpm::pieceLimit * model.grid.cellSize);
 	}
 	for (auto& load : loads)
@@ -107,7 +109,7 @@ template <int Dim> string SurfaceLoads<Dim>::warningOfPlace(const gimpm::PointCl
 	for (size_t i = 0; i < loads.size(); ++i) {
 		const MpmTraction& load = *sources[i].from;
 		if (!loads[i].isNew || (load.pressure == 0 && load.traction.isZero(0))) continue;
-		const Inside<Dim> inside(loads[i].surface, cloud, grid);
+		const Inside<Dim> inside(loads[i].surface, loads[i].layer, cloud, grid);
 		if (inside.part > 0.5)
 			return gimpm::sentence(
 			        loads[i].name, " acts inside of the body: there is material on both sides of its surface, as at (", inside.place.transpose(),
