@@ -10,7 +10,7 @@
 namespace gimpm {
 namespace {
 
-/// Of what is in play, by which a step of bodies that meet may gain: as much as contact may give (body_contact_end.cpp).
+/// Of what is in play, by which a step of bodies that meet may gain: as contact may give (body_contact_end.cpp).
 constexpr double mostOfBodies = 1e-3;
 
 /// Kirchhoff stress over the plane or space of the grid, and around an axis.

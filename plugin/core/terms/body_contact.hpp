@@ -30,8 +30,8 @@ template <int Dim> struct MeetingBody {
 	int          layer = 0; ///< of its nodes
 	Surface<Dim> surface;   ///< moved with it in each step that is accepted
 
-	/// Parts of the surface are no longer than pieceLimitOfBodies at first, and later than that with stretchOfPieces.
-	/// Returns for each which it has been part of.
+	/// Parts of the surface are no longer than pieceLimitOfBodies at first, and later with stretchOfPieces. Returns
+	/// for each which it has been part of.
 	std::vector<int> refine(double cellSize)
 	{
 		const double stretch = surface.vertices == surface.vertices0 ? 1 : stretchOfPieces;

@@ -158,9 +158,9 @@ template <int Dim> void BodyContact<Dim>::findFirst(Place& place)
 	        "', at (", place.start.transpose(), "): bodies must not overlap, and larger steps than they can bear get them into each other");
 }
 
-/// Of the places on one piece of a surface, which have its mean pressure, those that would not be pressed with it by the
-/// gaps between them were not as the last step ended: the others have their forces. Else they would have to open again
-/// in each step.
+/// Of the places on one piece of a surface, which have its mean pressure, those that would not be pressed with it by
+/// the gaps between them were not as the last step ended: the others have their forces. Else they would have to open
+/// again in each step.
 template <int Dim> void BodyContact<Dim>::keepApart(Place* begin, Place* end)
 {
 	double pressure = 0, gap = 0, penalty = 0;
