@@ -2,7 +2,7 @@
 // Times of the parts of a load step, per point or per unknown, on a slope half way through its failure.
 #include "bench/scenes.hpp"
 #include "core/stepping/step_system.hpp"
-#include "core/terms/point_update.hpp"
+#include "core/terms/points/point_update.hpp"
 #include "law/kinematic_hardening.hpp"
 #include <benchmark/benchmark.h>
 #include <malloc.h>

@@ -2,7 +2,7 @@
 // Bodies with inertia for the tests of the core.
 #pragma once
 #include "core/stepping/explicit_step.hpp"
-#include "core/terms/inertia.hpp"
+#include "core/terms/inertia/inertia.hpp"
 #include "scenes.hpp"
 #include <Eigen/Geometry>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // A block of soil, and rigid bodies that touch it.
 #pragma once
-#include "core/terms/contact.hpp"
+#include "core/terms/contact/contact.hpp"
 #include "scenes.hpp"
 
 namespace gimpm {

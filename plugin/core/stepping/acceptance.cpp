@@ -4,9 +4,9 @@
 #include "core/stepping/beyond_walls.hpp"
 #include "core/stepping/energy_gain.hpp"
 #include "core/stepping/outcome.hpp"
-#include "core/terms/even_dilation.hpp"
-#include "core/terms/point_update.hpp"
-#include "core/terms/within_cells.hpp"
+#include "core/terms/points/even_dilation.hpp"
+#include "core/terms/points/point_update.hpp"
+#include "core/terms/points/within_cells.hpp"
 #include <algorithm>
 #include <sstream>
 

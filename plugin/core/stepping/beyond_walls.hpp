@@ -2,7 +2,7 @@
 // What carries the parts of domains that reach behind walls.
 #pragma once
 #include "core/stepping/step_system.hpp"
-#include "core/terms/motion.hpp"
+#include "core/terms/inertia/motion.hpp"
 
 namespace gimpm {
 

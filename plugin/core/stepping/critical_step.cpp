@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "core/stepping/critical_step.hpp"
-#include "core/terms/absorbing.hpp"
+#include "core/terms/inertia/absorbing.hpp"
 #include <algorithm>
 
 namespace gimpm {

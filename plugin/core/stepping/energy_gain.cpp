@@ -2,8 +2,8 @@
 #include "core/stepping/energy_gain.hpp"
 #include "core/base/sentence.hpp"
 #include "core/stepping/outcome.hpp"
-#include "core/terms/body_contact.hpp"
-#include "core/terms/inertia.hpp"
+#include "core/terms/bodies/body_contact.hpp"
+#include "core/terms/inertia/inertia.hpp"
 #include <algorithm>
 #include <cmath>
 

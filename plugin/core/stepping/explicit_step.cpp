@@ -5,7 +5,7 @@
 #include "core/stepping/acceptance.hpp"
 #include "core/stepping/beyond_walls.hpp"
 #include "core/stepping/outcome.hpp"
-#include "core/terms/explicit_inertia.hpp"
+#include "core/terms/inertia/explicit_inertia.hpp"
 
 namespace gimpm {
 namespace {

@@ -3,7 +3,7 @@
 #pragma once
 #include "core/stepping/model.hpp"
 #include "core/stepping/report.hpp"
-#include "core/terms/motion.hpp"
+#include "core/terms/inertia/motion.hpp"
 
 namespace gimpm {
 

@@ -10,7 +10,7 @@
 #include "core/stepping/rate_change.hpp"
 #include "core/stepping/restraint.hpp"
 #include "core/stepping/step_control.hpp"
-#include "core/terms/inertia.hpp"
+#include "core/terms/inertia/inertia.hpp"
 #include <utility>
 
 namespace gimpm {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "core/stepping/outcome.hpp"
 #include "core/base/sentence.hpp"
-#include "core/terms/inertia.hpp"
+#include "core/terms/inertia/inertia.hpp"
 
 namespace gimpm {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "core/stepping/rate_change.hpp"
 #include "core/grid/point_nodes.hpp"
-#include "core/terms/point_update.hpp"
+#include "core/terms/points/point_update.hpp"
 #include <algorithm>
 #include <cmath>
 #include <numeric>

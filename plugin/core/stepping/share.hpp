@@ -3,7 +3,7 @@
 #pragma once
 #include "core/grid/neighbourhood.hpp"
 #include "core/stepping/model.hpp"
-#include "core/terms/internal_force.hpp"
+#include "core/terms/points/internal_force.hpp"
 
 namespace gimpm {
 

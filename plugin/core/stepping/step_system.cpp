@@ -3,8 +3,8 @@
 #include "core/base/stopwatch.hpp"
 #include "core/grid/mixed_cells.hpp"
 #include "core/terms/aggregates.hpp"
-#include "core/terms/at_middle.hpp"
-#include "core/terms/inertia.hpp"
+#include "core/terms/inertia/inertia.hpp"
+#include "core/terms/points/at_middle.hpp"
 #include <algorithm>
 
 namespace gimpm {

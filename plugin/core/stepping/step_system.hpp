@@ -7,7 +7,7 @@
 #include "core/stepping/report.hpp"
 #include "core/stepping/share.hpp"
 #include "core/terms/ghost.hpp"
-#include "core/terms/internal_force.hpp"
+#include "core/terms/points/internal_force.hpp"
 
 namespace gimpm {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-#include "core/terms/time_scheme.hpp"
+#include "core/terms/inertia/time_scheme.hpp"
 #include "engine/engines/MpmImplicitEngine.hpp"
 #include "engine/engines/explicit_steps.hpp"
 

@@ -2,7 +2,7 @@
 #include "engine/engines/moving.hpp"
 #include "core/base/sentence.hpp"
 #include "core/stepping/explicit_step.hpp"
-#include "core/terms/inertia.hpp"
+#include "core/terms/inertia/inertia.hpp"
 #include "engine/engines/MpmDynamicEngine.hpp"
 #include "engine/engines/explicit_steps.hpp"
 #include "engine/engines/plastic_work.hpp"

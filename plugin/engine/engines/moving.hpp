@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 // Inertia in the steps of a run.
-#include "core/terms/motion.hpp"
-#include "core/terms/rayleigh.hpp"
+#include "core/terms/inertia/motion.hpp"
+#include "core/terms/inertia/rayleigh.hpp"
 #include "engine/engines/job.hpp"
 
 namespace yade {

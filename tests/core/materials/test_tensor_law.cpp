@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Laws with tensors, by one of these tests: kinematic hardening. One point, and bodies of such points beside others.
-#include "core/terms/point_update.hpp"
+#include "core/terms/points/point_update.hpp"
 #include "derivatives.hpp"
 #include "law/kinematic_hardening.hpp"
 #include "scenes.hpp"

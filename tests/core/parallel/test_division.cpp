@@ -3,8 +3,8 @@
 // stand for the processes.
 #include "core/parallel/halo.hpp"
 #include "core/stepping/step_system.hpp"
-#include "core/terms/inertia.hpp"
-#include "core/terms/rayleigh.hpp"
+#include "core/terms/inertia/inertia.hpp"
+#include "core/terms/inertia/rayleigh.hpp"
 #include "divided_points.hpp"
 #include "threads_as_processes.hpp"
 #include <atomic>

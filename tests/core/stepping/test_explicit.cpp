@@ -2,7 +2,7 @@
 // Central differences: closed forms, what is kept, and how long a step may be.
 #include "core/stepping/critical_step.hpp"
 #include "core/stepping/step_system.hpp"
-#include "core/terms/nodal_mass.hpp"
+#include "core/terms/inertia/nodal_mass.hpp"
 #include "moving.hpp"
 
 namespace gimpm::testExplicit {

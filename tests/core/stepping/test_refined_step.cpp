@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Load steps on cells of several sizes.
 #include "core/stepping/step_system.hpp"
-#include "core/terms/centres.hpp"
+#include "core/terms/points/centres.hpp"
 #include "derivatives.hpp"
 #include "refined.hpp"
 #include <omp.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "core/stepping/step_system.hpp"
-#include "core/terms/absorbing.hpp"
-#include "core/terms/rayleigh.hpp"
+#include "core/terms/inertia/absorbing.hpp"
+#include "core/terms/inertia/rayleigh.hpp"
 #include "derivatives.hpp"
 #include "moving.hpp"
 #include <complex>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The tangent of a step in which everything acts at once that resists displacements, against the derivative of its
 // forces.
-#include "core/terms/contact.hpp"
+#include "core/terms/contact/contact.hpp"
 #include "core/terms/traction.hpp"
-#include "core/terms/water.hpp"
+#include "core/terms/water/water.hpp"
 #include "derivatives.hpp"
 #include "refined.hpp"
 

@@ -2,7 +2,7 @@
 // Nodal forces of a cloud: balance, virial, external forces, and independence of the number of threads.
 #include "core/materials/kinematics.hpp"
 #include "core/stepping/step_system.hpp"
-#include "core/terms/point_update.hpp"
+#include "core/terms/points/point_update.hpp"
 #include "scenes.hpp"
 #include <algorithm>
 #include <omp.h>

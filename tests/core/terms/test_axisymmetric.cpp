@@ -3,7 +3,7 @@
 #include "core/materials/kinematics.hpp"
 #include "core/stepping/restraint.hpp"
 #include "core/stepping/step_system.hpp"
-#include "core/terms/point_update.hpp"
+#include "core/terms/points/point_update.hpp"
 #include "derivatives.hpp"
 #include "scenes.hpp"
 

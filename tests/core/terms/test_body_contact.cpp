@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Bodies of points that meet: stresses where they press, derivatives, and that layers change nothing by themselves.
 #include "core/stepping/step_system.hpp"
-#include "core/terms/body_contact.hpp"
+#include "core/terms/bodies/body_contact.hpp"
 #include "scenes.hpp"
 #include <Eigen/Geometry>
 

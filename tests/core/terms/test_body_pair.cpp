@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // What a place on one body and a piece of the surface of another do to each other.
-#include "core/terms/body_pair.hpp"
+#include "core/terms/bodies/body_pair.hpp"
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 #include <random>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // How far a place is from a rigid body, and what that does to it, with derivatives against finite differences.
-#include "core/terms/contact_law.hpp"
+#include "core/terms/contact/contact_law.hpp"
 #include "scenes.hpp"
 #include <Eigen/Geometry>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // What soil a place on a body sees: how far it is, and how much of it.
-#include "core/terms/contact_sight.hpp"
+#include "core/terms/contact/contact_sight.hpp"
 #include "scenes.hpp"
 
 namespace gimpm::testContactSight {

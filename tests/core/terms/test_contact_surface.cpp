@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Points on the surfaces of rigid bodies: areas and moments in sum, spacing, sides, and names.
-#include "core/terms/contact_surface.hpp"
+#include "core/terms/contact/contact_surface.hpp"
 #include "scenes.hpp"
 #include <Eigen/Geometry>
 #include <set>

@@ -2,8 +2,8 @@
 // What is added to the motion of points so that all volumes in a cell change alike.
 #include "core/stepping/acceptance.hpp"
 #include "core/stepping/step_system.hpp"
-#include "core/terms/even_dilation.hpp"
-#include "core/terms/point_update.hpp"
+#include "core/terms/points/even_dilation.hpp"
+#include "core/terms/points/point_update.hpp"
 #include "scenes.hpp"
 
 namespace gimpm::testEvenDilation {

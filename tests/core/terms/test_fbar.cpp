@@ -2,7 +2,7 @@
 // F-bar: the kernel against its formulas written down point by point, and what it must leave as it is.
 #include "core/materials/kinematics.hpp"
 #include "core/stepping/step_system.hpp"
-#include "core/terms/point_update.hpp"
+#include "core/terms/points/point_update.hpp"
 #include "scenes.hpp"
 #include <numeric>
 

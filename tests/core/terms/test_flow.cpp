@@ -2,8 +2,8 @@
 // Water that flows through a soil which deforms: tangent, balance, exact fields, and columns that consolidate.
 #include "core/solvers/condition.hpp"
 #include "core/stepping/load_step.hpp"
-#include "core/terms/flow.hpp"
 #include "core/terms/traction.hpp"
+#include "core/terms/water/flow.hpp"
 #include "derivatives.hpp"
 #include "scenes.hpp"
 

@@ -2,7 +2,7 @@
 // K + K_g against the finite-difference derivative of the nodal forces, for random clouds in finite strain.
 #include "core/materials/kinematics.hpp"
 #include "core/stepping/step_system.hpp"
-#include "core/terms/point_update.hpp"
+#include "core/terms/points/point_update.hpp"
 #include "derivatives.hpp"
 #include "scenes.hpp"
 #include <algorithm>

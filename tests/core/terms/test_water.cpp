@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Water in the pores and around a body: averages of pressure, tangents, and balances by hand.
-#include "core/terms/water.hpp"
+#include "core/terms/water/water.hpp"
 #include "derivatives.hpp"
 #include "scenes.hpp"
 

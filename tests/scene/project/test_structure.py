@@ -10,7 +10,7 @@ from conftest import root
 plugin = root / 'plugin'
 
 # what the core may include besides the standard library, whose headers have no folder and no suffix
-coreIncludes = re.compile(r'<\w+>|<(unsupported/)?Eigen/\w+>|<(cholmod|umfpack|dmumps_c|omp|dlfcn)\.h>|"core/\w+/\w+\.hpp"')
+coreIncludes = re.compile(r'<\w+>|<(unsupported/)?Eigen/\w+>|<(cholmod|umfpack|dmumps_c|omp|dlfcn)\.h>|"core/(terms/)?\w+/\w+\.hpp"')
 # the interface to YADE may include anything but the classes and numerics that are built on it
 interfaceIncludes = re.compile(r'<.*>|"yade_api/\w+\.hpp"')
 
@@ -27,6 +27,8 @@ below = {
         'stepping': ['base', 'fields', 'grid', 'materials', 'parallel', 'solvers', 'terms'],
 }
 
+# the folders of terms, which follow what all of them need: each may include those before it
+foldersOfTerms = ['terms', 'points', 'contact', 'bodies', 'inertia', 'water']
 
 # the folders of the engine: each may include those before it, and what it has itself
 engineFolders = ['materials', 'points', 'grid', 'analysis', 'conditions', 'parallel', 'messages', 'output', 'engines']
@@ -58,8 +60,18 @@ def test_foldersOfTheCoreIncludeThoseBelow():
 	assert {path.name for path in (plugin / 'core').iterdir() if path.is_dir()} == set(below)
 	wrong = []
 	for path, included in includes('core'):
-		target = re.match(r'"core/(\w+)/', included)
-		if target and target[1] != path.parent.name and target[1] not in below[path.parent.name]: wrong.append(f'{path.relative_to(plugin)}: {included}')
+		own, target = path.relative_to(plugin / 'core').parts[0], re.match(r'"core/(\w+)/', included)
+		if target and target[1] != own and target[1] not in below[own]: wrong.append(f'{path.relative_to(plugin)}: {included}')
+	assert not wrong
+
+
+def test_foldersOfTermsIncludeThoseBefore():
+	"""What all terms need stands in core/terms itself."""
+	assert [path.name for path in (plugin / 'core' / 'terms').iterdir() if path.is_dir() and path.name not in foldersOfTerms] == []
+	wrong = []
+	for path, included in includes('core/terms'):
+		own, target = path.parent.name, re.match(r'"core/terms/(?:(\w+)/)?', included)
+		if target and foldersOfTerms.index(target[1] or 'terms') > foldersOfTerms.index(own): wrong.append(f'{path.relative_to(plugin)}: {included}')
 	assert not wrong
 
 
@@ -91,8 +103,8 @@ def test_onlyEnginesTakeAnEngine():
 	assert not wrong
 
 
-def test_foldersOfTheEngineAreNotCrowded():
-	folders = [folder for folder in (plugin / 'engine').rglob('*') if folder.is_dir()]
+def test_foldersOfTheEngineAndOfTermsAreNotCrowded():
+	folders = [folder for part in ('engine', 'core/terms') for folder in (plugin / part).rglob('*') if folder.is_dir()]
 	assert not [folder.name for folder in folders if sum(path.is_file() for path in folder.iterdir()) > 30]
 
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "engine/conditions/bodies/body_contacts.hpp"
 #include "core/base/sentence.hpp"
-#include "core/terms/motion.hpp"
+#include "core/terms/inertia/motion.hpp"
 #include "engine/conditions/bodies/layers.hpp"
 #include <algorithm>
 #include <set>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 // Bodies of points that meet, between the conditions of a scene and the term of a step.
-#include "core/terms/body_contact.hpp"
+#include "core/terms/bodies/body_contact.hpp"
 #include "engine/analysis/analysis.hpp"
 #include "engine/conditions/bodies/MpmBodyContact.hpp"
 #include <set>

@@ -2,7 +2,7 @@
 #pragma once
 // What holds the body, between the boundaries of a scene and the core: boxes of nodes, walls off the lines of the grid,
 // and bases that move by a history.
-#include "core/terms/motion.hpp"
+#include "core/terms/inertia/motion.hpp"
 #include "engine/analysis/analysis.hpp"
 #include "engine/conditions/boundary/MpmBoundary.hpp"
 

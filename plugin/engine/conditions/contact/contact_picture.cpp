@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "engine/conditions/contact/contact_picture.hpp"
-#include "core/terms/contact_fine.hpp"
+#include "core/terms/contact/contact_fine.hpp"
 #include "engine/analysis/analysis.hpp"
 #include "engine/conditions/contact/MpmContact.hpp"
 #include "engine/conditions/contact/contact_records.hpp"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "engine/conditions/contact/contacts.hpp"
 #include "core/base/sentence.hpp"
-#include "core/terms/contact_coupling.hpp"
-#include "core/terms/motion.hpp"
+#include "core/terms/contact/contact_coupling.hpp"
+#include "core/terms/inertia/motion.hpp"
 #include "engine/analysis/analysis.hpp"
 #include "engine/conditions/contact/rigid_bodies.hpp"
 #include "engine/conditions/contact/small_features.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "engine/conditions/contact/deforming_bodies.hpp"
 #include "core/base/sentence.hpp"
-#include "core/terms/contact_surface.hpp"
+#include "core/terms/contact/contact_surface.hpp"
 #include "yade_api/grids.hpp"
 #include <algorithm>
 #include <set>

@@ -2,7 +2,7 @@
 #pragma once
 // Bodies that deform with others, which are nodes at their corners: YADE's GridConnection, PFacet and ChainedCylinder.
 #include "core/grid/grid.hpp"
-#include "core/terms/rigid_body.hpp"
+#include "core/terms/contact/rigid_body.hpp"
 #include "yade_api/scene.hpp"
 
 namespace yade {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 // Which steps bodies that YADE moves freely admit beside the soil.
-#include "core/terms/contact.hpp"
+#include "core/terms/contact/contact.hpp"
 #include "yade_api/body.hpp"
 
 namespace yade {

@@ -2,7 +2,7 @@
 #pragma once
 // Free bodies that the load step moves itself.
 #include "core/grid/grid.hpp"
-#include "core/terms/contact_free.hpp"
+#include "core/terms/contact/contact_free.hpp"
 #include "yade_api/scene.hpp"
 
 namespace yade {

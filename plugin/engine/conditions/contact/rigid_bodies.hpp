@@ -2,7 +2,7 @@
 #pragma once
 // Rigid bodies of the scene, as the core understands them.
 #include "core/grid/grid.hpp"
-#include "core/terms/rigid_body.hpp"
+#include "core/terms/contact/rigid_body.hpp"
 #include "yade_api/scene.hpp"
 #include <optional>
 

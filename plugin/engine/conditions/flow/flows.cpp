@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "engine/conditions/flow/flows.hpp"
-#include "core/terms/absorbing.hpp"
-#include "core/terms/flow.hpp"
-#include "core/terms/frozen_pressures.hpp"
+#include "core/terms/inertia/absorbing.hpp"
+#include "core/terms/water/flow.hpp"
+#include "core/terms/water/frozen_pressures.hpp"
 #include "engine/conditions/surface/surfaces.hpp"
 #include "engine/conditions/water/MpmWater.hpp"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 // Water that flows, between the conditions of a scene and the terms of a step.
-#include "core/terms/soil_water.hpp"
+#include "core/terms/water/soil_water.hpp"
 #include "engine/analysis/analysis.hpp"
 #include "engine/conditions/flow/MpmFlow.hpp"
 #include "engine/conditions/water/MpmWater.hpp"

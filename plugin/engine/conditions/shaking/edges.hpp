@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 // Edges that absorb waves, between a scene and the core.
-#include "core/terms/absorbing.hpp"
-#include "core/terms/motion.hpp"
+#include "core/terms/inertia/absorbing.hpp"
+#include "core/terms/inertia/motion.hpp"
 #include "engine/analysis/analysis.hpp"
 #include "engine/conditions/shaking/MpmAbsorbingBoundary.hpp"
 

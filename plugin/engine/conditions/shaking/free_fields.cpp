@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "engine/conditions/shaking/free_fields.hpp"
 #include "core/base/sentence.hpp"
-#include "core/terms/absorbing.hpp"
-#include "core/terms/motion.hpp"
+#include "core/terms/inertia/absorbing.hpp"
+#include "core/terms/inertia/motion.hpp"
 #include "engine/conditions/surface/surfaces.hpp"
 
 namespace yade {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 // Edges beyond which the ground moves by itself, between a scene and the core.
-#include "core/terms/ground_edge.hpp"
+#include "core/terms/inertia/ground_edge.hpp"
 #include "engine/analysis/analysis.hpp"
 #include "engine/conditions/shaking/MpmFreeField.hpp"
 

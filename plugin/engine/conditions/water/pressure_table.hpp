@@ -2,7 +2,7 @@
 #pragma once
 // The pressure that a function of Python gives, at the nodes around the material points.
 #include "core/parallel/division.hpp"
-#include "core/terms/water_pressure.hpp"
+#include "core/terms/water/water_pressure.hpp"
 #include "engine/conditions/water/MpmWater.hpp"
 
 namespace yade {

@@ -1,0 +1,273 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "core/terms/bodies/body_contact.hpp"
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <utility>
+
+namespace gimpm {
+namespace {
+
+/// Pieces are seen by places with a normal at more than some 80 degrees from theirs.
+constexpr double facing = 0.2;
+
+/// How far a place may get beyond a side of the piece that it began the step with, over the size of a cell.
+constexpr double beyondPiece = 0.125;
+
+} // namespace
+
+template <int Dim> auto BodyContact<Dim>::placesAt(const Eigen::VectorXd& d) const -> Places
+{
+	Places places;
+	for (const auto& facets : facets_)
+		places.push_back(facets.placesAt(d));
+	return places;
+}
+
+template <int Dim> PairPlaces<Dim> BodyContact<Dim>::pair(const Vec<Dim>& place, int body, int piece, const Places& places) const
+{
+	PairPlaces<Dim> x;
+	x[0] = place;
+	for (int v = 0; v < Dim; ++v)
+		x[v + 1] = places[body][facets_[body].pieces[piece][v]];
+	return x;
+}
+
+/// The place goes on with what the foot moves less than the vertices.
+template <int Dim> PairPlaces<Dim> BodyContact<Dim>::pairNow(const Place& place, const Near& near, const Eigen::VectorXd& d, const Places& now) const
+{
+	const int       master = meetingOf(place).master;
+	PairPlaces<Dim> x = pair(place.start, master, near.piece, now), start = pair(place.start, master, near.piece, start_);
+	x[0] += place.at.displacement(d) - near.foot.displacement(d);
+	for (int v = 0; v < Dim; ++v)
+		x[0] += near.weight[v] * (x[v + 1] - start[v + 1]);
+	return x;
+}
+
+/// Without displacements as the step begins.
+template <int Dim> PairPlaces<Dim> BodyContact<Dim>::pairThen(const Place& place, const Near& near, const Eigen::VectorXd* d, const Places& places) const
+{
+	return d ? pairNow(place, near, *d, places) : pair(place.start, meetingOf(place).master, near.piece, places);
+}
+
+/// The piece that is nearest to where the place is, null if that does not face it. At an edge the one behind which the
+/// place is least.
+template <int Dim> auto BodyContact<Dim>::nearestOf(const Place& place, const Eigen::VectorXd* d, const Places& places) const -> const Near*
+{
+	const double same  = 1e-12 * cellSize_ * cellSize_;
+	double       least = std::numeric_limits<double>::infinity(), gap = 0;
+	const Near*  nearest = nullptr;
+	Vec<Dim>     normal  = Vec<Dim>::Zero();
+	for (const Near& near : place.near) {
+		const auto   x    = pairThen(place, near, d, places);
+		const double away = squaredDistance(x);
+		if (away > least + same) continue;
+		const Facing<Dim> at(x);
+		if (away > least - same && at.gap < gap) continue;
+		least = std::min(least, away), gap = at.gap, nearest = &near, normal = at.normal;
+	}
+	return nearest && normal.dot(place.normal) < facing ? nearest : nullptr;
+}
+
+/// With the piece that was nearest as the step began, and with the plane of it a little beyond its sides: pressures
+/// would jump to and fro between pieces beside each other, whose normals differ, and what has entered by one side of a
+/// corner and is pushed out by the other one would win energy.
+template <int Dim> bool BodyContact<Dim>::goesOn(const PairPlaces<Dim>& x) const
+{
+	const Facing<Dim> at(x);
+	for (int i = 0; i < Dim; ++i)
+		if (at.weight[i] < -beyondPiece * cellSize_ * at.slope[i].norm()) return false;
+	return true;
+}
+
+/// Calls f with the derivatives if they are wanted.
+template <int Dim>
+auto BodyContact<Dim>::look(const Eigen::VectorXd& d, PairSlope slope, const std::function<void(const Touching&, const Slope&)>& f) const -> const Looked&
+{
+	if (!f && looked_.d.size() == d.size() && looked_.d == d) return looked_;
+	looked_.d = d, looked_.now = placesAt(d), looked_.touching.clear();
+	for (const Place& place : places_) {
+		const auto& meeting = meetingOf(place);
+		const Near* near    = place.first;
+		auto        end     = near ? pairNow(place, *near, d, looked_.now) : PairPlaces<Dim>();
+		const Near* nearest = nearestOf(place, &d, looked_.now);
+		if (!nearest) continue;
+		if (!near || !goesOn(end)) near = nearest, end = pairNow(place, *near, d, looked_.now);
+		const double          penalty = penaltyOf(place);
+		const ContactLaw<Dim> law { penalty, penalty / slipSoftnessOfBodies, meeting.friction, meeting.adhesion * place.area };
+		const auto            start = pair(place.start, meeting.master, near->piece, start_);
+		const auto            force = pairForce<Dim>(law, start, place.shear, end, place.closed, tolerance_, slope);
+		if (!force) continue;
+		looked_.touching.push_back({ place, *near, *force, end });
+		if (f) f(looked_.touching.back(), force->slope);
+	}
+	return looked_;
+}
+
+/// By rising numbers.
+template <int Dim> auto BodyContact<Dim>::nodesOf(const Place& place, const Near& near) const -> std::vector<PairNode>
+{
+	std::vector<PairNode> nodes;
+	nodes.reserve(4 << Dim);
+	const auto add = [&](const Attachment<Dim>& at, int i, double part) {
+		for (int n = 0; n < at.nodes; ++n) {
+			if (at.weight[n] == 0) continue;
+			auto known = std::find_if(nodes.begin(), nodes.end(), [&](const PairNode& other) { return other.node >= at.node[n]; });
+			if (known == nodes.end() || known->node != at.node[n]) known = nodes.insert(known, PairNode { at.node[n], {} });
+			known->weight[i] += part * at.weight[n];
+		}
+	};
+	const auto& master = facets_[meetingOf(place).master];
+	add(place.at, 0, 1);
+	add(near.foot, 0, -1);
+	for (int v = 0; v < Dim; ++v) {
+		const auto& at = *master.at[master.pieces[near.piece][v]];
+		add(at, 0, near.weight[v]);
+		add(at, v + 1, 1);
+	}
+	return nodes;
+}
+
+/// Without friction the derivatives are symmetric as they are.
+template <int Dim> bool BodyContact<Dim>::isRough() const
+{
+	return std::any_of(system_.meetings.begin(), system_.meetings.end(), [](const auto& m) { return m.friction > 0 && m.adhesion > 0; });
+}
+
+template <int Dim> bool BodyContact<Dim>::makeExact() { return isRough() && !std::exchange(isExact_, true); }
+
+/// All nodes around a place and the pieces near it, as any of these may be the nearest one.
+template <int Dim> void BodyContact<Dim>::markNodes(const Place& place, std::vector<int>& nodes) const
+{
+	const auto add = [&](const Attachment<Dim>& at) {
+		for (int n = 0; n < at.nodes; ++n)
+			if (at.weight[n] != 0 && std::find(nodes.begin(), nodes.end(), at.node[n]) == nodes.end()) nodes.push_back(at.node[n]);
+	};
+	const auto& master = facets_[meetingOf(place).master];
+	add(place.at);
+	for (const Near& near : place.near) {
+		add(near.foot);
+		for (const int v : master.pieces[near.piece])
+			add(*master.at[v]);
+	}
+	std::sort(nodes.begin(), nodes.end());
+}
+
+template <int Dim> void BodyContact<Dim>::markCouplings(Couplings& K) const
+{
+	std::set<std::vector<int>> known; // places in one cell have the same nodes
+	std::vector<int>           nodes;
+	for (const Place& place : places_) {
+		nodes.clear();
+		markNodes(place, nodes);
+		if (!known.insert(nodes).second) continue;
+		for (const int a : nodes)
+			for (const int b : nodes)
+				if (a <= b) K.mark({ 0, a }, { 0, b });
+	}
+}
+
+template <int Dim>
+void BodyContact<Dim>::addForces(
+        const std::vector<PairNode>& nodes, const PairAction<Dim>& action, double factor, Eigen::VectorXd& force, Eigen::VectorXd* sizes) const
+{
+	for (const PairNode& one : nodes) {
+		Vec<Dim> f = Vec<Dim>::Zero();
+		for (int i = 0; i <= Dim; ++i)
+			f += factor * one.weight[i] * action.force[i];
+		force.template segment<Dim>(Dim * one.node) -= f;
+		if (sizes) sizes->template segment<Dim>(Dim * one.node) += f.cwiseAbs();
+	}
+}
+
+template <int Dim> void BodyContact<Dim>::addSlope(const std::vector<PairNode>& nodes, const Slope& slope, double factor, Couplings& K) const
+{
+	using Block = Eigen::Map<Eigen::Matrix<double, Dim, Dim, Eigen::RowMajor>>;
+	std::vector<int>            numbers;
+	std::vector<std::ptrdiff_t> places(nodes.size());
+	for (const PairNode& one : nodes)
+		numbers.push_back(one.node);
+	for (const PairNode& one : nodes) {
+		Eigen::Matrix<double, Dim, Slope::ColsAtCompileTime> row = Eigen::Matrix<double, Dim, Slope::ColsAtCompileTime>::Zero();
+		for (int i = 0; i <= Dim; ++i)
+			row -= factor * one.weight[i] * slope.template middleRows<Dim>(Dim * i);
+		K.findPlaces({ 0, one.node }, 0, numbers.data(), int(numbers.size()), places.data());
+		for (std::size_t other = 0; other < nodes.size(); ++other) {
+			if (places[other] < 0) continue;
+			Block k(K.values() + places[other]);
+			for (int j = 0; j <= Dim; ++j)
+				k += nodes[other].weight[j] * row.template middleCols<Dim>(Dim * j);
+		}
+	}
+}
+
+template <int Dim>
+void BodyContact<Dim>::add(const Eigen::VectorXd& d, double factor, Eigen::VectorXd& force, Eigen::VectorXd* sizes, Couplings* K, PairSlope slopes) const
+{
+	if (places_.empty()) return;
+	if (!K) {
+		for (const Touching& touching : look(d).touching)
+			addForces(nodesOf(touching.place, touching.near), touching.force, factor, force, sizes);
+		return;
+	}
+	look(d, slopes, [&](const Touching& touching, const Slope& slope) {
+		const auto nodes = nodesOf(touching.place, touching.near);
+		addForces(nodes, touching.force, factor, force, sizes);
+		addSlope(nodes, slope, factor, *K);
+	});
+}
+
+template <int Dim> std::optional<PointFailure> BodyContact<Dim>::addCoupled(const State& state, const FieldSum<Dim>& sum) const
+{
+	add(state.displacements(), system_.weight, sum.force[0], &sum.sizes[0], sum.couplings, slope());
+	return std::nullopt;
+}
+
+template <int Dim> void BodyContact<Dim>::addCoupledBefore(const State&, const FieldSum<Dim>& sum) const { addUnweighted(nullptr, sum.force[0]); }
+
+template <int Dim> void BodyContact<Dim>::addUnweighted(const Eigen::VectorXd* d, Eigen::VectorXd& resistance) const
+{
+	add(d ? *d : Eigen::VectorXd::Zero(unknowns_), 1, resistance, nullptr, nullptr, PairSlope::none);
+}
+
+template <int Dim> void BodyContact<Dim>::addWithSlopes(const Eigen::VectorXd& d, Eigen::VectorXd& resistance, Couplings* K) const
+{
+	add(d, 1, resistance, nullptr, K, isRough() ? PairSlope::symmetric : PairSlope::exact);
+}
+
+template <int Dim> void BodyContact<Dim>::holdAt(const Touching& touching, bool sticks, const typename Term<Dim>::Hold& hold) const
+{
+	const Vec<Dim>& normal = Facing<Dim>(touching.now).normal;
+	const auto&     master = facets_[meetingOf(touching.place).master];
+	const auto      holds  = [&](const Attachment<Dim>& at) {
+                hold(at.node[0], normal, at.inCell());
+                for (int a = 0; sticks && a < Dim; ++a)
+                        hold(at.node[0], Vec<Dim>::Unit(a), at.inCell());
+	};
+	holds(touching.place.at);
+	for (const int v : master.pieces[touching.near.piece])
+		holds(*master.at[v]);
+}
+
+/// Each as if the other one stood still.
+template <int Dim> void BodyContact<Dim>::restrain(const typename Term<Dim>::Hold& hold) const
+{
+	for (const Touching& touching : look(Eigen::VectorXd::Zero(unknowns_)).touching) {
+		const auto& meeting = meetingOf(touching.place);
+		holdAt(touching, meeting.friction > 0 && meeting.adhesion > 0, hold);
+	}
+}
+
+template <int Dim> void BodyContact<Dim>::restrainAt(const Eigen::VectorXd& d, const typename Term<Dim>::Hold& hold) const
+{
+	for (const Touching& touching : look(d).touching) {
+		const auto& meeting = meetingOf(touching.place);
+		holdAt(touching, meeting.friction > 0 && meeting.adhesion > 0 && !touching.force.slips, hold);
+	}
+}
+
+template class BodyContact<2>;
+template class BodyContact<3>;
+
+} // namespace gimpm

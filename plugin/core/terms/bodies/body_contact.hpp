@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Contact of bodies of points with each other.
+#pragma once
+#include "core/terms/bodies/body_pair.hpp"
+#include "core/terms/contact/facets.hpp"
+#include "core/terms/coupled_term.hpp"
+#include <functional>
+
+namespace gimpm {
+
+/// How long sides of pieces may be, over the size of a cell: in space legs of half a cell, as there are many.
+template <int Dim> constexpr double pieceLimitOfBodies = Dim == 2 ? pieceLimit : 0.75;
+
+/// By which they may stretch before they are divided: else most of them would be in the first step.
+constexpr double stretchOfPieces = 1.2;
+
+/// What a place may get behind the surface of another body, over the size of a cell.
+constexpr double deepestInBodies = 0.25;
+
+/// The penalty on the gap over that on the slip. What sticks then slides as if a layer of some tenths of a cell lay
+/// between the bodies.
+constexpr double slipSoftnessOfBodies = 4;
+
+/// How far pieces are looked for, over the size of a cell.
+constexpr double reachOfBodies = 0.5;
+
+/// A body of points that others may meet.
+template <int Dim> struct MeetingBody {
+	std::string  name;
+	int          layer = 0; ///< of its nodes
+	Surface<Dim> surface;   ///< moved with it in each step that is accepted
+
+	/// Parts of the surface are no longer than pieceLimitOfBodies at first, and later with stretchOfPieces. Returns
+	/// for each which it has been part of.
+	std::vector<int> refine(double cellSize)
+	{
+		const double stretch = surface.vertices == surface.vertices0 ? 1 : stretchOfPieces;
+		return surface.refine(stretch * pieceLimitOfBodies<Dim> * cellSize);
+	}
+};
+
+/// Two bodies that may meet, by their numbers: places on the one bear on pieces of the surface of the other.
+template <int Dim> struct BodyMeeting {
+	int    slave = 0, master = 0;
+	double friction  = 0;                                       ///< coefficient [-]
+	double adhesion  = std::numeric_limits<double>::infinity(); ///< cap of the shear stress [Pa]
+	double stiffness = 10;
+
+	/// Of the last step that was accepted, by the pieces of the slave's surface: stress on it [Pa]; empty: none.
+	std::vector<Vec<Dim>> shear {};
+	std::vector<double>   pressure {};
+	/// Of all of it: force on the slave [N], its moment about the origin [N m], and how many of the places touch.
+	Vec<Dim> force    = Vec<Dim>::Zero();
+	Vec3     moment   = Vec3::Zero();
+	int      touching = 0, slipping = 0;
+};
+
+template <int Dim> class BodyContact;
+
+template <int Dim> struct BodyContacts {
+	std::vector<MeetingBody<Dim>> bodies;
+	std::vector<BodyMeeting<Dim>> meetings;
+	double                        work = 0; ///< on the bodies in the last step that was accepted [J]
+	/// With which forces enter the balance of a step in time (core/terms/inertia/time_scheme.hpp); in explicit ones
+	/// what the end of the step adds to them is an impulse (core/terms/inertia/contact_impulse.hpp).
+	double weight = 1;
+	/// Of a step in time: energy that has come into the system before it [J]; infinite: nobody asks for what
+	/// contact gives.
+	double                  energy = std::numeric_limits<double>::infinity();
+	double                  given  = 0;  ///< work in that step beyond what contact had stored [J]
+	const BodyContact<Dim>* acting = {}; ///< the term of the step that is being made
+};
+
+/// Places on the surface of a slave against the nearest piece of the master's surface that faces them, wherever the
+/// step takes both. The penalty on the gap g is a pressure of stiffness * E g / h, with the smaller one of the moduli
+/// of both there and h of the smallest cells. Without friction it has a potential, the sum of penalty g^2 / 2.
+template <int Dim> class BodyContact : public CoupledTerm<Dim> {
+public:
+	/// The bodies and meetings are written in commit().
+	BodyContact(BodyContacts<Dim>&, const Beginning<Dim>&);
+
+	void                        markCouplings(Couplings&) const override;
+	std::optional<PointFailure> addCoupled(const State&, const FieldSum<Dim>&) const override;
+	void                        addCoupledBefore(const State&, const FieldSum<Dim>&) const override;
+	bool                        isSymmetric() const override { return !isExact_; }
+	bool                        makeExact() override;
+	std::string                 obstacle() const override { return obstacle_; }
+	void                        restrain(const typename Term<Dim>::Hold&) const override;
+	void                        restrainAt(const Eigen::VectorXd& d, const typename Term<Dim>::Hold&) const override;
+	Refusal                     refusal(const Eigen::VectorXd& d) const override;
+	void                        commit(const Eigen::VectorXd& d) override;
+
+	/// Adds the forces that resist at d, or, where that is null, as the step begins, without their weight. The
+	/// latter are those at the end of the last step, whatever gaps are found anew: so no momentum is lost.
+	void addUnweighted(const Eigen::VectorXd* d, Eigen::VectorXd& resistance) const;
+
+	/// The same at d, with symmetric derivatives by displacements, if these are asked for.
+	void addWithSlopes(const Eigen::VectorXd& d, Eigen::VectorXd& resistance, Couplings*) const;
+
+private:
+	/// A piece of the master near a place. The foot of the place as the step begins moves with the functions of the
+	/// grid, and between the vertices of its piece by a little less or more than these: so what presses evenly is
+	/// in balance with an even stress wherever pieces lie in the cells.
+	struct Near {
+		int                     piece;  ///< of the master's facets
+		std::array<double, Dim> weight; ///< of the vertices, at the foot
+		Attachment<Dim>         foot;
+	};
+	/// On the surface of the slave of a meeting.
+	struct Place {
+		int               meeting, piece; ///< of its facets
+		Vec<Dim>          start, normal;
+		double            area; ///< [m2]
+		double            young    = 0;
+		double            pressure = 0;                ///< as the step begins [N]
+		Vec<Dim>          shear    = Vec<Dim>::Zero(); ///< the same
+		double            closed   = 0;                ///< gap at which it begins to be pressed [m]
+		Attachment<Dim>   at;
+		std::vector<Near> near {};
+		const Near*       first = nullptr; ///< the nearest as the step begins
+	};
+	using Places = std::vector<std::vector<Vec<Dim>>>; ///< of the facets of each body
+	struct Touching {
+		const Place&    place;
+		const Near&     near;
+		PairAction<Dim> force;
+		PairPlaces<Dim> now;
+	};
+	/// What touches at some displacements, which is asked for in turn by all that a step has to know of it.
+	struct Looked {
+		Eigen::VectorXd       d;
+		Places                now;
+		std::vector<Touching> touching {};
+	};
+	/// A node that moves some of the places of a pair, by these weights.
+	struct PairNode {
+		int                         node;
+		std::array<double, Dim + 1> weight;
+	};
+	using Slope = typename PairForce<Dim>::Slope;
+
+	void                  addPlaces(int meeting, const Beginning<Dim>&);
+	void                  findNear(Place&, const std::vector<int>& pieces, Attacher<Dim>& ofMaster) const;
+	void                  takeModuli(const Beginning<Dim>&);
+	void                  findFirst(Place&);
+	void                  keepApart(Place* begin, Place* end);
+	void                  begin(Place&);
+	int                   wholeOf(const Place& place) const { return facets_[meetingOf(place).slave].whole[place.piece]; }
+	Places                placesAt(const Eigen::VectorXd& d) const;
+	PairPlaces<Dim>       pair(const Vec<Dim>& place, int body, int piece, const Places&) const;
+	PairPlaces<Dim>       pairNow(const Place&, const Near&, const Eigen::VectorXd& d, const Places&) const;
+	PairPlaces<Dim>       pairThen(const Place&, const Near&, const Eigen::VectorXd* d, const Places&) const;
+	const Near*           nearestOf(const Place&, const Eigen::VectorXd* d, const Places&) const;
+	bool                  isRough() const;
+	bool                  goesOn(const PairPlaces<Dim>&) const;
+	const Looked&         look(const Eigen::VectorXd& d, PairSlope = PairSlope::none, const std::function<void(const Touching&, const Slope&)>& = {}) const;
+	PairSlope             slope() const { return isExact_ || !isRough() ? PairSlope::exact : PairSlope::symmetric; }
+	std::vector<PairNode> nodesOf(const Place&, const Near&) const;
+	void                  markNodes(const Place&, std::vector<int>& nodes) const;
+	void                  add(const Eigen::VectorXd& d, double weight, Eigen::VectorXd& force, Eigen::VectorXd* sizes, Couplings*, PairSlope) const;
+	void    addForces(const std::vector<PairNode>&, const PairAction<Dim>&, double factor, Eigen::VectorXd& force, Eigen::VectorXd* sizes) const;
+	void    addSlope(const std::vector<PairNode>&, const Slope&, double factor, Couplings&) const;
+	void    holdAt(const Touching&, bool sticks, const typename Term<Dim>::Hold&) const;
+	void    moveSurfaces(const Places& now);
+	double  work(const Eigen::VectorXd& d) const;
+	double  given(const Eigen::VectorXd& d) const;
+	Refusal refusalOfEnergy(const Eigen::VectorXd& d) const;
+	double  approach(const BodyMeeting<Dim>&, const Places& now) const;
+	const BodyMeeting<Dim>& meetingOf(const Place& place) const { return system_.meetings[place.meeting]; }
+	double                  penaltyOf(const Place& place) const { return meetingOf(place).stiffness * place.young * place.area / cellSize_; } ///< [N/m]
+
+	BodyContacts<Dim>&       system_;
+	const double             cellSize_, tolerance_, reach_; // tolerance: of a gap that counts as touching; reach: of the search [m]
+	const bool               isRing_;
+	bool                     isExact_ = false; // derivatives are those of the forces
+	const Eigen::Index       unknowns_;
+	std::vector<Facets<Dim>> facets_; // of the bodies
+	Places                   start_;
+	std::vector<Place>       places_;
+	std::string              obstacle_;
+	mutable Looked           looked_; // the last one
+};
+
+} // namespace gimpm

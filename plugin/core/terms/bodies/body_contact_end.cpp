@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// What bodies that meet have come to as a step ends.
+#include "core/base/sentence.hpp"
+#include "core/terms/bodies/body_contact.hpp"
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+namespace gimpm {
+namespace {
+
+/// What contact may give in a step of nothing, over all energy that has come in.
+constexpr double mostGiven = 1e-3;
+
+} // namespace
+
+/// Of the places as the nodes move them.
+template <int Dim> double BodyContact<Dim>::work(const Eigen::VectorXd& d) const
+{
+	double sum = 0;
+	for (const Touching& touching : look(d).touching) {
+		const auto start = pair(touching.place.start, meetingOf(touching.place).master, touching.near.piece, start_);
+		for (int i = 0; i <= Dim; ++i)
+			sum += touching.force.force[i].dot(touching.now[i] - start[i]);
+	}
+	return sum;
+}
+
+/// Work beyond what the springs had stored. As their energy is convex in the gap, it is not above zero where a place
+/// stays before one plane that does not turn.
+template <int Dim> double BodyContact<Dim>::given(const Eigen::VectorXd& d) const
+{
+	const auto stored = [this](const Place& place, double pressure, const Vec<Dim>& shear) {
+		return (pressure * pressure + slipSoftnessOfBodies * shear.squaredNorm()) / (2 * penaltyOf(place));
+	};
+	double sum = work(d);
+	for (const Place& place : places_)
+		if (place.first) sum -= stored(place, place.pressure, place.shear);
+	for (const Touching& now : look(d).touching)
+		sum += stored(now.place, now.force.pressure, now.force.shear);
+	return sum;
+}
+
+template <int Dim> Refusal BodyContact<Dim>::refusalOfEnergy(const Eigen::VectorXd& d) const
+{
+	if (!std::isfinite(system_.energy)) return {};
+	const double found = given(d);
+	if (found <= mostGiven * (system_.energy + std::abs(work(d)))) return {}; // as the first step begins nothing has come in
+	return { Failure::gainsEnergy,
+		 sentence("contact of bodies of points would give ", found, " J that it had not stored, of ", system_.energy, " J that have come in"),
+		 "Smaller steps (O.dt) make it less." };
+}
+
+/// How far vertices of the two may have moved towards each other.
+template <int Dim> double BodyContact<Dim>::approach(const BodyMeeting<Dim>& meeting, const Places& now) const
+{
+	Vec<Dim> mean  = Vec<Dim>::Zero();
+	int      count = 0;
+	double   sum   = 0;
+	for (const int b : { meeting.slave, meeting.master })
+		for (std::size_t v = 0; v < now[b].size(); ++v)
+			mean += now[b][v] - start_[b][v], ++count;
+	mean /= std::max(1, count);
+	for (const int b : { meeting.slave, meeting.master }) {
+		double most = 0;
+		for (std::size_t v = 0; v < now[b].size(); ++v)
+			most = std::max(most, (now[b][v] - start_[b][v] - mean).norm());
+		sum += most;
+	}
+	return sum;
+}
+
+template <int Dim> Refusal BodyContact<Dim>::refusal(const Eigen::VectorXd& d) const
+{
+	const auto& [all, now, touchingNow] = look(d);
+	const char* advice                  = "Smaller load steps (O.dt), or a larger stiffness of MpmBodyContact, may help.";
+	for (const auto& meeting : system_.meetings)
+		if (const double moved = approach(meeting, now); moved > reach_)
+			return { Failure::penetrated,
+				 sentence(
+				         "bodies '", system_.bodies[meeting.slave].name, "' and '", system_.bodies[meeting.master].name, "' move by ", moved,
+				         " m against each other in the step, farther than half a cell, within which they are looked for"),
+				 advice };
+	for (const Touching& touching : touchingNow) {
+		const double gap = Facing<Dim>(touching.now).gap;
+		if (gap > -deepestInBodies * cellSize_) continue;
+		const auto& meeting = meetingOf(touching.place);
+		return { Failure::penetrated,
+			 sentence(
+			         "body '", system_.bodies[meeting.slave].name, "' would get ", -gap, " m into body '", system_.bodies[meeting.master].name,
+			         "', at (", touching.now[0].transpose(), ")"),
+			 advice };
+	}
+	return refusalOfEnergy(d);
+}
+
+/// Stresses of a piece are the means over its places.
+template <int Dim> void BodyContact<Dim>::commit(const Eigen::VectorXd& d)
+{
+	const Looked&                    looked = look(d);
+	std::vector<std::vector<double>> area;
+	for (auto& meeting : system_.meetings) {
+		const std::size_t pieces = system_.bodies[meeting.slave].surface.pieces.size();
+		meeting.shear.assign(pieces, Vec<Dim>::Zero()), meeting.pressure.assign(pieces, 0);
+		meeting.force.setZero(), meeting.moment.setZero(), meeting.touching = meeting.slipping = 0;
+		area.emplace_back(pieces, 0.);
+	}
+	for (const Place& place : places_)
+		area[place.meeting][facets_[meetingOf(place).slave].whole[place.piece]] += place.area;
+	system_.work  = work(d);
+	system_.given = std::isfinite(system_.energy) ? given(d) : 0;
+	for (const auto& [place, near, force, at] : looked.touching) {
+		auto&     meeting = system_.meetings[place.meeting];
+		const int whole   = facets_[meeting.slave].whole[place.piece];
+		meeting.shear[whole] += force.shear / area[place.meeting][whole];
+		meeting.pressure[whole] += force.pressure / area[place.meeting][whole];
+		meeting.force += force.force[0];
+		Vec3 arm = Vec3::Zero(), f = Vec3::Zero();
+		arm.template head<Dim>() = at[0], f.template head<Dim>() = force.force[0];
+		meeting.moment += arm.cross(f);
+		meeting.touching += 1, meeting.slipping += force.slips;
+	}
+	moveSurfaces(looked.now);
+}
+
+/// Parts of a piece that is divided have its stresses.
+template <int Dim> void BodyContact<Dim>::moveSurfaces(const Places& now)
+{
+	for (std::size_t b = 0; b < system_.bodies.size(); ++b) {
+		auto& surface = system_.bodies[b].surface;
+		surface.vertices.assign(now[b].begin(), now[b].begin() + surface.vertices.size());
+		const auto wholes = system_.bodies[b].refine(cellSize_);
+		for (auto& meeting : system_.meetings) {
+			if (meeting.slave != int(b)) continue;
+			const auto shear    = meeting.shear;
+			const auto pressure = meeting.pressure;
+			meeting.shear.clear(), meeting.pressure.clear();
+			for (const int whole : wholes)
+				meeting.shear.push_back(shear[whole]), meeting.pressure.push_back(pressure[whole]);
+		}
+	}
+}
+
+template Refusal BodyContact<2>::refusal(const Eigen::VectorXd&) const;
+template Refusal BodyContact<3>::refusal(const Eigen::VectorXd&) const;
+template void    BodyContact<2>::commit(const Eigen::VectorXd&);
+template void    BodyContact<3>::commit(const Eigen::VectorXd&);
+
+} // namespace gimpm

@@ -1,0 +1,440 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "core/terms/contact/contact.hpp"
+#include "core/terms/attached.hpp"
+#include "core/terms/contact/contact_fine.hpp"
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <tuple>
+
+namespace gimpm {
+namespace {
+
+template <int Dim> std::string textAt(const RigidBody<Dim>& body, const char* what, const Vec<Dim>& x)
+{
+	std::ostringstream text;
+	text << body.name << what << ", at (" << x.transpose() << ")";
+	return text.str();
+}
+
+/// Soil that gets deeper into a body than this in a step has not been stopped by it, over the size of a cell.
+constexpr double deepest = 0.1;
+
+/// Of a place's springs on gap and slip [J].
+double stored(double pressure, double gap, double friction) { return pressure > 0 ? -gap / 2 * (pressure + slipSoftness * friction * friction / pressure) : 0; }
+
+/// A body keeps the places with which it has touched.
+template <int Dim> bool isFineOn(const ContactSystem<Dim>& system, int body, double cellSize)
+{
+	if (!mayHaveFinePlaces(system.bodies[body].shape, cellSize)) return false;
+	const auto record = std::find_if(system.records.begin(), system.records.end(), [&](const auto& r) { return r.body == body; });
+	if (record == system.records.end()) return std::isfinite(system.energy);
+	return record->number % (std::int64_t(1) << placeBits) >= firstFineNumber;
+}
+
+/// Soil on a periodic grid is in the first period, and beside each end of that, where the other end goes on.
+template <int Dim> void addImages(std::vector<SoilDomain<Dim>>& domains, const Grid<Dim>& grid)
+{
+	for (int a = 0; a < Dim; ++a) {
+		const double length = grid.cellSize * grid.period[a], near = 2 * grid.cellSize;
+		for (std::size_t i = 0, count = length > 0 ? domains.size() : 0; i < count; ++i) {
+			domains[i].centre[a] -= length * std::floor((domains[i].centre[a] - grid.origin[a]) / length);
+			const double from = domains[i].centre[a] - grid.origin[a];
+			for (const int side : { 1, -1 }) {
+				if ((side > 0 ? from : length - from) > near) continue;
+				domains.push_back(domains[i]);
+				domains.back().centre[a] += side * length;
+			}
+		}
+	}
+}
+
+template <int Dim> bool isInPeriod(const Vec<Dim>& place, const Grid<Dim>& grid)
+{
+	for (int a = 0; a < Dim; ++a) {
+		const double from = place[a] - grid.origin[a];
+		if (grid.period[a] > 0 && !(from >= 0 && from < grid.cellSize * grid.period[a])) return false;
+	}
+	return true;
+}
+
+} // namespace
+
+template <int Dim>
+Contact<Dim>::Contact(ContactSystem<Dim>& system, const Beginning<Dim>& step)
+        : system_(system)
+        , tolerance_(1e-9 * step.grid.cellSize)
+        , isRing_(step.grid.axisymmetric)
+        , cloud_(step.cloud)
+        , basis_(step.basis)
+        , grid_(step.grid)
+        , division_(step.division)
+{
+	system.acting = this;
+	takeSides();
+	find(step);
+	for (int body = 0; body < int(system.bodies.size()); ++body) {
+		look(body);
+		addPlaces(body);
+	}
+	if (std::isfinite(system_.energy)) findLost();
+	else
+		spreadPressure();
+	for (const Place& place : places_)
+		isSymmetric_ = isSymmetric_ && (place.law.friction == 0 || place.law.cap == 0);
+}
+
+/// Between nodes soil is straight, so that the middle of a point may get behind a facet by a little, as at the tip of a
+/// cone. Where soil touches on one side alone, as at a closed mesh, that is no passage, and the facet is like a face of
+/// a Box. Soil in sight of the other side counts only where nothing touches: at edges it is that of a neighbour.
+template <int Dim> void Contact<Dim>::takeSides()
+{
+	for (auto& body : system_.bodies)
+		body.soilSide = 0, body.slack = deepest * grid_.cellSize;
+	for (auto first = system_.records.begin(), last = first; first != system_.records.end(); first = last) {
+		last                 = std::find_if(first, system_.records.end(), [&](const auto& r) { return r.body != first->body; });
+		const bool isTouched = std::any_of(first, last, [](const auto& r) { return r.touches; });
+		const auto isOn
+		        = [&](int odd) { return std::any_of(first, last, [&](const auto& r) { return r.number % 2 == odd && (r.touches || !isTouched); }); };
+		if (isOn(0) != isOn(1)) system_.bodies[first->body].soilSide = isOn(0) ? 1 : -1;
+	}
+}
+
+template <int Dim> void Contact<Dim>::find(const Beginning<Dim>& step)
+{
+	for (const auto& [body, point, side] : nearPoints(system_.bodies, cloud_, basis_, grid_)) {
+		if (point >= division_.ownOf(cloud_.size())) continue; // the process that has it tells of it
+		Near near { body, side, cloud_.layerOf(point), {}, {}, step.stiffnessOf(point).modulus };
+		std::copy_n(cloud_.position[point].data(), Dim, near.position.data());
+		std::copy_n(cloud_.halfSize[point].data(), Dim, near.halfSize.data());
+		near_.push_back(near);
+	}
+	near_ = division_.joined(std::move(near_));
+	std::stable_sort(near_.begin(), near_.end(), [](const Near& a, const Near& b) { return a.body < b.body; });
+}
+
+template <int Dim> auto Contact<Dim>::nearTo(int body) const
+{
+	const auto first = std::lower_bound(near_.begin(), near_.end(), body, [](const Near& near, int b) { return near.body < b; });
+	return std::pair(first, std::find_if(first, near_.end(), [&](const Near& near) { return near.body != body; }));
+}
+
+/// What cannot be computed with a body near the soil.
+template <int Dim> void Contact<Dim>::look(int number)
+{
+	const auto& body         = system_.bodies[number];
+	const auto [first, last] = nearTo(number);
+	const bool isThin        = body.nodes > 0 && body.thickness() < grid_.cellSize / 2;
+	const bool isPlain       = body.shape.kind == RigidKind::ball && (body.friction == 0 || body.adhesion == 0);
+	if (first != last && body.turn > 1 && !isPlain) {
+		std::ostringstream text;
+		text << body.name << " turns by " << body.turn
+		     << " rad from one load step to the next; soil near it can follow 1 rad: decrease angVel, O.dt or iterPeriod";
+		obstacle_ = text.str();
+	}
+	for (auto near = first; body.isNew && near != last; ++near) // Of a two-sided surface it never is.
+		if (body.proximity(body.begin, near->centre(), near->side).gap < 0 && !isThin)
+			obstacle_ = textAt(body, " has the middle of a material point inside of it", near->centre())
+			        + ": let it begin beside the soil, or leave its place out of the region that is filled, as pack.inAlignedBox(...) - pack.inSphere(...)";
+}
+
+/// Each body of points for itself.
+template <int Dim> void Contact<Dim>::addPlaces(int number)
+{
+	const auto [first, last] = nearTo(number);
+	std::vector<int> layers;
+	for (auto near = first; near != last; ++near)
+		if (std::find(layers.begin(), layers.end(), near->layer) == layers.end()) layers.push_back(near->layer);
+	for (const int layer : layers)
+		if (layer < layersOfPlaces) addPlaces(number, layer);
+		else
+			obstacle_ = system_.bodies[number].name
+			        + " is near a body of points that is one of more than four of which each meets each other; it can touch four of them";
+}
+
+template <int Dim> void Contact<Dim>::addPlaces(int number, int layer)
+{
+	const auto& body         = system_.bodies[number];
+	const auto [first, last] = nearTo(number);
+	std::vector<SoilDomain<Dim>> domains;
+	for (auto near = first; near != last; ++near) {
+		if (near->layer != layer) continue;
+		domains.push_back({ near->centre(), near->half(), near->young, body.proximity(body.begin, near->centre(), near->side).normal });
+	}
+	const SoilNear<Dim> soil(std::move(domains), grid_.cellSize);
+	const auto [low, high]        = soil.bounds();
+	const Vec<Dim>         margin = Vec<Dim>::Constant(grid_.cellSize + searchReach(body, grid_));
+	const std::vector<int> around = bodiesAround(number);
+	const bool             isFine = isFineOn(system_, number, grid_.cellSize);
+	for (const auto& point : (isFine ? finePointsAt<Dim> : surfacePointsAt<Dim>)(body.shape, body.begin, grid_.cellSize, low - margin, high + margin))
+		addPlace(number, layer, point, soil, around);
+}
+
+template <int Dim> const ContactRecord<Dim>* Contact<Dim>::recordOf(const Place& place) const
+{
+	const auto isBefore = [](const ContactRecord<Dim>& r, const Place& p) { return std::tie(r.body, r.number) < std::tie(p.body, p.number); };
+	const auto found    = std::lower_bound(system_.records.begin(), system_.records.end(), place, isBefore);
+	return found != system_.records.end() && found->body == place.body && found->number == place.number ? &*found : nullptr;
+}
+
+template <int Dim> void Contact<Dim>::addPlace(int number, int layer, const SurfacePoint<Dim>& point, const SoilNear<Dim>& soil, const std::vector<int>& around)
+{
+	const auto&    body   = system_.bodies[number];
+	const Vec<Dim> onBody = body.begin.inSpace(point.place), normal = body.begin.rotation * point.normal;
+	if ((isRing_ && onBody[0] <= 0) || !isInPeriod(onBody, grid_)) return;
+	const auto screens = screensBefore(onBody, around);
+	const auto hides   = [&](const Vec<Dim>& centre) { return isBehind(screens, onBody, centre); };
+	const auto sight   = soil.from(onBody, normal, searchReach(body, grid_), screens.empty() ? typename SoilNear<Dim>::Hides() : hides);
+	if (!sight || isHidden(number, onBody, normal, around)) return;
+	Place place;
+	place.body = number, place.number = point.number | std::int64_t(layer) << placeBits;
+	place.away = place.gap = std::max(0., sight->gap);
+	place.soil             = onBody + place.away * normal;
+	place.normal           = (body.free < 0 ? body.end : body.begin).rotation * point.normal;
+	place.presence         = sight->presence;
+	const auto* record     = recordOf(place);
+	// Domains turn and stretch; but soil that presses goes no faster than it slides, a quarter of a cell from being
+	// there in full to not being there.
+	if (record && record->touches) place.presence = std::max(place.presence, record->presence - 4 * record->travel / grid_.cellSize);
+	if (place.presence <= 0) return;
+	// Pressed soil begins inside of the body: at the face instead, even pressure would not be in balance with even
+	// stress.
+	if (record && record->touches && record->gap < 0) place.soil = onBody + record->gap * normal;
+	const Vec<Dim> beside   = place.soil + body.begin.rotation * point.aside;
+	auto           attached = attach(beside, basis_, grid_, layer);
+	if (attached) place.soil = beside;
+	else
+		attached = attach(place.soil, basis_, grid_, layer); // at an end of the soil
+	if (!attached) return;                                       // behind a wall
+	place.attached       = *attached;
+	place.away           = body.proximity(body.begin, place.soil, 1).gap; // found as at the end: no gap by round-off
+	place.carried        = body.carried(place.soil);
+	place.area           = place.presence * point.area * (isRing_ ? 2 * M_PI * onBody[0] : 1);
+	place.young          = sight->young;
+	const double penalty = body.stiffness * place.young * place.area / grid_.cellSize;
+	place.law            = { penalty, penalty / slipSoftness, body.friction, body.adhesion * place.area };
+	if (record) recall(place, *record, sight->gap);
+	places_.push_back(place);
+}
+
+/// What pressed stays pressed, wherever domains are seen now. Where it slides it follows them slowly, so that it does
+/// not creep in; in steps in time that would be work of nobody.
+template <int Dim> void Contact<Dim>::recall(Place& place, const ContactRecord<Dim>& record, double seen) const
+{
+	const auto& body = system_.bodies[place.body];
+	place.friction   = body.free < 0 ? Vec<Dim>(body.end.rotation * body.begin.rotation.transpose() * record.friction) : record.friction;
+	if (!record.touches || record.gap >= 0) return;
+	// A stiffer spring has the force that the softer one had: it has been given no energy.
+	place.gap           = std::max(record.gap, -record.pressure / place.law.normal);
+	const double creeps = std::isfinite(system_.energy) ? 0 : std::min(0.1, record.travel / grid_.cellSize);
+	place.gap += creeps * std::min(0., seen - place.gap);
+}
+
+/// Of the place's own face, which has no end; so a round one keeps soil that slides around it.
+template <int Dim> Approach<Dim> Contact<Dim>::approach(const Place& place, const Eigen::VectorXd& d) const
+{
+	const auto&    body = system_.bodies[place.body];
+	const Vec<Dim> u    = place.attached.displacement(d);
+	const Moved    now  = moved(place);
+	Approach<Dim>  a { {}, u - now.carried, Mat<Dim>::Identity(), now.friction };
+	if (body.shape.kind == RigidKind::ball && !std::isfinite(system_.energy)) {
+		a.at = body.proximity(body.end, place.soil + u, 1);
+		a.at.gap += place.gap - place.away;
+	} else {
+		a.at.gap    = place.gap + now.normal.dot(a.slip);
+		a.at.normal = now.normal;
+	}
+	return a;
+}
+
+template <int Dim> template <class F> void Contact<Dim>::forTouching(const Eigen::VectorXd& d, F&& f) const
+{
+	settle(d);
+	for (const Place& place : places_) {
+		const Approach<Dim> near = approach(place, d);
+		if (const auto touched = touch(place.law, near, tolerance_)) f(place, near, *touched);
+	}
+}
+
+template <int Dim> void Contact<Dim>::mark(NodeMatrix<Dim>& K) const
+{
+	for (const Place& place : places_)
+		markAttached(place.attached, place.attached, K);
+}
+
+template <int Dim> std::optional<PointFailure> Contact<Dim>::add(const Eigen::VectorXd& d, const TermSum<Dim>& sum) const
+{
+	forTouching(d, [&](const Place& place, const Approach<Dim>&, const Touch<Dim>& touched) {
+		addAttachedForce<Dim>(place.attached, system_.weight * touched.force(), sum);
+		if (sum.K) addAttachedStiffness<Dim>(place.attached, place.attached, system_.weight * touched.slope, *sum.K);
+	});
+	return std::nullopt;
+}
+
+template <int Dim> void Contact<Dim>::addBefore(Eigen::VectorXd& force) const
+{
+	const auto add
+	        = [&](const Attachment<Dim>& at, const ContactRecord<Dim>& r) { addAttachedForce<Dim>(at, r.pressure * r.normal + r.friction, { force }); };
+	for (const Place& place : places_)
+		if (const auto* r = recordOf(place); r && r->touches) add(place.attached, *r);
+	for (const auto& [attached, record] : lost_)
+		add(attached, system_.records[record]);
+}
+
+/// Places that touched and have no soil in front of them any more, as where it leaps off: in a step in time their
+/// forces have to be known to begin with, or the soil keeps half of them for another step, and what a body has got is
+/// not what the soil has lost.
+template <int Dim> void Contact<Dim>::findLost()
+{
+	std::vector<bool> isMet(system_.records.size(), false);
+	for (const Place& place : places_)
+		if (const auto* r = recordOf(place)) isMet[r - system_.records.data()] = true;
+	for (std::size_t i = 0; i < isMet.size(); ++i) {
+		const auto&                    r = system_.records[i];
+		std::optional<Attachment<Dim>> attached;
+		for (int quarter = 0; quarter <= 4 && !attached && !isMet[i] && r.touches; ++quarter) // deeper in the soil, where its face has no nodes
+			attached = attach(Vec<Dim>(r.place + 0.25 * quarter * grid_.cellSize * r.normal), basis_, grid_, int(r.number >> placeBits));
+		if (attached) lost_.emplace_back(*attached, i);
+	}
+}
+
+/// Where soil touches as the step begins, and where it would touch bodies that have moved if it stayed. Whether it then
+/// slips or comes off is for the iterations to find.
+template <int Dim> void Contact<Dim>::restrain(const typename Term<Dim>::Hold& hold) const
+{
+	const auto holds = [&](const Place& place) {
+		if (system_.bodies[place.body].free >= 0) return; // it yields
+		const bool     sticks = place.law.friction > 0 && place.law.cap > 0;
+		const Vec<Dim> inCell = place.attached.inCell();
+		hold(place.attached.node[0], place.normal, inCell);
+		for (int a = 0; sticks && a < Dim; ++a)
+			hold(place.attached.node[0], Vec<Dim>::Unit(a), inCell);
+	};
+	for (const Place& place : places_)
+		if (place.gap <= tolerance_) holds(place);
+	const Eigen::VectorXd none = Eigen::VectorXd::Zero(Dim * Eigen::Index(basis_.nodes.size()));
+	forTouching(none, [&](const Place& place, const Approach<Dim>&, const Touch<Dim>&) { holds(place); });
+}
+
+template <int Dim> void Contact<Dim>::restrainAt(const Eigen::VectorXd& d, const typename Term<Dim>::Hold& hold) const
+{
+	forTouching(d, [&](const Place& place, const Approach<Dim>&, const Touch<Dim>& touched) {
+		if (system_.bodies[place.body].free >= 0) return;
+		const bool     sticks = place.law.friction > 0 && place.law.cap > 0 && !touched.slips;
+		const Vec<Dim> inCell = place.attached.inCell();
+		hold(place.attached.node[0], place.normal, inCell);
+		for (int a = 0; sticks && a < Dim; ++a)
+			hold(place.attached.node[0], Vec<Dim>::Unit(a), inCell);
+	});
+}
+
+/// The middle of a point that ends inside of a body, or on another side of it.
+template <int Dim> Refusal Contact<Dim>::refusal(const Eigen::VectorXd& d) const
+{
+	settle(d);
+	if (const std::string falls = unbalanced(); !falls.empty())
+		return {
+			Failure::refused, falls,
+			"What nothing holds has no equilibrium: let it touch the soil as it begins, hold it by blockedDOFs or friction, or take MpmDynamicEngine, where its inertia does."
+		};
+	const std::string found = division_.firstSaid(entered(d));
+	if (found.empty()) return {};
+	return { Failure::penetrated, found, "Smaller load steps (O.dt), or a larger stiffness of MpmContact, may help." };
+}
+
+/// Soil farther from a body than it is looked for may move as far as that and more.
+template <int Dim> std::string Contact<Dim>::entered(const Eigen::VectorXd& d) const
+{
+	double most        = d.size() > 0 ? Eigen::Map<const Eigen::Matrix<double, Dim, -1>>(d.data(), Dim, d.size() / Dim).colwise().norm().maxCoeff() : 0;
+	most               = division_.largest(most);
+	const double depth = deepest * grid_.cellSize;
+	for (const NearPoint& near : nearPoints(system_.bodies, cloud_, basis_, grid_, most)) {
+		if (near.point >= division_.ownOf(cloud_.size())) continue;
+		const auto&    body     = system_.bodies[near.body];
+		const Vec<Dim> centre   = cloud_.position[near.point];
+		const auto     attached = attach(centre, basis_, grid_, cloud_.layerOf(near.point));
+		if (!attached) continue;
+		const Vec<Dim>       u = attached->displacement(d), x = centre + u;
+		const Proximity<Dim> before = body.proximity(body.begin, centre, near.side), after = body.proximity(body.end, x, near.side);
+		const double         deeper = before.gap - after.gap, behind = near.side == body.soilSide ? body.slack : 0;
+		// Soil may get to a sheet from where it has not been looked for, and would be on both sides of it then.
+		const double side     = after.gap - after.normal.cwiseAbs().dot(cloud_.halfSize[near.point]);
+		const bool   isUnseen = side < -depth && deeper > searchReach(body, grid_) && before.gap >= 0;
+		const bool   isThrough
+		        = body.shape.isTwoSided ? (after.gap + body.halfThickness() < -behind || isUnseen) && after.beside < 0 : body.isCrossed(centre, x);
+		const bool isInside = !body.shape.isTwoSided && -depth > after.gap && deeper > (-5 * depth > after.gap ? 0 : depth / 2);
+		if (!isThrough && !isInside) continue;
+		std::ostringstream text;
+		text << (isThrough ? " would let soil through" : " would get soil inside of it") << ", which moves " << u.norm()
+		     << " m in the step, and the body up to " << body.motion() << " m";
+		return textAt(body, text.str().c_str(), x);
+	}
+	return {};
+}
+
+/// Work on the soil as seen from the bodies, beyond what the springs had stored. As their energy is convex in the gap,
+/// it is never above zero. They follow the moduli of the soil from step to step: what they have stored is that of the
+/// stiffness that they have now, as no length of the step changes that.
+template <int Dim> double Contact<Dim>::given(const Eigen::VectorXd& d) const
+{
+	double sum = 0;
+	for (const Place& place : places_)
+		if (const auto* r = recordOf(place); r && r->touches) sum -= stored(place.law.normal * -place.gap, place.gap, r->friction.norm());
+	forTouching(d, [&](const Place&, const Approach<Dim>& near, const Touch<Dim>& touched) {
+		sum += touched.force().dot(near.slip) + stored(touched.pressure, near.at.gap, touched.friction.norm());
+	});
+	return sum;
+}
+
+/// By the mean slip of what is pressed.
+template <int Dim> void Contact<Dim>::turnPlaces(const Eigen::VectorXd& d)
+{
+	std::vector<Mat<Dim>> turns(system_.bodies.size(), Mat<Dim>::Zero());
+	std::vector<double>   pressed(system_.bodies.size(), 0);
+	forTouching(d, [&](const Place& place, const Approach<Dim>& near, const Touch<Dim>& touched) {
+		const Vec<Dim>& n = touched.normal;
+		turns[place.body] += touched.pressure * (near.slip * n.transpose() - n * near.slip.transpose());
+		pressed[place.body] += touched.pressure;
+	});
+	for (std::size_t i = 0; i < turns.size(); ++i) {
+		auto& body = system_.bodies[i];
+		if (body.shape.kind != RigidKind::ball || !(pressed[i] > 0)) continue;
+		const Mat<Dim>& rotation = body.end.rotation;
+		const Mat<Dim>  half     = rotation.transpose() * turns[i] * rotation / (2 * body.shape.radius * pressed[i]);
+		// Cayley's formula has a rotation of a skew matrix.
+		body.shape.axes = (Mat<Dim>::Identity() - half).inverse() * (Mat<Dim>::Identity() + half) * body.shape.axes;
+	}
+}
+
+template <int Dim> void Contact<Dim>::commit(const Eigen::VectorXd& d)
+{
+	std::vector<ContactRecord<Dim>> records;
+	settle(d);
+	for (const Place& place : places_) {
+		const Approach<Dim> near  = approach(place, d);
+		const Vec<Dim>      along = near.slip - near.slip.dot(near.at.normal) * near.at.normal;
+		records.push_back({ place.body, place.number, near.at.gap, false, false, 0, place.presence, along.norm(), Vec<Dim>::Zero(), near.at.normal,
+		                    place.soil + place.attached.displacement(d) });
+	}
+	system_.loads.assign(system_.owners.size(), {});
+	system_.work  = 0;
+	system_.given = std::isfinite(system_.energy) ? given(d) : 0;
+	forTouching(d, [&](const Place& place, const Approach<Dim>&, const Touch<Dim>& touched) {
+		auto& r   = records[&place - places_.data()];
+		r.touches = true, r.slips = touched.slips, r.pressure = touched.pressure, r.friction = touched.friction;
+		system_.work += touched.force().dot(place.attached.displacement(d));
+		addLoads(place, r.place, touched);
+	});
+	if (std::isfinite(system_.energy) && !isRing_) turnPlaces(d);
+	system_.records = std::move(records);
+	std::stable_sort(system_.records.begin(), system_.records.end(), [](const auto& a, const auto& b) {
+		return std::tie(a.body, a.number) < std::tie(b.body, b.number);
+	});
+	for (auto& body : system_.bodies)
+		body.isNew = false;
+}
+
+template class Contact<2>;
+template class Contact<3>;
+
+} // namespace gimpm

@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Contact of the body with rigid bodies: penalty, friction, and what is remembered of both.
+#pragma once
+#include "core/grid/attachment.hpp"
+#include "core/terms/contact/contact_free.hpp"
+#include "core/terms/contact/contact_law.hpp"
+#include "core/terms/contact/contact_search.hpp"
+#include "core/terms/contact/contact_sight.hpp"
+#include "core/terms/contact/contact_surface.hpp"
+#include "core/terms/coupled_term.hpp"
+
+namespace gimpm {
+
+/// A place on the surface of a body that had soil in front of it at the end of a step that was accepted.
+template <int Dim> struct ContactRecord {
+	int          body;
+	std::int64_t number;      ///< of the place on the body, and above placeBits the layer of the soil
+	double       gap     = 0; ///< to the soil, < 0 by the penalty [m]
+	bool         touches = false, slips = false;
+	double       pressure = 0;                                           ///< normal force [N]
+	double       presence = 0;                                           ///< of soil in front of it (core/terms/contact/contact_sight.hpp)
+	double       travel   = 0;                                           ///< how far soil moved along the body in that step [m]
+	Vec<Dim>     friction = Vec<Dim>::Zero(), normal = Vec<Dim>::Zero(); ///< on the soil [N]; of the body
+	Vec<Dim>     place = Vec<Dim>::Zero();                               ///< of the soil at the end of the step [m]
+};
+
+/// So a number stays one that doubles have.
+constexpr int placeBits = 51, layersOfPlaces = 4;
+
+/// What the soil does to whoever owns bodies.
+struct ContactLoad {
+	using Stiffness = Eigen::Matrix<double, 6, 6>;
+	Vec3      force = Vec3::Zero(), torque = Vec3::Zero(); ///< about the owner's position [N], [N m]
+	Stiffness stiffness = Stiffness::Zero();               ///< in 3D, an upper bound: of the penalties alone, for a translation and a rotation of the owner
+	double    area = 0, young = 0;                         ///< of the places that touch [m2], and that by Young's modulus of the soil there [N]
+
+	ContactLoad& operator+=(const ContactLoad& other)
+	{
+		force += other.force, torque += other.torque, stiffness += other.stiffness;
+		area += other.area, young += other.young;
+		return *this;
+	}
+};
+
+template <int Dim> class Contact;
+
+/// The rigid bodies beside the soil, and what is between them.
+template <int Dim> struct ContactSystem {
+	std::vector<RigidBody<Dim>>     bodies;
+	std::vector<Vec<Dim>>           owners;     ///< positions at the end of the step [m]
+	std::vector<ContactRecord<Dim>> records {}; ///< of the last step that was accepted, sorted by body and number
+	std::vector<ContactLoad>        loads {};   ///< on the owners, then
+	double                          work   = 0; ///< on the soil in that step, with the forces at its end [J]
+	double                          weight = 1; ///< with which forces enter the balance of a step in time (core/terms/inertia/time_scheme.hpp)
+	/// Of a step in time: energy that has come into the system before it [J]; infinite: nobody asks for what
+	/// contact gives.
+	double energy = std::numeric_limits<double>::infinity();
+	/// Work of contact in that step beyond what it had stored, which is that of no body [J].
+	double              given = 0;
+	const Contact<Dim>* acting {}; ///< the term of the step that is being made
+	/// Those of the owners that move within the step as soil and loads make them; of the bodies that they own the
+	/// end of the step is a result.
+	std::vector<FreeBody<Dim>> free {};
+};
+
+/// The penalty on the gap over that on the slip. With 20 a place slides after mu p h / (stiffness / 20 E). Blocks that
+/// are sheared to and fro by a plate, friction .3 to 4, take 5 solves a step; with 2 it is 8, and with 50 4.5.
+constexpr double slipSoftness = 20;
+
+/// Places on the surfaces of the bodies against the soil in front of them, which moves with the linear functions of the
+/// grid. The penalty on the gap g is a pressure of stiffness * E g / h, with Young's modulus E of the soil there and h
+/// of the smallest cells, over the place's part of the surface. The gap is that which there was when soil came into
+/// sight, and since then what soil and body have moved towards each other, along the normal of the place's own face:
+/// which neither edges nor domains that come and go let jump. In steps in time the places on a ball go around it with
+/// the soil, as a ball that turns in its place is the same ball: else those before its lowest one would be pressed
+/// deeper with all of its way, and lift it. Only prescribed motion of the bodies is known here. What of a surface lies
+/// in another body, or on one that came first, does not count. Where points are divided among processes, all know those
+/// that are near.
+template <int Dim> class Contact : public Term<Dim> {
+public:
+	/// The records and loads of the system are written in commit(). What add() adds has the weight of the system.
+	Contact(ContactSystem<Dim>&, const Beginning<Dim>&);
+
+	void                        mark(NodeMatrix<Dim>&) const override;
+	std::optional<PointFailure> add(const Eigen::VectorXd& d, const TermSum<Dim>&) const override;
+	void                        addBefore(Eigen::VectorXd& force) const override;
+	bool                        isSymmetric() const override { return isSymmetric_; }
+	std::string                 obstacle() const override { return obstacle_; }
+	double                      fromOutside(const Eigen::VectorXd& d) const override { return this->sizeOfForce(d); }
+	void                        restrain(const typename Term<Dim>::Hold&) const override;
+	void                        restrainAt(const Eigen::VectorXd& d, const typename Term<Dim>::Hold&) const override;
+	Refusal                     refusal(const Eigen::VectorXd& d) const override;
+	void                        commit(const Eigen::VectorXd& d) override;
+
+	/// What free bodies make of the derivative beside what add() adds: their motion follows that of the soil at all
+	/// places that they touch.
+	void markFree(Couplings&) const;
+	void addFree(const Eigen::VectorXd& d, Couplings&) const;
+
+private:
+	/// A material point near a body, whichever process has it. Numbers only.
+	struct Near {
+		int                     body, side, layer;
+		std::array<double, Dim> position, halfSize; ///< at the start of the step
+		double                  young;
+
+		Vec<Dim> centre() const { return Eigen::Map<const Vec<Dim>>(position.data()); }
+		Vec<Dim> half() const { return Eigen::Map<const Vec<Dim>>(halfSize.data()); }
+	};
+	/// A place on a body with soil in front of it.
+	struct Place {
+		int             body;
+		std::int64_t    number;
+		Vec<Dim>        soil;                        ///< where that begins, at the start of the step
+		Vec<Dim>        carried;                     ///< by which the body would have moved it by the end
+		Vec<Dim>        normal;                      ///< at the end
+		double          away;                        ///< of the soil from the body, at the start [m]
+		double          gap;                         ///< what counts as that
+		double          presence;                    ///< of soil in front of it
+		double          area, young;                 ///< of the surface with soil in front of it [m2]; of the soil [Pa]
+		Vec<Dim>        friction = Vec<Dim>::Zero(); ///< at the start, turned with the body
+		ContactLaw<Dim> law;
+		Attachment<Dim> attached;
+	};
+
+	void                                takeSides();
+	void                                find(const Beginning<Dim>&);
+	void                                addPlaces(int body);
+	void                                addPlaces(int body, int layer);
+	void                                addPlace(int body, int layer, const SurfacePoint<Dim>&, const SoilNear<Dim>&, const std::vector<int>& around);
+	void                                recall(Place&, const ContactRecord<Dim>&, double seen) const;
+	std::vector<int>                    bodiesAround(int body) const;
+	bool                                isHidden(int body, const Vec<Dim>& place, const Vec<Dim>& normal, const std::vector<int>& around) const;
+	std::vector<std::pair<int, double>> screensBefore(const Vec<Dim>& place, const std::vector<int>& around) const;
+	bool                                isBehind(const std::vector<std::pair<int, double>>& screens, const Vec<Dim>& place, const Vec<Dim>& soil) const;
+	void                                look(int body);
+	auto                                nearTo(int body) const; // first and last in near_
+	const ContactRecord<Dim>*           recordOf(const Place&) const;
+	Approach<Dim>                       approach(const Place&, const Eigen::VectorXd& d) const;
+	template <class F> void             forTouching(const Eigen::VectorXd& d, F&& f) const; // f(place, approach, touch)
+	std::string                         entered(const Eigen::VectorXd& d) const;
+	double                              given(const Eigen::VectorXd& d) const;
+	void                                addLoads(const Place&, const Vec<Dim>& place, const Touch<Dim>&);
+	Mat<Dim>                            resistanceOf(const Place&, const Touch<Dim>&) const;
+	void                                findLost();
+	void                                spreadPressure();
+	void                                turnPlaces(const Eigen::VectorXd& d);
+	Vec<Dim>                            placeOfForce(const Place&, const Vec<Dim>& soil, const Vec<Dim>& normal) const;
+	ContactLoad                         loadOn(const Vec<Dim>& owner, const Place&, const Vec<Dim>& place, const Touch<Dim>&) const;
+
+	struct Moved {
+		Vec<Dim> carried, normal, friction;
+	};
+	Moved                     moved(const Place&) const;
+	void                      settle(const Eigen::VectorXd& d) const;
+	void                      put(int free, const typename FreeBody<Dim>::Vector& motion) const;
+	std::vector<const Place*> placesOfFree(int free) const;
+	PlaceOfFree<Dim>          seen(const Place&, const Vec<Dim>& owner, const Eigen::VectorXd& d) const;
+	double                    sizeOfFree(int free) const;
+	std::string               unbalanced() const;
+
+	ContactSystem<Dim>&     system_;
+	mutable Eigen::VectorXd settledAt_; ///< where free bodies are in balance, if there are some
+	double                  tolerance_; // of a gap that counts as touching [m]
+	bool                    isRing_, isSymmetric_ = true;
+	std::vector<Near>       near_;   // by body
+	std::vector<Place>      places_; // by body and number
+	std::string             obstacle_;
+
+	std::vector<std::pair<Attachment<Dim>, std::size_t>> lost_; // with the number of its record
+	const PointCloud<Dim>&                               cloud_;
+	const CloudBasis<Dim>&                               basis_;
+	const Grid<Dim>&                                     grid_;
+	const Division&                                      division_;
+};
+
+} // namespace gimpm

@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "core/terms/contact/contact_free.hpp"
+#include "core/solvers/least_squares.hpp"
+#include "core/terms/contact/contact_turn.hpp"
+#include <Eigen/Geometry>
+#include <algorithm>
+
+namespace gimpm {
+namespace {
+
+constexpr double balanced = 1e-11; ///< what may be left of forces, over their sizes
+constexpr int    most     = 200;   ///< iterations
+
+template <int Dim> struct Balance {
+	using Free = FreeBody<Dim>;
+	typename Free::Vector residual, sizes;
+	bool                  touches = false;
+
+	Balance(const Free& body, const typename Free::Vector& motion, const std::vector<PlaceOfFree<Dim>>& places)
+	{
+		residual = body.inertia * motion - body.push;
+		sizes    = (body.inertia * motion).cwiseAbs() + body.push.cwiseAbs();
+		for (const auto& place : places) {
+			const typename Free::Vector force = Lever<Dim>(place).moves.transpose() * place.force;
+			residual += force, sizes += force.cwiseAbs();
+			touches = touches || place.gap <= 0;
+		}
+		for (int i = 0; i < Free::unknowns; ++i)
+			if (body.isGiven[i]) residual[i] = 0;
+	}
+	/// With moments as forces at the distance `size`.
+	typename Free::Vector scaled(const typename Free::Vector& x, double size) const
+	{
+		typename Free::Vector result = x;
+		result.template tail<Turn<Dim>::RowsAtCompileTime>() /= size;
+		return result;
+	}
+	double left(double size) const { return scaled(residual, size).norm(); }
+	double whole(double size) const { return scaled(sizes, size).norm(); }
+};
+
+/// A body that touches nothing and has no inertia goes by its push to the first place that it meets.
+template <int Dim> double wayToSoil(const FreeBody<Dim>& body, const std::vector<PlaceOfFree<Dim>>& places)
+{
+	Vec<Dim> push = body.push.template head<Dim>();
+	for (int a = 0; a < Dim; ++a)
+		if (body.isGiven[a]) push[a] = 0;
+	if (push.isZero(0)) return 0;
+	const Vec<Dim> along = push.normalized();
+	double         least = std::numeric_limits<double>::infinity();
+	for (const auto& place : places)
+		if (const double speed = along.dot(place.normal); speed > 1e-3) least = std::min(least, place.gap / speed);
+	return std::isfinite(least) ? least : 0;
+}
+
+} // namespace
+
+Vec<2> turnsArm(const Vec<2>& arm) { return { -arm[1], arm[0] }; }
+Mat3   turnsArm(const Vec3& a) { return (Mat3() << 0, a[2], -a[1], -a[2], 0, a[0], a[1], -a[0], 0).finished(); }
+
+Mat<2> rotationOf(const Turn<2>& turn) { return Eigen::Rotation2Dd(turn[0]).toRotationMatrix(); }
+Mat3   rotationOf(const Turn<3>& turn)
+{
+	const double angle = turn.norm();
+	return angle > 0 ? Eigen::AngleAxisd(angle, turn / angle).toRotationMatrix() : Mat3(Mat3::Identity());
+}
+
+template <> FreeBody<2>::Matrix incrementsOf<2>(const FreeBody<2>::Vector&) { return FreeBody<2>::Matrix::Identity(); }
+template <> FreeBody<3>::Matrix incrementsOf<3>(const FreeBody<3>::Vector& motion)
+{
+	FreeBody<3>::Matrix result = FreeBody<3>::Matrix::Identity();
+	const Vec3          turn   = motion.tail<3>();
+	const double        angle  = turn.norm();
+	const Mat3          across = -turnsArm(turn); // its product with a vector is the cross product
+	// The coefficients (1 - cos a) / a^2 and (a - sin a) / a^3, of small angles by their series.
+	const double first  = angle < 1e-3 ? 0.5 - angle * angle / 24 : (1 - std::cos(angle)) / (angle * angle);
+	const double second = angle < 1e-3 ? 1. / 6 - angle * angle / 120 : (angle - std::sin(angle)) / (angle * angle * angle);
+	result.bottomRightCorner<3, 3>() += first * across + second * across * across;
+	return result;
+}
+
+template <int Dim> Lever<Dim>::Lever(const PlaceOfFree<Dim>& place)
+{
+	constexpr int turns = Turn<Dim>::RowsAtCompileTime;
+	moves << Mat<Dim>::Identity(), turnsArm(place.arm);
+	turned.setZero(), byPlace.setZero(), byBody.setZero();
+	turned.template rightCols<turns>()        = turnsArm(place.force);
+	byPlace.template bottomRows<turns>()      = -turnsArm(place.force).transpose();
+	byBody.template block<turns, Dim>(Dim, 0) = turnsArm(place.force).transpose();
+}
+
+template <int Dim> typename FreeBody<Dim>::Matrix compliance(const FreeBody<Dim>& body, double size, const std::vector<PlaceOfFree<Dim>>& places)
+{
+	using Free                       = FreeBody<Dim>;
+	typename Free::Matrix K          = body.inertia;
+	const auto            increments = incrementsOf<Dim>(body.motion);
+	for (const auto& place : places)
+		K += Lever<Dim>(place).bodyByBody(place.slope) * increments;
+	typename Free::Vector scale = Free::Vector::Ones();
+	scale.template tail<Turn<Dim>::RowsAtCompileTime>() /= size;
+	for (int i = 0; i < Free::unknowns; ++i)
+		if (body.isGiven[i]) scale[i] = 0;
+	const typename Free::Matrix scaled  = scale.asDiagonal() * K * scale.asDiagonal();
+	const typename Free::Matrix inverse = leastSquares(scaled, Free::Matrix::Identity());
+	return scale.asDiagonal() * inverse * scale.asDiagonal();
+}
+
+namespace {
+
+/// How a free body is brought into balance, step by step.
+template <int Dim> class Search {
+public:
+	using Vector = typename FreeBody<Dim>::Vector;
+	using Look   = std::function<std::vector<PlaceOfFree<Dim>>(const Vector&)>;
+
+	Search(FreeBody<Dim>& body, double size, const Look& look) : body_(body), size_(size), look_(look), at_(seenAt(body.motion)) { }
+
+	bool   isDone() const { return at_.balance.left(size_) <= balanced * at_.balance.whole(size_); }
+	double imbalance() const { return at_.balance.whole(size_) > 0 ? at_.balance.left(size_) / at_.balance.whole(size_) : 0; }
+
+	/// False: there is nowhere to go.
+	bool next()
+	{
+		if (!at_.balance.touches && body_.inertia.isZero(0)) return falls();
+		if (!newton()) creep();
+		return true;
+	}
+
+private:
+	struct Seen {
+		Vector                        motion;
+		std::vector<PlaceOfFree<Dim>> places;
+		Balance<Dim>                  balance;
+	};
+	Seen seenAt(const Vector& motion) const
+	{
+		auto         places = look_(motion);
+		Balance<Dim> balance(body_, motion, places);
+		return { motion, std::move(places), balance };
+	}
+	FreeBody<Dim> here() const
+	{
+		FreeBody<Dim> body = body_;
+		body.motion        = at_.motion;
+		return body;
+	}
+	bool falls()
+	{
+		const double way = wayToSoil(body_, at_.places);
+		if (!(way > 0)) return false;
+		Vector step               = Vector::Zero();
+		step.template head<Dim>() = (way + 1e-6 * size_) * body_.push.template head<Dim>().normalized();
+		for (int a = 0; a < Dim; ++a)
+			if (body_.isGiven[a]) step[a] = 0;
+		at_ = seenAt(at_.motion + step);
+		return true;
+	}
+	/// Newton's step, or a part of it, where that lessens what is out of balance.
+	bool newton()
+	{
+		const Vector step = -(compliance(here(), size_, at_.places) * at_.balance.residual);
+		double       part = 1;
+		for (int halving = 0; halving < 8; ++halving, part /= 2) {
+			Seen there = seenAt(at_.motion + part * step);
+			if (!(there.balance.left(size_) < (1 - 0.1 * part) * at_.balance.left(size_))) continue;
+			at_ = std::move(there), drag_ = std::max(drag_ / 4, 1e-4);
+			return true;
+		}
+		return false;
+	}
+	/// Where a place slips, friction as a spring that gives it by the slip there is: a body that has been moved
+	/// too far along itself comes back.
+	static std::vector<PlaceOfFree<Dim>> withSecants(std::vector<PlaceOfFree<Dim>> places)
+	{
+		for (auto& place : places) {
+			const Vec<Dim> n = place.normal, T = place.force - place.force.dot(n) * n;
+			if (T.isZero(0) || place.slope.isZero(0)) continue;
+			const double across = -n.dot(place.slope * n);
+			double       along  = across / 20;
+			if constexpr (Dim == 3) {
+				const Vec3 beside = n.cross(T).normalized();
+				along             = std::max(0., -beside.dot(place.slope * beside));
+			}
+			place.slope = -across * n * n.transpose() - along * (Mat<Dim>::Identity() - n * n.transpose());
+		}
+		return places;
+	}
+	/// As in a thick liquid: a body that tips over has to get to the next place that holds it.
+	void creep()
+	{
+		Vector resists = body_.inertia.diagonal();
+		for (const auto& place : at_.places) {
+			resists.template head<Dim>().array() += place.slope.norm();
+			resists.template tail<Turn<Dim>::RowsAtCompileTime>().array() += place.slope.norm() * size_ * size_;
+		}
+		auto thick = here();
+		thick.inertia += drag_ * Vector(resists).asDiagonal();
+		Vector       step = -(compliance(thick, size_, withSecants(at_.places)) * at_.balance.residual);
+		const double way  = step.template head<Dim>().norm() + size_ * step.template tail<Turn<Dim>::RowsAtCompileTime>().norm();
+		const double most = 0.02 * size_;
+		if (way > most) step *= most / way;
+		Seen       there    = seenAt(at_.motion + step);
+		const bool isBetter = there.balance.left(size_) < at_.balance.left(size_);
+		drag_               = std::clamp(isBetter ? drag_ / 2 : 2 * drag_, 1e-4, 1.);
+		at_                 = std::move(there);
+	}
+
+	FreeBody<Dim>& body_;
+	double         size_, drag_ = 0.01;
+	const Look&    look_;
+	Seen           at_;
+
+public:
+	const Vector& motion() const { return at_.motion; }
+};
+
+} // namespace
+
+template <int Dim>
+bool settle(FreeBody<Dim>& body, double size, const std::function<std::vector<PlaceOfFree<Dim>>(const typename FreeBody<Dim>::Vector&)>& look)
+{
+	Search<Dim> search(body, size, look);
+	for (int iteration = 0; iteration < most && !search.isDone() && search.next(); ++iteration) { }
+	body.motion    = search.motion();
+	body.imbalance = search.imbalance();
+	body.isAtRest  = body.imbalance <= 1e3 * balanced;
+	look(body.motion);
+	return body.isAtRest;
+}
+
+template struct Lever<2>;
+template struct Lever<3>;
+template bool                settle(FreeBody<2>&, double, const std::function<std::vector<PlaceOfFree<2>>(const FreeBody<2>::Vector&)>&);
+template bool                settle(FreeBody<3>&, double, const std::function<std::vector<PlaceOfFree<3>>(const FreeBody<3>::Vector&)>&);
+template FreeBody<2>::Matrix compliance(const FreeBody<2>&, double, const std::vector<PlaceOfFree<2>>&);
+template FreeBody<3>::Matrix compliance(const FreeBody<3>&, double, const std::vector<PlaceOfFree<3>>&);
+
+} // namespace gimpm

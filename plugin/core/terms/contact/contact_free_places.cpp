@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Contact with bodies that move freely in the step.
+#include "core/base/sentence.hpp"
+#include "core/terms/contact/contact.hpp"
+#include "core/terms/contact/contact_turn.hpp"
+#include <algorithm>
+#include <map>
+
+namespace gimpm {
+namespace {
+
+/// By the body, the forces there; and what the displacement there does to the body's balance.
+template <int Dim> struct AtNode {
+	Eigen::Matrix<double, Dim, FreeBody<Dim>::unknowns> forces;
+	Eigen::Matrix<double, FreeBody<Dim>::unknowns, Dim> moves;
+
+	AtNode() { forces.setZero(), moves.setZero(); }
+};
+
+} // namespace
+
+template <int Dim> typename Contact<Dim>::Moved Contact<Dim>::moved(const Place& place) const
+{
+	const auto& body = system_.bodies[place.body];
+	if (body.free < 0) return { place.carried, place.normal, place.friction };
+	const Mat<Dim> turn = body.end.rotation * body.begin.rotation.transpose();
+	return { body.carried(place.soil), turn * place.normal, turn * place.friction };
+}
+
+/// Puts all bodies of the owner where this motion brings them.
+template <int Dim> void Contact<Dim>::put(int number, const typename FreeBody<Dim>::Vector& motion) const
+{
+	const auto&    free     = system_.free[number];
+	const Vec<Dim> position = free.position + motion.template head<Dim>();
+	const Mat<Dim> turn     = rotationOf(Turn<Dim>(motion.template tail<Turn<Dim>::RowsAtCompileTime>()));
+	for (auto& body : system_.bodies)
+		if (body.free == number) body.end = { position + turn * (body.begin.position - free.position), turn * body.begin.rotation };
+	system_.owners[free.owner] = position;
+}
+
+template <int Dim> std::vector<const typename Contact<Dim>::Place*> Contact<Dim>::placesOfFree(int number) const
+{
+	std::vector<const Place*> found;
+	for (const Place& place : places_)
+		if (system_.bodies[place.body].free == number) found.push_back(&place);
+	return found;
+}
+
+template <int Dim> PlaceOfFree<Dim> Contact<Dim>::seen(const Place& place, const Vec<Dim>& owner, const Eigen::VectorXd& d) const
+{
+	const Approach<Dim> near    = approach(place, d);
+	const auto          touched = touch(place.law, near, tolerance_);
+	const Vec<Dim>      arm     = placeOfForce(place, place.soil + place.attached.displacement(d), near.at.normal) - owner;
+	if (!touched) return { arm, Vec<Dim>::Zero(), Mat<Dim>::Zero(), near.at.gap, near.at.normal };
+	return { arm, touched->force(), touched->slope, near.at.gap, near.at.normal };
+}
+
+/// With which a turn is compared with a displacement [m].
+template <int Dim> double Contact<Dim>::sizeOfFree(int number) const
+{
+	double size = grid_.cellSize;
+	for (const auto& body : system_.bodies) {
+		if (body.free != number) continue;
+		const auto [low, high] = body.bounds(body.begin);
+		if ((high - low).allFinite()) size = std::max(size, (high - low).norm() / 2);
+	}
+	return size;
+}
+
+/// At each iterate of the soil's displacements free bodies are in balance with it as it is there.
+template <int Dim> void Contact<Dim>::settle(const Eigen::VectorXd& d) const
+{
+	if (system_.free.empty() || (settledAt_.size() == d.size() && settledAt_ == d)) return;
+	for (int number = 0; number < int(system_.free.size()); ++number) {
+		const auto places = placesOfFree(number);
+		auto&      free   = system_.free[number];
+		const auto look   = [&](const typename FreeBody<Dim>::Vector& motion) {
+                        put(number, motion);
+                        std::vector<PlaceOfFree<Dim>> found;
+                        for (const Place* place : places)
+                                found.push_back(seen(*place, system_.owners[free.owner], d));
+                        return found;
+		};
+		gimpm::settle<Dim>(free, sizeOfFree(number), look);
+	}
+	settledAt_ = d;
+}
+
+template <int Dim> void Contact<Dim>::markFree(Couplings& K) const
+{
+	for (int number = 0; number < int(system_.free.size()); ++number) {
+		std::vector<int> nodes;
+		for (const Place* place : placesOfFree(number))
+			nodes.insert(nodes.end(), place->attached.node.begin(), place->attached.node.end());
+		std::sort(nodes.begin(), nodes.end());
+		nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+		for (const int a : nodes)
+			for (const int b : nodes)
+				if (a <= b) K.mark({ 0, a }, { 0, b });
+	}
+}
+
+/// A product of three small matrices for any two nodes: those of the motion by the soil at one, and of the forces at
+/// the
+/// other by the motion, with the compliance of the body between them.
+template <int Dim> void Contact<Dim>::addFree(const Eigen::VectorXd& d, Couplings& K) const
+{
+	constexpr int unknowns = FreeBody<Dim>::unknowns;
+	settle(d);
+	for (int number = 0; number < int(system_.free.size()); ++number) {
+		const auto&                   free = system_.free[number];
+		std::vector<PlaceOfFree<Dim>> all;
+		std::map<int, AtNode<Dim>>    nodes;
+		for (const Place* place : placesOfFree(number)) {
+			all.push_back(seen(*place, system_.owners[free.owner], d));
+			if (all.back().slope.isZero(0)) continue;
+			const Lever<Dim> lever(all.back());
+			for (int n = 0; n < place->attached.nodes; ++n) {
+				AtNode<Dim>& node = nodes[place->attached.node[n]];
+				node.forces += place->attached.weight[n] * lever.forceByBody(all.back().slope);
+				node.moves += place->attached.weight[n] * lever.bodyByPlace(all.back().slope);
+			}
+		}
+		const typename FreeBody<Dim>::Matrix yields = incrementsOf<Dim>(free.motion) * compliance(free, sizeOfFree(number), all);
+		for (const auto& [a, from] : nodes) {
+			const Eigen::Matrix<double, Dim, unknowns> left = system_.weight * from.forces * yields;
+			for (const auto& [b, to] : nodes)
+				K.add({ 0, a }, { 0, b }, Mat<Dim>(left * to.moves));
+		}
+	}
+}
+
+template <int Dim> std::string Contact<Dim>::unbalanced() const
+{
+	for (const auto& free : system_.free) {
+		if (free.isAtRest) continue;
+		for (const auto& body : system_.bodies)
+			if (body.free >= 0 && body.owner == free.owner)
+				return sentence(body.name, " finds no balance with the soil that it touches: ", free.imbalance, " of the forces on it is left");
+	}
+	return "";
+}
+
+template typename Contact<2>::Moved Contact<2>::moved(const Place&) const;
+template typename Contact<3>::Moved Contact<3>::moved(const Place&) const;
+template void                       Contact<2>::settle(const Eigen::VectorXd&) const;
+template void                       Contact<3>::settle(const Eigen::VectorXd&) const;
+template void                       Contact<2>::markFree(Couplings&) const;
+template void                       Contact<3>::markFree(Couplings&) const;
+template void                       Contact<2>::addFree(const Eigen::VectorXd&, Couplings&) const;
+template void                       Contact<3>::addFree(const Eigen::VectorXd&, Couplings&) const;
+template std::string                Contact<2>::unbalanced() const;
+template std::string                Contact<3>::unbalanced() const;
+
+} // namespace gimpm

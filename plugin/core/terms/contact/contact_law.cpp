@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "core/terms/contact/contact_law.hpp"
+#include <algorithm>
+
+namespace gimpm {
+
+template <int Dim> std::optional<Touch<Dim>> touch(const ContactLaw<Dim>& law, const Approach<Dim>& approach, double tolerance)
+{
+	const auto& [gap, n, dn, beside] = approach.at;
+	const bool isPressed             = gap <= tolerance;
+	if (!isPressed && !(law.around > 0 && gap <= law.reach)) return std::nullopt;
+	const Mat<Dim> P = Mat<Dim>::Identity() - n * n.transpose();
+	Touch<Dim>     t;
+	t.normal   = n;
+	t.pressure = std::max(0., -law.normal * gap);
+	if (isPressed) t.slope = -law.normal * n * n.transpose() + t.pressure * dn;
+	const double limit = std::min(law.friction * std::max(t.pressure, law.around), law.cap);
+	if (law.friction == 0 || law.cap == 0) return t;
+	if (limit == 0) {
+		t.slope -= law.tangential * P * approach.slipSlope;
+		return t;
+	}
+	const Vec<Dim> y = approach.friction - law.tangential * approach.slip, trial = P * y;
+	const Mat<Dim> dtrial = -n * (y.transpose() * dn) - n.dot(y) * dn - law.tangential * P * approach.slipSlope;
+	const double   size   = trial.norm();
+	t.slips               = size > limit;
+	if (!t.slips) {
+		t.friction = trial;
+		t.slope += dtrial;
+		return t;
+	}
+	const Vec<Dim> along = trial / size;
+	t.friction           = limit * along;
+	t.slope += limit / size * (dtrial - along * (along.transpose() * dtrial));
+	if (t.pressure >= law.around && law.friction * t.pressure < law.cap) t.slope -= law.friction * law.normal * along * n.transpose();
+	return t;
+}
+
+template std::optional<Touch<2>> touch(const ContactLaw<2>&, const Approach<2>&, double);
+template std::optional<Touch<3>> touch(const ContactLaw<3>&, const Approach<3>&, double);
+
+} // namespace gimpm

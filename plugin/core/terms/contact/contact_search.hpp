@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Which material points are near which rigid bodies when a step begins.
+#pragma once
+#include "core/grid/cloud_basis.hpp"
+#include "core/terms/contact/rigid_body.hpp"
+
+namespace gimpm {
+
+/// A material point near a body. A point keeps to the side of a two-sided surface where its centre is.
+struct NearPoint {
+	int body, point, side;
+};
+
+/// Of each body the points whose domains are within h/2, and as much more as the body moves in the step, from it or
+/// inside of it, and others by as much as soil moves. The time goes with the number of cells that the bodies reach.
+template <int Dim>
+std::vector<NearPoint> nearPoints(
+        const std::vector<RigidBody<Dim>>&, const PointCloud<Dim>&, const CloudBasis<Dim>&, const Grid<Dim>&, double motionOfSoil = 0);
+
+/// How far soil may move in a step in which it is looked for near bodies [m].
+template <int Dim> double reachOfSoil(const Grid<Dim>& grid) { return 0.5 * grid.size(grid.refinement ? grid.refinement->largest() : 0); }
+
+/// From the surface of a body [m].
+template <int Dim> double searchReach(const RigidBody<Dim>& body, const Grid<Dim>& grid) { return reachOfSoil(grid) + body.motion(); }
+
+} // namespace gimpm

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "core/terms/contact/contact_sight.hpp"
+#include <algorithm>
+#include <limits>
+
+namespace gimpm {
+namespace {
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
+/// Where a line enters a box; infinite if it passes by. A line along a face of it just passes by.
+template <int Dim> double entry(const Vec<Dim>& place, const Vec<Dim>& along, const SoilDomain<Dim>& domain)
+{
+	double first = -infinite, last = infinite;
+	for (int a = 0; a < Dim; ++a) {
+		const double away = domain.centre[a] - place[a];
+		if (std::abs(along[a]) < 1e-12) {
+			if (std::abs(away) >= domain.half[a]) return infinite;
+			continue;
+		}
+		const double middle = away / along[a], half = std::abs(domain.half[a] / along[a]);
+		first = std::max(first, middle - half), last = std::min(last, middle + half);
+	}
+	return first < last ? first : infinite;
+}
+
+} // namespace
+
+template <int Dim> SoilNear<Dim>::SoilNear(std::vector<SoilDomain<Dim>> domains, double cellSize) : domains_(std::move(domains)), cellSize_(cellSize)
+{
+	low_ = Vec<Dim>::Constant(infinite), high_ = -low_;
+	for (const auto& d : domains_) {
+		low_ = low_.cwiseMin(d.centre), high_ = high_.cwiseMax(d.centre);
+		largest_ = std::max(largest_, d.half.maxCoeff());
+	}
+	if (domains_.empty()) return;
+	size_ = bin(high_) + Index<Dim>::Ones();
+	for (std::size_t i = 0; i < domains_.size(); ++i) {
+		const Index<Dim> at  = bin(domains_[i].centre);
+		std::int64_t     key = 0;
+		for (int a = Dim - 1; a >= 0; --a)
+			key = key * size_[a] + at[a];
+		bins_.emplace_back(key, int(i));
+	}
+	std::sort(bins_.begin(), bins_.end());
+}
+
+/// Calls f for the domains with their middles in the box, and others beside.
+template <int Dim> template <class F> void SoilNear<Dim>::forIn(const Vec<Dim>& low, const Vec<Dim>& high, F&& f) const
+{
+	if ((low.array() > high_.array()).any() || (high.array() < low_.array()).any()) return;
+	const Index<Dim> from = bin(low.cwiseMax(low_)), to = bin(high.cwiseMin(high_));
+	Index<Dim>       row = from;
+	for (int a = 0; a < Dim;) {
+		std::int64_t key = 0;
+		for (int b = Dim - 1; b > 0; --b)
+			key = key * size_[b] + row[b];
+		key *= size_[0];
+		const std::int64_t last = key + to[0];
+		for (auto i = std::lower_bound(bins_.begin(), bins_.end(), std::pair(key + from[0], -1)); i != bins_.end() && i->first <= last; ++i)
+			f(domains_[i->second]);
+		for (a = 1; a < Dim && ++row[a] > to[a]; ++a)
+			row[a] = from[a];
+	}
+}
+
+/// The line along the normal may pass between domains, which do not tile the soil where it is sheared or stretched:
+/// then those count which it misses by a quarter of a cell.
+template <int Dim>
+template <class F>
+double SoilNear<Dim>::gapFrom(const Vec<Dim>& place, const Vec<Dim>& normal, double reach, const F& isInFront, const Hides& hides) const
+{
+	const double   beside = 0.25 * cellSize_;
+	double         hit = infinite, near = infinite;
+	const Vec<Dim> margin = Vec<Dim>::Constant(largest_ + beside), end = place + reach * normal;
+	forIn(place.cwiseMin(end) - margin, place.cwiseMax(end) + margin, [&](const SoilDomain<Dim>& d) {
+		if (!isInFront(d)) return;
+		const Vec<Dim> away   = d.centre - place;
+		const double   across = away.dot(normal), straight = entry(place, normal, d);
+		const bool     passes = ((away - across * normal).array().abs() > d.half.array() + beside).any();
+		const double   here   = passes ? infinite : across - normal.cwiseAbs().dot(d.half);
+		if ((straight >= hit && here >= near) || (hides && hides(d.centre))) return;
+		hit = std::min(hit, straight), near = std::min(near, here);
+	});
+	return hit < infinite && hit < near + 2 * beside ? hit : near;
+}
+
+/// How much soil there is is a volume, which does not jump: that in a box in front of the place where the soil begins.
+/// A quarter of the box is nothing, three quarters are full, so that over the places on both sides of where soil ends
+/// the parts add up to the area that it covers. How much of the box that end leaves along an axis is told by the middle
+/// of the soil in it; what is missing besides are gaps.
+template <int Dim> std::optional<Sight> SoilNear<Dim>::from(const Vec<Dim>& place, const Vec<Dim>& normal, double reach, const Hides& hides) const
+{
+	const auto   isInFront = [&](const SoilDomain<Dim>& d) { return d.outward.dot(normal) > 0.7; };
+	const double half = 0.25 * cellSize_, gap = gapFrom(place, normal, reach, isInFront, hides);
+	if (!(gap <= reach)) return std::nullopt;
+	const Vec<Dim> size = Vec<Dim>::Constant(half), middle = place + (std::max(0., gap) + half) * normal, margin = Vec<Dim>::Constant(largest_);
+	double         volume = 0, stiff = 0;
+	Vec<Dim>       moment = Vec<Dim>::Zero();
+	forIn(middle - size - margin, middle + size + margin, [&](const SoilDomain<Dim>& d) {
+		if (!isInFront(d)) return;
+		const Vec<Dim> low = (middle - size).cwiseMax(d.centre - d.half), high = (middle + size).cwiseMin(d.centre + d.half);
+		const double   part = (high - low).cwiseMax(0).prod();
+		if (part == 0 || (hides && hides(d.centre))) return;
+		volume += part, stiff += part * d.young, moment += part * ((low + high) / 2 - middle);
+	});
+	if (volume == 0) return std::nullopt;
+	const auto counts   = [](double part) { return std::clamp(2 * part - 0.5, 0., 1.); };
+	double     presence = 1, tiled = volume / std::pow(2 * half, Dim);
+	int        across;
+	normal.cwiseAbs().maxCoeff(&across);
+	for (int a = 0; a < Dim; ++a) {
+		if (a == across) continue;
+		const double left = 1 - std::abs(moment[a]) / (volume * half);
+		presence *= counts(left), tiled /= left;
+	}
+	return Sight { gap, presence * counts(tiled), stiff / volume };
+}
+
+template class SoilNear<2>;
+template class SoilNear<3>;
+
+} // namespace gimpm

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "core/terms/contact/facets.hpp"
+#include <algorithm>
+#include <cmath>
+
+namespace gimpm {
+namespace {
+
+void addPiece(Facets<2>& to, const Surface<2>::Piece& piece, int number, const Grid<2>& grid)
+{
+	int first = piece[0];
+	for (const double s : linesCrossed(to.start[piece[0]], to.start[piece[1]], grid)) {
+		to.start.push_back((1 - s) * to.start[piece[0]] + s * to.start[piece[1]]);
+		to.pieces.push_back({ first, int(to.start.size()) - 1 });
+		to.whole.push_back(number);
+		first = int(to.start.size()) - 1;
+	}
+	to.pieces.push_back({ first, piece[1] });
+	to.whole.push_back(number);
+}
+
+using Triangle = Surface<3>::Piece;
+
+/// The lowest plane of the grid across an axis that a triangle crosses, in cells. None where it lies between two.
+std::optional<double> planeCrossed(const Facets<3>& of, const Triangle& piece, int axis, const Grid<3>& grid)
+{
+	constexpr double    same = 1e-6;
+	std::vector<double> x;
+	for (const int v : piece)
+		x.push_back((of.start[v][axis] - grid.origin[axis]) / grid.cellSize);
+	const auto [low, high] = std::minmax_element(x.begin(), x.end());
+	const double plane     = std::floor(*low + same) + 1;
+	if (plane < *high - same) return plane;
+	return std::nullopt;
+}
+
+/// The parts of a triangle on the two sides of a plane, as triangles.
+std::vector<Triangle> split(Facets<3>& of, const Triangle& piece, int axis, double plane, const Grid<3>& grid)
+{
+	constexpr double same     = 1e-6;
+	const auto       distance = [&](int v) {
+                const double away = (of.start[v][axis] - grid.origin[axis]) / grid.cellSize - plane;
+                return std::abs(away) < same ? 0. : away;
+	};
+	std::array<std::vector<int>, 2> sides; // corners below and above
+	for (int i = 0; i < 3; ++i) {
+		const int    v = piece[i], next = piece[(i + 1) % 3];
+		const double own = distance(v), other = distance(next);
+		if (own <= 0) sides[0].push_back(v);
+		if (own >= 0) sides[1].push_back(v);
+		if (own * other >= 0) continue;
+		of.start.push_back((other * of.start[v] - own * of.start[next]) / (other - own));
+		for (auto& side : sides)
+			side.push_back(int(of.start.size()) - 1);
+	}
+	std::vector<Triangle> parts;
+	for (const auto& side : sides)
+		for (std::size_t i = 2; i < side.size(); ++i)
+			parts.push_back({ side[0], side[i - 1], side[i] });
+	return parts;
+}
+
+void addPiece(Facets<3>& to, const Triangle& piece, int number, const Grid<3>& grid)
+{
+	std::vector<Triangle> open { piece };
+	while (!open.empty()) {
+		const Triangle own = open.back();
+		open.pop_back();
+		std::vector<Triangle> parts;
+		for (int a = 0; parts.empty() && a < 3; ++a)
+			if (const auto plane = planeCrossed(to, own, a, grid)) parts = split(to, own, a, *plane, grid);
+		open.insert(open.end(), parts.begin(), parts.end());
+		if (!parts.empty()) continue;
+		to.pieces.push_back(own);
+		to.whole.push_back(number);
+	}
+}
+
+} // namespace
+
+template <int Dim> Facets<Dim>::Facets(const Surface<Dim>& surface, const CloudBasis<Dim>& basis, const Grid<Dim>& grid, int layer) : start(surface.vertices)
+{
+	for (std::size_t i = 0; i < surface.pieces.size(); ++i)
+		addPiece(*this, surface.pieces[i], int(i), grid);
+	Attacher<Dim> attach(basis, grid, layer);
+	for (const Vec<Dim>& x : start)
+		at.push_back(attach(x));
+}
+
+template <int Dim> bool Facets<Dim>::isThere(const Piece& piece) const
+{
+	return std::all_of(piece.begin(), piece.end(), [&](int v) { return at[v].has_value(); });
+}
+
+template <int Dim> std::vector<Vec<Dim>> Facets<Dim>::placesAt(const Eigen::VectorXd& d) const
+{
+	Places places = start;
+	for (std::size_t v = 0; v < places.size(); ++v)
+		if (at[v]) places[v] += at[v]->displacement(d);
+	return places;
+}
+
+template <int Dim> std::optional<Attachment<Dim>> attachNear(const Vec<Dim>& place, const CloudBasis<Dim>& basis, const Grid<Dim>& grid, int layer)
+{
+	if (auto attached = attach(place, basis, grid, layer)) return attached;
+	std::optional<Vec<Dim>> nearest;
+	double                  least = std::numeric_limits<double>::infinity();
+	const Vec<Dim>          xi    = (place - grid.origin) / grid.cellSize;
+	if (!(xi.array().abs() < Grid<Dim>::indexLimit).all()) return std::nullopt;
+	const Index<Dim> own = xi.array().floor().template cast<int>();
+	for (int i = 0; i < (Dim == 2 ? 9 : 27); ++i) {
+		Index<Dim> cell = own;
+		for (int a = 0, rest = i; a < Dim; ++a, rest /= 3)
+			cell[a] += rest % 3 - 1;
+		const Vec<Dim> low = cell.template cast<double>(), inside = xi.cwiseMax(low).cwiseMin(low + Vec<Dim>::Ones());
+		const double   away = (xi - inside).squaredNorm();
+		const Key      key  = Grid<Dim>::key(grid.first(cell), 0, layer);
+		if (away < least && find(basis.populatedLeaves(), grid.refinement ? grid.refinement->leafOf(key) : key) >= 0)
+			least = away, nearest = grid.origin + grid.cellSize * inside;
+	}
+	return nearest ? attach(*nearest, basis, grid, layer) : std::nullopt;
+}
+
+template <int Dim> std::optional<Attachment<Dim>> Attacher<Dim>::operator()(const Vec<Dim>& place)
+{
+	const Vec<Dim> xi       = (place - grid_.origin) / grid_.size(0);
+	const auto     isInside = [](const Vec<Dim>& local) { return (local.array() > 0).all() && (local.array() < 1).all(); };
+	if (last_) {
+		const Vec<Dim> local = xi - last_->cell.template cast<double>();
+		if (isInside(local)) {
+			last_->weigh(local);
+			return last_;
+		}
+	}
+	const auto found = attachNear(place, basis_, grid_, layer_);
+	if (found && !grid_.refinement && !grid_.parting && isInside(xi - found->cell.template cast<double>())) last_ = found;
+	return found;
+}
+
+template struct Facets<2>;
+template struct Facets<3>;
+template class Attacher<2>;
+template class Attacher<3>;
+template std::optional<Attachment<2>> attachNear(const Vec<2>&, const CloudBasis<2>&, const Grid<2>&, int);
+template std::optional<Attachment<3>> attachNear(const Vec<3>&, const CloudBasis<3>&, const Grid<3>&, int);
+
+} // namespace gimpm

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Rigid bodies beside the soil: where they are, and how far a place is from them.
+#pragma once
+#include "core/base/types.hpp"
+#include <array>
+#include <limits>
+#include <string>
+
+namespace gimpm {
+
+/// Where a body is, and how it is turned.
+template <int Dim> struct Pose {
+	Vec<Dim> position = Vec<Dim>::Zero();
+	Mat<Dim> rotation = Mat<Dim>::Identity();
+	/// By which the corners of a body that deforms have moved besides, in its axes [m].
+	std::array<Vec<Dim>, Dim> shift = noShift();
+
+	static std::array<Vec<Dim>, Dim> noShift()
+	{
+		std::array<Vec<Dim>, Dim> none;
+		none.fill(Vec<Dim>::Zero());
+		return none;
+	}
+
+	Vec<Dim> inSpace(const Vec<Dim>& own) const { return position + rotation * own; }
+	Vec<Dim> inBody(const Vec<Dim>& x) const { return rotation.transpose() * (x - position); }
+};
+
+enum class RigidKind { ball, block, plane, sheet, capsule };
+
+/// In the plane a ball is a cylinder, a block and a plane have no end out of the plane, and a sheet is a segment. A
+/// capsule is all that is within its radius of a segment, in space.
+template <int Dim> struct RigidShape {
+	RigidKind                 kind     = RigidKind::ball;
+	double                    radius   = 0;                ///< of a ball, a capsule, or the rounded edges of a block; half the thickness of a sheet [m]
+	Vec<Dim>                  halfSize = Vec<Dim>::Zero(); ///< of a block [m]
+	Vec<Dim>                  normal   = Vec<Dim>::Zero(); ///< of a plane through the body's position, unit, out of the body
+	std::array<Vec<Dim>, Dim> corners;                     ///< of a sheet, or the ends of a capsule, in the body's axes [m]; of others not set
+	bool                      isTwoSided = false;          ///< a plane, or a sheet, that soil may touch from either side
+	int                       parts      = 0;              ///< into which the longest edge of a body that deforms is divided; 0: by its length
+	Mat<Dim>                  axes       = Mat<Dim>::Identity(); ///< of the places on a ball, which may have turned on it
+};
+
+/// Of a sheet, unit; in the plane that on the right of the way from the first corner to the second.
+Vec<2> normalOf(const std::array<Vec<2>, 2>& corners);
+Vec3   normalOf(const std::array<Vec3, 3>& corners);
+
+/// Of a place from a body.
+template <int Dim> struct Proximity {
+	double   gap    = 0;                                        ///< distance to the surface, < 0 inside [m]
+	Vec<Dim> normal = Vec<Dim>::Zero();                         ///< unit, out of the body
+	Mat<Dim> slope  = Mat<Dim>::Zero();                         ///< derivative of the normal by the place [1/m]
+	double   beside = -std::numeric_limits<double>::infinity(); ///< how far the foot of the normal is beside the edge of a sheet, < 0 on it [m]
+};
+
+template <int Dim> struct RigidBody {
+	RigidShape<Dim> shape;
+	std::string     name;                                                ///< for messages
+	int             owner     = 0;                                       ///< who moves it, and takes its forces: a clump or itself
+	bool            isNew     = false;                                   ///< what it overlaps at the start is taken as fitting
+	double          friction  = 0;                                       ///< coefficient [-]
+	double          adhesion  = std::numeric_limits<double>::infinity(); ///< cap of the shear stress [Pa]
+	double          stiffness = 0;                                       ///< of the contact, over Young's modulus per cell [-]
+	Pose<Dim>       begin {}, end {};                                    ///< of the step
+	double          turn     = 0;  ///< by which it turns from one load step to the next, also where its poses do not tell [rad]
+	int             soilSide = 0;  ///< of a two-sided surface that has had soil in sight on one side alone: that side
+	double          slack    = 0;  ///< how far behind the surface soil still counts as on that side [m]
+	int             free     = -1; ///< among the free bodies of the system (core/terms/contact/contact_free.hpp), if its owner moves freely
+	int             nodes    = 0;  ///< at the corners, of a body that deforms with these (core/terms/contact/contact_nodes.hpp); 0: it is rigid
+	/// Who moves those, and by how much they turn the body about its axis in the step, of a capsule [rad].
+	std::array<int, 3>    nodeOwners { 0, 0, 0 };
+	std::array<double, 3> twists { 0, 0, 0 };
+
+	/// `side` of a two-sided surface from which it is looked at: 1 where its normal points to, or -1.
+	Proximity<Dim> proximity(const Pose<Dim>&, const Vec<Dim>& x, int side) const;
+
+	/// Of a two-sided surface that on which a place is.
+	int sideOf(const Pose<Dim>&, const Vec<Dim>& x) const;
+
+	/// Its smallest size; planes and rigid sheets have none [m].
+	double thickness() const;
+
+	/// Of a sheet, from its middle to the surface on either side [m].
+	double halfThickness() const { return shape.kind == RigidKind::sheet && nodes > 0 ? shape.radius : 0; }
+
+	/// Whether what presses along a normal, in its own axes, is as narrow as that.
+	bool isNarrow(const Vec<Dim>& normal) const;
+
+	/// Whether what went straight from one place to another, as seen from the body, came out on another side of it,
+	/// or is about to. Of planes and sheets the sides are known.
+	bool isCrossed(const Vec<Dim>& beginsAt, const Vec<Dim>& endsAt) const;
+
+	/// Lower and upper corner of the box around it; infinite for planes.
+	std::pair<Vec<Dim>, Vec<Dim>> bounds(const Pose<Dim>&) const;
+
+	/// An upper bound of how far a place on it moves in the step [m].
+	double motion() const;
+
+	/// Where the body's matter that is at x at the end was at the beginning.
+	Vec<Dim> before(const Vec<Dim>& x) const { return begin.inSpace(end.inBody(x)); }
+
+	/// How far it would move what is at x at the beginning [m].
+	Vec<Dim> carried(const Vec<Dim>& x) const;
+	Mat<Dim> beforeSlope() const { return begin.rotation * end.rotation.transpose(); }
+
+	/// Angle times axis by which it turns in the step [rad]; in the plane zero, as no axis lies in it.
+	Vec<Dim> spin() const;
+};
+
+} // namespace gimpm

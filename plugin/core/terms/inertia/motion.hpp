@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// How points move, and what the schemes in time have in common: masses, momenta, and blows of held nodes.
+#pragma once
+#include "core/solvers/linear_solver.hpp"
+#include "core/terms/contact/contact.hpp"
+#include "core/terms/inertia/damping.hpp"
+#include "core/terms/inertia/mass_matrix.hpp"
+#include "core/terms/inertia/time_scheme.hpp"
+
+namespace gimpm {
+
+template <int Dim> struct BodyContacts;
+
+/// Held nodes that move by a history.
+template <int Dim> struct MovingBase {
+	HeldBox<Dim> box;
+	Vec<Dim>     velocity;     ///< as the step begins [m/s]
+	Vec<Dim>     acceleration; ///< mean of the step [m/s2]
+};
+
+/// How the points of a cloud move, in its order, and how the next step advances that.
+template <int Dim> struct Motion {
+	TimeScheme                scheme;
+	double                    ghostMass = 1e-3;     ///< gamma_M over the density
+	double                    duration  = 0;        ///< of the step, > 0 [s]
+	double                    tolerance = infinite; ///< on the local error of the displacements, not with TimeScheme::midpoint() [m]
+	std::vector<double>       mass {};              ///< of each point [kg]
+	std::vector<Vec<Dim>>     velocity {};          ///< [m/s]
+	std::vector<Vec<Dim>>     acceleration {};      ///< [m/s2], a result; all zero: the motion begins
+	double                    ghostWork   = 0;      ///< that ghost stabilisation has taken in the last step that was accepted [J]
+	double                    impactWork  = 0;      ///< that held nodes have taken in it by their blow, beyond what they have worked with it [J]
+	int                       loosePoints = 0;      ///< in cells whose points do not tell the velocities of their nodes, as that step began
+	double                    gridWork    = 0; ///< of the forces that are out of balance with the accelerations of the points as the last step began [J]
+	double                    exactness   = 1e-13;        ///< of velocities and accelerations of the nodes, of the momenta of those of the points
+	Eigen::VectorXd           growth {};                  ///< of velocities of the nodes in the last step that was accepted [m/s]
+	const ContactSystem<Dim>* contacts         = nullptr; ///< if there are some, of TimeScheme::weightOfContact()
+	const BodyContacts<Dim>*  bodies           = nullptr; ///< contacts of bodies of points with each other, the same
+	LinearSolver              solvers[Dim + 1] = {};      ///< by axis, and of all nodes; keep their symbolic analyses
+
+	std::vector<char>               isElastic {}; ///< of each material: nothing flows; empty: of none
+	std::vector<DampingOfStep<Dim>> damping {};   ///< in each step
+	std::vector<MovingBase<Dim>>    bases {};     ///< of nodes in several boxes the last one counts
+
+	static constexpr double infinite = std::numeric_limits<double>::infinity();
+};
+
+/// How the copies of others' points move, behind the own ones, as long as this lives.
+template <int Dim> class MotionOfCopies {
+public:
+	MotionOfCopies(Motion<Dim>&, const Division&);
+	~MotionOfCopies();
+	MotionOfCopies(const MotionOfCopies&)            = delete;
+	MotionOfCopies& operator=(const MotionOfCopies&) = delete;
+
+private:
+	Motion<Dim>&      motion_;
+	const std::size_t own_;
+};
+
+/// Whether no point moves with an acceleration, wherever it is.
+template <int Dim> bool begins(const Motion<Dim>&, const Division&);
+
+/// Faces with gamma_M h^3 / 3 for their stiffness, gamma_M by the density of the lighter of the two cells.
+template <int Dim> std::vector<GhostFace<Dim>> massFaces(const Motion<Dim>&, const Beginning<Dim>&);
+
+/// None without ghost mass: then nothing is connected, and mass is that of the points alone.
+template <int Dim> std::vector<LooseCell<Dim>> looseOf(const Motion<Dim>&, const Beginning<Dim>&, int reach = Dim);
+
+/// The points in them, of all processes.
+template <int Dim> int countOfPoints(const std::vector<LooseCell<Dim>>&, const Beginning<Dim>&);
+
+/// What the extent of points in loose cells adds to the inertia of their middles, as the mass of these cells that
+/// resists accelerations, while it is not remembered: of laws that flow.
+template <int Dim> std::vector<LooseCell<Dim>> extentOf(const std::vector<LooseCell<Dim>>&, const Motion<Dim>&, const Beginning<Dim>&);
+
+/// (M + M_g) of all points, with those of loose cells.
+template <int Dim> MassMatrix<Dim> massMatrix(const Motion<Dim>&, const Beginning<Dim>&, const std::vector<LooseCell<Dim>>&);
+
+/// Sum of S m x_p at the nodes; `share`: those around which this process knows all points.
+template <int Dim>
+Eigen::VectorXd weighedAtNodes(const CloudBasis<Dim>&, const std::vector<double>& mass, const std::vector<Vec<Dim>>& ofPoints, const NodeShare& share);
+
+template <int Dim> using OfBase = Vec<Dim> MovingBase<Dim>::*;
+
+/// A value of the held degrees of freedom.
+template <int Dim> Eigen::VectorXd ofHeld(const Eigen::VectorXd& otherwise, OfBase<Dim> value, const std::vector<MovingBase<Dim>>&, const Beginning<Dim>&);
+
+/// The impulse by which held nodes get `velocity`, where that is more than round-off, of the largest momentum.
+template <class Mass, class IsHeld>
+Eigen::VectorXd blowOf(const Mass& M, const Eigen::VectorXd& velocity, const Eigen::VectorXd& momentum, double roundOff, IsHeld&& isHeld)
+{
+	Eigen::VectorXd blow  = M * velocity - momentum;
+	const double    least = roundOff * momentum.template lpNorm<Eigen::Infinity>();
+	for (Eigen::Index i = 0; i < blow.size(); ++i)
+		if (!isHeld(i) || std::abs(blow[i]) <= least) blow[i] = 0;
+	return blow;
+}
+
+/// Kinetic energy of the nodes before a blow, p v / 2 with M v = p, less that of `velocity` after it, and with the work
+/// of what holds them, whose velocity is `held`. `jump`: M^-1 `blow`.
+template <class Mass>
+double energyOfBlow(const Mass& M, const Eigen::VectorXd& velocity, const Eigen::VectorXd& blow, const Eigen::VectorXd& jump, const Eigen::VectorXd& held)
+{
+	if (blow.isZero(0)) return 0;
+	return blow.dot(held) - jump.dot(M * velocity - blow / 2);
+}
+
+} // namespace gimpm

@@ -1,0 +1,297 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "core/terms/water/flow.hpp"
+#include "core/base/instruction_set.hpp"
+#include "core/terms/overlap.hpp"
+#include "core/terms/water/flow_sums.hpp"
+#include <atomic>
+
+namespace gimpm {
+namespace {
+
+/// Calls f(first, last) for ranges of patches from several threads, so that no two work on the same node at a time.
+template <int Dim, class F> void forRanges(const CloudBasis<Dim>& basis, F&& f)
+{
+	for (const auto& colour : basis.colours) {
+#pragma omp parallel for schedule(dynamic)
+		for (std::size_t range = 0; range < colour.size(); ++range)
+			callForProcessor([&] { f(colour[range].first, colour[range].second); });
+	}
+}
+
+/// Of the corners of a cell: the integral of products of their functions less the product of their means, over its
+/// volume, and the codes of the offsets between them.
+template <int Dim> struct Corners {
+	static constexpr int count = 1 << Dim;
+
+	double unevenness[count][count];
+	int    code[count][count];
+
+	Corners()
+	{
+		for (int s = 0; s < count; ++s)
+			for (int t = 0; t < count; ++t) {
+				double     product = 1, means = 1;
+				Index<Dim> offset;
+				for (int a = 0; a < Dim; ++a) {
+					product *= (s >> a & 1) == (t >> a & 1) ? 1. / 3 : 1. / 6, means /= 4;
+					offset[a] = (t >> a & 1) - (s >> a & 1);
+				}
+				unevenness[s][t] = product - means, code[s][t] = NodeMatrix<Dim>::code(offset);
+			}
+	}
+};
+
+} // namespace
+
+template <int Dim> NodalField<Dim> pressureField(SoilWater<Dim>& water, const Division& division, double scale)
+{
+	const auto begin = [&water, &division](const PointCloud<Dim>& cloud, const CloudBasis<Dim>& basis, const Grid<Dim>&) {
+		auto pressure = water.pressure;
+		division.extend(pressure);
+		const auto      nodes = Eigen::Index(basis.nodes.size());
+		Eigen::VectorXd sum = Eigen::VectorXd::Zero(nodes), volume = sum;
+		for (const auto& patch : basis.patches)
+			for (int i = patch.first; i < patch.first + patch.count; ++i) {
+				const PointFunctions<Dim> f(basis, i, patch);
+				const int                 p = basis.order[i];
+				for (int n = 0; n < f.count; ++n)
+					if (patch.node[n] >= 0) {
+						const double weight = f.value[n] * cloud.volume0[p] * cloud.volumeRatio(p);
+						volume[patch.node[n]] += weight, sum[patch.node[n]] += weight * pressure[p];
+					}
+			}
+		for (Eigen::Index n = 0; n < nodes; ++n) {
+			const auto known = water.atNodes.find(basis.nodes[n]);
+			sum[n]           = known != water.atNodes.end() ? known->second : volume[n] > 0 ? sum[n] / volume[n] : 0;
+		}
+		return FieldStart { sum, {} };
+	};
+	const auto commit = [&water](const CloudBasis<Dim>& basis, const Eigen::VectorXd& value, const Eigen::VectorXd&) {
+		water.atNodes.clear();
+		for (std::size_t n = 0; n < basis.nodes.size(); ++n)
+			water.atNodes.emplace_hint(water.atNodes.end(), basis.nodes[n], value[n]);
+	};
+	return { { "pore pressure", "Pa", 1, scale, -1 }, begin, commit };
+}
+
+template <int Dim>
+Flow<Dim>::Flow(SoilWater<Dim>& water, const ConstrainedModulus& modulusOf, const Beginning<Dim>& step)
+        : water_(water)
+        , basis_(step.basis)
+        , h_(step.grid.cellSize)
+        , share_(step.share)
+        , division_(step.division)
+        , faces_(step.faces)
+        , near_(int(step.basis.nodes.size()))
+        , ownPores_(water.ownPores)
+{
+	const auto& cloud    = step.cloud;
+	auto        pressure = water.pressure;
+	division_.extend(pressure), division_.extend(ownPores_);
+	points_.reserve(cloud.size());
+	for (std::size_t p = 0; p < cloud.size(); ++p) {
+		const double J    = cloud.volumeRatio(p);
+		const Pores& soil = ownPores_.empty() ? water.pores[cloud.material[p]] : ownPores_[p];
+		points_.push_back({ cloud.volume0[p] * J, J, std::exp(pressure[p] / water.modulus) * (J - 1 + soil.porosity), pressure[p], &soil });
+	}
+	weighCells(modulusOf, step);
+	findNear(step);
+	attachDrains(step);
+	if (obstacle_.empty()) obstacle_ = enclosure(step);
+}
+
+/// Volumes of the cells that are filled, over the moduli of what fills them, and how much they conduct. A face has what
+/// the less permeable of its two cells has: the pressure may bend where soils meet.
+template <int Dim> void Flow<Dim>::weighCells(const ConstrainedModulus& modulusOf, const Beginning<Dim>& step)
+{
+	const auto&             cells = step.basis.cells;
+	std::vector<double>     volume(cells.size(), 0), softness(cells.size(), 0);
+	const std::vector<char> all(step.basis.populatedLeaves().size(), 1);
+	cellConductivity_.assign(cells.size(), 0);
+	std::vector<double> compliance(points_.size());
+	for (std::size_t p = 0; p < points_.size(); ++p)
+		compliance[p] = 1 / modulusOf(int(p));
+	forOverlaps(all, step.basis, step.grid, [&](int cell, int p, auto within) {
+		const double part = within(points_[p].volume);
+		volume[cell] += part, softness[cell] += part * compliance[p];
+		cellConductivity_[cell] += part * points_[p].pores->at(points_[p].ratio).value;
+	});
+	for (auto* ofCells : { &volume, &softness, &cellConductivity_ })
+		step.division.complete(cells, *ofCells);
+	for (std::size_t c = 0; c < cells.size(); ++c) {
+		Cell       cell { {}, water_.stabilisation * softness[c] };
+		const auto lowest = Grid<Dim>::index(cells[c]);
+		for (int s = 0; s < corners; ++s) {
+			Index<Dim> node = lowest;
+			for (int a = 0; a < Dim; ++a)
+				node[a] += s >> a & 1;
+			cell.node[s] = position(step.basis.nodes, Grid<Dim>::key(step.grid.first(node)));
+		}
+		if (*std::min_element(cell.node.begin(), cell.node.end()) >= 0) cells_.push_back(cell);
+		softness[c] /= volume[c], cellConductivity_[c] /= volume[c];
+	}
+	for (auto& face : faces_) {
+		const auto [lower, upper] = cellsAt(face, step.basis, step.grid);
+		const double ofFlow       = water_.duration * std::min(cellConductivity_[lower], cellConductivity_[upper]);
+		face.stiffness            = water_.ghost / 3 * (std::pow(h_, 3) * std::min(softness[lower], softness[upper]) + h_ * ofFlow);
+	}
+}
+
+/// Nodes of points, of cells and of ghost faces. Where most points reach as far as they can, those that do not are
+/// taken to do so, too: the pattern of the matrix then stays as they move, and with it its symbolic analysis.
+template <int Dim> void Flow<Dim>::findNear(const Beginning<Dim>& step)
+{
+	const auto& code = Window<Dim>::get().code;
+	double      more = 0; // of the windows that are whole than of others
+	forCellsOfPatches(basis_, 0, int(basis_.patches.size()), [&](const PatchesOfCell<Dim>& cell) {
+		cell.forPairs([&](int m, int n) { near_.add(cell.node[m], cell.node[n], code[m][n]); });
+		more += cell.isWhole() ? 1 : -1;
+	});
+	if (step.division.sum(more) > 0) near_.addAll(basis_.nodes, step.grid);
+	const Corners<Dim> at;
+	for (const Cell& cell : cells_)
+		for (int s = 0; s < corners; ++s)
+			for (int t = s; t < corners; ++t)
+				near_.add(cell.node[s], cell.node[t], at.code[s][t]);
+	forGhostPairs<Dim>(faces_, h_, [&](int a, int b, int offset, double) { near_.add(a, b, offset); });
+}
+
+template <int Dim> void Flow<Dim>::mark(NodeMatrix<Dim>& K) const { near_.mark(K); }
+
+template <int Dim> Flow<Dim>::~Flow() = default;
+
+template <int Dim> void Flow<Dim>::markCouplings(Couplings& K) const
+{
+	blocks_.reset();
+	near_.mark(K, 0, field);
+	if (!K.isSymmetric()) near_.mark(K, field, 0);
+	near_.mark(K, field, field);
+	for (const Outlet& outlet : outlets_)
+		for (const int a : outlet.at.node)
+			for (const int b : outlet.at.node)
+				K.mark({ field, a }, { field, b });
+}
+
+/// Kept from iteration to iteration, until the matrix is marked anew.
+template <int Dim> const FlowBlocks<Dim>& Flow<Dim>::blocksIn(Couplings& K) const
+{
+	if (!blocks_ || blockValues_ != K.values()) blocks_ = std::make_unique<FlowBlocks<Dim>>(near_, K, field);
+	blockValues_ = K.values();
+	return *blocks_;
+}
+
+template <int Dim> std::optional<PointFailure> Flow<Dim>::addCoupled(const State& state, const FieldSum<Dim>& sum) const
+{
+	constexpr int         none = std::numeric_limits<int>::max();
+	std::atomic<int>      failed { none };
+	const Eigen::VectorXd P      = state.value(field);
+	const auto&           d      = state.displacements();
+	const auto*           blocks = sum.couplings ? &blocksIn(*sum.couplings) : nullptr;
+	forRanges(basis_, [&](int first, int last) {
+		FlowSums<Dim> sums(sum, blocks, basis_.isAxisymmetric(), water_.duration, water_.modulus);
+		forCellsOfPatches(basis_, first, last, [&](const PatchesOfCell<Dim>& cell) {
+			sums.begin(cell.node);
+			for (const auto* patch = cell.first; patch < cell.end; ++patch)
+				for (int i = patch->first; i < patch->first + patch->count; ++i) {
+					const int                 p = basis_.order[i];
+					const PointFunctions<Dim> f(basis_, i, *patch);
+					const FlowPoint<Dim>      s(points_[p], *patch, f, d, P, water_.modulus);
+					if (s.isPossible(points_[p])) sums.add(points_[p], s, *patch, f, PresentFunctions<Dim>(s, f));
+					else
+						for (int seen = failed; p < seen && !failed.compare_exchange_weak(seen, p);) { }
+				}
+			sums.scatterAdd();
+		});
+	});
+	if (failed != none) return PointFailure { failed };
+	addPenalties(state.growth(field), sum, blocks);
+	addDrains(P, sum);
+	return std::nullopt;
+}
+
+template <int Dim> void Flow<Dim>::addPenalties(const Eigen::VectorXd& growth, const FieldSum<Dim>& sum, const FlowBlocks<Dim>* blocks) const
+{
+	const auto add = [&](int row, int column, int code, double k) {
+		sum.force[field][row] += k * growth[column];
+		sum.sizes[field][row] += std::abs(k * growth[column]);
+		if (!blocks) return;
+		if (double* to = blocks->pp.at(row, code)) *to += k;
+	};
+	const Corners<Dim> at;
+	for (const Cell& cell : cells_)
+		for (int s = 0; s < corners; ++s)
+			for (int t = 0; t < corners; ++t)
+				add(cell.node[s], cell.node[t], at.code[s][t], cell.weight * at.unevenness[s][t]);
+	forGhostPairs<Dim>(faces_, h_, [&](int a, int b, int code, double k) {
+		add(a, b, code, k);
+		if (code > 0) add(b, a, -code, k);
+	});
+}
+
+/// What large pressures of little slope leave, and what is left of volumes.
+template <int Dim> void Flow<Dim>::addCoupledRoundOff(const State& state, std::vector<Eigen::VectorXd>& sizes) const
+{
+	constexpr double      roundOff = 10 * std::numeric_limits<double>::epsilon();
+	const Eigen::VectorXd P        = state.value(field);
+	forRanges(basis_, [&](int first, int last) {
+		for (auto patch = basis_.patches.begin() + first; patch != basis_.patches.begin() + last; ++patch)
+			for (int i = patch->first; i < patch->first + patch->count; ++i) {
+				const PointFunctions<Dim> f(basis_, i, *patch);
+				const PorePoint&          point = points_[basis_.order[i]];
+				const double              flow  = water_.duration * point.volume * point.pores->at(point.ratio).value;
+				double                    slope = 0, steepness[windowNodes<Dim>];
+				for (int n = 0; n < f.count; ++n) {
+					steepness[n] = f.gradient[n].norm();
+					if (patch->node[n] >= 0) slope += steepness[n] * std::abs(P[patch->node[n]]);
+				}
+				for (int n = 0; n < f.count; ++n)
+					if (patch->node[n] >= 0)
+						sizes[field][patch->node[n]] += roundOff * (flow * slope * steepness[n] + point.volume * f.value[n]);
+			}
+	});
+	for (const Outlet& outlet : outlets_)
+		for (int n = 0; n < outlet.at.nodes; ++n)
+			sizes[field][outlet.at.node[n]] += roundOff * outlet.conductance * std::abs(outlet.at.weight[n] * P[outlet.at.node[n]]);
+}
+
+template <int Dim> void Flow<Dim>::commitCoupled(const State& state)
+{
+	const Eigen::VectorXd P   = state.value(field);
+	const auto&           d   = state.displacements();
+	const int             own = division_.ownOf(points_.size());
+	water_.flux.resize(own);
+	water_.pressure.resize(own);
+	double stored = 0;
+	for (const auto& patch : basis_.patches)
+		for (int i = patch.first; i < patch.first + patch.count; ++i) {
+			const int p = basis_.order[i];
+			if (p >= own) continue;
+			const FlowPoint<Dim> s(points_[p], patch, PointFunctions<Dim>(basis_, i, patch), d, P, water_.modulus);
+			water_.pressure[p] = s.pressure;
+			water_.flux[p]     = -s.kappa.value * s.slope;
+			stored += points_[p].volume / points_[p].ratio * s.content;
+		}
+	water_.stored = division_.sum(stored);
+	if (water_.keepsGrowth) keepGrowth(state);
+	if (water_.wantsWork) water_.work = workOn(state);
+	moveDrains(d, P);
+}
+
+/// With the mean of the forces as the step begins and as it ends.
+template <int Dim> double Flow<Dim>::workOn(const State& end) const
+{
+	const std::vector<Eigen::VectorXd> before { Eigen::VectorXd::Zero(end.displacements().size()), end.before(field) };
+	const State                        start(end.map(), before, Eigen::VectorXd::Zero(end.map().size()));
+	auto                               twice = end.map().zeros(), sizes = twice;
+	for (const State* state : { &start, &end })
+		addCoupled(*state, { twice, sizes });
+	share_.complete(twice[0]);
+	return -twice[0].dot(end.displacements()) / 2;
+}
+
+template NodalField<2> pressureField(SoilWater<2>&, const Division&, double);
+template NodalField<3> pressureField(SoilWater<3>&, const Division&, double);
+template class Flow<2>;
+template class Flow<3>;
+
+} // namespace gimpm

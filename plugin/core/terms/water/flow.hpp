@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Water that flows through a saturated soil which deforms: the balance of its volume, and its pressure on the soil.
+#pragma once
+#include "core/grid/attachment.hpp"
+#include "core/terms/coupled_term.hpp"
+#include "core/terms/ghost.hpp"
+#include "core/terms/near_nodes.hpp"
+#include "core/terms/water/flow_point.hpp"
+#include "core/terms/water/soil_water.hpp"
+#include <memory>
+#include <utility>
+
+namespace gimpm {
+
+template <int Dim> struct FlowBlocks;
+
+/// Constrained moduli of points of the cloud [Pa].
+using ConstrainedModulus = std::function<double(int point)>;
+
+/// The field of the excess pressures. Of nodes where there was none before it begins with that of their points. `scale`
+/// as of Field. All are kept by reference.
+template <int Dim> NodalField<Dim> pressureField(SoilWater<Dim>&, const Division&, double scale);
+
+/// Implicit Euler: at the end of the step the volume that a point has gained is filled by what has flowed to it. The
+/// balance is that of volumes, so that the sum of all nodes is exact at any strain: functions add up to one, and their
+/// gradients to zero. Equal functions for displacements and pressures leave pressures that change from node to node
+/// where water cannot flow; what is not linear of their growth in a cell is penalised. Both penalties add nothing to
+/// the sum.
+template <int Dim> class Flow : public CoupledTerm<Dim> {
+public:
+	static constexpr int field = 1;
+
+	/// The water is kept by reference, and written in commitCoupled().
+	Flow(SoilWater<Dim>&, const ConstrainedModulus&, const Beginning<Dim>&);
+	~Flow() override;
+
+	/// With the sign of the field. What flow in the pores adds by the displacements has no transpose; it is added
+	/// where the matrix is not symmetric anyway, or where Newton's method asks for it.
+	bool                        isSymmetric() const override { return !isExact_; }
+	bool                        makeExact() override { return !std::exchange(isExact_, true); }
+	std::string                 obstacle() const override { return obstacle_; }
+	void                        mark(NodeMatrix<Dim>&) const override;
+	void                        markCouplings(Couplings&) const override;
+	std::optional<PointFailure> addCoupled(const State&, const FieldSum<Dim>&) const override;
+	void                        addCoupledRoundOff(const State&, std::vector<Eigen::VectorXd>& sizes) const override;
+	std::optional<FieldGrowth>  expected() const override;
+	std::vector<LocalError>     fieldErrors(const State&) const override;
+	void                        commitCoupled(const State&) override;
+
+private:
+	static constexpr int corners = 1 << Dim;
+
+	/// A cell whose pressures are kept from changing from node to node.
+	struct Cell {
+		std::array<int, corners> node;
+		double                   weight; ///< filled volume over the modulus
+	};
+	/// A place of a drain: conductance [m3/Pa] in the step and pressure outside, or the volume that leaves [m3].
+	struct Outlet {
+		int             drain;
+		Attachment<Dim> at;
+		double          conductance = 0, given = 0;
+		bool            isOneWay = false; ///< water can leave only
+
+		double pressure(const Eigen::VectorXd& P) const
+		{
+			double sum = 0;
+			for (int n = 0; n < at.nodes; ++n)
+				sum += at.weight[n] * P[at.node[n]];
+			return sum;
+		}
+	};
+	void        weighCells(const ConstrainedModulus&, const Beginning<Dim>&);
+	void        findNear(const Beginning<Dim>&);
+	void        attachDrains(const Beginning<Dim>&);
+	std::string attachDrain(int number, const Beginning<Dim>&);
+	std::string enclosure(const Beginning<Dim>&) const;
+
+	const FlowBlocks<Dim>& blocksIn(Couplings&) const;
+
+	void   addPenalties(const Eigen::VectorXd& growth, const FieldSum<Dim>&, const FlowBlocks<Dim>*) const;
+	void   addDrains(const Eigen::VectorXd& P, const FieldSum<Dim>&) const;
+	double conductanceNow(const Outlet&, double pressure) const;
+	void   moveDrains(const Eigen::VectorXd& d, const Eigen::VectorXd& P);
+	double workOn(const State&) const;
+	void   keepGrowth(const State&) const;
+
+	SoilWater<Dim>&              water_;
+	const CloudBasis<Dim>&       basis_;
+	double                       h_;
+	const NodeShare&             share_;
+	const Division&              division_;
+	std::vector<GhostFace<Dim>>  faces_;
+	NearNodes<Dim>               near_;
+	std::vector<Pores>           ownPores_; ///< of each point of the cloud, where some have their own; else empty
+	std::vector<PorePoint>       points_;   ///< of the cloud
+	std::vector<double>          cellConductivity_;
+	std::vector<Cell>            cells_;
+	std::vector<Outlet>          outlets_;
+	std::vector<Attachment<Dim>> vertices_; ///< of the drains, one after the other
+	std::string                  obstacle_;
+	bool                         isExact_ = false;
+
+	mutable std::unique_ptr<FlowBlocks<Dim>> blocks_;
+	mutable const double*                    blockValues_ = nullptr; ///< of the matrix that they are in
+};
+
+} // namespace gimpm

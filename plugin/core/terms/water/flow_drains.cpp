@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Where water leaves a body.
+#include "core/terms/attach_surface.hpp"
+#include "core/terms/water/flow.hpp"
+#include <algorithm>
+
+namespace gimpm {
+namespace {
+
+/// A place of a drain, and the area that it stands for.
+template <int Dim> struct DrainPlace {
+	Vec<Dim> at;
+	double   area;
+};
+
+/// Of segments: exact for products of two functions of the grid, wherever they cut the cells.
+std::vector<DrainPlace<2>> placesOf(const Surface<2>& surface, const Grid<2>& grid)
+{
+	constexpr double           gauss[3][2] = { { -0.7745966692414834, 5. / 18 }, { 0, 8. / 18 }, { 0.7745966692414834, 5. / 18 } };
+	std::vector<DrainPlace<2>> places;
+	for (const auto& piece : surface.pieces) {
+		const Vec<2>& from  = surface.vertices[piece[0]];
+		const Vec<2>  way   = surface.vertices[piece[1]] - from;
+		auto          parts = linesCrossed(from, from + way, grid);
+		parts.insert(parts.begin(), 0), parts.push_back(1);
+		for (std::size_t i = 0; i + 1 < parts.size(); ++i)
+			for (const auto& [place, weight] : gauss) {
+				const double part = parts[i] + (parts[i + 1] - parts[i]) * (1 + place) / 2;
+				const Vec<2> x    = from + part * way;
+				places.push_back({ x, weight * (parts[i + 1] - parts[i]) * way.norm() * aroundAxis(x[0], grid) });
+			}
+	}
+	return places;
+}
+
+/// Of triangles, no larger than a quarter of a cell: their corners, each once.
+std::vector<DrainPlace<3>> placesOf(const Surface<3>& surface, const Grid<3>&)
+{
+	std::vector<DrainPlace<3>> places;
+	for (const Vec<3>& corner : surface.vertices)
+		places.push_back({ corner, 0 });
+	for (const auto& piece : surface.pieces)
+		for (const int v : piece)
+			places[v].area += surface.normal(piece, surface.vertices).norm() / 3;
+	return places;
+}
+
+} // namespace
+
+template <int Dim> void Flow<Dim>::attachDrains(const Beginning<Dim>& step)
+{
+	for (int number = 0; number < int(water_.drains.size()) && obstacle_.empty(); ++number)
+		obstacle_ = attachDrain(number, step);
+}
+
+/// Water passes as through a thin skin: nodes of cut cells are not held at the pressure outside, which would close
+/// cells that are nearly empty.
+template <int Dim> std::string Flow<Dim>::attachDrain(int number, const Beginning<Dim>& step)
+{
+	const Drain<Dim>& drain   = water_.drains[number];
+	const auto&       surface = drain.surface;
+	const auto        corners = attachPlaces(surface.vertices, step, drain.name);
+	if (!corners.obstacle.empty()) return corners.obstacle;
+	vertices_.insert(vertices_.end(), corners.places.begin(), corners.places.end());
+	const auto            places = placesOf(surface, step.grid);
+	std::vector<Vec<Dim>> middles;
+	for (const auto& place : places)
+		middles.push_back(place.at);
+	const auto within = Dim == 3 ? corners : attachPlaces(middles, step, drain.name);
+	if (!within.obstacle.empty()) return within.obstacle;
+	for (std::size_t i = 0; i < places.size(); ++i) {
+		const auto& [x, area] = places[i];
+		const auto&  at       = within.places[i];
+		const int    cell     = gimpm::find(step.basis.cells, Grid<Dim>::key(step.grid.first(at.cell)));
+		const double kappa = cell < 0 ? 0 : cellConductivity_[cell], passes = water_.duration * area;
+		const double conductance = passes * drain.conductance * kappa / h_;
+		if (drain.kind == Drain<Dim>::Kind::flux) outlets_.push_back({ number, at, 0, passes * drain.given });
+		else if (drain.level)
+			outlets_.push_back({ number, at, conductance, drain.level->pressureAt(x), drain.level->isInAir(x) });
+		else
+			outlets_.push_back({ number, at, conductance, drain.given, drain.kind == Drain<Dim>::Kind::seepage });
+	}
+	return "";
+}
+
+/// A pressure that is the same everywhere moves nothing where all sides are held: it is unknown unless there is a way
+/// out.
+template <int Dim> std::string Flow<Dim>::enclosure(const Beginning<Dim>& step) const
+{
+	const bool hasWayOut = std::any_of(outlets_.begin(), outlets_.end(), [](const Outlet& o) { return o.conductance > 0; });
+	if (hasWayOut || std::isfinite(water_.modulus)) return "";
+	Eigen::VectorXd push = Eigen::VectorXd::Zero(Dim * Eigen::Index(basis_.nodes.size())), size = push;
+	for (const auto& patch : basis_.patches)
+		for (int i = patch.first; i < patch.first + patch.count; ++i) {
+			const PointFunctions<Dim> f(basis_, i, patch);
+			for (int n = 0; n < f.count; ++n)
+				for (int a = 0; a < Dim && patch.node[n] >= 0; ++a) {
+					const double b = points_[basis_.order[i]].volume * (f.gradient[n][a] + (a == 0 ? f.hoop[n] : 0));
+					push[Dim * patch.node[n] + a] += b, size[Dim * patch.node[n] + a] += std::abs(b);
+				}
+		}
+	step.share.complete(push), step.share.complete(size);
+	for (Eigen::Index i = 0; i < push.size(); ++i)
+		if (step.dofs.number[i] >= 0 && std::abs(push[i]) > 1e-9 * size[i]) return "";
+	return "water that keeps its volume fills soil all sides of which are held, and there is no drain through which it could leave";
+}
+
+/// Zero of a seepage face where the pressure would draw water in.
+template <int Dim> double Flow<Dim>::conductanceNow(const Outlet& outlet, double pressure) const
+{
+	return outlet.isOneWay && pressure <= outlet.given ? 0 : outlet.conductance;
+}
+
+template <int Dim> void Flow<Dim>::addDrains(const Eigen::VectorXd& P, const FieldSum<Dim>& sum) const
+{
+	for (const Outlet& o : outlets_) {
+		const bool   isFlux   = water_.drains[o.drain].kind == Drain<Dim>::Kind::flux;
+		const double pressure = o.pressure(P), conductance = conductanceNow(o, pressure);
+		const double out  = isFlux ? o.given : conductance * (pressure - o.given),
+		             size = isFlux ? std::abs(o.given) : conductance * (std::abs(pressure) + std::abs(o.given));
+		for (int m = 0; m < o.at.nodes; ++m) {
+			sum.force[field][o.at.node[m]] += o.at.weight[m] * out;
+			sum.sizes[field][o.at.node[m]] += std::abs(o.at.weight[m]) * size;
+			for (int n = 0; n < o.at.nodes && sum.couplings; ++n)
+				sum.couplings->add({ field, o.at.node[m] }, { field, o.at.node[n] }, conductance * o.at.weight[m] * o.at.weight[n]);
+		}
+	}
+}
+
+template <int Dim> void Flow<Dim>::moveDrains(const Eigen::VectorXd& d, const Eigen::VectorXd& P)
+{
+	auto at = vertices_.begin();
+	for (auto& drain : water_.drains) {
+		drain.out = 0;
+		for (auto& vertex : drain.surface.vertices)
+			vertex += (at++)->displacement(d);
+	}
+	for (const Outlet& o : outlets_) {
+		Drain<Dim>& drain = water_.drains[o.drain];
+		drain.out += drain.kind == Drain<Dim>::Kind::flux ? o.given : conductanceNow(o, o.pressure(P)) * (o.pressure(P) - o.given);
+	}
+}
+
+#define GIMPM_INSTANTIATE(Dim)                                                                                                                                 \
+	template void        Flow<Dim>::attachDrains(const Beginning<Dim>&);                                                                                   \
+	template std::string Flow<Dim>::enclosure(const Beginning<Dim>&) const;                                                                                \
+	template void        Flow<Dim>::addDrains(const Eigen::VectorXd&, const FieldSum<Dim>&) const;                                                         \
+	template void        Flow<Dim>::moveDrains(const Eigen::VectorXd&, const Eigen::VectorXd&);
+GIMPM_INSTANTIATE(2)
+GIMPM_INSTANTIATE(3)
+#undef GIMPM_INSTANTIATE
+
+} // namespace gimpm

@@ -1,0 +1,260 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// What water in the pores adds to forces and matrix, collected from the points of a few cells before it goes to nodes.
+#pragma once
+#include "core/terms/coupled_term.hpp"
+#include "core/terms/near_nodes.hpp"
+#include "core/terms/water/flow_point.hpp"
+#include <algorithm>
+#include <cstring>
+
+namespace gimpm {
+
+/// Offsets between the nodes of the window of a lowest cell, by their code.
+template <int Dim> struct Window {
+	static constexpr int nodes = windowNodes<Dim>;
+	int                  code[nodes][nodes];
+
+	static const Window& get()
+	{
+		static const Window window;
+		return window;
+	}
+
+private:
+	Window()
+	{
+		for (int m = 0; m < nodes; ++m)
+			for (int n = 0; n < nodes; ++n) {
+				Index<Dim> offset;
+				for (int a = 0, i = m, j = n; a < Dim; i /= 3, j /= 3, ++a)
+					offset[a] = j % 3 - i % 3;
+				code[m][n] = NodeMatrix<Dim>::code(offset);
+			}
+	}
+};
+
+/// Patches of one lowest cell, which follow each other, and the nodes of its window that they have.
+template <int Dim> struct PatchesOfCell {
+	static constexpr int nodes = windowNodes<Dim>;
+
+	const Patch<Dim>*      first;
+	const Patch<Dim>*      end;
+	std::array<int, nodes> node; ///< numbers; -1: none
+
+	PatchesOfCell(const Patch<Dim>* patch, const Patch<Dim>* last) : first(patch), end(patch)
+	{
+		node.fill(-1);
+		for (; end < last && end->cell == first->cell; ++end) {
+			const PatchShape<Dim>& shape = patchShapes<Dim>[end->span];
+			for (int n = 0; n < shape.count; ++n)
+				if (end->node[n] >= 0) node[shape.place[n]] = end->node[n];
+		}
+	}
+	bool isWhole() const { return *std::min_element(node.begin(), node.end()) >= 0; }
+
+	/// Calls f(number in the window, number in the window) for the nodes that there are, each pair once.
+	template <class F> void forPairs(F&& f) const
+	{
+		for (int m = 0; m < nodes; ++m)
+			for (int n = m; n < nodes && node[m] >= 0; ++n)
+				if (node[n] >= 0) f(m, n);
+	}
+};
+
+/// Calls f(cell) for the lowest cells of the patches [first, last).
+template <int Dim, class F> void forCellsOfPatches(const CloudBasis<Dim>& basis, int first, int last, F&& f)
+{
+	const auto* end = basis.patches.data() + last;
+	for (const auto* patch = basis.patches.data() + first; patch < end;) {
+		const PatchesOfCell<Dim> cell(patch, end);
+		patch = cell.end;
+		f(cell);
+	}
+}
+
+/// Where the derivatives go beside those of displacements by displacements.
+template <int Dim> struct FlowBlocks {
+	NearBlocks<Dim> up, pp; ///< first the field of the row: u displacements, p pressures
+	NearBlocks<Dim> pu;     ///< none of a symmetric matrix
+
+	FlowBlocks(const NearNodes<Dim>& near, Couplings& K, int field)
+	        : up(near, K, 0, field), pp(near, K, field, field), pu(K.isSymmetric() ? NearBlocks<Dim>() : NearBlocks<Dim>(near, K, field, 0))
+	{
+	}
+};
+
+/// What the points of a lowest cell add to forces and matrix, node by node of its window.
+template <int Dim> class FlowSums {
+	static constexpr int N = windowNodes<Dim>;
+	using Row              = double[(N + 3) / 4 * 4]; // whole registers; what is beyond the nodes is zero
+
+public:
+	/// Blocks: null if no derivatives are asked for.
+	FlowSums(const FieldSum<Dim>& sum, const FlowBlocks<Dim>* blocks, bool isAxisymmetric, double duration, double modulus)
+	        : sum_(sum)
+	        , blocks_(blocks)
+	        , isSymmetric_(!blocks || sum.couplings->isSymmetric())
+	        , isAxisymmetric_(isAxisymmetric)
+	        , duration_(duration)
+	        , modulus_(modulus)
+	{
+	}
+
+	void begin(const std::array<int, N>& node)
+	{
+		node_ = node;
+		clear(force_), clear(sizes_);
+		if (!blocks_) return;
+		clear(turn_), clear(up_), clear(pp_);
+		if (isAxisymmetric_) clear(ring_);
+		if (!isSymmetric_) clear(pu_);
+	}
+
+	void add(const PorePoint& point, const FlowPoint<Dim>& s, const Patch<Dim>& patch, const PointFunctions<Dim>& f, const PresentFunctions<Dim>& now)
+	{
+		take(patch, f, now);
+		addForces(point, s);
+		if (!blocks_) return;
+		addSymmetric(point, s);
+		if (isAxisymmetric_) addRing(point, s);
+		if (!isSymmetric_) addRest(point, s);
+	}
+
+	void scatterAdd() const
+	{
+		for (int n = 0; n < N; ++n) {
+			if (node_[n] < 0) continue;
+			for (int i = 0; i < Dim; ++i)
+				sum_.force[0][Dim * node_[n] + i] += force_[i][n], sum_.sizes[0][Dim * node_[n] + i] += sizes_[i][n];
+			sum_.force[field][node_[n]] += force_[Dim][n], sum_.sizes[field][node_[n]] += sizes_[Dim][n];
+		}
+		if (!blocks_) return;
+		const auto& code = Window<Dim>::get().code;
+		for (int m = 0; m < N; ++m)
+			for (int n = 0; n < N && node_[m] >= 0; ++n) {
+				if (node_[n] < 0) continue;
+				if (m <= n && sum_.K->keeps(node_[m])) addStiffness(m, n, sum_.K->at(node_[m], code[m][n]));
+				addCouplings(m, n, code[m][n]);
+			}
+	}
+
+private:
+	static constexpr int               field = 1, turns = Dim * (Dim - 1) / 2; // of the pressure; pairs of axes
+	template <class Array> static void clear(Array& array) { std::memset(array, 0, sizeof array); }
+
+	/// The functions of a point, zero at nodes that it does not have.
+	void take(const Patch<Dim>& patch, const PointFunctions<Dim>& f, const PresentFunctions<Dim>& now)
+	{
+		const auto& place = patchShapes<Dim>[patch.span].place;
+		clear(value_), clear(hoop_), clear(along_), clear(gradient_), clear(dilation_);
+		count_ = 0;
+		for (int n = 0; n < f.count; ++n) {
+			if (patch.node[n] < 0) continue;
+			const int a    = place[n];
+			own_[count_++] = a;
+			value_[a] = f.value[n], hoop_[a] = now.hoop[n], along_[a] = now.along[n];
+			for (int i = 0; i < Dim; ++i)
+				gradient_[i][a] = now.gradient[n][i], dilation_[i][a] = now.dilation[n][i];
+		}
+	}
+
+	void addForces(const PorePoint& point, const FlowPoint<Dim>& s)
+	{
+		const double V = point.volume * s.J, flow = duration_ * V * s.density * s.kappa.value, stored = point.volume / point.ratio * s.content;
+		for (int m = 0; m < count_; ++m) {
+			const int a = own_[m];
+			for (int i = 0; i < Dim; ++i) {
+				const double push = -V * s.pressure * dilation_[i][a];
+				force_[i][a] += push, sizes_[i][a] += std::abs(push);
+			}
+			const double passes = flow * along_[a], ofStored = stored * value_[a];
+			force_[Dim][a] += passes + ofStored, sizes_[Dim][a] += std::abs(passes) + std::abs(ofStored);
+		}
+	}
+	static void addTimes(Row& to, double factor, const Row& row)
+	{
+		for (std::size_t b = 0; b < std::size(to); ++b)
+			to[b] += factor * row[b];
+	}
+
+	/// With w = grad p and g the present gradients: see the page on theory. Row by row, so that columns are side by
+	/// side. Displacements by displacements: pV (g_ak g_bi - g_ai g_bk) for i < k, and its opposite for i > k.
+	void addSymmetric(const PorePoint& point, const FlowPoint<Dim>& s)
+	{
+		const double V = point.volume * s.J, flow = duration_ * V * s.density * s.kappa.value, pushes = V * s.pressure;
+		const double stored = point.volume / point.ratio * (point.content + s.content) / modulus_;
+		for (int m = 0; m < count_; ++m) {
+			const int a = own_[m];
+			for (int i = 0, pair = 0; i < Dim; ++i) {
+				addTimes(up_[i][a], -V * dilation_[i][a], value_);
+				addTimes(pp_[a], flow * gradient_[i][a], gradient_[i]);
+				for (int k = i + 1; k < Dim; ++k, ++pair) {
+					addTimes(turn_[pair][a], pushes * gradient_[k][a], gradient_[i]);
+					addTimes(turn_[pair][a], -pushes * gradient_[i][a], gradient_[k]);
+				}
+			}
+			if (stored != 0) addTimes(pp_[a], stored * value_[a], value_);
+		}
+	}
+	/// What the stretch along the circle adds: of xx, of xy and of yx.
+	void addRing(const PorePoint& point, const FlowPoint<Dim>& s)
+	{
+		const double pushes = point.volume * s.J * s.pressure;
+		for (int m = 0; m < count_; ++m) {
+			const int a = own_[m];
+			addTimes(ring_[0][a], -pushes * hoop_[a], gradient_[0]);
+			addTimes(ring_[0][a], -pushes * gradient_[0][a], hoop_);
+			addTimes(ring_[1][a], -pushes * hoop_[a], gradient_[1]);
+			addTimes(ring_[2][a], -pushes * gradient_[1][a], hoop_);
+		}
+	}
+	/// What has no transpose, and the other half of what has one.
+	void addRest(const PorePoint& point, const FlowPoint<Dim>& s)
+	{
+		const double V = point.volume * s.J, E = s.density, flow = duration_ * V * E * s.kappa.value, led = flow * (1 + s.kappa.slope);
+		for (int m = 0; m < count_; ++m) {
+			const int a        = own_[m];
+			Row       products = {};
+			for (int i = 0; i < Dim; ++i)
+				addTimes(products, gradient_[i][a], gradient_[i]);
+			for (int i = 0; i < Dim; ++i) {
+				addTimes(pu_[i][a], V * E * value_[a] + led * along_[a], dilation_[i]);
+				addTimes(pu_[i][a], -flow * s.slope[i], products);
+				addTimes(pu_[i][a], -flow * gradient_[i][a], along_);
+			}
+			addTimes(pp_[a], flow / modulus_ * along_[a], value_);
+		}
+	}
+
+	/// It is symmetric, so that it serves for both of the opposite blocks.
+	void addStiffness(int m, int n, double* block) const
+	{
+		for (int i = 0, pair = 0; i < Dim; ++i)
+			for (int k = i + 1; k < Dim; ++k, ++pair)
+				block[Dim * i + k] += turn_[pair][m][n], block[Dim * k + i] -= turn_[pair][m][n];
+		if (isAxisymmetric_) block[0] += ring_[0][m][n], block[1] += ring_[1][m][n], block[Dim] += ring_[2][m][n];
+	}
+	void addCouplings(int m, int n, int code) const
+	{
+		const auto addVector = [&](double* to, const auto& rows) {
+			for (int i = 0; i < Dim; ++i)
+				to[i] += rows[i][m][n];
+		};
+		addVector(blocks_->up.at(node_[m], code), up_);
+		if (double* to = blocks_->pp.at(node_[m], code)) *to += pp_[m][n];
+		if (!isSymmetric_) addVector(blocks_->pu.at(node_[m], code), pu_);
+	}
+
+	const FieldSum<Dim>&   sum_;
+	const FlowBlocks<Dim>* blocks_;
+	const bool             isSymmetric_, isAxisymmetric_;
+	const double           duration_, modulus_;
+	std::array<int, N>     node_;
+	Row                    force_[Dim + 1], sizes_[Dim + 1];                      // the last one: of the pressure
+	Row                    turn_[turns][N], ring_[3][N], up_[Dim][N], pp_[N];     // by rows
+	Row                    pu_[Dim][N];                                           // where the matrix is not symmetric
+	Row                    value_, hoop_, along_, gradient_[Dim], dilation_[Dim]; // of the point at hand
+	int                    own_[N], count_ = 0;                                   // its nodes
+};
+
+} // namespace gimpm

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Water with a given pressure in the pores of the body and around it.
+#pragma once
+#include "core/terms/term.hpp"
+#include "core/terms/water/water_pressure.hpp"
+
+namespace gimpm {
+
+/// Where the pressure acts: in the pores only, on the surface only, or on both.
+enum class WaterPlace { everywhere, pores, outside };
+
+/// What acts at the end of a step, and as it begins.
+template <int Dim> struct Water {
+	using Pressure            = std::shared_ptr<const WaterPressure<Dim>>;
+	WaterPlace          place = WaterPlace::everywhere;
+	Pressure            pressure {}, before {};
+	double              factor = 1, factorBefore = 1; ///< of the pressures
+	bool                wantsWork = false;            ///< which takes two passes over the points
+	std::vector<double> shares {};                    ///< by material, of what acts on its points; empty: all
+
+	// of the last step that was accepted
+	std::vector<double>                   porePressure {}; ///< by point of the cloud, at its end [Pa]
+	std::vector<std::pair<Key, Vec<Dim>>> onWalls {};      ///< of nodes that are held, what the water does to what holds them [N]; zero where they are free
+	double                                work = 0;        ///< with the mean of the forces at its two ends [J], where it is wanted
+};
+
+/// The laws know the effective stress s' = s + p I alone. With the surface loaded by the same pressure as the pores,
+/// all that is left of p in the virtual work of a displacement v is that of a body force (divergence theorem): pores +
+/// outside: -int p div v dV + int p n.v dA = int v.grad p dV. So
+///
+///     everywhere: V0 grad p S_a     pores: -V p grad S_a     outside: V (grad p S_a + p grad S_a)
+///
+/// with the current volume V and its derivative, but for the first. There, water that the pores lose takes its weight
+/// along, which the mass of a point, constant, does not know: with the initial volume V0, (density - that of water) V0
+/// g is exactly the weight of submerged soil, however it deforms. The second one has no symmetric stiffness.
+template <int Dim> class WaterForce : public Term<Dim> {
+public:
+	/// Results are written to the water in commit().
+	WaterForce(Water<Dim>&, const Beginning<Dim>&);
+
+	void                        mark(NodeMatrix<Dim>&) const override;
+	std::optional<PointFailure> add(const Eigen::VectorXd& d, const TermSum<Dim>&) const override;
+	void                        addBefore(Eigen::VectorXd& force) const override;
+	bool                        isSymmetric() const override
+	{
+		return water_.place == WaterPlace::everywhere || (water_.place == WaterPlace::outside && water_.pressure->fall().isZero(0));
+	}
+	double fromOutside(const Eigen::VectorXd& d) const override;
+	void   commit(const Eigen::VectorXd& d) override;
+
+private:
+	struct Start { // of a point
+		Vec<Dim> position, halfSize;
+		double   volume0, volume;
+	};
+	template <class F> std::optional<PointFailure> forWetPoints(const WaterPressure<Dim>&, WaterPlace, const Eigen::VectorXd& d, F&&) const;
+
+	Water<Dim>&            water_;
+	const CloudBasis<Dim>& basis_;
+	const Grid<Dim>&       grid_;
+	const FreeDofs&        dofs_;
+	const NodeShare&       share_;
+	std::vector<Start>     start_; // in the order of the basis: the cloud goes on before commit()
+};
+
+} // namespace gimpm
