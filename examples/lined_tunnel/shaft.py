@@ -1,6 +1,6 @@
 #!/usr/bin/env yade
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""A shaft around its axis: the lining, a shell of revolution, is put into elastic ground at rest, and the ground in it is dug out in stages down to half of its depth. Far from floor and surface its hoop force is that of a tube in a plane that is pressed by the stress at rest."""
+"""A shaft around its axis: the lining, a shell of revolution, is put into elastic ground at rest, and the ground in it is dug out in stages, down to three quarters of its depth. Far from floor and surface its hoop force is that of a tube in a plane that is pressed by the stress at rest."""
 import os
 import sys
 from yade import mpm
@@ -30,8 +30,8 @@ depths, half = -np.array([x[1] for x in lining.vertices]), dug / 2
 found = np.interp(half, (depths[1:] + depths[:-1]) / 2, lining.hoopForces)  # of the segments
 soil, ring = young / (1 + nu) / R, lining.axialStiffness * (1 - of**2) / R**2
 expected = -options.K0 * density * 10 * half * R / (1 + soil / ring)
-print(f'hoop force at half of the depth {found / 1e3:.1f} kN/m, of a tube {expected / 1e3:.1f} kN/m ({100 * (found / expected - 1):+.1f} %); largest moment {max(map(abs, lining.moments)) / 1e3:.2f} kN m/m')
-compared(f'hoop force at half of the depth, cells of {h:g} m', found, expected, 'tube in a pressed plane', 'N/m')
+print(f'hoop force at half of what is dug {found / 1e3:.1f} kN/m, of a tube {expected / 1e3:.1f} kN/m ({100 * (found / expected - 1):+.1f} %); largest moment {max(map(abs, lining.moments)) / 1e3:.2f} kN m/m')
+compared(f'hoop force at half of what is dug, cells of {h:g} m', found, expected, 'tube in a pressed plane', 'N/m')
 figure, axes = plt.subplots(1, 2, figsize=(9, 5), layout='constrained')
 for ax, quantity in zip(axes, ('hoopForce', 'moment')):
 	mpm.diagram(lining, quantity, mpm.plot('displacement', ax=ax), 1.5).set(xlim=(0, 10), ylim=(-20, 0.5), title=quantity)

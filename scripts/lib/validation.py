@@ -30,7 +30,7 @@ runs = {
         'consolidation': ['consolidation.py'],
         'embankment': ['embankment.py'],
         'sheet_pile': ['sheet_pile.py', 'sheet_pile.py --cellSize 0.25 --depth 3'],
-        'lined_tunnel': ['lined_tunnel.py'],
+        'lined_tunnel': ['lined_tunnel.py', 'shaft.py'],
         'penetration': [
                 'penetration.py --cells 16 --depth 0.03', 'penetration.py --scene sphere --cells 10', 'penetration.py --scene plate', 'deep.py --scene tbar', 'deep.py --scene tbar --rough 1', 'deep.py --cells 3',
                 'deep.py --scene pile --cells 4', 'wheel.py', 'penetration.py --scene cylinder --cells 10', 'penetration.py --scene free --cells 2 --stiffness 20'

@@ -70,13 +70,16 @@ HardeningSoilSmall::Mean HardeningSoilSmall::between(double from, double to) con
 /// the history whose cosine is c < 0, the history's component along it is forgotten, and of that across it, |history|
 /// sqrt(1 - c^2), so much that 1 - c^2 of the whole stays: nothing where the step leads straight back, all of it where
 /// it leads across. So the modulus has no jump where a step turns, which Newton's method would have to cross.
+/// Shear strain that is round-off has no direction, and what has been is not forgotten by it.
+static constexpr double leastStep = 1e-12;
+
 HardeningSoilSmall::Turn HardeningSoilSmall::turnOf(const Mat3& history, const Mat3& shearing) const
 {
 	const double length = shearing.norm(), unit = std::sqrt(1.5);
 	// Strain beyond that from which on the modulus is that of unloading needs no memory.
 	const double known = std::min(history.norm(), most_ / unit);
 	const Mat3   past  = known > 0 ? Mat3(history * (known / history.norm())) : Mat3(Mat3::Zero());
-	if (!(length > 0)) return { past, unit * known, unit * known };
+	if (!(length > leastStep)) return { past, unit * known, unit * known };
 	const Mat3   along  = shearing / length;
 	const double cosine = known > 0 ? std::clamp(past.cwiseProduct(along).sum() / known, -1., 1.) : 0;
 	Turn         turn;

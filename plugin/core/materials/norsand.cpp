@@ -167,10 +167,11 @@ NorSand::Flow NorSand::atTip(const Trial& trial) const
 		low = high, high += width;
 	for (width = 1; !(rest(low).first <= 0) && width < most; width *= 2)
 		high = low, low -= width;
-	double pi = (low + high) / 2;
+	const bool isBetween = rest(low).first <= 0 && rest(high).first > 0;
+	double     pi        = (low + high) / 2;
 	for (int iteration = 0; iteration < 100 && high - low > 1e-15 * std::abs(pi); ++iteration) {
 		const auto [r, slope] = rest(pi);
-		(r > 0 ? high : low)  = pi;
+		(r <= 0 ? low : high) = pi;
 		const double next     = pi - r / slope;
 		const bool   isInside = next > low && next < high;
 		const double step     = (isInside ? next : (low + high) / 2) - pi;
@@ -178,7 +179,7 @@ NorSand::Flow NorSand::atTip(const Trial& trial) const
 		if (std::abs(step) <= 1e-14) break;
 	}
 	Flow flow { volumetricAt(-tip() * std::exp(pi)), 0, -std::exp(pi) };
-	flow.isFailed = !std::isfinite(flow.image) || width >= most;
+	flow.isFailed = !std::isfinite(flow.image) || !isBetween;
 	flow.slopes *= floorAtTip;
 	return flow;
 }

@@ -167,7 +167,7 @@ template <int Dim> void appendColumn(const NodeMatrix<Dim>& K, const FreeDofs& d
 }
 
 /// Of a symmetric matrix that keeps the blocks of each row from the diagonal on: they are those of the column below it.
-/// With fields from one on.
+/// Fields below the first are left out.
 void appendCouplings(const Couplings& K, const FreeDofs& dofs, const FieldNode& place, int i, Csc& out, int firstField = 0)
 {
 	const DofMap& map   = K.map();

@@ -10,14 +10,24 @@
 namespace gimpm {
 namespace {
 
+template <int Dim> std::string namesOfMeetings(const Motion<Dim>& motion)
+{
+	std::string names = "bodies of points";
+	const auto& all   = *motion.bodies;
+	for (const auto& meeting : all.meetings)
+		names += (&meeting == all.meetings.data() ? " '" : ", '") + all.bodies[meeting.slave].name + "' and '" + all.bodies[meeting.master].name + "'";
+	return names;
+}
+
 /// Whether the step can be made at all.
-template <int Dim> bool isPossible(const StepSystem<Dim>& system, const ExplicitInertia<Dim>& inertia, StepReport& report)
+template <int Dim> bool isPossible(const StepSystem<Dim>& system, const ExplicitInertia<Dim>& inertia, const Motion<Dim>& motion, StepReport& report)
 {
 	if (!system.map.isAlone())
 		return !fail(report, Failure::misplaced, "explicit steps are for displacements only, and there is the field '" + system.map[1].name + "'");
 	if (isObstructed(system, report)) return false;
 	if (const std::string obstacle = inertia.obstacle(); !obstacle.empty()) return !fail(report, Failure::misplaced, obstacle);
-	return !inertia.isSingular() || !fail(report, Failure::singular, "the mass matrix is singular to working precision");
+	if (inertia.isSingular()) return !fail(report, Failure::singular, "the mass matrix is singular to working precision");
+	return inertia.meets() || !fail(report, Failure::diverging, "the forces with which " + namesOfMeetings(motion) + " end the step are not found");
 }
 
 /// External forces less those that resist at the end of the step, with the displacements d.
@@ -40,7 +50,7 @@ template <int Dim> StepReport explicitStep(PointCloud<Dim>& cloud, const Model<D
 	const StepSystem<Dim> system(cloud, model, load, report);
 	// 2. points to nodes: velocities in the middle of the step, and so the displacements
 	ExplicitInertia<Dim> inertia(motion, system.beginning());
-	if (!isPossible(system, inertia, report)) return report;
+	if (!isPossible(system, inertia, motion, report)) return report;
 	const Eigen::VectorXd d = inertia.displacements();
 	// 3. the forces at the end of the step
 	Eigen::VectorXd imbalance;

@@ -80,7 +80,7 @@ Eigen::VectorXd equilibriumOfHeld(StepSystem<Dim>& system, LinearSolver& solver,
 	if (report.converged() || !canBeCut(report.failure) || system.hasInertia()) return growth;
 	const Model<Dim>& model = system.model;
 	const LoosePoints loose = hinged(system.basis, model.grid, model.boundary, system.terms, *model.division);
-	if (loose.points == before.loosePoints) return growth;
+	if (loose.points <= before.loosePoints) return growth;
 	const StepReport attempt = std::exchange(report, before);
 	report.takeEffort(attempt);
 	keepStill(loose, system, load, report);

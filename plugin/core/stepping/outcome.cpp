@@ -94,7 +94,7 @@ template <int Dim> Vec3 looseForce(const StepSystem<Dim>& system, const Eigen::V
 {
 	Vec3 sum = Vec3::Zero();
 	for (int i = 0; i < system.nodalSize(); ++i)
-		if (system.isStill(i / Dim) && !system.model.boundary.holder(Grid<Dim>::index(system.basis.nodes[i / Dim]), i % Dim))
+		if (system.isStill(i / Dim) && !system.model.boundary.holder(system.basis.nodes[i / Dim], i % Dim))
 			sum[i % Dim] += force[i] - system.external[i];
 	return sum;
 }

@@ -44,7 +44,7 @@ struct StepReport {
 	/// are, and the place of the first part.
 	int         loosePoints = 0;
 	std::string loosePlace {};
-	Vec3        looseForce = Vec3::Zero(); ///< with which [N]
+	Vec3        looseForce = Vec3::Zero(); ///< with which they are held [N]
 
 	/// Free degree of freedom with the largest out-of-balance force.
 	struct {

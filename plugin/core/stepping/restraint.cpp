@@ -264,7 +264,7 @@ Restraint restraintBy(
 /// nothing goes from one to another; they share nodes where they meet at a corner or an edge.
 template <int Dim> class Hinges {
 public:
-	Hinges(const CloudBasis<Dim>& basis, const Grid<Dim>& grid) : basis_(basis), grid_(grid), parent_(basis.cells.size())
+	Hinges(const CloudBasis<Dim>& basis, const Grid<Dim>& grid) : basis_(basis), grid_(grid), parent_(basis.cells.size()), ofLarge_(basis.nodes.size(), 0)
 	{
 		std::iota(parent_.begin(), parent_.end(), 0);
 		for (const auto& patch : basis.patches)
@@ -281,20 +281,24 @@ public:
 		for (const auto& patch : basis.patches) {
 			const int group = root(firstOf(patch));
 			for (const int n : patch.node)
-				if (n >= 0) (isSmall(group) ? small_[group] : ofLarge_).insert(n);
+				if (n < 0) continue;
+				else if (isSmall(group))
+					small_[group].insert(n);
+				else
+					ofLarge_[n] = 1;
 		}
 	}
 
 	LoosePoints loose(const Boundary<Dim>& boundary, const Terms<Dim>& terms) const
 	{
 		LoosePoints result;
-		if (ofLarge_.empty()) return result;
+		if (small_.empty() || std::find(ofLarge_.begin(), ofLarge_.end(), 1) == ofLarge_.end()) return result;
 		for (const auto& [group, nodes] : small_) {
 			const Part<Dim> part = heldPart(nodes, boundary, terms);
 			if (describe(part, grid_).empty()) continue;
 			if (result.points == 0) result.place = placeOf(part, grid_);
 			result.points += points_.at(group);
-			std::set_difference(nodes.begin(), nodes.end(), ofLarge_.begin(), ofLarge_.end(), std::back_inserter(result.nodes));
+			std::copy_if(nodes.begin(), nodes.end(), std::back_inserter(result.nodes), [&](int n) { return !ofLarge_[n]; });
 		}
 		return result;
 	}
@@ -324,7 +328,7 @@ private:
 			part.reach = std::max(part.reach, (place(n) - part.centre()).norm());
 		for (const int n : nodes)
 			for (int a = 0; a < Dim; ++a)
-				if (ofLarge_.count(n) || boundary.holder(Grid<Dim>::index(basis_.nodes[n]), a)) part.hold(place(n), Vec<Dim>::Unit(a));
+				if (ofLarge_[n] || boundary.holder(basis_.nodes[n], a)) part.hold(place(n), Vec<Dim>::Unit(a));
 		for (const auto& term : terms)
 			term->restrain([&](int n, const Vec<Dim>& direction, const Vec<Dim>& inCell) {
 				if (nodes.count(n)) part.hold(place(n) + inCell, direction.normalized());
@@ -335,10 +339,10 @@ private:
 
 	const CloudBasis<Dim>&       basis_;
 	const Grid<Dim>&             grid_;
-	std::vector<int>             parent_; // of cells
-	std::map<int, int>           points_; // of groups
-	std::map<int, std::set<int>> small_;  // nodes of groups of few points
-	std::set<int>                ofLarge_;
+	std::vector<int>             parent_;  // of cells
+	std::map<int, int>           points_;  // of groups
+	std::map<int, std::set<int>> small_;   // nodes of groups of few points
+	std::vector<char>            ofLarge_; // by node
 };
 
 } // namespace

@@ -44,9 +44,10 @@ template <int Dim> AttachedPlaces<Dim> attachTo(int layer, const std::vector<Vec
 template <int Dim> AttachedPlaces<Dim> attachPlaces(const std::vector<Vec<Dim>>& places, const Beginning<Dim>& step, const std::string& name, int layer)
 {
 	if (step.grid.parting || layer != layerOfPlace) return attachTo(layer, places, step, name);
-	const auto&         layers = step.cloud.layer;
-	const int           last   = layers.empty() ? 0 : *std::max_element(layers.begin(), layers.end());
-	AttachedPlaces<Dim> found  = attachTo(0, places, step, name);
+	const auto& layers = step.cloud.layer;
+	// The same passes in all processes.
+	const int           last  = int(step.division.largest(layers.empty() ? 0 : *std::max_element(layers.begin(), layers.end())));
+	AttachedPlaces<Dim> found = attachTo(0, places, step, name);
 	for (int next = 1; next <= last; ++next) {
 		auto other = attachTo(next, places, step, name);
 		if (!other.obstacle.empty()) continue;

@@ -234,17 +234,6 @@ namespace {
 		std::apply([&](const auto&... row) { (visit(row), ...); }, rows);
 	}
 
-	// Of as many as the grid has.
-	void requireBodies(const vector<MaterialPoint>& points, int count)
-	{
-		for (const MaterialPoint& point : points)
-			if (point.state->body >= count)
-				throw std::invalid_argument(
-				        "Body #" + std::to_string(point.id) + ": MpmState.body = " + std::to_string(point.state->body)
-				        + ", and MpmGrid.bodies has " + std::to_string(count)
-				        + " bodies of points: the engine needs the grid that mpm.fill was given.");
-	}
-
 	template <int Dim> bool hasMovingBox(const gimpm::Boundary<Dim>& boundary)
 	{
 		const auto& boxes = boundary.boxes();
@@ -269,6 +258,14 @@ template <int Dim> Real reenter(Real& x, int axis, const gimpm::Grid<Dim>& grid)
 	const Real shift = length * std::floor((x - low) / length);
 	x                = std::clamp(x - shift, low, high); // round-off
 	return shift;
+}
+
+void requireBody(int body, int count, const string& where)
+{
+	if (body < count) return;
+	throw std::invalid_argument(
+	        where + ": MpmState.body = " + std::to_string(body) + ", and MpmGrid.bodies has " + std::to_string(count)
+	        + " bodies of points: the engine needs the grid that mpm.fill was given.");
 }
 
 template <int Dim> gimpm::Model<Dim> emptyModel(const Analysis& analysis, const Conditions<Dim>& conditions)
@@ -322,7 +319,8 @@ template <int Dim> gimpm::PointCloud<Dim> gather(const vector<MaterialPoint>& po
 	if (model.grid.axisymmetric) cloud.hoopStretch.resize(points.size());
 	if (hasMovingBox(model.boundary)) cloud.position0.resize(points.size());
 	if (!model.layers.empty()) {
-		requireBodies(points, int(model.layers.size()) - 1);
+		for (const MaterialPoint& point : points)
+			requireBody(point.state->body, int(model.layers.size()) - 1, "Body #" + std::to_string(point.id));
 		cloud.layer.resize(points.size());
 	}
 	MaterialIndex materials(model.materials, model.shares, known);

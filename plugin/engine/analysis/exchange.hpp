@@ -10,6 +10,8 @@ namespace yade {
 
 // What an analysis is set to, as the core understands it, with the nodes that its conditions hold; without points and
 // without what acts on them.
+// Of the bodies of points that the grid has, at `where`.
+void                                 requireBody(int body, int count, const string& where);
 template <int Dim> gimpm::Model<Dim> emptyModel(const Analysis&, const Conditions<Dim>&);
 
 // Cells that hold the middle of a point, in a row; of a division, those of all processes.

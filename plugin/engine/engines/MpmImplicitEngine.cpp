@@ -145,13 +145,13 @@ void MpmImplicitEngine::action()
 
 // The search goes over all points, and a face that stands goes on standing: it is looked at in every tenth step, when
 // soil has come or gone, and where the loads have come to rest, at which most runs end.
-bool MpmImplicitEngine::isTimeForSlips()
+bool MpmImplicitEngine::isTimeForSlips(Real begin)
 {
 	constexpr long every = 10;
 	if (plausibility.hasSaid("planeSlip")) return false;
 	const bool isChanged = std::exchange(pointsOfSlips, points.size()) != points.size();
 	const Real end       = loadsEnd() - 1e-9 * scene->dt;
-	return isChanged || scene->iter % every == 0 || (loadTime >= end && loadTime - scene->dt < end);
+	return isChanged || nDone % every == 1 || (loadTime >= end && begin < end);
 }
 
 template <int Dim> void MpmImplicitEngine::step(Agreement& agreement)
@@ -177,7 +177,7 @@ template <int Dim> void MpmImplicitEngine::step(Agreement& agreement)
 	else {
 		warn(plausibility.once("ghostShare", warningOfShare(*this)));
 		warn(plausibility.once("loosePoints", warningOfLoosePoints(*this)));
-		if (isTimeForSlips()) warn(plausibility.once("planeSlip", warningOfSlip(*this, points, job.cloud, job.model)));
+		if (isTimeForSlips(job.begin)) warn(plausibility.once("planeSlip", warningOfSlip(*this, points, job.cloud, job.model)));
 	}
 	if ((maxSplits > 0 || job.model.grid.refinement) && clampedDomains > 0) splitOutgrown(job);
 	const auto warnings = plausibility.warningsOfResult(*this, points, job.cloud);

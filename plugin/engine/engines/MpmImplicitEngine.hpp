@@ -137,7 +137,7 @@ private:
 	void                            join();
 	string                          warningOfAbsence();
 	bool                            isEndOfLoads() const;
-	bool                            isTimeForSlips();
+	bool                            isTimeForSlips(Real begin);
 	template <int Dim> void         step(Agreement&);
 	template <int Dim> void         askFunctions(Agreement&);
 	template <int Dim> bool         ask(const gimpm::Grid<Dim>&, const vector<gimpm::Key>& cells) const;

@@ -228,9 +228,9 @@ string warningOfLoosePoints(const Analysis& engine)
 	const auto& report = engine.last;
 	if (report.loosePoints == 0) return "";
 	std::ostringstream text;
-	text << "in the step to O.time = " << engine.loadTime << " nothing restrains points apart from the rest (" << report.loosePoints
-	     << ", the first around " << report.loosePlace
-	     << "): no equilibrium tells where they go, so they are held where they are (report()['loosePoints']).";
+	text << "in the step to O.time = " << engine.loadTime << " nothing restrains points apart from the rest, or hanging on it by a corner of a cell ("
+	     << report.loosePoints << ", the first around " << report.loosePlace
+	     << "): no equilibrium tells where they go, so they are held where they are (report()['loosePoints'], by report()['looseForce']).";
 	return text.str();
 }
 

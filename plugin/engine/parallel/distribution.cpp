@@ -52,6 +52,7 @@ namespace {
 		return [layers = layersOf<Dim>(engine), lattice = engine.grid->lattice<Dim>(),
 		        basis
 		        = engine.basis == "mpm" ? gimpm::Basis::linear : gimpm::Basis::gimp](const Vector3r& position, const Vector3r& halfSize, int body) {
+			if (!layers.empty()) requireBody(body, int(layers.size()) - 1, "Points");
 			const int layer = layers.empty() ? 0 : layers[body + 1];
 			return gimpm::lowestCell<Dim>(position.head<Dim>(), halfSize.head<Dim>().cwiseMin(0.5 * lattice.cellSize), lattice, basis, layer);
 		};

@@ -133,7 +133,6 @@ assert not [name for name in os.listdir('.') if 'state' in name], os.listdir('.'
 def test_missing_folders_are_made(yade):
 	"""By all that writes files, without leaving anything else in them."""
 	yade('''
-import gzip
 import os
 from scenes import *
 solver = slope()

@@ -45,7 +45,7 @@ template <int Dim> PairPlaces<Dim> BodyContact<Dim>::pairNow(const Place& place,
 	return x;
 }
 
-/// Without displacements as the step begins.
+/// The places at displacements d; without these, where the step begins.
 template <int Dim> PairPlaces<Dim> BodyContact<Dim>::pairThen(const Place& place, const Near& near, const Eigen::VectorXd* d, const Places& places) const
 {
 	return d ? pairNow(place, near, *d, places) : pair(place.start, meetingOf(place).master, near.piece, places);
@@ -105,7 +105,7 @@ auto BodyContact<Dim>::look(const Eigen::VectorXd& d, PairSlope slope, const std
 	return looked_;
 }
 
-/// By rising numbers.
+/// The nodes are in the order of their numbers.
 template <int Dim> auto BodyContact<Dim>::nodesOf(const Place& place, const Near& near) const -> std::vector<PairNode>
 {
 	std::vector<PairNode> nodes;

@@ -72,16 +72,16 @@ template <int Dim> double BodyContact<Dim>::approach(const BodyMeeting<Dim>& mee
 
 template <int Dim> Refusal BodyContact<Dim>::refusal(const Eigen::VectorXd& d) const
 {
-	const auto& [all, now, touchingNow] = look(d);
-	const char* advice                  = "Smaller load steps (O.dt), or a larger stiffness of MpmBodyContact, may help.";
+	const Looked& looked = look(d);
+	const char*   advice = "Smaller load steps (O.dt), or a larger stiffness of MpmBodyContact, may help.";
 	for (const auto& meeting : system_.meetings)
-		if (const double moved = approach(meeting, now); moved > reach_)
+		if (const double moved = approach(meeting, looked.now); moved > reach_)
 			return { Failure::penetrated,
 				 sentence(
 				         "bodies '", system_.bodies[meeting.slave].name, "' and '", system_.bodies[meeting.master].name, "' move by ", moved,
 				         " m against each other in the step, farther than half a cell, within which they are looked for"),
 				 advice };
-	for (const Touching& touching : touchingNow) {
+	for (const Touching& touching : looked.touching) {
 		const double gap = Facing<Dim>(touching.now).gap;
 		if (gap > -deepestInBodies * cellSize_) continue;
 		const auto& meeting = meetingOf(touching.place);

@@ -145,7 +145,7 @@ template <int Dim> void BodyContact<Dim>::takeModuli(const Beginning<Dim>& step)
 		places_[i].young = std::min(moduli[leaves[i][0]], moduli[leaves[i][1]]);
 }
 
-/// With its gap.
+/// The piece that the place begins with, and the gap to it.
 template <int Dim> void BodyContact<Dim>::findFirst(Place& place)
 {
 	const auto& meeting = meetingOf(place);

@@ -39,7 +39,7 @@ template <int Dim> struct PairAction {
 	bool                          slips    = false;
 };
 
-/// With its derivative.
+/// The action with its derivative.
 template <int Dim> struct PairForce : PairAction<Dim> {
 	static constexpr int size = Dim * (Dim + 1);
 

@@ -99,7 +99,7 @@ template <int Dim> std::string ExplicitInertia<Dim>::obstacle() const
 {
 	for (const auto& each : damping_)
 		if (std::string found = each->obstacle(); !found.empty()) return found;
-	return meets_ ? "" : "the forces with which bodies of points end the step come to no end";
+	return "";
 }
 
 /// Forces C v that are diagonal act with the velocity at the end, v_1/2 + T/2 a_1: they cost no stability.

@@ -18,6 +18,8 @@ public:
 	/// Velocities and accelerations are written in commit().
 	ExplicitInertia(Motion<Dim>&, const Beginning<Dim>&);
 
+	/// Whether contact of bodies of points has come to an end.
+	bool        meets() const { return meets_; }
 	std::string obstacle() const; ///< why the step cannot be made, a clause; empty if it can
 	bool        isSingular() const { return isSingular_; }
 	int         iterations() const { return mass_.iterations(); } ///< of conjugate gradients
@@ -50,8 +52,8 @@ private:
 	double                                     seconds_ = 0;
 	NodalMass<Dim>                             mass_;
 	std::vector<std::unique_ptr<Damping<Dim>>> damping_;
-	bool                                       isSingular_ = false, meets_ = true; // meets: contact has come to an end
-	std::vector<Vec<Dim>>                      atMiddle_;                          // velocities of the points
+	bool                                       isSingular_ = false, meets_ = true;
+	std::vector<Vec<Dim>>                      atMiddle_;           // velocities of the points
 	Eigen::VectorXd                            impulse_;            // of contact of bodies with each other, beyond what acts as the step begins
 	Eigen::VectorXd                            start_, middle_;     // velocities of the nodes, the former where there is damping
 	Eigen::VectorXd                            acceleration_, end_; // at the end, and velocities there
