@@ -397,6 +397,28 @@ print(json.dumps([contact.force[1], [[f(points['excessPressure'][o]) for f in (m
 		assert np.allclose([weakest - most, strongest - least], -1e4, rtol=1e-4)
 
 
+@pytest.mark.parametrize('water', ['MpmWater(level=2)', 'MpmWater(pressure=lambda x: 9810 * max(0, 2 - x[1]))'])
+def test_what_is_under_water_presses_by_its_weight_in_water(yade, water):
+	"""A block on another one, between smooth sides: water in the joint between them bears its part, each body is lifted by itself."""
+	force, bottom, pores = yade(scene + f'''
+material('soil', poisson=0, density=2000)
+grid = MpmGrid(cellSize=0.25)
+O.bodies.append(mpm.fill(box((0, 0), (1, 0.625)), grid, 2, 'soil', body='low'))
+O.bodies.append(mpm.fill(box((0, 0.625), (1, 1.25)), grid, 2, 'soil', body='up'))
+sides = [MpmBoundary(max=(inf, 0, inf), fix='y'), MpmBoundary(max=(0, inf, inf), fix='x'), MpmBoundary(min=(1, -inf, -inf), fix='x')]
+contact = MpmBodyContact(between=('up', 'low'), friction=0.3)
+solver = MpmImplicitEngine(grid=grid, gravity=(0, -9.81, 0), boundaries=sides, water=[{water}], contacts=[contact], newton=MpmNewton(tolerance=1e-9), verbosity=0)
+O.engines, O.dt = [solver], 1 / 2
+O.run(2, wait=True)
+points = mpm.arrays()
+print(json.dumps([contact.force[1], solver.reactions[0][1], float(np.abs(points['porePressure'] - 9810 * (2 - points['pos'][:, 1])).max())]))
+''').result
+	block = 0.625 * 9.81
+	assert abs(force / (block * 1000) - 1) < 1e-6
+	assert abs(bottom / (2 * block * 1000 + 2 * 9810) - 1) < 1e-3, 'total stress: with the water above; strains are .01'
+	assert pores < 1e-6 * 9810
+
+
 @pytest.mark.parametrize('engine, setting', [('MpmImplicitEngine', '{}'), ('MpmDynamicEngine', 'dict(distributed=True)')])
 def test_two_processes_come_to_the_states_of_one(yade, engine, setting):
 	"""A rough block on another one, under a load, whose surfaces cross from one process to the other; with all points in both, or with points that are divided."""
@@ -461,7 +483,6 @@ refusals = {
         "two(between=('low', 'top')); O.step()": ['contacts[0].between', "'top'", 'low, up'],
         "two(names=(None, None)); O.step()": ['MpmGrid.bodies is empty'],
         "two(names=('low', 'up', 'top'), between=('low', 'up')); O.step()": ["'up'", "'top'", 'no MpmBodyContact between'],
-        "two(water=[MpmWater(level=1)]); O.step()": ['MpmBodyContact', 'water'],
         "two(grid=dict(period=(2, 0, 0))); O.step()": ['MpmBodyContact', 'period'],
         "two(flow=MpmFlow()); O.step()": ['MpmBodyContact', 'flow'],
         "two(boundaries=[MpmBoundary(surface=[(0, 0), (2, 0)], fix='n')]); O.step()": ['MpmBodyContact', 'boundaries[0].surface', 'MpmBoundary.body'],

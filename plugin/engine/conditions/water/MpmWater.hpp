@@ -71,7 +71,6 @@ public:
 	Real                      end(const Analysis&) const override;
 	string                    needsEqualCells(const string&) const override { return "water"; }
 	string                    needsUntiedNodes(const string&) const override { return ""; }
-	string                    needsOneBody(const string&) const override { return "water"; }
 	bool                      hasQuestions() const override { return true; }
 	std::unique_ptr<Question> question(const gimpm::Grid<2>&, const vector<gimpm::Key>&, const string& name) override;
 	std::unique_ptr<Question> question(const gimpm::Grid<3>&, const vector<gimpm::Key>&, const string& name) override;
