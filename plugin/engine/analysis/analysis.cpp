@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "engine/analysis/analysis.hpp"
+#include <algorithm>
 
 namespace yade {
 
@@ -15,6 +16,12 @@ void Analysis::requireConditions() const
 {
 	for (const Listed& listed : conditions())
 		listed.condition->requireAdmissible();
+}
+
+bool Analysis::bodiesMeet() const
+{
+	const auto all = conditions();
+	return std::any_of(all.begin(), all.end(), [](const Listed& listed) { return listed.condition->partsBodies(); });
 }
 
 size_t Analysis::countOf(const string& list) const

@@ -61,6 +61,9 @@ public:
 	// std::invalid_argument names one of a condition; who makes conditions asks before, as they do not ask.
 	void requireConditions() const;
 
+	// Whether bodies of points meet: there is a condition that gives them nodes of their own.
+	bool bodiesMeet() const;
+
 	// How many conditions an attribute has.
 	size_t countOf(const string& list) const;
 

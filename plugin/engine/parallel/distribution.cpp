@@ -41,9 +41,7 @@ namespace {
 	// Of bodies of points that meet (Model::layers), before there is a model.
 	template <int Dim> vector<int> layersOf(const Analysis& engine)
 	{
-		const auto conditions = engine.conditions();
-		if (std::none_of(conditions.begin(), conditions.end(), [](const Listed& listed) { return listed.condition->partsBodies(); })) return {};
-		return emptyModel<Dim>(engine, conditionsOf<Dim>(engine)).layers;
+		return engine.bodiesMeet() ? emptyModel<Dim>(engine, conditionsOf<Dim>(engine)).layers : vector<int>();
 	}
 
 	// Of a position, half of a domain, which reaches no farther than half a cell, and a body of points.

@@ -5,6 +5,7 @@ import math
 
 import numpy as np
 import pytest
+from conftest import outcomesOf
 
 scene = '''
 import json
@@ -497,15 +498,7 @@ refusals = {
 
 
 def test_what_cannot_be_is_refused_by_name(yade):
-	outcomes = yade(refusing + f'''
-found = []
-for statement in {list(refusals)}:
-	try:
-		exec(statement)
-		found.append('')
-	except Exception as error:
-		found.append(str(error))
-print(json.dumps(found))
-''').result
-	for (statement, words), said in zip(refusals.items(), outcomes):
+	outcomes = outcomesOf(yade.folder, refusing, list(refusals))
+	for statement, words in refusals.items():
+		_, said = outcomes[statement]
 		assert all(word in said for word in words) and bool(said) == bool(words), (statement, said)

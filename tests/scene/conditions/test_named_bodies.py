@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Held nodes, walls and loads of one of several bodies of points that share cells."""
 import numpy as np
+from conftest import outcomesOf
 
 weight = 2000 * 10 * 0.625 * 1.625
 
@@ -86,16 +87,7 @@ refusals = {
 
 
 def test_names_that_no_body_has_are_refused(yade):
-	outcomes = yade(scene + f'''
-found = []
-for statement in {list(refusals)}:
-	exec(statement)
-	try:
-		O.step()
-		found.append('')
-	except Exception as error:
-		found.append(str(error))
-print(json.dumps(found))
-''').result
-	for (statement, words), said in zip(refusals.items(), outcomes):
+	outcomes = outcomesOf(yade.folder, scene, [statement + '; O.step()' for statement in refusals])
+	for statement, words in refusals.items():
+		_, said = outcomes[statement + '; O.step()']
 		assert all(word in said for word in words) and bool(said) == bool(words), (statement, said)

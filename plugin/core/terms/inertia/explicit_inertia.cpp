@@ -35,7 +35,8 @@ ExplicitInertia<Dim>::ExplicitInertia(Motion<Dim>& motion, const Beginning<Dim>&
 	impulse_ = blow_ = jump_ = Eigen::VectorXd::Zero(step.prescribed.size());
 	damping_                 = dampingOf(motion.damping, step);
 	begin(step);
-	middle_ = step.prescribed / motion_.duration;
+	momentum_ = weighedAtNodes(basis_, motion_.mass, atMiddle_, share_);
+	middle_   = step.prescribed / motion_.duration;
 	findMiddle();
 	meet();
 	findJump();
@@ -68,7 +69,7 @@ template <int Dim> void ExplicitInertia<Dim>::begin(const Beginning<Dim>& step)
 template <int Dim> void ExplicitInertia<Dim>::findMiddle()
 {
 	constexpr double      roundOff = 1e-12;
-	const Eigen::VectorXd momentum = weighedAtNodes(basis_, motion_.mass, atMiddle_, share_) + impulse_;
+	const Eigen::VectorXd momentum = momentum_ + impulse_;
 	solve(momentum, dofs_, middle_);
 	blow_ = blowOf(mass_, middle_, momentum, roundOff, [&](Eigen::Index i) { return isHeld(i); });
 }

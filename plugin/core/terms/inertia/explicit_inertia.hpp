@@ -54,6 +54,7 @@ private:
 	std::vector<std::unique_ptr<Damping<Dim>>> damping_;
 	bool                                       isSingular_ = false, meets_ = true;
 	std::vector<Vec<Dim>>                      atMiddle_;           // velocities of the points
+	Eigen::VectorXd                            momentum_;           // of the points, at the nodes, in the middle of the step
 	Eigen::VectorXd                            impulse_;            // of contact of bodies with each other, beyond what acts as the step begins
 	Eigen::VectorXd                            start_, middle_;     // velocities of the nodes, the former where there is damping
 	Eigen::VectorXd                            acceleration_, end_; // at the end, and velocities there

@@ -2,16 +2,9 @@
 #include "engine/conditions/bodies/layers.hpp"
 #include "core/base/sentence.hpp"
 #include "engine/conditions/bodies/MpmBodyContact.hpp"
-#include <algorithm>
 #include <set>
 
 namespace yade {
-
-static bool haveAnyContact(const Analysis& analysis)
-{
-	const auto conditions = analysis.conditions();
-	return std::any_of(conditions.begin(), conditions.end(), [](const Listed& listed) { return listed.condition->partsBodies(); });
-}
 
 bool meet(const Analysis& analysis, int one, int other)
 {
@@ -26,7 +19,7 @@ bool meet(const Analysis& analysis, int one, int other)
 
 vector<int> bodyLayers(const Analysis& analysis)
 {
-	if (!haveAnyContact(analysis)) return {};
+	if (!analysis.bodiesMeet()) return {};
 	std::set<int> alone;
 	for (const Listed& listed : analysis.conditions())
 		if (const string name = listed.condition->onlyOn(); !name.empty()) alone.insert(analysis.grid->bodyNamed(name));
@@ -66,7 +59,7 @@ void requireOwnNodes(const Analysis& analysis, const string& body, const string&
 		        given, ": no body is called that; ",
 		        known.empty() ? "MpmGrid.bodies is empty: fill it with mpm.fill(..., body='" + body + "') and the MpmGrid of the engine."
 		                      : "there are " + known + "."));
-	if (!haveAnyContact(analysis))
+	if (!analysis.bodiesMeet())
 		throw std::invalid_argument(
 		        given
 		        + " names one of bodies that stick to each other, as there is no MpmBodyContact among contacts: they share their nodes, and what acts on one acts "
