@@ -53,7 +53,7 @@ times, forces, moments = [], [], []
 figure, pictures = plt.subplots(4, 1, figsize=(8, 9), height_ratios=[1, 1, 1, 1.2], layout='constrained')
 when = [0.6 * arrival, arrival + 0.2, options.end - O.dt]
 while O.time < options.end - O.dt / 2:
-	O.run(1, wait=True)
+	O.step()
 	times.append(O.time)
 	forces.append(-onDam.force[0])  # on the dam
 	moments.append(-mpm.sectionForces('dam', (cut, (0, 1)))['M'])

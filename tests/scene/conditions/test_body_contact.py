@@ -108,7 +108,7 @@ def bars(gap=0.02, **scheme):
 	O.engines, O.dt = [solver], 0.9 * solver.criticalTimeStep() if scheme else duration / 300
 	touched, drift, most, first = [], 0, 0, 1000 * h * speed**2 / 2
 	while O.time < duration:
-		O.run(1, wait=True)
+		O.step()
 		data = solver.plotData()
 		drift, most = max(drift, abs(data['momentum_x'] / (1000 * h * speed) - 1), abs(data['momentum_y']) / (1000 * h * speed)), max(most, data['kineticEnergy'] + data['elasticEnergy'])
 		if contact.force[0]: touched.append(O.time)
@@ -145,7 +145,7 @@ def fly(along, low, high, **kind):
 	O.engines, O.dt = [solver], 0.8 * solver.criticalTimeStep()
 	first, drift, most, touched = None, 0, 0, 0
 	while O.time < 0.02 * h / speed + 0.012:
-		O.run(1, wait=True)
+		O.step()
 		data = solver.plotData()
 		momentum, energy = data['momentum_' + 'xy'[along]], data['kineticEnergy'] + data['elasticEnergy']
 		first = first or (momentum, energy)
@@ -172,7 +172,7 @@ def fly(**scheme):
 	solver = MpmDynamicEngine(grid=grid, boundaries=[MpmBoundary(max=(inf, 0, inf), fix='xy')], contacts=[MpmBodyContact(between=('low', 'up'), friction=0.3)], verbosity=0, **scheme)
 	O.engines, O.dt, first, most, cuts = [solver], 0.05, 1000 * 0.09 / 2, 0, 0
 	for step in range(6):
-		O.run(1, wait=True)
+		O.step()
 		data = solver.plotData()
 		most, cuts = max(most, (data['kineticEnergy'] + data['elasticEnergy']) / first), cuts + solver.cuts
 	return most, cuts
@@ -195,7 +195,7 @@ solver = MpmDynamicEngine(grid=grid, gravity=(0, -10, 0), gravityCurve=[(0, 1)],
 O.engines, O.dt = [solver], 0.005
 before, speed, first = 0, [], None
 while O.time < 0.2:
-	O.run(1, wait=True)
+	O.step()
 	speed.append(means(1)[1])
 	if first is None and contact.touching: first = len(speed)
 free = 10 * O.dt * np.arange(1, first)
@@ -294,7 +294,7 @@ def turn(mu, steps=120):
 		for plate in plates:
 			x, y, z = plate.pos
 			plate.vel, plate.angVel = (cos(a) * x - sin(a) * y - x, sin(a) * x + cos(a) * y - y, 0), (0, 0, a)
-		O.run(1, wait=True)
+		O.step()
 		c, s, (x, y, z) = cos(a * (step + 1)), sin(a * (step + 1)), between.force
 		forces.append([c * x + s * y, c * y - s * x])
 	return forces

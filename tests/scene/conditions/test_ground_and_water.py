@@ -44,11 +44,11 @@ def run(density, water, save=False):
 	ids = mpm.stages.place(mpm.fill(part(2, 3), grid, 2, 'layer'), steps=3)
 	mpm.assign(ids=list(ids), force=[(0, -100, 0)] * len(ids))
 	for step in range(3):
-		O.run(1, wait=True)
+		O.step()
 		note(solver)
 	mpm.stages.excavate(part(2.01, 4), steps=4)
 	for step in range(4):
-		O.run(1, wait=True)
+		O.step()
 		note(O.engines[-1])
 		if save and step == 1:
 			mpm.save('half.yade.gz')
@@ -79,7 +79,7 @@ for what in 'placed', 'dug out':
 		mpm.stages.place(mpm.fill(part(2, 3), grid, 2, 'layer'), steps=steps) if what == 'placed' else mpm.stages.excavate(part(2, 4), steps=steps)
 		cuts = 0
 		for step in range(steps):
-			O.run(1, wait=True)
+			O.step()
 			cuts += O.engines[-1].cuts
 		points = mpm.arrays()
 		out.append([cuts, points['stress'][abs(points['pos0'][:, 1] - 1.875) < .01, 1, 1].mean()])

@@ -58,7 +58,7 @@ def scene(term, grid, young=None, sides=(0, width), distributed=False, weight=10
 		solver.contacts = [MpmContact()]
 	if term == 'explicit': O.dt, steps = .001, 40  # below the critical step
 	for step in range(steps):
-		O.run(1, wait=True)
+		O.step()
 	points = mpm.arrays()
 	where = points['pos0'] - [shift, 0, 0]
 	if shift: where[:, 0] %= width
