@@ -10,11 +10,11 @@ from .bodies import One
 from .course import Course
 
 O = Omega()
-g, R, h = 10., .5, .125
+g, R = 10., .5
 
 
-def _ground(young, friction, gravity, every, isDynamic, stiffness, dt=1e-3, long=12, wide=4, deep=2, off=.5):
-	"""A sphere that has sunk into stiff ground two cells thick, whose base is held, by its weight on level ground, and is at rest there."""
+def _ground(young, friction, gravity, every, isDynamic, stiffness, dt=1e-3, long=12, wide=4, deep=2, off=.5, rest=.1, h=.125):
+	"""A sphere that has sunk into stiff ground two cells thick, whose base is held, by its weight on level ground in *rest* seconds, and is at rest there."""
 	O.reset()
 	O.materials.append(MpmElasticMat(young=young, poisson=.2, density=2000, label='soil'))
 	O.materials.append(FrictMat(young=1e9, density=2600, frictionAngle=np.arctan(friction), label='rigid'))
@@ -28,7 +28,7 @@ def _ground(young, friction, gravity, every, isDynamic, stiffness, dt=1e-3, long
 	mover = NewtonIntegrator(gravity=(0, 0, gravity[2]), damping=.7, mask=1)
 	O.engines = [ForceResetter(), solver, mover]
 	O.dt = dt / every
-	O.run(int(round(.1 / O.dt)), wait=True)
+	O.run(int(round(rest / O.dt)), wait=True)
 	mover.gravity, mover.damping = gravity, 0
 	ball.state.vel = ball.state.angVel = (0, 0, 0)
 	return ball, contact, solver
