@@ -10,11 +10,11 @@ from .bodies import One
 from .course import Course
 
 O = Omega()
-g, R, h = 10., .5, .125
+g, R = 10., .5
 
 
-def _ground(young, friction, gravity, every, isDynamic, stiffness, dt=1e-3, long=12, wide=4, deep=2, off=.5):
-	"""A sphere that has sunk into stiff ground two cells thick, whose base is held, by its weight on level ground, and is at rest there."""
+def _ground(young, friction, gravity, every, isDynamic, stiffness, dt=1e-3, long=12, wide=4, deep=2, off=.5, rest=.1, h=.125):
+	"""A sphere that has sunk into stiff ground two cells thick, whose base is held, by its weight on level ground in *rest* seconds, and is at rest there."""
 	O.reset()
 	O.materials.append(MpmElasticMat(young=young, poisson=.2, density=2000, label='soil'))
 	O.materials.append(FrictMat(young=1e9, density=2600, frictionAngle=np.arctan(friction), label='rigid'))
@@ -28,7 +28,7 @@ def _ground(young, friction, gravity, every, isDynamic, stiffness, dt=1e-3, long
 	mover = NewtonIntegrator(gravity=(0, 0, gravity[2]), damping=.7, mask=1)
 	O.engines = [ForceResetter(), solver, mover]
 	O.dt = dt / every
-	O.run(int(round(.1 / O.dt)), wait=True)
+	O.run(int(round(rest / O.dt)), wait=True)
 	mover.gravity, mover.damping = gravity, 0
 	ball.state.vel = ball.state.angVel = (0, 0, 0)
 	return ball, contact, solver
@@ -40,18 +40,20 @@ def exactOf(friction, slope):
 	return g * (sin(slope) - friction * cos(slope)), 5 / 2 * friction * g * cos(slope)
 
 
-def rolling(friction, degrees=30., heading=0., isDynamic=True, every=1, end=.5, starts=(0., .5), young=2e8, stiffness=100., dt=5e-4, seconds=200):
+def rolling(friction, degrees=30., heading=0., isDynamic=True, every=1, end=.5, starts=(0., .5), young=2e8, stiffness=100., dt=5e-4, long=13, seconds=200, **ground):
 	"""Down a slope, by gravity that is turned; way and speeds of middle and rim over those on rigid ground, and how far way and speed are off at most.
 
 	:param young: of the ground [Pa]: the closed forms are those of a rigid one. On a softer one the dent is deeper, and as the stiffness of a contact of less than a cell is not the same above a node and between two, the sphere bounces where it passes nodes as fast as it swings on the ground.
 	:param heading: direction on the ground, from the x axis [degrees]
 	:param starts: where in a cell it begins, run by run
+	:param long: of the ground [cells]
+	:param ground: *h* of a cell, *rest* before it is let go, as of _ground
 	"""
 	slope, direction = radians(degrees), radians(heading)
 	down = np.array((cos(direction), sin(direction), 0))
 	ways, speeds, rims, courses = [], [], [], []
 	for off in starts:
-		ball, contact, solver = _ground(young, friction, tuple(g * sin(slope) * down - (0, 0, g * cos(slope))), every, isDynamic, stiffness, dt, wide=10 if heading else 4, long=11 if heading else 13, off=off)
+		ball, contact, solver = _ground(young, friction, tuple(g * sin(slope) * down - (0, 0, g * cos(slope))), every, isDynamic, stiffness, dt, wide=10 if heading else 4, long=11 if heading else long, off=off, **ground)
 		start, course, began = np.array(ball.state.pos), Course(solver, seconds / len(starts)), O.time
 		course.run(int(round(end / O.dt)))
 		t, (a, spin) = O.time - began, exactOf(friction, slope)
@@ -59,7 +61,7 @@ def rolling(friction, degrees=30., heading=0., isDynamic=True, every=1, end=.5, 
 		speeds.append(float(np.array(ball.state.vel) @ down / (a * t)))
 		if friction: rims.append(float(np.linalg.norm(ball.state.angVel) * R / (spin * t)))
 		courses.append(course)
-	told = dict(kind='rolls' if friction >= 2 / 7 * tan(slope) else 'slips', off=max(abs(x - 1) for x in ways), speedOff=max(abs(x - 1) for x in speeds), way=ways, speed=speeds, rim=rims, cells=a * t * t / 2 / h)
+	told = dict(kind='rolls' if friction >= 2 / 7 * tan(slope) else 'slips', off=max(abs(x - 1) for x in ways), speedOff=max(abs(x - 1) for x in speeds), way=ways, speed=speeds, rim=rims, cells=a * t * t / 2 / ground.get('h', .125))
 	return told | dict(iterations=sum(c.iterations for c in courses), cuts=sum(c.cuts for c in courses), seconds=sum(c.told()['seconds'] for c in courses), why='; '.join(c.why for c in courses if c.why))
 
 

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Friction that turns with the matter: a sheared block with its plates, and torques of bodies that turn in soil."""
-from math import atan, cos, degrees, inf, log, pi, sin, sqrt
+from math import acos, atan, ceil, cos, degrees, inf, log, pi, sin, sqrt
 
 import numpy as np
 from yade import mpm, pack, utils
-from yade.wrapper import MpmBoundary, MpmContact, MpmElasticMat, MpmGrid, MpmImplicitEngine, MpmNewton, Omega
+from yade.wrapper import MpmBoundary, MpmContact, MpmDynamicEngine, MpmElasticMat, MpmGrid, MpmImplicitEngine, MpmNewton, MpmTrescaMat, Omega
 
 from .bodies import One, steel
 from .course import Course
@@ -145,3 +145,34 @@ def ring(turns=1., steps=120, cells=4, stiffness=20., seconds=300):
 	course.run(steps, lambda: found.append(abs(plate.torque(contact)[2]) / exact))
 	late = found[len(found) // 4:] or [float('nan')]
 	return dict(turned=360 * turns * len(found) / steps, torque=float(np.mean(late)), largest=float(np.max(np.abs(np.array(late) / np.mean(late) - 1))), slipping=contact.slipping[0] / max(1, contact.touching[0]), **course.told())
+
+
+def wheel(cells=4, isDynamic=True, sinkage=.1, turn=.4, points=2, seconds=200):
+	"""A wheel is pressed into clay that sticks to it up to c_u, and turned on the spot: torque over that of c_u all along its arc, in the second half of the turn.
+
+	:param sinkage: over its radius, with respect to the surface before
+	:param turn: [rad]
+	"""
+	O.reset()
+	R, strength, rim = .4, 2e4, 1.
+	O.materials.append(MpmTrescaMat(young=200 * strength, poisson=.4, density=1800, undrainedStrength=strength, label='soil'))
+	steel()
+	h, deep = R / cells, sinkage * R
+	wide, low = ceil(2.5 * cells) * h, ceil(1.5 * cells) * h
+	grid = MpmGrid(cellSize=h)
+	O.bodies.append(mpm.fill(pack.inAlignedBox((-wide, -low, -1), (wide, 0, 1)), grid, points, 'soil'))
+	body = One(utils.sphere((0, R, 0), R, material='rigid', fixed=True))
+	contact = MpmContact(friction=atan(5), adhesion=strength, stiffness=10)
+	sides = [MpmBoundary(max=(inf, -low, inf), fix='xy'), MpmBoundary(max=(-wide, inf, inf), fix='x'), MpmBoundary(min=(wide, -inf, -inf), fix='x')]
+	common = dict(grid=grid, boundaries=sides, contacts=[contact], newton=MpmNewton(minStep=1 / 64), verbosity=0)
+	solver = MpmDynamicEngine(scheme='generalised-alpha', rhoInfinity=.5, **common) if isDynamic else MpmImplicitEngine(**common)
+	steps, course = ceil(8 * deep / h), Course(solver, seconds)
+	O.engines, O.dt = [solver], 2 * deep / rim / steps
+	body.state.vel = (0, -rim / 2, 0)
+	course.run(steps)
+	steps, found = ceil(8 * turn * R / h), []
+	O.dt = turn * R / rim / steps
+	body.state.vel, body.state.angVel = (0, 0, 0), (0, 0, -rim / R)
+	course.run(steps, lambda: found.append(body.torque(contact)[2] / (strength * R**2 * 2 * acos(1 - sinkage))))
+	late = found[len(found) // 2:] or [float('nan')]
+	return dict(torque=float(np.mean(late)), largest=float(np.max(np.abs(np.array(late) / np.mean(late) - 1))), **course.told())

@@ -357,6 +357,33 @@ print(json.dumps([dragged(0, 0), dragged(0.5, 1), dragged(0.1, 0), dragged(0.1, 
 	assert rubs == saved
 
 
+def test_clay_that_sticks_to_a_wheel_takes_its_torque_in_time_as_in_statics(yade):
+	"""A wheel that is turned on the spot, a tenth of its radius deep in clay: c_u all along its arc. By the pressure of each place alone it had less than half of that in time."""
+	statics, inTime = yade(scene + '''
+def turned(engine, R=0.4, h=0.1, strength=2e4, deep=0.04, turn=0.4, **settings):
+	O.reset()
+	O.materials.append(MpmTrescaMat(young=200 * strength, poisson=0.4, density=1800, undrainedStrength=strength, label='soil'))
+	O.materials.append(FrictMat(label='rigid'))
+	grid = MpmGrid(cellSize=h)
+	O.bodies.append(mpm.fill(pack.inAlignedBox((-1, -0.6, -1), (1, 0, 1)), grid, 2, 'soil'))
+	wheel = add(utils.sphere((0, R, 0), R, material='rigid', fixed=True), (0, -0.5, 0))
+	contact = MpmContact(friction=atan(5), adhesion=strength, stiffness=10)
+	held = [MpmBoundary(max=(inf, -0.6, inf), fix='xy'), MpmBoundary(max=(-1, inf, inf), fix='x'), MpmBoundary(min=(1, -inf, -inf), fix='x')]
+	O.engines = [engine(grid=grid, boundaries=held, contacts=[contact], newton=MpmNewton(minStep=1 / 64), verbosity=0, **settings)]
+	O.dt = deep / 0.5 / 4
+	for _ in range(4): O.step()
+	wheel.state.vel, wheel.state.angVel, O.dt = (0, 0, 0), (0, 0, -1 / R), turn * R / 13
+	found = []
+	for _ in range(13):
+		O.step()
+		found.append(contact.torques[0][2])
+	return np.mean(found[6:]) / (strength * R**2 * 2 * np.arccos(1 - deep / R))
+print(json.dumps([turned(MpmImplicitEngine), turned(MpmDynamicEngine, scheme='generalised-alpha', rhoInfinity=0.5)]))
+''').result
+	assert abs(inTime / statics - 1) < 0.1
+	assert 0.85 < inTime < 1.15
+
+
 def test_fine_places_on_a_ball_are_kept_and_drawn(yade):
 	"""An eighth of a cell apart, in steps in time on balls of two cells of radius and more: a run that is saved while they touch goes on by the same bits and has the same picture, in which all of them are; those of a smaller ball are a quarter apart."""
 	run = yade(scene + '''

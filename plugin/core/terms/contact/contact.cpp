@@ -20,8 +20,11 @@ template <int Dim> std::string textAt(const RigidBody<Dim>& body, const char* wh
 /// Soil that gets deeper into a body than this in a step has not been stopped by it, over the size of a cell.
 constexpr double deepest = 0.1;
 
-/// Of a place's springs on gap and slip [J].
-double stored(double pressure, double gap, double friction) { return pressure > 0 ? -gap / 2 * (pressure + slipSoftness * friction * friction / pressure) : 0; }
+/// In the springs of a place on gap and slip [J].
+template <int Dim> double stored(const ContactLaw<Dim>& law, double pressure, double friction)
+{
+	return (pressure * pressure / law.normal + friction * friction / law.tangential) / 2;
+}
 
 /// A body keeps the places with which it has touched.
 template <int Dim> bool isFineOn(const ContactSystem<Dim>& system, int body, double cellSize)
@@ -78,8 +81,7 @@ Contact<Dim>::Contact(ContactSystem<Dim>& system, const Beginning<Dim>& step)
 		addPlaces(body);
 	}
 	if (std::isfinite(system_.energy)) findLost();
-	else
-		spreadPressure();
+	spreadPressure();
 	for (const Place& place : places_)
 		isSymmetric_ = isSymmetric_ && (place.law.friction == 0 || place.law.cap == 0);
 }
@@ -379,9 +381,9 @@ template <int Dim> double Contact<Dim>::given(const Eigen::VectorXd& d) const
 {
 	double sum = 0;
 	for (const Place& place : places_)
-		if (const auto* r = recordOf(place); r && r->touches) sum -= stored(place.law.normal * -place.gap, place.gap, r->friction.norm());
-	forTouching(d, [&](const Place&, const Approach<Dim>& near, const Touch<Dim>& touched) {
-		sum += touched.force().dot(near.slip) + stored(touched.pressure, near.at.gap, touched.friction.norm());
+		if (const auto* r = recordOf(place); r && r->touches) sum -= stored(place.law, std::max(0., -place.law.normal * place.gap), r->friction.norm());
+	forTouching(d, [&](const Place& place, const Approach<Dim>& near, const Touch<Dim>& touched) {
+		sum += touched.force().dot(near.slip) + stored(place.law, touched.pressure, touched.friction.norm());
 	});
 	return sum;
 }
