@@ -239,65 +239,6 @@ template <int Dim> void reduceInOrder(const NodeMatrix<Dim>& K, const FreeDofs& 
 			}
 }
 
-/// Blocks above the diagonal by the node of their columns, in the order of the nodes of their rows.
-template <int Dim> struct BlocksAbove {
-	struct Block {
-		int row, code;
-	};
-	std::vector<int>   start;
-	std::vector<Block> blocks;
-
-	explicit BlocksAbove(const NodeMatrix<Dim>& K) : start(K.nodes() + 1, 0)
-	{
-		forUsed(K, [&](int, int, int b) { ++start[b + 1]; });
-		std::partial_sum(start.begin(), start.end(), start.begin());
-		blocks.resize(start.back());
-		std::vector<int> next(start.begin(), start.end() - 1);
-		forUsed(K, [&](int a, int code, int b) { blocks[next[b]++] = { a, code }; });
-	}
-
-private:
-	template <class F> static void forUsed(const NodeMatrix<Dim>& K, F&& f)
-	{
-		for (int a = 0; a < K.nodes(); ++a)
-			for (int c = 1; c < NodeMatrix<Dim>::codes; ++c)
-				if (K.used(a, c)) f(a, c, K.neighbour(a, c));
-	}
-};
-
-/// The same of a matrix that is not symmetric, of which each column has rows above the diagonal, too.
-template <int Dim> void reduceInOrder(const NodeMatrix<Dim>& K, const FreeDofs& dofs, GeneralCsc& out)
-{
-	const BlocksAbove<Dim> above(K);
-	const std::size_t      most = Dim * Dim * (2 * above.blocks.size() + K.nodes());
-	out.start.assign(1, 0);
-	out.row.clear(), out.row.reserve(most);
-	out.value.clear(), out.value.reserve(most);
-	const auto append = [&](int node, auto&& value) {
-		for (int j = 0; j < Dim; ++j)
-			if (dofs.number[Dim * node + j] >= 0) {
-				out.row.push_back(dofs.number[Dim * node + j]);
-				out.value.push_back(value(j));
-			}
-	};
-	for (int a = 0; a < K.nodes(); ++a)
-		for (int i = 0; i < Dim; ++i) {
-			if (dofs.number[Dim * a + i] < 0) continue;
-			for (int e = above.start[a]; e < above.start[a + 1]; ++e) {
-				const double* k = K.at(above.blocks[e].row, above.blocks[e].code) + i;
-				append(above.blocks[e].row, [&](int j) { return k[j * Dim]; });
-			}
-			for (int c = 0; c < NodeMatrix<Dim>::codes; ++c) {
-				if (!K.used(a, c)) continue;
-				const double *k = K.at(a, c), *skew = c == 0 || K.isSymmetric() ? nullptr : K.skewAt(a, c) + i * Dim;
-				if (c == 0) append(a, [&](int j) { return k[j * Dim + i]; });
-				else
-					append(K.neighbour(a, c), [&](int j) { return skew ? k[i * Dim + j] + skew[j] : k[i * Dim + j]; });
-			}
-			out.start.push_back(int(out.row.size()));
-		}
-}
-
 } // namespace
 
 template <int Dim> void reduce(const NodeMatrix<Dim>& K, const FreeDofs& dofs, SymmetricCsc& out, const Couplings* couplings)
@@ -309,7 +250,7 @@ template <int Dim> void reduce(const NodeMatrix<Dim>& K, const FreeDofs& dofs, S
 template <int Dim> void reduce(const NodeMatrix<Dim>& K, const FreeDofs& dofs, GeneralCsc& out, const Couplings* couplings)
 {
 	if (K.isPeriodic() || dofs.ties || couplings) return reduceUnordered(K, dofs, couplings, false, out);
-	reduceInOrder(K, dofs, out);
+	fill(out, dofs.count, [&](auto&& f) { forEntries(K, dofs, couplings, f); });
 }
 
 #define GIMPM_INSTANTIATE(Dim)                                                                                                                                 \

@@ -26,36 +26,21 @@ bool isReverse(const Csc& K, const Csc& reversed)
 	        && std::equal(K.row.rbegin(), K.row.rend(), reversed.row.begin(), reversed.row.end(), [=](int a, int b) { return a + b == n - 1; });
 }
 
-namespace {
-
-/// Of the entries in each row and column.
-Eigen::VectorXd largestOf(const Csc& K)
+Eigen::VectorXd scale(const Csc& K, std::vector<double>& scaled)
 {
-	Eigen::VectorXd largest = Eigen::VectorXd::Zero(K.size());
-	for (int c = 0; c < K.size(); ++c)
+	const int       n       = K.size();
+	Eigen::VectorXd largest = Eigen::VectorXd::Zero(n), factor(n);
+	for (int c = 0; c < n; ++c)
 		for (int e = K.start[c]; e < K.start[c + 1]; ++e) {
 			const double size = std::abs(K.value[e]);
 			largest[c]        = std::max(largest[c], size);
 			largest[K.row[e]] = std::max(largest[K.row[e]], size);
 		}
-	return largest;
-}
-
-} // namespace
-
-Eigen::VectorXd scale(const Csc& K, std::vector<double>& scaled)
-{
-	const int       n = K.size();
-	Eigen::VectorXd size(n), factor(n);
-	for (int c = 0; c < n; ++c)
-		size[c] = std::abs(diagonalOf(K, c));
-	if (!(size.array() > 0).all()) {
-		const Eigen::VectorXd largest = largestOf(K);
-		for (int c = 0; c < n; ++c)
-			if (!(size[c] > 0)) size[c] = largest[c];
+	for (int c = 0; c < n; ++c) {
+		const double diagonal = std::abs(diagonalOf(K, c));
+		const double size     = diagonal > 0 ? diagonal : largest[c];
+		factor[c]             = size > 0 && std::isfinite(size) ? std::ldexp(1, -std::ilogb(size) / 2) : 1;
 	}
-	for (int c = 0; c < n; ++c)
-		factor[c] = size[c] > 0 && std::isfinite(size[c]) ? std::ldexp(1, -std::ilogb(size[c]) / 2) : 1;
 	scaled.resize(K.value.size());
 	double* out = scaled.data() + scaled.size();
 	for (int c = 0; c < n; ++c)
