@@ -115,6 +115,25 @@ def trade(quantity, length=1, **more):
 	return lambda script, cells: (script('trade/scenes.py', cells=cells / length, **more)[quantity], unknown)
 
 
+def sandStrip(phi, load='weight', points=1, isRough=False):
+	"""Of scripts/sand, in soil so stiff that the ground hardly moves before it fails."""
+	def run(script, cells):
+		from sand.strip import strip # needs YADE
+		found = strip(phi, isRough, load, cells=cells, points=points, settlement=2.5e-6, stiff=1e6, factor=1e-3, cohesion=1e-4, seconds=600)
+		return found['whole'], found['exact']
+
+	return run
+
+
+def sandWall(phi, isPassive):
+	def run(script, cells):
+		from sand.wall import wall # needs YADE
+		found = wall(phi, isPassive, cells=cells, factor=1e-3)
+		return found['whole'], found['exact']
+
+	return run
+
+
 locking, penetration = 'locking/locking.py', 'penetration/penetration.py'
 smaller = 'smaller cells'
 scenes = {
@@ -138,6 +157,17 @@ scenes = {
         'safety': Scene('factor of safety of the cut, F-bar', 'limit analysis', [5, 10, 20, 40], safety(scene='cut')),
         'infinite': Scene('factor of safety of the infinite slope', 'closed form', [4, 8, 16, 32], safety(scene='infinite')),
         'seepage': Scene('factor of safety of the infinite slope with seepage', 'closed form', [5, 10, 20, 40], seepage),
+        'sandSmooth20': Scene('smooth strip on sand, N_gamma, 20 degrees, one point a cell', 'characteristics', [4, 8, 16, 32], sandStrip(20)),
+        'sandRough20': Scene('the same, rough', 'characteristics', [4, 8, 16], sandStrip(20, isRough=True)),
+        'sandSmooth30': Scene('the same, smooth, 30 degrees', 'characteristics', [4, 8, 16], sandStrip(30)),
+        'sandRough30': Scene('the same, rough, 30 degrees', 'characteristics', [4, 8, 16], sandStrip(30, isRough=True)),
+        'sandSmooth20x2': Scene('the same, smooth, 20 degrees, 2 x 2 points', 'characteristics', [4, 8, 16, 32], sandStrip(20, points=2)),
+        'sandSurcharge20': Scene('strip beside a surcharge, N_q, 20 degrees, one point a cell', 'Reissner', [4, 8, 16], sandStrip(20, 'surcharge')),
+        'sandSurcharge20x2': Scene('the same, 2 x 2 points', 'Reissner', [4, 8, 16], sandStrip(20, 'surcharge', 2)),
+        'sandCohesion20': Scene('strip, N_c with friction of 20 degrees, one point a cell', 'Prandtl', [4, 8, 16], sandStrip(20, 'cohesion')),
+        'sandCohesion20x2': Scene('the same, 2 x 2 points', 'Prandtl', [4, 8, 16], sandStrip(20, 'cohesion', 2)),
+        'sandPassive': Scene('thrust of a smooth wall into sand, 30 degrees', 'Rankine', [5, 10, 20], sandWall(30, True)),
+        'sandActive': Scene('the same, away from it', 'Rankine', [5, 10, 20], sandWall(30, False)),
         'elastica': Scene('tip of the cantilever that bends down', smaller, [2, 4, 8, 16], cantilever),
         'beam': Scene('deflection of the beam', smaller, [2, 4, 8, 16, 32], overTheory(locking, scene='beam', fBar=0, poisson=0.3)),
         'stiffBeam': Scene('deflection of the nearly incompressible beam, F-bar', smaller, [2, 4, 8, 16, 32], overTheory(locking, scene='beam')),

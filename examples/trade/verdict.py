@@ -3,11 +3,15 @@
 import json
 import math
 import os
+import sys
 
 import fronts
 from pages import percent, span
 from panels import here, rows, said
 from plans import plans
+
+sys.path.append(os.path.join(here, '..', '..', 'plugin', 'python', 'mpm'))
+from refinement import errorOf
 
 words = {1: 'one', 2: 'two', 3: 'three', 4: 'four', 5: 'five'}
 
@@ -76,6 +80,25 @@ def solving():
 	return {run['method']: run['setUp'] + run['solve'] for run in runs}, runs[0]['unknowns']
 
 
+class Sand:
+	"""What examples/discretisation has of strips on sand and walls in it."""
+
+	def __init__(self):
+		self.ladders = {}
+		for row in rows('discretisation', 'results', 'values.csv'):
+			if row['scene'].startswith('sand'): self.ladders.setdefault(row['scene'], {})[row['cells']] = row['value'], row['exact']
+
+	def errors(self, names):
+		"""Over the cells that all of these scenes have the largest error of them, as text."""
+		chosen = [self.ladders[name] for name in names.split()]
+		return ', '.join(f'{100 * max(abs(value / exact - 1) for value, exact in (ladder[n] for ladder in chosen)):.2g}' for n in sorted(set.intersection(*map(set, chosen)))[:3]) + ' %'
+
+	def estimates(self):
+		"""What mpm.discretisationError says over the true error."""
+		return [errorOf(ladder[n / 2][0], value, ladder[2 * n][0])[0] / abs(value - exact)
+		        for ladder in self.ladders.values() for n, (value, exact) in ladder.items() if n / 2 in ladder and 2 * n in ladder]
+
+
 def introduction():
 	return f'''# What accuracy costs
 
@@ -103,6 +126,7 @@ def text(found):
 	equal, around = (next(row for row in rows('two_sizes', 'results', 'footing.csv') if (row['dim'], row['cells'], row['reach']) == (2, 24, reach)) for reach in (0, 1))
 	ratios = stepRatios()
 	seconds, unknowns = solving()
+	sand = Sand()
 	split, coarse = found['runout'].points[0], found['runout'].beside[1][0]
 	lumped = min((point for point in found['pulse'].points if 'explicit, lumped' in point.setting), key=lambda point: point.error)
 	better = found['pulse'].cheapest(.2)
@@ -113,11 +137,11 @@ def text(found):
 3. **`fBar=True` where matter keeps its volume** (clay, Poisson's ratio near .5): {fBar[0]} times the error for {fBar[1]} times the time. A strip footing with 9 cells over its width is off by {percent(with9.error)} in {with9.cpu:.2f} s; without F-bar by {percent(without49.error)} with 49 cells in {without49.cpu:.1f} s ([locking](../locking/README.md)).
 
 **Worth it there only**
-
 - *Load steps*: four times as many give the elastic columns {elastic[0]} times the error for {elastic[1]} times the time, the slope {plastic[0]} for {plastic[1]}. At a limit load steps decide; `newton.stepTolerance` finds how many, for {span(ratios)} times the solves of the best number ([load_steps](../load_steps/README.md)).
 - *`maxSplits=2`*: run-outs; {percent(split.error)} off instead of {percent(coarse.error)}, for {split.cost / coarse.cost:.2f} times the solves ([splitting](../splitting/README.md)); finer cells change run-outs by as much ([runout](../runout/README.md)). *Explicit steps*: where much error may stay; a pulse is {percent(lumped.error)} off in {lumped.cost:.1f} s ({said(lumped.setting)} cells a step) or {percent(better.error)} in {better.cost:.1f} s ({said(better.setting)}) ([waves](../waves/README.md)).
-- *`MpmGrid.refinements`*, where the body cannot be small: a strip footing in a large block takes {equal['seconds']:.0f} s with equal cells, {around['seconds']:.1f} s with cells that are halved twice around it, for the same load (within {percent(abs(around['load'] / equal['load'] - 1))}; [two_sizes](../two_sizes/footing.md)).
-- *`linearSolver`*: leave it at 'auto' ({seconds['auto']:.1f} s for one solve of a slender body of {unknowns:,} unknowns; direct {seconds['direct']:.1f}, conjugate gradients {seconds['iterative']:.1f}, multigrid {seconds['amg']:.1f}). *How wrong a run is*: `mpm.discretisationError` ([discretisation](../discretisation/README.md)).
+- *`MpmGrid.refinements`*, where the body cannot be small: a strip footing in a large block {equal['seconds']:.0f} s with equal cells, {around['seconds']:.1f} s with some halved twice, same load (within {percent(abs(around['load'] / equal['load'] - 1))}; [two_sizes](../two_sizes/footing.md)).
+- *`linearSolver`*: leave it at 'auto' ({seconds['auto']:.1f} s for one solve of a slender body of {unknowns:,} unknowns; direct {seconds['direct']:.1f}, conjugate gradients {seconds['iterative']:.1f}, multigrid {seconds['amg']:.1f}).
+- *Sand that dilates*: one point a cell, stiff soil ([sand](../../plugin/docs/sand.md)). With 9, 17, 33 cells over the width N_gamma is {sand.errors('sandSmooth20 sandRough20 sandSmooth30 sandRough30')} off (2 x 2 points, 20 degrees: {sand.errors('sandSmooth20x2')}), N_q {sand.errors('sandSurcharge20')}, N_c {sand.errors('sandCohesion20')}; 5, 10, 20 over a wall: K {sand.errors('sandPassive sandActive')}. `mpm.discretisationError` says {span(sand.estimates())} times that ([discretisation](../discretisation/README.md)).
 
 **Never worth it**
 

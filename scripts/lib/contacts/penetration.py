@@ -210,13 +210,24 @@ def _sandMaterial():
 def sand(kind, depth=10., radius=.4, cells=3, points=2, friction=None, stiffness=20., seconds=600):
 	"""A smooth cone or a rough pile with a flat end, jacked from the surface into sand, around the axis.
 
-	:param kind: 'cone' or 'box'
 	:param depth: travel in radii
+	:param friction: of the body [degrees]
+	"""
+	h = radius / cells
+	course, *pushed = pushedIntoSand(kind, depth * radius, radius, cells, points, friction, stiffness, seconds)
+	return _told(course, h, depth * radius, radius, *pushed, .6 * depth * radius, unit='kPa')
+
+
+def pushedIntoSand(kind, travel, radius=.4, cells=3, points=2, friction=None, stiffness=20., seconds=600):
+	"""The course of it, travel and resistance over the area [m, kPa] of each step, and the deepest middle of a point inside over h.
+
+	:param kind: 'cone' or 'box'
+	:param travel: [m]
 	:param friction: of the body [degrees]
 	"""
 	O.reset()
 	_sandMaterial()
-	h, travel = radius / cells, depth * radius
+	h = radius / cells
 	ground = Ground(h, -travel, below=8 * radius, far=12 * radius, halvings=0, axisymmetric=True)
 	ground.fill(points)
 	tip = radius / tan(radians(30)) if kind == 'cone' else 0.
@@ -224,19 +235,27 @@ def sand(kind, depth=10., radius=.4, cells=3, points=2, friction=None, stiffness
 	body = Outline(line) if kind == 'cone' else One(utils.box((0, travel, 0), (radius, travel, radius), material='rigid', fixed=True))
 	contact = MpmContact(stiffness=stiffness, friction=radians(friction or 0))
 	course = Course(_sand(ground.grid, contact, ground.rollers(True)), seconds)
-	found, N, inside = _push(course, body, contact, h, travel, lambda F: F / (pi * radius**2) / 1e3)
-	return _told(course, h, travel, radius, found, N, inside, .6 * travel, unit='kPa')
+	return course, *_push(course, body, contact, h, travel, lambda F: F / (pi * radius**2) / 1e3)
 
 
 def sandInSpace(depth=3., radius=.4, cells=2, wide=5., points=2, stiffness=20., seconds=600):
-	"""A quarter of the smooth cone in 3D; sides and base *wide* radii away."""
+	"""A quarter of the smooth cone in 3D; sides and base *wide* radii away.
+
+	:param depth: travel in radii
+	"""
+	h = radius / cells
+	course, *pushed = quarterPushedIntoSand(depth * radius, radius, cells, wide, points, stiffness, seconds)
+	return _told(course, h, depth * radius, radius, *pushed, .6 * depth * radius, unit='kPa')
+
+
+def quarterPushedIntoSand(travel, radius=.4, cells=2, wide=5., points=2, stiffness=20., seconds=600):
+	"""What pushedIntoSand returns; *travel* in m."""
 	O.reset()
 	_sandMaterial()
-	h, travel = radius / cells, depth * radius
-	width, low = ceil(wide * cells) * h, -ceil((wide + depth) * cells) * h
+	h = radius / cells
+	width, low = ceil(wide * cells) * h, -ceil(wide * cells + travel / h - 1e-9) * h
 	grid = MpmGrid(cellSize=h, dim=3)
 	O.bodies.append(mpm.fill(pack.inAlignedBox((0, low, 0), (width, 0, width)), grid, points, 'soil'))
 	body, contact = QuarterCone(radius, travel + radius), MpmContact(friction=0, stiffness=stiffness)
 	course = Course(_sand(grid, contact, _quarter(width, low)), seconds)
-	found, N, inside = _push(course, body, contact, h, travel, lambda F: F / (pi * radius**2 / 4) / 1e3)
-	return _told(course, h, travel, radius, found, N, inside, .6 * travel, unit='kPa')
+	return course, *_push(course, body, contact, h, travel, lambda F: F / (pi * radius**2 / 4) / 1e3)

@@ -27,8 +27,8 @@ def balanceOf(scene, solver):
 class Outcome:
 	"""part: of the way that was made; why: it went no farther, empty if it got to its end."""
 
-	def __init__(self, scene, finer, seconds, divide, strict):
-		solver = scene.add(finer, divide, strict)
+	def __init__(self, scene, finer, seconds, *settings):
+		solver = scene.add(finer, *settings)
 		self.part, self.off, self.share, self.why, self.solves, self.cuts = 0., 0., 0., '', 0, 0
 		steps, ends = scene.steps * finer, time.process_time() + seconds
 		for step in range(steps):
@@ -47,14 +47,20 @@ class Outcome:
 		self.numbers = scene.isRight(solver) if not self.why else {}
 
 
-def judged(seed, seconds, divide=1, strict=False):
-	"""A row of the table: how a scene ended ('ends', 'held' if it is said that only the stabilisation holds it, 'told' if it is said that a face stands that its strength cannot hold, 'fails' as it may, or 'stops'), and what is wrong with it."""
+def judged(seed, seconds, divide=1, strict=False, ghost=None, friction=False):
+	"""A row of the table: how a scene ended ('ends', 'held' if it is said that only the stabilisation holds it, 'told' if it is said that a face stands that its strength cannot hold, 'fails' as it may, or 'stops'), and what is wrong with it.
+
+	:param ghost: attributes of MpmGhost
+	:param friction: leave out (None) all but static scenes in the plane of soil with friction
+	"""
 	began, scene = time.process_time(), sceneOf(seed)
+	if friction and (scene.isDynamic or scene.dim == 3 or scene.soil.law not in ('mohrCoulomb', 'druckerPrager')): return None
+	settings = divide, strict, ghost
 	with said() as it:
-		found = Outcome(scene, 1, seconds, divide, strict)
+		found = Outcome(scene, 1, seconds, *settings)
 		how = 'ends' if not found.why else 'stops'
 		if found.why and found.why != 'time is up' and scene.mayFail():
-			again = Outcome(scene, 2, 2 * seconds, divide, strict)
+			again = Outcome(scene, 2, 2 * seconds, *settings)
 			one, other = scene.load(found.part), scene.load(again.part)
 			if again.why and abs(other - one) <= same * max(other, one): how = 'fails'
 			else: found.why += f' (at {found.part:.3f}, in finer steps at {again.part:.3f})'

@@ -35,8 +35,8 @@ class Scene:
 	def plan(self):
 		"""Draws what is its own, and self.soil, for the height of its ground."""
 
-	def add(self, finer=1, divide=1, strict=False):
-		"""The scene; its solver. finer, divide: its steps are so much shorter, its cells so much smaller. strict: F-bar, and a stabilisation that may not carry much."""
+	def add(self, finer=1, divide=1, strict=False, ghost=None):
+		"""The scene; its solver. finer, divide: its steps are so much shorter, its cells so much smaller. strict: F-bar, and a stabilisation that may not carry much. ghost: attributes of MpmGhost."""
 		O.reset()
 		O.materials.append(self.soil.material())
 		self.grid = MpmGrid(cellSize=self.h / divide, dim=self.dim)
@@ -44,6 +44,8 @@ class Scene:
 		self.fill()
 		solver = (MpmDynamicEngine if self.isDynamic else MpmImplicitEngine)(grid=self.grid, gravity=pull, boundaries=self.boundaries(), verbosity=0, **self.settings())
 		if strict and not self.isDynamic: solver.fBar, solver.ghost = True, MpmGhost(where='aggregates', memory=1, workTolerance=.03)
+		for name, value in (ghost or {}).items() if not self.isDynamic else ():
+			setattr(solver.ghost, name, value)
 		O.engines, O.dt = [solver], self.duration() / (self.steps * finer)
 		self.begin()
 		return solver

@@ -7,8 +7,10 @@ problems = {
         'N_gamma rough, 20': dict(phi=20, isRough=True),
         'N_gamma smooth, 30': dict(phi=30),
         'N_gamma rough, 30': dict(phi=30, isRough=True),
-        'N_q, 20': dict(phi=20, surcharge=True),
-        'N_q, 30': dict(phi=30, surcharge=True)}
+        'N_q, 20': dict(phi=20, load='surcharge'),
+        'N_q, 30': dict(phi=30, load='surcharge'),
+        'N_c, 20': dict(phi=20, load='cohesion'),
+        'N_c, 30': dict(phi=30, load='cohesion')}
 
 
 def factors():
@@ -86,6 +88,7 @@ def parts():
 	        '1 point': dict(points=1),
 	        '3 x 3 points': dict(points=3),
 	        'no F-bar': dict(fBar=False),
+	        'pressureRelaxation': dict(relaxation=True),
 	        '1 point, no F-bar': dict(points=1, fBar=False),
 	        'ghost on all faces': dict(where='boundary', memory=0),
 	        'ghost on all faces, memory 1': dict(where='boundary'),
@@ -103,7 +106,13 @@ def parts():
 
 def steps():
 	"""The same load in more and fewer steps."""
-	for name, ghost in dict([('ghost as for sand', {}), ('ghost times .1', dict(factor=1e-3)), ('ghost times .01', dict(factor=1e-4))]).items():
+	ghosts = {
+	        'ghost as for sand': {},
+	        'ghost times .1': dict(factor=1e-3),
+	        'ghost times .01': dict(factor=1e-4),
+	        'all faces, memory 1': dict(where='boundary'),
+	        'all faces (default)': dict(where='boundary', memory=0)}
+	for name, ghost in ghosts.items():
 		for number in 10, 40, 160, 640:
 			yield 'strip.strip', (name, f'{number} steps', 'B/17'), dict(phi=20, steps=number) | ghost
 
@@ -124,6 +133,7 @@ def cuts():
 	        'no stabilisation': dict(factor=0, fBar=False),
 	        'all faces (default)': {},
 	        'aggregates, memory 1': dict(where='aggregates', memory=1),
+	        'aggregates, memory 1, factor 1e-3': dict(where='aggregates', memory=1, factor=1e-3),
 	        'aggregates, memory 1, factor 1e-4': dict(where='aggregates', memory=1, factor=1e-4)}
 	for dim, parts in (2, (.5, .3, .1, 1e-2, 1e-3, 1e-4, 1e-6, 1e-8)), (3, (.5, .1, 1e-4, 1e-8)):
 		for flows in False, True:

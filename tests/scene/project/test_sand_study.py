@@ -27,9 +27,23 @@ def test_one_point_a_cell_is_right_on_coarse_grids_and_four_are_not(yade):
 		subprocess.run([root / 'scripts/sand', group, '--grid', grid, '--out', out], env=environment, check=True, capture_output=True, timeout=120)
 	with open(out / 'results' / 'sand.csv', newline='') as file:
 		off = {(row['case'], row['with']): float(row['whole']) / float(row['exact']) - 1 for row in csv.DictReader(file)}
-	assert len(off) == 42
+	assert len(off) == 48
 	for (case, points), error in off.items():
 		if case.startswith('K'): assert abs(error) < .02, (case, points, error)
 		elif points.startswith(('1 x 1', '10 steps', '40 steps')): assert abs(error) < .12, (case, points, error)
-		elif case.startswith('N_q'): assert 0 < error < .06, (case, points, error)
+		elif case.startswith(('N_q', 'N_c')): assert 0 < error < .06, (case, points, error)
 		else: assert .4 < error < .65, (case, points, error)
+
+
+def test_conditions_do_not_depend_on_how_little_of_a_cell_is_filled(yade):
+	"""Elastic and where all points yield, with the stabilisation that is advised for limit loads of sand."""
+	out = yade.folder / 'out'
+	environment = os.environ | yade.ownSettings() | {'YADE': Yade(yade.folder).command}
+	for part in '0.1', '0.01', '1e-08':
+		subprocess.run([root / 'scripts/sand', 'cuts', '--only', '2D', '--grid', part, '--out', out], env=environment, check=True, capture_output=True, timeout=120)
+	with open(out / 'results' / 'sand.csv', newline='') as file:
+		number = {(row['case'], row['with'], row['grid']): float(row['condition']) for row in csv.DictReader(file)}
+	for state, most in ('elastic, 2D', 1e5), ('flowing, 2D', 2e5):
+		advised = [number[state, 'aggregates, memory 1, factor 1e-3', part] for part in ('0.1', '0.01', '1e-08')]
+		assert max(advised) < most and advised[2] < 1.3 * advised[1], advised
+		assert number[state, 'no stabilisation', '1e-08'] > 1e30 * max(advised)
