@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 namespace gimpm {
 namespace {
@@ -109,9 +110,11 @@ public:
 		Order                  order;
 		int                    taken = 0;
 		for (const int n : ofNodes.numbers) {
+			const std::size_t before = order.numbers.size();
 			forUnknowns(nodes[n], [&](int i) {
 				if (dofs_.number[i] >= 0) order.numbers.push_back(dofs_.number[i]);
 			});
+			order.widths.push_back(int(order.numbers.size() - before));
 			if (++taken == ofNodes.first) order.first = int(order.numbers.size());
 			if (taken == ofNodes.first + ofNodes.second) order.second = int(order.numbers.size()) - order.first;
 		}
@@ -177,7 +180,21 @@ private:
 		graph.neighbours.resize(graph.start.back());
 		std::vector<int> next(graph.start.begin(), graph.start.end() - 1);
 		forPairs([&](int a, int b) { graph.neighbours[next[a]++] = b; });
+		if (couplings_) keepOnce(graph);
 		return graph;
+	}
+	/// Neighbours of whom several fields are coupled.
+	static void keepOnce(NodeGraph& graph)
+	{
+		std::vector<int> seen(graph.places.size(), -1);
+		int              end = 0;
+		for (int a = 0, first = 0; a < int(graph.places.size()); ++a) {
+			const int last = graph.start[a + 1];
+			for (int i = std::exchange(first, last); i < last; ++i)
+				if (const int b = graph.neighbours[i]; std::exchange(seen[b], a) != a) graph.neighbours[end++] = b;
+			graph.start[a + 1] = end;
+		}
+		graph.neighbours.resize(end);
 	}
 	template <class F> void forFree(F&& f) const
 	{

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "core/solvers/supernodal_factor.hpp"
-#include "core/solvers/signed_factor.hpp"
 #include <algorithm>
+#include <array>
+#include <limits>
+#include <numeric>
+#include <utility>
 
 namespace gimpm {
 namespace {
@@ -22,6 +25,88 @@ cholmod_sparse upper(const Csc& K)
 	return A;
 }
 
+/// Which nodes are coupled by an entry, as an upper triangle in the order of elimination. Of each node so many unknowns
+/// follow each other in the given order.
+cholmod_sparse* patternOfNodes(const Csc& K, const std::vector<int>& order, const std::vector<int>& widths, cholmod_common& common)
+{
+	const int        count = int(widths.size());
+	std::vector<int> node(K.size()), start(1, 0), seen(count, -1), row, next;
+	for (int a = 0, i = 0; a < count; ++a)
+		for (const int end = i + widths[a]; i < end; ++i)
+			node[order[i]] = a;
+	const auto forPairs = [&](auto&& f) { // some of them twice: from below and from above
+		std::fill(seen.begin(), seen.end(), -1);
+		for (int a = 0, i = 0; a < count; ++a)
+			for (const int end = i + widths[a]; i < end; ++i)
+				for (int e = K.start[order[i]]; e < K.start[order[i] + 1]; ++e)
+					if (const int b = node[K.row[e]]; seen[b] != a) seen[b] = a, f(std::min(a, b), std::max(a, b));
+	};
+	start.assign(count + 1, 0);
+	forPairs([&](int, int b) { ++start[b + 1]; });
+	std::partial_sum(start.begin(), start.end(), start.begin());
+	row.resize(start.back());
+	next.assign(start.begin(), start.end() - 1);
+	forPairs([&](int a, int b) { row[next[b]++] = a; });
+	cholmod_sparse* pattern = cholmod_allocate_sparse(count, count, row.size(), true, true, 1, CHOLMOD_PATTERN, &common);
+	if (!pattern) return nullptr;
+	int* const starts = static_cast<int*>(pattern->p);
+	int* const rows   = static_cast<int*>(pattern->i);
+	int        end    = 0;
+	for (int b = 0; b < count; ++b) {
+		std::sort(row.begin() + start[b], row.begin() + start[b + 1]);
+		const auto last = std::unique(row.begin() + start[b], row.begin() + start[b + 1]);
+		starts[b]       = end;
+		end             = int(std::copy(row.begin() + start[b], last, rows + end) - rows);
+	}
+	starts[count] = end;
+	return pattern;
+}
+
+/// The symbolic factor of the unknowns from that of their nodes. Sets what is known of its size.
+cholmod_factor* expanded(const cholmod_factor& ofNodes, const std::vector<int>& order, const std::vector<int>& widths, cholmod_common& common)
+{
+	const auto       integers = [](const void* p) { return static_cast<const int*>(p); };
+	const int *      permuted = integers(ofNodes.Perm), *columns = integers(ofNodes.super), *places = integers(ofNodes.pi), *nodes = integers(ofNodes.s);
+	const int        count = int(widths.size()), supernodes = int(ofNodes.nsuper);
+	std::vector<int> source(count, 0), first(count + 1, 0); // of each node: in the order that was given, and in that of the factor
+	std::partial_sum(widths.begin(), widths.end() - 1, source.begin() + 1);
+	for (int a = 0; a < count; ++a)
+		first[a + 1] = first[a] + widths[permuted[a]];
+	std::vector<int> super(supernodes + 1, 0), pi(super), px(super), rows;
+	common.lnz = common.fl = 0;
+	std::size_t size = 0, largest = 0, below = 1;
+	for (int s = 0; s < supernodes; ++s) {
+		for (int i = places[s]; i < places[s + 1]; ++i)
+			for (int row = first[nodes[i]]; row < first[nodes[i] + 1]; ++row)
+				rows.push_back(row);
+		super[s + 1]        = first[columns[s + 1]];
+		pi[s + 1]           = int(rows.size());
+		const double height = pi[s + 1] - pi[s], width = super[s + 1] - super[s];
+		for (int c = 0; c < width; ++c)
+			common.lnz += height - c, common.fl += (height - c) * (height - c);
+		size += std::size_t(width) * std::size_t(height);
+		if (size > std::size_t(std::numeric_limits<int>::max())) return nullptr;
+		px[s + 1] = int(size);
+		below     = std::max(below, std::size_t(height - width));
+		largest   = std::max(largest, std::size_t((height - width) * (height - width)));
+	}
+	cholmod_factor* L = cholmod_allocate_factor(order.size(), &common);
+	if (!L) return nullptr;
+	const auto kept = [&](const std::vector<int>& numbers) {
+		void* copy = cholmod_malloc(std::max<std::size_t>(1, numbers.size()), sizeof(int), &common);
+		if (copy) std::copy(numbers.begin(), numbers.end(), static_cast<int*>(copy));
+		return copy;
+	};
+	for (int a = 0; a < count; ++a)
+		std::copy_n(order.begin() + source[permuted[a]], widths[permuted[a]], static_cast<int*>(L->Perm) + first[a]);
+	L->ordering = CHOLMOD_GIVEN;
+	L->is_ll = L->is_super = L->is_monotonic = true;
+	L->nsuper = supernodes, L->ssize = rows.size(), L->xsize = size, L->maxcsize = largest, L->maxesize = below;
+	L->super = kept(super), L->pi = kept(pi), L->px = kept(px), L->s = kept(rows);
+	if (common.status < CHOLMOD_OK) cholmod_free_factor(&L, &common);
+	return L;
+}
+
 } // namespace
 
 SupernodalFactor::SupernodalFactor()
@@ -36,6 +121,25 @@ SupernodalFactor::~SupernodalFactor()
 {
 	cholmod_free_factor(&factor_, &common_);
 	cholmod_finish(&common_);
+}
+
+void SupernodalFactor::analyseNodes(const Csc& K, const std::vector<int>& order, const std::vector<int>& widths)
+{
+	constexpr std::size_t relaxed[] = { 1, 5, 16 }; // nodes: its own numbers are of single unknowns, of which a node has about three
+	forget();
+	cholmod_sparse* nodes      = patternOfNodes(K, order, widths, common_);
+	const auto      own        = std::make_pair(common_.method[0].ordering, std::array { common_.nrelax[0], common_.nrelax[1], common_.nrelax[2] });
+	common_.nmethods           = 1;
+	common_.method[0].ordering = CHOLMOD_NATURAL;
+	common_.supernodal         = CHOLMOD_SUPERNODAL;
+	common_.postorder          = true;
+	std::copy(std::begin(relaxed), std::end(relaxed), common_.nrelax);
+	cholmod_factor* ofNodes = nodes ? cholmod_analyze(nodes, &common_) : nullptr;
+	if (ofNodes) factor_ = expanded(*ofNodes, order, widths, common_);
+	cholmod_free_factor(&ofNodes, &common_);
+	cholmod_free_sparse(&nodes, &common_);
+	common_.method[0].ordering = own.first;
+	std::copy(own.second.begin(), own.second.end(), common_.nrelax);
 }
 
 void SupernodalFactor::analyse(const Csc& K, std::vector<int> order, int last, bool isDefinite)
@@ -62,11 +166,11 @@ bool SupernodalFactor::factorise(const Csc& K)
 bool SupernodalFactor::factoriseSigned(const Csc& K, double smallest)
 {
 	if (!factor_ || !factor_->is_super) return false;
-	if (places_.empty()) {
+	if (entries_.start.empty()) {
 		if (!cholmod_change_factor(CHOLMOD_REAL, 1, 1, 1, 1, factor_, &common_)) return false;
-		places_ = placesIn(*factor_, K);
+		entries_ = PlacedEntries(*factor_, K);
 	}
-	return gimpm::factoriseSigned(*factor_, places_, K.value, smallest, signs_);
+	return gimpm::factoriseSigned(*factor_, entries_, K.value, smallest, signs_);
 }
 
 bool SupernodalFactor::solveSigned(const Eigen::VectorXd& b, Eigen::VectorXd& x)

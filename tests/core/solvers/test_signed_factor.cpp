@@ -61,6 +61,58 @@ namespace {
 			}
 	}
 
+	/// Large enough for its products to be left to the BLAS.
+	TEST(SignedFactor, SolvesWhatIsDense)
+	{
+		constexpr int   size = 1100;
+		Random          random(2);
+		Eigen::MatrixXd m = Eigen::MatrixXd::Zero(size, size);
+		for (int c = 0; c < size; ++c) {
+			for (int r = 0; r < c; ++r)
+				m(r, c) = m(c, r) = random.in(-0.01, 0.01);
+			m(c, c) = c % 3 == 2 ? -2 : 2;
+		}
+		const Csc        K = upper(m);
+		SupernodalFactor factor;
+		factor.analyse(K, inTheirOrder(K), 0, false);
+		ASSERT_TRUE(factor.factoriseSigned(K, 1e-12));
+		const Eigen::VectorXd b = random.vector(size);
+		Eigen::VectorXd       x;
+		ASSERT_TRUE(factor.solveSigned(b, x));
+		EXPECT_LT((m * x - b).norm(), 1e-12 * (b.norm() + x.norm()));
+	}
+
+	/// Nodes of which some unknowns are held, the last ones first.
+	TEST(SignedFactor, FindsItsPatternFromThatOfNodes)
+	{
+		constexpr int    nodes = 60;
+		Random           random(3);
+		std::vector<int> kept, widths, order;
+		for (int n = 0; n < nodes; ++n) {
+			const auto before = kept.size();
+			for (int i = 0; i < 3; ++i)
+				if (i == 2 || random.in(0, 1) < 0.6) kept.push_back(3 * n + i);
+			widths.insert(widths.begin(), int(kept.size() - before));
+		}
+		for (std::size_t end = kept.size(), n = nodes; n > 0; end -= widths[nodes - n--])
+			for (int i = widths[nodes - n]; i > 0; --i)
+				order.push_back(int(end) - i);
+		const Eigen::MatrixXd m = ofTwoFields(nodes, 1e-3, 4)(kept, kept);
+		const Csc             K = upper(m);
+		SupernodalFactor      factor, other;
+		factor.analyseNodes(K, order, widths);
+		ASSERT_TRUE(factor.isAnalysed() && factor.factoriseSigned(K, 1e-12));
+		const Eigen::VectorXd b = Random(5).vector(m.rows());
+		Eigen::VectorXd       x;
+		ASSERT_TRUE(factor.solveSigned(b, x));
+		EXPECT_LT((m * x - b).norm(), 1e-12 * (b.norm() + x.norm()));
+		other.analyse(K, order);
+		EXPECT_GE(factor.entries(), other.entries()) << "all unknowns of nodes count as coupled";
+		factor.analyse(K, order);
+		EXPECT_EQ(factor.entries(), other.entries());
+		EXPECT_EQ(factor.flops(), other.flops()) << "what is set for nodes does not last";
+	}
+
 	TEST(SignedFactor, RefusesWhatNeedsPivoting)
 	{
 		Eigen::MatrixXd m(2, 2);
