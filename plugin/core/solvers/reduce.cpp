@@ -225,6 +225,8 @@ template <int Dim> void reduceInOrder(const NodeMatrix<Dim>& K, const FreeDofs& 
 	out.start.assign(1, 0);
 	out.row.clear();
 	out.value.clear();
+	const std::size_t most = std::size_t(K.nodes()) * K.codes * K.block + (couplings ? couplings->count() : 0);
+	out.row.reserve(most), out.value.reserve(most);
 	const int  fields  = couplings ? couplings->map().fields() : 1;
 	const bool isMixed = couplings && couplings->areWithinDisplacements();
 	for (int field = 0, unknown = 0; field < fields; ++field)
