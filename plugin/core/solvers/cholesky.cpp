@@ -47,7 +47,6 @@ void Cholesky::analyse(const Csc& K, Order order, bool isDefinite)
 	whole_.forget();
 	for (Half& half : halves_)
 		half.factor.forget();
-	if (!isDefinite && !order_.widths.empty()) return whole_.analyseNodes(K, order_.numbers, order_.widths);
 	if (!isHalved()) return whole_.analyse(K, order_.numbers, 0, isDefinite);
 	forHalves([&](Half& half, int h) {
 		analyseHalf(half, K, h == 0 ? 0 : order_.first, h == 0 ? order_.first : order_.second);

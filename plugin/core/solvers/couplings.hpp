@@ -36,9 +36,8 @@ public:
 
 	/// Where the blocks of one row with `count` nodes in one field begin among the values, or -1 where they are not
 	/// kept; all are marked, those with nodes < 0 left out. Fast where nodes rise. Until another block is marked.
-	void        findPlaces(const FieldNode& row, int field, const int* nodes, int count, std::ptrdiff_t* places) const;
-	double*     values() { return values_.data(); }
-	std::size_t count() const { return values_.size(); } ///< of the values that are kept
+	void    findPlaces(const FieldNode& row, int field, const int* nodes, int count, std::ptrdiff_t* places) const;
+	double* values() { return values_.data(); }
 
 	bool isSymmetric() const { return isSymmetric_; }
 	/// With which a row of the field is multiplied so that the matrix is symmetric; one of a matrix that is not.

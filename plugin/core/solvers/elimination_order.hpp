@@ -16,7 +16,6 @@ struct NodeGraph {
 struct Order {
 	std::vector<int> numbers;
 	int              first = 0, second = 0; ///< how many there are in the parts
-	std::vector<int> widths {};             ///< of unknowns: so many that follow each other are of one node; empty: not known
 };
 
 /// Of the nodes, by nested dissection (George, SIAM J. Numer. Anal. 10, 1973): they are parted by a plane across one of

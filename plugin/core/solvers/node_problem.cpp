@@ -110,11 +110,9 @@ public:
 		Order                  order;
 		int                    taken = 0;
 		for (const int n : ofNodes.numbers) {
-			const std::size_t before = order.numbers.size();
 			forUnknowns(nodes[n], [&](int i) {
 				if (dofs_.number[i] >= 0) order.numbers.push_back(dofs_.number[i]);
 			});
-			order.widths.push_back(int(order.numbers.size() - before));
 			if (++taken == ofNodes.first) order.first = int(order.numbers.size());
 			if (taken == ofNodes.first + ofNodes.second) order.second = int(order.numbers.size()) - order.first;
 		}

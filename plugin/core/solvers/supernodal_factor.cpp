@@ -2,6 +2,7 @@
 #include "core/solvers/supernodal_factor.hpp"
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <limits>
 #include <numeric>
 #include <utility>
@@ -23,6 +24,31 @@ cholmod_sparse upper(const Csc& K)
 	A.dtype         = CHOLMOD_DOUBLE;
 	A.sorted = A.packed = 1;
 	return A;
+}
+
+/// Of unknowns that follow each other in the order and are coupled to the same ones, as those of a node mostly are, how
+/// many there are. Rows are compared by sums of numbers that look random: where different ones have the same sum, all of
+/// these unknowns count as coupled to what one of them is.
+std::vector<int> widthsOfAlike(const Csc& K, const std::vector<int>& order)
+{
+	const auto mixed = [](std::uint64_t x) { // as of SplitMix64
+		x = (x + 1) * 0x9e3779b97f4a7c15;
+		x = (x ^ x >> 30) * 0xbf58476d1ce4e5b9;
+		x = (x ^ x >> 27) * 0x94d049bb133111eb;
+		return x ^ x >> 31;
+	};
+	std::vector<std::uint64_t> number(K.size()), row(K.size());
+	for (int c = 0; c < K.size(); ++c)
+		row[c] = number[c] = mixed(std::uint64_t(c));
+	for (int c = 0; c < K.size(); ++c)
+		for (int e = K.start[c]; e < K.start[c + 1]; ++e)
+			if (K.row[e] < c) row[c] += number[K.row[e]], row[K.row[e]] += number[c];
+	std::vector<int> widths;
+	for (std::size_t i = 0; i < order.size(); ++i)
+		if (i > 0 && row[order[i]] == row[order[i - 1]]) ++widths.back();
+		else
+			widths.push_back(1);
+	return widths;
 }
 
 /// Which nodes are coupled by an entry, as an upper triangle in the order of elimination. Of each node so many unknowns
@@ -123,17 +149,19 @@ SupernodalFactor::~SupernodalFactor()
 	cholmod_finish(&common_);
 }
 
-void SupernodalFactor::analyseNodes(const Csc& K, const std::vector<int>& order, const std::vector<int>& widths)
+/// In the order of `order`, whose unknowns are taken together where that does not matter: there are about a third as many
+/// nodes, and a ninth as many pairs of them.
+void SupernodalFactor::analyseNodes(const Csc& K, const std::vector<int>& order)
 {
-	constexpr std::size_t relaxed[] = { 1, 5, 16 }; // nodes: its own numbers are of single unknowns, of which a node has about three
-	forget();
+	const auto      widths     = widthsOfAlike(K, order);
 	cholmod_sparse* nodes      = patternOfNodes(K, order, widths, common_);
 	const auto      own        = std::make_pair(common_.method[0].ordering, std::array { common_.nrelax[0], common_.nrelax[1], common_.nrelax[2] });
 	common_.nmethods           = 1;
 	common_.method[0].ordering = CHOLMOD_NATURAL;
 	common_.supernodal         = CHOLMOD_SUPERNODAL;
 	common_.postorder          = true;
-	std::copy(std::begin(relaxed), std::end(relaxed), common_.nrelax);
+	for (std::size_t& columns : common_.nrelax) // which are meant of single unknowns
+		columns = columns * widths.size() / order.size();
 	cholmod_factor* ofNodes = nodes ? cholmod_analyze(nodes, &common_) : nullptr;
 	if (ofNodes) factor_ = expanded(*ofNodes, order, widths, common_);
 	cholmod_free_factor(&ofNodes, &common_);
@@ -146,6 +174,7 @@ void SupernodalFactor::analyse(const Csc& K, std::vector<int> order, int last, b
 {
 	cholmod_sparse A = upper(K);
 	forget();
+	if (!isDefinite && last == 0 && !order.empty()) return analyseNodes(K, order);
 	// Its default is AMD, and METIS if that is not good; its first method is the given order.
 	common_.nmethods   = order.empty() ? 0 : 1;
 	common_.supernodal = last == 0 && isDefinite ? CHOLMOD_AUTO : CHOLMOD_SUPERNODAL;

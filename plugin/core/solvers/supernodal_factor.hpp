@@ -17,9 +17,6 @@ public:
 	/// looks for. The last ones, so many as lastBlock() will be asked for, stay where they are. `isDefinite`: for
 	/// factorise(), else for factoriseSigned().
 	void analyse(const Csc& K, std::vector<int> order = {}, int last = 0, bool isDefinite = true);
-	/// The same for factoriseSigned(), of the unknowns of nodes: of each so many follow each other in the order. What
-	/// couples some of them is taken to couple all.
-	void analyseNodes(const Csc& K, const std::vector<int>& order, const std::vector<int>& widths);
 	void forget() { cholmod_free_factor(&factor_, &common_), entries_ = {}; }
 	/// Not before analyse(), nor if the factor would be too large for CHOLMOD.
 	bool   isAnalysed() const { return factor_; }
@@ -48,6 +45,7 @@ public:
 	void lastBlock(Eigen::MatrixXd& block) const;
 
 private:
+	void analyseNodes(const Csc& K, const std::vector<int>& order);
 	bool solve(int system, const Eigen::VectorXd& b, Eigen::VectorXd& x);
 
 	cholmod_common  common_;
