@@ -230,8 +230,9 @@ private:
 		first_[s]   = d;
 	}
 
-	/// The columns of a supernode, a few at once. As where each half takes away from the next one, products are of as
-	/// many columns as have been done since the later ones were last looked at: 1, 2, 1, 4, 1, 2, 1, 8 ... times a few.
+	/// The columns of a supernode, a few at once. As where each half takes away from the next one, products are of
+	/// as many columns as have been done since the later ones were last looked at: 1, 2, 1, 4, 1, 2, 1, 8 ... times
+	/// a few.
 	void eliminate(int s)
 	{
 		const int width = L_.width(s), height = L_.height(s);

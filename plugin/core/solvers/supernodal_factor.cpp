@@ -27,8 +27,8 @@ cholmod_sparse upper(const Csc& K)
 }
 
 /// Of unknowns that follow each other in the order and are coupled to the same ones, as those of a node mostly are, how
-/// many there are. Rows are compared by sums of numbers that look random: where different ones have the same sum, all of
-/// these unknowns count as coupled to what one of them is.
+/// many there are. Rows are compared by sums of numbers that look random: where different ones have the same sum,
+/// all of these unknowns count as coupled to what one of them is.
 std::vector<int> widthsOfAlike(const Csc& K, const std::vector<int>& order)
 {
 	const auto mixed = [](std::uint64_t x) { // as of SplitMix64
@@ -88,47 +88,62 @@ cholmod_sparse* patternOfNodes(const Csc& K, const std::vector<int>& order, cons
 	return pattern;
 }
 
+/// What CHOLMOD keeps of supernodes: first columns, first rows, first values, and rows.
+struct SupernodesOf {
+	std::vector<int> columns { 0 }, rowsBegin { 0 }, valuesBegin { 0 }, rows {};
+	std::size_t      values = 0, largestUpdate = 0, below = 1;
+
+	void end(int lastColumn, cholmod_common& common)
+	{
+		const double height = int(rows.size()) - rowsBegin.back(), width = lastColumn - columns.back();
+		for (int c = 0; c < width; ++c)
+			common.lnz += height - c, common.fl += (height - c) * (height - c);
+		values += std::size_t(width) * std::size_t(height);
+		below         = std::max(below, std::size_t(height - width));
+		largestUpdate = std::max(largestUpdate, std::size_t((height - width) * (height - width)));
+		columns.push_back(lastColumn), rowsBegin.push_back(int(rows.size())), valuesBegin.push_back(int(values));
+	}
+	bool isTooLarge() const { return values > std::size_t(std::numeric_limits<int>::max()); }
+
+	/// Into a factor that is empty.
+	void give(cholmod_factor& L, cholmod_common& common) const
+	{
+		const auto kept = [&](const std::vector<int>& numbers) {
+			void* copy = cholmod_malloc(std::max<std::size_t>(1, numbers.size()), sizeof(int), &common);
+			if (copy) std::copy(numbers.begin(), numbers.end(), static_cast<int*>(copy));
+			return copy;
+		};
+		L.ordering = CHOLMOD_GIVEN;
+		L.is_ll = L.is_super = L.is_monotonic = true;
+		L.nsuper = columns.size() - 1, L.ssize = rows.size(), L.xsize = values, L.maxcsize = largestUpdate, L.maxesize = below;
+		L.super = kept(columns), L.pi = kept(rowsBegin), L.px = kept(valuesBegin), L.s = kept(rows);
+	}
+};
+
 /// The symbolic factor of the unknowns from that of their nodes. Sets what is known of its size.
 cholmod_factor* expanded(const cholmod_factor& ofNodes, const std::vector<int>& order, const std::vector<int>& widths, cholmod_common& common)
 {
 	const auto       integers = [](const void* p) { return static_cast<const int*>(p); };
 	const int *      permuted = integers(ofNodes.Perm), *columns = integers(ofNodes.super), *places = integers(ofNodes.pi), *nodes = integers(ofNodes.s);
-	const int        count = int(widths.size()), supernodes = int(ofNodes.nsuper);
+	const int        count = int(widths.size());
 	std::vector<int> source(count, 0), first(count + 1, 0); // of each node: in the order that was given, and in that of the factor
 	std::partial_sum(widths.begin(), widths.end() - 1, source.begin() + 1);
 	for (int a = 0; a < count; ++a)
 		first[a + 1] = first[a] + widths[permuted[a]];
-	std::vector<int> super(supernodes + 1, 0), pi(super), px(super), rows;
+	SupernodesOf all;
 	common.lnz = common.fl = 0;
-	std::size_t size = 0, largest = 0, below = 1;
-	for (int s = 0; s < supernodes; ++s) {
+	for (int s = 0; s < int(ofNodes.nsuper); ++s) {
 		for (int i = places[s]; i < places[s + 1]; ++i)
 			for (int row = first[nodes[i]]; row < first[nodes[i] + 1]; ++row)
-				rows.push_back(row);
-		super[s + 1]        = first[columns[s + 1]];
-		pi[s + 1]           = int(rows.size());
-		const double height = pi[s + 1] - pi[s], width = super[s + 1] - super[s];
-		for (int c = 0; c < width; ++c)
-			common.lnz += height - c, common.fl += (height - c) * (height - c);
-		size += std::size_t(width) * std::size_t(height);
-		if (size > std::size_t(std::numeric_limits<int>::max())) return nullptr;
-		px[s + 1] = int(size);
-		below     = std::max(below, std::size_t(height - width));
-		largest   = std::max(largest, std::size_t((height - width) * (height - width)));
+				all.rows.push_back(row);
+		all.end(first[columns[s + 1]], common);
+		if (all.isTooLarge()) return nullptr;
 	}
 	cholmod_factor* L = cholmod_allocate_factor(order.size(), &common);
 	if (!L) return nullptr;
-	const auto kept = [&](const std::vector<int>& numbers) {
-		void* copy = cholmod_malloc(std::max<std::size_t>(1, numbers.size()), sizeof(int), &common);
-		if (copy) std::copy(numbers.begin(), numbers.end(), static_cast<int*>(copy));
-		return copy;
-	};
 	for (int a = 0; a < count; ++a)
 		std::copy_n(order.begin() + source[permuted[a]], widths[permuted[a]], static_cast<int*>(L->Perm) + first[a]);
-	L->ordering = CHOLMOD_GIVEN;
-	L->is_ll = L->is_super = L->is_monotonic = true;
-	L->nsuper = supernodes, L->ssize = rows.size(), L->xsize = size, L->maxcsize = largest, L->maxesize = below;
-	L->super = kept(super), L->pi = kept(pi), L->px = kept(px), L->s = kept(rows);
+	all.give(*L, common);
 	if (common.status < CHOLMOD_OK) cholmod_free_factor(&L, &common);
 	return L;
 }
@@ -149,8 +164,8 @@ SupernodalFactor::~SupernodalFactor()
 	cholmod_finish(&common_);
 }
 
-/// In the order of `order`, whose unknowns are taken together where that does not matter: there are about a third as many
-/// nodes, and a ninth as many pairs of them.
+/// Unknowns are taken together where that does not matter: there are about a third as many nodes, and a ninth as many
+/// pairs of them.
 void SupernodalFactor::analyseNodes(const Csc& K, const std::vector<int>& order)
 {
 	const auto      widths     = widthsOfAlike(K, order);

@@ -7,7 +7,8 @@
 namespace gimpm {
 namespace {
 
-	/// [K, -Q^T; -Q, -C] with K and C positive definite, rows and columns of both mixed, filled to a part within a band.
+	/// [K, -Q^T; -Q, -C] with K and C positive definite, rows and columns of both mixed; a band, of which a part is
+	/// filled.
 	Eigen::MatrixXd ofTwoFields(int nodes, double stored, unsigned seed, double filled = 0.7)
 	{
 		Random          random(seed);
