@@ -23,6 +23,7 @@ void Couplings::markRow(const FieldNode& row, int field, const std::vector<int>&
 	const int  r       = numberOf(row);
 	auto&      entries = rows_[r];
 	const auto before  = std::ptrdiff_t(entries.size());
+	entries.reserve(entries.size() + nodes.size());
 	for (const int node : nodes)
 		if (const int c = numberOf({ field, node }); keeps(r, c)) entries.push_back({ c, 0 });
 	const auto middle = entries.begin() + before;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 namespace gimpm {
 namespace {
@@ -177,7 +178,21 @@ private:
 		graph.neighbours.resize(graph.start.back());
 		std::vector<int> next(graph.start.begin(), graph.start.end() - 1);
 		forPairs([&](int a, int b) { graph.neighbours[next[a]++] = b; });
+		if (couplings_) keepOnce(graph);
 		return graph;
+	}
+	/// Neighbours of whom several fields are coupled.
+	static void keepOnce(NodeGraph& graph)
+	{
+		std::vector<int> seen(graph.places.size(), -1);
+		int              end = 0;
+		for (int a = 0, first = 0; a < int(graph.places.size()); ++a) {
+			const int last = graph.start[a + 1];
+			for (int i = std::exchange(first, last); i < last; ++i)
+				if (const int b = graph.neighbours[i]; std::exchange(seen[b], a) != a) graph.neighbours[end++] = b;
+			graph.start[a + 1] = end;
+		}
+		graph.neighbours.resize(end);
 	}
 	template <class F> void forFree(F&& f) const
 	{

@@ -227,6 +227,11 @@ template <int Dim> void reduceInOrder(const NodeMatrix<Dim>& K, const FreeDofs& 
 	out.value.clear();
 	const int  fields  = couplings ? couplings->map().fields() : 1;
 	const bool isMixed = couplings && couplings->areWithinDisplacements();
+	double     widths  = 0; // of all fields
+	for (int field = 0; field < fields; ++field)
+		widths += field == 0 ? Dim : couplings->map()[field].width;
+	const auto most = std::size_t(K.nodes() * K.codes * widths * widths); // nearly, with those of both triangles on the diagonal
+	out.row.reserve(most), out.value.reserve(most);
 	for (int field = 0, unknown = 0; field < fields; ++field)
 		for (int a = 0; a < K.nodes(); ++a)
 			for (int i = 0, width = field == 0 ? Dim : couplings->map()[field].width; i < width; ++i, ++unknown) {

@@ -26,20 +26,32 @@ bool isReverse(const Csc& K, const Csc& reversed)
 	        && std::equal(K.row.rbegin(), K.row.rend(), reversed.row.begin(), reversed.row.end(), [=](int a, int b) { return a + b == n - 1; });
 }
 
-Eigen::VectorXd scale(const Csc& K, std::vector<double>& scaled)
+namespace {
+
+/// Entries of rows and columns, of a symmetric matrix or of one triangle of it.
+Eigen::VectorXd largestOfRows(const Csc& K)
 {
-	const int       n       = K.size();
-	Eigen::VectorXd largest = Eigen::VectorXd::Zero(n), factor(n);
-	for (int c = 0; c < n; ++c)
+	Eigen::VectorXd largest = Eigen::VectorXd::Zero(K.size());
+	for (int c = 0; c < K.size(); ++c)
 		for (int e = K.start[c]; e < K.start[c + 1]; ++e) {
 			const double size = std::abs(K.value[e]);
 			largest[c]        = std::max(largest[c], size);
 			largest[K.row[e]] = std::max(largest[K.row[e]], size);
 		}
+	return largest;
+}
+
+} // namespace
+
+Eigen::VectorXd scale(const Csc& K, std::vector<double>& scaled)
+{
+	const int       n = K.size();
+	Eigen::VectorXd largest, factor(n); // largest: only where it is needed
 	for (int c = 0; c < n; ++c) {
 		const double diagonal = std::abs(diagonalOf(K, c));
-		const double size     = diagonal > 0 ? diagonal : largest[c];
-		factor[c]             = size > 0 && std::isfinite(size) ? std::ldexp(1, -std::ilogb(size) / 2) : 1;
+		if (!(diagonal > 0) && largest.size() == 0) largest = largestOfRows(K);
+		const double size = diagonal > 0 ? diagonal : largest[c];
+		factor[c]         = size > 0 && std::isfinite(size) ? std::ldexp(1, -std::ilogb(size) / 2) : 1;
 	}
 	scaled.resize(K.value.size());
 	double* out = scaled.data() + scaled.size();

@@ -3,6 +3,7 @@
 #include "core/base/instruction_set.hpp"
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <numeric>
 
@@ -46,24 +47,91 @@ struct Supernodes {
 	}
 };
 
+using Four [[gnu::vector_size(4 * sizeof(double))]] = double; // in one register, or in two
+
+/// Products A S B^T of some rows and columns, a tile at a time in the registers: small ones are faster so than by the
+/// BLAS, which copies what it is given.
+class Products {
+public:
+	static constexpr int rows = 8, columns = 6; ///< of a tile
+	struct Tile {
+		Four of[columns][2];
+	};
+
+	/// B S, of so many rows and columns, which the columns of the product are to be multiplied with.
+	void takeRight(const double* b, int stride, int count, int inner, const double* signs)
+	{
+		inner_ = inner;
+		right_.resize(std::size_t((count + columns - 1) / columns) * columns * inner);
+		double* __restrict out = right_.data();
+		for (int first = 0; first < count; first += columns, b += columns) {
+			const double* from = b;
+			if (first + columns <= count)
+				for (int k = 0; k < inner; ++k, from += stride, out += columns)
+					for (int c = 0; c < columns; ++c)
+						out[c] = signs[k] * from[c];
+			else
+				for (int k = 0; k < inner; ++k, from += stride, out += columns)
+					for (int c = 0; c < columns; ++c)
+						out[c] = first + c < count ? signs[k] * from[c] : 0;
+		}
+	}
+	/// Rows of A, at most those of a tile.
+	void takeLeft(const double* a, int stride, int count)
+	{
+		left_.resize(std::size_t(rows) * inner_);
+		double* __restrict out = left_.data();
+		if (count == rows)
+			for (int k = 0; k < inner_; ++k, a += stride, out += rows)
+				std::memcpy(out, a, rows * sizeof(double));
+		else
+			for (int k = 0; k < inner_; ++k, a += stride, out += rows)
+				for (int i = 0; i < rows; ++i)
+					out[i] = i < count ? a[i] : 0;
+	}
+	/// Of the rows that were taken last and a tile of columns from `first` on.
+	void multiply(int first, Tile& product) const
+	{
+		Four          sum[columns][2] = {};
+		const double *a = left_.data(), *b = right_.data() + std::ptrdiff_t(first) * inner_;
+		for (int k = 0; k < inner_; ++k, a += rows, b += columns) {
+			Four lower, upper;
+			std::memcpy(&lower, a, sizeof lower), std::memcpy(&upper, a + rows / 2, sizeof upper);
+			for (int c = 0; c < columns; ++c)
+				sum[c][0] += lower * b[c], sum[c][1] += upper * b[c];
+		}
+		std::memcpy(&product, sum, sizeof product);
+	}
+
+private:
+	int                 inner_ = 0;
+	std::vector<double> left_, right_;
+};
+
 class Factorisation {
 public:
-	Factorisation(const Supernodes& L, Eigen::VectorXd& signs)
-	        : L_(L), signs_(signs), supernode_(L.ofColumns()), first_(L.count, -1), next_(L.count, -1), taken_(L.count, 0), place_(supernode_.size())
+	Factorisation(const Supernodes& L, const PlacedEntries& entries, const std::vector<double>& values, Eigen::VectorXd& signs)
+	        : L_(L)
+	        , entries_(entries)
+	        , values_(values)
+	        , signs_(signs)
+	        , supernode_(L.ofColumns())
+	        , first_(L.count, -1)
+	        , next_(L.count, -1)
+	        , taken_(L.count, 0)
+	        , place_(supernode_.size())
 	{
 	}
 
 	bool run(double smallest)
 	{
 		for (int s = 0; s < L_.count; ++s) {
-			for (int i = 0; i < L_.height(s); ++i)
-				place_[L_.rowsOf(s)[i]] = i;
+			begin(s);
 			for (int d = first_[s], after; d >= 0; d = after) {
 				after = next_[d];
 				takeAway(d, s);
 			}
-			for (int begin = 0; begin < L_.width(s); begin += atOnce)
-				eliminate(s, begin, std::min(begin + atOnce, L_.width(s)));
+			eliminate(s);
 			taken_[s] = L_.width(s);
 			passOn(s);
 		}
@@ -71,59 +139,88 @@ public:
 	}
 
 private:
-	static constexpr int atOnce = 24, ofUpdate = 64; ///< columns
+	static constexpr int    atOnce = 24;  ///< columns
+	static constexpr double large  = 1e8; ///< products of numbers, as many as the copies of the BLAS are worth
 
-	/// S L^T of some rows and columns, as rows.
-	const double* withSigns(const double* block, int stride, int rows, int columns, const double* signs)
+	/// With the entries of the matrix.
+	void begin(int s)
 	{
-		right_.resize(std::max(right_.size(), std::size_t(rows) * columns));
-		double* out = right_.data();
-		for (int c = 0; c < columns; ++c, block += stride)
-			for (int i = 0; i < rows; ++i)
-				*out++ = signs[c] * block[i];
-		return right_.data();
+		for (int i = 0; i < L_.height(s); ++i)
+			place_[L_.rowsOf(s)[i]] = i;
+		double* block = L_.valuesOf(s);
+		std::fill_n(block, std::ptrdiff_t(L_.width(s)) * L_.height(s), 0.);
+		for (int i = entries_.start[s]; i < entries_.start[s + 1]; ++i)
+			block[entries_.entries[i].place] += values_[entries_.entries[i].number];
 	}
 
-	/// What an earlier supernode d has in the columns of s, of which a few are done at once: what is above the
-	/// diagonal is not needed.
+	/// What an earlier supernode d has in the columns of s.
 	void takeAway(int d, int s)
 	{
-		const int   height = L_.height(d), width = L_.width(d), begin = taken_[d];
-		const int*  rows  = L_.rowsOf(d) + begin;
-		const auto* end   = std::lower_bound(rows, L_.rowsOf(d) + height, L_.columns[s + 1]);
-		const int   below = height - begin, within = int(end - rows);
-		double*     block = L_.valuesOf(d) + begin;
-		update_.resize(std::max(update_.size(), std::size_t(below) * std::min(within, ofUpdate)));
+		const int  height = L_.height(d), begin = taken_[d];
+		const int* rows  = L_.rowsOf(d) + begin;
+		const int  below = height - begin, within = int(std::lower_bound(rows, rows + below, L_.columns[s + 1]) - rows);
 		into_.resize(below);
 		std::transform(rows, rows + below, into_.begin(), [this](int row) { return place_[row]; });
-		const double* right = withSigns(block, height, within, width, signs_.data() + L_.columns[d]);
-		const double  one = 1, none = 0;
-		for (int first = 0; first < within; first += ofUpdate) {
-			const int count = std::min(ofUpdate, within - first), left = below - first;
-			dgemm_("N", "T", &left, &count, &width, &one, block + first, &height, right + first, &within, &none, update_.data(), &left);
-			subtract(first, count, left, s);
-		}
+		subtract(L_.valuesOf(d) + begin, height, below, within, L_.width(d), signs_.data() + L_.columns[d], s);
 		taken_[d] += within;
 		passOn(d);
 	}
-	void subtract(int first, int count, int left, int s)
+
+	/// Takes A S B^T away from a supernode, of rows and columns that go `into_` its own, with B the first ones of
+	/// the rows A. What is above the diagonal is of no use, and may be left out.
+	void subtract(const double* a, int stride, int rows, int columns, int inner, const double* signs, int s)
 	{
-		const int* into = into_.data() + first;
-		runs_.clear(); // of rows that follow each other there, too
-		for (int i = 0; i < left; ++i)
-			if (i == 0 || into[i] != into[i - 1] + 1) runs_.push_back(i);
-		runs_.push_back(left);
-		for (int j = 0; j < count; ++j) {
-			double*       column = L_.valuesOf(s) + std::ptrdiff_t(into[j]) * L_.height(s);
-			const double* values = update_.data() + std::ptrdiff_t(j) * left;
-			for (std::size_t run = 0; run + 1 < runs_.size(); ++run) {
-				const int begin = std::max(runs_[run], j), end = runs_[run + 1];
-				double*   to = column + into[runs_[run]] - runs_[run];
-				for (int i = begin; i < end; ++i)
-					to[i] -= values[i];
+		if (double(rows) * columns * inner > large) return subtractLarge(a, stride, rows, columns, inner, signs, s);
+		products_.takeRight(a, stride, columns, inner, signs);
+		Products::Tile product;
+		for (int i = 0; i < rows; i += Products::rows) {
+			const int  count = std::min(Products::rows, rows - i), place = into_[i];
+			const bool isRun = count == Products::rows && into_[i + count - 1] == place + count - 1;
+			products_.takeLeft(a + i, stride, count);
+			for (int j = 0; j < std::min(columns, i + count); j += Products::columns) {
+				const int end = std::min(j + Products::columns, columns);
+				for (int c = j; c < end; ++c) // it comes while they are multiplied
+					for (const int row : { place, place + Products::rows - 1 })
+						__builtin_prefetch(column(s, c) + row, 1);
+				products_.multiply(j, product);
+				for (int c = j; c < end; ++c)
+					if (isRun) takeFrom(column(s, c) + place, product.of[c - j]);
+					else
+						for (int k = 0; k < count; ++k)
+							column(s, c)[into_[i + k]] -= product.of[c - j][k / 4][k % 4];
 			}
 		}
 	}
+	double* column(int s, int c) const { return L_.valuesOf(s) + std::ptrdiff_t(into_[c]) * L_.height(s); }
+
+	/// By the BLAS, which may have several threads for it.
+	void subtractLarge(const double* a, int stride, int rows, int columns, int inner, const double* signs, int s)
+	{
+		constexpr int few = 64; // columns at once
+		const double  one = 1, none = 0;
+		right_.resize(std::size_t(columns) * inner);
+		for (int k = 0; k < inner; ++k)
+			for (int c = 0; c < columns; ++c)
+				right_[c + std::size_t(k) * columns] = signs[k] * a[c + std::ptrdiff_t(k) * stride];
+		update_.resize(std::size_t(rows) * few);
+		for (int first = 0; first < columns; first += few) {
+			const int count = std::min(few, columns - first), left = rows - first;
+			dgemm_("N", "T", &left, &count, &inner, &one, a + first, &stride, right_.data() + first, &columns, &none, update_.data(), &left);
+			for (int c = 0; c < count; ++c)
+				for (int i = c; i < left; ++i)
+					column(s, first + c)[into_[first + i]] -= update_[i + std::size_t(c) * left];
+		}
+	}
+	static void takeFrom(double* to, const Four (&run)[2])
+	{
+		for (int part = 0; part < 2; ++part, to += 4) {
+			Four value;
+			std::memcpy(&value, to, sizeof value);
+			value -= run[part];
+			std::memcpy(to, &value, sizeof value);
+		}
+	}
+
 	/// To the supernode that needs it next.
 	void passOn(int d)
 	{
@@ -133,27 +230,35 @@ private:
 		first_[s]   = d;
 	}
 
-	/// Columns [begin, end) of a supernode; what they take away from its later ones.
-	void eliminate(int s, int begin, int end)
+	/// The columns of a supernode, a few at once. As where each half takes away from the next one, products are of
+	/// as many columns as have been done since the later ones were last looked at: 1, 2, 1, 4, 1, 2, 1, 8 ... times
+	/// a few.
+	void eliminate(int s)
 	{
-		const int height = L_.height(s), count = end - begin, below = height - end, later = L_.width(s) - end;
+		const int width = L_.width(s), height = L_.height(s);
+		for (int begin = 0, done = 1; begin < width; begin += atOnce, ++done) {
+			const int end = std::min(begin + atOnce, width), part = atOnce * (done & -done), later = std::min(end + part, width) - end;
+			eliminateFew(s, begin, end);
+			if (later == 0) return;
+			into_.resize(height - end);
+			std::iota(into_.begin(), into_.end(), end);
+			subtract(
+			        L_.valuesOf(s) + end + std::ptrdiff_t(end - part) * height, height, height - end, later, part,
+			        signs_.data() + L_.columns[s] + end - part, s);
+		}
+	}
+	void eliminateFew(int s, int begin, int end)
+	{
+		const int height = L_.height(s), count = end - begin, below = height - end;
 		double *  block = L_.valuesOf(s) + begin + std::ptrdiff_t(begin) * height, *signs = signs_.data() + L_.columns[s] + begin;
 		factoriseDense(block, height, count, signs);
 		if (below == 0) return;
-		const double one = 1, less = -1;
+		const double one = 1;
 		dtrsm_("R", "L", "T", "N", &below, &count, &one, block, &height, block + count, &height);
 		for (int c = 0; c < count; ++c)
 			if (signs[c] < 0)
 				for (double *x = block + count + std::ptrdiff_t(c) * height, *last = x + below; x < last; ++x)
 					*x = -*x;
-		if (later == 0) return;
-		const double* right = withSigns(block + count, height, later, count, signs);
-		for (int first = 0; first < later; first += ofUpdate) {
-			const int columns = std::min(ofUpdate, later - first), left = below - first;
-			double*   of = block + count + first; // the first of these rows in the first column of the block
-			dgemm_("N", "T", &left, &columns, &count, &less, of, &height, right + first, &later, &one, of + std::ptrdiff_t(count + first) * height,
-			       &height);
-		}
 	}
 	void factoriseDense(double* block, int stride, int count, double* signs)
 	{
@@ -174,62 +279,59 @@ private:
 		}
 	}
 
-	const Supernodes&   L_;
-	Eigen::VectorXd&    signs_;
-	std::vector<int>    supernode_;    // of each column
-	std::vector<int>    first_, next_; // lists: of each supernode the earlier ones that have rows there
-	std::vector<int>    taken_;        // rows of each supernode that are done
-	std::vector<int>    place_;        // of each row in the supernode at hand
-	std::vector<int>    runs_;
-	std::vector<int>    into_;           // of each row of an update, its place there
-	std::vector<double> update_, right_; // reused
-	double              least_ = std::numeric_limits<double>::infinity(), largest_ = 0;
+	const Supernodes&          L_;
+	const PlacedEntries&       entries_;
+	const std::vector<double>& values_;
+	Eigen::VectorXd&           signs_;
+	std::vector<int>           supernode_;    // of each column
+	std::vector<int>           first_, next_; // lists: of each supernode the earlier ones that have rows there
+	std::vector<int>           taken_;        // rows of each supernode that are done
+	std::vector<int>           place_;        // of each row in the supernode at hand
+	std::vector<int>           into_;         // of each row of an update, its place there
+	Products                   products_;
+	std::vector<double>        right_, update_; // of large products, reused
+	double                     least_ = std::numeric_limits<double>::infinity(), largest_ = 0;
 };
 
 } // namespace
 
-std::vector<std::ptrdiff_t> placesIn(const cholmod_factor& factor, const Csc& K)
+PlacedEntries::PlacedEntries(const cholmod_factor& factor, const Csc& K)
 {
 	const Supernodes L(factor);
 	const int *      order = static_cast<const int*>(factor.Perm), n = K.size();
 	std::vector<int> number(n), place(n);
 	for (int i = 0; i < n; ++i)
 		number[order[i]] = i;
-	const auto       supernode = L.ofColumns();
-	std::vector<int> start(L.count + 1, 0); // of the entries of each supernode
-	const auto       forEntries = [&](auto&& f) {
-                for (int c = 0; c < n; ++c)
-                        for (int e = K.start[c]; e < K.start[c + 1] && K.row[e] <= c; ++e)
-                                f(e, std::min(number[K.row[e]], number[c]), std::max(number[K.row[e]], number[c]));
+	const auto supernode  = L.ofColumns();
+	const auto forEntries = [&](auto&& f) {
+		for (int c = 0; c < n; ++c)
+			for (int e = K.start[c]; e < K.start[c + 1] && K.row[e] <= c; ++e)
+				f(e, std::min(number[K.row[e]], number[c]), std::max(number[K.row[e]], number[c]));
 	};
+	start.assign(L.count + 1, 0);
 	forEntries([&](int, int column, int) { ++start[supernode[column] + 1]; });
 	std::partial_sum(start.begin(), start.end(), start.begin());
-	struct Entry {
+	struct Unplaced {
 		int e, column, row;
 	};
-	std::vector<Entry> sorted(start.back());
-	std::vector<int>   next(start.begin(), start.end() - 1);
+	std::vector<Unplaced> sorted(start.back());
+	std::vector<int>      next(start.begin(), start.end() - 1);
 	forEntries([&](int e, int column, int row) { sorted[next[supernode[column]]++] = { e, column, row }; });
-	std::vector<std::ptrdiff_t> places(K.row.size(), -1);
+	entries.resize(sorted.size());
 	for (int s = 0; s < L.count; ++s) {
 		for (int i = 0; i < L.height(s); ++i)
 			place[L.rowsOf(s)[i]] = i;
 		for (int i = start[s]; i < start[s + 1]; ++i)
-			places[sorted[i].e] = L.valuesBegin[s] + std::ptrdiff_t(sorted[i].column - L.columns[s]) * L.height(s) + place[sorted[i].row];
+			entries[i] = { sorted[i].e, (sorted[i].column - L.columns[s]) * L.height(s) + place[sorted[i].row] };
 	}
-	return places;
 }
 
-bool factoriseSigned(
-        cholmod_factor& factor, const std::vector<std::ptrdiff_t>& places, const std::vector<double>& values, double smallest, Eigen::VectorXd& signs)
+bool factoriseSigned(cholmod_factor& factor, const PlacedEntries& entries, const std::vector<double>& values, double smallest, Eigen::VectorXd& signs)
 {
 	const Supernodes L(factor);
-	std::fill(L.values, L.values + factor.xsize, 0.);
-	for (std::size_t e = 0; e < places.size(); ++e)
-		if (places[e] >= 0) L.values[places[e]] += values[e];
 	signs.resize(Eigen::Index(factor.n));
 	bool hasDone = false;
-	callForProcessor([&] { hasDone = Factorisation(L, signs).run(smallest); });
+	callForProcessor([&] { hasDone = Factorisation(L, entries, values, signs).run(smallest); });
 	return hasDone;
 }
 

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Supernodal factorisation: Cholesky's (CHOLMOD), and in its pattern that of a matrix which is not definite.
 #pragma once
-#include "core/solvers/csc.hpp"
-#include <cholmod.h>
-#include <cstddef>
+#include "core/solvers/signed_factor.hpp"
 
 namespace gimpm {
 
@@ -19,7 +17,7 @@ public:
 	/// looks for. The last ones, so many as lastBlock() will be asked for, stay where they are. `isDefinite`: for
 	/// factorise(), else for factoriseSigned().
 	void analyse(const Csc& K, std::vector<int> order = {}, int last = 0, bool isDefinite = true);
-	void forget() { cholmod_free_factor(&factor_, &common_), places_.clear(); }
+	void forget() { cholmod_free_factor(&factor_, &common_), entries_ = {}; }
 	/// Not before analyse(), nor if the factor would be too large for CHOLMOD.
 	bool   isAnalysed() const { return factor_; }
 	double entries() const { return common_.lnz; }
@@ -47,12 +45,13 @@ public:
 	void lastBlock(Eigen::MatrixXd& block) const;
 
 private:
+	void analyseNodes(const Csc& K, const std::vector<int>& order);
 	bool solve(int system, const Eigen::VectorXd& b, Eigen::VectorXd& x);
 
-	cholmod_common              common_;
-	cholmod_factor*             factor_ = nullptr;
-	std::vector<std::ptrdiff_t> places_; ///< of the entries of K among the values of a factor with signs
-	Eigen::VectorXd             signs_;  ///< in the order of the factor
+	cholmod_common  common_;
+	cholmod_factor* factor_ = nullptr;
+	PlacedEntries   entries_; ///< of K, among the values of a factor with signs
+	Eigen::VectorXd signs_;   ///< in the order of the factor
 };
 
 } // namespace gimpm

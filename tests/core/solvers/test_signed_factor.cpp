@@ -7,15 +7,16 @@
 namespace gimpm {
 namespace {
 
-	/// [K, -Q^T; -Q, -C] with K and C positive definite, rows and columns of both mixed.
-	Eigen::MatrixXd ofTwoFields(int nodes, double stored, unsigned seed)
+	/// [K, -Q^T; -Q, -C] with K and C positive definite, rows and columns of both mixed; a band, of which a part is
+	/// filled.
+	Eigen::MatrixXd ofTwoFields(int nodes, double stored, unsigned seed, double filled = 0.7)
 	{
 		Random          random(seed);
 		const int       size = 3 * nodes;
 		Eigen::MatrixXd m    = Eigen::MatrixXd::Zero(size, size);
 		for (int c = 0; c < size; ++c)
 			for (int r = 0; r < c; ++r)
-				if (std::abs(r / 3 - c / 3) < 5 && random.in(0, 1) < 0.7) m(r, c) = m(c, r) = random.in(-0.1, 0.1);
+				if (std::abs(r / 3 - c / 3) < 5 && random.in(0, 1) < filled) m(r, c) = m(c, r) = random.in(-0.1, 0.1);
 		for (int i = 0; i < size; ++i)
 			for (int j = 0; j < size; ++j)
 				if (i % 3 == 2 && j % 3 == 2) m(i, j) *= i == j ? 0 : stored;
@@ -59,6 +60,58 @@ namespace {
 				ASSERT_TRUE(factor.factoriseSigned(twice, 1e-12) && factor.solveSigned(b, half)) << "the pattern is kept";
 				EXPECT_LT((2 * half - x).norm(), 1e-12 * x.norm());
 			}
+	}
+
+	/// Large enough for its products to be left to the BLAS.
+	TEST(SignedFactor, SolvesWhatIsDense)
+	{
+		constexpr int   size = 1100;
+		Random          random(2);
+		Eigen::MatrixXd m = Eigen::MatrixXd::Zero(size, size);
+		for (int c = 0; c < size; ++c) {
+			for (int r = 0; r < c; ++r)
+				m(r, c) = m(c, r) = random.in(-0.01, 0.01);
+			m(c, c) = c % 3 == 2 ? -2 : 2;
+		}
+		const Csc        K = upper(m);
+		SupernodalFactor factor;
+		factor.analyse(K, inTheirOrder(K), 0, false);
+		ASSERT_TRUE(factor.factoriseSigned(K, 1e-12));
+		const Eigen::VectorXd b = random.vector(size);
+		Eigen::VectorXd       x;
+		ASSERT_TRUE(factor.solveSigned(b, x));
+		EXPECT_LT((m * x - b).norm(), 1e-12 * (b.norm() + x.norm()));
+	}
+
+	/// Nodes of which some unknowns are held, the last ones first.
+	TEST(SignedFactor, FindsItsPatternFromThatOfNodes)
+	{
+		constexpr int    nodes = 60;
+		Random           random(3);
+		std::vector<int> kept, widths, order;
+		for (int n = 0; n < nodes; ++n) {
+			const auto before = kept.size();
+			for (int i = 0; i < 3; ++i)
+				if (i == 2 || random.in(0, 1) < 0.6) kept.push_back(3 * n + i);
+			widths.insert(widths.begin(), int(kept.size() - before));
+		}
+		for (std::size_t end = kept.size(), n = nodes; n > 0; end -= widths[nodes - n--])
+			for (int i = widths[nodes - n]; i > 0; --i)
+				order.push_back(int(end) - i);
+		const Eigen::MatrixXd m = ofTwoFields(nodes, 1e-3, 4, 1)(kept, kept);
+		const Csc             K = upper(m);
+		SupernodalFactor      factor, other;
+		factor.analyse(K, order, 0, false);
+		ASSERT_TRUE(factor.isAnalysed() && factor.factoriseSigned(K, 1e-12));
+		const Eigen::VectorXd b = Random(5).vector(m.rows());
+		Eigen::VectorXd       x;
+		ASSERT_TRUE(factor.solveSigned(b, x));
+		EXPECT_LT((m * x - b).norm(), 1e-12 * (b.norm() + x.norm()));
+		other.analyse(K, order);
+		EXPECT_GE(factor.entries(), other.entries()) << "with zeros that make supernodes larger";
+		factor.analyse(K, order);
+		EXPECT_EQ(factor.entries(), other.entries());
+		EXPECT_EQ(factor.flops(), other.flops()) << "what is set for nodes does not last";
 	}
 
 	TEST(SignedFactor, RefusesWhatNeedsPivoting)

@@ -76,18 +76,27 @@ template <int Dim> struct FlowPoint {
 	template <class Displacements, class Pressures>
 	FlowPoint(const PorePoint& point, const Patch<Dim>& patch, const PointFunctions<Dim>& f, const Displacements& d, const Pressures& P, double modulus)
 	{
-		Vec<Dim> first = Vec<Dim>::Zero();
+		double   grown[Dim][Dim] = {}; // which stays in registers
+		Vec<Dim> first           = Vec<Dim>::Zero();
 		for (int n = 0; n < f.count; ++n) {
 			const int a = patch.node[n];
 			if (a < 0) continue;
-			F += d.template segment<Dim>(Dim * a) * f.gradient[n].transpose();
+			for (int i = 0; i < Dim; ++i)
+				for (int j = 0; j < Dim; ++j)
+					grown[i][j] += d[Dim * a + i] * f.gradient[n][j];
 			around += d[Dim * a] * f.hoop[n];
 			pressure += f.value[n] * P[a], first += P[a] * f.gradient[n];
 		}
+		for (int i = 0; i < Dim; ++i)
+			for (int j = 0; j < Dim; ++j)
+				F(i, j) += grown[i][j];
 		J = F.determinant() * around, inverse = F.inverse();
 		slope   = inverse.transpose() * first;
-		density = std::exp(pressure / modulus);
-		content = density * point.ratio * (J - 1) + point.content * std::expm1((pressure - point.pressure) / modulus);
+		content = point.ratio * (J - 1);
+		if (std::isfinite(modulus)) {
+			density = std::exp(pressure / modulus);
+			content = density * content + point.content * std::expm1((pressure - point.pressure) / modulus);
+		}
 		if (isPossible(point)) kappa = point.pores->at(point.ratio * J);
 	}
 	bool isPossible(const PorePoint& point) const { return J > 0 && around > 0 && point.pores->areOpen(point.ratio * J); }

@@ -139,22 +139,25 @@ public:
 	}
 
 private:
-	static constexpr int               field = 1, turns = Dim * (Dim - 1) / 2; // of the pressure; pairs of axes
+	static constexpr int field = 1, turns = Dim * (Dim - 1) / 2; // of the pressure; pairs of axes
+	struct Functions {
+		Row value, hoop, along, gradient[Dim], dilation[Dim];
+	};
 	template <class Array> static void clear(Array& array) { std::memset(array, 0, sizeof array); }
 
 	/// The functions of a point, zero at nodes that it does not have.
 	void take(const Patch<Dim>& patch, const PointFunctions<Dim>& f, const PresentFunctions<Dim>& now)
 	{
 		const auto& place = patchShapes<Dim>[patch.span].place;
-		clear(value_), clear(hoop_), clear(along_), clear(gradient_), clear(dilation_);
+		std::memset(&at_, 0, sizeof at_);
 		count_ = 0;
 		for (int n = 0; n < f.count; ++n) {
 			if (patch.node[n] < 0) continue;
 			const int a    = place[n];
 			own_[count_++] = a;
-			value_[a] = f.value[n], hoop_[a] = now.hoop[n], along_[a] = now.along[n];
+			at_.value[a] = f.value[n], at_.hoop[a] = now.hoop[n], at_.along[a] = now.along[n];
 			for (int i = 0; i < Dim; ++i)
-				gradient_[i][a] = now.gradient[n][i], dilation_[i][a] = now.dilation[n][i];
+				at_.gradient[i][a] = now.gradient[n][i], at_.dilation[i][a] = now.dilation[n][i];
 		}
 	}
 
@@ -164,10 +167,10 @@ private:
 		for (int m = 0; m < count_; ++m) {
 			const int a = own_[m];
 			for (int i = 0; i < Dim; ++i) {
-				const double push = -V * s.pressure * dilation_[i][a];
+				const double push = -V * s.pressure * at_.dilation[i][a];
 				force_[i][a] += push, sizes_[i][a] += std::abs(push);
 			}
-			const double passes = flow * along_[a], ofStored = stored * value_[a];
+			const double passes = flow * at_.along[a], ofStored = stored * at_.value[a];
 			force_[Dim][a] += passes + ofStored, sizes_[Dim][a] += std::abs(passes) + std::abs(ofStored);
 		}
 	}
@@ -186,14 +189,14 @@ private:
 		for (int m = 0; m < count_; ++m) {
 			const int a = own_[m];
 			for (int i = 0, pair = 0; i < Dim; ++i) {
-				addTimes(up_[i][a], -V * dilation_[i][a], value_);
-				addTimes(pp_[a], flow * gradient_[i][a], gradient_[i]);
+				addTimes(up_[i][a], -V * at_.dilation[i][a], at_.value);
+				addTimes(pp_[a], flow * at_.gradient[i][a], at_.gradient[i]);
 				for (int k = i + 1; k < Dim; ++k, ++pair) {
-					addTimes(turn_[pair][a], pushes * gradient_[k][a], gradient_[i]);
-					addTimes(turn_[pair][a], -pushes * gradient_[i][a], gradient_[k]);
+					addTimes(turn_[pair][a], pushes * at_.gradient[k][a], at_.gradient[i]);
+					addTimes(turn_[pair][a], -pushes * at_.gradient[i][a], at_.gradient[k]);
 				}
 			}
-			if (stored != 0) addTimes(pp_[a], stored * value_[a], value_);
+			if (stored != 0) addTimes(pp_[a], stored * at_.value[a], at_.value);
 		}
 	}
 	/// What the stretch along the circle adds: of xx, of xy and of yx.
@@ -202,10 +205,10 @@ private:
 		const double pushes = point.volume * s.J * s.pressure;
 		for (int m = 0; m < count_; ++m) {
 			const int a = own_[m];
-			addTimes(ring_[0][a], -pushes * hoop_[a], gradient_[0]);
-			addTimes(ring_[0][a], -pushes * gradient_[0][a], hoop_);
-			addTimes(ring_[1][a], -pushes * hoop_[a], gradient_[1]);
-			addTimes(ring_[2][a], -pushes * gradient_[1][a], hoop_);
+			addTimes(ring_[0][a], -pushes * at_.hoop[a], at_.gradient[0]);
+			addTimes(ring_[0][a], -pushes * at_.gradient[0][a], at_.hoop);
+			addTimes(ring_[1][a], -pushes * at_.hoop[a], at_.gradient[1]);
+			addTimes(ring_[2][a], -pushes * at_.gradient[1][a], at_.hoop);
 		}
 	}
 	/// What has no transpose, and the other half of what has one.
@@ -216,13 +219,13 @@ private:
 			const int a        = own_[m];
 			Row       products = {};
 			for (int i = 0; i < Dim; ++i)
-				addTimes(products, gradient_[i][a], gradient_[i]);
+				addTimes(products, at_.gradient[i][a], at_.gradient[i]);
 			for (int i = 0; i < Dim; ++i) {
-				addTimes(pu_[i][a], V * E * value_[a] + led * along_[a], dilation_[i]);
+				addTimes(pu_[i][a], V * E * at_.value[a] + led * at_.along[a], at_.dilation[i]);
 				addTimes(pu_[i][a], -flow * s.slope[i], products);
-				addTimes(pu_[i][a], -flow * gradient_[i][a], along_);
+				addTimes(pu_[i][a], -flow * at_.gradient[i][a], at_.along);
 			}
-			addTimes(pp_[a], flow / modulus_ * along_[a], value_);
+			addTimes(pp_[a], flow / modulus_ * at_.along[a], at_.value);
 		}
 	}
 
@@ -250,11 +253,11 @@ private:
 	const bool             isSymmetric_, isAxisymmetric_;
 	const double           duration_, modulus_;
 	std::array<int, N>     node_;
-	Row                    force_[Dim + 1], sizes_[Dim + 1];                      // the last one: of the pressure
-	Row                    turn_[turns][N], ring_[3][N], up_[Dim][N], pp_[N];     // by rows
-	Row                    pu_[Dim][N];                                           // where the matrix is not symmetric
-	Row                    value_, hoop_, along_, gradient_[Dim], dilation_[Dim]; // of the point at hand
-	int                    own_[N], count_ = 0;                                   // its nodes
+	Row                    force_[Dim + 1], sizes_[Dim + 1];                  // the last one: of the pressure
+	Row                    turn_[turns][N], ring_[3][N], up_[Dim][N], pp_[N]; // by rows
+	Row                    pu_[Dim][N];                                       // where the matrix is not symmetric
+	Functions              at_;                                               // of the point at hand, zero at other nodes
+	int                    own_[N], count_ = 0;                               // its nodes
 };
 
 } // namespace gimpm
