@@ -47,6 +47,25 @@ def theCommand():
 	return os.environ.get('YADE', 'yade')
 
 
+@functools.cache
+def quickWaits():
+	"""The folder of waits.so for LD_PRELOAD: O.run(n, wait=True) looks a hundred times as often whether it has ended. YADE looks every 40 ms, longer than most steps of tests take."""
+	folder = tempfile.TemporaryDirectory()
+	compiled(
+	        '''
+#include <dlfcn.h>
+#include <time.h>
+extern "C" int nanosleep(const timespec* asked, timespec* left)
+{
+	static const auto sleeps = reinterpret_cast<int (*)(const timespec*, timespec*)>(dlsym(RTLD_NEXT, "nanosleep"));
+	const timespec quick { 0, 400000 };
+	return sleeps(asked->tv_sec == 0 && asked->tv_nsec == 40000000 ? &quick : asked, left);
+}
+''', Path(folder.name) / 'waits.so'
+	)
+	return folder
+
+
 class Started:
 	"""A YADE that has started, once for many scripts: most of them end sooner than YADE starts. Each runs in a copy of its process (waiting.py)."""
 
@@ -154,8 +173,10 @@ class Yade:
 		return run
 
 	def ownSettings(self):
-		"""Variables that keep the process from reading or writing the settings of the user, and find scenes.py."""
-		return {'PYTHONPATH': str(root / 'tests' / 'scene'), 'XDG_CONFIG_HOME': str(self.folder / 'config'), 'MPLCONFIGDIR': str(self.folder / 'config'), 'MPLBACKEND': 'Agg'}
+		"""Variables that keep the process from reading or writing the settings of the user, find scenes.py, and let waiting take no longer than it must."""
+		config = str(self.folder / 'config')
+		waits = os.path.join(quickWaits().name, 'waits.so')
+		return {'PYTHONPATH': str(root / 'tests' / 'scene'), 'XDG_CONFIG_HOME': config, 'MPLCONFIGDIR': config, 'MPLBACKEND': 'Agg', 'LD_PRELOAD': waits}
 
 
 def interruptible():
