@@ -49,7 +49,7 @@ def theCommand():
 
 @functools.cache
 def quickWaits():
-	"""The folder of waits.so for LD_PRELOAD: O.run(n, wait=True) looks a hundred times as often whether it has ended. YADE looks every 40 ms, longer than most steps of tests take."""
+	"""The folder of waits.so for LD_PRELOAD, by which O.run(n, wait=True) looks every .4 ms whether it has ended, not every 40: most steps of tests take less."""
 	folder = tempfile.TemporaryDirectory()
 	compiled(
 	        '''
@@ -119,7 +119,7 @@ started = functools.cache(Started)
 
 def pytest_collection_modifyitems(items):
 	"""Files that take long come first: where processes take a file each, the last ones to end then have little left to wait for."""
-	first = ['test_processes', 'test_examples', 'test_pairs', 'test_studies', 'test_documentation', 'test_loading', 'test_reproduce']
+	first = ['test_processes', 'test_examples', 'test_calibration', 'test_pairs', 'test_studies', 'test_documentation', 'test_loading', 'test_reproduce']
 	items.sort(key=lambda item: first.index(item.path.stem) if item.path.stem in first else len(first))
 
 
