@@ -69,12 +69,15 @@ extern "C" int nanosleep(const timespec* asked, timespec* left)
 class Started:
 	"""A YADE that has started, once for many scripts: most of them end sooner than YADE starts. Each runs in a copy of its process (waiting.py)."""
 
-	def __init__(self):
+	every = []
+
+	def __init__(self, command):
+		self.every.append(self)
 		self.folder = tempfile.TemporaryDirectory()
 		self.connection, theirs = socket.socketpair(socket.AF_UNIX, socket.SOCK_SEQPACKET)
 		with theirs, open(self.path('said'), 'w') as said:
 			self.process = subprocess.Popen(
-			        [theCommand(), '-n', '-x', '-j1', str(root / 'tests/scene/waiting.py'), str(theirs.fileno())],
+			        [command, '-n', '-x', '-j1', str(root / 'tests/scene/waiting.py'), str(theirs.fileno())],
 			        cwd=self.folder.name,
 			        env=os.environ | makingRoom | Yade(Path(self.folder.name)).ownSettings() | {'IPYTHONDIR': self.path('ipython')},
 			        stdin=subprocess.DEVNULL,
@@ -124,7 +127,8 @@ def pytest_collection_modifyitems(items):
 
 
 def pytest_unconfigure():
-	if started.cache_info().currsize: started().end()
+	for each in Started.every:
+		each.end()
 
 
 class Yade:
@@ -133,6 +137,7 @@ class Yade:
 	def __init__(self, folder):
 		self.folder = folder
 		self.command = theCommand()
+		self.isShared = False  # where the command is another one: whether many scripts use it
 		self.environment = {}  # variables in addition to those of this process
 
 	def __call__(self, script, *arguments, threads=1, processes=1, timeout=120, fails=False, environment={}, options=(), stderr=subprocess.PIPE):
@@ -151,8 +156,8 @@ class Yade:
 		if not isinstance(script, Path):
 			text, script = script, self.folder / 'script.py'
 			script.write_text(text)
-		if self.command == theCommand() and not self.environment and (processes, threads, environment, options, stderr) == (1, 1, {}, (), subprocess.PIPE):
-			run = started().run([str(script), *map(str, arguments)], self.folder, self.ownSettings(), timeout)
+		if (self.isShared or self.command == theCommand()) and not self.environment and (processes, threads, environment, options, stderr) == (1, 1, {}, (), subprocess.PIPE):
+			run = started(self.command).run([str(script), *map(str, arguments)], self.folder, self.ownSettings(), timeout)
 			assert (run.exitCode != 0) == fails, str(run)
 			assert 'labels overlap in' not in run.stderr, run.stderr  # of the pictures of examples (labels.py)
 			return run
