@@ -97,7 +97,7 @@ def pushed(boxes, boundaries, grid, parts):
 	O.dt = 1 / options.steps
 	history, begin = [(0, 0)], time.time()
 	for _ in range(options.steps):
-		O.run(1, wait=True)
+		O.step()
 		solves.append(solver.iterations)
 		load = -sum(reaction[1] for reaction in solver.reactions[len(boundaries):])
 		history.append((solver.loadFactor * options.settlement, load / (parts * np.pi * R**2 * cu)))

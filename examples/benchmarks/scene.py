@@ -77,7 +77,7 @@ def slope():
 		if loads:
 			for load in loads:
 				O.dt = load - O.time
-				O.run(1, wait=True)
+				O.step()
 		else: O.run(steps, wait=True)
 	peak, points, work = memory('VmHWM'), mpm.arrays(), dict(dofs=solver.dofs, factorFlops=0) if setting.distributed else solver.workload()
 	return dict(
@@ -107,7 +107,7 @@ def block():
 	peaks['filled'] = memory('VmHWM')
 	begin = time.perf_counter()
 	for step in range(setting.steps):
-		O.run(1, wait=True)
+		O.step()
 		peaks[f'step {step + 1}'] = memory('VmHWM')
 	run = time.perf_counter() - begin
 	return dict(points=len(mpm.arrays()['id']), own=len([body for body in O.bodies if body]), run=run, peaks=peaks)

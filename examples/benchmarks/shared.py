@@ -318,7 +318,7 @@ def effort(steps):
 	solver, solves, iterations, parts = next(engine for engine in O.engines if isinstance(engine, MpmImplicitEngine)), 0, 0, Counter()
 	sent, begin, cpu = library.bytesSent(), time.perf_counter(), time.process_time()
 	for step in range(steps):
-		O.run(1, wait=True)
+		O.step()
 		solves, iterations = solves + solver.iterations, iterations + solver.cgIterations
 		parts.update(solver.report()['times'])
 	return dict(

@@ -58,7 +58,7 @@ def limitLoad():
 	"""Over area and c_u, solves, seconds of the processor."""
 	loads, solves, begin = [], 0, time.process_time()
 	for _ in range(options.steps):
-		O.run(1, wait=True)
+		O.step()
 		loads.append(-solver.reactions[3][1] / (B / 2)**(options.dim - 1) / cu)
 		solves += solver.iterations
 	return max(loads), solves, time.process_time() - begin

@@ -47,15 +47,37 @@ def theCommand():
 	return os.environ.get('YADE', 'yade')
 
 
+@functools.cache
+def quickWaits():
+	"""The folder of waits.so for LD_PRELOAD, by which O.run(n, wait=True) looks every .4 ms whether it has ended, not every 40: most steps of tests take less."""
+	folder = tempfile.TemporaryDirectory()
+	compiled(
+	        '''
+#include <dlfcn.h>
+#include <time.h>
+extern "C" int nanosleep(const timespec* asked, timespec* left)
+{
+	static const auto sleeps = reinterpret_cast<int (*)(const timespec*, timespec*)>(dlsym(RTLD_NEXT, "nanosleep"));
+	const timespec quick { 0, 400000 };
+	return sleeps(asked->tv_sec == 0 && asked->tv_nsec == 40000000 ? &quick : asked, left);
+}
+''', Path(folder.name) / 'waits.so'
+	)
+	return folder
+
+
 class Started:
 	"""A YADE that has started, once for many scripts: most of them end sooner than YADE starts. Each runs in a copy of its process (waiting.py)."""
 
-	def __init__(self):
+	every = []
+
+	def __init__(self, command):
+		self.every.append(self)
 		self.folder = tempfile.TemporaryDirectory()
 		self.connection, theirs = socket.socketpair(socket.AF_UNIX, socket.SOCK_SEQPACKET)
 		with theirs, open(self.path('said'), 'w') as said:
 			self.process = subprocess.Popen(
-			        [theCommand(), '-n', '-x', '-j1', str(root / 'tests/scene/waiting.py'), str(theirs.fileno())],
+			        [command, '-n', '-x', '-j1', str(root / 'tests/scene/waiting.py'), str(theirs.fileno())],
 			        cwd=self.folder.name,
 			        env=os.environ | makingRoom | Yade(Path(self.folder.name)).ownSettings() | {'IPYTHONDIR': self.path('ipython')},
 			        stdin=subprocess.DEVNULL,
@@ -100,12 +122,13 @@ started = functools.cache(Started)
 
 def pytest_collection_modifyitems(items):
 	"""Files that take long come first: where processes take a file each, the last ones to end then have little left to wait for."""
-	first = ['test_processes', 'test_examples', 'test_pairs', 'test_studies', 'test_documentation', 'test_loading', 'test_reproduce']
+	first = ['test_processes', 'test_examples', 'test_calibration', 'test_pairs', 'test_studies', 'test_documentation', 'test_loading', 'test_reproduce']
 	items.sort(key=lambda item: first.index(item.path.stem) if item.path.stem in first else len(first))
 
 
 def pytest_unconfigure():
-	if started.cache_info().currsize: started().end()
+	for each in Started.every:
+		each.end()
 
 
 class Yade:
@@ -114,6 +137,7 @@ class Yade:
 	def __init__(self, folder):
 		self.folder = folder
 		self.command = theCommand()
+		self.isShared = False  # where the command is another one: whether many scripts use it
 		self.environment = {}  # variables in addition to those of this process
 
 	def __call__(self, script, *arguments, threads=1, processes=1, timeout=120, fails=False, environment={}, options=(), stderr=subprocess.PIPE):
@@ -132,8 +156,8 @@ class Yade:
 		if not isinstance(script, Path):
 			text, script = script, self.folder / 'script.py'
 			script.write_text(text)
-		if self.command == theCommand() and not self.environment and (processes, threads, environment, options, stderr) == (1, 1, {}, (), subprocess.PIPE):
-			run = started().run([str(script), *map(str, arguments)], self.folder, self.ownSettings(), timeout)
+		if (self.isShared or self.command == theCommand()) and not self.environment and (processes, threads, environment, options, stderr) == (1, 1, {}, (), subprocess.PIPE):
+			run = started(self.command).run([str(script), *map(str, arguments)], self.folder, self.ownSettings(), timeout)
 			assert (run.exitCode != 0) == fails, str(run)
 			assert 'labels overlap in' not in run.stderr, run.stderr  # of the pictures of examples (labels.py)
 			return run
@@ -154,8 +178,10 @@ class Yade:
 		return run
 
 	def ownSettings(self):
-		"""Variables that keep the process from reading or writing the settings of the user, and find scenes.py."""
-		return {'PYTHONPATH': str(root / 'tests' / 'scene'), 'XDG_CONFIG_HOME': str(self.folder / 'config'), 'MPLCONFIGDIR': str(self.folder / 'config'), 'MPLBACKEND': 'Agg'}
+		"""Variables that keep the process from reading or writing the settings of the user, find scenes.py, and let waiting take no longer than it must."""
+		config = str(self.folder / 'config')
+		waits = os.path.join(quickWaits().name, 'waits.so')
+		return {'PYTHONPATH': str(root / 'tests' / 'scene'), 'XDG_CONFIG_HOME': config, 'MPLCONFIGDIR': config, 'MPLBACKEND': 'Agg', 'LD_PRELOAD': waits}
 
 
 def interruptible():

@@ -4,8 +4,10 @@
 
 def nextScript():
 	"""Returns in the copies only, each with its own script, settings, folder and streams."""
-	import json, os, socket, sys
+	import gc, json, os, socket, sys
 	import matplotlib.pyplot  # takes longer to import than most scripts to run
+	gc.collect()
+	gc.freeze()  # what all have in common: each would copy its pages only to look for garbage there when it ends
 	connection = socket.socket(fileno=int(sys.argv[1]))
 	while True:
 		message, streams, _, _ = socket.recv_fds(connection, 1 << 20, 2)

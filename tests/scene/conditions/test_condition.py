@@ -21,7 +21,7 @@ def overlay(tmp_path_factory):
 @pytest.fixture
 def yade(tmp_path, overlay):
 	found = Yade(tmp_path)
-	found.command = overlay
+	found.command, found.isShared = overlay, True
 	return found
 
 

@@ -50,7 +50,7 @@ def yade(tmp_path_factory):
 	"""YADE with that class."""
 	if not library.exists(): pytest.skip('scripts/setup --tests builds the class')
 	yade = Yade(tmp_path_factory.mktemp('tensors'))
-	yade.command = makeOverlay(tmp_path_factory.mktemp('overlay'), engine=library)
+	yade.command, yade.isShared = makeOverlay(tmp_path_factory.mktemp('overlay'), engine=library), True
 	return yade
 
 
