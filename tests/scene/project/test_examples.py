@@ -618,7 +618,7 @@ def test_debris(yade):
 
 
 # Of each task, how far it may be from its number by hand [%]: what its grid leaves, as told in examples/README.md.
-tasks = dict(layers=2, strip=3, deep_footing=6, sand_slope=3, runout=25, sphere=15, round_footing=7, square_footing=6, mesh_file=0.01, batch=2, restart=0, wall=2, anchored_wall=10, tunnel=5, drawdown=4, earthquake=1, grains=4, triaxial=0.1)
+tasks = dict(layers=2, strip=3, deep_footing=6, sand_slope=3, runout=25, sphere=15, round_footing=7, square_footing=6, mesh_file=0.01, batch=2, restart=0, wall=2, anchored_wall=10, tunnel=5, drawdown=4, earthquake=1, grains=0.5, triaxial=0.1)
 
 
 @pytest.mark.parametrize('task', tasks)
