@@ -43,7 +43,7 @@ figure, axes = plt.subplots(figsize=(5, 5.5), layout='constrained')
 for isSpace, texts in (False, options.cells), (True, options.quarter):
 	for cells in map(int, texts.split()):
 		name = f"{'3D' if isSpace else 'axis'}, {cells} cells over R"
-		path = os.path.join(options.out, name.replace(', ', '-').replace(' ', '-') + '.csv')
+		path = os.path.join(options.out, f"{name.replace(', ', '-').replace(' ', '-')}-to-{options.depth3d if isSpace else options.depth:g}m.csv")
 		if not os.path.exists(path): np.savetxt(path, np.column_stack(pushed(name, cells, isSpace)), '%.6g', ',', header='depth,resistance', comments='')
 		way, q = np.loadtxt(path, delimiter=',', skiprows=1).T
 		axes.plot(q / 1e3, way, '--' if isSpace else '-', label=name)

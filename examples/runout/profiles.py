@@ -58,7 +58,7 @@ with open(os.path.join(options.out, 'profiles.csv'), 'w', newline='') as file:
 			table.writerow({name: f'{value:.5g}' for name, value in row.items()})
 			file.flush()
 			print(', '.join(f'{name} {value:.4g}' for name, value in row.items()), flush=True)
-			if abs(row['energy not accounted for']) > 0.02: print('single points have made energy of nothing: where they have gone says nothing')
+			if abs(row['energy not accounted for']) > 0.02: print(f"{100 * row['energy not accounted for']:.0f} % of the energy is not accounted for: single points may have got it of nothing, and where they have gone then says nothing")
 			ax.plot(places, depth, ':' if courant < .3 else '-', label=f'{cells:.0f} cells, {courant:g} of a cell in a step')
 		ax.set(xlabel='x / L', ylabel='depth at rest / L', title=f'a = {aspect:g}', ylim=(0, None))
 		ax.legend(frameon=False, fontsize=8)

@@ -102,7 +102,7 @@ def write(folder):
 	page.write(folder, plans, 'details.md')
 
 
-TABLE = '''**The cheapest setting for an error.** Processor time of the script, one thread; hundredths scatter by a third; columns, cantilever, slope, block factorise in every iteration. –: none, ": as to the left.
+TABLE = '''**The cheapest setting for an error.** Processor time of the script, one thread; hundredths of a second scatter by a third; columns, cantilever, slope, block factorise in every iteration. Letters as in the figure, –: none, ": as to the left.
 '''
 
 if __name__ == '__main__':

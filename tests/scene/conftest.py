@@ -55,9 +55,9 @@ def quickWaits():
 	        '''
 #include <dlfcn.h>
 #include <time.h>
+static const auto sleeps = reinterpret_cast<int (*)(const timespec*, timespec*)>(dlsym(RTLD_NEXT, "nanosleep"));
 extern "C" int nanosleep(const timespec* asked, timespec* left)
 {
-	static const auto sleeps = reinterpret_cast<int (*)(const timespec*, timespec*)>(dlsym(RTLD_NEXT, "nanosleep"));
 	const timespec quick { 0, 400000 };
 	return sleeps(asked->tv_sec == 0 && asked->tv_nsec == 40000000 ? &quick : asked, left);
 }
@@ -72,7 +72,6 @@ class Started:
 	every = []
 
 	def __init__(self, command):
-		self.every.append(self)
 		self.folder = tempfile.TemporaryDirectory()
 		self.connection, theirs = socket.socketpair(socket.AF_UNIX, socket.SOCK_SEQPACKET)
 		with theirs, open(self.path('said'), 'w') as said:
@@ -86,6 +85,7 @@ class Started:
 			        pass_fds=[theirs.fileno()],
 			        preexec_fn=interruptible
 			)
+		self.every.append(self)
 
 	def path(self, name):
 		return os.path.join(self.folder.name, name)
@@ -180,7 +180,7 @@ class Yade:
 	def ownSettings(self):
 		"""Variables that keep the process from reading or writing the settings of the user, find scenes.py, and let waiting take no longer than it must."""
 		config = str(self.folder / 'config')
-		waits = os.path.join(quickWaits().name, 'waits.so')
+		waits = ' '.join([os.path.join(quickWaits().name, 'waits.so'), *os.environ.get('LD_PRELOAD', '').split()])
 		return {'PYTHONPATH': str(root / 'tests' / 'scene'), 'XDG_CONFIG_HOME': config, 'MPLCONFIGDIR': config, 'MPLBACKEND': 'Agg', 'LD_PRELOAD': waits}
 
 

@@ -181,7 +181,7 @@ private:
 		if (couplings_) keepOnce(graph);
 		return graph;
 	}
-	/// Neighbours of whom several fields are coupled.
+	/// Of each node, neighbours that it is coupled to by several fields are left in the graph once.
 	static void keepOnce(NodeGraph& graph)
 	{
 		std::vector<int> seen(graph.places.size(), -1);

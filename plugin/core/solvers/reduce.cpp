@@ -230,7 +230,7 @@ template <int Dim> void reduceInOrder(const NodeMatrix<Dim>& K, const FreeDofs& 
 	double     widths  = 0; // of all fields
 	for (int field = 0; field < fields; ++field)
 		widths += field == 0 ? Dim : couplings->map()[field].width;
-	const auto most = std::size_t(K.nodes() * K.codes * widths * widths); // nearly, with those of both triangles on the diagonal
+	const auto most = std::size_t(double(K.nodes()) * K.codes * widths * widths); // as if all unknowns of neighbours were coupled
 	out.row.reserve(most), out.value.reserve(most);
 	for (int field = 0, unknown = 0; field < fields; ++field)
 		for (int a = 0; a < K.nodes(); ++a)

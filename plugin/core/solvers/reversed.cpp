@@ -28,7 +28,7 @@ bool isReverse(const Csc& K, const Csc& reversed)
 
 namespace {
 
-/// Entries of rows and columns, of a symmetric matrix or of one triangle of it.
+/// The largest entry of each row of a symmetric matrix, of which one triangle may be stored alone.
 Eigen::VectorXd largestOfRows(const Csc& K)
 {
 	Eigen::VectorXd largest = Eigen::VectorXd::Zero(K.size());

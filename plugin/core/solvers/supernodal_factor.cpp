@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <numeric>
 #include <utility>
 
@@ -56,7 +57,7 @@ std::vector<int> widthsOfAlike(const Csc& K, const std::vector<int>& order)
 cholmod_sparse* patternOfNodes(const Csc& K, const std::vector<int>& order, const std::vector<int>& widths, cholmod_common& common)
 {
 	const int        count = int(widths.size());
-	std::vector<int> node(K.size()), start(1, 0), seen(count, -1), row, next;
+	std::vector<int> node(K.size()), start(count + 1, 0), seen(count), row, next;
 	for (int a = 0, i = 0; a < count; ++a)
 		for (const int end = i + widths[a]; i < end; ++i)
 			node[order[i]] = a;
@@ -67,7 +68,6 @@ cholmod_sparse* patternOfNodes(const Csc& K, const std::vector<int>& order, cons
 				for (int e = K.start[order[i]]; e < K.start[order[i] + 1]; ++e)
 					if (const int b = node[K.row[e]]; seen[b] != a) seen[b] = a, f(std::min(a, b), std::max(a, b));
 	};
-	start.assign(count + 1, 0);
 	forPairs([&](int, int b) { ++start[b + 1]; });
 	std::partial_sum(start.begin(), start.end(), start.begin());
 	row.resize(start.back());
@@ -168,21 +168,22 @@ SupernodalFactor::~SupernodalFactor()
 /// pairs of them.
 void SupernodalFactor::analyseNodes(const Csc& K, const std::vector<int>& order)
 {
-	const auto      widths     = widthsOfAlike(K, order);
-	cholmod_sparse* nodes      = patternOfNodes(K, order, widths, common_);
-	const auto      own        = std::make_pair(common_.method[0].ordering, std::array { common_.nrelax[0], common_.nrelax[1], common_.nrelax[2] });
+	const auto forgetPattern = [this](cholmod_sparse* pattern) { cholmod_free_sparse(&pattern, &common_); };
+	const auto forgetFactor  = [this](cholmod_factor* factor) { cholmod_free_factor(&factor, &common_); };
+	const auto widths        = widthsOfAlike(K, order);
+	const std::unique_ptr<cholmod_sparse, decltype(forgetPattern)> nodes(patternOfNodes(K, order, widths, common_), forgetPattern);
+	if (!nodes) return;
+	const auto own             = std::make_pair(common_.method[0].ordering, std::array { common_.nrelax[0], common_.nrelax[1], common_.nrelax[2] });
 	common_.nmethods           = 1;
 	common_.method[0].ordering = CHOLMOD_NATURAL;
 	common_.supernodal         = CHOLMOD_SUPERNODAL;
 	common_.postorder          = true;
 	for (std::size_t& columns : common_.nrelax) // which are meant of single unknowns
 		columns = columns * widths.size() / order.size();
-	cholmod_factor* ofNodes = nodes ? cholmod_analyze(nodes, &common_) : nullptr;
-	if (ofNodes) factor_ = expanded(*ofNodes, order, widths, common_);
-	cholmod_free_factor(&ofNodes, &common_);
-	cholmod_free_sparse(&nodes, &common_);
+	const std::unique_ptr<cholmod_factor, decltype(forgetFactor)> ofNodes(cholmod_analyze(nodes.get(), &common_), forgetFactor);
 	common_.method[0].ordering = own.first;
 	std::copy(own.second.begin(), own.second.end(), common_.nrelax);
+	if (ofNodes) factor_ = expanded(*ofNodes, order, widths, common_);
 }
 
 void SupernodalFactor::analyse(const Csc& K, std::vector<int> order, int last, bool isDefinite)

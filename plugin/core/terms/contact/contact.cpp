@@ -23,7 +23,7 @@ constexpr double deepest = 0.1;
 /// In the springs of a place on gap and slip [J].
 template <int Dim> double stored(const ContactLaw<Dim>& law, double pressure, double friction)
 {
-	return (pressure * pressure / law.normal + friction * friction / law.tangential) / 2;
+	return law.normal > 0 ? (pressure * pressure / law.normal + friction * friction / law.tangential) / 2 : 0;
 }
 
 /// A body keeps the places with which it has touched.
