@@ -86,6 +86,7 @@ honest = dict(energy=atMost(1.001), contactWork=atMost(1e-3), ended=atLeast(.995
 for scheme in 'newmark', 'generalised-alpha', 'midpoint':
 	add(f'energy-{scheme}', 'energy.edges', honest, dict(parts=[.3, .15]), scheme=scheme)
 add('energy-random', 'energy.drawn', dict(gifts=atMost(0), contactWork=atMost(1e-3), ended=atLeast(.995)), dict(seeds=[0, 60], seconds=60), seeds=[0, 1000], seconds=900)
+add('energy-sticking', 'energy.drawn', dict(gifts=atMost(0), contactWork=atMost(1e-3), ended=atLeast(.995)), dict(seeds=[0, 60], seconds=60), seeds=[0, 300], seconds=300, sticks=True)
 
 # 4. Tunnels: at .3 to 5 cells a step, in how many scenes a middle of a point was more than a tenth of a cell inside of a body or behind it
 for mode in 'soilFlies', 'bodyFlies', 'soilPushed', 'bodyPushed':
