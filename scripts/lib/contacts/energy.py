@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Blocks that fall on fixed smooth bodies: these give no energy, whatever the step and the edge."""
+"""Blocks that fall on fixed bodies: these give no energy, whatever the step and the edge, and whether they are smooth or soil sticks to them."""
 import random
-from math import cos, hypot, inf, pi, sin
+from math import atan, cos, hypot, inf, pi, sin
 
 import numpy as np
 from yade import mpm, pack, utils
@@ -16,8 +16,11 @@ schemes = 'newmark', 'generalised-alpha', 'midpoint'
 admitted = 1e-3  # of the first energy
 
 
-def falling(E, nu, size, points, h, velocity, bodies, scheme, part, end, seconds, density=1000., gravity=0.):
-	"""A square block without friction on bodies that are fixed, in steps of *part* cells: the largest energy less the work of gravity, and the largest work of contact, over the first energy."""
+def falling(E, nu, size, points, h, velocity, bodies, scheme, part, end, seconds, density=1000., gravity=0., **rubs):
+	"""A square block on bodies that are fixed, in steps of *part* cells: the largest energy less the work of gravity, and the largest work of contact, over the first energy.
+
+	:param rubs: *friction* and *adhesion* of the contact; smooth without
+	"""
 	O.reset()
 	O.materials.append(MpmElasticMat(young=E, poisson=nu, density=density, label='soil'))
 	steel()
@@ -25,7 +28,7 @@ def falling(E, nu, size, points, h, velocity, bodies, scheme, part, end, seconds
 	O.bodies.append(mpm.fill(pack.inAlignedBox((0, 0, -1), (size, size, 1)), grid, points, 'soil'))
 	number, speed = len(O.bodies), hypot(*velocity)
 	bodies()
-	solver = MpmDynamicEngine(grid=grid, scheme=scheme, contacts=[MpmContact(friction=0)], gravity=(0, -gravity, 0), gravityCurve=[(0, 1)], verbosity=0)
+	solver = MpmDynamicEngine(grid=grid, scheme=scheme, contacts=[MpmContact(**(rubs or dict(friction=0)))], gravity=(0, -gravity, 0), gravityCurve=[(0, 1)], verbosity=0)
 	O.engines, O.dt = [solver], part * h / speed
 	mpm.assign(velocity=[(*velocity, 0)] * number)
 	first, most, gave, fell = .5 * density * size**2 * speed**2, [0.], [-inf], [0.]
@@ -65,6 +68,8 @@ def edges(scheme, parts=(.3, .15, .05), seconds=120):
 
 class Drawn:
 	"""A scene by its seed: a block that flies at one to three fixed bodies, or slides down on them."""
+
+	rubs = {}
 
 	def __init__(self, seed):
 		draw = random.Random(seed)
@@ -120,11 +125,21 @@ class Drawn:
 		Outline([*line, line[0]])
 
 
-def drawn(seeds=(0, 1000), seconds=600):
+class Sticking(Drawn):
+	"""The same with Spheres alone, to which soil sticks up to an adhesion, or which only rub, or are smooth."""
+
+	def __init__(self, seed):
+		super().__init__(seed)
+		draw = random.Random(seed + 1000000)
+		self.bodies = [('sphere', (draw.uniform(-.05, .35), draw.uniform(.04, .4), draw.uniform(.02, .05))) for _ in range(draw.choice([1, 1, 2, 3]))]
+		self.rubs = dict(friction=draw.choice([0., .2, .5, 1.2, atan(5)]), adhesion=draw.choice([inf, 10**draw.uniform(2, 4.5), 10**draw.uniform(2, 4.5)]))
+
+
+def drawn(seeds=(0, 1000), seconds=600, sticks=False):
 	"""Blocks and bodies by their seeds."""
 	runs = {}
 	for seed in range(*seeds):
-		scene = Drawn(seed)
+		scene = (Sticking if sticks else Drawn)(seed)
 		with said():
-			runs[seed] = falling(scene.E, scene.nu, scene.size, scene.points, scene.h, scene.velocity, scene.add, scene.scheme, scene.part, .5, max(2, seconds / (seeds[1] - seeds[0])), gravity=scene.gravity)
+			runs[seed] = falling(scene.E, scene.nu, scene.size, scene.points, scene.h, scene.velocity, scene.add, scene.scheme, scene.part, .5, max(2, seconds / (seeds[1] - seeds[0])), gravity=scene.gravity, **scene.rubs)
 	return _sum(runs)

@@ -86,6 +86,7 @@ honest = dict(energy=atMost(1.001), contactWork=atMost(1e-3), ended=atLeast(.995
 for scheme in 'newmark', 'generalised-alpha', 'midpoint':
 	add(f'energy-{scheme}', 'energy.edges', honest, dict(parts=[.3, .15]), scheme=scheme)
 add('energy-random', 'energy.drawn', dict(gifts=atMost(0), contactWork=atMost(1e-3), ended=atLeast(.995)), dict(seeds=[0, 60], seconds=60), seeds=[0, 1000], seconds=900)
+add('energy-sticking', 'energy.drawn', dict(gifts=atMost(0), contactWork=atMost(1e-3), ended=atLeast(.995)), dict(seeds=[0, 60], seconds=60), seeds=[0, 300], seconds=300, sticks=True)
 
 # 4. Tunnels: at .3 to 5 cells a step, in how many scenes a middle of a point was more than a tenth of a cell inside of a body or behind it
 for mode in 'soilFlies', 'bodyFlies', 'soilPushed', 'bodyPushed':
@@ -132,13 +133,13 @@ add('floors-explicit', 'overlap.explicitFloors', dict(imbalance=atMost(.01)))
 
 # 7. Free bodies: by how much way and speed are off those of closed forms, from two places in a cell, and the change of momentum in an impact over that of the sphere
 rolls = dict(off=atMost(.01), speedOff=atMost(.01))
+# What rolls sticks, by springs a twentieth as stiff as the penalty: by these it creeps. And its friction is lost where it bounces, as it does where it passes the nodes as fast as it swings on the ground:
+# with ten cells over its radius, and ground so soft that it touches over a cell to either side, it passes them four times as fast.
+rollsOn = dict(young=3.4e7, stiffness=400., dt=1e-3, h=.05, rest=.4, long=17, seconds=400)
 for friction in 0., .1, .2, .4:
-	# What rolls sticks, by springs a twentieth as stiff as the penalty: by these it creeps. And its friction is lost where it bounces, as it does where it passes the nodes as fast as it swings on the ground:
-	# with ten cells over its radius, and ground so soft that it touches over a cell to either side, it passes them four times as fast.
-	rollsOn = dict(young=3.4e7, stiffness=400., dt=1e-3, h=.05, rest=.4, long=17, seconds=400) if friction > .1 else {}
-	add(f'rolling-{friction:g}', 'free.rolling', rolls, dict(end=.3), friction=friction, **rollsOn)
+	add(f'rolling-{friction:g}', 'free.rolling', rolls, dict(end=.3), friction=friction, **(rollsOn if friction > .1 else {}))
 add('rolling-askew', 'free.rolling', rolls, dict(end=.3), friction=.4, heading=30.)
-add('rolling-flat', 'free.rolling', rolls, dict(end=.6), friction=.1, degrees=10., end=.8)
+add('rolling-flat', 'free.rolling', rolls, dict(end=.6), friction=.1, degrees=10., end=.8, **rollsOn)
 add('rolling-static', 'free.rolling', rolls, dict(end=.3), friction=.4, isDynamic=False)
 add('wheel', 'free.driven', dict(way=near(1, .02), speed=near(1, .02)))
 for every in 1, 5, 20:
