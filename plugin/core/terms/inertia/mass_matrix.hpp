@@ -24,7 +24,7 @@ public:
 	/// Of loose cells alone, that of a body without mass.
 	MassMatrix(std::size_t nodes, const std::vector<LooseCell<Dim>>& loose, double share);
 
-	/// Adds a share of the lumped less consistent mass of loose cells, at those of their nodes that take part (>= 0).
+	/// Adds a share of the lumped less consistent mass of loose cells, at those of their nodes that are not -1.
 	void lump(const std::vector<LooseCell<Dim>>&, double share);
 
 	/// Where points are divided each process has the rows of its own nodes, and then all rows of all.
