@@ -164,27 +164,32 @@ namespace {
 		return own;
 	}
 
-	/// A row of points that stands on the block, through the ranges of several processes: how far a cell is from
-	/// one whose points tell its velocities is known to all.
+	/// A row of points that stands on the block, through the ranges of several processes.
+	template <int Dim> PointCloud<Dim> withRow(PointCloud<Dim> block, int points)
+	{
+		for (int k = 0; k < points; ++k) {
+			Vec<Dim> x = Vec<Dim>::Constant(2.5);
+			x[Dim - 1] = (Dim == 2 ? 6.5 : 7.5) + k;
+			addPoint<Dim>(block, x, Vec<Dim>::Constant(0.2));
+		}
+		return block;
+	}
+
+	/// How far a cell is from one whose points tell its velocities is known to all.
 	TYPED_TEST(DivisionOf, LooseCellsAreThoseOfAllPoints)
 	{
 		constexpr int Dim   = TypeParam::value;
 		const auto    model = TestFixture::model(false, 0.01);
-		auto          all   = TestFixture::cloud(model.grid);
-		for (int k = 0; k < 200; ++k) {
-			Vec<Dim> x = Vec<Dim>::Constant(2.5);
-			x[Dim - 1] = (Dim == 2 ? 6.5 : 7.5) + k;
-			addPoint<Dim>(all, x, Vec<Dim>::Constant(0.2));
-		}
-		const auto keys = [&](const PointCloud<Dim>& cloud, const Model<Dim>& m, int reach) {
-			StepReport            report;
-			const StepSystem<Dim> system(cloud, m, {}, report);
-			Motion<Dim>           motion;
-			motion.mass.assign(cloud.size(), 1);
-			std::vector<Key> lowest;
-			for (const auto& cell : looseOf(motion, system.beginning(), reach))
-				lowest.push_back(system.basis.nodes[cell.node[0]]);
-			return lowest;
+		const auto    all   = withRow<Dim>(TestFixture::cloud(model.grid), 200);
+		const auto    keys  = [&](const PointCloud<Dim>& cloud, const Model<Dim>& m, int reach) {
+                        StepReport            report;
+                        const StepSystem<Dim> system(cloud, m, {}, report);
+                        Motion<Dim>           motion;
+                        motion.mass.assign(cloud.size(), 1);
+                        std::vector<Key> lowest;
+                        for (const auto& cell : looseOf(motion, system.beginning(), reach))
+                                lowest.push_back(system.basis.nodes[cell.node[0]]);
+                        return lowest;
 		};
 		for (const int reach : { Dim, 1000 }) {
 			const auto whole = keys(all, model, reach);
@@ -194,6 +199,31 @@ namespace {
 				EXPECT_EQ(ownOf(keys(cloud, mine, reach), *mine.division), ownOf(whole, *mine.division));
 			});
 		}
+	}
+
+	TYPED_TEST(DivisionOf, MassOfTornCellsIsThatOfAllPoints)
+	{
+		constexpr int Dim     = TypeParam::value;
+		const auto    model   = TestFixture::model(false, 0.01);
+		const auto    all     = withRow<Dim>(TestFixture::cloud(model.grid), 50);
+		const auto    momenta = [](const PointCloud<Dim>& cloud, const Model<Dim>& m, bool isTorn) {
+                        StepReport            report;
+                        const StepSystem<Dim> system(cloud, m, {}, report);
+                        Motion<Dim>           motion;
+                        motion.duration = 1;
+                        motion.mass.assign(cloud.size(), 1);
+                        const Eigen::VectorXd velocity = Random(1).vector(system.nodalSize(), isTorn ? 10 : 0.1);
+                        const auto            loose    = looseOf(motion, system.beginning());
+                        const auto            torn     = tornOf(loose, velocity, motion, system.beginning());
+                        EXPECT_EQ(torn.empty(), !isTorn || loose.empty());
+                        return Eigen::VectorXd(massMatrix(motion, system.beginning(), loose, torn) * velocity);
+		};
+		const Eigen::VectorXd whole = momenta(all, model, true);
+		EXPECT_GT((whole - 100 * momenta(all, model, false)).norm(), 0.01 * whole.norm());
+		TestFixture::inProcesses(all, model, [&](PointCloud<Dim>& cloud, const Model<Dim>& mine) {
+			const Halo halo(cloud, *mine.division, [&] { return pointsForOthers(cloud, mine); });
+			EXPECT_LT((momenta(cloud, mine, true) - whole).norm(), 1e-13 * whole.norm());
+		});
 	}
 
 	TYPED_TEST(DivisionOf, CutsAreBalanced)

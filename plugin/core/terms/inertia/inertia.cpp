@@ -54,6 +54,7 @@ template <int Dim> void Inertia<Dim>::findStart(const Beginning<Dim>& step)
 	const bool isDriven = motion_.scheme.dependsOnStart();
 	const bool isFirst  = begins(motion_, division_);
 	findVelocity(isDriven && !isFirst);
+	mend(step, isDriven && !isFirst);
 	if (!isDriven) return;
 	const Eigen::VectorXd all = imbalanceOf(step), contact = ofContact(nullptr);
 	if (isFirst) solve({ { all, dofs_, expected_ } });
@@ -101,6 +102,20 @@ template <int Dim> void Inertia<Dim>::findVelocity(bool withAcceleration)
 	if (together) jump_ = velocity_ - before;
 	else
 		solve({ { blow_, all, jump_ } });
+}
+
+/// Where velocities tear loose cells they are found again, with more mass there.
+template <int Dim> void Inertia<Dim>::mend(const Beginning<Dim>& step, bool withAcceleration)
+{
+	if (motion_.loosePoints == 0) return;
+	const auto torn = tornOf(loose_, velocity_, motion_, step);
+	if (division_.sum(double(torn.size())) == 0) return;
+	mass_       = massMatrix(motion_, step, loose_, torn);
+	nodal_      = NodalMass<Dim>(mass_, basis_.ties);
+	iterates_   = true;
+	factorised_ = {};
+	jump_.setZero();
+	findVelocity(withAcceleration);
 }
 
 template <int Dim> Eigen::VectorXd Inertia<Dim>::ofContact(const Eigen::VectorXd* d) const

@@ -54,6 +54,7 @@ private:
 	void            findExtent(const Beginning<Dim>&);
 	void            findStart(const Beginning<Dim>&);
 	void            findVelocity(bool withAcceleration);
+	void            mend(const Beginning<Dim>&, bool withAcceleration);
 	Eigen::VectorXd imbalanceOf(const Beginning<Dim>&) const;
 	void            solve(const std::vector<Side>&);
 	void            solveByFactor(const std::vector<Side>&);

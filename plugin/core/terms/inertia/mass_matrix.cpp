@@ -51,18 +51,20 @@ MassMatrix<Dim>::MassMatrix(
 template <int Dim>
 MassMatrix<Dim>::MassMatrix(std::size_t nodes, const std::vector<LooseCell<Dim>>& loose, double share) : value_(nodes * codes, 0), neighbour_(value_.size(), -1)
 {
-	for (const auto& cell : loose)
-		addLoose(cell, share);
+	lump(loose, share);
 }
 
-template <int Dim> void MassMatrix<Dim>::addLoose(const LooseCell<Dim>& cell, double share)
+template <int Dim> void MassMatrix<Dim>::lump(const std::vector<LooseCell<Dim>>& cells, double share)
 {
-	constexpr int    n = LooseCell<Dim>::corners;
-	const double     m = share * cell.mass / n;
-	const Patch<Dim> corners {};
-	for (int a = 0; a < n; ++a)
-		for (int b = a; b < n; ++b)
-			add(cell.node[a], cell.node[b], codeOf(corners, b) - codeOf(corners, a), (a == b) * m - m / n);
+	constexpr int    corners = LooseCell<Dim>::corners;
+	const Patch<Dim> patch {};
+	for (const auto& cell : cells) {
+		const auto   n = corners - std::count(cell.node.begin(), cell.node.end(), -1);
+		const double m = share * cell.mass / n;
+		for (int a = 0; a < corners; ++a)
+			for (int b = a; b < corners && cell.node[a] >= 0; ++b)
+				if (cell.node[b] >= 0) add(cell.node[a], cell.node[b], codeOf(patch, b) - codeOf(patch, a), (a == b) * m - m / n);
+	}
 }
 
 /// Values, and which there are, a bit for each code.

@@ -24,6 +24,9 @@ public:
 	/// Of loose cells alone, that of a body without mass.
 	MassMatrix(std::size_t nodes, const std::vector<LooseCell<Dim>>& loose, double share);
 
+	/// Adds a share of the lumped less consistent mass of loose cells, at those of their nodes that are not -1.
+	void lump(const std::vector<LooseCell<Dim>>&, double share);
+
 	/// Where points are divided each process has the rows of its own nodes, and then all rows of all.
 	void complete(const NodeShare&, const std::vector<Key>& nodes);
 
@@ -55,7 +58,6 @@ private:
 		neighbour_[place]       = b;
 		value_[place] += m;
 	}
-	void addLoose(const LooseCell<Dim>&, double share);
 
 	/// Of the matrix that has weight(number) for each number.
 	template <class F> Eigen::VectorXd product(const Eigen::VectorXd& x, F&& weight) const;

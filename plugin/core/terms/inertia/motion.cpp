@@ -1,10 +1,17 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "core/terms/inertia/motion.hpp"
+#include "core/grid/masters.hpp"
 #include "core/grid/point_nodes.hpp"
 #include "core/terms/points/internal_force.hpp"
 #include <algorithm>
 
 namespace gimpm {
+namespace {
+
+/// Of the mass of a cell: (h/4)^2 / 3 for each axis, the extent of points that fill half of it.
+constexpr double ofHalfACell = 1. / 12;
+
+} // namespace
 
 template <int Dim> MotionOfCopies<Dim>::MotionOfCopies(Motion<Dim>& motion, const Division& division) : motion_(motion), own_(motion.mass.size())
 {
@@ -48,11 +55,11 @@ template <int Dim> int countOfPoints(const std::vector<LooseCell<Dim>>& cells, c
 	return int(step.division.sum(count));
 }
 
-/// At most what points have which fill half a cell, (h/4)^2 / 3 for each axis; and less in short
-/// steps, in which inertia would keep the stiffness of the points from telling at once what they do not see.
+/// At most what points have which fill half a cell; and less in short steps, in which inertia would keep the stiffness
+/// of the points from telling at once what they do not see.
 template <int Dim> std::vector<LooseCell<Dim>> extentOf(const std::vector<LooseCell<Dim>>& loose, const Motion<Dim>& motion, const Beginning<Dim>& step)
 {
-	constexpr double ofHalfACell = 1. / 12, ofStiffness = 1e-2;
+	constexpr double ofStiffness   = 1e-2;
 	const auto       squareOfSpeed = [&](int p) { // of waves; none where nothing tears
                 const auto [volume, modulus] = step.stiffnessOf(p);
                 const bool isElastic         = !motion.isElastic.empty() && motion.isElastic[step.cloud.material[p]];
@@ -72,9 +79,41 @@ template <int Dim> std::vector<LooseCell<Dim>> extentOf(const std::vector<LooseC
 	return extent;
 }
 
-template <int Dim> MassMatrix<Dim> massMatrix(const Motion<Dim>& motion, const Beginning<Dim>& step, const std::vector<LooseCell<Dim>>& loose)
+template <int Dim>
+std::vector<LooseCell<Dim>> tornOf(
+        const std::vector<LooseCell<Dim>>& loose, const Eigen::VectorXd& velocity, const Motion<Dim>& motion, const Beginning<Dim>& step)
+{
+	const auto&                 leaves = step.basis.populatedLeaves();
+	const MastersOf             masters(int(step.basis.nodes.size()), &step.basis.ties);
+	std::vector<LooseCell<Dim>> torn;
+	for (const auto& cell : loose) {
+		const double   size = step.grid.size(Grid<Dim>::level(leaves[step.basis.leaf(cell.cell)]));
+		double         gap  = size / motion.duration;
+		LooseCell<Dim> found;
+		for (int axis = 0; axis < Dim; ++axis) {
+			LooseCell<Dim> free  = cell;
+			double         least = Motion<Dim>::infinite, most = -least;
+			for (int& node : free.node) {
+				const double v      = velocity[Dim * node + axis];
+				bool         isHeld = false;
+				masters.each(node, [&](int master, double) { isHeld = isHeld || step.dofs.number[Dim * master + axis] < 0; });
+				if (isHeld) node = -1;
+				else
+					least = std::min(least, v), most = std::max(most, v);
+			}
+			if (most - least > gap) gap = most - least, found = free;
+		}
+		if (found.points > 0) torn.push_back(found);
+	}
+	return torn;
+}
+
+template <int Dim>
+MassMatrix<Dim> massMatrix(
+        const Motion<Dim>& motion, const Beginning<Dim>& step, const std::vector<LooseCell<Dim>>& loose, const std::vector<LooseCell<Dim>>& torn)
 {
 	MassMatrix<Dim> M(step.basis, motion.mass, massFaces(motion, step), step.grid.cellSize, loose);
+	M.lump(torn, ofHalfACell);
 	M.complete(step.share, step.basis.nodes);
 	return M;
 }
@@ -108,8 +147,10 @@ Eigen::VectorXd ofHeld(const Eigen::VectorXd& otherwise, OfBase<Dim> value, cons
 	template std::vector<GhostFace<Dim>> massFaces(const Motion<Dim>&, const Beginning<Dim>&);                                                             \
 	template std::vector<LooseCell<Dim>> extentOf(const std::vector<LooseCell<Dim>>&, const Motion<Dim>&, const Beginning<Dim>&);                          \
 	template int                         countOfPoints(const std::vector<LooseCell<Dim>>&, const Beginning<Dim>&);                                         \
-	template MassMatrix<Dim>             massMatrix(const Motion<Dim>&, const Beginning<Dim>&, const std::vector<LooseCell<Dim>>&);                        \
-	template bool                        begins(const Motion<Dim>&, const Division&);                                                                      \
+	template std::vector<LooseCell<Dim>> tornOf(const std::vector<LooseCell<Dim>>&, const Eigen::VectorXd&, const Motion<Dim>&, const Beginning<Dim>&);    \
+	template MassMatrix<Dim>             massMatrix(                                                                                                       \
+	                    const Motion<Dim>&, const Beginning<Dim>&, const std::vector<LooseCell<Dim>>&, const std::vector<LooseCell<Dim>>&);                \
+	template bool begins(const Motion<Dim>&, const Division&);                                                                                             \
 	template class MotionOfCopies<Dim>;                                                                                                                    \
 	template Eigen::VectorXd weighedAtNodes(const CloudBasis<Dim>&, const std::vector<double>&, const std::vector<Vec<Dim>>&, const NodeShare&);           \
 	template Eigen::VectorXd ofHeld(const Eigen::VectorXd&, OfBase<Dim>, const std::vector<MovingBase<Dim>>&, const Beginning<Dim>&);

@@ -73,8 +73,16 @@ template <int Dim> int countOfPoints(const std::vector<LooseCell<Dim>>&, const B
 /// resists accelerations, while it is not remembered: of laws that flow.
 template <int Dim> std::vector<LooseCell<Dim>> extentOf(const std::vector<LooseCell<Dim>>&, const Motion<Dim>&, const Beginning<Dim>&);
 
-/// (M + M_g) of all points, with those of loose cells.
-template <int Dim> MassMatrix<Dim> massMatrix(const Motion<Dim>&, const Beginning<Dim>&, const std::vector<LooseCell<Dim>>&);
+/// Loose cells that nodal velocities would tear within the step, with the nodes that are free along the axis of the
+/// gap, -1 for the others: there they move apart by more than the size of the cell. Points that pass each other
+/// determine such a field, whose gradient has no bound as the way between them has none.
+template <int Dim>
+std::vector<LooseCell<Dim>> tornOf(const std::vector<LooseCell<Dim>>& loose, const Eigen::VectorXd& velocity, const Motion<Dim>&, const Beginning<Dim>&);
+
+/// (M + M_g) of all points, with those of loose cells, and of torn ones what the extent of points has that fill half a
+/// cell: else what nodes make of their velocities would be given to the points as energy.
+template <int Dim>
+MassMatrix<Dim> massMatrix(const Motion<Dim>&, const Beginning<Dim>&, const std::vector<LooseCell<Dim>>& loose, const std::vector<LooseCell<Dim>>& torn = {});
 
 /// Sum of S m x_p at the nodes; `share`: those around which this process knows all points.
 template <int Dim>
