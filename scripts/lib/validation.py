@@ -79,10 +79,10 @@ _found = re.compile(r'(?P<what>[^:]*): .*?(?:= |: |settlement |stress |height )(
 
 
 def ofTask(script, printed):
-	"""The row of a task, whose last line has its number beside that by hand; whose that is says the sentence at its head."""
+	"""The row of a task, whose last line has its number beside that by hand; whose that is says a sentence at its head."""
 	found = _found.match(re.sub(r'^([^:]*): ', r'\1: : ', printed.strip().splitlines()[-1]))
 	with open(os.path.join(examples, 'tasks', script)) as file:
-		source = re.search(r'(?:By hand|Published): (.*?)\.?"""', file.read())[1]
+		source = re.search(r'(?:By hand|Published): (.*?)(?:\. (?!\d).*)?\.?"""', file.read())[1]
 	return dict(quantity=found['what'], ours=found['ours'], theirs=found['theirs'], unit=found['unit'] or '', source=source)
 
 
