@@ -109,7 +109,7 @@ namespace {
 		EXPECT_LT((m * x - b).norm(), 1e-12 * (b.norm() + x.norm()));
 		other.analyse(K, order);
 		EXPECT_GE(factor.entries(), other.entries()) << "with zeros that make supernodes larger";
-		EXPECT_LT(factor.entries(), 1.3 * other.entries());
+		EXPECT_LT(factor.entries(), 2 * other.entries()) << "all of the triangle would be six times";
 		factor.analyse(K, order);
 		EXPECT_EQ(factor.entries(), other.entries());
 		EXPECT_EQ(factor.flops(), other.flops()) << "what is set for nodes does not last";
