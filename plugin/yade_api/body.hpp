@@ -171,11 +171,19 @@ public:
 	YADE_API_OVERRIDES(Body)
 };
 
-// Only its exported functions are used: members are left out, and so is its constructor.
+// Of its members only the last is used: bodies are counted, looked at and added by its exported functions.
 class BodyContainer : public Serializable {
 	BodyContainer();
+	vector<shared_ptr<Body>> body;
+	bool                     dirty, checkedByCollider;
+	vector<Body::id_t>       insertedBodies, erasedBodies, realBodies;
 
 public:
+	bool useRedirection, enableRedirection;
+#ifdef YADE_API_MPI
+	vector<Body::id_t> subdomainBodies;
+#endif
+	std::mutex drawloopmutex; // held by erase()
 	~BodyContainer() override;
 	size_t                  size() const;
 	shared_ptr<Body>&       operator[](unsigned);

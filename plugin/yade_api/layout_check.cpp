@@ -85,6 +85,10 @@ static void checkMembersOfScene(LayoutCheck& check)
 	const Body::id_t id   = scene->bodies->insert(body);
 	check.require(id == 0 && scene->bodies->size() == 1 && (*scene->bodies)[0] == body, "BodyContainer");
 	check.require(scene->bodies->exists(0) && !scene->bodies->exists(1), "BodyContainer::exists()");
+
+	const auto bodies = check.make<BodyContainer>();
+	check.require(*bodies, "useRedirection", bodies->useRedirection, true);
+	check.require(*bodies, "enableRedirection", bodies->enableRedirection, false);
 }
 
 static void checkThreadRunner(LayoutCheck& check)

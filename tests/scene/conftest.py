@@ -113,7 +113,11 @@ class Started:
 
 	def end(self):
 		self.connection.close()
-		self.process.wait()
+		try:
+			self.process.wait(timeout=60)
+		except subprocess.TimeoutExpired: # it would keep the whole run from ending
+			self.process.kill()
+			raise
 		self.folder.cleanup()
 
 

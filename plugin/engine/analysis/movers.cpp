@@ -63,12 +63,12 @@ bool Movers::move(const Body& body) const
 	return std::any_of(masks.begin(), masks.end(), [&](int mask) { return meansAll(mask) || maskMatches(body, mask); });
 }
 
-void Movers::requireOthers(const vector<MaterialPoint>& points, const Scene& scene, bool isDynamic) const
+void Movers::requireOthers(const vector<MaterialPoint>& points, bool isDynamic) const
 {
 	if (masks.empty()) return;
 	for (const MaterialPoint& point : points) {
 		if (!isDynamic && point.state->vel.isZero(0)) continue;
-		if (!move(*(*scene.bodies)[point.id])) continue;
+		if (!move(*point.body)) continue;
 		if (isDynamic) refuseMoved(point, "MpmDynamicEngine", "");
 		refuseMoved(point, "MpmImplicitEngine", gimpm::sentence(" with the velocity (", point.state->vel.transpose(), ")"));
 	}

@@ -98,11 +98,11 @@ namespace {
 			const MaterialPoint whole   = points[p];
 			const auto          numbers = [](const Vector3r& v) { return std::array<Real, 3> { v[0], v[1], v[2] }; };
 			const auto          middle = numbers(whole.state->pos), halfSize = numbers(whole.shape->halfSize);
-			const auto          upper = halve(*(*scene.bodies)[whole.id], whole, axis, isRing());
+			const auto          upper = halve(*whole.body, whole, axis, isRing());
 			const Body::id_t    none  = -1; // yet
 			const auto          shape = boost::static_pointer_cast<MpmPoint>(upper->shape);
 			const auto          state = boost::static_pointer_cast<MpmState>(upper->state);
-			points.push_back({ none, shape, state, whole.material });
+			points.push_back({ none, shape, state, whole.material, upper });
 			halves.push_back({ upper, { whole.id, none, axis, Dim, middle, halfSize } });
 			for (const MaterialPoint& half : { whole, points.back() })
 				settle(half);

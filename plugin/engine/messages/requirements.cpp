@@ -26,7 +26,7 @@ namespace {
 			throw std::invalid_argument(engine.className() + ": the same engine is listed " + std::to_string(entries) + " times in O.engines.");
 		for (const auto* other : others)
 			for (const MaterialPoint& point : materialPoints(scene, engine.mask))
-				if (maskMatches(*(*scene.bodies)[point.id], other->mask))
+				if (maskMatches(*point.body, other->mask))
 					throw std::invalid_argument(
 					        "Body #" + std::to_string(point.id)
 					        + ": two engines with material points in O.engines claim it, with mask = " + std::to_string(engine.mask)

@@ -6,6 +6,7 @@
 #include "engine/analysis/analysis.hpp"
 #include "engine/grid/newPoints.hpp"
 #include "engine/parallel/archived.hpp"
+#include "yade_api/bodies.hpp"
 
 namespace yade {
 
@@ -81,10 +82,10 @@ namespace {
                         const Quaternionr ori = s.ori;
                         numbers.insert(numbers.end(), ori.coeffs().data(), ori.coeffs().data() + 4);
 		};
-		const BodyContainer& all = *engine.sceneOfRun().bodies;
 		for (const auto& body : rigidBodiesOf(engine)) {
 			take(*body->state);
-			if (body->isClumpMember() && all.exists(body->clumpId)) take(*all[body->clumpId]->state);
+			const auto clump = body->isClumpMember() ? bodyAt(engine.sceneOfRun(), body->clumpId) : nullptr;
+			if (clump) take(*clump->state);
 		}
 		gimpm::Checksum sum;
 		sum.mix(numbers);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "engine/points/MaterialPoints.hpp"
+#include "yade_api/bodies.hpp"
 #include <algorithm>
 #include <typeinfo>
 
@@ -26,14 +27,15 @@ namespace {
 
 	bool isStillOf(const MaterialPoint& point, const Body& body)
 	{
-		return point.id == body.id && point.shape.get() == body.shape.get() && point.state.get() == body.state.get()
+		return point.body.get() == &body && point.id == body.id && point.shape.get() == body.shape.get() && point.state.get() == body.state.get()
 		        && point.material.get() == body.material.get() && isLeftAlone(body, *point.state);
 	}
 
-	MaterialPoint complete(const Body& body, shared_ptr<MpmPoint>&& shape, const MaterialPoint* previous)
+	MaterialPoint complete(const shared_ptr<Body>& owner, shared_ptr<MpmPoint>&& shape, const MaterialPoint* previous)
 	{
-		auto material = previous && previous->material.get() == body.material.get() ? previous->material
-		                                                                            : boost::dynamic_pointer_cast<MpmMaterial>(body.material);
+		const Body& body     = *owner;
+		auto        material = previous && previous->material.get() == body.material.get() ? previous->material
+		                                                                                   : boost::dynamic_pointer_cast<MpmMaterial>(body.material);
 		if (!material)
 			refuse(body.id,
 			       "an MpmPoint shape needs a material for material points, such as MpmElasticMat; there is " + classOf(body.material) + ".");
@@ -46,7 +48,7 @@ namespace {
 		if (!isLeftAlone(body, *state))
 			refuse(body.id,
 			       "YADE's collider and integrator must leave material points alone: set bounded = False and state.blockedDOFs = 'xyzXYZ'.");
-		return { body.id, std::move(shape), std::move(state), std::move(material) };
+		return { body.id, std::move(shape), std::move(state), std::move(material), owner };
 	}
 
 	void refuseOtherShape(const Body& body)
@@ -127,6 +129,7 @@ int MaterialPoint::materialIndex(const Scene& scene) const
 
 void updateMaterialPoints(vector<MaterialPoint>& points, const Scene& scene, int mask)
 {
+	const BodiesLock     lock(scene);
 	const BodyContainer& bodies = *scene.bodies;
 	size_t               n      = 0;
 	for (size_t id = 0; id < bodies.size(); ++id) {
@@ -134,7 +137,7 @@ void updateMaterialPoints(vector<MaterialPoint>& points, const Scene& scene, int
 		if (!body || !maskMatches(*body, mask)) continue; // null: erased
 		if (n < points.size() && isStillOf(points[n], *body)) ++n;
 		else if (auto shape = castTo<MpmPoint>(body->shape)) {
-			auto point = complete(*body, std::move(shape), n == 0 ? nullptr : &points[n - 1]);
+			auto point = complete(body, std::move(shape), n == 0 ? nullptr : &points[n - 1]);
 			if (n < points.size()) points[n] = std::move(point);
 			else
 				points.push_back(std::move(point));

@@ -8,8 +8,8 @@
 #include "engine/conditions/contact/deforming_bodies.hpp"
 #include "engine/conditions/contact/free_bodies.hpp"
 #include "engine/points/MpmPoint.hpp"
+#include "yade_api/bodies.hpp"
 #include "yade_api/registration.hpp"
-#include "yade_api/scene.hpp"
 #include <set>
 
 namespace yade {
@@ -110,12 +110,13 @@ void MpmContact::requireStable(const Body& body, const Stiffness& K, Real dt, bo
 void MpmContact::actOnBodies(Scene& scene, bool isBetween)
 {
 	for (size_t i = 0; isBetween && i < bodies.size() && scene.dt > stableFor; ++i)
-		if (areFree[i] && scene.bodies->exists(bodies[i]))
-			requireStable(*(*scene.bodies)[bodies[i]], Eigen::Map<const Stiffness>(&stiffnesses[36 * i]), scene.dt, true);
+		if (const auto body = bodyAt(scene, bodies[i]); areFree[i] && body)
+			requireStable(*body, Eigen::Map<const Stiffness>(&stiffnesses[36 * i]), scene.dt, true);
 	stableFor = scene.dt;
 	for (size_t i = 0; i < bodies.size(); ++i) {
-		if (!areFree[i] || !scene.bodies->exists(bodies[i])) continue;
-		const State&                    state = *(*scene.bodies)[bodies[i]]->state;
+		const auto body = bodyAt(scene, bodies[i]);
+		if (!areFree[i] || !body) continue;
+		const State&                    state = *body->state;
 		const Eigen::Matrix<Real, 6, 1> since = -(Eigen::Map<const Stiffness>(&stiffnesses[36 * i]) * movement(poseOf(i), state));
 		scene.forces.addForce(bodies[i], forces[i] + since.head<3>());
 		scene.forces.addTorque(bodies[i], torques[i] + since.tail<3>());
@@ -129,12 +130,15 @@ std::shared_ptr<Condition<3>> MpmContact::make(InSpace, const Group& group, cons
 vector<shared_ptr<Body>> MpmContact::touchingBodies(const Scene& scene) const
 {
 	vector<shared_ptr<Body>> found;
-	const BodyContainer&     all = *scene.bodies;
-	for (unsigned id = 0; id < all.size(); ++id) {
-		const auto& body = all[id];
-		if (!body || !body->shape || !maskMatches(*body, mask) || body->isClump() || dynamic_cast<const MpmPoint*>(body->shape.get())) continue;
-		if (!isPartOfNet(*body, scene)) found.push_back(body);
+	{
+		const BodiesLock     lock(scene);
+		const BodyContainer& all = *scene.bodies;
+		for (unsigned id = 0; id < all.size(); ++id)
+			if (const auto& body = all[id];
+			    body && body->shape && maskMatches(*body, mask) && !body->isClump() && !dynamic_cast<const MpmPoint*>(body->shape.get()))
+				found.push_back(body);
 	}
+	found.erase(std::remove_if(found.begin(), found.end(), [&](const auto& body) { return isPartOfNet(*body, scene); }), found.end());
 	dropSidesOfMembranes(found);
 	return found;
 }
@@ -160,16 +164,17 @@ string MpmContact::idleness(const string& name, bool) const
 // Sums, and of bodies that do not move freely also one by one, but of nodes, of which there are many.
 void MpmContact::tell(Rows& rows, const Analysis& analysis, const Listed& listed) const
 {
-	const int            dim    = analysis.grid->dim;
-	const string         name   = "contact" + std::to_string(listed.number);
-	Vector3r             total  = Vector3r::Constant(bodies.empty() ? std::numeric_limits<Real>::quiet_NaN() : 0);
-	int                  places = 0;
-	const BodyContainer& all    = *analysis.ownScene()->bodies;
+	const int    dim    = analysis.grid->dim;
+	const string name   = "contact" + std::to_string(listed.number);
+	Vector3r     total  = Vector3r::Constant(bodies.empty() ? std::numeric_limits<Real>::quiet_NaN() : 0);
+	int          places = 0;
+	const auto   scene  = analysis.ownScene();
 	for (size_t b = 0; b < bodies.size(); ++b) {
 		total += forces[b];
 		places += touching[b];
 		const string body   = "body" + std::to_string(bodies[b]);
-		const bool   isNode = all.exists(bodies[b]) && isNodeOfNet(*all[bodies[b]]);
+		const auto   shared = bodyAt(*scene, bodies[b]);
+		const bool   isNode = shared && isNodeOfNet(*shared);
 		for (int axis = 0; axis < 3 && !areFree[b] && !isNode; ++axis) {
 			if (axis < dim) rows.set(body + "_" + "xyz"[axis], forces[b][axis]);
 			if (axis == 2 || dim == 3) rows.set(body + "_torque_" + "xyz"[axis], torques[b][axis]);

@@ -7,6 +7,7 @@
 #include "engine/conditions/contact/deforming_bodies.hpp"
 #include "engine/conditions/contact/rigid_bodies.hpp"
 #include "engine/grid/MpmGrid.hpp"
+#include "yade_api/bodies.hpp"
 #include <Eigen/Geometry>
 #include <map>
 
@@ -73,8 +74,9 @@ template <int Dim> void drawFaces(Picture& picture, const MpmContact& contact, c
 	const auto grid  = analysis.grid->lattice<Dim>();
 	const auto scene = analysis.ownScene();
 	for (const auto& [id, records] : byBody(contact.records)) {
-		if (!scene->bodies->exists(id)) continue;
-		const Body& body  = *(*scene->bodies)[id];
+		const auto shared = bodyAt(*scene, id);
+		if (!shared) continue;
+		const Body& body  = *shared;
 		auto        rigid = currentBody<Dim>(body, *scene, grid);
 		if (!rigid) continue;
 		rigid->shape.axes = contact.turnOf(id).template topLeftCorner<Dim, Dim>();

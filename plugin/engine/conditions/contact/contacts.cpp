@@ -6,6 +6,7 @@
 #include "engine/analysis/analysis.hpp"
 #include "engine/conditions/contact/rigid_bodies.hpp"
 #include "engine/conditions/contact/small_features.hpp"
+#include "yade_api/bodies.hpp"
 #include <algorithm>
 #include <map>
 
@@ -98,8 +99,8 @@ template <int Dim> void Contacts<Dim>::add(const shared_ptr<MpmContact>& contact
 			addDeforming(contact, known, body, scene, grid);
 			continue;
 		}
-		const bool isMember = body->isClumpMember() && scene.bodies->exists(body->clumpId);
-		addMember(*contact, body, ownerOf(contact, known, isMember ? *(*scene.bodies)[body->clumpId] : *body, scene, grid), grid);
+		const auto clump = body->isClumpMember() ? bodyAt(scene, body->clumpId) : nullptr;
+		addMember(*contact, body, ownerOf(contact, known, clump ? clump : body, scene, grid), grid);
 	}
 	if (members.size() == count)
 		throw std::invalid_argument(
@@ -108,8 +109,10 @@ template <int Dim> void Contacts<Dim>::add(const shared_ptr<MpmContact>& contact
 }
 
 template <int Dim>
-int Contacts<Dim>::ownerOf(const shared_ptr<MpmContact>& contact, const Places& known, const Body& body, const Scene& scene, const gimpm::Grid<Dim>& grid)
+int Contacts<Dim>::ownerOf(
+        const shared_ptr<MpmContact>& contact, const Places& known, const shared_ptr<Body>& shared, const Scene& scene, const gimpm::Grid<Dim>& grid)
 {
+	const Body& body            = *shared;
 	const auto [found, isFirst] = ownersById.try_emplace(body.id, int(owners.size()));
 	if (!isFirst) {
 		if (owners[found->second].contact == contact) return found->second;
@@ -117,7 +120,7 @@ int Contacts<Dim>::ownerOf(const shared_ptr<MpmContact>& contact, const Places& 
 		        "Body #" + std::to_string(body.id) + " is claimed by two MpmContacts; give them masks that go with different bodies.");
 	}
 	const Se3r now = poseOf(*body.state);
-	Owner      owner { contact, (*scene.bodies)[body.id], now, now, now, {}, {} };
+	Owner      owner { contact, shared, now, now, now, {}, {} };
 	owner.byYade      = movers->move(body);
 	const bool isHeld = (body.state->blockedDOFs & State::DOF_ALL) == State::DOF_ALL;
 	if (contact->implicit && !isHeld) free(owner, scene, grid);
@@ -191,7 +194,7 @@ void Contacts<Dim>::addDeforming(
 {
 	Member member { body, {}, {} };
 	for (const auto& node : nodesOf(*body, scene))
-		member.nodes.push_back(ownerOf(contact, known, *node, scene, grid));
+		member.nodes.push_back(ownerOf(contact, known, node, scene, grid));
 	for (const int node : member.nodes)
 		if (owners[node].free >= 0)
 			throw std::invalid_argument(gimpm::sentence(

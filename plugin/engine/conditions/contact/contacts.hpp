@@ -72,7 +72,7 @@ private:
 	void             addToMeans(Real part);
 	bool             isBetween() const { return target - begin > 1.5 * dt; } // whether YADE makes iterations between load steps
 	void             add(const shared_ptr<MpmContact>&, const Scene&, const gimpm::Grid<Dim>&);
-	int              ownerOf(const shared_ptr<MpmContact>&, const Places& known, const Body&, const Scene&, const gimpm::Grid<Dim>&);
+	int              ownerOf(const shared_ptr<MpmContact>&, const Places& known, const shared_ptr<Body>&, const Scene&, const gimpm::Grid<Dim>&);
 	void             requireTogether(const MpmContact&, const Body&, const Owner&, const Se3r& own) const;
 	Real             partAt(Real time) const { return target > begin ? std::min(1., (time - begin) / (target - begin)) : 1; }
 	void             addMember(const MpmContact&, const shared_ptr<Body>&, int owner, const gimpm::Grid<Dim>&);

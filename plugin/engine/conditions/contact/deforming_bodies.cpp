@@ -2,6 +2,7 @@
 #include "engine/conditions/contact/deforming_bodies.hpp"
 #include "core/base/sentence.hpp"
 #include "core/terms/contact/contact_surface.hpp"
+#include "yade_api/bodies.hpp"
 #include "yade_api/grids.hpp"
 #include <algorithm>
 #include <set>
@@ -23,7 +24,8 @@ namespace {
 	// loaded.
 	shared_ptr<Body> nextInChain(const Body& body, const ChainedState& state, const Scene& scene)
 	{
-		const size_t count = scene.bodies->size();
+		const BodiesLock lock(scene);
+		const size_t     count = scene.bodies->size();
 		for (size_t i = 1; i < count; ++i) { // mostly it is the next one of all bodies, too
 			const auto& other = (*scene.bodies)[unsigned((size_t(body.id) + i) % count)];
 			const auto* found = other ? chainedState(*other) : nullptr;
@@ -123,7 +125,7 @@ namespace {
 		if (const auto* facet = dynamic_cast<const PFacet*>(body.shape.get())) return { facet->node1, facet->node2, facet->node3 };
 		const auto* state = chainedState(body);
 		const auto  next  = state ? nextInChain(body, *state, scene) : nullptr;
-		if (next) return { (*scene.bodies)[body.id], next };
+		if (next) return { bodyAt(scene, body.id), next };
 		return {};
 	}
 }
@@ -132,7 +134,7 @@ vector<shared_ptr<Body>> nodesOf(const Body& body, const Scene& scene)
 {
 	const auto nodes = namedNodes(body, scene);
 	for (const auto& node : nodes)
-		if (!node || !scene.bodies->exists(node->id) || (*scene.bodies)[node->id] != node)
+		if (!node || bodyAt(scene, node->id) != node)
 			refuseDeforming(body, "has a node that is none of O.bodies: make it by yade.gridpfacet, and erase it before its nodes.");
 	return nodes;
 }

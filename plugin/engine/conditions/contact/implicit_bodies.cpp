@@ -2,6 +2,7 @@
 #include "engine/conditions/contact/implicit_bodies.hpp"
 #include "core/base/sentence.hpp"
 #include "engine/conditions/contact/rigid_bodies.hpp"
+#include "yade_api/bodies.hpp"
 
 namespace yade {
 
@@ -23,13 +24,14 @@ namespace {
 		return { 8 * x * y * box->extents[2], section, 4 * x * y * (x * x + y * y) / 3 };
 	}
 
-	vector<shared_ptr<Body>> partsOf(const Body& owner, const Scene& scene)
+	vector<shared_ptr<Body>> membersOf(const Body& clump, const Scene& scene)
 	{
-		if (!owner.isClump()) return { (*scene.bodies)[owner.id] };
-		vector<shared_ptr<Body>> parts;
+		const BodiesLock         lock(scene);
+		vector<shared_ptr<Body>> members;
 		for (size_t id = 0; id < scene.bodies->size(); ++id)
-			if (const auto& body = (*scene.bodies)[unsigned(id)]; body && body->isClumpMember() && body->clumpId == owner.id) parts.push_back(body);
-		return parts;
+			if (const auto& body = (*scene.bodies)[unsigned(id)]; body && body->isClumpMember() && body->clumpId == clump.id)
+				members.push_back(body);
+		return members;
 	}
 
 	Matrix3r alongAxes(const Se3r& at, const Vector3r& inertia)
@@ -65,16 +67,19 @@ template <> MassOfBody massOf(const Body& owner, const Scene&, const gimpm::Grid
 
 template <> MassOfBody massOf(const Body& owner, const Scene& scene, const gimpm::Grid<2>& grid)
 {
-	Real     volume = 0, section = 0, polar = 0;
-	Vector3r moment = Vector3r::Zero();
-	for (const auto& part : partsOf(owner, scene)) {
-		const Measures m    = measuresOf(*part->shape, grid.axisymmetric);
-		const Real     rho  = part->material ? part->material->density : 0;
-		const Vector3r away = part->state->pos - owner.state->pos;
-		volume += rho * m.volume, section += rho * m.section;
-		polar += rho * (m.polar + m.section * away.head<2>().squaredNorm());
-		moment += rho * m.section * away;
-	}
+	Real       volume = 0, section = 0, polar = 0;
+	Vector3r   moment = Vector3r::Zero();
+	const auto add    = [&](const Body& part) {
+                const Measures m    = measuresOf(*part.shape, grid.axisymmetric);
+                const Real     rho  = part.material ? part.material->density : 0;
+                const Vector3r away = part.state->pos - owner.state->pos;
+                volume += rho * m.volume, section += rho * m.section;
+                polar += rho * (m.polar + m.section * away.head<2>().squaredNorm());
+                moment += rho * m.section * away;
+	};
+	if (!owner.isClump()) add(owner);
+	for (const auto& member : membersOf(owner, scene))
+		add(*member);
 	if (!(volume > 0))
 		throw std::invalid_argument(gimpm::sentence(
 		        "Body #", owner.id,
