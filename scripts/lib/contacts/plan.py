@@ -22,9 +22,9 @@ atMost, atLeast = lambda x: (-inf, x), lambda x: (x, inf)
 # 1. Penetration. Of the cone N is judged in Tresca's clay, by Lu et al. (2004) with the roughness of its face; von Mises' is told, as it has less strength in triaxial compression.
 smooth = dict(part=atLeast(.999), scatter=atMost(.03), largest=atMost(.08), inside=atMost(.05))
 lu = lambda rough: dict(late=near(3.4 + 1.6 * log(200) + 1.3 * rough, .08))
-for cells in 2, 3, 4, 6:
-	rules = smooth if cells in (3, 6) else dict(part=smooth['part'], inside=smooth['inside'])
-	add(f'cone-R{cells}', 'penetration.onAxis', rules | lu(0), dict(depth=4. if cells < 6 else 1.5), kind='cone', cells=cells, seconds=300 if cells < 6 else 900)
+for cells in 2, 3, 4, 6, 8:
+	rules = smooth if cells in (3, 6, 8) else dict(part=smooth['part'], inside=smooth['inside'])
+	add(f'cone-R{cells}', 'penetration.onAxis', rules | lu(0), dict(depth=4. if cells < 6 else 1.5), kind='cone', cells=cells, seconds=300 if cells < 6 else 900 if cells < 8 else 3000)
 
 
 def atNoSize(found):
@@ -36,8 +36,8 @@ def atNoSize(found):
 
 
 def ofCone(results):
-	"""N on cells of no size, by a straight line through its values on three grids or four that got as deep."""
-	found = {cells: results.get(f'cone-R{cells}', {}) for cells in (2, 3, 4, 6)}
+	"""N on cells of no size, by a straight line through its values on three grids or more that got as deep."""
+	found = {cells: results.get(f'cone-R{cells}', {}) for cells in (2, 3, 4, 6, 8)}
 	deepest = max(result.get('reached', 0) for result in found.values())
 	found = {cells: result['late'] for cells, result in found.items() if result.get('part', 0) > .999 and result['reached'] > .999 * deepest}
 	if len(found) < 3: return None
