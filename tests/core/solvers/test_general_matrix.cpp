@@ -76,6 +76,27 @@ namespace {
 		expect(m.transpose().partialPivLu().solve(c));
 	}
 
+	/// Pivots of the diagonal are no smaller than its entries and the factors have entries of up to 1e9: without them
+	/// the first solution has no correct digit left, which only its residual tells.
+	TEST(GeneralMatrix, ThatNeedsPivotsIsNoticedByItsResidual)
+	{
+		constexpr int   size = 60;
+		Eigen::MatrixXd m    = Eigen::MatrixXd::Identity(size, size);
+		for (int c = 0; c + 1 < size; ++c)
+			m(c, c + 1) = 2, m(c + 1, c) = -1e-3;
+		for (int c = 0; c < size; ++c)
+			for (int r = c + 1; r < size; ++r)
+				m(r, c) -= 1;
+		m.col(size - 1).setOnes();
+		LinearSolver          solver;
+		const Eigen::VectorXd b = Random(5).vector(size);
+		Eigen::VectorXd       x;
+		ASSERT_EQ(solver.solve(sparse(m), b, x), Status::lu);
+		EXPECT_LT((m * x - b).norm(), 1e-12 * (b.norm() + x.norm()));
+		ASSERT_TRUE(solver.solveAgain(b, x, true));
+		EXPECT_LT((m.transpose() * x - b).norm(), 1e-12 * (b.norm() + x.norm()));
+	}
+
 	TEST(GeneralMatrix, WithSymmetricValuesHasTheSolutionOfTheSymmetricOne)
 	{
 		Eigen::MatrixXd m = dominant(60, 0.1, 7);
