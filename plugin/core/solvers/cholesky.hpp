@@ -16,7 +16,7 @@ namespace gimpm {
 class Cholesky {
 public:
 	/// Finds the pattern of the factor, in this order; of an empty one, in an order that CHOLMOD looks for. If K is
-	/// not definite, for factoriseSigned().
+	/// not definite, for factoriseSigned() or factoriseGeneral().
 	void   analyse(const Csc& K, Order, bool isDefinite = true);
 	bool   isAnalysed() const; ///< not before analyse(), nor if the factor would be too large for CHOLMOD
 	double entries() const { return sum(&SupernodalFactor::entries); }
@@ -33,7 +33,8 @@ public:
 
 	/// As of SupernodalFactor, in one part.
 	bool factoriseSigned(const Csc& K, double smallest) { return !isHalved() && whole_.factoriseSigned(K, smallest); }
-	bool solveSigned(const Eigen::VectorXd& b, Eigen::VectorXd& x) { return whole_.solveSigned(b, x); }
+	bool factoriseGeneral(const Csc& K, double smallest) { return !isHalved() && whole_.factoriseGeneral(K, smallest); }
+	bool solveSigned(const Eigen::VectorXd& b, Eigen::VectorXd& x, bool transposed = false) { return whole_.solveSigned(b, x, transposed); }
 
 private:
 	struct Half {

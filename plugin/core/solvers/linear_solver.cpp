@@ -34,11 +34,23 @@ constexpr int worthDissecting = 4000;
 
 Order ordering(const LinearProblem& K)
 {
-	if (K.size() < worthDissecting && !(K.isSymmetric() && K.hasSigns())) return {};
+	if (K.size() < worthDissecting && !K.hasSigns()) return {};
 	Order order = K.ordering();
 	for (int& number : order.numbers)
 		number = K.size() - 1 - number; // of the matrix in reverse
 	return order;
+}
+
+/// K x, or K^T x, of a matrix given by all of its entries.
+Eigen::VectorXd timesGeneral(const Csc& K, const Eigen::VectorXd& x, bool transposed)
+{
+	Eigen::VectorXd y = Eigen::VectorXd::Zero(x.size());
+	for (int c = 0; c < K.size(); ++c)
+		for (int e = K.start[c]; e < K.start[c + 1]; ++e)
+			if (transposed) y[c] += K.value[e] * x[K.row[e]];
+			else
+				y[K.row[e]] += K.value[e] * x[c];
+	return y;
 }
 
 /// Compressed, for conjugate gradients.
@@ -88,7 +100,8 @@ struct LinearSolver::Direct {
 
 	// Of a matrix that is symmetric by signs of its rows; null: it needs no pivoting, or Cholesky's factor.
 	std::unique_ptr<Multifrontal> indefinite;
-	bool                          hasSigns      = false; // the factor is L S L^T of such a matrix
+	bool                          hasSigns      = false; // the factor is L S L^T of such a matrix, or L S U of a general one
+	bool                          isGeneral     = false;
 	bool                          isForDefinite = true;  // the symbolic analysis
 	bool                          needsPivots   = false; // of that pattern no factor without them would do
 
@@ -97,28 +110,42 @@ struct LinearSolver::Direct {
 		const Eigen::VectorXd right    = reversed(scale.cwiseProduct(b));
 		const bool            isSolved = ofLu ? lu.solve(*ofLu, right, x, transposed)
 		                   : indefinite       ? indefinite->solve(scaled, right, x, false)
-		                   : hasSigns         ? solveSigned(right, x)
+		                   : hasSigns         ? solveSigned(right, x, transposed)
 		                                      : cholesky.solve(right, x);
 		if (!isSolved) return false;
 		x = reversed(x).cwiseProduct(scale);
 		return true;
 	}
-	/// The residual tells whether pivots should have been looked for; they are if it stays large.
-	bool solveSigned(const Eigen::VectorXd& b, Eigen::VectorXd& x)
+	/// The residual tells whether pivots should have been looked for; they are if it stays large. What is not
+	/// symmetric has no sign that its pivots are any good, and has to be as precise as with pivots.
+	bool solveSigned(const Eigen::VectorXd& b, Eigen::VectorXd& x, bool transposed)
 	{
-		constexpr double enough = 1e-12; // on the diagonal of the matrix there is about one
-		constexpr int    most   = 2;
-		Eigen::VectorXd  more;
-		bool             isSolved = cholesky.solveSigned(b, x);
+		const double    enough = isGeneral ? 1e-14 : 1e-12; // on the diagonal of the matrix there is about one
+		constexpr int   most   = 2;
+		Eigen::VectorXd more;
+		bool            isSolved = cholesky.solveSigned(b, x, transposed);
 		for (int refined = 0; isSolved; ++refined) {
-			const Eigen::VectorXd residual = b - timesSymmetric(scaled, x);
+			const Eigen::VectorXd residual = b - (isGeneral ? timesGeneral(scaled, x, transposed) : timesSymmetric(scaled, x));
 			if (residual.norm() <= enough * (b.norm() + x.norm())) return true;
-			isSolved = refined < most && cholesky.solveSigned(residual, more);
+			isSolved = refined < most && cholesky.solveSigned(residual, more, transposed);
 			if (isSolved) x += more;
 		}
+		if (isGeneral) return factoriseGeneralPivoting() && lu.solve(scaled, b, x, transposed);
 		needsPivots = true;
 		if (factorisePivoting()) return indefinite->solve(scaled, b, x, false);
 		return factoriseFull() && lu.solve(full, b, x, false);
+	}
+	/// A row of which less is left than the pivoting factor would take is for that one to judge. Each matrix is
+	/// tried anew, so that what a solution is does not depend on what was solved before.
+	bool factoriseGeneral()
+	{
+		hasSigns = cholesky.isAnalysed() && cholesky.factoriseGeneral(scaled, smallestPivot / Lu::pivotOfRow);
+		return hasSigns || factoriseGeneralPivoting();
+	}
+	bool factoriseGeneralPivoting()
+	{
+		hasSigns = false, ofLu = &scaled;
+		return lu.factorise(scaled, cholesky.isAnalysed() ? cholesky.ordering() : nullptr, smallestPivot);
 	}
 	/// Symmetric and scaled; in the order that is good for Cholesky.
 	bool factoriseIndefinite()
@@ -153,9 +180,9 @@ LinearSolver& LinearSolver::operator=(LinearSolver&&) noexcept = default;
 LinearSolver::FactorSize LinearSolver::analyse(const LinearProblem& problem)
 {
 	const FewerThreads guard(0);
-	const Csc&         K                                                                              = problem.stored();
-	auto& [scaled, scale, cholesky, lu, full, ofLu, indefinite, hasSigns, isForDefinite, needsPivots] = *direct_;
-	const bool isDefinite                                                                             = !problem.isSymmetric() || !problem.hasSigns();
+	const Csc&         K                                                                                         = problem.stored();
+	auto& [scaled, scale, cholesky, lu, full, ofLu, indefinite, hasSigns, isGeneral, isForDefinite, needsPivots] = *direct_;
+	const bool isDefinite = problem.isSymmetric() && !problem.hasSigns();
 	if (!cholesky.isAnalysed() || isDefinite != isForDefinite || !isReverse(K, scaled)) {
 		const Stopwatch watch(times_.analyse);
 		reverse(K, scaled);
@@ -173,11 +200,12 @@ LinearSolver::FactorSize LinearSolver::analyse(const LinearProblem& problem)
 LinearSolver::Status LinearSolver::factorise(const LinearProblem& problem)
 {
 	const Stopwatch watch(times_.factorise);
-	auto& [scaled, values, cholesky, lu, full, ofLu, indefinite, hasSigns, isForDefinite, needsPivots] = *direct_;
+	auto& [scaled, values, cholesky, lu, full, ofLu, indefinite, hasSigns, isGeneral, isForDefinite, needsPivots] = *direct_;
 	lu.forgetFactor();
-	full   = {};
-	ofLu   = nullptr;
-	values = scale(problem.stored(), scaled.value);
+	full      = {};
+	ofLu      = nullptr;
+	isGeneral = !problem.isSymmetric();
+	values    = scale(problem.stored(), scaled.value);
 	if (problem.isSymmetric()) {
 		if (problem.hasSigns()) {
 			if (direct_->factoriseIndefinite()) return Status::lu;
@@ -185,8 +213,8 @@ LinearSolver::Status LinearSolver::factorise(const LinearProblem& problem)
 			return cholesky.rcond() < smallestPivot ? Status::singular : Status::cholesky;
 		return direct_->factoriseFull() ? Status::lu : Status::singular;
 	}
-	ofLu = &scaled;
-	return lu.factorise(scaled, cholesky.isAnalysed() ? cholesky.ordering() : nullptr, smallestPivot) ? Status::lu : Status::singular;
+	indefinite.reset();
+	return direct_->factoriseGeneral() ? Status::lu : Status::singular;
 }
 
 LinearSolver::Status LinearSolver::solve(const LinearProblem& K, const Eigen::VectorXd& b, Eigen::VectorXd& x)

@@ -11,11 +11,11 @@ class DistributedSolver;
 class NodeSolver;
 
 /// Direct solver: supernodal Cholesky (CHOLMOD), L S L^T with signs S for a symmetric matrix of several fields, which
-/// is not positive definite (with pivoting by MUMPS, if need be), and LU for a matrix that is not symmetric (MUMPS;
-/// UMFPACK judges what it refuses) or not positive definite (UMFPACK). The symbolic analysis is repeated only when
-/// the pattern changes. On demand conjugate gradients (alone or with multigrid) or, for a matrix that is not symmetric,
-/// GMRES. Of several fields GMRES where conjugate gradients are not for it, and with multigrid GMRES. One object serves
-/// one thread.
+/// is not positive definite, L S U for a matrix that is not symmetric (both with pivoting by MUMPS, if need be, and
+/// UMFPACK judges what that refuses), and LU for one that is symmetric and not positive definite (UMFPACK). The
+/// symbolic analysis is repeated only when the pattern changes. On demand conjugate gradients (alone or with multigrid)
+/// or, for a matrix that is not symmetric, GMRES. Of several fields GMRES where conjugate gradients are not for it, and
+/// with multigrid GMRES. One object serves one thread.
 class LinearSolver {
 public:
 	using Status = SolverStatus;

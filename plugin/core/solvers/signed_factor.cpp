@@ -22,7 +22,6 @@ namespace {
 struct Supernodes {
 	int        count;
 	const int *columns, *rowsBegin, *valuesBegin, *rows;
-	double*    values;
 
 	explicit Supernodes(const cholmod_factor& L)
 	        : count(int(L.nsuper))
@@ -30,13 +29,11 @@ struct Supernodes {
 	        , rowsBegin(static_cast<const int*>(L.pi))
 	        , valuesBegin(static_cast<const int*>(L.px))
 	        , rows(static_cast<const int*>(L.s))
-	        , values(static_cast<double*>(L.x))
 	{
 	}
 	int        width(int s) const { return columns[s + 1] - columns[s]; }
 	int        height(int s) const { return rowsBegin[s + 1] - rowsBegin[s]; }
 	const int* rowsOf(int s) const { return rows + rowsBegin[s]; }
-	double*    valuesOf(int s) const { return values + valuesBegin[s]; }
 
 	std::vector<int> ofColumns() const
 	{
@@ -108,11 +105,19 @@ private:
 	std::vector<double> left_, right_;
 };
 
+/// What is below the diagonal, or above it, transposed: then it has the same pattern.
+struct Side {
+	const PlacedEntries& entries;
+	double*              values; // of the factor
+};
+
+/// Of a symmetric matrix with one side, of another one with two, of which each takes its products with the other one.
+/// The diagonal belongs to the first.
 class Factorisation {
 public:
-	Factorisation(const Supernodes& L, const PlacedEntries& entries, const std::vector<double>& values, Eigen::VectorXd& signs)
+	Factorisation(const Supernodes& L, std::vector<Side> sides, const std::vector<double>& values, Eigen::VectorXd& signs)
 	        : L_(L)
-	        , entries_(entries)
+	        , sides_(std::move(sides))
 	        , values_(values)
 	        , signs_(signs)
 	        , supernode_(L.ofColumns())
@@ -142,15 +147,22 @@ private:
 	static constexpr int    atOnce = 24;  ///< columns
 	static constexpr double large  = 1e8; ///< products of numbers, as many as the copies of the BLAS are worth
 
+	int     sides() const { return int(sides_.size()); }
+	int     otherThan(int side) const { return sides() - 1 - side; }
+	double* blockOf(int side, int s) const { return sides_[side].values + L_.valuesBegin[s]; }
+
 	/// With the entries of the matrix.
 	void begin(int s)
 	{
 		for (int i = 0; i < L_.height(s); ++i)
 			place_[L_.rowsOf(s)[i]] = i;
-		double* block = L_.valuesOf(s);
-		std::fill_n(block, std::ptrdiff_t(L_.width(s)) * L_.height(s), 0.);
-		for (int i = entries_.start[s]; i < entries_.start[s + 1]; ++i)
-			block[entries_.entries[i].place] += values_[entries_.entries[i].number];
+		for (int side = 0; side < sides(); ++side) {
+			const PlacedEntries& entries = sides_[side].entries;
+			double*              block   = blockOf(side, s);
+			std::fill_n(block, std::ptrdiff_t(L_.width(s)) * L_.height(s), 0.);
+			for (int i = entries.start[s]; i < entries.start[s + 1]; ++i)
+				block[entries.entries[i].place] += values_[entries.entries[i].number];
+		}
 	}
 
 	/// What an earlier supernode d has in the columns of s.
@@ -161,17 +173,20 @@ private:
 		const int  below = height - begin, within = int(std::lower_bound(rows, rows + below, L_.columns[s + 1]) - rows);
 		into_.resize(below);
 		std::transform(rows, rows + below, into_.begin(), [this](int row) { return place_[row]; });
-		subtract(L_.valuesOf(d) + begin, height, below, within, L_.width(d), signs_.data() + L_.columns[d], s);
+		for (int side = 0; side < sides(); ++side)
+			subtract(
+			        side, blockOf(side, d) + begin, blockOf(otherThan(side), d) + begin, height, below, within, L_.width(d),
+			        signs_.data() + L_.columns[d], s);
 		taken_[d] += within;
 		passOn(d);
 	}
 
-	/// Takes A S B^T away from a supernode, of rows and columns that go `into_` its own, with B the first ones of
-	/// the rows A. What is above the diagonal is of no use, and may be left out.
-	void subtract(const double* a, int stride, int rows, int columns, int inner, const double* signs, int s)
+	/// Takes A S B^T away from a side of a supernode, of rows and columns that go `into_` its own, with B the first
+	/// of the same rows of the other side. What is above the diagonal is of no use, and may be left out.
+	void subtract(int side, const double* a, const double* b, int stride, int rows, int columns, int inner, const double* signs, int s)
 	{
-		if (double(rows) * columns * inner > large) return subtractLarge(a, stride, rows, columns, inner, signs, s);
-		products_.takeRight(a, stride, columns, inner, signs);
+		if (double(rows) * columns * inner > large) return subtractLarge(side, a, b, stride, rows, columns, inner, signs, s);
+		products_.takeRight(b, stride, columns, inner, signs);
 		Products::Tile product;
 		for (int i = 0; i < rows; i += Products::rows) {
 			const int  count = std::min(Products::rows, rows - i), place = into_[i];
@@ -181,34 +196,34 @@ private:
 				const int end = std::min(j + Products::columns, columns);
 				for (int c = j; c < end; ++c) // it comes while they are multiplied
 					for (const int row : { place, place + Products::rows - 1 })
-						__builtin_prefetch(column(s, c) + row, 1);
+						__builtin_prefetch(column(side, s, c) + row, 1);
 				products_.multiply(j, product);
 				for (int c = j; c < end; ++c)
-					if (isRun) takeFrom(column(s, c) + place, product.of[c - j]);
+					if (isRun) takeFrom(column(side, s, c) + place, product.of[c - j]);
 					else
 						for (int k = 0; k < count; ++k)
-							column(s, c)[into_[i + k]] -= product.of[c - j][k / 4][k % 4];
+							column(side, s, c)[into_[i + k]] -= product.of[c - j][k / 4][k % 4];
 			}
 		}
 	}
-	double* column(int s, int c) const { return L_.valuesOf(s) + std::ptrdiff_t(into_[c]) * L_.height(s); }
+	double* column(int side, int s, int c) const { return blockOf(side, s) + std::ptrdiff_t(into_[c]) * L_.height(s); }
 
 	/// By the BLAS, which may have several threads for it.
-	void subtractLarge(const double* a, int stride, int rows, int columns, int inner, const double* signs, int s)
+	void subtractLarge(int side, const double* a, const double* b, int stride, int rows, int columns, int inner, const double* signs, int s)
 	{
 		constexpr int few = 64; // columns at once
 		const double  one = 1, none = 0;
 		right_.resize(std::size_t(columns) * inner);
 		for (int k = 0; k < inner; ++k)
 			for (int c = 0; c < columns; ++c)
-				right_[c + std::size_t(k) * columns] = signs[k] * a[c + std::ptrdiff_t(k) * stride];
+				right_[c + std::size_t(k) * columns] = signs[k] * b[c + std::ptrdiff_t(k) * stride];
 		update_.resize(std::size_t(rows) * few);
 		for (int first = 0; first < columns; first += few) {
 			const int count = std::min(few, columns - first), left = rows - first;
 			dgemm_("N", "T", &left, &count, &inner, &one, a + first, &stride, right_.data() + first, &columns, &none, update_.data(), &left);
 			for (int c = 0; c < count; ++c)
 				for (int i = c; i < left; ++i)
-					column(s, first + c)[into_[first + i]] -= update_[i + std::size_t(c) * left];
+					column(side, s, first + c)[into_[first + i]] -= update_[i + std::size_t(c) * left];
 		}
 	}
 	static void takeFrom(double* to, const Four (&run)[2])
@@ -242,45 +257,60 @@ private:
 			if (later == 0) return;
 			into_.resize(height - end);
 			std::iota(into_.begin(), into_.end(), end);
-			subtract(
-			        L_.valuesOf(s) + end + std::ptrdiff_t(end - part) * height, height, height - end, later, part,
-			        signs_.data() + L_.columns[s] + end - part, s);
+			for (int side = 0; side < sides(); ++side) {
+				const std::ptrdiff_t from = end + std::ptrdiff_t(end - part) * height;
+				subtract(
+				        side, blockOf(side, s) + from, blockOf(otherThan(side), s) + from, height, height - end, later, part,
+				        signs_.data() + L_.columns[s] + end - part, s);
+			}
 		}
 	}
 	void eliminateFew(int s, int begin, int end)
 	{
-		const int height = L_.height(s), count = end - begin, below = height - end;
-		double *  block = L_.valuesOf(s) + begin + std::ptrdiff_t(begin) * height, *signs = signs_.data() + L_.columns[s] + begin;
-		factoriseDense(block, height, count, signs);
+		const int            height = L_.height(s), count = end - begin, below = height - end;
+		const std::ptrdiff_t from  = begin + std::ptrdiff_t(begin) * height;
+		double*              signs = signs_.data() + L_.columns[s] + begin;
+		factoriseDense(s, from, count, signs);
 		if (below == 0) return;
 		const double one = 1;
-		dtrsm_("R", "L", "T", "N", &below, &count, &one, block, &height, block + count, &height);
-		for (int c = 0; c < count; ++c)
-			if (signs[c] < 0)
-				for (double *x = block + count + std::ptrdiff_t(c) * height, *last = x + below; x < last; ++x)
-					*x = -*x;
+		for (int side = 0; side < sides(); ++side) {
+			double* block = blockOf(side, s) + from;
+			dtrsm_("R", "L", "T", "N", &below, &count, &one, blockOf(otherThan(side), s) + from, &height, block + count, &height);
+			for (int c = 0; c < count; ++c)
+				if (signs[c] < 0)
+					for (double *x = block + count + std::ptrdiff_t(c) * height, *last = x + below; x < last; ++x)
+						*x = -*x;
+		}
 	}
-	void factoriseDense(double* block, int stride, int count, double* signs)
+	void factoriseDense(int s, std::ptrdiff_t from, int count, double* signs)
 	{
+		const int stride = L_.height(s);
 		for (int k = 0; k < count; ++k) {
-			double* column = block + std::ptrdiff_t(k) * stride;
-			for (int j = 0; j < k; ++j) {
-				const double *before = block + std::ptrdiff_t(j) * stride, part = signs[j] * before[k];
-				for (int i = k; i < count; ++i)
-					column[i] -= part * before[i];
+			const std::ptrdiff_t at = from + std::ptrdiff_t(k) * stride;
+			for (int side = 0; side < sides(); ++side) {
+				double* column = blockOf(side, s) + at;
+				for (int j = 0; j < k; ++j) {
+					const std::ptrdiff_t earlier = from + std::ptrdiff_t(j) * stride;
+					const double *       before = blockOf(side, s) + earlier, part = signs[j] * blockOf(otherThan(side), s)[earlier + k];
+					for (int i = k; i < count; ++i)
+						column[i] -= part * before[i];
+				}
 			}
-			const double pivot = std::abs(column[k]), root = std::sqrt(pivot);
-			signs[k]  = column[k] < 0 ? -1 : 1;
-			least_    = pivot < least_ || std::isnan(pivot) ? pivot : least_;
-			largest_  = std::max(largest_, pivot);
-			column[k] = root;
-			for (int i = k + 1; i < count; ++i)
-				column[i] *= signs[k] / root;
+			const double own = blockOf(0, s)[at + k], pivot = std::abs(own), root = std::sqrt(pivot);
+			signs[k] = own < 0 ? -1 : 1;
+			least_   = pivot < least_ || std::isnan(pivot) ? pivot : least_;
+			largest_ = std::max(largest_, pivot);
+			for (int side = 0; side < sides(); ++side) {
+				double* column = blockOf(side, s) + at;
+				column[k]      = root;
+				for (int i = k + 1; i < count; ++i)
+					column[i] *= signs[k] / root;
+			}
 		}
 	}
 
 	const Supernodes&          L_;
-	const PlacedEntries&       entries_;
+	const std::vector<Side>    sides_;
 	const std::vector<double>& values_;
 	Eigen::VectorXd&           signs_;
 	std::vector<int>           supernode_;    // of each column
@@ -295,7 +325,7 @@ private:
 
 } // namespace
 
-PlacedEntries::PlacedEntries(const cholmod_factor& factor, const Csc& K)
+PlacedEntries::PlacedEntries(const cholmod_factor& factor, const Csc& K, Part part)
 {
 	const Supernodes L(factor);
 	const int *      order = static_cast<const int*>(factor.Perm), n = K.size();
@@ -305,8 +335,11 @@ PlacedEntries::PlacedEntries(const cholmod_factor& factor, const Csc& K)
 	const auto supernode  = L.ofColumns();
 	const auto forEntries = [&](auto&& f) {
 		for (int c = 0; c < n; ++c)
-			for (int e = K.start[c]; e < K.start[c + 1] && K.row[e] <= c; ++e)
-				f(e, std::min(number[K.row[e]], number[c]), std::max(number[K.row[e]], number[c]));
+			for (int e = K.start[c]; e < K.start[c + 1]; ++e) {
+				const int  row = number[K.row[e]], column = number[c];
+				const bool isOfPart = part == Part::triangle ? K.row[e] <= c : part == Part::below ? row >= column : row < column;
+				if (isOfPart) f(e, std::min(row, column), std::max(row, column));
+			}
 	};
 	start.assign(L.count + 1, 0);
 	forEntries([&](int, int column, int) { ++start[supernode[column] + 1]; });
@@ -326,13 +359,29 @@ PlacedEntries::PlacedEntries(const cholmod_factor& factor, const Csc& K)
 	}
 }
 
+namespace {
+
+bool factorise(const Supernodes& L, const std::vector<Side>& sides, const std::vector<double>& values, double smallest, Eigen::VectorXd& signs)
+{
+	signs.resize(L.columns[L.count]);
+	bool hasDone = false;
+	callForProcessor([&] { hasDone = Factorisation(L, sides, values, signs).run(smallest); });
+	return hasDone;
+}
+
+} // namespace
+
 bool factoriseSigned(cholmod_factor& factor, const PlacedEntries& entries, const std::vector<double>& values, double smallest, Eigen::VectorXd& signs)
 {
-	const Supernodes L(factor);
-	signs.resize(Eigen::Index(factor.n));
-	bool hasDone = false;
-	callForProcessor([&] { hasDone = Factorisation(L, entries, values, signs).run(smallest); });
-	return hasDone;
+	return factorise(Supernodes(factor), { { entries, static_cast<double*>(factor.x) } }, values, smallest, signs);
+}
+
+bool factoriseSigned(
+        cholmod_factor& factor, std::vector<double>& upper, const PlacedEntries& below, const PlacedEntries& above, const std::vector<double>& values,
+        double smallest, Eigen::VectorXd& signs)
+{
+	upper.resize(factor.xsize);
+	return factorise(Supernodes(factor), { { below, static_cast<double*>(factor.x) }, { above, upper.data() } }, values, smallest, signs);
 }
 
 } // namespace gimpm

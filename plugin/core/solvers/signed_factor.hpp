@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// L S L^T of a symmetric matrix, where S has a sign for each row, in the pattern that CHOLMOD finds for Cholesky's
-// method.
+// L S L^T of a symmetric matrix, where S has a sign for each row, and L S U of one that has only its pattern symmetric,
+// in the pattern that CHOLMOD finds for Cholesky's method.
 #pragma once
 #include "core/solvers/csc.hpp"
 #include <cholmod.h>
@@ -8,9 +8,11 @@
 
 namespace gimpm {
 
-/// Where the entries of an upper triangle go among the values of a supernodal factor of its pattern, supernode by
-/// supernode.
+/// Where entries of a matrix go among the values of a supernodal factor of its pattern, supernode by supernode.
 struct PlacedEntries {
+	/// Of a matrix that is given by its upper triangle, or what of another one is below the diagonal of the factor,
+	/// with it, or above, transposed.
+	enum class Part { triangle, below, above };
 	struct Entry {
 		int number, place; ///< in the matrix, and from the first value of its supernode
 	};
@@ -18,7 +20,7 @@ struct PlacedEntries {
 	std::vector<int>   start; ///< those of supernode s: start[s] ... start[s + 1] - 1
 
 	PlacedEntries() = default;
-	PlacedEntries(const cholmod_factor&, const Csc& K);
+	PlacedEntries(const cholmod_factor&, const Csc& K, Part);
 };
 
 /// Supernode by supernode, from the left, without pivoting: that is stable where one field is stiff and the other one
@@ -26,5 +28,11 @@ struct PlacedEntries {
 /// with it has to look at the residual. The values of the factor are written, and the signs in its order. False if a
 /// pivot is smaller than a part `smallest` of the largest one.
 bool factoriseSigned(cholmod_factor&, const PlacedEntries&, const std::vector<double>& values, double smallest, Eigen::VectorXd& signs);
+
+/// The same of a matrix that is not symmetric: L and U^T have the same diagonal, whose squares are the sizes of the
+/// pivots, and the same pattern. The values of U^T go to `upper`.
+bool factoriseSigned(
+        cholmod_factor&, std::vector<double>& upper, const PlacedEntries& below, const PlacedEntries& above, const std::vector<double>& values, double smallest,
+        Eigen::VectorXd& signs);
 
 } // namespace gimpm

@@ -208,21 +208,44 @@ bool SupernodalFactor::factorise(const Csc& K)
 	return factor_ && cholmod_factorize(&A, factor_, &common_) && common_.status == CHOLMOD_OK;
 }
 
-bool SupernodalFactor::factoriseSigned(const Csc& K, double smallest)
+bool SupernodalFactor::placeEntries(const Csc& K, bool isSymmetric)
 {
+	using Part = PlacedEntries::Part;
 	if (!factor_ || !factor_->is_super) return false;
-	if (entries_.start.empty()) {
-		if (!cholmod_change_factor(CHOLMOD_REAL, 1, 1, 1, 1, factor_, &common_)) return false;
-		entries_ = PlacedEntries(*factor_, K);
-	}
-	return gimpm::factoriseSigned(*factor_, entries_, K.value, smallest, signs_);
+	if (!entries_.start.empty() && isSymmetric == above_.start.empty()) return true;
+	if (!cholmod_change_factor(CHOLMOD_REAL, 1, 1, 1, 1, factor_, &common_)) return false;
+	entries_ = PlacedEntries(*factor_, K, isSymmetric ? Part::triangle : Part::below);
+	above_   = isSymmetric ? PlacedEntries() : PlacedEntries(*factor_, K, Part::above);
+	upper_.clear();
+	return true;
 }
 
-bool SupernodalFactor::solveSigned(const Eigen::VectorXd& b, Eigen::VectorXd& x)
+bool SupernodalFactor::factoriseSigned(const Csc& K, double smallest)
+{
+	return placeEntries(K, true) && gimpm::factoriseSigned(*factor_, entries_, K.value, smallest, signs_);
+}
+
+bool SupernodalFactor::factoriseGeneral(const Csc& K, double smallest)
+{
+	return placeEntries(K, false) && gimpm::factoriseSigned(*factor_, upper_, entries_, above_, K.value, smallest, signs_);
+}
+
+/// K = L S U, and its transpose is U^T S L^T.
+bool SupernodalFactor::solveSigned(const Eigen::VectorXd& b, Eigen::VectorXd& x, bool transposed)
 {
 	Eigen::VectorXd y;
-	if (!solve(CHOLMOD_P, b, x) || !solve(CHOLMOD_L, x, y)) return false;
-	return solve(CHOLMOD_Lt, y.cwiseProduct(signs_), x) && solve(CHOLMOD_Pt, Eigen::VectorXd(x), x);
+	if (!solve(CHOLMOD_P, b, x) || !solveTriangle(CHOLMOD_L, transposed, x, y)) return false;
+	return solveTriangle(CHOLMOD_Lt, !transposed, y.cwiseProduct(signs_), x) && solve(CHOLMOD_Pt, Eigen::VectorXd(x), x);
+}
+
+/// CHOLMOD takes the values of U^T for those of L.
+bool SupernodalFactor::solveTriangle(int system, bool ofUpper, const Eigen::VectorXd& b, Eigen::VectorXd& x)
+{
+	if (!ofUpper || upper_.empty()) return solve(system, b, x);
+	void* const ofLower = std::exchange(factor_->x, upper_.data());
+	const bool  isDone  = solve(system, b, x);
+	factor_->x          = ofLower;
+	return isDone;
 }
 
 bool SupernodalFactor::solve(int system, const Eigen::VectorXd& b, Eigen::VectorXd& x)

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Supernodal factorisation: Cholesky's (CHOLMOD), and in its pattern that of a matrix which is not definite.
+// Supernodal factorisation: Cholesky's (CHOLMOD), and in its pattern that of a matrix which is not definite, or not
+// symmetric.
 #pragma once
 #include "core/solvers/signed_factor.hpp"
 
 namespace gimpm {
 
-/// Of matrices given by their upper triangles; entries below are ignored.
+/// Of matrices given by their upper triangles; entries below are ignored, but by factoriseGeneral().
 class SupernodalFactor {
 public:
 	SupernodalFactor();
@@ -15,9 +16,9 @@ public:
 
 	/// Finds the pattern of the factor, with rows and columns in the given order; of none, in one that CHOLMOD
 	/// looks for. The last ones, so many as lastBlock() will be asked for, stay where they are. `isDefinite`: for
-	/// factorise(), else for factoriseSigned().
+	/// factorise(), else for the other two.
 	void analyse(const Csc& K, std::vector<int> order = {}, int last = 0, bool isDefinite = true);
-	void forget() { cholmod_free_factor(&factor_, &common_), entries_ = {}; }
+	void forget() { cholmod_free_factor(&factor_, &common_), entries_ = above_ = {}, upper_ = {}; }
 	/// Not before analyse(), nor if the factor would be too large for CHOLMOD.
 	bool   isAnalysed() const { return factor_; }
 	double entries() const { return common_.lnz; }
@@ -29,13 +30,15 @@ public:
 	bool factorise(const Csc& K);
 	/// L S L^T with a sign for each row; false if a pivot is smaller than a part `smallest` of the largest one.
 	bool factoriseSigned(const Csc& K, double smallest);
+	/// L S U, of a matrix whose pattern is symmetric and whose values need not be.
+	bool factoriseGeneral(const Csc& K, double smallest);
 	/// A rough inverse of the factor's condition number: the square of its smallest over its largest diagonal
 	/// entry.
 	double rcond() { return cholmod_rcond(factor_, &common_); }
 	bool   solve(const Eigen::VectorXd& b, Eigen::VectorXd& x) { return solve(CHOLMOD_A, b, x); }
 
-	/// With the factor of factoriseSigned().
-	bool solveSigned(const Eigen::VectorXd& b, Eigen::VectorXd& x);
+	/// With the factor of factoriseSigned() or factoriseGeneral(), for the matrix or its transpose.
+	bool solveSigned(const Eigen::VectorXd& b, Eigen::VectorXd& x, bool transposed = false);
 
 	/// L x = b and L^T x = b, in the order of the factor.
 	bool solveLower(const Eigen::VectorXd& b, Eigen::VectorXd& x) { return solve(CHOLMOD_L, b, x); }
@@ -47,11 +50,15 @@ public:
 private:
 	void analyseNodes(const Csc& K, const std::vector<int>& order);
 	bool solve(int system, const Eigen::VectorXd& b, Eigen::VectorXd& x);
+	bool solveTriangle(int system, bool ofUpper, const Eigen::VectorXd& b, Eigen::VectorXd& x);
+	bool placeEntries(const Csc& K, bool isSymmetric);
 
 	cholmod_common  common_;
 	cholmod_factor* factor_ = nullptr;
-	PlacedEntries   entries_; ///< of K, among the values of a factor with signs
-	Eigen::VectorXd signs_;   ///< in the order of the factor
+
+	PlacedEntries       entries_, above_; ///< of K, among the values of a factor with signs; above_: none if it is symmetric
+	std::vector<double> upper_;           ///< of U^T; empty if it is L^T
+	Eigen::VectorXd     signs_;           ///< in the order of the factor
 };
 
 } // namespace gimpm

@@ -136,11 +136,13 @@ rolls = dict(off=atMost(.01), speedOff=atMost(.01))
 # What rolls sticks, by springs a twentieth as stiff as the penalty: by these it creeps. And its friction is lost where it bounces, as it does where it passes the nodes as fast as it swings on the ground:
 # with ten cells over its radius, and ground so soft that it touches over a cell to either side, it passes them four times as fast.
 rollsOn = dict(young=3.4e7, stiffness=400., dt=1e-3, h=.05, rest=.4, long=17, seconds=400)
+# On 30 degrees rolling takes .82 of a friction of .2, and as the normal force swings it slips.
+slopes = {.2: dict(degrees=20., end=.6)}
 for friction in 0., .1, .2, .4:
-	add(f'rolling-{friction:g}', 'free.rolling', rolls, dict(end=.3), friction=friction, **(rollsOn if friction > .1 else {}))
+	add(f'rolling-{friction:g}', 'free.rolling', rolls, dict(end=.3), friction=friction, **(rollsOn if friction > .1 else {}), **slopes.get(friction, {}))
 add('rolling-askew', 'free.rolling', rolls, dict(end=.3), friction=.4, heading=30.)
 add('rolling-flat', 'free.rolling', rolls, dict(end=.6), friction=.1, degrees=10., end=.8, **rollsOn)
-add('rolling-static', 'free.rolling', rolls, dict(end=.3), friction=.4, isDynamic=False)
+add('rolling-static', 'free.rolling', rolls, dict(end=.3), friction=.4, isDynamic=False, **rollsOn)
 add('wheel', 'free.driven', dict(way=near(1, .02), speed=near(1, .02)))
 for every in 1, 5, 20:
 	add(f'impact-{every}', 'free.impact', dict(off=atMost(.01)), every=every)

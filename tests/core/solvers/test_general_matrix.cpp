@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Linear systems that are not symmetric: LU, what is singular, and GMRES.
+#include "core/solvers/supernodal_factor.hpp"
 #include "matrices.hpp"
 #include <Eigen/LU>
 #include <Eigen/SVD>
@@ -74,6 +75,24 @@ namespace {
 		expect(m.partialPivLu().solve(c));
 		ASSERT_TRUE(solver.solveAgain(c, x, true));
 		expect(m.transpose().partialPivLu().solve(c));
+	}
+
+	TEST(GeneralMatrix, ThatNeedsPivotsIsNoticedByItsResidual)
+	{
+		Eigen::MatrixXd m = random(60, 1, 6);
+		m.diagonal().setConstant(1e-5);
+		const Eigen::VectorXd b = Random(5).vector(60);
+		Eigen::VectorXd       x;
+		SupernodalFactor      withoutPivots;
+		const auto            residual = [&](const Eigen::MatrixXd& of) { return (of * x - b).norm() / (b.norm() + x.norm()); };
+		withoutPivots.analyse(sparse(m), {}, 0, false);
+		ASSERT_TRUE(withoutPivots.factoriseGeneral(sparse(m), 1e-10) && withoutPivots.solveSigned(b, x));
+		ASSERT_GT(residual(m), 1e-12) << "no pivot tells";
+		LinearSolver solver;
+		ASSERT_EQ(solver.solve(sparse(m), b, x), Status::lu);
+		EXPECT_LT(residual(m), 1e-14);
+		ASSERT_TRUE(solver.solveAgain(b, x, true));
+		EXPECT_LT(residual(m.transpose()), 1e-14);
 	}
 
 	TEST(GeneralMatrix, WithSymmetricValuesHasTheSolutionOfTheSymmetricOne)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Factors of symmetric matrices that are not definite.
+// Factors of matrices that are not definite, or not symmetric.
 #include "core/solvers/supernodal_factor.hpp"
 #include "matrices.hpp"
 #include <numeric>
@@ -115,6 +115,60 @@ namespace {
 		EXPECT_EQ(factor.flops(), other.flops()) << "what is set for nodes does not last";
 	}
 
+	/// A pattern that is symmetric, values that are not, and pivots of both signs.
+	Eigen::MatrixXd unsymmetric(int size, double filling, double largest, unsigned seed)
+	{
+		Random          random(seed);
+		Eigen::MatrixXd m = Eigen::MatrixXd::Zero(size, size);
+		for (int c = 0; c < size; ++c) {
+			for (int r = 0; r < c; ++r)
+				if (random.in(0, 1) < filling) m(r, c) = random.in(-largest, largest), m(c, r) = random.in(-largest, largest);
+			m(c, c) = c % 3 == 2 ? -2 : 2;
+		}
+		return m;
+	}
+
+	Csc whole(const Eigen::MatrixXd& full)
+	{
+		return gimpm::sparse<Csc>(full, [&](int r, int c) { return full(r, c) != 0; });
+	}
+
+	/// The last one is large enough for the BLAS.
+	TEST(SignedFactor, SolvesWhatIsNotSymmetric)
+	{
+		for (const auto& [size, filling] : { std::pair(1, 0.), std::pair(2, 1.), std::pair(30, 0.3), std::pair(400, 0.02), std::pair(1100, 1.) }) {
+			Eigen::MatrixXd       m = unsymmetric(size, filling, 5. / (20 + size * filling), size);
+			const Eigen::VectorXd b = Random(5).vector(size);
+			Csc                   K = whole(m);
+			SupernodalFactor      factor;
+			Eigen::VectorXd       x;
+			factor.analyse(K, {}, 0, false);
+			for (const double last : { 2., -3. }) {
+				m(size - 1, size - 1) = K.value.back() = last;
+				ASSERT_TRUE(factor.factoriseGeneral(K, 1e-10));
+				ASSERT_TRUE(factor.solveSigned(b, x));
+				EXPECT_LT((m * x - b).norm(), 1e-13 * (b.norm() + x.norm())) << size << ", " << last;
+				ASSERT_TRUE(factor.solveSigned(b, x, true));
+				EXPECT_LT((m.transpose() * x - b).norm(), 1e-13 * (b.norm() + x.norm())) << size << ", " << last;
+			}
+		}
+	}
+
+	TEST(SignedFactor, OfASymmetricMatrixIsTheSameFromAllOfItsEntries)
+	{
+		const Eigen::MatrixXd m = ofTwoFields(60, 1e-3, 4);
+		const Csc             K = whole(m);
+		SupernodalFactor      factor;
+		Eigen::VectorXd       x, y, z;
+		factor.analyse(K, inTheirOrder(K), 0, false);
+		const Eigen::VectorXd b = Random(5).vector(m.rows());
+		ASSERT_TRUE(factor.factoriseSigned(K, 1e-12) && factor.solveSigned(b, x));
+		ASSERT_TRUE(factor.factoriseGeneral(K, 1e-12) && factor.solveSigned(b, y));
+		ASSERT_TRUE(factor.factoriseSigned(K, 1e-12) && factor.solveSigned(b, z));
+		EXPECT_LT((x - y).norm(), 1e-14 * x.norm());
+		EXPECT_TRUE(x == z) << "nothing is left of the other kind";
+	}
+
 	TEST(SignedFactor, RefusesWhatNeedsPivoting)
 	{
 		Eigen::MatrixXd m(2, 2);
@@ -123,6 +177,7 @@ namespace {
 		Csc              K = upper(m);
 		factor.analyse(K, {}, 0, false);
 		EXPECT_FALSE(factor.factoriseSigned(K, 1e-12));
+		EXPECT_FALSE(factor.factoriseGeneral(whole(m), 1e-10));
 		m << 1, 2, 2, 4; // singular
 		K = upper(m);
 		EXPECT_FALSE(factor.factoriseSigned(K, 1e-12));
