@@ -179,8 +179,8 @@ template <int Dim> void Contact<Dim>::addPlaces(int number, int layer)
 		domains.push_back({ near->centre(), near->half(), near->young, closest.normal });
 		if (closest.gap < 0) inside.push_back({ near->centre(), near->half(), closest.normal, closest.gap });
 	}
-	// In statics middles that have got into the body are moved out slowly, also where soil does not slide: they get in on
-	// their way through the grid, be it with the body.
+	// In statics middles that have got into the body are moved out slowly, also where soil does not slide, as recall() does
+	// where it does: they get in on their way through the grid, be it with the body.
 	const auto moveOut = [&](Place& place) {
 		const auto* record = recordOf(place);
 		if (inside.empty() || std::isfinite(system_.energy) || body.free >= 0 || !record || !record->touches || record->gap >= 0) return;
@@ -188,7 +188,8 @@ template <int Dim> void Contact<Dim>::addPlaces(int number, int layer)
 		double         lowest = place.gap;
 		for (const auto& point : inside)
 			if (point.isAt(place.soil, normal, grid_.cellSize)) lowest = std::min(lowest, point.gap);
-		place.gap += std::min(0.1, place.carried.norm() / grid_.cellSize) * (lowest - place.gap);
+		const auto share = [&](double way) { return std::min(0.1, way / grid_.cellSize); };
+		place.gap += std::max(0., share(place.carried.norm()) - share(record->travel)) * (lowest - place.gap);
 	};
 	const SoilNear<Dim> soil(std::move(domains), grid_.cellSize);
 	const auto [low, high]        = soil.bounds();
