@@ -52,6 +52,19 @@ template <int Dim> void addImages(std::vector<SoilDomain<Dim>>& domains, const G
 	}
 }
 
+/// A point whose middle is in a body.
+template <int Dim> struct Inside {
+	Vec<Dim> centre, half, outward; ///< of its domain; of the body's surface closest to its middle
+	double   gap;                   ///< of the middle, < 0 [m]
+
+	/// Whether it is in front of, or rather behind, a place, as in SoilNear.
+	bool isAt(const Vec<Dim>& place, const Vec<Dim>& normal, double cellSize) const
+	{
+		const Vec<Dim> away = centre - place, beside = away - away.dot(normal) * normal;
+		return outward.dot(normal) > 0.7 && (beside.cwiseAbs().array() <= half.array() + cellSize / 4).all();
+	}
+};
+
 template <int Dim> bool isInPeriod(const Vec<Dim>& place, const Grid<Dim>& grid)
 {
 	for (int a = 0; a < Dim; ++a) {
@@ -159,17 +172,35 @@ template <int Dim> void Contact<Dim>::addPlaces(int number, int layer)
 	const auto& body         = system_.bodies[number];
 	const auto [first, last] = nearTo(number);
 	std::vector<SoilDomain<Dim>> domains;
+	std::vector<Inside<Dim>>     inside;
 	for (auto near = first; near != last; ++near) {
 		if (near->layer != layer) continue;
-		domains.push_back({ near->centre(), near->half(), near->young, body.proximity(body.begin, near->centre(), near->side).normal });
+		const Proximity<Dim> closest = body.proximity(body.begin, near->centre(), near->side);
+		domains.push_back({ near->centre(), near->half(), near->young, closest.normal });
+		if (closest.gap < 0) inside.push_back({ near->centre(), near->half(), closest.normal, closest.gap });
 	}
+	// In statics middles that have got into the body are moved out slowly, also where soil does not slide, as recall() does
+	// where it does: they get in on their way through the grid, be it with the body.
+	const auto moveOut = [&](Place& place) {
+		const auto* record = recordOf(place);
+		if (inside.empty() || std::isfinite(system_.energy) || body.free >= 0 || !record || !record->touches || record->gap >= 0) return;
+		const Vec<Dim> normal = body.begin.rotation * body.end.rotation.transpose() * place.normal;
+		double         lowest = place.gap;
+		for (const auto& point : inside)
+			if (point.isAt(place.soil, normal, grid_.cellSize)) lowest = std::min(lowest, point.gap);
+		const auto share = [&](double way) { return std::min(0.1, way / grid_.cellSize); };
+		place.gap += std::max(0., share(place.carried.norm()) - share(record->travel)) * (lowest - place.gap);
+	};
 	const SoilNear<Dim> soil(std::move(domains), grid_.cellSize);
 	const auto [low, high]        = soil.bounds();
 	const Vec<Dim>         margin = Vec<Dim>::Constant(grid_.cellSize + searchReach(body, grid_));
 	const std::vector<int> around = bodiesAround(number);
 	const bool             isFine = isFineOn(system_, number, grid_.cellSize);
-	for (const auto& point : (isFine ? finePointsAt<Dim> : surfacePointsAt<Dim>)(body.shape, body.begin, grid_.cellSize, low - margin, high + margin))
+	for (const auto& point : (isFine ? finePointsAt<Dim> : surfacePointsAt<Dim>)(body.shape, body.begin, grid_.cellSize, low - margin, high + margin)) {
+		const std::size_t count = places_.size();
 		addPlace(number, layer, point, soil, around);
+		if (places_.size() > count) moveOut(places_.back());
+	}
 }
 
 template <int Dim> const ContactRecord<Dim>* Contact<Dim>::recordOf(const Place& place) const
