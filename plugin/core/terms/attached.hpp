@@ -8,7 +8,7 @@ namespace gimpm {
 
 /// Calls f(a, b, code of the offset from a to b, product of the weights) for each node a of one place and each node b
 /// of another, no farther than a cell away.
-template <int Dim, class F> void forNodePairs(const Attachment<Dim>& from, const Attachment<Dim>& to, F&& f)
+template <int Dim, template <int> class Places, class F> void forNodePairs(const Places<Dim>& from, const Places<Dim>& to, F&& f)
 {
 	for (int m = 0; m < from.nodes; ++m)
 		for (int n = 0; n < to.nodes; ++n) {
@@ -18,21 +18,22 @@ template <int Dim, class F> void forNodePairs(const Attachment<Dim>& from, const
 }
 
 /// Marks what addAttachedStiffness writes.
-template <int Dim> void markAttached(const Attachment<Dim>& from, const Attachment<Dim>& to, NodeMatrix<Dim>& K)
+template <int Dim, template <int> class Places> void markAttached(const Places<Dim>& from, const Places<Dim>& to, NodeMatrix<Dim>& K)
 {
-	forNodePairs(from, to, [&](int a, int, int code, double) {
+	forNodePairs<Dim>(from, to, [&](int a, int, int code, double) {
 		if (code >= 0) K.markUsed(a, code);
 	});
 }
 
 /// `slope`: derivative, by where the second place is, of the force on the body at the first one.
-template <int Dim> void addAttachedStiffness(const Attachment<Dim>& from, const Attachment<Dim>& to, const Mat<Dim>& slope, NodeMatrix<Dim>& K)
+template <int Dim, template <int> class Places>
+void addAttachedStiffness(const Places<Dim>& from, const Places<Dim>& to, const Mat<Dim>& slope, NodeMatrix<Dim>& K)
 {
-	forNodePairs(from, to, [&](int a, int b, int code, double weight) { K.add(a, b, code, -weight * slope); });
+	forNodePairs<Dim>(from, to, [&](int a, int b, int code, double weight) { K.add(a, b, code, -weight * slope); });
 }
 
 /// A force on the body, which therefore does not resist.
-template <int Dim> void addAttachedForce(const Attachment<Dim>& at, const Vec<Dim>& force, const TermSum<Dim>& sum)
+template <int Dim, template <int> class Places> void addAttachedForce(const Places<Dim>& at, const Vec<Dim>& force, const TermSum<Dim>& sum)
 {
 	for (int n = 0; n < at.nodes; ++n) {
 		const Vec<Dim> f = at.weight[n] * force;

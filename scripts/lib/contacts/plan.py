@@ -80,6 +80,11 @@ add('tip-45', 'thin.tip', alike, degrees=45.)
 add('tip-20', 'thin.tip', alike, degrees=20.)
 add('edge-upright', 'thin.edge', alike | dict(mean=near(1., .2)), degrees=90., rough=1.)
 add('edge-leaning', 'thin.edge', alike, degrees=45., rough=0.)
+# What is not as thin as that, but small still
+add('ball-1', 'thin.ball', alike, diameter=1., wide=6)
+for width in 1.2, 2., 2.5, 3., 4.:
+	add(f'strip-{width:g}', 'thin.strip', alike, width=width, wide=24)
+add('tip-45-1', 'thin.tip', alike | dict(warned=atLeast(1)), degrees=45., deep=1., wide=16)
 
 # 3. Energy over the first: how much more there has been, and what contact has given; in how many scenes either was more than 1e-3
 honest = dict(energy=atMost(1.001), contactWork=atMost(1e-3), ended=atLeast(.995))

@@ -86,19 +86,19 @@ def edge(degrees=90., rough=1., deep=.5, places=5, law='vonMises', stiffness=10.
 	return result | (dict(exact=2. * deep * rough) if degrees == 90 else {})
 
 
-def ball(diameter=.25, deep=.25, places=5, stiffness=10., seconds=120):
-	"""In 3D a Sphere of this diameter, in cells, pushed into elastic soil with domains of half a cell; force over E h^2. Hertz: 4/3 E sqrt(R s^3) / (1 - nu^2), as long as s is much less than R."""
-	young, nu, n = 1e6, .3, 4
+def ball(diameter=.25, deep=.25, places=5, stiffness=10., wide=4, seconds=120):
+	"""In 3D a Sphere of this diameter, in cells, pushed into elastic soil that is *wide* wide, with domains of half a cell; force over E h^2. Hertz: 4/3 E sqrt(R s^3) / (1 - nu^2), as long as s is much less than R."""
+	young, nu = 1e6, .3
 
 	def soil():
 		O.reset()
 		O.materials.append(MpmElasticMat(young=young, poisson=nu, density=1, label='soil'))
 		steel()
 		grid = MpmGrid(cellSize=h, dim=3)
-		O.bodies.append(mpm.fill(pack.inAlignedBox((0, 0, 0), (n * h, n * h, 3 * h)), grid, 2, 'soil'))
+		O.bodies.append(mpm.fill(pack.inAlignedBox((0, 0, 0), (wide * h, wide * h, 3 * h)), grid, 2, 'soil'))
 		return grid, [MpmBoundary(max=(inf, inf, 0), fix='xyz')]
 
 	R = diameter / 2 * h
-	body = lambda x: One(utils.sphere((x - 2.5 * h, 2 * h + (x - 4 * h) * .7, 3 * h + R), R, material='rigid', fixed=True))
+	body = lambda x: One(utils.sphere((x - 4.5 * h + wide / 2 * h, wide / 2 * h + (x - 4 * h) * .7, 3 * h + R), R, material='rigid', fixed=True))
 	result = _places(body, young * h * h, deep * h, _spread(places), soil, dict(friction=0, stiffness=stiffness), seconds, push=(0, 0, -deep * h / 10))
 	return result | dict(hertz=4 / 3 / (1 - nu**2) * sqrt(R * (deep * h)**3) / h**2)

@@ -56,7 +56,7 @@ def test_the_limit_of_the_vane():
 def test_cases_that_are_right(yade):
 	"""By the command; what is not right is told by how it ends."""
 	out = yade.folder / 'out'
-	right = ['plate', 'clumps', 'embracing', 'turn-plane-4-3', 'turn-normal', 'cylinder', 'ring-shear', 'energy-sticking']
+	right = ['edge-leaning', 'strip-3', 'plate', 'clumps', 'embracing', 'turn-plane-4-3', 'turn-normal', 'cylinder', 'ring-shear', 'energy-sticking']
 	command = [root / 'scripts/contacts', *right, 'energy-random', '--short', '--seeds', '2:5', '--out', out]
 	run = subprocess.run(command, env=os.environ | yade.ownSettings() | {'YADE': Yade(yade.folder).command}, capture_output=True, text=True, timeout=300)
 	found = json.loads((out / 'contacts.json').read_text())

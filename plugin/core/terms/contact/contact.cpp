@@ -92,6 +92,7 @@ Contact<Dim>::Contact(ContactSystem<Dim>& system, const Beginning<Dim>& step)
 	for (int body = 0; body < int(system.bodies.size()); ++body) {
 		look(body);
 		addPlaces(body);
+		widen(body);
 	}
 	if (std::isfinite(system_.energy)) findLost();
 	spreadPressure();
@@ -240,6 +241,7 @@ template <int Dim> void Contact<Dim>::addPlace(int number, int layer, const Surf
 		attached = attach(place.soil, basis_, grid_, layer); // at an end of the soil
 	if (!attached) return;                                       // behind a wall
 	place.attached       = *attached;
+	place.pressed        = Footprint<Dim>(*attached);
 	place.away           = body.proximity(body.begin, place.soil, 1).gap; // found as at the end: no gap by round-off
 	place.carried        = body.carried(place.soil);
 	place.area           = place.presence * point.area * (isRing_ ? 2 * M_PI * onBody[0] : 1);
@@ -267,7 +269,7 @@ template <int Dim> void Contact<Dim>::recall(Place& place, const ContactRecord<D
 template <int Dim> Approach<Dim> Contact<Dim>::approach(const Place& place, const Eigen::VectorXd& d) const
 {
 	const auto&    body = system_.bodies[place.body];
-	const Vec<Dim> u    = place.attached.displacement(d);
+	const Vec<Dim> u    = place.pressed.displacement(d);
 	const Moved    now  = moved(place);
 	Approach<Dim>  a { {}, u - now.carried, Mat<Dim>::Identity(), now.friction };
 	if (body.shape.kind == RigidKind::ball && !std::isfinite(system_.energy)) {
@@ -292,14 +294,14 @@ template <int Dim> template <class F> void Contact<Dim>::forTouching(const Eigen
 template <int Dim> void Contact<Dim>::mark(NodeMatrix<Dim>& K) const
 {
 	for (const Place& place : places_)
-		markAttached(place.attached, place.attached, K);
+		markAttached<Dim>(place.pressed, place.pressed, K);
 }
 
 template <int Dim> std::optional<PointFailure> Contact<Dim>::add(const Eigen::VectorXd& d, const TermSum<Dim>& sum) const
 {
 	forTouching(d, [&](const Place& place, const Approach<Dim>&, const Touch<Dim>& touched) {
-		addAttachedForce<Dim>(place.attached, system_.weight * touched.force(), sum);
-		if (sum.K) addAttachedStiffness<Dim>(place.attached, place.attached, system_.weight * touched.slope, *sum.K);
+		addAttachedForce<Dim>(place.pressed, system_.weight * touched.force(), sum);
+		if (sum.K) addAttachedStiffness<Dim>(place.pressed, place.pressed, system_.weight * touched.slope, *sum.K);
 	});
 	return std::nullopt;
 }
@@ -307,11 +309,11 @@ template <int Dim> std::optional<PointFailure> Contact<Dim>::add(const Eigen::Ve
 template <int Dim> void Contact<Dim>::addBefore(Eigen::VectorXd& force) const
 {
 	const auto add
-	        = [&](const Attachment<Dim>& at, const ContactRecord<Dim>& r) { addAttachedForce<Dim>(at, r.pressure * r.normal + r.friction, { force }); };
+	        = [&](const Footprint<Dim>& at, const ContactRecord<Dim>& r) { addAttachedForce<Dim>(at, r.pressure * r.normal + r.friction, { force }); };
 	for (const Place& place : places_)
-		if (const auto* r = recordOf(place); r && r->touches) add(place.attached, *r);
+		if (const auto* r = recordOf(place); r && r->touches) add(place.pressed, *r);
 	for (const auto& [attached, record] : lost_)
-		add(attached, system_.records[record]);
+		add(Footprint<Dim>(attached), system_.records[record]);
 }
 
 /// Places that touched and have no soil in front of them any more, as where it leaps off: in a step in time their
@@ -447,7 +449,7 @@ template <int Dim> void Contact<Dim>::commit(const Eigen::VectorXd& d)
 		const Approach<Dim> near  = approach(place, d);
 		const Vec<Dim>      along = near.slip - near.slip.dot(near.at.normal) * near.at.normal;
 		records.push_back({ place.body, place.number, near.at.gap, false, false, 0, place.presence, along.norm(), Vec<Dim>::Zero(), near.at.normal,
-		                    place.soil + place.attached.displacement(d) });
+		                    place.soil + place.pressed.displacement(d) });
 	}
 	system_.loads.assign(system_.owners.size(), {});
 	system_.work  = 0;
@@ -455,7 +457,7 @@ template <int Dim> void Contact<Dim>::commit(const Eigen::VectorXd& d)
 	forTouching(d, [&](const Place& place, const Approach<Dim>&, const Touch<Dim>& touched) {
 		auto& r   = records[&place - places_.data()];
 		r.touches = true, r.slips = touched.slips, r.pressure = touched.pressure, r.friction = touched.friction;
-		system_.work += touched.force().dot(place.attached.displacement(d));
+		system_.work += touched.force().dot(place.pressed.displacement(d));
 		addLoads(place, r.place, touched);
 	});
 	if (std::isfinite(system_.energy) && !isRing_) turnPlaces(d);

@@ -7,6 +7,7 @@
 #include "core/terms/contact/contact_search.hpp"
 #include "core/terms/contact/contact_sight.hpp"
 #include "core/terms/contact/contact_surface.hpp"
+#include "core/terms/contact/footprint.hpp"
 #include "core/terms/coupled_term.hpp"
 
 namespace gimpm {
@@ -121,6 +122,7 @@ private:
 		Vec<Dim>        friction = Vec<Dim>::Zero(); ///< at the start, turned with the body
 		ContactLaw<Dim> law;
 		Attachment<Dim> attached;
+		Footprint<Dim>  pressed; ///< nodes by which it sees the soil move, and on which it presses
 	};
 
 	void                                takeSides();
@@ -143,6 +145,7 @@ private:
 	void                                addLoads(const Place&, const Vec<Dim>& place, const Touch<Dim>&);
 	Mat<Dim>                            resistanceOf(const Place&, const Touch<Dim>&) const;
 	void                                findLost();
+	void                                widen(int body);
 	void                                spreadPressure();
 	void                                turnPlaces(const Eigen::VectorXd& d);
 	Vec<Dim>                            placeOfForce(const Place&, const Vec<Dim>& soil, const Vec<Dim>& normal) const;

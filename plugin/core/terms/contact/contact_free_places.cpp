@@ -50,7 +50,7 @@ template <int Dim> PlaceOfFree<Dim> Contact<Dim>::seen(const Place& place, const
 {
 	const Approach<Dim> near    = approach(place, d);
 	const auto          touched = touch(place.law, near, tolerance_);
-	const Vec<Dim>      arm     = placeOfForce(place, place.soil + place.attached.displacement(d), near.at.normal) - owner;
+	const Vec<Dim>      arm     = placeOfForce(place, place.soil + place.pressed.displacement(d), near.at.normal) - owner;
 	if (!touched) return { arm, Vec<Dim>::Zero(), Mat<Dim>::Zero(), near.at.gap, near.at.normal };
 	return { arm, touched->force(), touched->slope, near.at.gap, near.at.normal };
 }
@@ -91,7 +91,7 @@ template <int Dim> void Contact<Dim>::markFree(Couplings& K) const
 	for (int number = 0; number < int(system_.free.size()); ++number) {
 		std::vector<int> nodes;
 		for (const Place* place : placesOfFree(number))
-			nodes.insert(nodes.end(), place->attached.node.begin(), place->attached.node.end());
+			nodes.insert(nodes.end(), place->pressed.node.begin(), place->pressed.node.begin() + place->pressed.nodes);
 		std::sort(nodes.begin(), nodes.end());
 		nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
 		for (const int a : nodes)
@@ -115,10 +115,10 @@ template <int Dim> void Contact<Dim>::addFree(const Eigen::VectorXd& d, Coupling
 			all.push_back(seen(*place, system_.owners[free.owner], d));
 			if (all.back().slope.isZero(0)) continue;
 			const Lever<Dim> lever(all.back());
-			for (int n = 0; n < place->attached.nodes; ++n) {
-				AtNode<Dim>& node = nodes[place->attached.node[n]];
-				node.forces += place->attached.weight[n] * lever.forceByBody(all.back().slope);
-				node.moves += place->attached.weight[n] * lever.bodyByPlace(all.back().slope);
+			for (int n = 0; n < place->pressed.nodes; ++n) {
+				AtNode<Dim>& node = nodes[place->pressed.node[n]];
+				node.forces += place->pressed.weight[n] * lever.forceByBody(all.back().slope);
+				node.moves += place->pressed.weight[n] * lever.bodyByPlace(all.back().slope);
 			}
 		}
 		const typename FreeBody<Dim>::Matrix yields = incrementsOf<Dim>(free.motion) * compliance(free, sizeOfFree(number), all);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "engine/conditions/contact/small_features.hpp"
 #include "core/base/sentence.hpp"
+#include "core/terms/contact/contact_small.hpp"
 #include <algorithm>
 
 namespace yade {
@@ -37,43 +38,17 @@ namespace {
 	{
 		return gimpm::sentence(
 		        body.name, " is ", body.thickness(), " m thick, less than a cell (", cellSize,
-		        " m). What it meets depends on where in a cell it is, by a fifth, and a ball of less than half a cell may meet nothing or be pulled. "
+		        " m). What it meets depends on where in a cell it is, by a sixth, and a ball of less than half a cell may meet nothing or be pulled. "
 		        "Cells of at most ",
 		        body.thickness() / 2, " m resolve it.");
 	}
 
-	// How far from the edge between faces that touch places of these do, in the axes of the block; infinite if they
-	// do not meet in one.
-	template <int Dim> Real reachFromEdge(const gimpm::RigidBody<Dim>& block, const Touched<Dim>& touched)
+	template <int Dim> vector<gimpm::PlaceOnFace<Dim>> placesOf(const Touched<Dim>& touched)
 	{
-		constexpr Real     none = std::numeric_limits<Real>::infinity();
-		gimpm::Index<Dim>  side = gimpm::Index<Dim>::Zero();
-		std::array<int, 3> faces {};
-		for (const auto* r : touched) {
-			const gimpm::Vec<Dim> normal = block.end.rotation.transpose() * r->normal;
-			int                   across;
-			const Real            size = normal.cwiseAbs().maxCoeff(&across);
-			const int             now  = normal[across] < 0 ? -1 : 1;
-			if (size < 0.999 || side[across] == -now) return none;
-			side[across] = now, ++faces[across];
-		}
-		if (std::count(faces.begin(), faces.end(), 0) > 1) return none;
-		Real most = 0;
-		for (const auto* r : touched) {
-			const gimpm::Vec<Dim> normal = block.end.rotation.transpose() * r->normal, own = block.end.inBody(r->place);
-			for (int a = 0; a < Dim; ++a)
-				if (side[a] != 0 && std::abs(normal[a]) < 0.5) most = std::max(most, block.shape.halfSize[a] - side[a] * own[a]);
-		}
-		return most;
-	}
-
-	// The same of the border of a sheet that soil touches on one side, where that is the only one.
-	template <int Dim> Real reachFromBorder(const gimpm::RigidBody<Dim>& sheet, const Touched<Dim>& touched)
-	{
-		Real most = 0;
+		vector<gimpm::PlaceOnFace<Dim>> found;
 		for (const auto* r : touched)
-			most = std::max(most, -sheet.proximity(sheet.end, r->place, 1).beside);
-		return most;
+			found.push_back({ r->place, r->normal });
+		return found;
 	}
 
 	template <int Dim> string ofEdge(const gimpm::RigidBody<Dim>& body, Real reach, Real cellSize)
@@ -81,7 +56,7 @@ namespace {
 		if (!(reach > 0 && reach < 3 * cellSize)) return "";
 		return gimpm::sentence(
 		        body.name, " presses by an edge or a tip of which ", reach, " m are in the soil, less than three cells (of ", cellSize,
-		        " m). What it meets there depends on where in a cell it is, by ", reach < cellSize ? "a third or more" : "a tenth",
+		        " m). What it meets there depends on where in a cell it is, by ", reach < cellSize ? "a fifth or more" : "a tenth",
 		        ". Cells of at most ", reach / 5, " m, or five times that depth, make it a twentieth.");
 	}
 
@@ -91,7 +66,7 @@ namespace {
 		if (!(reach > 0 && reach < 3 * cellSize)) return "";
 		return gimpm::sentence(
 		        body.name, " presses by a border of which ", reach, " m are in the soil, less than three cells (of ", cellSize,
-		        " m). What it meets there depends on where in a cell it is, by a fifth to a third, and smaller cells do not change that, as soil on both of "
+		        " m). What it meets there depends on where in a cell it is, by up to a sixth, and smaller cells do not change that, as soil on both of "
 		        "its sides moves as one. A Box, or a closed mesh of Facets, that has its thickness can be resolved.");
 	}
 }
@@ -110,8 +85,9 @@ template <int Dim> string warningOfSmallFeatures(const gimpm::ContactSystem<Dim>
 		if (isThin && body.shape.kind == RigidKind::ball) text = ofSmallBall(body, cellSize);
 		else if (isThin)
 			text = ofThinness(body, touched, cellSize);
-		if (body.shape.kind == RigidKind::block && text.empty()) text = ofEdge(body, reachFromEdge(body, touched), cellSize);
-		if (isSheet(body) && !isMesh && text.empty()) text = ofBorder(body, reachFromBorder(body, touched), cellSize);
+		if (body.shape.kind == RigidKind::block && text.empty())
+			text = ofEdge(body, gimpm::reachFromEdge(body, body.end, placesOf<Dim>(touched)), cellSize);
+		if (isSheet(body) && !isMesh && text.empty()) text = ofBorder(body, gimpm::reachFromBorder(body, body.end, placesOf<Dim>(touched)), cellSize);
 		if (!text.empty()) return text;
 	}
 	return "";

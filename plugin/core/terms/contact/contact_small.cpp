@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Features of bodies that are small beside the cells press on the soil by wider functions.
+#include "core/terms/contact/contact_small.hpp"
+#include "core/terms/contact/contact.hpp"
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace gimpm {
+namespace {
+
+/// Widths of faces and diameters of balls from which on the functions of the cells will do [cells].
+constexpr double wideFace = 4, wideBall = 2;
+
+/// Of a feature that goes so far into the soil from its edge [cells]: less and less from two cells to three.
+double shareOf(double reach) { return std::clamp(3 - reach, 0., 1.); }
+
+/// Whether the cell of a place, so many cells from it along some axes, has soil in it.
+template <int Dim> bool hasSoil(const Attachment<Dim>& place, const Index<Dim>& away, const CloudBasis<Dim>& basis, const Grid<Dim>& grid, int layer)
+{
+	const Vec<Dim> middle = (place.cell + away).template cast<double>() + Vec<Dim>::Constant(0.5);
+	return attach(Vec<Dim>(grid.origin + grid.size(place.level) * middle), basis, grid, layer).has_value();
+}
+
+/// Whether soil goes on beside a place along an axis of the grid, for two cells: in its row of cells or in the one
+/// beyond that, as seen along the normal.
+template <int Dim>
+bool goesOn(const Attachment<Dim>& place, const Vec<Dim>& normal, int axis, int side, const CloudBasis<Dim>& basis, const Grid<Dim>& grid, int layer)
+{
+	Index<Dim> beside = Index<Dim>::Zero(), deeper = beside;
+	int        across;
+	normal.cwiseAbs().maxCoeff(&across);
+	beside[axis] = side, deeper[across] = normal[across] < 0 ? -1 : 1;
+	const auto isSoil = [&](const Index<Dim>& from) {
+		return hasSoil<Dim>(place, from + beside, basis, grid, layer) && hasSoil<Dim>(place, from + 2 * beside, basis, grid, layer);
+	};
+	return isSoil(Index<Dim>::Zero()) || (across != axis && isSoil(deeper));
+}
+
+/// The face of a block across its own axis is small along another one if it is not much wider than a cell there. What is
+/// narrower than that acts over a cell anyway.
+bool isSmall(double width, double cellSize) { return width > cellSize * (1 + 1e-9) && width < wideFace * cellSize * (1 + 1e-9); }
+
+} // namespace
+
+template <int Dim> double reachFromEdge(const RigidBody<Dim>& block, const Pose<Dim>& pose, const std::vector<PlaceOnFace<Dim>>& places)
+{
+	constexpr double   none = std::numeric_limits<double>::infinity();
+	Index<Dim>         side = Index<Dim>::Zero();
+	std::array<int, 3> faces {};
+	for (const auto& [place, direction] : places) {
+		const Vec<Dim> normal = pose.rotation.transpose() * direction;
+		int            across;
+		const double   size = normal.cwiseAbs().maxCoeff(&across);
+		const int      now  = normal[across] < 0 ? -1 : 1;
+		if (size < 0.999 || side[across] == -now) return none;
+		side[across] = now, ++faces[across];
+	}
+	if (std::count(faces.begin(), faces.end(), 0) > 1) return none;
+	double most = 0;
+	for (const auto& [place, direction] : places) {
+		const Vec<Dim> normal = pose.rotation.transpose() * direction, own = pose.inBody(place);
+		for (int a = 0; a < Dim; ++a)
+			if (side[a] != 0 && std::abs(normal[a]) < 0.5) most = std::max(most, block.shape.halfSize[a] - side[a] * own[a]);
+	}
+	return most;
+}
+
+template <int Dim> double reachFromBorder(const RigidBody<Dim>& sheet, const Pose<Dim>& pose, const std::vector<PlaceOnFace<Dim>>& places)
+{
+	double most = 0;
+	for (const auto& at : places)
+		most = std::max(most, -sheet.proximity(pose, at.place, 1).beside);
+	return most;
+}
+
+namespace {
+
+/// Of a face that by wider functions presses on as wide a piece of the soil; not narrower than a cell, as what is depends
+/// on its place by these, too.
+double narrower(double width, double cellSize) { return std::max(cellSize, std::sqrt(width * width - cellSize * cellSize)); }
+
+/// By how much a body presses by wider functions where its feature is small: a ball, the edge of a block, the border of
+/// a sheet.
+template <int Dim> double shareOfSmall(const RigidBody<Dim>& body, const std::vector<PlaceOnFace<Dim>>& places, double cellSize)
+{
+	if (body.shape.kind == RigidKind::ball) return body.thickness() < wideBall * cellSize * (1 - 1e-9);
+	if (body.shape.kind == RigidKind::block) return shareOf(reachFromEdge(body, body.begin, places) / cellSize);
+	return body.shape.kind == RigidKind::sheet ? shareOf(reachFromBorder(body, body.begin, places) / cellSize) : 0;
+}
+
+/// Along the axes of the grid, of a place on a block: one along those to which a small side of its face is close.
+template <int Dim> Vec<Dim> sharesOnBlock(const RigidBody<Dim>& block, const Vec<Dim>& normal, double cellSize)
+{
+	Vec<Dim> shares = Vec<Dim>::Zero();
+	for (int t = 0; t < Dim; ++t) {
+		const Vec<Dim> side = block.begin.rotation.col(t);
+		if (std::abs(normal.dot(side)) > 0.5 || !isSmall(2 * block.shape.halfSize[t], cellSize)) continue;
+		for (int a = 0; a < Dim; ++a)
+			if (std::abs(side[a]) > 0.4) shares[a] = 1;
+	}
+	return shares;
+}
+
+template <int Dim> int faceOf(const RigidBody<Dim>& block, const Vec<Dim>& normal)
+{
+	const Vec<Dim> own = block.begin.rotation.transpose() * normal;
+	int            across;
+	own.cwiseAbs().maxCoeff(&across);
+	return 2 * across + (own[across] > 0);
+}
+
+/// From a place on a block to where it acts, as if its face were narrower. `area`: of the face where soil is before it;
+/// of an edge that begins to enter soil it is little.
+template <int Dim> Vec<Dim> inwards(const RigidBody<Dim>& block, const PlaceOnFace<Dim>& at, const Vec<Dim>& shares, double area, double cellSize)
+{
+	const Mat<Dim>& turned = block.begin.rotation;
+	const Vec<Dim>  own = block.begin.inBody(at.place), normal = turned.transpose() * at.normal;
+	Vec<Dim>        way  = Vec<Dim>::Zero();
+	double          face = 1;
+	for (int t = 0; t < Dim; ++t)
+		if (std::abs(normal[t]) < 0.5) face *= 2 * block.shape.halfSize[t];
+	const double whole = std::clamp(4 * area / face - 3, 0., 1.);
+	for (int t = 0; t < Dim; ++t) {
+		const double width  = 2 * block.shape.halfSize[t];
+		const bool   isWide = ((turned.col(t).cwiseAbs().array() > 0.4) && (shares.array() == 0)).any();
+		if (std::abs(normal[t]) < 0.5 && isSmall(width, cellSize) && !isWide) way[t] = own[t] * whole * (narrower(width, cellSize) / width - 1);
+	}
+	return turned * way;
+}
+
+} // namespace
+
+/// Soil that ends beside a feature, as that under a plate does, is pressed evenly only by the functions of its cells:
+/// there all of the body keeps these along that axis. Soil that goes on deeper down does not end, and behind the face
+/// there need not be any. Around an axis of symmetry, where soil ends, and beside lines that part it nothing is spread,
+/// nor on a body that is one with others, as a facet of a mesh is.
+template <int Dim> void Contact<Dim>::widen(int number)
+{
+	const auto& body     = system_.bodies[number];
+	const auto  around   = bodiesAround(number);
+	const bool  isJoined = std::any_of(around.begin(), around.end(), [&](int b) { return system_.bodies[b].shape.kind != RigidKind::plane; });
+	if (isRing_ || grid_.isPeriodic() || grid_.parting || body.nodes > 0 || isJoined) return;
+	const double                  h    = grid_.cellSize;
+	const Mat<Dim>                back = body.free < 0 ? Mat<Dim>(body.begin.rotation * body.end.rotation.transpose()) : Mat<Dim>::Identity();
+	std::vector<Place*>           own;
+	std::vector<PlaceOnFace<Dim>> at;
+	for (auto place = places_.rbegin(); place != places_.rend() && place->body == number; ++place)
+		own.push_back(&*place), at.push_back({ place->soil, back * place->normal });
+	const double                share = shareOfSmall(body, at, h);
+	std::vector<Vec<Dim>>       shares;
+	std::array<bool, Dim>       isEnd {};
+	std::array<double, 2 * Dim> covered {}; // of the faces of a block
+	for (std::size_t i = 0; i < own.size(); ++i) {
+		covered[faceOf(body, at[i].normal)] += own[i]->area;
+		shares.push_back(body.shape.kind == RigidKind::block ? sharesOnBlock(body, at[i].normal, h) : Vec<Dim>::Zero());
+		for (int a = 0; a < Dim; ++a) {
+			if (std::abs(at[i].normal[a]) < 0.9) shares[i][a] = std::max(shares[i][a], share);
+			const int side = shares[i][a] > 0 ? sideInCell(own[i]->attached, a) : 0, layer = int(own[i]->number >> placeBits);
+			if (side * at[i].normal[a] > -0.3 && side != 0 && !goesOn(own[i]->attached, at[i].normal, a, side, basis_, grid_, layer))
+				isEnd[a] = true;
+		}
+	}
+	for (std::size_t i = 0; i < own.size(); ++i) {
+		Place&    place = *own[i];
+		const int layer = int(place.number >> placeBits);
+		for (int a = 0; a < Dim; ++a)
+			if (isEnd[a]) shares[i][a] = 0;
+		if (shares[i].isZero(0)) continue;
+		if (body.shape.kind == RigidKind::block) {
+			const Vec<Dim> soil     = at[i].place + inwards(body, at[i], shares[i], covered[faceOf(body, at[i].normal)], h);
+			const auto     attached = attach(soil, basis_, grid_, layer);
+			if (attached && soil != place.soil) {
+				place.soil = soil, place.attached = *attached;
+				place.away = body.proximity(body.begin, soil, 1).gap, place.carried = body.carried(soil);
+			}
+		}
+		place.pressed = Footprint<Dim>(place.attached, shares[i], basis_, grid_, layer);
+	}
+}
+
+template double reachFromEdge(const RigidBody<2>&, const Pose<2>&, const std::vector<PlaceOnFace<2>>&);
+template double reachFromEdge(const RigidBody<3>&, const Pose<3>&, const std::vector<PlaceOnFace<3>>&);
+template double reachFromBorder(const RigidBody<2>&, const Pose<2>&, const std::vector<PlaceOnFace<2>>&);
+template double reachFromBorder(const RigidBody<3>&, const Pose<3>&, const std::vector<PlaceOnFace<3>>&);
+template void   Contact<2>::widen(int);
+template void   Contact<3>::widen(int);
+
+} // namespace gimpm

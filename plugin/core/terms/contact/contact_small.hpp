@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// What of a body that touches soil is small: edges, tips and borders.
+#pragma once
+#include "core/terms/contact/rigid_body.hpp"
+#include <vector>
+
+namespace gimpm {
+
+/// A place where soil is before a body, and the normal of its face, unit.
+template <int Dim> struct PlaceOnFace {
+	Vec<Dim> place, normal;
+};
+
+/// How far from the edge between faces that have soil before them places of these are [m]; infinite if the faces do not
+/// meet in one.
+template <int Dim> double reachFromEdge(const RigidBody<Dim>& block, const Pose<Dim>&, const std::vector<PlaceOnFace<Dim>>&);
+
+/// The same of the border of a sheet.
+template <int Dim> double reachFromBorder(const RigidBody<Dim>& sheet, const Pose<Dim>&, const std::vector<PlaceOnFace<Dim>>&);
+
+} // namespace gimpm

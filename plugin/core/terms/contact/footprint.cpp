@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "core/terms/contact/footprint.hpp"
+#include <cmath>
+
+namespace gimpm {
+namespace {
+
+/// Functions along one axis.
+struct AlongAxis {
+	int                   from, count = 2; // lowest node; nodes
+	std::array<double, 3> weight {};
+};
+
+template <int Dim> double inCell(const Attachment<Dim>& place, int axis) { return place.inCell()[axis] / (1 << place.level); }
+
+AlongAxis linear(int cell, double local) { return { cell, 2, { 1 - local, local, 0 } }; }
+
+/// With a share of the splines.
+AlongAxis spread(int cell, double local, double share)
+{
+	const bool   isLow = local < 0.5;
+	const double t     = isLow ? local : local - 1; // from the middle one of the three nodes
+	AlongAxis    f { cell - isLow, 3, { (0.5 - t) * (0.5 - t) / 2, 0.75 - t * t, (0.5 + t) * (0.5 + t) / 2 } };
+	for (double& weight : f.weight)
+		weight *= share;
+	f.weight[isLow] += (1 - share) * (1 - local), f.weight[isLow + 1] += (1 - share) * local;
+	return f;
+}
+
+} // namespace
+
+template <int Dim> int sideInCell(const Attachment<Dim>& place, int axis)
+{
+	const double local = inCell(place, axis);
+	if (local < 0 || local > 1 || std::abs(local - 0.5) < 1e-9) return 0;
+	return local < 0.5 ? -1 : 1;
+}
+
+template <int Dim>
+Footprint<Dim>::Footprint(const Attachment<Dim>& place, const Vec<Dim>& shares, const CloudBasis<Dim>& basis, const Grid<Dim>& grid, int layer)
+        : Footprint(place)
+{
+	std::array<AlongAxis, Dim> along;
+	for (int a = 0; a < Dim; ++a)
+		along[a] = linear(place.cell[a], inCell(place, a));
+	for (int a = 0; a < Dim; ++a) {
+		if (!(shares[a] > 0) || sideInCell(place, a) == 0) continue;
+		const AlongAxis kept = along[a];
+		along[a]             = spread(place.cell[a], inCell(place, a), shares[a]);
+		Footprint  wider;
+		bool       isThere = true;
+		Index<Dim> i       = Index<Dim>::Zero();
+		for (int b = 0; b < Dim && isThere;) {
+			const int n     = wider.nodes++;
+			wider.weight[n] = 1;
+			for (int c = 0; c < Dim; ++c)
+				wider.at[n][c] = along[c].from + i[c], wider.weight[n] *= along[c].weight[i[c]];
+			wider.node[n] = find(basis.nodes, Grid<Dim>::key(grid.first(wider.at[n] * (1 << place.level)), place.level, layer));
+			isThere       = wider.node[n] >= 0;
+			for (b = 0; b < Dim && ++i[b] == along[b].count; ++b)
+				i[b] = 0;
+		}
+		if (isThere) *this = wider;
+		else
+			along[a] = kept;
+	}
+}
+
+template struct Footprint<2>;
+template struct Footprint<3>;
+template int sideInCell(const Attachment<2>&, int);
+template int sideInCell(const Attachment<3>&, int);
+
+} // namespace gimpm
