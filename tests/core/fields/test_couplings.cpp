@@ -98,7 +98,11 @@ namespace {
 				if (dofs.number[i] >= 0) free.push_back(i);
 			}
 			const Eigen::MatrixXd scaled = scale.asDiagonal() * full() * scale.asDiagonal();
-			return scaled(free, free);
+			Eigen::MatrixXd       reduced(free.size(), free.size());
+			for (std::size_t j = 0; j < free.size(); ++j)
+				for (std::size_t i = 0; i < free.size(); ++i)
+					reduced(i, j) = scaled(free[i], free[j]);
+			return reduced;
 		}
 		LinearProblem problem() const { return LinearProblem(springs.K, dofs, &beside); }
 	};
