@@ -98,11 +98,7 @@ namespace {
 				if (dofs.number[i] >= 0) free.push_back(i);
 			}
 			const Eigen::MatrixXd scaled = scale.asDiagonal() * full() * scale.asDiagonal();
-			Eigen::MatrixXd       reduced(free.size(), free.size());
-			for (std::size_t j = 0; j < free.size(); ++j)
-				for (std::size_t i = 0; i < free.size(); ++i)
-					reduced(i, j) = scaled(free[i], free[j]);
-			return reduced;
+			return principalPart(scaled, free);
 		}
 		LinearProblem problem() const { return LinearProblem(springs.K, dofs, &beside); }
 	};
