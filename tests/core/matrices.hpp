@@ -18,6 +18,16 @@ template <class Matrix, class F> Matrix sparse(const Eigen::MatrixXd& full, F&& 
 	return K;
 }
 
+/// The rows and columns that are named, in their order.
+inline Eigen::MatrixXd principalPart(const Eigen::MatrixXd& m, const std::vector<int>& places)
+{
+	Eigen::MatrixXd part(places.size(), places.size());
+	for (std::size_t j = 0; j < places.size(); ++j)
+		for (std::size_t i = 0; i < places.size(); ++i)
+			part(i, j) = m(places[i], places[j]);
+	return part;
+}
+
 /// With a diagonal that is larger than all of its row.
 inline Eigen::MatrixXd withDominantDiagonal(Eigen::MatrixXd m)
 {

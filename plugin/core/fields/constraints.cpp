@@ -9,10 +9,11 @@ template <class F> void forComponents(const DofMap& map, Eigen::VectorXd& all, F
 {
 	for (int field = 1; field < map.fields(); ++field)
 		for (int i = 0; i < map[field].width; ++i) {
-			const auto      places = Eigen::seqN(map.begin(field) + i, map.nodes(), map[field].width);
-			Eigen::VectorXd values = all(places);
+			Eigen::Map<Eigen::VectorXd, 0, Eigen::InnerStride<>> component(
+			        all.data() + map.begin(field) + i, map.nodes(), Eigen::InnerStride<>(map[field].width));
+			Eigen::VectorXd values = component;
 			f(values);
-			all(places) = values;
+			component = values;
 		}
 }
 

@@ -130,12 +130,16 @@ bool Cholesky::solve(const Eigen::VectorXd& b, Eigen::VectorXd& x)
 		return half.factor.solveLower(right, half.x);
 	});
 	if (!isForward) return false;
-	Eigen::VectorXd middle = b(separatorRows());
+	const auto      rows = separatorRows();
+	Eigen::VectorXd middle(rows.size());
+	for (int i = 0; i < rows.size(); ++i)
+		middle[i] = b[rows[i]];
 	for (const Half& half : halves_)
 		middle += half.last * half.x.tail(separator());
 	middle = ofSeparator_.solve(middle);
 	x.resize(b.size());
-	x(separatorRows()) = middle;
+	for (int i = 0; i < rows.size(); ++i)
+		x[rows[i]] = middle[i];
 	return forHalves([&](Half& half, int) {
 		       half.x.tail(separator())    = half.last.transpose() * middle;
 		       const Eigen::VectorXd right = half.x;

@@ -98,7 +98,7 @@ namespace {
 				if (dofs.number[i] >= 0) free.push_back(i);
 			}
 			const Eigen::MatrixXd scaled = scale.asDiagonal() * full() * scale.asDiagonal();
-			return scaled(free, free);
+			return principalPart(scaled, free);
 		}
 		LinearProblem problem() const { return LinearProblem(springs.K, dofs, &beside); }
 	};

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The matrix over the nodes, symmetric or not: products and reduction against a dense one.
 #include "core/solvers/reduce.hpp"
-#include "scenes.hpp"
+#include "matrices.hpp"
 
 namespace gimpm::testNodeMatrix {
 namespace {
@@ -65,7 +65,7 @@ namespace {
 				dofs.number.push_back(isFree ? dofs.count++ : -1);
 				if (isFree) free.push_back(i);
 			}
-			rest = full(free, free);
+			rest = principalPart(full, free);
 			return dofs;
 		}
 	};

@@ -98,7 +98,7 @@ namespace {
 		for (std::size_t end = kept.size(), n = nodes; n > 0; end -= widths[nodes - n--])
 			for (int i = widths[nodes - n]; i > 0; --i)
 				order.push_back(int(end) - i);
-		const Eigen::MatrixXd m = ofTwoFields(nodes, 1e-3, 4, 1)(kept, kept);
+		const Eigen::MatrixXd m = principalPart(ofTwoFields(nodes, 1e-3, 4, 1), kept);
 		const Csc             K = upper(m);
 		SupernodalFactor      factor, other;
 		factor.analyse(K, order, 0, false);
