@@ -180,8 +180,8 @@ template <int Dim> void Contact<Dim>::addPlaces(int number, int layer)
 		domains.push_back({ near->centre(), near->half(), near->young, closest.normal });
 		if (closest.gap < 0) inside.push_back({ near->centre(), near->half(), closest.normal, closest.gap });
 	}
-	// In statics middles that have got into the body are moved out slowly, also where soil does not slide, as recall() does
-	// where it does: they get in on their way through the grid, be it with the body.
+	// In statics middles that have got into the body are moved out slowly, also where soil does not slide, as
+	// recall() does where it does: they get in on their way through the grid, be it with the body.
 	const auto moveOut = [&](Place& place) {
 		const auto* record = recordOf(place);
 		if (inside.empty() || std::isfinite(system_.energy) || body.free >= 0 || !record || !record->touches || record->gap >= 0) return;
