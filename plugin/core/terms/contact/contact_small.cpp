@@ -37,8 +37,8 @@ bool goesOn(const Attachment<Dim>& place, const Vec<Dim>& normal, int axis, int 
 	return isSoil(Index<Dim>::Zero()) || (across != axis && isSoil(deeper));
 }
 
-/// The face of a block across its own axis is small along another one if it is not much wider than a cell there. What is
-/// narrower than that acts over a cell anyway.
+/// The face of a block across its own axis is small along another one if it is not much wider than a cell there. What
+/// is narrower than that acts over a cell anyway.
 bool isSmall(double width, double cellSize) { return width > cellSize * (1 + 1e-9) && width < wideFace * cellSize * (1 + 1e-9); }
 
 } // namespace
@@ -76,8 +76,8 @@ template <int Dim> double reachFromBorder(const RigidBody<Dim>& sheet, const Pos
 
 namespace {
 
-/// By how much a body presses by wider functions where its feature is small: a ball, the edge of a block, the border of
-/// a sheet. A block narrower than a cell acts over one anyway.
+/// By how much a body presses by wider functions where its feature is small: a ball, the edge of a block, the border
+/// of a sheet. A block narrower than a cell acts over one anyway.
 template <int Dim> double shareOfSmall(const RigidBody<Dim>& body, const std::vector<PlaceOnFace<Dim>>& places, double cellSize)
 {
 	if (body.shape.kind == RigidKind::ball) return body.thickness() < wideBall * cellSize * (1 - 1e-9);
@@ -103,8 +103,8 @@ template <int Dim> Vec<Dim> sharesOnBlock(const RigidBody<Dim>& block, const Vec
 
 /// Soil that ends beside a feature, as that under a plate does, is pressed evenly only by the functions of its cells:
 /// there all of the body keeps these along that axis. Soil that goes on deeper down does not end, and behind the face
-/// there need not be any. Around an axis of symmetry, where soil ends, and beside lines that part it nothing is spread,
-/// nor on a body that is one with others, as a facet of a mesh is.
+/// there need not be any. Around an axis of symmetry, where soil ends, and beside lines that part it nothing is
+/// spread, nor on a body that is one with others, as a facet of a mesh is.
 template <int Dim> void Contact<Dim>::widen(int number)
 {
 	const auto& body     = system_.bodies[number];
