@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Which nodes a place of contact presses on: what functions of the cell and wider ones have in common, and where soil ends.
+// Which nodes a place of contact presses on: what functions of the cell and wider ones have in common, and where soil
+// ends.
 #include "core/stepping/step_system.hpp"
 #include "core/terms/contact/footprint.hpp"
 #include "touched_soil.hpp"
@@ -19,8 +20,8 @@ namespace {
 		return sum;
 	}
 
-	/// Splines are one in sum, reproduce the place, and are as wide at a node as between two; a part of them is that
-	/// much of it. The functions of the cell are not.
+	/// Splines are one in sum, reproduce the place, and are as wide at a node as between two; a part of them is
+	/// that much of it. The functions of the cell are not.
 	TYPED_TEST(FootprintOf, SplinesAreAsWideEverywhere)
 	{
 		constexpr int         Dim = TypeParam::value;

@@ -37,8 +37,8 @@ bool goesOn(const Attachment<Dim>& place, const Vec<Dim>& normal, int axis, int 
 	return isSoil(Index<Dim>::Zero()) || (across != axis && isSoil(deeper));
 }
 
-/// The face of a block across its own axis is small along another one if it is not much wider than a cell there. What is
-/// narrower than that acts over a cell anyway.
+/// The face of a block across its own axis is small along another one if it is not much wider than a cell there. What
+/// is narrower than that acts over a cell anyway.
 bool isSmall(double width, double cellSize) { return width > cellSize * (1 + 1e-9) && width < wideFace * cellSize * (1 + 1e-9); }
 
 } // namespace
@@ -76,16 +76,13 @@ template <int Dim> double reachFromBorder(const RigidBody<Dim>& sheet, const Pos
 
 namespace {
 
-/// Of a face that by wider functions presses on as wide a piece of the soil; not narrower than a cell, as what is depends
-/// on its place by these, too.
-double narrower(double width, double cellSize) { return std::max(cellSize, std::sqrt(width * width - cellSize * cellSize)); }
-
-/// By how much a body presses by wider functions where its feature is small: a ball, the edge of a block, the border of
-/// a sheet.
+/// By how much a body presses by wider functions where its feature is small: a ball, the edge of a block, the border
+/// of a sheet. A block narrower than a cell acts over one anyway.
 template <int Dim> double shareOfSmall(const RigidBody<Dim>& body, const std::vector<PlaceOnFace<Dim>>& places, double cellSize)
 {
 	if (body.shape.kind == RigidKind::ball) return body.thickness() < wideBall * cellSize * (1 - 1e-9);
-	if (body.shape.kind == RigidKind::block) return shareOf(reachFromEdge(body, body.begin, places) / cellSize);
+	if (body.shape.kind == RigidKind::block)
+		return body.thickness() > cellSize * (1 + 1e-9) ? shareOf(reachFromEdge(body, body.begin, places) / cellSize) : 0;
 	return body.shape.kind == RigidKind::sheet ? shareOf(reachFromBorder(body, body.begin, places) / cellSize) : 0;
 }
 
@@ -102,39 +99,12 @@ template <int Dim> Vec<Dim> sharesOnBlock(const RigidBody<Dim>& block, const Vec
 	return shares;
 }
 
-template <int Dim> int faceOf(const RigidBody<Dim>& block, const Vec<Dim>& normal)
-{
-	const Vec<Dim> own = block.begin.rotation.transpose() * normal;
-	int            across;
-	own.cwiseAbs().maxCoeff(&across);
-	return 2 * across + (own[across] > 0);
-}
-
-/// From a place on a block to where it acts, as if its face were narrower. `area`: of the face where soil is before it;
-/// of an edge that begins to enter soil it is little.
-template <int Dim> Vec<Dim> inwards(const RigidBody<Dim>& block, const PlaceOnFace<Dim>& at, const Vec<Dim>& shares, double area, double cellSize)
-{
-	const Mat<Dim>& turned = block.begin.rotation;
-	const Vec<Dim>  own = block.begin.inBody(at.place), normal = turned.transpose() * at.normal;
-	Vec<Dim>        way  = Vec<Dim>::Zero();
-	double          face = 1;
-	for (int t = 0; t < Dim; ++t)
-		if (std::abs(normal[t]) < 0.5) face *= 2 * block.shape.halfSize[t];
-	const double whole = std::clamp(4 * area / face - 3, 0., 1.);
-	for (int t = 0; t < Dim; ++t) {
-		const double width  = 2 * block.shape.halfSize[t];
-		const bool   isWide = ((turned.col(t).cwiseAbs().array() > 0.4) && (shares.array() == 0)).any();
-		if (std::abs(normal[t]) < 0.5 && isSmall(width, cellSize) && !isWide) way[t] = own[t] * whole * (narrower(width, cellSize) / width - 1);
-	}
-	return turned * way;
-}
-
 } // namespace
 
 /// Soil that ends beside a feature, as that under a plate does, is pressed evenly only by the functions of its cells:
 /// there all of the body keeps these along that axis. Soil that goes on deeper down does not end, and behind the face
-/// there need not be any. Around an axis of symmetry, where soil ends, and beside lines that part it nothing is spread,
-/// nor on a body that is one with others, as a facet of a mesh is.
+/// there need not be any. Around an axis of symmetry, where soil ends, and beside lines that part it nothing is
+/// spread, nor on a body that is one with others, as a facet of a mesh is.
 template <int Dim> void Contact<Dim>::widen(int number)
 {
 	const auto& body     = system_.bodies[number];
@@ -147,12 +117,10 @@ template <int Dim> void Contact<Dim>::widen(int number)
 	std::vector<PlaceOnFace<Dim>> at;
 	for (auto place = places_.rbegin(); place != places_.rend() && place->body == number; ++place)
 		own.push_back(&*place), at.push_back({ place->soil, back * place->normal });
-	const double                share = shareOfSmall(body, at, h);
-	std::vector<Vec<Dim>>       shares;
-	std::array<bool, Dim>       isEnd {};
-	std::array<double, 2 * Dim> covered {}; // of the faces of a block
+	const double          share = shareOfSmall(body, at, h);
+	std::vector<Vec<Dim>> shares;
+	std::array<bool, Dim> isEnd {};
 	for (std::size_t i = 0; i < own.size(); ++i) {
-		covered[faceOf(body, at[i].normal)] += own[i]->area;
 		shares.push_back(body.shape.kind == RigidKind::block ? sharesOnBlock(body, at[i].normal, h) : Vec<Dim>::Zero());
 		for (int a = 0; a < Dim; ++a) {
 			if (std::abs(at[i].normal[a]) < 0.9) shares[i][a] = std::max(shares[i][a], share);
@@ -162,20 +130,9 @@ template <int Dim> void Contact<Dim>::widen(int number)
 		}
 	}
 	for (std::size_t i = 0; i < own.size(); ++i) {
-		Place&    place = *own[i];
-		const int layer = int(place.number >> placeBits);
 		for (int a = 0; a < Dim; ++a)
 			if (isEnd[a]) shares[i][a] = 0;
-		if (shares[i].isZero(0)) continue;
-		if (body.shape.kind == RigidKind::block) {
-			const Vec<Dim> soil     = at[i].place + inwards(body, at[i], shares[i], covered[faceOf(body, at[i].normal)], h);
-			const auto     attached = attach(soil, basis_, grid_, layer);
-			if (attached && soil != place.soil) {
-				place.soil = soil, place.attached = *attached;
-				place.away = body.proximity(body.begin, soil, 1).gap, place.carried = body.carried(soil);
-			}
-		}
-		place.pressed = Footprint<Dim>(place.attached, shares[i], basis_, grid_, layer);
+		if (!shares[i].isZero(0)) own[i]->pressed = Footprint<Dim>(own[i]->attached, shares[i], basis_, grid_, int(own[i]->number >> placeBits));
 	}
 }
 

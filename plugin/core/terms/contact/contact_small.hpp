@@ -11,8 +11,8 @@ template <int Dim> struct PlaceOnFace {
 	Vec<Dim> place, normal;
 };
 
-/// How far from the edge between faces that have soil before them places of these are [m]; infinite if the faces do not
-/// meet in one.
+/// How far from the edge between faces that have soil before them places of these are [m]; infinite if the faces do
+/// not meet in one.
 template <int Dim> double reachFromEdge(const RigidBody<Dim>& block, const Pose<Dim>&, const std::vector<PlaceOnFace<Dim>>&);
 
 /// The same of the border of a sheet.

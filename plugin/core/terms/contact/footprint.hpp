@@ -5,10 +5,10 @@
 
 namespace gimpm {
 
-/// Functions that are one in sum and reproduce the place, so that forces on it keep resultant and moment: those of the
-/// cell that it is in, or wider ones. The linear functions of a cell press on a single node where the place is at one,
-/// and half a cell to either side of it between two nodes, where soil so gives way less. The quadratic B-splines of the
-/// grid are means of the linear ones over a cell around the place, and spread a force alike wherever it is.
+/// Functions that are one in sum and reproduce the place, so that forces on it keep resultant and moment: those of
+/// the cell that it is in, or wider ones. The linear functions of a cell press on a single node where the place is at
+/// one, and half a cell to either side of it between two nodes, where soil so gives way less. The quadratic B-splines
+/// of the grid are means of the linear ones over a cell around the place, and spread a force alike wherever it is.
 template <int Dim> struct Footprint {
 	static constexpr int most = Dim == 2 ? 9 : 27;
 
@@ -26,7 +26,8 @@ template <int Dim> struct Footprint {
 			node[n] = place.node[n], weight[n] = place.weight[n], at[n] = place.index(n);
 	}
 
-	/// `shares` of the splines along each axis, from 0 to 1, where the soil goes on; along others those of the cell.
+	/// `shares` of the splines along each axis, from 0 to 1, where the soil goes on; along others those of the
+	/// cell.
 	Footprint(const Attachment<Dim>& place, const Vec<Dim>& shares, const CloudBasis<Dim>&, const Grid<Dim>&, int layer);
 
 	const Index<Dim>& index(int n) const { return at[n]; }
@@ -40,8 +41,8 @@ template <int Dim> struct Footprint {
 	}
 };
 
-/// Along an axis, on which side of its cell a place is: 1 or -1, and 0 in the middle, where splines and linear functions
-/// are the same.
+/// Along an axis, on which side of its cell a place is: 1 or -1, and 0 in the middle, where splines and linear
+/// functions are the same.
 template <int Dim> int sideInCell(const Attachment<Dim>&, int axis);
 
 } // namespace gimpm
