@@ -53,8 +53,10 @@ namespace {
 		ASSERT_TRUE(attached);
 		const Footprint<Dim> wide(*attached, Vec<Dim>::Ones(), system.basis, scene.model.grid, 0);
 		EXPECT_EQ(wide.nodes, attached->nodes);
-		for (int n = 0; n < wide.nodes; ++n)
-			EXPECT_EQ(wide.weight[n], attached->weight[n]), EXPECT_EQ(wide.node[n], attached->node[n]);
+		for (int n = 0; n < attached->nodes; ++n) {
+			EXPECT_EQ(wide.weight[n], attached->weight[n]);
+			EXPECT_EQ(wide.node[n], attached->node[n]);
+		}
 	}
 
 } // namespace
