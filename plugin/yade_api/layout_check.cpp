@@ -89,6 +89,9 @@ static void checkMembersOfScene(LayoutCheck& check)
 	const auto bodies = check.make<BodyContainer>();
 	check.require(*bodies, "useRedirection", bodies->useRedirection, true);
 	check.require(*bodies, "enableRedirection", bodies->enableRedirection, false);
+	const bool isFree = bodies->drawloopmutex.try_lock();
+	check.require(isFree, "BodyContainer.drawloopmutex");
+	if (isFree) bodies->drawloopmutex.unlock();
 }
 
 static void checkThreadRunner(LayoutCheck& check)

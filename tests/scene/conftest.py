@@ -115,10 +115,10 @@ class Started:
 		self.connection.close()
 		try:
 			self.process.wait(timeout=60)
-		except subprocess.TimeoutExpired: # it would keep the whole run from ending
+		finally: # it would keep the whole run from ending
 			self.process.kill()
-			raise
-		self.folder.cleanup()
+			self.process.wait()
+			self.folder.cleanup()
 
 
 started = functools.cache(Started)

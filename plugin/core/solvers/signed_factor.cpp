@@ -354,8 +354,11 @@ PlacedEntries::PlacedEntries(const cholmod_factor& factor, const Csc& K, Part pa
 	for (int s = 0; s < L.count; ++s) {
 		for (int i = 0; i < L.height(s); ++i)
 			place[L.rowsOf(s)[i]] = i;
-		for (int i = start[s]; i < start[s + 1]; ++i)
-			entries[i] = { sorted[i].e, (sorted[i].column - L.columns[s]) * L.height(s) + place[sorted[i].row] };
+		for (int i = start[s]; i < start[s + 1]; ++i) {
+			const int row = place[sorted[i].row];
+			areInPattern  = areInPattern && row < L.height(s) && L.rowsOf(s)[row] == sorted[i].row;
+			entries[i]    = { sorted[i].e, (sorted[i].column - L.columns[s]) * L.height(s) + row };
+		}
 	}
 }
 

@@ -17,7 +17,8 @@ struct PlacedEntries {
 		int number, place; ///< in the matrix, and from the first value of its supernode
 	};
 	std::vector<Entry> entries;
-	std::vector<int>   start; ///< those of supernode s: start[s] ... start[s + 1] - 1
+	std::vector<int>   start;               ///< those of supernode s: start[s] ... start[s + 1] - 1
+	bool               areInPattern = true; ///< not if an entry of a general matrix lacks the one across the diagonal
 
 	PlacedEntries() = default;
 	PlacedEntries(const cholmod_factor&, const Csc& K, Part);

@@ -227,7 +227,8 @@ bool SupernodalFactor::factoriseSigned(const Csc& K, double smallest)
 
 bool SupernodalFactor::factoriseGeneral(const Csc& K, double smallest)
 {
-	return placeEntries(K, false) && gimpm::factoriseSigned(*factor_, upper_, entries_, above_, K.value, smallest, signs_);
+	return placeEntries(K, false) && entries_.areInPattern && above_.areInPattern
+	        && gimpm::factoriseSigned(*factor_, upper_, entries_, above_, K.value, smallest, signs_);
 }
 
 /// K = L S U, and its transpose is U^T S L^T.

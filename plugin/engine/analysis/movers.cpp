@@ -2,6 +2,7 @@
 #include "engine/analysis/movers.hpp"
 #include "core/base/sentence.hpp"
 #include "engine/analysis/analysis.hpp"
+#include "yade_api/bodies.hpp"
 #include "yade_api/serialization.hpp"
 #include <sstream>
 
@@ -63,12 +64,13 @@ bool Movers::move(const Body& body) const
 	return std::any_of(masks.begin(), masks.end(), [&](int mask) { return meansAll(mask) || maskMatches(body, mask); });
 }
 
-void Movers::requireOthers(const vector<MaterialPoint>& points, bool isDynamic) const
+void Movers::requireOthers(const vector<MaterialPoint>& points, const Scene& scene, bool isDynamic) const
 {
 	if (masks.empty()) return;
+	const BodiesLock lock(scene);
 	for (const MaterialPoint& point : points) {
 		if (!isDynamic && point.state->vel.isZero(0)) continue;
-		if (!move(*point.body)) continue;
+		if (!scene.bodies->exists(point.id) || !move(*(*scene.bodies)[point.id])) continue;
 		if (isDynamic) refuseMoved(point, "MpmDynamicEngine", "");
 		refuseMoved(point, "MpmImplicitEngine", gimpm::sentence(" with the velocity (", point.state->vel.transpose(), ")"));
 	}

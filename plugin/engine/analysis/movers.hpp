@@ -16,7 +16,7 @@ public:
 	bool move(const Body&) const;
 
 	// Refuses material points that one would move besides their own engine: in statics those that have a velocity.
-	void requireOthers(const vector<MaterialPoint>&, bool isDynamic) const;
+	void requireOthers(const vector<MaterialPoint>&, const Scene&, bool isDynamic) const;
 
 private:
 	vector<int> masks;

@@ -330,7 +330,7 @@ template <int Dim> Job<Dim> MpmImplicitEngine::prepare(Agreement& agreement)
                 const gimpm::StepControl control(stepPart, isExplicit() ? 1 : newton->minStep, newton->maxIterations);
                 auto                     setup = buildModel<Dim>(*this, *scene, points, loadTime, target, [&](Setup<Dim>& to) { takePoints(to, agreement); });
                 Job<Dim>                 made(std::move(setup), control, loadTime, target);
-                Movers(*scene).requireOthers(points, isDynamic());
+                Movers(*scene).requireOthers(points, *scene, isDynamic());
                 setMoving(made, points); // inertia comes last
                 return made;
 	}();

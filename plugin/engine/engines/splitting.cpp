@@ -6,6 +6,7 @@
 #include "engine/parallel/pieces.hpp"
 #include "engine/points/split_point.hpp"
 #include "engine/points/stretched.hpp"
+#include "yade_api/bodies.hpp"
 
 namespace yade {
 
@@ -98,15 +99,23 @@ namespace {
 			const MaterialPoint whole   = points[p];
 			const auto          numbers = [](const Vector3r& v) { return std::array<Real, 3> { v[0], v[1], v[2] }; };
 			const auto          middle = numbers(whole.state->pos), halfSize = numbers(whole.shape->halfSize);
-			const auto          upper = halve(*whole.body, whole, axis, isRing());
-			const Body::id_t    none  = -1; // yet
-			const auto          shape = boost::static_pointer_cast<MpmPoint>(upper->shape);
-			const auto          state = boost::static_pointer_cast<MpmState>(upper->state);
-			points.push_back({ none, shape, state, whole.material, upper });
+			const auto          upper = halfOf(whole, axis);
+			if (!upper) return false;
+			const Body::id_t none  = -1; // yet
+			const auto       shape = boost::static_pointer_cast<MpmPoint>(upper->shape);
+			const auto       state = boost::static_pointer_cast<MpmState>(upper->state);
+			points.push_back({ none, shape, state, whole.material });
 			halves.push_back({ upper, { whole.id, none, axis, Dim, middle, halfSize } });
 			for (const MaterialPoint& half : { whole, points.back() })
 				settle(half);
 			return true;
+		}
+
+		// Null: a script has erased it meanwhile.
+		shared_ptr<Body> halfOf(const MaterialPoint& whole, int axis) const
+		{
+			const BodiesLock lock(scene);
+			return scene.bodies->exists(whole.id) ? halve(*(*scene.bodies)[whole.id], whole, axis, isRing()) : nullptr;
 		}
 
 		// The upper halves, behind the other bodies, in the order of their wholes, whichever process has them.

@@ -3,6 +3,7 @@
 #include "core/solvers/multigrid.hpp"
 #include "engine/analysis/analysis.hpp"
 #include "engine/parallel/processes.hpp"
+#include "yade_api/bodies.hpp"
 #include <algorithm>
 #include <omp.h>
 #include <set>
@@ -24,9 +25,12 @@ namespace {
 		}
 		if (entries > 1)
 			throw std::invalid_argument(engine.className() + ": the same engine is listed " + std::to_string(entries) + " times in O.engines.");
+		if (others.empty()) return;
+		const auto       points = materialPoints(scene, engine.mask);
+		const BodiesLock lock(scene);
 		for (const auto* other : others)
-			for (const MaterialPoint& point : materialPoints(scene, engine.mask))
-				if (maskMatches(*point.body, other->mask))
+			for (const MaterialPoint& point : points)
+				if (scene.bodies->exists(point.id) && maskMatches(*(*scene.bodies)[point.id], other->mask))
 					throw std::invalid_argument(
 					        "Body #" + std::to_string(point.id)
 					        + ": two engines with material points in O.engines claim it, with mask = " + std::to_string(engine.mask)

@@ -27,15 +27,14 @@ namespace {
 
 	bool isStillOf(const MaterialPoint& point, const Body& body)
 	{
-		return point.body.get() == &body && point.id == body.id && point.shape.get() == body.shape.get() && point.state.get() == body.state.get()
+		return point.id == body.id && point.shape.get() == body.shape.get() && point.state.get() == body.state.get()
 		        && point.material.get() == body.material.get() && isLeftAlone(body, *point.state);
 	}
 
-	MaterialPoint complete(const shared_ptr<Body>& owner, shared_ptr<MpmPoint>&& shape, const MaterialPoint* previous)
+	MaterialPoint complete(const Body& body, shared_ptr<MpmPoint>&& shape, const MaterialPoint* previous)
 	{
-		const Body& body     = *owner;
-		auto        material = previous && previous->material.get() == body.material.get() ? previous->material
-		                                                                                   : boost::dynamic_pointer_cast<MpmMaterial>(body.material);
+		auto material = previous && previous->material.get() == body.material.get() ? previous->material
+		                                                                            : boost::dynamic_pointer_cast<MpmMaterial>(body.material);
 		if (!material)
 			refuse(body.id,
 			       "an MpmPoint shape needs a material for material points, such as MpmElasticMat; there is " + classOf(body.material) + ".");
@@ -48,7 +47,7 @@ namespace {
 		if (!isLeftAlone(body, *state))
 			refuse(body.id,
 			       "YADE's collider and integrator must leave material points alone: set bounded = False and state.blockedDOFs = 'xyzXYZ'.");
-		return { body.id, std::move(shape), std::move(state), std::move(material), owner };
+		return { body.id, std::move(shape), std::move(state), std::move(material) };
 	}
 
 	void refuseOtherShape(const Body& body)
@@ -137,7 +136,7 @@ void updateMaterialPoints(vector<MaterialPoint>& points, const Scene& scene, int
 		if (!body || !maskMatches(*body, mask)) continue; // null: erased
 		if (n < points.size() && isStillOf(points[n], *body)) ++n;
 		else if (auto shape = castTo<MpmPoint>(body->shape)) {
-			auto point = complete(body, std::move(shape), n == 0 ? nullptr : &points[n - 1]);
+			auto point = complete(*body, std::move(shape), n == 0 ? nullptr : &points[n - 1]);
 			if (n < points.size()) points[n] = std::move(point);
 			else
 				points.push_back(std::move(point));

@@ -15,7 +15,6 @@ struct MaterialPoint {
 	shared_ptr<MpmPoint>    shape;
 	shared_ptr<MpmState>    state;
 	shared_ptr<MpmMaterial> material;
-	shared_ptr<Body>        body;
 
 	// std::invalid_argument unless all its values can be computed with in this dimension (2 or 3), in two of them
 	// as a ring or in plane strain. Its material is not looked at.

@@ -169,6 +169,20 @@ namespace {
 		EXPECT_TRUE(x == z) << "nothing is left of the other kind";
 	}
 
+	/// Two blocks that only an entry below the diagonal joins.
+	TEST(SignedFactor, RefusesAPatternThatIsNotSymmetric)
+	{
+		constexpr int   half        = 60;
+		Eigen::MatrixXd m           = Eigen::MatrixXd::Zero(2 * half, 2 * half);
+		m.topLeftCorner(half, half) = m.bottomRightCorner(half, half) = unsymmetric(half, 1., 0.02, 3);
+		SupernodalFactor factor;
+		factor.analyse(whole(m), {}, 0, false);
+		ASSERT_TRUE(factor.factoriseGeneral(whole(m), 1e-10));
+		m(2 * half - 1, 0) = 1;
+		factor.analyse(whole(m), {}, 0, false);
+		EXPECT_FALSE(factor.factoriseGeneral(whole(m), 1e-10));
+	}
+
 	TEST(SignedFactor, RefusesWhatNeedsPivoting)
 	{
 		Eigen::MatrixXd m(2, 2);

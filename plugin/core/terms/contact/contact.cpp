@@ -35,23 +35,6 @@ template <int Dim> bool isFineOn(const ContactSystem<Dim>& system, int body, dou
 	return record->number % (std::int64_t(1) << placeBits) >= firstFineNumber;
 }
 
-/// Soil on a periodic grid is in the first period, and beside each end of that, where the other end goes on.
-template <int Dim> void addImages(std::vector<SoilDomain<Dim>>& domains, const Grid<Dim>& grid)
-{
-	for (int a = 0; a < Dim; ++a) {
-		const double length = grid.cellSize * grid.period[a], near = 2 * grid.cellSize;
-		for (std::size_t i = 0, count = length > 0 ? domains.size() : 0; i < count; ++i) {
-			domains[i].centre[a] -= length * std::floor((domains[i].centre[a] - grid.origin[a]) / length);
-			const double from = domains[i].centre[a] - grid.origin[a];
-			for (const int side : { 1, -1 }) {
-				if ((side > 0 ? from : length - from) > near) continue;
-				domains.push_back(domains[i]);
-				domains.back().centre[a] += side * length;
-			}
-		}
-	}
-}
-
 /// A point whose middle is in a body.
 template <int Dim> struct Inside {
 	Vec<Dim> centre, half, outward; ///< of its domain; of the body's surface closest to its middle
@@ -92,8 +75,9 @@ Contact<Dim>::Contact(ContactSystem<Dim>& system, const Beginning<Dim>& step)
 	for (int body = 0; body < int(system.bodies.size()); ++body) {
 		look(body);
 		addPlaces(body);
-		widen(body);
 	}
+	for (int body = 0; body < int(system.bodies.size()); ++body)
+		widen(body);
 	if (std::isfinite(system_.energy)) findLost();
 	spreadPressure();
 	for (const Place& place : places_)
@@ -184,7 +168,8 @@ template <int Dim> void Contact<Dim>::addPlaces(int number, int layer)
 	// recall() does where it does: they get in on their way through the grid, be it with the body.
 	const auto moveOut = [&](Place& place) {
 		const auto* record = recordOf(place);
-		if (inside.empty() || std::isfinite(system_.energy) || body.free >= 0 || !record || !record->touches || record->gap >= 0) return;
+		if (inside.empty() || std::isfinite(system_.energy) || body.free >= 0 || body.nodes > 0 || !record || !record->touches || record->gap >= 0)
+			return;
 		const Vec<Dim> normal = body.begin.rotation * body.end.rotation.transpose() * place.normal;
 		double         lowest = place.gap;
 		for (const auto& point : inside)

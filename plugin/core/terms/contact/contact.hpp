@@ -145,6 +145,7 @@ private:
 	void                                addLoads(const Place&, const Vec<Dim>& place, const Touch<Dim>&);
 	Mat<Dim>                            resistanceOf(const Place&, const Touch<Dim>&) const;
 	void                                findLost();
+	std::pair<int, int>                 placesOf(int body) const;
 	void                                widen(int body);
 	void                                spreadPressure();
 	void                                turnPlaces(const Eigen::VectorXd& d);

@@ -76,16 +76,6 @@ template <int Dim> double reachFromBorder(const RigidBody<Dim>& sheet, const Pos
 
 namespace {
 
-/// By how much a body presses by wider functions where its feature is small: a ball, the edge of a block, the border
-/// of a sheet. A block narrower than a cell acts over one anyway.
-template <int Dim> double shareOfSmall(const RigidBody<Dim>& body, const std::vector<PlaceOnFace<Dim>>& places, double cellSize)
-{
-	if (body.shape.kind == RigidKind::ball) return body.thickness() < wideBall * cellSize * (1 - 1e-9);
-	if (body.shape.kind == RigidKind::block)
-		return body.thickness() > cellSize * (1 + 1e-9) ? shareOf(reachFromEdge(body, body.begin, places) / cellSize) : 0;
-	return body.shape.kind == RigidKind::sheet ? shareOf(reachFromBorder(body, body.begin, places) / cellSize) : 0;
-}
-
 /// Along the axes of the grid, of a place on a block: one along those to which a small side of its face is close.
 template <int Dim> Vec<Dim> sharesOnBlock(const RigidBody<Dim>& block, const Vec<Dim>& normal, double cellSize)
 {
@@ -99,31 +89,61 @@ template <int Dim> Vec<Dim> sharesOnBlock(const RigidBody<Dim>& block, const Vec
 	return shares;
 }
 
+/// By how much each place presses by wider functions, along the axes of the grid: where the whole body is small, by an
+/// edge or a border that goes little into the soil, or by a narrow face. A block narrower than a cell acts over one
+/// anyway.
+template <int Dim> std::vector<Vec<Dim>> sharesOf(const RigidBody<Dim>& body, const std::vector<PlaceOnFace<Dim>>& places, double cellSize)
+{
+	const auto kind  = body.shape.kind;
+	double     share = kind == RigidKind::ball && body.thickness() < wideBall * cellSize * (1 - 1e-9);
+	if (kind == RigidKind::sheet) share = shareOf(reachFromBorder(body, body.begin, places) / cellSize);
+	const bool isBlock = kind == RigidKind::block;
+	if (isBlock && body.thickness() > cellSize * (1 + 1e-9)) share = shareOf(reachFromEdge(body, body.begin, places) / cellSize);
+	std::vector<Vec<Dim>> shares;
+	for (const auto& [place, normal] : places) {
+		shares.push_back(isBlock ? sharesOnBlock(body, normal, cellSize) : Vec<Dim>::Zero());
+		for (int a = 0; a < Dim; ++a)
+			if (std::abs(normal[a]) < 0.9) shares.back()[a] = std::max(shares.back()[a], share);
+	}
+	return shares;
+}
+
 } // namespace
+
+/// Numbers of the first place of a body and of that behind its last one.
+template <int Dim> std::pair<int, int> Contact<Dim>::placesOf(int body) const
+{
+	const auto isOfEarlier = [](int of) { return [of](const Place& place) { return place.body < of; }; };
+	const auto numberOf    = [&](int of) { return int(std::partition_point(places_.begin(), places_.end(), isOfEarlier(of)) - places_.begin()); };
+	return { numberOf(body), numberOf(body + 1) };
+}
 
 /// Soil that ends beside a feature, as that under a plate does, is pressed evenly only by the functions of its cells:
 /// there all of the body keeps these along that axis. Soil that goes on deeper down does not end, and behind the face
 /// there need not be any. Around an axis of symmetry, where soil ends, and beside lines that part it nothing is
-/// spread, nor on a body that is one with others, as a facet of a mesh is.
+/// spread, nor on a body that is one with others that have places, as a facet of a mesh is.
 template <int Dim> void Contact<Dim>::widen(int number)
 {
-	const auto& body     = system_.bodies[number];
-	const auto  around   = bodiesAround(number);
-	const bool  isJoined = std::any_of(around.begin(), around.end(), [&](int b) { return system_.bodies[b].shape.kind != RigidKind::plane; });
-	if (isRing_ || grid_.isPeriodic() || grid_.parting || body.nodes > 0 || isJoined) return;
+	const auto& body = system_.bodies[number];
+	if (isRing_ || grid_.isPeriodic() || grid_.parting || body.nodes > 0) return;
 	const double                  h    = grid_.cellSize;
 	const Mat<Dim>                back = body.free < 0 ? Mat<Dim>(body.begin.rotation * body.end.rotation.transpose()) : Mat<Dim>::Identity();
 	std::vector<Place*>           own;
 	std::vector<PlaceOnFace<Dim>> at;
-	for (auto place = places_.rbegin(); place != places_.rend() && place->body == number; ++place)
-		own.push_back(&*place), at.push_back({ place->soil, back * place->normal });
-	const double          share = shareOfSmall(body, at, h);
-	std::vector<Vec<Dim>> shares;
+	const auto [first, last] = placesOf(number);
+	for (int i = first; i < last; ++i)
+		own.push_back(&places_[i]), at.push_back({ places_[i].soil, back * places_[i].normal });
+	std::vector<Vec<Dim>> shares = sharesOf(body, at, h);
+	if (std::all_of(shares.begin(), shares.end(), [](const Vec<Dim>& share) { return share.isZero(0); })) return;
+	const auto around   = bodiesAround(number);
+	const auto isJoined = [&](int b) {
+		const auto [begin, end] = placesOf(b);
+		return begin < end && system_.bodies[b].shape.kind != RigidKind::plane;
+	};
+	if (std::any_of(around.begin(), around.end(), isJoined)) return;
 	std::array<bool, Dim> isEnd {};
 	for (std::size_t i = 0; i < own.size(); ++i) {
-		shares.push_back(body.shape.kind == RigidKind::block ? sharesOnBlock(body, at[i].normal, h) : Vec<Dim>::Zero());
 		for (int a = 0; a < Dim; ++a) {
-			if (std::abs(at[i].normal[a]) < 0.9) shares[i][a] = std::max(shares[i][a], share);
 			const int side = shares[i][a] > 0 ? sideInCell(own[i]->attached, a) : 0, layer = int(own[i]->number >> placeBits);
 			if (side * at[i].normal[a] > -0.3 && side != 0 && !goesOn(own[i]->attached, at[i].normal, a, side, basis_, grid_, layer))
 				isEnd[a] = true;
@@ -136,11 +156,13 @@ template <int Dim> void Contact<Dim>::widen(int number)
 	}
 }
 
-template double reachFromEdge(const RigidBody<2>&, const Pose<2>&, const std::vector<PlaceOnFace<2>>&);
-template double reachFromEdge(const RigidBody<3>&, const Pose<3>&, const std::vector<PlaceOnFace<3>>&);
-template double reachFromBorder(const RigidBody<2>&, const Pose<2>&, const std::vector<PlaceOnFace<2>>&);
-template double reachFromBorder(const RigidBody<3>&, const Pose<3>&, const std::vector<PlaceOnFace<3>>&);
-template void   Contact<2>::widen(int);
-template void   Contact<3>::widen(int);
+template double              reachFromEdge(const RigidBody<2>&, const Pose<2>&, const std::vector<PlaceOnFace<2>>&);
+template double              reachFromEdge(const RigidBody<3>&, const Pose<3>&, const std::vector<PlaceOnFace<3>>&);
+template double              reachFromBorder(const RigidBody<2>&, const Pose<2>&, const std::vector<PlaceOnFace<2>>&);
+template double              reachFromBorder(const RigidBody<3>&, const Pose<3>&, const std::vector<PlaceOnFace<3>>&);
+template std::pair<int, int> Contact<2>::placesOf(int) const;
+template std::pair<int, int> Contact<3>::placesOf(int) const;
+template void                Contact<2>::widen(int);
+template void                Contact<3>::widen(int);
 
 } // namespace gimpm
