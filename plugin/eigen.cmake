@@ -2,7 +2,7 @@
 # Eigen without m(indices), parts of a matrix at places that a vector names: at each m(i, j) of each kind of expression the compiler would find out anew
 # that none of its forms is meant. The headers are copied, but for the file that declares these forms, which is empty: nothing is laid out differently,
 # and the compiler makes the same of what does without them. Where code has such parts it finds "no match for call" of a matrix; a loop, or a map with
-# strides, does as well.
+# strides, does as well. Eigen's unsupported headers stay where they are: include one of Eigen itself before.
 get_target_property(eigen_headers Eigen3::Eigen INTERFACE_INCLUDE_DIRECTORIES)
 list(GET eigen_headers 0 eigen_headers)
 set(indexed_views Eigen/src/plugins/IndexedViewMethods.h)
