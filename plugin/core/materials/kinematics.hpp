@@ -6,7 +6,6 @@
 // where b itself would round them to 1e-16.
 #pragma once
 #include "core/materials/response.hpp"
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <cmath>
 
@@ -180,19 +179,5 @@ GIMPM_INLINE Moduli<Dim, T> moduli(
 
 /// In global axes, for gradients in the current configuration.
 template <int Dim> Moduli<Dim> spatialModuli(const Response& r, const Vec3& strain, const Mat<Dim>& axes) { return moduli<Dim, double>(r, strain, axes, axes); }
-
-/// Diagonal of the right stretch tensor U = sqrt(F^T F): a domain follows it along the grid axes.
-template <int Dim> Vec<Dim> stretchAlongAxes(const Mat<Dim>& F)
-{
-	if constexpr (Dim == 2) { // by the theorem of Cayley and Hamilton U = (C + J) / sqrt(tr C + 2 J)
-		const double J = F.determinant(), cxx = F.col(0).squaredNorm(), cyy = F.col(1).squaredNorm();
-		return Vec<2>(cxx + J, cyy + J) / std::sqrt(cxx + cyy + 2 * J);
-	} else {
-		const Eigen::SelfAdjointEigenSolver<Mat3> eigen(Mat3(F.transpose() * F));
-		// One of 1e-8 others is lost in round-off.
-		const Vec3 stretch = eigen.eigenvalues().cwiseMax(0).cwiseSqrt();
-		return eigen.eigenvectors().cwiseAbs2() * stretch;
-	}
-}
 
 } // namespace gimpm

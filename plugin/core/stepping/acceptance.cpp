@@ -27,7 +27,7 @@ template <int Dim> void makeEven(const EvenDilation<Dim>& even, bool isRing, Mat
 	if (isRing) hoop = scale * (1 + hoop) - 1;
 }
 
-/// Step 5: the points take over the converged displacements, and their domains follow the stretch along the grid axes.
+/// Step 5: the points take over the converged displacements, and their domains follow by the rule of the model.
 template <int Dim> void updatePoints(PointCloud<Dim>& cloud, const StepSystem<Dim>& system, const Eigen::VectorXd& d, StepReport& report)
 {
 	std::vector<char> clamped(cloud.size(), 0);
@@ -50,7 +50,7 @@ template <int Dim> void updatePoints(PointCloud<Dim>& cloud, const StepSystem<Di
 		if (!cloud.excessPressure.empty()) cloud.excessPressure[p] = u.water == 0 ? 0 : -u.water / cloud.volumeRatio(p);
 		if (system.model.basis == Basis::gimp) {
 			const double   limit = largestHalf(system.model.grid, cloud.position[p]);
-			const Vec<Dim> size  = cloud.halfSize0[p].cwiseProduct(stretchAlongAxes(cloud.defGrad[p]));
+			const Vec<Dim> size  = domainOf<Dim>(cloud.defGrad[p], cloud.halfSize0[p], system.model.domains);
 			cloud.halfSize[p]    = size.cwiseMin(limit);
 			clamped[p] = (size.array() > 0.5 * system.model.grid.size(levelTouched(system.model.grid, cloud.position[p], cloud.halfSize[p]))).any();
 			if (!cloud.hoopStretch.empty()) keepOffAxis(cloud, p);

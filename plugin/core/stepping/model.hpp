@@ -3,6 +3,7 @@
 #pragma once
 #include "core/grid/basis.hpp"
 #include "core/grid/boundary.hpp"
+#include "core/grid/domain.hpp"
 #include "core/materials/material.hpp"
 #include "core/parallel/division.hpp"
 #include "core/solvers/linear_solver.hpp"
@@ -63,8 +64,9 @@ template <int Dim> class Inertia;
 template <int Dim> using InertiaOfStep = std::function<std::unique_ptr<Inertia<Dim>>(const Beginning<Dim>&)>;
 
 template <int Dim> struct Model {
-	Grid<Dim> grid;
-	Basis     basis = Basis::gimp;
+	Grid<Dim>  grid;
+	Basis      basis   = Basis::gimp;
+	DomainRule domains = DomainRule::tiling;
 	/// Against volumetric locking; needs the ghost stabilisation, which holds the nodes of nearly empty cells.
 	bool fBar = false;
 	/// With it: what pressures of points in a cell differ by without any effect is taken out as the points move.

@@ -17,6 +17,7 @@ class Analysis : public RunResults {
 public:
 	shared_ptr<MpmGrid>     grid;
 	string                  basis              = "gimp";
+	string                  domains            = "tiling";
 	bool                    fBar               = false;
 	bool                    pressureRelaxation = false;
 	Vector3r                gravity            = Vector3r::Zero();
@@ -47,6 +48,8 @@ public:
 	virtual Scene&            sceneOfRun() const        = 0; // that it was called in
 	virtual long              period() const            = 0; // iterations from run to run
 	virtual long              runs() const              = 0; // so far
+
+	gimpm::DomainRule domainRule() const { return domains == "stretch" ? gimpm::DomainRule::stretch : gimpm::DomainRule::tiling; }
 
 	gimpm::LoadCurve curveOfLoads() const { return gimpm::LoadCurve(loadCurve); }
 	gimpm::LoadCurve curveOfGravity() const { return gimpm::LoadCurve(gravityCurve.empty() ? loadCurve : gravityCurve); }

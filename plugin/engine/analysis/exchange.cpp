@@ -282,6 +282,7 @@ template <int Dim> gimpm::Model<Dim> emptyModel(const Analysis& analysis, const 
 	gimpm::Model<Dim> model;
 	model.grid                    = analysis.grid->lattice<Dim>();
 	model.basis                   = analysis.basis == "mpm" ? gimpm::Basis::linear : gimpm::Basis::gimp;
+	model.domains                 = analysis.domainRule();
 	model.fBar                    = analysis.fBar;
 	model.pressureRelaxation      = analysis.pressureRelaxation;
 	model.ghost                   = { ghost.factor, ghost.scaling == "paper" ? gimpm::GhostScaling::paper : gimpm::GhostScaling::meshIndependent };
@@ -337,7 +338,7 @@ template <int Dim> gimpm::PointCloud<Dim> gather(const vector<MaterialPoint>& po
 			const MaterialPoint& point = points[p];
 			point.requireAdmissible(Dim, model.grid.axisymmetric);
 			point.requireStart();
-			requireFit<Dim>(point, model.grid, model.basis);
+			requireFit<Dim>(point, model.grid, model.basis, model.domains);
 			forExchanged(cloud, [&](auto& column, const auto& row) { column[p] = row.take(point, model); });
 			gatherInternals(point, model.materials[cloud.material[p]].law, cloud, p);
 			if (model.materials[cloud.material[p]].varies) gatherParameters(point, model.materials[cloud.material[p]].law, ownMaterial, cloud, p);

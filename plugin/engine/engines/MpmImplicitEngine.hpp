@@ -51,6 +51,10 @@ public:
 		  "Basis functions: 'gimp', averaged over the points' domains, or 'mpm', the linear functions of the grid (points that cross cells then disturb "
 		  "the solution).",
 		  oneOf("gimp", "mpm"));
+		v("domains", &E::domains, 0,
+		  "Rule by which the boxes of sheared points deform: 'tiling', of the points' volume and without overlap, or 'stretch', by the diagonal of U "
+		  "(Coombs 2023), too weak in shear. Theory, section 3.",
+		  oneOf("tiling", "stretch"));
 		v("fBar", &E::fBar, 0, "Cure for volumetric locking of materials that keep their volume: one dilation in a cell. Needs ghost stabilisation.");
 		v("pressureRelaxation", &E::pressureRelaxation, 0,
 		  "With *fBar*: takes out what pressures in a cell differ by without acting, as points move; for soil that flows far around a body.");

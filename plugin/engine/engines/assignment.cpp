@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "engine/engines/assignment.hpp"
 #include "core/base/checksum.hpp"
+#include "engine/analysis/analysis.hpp"
 #include "engine/materials/laws.hpp"
 #include "engine/parallel/distribution.hpp"
 #include "engine/parallel/processes.hpp"
@@ -107,11 +108,26 @@ namespace {
 		if (!MpmState::isSymmetric(tensor)) throw std::invalid_argument(string(name) + " is not a symmetric matrix of finite numbers.");
 	}
 
+	// The rule of the engine that moves the point; without one the default.
+	gimpm::DomainRule ruleOf(const MaterialPoint& point)
+	{
+		const Scene& scene = *Singleton<Omega>::instance().getScene();
+		for (const auto& listed : scene.engines)
+			if (const auto* analysis = dynamic_cast<const Analysis*>(listed.get());
+			    analysis && maskMatches(*(*scene.bodies)[point.id], analysis->mask))
+				return analysis->domainRule();
+		return gimpm::DomainRule::tiling;
+	}
+
 	// Volume and domain are those that the deformation gradient makes of the initial ones.
 	void followDeformation(Values& v, const MaterialPoint& point)
 	{
-		v.volume   = point.state->volume0 * v.defGrad.determinant();
-		v.halfSize = stretched(point.shape->halfSize0, v.defGrad);
+		const Matrix3r& F       = v.defGrad;
+		const bool      inPlane = F(0, 2) == 0 && F(1, 2) == 0 && F(2, 0) == 0 && F(2, 1) == 0;
+		const auto      rule    = ruleOf(point);
+		const Vector3r& initial = point.shape->halfSize0;
+		v.volume                = point.state->volume0 * F.determinant();
+		v.halfSize              = inPlane ? stretched<2>(initial, F, rule) : stretched<3>(initial, F, rule);
 	}
 
 	// In the order of the law of the point.

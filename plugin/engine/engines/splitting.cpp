@@ -34,9 +34,11 @@ namespace {
 
 	private:
 		// Half lengths of the domain as the step would have left them without a limit.
-		Vector3r grown(const MaterialPoint& point) const
+		Vector3r grown(const MaterialPoint& point) const { return grownFrom(point.shape->halfSize0, point); }
+
+		Vector3r grownFrom(const Vector3r& halfSize0, const MaterialPoint& point) const
 		{
-			Vector3r size = stretched(point.shape->halfSize0, point.state->defGrad);
+			Vector3r size = stretched<Dim>(halfSize0, point.state->defGrad, job.model.domains);
 			if (isRing()) size[0] = std::min(size[0], point.state->pos[0]);
 			return size;
 		}
@@ -47,19 +49,25 @@ namespace {
 			const Real           limit = margin * limitOf(point);
 			const Vector3r       size  = grown(point);
 			if (size.template head<Dim>().maxCoeff() <= limit) return false;
-			const int axis = point.state->splits < mostOf(point) ? axisOf(point, size, limit) : -1;
+			const int axis = point.state->splits < mostOf(point) ? axisOf(point, size) : -1;
 			if (axis >= 0) return split(p, axis);
 			++result.left;
 			if (most > 0 && point.state->splits >= mostOf(point) && result.exhausted < 0) result.exhausted = point.id;
 			return false;
 		}
 
-		// The one along which it is longest, of those along which it can be split; none: -1
-		int axisOf(const MaterialPoint& point, const Vector3r& size, Real limit) const
+		// The initial edge whose halving leaves the shortest domain, of those across which the point can be split; -1 if
+		// none shortens it. A sheared or turned domain is not as long along an axis as the edge that was there at first.
+		int axisOf(const MaterialPoint& point, const Vector3r& size) const
 		{
-			int best = -1;
-			for (int a = 0; a < Dim; ++a)
-				if (size[a] > limit && (best < 0 || size[a] > size[best]) && isFree(point, a)) best = a;
+			int  best  = -1;
+			Real least = size.template head<Dim>().maxCoeff() * (1 - 1e-9);
+			for (int a = 0; a < Dim; ++a) {
+				Vector3r half = point.shape->halfSize0;
+				half[a] /= 2;
+				const Real longest = grownFrom(half, point).template head<Dim>().maxCoeff();
+				if (longest < least && isFree(point, a)) best = a, least = longest;
+			}
 			return best;
 		}
 

@@ -19,9 +19,9 @@ gimpm::HeldBox<Dim> boxOfNodes(const string& name, const Vector3r& min, const Ve
 
 namespace {
 	// By its deformation, as after mpm.assign; a domain that was too large from the beginning is none of this grid.
-	template <int Dim> bool hasOutgrown(const MaterialPoint& point, Real limit)
+	template <int Dim> bool hasOutgrown(const MaterialPoint& point, Real limit, gimpm::DomainRule rule)
 	{
-		const Vector3r grown = stretched(point.shape->halfSize0, point.state->defGrad) * (1 + 1e-9);
+		const Vector3r grown = stretched<Dim>(point.shape->halfSize0, point.state->defGrad, rule) * (1 + 1e-9);
 		return point.shape->halfSize0.head<Dim>().maxCoeff() <= limit && (point.shape->halfSize - grown).head<Dim>().maxCoeff() <= 0;
 	}
 
@@ -40,12 +40,12 @@ namespace {
 		}
 	}
 
-	template <int Dim> void requireOnGrid(const MaterialPoint& point, const gimpm::Grid<Dim>& grid, gimpm::Basis basis)
+	template <int Dim> void requireOnGrid(const MaterialPoint& point, const gimpm::Grid<Dim>& grid, gimpm::Basis basis, gimpm::DomainRule rule)
 	{
 		const bool onGrid   = ((point.state->pos.head<Dim>() - grid.origin) / grid.cellSize).cwiseAbs().maxCoeff() < grid.indexLimit;
 		const Real cellSize = grid.size(grid.refinement ? grid.refinement->largest() : 0);
 		const Real largest = point.shape->halfSize.head<Dim>().maxCoeff(), limit = 0.5 * cellSize * (1 + 1e-9);
-		const bool fits = basis != gimpm::Basis::gimp || largest <= limit || hasOutgrown<Dim>(point, limit);
+		const bool fits = basis != gimpm::Basis::gimp || largest <= limit || hasOutgrown<Dim>(point, limit, rule);
 		if (onGrid && fits) return;
 		std::ostringstream text; // costly: not before there is something to say
 		text << "Body #" << point.id << ": ";
@@ -90,16 +90,16 @@ namespace {
 	}
 }
 
-template <int Dim> void requireFit(const MaterialPoint& point, const gimpm::Grid<Dim>& grid, gimpm::Basis basis)
+template <int Dim> void requireFit(const MaterialPoint& point, const gimpm::Grid<Dim>& grid, gimpm::Basis basis, gimpm::DomainRule rule)
 {
-	requireOnGrid<Dim>(point, grid, basis);
+	requireOnGrid<Dim>(point, grid, basis, rule);
 	requireWithinPeriod<Dim>(point, grid);
 	if (grid.axisymmetric) requireRing<Dim>(point);
 }
 
 #define MPM_INSTANTIATE(Dim)                                                                                                                                   \
 	template gimpm::HeldBox<Dim> boxOfNodes(const string&, const Vector3r&, const Vector3r&, const MpmGrid&, const gimpm::Grid<Dim>&);                     \
-	template void                requireFit(const MaterialPoint&, const gimpm::Grid<Dim>&, gimpm::Basis);
+	template void                requireFit(const MaterialPoint&, const gimpm::Grid<Dim>&, gimpm::Basis, gimpm::DomainRule);
 MPM_INSTANTIATE(2)
 MPM_INSTANTIATE(3)
 #undef MPM_INSTANTIATE

@@ -3,13 +3,14 @@
 // Whether points and boxes of nodes go with the grid of an analysis.
 #include "core/grid/basis.hpp"
 #include "core/grid/boundary.hpp"
+#include "core/grid/domain.hpp"
 #include "engine/grid/MpmGrid.hpp"
 #include "engine/points/MaterialPoints.hpp"
 
 namespace yade {
 
 // std::invalid_argument names the body that does not.
-template <int Dim> void requireFit(const MaterialPoint&, const gimpm::Grid<Dim>&, gimpm::Basis);
+template <int Dim> void requireFit(const MaterialPoint&, const gimpm::Grid<Dim>&, gimpm::Basis, gimpm::DomainRule);
 
 // Nodes in a box, by the name of its class. std::invalid_argument if there is none.
 template <int Dim> gimpm::HeldBox<Dim> boxOfNodes(const string& name, const Vector3r& min, const Vector3r& max, const MpmGrid&, const gimpm::Grid<Dim>&);

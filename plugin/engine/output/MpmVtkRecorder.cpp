@@ -52,7 +52,9 @@ namespace {
 		const auto      points = materialPoints(scene, solver.mask);
 		for (const MaterialPoint& point : points)
 			point.requireAdmissible(solver.grid->dim, solver.grid->axisymmetric);
-		const auto domains = pointDomains(points, scene, *solver.grid, isDivided(solver) ? known : fieldsOf(points), solver.basis == "gimp", sectors);
+		const auto domains = pointDomains(
+		        points, scene, *solver.grid, isDivided(solver) ? known : fieldsOf(points),
+		        solver.basis == "gimp" ? std::optional(solver.domainRule()) : std::nullopt, sectors);
 		if (!contains(fields, "all"))
 			for (const string& name : pointFields())
 				if (!contains(fields, name)) domains->GetCellData()->RemoveArray(name.c_str());

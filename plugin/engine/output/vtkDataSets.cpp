@@ -4,6 +4,7 @@
 #include "core/materials/kinematics.hpp"
 #include "core/stepping/step_system.hpp"
 #include "engine/points/columns.hpp"
+#include "engine/points/stretched.hpp"
 #include <algorithm>
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
@@ -115,12 +116,10 @@ namespace {
 		cells.GetCellData()->AddArray(field);
 	}
 
-	template <int Dim> bool isClamped(const MaterialPoint& point, const gimpm::Grid<Dim>& grid)
+	template <int Dim> bool isClamped(const MaterialPoint& point, const gimpm::Grid<Dim>& grid, gimpm::DomainRule rule)
 	{
-		const gimpm::Mat<Dim> F = point.state->defGrad.topLeftCorner<Dim, Dim>();
-		return (point.shape->halfSize0.head<Dim>().cwiseProduct(gimpm::stretchAlongAxes<Dim>(F)).array()
-		        > gimpm::largestHalf<Dim>(grid, point.state->pos.head<Dim>()))
-		        .any();
+		const Vector3r size = stretched<Dim>(point.shape->halfSize0, point.state->defGrad, rule);
+		return (size.template head<Dim>().array() > gimpm::largestHalf<Dim>(grid, point.state->pos.head<Dim>())).any();
 	}
 
 	template <int Dim> void addNodes(Cells& cells, const vector<gimpm::Key>& nodes, const gimpm::Grid<Dim>& grid, Real z)
@@ -172,7 +171,8 @@ vector<const PointColumn*> fieldsOf(const vector<MaterialPoint>& points)
 }
 
 VtkCells pointDomains(
-        const vector<MaterialPoint>& points, const Scene& scene, const MpmGrid& grid, const vector<const PointColumn*>& fields, bool deform, int sectors)
+        const vector<MaterialPoint>& points, const Scene& scene, const MpmGrid& grid, const vector<const PointColumn*>& fields,
+        std::optional<gimpm::DomainRule> rule, int sectors)
 {
 	const int dim = grid.dim, boxDim = sectors > 0 ? 3 : dim;
 	Cells     domains(boxType(boxDim));
@@ -195,7 +195,7 @@ VtkCells pointDomains(
 	vector<char> clamped;
 	const auto   tell = [&](const auto& lattice) {
                 for (const MaterialPoint& p : points)
-                        clamped.insert(clamped.end(), std::max(1, sectors), deform && isClamped(p, lattice));
+                        clamped.insert(clamped.end(), std::max(1, sectors), rule && isClamped(p, lattice, *rule));
 	};
 	dim == 2 ? tell(grid.lattice<2>()) : tell(grid.lattice<3>());
 	addIntegers(*cells, "clamped", clamped, [](char isOne) { return isOne; });

@@ -5,6 +5,7 @@
 #include "core/stepping/model.hpp"
 #include "engine/grid/MpmGrid.hpp"
 #include "engine/points/columns.hpp"
+#include <optional>
 #include <vtkSmartPointer.h>
 
 class vtkUnstructuredGrid;
@@ -13,10 +14,12 @@ namespace yade {
 
 using VtkCells = vtkSmartPointer<vtkUnstructuredGrid>;
 
-// The domain of each material point, in the order given, with its fields. `deform`: the domains follow the deformation.
+// The domain of each material point, in the order given, with its fields. `rule`: by which the domains deform; none: they do not.
 // `sectors`: parts into which each is revolved about the axis x = 0, one after the other; vectors and tensors turn with
 // them. 0: the section.
-VtkCells pointDomains(const vector<MaterialPoint>&, const Scene&, const MpmGrid&, const vector<const PointColumn*>& fields, bool deform, int sectors);
+VtkCells pointDomains(
+        const vector<MaterialPoint>&, const Scene&, const MpmGrid&, const vector<const PointColumn*>& fields, std::optional<gimpm::DomainRule> rule,
+        int sectors);
 
 // Which of the columns are fields of these points.
 vector<const PointColumn*> fieldsOf(const vector<MaterialPoint>&);

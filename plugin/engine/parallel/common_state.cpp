@@ -47,9 +47,9 @@ namespace {
 		for (const Listed& listed : engine.conditions())
 			conditions.push_back(listed.condition), names += listed.name();
 		return checksumOf(
-		        engine.grid, engine.basis, engine.fBar, engine.pressureRelaxation, engine.nonlocalLength, names, conditions, engine.ghost,
-		        engine.newton, engine.mask, engine.maxSplits, engine.gravity, engine.loadCurve, engine.gravityCurve, engine.loadTime, engine.stepPart,
-		        engine.lastDisplacements, engine.lastLoadIncrement, scene.dt, scene.time);
+		        engine.grid, engine.basis, engine.domains, engine.fBar, engine.pressureRelaxation, engine.nonlocalLength, names, conditions,
+		        engine.ghost, engine.newton, engine.mask, engine.maxSplits, engine.gravity, engine.loadCurve, engine.gravityCurve, engine.loadTime,
+		        engine.stepPart, engine.lastDisplacements, engine.lastLoadIncrement, scene.dt, scene.time);
 	}
 
 	vector<shared_ptr<Body>> rigidBodiesOf(const Analysis& engine)

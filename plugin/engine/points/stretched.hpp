@@ -1,18 +1,17 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-#include "core/materials/kinematics.hpp"
+#include "core/grid/domain.hpp"
 #include "yade_api/types.hpp"
 
 namespace yade {
 
-// Half the size of the domain into which the deformation gradient stretches an initial one; a step limits it to half a
-// cell.
-inline Vector3r stretched(const Vector3r& halfSize0, const Matrix3r& defGrad)
+// Half lengths of the domain [m] that the deformation gradient makes of the initial ones; a step limits them to half a
+// cell. In the plane the third one follows its own stretch: 1 in plane strain, around an axis that of the ring.
+template <int Dim> Vector3r stretched(const Vector3r& halfSize0, const Matrix3r& defGrad, gimpm::DomainRule rule)
 {
-	const Matrix3r change = defGrad - Matrix3r::Identity();
-	if (!change.col(2).isZero(0) || !change.row(2).isZero(0)) return halfSize0.cwiseProduct(gimpm::stretchAlongAxes<3>(defGrad));
-	const gimpm::Vec<2> stretch = gimpm::stretchAlongAxes<2>(defGrad.topLeftCorner<2, 2>());
-	return halfSize0.cwiseProduct(Vector3r(stretch[0], stretch[1], 1));
+	Vector3r half             = halfSize0 * defGrad(2, 2);
+	half.template head<Dim>() = gimpm::domainOf<Dim>(defGrad.topLeftCorner<Dim, Dim>(), halfSize0.head<Dim>(), rule);
+	return half;
 }
 
 } // namespace yade
