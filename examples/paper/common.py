@@ -63,7 +63,7 @@ def slope(cellSize, pointsPerCell, lineSearchTrials=0, **ghost):
 	O.reset()
 	grid, sides = weakLayerSlope(cellSize, pointsPerCell)
 	newton = MpmNewton(tolerance=1e-6, maxIterations=20, minStep=1, lineSearchTrials=lineSearchTrials, predictor=False, reuseFactor=False)
-	O.engines = [MpmImplicitEngine(grid=grid, gravity=(0, -9.81, 0), boundaries=sides, ghost=MpmGhost(**ghost), newton=newton)]
+	O.engines = [MpmImplicitEngine(grid=grid, gravity=(0, -9.81, 0), boundaries=sides, domains='stretch', ghost=MpmGhost(**ghost), newton=newton)]
 	steps = round(40 / cellSize)
 	O.dt = 1 / steps
 	return O.engines[0], steps

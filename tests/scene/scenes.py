@@ -21,6 +21,7 @@ def slope(cellSize=1.0, pointsPerCell=2, steps=None, **ghost):
 	                grid=grid,
 	                gravity=(0, -9.81, 0),
 	                boundaries=[MpmBoundary(max=(0, inf, inf), fix='x'), MpmBoundary(min=(30, -inf, -inf), fix='x'), MpmBoundary(max=(inf, 0, inf), fix='xy')],
+	                domains='stretch',
 	                ghost=MpmGhost(**ghost),
 	                newton=MpmNewton(predictor=False, reuseFactor=False),  # steps start from zero in the paper
 	                label='solver'

@@ -59,9 +59,9 @@ private:
 		const double   length2 = squares.sum();
 		for (int a = 0; a < Dim; ++a) {
 			const double q = squares[a], qm = (length2 - q) * (q + 4 * (q - 1) * (q - 1)) + exact * q;
-			const double inverse = q / qm, w = inverse * inverse * inverse;
+			const double inverse = q / qm, w = inverse * inverse;
 			weight[a] += w;
-			sum[a] += isReciprocal ? inverse * inverse / qm : w * q;
+			sum[a] += isReciprocal ? inverse / qm : w * q;
 		}
 	}
 

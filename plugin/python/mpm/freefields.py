@@ -173,7 +173,7 @@ class _Column:
 
 	def _settings(self):
 		solver = self.body.solver
-		return dict(grid=self.grid, gravity=solver.gravity, basis=solver.basis, fBar=solver.fBar, ghost=solver.ghost, newton=solver.newton, water=[_copy(one) for one in self.body.water], verbosity=0)
+		return dict(grid=self.grid, gravity=solver.gravity, basis=solver.basis, domains=solver.domains, fBar=solver.fBar, ghost=solver.ghost, newton=solver.newton, water=[_copy(one) for one in self.body.water], verbosity=0)
 
 	def _settle(self, start):
 		"""Into equilibrium under its weight, in which its bottom is at rest. O.time is then that at which the motion begins."""

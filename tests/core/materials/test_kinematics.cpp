@@ -104,45 +104,5 @@ namespace {
 			}
 	}
 
-	TYPED_TEST(Kinematics, DomainsFollowTheStretchAndNotTheRotation)
-	{
-		constexpr int Dim     = TypeParam::value;
-		Vec<Dim>      stretch = Vec<Dim>::Constant(0.8);
-		stretch[0]            = 1.5;
-		for (int i = 0; i < 20; ++i) {
-			const Mat<Dim> R = this->random.template rotation<Dim>();
-			EXPECT_LT((stretchAlongAxes<Dim>(R * stretch.asDiagonal()) - stretch).norm(), 1e-14);
-		}
-		Mat<Dim> quarterTurn = Mat<Dim>::Identity(); // where F_ii vanishes
-		quarterTurn.template topLeftCorner<2, 2>() << 0, -1, 1, 0;
-		EXPECT_LT((stretchAlongAxes<Dim>(quarterTurn) - Vec<Dim>::Ones()).norm(), 1e-14);
-	}
-
-	TYPED_TEST(Kinematics, AFlattenedDomainHasASize)
-	{
-		constexpr int Dim = TypeParam::value;
-		for (int i = 0; i < 100; ++i) {
-			const Mat<Dim> R = this->random.template rotation<Dim>(), F = 1e9 * R.col(0) * R.col(Dim - 1).transpose();
-			const auto     size = stretchAlongAxes<Dim>(F + 1e-9 * Mat<Dim>::Identity());
-			EXPECT_GE(size.minCoeff(), 0) << size.transpose(); // and is a number
-		}
-	}
-
-	TYPED_TEST(Kinematics, StretchOfSimpleShearByHand)
-	{
-		// F = 1 + g e_x e_y: C = [1 g; g 1 + g^2]; sqrt(C) = (C + 1 sqrt(det C)) / sqrt(tr C + 2 sqrt(det C))
-		// with det C = 1 in the plane
-		constexpr int Dim = TypeParam::value;
-		const double  g = 1.7, root = std::sqrt(4 + g * g);
-		Mat<Dim>      F = Mat<Dim>::Identity();
-		F(0, 1)         = g;
-		const auto size = stretchAlongAxes<Dim>(F);
-		EXPECT_NEAR(size[0], 2 / root, 1e-14);
-		EXPECT_NEAR(size[1], (2 + g * g) / root, 1e-14);
-		if (Dim == 3) {
-			EXPECT_NEAR(size[Dim - 1], 1, 1e-14);
-		}
-	}
-
 } // namespace
 } // namespace gimpm
