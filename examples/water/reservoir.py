@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """A dam of earth through the life of its reservoir: built, filled, with steady seepage, and drawn down in a day; the factor of safety of each stage, and of the time after it.
 
-	               ____           12 m high, slopes of 1:2.5 and 1:2, base impervious
+	               ____           12 m high, slopes of 1:2.5 (--upstream) and 1:2, base impervious
 	 ~~~~~~~~~ 10 /    \\
 	        /            \\
 	 _____/________________\\____
@@ -26,12 +26,14 @@ from options import compared, readOptions
 
 options = readOptions('A dam and its reservoir.',
         cellSize=(1., 'size of the cells [m]'),
+        upstream=(2.5, 'run over rise of the face before which the water stands; of 1.75 it governs as the water is drawn down'),
         days=(1., 'in which the reservoir is drawn down'),
         tolerance=(0.02, 'width of the bracket of the factor of safety'))
 k, g, gammaW, level, day = 1e-7, 10., 1e4, 10., 86400.
-upstream, downstream = [(30, 12), (0, 0)], [(60, 0), (36, 12)]
+toe = 30 - 12 * options.upstream
+upstream, downstream = [(30, 12), (toe, 0)], [(60, 0), (36, 12)]
 # a toe so thin is not filled to its end
-wet, out = [(30, 12), (1.25, .5)], [(59, .5), (36, 12)]
+wet, out = [(30, 12), (toe + .5 * options.upstream, .5)], [(59, .5), (36, 12)]
 
 
 def onFace(height):
@@ -56,7 +58,7 @@ def factor(name):
 def build():
 	O.materials.append(MpmMohrCoulombMat(young=5e7, poisson=0.3, density=2000, cohesion=1e4, frictionAngle=np.radians(32), conductivity=k, porosity=.4, label='fill'))
 	grid = MpmGrid(cellSize=options.cellSize)
-	O.bodies.append(mpm.fill(mpm.polygon([(0, 0), (60, 0), (36, 12), (30, 12)]), grid, 2, 'fill'))
+	O.bodies.append(mpm.fill(mpm.polygon([(toe, 0), (60, 0), (36, 12), (30, 12)]), grid, 2, 'fill'))
 	O.engines = [MpmImplicitEngine(grid=grid, gravity=(0, -g, 0), boundaries=[MpmBoundary(max=(inf, 0, inf), fix='xy')], fBar=True, label='solver', verbosity=0)]
 	flow = mpm.seepage([(upstream, level)], faces=[downstream], unitWeight=gammaW)  # through the dam as it is drawn
 	O.dt = 1 / 4

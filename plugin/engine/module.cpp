@@ -51,11 +51,11 @@ void defineHelpers()
 	        "For mpm.geostatic: pressure and gradient of each water of an engine, averaged over boxes, given their middles and half sizes.");
 	py::def(
 	        "actInPart",
-	        +[](MpmMaterial& material, Real share) {
+	        +[](MpmMaterial& material, Real share, bool isDugOut) {
 		        const ValueLock lock;
-		        material.share = share;
+		        material.share = share, material.isDugOut = isDugOut;
 	        },
-	        "For mpm.stages: the share of water and point loads that acts on points of a material, whose density is as small.");
+	        "For mpm.stages: the share of water and point loads that acts on points of a material, whose density is as small; and whether they are being dug out.");
 	py::def(
 	        "gridCells", +[](const string& kind, const MpmImplicitEngine& engine) { return gridCellsForPython(kind, engine); },
 	        "For mpm.plot: corners and first field of the cells of 'grid', 'ghostFaces', 'loads', 'walls' or 'contacts' around the material points.");

@@ -14,6 +14,7 @@ struct Pores {
 	Law    law          = Law::constant;
 	double index        = std::numeric_limits<
                 double>::quiet_NaN(); ///< of the logarithmic law: change of the void ratio that makes the conductivity ten times as large [-]
+	bool areRigid = false;               ///< water passes without pressing on the grains, and their strain displaces no water
 
 	/// Of the water in a volume that was 1 at first, which now is J.
 	struct Conductivity {

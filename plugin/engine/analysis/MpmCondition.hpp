@@ -79,6 +79,8 @@ public:
 	// In an iteration of YADE, with a load step or between two.
 	virtual void actOnBodies(Scene&, bool /*isBetween*/) { }
 
+	// Answers of functions hold for one step: before each step they are forgotten.
+	virtual void forgetAnswers() { }
 	// What functions of Python have to be asked around cells. Answers: what they are called where processes have
 	// got different ones.
 	virtual bool                      hasQuestions() const { return false; }

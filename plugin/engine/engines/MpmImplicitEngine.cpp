@@ -213,6 +213,11 @@ template <int Dim> bool MpmImplicitEngine::ask(const gimpm::Grid<Dim>& lattice, 
 template <int Dim> void MpmImplicitEngine::askFunctions(Agreement& agreement)
 {
 	constexpr int mostTimes = 100;
+	{
+		const ValueLock lock;
+		for (const Listed& listed : conditions())
+			listed.condition->forgetAnswers();
+	}
 	for (int time = 0; time < mostTimes; ++time) {
 		gimpm::Grid<Dim>   lattice;
 		vector<gimpm::Key> cells;

@@ -72,7 +72,7 @@ def _added(ids, solver):
 def excavate(region, steps=1, solver=None):
 	"""Take the material points of an engine out of a region. What they do to the others, by stress, weight, point loads and water, goes to zero in the next *steps* load steps, in equal parts.
 
-	Until they are erased in the last one, they go along as elastic material with a twentieth of their stiffness.
+	Until they are erased in the last one, they go along as elastic material with a twentieth of their stiffness, in which the excess pressure of the water is part of the stress. With *MpmImplicitEngine.flow* water passes it until then.
 
 	:param region: predicate of the current positions, as for :func:`fill`
 	:param steps: load steps, an integer >= 1
@@ -85,7 +85,7 @@ def excavate(region, steps=1, solver=None):
 	points, materials, number, inRegion = _pointsIn('excavate', region, solver)
 	if inRegion.all(): raise ValueError(f'excavate: all material points are in the region {brief(region)}')
 	_requireNoLoad(solver, points, inRegion)
-	ids, stress = points['id'][inRegion].tolist(), points['stress'][inRegion]
+	ids, stress = points['id'][inRegion].tolist(), _totalStress(points)[inRegion]
 	materials = _byLabel('excavate', [materials[i] for i in np.unique(number[inRegion])])
 	if steps == 1:
 		_erase(ids)
@@ -107,8 +107,8 @@ def _pointsIn(who, region, solver):
 
 
 def replace(region, material, steps=1, solver=None):
-	"""Make the material points in a region points of another material: a slurry wall that is poured, ground that is grouted. Their stress stays as it is, so that nothing moves at
-	once; what they are heavier or lighter by comes in the next *steps* load steps, in equal parts.
+	"""Make the material points in a region points of another material: a slurry wall that is poured, ground that is grouted. Their total stress stays as it is, so that nothing moves at
+	once: grains of drained material take what the water of undrained soil has borne; what they are heavier or lighter by comes in the next *steps* load steps, in equal parts.
 
 	Of the new material they are as it is new: without plastic strain, strengths and moduli of their own. The density is that of their initial volume, as of all points.
 
@@ -125,7 +125,9 @@ def replace(region, material, steps=1, solver=None):
 	points, materials, number, inRegion = _pointsIn('replace', region, solver)
 	new = materialOf('replace', material)
 	if not isinstance(new, wrapper.MpmMaterial): raise TypeError(f'replace: material = {brief(material)} is a {type(new).__name__}, which is no material of material points')
-	ids, stress = points['id'][inRegion].tolist(), points['stress'][inRegion]
+	ids = points['id'][inRegion].tolist()
+	isDrained = np.array([m.undrained and not new.undrained for m in materials])[number[inRegion]]
+	stress = np.where(isDrained[:, None, None], _totalStress(points)[inRegion], points['stress'][inRegion])
 	before = np.array([m.density for m in materials])[number[inRegion]]
 	_renew(ids, new, stress)
 	if steps == 1: return len(ids)
@@ -138,12 +140,18 @@ def replace(region, material, steps=1, solver=None):
 	return len(ids)
 
 
+def _totalStress(points):
+	"""Stress of the grains less the excess pressure of the water. The pressure of an MpmWater is not part of it: that goes on acting."""
+	return points['stress'] - points['excessPressure'][:, None, None] * np.eye(3) if 'excessPressure' in points else points['stress']
+
+
 def _renew(ids, material, stress):
 	"""Make them points of a material, with the stress they have; or after an error leave all as they are."""
 	here = _here(ids)
-	names = 'internals', 'parameters', 'plasticStrain', 'elasticStrain'
+	names = 'internals', 'parameters', 'plasticStrain', 'elasticStrain', 'excessPressure'
 	known = [(body.material, [getattr(body.state, name) for name in names]) for body in here]
 	for body in here:
+		if body.material.undrained and not material.undrained: body.state.excessPressure = 0
 		body.material = material
 		body.state.internals, body.state.parameters, body.state.plasticStrain = [], [], 0
 	try:
@@ -242,11 +250,11 @@ def resume():
 		if engine.dead or not engine.label.startswith('stage_'): continue
 		kind, *_, twins = ast.literal_eval('(' + engine.command.partition('.advance(')[2])
 		for twin, density in twins.values() if kind != 'replaced' else ():
-			_library.actInPart(scene.materials[twin], scene.materials[twin].density / density)
+			_library.actInPart(scene.materials[twin], scene.materials[twin].density / density, kind == 'excavated')
 
 
 def _scale(material, share, ofAll, ids, kind):
-	_library.actInPart(material, share)
+	_library.actInPart(material, share, kind == 'excavated')
 	density = share * ofAll
 	if abs(material.density - density) <= 1e-12 * density: return
 	if kind == 'excavated':  # in proportion to the density; the law of what is dug out is linear
@@ -259,7 +267,7 @@ def _scale(material, share, ofAll, ids, kind):
 def _begin(kind, solver, steps, twins):
 	"""*twins*: by the label of a material, its twin that changes."""
 	names = {own: (twin.label, wrapper.Omega().materials[own].density) for own, twin in twins.items()}
-	for twin in twins.values(): _library.actInPart(twin, 1 / steps if kind == 'placed' else 1)
+	for twin in twins.values(): _library.actInPart(twin, 1 / steps if kind == 'placed' else 1, kind == 'excavated')
 	_run(kind, solver, steps, names)
 
 
@@ -282,14 +290,24 @@ def _twin(material, label, ids, **changes):
 def _soft(material, label, ids):
 	"""The same of an elastic one with a part of the stiffness, without memory and strengths of its own."""
 	young, poisson = _elastic(material)
-	soft = wrapper.MpmElasticMat(young=_softness * young, poisson=poisson, density=material.density)
+	ofPores = {name: getattr(material, name) for name in ('conductivity', 'porosity', 'conductivityLaw', 'conductivityIndex')}
+	soft = wrapper.MpmElasticMat(young=_softness * young, poisson=poisson, density=material.density, **ofPores)
 	for body in _here(ids):
-		if body.material == material: body.state.internals, body.state.parameters, body.state.plasticStrain = [], [], 0
+		if body.material != material: continue
+		body.state.internals, body.state.parameters, body.state.plasticStrain = [], [], 0
+		if material.undrained: body.state.excessPressure = 0
 	return _give(soft, material, label, ids)
 
 
 def _elastic(material):
-	"""Young's modulus and Poisson's ratio of about the stiffness of a law: of hardening soil those of unloading, which digging is."""
+	"""Young's modulus and Poisson's ratio of about the stiffness of a law: of hardening soil those of unloading, which digging is; of undrained soil those of total stress."""
+	young, poisson = _ofGrains(material)
+	if not material.undrained: return young, poisson
+	shear, bulk = young / (2 + 2 * poisson), young / (3 - 6 * poisson) + material.waterModulus
+	return 9 * bulk * shear / (3 * bulk + shear), (3 * bulk - 2 * shear) / (6 * bulk + 2 * shear)
+
+
+def _ofGrains(material):
 	if hasattr(material, 'Eurref'): return material.Eurref, material.poisson
 	if hasattr(material, 'young'): return material.young, material.poisson
 	return 3 * material.shearModulus, 0.3

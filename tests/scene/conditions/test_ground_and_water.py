@@ -128,7 +128,7 @@ def run(pressure, step=False):
 def asking(x):
 	solver = O.engines[0]
 	solver.report(), solver.plotData(), mpm.arrays(), solver.water[0].weight, O.bodies[0].state.stress
-	return weight * max(0, 2 - solver.loadTime - x[1])
+	return weight * max(0, 2 - 0 * solver.loadTime - x[1])
 def erasing(x):
 	if O.bodies[0]: O.bodies.erase(0)
 	return 0

@@ -174,3 +174,56 @@ print(json.dumps([found, messages]))
 	assert outstanding[0]['wall'] == pytest.approx(36e3) and outstanding[2] == pytest.approx(28 * 18e3 + 36e3, rel=1e-6)
 	unknown, text, all_, none = messages
 	assert "no material of the points has the label 'wal'" in unknown and 'TypeError' in text and 'nothing is ground' in all_ and 'differ in density' in none and 'bodies=' in none
+
+
+undrained = '''
+import json
+import numpy as np
+from yade import mpm
+pores = dict(undrained=dict(undrained=True, waterModulus=5e8), flowing=dict(conductivity=0, porosity=.4), drained={})
+def ground(kind, wall=1e9):
+	O.reset()
+	O.materials.append([MpmElasticMat(young=1e6, poisson=.3, density=1800, label='clay', **pores[kind]), MpmElasticMat(young=wall, poisson=.3, density=1800, label='wall')])
+	grid = MpmGrid(cellSize=.5)
+	O.bodies.append(mpm.fill(mpm.polygon([(0, 0), (3, 0), (3, 2), (0, 2)]), grid, 2, 'clay'))
+	sides = [MpmBoundary(max=(inf, 0, inf), fix='xy'), MpmBoundary(max=(0, inf, inf), fix='x'), MpmBoundary(min=(3, -inf, -inf), fix='x')]
+	solver = MpmImplicitEngine(grid=grid, gravity=(0, -10, 0), gravityCurve=[(0, 0), (2, 1)], boundaries=sides, fBar=True, verbosity=0)
+	if kind == 'flowing': solver.flow = MpmFlow(drains=[MpmDrain(surface=[(1, 2), (0, 2)])])
+	O.engines, O.dt = [solver], 1
+	O.run(2, wait=True)
+	mpm.stages.resetDisplacements()
+def total(a): return a['stress'] - (a['excessPressure'][:, None, None] * np.eye(3) if 'excessPressure' in a else 0)
+'''
+
+
+def test_undrained_ground_that_is_replaced_keeps_its_total_stress(yade):
+	moved, changed, largest, concrete = yade(undrained + '''
+ground('undrained')
+before = total(mpm.arrays())
+mpm.stages.replace(mpm.polygon([(1, .5), (2, .5), (2, 9), (1, 9)]), 'wall')
+O.step()
+a = mpm.arrays()
+isWall = a['material'] == O.materials['wall'].id
+print(json.dumps([abs(a['pos'] - a['pos0']).max(), abs(total(a) - before).max(), abs(before).max(), abs(a['excessPressure'][isWall]).max()]))
+''').result
+	assert moved < 1e-9 and changed < 1e-4 * largest and concrete == 0
+
+
+def test_undrained_ground_and_ground_with_flow_are_dug_out_in_equal_parts(yade):
+	found = yade(undrained + '''
+out = {}
+for kind in pores:
+	ground(kind)
+	mpm.stages.excavate(mpm.polygon([(1.5, 1.5), (9, 1.5), (9, 9), (1.5, 9)]), steps=4)
+	heave = []
+	for step in range(4):
+		O.step()
+		a = mpm.arrays()
+		stays = (a['pos0'][:, 0] < 1.5) | (a['pos0'][:, 1] < 1.46)
+		heave.append((a['pos'] - a['pos0'])[stays, 1].max())
+	out[kind] = heave
+print(json.dumps(out))
+''').result
+	for kind, heave in found.items():
+		assert [up / heave[-1] for up in heave] == pytest.approx([.25, .5, .75, 1], abs=.02), kind
+	assert 0 < found['undrained'][-1] < .7 * found['drained'][-1] and found['flowing'][-1] == pytest.approx(found['undrained'][-1], rel=.1)

@@ -63,6 +63,8 @@ struct PorePoint {
 	double       content;  ///< of water, over the initial volume [-]
 	double       pressure; ///< [Pa]
 	const Pores* pores;
+
+	double coupling() const { return pores->areRigid ? 0 : 1; } ///< of strain and pressure
 };
 
 /// At an iterate: F is that of the step.
@@ -92,7 +94,7 @@ template <int Dim> struct FlowPoint {
 				F(i, j) += grown[i][j];
 		J = F.determinant() * around, inverse = F.inverse();
 		slope   = inverse.transpose() * first;
-		content = point.ratio * (J - 1);
+		content = point.coupling() * point.ratio * (J - 1);
 		if (std::isfinite(modulus)) {
 			density = std::exp(pressure / modulus);
 			content = density * content + point.content * std::expm1((pressure - point.pressure) / modulus);

@@ -167,7 +167,7 @@ private:
 		for (int m = 0; m < count_; ++m) {
 			const int a = own_[m];
 			for (int i = 0; i < Dim; ++i) {
-				const double push = -V * s.pressure * at_.dilation[i][a];
+				const double push = -point.coupling() * V * s.pressure * at_.dilation[i][a];
 				force_[i][a] += push, sizes_[i][a] += std::abs(push);
 			}
 			const double passes = flow * at_.along[a], ofStored = stored * at_.value[a];
@@ -184,12 +184,13 @@ private:
 	/// side. Displacements by displacements: pV (g_ak g_bi - g_ai g_bk) for i < k, and its opposite for i > k.
 	void addSymmetric(const PorePoint& point, const FlowPoint<Dim>& s)
 	{
-		const double V = point.volume * s.J, flow = duration_ * V * s.density * s.kappa.value, pushes = V * s.pressure;
+		const double V = point.volume * s.J, flow = duration_ * V * s.density * s.kappa.value, coupled = point.coupling() * V,
+		             pushes = coupled * s.pressure;
 		const double stored = point.volume / point.ratio * (point.content + s.content) / modulus_;
 		for (int m = 0; m < count_; ++m) {
 			const int a = own_[m];
 			for (int i = 0, pair = 0; i < Dim; ++i) {
-				addTimes(up_[i][a], -V * at_.dilation[i][a], at_.value);
+				addTimes(up_[i][a], -coupled * at_.dilation[i][a], at_.value);
 				addTimes(pp_[a], flow * at_.gradient[i][a], at_.gradient[i]);
 				for (int k = i + 1; k < Dim; ++k, ++pair) {
 					addTimes(turn_[pair][a], pushes * at_.gradient[k][a], at_.gradient[i]);
@@ -202,7 +203,7 @@ private:
 	/// What the stretch along the circle adds: of xx, of xy and of yx.
 	void addRing(const PorePoint& point, const FlowPoint<Dim>& s)
 	{
-		const double pushes = point.volume * s.J * s.pressure;
+		const double pushes = point.coupling() * point.volume * s.J * s.pressure;
 		for (int m = 0; m < count_; ++m) {
 			const int a = own_[m];
 			addTimes(ring_[0][a], -pushes * at_.hoop[a], at_.gradient[0]);
@@ -221,7 +222,7 @@ private:
 			for (int i = 0; i < Dim; ++i)
 				addTimes(products, at_.gradient[i][a], at_.gradient[i]);
 			for (int i = 0; i < Dim; ++i) {
-				addTimes(pu_[i][a], V * E * at_.value[a] + led * at_.along[a], at_.dilation[i]);
+				addTimes(pu_[i][a], point.coupling() * V * E * at_.value[a] + led * at_.along[a], at_.dilation[i]);
 				addTimes(pu_[i][a], -flow * s.slope[i], products);
 				addTimes(pu_[i][a], -flow * at_.gradient[i][a], at_.along);
 			}

@@ -25,6 +25,7 @@ namespace {
 			refuseMaterial(point, "has no conductivity [m/s], which MpmFlow needs: 1e-2 (gravel) to 1e-11 (clay), or 0 where nothing passes.");
 		if (std::isnan(m.porosity)) refuseMaterial(point, "has no porosity [-], which MpmFlow needs: 0.3 (dense sand) to 0.7 (soft clay).");
 		gimpm::Pores pores { m.conductivity / unitWeight, m.porosity };
+		pores.areRigid = point.material->isDugOut;
 		if (m.conductivityLaw == "kozeny-carman") pores.law = gimpm::Pores::Law::kozenyCarman;
 		if (m.conductivityLaw == "log") pores.law = gimpm::Pores::Law::logarithmic, pores.index = m.conductivityIndex;
 		return pores;
@@ -55,6 +56,11 @@ namespace {
 				        listed.name()
 				        + ".levels: MpmFlow computes the pressure over that of water which stands still, so that its level must stay: give level, and to a "
 				          "drain the levels. Water that loads the surface may change: where = 'outside'.");
+			if (water->changes)
+				throw std::invalid_argument(
+				        listed.name()
+				        + ".pressure changes with time: MpmFlow computes the pressure over that of water which stands still. Give one that stays, and to a drain "
+				          "the levels. Water that loads the surface may change: where = 'outside'.");
 			all.push_back(water);
 		}
 		return all.size() == 1 && !all[0]->hasFunction() ? all[0] : nullptr;

@@ -49,7 +49,7 @@ namespace {
 	std::unique_ptr<Question> questionOf(MpmWater& water, const gimpm::Grid<Dim>& grid, const vector<gimpm::Key>& cells, const string& name)
 	{
 		if (!water.hasFunction() || !water.pressure) return nullptr;
-		auto question = PressureQuestion<Dim>::of(water, grid, cells, name);
+		auto question = PressureQuestion<Dim>::of(water, grid, cells, name, When::next);
 		return question ? std::make_unique<PressureQuestion<Dim>>(std::move(*question)) : nullptr;
 	}
 }
@@ -66,7 +66,9 @@ std::unique_ptr<Question> MpmWater::question(const gimpm::Grid<3>& grid, const v
 
 std::map<string, string> MpmWater::warnings(const Analysis& analysis, const vector<MaterialPoint>& points, const string& name) const
 {
-	return { { "unit of water", warningOfWeight(*this, analysis, name) }, { "water on both sides", warningOfSides(*this, analysis, points, name) } };
+	return { { "unit of water", warningOfWeight(*this, analysis, name) },
+		 { "water on both sides", warningOfSides(*this, analysis, points, name) },
+		 { "function of water", warningOfLostFunction(*this, name) } };
 }
 
 } // namespace yade

@@ -28,9 +28,11 @@ public:
 	gimpm::LoadCurve::Knees curve; // empty: that of gravity
 	string                  where = "everywhere";
 	vector<Vector3r>        onBoundaries;
-	// Hidden: values of the function at nodes of the grid, of each three grid coordinates and the pressure, and the
-	// size of its cells and where it begins
-	vector<Real> table, tableGrid;
+	// Hidden: values of the function in the state reached, and at the end of the coming step. Of each node of the grid
+	// three grid coordinates and the pressure; cell size and origin of that grid.
+	vector<Real> table, next, tableGrid;
+	// Hidden: the function has given another pressure than in the step before.
+	bool changes = false;
 
 	YADE_API_NAME(MpmWater)
 	static const char* doc()
@@ -48,7 +50,7 @@ public:
 		v("levels", &MpmWater::levels, 0,
 		  "The same as it rises and falls: (time [s], level [m]), times increasing, linear between; empty, the default: see *level*.", curveOrNothing);
 		v("pressure", &MpmWater::pressure, noSave,
-		  "Function of the position that returns the pressure [Pa]: seepage. Taken at the grid's nodes, linear between; files keep those near the points.");
+		  "Function of the position that returns the pressure [Pa] at the end of the coming step. Asked before each step at the grid's nodes, linear between; files keep those near the points.");
 		v("weight", &MpmWater::weight, 0, "Weight of water by volume [N/m³] > 0, with *level* and *levels*.", positive);
 		v("curve", &MpmWater::curve, 0, "Factor [-] of all pressures as *MpmImplicitEngine.loadCurve*; empty, the default: that of gravity.",
 		  curveOrNothing);
@@ -58,7 +60,9 @@ public:
 		v("onBoundaries", &MpmWater::onBoundaries, readonly,
 		  "Of each of the engine's *boundaries*, the part [N] of its reaction that is due to the water's pressure in its place.");
 		v("table", &MpmWater::table, hidden, "", AnyValue());
+		v("next", &MpmWater::next, hidden, "", AnyValue());
 		v("tableGrid", &MpmWater::tableGrid, hidden, "", AnyValue());
+		v("changes", &MpmWater::changes, hidden, "", AnyValue());
 	}
 
 	// The attributes must go together, too.
@@ -71,7 +75,9 @@ public:
 	Real                      end(const Analysis&) const override;
 	string                    needsEqualCells(const string&) const override { return "water"; }
 	string                    needsUntiedNodes(const string&) const override { return ""; }
+	bool                      goesOn() const override { return changes; }
 	bool                      hasQuestions() const override { return true; }
+	void                      forgetAnswers() override { next.clear(); }
 	std::unique_ptr<Question> question(const gimpm::Grid<2>&, const vector<gimpm::Key>&, const string& name) override;
 	std::unique_ptr<Question> question(const gimpm::Grid<3>&, const vector<gimpm::Key>&, const string& name) override;
 	string                    answers() const override { return "pressures of water"; }
@@ -79,7 +85,7 @@ public:
 
 	// Its pressure is that of a function.
 	bool hasFunction() const { return std::isnan(level) && levels.empty(); }
-	void forgetTable() { table.clear(), evaluated = nullptr; }
+	void forgetTable() { table.clear(), next.clear(), changes = false, evaluated = nullptr; }
 
 	const void* evaluated = nullptr; // the function whose values the table has; null: one that has not been saved
 };

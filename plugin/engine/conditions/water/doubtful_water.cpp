@@ -70,4 +70,12 @@ string warningOfSides(const MpmWater& water, const Analysis& analysis, const vec
 	return "";
 }
 
+string warningOfLostFunction(const MpmWater& water, const string& name)
+{
+	if (!water.hasFunction() || water.pressure) return "";
+	return name
+	        + ".pressure is a function, which files do not keep: the pressure stays as it was when the scene was saved. If it changes with time, give "
+	          "MpmWater.pressure again.";
+}
+
 } // namespace yade

@@ -13,4 +13,7 @@ string warningOfWeight(const MpmWater&, const Analysis&, const string& name);
 // these.
 string warningOfSides(const MpmWater&, const Analysis&, const vector<MaterialPoint>&, const string& name);
 
+// Sentence on water of a loaded scene, whose function is not saved; empty if it has its function.
+string warningOfLostFunction(const MpmWater&, const string& name);
+
 } // namespace yade

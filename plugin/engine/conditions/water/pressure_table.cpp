@@ -81,24 +81,34 @@ namespace {
 
 	using PressureAt = std::map<Key, Real>;
 
-	template <int Dim> PressureAt valuesOf(const MpmWater& water)
+	template <int Dim> PressureAt valuesOf(const vector<Real>& table)
 	{
 		PressureAt values;
-		for (size_t i = 0; i + 3 < water.table.size(); i += 4) {
-			const Vector3r node(water.table[i], water.table[i + 1], water.table[i + 2]);
-			values[gimpm::Grid<Dim>::key(node.head<Dim>().template cast<int>())] = water.table[i + 3];
+		for (size_t i = 0; i + 3 < table.size(); i += 4) {
+			const Vector3r node(table[i], table[i + 1], table[i + 2]);
+			values[gimpm::Grid<Dim>::key(node.head<Dim>().template cast<int>())] = table[i + 3];
 		}
 		return values;
 	}
 
-	template <int Dim> void store(const PressureAt& values, MpmWater& water)
+	template <int Dim> vector<Real> tableOf(const PressureAt& values)
 	{
-		water.table.clear();
+		vector<Real> table;
 		for (const auto& [key, value] : values) {
 			Vector3r node    = Vector3r::Zero();
 			node.head<Dim>() = gimpm::Grid<Dim>::index(key).template cast<Real>();
-			water.table.insert(water.table.end(), { node[0], node[1], node[2], value });
+			table.insert(table.end(), { node[0], node[1], node[2], value });
 		}
+		return table;
+	}
+
+	// The same nodes have other values.
+	bool differ(const PressureAt& some, const PressureAt& others)
+	{
+		return std::any_of(some.begin(), some.end(), [&](const auto& node) {
+			const auto found = others.find(node.first);
+			return found != others.end() && found->second != node.second;
+		});
 	}
 
 	template <int Dim> vector<Real> numbersOf(const gimpm::Grid<Dim>& grid)
@@ -159,16 +169,25 @@ namespace {
 		        name + ": the pressure at " + textOf(placeOf(node, grid))
 		        + " is not known: functions are not saved with a scene, only their values near the points that it has. Give MpmWater.pressure again.");
 	}
+
+	[[noreturn]] void refuseChanges(const string& name)
+	{
+		throw std::invalid_argument(
+		        name
+		        + ".pressure has changed from step to step before the scene was saved, and files do not keep functions: give MpmWater.pressure again.");
+	}
 }
 
 template <int Dim>
-std::optional<PressureQuestion<Dim>> PressureQuestion<Dim>::of(MpmWater& water, const gimpm::Grid<Dim>& grid, const vector<Key>& cells, const string& name)
+std::optional<PressureQuestion<Dim>> PressureQuestion<Dim>::of(
+        MpmWater& water, const gimpm::Grid<Dim>& grid, const vector<Key>& cells, const string& name, When when)
 {
 	// Cells that a point may reach in a step, and in the steps after a scene has been loaded.
 	constexpr int near = 1, far = 3;
-	if (water.pressure && (water.evaluated != water.pressure.object.get() || water.tableGrid != numbersOf(grid))) water.forgetTable();
-	if (water.tableGrid != numbersOf(grid) && !water.pressure) refuseNode(gimpm::Grid<Dim>::key(gimpm::Index<Dim>::Zero()), grid, name);
-	const PressureAt values  = valuesOf<Dim>(water);
+	const bool    isOfGrid = water.tableGrid == numbersOf(grid), isOfFunction = water.pressure && water.evaluated == water.pressure.object.get();
+	if (water.pressure && (!isOfGrid || (when == When::now && !isOfFunction))) water.forgetTable();
+	if (!water.pressure && !isOfGrid) refuseNode(gimpm::Grid<Dim>::key(gimpm::Index<Dim>::Zero()), grid, name);
+	const PressureAt values  = valuesOf<Dim>(water.pressure && when == When::next ? water.next : water.table);
 	const auto       missing = [&](const vector<Key>& nodes) {
                 vector<Key> found;
                 for (const Key node : nodes)
@@ -177,13 +196,14 @@ std::optional<PressureQuestion<Dim>> PressureQuestion<Dim>::of(MpmWater& water, 
 	};
 	const vector<Key> nearest = nodesAround(cells, near, grid);
 	if (!water.pressure) {
+		if (water.changes && when == When::next) refuseChanges(name);
 		// Scenes of earlier revisions have no nodes at the far side of a period.
 		const vector<Key> unknown = missing(nearest);
 		if (!unknown.empty()) refuseNode(unknown[0], grid, name);
 		return std::nullopt;
 	}
 	if (missing(withFarSide(nearest, grid)).empty()) return std::nullopt;
-	return PressureQuestion(water, name, grid, missing(withFarSide(nodesAround(cells, far, grid), grid)));
+	return PressureQuestion(water, name, grid, missing(withFarSide(nodesAround(cells, far, grid), grid)), when);
 }
 
 template <int Dim> void PressureQuestion<Dim>::ask()
@@ -196,32 +216,61 @@ template <int Dim> void PressureQuestion<Dim>::ask()
 
 template <int Dim> void PressureQuestion<Dim>::store() const
 {
-	PressureAt values = valuesOf<Dim>(*water);
+	auto&      table  = when == When::next ? water->next : water->table;
+	PressureAt values = valuesOf<Dim>(table);
 	for (size_t i = 0; i < found.size(); ++i)
 		values[nodes[i]] = found[i];
-	yade::store<Dim>(values, *water);
+	table                     = tableOf<Dim>(values);
+	const bool isSameFunction = water->evaluated == function.object.get();
+	if (when == When::next) water->changes = isSameFunction && (water->changes || differ(values, valuesOf<Dim>(water->table)));
 	water->tableGrid = numbersOf(grid);
 	water->evaluated = function.object.get();
 }
 
 template <int Dim>
-std::shared_ptr<const gimpm::WaterPressure<Dim>> tabulated(MpmWater& water, const gimpm::Grid<Dim>& grid, const vector<Key>& cells, const string& name)
+PressureInTime<Dim>::PressureInTime(MpmWater& water, const gimpm::Grid<Dim>& grid, const vector<Key>& cells, const string& name, Real begin, Real end)
+        : grid(grid), begin(begin), end(end)
 {
-	if (auto question = PressureQuestion<Dim>::of(water, grid, cells, name)) {
+	const When when = end > begin ? When::next : When::now;
+	if (auto question = PressureQuestion<Dim>::of(water, grid, cells, name, when)) {
 		question->ask();
 		question->store();
 	}
-	const PressureAt values = valuesOf<Dim>(water);
-	vector<Key>      nodes;
-	vector<Real>     numbers;
-	for (const auto& [key, value] : values)
-		nodes.push_back(key), numbers.push_back(value);
-	return std::make_shared<gimpm::TabulatedWater<Dim>>(grid, nodes, numbers, fallOf(values, cells, grid, name));
+	PressureAt       earlier = valuesOf<Dim>(water.table);
+	const PressureAt later   = when == When::next && water.pressure ? valuesOf<Dim>(water.next) : earlier;
+	for (const auto& [key, value] : later) {
+		nodes.push_back(key), after.push_back(value);
+		before.push_back(earlier.try_emplace(key, value).first->second); // as the step ends, where it was not known
+	}
+	fallBefore = fallOf(earlier, cells, grid, name), fallAfter = fallOf(later, cells, grid, name);
+}
+
+template <int Dim> vector<Real> PressureInTime<Dim>::valuesAt(Real share) const
+{
+	vector<Real> values = after;
+	for (size_t i = 0; share < 1 && i < values.size(); ++i)
+		values[i] += (1 - share) * (before[i] - after[i]);
+	return values;
+}
+
+template <int Dim> auto PressureInTime<Dim>::at(Real time) const -> Pressure
+{
+	const Real share = shareAt(time);
+	return std::make_shared<gimpm::TabulatedWater<Dim>>(grid, nodes, valuesAt(share), fallAfter + (1 - share) * (fallBefore - fallAfter));
+}
+
+template <int Dim> void PressureInTime<Dim>::keep(MpmWater& water, Real time) const
+{
+	PressureAt         values;
+	const vector<Real> now = valuesAt(shareAt(time));
+	for (size_t i = 0; i < nodes.size(); ++i)
+		values.emplace_hint(values.end(), nodes[i], now[i]);
+	water.table = tableOf<Dim>(values);
 }
 
 #define MPM_INSTANTIATE(Dim)                                                                                                                                   \
 	template class PressureQuestion<Dim>;                                                                                                                  \
-	template std::shared_ptr<const gimpm::WaterPressure<Dim>> tabulated(MpmWater&, const gimpm::Grid<Dim>&, const vector<Key>&, const string&);
+	template class PressureInTime<Dim>;
 MPM_INSTANTIATE(2)
 MPM_INSTANTIATE(3)
 #undef MPM_INSTANTIATE

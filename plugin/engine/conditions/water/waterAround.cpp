@@ -24,10 +24,14 @@ namespace {
 		}
 		MpmCondition::Group all;
 		for (const Listed& listed : engine.conditions())
-			if (dynamic_cast<const MpmWater*>(listed.condition.get())) all.push_back(listed);
+			if (const auto water = boost::dynamic_pointer_cast<MpmWater>(listed.condition)) {
+				if (water->pressure) water->forgetTable(); // its answers may be others now
+				all.push_back(listed);
+			}
 		Waters<Dim> waters(all);
-		waters.take(engine, grid, cloud, {});
-		waters.advance(engine.ownScene()->time, engine.ownScene()->time);
+		const Real  now = engine.ownScene()->time;
+		waters.take(engine, grid, cloud, {}, now, now);
+		waters.advance(now, now);
 		vector<vector<Real>> pressures(all.size()), gradients(all.size());
 		for (size_t p = 0; p < cloud.position.size(); ++p) {
 			const auto all = waters.around(cloud.position[p], cloud.halfSize[p]);

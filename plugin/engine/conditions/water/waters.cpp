@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "engine/conditions/water/waters.hpp"
 #include "engine/analysis/exchange.hpp"
-#include "engine/conditions/water/pressure_table.hpp"
 #include "engine/points/parallel.hpp"
 
 namespace yade {
@@ -31,7 +30,8 @@ namespace {
 }
 
 template <int Dim>
-void Waters<Dim>::take(const Analysis& analysis, const gimpm::Grid<Dim>& grid, const gimpm::PointCloud<Dim>& cloud, const gimpm::Division& division)
+void Waters<Dim>::take(
+        const Analysis& analysis, const gimpm::Grid<Dim>& grid, const gimpm::PointCloud<Dim>& cloud, const gimpm::Division& division, Real begin, Real end)
 {
 	const auto waterOf  = [](const Listed& listed) { return boost::static_pointer_cast<MpmWater>(listed.condition); };
 	const bool areAsked = std::any_of(group.begin(), group.end(), [&](const Listed& listed) { return waterOf(listed)->hasFunction(); });
@@ -39,7 +39,7 @@ void Waters<Dim>::take(const Analysis& analysis, const gimpm::Grid<Dim>& grid, c
 	for (const Listed& listed : group) {
 		const auto water = waterOf(listed);
 		Source     source { water, analysis.curveOfWeight(water->curve), nullptr, 0, 1 };
-		if (water->hasFunction()) source.given = tabulated(*water, grid, cells, listed.name());
+		if (water->hasFunction()) source.given = std::make_shared<PressureInTime<Dim>>(*water, grid, cells, listed.name(), begin, end);
 		else
 			std::tie(source.axis, source.up) = upwards(analysis.gravity, grid, listed.name());
 		sources.push_back(source);
@@ -49,7 +49,7 @@ void Waters<Dim>::take(const Analysis& analysis, const gimpm::Grid<Dim>& grid, c
 
 template <int Dim> void Waters<Dim>::join(gimpm::Model<Dim>& model, const Surroundings<Dim>& around)
 {
-	take(around.analysis, model.grid, around.cloud, *model.division);
+	take(around.analysis, model.grid, around.cloud, *model.division, around.begin, around.target);
 	for (auto& water : waters) {
 		water.shares = model.shares;
 		model.terms.push_back([&water](const gimpm::Beginning<Dim>& step) { return std::make_unique<gimpm::WaterForce<Dim>>(water, step); });
@@ -71,7 +71,7 @@ auto Waters<Dim>::around(const gimpm::Vec<Dim>& x, const gimpm::Vec<Dim>& half) 
 
 template <int Dim> auto Waters<Dim>::pressureAt(const Source& source, Real time) const -> Pressure
 {
-	if (source.given) return source.given;
+	if (source.given) return source.given->at(time);
 	const MpmWater& water = *source.from;
 	const Real      level = water.levels.empty() ? water.level : gimpm::LoadCurve(water.levels).valueAt(time);
 	return std::make_shared<gimpm::StillWater<Dim>>(source.axis, source.up, level, water.weight);
@@ -115,6 +115,7 @@ template <int Dim> void Waters<Dim>::reach(const StepOutcome<Dim>& step)
 		}
 	});
 	for (size_t i = 0; i < waters.size(); ++i) {
+		if (sources[i].given) sources[i].given->keep(*sources[i].from, step.time);
 		auto& onBoundaries = sources[i].from->onBoundaries;
 		onBoundaries.assign(reactions.size(), Vector3r::Zero());
 		for (const auto& [node, force] : waters[i].onWalls)

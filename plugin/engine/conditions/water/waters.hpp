@@ -4,6 +4,7 @@
 #include "core/terms/water/water.hpp"
 #include "engine/analysis/analysis.hpp"
 #include "engine/conditions/water/MpmWater.hpp"
+#include "engine/conditions/water/pressure_table.hpp"
 
 namespace yade {
 
@@ -20,7 +21,7 @@ public:
 	void reach(const StepOutcome<Dim>&) override;
 
 	// Takes its pressures from a scene, without a model: functions are asked for pressures around the points.
-	void take(const Analysis&, const gimpm::Grid<Dim>&, const gimpm::PointCloud<Dim>&, const gimpm::Division&);
+	void take(const Analysis&, const gimpm::Grid<Dim>&, const gimpm::PointCloud<Dim>&, const gimpm::Division&, Real begin, Real end);
 	void advance(Real from, Real to);
 
 	// Averaged over a box, at the end of that step, of each with its factor.
@@ -31,9 +32,10 @@ private:
 	struct Source {
 		shared_ptr<MpmWater> from;
 		gimpm::LoadCurve     curve;
-		Pressure             given; // of a function; null: of a level
-		int                  axis;  // of gravity
-		Real                 up;
+		// Of a function; null: of a level.
+		std::shared_ptr<const PressureInTime<Dim>> given;
+		int                                        axis; // of gravity
+		Real                                       up;
 	};
 	Pressure pressureAt(const Source&, Real time) const;
 
