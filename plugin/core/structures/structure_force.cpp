@@ -195,7 +195,14 @@ template <int Dim> Eigen::VectorXd StructureForce<Dim>::soilAt(const Eigen::Vect
 	return soil;
 }
 
-template <int Dim> Eigen::VectorXd StructureForce<Dim>::equilibrium(const Eigen::VectorXd& d) const { return last_ = system_->solve(soilAt(d), last_).x; }
+/// An equilibrium that has been found is the first guess of the next one. Displacements without one, which a line search
+/// tries and leaves, must not spoil it.
+template <int Dim> Eigen::VectorXd StructureForce<Dim>::equilibrium(const Eigen::VectorXd& d) const
+{
+	const auto solution = system_->solve(soilAt(d), last_);
+	if (solution.isFound) last_ = solution.x;
+	return solution.x;
+}
 
 /// Calls f(vertex, vertex, node of the first, node of the second, product of weights) for what the matrix joins.
 template <int Dim> template <class F> void StructureForce<Dim>::forJoined(F&& f) const

@@ -273,14 +273,17 @@ template <int Dim> void StructureSystem<Dim>::addLoads(const Eigen::VectorXd& x,
 	});
 	if (!structure_.beam) return;
 	const Beam& beam = *structure_.beam;
-	for (int v = 0; v < int(beam.places.size()) - beam.isClosed; ++v)
+	for (int v = 0; v < int(beam.places.size()) - beam.isClosed; ++v) {
+		const Vec<2> t     = beam.tangentAt(v);
+		const Vec<2> water = beam.waterPressure ? Vec<2>((*beam.waterPressure)[v] * Vec<2>(t[1], -t[0])) : Vec<2>(0, 0);
 		for (int i = 0; i < 3; ++i) {
 			LinearForm own;
 			own.add(stations_[v].own[i], 1);
-			double force = i < 2 ? beam.weight[i] * beam.sizeAt(v) : 0;
+			double force = i < 2 ? (beam.weight[i] + water[i]) * beam.sizeAt(v) : 0;
 			if (v == 0) force += i < 2 ? beam.headForce[i] : beam.headMoment;
 			add(own, force);
 		}
+	}
 }
 
 template <int Dim> EnergySum StructureSystem<Dim>::energyAt(const Eigen::VectorXd& x, bool secants) const
@@ -366,9 +369,10 @@ template <int Dim> typename StructureSystem<Dim>::Solution StructureSystem<Dim>:
 		EnergySum             next(0);
 		double                length = 1;
 		for (int half = 0; half < mostHalves; ++half, length /= 2) {
-			x.tail(own) = at.x.tail(own) + length * direction;
-			next        = energyAt(x, secants);
-			if (!secants || next.value <= sum.value + leastDescent * length * slope + roundOff) break;
+			x.tail(own)           = at.x.tail(own) + length * direction;
+			next                  = energyAt(x, secants);
+			const bool isPossible = std::isfinite(next.value) && next.gradient.allFinite();
+			if (isPossible && (!secants || next.value <= sum.value + leastDescent * length * slope + roundOff)) break;
 		}
 		at.x = x, sum = std::move(next);
 	}

@@ -38,7 +38,7 @@ template <int Dim> Conditions<Dim> conditionsOf(const Analysis& analysis)
 template <int Dim> std::unique_ptr<Question> nextQuestion(const vector<Listed>& all, const gimpm::Grid<Dim>& grid, const vector<gimpm::Key>& cells)
 {
 	for (const Listed& listed : all)
-		if (auto question = listed.condition->question(grid, cells, listed.name())) return question;
+		if (auto question = listed.condition->question(grid, cells, listed.name(), all)) return question;
 	return nullptr;
 }
 

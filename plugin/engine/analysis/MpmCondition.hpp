@@ -84,9 +84,15 @@ public:
 	// What functions of Python have to be asked around cells. Answers: what they are called where processes have
 	// got different ones.
 	virtual bool                      hasQuestions() const { return false; }
-	virtual std::unique_ptr<Question> question(const gimpm::Grid<2>&, const vector<gimpm::Key>&, const string& /*name*/) { return nullptr; }
-	virtual std::unique_ptr<Question> question(const gimpm::Grid<3>&, const vector<gimpm::Key>&, const string& /*name*/) { return nullptr; }
-	virtual string                    answers() const { return ""; }
+	virtual std::unique_ptr<Question> question(const gimpm::Grid<2>&, const vector<gimpm::Key>&, const string& /*name*/, const vector<Listed>& /*all*/)
+	{
+		return nullptr;
+	}
+	virtual std::unique_ptr<Question> question(const gimpm::Grid<3>&, const vector<gimpm::Key>&, const string& /*name*/, const vector<Listed>& /*all*/)
+	{
+		return nullptr;
+	}
+	virtual string answers() const { return ""; }
 
 	// What can be meant, but seldom is: sentences, by what they are about. The same ones in all processes.
 	virtual std::map<string, string> warnings(const Analysis&, const vector<MaterialPoint>&, const string& /*name*/) const { return {}; }

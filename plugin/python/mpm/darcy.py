@@ -23,6 +23,8 @@ def seepage(levels, faces=(), solver=None, unitWeight=9810.):
 		solver.water = [MpmWater(pressure=flow.pressure)]
 		print(flow.discharge)
 
+	Beams of the engine (``MpmBeam``) are walls for the water, tight or leaky by their *permittivity*, where they have been put in, down to the line of the grid that is nearest to their tip.
+
 	Darcy's law with the *conductivity* of the materials, or that of points' own, on the grid of the engine, whose cells the body may cut. Above the free surface the soil conducts a thousandth of
 	that, with a transition of half a cell; pressures below zero are none. Nothing moves: consolidation is ``MpmImplicitEngine.flow``.
 
@@ -41,7 +43,8 @@ def seepage(levels, faces=(), solver=None, unitWeight=9810.):
 	if not len(points['id']): raise ValueError(noPoints('seepage', solver))
 	_requirePlane(solver, unitWeight)
 	conductivity = _conductivities(points, materials, number)
-	body = _Body(solver.grid, points, conductivity / unitWeight, unitWeight)
+	walls = [load for load in solver.loads if isinstance(load, wrapper.MpmBeam) and load.permittivity < math.inf]
+	body = _Body(solver.grid, points, conductivity / unitWeight, unitWeight, walls)
 	outlets = [_Outlet(body, f'levels[{i}]', *_pair(i, pair)) for i, pair in enumerate(levels)]
 	outlets += [_Outlet(body, f'faces[{i}]', _surface(f'faces[{i}]', face), -math.inf) for i, face in enumerate(faces)]
 	if not levels: raise ValueError('seepage: levels = () has no surface where water stands: give pairs of a surface and a height')
@@ -53,8 +56,8 @@ class SteadySeepage:
 
 	def __init__(self, body, outlets, p):
 		self._body = body
-		self._known = {tuple(cell): max(0., value) for cell, value in zip(body.nodes.tolist(), p)}
-		self.nodes, self.pressures = body.origin + body.h * body.nodes, p
+		self._known = {tuple(node): max(0., value) for node, value in zip(body.nodes.tolist(), p)}
+		self.nodes, self.pressures = body.origin + body.h * body.nodes[:, :2], p
 		self.discharge = [float(outlet.passes(p).sum()) for outlet in outlets]
 		self.surface = self._freeSurface(p)
 
@@ -63,14 +66,16 @@ class SteadySeepage:
 		xi = (np.array([x[0], x[1]]) - self._body.origin) / self._body.h
 		cell = np.floor(xi + 1e-9)
 		part = np.clip(xi - cell, 0, 1)
-		corners = itertools.product((0, 1), repeat=2)
-		return sum(abs(1 - i - part[0]) * abs(1 - j - part[1]) * self._known.get((int(cell[0]) + i, int(cell[1]) + j), 0.) for i, j in corners)
+		corners = np.array(list(itertools.product((0, 1), repeat=2)))
+		nodes = self._body.copies(np.array([xi]), (cell + corners).astype(int)[None])[0].tolist()
+		values = (self._known.get(tuple(node), self._known.get((*node[:2], 0), 0.)) for node in nodes)
+		return sum(abs(1 - i - part[0]) * abs(1 - j - part[1]) * value for (i, j), value in zip(corners.tolist(), values))
 
 	def _freeSurface(self, p):
 		"""On each vertical line of the grid, from the highest node under pressure upwards."""
 		found, values = [], {tuple(node): value for node, value in zip(self._body.nodes.tolist(), p)}
-		for (i, j), value in sorted(values.items()):
-			above = values.get((i, j + 1))
+		for (i, j, copy), value in sorted(values.items()):
+			above = values.get((i, j + 1, copy), values.get((i, j + 1, 0)))
 			if value > 0 and above is not None and above <= 0: found.append((i, j + value / (value - above)))
 		return self._body.origin + self._body.h * np.array(found).reshape(-1, 2)
 
@@ -124,7 +129,7 @@ def _functions(xi):
 class _Body:
 	"""Domains of the points, cut at the lines of the grid: the middle of each part stands for it, which is exact for linear pressures at any cut."""
 
-	def __init__(self, grid, points, kappa, weight):
+	def __init__(self, grid, points, kappa, weight, beams=()):
 		self.h, self.origin, self.weight = grid.cellSize, np.array(grid.origin)[:2], weight
 		low, high = ((points['pos'][:, :2] + sign * points['halfSize'][:, :2] - self.origin) / self.h for sign in (-1, 1))
 		line = np.clip(np.round((low + high) / 2), low, high)
@@ -137,13 +142,27 @@ class _Body:
 		middle, volume, self.kappa = (np.concatenate(column) for column in zip(*parts))
 		cell = np.floor(middle).astype(int)
 		corners = cell[:, None, :] + np.array(list(itertools.product((0, 1), repeat=2)))
-		self.nodes, number = np.unique(corners.reshape(-1, 2), axis=0, return_inverse=True)
+		self.cells = dict(zip(map(tuple, cell.tolist()), self.kappa))
+		self.walls = [_Wall(number, beam, self) for number, beam in enumerate(beams)]
+		self.nodes, number = np.unique(self.copies(middle, corners).reshape(-1, 3), axis=0, return_inverse=True)
 		self.node = number.reshape(-1, 4)
 		self.values, slopes = _functions(middle - cell)
 		self.slopes, self.volume = slopes / self.h, volume * self.h**2
 		self.numbers = {tuple(node): i for i, node in enumerate(self.nodes.tolist())}
-		self.cells = dict(zip(map(tuple, cell.tolist()), self.kappa))
+		self.leaks = [_Leak(self, wall) for wall in self.walls if wall.permittivity > 0]
 		self.heights = self.origin[1] + self.h * self.nodes[:, 1]
+
+	def copies(self, places, corners):
+		"""(N, 4, 3): the nodes (N, 4, 2) of cells as seen from places (N, 2) in them, with the number of their copy behind a wall, 0 for the node itself."""
+		copy = np.zeros(corners.shape[:2], int)
+		for wall in self.walls: copy = np.maximum(copy, wall.copies(places, corners))
+		return np.concatenate([corners, copy[:, :, None]], axis=2)
+
+	def numbersOf(self, places, corners):
+		"""Numbers (N, 4) of these nodes; None if there is a cell that has none."""
+		four = self.copies(places, corners).reshape(-1, 3).tolist()
+		found = [self.numbers.get(tuple(node), self.numbers.get((*node[:2], 0))) for node in four]
+		return None if None in found else np.array(found).reshape(-1, 4)
 
 	def cellBehind(self, place, inwards):
 		"""The first cell with points from a place [cells] inwards, as points may fall short of a slope; None if there is none within a whole one."""
@@ -153,6 +172,84 @@ class _Body:
 	def wetness(self, p):
 		"""Conductivity of each part over that of wet soil."""
 		return np.clip(.5 + (self.values * p[self.node]).sum(axis=1) / (self.weight * _transition * self.h), _dry, 1)
+
+
+class _Wall:
+	"""A beam that water does not pass, or leaks through: cells that it cuts have nodes on each side of it (Hansbo and Hansbo 2004). All is counted in cells."""
+
+	def __init__(self, number, beam, body):
+		self.number, self.permittivity = number, beam.permittivity
+		self.line = (np.array([point[:2] for point in beam.line], float) - body.origin) / body.h
+		self.shared = set()  # nodes at the tips, around which soil is one body
+		if not (self.line[0] == self.line[-1]).all():
+			for end, before in (0, 1), (-1, -2): self._end(body, end, before)
+
+	def _end(self, body, end, before):
+		"""A tip ends at the line of the grid that is nearest to it; another end goes on out of the cells around it."""
+		last, way = self.line[end].copy(), self.line[end] - self.line[before]
+		length = np.linalg.norm(way)
+		way /= length
+		if tuple(np.floor(last + .5 * way + 1e-9 * way[::-1]).astype(int).tolist()) not in body.cells and tuple(np.floor(last + .5 * way - 1e-9 * way[::-1]).astype(int).tolist()) not in body.cells:
+			self.line[end] = last + 1.5 * way
+			return
+		cuts = [(line - last[a]) / way[a] for a in (0, 1) if abs(way[a]) > 1e-9 for line in (np.floor(last[a]), np.floor(last[a]) + 1, np.floor(last[a]) - 1)]
+		tip = last + min((cut for cut in cuts if cut > -length), key=abs) * way
+		self.line[end] = tip
+		low, high = np.floor(tip + 1e-6).astype(int), np.ceil(tip - 1e-6).astype(int)
+		self.shared |= {(i, j) for i in (low[0], high[0]) for j in (low[1], high[1])}
+
+	def copies(self, places, corners):
+		"""(N, 4): number of the copy of nodes that are behind the wall as seen from places; a node on the wall is to its right."""
+		copy = np.zeros(corners.shape[:2], int)
+		low, high = self.line.min(axis=0) - 2, self.line.max(axis=0) + 2
+		near = np.flatnonzero(((places >= low) & (places <= high)).all(axis=1))
+		for start, end in zip(self.line, self.line[1:]):
+			way = end - start
+			right = np.array([way[1], -way[0]]) / np.linalg.norm(way)
+			at, node = places[near][:, None, :] - start, corners[near] + 1e-7 * right - start
+			side, other = (way[0] * x[..., 1] - way[1] * x[..., 0] for x in (at, node))
+			with np.errstate(divide='ignore', invalid='ignore'):
+				cross = at + (side / (side - other))[..., None] * (node - at)
+				part = cross @ way / (way @ way)
+			isBehind = (side * other < 0) & (part >= 0) & (part <= 1)
+			copy[near] = np.where(isBehind, 1 + 2 * self.number + (side < 0), copy[near])
+		for n in np.argwhere(copy > 0) if self.shared else ():
+			if tuple(corners[tuple(n)].tolist()) in self.shared: copy[tuple(n)] = 0
+		return copy
+
+	def places(self):
+		"""(place, length, direction to the left) for two places between lines of the grid."""
+		for start, end in zip(self.line, self.line[1:]):
+			way, length = end - start, np.linalg.norm(end - start)
+			cuts = [(line - start[a]) / way[a] for a in (0, 1) if abs(way[a]) > 1e-12 for line in range(math.floor(min(start[a], end[a])), math.ceil(max(start[a], end[a])) + 1)]
+			cuts = np.unique(np.clip([0, 1, *cuts], 0, 1))
+			for first, last in zip(cuts, cuts[1:]):
+				for part in (.5 - .5 / math.sqrt(3), .5 + .5 / math.sqrt(3)):
+					yield start + (first + part * (last - first)) * way, (last - first) * length / 2, np.array([-way[1], way[0]]) / length
+
+
+class _Leak:
+	"""What passes a wall between soil on both of its sides: *permittivity* times the difference of heads."""
+
+	def __init__(self, body, wall):
+		corners = np.array(list(itertools.product((0, 1), repeat=2)))
+		nodes, values, self.conductance = [], [], []
+		for x, length, left in wall.places():
+			sides = [x + sign * 1e-6 * left for sign in (1, -1)]
+			cells = [np.floor(at).astype(int) for at in sides]
+			if any(tuple(cell.tolist()) not in body.cells for cell in cells): continue
+			found = [body.numbersOf(np.array([at]), (cell + corners)[None]) for at, cell in zip(sides, cells)]
+			if any(node is None for node in found): continue
+			nodes.append(np.concatenate([node[0] for node in found]))
+			values.append(np.concatenate([sign * _functions(np.array([at - cell]))[0][0] for sign, at, cell in zip((1, -1), sides, cells)]))
+			self.conductance.append(wall.permittivity / body.weight * length * body.h)
+		self.node, self.values, self.conductance = np.array(nodes, int).reshape(-1, 8), np.array(values).reshape(-1, 8), np.array(self.conductance)
+
+	def times(self, p):
+		return np.bincount(self.node.ravel(), ((self.conductance * (self.values * p[self.node]).sum(axis=1))[:, None] * self.values).ravel(), len(p))
+
+	def diagonal(self, count):
+		return np.bincount(self.node.ravel(), (self.conductance[:, None] * self.values**2).ravel(), count)
 
 
 class _Outlet:
@@ -167,9 +264,9 @@ class _Outlet:
 		cell = np.array(cells)
 		self.values = _functions((self.x - body.origin) / body.h - cell)[0]
 		corners = cell[:, None, :] + np.array(list(itertools.product((0, 1), repeat=2)))
-		self.node = np.array([[body.numbers[tuple(node)] for node in four] for four in corners.tolist()])
+		self.node = body.numbersOf((self.x - body.origin) / body.h + 1e-3 * inwards, corners)
 		self.given = body.weight * np.maximum(0, level - self.x[:, 1])
-		self.mayEnter = self.x[:, 1] < level
+		self.mayEnter = self.x[:, 1] <= level + 1e-9 * body.h
 		self.skin = _skin / body.h * np.array([body.cells[tuple(c)] for c in cell.tolist()]) * self.length
 
 	@staticmethod
@@ -219,18 +316,21 @@ class _Linear:
 		flow = wetness * body.kappa * body.volume
 		self.body, self.flow = body, flow
 		self.faces = [(outlet, outlet.conducts(p)) for outlet in outlets]
+		self.leaks = body.leaks
 		n = len(body.nodes)
 		self.right = np.bincount(body.node.ravel(), (-body.weight * flow[:, None] * body.slopes[:, :, 1]).ravel(), n)
 		diagonal = np.bincount(body.node.ravel(), (flow[:, None] * (body.slopes**2).sum(axis=2)).ravel(), n)
 		for outlet, skin in self.faces:
 			self.right += np.bincount(outlet.node.ravel(), ((skin * outlet.given)[:, None] * outlet.values).ravel(), n)
 			diagonal += np.bincount(outlet.node.ravel(), (skin[:, None] * outlet.values**2).ravel(), n)
+		for leak in self.leaks: diagonal += leak.diagonal(n)
 		self.scale = 1 / diagonal
 
 	def times(self, p):
 		body = self.body
 		slope = np.einsum('pa,pai->pi', p[body.node], body.slopes)
 		y = np.bincount(body.node.ravel(), (self.flow[:, None] * np.einsum('pi,pai->pa', slope, body.slopes)).ravel(), len(p))
+		for leak in self.leaks: y += leak.times(p)
 		for outlet, skin in self.faces:
 			y += np.bincount(outlet.node.ravel(), ((skin * outlet.pressure(p))[:, None] * outlet.values).ravel(), len(p))
 		return y

@@ -219,3 +219,59 @@ mpm.load('stage.yade.gz')
 print(json.dumps([before, size()]))
 ''').result
 	assert after == pytest.approx(before, rel=1e-12)
+
+
+def test_water_presses_on_beams_from_both_sides(yade):
+	"""A wall that is clamped at its foot, with water behind it and soil that does not bear tension along it: force and moment of the water by hand. Where its two sides have the same water nothing happens. Files keep what is known beside it."""
+	alone, differ, same, gone, flow = yade('''
+import json
+import numpy as np
+from yade import mpm
+h, weight = .5, 1e4
+def ground(where='everywhere', level=3, other=0):
+	O.reset()
+	O.materials.append(MpmElasticMat(young=1e6, poisson=0, density=2000, conductivity=1e-5, porosity=.4, label='soil'))
+	grid = MpmGrid(cellSize=h)
+	O.bodies.append(mpm.fill(mpm.polygon([(-4, 0), (4, 0), (4, 1), (-4, 1)]), grid, 2, 'soil'))
+	wall = MpmBeam(line=[(.1, 4), (.1, 0)], axialStiffness=1e10, bendingStiffness=1e9, adhesion=0, fixFoot='xyr')
+	water = MpmWater(pressure=lambda x: weight * max(0, (level if x[0] < .1 else other) - x[1]), where=where, weight=weight)
+	held = [MpmBoundary(max=(-4, inf, inf), fix='x'), MpmBoundary(min=(4, -inf, -inf), fix='x'), MpmBoundary(max=(inf, 0, inf), fix='y')]
+	O.engines, O.dt = [MpmImplicitEngine(grid=grid, gravity=(0, -10, 0), gravityCurve=[(0, 1)], loadCurve=[(0, 1)], boundaries=held, loads=[wall], water=[water], verbosity=0)], 1
+	return O.engines[0]
+def result(solver):
+	wall, a = solver.loads[0], mpm.arrays()
+	return [np.abs(wall.waterPressures).max(), abs(wall.moments[-1]), wall.pressures[-2], max(abs(np.diff(a['stress'][:, 0, 0])))]
+def refused(f, *args, **kw):
+	try: f(*args, **kw)
+	except Exception as error: return f'{type(error).__name__}: {error}'
+	return 'nothing was refused'
+solver = ground('outside')
+O.run(2, wait=True)
+alone = [result(solver), np.interp(1.5, [v[1] for v in solver.loads[0].vertices][::-1], solver.loads[0].waterPressures[::-1])]
+solver = ground()
+O.run(2, wait=True)
+differ = result(solver)
+mpm.save('wall.yade.gz')
+O.run(1, wait=True)
+before = result(solver)
+O.load('wall.yade.gz')
+O.run(1, wait=True)
+gone = [before, result(O.engines[0])]
+solver = ground(level=3, other=3)
+O.run(2, wait=True)
+same = result(solver)
+solver = ground(level=0)
+solver.water, solver.flow = [MpmWater(level=1)], MpmFlow()
+flow = [refused(O.run, 1, wait=True)]
+solver = ground(level=0)
+solver.water, solver.flow, solver.loads[0].permittivity = [MpmWater(level=1)], MpmFlow(), inf
+flow.append(refused(O.run, 1, wait=True))
+print(json.dumps([alone, differ, same, gone, flow]))
+''').result
+	print(alone, differ, same, gone, flow)
+	hand = 1e4 * 3**3 / 6
+	assert alone[1] == pytest.approx(-1.5e4, rel=.05) and alone[0][1] == pytest.approx(hand, rel=.1)
+	assert differ[0] == pytest.approx(3e4, rel=.01) and differ[1] == pytest.approx(hand, rel=.1)
+	assert same[0] < 100 and same[1] < .01 * hand
+	assert gone[1] == pytest.approx(gone[0], rel=1e-9)
+	assert 'loads[0].permittivity = 0' in flow[0] and 'mpm.seepage' in flow[0] and flow[1] == 'nothing was refused'

@@ -468,6 +468,7 @@ import sys
 from yade.mpm.library import engine as library
 def said(line=((2, 2), (2, 1)), other=(), more=(), conductivity=None, porosity=None, **settings):
 	beam = MpmBeam(line=list(line), axialStiffness=1e9, bendingStiffness=1e6, adhesion=0, fixFoot='xyr')
+	if 'flow' in settings: beam.permittivity = inf
 	ground(beam, *other, **{**dict(poisson=.3), **settings})
 	if conductivity: O.materials[0].conductivity, O.materials[0].porosity = conductivity, porosity
 	solver.boundaries = [*solver.boundaries, *more]

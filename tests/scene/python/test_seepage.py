@@ -115,3 +115,31 @@ print(json.dumps(said))
 	).result
 	for sentence, part in zip(said, ('levels = () has no surface', 'must be a pair', 'must be a pair', 'is not on the body', 'unitWeight = 0', 'has conductivity = nan'), strict=True):
 		assert part in sentence, sentence
+
+
+def test_a_beam_is_tight_for_water_or_leaks(yade):
+	"""Flow under a sheet pile of half the depth of the layer: discharge k H / 2 (Harr 1962), on a line of the grid or between two. Down to the base nothing passes, and a leaky wall has what two layers of soil and it let through."""
+	under, through, leaks, aside, open_, pressures = yade(
+	        setting + '''
+T, L, k = 5, 20, 1e-5
+def flow(depth, h=.5, x=0., level=T + 1, length=L, side=False, **ofWall):
+	dam(1, 1, h)
+	O.reset()
+	O.materials.append(MpmElasticMat(young=1e7, poisson=.3, density=2000, conductivity=k, porosity=.4, label='soil'))
+	grid = MpmGrid(cellSize=h)
+	O.bodies.append(mpm.fill(mpm.polygon([(-length, 0), (length, 0), (length, T), (-length, T)]), grid, 2, 'soil'))
+	wall = MpmBeam(line=[(x, T), (x, T - depth)], axialStiffness=3e9, bendingStiffness=5e7, **ofWall)
+	O.engines = [MpmImplicitEngine(grid=grid, gravity=(0, -10, 0), loads=[wall], verbosity=0)]
+	if side: return mpm.seepage([([(-length, T), (-length, 0)], T + 2), ([(length, 0), (length, T)], T + 1)], unitWeight=1e4)
+	return mpm.seepage([([(x, T), (-length, T)], level), ([(length, T), (x, T)], T)], unitWeight=1e4)
+under = [flow(2.5, h, x).discharge[1] / (k / 2) for h, x in ((.5, 0), (.25, 0), (.5, .2))]
+f = flow(5, level=T + 2)
+psi, length = 1e-5, 4
+leaks = flow(5, length=length, side=True, permittivity=psi).discharge[1] / (T / (2 * length / k + 1 / psi))
+print(json.dumps([under, f.discharge, leaks, flow(5, length=length, side=True).discharge[1], flow(5, length=length, side=True, permittivity=inf).discharge[1] / (T * k / (2 * length)),
+	[f.pressure((-1e-3, 2, 0)), f.pressure((1e-3, 2, 0))]]))
+'''
+	).result
+	assert under == pytest.approx([1, 1, 1], abs=.03) and under[1] < under[0]
+	assert abs(through[0]) + abs(through[1]) < 1e-12 and leaks == pytest.approx(1, abs=2e-3) and abs(aside) < 1e-12 and open_ == pytest.approx(1, abs=2e-3)
+	assert pressures == pytest.approx([5e4, 3e4], rel=1e-6)

@@ -156,23 +156,32 @@ WaterForce<Dim>::WaterForce(Water<Dim>& water, const Beginning<Dim>& step)
         : water_(water), basis_(step.basis), grid_(step.grid), dofs_(step.dofs), share_(step.share)
 {
 	for (const int p : basis_.order) {
-		const double volume0 = water.shares.empty() ? step.cloud.volume0[p] : water.shares[step.cloud.material[p]] * step.cloud.volume0[p];
-		start_.push_back({ step.cloud.position[p], step.cloud.halfSize[p], volume0, volume0 * step.cloud.volumeRatio(p) });
+		const double    volume0 = water.shares.empty() ? step.cloud.volume0[p] : water.shares[step.cloud.material[p]] * step.cloud.volume0[p];
+		const Vec<Dim>& x       = step.cloud.position[p];
+		start_.push_back({ x, step.cloud.halfSize[p], volume0, volume0 * step.cloud.volumeRatio(p), water.sideOf ? water.sideOf(x) : 0 });
 	}
+}
+
+template <int Dim> const WaterPressure<Dim>& WaterForce<Dim>::pressureFor(const Start& start, When when) const
+{
+	const auto& beside = when == When::before ? water_.besideBefore : water_.beside;
+	if (start.side > 0 && beside[start.side - 1]) return *beside[start.side - 1];
+	return when == When::before ? *water_.before : *water_.pressure;
 }
 
 /// Calls f(place in the basis, wet point) for all points at d. Returns the first point that has left the known places
 /// or has turned inside out; the others are done.
 template <int Dim>
 template <class F>
-std::optional<PointFailure> WaterForce<Dim>::forWetPoints(const WaterPressure<Dim>& pressure, WaterPlace place, const Eigen::VectorXd& d, F&& f) const
+std::optional<PointFailure> WaterForce<Dim>::forWetPoints(When when, WaterPlace place, const Eigen::VectorXd& d, F&& f) const
 {
 	std::atomic_int failed { std::numeric_limits<int>::max() };
-	const Vec<Dim>  fall  = pressure.fall();
+	const Vec<Dim>  fall  = (when == When::before ? water_.before : water_.pressure)->fall();
 	const bool      falls = !fall.isZero(0);
 	forMovedPoints(basis_, d, [&](int i, const MovedPoint<Dim>& moved) {
-		const Start& start = start_[i];
-		const auto around = moved.J > 0 && std::isfinite(moved.J) ? pressure.around(start.position + moved.displacement, start.halfSize) : std::nullopt;
+		const Start& start   = start_[i];
+		const bool   isWhole = moved.J > 0 && std::isfinite(moved.J);
+		const auto   around  = isWhole ? pressureFor(start, when).around(start.position + moved.displacement, start.halfSize) : std::nullopt;
 		if (around) {
 			WetPoint<Dim> wet(moved, *around, place, start.volume0, start.volume * moved.J);
 			if (!falls) return f(i, wet);
@@ -191,14 +200,14 @@ template <int Dim> void WaterForce<Dim>::mark(NodeMatrix<Dim>& K) const { markPo
 
 template <int Dim> std::optional<PointFailure> WaterForce<Dim>::add(const Eigen::VectorXd& d, const TermSum<Dim>& sum) const
 {
-	return forWetPoints(*water_.pressure, water_.place, d, [&](int, const WetPoint<Dim>& wet) {
+	return forWetPoints(When::now, water_.place, d, [&](int, const WetPoint<Dim>& wet) {
 		if (!wet.isDry()) addTo(sum, wet, water_.factor);
 	});
 }
 
 template <int Dim> void WaterForce<Dim>::addBefore(Eigen::VectorXd& force) const
 {
-	forWetPoints(*water_.before, water_.place, Eigen::VectorXd::Zero(force.size()), [&](int, const WetPoint<Dim>& wet) {
+	forWetPoints(When::before, water_.place, Eigen::VectorXd::Zero(force.size()), [&](int, const WetPoint<Dim>& wet) {
 		if (!wet.isDry()) addTo<Dim>({ force }, wet, water_.factorBefore);
 	});
 }
@@ -223,7 +232,7 @@ template <int Dim> void WaterForce<Dim>::commit(const Eigen::VectorXd& d)
 		water_.work = -twice.dot(d) / 2;
 	}
 	water_.porePressure.assign(start_.size(), 0);
-	forWetPoints(*water_.pressure, WaterPlace::outside, d, [&](int i, const WetPoint<Dim>& wet) {
+	forWetPoints(When::now, WaterPlace::outside, d, [&](int i, const WetPoint<Dim>& wet) {
 		if (wets) water_.porePressure[basis_.order[i]] = water_.factor * wet.p.value;
 		if (fillsWalls && !wet.isDry()) addTo<Dim>({ onWalls }, wet, -water_.factor);
 	});

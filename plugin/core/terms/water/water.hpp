@@ -3,6 +3,7 @@
 #pragma once
 #include "core/terms/term.hpp"
 #include "core/terms/water/water_pressure.hpp"
+#include <functional>
 
 namespace gimpm {
 
@@ -17,6 +18,11 @@ template <int Dim> struct Water {
 	double              factor = 1, factorBefore = 1; ///< of the pressures
 	bool                wantsWork = false;            ///< which takes two passes over the points
 	std::vector<double> shares {};                    ///< by material, of what acts on its points; empty: all
+
+	/// Beside walls where the pressure jumps: number of the side that a place is on, from 1, 0 elsewhere; and by side
+	/// the pressure as it goes on from there. Null: as elsewhere.
+	std::function<int(const Vec<Dim>&)> sideOf {};
+	std::vector<Pressure>               beside {}, besideBefore {};
 
 	// of the last step that was accepted
 	std::vector<double>                   porePressure {}; ///< by point of the cloud, at its end [Pa]
@@ -52,8 +58,11 @@ private:
 	struct Start { // of a point
 		Vec<Dim> position, halfSize;
 		double   volume0, volume;
+		int      side; ///< of a wall
 	};
-	template <class F> std::optional<PointFailure> forWetPoints(const WaterPressure<Dim>&, WaterPlace, const Eigen::VectorXd& d, F&&) const;
+	enum class When { before, now };
+	const WaterPressure<Dim>&                      pressureFor(const Start&, When) const;
+	template <class F> std::optional<PointFailure> forWetPoints(When, WaterPlace, const Eigen::VectorXd& d, F&&) const;
 
 	Water<Dim>&            water_;
 	const CloudBasis<Dim>& basis_;

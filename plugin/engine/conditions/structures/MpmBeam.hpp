@@ -16,17 +16,18 @@ public:
 	Real                                 prestress     = 0;
 	Points                               hinges;
 	string                               fixHead, fixFoot;
-	Vector3r                             headForce   = Vector3r::Zero();
-	Real                                 headMoment  = 0;
-	Real                                 contraction = 0;
-	Real                                 adhesion    = inf;
-	Real                                 friction    = 0;
-	Real                                 stiffness   = 10;
+	Vector3r                             headForce    = Vector3r::Zero();
+	Real                                 headMoment   = 0;
+	Real                                 contraction  = 0;
+	Real                                 adhesion     = inf;
+	Real                                 friction     = 0;
+	Real                                 stiffness    = 10;
+	Real                                 permittivity = 0;
 	vector<shared_ptr<MpmReinforcement>> anchors;
 	gimpm::LoadCurve::Knees              curve; // empty: that of the engine
 	// Results, which are also the state from which the next step goes on
 	vector<Vector3r> vertices;
-	vector<Real>     rotations, axialForces, shearForces, moments, hoopForces, hoopMoments, pressures, leftPressures, rightPressures;
+	vector<Real>     rotations, axialForces, shearForces, moments, hoopForces, hoopMoments, pressures, leftPressures, rightPressures, waterPressures;
 	vector<Real>     lengths, radii, slopes, elongations, bends, gaps, normals, shears, stuck;
 
 	YADE_API_NAME(MpmBeam)
@@ -73,6 +74,9 @@ public:
 		  admitting("an angle from 0 to below pi/2 [rad], as radians(30)", isFrictionAngle));
 		v("stiffness", &B::stiffness, 0,
 		  "Of the springs between beam and soil [-] > 0: pressure over displacement, over Young's modulus of the soil by cell.", positive);
+		v("permittivity", &B::permittivity, 0,
+		  "Of the beam for water that crosses it: conductivity over thickness [1/s] >= 0, for mpm.seepage. 0, the default: tight; inf: water passes as if there were no beam.",
+		  admitting("a number >= 0 [1/s], or inf", isNonNegativeOrInfinite));
 		v("anchors", &B::anchors, 0,
 		  "Bars (MpmReinforcement) whose heads are fixed to it, at the vertices nearest to them; not listed in *loads*. Read as a tuple, so assign a new one.");
 		v("curve", &B::curve, 0,
@@ -92,6 +96,9 @@ public:
 		  "What it presses on the soil [Pa] at each vertex, positive to the left of the line: *leftPressures* less *rightPressures*.", AnyValue());
 		v("leftPressures", &B::leftPressures, readonly, "What it presses on the soil to the left of the line [Pa], at each vertex.", AnyValue());
 		v("rightPressures", &B::rightPressures, readonly, "What it presses on the soil to the right of the line [Pa], at each vertex.", AnyValue());
+		v("waterPressures", &B::waterPressures, readonly,
+		  "Pressure of the water (MpmWater) to the left of the line less that to its right [Pa], at each vertex: it presses on the beam itself.",
+		  AnyValue());
 		v("lengths", &B::lengths, hidden, "", AnyValue());
 		v("radii", &B::radii, hidden, "", AnyValue());
 		v("slopes", &B::slopes, hidden, "", AnyValue());

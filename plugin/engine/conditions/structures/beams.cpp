@@ -142,6 +142,8 @@ namespace {
 void Beams::join(gimpm::Model<2>& model, const Surroundings<2>& around)
 {
 	inItsWay = model.processes->size() > 1 ? "several processes" : cannotPart(around.analysis);
+	for (const Listed& listed : around.analysis.conditions())
+		waterFlows = waterFlows || string(listed.list) == "flow";
 	for (const Listed& listed : group) {
 		const auto  from = boost::static_pointer_cast<MpmBeam>(listed.condition);
 		const auto& down = around.analysis.gravity;
@@ -162,8 +164,12 @@ void Beams::join(gimpm::Model<2>& model, const Surroundings<2>& around)
 			sources.back().ofAnchors.push_back(around.analysis.curveOfLoad(from->anchors[i]->curve));
 		}
 	}
-	for (auto& structure : structures)
-		joinStructure<2>(structure, model);
+	for (size_t i = 0; i < structures.size(); ++i) {
+		auto& pressures = sources[i].from->waterPressures; // which MpmWater sets
+		pressures.assign(structures[i].beam->places.size(), 0);
+		structures[i].beam->waterPressure = &pressures;
+		joinStructure<2>(structures[i], model);
+	}
 }
 
 vector<Beam*> Beams::beams()
@@ -174,9 +180,24 @@ vector<Beam*> Beams::beams()
 	return all;
 }
 
+void Beams::requirePermeable() const
+{
+	for (size_t i = 0; i < structures.size(); ++i) {
+		const Beam& beam = *structures[i].beam;
+		if (!waterFlows || !beam.isBetween || std::isinf(sources[i].from->permittivity)) continue;
+		throw std::invalid_argument(gimpm::sentence(
+		        beam.name, ".permittivity = ", sources[i].from->permittivity,
+		        ": with MpmFlow water passes a beam between soil as if there were none, which needs permittivity = inf. For a tight or leaky wall take steady seepage: ",
+		        "MpmWater(pressure=mpm.seepage(...).pressure)."));
+	}
+}
+
 void Beams::part(gimpm::PointCloud<2>& cloud, gimpm::Model<2>& model)
 {
-	if (!inItsWay.empty()) return gimpm::lookBetween(beams(), cloud, model.grid);
+	if (!inItsWay.empty()) {
+		gimpm::lookBetween(beams(), cloud, model.grid);
+		return requirePermeable();
+	}
 	gimpm::partSoil(beams(), cloud, model.grid);
 	sides = gimpm::sidesOf(beams(), cloud.position, model.grid.cellSize);
 }

@@ -33,7 +33,10 @@ private:
 	vector<int>                 sides;    // of points, as the step begins
 	vector<size_t>              crossed;  // by structure: points that have gone through it
 
+	bool waterFlows = false; // MpmFlow, which knows of no beams
+
 	vector<gimpm::Beam*> beams();
+	void                 requirePermeable() const;
 };
 
 } // namespace yade

@@ -46,22 +46,24 @@ Real MpmWater::end(const Analysis& analysis) const
 
 namespace {
 	template <int Dim>
-	std::unique_ptr<Question> questionOf(MpmWater& water, const gimpm::Grid<Dim>& grid, const vector<gimpm::Key>& cells, const string& name)
+	std::unique_ptr<Question> questionOf(
+	        MpmWater& water, const gimpm::Grid<Dim>& grid, const vector<gimpm::Key>& cells, const string& name, const vector<WallInWater>& walls)
 	{
-		if (!water.hasFunction() || !water.pressure) return nullptr;
-		auto question = PressureQuestion<Dim>::of(water, grid, cells, name, When::next);
+		auto question = PressureQuestion<Dim>::of(water, grid, cells, name, When::next, walls);
 		return question ? std::make_unique<PressureQuestion<Dim>>(std::move(*question)) : nullptr;
 	}
 }
 
-std::unique_ptr<Question> MpmWater::question(const gimpm::Grid<2>& grid, const vector<gimpm::Key>& cells, const string& name)
+std::unique_ptr<Question> MpmWater::question(const gimpm::Grid<2>& grid, const vector<gimpm::Key>& cells, const string& name, const vector<Listed>& all)
 {
-	return questionOf(*this, grid, cells, name);
+	if (!hasFunction() || !pressure) return nullptr;
+	return questionOf(*this, grid, cells, name, wallsInWater(all, grid));
 }
 
-std::unique_ptr<Question> MpmWater::question(const gimpm::Grid<3>& grid, const vector<gimpm::Key>& cells, const string& name)
+std::unique_ptr<Question> MpmWater::question(const gimpm::Grid<3>& grid, const vector<gimpm::Key>& cells, const string& name, const vector<Listed>&)
 {
-	return questionOf(*this, grid, cells, name);
+	if (!hasFunction() || !pressure) return nullptr;
+	return questionOf(*this, grid, cells, name, {});
 }
 
 std::map<string, string> MpmWater::warnings(const Analysis& analysis, const vector<MaterialPoint>& points, const string& name) const

@@ -31,6 +31,8 @@ public:
 	// Hidden: values of the function in the state reached, and at the end of the coming step. Of each node of the grid
 	// three grid coordinates and the pressure; cell size and origin of that grid.
 	vector<Real> table, next, tableGrid;
+	// Hidden: the same beside beams, of each place two coordinates and the pressure.
+	vector<Real> besideWalls, nextBesideWalls;
 	// Hidden: the function has given another pressure than in the step before.
 	bool changes = false;
 
@@ -62,6 +64,8 @@ public:
 		v("table", &MpmWater::table, hidden, "", AnyValue());
 		v("next", &MpmWater::next, hidden, "", AnyValue());
 		v("tableGrid", &MpmWater::tableGrid, hidden, "", AnyValue());
+		v("besideWalls", &MpmWater::besideWalls, hidden, "", AnyValue());
+		v("nextBesideWalls", &MpmWater::nextBesideWalls, hidden, "", AnyValue());
 		v("changes", &MpmWater::changes, hidden, "", AnyValue());
 	}
 
@@ -77,15 +81,15 @@ public:
 	string                    needsUntiedNodes(const string&) const override { return ""; }
 	bool                      goesOn() const override { return changes; }
 	bool                      hasQuestions() const override { return true; }
-	void                      forgetAnswers() override { next.clear(); }
-	std::unique_ptr<Question> question(const gimpm::Grid<2>&, const vector<gimpm::Key>&, const string& name) override;
-	std::unique_ptr<Question> question(const gimpm::Grid<3>&, const vector<gimpm::Key>&, const string& name) override;
+	void                      forgetAnswers() override { next.clear(), nextBesideWalls.clear(); }
+	std::unique_ptr<Question> question(const gimpm::Grid<2>&, const vector<gimpm::Key>&, const string& name, const vector<Listed>& all) override;
+	std::unique_ptr<Question> question(const gimpm::Grid<3>&, const vector<gimpm::Key>&, const string& name, const vector<Listed>& all) override;
 	string                    answers() const override { return "pressures of water"; }
 	std::map<string, string>  warnings(const Analysis&, const vector<MaterialPoint>&, const string& name) const override;
 
 	// Its pressure is that of a function.
 	bool hasFunction() const { return std::isnan(level) && levels.empty(); }
-	void forgetTable() { table.clear(), next.clear(), changes = false, evaluated = nullptr; }
+	void forgetTable() { table.clear(), besideWalls.clear(), forgetAnswers(), changes = false, evaluated = nullptr; }
 
 	const void* evaluated = nullptr; // the function whose values the table has; null: one that has not been saved
 };

@@ -170,6 +170,32 @@ namespace {
 		        + " is not known: functions are not saved with a scene, only their values near the points that it has. Give MpmWater.pressure again.");
 	}
 
+	using Places = PressureInTime<2>::Places;
+
+	Places placesOf(const vector<Real>& table)
+	{
+		Places places;
+		for (size_t i = 0; i + 2 < table.size(); i += 3)
+			places[{ table[i], table[i + 1] }] = table[i + 2];
+		return places;
+	}
+
+	vector<WallInWater::Vec2> missingBeside(const vector<WallInWater>& walls, const Places& known)
+	{
+		vector<WallInWater::Vec2> missing;
+		for (const WallInWater& wall : walls)
+			for (const auto& x : wall.places())
+				if (known.find({ x[0], x[1] }) == known.end()) missing.push_back(x);
+		return missing;
+	}
+
+	[[noreturn]] void refusePlace(const WallInWater::Vec2& place, const string& name)
+	{
+		throw std::invalid_argument(gimpm::sentence(
+		        name, ": the pressure beside a beam at (", place.transpose(),
+		        ") is not known: functions are not saved with a scene, only their values near the points and beams that it has. Give MpmWater.pressure again."));
+	}
+
 	[[noreturn]] void refuseChanges(const string& name)
 	{
 		throw std::invalid_argument(
@@ -180,69 +206,84 @@ namespace {
 
 template <int Dim>
 std::optional<PressureQuestion<Dim>> PressureQuestion<Dim>::of(
-        MpmWater& water, const gimpm::Grid<Dim>& grid, const vector<Key>& cells, const string& name, When when)
+        MpmWater& water, const gimpm::Grid<Dim>& grid, const vector<Key>& cells, const string& name, When when, const vector<WallInWater>& walls)
 {
 	// Cells that a point may reach in a step, and in the steps after a scene has been loaded.
 	constexpr int near = 1, far = 3;
 	const bool    isOfGrid = water.tableGrid == numbersOf(grid), isOfFunction = water.pressure && water.evaluated == water.pressure.object.get();
 	if (water.pressure && (!isOfGrid || (when == When::now && !isOfFunction))) water.forgetTable();
 	if (!water.pressure && !isOfGrid) refuseNode(gimpm::Grid<Dim>::key(gimpm::Index<Dim>::Zero()), grid, name);
-	const PressureAt values  = valuesOf<Dim>(water.pressure && when == When::next ? water.next : water.table);
+	const bool       isNext  = water.pressure && when == When::next;
+	const PressureAt values  = valuesOf<Dim>(isNext ? water.next : water.table);
 	const auto       missing = [&](const vector<Key>& nodes) {
                 vector<Key> found;
                 for (const Key node : nodes)
                         if (values.find(node) == values.end()) found.push_back(node);
                 return found;
 	};
+	PressureQuestion  question(water, name, grid, when);
 	const vector<Key> nearest = nodesAround(cells, near, grid);
+	question.places           = missingBeside(walls, placesOf(isNext ? water.nextBesideWalls : water.besideWalls));
 	if (!water.pressure) {
 		if (water.changes && when == When::next) refuseChanges(name);
 		// Scenes of earlier revisions have no nodes at the far side of a period.
 		const vector<Key> unknown = missing(nearest);
 		if (!unknown.empty()) refuseNode(unknown[0], grid, name);
+		if (!question.places.empty()) refusePlace(question.places[0], name);
 		return std::nullopt;
 	}
-	if (missing(withFarSide(nearest, grid)).empty()) return std::nullopt;
-	return PressureQuestion(water, name, grid, missing(withFarSide(nodesAround(cells, far, grid), grid)), when);
+	if (!missing(withFarSide(nearest, grid)).empty()) question.nodes = missing(withFarSide(nodesAround(cells, far, grid), grid));
+	if (question.nodes.empty() && question.places.empty()) return std::nullopt;
+	return question;
 }
 
 template <int Dim> void PressureQuestion<Dim>::ask()
 {
-	vector<Vector3r> places;
+	vector<Vector3r> all;
 	for (const Key node : nodes)
-		places.push_back(placeOf(node, grid));
-	found = answers(function, places, name);
+		all.push_back(placeOf(node, grid));
+	for (const auto& x : places)
+		all.push_back({ x[0], x[1], 0 });
+	found = answers(function, all, name);
 }
 
 template <int Dim> void PressureQuestion<Dim>::store() const
 {
-	auto&      table  = when == When::next ? water->next : water->table;
-	PressureAt values = valuesOf<Dim>(table);
-	for (size_t i = 0; i < found.size(); ++i)
+	const bool isNext  = when == When::next;
+	auto&      table   = isNext ? water->next : water->table;
+	auto&      besides = isNext ? water->nextBesideWalls : water->besideWalls;
+	PressureAt values  = valuesOf<Dim>(table);
+	for (size_t i = 0; i < nodes.size(); ++i)
 		values[nodes[i]] = found[i];
-	table                     = tableOf<Dim>(values);
+	table = tableOf<Dim>(values);
+	for (size_t i = 0; i < places.size(); ++i)
+		besides.insert(besides.end(), { places[i][0], places[i][1], found[nodes.size() + i] });
 	const bool isSameFunction = water->evaluated == function.object.get();
-	if (when == When::next) water->changes = isSameFunction && (water->changes || differ(values, valuesOf<Dim>(water->table)));
+	if (isNext) water->changes = isSameFunction && (water->changes || differ(values, valuesOf<Dim>(water->table)));
 	water->tableGrid = numbersOf(grid);
 	water->evaluated = function.object.get();
 }
 
 template <int Dim>
-PressureInTime<Dim>::PressureInTime(MpmWater& water, const gimpm::Grid<Dim>& grid, const vector<Key>& cells, const string& name, Real begin, Real end)
+PressureInTime<Dim>::PressureInTime(
+        MpmWater& water, const gimpm::Grid<Dim>& grid, const vector<Key>& cells, const string& name, Real begin, Real end, const vector<WallInWater>& walls)
         : grid(grid), begin(begin), end(end)
 {
 	const When when = end > begin ? When::next : When::now;
-	if (auto question = PressureQuestion<Dim>::of(water, grid, cells, name, when)) {
+	if (auto question = PressureQuestion<Dim>::of(water, grid, cells, name, when, walls)) {
 		question->ask();
 		question->store();
 	}
+	const bool       isNext  = when == When::next && water.pressure;
 	PressureAt       earlier = valuesOf<Dim>(water.table);
-	const PressureAt later   = when == When::next && water.pressure ? valuesOf<Dim>(water.next) : earlier;
+	const PressureAt later   = isNext ? valuesOf<Dim>(water.next) : earlier;
 	for (const auto& [key, value] : later) {
 		nodes.push_back(key), after.push_back(value);
 		before.push_back(earlier.try_emplace(key, value).first->second); // as the step ends, where it was not known
 	}
 	fallBefore = fallOf(earlier, cells, grid, name), fallAfter = fallOf(later, cells, grid, name);
+	besideBefore = placesOf(water.besideWalls), besideAfter = isNext ? placesOf(water.nextBesideWalls) : besideBefore;
+	besideBefore.insert(besideAfter.begin(), besideAfter.end());
 }
 
 template <int Dim> vector<Real> PressureInTime<Dim>::valuesAt(Real share) const
@@ -253,19 +294,62 @@ template <int Dim> vector<Real> PressureInTime<Dim>::valuesAt(Real share) const
 	return values;
 }
 
+template <int Dim> auto PressureInTime<Dim>::tabulated(const vector<Real>& values, Real share) const -> Pressure
+{
+	return std::make_shared<gimpm::TabulatedWater<Dim>>(grid, nodes, values, fallAfter + (1 - share) * (fallBefore - fallAfter));
+}
+
 template <int Dim> auto PressureInTime<Dim>::at(Real time) const -> Pressure
 {
 	const Real share = shareAt(time);
-	return std::make_shared<gimpm::TabulatedWater<Dim>>(grid, nodes, valuesAt(share), fallAfter + (1 - share) * (fallBefore - fallAfter));
+	return tabulated(valuesAt(share), share);
+}
+
+template <int Dim> Real PressureInTime<Dim>::besideAt(const WallInWater::Vec2& place, Real share) const
+{
+	const std::pair<Real, Real> at(place[0], place[1]);
+	const Real                  now = besideAfter.at(at);
+	return now + (1 - share) * (besideBefore.at(at) - now);
+}
+
+template <int Dim> vector<Real> PressureInTime<Dim>::jumps(const WallInWater& wall, Real time) const
+{
+	constexpr Real roundOff = 1e-3; // of a pressure that goes on across the beam, between places on its two sides
+	const Real     share    = shareAt(time);
+	vector<Real>   all;
+	Real           largest = 0, most = 0;
+	for (size_t v = 0; v < wall.left.size(); ++v) {
+		const Real left = besideAt(wall.left[v], share), right = besideAt(wall.right[v], share);
+		all.push_back(left - right);
+		largest = std::max(largest, std::abs(left - right)), most = std::max({ most, std::abs(left), std::abs(right) });
+	}
+	return largest > roundOff * most ? all : vector<Real>();
+}
+
+template <int Dim> auto PressureInTime<Dim>::beside(const WallInWater& wall, int side, Real time) const -> Pressure
+{
+	const Real   share  = shareAt(time);
+	vector<Real> values = valuesAt(share);
+	for (const auto& behind : wall.behind) {
+		const int place = behind.side == side ? gimpm::find(nodes, behind.node) : -1;
+		if (place >= 0) values[place] = 2 * besideAt(behind.beside, share) - besideAt(behind.before, share);
+	}
+	return tabulated(values, share);
 }
 
 template <int Dim> void PressureInTime<Dim>::keep(MpmWater& water, Real time) const
 {
 	PressureAt         values;
-	const vector<Real> now = valuesAt(shareAt(time));
+	const Real         share = shareAt(time);
+	const vector<Real> now   = valuesAt(share);
 	for (size_t i = 0; i < nodes.size(); ++i)
 		values.emplace_hint(values.end(), nodes[i], now[i]);
 	water.table = tableOf<Dim>(values);
+	water.besideWalls.clear();
+	for (const auto& place : besideAfter) {
+		const auto& [x, y] = place.first;
+		water.besideWalls.insert(water.besideWalls.end(), { x, y, besideAt({ x, y }, share) });
+	}
 }
 
 #define MPM_INSTANTIATE(Dim)                                                                                                                                   \

@@ -30,7 +30,7 @@ namespace {
 			}
 		Waters<Dim> waters(all);
 		const Real  now = engine.ownScene()->time;
-		waters.take(engine, grid, cloud, {}, now, now);
+		waters.take(engine, grid, cloud, {}, now, now, {});
 		waters.advance(now, now);
 		vector<vector<Real>> pressures(all.size()), gradients(all.size());
 		for (size_t p = 0; p < cloud.position.size(); ++p) {

@@ -31,15 +31,17 @@ namespace {
 
 template <int Dim>
 void Waters<Dim>::take(
-        const Analysis& analysis, const gimpm::Grid<Dim>& grid, const gimpm::PointCloud<Dim>& cloud, const gimpm::Division& division, Real begin, Real end)
+        const Analysis& analysis, const gimpm::Grid<Dim>& grid, const gimpm::PointCloud<Dim>& cloud, const gimpm::Division& division, Real begin, Real end,
+        vector<WallInWater> among)
 {
 	const auto waterOf  = [](const Listed& listed) { return boost::static_pointer_cast<MpmWater>(listed.condition); };
 	const bool areAsked = std::any_of(group.begin(), group.end(), [&](const Listed& listed) { return waterOf(listed)->hasFunction(); });
-	const auto cells    = areAsked ? cellsOf(cloud, grid, division) : vector<gimpm::Key>();
+	if (areAsked) walls = std::move(among);
+	const auto cells = areAsked ? cellsOf(cloud, grid, division) : vector<gimpm::Key>();
 	for (const Listed& listed : group) {
 		const auto water = waterOf(listed);
-		Source     source { water, analysis.curveOfWeight(water->curve), nullptr, 0, 1 };
-		if (water->hasFunction()) source.given = std::make_shared<PressureInTime<Dim>>(*water, grid, cells, listed.name(), begin, end);
+		Source     source { water, analysis.curveOfWeight(water->curve), nullptr, 0, 1, grid.cellSize };
+		if (water->hasFunction()) source.given = std::make_shared<PressureInTime<Dim>>(*water, grid, cells, listed.name(), begin, end, walls);
 		else
 			std::tie(source.axis, source.up) = upwards(analysis.gravity, grid, listed.name());
 		sources.push_back(source);
@@ -49,7 +51,9 @@ void Waters<Dim>::take(
 
 template <int Dim> void Waters<Dim>::join(gimpm::Model<Dim>& model, const Surroundings<Dim>& around)
 {
-	take(around.analysis, model.grid, around.cloud, *model.division, around.begin, around.target);
+	vector<WallInWater> among;
+	if constexpr (Dim == 2) among = wallsInWater(around.analysis.conditions(), model.grid);
+	take(around.analysis, model.grid, around.cloud, *model.division, around.begin, around.target, std::move(among));
 	for (auto& water : waters) {
 		water.shares = model.shares;
 		model.terms.push_back([&water](const gimpm::Beginning<Dim>& step) { return std::make_unique<gimpm::WaterForce<Dim>>(water, step); });
@@ -84,6 +88,32 @@ template <int Dim> void Waters<Dim>::advance(Real from, Real to)
 		waters[i].pressure     = pressureAt(sources[i], to);
 		waters[i].factorBefore = sources[i].curve.valueAt(from);
 		waters[i].factor       = sources[i].curve.valueAt(to);
+	}
+	if constexpr (Dim == 2)
+		if (!walls.empty()) pressOnWalls(from, to);
+}
+
+// Where the pressure of a function jumps at a beam, soil knows that of its own side, and the beam bears the difference.
+template <int Dim> void Waters<Dim>::pressOnWalls(Real from, Real to)
+{
+	for (const WallInWater& wall : walls)
+		wall.beam->waterPressures.assign(wall.left.size(), 0);
+	for (size_t i = 0; i < waters.size(); ++i) {
+		auto& water = waters[i];
+		water.beside.assign(2 * walls.size(), nullptr), water.besideBefore = water.beside;
+		water.sideOf = nullptr;
+		for (size_t w = 0; w < walls.size() && sources[i].given; ++w) {
+			const auto&        given = *sources[i].given;
+			const vector<Real> jumps = given.jumps(walls[w], to);
+			if (jumps.empty() && given.jumps(walls[w], from).empty()) continue;
+			for (const int side : { 0, 1 }) {
+				water.beside[2 * w + side]       = given.beside(walls[w], side, to);
+				water.besideBefore[2 * w + side] = given.beside(walls[w], side, from);
+			}
+			if constexpr (Dim == 2) water.sideOf = SideOfWalls(walls, sources[i].cellSize);
+			for (size_t v = 0; v < jumps.size() && water.place != gimpm::WaterPlace::pores; ++v)
+				walls[w].beam->waterPressures[v] += water.factor * jumps[v];
+		}
 	}
 }
 

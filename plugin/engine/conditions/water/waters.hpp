@@ -21,8 +21,9 @@ public:
 	void reach(const StepOutcome<Dim>&) override;
 
 	// Takes its pressures from a scene, without a model: functions are asked for pressures around the points.
-	void take(const Analysis&, const gimpm::Grid<Dim>&, const gimpm::PointCloud<Dim>&, const gimpm::Division&, Real begin, Real end);
+	void take(const Analysis&, const gimpm::Grid<Dim>&, const gimpm::PointCloud<Dim>&, const gimpm::Division&, Real begin, Real end, vector<WallInWater>);
 	void advance(Real from, Real to);
+	void pressOnWalls(Real from, Real to);
 
 	// Averaged over a box, at the end of that step, of each with its factor.
 	vector<std::pair<gimpm::WaterPlace, std::optional<gimpm::PressureAround<Dim>>>> around(const gimpm::Vec<Dim>& x, const gimpm::Vec<Dim>& half) const;
@@ -35,13 +36,14 @@ private:
 		// Of a function; null: of a level.
 		std::shared_ptr<const PressureInTime<Dim>> given;
 		int                                        axis; // of gravity
-		Real                                       up;
+		Real                                       up, cellSize;
 	};
 	Pressure pressureAt(const Source&, Real time) const;
 
 	MpmCondition::Group       group;
 	vector<Source>            sources;
 	vector<gimpm::Water<Dim>> waters;
+	vector<WallInWater>       walls;
 };
 
 } // namespace yade
