@@ -268,7 +268,6 @@ solver.water, solver.flow, solver.loads[0].permittivity = [MpmWater(level=1)], M
 flow.append(refused(O.run, 1, wait=True))
 print(json.dumps([alone, differ, same, gone, flow]))
 ''').result
-	print(alone, differ, same, gone, flow)
 	hand = 1e4 * 3**3 / 6
 	assert alone[1] == pytest.approx(-1.5e4, rel=.05) and alone[0][1] == pytest.approx(hand, rel=.1)
 	assert differ[0] == pytest.approx(3e4, rel=.01) and differ[1] == pytest.approx(hand, rel=.1)

@@ -579,3 +579,26 @@ def shell(**settings): add(MpmBeam(**{**dict(line=[(0, 2), (1, 2)], axialStiffne
 ''', list(refusals))
 	for text, (kind, sentence) in found.items():
 		assert kind in ('ValueError', 'RuntimeError') and refusals[text] in sentence, (text, kind, sentence)
+
+
+def test_an_anchor_that_no_equilibrium_is_found_for_in_a_trial_does_not_end_the_step(yade):
+	"""Dug out below water before a wall with a prestressed anchor: in a trial of Newton's method forces of the anchor are not finite, which its next trials must not go on from."""
+	force, moment = yade('''
+import json
+from yade import mpm
+O.materials.append(MpmMohrCoulombMat(young=3e7, poisson=0.3, density=1900, cohesion=1e3, frictionAngle=radians(32), label='sand'))
+grid = MpmGrid(cellSize=0.5)
+O.bodies.append(mpm.fill(mpm.polygon([(0, 0), (28, 0), (28, 16), (0, 16)]), grid, 2, 'sand'))
+anchor = MpmReinforcement(line=[(14, 14.5), (7, 12), (4, 11)], axialStiffness=5e7, freeLength=6, bond=2e5, bondStiffness=1e8, pretension=4e4)
+wall = MpmBeam(line=[(14, 16), (14, 6)], axialStiffness=3e9, bendingStiffness=5e7, adhesion=0, friction=radians(20), anchors=[anchor])
+held = [MpmBoundary(max=(0, inf, inf), fix='x'), MpmBoundary(min=(28, -inf, -inf), fix='x'), MpmBoundary(max=(inf, 0, inf), fix='xy')]
+solver = MpmImplicitEngine(grid=grid, gravity=(0, -9.81, 0), boundaries=held, gravityCurve=[(0, 1)], water=[MpmWater(level=14)], verbosity=0)
+O.engines, O.dt = [solver], 0.25
+mpm.geostatic(0.5)
+solver.loads = [wall]
+O.run(6, wait=True)
+mpm.stages.excavate(mpm.polygon([(14, 14), (28, 14), (28, 17), (14, 17)]), steps=4)
+O.run(4, wait=True)
+print(json.dumps([anchor.axialForces[0], max(wall.moments)]))
+''').result
+	assert 4e4 < force < 5e4 and 1e4 < moment < 1.5e4
