@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "core/materials/mfront.hpp"
 #include "core/base/small_matrices.hpp"
+#include "core/materials/call_of_others.hpp"
 #include <algorithm>
 
 namespace gimpm {
@@ -79,6 +80,7 @@ bool MfrontDoor::answer(const UserStep& step, UserState& state, Mat3& stress, Ma
 	{
 		std::unique_lock<std::mutex> lock;
 		if (given_.oneAtATime) lock = std::unique_lock(*given_.oneAtATime);
+		const CallOfOthers call(given_.name);
 		status = given_.call(&data);
 	}
 	wordsOfUserLaw() = status < 1 ? words : "";

@@ -47,6 +47,7 @@ struct MfrontGiven {
 	std::vector<double>         external;             ///< values of the external variables
 	double                      density    = 0;       ///< [kg/m3]
 	std::shared_ptr<std::mutex> oneAtATime = nullptr; ///< if any, lets only one thread call it at a time
+	std::string                 name {};              ///< for the message where it ends the program
 };
 
 class MfrontDoor : public UserDoor {

@@ -43,6 +43,9 @@ public:
 	bool       isSymmetric() const { return law_.isSymmetric(); }
 	double     young(const TensorState& state) const { return law_.young(state); }
 
+	/// What has flowed until now is in the elastic strain.
+	Mat3 present(const TensorStep& step) const { return law_.elastic(step).stress; }
+
 	TensorAnswer respond(const TensorStep& step) const
 	{
 		const double       r     = step.duration / time_;

@@ -128,7 +128,7 @@ TensorPoint respondInSpace(const Law& law, const PointOfLaw& at, const TensorQue
 	const TrialState trial(question.b1, question.gradient);
 	const Mat3       back    = trial.R.transpose();
 	const Mat3       stretch = turned(back, trial.V.axes * trial.lambda.asDiagonal() * trial.V.axes.transpose());
-	TensorAnswer     answer  = law->respond(at, { turned(back, trial.strain), stretch, question.duration, {}, question.wantsRates });
+	TensorAnswer     answer  = law->respond(at, { turned(back, trial.strain), stretch, question.duration, {}, question.wantsRates, question.isBeginning });
 	TensorPoint      point { turned(trial.R, answer.stress), turned(trial.R, answer.elasticStrain), answer.state, answer.failed, {} };
 	point.state.turn(trial.R);
 	if (question.wantsRates && !point.failed) setRates(point, trial, answer.tangent, question);

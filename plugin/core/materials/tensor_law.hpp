@@ -51,7 +51,7 @@ private:
 /// The variables of a law with their values. Number k is that of the law's `variables`.
 class TensorState {
 public:
-	static constexpr int most = 32; ///< numbers of one law
+	static constexpr int most = 34; ///< numbers of one law
 
 	TensorState() = default;
 	template <std::size_t Count> explicit TensorState(const std::array<TensorVariable, Count>& variables) : variables_(variables.data()), count_(Count) { }
@@ -117,6 +117,7 @@ struct TensorStep {
 	double      duration     = 0;  ///< of the step, in the time of the loads; 0: none goes by
 	TensorState state        = {}; ///< as the step begins
 	bool        wantsTangent = true;
+	bool        isBeginning  = false; ///< nothing has strained yet and no time has gone by: the stress that there is, is wanted alone
 };
 
 /// What it answers.
@@ -129,6 +130,11 @@ struct TensorAnswer {
 
 	explicit TensorAnswer(const TensorState& before) : state(before) { }
 };
+
+/// A law that takes time, or whose answer to no strain and no time is not defined, has `Mat3 present(const TensorStep&)
+/// const`: the Kirchhoff stress as the step begins.
+template <class L> constexpr auto hasPresent(int) -> decltype(&L::present, true) { return true; }
+template <class L> constexpr bool hasPresent(long) { return false; }
 
 template <class L> constexpr bool hasTensorMembers()
 {
@@ -235,7 +241,15 @@ public:
 	{
 		TensorStep own = step;
 		if (step.state.size() == 0) own.state = stateOf(p);
-		return withParameters(this->own_, p.parameters, p.point, [&](const auto& law) { return law.respond(own); });
+		return withParameters(this->own_, p.parameters, p.point, [&](const auto& law) {
+			if constexpr (hasPresent<L>(0))
+				if (own.isBeginning) {
+					TensorAnswer answer(own.state);
+					answer.stress = law.present(own);
+					return answer;
+				}
+			return law.respond(own);
+		});
 	}
 
 private:
@@ -273,8 +287,9 @@ struct TensorQuestion {
 	Mat3         gradient;
 	double       duration;
 	bool         wantsRates;
-	int          dim  = 3;
-	int          axes = 3;
+	int          dim         = 3;
+	int          axes        = 3;
+	bool         isBeginning = false;
 };
 TensorPoint respondInSpace(const Law&, const PointOfLaw&, const TensorQuestion&);
 

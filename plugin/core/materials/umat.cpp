@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "core/materials/umat.hpp"
-#include <cstring>
+#include "core/materials/call_of_others.hpp"
+#include <algorithm>
+#include <cctype>
 #include <limits>
 
 namespace gimpm {
@@ -17,30 +19,40 @@ void toUmat(const Mat3& tensor, double ofShear, double (&numbers)[6])
 
 } // namespace
 
-UmatDoor::UmatDoor(Umat call, const std::vector<double>& parameters, const std::vector<double>& first, std::shared_ptr<std::mutex> oneAtATime)
-        : UserDoor(0, int(first.size())), call_(call), parameters_(parameters), count_(int(parameters.size())), oneAtATime_(std::move(oneAtATime))
+UmatDoor::UmatDoor(
+        Umat call, const std::vector<double>& parameters, const std::vector<double>& first, std::shared_ptr<std::mutex> oneAtATime, const std::string& material,
+        std::string function)
+        : UserDoor(0, int(first.size()))
+        , call_(call)
+        , parameters_(parameters)
+        , count_(int(parameters.size()))
+        , oneAtATime_(std::move(oneAtATime))
+        , function_(std::move(function))
 {
+	material_.fill(' ');
+	const std::size_t length = std::min(material.size(), material_.size());
+	std::transform(material.begin(), material.begin() + length, material_.begin(), [](unsigned char c) { return char(std::toupper(c)); });
 	parameters_.resize(parameters.size() + UserState::beyond, std::numeric_limits<double>::quiet_NaN());
 	std::copy(first.begin(), first.end(), first_.scalars.begin());
 }
 
 bool UmatDoor::answer(const UserStep& step, UserState& state, Mat3& stress, Mandel& tangent) const
 {
-	// What is no part of this interface here: temperatures, fields, places, and the names of elements and steps.
-	constexpr double still[9] = { 1, 0, 0, 0, 1, 0, 0, 0, 1 }, place[3] = {}, none = 0, time[2] = {}, size = 1;
+	// Not known here: temperatures, fields, places, and the numbers of elements and steps.
+	constexpr double still[9] = { 1, 0, 0, 0, 1, 0, 0, 0, 1 }, place[3] = {}, none = 0, size = 1;
 	constexpr int    direct = 3, shears = 3, components = 6, one = 1;
-	char             name[80];
-	std::memset(name, ' ', sizeof name);
-	const int states    = scalars();
-	double    energy[3] = {}, heat = 0, byTemperature[6] = {}, heatByStrain[6] = {}, heatByTemperature = 0, shorter = 1;
-	double    t[6], strain[6], increment[6], stiffness[36] = {};
+	const double     time[2] = { step.time, step.time };
+	const int        states = scalars(), number = step.increments + 1;
+	double           energy[3] = {}, heat = 0, byTemperature[6] = {}, heatByStrain[6] = {}, heatByTemperature = 0, shorter = 1;
+	double           t[6], strain[6], increment[6], stiffness[36] = {};
 	toUmat(step.stress, 1, t), toUmat(step.strain, 2, strain), toUmat(step.increment, 2, increment);
 	{
 		std::unique_lock<std::mutex> lock;
 		if (oneAtATime_) lock = std::unique_lock(*oneAtATime_);
+		const CallOfOthers call(function_);
 		call_(t, state.scalars.data(), stiffness, energy, energy + 1, energy + 2, &heat, byTemperature, heatByStrain, &heatByTemperature, strain,
-		      increment, time, &step.duration, &none, &none, &none, &none, name, &direct, &shears, &components, &states, parameters_.data(), &count_,
-		      place, still, &shorter, &size, still, still, &one, &one, &one, &one, &one, &one, int(sizeof name));
+		      increment, time, &step.duration, &none, &none, &none, &none, material_.data(), &direct, &shears, &components, &states, parameters_.data(),
+		      &count_, place, still, &shorter, &size, still, still, &one, &one, &one, &one, &one, &number, int(material_.size()));
 	}
 	for (int i = 0; i < 6; ++i) {
 		stress(rowOf(i), columnOf(i)) = stress(columnOf(i), rowOf(i)) = t[i];

@@ -18,11 +18,17 @@ using Umat = void (*)(
 
 class UmatDoor : public UserDoor {
 public:
-	/// `first`: values of its state variables. `oneAtATime`, if any, lets only one thread call it at a time.
-	UmatDoor(Umat call, const std::vector<double>& parameters, const std::vector<double>& first, std::shared_ptr<std::mutex> oneAtATime);
+	/// `first`: values of its state variables. `oneAtATime`, if any, lets only one thread call it at a time. `material`:
+	/// name that it is told; `function`: name for the message where it ends the program.
+	UmatDoor(
+	        Umat call, const std::vector<double>& parameters, const std::vector<double>& first, std::shared_ptr<std::mutex> oneAtATime,
+	        const std::string& material = "", std::string function = "umat_");
 
 	UserState first() const override { return first_; }
-	bool      answer(const UserStep&, UserState&, Mat3& stress, Mandel& tangent) const override;
+
+	/// Abaqus hands over no DTIME of 0, by which laws of rates divide: where no time goes by it is 1.
+	double toldOf(double duration) const override { return duration > 0 ? duration : 1; }
+	bool   answer(const UserStep&, UserState&, Mat3& stress, Mandel& tangent) const override;
 
 private:
 	Umat                        call_;
@@ -30,6 +36,8 @@ private:
 	int                         count_;      ///< of parameters
 	UserState                   first_;
 	std::shared_ptr<std::mutex> oneAtATime_;
+	std::array<char, 80>        material_; ///< CMNAME: capital letters, and blanks behind them
+	std::string                 function_;
 };
 
 } // namespace gimpm

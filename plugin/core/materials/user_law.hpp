@@ -35,6 +35,8 @@ struct UserStep {
 	Mat3   increment;      ///< of the strain
 	double duration;
 	bool   wantsTangent;
+	double time       = 0; ///< that the point has gone through as the step begins, in the time of the loads
+	int    increments = 0; ///< steps that it has gone through
 };
 
 /// One material's law, with its parameters.
@@ -49,6 +51,9 @@ public:
 	int scalars() const { return scalars_; }
 
 	virtual UserState first() const = 0; ///< of a point that nothing has happened to
+
+	/// Duration that the law is told of a step.
+	virtual double toldOf(double duration) const { return duration; }
 
 	/// One call: the state becomes that at the end of the step. False where the law asks for a shorter step.
 	virtual bool answer(const UserStep&, UserState&, Mat3& stress, Mandel& tangent) const = 0;
@@ -65,14 +70,22 @@ std::string& wordsOfUserLaw();
 
 /// With room for so many tensors and scalars.
 template <int Tensors, int Scalars> class UserLaw : public TensorLaw {
-	static constexpr std::array<TensorVariable, 2 + Tensors + Scalars> makeVariables();
+	static constexpr int                                                   ofAll = 4; // variables that all such laws have
+	static constexpr std::array<TensorVariable, ofAll + Tensors + Scalars> makeVariables();
 
 public:
 	explicit UserLaw(std::shared_ptr<const UserDoor> door) : door_(std::move(door)) { }
 
-	enum { stressBefore, strain, tensor1, state1 = tensor1 + Tensors }; ///< the variables, by number; behind them the other state variables
-	static constexpr std::array<TensorVariable, 2 + Tensors + Scalars> variables = makeVariables();
-	static constexpr bool                                              mayFail = true, isElastic = false, isLinear = true, canBeWeakened = false;
+	enum {
+		stressBefore,
+		strain,
+		time,
+		increments,
+		tensor1,
+		state1 = tensor1 + Tensors
+	}; ///< the variables, by number; behind them the other state variables
+	static constexpr std::array<TensorVariable, ofAll + Tensors + Scalars> variables = makeVariables();
+	static constexpr bool                                                  mayFail = true, isElastic = false, isLinear = true, canBeWeakened = false;
 
 	TensorState initialInternals() const
 	{
@@ -102,18 +115,24 @@ public:
 		return (stress - mean * Mat3::Identity()) / (2 * door_->elastic.shear()) + mean / (3 * door_->elastic.bulk()) * Mat3::Identity();
 	}
 
+	/// The law is not called: without strain and time it need not have an answer.
+	Mat3 present(const TensorStep& step) const { return step.state.tensor(stressBefore); }
+
 	TensorAnswer respond(const TensorStep& step) const
 	{
 		const Mat3 before = step.state.tensor(stressBefore), past = step.state.tensor(strain),
 		           increment = step.trialStrain - strainOf(before, step.state);
 		TensorAnswer answer(step.state);
-		UserState    own = stateOf(step.state);
-		answer.failed    = !door_->answer({ before, past, increment, step.duration, step.wantsTangent }, own, answer.stress, answer.tangent);
+		UserState    own      = stateOf(step.state);
+		const double duration = door_->toldOf(step.duration), begin = step.state.scalar(time), count = step.state.scalar(increments);
+		answer.failed = !door_->answer({ before, past, increment, duration, step.wantsTangent, begin, int(count) }, own, answer.stress, answer.tangent);
 		if (answer.failed || !answer.stress.allFinite()) return answer.failed = true, answer;
 		store(own, answer.state);
 		answer.elasticStrain = strainOf(answer.stress, answer.state);
 		answer.state.setTensor(stressBefore, answer.stress);
 		answer.state.setTensor(strain, Mat3(past + increment));
+		answer.state.scalar(time)       = begin + duration;
+		answer.state.scalar(increments) = count + 1;
 		return answer;
 	}
 
@@ -143,11 +162,14 @@ inline constexpr const char* namesOfStates[UserState::mostScalars]
         = { "state1",  "state2",  "state3",  "state4",  "state5",  "state6",  "state7",  "state8",  "state9",  "state10",
 	    "state11", "state12", "state13", "state14", "state15", "state16", "state17", "state18", "state19", "state20" };
 
-template <int Tensors, int Scalars> constexpr std::array<TensorVariable, 2 + Tensors + Scalars> UserLaw<Tensors, Scalars>::makeVariables()
+template <int Tensors, int Scalars>
+constexpr std::array<TensorVariable, UserLaw<Tensors, Scalars>::ofAll + Tensors + Scalars> UserLaw<Tensors, Scalars>::makeVariables()
 {
-	std::array<TensorVariable, 2 + Tensors + Scalars> all {};
+	std::array<TensorVariable, ofAll + Tensors + Scalars> all {};
 	all[stressBefore] = TensorVariable::tensor("stressBefore", "Pa", "Kirchhoff stress");
 	all[strain]       = TensorVariable::tensor("strain", "-", "strain");
+	all[time]         = InternalVariable { "lawTime", "s", "time that a user material has gone through", 0, anyNumber };
+	all[increments]   = InternalVariable { "lawIncrements", "-", "steps that a user material has gone through", 0, anyNumber };
 	for (int k = 0; k < Tensors; ++k)
 		all[tensor1 + k] = TensorVariable::tensor(namesOfTensors[k], "-", "state variable of the law");
 	for (int k = 0; k < Scalars; ++k)

@@ -28,6 +28,21 @@ void stiffenBeam(Beam& beam, double scale)
 
 } // namespace
 
+template <int Dim> Structure<Dim> Structure<Dim>::asItBegins() const
+{
+	Structure begins = *this;
+	for (auto& bar : begins.bars)
+		bar.pull = bar.pullBefore, bar.jack.reset(); // what a jack has stressed keeps its strain
+	if (begins.beam) {
+		Beam& own      = *begins.beam;
+		own.weight     = own.before.weight;
+		own.headForce  = own.before.headForce;
+		own.headMoment = own.before.headMoment;
+		own.shrinkage  = 1;
+	}
+	return begins;
+}
+
 template <int Dim> void Structure<Dim>::stiffen(double scale)
 {
 	for (auto& bar : bars) {

@@ -35,8 +35,9 @@ template <int Dim> struct Reinforcement {
 	double bond          = inf; ///< strength without normal stress [N/m]
 	double friction      = 0;   ///< and for each Pa of normal stress on the bar: perimeter times tan(delta) [m]
 
-	double                pull = 0; ///< on the head at the end of the step, outwards along the bar [N]
-	std::optional<double> jack {};  ///< force of a jack at the end of the step: in the free length, or if there is none everywhere [N]
+	double                pull       = 0; ///< on the head at the end of the step, outwards along the bar [N]
+	double                pullBefore = 0; ///< the same as the step begins
+	std::optional<double> jack {};        ///< force of a jack at the end of the step: in the free length, or if there is none everywhere [N]
 
 	/// As the step begins.
 	std::vector<Vec<Dim>> places;    ///< of the vertices [m]
@@ -86,6 +87,12 @@ struct Beam {
 	/// By vertex, at the end of the step: pressure of the water to its left less that to its right [Pa]; null: none.
 	const std::vector<double>* waterPressure = nullptr;
 	double                     shrinkage     = 1; ///< in this step: lengths without stress after it over those before
+
+	/// Loads as the step begins.
+	struct Loads {
+		Vec<2> weight = Vec<2>::Zero(), headForce = Vec<2>::Zero();
+		double headMoment = 0;
+	} before {};
 
 	/// Of the springs: stiffness over Young's modulus of the soil per cell [-]; strength of each side along it.
 	double stiffness = 10;
@@ -172,6 +179,9 @@ template <int Dim> struct Structure {
 	std::optional<Beam>             beam {}; ///< in the plane
 
 	double work = 0; ///< on the soil in the last step that was accepted [J]
+
+	/// Copy with the loads and lengths that the step begins with.
+	Structure asItBegins() const;
 
 	/// Number of vertices, those of the beam first.
 	int vertices() const

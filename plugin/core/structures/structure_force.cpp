@@ -36,10 +36,10 @@ template <int Dim> double cellSizeAt(const std::optional<Attachment<Dim>>& at, c
 
 template <int Dim> StructureForce<Dim>::StructureForce(Structure<Dim>& structure, const Beginning<Dim>& step) : structure_(structure)
 {
-	const auto soil = soilAround(step);
-	obstacle_       = missingSoil(step, soil);
-	if (obstacle_.empty()) obstacle_ = pulledOut(soil);
-	if (obstacle_.empty()) system_.emplace(structure, soil);
+	soil_     = soilAround(step);
+	obstacle_ = missingSoil(step, soil_);
+	if (obstacle_.empty()) obstacle_ = pulledOut(soil_);
+	if (obstacle_.empty()) system_.emplace(structure, soil_);
 }
 
 template <int Dim> std::vector<Vec<Dim>> StructureForce<Dim>::places() const
@@ -240,6 +240,19 @@ template <int Dim> std::optional<PointFailure> StructureForce<Dim>::addCoupled(c
 {
 	if (!system_) return std::nullopt;
 	const EnergySum at = system_->energyAt(equilibrium(state.displacements()));
+	spread(at, sum);
+	if (!sum.couplings) return std::nullopt;
+	const Eigen::MatrixXd K = system_->condensed(at);
+	forJoined([&](int v, int w, int a, int b, double weight) {
+		const Mat<Dim> block = weight * K.template block<Dim, Dim>(system_->soilUnknown(v), system_->soilUnknown(w));
+		sum.couplings->add({ 0, a }, { 0, b }, block);
+	});
+	return std::nullopt;
+}
+
+/// Forces on the soil at the nodes around the vertices.
+template <int Dim> void StructureForce<Dim>::spread(const EnergySum& at, const FieldSum<Dim>& sum) const
+{
 	for (std::size_t v = 0; v < attached_.size(); ++v) {
 		const int first = system_->soilUnknown(int(v));
 		if (first < 0) continue;
@@ -250,21 +263,26 @@ template <int Dim> std::optional<PointFailure> StructureForce<Dim>::addCoupled(c
 			sum.sizes[0].template segment<Dim>(Dim * node) += std::abs(weight) * at.sizes.template segment<Dim>(first);
 		}
 	}
-	if (!sum.couplings) return std::nullopt;
-	const Eigen::MatrixXd K = system_->condensed(at);
-	forJoined([&](int v, int w, int a, int b, double weight) {
-		const Mat<Dim> block = weight * K.template block<Dim, Dim>(system_->soilUnknown(v), system_->soilUnknown(w));
-		sum.couplings->add({ 0, a }, { 0, b }, block);
-	});
-	return std::nullopt;
+}
+
+/// With the loads of the beginning: those of the end would act half a step too early.
+template <int Dim> EnergySum StructureForce<Dim>::asItBegins() const
+{
+	Structure<Dim>             structure = structure_.asItBegins();
+	const StructureSystem<Dim> system(structure, soil_);
+	return system.energyAt(system.solve(Eigen::VectorXd::Zero(system.soilUnknowns()), {}).x);
+}
+
+template <int Dim> void StructureForce<Dim>::addCoupledBefore(const State&, const FieldSum<Dim>& sum) const
+{
+	if (system_) spread(asItBegins(), sum);
 }
 
 template <int Dim> void StructureForce<Dim>::commitCoupled(const State& state)
 {
 	const Eigen::VectorXd soil = soilAt(state.displacements()), x = equilibrium(state.displacements());
 	const int             count = system_->soilUnknowns();
-	const Eigen::VectorXd first = system_->energyAt(system_->solve(Eigen::VectorXd::Zero(count), {}).x).gradient.head(count);
-	structure_.work             = -soil.dot(first + system_->energyAt(x).gradient.head(count)) / 2;
+	structure_.work             = -soil.dot((asItBegins().gradient + system_->energyAt(x).gradient).head(count)) / 2;
 	system_->commit(x);
 }
 

@@ -16,6 +16,7 @@ public:
 
 	void                        markCouplings(Couplings&) const override;
 	std::optional<PointFailure> addCoupled(const State&, const FieldSum<Dim>&) const override;
+	void                        addCoupledBefore(const State&, const FieldSum<Dim>&) const override;
 	void                        commitCoupled(const State&) override;
 	std::string                 obstacle() const override { return obstacle_; }
 	double                      fromOutside(const Eigen::VectorXd& d) const override;
@@ -31,11 +32,14 @@ private:
 	std::string               pulledOut(const std::vector<SoilAtVertex>&) const;
 	Eigen::VectorXd           soilAt(const Eigen::VectorXd& d) const;
 	Eigen::VectorXd           equilibrium(const Eigen::VectorXd& d) const;
+	EnergySum                 asItBegins() const;
+	void                      spread(const EnergySum&, const FieldSum<Dim>&) const;
 	template <class F> void   forVertices(F&& f) const;
 	template <class F> void   forJoined(F&& f) const;
 
 	Structure<Dim>&                             structure_;
 	std::vector<std::optional<Attachment<Dim>>> attached_; ///< by vertex, and behind them to the right of those of the beam
+	std::vector<SoilAtVertex>                   soil_;
 	std::optional<StructureSystem<Dim>>         system_;
 	std::string                                 obstacle_;
 	mutable Eigen::VectorXd                     last_; ///< solution at the last iterate, from which the next one is looked for

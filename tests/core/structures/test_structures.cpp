@@ -440,6 +440,41 @@ namespace {
 		}
 	}
 
+	/// Of a bar that is pulled more in the step, and of a beam that gets its loads and shrinks in it.
+	TYPED_TEST(Structures, ForcesAtTheBeginningAreThoseOfTheLoadsOfThen)
+	{
+		constexpr int Dim         = TypeParam::value;
+		const auto    atBeginning = [](Ground<Dim>& ground) {
+                        ground.model.inertia = nullptr;
+                        const StepSystem<Dim> system(ground.cloud, ground.model, {}, ground.report);
+                        const Eigen::VectorXd resistance = -system.beginning().imbalance();
+                        Vec<Dim>              sum        = Vec<Dim>::Zero();
+                        for (Eigen::Index i = 0; i < resistance.size(); ++i)
+                                sum[i % Dim] += resistance[i];
+                        return sum;
+		};
+		Ground<Dim> ground;
+		auto&       bar   = ground.nail();
+		bar.bondStiffness = 1e5, bar.bond = 3e4, bar.hasFreeLength = true, bar.head = Reinforcement<Dim>::Head::pulled;
+		bar.pull = 500, bar.pullBefore = 200;
+		EXPECT_NEAR(atBeginning(ground).norm(), 200, 1e-6);
+		if constexpr (Dim == 2) {
+			Ground<2> other;
+			other.structure.beam.emplace();
+			auto& beam            = *other.structure.beam;
+			beam.section          = { 1e7, 1e5 };
+			beam.weight           = { 0, -2000 };
+			beam.headForce        = { 100, -200 };
+			beam.shrinkage        = 0.99;
+			beam.before.weight    = { 0, -500 };
+			beam.before.headForce = { 0, -60 };
+			beam.begin(divided<2>({ { 0.3, 1.3 }, { 2.7, 1.3 } }, 0.25));
+			const Vec<2> force = atBeginning(other); // by which the beam resists: its loads, turned round
+			EXPECT_NEAR(force[0], 0, 1e-6);
+			EXPECT_NEAR(force[1], 500 * 2.4 + 60, 1e-5);
+		}
+	}
+
 	TYPED_TEST(Structures, FreeLengthsHaveTheTangentOfTheirForce)
 	{
 		constexpr int Dim = TypeParam::value;

@@ -187,6 +187,22 @@ print(json.dumps([straight == loaded, straight[2][2], straight[3][1]]))
 	assert results[0] and results[1] != 0.3
 
 
+def test_clumps_in_the_plane_keep_their_spin_in_flight(yade):
+	"""Their own axes, those of the inertia in space, need not have one along z: the inertia of the section is about z all the same."""
+	results = yade(scene + '''
+def spin(members, scheme):
+	soil(engine=MpmDynamicEngine, scheme=scheme, dt=0.02, g=0)
+	parts = [utils.sphere((x, 5, 0), 0.3, material='rigid', fixed=False) if size is None else utils.box((x, 5, 0), size, material='rigid', fixed=False) for x, size in members]
+	body = O.bodies[O.bodies.appendClumped(parts)[0]]
+	body.state.angVel = (0, 0, 1.5)
+	O.run(8, wait=True)
+	return body.state.angVel[2], body.state.rot()[2]
+print(json.dumps([spin(members, scheme) for scheme in ('newmark', 'generalised-alpha', 'midpoint') for members in
+	([(0.8, None), (1.2, None)], [(0.8, (0.2, 0.2, 0.3)), (1.2, (0.2, 0.2, 0.3))], [(0.8, (0.2, 0.2, 2)), (1.2, (0.2, 0.2, 2))])]))
+''').result
+	assert all(abs(spin / 1.5 - 1) < 1e-9 and abs(turn / (8 * 0.02 * 1.5) - 1) < 1e-6 for spin, turn in results), results
+
+
 def test_blocked_degrees_of_freedom_go_by_their_velocity(yade):
 	"""A block is drawn over the soil, and free to sink: it is borne as it would be without, and rubs by tan(friction) of that."""
 	results = yade(scene + '''

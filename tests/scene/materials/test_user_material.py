@@ -96,6 +96,59 @@ goesOn(theirs)
 	)
 
 
+@pytest.fixture(scope='module')
+def told(tmp_path_factory):
+	folder = tmp_path_factory.mktemp('told')
+	subprocess.run(['g++', '-O1', '-shared', '-fPIC', '-o', folder / 'law.so', root / 'tests/umat/told.cpp'], check=True)
+	yade = Yade(folder)
+	yade.environment['UMAT'] = str(folder / 'law.so')
+	return yade
+
+
+counting = setting + '''
+counter = lambda rate=0., **more: MpmUserMat(library=os.environ['UMAT'], parameters=[20e6, .3, rate], stateVariables=[0] * 4, label='Sand', **{**elastic, **more})
+'''
+
+
+def test_it_is_told_the_first_increment_and_the_times(told):
+	"""As Abaqus counts them: TIME as the increment begins, KINC from 1 on. A step that is cut counts once; a DTIME of 0 is never told; CMNAME is the label in capitals."""
+	told(
+	        counting + '''
+for duration, seconds in (0, 10), (5, 5):
+	curve = mpm.elementTest(counter(), 'oedometer', -.01, steps=10, duration=duration)
+	assert curve['state1'][-1] == curve['state2'][-1] == 10 and abs(curve['state3'][-1] - seconds * .9) < 1e-9, curve['state3']
+	assert abs(curve['state4'][-1] - seconds / 10) < 1e-12
+found = mpm.checkLaw(counter(1.), confiningPressure=100e3)
+assert found['tangentError'] < 1e-6 and found['stress'] < 1e-9, found
+for engine in MpmImplicitEngine, MpmDynamicEngine:
+	pressed(counter(), steps=4)
+	if engine is MpmDynamicEngine: O.engines = [MpmDynamicEngine(grid=O.engines[0].grid, boundaries=[MpmBoundary(max=(inf, 0, inf), fix='xy')], gravity=(0, -10, 0), verbosity=0)]
+	O.run(2, wait=True)
+	O.save('middle.yade.gz')
+	O.load('middle.yade.gz')
+	O.run(2, wait=True)
+	data = mpm.arrays()
+	assert (data['state1'] == 4).all() and (data['state2'] == 4).all() and np.allclose(data['state3'], .75) and np.allclose(data['state4'], .25), (engine, data['state1'], data['state3'])
+try: mpm.elementTest(counter(label='Clay'), 'oedometer', -.01, steps=1)
+except Exception as error: assert 'no solution' in str(error), error
+else: raise AssertionError('another name has been told')
+'''
+	)
+
+
+def test_a_law_that_ends_the_program_is_named(told):
+	run = told(
+	        counting + '''
+print('before', flush=True)
+mpm.checkLaw(MpmUserMat(library=os.environ['UMAT'], function='stops_', parameters=[1.], **elastic))
+print('after')
+''',
+	        fails=True
+	)
+	assert 'before' in run.stdout and 'after' not in run.stdout
+	assert "function = 'stops_' has ended the program" in run.stderr, run.stderr
+
+
 def test_what_cannot_be_opened_is_named(door):
 	said = door(
 	        setting + '''

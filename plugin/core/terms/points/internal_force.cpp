@@ -56,7 +56,7 @@ std::optional<PointFailure> addInternalForce(
         const CloudBasis<Dim>& basis, const Colours<Dim>& colours, const StepPoints<Dim>& points, const std::vector<Material>& materials,
         const Eigen::VectorXd& d, const TermSum<Dim>& sum, double part)
 {
-	const Pass<Dim> pass { basis, points, materials, d, sum, colours, part * points.duration };
+	const Pass<Dim> pass { basis, points, materials, d, sum, colours, part * points.duration, part == 0 };
 	if constexpr (Dim == 2)
 		if (basis.isAxisymmetric()) return points.hasFBar() ? addPoints<FBarChunk<2, 3>>(pass) : addPoints<Chunk<2, 3>>(pass);
 	return points.hasFBar() ? addPoints<FBarChunk<Dim, Dim>>(pass) : addPoints<Chunk<Dim, Dim>>(pass);

@@ -52,7 +52,7 @@ template <int Dim> StepPoints<Dim> stepPoints(const PointCloud<Dim>&, const std:
 /// force += internal force of the nodal displacements d (from the start of the step), K += its derivative, and sizes +=
 /// the magnitudes of the patches' forces, as far as they are asked for; of the patches in `colours`. Fails for points
 /// with det F <= 0 or without an answer of their law. The result does not depend on the number of threads. `part`: of
-/// the step's time has gone by.
+/// the step's time has gone by; 0 with d = 0 is the force of the stresses with which the step begins.
 template <int Dim>
 std::optional<PointFailure> addInternalForce(
         const CloudBasis<Dim>&, const Colours<Dim>& colours, const StepPoints<Dim>&, const std::vector<Material>&, const Eigen::VectorXd& d,
@@ -77,6 +77,7 @@ public:
 	}
 	void                        mark(NodeMatrix<Dim>& K) const override { markPointPattern(basis_, K); }
 	std::optional<PointFailure> add(const Eigen::VectorXd& d, const TermSum<Dim>& sum) const override { return add(d, sum, 1); }
+	void                        addBefore(Eigen::VectorXd& force) const override { add(Eigen::VectorXd::Zero(force.size()), { force }, 0); }
 	bool                        isSymmetric() const override { return points_.isSymmetric; }
 
 protected:

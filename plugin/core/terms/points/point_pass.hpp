@@ -18,6 +18,7 @@ template <int Dim> struct Pass {
 	const TermSum<Dim>&          sum;
 	const Colours<Dim>&          colours     = basis.colours; ///< or what one process does of them
 	const double                 duration    = 0;             ///< of the step until now
+	const bool                   isBeginning = false;         ///< none of the step has gone by
 	const bool                   isSymmetric = points.isSymmetric;
 };
 

@@ -103,7 +103,7 @@ template <int Dim, int Axes, class F> FailureCode forTensorPoints(const Pass<Dim
 		const PointOfLaw at { material.ofPoints(pass.points.parameters), pass.points.internals, std::size_t(i) };
 		const auto       b1       = inSpace(pass.points.leftCauchyGreen[i]);
 		const Mat3       gradient = gradientOf(seen, lane);
-		TensorPoint      r        = respondInSpace(material.law, at, { b1, gradient, pass.duration, pass.sum.K != nullptr, Dim, Axes });
+		TensorPoint      r = respondInSpace(material.law, at, { b1, gradient, pass.duration, pass.sum.K != nullptr, Dim, Axes, pass.isBeginning });
 		if (material.waterModulus > 0 && !r.failed) addWater(r, pass.points.water[i], material.waterModulus, b1, gradient);
 		if (r.failed) first = std::min(first, codeOf({ pass.basis.order[i], PointFailure::Reason::noResponse }));
 		else

@@ -34,8 +34,11 @@ namespace {
 		return members;
 	}
 
-	Matrix3r alongAxes(const Se3r& at, const Vector3r& inertia)
+	// Inertia in space. In the plane it is about z, along which the own axes of a clump, those of its inertia in space,
+	// need not lie.
+	template <int Dim> Matrix3r alongAxes(const Se3r& at, const Vector3r& inertia)
 	{
+		if (Dim == 2) return inertia.asDiagonal();
 		const Matrix3r axes = at.orientation.toRotationMatrix();
 		return axes * inertia.asDiagonal() * axes.transpose();
 	}
@@ -135,8 +138,8 @@ template <int Dim> gimpm::FreeBody<Dim> freeBody(int owner, const FreeMotion& bo
 		free.isGiven[i] = (body.given >> Unknowns<Dim>::dofs[i] & 1) || (isRing && Unknowns<Dim>::dofs[i] != 1);
 	if (!body.inTime || duration == 0) return free; // a study knows no inertia
 	// The inertia of the middle of the step, where it would be without the soil.
-	const Matrix3r before = alongAxes(body.at, body.mass.inertia);
-	const Matrix3r within = alongAxes({ body.at.position, turned(duration / 2 * body.spin) * body.at.orientation }, body.mass.inertia);
+	const Matrix3r before = alongAxes<Dim>(body.at, body.mass.inertia);
+	const Matrix3r within = alongAxes<Dim>({ body.at.position, turned(duration / 2 * body.spin) * body.at.orientation }, body.mass.inertia);
 	free.push += 1 / (body.part * duration) * unknownsOf<Dim>(body.mass.mass * body.velocity, before * body.spin);
 	for (int i = 0; i < Free::unknowns; ++i)
 		for (int j = 0; j < Free::unknowns; ++j) {
@@ -155,9 +158,9 @@ template <int Dim> void follow(FreeMotion& body, const gimpm::FreeBody<Dim>& fre
 	const Se3r before = body.at;
 	body.at           = { before.position + shift, (turned(turn) * before.orientation).normalized() };
 	if (!body.inTime) return;
-	const Matrix3r within   = alongAxes({ before.position, turned(duration / 2 * body.spin) * before.orientation }, body.mass.inertia);
-	const Vector3r momentum = (within * turn / duration - (1 - body.part) * (alongAxes(before, body.mass.inertia) * body.spin)) / body.part;
-	const Matrix3r now      = alongAxes(body.at, body.mass.inertia);
+	const Matrix3r within   = alongAxes<Dim>({ before.position, turned(duration / 2 * body.spin) * before.orientation }, body.mass.inertia);
+	const Vector3r momentum = (within * turn / duration - (1 - body.part) * (alongAxes<Dim>(before, body.mass.inertia) * body.spin)) / body.part;
+	const Matrix3r now      = alongAxes<Dim>(body.at, body.mass.inertia);
 	for (int i = 0; i < 3; ++i)
 		if (!(body.given >> i & 1)) body.velocity[i] = (shift[i] / duration - (1 - body.part) * body.velocity[i]) / body.part;
 	const Vector3r spin = Dim == 2 ? Vector3r(0, 0, now(2, 2) > 0 ? momentum[2] / now(2, 2) : 0) : Vector3r(now.inverse() * momentum);

@@ -10,7 +10,7 @@ namespace yade {
 // Of a body, or a clump: in the plane per metre, around an axis of the body of revolution.
 struct MassOfBody {
 	Real     mass    = 0;                // [kg]
-	Vector3r inertia = Vector3r::Zero(); // about its position along its own axes; in the plane the last counts [kg m2]
+	Vector3r inertia = Vector3r::Zero(); // about its position along its own axes, in the plane along those of space, where the last counts [kg m2]
 };
 
 // From State.mass, which is that of bodies in space: a section has the mean density that they have.

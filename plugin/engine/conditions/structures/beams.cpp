@@ -208,14 +208,17 @@ void Beams::advance(const StepTime& step, gimpm::Model<2>&, gimpm::Load<2>&)
 		const MpmBeam& from   = *sources[i].from;
 		const Real     factor = sources[i].curve.valueAt(step.to);
 		Beam&          beam   = *structures[i].beam;
+		const Real     before = sources[i].curve.valueAt(step.from);
+		const Vec2     weight = from.weight * sources[i].down;
 		beam.headForce        = factor * from.headForce.head<2>();
 		beam.headMoment       = factor * from.headMoment;
+		beam.weight           = sources[i].ofGravity.valueAt(step.to) * weight;
+		beam.before           = { sources[i].ofGravity.valueAt(step.from) * weight, before * from.headForce.head<2>(), before * from.headMoment };
 		if (!(from.contraction * factor < 1))
 			throw std::invalid_argument(gimpm::sentence(
 			        "MpmBeam.contraction = ", from.contraction, " times the load factor ", factor,
 			        " is not below 1: nothing of the ring would be left."));
-		beam.shrinkage = std::sqrt((1 - from.contraction * factor) / (1 - from.contraction * sources[i].curve.valueAt(step.from)));
-		beam.weight    = from.weight * sources[i].ofGravity.valueAt(step.to) * sources[i].down;
+		beam.shrinkage = std::sqrt((1 - from.contraction * factor) / (1 - from.contraction * before));
 		for (size_t a = 0; a < from.anchors.size(); ++a)
 			loadBar<2>(structures[i].bars[a], *from.anchors[a], sources[i].ofAnchors[a], step);
 	}

@@ -80,7 +80,8 @@ template <int Dim> void scatterBar(const gimpm::Reinforcement<Dim>& bar, MpmRein
 template <int Dim> void loadBar(gimpm::Reinforcement<Dim>& bar, const MpmReinforcement& from, const gimpm::LoadCurve& curve, const StepTime& step)
 {
 	const Real before = curve.valueAt(step.from), now = curve.valueAt(step.to);
-	bar.pull = now * from.pull;
+	bar.pull       = now * from.pull;
+	bar.pullBefore = before * from.pull;
 	bar.jack.reset();
 	if (from.pretension > 0 && (now != before || !from.isStressed)) bar.jack = now * from.pretension;
 }

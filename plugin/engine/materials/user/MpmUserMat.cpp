@@ -72,9 +72,9 @@ namespace {
 		const Opened& library    = opened(m.library, m.function);
 		const auto    oneAtATime = m.reentrant ? nullptr : library.oneAtATime;
 		if (!library.mfront || !library.reason.empty())
-			return std::make_shared<const gimpm::UmatDoor>(library.umat, m.parameters, m.stateVariables, oneAtATime);
+			return std::make_shared<const gimpm::UmatDoor>(library.umat, m.parameters, m.stateVariables, oneAtATime, m.label, m.function);
 		const MfrontDescription& law = *library.mfront;
-		gimpm::MfrontGiven       given { law.call, m.parameters, law.variables, m.stateVariables, -1, law.external, m.density, oneAtATime };
+		gimpm::MfrontGiven       given { law.call, m.parameters, law.variables, m.stateVariables, -1, law.external, m.density, oneAtATime, m.function };
 		given.first.resize(law.numbers(), 0);
 		for (size_t k = 0; k < law.variables.size(); ++k)
 			if (law.variableNames[k] == "ElasticStrain" && law.variables[k] == gimpm::MfrontGiven::Variable::tensor) given.elasticStrain = int(k);
