@@ -21,7 +21,7 @@ def respond(material, strain, duration=0, **internals):
 
 	:param material: material of the plugin, or the label of one in O.materials
 	:param strain: trial elastic logarithmic strain [-], positive in extension, finite: three principal values, or a symmetric tensor (3, 3)
-	:param duration: of the step in the time of the loads >= 0, for laws that depend on it
+	:param duration: of the step in the time of the loads >= 0, for laws that depend on it; where it is 0 a UMAT is told DTIME = 1
 	:param internals: internal variables of the law at the start of the step by name, as ``plasticStrain`` [-] or ``preconsolidation``
 		[Pa]; what is not given has the value of a point that nothing has happened to
 	:return: dict of ``stress``, Kirchhoff stress [Pa] in the shape of *strain*, positive in tension; ``elasticStrain``, what the return leaves of *strain*, in its
@@ -76,7 +76,7 @@ def elementTest(material, kind, strain, steps=100, confiningPressure=0, initialS
 	:param confiningPressure: pressure [Pa] >= 0 at first, equal in all directions; > 0 for Cam clay
 	:param initialStress: instead of *confiningPressure*: Cauchy stress [Pa] along x, y and z at first, positive in tension
 	:param fileName: draw the curve to this file, as :func:`plot` does
-	:param duration: time [s] >= 0 that the test takes, at an even rate of strain, for laws that depend on it
+	:param duration: time [s] >= 0 that the test takes, at an even rate of strain, for laws that depend on it; where it is 0 a UMAT is told DTIME = 1 for each step
 	:param internals: internal variables of the law at first by name, as in :func:`respond`
 	:return: dict of arrays with the state at first and after each step, N = steps + 1: ``axialStrain`` (N,) logarithmic strain along y [-] or for simpleShear
 		``shearStrain`` (N,) movement over the height at first [-]; ``volumetricStrain`` (N,) ln det F [-]; ``p`` (N,) pressure [Pa], the mean stress with a

@@ -23,7 +23,7 @@ def checkLaw(material, strain=1e-4, confiningPressure=0, initialStress=None, sam
 	:param confiningPressure: pressure [Pa] >= 0 at first, equal in all directions
 	:param initialStress: instead: Cauchy stress [Pa] along x, y and z at first, positive in tension
 	:param samples: number of increments > 0
-	:param duration: of each [s] >= 0, for laws that depend on it
+	:param duration: of each [s] >= 0, for laws that depend on it; where it is 0 a UMAT is told DTIME = 1
 	:param internals: internal variables of the law at first by name, as in :func:`respond`
 	:return: dict of ``tangentError``, the median of the differences between tangent and slope of the stress, relative to the slope [-]: below some 1e-6 of a tangent that is right, as
 		round-off is in differences; ``worst``, the largest of them, where a corner of the law may lie between two answers; ``asymmetry`` of the tangent, the median [-]; and

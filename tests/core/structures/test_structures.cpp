@@ -445,7 +445,6 @@ namespace {
 	{
 		constexpr int Dim         = TypeParam::value;
 		const auto    atBeginning = [](Ground<Dim>& ground) {
-                        ground.model.inertia = nullptr;
                         const StepSystem<Dim> system(ground.cloud, ground.model, {}, ground.report);
                         const Eigen::VectorXd resistance = -system.beginning().imbalance();
                         Vec<Dim>              sum        = Vec<Dim>::Zero();

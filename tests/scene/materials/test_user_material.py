@@ -273,6 +273,21 @@ print(json.dumps(said))
 	assert said[1].endswith('has no variable ElasticStrain, and forgets the stress with which a step begins.'), said
 
 
+def test_a_parameter_file_that_mfront_would_read_is_named(mfront):
+	said = mfront(
+	        ofMfront + '''
+said = []
+for name in 'VonMises-parameters.txt', 'VonMisesTridimensional-parameters.txt', 'Other-parameters.txt':
+	open(name, 'w').write('epsilon 1e-3')
+	try: mpm.checkLaw(mfront())
+	except ValueError as error: said.append(str(error))
+	os.remove(name)
+print(json.dumps(said))
+'''
+	).result
+	assert len(said) == 2 and all(f"'VonMises{name}-parameters.txt'" in text and 'Move the file away' in text for name, text in zip(('', 'Tridimensional'), said)), said
+
+
 def test_what_of_mfront_is_not_admitted_is_named(mfront):
 	names = dict(Old='3.4.3', Finite='small strain', Layered='orthotropic', Plane='Tridimensional', Wet='Humidity', Directed='Axis', Elsewhere='Castem')
 	names |= dict(VonMises_Tridimensional="function = 'VonMises'", VonMises3D='@Behaviour')

@@ -4,7 +4,9 @@
 #include "engine/materials/law_of_class.hpp"
 #include "engine/materials/user/mfront_library.hpp"
 #include "yade_api/registration.hpp"
+#include <algorithm>
 #include <dlfcn.h>
+#include <fstream>
 #include <map>
 #include <optional>
 
@@ -16,6 +18,7 @@ namespace {
 		gimpm::Umat                      umat = nullptr;
 		std::optional<MfrontDescription> mfront;
 		std::shared_ptr<std::mutex>      oneAtATime { new std::mutex };
+		bool                             isOfMfront = false;
 		string                           reason; // why there is none
 
 		bool isThere() const { return umat || mfront; }
@@ -44,6 +47,7 @@ namespace {
 			return opened;
 		}
 		const string interface = mfrontInterface(handle, function);
+		opened.isOfMfront      = !interface.empty();
 		if (interface == generic) opened.mfront = describeMfront(handle, function);
 		else if (!interface.empty() && interface != asUmat)
 			opened.reason = "MFront has written it for the interface '"
@@ -97,6 +101,23 @@ namespace {
 		}
 	}
 
+	// A law of MFront looks for a file of its name in the working folder when it is first called, and takes what it calls
+	// parameters from there.
+	void requireNoParameterFile(const string& function)
+	{
+		string law = function;
+		law.erase(std::remove(law.begin(), law.end(), '_'), law.end()); // @Material and @Behaviour together
+		for (const string& name : { function, law })
+			for (const char* hypothesis : { "", "Tridimensional" }) {
+				const string file = name + hypothesis + "-parameters.txt";
+				if (std::ifstream(file))
+					throw std::invalid_argument(
+					        "MpmUserMat.function = '" + function + "': the law of MFront would take its parameters from the file '" + file
+					        + "' of the working folder, without a word. Move the file away, or make them material properties of the law and give "
+					          "them by MpmUserMat.parameters.");
+			}
+	}
+
 	string listOf(const vector<string>& names)
 	{
 		string list;
@@ -131,6 +152,7 @@ void MpmUserMat::requireAdmissible() const
 	const Opened& door = opened(library, function);
 	if (!door.reason.empty())
 		throw std::invalid_argument("MpmUserMat: library = '" + library + "', function = '" + function + "' is not admitted: " + door.reason + ".");
+	if (door.isOfMfront) requireNoParameterFile(function);
 	if (door.mfront) requireNumbers(*this, *door.mfront);
 }
 
