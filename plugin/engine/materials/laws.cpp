@@ -283,8 +283,9 @@ py::dict stepInSpaceForPython(
 	const vector<Real> values = internalsOf(law, *material, internals);
 	gimpm::storeInternals(law, values.data(), columns, 0);
 	const auto b1 = gimpm::leftCauchyGreenMinusOne(gimpm::SymTensor<3>::from(fromRows(elasticStrain)));
-	const auto r  = gimpm::respondInSpace(law, { {}, columns, 0 }, { b1, fromRows(increment) - Matrix3r::Identity(), duration, true });
-	requireAnswer(r.failed);
+	gimpm::wordsOfUserLaw().clear();
+	const auto r = gimpm::respondInSpace(law, { {}, columns, 0 }, { b1, fromRows(increment) - Matrix3r::Identity(), duration, true });
+	requireAnswer(r.failed, gimpm::wordsOfUserLaw());
 	py::dict answer;
 	answer["stress"]        = rowsOf(r.stress);
 	answer["elasticStrain"] = rowsOf(r.elasticStrain);

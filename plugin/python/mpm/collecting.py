@@ -7,6 +7,7 @@ import math
 import os
 import re
 import sys
+import zlib
 
 import numpy as np
 from yade import wrapper
@@ -18,6 +19,7 @@ from .plotting import write
 from .processes import byFirst
 
 _ending = '.note.json'
+_longest = 150  # characters of a description in the name of a file
 
 
 def note(folder, **results):
@@ -43,7 +45,14 @@ def note(folder, **results):
 	both = sorted(set(parameters) & set(results))
 	if both: raise ValueError(f'note: {both[0]} is a parameter of the batch; give the result another name')
 	plain = {name: value if isinstance(value, str) else bool(value) if isinstance(value, (bool, np.bool_)) else float(value) for name, value in results.items()}
-	_write(os.path.join(folder, re.sub(r'[^\w.,=+-]+', '_', description) + _ending), dict(description=description, parameters=parameters, results=plain))
+	_write(os.path.join(folder, _fileNameOf(description)), dict(description=description, parameters=parameters, results=plain))
+
+
+def _fileNameOf(description):
+	"""Name of the file of a run: its description, and a checksum of it where other descriptions would have the same name."""
+	plain = re.sub(r'[^\w.,=+-]+', '_', description)
+	mark = '' if plain == description and len(plain) <= _longest else f'-{zlib.crc32(description.encode()):08x}'
+	return plain[:_longest] + mark + _ending
 
 
 @byFirst

@@ -38,8 +38,11 @@ def checkLaw(material, strain=1e-4, confiningPressure=0, initialStress=None, sam
 
 	def stress(increment):
 		strain = state.elasticStrain + increment
-		if not state.hasTensors: answer = respond(material, strain, **state.internals)
-		else: answer = engine.respondInSpace(material, list(strain.ravel()), list(increment.ravel()), state.internals, float(duration))
+		try:
+			if not state.hasTensors: answer = respond(material, strain, **state.internals)
+			else: answer = engine.respondInSpace(material, list(strain.ravel()), list(increment.ravel()), state.internals, float(duration))
+		except ValueError as error:
+			raise ValueError(f"{who}: {str(error).removeprefix('respond: ')}") from None
 		return np.array(answer['stress']), answer
 
 	random = np.random.default_rng(1)

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """States of ParaView, which open what MpmVtkRecorder has written."""
+import html
 import os
 import re
 
@@ -92,7 +93,7 @@ def _recorderOf(given):
 def _requireRecorded(series, field):
 	"""ValueError if the last file of the points does not have the field."""
 	with open(series, encoding='utf-8') as file:
-		last = re.findall(r'file="([^"]+)"', file.read())[-1]
+		last = html.unescape(re.findall(r'file="([^"]+)"', file.read())[-1])
 	with open(os.path.join(os.path.dirname(series), last), 'rb') as file:
 		head = file.read(2**16).decode('latin-1')
 	names = re.findall(r'<DataArray[^>]* Name="([^"]+)"', head)

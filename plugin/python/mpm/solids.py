@@ -2,9 +2,10 @@
 """Regions from files: closed surfaces of triangles, as CAD writes them."""
 import math
 import os
+import re
 
 import numpy as np
-from yade import pack, ymport
+from yade import pack
 from yade.minieigenHP import Vector3
 
 from .library import engine
@@ -46,7 +47,32 @@ def _shift(value):
 
 def _ofStl(fileName):
 	"""(N, 3, 3) corners of the triangles."""
-	return np.array([[body.state.pos + v for v in body.shape.vertices] for body in ymport.stl(fileName)]).reshape(-1, 3, 3)
+	with open(fileName, 'rb') as file:
+		content = file.read()
+	count = int.from_bytes(content[80:84], 'little')
+	isText = content[:5].lower() == b'solid' and len(content) != 84 + 50 * count  # programs write 'solid' into binary files, too
+	return _ofStlText(fileName, content.decode('utf-8', 'replace')) if isText else _ofStlBinary(fileName, content, count)
+
+
+def _ofStlBinary(fileName, content, count):
+	if len(content) < 84 + 50 * count or len(content) < 84:
+		raise ValueError(f'solid: {fileName!r} is no STL file: it neither begins with "solid", nor has its {len(content)} bytes room for the {count} triangles that a binary file announces; is it cut off?')
+	triangle = np.dtype([('normal', '<f4', 3), ('corners', '<f4', (3, 3)), ('attribute', '<u2')])
+	return np.frombuffer(content, triangle, count, 84)['corners'].astype(float)
+
+
+def _ofStlText(fileName, text):
+	"""Triangles of all solids in a text file, with all digits that it has."""
+	facets = re.findall(r'\bfacet\s+normal\b(.*?)\bendfacet\b', text, re.IGNORECASE | re.DOTALL)
+	announced = len(re.findall(r'^\s*facet\b', text, re.IGNORECASE | re.MULTILINE))
+	if len(facets) != announced: raise ValueError(f'solid: {fileName!r} begins {announced} facets and ends {len(facets)}; is it cut off?')
+	corners = [re.findall(r'\bvertex\s+(\S+)\s+(\S+)\s+(\S+)', facet, re.IGNORECASE) for facet in facets]
+	wrong = next((i for i, three in enumerate(corners) if len(three) != 3), None)
+	if wrong is not None: raise ValueError(f'solid: {fileName!r}: facet {wrong + 1} has {len(corners[wrong])} vertices, and a triangle has three')
+	try:
+		return np.array(corners, float).reshape(-1, 3, 3)
+	except ValueError as error:
+		raise ValueError(f'solid: {fileName!r} has a vertex that is no number: {error}') from None
 
 
 def _ofGts(fileName):

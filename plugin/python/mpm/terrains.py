@@ -233,11 +233,11 @@ class Heights:
 def fromFile(fileName, who):
 	"""Heights of an elevation grid (ESRI ASCII)."""
 	header, rows = _read(fileName, who)
-	step = header['cellsize']
-	half = [0 if f'{axis}llcenter' in header else step / 2 for axis in 'xy']
+	steps = np.array([header.get('dx', header.get('cellsize')), header.get('dy', header.get('cellsize'))])
+	half = [0 if f'{axis}llcenter' in header else step / 2 for axis, step in zip('xy', steps)]
 	corner = [header.get(f'{axis}llcenter', header.get(f'{axis}llcorner')) for axis in 'xy']
 	values = np.where(rows == header.get('nodata_value', -9999), np.nan, rows)[::-1].T  # the first row is the northern one
-	return Heights(values, np.array(corner) + half, step, repr(fileName), who)
+	return Heights(values, np.array(corner) + half, steps, repr(fileName), who)
 
 
 def _read(fileName, who):
@@ -252,7 +252,9 @@ def _read(fileName, who):
 				except (IndexError, ValueError):
 					raise refuse(f'its header has the line {brief(line.strip())}') from None
 			elif words: lines.append(line)
-	missing = [name for name in ('ncols', 'nrows', 'cellsize') if name not in header] + [axis + 'llcorner' for axis in 'xy' if not {axis + 'llcorner', axis + 'llcenter'} & set(header)]
+	sizes = ('dx', 'dy') if {'dx', 'dy'} & set(header) else ('cellsize', )
+	if 'cellsize' in header and sizes != ('cellsize', ): raise refuse('its header has cellsize beside dx or dy, which say the same; leave one of them')
+	missing = [name for name in ('ncols', 'nrows', *sizes) if name not in header] + [axis + 'llcorner' for axis in 'xy' if not {axis + 'llcorner', axis + 'llcenter'} & set(header)]
 	if missing: raise refuse(f"{', '.join(missing)} {'is' if len(missing) == 1 else 'are'} not in its header")
 	try:
 		values = np.array(' '.join(lines).split(), float)
@@ -262,10 +264,13 @@ def _read(fileName, who):
 		if header[name] != int(header[name]): raise refuse(f'{name} = {header[name]:g} is no whole number')
 	shape = int(header['nrows']), int(header['ncols'])
 	if values.size != shape[0] * shape[1] or min(shape) < 2: raise refuse(f'{shape[0]} rows of {shape[1]} heights are announced, at least 2 of each, and {values.size} are there')
-	if not header['cellsize'] > 0: raise refuse('cellsize must be > 0')
-	ends = np.cumsum([len(line.split()) for line in lines])
+	for name in sizes:
+		if not (math.isfinite(header[name]) and header[name] > 0): raise refuse(f'{name} = {header[name]:g} must be > 0 and finite')
+	widths = [len(line.split()) for line in lines]
+	areWrapped = len(set(widths[:-1])) == 1 and widths[-1] <= widths[0] and (len(lines), widths[0]) != shape[::-1]  # at a width of their own, not with nrows and ncols exchanged
+	ends = np.cumsum(widths)
 	cut = np.setdiff1d(shape[1] * np.arange(1, shape[0] + 1), ends)
-	if cut.size:
+	if cut.size and not areWrapped:
 		row, line = cut[0] // shape[1], np.searchsorted(ends, cut[0])
 		raise refuse(
 		        f'each of its {shape[0]} rows has {shape[1]} heights (ncols), but row {row} does not end with a line: line {line + 1} of the heights has {len(lines[line].split())}; is ncols '

@@ -266,10 +266,13 @@ said = []
 for setting in dict(strain=10), dict(initialStress=(-10e3, -20e3, -15e3)):
 	try: mpm.checkLaw(mfront(function='Elastic', parameters=[20e6, .3, 0]), **setting)
 	except ValueError as error: said.append(str(error))
+try: mpm.elementTest(mfront(function='Elastic', parameters=[20e6, .3, 0]), 'oedometer', -5, steps=5)
+except RuntimeError as error: said.append(str(error))
 print(json.dumps(said))
 '''
 	).result
-	assert said[0].endswith('It says: the strain is too large'), said
+	assert said[0].startswith('checkLaw: the law') and said[0].endswith('It says: the strain is too large'), said
+	assert said[2].startswith('elementTest: ') and 'It says: the strain is too large' in said[2], said
 	assert said[1].endswith('has no variable ElasticStrain, and forgets the stress with which a step begins.'), said
 
 

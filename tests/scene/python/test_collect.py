@@ -59,3 +59,18 @@ print(json.dumps({name: column.tolist() for name, column in found.items()}))
 	rows = list(csv.DictReader(open(yade.folder / 'out/batch/collected.csv')))
 	assert [row['description'] for row in rows] == found['description'] and float(rows[1]['settlement [mm]']) == 16
 	assert (yade.folder / 'out/batch/collected.png').stat().st_size > 10000
+
+
+def test_each_description_has_a_note_of_its_own(yade):
+	"""Descriptions that differ only in signs that no file name has, and long ones that differ at their end."""
+	assert yade('''
+import json
+from yade import mpm
+descriptions = ['phi:30', 'phi_30', 'E=1e7*2', 'E=1e7_2', 'd=1', 'a' * 300 + '1', 'a' * 300 + '2']
+for number, description in enumerate(descriptions):
+	O.tags['description'] = description
+	mpm.note('out', settlement=number)
+	mpm.note('out', settlement=number)
+found = mpm.collect('out')
+print(json.dumps(sorted(found['description'].tolist()) == sorted(descriptions) and sorted(found['settlement'].tolist()) == list(range(7))))
+''').result

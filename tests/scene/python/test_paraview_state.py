@@ -97,3 +97,20 @@ def test_paraview_opens_it(written):
 	(folder / 'out/check.py').write_text("exec(open('stress.py').read())\nshown.UpdatePipeline(view.ViewTime)\nprint('range', *shown.CellData['shown'].GetRange())\n")
 	said = subprocess.run(['xvfb-run', '-a', 'pvpython', 'check.py'], cwd=folder / 'out', capture_output=True, text=True, timeout=200).stdout
 	assert [float(word) for word in said.split('range')[1].split()[:2]] == pytest.approx([low / 1e3, high / 1e3])
+
+
+def test_files_have_any_name(yade):
+	"""Signs that XML writes in other letters: the state is written, and names the files as they are."""
+	found = yade('''
+import json
+from scenes import *
+found = []
+for name in 'c & phi-', 'phi<30-', 'a "b"-':
+	column(8)
+	O.engines = O.engines + [MpmVtkRecorder(fileName=name)]
+	O.run(1, wait=True)
+	mpm.state('state.py', 'stress_yy')
+	found.append(repr(name + 'points.pvd') in open('state.py').read())
+print(json.dumps(found))
+''').result
+	assert found == [True, True, True]

@@ -66,6 +66,43 @@ print(json.dumps([refused(mpm.solid, writeStl('hole.stl', triangles[:4] + triang
 	assert 'no triangles' in empty and '.stl or .gts' in kind and 'scale = -1' in scale and 'shift = 3' in shift and 'fileName = 7' in path
 
 
+def test_files_of_several_solids_are_read_with_all_their_digits(yade):
+	"""Two closed cubes in one text file have the volume of two; at coordinates of a national grid a text file loses no digit; what is cut off is refused."""
+	(both, far, likeVtk), messages = yade(build + '''
+import numpy as np
+from yade.mpm.solids import _ofStl
+from vtkmodules.vtkIOGeometry import vtkSTLReader
+def moved(shift, name, file):
+	print('Solid', name, file=file)
+	for t in triangles:
+		print('FACET NORMAL 0 0 0', 'outer loop', *('vertex %r %r %r' % tuple(x + s for x, s in zip(corners[i], shift)) for i in t), 'endloop', 'EndFacet', sep='\\n', file=file)
+	print('endsolid', name, file=file)
+with open('two.stl', 'w') as file:
+	moved((0, 0, 0), 'a facet of rock', file)
+	moved((5, 0, 0), '', file)
+with open('far.stl', 'w') as file: moved((2600000.125, 5400000.375, 0), 'far', file)
+reader = vtkSTLReader()
+reader.SetFileName('two.stl')
+reader.Update()
+mesh = reader.GetOutput()
+vtk = np.array([[mesh.GetPoint(mesh.GetCell(i).GetPointId(k)) for k in range(3)] for i in range(mesh.GetNumberOfCells())])
+text = open('two.stl').read()
+open('cut.stl', 'w').write(text[:text.rindex('endloop')])
+open('line.stl', 'w').write(text.replace('vertex 0 0 0\\n', '', 1))
+open('word.stl', 'w').write(text.replace('vertex 0 0 0', 'vertex 0 x 0', 1))
+whole = open(writeStl('binary.stl', triangles, binary=True), 'rb').read()
+open('part.stl', 'wb').write(whole[:-30])
+open('solid.stl', 'wb').write(b'solid' + whole[5:])
+numbers = [mpm.solid('two.stl').surf.volume(), mpm.solid('far.stl', shift=(-2600000, -5400000, 0)).surf.volume(), bool((_ofStl('two.stl') == vtk).all())]
+assert (_ofStl('solid.stl') == _ofStl('binary.stl')).all()
+assert sorted(set(_ofStl('far.stl')[..., 0].ravel())) == [2600000.125, 2600002.125]
+print(json.dumps([numbers, [refused(mpm.solid, f'{name}.stl') for name in ('cut', 'line', 'word', 'part')]]))
+''').result
+	assert both == pytest.approx(2 * 3) and far == pytest.approx(3) and likeVtk
+	for message, words in zip(messages, ('begins 24 facets and ends 23', 'facet 1 has 2 vertices', "'x'", '12 triangles')):
+		assert 'ValueError' in message and words in message, message
+
+
 asc = build + '''
 def writeAsc(name, rows, **header):
 	header = dict(ncols=len(rows[0]), nrows=len(rows), xllcorner=600000, yllcorner=200000, cellsize=1, NODATA_value=-9999) | header
@@ -107,8 +144,29 @@ print(json.dumps([refused(mpm.terrain, holed, 0), refused(mpm.terrain, holed, 0,
 	assert 'no height at (600001.5, 200002.5)' in hole and 'min and max' in hole
 	assert fine == 'nothing was refused'
 	assert 'bottom, at 5 m, is not below the surface, at 1 m, at (600000.5, 200000.5)' in bottom
-	assert '7 rows of 3' in rows and 'cellsize is not in its header' in cell and "'cellsize x'" in word and 'must be > 0' in negative
+	assert '7 rows of 3' in rows and 'cellsize is not in its header' in cell and "'cellsize x'" in word and 'cellsize = -1 must be > 0' in negative
 	assert 'FileNotFoundError' in missing and 'bottom = nan' in nan and 'is between min' in beside and 'min = 3' in pair and 'bottom = None' in none
+
+
+def test_grids_as_their_format_admits_them(yade):
+	"""Rows that are wrapped at another width, and cells that are not square, as the drivers of GIS write and read them."""
+	same, exchanged, both, box = yade(asc + '''
+import numpy as np
+head = 'ncols 6\\nnrows 4\\nxllcorner 0\\nyllcorner 0\\n'
+rows = np.arange(24).reshape(4, 6) + 1
+def grid(name, sizes, width):
+	lines = [' '.join(map(str, rows.ravel()[i:i + width])) for i in range(0, 24, width)]
+	open(name, 'w').write(head + sizes + '\\n'.join(lines) + '\\n')
+	return name
+places = [(0.5 + i, 0.5 + j) for i in range(6) for j in range(4)]
+heights = lambda name: mpm.terrain(name, -1).heights(places).tolist()
+grid('rows.asc', 'cellsize 1\\n', 6)
+same = [heights(grid('wrapped.asc', 'cellsize 1\\n', width)) == heights('rows.asc') for width in (5, 7, 8, 24)]
+slim = mpm.terrain(grid('slim.asc', 'dx 1\\ndy 2\\n', 6), -1)
+print(json.dumps([same, refused(mpm.terrain, grid('exchanged.asc', 'cellsize 1\\n', 4), -1), refused(mpm.terrain, grid('both.asc', 'cellsize 1\\ndx 1\\n', 6), -1), [list(x) for x in slim.aabb()]]))
+''').result
+	assert all(same) and 'is ncols right' in exchanged and 'cellsize beside dx or dy' in both
+	assert box == [[0.5, 1, -1], [5.5, 7, 24]]
 
 
 def test_facets_of_rock(yade):
